@@ -1,0 +1,12 @@
+# One command formats, one checks: cmake --build build --target format (or format-check).
+find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
+file(GLOB_RECURSE formatted CONFIGURE_DEPENDS include/*.h src/*.[ch] cli/*.[ch] lab/*.[ch] tests/*.[ch] examples/*.[ch])
+if(CLANG_FORMAT)
+  add_custom_target(format COMMAND ${CLANG_FORMAT} -i ${formatted} VERBATIM)
+  add_custom_target(format-check COMMAND ${CLANG_FORMAT} --dry-run --Werror ${formatted} VERBATIM)
+  if(CAROM_TESTS)
+    add_test(NAME format COMMAND ${CLANG_FORMAT} --dry-run --Werror ${formatted})
+  endif()
+else()
+  message(STATUS "clang-format not found: no targets format, format-check")
+endif()

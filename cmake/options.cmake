@@ -1,0 +1,23 @@
+# What every target of the project is compiled with.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+set(CMAKE_C_STANDARD 17)
+set(CMAKE_C_STANDARD_REQUIRED ON)
+set(CMAKE_C_EXTENSIONS OFF)
+set(CMAKE_C_VISIBILITY_PRESET hidden)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+add_library(carom_options INTERFACE)
+target_compile_options(
+  carom_options
+  INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla
+            $<$<BOOL:${CAROM_WERROR}>:-Werror>
+            # Parity with pooltool to the last bit: a*b + c stays two roundings unless a source asks for fma().
+            -ffp-contract=off)
+if(CAROM_SANITIZE)
+  target_compile_options(carom_options INTERFACE -fsanitize=${CAROM_SANITIZE} -fno-omit-frame-pointer
+                                                 -fno-sanitize-recover=all)
+  target_link_options(carom_options INTERFACE -fsanitize=${CAROM_SANITIZE})
+endif()

@@ -1,0 +1,185 @@
+/* carom: collisions of two billiard balls on a table.
+ *
+ * This header is the manual: read it from top to bottom and stop where you have what you need.
+ *
+ *     carom_impact in = { ... };                    // two touching balls, before the collision
+ *     carom_result out;
+ *     carom_status status = carom_collide(&in, NULL, &out);
+ *     if (status < 0) fprintf(stderr, "%s\n", carom_status_string(status));
+ *
+ * Units are SI. The table's normal is +z, its surface is the plane x, y, and all vectors are right-handed. The model is that of
+ * S. Mathavan, M. R. Jackson, R. M. Parkin, "Numerical simulations of the frictional collisions of solid balls on a rough
+ * surface", Sports Engineering 17 (2014) 227-237: both balls stay on the cloth; friction acts between the balls, and between
+ * the cloth and the ball that is pressed into it.
+ *
+ * Every function is reentrant and may be called from many threads at once. None allocates memory, prints or aborts.
+ */
+#ifndef CAROM_H
+#define CAROM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define CAROM_VERSION_MAJOR 0
+#define CAROM_VERSION_MINOR 1
+#define CAROM_VERSION_PATCH 0
+
+#if defined(_WIN32)
+#define CAROM_API
+#elif defined(__GNUC__)
+#define CAROM_API __attribute__((visibility("default")))
+#else
+#define CAROM_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- One collision: what goes in and what comes out ---------------------------------------------------------------- */
+
+/* One ball just before the collision. */
+typedef struct carom_ball {
+  double r[3];     /* centre, m. Both balls of a pair lie at the same height r[2]. */
+  double v[3];     /* velocity, m/s. v[2] must be 0: the model keeps both balls on the table. */
+  double w[3];     /* angular velocity, rad/s. */
+  double radius;   /* m, > 0, the same for both balls of a pair. */
+  double mass;     /* kg, > 0, may differ between the balls. The moment of inertia is that of a solid ball, 2/5 M R^2. */
+  double mu_cloth; /* coefficient of sliding friction between this ball and the cloth, 0 to 1. */
+} carom_ball;
+
+/* Two balls at the instant of contact. The distance of the centres is not checked: the caller has found the contact. The
+ * struct is 26 doubles without gaps, so an array of n is also an (n, 26) array of doubles in row order. */
+typedef struct carom_impact {
+  carom_ball a, b;
+  double mu_ball;     /* coefficient of sliding friction between the balls, 0 to 1. */
+  double restitution; /* e, 0 to 1: the collision ends once e^2 of the work of compression has been given back. */
+} carom_impact;
+
+/* The balls just after the collision; positions do not change. 12 doubles without gaps. */
+typedef struct carom_result {
+  double v_a[3], w_a[3]; /* first ball: velocity, m/s, and angular velocity, rad/s. */
+  double v_b[3], w_b[3]; /* second ball. */
+} carom_result;
+
+/* ---- How a call ended ------------------------------------------------------------------------------------------------ */
+
+/* 0 is success, a positive value a valid outcome worth a remark, a negative value an error: X(NAME, value, name, text). */
+#define CAROM_STATUS_LIST(X)                                                                                   \
+  X(OK, 0, "ok", "resolved")                                                                                   \
+  X(SEPARATING, 1, "separating", "the balls do not approach each other; their state is returned unchanged")    \
+  X(ERROR_NULL, -1, "null_pointer", "a required pointer is NULL")                                              \
+  X(ERROR_SOLVER, -2, "bad_solver", "options.solver is not one of carom_solver")                               \
+  X(ERROR_SLIP, -3, "bad_slip", "options.slip is not one of carom_slip")                                       \
+  X(ERROR_STEPS, -4, "bad_steps", "options.steps must be at least 1")                                          \
+  X(ERROR_POSITION, -5, "bad_position", "a position must be finite")                                           \
+  X(ERROR_VELOCITY, -6, "bad_velocity", "a velocity must be finite")                                           \
+  X(ERROR_SPIN, -7, "bad_spin", "an angular velocity must be finite")                                          \
+  X(ERROR_RADIUS, -8, "bad_radius", "a radius must be positive and finite")                                    \
+  X(ERROR_MASS, -9, "bad_mass", "a mass must be positive and finite")                                          \
+  X(ERROR_MU_CLOTH, -10, "bad_mu_cloth", "the friction of ball and cloth must be in [0, 1]")                   \
+  X(ERROR_MU_BALL, -11, "bad_mu_ball", "the friction of ball and ball must be in [0, 1]")                      \
+  X(ERROR_RESTITUTION, -12, "bad_restitution", "the restitution must be in [0, 1]")                            \
+  X(ERROR_RADII_DIFFER, -13, "radii_differ", "both balls must have the same radius")                           \
+  X(ERROR_HEIGHTS_DIFFER, -14, "heights_differ", "both centres must be at the same height")                    \
+  X(ERROR_VERTICAL, -15, "vertical_velocity", "the vertical velocity must be 0: both balls stay on the table") \
+  X(ERROR_COINCIDENT, -16, "centres_coincide", "the centres coincide, so there is no line of centres")         \
+  X(ERROR_TOO_SLOW, -17, "too_slow", "the approach is too slow for Euler's steps: each is lost in rounding")   \
+  X(ERROR_OVERFLOW, -18, "overflow", "the collision overflows the range of double")
+
+typedef enum carom_status {
+#define CAROM_STATUS_ENUM(NAME, value, name, text) CAROM_##NAME = (value),
+  CAROM_STATUS_LIST(CAROM_STATUS_ENUM)
+#undef CAROM_STATUS_ENUM
+} carom_status;
+
+/* The short name of a status ("separating"), as it stands in the command's output. "unknown" for a value not listed. */
+CAROM_API const char *carom_status_name(carom_status status);
+
+/* What the status means, in one sentence without a full stop, fit for a message. Never NULL. */
+CAROM_API const char *carom_status_string(carom_status status);
+
+/* ---- Resolving ------------------------------------------------------------------------------------------------------- */
+
+/* How the collision is computed: X(NAME, name, text). */
+#define CAROM_SOLVER_LIST(X) \
+  X(EULER, "euler", "Mathavan's N steps of equal normal impulse; with the pooltool slip, pooltool's result to the last bit")
+
+typedef enum carom_solver {
+#define CAROM_SOLVER_ENUM(NAME, name, text) CAROM_SOLVER_##NAME,
+  CAROM_SOLVER_LIST(CAROM_SOLVER_ENUM)
+#undef CAROM_SOLVER_ENUM
+      CAROM_SOLVER_COUNT
+} carom_solver;
+
+/* Which velocity slips over the cloth. PAPER is the 2014 paper's (a ball that rolls does not slip). POOLTOOL is what the
+ * simulator pooltool computes, with the opposite sign of the spin: for parity with it, not for truth. X(NAME, name, text). */
+#define CAROM_SLIP_LIST(X)                                        \
+  X(PAPER, "paper", "v_x - R w_y, v_y + R w_x: the 2014 paper's") \
+  X(POOLTOOL, "pooltool", "v_x + R w_y, v_y - R w_x: pooltool's")
+
+typedef enum carom_slip {
+#define CAROM_SLIP_ENUM(NAME, name, text) CAROM_SLIP_##NAME,
+  CAROM_SLIP_LIST(CAROM_SLIP_ENUM)
+#undef CAROM_SLIP_ENUM
+      CAROM_SLIP_COUNT
+} carom_slip;
+
+/* The names above as text ("euler", "paper"), or NULL for a value not listed. */
+CAROM_API const char *carom_solver_name(carom_solver solver);
+CAROM_API const char *carom_slip_name(carom_slip slip);
+
+/* Options of a call. Begin with carom_default_options() and change what you need, so that new fields keep their defaults. */
+typedef struct carom_options {
+  carom_solver solver; /* default CAROM_SOLVER_EULER. */
+  carom_slip slip;     /* default CAROM_SLIP_PAPER. */
+  int steps;           /* Euler's N >= 1, default 1000: about so many steps are taken; the error falls as 1/N. */
+} carom_options;
+
+CAROM_API carom_options carom_default_options(void);
+
+/* Resolves one collision. `opt` may be NULL for the defaults; `out` may not overlap `in`.
+ * CAROM_OK: `*out` is the state after the collision. CAROM_SEPARATING: `*out` is the state before it. An error: every number
+ * of `*out` is NaN (but `*out` is untouched when a pointer is NULL). */
+CAROM_API carom_status carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out);
+
+/* Resolves `n` collisions, in[0..n-1] to out[0..n-1], each as carom_collide would: a bad pair gets NaN and its own status and
+ * changes nothing for the others. `status` takes the n statuses as bytes, to be read with carom_status_of_byte(); it may be
+ * NULL. `in`, `out` and `status` may not overlap; with n = 0 they may be NULL.
+ * Returns CAROM_OK if no pair is in error, else the status of the first that is; if the call itself cannot be served (NULL,
+ * bad options), that error, with nothing written. */
+CAROM_API carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
+                                           uint8_t *status);
+
+/* The status that a byte of carom_collide_batch stands for: errors are negative, in two's complement. */
+static inline carom_status carom_status_of_byte(uint8_t byte) {
+  return (carom_status)(byte < 128 ? (int)byte : (int)byte - 256);
+}
+
+/* ---- Looking closer -------------------------------------------------------------------------------------------------- */
+
+/* What else is known of a collision. */
+typedef struct carom_detail {
+  int64_t steps; /* steps that Euler's method took; 0 if nothing was solved. */
+} carom_detail;
+
+/* carom_collide that also tells how it went: `*detail` is filled whatever the status. `detail` may be NULL. */
+CAROM_API carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt, carom_result *out,
+                                            carom_detail *detail);
+
+/* Checks the arguments of a collision and solves nothing. Returns CAROM_OK or an error that depends on single fields
+ * (CAROM_SEPARATING, TOO_SLOW and OVERFLOW come only from solving). If `field` is not NULL, `*field` becomes the index of the
+ * offending number among the 26 doubles of `*in`, or -1 where none is to blame. */
+CAROM_API carom_status carom_check(const carom_impact *in, const carom_options *opt, int *field);
+
+/* The C name of number `field` of a carom_impact, 0 to 25: "a.r[0]" ... "restitution". NULL outside that range. */
+CAROM_API const char *carom_field_name(int field);
+
+/* The version of the library that runs, "major.minor.patch"; the macros above are those of the header compiled against. */
+CAROM_API const char *carom_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* CAROM_H */

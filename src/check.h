@@ -1,0 +1,13 @@
+/* Checks of arguments, in parts: options once per call, impacts once per pair. See check.c. */
+#ifndef CAROM_SRC_CHECK_H
+#define CAROM_SRC_CHECK_H
+
+#include "carom.h"
+
+/* CAROM_OK, or the error of the first option at fault. */
+carom_status carom_check_options(const carom_options *opt);
+
+/* CAROM_OK, or the error of the first field at fault; `*field` is its index, or -1 where no single field is to blame. */
+carom_status carom_check_impact(const carom_impact *in, int *field);
+
+#endif

@@ -1,0 +1,105 @@
+/* The public entry points: check, go to the collision frame, solve, come back, say how it went. */
+#include "carom.h"
+
+#include "check.h"
+#include "euler.h"
+#include "frame.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+carom_options carom_default_options(void) {
+  return (carom_options){.solver = CAROM_SOLVER_EULER, .slip = CAROM_SLIP_PAPER, .steps = 1000};
+}
+
+static void fill_nan(carom_result *out) {
+  for (int k = 0; k < 3; k++)
+    out->v_a[k] = out->w_a[k] = out->v_b[k] = out->w_b[k] = NAN;
+}
+
+static void copy_state(const carom_impact *in, carom_result *out) {
+  memcpy(out->v_a, in->a.v, sizeof out->v_a);
+  memcpy(out->w_a, in->a.w, sizeof out->w_a);
+  memcpy(out->v_b, in->b.v, sizeof out->v_b);
+  memcpy(out->w_b, in->b.w, sizeof out->w_b);
+}
+
+static bool is_finite(const carom_result *out) {
+  double sum = 0.0; /* stays 0 unless a term is infinite or NaN */
+  for (int k = 0; k < 3; k++)
+    sum += out->v_a[k] * 0.0 + out->w_a[k] * 0.0 + out->v_b[k] * 0.0 + out->w_b[k] * 0.0;
+  return sum == 0.0;
+}
+
+static carom_status solve(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+  int field;
+  const carom_status bad = carom_check_impact(in, &field);
+  if (bad != CAROM_OK)
+    return bad;
+  const carom_frame frame = carom_frame_of(in);
+  if (frame.distance == 0.0) /* centres so near that the square of their distance underflows */
+    return CAROM_ERROR_COINCIDENT;
+  carom_local local = carom_to_frame(&frame, in, opt->slip);
+  if (local.v_jy - local.v_iy >= 0.0) {
+    copy_state(in, out);
+    return CAROM_SEPARATING;
+  }
+  const carom_status status = carom_euler(&local, opt->steps, &detail->steps);
+  if (status != CAROM_OK)
+    return status;
+  carom_from_frame(&frame, &local, out);
+  return is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+}
+
+static carom_status solve_or_nan(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+  *detail = (carom_detail){.steps = 0};
+  const carom_status status = solve(in, opt, out, detail);
+  if (status < 0)
+    fill_nan(out);
+  return status;
+}
+
+carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+  carom_detail unused;
+  if (detail == NULL)
+    detail = &unused;
+  *detail = (carom_detail){.steps = 0};
+  if (in == NULL || out == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_options defaults = carom_default_options();
+  if (opt == NULL)
+    opt = &defaults;
+  const carom_status bad = carom_check_options(opt);
+  if (bad != CAROM_OK) {
+    fill_nan(out);
+    return bad;
+  }
+  return solve_or_nan(in, opt, out, detail);
+}
+
+carom_status carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out) {
+  return carom_collide_detail(in, opt, out, NULL);
+}
+
+carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
+                                 uint8_t *status) {
+  const carom_options defaults = carom_default_options();
+  if (opt == NULL)
+    opt = &defaults;
+  const carom_status bad = carom_check_options(opt);
+  if (bad != CAROM_OK)
+    return bad;
+  if (n > 0 && (in == NULL || out == NULL))
+    return CAROM_ERROR_NULL;
+  carom_status first_error = CAROM_OK;
+  for (size_t k = 0; k < n; k++) {
+    carom_detail detail;
+    const carom_status one = solve_or_nan(&in[k], opt, &out[k], &detail);
+    if (status != NULL)
+      status[k] = (uint8_t)one;
+    if (one < 0 && first_error == CAROM_OK)
+      first_error = one;
+  }
+  return first_error;
+}

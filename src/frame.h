@@ -1,0 +1,82 @@
+/* The collision frame: two balls from table axes to the line of centres and back.
+ *
+ * With r the vector from centre i (first ball) to centre j (second), the frame is right-handed:
+ *
+ *     y = r/|r|  (line of centres)      z = (0, 0, 1)      x = y × z = (y_y, -y_x, 0)
+ *
+ * The order of the operations is part of the contract: it is pooltool's, so that results agree to the last bit in IEEE double
+ * (sums from left to right, no fused multiply-add).
+ */
+#ifndef CAROM_SRC_FRAME_H
+#define CAROM_SRC_FRAME_H
+
+#include "carom.h"
+
+#include <math.h>
+
+typedef struct carom_frame {
+  double x[3], y[3], z[3];
+  double distance; /* |r|, m; 0 for centres that coincide, and then x and y are NaN. */
+} carom_frame;
+
+/* All that a solver needs and changes, in frame axes. v_z and the work of the vertical forces vanish: the balls stay down. */
+typedef struct carom_local {
+  double v_ix, v_iy, w_ix, w_iy, w_iz; /* first ball, m/s and rad/s */
+  double v_jx, v_jy, w_jx, w_jy, w_jz; /* second ball */
+  double M_i, M_j, R;                  /* kg, kg, m */
+  double mu_i, mu_j, mu_b;             /* friction of i and j with the cloth, and of the balls with each other */
+  double e;                            /* restitution */
+  double s;                            /* sign of the spin in the cloth slip: -1 paper, +1 pooltool */
+} carom_local;
+
+static inline double carom_dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline carom_frame carom_frame_of(const carom_impact *in) {
+  carom_frame f;
+  const double r[3] = {in->b.r[0] - in->a.r[0], in->b.r[1] - in->a.r[1], in->b.r[2] - in->a.r[2]};
+  f.distance = sqrt(carom_dot(r, r));
+  for (int k = 0; k < 3; k++)
+    f.y[k] = r[k] / f.distance;
+  const double x[3] = {f.y[1], -f.y[0], 0.0}, z[3] = {0.0, 0.0, 1.0};
+  for (int k = 0; k < 3; k++) {
+    f.x[k] = x[k];
+    f.z[k] = z[k];
+  }
+  return f;
+}
+
+static inline carom_local carom_to_frame(const carom_frame *f, const carom_impact *in, carom_slip slip) {
+  return (carom_local){
+      .v_ix = carom_dot(in->a.v, f->x),
+      .v_iy = carom_dot(in->a.v, f->y),
+      .w_ix = carom_dot(in->a.w, f->x),
+      .w_iy = carom_dot(in->a.w, f->y),
+      .w_iz = carom_dot(in->a.w, f->z),
+      .v_jx = carom_dot(in->b.v, f->x),
+      .v_jy = carom_dot(in->b.v, f->y),
+      .w_jx = carom_dot(in->b.w, f->x),
+      .w_jy = carom_dot(in->b.w, f->y),
+      .w_jz = carom_dot(in->b.w, f->z),
+      .M_i = in->a.mass,
+      .M_j = in->b.mass,
+      .R = in->a.radius,
+      .mu_i = in->a.mu_cloth,
+      .mu_j = in->b.mu_cloth,
+      .mu_b = in->mu_ball,
+      .e = in->restitution,
+      .s = slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0,
+  };
+}
+
+static inline void carom_from_frame(const carom_frame *f, const carom_local *c, carom_result *out) {
+  for (int k = 0; k < 3; k++) {
+    out->v_a[k] = f->x[k] * c->v_ix + f->y[k] * c->v_iy;
+    out->v_b[k] = f->x[k] * c->v_jx + f->y[k] * c->v_jy;
+    out->w_a[k] = f->x[k] * c->w_ix + f->y[k] * c->w_iy + f->z[k] * c->w_iz;
+    out->w_b[k] = f->x[k] * c->w_jx + f->y[k] * c->w_jy + f->z[k] * c->w_jz;
+  }
+}
+
+#endif
