@@ -1,7 +1,7 @@
 /* The public entry points: check, go to the collision frame, solve, come back, say how it went. */
 #include "carom.h"
 
-#include "check.h"
+#include "arguments.h"
 #include "euler.h"
 #include "frame.h"
 
@@ -40,6 +40,8 @@ static carom_status solve(const carom_impact *in, const carom_options *opt, caro
   const carom_frame frame = carom_frame_of(in);
   if (frame.distance == 0.0) /* centres so near that the square of their distance underflows */
     return CAROM_ERROR_COINCIDENT;
+  if (isinf(frame.distance))
+    return CAROM_ERROR_OVERFLOW;
   carom_local local = carom_to_frame(&frame, in, opt->slip);
   if (local.v_jy - local.v_iy >= 0.0) {
     copy_state(in, out);

@@ -3,7 +3,7 @@
  * Two passes: a branch-free one that every call takes and nearly every call passes, and a slow one that finds the first field
  * at fault and names it. Both state the same conditions, those of the field comments in carom.h.
  */
-#include "check.h"
+#include "arguments.h"
 
 #include <math.h>
 #include <stdbool.h>

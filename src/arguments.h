@@ -1,6 +1,6 @@
-/* Checks of arguments, in parts: options once per call, impacts once per pair. See check.c. */
-#ifndef CAROM_SRC_CHECK_H
-#define CAROM_SRC_CHECK_H
+/* Checks of arguments, in parts: options once per call, impacts once per pair. See arguments.c. */
+#ifndef CAROM_SRC_ARGUMENTS_H
+#define CAROM_SRC_ARGUMENTS_H
 
 #include "carom.h"
 

@@ -1,0 +1,34 @@
+/* The reference collisions in data/: inputs, and the results that others computed for them. */
+#ifndef CAROM_CLI_CASES_H
+#define CAROM_CLI_CASES_H
+
+#include "carom.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct case_set {
+  size_t count;
+  char **id;
+  carom_impact *impact;
+} case_set;
+
+typedef struct reference_set {
+  size_t count;
+  carom_result *result;
+  int64_t *steps; /* the reference's step counts, or NULL where the file has none */
+} reference_set;
+
+/* The folder with the data: `given` if it is not NULL, else $CAROM_DATA, else where the build or the install left it. */
+const char *cases_folder(const char *given);
+
+/* Loads `folder`/`name`. Complains and returns false if anything in it is wrong: this is our own data. */
+bool cases_load(const char *folder, const char *name, case_set *out);
+
+/* Loads results for exactly the ids of `cases`, in that order. */
+bool reference_load(const char *folder, const char *name, const case_set *cases, reference_set *out);
+
+void cases_free(case_set *cases);
+void reference_free(reference_set *reference);
+
+#endif

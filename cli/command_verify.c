@@ -1,0 +1,117 @@
+/* `carom verify`: every kernel against the references, with a bound on each. */
+#include "accuracy.h"
+#include "cases.h"
+#include "command.h"
+#include "kernel.h"
+#include "message.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char help[] =
+    "usage: carom verify [--kernel NAME] [--data DIR]\n\n"
+    "Resolves the reference cases with every kernel and compares with the references.\n\n"
+    "  --kernel NAME   only this kernel\n"
+    "  --data DIR      folder of the cases and references (default: $CAROM_DATA, else the one that came with carom)\n\n"
+    "Pair error: the largest deviation of a velocity or R times an angular velocity, over the largest such value of the\n"
+    "pair. Component errors compare each number with itself; the columns count the cases in which one is above 0.1 % or 1 %.\n"
+    "A bound of 0 asks for the same bits in every component.\n\n"
+    "exit code: 0 if every kernel is within its bounds, 1 if one is not, 2 for bad usage or unreadable data\n";
+
+typedef struct verification {
+  const char *folder;
+  case_set cases;
+  carom_result *result;
+  pair_accuracy *each;
+  bool all_pass;
+  char parity[512]; /* sentences for below the table */
+} verification;
+
+static bool verify_claim(verification *v, const kernel *one, const kernel_claim *claim) {
+  reference_set reference;
+  const bool loaded = reference_load(v->folder, claim->reference, &v->cases, &reference);
+  if (loaded) {
+    carom_options options = carom_default_options();
+    options.slip = claim->slip;
+    options.steps = claim->steps;
+    kernel_resolve(one, v->cases.impact, v->cases.count, &options, v->result, NULL);
+    for (size_t k = 0; k < v->cases.count; k++)
+      v->each[k] = accuracy_of(&v->result[k], &reference.result[k], v->cases.impact[k].a.radius);
+    const accuracy_summary s = accuracy_summarise(v->each, v->cases.count);
+    const bool pass = claim->bound > 0.0 ? s.max <= claim->bound : s.identical == s.cases;
+    v->all_pass &= pass;
+    if (claim->bound == 0.0) {
+      const size_t used = strlen(v->parity);
+      snprintf(v->parity + used, sizeof v->parity - used, "%s: %zu of %zu cases bit-identical to %s\n", one->name, s.identical,
+               s.cases, claim->reference);
+    }
+    printf("%-8s %-9s %5d %-29s %4zu/%-4zu %-9.2g %-9.2g %-9.2g %-9.2g %-7.1g %5zu %5zu  %s\n", one->name,
+           carom_slip_name(claim->slip), claim->steps, claim->reference, s.identical, s.cases, s.mean, s.median, s.p99, s.max,
+           claim->bound, s.component_1e3, s.component_1e2, pass ? "pass" : "FAIL");
+  }
+  reference_free(&reference);
+  return loaded;
+}
+
+static bool verify_all(verification *v, const kernel *only) {
+  v->result = calloc(v->cases.count, sizeof *v->result);
+  v->each = calloc(v->cases.count, sizeof *v->each);
+  if (v->result == NULL || v->each == NULL) {
+    complain("out of memory");
+    return false;
+  }
+  printf("%-8s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %5s %5s  %s\n", "kernel", "slip", "steps", "reference", "identical",
+         "mean", "median", "p99", "max", "bound", ">0.1%", ">1%", "");
+  const kernel *one;
+  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
+    if (only == NULL || only == one)
+      for (const kernel_claim *claim = one->claims; claim->reference != NULL; claim++)
+        if (!verify_claim(v, one, claim))
+          return false;
+  printf("\n%s", v->parity);
+  return true;
+}
+
+int command_verify(int argc, char **argv) {
+  static const struct option options[] = {
+      {"kernel", required_argument, NULL, 'k'},
+      {"data", required_argument, NULL, 'd'},
+      {"help", no_argument, NULL, 'h'},
+      {0},
+  };
+  const kernel *only = NULL;
+  const char *folder = NULL;
+  int option;
+  while ((option = getopt_long(argc, argv, "h", options, NULL)) != -1)
+    switch (option) {
+    case 'k':
+      only = kernel_find(optarg);
+      if (only == NULL) {
+        complain("no kernel '%s'; `carom kernels` lists them", optarg);
+        return EXIT_USAGE;
+      }
+      break;
+    case 'd':
+      folder = optarg;
+      break;
+    case 'h':
+      fputs(help, stdout);
+      return EXIT_GOOD;
+    default:
+      return usage_hint("verify");
+    }
+  if (optind < argc) {
+    complain("verify takes no files, but got '%s'", argv[optind]);
+    return usage_hint("verify");
+  }
+  verification v = {.folder = cases_folder(folder), .all_pass = true};
+  int code = EXIT_USAGE;
+  if (cases_load(v.folder, "collisions-204.csv", &v.cases) && verify_all(&v, only))
+    code = v.all_pass ? EXIT_GOOD : EXIT_SOME;
+  free(v.result);
+  free(v.each);
+  cases_free(&v.cases);
+  return code;
+}

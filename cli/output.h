@@ -1,0 +1,21 @@
+/* A file that appears whole or not at all: written beside its place, renamed when it is complete.
+ *
+ * "-" is stdout, and what exists already but is no regular file (a terminal, a pipe, /dev/null) is written in place: there
+ * the output streams.
+ */
+#ifndef CAROM_CLI_OUTPUT_H
+#define CAROM_CLI_OUTPUT_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Opens the output for writing. Complains and returns NULL if that fails. One at a time. */
+FILE *output_open(const char *path);
+
+/* Puts the file in its place. Complains and returns false if anything could not be written. */
+bool output_commit(void);
+
+/* Drops what has been written. */
+void output_abandon(void);
+
+#endif

@@ -1,0 +1,43 @@
+/* Records of a CSV file, one at a time, in constant memory.
+ *
+ * Understood: fields quoted or not, quoted commas, quotes and line ends, LF, CRLF and CR, a UTF-8 byte-order mark, blank lines
+ * (skipped), a last line without its end. A record of more than a mebibyte, such as an unclosed quote makes, is malformed: it
+ * costs that record, and reading goes on at the next line.
+ */
+#ifndef CAROM_CLI_RECORDS_H
+#define CAROM_CLI_RECORDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct record_reader record_reader;
+
+typedef struct record {
+  long long line; /* on which the record begins, counted from 1 */
+  size_t count;   /* number of fields */
+  char **field;   /* each ends with NUL; valid until the next call */
+  bool malformed; /* too long to be meant; no fields */
+} record;
+
+typedef enum read_result { READ_FAILED = -1, READ_END = 0, READ_ONE = 1 } read_result;
+
+/* Opens `path`, "-" for stdin. Complains and returns NULL if that fails. */
+record_reader *record_open(const char *path);
+
+/* The next record, or READ_END; READ_FAILED after a complaint when the input cannot be read on. */
+read_result record_next(record_reader *reader, record *out);
+
+/* The bytes read so far, and those of the whole file or -1 where it is not known: for progress. */
+double record_bytes_read(const record_reader *reader);
+double record_bytes_total(const record_reader *reader);
+
+/* The name of the file for messages. */
+const char *record_file_name(const record_reader *reader);
+
+void record_close(record_reader *reader);
+
+/* Reads a whole field as a number: decimal or hexadecimal, nan, inf or infinity in any case, blanks around it allowed. False
+ * if it is anything else. */
+bool parse_number(const char *text, double *number);
+
+#endif

@@ -1,0 +1,29 @@
+# Bad usage and unreadable input: exit 2, a message that says what would be right, and nothing written.
+header=id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R,M,u_s1,u_s2,u_b,e_b
+try carom
+try carom frobnicate
+try carom resolve
+try carom resolve a b
+try carom resolve --frobnicate x.csv
+try carom resolve --kernel fast x.csv
+try carom resolve --slip none x.csv
+try carom resolve --steps 0 x.csv
+try carom resolve --steps 1e3 x.csv
+try carom resolve missing.csv
+try carom resolve .
+: > empty.csv
+try carom resolve -o out.csv empty.csv
+echo "$header" | sed 's/,R,/,/; s/,v1y,/,/' > lacking.csv
+try carom resolve -o out.csv lacking.csv
+echo "$header,M" > doubled.csv
+try carom resolve -o out.csv doubled.csv
+echo "$header,M1,M2" > both.csv
+try carom resolve -o out.csv both.csv
+echo "$header" | sed 's/,M,/,M1,/' > half.csv
+try carom resolve -o out.csv half.csv
+try carom resolve -o nowhere/out.csv "$DATA/collisions-204.csv"
+try carom kernels now
+try carom verify now
+try carom verify --kernel fast
+try carom verify --data nowhere
+ls out.csv* 2>/dev/null || echo "no output"

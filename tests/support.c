@@ -1,0 +1,88 @@
+/* What several tests share. */
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const double pi = 3.14159265358979323846;
+
+uint64_t test_seed(void) {
+  static uint64_t seed;
+  if (seed == 0) {
+    const char *given = getenv("CAROM_TEST_SEED");
+    seed = given != NULL ? strtoull(given, NULL, 10) : 20141;
+    printf("seed %llu (replay with CAROM_TEST_SEED)\n", (unsigned long long)seed);
+    fflush(stdout);
+  }
+  return seed;
+}
+
+/* splitmix64 */
+static uint64_t random_bits(random_source *source) {
+  uint64_t z = source->state += 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+double random_between(random_source *source, double low, double high) {
+  return low + (high - low) * (double)(random_bits(source) >> 11) * 0x1p-53;
+}
+
+static carom_ball random_ball(random_source *source) {
+  const double speed = pow(10.0, random_between(source, -2.0, 1.0)), way = random_between(source, 0.0, 2.0 * pi);
+  carom_ball ball = {.r = {random_between(source, 0.0, 1.0), random_between(source, 0.0, 2.0), 0.03},
+                     .v = {speed * cos(way), speed * sin(way), 0.0},
+                     .radius = 0.028575,
+                     .mass = 0.17,
+                     .mu_cloth = random_between(source, 0.0, 0.5)};
+  for (int k = 0; k < 3; k++)
+    ball.w[k] = random_between(source, -1.0, 1.0) * speed / ball.radius;
+  return ball;
+}
+
+carom_impact random_impact(random_source *source) {
+  carom_impact in = {.a = random_ball(source),
+                     .b = random_ball(source),
+                     .mu_ball = random_between(source, 0.0, 0.2),
+                     .restitution = random_between(source, 0.5, 1.0)};
+  const double way = random_between(source, 0.0, 2.0 * pi);
+  const double y[2] = {cos(way), sin(way)};
+  in.b.r[0] = in.a.r[0] + 2.0 * in.a.radius * y[0];
+  in.b.r[1] = in.a.r[1] + 2.0 * in.a.radius * y[1];
+  const double v_n = (in.b.v[0] - in.a.v[0]) * y[0] + (in.b.v[1] - in.a.v[1]) * y[1];
+  if (v_n > 0.0) /* turn both balls round */
+    for (int k = 0; k < 2; k++) {
+      in.a.v[k] = -in.a.v[k];
+      in.b.v[k] = -in.b.v[k];
+    }
+  return in;
+}
+
+double result_distance(const carom_result *a, const carom_result *b, double radius) {
+  const double *x = (const double *)a, *y = (const double *)b;
+  double scale = 0.0, worst = 0.0;
+  for (int k = 0; k < 12; k++) {
+    const double weight = k / 3 % 2 == 1 ? radius : 1.0;
+    scale = fmax(scale, weight * fabs(y[k]));
+    worst = x[k] == y[k] ? worst : fmax(worst, weight * fabs(x[k] - y[k]));
+    if (isnan(x[k]) != isnan(y[k]))
+      return INFINITY;
+  }
+  return worst == 0.0 ? 0.0 : worst / scale;
+}
+
+int run_tests(const char *name, const TTest *const *tests, size_t count) {
+  Suite *suite = suite_create(name);
+  TCase *tcase = tcase_create(name);
+  tcase_set_timeout(tcase, 240);
+  for (size_t k = 0; k < count; k++)
+    tcase_add_test(tcase, tests[k]);
+  suite_add_tcase(suite, tcase);
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  const int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed == 0 ? 0 : 1;
+}

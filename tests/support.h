@@ -1,0 +1,32 @@
+/* What several tests share: random numbers with a seed, random collisions, running a suite. */
+#ifndef CAROM_TESTS_SUPPORT_H
+#define CAROM_TESTS_SUPPORT_H
+
+#include "carom.h"
+
+#include <check.h>
+#include <stdint.h>
+
+/* The seed of this run: $CAROM_TEST_SEED, or a fixed one. Printed once, so that a failure can be replayed. */
+uint64_t test_seed(void);
+
+/* Random numbers; each test starts its own from test_seed(). */
+typedef struct random_source {
+  uint64_t state;
+} random_source;
+
+double random_between(random_source *source, double low, double high);
+
+/* A random approaching pair of real size: both balls may move and spin, in any direction and with any friction up to the
+ * values of real balls. */
+carom_impact random_impact(random_source *source);
+
+/* Largest difference of two results, times `radius` for angular velocities, over the largest such value of `b`. */
+double result_distance(const carom_result *a, const carom_result *b, double radius);
+
+/* Runs one test case and returns main's exit code. */
+int run_tests(const char *name, const TTest *const *tests, size_t count);
+#define RUN_TESTS(name, ...) \
+  run_tests(name, (const TTest *const[]){__VA_ARGS__}, sizeof((const TTest *const[]){__VA_ARGS__}) / sizeof(const TTest *))
+
+#endif

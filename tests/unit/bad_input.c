@@ -1,0 +1,259 @@
+/* Bad input: each field at fault gets its own status, hangs nothing, and disturbs no neighbour. */
+#include "support.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Index of a field among the 26 doubles. */
+#define FIELD(member) ((int)(offsetof(carom_impact, member) / sizeof(double)))
+
+typedef struct bad_case {
+  int field;
+  double value;
+  carom_status status;
+  int blamed; /* the field that carom_check names */
+} bad_case;
+
+#define NOT_FINITE(member, status)                                                                 \
+  {FIELD(member), NAN, status, FIELD(member)}, {FIELD(member), INFINITY, status, FIELD(member)}, { \
+    FIELD(member), -INFINITY, status, FIELD(member)                                                \
+  }
+#define ALONE(member, value, status) \
+  { FIELD(member), value, status, FIELD(member) }
+
+static const bad_case bad_cases[] = {
+    NOT_FINITE(a.r[0], CAROM_ERROR_POSITION),
+    NOT_FINITE(b.r[2], CAROM_ERROR_POSITION),
+    NOT_FINITE(a.v[1], CAROM_ERROR_VELOCITY),
+    NOT_FINITE(b.v[2], CAROM_ERROR_VELOCITY),
+    NOT_FINITE(a.w[2], CAROM_ERROR_SPIN),
+    NOT_FINITE(b.w[0], CAROM_ERROR_SPIN),
+    NOT_FINITE(a.radius, CAROM_ERROR_RADIUS),
+    NOT_FINITE(b.mass, CAROM_ERROR_MASS),
+    NOT_FINITE(b.mu_cloth, CAROM_ERROR_MU_CLOTH),
+    NOT_FINITE(mu_ball, CAROM_ERROR_MU_BALL),
+    NOT_FINITE(restitution, CAROM_ERROR_RESTITUTION),
+    ALONE(a.radius, 0.0, CAROM_ERROR_RADIUS),
+    ALONE(a.radius, -1.0, CAROM_ERROR_RADIUS),
+    ALONE(b.radius, 0.026, CAROM_ERROR_RADII_DIFFER),
+    ALONE(a.mass, 0.0, CAROM_ERROR_MASS),
+    ALONE(b.mass, -0.17, CAROM_ERROR_MASS),
+    ALONE(a.mu_cloth, -1e-9, CAROM_ERROR_MU_CLOTH),
+    ALONE(b.mu_cloth, 1.5, CAROM_ERROR_MU_CLOTH),
+    ALONE(mu_ball, -0.1, CAROM_ERROR_MU_BALL),
+    ALONE(mu_ball, 1.0000001, CAROM_ERROR_MU_BALL),
+    ALONE(restitution, -1.0, CAROM_ERROR_RESTITUTION),
+    ALONE(restitution, 1.01, CAROM_ERROR_RESTITUTION),
+    ALONE(a.v[2], 0.1, CAROM_ERROR_VERTICAL),
+    ALONE(b.v[2], -0.1, CAROM_ERROR_VERTICAL),
+    {FIELD(b.r[2]), 0.04, CAROM_ERROR_HEIGHTS_DIFFER, FIELD(b.r[2])},
+    {FIELD(a.r[2]), 0.02, CAROM_ERROR_HEIGHTS_DIFFER, FIELD(b.r[2])},
+};
+enum { BAD_CASES = sizeof bad_cases / sizeof bad_cases[0] };
+
+/* A straight shot of a rolling ball on a resting one. */
+static carom_impact good_impact(void) {
+  carom_impact in = {.a = {.r = {0.0, 0.0, 0.03}, .v = {0.3, 1.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_cloth = 0.2},
+                     .mu_ball = 0.05,
+                     .restitution = 0.95};
+  in.b = in.a;
+  in.b.r[1] = 0.06;
+  memset(in.b.v, 0, sizeof in.b.v);
+  in.a.w[0] = -33.0;
+  in.a.w[1] = 10.0;
+  return in;
+}
+
+static carom_impact with(int field, double value) {
+  carom_impact in = good_impact();
+  ((double *)&in)[field] = value;
+  return in;
+}
+
+static void expect_all_nan(const carom_result *out) {
+  for (int k = 0; k < 12; k++)
+    ck_assert_msg(isnan(((const double *)out)[k]), "component %d is a number", k);
+}
+
+START_TEST(each_field_is_named) {
+  for (int k = 0; k < BAD_CASES; k++) {
+    const bad_case *bad = &bad_cases[k];
+    const carom_impact in = with(bad->field, bad->value);
+    carom_result out;
+    int blamed;
+    const carom_status status = carom_collide(&in, NULL, &out);
+    ck_assert_msg(status == bad->status, "%s = %g: %s, not %s", carom_field_name(bad->field), bad->value,
+                  carom_status_name(status), carom_status_name(bad->status));
+    expect_all_nan(&out);
+    ck_assert_int_eq(carom_check(&in, NULL, &blamed), bad->status);
+    ck_assert_int_eq(blamed, bad->blamed);
+  }
+}
+END_TEST
+
+START_TEST(coincident_centres) {
+  carom_impact in = good_impact();
+  carom_result out;
+  int blamed;
+  memcpy(in.b.r, in.a.r, sizeof in.b.r);
+  ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_COINCIDENT);
+  expect_all_nan(&out);
+  ck_assert_int_eq(carom_check(&in, NULL, &blamed), CAROM_ERROR_COINCIDENT);
+  ck_assert_int_eq(blamed, -1);
+  in.b.r[1] += 1e-200; /* distinct, but the square of the distance is not */
+  ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_COINCIDENT);
+}
+END_TEST
+
+START_TEST(good_input_passes_the_check) {
+  const carom_impact in = good_impact();
+  carom_result out;
+  int blamed;
+  ck_assert_int_eq(carom_check(&in, NULL, &blamed), CAROM_OK);
+  ck_assert_int_eq(blamed, -1);
+  ck_assert_int_eq(carom_check(&in, NULL, NULL), CAROM_OK);
+  ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
+}
+END_TEST
+
+START_TEST(noise_in_the_heights_passes) {
+  carom_impact in = good_impact();
+  carom_result out;
+  in.b.r[2] += 1e-15;
+  in.a.v[2] = 1e-15;
+  ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
+}
+END_TEST
+
+START_TEST(bad_options) {
+  const carom_impact in = good_impact();
+  carom_result out;
+  uint8_t status = 77;
+  const struct {
+    carom_options options;
+    carom_status status;
+  } cases[] = {
+      {{.solver = (carom_solver)99, .steps = 1000}, CAROM_ERROR_SOLVER},
+      {{.solver = (carom_solver)-1, .steps = 1000}, CAROM_ERROR_SOLVER},
+      {{.slip = (carom_slip)2, .steps = 1000}, CAROM_ERROR_SLIP},
+      {{.steps = 0}, CAROM_ERROR_STEPS},
+      {{.steps = -5}, CAROM_ERROR_STEPS},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    ck_assert_int_eq(carom_collide(&in, &cases[k].options, &out), cases[k].status);
+    expect_all_nan(&out);
+    ck_assert_int_eq(carom_check(&in, &cases[k].options, NULL), cases[k].status);
+    ck_assert_int_eq(carom_collide_batch(&in, 1, &cases[k].options, &out, &status), cases[k].status);
+    ck_assert_int_eq(status, 77);
+  }
+}
+END_TEST
+
+START_TEST(null_pointers) {
+  const carom_impact in = good_impact();
+  carom_result out;
+  carom_detail detail = {.steps = 7};
+  uint8_t status;
+  ck_assert_int_eq(carom_collide(NULL, NULL, &out), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_collide(&in, NULL, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_collide_detail(&in, NULL, NULL, &detail), CAROM_ERROR_NULL);
+  ck_assert_int_eq(detail.steps, 0);
+  ck_assert_int_eq(carom_check(NULL, NULL, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_collide_batch(NULL, 1, NULL, &out, &status), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_collide_batch(&in, 1, NULL, NULL, &status), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_collide_batch(NULL, 0, NULL, NULL, NULL), CAROM_OK);
+}
+END_TEST
+
+START_TEST(a_bad_row_disturbs_no_neighbour) {
+  enum { ROWS = 2 * BAD_CASES + 1 };
+  carom_impact in[ROWS];
+  carom_result out[ROWS], alone;
+  uint8_t status[ROWS];
+  const carom_impact good = good_impact();
+  ck_assert_int_eq(carom_collide(&good, NULL, &alone), CAROM_OK);
+  for (int k = 0; k < ROWS; k++)
+    in[k] = k % 2 == 0 ? good : with(bad_cases[k / 2].field, bad_cases[k / 2].value);
+  ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, status), bad_cases[0].status);
+  for (int k = 0; k < ROWS; k++) {
+    const carom_status expected = k % 2 == 0 ? CAROM_OK : bad_cases[k / 2].status;
+    ck_assert_int_eq(carom_status_of_byte(status[k]), expected);
+    if (k % 2 == 0)
+      ck_assert_mem_eq(&out[k], &alone, sizeof alone);
+    else
+      expect_all_nan(&out[k]);
+  }
+  ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, NULL), bad_cases[0].status);
+  ck_assert_int_eq(carom_collide_batch(in, 1, NULL, out, NULL), CAROM_OK);
+}
+END_TEST
+
+static void expect_unchanged(const carom_impact *in) {
+  carom_result out;
+  carom_detail detail = {.steps = 7};
+  ck_assert_int_eq(carom_collide_detail(in, NULL, &out, &detail), CAROM_SEPARATING);
+  ck_assert_int_eq(detail.steps, 0);
+  ck_assert_mem_eq(out.v_a, in->a.v, sizeof out.v_a);
+  ck_assert_mem_eq(out.w_a, in->a.w, sizeof out.w_a);
+  ck_assert_mem_eq(out.v_b, in->b.v, sizeof out.v_b);
+  ck_assert_mem_eq(out.w_b, in->b.w, sizeof out.w_b);
+}
+
+START_TEST(separating_pairs_are_unchanged) {
+  carom_impact in = good_impact();
+  in.a.v[1] = -1.0;
+  expect_unchanged(&in);
+  memcpy(in.b.v, in.a.v, sizeof in.b.v); /* equal velocities */
+  expect_unchanged(&in);
+  memset(in.a.v, 0, sizeof in.a.v); /* both at rest */
+  memset(in.b.v, 0, sizeof in.b.v);
+  expect_unchanged(&in);
+}
+END_TEST
+
+/* The collisions on which pooltool never returns. */
+START_TEST(too_slow_for_euler) {
+  carom_impact in = good_impact();
+  carom_result out;
+  carom_options options = carom_default_options();
+  in.a.v[0] = 0.0;
+  for (int k = 0; k < CAROM_SLIP_COUNT; k++)
+    for (double approach = 0x1p-52; approach < 1e-13; approach *= 2.0) {
+      carom_detail detail;
+      options.slip = (carom_slip)k;
+      options.solver = CAROM_SOLVER_EULER;
+      in.b.v[1] = 1.0;
+      in.a.v[1] = 1.0 + approach;
+      const carom_status status = carom_collide_detail(&in, &options, &out, &detail);
+      ck_assert(detail.steps <= 2 * (1010 + 2));
+      if (approach < 1e-14)
+        ck_assert_int_eq(status, CAROM_ERROR_TOO_SLOW);
+      if (status == CAROM_ERROR_TOO_SLOW)
+        expect_all_nan(&out);
+      else
+        ck_assert_int_eq(status, CAROM_OK);
+    }
+}
+END_TEST
+
+START_TEST(overflow_is_told) {
+  carom_impact in = good_impact();
+  carom_result out;
+  in.a.v[1] = 1e200;
+  in.a.v[0] = 1e200;
+  ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_OVERFLOW);
+  expect_all_nan(&out);
+  in = good_impact();
+  in.b.r[1] = 1e300;
+  ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_OVERFLOW);
+  in = good_impact();
+  in.a.mass = in.b.mass = 1e-310;
+  ck_assert_int_lt(carom_collide(&in, NULL, &out), 0);
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("bad_input", each_field_is_named, coincident_centres, good_input_passes_the_check,
+                   noise_in_the_heights_passes, bad_options, null_pointers, a_bad_row_disturbs_no_neighbour,
+                   separating_pairs_are_unchanged, too_slow_for_euler, overflow_is_told);
+}

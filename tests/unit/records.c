@@ -1,0 +1,115 @@
+/* CSV records: what real files contain. */
+#include "records.h"
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static record_reader *open_text(const char *text, size_t size) {
+  char path[] = "/tmp/carom-records-XXXXXX";
+  const int descriptor = mkstemp(path);
+  ck_assert_int_ge(descriptor, 0);
+  ck_assert_int_eq(write(descriptor, text, size), (ssize_t)size);
+  close(descriptor);
+  record_reader *reader = record_open(path);
+  unlink(path);
+  ck_assert_ptr_nonnull(reader);
+  return reader;
+}
+
+/* Reads all records as "line:a|b|c;..." */
+static void expect(const char *text, const char *expected) {
+  char seen[512] = "";
+  size_t used = 0;
+  record_reader *reader = open_text(text, strlen(text));
+  record in;
+  while (record_next(reader, &in) == READ_ONE) {
+    used += (size_t)snprintf(seen + used, sizeof seen - used, "%lld:", in.line);
+    for (size_t k = 0; k < in.count; k++)
+      used += (size_t)snprintf(seen + used, sizeof seen - used, "%s%s", k > 0 ? "|" : "", in.field[k]);
+    used += (size_t)snprintf(seen + used, sizeof seen - used, ";");
+  }
+  record_close(reader);
+  ck_assert_str_eq(seen, expected);
+}
+
+START_TEST(shapes_of_files) {
+  expect("", "");
+  expect("\n\n", "");
+  expect("a,b\n1,2\n", "1:a|b;2:1|2;");
+  expect("a,b\n1,2", "1:a|b;2:1|2;");
+  expect("a,b\r\n1,2\r\n3,4\r\n", "1:a|b;2:1|2;3:3|4;");
+  expect("a,b\r1,2\r", "1:a|b;2:1|2;");
+  expect("\xEF\xBB\xBF"
+         "a,b\n1,2\n",
+         "1:a|b;2:1|2;");
+  expect("a\n\n\r\n1\n\n2\n", "1:a;4:1;6:2;");
+  expect("a,b\n,\n1\n1,2,3\n", "1:a|b;2:|;3:1;4:1|2|3;");
+  expect(" a , b \n", "1:a|b;");
+}
+END_TEST
+
+START_TEST(quotes) {
+  expect("\"a\",\"b,c\",\"d \"\"e\"\"\"\n1,2,3\n", "1:a|b,c|d \"e\";2:1|2|3;");
+  expect("a,\"two\nlines\"\nnext,\"x\r\ny\"\nlast\n", "1:a|two\nlines;3:next|x\r\ny;5:last;");
+  expect("\"starts\nhere\",1\nb\n", "1:starts\nhere|1;3:b;");
+}
+END_TEST
+
+START_TEST(a_quote_left_open_costs_one_record) {
+  const size_t size = 3 << 20;
+  char *text = malloc(size);
+  memset(text, 'x', size);
+  for (size_t k = 100; k < size; k += 100)
+    text[k] = '\n';
+  memcpy(text, "a\n\"open,", 8);
+  memcpy(text + size - 7, "\nlast\n\n", 7);
+  record_reader *reader = open_text(text, size);
+  record in;
+  ck_assert_int_eq(record_next(reader, &in), READ_ONE);
+  ck_assert_int_eq(record_next(reader, &in), READ_ONE);
+  ck_assert(in.malformed);
+  ck_assert_int_eq(in.line, 2);
+  char last[100] = "";
+  while (record_next(reader, &in) == READ_ONE) {
+    ck_assert(!in.malformed);
+    snprintf(last, sizeof last, "%.90s", in.field[0]);
+  }
+  ck_assert_str_eq(last, "last");
+  record_close(reader);
+  free(text);
+}
+END_TEST
+
+START_TEST(numbers) {
+  const struct {
+    const char *text;
+    double value;
+  } good[] = {{"1", 1},
+              {"-1.5e-3", -0.0015},
+              {" 2 ", 2},
+              {"+.5", 0.5},
+              {"0x1p-2", 0.25},
+              {"inf", INFINITY},
+              {"-INF", -INFINITY},
+              {"Infinity", INFINITY},
+              {"1e999", INFINITY},
+              {"1e-999", 0}};
+  double x;
+  for (size_t k = 0; k < sizeof good / sizeof good[0]; k++) {
+    ck_assert_msg(parse_number(good[k].text, &x), "%s", good[k].text);
+    ck_assert(x == good[k].value);
+  }
+  ck_assert(parse_number("NaN", &x) && isnan(x));
+  const char *const bad[] = {"", " ", "1,5", "1.5.2", "one", "1e", "--1", "1 2", "0x"};
+  for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
+    ck_assert_msg(!parse_number(bad[k], &x), "%s", bad[k]);
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("records", shapes_of_files, quotes, a_quote_left_open_costs_one_record, numbers);
+}
