@@ -1,0 +1,92 @@
+/* Keeping the benchmark on one core. Real-time priority is the lowest there is: it comes before everything ordinary and after
+ * everything that knows better. */
+#include "pinning.h"
+
+#include <errno.h>
+#include <sched.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct placement {
+  cpu_set_t cores;
+  int policy;
+  struct sched_param priority;
+} placement;
+
+static placement before, pinned;
+static bool active;
+
+/* Linux lists isolated cores as "2-3,7"; the first that is allowed too, or -1. */
+static int isolated_core(const cpu_set_t *allowed) {
+  FILE *file = fopen("/sys/devices/system/cpu/isolated", "r");
+  int found = -1, first, last;
+  while (file != NULL && found < 0 && fscanf(file, "%d", &first) == 1) {
+    int mark = fgetc(file);
+    last = first;
+    if (mark == '-' && fscanf(file, "%d", &last) == 1)
+      fgetc(file);
+    for (int core = first; core <= last && core < CPU_SETSIZE && found < 0; core++)
+      if (CPU_ISSET((size_t)core, allowed))
+        found = core;
+  }
+  if (file != NULL)
+    fclose(file);
+  return found;
+}
+
+static int last_core(const cpu_set_t *allowed) {
+  for (int core = CPU_SETSIZE - 1; core >= 0; core--)
+    if (CPU_ISSET((size_t)core, allowed))
+      return core;
+  return 0;
+}
+
+static void place(const placement *p) {
+  sched_setaffinity(0, sizeof p->cores, &p->cores);
+  sched_setscheduler(0, p->policy, &p->priority);
+}
+
+const char *pinning_begin(void) {
+  static char text[200];
+  if (sched_getaffinity(0, sizeof before.cores, &before.cores) != 0) {
+    snprintf(text, sizeof text, "not pinned (%s)", strerror(errno));
+    return text;
+  }
+  before.policy = sched_getscheduler(0);
+  sched_getparam(0, &before.priority);
+  const int isolated = isolated_core(&before.cores), core = isolated >= 0 ? isolated : last_core(&before.cores);
+  pinned = before;
+  CPU_ZERO(&pinned.cores);
+  CPU_SET((size_t)core, &pinned.cores);
+  if (sched_setaffinity(0, sizeof pinned.cores, &pinned.cores) != 0) {
+    snprintf(text, sizeof text, "not pinned (%s)", strerror(errno));
+    return text;
+  }
+  active = true;
+  int used = snprintf(text, sizeof text, "pinned to core %d%s, ", core, isolated >= 0 ? " (isolated)" : " (not isolated)");
+  const struct sched_param lowest = {.sched_priority = sched_get_priority_min(SCHED_FIFO)};
+  if (sched_setscheduler(0, SCHED_FIFO, &lowest) == 0) {
+    pinned.policy = SCHED_FIFO;
+    pinned.priority = lowest;
+    snprintf(text + used, sizeof text - (size_t)used, "real-time priority");
+  } else {
+    snprintf(text + used, sizeof text - (size_t)used, "no real-time priority (%s)", strerror(errno));
+  }
+  return text;
+}
+
+void pinning_end(void) {
+  pinning_suspend();
+  active = false;
+}
+
+void pinning_suspend(void) {
+  if (active)
+    place(&before);
+}
+
+void pinning_resume(void) {
+  if (active)
+    place(&pinned);
+}
