@@ -21,7 +21,9 @@ typedef struct ladder_rung {
   ladder_precision precision;
   ladder_isa isa;
   double bound;
-  const char *paper, *idea;
+  const char *paper;
+  int over_1e3, over_1e2;
+  const char *idea;
 } ladder_rung;
 
 /* The k-th rung, from the bottom, or NULL behind the last; the rung of that name, or NULL. */

@@ -17,7 +17,7 @@
  * rung's precision: see carom_ladder_resolve() for what exactly. */
 typedef void carom_rung(carom_local *state, int N);
 
-#define RUNG(name, parent, precision, isa, bound, paper, idea) carom_rung carom_rung_##name;
+#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) carom_rung carom_rung_##name;
 #include "kernels.def"
 #undef RUNG
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 static const ladder_rung rungs[] = {
-#define RUNG(name, parent, precision, isa, bound, paper, idea) \
-  {#name, #parent, LADDER_##precision, LADDER_##isa, bound, paper, idea},
+#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) \
+  {#name, #parent, LADDER_##precision, LADDER_##isa, bound, paper, over_1e3, over_1e2, idea},
 #include "kernels.def"
 #undef RUNG
 };
