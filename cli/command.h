@@ -12,6 +12,7 @@ enum {
 #define COMMAND_LIST(X)                                 \
   X(resolve, "resolve the collisions of a CSV file")    \
   X(verify, "compare every kernel with the references") \
+  X(bench, "time every kernel, once it is verified")    \
   X(kernels, "list the kernels that resolve and verify know")
 
 #define COMMAND_PROTOTYPE(name, text) int command_##name(int argc, char **argv);

@@ -3,11 +3,11 @@
 #include "impacts.h"
 #include "kernel.h"
 #include "message.h"
+#include "option.h"
 #include "output.h"
 #include "progress.h"
 
 #include <csv.h>
-#include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -169,18 +169,6 @@ static bool parse_slip(const char *text, carom_slip *slip) {
   return false;
 }
 
-static bool parse_steps(const char *text, int *steps) {
-  char *end;
-  errno = 0;
-  const long value = strtol(text, &end, 10);
-  if (end == text || *end != '\0' || errno != 0 || value < 1 || value > 2147483647) {
-    complain("--steps is a whole number from 1 to 2147483647, not '%s'", text);
-    return false;
-  }
-  *steps = (int)value;
-  return true;
-}
-
 int command_resolve(int argc, char **argv) {
   static const struct option options[] = {
       {"kernel", required_argument, NULL, 'k'}, {"config", required_argument, NULL, 'c'},
@@ -209,7 +197,7 @@ int command_resolve(int argc, char **argv) {
         return EXIT_USAGE;
       break;
     case 'n':
-      if (!parse_steps(optarg, &job.options.steps))
+      if (!option_steps(optarg, &job.options.steps))
         return EXIT_USAGE;
       break;
     case 'o':

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 typedef struct placement {
   cpu_set_t cores;
@@ -89,4 +90,16 @@ void pinning_suspend(void) {
 void pinning_resume(void) {
   if (active)
     place(&pinned);
+}
+
+void pinning_breathe(double busy_ns) {
+  static double owed;
+  if (!active || pinned.policy != SCHED_FIFO)
+    return;
+  owed += 0.07 * busy_ns;
+  if (owed < 2e6)
+    return;
+  const struct timespec pause = {.tv_sec = (time_t)(owed / 1e9), .tv_nsec = (long)owed % 1000000000};
+  nanosleep(&pause, NULL);
+  owed = 0.0;
 }

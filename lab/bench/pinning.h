@@ -14,4 +14,9 @@ void pinning_end(void);
 void pinning_suspend(void);
 void pinning_resume(void);
 
+/* To be called between samples with the nanoseconds they took. Linux stops a real-time task that leaves a core nothing for 50
+ * ms in every second, in the midst of a sample; sleeping a little more than that between samples keeps the stops out of them.
+ */
+void pinning_breathe(double busy_ns);
+
 #endif

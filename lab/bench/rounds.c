@@ -65,7 +65,8 @@ static double cost_of_round(const engine *e, double length) {
 
 /* Chooses the number of rounds and the loops of each subject. */
 static void plan(engine *e) {
-  const double left = fmax(0.0, e->settings.budget * 1e9 - (e->settings.now() - e->start));
+  /* A tenth for what lies between samples. */
+  const double left = 0.9 * fmax(0.0, e->settings.budget * 1e9 - (e->settings.now() - e->start));
   double length = long_sample;
   double rounds = floor(left / cost_of_round(e, length));
   if (rounds < WANTED_ROUNDS) {
@@ -98,6 +99,7 @@ static void take_sample(engine *e, size_t k, size_t round) {
   l->empty[round] = s->empty != NULL ? sample(e, s->empty, s->context, 8).ns / (8.0 * (double)s->pairs) : 0.0;
   if (s->threads > 1)
     pinning_resume();
+  pinning_breathe(full.ns);
 }
 
 static void take_rounds(engine *e) {
