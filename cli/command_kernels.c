@@ -6,8 +6,11 @@
 #include <getopt.h>
 #include <stdio.h>
 
-static const char help[] = "usage: carom kernels\n\n"
-                           "Lists the kernels that `resolve --kernel` takes and `verify` checks; the first is the default.\n";
+static const char help[] =
+    "usage: carom kernels\n\n"
+    "Lists the kernels that `resolve --kernel` takes and `verify` checks; the first is the default. Those of the ladder, the\n"
+    "seed paper's kernels, exist once per compiler and configuration: --config names both (gcc-o3) or the configuration alone\n"
+    "(o3: the first compiler listed).\n";
 
 int command_kernels(int argc, char **argv) {
   static const struct option options[] = {{"help", no_argument, NULL, 'h'}, {0}};
@@ -22,9 +25,15 @@ int command_kernels(int argc, char **argv) {
     complain("kernels takes no arguments, but got '%s'", argv[optind]);
     return usage_hint("kernels");
   }
-  printf("%-12s %-10s %s\n", "kernel", "precision", "what it is");
+  printf("%-15s %-10s %s\n", "kernel", "precision", "what it is");
   const kernel *one;
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
-    printf("%-12s %-10s %s\n", one->name, one->precision, one->text);
+    if (!one->is_rung || ladder_rung_runs(ladder_rung_find(one->name)))
+      printf("%-15s %-10s %s%s\n", one->name, one->precision, one->is_rung ? "ladder: " : "", one->text);
+  printf("\nconfigurations of the ladder:");
+  const char *module;
+  for (size_t k = 0; (module = ladder_module_name(k)) != NULL; k++)
+    printf(" %s", module);
+  puts(ladder_module_name(0) == NULL ? " none here" : "");
   return EXIT_GOOD;
 }

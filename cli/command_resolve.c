@@ -18,6 +18,7 @@ static const char help[] =
     "Reads one collision a row and writes the state after it. IN.csv may be - for standard input.\n\n"
     "options:\n"
     "  --kernel NAME           how to compute (see `carom kernels`)\n"
+    "  --config NAME           which build of a ladder kernel (see `carom kernels`; default: default)\n"
     "  --slip paper|pooltool   sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's\n"
     "  --steps N               steps of Euler's method, 1 or more (default 1000)\n"
     "  -o, --output OUT        file to write, - for standard output (default); a file appears whole or not at all\n"
@@ -43,6 +44,7 @@ enum { BLOCK = 1024 };
 
 typedef struct resolve_job {
   const kernel *kernel;
+  const ladder_module *module;
   carom_options options;
   impact_reader *in;
   FILE *out;
@@ -116,7 +118,7 @@ static bool resolve_all(resolve_job *job, row_block *block) {
     if (!read_block(job, block, &more))
       return false;
     const double before = seconds_now();
-    kernel_resolve(job->kernel, block->impact, block->count, &job->options, block->result, block->status);
+    kernel_resolve(job->kernel, job->module, block->impact, block->count, &job->options, block->result, block->status);
     job->solving += seconds_now() - before;
     for (size_t k = 0; k < block->count; k++) {
       const carom_status status = carom_status_of_byte(block->status[k]);
@@ -181,16 +183,13 @@ static bool parse_steps(const char *text, int *steps) {
 
 int command_resolve(int argc, char **argv) {
   static const struct option options[] = {
-      {"kernel", required_argument, NULL, 'k'},
-      {"slip", required_argument, NULL, 's'},
-      {"steps", required_argument, NULL, 'n'},
-      {"output", required_argument, NULL, 'o'},
-      {"summary", no_argument, NULL, 'S'},
-      {"help", no_argument, NULL, 'h'},
-      {0},
+      {"kernel", required_argument, NULL, 'k'}, {"config", required_argument, NULL, 'c'},
+      {"slip", required_argument, NULL, 's'},   {"steps", required_argument, NULL, 'n'},
+      {"output", required_argument, NULL, 'o'}, {"summary", no_argument, NULL, 'S'},
+      {"help", no_argument, NULL, 'h'},         {0},
   };
   resolve_job job = {.kernel = kernel_at(0), .options = carom_default_options()};
-  const char *out = "-";
+  const char *out = "-", *config = NULL;
   bool summary = false;
   int option;
   while ((option = getopt_long(argc, argv, "o:h", options, NULL)) != -1)
@@ -201,6 +200,9 @@ int command_resolve(int argc, char **argv) {
         complain("no kernel '%s'; `carom kernels` lists them", optarg);
         return EXIT_USAGE;
       }
+      break;
+    case 'c':
+      config = optarg;
       break;
     case 's':
       if (!parse_slip(optarg, &job.options.slip))
@@ -226,5 +228,7 @@ int command_resolve(int argc, char **argv) {
     complain(optind == argc ? "resolve needs the name of a CSV file" : "resolve takes one CSV file, but got %d", argc - optind);
     return usage_hint("resolve");
   }
+  if (!kernel_module(job.kernel, config, &job.module))
+    return EXIT_USAGE;
   return resolve_file(&job, argv[optind], out, summary);
 }

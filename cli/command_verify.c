@@ -11,12 +11,15 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: carom verify [--kernel NAME] [--data DIR]\n\n"
-    "Resolves the reference cases with every kernel and compares with the references.\n\n"
+    "usage: carom verify [--kernel NAME] [--config NAME] [--data DIR]\n\n"
+    "Resolves the reference cases with every kernel and compares with the references; a kernel of the ladder in every\n"
+    "configuration of every compiler.\n\n"
     "  --kernel NAME   only this kernel\n"
+    "  --config NAME   only this build of the ladder (see `carom kernels`)\n"
     "  --data DIR      folder of the cases and references (default: $CAROM_DATA, else the one that came with carom)\n\n"
     "Pair error: the largest deviation of a velocity or R times an angular velocity, over the largest such value of the\n"
-    "pair. Component errors compare each number with itself; the columns count the cases in which one is above 0.1 % or 1 %.\n"
+    "pair. Component errors compare each number with itself; the columns count the cases in which one is above 0.1 % or 1 %,\n"
+    "with the seed paper's own count in brackets where it gives one.\n"
     "A bound of 0 asks for the same bits in every component.\n\n"
     "exit code: 0 if every kernel is within its bounds, 1 if one is not, 2 for bad usage or unreadable data\n";
 
@@ -29,14 +32,23 @@ typedef struct verification {
   char parity[512]; /* sentences for below the table */
 } verification;
 
-static bool verify_claim(verification *v, const kernel *one, const kernel_claim *claim) {
+/* "3 (26)", or "3" where the paper gives no count. */
+static const char *count_beside_paper(size_t ours, int paper, char text[32]) {
+  if (paper >= 0)
+    snprintf(text, 32, "%zu (%d)", ours, paper);
+  else
+    snprintf(text, 32, "%zu", ours);
+  return text;
+}
+
+static bool verify_claim(verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim) {
   reference_set reference;
   const bool loaded = reference_load(v->folder, claim->reference, &v->cases, &reference);
   if (loaded) {
     carom_options options = carom_default_options();
     options.slip = claim->slip;
     options.steps = claim->steps;
-    kernel_resolve(one, v->cases.impact, v->cases.count, &options, v->result, NULL);
+    kernel_resolve(one, module, v->cases.impact, v->cases.count, &options, v->result, NULL);
     for (size_t k = 0; k < v->cases.count; k++)
       v->each[k] = accuracy_of(&v->result[k], &reference.result[k], v->cases.impact[k].a.radius);
     const accuracy_summary s = accuracy_summarise(v->each, v->cases.count);
@@ -47,29 +59,55 @@ static bool verify_claim(verification *v, const kernel *one, const kernel_claim 
       snprintf(v->parity + used, sizeof v->parity - used, "%s: %zu of %zu cases bit-identical to %s\n", one->name, s.identical,
                s.cases, claim->reference);
     }
-    printf("%-8s %-9s %5d %-29s %4zu/%-4zu %-9.2g %-9.2g %-9.2g %-9.2g %-7.1g %5zu %5zu  %s\n", one->name,
-           carom_slip_name(claim->slip), claim->steps, claim->reference, s.identical, s.cases, s.mean, s.median, s.p99, s.max,
-           claim->bound, s.component_1e3, s.component_1e2, pass ? "pass" : "FAIL");
+    const ladder_rung *rung = one->is_rung ? ladder_rung_find(one->name) : NULL;
+    char over_1e3[32], over_1e2[32];
+    printf("%-15s %-17s %-9s %5d %-29s %4zu/%-4zu %-9.2g %-9.2g %-9.2g %-9.2g %-7.1g %7s %6s  %s\n", one->name,
+           module != NULL ? module->name : "-", carom_slip_name(claim->slip), claim->steps, claim->reference, s.identical,
+           s.cases, s.mean, s.median, s.p99, s.max, claim->bound,
+           count_beside_paper(s.component_1e3, rung != NULL ? rung->over_1e3 : -1, over_1e3),
+           count_beside_paper(s.component_1e2, rung != NULL ? rung->over_1e2 : -1, over_1e2), pass ? "pass" : "FAIL");
   }
   reference_free(&reference);
   return loaded;
 }
 
-static bool verify_all(verification *v, const kernel *only) {
+static bool verify_module(verification *v, const kernel *one, const ladder_module *module) {
+  for (const kernel_claim *claim = one->claims; claim->reference != NULL; claim++)
+    if (!verify_claim(v, one, module, claim))
+      return false;
+  return true;
+}
+
+static bool verify_solver(verification *v, const kernel *one, const char *config) {
+  return config != NULL || verify_module(v, one, NULL);
+}
+
+/* In the one configuration given, or in all. */
+static bool verify_rung(verification *v, const kernel *one, const char *config) {
+  if (!ladder_rung_runs(ladder_rung_find(one->name)))
+    return true;
+  const char *name = config;
+  for (size_t k = 0; config != NULL ? k == 0 : (name = ladder_module_name(k)) != NULL; k++) {
+    const ladder_module *module;
+    if (!kernel_module(one, name, &module) || !verify_module(v, one, module))
+      return false;
+  }
+  return true;
+}
+
+static bool verify_all(verification *v, const kernel *only, const char *config) {
   v->result = calloc(v->cases.count, sizeof *v->result);
   v->each = calloc(v->cases.count, sizeof *v->each);
   if (v->result == NULL || v->each == NULL) {
     complain("out of memory");
     return false;
   }
-  printf("%-8s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %5s %5s  %s\n", "kernel", "slip", "steps", "reference", "identical",
-         "mean", "median", "p99", "max", "bound", ">0.1%", ">1%", "");
+  printf("%-15s %-17s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %7s %6s  %s\n", "kernel", "configuration", "slip", "steps",
+         "reference", "identical", "mean", "median", "p99", "max", "bound", ">0.1%", ">1%", "");
   const kernel *one;
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
-    if (only == NULL || only == one)
-      for (const kernel_claim *claim = one->claims; claim->reference != NULL; claim++)
-        if (!verify_claim(v, one, claim))
-          return false;
+    if ((only == NULL || only == one) && !(one->is_rung ? verify_rung(v, one, config) : verify_solver(v, one, config)))
+      return false;
   printf("\n%s", v->parity);
   return true;
 }
@@ -77,12 +115,13 @@ static bool verify_all(verification *v, const kernel *only) {
 int command_verify(int argc, char **argv) {
   static const struct option options[] = {
       {"kernel", required_argument, NULL, 'k'},
+      {"config", required_argument, NULL, 'c'},
       {"data", required_argument, NULL, 'd'},
       {"help", no_argument, NULL, 'h'},
       {0},
   };
   const kernel *only = NULL;
-  const char *folder = NULL;
+  const char *folder = NULL, *config = NULL;
   int option;
   while ((option = getopt_long(argc, argv, "h", options, NULL)) != -1)
     switch (option) {
@@ -92,6 +131,9 @@ int command_verify(int argc, char **argv) {
         complain("no kernel '%s'; `carom kernels` lists them", optarg);
         return EXIT_USAGE;
       }
+      break;
+    case 'c':
+      config = optarg;
       break;
     case 'd':
       folder = optarg;
@@ -106,9 +148,12 @@ int command_verify(int argc, char **argv) {
     complain("verify takes no files, but got '%s'", argv[optind]);
     return usage_hint("verify");
   }
+  const ladder_module *unused;
+  if (config != NULL && !kernel_module(only != NULL ? only : kernel_find(ladder_rung_at(0)->name), config, &unused))
+    return EXIT_USAGE;
   verification v = {.folder = cases_folder(folder), .all_pass = true};
   int code = EXIT_USAGE;
-  if (cases_load(v.folder, "collisions-204.csv", &v.cases) && verify_all(&v, only))
+  if (cases_load(v.folder, "collisions-204.csv", &v.cases) && verify_all(&v, only, config))
     code = v.all_pass ? EXIT_GOOD : EXIT_SOME;
   free(v.result);
   free(v.each);

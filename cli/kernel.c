@@ -1,6 +1,8 @@
 /* The kernels that the command knows. */
 #include "kernel.h"
 
+#include "message.h"
+
 #include <string.h>
 
 /* claims_NAME for each NAME of CAROM_SOLVER_LIST.
@@ -13,9 +15,18 @@ static const kernel_claim claims_EULER[] = {
 };
 
 static const kernel kernels[] = {
-#define ROW(NAME, name, text) {name, "double", text, CAROM_SOLVER_##NAME, claims_##NAME},
+#define ROW(NAME, name, text) {name, "double", text, CAROM_SOLVER_##NAME, false, claims_##NAME},
     CAROM_SOLVER_LIST(ROW)
 #undef ROW
+/* Rungs are compared with what the paper compared with. */
+#define PRECISION_DOUBLE "double"
+#define PRECISION_SINGLE "single"
+#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) \
+  {#name, PRECISION_##precision,                                                   \
+   idea,  CAROM_SOLVER_COUNT,                                                      \
+   true,  (const kernel_claim[]){{CAROM_SLIP_POOLTOOL, 1000, "reference-pooltool-n1000.csv", bound}, {.reference = NULL}}},
+#include "kernels.def"
+#undef RUNG
 };
 
 const kernel *kernel_at(size_t k) {
@@ -30,9 +41,39 @@ const kernel *kernel_find(const char *name) {
   return NULL;
 }
 
-carom_status kernel_resolve(const kernel *k, const carom_impact *in, size_t n, const carom_options *options, carom_result *out,
-                            uint8_t *status) {
+carom_status kernel_resolve(const kernel *k, const ladder_module *module, const carom_impact *in, size_t n,
+                            const carom_options *options, carom_result *out, uint8_t *status) {
   carom_options own = *options;
-  own.solver = k->solver;
-  return carom_collide_batch(in, n, &own, out, status);
+  if (!k->is_rung) {
+    own.solver = k->solver;
+    return carom_collide_batch(in, n, &own, out, status);
+  }
+  const ladder_rung *rung = ladder_rung_find(k->name);
+  carom_status first_error = CAROM_OK;
+  for (size_t pair = 0; pair < n; pair++) {
+    const carom_status one = ladder_resolve(module, rung, &in[pair], &own, &out[pair]);
+    if (status != NULL)
+      status[pair] = (uint8_t)one;
+    if (one < 0 && first_error == CAROM_OK)
+      first_error = one;
+  }
+  return first_error;
+}
+
+bool kernel_module(const kernel *k, const char *config, const ladder_module **module) {
+  *module = NULL;
+  if (!k->is_rung) {
+    if (config != NULL)
+      complain("--config is for the kernels of the ladder; %s is built into the library in one way", k->name);
+    return config == NULL;
+  }
+  if (!ladder_rung_runs(ladder_rung_find(k->name))) {
+    complain("%s needs instructions that this processor does not have", k->name);
+    return false;
+  }
+  char why[LADDER_WHY_SIZE];
+  *module = ladder_module_find(config != NULL ? config : "default", why);
+  if (*module == NULL)
+    complain("%s", why);
+  return *module != NULL;
 }

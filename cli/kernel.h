@@ -3,6 +3,7 @@
 #define CAROM_CLI_KERNEL_H
 
 #include "carom.h"
+#include "ladder.h"
 
 /* What a kernel must reach on the reference cases, checked by `carom verify`. */
 typedef struct kernel_claim {
@@ -12,14 +13,15 @@ typedef struct kernel_claim {
   double bound;          /* on the largest pair error; 0 asks for the same bits in every component */
 } kernel_claim;
 
-typedef struct kernel kernel;
-struct kernel {
+/* A solver of the library, or a rung of the ladder. */
+typedef struct kernel {
   const char *name;
   const char *precision; /* "double" or "single" */
   const char *text;      /* what it is, in a line */
   carom_solver solver;
+  bool is_rung;               /* resolved by a module of the ladder; `solver` is then without meaning */
   const kernel_claim *claims; /* ends with a NULL reference */
-};
+} kernel;
 
 /* The kernel of that name, or NULL. */
 const kernel *kernel_find(const char *name);
@@ -27,8 +29,12 @@ const kernel *kernel_find(const char *name);
 /* The k-th kernel, or NULL behind the last; the first is the default. */
 const kernel *kernel_at(size_t k);
 
-/* Resolves n pairs as carom_collide_batch() does. */
-carom_status kernel_resolve(const kernel *k, const carom_impact *in, size_t n, const carom_options *options, carom_result *out,
-                            uint8_t *status);
+/* Resolves n pairs as carom_collide_batch() does. `module` is the build of the ladder to take; NULL for a solver. */
+carom_status kernel_resolve(const kernel *k, const ladder_module *module, const carom_impact *in, size_t n,
+                            const carom_options *options, carom_result *out, uint8_t *status);
+
+/* Finds the module for `config` ("o3", "gcc-o3"; NULL for the default) if `k` is a rung. Complains and returns false if there
+ * is none, if the rung cannot run here, or if a solver is given a configuration. */
+bool kernel_module(const kernel *k, const char *config, const ladder_module **module);
 
 #endif

@@ -6,4 +6,4 @@ for command in resolve verify kernels; do
   try carom "$command" --help
 done
 echo "--- the table"
-try carom kernels
+try carom kernels | sed '/^configurations/s/:.*/:/; /rsqrt14/d' # what depends on the machine

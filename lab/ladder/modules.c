@@ -1,0 +1,89 @@
+/* Loads the modules of the ladder, and refuses those that may not run here. */
+#include "cpu.h"
+#include "ladder.h"
+#include "module.h"
+
+#include <dlfcn.h>
+
+enum {
+  RUNGS = 0
+#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) +1
+#include "kernels.def"
+#undef RUNG
+};
+
+typedef struct slot {
+  const char *compiler, *config, *name;
+  bool loaded;
+  ladder_module module;
+  carom_rung *run[RUNGS];
+} slot;
+
+static slot slots[] = {
+#define MODULE(cc, setting) {.compiler = cc, .config = setting, .name = cc "-" setting},
+#include "ladder_modules.def"
+#undef MODULE
+    {.name = NULL},
+};
+
+const char *ladder_module_name(size_t k) {
+  return k < sizeof slots / sizeof slots[0] ? slots[k].name : NULL;
+}
+
+/* False, with the reason in `why`, if the module is not one of these sources or not for this processor. */
+static bool may_run(const ladder_contents *contents, const char *path, char why[LADDER_WHY_SIZE]) {
+  char cpu[LADDER_CPU_SIZE];
+  ladder_cpu(cpu);
+  bool same = contents->state_size == sizeof(carom_local) && contents->count == RUNGS;
+  for (size_t k = 0; same && k < RUNGS; k++)
+    same = strcmp(contents->rung[k].name, ladder_rung_at(k)->name) == 0;
+  if (!same)
+    snprintf(why, LADDER_WHY_SIZE, "%s was built from other sources; build again", path);
+  else if (strcmp(contents->cpu, cpu) != 0)
+    snprintf(why, LADDER_WHY_SIZE, "%s was built for another processor, %s; this is %s: build again on this machine", path,
+             contents->cpu, cpu);
+  return same && strcmp(contents->cpu, cpu) == 0;
+}
+
+static bool load(slot *one, char why[LADDER_WHY_SIZE]) {
+  char path[sizeof LADDER_MODULE_DIR + 64];
+  snprintf(path, sizeof path, "%s/ladder-%s.so", LADDER_MODULE_DIR, one->name);
+  void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+  ladder_contents_of *contents_of = NULL;
+  if (library != NULL)
+    *(void **)&contents_of = dlsym(library, LADDER_SYMBOL);
+  if (contents_of == NULL) {
+    snprintf(why, LADDER_WHY_SIZE, "cannot load %s (%s); build again", path, dlerror());
+    return false;
+  }
+  const ladder_contents *contents = contents_of();
+  if (!may_run(contents, path, why)) {
+    dlclose(library);
+    return false;
+  }
+  for (size_t k = 0; k < RUNGS; k++)
+    one->run[k] = contents->rung[k].run;
+  one->module = (ladder_module){
+      .name = one->name,
+      .compiler = contents->compiler,
+      .version = contents->version,
+      .config = contents->config,
+      .flags = contents->flags,
+      .run = one->run,
+  };
+  one->loaded = true;
+  return true;
+}
+
+const ladder_module *ladder_module_find(const char *name, char why[LADDER_WHY_SIZE]) {
+  for (slot *one = slots; one->name != NULL; one++)
+    if (strcmp(one->name, name) == 0 || strcmp(one->config, name) == 0)
+      return one->loaded || load(one, why) ? &one->module : NULL;
+  size_t length = (size_t)snprintf(why, LADDER_WHY_SIZE, "no configuration '%s'; there are", name);
+  for (const slot *one = slots; one->name != NULL; one++)
+    if (length < LADDER_WHY_SIZE)
+      length += (size_t)snprintf(why + length, LADDER_WHY_SIZE - length, " %s", one->name);
+  if (slots[0].name == NULL)
+    snprintf(why, LADDER_WHY_SIZE, "the ladder has not been built here: it needs an x86-64 processor, and clang or gcc");
+  return NULL;
+}
