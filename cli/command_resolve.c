@@ -24,6 +24,8 @@ static const char help[] =
     "  --config NAME           which build of a ladder kernel (see `carom kernels`; default: default)\n"
     "  --slip paper|pooltool   sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's\n"
     "  --steps N               steps of Euler's method, 1 or more (default 1000)\n"
+    "  --friction LAW          friction between the balls by their slip speed instead of the column u_b: alciatore, which is\n"
+    "                          mu = a + b exp(-c |u|) with the usual fit, or alciatore=a,b,c\n"
     "  --precision P           double or single (default: single for a float32 array, else double)\n"
     "  --threads N             most threads for solving; 0, the default: one for each processor\n"
     "  -o, --output OUT        file to write, - for standard output (default); a file appears whole or not at all. A name\n"
@@ -54,6 +56,8 @@ typedef struct resolve_job {
   const ladder_module *module;
   carom_options options;
   bool single; /* numbers are float from here on */
+  bool by_law; /* friction between the balls follows the law, not the input */
+  carom_speed_law law;
   row_source *in;
   result_sink *out;
   long long ok, separating, errors;
@@ -83,22 +87,41 @@ static void *read_blocks(void *argument) {
   }
 }
 
-/* The numbers of a block in the precision of the job. */
-static const void *in_precision(const resolve_job *job, const source_block *block, work_space *work) {
+static void apply_law(const resolve_job *job, size_t count, work_space *work) {
+  for (size_t k = 0; k < count; k++)
+    if (job->single) {
+      carom_impact_f32 *narrow = &((carom_impact_f32 *)work->impact)[k];
+      carom_impact wide;
+      for (size_t field = 0; field < sizeof wide / sizeof(double); field++)
+        ((double *)&wide)[field] = ((const float *)narrow)[field];
+      narrow->mu_ball = (float)carom_mu_ball(&wide, job->law);
+    } else {
+      carom_impact *impact = &((carom_impact *)work->impact)[k];
+      impact->mu_ball = carom_mu_ball(impact, job->law);
+    }
+}
+
+/* The numbers of a block as the job wants them: in its precision, and with its friction. */
+static const void *prepare(const resolve_job *job, const source_block *block, work_space *work) {
   const size_t numbers = block->count * sizeof(carom_impact) / sizeof(double);
   const bool from_single = source_is_single(job->in);
-  if (from_single == job->single)
+  if (from_single == job->single && !job->by_law)
     return block->impact;
-  for (size_t k = 0; k < numbers; k++)
-    if (job->single)
+  if (from_single == job->single)
+    memcpy(work->impact, block->impact, numbers * (job->single ? sizeof(float) : sizeof(double)));
+  else if (job->single)
+    for (size_t k = 0; k < numbers; k++)
       ((float *)work->impact)[k] = (float)((const double *)block->impact)[k];
-    else
+  else
+    for (size_t k = 0; k < numbers; k++)
       ((double *)work->impact)[k] = ((const float *)block->impact)[k];
+  if (job->by_law)
+    apply_law(job, block->count, work);
   return work->impact;
 }
 
 static void solve_and_write(resolve_job *job, const source_block *block, work_space *work) {
-  const void *impact = in_precision(job, block, work);
+  const void *impact = prepare(job, block, work);
   const double before = seconds_now();
   if (job->single)
     kernel_resolve_f32(job->kernel, impact, block->count, &job->options, work->result, work->status);
@@ -191,6 +214,21 @@ static bool parse_precision(const char *text, bool *single) {
   return false;
 }
 
+/* "alciatore", or "alciatore=a,b,c". */
+static bool parse_law(const char *text, carom_speed_law *law) {
+  static const char name[] = "alciatore";
+  const size_t size = sizeof name - 1;
+  *law = carom_alciatore();
+  if (strncmp(text, name, size) == 0) {
+    char rest;
+    if (text[size] == '\0' ||
+        (text[size] == '=' && sscanf(text + size + 1, "%lf,%lf,%lf%c", &law->a, &law->b, &law->c, &rest) == 3))
+      return true;
+  }
+  complain("--friction is alciatore or alciatore=a,b,c (mu = a + b exp(-c |u|)), not '%s'", text);
+  return false;
+}
+
 static bool parse_count(const char *option, const char *text, int least, int *count) {
   char *end;
   errno = 0;
@@ -209,6 +247,7 @@ int command_resolve(int argc, char **argv) {
       {"config", required_argument, NULL, 'c'},
       {"slip", required_argument, NULL, 's'},
       {"steps", required_argument, NULL, 'n'},
+      {"friction", required_argument, NULL, 'f'},
       {"precision", required_argument, NULL, 'p'},
       {"threads", required_argument, NULL, 't'},
       {"output", required_argument, NULL, 'o'},
@@ -239,6 +278,11 @@ int command_resolve(int argc, char **argv) {
     case 'n':
       if (!parse_count("--steps", optarg, 1, &job.options.steps))
         return EXIT_USAGE;
+      break;
+    case 'f':
+      if (!parse_law(optarg, &job.law))
+        return EXIT_USAGE;
+      job.by_law = true;
       break;
     case 't':
       if (!parse_count("--threads", optarg, 0, &job.options.threads))
@@ -271,7 +315,7 @@ int command_resolve(int argc, char **argv) {
     complain("the kernels of the ladder have a precision of their own; --precision is for the library's solvers");
     return EXIT_USAGE;
   }
-  job.in = source_open(argv[optind]);
+  job.in = source_open(argv[optind], !job.by_law);
   if (job.in == NULL)
     return EXIT_USAGE;
   if (!precision_given)
