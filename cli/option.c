@@ -4,16 +4,17 @@
 #include "message.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
 
-bool option_steps(const char *text, int *steps) {
+bool option_count(const char *option, const char *text, int least, int *count) {
   char *end;
   errno = 0;
   const long value = strtol(text, &end, 10);
-  if (end == text || *end != '\0' || errno != 0 || value < 1 || value > 2147483647) {
-    complain("--steps is a whole number from 1 to 2147483647, not '%s'", text);
+  if (end == text || *end != '\0' || errno != 0 || value < least || value > INT_MAX) {
+    complain("%s is a whole number from %d to %d, not '%s'", option, least, INT_MAX, text);
     return false;
   }
-  *steps = (int)value;
+  *count = (int)value;
   return true;
 }

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* Reads the value of --steps. Complains and returns false if it is no whole number of 1 or more. */
-bool option_steps(const char *text, int *steps);
+/* Reads the value of `option` ("--steps"). Complains and returns false if it is no whole number of `least` or more. */
+bool option_count(const char *option, const char *text, int least, int *count);
 
 #endif
