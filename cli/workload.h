@@ -18,8 +18,10 @@ typedef struct workload {
   const char *isa;             /* "scalar" for one call per collision */
   carom_options options;
   const case_set *cases;
-  const carom_impact *in; /* the cases, as often over as makes `pairs` */
+  carom_impact *in; /* of the cases */
+  size_t *case_of;  /* in[k] is case number case_of[k] */
   size_t pairs;
+  size_t left_out;                 /* cases that the kernel refuses as too slow for as many steps, and that are not in `in` */
   carom_result *result;            /* one for each pair */
   void (*resolve)(void *workload); /* all pairs */
   void (*empty)(void *workload);   /* the same calls of a kernel that does nothing */
@@ -32,9 +34,13 @@ typedef struct workload {
 bool workload_of_calls(workload *w, const kernel *one, const ladder_module *module, int steps, const case_set *cases);
 void workload_free(workload *w);
 
-/* Resolves the cases and compares. At the claim's steps the reference is the claim's file and the bound is the claim's. At
- * other steps there is no file: the reference is then the library's Euler with as many steps, which has pooltool's bits, and
- * the bound grows with the share of a step or with the number of roundings: bound * max(claim's steps / steps, its inverse).
+/* Resolves the cases and compares. At the claim's steps the reference is the claim's file and the bound is the claim's.
+ *
+ * At other steps there is no file: the reference is the library's Euler with as many steps, which has pooltool's bits, and
+ * cases that a rung's precision does not resolve are left out. A rung that rounds differently may end one step sooner or later.
+ * A step changes a velocity by (1 + e)|v_n|/(2N), at most 2/N of the pair's scale, so allowed is 2/N + bound * max(1, N /
+ * claim's N); but a bound of 0 stays 0.
+ *
  * `message` becomes "" or, when the kernel is not to be timed, a sentence. False if data could not be read. */
 enum { WORKLOAD_MESSAGE = 256 };
 bool workload_verify(workload *w, const char *folder, char message[WORKLOAD_MESSAGE]);
