@@ -7,7 +7,7 @@
 
 /* About 1/sqrt(x), to 12 bits; infinity for 0. */
 static inline double rsqrt(double x) {
-  return _mm_cvtss_f32(_mm_rsqrt_ss(_mm_set_ss((float)x)));
+  return _mm_cvtss_f32(_mm_rsqrt_ss(_mm_set1_ps((float)x)));
 }
 
 void carom_rung_cse(carom_local *state, int N) {
