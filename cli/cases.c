@@ -49,20 +49,24 @@ bool cases_load(const char *folder, const char *name, case_set *out) {
   impact_reader *reader = impact_open(path);
   if (reader == NULL)
     return false;
-  impact_row row;
+  impact_row row = {0};
   read_result result;
   while ((result = impact_next(reader, &row)) == READ_ONE) {
     if (row.error != NULL) {
       complain("%s:%lld: %s", path, row.line, row.message);
-      free(row.id);
       result = READ_FAILED;
       break;
     }
     out->id = one_more(out->id, out->count, sizeof *out->id);
     out->impact = one_more(out->impact, out->count, sizeof *out->impact);
-    out->id[out->count] = row.id;
+    out->id[out->count] = strdup(row.id);
+    if (out->id[out->count] == NULL) {
+      complain("out of memory");
+      exit(2);
+    }
     out->impact[out->count++] = row.impact;
   }
+  free(row.id);
   impact_close(reader);
   if (result == READ_END && out->count == 0)
     complain("%s: no cases", path);

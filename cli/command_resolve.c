@@ -1,27 +1,33 @@
 /* `carom resolve`: collisions from a CSV file, resolved, to a CSV file. */
 #include "command.h"
-#include "impacts.h"
 #include "kernel.h"
 #include "message.h"
-#include "output.h"
 #include "progress.h"
+#include "sink.h"
+#include "source.h"
 
-#include <csv.h>
 #include <errno.h>
 #include <getopt.h>
+#include <limits.h>
+#include <pthread.h>
+#include <semaphore.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const char help[] =
-    "usage: carom resolve [OPTIONS] IN.csv\n\n"
-    "Reads one collision a row and writes the state after it. IN.csv may be - for standard input.\n\n"
+    "usage: carom resolve [OPTIONS] IN\n\n"
+    "Reads one collision a row and writes the state after it. IN is a CSV file, - for CSV on standard input, or a NumPy array\n"
+    "IN.npy: float64 or float32, shape (n, 26), each row the numbers of carom_impact in their order.\n\n"
     "options:\n"
     "  --kernel NAME           how to compute (see `carom kernels`)\n"
     "  --config NAME           which build of a ladder kernel (see `carom kernels`; default: default)\n"
     "  --slip paper|pooltool   sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's\n"
     "  --steps N               steps of Euler's method, 1 or more (default 1000)\n"
-    "  -o, --output OUT        file to write, - for standard output (default); a file appears whole or not at all\n"
+    "  --precision P           double or single (default: single for a float32 array, else double)\n"
+    "  --threads N             most threads for solving; 0, the default: one for each processor\n"
+    "  -o, --output OUT        file to write, - for standard output (default); a file appears whole or not at all. A name\n"
+    "                          in .npy makes a NumPy array of shape (n, 12) in the precision, NaN for rows in error\n"
     "  --summary               counts and time on standard error at the end\n"
     "  -h, --help              this text\n\n"
     "columns of IN.csv, by name in any order (others are ignored), SI units:\n"
@@ -40,122 +46,130 @@ static const char help[] =
     "exit code: 0 if every row is ok or separating, 1 if some rows are in error (each is named on standard error, the\n"
     "others are resolved), 2 for bad usage or unreadable input\n";
 
-enum { BLOCK = 1024 };
+/* Blocks in flight: one being read, one being solved and written, one waiting. */
+enum { BLOCKS = 3 };
 
 typedef struct resolve_job {
   const kernel *kernel;
   const ladder_module *module;
   carom_options options;
-  impact_reader *in;
-  FILE *out;
+  bool single; /* numbers are float from here on */
+  row_source *in;
+  result_sink *out;
   long long ok, separating, errors;
   double solving; /* s */
+
+  /* The reading thread fills blocks, the main thread empties them, in turn. */
+  source_block block[BLOCKS];
+  read_result read[BLOCKS];
+  sem_t empty, filled;
 } resolve_job;
 
-typedef struct row_block {
-  size_t count;
-  impact_row row[BLOCK];
-  carom_impact impact[BLOCK];
-  carom_result result[BLOCK];
-  uint8_t status[BLOCK];
-} row_block;
+/* What the solver works on, where it is not the source's own memory; all in the precision of the job. */
+typedef struct work_space {
+  void *impact, *result;
+  uint8_t *status;
+} work_space;
 
-/* Fills the block; false once the input has failed. */
-static bool read_block(resolve_job *job, row_block *block, bool *more) {
-  block->count = 0;
-  read_result result = READ_ONE;
-  while (block->count < BLOCK && (result = impact_next(job->in, &block->row[block->count])) == READ_ONE) {
-    impact_row *row = &block->row[block->count];
-    /* A row that could not be read is all zero to the solver, which refuses it; its own error is reported instead. */
-    block->impact[block->count] = row->error == NULL ? row->impact : (carom_impact){0};
-    block->count++;
+static void *read_blocks(void *argument) {
+  resolve_job *job = argument;
+  for (size_t k = 0;; k = (k + 1) % BLOCKS) {
+    sem_wait(&job->empty);
+    job->read[k] = source_read(job->in, &job->block[k]);
+    const bool last = job->read[k] != READ_ONE;
+    sem_post(&job->filled);
+    if (last)
+      return NULL;
   }
-  *more = result == READ_ONE;
-  return result != READ_FAILED;
 }
 
-static void report_row(const resolve_job *job, const impact_row *row, carom_status status) {
-  const char *file = record_file_name(impact_records(job->in));
-  if (row->error != NULL) {
-    complain("%s:%lld: id '%s': %s (%s)", file, row->line, row->id, row->message, row->error);
-    return;
-  }
-  int field;
-  if (carom_check(&row->impact, &job->options, &field) != CAROM_OK && field >= 0)
-    complain("%s:%lld: id '%s': %s = %.17g: %s (%s)", file, row->line, row->id, impact_column(job->in, field),
-             ((const double *)&row->impact)[field], carom_status_string(status), carom_status_name(status));
-  else
-    complain("%s:%lld: id '%s': %s (%s)", file, row->line, row->id, carom_status_string(status), carom_status_name(status));
-}
-
-static void write_id(FILE *out, const char *id) {
-  if (strpbrk(id, ",\"\r\n") != NULL)
-    csv_fwrite(out, id, strlen(id));
-  else
-    fputs(id, out);
-}
-
-static void write_row(resolve_job *job, const impact_row *row, const carom_result *result, carom_status status) {
-  const bool bad = row->error != NULL || status < 0;
-  const double *number = (const double *)result;
-  write_id(job->out, row->id);
-  for (int k = 0; k < 12; k++)
-    if (bad)
-      fputs(",nan", job->out);
+/* The numbers of a block in the precision of the job. */
+static const void *in_precision(const resolve_job *job, const source_block *block, work_space *work) {
+  const size_t numbers = block->count * sizeof(carom_impact) / sizeof(double);
+  const bool from_single = source_is_single(job->in);
+  if (from_single == job->single)
+    return block->impact;
+  for (size_t k = 0; k < numbers; k++)
+    if (job->single)
+      ((float *)work->impact)[k] = (float)((const double *)block->impact)[k];
     else
-      fprintf(job->out, ",%.17g", number[k]);
-  fprintf(job->out, ",%s\n", row->error != NULL ? row->error : carom_status_name(status));
-  job->ok += !bad && status == CAROM_OK;
-  job->separating += !bad && status == CAROM_SEPARATING;
-  job->errors += bad;
+      ((double *)work->impact)[k] = ((const float *)block->impact)[k];
+  return work->impact;
 }
 
-/* Reads, resolves and writes block by block; false after a complaint. */
-static bool resolve_all(resolve_job *job, row_block *block) {
-  fputs("id,v1x,v1y,v1z,w1x,w1y,w1z,v2x,v2y,v2z,w2x,w2y,w2z,status\n", job->out);
-  const record_reader *records = impact_records(job->in);
-  for (bool more = true; more;) {
-    if (!read_block(job, block, &more))
-      return false;
-    const double before = seconds_now();
-    kernel_resolve(job->kernel, job->module, block->impact, block->count, &job->options, block->result, block->status);
-    job->solving += seconds_now() - before;
-    for (size_t k = 0; k < block->count; k++) {
-      const carom_status status = carom_status_of_byte(block->status[k]);
-      if (block->row[k].error != NULL || status < 0)
-        report_row(job, &block->row[k], status);
-      write_row(job, &block->row[k], &block->result[k], status);
-      free(block->row[k].id);
-    }
-    const double share = record_bytes_total(records) > 0.0 ? record_bytes_read(records) / record_bytes_total(records) : -1.0;
-    const double done = (double)(job->ok + job->separating + job->errors);
+static void solve_and_write(resolve_job *job, const source_block *block, work_space *work) {
+  const void *impact = in_precision(job, block, work);
+  const double before = seconds_now();
+  if (job->single)
+    kernel_resolve_f32(job->kernel, impact, block->count, &job->options, work->result, work->status);
+  else
+    kernel_resolve(job->kernel, job->module, impact, block->count, &job->options, work->result, work->status);
+  job->solving += seconds_now() - before;
+  const size_t size = job->single ? sizeof(carom_result_f32) : sizeof(carom_result);
+  for (size_t k = 0; k < block->count; k++) {
+    const impact_row *row = block->row != NULL ? &block->row[k] : NULL;
+    const char *error = row != NULL ? row->error : NULL;
+    const carom_status status = carom_status_of_byte(work->status[k]);
+    const bool bad = error != NULL || status < 0;
+    if (bad)
+      source_report(job->in, block, k, &job->options, status);
+    sink_write(job->out, row != NULL ? row->id : NULL, (const char *)work->result + k * size, status, error);
+    job->ok += !bad && status == CAROM_OK;
+    job->separating += !bad && status == CAROM_SEPARATING;
+    job->errors += bad;
+  }
+}
+
+/* Reads in one thread, resolves and writes in this one; false after a complaint. */
+static bool resolve_all(resolve_job *job, work_space *work) {
+  pthread_t reader;
+  sem_init(&job->empty, 0, BLOCKS);
+  sem_init(&job->filled, 0, 0);
+  if (pthread_create(&reader, NULL, read_blocks, job) != 0) {
+    complain("cannot start the reading thread");
+    return false;
+  }
+  read_result read;
+  for (size_t k = 0;; k = (k + 1) % BLOCKS) {
+    sem_wait(&job->filled);
+    read = job->read[k];
+    if (read != READ_ONE)
+      break;
+    solve_and_write(job, &job->block[k], work);
+    sem_post(&job->empty);
+    const double share = source_share(job->in), done = (double)(job->ok + job->separating + job->errors);
     progress_show("rows", done, share > 0.0 ? done / share : -1.0);
   }
+  pthread_join(reader, NULL);
   progress_clear();
-  return true;
+  return read == READ_END;
 }
 
-static int resolve_file(resolve_job *job, const char *in, const char *out, bool summary) {
-  job->in = impact_open(in);
-  if (job->in == NULL)
-    return EXIT_USAGE;
+static void print_summary(const resolve_job *job) {
+  const long long rows = job->ok + job->separating + job->errors;
+  fprintf(stderr, "%lld rows: %lld ok, %lld separating, %lld in error; %s took %.3g s, %.3g us per collision\n", rows, job->ok,
+          job->separating, job->errors, job->kernel->name, job->solving,
+          1e6 * job->solving / (double)(job->ok > 0 ? job->ok : 1));
+}
+
+static int resolve_file(resolve_job *job, const char *out, bool summary) {
   int code = EXIT_USAGE;
-  row_block *block = malloc(sizeof *block);
-  if (block == NULL)
+  work_space work = {malloc(NPY_BLOCK * sizeof(carom_impact)), malloc(NPY_BLOCK * sizeof(carom_result)), malloc(NPY_BLOCK)};
+  if (work.impact == NULL || work.result == NULL || work.status == NULL)
     complain("out of memory");
-  else if ((job->out = output_open(out)) != NULL) {
-    if (!resolve_all(job, block))
-      output_abandon();
-    else if (output_commit())
+  else if ((job->out = sink_open(out, job->single)) != NULL) {
+    if (!resolve_all(job, &work))
+      sink_abandon(job->out);
+    else if (sink_commit(job->out))
       code = job->errors > 0 ? EXIT_SOME : EXIT_GOOD;
   }
-  free(block);
-  impact_close(job->in);
-  if (summary && code != EXIT_USAGE) {
-    const long long rows = job->ok + job->separating + job->errors, solved = job->ok > 0 ? job->ok : 1;
-    fprintf(stderr, "%lld rows: %lld ok, %lld separating, %lld in error; %s took %.3g s, %.3g us per collision\n", rows,
-            job->ok, job->separating, job->errors, job->kernel->name, job->solving, 1e6 * job->solving / (double)solved);
-  }
+  free(work.impact);
+  free(work.result);
+  free(work.status);
+  for (int k = 0; k < BLOCKS; k++)
+    source_free_block(&job->block[k]);
+  if (summary && code != EXIT_USAGE)
+    print_summary(job);
   return code;
 }
 
@@ -169,28 +183,42 @@ static bool parse_slip(const char *text, carom_slip *slip) {
   return false;
 }
 
-static bool parse_steps(const char *text, int *steps) {
+static bool parse_precision(const char *text, bool *single) {
+  *single = strcmp(text, "single") == 0;
+  if (*single || strcmp(text, "double") == 0)
+    return true;
+  complain("--precision is double or single, not '%s'", text);
+  return false;
+}
+
+static bool parse_count(const char *option, const char *text, int least, int *count) {
   char *end;
   errno = 0;
   const long value = strtol(text, &end, 10);
-  if (end == text || *end != '\0' || errno != 0 || value < 1 || value > 2147483647) {
-    complain("--steps is a whole number from 1 to 2147483647, not '%s'", text);
+  if (end == text || *end != '\0' || errno != 0 || value < least || value > INT_MAX) {
+    complain("%s is a whole number from %d to %d, not '%s'", option, least, INT_MAX, text);
     return false;
   }
-  *steps = (int)value;
+  *count = (int)value;
   return true;
 }
 
 int command_resolve(int argc, char **argv) {
   static const struct option options[] = {
-      {"kernel", required_argument, NULL, 'k'}, {"config", required_argument, NULL, 'c'},
-      {"slip", required_argument, NULL, 's'},   {"steps", required_argument, NULL, 'n'},
-      {"output", required_argument, NULL, 'o'}, {"summary", no_argument, NULL, 'S'},
-      {"help", no_argument, NULL, 'h'},         {0},
+      {"kernel", required_argument, NULL, 'k'},
+      {"config", required_argument, NULL, 'c'},
+      {"slip", required_argument, NULL, 's'},
+      {"steps", required_argument, NULL, 'n'},
+      {"precision", required_argument, NULL, 'p'},
+      {"threads", required_argument, NULL, 't'},
+      {"output", required_argument, NULL, 'o'},
+      {"summary", no_argument, NULL, 'S'},
+      {"help", no_argument, NULL, 'h'},
+      {0},
   };
   resolve_job job = {.kernel = kernel_at(0), .options = carom_default_options()};
   const char *out = "-", *config = NULL;
-  bool summary = false;
+  bool summary = false, precision_given = false;
   int option;
   while ((option = getopt_long(argc, argv, "o:h", options, NULL)) != -1)
     switch (option) {
@@ -209,8 +237,17 @@ int command_resolve(int argc, char **argv) {
         return EXIT_USAGE;
       break;
     case 'n':
-      if (!parse_steps(optarg, &job.options.steps))
+      if (!parse_count("--steps", optarg, 1, &job.options.steps))
         return EXIT_USAGE;
+      break;
+    case 't':
+      if (!parse_count("--threads", optarg, 0, &job.options.threads))
+        return EXIT_USAGE;
+      break;
+    case 'p':
+      if (!parse_precision(optarg, &job.single))
+        return EXIT_USAGE;
+      precision_given = true;
       break;
     case 'o':
       out = optarg;
@@ -225,10 +262,21 @@ int command_resolve(int argc, char **argv) {
       return usage_hint("resolve");
     }
   if (argc - optind != 1) {
-    complain(optind == argc ? "resolve needs the name of a CSV file" : "resolve takes one CSV file, but got %d", argc - optind);
+    complain(optind == argc ? "resolve needs the name of a file" : "resolve takes one file, but got %d", argc - optind);
     return usage_hint("resolve");
   }
   if (!kernel_module(job.kernel, config, &job.module))
     return EXIT_USAGE;
-  return resolve_file(&job, argv[optind], out, summary);
+  if (job.kernel->is_rung && job.single) {
+    complain("the kernels of the ladder have a precision of their own; --precision is for the library's solvers");
+    return EXIT_USAGE;
+  }
+  job.in = source_open(argv[optind]);
+  if (job.in == NULL)
+    return EXIT_USAGE;
+  if (!precision_given)
+    job.single = source_is_single(job.in) && !job.kernel->is_rung;
+  const int code = resolve_file(&job, out, summary);
+  source_close(job.in);
+  return code;
 }

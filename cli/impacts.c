@@ -134,17 +134,20 @@ impact_reader *impact_open(const char *path) {
   return NULL;
 }
 
-static char *id_of(impact_reader *r, const record *in) {
-  char *id = NULL;
-  if (!in->malformed && r->id_at < in->count)
-    id = strdup(in->field[r->id_at]);
-  else if (asprintf(&id, "%lld", r->rows) < 0)
-    id = NULL;
-  if (id == NULL) {
-    complain("out of memory");
-    exit(2);
+static void set_id(impact_reader *r, const record *in, impact_row *row) {
+  char number[24];
+  snprintf(number, sizeof number, "%lld", r->rows);
+  const char *id = !in->malformed && r->id_at < in->count ? in->field[r->id_at] : number;
+  const size_t size = strlen(id) + 1;
+  if (size > row->id_room) {
+    row->id_room = size < 32 ? 32 : 2 * size;
+    row->id = realloc(row->id, row->id_room);
+    if (row->id == NULL) {
+      complain("out of memory");
+      exit(2);
+    }
   }
-  return id;
+  memcpy(row->id, id, size);
 }
 
 static const char *fill(impact_reader *r, const record *in, impact_row *row) {
@@ -180,7 +183,7 @@ read_result impact_next(impact_reader *r, impact_row *row) {
     return result;
   r->rows++;
   row->line = in.line;
-  row->id = id_of(r, &in);
+  set_id(r, &in, row);
   row->message[0] = '\0';
   row->error = fill(r, &in, row);
   return READ_ONE;

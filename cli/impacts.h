@@ -14,7 +14,8 @@ enum { IMPACT_FIELDS = 26 };
 typedef struct impact_reader impact_reader;
 
 typedef struct impact_row {
-  char *id; /* the caller frees it */
+  char *id;       /* grown as needed from row to row; the caller frees it in the end */
+  size_t id_room; /* 0 with a NULL id at first */
   long long line;
   carom_impact impact;
   const char *error; /* NULL, or the name of what kept the row from being read; the impact is then unset */
@@ -24,7 +25,7 @@ typedef struct impact_row {
 /* Opens `path`, "-" for stdin, and finds the columns. Complains and returns NULL if the file or a column is missing. */
 impact_reader *impact_open(const char *path);
 
-/* The next row, or READ_END; READ_FAILED after a complaint. */
+/* The next row, or READ_END; READ_FAILED after a complaint. `row` begins as all zero and may be used again. */
 read_result impact_next(impact_reader *reader, impact_row *row);
 
 /* The name of the column that number `field` of a carom_impact comes from, as for carom_check(). */

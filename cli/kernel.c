@@ -60,6 +60,13 @@ carom_status kernel_resolve(const kernel *k, const ladder_module *module, const 
   return first_error;
 }
 
+carom_status kernel_resolve_f32(const kernel *k, const carom_impact_f32 *in, size_t n, const carom_options *options,
+                                carom_result_f32 *out, uint8_t *status) {
+  carom_options own = *options;
+  own.solver = k->solver;
+  return carom_collide_batch_f32(in, n, &own, out, status);
+}
+
 bool kernel_module(const kernel *k, const char *config, const ladder_module **module) {
   *module = NULL;
   if (!k->is_rung) {

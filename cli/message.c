@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 void complain(const char *format, ...) {
+  flockfile(stderr); /* the reading thread complains too */
   progress_clear();
   va_list arguments;
   va_start(arguments, format);
@@ -15,6 +16,7 @@ void complain(const char *format, ...) {
   vfprintf(stderr, format, arguments);
   fputc('\n', stderr);
   va_end(arguments);
+  funlockfile(stderr);
 }
 
 int usage_hint(const char *command) {

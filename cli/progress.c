@@ -21,6 +21,7 @@ void progress_show(const char *unit, double done, double total) {
     started = now;
   if (now - started < 1.0 || now - drawn < 0.1 || !isatty(STDERR_FILENO))
     return;
+  flockfile(stderr);
   drawn = now;
   standing = true;
   if (total > 0.0)
@@ -28,12 +29,15 @@ void progress_show(const char *unit, double done, double total) {
   else
     fprintf(stderr, "\r\033[K%.0f %s", done, unit);
   fflush(stderr);
+  funlockfile(stderr);
 }
 
 void progress_clear(void) {
-  if (!standing)
-    return;
-  standing = false;
-  fputs("\r\033[K", stderr);
-  fflush(stderr);
+  flockfile(stderr);
+  if (standing) {
+    standing = false;
+    fputs("\r\033[K", stderr);
+    fflush(stderr);
+  }
+  funlockfile(stderr);
 }

@@ -12,7 +12,8 @@
  * surface", Sports Engineering 17 (2014) 227-237: both balls stay on the cloth; friction acts between the balls, and between
  * the cloth and the ball that is pressed into it.
  *
- * Every function is reentrant and may be called from many threads at once. None allocates memory, prints or aborts.
+ * Every function is reentrant and may be called from many threads at once. None prints or aborts, and none allocates memory,
+ * except that carom_collide_batch() starts threads for large batches.
  */
 #ifndef CAROM_H
 #define CAROM_H
@@ -86,7 +87,8 @@ typedef struct carom_result {
   X(ERROR_COINCIDENT, -16, "centres_coincide", "the centres coincide, so there is no line of centres")         \
   X(ERROR_TOO_SLOW, -17, "too_slow", "the approach is too slow for Euler's steps: each is lost in rounding")   \
   X(ERROR_OVERFLOW, -18, "overflow", "the collision overflows the range of double")                            \
-  X(ERROR_MASSES_DIFFER, -19, "masses_differ", "this kernel is for balls of equal mass only")
+  X(ERROR_MASSES_DIFFER, -19, "masses_differ", "this kernel is for balls of equal mass only")                  \
+  X(ERROR_THREADS, -20, "bad_threads", "options.threads must not be negative")
 
 typedef enum carom_status {
 #define CAROM_STATUS_ENUM(NAME, value, name, text) CAROM_##NAME = (value),
@@ -135,6 +137,8 @@ typedef struct carom_options {
   carom_solver solver; /* default CAROM_SOLVER_EULER. */
   carom_slip slip;     /* default CAROM_SLIP_PAPER. */
   int steps;           /* Euler's N >= 1, default 1000: about so many steps are taken; the error falls as 1/N. */
+  int threads;         /* most threads that a batch may use, >= 0; default 0: one for each processor. Results do not depend on
+                          it. 1 starts none; single calls never do. */
 } carom_options;
 
 CAROM_API carom_options carom_default_options(void);
@@ -156,6 +160,61 @@ CAROM_API carom_status carom_collide_batch(const carom_impact *in, size_t n, con
 static inline carom_status carom_status_of_byte(uint8_t byte) {
   return (carom_status)(byte < 128 ? (int)byte : (int)byte - 256);
 }
+
+/* ---- Single precision ------------------------------------------------------------------------------------------------ */
+
+/* The same in float: half the memory, twice the lanes. The worst pair error of a batch by the exact limit stays below 2e-5. */
+typedef struct carom_ball_f32 {
+  float r[3], v[3], w[3];
+  float radius, mass, mu_cloth;
+} carom_ball_f32;
+
+typedef struct carom_impact_f32 {
+  carom_ball_f32 a, b;
+  float mu_ball, restitution;
+} carom_impact_f32;
+
+typedef struct carom_result_f32 {
+  float v_a[3], w_a[3], v_b[3], w_b[3];
+} carom_result_f32;
+
+/* carom_collide() on floats. It computes in double: on one pair that costs nothing. */
+CAROM_API carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt, carom_result_f32 *out);
+
+/* carom_collide_batch() on floats, computed in float; rows that are too extreme for float are done in double. */
+CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt,
+                                               carom_result_f32 *out, uint8_t *status);
+
+/* ---- Instruction sets ------------------------------------------------------------------------------------------------ */
+
+/* What a batch computes with, from low to high: X(NAME, name). A batch takes the highest that the processor has. The
+ * environment variable CAROM_ISA, set to one of the names before the first batch, limits it for the whole process. */
+#define CAROM_ISA_LIST(X) \
+  X(PLAIN, "plain")       \
+  X(SSE2, "sse2")         \
+  X(NEON, "neon")         \
+  X(AVX2, "avx2")         \
+  X(AVX512, "avx512")
+
+typedef enum carom_isa {
+#define CAROM_ISA_ENUM(NAME, name) CAROM_ISA_##NAME,
+  CAROM_ISA_LIST(CAROM_ISA_ENUM)
+#undef CAROM_ISA_ENUM
+      CAROM_ISA_COUNT
+} carom_isa;
+
+/* The name of an instruction set, or NULL for a value not listed. */
+CAROM_API const char *carom_isa_name(carom_isa isa);
+
+/* Whether this build and this processor have it: 1 or 0. */
+CAROM_API int carom_isa_available(carom_isa isa);
+
+/* The one that batches use. */
+CAROM_API carom_isa carom_isa_in_force(void);
+
+/* From now on batches of the whole process use no higher one than `isa`; a value not listed lifts the limit. Returns the one
+ * then in force. Call it while no batch runs. */
+CAROM_API carom_isa carom_isa_limit(carom_isa isa);
 
 /* ---- Looking closer -------------------------------------------------------------------------------------------------- */
 

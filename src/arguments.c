@@ -30,6 +30,8 @@ carom_status carom_check_options(const carom_options *opt) {
     return CAROM_ERROR_SLIP;
   if (opt->steps < 1)
     return CAROM_ERROR_STEPS;
+  if (opt->threads < 0)
+    return CAROM_ERROR_THREADS;
   return CAROM_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "carom.h"
 
 #include "arguments.h"
+#include "batch/batch.h"
 #include "euler.h"
 #include "frame.h"
 
@@ -84,24 +85,68 @@ carom_status carom_collide(const carom_impact *in, const carom_options *opt, car
   return carom_collide_detail(in, opt, out, NULL);
 }
 
-carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
-                                 uint8_t *status) {
+static void to_double(const carom_impact_f32 *in, carom_impact *out) {
+  const float *from = (const float *)in;
+  double *to = (double *)out;
+  for (size_t k = 0; k < sizeof *in / sizeof *from; k++)
+    to[k] = from[k];
+}
+
+static carom_status to_single(carom_status status, const carom_result *in, carom_result_f32 *out) {
+  const double *from = (const double *)in;
+  float *to = (float *)out;
+  bool fits = true;
+  for (size_t k = 0; k < sizeof *out / sizeof *to; k++) {
+    to[k] = (float)from[k];
+    fits &= isfinite(to[k]) || !isfinite(from[k]);
+  }
+  if (fits)
+    return status;
+  for (size_t k = 0; k < sizeof *out / sizeof *to; k++)
+    to[k] = NAN;
+  return CAROM_ERROR_OVERFLOW;
+}
+
+carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt, carom_result_f32 *out) {
+  if (in == NULL || out == NULL)
+    return CAROM_ERROR_NULL;
+  carom_impact wide;
+  carom_result result;
+  to_double(in, &wide);
+  return to_single(carom_collide(&wide, opt, &result), &result, out);
+}
+
+carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt, void *out) {
+  return precision == CAROM_DOUBLE ? carom_collide(in, opt, out) : carom_collide_f32(in, opt, out);
+}
+
+static carom_status collide_batch(carom_precision precision, const void *in, size_t n, const carom_options *opt, void *out,
+                                  uint8_t *status) {
   const carom_options defaults = carom_default_options();
   if (opt == NULL)
     opt = &defaults;
-  const carom_status bad = carom_check_options(opt);
-  if (bad != CAROM_OK)
+  carom_status bad = carom_check_options(opt);
+  if (bad == CAROM_OK && n > 0 && (in == NULL || out == NULL))
+    bad = CAROM_ERROR_NULL;
+  if (bad != CAROM_OK || n == 0)
     return bad;
-  if (n > 0 && (in == NULL || out == NULL))
-    return CAROM_ERROR_NULL;
-  carom_status first_error = CAROM_OK;
-  for (size_t k = 0; k < n; k++) {
-    carom_detail detail;
-    const carom_status one = solve_or_nan(&in[k], opt, &out[k], &detail);
-    if (status != NULL)
-      status[k] = (uint8_t)one;
-    if (one < 0 && first_error == CAROM_OK)
-      first_error = one;
-  }
-  return first_error;
+  const size_t first_bad =
+      carom_batch_in_threads(carom_batch_solver_for(opt->solver, precision), precision, in, n, opt, out, status);
+  if (first_bad == n)
+    return CAROM_OK;
+  /* Only its index came back through the threads; doing the pair again tells its status. */
+  const char *pair =
+      (const char *)in + first_bad * (precision == CAROM_DOUBLE ? sizeof(carom_impact) : sizeof(carom_impact_f32));
+  carom_result unused;
+  return carom_collide_one(precision, pair, opt, &unused);
+}
+
+carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
+                                 uint8_t *status) {
+  return collide_batch(CAROM_DOUBLE, in, n, opt, out, status);
+}
+
+carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt, carom_result_f32 *out,
+                                     uint8_t *status) {
+  return collide_batch(CAROM_SINGLE, in, n, opt, out, status);
 }

@@ -1,0 +1,264 @@
+/* Lanes: the small vocabulary in which the batch solvers are written, so that their algebra reads like docs/physics.md.
+ *
+ * A `vreal` holds LANES numbers of type `real`, one pair of balls in each. + - * / and unary - are the compiler's own (GNU
+ * vector extensions); comparisons, selection and what else the extensions lack are the functions below. A `vmask` holds a truth
+ * value for each lane; masks combine with & and | and v_not().
+ *
+ * The build compiles each solver once per instruction set and precision, with exactly one of
+ *
+ *     CAROM_LANES_AVX512, CAROM_LANES_AVX2 (with FMA), CAROM_LANES_SSE2, CAROM_LANES_NEON, CAROM_LANES_PLAIN
+ *
+ * and CAROM_LANES_SINGLE for float. PLAIN uses nothing but the extensions and runs anywhere.
+ */
+#ifndef CAROM_SRC_BATCH_LANES_H
+#define CAROM_SRC_BATCH_LANES_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_SSE2)
+#include <immintrin.h>
+#elif defined(CAROM_LANES_NEON)
+#include <arm_neon.h>
+#endif
+
+#if defined(CAROM_LANES_AVX512)
+#define VECTOR_BYTES 64
+#elif defined(CAROM_LANES_AVX2)
+#define VECTOR_BYTES 32
+#else
+#define VECTOR_BYTES 16
+#endif
+
+#ifdef CAROM_LANES_SINGLE
+typedef float real;
+typedef int32_t lane_int;
+#define LANES (VECTOR_BYTES / 4)
+#else
+typedef double real;
+typedef int64_t lane_int;
+#define LANES (VECTOR_BYTES / 8)
+#endif
+
+typedef real vreal __attribute__((vector_size(VECTOR_BYTES)));
+typedef lane_int vint __attribute__((vector_size(VECTOR_BYTES)));
+typedef real vreal_unaligned __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(real)), may_alias));
+
+/* x86 intrinsics of the build's width and precision: SIMD(sqrt) is _mm512_sqrt_pd, _mm_sqrt_ps, ... */
+#define LANES_PASTE3(a, b, c) a##b##c
+#define LANES_PASTE(a, b, c) LANES_PASTE3(a, b, c)
+#if defined(CAROM_LANES_AVX512)
+#define SIMD_PREFIX _mm512_
+#elif defined(CAROM_LANES_AVX2)
+#define SIMD_PREFIX _mm256_
+#else
+#define SIMD_PREFIX _mm_
+#endif
+#ifdef CAROM_LANES_SINGLE
+#define SIMD(name) LANES_PASTE(SIMD_PREFIX, name, _ps)
+#else
+#define SIMD(name) LANES_PASTE(SIMD_PREFIX, name, _pd)
+#endif
+
+static inline vreal v_splat(real x) {
+  return x - (vreal){0}; /* keeps the sign of a zero, which 0 + x would not */
+}
+
+static inline vreal v_load(const real *from) {
+  return (vreal) * (const vreal_unaligned *)from;
+}
+
+static inline void v_store(real *to, vreal x) {
+  *(vreal_unaligned *)to = (vreal_unaligned)x;
+}
+
+/* ---- Masks ---------------------------------------------------------------------------------------------------------- */
+
+#ifdef CAROM_LANES_AVX512
+
+#ifdef CAROM_LANES_SINGLE
+typedef __mmask16 vmask;
+#define SIMD_COMPARE(a, b, how) _mm512_cmp_ps_mask(a, b, how)
+#else
+typedef __mmask8 vmask;
+#define SIMD_COMPARE(a, b, how) _mm512_cmp_pd_mask(a, b, how)
+#endif
+
+static inline vmask v_less(vreal a, vreal b) {
+  return SIMD_COMPARE(a, b, _CMP_LT_OQ);
+}
+static inline vmask v_less_equal(vreal a, vreal b) {
+  return SIMD_COMPARE(a, b, _CMP_LE_OQ);
+}
+static inline vmask v_equal(vreal a, vreal b) {
+  return SIMD_COMPARE(a, b, _CMP_EQ_OQ);
+}
+static inline vmask v_not(vmask m) {
+  return (vmask)~m;
+}
+static inline vreal v_select(vmask m, vreal yes, vreal no) {
+  return SIMD(mask_blend)(m, no, yes);
+}
+/* One bit per lane, lane 0 lowest. */
+static inline unsigned v_bits(vmask m) {
+  return m;
+}
+static inline vmask v_from_bits(unsigned bits) {
+  return (vmask)bits;
+}
+
+#else
+
+typedef vint vmask;
+
+static inline vmask v_less(vreal a, vreal b) {
+  return (vmask)(a < b);
+}
+static inline vmask v_less_equal(vreal a, vreal b) {
+  return (vmask)(a <= b);
+}
+static inline vmask v_equal(vreal a, vreal b) {
+  return (vmask)(a == b);
+}
+static inline vmask v_not(vmask m) {
+  return ~m;
+}
+static inline vreal v_select(vmask m, vreal yes, vreal no) {
+#ifdef CAROM_LANES_AVX2
+  return SIMD(blendv)(no, yes, (vreal)m);
+#else
+  return (vreal)((m & (vint)yes) | (~m & (vint)no));
+#endif
+}
+static inline unsigned v_bits(vmask m) {
+#if defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_SSE2)
+  return (unsigned)SIMD(movemask)((vreal)m);
+#else
+  unsigned bits = 0;
+  for (int k = 0; k < LANES; k++)
+    bits |= (unsigned)(m[k] & 1) << k;
+  return bits;
+#endif
+}
+static inline vmask v_from_bits(unsigned bits) {
+  vmask m = {0};
+  for (int k = 0; k < LANES; k++)
+    m[k] = -(lane_int)(bits >> k & 1);
+  return m;
+}
+
+#endif
+
+enum { ALL_LANES = (int)((1u << LANES) - 1u) };
+
+static inline bool v_any(vmask m) {
+  return v_bits(m) != 0;
+}
+static inline bool v_all(vmask m) {
+  return v_bits(m) == (unsigned)ALL_LANES;
+}
+
+/* ---- Arithmetic ----------------------------------------------------------------------------------------------------- */
+
+static inline vreal v_abs(vreal x) {
+  const vint sign = (vint)v_splat((real)-0.0);
+  return (vreal)((vint)x & ~sign);
+}
+
+/* `size` with the sign of `sign`. */
+static inline vreal v_copysign(vreal size, vreal sign) {
+  const vint bit = (vint)v_splat((real)-0.0);
+  return (vreal)(((vint)size & ~bit) | ((vint)sign & bit));
+}
+
+static inline vreal v_max(vreal a, vreal b) {
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_SSE2)
+  return SIMD(max)(a, b);
+#else
+  return v_select(v_less(b, a), a, b);
+#endif
+}
+
+static inline vreal v_min(vreal a, vreal b) {
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_SSE2)
+  return SIMD(min)(a, b);
+#else
+  return v_select(v_less(a, b), a, b);
+#endif
+}
+
+/* Correctly rounded, as IEEE asks. */
+static inline vreal v_sqrt(vreal x) {
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_SSE2)
+  return SIMD(sqrt)(x);
+#elif defined(CAROM_LANES_NEON) && defined(CAROM_LANES_SINGLE)
+  return (vreal)vsqrtq_f32((float32x4_t)x);
+#elif defined(CAROM_LANES_NEON)
+  return (vreal)vsqrtq_f64((float64x2_t)x);
+#else
+  for (int k = 0; k < LANES; k++)
+    x[k] = (real)sqrt((double)x[k]); /* rounding twice is harmless: double has more than twice float's digits */
+  return x;
+#endif
+}
+
+/* a b + c: rounded once where the instruction set fuses (V_FMA_IS_FUSED), twice elsewhere. */
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_NEON)
+#define V_FMA_IS_FUSED 1
+#else
+#define V_FMA_IS_FUSED 0
+#endif
+static inline vreal v_fma(vreal a, vreal b, vreal c) {
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
+  return SIMD(fmadd)(a, b, c);
+#elif defined(CAROM_LANES_NEON) && defined(CAROM_LANES_SINGLE)
+  return (vreal)vfmaq_f32((float32x4_t)c, (float32x4_t)a, (float32x4_t)b);
+#elif defined(CAROM_LANES_NEON)
+  return (vreal)vfmaq_f64((float64x2_t)c, (float64x2_t)a, (float64x2_t)b);
+#else
+  return a * b + c;
+#endif
+}
+
+/* a b - c and c - a b. */
+static inline vreal v_fms(vreal a, vreal b, vreal c) {
+  return v_fma(a, b, -c);
+}
+static inline vreal v_fnma(vreal a, vreal b, vreal c) {
+  return v_fma(-a, b, c);
+}
+
+/* ---- Transposition -------------------------------------------------------------------------------------------------- */
+
+#if LANES == 2
+#define LANES_LOW 0, 2
+#define LANES_HIGH 1, 3
+#elif LANES == 4
+#define LANES_LOW 0, 4, 1, 5
+#define LANES_HIGH 2, 6, 3, 7
+#elif LANES == 8
+#define LANES_LOW 0, 8, 1, 9, 2, 10, 3, 11
+#define LANES_HIGH 4, 12, 5, 13, 6, 14, 7, 15
+#else
+#define LANES_LOW 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23
+#define LANES_HIGH 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31
+#endif
+
+/* Transposes a square of LANES vectors in place: zipping row k with row k + LANES/2 sends each element one bit of its index
+ * nearer to its place, so log2(LANES) rounds do it. */
+static inline void v_transpose(vreal m[LANES]) {
+  for (int round = 1; round < LANES; round *= 2) {
+    vreal zipped[LANES];
+    for (int k = 0; k < LANES / 2; k++) {
+      zipped[2 * k] = __builtin_shufflevector(m[k], m[k + LANES / 2], LANES_LOW);
+      zipped[2 * k + 1] = __builtin_shufflevector(m[k], m[k + LANES / 2], LANES_HIGH);
+    }
+    for (int k = 0; k < LANES; k++)
+      m[k] = zipped[k];
+  }
+}
+
+#endif
