@@ -1,4 +1,12 @@
-/* double_vec: */
+/* double_vec: the third stage: the masks leave the chain or go.
+ *
+ * What does not slip: 1e-32 is added to the square of each slip, in the multiply-add that squares it, so that its reciprocal is
+ * at most 1e16 and no compare is needed. Which ball is pressed is taken from u_z and multiplied into the coefficient of
+ * friction while the estimate is still under way. The step of DP is added to v before the rest, which comes late.
+ *
+ * Paper: slower. Here: 1.17 in default, where clang's fast-math regroups the products, 1.33 to 1.37 in all other
+ * configurations.
+ */
 #include "rung.h"
 
 #include <immintrin.h>

@@ -1,4 +1,10 @@
-/* float_vec: */
+/* float_vec: the whole loop body in 128-bit vectors, without branches.
+ *
+ * Laid out as double_vec, with four floats in a register: (x, y) of ball i and of ball j. One estimate serves all three
+ * magnitudes.
+ *
+ * Paper: slower. Here: 1.52 against 1.92 for float; 15 of 43 instructions move numbers between lanes.
+ */
 #include "rung.h"
 
 #include <immintrin.h>
