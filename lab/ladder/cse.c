@@ -1,4 +1,10 @@
-/* cse: what is computed twice gets a name and is computed once. */
+/* cse: what is computed twice gets a name and is computed once.
+ *
+ * At four places: the factor of both impulses between the balls, that of both impulses of the cloth, the change of spin about
+ * z, which is the same for both balls, and half of DP.
+ *
+ * Paper: a little more. Here: 1.53, nothing more; the compiler had found them all.
+ */
 #include "rung.h"
 
 #include <math.h>
@@ -7,7 +13,7 @@
 
 /* About 1/sqrt(x), to 12 bits; infinity for 0. */
 static inline double rsqrt(double x) {
-  return _mm_cvtss_f32(_mm_rsqrt_ss(_mm_set_ss((float)x)));
+  return _mm_cvtss_f32(_mm_rsqrt_ss(_mm_set1_ps((float)x)));
 }
 
 void carom_rung_cse(carom_local *state, int N) {

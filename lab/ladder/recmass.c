@@ -1,4 +1,8 @@
-/* recmass: 1/M computed once, and multiplied by. */
+/* recmass: 1/M once, and multiplied by.
+ *
+ * Paper: 1.38. Here: 1.53; under fast-math the compiler had done it already, and only orders the code differently. Without
+ * fast-math it may not, and four divisions a step go away: from 1.37 to 1.59 in novec.
+ */
 #include "rung.h"
 
 #include <math.h>
@@ -7,7 +11,7 @@
 
 /* About 1/sqrt(x), to 12 bits; infinity for 0. */
 static inline double rsqrt(double x) {
-  return _mm_cvtss_f32(_mm_rsqrt_ss(_mm_set_ss((float)x)));
+  return _mm_cvtss_f32(_mm_rsqrt_ss(_mm_set1_ps((float)x)));
 }
 
 void carom_rung_recmass(carom_local *state, int N) {

@@ -1,4 +1,10 @@
-/* rsqrt: the processor's estimate of 1/sqrt(x) in place of a square root and the divisions by it. */
+/* rsqrt: the processor's estimate of 1/sqrt(x) in place of a square root and the divisions by it.
+ *
+ * u, d, b become ru, rd, rb, the reciprocals of the magnitudes; "no slip" is now a reciprocal that is too large or infinite.
+ * The estimate takes and gives single precision, 12 bits of it good: two conversions, and friction wrong by 4e-4 at the most.
+ *
+ * Paper: 1.26. Here: 1.48; llvm-mca puts the chain at 71 cycles before and 52 after.
+ */
 #include "rung.h"
 
 #include <math.h>
@@ -7,7 +13,7 @@
 
 /* About 1/sqrt(x), to 12 bits; infinity for 0. */
 static inline double rsqrt(double x) {
-  return _mm_cvtss_f32(_mm_rsqrt_ss(_mm_set_ss((float)x)));
+  return _mm_cvtss_f32(_mm_rsqrt_ss(_mm_set1_ps((float)x)));
 }
 
 void carom_rung_rsqrt(carom_local *state, int N) {
