@@ -37,9 +37,10 @@ static void print_notes(const bench_job *job, FILE *out) {
       }
   for (size_t w = 0; w < job->work_count; w++)
     if (job->work[w].left_out > 0)
-      machine_note(
-          out, "left out", "%s, %s, %d steps: %zu cases, whose approach its precision does not resolve in as many steps",
-          job->work[w].kernel->name, workload_config(&job->work[w]), job->work[w].options.steps, job->work[w].left_out);
+      machine_note(out, "left out",
+                   "%s, %s, %d steps: %zu of %zu cases, whose approach its precision does not resolve in as many steps",
+                   job->work[w].kernel->name, workload_config(&job->work[w]), job->work[w].options.steps, job->work[w].left_out,
+                   job->cases.count);
   machine_note(out, "rounds", "%zu; an empty call, subtracted, takes %.2f ns", job->figure[0].ns.count,
                job->figure[0].empty_ns);
 }

@@ -8,7 +8,6 @@
 #include "source.h"
 
 #include <getopt.h>
-#include <limits.h>
 #include <pthread.h>
 #include <semaphore.h>
 #include <stdio.h>

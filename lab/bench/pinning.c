@@ -18,22 +18,14 @@ typedef struct placement {
 static placement before, pinned;
 static bool active;
 
-/* Linux lists isolated cores as "2-3,7"; the first that is allowed too, or -1. */
-static int isolated_core(const cpu_set_t *allowed) {
+/* The first of the isolated cores, which Linux lists as "2-3,7", or -1. */
+static int isolated_core(void) {
   FILE *file = fopen("/sys/devices/system/cpu/isolated", "r");
-  int found = -1, first, last;
-  while (file != NULL && found < 0 && fscanf(file, "%d", &first) == 1) {
-    int mark = fgetc(file);
-    last = first;
-    if (mark == '-' && fscanf(file, "%d", &last) == 1)
-      fgetc(file);
-    for (int core = first; core <= last && core < CPU_SETSIZE && found < 0; core++)
-      if (CPU_ISSET((size_t)core, allowed))
-        found = core;
-  }
+  int core;
+  const bool found = file != NULL && fscanf(file, "%d", &core) == 1;
   if (file != NULL)
     fclose(file);
-  return found;
+  return found && core >= 0 && core < CPU_SETSIZE ? core : -1;
 }
 
 static int last_core(const cpu_set_t *allowed) {
@@ -48,6 +40,12 @@ static void place(const placement *p) {
   sched_setscheduler(0, p->policy, &p->priority);
 }
 
+static bool pin_to(int core) {
+  CPU_ZERO(&pinned.cores);
+  CPU_SET((size_t)core, &pinned.cores);
+  return sched_setaffinity(0, sizeof pinned.cores, &pinned.cores) == 0;
+}
+
 const char *pinning_begin(void) {
   static char text[200];
   if (sched_getaffinity(0, sizeof before.cores, &before.cores) != 0) {
@@ -56,16 +54,19 @@ const char *pinning_begin(void) {
   }
   before.policy = sched_getscheduler(0);
   sched_getparam(0, &before.priority);
-  const int isolated = isolated_core(&before.cores), core = isolated >= 0 ? isolated : last_core(&before.cores);
   pinned = before;
-  CPU_ZERO(&pinned.cores);
-  CPU_SET((size_t)core, &pinned.cores);
-  if (sched_setaffinity(0, sizeof pinned.cores, &pinned.cores) != 0) {
-    snprintf(text, sizeof text, "not pinned (%s)", strerror(errno));
-    return text;
+  /* An isolated core is not among those that a process gets unasked. Who was given one core only, keeps it. */
+  const int isolated = CPU_COUNT(&before.cores) > 1 ? isolated_core() : -1;
+  int core = isolated;
+  if (isolated < 0 || !pin_to(isolated)) {
+    core = last_core(&before.cores);
+    if (!pin_to(core)) {
+      snprintf(text, sizeof text, "not pinned (%s)", strerror(errno));
+      return text;
+    }
   }
   active = true;
-  int used = snprintf(text, sizeof text, "pinned to core %d%s, ", core, isolated >= 0 ? " (isolated)" : " (not isolated)");
+  int used = snprintf(text, sizeof text, "pinned to core %d%s, ", core, core == isolated ? " (isolated)" : " (not isolated)");
   const struct sched_param lowest = {.sched_priority = sched_get_priority_min(SCHED_FIFO)};
   if (sched_setscheduler(0, SCHED_FIFO, &lowest) == 0) {
     pinned.policy = SCHED_FIFO;
