@@ -3,32 +3,22 @@
 
 #include "impacts.h"
 #include "message.h"
+#include "place.h"
 #include "records.h"
 
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 const char *cases_folder(const char *given) {
-  static char installed[PATH_MAX + sizeof CAROM_INSTALLED_DATA + 8];
+  static char folder[PATH_MAX];
   if (given != NULL)
     return given;
   const char *variable = getenv("CAROM_DATA");
   if (variable != NULL && variable[0] != '\0')
     return variable;
-  if (access(CAROM_SOURCE_DATA, R_OK) == 0)
-    return CAROM_SOURCE_DATA;
-  char program[PATH_MAX];
-  const ssize_t size = readlink("/proc/self/exe", program, sizeof program - 1);
-  if (size <= 0)
-    return CAROM_SOURCE_DATA;
-  program[size] = '\0';
-  char *slash = strrchr(program, '/');
-  *(slash != NULL ? slash : program) = '\0';
-  snprintf(installed, sizeof installed, "%s/../%s", program, CAROM_INSTALLED_DATA);
-  return installed;
+  return place_find(CAROM_SOURCE_DATA, CAROM_INSTALLED_DATA, folder);
 }
 
 static void *one_more(void *block, size_t count, size_t size) {

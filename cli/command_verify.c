@@ -4,6 +4,7 @@
 #include "command.h"
 #include "kernel.h"
 #include "message.h"
+#include "output.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -11,12 +12,14 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: carom verify [--kernel NAME] [--config NAME] [--data DIR]\n\n"
+    "usage: carom verify [OPTIONS]\n\n"
     "Resolves the reference cases with every kernel and compares with the references; a kernel of the ladder in every\n"
     "configuration of every compiler.\n\n"
     "  --kernel NAME   only this kernel\n"
     "  --config NAME   only this build of the ladder (see `carom kernels`)\n"
-    "  --data DIR      folder of the cases and references (default: $CAROM_DATA, else the one that came with carom)\n\n"
+    "  --data DIR      folder of the cases and references (default: $CAROM_DATA, else the one that came with carom)\n"
+    "  --csv           as CSV, the paper's counts in columns of their own, NA where it gives none\n"
+    "  -o, --output OUT  file to write (default: standard output)\n\n"
     "Pair error: the largest deviation of a velocity or R times an angular velocity, over the largest such value of the\n"
     "pair. Component errors compare each number with itself; the columns count the cases in which one is above 0.1 % or 1 %,\n"
     "with the seed paper's own count in brackets where it gives one.\n"
@@ -28,7 +31,8 @@ typedef struct verification {
   case_set cases;
   carom_result *result;
   pair_accuracy *each;
-  bool all_pass;
+  FILE *out;
+  bool csv, all_pass;
   char parity[512]; /* sentences for below the table */
 } verification;
 
@@ -39,6 +43,30 @@ static const char *count_beside_paper(size_t ours, int paper, char text[32]) {
   else
     snprintf(text, 32, "%zu", ours);
   return text;
+}
+
+/* The seed paper's count, or NA. */
+static const char *paper_count(int paper, char text[32]) {
+  snprintf(text, 32, paper >= 0 ? "%d" : "NA", paper);
+  return text;
+}
+
+static void print_claim(const verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim,
+                        const accuracy_summary *s, bool pass) {
+  const ladder_rung *rung = one->is_rung ? ladder_rung_find(one->name) : NULL;
+  const int paper_1e3 = rung != NULL ? rung->over_1e3 : -1, paper_1e2 = rung != NULL ? rung->over_1e2 : -1;
+  const char *config = module != NULL ? module->name : v->csv ? "library" : "-";
+  char over_1e3[32], over_1e2[32];
+  if (v->csv)
+    fprintf(v->out, "%s,%s,%s,%d,%s,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%s,%zu,%s,%s\n", one->name, config,
+            carom_slip_name(claim->slip), claim->steps, claim->reference, s->cases, s->identical, s->mean, s->median, s->p99,
+            s->max, claim->bound, s->component_1e3, paper_count(paper_1e3, over_1e3), s->component_1e2,
+            paper_count(paper_1e2, over_1e2), pass ? "pass" : "fail");
+  else
+    fprintf(v->out, "%-15s %-17s %-9s %5d %-29s %4zu/%-4zu %-9.2g %-9.2g %-9.2g %-9.2g %-7.1g %7s %6s  %s\n", one->name, config,
+            carom_slip_name(claim->slip), claim->steps, claim->reference, s->identical, s->cases, s->mean, s->median, s->p99,
+            s->max, claim->bound, count_beside_paper(s->component_1e3, paper_1e3, over_1e3),
+            count_beside_paper(s->component_1e2, paper_1e2, over_1e2), pass ? "pass" : "FAIL");
 }
 
 static bool verify_claim(verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim) {
@@ -59,13 +87,7 @@ static bool verify_claim(verification *v, const kernel *one, const ladder_module
       snprintf(v->parity + used, sizeof v->parity - used, "%s: %zu of %zu cases bit-identical to %s\n", one->name, s.identical,
                s.cases, claim->reference);
     }
-    const ladder_rung *rung = one->is_rung ? ladder_rung_find(one->name) : NULL;
-    char over_1e3[32], over_1e2[32];
-    printf("%-15s %-17s %-9s %5d %-29s %4zu/%-4zu %-9.2g %-9.2g %-9.2g %-9.2g %-7.1g %7s %6s  %s\n", one->name,
-           module != NULL ? module->name : "-", carom_slip_name(claim->slip), claim->steps, claim->reference, s.identical,
-           s.cases, s.mean, s.median, s.p99, s.max, claim->bound,
-           count_beside_paper(s.component_1e3, rung != NULL ? rung->over_1e3 : -1, over_1e3),
-           count_beside_paper(s.component_1e2, rung != NULL ? rung->over_1e2 : -1, over_1e2), pass ? "pass" : "FAIL");
+    print_claim(v, one, module, claim, &s, pass);
   }
   reference_free(&reference);
   return loaded;
@@ -102,13 +124,19 @@ static bool verify_all(verification *v, const kernel *only, const char *config) 
     complain("out of memory");
     return false;
   }
-  printf("%-15s %-17s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %7s %6s  %s\n", "kernel", "configuration", "slip", "steps",
-         "reference", "identical", "mean", "median", "p99", "max", "bound", ">0.1%", ">1%", "");
+  if (v->csv)
+    fputs("kernel,config,slip,steps,reference,cases,identical,mean,median,p99,max,bound,over_1e3,paper_1e3,over_1e2,paper_1e2,"
+          "verdict\n",
+          v->out);
+  else
+    fprintf(v->out, "%-15s %-17s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %7s %6s  %s\n", "kernel", "configuration", "slip",
+            "steps", "reference", "identical", "mean", "median", "p99", "max", "bound", ">0.1%", ">1%", "");
   const kernel *one;
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
     if ((only == NULL || only == one) && !(one->is_rung ? verify_rung(v, one, config) : verify_solver(v, one, config)))
       return false;
-  printf("\n%s", v->parity);
+  if (!v->csv)
+    fprintf(v->out, "\n%s", v->parity);
   return true;
 }
 
@@ -117,13 +145,16 @@ int command_verify(int argc, char **argv) {
       {"kernel", required_argument, NULL, 'k'},
       {"config", required_argument, NULL, 'c'},
       {"data", required_argument, NULL, 'd'},
+      {"csv", no_argument, NULL, 'v'},
+      {"output", required_argument, NULL, 'o'},
       {"help", no_argument, NULL, 'h'},
       {0},
   };
   const kernel *only = NULL;
-  const char *folder = NULL, *config = NULL;
+  const char *folder = NULL, *config = NULL, *out = "-";
+  bool csv = false;
   int option;
-  while ((option = getopt_long(argc, argv, "h", options, NULL)) != -1)
+  while ((option = getopt_long(argc, argv, "o:h", options, NULL)) != -1)
     switch (option) {
     case 'k':
       only = kernel_find(optarg);
@@ -138,6 +169,12 @@ int command_verify(int argc, char **argv) {
     case 'd':
       folder = optarg;
       break;
+    case 'v':
+      csv = true;
+      break;
+    case 'o':
+      out = optarg;
+      break;
     case 'h':
       fputs(help, stdout);
       return EXIT_GOOD;
@@ -151,10 +188,14 @@ int command_verify(int argc, char **argv) {
   const ladder_module *unused;
   if (config != NULL && !kernel_module(only != NULL ? only : kernel_find(ladder_rung_at(0)->name), config, &unused))
     return EXIT_USAGE;
-  verification v = {.folder = cases_folder(folder), .all_pass = true};
+  verification v = {.folder = cases_folder(folder), .csv = csv, .all_pass = true};
   int code = EXIT_USAGE;
-  if (cases_load(v.folder, "collisions-204.csv", &v.cases) && verify_all(&v, only, config))
-    code = v.all_pass ? EXIT_GOOD : EXIT_SOME;
+  if (cases_load(v.folder, "collisions-204.csv", &v.cases) && (v.out = output_open(out)) != NULL) {
+    if (!verify_all(&v, only, config))
+      output_abandon();
+    else if (output_commit())
+      code = v.all_pass ? EXIT_GOOD : EXIT_SOME;
+  }
   free(v.result);
   free(v.each);
   cases_free(&v.cases);

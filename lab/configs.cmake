@@ -7,6 +7,17 @@ set(ladder_flags_novec -O3 -fno-tree-vectorize) # and, spelt differently, no vec
 set(ladder_flags_novec_clang -fno-slp-vectorize)
 set(ladder_flags_novec_gcc -fno-tree-slp-vectorize)
 
+# One more where it can run: the default for the paper's processor by name. lab/bound counts the operations of this code, so its
+# time is the one to compare with the counts and their bounds.
+set(processor_flags "")
+if(EXISTS /proc/cpuinfo)
+  file(STRINGS /proc/cpuinfo processor_flags REGEX "^flags" LIMIT_COUNT 1)
+endif()
+if(processor_flags MATCHES " avx2 " AND processor_flags MATCHES " fma " AND processor_flags MATCHES " bmi2 ")
+  list(APPEND ladder_configs zen2)
+  set(ladder_flags_zen2 -O3 -march=znver2 -ffast-math -fno-finite-math-only)
+endif()
+
 # The compilers, the paper's first choice first; the newest clang that is installed, and gcc.
 find_program(CAROM_LADDER_CLANG NAMES clang-21 clang-20 clang-19 clang-18 clang-17 clang-16 clang-15 clang-14 clang
              DOC "clang that compiles the ladder; empty for none")

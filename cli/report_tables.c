@@ -1,0 +1,363 @@
+/* The report's tables: verification, speedups, operations and bounds, configurations; the seed paper's value beside ours where
+ * it gives one, and a sentence where they differ. */
+#include "ladder.h"
+#include "report.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What the paper says in its section 4.3, at N = 1000. */
+typedef struct paper_bound {
+  const char *kernel;
+  double flops, bound, cycles; /* cycles as measured */
+} paper_bound;
+
+static const paper_bound paper_bounds[] = {{"base", 77796.0, 77000.0, 85300.0}, {"double", 43829.0, 44000.0, 50200.0}};
+static const double paper_best = 1.93;
+static const char paper_best_name[] = "float with archnative on clang";
+
+static const paper_bound *paper_bound_of(const char *kernel) {
+  for (size_t k = 0; k < sizeof paper_bounds / sizeof paper_bounds[0]; k++)
+    if (strcmp(paper_bounds[k].kernel, kernel) == 0)
+      return &paper_bounds[k];
+  return NULL;
+}
+
+/* ---- Cells */
+
+static void open_table(FILE *out, const char *id, const char *heading) {
+  fprintf(out, "<h2 id=\"table-%s\">%s</h2>\n", id, heading);
+}
+
+/* Head cells: "t:" before a name aligns it left, "p:" marks the paper's column. */
+static void head_row(FILE *out, const char *const name[], size_t n) {
+  fputs("<div class=\"wide\"><table>\n<tr>", out);
+  for (size_t k = 0; k < n; k++) {
+    const char kind = name[k][1] == ':' ? name[k][0] : ' ';
+    fprintf(out, "<th%s>", kind == 't' ? " class=\"t\"" : kind == 'p' ? " class=\"paper\"" : "");
+    report_escape(out, kind == ' ' ? name[k] : name[k] + 2);
+    fputs("</th>", out);
+  }
+  fputs("</tr>\n", out);
+}
+
+static void cell(FILE *out, const char *class, const char *text) {
+  fprintf(out, class[0] != '\0' ? "<td class=\"%s\">" : "<td>", class);
+  report_escape(out, text);
+  fputs("</td>", out);
+}
+
+__attribute__((format(printf, 3, 4))) static void cell_of(FILE *out, const char *class, const char *format, ...) {
+  char text[512];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  cell(out, class, text);
+}
+
+/* Grouped by thousands; "NA" for what was not measured. */
+static void cell_count(FILE *out, const char *class, double x) {
+  if (isnan(x)) {
+    cell(out, class, "NA");
+    return;
+  }
+  char digits[32], text[64] = "";
+  snprintf(digits, sizeof digits, "%.0f", x);
+  const size_t size = strlen(digits);
+  for (size_t k = 0, to = 0; k < size; k++) {
+    if (k > 0 && (size - k) % 3 == 0)
+      text[to++] = ',';
+    text[to++] = digits[k];
+    text[to] = '\0';
+  }
+  cell(out, class, text);
+}
+
+static void close_table(FILE *out) {
+  fputs("</table></div>\n", out);
+}
+
+static void no_data(FILE *out, int data) {
+  fprintf(out, "<p class=\"missing\">There are no data: <code>%s.csv</code> is missing.</p>\n", report_data_name(data));
+}
+
+#define HEAD(out, ...) \
+  head_row(out, (const char *const[]){__VA_ARGS__}, sizeof((const char *const[]){__VA_ARGS__}) / sizeof(const char *))
+
+/* ---- Verification */
+
+static void write_verification(const report *r, FILE *out) {
+  const sheet *s = &r->data[DATA_verify];
+  open_table(out, "verification", "Verification");
+  if (s->rows == 0) {
+    no_data(out, DATA_verify);
+    return;
+  }
+  size_t failed = 0;
+  for (size_t k = 0; k < s->rows; k++)
+    failed += strcmp(sheet_text(s, k, "verdict"), "pass") != 0;
+  fprintf(
+      out,
+      "<p>Every kernel in every build on the 204 reference collisions. Pair error: the largest deviation of a velocity, or R "
+      "times an angular velocity, over the largest of the pair. The last columns count collisions in which a single "
+      "component is off by more than 0.1 %% and 1 %% of itself, and what the paper counts. %zu of %zu rows are within "
+      "their bounds.</p>\n",
+      s->rows - failed, s->rows);
+  HEAD(out, "t:kernel", "t:build", "t:reference", "identical", "median error", "largest", "bound", "> 0.1 %", "p:paper",
+       "> 1 %", "p:paper", "t:");
+  const char *before = "";
+  for (size_t k = 0; k < s->rows; k++) {
+    const char *kernel = sheet_text(s, k, "kernel"), *verdict = sheet_text(s, k, "verdict");
+    fputs("<tr>", out);
+    cell(out, "t", strcmp(kernel, before) != 0 ? kernel : "");
+    cell(out, "t", sheet_text(s, k, "config"));
+    cell(out, "t", sheet_text(s, k, "reference"));
+    cell_of(out, "", "%s of %s", sheet_text(s, k, "identical"), sheet_text(s, k, "cases"));
+    cell(out, "", sheet_text(s, k, "median"));
+    cell(out, "", sheet_text(s, k, "max"));
+    cell(out, "", sheet_text(s, k, "bound"));
+    cell(out, "", sheet_text(s, k, "over_1e3"));
+    cell(out, "paper", strcmp(sheet_text(s, k, "paper_1e3"), "NA") != 0 ? sheet_text(s, k, "paper_1e3") : "");
+    cell(out, "", sheet_text(s, k, "over_1e2"));
+    cell(out, "paper", strcmp(sheet_text(s, k, "paper_1e2"), "NA") != 0 ? sheet_text(s, k, "paper_1e2") : "");
+    cell(out, strcmp(verdict, "pass") == 0 ? "t" : "t fail", verdict);
+    fputs("</tr>\n", out);
+    before = kernel;
+  }
+  close_table(out);
+  fputs("<p>Where counts differ from the paper's: its 204 collisions are not these, and it does not say how it treats "
+        "components near "
+        "zero, which here count against a thousandth of the pair's scale.</p>\n",
+        out);
+}
+
+/* ---- Speedups */
+
+/* How far our ratio is from the paper's, in words; "" if it gives neither number nor word. `parent` is the speedup of the rung
+ * that this one improves on. */
+static void compare_speedup(const char *paper_text, double paper, double ours, double parent, const char *parent_name,
+                            char text[256]) {
+  const double more = 100.0 * (ours / paper - 1.0), step = 100.0 * (ours / parent - 1.0);
+  text[0] = '\0';
+  if (!isnan(paper) && fabs(more) < 2.5)
+    snprintf(text, 256, "as in the paper, within %.1f %%", fabs(more) < 0.05 ? 0.1 : ceil(10.0 * fabs(more)) / 10.0);
+  else if (!isnan(paper))
+    snprintf(text, 256, "%.0f %% %s than the paper's", fabs(more), more > 0.0 ? "more" : "less");
+  else if (strcmp(paper_text, "a little more") == 0)
+    snprintf(text, 256,
+             step > 0.5    ? "gains %.1f %% on %s, as the paper says in words"
+             : step > -0.5 ? "changes nothing here (%+.1f %% on %s); the paper saw a little gain"
+                           : "loses here (%+.1f %% on %s); the paper saw a little gain",
+             step, parent_name);
+  else if (strncmp(paper_text, "slower", 6) == 0)
+    snprintf(text, 256,
+             ours < parent ? "%.0f %% slower than %s, as the paper says in words"
+                           : "%.0f %% faster than %s here; the paper saw it slower",
+             fabs(100.0 * (parent / ours - 1.0)), parent_name);
+}
+
+/* What "slower" is slower than: the scalar kernel that the vector kernels began from. */
+static size_t scalar_ancestor(const sheet *s, size_t row) {
+  do
+    row = sheet_find(s, 0, "kernel", sheet_text(s, row, "parent"));
+  while (row < s->rows && strcmp(sheet_text(s, row, "needs"), "scalar") != 0);
+  return row;
+}
+
+static void write_speedups(const report *r, FILE *out) {
+  const sheet *s = &r->data[DATA_speedup], *all = &r->data[DATA_ladder];
+  open_table(out, "speedups", "Speedups");
+  if (s->rows == 0) {
+    no_data(out, DATA_speedup);
+    return;
+  }
+  fputs("<p>N = 1000, ", out);
+  report_escape(out, report_default_config(r));
+  fputs(
+      "; the mean over the collisions, the median over rounds in which all kernels take turns, and &#177; the median absolute "
+      "deviation of the rounds. Below them the library's own kernels.</p>\n",
+      out);
+  HEAD(out, "t:kernel", "t:idea", "ns", "±", "speedup", "±", "p:paper", "t:ours and the paper's");
+  for (size_t k = 0; k < s->rows; k++) {
+    const char *kernel = sheet_text(s, k, "kernel"), *says = sheet_text(s, k, "paper_text");
+    const ladder_rung *rung = ladder_rung_find(kernel);
+    const size_t parent =
+        strncmp(says, "slower", 6) == 0 ? scalar_ancestor(s, k) : sheet_find(s, 0, "kernel", sheet_text(s, k, "parent"));
+    char sentence[256];
+    compare_speedup(says, sheet_number(s, k, "paper"), sheet_number(s, k, "speedup"), sheet_number(s, parent, "speedup"),
+                    sheet_text(s, parent, "kernel"), sentence);
+    fputs("<tr>", out);
+    cell(out, "t", kernel);
+    cell(out, "wrap", rung != NULL ? rung->idea : "");
+    cell_count(out, "", sheet_number(s, k, "ns"));
+    cell_count(out, "", sheet_number(s, k, "ns_spread"));
+    cell_of(out, "", "%.2f", sheet_number(s, k, "speedup"));
+    cell_of(out, "", "%.3f", sheet_number(s, k, "speedup_spread"));
+    cell(out, "paper", says);
+    cell(out, "wrap", k > 0 ? sentence : "");
+    fputs("</tr>\n", out);
+  }
+  for (size_t k = 0; k < all->rows; k++)
+    if (strcmp(sheet_text(all, k, "config"), "library") == 0) {
+      fputs("<tr>", out);
+      cell(out, "t", sheet_text(all, k, "kernel"));
+      cell_of(out, "wrap", "the library, %s, %s", sheet_text(all, k, "isa"), sheet_text(all, k, "precision"));
+      cell_of(out, "", "%.6g", sheet_number(all, k, "ns_median"));
+      cell_of(out, "", "%.3g", sheet_number(all, k, "ns_spread"));
+      cell_of(out, "", "%.4g", sheet_number(all, k, "speedup"));
+      cell_of(out, "", "%.3g", sheet_number(all, k, "speedup_spread"));
+      cell(out, "paper", "");
+      cell(out, "wrap", "");
+      fputs("</tr>\n", out);
+    }
+  close_table(out);
+}
+
+/* ---- Operations and bounds */
+
+static double at_1000(const sheet *s, const char *kernel, const char *column) {
+  for (size_t row = 0; (row = sheet_find(s, row, "kernel", kernel)) < s->rows; row++)
+    if (strcmp(sheet_text(s, row, "steps"), "1000") == 0)
+      return sheet_number(s, row, column);
+  return NAN;
+}
+
+static void write_operations(const report *r, FILE *out) {
+  const sheet *s = &r->data[DATA_bounds], *speed = &r->data[DATA_performance];
+  open_table(out, "operations", "Operations and bounds");
+  if (s->rows == 0) {
+    no_data(out, DATA_bounds);
+    return;
+  }
+  const char *compiler = sheet_text(s, 0, "compiler");
+  fputs("<p>Floating point operations of a collision at N = 1000, the mean over the cases, counted in the code that ", out);
+  report_escape(out, compiler);
+  fputs(
+      " makes for Zen 2. The sum is AMD's: a fused multiply-add counts twice. The bound is the cycles that the longest chain "
+      "of "
+      "dependent operations takes with Zen 2's latencies, and with those measured on this processor. Share: the bound over the "
+      "time that the same code takes here.</p>\n",
+      out);
+  HEAD(out, "t:kernel", "add", "mul", "div", "sqrt", "fma", "estimates", "conversions", "sum", "p:paper",
+       "bound, Zen 2 (cycles)", "p:paper", "bound, here (cycles)", "share", "p:paper", "t:ours and the paper's");
+  for (size_t k = 0; k < s->rows; k++) {
+    const char *kernel = sheet_text(s, k, "kernel");
+    const double sum = sheet_number(s, k, "flops_amd");
+    if (strcmp(sheet_text(s, k, "compiler"), compiler) != 0 || ladder_rung_find(kernel) == NULL || isnan(sum))
+      continue;
+    const paper_bound *paper = paper_bound_of(kernel);
+    static const char *const counts[] = {"flops_add", "flops_mul", "flops_div",  "flops_sqrt",
+                                         "flops_fma", "rsqrt",     "conversions"};
+    fputs("<tr>", out);
+    cell(out, "t", kernel);
+    for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++)
+      cell_count(out, "", sheet_number(s, k, counts[c]));
+    cell_count(out, "", sum);
+    const double bound = sheet_number(s, k, "chain_cycles_zen2"), share = 100.0 * at_1000(speed, kernel, "share_of_bound");
+    if (paper != NULL)
+      cell_count(out, "paper", paper->flops);
+    else
+      cell(out, "paper", "");
+    cell_count(out, "", bound);
+    if (paper != NULL)
+      cell_count(out, "paper", paper->bound);
+    else
+      cell(out, "paper", "");
+    cell_count(out, "", sheet_number(s, k, "chain_cycles_native"));
+    if (isnan(share))
+      cell(out, "", "");
+    else
+      cell_of(out, "", "%.1f %%", share);
+    if (paper != NULL) {
+      const double more = 100.0 * (sum / paper->flops - 1.0), longer = 100.0 * (bound / paper->bound - 1.0);
+      cell_of(out, "paper", "%.1f %%", 100.0 * paper->bound / paper->cycles);
+      cell_of(out, "wrap", "%.0f %% %s operations, bound %.0f %% %s", fabs(more), more > 0.0 ? "more" : "fewer", fabs(longer),
+              longer > 0.0 ? "higher" : "lower");
+    } else {
+      cell(out, "paper", "");
+      cell(out, "wrap", "");
+    }
+    fputs("</tr>\n", out);
+  }
+  close_table(out);
+  fputs("<p>The paper's compiler is another, and its counts are from hardware counters; a bound follows from the order of "
+        "operations "
+        "that a compiler chose, so it belongs to one binary.</p>\n",
+        out);
+}
+
+/* ---- Configurations */
+
+static size_t first_with(const sheet *s, const char *column, size_t row) {
+  return sheet_find(s, 0, column, sheet_text(s, row, column));
+}
+
+static double speedup_in(const sheet *s, const char *kernel, const char *config) {
+  for (size_t row = 0; (row = sheet_find(s, row, "kernel", kernel)) < s->rows; row++)
+    if (strcmp(sheet_text(s, row, "config"), config) == 0)
+      return sheet_number(s, row, "speedup");
+  return NAN;
+}
+
+static void write_configurations(const report *r, FILE *out) {
+  const sheet *s = &r->data[DATA_configs];
+  open_table(out, "configurations", "Compilers and configurations");
+  if (s->rows == 0) {
+    no_data(out, DATA_configs);
+    return;
+  }
+  size_t best = 0;
+  for (size_t k = 0; k < s->rows; k++)
+    if (sheet_number(s, k, "speedup") > sheet_number(s, best, "speedup"))
+      best = k;
+  const double ours = sheet_number(s, best, "speedup");
+  fprintf(out,
+          "<p>Speedup over base in the first build. Best of all: <b>%s with %s, %.2f</b>; in the paper it is %s, %.2f.%s</p>\n",
+          sheet_text(s, best, "kernel"), sheet_text(s, best, "config"), ours, paper_best_name, paper_best,
+          ours < paper_best ? " This machine falls short of it." : "");
+  fputs("<div class=\"wide\"><table>\n<tr><th class=\"t\">kernel</th>", out);
+  for (size_t k = 0; k < s->rows; k++)
+    if (first_with(s, "config", k) == k) {
+      fputs("<th>", out);
+      report_escape(out, sheet_text(s, k, "config"));
+      fputs("</th>", out);
+    }
+  fputs("</tr>\n", out);
+  for (size_t row = 0; row < s->rows; row++) {
+    if (first_with(s, "kernel", row) != row)
+      continue;
+    const char *kernel = sheet_text(s, row, "kernel");
+    fputs("<tr>", out);
+    cell(out, "t", kernel);
+    for (size_t k = 0; k < s->rows; k++)
+      if (first_with(s, "config", k) == k) {
+        const double x = speedup_in(s, kernel, sheet_text(s, k, "config"));
+        if (isnan(x))
+          cell(out, "", "NA");
+        else
+          cell_of(out, x == ours ? "best" : "", "%.2f", x);
+      }
+    fputs("</tr>\n", out);
+  }
+  close_table(out);
+  fputs("<dl>\n", out);
+  for (size_t k = 0; k < s->rows; k++) {
+    const char *config = sheet_text(s, k, "config"), *flags = first_with(s, "config", k) == k ? sheet_note(s, config) : NULL;
+    if (flags == NULL)
+      continue;
+    fprintf(out, "<dt>%s</dt><dd>", config);
+    report_escape(out, flags);
+    fputs("</dd>\n", out);
+  }
+  fputs("</dl>\n", out);
+}
+
+void report_write_tables(const report *r, FILE *out) {
+  write_speedups(r, out);
+  write_configurations(r, out);
+  write_operations(r, out);
+  write_verification(r, out);
+}

@@ -1,0 +1,27 @@
+# Operations per cycle over N, and for each kernel the bound by its longest chain.
+width = 1000; height = 540
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/style.gp" ARG1 ARG2 ARG3
+
+kernels = words_of("kernel")
+of(name, x) = strcol("kernel") eq name ? x : NaN
+cycle = note("cycle")
+rate = real(note("ticks per ns"))
+
+set logscale x
+set format x "%.0f"
+set xlabel "steps N"
+set yrange [0:*]
+set ylabel "operations per ".(cycle eq "core cycles" ? "core cycle" : "reference cycle")
+set lmargin at screen 0.075; set rmargin at screen 0.79
+set bmargin at screen 0.215
+set key at screen 0.815, graph 1 left top vertical maxrows 12 noenhanced Left reverse
+set label 1003 (cycle eq "core cycles" ? "operations and cycles counted; see the text" : \
+  sprintf("no hardware counters here: operations counted under callgrind; cycles are those of the time stamp counter, %.2f per ns", rate)) \
+  at screen 0.012, screen 0.022 font ",10" textcolor rgb grey
+set label 1002 at screen 0.012, screen 0.050
+set label 1001 at screen 0.012, screen 0.078
+set offsets 0, 0, graph 0.08, 0
+plot for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("flops_per_cycle"))) \
+       with linespoints lt line_of(word(kernels, k), k) dt 1 title word(kernels, k), \
+     for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("bound_flops_per_cycle"))) \
+       with lines lc rgb colour_of(word(kernels, k), k) lw 2 dt (8,5) title word(kernels, k).", bound"
