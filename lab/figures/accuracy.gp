@@ -5,9 +5,7 @@ call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/style.gp" ARG1 
 
 kernels = words_of("kernel")
 of(name, x) = strcol("kernel") eq name ? x : NaN
-in_library(name) = strcol("kernel") eq name && strcol("config") eq "library" ? 1.0 : NaN
 library = system("awk -F, '!/^#/ && $2 == \"library\" && !seen[$1]++ { printf \"%s \", $1 }' '".data."'")
-in_library_title(name) = place_in(library, name) > 0 ? name.", median" : ""
 # N beside the marks of the library's kernels.
 labelled(name) = strcol("kernel") eq name && strcol("config") eq "library" && column("steps") > 0 && \
   log10(column("steps")) == floor(log10(column("steps"))) ? 1.0 : NaN
@@ -23,7 +21,8 @@ set bmargin at screen 0.18
 set key at screen 0.815, graph 1 left top vertical maxrows 12 noenhanced Left reverse
 plot for [k=1:words(kernels)] data using (of(word(kernels, k), column("ns_median") / 1000)):"error_exact_max" \
        with linespoints lt line_of(word(kernels, k), k) title word(kernels, k), \
-     for [k=1:words(kernels)] data using (in_library(word(kernels, k)) * column("ns_median") / 1000):"error_exact_median" \
-       with linespoints lc rgb colour_of(word(kernels, k), k) lw 2 dt (1,4) pt 7 ps 0.3 title in_library_title(word(kernels, k)), \
-     for [k=1:words(kernels)] data using (labelled(word(kernels, k)) * column("ns_median") / 1000):"error_exact_max":(sprintf("N = %.0f", column("steps"))) \
+     for [k=1:words(library)] data using (of(word(library, k), column("ns_median") / 1000)):"error_exact_median" \
+       with linespoints lc rgb colour_of(word(library, k), place_in(kernels, word(library, k))) lw 2 dt (1,4) pt 7 ps 0.3 \
+       title word(library, k).", median", \
+     for [k=1:words(library)] data using (labelled(word(library, k)) * column("ns_median") / 1000):"error_exact_max":(sprintf("N = %.0f", column("steps"))) \
        with labels left offset 0.9,0.5 font ",12" textcolor rgb grey notitle

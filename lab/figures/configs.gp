@@ -40,4 +40,4 @@ plot data using (x(0)):(y(0)):(0.48):(0.47):"speedup" with boxxyerror fs solid 1
      data using (x(0)):(y(0)):(number(0, middle)) with labels textcolor rgb ink, \
      data using (x(0)):(y(0)):(number(middle, s_max)) with labels textcolor rgb "white", \
      data using (x(0)):(y(0)):(number(s_max, 1e9)) with labels font ",15:Bold" textcolor rgb "white", \
-     data using (column("speedup") == s_max ? x(0) : NaN):(y(0)):(0.48):(0.47) with boxxyerror fs empty border lc rgb orange lw 3 dt 1
+     data using (column("speedup") == s_max ? x(0) : NaN):(y(0)):(0.48):(0.47) with boxxyerror lc rgb orange lw 3 dt 1 fs empty

@@ -1,5 +1,6 @@
 # Operations per cycle over N, and for each kernel the bound by its longest chain.
-width = 1000; height = 540
+width = 1000; height = 560
+build = system("awk -F, '/^#/ { next } n++ { print $2; exit }' '".ARG1."'")
 call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/style.gp" ARG1 ARG2 ARG3
 
 kernels = words_of("kernel")
@@ -12,16 +13,20 @@ set format x "%.0f"
 set xlabel "steps N"
 set yrange [0:*]
 set ylabel "operations per ".(cycle eq "core cycles" ? "core cycle" : "reference cycle")
-set lmargin at screen 0.075; set rmargin at screen 0.79
-set bmargin at screen 0.215
-set key at screen 0.815, graph 1 left top vertical maxrows 12 noenhanced Left reverse
+set lmargin at screen 0.075; set rmargin at screen 0.715
+set bmargin at screen 0.225
+set key at screen 0.735, graph 1 left top vertical maxrows 12 noenhanced Left reverse
 set label 1003 (cycle eq "core cycles" ? "operations and cycles counted; see the text" : \
   sprintf("no hardware counters here: operations counted under callgrind; cycles are those of the time stamp counter, %.2f per ns", rate)) \
   at screen 0.012, screen 0.022 font ",10" textcolor rgb grey
 set label 1002 at screen 0.012, screen 0.050
 set label 1001 at screen 0.012, screen 0.078
+share(name) = system("awk -F, '/^#/ { next } $1 == \"".name."\" { s = $8 } END { print s }' '".data."'")
+entry(name) = share(name) eq "NA" ? name : sprintf("%s: %.0f %% of its bound", name, 100 * real(share(name)))
+bounded = system("awk -F, '/^#/ { next } n++ && $7 != \"NA\" { print $7 }' '".data."' | wc -l") > 0
 set offsets 0, 0, graph 0.08, 0
 plot for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("flops_per_cycle"))) \
-       with linespoints lt line_of(word(kernels, k), k) dt 1 title word(kernels, k), \
-     for [k=1:words(kernels)] data using "steps":(of(word(kernels, k), column("bound_flops_per_cycle"))) \
-       with lines lc rgb colour_of(word(kernels, k), k) lw 2 dt (8,5) title word(kernels, k).", bound"
+       with linespoints lt line_of(word(kernels, k), k) dt 1 title entry(word(kernels, k)), \
+     for [k=1:bounded*words(kernels)] data using "steps":(of(word(kernels, k), column("bound_flops_per_cycle"))) \
+       with lines lc rgb colour_of(word(kernels, k), k) lw 2 dt (8,5) notitle, \
+     for [k=1:bounded] keyentry with lines lc rgb grey lw 2 dt (8,5) title "bound, in its colour"

@@ -44,10 +44,11 @@ if (strlen(heading) > 0) set title heading font ",17" textcolor rgb ink offset 0
 
 # Where and with what the data were measured, from its lines that begin with #.
 note(what) = system("sed -n 's/^# ".what.": //p' '".data."' | head -n 1")
-first_build = system("sed -n 's/^# \\([a-z0-9]*-[a-z0-9]*\\): .*/\\1/p' '".data."' | head -n 1")
-compiler = strlen(first_build) > 0 ? first_build.": ".note(first_build) : "compiler: ".note("compiler")
+if (!exists("build")) build = system("sed -n 's/^# \\([a-z0-9]*-[a-z0-9]*\\): .*/\\1/p' '".data."' | head -n 1")
+compiler = strlen(build) > 0 ? build.": ".note(build) : "compiler: ".note("compiler")
 date = note("date")
 machine = note("processor").", family ".note("processor family")
+# Two lines at the foot, which need a bottom margin of about 105 points.
 set label 1001 machine."; ".date[1:10] at screen 0.012, screen 0.055 font ",10" textcolor rgb grey noenhanced
 set label 1002 compiler at screen 0.012, screen 0.022 font ",10" textcolor rgb grey noenhanced
 set bmargin at screen 0.205
