@@ -8,7 +8,7 @@ of(name, x) = strcol("kernel") eq name ? x : NaN
 library = system("awk -F, '!/^#/ && $2 == \"library\" && !seen[$1]++ { printf \"%s \", $1 }' '".data."'")
 # N beside the marks of the library's kernels.
 labelled(name) = strcol("kernel") eq name && strcol("config") eq "library" && column("steps") > 0 && \
-  log10(column("steps")) == floor(log10(column("steps"))) ? 1.0 : NaN
+  abs(log10(column("steps")) - floor(log10(column("steps")) + 0.5)) < 1e-9 ? 1.0 : NaN
 
 set logscale xy
 set yrange [*:1]
@@ -17,7 +17,7 @@ set ylabel "pair error against the exact solution" offset -0.5,0
 set format x "%g"
 set format y "10^{%T}"
 set lmargin at screen 0.095; set rmargin at screen 0.79
-set bmargin at screen 0.18
+set bmargin at screen 0.195
 set key at screen 0.815, graph 1 left top vertical maxrows 12 noenhanced Left reverse
 plot for [k=1:words(kernels)] data using (of(word(kernels, k), column("ns_median") / 1000)):"error_exact_max" \
        with linespoints lt line_of(word(kernels, k), k) title word(kernels, k), \

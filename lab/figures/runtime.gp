@@ -12,7 +12,7 @@ set logscale x
 set xlabel "steps N"
 set format x "%.0f"
 set tmargin at screen 0.88
-set bmargin at screen 0.225
+set bmargin at screen 0.235
 
 set lmargin at screen 0.095; set rmargin at screen 0.48
 set logscale y
