@@ -24,6 +24,11 @@ static const char help[] =
     "be\n"
     "written\n";
 
+static bool is_folder(const char *path) {
+  struct stat status;
+  return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
 /* Makes the folder and those it lies in. */
 static bool make_folder(const char *folder) {
   char path[PATH_MAX];
@@ -37,8 +42,7 @@ static bool make_folder(const char *folder) {
     }
     *slash = '/';
   }
-  struct stat status;
-  if (stat(path, &status) == 0 && S_ISDIR(status.st_mode))
+  if (is_folder(path))
     return true;
   complain("%s is not a folder", folder);
   return false;
@@ -54,6 +58,10 @@ static bool set_budget(report *r, const char *text) {
 }
 
 static int make_report(report *r) {
+  if (r->from != NULL && !is_folder(r->from)) {
+    complain("--from: there is no folder %s", r->from);
+    return EXIT_USAGE;
+  }
   if (!make_folder(r->folder))
     return EXIT_USAGE;
   report_collect(r);
@@ -100,7 +108,7 @@ int command_report(int argc, char **argv) {
     default:
       return usage_hint("report");
     }
-  if (optind != argc - 1) {
+  if (optind != argc - 1 || argv[optind][0] == '\0') {
     complain("report takes one folder to write to, but got %d", argc - optind);
     return usage_hint("report");
   }

@@ -99,37 +99,45 @@ static const sheet *data_of(const report *r, const char *name) {
   return &r->data[k];
 }
 
-static void draw(const report *r, report_figure *figure, const char *extension) {
+static const char no_gnuplot[] = "gnuplot is not installed (Debian: gnuplot-nox)";
+
+/* Draws one picture of the figure; false, with the reason in figure->missing, if that cannot be. */
+static bool draw(const report *r, report_figure *figure, const char *extension) {
   char folder[PATH_MAX], script[PATH_MAX], path[PATH_MAX], csv[64], picture[64];
   place_find(CAROM_SOURCE_LAB "/figures", CAROM_INSTALLED_SHARE "/figures", folder);
   snprintf(csv, sizeof csv, "%s.csv", figure->csv);
   snprintf(picture, sizeof picture, "%s%s", figure->name, extension);
+  snprintf(figure->missing, sizeof figure->missing, "there are no data in %s", csv);
   if (!report_path(script, folder, figure->name, ".gp") || !report_path(path, r->folder, picture, ""))
-    return;
+    return false;
   unlink(path);
-  if (data_of(r, figure->csv)->rows == 0) {
-    snprintf(figure->missing, sizeof figure->missing, "there are no data in %s", csv);
-    return;
-  }
+  if (data_of(r, figure->csv)->rows == 0)
+    return false;
   const int code = run_gnuplot(r->folder, script, csv, picture, figure->title);
-  if (code == NO_GNUPLOT)
-    snprintf(figure->missing, sizeof figure->missing, "gnuplot is not installed (Debian: gnuplot-nox)");
-  else if (code != 0 || access(path, R_OK) != 0 || (strcmp(extension, ".svg") == 0 && !finish_svg(figure, path)))
+  if (code == NO_GNUPLOT) {
+    snprintf(figure->missing, sizeof figure->missing, "%s", no_gnuplot);
+    return false;
+  }
+  if (code != 0 || access(path, R_OK) != 0 || (strcmp(extension, ".svg") == 0 && !finish_svg(figure, path))) {
     snprintf(figure->missing, sizeof figure->missing, "gnuplot failed on %s.gp", figure->name);
-  else
-    printf("%s: %s\n", picture, figure->title);
+    return false;
+  }
+  figure->missing[0] = '\0';
+  printf("%s: %s\n", picture, figure->title);
+  return true;
 }
 
 void report_draw(report *r) {
-  const char *said = "";
+  bool said = false;
   for (int k = 0; k < FIGURE_COUNT; k++) {
     report_figure *figure = &r->figure[k];
     *figure = figures[k];
-    draw(r, figure, ".svg");
-    if (r->png && figure->missing[0] == '\0')
-      draw(r, figure, ".png");
-    if (figure->missing[0] != '\0' && strcmp(figure->missing, said) != 0)
-      complain("%s.svg cannot be drawn: %s; the tables and the CSV files do without", figure->name, figure->missing);
-    said = figure->missing;
+    if (draw(r, figure, ".svg") && (!r->png || draw(r, figure, ".png")))
+      continue;
+    if (strcmp(figure->missing, no_gnuplot) != 0)
+      complain("no figure %s: %s", figure->name, figure->missing);
+    else if (!said)
+      complain("no figures: %s; the CSV files and the page's tables come all the same", no_gnuplot);
+    said |= strcmp(figure->missing, no_gnuplot) == 0;
   }
 }

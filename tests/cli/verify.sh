@@ -11,3 +11,6 @@ grep -c '^euler .*FAIL' table
 CAROM_DATA=data carom verify > table || echo "exit $?"
 sed '3d' "$DATA/reference-pooltool-n1000.csv" > data/reference-pooltool-n1000.csv
 carom verify --data data > table || echo "exit $?"
+echo "--- as CSV"
+carom verify --kernel euler --csv -o table.csv
+cut -d, -f1-7,12,17 table.csv
