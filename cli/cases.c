@@ -46,7 +46,7 @@ bool cases_load(const char *folder, const char *name, case_set *out) {
   char path[PATH_MAX];
   snprintf(path, sizeof path, "%s/%s", folder, name);
   *out = (case_set){0};
-  impact_reader *reader = impact_open(path);
+  impact_reader *reader = impact_open(path, true);
   if (reader == NULL)
     return false;
   impact_row row = {0};

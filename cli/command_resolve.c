@@ -2,13 +2,12 @@
 #include "command.h"
 #include "kernel.h"
 #include "message.h"
+#include "option.h"
 #include "progress.h"
 #include "sink.h"
 #include "source.h"
 
-#include <errno.h>
 #include <getopt.h>
-#include <limits.h>
 #include <pthread.h>
 #include <semaphore.h>
 #include <stdio.h>
@@ -24,6 +23,8 @@ static const char help[] =
     "  --config NAME           which build of a ladder kernel (see `carom kernels`; default: default)\n"
     "  --slip paper|pooltool   sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's\n"
     "  --steps N               steps of Euler's method, 1 or more (default 1000)\n"
+    "  --friction LAW          friction between the balls by their slip speed instead of the column u_b: alciatore, which is\n"
+    "                          mu = a + b exp(-c |u|) with the usual fit, or alciatore=a,b,c\n"
     "  --precision P           double or single (default: single for a float32 array, else double)\n"
     "  --threads N             most threads for solving; 0, the default: one for each processor\n"
     "  -o, --output OUT        file to write, - for standard output (default); a file appears whole or not at all. A name\n"
@@ -54,6 +55,8 @@ typedef struct resolve_job {
   const ladder_module *module;
   carom_options options;
   bool single; /* numbers are float from here on */
+  bool by_law; /* friction between the balls follows the law, not the input */
+  carom_speed_law law;
   row_source *in;
   result_sink *out;
   long long ok, separating, errors;
@@ -83,22 +86,41 @@ static void *read_blocks(void *argument) {
   }
 }
 
-/* The numbers of a block in the precision of the job. */
-static const void *in_precision(const resolve_job *job, const source_block *block, work_space *work) {
+static void apply_law(const resolve_job *job, size_t count, work_space *work) {
+  for (size_t k = 0; k < count; k++)
+    if (job->single) {
+      carom_impact_f32 *narrow = &((carom_impact_f32 *)work->impact)[k];
+      carom_impact wide;
+      for (size_t field = 0; field < sizeof wide / sizeof(double); field++)
+        ((double *)&wide)[field] = ((const float *)narrow)[field];
+      narrow->mu_ball = (float)carom_mu_ball(&wide, job->law);
+    } else {
+      carom_impact *impact = &((carom_impact *)work->impact)[k];
+      impact->mu_ball = carom_mu_ball(impact, job->law);
+    }
+}
+
+/* The numbers of a block as the job wants them: in its precision, and with its friction. */
+static const void *prepare(const resolve_job *job, const source_block *block, work_space *work) {
   const size_t numbers = block->count * sizeof(carom_impact) / sizeof(double);
   const bool from_single = source_is_single(job->in);
-  if (from_single == job->single)
+  if (from_single == job->single && !job->by_law)
     return block->impact;
-  for (size_t k = 0; k < numbers; k++)
-    if (job->single)
+  if (from_single == job->single)
+    memcpy(work->impact, block->impact, numbers * (job->single ? sizeof(float) : sizeof(double)));
+  else if (job->single)
+    for (size_t k = 0; k < numbers; k++)
       ((float *)work->impact)[k] = (float)((const double *)block->impact)[k];
-    else
+  else
+    for (size_t k = 0; k < numbers; k++)
       ((double *)work->impact)[k] = ((const float *)block->impact)[k];
+  if (job->by_law)
+    apply_law(job, block->count, work);
   return work->impact;
 }
 
 static void solve_and_write(resolve_job *job, const source_block *block, work_space *work) {
-  const void *impact = in_precision(job, block, work);
+  const void *impact = prepare(job, block, work);
   const double before = seconds_now();
   if (job->single)
     kernel_resolve_f32(job->kernel, impact, block->count, &job->options, work->result, work->status);
@@ -173,42 +195,13 @@ static int resolve_file(resolve_job *job, const char *out, bool summary) {
   return code;
 }
 
-static bool parse_slip(const char *text, carom_slip *slip) {
-  for (int k = 0; k < CAROM_SLIP_COUNT; k++)
-    if (strcmp(text, carom_slip_name((carom_slip)k)) == 0) {
-      *slip = (carom_slip)k;
-      return true;
-    }
-  complain("--slip is paper or pooltool, not '%s'", text);
-  return false;
-}
-
-static bool parse_precision(const char *text, bool *single) {
-  *single = strcmp(text, "single") == 0;
-  if (*single || strcmp(text, "double") == 0)
-    return true;
-  complain("--precision is double or single, not '%s'", text);
-  return false;
-}
-
-static bool parse_count(const char *option, const char *text, int least, int *count) {
-  char *end;
-  errno = 0;
-  const long value = strtol(text, &end, 10);
-  if (end == text || *end != '\0' || errno != 0 || value < least || value > INT_MAX) {
-    complain("%s is a whole number from %d to %d, not '%s'", option, least, INT_MAX, text);
-    return false;
-  }
-  *count = (int)value;
-  return true;
-}
-
 int command_resolve(int argc, char **argv) {
   static const struct option options[] = {
       {"kernel", required_argument, NULL, 'k'},
       {"config", required_argument, NULL, 'c'},
       {"slip", required_argument, NULL, 's'},
       {"steps", required_argument, NULL, 'n'},
+      {"friction", required_argument, NULL, 'f'},
       {"precision", required_argument, NULL, 'p'},
       {"threads", required_argument, NULL, 't'},
       {"output", required_argument, NULL, 'o'},
@@ -233,19 +226,24 @@ int command_resolve(int argc, char **argv) {
       config = optarg;
       break;
     case 's':
-      if (!parse_slip(optarg, &job.options.slip))
+      if (!option_slip(optarg, &job.options.slip))
         return EXIT_USAGE;
       break;
     case 'n':
-      if (!parse_count("--steps", optarg, 1, &job.options.steps))
+      if (!option_steps(optarg, &job.options.steps))
         return EXIT_USAGE;
       break;
+    case 'f':
+      if (!option_law(optarg, &job.law))
+        return EXIT_USAGE;
+      job.by_law = true;
+      break;
     case 't':
-      if (!parse_count("--threads", optarg, 0, &job.options.threads))
+      if (!option_count("--threads", optarg, 0, &job.options.threads))
         return EXIT_USAGE;
       break;
     case 'p':
-      if (!parse_precision(optarg, &job.single))
+      if (!option_precision(optarg, &job.single))
         return EXIT_USAGE;
       precision_given = true;
       break;
@@ -271,7 +269,7 @@ int command_resolve(int argc, char **argv) {
     complain("the kernels of the ladder have a precision of their own; --precision is for the library's solvers");
     return EXIT_USAGE;
   }
-  job.in = source_open(argv[optind]);
+  job.in = source_open(argv[optind], !job.by_law);
   if (job.in == NULL)
     return EXIT_USAGE;
   if (!precision_given)

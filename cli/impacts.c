@@ -25,7 +25,7 @@ static const column columns[] = {
     {"R2", {21, -1}, 1},   {"M", {10, 22}, 2},    {"M1", {10, -1}, 2},  {"M2", {22, -1}, 2},
     {"u_s1", {11, -1}, 0}, {"u_s2", {23, -1}, 0}, {"u_b", {24, -1}, 0}, {"e_b", {25, -1}, 0},
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0] };
+enum { COLUMNS = sizeof columns / sizeof columns[0], MU_BALL = 24 };
 
 struct impact_reader {
   record_reader *records;
@@ -94,7 +94,7 @@ static void add_name(char *list, size_t room, const char *name) {
     snprintf(list + used, room - used, "%s", entry);
 }
 
-static bool find_columns(impact_reader *r, const record *header) {
+static bool find_columns(impact_reader *r, const record *header, bool mu_ball_needed) {
   const char *file = record_file_name(r->records);
   char missing[256] = "";
   r->width = header->count;
@@ -104,7 +104,7 @@ static bool find_columns(impact_reader *r, const record *header) {
     r->source[field] = column_for(r, header, field, &r->at[field]);
     if (r->source[field] == -2)
       return false;
-    if (r->source[field] == -1)
+    if (r->source[field] == -1 && (field != MU_BALL || mu_ball_needed))
       add_name(missing, sizeof missing, wanted_name(header, field));
   }
   if (missing[0] != '\0')
@@ -113,7 +113,7 @@ static bool find_columns(impact_reader *r, const record *header) {
   return missing[0] == '\0';
 }
 
-impact_reader *impact_open(const char *path) {
+impact_reader *impact_open(const char *path, bool mu_ball_needed) {
   impact_reader *r = calloc(1, sizeof *r);
   if (r == NULL) {
     complain("out of memory");
@@ -127,7 +127,7 @@ impact_reader *impact_open(const char *path) {
       complain("%s: empty; a header with the names of the columns is needed", record_file_name(r->records));
     else if (result == READ_ONE && header.malformed)
       complain("%s:%lld: the header is no CSV", record_file_name(r->records), header.line);
-    else if (result == READ_ONE && find_columns(r, &header))
+    else if (result == READ_ONE && find_columns(r, &header, mu_ball_needed))
       return r;
   }
   impact_close(r);
@@ -162,6 +162,10 @@ static const char *fill(impact_reader *r, const record *in, impact_row *row) {
     }
   double *number = (double *)&row->impact;
   for (int field = 0; field < IMPACT_FIELDS; field++) {
+    if (r->source[field] < 0) { /* only u_b, where it is not needed */
+      number[field] = 0.0;
+      continue;
+    }
     const char *name = columns[r->source[field]].name;
     if (r->at[field] >= in->count || in->field[r->at[field]][0] == '\0') {
       snprintf(row->message, sizeof row->message, "%s is missing", name);
@@ -190,7 +194,7 @@ read_result impact_next(impact_reader *r, impact_row *row) {
 }
 
 const char *impact_column(const impact_reader *r, int field) {
-  return columns[r->source[field]].name;
+  return r->source[field] >= 0 ? columns[r->source[field]].name : "u_b";
 }
 
 const record_reader *impact_records(const impact_reader *r) {

@@ -22,8 +22,9 @@ typedef struct impact_row {
   char message[160]; /* and a sentence about it */
 } impact_row;
 
-/* Opens `path`, "-" for stdin, and finds the columns. Complains and returns NULL if the file or a column is missing. */
-impact_reader *impact_open(const char *path);
+/* Opens `path`, "-" for stdin, and finds the columns; u_b may be missing if it is not `needed`, and is then 0. Complains and
+ * returns NULL if the file or a column is missing. */
+impact_reader *impact_open(const char *path, bool mu_ball_needed);
 
 /* The next row, or READ_END; READ_FAILED after a complaint. `row` begins as all zero and may be used again. */
 read_result impact_next(impact_reader *reader, impact_row *row);

@@ -22,7 +22,7 @@ typedef struct csv_block {
   impact_row row[CSV_BLOCK];
 } csv_block;
 
-row_source *source_open(const char *path) {
+row_source *source_open(const char *path, bool mu_ball_needed) {
   row_source *s = calloc(1, sizeof *s);
   if (s == NULL) {
     complain("out of memory");
@@ -33,7 +33,7 @@ row_source *source_open(const char *path) {
   if (npy_is_name(path))
     good = npy_open(path, IMPACT_FIELDS, &s->array);
   else
-    good = (s->csv = impact_open(path)) != NULL;
+    good = (s->csv = impact_open(path, mu_ball_needed)) != NULL;
   if (!good) {
     free(s);
     return NULL;

@@ -17,8 +17,9 @@ typedef struct source_block {
   void *own;             /* the source's memory for the block */
 } source_block;
 
-/* Opens a file by its name: .npy, or CSV, or "-" for CSV on stdin. Complains and returns NULL if that fails. */
-row_source *source_open(const char *path);
+/* Opens a file by its name: .npy, or CSV, or "-" for CSV on stdin; the column u_b may be missing if it is not `needed`.
+ * Complains and returns NULL if that fails. */
+row_source *source_open(const char *path, bool mu_ball_needed);
 
 /* Whether the numbers are float. */
 bool source_is_single(const row_source *source);

@@ -161,6 +161,27 @@ static inline carom_status carom_status_of_byte(uint8_t byte) {
   return (carom_status)(byte < 128 ? (int)byte : (int)byte - 256);
 }
 
+/* ---- Friction between the balls -------------------------------------------------------------------------------------- */
+
+/* Friction that falls with the speed at which the balls slip on each other: mu = a + b exp(-c |u|), |u| in m/s. */
+typedef struct carom_speed_law {
+  double a, b, c; /* -, -, s/m */
+} carom_speed_law;
+
+/* The usual fit for pool balls, a = 0.009951, b = 0.108, c = 1.088: D. Alciatore, TP A-14, to measurements by W. C. Marlow. */
+CAROM_API carom_speed_law carom_alciatore(void);
+
+/* The friction between the balls of `*in` by the law, |u| being the slip just before the collision; in->mu_ball is not read.
+ * Assign it to in->mu_ball. A law that leaves [0, 1] or motion that is not finite gives a number that carom_collide() refuses.
+ */
+CAROM_API double carom_mu_ball(const carom_impact *in, carom_speed_law law);
+
+/* ---- After the collision --------------------------------------------------------------------------------------------- */
+
+/* The velocity, m/s, at which a ball of the given velocity, angular velocity and radius stops sliding and begins to roll:
+ * (5/7) v + (2/7) R (w_y, -w_x, 0). The cloth's friction does not matter, only the time that it takes. */
+CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], double radius, double rolling[3]);
+
 /* ---- Single precision ------------------------------------------------------------------------------------------------ */
 
 /* The same in float: half the memory, twice the lanes. The worst pair error of a batch by the exact limit stays below 2e-5. */
