@@ -29,9 +29,11 @@ static carom_status solve(const carom_impact *in, const carom_options *opt, caro
     carom_copy_state(in, out);
     return CAROM_SEPARATING;
   }
-  const carom_status status = carom_euler(&local, opt->steps, &detail->steps);
+  carom_euler_run run;
+  const carom_status status = carom_euler(&local, opt->steps, INT64_MAX, &run);
   if (status != CAROM_OK)
     return status;
+  detail->steps = run.steps;
   carom_from_frame(&frame, &local, out);
   return carom_result_is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }
