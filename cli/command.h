@@ -13,6 +13,7 @@ enum {
   X(resolve, "resolve the collisions of a CSV file")             \
   X(verify, "compare every kernel with the references")          \
   X(experiments, "compare with the 2014 paper's measured shots") \
+  X(bench, "time every kernel, once it is verified")             \
   X(kernels, "list the kernels that resolve and verify know")
 
 #define COMMAND_PROTOTYPE(name, text) int command_##name(int argc, char **argv);

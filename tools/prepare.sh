@@ -15,6 +15,15 @@ need() {
   $2: $3"
 }
 
+# want PROGRAM-OR-FILE PACKAGE WHY: says what could be had with a package that carom does without.
+want() {
+  case $1 in
+    /*) [ -e "$1" ] && return 0 ;;
+    *) command -v "$1" > /dev/null 2>&1 && return 0 ;;
+  esac
+  say "optional and not installed: $2: $3"
+}
+
 # Installs what need() has noted, or says what to install where that is not possible.
 install_missing() {
   [ -n "$missing" ] || return 0
@@ -45,6 +54,7 @@ need_to_build() {
   need cmake cmake "build system"
   need ninja ninja-build "build system"
   need '/usr/include/csv.h' libcsv-dev "CSV reading in the command"
+  want '/usr/include/papi.h' libpapi-dev "hardware counters in carom bench, where the machine has some"
 }
 
 # build PRESET [CMAKE-OPTIONS]: configures and builds; quiet unless it fails.

@@ -63,6 +63,13 @@ typedef real vreal_unaligned __attribute__((vector_size(VECTOR_BYTES), aligned(s
 #define SIMD(name) LANES_PASTE(SIMD_PREFIX, name, _pd)
 #endif
 
+/* `lanes_unrolled` before a loop of few turns: arrays of vectors live in registers only if the compiler unrolls it. */
+#if defined(__clang__)
+#define lanes_unrolled _Pragma("clang loop unroll(full)")
+#else
+#define lanes_unrolled _Pragma("GCC unroll 16")
+#endif
+
 static inline vreal v_splat(real x) {
   return x - (vreal){0}; /* keeps the sign of a zero, which 0 + x would not */
 }
@@ -138,15 +145,13 @@ static inline unsigned v_bits(vmask m) {
   return (unsigned)SIMD(movemask)((vreal)m);
 #else
   unsigned bits = 0;
-  for (int k = 0; k < LANES; k++)
-    bits |= (unsigned)(m[k] & 1) << k;
+  lanes_unrolled for (int k = 0; k < LANES; k++) bits |= (unsigned)(m[k] & 1) << k;
   return bits;
 #endif
 }
 static inline vmask v_from_bits(unsigned bits) {
   vmask m = {0};
-  for (int k = 0; k < LANES; k++)
-    m[k] = -(lane_int)(bits >> k & 1);
+  lanes_unrolled for (int k = 0; k < LANES; k++) m[k] = -(lane_int)(bits >> k & 1);
   return m;
 }
 
@@ -198,9 +203,13 @@ static inline vreal v_sqrt(vreal x) {
   return (vreal)vsqrtq_f32((float32x4_t)x);
 #elif defined(CAROM_LANES_NEON)
   return (vreal)vsqrtq_f64((float64x2_t)x);
+#elif defined(CAROM_LANES_SINGLE)
+  for (int k = 0; k < LANES; k++)
+    x[k] = sqrtf(x[k]);
+  return x;
 #else
   for (int k = 0; k < LANES; k++)
-    x[k] = (real)sqrt((double)x[k]); /* rounding twice is harmless: double has more than twice float's digits */
+    x[k] = sqrt(x[k]);
   return x;
 #endif
 }
@@ -236,13 +245,6 @@ static inline vreal v_fnma(vreal a, vreal b, vreal c) {
 /* A chunk is 16 bytes: CHUNK numbers side by side in a row of memory. Vectors are made of chunks of different rows, so that all
  * shuffling stays inside 16 bytes, where it is cheap on every instruction set. */
 #define CHUNK ((int)(16 / sizeof(real)))
-
-/* `lanes_unrolled` before a loop of few turns: arrays of vectors live in registers only if the compiler unrolls it. */
-#if defined(__clang__)
-#define lanes_unrolled _Pragma("clang loop unroll(full)")
-#else
-#define lanes_unrolled _Pragma("GCC unroll 16")
-#endif
 
 typedef real chunk __attribute__((vector_size(16)));
 typedef real chunk_unaligned __attribute__((vector_size(16), aligned(sizeof(real)), may_alias));

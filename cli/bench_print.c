@@ -1,0 +1,114 @@
+/* The figures of `carom bench`, as a table or as CSV. */
+#include "bench_job.h"
+#include "machine.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const workload *work_of(const bench_subject *subject) {
+  return subject->context;
+}
+
+static void print_number(FILE *out, const char *before, const char *format, double x) {
+  fputs(before, out);
+  if (isnan(x))
+    fputs("NA", out);
+  else
+    fprintf(out, format, x);
+}
+
+static void print_notes(const bench_job *job, FILE *out) {
+  fputs(job->machine, out);
+  machine_note(out, "pinning", "%s", job->pinning);
+  machine_note(out, "counters", "%s", job->counters_text);
+  for (int k = 0; k < COUNTER_COUNT && job->counters; k++)
+    machine_note(out, counter_column(k), "%s%s%s", counter_text(k), counter_reason(k) != NULL ? ": NA, " : "",
+                 counter_reason(k) != NULL ? counter_reason(k) : "");
+  machine_note(out, "workload", "%zu reference cases, one call each, mean over the cases", job->cases.count);
+  const workload *yardstick = &job->work[0];
+  machine_note(out, "yardstick", "%s, %s, with as many steps", yardstick->kernel->name, workload_config(yardstick));
+  const char *name;
+  for (size_t k = 0; (name = ladder_module_name(k)) != NULL; k++)
+    for (size_t w = 0; w < job->work_count; w++)
+      if (job->work[w].module != NULL && job->work[w].module->name == name) {
+        const ladder_module *module = job->work[w].module;
+        machine_note(out, module->name, "%s, %s, %s", module->compiler, module->version, module->flags);
+        break;
+      }
+  for (size_t w = 0; w < job->work_count; w++)
+    if (job->work[w].left_out > 0)
+      machine_note(out, "left out",
+                   "%s, %s, %d steps: %zu of %zu cases, whose approach its precision does not resolve in as many steps",
+                   job->work[w].kernel->name, workload_config(&job->work[w]), job->work[w].options.steps, job->work[w].left_out,
+                   job->cases.count);
+  machine_note(out, "rounds", "%zu; an empty call, subtracted, takes %.2f ns", job->figure[0].ns.count,
+               job->figure[0].empty_ns);
+}
+
+static void print_csv_row(const bench_job *job, FILE *out, size_t k) {
+  const bench_subject *s = &job->subject[k];
+  const bench_figure *f = &job->figure[k];
+  fprintf(out, "%s,%s,%s,%s,%d,%d", s->kernel, s->config, s->isa, s->precision, s->threads, s->steps);
+  print_number(out, ",", "%.6g", f->ns.median);
+  print_number(out, ",", "%.6g", f->ns.min);
+  print_number(out, ",", "%.6g", f->ns.max);
+  print_number(out, ",", "%.5g", f->speedup.median);
+  print_number(out, ",", "%.3g", s->pair_error_max);
+  if (job->spread) {
+    print_number(out, ",", "%.3g", f->ns.spread);
+    print_number(out, ",", "%.5g", f->speedup.min);
+    print_number(out, ",", "%.5g", f->speedup.max);
+    print_number(out, ",", "%.3g", f->speedup.spread);
+  }
+  if (job->errors) {
+    fprintf(out, ",%s", carom_slip_name(work_of(s)->options.slip));
+    print_number(out, ",", "%.3g", work_of(s)->exact.median);
+    print_number(out, ",", "%.3g", work_of(s)->exact.max);
+  }
+  if (job->counters) {
+    print_number(out, ",", "%.6g", f->ticks.median);
+    for (int c = 0; c < COUNTER_COUNT; c++)
+      print_number(out, ",", "%.6g", job->count[k][c]);
+  }
+  fputc('\n', out);
+}
+
+static void print_csv(const bench_job *job, FILE *out) {
+  print_notes(job, out);
+  fputs("kernel,config,isa,precision,threads,steps,ns_median,ns_min,ns_max,speedup,pair_error_max", out);
+  if (job->spread)
+    fputs(",ns_spread,speedup_min,speedup_max,speedup_spread", out);
+  if (job->errors)
+    fputs(",slip,error_exact_median,error_exact_max", out);
+  if (job->counters) {
+    fputs(",ref_cycles", out);
+    for (int c = 0; c < COUNTER_COUNT; c++)
+      fprintf(out, ",%s", counter_column(c));
+  }
+  fputc('\n', out);
+  for (size_t k = 0; k < job->subject_count; k++)
+    if (job->figure[k].unchanged)
+      print_csv_row(job, out, k);
+}
+
+static void print_table(const bench_job *job, FILE *out) {
+  print_notes(job, out);
+  fprintf(out, "\n%-15s %-17s %-7s %-9s %6s %12s %8s %8s %8s  %s\n", "kernel", "config", "isa", "precision", "steps",
+          "ns median", "spread", "speedup", "spread", "paper");
+  for (size_t k = 0; k < job->subject_count; k++) {
+    const bench_subject *s = &job->subject[k];
+    const bench_figure *f = &job->figure[k];
+    if (!f->unchanged)
+      continue;
+    fprintf(out, "%-15s %-17s %-7s %-9s %6d %12.1f %6.2f %% ", s->kernel, s->config, s->isa, s->precision, s->steps,
+            f->ns.median, 100.0 * f->ns.spread / f->ns.median);
+    print_number(out, "", "%8.3f", f->speedup.median);
+    print_number(out, " ", "%8.3f", f->speedup.spread);
+    const bool as_in_paper = work_of(s)->module == job->work[0].module;
+    fprintf(out, "  %s\n", as_in_paper ? workload_paper(work_of(s)) : "-");
+  }
+}
+
+void bench_print(const bench_job *job, FILE *out) {
+  (job->csv ? print_csv : print_table)(job, out);
+}

@@ -1,0 +1,96 @@
+/* Where and with what a figure was measured, from what Linux shows; elsewhere most of it is NA. */
+#include "machine.h"
+
+#include "clock.h"
+#include "commit.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/utsname.h>
+#include <time.h>
+#include <unistd.h>
+
+void machine_note(FILE *to, const char *what, const char *format, ...) {
+  char text[1000];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  for (char *c = text; *c != '\0'; c++)
+    if (*c == '\n' || *c == '\r')
+      *c = ' ';
+  fprintf(to, "# %s: %s\n", what, text);
+}
+
+/* The first line of a file without its end, or NULL. */
+static const char *first_line(const char *path, char *line, int size) {
+  FILE *file = fopen(path, "r");
+  const char *found = file != NULL ? fgets(line, size, file) : NULL;
+  if (file != NULL)
+    fclose(file);
+  if (found != NULL)
+    line[strcspn(line, "\n")] = '\0';
+  return found;
+}
+
+/* The text behind "key ... : " in /proc/cpuinfo, or NULL. */
+static const char *cpuinfo(const char *key, char *line, int size) {
+  FILE *file = fopen("/proc/cpuinfo", "r");
+  const char *found = NULL;
+  while (file != NULL && found == NULL && fgets(line, size, file) != NULL) {
+    const char *colon = strchr(line, ':');
+    if (colon == NULL || strncmp(line, key, strlen(key)) != 0)
+      continue;
+    line[strcspn(line, "\n")] = '\0';
+    found = colon + 1 + strspn(colon + 1, " ");
+  }
+  if (file != NULL)
+    fclose(file);
+  return found;
+}
+
+static void describe_processor(FILE *to) {
+  char name[256], other[256];
+  const char *model = cpuinfo("model name", name, sizeof name);
+  const char *flags = cpuinfo("flags", (char[8192]){0}, 8192);
+  machine_note(to, "processor", "%s", model != NULL ? model : "NA");
+  const char *family = cpuinfo("cpu family", name, sizeof name), *number = cpuinfo("model\t", other, sizeof other);
+  if (family != NULL && number != NULL)
+    machine_note(to, "processor family", "%s, model %s", family, number);
+  machine_note(to, "cores", "%ld online%s", sysconf(_SC_NPROCESSORS_ONLN),
+               flags != NULL && strstr(flags, " hypervisor") != NULL ? ", of a virtual machine: others may share them" : "");
+  const char *governor = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", name, sizeof name);
+  machine_note(to, "governor", "%s", governor != NULL ? governor : "NA (not visible)");
+  const char *threads = first_line("/sys/devices/system/cpu/smt/active", other, sizeof other);
+  machine_note(to, "hardware threads share a core", "%s",
+               threads == NULL             ? "NA (not visible)"
+               : strcmp(threads, "0") == 0 ? "no"
+                                           : "yes");
+  if (clock_has_ticks())
+    machine_note(to, "reference cycles", "%s, %.4f per ns", clock_ticks_text(), clock_ticks_per_ns());
+  else
+    machine_note(to, "reference cycles", "%s", clock_ticks_text());
+}
+
+void machine_describe(FILE *to) {
+  describe_processor(to);
+  struct utsname system;
+  if (uname(&system) == 0)
+    machine_note(to, "system", "%s %s %s", system.sysname, system.release, system.machine);
+  double load;
+  if (getloadavg(&load, 1) == 1)
+    machine_note(to, "load before", "%.2f runnable threads in the last minute", load);
+#if defined(__clang__)
+  machine_note(to, "compiler", "%s", __VERSION__);
+#else
+  machine_note(to, "compiler", "gcc %s", __VERSION__);
+#endif
+  machine_note(to, "flags", "%s", CAROM_BUILD_FLAGS);
+  machine_note(to, "commit", "%s", CAROM_COMMIT);
+  char date[32];
+  const time_t now = time(NULL);
+  struct tm utc;
+  strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
+  machine_note(to, "date", "%s", date);
+}

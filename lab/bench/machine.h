@@ -1,0 +1,13 @@
+/* Where and with what a figure was measured: without that it means nothing. */
+#ifndef CAROM_BENCH_MACHINE_H
+#define CAROM_BENCH_MACHINE_H
+
+#include <stdio.h>
+
+/* Prints lines "# what: text" about the processor, the system, the build and the time. What a machine does not tell is "NA". */
+void machine_describe(FILE *to);
+
+/* Prints one such line; line breaks in the text become blanks. */
+__attribute__((format(printf, 3, 4))) void machine_note(FILE *to, const char *what, const char *format, ...);
+
+#endif

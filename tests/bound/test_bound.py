@@ -1,0 +1,208 @@
+"""Tests of lab/bound: the classifier on made-up lines, the join on a stored sample, the chains on small loops, the command.
+
+With the argument `live` the one test that compiles a rung and runs it under callgrind; it exits with 77 where that cannot be.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from collections import Counter
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+HERE = Path(__file__).resolve().parent
+BOUND = HERE.parent.parent / "lab" / "bound"
+sys.path.insert(0, str(BOUND))
+import callgrind
+import dataflow
+import machine_code
+import trace
+
+
+def code(*lines):
+    return machine_code.parse_disassembly("".join(f"  {4 * k:x}:\t{line}\n" for k, line in enumerate(lines)))
+
+
+class Classifying(unittest.TestCase):
+    def setUp(self):
+        self.classifier = machine_code.Classifier()
+
+    def operations(self, line):
+        (instruction,) = code(line).values()
+        return self.classifier.operations(instruction)
+
+    def test_scalar_is_one_operation(self):
+        self.assertEqual(self.operations("vaddsd %xmm1,%xmm2,%xmm3"), {"add": 1})
+        self.assertEqual(self.operations("mulss  0x10(%rsp,%rax,4),%xmm0"), {"mul": 1})
+        self.assertEqual(self.operations("vfnmadd231sd %xmm1,%xmm2,%xmm3"), {"fma": 1})
+        self.assertEqual(self.operations("vdivsd %xmm1,%xmm2,%xmm3"), {"div": 1})
+        self.assertEqual(self.operations("vsqrtsd %xmm1,%xmm1,%xmm3"), {"sqrt": 1})
+        self.assertEqual(self.operations("vucomisd %xmm1,%xmm2"), {"compare": 1})
+
+    def test_packed_counts_lanes(self):
+        self.assertEqual(self.operations("vsubpd %xmm1,%xmm2,%xmm3"), {"add": 2})
+        self.assertEqual(self.operations("vaddpd 0x20(%rsp),%ymm2,%ymm3"), {"add": 4})
+        self.assertEqual(self.operations("vmulps %ymm1,%ymm2,%ymm3"), {"mul": 8})
+        self.assertEqual(self.operations("vrsqrtps %xmm1,%xmm2"), {"rsqrt": 4})
+        self.assertEqual(self.operations("vminpd %zmm1,%zmm2,%zmm3"), {"minmax": 8})
+        self.assertEqual(self.operations("vcmpltpd %ymm1,%ymm2,%ymm3"), {"compare": 4})
+        self.assertEqual(self.operations("vdpps $0x71,%xmm1,%xmm2,%xmm3"), {"mul": 4, "add": 3})
+
+    def test_conversions_count_the_elements(self):
+        self.assertEqual(self.operations("vcvtsd2ss %xmm1,%xmm1,%xmm1"), {"convert": 1})
+        self.assertEqual(self.operations("vcvtpd2ps %ymm1,%xmm1"), {"convert": 4})
+        self.assertEqual(self.operations("vcvtps2pd %xmm1,%ymm1"), {"convert": 4})
+        self.assertEqual(self.operations("vcvtpd2psy (%rax),%xmm1"), {"convert": 4})
+
+    def test_moves_and_logic_are_no_arithmetic(self):
+        for line in ("vmovapd %xmm1,%xmm2", "vxorpd %xmm1,%xmm1,%xmm1", "vshufpd $0x1,%xmm1,%xmm1,%xmm2", "ja 1d0 <f+0x1d0>"):
+            self.assertEqual(self.operations(line), {})
+
+    def test_unknown_is_an_error_not_a_guess(self):
+        with self.assertRaisesRegex(machine_code.UnknownInstruction, "vfrobpd"):
+            self.operations("vfrobpd %xmm1,%xmm2")
+
+    def test_division_and_root_know_their_precision(self):
+        single, double = code("vdivss %xmm1,%xmm2,%xmm3", "vsqrtpd %xmm1,%xmm2").values()
+        self.assertEqual(self.classifier.latency_row(single), "div.s")
+        self.assertEqual(self.classifier.latency_row(double), "sqrt.d")
+
+    def test_every_row_of_latencies_exists(self):
+        rows = set(next(iter(dataflow.read_latencies().values())))
+        for _, row, _ in self.classifier.rows:
+            self.assertTrue(row in rows or row + ".d" in rows and row + ".s" in rows, row)
+
+
+class Joining(unittest.TestCase):
+    """The sample is base with N = 10 on one case: 11 steps, 3 square roots before them and 3 in each."""
+
+    def setUp(self):
+        self.classifier = machine_code.Classifier()
+        self.text = (HERE / "sample.callgrind").read_text()
+        self.code = machine_code.parse_disassembly((HERE / "sample.objdump").read_text())
+        self.counts, self.taken = callgrind.parse_callgrind(self.text)
+
+    def test_agrees_with_callgrinds_own_total(self):
+        lines = self.text.splitlines()
+        costs = [int(lines[k + 1].split()[2]) for k, line in enumerate(lines) if line.startswith("calls=")]
+        inclusive, called = costs[0], sum(costs[1:])  # of the rung; of what it calls, the copy of the state
+        total = callgrind.join(self.code, self.counts, self.classifier)
+        self.assertEqual(total["instructions"] + called, inclusive)
+        self.assertEqual(sum(total[k] for k in total if k.endswith("_instructions")), total["instructions"])
+
+    def test_square_roots_count_the_steps(self):
+        total = callgrind.join(self.code, self.counts, self.classifier)
+        self.assertEqual(total["sqrt"], 3 + 3 * 11)
+        self.assertEqual(callgrind.flops(total, fma=2) - callgrind.flops(total), total["fma"])
+
+    def test_the_hot_loop_is_found(self):
+        ((executions, path),) = trace.hot_loops(self.code, self.counts, self.taken, 5)
+        self.assertEqual(executions, 11)
+        self.assertEqual(sum(self.classifier.operations(i).get("sqrt", 0) for i in path), 3)
+
+    def test_without_addresses_it_says_so(self):
+        with self.assertRaisesRegex(ValueError, "--dump-instr=yes"):
+            callgrind.parse_callgrind("positions: line\nfn=f\n1 2\n")
+
+
+class Paths(unittest.TestCase):
+    def test_the_path_follows_what_is_taken_more(self):
+        lines = code("vaddsd %xmm0,%xmm1,%xmm1", "jne c", "vdivsd %xmm0,%xmm1,%xmm1", "vmulsd %xmm0,%xmm1,%xmm1", "jb 0", "ret")
+        counts, taken = Counter({0: 100, 4: 100, 8: 3, 12: 100, 16: 100, 20: 1}), Counter({4: 97, 16: 99})
+        ((executions, path),) = trace.hot_loops(lines, counts, taken, 10)
+        self.assertEqual([executions] + [i.address for i in path], [100, 0, 4, 12, 16])
+
+
+class Chains(unittest.TestCase):
+    def pace(self, *lines):
+        classifier, latencies = machine_code.Classifier(), dataflow.read_latencies()["zen2"]
+        return dataflow.chain(dataflow.operations_of(code(*lines).values(), classifier, latencies))[0]
+
+    def test_carried_by_a_register(self):
+        self.assertEqual(self.pace("vaddsd %xmm1,%xmm0,%xmm0", "vmulsd %xmm2,%xmm0,%xmm0"), 6)
+
+    def test_independent_work_is_free(self):
+        self.assertEqual(self.pace("vaddsd %xmm1,%xmm0,%xmm0", "vdivsd %xmm2,%xmm3,%xmm4"), 3)
+
+    def test_carried_by_memory(self):
+        self.assertEqual(self.pace("vaddsd 0x8(%rsp),%xmm1,%xmm0", "vmovsd %xmm0,0x8(%rsp)"), 3 + 7)
+        self.assertEqual(self.pace("vaddsd 0x8(%rsp),%xmm1,%xmm0", "vmovsd %xmm0,0x10(%rsp)"), 0)
+        self.assertEqual(self.pace("vaddsd 0x8(%rsp),%xmm1,%xmm0", "vmovapd %xmm0,(%rsp)"), 3 + 7)
+
+    def test_a_zero_breaks_the_chain(self):
+        self.assertEqual(self.pace("vxorpd %xmm0,%xmm0,%xmm0", "vdivsd %xmm1,%xmm0,%xmm0"), 0)
+
+    def test_fma_reads_its_target(self):
+        self.assertEqual(self.pace("vfmadd231sd %xmm1,%xmm2,%xmm0"), 5)
+
+    def test_models(self):
+        latencies = dataflow.read_latencies()["zen2"]
+        for name, cycles in (("base", 67), ("double", 38)):
+            pace, steps = dataflow.chain(dataflow.read_model((BOUND / "models" / f"{name}.txt").read_text(), latencies))
+            self.assertEqual(pace, cycles)
+            self.assertEqual(sum(latency for _, latency in steps), cycles)
+
+    def test_a_bad_model_names_the_line(self):
+        with self.assertRaisesRegex(ValueError, "line 2.*frob"):
+            dataflow.read_model("a = add b\nb = frob a\n", dataflow.read_latencies()["zen2"])
+
+
+class Command(unittest.TestCase):
+    def run_bound(self, *words, **more):
+        return subprocess.run([sys.executable, BOUND / "bound", *map(str, words)], capture_output=True, text=True, **more)
+
+    def test_times_over_bounds(self):
+        with tempfile.TemporaryDirectory() as folder:
+            times, bounds = Path(folder) / "times.csv", Path(folder) / "bounds.csv"
+            times.write_text("# a machine\nkernel,config,ns_median\nbase,clang-default,1000\nbase,clang-o3,1\nother,gcc,1\n")
+            bounds.write_text("kernel,compiler,flops_amd,chain_cycles_native,mca_cycles_native\nbase,clang-19,6000,1500,NA\n")
+            done = self.run_bound("--times", times, "--bounds", bounds, "--ghz", 3)
+            self.assertEqual(done.stdout.splitlines()[1:], ["base,clang,1000,3000,2.000,NA,2.000,0.333"])
+            self.assertIn("--ghz", self.run_bound("--times", times, "--bounds", bounds).stderr)
+
+    def test_errors_say_what_would_be_right(self):
+        done = self.run_bound("--rung", "nonsense")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("there are base, rsqrt", done.stderr)
+        self.assertEqual(self.run_bound("--case", "nonsense").returncode, 2)
+
+    def test_without_valgrind_and_llvm_mca(self):
+        compiler = shutil.which("gcc")
+        if not compiler or not shutil.which("objdump"):
+            self.skipTest("needs gcc and objdump")
+        with tempfile.TemporaryDirectory() as folder:
+            for tool in ("gcc", "objdump", "as", "ld"):
+                os.symlink(shutil.which(tool), Path(folder) / tool)
+            done = self.run_bound("--rung", "base", "--steps", 10, env={"PATH": folder})
+            self.assertIn("valgrind is not installed", done.stderr)
+            self.assertIn("llvm-mca is not installed", done.stderr)
+            self.assertEqual(done.returncode, 0)
+            self.assertIn("\nbase,gcc,NA,", done.stdout)
+
+
+def live():
+    """One rung, compiled and counted: the square roots of base tell the steps, whatever the compiler."""
+    missing = [tool for tool in ("valgrind", "objdump", "gcc") if not shutil.which(tool)]
+    if missing:
+        print(f"skipped: {missing[0]} is not installed")
+        return 77
+    probe = subprocess.run(["gcc", "-march=znver2", "-E", "-x", "c", os.devnull], capture_output=True)
+    if probe.returncode:
+        print("skipped: gcc does not compile for Zen 2 here")
+        return 77
+    command = [sys.executable, BOUND / "bound", "--rung", "base", "--compiler", "gcc", "--steps", "100"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    lines = [line.split(",") for line in done.stdout.splitlines() if not line.startswith("#")]
+    row = dict(zip(lines[0], lines[1]))
+    assert done.returncode == 0, done.stderr
+    assert abs(float(row["per_step_sqrt"]) - 3) < 0.1, row
+    assert float(row["chain_cycles_zen2"]) > 33 * float(row["steps_total"]), row
+    print(f"base, N = 100: {row['flops_total']} operations, {row['chain_cycles_zen2']} cycles at least")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(live() if sys.argv[1:] == ["live"] else unittest.main())
