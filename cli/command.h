@@ -9,11 +9,12 @@ enum {
 };
 
 /* X(name, one line of help). Each command_NAME gets its own arguments, argv[0] being its name, and returns an exit code. */
-#define COMMAND_LIST(X)                                      \
-  X(resolve, "resolve the collisions of a CSV file")         \
-  X(verify, "compare every kernel with the references")      \
-  X(bench, "time every kernel, once it is verified")         \
-  X(report, "measure all, draw the figures, write the page") \
+#define COMMAND_LIST(X)                                          \
+  X(resolve, "resolve the collisions of a CSV file")             \
+  X(verify, "compare every kernel with the references")          \
+  X(experiments, "compare with the 2014 paper's measured shots") \
+  X(bench, "time every kernel, once it is verified")             \
+  X(report, "measure all, draw the figures, write the page")     \
   X(kernels, "list the kernels that resolve and verify know")
 
 #define COMMAND_PROTOTYPE(name, text) int command_##name(int argc, char **argv);

@@ -162,7 +162,7 @@ static bool add_step_counts(bench_job *job, char *text) {
       complain("--steps takes at most %d numbers", MOST_STEPS);
       return false;
     }
-    if (!option_count("--steps", one, 1, &job->steps[job->steps_count++]))
+    if (!option_steps(one, &job->steps[job->steps_count++]))
       return false;
   }
   return true;

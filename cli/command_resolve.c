@@ -195,39 +195,6 @@ static int resolve_file(resolve_job *job, const char *out, bool summary) {
   return code;
 }
 
-static bool parse_slip(const char *text, carom_slip *slip) {
-  for (int k = 0; k < CAROM_SLIP_COUNT; k++)
-    if (strcmp(text, carom_slip_name((carom_slip)k)) == 0) {
-      *slip = (carom_slip)k;
-      return true;
-    }
-  complain("--slip is paper or pooltool, not '%s'", text);
-  return false;
-}
-
-static bool parse_precision(const char *text, bool *single) {
-  *single = strcmp(text, "single") == 0;
-  if (*single || strcmp(text, "double") == 0)
-    return true;
-  complain("--precision is double or single, not '%s'", text);
-  return false;
-}
-
-/* "alciatore", or "alciatore=a,b,c". */
-static bool parse_law(const char *text, carom_speed_law *law) {
-  static const char name[] = "alciatore";
-  const size_t size = sizeof name - 1;
-  *law = carom_alciatore();
-  if (strncmp(text, name, size) == 0) {
-    char rest;
-    if (text[size] == '\0' ||
-        (text[size] == '=' && sscanf(text + size + 1, "%lf,%lf,%lf%c", &law->a, &law->b, &law->c, &rest) == 3))
-      return true;
-  }
-  complain("--friction is alciatore or alciatore=a,b,c (mu = a + b exp(-c |u|)), not '%s'", text);
-  return false;
-}
-
 int command_resolve(int argc, char **argv) {
   static const struct option options[] = {
       {"kernel", required_argument, NULL, 'k'},
@@ -259,15 +226,15 @@ int command_resolve(int argc, char **argv) {
       config = optarg;
       break;
     case 's':
-      if (!parse_slip(optarg, &job.options.slip))
+      if (!option_slip(optarg, &job.options.slip))
         return EXIT_USAGE;
       break;
     case 'n':
-      if (!option_count("--steps", optarg, 1, &job.options.steps))
+      if (!option_steps(optarg, &job.options.steps))
         return EXIT_USAGE;
       break;
     case 'f':
-      if (!parse_law(optarg, &job.law))
+      if (!option_law(optarg, &job.law))
         return EXIT_USAGE;
       job.by_law = true;
       break;
@@ -276,7 +243,7 @@ int command_resolve(int argc, char **argv) {
         return EXIT_USAGE;
       break;
     case 'p':
-      if (!parse_precision(optarg, &job.single))
+      if (!option_precision(optarg, &job.single))
         return EXIT_USAGE;
       precision_given = true;
       break;

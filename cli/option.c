@@ -5,7 +5,9 @@
 
 #include <errno.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 bool option_count(const char *option, const char *text, int least, int *count) {
   char *end;
@@ -17,4 +19,40 @@ bool option_count(const char *option, const char *text, int least, int *count) {
   }
   *count = (int)value;
   return true;
+}
+
+bool option_steps(const char *text, int *steps) {
+  return option_count("--steps", text, 1, steps);
+}
+
+bool option_slip(const char *text, carom_slip *slip) {
+  for (int k = 0; k < CAROM_SLIP_COUNT; k++)
+    if (strcmp(text, carom_slip_name((carom_slip)k)) == 0) {
+      *slip = (carom_slip)k;
+      return true;
+    }
+  complain("--slip is paper or pooltool, not '%s'", text);
+  return false;
+}
+
+bool option_precision(const char *text, bool *single) {
+  *single = strcmp(text, "single") == 0;
+  if (*single || strcmp(text, "double") == 0)
+    return true;
+  complain("--precision is double or single, not '%s'", text);
+  return false;
+}
+
+bool option_law(const char *text, carom_speed_law *law) {
+  static const char name[] = "alciatore";
+  const size_t size = sizeof name - 1;
+  *law = carom_alciatore();
+  if (strncmp(text, name, size) == 0) {
+    char rest;
+    if (text[size] == '\0' ||
+        (text[size] == '=' && sscanf(text + size + 1, "%lf,%lf,%lf%c", &law->a, &law->b, &law->c, &rest) == 3))
+      return true;
+  }
+  complain("--friction is alciatore or alciatore=a,b,c (mu = a + b exp(-c |u|)), not '%s'", text);
+  return false;
 }

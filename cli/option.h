@@ -1,10 +1,24 @@
-/* Values of options that several subcommands take. */
+/* Values of options that several subcommands take. Each function complains and returns false where the text is none. */
 #ifndef CAROM_CLI_OPTION_H
 #define CAROM_CLI_OPTION_H
 
+#include "carom.h"
+
 #include <stdbool.h>
 
-/* Reads the value of `option` ("--steps"). Complains and returns false if it is no whole number of `least` or more. */
+/* A whole number from `least`; `option` is its name for the complaint. */
 bool option_count(const char *option, const char *text, int least, int *count);
+
+/* --steps: a whole number of 1 or more. */
+bool option_steps(const char *text, int *steps);
+
+/* --slip: paper or pooltool. */
+bool option_slip(const char *text, carom_slip *slip);
+
+/* --precision: double or single. */
+bool option_precision(const char *text, bool *single);
+
+/* --friction: "alciatore", or "alciatore=a,b,c". */
+bool option_law(const char *text, carom_speed_law *law);
 
 #endif

@@ -176,6 +176,12 @@ CAROM_API carom_speed_law carom_alciatore(void);
  */
 CAROM_API double carom_mu_ball(const carom_impact *in, carom_speed_law law);
 
+/* ---- After the collision --------------------------------------------------------------------------------------------- */
+
+/* The velocity, m/s, at which a ball of the given velocity, angular velocity and radius stops sliding and begins to roll:
+ * (5/7) v + (2/7) R (w_y, -w_x, 0). The cloth's friction does not matter, only the time that it takes. */
+CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], double radius, double rolling[3]);
+
 /* ---- Single precision ------------------------------------------------------------------------------------------------ */
 
 /* The same in float: half the memory, twice the lanes. The worst pair error of a batch by the exact limit stays below 2e-5. */

@@ -5,32 +5,13 @@
 #include "batch/batch.h"
 #include "euler.h"
 #include "frame.h"
+#include "result.h"
 
 #include <math.h>
 #include <stdbool.h>
-#include <string.h>
 
 carom_options carom_default_options(void) {
   return (carom_options){.solver = CAROM_SOLVER_EULER, .slip = CAROM_SLIP_PAPER, .steps = 1000};
-}
-
-static void fill_nan(carom_result *out) {
-  for (int k = 0; k < 3; k++)
-    out->v_a[k] = out->w_a[k] = out->v_b[k] = out->w_b[k] = NAN;
-}
-
-static void copy_state(const carom_impact *in, carom_result *out) {
-  memcpy(out->v_a, in->a.v, sizeof out->v_a);
-  memcpy(out->w_a, in->a.w, sizeof out->w_a);
-  memcpy(out->v_b, in->b.v, sizeof out->v_b);
-  memcpy(out->w_b, in->b.w, sizeof out->w_b);
-}
-
-static bool is_finite(const carom_result *out) {
-  double sum = 0.0; /* stays 0 unless a term is infinite or NaN */
-  for (int k = 0; k < 3; k++)
-    sum += out->v_a[k] * 0.0 + out->w_a[k] * 0.0 + out->v_b[k] * 0.0 + out->w_b[k] * 0.0;
-  return sum == 0.0;
 }
 
 static carom_status solve(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
@@ -45,21 +26,23 @@ static carom_status solve(const carom_impact *in, const carom_options *opt, caro
     return CAROM_ERROR_OVERFLOW;
   carom_local local = carom_to_frame(&frame, in, opt->slip);
   if (local.v_jy - local.v_iy >= 0.0) {
-    copy_state(in, out);
+    carom_copy_state(in, out);
     return CAROM_SEPARATING;
   }
-  const carom_status status = carom_euler(&local, opt->steps, &detail->steps);
+  carom_euler_run run;
+  const carom_status status = carom_euler(&local, opt->steps, INT64_MAX, &run);
   if (status != CAROM_OK)
     return status;
+  detail->steps = run.steps;
   carom_from_frame(&frame, &local, out);
-  return is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+  return carom_result_is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }
 
 static carom_status solve_or_nan(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
   *detail = (carom_detail){.steps = 0};
   const carom_status status = solve(in, opt, out, detail);
   if (status < 0)
-    fill_nan(out);
+    carom_fill_nan(out);
   return status;
 }
 
@@ -75,7 +58,7 @@ carom_status carom_collide_detail(const carom_impact *in, const carom_options *o
     opt = &defaults;
   const carom_status bad = carom_check_options(opt);
   if (bad != CAROM_OK) {
-    fill_nan(out);
+    carom_fill_nan(out);
     return bad;
   }
   return solve_or_nan(in, opt, out, detail);

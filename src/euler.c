@@ -44,7 +44,7 @@ static int64_t step_bound(const carom_local *c, double M, int N) {
   return steps < 0x1p62 ? (int64_t)steps : INT64_MAX;
 }
 
-carom_status carom_euler(carom_local *state, int N, int64_t *steps) {
+carom_status carom_euler(carom_local *state, int N, int64_t most, carom_euler_run *run) {
   carom_local c = *state;
   const double R = c.R, sR = c.s * c.R;
   /* The harmonic mean rounds, so equal masses, which parity is about, are taken as they are. */
@@ -60,15 +60,14 @@ carom_status carom_euler(carom_local *state, int N, int64_t *steps) {
 
   const double DP = 0.5 * (1.0 + c.e) * M * fabs(v_n) / N;
   const int64_t bound = step_bound(&c, M, N);
-  double W = 0.0, W_f = INFINITY;
+  double W = 0.0, W_c = NAN, W_f = INFINITY;
   bool compressing = true;
   int64_t n = 0;
 
-  while (v_n < 0.0 || W < W_f) {
-    if (n++ >= bound) {
-      *steps = bound;
+  while ((v_n < 0.0 || W < W_f) && n < most) {
+    if (n >= bound)
       return CAROM_ERROR_TOO_SLOW;
-    }
+    n++;
     double DP1 = 0.0, DP2 = 0.0, DP_ix = 0.0, DP_iy = 0.0, DP_jx = 0.0, DP_jy = 0.0;
     const double u = sqrt(u_x * u_x + u_z * u_z);
     if (u >= 1e-16) {
@@ -114,10 +113,11 @@ carom_status carom_euler(carom_local *state, int N, int64_t *steps) {
     W += 0.5 * DP * fabs(v_n_old + v_n);
     if (compressing && v_n > 0.0) {
       compressing = false;
-      W_f = (1.0 + c.e * c.e) * W;
+      W_c = W;
+      W_f = (1.0 + c.e * c.e) * W_c;
     }
   }
   *state = c;
-  *steps = n;
+  *run = (carom_euler_run){.steps = n, .step = DP, .work = W, .work_compression = W_c};
   return CAROM_OK;
 }

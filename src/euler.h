@@ -6,8 +6,16 @@
 
 #include <stdint.h>
 
-/* Advances `c` from the instant of contact to the end of the collision; needs v_jy < v_iy. `*steps` becomes the number of
- * steps taken. CAROM_OK, or CAROM_ERROR_TOO_SLOW with `c` in an undefined state. */
-carom_status carom_euler(carom_local *c, int N, int64_t *steps);
+/* How far a run came. */
+typedef struct carom_euler_run {
+  int64_t steps;           /* taken */
+  double step;             /* normal impulse of each, N s */
+  double work;             /* of the normal force so far, J */
+  double work_compression; /* of that, in compression; NaN if it has not ended */
+} carom_euler_run;
+
+/* Advances `c` from the instant of contact to the end of the collision, or through `most` steps if that comes first; needs
+ * v_jy < v_iy. CAROM_OK, or CAROM_ERROR_TOO_SLOW with `c` as it was. */
+carom_status carom_euler(carom_local *c, int N, int64_t most, carom_euler_run *run);
 
 #endif

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FEWEST_ROUNDS = 5, WANTED_ROUNDS = 101, MOST_ROUNDS = 10001 };
+static const double fewest_rounds = 5.0, wanted_rounds = 101.0, most_rounds = 10001.0;
 static const double long_sample = 20e6, short_sample = 1e6; /* ns */
 
 typedef struct lane {
@@ -69,9 +69,9 @@ static void plan(engine *e) {
   const double left = 0.9 * fmax(0.0, e->settings.budget * 1e9 - (e->settings.now() - e->start));
   double length = long_sample;
   double rounds = floor(left / cost_of_round(e, length));
-  if (rounds < WANTED_ROUNDS) {
-    rounds = fmin(WANTED_ROUNDS, floor(left / cost_of_round(e, 0.0)));
-    rounds = fmax(rounds, FEWEST_ROUNDS);
+  if (rounds < wanted_rounds) {
+    rounds = fmin(wanted_rounds, floor(left / cost_of_round(e, 0.0)));
+    rounds = fmax(rounds, fewest_rounds);
     double low = 0.0, high = long_sample;
     for (int k = 0; k < 40; k++) {
       length = 0.5 * (low + high);
@@ -79,7 +79,7 @@ static void plan(engine *e) {
     }
     length = low;
   }
-  e->rounds = (size_t)fmin(rounds, MOST_ROUNDS);
+  e->rounds = (size_t)fmin(rounds, most_rounds);
   e->rounds -= e->rounds % 2 == 0; /* an odd number has a sample in the middle */
   for (size_t k = 0; k < e->n; k++)
     e->lane[k].loops = (size_t)fmax(1.0, floor(length / e->lane[k].pass));
@@ -110,7 +110,8 @@ static void take_rounds(engine *e) {
         e->settings.progress((double)(round * e->n + k + 1), (double)(e->rounds * e->n));
     }
     /* The machine may have become slower than it was when the rounds were planned. */
-    if (e->settings.now() - e->start > e->settings.budget * 1e9 && round + 1 >= FEWEST_ROUNDS && round + 1 < e->rounds)
+    if (e->settings.now() - e->start > e->settings.budget * 1e9 && (double)(round + 1) >= fewest_rounds &&
+        round + 1 < e->rounds)
       e->rounds = round + 1;
   }
 }

@@ -19,9 +19,10 @@
  */
 #include "ladder.h"
 
+#include "result.h"
+
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 static const double greatest = 1e9, least = 1e-9, least_step = 1e-16;
 
@@ -42,25 +43,6 @@ static bool resolved(const carom_local *c, int N, ladder_precision precision) {
   return dv >= 2.0 * eps * (fmax(fabs(c->v_iy), fabs(c->v_jy)) + 32.0 * v_n) && dv >= least_step;
 }
 
-static bool is_finite(const carom_result *out) {
-  bool good = true;
-  for (int k = 0; k < 3; k++)
-    good &= isfinite(out->v_a[k]) && isfinite(out->w_a[k]) && isfinite(out->v_b[k]) && isfinite(out->w_b[k]);
-  return good;
-}
-
-static void fill_nan(carom_result *out) {
-  for (int k = 0; k < 3; k++)
-    out->v_a[k] = out->w_a[k] = out->v_b[k] = out->w_b[k] = NAN;
-}
-
-static void copy_state(const carom_impact *in, carom_result *out) {
-  memcpy(out->v_a, in->a.v, sizeof out->v_a);
-  memcpy(out->w_a, in->a.w, sizeof out->w_a);
-  memcpy(out->v_b, in->b.v, sizeof out->v_b);
-  memcpy(out->w_b, in->b.w, sizeof out->w_b);
-}
-
 static size_t number_of(const ladder_rung *rung) {
   return (size_t)(rung - ladder_rung_at(0));
 }
@@ -75,9 +57,11 @@ static carom_status solve(const ladder_module *module, const ladder_rung *rung, 
   const carom_frame frame = carom_frame_of(in);
   if (frame.distance == 0.0)
     return CAROM_ERROR_COINCIDENT;
+  if (isinf(frame.distance))
+    return CAROM_ERROR_OVERFLOW;
   carom_local local = carom_to_frame(&frame, in, opt->slip);
   if (local.v_jy - local.v_iy >= 0.0) {
-    copy_state(in, out);
+    carom_copy_state(in, out);
     return CAROM_SEPARATING;
   }
   if (!representable(&local))
@@ -86,7 +70,7 @@ static carom_status solve(const ladder_module *module, const ladder_rung *rung, 
     return CAROM_ERROR_TOO_SLOW;
   module->run[number_of(rung)](&local, opt->steps);
   carom_from_frame(&frame, &local, out);
-  return is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+  return carom_result_is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }
 
 carom_status ladder_resolve(const ladder_module *module, const ladder_rung *rung, const carom_impact *in,
@@ -96,6 +80,6 @@ carom_status ladder_resolve(const ladder_module *module, const ladder_rung *rung
     return CAROM_ERROR_NULL;
   const carom_status status = solve(module, rung, in, opt != NULL ? opt : &defaults, out);
   if (status < 0)
-    fill_nan(out);
+    carom_fill_nan(out);
   return status;
 }

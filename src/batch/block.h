@@ -26,21 +26,13 @@ typedef struct block {
   vmask good;
 } block;
 
-/* Columns [first, first + LANES) of LANES rows. */
-static inline void load_columns(const real *const row[LANES], int first, vreal column[LANES]) {
-  for (int k = 0; k < LANES; k++)
-    column[k] = v_load(row[k] + first);
-  v_transpose(column);
-}
-
-/* The columns of the rows, as vectors; the last square overlaps the one before where LANES does not divide 26. */
+/* The columns of the rows, as vectors; the last ones overlap those before where CHUNK does not divide 26. */
 static inline void load_rows(const real *const row[LANES], vreal x[IN_NUMBERS]) {
-  for (int first = 0; first < IN_NUMBERS; first += LANES) {
-    const int from = first + LANES <= IN_NUMBERS ? first : IN_NUMBERS - LANES;
-    vreal column[LANES];
-    load_columns(row, from, column);
-    for (int k = first - from; k < LANES; k++)
-      x[from + k] = column[k];
+  lanes_unrolled for (int at = 0; at + CHUNK <= IN_NUMBERS; at += CHUNK) v_load_columns(row, at, x + at);
+  if (IN_NUMBERS % CHUNK != 0) {
+    vreal last[16 / sizeof(real)];
+    v_load_columns(row, IN_NUMBERS - CHUNK, last);
+    lanes_unrolled for (int k = CHUNK - IN_NUMBERS % CHUNK; k < CHUNK; k++) x[IN_NUMBERS - CHUNK + k] = last[k];
   }
 }
 
@@ -95,13 +87,6 @@ static inline block block_load(const real *const row[LANES]) {
   return b;
 }
 
-/* Columns [first, first + LANES) to LANES rows; rows that are NULL are skipped. */
-static inline void store_columns(real *const row[LANES], int first, vreal column[LANES]) {
-  v_transpose(column);
-  for (int k = 0; k < LANES; k++)
-    v_store(row[k] + first, column[k]);
-}
-
 /* Writes the results and returns the lanes in which every number is finite. */
 static inline vmask block_store(const block *b, real *const row[LANES]) {
   const vreal zero = v_splat(0), x_x = b->y_y, x_y = -b->y_x;
@@ -120,23 +105,8 @@ static inline vmask block_store(const block *b, real *const row[LANES]) {
       zero * b->w_jx + b->y_z * b->w_jy + b->w_jz,
   };
   vreal sum = zero; /* stays 0 unless a term is infinite or NaN */
-  for (int k = 0; k < OUT_NUMBERS; k++)
-    sum = v_fma(x[k], zero, sum);
-  vreal column[LANES];
-#if LANES > OUT_NUMBERS /* one square holds all: its padding would run over the next row */
-  for (int k = 0; k < LANES; k++)
-    column[k] = k < OUT_NUMBERS ? x[k] : zero;
-  v_transpose(column);
-  for (int k = 0; k < LANES; k++)
-    memcpy(row[k], &column[k], OUT_NUMBERS * sizeof(real));
-#else
-  for (int first = 0; first < OUT_NUMBERS; first += LANES) {
-    const int from = first + LANES <= OUT_NUMBERS ? first : OUT_NUMBERS - LANES;
-    for (int k = 0; k < LANES; k++)
-      column[k] = x[from + k];
-    store_columns(row, from, column);
-  }
-#endif
+  lanes_unrolled for (int k = 0; k < OUT_NUMBERS; k++) sum = v_fma(x[k], zero, sum);
+  lanes_unrolled for (int at = 0; at < OUT_NUMBERS; at += CHUNK) v_store_columns(row, at, x + at);
   return v_equal(sum, zero);
 }
 

@@ -63,6 +63,13 @@ typedef real vreal_unaligned __attribute__((vector_size(VECTOR_BYTES), aligned(s
 #define SIMD(name) LANES_PASTE(SIMD_PREFIX, name, _pd)
 #endif
 
+/* `lanes_unrolled` before a loop of few turns: arrays of vectors live in registers only if the compiler unrolls it. */
+#if defined(__clang__)
+#define lanes_unrolled _Pragma("clang loop unroll(full)")
+#else
+#define lanes_unrolled _Pragma("GCC unroll 16")
+#endif
+
 static inline vreal v_splat(real x) {
   return x - (vreal){0}; /* keeps the sign of a zero, which 0 + x would not */
 }
@@ -138,15 +145,13 @@ static inline unsigned v_bits(vmask m) {
   return (unsigned)SIMD(movemask)((vreal)m);
 #else
   unsigned bits = 0;
-  for (int k = 0; k < LANES; k++)
-    bits |= (unsigned)(m[k] & 1) << k;
+  lanes_unrolled for (int k = 0; k < LANES; k++) bits |= (unsigned)(m[k] & 1) << k;
   return bits;
 #endif
 }
 static inline vmask v_from_bits(unsigned bits) {
   vmask m = {0};
-  for (int k = 0; k < LANES; k++)
-    m[k] = -(lane_int)(bits >> k & 1);
+  lanes_unrolled for (int k = 0; k < LANES; k++) m[k] = -(lane_int)(bits >> k & 1);
   return m;
 }
 
@@ -198,9 +203,13 @@ static inline vreal v_sqrt(vreal x) {
   return (vreal)vsqrtq_f32((float32x4_t)x);
 #elif defined(CAROM_LANES_NEON)
   return (vreal)vsqrtq_f64((float64x2_t)x);
+#elif defined(CAROM_LANES_SINGLE)
+  for (int k = 0; k < LANES; k++)
+    x[k] = sqrtf(x[k]);
+  return x;
 #else
   for (int k = 0; k < LANES; k++)
-    x[k] = (real)sqrt((double)x[k]); /* rounding twice is harmless: double has more than twice float's digits */
+    x[k] = sqrt(x[k]);
   return x;
 #endif
 }
@@ -233,32 +242,109 @@ static inline vreal v_fnma(vreal a, vreal b, vreal c) {
 
 /* ---- Transposition -------------------------------------------------------------------------------------------------- */
 
+/* A chunk is 16 bytes: CHUNK numbers side by side in a row of memory. Vectors are made of chunks of different rows, so that all
+ * shuffling stays inside 16 bytes, where it is cheap on every instruction set. */
+#define CHUNK ((int)(16 / sizeof(real)))
+
+typedef real chunk __attribute__((vector_size(16)));
+typedef real chunk_unaligned __attribute__((vector_size(16), aligned(sizeof(real)), may_alias));
+
+/* Chunk k of the vector is read from row[k * CHUNK] + at. */
+static inline vreal v_load_chunks(const real *const row[], int at) {
+#define CHUNK_OF(k) ((chunk) * (const chunk_unaligned *)(row[(k)*CHUNK] + at))
+#if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_SINGLE)
+  __m512 x = _mm512_castps128_ps512((__m128)CHUNK_OF(0));
+  x = _mm512_mask_broadcast_f32x4(x, 0x00f0, (__m128)CHUNK_OF(1));
+  x = _mm512_mask_broadcast_f32x4(x, 0x0f00, (__m128)CHUNK_OF(2));
+  return (vreal)_mm512_mask_broadcast_f32x4(x, 0xf000, (__m128)CHUNK_OF(3));
+#elif defined(CAROM_LANES_AVX512)
+  __m512d x = _mm512_castpd128_pd512((__m128d)CHUNK_OF(0));
+  x = _mm512_mask_broadcast_f64x2(x, 0x0c, (__m128d)CHUNK_OF(1));
+  x = _mm512_mask_broadcast_f64x2(x, 0x30, (__m128d)CHUNK_OF(2));
+  return (vreal)_mm512_mask_broadcast_f64x2(x, 0xc0, (__m128d)CHUNK_OF(3));
+#elif defined(CAROM_LANES_AVX2) && defined(CAROM_LANES_SINGLE)
+  return (vreal)_mm256_insertf128_ps(_mm256_castps128_ps256((__m128)CHUNK_OF(0)), (__m128)CHUNK_OF(1), 1);
+#elif defined(CAROM_LANES_AVX2)
+  return (vreal)_mm256_insertf128_pd(_mm256_castpd128_pd256((__m128d)CHUNK_OF(0)), (__m128d)CHUNK_OF(1), 1);
+#else
+  return (vreal)CHUNK_OF(0);
+#endif
+#undef CHUNK_OF
+}
+
+/* The reverse. */
+static inline void v_store_chunks(real *const row[], int at, vreal x) {
+#define CHUNK_TO(k) *(chunk_unaligned *)(row[(k)*CHUNK] + at)
+#if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_SINGLE)
+  CHUNK_TO(0) = (chunk_unaligned)_mm512_castps512_ps128(x);
+  CHUNK_TO(1) = (chunk_unaligned)_mm512_extractf32x4_ps(x, 1);
+  CHUNK_TO(2) = (chunk_unaligned)_mm512_extractf32x4_ps(x, 2);
+  CHUNK_TO(3) = (chunk_unaligned)_mm512_extractf32x4_ps(x, 3);
+#elif defined(CAROM_LANES_AVX512)
+  CHUNK_TO(0) = (chunk_unaligned)_mm512_castpd512_pd128(x);
+  CHUNK_TO(1) = (chunk_unaligned)_mm512_extractf64x2_pd(x, 1);
+  CHUNK_TO(2) = (chunk_unaligned)_mm512_extractf64x2_pd(x, 2);
+  CHUNK_TO(3) = (chunk_unaligned)_mm512_extractf64x2_pd(x, 3);
+#elif defined(CAROM_LANES_AVX2) && defined(CAROM_LANES_SINGLE)
+  CHUNK_TO(0) = (chunk_unaligned)_mm256_castps256_ps128(x);
+  CHUNK_TO(1) = (chunk_unaligned)_mm256_extractf128_ps(x, 1);
+#elif defined(CAROM_LANES_AVX2)
+  CHUNK_TO(0) = (chunk_unaligned)_mm256_castpd256_pd128(x);
+  CHUNK_TO(1) = (chunk_unaligned)_mm256_extractf128_pd(x, 1);
+#else
+  CHUNK_TO(0) = (chunk_unaligned)x;
+#endif
+#undef CHUNK_TO
+}
+
+/* The low, or the high, halves of the chunks of a and b, alternating. */
 #if LANES == 2
 #define LANES_LOW 0, 2
 #define LANES_HIGH 1, 3
-#elif LANES == 4
+#elif LANES == 4 && defined(CAROM_LANES_SINGLE)
 #define LANES_LOW 0, 4, 1, 5
 #define LANES_HIGH 2, 6, 3, 7
+#elif LANES == 4
+#define LANES_LOW 0, 4, 2, 6
+#define LANES_HIGH 1, 5, 3, 7
+#elif LANES == 8 && defined(CAROM_LANES_SINGLE)
+#define LANES_LOW 0, 8, 1, 9, 4, 12, 5, 13
+#define LANES_HIGH 2, 10, 3, 11, 6, 14, 7, 15
 #elif LANES == 8
-#define LANES_LOW 0, 8, 1, 9, 2, 10, 3, 11
-#define LANES_HIGH 4, 12, 5, 13, 6, 14, 7, 15
+#define LANES_LOW 0, 8, 2, 10, 4, 12, 6, 14
+#define LANES_HIGH 1, 9, 3, 11, 5, 13, 7, 15
 #else
-#define LANES_LOW 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23
-#define LANES_HIGH 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31
+#define LANES_LOW 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29
+#define LANES_HIGH 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31
 #endif
 
-/* Transposes a square of LANES vectors in place: zipping row k with row k + LANES/2 sends each element one bit of its index
- * nearer to its place, so log2(LANES) rounds do it. */
-static inline void v_transpose(vreal m[LANES]) {
-  for (int round = 1; round < LANES; round *= 2) {
-    vreal zipped[LANES];
-    for (int k = 0; k < LANES / 2; k++) {
-      zipped[2 * k] = __builtin_shufflevector(m[k], m[k + LANES / 2], LANES_LOW);
-      zipped[2 * k + 1] = __builtin_shufflevector(m[k], m[k + LANES / 2], LANES_HIGH);
-    }
-    for (int k = 0; k < LANES; k++)
-      m[k] = zipped[k];
-  }
+/* Transposes the squares of CHUNK x CHUNK that the chunks of CHUNK vectors make. */
+static inline void v_transpose_chunks(vreal m[]) {
+#ifdef CAROM_LANES_SINGLE
+  const vreal a = __builtin_shufflevector(m[0], m[2], LANES_LOW), b = __builtin_shufflevector(m[0], m[2], LANES_HIGH);
+  const vreal c = __builtin_shufflevector(m[1], m[3], LANES_LOW), d = __builtin_shufflevector(m[1], m[3], LANES_HIGH);
+  m[0] = __builtin_shufflevector(a, c, LANES_LOW);
+  m[1] = __builtin_shufflevector(a, c, LANES_HIGH);
+  m[2] = __builtin_shufflevector(b, d, LANES_LOW);
+  m[3] = __builtin_shufflevector(b, d, LANES_HIGH);
+#else
+  const vreal a = m[0], b = m[1];
+  m[0] = __builtin_shufflevector(a, b, LANES_LOW);
+  m[1] = __builtin_shufflevector(a, b, LANES_HIGH);
+#endif
+}
+
+/* Columns [at, at + CHUNK) of LANES rows of memory, one vector each; lane k is row k. */
+static inline void v_load_columns(const real *const row[LANES], int at, vreal column[]) {
+  lanes_unrolled for (int k = 0; k < CHUNK; k++) column[k] = v_load_chunks(row + k, at);
+  v_transpose_chunks(column);
+}
+
+static inline void v_store_columns(real *const row[LANES], int at, const vreal column[]) {
+  vreal m[16 / sizeof(real)];
+  lanes_unrolled for (int k = 0; k < CHUNK; k++) m[k] = column[k];
+  v_transpose_chunks(m);
+  lanes_unrolled for (int k = 0; k < CHUNK; k++) v_store_chunks(row + k, at, m[k]);
 }
 
 #endif

@@ -19,6 +19,18 @@ START_TEST(known_slips) {
 }
 END_TEST
 
+START_TEST(rolling) {
+  const double v[3] = {1.4, -0.7, 0.0}, still[3] = {0.0, 0.0, 5.0}, rolls[3] = {0.7 / 0.03, 1.4 / 0.03, 0.0};
+  double end[3];
+  carom_rolling_velocity(v, still, 0.03, end);
+  ck_assert_double_eq_tol(end[0], 1.0, 1e-15);
+  ck_assert_double_eq_tol(end[1], -0.5, 1e-15);
+  carom_rolling_velocity(v, rolls, 0.03, end); /* what rolls already goes on */
+  for (int k = 0; k < 3; k++)
+    ck_assert_double_eq_tol(end[k], v[k], 1e-15);
+}
+END_TEST
+
 int main(void) {
-  return RUN_TESTS("friction", known_slips);
+  return RUN_TESTS("friction", known_slips, rolling);
 }
