@@ -32,7 +32,7 @@ set linetype 3 lc rgb vermilion dt (12,4)     lw 2 pt 9 ps 0.95
 set linetype 4 lc rgb green     dt (3,3)      lw 2 pt 11 ps 0.95
 set linetype 5 lc rgb purple    dt (10,3,2,3) lw 2 pt 13 ps 0.95
 set linetype 6 lc rgb orange    dt (18,4)     lw 2 pt 4 ps 0.9
-set linetype 7 lc rgb sky       dt 1          lw 3 pt 6 ps 1.1
+set linetype 7 lc rgb sky       dt 1          lw 3 pt 7 ps 1.5
 set linetype 8 lc rgb grey      dt (2,4)      lw 2 pt 8 ps 0.9
 set linetype cycle 8
 
