@@ -18,19 +18,32 @@ static const report_figure figures[FIGURE_COUNT] = {
 
 enum { NO_GNUPLOT = 127 };
 
-/* Runs gnuplot in the report's folder; its exit code. */
+static void show(FILE *noise) {
+  char block[4096];
+  rewind(noise);
+  for (size_t size; (size = fread(block, 1, sizeof block, noise)) > 0;)
+    fwrite(block, 1, size, stderr);
+}
+
+/* Runs gnuplot in the report's folder; its exit code. What it says is shown if it fails: it also warns of every part of a plot
+ * that a CSV has no rows for, and those parts are optional. */
 static int run_gnuplot(const char *folder, const char *script, const char *csv, const char *picture, const char *title) {
+  FILE *noise = tmpfile();
   fflush(NULL);
   const pid_t child = fork();
   if (child == 0) {
-    if (chdir(folder) == 0)
+    if ((noise == NULL || dup2(fileno(noise), STDERR_FILENO) >= 0) && chdir(folder) == 0)
       execlp("gnuplot", "gnuplot", "-c", script, csv, picture, title, (char *)NULL);
     _exit(NO_GNUPLOT);
   }
   int status;
-  if (child < 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status))
-    return 1;
-  return WEXITSTATUS(status);
+  const bool ended = child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status);
+  const int code = ended ? WEXITSTATUS(status) : 1;
+  if (noise != NULL && code != 0)
+    show(noise);
+  if (noise != NULL)
+    fclose(noise);
+  return code;
 }
 
 static char *read_text(const char *path) {
