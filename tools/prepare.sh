@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # Sourced by run and test: what the machine needs, and how a preset is built. Expects the repository root as working folder.
 
 say() { printf '%s\n' "$*" >&2; }
@@ -78,13 +79,12 @@ apt_install() {
   $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" >> "$log" 2>&1
 }
 
-# clang-newest is the newest clang that there is a package of; all else is itself.
+# clang-newest is the newest clang that there is a package of, and so on; other names are themselves.
 newest_of() {
-  if [ "$1" = clang-newest ]; then
-    apt-cache pkgnames clang- | grep -x 'clang-[0-9]*' | sort -t - -k 2 -n | tail -n 1
-  else
-    echo "$1"
-  fi
+  case $1 in
+    *-newest) apt-cache search --names-only "^${1%newest}[0-9]+\$" | cut -d" " -f1 | sort -t - -k 2 -n | tail -n 1 ;;
+    *) echo "$1" ;;
+  esac
 }
 
 do_without() {
