@@ -17,9 +17,8 @@ static const char help[] =
     "usage: carom bench [OPTIONS]\n\n"
     "Times kernels on the 204 reference cases, each case one call, in turns: A B C A B C ... What is timed has been verified\n"
     "just before; a kernel that is over its bound is refused. Figures are nanoseconds per collision, the mean over the cases;\n"
-    "median and spread are over the rounds. Speedup is that over the ladder's first kernel in the default configuration with "
-    "as\n"
-    "many steps, round by round.\n\n"
+    "median and spread are over the rounds. Speedup is that over the ladder's first kernel in the default configuration\n"
+    "with as many steps, round by round.\n\n"
     "  --kernel NAME,...   only these kernels (see `carom kernels`); may be repeated\n"
     "  --config NAME,...   these builds of the ladder's kernels, or all (default: default); without --kernel, only the ladder\n"
     "  --steps N,...       steps of Euler's method (default 1000); several make a sweep\n"
@@ -27,8 +26,8 @@ static const char help[] =
     "  --csv               as CSV, with lines about the machine that begin with #\n"
     "  --spread            more columns in the CSV: spread of the time; least, greatest and spread of the speedup\n"
     "  --errors            more columns in the CSV: slip, and the pair error against the exact reference, median and largest\n"
-    "  --counters          more columns in the CSV: reference cycles and hardware counters per collision, NA where there are "
-    "none\n"
+    "  --counters          more columns in the CSV: reference cycles and hardware counters per collision, NA where there\n"
+    "                      are none\n"
     "  --data DIR          folder of the cases and references (default: $CAROM_DATA, else the one that came with carom)\n"
     "  -o, --output OUT    file to write, - for standard output (default); a file appears whole or not at all\n"
     "  -h, --help          this text\n\n"
@@ -132,6 +131,7 @@ static void bench_free(bench_job *job) {
 }
 
 static bool add_names(name_list *list, char *text, const char *option) {
+  const size_t before = list->count;
   char *rest;
   for (char *name = strtok_r(text, ",", &rest); name != NULL; name = strtok_r(NULL, ",", &rest)) {
     if (list->count == MOST_NAMES) {
@@ -140,22 +140,25 @@ static bool add_names(name_list *list, char *text, const char *option) {
     }
     list->name[list->count++] = name;
   }
-  return true;
+  if (list->count == before)
+    complain("%s needs a name", option);
+  return list->count > before;
 }
 
 static bool add_kernels(bench_job *job, char *text) {
   const size_t before = job->kernels.count;
   if (!add_names(&job->kernels, text, "--kernel"))
     return false;
+  const kernel *unused;
   for (size_t k = before; k < job->kernels.count; k++)
-    if (kernel_find(job->kernels.name[k]) == NULL) {
-      complain("no kernel '%s'; `carom kernels` lists them", job->kernels.name[k]);
+    if (!option_kernel(job->kernels.name[k], &unused))
       return false;
-    }
   return true;
 }
 
 static bool add_step_counts(bench_job *job, char *text) {
+  if (text[strspn(text, ",")] == '\0')
+    return option_steps(text, &job->steps[0]);
   char *rest;
   for (char *one = strtok_r(text, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
     if (job->steps_count == MOST_STEPS) {
@@ -166,15 +169,6 @@ static bool add_step_counts(bench_job *job, char *text) {
       return false;
   }
   return true;
-}
-
-static bool set_budget(bench_job *job, const char *text) {
-  char *end;
-  job->budget = strtod(text, &end);
-  const bool good = end != text && *end == '\0' && job->budget > 0.0 && job->budget <= 86400.0;
-  if (!good)
-    complain("--budget is a number of seconds above 0, up to 86400, not '%s'", text);
-  return good;
 }
 
 int command_bench(int argc, char **argv) {
@@ -202,7 +196,7 @@ int command_bench(int argc, char **argv) {
       good = add_step_counts(&job, optarg);
       break;
     case 'b':
-      good = set_budget(&job, optarg);
+      good = option_budget(optarg, &job.budget);
       break;
     case 'v':
       job.csv = true;

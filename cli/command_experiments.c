@@ -16,15 +16,16 @@
 
 static const char help[] =
     "usage: carom experiments [OPTIONS]\n\n"
-    "A rolling cue ball meets a resting object ball at a cut angle (Mathavan, Jackson, Parkin 2014, tables 1 and 2). Speeds "
-    "and\n"
-    "angles are those once both balls roll; angles are from the cue ball's first direction, its own to one side, the object\n"
+    "A rolling cue ball meets a resting object ball at a cut angle (Mathavan, Jackson, Parkin 2014, tables 1 and 2). Speeds\n"
+    "and angles are those once both balls roll; angles are from the cue ball's first direction, its own to one side, the "
+    "object\n"
     "ball's to the other. Snooker balls: M = 0.1406 kg, R = 26.25 mm, friction 0.21 with the cloth and 0.05 with each other,\n"
     "restitution 0.89. The measured object angle equals the cut angle, so it is no independent check.\n\n"
     "  --slip paper|pooltool   sign of the spin in the slip over the cloth (default paper)\n"
     "  --data DIR              folder of experiments.csv (default: $CAROM_DATA, else the one that came with carom)\n"
     "  --csv                   as CSV: shot,source,v_cue,v_object,angle_cue_deg,angle_object_deg\n"
-    "  -o, --output OUT        file to write (default: standard output)\n\n"
+    "  -o, --output OUT        file to write, - for standard output (default); a file appears whole or not at all\n"
+    "  -h, --help              this text\n\n"
     "exit code: 0, or 2 for bad usage or unreadable data\n";
 
 static const double degree = 3.14159265358979323846 / 180.0;

@@ -1,6 +1,7 @@
 /* `carom report`: measures, draws, and writes one page with all figures and tables. */
 #include "command.h"
 #include "message.h"
+#include "option.h"
 #include "report.h"
 
 #include <errno.h>
@@ -20,9 +21,8 @@ static const char help[] =
     "  --data DIR        folder of the cases and references (default: $CAROM_DATA, else the one that came with carom)\n"
     "  -h, --help        this text\n\n"
     "docs/report.md says which command makes which file, and how to add a figure.\n\n"
-    "exit code: 0 if all is there, 1 if data or figures are missing (the page says which), 2 for bad usage or if DIR cannot "
-    "be\n"
-    "written\n";
+    "exit code: 0 if all is there, 1 if data or figures are missing (the page says which), 2 for bad usage or if DIR cannot\n"
+    "be written\n";
 
 static bool is_folder(const char *path) {
   struct stat status;
@@ -48,15 +48,6 @@ static bool make_folder(const char *folder) {
   return false;
 }
 
-static bool set_budget(report *r, const char *text) {
-  char *end;
-  r->budget = strtod(text, &end);
-  const bool good = end != text && *end == '\0' && r->budget > 0.0 && r->budget <= 86400.0;
-  if (!good)
-    complain("--budget is a number of seconds above 0, up to 86400, not '%s'", text);
-  return good;
-}
-
 static int make_report(report *r) {
   if (r->from != NULL && !is_folder(r->from)) {
     complain("--from: there is no folder %s", r->from);
@@ -66,6 +57,7 @@ static int make_report(report *r) {
     return EXIT_USAGE;
   report_collect(r);
   report_draw(r);
+  report_print_speedups(r);
   int code = EXIT_GOOD;
   for (int k = 0; k < DATA_COUNT; k++)
     if (r->data[k].rows == 0)
@@ -90,7 +82,7 @@ int command_report(int argc, char **argv) {
   while ((option = getopt_long(argc, argv, "h", options, NULL)) != -1)
     switch (option) {
     case 'b':
-      if (!set_budget(&r, optarg))
+      if (!option_budget(optarg, &r.budget))
         return EXIT_USAGE;
       break;
     case 'f':

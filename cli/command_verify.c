@@ -4,9 +4,11 @@
 #include "command.h"
 #include "kernel.h"
 #include "message.h"
+#include "option.h"
 #include "output.h"
 
 #include <getopt.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,13 +20,21 @@ static const char help[] =
     "  --kernel NAME     only this kernel\n"
     "  --config NAME     only this build of the ladder (see `carom kernels`)\n"
     "  --data DIR        folder of the cases and references (default: $CAROM_DATA, else the one that came with carom)\n"
+    "  --brief           sentences instead of the table, one for the whole ladder; kernels over their bound are named\n"
     "  --csv             as CSV, the paper's counts in columns of their own, NA where it gives none\n"
-    "  -o, --output OUT  file to write (default: standard output)\n\n"
+    "  -o, --output OUT  file to write, - for standard output (default); a file appears whole or not at all\n"
+    "  -h, --help        this text\n\n"
     "Pair error: the largest deviation of a velocity or R times an angular velocity, over the largest such value of the\n"
     "pair. Component errors compare each number with itself; the columns count the cases in which one is above 0.1 % or 1 %,\n"
     "with the seed paper's own count in brackets where it gives one.\n"
     "A bound of 0 asks for the same bits in every component.\n\n"
     "exit code: 0 if every kernel is within its bounds, 1 if one is not, 2 for bad usage or unreadable data\n";
+
+/* What a sentence on the ladder says. */
+typedef struct ladder_summary {
+  size_t comparisons, pass;
+  double worst_double, worst_single; /* pair errors */
+} ladder_summary;
 
 typedef struct verification {
   const char *folder;
@@ -32,8 +42,9 @@ typedef struct verification {
   carom_result *result;
   pair_accuracy *each;
   FILE *out;
-  bool csv, all_pass;
+  bool csv, brief, all_pass;
   char parity[512]; /* sentences for below the table */
+  ladder_summary ladder;
 } verification;
 
 /* "3 (26)", or "3" where the paper gives no count. */
@@ -69,6 +80,40 @@ static void print_claim(const verification *v, const kernel *one, const ladder_m
             count_beside_paper(s->component_1e2, paper_1e2, over_1e2), pass ? "pass" : "FAIL");
 }
 
+/* The claim in a sentence; a rung that passes is only counted. */
+static void tell_claim(verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim,
+                       const accuracy_summary *s, bool pass) {
+  if (module != NULL) {
+    double *worst = strcmp(one->precision, "single") == 0 ? &v->ladder.worst_single : &v->ladder.worst_double;
+    *worst = fmax(*worst, s->max);
+    v->ladder.comparisons++;
+    v->ladder.pass += pass;
+    if (pass)
+      return;
+  }
+  fprintf(v->out, "%s%s%s, %s slip: ", one->name, module != NULL ? " in " : "", module != NULL ? module->name : "",
+          carom_slip_name(claim->slip));
+  if (claim->bound > 0.0)
+    fprintf(v->out, "pair error against %s: mean %.2g, p99 %.2g, max %.2g; %.1g is allowed", claim->reference, s->mean, s->p99,
+            s->max, claim->bound);
+  else
+    fprintf(v->out, "%zu of %zu cases bit-identical to %s", s->identical, s->cases, claim->reference);
+  fputs(pass ? "\n" : ": FAIL\n", v->out);
+}
+
+static void tell_ladder(const verification *v) {
+  const ladder_summary *l = &v->ladder;
+  if (l->comparisons == 0)
+    return;
+  fprintf(v->out, "ladder: %zu of %zu builds of its kernels within their bounds; largest pair error against pooltool", l->pass,
+          l->comparisons);
+  if (l->worst_double > 0.0)
+    fprintf(v->out, " %.2g in double precision%s", l->worst_double, l->worst_single > 0.0 ? "," : "");
+  if (l->worst_single > 0.0)
+    fprintf(v->out, " %.2g in single", l->worst_single);
+  fputc('\n', v->out);
+}
+
 static bool verify_claim(verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim) {
   reference_set reference;
   const bool loaded = reference_load(v->folder, claim->reference, &v->cases, &reference);
@@ -82,12 +127,15 @@ static bool verify_claim(verification *v, const kernel *one, const ladder_module
     const accuracy_summary s = accuracy_summarise(v->each, v->cases.count);
     const bool pass = claim->bound > 0.0 ? s.max <= claim->bound : s.identical == s.cases;
     v->all_pass &= pass;
+    if (v->brief)
+      tell_claim(v, one, module, claim, &s, pass);
+    else
+      print_claim(v, one, module, claim, &s, pass);
     if (claim->bound == 0.0) {
       const size_t used = strlen(v->parity);
       snprintf(v->parity + used, sizeof v->parity - used, "%s: %zu of %zu cases bit-identical to %s\n", one->name, s.identical,
                s.cases, claim->reference);
     }
-    print_claim(v, one, module, claim, &s, pass);
   }
   reference_free(&reference);
   return loaded;
@@ -128,46 +176,45 @@ static bool verify_all(verification *v, const kernel *only, const char *config) 
     fputs("kernel,config,slip,steps,reference,cases,identical,mean,median,p99,max,bound,over_1e3,paper_1e3,over_1e2,paper_1e2,"
           "verdict\n",
           v->out);
-  else
+  else if (!v->brief)
     fprintf(v->out, "%-15s %-17s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %7s %6s  %s\n", "kernel", "configuration", "slip",
             "steps", "reference", "identical", "mean", "median", "p99", "max", "bound", ">0.1%", ">1%", "");
   const kernel *one;
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
     if ((only == NULL || only == one) && !(one->is_rung ? verify_rung(v, one, config) : verify_solver(v, one, config)))
       return false;
-  if (!v->csv)
+  if (v->brief)
+    tell_ladder(v);
+  else if (!v->csv)
     fprintf(v->out, "\n%s", v->parity);
   return true;
 }
 
 int command_verify(int argc, char **argv) {
   static const struct option options[] = {
-      {"kernel", required_argument, NULL, 'k'},
-      {"config", required_argument, NULL, 'c'},
-      {"data", required_argument, NULL, 'd'},
-      {"csv", no_argument, NULL, 'v'},
-      {"output", required_argument, NULL, 'o'},
-      {"help", no_argument, NULL, 'h'},
-      {0},
+      {"kernel", required_argument, NULL, 'k'}, {"config", required_argument, NULL, 'c'},
+      {"data", required_argument, NULL, 'd'},   {"brief", no_argument, NULL, 'b'},
+      {"csv", no_argument, NULL, 'v'},          {"output", required_argument, NULL, 'o'},
+      {"help", no_argument, NULL, 'h'},         {0},
   };
   const kernel *only = NULL;
   const char *folder = NULL, *config = NULL, *out = "-";
-  bool csv = false;
+  bool csv = false, brief = false;
   int option;
   while ((option = getopt_long(argc, argv, "o:h", options, NULL)) != -1)
     switch (option) {
     case 'k':
-      only = kernel_find(optarg);
-      if (only == NULL) {
-        complain("no kernel '%s'; `carom kernels` lists them", optarg);
+      if (!option_kernel(optarg, &only))
         return EXIT_USAGE;
-      }
       break;
     case 'c':
       config = optarg;
       break;
     case 'd':
       folder = optarg;
+      break;
+    case 'b':
+      brief = true;
       break;
     case 'v':
       csv = true;
@@ -185,10 +232,14 @@ int command_verify(int argc, char **argv) {
     complain("verify takes no files, but got '%s'", argv[optind]);
     return usage_hint("verify");
   }
+  if (csv && brief) {
+    complain("--csv and --brief are two ways to print; give one of them");
+    return usage_hint("verify");
+  }
   const ladder_module *unused;
   if (config != NULL && !kernel_module(only != NULL ? only : kernel_find(ladder_rung_at(0)->name), config, &unused))
     return EXIT_USAGE;
-  verification v = {.folder = cases_folder(folder), .csv = csv, .all_pass = true};
+  verification v = {.folder = cases_folder(folder), .csv = csv, .brief = brief, .all_pass = true};
   int code = EXIT_USAGE;
   if (cases_load(v.folder, "collisions-204.csv", &v.cases) && (v.out = output_open(out)) != NULL) {
     if (!verify_all(&v, only, config))

@@ -86,12 +86,13 @@ static const char *wanted_name(const record *header, int field) {
   return (other_ball_has_one ? alone : first)->name;
 }
 
+/* Adds a name to a list that ends with a blank, unless it is there: R and M fill a number of each ball. */
 static void add_name(char *list, size_t room, const char *name) {
   const size_t used = strlen(list);
   char entry[16];
-  snprintf(entry, sizeof entry, " %s", name);
-  if (used < strlen(entry) || strcmp(list + used - strlen(entry), entry) != 0)
-    snprintf(list + used, room - used, "%s", entry);
+  snprintf(entry, sizeof entry, " %s ", name);
+  if (strstr(list, entry) == NULL)
+    snprintf(list + used, room - used, "%s", entry + (used > 0));
 }
 
 static bool find_columns(impact_reader *r, const record *header, bool mu_ball_needed) {
@@ -108,8 +109,8 @@ static bool find_columns(impact_reader *r, const record *header, bool mu_ball_ne
       add_name(missing, sizeof missing, wanted_name(header, field));
   }
   if (missing[0] != '\0')
-    complain("%s:%lld: missing columns:%s (names are case-sensitive; `carom resolve --help` lists them)", file, header->line,
-             missing);
+    complain("%s:%lld: missing columns:%s(%s; `carom resolve --help` lists them)", file, header->line, missing,
+             header->count > 1 ? "names are case-sensitive" : "the header is a single field, without commas");
   return missing[0] == '\0';
 }
 
@@ -126,7 +127,7 @@ impact_reader *impact_open(const char *path, bool mu_ball_needed) {
     if (result == READ_END)
       complain("%s: empty; a header with the names of the columns is needed", record_file_name(r->records));
     else if (result == READ_ONE && header.malformed)
-      complain("%s:%lld: the header is no CSV", record_file_name(r->records), header.line);
+      complain("%s:%lld: no header: the first row is longer than a mebibyte", record_file_name(r->records), header.line);
     else if (result == READ_ONE && find_columns(r, &header, mu_ball_needed))
       return r;
   }
@@ -152,7 +153,7 @@ static void set_id(impact_reader *r, const record *in, impact_row *row) {
 
 static const char *fill(impact_reader *r, const record *in, impact_row *row) {
   if (in->malformed) {
-    snprintf(row->message, sizeof row->message, "the row is too long to be one; is a quote left open?");
+    snprintf(row->message, sizeof row->message, "the row is longer than a mebibyte; is a quote left open?");
     return "malformed_row";
   }
   for (size_t k = r->width; k < in->count; k++)

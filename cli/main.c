@@ -32,9 +32,13 @@ int main(int argc, char **argv) {
     printf("carom %s\n", carom_version());
     return EXIT_GOOD;
   }
-#define RUN(command, text)         \
-  if (strcmp(name, #command) == 0) \
-    return command_##command(argc - 1, argv + 1);
+/* getopt's own complaints begin with the first argument. */
+#define RUN(command, text)                        \
+  if (strcmp(name, #command) == 0) {              \
+    static char program[] = "carom: " #command;   \
+    argv[1] = program;                            \
+    return command_##command(argc - 1, argv + 1); \
+  }
   COMMAND_LIST(RUN)
 #undef RUN
   complain("no command '%s'; `carom --help` lists them", name);

@@ -35,6 +35,22 @@ bool option_slip(const char *text, carom_slip *slip) {
   return false;
 }
 
+bool option_kernel(const char *text, const kernel **one) {
+  *one = kernel_find(text);
+  if (*one == NULL)
+    complain("no kernel '%s'; `carom kernels` lists them", text);
+  return *one != NULL;
+}
+
+bool option_budget(const char *text, double *seconds) {
+  char *end;
+  *seconds = strtod(text, &end);
+  const bool good = end != text && *end == '\0' && *seconds > 0.0 && *seconds <= 86400.0;
+  if (!good)
+    complain("--budget is a number of seconds above 0, up to 86400, not '%s'", text);
+  return good;
+}
+
 bool option_precision(const char *text, bool *single) {
   *single = strcmp(text, "single") == 0;
   if (*single || strcmp(text, "double") == 0)

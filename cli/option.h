@@ -2,7 +2,7 @@
 #ifndef CAROM_CLI_OPTION_H
 #define CAROM_CLI_OPTION_H
 
-#include "carom.h"
+#include "kernel.h"
 
 #include <stdbool.h>
 
@@ -14,6 +14,12 @@ bool option_steps(const char *text, int *steps);
 
 /* --slip: paper or pooltool. */
 bool option_slip(const char *text, carom_slip *slip);
+
+/* --kernel: a name in the table of kernels. */
+bool option_kernel(const char *text, const kernel **one);
+
+/* --budget: seconds, more than 0 and at most a day. */
+bool option_budget(const char *text, double *seconds);
 
 /* --precision: double or single. */
 bool option_precision(const char *text, bool *single);

@@ -4,6 +4,7 @@
 #include "message.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,26 +30,39 @@ static void forget(void) {
   place = temporary = NULL;
 }
 
+/* A new file beside `place`; -1 if there can be none. */
+static int create_beside(void) {
+  for (int attempt = 0; attempt < 100; attempt++) {
+    char *beside;
+    if (asprintf(&beside, "%s.%ld-%d", place, (long)getpid(), attempt) < 0)
+      return -1;
+    const int descriptor = open(beside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      temporary = beside;
+      return descriptor;
+    }
+    free(beside); /* which keeps errno */
+    if (errno != EEXIST)
+      return -1;
+  }
+  return -1;
+}
+
 static FILE *open_beside(const char *path) {
   place = realpath(path, NULL); /* so that a link stays a link to the new file */
   if (place == NULL)
     place = strdup(path);
-  char *beside = NULL;
-  if (place == NULL || asprintf(&beside, "%s.XXXXXX", place) < 0)
+  if (place == NULL)
     return NULL;
-  const int descriptor = mkstemp(beside);
-  if (descriptor < 0) {
-    free(beside);
-    return NULL;
-  }
-  temporary = beside;
   signal(SIGINT, on_signal);
   signal(SIGTERM, on_signal);
   signal(SIGHUP, on_signal);
-  const mode_t mask = umask(0);
-  umask(mask);
+  const int descriptor = create_beside();
+  if (descriptor < 0)
+    return NULL;
   struct stat old;
-  fchmod(descriptor, stat(path, &old) == 0 ? old.st_mode & 07777 : 0666 & ~mask);
+  if (stat(path, &old) == 0)
+    fchmod(descriptor, old.st_mode & 07777);
   return fdopen(descriptor, "wb");
 }
 

@@ -29,6 +29,7 @@ struct record_reader {
   bool between;        /* no byte of a record has been fed since the last one ended */
   long long first;     /* line on which the record being fed began */
   size_t record_bytes; /* fed since then */
+  bool skipping;       /* the rest of a line that was too long is passed over */
   struct csv_parser parser;
   bool complete; /* the last feed ended a record */
   char *text;    /* the fields of the record, each with its NUL */
@@ -61,6 +62,8 @@ static void on_field(void *text, size_t size, void *context) {
   r->text = grow(r->text, &r->text_room, r->text_size + size + 1, 1);
   if (size > 0)
     memcpy(r->text + r->text_size, text, size);
+  for (char *nul = r->text + r->text_size; (nul = memchr(nul, '\0', (size_t)(r->text + r->text_size + size - nul))) != NULL;)
+    *nul = '?'; /* or the field would seem to end here, and 0.5<NUL>junk be a number */
   r->text[r->text_size + size] = '\0';
   r->start[r->count++] = r->text_size;
   r->text_size += size + 1;
@@ -109,15 +112,36 @@ static bool refill(record_reader *r) {
   return r->chunk_size > 0;
 }
 
-/* Feeds libcsv up to the next line end or the end of the chunk. */
-static bool feed(record_reader *r) {
+/* The bytes up to and with the next line end, or to the end of the chunk. */
+static size_t line_part(const record_reader *r, bool *ends) {
   const char *from = r->chunk + r->chunk_at;
   const size_t left = r->chunk_size - r->chunk_at;
   size_t size = 0;
   while (size < left && from[size] != '\n' && from[size] != '\r')
     size++;
-  const bool ends = size < left;
-  size += ends;
+  *ends = size < left;
+  return size + *ends;
+}
+
+/* Goes on behind a part, and counts lines. */
+static void pass(record_reader *r, size_t size, bool ends) {
+  const char last = r->chunk[r->chunk_at + size - 1];
+  const bool lf_of_crlf = last == '\n' && r->after_cr && size == 1;
+  r->line += ends && !lf_of_crlf;
+  r->after_cr = last == '\r';
+  r->chunk_at += size;
+}
+
+/* Feeds libcsv up to the next line end or the end of the chunk. */
+static bool feed(record_reader *r) {
+  const char *from = r->chunk + r->chunk_at;
+  bool ends;
+  const size_t size = line_part(r, &ends);
+  if (r->skipping) {
+    r->skipping = !ends;
+    pass(r, size, ends);
+    return true;
+  }
   if (r->between && from[0] != '\n' && from[0] != '\r') {
     r->between = false;
     r->first = r->line;
@@ -125,14 +149,8 @@ static bool feed(record_reader *r) {
   r->record_bytes += size;
   if (csv_parse(&r->parser, from, size, on_field, on_record, r) != size)
     return false;
-  r->chunk_at += size;
-  if (ends) {
-    const bool lf_of_crlf = from[size - 1] == '\n' && r->after_cr && size == 1;
-    r->line += !lf_of_crlf;
-    r->after_cr = from[size - 1] == '\r';
-  } else {
-    r->after_cr = false;
-  }
+  pass(r, size, ends);
+  r->skipping = r->record_bytes > RECORD_LIMIT && !ends;
   return true;
 }
 

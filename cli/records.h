@@ -2,7 +2,7 @@
  *
  * Understood: fields quoted or not, quoted commas, quotes and line ends, LF, CRLF and CR, a UTF-8 byte-order mark, blank lines
  * (skipped), a last line without its end. A record of more than a mebibyte, such as an unclosed quote makes, is malformed: it
- * costs that record, and reading goes on at the next line.
+ * costs that record, and reading goes on at the next line. A NUL in a field is read as '?'.
  */
 #ifndef CAROM_CLI_RECORDS_H
 #define CAROM_CLI_RECORDS_H

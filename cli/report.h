@@ -56,6 +56,9 @@ void report_collect(report *r);
 /* Draws the figures; where one cannot be drawn, figure.missing says why. */
 void report_draw(report *r);
 
+/* Prints the speedups, for those who do not open the page. */
+void report_print_speedups(const report *r);
+
 /* Writes index.html. */
 bool report_write_page(const report *r);
 

@@ -157,6 +157,6 @@ bool report_write_page(const report *r) {
   write_page(r, out);
   if (!output_commit())
     return false;
-  printf("%s\n", path);
+  printf("report: %s\n", path);
   return true;
 }

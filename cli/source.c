@@ -4,9 +4,13 @@
 #include "message.h"
 #include "npy.h"
 
+#include <ctype.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+enum { ID_SHOWN = 64 };
 
 struct row_source {
   const char *name;
@@ -99,16 +103,29 @@ static double number_at(const row_source *s, const source_block *block, size_t k
   return source_is_single(s) ? ((const float *)block->impact)[at] : ((const double *)block->impact)[at];
 }
 
+/* An id as a message shows it: not without end, and nothing that a terminal would obey. */
+static const char *shown(const char *id, char text[ID_SHOWN]) {
+  snprintf(text, ID_SHOWN, "%s", id);
+  if (strlen(id) >= ID_SHOWN)
+    memcpy(text + ID_SHOWN - 4, "...", 3);
+  for (char *at = text; *at != '\0'; at++)
+    if (iscntrl((unsigned char)*at))
+      *at = '?';
+  return text;
+}
+
 static void report_csv(const row_source *s, const source_block *block, size_t k, int field, carom_status status) {
   const impact_row *row = &block->row[k];
   const char *file = record_file_name(impact_records(s->csv));
+  char text[ID_SHOWN];
+  const char *id = shown(row->id, text);
   if (row->error != NULL)
-    complain("%s:%lld: id '%s': %s (%s)", file, row->line, row->id, row->message, row->error);
+    complain("%s:%lld: id '%s': %s (%s)", file, row->line, id, row->message, row->error);
   else if (field >= 0)
-    complain("%s:%lld: id '%s': %s = %.17g: %s (%s)", file, row->line, row->id, impact_column(s->csv, field),
+    complain("%s:%lld: id '%s': %s = %.17g: %s (%s)", file, row->line, id, impact_column(s->csv, field),
              number_at(s, block, k, field), carom_status_string(status), carom_status_name(status));
   else
-    complain("%s:%lld: id '%s': %s (%s)", file, row->line, row->id, carom_status_string(status), carom_status_name(status));
+    complain("%s:%lld: id '%s': %s (%s)", file, row->line, id, carom_status_string(status), carom_status_name(status));
 }
 
 void source_report(const row_source *s, const source_block *block, size_t k, const carom_options *options,

@@ -19,9 +19,16 @@ if(processor_flags MATCHES " avx2 " AND processor_flags MATCHES " fma " AND proc
 endif()
 
 # The compilers, the paper's first choice first; the newest clang that is installed, and gcc.
-find_program(CAROM_LADDER_CLANG NAMES clang-21 clang-20 clang-19 clang-18 clang-17 clang-16 clang-15 clang-14 clang
-             DOC "clang that compiles the ladder; empty for none")
-find_program(CAROM_LADDER_GCC NAMES gcc gcc-15 gcc-14 gcc-13 gcc-12 DOC "gcc that compiles the ladder; empty for none")
+set(clangs clang)
+set(gccs gcc)
+foreach(version RANGE 14 30)
+  list(PREPEND clangs clang-${version})
+endforeach()
+foreach(version RANGE 12 30)
+  list(INSERT gccs 1 gcc-${version})
+endforeach()
+find_program(CAROM_LADDER_CLANG NAMES ${clangs} DOC "clang that compiles the ladder; empty for none")
+find_program(CAROM_LADDER_GCC NAMES ${gccs} DOC "gcc that compiles the ladder; empty for none")
 set(ladder_compilers)
 if(CAROM_LADDER_CLANG)
   list(APPEND ladder_compilers clang)

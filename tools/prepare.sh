@@ -1,59 +1,106 @@
+# shellcheck shell=sh
 # Sourced by run and test: what the machine needs, and how a preset is built. Expects the repository root as working folder.
 
 say() { printf '%s\n' "$*" >&2; }
 fail() { say "carom: $*"; exit 1; }
 
-# need PROGRAM-OR-FILE PACKAGE WHY: notes a package to install when the program or header is not there.
+# there PROGRAM-OR-FILE: is it? A file may be a pattern.
+there() {
+  case $1 in
+    /*) for found in $1; do [ -e "$found" ] && return 0; done; return 1 ;;
+    *) command -v "$1" > /dev/null 2>&1 ;;
+  esac
+}
+
+# need PROGRAM-OR-FILE PACKAGE WHY: notes a package without which nothing goes.
 missing='' reasons=''
 need() {
-  case $1 in
-    /*) for found in $1; do [ -e "$found" ] && return 0; done ;;
-    *) command -v "$1" > /dev/null 2>&1 && return 0 ;;
-  esac
+  there "$1" && return 0
   missing="$missing $2"
   reasons="$reasons
   $2: $3"
 }
 
-# want PROGRAM-OR-FILE PACKAGE WHY: says what could be had with a package that carom does without.
+# want PROGRAM-OR-FILE PACKAGE WHY: notes a package that is installed where that can be done, and that carom does without.
+# What could not be had is asked for once, not at every run.
+wanted='' wanted_reasons='' asked=build/not-installed
 want() {
-  case $1 in
-    /*) [ -e "$1" ] && return 0 ;;
-    *) command -v "$1" > /dev/null 2>&1 && return 0 ;;
-  esac
-  say "optional and not installed: $2: $3"
+  there "$1" && return 0
+  grep -qsx "$2" "$asked" && return 0
+  wanted="$wanted $2"
+  wanted_reasons="$wanted_reasons
+  $2: $3"
 }
 
-# Installs what need() has noted, or says what to install where that is not possible.
+# Installs what need() and want() have noted. Fails, and says what to install, where something needed cannot be had.
 install_missing() {
-  [ -n "$missing" ] || return 0
-  say "carom needs packages that are not installed:$reasons"
-  command -v apt-get > /dev/null 2>&1 || fail "no apt-get here; install these (or your system's like) and run again:$missing"
-  if [ "$(id -u)" = 0 ]; then
-    as_root=''
+  [ -n "$missing$wanted" ] || return 0
+  [ -z "$missing" ] || say "carom needs packages that are not installed:$reasons"
+  [ -z "$wanted" ] || say "carom can do more with packages that are not installed:$wanted_reasons"
+  as_root=
+  if ! command -v apt-get > /dev/null 2>&1; then
+    obstacle="no apt-get here; install these, or your system's like, and run again:$missing"
+  elif [ "$(id -u)" = 0 ]; then
+    obstacle=
   elif command -v sudo > /dev/null 2>&1 && sudo -n true 2> /dev/null; then
-    as_root='sudo'
+    as_root=sudo obstacle=
   else
-    fail "installing needs root; please run: sudo apt-get install$missing"
+    obstacle="installing needs root; please run: sudo apt-get install$missing"
   fi
-  say "installing:$missing"
+  if [ -z "$obstacle" ]; then
+    install_with_apt
+  elif [ -n "$missing" ]; then
+    fail "$obstacle"
+  else
+    do_without "$wanted"
+  fi
+  missing='' wanted=''
+}
+
+install_with_apt() {
+  say "installing:$missing$wanted"
   log=$(mktemp)
+  $as_root apt-get update > "$log" 2>&1 || say "apt-get update failed; going on with the lists that are here"
   # shellcheck disable=SC2086
-  if ! { $as_root apt-get update && DEBIAN_FRONTEND=noninteractive $as_root apt-get install -y --no-install-recommends $missing; } \
-    > "$log" 2>&1; then
+  if [ -n "$missing" ] && ! apt_install $missing; then
     tail -n 20 "$log" >&2
     rm -f "$log"
     fail "apt-get could not install:$missing"
   fi
+  failed=''
+  for package in $wanted; do
+    apt_install "$(newest_of "$package")" || failed="$failed $package"
+  done
   rm -f "$log"
-  missing=''
+  [ -z "$failed" ] || do_without "$failed"
+}
+
+apt_install() {
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" >> "$log" 2>&1
+}
+
+# clang-newest is the newest clang that there is a package of, and so on; other names are themselves.
+newest_of() {
+  case $1 in
+    *-newest) apt-cache search --names-only "^${1%newest}[0-9]+\$" | cut -d" " -f1 | sort -t - -k 2 -n | tail -n 1 ;;
+    *) echo "$1" ;;
+  esac
+}
+
+do_without() {
+  say "not installed, going on without:$1"
+  mkdir -p build
+  # shellcheck disable=SC2086
+  printf '%s\n' $1 >> "$asked"
 }
 
 need_to_build() {
   need cc gcc "C compiler"
+  need '/usr/include/stdio.h' libc6-dev "headers of the C library"
   need cmake cmake "build system"
   need ninja ninja-build "build system"
   need '/usr/include/csv.h' libcsv-dev "CSV reading in the command"
+  want '/usr/bin/clang-1[5-9] /usr/bin/clang-[2-9][0-9]' clang-newest "a second compiler for the seed paper's kernels, and its first choice"
   want '/usr/include/papi.h' libpapi-dev "hardware counters in carom bench, where the machine has some"
 }
 

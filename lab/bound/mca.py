@@ -8,7 +8,7 @@ import re
 import shutil
 import subprocess
 
-NAMES = ["llvm-mca"] + [f"llvm-mca-{version}" for version in range(22, 13, -1)]
+NAMES = ["llvm-mca"] + [f"llvm-mca-{version}" for version in range(30, 13, -1)]
 ITERATIONS = 400
 
 

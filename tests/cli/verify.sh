@@ -14,3 +14,9 @@ carom verify --data data > table || echo "exit $?"
 echo "--- as CSV"
 carom verify --kernel euler --csv -o table.csv
 cut -d, -f1-7,12,17 table.csv
+echo "--- in sentences"
+carom verify --brief | grep -e '^euler' -e '^ladder' | sed '/^ladder/s/[0-9][0-9]*/N/g; s/N\.N/N/g'
+sed '2s/,-0.008/,-0.009/' "$DATA/reference-pooltool-n1000.csv" > data/reference-pooltool-n1000.csv
+try carom verify --brief --kernel euler --data data
+carom verify --brief --kernel double --config o3 --data data | sed 's/ in [a-z]*-o3/ in .../' | tail -n 2
+try carom verify --brief --csv

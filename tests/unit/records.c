@@ -6,16 +6,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static record_reader *open_text(const char *text, size_t size) {
-  char path[] = "/tmp/carom-records-XXXXXX";
-  const int descriptor = mkstemp(path);
-  ck_assert_int_ge(descriptor, 0);
-  ck_assert_int_eq(write(descriptor, text, size), (ssize_t)size);
-  close(descriptor);
+  char path[32];
+  FILE *file = tmpfile();
+  ck_assert_ptr_nonnull(file);
+  ck_assert_uint_eq(fwrite(text, 1, size, file), size);
+  ck_assert_int_eq(fflush(file), 0);
+  snprintf(path, sizeof path, "/proc/self/fd/%d", fileno(file));
   record_reader *reader = record_open(path);
-  unlink(path);
+  fclose(file);
   ck_assert_ptr_nonnull(reader);
   return reader;
 }
@@ -84,6 +84,39 @@ START_TEST(a_quote_left_open_costs_one_record) {
 }
 END_TEST
 
+START_TEST(a_line_without_end_costs_one_record) {
+  const size_t size = 5 << 20;
+  char *text = malloc(size);
+  memset(text, 'x', size);
+  memcpy(text, "a,b\n", 4);
+  memcpy(text + size - 6, "\r\nc,d\n", 6);
+  record_reader *reader = open_text(text, size);
+  record in;
+  ck_assert_int_eq(record_next(reader, &in), READ_ONE);
+  ck_assert_int_eq(record_next(reader, &in), READ_ONE);
+  ck_assert(in.malformed);
+  ck_assert_int_eq(record_next(reader, &in), READ_ONE);
+  ck_assert(!in.malformed);
+  ck_assert_int_eq(in.line, 3);
+  ck_assert_uint_eq(in.count, 2);
+  ck_assert_int_eq(record_next(reader, &in), READ_END);
+  record_close(reader);
+  free(text);
+}
+END_TEST
+
+START_TEST(a_nul_does_not_end_a_field) {
+  record_reader *reader = open_text("0.5\0junk,\0\0,\"\0\"\n", 17);
+  record in;
+  ck_assert_int_eq(record_next(reader, &in), READ_ONE);
+  ck_assert_uint_eq(in.count, 3);
+  ck_assert_str_eq(in.field[0], "0.5?junk");
+  ck_assert_str_eq(in.field[1], "??");
+  ck_assert_str_eq(in.field[2], "?");
+  record_close(reader);
+}
+END_TEST
+
 START_TEST(numbers) {
   const struct {
     const char *text;
@@ -111,5 +144,6 @@ START_TEST(numbers) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("records", shapes_of_files, quotes, a_quote_left_open_costs_one_record, numbers);
+  return RUN_TESTS("records", shapes_of_files, quotes, a_quote_left_open_costs_one_record, a_line_without_end_costs_one_record,
+                   a_nul_does_not_end_a_field, numbers);
 }
