@@ -1,7 +1,9 @@
-/* Many collisions in one call: a rolling cue ball meets a resting ball at every cut angle from 0 to 89.9 degrees.
+/* Many collisions in one call: a sliding cue ball without spin meets a resting ball at every cut angle from 0 to
+ * 89.9 degrees.
  *
- * The throw is the angle by which friction turns the object ball off the line of centres; without friction it is 0. The example
- * prints where it is greatest.
+ * The throw is the angle by which friction turns the object ball off the line of centres; without friction it is 0. Thin cuts
+ * slip fast, and friction falls with speed; full hits stop slipping before the end: the example prints where the throw is
+ * greatest.
  */
 #include <carom.h>
 #include <math.h>
@@ -16,8 +18,7 @@ int main(void) {
   const double speed = 1.5, radius = 0.02625, degree = 3.14159265358979323846 / 180.0;
   for (int k = 0; k < CUTS; k++) {
     const double cut = 0.1 * k * degree, v_x = speed * sin(cut), v_y = speed * cos(cut);
-    in[k].a = (carom_ball){
-        .v = {v_x, v_y, 0.0}, .w = {-v_y / radius, v_x / radius, 0.0}, .radius = radius, .mass = 0.14, .mu_cloth = 0.2};
+    in[k].a = (carom_ball){.v = {v_x, v_y, 0.0}, .radius = radius, .mass = 0.14, .mu_cloth = 0.2};
     in[k].b = (carom_ball){.r = {0.0, 2.0 * radius, 0.0}, .radius = radius, .mass = 0.14, .mu_cloth = 0.2};
     in[k].mu_ball = carom_mu_ball(&in[k], carom_alciatore()); /* falls with the speed of the slip */
     in[k].restitution = 0.89;
