@@ -105,7 +105,8 @@ CAROM_API const char *carom_status_string(carom_status status);
 /* ---- Resolving ------------------------------------------------------------------------------------------------------- */
 
 /* How the collision is computed: X(NAME, name, text). */
-#define CAROM_SOLVER_LIST(X) \
+#define CAROM_SOLVER_LIST(X)                                                                               \
+  X(EXACT, "exact", "the limit of infinitely many steps, by collocation: the physics of the model itself") \
   X(EULER, "euler", "Mathavan's N steps of equal normal impulse; with the pooltool slip, pooltool's result to the last bit")
 
 typedef enum carom_solver {
@@ -134,7 +135,7 @@ CAROM_API const char *carom_slip_name(carom_slip slip);
 
 /* Options of a call. Begin with carom_default_options() and change what you need, so that new fields keep their defaults. */
 typedef struct carom_options {
-  carom_solver solver; /* default CAROM_SOLVER_EULER. */
+  carom_solver solver; /* default CAROM_SOLVER_EXACT. */
   carom_slip slip;     /* default CAROM_SLIP_PAPER. */
   int steps;           /* Euler's N >= 1, default 1000: about so many steps are taken; the error falls as 1/N. */
   int threads;         /* most threads that a batch may use, >= 0; default 0: one for each processor. Results do not depend on
@@ -239,12 +240,29 @@ CAROM_API carom_isa carom_isa_limit(carom_isa isa);
 
 /* ---- Looking closer -------------------------------------------------------------------------------------------------- */
 
-/* What else is known of a collision. */
+/* When the surfaces of the balls ceased to slip on each other, if they did. */
+typedef enum carom_stick {
+  CAROM_STICK_NEVER,          /* they slipped to the end */
+  CAROM_STICK_IN_COMPRESSION, /* while the balls still approached each other */
+  CAROM_STICK_IN_RESTITUTION, /* while they were parting */
+} carom_stick;
+
+/* What else is known of a collision. Impulses in N s, as vectors along the axes of the table where they have a direction. */
 typedef struct carom_detail {
-  int64_t steps; /* steps that Euler's method took; 0 if nothing was solved. */
+  int64_t steps;           /* steps that Euler's method took; 0 for other solvers. */
+  int64_t evaluations;     /* right-hand sides that the exact solver evaluated; 0 for others. */
+  double normal;           /* impulse along the line of centres, on the second ball away from the first; the reverse on it. */
+  double friction[3];      /* impulse of the second ball's friction on the first ball; the reverse on the second. */
+  double cloth_a[3];       /* impulse of the cloth's friction on the first ball, */
+  double cloth_b[3];       /* and on the second: only one of them is pressed into the cloth by the other's friction. */
+  double work_compression; /* work of the normal force until the balls no longer approach, J. */
+  double work;             /* the same over the whole collision: (1 + e^2) of it, for Euler's method a whole step more. */
+  carom_stick stick;       /* CAROM_STICK_NEVER from Euler's method, which chatters instead. */
+  double stick_normal;     /* the normal impulse so far when they stuck; NaN if they never did. */
 } carom_detail;
 
-/* carom_collide that also tells how it went: `*detail` is filled whatever the status. `detail` may be NULL. */
+/* carom_collide that also tells how it went. `*detail` is filled whatever the status, with 0 and NaN where nothing was solved.
+ * `detail` may be NULL. */
 CAROM_API carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt, carom_result *out,
                                             carom_detail *detail);
 

@@ -3,7 +3,9 @@
 
 #include "arguments.h"
 #include "batch/batch.h"
+#include "detail.h"
 #include "euler.h"
+#include "exact.h"
 #include "frame.h"
 #include "result.h"
 
@@ -11,7 +13,27 @@
 #include <stdbool.h>
 
 carom_options carom_default_options(void) {
-  return (carom_options){.solver = CAROM_SOLVER_EULER, .slip = CAROM_SLIP_PAPER, .steps = 1000};
+  return (carom_options){.solver = CAROM_SOLVER_EXACT, .slip = CAROM_SLIP_PAPER, .steps = 1000};
+}
+
+static carom_status solve_exact(const carom_frame *frame, carom_local *local, carom_detail *detail) {
+  if (detail == NULL) {
+    carom_exact(local, NULL);
+    return CAROM_OK;
+  }
+  carom_exact_report report;
+  carom_exact(local, &report);
+  *detail = carom_detail_of_exact(frame, &report);
+  return CAROM_OK;
+}
+
+static carom_status solve_euler(const carom_frame *frame, carom_local *local, int steps, carom_detail *detail) {
+  const carom_local before = *local;
+  carom_euler_run run;
+  const carom_status status = carom_euler(local, steps, INT64_MAX, &run);
+  if (status == CAROM_OK && detail != NULL)
+    *detail = carom_detail_of_euler(frame, &before, local, &run);
+  return status;
 }
 
 static carom_status solve(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
@@ -29,39 +51,28 @@ static carom_status solve(const carom_impact *in, const carom_options *opt, caro
     carom_copy_state(in, out);
     return CAROM_SEPARATING;
   }
-  carom_euler_run run;
-  const carom_status status = carom_euler(&local, opt->steps, INT64_MAX, &run);
+  const carom_status status =
+      opt->solver == CAROM_SOLVER_EXACT ? solve_exact(&frame, &local, detail) : solve_euler(&frame, &local, opt->steps, detail);
   if (status != CAROM_OK)
     return status;
-  detail->steps = run.steps;
   carom_from_frame(&frame, &local, out);
   return carom_result_is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }
 
-static carom_status solve_or_nan(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
-  *detail = (carom_detail){.steps = 0};
-  const carom_status status = solve(in, opt, out, detail);
-  if (status < 0)
-    carom_fill_nan(out);
-  return status;
-}
-
 carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
-  carom_detail unused;
-  if (detail == NULL)
-    detail = &unused;
-  *detail = (carom_detail){.steps = 0};
+  if (detail != NULL)
+    *detail = carom_detail_of_nothing();
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
   const carom_options defaults = carom_default_options();
   if (opt == NULL)
     opt = &defaults;
-  const carom_status bad = carom_check_options(opt);
-  if (bad != CAROM_OK) {
+  carom_status status = carom_check_options(opt);
+  if (status == CAROM_OK)
+    status = solve(in, opt, out, detail);
+  if (status < 0)
     carom_fill_nan(out);
-    return bad;
-  }
-  return solve_or_nan(in, opt, out, detail);
+  return status;
 }
 
 carom_status carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out) {

@@ -19,10 +19,14 @@ typedef enum carom_precision { CAROM_DOUBLE, CAROM_SINGLE, CAROM_PRECISIONS } ca
 #define CAROM_BUILT_ISAS(X) X(PLAIN, plain)
 #endif
 
-#define CAROM_BATCH_PROTOTYPE(NAME, suffix) \
-  carom_batch_solver carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single;
+#define CAROM_BATCH_PROTOTYPE(NAME, suffix)                                                    \
+  carom_batch_solver carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single, \
+      carom_exact_lanes_##suffix##_double, carom_exact_lanes_##suffix##_single;
 CAROM_BUILT_ISAS(CAROM_BATCH_PROTOTYPE)
 #undef CAROM_BATCH_PROTOTYPE
+
+/* By single calls; see singles.c. */
+carom_batch_solver carom_singles_double, carom_singles_single;
 
 /* One pair by a single call, with the checks and the status of carom_collide(): what lanes fall back to for a row that is not
  * plainly good. `in` and `out` are of the precision. */

@@ -13,6 +13,7 @@
 static carom_batch_solver *const solvers[CAROM_ISA_COUNT][CAROM_SOLVER_COUNT][CAROM_PRECISIONS] = {
 #define ROW(NAME, suffix)                                                                                \
   [CAROM_ISA_##NAME] = {                                                                                 \
+      [CAROM_SOLVER_EXACT] = {carom_exact_lanes_##suffix##_double, carom_exact_lanes_##suffix##_single}, \
       [CAROM_SOLVER_EULER] = {carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single}, \
   },
     CAROM_BUILT_ISAS(ROW)

@@ -25,7 +25,9 @@
 #include <arm_neon.h>
 #endif
 
-#if defined(CAROM_LANES_AVX512)
+#if defined(CAROM_LANES_ONE)
+#define VECTOR_BYTES 8
+#elif defined(CAROM_LANES_AVX512)
 #define VECTOR_BYTES 64
 #elif defined(CAROM_LANES_AVX2)
 #define VECTOR_BYTES 32
@@ -42,6 +44,55 @@ typedef double real;
 typedef int64_t lane_int;
 #define LANES (VECTOR_BYTES / 8)
 #endif
+
+/* `lanes_unrolled` before a loop of few turns: arrays of vectors live in registers only if the compiler unrolls it. */
+#if defined(__clang__)
+#define lanes_unrolled _Pragma("clang loop unroll(full)")
+#else
+#define lanes_unrolled _Pragma("GCC unroll 16")
+#endif
+
+#ifdef CAROM_LANES_ONE
+
+/* One lane, in plain double: for single calls. */
+typedef double vreal;
+typedef bool vmask;
+
+static inline vreal v_splat(real x) {
+  return x;
+}
+static inline vmask v_less(vreal a, vreal b) {
+  return a < b;
+}
+static inline vmask v_less_equal(vreal a, vreal b) {
+  return a <= b;
+}
+static inline vmask v_not(vmask m) {
+  return !m;
+}
+static inline vreal v_select(vmask m, vreal yes, vreal no) {
+  return m ? yes : no;
+}
+static inline bool v_any(vmask m) {
+  return m;
+}
+static inline vreal v_abs(vreal x) {
+  return fabs(x);
+}
+static inline vreal v_max(vreal a, vreal b) {
+  return a > b ? a : b;
+}
+static inline vreal v_min(vreal a, vreal b) {
+  return a < b ? a : b;
+}
+static inline vreal v_sqrt(vreal x) {
+  return sqrt(x);
+}
+static inline vreal v_fma(vreal a, vreal b, vreal c) {
+  return a * b + c;
+}
+
+#else
 
 typedef real vreal __attribute__((vector_size(VECTOR_BYTES)));
 typedef lane_int vint __attribute__((vector_size(VECTOR_BYTES)));
@@ -61,13 +112,6 @@ typedef real vreal_unaligned __attribute__((vector_size(VECTOR_BYTES), aligned(s
 #define SIMD(name) LANES_PASTE(SIMD_PREFIX, name, _ps)
 #else
 #define SIMD(name) LANES_PASTE(SIMD_PREFIX, name, _pd)
-#endif
-
-/* `lanes_unrolled` before a loop of few turns: arrays of vectors live in registers only if the compiler unrolls it. */
-#if defined(__clang__)
-#define lanes_unrolled _Pragma("clang loop unroll(full)")
-#else
-#define lanes_unrolled _Pragma("GCC unroll 16")
 #endif
 
 static inline vreal v_splat(real x) {
@@ -346,5 +390,7 @@ static inline void v_store_columns(real *const row[LANES], int at, const vreal c
   v_transpose_chunks(m);
   lanes_unrolled for (int k = 0; k < CHUNK; k++) v_store_chunks(row + k, at, m[k]);
 }
+
+#endif /* CAROM_LANES_ONE */
 
 #endif

@@ -18,6 +18,7 @@ enum { WIDEST = 16, MOST = 3 * WIDEST + 1, MANY = 20000 };
 static const struct {
   double in_double, in_single;
 } agreements[CAROM_SOLVER_COUNT] = {
+    [CAROM_SOLVER_EXACT] = {1e-5, 2e-4},
     [CAROM_SOLVER_EULER] = {0.0, 1e-2},
 };
 

@@ -9,7 +9,7 @@ for slip in paper pooltool; do
         if (error > (k < 5 ? 0.005 : 0.1)) print slip, $1, $2, "column", k, "is off by", error
       }
     }
-    END { for (name in rows) print slip, rows[name] " shots by a solver" }'
+    END { for (name in rows) print slip, rows[name] " shots by " name }' | sort
 done
 carom experiments | head -n 1 | cut -c 1-43
 try carom experiments --slip none

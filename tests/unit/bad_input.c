@@ -171,7 +171,7 @@ START_TEST(a_bad_row_disturbs_no_neighbour) {
   carom_result out[ROWS], alone;
   uint8_t status[ROWS];
   const carom_impact good = good_impact();
-  ck_assert_int_eq(carom_collide(&good, NULL, &alone), CAROM_OK);
+  ck_assert_int_eq(carom_collide_batch(&good, 1, NULL, &alone, NULL), CAROM_OK);
   for (int k = 0; k < ROWS; k++)
     in[k] = k % 2 == 0 ? good : with(bad_cases[k / 2].field, bad_cases[k / 2].value);
   ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, status), bad_cases[0].status);
@@ -246,9 +246,11 @@ START_TEST(overflow_is_told) {
   in = good_impact();
   in.b.r[1] = 1e300;
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_OVERFLOW);
+  carom_options options = carom_default_options();
+  options.solver = CAROM_SOLVER_EULER; /* whose impulses carry the mass; for the exact solver only ratios count */
   in = good_impact();
   in.a.mass = in.b.mass = 1e-310;
-  ck_assert_int_lt(carom_collide(&in, NULL, &out), 0);
+  ck_assert_int_lt(carom_collide(&in, &options, &out), 0);
 }
 END_TEST
 
