@@ -4,9 +4,9 @@
  * sorted by the effort foreseen for them. The sort changes who marches beside whom and nothing else: a lane's result is its
  * own.
  */
+#include "arcs.h"
 #include "batch.h"
 #include "block.h"
-#include "march.h"
 
 #define PASTE3(a, b, c) a##b##_##c
 #define PASTE(a, b, c) PASTE3(a, b, c)
@@ -81,76 +81,121 @@ static inline vmask tame(const problem *c) {
          v_less(c->kappa, v_splat(spread)) & v_less(v_splat(1 + 1 / spread), c->kappa);
 }
 
-/* A number from 0 to BINS - 1 that rises with the steps a collision will need. */
-static inline vreal effort(const problem *c, real s) {
-  const forecast f = foresee(c, s);
-  const vreal first = first_step(c, &f);
-  const vreal slips = v_min((real)1.1 * f.x / first, v_splat(4)) * 3;
+/* A number from 0 to BINS - 1 that rises with the steps a marched collision will need. */
+static inline vreal effort(const problem *c, const forecast *f) {
+  const vreal first = first_step(c, f);
+  const vreal slips = v_min((real)1.1 * f->x / first, v_splat(4)) * 3;
   const vreal sticks =
-      12 + 4 * v_min(c->mu * c->mu_b * 16, v_splat(1)) + v_select(v_less(f.q, v_splat((real)1.3)), v_splat(4), v_splat(0));
-  const vreal moves = v_select(v_less(f.q, v_splat((real)0.97)), slips, sticks);
-  const vreal turns = v_select(f.at_rest, v_splat(0), v_max(v_splat((real)1.7) - f.room, v_splat(0)) * 20);
+      12 + 4 * v_min(c->mu * c->mu_b * 16, v_splat(1)) + v_select(v_less(f->q, v_splat((real)1.3)), v_splat(4), v_splat(0));
+  const vreal moves = v_select(v_less(f->q, v_splat((real)0.97)), slips, sticks);
+  const vreal turns = v_select(f->at_rest, v_splat(0), v_max(v_splat((real)1.7) - f->room, v_splat(0)) * 20);
   return v_min(v_max(moves + turns, v_splat(0)), v_splat(BINS - 1));
 }
 
-/* The pairs [0, n) in an order in which their effort rises. */
-static void sort_by_effort(const real *in, size_t n, real s, uint16_t order[PAIRS]) {
+/* The pairs of a block, class by class, those to be marched in an order in which their effort rises. Behind them is room for
+ * the pairs that turn out not to belong to their class. */
+typedef struct agenda {
+  uint16_t pair[2 * PAIRS];
+  size_t begin[CLASSES + 1];
+} agenda;
+
+static void plan_block(const real *in, size_t n, real s, agenda *a) {
   uint8_t bin[PAIRS + LANES];
-  uint16_t begin[BINS + 1] = {0};
+  uint16_t begin[MARCHED + BINS + 1] = {0};
   for (size_t first = 0; first < n; first += LANES) {
     const real *row[LANES];
     for (size_t k = 0; k < LANES; k++)
       row[k] = in + IN_NUMBERS * (first + k < n ? first + k : first);
     const block b = block_load(row);
     const reduction r = reduce(&b, s);
-    const vreal key = v_select(b.good, effort(&r.c, s), v_splat(0));
+    const forecast f = foresee(&r.c, s);
+    const vmask good = b.good & tame(&r.c);
+    const vreal class = v_select(good, class_of(&r.c, &f), v_splat(MARCHED));
+    const vreal march_bin = v_select(good, effort(&r.c, &f), v_splat(0));
+    const vreal key = v_select(v_less(class, v_splat(MARCHED)), class, MARCHED + march_bin);
     for (size_t k = 0; k < LANES; k++)
       bin[first + k] = (uint8_t)key[k];
   }
   for (size_t k = 0; k < n; k++)
     begin[bin[k] + 1]++;
-  for (int k = 0; k < BINS; k++)
+  for (int k = 0; k < MARCHED + BINS; k++)
     begin[k + 1] = (uint16_t)(begin[k + 1] + begin[k]);
+  for (int k = 0; k <= MARCHED; k++)
+    a->begin[k] = begin[k];
+  a->begin[CLASSES] = n;
   for (size_t k = 0; k < n; k++)
-    order[begin[bin[k]]++] = (uint16_t)k;
+    a->pair[begin[bin[k]]++] = (uint16_t)k;
+}
+
+/* A vector of a block's pairs. */
+typedef struct party {
+  const real *from[LANES];
+  real *to[LANES];
+  block b;
+  reduction r;
+} party;
+
+/* Lanes beyond the last of the pairs repeat the first and write to `spare`. */
+static inline void gather(party *p, const real *in, real *out, real *spare, const uint16_t *pair, size_t left, real s) {
+  for (size_t k = 0; k < LANES; k++) {
+    p->from[k] = in + IN_NUMBERS * pair[k < left ? k : 0];
+    p->to[k] = k < left ? out + OUT_NUMBERS * pair[k] : spare;
+  }
+  p->b = block_load(p->from);
+  p->r = reduce(&p->b, s);
+  p->b.good &= tame(&p->r.c);
+}
+
+static inline unsigned scatter(party *p, const outcome *o) {
+  restore(&p->b, &p->r, o);
+  return v_bits(p->b.good & o->good & block_store(&p->b, p->to));
+}
+
+/* The pairs of one class; those that do not belong to it go to the end of the agenda. */
+static inline __attribute__((always_inline)) void solve_by_arc(int class, const real *in, real *out, uint8_t *status, agenda *a,
+                                                               real s) {
+  real spare[OUT_NUMBERS];
+  for (size_t first = a->begin[class]; first < a->begin[class + 1]; first += LANES) {
+    const size_t left = a->begin[class + 1] - first;
+    party p;
+    gather(&p, in, out, spare, a->pair + first, left, s);
+    const outcome o = solve_class(class, &p.r.c, p.b.good, s);
+    const unsigned good = scatter(&p, &o);
+    for (size_t k = 0; k < LANES && k < left; k++)
+      if ((good >> k & 1) == 0)
+        a->pair[a->begin[CLASSES]++] = a->pair[first + k];
+      else if (status != NULL)
+        status[a->pair[first + k]] = (uint8_t)CAROM_OK;
+  }
 }
 
 static size_t solve_block(const real *in, size_t n, const carom_options *opt, real *out, uint8_t *status) {
   const real s = opt->slip == CAROM_SLIP_POOLTOOL ? 1 : -1;
-  uint16_t order[PAIRS];
+  agenda a;
   real spare[OUT_NUMBERS]; /* takes what the lanes beyond the last pair compute */
   size_t first_bad = n;
-  if (n > LANES)
-    sort_by_effort(in, n, s, order);
-  else
-    for (size_t k = 0; k < n; k++)
-      order[k] = (uint16_t)k;
-  for (size_t first = 0; first < n; first += ABREAST * LANES) {
-    const real *from[ABREAST][LANES];
-    real *to[ABREAST][LANES];
-    block block_of[ABREAST];
-    reduction r[ABREAST];
+  plan_block(in, n, s, &a);
+  solve_by_arc(COARSE, in, out, status, &a, s);
+  solve_by_arc(MIDDLE, in, out, status, &a, s);
+  solve_by_arc(FINE, in, out, status, &a, s);
+  solve_by_arc(EARLY_STICK, in, out, status, &a, s);
+  solve_by_arc(LATE_STICK, in, out, status, &a, s);
+  for (size_t first = a.begin[MARCHED]; first < a.begin[CLASSES]; first += ABREAST * LANES) {
+    party p[ABREAST];
     walk w[ABREAST];
     for (size_t b = 0; b < ABREAST; b++) {
-      for (size_t k = 0; k < LANES; k++) {
-        const size_t at = first + b * LANES + k;
-        from[b][k] = in + IN_NUMBERS * order[at < n ? at : first];
-        to[b][k] = at < n ? out + OUT_NUMBERS * order[at] : spare;
-      }
-      block_of[b] = block_load(from[b]);
-      r[b] = reduce(&block_of[b], s);
-      block_of[b].good &= tame(&r[b].c);
-      set_out(&w[b], &r[b].c, block_of[b].good, s);
+      const size_t at = first + b * LANES, left = a.begin[CLASSES] > at ? a.begin[CLASSES] - at : 0;
+      gather(&p[b], in, out, spare, a.pair + (left > 0 ? at : first), left, s);
+      set_out(&w[b], &p[b].r.c, p[b].b.good, s);
     }
     march(w, s);
     for (size_t b = 0; b < ABREAST; b++) {
-      restore(&block_of[b], &r[b], &w[b].o);
-      const unsigned good = v_bits(block_of[b].good & w[b].o.good & block_store(&block_of[b], to[b]));
-      for (size_t k = 0; k < LANES && first + b * LANES + k < n; k++) {
-        const size_t pair = order[first + b * LANES + k];
+      const unsigned good = scatter(&p[b], &w[b].o);
+      for (size_t k = 0; k < LANES && first + b * LANES + k < a.begin[CLASSES]; k++) {
+        const size_t pair = a.pair[first + b * LANES + k];
         carom_status one = CAROM_OK;
         if ((good >> k & 1) == 0)
-          one = carom_collide_one(precision, from[b][k], opt, to[b][k]);
+          one = carom_collide_one(precision, p[b].from[k], opt, p[b].to[k]);
         if (status != NULL)
           status[pair] = (uint8_t)one;
         if (one < 0 && pair < first_bad)

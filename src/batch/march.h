@@ -218,7 +218,10 @@ static inline vreal to_go(vreal v, vreal slope, vreal S, vreal S_min, vreal e2) 
 /* The share of λ that a collision loses until the impulse reach, about; q is the share of |u| that it loses at its first rate.
  */
 typedef struct forecast {
-  vreal q, x, room;
+  vreal q, z, x, room; /* z: share of λ at its first rate */
+  vreal p_f;           /* the impulse at the end */
+  vreal tau_x, tau_y;  /* τ half way */
+  vreal pull;          /* |f| at the start */
   vmask at_rest; /* the pressed ball's slip begins at 0, and so does not turn */
 } forecast;
 
@@ -230,12 +233,17 @@ static inline forecast foresee(const problem *c, real s) {
   const vreal t_x = c->d_x * t_i, t_y = mid_y * t_i, D = c->kappa + c->mu * t_y;
   const vreal i = v_splat(1) / v_sqrt(c->u_x * c->u_x + c->u_z * c->u_z + tiny);
   const vreal cosine = c->u_x * i, sigma = c->u_z * i;
-  const vreal rate = (real)3.5 * c->kappa * cosine * cosine + sigma * ((real)2.5 * D * sigma + c->mu * cosine * t_x);
-  const vreal scaled = c->mu_b * reach * i;
   forecast f;
+  f.tau_x = t_x / D;
+  f.tau_y = t_y / D;
+  f.pull = c->mu * c->mu_b * sigma;
+  const vreal back = f.pull * f.tau_y;
+  f.p_f = reach * (1 - back * (1 - back));
+  const vreal rate = (real)3.5 * c->kappa * cosine * cosine + sigma * ((real)2.5 * D * sigma + c->mu * cosine * t_x);
+  const vreal scaled = c->mu_b * f.p_f * i;
   f.q = rate * scaled;
   /* λ = (1 - q)^(z/q) */
-  const vreal z = (real)0.5 * D * scaled;
+  const vreal z = f.z = (real)0.5 * D * scaled;
   const vreal near = v_sqrt(v_sqrt(v_sqrt(v_max(1 - f.q, v_splat((real)1e-3))))), less = 1 - near;
   const vreal small = v_select(v_less(f.q, v_splat((real)0.3)), f.q, less);
   const vreal zs = v_select(v_less(f.q, v_splat((real)0.3)), z, 8 * z * less / v_max(f.q, v_splat((real)0.3)));
@@ -243,7 +251,8 @@ static inline forecast foresee(const problem *c, real s) {
                                                                   (3 * small - zs) * ((real)(1 / 24.0) +
                                                                                       (4 * small - zs) * (real)(1 / 120.0)))));
   /* The slip d runs about straight; room is (|d| + |d_end|)/|way|, 1 where it passes through 0. */
-  const vreal w_x = -c->mu_b * cosine * reach, w_y = ((real)2.5 * s * c->mu_b * sigma - 1) * reach;
+  const vreal way = v_select(v_less(f.q, v_splat((real)1.2)), f.p_f, (real)1.2 * f.p_f / f.q);
+  const vreal w_x = -c->mu_b * cosine * way, w_y = ((real)2.5 * s * c->mu_b * sigma - 1) * way;
   const vreal e_x = c->d_x + w_x, e_y = c->d_y + w_y;
   const vreal d = v_sqrt(c->d_x * c->d_x + c->d_y * c->d_y);
   f.room = (d + v_sqrt(e_x * e_x + e_y * e_y)) / v_sqrt(w_x * w_x + w_y * w_y + tiny);
