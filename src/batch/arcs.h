@@ -83,6 +83,7 @@ typedef struct arc {
   vreal W[NODES], tau_x[NODES], tau_y[NODES], P[NODES];
   vreal dp[NODES], dF_x[NODES], dF_y[NODES], dW[NODES]; /* slopes */
   vreal change;
+  vmask left; /* the lanes whose sweeps have not converged; the others are frozen */
 } arc;
 
 always vreal dot(const rule_row w, const vreal *v, int n) {
@@ -102,7 +103,7 @@ always void apply(const rule_row *M, const vreal *v, vreal *out, int n) {
 /* Nodes, factors and a first W, for τ constant along the arc; to second order in log(λ) on a gauss arc. */
 always void lay(const plan *way, arc *a, const problem *c, const forecast *f, vreal h) {
   const int n = way->n;
-  const vreal per = 2 / (c->kappa * c->mu_b), c_F = -2 * c->mu * c->u_z;
+  const vreal per = 2 * v_reciprocal(c->kappa * c->mu_b + (real)MARCH_NO_FRICTION), c_F = -2 * c->mu * c->u_z;
   const vreal a_0 = 2 * c->mu * (c->u_z * f->tau_x - (real)3.5 * f->tau_y * c->u_x);
   const vreal a_1 = c->mu * (-2 * c->u_z * f->tau_x - (real)3.5 * f->tau_y * a_0);
   a->h = h;
@@ -115,7 +116,7 @@ always void lay(const plan *way, arc *a, const problem *c, const forecast *f, vr
       a->c_F[k] = c_F;
       a->c_W[k] = c->mu;
       a->W[k] = l2 * c->u_x;
-      a->damp[k] = 1 / (1 - (real)2.5 * c->mu * f->tau_y * ROW(way->r->away, k));
+      a->damp[k] = v_reciprocal(1 - (real)2.5 * c->mu * f->tau_y * ROW(way->r->away, k));
     } else {
       const vreal x = h * ROW(way->r->node, k), l = 1 - x;
       const vreal log_l = x * (1 + x * ((real)0.5 + (real)(1 / 3.0) * x)); /* its negative */
@@ -124,7 +125,7 @@ always void lay(const plan *way, arc *a, const problem *c, const forecast *f, vr
       a->l5[k] = a->l2[k] * a->l2[k] * l;
       a->c_p[k] = per * h * (a->l2[k] * a->l2[k]);
       a->c_F[k] = c_F * h * (a->l2[k] * a->l2[k]);
-      a->c_W[k] = 2 * h * c->mu / (a->l2[k] * l);
+      a->c_W[k] = 2 * h * c->mu * v_reciprocal(a->l2[k] * l);
       a->W[k] = a->l2[k] * (c->u_x - log_l * (a_0 - log_l * a_1));
       a->damp[k] = 1 + E * (1 + E * (1 + E));
     }
@@ -133,22 +134,25 @@ always void lay(const plan *way, arc *a, const problem *c, const forecast *f, vr
   }
 }
 
-/* A new W from τ and the old W, in the lanes of `left`. */
-always void renew_slip(const plan *way, arc *a, const problem *c, vmask left) {
+/* A new W from τ and the old W, in the lanes that are left. */
+always void renew_slip(const plan *way, arc *a, const problem *c) {
   const int n = way->n;
   vreal change[NODES];
   EACH_NODE(k) a->dW[k] = a->c_W[k] * (c->u_z * a->tau_x[k] - (real)3.5 * a->tau_y[k] * a->W[k]);
   apply(way->r->turn, a->dW, change, n);
   EACH_NODE(k) {
     const vreal W = way->sticks ? a->l2[k] * c->u_x - change[k] : a->l2[k] * (c->u_x - change[k]);
-    a->W[k] = v_select(left, a->W[k] + a->damp[k] * (W - a->W[k]), a->W[k]);
+    a->W[k] = v_select(a->left, a->W[k] + a->damp[k] * (W - a->W[k]), a->W[k]);
   }
 }
 
 always void slopes_of_p(const plan *way, arc *a, const problem *c) {
   const int n = way->n;
-  const vreal u_z2 = c->u_z * c->u_z;
-  EACH_NODE(k) a->dp[k] = a->c_p[k] * (1 - c->mu * a->tau_y[k]) * v_sqrt(u_z2 + a->W[k] * a->W[k]);
+  const vreal u_z2 = c->u_z * c->u_z + (real)MARCH_TINY;
+  EACH_NODE(k) {
+    const vreal u2 = u_z2 + a->W[k] * a->W[k];
+    a->dp[k] = a->c_p[k] * (1 - c->mu * a->tau_y[k]) * (u2 * v_reciprocal_sqrt(u2));
+  }
 }
 
 always void slopes_of_F(const plan *way, arc *a) {
@@ -159,42 +163,43 @@ always void slopes_of_F(const plan *way, arc *a) {
   }
 }
 
-/* New cloth slips from F = (X, Y) and p at the nodes, and from them a new τ in the lanes of `left`. */
-always void renew_tau(const plan *way, arc *a, const problem *c, const march_law *m, const vreal *X, const vreal *Y, vmask left) {
+/* New cloth slips from F = (X, Y) and p at the nodes, and from them a new τ in the lanes that are left. */
+always void renew_tau(const plan *way, arc *a, const problem *c, const march_law *m, const vreal *X, const vreal *Y) {
   const int n = way->n;
   const vreal base_x = c->d_x - m->per_35 * c->u_x, base_y = c->d_y + m->Z;
   vreal change = v_splat(0);
   EACH_NODE(k) {
     const vreal d_x = base_x + m->X * X[k] + m->per_35 * (a->l5[k] * a->W[k]) - a->own[k] * a->tau_x[k];
     const vreal d_y = base_y + m->Y * Y[k] - m->Z * a->l5[k] - a->P[k] - a->own[k] * a->tau_y[k];
-    const vreal i = 1 / (c->kappa * v_sqrt(d_x * d_x + d_y * d_y) + (c->mu * d_y + (real)MARCH_TINY));
-    const vreal x = d_x * i, y = d_y * i;
+    const vreal i = v_reciprocal_sqrt(d_x * d_x + d_y * d_y + (real)MARCH_TINY), t_y = d_y * i;
+    const vreal per = v_reciprocal(c->kappa + c->mu * t_y), x = d_x * i * per, y = t_y * per;
     change = v_max(change, v_max(v_abs(x - a->tau_x[k]), v_abs(y - a->tau_y[k])));
-    a->tau_x[k] = v_select(left, x, a->tau_x[k]);
-    a->tau_y[k] = v_select(left, y, a->tau_y[k]);
+    a->tau_x[k] = v_select(a->left, x, a->tau_x[k]);
+    a->tau_y[k] = v_select(a->left, y, a->tau_y[k]);
   }
-  a->change = v_select(left, change, a->change);
+  a->change = v_select(a->left, change, a->change);
 }
 
-always void run_arc(const plan *way, arc *a, const problem *c, const march_law *m, const forecast *f, real s,
-                           vreal enough, vmask mask) {
+/* Lays the arc and makes the first sweep. */
+always void begin_arc(const plan *way, arc *a, const problem *c, const march_law *m, const forecast *f, vmask mask) {
   const int n = way->n;
   const vreal c_F = (real)-0.4 * c->mu * c->u_z;
   vreal X[NODES], Y[NODES];
   a->change = v_splat(0);
+  a->left = mask;
   lay(way, a, c, f, f->x);
   if (way->sticks)
-    renew_slip(way, a, c, mask);
+    renew_slip(way, a, c);
   if (!way->bowed)
     slopes_of_p(way, a, c);
   if (way->aimed) {
-    const vreal dp = dot(way->r->last, a->dp, n), ddp = dot(way->r->bend, a->dp, n);
-    const vreal dx = (f->p_f - dot(way->r->all, a->dp, n)) / dp;
-    lay(way, a, c, f, v_min(a->h * (1 + dx * (1 - (real)0.5 * dx * ddp / dp)), v_splat((real)0.7)));
+    const vreal per = v_reciprocal(dot(way->r->last, a->dp, n)), ddp = dot(way->r->bend, a->dp, n);
+    const vreal dx = (f->p_f - dot(way->r->all, a->dp, n)) * per;
+    lay(way, a, c, f, v_min(a->h * (1 + dx * (1 - (real)0.5 * dx * ddp * per)), v_splat((real)0.7)));
     slopes_of_p(way, a, c);
   }
-  const vreal flat = f->tau_x * f->tau_x / (f->tau_x * f->tau_x + f->tau_y * f->tau_y + (real)MARCH_TINY);
-  const vreal own = c_F * (m->X + (m->Y - m->X) * flat);
+  const vreal x2 = f->tau_x * f->tau_x, y2 = f->tau_y * f->tau_y;
+  const vreal own = c_F * (m->X + (m->Y - m->X) * (x2 * v_reciprocal(x2 + y2 + (real)MARCH_TINY)));
   EACH_NODE(k) {
     const vreal lost = 1 - a->l5[k];
     a->own[k] = own * lost;
@@ -206,24 +211,22 @@ always void run_arc(const plan *way, arc *a, const problem *c, const march_law *
     EACH_NODE(k) a->P[k] = f->p_f * ROW(way->r->node, k) * (1 + bow * (1 - ROW(way->r->node, k)));
   } else
     apply(way->r->sum, a->dp, a->P, n);
-  renew_tau(way, a, c, m, X, Y, mask);
-  (void)s;
-  vmask left = mask;
-  for (int sweep = 1; sweep < way->most && v_any(left); sweep++) {
-    vreal P[NODES];
-    renew_slip(way, a, c, left);
-    slopes_of_p(way, a, c);
-    slopes_of_F(way, a);
-    apply(way->r->sum, a->dp, P, n);
-    apply(way->r->sum, a->dF_x, X, n);
-    apply(way->r->sum, a->dF_y, Y, n);
-    EACH_NODE(k) a->P[k] = v_select(left, P[k], a->P[k]);
-    renew_tau(way, a, c, m, X, Y, left);
-    left &= v_less_equal(enough, a->change);
-  }
-  renew_slip(way, a, c, mask);
+  renew_tau(way, a, c, m, X, Y);
+}
+
+/* One more sweep of the lanes that are left. */
+always void sweep(const plan *way, arc *a, const problem *c, const march_law *m, vreal enough) {
+  const int n = way->n;
+  vreal P[NODES], X[NODES], Y[NODES];
+  renew_slip(way, a, c);
   slopes_of_p(way, a, c);
   slopes_of_F(way, a);
+  apply(way->r->sum, a->dp, P, n);
+  apply(way->r->sum, a->dF_x, X, n);
+  apply(way->r->sum, a->dF_y, Y, n);
+  EACH_NODE(k) a->P[k] = v_select(a->left, P[k], a->P[k]);
+  renew_tau(way, a, c, m, X, Y);
+  a->left &= v_less_equal(enough, a->change);
 }
 
 /* The weights of the integral from the start of the arc to x (gauss). */
@@ -354,44 +357,71 @@ always vmask fits(const plan *way, const arc *a, vreal pull, vreal limit, vreal 
   return v_less(F * (pull + (real)0.003), limit) & v_less(p * weight_p, limit_p);
 }
 
-always outcome one_arc(const plan *way, const problem *c, vmask mask, real s,
-                                                             real most_change, real limit_F, real limit_p) {
-  const forecast f = foresee(c, s);
-  const march_law m = law_of(c, s);
-  const vreal feel = f.pull + (real)0.2 * c->mu * (way->sticks ? v_splat(0) : f.z);
-  const vreal enough = slack * (real)2e-8 * (way->sticks ? f.q : v_splat(1)) / ((feel + (real)1e-30) * (feel + (real)0.003));
-  arc a;
-  outcome o;
-  run_arc(way, &a, c, &m, &f, s, enough, mask);
-  o.good = mask & v_less(a.change * f.pull, slack * most_change * (way->sticks ? f.q : v_splat(1)));
-  if (way->n > 2)
-    o.good &= fits(way, &a, f.pull, slack * limit_F * m.unit, way->sticks ? f.pull : c->mu_b, slack * limit_p * m.unit);
-  if (way->sticks)
-    arrive_stuck(way, &a, c, &o);
-  else
-    arrive_by_arc(way, &a, c, &o);
-  return o;
+/* What an arc may leave: a change in its last sweep, coefficients of F and p. */
+typedef struct limits {
+  real change, F, p;
+} limits;
+
+/* Two vectors abreast, as in the march. */
+always void arcs(const plan *way, const limits *most, const problem *const c[ABREAST], const vmask mask[ABREAST], real s,
+                 outcome o[ABREAST]) {
+  const int n = way->n;
+  forecast f[ABREAST];
+  march_law m[ABREAST];
+  vreal enough[ABREAST];
+  arc a[ABREAST];
+  EACH(w, b) {
+    f[b] = foresee(c[b], s);
+    m[b] = law_of(c[b], s);
+    const vreal feel = way->sticks ? f[b].pull : f[b].pull + (real)0.2 * c[b]->mu * f[b].z;
+    enough[b] = slack * (real)2e-8 * v_reciprocal((feel + (real)1e-15) * (feel + (real)0.003));
+    if (way->sticks)
+      enough[b] *= f[b].q;
+  }
+  EACH(w, b) begin_arc(way, &a[b], c[b], &m[b], &f[b], mask[b]);
+  for (int k = 1; k < way->most; k++) {
+    bool any = false;
+    EACH(w, b) any |= v_any(a[b].left);
+    if (!any)
+      break;
+    EACH(w, b) sweep(way, &a[b], c[b], &m[b], enough[b]);
+  }
+  EACH(w, b) {
+    a[b].left = mask[b];
+    renew_slip(way, &a[b], c[b]);
+    slopes_of_p(way, &a[b], c[b]);
+    slopes_of_F(way, &a[b]);
+  }
+  EACH(w, b) {
+    const vreal change = slack * most->change * (way->sticks ? f[b].q : v_splat(1));
+    o[b].good = mask[b] & v_less(a[b].change * f[b].pull, change);
+    if (n > 2)
+      o[b].good &= fits(way, &a[b], f[b].pull, slack * most->F * m[b].unit, way->sticks ? f[b].pull : c[b]->mu_b,
+                        slack * most->p * m[b].unit);
+    if (way->sticks)
+      arrive_stuck(way, &a[b], c[b], &o[b]);
+    else
+      arrive_by_arc(way, &a[b], c[b], &o[b]);
+  }
 }
 
-/* The collisions of a vector, all of one class. The lanes that turn out not to belong to it are not good. */
-always outcome solve_class(int class, const problem *c, vmask mask, real s) {
-  static const plan coarse = {.r = &gauss_2, .n = 2, .most = 4, .bowed = true};
-  static const plan middle = {.r = &gauss_4, .n = 4, .most = 6, .bowed = true};
-  static const plan fine = {.r = &gauss_6, .n = 6, .most = 8, .aimed = true};
-  static const plan early = {.r = &stick_4, .n = 4, .most = 6, .sticks = true};
-  static const plan late = {.r = &stick_6, .n = 6, .most = 8, .sticks = true};
-  switch (class) {
-  case COARSE:
-    return one_arc(&coarse, c, mask, s, (real)3e-6, 0, 0);
-  case MIDDLE:
-    return one_arc(&middle, c, mask, s, (real)3e-6, (real)3e-6, (real)3e-4);
-  case FINE:
-    return one_arc(&fine, c, mask, s, (real)1e-5, (real)1e-6, (real)2e-5);
-  case EARLY_STICK:
-    return one_arc(&early, c, mask, s, (real)3e-6, (real)4e-6, (real)4e-4);
-  default:
-    return one_arc(&late, c, mask, s, (real)1e-5, (real)2e-6, (real)5e-4);
-  }
+/* The collisions of two vectors, all of one class. The lanes that turn out not to belong to it are not good. */
+always void solve_class(int class, const problem *const c[ABREAST], const vmask mask[ABREAST], real s, outcome o[ABREAST]) {
+  static const plan way[MARCHED] = {
+      [COARSE] = {.r = &gauss_2, .n = 2, .most = 4, .bowed = true},
+      [MIDDLE] = {.r = &gauss_4, .n = 4, .most = 6, .bowed = true},
+      [FINE] = {.r = &gauss_6, .n = 6, .most = 8, .aimed = true},
+      [EARLY_STICK] = {.r = &stick_4, .n = 4, .most = 6, .sticks = true},
+      [LATE_STICK] = {.r = &stick_6, .n = 6, .most = 8, .sticks = true},
+  };
+  static const limits most[MARCHED] = {
+      [COARSE] = {(real)3e-6, 0, 0},
+      [MIDDLE] = {(real)3e-6, (real)3e-6, (real)3e-4},
+      [FINE] = {(real)1e-5, (real)1e-6, (real)2e-5},
+      [EARLY_STICK] = {(real)3e-6, (real)4e-6, (real)4e-4},
+      [LATE_STICK] = {(real)1e-5, (real)2e-6, (real)5e-4},
+  };
+  arcs(&way[class], &most[class], c, mask, s, o);
 }
 
 #endif

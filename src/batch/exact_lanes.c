@@ -19,7 +19,7 @@ static const carom_precision precision = CAROM_DOUBLE;
 #endif
 #define SOLVER PASTE(carom_exact_lanes_, CAROM_LANES_SUFFIX, PRECISION_SUFFIX)
 
-enum { PAIRS = 256, BINS = 32 }; /* a block fits into the second cache several times */
+enum { PAIRS = 1024, BINS = 32 }; /* a block fits into the second cache several times */
 
 /* Turned so that ball i is the pressed one, and u_z >= 0; the way back needs the signs and the mass ratio. */
 typedef struct reduction {
@@ -72,7 +72,7 @@ static inline void restore(block *b, const reduction *r, const outcome *o) {
 /* Lanes whose numbers are within what the march was made for; a single call takes care of others. */
 static inline vmask tame(const problem *c) {
 #ifdef CAROM_LANES_SINGLE
-  const real most = 1e8f, spread = 1e3f, fastest = 1e3f;
+  const real most = 1e8f, spread = 1e3f, fastest = 1e6f;
 #else
   const real most = 1e60, spread = 1e4, fastest = 1e9;
 #endif
@@ -135,15 +135,16 @@ typedef struct party {
   reduction r;
 } party;
 
-/* Lanes beyond the last of the pairs repeat the first and write to `spare`. */
-static inline void gather(party *p, const real *in, real *out, real *spare, const uint16_t *pair, size_t left, real s) {
-  for (size_t k = 0; k < LANES; k++) {
-    p->from[k] = in + IN_NUMBERS * pair[k < left ? k : 0];
-    p->to[k] = k < left ? out + OUT_NUMBERS * pair[k] : spare;
+/* The pairs at [at, end) of the agenda. Lanes beyond the last are not good, read the block's first pair and write to `spare`. */
+static inline void gather(party *p, const real *in, real *out, real *spare, const agenda *a, size_t at, size_t end, real s) {
+  const unsigned there = at + LANES <= end ? (unsigned)ALL_LANES : at < end ? (1u << (end - at)) - 1 : 0;
+  for (size_t k = 0; k < LANES; k++, at++) {
+    p->from[k] = in + IN_NUMBERS * (at < end ? a->pair[at] : 0);
+    p->to[k] = at < end ? out + OUT_NUMBERS * a->pair[at] : spare;
   }
   p->b = block_load(p->from);
   p->r = reduce(&p->b, s);
-  p->b.good &= tame(&p->r.c);
+  p->b.good &= tame(&p->r.c) & v_from_bits(there);
 }
 
 static inline unsigned scatter(party *p, const outcome *o) {
@@ -151,41 +152,68 @@ static inline unsigned scatter(party *p, const outcome *o) {
   return v_bits(p->b.good & o->good & block_store(&p->b, p->to));
 }
 
+/* Brings the next block nearer while this one is being solved: memory is slower than the solver. */
+typedef struct fetcher {
+  const char *in, *in_end;
+  char *out, *out_end;
+} fetcher;
+
+static inline void fetch_ahead(fetcher *f) {
+  enum { LINE = 64, TIMES = 5 }; /* per pair, a little more than 1, so that all is there in time */
+  for (int k = 0; k < ABREAST * LANES * IN_NUMBERS * (int)sizeof(real) * TIMES / (4 * LINE) && f->in < f->in_end; k++, f->in += LINE)
+    __builtin_prefetch(f->in, 0, 2);
+  for (int k = 0; k < ABREAST * LANES * OUT_NUMBERS * (int)sizeof(real) * TIMES / (4 * LINE) && f->out < f->out_end;
+       k++, f->out += LINE)
+    __builtin_prefetch(f->out, 1, 2);
+}
+
 /* The pairs of one class; those that do not belong to it go to the end of the agenda. */
 static inline __attribute__((always_inline)) void solve_by_arc(int class, const real *in, real *out, uint8_t *status, agenda *a,
-                                                               real s) {
+                                                               fetcher *ahead, real s) {
   real spare[OUT_NUMBERS];
-  for (size_t first = a->begin[class]; first < a->begin[class + 1]; first += LANES) {
-    const size_t left = a->begin[class + 1] - first;
-    party p;
-    gather(&p, in, out, spare, a->pair + first, left, s);
-    const outcome o = solve_class(class, &p.r.c, p.b.good, s);
-    const unsigned good = scatter(&p, &o);
-    for (size_t k = 0; k < LANES && k < left; k++)
-      if ((good >> k & 1) == 0)
-        a->pair[a->begin[CLASSES]++] = a->pair[first + k];
-      else if (status != NULL)
-        status[a->pair[first + k]] = (uint8_t)CAROM_OK;
+  for (size_t first = a->begin[class]; first < a->begin[class + 1]; first += ABREAST * LANES) {
+    party p[ABREAST];
+    const problem *c[ABREAST];
+    vmask mask[ABREAST];
+    outcome o[ABREAST];
+    fetch_ahead(ahead);
+    EACH(p, b) {
+      const size_t at = first + (size_t)b * LANES;
+      gather(&p[b], in, out, spare, a, at, a->begin[class + 1], s);
+      c[b] = &p[b].r.c;
+      mask[b] = p[b].b.good;
+    }
+    solve_class(class, c, mask, s, o);
+    for (size_t b = 0; b < ABREAST; b++) {
+      const unsigned good = scatter(&p[b], &o[b]);
+      for (size_t k = 0, at = first + b * LANES; k < LANES && at < a->begin[class + 1]; k++, at++)
+        if ((good >> k & 1) == 0)
+          a->pair[a->begin[CLASSES]++] = a->pair[at];
+        else if (status != NULL)
+          status[a->pair[at]] = (uint8_t)CAROM_OK;
+    }
   }
 }
 
-static size_t solve_block(const real *in, size_t n, const carom_options *opt, real *out, uint8_t *status) {
+/* `next` pairs follow behind the n of this block. */
+static size_t solve_block(const real *in, size_t n, size_t next, const carom_options *opt, real *out, uint8_t *status) {
   const real s = opt->slip == CAROM_SLIP_POOLTOOL ? 1 : -1;
   agenda a;
   real spare[OUT_NUMBERS]; /* takes what the lanes beyond the last pair compute */
   size_t first_bad = n;
+  fetcher ahead = {(const char *)(in + IN_NUMBERS * n), (const char *)(in + IN_NUMBERS * (n + next)),
+                   (char *)(out + OUT_NUMBERS * n), (char *)(out + OUT_NUMBERS * (n + next))};
   plan_block(in, n, s, &a);
-  solve_by_arc(COARSE, in, out, status, &a, s);
-  solve_by_arc(MIDDLE, in, out, status, &a, s);
-  solve_by_arc(FINE, in, out, status, &a, s);
-  solve_by_arc(EARLY_STICK, in, out, status, &a, s);
-  solve_by_arc(LATE_STICK, in, out, status, &a, s);
+  solve_by_arc(COARSE, in, out, status, &a, &ahead, s);
+  solve_by_arc(MIDDLE, in, out, status, &a, &ahead, s);
+  solve_by_arc(FINE, in, out, status, &a, &ahead, s);
+  solve_by_arc(EARLY_STICK, in, out, status, &a, &ahead, s);
+  solve_by_arc(LATE_STICK, in, out, status, &a, &ahead, s);
   for (size_t first = a.begin[MARCHED]; first < a.begin[CLASSES]; first += ABREAST * LANES) {
     party p[ABREAST];
     walk w[ABREAST];
     for (size_t b = 0; b < ABREAST; b++) {
-      const size_t at = first + b * LANES, left = a.begin[CLASSES] > at ? a.begin[CLASSES] - at : 0;
-      gather(&p[b], in, out, spare, a.pair + (left > 0 ? at : first), left, s);
+      gather(&p[b], in, out, spare, &a, first + b * LANES, a.begin[CLASSES], s);
       set_out(&w[b], &p[b].r.c, p[b].b.good, s);
     }
     march(w, s);
@@ -209,8 +237,8 @@ static size_t solve_block(const real *in, size_t n, const carom_options *opt, re
 size_t SOLVER(const void *in, size_t n, const carom_options *opt, void *out, uint8_t *status) {
   size_t first_bad = n;
   for (size_t first = 0; first < n; first += PAIRS) {
-    const size_t part = n - first < PAIRS ? n - first : PAIRS;
-    const size_t bad = solve_block((const real *)in + IN_NUMBERS * first, part, opt, (real *)out + OUT_NUMBERS * first,
+    const size_t left = n - first, part = left < PAIRS ? left : PAIRS, next = left - part < PAIRS ? left - part : PAIRS;
+    const size_t bad = solve_block((const real *)in + IN_NUMBERS * first, part, next, opt, (real *)out + OUT_NUMBERS * first,
                                    status != NULL ? status + first : NULL);
     if (bad < part && first_bad == n)
       first_bad = first + bad;
