@@ -218,15 +218,17 @@ static bool is_yardstick(const bench_job *job, const workload *w) {
 }
 
 /* Speedup is relative to the ladder's first rung in the default configuration; without a ladder, to the library's first solver
- * with steps. The yardsticks come first, in the order in which they are needed. */
+ * with steps. The yardsticks come first, with as many steps as the others have, then with the default for those without. */
 static bool add_yardsticks(bench_job *job) {
   job->yardstick.kernel = yardstick_kernel();
   if (job->yardstick.kernel->is_rung && !kernel_module(job->yardstick.kernel, NULL, &job->yardstick.module))
     return false;
   const size_t chosen = job->work_count;
-  for (size_t k = 0; k < chosen; k++)
-    if (!add_calls(job, job->yardstick.kernel, job->yardstick.module, yardstick_steps(&job->work[k])))
-      return false;
+  for (int without = 0; without < 2; without++)
+    for (size_t k = 0; k < chosen; k++)
+      if ((workload_steps(&job->work[k]) == 0) == (without == 1) &&
+          !add_calls(job, job->yardstick.kernel, job->yardstick.module, yardstick_steps(&job->work[k])))
+        return false;
   workload *sorted = calloc(job->work_count, sizeof *sorted);
   if (sorted == NULL) {
     complain("out of memory");
