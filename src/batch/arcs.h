@@ -37,6 +37,10 @@ static const real slack = 20; /* of the limits below, which are for double */
 static const real slack = 1;
 #endif
 
+#ifndef STICK_SHARE
+#define STICK_SHARE 0.9
+#define LATE_ROOM 2
+#endif
 /* The classes of collisions, in the order in which a block does them. */
 enum { COARSE, MIDDLE, FINE, EARLY_STICK, LATE_STICK, MARCHED, CLASSES };
 
@@ -54,9 +58,9 @@ always vreal class_of(const problem *c, const forecast *f) {
 #define ABOVE(x, y) v_less(v_splat((real)(y)), x)
   const vmask coarse = mild & BELOW(f->q, 0.1) & BELOW(pull, 0.06) & BELOW(c->mu, 0.55) & ABOVE(c->e, 0.85) & ABOVE(room, 8);
   const vmask middle = mild & BELOW(f->q, 0.45) & ABOVE(room, 2.5);
-  const vmask fine = mild & BELOW(f->q, 0.95) & ABOVE(room, 1.5);
+  const vmask fine = mild & BELOW(f->q, STICK_SHARE) & ABOVE(room, 1.5);
   const vmask early = mild & ABOVE(f->q, 8) & ABOVE(room, 2.5);
-  const vmask late = mild & ABOVE(f->q, 0.95) & ABOVE(room, 2);
+  const vmask late = mild & ABOVE(f->q, STICK_SHARE) & ABOVE(room, LATE_ROOM);
 #undef BELOW
 #undef ABOVE
   const vreal slips = v_select(coarse, v_splat(COARSE), v_select(middle, v_splat(MIDDLE), v_splat(FINE)));
@@ -294,15 +298,27 @@ always void arrive_by_arc(const plan *way, const arc *a, const problem *c, outco
   o->good &= v_less_equal(v_abs(dx), v_splat((real)0.02)) & v_less_equal((real)-0.01 * c->kappa * p, v_n);
 }
 
-/* A quantity on a stick arc as a polynomial: with v its slope over λ⁴ at the nodes, the integral from λ to 0 is λ⁵ times it. */
-always void coefficients(const plan *way, const vreal *v, vreal *out) {
+/* A quantity on a stick arc as a polynomial of λ: with v its slope over λ⁴ at the nodes and k its coefficients, the integral
+ * from λ to 0 is λ⁵ Σ k_i λ^i, and the interpolant of v is Σ (5 + i) k_i λ^i. */
+always void coefficients(const plan *way, const vreal *v, vreal *k) {
   const int n = way->n;
-  EACH_NODE(i) out[i] = dot(way->r->part[i], v, n);
+  EACH_NODE(i) k[i] = dot(way->r->part[i], v, n);
 }
-always vreal polynomial(const vreal *k, vreal x, int n) {
+always vreal remainder_at(const vreal *k, vreal l, vreal l5, int n) {
   vreal sum = k[n - 1];
-  lanes_unrolled for (int i = n - 2; i >= 0; i--) sum = v_fma(sum, x, k[i]);
+  lanes_unrolled for (int i = n - 2; i >= 0; i--) sum = v_fma(sum, l, k[i]);
+  return sum * l5;
+}
+always vreal interpolant_at(const vreal *k, vreal l, int n) {
+  vreal sum = (real)(n + 4) * k[n - 1];
+  lanes_unrolled for (int i = n - 2; i >= 0; i--) sum = v_fma(sum, l, (real)(5 + i) * k[i]);
   return sum;
+}
+
+/* The λ at which a share of p is still to come, about: it falls as λ⁶. */
+always vreal lambda_of_share(vreal share) {
+  const vreal fourth = v_sqrt(v_sqrt(clamp(share, (real)1e-6, 1)));
+  return v_sqrt(fourth * v_sqrt(fourth));
 }
 
 /* The balls stick at the end of a stick arc, unless the collision ends before. */
@@ -310,43 +326,69 @@ always void arrive_stuck(const plan *way, const arc *a, const problem *c, outcom
   const int n = way->n;
   const rule *r = way->r;
   const vreal e2 = c->e * c->e, zero = v_splat(0);
-  vreal H_y[NODES];
-  EACH_NODE(k) H_y[k] = a->P[k] * a->dF_y[k];
-  const vreal p = dot(r->all, a->dp, n), F_y = dot(r->all, a->dF_y, n), H = dot(r->all, H_y, n);
+  vreal slope_H[NODES];
+  EACH_NODE(k) slope_H[k] = a->P[k] * a->dF_y[k];
+  const vreal p = dot(r->all, a->dp, n), F_y = dot(r->all, a->dF_y, n), H = dot(r->all, slope_H, n);
   const vreal v_n = c->v_n + c->kappa * p - F_y;
   const vreal S = (c->v_n + (real)0.5 * c->kappa * p - F_y) * p + H;
-  vreal S_min = S - (real)0.5 * v_n * v_n / c->kappa;
-  const vmask passed = v_less(zero, v_n) & o->good;
-  if (v_any(passed)) {
-    vreal at_p[NODES], at_F[NODES], at_H[NODES];
-    coefficients(way, a->dp, at_p);
-    coefficients(way, a->dF_y, at_F);
-    coefficients(way, H_y, at_H);
-    /* v_n = 0: Newton's method for v_n(λ), which is about v_n(0) - (...) λ⁶ */
-    const vreal share = clamp(v_n / (v_n - c->v_n), (real)1e-6, 1), fourth = v_sqrt(v_sqrt(share));
-    vreal l = v_sqrt(fourth * v_sqrt(fourth)), p_c = p, F_c = F_y, H_c = H, v_c = v_n;
-    for (int again = 0; again < 4; again++) {
-      const vreal l4 = l * l * (l * l), l5 = l4 * l;
-      p_c = p - l5 * polynomial(at_p, l, n);
-      F_c = F_y - l5 * polynomial(at_F, l, n);
-      H_c = H - l5 * polynomial(at_H, l, n);
-      v_c = c->v_n + c->kappa * p_c - F_c;
-      if (again < 3) {
-        vreal rate = (real)(4 + n) * at_p[n - 1];
-        lanes_unrolled for (int i = n - 2; i >= 0; i--) rate = v_fma(rate, l, (real)(5 + i) * at_p[i]);
-        l = clamp(l + v_c / (c->kappa * l4 * rate), (real)0.05, 1);
-      }
-    }
-    const vreal slope = c->kappa - F_y / p;
-    const vreal least = (c->v_n + (real)0.5 * c->kappa * p_c - F_c) * p_c + H_c - (real)0.5 * v_c * v_c / slope;
-    S_min = v_select(passed, least, S_min);
-    o->good &= v_not(passed & (v_less((1 - e2) * S_min, S) | v_less((real)0.05 * v_abs(c->v_n), v_abs(v_c))));
-  }
-  o->p = p + to_go(v_n, c->kappa, S, S_min, e2);
+  vreal S_min = S - (real)0.5 * v_n * v_n * v_reciprocal(c->kappa);
   o->F_x = dot(r->all, a->dF_x, n);
   o->F_y = F_y;
   o->u_x = zero;
   o->u_z = zero;
+  o->p = p;
+  const vmask passed = v_less(zero, v_n) & o->good;
+  vmask stuck = o->good;
+  if (v_any(passed)) { /* v_n = 0 on the way: Newton's method in λ */
+    const vreal per_slope = v_reciprocal(c->kappa - F_y * v_reciprocal(p));
+    vreal k_p[NODES], k_F[NODES], k_H[NODES], p_l, F_l, H_l, v_l;
+    coefficients(way, a->dp, k_p);
+    coefficients(way, a->dF_y, k_F);
+    coefficients(way, slope_H, k_H);
+    vreal l = lambda_of_share(v_n / (v_n - c->v_n));
+#define LOOK(l)                                       \
+  const vreal l4 = (l) * (l) * ((l) * (l)), l5 = l4 * (l); \
+  p_l = p - remainder_at(k_p, l, l5, n);              \
+  F_l = F_y - remainder_at(k_F, l, l5, n);            \
+  v_l = c->v_n + c->kappa * p_l - F_l
+    for (int again = 0; again < 3; again++) {
+      LOOK(l);
+      l = clamp(l + v_l * per_slope * v_reciprocal(l4 * interpolant_at(k_p, l, n)), (real)0.05, 1);
+    }
+    {
+      LOOK(l);
+      H_l = H - remainder_at(k_H, l, l5, n);
+    }
+    const vreal least =
+        (c->v_n + (real)0.5 * c->kappa * p_l - F_l) * p_l + H_l - (real)0.5 * v_l * v_l * per_slope;
+    S_min = v_select(passed, least, S_min);
+    o->good &= v_not(passed & v_less((real)0.05 * v_abs(c->v_n), v_abs(v_l)));
+    const vmask before = passed & v_less((1 - e2) * S_min, S);
+    if (v_any(before)) { /* so does the end */
+      const vreal slope = c->kappa - F_y * v_reciprocal(p);
+      vreal more = to_go(v_n, slope, S, S_min, e2);
+      l = lambda_of_share(-more * v_reciprocal(p));
+      for (int again = 0; again < 4; again++) {
+        LOOK(l);
+        H_l = H - remainder_at(k_H, l, l5, n);
+        more = to_go(v_l, slope, (c->v_n + (real)0.5 * c->kappa * p_l - F_l) * p_l + H_l, S_min, e2);
+        l = clamp(l - more * v_reciprocal(l4 * interpolant_at(k_p, l, n)), (real)0.05, 1);
+      }
+      LOOK(l);
+      vreal k[NODES];
+      coefficients(way, a->W, k);
+      o->u_x = v_select(before, l5 * interpolant_at(k, l, n), zero);
+      o->u_z = v_select(before, l5 * c->u_z, zero);
+      coefficients(way, a->dF_x, k);
+      o->F_x = v_select(before, o->F_x - remainder_at(k, l, l5, n), o->F_x);
+      o->F_y = v_select(before, F_l, F_y);
+      o->p = v_select(before, p_l, p);
+      o->good &= v_not(before & v_less((real)1e-3 * p, v_abs(more)));
+    }
+    stuck &= v_not(before);
+#undef LOOK
+  }
+  o->p = v_select(stuck, p + to_go(v_n, c->kappa, S, S_min, e2), o->p);
 }
 
 /* Do the polynomials of the arc fit? Their highest coefficients measure what they leave out; what an error of F costs grows
