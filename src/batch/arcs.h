@@ -50,8 +50,8 @@ static const real least_e = (real)0.05;
 /* Which class a collision is tried in. The limits are those of src/exact.c. */
 always vreal class_of(const problem *c, const forecast *f) {
   const vreal pull = c->mu * c->mu_b;
-  const vmask mild = v_less(pull, v_splat((real)0.15)) & v_less(c->mu_b, v_splat((real)0.25)) &
-                     v_less(v_splat(least_e), c->e) & v_less(v_splat((real)MARCH_NO_FRICTION), c->mu_b) &
+  const vmask mild = v_less(pull, v_splat((real)0.15)) & v_less(c->mu_b, v_splat((real)0.25)) & v_less(v_splat(least_e), c->e) &
+                     v_less(v_splat((real)MARCH_NO_FRICTION), c->mu_b) &
                      v_less(v_splat((real)1e-6) * c->mu_b * -c->v_n, c->u_z);
   const vreal room = v_select(f->at_rest, v_splat(100), f->room);
 #define BELOW(x, y) v_less(x, v_splat((real)(y)))
@@ -73,8 +73,8 @@ typedef struct plan {
   const rule *r;
   int n, most; /* nodes, sweeps at most */
   bool sticks;
-  bool bowed;  /* p is foreseen as a parabola */
-  bool aimed;  /* h is corrected once */
+  bool bowed; /* p is foreseen as a parabola */
+  bool aimed; /* h is corrected once */
 } plan;
 
 /* An arc and what a sweep needs at its nodes. */
@@ -83,7 +83,7 @@ typedef struct arc {
   vreal l2[NODES], l5[NODES];
   vreal c_p[NODES], c_F[NODES], c_W[NODES]; /* factors of the slopes of p, F and W */
   vreal damp[NODES];                        /* about the inverse of 1 - (change of W's integral with W) */
-  vreal own[NODES];                         /* the cloth's own pull on d along τ: it turns nothing; without it sweeps gain more */
+  vreal own[NODES]; /* the cloth's own pull on d along τ: it turns nothing; without it sweeps gain more */
   vreal W[NODES], tau_x[NODES], tau_y[NODES], P[NODES];
   vreal dp[NODES], dF_x[NODES], dF_y[NODES], dW[NODES]; /* slopes */
   vreal change;
@@ -276,8 +276,7 @@ always void arrive_by_arc(const plan *way, const arc *a, const problem *c, outco
     F_c = mix(w, a->dF_y, n);
     v_c = c->v_n + c->kappa * p_c - F_c;
   }
-  const vreal S_min =
-      (c->v_n + (real)0.5 * c->kappa * p_c - F_c) * p_c + mix(w, H, n) - (real)0.5 * v_c * v_c * per_slope;
+  const vreal S_min = (c->v_n + (real)0.5 * c->kappa * p_c - F_c) * p_c + mix(w, H, n) - (real)0.5 * v_c * v_c * per_slope;
   const vreal more = to_go(v_n, slope, S, S_min, c->e * c->e), first = more * per;
   /* reversion of the series of p(x) */
   const vreal b_2 = (real)0.5 * ddp * per, x_0 = clamp(first, (real)-0.1, (real)0.1);
@@ -346,10 +345,10 @@ always void arrive_stuck(const plan *way, const arc *a, const problem *c, outcom
     coefficients(way, a->dF_y, k_F);
     coefficients(way, slope_H, k_H);
     vreal l = lambda_of_share(v_n / (v_n - c->v_n));
-#define LOOK(l)                                       \
+#define LOOK(l)                                            \
   const vreal l4 = (l) * (l) * ((l) * (l)), l5 = l4 * (l); \
-  p_l = p - remainder_at(k_p, l, l5, n);              \
-  F_l = F_y - remainder_at(k_F, l, l5, n);            \
+  p_l = p - remainder_at(k_p, l, l5, n);                   \
+  F_l = F_y - remainder_at(k_F, l, l5, n);                 \
   v_l = c->v_n + c->kappa * p_l - F_l
     for (int again = 0; again < 3; again++) {
       LOOK(l);
@@ -359,8 +358,7 @@ always void arrive_stuck(const plan *way, const arc *a, const problem *c, outcom
       LOOK(l);
       H_l = H - remainder_at(k_H, l, l5, n);
     }
-    const vreal least =
-        (c->v_n + (real)0.5 * c->kappa * p_l - F_l) * p_l + H_l - (real)0.5 * v_l * v_l * per_slope;
+    const vreal least = (c->v_n + (real)0.5 * c->kappa * p_l - F_l) * p_l + H_l - (real)0.5 * v_l * v_l * per_slope;
     S_min = v_select(passed, least, S_min);
     o->good &= v_not(passed & v_less((real)0.05 * v_abs(c->v_n), v_abs(v_l)));
     const vmask before = passed & v_less((1 - e2) * S_min, S);
@@ -395,7 +393,8 @@ always void arrive_stuck(const plan *way, const arc *a, const problem *c, outcom
  * with the pull of the cloth, one of p counts through `weight_p`. */
 always vmask fits(const plan *way, const arc *a, vreal pull, vreal limit, vreal weight_p, vreal limit_p) {
   const int n = way->n;
-  const vreal F = v_abs(dot(way->r->tail, a->dF_x, n)) + v_abs(dot(way->r->tail, a->dF_y, n)), p = v_abs(dot(way->r->tail, a->dp, n));
+  const vreal F = v_abs(dot(way->r->tail, a->dF_x, n)) + v_abs(dot(way->r->tail, a->dF_y, n)),
+              p = v_abs(dot(way->r->tail, a->dp, n));
   return v_less(F * (pull + (real)0.003), limit) & v_less(p * weight_p, limit_p);
 }
 

@@ -222,7 +222,7 @@ typedef struct forecast {
   vreal p_f;           /* the impulse at the end */
   vreal tau_x, tau_y;  /* τ half way */
   vreal pull;          /* |f| at the start */
-  vmask at_rest; /* the pressed ball's slip begins at 0, and so does not turn */
+  vmask at_rest;       /* the pressed ball's slip begins at 0, and so does not turn */
 } forecast;
 
 static inline forecast foresee(const problem *c, real s) {
