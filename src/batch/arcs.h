@@ -37,10 +37,6 @@ static const real slack = 20; /* of the limits below, which are for double */
 static const real slack = 1;
 #endif
 
-#ifndef STICK_SHARE
-#define STICK_SHARE 0.9
-#define LATE_ROOM 2
-#endif
 /* The classes of collisions, in the order in which a block does them. */
 enum { COARSE, MIDDLE, FINE, EARLY_STICK, LATE_STICK, MARCHED, CLASSES };
 
@@ -58,9 +54,9 @@ always vreal class_of(const problem *c, const forecast *f) {
 #define ABOVE(x, y) v_less(v_splat((real)(y)), x)
   const vmask coarse = mild & BELOW(f->q, 0.1) & BELOW(pull, 0.06) & BELOW(c->mu, 0.55) & ABOVE(c->e, 0.85) & ABOVE(room, 8);
   const vmask middle = mild & BELOW(f->q, 0.45) & ABOVE(room, 2.5);
-  const vmask fine = mild & BELOW(f->q, STICK_SHARE) & ABOVE(room, 1.5);
+  const vmask fine = mild & BELOW(f->q, 0.95) & ABOVE(room, 1.5);
   const vmask early = mild & ABOVE(f->q, 8) & ABOVE(room, 2.5);
-  const vmask late = mild & ABOVE(f->q, STICK_SHARE) & ABOVE(room, LATE_ROOM);
+  const vmask late = mild & ABOVE(f->q, 0.95) & ABOVE(room, 2);
 #undef BELOW
 #undef ABOVE
   const vreal slips = v_select(coarse, v_splat(COARSE), v_select(middle, v_splat(MIDDLE), v_splat(FINE)));
@@ -154,8 +150,7 @@ always void slopes_of_p(const plan *way, arc *a, const problem *c) {
   const int n = way->n;
   const vreal u_z2 = c->u_z * c->u_z + (real)MARCH_TINY;
   EACH_NODE(k) {
-    const vreal u2 = u_z2 + a->W[k] * a->W[k];
-    a->dp[k] = a->c_p[k] * (1 - c->mu * a->tau_y[k]) * (u2 * v_reciprocal_sqrt(u2));
+    a->dp[k] = a->c_p[k] * (1 - c->mu * a->tau_y[k]) * v_root(u_z2 + a->W[k] * a->W[k]);
   }
 }
 
@@ -175,8 +170,8 @@ always void renew_tau(const plan *way, arc *a, const problem *c, const march_law
   EACH_NODE(k) {
     const vreal d_x = base_x + m->X * X[k] + m->per_35 * (a->l5[k] * a->W[k]) - a->own[k] * a->tau_x[k];
     const vreal d_y = base_y + m->Y * Y[k] - m->Z * a->l5[k] - a->P[k] - a->own[k] * a->tau_y[k];
-    const vreal i = v_reciprocal_sqrt(d_x * d_x + d_y * d_y + (real)MARCH_TINY), t_y = d_y * i;
-    const vreal per = v_reciprocal(c->kappa + c->mu * t_y), x = d_x * i * per, y = t_y * per;
+    const vreal size = v_root(d_x * d_x + d_y * d_y + (real)MARCH_TINY);
+    const vreal i = v_reciprocal(c->kappa * size + c->mu * d_y), x = d_x * i, y = d_y * i;
     change = v_max(change, v_max(v_abs(x - a->tau_x[k]), v_abs(y - a->tau_y[k])));
     a->tau_x[k] = v_select(a->left, x, a->tau_x[k]);
     a->tau_y[k] = v_select(a->left, y, a->tau_y[k]);
@@ -335,9 +330,7 @@ always void arrive_stuck(const plan *way, const arc *a, const problem *c, outcom
   o->F_y = F_y;
   o->u_x = zero;
   o->u_z = zero;
-  o->p = p;
   const vmask passed = v_less(zero, v_n) & o->good;
-  vmask stuck = o->good;
   if (v_any(passed)) { /* v_n = 0 on the way: Newton's method in λ */
     const vreal per_slope = v_reciprocal(c->kappa - F_y * v_reciprocal(p));
     vreal k_p[NODES], k_F[NODES], k_H[NODES], p_l, F_l, H_l, v_l;
@@ -345,48 +338,22 @@ always void arrive_stuck(const plan *way, const arc *a, const problem *c, outcom
     coefficients(way, a->dF_y, k_F);
     coefficients(way, slope_H, k_H);
     vreal l = lambda_of_share(v_n / (v_n - c->v_n));
-#define LOOK(l)                                            \
-  const vreal l4 = (l) * (l) * ((l) * (l)), l5 = l4 * (l); \
-  p_l = p - remainder_at(k_p, l, l5, n);                   \
-  F_l = F_y - remainder_at(k_F, l, l5, n);                 \
-  v_l = c->v_n + c->kappa * p_l - F_l
-    for (int again = 0; again < 3; again++) {
-      LOOK(l);
-      l = clamp(l + v_l * per_slope * v_reciprocal(l4 * interpolant_at(k_p, l, n)), (real)0.05, 1);
-    }
-    {
-      LOOK(l);
+    for (int again = 0;; again++) {
+      const vreal l4 = l * l * (l * l), l5 = l4 * l;
+      p_l = p - remainder_at(k_p, l, l5, n);
+      F_l = F_y - remainder_at(k_F, l, l5, n);
       H_l = H - remainder_at(k_H, l, l5, n);
+      v_l = c->v_n + c->kappa * p_l - F_l;
+      if (again == 3)
+        break;
+      l = clamp(l + v_l * per_slope * v_reciprocal(l4 * interpolant_at(k_p, l, n)), (real)0.05, 1);
     }
     const vreal least = (c->v_n + (real)0.5 * c->kappa * p_l - F_l) * p_l + H_l - (real)0.5 * v_l * v_l * per_slope;
     S_min = v_select(passed, least, S_min);
     o->good &= v_not(passed & v_less((real)0.05 * v_abs(c->v_n), v_abs(v_l)));
-    const vmask before = passed & v_less((1 - e2) * S_min, S);
-    if (v_any(before)) { /* so does the end */
-      const vreal slope = c->kappa - F_y * v_reciprocal(p);
-      vreal more = to_go(v_n, slope, S, S_min, e2);
-      l = lambda_of_share(-more * v_reciprocal(p));
-      for (int again = 0; again < 4; again++) {
-        LOOK(l);
-        H_l = H - remainder_at(k_H, l, l5, n);
-        more = to_go(v_l, slope, (c->v_n + (real)0.5 * c->kappa * p_l - F_l) * p_l + H_l, S_min, e2);
-        l = clamp(l - more * v_reciprocal(l4 * interpolant_at(k_p, l, n)), (real)0.05, 1);
-      }
-      LOOK(l);
-      vreal k[NODES];
-      coefficients(way, a->W, k);
-      o->u_x = v_select(before, l5 * interpolant_at(k, l, n), zero);
-      o->u_z = v_select(before, l5 * c->u_z, zero);
-      coefficients(way, a->dF_x, k);
-      o->F_x = v_select(before, o->F_x - remainder_at(k, l, l5, n), o->F_x);
-      o->F_y = v_select(before, F_l, F_y);
-      o->p = v_select(before, p_l, p);
-      o->good &= v_not(before & v_less((real)1e-3 * p, v_abs(more)));
-    }
-    stuck &= v_not(before);
-#undef LOOK
+    o->good &= v_not(passed & v_less((1 - e2) * S_min, S)); /* the end comes first */
   }
-  o->p = v_select(stuck, p + to_go(v_n, c->kappa, S, S_min, e2), o->p);
+  o->p = p + to_go(v_n, c->kappa, S, S_min, e2);
 }
 
 /* Do the polynomials of the arc fit? Their highest coefficients measure what they leave out; what an error of F costs grows
