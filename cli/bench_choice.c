@@ -1,44 +1,65 @@
-/* What a run of `carom bench` times: kernels x configurations x steps, and what they are compared with. */
+/* What a run of `carom bench` times: kernels x configurations x steps, one call each; solvers x instruction sets x precisions x
+ * threads x sizes, in batches; the copies beside those; and what all are compared with. */
 #include "bench_job.h"
+#include "caches.h"
 #include "message.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-/* ---- What to time */
-
-static bool names_kernel(const bench_job *job, const kernel *one) {
+static bool names(const name_list *list, const char *name) {
   bool named = false;
-  for (size_t k = 0; k < job->kernels.count; k++)
-    named |= strcmp(job->kernels.name[k], one->name) == 0;
+  for (size_t k = 0; k < list->count; k++)
+    named |= strcmp(list->name[k], name) == 0;
   return named;
 }
 
-static bool add(bench_job *job, const kernel *one, const ladder_module *module, int steps) {
-  for (size_t k = 0; k < job->work_count; k++) {
-    const workload *w = &job->work[k];
-    if (w->kernel == one && w->module == module && w->options.steps == steps)
-      return true;
-  }
+static bool wants_precision(const bench_job *job, const char *precision) {
+  return job->precision == NULL || strcmp(job->precision, precision) == 0;
+}
+
+/* A place for one more workload, or NULL. */
+static workload *place(bench_job *job) {
   if (job->work_count == job->work_space) {
     const size_t space = 2 * job->work_space + 16;
     workload *larger = realloc(job->work, space * sizeof *larger);
     if (larger == NULL) {
       complain("out of memory");
-      return false;
+      return NULL;
     }
     job->work = larger;
     job->work_space = space;
   }
-  if (!workload_of_calls(&job->work[job->work_count], one, module, steps, &job->cases))
+  return &job->work[job->work_count];
+}
+
+/* ---- One call each */
+
+static const workload *find_calls(const bench_job *job, const kernel *one, const ladder_module *module, int steps) {
+  for (size_t k = 0; k < job->work_count; k++) {
+    const workload *w = &job->work[k];
+    if (w->batch.size == 0 && w->kernel == one && w->module == module && w->options.steps == steps)
+      return w;
+  }
+  return NULL;
+}
+
+static bool add_calls(bench_job *job, const kernel *one, const ladder_module *module, int steps) {
+  if (find_calls(job, one, module, steps) != NULL)
+    return true;
+  workload *w = place(job);
+  if (w == NULL || !workload_of_calls(w, one, module, steps, &job->cases))
     return false;
   job->work_count++;
   return true;
 }
 
 static bool add_steps(bench_job *job, const kernel *one, const ladder_module *module) {
+  if (!workload_takes_steps(one))
+    return add_calls(job, one, module, carom_default_options().steps);
   for (size_t k = 0; k < job->steps_count; k++)
-    if (!add(job, one, module, job->steps[k]))
+    if (!add_calls(job, one, module, job->steps[k]))
       return false;
   return true;
 }
@@ -64,11 +85,11 @@ static bool add_rung(bench_job *job, const kernel *one) {
 }
 
 /* Where nothing is named, what cannot run here is left out; where it is named, it is an error. */
-static bool add_all(bench_job *job) {
+static bool add_all_calls(bench_job *job) {
   const kernel *one;
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
-    const bool named = names_kernel(job, one);
-    if (job->kernels.count > 0 && !named)
+    const bool named = names(&job->kernels, one->name);
+    if ((job->kernels.count > 0 && !named) || !wants_precision(job, one->precision))
       continue;
     if (!named && one->is_rung && (ladder_module_name(0) == NULL || !ladder_rung_runs(ladder_rung_find(one->name))))
       continue;
@@ -80,23 +101,166 @@ static bool add_all(bench_job *job) {
   return true;
 }
 
+/* ---- Batches */
+
+bool bench_isa_here(carom_isa isa) {
+  return carom_isa_available(isa) && isa <= carom_isa_in_force();
+}
+
+static bool wants_isa(const bench_job *job, carom_isa isa) {
+  return bench_isa_here(isa) && (job->isas.count == 0 || names(&job->isas, carom_isa_name(isa)) ||
+                                 (isa == carom_isa_in_force() && names(&job->isas, "best")));
+}
+
+/* Solvers with steps cost a batch as much as thousands of the others, so they have to be asked for. */
+static bool wants_batches(const bench_job *job, const kernel *one) {
+  if (one->is_rung || (job->kernels.count > 0 && !names(&job->kernels, one->name)))
+    return false;
+  return job->batch || (job->configs.count == 0 && !workload_takes_steps(one));
+}
+
+typedef struct shape {
+  bool single;
+  int threads;
+  size_t size;
+} shape;
+
+static bool add_batches_of_shape(bench_job *job, const kernel *one, carom_isa isa, const shape *s) {
+  const size_t counts = workload_takes_steps(one) ? job->steps_count : 1;
+  for (size_t k = 0; k < counts; k++) {
+    workload *w = place(job);
+    if (w == NULL || !workload_of_batch(w, one, isa, s->single, s->threads, job->steps[k], s->size, &job->cases, &job->tiles))
+      return false;
+    job->work_count++;
+  }
+  return true;
+}
+
+static bool add_copy(bench_job *job, const shape *s) {
+  workload *w = place(job);
+  if (w == NULL || !workload_of_copy(w, s->single, s->threads, s->size, &job->cases, &job->tiles))
+    return false;
+  job->work_count++;
+  return true;
+}
+
+/* Calls `add` with every size, precision and number of threads that is wanted. */
+#define FOR_EACH_SHAPE(job, s)                                                                                      \
+  for (size_t size_ = 0; size_ < (job)->pairs_count; size_++)                                                       \
+    for (int single_ = 0; single_ < 2; single_++)                                                                   \
+      if (wants_precision((job), single_ != 0 ? "single" : "double"))                                               \
+        for (size_t threads_ = 0; threads_ < (job)->threads_count; threads_++)                                      \
+          for (shape s = {single_ != 0, (job)->threads[threads_], (job)->pairs[size_]}, *once_ = &s; once_ != NULL; \
+               once_ = NULL)
+
+static bool add_all_batches(bench_job *job) {
+  const kernel *one;
+  bool any = false;
+  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
+    for (int isa = 0; isa < CAROM_ISA_COUNT && wants_batches(job, one); isa++)
+      if (wants_isa(job, (carom_isa)isa)) {
+        any = true;
+        FOR_EACH_SHAPE(job, s)
+        if (!add_batches_of_shape(job, one, (carom_isa)isa, &s))
+          return false;
+      }
+  if (!any)
+    return true;
+  FOR_EACH_SHAPE(job, s)
+  if (!add_copy(job, &s))
+    return false;
+  return true;
+}
+
+/* A copy in the second cache, half of which it takes, beside that of the batches. */
+static bool add_near_copies(bench_job *job) {
+  const size_t turn = job->cases.count * workload_bytes(false), turns = cache_size(2) / 2 / turn;
+  if (turns == 0 || job->work_count == 0 || job->work[job->work_count - 1].kernel != NULL)
+    return true;
+  for (int single = 0; single < 2; single++) {
+    const shape s = {single != 0, 1, turns * job->cases.count};
+    if (s.size < job->pairs[0] && wants_precision(job, single != 0 ? "single" : "double") && !add_copy(job, &s))
+      return false;
+  }
+  return true;
+}
+
+static bool choose_batches(bench_job *job) {
+  const size_t default_size = 65536;
+  const bool given = job->pairs_count > 0;
+  if (!given) /* whole turns of the cases */
+    job->pairs[job->pairs_count++] = (default_size + job->cases.count - 1) / job->cases.count * job->cases.count;
+  if (job->threads_count == 0) {
+    job->threads[job->threads_count++] = 1;
+    if (sysconf(_SC_NPROCESSORS_ONLN) > 1)
+      job->threads[job->threads_count++] = 2;
+  }
+  size_t largest = 0;
+  for (size_t k = 0; k < job->pairs_count; k++)
+    largest = job->pairs[k] > largest ? job->pairs[k] : largest;
+  return case_tiles_make(&job->tiles, &job->cases, largest) && add_all_batches(job) && (given || add_near_copies(job));
+}
+
+/* ---- The yardstick */
+
+static const kernel *yardstick_kernel(void) {
+  return kernel_find(ladder_module_name(0) != NULL ? ladder_rung_at(0)->name : carom_solver_name(CAROM_SOLVER_EULER));
+}
+
+/* As many steps as the yardstick of this workload takes: its own, or the default where it takes none. */
+static int yardstick_steps(const workload *w) {
+  const int steps = workload_steps(w);
+  return steps > 0 ? steps : carom_default_options().steps;
+}
+
+static bool is_yardstick(const bench_job *job, const workload *w) {
+  return w->batch.size == 0 && w->kernel == job->yardstick.kernel && w->module == job->yardstick.module;
+}
+
 /* Speedup is relative to the ladder's first rung in the default configuration; without a ladder, to the library's first solver
- * with steps. */
+ * with steps. The yardsticks come first, with as many steps as the others have, then with the default for those without. */
 static bool add_yardsticks(bench_job *job) {
-  const bool ladder = ladder_module_name(0) != NULL;
-  const kernel *one = kernel_find(ladder ? ladder_rung_at(0)->name : carom_solver_name(CAROM_SOLVER_EULER));
-  return ladder ? add_config(job, one, NULL) : add_steps(job, one, NULL);
+  job->yardstick.kernel = yardstick_kernel();
+  if (job->yardstick.kernel->is_rung && !kernel_module(job->yardstick.kernel, NULL, &job->yardstick.module))
+    return false;
+  const size_t chosen = job->work_count;
+  for (int without = 0; without < 2; without++)
+    for (size_t k = 0; k < chosen; k++)
+      if ((workload_steps(&job->work[k]) == 0) == (without == 1) &&
+          !add_calls(job, job->yardstick.kernel, job->yardstick.module, yardstick_steps(&job->work[k])))
+        return false;
+  workload *sorted = calloc(job->work_count, sizeof *sorted);
+  if (sorted == NULL) {
+    complain("out of memory");
+    return false;
+  }
+  size_t count = 0;
+  for (int others = 0; others < 2; others++)
+    for (size_t k = 0; k < job->work_count; k++)
+      if (is_yardstick(job, &job->work[k]) == (others == 0))
+        sorted[count++] = job->work[k];
+  free(job->work);
+  job->work = sorted;
+  job->work_space = job->work_count;
+  return true;
 }
 
 bool bench_choose(bench_job *job) {
-  return add_yardsticks(job) && add_all(job);
+  if (!job->batch && (job->isas.count == 0 || names(&job->isas, "scalar")) && !add_all_calls(job))
+    return false;
+  if (!choose_batches(job))
+    return false;
+  if (job->work_count == 0) {
+    complain("nothing to time: no kernel is all that is asked for (see `carom kernels`; only the library's come in batches)");
+    return false;
+  }
+  return add_yardsticks(job);
 }
 
-size_t bench_yardstick(const bench_job *job, int steps) {
-  const workload *yardstick = &job->work[0];
+size_t bench_yardstick(const bench_job *job, const workload *of) {
   for (size_t k = 0; k < job->subject_count; k++) {
     const workload *w = job->subject[k].context;
-    if (w->kernel == yardstick->kernel && w->module == yardstick->module && w->options.steps == steps)
+    if (is_yardstick(job, w) && w->options.steps == yardstick_steps(of))
       return k;
   }
   return SIZE_MAX;

@@ -17,6 +17,22 @@ static void print_number(FILE *out, const char *before, const char *format, doub
     fprintf(out, format, x);
 }
 
+/* For batches: how large they are, and what the copy is. */
+static void print_batch_notes(const bench_job *job, FILE *out) {
+  bool any = false;
+  for (size_t k = 0; k < job->work_count; k++)
+    any |= job->work[k].batch.size > 0;
+  if (!any)
+    return;
+  if (job->show_pairs)
+    machine_note(out, "batches", "the cases over and over, so many pairs in a call as the column says");
+  else
+    machine_note(out, "batches", "the cases over and over, %zu pairs in a call", job->pairs[0]);
+  machine_note(out, "bytes", "a pair is %zu bytes in and %zu out in double precision, half of that in single",
+               sizeof(carom_impact), sizeof(carom_result));
+  machine_note(out, "copy", "reads and writes as many bytes and computes nothing; its config is the cache that holds them");
+}
+
 static void print_notes(const bench_job *job, FILE *out) {
   fputs(job->machine, out);
   machine_note(out, "pinning", "%s", job->pinning);
@@ -25,8 +41,9 @@ static void print_notes(const bench_job *job, FILE *out) {
     machine_note(out, counter_column(k), "%s%s%s", counter_text(k), counter_reason(k) != NULL ? ": NA, " : "",
                  counter_reason(k) != NULL ? counter_reason(k) : "");
   machine_note(out, "workload", "%zu reference cases, one call each, mean over the cases", job->cases.count);
+  print_batch_notes(job, out);
   const workload *yardstick = &job->work[0];
-  machine_note(out, "yardstick", "%s, %s, with as many steps", yardstick->kernel->name, workload_config(yardstick));
+  machine_note(out, "yardstick", "%s, %s, with as many steps", workload_name(yardstick), workload_config(yardstick));
   const char *name;
   for (size_t k = 0; (name = ladder_module_name(k)) != NULL; k++)
     for (size_t w = 0; w < job->work_count; w++)
@@ -70,6 +87,8 @@ static void print_csv_row(const bench_job *job, FILE *out, size_t k) {
     for (int c = 0; c < COUNTER_COUNT; c++)
       print_number(out, ",", "%.6g", job->count[k][c]);
   }
+  if (job->show_pairs)
+    fprintf(out, ",%zu", work_of(s)->batch.size > 0 ? work_of(s)->batch.size : s->pairs);
   fputc('\n', out);
 }
 
@@ -85,25 +104,41 @@ static void print_csv(const bench_job *job, FILE *out) {
     for (int c = 0; c < COUNTER_COUNT; c++)
       fprintf(out, ",%s", counter_column(c));
   }
+  if (job->show_pairs)
+    fputs(",pairs", out);
   fputc('\n', out);
   for (size_t k = 0; k < job->subject_count; k++)
     if (job->figure[k].unchanged)
       print_csv_row(job, out, k);
 }
 
+/* Three decimals or, from a hundred, four digits. */
+static void print_ratio(FILE *out, const char *before, double x) {
+  print_number(out, before, x < 100.0 ? "%8.3f" : x < 1000.0 ? "%8.1f" : "%8.0f", x);
+}
+
 static void print_table(const bench_job *job, FILE *out) {
   print_notes(job, out);
-  fprintf(out, "\n%-15s %-17s %-7s %-9s %6s %12s %8s %8s %8s  %s\n", "kernel", "config", "isa", "precision", "steps",
-          "ns median", "spread", "speedup", "spread", "paper");
+  fprintf(out, "\n%-15s %-17s %-7s %-9s %7s %6s ", "kernel", "config", "isa", "precision", "threads", "steps");
+  if (job->show_pairs)
+    fprintf(out, "%8s ", "pairs");
+  fprintf(out, "%12s %8s %8s %8s %9s  %s\n", "ns median", "spread", "speedup", "spread", "error", "paper");
   for (size_t k = 0; k < job->subject_count; k++) {
     const bench_subject *s = &job->subject[k];
     const bench_figure *f = &job->figure[k];
     if (!f->unchanged)
       continue;
-    fprintf(out, "%-15s %-17s %-7s %-9s %6d %12.1f %6.2f %% ", s->kernel, s->config, s->isa, s->precision, s->steps,
-            f->ns.median, 100.0 * f->ns.spread / f->ns.median);
-    print_number(out, "", "%8.3f", f->speedup.median);
-    print_number(out, " ", "%8.3f", f->speedup.spread);
+    fprintf(out, "%-15s %-17s %-7s %-9s %7d %6d ", s->kernel, s->config, s->isa, s->precision, s->threads, s->steps);
+    if (job->show_pairs)
+      fprintf(out, "%8zu ", work_of(s)->batch.size > 0 ? work_of(s)->batch.size : s->pairs);
+    fprintf(out, f->ns.median < 100.0 ? "%12.3f" : "%12.1f", f->ns.median);
+    fprintf(out, " %6.2f %% ", 100.0 * f->ns.spread / f->ns.median);
+    print_ratio(out, "", f->speedup.median);
+    print_ratio(out, " ", f->speedup.spread);
+    if (isnan(s->pair_error_max))
+      fprintf(out, "%10s", "NA");
+    else
+      fprintf(out, " %9.2g", s->pair_error_max);
     const bool as_in_paper = work_of(s)->module == job->work[0].module;
     fprintf(out, "  %s\n", as_in_paper ? workload_paper(work_of(s)) : "-");
   }

@@ -18,6 +18,14 @@ static void print_help(FILE *to) {
   fputs("\n`carom COMMAND --help` tells the arguments of each; `carom --version` the version.\n", to);
 }
 
+/* What could not be written was not said, so the run was not good. */
+static int finish(int code) {
+  if (code == EXIT_USAGE || (fflush(stdout) == 0 && !ferror(stdout)))
+    return code;
+  complain("cannot write standard output");
+  return EXIT_USAGE;
+}
+
 int main(int argc, char **argv) {
   if (argc < 2) {
     print_help(stderr);
@@ -26,18 +34,18 @@ int main(int argc, char **argv) {
   const char *name = argv[1];
   if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
     print_help(stdout);
-    return EXIT_GOOD;
+    return finish(EXIT_GOOD);
   }
   if (strcmp(name, "--version") == 0) {
     printf("carom %s\n", carom_version());
-    return EXIT_GOOD;
+    return finish(EXIT_GOOD);
   }
 /* getopt's own complaints begin with the first argument. */
-#define RUN(command, text)                        \
-  if (strcmp(name, #command) == 0) {              \
-    static char program[] = "carom: " #command;   \
-    argv[1] = program;                            \
-    return command_##command(argc - 1, argv + 1); \
+#define RUN(command, text)                                \
+  if (strcmp(name, #command) == 0) {                      \
+    static char program[] = "carom: " #command;           \
+    argv[1] = program;                                    \
+    return finish(command_##command(argc - 1, argv + 1)); \
   }
   COMMAND_LIST(RUN)
 #undef RUN

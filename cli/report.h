@@ -64,6 +64,8 @@ bool report_write_page(const report *r);
 
 /* The tables of the page, as HTML. */
 void report_write_tables(const report *r, FILE *out);
+void report_write_batches(const report *r, FILE *out);
+void report_write_experiments(const report *r, FILE *out);
 
 /* Text into HTML. */
 void report_escape(FILE *out, const char *text);

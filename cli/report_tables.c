@@ -2,9 +2,9 @@
  * it gives one, and a sentence where they differ. */
 #include "ladder.h"
 #include "report.h"
+#include "report_cells.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,68 +24,6 @@ static const paper_bound *paper_bound_of(const char *kernel) {
       return &paper_bounds[k];
   return NULL;
 }
-
-/* ---- Cells */
-
-static void open_table(FILE *out, const char *id, const char *heading) {
-  fprintf(out, "<h2 id=\"table-%s\">%s</h2>\n", id, heading);
-}
-
-/* Head cells: "t:" before a name aligns it left, "p:" marks the paper's column. */
-static void head_row(FILE *out, const char *const name[], size_t n) {
-  fputs("<div class=\"wide\"><table>\n<tr>", out);
-  for (size_t k = 0; k < n; k++) {
-    const char kind = name[k][1] == ':' ? name[k][0] : ' ';
-    fprintf(out, "<th%s>", kind == 't' ? " class=\"t\"" : kind == 'p' ? " class=\"paper\"" : "");
-    report_escape(out, kind == ' ' ? name[k] : name[k] + 2);
-    fputs("</th>", out);
-  }
-  fputs("</tr>\n", out);
-}
-
-static void cell(FILE *out, const char *class, const char *text) {
-  fprintf(out, class[0] != '\0' ? "<td class=\"%s\">" : "<td>", class);
-  report_escape(out, text);
-  fputs("</td>", out);
-}
-
-__attribute__((format(printf, 3, 4))) static void cell_of(FILE *out, const char *class, const char *format, ...) {
-  char text[512];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  cell(out, class, text);
-}
-
-/* Grouped by thousands; "NA" for what was not measured. */
-static void cell_count(FILE *out, const char *class, double x) {
-  if (isnan(x)) {
-    cell(out, class, "NA");
-    return;
-  }
-  char digits[32], text[64] = "";
-  snprintf(digits, sizeof digits, "%.0f", x);
-  const size_t size = strlen(digits);
-  for (size_t k = 0, to = 0; k < size; k++) {
-    if (k > 0 && (size - k) % 3 == 0)
-      text[to++] = ',';
-    text[to++] = digits[k];
-    text[to] = '\0';
-  }
-  cell(out, class, text);
-}
-
-static void close_table(FILE *out) {
-  fputs("</table></div>\n", out);
-}
-
-static void no_data(FILE *out, int data) {
-  fprintf(out, "<p class=\"missing\">There are no data: <code>%s.csv</code> is missing.</p>\n", report_data_name(data));
-}
-
-#define HEAD(out, ...) \
-  head_row(out, (const char *const[]){__VA_ARGS__}, sizeof((const char *const[]){__VA_ARGS__}) / sizeof(const char *))
 
 /* ---- Verification */
 
@@ -205,7 +143,7 @@ static void write_speedups(const report *r, FILE *out) {
   report_escape(out, report_default_config(r));
   fputs(
       "; the mean over the collisions, the median over rounds in which all kernels take turns, and &#177; the median absolute "
-      "deviation of the rounds. Below them the library's own kernels.</p>\n",
+      "deviation of the rounds. Below them the library's own kernels, one call each.</p>\n",
       out);
   HEAD(out, "t:kernel", "t:idea", "ns", "±", "speedup", "±", "p:paper", "t:ours and the paper's");
   for (size_t k = 0; k < s->rows; k++) {
@@ -228,15 +166,12 @@ static void write_speedups(const report *r, FILE *out) {
     fputs("</tr>\n", out);
   }
   for (size_t k = 0; k < all->rows; k++)
-    if (strcmp(sheet_text(all, k, "config"), "library") == 0) {
+    if (strcmp(sheet_text(all, k, "config"), "library") == 0 && strcmp(sheet_text(all, k, "isa"), "scalar") == 0) {
       fputs("<tr>", out);
       cell(out, "t", sheet_text(all, k, "kernel"));
       cell_of(out, "wrap", "the library, %s, %s", sheet_text(all, k, "isa"), sheet_text(all, k, "precision"));
-      const double ns = sheet_number(all, k, "ns_median"), speedup = sheet_number(all, k, "speedup");
-      if (ns >= 1000.0)
-        cell_count(out, "", ns);
-      else
-        cell_of(out, "", "%.4g", ns);
+      const double speedup = sheet_number(all, k, "speedup");
+      cell_ns(out, sheet_number(all, k, "ns_median"));
       cell_of(out, "", "%.2g", sheet_number(all, k, "ns_spread"));
       cell_of(out, "", speedup < 100.0 ? "%.2f" : "%.4g", speedup);
       cell_of(out, "", "%.2g", sheet_number(all, k, "speedup_spread"));
@@ -410,7 +345,9 @@ static void write_configurations(const report *r, FILE *out) {
 
 void report_write_tables(const report *r, FILE *out) {
   write_speedups(r, out);
+  report_write_batches(r, out);
   write_configurations(r, out);
   write_operations(r, out);
   write_verification(r, out);
+  report_write_experiments(r, out);
 }

@@ -1,4 +1,4 @@
-/* rules.h - the rules of exact.c, written by gen_rules.py. */
+/* The rules of exact.c, printed by tools/exact_rules.py. */
 static const rule gauss_2 = {
     .node = {{0.21132486540518712, 0.78867513459481288}},
     .sum = {{{0.25, 0.53867513459481288}}, {{-0.038675134594812882, 0.25}}},

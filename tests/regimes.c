@@ -7,40 +7,14 @@
 #include <math.h>
 #include <string.h>
 
-#define REGIMES(X)       \
-  X(real_shot)           \
-  X(slow)                \
-  X(fast)                \
-  X(grazing)             \
-  X(head_on)             \
-  X(draw)                \
-  X(follow)              \
-  X(stun)                \
-  X(sidespin)            \
-  X(both_moving)         \
-  X(both_rolling)        \
-  X(pressed_rolling)     \
-  X(stick_early)         \
-  X(stick_compression)   \
-  X(stick_restitution)   \
-  X(stick_at_v0)         \
-  X(stick_at_end)        \
-  X(stick_marginal)      \
-  X(turn)                \
-  X(turn_exact)          \
-  X(turn_stick)          \
-  X(near_rest)           \
-  X(friction_corners)    \
-  X(friction_any)        \
-  X(restitution_corners) \
-  X(u_z_zero)            \
-  X(u_x_zero)            \
-  X(u_zero)              \
-  X(u_z_tiny)            \
-  X(tiny_approach)       \
-  X(unequal)             \
-  X(very_unequal)        \
-  X(wild)
+/* clang-format off */
+#define REGIMES(X)                                                                                                 \
+  X(real_shot) X(slow) X(fast) X(grazing) X(head_on) X(draw) X(follow) X(stun) X(sidespin) X(both_moving)          \
+  X(both_rolling) X(pressed_rolling) X(stick_early) X(stick_compression) X(stick_restitution) X(stick_at_v0)       \
+  X(stick_at_end) X(stick_marginal) X(turn) X(turn_exact) X(turn_stick) X(near_rest) X(friction_corners)           \
+  X(friction_any) X(restitution_corners) X(u_z_zero) X(u_x_zero) X(u_zero) X(u_z_tiny) X(tiny_approach) X(unequal) \
+  X(very_unequal) X(wild)
+/* clang-format on */
 
 typedef enum {
 #define X(name) R_##name,

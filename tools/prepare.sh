@@ -52,7 +52,7 @@ install_missing() {
   elif [ -n "$missing" ]; then
     fail "$obstacle"
   else
-    do_without "$wanted"
+    say "going on without them: installing needs apt-get, and root"
   fi
   missing='' wanted=''
 }
@@ -72,7 +72,11 @@ install_with_apt() {
     apt_install "$(newest_of "$package")" || failed="$failed $package"
   done
   rm -f "$log"
-  [ -z "$failed" ] || do_without "$failed"
+  [ -n "$failed" ] || return 0
+  say "could not be installed, going on without:$failed"
+  mkdir -p build
+  # shellcheck disable=SC2086
+  printf '%s\n' $failed >> "$asked"
 }
 
 apt_install() {
@@ -85,13 +89,6 @@ newest_of() {
     *-newest) apt-cache search --names-only "^${1%newest}[0-9]+\$" | cut -d" " -f1 | sort -t - -k 2 -n | tail -n 1 ;;
     *) echo "$1" ;;
   esac
-}
-
-do_without() {
-  say "not installed, going on without:$1"
-  mkdir -p build
-  # shellcheck disable=SC2086
-  printf '%s\n' $1 >> "$asked"
 }
 
 need_to_build() {

@@ -1,6 +1,7 @@
 /* Where and with what a figure was measured, from what Linux shows; elsewhere most of it is NA. */
 #include "machine.h"
 
+#include "caches.h"
 #include "clock.h"
 #include "commit.h"
 
@@ -60,6 +61,12 @@ static void describe_processor(FILE *to) {
     machine_note(to, "processor family", "%s, model %s", family, number);
   machine_note(to, "cores", "%ld online%s", sysconf(_SC_NPROCESSORS_ONLN),
                flags != NULL && strstr(flags, " hypervisor") != NULL ? ", of a virtual machine: others may share them" : "");
+  char caches[128] = "";
+  for (int level = 1; cache_size(level) > 0; level++) {
+    const size_t used = strlen(caches);
+    snprintf(caches + used, sizeof caches - used, "%sL%d %zu KiB", used > 0 ? ", " : "", level, cache_size(level) / 1024);
+  }
+  machine_note(to, "caches", "%s", caches[0] != '\0' ? caches : "NA (not visible)");
   const char *governor = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", name, sizeof name);
   machine_note(to, "governor", "%s", governor != NULL ? governor : "NA (not visible)");
   const char *threads = first_line("/sys/devices/system/cpu/smt/active", other, sizeof other);

@@ -79,13 +79,17 @@ const char *pinning_begin(void) {
 }
 
 void pinning_end(void) {
-  pinning_suspend();
+  if (active)
+    place(&before);
   active = false;
 }
 
+/* With the priority kept: threads inherit it, and one thread and two are then equally undisturbed. */
 void pinning_suspend(void) {
+  placement loose = pinned;
+  loose.cores = before.cores;
   if (active)
-    place(&before);
+    place(&loose);
 }
 
 void pinning_resume(void) {

@@ -10,7 +10,8 @@ const char *pinning_begin(void);
 /* Back to the cores and the priority from before pinning_begin(). */
 void pinning_end(void);
 
-/* The same for a while: threads that are started meanwhile may use every core. Nothing happens if nothing is pinned. */
+/* Back to the cores, not the priority, for a while: threads that are started meanwhile may use every core, with the same
+ * priority. Nothing happens if nothing is pinned. */
 void pinning_suspend(void);
 void pinning_resume(void);
 

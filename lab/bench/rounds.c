@@ -1,6 +1,7 @@
 /* The engine. How a budget becomes rounds and loops: a sample should last about 20 ms, so that clocks and the change from one
  * subject to the next cost nothing, and an interruption spoils one sample of many; 101 rounds or more are wanted. Where the
- * budget is short, samples shrink first, down to one pass over the workload, then the rounds, down to 5. */
+ * budget is short, samples shrink first, down to a millisecond or one pass over the workload, then the rounds, down to 5. Less
+ * than a millisecond would time caches and branch predictors that are still full of the subject before. */
 #include "rounds.h"
 
 #include "clock.h"
@@ -70,9 +71,9 @@ static void plan(engine *e) {
   double length = long_sample;
   double rounds = floor(left / cost_of_round(e, length));
   if (rounds < wanted_rounds) {
-    rounds = fmin(wanted_rounds, floor(left / cost_of_round(e, 0.0)));
+    rounds = fmin(wanted_rounds, floor(left / cost_of_round(e, short_sample)));
     rounds = fmax(rounds, fewest_rounds);
-    double low = 0.0, high = long_sample;
+    double low = short_sample, high = long_sample;
     for (int k = 0; k < 40; k++) {
       length = 0.5 * (low + high);
       *(cost_of_round(e, length) * rounds > left ? &high : &low) = length;

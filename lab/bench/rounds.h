@@ -19,7 +19,7 @@
  * were verified. */
 typedef struct bench_subject {
   const char *kernel, *config, *isa, *precision; /* labels, as in the CSV */
-  int threads;                                   /* more than one: timed without pinning */
+  int threads;                                   /* more than one: timed on all cores */
   int steps;                                     /* 0 where the kernel takes none */
   size_t pairs;                                  /* collisions in the workload */
   void (*resolve)(void *context);                /* resolves the workload once */

@@ -1,35 +1,50 @@
-# Error against time: a line for each kernel that was swept over N, a mark with its name for each that takes no steps. Marks stand at
-# the largest error of the cases; dotted is the way down to the median, for the library's kernels.
-width = 1000; height = 620
+# Error against time: a line for each kernel that was swept over N, marks for those that take no steps: one for single calls, and
+# for batches one for each number of threads. Marks stand at the largest error of the cases; dotted is the way down to the median,
+# for the library's kernels.
+width = 1000; height = 640
 call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/style.gp" ARG1 ARG2 ARG3
 
-kernels = words_of("kernel")
-of(name, x) = strcol("kernel") eq name ? x : NaN
-# Kernels with several rows and, of these, the library's; kernels with one.
-rows_where(condition) = system("awk -F, '!/^#/ { n[$1]++; c[$1] = $2; if (n[$1] == 1) name[++m] = $1 } ".\
-  "END { for (k = 2; k <= m; k++) if (".condition.") printf \"%s \", name[k] }' '".data."'")
-swept = rows_where("n[name[k]] > 1 && c[name[k]] == \"library\"")
-single = rows_where("n[name[k]] == 1")
+# Names: 1 kernel, 2 config, 3 isa, 4 precision, 6 steps.
+select(what, condition) = system("awk -F, '/^#/ { next } n++ && (".condition.") && !seen[".what."]++ { printf \"%s \", ".what." }' '".data."'")
+kernels = select("$1", "$3 == \"scalar\" && $6 > 0")
+swept = select("$1", "$3 == \"scalar\" && $6 > 0 && $2 == \"library\"")
+single = select("$1", "$3 == \"scalar\" && $6 == 0")
+lanes = select("$1 \":\" $3 \":\" $4", "$3 != \"scalar\" && $1 != \"copy\"")
+of(name, x) = strcol("isa") eq "scalar" && strcol("kernel") eq name ? x : NaN
+in(lane, x) = strcol("kernel").":".strcol("isa").":".strcol("precision") eq lane ? x : NaN
+part(lane, k) = system("echo '".lane."' | cut -d: -f".k)
 colour(name) = colour_of(name, place_in(kernels, name))
+us(dummy) = column("ns_median") / 1000
+down(dummy) = column("error_exact_median") - column("error_exact_max")
 # N beside the marks: its powers of ten.
-labelled(name) = strcol("kernel") eq name && abs(log10(column("steps")) - floor(log10(column("steps")) + 0.5)) < 1e-9 ? 1.0 : NaN
+labelled(name) = strcol("isa") eq "scalar" && strcol("kernel") eq name && \
+  abs(log10(column("steps")) - floor(log10(column("steps")) + 0.5)) < 1e-9 ? 1.0 : NaN
 
 set logscale xy
 set yrange [*:1]
-set xlabel "time of a collision (µs)"
+set xlabel "time of a collision"
 set ylabel "pair error against the exact solution" offset -0.5,0
-set format x "%g"
+set xtics ("1 ns" 0.001, "10 ns" 0.01, "100 ns" 0.1, "1 µs" 1, "10 µs" 10, "100 µs" 100, "1 ms" 1000, "10 ms" 10000)
 set format y "10^{%T}"
-set lmargin at screen 0.11; set rmargin at screen 0.79
-set bmargin at screen 0.195
-set key at screen 0.815, graph 1 left top vertical maxrows 16 noenhanced Left reverse
-plot for [k=1:words(kernels)] data using (of(word(kernels, k), column("ns_median") / 1000)):"error_exact_max" \
+set lmargin at screen 0.10; set rmargin at screen 0.745
+set bmargin at screen 0.19
+set key at screen 0.76, graph 1 left top vertical maxrows 20 noenhanced Left reverse samplen 2.5
+mark(k) = 7 + 2 * ((k - 1) / 2) % 8 + (k % 2 ? 2 : 1)
+plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_exact_max" \
        with linespoints lt line_of(word(kernels, k), k) title word(kernels, k), \
-     for [k=1:words(swept)] data using (of(word(swept, k), column("ns_median") / 1000)):"error_exact_median" \
+     for [k=1:words(swept)] data using (of(word(swept, k), us(0))):"error_exact_median" \
        with linespoints lc rgb colour(word(swept, k)) lw 2 dt (1,4) pt 7 ps 0.3 title word(swept, k).", median", \
-     for [k=1:words(swept)] data using (labelled(word(swept, k)) * column("ns_median") / 1000):"error_exact_max":(sprintf("N = %.0f", column("steps"))) \
+     for [k=1:words(swept)] data using (labelled(word(swept, k)) * us(0)):"error_exact_max":(sprintf("N = %.0f", column("steps"))) \
        with labels left offset 0.9,0.5 font ",12" textcolor rgb grey notitle, \
-     for [k=1:words(single)] data using (of(word(single, k), column("ns_median") / 1000)):"error_exact_max":(strcol("kernel")) \
-       with labels left offset 1.1,0.2 font ",14" textcolor rgb ink noenhanced notitle, \
-     for [k=1:words(single)] data using (of(word(single, k), column("ns_median") / 1000)):"error_exact_max":(0):(column("error_exact_median") - column("error_exact_max")) \
-       with vectors nohead lc rgb colour(word(single, k)) lw 2 dt (1,4) notitle
+     for [k=1:words(single)] data using (of(word(single, k), us(0))):"error_exact_max":(0):(down(0)) \
+       with vectors nohead lc rgb colour(word(single, k)) lw 2 dt (1,4) notitle, \
+     for [k=1:words(lanes)] data using (in(word(lanes, k), us(0))):"error_exact_max":(0):(down(0)) \
+       with vectors nohead lc rgb colour(part(word(lanes, k), 1)) lw 2 dt (1,4) notitle, \
+     for [k=1:words(single)] data using (of(word(single, k), us(0))):"error_exact_max" \
+       with points lc rgb colour(word(single, k)) lw 2 pt 7 ps 1.2 title word(single, k).", single calls", \
+     for [k=1:words(lanes)] data using (in(word(lanes, k), us(0))):"error_exact_max" \
+       with linespoints lc rgb colour(part(word(lanes, k), 1)) lw 2 dt 1 pt mark(k) ps 1.3 \
+       title part(word(lanes, k), 1).", ".part(word(lanes, k), 3).", ".part(word(lanes, k), 2), \
+     for [k=1:words(lanes)] data using (in(word(lanes, k), us(0))):"error_exact_max":(sprintf("%d", column("threads"))) \
+       with labels center offset 0,1 font ",12" textcolor rgb grey notitle, \
+     for [k=1:words(lanes) > 0] keyentry with lines lw 0.1 lc rgb "white" title "digits: threads"

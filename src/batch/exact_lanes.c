@@ -4,9 +4,9 @@
  * sorted by the effort foreseen for them. The sort changes who marches beside whom and nothing else: a lane's result is its
  * own.
  */
+#include "arcs.h"
 #include "batch.h"
 #include "block.h"
-#include "march.h"
 
 #define PASTE3(a, b, c) a##b##_##c
 #define PASTE(a, b, c) PASTE3(a, b, c)
@@ -19,7 +19,7 @@ static const carom_precision precision = CAROM_DOUBLE;
 #endif
 #define SOLVER PASTE(carom_exact_lanes_, CAROM_LANES_SUFFIX, PRECISION_SUFFIX)
 
-enum { PAIRS = 256, BINS = 32 }; /* a block fits into the second cache several times */
+enum { PAIRS = 1024, BINS = 32 }; /* a block fits into the second cache several times */
 
 /* Turned so that ball i is the pressed one, and u_z >= 0; the way back needs the signs and the mass ratio. */
 typedef struct reduction {
@@ -72,7 +72,7 @@ static inline void restore(block *b, const reduction *r, const outcome *o) {
 /* Lanes whose numbers are within what the march was made for; a single call takes care of others. */
 static inline vmask tame(const problem *c) {
 #ifdef CAROM_LANES_SINGLE
-  const real most = 1e8f, spread = 1e3f, fastest = 1e3f;
+  const real most = 1e8f, spread = 1e3f, fastest = 1e6f;
 #else
   const real most = 1e60, spread = 1e4, fastest = 1e9;
 #endif
@@ -81,76 +81,151 @@ static inline vmask tame(const problem *c) {
          v_less(c->kappa, v_splat(spread)) & v_less(v_splat(1 + 1 / spread), c->kappa);
 }
 
-/* A number from 0 to BINS - 1 that rises with the steps a collision will need. */
-static inline vreal effort(const problem *c, real s) {
-  const forecast f = foresee(c, s);
-  const vreal first = first_step(c, &f);
-  const vreal slips = v_min((real)1.1 * f.x / first, v_splat(4)) * 3;
+/* A number from 0 to BINS - 1 that rises with the steps a marched collision will need. */
+static inline vreal effort(const problem *c, const forecast *f) {
+  const vreal first = first_step(c, f);
+  const vreal slips = v_min((real)1.1 * f->x / first, v_splat(4)) * 3;
   const vreal sticks =
-      12 + 4 * v_min(c->mu * c->mu_b * 16, v_splat(1)) + v_select(v_less(f.q, v_splat((real)1.3)), v_splat(4), v_splat(0));
-  const vreal moves = v_select(v_less(f.q, v_splat((real)0.97)), slips, sticks);
-  const vreal turns = v_select(f.at_rest, v_splat(0), v_max(v_splat((real)1.7) - f.room, v_splat(0)) * 20);
+      12 + 4 * v_min(c->mu * c->mu_b * 16, v_splat(1)) + v_select(v_less(f->q, v_splat((real)1.3)), v_splat(4), v_splat(0));
+  const vreal moves = v_select(v_less(f->q, v_splat((real)0.97)), slips, sticks);
+  const vreal turns = v_select(f->at_rest, v_splat(0), v_max(v_splat((real)1.7) - f->room, v_splat(0)) * 20);
   return v_min(v_max(moves + turns, v_splat(0)), v_splat(BINS - 1));
 }
 
-/* The pairs [0, n) in an order in which their effort rises. */
-static void sort_by_effort(const real *in, size_t n, real s, uint16_t order[PAIRS]) {
+/* The pairs of a block, class by class, those to be marched in an order in which their effort rises. Behind them is room for
+ * the pairs that turn out not to belong to their class. */
+typedef struct agenda {
+  uint16_t pair[2 * PAIRS];
+  size_t begin[CLASSES + 1];
+} agenda;
+
+static void plan_block(const real *in, size_t n, real s, agenda *a) {
   uint8_t bin[PAIRS + LANES];
-  uint16_t begin[BINS + 1] = {0};
+  uint16_t begin[MARCHED + BINS + 1] = {0};
   for (size_t first = 0; first < n; first += LANES) {
     const real *row[LANES];
     for (size_t k = 0; k < LANES; k++)
       row[k] = in + IN_NUMBERS * (first + k < n ? first + k : first);
     const block b = block_load(row);
     const reduction r = reduce(&b, s);
-    const vreal key = v_select(b.good, effort(&r.c, s), v_splat(0));
+    const forecast f = foresee(&r.c, s);
+    const vmask good = b.good & tame(&r.c);
+    const vreal class = v_select(good, class_of(&r.c, &f), v_splat(MARCHED));
+    const vreal march_bin = v_select(good, effort(&r.c, &f), v_splat(0));
+    const vreal key = v_select(v_less(class, v_splat(MARCHED)), class, MARCHED + march_bin);
     for (size_t k = 0; k < LANES; k++)
       bin[first + k] = (uint8_t)key[k];
   }
   for (size_t k = 0; k < n; k++)
     begin[bin[k] + 1]++;
-  for (int k = 0; k < BINS; k++)
+  for (int k = 0; k < MARCHED + BINS; k++)
     begin[k + 1] = (uint16_t)(begin[k + 1] + begin[k]);
+  for (int k = 0; k <= MARCHED; k++)
+    a->begin[k] = begin[k];
+  a->begin[CLASSES] = n;
   for (size_t k = 0; k < n; k++)
-    order[begin[bin[k]]++] = (uint16_t)k;
+    a->pair[begin[bin[k]]++] = (uint16_t)k;
 }
 
-static size_t solve_block(const real *in, size_t n, const carom_options *opt, real *out, uint8_t *status) {
+/* A vector of a block's pairs. */
+typedef struct party {
+  const real *from[LANES];
+  real *to[LANES];
+  block b;
+  reduction r;
+} party;
+
+/* The pairs at [at, end) of the agenda. Lanes beyond the last are not good, read the block's first pair and write to `spare`.
+ */
+static inline void gather(party *p, const real *in, real *out, real *spare, const agenda *a, size_t at, size_t end, real s) {
+  const unsigned there = at + LANES <= end ? (unsigned)ALL_LANES : at < end ? (1u << (end - at)) - 1 : 0;
+  for (size_t k = 0; k < LANES; k++, at++) {
+    p->from[k] = in + IN_NUMBERS * (at < end ? a->pair[at] : 0);
+    p->to[k] = at < end ? out + OUT_NUMBERS * a->pair[at] : spare;
+  }
+  p->b = block_load(p->from);
+  p->r = reduce(&p->b, s);
+  p->b.good &= tame(&p->r.c) & v_from_bits(there);
+}
+
+static inline unsigned scatter(party *p, const outcome *o) {
+  restore(&p->b, &p->r, o);
+  return v_bits(p->b.good & o->good & block_store(&p->b, p->to));
+}
+
+/* Brings the next block nearer while this one is being solved: memory is slower than the solver. */
+typedef struct fetcher {
+  const char *in, *in_end;
+  char *out, *out_end;
+} fetcher;
+
+static inline void fetch_ahead(fetcher *f) {
+  enum { LINE = 64, TIMES = 5 }; /* per pair, a little more than 1, so that all is there in time */
+  for (int k = 0; k < ABREAST * LANES * IN_NUMBERS * (int)sizeof(real) * TIMES / (4 * LINE) && f->in < f->in_end;
+       k++, f->in += LINE)
+    __builtin_prefetch(f->in, 0, 2);
+  for (int k = 0; k < ABREAST * LANES * OUT_NUMBERS * (int)sizeof(real) * TIMES / (4 * LINE) && f->out < f->out_end;
+       k++, f->out += LINE)
+    __builtin_prefetch(f->out, 1, 2);
+}
+
+/* The pairs of one class; those that do not belong to it go to the end of the agenda. */
+static inline __attribute__((always_inline)) void solve_by_arc(int class, const real *in, real *out, uint8_t *status, agenda *a,
+                                                               fetcher *ahead, real s) {
+  real spare[OUT_NUMBERS];
+  for (size_t first = a->begin[class]; first < a->begin[class + 1]; first += ABREAST * LANES) {
+    party p[ABREAST];
+    const problem *c[ABREAST];
+    vmask mask[ABREAST];
+    outcome o[ABREAST];
+    fetch_ahead(ahead);
+    EACH(p, b) {
+      const size_t at = first + (size_t)b * LANES;
+      gather(&p[b], in, out, spare, a, at, a->begin[class + 1], s);
+      c[b] = &p[b].r.c;
+      mask[b] = p[b].b.good;
+    }
+    solve_class(class, c, mask, s, o);
+    for (size_t b = 0; b < ABREAST; b++) {
+      const unsigned good = scatter(&p[b], &o[b]);
+      for (size_t k = 0, at = first + b * LANES; k < LANES && at < a->begin[class + 1]; k++, at++)
+        if ((good >> k & 1) == 0)
+          a->pair[a->begin[CLASSES]++] = a->pair[at];
+        else if (status != NULL)
+          status[a->pair[at]] = (uint8_t)CAROM_OK;
+    }
+  }
+}
+
+/* `next` pairs follow behind the n of this block. */
+static size_t solve_block(const real *in, size_t n, size_t next, const carom_options *opt, real *out, uint8_t *status) {
   const real s = opt->slip == CAROM_SLIP_POOLTOOL ? 1 : -1;
-  uint16_t order[PAIRS];
+  agenda a;
   real spare[OUT_NUMBERS]; /* takes what the lanes beyond the last pair compute */
   size_t first_bad = n;
-  if (n > LANES)
-    sort_by_effort(in, n, s, order);
-  else
-    for (size_t k = 0; k < n; k++)
-      order[k] = (uint16_t)k;
-  for (size_t first = 0; first < n; first += ABREAST * LANES) {
-    const real *from[ABREAST][LANES];
-    real *to[ABREAST][LANES];
-    block block_of[ABREAST];
-    reduction r[ABREAST];
+  fetcher ahead = {(const char *)(in + IN_NUMBERS * n), (const char *)(in + IN_NUMBERS * (n + next)),
+                   (char *)(out + OUT_NUMBERS * n), (char *)(out + OUT_NUMBERS * (n + next))};
+  plan_block(in, n, s, &a);
+  solve_by_arc(COARSE, in, out, status, &a, &ahead, s);
+  solve_by_arc(MIDDLE, in, out, status, &a, &ahead, s);
+  solve_by_arc(FINE, in, out, status, &a, &ahead, s);
+  solve_by_arc(EARLY_STICK, in, out, status, &a, &ahead, s);
+  solve_by_arc(LATE_STICK, in, out, status, &a, &ahead, s);
+  for (size_t first = a.begin[MARCHED]; first < a.begin[CLASSES]; first += ABREAST * LANES) {
+    party p[ABREAST];
     walk w[ABREAST];
     for (size_t b = 0; b < ABREAST; b++) {
-      for (size_t k = 0; k < LANES; k++) {
-        const size_t at = first + b * LANES + k;
-        from[b][k] = in + IN_NUMBERS * order[at < n ? at : first];
-        to[b][k] = at < n ? out + OUT_NUMBERS * order[at] : spare;
-      }
-      block_of[b] = block_load(from[b]);
-      r[b] = reduce(&block_of[b], s);
-      block_of[b].good &= tame(&r[b].c);
-      set_out(&w[b], &r[b].c, block_of[b].good, s);
+      gather(&p[b], in, out, spare, &a, first + b * LANES, a.begin[CLASSES], s);
+      set_out(&w[b], &p[b].r.c, p[b].b.good, s);
     }
     march(w, s);
     for (size_t b = 0; b < ABREAST; b++) {
-      restore(&block_of[b], &r[b], &w[b].o);
-      const unsigned good = v_bits(block_of[b].good & w[b].o.good & block_store(&block_of[b], to[b]));
-      for (size_t k = 0; k < LANES && first + b * LANES + k < n; k++) {
-        const size_t pair = order[first + b * LANES + k];
+      const unsigned good = scatter(&p[b], &w[b].o);
+      for (size_t k = 0; k < LANES && first + b * LANES + k < a.begin[CLASSES]; k++) {
+        const size_t pair = a.pair[first + b * LANES + k];
         carom_status one = CAROM_OK;
         if ((good >> k & 1) == 0)
-          one = carom_collide_one(precision, from[b][k], opt, to[b][k]);
+          one = carom_collide_one(precision, p[b].from[k], opt, p[b].to[k]);
         if (status != NULL)
           status[pair] = (uint8_t)one;
         if (one < 0 && pair < first_bad)
@@ -164,8 +239,8 @@ static size_t solve_block(const real *in, size_t n, const carom_options *opt, re
 size_t SOLVER(const void *in, size_t n, const carom_options *opt, void *out, uint8_t *status) {
   size_t first_bad = n;
   for (size_t first = 0; first < n; first += PAIRS) {
-    const size_t part = n - first < PAIRS ? n - first : PAIRS;
-    const size_t bad = solve_block((const real *)in + IN_NUMBERS * first, part, opt, (real *)out + OUT_NUMBERS * first,
+    const size_t left = n - first, part = left < PAIRS ? left : PAIRS, next = left - part < PAIRS ? left - part : PAIRS;
+    const size_t bad = solve_block((const real *)in + IN_NUMBERS * first, part, next, opt, (real *)out + OUT_NUMBERS * first,
                                    status != NULL ? status + first : NULL);
     if (bad < part && first_bad == n)
       first_bad = first + bad;

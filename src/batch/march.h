@@ -78,13 +78,13 @@ typedef struct march_law {
 } march_law;
 
 static inline march_law law_of(const problem *c, real s) {
-  const vreal per = v_splat(1) / c->kappa;
+  const vreal per = v_reciprocal(c->kappa);
   const real spin = (real)2.5 * s;
   march_law m;
   m.unit = -c->v_n * per;
   const vreal u_2 = c->u_x * c->u_x + c->u_z * c->u_z, d_2 = c->d_x * c->d_x + c->d_y * c->d_y;
-  m.scale = v_max(m.unit, v_sqrt(v_max((real)(1 / 16.0) * u_2, (real)(1 / 4.0) * d_2)));
-  m.c_p = v_splat(2) / c->mu_b;
+  m.scale = v_sqrt(v_max(m.unit * m.unit, v_max((real)(1 / 16.0) * u_2, (real)(1 / 4.0) * d_2)));
+  m.c_p = 2 * v_reciprocal(c->mu_b + (real)MARCH_NO_FRICTION);
   m.c_F = -2 * c->mu * c->u_z;
   m.c_g = -c->mu;
   m.u_z2 = c->u_z * c->u_z + (real)MARCH_TINY;
@@ -93,7 +93,7 @@ static inline march_law law_of(const problem *c, real s) {
   m.Y = (1 - spin) + spin * per;
   m.Z = spin * (real)0.4 * per * c->u_z;
   /* A slip that begins at rest has the direction of its derivative. */
-  const vreal i = v_splat(1) / v_sqrt(c->u_x * c->u_x + m.u_z2);
+  const vreal i = v_reciprocal_sqrt(c->u_x * c->u_x + m.u_z2);
   const vreal nudge = rest_nudge * m.unit;
   m.base_x = c->d_x - nudge * c->mu_b * c->u_x * i - m.per_35 * c->u_x;
   m.base_y = c->d_y - nudge * (1 - spin * c->mu_b * c->u_z * i);
@@ -121,10 +121,10 @@ static inline cloth_slip cloth_slip_at(const problem *c, const march_law *m, vre
 
 static inline march_state rates(const problem *c, const march_law *m, vreal x, const march_state *y) {
   const vreal l = 1 - x, l2 = l * l, l4 = l2 * l2;
-  const vreal W = l2 * y->g, U = v_sqrt(v_fma(W, W, m->u_z2));
+  const vreal W = l2 * y->g, U2 = v_fma(W, W, m->u_z2), U = U2 * v_reciprocal_sqrt(U2);
   const cloth_slip d = cloth_slip_at(c, m, x, y);
   const vreal below = v_fma(c->kappa, d.size, v_fma(c->mu, d.y, v_splat((real)MARCH_TINY))), l3 = l2 * l;
-  const vreal both = v_splat(1) / (below * l3), i = both * l3; /* 1/below; and both * below is 1/l3 */
+  const vreal both = v_reciprocal(below * l3), i = both * l3; /* 1/below; and both * below is 1/l3 */
   const vreal tau_x = d.x * i, tau_y = d.y * i;
   march_state r;
   r.p = m->c_p * l4 * U * (d.size * i);
@@ -218,35 +218,46 @@ static inline vreal to_go(vreal v, vreal slope, vreal S, vreal S_min, vreal e2) 
 /* The share of λ that a collision loses until the impulse reach, about; q is the share of |u| that it loses at its first rate.
  */
 typedef struct forecast {
-  vreal q, x, room;
-  vmask at_rest; /* the pressed ball's slip begins at 0, and so does not turn */
+  vreal q, z, x, room; /* z: share of λ at its first rate */
+  vreal p_f;           /* the impulse at the end */
+  vreal tau_x, tau_y;  /* τ half way */
+  vreal pull;          /* |f| at the start */
+  vmask at_rest;       /* the pressed ball's slip begins at 0, and so does not turn */
 } forecast;
 
 static inline forecast foresee(const problem *c, real s) {
   const vreal tiny = v_splat((real)MARCH_TINY);
-  const vreal reach = (1 + c->e) * -c->v_n / c->kappa;
+  const vreal reach = (1 + c->e) * -c->v_n * v_reciprocal(c->kappa);
   const vreal mid_y = c->d_y - (real)0.5 * reach;
-  const vreal t_i = v_splat(1) / v_sqrt(c->d_x * c->d_x + mid_y * mid_y + tiny);
+  const vreal t_i = v_reciprocal_sqrt(c->d_x * c->d_x + mid_y * mid_y + tiny);
   const vreal t_x = c->d_x * t_i, t_y = mid_y * t_i, D = c->kappa + c->mu * t_y;
-  const vreal i = v_splat(1) / v_sqrt(c->u_x * c->u_x + c->u_z * c->u_z + tiny);
+  const vreal i = v_reciprocal_sqrt(c->u_x * c->u_x + c->u_z * c->u_z + tiny);
   const vreal cosine = c->u_x * i, sigma = c->u_z * i;
-  const vreal rate = (real)3.5 * c->kappa * cosine * cosine + sigma * ((real)2.5 * D * sigma + c->mu * cosine * t_x);
-  const vreal scaled = c->mu_b * reach * i;
   forecast f;
+  const vreal per_D = v_reciprocal(D);
+  f.tau_x = t_x * per_D;
+  f.tau_y = t_y * per_D;
+  f.pull = c->mu * c->mu_b * sigma;
+  const vreal back = f.pull * f.tau_y;
+  f.p_f = reach * (1 - back * (1 - back));
+  const vreal rate = (real)3.5 * c->kappa * cosine * cosine + sigma * ((real)2.5 * D * sigma + c->mu * cosine * t_x);
+  const vreal scaled = c->mu_b * f.p_f * i;
   f.q = rate * scaled;
   /* λ = (1 - q)^(z/q) */
-  const vreal z = (real)0.5 * D * scaled;
-  const vreal near = v_sqrt(v_sqrt(v_sqrt(v_max(1 - f.q, v_splat((real)1e-3))))), less = 1 - near;
-  const vreal small = v_select(v_less(f.q, v_splat((real)0.3)), f.q, less);
-  const vreal zs = v_select(v_less(f.q, v_splat((real)0.3)), z, 8 * z * less / v_max(f.q, v_splat((real)0.3)));
+  const vreal z = f.z = (real)0.5 * D * scaled;
+  const vreal fourth = v_reciprocal_sqrt(v_reciprocal_sqrt(v_max(1 - f.q, v_splat((real)1e-3))));
+  const vreal less = 1 - fourth * v_reciprocal_sqrt(fourth), per_q = v_reciprocal(v_max(f.q, v_splat((real)0.3)));
+  const vmask short_way = v_less(f.q, v_splat((real)0.3));
+  const vreal small = v_select(short_way, f.q, less), zs = v_select(short_way, z, 8 * z * less * per_q);
   f.x = zs * (1 + (small - zs) * ((real)0.5 + (2 * small - zs) * ((real)(1 / 6.0) +
                                                                   (3 * small - zs) * ((real)(1 / 24.0) +
                                                                                       (4 * small - zs) * (real)(1 / 120.0)))));
   /* The slip d runs about straight; room is (|d| + |d_end|)/|way|, 1 where it passes through 0. */
-  const vreal w_x = -c->mu_b * cosine * reach, w_y = ((real)2.5 * s * c->mu_b * sigma - 1) * reach;
+  const vreal way = f.p_f * v_min((real)1.2 * per_q, v_splat(1));
+  const vreal w_x = -c->mu_b * cosine * way, w_y = ((real)2.5 * s * c->mu_b * sigma - 1) * way;
   const vreal e_x = c->d_x + w_x, e_y = c->d_y + w_y;
   const vreal d = v_sqrt(c->d_x * c->d_x + c->d_y * c->d_y);
-  f.room = (d + v_sqrt(e_x * e_x + e_y * e_y)) / v_sqrt(w_x * w_x + w_y * w_y + tiny);
+  f.room = (d + v_sqrt(e_x * e_x + e_y * e_y)) * v_reciprocal_sqrt(w_x * w_x + w_y * w_y + tiny);
   f.at_rest = v_less(d * c->mu * c->mu_b, (real)1e-7 * reach);
   return f;
 }

@@ -1,0 +1,6 @@
+# Copies into TO every SVG of FROM that is there by name.
+file(GLOB pictures RELATIVE ${TO} ${TO}/*.svg)
+foreach(picture ${pictures})
+  file(COPY ${FROM}/${picture} DESTINATION ${TO})
+  message(STATUS "docs/figures/${picture}")
+endforeach()

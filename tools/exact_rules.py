@@ -1,0 +1,91 @@
+"""Prints src/exact_rules.h, the fixed matrices of src/exact.c, from 50 digits. Needs mpmath; what it prints is kept in the tree:
+
+    python3 tools/exact_rules.py > src/exact_rules.h && cmake --build build --target format
+
+gauss rules: Gauss-Legendre nodes x on [0, 1], integrals of the Lagrange basis up to each node.
+stick rules: nodes lambda of the Gauss rule for the weight lambda^4 on [0, 1]; integrals of lambda^4 times the basis from each node
+up to 1, and 2 node^2 times those of the basis over lambda^3 (the equation of W)."""
+from mpmath import mp, mpf, matrix, polyroots
+
+mp.dps = 50
+
+
+def times(a, b):
+    r = [mpf(0)] * (len(a) + len(b) - 1)
+    for i, x in enumerate(a):
+        for j, y in enumerate(b):
+            r[i + j] += x * y
+    return r
+
+
+def gauss_nodes(n, w):
+    """Zeros of the monic polynomial of degree n orthogonal on [0, 1] for the weight x^w."""
+    A, b = matrix(n, n), matrix(n, 1)
+    for i in range(n):
+        for j in range(n):
+            A[i, j] = mpf(1) / (i + j + w + 1)
+        b[i] = -mpf(1) / (i + n + w + 1)
+    c = mp.lu_solve(A, b)
+    return sorted(r.real for r in polyroots([mpf(1)] + [c[n - 1 - i] for i in range(n)], maxsteps=500, extraprec=300))
+
+
+def basis(nodes):
+    out = []
+    for j, x in enumerate(nodes):
+        c = [mpf(1)]
+        for k, y in enumerate(nodes):
+            if k != j:
+                c = [v / (x - y) for v in times(c, [-y, mpf(1)])]
+        out.append(c)
+    return out
+
+
+def integral(c, w, a, b):
+    """Integral of sum c_m s^m times s^w from a to b."""
+    t = mpf(0)
+    for m, v in enumerate(c):
+        e = m + w + 1
+        t += v * (mp.log(b / a) if e == 0 else (b ** e - a ** e) / e)
+    return t
+
+
+def pairs(row):
+    text = [mp.nstr(v, 17, min_fixed=-4, max_fixed=4) for v in row]
+    return "{ " + ", ".join("{ %s, %s }" % (text[i], text[i + 1]) for i in range(0, len(text), 2)) + " }"
+
+
+def rows(M):
+    return "{ " + ",\n              ".join(pairs(r) for r in M) + " }"
+
+
+def rule(n, kind):
+    one, zero, span = mpf(1), mpf(0), range(n)
+    if kind == "gauss":
+        x = gauss_nodes(n, 0)
+        L = basis(x)
+        total = turn = [[integral(L[j], 0, zero, x[k]) for k in span] for j in span]
+        whole = [integral(L[j], 0, zero, one) for j in span]
+        part = [[L[j][m] / (m + 1) for j in span] for m in span]
+    else:
+        x = list(reversed(gauss_nodes(n, 4)))
+        L = basis(x)
+        total = [[integral(L[j], 4, x[k], one) for k in span] for j in span]
+        turn = [[2 * x[k] ** 2 * integral(L[j], -3, x[k], one) for k in span] for j in span]
+        whole = [integral(L[j], 4, zero, one) for j in span]
+        part = [[L[j][m] / (m + 5) for j in span] for m in span]
+    top = [L[j][n - 1] for j in span]
+    most = max(abs(t) for t in top)
+    fields = [("node", pairs(x))]
+    if kind == "stick":
+        fields.append(("away", pairs([-mp.log(v) for v in x])))
+    fields += [("sum", rows(total)), ("turn", rows(turn)), ("all", pairs(whole)), ("part", rows(part)), ("tail", pairs([t / most for t in top]))]
+    if kind == "gauss":
+        fields += [("last", pairs([sum(L[j]) for j in span])),
+                   ("bend", pairs([sum(m * L[j][m] for m in range(1, n)) for j in span])),
+                   ("curl", pairs([sum(m * (m - 1) * L[j][m] for m in range(2, n)) for j in span]))]
+    return "static const rule %s_%d = {\n" % (kind, n) + "".join("    .%-4s = %s,\n" % f for f in fields) + "};\n"
+
+
+print("/* The rules of exact.c, printed by tools/exact_rules.py. */")
+for n, kind in ((2, "gauss"), (4, "gauss"), (6, "gauss"), (4, "stick"), (6, "stick")):
+    print(rule(n, kind), end="")
