@@ -12,6 +12,8 @@ enum {
 #define COMMAND_LIST(X)                                          \
   X(resolve, "resolve the collisions of a CSV file")             \
   X(verify, "compare every kernel with the references")          \
+  X(trace, "follow one collision on its way")                    \
+  X(sweep, "resolve one collision, one input varied finely")     \
   X(experiments, "compare with the 2014 paper's measured shots") \
   X(bench, "time every kernel, once it is verified")             \
   X(report, "measure all, draw the figures, write the page")     \

@@ -16,7 +16,7 @@
 static const char help[] =
     "usage: carom verify [OPTIONS]\n\n"
     "Resolves the reference cases with every kernel and compares with the references; a kernel of the ladder in every\n"
-    "configuration of every compiler.\n\n"
+    "configuration of every compiler, the others by single calls and in the lanes of every instruction set here.\n\n"
     "  --kernel NAME     only this kernel\n"
     "  --config NAME     only this build of the ladder (see `carom kernels`)\n"
     "  --data DIR        folder of the cases and references (default: $CAROM_DATA, else the one that came with carom)\n"
@@ -36,8 +36,12 @@ typedef struct ladder_summary {
   double worst_double, worst_single; /* pair errors */
 } ladder_summary;
 
+/* How the library is called: pair by pair, or as a batch in the lanes of one instruction set. */
+enum { SINGLE_CALLS = -1 };
+
 typedef struct verification {
   const char *folder;
+  int way; /* SINGLE_CALLS or a carom_isa; of no meaning to the ladder */
   case_set cases;
   carom_result *result;
   pair_accuracy *each;
@@ -62,11 +66,21 @@ static const char *paper_count(int paper, char text[32]) {
   return text;
 }
 
+static void way_or_module(const verification *v, const ladder_module *module, char text[32]) {
+  if (module != NULL)
+    snprintf(text, 32, "%s", module->name);
+  else if (v->way == SINGLE_CALLS)
+    snprintf(text, 32, "%s", v->csv ? "library" : "single calls");
+  else
+    snprintf(text, 32, v->csv ? "library-%s" : "lanes, %s", carom_isa_name((carom_isa)v->way));
+}
+
 static void print_claim(const verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim,
                         const accuracy_summary *s, bool pass) {
   const ladder_rung *rung = one->is_rung ? ladder_rung_find(one->name) : NULL;
   const int paper_1e3 = rung != NULL ? rung->over_1e3 : -1, paper_1e2 = rung != NULL ? rung->over_1e2 : -1;
-  const char *config = module != NULL ? module->name : v->csv ? "library" : "-";
+  char config[32];
+  way_or_module(v, module, config);
   char over_1e3[32], over_1e2[32];
   if (v->csv)
     fprintf(v->out, "%s,%s,%s,%d,%s,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%s,%zu,%s,%s\n", one->name, config,
@@ -121,7 +135,12 @@ static bool verify_claim(verification *v, const kernel *one, const ladder_module
     carom_options options = carom_default_options();
     options.slip = claim->slip;
     options.steps = claim->steps;
-    kernel_resolve(one, module, v->cases.impact, v->cases.count, &options, v->result, NULL);
+    if (module == NULL && v->way == SINGLE_CALLS) {
+      options.solver = one->solver;
+      for (size_t k = 0; k < v->cases.count; k++)
+        carom_collide(&v->cases.impact[k], &options, &v->result[k]);
+    } else
+      kernel_resolve(one, module, v->cases.impact, v->cases.count, &options, v->result, NULL);
     for (size_t k = 0; k < v->cases.count; k++)
       v->each[k] = accuracy_of(&v->result[k], &reference.result[k], v->cases.impact[k].a.radius);
     const accuracy_summary s = accuracy_summarise(v->each, v->cases.count);
@@ -131,7 +150,7 @@ static bool verify_claim(verification *v, const kernel *one, const ladder_module
       tell_claim(v, one, module, claim, &s, pass);
     else
       print_claim(v, one, module, claim, &s, pass);
-    if (claim->bound == 0.0) {
+    if (claim->bound == 0.0 && v->way == SINGLE_CALLS) {
       const size_t used = strlen(v->parity);
       snprintf(v->parity + used, sizeof v->parity - used, "%s: %zu of %zu cases bit-identical to %s\n", one->name, s.identical,
                s.cases, claim->reference);
@@ -148,8 +167,21 @@ static bool verify_module(verification *v, const kernel *one, const ladder_modul
   return true;
 }
 
+/* By single calls and in the lanes of every instruction set that this processor has; sentences tell of single calls only. */
 static bool verify_solver(verification *v, const kernel *one, const char *config) {
-  return config != NULL || verify_module(v, one, NULL);
+  if (config != NULL)
+    return true;
+  bool good = verify_module(v, one, NULL);
+  const carom_isa before = carom_isa_in_force();
+  for (int isa = 0; good && !v->brief && isa <= (int)before; isa++)
+    if (carom_isa_available((carom_isa)isa)) {
+      carom_isa_limit((carom_isa)isa);
+      v->way = isa;
+      good = verify_module(v, one, NULL);
+    }
+  carom_isa_limit(before);
+  v->way = SINGLE_CALLS;
+  return good;
 }
 
 /* In the one configuration given, or in all. */
@@ -239,7 +271,7 @@ int command_verify(int argc, char **argv) {
   const ladder_module *unused;
   if (config != NULL && !kernel_module(only != NULL ? only : kernel_find(ladder_rung_at(0)->name), config, &unused))
     return EXIT_USAGE;
-  verification v = {.folder = cases_folder(folder), .csv = csv, .brief = brief, .all_pass = true};
+  verification v = {.folder = cases_folder(folder), .way = SINGLE_CALLS, .csv = csv, .brief = brief, .all_pass = true};
   int code = EXIT_USAGE;
   if (cases_load(v.folder, "collisions-204.csv", &v.cases) && (v.out = output_open(out)) != NULL) {
     if (!verify_all(&v, only, config))

@@ -529,6 +529,11 @@ static __attribute__((noinline)) void patient(const law *m, state a, state *b, e
   for (int count = 0; count < 300; count++) {
     const double left = end->seen ? to_go(m, &a, m->kappa, 1 / m->kappa, end) : m->e * unit - speed_of(m, &a) / m->kappa;
     forecast f = predict(m, &a, high(left, 1e-9 * unit));
+    if (!(f.u + square(m->v_n0) + square(a.d_x) + square(a.d_y) < HUGE_VAL)) {
+      *b = a;
+      b->p = HUGE_VAL; /* too fast for a double: the result overflows */
+      return;
+    }
     if (f.u <= 1e-13 * m->mu_b * unit)
       break; /* as good as stuck */
     if (end->seen && left < 1e-10 * unit) {

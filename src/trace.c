@@ -201,7 +201,7 @@ static void trace_exact(const carom_frame *frame, const carom_local *start, cons
   for (size_t k = 0; k < n; k++) {
     go_to(&at, &way, k + 1 < n ? way.P * ((double)k / (double)(n - 1)) : way.P);
     const bool compression = k + 1 < n && at.c.v_jy - at.c.v_iy < -TURNED * way.approach;
-    put_point(frame, &at.c, at.P, compression ? -at.S : 2.0 * way.W_c + at.S,
+    put_point(frame, &at.c, at.P, compression ? 0.0 - at.S : 2.0 * way.W_c + at.S,
               compression ? CAROM_PHASE_COMPRESSION : CAROM_PHASE_RESTITUTION, at.P >= way.P_stick, &points[k]);
   }
 }

@@ -46,8 +46,8 @@ static const real least_e = (real)0.05;
 /* Which class a collision is tried in. The limits are those of src/exact.c. */
 always vreal class_of(const problem *c, const forecast *f) {
   const vreal pull = c->mu * c->mu_b;
-  const vmask mild = v_less(pull, v_splat((real)0.15)) & v_less(c->mu_b, v_splat((real)0.25)) &
-                     v_less(v_splat(least_e), c->e) & v_less(v_splat((real)MARCH_NO_FRICTION), c->mu_b) &
+  const vmask mild = v_less(pull, v_splat((real)0.15)) & v_less(c->mu_b, v_splat((real)0.25)) & v_less(v_splat(least_e), c->e) &
+                     v_less(v_splat((real)MARCH_NO_FRICTION), c->mu_b) &
                      v_less(v_splat((real)1e-6) * c->mu_b * -c->v_n, c->u_z);
   const vreal room = v_select(f->at_rest, v_splat(100), f->room);
 #define BELOW(x, y) v_less(x, v_splat((real)(y)))
@@ -69,8 +69,8 @@ typedef struct plan {
   const rule *r;
   int n, most; /* nodes, sweeps at most */
   bool sticks;
-  bool bowed;  /* p is foreseen as a parabola */
-  bool aimed;  /* h is corrected once */
+  bool bowed; /* p is foreseen as a parabola */
+  bool aimed; /* h is corrected once */
 } plan;
 
 /* An arc and what a sweep needs at its nodes. */
@@ -79,7 +79,7 @@ typedef struct arc {
   vreal l2[NODES], l5[NODES];
   vreal c_p[NODES], c_F[NODES], c_W[NODES]; /* factors of the slopes of p, F and W */
   vreal damp[NODES];                        /* about the inverse of 1 - (change of W's integral with W) */
-  vreal own[NODES];                         /* the cloth's own pull on d along τ: it turns nothing; without it sweeps gain more */
+  vreal own[NODES]; /* the cloth's own pull on d along τ: it turns nothing; without it sweeps gain more */
   vreal W[NODES], tau_x[NODES], tau_y[NODES], P[NODES];
   vreal dp[NODES], dF_x[NODES], dF_y[NODES], dW[NODES]; /* slopes */
   vreal change;
@@ -150,8 +150,7 @@ always void slopes_of_p(const plan *way, arc *a, const problem *c) {
   const int n = way->n;
   const vreal u_z2 = c->u_z * c->u_z + (real)MARCH_TINY;
   EACH_NODE(k) {
-    const vreal u2 = u_z2 + a->W[k] * a->W[k];
-    a->dp[k] = a->c_p[k] * (1 - c->mu * a->tau_y[k]) * (u2 * v_reciprocal_sqrt(u2));
+    a->dp[k] = a->c_p[k] * (1 - c->mu * a->tau_y[k]) * v_root(u_z2 + a->W[k] * a->W[k]);
   }
 }
 
@@ -171,8 +170,8 @@ always void renew_tau(const plan *way, arc *a, const problem *c, const march_law
   EACH_NODE(k) {
     const vreal d_x = base_x + m->X * X[k] + m->per_35 * (a->l5[k] * a->W[k]) - a->own[k] * a->tau_x[k];
     const vreal d_y = base_y + m->Y * Y[k] - m->Z * a->l5[k] - a->P[k] - a->own[k] * a->tau_y[k];
-    const vreal i = v_reciprocal_sqrt(d_x * d_x + d_y * d_y + (real)MARCH_TINY), t_y = d_y * i;
-    const vreal per = v_reciprocal(c->kappa + c->mu * t_y), x = d_x * i * per, y = t_y * per;
+    const vreal size = v_root(d_x * d_x + d_y * d_y + (real)MARCH_TINY);
+    const vreal i = v_reciprocal(c->kappa * size + c->mu * d_y), x = d_x * i, y = d_y * i;
     change = v_max(change, v_max(v_abs(x - a->tau_x[k]), v_abs(y - a->tau_y[k])));
     a->tau_x[k] = v_select(a->left, x, a->tau_x[k]);
     a->tau_y[k] = v_select(a->left, y, a->tau_y[k]);
@@ -272,8 +271,7 @@ always void arrive_by_arc(const plan *way, const arc *a, const problem *c, outco
     F_c = mix(w, a->dF_y, n);
     v_c = c->v_n + c->kappa * p_c - F_c;
   }
-  const vreal S_min =
-      (c->v_n + (real)0.5 * c->kappa * p_c - F_c) * p_c + mix(w, H, n) - (real)0.5 * v_c * v_c * per_slope;
+  const vreal S_min = (c->v_n + (real)0.5 * c->kappa * p_c - F_c) * p_c + mix(w, H, n) - (real)0.5 * v_c * v_c * per_slope;
   const vreal more = to_go(v_n, slope, S, S_min, c->e * c->e), first = more * per;
   /* reversion of the series of p(x) */
   const vreal b_2 = (real)0.5 * ddp * per, x_0 = clamp(first, (real)-0.1, (real)0.1);
@@ -294,15 +292,27 @@ always void arrive_by_arc(const plan *way, const arc *a, const problem *c, outco
   o->good &= v_less_equal(v_abs(dx), v_splat((real)0.02)) & v_less_equal((real)-0.01 * c->kappa * p, v_n);
 }
 
-/* A quantity on a stick arc as a polynomial: with v its slope over λ⁴ at the nodes, the integral from λ to 0 is λ⁵ times it. */
-always void coefficients(const plan *way, const vreal *v, vreal *out) {
+/* A quantity on a stick arc as a polynomial of λ: with v its slope over λ⁴ at the nodes and k its coefficients, the integral
+ * from λ to 0 is λ⁵ Σ k_i λ^i, and the interpolant of v is Σ (5 + i) k_i λ^i. */
+always void coefficients(const plan *way, const vreal *v, vreal *k) {
   const int n = way->n;
-  EACH_NODE(i) out[i] = dot(way->r->part[i], v, n);
+  EACH_NODE(i) k[i] = dot(way->r->part[i], v, n);
 }
-always vreal polynomial(const vreal *k, vreal x, int n) {
+always vreal remainder_at(const vreal *k, vreal l, vreal l5, int n) {
   vreal sum = k[n - 1];
-  lanes_unrolled for (int i = n - 2; i >= 0; i--) sum = v_fma(sum, x, k[i]);
+  lanes_unrolled for (int i = n - 2; i >= 0; i--) sum = v_fma(sum, l, k[i]);
+  return sum * l5;
+}
+always vreal interpolant_at(const vreal *k, vreal l, int n) {
+  vreal sum = (real)(n + 4) * k[n - 1];
+  lanes_unrolled for (int i = n - 2; i >= 0; i--) sum = v_fma(sum, l, (real)(5 + i) * k[i]);
   return sum;
+}
+
+/* The λ at which a share of p is still to come, about: it falls as λ⁶. */
+always vreal lambda_of_share(vreal share) {
+  const vreal fourth = v_sqrt(v_sqrt(clamp(share, (real)1e-6, 1)));
+  return v_sqrt(fourth * v_sqrt(fourth));
 }
 
 /* The balls stick at the end of a stick arc, unless the collision ends before. */
@@ -310,50 +320,48 @@ always void arrive_stuck(const plan *way, const arc *a, const problem *c, outcom
   const int n = way->n;
   const rule *r = way->r;
   const vreal e2 = c->e * c->e, zero = v_splat(0);
-  vreal H_y[NODES];
-  EACH_NODE(k) H_y[k] = a->P[k] * a->dF_y[k];
-  const vreal p = dot(r->all, a->dp, n), F_y = dot(r->all, a->dF_y, n), H = dot(r->all, H_y, n);
+  vreal slope_H[NODES];
+  EACH_NODE(k) slope_H[k] = a->P[k] * a->dF_y[k];
+  const vreal p = dot(r->all, a->dp, n), F_y = dot(r->all, a->dF_y, n), H = dot(r->all, slope_H, n);
   const vreal v_n = c->v_n + c->kappa * p - F_y;
   const vreal S = (c->v_n + (real)0.5 * c->kappa * p - F_y) * p + H;
-  vreal S_min = S - (real)0.5 * v_n * v_n / c->kappa;
-  const vmask passed = v_less(zero, v_n) & o->good;
-  if (v_any(passed)) {
-    vreal at_p[NODES], at_F[NODES], at_H[NODES];
-    coefficients(way, a->dp, at_p);
-    coefficients(way, a->dF_y, at_F);
-    coefficients(way, H_y, at_H);
-    /* v_n = 0: Newton's method for v_n(λ), which is about v_n(0) - (...) λ⁶ */
-    const vreal share = clamp(v_n / (v_n - c->v_n), (real)1e-6, 1), fourth = v_sqrt(v_sqrt(share));
-    vreal l = v_sqrt(fourth * v_sqrt(fourth)), p_c = p, F_c = F_y, H_c = H, v_c = v_n;
-    for (int again = 0; again < 4; again++) {
-      const vreal l4 = l * l * (l * l), l5 = l4 * l;
-      p_c = p - l5 * polynomial(at_p, l, n);
-      F_c = F_y - l5 * polynomial(at_F, l, n);
-      H_c = H - l5 * polynomial(at_H, l, n);
-      v_c = c->v_n + c->kappa * p_c - F_c;
-      if (again < 3) {
-        vreal rate = (real)(4 + n) * at_p[n - 1];
-        lanes_unrolled for (int i = n - 2; i >= 0; i--) rate = v_fma(rate, l, (real)(5 + i) * at_p[i]);
-        l = clamp(l + v_c / (c->kappa * l4 * rate), (real)0.05, 1);
-      }
-    }
-    const vreal slope = c->kappa - F_y / p;
-    const vreal least = (c->v_n + (real)0.5 * c->kappa * p_c - F_c) * p_c + H_c - (real)0.5 * v_c * v_c / slope;
-    S_min = v_select(passed, least, S_min);
-    o->good &= v_not(passed & (v_less((1 - e2) * S_min, S) | v_less((real)0.05 * v_abs(c->v_n), v_abs(v_c))));
-  }
-  o->p = p + to_go(v_n, c->kappa, S, S_min, e2);
+  vreal S_min = S - (real)0.5 * v_n * v_n * v_reciprocal(c->kappa);
   o->F_x = dot(r->all, a->dF_x, n);
   o->F_y = F_y;
   o->u_x = zero;
   o->u_z = zero;
+  const vmask passed = v_less(zero, v_n) & o->good;
+  if (v_any(passed)) { /* v_n = 0 on the way: Newton's method in λ */
+    const vreal per_slope = v_reciprocal(c->kappa - F_y * v_reciprocal(p));
+    vreal k_p[NODES], k_F[NODES], k_H[NODES], p_l, F_l, H_l, v_l;
+    coefficients(way, a->dp, k_p);
+    coefficients(way, a->dF_y, k_F);
+    coefficients(way, slope_H, k_H);
+    vreal l = lambda_of_share(v_n / (v_n - c->v_n));
+    for (int again = 0;; again++) {
+      const vreal l4 = l * l * (l * l), l5 = l4 * l;
+      p_l = p - remainder_at(k_p, l, l5, n);
+      F_l = F_y - remainder_at(k_F, l, l5, n);
+      H_l = H - remainder_at(k_H, l, l5, n);
+      v_l = c->v_n + c->kappa * p_l - F_l;
+      if (again == 3)
+        break;
+      l = clamp(l + v_l * per_slope * v_reciprocal(l4 * interpolant_at(k_p, l, n)), (real)0.05, 1);
+    }
+    const vreal least = (c->v_n + (real)0.5 * c->kappa * p_l - F_l) * p_l + H_l - (real)0.5 * v_l * v_l * per_slope;
+    S_min = v_select(passed, least, S_min);
+    o->good &= v_not(passed & v_less((real)0.05 * v_abs(c->v_n), v_abs(v_l)));
+    o->good &= v_not(passed & v_less((1 - e2) * S_min, S)); /* the end comes first */
+  }
+  o->p = p + to_go(v_n, c->kappa, S, S_min, e2);
 }
 
 /* Do the polynomials of the arc fit? Their highest coefficients measure what they leave out; what an error of F costs grows
  * with the pull of the cloth, one of p counts through `weight_p`. */
 always vmask fits(const plan *way, const arc *a, vreal pull, vreal limit, vreal weight_p, vreal limit_p) {
   const int n = way->n;
-  const vreal F = v_abs(dot(way->r->tail, a->dF_x, n)) + v_abs(dot(way->r->tail, a->dF_y, n)), p = v_abs(dot(way->r->tail, a->dp, n));
+  const vreal F = v_abs(dot(way->r->tail, a->dF_x, n)) + v_abs(dot(way->r->tail, a->dF_y, n)),
+              p = v_abs(dot(way->r->tail, a->dp, n));
   return v_less(F * (pull + (real)0.003), limit) & v_less(p * weight_p, limit_p);
 }
 

@@ -25,9 +25,6 @@ typedef enum carom_precision { CAROM_DOUBLE, CAROM_SINGLE, CAROM_PRECISIONS } ca
 CAROM_BUILT_ISAS(CAROM_BATCH_PROTOTYPE)
 #undef CAROM_BATCH_PROTOTYPE
 
-/* By single calls; see singles.c. */
-carom_batch_solver carom_singles_double, carom_singles_single;
-
 /* One pair by a single call, with the checks and the status of carom_collide(): what lanes fall back to for a row that is not
  * plainly good. `in` and `out` are of the precision. */
 carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt, void *out);

@@ -135,7 +135,8 @@ typedef struct party {
   reduction r;
 } party;
 
-/* The pairs at [at, end) of the agenda. Lanes beyond the last are not good, read the block's first pair and write to `spare`. */
+/* The pairs at [at, end) of the agenda. Lanes beyond the last are not good, read the block's first pair and write to `spare`.
+ */
 static inline void gather(party *p, const real *in, real *out, real *spare, const agenda *a, size_t at, size_t end, real s) {
   const unsigned there = at + LANES <= end ? (unsigned)ALL_LANES : at < end ? (1u << (end - at)) - 1 : 0;
   for (size_t k = 0; k < LANES; k++, at++) {
@@ -160,7 +161,8 @@ typedef struct fetcher {
 
 static inline void fetch_ahead(fetcher *f) {
   enum { LINE = 64, TIMES = 5 }; /* per pair, a little more than 1, so that all is there in time */
-  for (int k = 0; k < ABREAST * LANES * IN_NUMBERS * (int)sizeof(real) * TIMES / (4 * LINE) && f->in < f->in_end; k++, f->in += LINE)
+  for (int k = 0; k < ABREAST * LANES * IN_NUMBERS * (int)sizeof(real) * TIMES / (4 * LINE) && f->in < f->in_end;
+       k++, f->in += LINE)
     __builtin_prefetch(f->in, 0, 2);
   for (int k = 0; k < ABREAST * LANES * OUT_NUMBERS * (int)sizeof(real) * TIMES / (4 * LINE) && f->out < f->out_end;
        k++, f->out += LINE)

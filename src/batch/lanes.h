@@ -318,6 +318,15 @@ static inline vreal v_reciprocal_sqrt(vreal x) {
 #endif
 }
 
+/* sqrt(x), as accurate as they are. */
+static inline vreal v_root(vreal x) {
+#if defined(CAROM_LANES_AVX512) || ((defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_SSE2)) && defined(CAROM_LANES_SINGLE))
+  return x * v_reciprocal_sqrt(x);
+#else
+  return v_sqrt(x);
+#endif
+}
+
 /* ---- Transposition -------------------------------------------------------------------------------------------------- */
 
 /* A chunk is 16 bytes: CHUNK numbers side by side in a row of memory. Vectors are made of chunks of different rows, so that all

@@ -38,6 +38,7 @@ static const real rest_nudge = 1e-4f;     /* how far from rest a slip begins, ov
 static const real stuck_below = 0.3f;
 static const real from_rest_share = 0.012f;
 static const real fade = 1e-3f;
+static const real longest_first = 0.25f;
 #else
 #define MARCH_TINY 1e-300
 #define MARCH_NO_FRICTION 1e-30
@@ -46,6 +47,7 @@ static const real rest_nudge = 1e-9;
 static const real stuck_below = 0.25;
 static const real from_rest_share = 0.004;
 static const real fade = 3e-7;
+static const real longest_first = 0.12;
 #endif
 
 enum { MOST_STEPS = 100 };
@@ -121,7 +123,7 @@ static inline cloth_slip cloth_slip_at(const problem *c, const march_law *m, vre
 
 static inline march_state rates(const problem *c, const march_law *m, vreal x, const march_state *y) {
   const vreal l = 1 - x, l2 = l * l, l4 = l2 * l2;
-  const vreal W = l2 * y->g, U2 = v_fma(W, W, m->u_z2), U = U2 * v_reciprocal_sqrt(U2);
+  const vreal W = l2 * y->g, U = v_root(v_fma(W, W, m->u_z2));
   const cloth_slip d = cloth_slip_at(c, m, x, y);
   const vreal below = v_fma(c->kappa, d.size, v_fma(c->mu, d.y, v_splat((real)MARCH_TINY))), l3 = l2 * l;
   const vreal both = v_reciprocal(below * l3), i = both * l3; /* 1/below; and both * below is 1/l3 */
@@ -222,7 +224,7 @@ typedef struct forecast {
   vreal p_f;           /* the impulse at the end */
   vreal tau_x, tau_y;  /* τ half way */
   vreal pull;          /* |f| at the start */
-  vmask at_rest; /* the pressed ball's slip begins at 0, and so does not turn */
+  vmask at_rest;       /* the pressed ball's slip begins at 0, and so does not turn */
 } forecast;
 
 static inline forecast foresee(const problem *c, real s) {
@@ -267,7 +269,7 @@ static const real aim_beyond = (real)1.02;
 
 /* To the end where that can be foreseen. From rest the pair's order is lower, and the error grows as μ_s μ_b h². */
 static inline vreal first_step(const problem *c, const forecast *f) {
-  const vreal most = v_splat((real)0.25);
+  const vreal most = v_splat(longest_first);
   const vreal h = v_select(v_less(f->q, v_splat((real)0.97)), v_min(aim_beyond * f->x, most), most);
   const vreal from_rest = v_min(h, from_rest_share / v_sqrt(c->mu * c->mu_b + (real)1e-6));
   return v_select(f->at_rest, from_rest, h);
@@ -308,7 +310,7 @@ static inline void set_out(walk *w, const problem *c, vmask mask, real s) {
 /* The step goes not further than the turn of d and the nearness of stick allow. */
 static inline void limit(walk *w, real s) {
   const problem *c = &w->c;
-  const real room = (real)1.6;
+  const real room = (real)1.8;
   const cloth_slip d = cloth_slip_at(c, &w->m, w->x, &w->y);
   const vreal l = 1 - w->x, l2 = l * l, W = l2 * w->y.g, i = v_splat(1) / v_sqrt(v_fma(W, W, w->m.u_z2));
   const vreal g_x = -c->mu_b * W * i, g_y = (real)2.5 * s * c->mu_b * c->u_z * i - 1;
