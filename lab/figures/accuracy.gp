@@ -46,5 +46,5 @@ plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_ex
        with linespoints lc rgb colour(part(word(lanes, k), 1)) lw 2 dt 1 pt mark(k) ps 1.3 \
        title part(word(lanes, k), 1).", ".part(word(lanes, k), 3).", ".part(word(lanes, k), 2), \
      for [k=1:words(lanes)] data using (in(word(lanes, k), us(0))):"error_exact_max":(sprintf("%d", column("threads"))) \
-       with labels center offset 0,1 font ",12" textcolor rgb grey notitle, \
+       with labels center offset -0.9,0.8 font ",12" textcolor rgb grey notitle, \
      for [k=1:words(lanes) > 0] keyentry with lines lw 0.1 lc rgb "white" title "digits: threads"

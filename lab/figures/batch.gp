@@ -32,7 +32,10 @@ set xlabel "pairs in a batch"
 set ylabel "million collisions in a second" offset 0.5,0
 set key bottom right Left reverse noenhanced
 stats data using (strcol("kernel") ne "copy" && column("steps") == 0 ? rate(0) : NaN) name "r" nooutput
-set yrange [0.6 * r_min:1.5 * r_max]
+# The key stands below the line of single calls.
+top = 1.5 * r_max
+room = single > 0 ? 10**((log10(1000 / single) - 0.45 * log10(top)) / 0.55) : r_min
+set yrange [0.6 * r_min < room ? 0.6 * r_min : room:top]
 plot data using (with_threads("single", 1)):(rate(0)) with linespoints lc rgb vermilion lw 2 dt (12,4) pt 9 ps 1 title isa.", single", \
      data using (with_threads("double", 1)):(rate(0)) with linespoints lc rgb blue lw 2 dt 1 pt 7 ps 0.9 title isa.", double", \
      for [k=1:threads>1] data using (with_threads("single", threads)):(column("pairs") < 4096 ? NaN : rate(0)) \

@@ -1,5 +1,6 @@
 /* The benchmark's engine: statistics on made-up samples, turns and figures under a clock that the test turns by hand, and
  * counters with and without hardware. Nothing here asserts a real time. */
+#include "caches.h"
 #include "clock.h"
 #include "counters.h"
 #include "pinning.h"
@@ -143,6 +144,16 @@ START_TEST(clocks_go_forward) {
 }
 END_TEST
 
+START_TEST(caches_hold_what_fits) {
+  const bool visible = cache_size(1) > 0;
+  ck_assert_str_eq(cache_holding(0), visible ? "L1" : "NA");
+  ck_assert_str_eq(cache_holding(cache_size(1) + 1), cache_size(2) > cache_size(1) ? "L2" : visible ? "memory" : "NA");
+  ck_assert_str_eq(cache_holding(SIZE_MAX), visible ? "memory" : "NA");
+  ck_assert_uint_eq(cache_size(0), 0);
+  ck_assert_uint_eq(cache_size(9), 0);
+}
+END_TEST
+
 START_TEST(pinning_says_what_it_reached) {
   const char *text = pinning_begin();
   ck_assert(strstr(text, "pinned") != NULL);
@@ -175,5 +186,6 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("bench", summaries, ratios_cancel_what_slows_both, turns_and_figures, budget_too_small_for_one_round,
-                   fingerprints, clocks_go_forward, pinning_says_what_it_reached, counters_are_numbers_or_reasons);
+                   fingerprints, clocks_go_forward, caches_hold_what_fits, pinning_says_what_it_reached,
+                   counters_are_numbers_or_reasons);
 }
