@@ -125,7 +125,7 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
   if (bad != CAROM_OK || n == 0)
     return bad;
   const size_t first_bad =
-      carom_batch_in_threads(carom_batch_solver_for(opt->solver, precision), precision, in, n, opt, out, status);
+      carom_batch_in_threads(carom_batch_solver_for(opt->solver, precision, n), precision, in, n, opt, out, status);
   if (first_bad == n)
     return CAROM_OK;
   /* Only its index came back through the threads; doing the pair again tells its status. */

@@ -33,7 +33,10 @@ carom_status carom_collide_one(carom_precision precision, const void *in, const 
 size_t carom_batch_in_threads(carom_batch_solver *solver, carom_precision precision, const void *in, size_t n,
                               const carom_options *opt, void *out, uint8_t *status);
 
-/* The solver for the instruction set in force. */
-carom_batch_solver *carom_batch_solver_for(carom_solver solver, carom_precision precision);
+/* By single calls; see singles.c. */
+carom_batch_solver carom_singles_double, carom_singles_single;
+
+/* The solver of n pairs for the instruction set in force. */
+carom_batch_solver *carom_batch_solver_for(carom_solver solver, carom_precision precision, size_t n);
 
 #endif

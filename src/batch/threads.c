@@ -1,8 +1,9 @@
 /* Threads: a batch cut into equal parts, one for each.
  *
- * Each pair's result depends on nothing but the pair, so it is the same for any number of threads. Threads are started for the
- * call and joined before it returns; the calling thread does the first part itself, and all of it if no thread can be started.
- * A batch too small to be worth a thread is not cut: starting one costs about as much as some hundred exact collisions.
+ * Each pair's result depends on nothing but the pair once the solver is chosen for the whole batch, so it is the same for any
+ * number of threads. Threads are started for the call and joined before it returns; the calling thread does the first part
+ * itself, and all of it if no thread can be started. A batch too small to be worth a thread is not cut: starting one costs
+ * about as much as some hundred exact collisions.
  */
 #include "batch.h"
 

@@ -171,7 +171,10 @@ START_TEST(a_bad_row_disturbs_no_neighbour) {
   carom_result out[ROWS], alone;
   uint8_t status[ROWS];
   const carom_impact good = good_impact();
-  ck_assert_int_eq(carom_collide_batch(&good, 1, NULL, &alone, NULL), CAROM_OK);
+  for (int k = 0; k < ROWS; k++)
+    in[k] = good;
+  ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, NULL), CAROM_OK);
+  alone = out[0];
   for (int k = 0; k < ROWS; k++)
     in[k] = k % 2 == 0 ? good : with(bad_cases[k / 2].field, bad_cases[k / 2].value);
   ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, status), bad_cases[0].status);
