@@ -1,6 +1,7 @@
 /* Pictures that gnuplot draws, in a temporary folder: the CSV and the picture are moved or dropped when it is done. */
 #include "picture.h"
 
+#include "gnuplot.h"
 #include "message.h"
 #include "output.h"
 #include "place.h"
@@ -8,10 +9,8 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
+#include <sys/stat.h>
 #include <unistd.h>
-
-enum { NO_GNUPLOT = 127 };
 
 bool picture_name_fits(const char *path) {
   const size_t size = strlen(path);
@@ -19,30 +18,6 @@ bool picture_name_fits(const char *path) {
     return true;
   complain("--plot draws a picture whose name ends in .svg or .png, not '%s'", path);
   return false;
-}
-
-/* Its exit code. gnuplot's words come out on stderr only if it fails: it warns of parts for which a CSV has no rows. */
-static int run_gnuplot(const char *script, const char *csv, const char *picture, const char *title) {
-  FILE *noise = tmpfile();
-  fflush(NULL);
-  const pid_t child = fork();
-  if (child == 0) {
-    if (noise == NULL || dup2(fileno(noise), STDERR_FILENO) >= 0)
-      execlp("gnuplot", "gnuplot", "-c", script, csv, picture, title, (char *)NULL);
-    _exit(NO_GNUPLOT);
-  }
-  int status;
-  const bool ended = child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status);
-  const int code = ended ? WEXITSTATUS(status) : 1;
-  if (noise != NULL && code != 0 && code != NO_GNUPLOT) {
-    char block[4096];
-    rewind(noise);
-    for (size_t size; (size = fread(block, 1, sizeof block, noise)) > 0;)
-      fwrite(block, 1, size, stderr);
-  }
-  if (noise != NULL)
-    fclose(noise);
-  return code;
 }
 
 static bool move(const char *from, const char *to) {
@@ -67,32 +42,47 @@ static bool write_csv(const char *path, void (*write)(FILE *out, const void *dat
   return true;
 }
 
-static bool draw(const char *path, const char *name, const char *title, const char *csv, const char *picture) {
-  char folder[PATH_MAX], script[PATH_MAX + 64];
-  place_find(CAROM_SOURCE_LAB "/figures", CAROM_INSTALLED_SHARE "/figures", folder);
-  snprintf(script, sizeof script, "%s/%s.gp", folder, name);
-  const int code = run_gnuplot(script, csv, picture, title);
+static bool draw(const char *path, const char *name, const char *title, const char *folder, const char *extension) {
+  char scripts[PATH_MAX], script[PATH_MAX + 64], file[16], picture[PATH_MAX + 32];
+  place_find(CAROM_SOURCE_LAB "/figures", CAROM_INSTALLED_SHARE "/figures", scripts);
+  snprintf(script, sizeof script, "%s/%s.gp", scripts, name);
+  snprintf(file, sizeof file, "picture%s", extension);
+  snprintf(picture, sizeof picture, "%s/%s", folder, file);
+  const int code = gnuplot_run(folder, script, "data.csv", file, title);
+  const bool drawn = code == 0 && access(picture, R_OK) == 0;
   if (code == NO_GNUPLOT)
-    complain("cannot draw %s: gnuplot is not installed (Debian: gnuplot-nox)", path);
-  else if (code != 0 || access(picture, R_OK) != 0)
+    complain("cannot draw %s: %s", path, no_gnuplot);
+  else if (!drawn)
     complain("cannot draw %s: gnuplot failed on %s", path, script);
-  return code == 0 && access(picture, R_OK) == 0 && move(picture, path);
+  const bool good = drawn && move(picture, path);
+  unlink(picture);
+  return good;
+}
+
+/* A new folder that only this user may enter; complains if there can be none. */
+static bool make_folder(char folder[PATH_MAX]) {
+  const char *temporary = getenv("TMPDIR");
+  if (temporary == NULL || temporary[0] == '\0')
+    temporary = P_tmpdir;
+  for (int attempt = 0; attempt < 100; attempt++) {
+    snprintf(folder, PATH_MAX, "%s/carom-%ld-%d", temporary, (long)getpid(), attempt);
+    if (mkdir(folder, 0700) == 0)
+      return true;
+    if (errno != EEXIST)
+      break;
+  }
+  complain("cannot make a folder in %s: %s", temporary, strerror(errno));
+  return false;
 }
 
 bool picture_draw(const char *path, const char *name, const char *title, void (*write)(FILE *out, const void *data),
                   const void *data) {
-  const char *temporary = getenv("TMPDIR");
-  char folder[PATH_MAX], csv[PATH_MAX + 16], picture[PATH_MAX + 16];
-  snprintf(folder, sizeof folder, "%s/carom-XXXXXX", temporary != NULL && temporary[0] != '\0' ? temporary : "/tmp");
-  if (mkdtemp(folder) == NULL) {
-    complain("cannot make a folder beside %s: %s", folder, strerror(errno));
+  char folder[PATH_MAX], csv[PATH_MAX + 16];
+  if (!make_folder(folder))
     return false;
-  }
   snprintf(csv, sizeof csv, "%s/data.csv", folder);
-  snprintf(picture, sizeof picture, "%s/picture%s", folder, path + strlen(path) - 4);
-  const bool good = write_csv(csv, write, data) && draw(path, name, title, csv, picture);
+  const bool good = write_csv(csv, write, data) && draw(path, name, title, folder, path + strlen(path) - 4);
   unlink(csv);
-  unlink(picture);
   rmdir(folder);
   return good;
 }

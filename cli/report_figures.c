@@ -1,5 +1,6 @@
 /* The report's figures: gnuplot draws each from its CSV by its script in lab/figures; what makes the SVG depend on more than
  * the data, or keeps it from standing beside others in one page, is put right here. */
+#include "gnuplot.h"
 #include "message.h"
 #include "output.h"
 #include "place.h"
@@ -7,7 +8,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 static const report_figure figures[FIGURE_COUNT] = {
@@ -15,36 +15,6 @@ static const report_figure figures[FIGURE_COUNT] = {
 #include "figures.def"
 #undef FIGURE
 };
-
-enum { NO_GNUPLOT = 127 };
-
-static void show(FILE *noise) {
-  char block[4096];
-  rewind(noise);
-  for (size_t size; (size = fread(block, 1, sizeof block, noise)) > 0;)
-    fwrite(block, 1, size, stderr);
-}
-
-/* Runs gnuplot in the report's folder; its exit code. What it says is shown if it fails: it also warns of every part of a plot
- * that a CSV has no rows for, and those parts are optional. */
-static int run_gnuplot(const char *folder, const char *script, const char *csv, const char *picture, const char *title) {
-  FILE *noise = tmpfile();
-  fflush(NULL);
-  const pid_t child = fork();
-  if (child == 0) {
-    if ((noise == NULL || dup2(fileno(noise), STDERR_FILENO) >= 0) && chdir(folder) == 0)
-      execlp("gnuplot", "gnuplot", "-c", script, csv, picture, title, (char *)NULL);
-    _exit(NO_GNUPLOT);
-  }
-  int status;
-  const bool ended = child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status);
-  const int code = ended ? WEXITSTATUS(status) : 1;
-  if (noise != NULL && code != 0)
-    show(noise);
-  if (noise != NULL)
-    fclose(noise);
-  return code;
-}
 
 static char *read_text(const char *path) {
   FILE *in = fopen(path, "rb");
@@ -112,8 +82,6 @@ static const sheet *data_of(const report *r, const char *name) {
   return &r->data[k];
 }
 
-static const char no_gnuplot[] = "gnuplot is not installed (Debian: gnuplot-nox)";
-
 /* Draws one picture of the figure; false, with the reason in figure->missing, if that cannot be. */
 static bool draw(const report *r, report_figure *figure, const char *extension) {
   char folder[PATH_MAX], script[PATH_MAX], path[PATH_MAX], csv[64], picture[64];
@@ -126,7 +94,7 @@ static bool draw(const report *r, report_figure *figure, const char *extension) 
   unlink(path);
   if (data_of(r, figure->csv)->rows == 0)
     return false;
-  const int code = run_gnuplot(r->folder, script, csv, picture, figure->title);
+  const int code = gnuplot_run(r->folder, script, csv, picture, figure->title);
   if (code == NO_GNUPLOT) {
     snprintf(figure->missing, sizeof figure->missing, "%s", no_gnuplot);
     return false;
