@@ -153,8 +153,9 @@ CAROM_API carom_status carom_collide(const carom_impact *in, const carom_options
 /* Resolves `n` collisions, in[0..n-1] to out[0..n-1], each as carom_collide would: a bad pair gets NaN and its own status and
  * changes nothing for the others. `status` takes the n statuses as bytes, to be read with carom_status_of_byte(); it may be
  * NULL. `in`, `out` and `status` may not overlap; with n = 0 they may be NULL.
- * Euler's results have the bits of carom_collide. Exact ones differ from it by their errors, since lanes go another way, but
- * not for n < 24 (6 in single precision): so few are done one by one, which is faster.
+ * Euler's results have the bits of carom_collide. Exact ones differ from it by their errors, since lanes go another way; they
+ * are the same for any number of threads, but not on every instruction set. Up to two dozen pairs may be done one by one, where
+ * that is faster.
  * Returns CAROM_OK if no pair is in error, else the status of the first that is; if the call itself cannot be served (NULL,
  * bad options), that error, with nothing written. */
 CAROM_API carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,

@@ -65,11 +65,14 @@ typedef struct rule {
 static const double TINY = 1e-300; /* keeps 0 / 0 away */
 static const double ENOUGH = 2e-8; /* a sweep was the last when its next change, times the pull of the cloth, is below */
 static const double COARSE_END = 0.1, MIDDLE_END = 0.45, FINE_END = 0.97; /* share q up to which 2, 4, 6 nodes may do */
-static const double COARSE_ROOM = 8, MIDDLE_ROOM = 2.5, FINE_ROOM = 1.5, STICK_ROOM = 2, ARC_ROOM = 1.4; /* see `clear` */
+static const double COARSE_ROOM = 8, MIDDLE_ROOM = 2.5, FINE_ROOM = 1.5, EARLY_ROOM = 3.5, STICK_ROOM = 2,
+                    ARC_ROOM = 1.4;                         /* see `clear` */
 static const double EARLY_STICK = 8;                        /* q from which stick comes so early that 4 nodes do */
 static const double MILD_PULL = 0.15, MILD_FRICTION = 0.25; /* mu mu_b and mu_b up to which one arc is tried */
-static const double LONGEST = 0.45;                         /* largest h of a patient arc */
-static const double FADE = 3e-7;                            /* e^4 under which the end is found from v_n, not from S */
+static const double BEYOND = 0.02, BEYOND_PATIENT = 0.006; /* share of an arc that its polynomials are trusted beyond its end */
+static const double LEAST_SLIP = 3e-7;                     /* change of u_x, over the approach, that makes no odds */
+static const double LONGEST = 0.45;                        /* largest h of a patient arc */
+static const double FADE = 3e-7;                           /* e^4 under which the end is found from v_n, not from S */
 
 typedef struct law {
   double kappa, mu, mu_b, s, v_n0, e;
@@ -245,17 +248,20 @@ always void lay_mesh(const law *m, const state *a, const rule *r, int n, int sti
   }
 }
 
-/* A new W from tau and the old W. */
-always void renew_slip(const state *a, const rule *r, int n, int sticks, mesh *g, arc *q) {
-  pair change[PAIRS];
+/* A new W from tau and the old W, and how far that moves u_x. */
+always pair renew_slip(const state *a, const rule *r, int n, int sticks, mesh *g, arc *q) {
+  pair change[PAIRS], moved = both(0);
   for (int k = 0; k < n; k++)
     q->dW[k] = g->c_W[k] * (a->u_z * g->tau_x[k] - 3.5 * (g->tau_y[k] * g->W[k]));
   apply(r->turn, q->dW, change, n);
   for (int k = 0; k < n; k++) {
     const pair W = sticks ? g->l2[k] * a->u_x - change[k] : g->l2[k] * (a->u_x - change[k]);
-    g->W[k] += g->damp[k] * (W - g->W[k]);
+    const pair step = g->damp[k] * (W - g->W[k]);
+    moved = larger(moved, size(step) * g->l5[k]);
+    g->W[k] += step;
     g->speed[k] = root(both(a->u_z * a->u_z) + g->W[k] * g->W[k]);
   }
+  return moved;
 }
 
 always void slope_of_p(const law *m, const mesh *g, arc *q, int n) {
@@ -356,7 +362,13 @@ always void run_arc(const law *m, const state *a, const rule *r, int n, int stic
     q->dddp = dot(r->curl, q->dp_dx, n);
     q->per = 1 / q->dp;
   }
-  renew_slip(a, r, n, sticks, &g, q);
+  /* Where the cloth pulls little, tau has converged before W. */
+  const double least = -m->v_n0 * LEAST_SLIP;
+  for (int k = 0; k < (sticks ? 1 : 8); k++) {
+    const pair moved = renew_slip(a, r, n, sticks, &g, q);
+    if (high(moved[0], moved[1]) < least)
+      break;
+  }
   slope_of_p(m, &g, q, n);
   slope_of_F(&g, q, n);
   q->h = h;
@@ -423,8 +435,9 @@ always void glide(const law *m, state *b, ending *end) {
 }
 
 /* Where the arc has arrived. Returns the share of the arc by which the end of the collision lies beyond its end: 0 if it
- * was near enough to be reached by two terms of Taylor's series, and the end is then in *b; else *b is the end of the arc. */
-always double arrive(const law *m, const state *a, const rule *r, int n, const arc *q, state *b, ending *end) {
+ * was near enough (`trusted`) to be reached by two terms of Taylor's series, and the end is then in *b; else *b is the end of
+ * the arc. */
+always double arrive(const law *m, const state *a, const rule *r, int n, const arc *q, double trusted, state *b, ending *end) {
   *b = stand(a, q, r->all, n);
   const double y = dot(r->all, q->dW, n), most = m->mu * m->mu_b; /* |f| is never more */
   const double f_y = high(low(dot(r->last, q->dF_y, n) * q->per, most), -most), slope = m->kappa - f_y, per_slope = 1 / slope;
@@ -452,7 +465,7 @@ always double arrive(const law *m, const state *a, const rule *r, int n, const a
     const double b_2 = 0.5 * q->ddp * q->per, x_0 = low(high(dx, -0.1), 0.1); /* reversion of the series of p(x) */
     dx *= 1 - x_0 * (b_2 - x_0 * (2 * b_2 * b_2 - (1 / 6.0) * q->dddp * q->per));
   }
-  if (fabs(dx) > 0.02) {
+  if (fabs(dx) > trusted) {
     put_slips(m, a, b, 1 - q->h, y);
     return dx;
   }
@@ -574,7 +587,7 @@ static __attribute__((noinline)) void patient(const law *m, state a, state *b, e
         continue;
       }
       const ending before = *end;
-      const double beyond = arrive(m, &a, &gauss_6, 3, &q, b, end);
+      const double beyond = arrive(m, &a, &gauss_6, 3, &q, BEYOND_PATIENT, b, end);
       if (beyond == 0)
         return;
       if (beyond > 0 || half >= 40)
@@ -594,7 +607,7 @@ always void solve(const law *m, const state *a, state *b, ending *end) {
   const double unit = -m->v_n0 / m->kappa, pull = m->mu * m->mu_b;
   const forecast f = predict(m, a, (1 + m->e) * unit);
   const double feel = f.pull + 0.2 * m->mu * f.z, enough = ENOUGH / ((feel + TINY) * (feel + 0.003));
-  const double enough_stick = ENOUGH * f.q / ((f.pull + TINY) * (f.pull + 0.003));
+  const double pulled = f.pull + 0.1 * pull, enough_stick = 0.5 * ENOUGH * f.q / ((pulled + TINY) * (pulled + 0.003));
   const int mild = pull < MILD_PULL && m->mu_b < MILD_FRICTION,
             rest = square(pull) * (square(a->d_x) + square(a->d_y)) < square(1e-9 * unit);
   arc q;
@@ -606,17 +619,18 @@ always void solve(const law *m, const state *a, state *b, ending *end) {
   }
   q.evaluations = 0;
   if (f.q < COARSE_END && mild && pull < 0.06 && m->mu < 0.55 && m->e > 0.85 && (rest || clear(a, &f, f.p_f, COARSE_ROOM))) {
-    const plan way = {.most = 4, .lag = 1, .h = power_share(f.q, f.z), .p_end = f.p_f, .bow = bow_of(&f), .enough = enough};
+    const plan way = {
+        .most = 4, .lag = 1, .h = power_share(f.q, f.z), .p_end = f.p_f, .bow = bow_of(&f), .enough = 0.1 * enough};
     run_arc(m, a, &gauss_2, 1, 0, &way, &f, &q);
-    if (q.change * f.pull < 3e-6 && arrive(m, a, &gauss_2, 1, &q, b, end) == 0) {
+    if (q.change * f.pull < 3e-6 && arrive(m, a, &gauss_2, 1, &q, BEYOND, b, end) == 0) {
       end->evaluations = q.evaluations;
       return;
     }
   } else if (f.q < MIDDLE_END && mild && (rest || clear(a, &f, f.p_f, MIDDLE_ROOM))) {
-    const plan way = {.most = 6, .h = power_share(f.q, f.z), .p_end = f.p_f, .bow = bow_of(&f), .enough = enough};
+    const plan way = {.most = 6, .h = power_share(f.q, f.z), .p_end = f.p_f, .bow = bow_of(&f), .enough = 0.25 * enough};
     run_arc(m, a, &gauss_4, 2, 0, &way, &f, &q);
     if (q.change * f.pull < 3e-6 && smooth(&gauss_4, 2, &q, f.pull, 3e-6 * unit, m->mu_b, 3e-4 * unit) &&
-        arrive(m, a, &gauss_4, 2, &q, b, end) == 0) {
+        arrive(m, a, &gauss_4, 2, &q, BEYOND, b, end) == 0) {
       end->evaluations = q.evaluations;
       return;
     }
@@ -624,7 +638,7 @@ always void solve(const law *m, const state *a, state *b, ending *end) {
     const plan way = {.most = 8, .h = share_of_lambda(f.q, f.z), .aim = f.p_f, .enough = enough};
     run_arc(m, a, &gauss_6, 3, 0, &way, &f, &q);
     if (q.change * f.pull < 1e-5 && smooth(&gauss_6, 3, &q, f.pull, 1e-6 * unit, m->mu_b, 2e-5 * unit)) {
-      const double beyond = arrive(m, a, &gauss_6, 3, &q, b, end);
+      const double beyond = arrive(m, a, &gauss_6, 3, &q, BEYOND, b, end);
       end->evaluations = q.evaluations;
       if (beyond == 0)
         return;
@@ -633,7 +647,7 @@ always void solve(const law *m, const state *a, state *b, ending *end) {
         return;
       }
     }
-  } else if (f.q >= EARLY_STICK && mild && (rest || clear(a, &f, 1.2 * f.p_f / f.q, MIDDLE_ROOM))) {
+  } else if (f.q >= EARLY_STICK && mild && (rest || clear(a, &f, 1.2 * f.p_f / f.q, EARLY_ROOM))) {
     const plan way = {.most = 6, .h = 1, .enough = enough_stick};
     run_arc(m, a, &stick_4, 2, 1, &way, &f, &q);
     if (q.change * f.pull < 3e-6 * f.q && smooth(&stick_4, 2, &q, f.pull, 4e-6 * unit, f.pull, 4e-4 * unit) &&

@@ -1,10 +1,16 @@
-"""Prints src/exact_rules.h, the fixed matrices of src/exact.c, from 50 digits. Needs mpmath; what it prints is kept in the tree:
+"""Prints the fixed matrices of the exact solver, for single calls or for lanes, from 50 digits. Needs mpmath; what it prints is
+kept in the tree:
 
-    python3 tools/exact_rules.py > src/exact_rules.h && cmake --build build --target format
+    python3 tools/exact_rules.py single > src/exact_rules.h
+    python3 tools/exact_rules.py lanes > src/batch/arc_rules.h
+    cmake --build build --target format
 
 gauss rules: Gauss-Legendre nodes x on [0, 1], integrals of the Lagrange basis up to each node.
 stick rules: nodes lambda of the Gauss rule for the weight lambda^4 on [0, 1]; integrals of lambda^4 times the basis from each node
-up to 1, and 2 node^2 times those of the basis over lambda^3 (the equation of W)."""
+up to 1, and 2 node^2 times those of the basis over lambda^3 (the equation of W). Lanes take the latter without node^2 (the
+equation of T), and polynomials in powers of 2 x - 1, whose coefficients stay small enough for single precision."""
+import sys
+
 from mpmath import mp, mpf, matrix, polyroots
 
 mp.dps = 50
@@ -49,43 +55,63 @@ def integral(c, w, a, b):
     return t
 
 
+def centred(c):
+    """The polynomial sum c_m x^m in powers of 2 x - 1."""
+    out, power = [mpf(0)] * len(c), [mpf(1)]
+    for v in c:
+        for i, x in enumerate(power):
+            out[i] += v * x
+        power = times(power, [mpf(1) / 2, mpf(1) / 2])
+    return out
+
+
 def pairs(row):
+    """A row of src/exact.c: nodes two by two."""
     text = [mp.nstr(v, 17, min_fixed=-4, max_fixed=4) for v in row]
     return "{ " + ", ".join("{ %s, %s }" % (text[i], text[i + 1]) for i in range(0, len(text), 2)) + " }"
 
 
-def rows(M):
-    return "{ " + ",\n              ".join(pairs(r) for r in M) + " }"
+def floats(row):
+    text = [mp.nstr(v, 10, min_fixed=-4, max_fixed=4) for v in row]
+    return "{ " + ", ".join((t if "." in t or "e" in t else t + ".0") + "f" for t in text) + " }"
 
 
-def rule(n, kind):
+def rule(n, kind, lanes):
+    numbers = floats if lanes else pairs
+    powers = centred if lanes else list
+    rows = lambda M: "{ " + ",\n              ".join(numbers(r) for r in M) + " }"
+    across = lambda M: [[r[m] for r in M] for m in span]
     one, zero, span = mpf(1), mpf(0), range(n)
     if kind == "gauss":
         x = gauss_nodes(n, 0)
         L = basis(x)
         total = turn = [[integral(L[j], 0, zero, x[k]) for k in span] for j in span]
         whole = [integral(L[j], 0, zero, one) for j in span]
-        part = [[L[j][m] / (m + 1) for j in span] for m in span]
+        part = [powers([L[j][m] / (m + 1) for m in span]) for j in span]
     else:
         x = list(reversed(gauss_nodes(n, 4)))
         L = basis(x)
         total = [[integral(L[j], 4, x[k], one) for k in span] for j in span]
-        turn = [[2 * x[k] ** 2 * integral(L[j], -3, x[k], one) for k in span] for j in span]
+        turn = [[2 * (1 if lanes else x[k] ** 2) * integral(L[j], -3, x[k], one) for k in span] for j in span]
         whole = [integral(L[j], 4, zero, one) for j in span]
-        part = [[L[j][m] / (m + 5) for j in span] for m in span]
+        part = [powers([L[j][m] / (m + 5) for m in span]) for j in span]
     top = [L[j][n - 1] for j in span]
     most = max(abs(t) for t in top)
-    fields = [("node", pairs(x))]
+    fields = [("node", numbers(x))]
     if kind == "stick":
-        fields.append(("away", pairs([-mp.log(v) for v in x])))
-    fields += [("sum", rows(total)), ("turn", rows(turn)), ("all", pairs(whole)), ("part", rows(part)), ("tail", pairs([t / most for t in top]))]
+        fields.append(("away", numbers([-mp.log(v) for v in x])))
+    fields += [("sum", rows(total)), ("turn", rows(turn)), ("all", numbers(whole)), ("part", rows(across(part))),
+               ("tail", numbers([t / most for t in top]))]
     if kind == "gauss":
-        fields += [("last", pairs([sum(L[j]) for j in span])),
-                   ("bend", pairs([sum(m * L[j][m] for m in range(1, n)) for j in span])),
-                   ("curl", pairs([sum(m * (m - 1) * L[j][m] for m in range(2, n)) for j in span]))]
+        fields += [("last", numbers([sum(L[j]) for j in span])),
+                   ("bend", numbers([sum(m * L[j][m] for m in range(1, n)) for j in span])),
+                   ("curl", numbers([sum(m * (m - 1) * L[j][m] for m in range(2, n)) for j in span]))]
+    elif lanes:
+        fields += [("basis", rows(across([centred(L[j]) for j in span])))]
     return "static const rule %s_%d = {\n" % (kind, n) + "".join("    .%-4s = %s,\n" % f for f in fields) + "};\n"
 
 
-print("/* The rules of exact.c, printed by tools/exact_rules.py. */")
+for_lanes = sys.argv[1] == "lanes"
+print("/* The rules of %s, printed by tools/exact_rules.py. */" % ("arcs.h" if for_lanes else "exact.c"))
 for n, kind in ((2, "gauss"), (4, "gauss"), (6, "gauss"), (4, "stick"), (6, "stick")):
-    print(rule(n, kind), end="")
+    print(rule(n, kind, for_lanes), end="")

@@ -91,14 +91,14 @@ carom_isa carom_isa_limit(carom_isa isa) {
 
 /* Of fewer pairs than this the exact solver is faster by single calls: in lanes it costs about as much for one as for a dozen
  * (docs/batch.md). */
-enum { EXACT_FEW_DOUBLE = 24, EXACT_FEW_SINGLE = 6 };
+static const unsigned char exact_few[CAROM_ISA_COUNT][CAROM_PRECISIONS] = {
+    [CAROM_ISA_PLAIN] = {24, 8}, [CAROM_ISA_SSE2] = {16, 4},   [CAROM_ISA_NEON] = {16, 4},
+    [CAROM_ISA_AVX2] = {12, 2},  [CAROM_ISA_AVX512] = {12, 2},
+};
 
 carom_batch_solver *carom_batch_solver_for(carom_solver solver, carom_precision precision, size_t n) {
-  if (solver == CAROM_SOLVER_EXACT) {
-    if (precision == CAROM_DOUBLE && n < EXACT_FEW_DOUBLE)
-      return carom_singles_double;
-    if (precision == CAROM_SINGLE && n < EXACT_FEW_SINGLE)
-      return carom_singles_single;
-  }
-  return solvers[carom_isa_in_force()][solver][precision];
+  const carom_isa isa = carom_isa_in_force();
+  if (solver == CAROM_SOLVER_EXACT && n < exact_few[isa][precision])
+    return precision == CAROM_DOUBLE ? carom_singles_double : carom_singles_single;
+  return solvers[isa][solver][precision];
 }

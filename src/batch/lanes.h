@@ -48,8 +48,10 @@ typedef int64_t lane_int;
 /* `lanes_unrolled` before a loop of few turns: arrays of vectors live in registers only if the compiler unrolls it. */
 #if defined(__clang__)
 #define lanes_unrolled _Pragma("clang loop unroll(full)")
+#define lanes_rolled _Pragma("clang loop unroll(disable)")
 #else
 #define lanes_unrolled _Pragma("GCC unroll 16")
+#define lanes_rolled _Pragma("GCC unroll 1")
 #endif
 
 #ifdef CAROM_LANES_ONE
