@@ -364,10 +364,13 @@ always void run_arc(const law *m, const state *a, const rule *r, int n, int stic
   }
   /* Where the cloth pulls little, tau has converged before W. */
   const double least = -m->v_n0 * LEAST_SLIP;
+  double last = HUGE_VAL;
   for (int k = 0; k < (sticks ? 1 : 8); k++) {
     const pair moved = renew_slip(a, r, n, sticks, &g, q);
-    if (high(moved[0], moved[1]) < least)
+    const double most = high(moved[0], moved[1]);
+    if (most < least || most > 0.5 * last)
       break;
+    last = most;
   }
   slope_of_p(m, &g, q, n);
   slope_of_F(&g, q, n);

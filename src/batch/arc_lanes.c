@@ -28,6 +28,32 @@ always void columns_to_rows(float (*to)[ROW], const vreal column[ROW]) {
   lanes_unrolled for (int at = 0; at < ROW; at += CHUNK) v_store_columns(row, at, column + at);
 }
 
+/* The problem whose columns are x. */
+always problem problem_of(const vreal x[ROW], real s, real slack) {
+  return (problem){.u_x = x[0],
+                   .u_z = x[1],
+                   .d_x = x[2],
+                   .d_y = x[3],
+                   .kappa = x[4],
+                   .mu = x[5],
+                   .mu_b = x[6],
+                   .e = x[7],
+                   .v_n = -x[4],
+                   .K = v_splat(0),
+                   .K_c = v_splat(0),
+                   .seen = v_from_bits(0),
+                   .s = s,
+                   .slack = slack};
+}
+
+/* No slip between the balls to speak of: the impulse of friction is what takes it away, and the cloth's is less still. */
+static void stick_at_once(const float in[ROW], float out[ROW]) {
+  out[0] = in[0] / (3.5f * in[4]);
+  out[1] = 0.4f * in[1] / in[4];
+  out[2] = out[3] = out[4] = 0;
+  out[GOOD] = 1;
+}
+
 static void sort(const carom_arc_block *b, size_t n, real s, real slack, agenda *a, rows *r) {
   for (int k = 0; k < CLASSES; k++)
     a->count[k] = 0;
@@ -35,22 +61,17 @@ static void sort(const carom_arc_block *b, size_t n, real s, real slack, agenda 
     vreal x[ROW];
     lanes_unrolled for (int k = 0; k < ROW; k++) x[k] = v_load(b->in[k] + first);
     columns_to_rows(r->in + first, x);
-    const problem c = {.u_x = x[0],
-                       .u_z = x[1],
-                       .d_x = x[2],
-                       .d_y = x[3],
-                       .kappa = x[4],
-                       .mu = x[5],
-                       .mu_b = x[6],
-                       .e = x[7],
-                       .s = s,
-                       .slack = slack};
+    const problem c = problem_of(x, s, slack);
     const forecast f = foresee(&c, 1 + c.e);
-    const vreal usable = v_load(b->good + first);
-    const vint class = __builtin_convertvector(v_select(v_less(v_splat(0), usable), class_of(&c, &f), v_splat(CLASSES)), vint);
+    const vmask usable = v_less(v_splat(0), v_load(b->good + first)) & within_reach(&c);
+    const unsigned at_once = v_bits(usable & sticks_at_once(&c, &f));
+    const vint class = __builtin_convertvector(v_select(usable, class_of(&c, &f), v_splat(CLASSES)), vint);
     for (size_t k = 0; k < LANES && first + k < n; k++) {
-      r->out[first + k][GOOD] = r->out[first + k][HINT] = 0;
-      if (class[k] < CLASSES)
+      float *out = r->out[first + k];
+      out[GOOD] = out[HINT] = 0;
+      if (at_once >> k & 1)
+        stick_at_once(r->in[first + k], out);
+      else if (class[k] < CLASSES)
         a->pair[class[k]][a->count[class[k]]++] = (uint16_t)(first + k);
     }
   }
@@ -59,10 +80,10 @@ static void sort(const carom_arc_block *b, size_t n, real s, real slack, agenda 
 /* The next few cache lines, for one vector solved here. */
 static inline void fetch_ahead(carom_fetcher *f) {
   enum { LINE = 64, IN_LINES = 4 * LANES, OUT_LINES = 2 * LANES };
-  for (int k = 0; k < IN_LINES && f->in < f->in_end; k++, f->in += LINE)
-    __builtin_prefetch(f->in, 0, 2);
-  for (int k = 0; k < OUT_LINES && f->out < f->out_end; k++, f->out += LINE)
-    __builtin_prefetch(f->out, 1, 2);
+  for (int k = 0; k < IN_LINES && f->in_at < f->in_bytes; k++, f->in_at += LINE)
+    __builtin_prefetch(f->in + f->in_at, 0, 2);
+  for (int k = 0; k < OUT_LINES && f->out_at < f->out_bytes; k++, f->out_at += LINE)
+    __builtin_prefetch(f->out + f->out_at, 1, 2);
 }
 
 /* A vector of a class: where its pairs are, and which lanes have one. */
@@ -92,20 +113,7 @@ always problem gather(party *p, int class, size_t first, real s, real slack, con
       h[k] = p->to[k][HINT];
   *hint = v_load(h);
   lanes_unrolled for (int at = 0; at < ROW; at += CHUNK) v_load_columns(from, at, x + at);
-  return (problem){.u_x = x[0],
-                   .u_z = x[1],
-                   .d_x = x[2],
-                   .d_y = x[3],
-                   .kappa = x[4],
-                   .mu = x[5],
-                   .mu_b = x[6],
-                   .e = x[7],
-                   .v_n = -x[4],
-                   .K = v_splat(0),
-                   .K_c = v_splat(0),
-                   .seen = v_from_bits(0),
-                   .s = s,
-                   .slack = slack};
+  return problem_of(x, s, slack);
 }
 
 /* The pairs of one class, `abreast` vectors at a time; those that do not belong to it go to class `next`. */
@@ -149,7 +157,7 @@ static void solve_followed(real s, real slack, agenda *a, rows *r, carom_fetcher
   for (unsigned there = p.there; there != 0;) {
     fetch_ahead(ahead);
     follow(&w);
-    unsigned running = v_bits(w.running), good = v_bits(w.total.good), seen = v_bits(w.c.seen);
+    unsigned running = v_bits(w.running), good = v_bits(w.total.good), seen = v_bits(w.c.seen), failed = v_bits(w.failed);
     for (unsigned done = there & ~running; done != 0; done &= done - 1) {
       const int k = __builtin_ctz(done);
       real *to = p.to[k];
@@ -177,10 +185,12 @@ static void solve_followed(real s, real slack, agenda *a, rows *r, carom_fetcher
       w.c.K[k] = w.total.Q_1[k] = w.total.Q_2[k] = w.total.F_x[k] = w.total.F_y[k] = w.arcs[k] = 0;
       w.longest[k] = longest_arc;
       seen &= ~(1u << k);
+      failed &= ~(1u << k);
       good &= ~(1u << k);
       running |= 1u << k;
     }
     w.c.seen = v_from_bits(seen);
+    w.failed = v_from_bits(failed);
     w.total.good = v_from_bits(good);
     w.running = v_from_bits(running);
   }

@@ -153,7 +153,7 @@ always void lay(const plan *way, arc *a, const problem *c, const forecast *f) {
   const vreal a_0 = 2 * c->mu * (c->u_z * f->tau_x - (real)3.5 * f->tau_y * c->u_x);
   const vreal a_1 = c->mu * (-2 * c->u_z * f->tau_x - (real)3.5 * f->tau_y * a_0);
   EACH_NODE(k) {
-    const vreal l = way->sticks ? v_splat(way->r->node[k]) : 1 - a->h * way->r->node[k], x = 1 - l;
+    const vreal x = way->sticks ? v_splat(1 - way->r->node[k]) : a->h * way->r->node[k], l = 1 - x;
     a->l2[k] = l * l;
     a->l5[k] = a->l2[k] * a->l2[k] * l;
     a->lost_5[k] = x * (5 - x * (10 - x * (10 - x * (5 - x))));
@@ -285,11 +285,12 @@ always void begin_arc(const plan *way, arc *a, const problem *c, const forecast 
 
 /* All that a sweep left behind once more, from the last τ. Where the cloth pulls little, τ has converged before T. */
 always void close_arc(const plan *way, arc *a, const problem *c, vmask mask) {
+  vreal last = v_splat((real)INFINITY);
   a->left = mask;
-  for (int k = 0; k < (way->sticks ? 1 : 6); k++) {
-    a->left &= v_less(v_splat(least_slip), renew_slip(way, a, c));
-    if (!v_any(a->left))
-      break;
+  for (int k = 0; k < 6 && v_any(a->left); k++) {
+    const vreal moved = renew_slip(way, a, c);
+    a->left &= v_less(v_splat(least_slip), moved) & v_less(moved, (real)0.5 * last);
+    last = moved;
   }
   slopes_of_p(way, a, c);
   slopes_of_F(way, a);

@@ -14,6 +14,18 @@ always vreal room_of(const problem *c, const forecast *f, vreal way) {
          v_reciprocal_sqrt(w_x * w_x + w_y * w_y + TINY);
 }
 
+/* Whether arcs in single precision are to be trusted: not where strong friction lets small causes grow, sooner so with the
+ * pooltool sign, where the cloth pushes its slip apart. */
+always vmask within_reach(const problem *c) {
+  return v_less(c->mu * c->mu_b, NUMBER(c->s > 0 ? 0.1 : 0.15));
+}
+
+/* Whether the ball slip is so small, and stick so sure, that it ends at once. */
+always vmask sticks_at_once(const problem *c, const forecast *f) {
+  const vreal u_2 = c->u_x * c->u_x + c->u_z * c->u_z;
+  return v_less(u_2, NUMBER(1e-28)) | (v_less(u_2, NUMBER(1e-14)) & v_less(v_splat(2), f->q));
+}
+
 /* The classes of collisions, in the order in which they are done: what the first do not fit goes on to a later one. */
 enum { EARLY_STICK, LATE_STICK, COARSE, MIDDLE, FINE, FOLLOWED, CLASSES };
 
@@ -63,7 +75,8 @@ always void solve_class(int class, int abreast, const problem *c, const vreal *h
   EACH_VECTOR(b) {
     f[b] = foresee(&c[b], 1 + c[b].e);
     const vreal q = way->sticks ? f[b].q : v_splat(1);
-    change[b] = v_max(slack * (real)3e-6 * q * v_reciprocal(f[b].pull + (real)1e-9), v_splat(least_change));
+    const vreal pull = way->sticks ? f[b].pull + (real)0.1 * c[b].mu * c[b].mu_b : f[b].pull;
+    change[b] = v_max(slack * (real)3e-6 * q * v_reciprocal(pull + (real)1e-9), v_splat(least_change));
     const vreal feel = f[b].pull + (way->sticks ? (real)0.1 * c[b].mu * c[b].mu_b : (real)0.2 * c[b].mu * f[b].z);
     const vreal wish = slack * (real)2e-8 * q * v_reciprocal((feel + (real)1e-9) * (feel + (real)0.003));
     enough[b] = v_max(v_min(wish, change[b]), v_splat(least_change));
@@ -77,8 +90,12 @@ always void solve_class(int class, int abreast, const problem *c, const vreal *h
       arrive_stuck(way, &a[b], &c[b], &o[b]);
     else
       arrive_by_arc(way, &a[b], &c[b], way->n > 4 ? (real)0.06 : (real)0.03, &o[b], &m[b]);
+    /* What an error of p costs: of a stick arc little, but near its end it decides whether the balls stick at all. */
+    const vreal sticks_late = v_select(v_less(f[b].q, NUMBER(1.25)), c[b].mu_b, f[b].pull);
+    if (!way->sticks) /* beyond, 1/λ³ is more than six nodes can follow */
+      o[b].good &= v_less(a[b].h, NUMBER(0.62));
     o[b].good &= mask[b] & v_less_equal(a[b].change, change[b]) &
-                 fits(way, &a[b], slack * most[class].F, way->sticks ? f[b].pull : c[b].mu_b, slack * most[class].p);
+                 fits(way, &a[b], slack * most[class].F, way->sticks ? sticks_late : c[b].mu_b, slack * most[class].p);
   }
 }
 
@@ -122,12 +139,14 @@ typedef struct walk {
   vreal longest; /* of the next arc */
   vreal arcs;    /* tried */
   vmask running;
+  vmask failed; /* the last arc did not fit */
 } walk;
 static const real longest_arc = 0.5f, most_arcs = 60;
 
 always walk set_out(const problem *c, vmask mask) {
   const vreal zero = v_splat(0);
-  return (walk){*c, {zero, zero, zero, zero, zero, zero, zero, v_from_bits(0)}, v_splat(longest_arc), zero, mask};
+  return (walk){
+      *c, {zero, zero, zero, zero, zero, zero, zero, v_from_bits(0)}, v_splat(longest_arc), zero, mask, v_from_bits(0)};
 }
 
 /* Where the rest is so short that it makes no odds how it goes, the lanes are done. */
@@ -165,7 +184,7 @@ always void follow(walk *w) {
   f = foresee(c, v_min(left, turn));
   face(c, v_min(f.p_f, turn), &f);
   const vreal h = v_select(v_less(f.q, NUMBER(0.98)), share_of_lambda(f.q, f.z), v_splat(1)), shorter = v_min(h, w->longest);
-  const vreal aim = v_select(clipped | v_less(w->longest, h), zero, f.p_f);
+  const vreal aim = v_select(clipped | w->failed | v_less(w->longest, h), zero, f.p_f);
   const vreal wish = c->slack * (real)2e-8 * v_reciprocal((pull + (real)1e-9) * (pull + (real)0.03));
   const vreal enough = v_max(wish, v_splat(least_change));
   outcome o;
@@ -182,6 +201,7 @@ always void follow(walk *w) {
   w->longest = v_select(goes_on, v_min(8 * a.h, v_splat(longest_arc)), (real)0.5 * a.h);
   w->longest = v_select(too_long, a.h * v_max(1 + beyond, NUMBER(0.3)), w->longest);
   advance(c, &a, &o, &m, goes_on);
+  w->failed = w->running & v_not(goes_on);
   w->arcs += 1;
   w->running &= v_not(ends) & v_less(w->arcs, v_splat(most_arcs));
 }

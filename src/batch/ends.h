@@ -5,7 +5,7 @@
  *
  *     v_n² = e² κ² + 2 (1 - e²) K_c - 2 K        K_c: K at v_n = 0
  *
- * K is small beside e² κ², and stationary at v_n = 0, so a rough place of v_n = 0 will do. `excess`, which is v_n² / κ² - e²,
+ * K is small beside κ², and stationary at v_n = 0, so a rough place of v_n = 0 will do. `excess`, which is v_n² / κ² - e²,
  * is what leaves the arcs: the caller adds it to e² in its own precision, and p = 1 + sqrt(e² + excess) + F_y / κ. An error of
  * the foreseen h is made good on the arc's polynomials. After stick, F and K stay as they are.
  */
@@ -142,7 +142,7 @@ always vreal arrive_by_arc(const plan *way, const arc *a, const problem *c, real
   return beyond;
 }
 
-/* The λ at which a share of p is still to come, about: it falls as λ⁶. */
+/* The λ at which a share of p is still to come, about: it falls about as λ⁶, here as λ^(16/3). */
 always vreal lambda_of_share(vreal share) {
   const vreal fourth = v_root(v_root(clamp(share, (real)1e-6, 1)));
   return v_root(fourth * v_root(fourth));

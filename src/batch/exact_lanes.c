@@ -48,7 +48,7 @@ static const float slack = 4;
 static const real most = 1e60;
 static const float slack = 1;
 #endif
-static const real spread = 1e3f;  /* of masses */
+static const real spread = 10;    /* of masses */
 static const real fastest = 1e8f; /* of slips, over the approach */
 
 /* Turned so that ball i is the pressed one, with u_z >= 0; into column `at` of *a. */
@@ -91,7 +91,7 @@ static inline block restore(const pending *p, const carom_arc_block *a, size_t a
   const vmask on_j = v_less(p->sign, zero);
   const vreal Q_1 = load_floats(a->out[0] + at), Q_2 = load_floats(a->out[1] + at);
   const vreal F_x = load_floats(a->out[2] + at), F_y = load_floats(a->out[3] + at), excess = load_floats(a->out[4] + at);
-  const vreal impulse = 1 + v_sqrt(v_max(p->e * p->e + excess, zero)) + F_y * v_reciprocal(1 + p->ratio);
+  const vreal impulse = 1 + v_sqrt(v_max(zero, p->e * p->e + excess)) + F_y * v_reciprocal(1 + p->ratio);
   const vreal spin = (real)2.5 * v_reciprocal(p->R), turn = scale * spin, other = scale * p->ratio;
   const vreal p_x = scale * (F_x - Q_1), p_y = scale * (F_y - impulse), o_x = other * Q_1, o_y = other * impulse;
   const vreal p_wx = turn * (F_y - Q_2), p_wy = -turn * F_x, o_wx = -turn * p->ratio * Q_2;
@@ -126,8 +126,11 @@ static size_t solve_block(const real *in, size_t n, size_t next, const carom_opt
     const block b = block_load(from);
     reduce(&b, s, &p[first / LANES], &a, first);
   }
-  a.ahead = (carom_fetcher){(const char *)(in + IN_NUMBERS * n), (const char *)(in + IN_NUMBERS * (n + next)),
-                            (char *)(out + OUT_NUMBERS * n), (char *)(out + OUT_NUMBERS * (n + next))};
+  for (size_t k = n; k < n + ARC_WIDEST; k++) /* what the arcs' wider vectors read beyond the last pair */
+    a.good[k] = 0;
+  a.ahead = (carom_fetcher){
+      (const char *)(in + IN_NUMBERS * n), (char *)(out + OUT_NUMBERS * n), 0, next * IN_NUMBERS * sizeof(real), 0,
+      next * OUT_NUMBERS * sizeof(real)};
   ARCS(&a, n, (float)s, slack);
   for (size_t first = 0; first < n; first += LANES) {
     real *to[LANES];

@@ -143,6 +143,47 @@ START_TEST(oracle_in_every_regime) {
 }
 END_TEST
 
+/* Collisions that a class of arcs once accepted wrongly: stick just at the end, hardly any u_z, strong friction beside a light
+ * ball, no ball slip at all. In the units of src/batch/arcs.h. */
+static const struct {
+  double u_x, u_z, d_x, d_y, kappa, mu, mu_b, e, s;
+} hard[] = {{-0.346526567, 3.01613646e-5, -0.756237458, 3.74993251, 2, 0.177413758, 0.0261219012, 0.894255291, -1},
+            {-0.487295757, 3.88333e-5, -0.884130345, 2.68900569, 2, 0.425788981, 0.0370359968, 0.878621643, 1},
+            {-0.020197479, 0.881732803, -0.0291018688, 2.8817328, 2, 0.265736945, 0.0814308, 0.9285994, -1},
+            {1.13442887, 1.50410331, -0.077748, -0.4980382, 1.0060651, 0.93812785, 0.143497623, 0.8986, 1},
+            {0.494865807, 3.49382937, -0.42645722, -2.14299239, 1.39717349, 0.95156, 0.468186, 0.249551, 1},
+            {0.913426, 0.00031384, 0, 2.2323, 2, 0.480102, 0.068965, 0.892111, -1},
+            {0, 0, 0.5, 1, 2, 0.2, 0.05, 0.9, -1}};
+
+START_TEST(hard_cases) {
+  const double R = 0.03;
+  for (size_t k = 0; k < sizeof hard / sizeof hard[0]; k++) {
+    const double s = hard[k].s, w_x = (hard[k].kappa - hard[k].d_y) / (s * R);
+    const carom_impact in = {
+        .a = {.v = {hard[k].d_x, hard[k].kappa}, .w = {w_x}, .radius = R, .mass = hard[k].kappa - 1, .mu_cloth = hard[k].mu},
+        .b = {.r = {0, 2 * R},
+              .v = {hard[k].d_x - hard[k].u_x},
+              .w = {hard[k].u_z / R - w_x},
+              .radius = R,
+              .mass = 1,
+              .mu_cloth = hard[k].mu},
+        .mu_ball = hard[k].mu_b,
+        .restitution = hard[k].e};
+    carom_options options = carom_default_options();
+    options.slip = s > 0 ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER;
+    carom_impact many[FILL];
+    carom_result out, exact, outs[FILL];
+    for (int lane = 0; lane < FILL; lane++)
+      many[lane] = in;
+    ck_assert_int_eq(carom_collide(&in, &options, &out), CAROM_OK);
+    ck_assert_int_eq(carom_collide_batch(many, FILL, &options, outs, NULL), CAROM_OK);
+    ck_assert_int_eq(oracle_collide(&in, s, &exact, NULL), 0);
+    ck_assert_double_le(result_distance(&out, &exact, R), 1e-6);
+    ck_assert_double_le(result_distance(&outs[FILL - 1], &exact, R), 1e-6);
+  }
+}
+END_TEST
+
 /* What the solver tells of a collision: the impulses balance, the works are in the ratio of restitution, stick is seen. */
 START_TEST(details) {
   int stuck[3] = {0};
@@ -202,5 +243,5 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("exact", references, oracle_agrees_with_the_references, oracle_in_every_regime, details,
-                   details_of_euler_come_near);
+                   details_of_euler_come_near, hard_cases);
 }
