@@ -29,10 +29,10 @@ always vmask sticks_at_once(const problem *c, const forecast *f) {
 /* The classes of collisions, in the order in which they are done: what the first do not fit goes on to a later one. */
 enum { EARLY_STICK, LATE_STICK, COARSE, MIDDLE, FINE, FOLLOWED, CLASSES };
 
-/* Which class a collision is tried in. */
+/* Which class a collision within reach is tried in. */
 always vreal class_of(const problem *c, const forecast *f) {
   const vreal pull = c->mu * c->mu_b, one = v_splat(1);
-  const vmask mild = v_less(pull, NUMBER(0.15)) & v_less(c->mu_b, NUMBER(0.25));
+  const vmask mild = v_less(c->mu_b, NUMBER(0.25));
   const vmask rest = v_less(pull * (v_abs(c->d_x) + v_abs(c->d_y)), NUMBER(3e-7) * c->slack);
   const vreal way = f->p_f * v_min(one, (real)1.2 * v_reciprocal(v_max(f->q, one)));
   const vreal room = v_select(rest, NUMBER(100), room_of(c, f, way));

@@ -103,14 +103,11 @@ always vreal arrive_by_arc(const plan *way, const arc *a, const problem *c, real
       clamp(2 * xi * v_reciprocal(1 + bow + v_root(v_max((1 + bow) * (1 + bow) - 4 * bow * xi, NUMBER(1e-12)))), 0, (real)1.1);
   weights_upto(way, x, w);
   mark at_c = mark_of(c, w, a, dK, n);
-  if (n > 4) {
-    {
-      /* the slope of p at x, from the parabola or, where that is far from true, from the values themselves */
-      const vreal slope = v_max(m->p * (1 + bow - 2 * bow * x), (real)0.2 * m->p);
-      x = clamp(x - at_c.v_n * per_slope * v_reciprocal(slope), 0, (real)1.1);
-      weights_upto(way, x, w);
-      at_c = mark_of(c, w, a, dK, n);
-    }
+  if (n > 4) { /* once more, by the slope of the parabola at x */
+    const vreal slope = v_max(m->p * (1 + bow - 2 * bow * x), (real)0.2 * m->p);
+    x = clamp(x - at_c.v_n * per_slope * v_reciprocal(slope), 0, (real)1.1);
+    weights_upto(way, x, w);
+    at_c = mark_of(c, w, a, dK, n);
   }
   const vmask passed = v_not(c->seen) & v_less_equal((real)-0.01 * c->kappa * m->p, m->v_n);
   o->K_c = v_select(passed, at_c.K - (real)0.5 * f_y * at_c.v_n * at_c.v_n * per_slope, c->K_c);
@@ -149,7 +146,7 @@ always vreal lambda_of_share(vreal share) {
 }
 
 /* The end of a stick arc: the balls stick there, unless the collision ends before. */
-always void arrive_stuck(const plan *way, arc *a, const problem *c, outcome *o) {
+always void arrive_stuck(const plan *way, const arc *a, const problem *c, outcome *o) {
   const int n = way->n;
   const rule *r = way->r;
   vreal w[NODES], b[NODES], dK[NODES];

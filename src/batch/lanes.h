@@ -25,9 +25,7 @@
 #include <arm_neon.h>
 #endif
 
-#if defined(CAROM_LANES_ONE)
-#define VECTOR_BYTES 8
-#elif defined(CAROM_LANES_AVX512)
+#if defined(CAROM_LANES_AVX512)
 #define VECTOR_BYTES 64
 #elif defined(CAROM_LANES_AVX2)
 #define VECTOR_BYTES 32
@@ -45,7 +43,9 @@ typedef int64_t lane_int;
 #define LANES (VECTOR_BYTES / 8)
 #endif
 
-/* `lanes_unrolled` before a loop of few turns: arrays of vectors live in registers only if the compiler unrolls it. */
+/* `lanes_unrolled` before a loop of few turns: arrays of vectors live in registers only if the compiler unrolls it.
+ * `lanes_rolled` keeps one copy of a large body: copies might be fused differently, and a lane's bits would depend on its
+ * place. */
 #if defined(__clang__)
 #define lanes_unrolled _Pragma("clang loop unroll(full)")
 #define lanes_rolled _Pragma("clang loop unroll(disable)")
@@ -53,48 +53,6 @@ typedef int64_t lane_int;
 #define lanes_unrolled _Pragma("GCC unroll 16")
 #define lanes_rolled _Pragma("GCC unroll 1")
 #endif
-
-#ifdef CAROM_LANES_ONE
-
-/* One lane, in plain double: for single calls. */
-typedef double vreal;
-typedef bool vmask;
-
-static inline vreal v_splat(real x) {
-  return x;
-}
-static inline vmask v_less(vreal a, vreal b) {
-  return a < b;
-}
-static inline vmask v_less_equal(vreal a, vreal b) {
-  return a <= b;
-}
-static inline vmask v_not(vmask m) {
-  return !m;
-}
-static inline vreal v_select(vmask m, vreal yes, vreal no) {
-  return m ? yes : no;
-}
-static inline bool v_any(vmask m) {
-  return m;
-}
-static inline vreal v_abs(vreal x) {
-  return fabs(x);
-}
-static inline vreal v_max(vreal a, vreal b) {
-  return a > b ? a : b;
-}
-static inline vreal v_min(vreal a, vreal b) {
-  return a < b ? a : b;
-}
-static inline vreal v_sqrt(vreal x) {
-  return sqrt(x);
-}
-static inline vreal v_fma(vreal a, vreal b, vreal c) {
-  return a * b + c;
-}
-
-#else
 
 typedef real vreal __attribute__((vector_size(VECTOR_BYTES)));
 typedef lane_int vint __attribute__((vector_size(VECTOR_BYTES)));
@@ -208,21 +166,11 @@ enum { ALL_LANES = (int)((1u << LANES) - 1u) };
 static inline bool v_any(vmask m) {
   return v_bits(m) != 0;
 }
-static inline bool v_all(vmask m) {
-  return v_bits(m) == (unsigned)ALL_LANES;
-}
-
 /* ---- Arithmetic ----------------------------------------------------------------------------------------------------- */
 
 static inline vreal v_abs(vreal x) {
   const vint sign = (vint)v_splat((real)-0.0);
   return (vreal)((vint)x & ~sign);
-}
-
-/* `size` with the sign of `sign`. */
-static inline vreal v_copysign(vreal size, vreal sign) {
-  const vint bit = (vint)v_splat((real)-0.0);
-  return (vreal)(((vint)size & ~bit) | ((vint)sign & bit));
 }
 
 static inline vreal v_max(vreal a, vreal b) {
@@ -278,10 +226,7 @@ static inline vreal v_fma(vreal a, vreal b, vreal c) {
 #endif
 }
 
-/* a b - c and c - a b. */
-static inline vreal v_fms(vreal a, vreal b, vreal c) {
-  return v_fma(a, b, -c);
-}
+/* c - a b. */
 static inline vreal v_fnma(vreal a, vreal b, vreal c) {
   return v_fma(-a, b, c);
 }
@@ -435,7 +380,5 @@ static inline void v_store_columns(real *const row[LANES], int at, const vreal c
   v_transpose_chunks(m);
   lanes_unrolled for (int k = 0; k < CHUNK; k++) v_store_chunks(row + k, at, m[k]);
 }
-
-#endif /* CAROM_LANES_ONE */
 
 #endif
