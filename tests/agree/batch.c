@@ -5,9 +5,11 @@
  * junk between good ones, arrays that are not aligned, and any number of threads.
  */
 #include "cases.h"
+#include "regimes.h"
 #include "support.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -209,6 +211,68 @@ START_TEST(any_number_of_threads) {
 }
 END_TEST
 
+/* All regimes side by side: whoever its neighbours are, a row keeps its bits. */
+START_TEST(neighbours_make_no_difference) {
+  enum { EACH = 16 };
+  const size_t n = (size_t)regimes_count() * EACH;
+  carom_impact *in = malloc(n * sizeof *in), *turned = malloc(n * sizeof *turned);
+  carom_result *out = malloc(n * sizeof *out), *back = malloc(n * sizeof *back);
+  FOR_EACH_ISA(isa)
+  for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++)
+    for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
+      const carom_options options = options_for(solver, slip);
+      regimes_rng rng = {test_seed()};
+      for (size_t k = 0; k < n; k++) {
+        in[k] = regimes_draw((int)k % regimes_count(), slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0, &rng);
+        turned[n - 1 - k] = in[k];
+      }
+      carom_collide_batch(in, n, &options, out, NULL); /* some regimes are too slow for Euler: what counts is the rows */
+      carom_collide_batch(turned, n, &options, back, NULL);
+      for (size_t k = 0; k < n; k++)
+        ck_assert_msg(memcmp(&out[k], &back[n - 1 - k], sizeof out[k]) == 0, "%s: row %zu of %s depends on its neighbours",
+                      carom_isa_name((carom_isa)isa), k, regimes_name((int)k % regimes_count()));
+    }
+  free(in), free(turned), free(out), free(back);
+}
+END_TEST
+
+typedef struct caller {
+  const carom_impact *in;
+  carom_result *out;
+  carom_status whole;
+} caller;
+
+static void *call(void *argument) {
+  caller *c = argument;
+  carom_options options = carom_default_options();
+  options.threads = 2;
+  c->whole = carom_collide_batch(c->in, MANY, &options, c->out, NULL);
+  return NULL;
+}
+
+START_TEST(many_callers_at_once) {
+  enum { CALLERS = 4 };
+  random_source source = {test_seed()};
+  carom_impact *in = malloc(MANY * sizeof *in);
+  caller each[CALLERS];
+  pthread_t thread[CALLERS];
+  for (size_t k = 0; k < MANY; k++)
+    in[k] = random_impact(&source);
+  for (int k = 0; k < CALLERS; k++) {
+    each[k] = (caller){.in = in, .out = malloc(MANY * sizeof *each[k].out)};
+    ck_assert_int_eq(pthread_create(&thread[k], NULL, call, &each[k]), 0);
+  }
+  for (int k = 0; k < CALLERS; k++) {
+    ck_assert_int_eq(pthread_join(thread[k], NULL), 0);
+    ck_assert_int_eq(each[k].whole, CAROM_OK);
+    ck_assert_mem_eq(each[k].out, each[0].out, MANY * sizeof *each[k].out);
+  }
+  for (int k = 0; k < CALLERS; k++)
+    free(each[k].out);
+  free(in);
+}
+END_TEST
+
 START_TEST(lower_sets_can_be_asked_for) {
   const carom_isa best = carom_isa_limit(CAROM_ISA_COUNT);
   ck_assert(carom_isa_available(best));
@@ -225,5 +289,5 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("batch", good_rows_at_every_size, mixed_rows_at_every_size, the_204_cases, single_precision_is_near,
-                   any_number_of_threads, lower_sets_can_be_asked_for);
+                   any_number_of_threads, neighbours_make_no_difference, many_callers_at_once, lower_sets_can_be_asked_for);
 }
