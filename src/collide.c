@@ -1,4 +1,5 @@
-/* The public entry points: check, go to the collision frame, solve, come back, say how it went. */
+/* The public entry points: the swift solver, and for what it does not take: check, go to the collision frame, solve, come back,
+ * say how it went. */
 #include "carom.h"
 
 #include "arguments.h"
@@ -8,6 +9,7 @@
 #include "exact.h"
 #include "frame.h"
 #include "result.h"
+#include "swift/swift.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -36,7 +38,20 @@ static carom_status solve_euler(const carom_frame *frame, carom_local *local, in
   return status;
 }
 
+static bool solve_swiftly(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+  carom_exact_report report;
+  if (!carom_swift()(in, carom_spin_sign(opt->slip), out, detail == NULL ? NULL : &report))
+    return false;
+  if (detail != NULL) {
+    const carom_frame frame = carom_frame_of(in);
+    *detail = carom_detail_of_exact(&frame, &report);
+  }
+  return true;
+}
+
 static carom_status solve(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+  if (opt->solver == CAROM_SOLVER_EXACT && solve_swiftly(in, opt, out, detail))
+    return CAROM_OK;
   int field;
   const carom_status bad = carom_check_impact(in, &field);
   if (bad != CAROM_OK)

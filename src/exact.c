@@ -25,7 +25,7 @@
  *
  * and, without cloth friction, W = u_x0 lambda^2 and everything is one quadrature. With it tau(lambda) is the only unknown.
  *
- * THE METHOD. An arc is a stretch of lambda, scaled to start at 1, with 2, 4 or 6 nodes. A sweep takes tau at all nodes at once
+ * THE METHOD. An arc is a stretch of lambda, scaled to start at 1, with 6 nodes. A sweep takes tau at all nodes at once
  * to W, p, F and d there, by fixed matrices, and d to a new tau (one square root for p', one and a division for tau a node).
  * Sweeps gain a factor of about 50 each. Two kinds of rule: gauss, from 1 to 1 - h, Gauss-Legendre nodes; stick, from 1 to 0,
  * nodes for the weight lambda^4, the 1 / lambda^3 of W integrated exactly. No node is an end point, so a pressed ball that
@@ -35,10 +35,11 @@
  * to third order from any point near it; the collision ends at S = (1 - e^2) S_min, an error of the predicted h being made good
  * by three terms of a Taylor series. After stick v_n has slope kappa and the end is a closed form.
  *
- * WHICH ARC. A forecast costs two square roots: q, the share of ball slip lost at the end at the rate of the start, and the
- * straight line on which the cloth slip will run. Most collisions are one arc, chosen before any sweep. The others - the cloth
- * slip turning close to zero, strong friction, stick just missed - go the patient way: arcs graded towards the turn, each as
- * long as its polynomials carry, at most 300. A single arc whose last coefficients are too large goes that way too. */
+ * WHICH ARC. This is the patient way, for what the swift solver (swift/swift.c) leaves: strong friction, hardly any
+ * restitution, very unequal masses, and whatever else it did not settle. A forecast tells q, the share of ball slip lost at the
+ * end at the rate of the start, and the straight line on which the cloth slip will run. If the balls will stick and the line is
+ * clear of zero, an arc to stick is tried; else arcs follow each other, graded towards the turn, each as long as its
+ * polynomials carry. */
 #include "exact.h"
 #include <float.h>
 #include <math.h>
@@ -62,17 +63,16 @@ typedef struct rule {
 #include "exact_rules.h"
 
 /* Limits, each tried on 50,000 random collisions of 33 kinds: see numerics.md. */
-static const double TINY = 1e-300; /* keeps 0 / 0 away */
-static const double ENOUGH = 2e-8; /* a sweep was the last when its next change, times the pull of the cloth, is below */
-static const double COARSE_END = 0.1, MIDDLE_END = 0.45, FINE_END = 0.97; /* share q up to which 2, 4, 6 nodes may do */
-static const double COARSE_ROOM = 8, MIDDLE_ROOM = 2.5, FINE_ROOM = 1.5, EARLY_ROOM = 3.5, STICK_ROOM = 2,
-                    ARC_ROOM = 1.4;                         /* see `clear` */
-static const double EARLY_STICK = 8;                        /* q from which stick comes so early that 4 nodes do */
-static const double MILD_PULL = 0.15, MILD_FRICTION = 0.25; /* mu mu_b and mu_b up to which one arc is tried */
-static const double BEYOND = 0.02, BEYOND_PATIENT = 0.006; /* share of an arc that its polynomials are trusted beyond its end */
-static const double LEAST_SLIP = 3e-7;                     /* change of u_x, over the approach, that makes no odds */
-static const double LONGEST = 0.45;                        /* largest h of a patient arc */
-static const double FADE = 3e-7;                           /* e^4 under which the end is found from v_n, not from S */
+static const double TINY = 1e-300;      /* keeps 0 / 0 away */
+static const double ENOUGH = 2e-8;      /* a sweep was the last when its next change, times the pull of the cloth, is below */
+static const double ARC_ROOM = 1.4;     /* how clear of zero d keeps on an arc: see `clear_way` */
+static const double STRONG_PULL = 0.15; /* mu mu_b from which d may change its direction by the cloth alone */
+static const double BEYOND = 0.006;     /* share of an arc that its polynomials are trusted beyond its end */
+static const double LEAST_SLIP = 3e-7;  /* change of u_x, over the approach, that makes no odds */
+static const double LONGEST = 0.45;     /* largest h of an arc */
+enum { MOST_SWEEPS = 8 };
+static const double SEPARATE = 0.5; /* e under which an arc ends where v_n = 0: the end hangs on the work until there */
+static const double FADE = 3e-7;    /* e^4 under which the end is found from v_n, not from S */
 
 typedef struct law {
   double kappa, mu, mu_b, s, v_n0, e;
@@ -88,10 +88,8 @@ typedef struct forecast {
   double pull;         /* |f| */
 } forecast;
 typedef struct plan {
-  int most, lag;     /* sweeps at most; W one sweep behind: a shorter chain of dependent operations */
-  double h, aim;     /* length of a gauss arc; if aim > 0, h is corrected once so that the arc ends about there */
-  double p_end, bow; /* if p_end > 0, p(x) = p_end x (1 + bow (1 - x)) serves the first sweep */
-  double enough;     /* change of tau that ends the sweeps */
+  double h, aim; /* length of a gauss arc; if aim > 0, h is corrected once so that the arc ends about there */
+  double enough; /* change of tau that ends the sweeps */
 } plan;
 typedef struct arc {
   double h, change;
@@ -142,18 +140,18 @@ always pair both(double x) {
 }
 
 /* out = sum over the nodes j of M[j] v_j, added in pairs so that the chain stays short */
-always void apply(const pair (*M)[PAIRS], const pair *v, pair *out, int n) {
-  for (int j = 0; j < n; j++) {
+always void apply(const pair (*M)[PAIRS], const pair *v, pair *out) {
+  for (int j = 0; j < PAIRS; j++) {
     const pair a = both(v[j][0]), b = both(v[j][1]);
-    for (int k = 0; k < n; k++) {
+    for (int k = 0; k < PAIRS; k++) {
       const pair add = M[2 * j][k] * a + M[2 * j + 1][k] * b;
       out[k] = j ? out[k] + add : add;
     }
   }
 }
-always double dot(const pair *a, const pair *b, int n) {
+always double dot(const pair *a, const pair *b) {
   pair r = a[0] * b[0];
-  for (int j = 1; j < n; j++)
+  for (int j = 1; j < PAIRS; j++)
     r += a[j] * b[j];
   return r[0] + r[1];
 }
@@ -205,11 +203,6 @@ always double share_of_lambda(double q, double z) {
   return power_share(less, 8 * z * less / q);
 }
 
-/* How much p(x) bends on a gauss arc: |u| falls by q, lambda by z. */
-always double bow_of(const forecast *f) {
-  return 0.5 * (f->q - f->z) * (1 + 0.5 * (f->q - f->z));
-}
-
 /* What a sweep needs at the nodes of an arc. */
 typedef struct mesh {
   pair l2[PAIRS], l5[PAIRS];               /* lambda^2, lambda^5 */
@@ -221,12 +214,12 @@ typedef struct mesh {
 } mesh;
 
 /* Nodes, factors and a first W, for tau constant along the arc; to second order in log(lambda) on a gauss arc. */
-always void lay_mesh(const law *m, const state *a, const rule *r, int n, int sticks, double h, const forecast *f, mesh *g) {
+always void lay_mesh(const law *m, const state *a, const rule *r, int sticks, double h, const forecast *f, mesh *g) {
   const pair one = both(1), u_x = both(a->u_x), per = both(2 / (m->kappa * m->mu_b));
   const double c_F = -2 * m->mu * a->u_z;
   const double a_0 = 2 * m->mu * (a->u_z * f->tau_x - 3.5 * f->tau_y * a->u_x),
                a_1 = m->mu * (-2 * a->u_z * f->tau_x - 3.5 * f->tau_y * a_0);
-  for (int k = 0; k < n; k++) {
+  for (int k = 0; k < PAIRS; k++) {
     const pair x = h * r->node[k], l = sticks ? r->node[k] : one - x;
     const pair log_l = x * (one + x * (0.5 + (1 / 3.0) * x)); /* its negative */
     g->l2[k] = l * l;
@@ -249,12 +242,12 @@ always void lay_mesh(const law *m, const state *a, const rule *r, int n, int sti
 }
 
 /* A new W from tau and the old W, and how far that moves u_x. */
-always pair renew_slip(const state *a, const rule *r, int n, int sticks, mesh *g, arc *q) {
+always pair renew_slip(const state *a, const rule *r, int sticks, mesh *g, arc *q) {
   pair change[PAIRS], moved = both(0);
-  for (int k = 0; k < n; k++)
+  for (int k = 0; k < PAIRS; k++)
     q->dW[k] = g->c_W[k] * (a->u_z * g->tau_x[k] - 3.5 * (g->tau_y[k] * g->W[k]));
-  apply(r->turn, q->dW, change, n);
-  for (int k = 0; k < n; k++) {
+  apply(r->turn, q->dW, change);
+  for (int k = 0; k < PAIRS; k++) {
     const pair W = sticks ? g->l2[k] * a->u_x - change[k] : g->l2[k] * (a->u_x - change[k]);
     const pair step = g->damp[k] * (W - g->W[k]);
     moved = larger(moved, size(step) * g->l5[k]);
@@ -264,26 +257,25 @@ always pair renew_slip(const state *a, const rule *r, int n, int sticks, mesh *g
   return moved;
 }
 
-always void slope_of_p(const law *m, const mesh *g, arc *q, int n) {
-  for (int k = 0; k < n; k++)
+always void slope_of_p(const law *m, const mesh *g, arc *q) {
+  for (int k = 0; k < PAIRS; k++)
     q->dp_dx[k] = g->c_p[k] * (1 - m->mu * g->tau_y[k]) * g->speed[k];
 }
-always void slope_of_F(const mesh *g, arc *q, int n) {
-  for (int k = 0; k < n; k++) {
+always void slope_of_F(const mesh *g, arc *q) {
+  for (int k = 0; k < PAIRS; k++) {
     q->dF_x[k] = g->c_f[k] * g->tau_x[k];
     q->dF_y[k] = g->c_f[k] * g->tau_y[k];
   }
 }
 
 /* New cloth slips from P = p - a->p and X, Y = F - F_a at the nodes, and from them a new tau. Returns its largest change. */
-always pair renew_tau(const law *m, const state *a, const pair *P, const pair *X, const pair *Y, const pair *W, mesh *g,
-                      int n) {
+always pair renew_tau(const law *m, const state *a, const pair *P, const pair *X, const pair *Y, mesh *g) {
   const double per = 1 / m->kappa, spin = 2.5 * m->s;
   const pair one = both(1), per35 = both(per / 3.5), u_x = both(a->u_x);
   const pair on_x = both(1 - spin - per / 3.5), on_y = both(1 - spin + spin * per), on_z = both(spin * per * 0.4 * a->u_z);
   pair change = both(0);
-  for (int k = 0; k < n; k++) {
-    const pair d_x = a->d_x + on_x * X[k] - per35 * (u_x - g->l5[k] * W[k]) - g->own[k] * g->tau_x[k];
+  for (int k = 0; k < PAIRS; k++) {
+    const pair d_x = a->d_x + on_x * X[k] - per35 * (u_x - g->l5[k] * g->W[k]) - g->own[k] * g->tau_x[k];
     const pair d_y = a->d_y + on_y * Y[k] + on_z * (one - g->l5[k]) - P[k] - g->own[k] * g->tau_y[k];
     const pair i = one / (m->kappa * root(d_x * d_x + d_y * d_y) + (m->mu * d_y + TINY));
     const pair x = d_x * i, y = d_y * i;
@@ -294,112 +286,101 @@ always pair renew_tau(const law *m, const state *a, const pair *P, const pair *X
   return change;
 }
 
-/* One arc from *a, with n pairs of nodes. */
-always void run_arc(const law *m, const state *a, const rule *r, int n, int sticks, const plan *way, const forecast *f,
-                    arc *q) {
+/* One arc from *a. */
+always void run_arc(const law *m, const state *a, const rule *r, int sticks, const plan *way, const forecast *f, arc *q) {
   mesh g;
   pair P[PAIRS], X[PAIRS], Y[PAIRS];
   const double per = 1 / m->kappa, spin = 2.5 * m->s, c_F = -0.4 * m->mu * a->u_z;
   double h = way->h;
-  lay_mesh(m, a, r, n, sticks, h, f, &g);
+  lay_mesh(m, a, r, sticks, h, f, &g);
   if (sticks)
-    renew_slip(a, r, n, 1, &g, q);
+    renew_slip(a, r, 1, &g, q);
   else
-    for (int k = 0; k < n; k++)
+    for (int k = 0; k < PAIRS; k++)
       g.speed[k] = root(both(a->u_z * a->u_z) + g.W[k] * g.W[k]);
   if (!sticks && way->aim > 0) {
-    slope_of_p(m, &g, q, n);
-    const double dp = dot(r->last, q->dp_dx, n), ddp = dot(r->bend, q->dp_dx, n),
-                 dx = (way->aim - dot(r->all, q->dp_dx, n)) / dp;
+    slope_of_p(m, &g, q);
+    const double dp = dot(r->last, q->dp_dx), ddp = dot(r->bend, q->dp_dx), dx = (way->aim - dot(r->all, q->dp_dx)) / dp;
     h = low(h * (1 + dx * (1 - 0.5 * dx * ddp / dp)), 0.7);
-    lay_mesh(m, a, r, n, 0, h, f, &g);
-    for (int k = 0; k < n; k++)
+    lay_mesh(m, a, r, 0, h, f, &g);
+    for (int k = 0; k < PAIRS; k++)
       g.speed[k] = root(both(a->u_z * a->u_z) + g.W[k] * g.W[k]);
   }
   /* With the pooltool sign and strong friction, d without its own pull might change its direction. */
   const double flat = square(f->tau_x) / (square(f->tau_x) + square(f->tau_y) + TINY), along_x = 1 - spin - per / 3.5,
                along_y = 1 - spin + spin * per;
-  const double share = spin > 0 && m->mu * m->mu_b > MILD_PULL ? 0 : along_x * (1 - flat) + along_y * flat;
-  for (int k = 0; k < n; k++)
+  const double share = spin > 0 && m->mu * m->mu_b > STRONG_PULL ? 0 : along_x * (1 - flat) + along_y * flat;
+  for (int k = 0; k < PAIRS; k++)
     g.own[k] = (c_F * share) * (1 - g.l5[k]);
 
   pair change = both(0);
   int sweep = 0;
-  slope_of_p(m, &g, q, n);
+  slope_of_p(m, &g, q);
   for (int last = 0; !last; sweep++) {
-    pair W[PAIRS];
-    if (sweep && !way->lag)
-      renew_slip(a, r, n, sticks, &g, q);
-    for (int k = 0; k < n; k++)
-      W[k] = g.W[k];
-    if (sweep)
-      slope_of_p(m, &g, q, n);
-    if (sweep || way->p_end <= 0)
-      apply(r->sum, q->dp_dx, P, n);
-    else
-      for (int k = 0; k < n; k++)
-        P[k] = way->p_end * r->node[k] * (1 + way->bow * (1 - r->node[k]));
     if (sweep) {
-      slope_of_F(&g, q, n);
-      apply(r->sum, q->dF_x, X, n);
-      apply(r->sum, q->dF_y, Y, n);
+      renew_slip(a, r, sticks, &g, q);
+      slope_of_p(m, &g, q);
+    }
+    apply(r->sum, q->dp_dx, P);
+    if (sweep) {
+      slope_of_F(&g, q);
+      apply(r->sum, q->dF_x, X);
+      apply(r->sum, q->dF_y, Y);
     } else
-      for (int k = 0; k < n; k++) {
+      for (int k = 0; k < PAIRS; k++) {
         X[k] = (c_F * f->tau_x) * (1 - g.l5[k]);
         Y[k] = (c_F * f->tau_y) * (1 - g.l5[k]);
       }
-    if (sweep && way->lag)
-      renew_slip(a, r, n, sticks, &g, q);
-    change = renew_tau(m, a, P, X, Y, W, &g, n);
-    last = sweep > 0 && (sweep + 1 >= way->most || high(change[0], change[1]) < way->enough);
+    change = renew_tau(m, a, P, X, Y, &g);
+    last = sweep > 0 && (sweep + 1 >= MOST_SWEEPS || high(change[0], change[1]) < way->enough);
   }
-  for (int k = 0; k < n; k++)
+  for (int k = 0; k < PAIRS; k++)
     q->p[k] = a->p + P[k];
   if (!sticks) {
-    q->p_end = a->p + dot(r->all, q->dp_dx, n);
-    q->dp = dot(r->last, q->dp_dx, n);
-    q->ddp = dot(r->bend, q->dp_dx, n);
-    q->dddp = dot(r->curl, q->dp_dx, n);
+    q->p_end = a->p + dot(r->all, q->dp_dx);
+    q->dp = dot(r->last, q->dp_dx);
+    q->ddp = dot(r->bend, q->dp_dx);
+    q->dddp = dot(r->curl, q->dp_dx);
     q->per = 1 / q->dp;
   }
   /* Where the cloth pulls little, tau has converged before W. */
   const double least = -m->v_n0 * LEAST_SLIP;
   double last = HUGE_VAL;
   for (int k = 0; k < (sticks ? 1 : 8); k++) {
-    const pair moved = renew_slip(a, r, n, sticks, &g, q);
+    const pair moved = renew_slip(a, r, sticks, &g, q);
     const double most = high(moved[0], moved[1]);
     if (most < least || most > 0.5 * last)
       break;
     last = most;
   }
-  slope_of_p(m, &g, q, n);
-  slope_of_F(&g, q, n);
+  slope_of_p(m, &g, q);
+  slope_of_F(&g, q);
   q->h = h;
   q->change = high(change[0], change[1]);
-  q->evaluations = 2 * n * (sweep + 1);
+  q->evaluations = NODES * (sweep + 1);
 }
 
 /* weights of the integral over the arc up to x in (0, 1] (gauss) or from lambda 1 down to x (stick) */
-always void weights_upto(const rule *r, int n, int sticks, double x, pair *w) {
-  for (int j = 0; j < n; j++)
-    w[j] = r->part[2 * n - 1][j];
-  for (int i = 2 * n - 2; i >= 0; i--)
-    for (int j = 0; j < n; j++)
+always void weights_upto(const rule *r, int sticks, double x, pair *w) {
+  for (int j = 0; j < PAIRS; j++)
+    w[j] = r->part[NODES - 1][j];
+  for (int i = NODES - 2; i >= 0; i--)
+    for (int j = 0; j < PAIRS; j++)
       w[j] = w[j] * x + r->part[i][j];
   const double x2 = x * x, x5 = x2 * x2 * x;
-  for (int j = 0; j < n; j++)
+  for (int j = 0; j < PAIRS; j++)
     w[j] = sticks ? r->all[j] - w[j] * x5 : w[j] * x;
 }
 /* where the arc stands after the integral weights w; y: share of the direction integral, lambda given */
-always state stand(const state *a, const arc *q, const pair *w, int n) {
+always state stand(const state *a, const arc *q, const pair *w) {
   state b = *a;
   pair H[PAIRS];
-  for (int j = 0; j < n; j++)
+  for (int j = 0; j < PAIRS; j++)
     H[j] = q->p[j] * q->dF_y[j];
-  b.p = a->p + dot(w, q->dp_dx, n);
-  b.F_x = a->F_x + dot(w, q->dF_x, n);
-  b.F_y = a->F_y + dot(w, q->dF_y, n);
-  b.H = a->H + dot(w, H, n);
+  b.p = a->p + dot(w, q->dp_dx);
+  b.F_x = a->F_x + dot(w, q->dF_x);
+  b.F_y = a->F_y + dot(w, q->dF_y);
+  b.H = a->H + dot(w, H);
   return b;
 }
 always void put_slips(const law *m, const state *a, state *b, double lambda, double y) {
@@ -440,10 +421,10 @@ always void glide(const law *m, state *b, ending *end) {
 /* Where the arc has arrived. Returns the share of the arc by which the end of the collision lies beyond its end: 0 if it
  * was near enough (`trusted`) to be reached by two terms of Taylor's series, and the end is then in *b; else *b is the end of
  * the arc. */
-always double arrive(const law *m, const state *a, const rule *r, int n, const arc *q, double trusted, state *b, ending *end) {
-  *b = stand(a, q, r->all, n);
-  const double y = dot(r->all, q->dW, n), most = m->mu * m->mu_b; /* |f| is never more */
-  const double f_y = high(low(dot(r->last, q->dF_y, n) * q->per, most), -most), slope = m->kappa - f_y, per_slope = 1 / slope;
+always double arrive(const law *m, const state *a, const rule *r, const arc *q, double trusted, state *b, ending *end) {
+  *b = stand(a, q, r->all);
+  const double y = dot(r->all, q->dW), most = m->mu * m->mu_b; /* |f| is never more */
+  const double f_y = high(low(dot(r->last, q->dF_y) * q->per, most), -most), slope = m->kappa - f_y, per_slope = 1 / slope;
   const double v_n = speed_of(m, b), way = b->p - a->p;
   if (!end->seen && v_n >= -0.01 * m->kappa * way) {
     /* v_n = 0 where p, a parabola in x, is p_c */
@@ -451,14 +432,14 @@ always double arrive(const law *m, const state *a, const rule *r, int n, const a
     const double xi = low(-v_0 / (m->kappa * guess), 1.1), bow = high(low(1 - q->dp / guess, 1), -1);
     double x = 2 * xi / (1 + bow + sqrt(high(square(1 + bow) - 4 * bow * xi, 0))); /* (1 + bow) x - bow x^2 = xi */
     pair w[PAIRS];
-    weights_upto(r, n, 0, x, w);
-    state c = stand(a, q, w, n);
-    if (n > 2) { /* a long arc: once more from there */
+    weights_upto(r, 0, x, w);
+    state c = stand(a, q, w);
+    for (int again = 0; again < 3; again++) {
       x = low(high(x - speed_of(m, &c) * per_slope / (guess * high(1 + bow - 2 * bow * x, 0.1)), 0), 1.1);
-      weights_upto(r, n, 0, x, w);
-      c = stand(a, q, w, n);
+      weights_upto(r, 0, x, w);
+      c = stand(a, q, w);
     }
-    const double rise = (dot(r->bend, q->dF_y, n) - f_y * q->ddp) * square(q->per);
+    const double rise = (dot(r->bend, q->dF_y) - f_y * q->ddp) * square(q->per);
     mark_compression(m, &c, per_slope, slope + rise * (b->p - c.p), end);
   }
   double dx = 1, more = 0;
@@ -473,9 +454,9 @@ always double arrive(const law *m, const state *a, const rule *r, int n, const a
     return dx;
   }
   const double half = 0.5 * dx * dx, sixth = (1 / 3.0) * dx * half;
-  const double X = dx * dot(r->last, q->dF_x, n) + half * dot(r->bend, q->dF_x, n) + sixth * dot(r->curl, q->dF_x, n);
-  const double Y = dx * dot(r->last, q->dF_y, n) + half * dot(r->bend, q->dF_y, n) + sixth * dot(r->curl, q->dF_y, n);
-  const double turned = y + dx * dot(r->last, q->dW, n) + half * dot(r->bend, q->dW, n) + sixth * dot(r->curl, q->dW, n);
+  const double X = dx * dot(r->last, q->dF_x) + half * dot(r->bend, q->dF_x) + sixth * dot(r->curl, q->dF_x);
+  const double Y = dx * dot(r->last, q->dF_y) + half * dot(r->bend, q->dF_y) + sixth * dot(r->curl, q->dF_y);
+  const double turned = y + dx * dot(r->last, q->dW) + half * dot(r->bend, q->dW) + sixth * dot(r->curl, q->dW);
   b->p += more;
   b->F_x += X;
   b->F_y += Y;
@@ -488,9 +469,9 @@ always double arrive(const law *m, const state *a, const rule *r, int n, const a
 }
 
 /* The end of a stick arc, or 0 (and *end untouched) if the collision ends before it. */
-always int finish_stick(const law *m, const state *a, const rule *r, int n, const arc *q, state *b, ending *end) {
+always int finish_stick(const law *m, const state *a, const rule *r, const arc *q, state *b, ending *end) {
   ending story = *end;
-  *b = stand(a, q, r->all, n);
+  *b = stand(a, q, r->all);
   b->u_x = b->u_z = 0;
   if (!story.seen && speed_of(m, b) > 0) { /* v_n = 0 on the way: Newton's method from p ~ 1 - lambda^6 */
     const double way = b->p - a->p, f_y = (b->F_y - a->F_y) / way, p_c = a->p - speed_of(m, a) / (m->kappa - f_y);
@@ -498,15 +479,15 @@ always int finish_stick(const law *m, const state *a, const rule *r, int n, cons
     pair w[PAIRS], w_near[PAIRS];
     for (int k = 0; k < 8; k++) {
       const double step = x > 0.5 ? -1e-5 : 1e-5;
-      weights_upto(r, n, 1, x, w);
-      weights_upto(r, n, 1, x + step, w_near);
-      const double p = dot(w, q->dp_dx, n), dx = (p_c - a->p - p) * step / (dot(w_near, q->dp_dx, n) - p);
+      weights_upto(r, 1, x, w);
+      weights_upto(r, 1, x + step, w_near);
+      const double p = dot(w, q->dp_dx), dx = (p_c - a->p - p) * step / (dot(w_near, q->dp_dx) - p);
       x = low(high(x + dx, 0), 1);
       if (fabs(dx) < 1e-6)
         break;
     }
-    weights_upto(r, n, 1, x, w);
-    const state c = stand(a, q, w, n);
+    weights_upto(r, 1, x, w);
+    const state c = stand(a, q, w);
     mark_compression(m, &c, 1 / (m->kappa - f_y), m->kappa - f_y, &story);
   }
   if (story.seen && work_of(m, b) > (1 - m->e * m->e) * story.S_min)
@@ -517,18 +498,13 @@ always int finish_stick(const law *m, const state *a, const rule *r, int n, cons
 }
 /* Do the polynomials of the arc fit? Their highest coefficients measure what they leave out; what an error of F costs grows
  * with the pull of the cloth, one of p counts through `weight_p`. */
-always int smooth(const rule *r, int n, const arc *q, double pull, double limit, double weight_p, double limit_p) {
-  const double F = fabs(dot(r->tail, q->dF_x, n)) + fabs(dot(r->tail, q->dF_y, n)), p = fabs(dot(r->tail, q->dp_dx, n));
+always int smooth(const rule *r, const arc *q, double pull, double limit, double weight_p, double limit_p) {
+  const double F = fabs(dot(r->tail, q->dF_x)) + fabs(dot(r->tail, q->dF_y)), p = fabs(dot(r->tail, q->dp_dx));
   return F * (pull + 0.003) < limit && p * weight_p < limit_p;
 }
 
-/* Does d, on its way to d + w g, stay so clear of zero that its direction is smooth? The sum of the distances of zero from both
- * ends, over the length of the way, is 1 on the way itself and measures the ellipse on which t is analytic. */
-always int clear(const state *a, const forecast *f, double w, double room) {
-  const double w_x = w * f->g_x, w_y = w * f->g_y, e_x = a->d_x + w_x, e_y = a->d_y + w_y;
-  return sqrt(a->d_x * a->d_x + a->d_y * a->d_y) + sqrt(e_x * e_x + e_y * e_y) > room * sqrt(w_x * w_x + w_y * w_y);
-}
-/* The longest way along d' that is clear by ARC_ROOM. */
+/* The longest way along d' on which its direction is smooth: the sum of the distances of zero from both ends, over the length
+ * of the way, is 1 on the way itself and measures the ellipse on which t is analytic; it is to be ARC_ROOM. */
 static double clear_way(const law *m, const state *a, const forecast *f, double unit) {
   const double d = sqrt(a->d_x * a->d_x + a->d_y * a->d_y), pull = m->mu * m->mu_b;
   if (pull * d <= 1e-9 * unit)
@@ -538,12 +514,14 @@ static double clear_way(const law *m, const state *a, const forecast *f, double 
   return high(2 * ((a->d_x * g_x + a->d_y * g_y) / g + ARC_ROOM * d) / ((a2 - 1) * g), 1e-8 * unit / pull);
 }
 
-/* Arc after arc of six nodes, from *a. Bounded: 300 arcs, each halved at most 40 times. */
-static __attribute__((noinline)) void patient(const law *m, state a, state *b, ending *end) {
+/* Arc after arc, from *a. Bounded: 300 arcs, each halved at most 40 times. */
+static void solve(const law *m, state a, state *b, ending *end) {
+  *end = (ending){0};
   const double unit = -m->v_n0 / m->kappa, pull = m->mu * m->mu_b, enough = ENOUGH / ((pull + TINY) * (pull + 0.03));
   double longest = LONGEST;
   for (int count = 0; count < 300; count++) {
-    const double left = end->seen ? to_go(m, &a, m->kappa, 1 / m->kappa, end) : m->e * unit - speed_of(m, &a) / m->kappa;
+    const double left = end->seen ? to_go(m, &a, m->kappa, 1 / m->kappa, end)
+                                  : (m->e > 0.1 && m->e < SEPARATE ? 0 : m->e) * unit - speed_of(m, &a) / m->kappa;
     forecast f = predict(m, &a, high(left, 1e-9 * unit));
     if (!(f.u + square(m->v_n0) + square(a.d_x) + square(a.d_y) < HUGE_VAL)) {
       *b = a;
@@ -561,11 +539,11 @@ static __attribute__((noinline)) void patient(const law *m, state a, state *b, e
     face(m, &a, low(f.p_f, turn), &f);
     arc q;
     if (f.q >= 1 && 2 * p_stick < turn) {
-      const plan way = {.most = 8, .h = 1, .enough = enough};
-      run_arc(m, &a, &stick_6, 3, 1, &way, &f, &q);
+      const plan way = {.h = 1, .enough = enough};
+      run_arc(m, &a, &stick_6, 1, &way, &f, &q);
       end->evaluations += q.evaluations;
-      if (q.change * pull * p_stick < 1e-6 * unit && smooth(&stick_6, 3, &q, pull, 1e-6 * unit, pull, 3e-4 * unit) &&
-          finish_stick(m, &a, &stick_6, 3, &q, b, end))
+      if (q.change * pull * p_stick < 1e-6 * unit && smooth(&stick_6, &q, pull, 1e-6 * unit, pull, 3e-4 * unit) &&
+          finish_stick(m, &a, &stick_6, &q, b, end))
         return;
     }
     double aim = f.p_f;
@@ -580,17 +558,17 @@ static __attribute__((noinline)) void patient(const law *m, state a, state *b, e
       aim = 0;
     }
     for (int half = 0;; half++) {
-      const plan way = {.most = 8, .h = h, .aim = aim, .enough = enough};
-      run_arc(m, &a, &gauss_6, 3, 0, &way, &f, &q);
+      const plan way = {.h = h, .aim = aim, .enough = enough};
+      run_arc(m, &a, &gauss_6, 0, &way, &f, &q);
       end->evaluations += q.evaluations;
       aim = 0;
-      if (half < 40 && !(q.change * pull * (q.p_end - a.p) < 1e-6 * unit &&
-                         smooth(&gauss_6, 3, &q, pull, 1e-6 * unit, m->mu_b, 3e-4 * unit))) {
+      if (half < 40 &&
+          !(q.change * pull * (q.p_end - a.p) < 1e-6 * unit && smooth(&gauss_6, &q, pull, 1e-6 * unit, m->mu_b, 3e-4 * unit))) {
         h = 0.5 * q.h;
         continue;
       }
       const ending before = *end;
-      const double beyond = arrive(m, &a, &gauss_6, 3, &q, BEYOND_PATIENT, b, end);
+      const double beyond = arrive(m, &a, &gauss_6, &q, BEYOND, b, end);
       if (beyond == 0)
         return;
       if (beyond > 0 || half >= 40)
@@ -603,72 +581,6 @@ static __attribute__((noinline)) void patient(const law *m, state a, state *b, e
   }
   *b = a;
   glide(m, b, end);
-}
-
-/* Chooses the arc, runs it, and lets `patient` do what it cannot. */
-always void solve(const law *m, const state *a, state *b, ending *end) {
-  const double unit = -m->v_n0 / m->kappa, pull = m->mu * m->mu_b;
-  const forecast f = predict(m, a, (1 + m->e) * unit);
-  const double feel = f.pull + 0.2 * m->mu * f.z, enough = ENOUGH / ((feel + TINY) * (feel + 0.003));
-  const double pulled = f.pull + 0.1 * pull, enough_stick = 0.5 * ENOUGH * f.q / ((pulled + TINY) * (pulled + 0.003));
-  const int mild = pull < MILD_PULL && m->mu_b < MILD_FRICTION,
-            rest = square(pull) * (square(a->d_x) + square(a->d_y)) < square(1e-9 * unit);
-  arc q;
-  *end = (ending){0};
-  if (f.u <= 0) {
-    *b = *a;
-    glide(m, b, end);
-    return;
-  }
-  q.evaluations = 0;
-  if (f.q < COARSE_END && mild && pull < 0.06 && m->mu < 0.55 && m->e > 0.85 && (rest || clear(a, &f, f.p_f, COARSE_ROOM))) {
-    const plan way = {
-        .most = 4, .lag = 1, .h = power_share(f.q, f.z), .p_end = f.p_f, .bow = bow_of(&f), .enough = 0.1 * enough};
-    run_arc(m, a, &gauss_2, 1, 0, &way, &f, &q);
-    if (q.change * f.pull < 3e-6 && arrive(m, a, &gauss_2, 1, &q, BEYOND, b, end) == 0) {
-      end->evaluations = q.evaluations;
-      return;
-    }
-  } else if (f.q < MIDDLE_END && mild && (rest || clear(a, &f, f.p_f, MIDDLE_ROOM))) {
-    const plan way = {.most = 6, .h = power_share(f.q, f.z), .p_end = f.p_f, .bow = bow_of(&f), .enough = 0.25 * enough};
-    run_arc(m, a, &gauss_4, 2, 0, &way, &f, &q);
-    if (q.change * f.pull < 3e-6 && smooth(&gauss_4, 2, &q, f.pull, 3e-6 * unit, m->mu_b, 3e-4 * unit) &&
-        arrive(m, a, &gauss_4, 2, &q, BEYOND, b, end) == 0) {
-      end->evaluations = q.evaluations;
-      return;
-    }
-  } else if (f.q < FINE_END && mild && (rest || clear(a, &f, f.p_f, FINE_ROOM))) {
-    const plan way = {.most = 8, .h = share_of_lambda(f.q, f.z), .aim = f.p_f, .enough = enough};
-    run_arc(m, a, &gauss_6, 3, 0, &way, &f, &q);
-    if (q.change * f.pull < 1e-5 && smooth(&gauss_6, 3, &q, f.pull, 1e-6 * unit, m->mu_b, 2e-5 * unit)) {
-      const double beyond = arrive(m, a, &gauss_6, 3, &q, BEYOND, b, end);
-      end->evaluations = q.evaluations;
-      if (beyond == 0)
-        return;
-      if (beyond > 0) {
-        patient(m, *b, b, end);
-        return;
-      }
-    }
-  } else if (f.q >= EARLY_STICK && mild && (rest || clear(a, &f, 1.2 * f.p_f / f.q, EARLY_ROOM))) {
-    const plan way = {.most = 6, .h = 1, .enough = enough_stick};
-    run_arc(m, a, &stick_4, 2, 1, &way, &f, &q);
-    if (q.change * f.pull < 3e-6 * f.q && smooth(&stick_4, 2, &q, f.pull, 4e-6 * unit, f.pull, 4e-4 * unit) &&
-        finish_stick(m, a, &stick_4, 2, &q, b, end)) {
-      end->evaluations = q.evaluations;
-      return;
-    }
-  } else if (f.q >= FINE_END && mild && (rest || clear(a, &f, 1.2 * f.p_f / f.q, STICK_ROOM))) {
-    const plan way = {.most = 8, .h = 1, .enough = enough_stick};
-    run_arc(m, a, &stick_6, 3, 1, &way, &f, &q);
-    if (q.change * f.pull < 1e-5 * f.q && smooth(&stick_6, 3, &q, f.pull, 2e-6 * unit, f.pull, 5e-4 * unit) &&
-        finish_stick(m, a, &stick_6, 3, &q, b, end)) {
-      end->evaluations = q.evaluations;
-      return;
-    }
-  }
-  *end = (ending){.evaluations = q.evaluations};
-  patient(m, *a, b, end);
 }
 
 void carom_exact(carom_local *c, carom_exact_report *report) {
@@ -692,7 +604,7 @@ void carom_exact(carom_local *c, carom_exact_report *report) {
                    0};
   state b;
   ending end;
-  solve(&m, &a, &b, &end);
+  solve(&m, a, &b, &end);
   const double per = 1 / m.kappa, Q_1 = (u_x - b.u_x + b.F_x) * (per / 3.5), Q_2 = (a.u_z - b.u_z + 2.5 * b.F_y) * (per * 0.4);
   const double spin = 2.5 / R;
   const double p_x = sign * (b.F_x - Q_1), p_y = sign * (b.F_y - b.p), o_x = sign * ratio * Q_1, o_y = sign * ratio * b.p;

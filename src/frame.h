@@ -29,6 +29,11 @@ typedef struct carom_local {
   double s;                            /* sign of the spin in the cloth slip: -1 paper, +1 pooltool */
 } carom_local;
 
+/* s in the slip over the cloth, v_x + s R w_y and v_y - s R w_x. */
+static inline double carom_spin_sign(carom_slip slip) {
+  return slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0;
+}
+
 static inline double carom_dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -66,7 +71,7 @@ static inline carom_local carom_to_frame(const carom_frame *f, const carom_impac
       .mu_j = in->b.mu_cloth,
       .mu_b = in->mu_ball,
       .e = in->restitution,
-      .s = slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0,
+      .s = carom_spin_sign(slip),
   };
 }
 

@@ -1,14 +1,16 @@
-"""Prints the fixed matrices of the exact solver, for single calls or for lanes, from 50 digits. Needs mpmath; what it prints is
-kept in the tree:
+"""Prints the fixed matrices of the exact solvers from 50 digits: of the patient one, of the swift one and of lanes. Needs mpmath;
+what it prints is kept in the tree:
 
-    python3 tools/exact_rules.py single > src/exact_rules.h
+    python3 tools/exact_rules.py patient > src/exact_rules.h
+    python3 tools/exact_rules.py swift > src/swift/rules.h
     python3 tools/exact_rules.py lanes > src/batch/arc_rules.h
     cmake --build build --target format
 
 gauss rules: Gauss-Legendre nodes x on [0, 1], integrals of the Lagrange basis up to each node.
 stick rules: nodes lambda of the Gauss rule for the weight lambda^4 on [0, 1]; integrals of lambda^4 times the basis from each node
 up to 1, and 2 node^2 times those of the basis over lambda^3 (the equation of W). Lanes take the latter without node^2 (the
-equation of T), and polynomials in powers of 2 x - 1, whose coefficients stay small enough for single precision."""
+equation of T), and polynomials in powers of 2 x - 1, whose coefficients stay small enough for single precision; the swift solver's longest
+ones are sums of Chebyshev polynomials of 2 x - 1, whose coefficients stay smaller yet."""
 import sys
 
 from mpmath import mp, mpf, matrix, polyroots
@@ -111,7 +113,55 @@ def rule(n, kind, lanes):
     return "static const rule %s_%d = {\n" % (kind, n) + "".join("    .%-4s = %s,\n" % f for f in fields) + "};\n"
 
 
-for_lanes = sys.argv[1] == "lanes"
-print("/* The rules of %s, printed by tools/exact_rules.py. */" % ("arcs.h" if for_lanes else "exact.c"))
-for n, kind in ((2, "gauss"), (4, "gauss"), (6, "gauss"), (4, "stick"), (6, "stick")):
-    print(rule(n, kind, for_lanes), end="")
+def chebyshev(c):
+    """The polynomial sum c_m x^m as a sum of Chebyshev polynomials of 2 x - 1."""
+    n, power, out = len(c), [mpf(1)] + [mpf(0)] * (len(c) - 1), [mpf(0)] * len(c)
+    for v in centred(c):
+        out = [o + v * p for o, p in zip(out, power)]
+        power = [(power[1] / 2 if n > 1 else 0)] + [(power[m - 1] * (2 if m == 1 else 1) + (power[m + 1] if m + 1 < n else 0)) / 2
+                                                   for m in range(1, n)]
+    return out
+
+
+def quads(rows):
+    """Rows of 4 n numbers as one array of quads."""
+    text = [floats(r[i:i + 4]) for r in rows for i in range(0, len(r), 4)]
+    return "{ " + ",\n    ".join(text) + " }"
+
+
+def swift_rule(n, kind):
+    one, zero, span = mpf(1), mpf(0), range(n)
+    across = lambda M: [[r[m] for r in M] for m in span]
+    if kind == "gauss":
+        x = gauss_nodes(n, 0)
+        L = basis(x)
+        fields = [("node", [x]), ("sum", [[integral(L[j], 0, zero, x[k]) for k in span] for j in span]),
+                  ("all", [[integral(L[j], 0, zero, one) for j in span]]),
+                  ("part", across([[L[j][m] / (m + 1) for m in span] for j in span])),
+                  ("last", [[sum(L[j]) for j in span]]),
+                  ("bend", [[sum(m * L[j][m] for m in range(1, n)) for j in span]])]
+    else:
+        x = list(reversed(gauss_nodes(n, 4)))
+        L = basis(x)
+        most = max(abs(L[j][n - 1]) for j in span)
+        fields = [("node", [x]), ("away", [[-mp.log(v) for v in x]]),
+                  ("sum", [[integral(L[j], 4, x[k], one) for k in span] for j in span]),
+                  ("turn", [[2 * x[k] ** 2 * integral(L[j], -3, x[k], one) for k in span] for j in span]),
+                  ("all", [[integral(L[j], 4, zero, one) for j in span]]),
+                  ("part", across([chebyshev([L[j][m] / (m + 5) for m in span]) for j in span])),
+                  ("basis", across([chebyshev(L[j]) for j in span])), ("tail", [[L[j][n - 1] / most for j in span]])]
+    name = "%s_%d" % (kind, n)
+    text = "".join("static const quad %s_%s[] = %s;\n" % (name, f, quads(rows)) for f, rows in fields)
+    return text + "static const %s_rule %s = { %s };\n" % (kind, name, ", ".join("%s_%s" % (name, f) for f, _ in fields))
+
+
+what = sys.argv[1]
+if what == "swift":
+    print("/* The rules of impulse_arc.h and stick_arc.h, printed by tools/exact_rules.py. */")
+    for n, kind in ((4, "gauss"), (4, "stick"), (8, "stick")):
+        print(swift_rule(n, kind), end="")
+else:
+    lanes = what == "lanes"
+    print("/* The rules of %s, printed by tools/exact_rules.py. */" % ("arcs.h" if lanes else "exact.c"))
+    for n, kind in ((2, "gauss"), (4, "gauss"), (6, "gauss"), (4, "stick"), (6, "stick")) if lanes else ((6, "gauss"), (6, "stick")):
+        print(rule(n, kind, lanes), end="")

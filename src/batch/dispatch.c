@@ -4,6 +4,7 @@
  * lower set is for tests, comparisons and bug reports; results agree within the solvers' contract on all of them.
  */
 #include "batch.h"
+#include "swift/swift.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -16,6 +17,12 @@ static carom_batch_solver *const solvers[CAROM_ISA_COUNT][CAROM_SOLVER_COUNT][CA
       [CAROM_SOLVER_EXACT] = {carom_exact_lanes_##suffix##_double, carom_exact_lanes_##suffix##_single}, \
       [CAROM_SOLVER_EULER] = {carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single}, \
   },
+    CAROM_BUILT_ISAS(ROW)
+#undef ROW
+};
+
+static carom_swift_solver *const swift_solvers[CAROM_ISA_COUNT] = {
+#define ROW(NAME, suffix) [CAROM_ISA_##NAME] = carom_swift_##suffix,
     CAROM_BUILT_ISAS(ROW)
 #undef ROW
 };
@@ -101,4 +108,8 @@ carom_batch_solver *carom_batch_solver_for(carom_solver solver, carom_precision 
   if (solver == CAROM_SOLVER_EXACT && n < exact_few[isa][precision])
     return precision == CAROM_DOUBLE ? carom_singles_double : carom_singles_single;
   return solvers[isa][solver][precision];
+}
+
+carom_swift_solver *carom_swift(void) {
+  return swift_solvers[carom_isa_in_force()];
 }
