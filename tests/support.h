@@ -24,6 +24,11 @@ carom_impact random_impact(random_source *source);
 /* Largest difference of two results, times `radius` for angular velocities, over the largest such value of `b`. */
 double result_distance(const carom_result *a, const carom_result *b, double radius);
 
+/* A loop over the instruction sets that this processor has, each in force within. */
+#define FOR_EACH_ISA(isa)                         \
+  for (int isa = 0; isa < CAROM_ISA_COUNT; isa++) \
+    if (carom_isa_available((carom_isa)isa) && carom_isa_limit((carom_isa)isa) == (carom_isa)isa)
+
 /* Runs one test case and returns main's exit code. */
 int run_tests(const char *name, const TTest *const *tests, size_t count);
 #define RUN_TESTS(name, ...) \

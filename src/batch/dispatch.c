@@ -98,9 +98,9 @@ carom_isa carom_isa_limit(carom_isa isa) {
 
 /* Of fewer pairs than this the exact solver is faster by single calls: in lanes it costs about as much for one as for a dozen
  * (docs/batch.md). */
-static const unsigned char exact_few[CAROM_ISA_COUNT][CAROM_PRECISIONS] = {
-    [CAROM_ISA_PLAIN] = {24, 8}, [CAROM_ISA_SSE2] = {16, 4},   [CAROM_ISA_NEON] = {16, 4},
-    [CAROM_ISA_AVX2] = {12, 2},  [CAROM_ISA_AVX512] = {12, 2},
+static const unsigned short exact_few[CAROM_ISA_COUNT][CAROM_PRECISIONS] = {
+    [CAROM_ISA_PLAIN] = {0, 44}, [CAROM_ISA_SSE2] = {256, 18},  [CAROM_ISA_NEON] = {256, 18},
+    [CAROM_ISA_AVX2] = {30, 12}, [CAROM_ISA_AVX512] = {34, 14},
 };
 
 carom_batch_solver *carom_batch_solver_for(carom_solver solver, carom_precision precision, size_t n) {

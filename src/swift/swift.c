@@ -38,6 +38,7 @@ static const float FAR = 16,
 static const float FELT =
     0.02f; /* mu mu_b from which the cloth moves the ends of compression and collision too much to ignore */
 static const float ROOM = 4, STICK_ROOM = 3.5f, FAR_ROOM = 6; /* see `clear` */
+static const float RESTING = 3e-8f;                           /* mu mu_b |d| that makes no odds, over the approach */
 static const float TURN_ENOUGH = 2e-8f;                       /* error of F where d turns, over the approach */
 static const float LEAST_WAY = 1e-8f;   /* impulse times friction, over the approach, that makes no odds */
 static const float BEYOND = 0.02f;      /* share of an arc beyond its end that its polynomials are trusted */
@@ -84,7 +85,7 @@ always glance look(const law *m, const state *a, float way) {
 always bool clear(const law *m, const glance *g, float way, float room) {
   const float e_x = g->d_x - m->mu_b * g->c * way, e_y = g->d_y - way;
   const quad far = root4((quad){g->d_x * g->d_x + g->d_y * g->d_y, e_x * e_x + e_y * e_y, 0, 0});
-  return (far[0] + far[1] > room * way) | (m->pull * far[0] <= 1e-9f * m->unit); /* or it starts from rest */
+  return (far[0] + far[1] > room * way) | (m->pull * far[0] <= RESTING * m->unit); /* or it starts from rest */
 }
 /* The longest way that is clear enough: t on an arc of length w errs by about rho^-8, for 4 nodes and the ellipse's rho, and F
  * by mu mu_b w times that. */

@@ -103,10 +103,6 @@ static void expect_agreement(const carom_impact *in, size_t n, const carom_optio
   free(status);
 }
 
-#define FOR_EACH_ISA(isa)                         \
-  for (int isa = 0; isa < CAROM_ISA_COUNT; isa++) \
-    if (carom_isa_available((carom_isa)isa) && carom_isa_limit((carom_isa)isa) == (carom_isa)isa)
-
 static void every_size(make_row *row) {
   carom_impact in[MOST];
   random_source source = {test_seed()};

@@ -19,7 +19,9 @@ enum { COLLISIONS = 1000 };
 
 static carom_solver solving; /* by which solver collide() goes */
 
-#define EACH_SOLVER for (int which = 0; solving = (carom_solver)which, which < CAROM_SOLVER_COUNT; which++)
+#define EACH_SOLVER \
+  FOR_EACH_ISA(isa) \
+  for (int which = 0; solving = (carom_solver)which, which < CAROM_SOLVER_COUNT; which++)
 
 static carom_result collide(const carom_impact *in, carom_slip slip) {
   carom_options options = carom_default_options();
