@@ -182,8 +182,10 @@ always float lambda_where(const stick_rule *r, int n, const stick_arc *q, float 
   for (int k = 0; k < steps; k++) {
     const stick_place at = stand_at(r, n, q, l);
     const float left = at.rest[0] + weight * at.rest[2], off = rest / left - 1, inverse = left / (l * at.slope);
+    if (!(left > 0 && at.slope > 0)) /* next to lambda = 0, where both are noise */
+      break;
     l *= fabsf(off) < 0.2f ? 1 + off * inverse * (1 + 0.5f * off * (inverse - 1)) : powf(1 + off, inverse);
-    l = l < 1 ? l : 1; /* NaN too */
+    l = at_most(l, 1);
   }
   return l;
 }
