@@ -204,7 +204,7 @@ typedef struct carom_result_f32 {
   float v_a[3], w_a[3], v_b[3], w_b[3];
 } carom_result_f32;
 
-/* carom_collide() on floats. It computes in double: on one pair that costs nothing. */
+/* carom_collide() on floats, which become doubles and back. */
 CAROM_API carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt, carom_result_f32 *out);
 
 /* carom_collide_batch() on floats, computed in float; rows that are too extreme for float are done in double. */
@@ -213,8 +213,9 @@ CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_
 
 /* ---- Instruction sets ------------------------------------------------------------------------------------------------ */
 
-/* What a batch computes with, from low to high: X(NAME, name). A batch takes the highest that the processor has. The
- * environment variable CAROM_ISA, set to one of the names before the first batch, limits it for the whole process. */
+/* What batches and single calls of the exact limit compute with, from low to high: X(NAME, name). They take the highest that
+ * the processor has; results differ by rounding from one to another. The environment variable CAROM_ISA, set to one of the
+ * names before the first call, limits it for the whole process. */
 #define CAROM_ISA_LIST(X) \
   X(PLAIN, "plain")       \
   X(SSE2, "sse2")         \
@@ -235,11 +236,11 @@ CAROM_API const char *carom_isa_name(carom_isa isa);
 /* Whether this build and this processor have it: 1 or 0. */
 CAROM_API int carom_isa_available(carom_isa isa);
 
-/* The one that batches use. */
+/* The one that is used. */
 CAROM_API carom_isa carom_isa_in_force(void);
 
-/* From now on batches of the whole process use no higher one than `isa`; a value not listed lifts the limit. Returns the one
- * then in force. Call it while no batch runs. */
+/* From now on the whole process uses no higher one than `isa`; a value not listed lifts the limit. Returns the one then in
+ * force. Call it while no batch runs. */
 CAROM_API carom_isa carom_isa_limit(carom_isa isa);
 
 /* ---- Looking closer -------------------------------------------------------------------------------------------------- */
