@@ -585,27 +585,28 @@ static void solve(const law *m, state a, state *b, ending *end) {
 
 void carom_exact(carom_local *c, carom_exact_report *report) {
   const double R = c->R, s = c->s;
-  const double u_x = c->v_ix - c->v_jx - R * (c->w_iz + c->w_jz), u_z = R * (c->w_ix + c->w_jx);
+  const double u_x = c->v_ix - c->v_jx - R * (c->w_iz + c->w_jz), u_z = R * (c->w_ix + c->w_jx), v_n0 = c->v_jy - c->v_iy;
   const int on_j = u_z < 0;
   const double sign = on_j ? -1 : 1, M_p = on_j ? c->M_j : c->M_i, M_o = on_j ? c->M_i : c->M_j, ratio = M_p / M_o;
-  const law m = {1 + ratio,
-                 fabs(u_z) <= 1e-10 * (c->v_iy - c->v_jy) ? 0 : on_j ? c->mu_j : c->mu_i,
-                 high(c->mu_b, 1e-30),
-                 s,
-                 c->v_jy - c->v_iy,
+  const double d_x = on_j ? -(c->v_jx + s * R * c->w_jy) : c->v_ix + s * R * c->w_iy,
+               d_y = on_j ? -(c->v_jy - s * R * c->w_jx) : c->v_iy - s * R * c->w_ix;
+  /* Speeds scale. In units of a power of two near that of the approach no square over- or underflows that matters. */
+  int power, most;
+  frexp(v_n0, &power);
+  frexp(high(high(fabs(u_x), fabs(u_z)), high(fabs(d_x), fabs(d_y))), &most);
+  power = power > most - 400 ? power : most - 400;
+  const double unit = ldexp(1, power > -1000 ? power : -1000), in_units = 1 / unit;
+  const law m = {1 + ratio, fabs(u_z) <= 1e-10 * -v_n0 ? 0 : on_j ? c->mu_j : c->mu_i, high(c->mu_b, 1e-30), s, v_n0 * in_units,
                  c->e};
-  const state a = {u_x,
-                   sign * u_z,
-                   on_j ? -(c->v_jx + s * R * c->w_jy) : c->v_ix + s * R * c->w_iy,
-                   on_j ? -(c->v_jy - s * R * c->w_jx) : c->v_iy - s * R * c->w_ix,
-                   0,
-                   0,
-                   0,
-                   0};
+  const state a = {u_x * in_units, sign * u_z * in_units, d_x * in_units, d_y * in_units, 0, 0, 0, 0};
   state b;
   ending end;
   solve(&m, a, &b, &end);
-  const double per = 1 / m.kappa, Q_1 = (u_x - b.u_x + b.F_x) * (per / 3.5), Q_2 = (a.u_z - b.u_z + 2.5 * b.F_y) * (per * 0.4);
+  const double per = 1 / m.kappa, Q_1 = (a.u_x - b.u_x + b.F_x) * (per / 3.5) * unit,
+               Q_2 = (a.u_z - b.u_z + 2.5 * b.F_y) * (per * 0.4) * unit;
+  b.p *= unit;
+  b.F_x *= unit;
+  b.F_y *= unit;
   const double spin = 2.5 / R;
   const double p_x = sign * (b.F_x - Q_1), p_y = sign * (b.F_y - b.p), o_x = sign * ratio * Q_1, o_y = sign * ratio * b.p;
   const double p_wx = sign * spin * (b.F_y - Q_2), p_wy = -sign * spin * b.F_x, o_wx = -sign * spin * ratio * Q_2;
@@ -627,10 +628,10 @@ void carom_exact(carom_local *c, carom_exact_report *report) {
     report->P_cx = sign * M_p * b.F_x;
     report->P_cy = sign * M_p * b.F_y;
     report->pressed = u_z > 0 ? 1 : on_j ? -1 : 0;
-    report->work_compression = -M_p * end.S_min;
+    report->work_compression = -M_p * end.S_min * unit * unit;
     report->work_total = (1 + c->e * c->e) * report->work_compression;
     report->stuck = end.stuck;
-    report->P_stick = M_p * end.p_stick;
+    report->P_stick = M_p * end.p_stick * unit;
     report->evaluations = end.evaluations;
   }
 }

@@ -1,15 +1,15 @@
 /* An arc in the impulse p: four Gauss nodes, and on them the directions of both slips, found by sweeps.
  *
- * With x from 0 to 1 along the arc, L its length in p, c = u_x / |u|, sigma = u_z / |u| and s = sigma t, everything is linear
- * in the integrals of c, sigma and s (the equations are those of exact.c):
+ * With x from 0 to 1 along the arc, L its length in p, c = u_x / |u| and sigma = u_z / |u|, everything is linear in C, Z and S,
+ * the integrals of c, sigma and sigma t over x (the equations, and the sign s, are those of exact.c):
  *
  *     u_x = u_x0 - 7/2 kappa mu_b L C - mu mu_b L S_x        u_z = u_z0 - 5/2 kappa mu_b L Z - 5/2 mu mu_b L S_y
  *     d_x = d_x0 - mu_b L C - (1 - 5/2 s) mu mu_b L S_x      d_y = d_y0 - L x + 5/2 s mu_b L Z - (1 - 5/2 s) mu mu_b L S_y
  *
- * A sweep takes c, sigma and s at the nodes to the slips there, by one matrix, and these to new directions, by two inverse
- * roots: no longer chain of operations stands between two sweeps. The cloth's friction, being small, changes by the sweep at
- * the rate 2 mu mu_b; u, which turns by itself, the faster the more of it is lost on the arc. Part of that is foreseen: a new
- * direction is mixed with the old one (`keep`), since what turns u back is the friction of the direction itself.
+ * A sweep takes c, sigma and sigma t at the nodes to the slips there, by one matrix, and these to new directions, by two
+ * inverse roots: no longer chain of operations stands between two sweeps. What the cloth does gains a factor of about 50 by a
+ * sweep; u, which turns by itself, gains less the more of it is lost on the arc. Part of that is foreseen: a new direction is
+ * mixed with the old one (`keep`), since what turns u back is the friction of the direction itself.
  *
  * Single precision is enough: the integrals are multiplied by mu_b, some hundredths. */
 #ifndef CAROM_SRC_SWIFT_IMPULSE_ARC_H
@@ -24,7 +24,7 @@ typedef struct gauss_rule {
 
 typedef struct impulse_arc {
   float L;
-  quad c, z, s_x, s_y; /* at the nodes: directions of u, and sigma t */
+  quad c, z, s_x, s_y; /* at the nodes: c, sigma, sigma t */
   quad v;              /* and v_n */
   float pull;          /* mu mu_b L: F = -pull S */
   int sweeps;

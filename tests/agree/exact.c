@@ -201,6 +201,30 @@ START_TEST(swift_takes_the_references) {
 }
 END_TEST
 
+/* The same collision at other speeds, down to where squares vanish and up to where they are infinite. */
+START_TEST(speeds_scale) {
+  static const int powers[] = {-980, -600, -100, -40, 40, 100, 600, 980};
+  random_source source = {test_seed()};
+  for (int k = 0; k < 200; k++) {
+    const carom_impact in = random_impact(&source);
+    carom_result out, scaled;
+    ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
+    for (size_t j = 0; j < sizeof powers / sizeof powers[0]; j++) {
+      carom_impact other = in;
+      for (int c = 0; c < 3; c++) {
+        other.a.v[c] = ldexp(in.a.v[c], powers[j]), other.b.v[c] = ldexp(in.b.v[c], powers[j]);
+        other.a.w[c] = ldexp(in.a.w[c], powers[j]), other.b.w[c] = ldexp(in.b.w[c], powers[j]);
+      }
+      ck_assert_int_eq(carom_collide(&other, NULL, &scaled), CAROM_OK);
+      for (int c = 0; c < 12; c++)
+        ((double *)&scaled)[c] = ldexp(((double *)&scaled)[c], -powers[j]);
+      const double distance = result_distance(&scaled, &out, in.a.radius);
+      ck_assert_msg(distance <= 3e-6, "collision %d at 2^%d times its speed: %g apart", k, powers[j], distance);
+    }
+  }
+}
+END_TEST
+
 /* Collisions that a class of arcs once accepted wrongly: stick just at the end, hardly any u_z, strong friction beside a light
  * ball, no ball slip at all. In the units of src/batch/arcs.h. */
 static const struct {
@@ -303,5 +327,5 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("exact", references, oracle_agrees_with_the_references, oracle_in_every_regime, details,
-                   details_of_euler_come_near, hard_cases, swift_and_patient_agree, swift_takes_the_references);
+                   details_of_euler_come_near, hard_cases, swift_and_patient_agree, swift_takes_the_references, speeds_scale);
 }

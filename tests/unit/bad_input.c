@@ -242,8 +242,9 @@ END_TEST
 START_TEST(overflow_is_told) {
   carom_impact in = good_impact();
   carom_result out;
-  in.a.v[1] = 1e200;
-  in.a.v[0] = 1e200;
+  in.a.v[0] = in.a.v[1] = 1e200; /* none yet: only its square is too large */
+  ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
+  in.a.v[0] = in.a.v[1] = 1e308; /* spins are these over the radius */
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_OVERFLOW);
   expect_all_nan(&out);
   in = good_impact();
