@@ -34,6 +34,7 @@ static const float LEAST_WAY = 1e-8f;   /* mu mu_b p that makes no odds */
 static const float TURN_ENOUGH = 2e-8f; /* error of F where d turns */
 static const float ROUGH_SLOPE = 1e-4f; /* highest coefficient of p on a stick arc whose inside is asked for */
 static const float FELT = 0.02f;        /* mu mu_b from which the ends of compression and collision are found in two steps */
+static const float APART = 0.012f;      /* (1 - e^2) mu mu_b from which compression and restitution are arcs of their own */
 static const float BEYOND = 0.02f;      /* share of an arc beyond its end that its polynomials are trusted */
 static const float SERIES = 0.025f;     /* largest k of `rest_of_way` */
 enum { MOST_ARCS = 60 };
@@ -208,13 +209,18 @@ always bool follow(const law *m, course *s, state *a) {
   double v_end = -s->e * s->v_n0, stretch = 1; /* the speed at the end, so far as K is known; correction of the way to it */
   float whole = 0, share = 1;
   int inside = 1;
+  const int apart = (float)(1 - e2) * m->pull > APART;
   for (int arcs = 0; arcs < MOST_ARCS; arcs++) {
     const double left = (v_end - a->v) * s->per;
     double length = left * stretch;
     const glance g = look(m, a, (float)length);
     if (arcs == 0)
       whole = (float)length;
-    const choice next = choose(m, &g, (float)length, whole, share, inside);
+    choice next = choose(m, &g, (float)length, whole, share, inside);
+    const float to_c =
+        -g.v * m->per; /* about where v_n = 0: integrals up to the end of an arc are better than up to its inside */
+    if (next.arc == LAST && apart && to_c > 0.2f * next.way && to_c < 0.9f * next.way)
+      next = (choice){.arc = PART, .way = to_c};
     if (next.arc == STICK) {
       if (next.far ? end_by_stick(m, s, &g, &stick_4, 1, a) : end_by_stick(m, s, &g, &stick_8, 2, a))
         return true;
