@@ -9,6 +9,8 @@
 #if defined(__SSE2__) && !defined(CAROM_SWIFT_PLAIN)
 #define CAROM_SWIFT_SSE2 1
 #include <emmintrin.h>
+#elif defined(CAROM_SWIFT_NEON)
+#include <arm_neon.h>
 #endif
 
 #define always static inline __attribute__((always_inline))
@@ -115,7 +117,11 @@ always pair wide_high(quad a) {
 }
 #else
 always quad root4(quad x) {
+#ifdef CAROM_SWIFT_NEON
+  return (quad)vsqrtq_f32((float32x4_t)x);
+#else
   return (quad){sqrtf(x[0]), sqrtf(x[1]), sqrtf(x[2]), sqrtf(x[3])};
+#endif
 }
 always quad rough_inverse_root(quad x) {
   return 1 / root4(x);
