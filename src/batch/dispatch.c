@@ -99,7 +99,7 @@ carom_isa carom_isa_limit(carom_isa isa) {
 /* Of fewer pairs than this the exact solver is faster by single calls: in lanes it costs about as much for one as for a dozen
  * (docs/batch.md). */
 static const unsigned short exact_few[CAROM_ISA_COUNT][CAROM_PRECISIONS] = {
-    [CAROM_ISA_PLAIN] = {0, 44}, [CAROM_ISA_SSE2] = {256, 18},  [CAROM_ISA_NEON] = {256, 18},
+    [CAROM_ISA_PLAIN] = {0, 44}, [CAROM_ISA_SSE2] = {200, 18},  [CAROM_ISA_NEON] = {200, 18},
     [CAROM_ISA_AVX2] = {30, 12}, [CAROM_ISA_AVX512] = {34, 14},
 };
 
