@@ -154,8 +154,8 @@ CAROM_API carom_status carom_collide(const carom_impact *in, const carom_options
  * changes nothing for the others. `status` takes the n statuses as bytes, to be read with carom_status_of_byte(); it may be
  * NULL. `in`, `out` and `status` may not overlap; with n = 0 they may be NULL.
  * Euler's results have the bits of carom_collide. Exact ones differ from it by their errors, since lanes go another way; they
- * are the same for any number of threads, but not on every instruction set. Up to two dozen pairs may be done one by one, where
- * that is faster.
+ * are the same for any number of threads, but not on every instruction set. Few pairs (up to 43; 199 with SSE2 or NEON), and
+ * all in plain double precision, are done one by one, where that is faster.
  * Returns CAROM_OK if no pair is in error, else the status of the first that is; if the call itself cannot be served (NULL,
  * bad options), that error, with nothing written. */
 CAROM_API carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
@@ -214,8 +214,8 @@ CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_
 /* ---- Instruction sets ------------------------------------------------------------------------------------------------ */
 
 /* What batches and single calls of the exact limit compute with, from low to high: X(NAME, name). They take the highest that
- * the processor has; results differ by rounding from one to another. The environment variable CAROM_ISA, set to one of the
- * names before the first call, limits it for the whole process. */
+ * the processor has; results differ within the solver's errors from one to another. The environment variable CAROM_ISA, set to
+ * one of the names before the first call, limits it for the whole process. */
 #define CAROM_ISA_LIST(X) \
   X(PLAIN, "plain")       \
   X(SSE2, "sse2")         \

@@ -341,7 +341,7 @@ always void run_arc(const law *m, const state *a, const rule *r, int sticks, con
     q->dp = dot(r->last, q->dp_dx);
     q->ddp = dot(r->bend, q->dp_dx);
     q->dddp = dot(r->curl, q->dp_dx);
-    q->per = 1 / q->dp;
+    q->per = 1 / (q->dp > 0 ? q->dp : q->p_end - a->p);
   }
   /* Where the cloth pulls little, tau has converged before W. */
   const double least = -m->v_n0 * LEAST_SLIP;
@@ -447,7 +447,8 @@ always double arrive(const law *m, const state *a, const rule *r, const arc *q, 
     more = to_go(m, b, slope, per_slope, end);
     dx = more * q->per;
     const double b_2 = 0.5 * q->ddp * q->per, x_0 = low(high(dx, -0.1), 0.1); /* reversion of the series of p(x) */
-    dx *= 1 - x_0 * (b_2 - x_0 * (2 * b_2 * b_2 - (1 / 6.0) * q->dddp * q->per));
+    const double reverted = 1 - x_0 * (b_2 - x_0 * (2 * b_2 * b_2 - (1 / 6.0) * q->dddp * q->per));
+    dx *= low(high(reverted, 0.3), 3); /* where p is rough, at least the way must not turn round */
   }
   if (fabs(dx) > trusted) {
     put_slips(m, a, b, 1 - q->h, y);

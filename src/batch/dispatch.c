@@ -96,8 +96,8 @@ carom_isa carom_isa_limit(carom_isa isa) {
   return now;
 }
 
-/* Of fewer pairs than this the exact solver is faster by single calls: in lanes it costs about as much for one as for a dozen
- * (docs/batch.md). */
+/* Of fewer pairs than this the exact solver is faster by single calls: lanes are sorted into classes and filled first, and cost
+ * about as much half empty (docs/batch.md). */
 static const unsigned short exact_few[CAROM_ISA_COUNT][CAROM_PRECISIONS] = {
     [CAROM_ISA_PLAIN] = {0, 44}, [CAROM_ISA_SSE2] = {200, 18},  [CAROM_ISA_NEON] = {200, 18},
     [CAROM_ISA_AVX2] = {30, 12}, [CAROM_ISA_AVX512] = {34, 14},

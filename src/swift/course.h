@@ -34,7 +34,7 @@ static const float LEAST_WAY = 1e-8f;   /* mu mu_b p that makes no odds */
 static const float TURN_ENOUGH = 2e-8f; /* error of F where d turns */
 static const float ROUGH_SLOPE = 1e-4f; /* highest coefficient of p on a stick arc whose inside is asked for */
 static const float FELT = 0.02f;        /* mu mu_b from which the ends of compression and collision are found in two steps */
-static const float APART = 0.012f;      /* (1 - e^2) mu mu_b from which compression and restitution are arcs of their own */
+static const float APART = 0.012f;      /* (1 - e^2) mu mu_b / e from which compression and restitution are arcs of their own */
 static const float BEYOND = 0.02f;      /* share of an arc beyond its end that its polynomials are trusted */
 static const float SERIES = 0.025f;     /* largest k of `rest_of_way` */
 enum { MOST_ARCS = 60 };
@@ -136,6 +136,9 @@ always bool end_by_stick(const law *m, course *s, const glance *g, const stick_r
   if (!q.settled)
     return false;
   stick_point t = stick_of(m, s, g, r, n, &q, a);
+  const float as_expected = (float)t.p * g->rate; /* or W has run away, where 1 / (kappa + mu t_y) is large */
+  if (!(as_expected > 0.25f && as_expected < 4))
+    return false;
   if (t.v_end < t.v) { /* it ends before */
     if (!(m->mu_b * settle_W(m, g, r, n, &q) < ROUGH_SLOPE * m->unit))
       return false;
@@ -209,7 +212,7 @@ always bool follow(const law *m, course *s, state *a) {
   double v_end = -s->e * s->v_n0, stretch = 1; /* the speed at the end, so far as K is known; correction of the way to it */
   float whole = 0, share = 1;
   int inside = 1;
-  const int apart = (float)(1 - e2) * m->pull > APART;
+  const int apart = (float)(1 - e2) * m->pull > APART * (float)s->e;
   for (int arcs = 0; arcs < MOST_ARCS; arcs++) {
     const double left = (v_end - a->v) * s->per;
     double length = left * stretch;

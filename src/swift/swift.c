@@ -12,14 +12,15 @@
  * - The end needs no search (course.h).
  *
  * What is out of range is not solved here, and the caller goes the patient way: friction beyond MILD, restitution below
- * LEAST_E, one ball ten times as heavy as the other, speeds that single precision cannot square; and all bad input. */
+ * LEAST_E, one ball HEAVY times as heavy as the other, an approach beyond SLOWEST and FASTEST; and all bad input. */
 #include "swift/swift.h"
 
 #include "arguments.h"
 #include "course.h"
 
-static const float MILD_PULL = 0.1f, MILD_FRICTION = 0.25f; /* mu mu_b; mu_b */
-static const float LEAST_E = 0.1f, HEAVY = 10, SLOWEST = 1e-9f, FASTEST = 1e9f;
+static const float MILD_PULL = 0.1f, MILD_FRICTION = 0.25f;                    /* mu mu_b; mu_b */
+static const float MILD_CLOTH = 0.7f, LEAST_ROOM = 0.75f, FAINT_PULL = 0.001f; /* mu and kappa - mu, unless mu mu_b is faint */
+static const float LEAST_E = 0.2f, HEAVY = 10, SLOWEST = 1e-9f, FASTEST = 1e9f;
 
 /* x times the first element of v, plus y times the second */
 always pair combined(pair v, pair x, pair y) {
@@ -59,8 +60,14 @@ bool SWIFT_NAME(CAROM_SWIFT_SUFFIX)(const carom_impact *in, double s, carom_resu
   const double M_a = in->a.mass, M_b = in->b.mass;
   const pair other = chosen(on_b, both(M_b), both(M_a)), total = both(M_a + M_b), share = other / total, kappa = total / other,
              mu = chosen(on_b, first(cloth), second(cloth));
-  course c = {
-      .v_n0 = -local_v[1], .e = contact[1], .kappa = kappa[0], .per = share[0], .mu = mu[0], .mu_b = contact[0], .s = s};
+  const int upright = fabs(u_z[0]) <= 1e-10 * local_v[1]; /* no ball is pressed worth mentioning: as in exact.c */
+  course c = {.v_n0 = -local_v[1],
+              .e = contact[1],
+              .kappa = kappa[0],
+              .per = share[0],
+              .mu = upright ? 0 : mu[0],
+              .mu_b = contact[0],
+              .s = s};
   const law m = {.kappa = (float)c.kappa,
                  .per = (float)c.per,
                  .mu = (float)c.mu,
@@ -68,8 +75,9 @@ bool SWIFT_NAME(CAROM_SWIFT_SUFFIX)(const carom_impact *in, double s, carom_resu
                  .spin = (float)(2.5 * s),
                  .pull = (float)c.mu * (float)c.mu_b,
                  .unit = (float)(-c.v_n0 * c.per)};
-  if (!(m.pull < MILD_PULL && m.mu_b < MILD_FRICTION && (float)c.e > LEAST_E && m.unit > SLOWEST && m.unit < FASTEST &&
-        m.per * (HEAVY + 1) > 1 && m.per * (HEAVY + 1) < HEAVY))
+  if (!(m.pull < MILD_PULL && m.mu_b < MILD_FRICTION &&
+        ((m.mu < MILD_CLOTH && m.kappa - m.mu > LEAST_ROOM) || m.pull < FAINT_PULL) && (float)c.e > LEAST_E &&
+        m.unit > SLOWEST && m.unit < FASTEST && m.per * (HEAVY + 1) > 1 && m.per * (HEAVY + 1) < HEAVY))
     return false;
   state a = {.u = {u_x, fabs(u_z[0])}, .d = d, .v = c.v_n0};
   if (!follow(&m, &c, &a))

@@ -226,7 +226,8 @@ START_TEST(speeds_scale) {
 END_TEST
 
 /* Collisions that a class of arcs once accepted wrongly: stick just at the end, hardly any u_z, strong friction beside a light
- * ball, no ball slip at all. In the units of src/batch/arcs.h. */
+ * ball, no ball slip at all, a light pressed ball on rough cloth, friction so weak that the sweeps leave p rough. In the units
+ * of src/batch/arcs.h. */
 static const struct {
   double u_x, u_z, d_x, d_y, kappa, mu, mu_b, e, s;
 } hard[] = {{-0.346526567, 3.01613646e-5, -0.756237458, 3.74993251, 2, 0.177413758, 0.0261219012, 0.894255291, -1},
@@ -235,7 +236,14 @@ static const struct {
             {1.13442887, 1.50410331, -0.077748, -0.4980382, 1.0060651, 0.93812785, 0.143497623, 0.8986, 1},
             {0.494865807, 3.49382937, -0.42645722, -2.14299239, 1.39717349, 0.95156, 0.468186, 0.249551, 1},
             {0.913426, 0.00031384, 0, 2.2323, 2, 0.480102, 0.068965, 0.892111, -1},
-            {0, 0, 0.5, 1, 2, 0.2, 0.05, 0.9, -1}};
+            {0, 0, 0.5, 1, 2, 0.2, 0.05, 0.9, -1},
+            {-5.73555028e-4, 4.25e-10, 0.00692701288, -0.725437552, 1.10849, 0.989182, 6.92598e-4, 0.566839, -1},
+            {-0.2009, 0.00771, 0, 0, 1.2436, 0.705, 0.0384, 0.265, 1},
+            {-0.525, 0.0294, 0, 0, 1.30527, 0.674, 0.1077, 0.196, -1},
+            {0, 0.4023437, 0, 0.730985, 2, 0.7246, 0.138, 0.4717, 1},
+            {-3.064e-8, 3.111e-10, -0.116091, 0.945420, 2, 0.850727, 2.05555e-9, 0.857515, 1},
+            {2.496e-9, 1.43e-10, -0.13886, 1.765, 1.3245, 0.66622, 2.5e-10, 0.975, -1},
+            {-0.00631, 1.98e-7, 1.248, 0.846, 1.213, 0.749, 7.27e-4, 0.9626, 1}};
 
 START_TEST(hard_cases) {
   const double R = 0.03;
@@ -254,14 +262,19 @@ START_TEST(hard_cases) {
     carom_options options = carom_default_options();
     options.slip = s > 0 ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER;
     carom_impact many[FILL];
-    carom_result out, exact, outs[FILL];
+    carom_result out, exact, patient, outs[FILL];
     for (int lane = 0; lane < FILL; lane++)
       many[lane] = in;
+    const carom_frame frame = carom_frame_of(&in);
+    carom_local local = carom_to_frame(&frame, &in, s > 0);
+    carom_exact(&local, NULL);
+    carom_from_frame(&frame, &local, &patient);
     ck_assert_int_eq(carom_collide(&in, &options, &out), CAROM_OK);
     ck_assert_int_eq(carom_collide_batch(many, FILL, &options, outs, NULL), CAROM_OK);
     ck_assert_int_eq(oracle_collide(&in, s, &exact, NULL), 0);
     ck_assert_double_le(result_distance(&out, &exact, R), 1e-6);
     ck_assert_double_le(result_distance(&outs[FILL - 1], &exact, R), 1e-6);
+    ck_assert_double_le(result_distance(&patient, &exact, R), 1e-6);
   }
 }
 END_TEST
