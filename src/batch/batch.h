@@ -19,6 +19,7 @@ typedef enum carom_precision { CAROM_DOUBLE, CAROM_SINGLE, CAROM_PRECISIONS } ca
 #define CAROM_BUILT_ISAS(X) X(PLAIN, plain)
 #endif
 
+/* Without vectors single calls are faster than lanes for any number of pairs in double precision. */
 #define carom_exact_lanes_plain_double carom_singles_double
 #define CAROM_BATCH_PROTOTYPE(NAME, suffix)                                                    \
   carom_batch_solver carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single, \
@@ -34,7 +35,7 @@ carom_status carom_collide_one(carom_precision precision, const void *in, const 
 size_t carom_batch_in_threads(carom_batch_solver *solver, carom_precision precision, const void *in, size_t n,
                               const carom_options *opt, void *out, uint8_t *status);
 
-/* By single calls; see singles.c. Without vectors these are the faster ones for any number of pairs in double precision. */
+/* By single calls; see singles.c. */
 carom_batch_solver carom_singles_double, carom_singles_single;
 
 /* The solver of n pairs for the instruction set in force. */
