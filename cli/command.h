@@ -1,6 +1,8 @@
-/* The subcommands of `carom` and the exit codes they share. */
+/* A program of subcommands, and the exit codes they share. */
 #ifndef CAROM_CLI_COMMAND_H
 #define CAROM_CLI_COMMAND_H
+
+#include <stddef.h>
 
 enum {
   EXIT_GOOD = 0,  /* all went well */
@@ -8,19 +10,19 @@ enum {
   EXIT_USAGE = 2, /* bad usage or unreadable input; nothing was written */
 };
 
-/* X(name, one line of help). Each command_NAME gets its own arguments, argv[0] being its name, and returns an exit code. */
-#define COMMAND_LIST(X)                                          \
-  X(resolve, "resolve the collisions of a CSV file")             \
-  X(verify, "compare every kernel with the references")          \
-  X(trace, "follow one collision on its way")                    \
-  X(sweep, "resolve one collision, one input varied finely")     \
-  X(experiments, "compare with the 2014 paper's measured shots") \
-  X(bench, "time every kernel, once it is verified")             \
-  X(report, "measure all, draw the figures, write the page")     \
-  X(kernels, "list the kernels that resolve and verify know")
+typedef struct command {
+  const char *name, *text;           /* one line of help */
+  int (*run)(int argc, char **argv); /* gets its own arguments, argv[0] being its name; returns an exit code */
+} command;
 
-#define COMMAND_PROTOTYPE(name, text) int command_##name(int argc, char **argv);
-COMMAND_LIST(COMMAND_PROTOTYPE)
-#undef COMMAND_PROTOTYPE
+typedef struct program {
+  const char *name, *about, *example;
+  const command *commands;
+  size_t count;
+} program;
+
+/* Finds the subcommand and hands over: the program's main(). The locale is never set, so numbers are read and written with a
+ * point whatever the environment says. */
+int program_run(const program *p, int argc, char **argv);
 
 #endif

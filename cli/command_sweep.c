@@ -1,70 +1,27 @@
 /* `carom sweep`: one collision over and over, one of its inputs varied in fine steps. */
 #include "command.h"
+#include "impacts.h"
 #include "message.h"
-#include "option.h"
+#include "number.h"
 #include "output.h"
 #include "pick.h"
+#include "sink.h"
+#include "subcommands.h"
 
-#include <getopt.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
-    "usage: carom sweep --id X --over INPUT --from A --to B [OPTIONS] [FILE]\n\n"
-    "Resolves one collision many times, INPUT taking equally spaced values from A to B. FILE is a CSV file with the columns "
-    "that\n"
-    "`carom resolve --help` lists, - for standard input; default: the 204 reference collisions.\n\n"
-    "options:\n"
-    "  --id X                  which collision: its column id, or the number of its row if there is no such column\n"
-    "  --over INPUT            what to vary: a column, such as w1z, u_b or e_b; cut, to turn the line of centres by so many\n"
-    "                          degrees; or speed, to multiply all velocities and spins\n"
-    "  --from A, --to B        its first and last value\n"
-    "  --points N              how many, 2 or more (default 10001)\n"
-    "  --kernel LIST           exact (default), euler, or exact,euler\n"
-    "  --slip paper|pooltool   sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's\n"
-    "  --steps N               steps of Euler's method, 1 or more (default 1000)\n"
-    "  --friction LAW          friction between the balls by their slip speed, before the sweep: alciatore or alciatore=a,b,c\n"
-    "  --brief                 without the columns v1x to w2z\n"
-    "  --data DIR              folder of the reference collisions (default: $CAROM_DATA, else the one that came with carom)\n"
-    "  -o, --output OUT        CSV file to write, - for standard output (default)\n"
-    "  -h, --help              this text\n\n"
-    "columns written:\n"
-    "  kernel, value           of the input\n"
-    "  throw_deg               angle of ball 2's change of velocity from the line of centres, to the left as seen from above\n"
-    "  stick_share             share of the normal impulse after which the balls no longer slip on each other; nan if they do "
-    "to\n"
-    "                          the end, and by Euler's method\n"
-    "  jump                    how far the twelve results (radius times spin), over the largest of them, leave a smooth curve\n"
-    "                          between this value and the next: the distance of their step from both neighbouring steps and\n"
-    "                          all between. A corner is no jump; nan at the ends\n"
-    "  v1x ... w2z, status     as `carom resolve` writes them; v1x to w2z not with --brief\n\n"
-    "exit code: 0; 1 if some values make an error; 2 for bad usage or unreadable input\n";
-
 enum { RESULTS = sizeof(carom_result) / sizeof(double) };
+static const double degree = 3.14159265358979323846 / 180.0;
 
-/* Which numbers of a carom_impact an input sets; -1: none. */
-typedef struct swept_input {
-  const char *name;
-  int field[2];
-} swept_input;
-
-static const swept_input inputs[] = {
-    {"cut", {-1, -1}},  {"speed", {-1, -1}}, {"v1x", {3, -1}},  {"v1y", {4, -1}},  {"w1x", {6, -1}},  {"w1y", {7, -1}},
-    {"w1z", {8, -1}},   {"v2x", {15, -1}},   {"v2y", {16, -1}}, {"w2x", {18, -1}}, {"w2y", {19, -1}}, {"w2z", {20, -1}},
-    {"R", {9, 21}},     {"M", {10, 22}},     {"M1", {10, -1}},  {"M2", {22, -1}},  {"u_s", {11, 23}}, {"u_s1", {11, -1}},
-    {"u_s2", {23, -1}}, {"u_b", {24, -1}},   {"e_b", {25, -1}},
-};
-enum { INPUTS = sizeof inputs / sizeof inputs[0] };
+/* What can be varied: columns of a collision, u_s for u_s1 and u_s2, and two that change more than their numbers. */
+static const char inputs[] = "cut speed v1x v1y w1x w1y w1z v2x v2y w2x w2y w2z R M M1 M2 u_s u_s1 u_s2 u_b e_b";
 
 typedef struct sweep {
-  pick asked;
-  carom_options options;
+  shared_options asked;
   carom_impact impact;
-  carom_solver solver[CAROM_SOLVER_COUNT];
-  int solvers;
-  const swept_input *over;
+  const char *over;
   double from, to;
   int points;
   bool brief;
@@ -78,7 +35,7 @@ typedef struct outcome {
 } outcome;
 
 static void turn_line_of_centres(carom_impact *in, double degrees) {
-  const double angle = degrees * (3.14159265358979323846 / 180.0);
+  const double angle = degrees * degree;
   const double x = in->b.r[0] - in->a.r[0], y = in->b.r[1] - in->a.r[1];
   in->b.r[0] = in->a.r[0] + x * cos(angle) - y * sin(angle);
   in->b.r[1] = in->a.r[1] + x * sin(angle) + y * cos(angle);
@@ -87,34 +44,33 @@ static void turn_line_of_centres(carom_impact *in, double degrees) {
 static carom_impact vary(const sweep *s, double value) {
   carom_impact in = s->impact;
   double *number = (double *)&in;
-  if (strcmp(s->over->name, "cut") == 0)
+  const bool both_cloths = strcmp(s->over, "u_s") == 0;
+  const unsigned fields = both_cloths ? impact_fields("u_s1") | impact_fields("u_s2") : impact_fields(s->over);
+  for (int k = 0; k < IMPACT_FIELDS; k++)
+    if ((fields >> k & 1u) != 0)
+      number[k] = value;
+  if (strcmp(s->over, "cut") == 0)
     turn_line_of_centres(&in, value);
-  else if (strcmp(s->over->name, "speed") == 0)
-    for (int k = 0; k < 3; k++) {
-      in.a.v[k] *= value;
-      in.a.w[k] *= value;
-      in.b.v[k] *= value;
-      in.b.w[k] *= value;
-    }
-  else
-    for (int k = 0; k < 2; k++)
-      if (s->over->field[k] >= 0)
-        number[s->over->field[k]] = value;
+  for (int k = 0; k < 3 && strcmp(s->over, "speed") == 0; k++) {
+    in.a.v[k] *= value;
+    in.a.w[k] *= value;
+    in.b.v[k] *= value;
+    in.b.w[k] *= value;
+  }
   return in;
 }
 
 static outcome resolve(const sweep *s, carom_solver solver, int k) {
   outcome o = {.value = s->from + (s->to - s->from) * ((double)k / (s->points - 1))};
   const carom_impact in = vary(s, o.value);
-  carom_options options = s->options;
+  carom_options options = s->asked.options;
   carom_detail detail;
   options.solver = solver;
   o.status = carom_collide_detail(&in, &options, &o.result, &detail);
   o.stick_share = detail.stick_normal / detail.normal;
   const double along[2] = {in.b.r[0] - in.a.r[0], in.b.r[1] - in.a.r[1]};
   const double change[2] = {o.result.v_b[0] - in.b.v[0], o.result.v_b[1] - in.b.v[1]};
-  o.throw_deg = atan2(along[0] * change[1] - along[1] * change[0], along[0] * change[0] + along[1] * change[1]) *
-                (180.0 / 3.14159265358979323846);
+  o.throw_deg = atan2(along[0] * change[1] - along[1] * change[0], along[0] * change[0] + along[1] * change[1]) / degree;
   for (int c = 0; c < RESULTS; c++) {
     o.speed[c] = ((const double *)&o.result)[c] * (c / 3 % 2 == 1 ? in.a.radius : 1.0);
     o.scale = fmax(o.scale, fabs(o.speed[c]));
@@ -135,22 +91,20 @@ static double jump_of(const outcome at[4]) {
 }
 
 static void print_outcome(FILE *out, const sweep *s, const outcome *o, carom_solver solver, double jump) {
-  fprintf(out, "%s,%.12g,%.10g,%.6g,%.4g", carom_solver_name(solver), o->value, o->throw_deg, o->stick_share, jump);
-  for (int c = 0; c < RESULTS && !s->brief; c++)
-    fprintf(out, ",%.12g", ((const double *)&o->result)[c]);
+  fputs(carom_solver_name(solver), out);
+  write_numbers(out, (const double[]){o->value, o->throw_deg, o->stick_share, jump}, 4);
+  write_numbers(out, (const double *)&o->result, s->brief ? 0 : RESULTS);
   fprintf(out, ",%s\n", carom_status_name(o->status));
 }
 
 /* Returns how many values made an error. */
 static int print_sweep(FILE *out, const sweep *s) {
   int errors = 0;
-  carom_status first = CAROM_OK;
-  double first_at = 0.0;
-  pick_describe(out, &s->asked, &s->impact, &s->options);
-  fprintf(out, "# over: %s\nkernel,value,throw_deg,stick_share,jump,%sstatus\n", s->over->name,
-          s->brief ? "" : "v1x,v1y,v1z,w1x,w1y,w1z,v2x,v2y,v2z,w2x,w2y,w2z,");
-  for (int which = 0; which < s->solvers; which++) {
-    const carom_solver solver = s->solver[which];
+  outcome first = {0};
+  pick_describe(out, &s->asked, &s->impact);
+  fprintf(out, "# over: %s\nsolver,value,throw_deg,stick_share,jump,%sstatus\n", s->over, s->brief ? "" : RESULT_COLUMNS ",");
+  for (int which = 0; which < s->asked.solvers.count; which++) {
+    const carom_solver solver = s->asked.solvers.solver[which];
     outcome at[4] = {0}; /* k - 1 to k + 2, where they exist */
     for (int k = -2; k < s->points; k++) {
       memmove(at, at + 1, 3 * sizeof at[0]);
@@ -158,117 +112,77 @@ static int print_sweep(FILE *out, const sweep *s) {
         at[3] = resolve(s, solver, k + 2);
       if (k < 0)
         continue;
+      progress_show("values", (double)which * s->points + k, (double)s->asked.solvers.count * s->points);
       print_outcome(out, s, &at[1], solver, k == 0 || k + 2 >= s->points ? NAN : jump_of(at));
-      if (at[1].status < 0 && errors++ == 0) {
-        first = at[1].status;
-        first_at = at[1].value;
-      }
+      if (at[1].status < 0 && errors++ == 0)
+        first = at[1];
     }
   }
+  progress_clear();
   if (errors > 0)
-    complain("%d of the values make an error, first %s = %.6g: %s (%s)", errors, s->over->name, first_at,
-             carom_status_string(first), carom_status_name(first));
+    complain("%d of the values make an error, first %s = %.6g: %s (%s)", errors, s->over, first.value,
+             carom_status_string(first.status), carom_status_name(first.status));
   return errors;
 }
 
-static bool option_number(const char *option, const char *text, double *number) {
-  char *end;
-  *number = strtod(text, &end);
-  const bool good = end != text && *end == '\0' && isfinite(*number);
-  if (!good)
-    complain("%s is a number, not '%s'", option, text);
-  return good;
-}
-
-static bool option_over(const char *text, const swept_input **over) {
-  char names[256] = "";
-  for (int k = 0; k < INPUTS; k++) {
-    if (strcmp(text, inputs[k].name) == 0) {
-      *over = &inputs[k];
-      return true;
-    }
-    strcat(strcat(names, k > 0 ? " " : ""), inputs[k].name);
-  }
-  complain("--over is one of %s, not '%s'", names, text);
+static OPTION_SET(set_over) {
+  *(const char **)field = text;
+  if (place_among(inputs, text, strlen(text)) >= 0)
+    return true;
+  complain("--%s is one of %s, not '%s'", row->name, inputs, text);
   return false;
 }
 
+OPTION(sweep, option_over, "over", over, 0, "INPUT", set_over, 0,
+       "what to vary: a column, such as w1z, u_b or e_b; cut, to turn the line of centres by\n"
+       "so many degrees; or speed, to multiply all velocities and spins");
+OPTION(sweep, option_from, "from", from, 0, "A", set_number, 0, "its first value");
+OPTION(sweep, option_to, "to", to, 0, "B", set_number, 0, "its last value");
+OPTION(sweep, option_points, "points", points, 0, "N", set_count, 2, "how many, 2 or more (default 10001)");
+OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0, "without the columns v1x to w2z");
+
+static const char about[] =
+    "Resolves one collision many times, INPUT taking equally spaced values from A to B. FILE is a CSV file with the columns\n"
+    "that `carom resolve --help` lists, - for standard input; default: the 204 reference collisions.\n";
+
+static const char details[] =
+    "columns written:\n"
+    "  solver, value           of the input\n"
+    "  throw_deg               angle of ball 2's change of velocity from the line of centres, to the left from above\n"
+    "  stick_share             share of the normal impulse after which the balls no longer slip on each other; nan if they do\n"
+    "                          to the end, and by Euler's method\n"
+    "  jump                    how far the twelve results (radius times spin), over the largest of them, leave a smooth curve\n"
+    "                          between this value and the next: the distance of their step from both neighbouring steps\n"
+    "                          and all between. A corner is no jump; nan at the ends\n"
+    "  v1x ... w2z, status     as `carom resolve` writes them; v1x to w2z not with --brief\n\n"
+    "exit code: 0; 1 if some values make an error; 2 for bad usage or unreadable input\n";
+
+static const command_form form = {
+    .name = "sweep",
+    .usage = "--id X --over INPUT --from A --to B [OPTIONS] [FILE]",
+    .about = about,
+    .options = (const option_row *const[]){&option_id, &option_over, &option_from, &option_to, &option_points, &option_solvers,
+                                           &option_slip, &option_steps, &option_friction, &option_brief, &option_data,
+                                           &option_output, NULL},
+    .details = details,
+    .example = "carom sweep --id pooltool-135 --over w1z --from -60 --to 60 --brief -o sweep.csv",
+    .files = FILE_OR_NONE,
+};
+
 int command_sweep(int argc, char **argv) {
-  static const struct option options[] = {
-      {"id", required_argument, NULL, 'i'},       {"over", required_argument, NULL, 'O'},
-      {"from", required_argument, NULL, 'a'},     {"to", required_argument, NULL, 'b'},
-      {"points", required_argument, NULL, 'p'},   {"kernel", required_argument, NULL, 'k'},
-      {"slip", required_argument, NULL, 's'},     {"steps", required_argument, NULL, 'n'},
-      {"friction", required_argument, NULL, 'f'}, {"data", required_argument, NULL, 'd'},
-      {"output", required_argument, NULL, 'o'},   {"brief", no_argument, NULL, 'B'},
-      {"help", no_argument, NULL, 'h'},           {0},
-  };
-  sweep s = {.options = carom_default_options(),
-             .solver = {CAROM_SOLVER_EXACT},
-             .solvers = 1,
+  sweep s = {.asked = {.options = carom_default_options(), .solvers = {{CAROM_SOLVER_EXACT}, 1}, .output = "-"},
              .points = 10001,
              .from = NAN,
              .to = NAN};
-  const char *path = "-";
-  bool good = true;
-  int option;
-  while (good && (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1)
-    switch (option) {
-    case 'i':
-      s.asked.id = optarg;
-      break;
-    case 'O':
-      good = option_over(optarg, &s.over);
-      break;
-    case 'a':
-      good = option_number("--from", optarg, &s.from);
-      break;
-    case 'b':
-      good = option_number("--to", optarg, &s.to);
-      break;
-    case 'p':
-      good = option_count("--points", optarg, 2, &s.points);
-      break;
-    case 'k':
-      good = pick_solvers(optarg, s.solver, &s.solvers);
-      break;
-    case 's':
-      good = option_slip(optarg, &s.options.slip);
-      break;
-    case 'n':
-      good = option_steps(optarg, &s.options.steps);
-      break;
-    case 'f':
-      good = option_law(optarg, &s.asked.law);
-      s.asked.by_law = true;
-      break;
-    case 'B':
-      s.brief = true;
-      break;
-    case 'd':
-      s.asked.folder = optarg;
-      break;
-    case 'o':
-      path = optarg;
-      break;
-    case 'h':
-      fputs(help, stdout);
-      return EXIT_GOOD;
-    default:
-      return usage_hint("sweep");
-    }
-  if (!good)
-    return EXIT_USAGE;
-  if (argc - optind > 1) {
-    complain("sweep takes one file, but got %d", argc - optind);
-    return usage_hint("sweep");
-  }
+  const char *file;
+  const int code = parse_arguments(&form, argc, argv, &s, &file);
+  if (code >= 0)
+    return code;
   if (s.asked.id == NULL || s.over == NULL || isnan(s.from) || isnan(s.to)) {
     complain("sweep needs --id, --over, --from and --to");
-    return usage_hint("sweep");
+    return usage_hint(&form);
   }
-  s.asked.file = argv[optind];
-  FILE *out = pick_impact(&s.asked, &s.impact) ? output_open(path) : NULL;
+  FILE *out = pick_impact(&s.asked, file, &s.impact) ? output_open(s.asked.output) : NULL;
   if (out == NULL)
     return EXIT_USAGE;
   const int errors = print_sweep(out, &s);

@@ -17,17 +17,20 @@ typedef struct impact_row {
   char *id;       /* grown as needed from row to row; the caller frees it in the end */
   size_t id_room; /* 0 with a NULL id at first */
   long long line;
-  carom_impact impact;
-  const char *error; /* NULL, or the name of what kept the row from being read; the impact is then unset */
+  const char *error; /* NULL, or the name of what kept the row from being read, */
   char message[160]; /* and a sentence about it */
 } impact_row;
+
+/* Which numbers of a carom_impact the column of that name fills: bit k for number k, 0 for no such column. */
+unsigned impact_fields(const char *name);
 
 /* Opens `path`, "-" for stdin, and finds the columns; u_b may be missing if it is not `needed`, and is then 0. Complains and
  * returns NULL if the file or a column is missing. */
 impact_reader *impact_open(const char *path, bool mu_ball_needed);
 
-/* The next row, or READ_END; READ_FAILED after a complaint. `row` begins as all zero and may be used again. */
-read_result impact_next(impact_reader *reader, impact_row *row);
+/* The next row, or READ_END; READ_FAILED after a complaint. `row` begins as all zero and may be used again; `*impact` is 0
+ * throughout where the row could not be read. */
+read_result impact_next(impact_reader *reader, impact_row *row, carom_impact *impact);
 
 /* The name of the column that number `field` of a carom_impact comes from, as for carom_check(). */
 const char *impact_column(const impact_reader *reader, int field);

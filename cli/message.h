@@ -1,11 +1,18 @@
-/* Messages to the user on stderr. */
+/* What the user sees on stderr: messages, and a progress line for work of more than a second. */
 #ifndef CAROM_CLI_MESSAGE_H
 #define CAROM_CLI_MESSAGE_H
 
-/* Prints "carom: ", the message and a newline on stderr, clear of a progress line that may stand there. */
+/* The program's name, which stands before every message. */
+extern const char *program_name;
+
+/* Prints the program's name, the message and a newline, clear of a progress line that may stand there. */
 __attribute__((format(printf, 1, 2))) void complain(const char *format, ...);
 
-/* After getopt_long() has complained about an option of `command`: says where help is, returns EXIT_USAGE. */
-int usage_hint(const char *command);
+/* Says that `done` of `total` units ("rows") are done; `total` < 0 where it is not known. Draws at most ten times a second, and
+ * nothing in the first second or when stderr is no terminal. */
+void progress_show(const char *unit, double done, double total);
+
+/* Removes the line, if one stands there. */
+void progress_clear(void);
 
 #endif

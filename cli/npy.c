@@ -1,18 +1,15 @@
 /* NumPy's .npy files. */
 #include "npy.h"
 
+#include "memory.h"
 #include "message.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-enum { HEADER = 128 };
+enum { HEADER = 128, LONGEST_HEADER = 1 << 20 };
 
 bool npy_is_name(const char *path) {
   const size_t size = strlen(path);
@@ -47,13 +44,9 @@ static bool parse_header(const char *path, const char *header, size_t columns, n
     complain("%s: the array is in Fortran order; C order is needed: numpy.ascontiguousarray(array)", path);
     return false;
   }
-  char *end = NULL;
-  errno = 0;
-  const unsigned long long rows = *shape == '(' ? strtoull(shape + 1, &end, 10) : 0;
-  unsigned long long width = 0;
-  if (end != NULL && *end == ',')
-    width = strtoull(end + 1, &end, 10);
-  if (end == NULL || end[strspn(end, ", ")] != ')' || width != columns || errno != 0) {
+  unsigned long long rows, width;
+  char close;
+  if (sscanf(shape, "(%llu , %llu %c", &rows, &width, &close) != 3 || width != columns || close != ')') {
     complain("%s: shape %.*s; (n, %zu) is needed, a row the numbers of carom_impact in their order", path,
              (int)strcspn(shape, ")") + 1, shape, columns);
     return false;
@@ -62,81 +55,62 @@ static bool parse_header(const char *path, const char *header, size_t columns, n
   return true;
 }
 
-/* Where the data begin; 0 after a complaint. */
-static size_t find_data(const char *path, size_t columns, npy_array *array) {
-  const unsigned char *bytes = array->mapping;
-  size_t prefix = 0, length = 0;
-  if (array->mapped >= 12 && memcmp(bytes, "\x93NUMPY", 6) == 0 && bytes[6] >= 1 && bytes[6] <= 3) {
-    prefix = bytes[6] == 1 ? 10 : 12;
-    length = bytes[8] | (size_t)bytes[9] << 8;
-    if (prefix == 12)
-      length |= (size_t)bytes[10] << 16 | (size_t)bytes[11] << 24;
-  }
-  if (prefix == 0 || length > array->mapped - prefix) {
-    complain("%s: not a .npy file", path);
-    return 0;
-  }
-  char *header = strndup((const char *)bytes + prefix, length);
-  const bool good = header != NULL && parse_header(path, header, columns, array);
+/* The header's text, to be freed; NULL if the file is none of NumPy's. */
+static char *read_header(FILE *in) {
+  unsigned char head[12] = {0};
+  const bool first = fread(head, 1, 10, in) == 10 && memcmp(head, "\x93NUMPY", 6) == 0 && head[6] >= 1 && head[6] <= 3;
+  if (!first || (head[6] > 1 && fread(head + 10, 1, 2, in) != 2))
+    return NULL;
+  const size_t length = head[8] | (size_t)head[9] << 8 | (size_t)head[10] << 16 | (size_t)head[11] << 24;
+  char *header = length <= LONGEST_HEADER ? allocate(length + 1, 1) : NULL;
+  if (header != NULL && fread(header, 1, length, in) == length)
+    return header;
   free(header);
-  if (!good)
-    return 0;
-  const size_t size = columns * (array->single ? sizeof(float) : sizeof(double)), left = array->mapped - prefix - length;
-  if (array->rows > left / size) {
-    complain("%s: cut off: %zu rows of %zu bytes are promised, %zu bytes are there", path, array->rows, size, left);
-    return 0;
-  }
-  return prefix + length;
+  return NULL;
 }
 
 bool npy_open(const char *path, size_t columns, npy_array *array) {
-  *array = (npy_array){0};
   struct stat status;
-  const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0 || fstat(descriptor, &status) != 0) {
+  *array = (npy_array){.name = path, .file = fopen(path, "rb"), .row_size = columns};
+  if (array->file == NULL || fstat(fileno(array->file), &status) != 0) {
     complain("cannot read %s: %s", path, strerror(errno));
-    if (descriptor >= 0)
-      close(descriptor);
-    return false;
-  }
-  array->mapped = (size_t)status.st_size;
-  array->mapping = array->mapped > 0 ? mmap(NULL, array->mapped, PROT_READ, MAP_PRIVATE, descriptor, 0) : MAP_FAILED;
-  close(descriptor);
-  if (array->mapping == MAP_FAILED) {
-    array->mapping = NULL;
-    complain("cannot map %s into memory: %s", path, array->mapped == 0 ? "it is empty or no regular file" : strerror(errno));
-    return false;
-  }
-  const size_t start = find_data(path, columns, array);
-  if (start == 0) {
     npy_close(array);
     return false;
   }
-  array->data = (const char *)array->mapping + start;
-  if ((uintptr_t)array->data % sizeof(double) != 0) {
-    complain("%s: the data are not aligned, as NumPy would have them", path);
-    npy_close(array);
-    return false;
+  char *header = read_header(array->file);
+  if (header == NULL)
+    complain("%s: not a .npy file", path);
+  bool good = header != NULL && parse_header(path, header, columns, array);
+  free(header);
+  array->row_size *= array->single ? sizeof(float) : sizeof(double);
+  const size_t left = good ? (size_t)(status.st_size - ftell(array->file)) : 0;
+  if (good && S_ISREG(status.st_mode) && array->rows > left / array->row_size) {
+    complain("%s: cut off: %zu rows of %zu bytes are promised, %zu bytes are there", path, array->rows, array->row_size, left);
+    good = false;
   }
-  madvise(array->mapping, array->mapped, MADV_SEQUENTIAL);
-  return true;
+  if (!good)
+    npy_close(array);
+  return good;
+}
+
+bool npy_read(npy_array *array, size_t rows, void *to) {
+  if (fread(to, array->row_size, rows, array->file) == rows)
+    return true;
+  complain("cannot read %s: %s", array->name, ferror(array->file) ? strerror(errno) : "it is cut off");
+  return false;
 }
 
 void npy_close(npy_array *array) {
-  if (array->mapping != NULL)
-    munmap(array->mapping, array->mapped);
+  if (array->file != NULL)
+    fclose(array->file);
   *array = (npy_array){0};
 }
 
 void npy_write_header(FILE *out, const char *descr, size_t rows, size_t columns) {
   char header[HEADER + 1];
-  char shape[64];
-  if (columns > 0)
-    snprintf(shape, sizeof shape, "%zu, %zu", rows, columns);
-  else
-    snprintf(shape, sizeof shape, "%zu,", rows);
-  const int used = snprintf(header, sizeof header, "\x93NUMPY%c%c%c%c{'descr': '%s', 'fortran_order': False, 'shape': (%s), }",
-                            1, 'x', HEADER - 10, 'x', descr, shape);
+  const int used =
+      snprintf(header, sizeof header, "\x93NUMPY%c%c%c%c{'descr': '%s', 'fortran_order': False, 'shape': (%zu, %zu), }", 1, 'x',
+               HEADER - 10, 'x', descr, rows, columns);
   header[7] = 0;
   header[9] = 0;
   memset(header + used, ' ', (size_t)(HEADER - used));

@@ -30,24 +30,6 @@ static void forget(void) {
   place = temporary = NULL;
 }
 
-/* A new file beside `place`; -1 if there can be none. */
-static int create_beside(void) {
-  for (int attempt = 0; attempt < 100; attempt++) {
-    char *beside;
-    if (asprintf(&beside, "%s.%ld-%d", place, (long)getpid(), attempt) < 0)
-      return -1;
-    const int descriptor = open(beside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) {
-      temporary = beside;
-      return descriptor;
-    }
-    free(beside); /* which keeps errno */
-    if (errno != EEXIST)
-      return -1;
-  }
-  return -1;
-}
-
 static FILE *open_beside(const char *path) {
   place = realpath(path, NULL); /* so that a link stays a link to the new file */
   if (place == NULL)
@@ -57,12 +39,20 @@ static FILE *open_beside(const char *path) {
   signal(SIGINT, on_signal);
   signal(SIGTERM, on_signal);
   signal(SIGHUP, on_signal);
-  const int descriptor = create_beside();
-  if (descriptor < 0)
+  char *beside;
+  if (asprintf(&beside, "%s.XXXXXX", place) < 0)
     return NULL;
+  const int descriptor = mkostemp(beside, O_CLOEXEC);
+  if (descriptor < 0) {
+    free(beside); /* which keeps errno */
+    return NULL;
+  }
+  temporary = beside;
+  /* A file's mode stays; a new one's is what the umask leaves. */
+  const mode_t mask = umask(0);
+  umask(mask);
   struct stat old;
-  if (stat(path, &old) == 0)
-    fchmod(descriptor, old.st_mode & 07777);
+  fchmod(descriptor, stat(path, &old) == 0 ? old.st_mode & 07777 : 0666 & ~mask);
   return fdopen(descriptor, "wb");
 }
 

@@ -1,115 +1,68 @@
 /* One collision out of a file. */
 #include "pick.h"
 
-#include "cases.h"
-#include "impacts.h"
 #include "message.h"
+#include "place.h"
+#include "source.h"
 
-#include <math.h>
-#include <stdlib.h>
+#include <limits.h>
 #include <string.h>
 
-enum { IDS_SHOWN = 400 }; /* bytes of the list of those that are there */
-
-typedef struct id_list {
-  char text[IDS_SHOWN];
-  long long count, left_out;
-} id_list;
-
-static void add_id(id_list *list, const char *id) {
-  const size_t used = strlen(list->text);
-  if (list->left_out > 0 || used + strlen(id) + 3 > sizeof list->text)
-    list->left_out++;
+/* Adds an id to the text, with ", " between them, while there is room; counts what is left out. */
+static void list_id(char *text, size_t room, const char *id, long long *left_out) {
+  const size_t used = strlen(text);
+  if (*left_out > 0 || used + strlen(id) + 3 > room)
+    ++*left_out;
   else
-    snprintf(list->text + used, sizeof list->text - used, "%s%s", used > 0 ? ", " : "", id);
-  list->count++;
+    snprintf(text + used, room - used, "%s%s", used > 0 ? ", " : "", id);
 }
 
-static void complain_of_absence(const char *file, const char *id, const id_list *list) {
-  if (list->count == 0)
-    complain("%s has no collision '%s': it has none at all", file, id);
-  else if (list->left_out > 0)
-    complain("%s has no collision '%s'; it has %s and %lld more", file, id, list->text, list->left_out);
-  else
-    complain("%s has no collision '%s'; it has %s", file, id, list->text);
-}
-
-/* The row of that id; false after a complaint. */
-static bool find_row(impact_reader *reader, const char *id, impact_row *row) {
-  id_list there = {0};
+/* Reads on to the row of that id, number k of the block; false after a complaint, which names those that are there. */
+static bool find_row(row_source *source, const char *file, const char *id, source_block *block, size_t *k) {
+  char there[400] = "", more[40] = "", number[24];
+  long long left_out = 0;
   read_result result;
-  while ((result = impact_next(reader, row)) == READ_ONE) {
-    if (strcmp(row->id, id) == 0)
-      return true;
-    add_id(&there, row->id);
-  }
+  while ((result = source_read(source, block)) == READ_ONE)
+    for (*k = 0; *k < block->count; ++*k) {
+      snprintf(number, sizeof number, "%zu", block->first + *k + 1);
+      const char *own = block->row != NULL ? block->row[*k].id : number;
+      if (strcmp(own, id) == 0)
+        return true;
+      list_id(there, sizeof there, own, &left_out);
+    }
+  if (left_out > 0)
+    snprintf(more, sizeof more, " and %lld more", left_out);
   if (result == READ_END)
-    complain_of_absence(record_file_name(impact_records(reader)), id, &there);
+    complain("%s has no collision '%s'; it has %s%s", file, id, there[0] != '\0' ? there : "none at all", more);
   return false;
 }
 
-static bool check_row(const impact_reader *reader, const pick *asked, impact_row *row) {
-  const char *file = record_file_name(impact_records(reader));
-  if (row->error != NULL) {
-    complain("%s:%lld: id '%s': %s (%s)", file, row->line, row->id, row->message, row->error);
-    return false;
-  }
-  if (asked->by_law)
-    row->impact.mu_ball = carom_mu_ball(&row->impact, asked->law);
-  int field;
-  const carom_status status = carom_check(&row->impact, NULL, &field);
-  if (status != CAROM_OK && field >= 0)
-    complain("%s:%lld: id '%s': %s = %.17g: %s (%s)", file, row->line, row->id, impact_column(reader, field),
-             ((const double *)&row->impact)[field], carom_status_string(status), carom_status_name(status));
-  else if (status != CAROM_OK)
-    complain("%s:%lld: id '%s': %s (%s)", file, row->line, row->id, carom_status_string(status), carom_status_name(status));
-  return status == CAROM_OK;
-}
-
-bool pick_impact(const pick *asked, carom_impact *impact) {
-  char path[4096];
-  const char *file = asked->file;
+bool pick_impact(const shared_options *asked, const char *file, carom_impact *impact) {
+  char path[PATH_MAX];
+  size_t k;
   if (file == NULL) {
-    snprintf(path, sizeof path, "%s/collisions-204.csv", cases_folder(asked->folder));
+    snprintf(path, sizeof path, "%s/collisions-204.csv", data_folder(asked->folder));
     file = path;
   }
-  impact_reader *reader = impact_open(file, !asked->by_law);
-  if (reader == NULL)
-    return false;
-  impact_row row = {0};
-  const bool good = find_row(reader, asked->id, &row) && check_row(reader, asked, &row);
-  *impact = row.impact;
-  free(row.id);
-  impact_close(reader);
+  row_source *source = source_open(file, !asked->friction.given);
+  source_block block = {0};
+  bool good = source != NULL && find_row(source, strcmp(file, "-") == 0 ? "standard input" : file, asked->id, &block, &k);
+  if (good) {
+    *impact = source_impact(source, &block, k);
+    if (asked->friction.given)
+      impact->mu_ball = carom_mu_ball(impact, asked->friction.law);
+    const carom_status status = carom_check(impact, NULL, NULL);
+    good = status == CAROM_OK && (block.row == NULL || block.row[k].error == NULL);
+    if (!good)
+      source_report(source, &block, k, NULL, status);
+  }
+  source_free_block(&block);
+  source_close(source);
   return good;
 }
 
-static bool add_solver(const char *name, carom_solver solvers[], int *count) {
-  for (int k = 0; k < CAROM_SOLVER_COUNT; k++) {
-    if (strcmp(name, carom_solver_name((carom_solver)k)) != 0)
-      continue;
-    for (int other = 0; other < *count; other++)
-      if (solvers[other] == (carom_solver)k)
-        return true;
-    solvers[(*count)++] = (carom_solver)k;
-    return true;
-  }
-  return false;
-}
-
-bool pick_solvers(const char *text, carom_solver solvers[CAROM_SOLVER_COUNT], int *count) {
-  char *copy = strdup(text), *rest = NULL;
-  *count = 0;
-  bool good = copy != NULL;
-  for (char *name = good ? strtok_r(copy, ",", &rest) : NULL; name != NULL && good; name = strtok_r(NULL, ",", &rest))
-    good = add_solver(name, solvers, count);
-  free(copy);
-  if (!good || *count == 0)
-    complain("--kernel is exact, euler, or both as exact,euler: the library's solvers, not '%s'", text);
-  return good && *count > 0;
-}
-
-void pick_describe(FILE *out, const pick *asked, const carom_impact *impact, const carom_options *options) {
+void pick_describe(FILE *out, const shared_options *asked, const carom_impact *impact) {
+  const carom_options *options = &asked->options;
   fprintf(out, "# collision: %s\n# slip: %s\n# steps: %d\n", asked->id, carom_slip_name(options->slip), options->steps);
   fprintf(out, "# friction between the balls: %.3g\n# friction of the cloth: %.3g and %.3g\n# restitution: %.3g\n",
           impact->mu_ball, impact->a.mu_cloth, impact->b.mu_cloth, impact->restitution);

@@ -1,7 +1,6 @@
 /* Pictures that gnuplot draws, in a temporary folder: the CSV and the picture are moved or dropped when it is done. */
 #include "picture.h"
 
-#include "gnuplot.h"
 #include "message.h"
 #include "output.h"
 #include "place.h"
@@ -9,80 +8,90 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
-bool picture_name_fits(const char *path) {
-  const size_t size = strlen(path);
-  if (size > 4 && (strcmp(path + size - 4, ".svg") == 0 || strcmp(path + size - 4, ".png") == 0))
+enum { NO_GNUPLOT = 127 };
+
+OPTION_SET(set_picture) {
+  const size_t size = strlen(text);
+  *(const char **)field = text;
+  if (size > 4 && (strcmp(text + size - 4, ".svg") == 0 || strcmp(text + size - 4, ".png") == 0))
     return true;
-  complain("--plot draws a picture whose name ends in .svg or .png, not '%s'", path);
+  complain("--%s draws a picture whose name ends in .svg or .png, not '%s'", row->name, text);
   return false;
 }
 
-static bool move(const char *from, const char *to) {
-  FILE *in = fopen(from, "rb"), *out = in != NULL ? output_open(to) : NULL;
-  char block[65536];
-  for (size_t size; out != NULL && (size = fread(block, 1, sizeof block, in)) > 0;)
-    fwrite(block, 1, size, out);
-  if (in != NULL)
-    fclose(in);
-  return out != NULL && output_commit();
-}
+/* The working folder, which only this user may enter, and the files in it. */
+typedef struct work {
+  char folder[PATH_MAX], csv[PATH_MAX], noise[PATH_MAX], picture[PATH_MAX];
+} work;
 
-static bool write_csv(const char *path, void (*write)(FILE *out, const void *data), const void *data) {
-  FILE *out = fopen(path, "wb");
-  if (out != NULL)
-    write(out, data);
-  const bool good = out != NULL && !ferror(out);
-  if ((out == NULL || fclose(out) != 0 || !good)) {
-    complain("cannot write %s: %s", path, strerror(errno));
+/* Complains if there can be none. */
+static bool make_work(work *w, const char *ending) {
+  const char *own = getenv("TMPDIR"), *temporary = own != NULL && own[0] != '\0' ? own : P_tmpdir;
+  const int size = snprintf(w->folder, PATH_MAX - 16, "%s/carom-XXXXXX", temporary);
+  if (size >= PATH_MAX - 16 || mkdtemp(w->folder) == NULL) {
+    complain("cannot make a folder in %s: %s", temporary, strerror(errno));
     return false;
   }
+  strcat(strcpy(w->csv, w->folder), "/data.csv");
+  strcat(strcpy(w->noise, w->folder), "/noise");
+  strcat(strcat(strcpy(w->picture, w->folder), "/picture"), ending);
   return true;
 }
 
-static bool draw(const char *path, const char *name, const char *title, const char *folder, const char *extension) {
-  char scripts[PATH_MAX], script[PATH_MAX + 64], file[16], picture[PATH_MAX + 32];
-  place_find(CAROM_SOURCE_LAB "/figures", CAROM_INSTALLED_SHARE "/figures", scripts);
-  snprintf(script, sizeof script, "%s/%s.gp", scripts, name);
-  snprintf(file, sizeof file, "picture%s", extension);
-  snprintf(picture, sizeof picture, "%s/%s", folder, file);
-  const int code = gnuplot_run(folder, script, "data.csv", file, title);
-  const bool drawn = code == 0 && access(picture, R_OK) == 0;
-  if (code == NO_GNUPLOT)
-    complain("cannot draw %s: %s", path, no_gnuplot);
-  else if (!drawn)
-    complain("cannot draw %s: gnuplot failed on %s", path, script);
-  const bool good = drawn && move(picture, path);
-  unlink(picture);
+/* Copies a file to a stream; false if it cannot be read. */
+static bool copy(const char *from, FILE *to) {
+  FILE *in = fopen(from, "rb");
+  char block[65536];
+  for (size_t size; in != NULL && (size = fread(block, 1, sizeof block, in)) > 0;)
+    fwrite(block, 1, size, to);
+  const bool good = in != NULL && !ferror(in);
+  if (in != NULL)
+    fclose(in);
   return good;
 }
 
-/* A new folder that only this user may enter; complains if there can be none. */
-static bool make_folder(char folder[PATH_MAX]) {
-  const char *temporary = getenv("TMPDIR");
-  if (temporary == NULL || temporary[0] == '\0')
-    temporary = P_tmpdir;
-  for (int attempt = 0; attempt < 100; attempt++) {
-    snprintf(folder, PATH_MAX, "%s/carom-%ld-%d", temporary, (long)getpid(), attempt);
-    if (mkdir(folder, 0700) == 0)
-      return true;
-    if (errno != EEXIST)
-      break;
+/* What gnuplot says is shown only if it fails: it also warns of every part of a plot that a CSV has no rows for, and those are
+ * optional. False after a complaint. */
+static bool run_gnuplot(const work *w, const char *path, const char *name, const char *title) {
+  char scripts[PATH_MAX], script[PATH_MAX + 64];
+  int status;
+  snprintf(script, sizeof script, "%s/%s.gp", place_find("figures", scripts), name);
+  fflush(NULL);
+  const pid_t child = fork();
+  if (child == 0) {
+    if (chdir(w->folder) == 0 && freopen("noise", "wb", stderr) != NULL)
+      execlp("gnuplot", "gnuplot", "-c", script, "data.csv", w->picture, title, (char *)NULL);
+    _exit(NO_GNUPLOT);
   }
-  complain("cannot make a folder in %s: %s", temporary, strerror(errno));
+  if (child < 0 || waitpid(child, &status, 0) != child)
+    status = -1;
+  if (status == 0 && access(w->picture, R_OK) == 0)
+    return true;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == NO_GNUPLOT)
+    complain("cannot draw %s: gnuplot is not installed (Debian: gnuplot-nox)", path);
+  else {
+    copy(w->noise, stderr);
+    complain("cannot draw %s: gnuplot failed on %s", path, script);
+  }
   return false;
 }
 
 bool picture_draw(const char *path, const char *name, const char *title, void (*write)(FILE *out, const void *data),
                   const void *data) {
-  char folder[PATH_MAX], csv[PATH_MAX + 16];
-  if (!make_folder(folder))
+  work w;
+  if (!make_work(&w, path + strlen(path) - 4))
     return false;
-  snprintf(csv, sizeof csv, "%s/data.csv", folder);
-  const bool good = write_csv(csv, write, data) && draw(path, name, title, folder, path + strlen(path) - 4);
-  unlink(csv);
-  rmdir(folder);
+  FILE *out = output_open(w.csv);
+  if (out != NULL)
+    write(out, data);
+  out = out != NULL && output_commit() && run_gnuplot(&w, path, name, title) ? output_open(path) : NULL;
+  const bool good = out != NULL && copy(w.picture, out) && output_commit();
+  unlink(w.csv);
+  unlink(w.noise);
+  unlink(w.picture);
+  rmdir(w.folder);
   return good;
 }

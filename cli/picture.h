@@ -1,12 +1,13 @@
-/* Pictures that gnuplot draws from a CSV by a script of lab/figures, for subcommands other than report. */
+/* Pictures that gnuplot draws from a CSV by a script of cli/figures. */
 #ifndef CAROM_CLI_PICTURE_H
 #define CAROM_CLI_PICTURE_H
 
-#include <stdbool.h>
+#include "options.h"
+
 #include <stdio.h>
 
-/* Whether the name ends as a picture must, .svg or .png; complains if not. */
-bool picture_name_fits(const char *path);
+/* For a `const char *`: a name that ends as a picture's must, in .svg or .png. */
+OPTION_SET(set_picture);
 
 /* Draws `path` by NAME.gp from what `write` puts into a CSV. The picture appears whole or not at all. Complains and returns
  * false if it cannot be drawn. */

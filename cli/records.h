@@ -27,17 +27,12 @@ record_reader *record_open(const char *path);
 /* The next record, or READ_END; READ_FAILED after a complaint when the input cannot be read on. */
 read_result record_next(record_reader *reader, record *out);
 
-/* The bytes read so far, and those of the whole file or -1 where it is not known: for progress. */
-double record_bytes_read(const record_reader *reader);
-double record_bytes_total(const record_reader *reader);
+/* The share of the file that has been read, or -1 where its size is not known: for progress. */
+double record_share(const record_reader *reader);
 
 /* The name of the file for messages. */
 const char *record_file_name(const record_reader *reader);
 
 void record_close(record_reader *reader);
-
-/* Reads a whole field as a number: decimal or hexadecimal, nan, inf or infinity in any case, blanks around it allowed. False
- * if it is anything else. */
-bool parse_number(const char *text, double *number);
 
 #endif

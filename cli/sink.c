@@ -1,12 +1,14 @@
 /* Where results go. */
 #include "sink.h"
 
+#include "memory.h"
 #include "message.h"
 #include "npy.h"
+#include "number.h"
 #include "output.h"
+#include "precision.h"
 
 #include <csv.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,74 +21,49 @@ struct result_sink {
 };
 
 result_sink *sink_open(const char *path, bool single) {
-  result_sink *s = calloc(1, sizeof *s);
-  if (s == NULL) {
-    complain("out of memory");
+  FILE *file = output_open(path);
+  if (file == NULL)
     return NULL;
-  }
-  *s = (result_sink){.file = output_open(path), .array = npy_is_name(path), .single = single};
-  if (s->file == NULL) {
-    free(s);
-    return NULL;
-  }
+  result_sink *s = allocate(1, sizeof *s);
+  *s = (result_sink){.file = file, .array = npy_is_name(path), .single = single};
   if (s->array)
     npy_write_header(s->file, single ? "<f4" : "<f8", 0, NUMBERS);
   else
-    fputs("id,v1x,v1y,v1z,w1x,w1y,w1z,v2x,v2y,v2z,w2x,w2y,w2z,status\n", s->file);
+    fputs("id," RESULT_COLUMNS ",status\n", s->file);
   return s;
 }
 
-static void write_id(FILE *out, const char *id) {
-  if (strpbrk(id, ",\"\r\n") != NULL)
-    csv_fwrite(out, id, strlen(id));
-  else
-    fputs(id, out);
-}
-
-static void write_csv(result_sink *s, const char *id, const void *result, const char *status, bool bad) {
-  if (id != NULL)
-    write_id(s->file, id);
-  else
+static void write_csv(result_sink *s, const char *id, const void *result, const char *status) {
+  double wide[NUMBERS];
+  if (s->single)
+    to_double(result, wide, NUMBERS);
+  if (id == NULL)
     fprintf(s->file, "%zu", s->rows);
-  for (int k = 0; k < NUMBERS; k++)
-    if (bad)
-      fputs(",nan", s->file);
-    else
-      fprintf(s->file, ",%.17g", s->single ? (double)((const float *)result)[k] : ((const double *)result)[k]);
+  else if (strpbrk(id, ",\"\r\n") != NULL)
+    csv_fwrite(s->file, id, strlen(id));
+  else
+    fputs(id, s->file);
+  write_numbers(s->file, s->single ? wide : result, NUMBERS);
   fprintf(s->file, ",%s\n", status);
-}
-
-/* Rows in error are NaN throughout already. */
-static void write_array(result_sink *s, const void *result) {
-  fwrite(result, s->single ? sizeof(float) : sizeof(double), NUMBERS, s->file);
 }
 
 void sink_write(result_sink *s, const char *id, const void *result, carom_status status, const char *error) {
   s->rows++;
   if (s->array)
-    write_array(s, result);
+    fwrite(result, s->single ? sizeof(float) : sizeof(double), NUMBERS, s->file);
   else
-    write_csv(s, id, result, error != NULL ? error : carom_status_name(status), error != NULL || status < 0);
+    write_csv(s, id, result, error != NULL ? error : carom_status_name(status));
 }
 
-bool sink_commit(result_sink *s) {
-  bool good = true;
-  if (s->array) { /* now that the rows have been counted */
-    good = fseek(s->file, 0, SEEK_SET) == 0;
-    if (good)
-      npy_write_header(s->file, s->single ? "<f4" : "<f8", s->rows, NUMBERS);
-    else
-      complain("a .npy file needs a place that can be sought, not a pipe");
+bool sink_close(result_sink *s, bool good) {
+  if (good && s->array && fseek(s->file, 0, SEEK_SET) != 0) {
+    complain("a .npy file needs a place that can be sought, not a pipe");
+    good = false;
   }
-  if (good)
-    good = output_commit();
-  else
+  if (good && s->array) /* now that the rows have been counted */
+    npy_write_header(s->file, s->single ? "<f4" : "<f8", s->rows, NUMBERS);
+  if (!good)
     output_abandon();
   free(s);
-  return good;
-}
-
-void sink_abandon(result_sink *s) {
-  output_abandon();
-  free(s);
+  return good && output_commit();
 }

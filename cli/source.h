@@ -12,9 +12,8 @@ enum { CSV_BLOCK = 1024, NPY_BLOCK = 65536 };
 
 typedef struct source_block {
   size_t first, count;
-  const void *impact;    /* count of carom_impact, or of carom_impact_f32 where the source is single */
-  const impact_row *row; /* what else is known of each, or NULL: nothing, and the number of the row is the id */
-  void *own;             /* the source's memory for the block */
+  void *impact;    /* count of carom_impact, or of carom_impact_f32 where the source is single */
+  impact_row *row; /* what else is known of each, or NULL: nothing, and the number of the row is the id */
 } source_block;
 
 /* Opens a file by its name: .npy, or CSV, or "-" for CSV on stdin; the column u_b may be missing if it is not `needed`.
@@ -28,12 +27,15 @@ bool source_is_single(const row_source *source);
 read_result source_read(row_source *source, source_block *block);
 void source_free_block(source_block *block);
 
+/* Row k of a block in double precision; 0 throughout if it could not be read. */
+carom_impact source_impact(const row_source *source, const source_block *block, size_t k);
+
 /* Complains about row k of a block: what, where and what would be right. `status` is the library's, CAROM_OK where the row
  * could not be read. */
 void source_report(const row_source *source, const source_block *block, size_t k, const carom_options *options,
                    carom_status status);
 
-/* The share of the input that has been read, 0 to 1, or -1 where it is not known. */
+/* The share of the input that has been read, 0 to 1, or -1 where it is not known; not while another thread reads. */
 double source_share(const row_source *source);
 
 void source_close(row_source *source);

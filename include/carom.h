@@ -85,11 +85,14 @@ typedef struct carom_result {
   X(ERROR_HEIGHTS_DIFFER, -14, "heights_differ", "both centres must be at the same height")                    \
   X(ERROR_VERTICAL, -15, "vertical_velocity", "the vertical velocity must be 0: both balls stay on the table") \
   X(ERROR_COINCIDENT, -16, "centres_coincide", "the centres coincide, so there is no line of centres")         \
-  X(ERROR_TOO_SLOW, -17, "too_slow", "the approach is too slow for Euler's steps: each is lost in rounding")   \
+  X(ERROR_TOO_SLOW, -17, "too_slow",                                                                           \
+    "Euler's method is too slow here: its steps are lost in rounding, or more than 16 N of them are needed")   \
   X(ERROR_OVERFLOW, -18, "overflow", "the collision overflows the range of double")                            \
   X(ERROR_MASSES_DIFFER, -19, "masses_differ", "this kernel is for balls of equal mass only")                  \
   X(ERROR_THREADS, -20, "bad_threads", "options.threads must not be negative")                                 \
-  X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")
+  X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                        \
+  X(ERROR_UNRESOLVED, -22, "unresolved",                                                                       \
+    "the collision is too extreme: its result hangs on rounding errors, or takes more work than a call may cost")
 
 typedef enum carom_status {
 #define CAROM_STATUS_ENUM(NAME, value, name, text) CAROM_##NAME = (value),

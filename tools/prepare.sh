@@ -32,6 +32,19 @@ want() {
   $2: $3"
 }
 
+# need_python WHY MODULE..., want_python WHY MODULE...: the same for modules of Python, which tools/python finds or gets by itself
+# where it can; Debian's packages otherwise.
+need_python() { python_modules need "$@"; }
+want_python() { python_modules want "$@"; }
+python_modules() {
+  note=$1 why=$2
+  shift 2
+  CAROM_PYTHON_MODULES="$*" tools/python -c '' 2> /dev/null && return 0
+  for module; do
+    "$note" "/usr/lib/python3/dist-packages/$module" "python3-$module" "$why"
+  done
+}
+
 # Installs what need() and want() have noted. Fails, and says what to install, where something needed cannot be had.
 install_missing() {
   [ -n "$missing$wanted" ] || return 0
@@ -96,9 +109,9 @@ need_to_build() {
   need '/usr/include/stdio.h' libc6-dev "headers of the C library"
   need cmake cmake "build system"
   need ninja ninja-build "build system"
-  need '/usr/include/csv.h' libcsv-dev "CSV reading in the command"
+  need '/usr/include/csv.h' libcsv-dev "CSV reading in the programs"
   want '/usr/bin/clang-1[5-9] /usr/bin/clang-[2-9][0-9]' clang-newest "a second compiler for the seed paper's kernels, and its first choice"
-  want '/usr/include/papi.h' libpapi-dev "hardware counters in carom bench, where the machine has some"
+  want '/usr/include/papi.h' libpapi-dev "hardware counters in carom-lab bench, where the machine has some"
 }
 
 # build PRESET [CMAKE-OPTIONS]: configures and builds; quiet unless it fails.

@@ -3,18 +3,11 @@
 #include "clock.h"
 
 #include <math.h>
-#include <time.h>
 
 #if defined(__x86_64__)
 #include <cpuid.h>
 #include <x86intrin.h>
 #endif
-
-double clock_ns(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
-}
 
 #if defined(__x86_64__)
 

@@ -3,11 +3,10 @@
 #ifndef CAROM_BENCH_CLOCK_H
 #define CAROM_BENCH_CLOCK_H
 
+#include "monotonic.h" /* clock_ns(), the first of them */
+
 #include <stdbool.h>
 #include <stdint.h>
-
-/* Nanoseconds on the monotonic clock. */
-double clock_ns(void);
 
 /* Does this processor have a counter that ticks evenly? */
 bool clock_has_ticks(void);

@@ -10,7 +10,11 @@ static int ascending(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-static double median_of_sorted(const double *sample, size_t n) {
+void sort_samples(double *sample, size_t n) {
+  qsort(sample, n, sizeof *sample, ascending);
+}
+
+double median_of_sorted(const double *sample, size_t n) {
   return n % 2 == 1 ? sample[n / 2] : 0.5 * (sample[n / 2 - 1] + sample[n / 2]);
 }
 
@@ -21,11 +25,11 @@ sample_summary summarise(double *sample, size_t n) {
       return unknown;
   if (n == 0)
     return unknown;
-  qsort(sample, n, sizeof *sample, ascending);
+  sort_samples(sample, n);
   sample_summary s = {.count = n, .median = median_of_sorted(sample, n), .min = sample[0], .max = sample[n - 1]};
   for (size_t k = 0; k < n; k++)
     sample[k] = fabs(sample[k] - s.median);
-  qsort(sample, n, sizeof *sample, ascending);
+  sort_samples(sample, n);
   s.spread = median_of_sorted(sample, n);
   return s;
 }

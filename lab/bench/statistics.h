@@ -10,6 +10,12 @@ typedef struct sample_summary {
   double spread; /* median absolute deviation from the median: half of the samples lie within it */
 } sample_summary;
 
+/* Sorts n samples, which are no NaN. */
+void sort_samples(double *sample, size_t n);
+
+/* Of n > 0 sorted samples the one in the middle, or the mean of the two. */
+double median_of_sorted(const double *sample, size_t n);
+
 /* Summarises n samples; reorders and overwrites them. All is NAN for n = 0 or where a sample is NAN. */
 sample_summary summarise(double *sample, size_t n);
 

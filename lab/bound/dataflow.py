@@ -12,7 +12,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from machine_code import access_bytes
+from .machine_code import access_bytes
 
 LATENCIES = Path(__file__).with_name("latencies.txt")
 

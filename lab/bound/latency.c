@@ -10,8 +10,9 @@
  * is forwarded early.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "monotonic.h"
+
 #include <stdio.h>
-#include <time.h>
 
 /* X(name, row, instructions of one link, its helper or itself, how often the row stands in a link). The value of the chain is
  * in xmm0 or rax and begins with 1.618...; 2.718... is in xmm2, 0 in xmm3, 1 in xmm4, scratch memory is at -512(rsp): as
@@ -44,26 +45,20 @@
 
 enum { ROUNDS = 400, TURNS = 50, LINKS = 100 };
 
-static double seconds(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static const double full[2][2] = {{1.61803398874989, 1.0}, {2.71828182845904, 1.0}}, one[2] = {1.0, 1.0};
 
 /* The whole loop is one piece of assembly: a value set anew between two turns would let them overlap. */
 #define TIME(name, row, instructions, helper, times)                                            \
   static double time_##name(void) {                                                             \
     int turns = TURNS;                                                                          \
-    const double begin = seconds();                                                             \
+    const double begin = clock_ns();                                                            \
     __asm__ volatile("vmovupd %1, %%xmm0\n\tvmovupd %2, %%xmm2\n\tvmovupd %3, %%xmm4\n\t"       \
                      "vxorpd %%xmm3, %%xmm3, %%xmm3\n1:\n\t"                                    \
                      ".rept 100\n\t" instructions ".endr\n\tdec %0\n\tjnz 1b\n\tvzeroupper\n\t" \
                      : "+r"(turns)                                                              \
                      : "m"(full[0]), "m"(full[1]), "m"(one)                                     \
                      : "rax", "xmm0", "xmm2", "xmm3", "xmm4", "memory", "cc");                  \
-    return (seconds() - begin) / (TURNS * LINKS);                                               \
+    return (clock_ns() - begin) / (TURNS * LINKS);                                              \
   }
 CHAINS(TIME)
 
@@ -88,7 +83,7 @@ int main(void) {
       CHAINS(ROW)};
   double least[COUNT];
   for (int k = 0; k < COUNT; k++)
-    least[k] = 1.0;
+    least[k] = 1e9;
   for (int round = 0; round < ROUNDS; round++)
     for (int k = 0; k < COUNT; k++) {
       const double t = chains[k].time();
@@ -97,8 +92,8 @@ int main(void) {
   printf("row,cycles,ns\n");
   for (int k = 0; k < COUNT; k++) {
     const double helper = chains[k].helper == k ? 0.0 : least[chains[k].helper];
-    const double ns = 1e9 * (least[k] - helper) / chains[k].times;
-    printf("%s,%.2f,%.4f\n", chains[k].row, ns / (1e9 * least[NUMBER_cycle]), ns);
+    const double ns = (least[k] - helper) / chains[k].times;
+    printf("%s,%.2f,%.4f\n", chains[k].row, ns / least[NUMBER_cycle], ns);
   }
   return 0;
 }

@@ -1,8 +1,8 @@
 # Error against time: a line for each kernel that was swept over N, marks for those that take no steps: one for single calls, and
 # for batches one for each number of threads. Marks stand at the largest error of the cases; dotted is the way down to the median,
 # for the library's kernels.
-width = 1000; height = 640
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/style.gp" ARG1 ARG2 ARG3
+width = 1000; height = 640; tall = 900
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3 ARG4
 
 # Names: 1 kernel, 2 config, 3 isa, 4 precision, 6 steps.
 select(what, condition) = system("awk -F, '/^#/ { next } n++ && (".condition.") && !seen[".what."]++ { printf \"%s \", ".what." }' '".data."'")
@@ -26,9 +26,10 @@ set xlabel "time of a collision"
 set ylabel "pair error against the exact solution" offset -0.5,0
 set xtics ("1 ns" 0.001, "10 ns" 0.01, "100 ns" 0.1, "1 µs" 1, "10 µs" 10, "100 µs" 100, "1 ms" 1000, "10 ms" 10000)
 set format y "10^{%T}"
-set lmargin at screen 0.10; set rmargin at screen 0.745
-set bmargin at screen 0.19
+set lmargin at screen (narrow ? 0.185 : 0.10); set rmargin at screen (narrow ? 0.95 : 0.745)
+set bmargin at screen (narrow ? px(420) : 0.19)
 set key at screen 0.76, graph 1 left top vertical maxrows 20 noenhanced Left reverse samplen 2.5
+if (narrow) set key at screen 0.03, screen px(355) left top
 mark(k) = 7 + 2 * ((k - 1) / 2) % 8 + (k % 2 ? 2 : 1)
 plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_exact_max" \
        with linespoints lt line_of(word(kernels, k), k) title word(kernels, k), \

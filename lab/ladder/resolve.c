@@ -19,7 +19,7 @@
  */
 #include "ladder.h"
 
-#include "result.h"
+#include "ball_ball/result.h"
 
 #include <float.h>
 #include <math.h>

@@ -11,7 +11,7 @@
 #ifndef CAROM_LADDER_RUNG_H
 #define CAROM_LADDER_RUNG_H
 
-#include "frame.h"
+#include "ball_ball/frame.h"
 
 /* Advances `state` from contact to the end of the collision. Needs v_jy < v_iy, M_i = M_j, and N steps that are resolved in the
  * rung's precision: see carom_ladder_resolve() for what exactly. */

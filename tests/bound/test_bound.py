@@ -12,14 +12,12 @@ import unittest
 from collections import Counter
 from pathlib import Path
 
-sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
-BOUND = HERE.parent.parent / "lab" / "bound"
-sys.path.insert(0, str(BOUND))
-import callgrind
-import dataflow
-import machine_code
-import trace
+ROOT = HERE.parent.parent
+sys.path.insert(0, str(ROOT))
+from lab.bound import callgrind, dataflow, loops, machine_code
+
+COMMAND = [sys.executable, "-m", "lab.bound"]
 
 
 def code(*lines):
@@ -99,7 +97,7 @@ class Joining(unittest.TestCase):
         self.assertEqual(callgrind.flops(total, fma=2) - callgrind.flops(total), total["fma"])
 
     def test_the_hot_loop_is_found(self):
-        ((executions, path),) = trace.hot_loops(self.code, self.counts, self.taken, 5)
+        ((executions, path),) = loops.hot_loops(self.code, self.counts, self.taken, 5)
         self.assertEqual(executions, 11)
         self.assertEqual(sum(self.classifier.operations(i).get("sqrt", 0) for i in path), 3)
 
@@ -112,7 +110,7 @@ class Paths(unittest.TestCase):
     def test_the_path_follows_what_is_taken_more(self):
         lines = code("vaddsd %xmm0,%xmm1,%xmm1", "jne c", "vdivsd %xmm0,%xmm1,%xmm1", "vmulsd %xmm0,%xmm1,%xmm1", "jb 0", "ret")
         counts, taken = Counter({0: 100, 4: 100, 8: 3, 12: 100, 16: 100, 20: 1}), Counter({4: 97, 16: 99})
-        ((executions, path),) = trace.hot_loops(lines, counts, taken, 10)
+        ((executions, path),) = loops.hot_loops(lines, counts, taken, 10)
         self.assertEqual([executions] + [i.address for i in path], [100, 0, 4, 12, 16])
 
 
@@ -141,7 +139,7 @@ class Chains(unittest.TestCase):
     def test_models(self):
         latencies = dataflow.read_latencies()["zen2"]
         for name, cycles in (("base", 67), ("double", 38)):
-            pace, steps = dataflow.chain(dataflow.read_model((BOUND / "models" / f"{name}.txt").read_text(), latencies))
+            pace, steps = dataflow.chain(dataflow.read_model((ROOT / "lab" / "bound" / "models" / f"{name}.txt").read_text(), latencies))
             self.assertEqual(pace, cycles)
             self.assertEqual(sum(latency for _, latency in steps), cycles)
 
@@ -152,7 +150,7 @@ class Chains(unittest.TestCase):
 
 class Command(unittest.TestCase):
     def run_bound(self, *words, **more):
-        return subprocess.run([sys.executable, BOUND / "bound", *map(str, words)], capture_output=True, text=True, **more)
+        return subprocess.run([*COMMAND, *map(str, words)], capture_output=True, text=True, cwd=ROOT, **more)
 
     def test_times_over_bounds(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -193,8 +191,8 @@ def live():
     if probe.returncode:
         print("skipped: gcc does not compile for Zen 2 here")
         return 77
-    command = [sys.executable, BOUND / "bound", "--rung", "base", "--compiler", "gcc", "--steps", "100"]
-    done = subprocess.run(command, capture_output=True, text=True)
+    command = [*COMMAND, "--rung", "base", "--compiler", "gcc", "--steps", "100"]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
     lines = [line.split(",") for line in done.stdout.splitlines() if not line.startswith("#")]
     row = dict(zip(lines[0], lines[1]))
     assert done.returncode == 0, done.stderr

@@ -23,6 +23,6 @@ good="0,0,0.03,0.3,1,0,-33,10,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0
   echo "long,$good,7"
   echo "good3,$good"
 } > in.csv
-try carom resolve --kernel euler -o out.csv in.csv
+try carom resolve --solver euler -o out.csv in.csv
 cut -d, -f1,2,3,14 out.csv
 grep ^good out.csv | cut -d, -f2- | sort -u | wc -l

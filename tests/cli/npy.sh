@@ -1,5 +1,4 @@
 # NumPy arrays in and out: files that NumPy writes are read, files that are written NumPy reads; the rest is refused.
-python() { /usr/bin/python3 "$@"; }
 cat > make.py <<'PYTHON'
 import csv, sys, numpy as np
 names = "r1x r1y r1z v1x v1y v1z w1x w1y w1z R M u_s1 r2x r2y r2z v2x v2y v2z w2x w2y w2z R M u_s2 u_b e_b".split()
@@ -22,9 +21,9 @@ open("other.npy", "wb").write(b"id,r1x\n" * 20)
 with open("version2.npy", "wb") as f: np.lib.format.write_array(f, a, version=(2, 0))
 PYTHON
 python make.py "$DATA/collisions-204.csv"
-carom resolve --kernel euler -o csv.csv "$DATA/collisions-204.csv"
+carom resolve --solver euler -o csv.csv "$DATA/collisions-204.csv"
 for name in f8 version2; do
-  try carom resolve --kernel euler -o out.npy $name.npy
+  try carom resolve --solver euler -o out.npy $name.npy
   cat > same.py <<'PYTHON'
 import csv, numpy as np
 out = np.load("out.npy")
@@ -33,15 +32,15 @@ print(out.dtype, out.shape, "same as CSV" if out.tobytes() == text.tobytes() els
 PYTHON
   python same.py
 done
-try carom resolve --kernel euler -o single.npy f4.npy
+try carom resolve --solver euler -o single.npy f4.npy
 python -c 'import numpy as np; a, b = np.load("out.npy"), np.load("single.npy"); print(b.dtype, b.shape, np.abs(a - b).max() < 0.5)'
-try carom resolve --kernel euler --precision double -o wide.npy f4.npy
+try carom resolve --solver euler --precision double -o wide.npy f4.npy
 python -c 'import numpy as np; a = np.load("wide.npy"); print(a.dtype, a.shape)'
-try carom resolve --kernel euler --precision single -o narrow_out.npy f8.npy
+try carom resolve --solver euler --precision single -o narrow_out.npy f8.npy
 python -c 'import numpy as np; a, b = np.load("single.npy"), np.load("narrow_out.npy"); print(b.dtype, (a == b).all())'
-try carom resolve --kernel euler -o from_csv.npy "$DATA/collisions-204.csv"
+try carom resolve --solver euler -o from_csv.npy "$DATA/collisions-204.csv"
 cmp from_csv.npy out.npy && echo "CSV to array: same"
-carom resolve --kernel euler f8.npy | cut -d, -f2- > a; cut -d, -f2- csv.csv | cmp - a && echo "array to CSV: same"
+carom resolve --solver euler f8.npy | cut -d, -f2- > a; cut -d, -f2- csv.csv | cmp - a && echo "array to CSV: same"
 try carom resolve -o empty_out.npy empty.npy
 python -c 'import numpy as np; print(np.load("empty_out.npy").shape)'
 try carom resolve -o bad_out.npy bad.npy

@@ -8,6 +8,6 @@ rows=1000000
 # The limit is on address space, of which the sanitizers need terabytes: with them only the result is tested.
 limit="ulimit -v 65536"
 (eval "$limit"; carom --version > /dev/null 2>&1) || limit=:
-(eval "$limit"; try carom resolve --kernel euler -o out.csv big.csv 2> /dev/null)
+(eval "$limit"; try carom resolve --solver euler -o out.csv big.csv 2> /dev/null)
 wc -l < out.csv
 sed -n '2p;$p' out.csv | cut -d, -f14

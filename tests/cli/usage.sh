@@ -5,7 +5,11 @@ try carom frobnicate
 try carom resolve
 try carom resolve a b
 try carom resolve --frobnicate x.csv
-try carom resolve --kernel fast x.csv
+try carom resolve --solver fast x.csv
+try carom resolve --precision half x.csv
+try carom resolve --threads -1 x.csv
+try carom resolve --kernel exact x.csv
+try carom bench
 try carom resolve --slip none x.csv
 try carom resolve --steps 0 x.csv
 try carom resolve --steps 1e3 x.csv
@@ -22,8 +26,4 @@ try carom resolve -o out.csv both.csv
 echo "$header" | sed 's/,M,/,M1,/' > half.csv
 try carom resolve -o out.csv half.csv
 try carom resolve -o nowhere/out.csv "$DATA/collisions-204.csv"
-try carom kernels now
-try carom verify now
-try carom verify --kernel fast
-try carom verify --data nowhere
 ls out.csv* 2>/dev/null || echo "no output"

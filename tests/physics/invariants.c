@@ -9,7 +9,7 @@
  * Every solver is held to all of it. Energy never rises with the paper's slip. Turning the scene by a quarter turn, mirroring
  * it and swapping the balls permute and negate numbers exactly, so the results must agree in every bit; another angle rounds.
  */
-#include "frame.h"
+#include "ball_ball/frame.h"
 #include "support.h"
 
 #include <math.h>

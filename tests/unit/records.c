@@ -2,7 +2,6 @@
 #include "records.h"
 #include "support.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -117,33 +116,7 @@ START_TEST(a_nul_does_not_end_a_field) {
 }
 END_TEST
 
-START_TEST(numbers) {
-  const struct {
-    const char *text;
-    double value;
-  } good[] = {{"1", 1},
-              {"-1.5e-3", -0.0015},
-              {" 2 ", 2},
-              {"+.5", 0.5},
-              {"0x1p-2", 0.25},
-              {"inf", INFINITY},
-              {"-INF", -INFINITY},
-              {"Infinity", INFINITY},
-              {"1e999", INFINITY},
-              {"1e-999", 0}};
-  double x;
-  for (size_t k = 0; k < sizeof good / sizeof good[0]; k++) {
-    ck_assert_msg(parse_number(good[k].text, &x), "%s", good[k].text);
-    ck_assert(x == good[k].value);
-  }
-  ck_assert(parse_number("NaN", &x) && isnan(x));
-  const char *const bad[] = {"", " ", "1,5", "1.5.2", "one", "1e", "--1", "1 2", "0x"};
-  for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
-    ck_assert_msg(!parse_number(bad[k], &x), "%s", bad[k]);
-}
-END_TEST
-
 int main(void) {
   return RUN_TESTS("records", shapes_of_files, quotes, a_quote_left_open_costs_one_record, a_line_without_end_costs_one_record,
-                   a_nul_does_not_end_a_field, numbers);
+                   a_nul_does_not_end_a_field);
 }

@@ -1,0 +1,49 @@
+/* A program of subcommands: finds the one that is asked for and hands over. */
+#include "command.h"
+
+#include "carom.h"
+#include "message.h"
+#include "output.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void print_help(const program *p, FILE *to) {
+  fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n\ncommands:\n", p->name, p->about);
+  for (size_t k = 0; k < p->count; k++)
+    fprintf(to, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
+  fprintf(to, "\n`%s COMMAND --help` tells the arguments of each; `%s --version` the version.\n\nexample:\n  %s\n", p->name,
+          p->name, p->example);
+}
+
+/* What could not be written was not said, so the run was not good. */
+static int finish(int code) {
+  if (code == EXIT_USAGE || (fflush(stdout) == 0 && !ferror(stdout)))
+    return code;
+  complain("cannot write standard output");
+  return EXIT_USAGE;
+}
+
+int program_run(const program *p, int argc, char **argv) {
+  program_name = p->name;
+  atexit(output_abandon); /* a program that ends early leaves no half-written output */
+  if (argc < 2) {
+    print_help(p, stderr);
+    return EXIT_USAGE;
+  }
+  const char *name = argv[1];
+  if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
+    print_help(p, stdout);
+    return finish(EXIT_GOOD);
+  }
+  if (strcmp(name, "--version") == 0) {
+    printf("%s %s\n", p->name, carom_version());
+    return finish(EXIT_GOOD);
+  }
+  for (size_t k = 0; k < p->count; k++)
+    if (strcmp(name, p->commands[k].name) == 0)
+      return finish(p->commands[k].run(argc - 1, argv + 1));
+  complain("no command '%s'; `%s --help` lists them", name, p->name);
+  return EXIT_USAGE;
+}

@@ -1,0 +1,115 @@
+/* What options read into their fields, and the rows that several tables have. */
+#include "message.h"
+#include "number.h"
+#include "options.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+OPTION_SET(set_flag) {
+  (void)row;
+  (void)text;
+  *(bool *)field = true;
+  return true;
+}
+
+OPTION_SET(set_text) {
+  (void)row;
+  *(const char **)field = text;
+  return true;
+}
+
+OPTION_SET(set_count) {
+  char *end;
+  errno = 0;
+  const long value = strtol(text, &end, 10);
+  if (end == text || *end != '\0' || errno != 0 || value < row->least || value > INT_MAX) {
+    complain("--%s is a whole number from %d to %d, not '%s'", row->name, row->least, INT_MAX, text);
+    return false;
+  }
+  *(int *)field = (int)value;
+  return true;
+}
+
+OPTION_SET(set_number) {
+  if (parse_number(text, field) && isfinite(*(double *)field))
+    return true;
+  complain("--%s is a number, not '%s'", row->name, text);
+  return false;
+}
+
+int place_among(const char *words, const char *text, size_t size) {
+  for (int place = 0; *words != '\0'; place++) {
+    const size_t length = strcspn(words, " |");
+    if (length == size && memcmp(words, text, size) == 0)
+      return place;
+    words += length + (words[length] != '\0');
+  }
+  return -1;
+}
+
+OPTION_SET(set_choice) {
+  const int place = place_among(row->argument, text, strlen(text)), first = (int)strcspn(row->argument, "|");
+  if (place >= 0)
+    *(int *)field = place;
+  else
+    complain("--%s is %.*s or %s, not '%s'", row->name, first, row->argument, row->argument + first + 1, text);
+  return place >= 0;
+}
+
+static OPTION_SET(set_solvers) {
+  static const solver_list lists[] = {
+      {{CAROM_SOLVER_EXACT}, 1}, {{CAROM_SOLVER_EULER}, 1}, {{CAROM_SOLVER_EXACT, CAROM_SOLVER_EULER}, 2}};
+  const int place = place_among("exact|euler|exact,euler", text, strlen(text));
+  if (place >= 0)
+    *(solver_list *)field = lists[place];
+  else
+    complain("--%s is exact, euler, or both as exact,euler, not '%s'", row->name, text);
+  return place >= 0;
+}
+
+static OPTION_SET(set_law) {
+  friction_law *law = field;
+  static const char name[] = "alciatore";
+  const size_t size = sizeof name - 1;
+  char rest;
+  *law = (friction_law){.given = true, .law = carom_alciatore()};
+  if (strncmp(text, name, size) == 0 &&
+      (text[size] == '\0' ||
+       (text[size] == '=' && sscanf(text + size + 1, "%lf,%lf,%lf%c", &law->law.a, &law->law.b, &law->law.c, &rest) == 3)))
+    return true;
+  complain("--%s is alciatore or alciatore=a,b,c (mu = a + b exp(-c |u|)), not '%s'", row->name, text);
+  return false;
+}
+
+/* ---- The rows */
+
+_Static_assert(CAROM_SOLVER_EXACT == 0 && CAROM_SOLVER_EULER == 1 && CAROM_SLIP_PAPER == 0 && CAROM_SLIP_POOLTOOL == 1,
+               "the places of the choices are the values");
+
+#define ROW(row, name, member, letter, argument, set, least, help) \
+  const option_row row = {name, letter, argument, help, set, offsetof(shared_options, member), least}
+
+ROW(option_solver, "solver", options.solver, 0, "exact|euler", set_choice, 0,
+    "the limit of infinitely many steps (default), or the 2014 paper's steps of equal impulse");
+ROW(option_solvers, "solver", solvers, 0, "LIST", set_solvers, 0, "exact (default), euler, or exact,euler");
+ROW(option_slip, "slip", options.slip, 0, "paper|pooltool", set_choice, 0,
+    "sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's");
+ROW(option_steps, "steps", options.steps, 0, "N", set_count, 1, "steps of Euler's method, 1 or more (default 1000)");
+ROW(option_threads, "threads", options.threads, 0, "N", set_count, 0,
+    "most threads for solving; 0, the default: one for each processor");
+ROW(option_friction, "friction", friction, 0, "LAW", set_law, 0,
+    "friction between the balls by their slip speed instead of the column u_b: alciatore,\n"
+    "which is mu = a + b exp(-c |u|) with the usual fit, or alciatore=a,b,c");
+ROW(option_precision, "precision", precision, 0, "double|single", set_choice, 0,
+    "of the solver (default: single for a float32 array, else double)");
+ROW(option_id, "id", id, 0, "X", set_text, 0, "which collision: its column id, or the number of its row if there is none");
+ROW(option_data, "data", folder, 0, "DIR", set_text, 0,
+    "folder of the reference collisions (default: $CAROM_DATA, else what came with carom)");
+ROW(option_output, "output", output, 'o', "OUT", set_text, 0,
+    "file to write, - for standard output (default); it appears whole or not at all");
+ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, "counts and time on standard error at the end");

@@ -1,0 +1,29 @@
+/* Memory that is there or ends the program. */
+#include "memory.h"
+
+#include "command.h"
+#include "message.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+
+static void *checked(void *block) {
+  if (block == NULL) {
+    complain("out of memory");
+    exit(EXIT_USAGE);
+  }
+  return block;
+}
+
+void *allocate(size_t count, size_t size) {
+  return checked(calloc(count > 0 ? count : 1, size));
+}
+
+void *grow(void *block, size_t *room, size_t needed, size_t size) {
+  if (needed <= *room)
+    return block;
+  const size_t larger = needed > 2 * *room ? needed : 2 * *room;
+  block = checked(larger <= SIZE_MAX / size ? realloc(block, larger * size) : NULL);
+  *room = larger;
+  return block;
+}

@@ -1,0 +1,110 @@
+/* The options of a subcommand: help and parsing from one table. What the fields are is known to fields.c. */
+#include "options.h"
+
+#include "command.h"
+#include "message.h"
+
+#include <getopt.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_ROWS = 32, FIRST_CODE = UCHAR_MAX + 1 };
+
+static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};
+
+/* "  -o, --output OUT" */
+static int write_head(const option_row *row, char text[80]) {
+  const char letter[] = {'-', row->letter, ',', ' ', '\0'};
+  return snprintf(text, 80, "  %s--%s%s%s", row->letter != 0 ? letter : "", row->name, row->argument != NULL ? " " : "",
+                  row->argument != NULL ? row->argument : "");
+}
+
+/* The first line of the help beside the head, the others below it. */
+static void print_row(const option_row *row, int width) {
+  char head[80];
+  printf("%*s", -width, (write_head(row, head), head));
+  for (const char *at = row->help; *at != '\0'; at++)
+    printf(*at == '\n' ? "\n%*s" : "%c", *at == '\n' ? width : *at, "");
+  putchar('\n');
+}
+
+static void print_help(const command_form *form) {
+  int width = 0;
+  char head[80];
+  for (size_t k = 0; form->options[k] != NULL; k++) {
+    const int used = write_head(form->options[k], head) + 2;
+    width = used > width ? used : width;
+  }
+  printf("usage: %s %s%s%s\n\n%s\noptions:\n", program_name, form->name, form->usage[0] != '\0' ? " " : "", form->usage,
+         form->about);
+  for (size_t k = 0; form->options[k] != NULL; k++)
+    print_row(form->options[k], width);
+  print_row(&help_row, width);
+  printf("\n%s\nexample:\n  %s\n", form->details, form->example);
+}
+
+int usage_hint(const command_form *form) {
+  fprintf(stderr, "`%s %s --help` tells the arguments\n", program_name, form->name);
+  return EXIT_USAGE;
+}
+
+static const option_row *row_of(const command_form *form, int code) {
+  for (int k = 0; form->options[k] != NULL; k++)
+    if (code == FIRST_CODE + k || (code != 0 && code == form->options[k]->letter))
+      return form->options[k];
+  return code == help_row.letter ? &help_row : NULL;
+}
+
+/* What getopt wants to know of the table. */
+static void list_options(const command_form *form, struct option longs[MOST_ROWS], char shorts[2 * MOST_ROWS]) {
+  int k = 0;
+  for (; form->options[k] != NULL && k < MOST_ROWS - 2; k++) {
+    const option_row *row = form->options[k];
+    longs[k] = (struct option){row->name, row->argument != NULL ? required_argument : no_argument, NULL, FIRST_CODE + k};
+    if (row->letter != 0)
+      strcat(strncat(shorts, &row->letter, 1), row->argument != NULL ? ":" : "");
+  }
+  longs[k] = (struct option){help_row.name, no_argument, NULL, help_row.letter};
+}
+
+/* Sets the fields; -1, or an exit code. */
+static int parse_options(const command_form *form, int argc, char **argv, void *job) {
+  struct option longs[MOST_ROWS] = {0};
+  char shorts[2 * MOST_ROWS] = "h";
+  int option;
+  list_options(form, longs, shorts);
+  while ((option = getopt_long(argc, argv, shorts, longs, NULL)) != -1) {
+    const option_row *row = row_of(form, option);
+    if (row == NULL) /* getopt has complained */
+      return usage_hint(form);
+    if (row == &help_row) {
+      print_help(form);
+      return EXIT_GOOD;
+    }
+    if (!row->set(row, optarg, (char *)job + row->field))
+      return EXIT_USAGE;
+  }
+  return -1;
+}
+
+int parse_arguments(const command_form *form, int argc, char **argv, void *job, const char **file) {
+  static char self[64];
+  snprintf(self, sizeof self, "%s: %s", program_name, form->name); /* getopt's own complaints begin with it */
+  argv[0] = self;
+  const int code = parse_options(form, argc, argv, job), files = argc - optind;
+  if (code >= 0)
+    return code;
+  if (form->files == NO_FILES && files > 0)
+    complain("%s takes no files, but got '%s'", form->name, argv[optind]);
+  else if (form->files == ONE_FILE && files == 0)
+    complain("%s needs the name of a file", form->name);
+  else if (files > 1)
+    complain("%s takes one file, but got %d", form->name, files);
+  else {
+    if (file != NULL)
+      *file = files == 1 ? argv[optind] : NULL;
+    return -1;
+  }
+  return usage_hint(form);
+}

@@ -1,0 +1,84 @@
+/* The options of a subcommand: one table, which prints the help and parses.
+ *
+ * A row reads its argument into a field of the subcommand's own struct, the job. Options that several subcommands take are rows
+ * here, of fields of shared_options, with which every job begins.
+ */
+#ifndef CAROM_CLI_OPTIONS_H
+#define CAROM_CLI_OPTIONS_H
+
+#include "carom.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct option_row {
+  const char *name;     /* without its dashes */
+  char letter;          /* the short form, or 0 */
+  const char *argument; /* what the help calls it; NULL for a flag, which has none */
+  const char *help;     /* lines, with '\n' between them */
+  /* Reads `text` into the field; complains and returns false where it is none of its values. May change the text. */
+  bool (*set)(const struct option_row *row, char *text, void *field);
+  size_t field; /* offsetof(the job, field) */
+  int least;    /* for set_count */
+} option_row;
+
+enum { NO_FILES, FILE_OR_NONE, ONE_FILE };
+
+typedef struct command_form {
+  const char *name;                 /* "resolve" */
+  const char *usage;                /* what stands behind it: "[OPTIONS] IN" */
+  const char *about;                /* what it does */
+  const option_row *const *options; /* ends with NULL */
+  const char *details;              /* columns, exit codes: what stands behind the options */
+  const char *example;              /* a line that begins with the program's name */
+  int files;                        /* NO_FILES, ... */
+} command_form;
+
+/* Reads the arguments of a subcommand into its job, and the one file, if any, into `*file`. Returns -1 where the subcommand
+ * should go on, else the exit code to end with: the help has been printed, or a complaint. */
+int parse_arguments(const command_form *form, int argc, char **argv, void *job, const char **file);
+
+/* Says where help is; returns EXIT_USAGE. */
+int usage_hint(const command_form *form);
+
+#define OPTION_SET(function) bool function(const option_row *row, char *text, void *field)
+OPTION_SET(set_flag);   /* bool */
+OPTION_SET(set_text);   /* const char * */
+OPTION_SET(set_count);  /* int: a whole number from row->least */
+OPTION_SET(set_number); /* double, finite */
+OPTION_SET(set_choice); /* int, or an enumeration of two: the place of the text in row->argument, "this|that" */
+
+/* The place of `text`, of `size` characters, among words with blanks or bars between them; -1 if it is none of them. */
+int place_among(const char *words, const char *text, size_t size);
+
+/* Friction between the balls by their slip speed, where it is `given`. */
+typedef struct friction_law {
+  bool given;
+  carom_speed_law law;
+} friction_law;
+
+/* Solvers of the library, one or both. */
+typedef struct solver_list {
+  carom_solver solver[2];
+  int count;
+} solver_list;
+
+enum precision { ANY_PRECISION = -1, DOUBLE_PRECISION, SINGLE_PRECISION };
+
+typedef struct shared_options {
+  carom_options options; /* --solver of one, --slip, --steps, --threads */
+  solver_list solvers;   /* --solver of several */
+  friction_law friction;
+  int precision;                    /* enum precision */
+  const char *id, *folder, *output; /* --id, --data, --output */
+  bool summary;
+} shared_options;
+
+extern const option_row option_solver, option_solvers, option_slip, option_steps, option_threads, option_friction,
+    option_precision, option_id, option_data, option_output, option_summary;
+
+/* A row of one table alone: OPTION(job, option_NAME, field, letter, argument, set, least, help). */
+#define OPTION(job, row, name, member, letter, argument, set, least, help) \
+  static const option_row row = {name, letter, argument, help, set, offsetof(job, member), least}
+
+#endif

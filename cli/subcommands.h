@@ -1,0 +1,9 @@
+/* The subcommands of `carom`, a file each: command_NAME.c. */
+#ifndef CAROM_CLI_SUBCOMMANDS_H
+#define CAROM_CLI_SUBCOMMANDS_H
+
+int command_resolve(int argc, char **argv);
+int command_trace(int argc, char **argv);
+int command_sweep(int argc, char **argv);
+
+#endif

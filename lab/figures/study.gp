@@ -1,0 +1,17 @@
+# What the study's figures share beyond the style of all: the machine at the foot, and how a kernel looks.
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../cli/figures/style.gp" ARG1 ARG2 ARG3 ARG4
+
+# Where and with what the data were measured: two lines at the foot, which need a bottom margin of about 105 points.
+if (!exists("build")) build = system("sed -n 's/^# \\([a-z0-9]*-[a-z0-9]*\\): .*/\\1/p' '".data."' | head -n 1")
+compiler = strlen(build) > 0 ? build.": ".note(build) : "compiler: ".note("compiler")
+date = note("date")
+machine = note("processor").", family ".note("processor family")
+flags_at = strstrt(compiler, ", -")
+if (narrow && flags_at > 0) compiler = compiler[1:flags_at]."\n".compiler[flags_at+2:]
+set label 1001 machine."; ".date[1:10] at screen 0.012, screen (narrow ? px(37) : 0.055) font ",10" textcolor rgb grey noenhanced
+set label 1002 compiler at screen 0.012, screen (narrow ? px(23) : 0.022) font ",10" textcolor rgb grey noenhanced
+
+# A kernel looks the same in every figure: these have their line types, others take what is left.
+known = "base double float double_vec float_vec euler exact"
+line_of(name, k) = place_in(known, name) > 0 ? place_in(known, name) : words(known) + k
+colour_of(name, k) = word(colours, (line_of(name, k) - 1) % 8 + 1)

@@ -1,0 +1,45 @@
+/* The reference collisions in data/: inputs, and the results that others computed for them. */
+#ifndef CAROM_LAB_CASES_H
+#define CAROM_LAB_CASES_H
+
+#include "carom.h"
+#include "records.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct case_set {
+  size_t count;
+  char **id;
+  carom_impact *impact;
+} case_set;
+
+typedef struct reference_set {
+  size_t count;
+  carom_result *result;
+  int64_t *steps; /* the reference's step counts, or NULL where the file has none */
+} reference_set;
+
+/* Loads `folder`/`name`. Complains and returns false if anything in it is wrong: this is our own data. */
+bool cases_load(const char *folder, const char *name, case_set *out);
+
+/* Loads results for exactly the ids of `cases`, in that order. */
+bool reference_load(const char *folder, const char *name, const case_set *cases, reference_set *out);
+
+/* The names of a file's columns, which outlive the reader's next record. */
+typedef struct record_columns {
+  size_t count;
+  char **name;
+} record_columns;
+
+/* Reads the header; false if there is none. */
+bool read_columns(record_reader *reader, record_columns *out);
+
+/* The place of the column of that name, or SIZE_MAX. */
+size_t column_named(const record_columns *columns, const char *name);
+void free_columns(record_columns *columns);
+
+void cases_free(case_set *cases);
+void reference_free(reference_set *reference);
+
+#endif

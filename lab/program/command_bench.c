@@ -1,0 +1,240 @@
+/* `carom-lab bench`: times every kernel on the reference cases, once it is verified. */
+#include "bench_job.h"
+#include "command.h"
+#include "machine.h"
+#include "memory.h"
+#include "message.h"
+#include "output.h"
+#include "pinning.h"
+#include "place.h"
+#include "subcommands.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static bool verify_all(bench_job *job) {
+  job->subject = allocate(job->work_count, sizeof *job->subject);
+  job->figure = allocate(job->work_count, sizeof *job->figure);
+  job->count = allocate(job->work_count, sizeof *job->count);
+  for (size_t k = 0; k < job->work_count; k++) {
+    workload *w = &job->work[k];
+    char message[WORKLOAD_MESSAGE];
+    if (!workload_verify(w, job->folder, message) || (job->errors && !workload_compare_exact(w, job->folder)))
+      return false;
+    progress_show("kernels verified", (double)(k + 1), (double)job->work_count);
+    if (message[0] != '\0') {
+      complain("%s", message);
+      job->code = EXIT_SOME;
+      continue;
+    }
+    job->subject[job->subject_count++] = workload_subject(w);
+  }
+  return true;
+}
+
+static void show_samples(double done, double total) {
+  progress_show("samples", done, total);
+}
+
+static bool time_all(bench_job *job) {
+  for (size_t k = 0; k < job->subject_count; k++)
+    job->subject[k].yardstick = bench_yardstick(job, job->subject[k].context);
+  FILE *machine = open_memstream(&job->machine, &(size_t){0});
+  if (machine == NULL) {
+    complain("out of memory");
+    return false;
+  }
+  machine_describe(machine);
+  fclose(machine);
+  job->counters_text = counters_begin();
+  job->pinning = pinning_begin();
+  const bench_settings settings = {.budget = job->budget, .progress = show_samples};
+  const bool good = bench_rounds(job->subject, job->subject_count, &settings, job->figure);
+  for (size_t k = 0; k < job->subject_count && job->counters && good; k++) {
+    const bench_subject *s = &job->subject[k];
+    double nothing[COUNTER_COUNT];
+    counters_measure(s->resolve, s->context, job->count[k]);
+    counters_measure(s->empty, s->context, nothing);
+    for (int c = 0; c < COUNTER_COUNT; c++)
+      job->count[k][c] = (job->count[k][c] - nothing[c]) / (double)s->pairs;
+  }
+  pinning_end();
+  progress_clear();
+  if (!good)
+    complain("out of memory");
+  return good;
+}
+
+static void check_unchanged(bench_job *job) {
+  for (size_t k = 0; k < job->subject_count; k++)
+    if (!job->figure[k].unchanged) {
+      complain("%s (%s) did not repeat its verified results while it was timed: its figures are dropped",
+               job->subject[k].kernel, job->subject[k].config);
+      job->code = EXIT_SOME;
+    }
+}
+
+/* The output is opened before the long part, so that a bad name costs nothing. */
+static bool bench_all(bench_job *job) {
+  if (!cases_load(job->folder, "collisions-204.csv", &job->cases) || !bench_choose(job) || !verify_all(job))
+    return false;
+  if (job->subject_count == 0)
+    return true;
+  FILE *out = output_open(job->shared.output);
+  if (out == NULL)
+    return false;
+  if (!time_all(job)) {
+    output_abandon();
+    return false;
+  }
+  check_unchanged(job);
+  bench_print(job, out);
+  return output_commit();
+}
+
+static void free_arguments(bench_job *job) {
+  free(job->kernels.name);
+  free(job->configs.name);
+  free(job->isas.name);
+  free(job->steps.value);
+  free(job->pairs.value);
+  free(job->threads.value);
+}
+
+static void bench_free(bench_job *job) {
+  carom_isa_limit(job->isa);
+  counters_end();
+  for (size_t k = 0; k < job->work_count; k++)
+    workload_free(&job->work[k]);
+  free(job->work);
+  free(job->subject);
+  free(job->figure);
+  free(job->count);
+  free(job->machine);
+  cases_free(&job->cases);
+  case_tiles_free(&job->tiles);
+}
+
+/* ---- Arguments */
+
+static OPTION_SET(set_kernels) {
+  name_list *list = field;
+  const size_t before = list->count;
+  const kernel *unused;
+  bool good = set_names(row, text, field);
+  for (size_t k = before; k < list->count && good; k++)
+    good = set_kernel(row, (char *)list->name[k], &unused);
+  return good;
+}
+
+static OPTION_SET(set_isas) {
+  name_list *list = field;
+  const size_t before = list->count;
+  bool good = set_names(row, text, field);
+  for (size_t k = before; k < list->count && good; k++) {
+    char here[128] = "scalar, best";
+    good = strcmp(list->name[k], "scalar") == 0 || strcmp(list->name[k], "best") == 0;
+    for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL; isa++)
+      if (bench_isa_here((carom_isa)isa)) {
+        good |= strcmp(list->name[k], carom_isa_name((carom_isa)isa)) == 0;
+        strcat(strcat(here, ", "), carom_isa_name((carom_isa)isa));
+      }
+    if (!good)
+      complain("no instruction set '%s' here; there are %s", list->name[k], here);
+  }
+  return good;
+}
+
+static OPTION_SET(set_threads) {
+  if (strcmp(text, "all") != 0)
+    return set_counts(row, text, field);
+  const int cores = (int)sysconf(_SC_NPROCESSORS_ONLN);
+  for (int count = 1; count < cores; count *= 2)
+    add_count(field, count);
+  add_count(field, cores);
+  return true;
+}
+
+static OPTION_SET(set_budget) {
+  double *seconds = field;
+  char *end;
+  *seconds = strtod(text, &end);
+  const bool good = end != text && *end == '\0' && *seconds > 0.0 && *seconds <= 86400.0;
+  if (!good)
+    complain("--%s is a number of seconds above 0, up to 86400, not '%s'", row->name, text);
+  return good;
+}
+
+OPTION(bench_job, option_kernel, "kernel", kernels, 0, "NAME,...", set_kernels, 0,
+       "only these kernels (see `carom-lab kernels`); may be repeated");
+OPTION(bench_job, option_config, "config", configs, 0, "NAME,...", set_names, 0,
+       "these builds of the ladder's kernels, or all (default: default); without --kernel, only\nthe ladder");
+OPTION(bench_job, option_counts, "steps", steps, 0, "N,...", set_counts, 1,
+       "steps of Euler's method (default 1000); several make a sweep");
+OPTION(bench_job, option_batch, "batch", batch, 0, NULL, set_flag, 0,
+       "batches only, of all of the library's solvers (with euler about a minute)");
+OPTION(bench_job, option_isa, "isa", isas, 0, "NAME,...", set_isas, 0,
+       "only these instruction sets: scalar (single calls), plain, sse2, avx2, avx512, neon, or\nbest");
+OPTION(bench_job, option_one_precision, "precision", shared.precision, 0, "double|single", set_choice, 0,
+       "only this precision (default: both)");
+OPTION(bench_job, option_thread_counts, "threads", threads, 0, "N,...", set_threads, 1,
+       "threads of a batch, or all: 1, 2, 4, ... up to the processor's (default 1,2; 1 on a\nsingle core)");
+OPTION(bench_job, option_pairs, "pairs", pairs, 0, "N,...", set_counts, 1,
+       "pairs in a batch (default 65536, rounded up to whole turns of the cases); adds the\ncolumn pairs");
+OPTION(bench_job, option_budget, "budget", budget, 0, "SECONDS", set_budget, 0, "how long to measure (default 20)");
+OPTION(bench_job, option_csv, "csv", csv, 0, NULL, set_flag, 0, "as CSV, with lines about the machine that begin with #");
+OPTION(bench_job, option_spread, "spread", spread, 0, NULL, set_flag, 0,
+       "more columns in the CSV: spread of the time; least, greatest and spread of the speedup");
+OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
+       "more columns in the CSV: slip, and the pair error against the exact reference, median\nand largest");
+OPTION(bench_job, option_counters, "counters", counters, 0, NULL, set_flag, 0,
+       "more columns in the CSV: reference cycles and hardware counters per collision, NA where\nthere are none");
+
+static const char about[] =
+    "Times kernels on the 204 reference cases, each case one call, in turns: A B C A B C ... What is timed has been verified\n"
+    "just before; a kernel that is over its bound is refused. Figures are nanoseconds per collision, the mean over the cases;\n"
+    "median and spread are over the rounds. Speedup is that over the ladder's first kernel in the default configuration\n"
+    "with as many steps (1000 for kernels that take none), round by round. The solver without steps is timed in batches too,\n"
+    "with every instruction set; the copy beside them moves a batch's bytes and computes nothing.\n";
+
+static const char details[] =
+    "Spread is the median absolute deviation: half of the rounds lie within it. docs/measuring.md tells what to make of it.\n\n"
+    "exit code: 0 if all was timed, 1 if a kernel was refused (the others are timed), 2 for bad usage or unreadable data\n";
+
+static const command_form form = {
+    .name = "bench",
+    .usage = "[OPTIONS]",
+    .about = about,
+    .options =
+        (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch, &option_isa,
+                                    &option_one_precision, &option_thread_counts, &option_pairs, &option_budget, &option_csv,
+                                    &option_spread, &option_errors, &option_counters, &option_data, &option_output, NULL},
+    .details = details,
+    .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
+};
+
+static int bench(bench_job *job) {
+  if ((job->spread || job->errors || job->counters) && !job->csv) {
+    complain("--spread, --errors and --counters add columns to the CSV: give --csv too");
+    return usage_hint(&form);
+  }
+  job->show_pairs = job->pairs.count > 0;
+  if (job->steps.count == 0)
+    add_count(&job->steps, carom_default_options().steps);
+  job->folder = data_folder(job->shared.folder);
+  job->isa = carom_isa_in_force();
+  const int code = bench_all(job) ? job->code : EXIT_USAGE;
+  bench_free(job);
+  return code;
+}
+
+int command_bench(int argc, char **argv) {
+  bench_job job = {.shared = {.precision = ANY_PRECISION, .output = "-"}, .budget = 20.0, .code = EXIT_GOOD};
+  int code = parse_arguments(&form, argc, argv, &job, NULL);
+  if (code < 0)
+    code = bench(&job);
+  free_arguments(&job);
+  return code;
+}

@@ -1,0 +1,195 @@
+/* `carom-lab experiments`: the 2014 paper's five shots, measured, as it predicted them, and as the solvers compute them. */
+#include "cases.h"
+#include "command.h"
+#include "kernel.h"
+#include "memory.h"
+#include "message.h"
+#include "number.h"
+#include "output.h"
+#include "place.h"
+#include "records.h"
+#include "subcommands.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double degree = 3.14159265358979323846 / 180.0;
+
+/* What is compared, in the order of the columns: m/s and degrees. */
+enum { V_CUE, V_OBJECT, ANGLE_CUE, ANGLE_OBJECT, OUTCOMES };
+static const char *const outcome_names[OUTCOMES] = {"v_cue", "v_object", "angle_cue_deg", "angle_object_deg"};
+static const char *const outcome_titles[OUTCOMES] = {"cue ball, m/s", "object ball, m/s", "cue ball, degrees",
+                                                     "object ball, degrees"};
+
+typedef struct shot {
+  char id[32];
+  double V0, omega_T, theta; /* m/s, rad/s, rad */
+  double measured[OUTCOMES], predicted[OUTCOMES];
+} shot;
+
+enum { MOST_SHOTS = 32 };
+
+static bool column(const record_columns *columns, const record *row, const char *name, double *number) {
+  const size_t at = column_named(columns, name);
+  return at < row->count && parse_number(row->field[at], number);
+}
+
+static bool read_shot(const record_columns *columns, const record *row, shot *s) {
+  double theta_deg;
+  snprintf(s->id, sizeof s->id, "%s", row->count > 0 ? row->field[0] : "");
+  bool good = column(columns, row, "V0", &s->V0) && column(columns, row, "omega_T", &s->omega_T) &&
+              column(columns, row, "theta_deg", &theta_deg);
+  for (int k = 0; k < OUTCOMES; k++) {
+    char name[64];
+    snprintf(name, sizeof name, "measured_%s", outcome_names[k]);
+    good = good && column(columns, row, name, &s->measured[k]);
+    snprintf(name, sizeof name, "predicted_%s", outcome_names[k]);
+    good = good && column(columns, row, name, &s->predicted[k]);
+  }
+  s->theta = theta_deg * degree;
+  return good;
+}
+
+static size_t read_shots(const char *folder, shot shots[MOST_SHOTS]) {
+  char path[PATH_MAX];
+  snprintf(path, sizeof path, "%s/experiments.csv", folder);
+  record_reader *reader = record_open(path);
+  record_columns columns = {0};
+  record row;
+  size_t count = 0;
+  bool good = reader != NULL && read_columns(reader, &columns);
+  while (good && count < MOST_SHOTS && record_next(reader, &row) == READ_ONE) {
+    good = read_shot(&columns, &row, &shots[count++]);
+    if (!good)
+      complain("%s:%lld: not an experiment", path, row.line);
+  }
+  free_columns(&columns);
+  record_close(reader);
+  return good ? count : 0;
+}
+
+/* The line of centres is y; the cue ball rolls at theta to it, towards +x. */
+static carom_impact impact_of(const shot *s) {
+  carom_impact in = {.a = {.v = {s->V0 * sin(s->theta), s->V0 * cos(s->theta), 0.0},
+                           .w = {-s->omega_T * cos(s->theta), s->omega_T * sin(s->theta), 0.0},
+                           .radius = 0.02625,
+                           .mass = 0.1406,
+                           .mu_cloth = 0.21},
+                     .mu_ball = 0.05,
+                     .restitution = 0.89};
+  in.b = (carom_ball){.r = {0.0, 2.0 * in.a.radius, 0.0}, .radius = in.a.radius, .mass = in.a.mass, .mu_cloth = in.a.mu_cloth};
+  return in;
+}
+
+static bool outcome_of(const shot *s, const kernel *one, carom_slip slip, double outcome[OUTCOMES]) {
+  const carom_impact in = impact_of(s);
+  carom_options options = carom_default_options();
+  carom_result out;
+  double cue[3], object[3];
+  options.slip = slip;
+  if (kernel_resolve(one, NULL, &in, 1, &options, &out, NULL) != CAROM_OK)
+    return false;
+  carom_rolling_velocity(out.v_a, out.w_a, in.a.radius, cue);
+  carom_rolling_velocity(out.v_b, out.w_b, in.b.radius, object);
+  outcome[V_CUE] = hypot(cue[0], cue[1]);
+  outcome[V_OBJECT] = hypot(object[0], object[1]);
+  outcome[ANGLE_CUE] = atan2(cue[0], cue[1]) / degree - s->theta / degree;
+  outcome[ANGLE_OBJECT] = s->theta / degree - atan2(object[0], object[1]) / degree;
+  return true;
+}
+
+/* The library's solvers, one column each: the k-th, or NULL. */
+static const kernel *solver_at(size_t k) {
+  const kernel *one;
+  for (size_t at = 0; (one = kernel_at(at)) != NULL; at++)
+    if (!one->is_rung && k-- == 0)
+      return one;
+  return NULL;
+}
+
+static void print_csv(FILE *out, const shot *shots, size_t count, carom_slip slip) {
+  fputs("shot,source", out);
+  for (int k = 0; k < OUTCOMES; k++)
+    fprintf(out, ",%s", outcome_names[k]);
+  fputc('\n', out);
+  for (size_t s = 0; s < count; s++) {
+    const double *given[] = {shots[s].measured, shots[s].predicted};
+    static const char *const names[] = {"measured", "predicted"};
+    for (int g = 0; g < 2; g++) {
+      fprintf(out, "%s,%s", shots[s].id, names[g]);
+      for (int k = 0; k < OUTCOMES; k++)
+        fprintf(out, ",%g", given[g][k]);
+      fputc('\n', out);
+    }
+    const kernel *one;
+    for (size_t at = 0; (one = solver_at(at)) != NULL; at++) {
+      double outcome[OUTCOMES];
+      if (!outcome_of(&shots[s], one, slip, outcome))
+        continue;
+      fprintf(out, "%s,%s", shots[s].id, one->name);
+      for (int k = 0; k < OUTCOMES; k++)
+        fprintf(out, ",%.6f", outcome[k]);
+      fputc('\n', out);
+    }
+  }
+}
+
+static void print_table(FILE *out, const shot *shots, size_t count, carom_slip slip) {
+  const kernel *one;
+  for (int k = 0; k < OUTCOMES; k++) {
+    fprintf(out, "%s%-22s %9s %10s", k > 0 ? "\n" : "", outcome_titles[k], "measured", "predicted");
+    for (size_t at = 0; (one = solver_at(at)) != NULL; at++)
+      fprintf(out, " %9s - predicted - measured", one->name);
+    fputc('\n', out);
+    for (size_t s = 0; s < count; s++) {
+      fprintf(out, "  %-20s %9.3f %10.3f", shots[s].id, shots[s].measured[k], shots[s].predicted[k]);
+      for (size_t at = 0; (one = solver_at(at)) != NULL; at++) {
+        double outcome[OUTCOMES];
+        if (outcome_of(&shots[s], one, slip, outcome))
+          fprintf(out, " %9.3f %+11.4f %+10.3f", outcome[k], outcome[k] - shots[s].predicted[k],
+                  outcome[k] - shots[s].measured[k]);
+      }
+      fputc('\n', out);
+    }
+  }
+}
+
+typedef struct experiments_job {
+  shared_options shared;
+  bool csv;
+} experiments_job;
+
+OPTION(experiments_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "as CSV: shot,source,v_cue,v_object,angle_cue_deg,angle_object_deg");
+
+static const command_form form = {
+    .name = "experiments",
+    .usage = "[OPTIONS]",
+    .about = "A rolling cue ball meets a resting object ball at a cut angle (Mathavan, Jackson, Parkin 2014, tables 1 and 2). "
+             "Speeds and\n"
+             "angles are those once both balls roll; angles are from the cue ball's first direction, its own to one side, the "
+             "object\n"
+             "ball's to the other. Snooker balls: M = 0.1406 kg, R = 26.25 mm, friction 0.21 with the cloth and 0.05 with each "
+             "other,\n"
+             "restitution 0.89. The measured object angle equals the cut angle, so it is no independent check.\n",
+    .options = (const option_row *const[]){&option_slip, &option_data, &option_csv, &option_output, NULL},
+    .details = "exit code: 0, or 2 for bad usage or unreadable data\n",
+    .example = "carom-lab experiments --csv -o experiments.csv",
+};
+
+int command_experiments(int argc, char **argv) {
+  experiments_job job = {.shared = {.options = carom_default_options(), .output = "-"}};
+  const int code = parse_arguments(&form, argc, argv, &job, NULL);
+  if (code >= 0)
+    return code;
+  shot shots[MOST_SHOTS];
+  const size_t count = read_shots(data_folder(job.shared.folder), shots);
+  FILE *out = count > 0 ? output_open(job.shared.output) : NULL;
+  if (out == NULL)
+    return EXIT_USAGE;
+  (job.csv ? print_csv : print_table)(out, shots, count, job.shared.options.slip);
+  return output_commit() ? EXIT_GOOD : EXIT_USAGE;
+}

@@ -1,0 +1,70 @@
+/* `carom-lab kernels`: the table of kernels. */
+#include "command.h"
+#include "kernel.h"
+#include "output.h"
+#include "subcommands.h"
+
+#include <csv.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct kernels_job {
+  shared_options shared;
+  bool csv;
+} kernels_job;
+
+OPTION(kernels_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "as CSV: kernel,precision,parent,needs,paper,idea, the last of which may be quoted. A\n"
+       "solver has no parent; what a kernel of the ladder needs is scalar, avx2 or avx512;\n"
+       "paper is the speedup that the seed paper gives, a number or words");
+
+static const command_form form = {
+    .name = "kernels",
+    .usage = "[OPTIONS]",
+    .about =
+        "Lists the kernels that `resolve --kernel` takes and `verify` checks; the first is the default. Those of the ladder, "
+        "the\n"
+        "seed paper's kernels, exist once per compiler and configuration: --config names both (gcc-o3) or the configuration\n"
+        "alone (o3: the first compiler listed).\n",
+    .options = (const option_row *const[]){&option_csv, &option_output, NULL},
+    .details = "exit code: 0, or 2 for bad usage\n",
+    .example = "carom-lab kernels",
+};
+
+static void print_csv(FILE *out) {
+  static const char *const needs[] = {[LADDER_BASELINE] = "scalar", [LADDER_AVX2] = "avx2", [LADDER_AVX512] = "avx512"};
+  const kernel *one;
+  fputs("kernel,precision,parent,needs,paper,idea\n", out);
+  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
+    const ladder_rung *rung = one->is_rung ? ladder_rung_find(one->name) : NULL;
+    fprintf(out, "%s,%s,%s,%s,%s,", one->name, one->precision, rung != NULL ? rung->parent : "",
+            rung != NULL ? needs[rung->isa] : "", rung != NULL ? rung->paper : "");
+    csv_fwrite(out, one->text, strlen(one->text));
+    fputc('\n', out);
+  }
+}
+
+static void print_table(FILE *out) {
+  const kernel *one;
+  fprintf(out, "%-15s %-10s %s\n", "kernel", "precision", "what it is");
+  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
+    if (!one->is_rung || ladder_rung_runs(ladder_rung_find(one->name)))
+      fprintf(out, "%-15s %-10s %s%s\n", one->name, one->precision, one->is_rung ? "ladder: " : "", one->text);
+  fprintf(out, "\nconfigurations of the ladder:");
+  const char *module;
+  for (size_t k = 0; (module = ladder_module_name(k)) != NULL; k++)
+    fprintf(out, " %s", module);
+  fputs(ladder_module_name(0) == NULL ? " none here\n" : "\n", out);
+}
+
+int command_kernels(int argc, char **argv) {
+  kernels_job job = {.shared.output = "-"};
+  const int code = parse_arguments(&form, argc, argv, &job, NULL);
+  if (code >= 0)
+    return code;
+  FILE *out = output_open(job.shared.output);
+  if (out == NULL)
+    return EXIT_USAGE;
+  (job.csv ? print_csv : print_table)(out);
+  return output_commit() ? EXIT_GOOD : EXIT_USAGE;
+}

@@ -1,0 +1,341 @@
+/* `carom-lab stress`: the exact solver on random collisions, in every way it can be called, against the integrator behind it.
+ *
+ * Each collision is solved by a single call and in a batch, in double and in single precision, and by the fallback alone, whose
+ * own error is about 1e-9 at most: where it and a single call differ by more than ORACLE_FROM, the oracle says who is right. Rows of
+ * batches are compared with single calls bit by bit. */
+#include "accuracy.h"
+#include "command.h"
+#include "draws.h"
+#include "memory.h"
+#include "message.h"
+#include "number.h"
+#include "options.h"
+#include "oracle.h"
+#include "output.h"
+#include "subcommands.h"
+
+#include "ball_ball/fallback.h"
+#include "ball_ball/kernels.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum {
+  BLOCK = 1000, /* collisions that a thread draws and solves at a time */
+  MOST_THREADS = 64,
+  /* errors are counted in a histogram of their logarithms */
+  DECADES = 20,
+  PER_DECADE = 50,
+  WORST = 20, /* rows that are kept */
+};
+static const double LEAST_ERROR = 1e-18, ORACLE_FROM = 1e-7;
+
+/* Errors of one way to call, for one slip. */
+typedef struct tally {
+  long rows, over_1e6, over_1e5, over_2e5; /* compared; larger than 1e-6, 1e-5, 2e-5 */
+  long by_fallback, unresolved;            /* left to it by collocation; without a result */
+  double largest;
+  long histogram[DECADES * PER_DECADE];
+} tally;
+
+typedef struct worst_row {
+  double error, fallback_error; /* against the oracle where that was asked, else against the fallback; NAN */
+  carom_slip slip;
+  uint64_t k;
+} worst_row;
+
+enum { WAY_DOUBLE, WAY_SINGLE, WAYS };
+
+typedef struct stress_job {
+  shared_options shared;
+  int draws, seed, kind;
+  bool worst_rows;
+} stress_job;
+
+typedef struct shift {
+  const stress_job *job;
+  tally tally[CAROM_SLIP_COUNT][WAYS];
+  long other_bits; /* rows of batches that differ from single calls */
+  long asked, fallback_wrong;
+  double fallback_largest; /* error against the oracle */
+  worst_row worst[WORST];
+  /* a block */
+  carom_impact in[BLOCK];
+  carom_impact_f32 in32[BLOCK];
+  carom_result out[BLOCK], exact[BLOCK];
+  carom_result_f32 out32[BLOCK];
+  uint8_t status[BLOCK], status32[BLOCK];
+} shift;
+
+static pthread_mutex_t next_block_lock = PTHREAD_MUTEX_INITIALIZER;
+static uint64_t next_block;
+
+static uint64_t take_block(const stress_job *job) {
+  pthread_mutex_lock(&next_block_lock);
+  const uint64_t block = next_block++;
+  if ((double)block * BLOCK < 2.0 * job->draws)
+    progress_show("collisions", (double)block * BLOCK, 2.0 * job->draws);
+  pthread_mutex_unlock(&next_block_lock);
+  return block;
+}
+
+static void count(tally *t, double error) {
+  t->rows++;
+  t->over_1e6 += error > 1e-6;
+  t->over_1e5 += error > 1e-5;
+  t->over_2e5 += error > 2e-5;
+  t->largest = fmax(t->largest, error);
+  const double place = PER_DECADE * log10(fmax(error, LEAST_ERROR) / LEAST_ERROR);
+  t->histogram[place < DECADES * PER_DECADE - 1 ? (int)place : DECADES * PER_DECADE - 1]++;
+}
+
+/* The error that so large a share of the rows do not exceed. */
+static double quantile(const tally *t, double share) {
+  long below = 0;
+  for (int k = 0; k < DECADES * PER_DECADE; k++)
+    if ((double)(below += t->histogram[k]) >= share * (double)t->rows)
+      return fmin(LEAST_ERROR * pow(10, (k + 1.0) / PER_DECADE), t->largest);
+  return t->largest;
+}
+
+static void keep_worst(shift *w, worst_row row) {
+  int least = 0;
+  for (int k = 1; k < WORST; k++)
+    if (w->worst[k].error < w->worst[least].error)
+      least = k;
+  if (row.error > w->worst[least].error)
+    w->worst[least] = row;
+}
+
+static carom_status by_fallback(const carom_impact *in, carom_slip slip, carom_result *out) {
+  const carom_frame frame = carom_frame_of(in);
+  carom_local local = carom_to_frame(&frame, in, slip);
+  if (local.v_jy >= local.v_iy)
+    return CAROM_SEPARATING;
+  const carom_reduced c = carom_reduce(&local);
+  carom_way way;
+  const carom_status status = carom_fallback(&c, &way);
+  carom_restore(&c, &way.at, &local);
+  carom_from_frame(&frame, &local, out);
+  return status;
+}
+
+static double distance(const carom_result *a, const carom_result *b, double radius) {
+  return accuracy_of(a, b, radius).pair;
+}
+
+/* One collision in double precision; its exact result becomes *exact. */
+static void count_double(shift *w, carom_slip slip, uint64_t k, const carom_impact *in, const carom_result *out,
+                         carom_status status, carom_result *exact) {
+  tally *t = &w->tally[slip][WAY_DOUBLE];
+  const double s = carom_spin_sign(slip);
+  carom_result unused;
+  if (status == CAROM_SEPARATING)
+    return;
+  const bool collocated = carom_kernels_in_force()->single[CAROM_DOUBLE](in, s, &unused, NULL) > 0;
+  t->by_fallback += !collocated;
+  if (status != CAROM_OK || by_fallback(in, slip, exact) != CAROM_OK) {
+    t->unresolved += status != CAROM_OK;
+    return;
+  }
+  worst_row row = {.error = distance(out, exact, in->a.radius), .fallback_error = NAN, .slip = slip, .k = k};
+  carom_result oracle;
+  if ((row.error > ORACLE_FROM || k % 1000 == 0) && oracle_collide(in, s, &oracle, NULL) == 0) {
+    row.error = distance(out, &oracle, in->a.radius);
+    row.fallback_error = distance(exact, &oracle, in->a.radius);
+    w->asked++;
+    w->fallback_wrong += row.fallback_error > 1e-9;
+    w->fallback_largest = fmax(w->fallback_largest, row.fallback_error);
+  }
+  count(t, row.error);
+  keep_worst(w, row);
+}
+
+/* The same row in single precision, against the exact result for the rounded numbers. */
+static void count_single(shift *w, carom_slip slip, const carom_impact_f32 *in, const carom_result_f32 *out, carom_status status) {
+  tally *t = &w->tally[slip][WAY_SINGLE];
+  carom_impact wide;
+  carom_result result, exact;
+  carom_result_f32 unused;
+  if (status == CAROM_SEPARATING)
+    return;
+  for (int k = 0; k < 26; k++)
+    ((double *)&wide)[k] = ((const float *)in)[k];
+  for (int k = 0; k < 12; k++)
+    ((double *)&result)[k] = ((const float *)out)[k];
+  t->by_fallback += carom_kernels_in_force()->single[CAROM_SINGLE](in, carom_spin_sign(slip), &unused, NULL) == 0;
+  if (status != CAROM_OK)
+    t->unresolved++;
+  else if (by_fallback(&wide, slip, &exact) == CAROM_OK)
+    count(t, distance(&result, &exact, wide.a.radius));
+}
+
+static void run_block(shift *w, uint64_t block) {
+  const stress_job *job = w->job;
+  const carom_slip slip = (carom_slip)(block % CAROM_SLIP_COUNT);
+  const uint64_t first = block / CAROM_SLIP_COUNT * BLOCK;
+  carom_options options = carom_default_options();
+  options.slip = slip;
+  options.threads = 1;
+  size_t n = 0;
+  for (; n < BLOCK && first + n < (uint64_t)job->draws; n++) {
+    w->in[n] = draw_collision((draw_kind)job->kind, slip, (uint64_t)job->seed, first + n);
+    for (int k = 0; k < 26; k++)
+      ((float *)&w->in32[n])[k] = (float)((const double *)&w->in[n])[k];
+  }
+  carom_collide_batch(w->in, n, &options, w->out, w->status);
+  carom_collide_batch_f32(w->in32, n, &options, w->out32, w->status32);
+  for (size_t k = 0; k < n; k++) {
+    carom_result alone;
+    carom_result_f32 alone32;
+    const carom_status status = carom_collide(&w->in[k], &options, &alone);
+    const carom_status status32 = carom_collide_f32(&w->in32[k], &options, &alone32);
+    w->other_bits += status != carom_status_of_byte(w->status[k]) || memcmp(&alone, &w->out[k], sizeof alone) != 0;
+    w->other_bits += status32 != carom_status_of_byte(w->status32[k]) || memcmp(&alone32, &w->out32[k], sizeof alone32) != 0;
+    count_double(w, slip, first + k, &w->in[k], &alone, status, &w->exact[k]);
+    count_single(w, slip, &w->in32[k], &alone32, status32);
+  }
+}
+
+static void *run_shift(void *argument) {
+  shift *w = argument;
+  const uint64_t blocks = (uint64_t)CAROM_SLIP_COUNT * (((uint64_t)w->job->draws + BLOCK - 1) / BLOCK);
+  for (uint64_t block; (block = take_block(w->job)) < blocks;)
+    run_block(w, block);
+  return NULL;
+}
+
+static void add(shift *to, const shift *from) {
+  for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)
+    for (int way = 0; way < WAYS; way++) {
+      tally *t = &to->tally[slip][way];
+      const tally *f = &from->tally[slip][way];
+      t->rows += f->rows;
+      t->over_1e6 += f->over_1e6;
+      t->over_1e5 += f->over_1e5;
+      t->over_2e5 += f->over_2e5;
+      t->by_fallback += f->by_fallback;
+      t->unresolved += f->unresolved;
+      t->largest = fmax(t->largest, f->largest);
+      for (int k = 0; k < DECADES * PER_DECADE; k++)
+        t->histogram[k] += f->histogram[k];
+    }
+  to->other_bits += from->other_bits;
+  to->asked += from->asked;
+  to->fallback_wrong += from->fallback_wrong;
+  to->fallback_largest = fmax(to->fallback_largest, from->fallback_largest);
+  for (int k = 0; k < WORST; k++)
+    keep_worst(to, from->worst[k]);
+}
+
+static int descending(const void *a, const void *b) {
+  const double x = ((const worst_row *)a)->error, y = ((const worst_row *)b)->error;
+  return (x < y) - (x > y);
+}
+
+/* Rows that `carom resolve` reads. */
+static void print_worst(const stress_job *job, shift *w, FILE *out) {
+  fputs("id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,R1,M1,u_s1,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R2,M2,u_s2,u_b,e_b,slip,error,"
+        "fallback_error\n",
+        out);
+  qsort(w->worst, WORST, sizeof w->worst[0], descending);
+  for (int k = 0; k < WORST && w->worst[k].error > 0; k++) {
+    const worst_row *row = &w->worst[k];
+    const carom_impact in = draw_collision((draw_kind)job->kind, row->slip, (uint64_t)job->seed, row->k);
+    char text[NUMBER_TEXT];
+    fprintf(out, "%s-%llu", carom_slip_name(row->slip), (unsigned long long)row->k);
+    for (int c = 0; c < 26; c++)
+      fprintf(out, ",%s", number_text(((const double *)&in)[c], text));
+    fprintf(out, ",%s,%.3g,%.3g\n", carom_slip_name(row->slip), row->error, row->fallback_error);
+  }
+}
+
+static void print_table(const stress_job *job, const shift *w, FILE *out) {
+  static const char *const ways[] = {"double", "single"}, *const kinds[] = {"realistic", "regimes", "extreme"};
+  fprintf(out, "%s collisions, %d drawn for each slip with seed %d, instruction set %s\n\n", kinds[job->kind], job->draws, job->seed,
+          carom_isa_name(carom_isa_in_force()));
+  fprintf(out, "precision slip           rows   median      99 %%    99.9 %%   99.99 %%   largest   > 1e-6   > 1e-5   > 2e-5  fallback  "
+               "unresolved\n");
+  for (int way = 0; way < WAYS; way++)
+    for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
+      const tally *t = &w->tally[slip][way];
+      fprintf(out, "%-9s %-9s %9ld  %7.1e   %7.1e   %7.1e   %7.1e   %7.1e  %7ld  %7ld  %7ld  %7.3f %%  %ld\n", ways[way],
+              carom_slip_name((carom_slip)slip), t->rows, quantile(t, 0.5), quantile(t, 0.99), quantile(t, 0.999),
+              quantile(t, 0.9999), t->largest, t->over_1e6, t->over_1e5, t->over_2e5,
+              100.0 * (double)t->by_fallback / fmax(1, (double)(t->rows + t->unresolved)), t->unresolved);
+    }
+  fprintf(out, "\nrows of batches whose bits or status differ from single calls: %ld\n", w->other_bits);
+  fprintf(out, "fallback against the oracle, where single calls differ from it by more than %g, and 1 row in 1000: %ld rows, largest "
+               "error %.1e, %ld above 1e-9\n",
+          ORACLE_FROM, w->asked, w->fallback_largest, w->fallback_wrong);
+}
+
+/* The contract of carom.h. */
+static bool holds(const stress_job *job, const shift *w) {
+  bool good = w->other_bits == 0;
+  for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
+    const tally *t = &w->tally[slip][WAY_DOUBLE];
+    good &= job->kind == DRAW_REALISTIC ? t->over_1e6 == 0 && quantile(t, 0.5) <= 3e-9 : t->over_1e5 == 0;
+    good &= w->tally[slip][WAY_SINGLE].over_2e5 == 0 || job->kind != DRAW_REALISTIC;
+  }
+  return good;
+}
+
+OPTION(stress_job, option_draws, "draws", draws, 'n', "N", set_count, 1, "collisions to draw, for each slip (default: 100000)");
+OPTION(stress_job, option_seed, "seed", seed, 0, "S", set_count, 0, "of the draws (default: 1)");
+OPTION(stress_job, option_kind, "kind", kind, 0, DRAW_KIND_NAMES, set_choice, 0,
+       "what to draw: collisions of play; the regimes of the tests, corners of all sorts; or\n"
+       "everything that is accepted (default: realistic)");
+OPTION(stress_job, option_worst, "worst", worst_rows, 0, NULL, set_flag, 0,
+       "print, instead of the table, the 20 collisions with the largest errors in double precision,\n"
+       "as rows that `carom resolve` reads");
+
+static const command_form form = {
+    .name = "stress",
+    .usage = "[OPTIONS]",
+    .about = "Draws random collisions and compares the exact solver's results, by single calls and in batches, in double and in\n"
+             "single precision, with an adaptive integrator, and where they differ with the tests' oracle.\n",
+    .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_worst, &option_threads,
+                                           &option_output, NULL},
+    .details = "exit code: 0; 1 if an error is larger than carom.h promises, or bits of a batch differ from a single call's;\n"
+               "           2 for bad usage\n",
+    .example = "carom-lab stress --draws 10000 --kind regimes",
+};
+
+int command_stress(int argc, char **argv) {
+  stress_job job = {.shared = {.options = carom_default_options(), .output = "-"}, .draws = 100000, .seed = 1};
+  const int code = parse_arguments(&form, argc, argv, &job, NULL);
+  if (code >= 0)
+    return code;
+  FILE *out = output_open(job.shared.output);
+  if (out == NULL)
+    return EXIT_USAGE;
+  const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+  const int wanted = job.shared.options.threads > 0 ? job.shared.options.threads : (int)processors;
+  const int threads = wanted < 1 ? 1 : wanted < MOST_THREADS ? wanted : MOST_THREADS;
+  shift *shifts = allocate((size_t)threads, sizeof *shifts);
+  pthread_t id[MOST_THREADS];
+  bool started[MOST_THREADS] = {false};
+  for (int t = 0; t < threads; t++) {
+    shifts[t].job = &job;
+    started[t] = t > 0 && pthread_create(&id[t], NULL, run_shift, &shifts[t]) == 0;
+  }
+  run_shift(&shifts[0]);
+  for (int t = 1; t < threads; t++)
+    if (started[t]) {
+      pthread_join(id[t], NULL);
+      add(&shifts[0], &shifts[t]);
+    }
+  progress_clear();
+  if (job.worst_rows)
+    print_worst(&job, &shifts[0], out);
+  else
+    print_table(&job, &shifts[0], out);
+  const bool good = holds(&job, &shifts[0]);
+  free(shifts);
+  return !output_commit() ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;
+}

@@ -1,0 +1,261 @@
+/* `carom-lab verify`: every kernel against the references, with a bound on each. */
+#include "accuracy.h"
+#include "cases.h"
+#include "command.h"
+#include "kernel.h"
+#include "memory.h"
+#include "message.h"
+#include "output.h"
+#include "place.h"
+#include "subcommands.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What a sentence on the ladder says. */
+typedef struct ladder_summary {
+  size_t comparisons, pass;
+  double worst_double, worst_single; /* pair errors */
+} ladder_summary;
+
+/* How the library is called: pair by pair, or as a batch in the lanes of one instruction set. */
+enum { SINGLE_CALLS = -1 };
+
+typedef struct verification {
+  shared_options shared;
+  const kernel *only;
+  const char *config;
+  const char *folder;
+  int way; /* SINGLE_CALLS or a carom_isa; of no meaning to the ladder */
+  case_set cases;
+  carom_result *result;
+  pair_accuracy *each;
+  FILE *out;
+  bool csv, brief, all_pass;
+  char parity[512]; /* sentences for below the table */
+  ladder_summary ladder;
+} verification;
+
+/* "3 (26)", or "3" where the paper gives no count. */
+static const char *count_beside_paper(size_t ours, int paper, char text[32]) {
+  if (paper >= 0)
+    snprintf(text, 32, "%zu (%d)", ours, paper);
+  else
+    snprintf(text, 32, "%zu", ours);
+  return text;
+}
+
+/* The seed paper's count, or NA. */
+static const char *paper_count(int paper, char text[32]) {
+  snprintf(text, 32, paper >= 0 ? "%d" : "NA", paper);
+  return text;
+}
+
+static void way_or_module(const verification *v, const ladder_module *module, char text[32]) {
+  if (module != NULL)
+    snprintf(text, 32, "%s", module->name);
+  else if (v->way == SINGLE_CALLS)
+    snprintf(text, 32, "%s", v->csv ? "library" : "single calls");
+  else
+    snprintf(text, 32, v->csv ? "library-%s" : "lanes, %s", carom_isa_name((carom_isa)v->way));
+}
+
+static void print_claim(const verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim,
+                        const accuracy_summary *s, bool pass) {
+  const ladder_rung *rung = one->is_rung ? ladder_rung_find(one->name) : NULL;
+  const int paper_1e3 = rung != NULL ? rung->over_1e3 : -1, paper_1e2 = rung != NULL ? rung->over_1e2 : -1;
+  char config[32];
+  way_or_module(v, module, config);
+  char over_1e3[32], over_1e2[32];
+  if (v->csv)
+    fprintf(v->out, "%s,%s,%s,%d,%s,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%s,%zu,%s,%s\n", one->name, config,
+            carom_slip_name(claim->slip), claim->steps, claim->reference, s->cases, s->identical, s->mean, s->median, s->p99,
+            s->max, claim->bound, s->component_1e3, paper_count(paper_1e3, over_1e3), s->component_1e2,
+            paper_count(paper_1e2, over_1e2), pass ? "pass" : "fail");
+  else
+    fprintf(v->out, "%-15s %-17s %-9s %5d %-29s %4zu/%-4zu %-9.2g %-9.2g %-9.2g %-9.2g %-7.1g %7s %6s  %s\n", one->name, config,
+            carom_slip_name(claim->slip), claim->steps, claim->reference, s->identical, s->cases, s->mean, s->median, s->p99,
+            s->max, claim->bound, count_beside_paper(s->component_1e3, paper_1e3, over_1e3),
+            count_beside_paper(s->component_1e2, paper_1e2, over_1e2), pass ? "pass" : "FAIL");
+}
+
+/* The claim in a sentence; a rung that passes is only counted. */
+static void tell_claim(verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim,
+                       const accuracy_summary *s, bool pass) {
+  if (module != NULL) {
+    double *worst = strcmp(one->precision, "single") == 0 ? &v->ladder.worst_single : &v->ladder.worst_double;
+    *worst = fmax(*worst, s->max);
+    v->ladder.comparisons++;
+    v->ladder.pass += pass;
+    if (pass)
+      return;
+  }
+  fprintf(v->out, "%s%s%s, %s slip: ", one->name, module != NULL ? " in " : "", module != NULL ? module->name : "",
+          carom_slip_name(claim->slip));
+  if (claim->bound > 0.0)
+    fprintf(v->out, "pair error against %s: mean %.2g, p99 %.2g, max %.2g; %.1g is allowed", claim->reference, s->mean, s->p99,
+            s->max, claim->bound);
+  else
+    fprintf(v->out, "%zu of %zu cases bit-identical to %s", s->identical, s->cases, claim->reference);
+  fputs(pass ? "\n" : ": FAIL\n", v->out);
+}
+
+static void tell_ladder(const verification *v) {
+  const ladder_summary *l = &v->ladder;
+  if (l->comparisons == 0)
+    return;
+  fprintf(v->out, "ladder: %zu of %zu builds of its kernels within their bounds; largest pair error against pooltool", l->pass,
+          l->comparisons);
+  if (l->worst_double > 0.0)
+    fprintf(v->out, " %.2g in double precision%s", l->worst_double, l->worst_single > 0.0 ? "," : "");
+  if (l->worst_single > 0.0)
+    fprintf(v->out, " %.2g in single", l->worst_single);
+  fputc('\n', v->out);
+}
+
+static bool verify_claim(verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim) {
+  reference_set reference;
+  const bool loaded = reference_load(v->folder, claim->reference, &v->cases, &reference);
+  if (loaded) {
+    carom_options options = carom_default_options();
+    options.slip = claim->slip;
+    options.steps = claim->steps;
+    if (module == NULL && v->way == SINGLE_CALLS) {
+      options.solver = one->solver;
+      for (size_t k = 0; k < v->cases.count; k++)
+        carom_collide(&v->cases.impact[k], &options, &v->result[k]);
+    } else
+      kernel_resolve(one, module, v->cases.impact, v->cases.count, &options, v->result, NULL);
+    for (size_t k = 0; k < v->cases.count; k++)
+      v->each[k] = accuracy_of(&v->result[k], &reference.result[k], v->cases.impact[k].a.radius);
+    const accuracy_summary s = accuracy_summarise(v->each, v->cases.count);
+    const bool pass = claim->bound > 0.0 ? s.max <= claim->bound : s.identical == s.cases;
+    v->all_pass &= pass;
+    if (v->brief)
+      tell_claim(v, one, module, claim, &s, pass);
+    else
+      print_claim(v, one, module, claim, &s, pass);
+    if (claim->bound == 0.0 && v->way == SINGLE_CALLS) {
+      const size_t used = strlen(v->parity);
+      snprintf(v->parity + used, sizeof v->parity - used, "%s: %zu of %zu cases bit-identical to %s\n", one->name, s.identical,
+               s.cases, claim->reference);
+    }
+  }
+  reference_free(&reference);
+  return loaded;
+}
+
+static bool verify_module(verification *v, const kernel *one, const ladder_module *module) {
+  for (const kernel_claim *claim = one->claims; claim->reference != NULL; claim++)
+    if (!verify_claim(v, one, module, claim))
+      return false;
+  return true;
+}
+
+/* By single calls and in the lanes of every instruction set that this processor has; sentences tell of single calls only. */
+static bool verify_solver(verification *v, const kernel *one) {
+  if (v->config != NULL)
+    return true;
+  bool good = verify_module(v, one, NULL);
+  const carom_isa before = carom_isa_in_force();
+  for (int isa = 0; good && !v->brief && isa <= (int)before; isa++)
+    if (carom_isa_available((carom_isa)isa)) {
+      carom_isa_limit((carom_isa)isa);
+      v->way = isa;
+      good = verify_module(v, one, NULL);
+    }
+  carom_isa_limit(before);
+  v->way = SINGLE_CALLS;
+  return good;
+}
+
+/* In the one configuration given, or in all. */
+static bool verify_rung(verification *v, const kernel *one) {
+  if (!ladder_rung_runs(ladder_rung_find(one->name)))
+    return true;
+  const char *name = v->config;
+  for (size_t k = 0; v->config != NULL ? k == 0 : (name = ladder_module_name(k)) != NULL; k++) {
+    const ladder_module *module;
+    if (!kernel_module(one, name, &module) || !verify_module(v, one, module))
+      return false;
+  }
+  return true;
+}
+
+static bool verify_all(verification *v) {
+  v->result = allocate(v->cases.count, sizeof *v->result);
+  v->each = allocate(v->cases.count, sizeof *v->each);
+  if (v->csv)
+    fputs("kernel,config,slip,steps,reference,cases,identical,mean,median,p99,max,bound,over_1e3,paper_1e3,over_1e2,paper_1e2,"
+          "verdict\n",
+          v->out);
+  else if (!v->brief)
+    fprintf(v->out, "%-15s %-17s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %7s %6s  %s\n", "kernel", "configuration", "slip",
+            "steps", "reference", "identical", "mean", "median", "p99", "max", "bound", ">0.1%", ">1%", "");
+  const kernel *one;
+  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
+    if ((v->only == NULL || v->only == one) && !(one->is_rung ? verify_rung(v, one) : verify_solver(v, one)))
+      return false;
+  if (v->brief)
+    tell_ladder(v);
+  else if (!v->csv)
+    fprintf(v->out, "\n%s", v->parity);
+  return true;
+}
+
+OPTION(verification, option_kernel, "kernel", only, 0, "NAME", set_kernel, 0, "only this kernel");
+OPTION(verification, option_config, "config", config, 0, "NAME", set_text, 0,
+       "only this build of the ladder (see `carom-lab kernels`)");
+OPTION(verification, option_brief, "brief", brief, 0, NULL, set_flag, 0,
+       "sentences instead of the table, one for the whole ladder; kernels over their bound\nare named");
+OPTION(verification, option_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "as CSV, the paper's counts in columns of their own, NA where it gives none");
+
+static const char about[] =
+    "Resolves the reference cases with every kernel and compares with the references; a kernel of the ladder in every\n"
+    "configuration of every compiler, the others by single calls and in the lanes of every instruction set here.\n";
+
+static const char details[] =
+    "Pair error: the largest deviation of a velocity or R times an angular velocity, over the largest such value of the\n"
+    "pair. Component errors compare each number with itself; the columns count the cases in which one is above 0.1 % or 1 %,\n"
+    "with the seed paper's own count in brackets where it gives one.\n"
+    "A bound of 0 asks for the same bits in every component.\n\n"
+    "exit code: 0 if every kernel is within its bounds, 1 if one is not, 2 for bad usage or unreadable data\n";
+
+static const command_form form = {
+    .name = "verify",
+    .usage = "[OPTIONS]",
+    .about = about,
+    .options = (const option_row *const[]){&option_kernel, &option_config, &option_data, &option_brief, &option_csv,
+                                           &option_output, NULL},
+    .details = details,
+    .example = "carom-lab verify --kernel float",
+};
+
+int command_verify(int argc, char **argv) {
+  verification v = {.shared.output = "-", .way = SINGLE_CALLS, .all_pass = true};
+  int code = parse_arguments(&form, argc, argv, &v, NULL);
+  if (code >= 0)
+    return code;
+  if (v.csv && v.brief) {
+    complain("--csv and --brief are two ways to print; give one of them");
+    return usage_hint(&form);
+  }
+  const ladder_module *unused;
+  if (v.config != NULL && !kernel_module(v.only != NULL ? v.only : kernel_find(ladder_rung_at(0)->name), v.config, &unused))
+    return EXIT_USAGE;
+  v.folder = data_folder(v.shared.folder);
+  code = EXIT_USAGE;
+  if (cases_load(v.folder, "collisions-204.csv", &v.cases) && (v.out = output_open(v.shared.output)) != NULL) {
+    if (!verify_all(&v))
+      output_abandon();
+    else if (output_commit())
+      code = v.all_pass ? EXIT_GOOD : EXIT_SOME;
+  }
+  free(v.result);
+  free(v.each);
+  cases_free(&v.cases);
+  return code;
+}

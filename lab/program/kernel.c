@@ -1,0 +1,100 @@
+/* The kernels that the program knows. */
+#include "kernel.h"
+
+#include "message.h"
+
+#include <string.h>
+
+/* Euler at N = 1000 errs by at most 1.3e-3 on the cases, with either slip. */
+static const kernel_claim claims_exact[] = {
+    {CAROM_SLIP_PAPER, 1000, "reference-exact-paper.csv", 1e-6},
+    {CAROM_SLIP_POOLTOOL, 1000, "reference-exact-pooltool.csv", 1e-6},
+    {.reference = NULL},
+};
+static const kernel_claim claims_euler[] = {
+    {CAROM_SLIP_POOLTOOL, 1000, "reference-pooltool-n1000.csv", 0.0},
+    {CAROM_SLIP_POOLTOOL, 1000, "reference-exact-pooltool.csv", 2e-3},
+    {CAROM_SLIP_PAPER, 1000, "reference-exact-paper.csv", 2e-3},
+    {.reference = NULL},
+};
+
+static const kernel kernels[] = {
+    {"exact", "double", "the limit of infinitely many steps, by collocation: the physics of the model itself",
+     CAROM_SOLVER_EXACT, false, claims_exact},
+    {"euler", "double", "Mathavan's N steps of equal normal impulse; with the pooltool slip, pooltool's result to the last bit",
+     CAROM_SOLVER_EULER, false, claims_euler},
+/* Rungs are compared with what the paper compared with. */
+#define PRECISION_DOUBLE "double"
+#define PRECISION_SINGLE "single"
+#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) \
+  {#name, PRECISION_##precision,                                                   \
+   idea,  CAROM_SOLVER_EXACT,                                                      \
+   true,  (const kernel_claim[]){{CAROM_SLIP_POOLTOOL, 1000, "reference-pooltool-n1000.csv", bound}, {.reference = NULL}}},
+#include "kernels.def"
+#undef RUNG
+};
+
+const kernel *kernel_at(size_t k) {
+  return k < sizeof kernels / sizeof kernels[0] ? &kernels[k] : NULL;
+}
+
+const kernel *kernel_find(const char *name) {
+  const kernel *one;
+  for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
+    if (strcmp(one->name, name) == 0)
+      return one;
+  return NULL;
+}
+
+OPTION_SET(set_kernel) {
+  const kernel *one = kernel_find(text);
+  if (one == NULL)
+    complain("no %s '%s'; `%s kernels` lists them", row->name, text, program_name);
+  else
+    *(const kernel **)field = one;
+  return one != NULL;
+}
+
+carom_status kernel_resolve(const kernel *k, const ladder_module *module, const carom_impact *in, size_t n,
+                            const carom_options *options, carom_result *out, uint8_t *status) {
+  carom_options own = *options;
+  if (!k->is_rung) {
+    own.solver = k->solver;
+    return carom_collide_batch(in, n, &own, out, status);
+  }
+  const ladder_rung *rung = ladder_rung_find(k->name);
+  carom_status first_error = CAROM_OK;
+  for (size_t pair = 0; pair < n; pair++) {
+    const carom_status one = ladder_resolve(module, rung, &in[pair], &own, &out[pair]);
+    if (status != NULL)
+      status[pair] = (uint8_t)one;
+    if (one < 0 && first_error == CAROM_OK)
+      first_error = one;
+  }
+  return first_error;
+}
+
+carom_status kernel_resolve_f32(const kernel *k, const carom_impact_f32 *in, size_t n, const carom_options *options,
+                                carom_result_f32 *out, uint8_t *status) {
+  carom_options own = *options;
+  own.solver = k->solver;
+  return carom_collide_batch_f32(in, n, &own, out, status);
+}
+
+bool kernel_module(const kernel *k, const char *config, const ladder_module **module) {
+  *module = NULL;
+  if (!k->is_rung) {
+    if (config != NULL)
+      complain("--config is for the kernels of the ladder; %s is built into the library in one way", k->name);
+    return config == NULL;
+  }
+  if (!ladder_rung_runs(ladder_rung_find(k->name))) {
+    complain("%s needs instructions that this processor does not have", k->name);
+    return false;
+  }
+  char why[LADDER_WHY_SIZE];
+  *module = ladder_module_find(config != NULL ? config : "default", why);
+  if (*module == NULL)
+    complain("%s", why);
+  return *module != NULL;
+}

@@ -1,0 +1,118 @@
+/* Draws are made in the collision frame, where slips and spins have meaning, and turned by a random angle, in half of the draws by
+ * none, so that zeros stay zero. A number of its own seeds every draw: any of them can be made again alone. */
+#include "draws.h"
+
+#include "ball_ball/frame.h"
+
+#include <math.h>
+#include <string.h>
+
+#define U(low, high) regimes_uniform(r, low, high)
+
+static bool chance(regimes_rng *r, double p) {
+  return U(0, 1) < p;
+}
+static double log_uniform(regimes_rng *r, double low, double high) {
+  return exp(U(log(low), log(high)));
+}
+
+static carom_impact turned(const carom_local *c, double angle) {
+  const double y[2] = {sin(angle), cos(angle)}, x[2] = {y[1], -y[0]};
+  carom_impact in = {.a = {.w = {0, 0, c->w_iz}, .radius = c->R, .mass = c->M_i, .mu_cloth = c->mu_i},
+                     .b = {.w = {0, 0, c->w_jz}, .radius = c->R, .mass = c->M_j, .mu_cloth = c->mu_j},
+                     .mu_ball = c->mu_b,
+                     .restitution = c->e};
+  for (int k = 0; k < 2; k++) {
+    in.b.r[k] = 2 * c->R * y[k];
+    in.a.v[k] = x[k] * c->v_ix + y[k] * c->v_iy;
+    in.b.v[k] = x[k] * c->v_jx + y[k] * c->v_jy;
+    in.a.w[k] = x[k] * c->w_ix + y[k] * c->w_iy;
+    in.b.w[k] = x[k] * c->w_jx + y[k] * c->w_jy;
+  }
+  return in;
+}
+
+/* The same collision seen from the other side, the second ball named first. */
+static carom_local exchanged(const carom_local *c) {
+  carom_local o = *c;
+  o.v_ix = -c->v_jx, o.v_iy = -c->v_jy, o.w_ix = -c->w_jx, o.w_iy = -c->w_jy, o.w_iz = c->w_jz;
+  o.v_jx = -c->v_ix, o.v_jy = -c->v_iy, o.w_jx = -c->w_ix, o.w_jy = -c->w_iy, o.w_jz = c->w_iz;
+  o.M_i = c->M_j, o.M_j = c->M_i, o.mu_i = c->mu_j, o.mu_j = c->mu_i;
+  return o;
+}
+
+/* A ball of velocity (v_x, v_y) with the share `roll` of the spin of rolling and surface speed `side` of sidespin. */
+static void set_ball(carom_local *c, bool second, double v_x, double v_y, double roll, double side) {
+  *(second ? &c->v_jx : &c->v_ix) = v_x;
+  *(second ? &c->v_jy : &c->v_iy) = v_y;
+  *(second ? &c->w_jx : &c->w_ix) = -v_y * roll / c->R;
+  *(second ? &c->w_jy : &c->w_iy) = v_x * roll / c->R;
+  *(second ? &c->w_jz : &c->w_iz) = side / c->R;
+}
+
+/* Balls meet: one that would not has its velocity along the line of centres reversed. */
+static void make_approach(carom_local *c) {
+  if (!(c->v_jy < c->v_iy))
+    c->v_jy -= 2 * (c->v_jy - c->v_iy) + 0.01;
+}
+
+static carom_impact realistic(double s, regimes_rng *r) {
+  carom_local c = {.R = chance(r, 0.5) ? 0.028575 : 0.02625, .M_i = U(0.1, 0.25), .s = s};
+  c.M_j = c.M_i * (chance(r, 0.5) ? 1 : log_uniform(r, 0.5, 2));
+  if (chance(r, 0.5)) {
+    c.mu_b = U(0, 0.2), c.mu_i = U(0, 0.5), c.e = U(0.5, 1);
+    c.mu_j = chance(r, 0.5) ? c.mu_i : U(0, 0.5);
+  } else
+    c.mu_b = U(0.02, 0.12), c.mu_i = c.mu_j = U(0.1, 0.4), c.e = U(0.85, 0.99);
+  const double v = log_uniform(r, 0.05, 10);
+  for (int j = 0; j < 2; j++) {
+    /* the second rests in half of the draws, and else goes any way but with the first */
+    const double speed = j == 0 ? v : chance(r, 0.5) ? 0 : v * U(0, 1), angle = j == 0 ? U(-1.5, 1.5) : U(1.6, 4.6);
+    const double roll = chance(r, 0.3) ? 1 : chance(r, 0.15) ? 0 : U(-2, 1.5);
+    const double side = speed == 0 && chance(r, 0.7) ? 0 : U(-1, 1) * (chance(r, 0.2) ? 4 : 1) * v;
+    set_ball(&c, j, speed * sin(angle), speed * cos(angle), roll, side);
+    if (speed > 0 && chance(r, 0.15)) {
+      *(j ? &c.w_jx : &c.w_ix) += U(-1, 1) * v / c.R;
+      *(j ? &c.w_jy : &c.w_iy) += U(-1, 1) * v / c.R;
+    }
+  }
+  make_approach(&c);
+  if (chance(r, 0.5))
+    c = exchanged(&c);
+  return turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
+}
+
+/* A share that is often 0 or 1, or near to it. */
+static double corner(regimes_rng *r) {
+  return chance(r, 0.1) ? 0 : chance(r, 0.1) ? 1 : chance(r, 0.3) ? log_uniform(r, 1e-9, 1) : U(0, 1);
+}
+static double any(regimes_rng *r, double scale) {
+  return chance(r, 0.15) ? 0 : (chance(r, 0.5) ? 1 : -1) * scale * (chance(r, 0.5) ? log_uniform(r, 1e-6, 1e3) : U(0, 2));
+}
+
+static carom_impact extreme(double s, regimes_rng *r) {
+  carom_local c = {.R = log_uniform(r, 1e-3, 1), .M_i = log_uniform(r, 1e-2, 10), .s = s};
+  c.M_j = c.M_i * (chance(r, 0.3) ? 1 : log_uniform(r, 1e-3, 1e3));
+  c.mu_b = corner(r), c.mu_i = corner(r), c.e = corner(r);
+  c.mu_j = chance(r, 0.5) ? c.mu_i : corner(r);
+  const double v = log_uniform(r, 1e-6, 1e4);
+  for (int j = 0; j < 2; j++)
+    set_ball(&c, j, any(r, v), any(r, v), chance(r, 0.3) ? 1 : any(r, 1), any(r, v));
+  make_approach(&c);
+  return turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
+}
+
+carom_impact draw_collision(draw_kind kind, carom_slip slip, uint64_t seed, uint64_t k) {
+  /* states of neighbouring draws are far apart in the generator's sequence */
+  regimes_rng r = {(seed * 0x9E3779B97F4A7C15u) ^ (k * 0xD1B54A32D192ED03u + (uint64_t)slip)};
+  regimes_uniform(&r, 0, 1);
+  const double s = carom_spin_sign(slip);
+  switch (kind) {
+  case DRAW_REALISTIC:
+    return realistic(s, &r);
+  case DRAW_REGIMES:
+    return regimes_draw((int)(k % (uint64_t)regimes_count()), s, &r);
+  default:
+    return extreme(s, &r);
+  }
+}

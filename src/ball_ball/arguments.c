@@ -1,0 +1,153 @@
+/* The one place where the arguments of a collision are checked.
+ *
+ * Two passes: a branch-free one that every call takes and nearly every call passes, and a slow one that finds the first field
+ * at fault and names it. Both state the same conditions, those of the field comments in carom.h.
+ */
+#include "ball_ball/arguments.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Heights and vertical velocities come out of other programs' arithmetic; what is below this share of the distance or of the
+ * speed moves no result beyond rounding of the solvers' own size. */
+static const double level = 1e-9;
+
+enum { BALL_FIELDS = 12, FIELDS = 26 };
+_Static_assert(sizeof(carom_ball) == BALL_FIELDS * sizeof(double), "a ball is 12 doubles without gaps");
+_Static_assert(sizeof(carom_impact) == FIELDS * sizeof(double), "an impact is 26 doubles without gaps");
+_Static_assert(sizeof(carom_result) == 12 * sizeof(double), "a result is 12 doubles without gaps");
+
+static int field_at(size_t offset) {
+  return (int)(offset / sizeof(double));
+}
+#define FIELD(member) field_at(offsetof(carom_impact, member))
+
+carom_status carom_check_options(const carom_options *opt) {
+  if ((int)opt->solver < 0 || opt->solver >= CAROM_SOLVER_COUNT)
+    return CAROM_ERROR_SOLVER;
+  if ((int)opt->slip < 0 || opt->slip >= CAROM_SLIP_COUNT)
+    return CAROM_ERROR_SLIP;
+  if (opt->steps < 1)
+    return CAROM_ERROR_STEPS;
+  if (opt->threads < 0)
+    return CAROM_ERROR_THREADS;
+  return CAROM_OK;
+}
+
+static bool positive(double x) {
+  return x > 0.0 && x < INFINITY;
+}
+
+static bool unit_interval(double x) {
+  return x >= 0.0 && x <= 1.0;
+}
+
+static bool vertical(const carom_ball *ball) {
+  return fabs(ball->v[2]) > level * (fabs(ball->v[0]) + fabs(ball->v[1]));
+}
+
+static bool heights_differ(const carom_impact *in) {
+  const double dx = in->b.r[0] - in->a.r[0], dy = in->b.r[1] - in->a.r[1], dz = in->b.r[2] - in->a.r[2];
+  return fabs(dz) > level * (fabs(dx) + fabs(dy));
+}
+
+static bool coincident(const carom_impact *in) {
+  return in->a.r[0] == in->b.r[0] && in->a.r[1] == in->b.r[1] && in->a.r[2] == in->b.r[2];
+}
+
+static bool motion_is_finite(const carom_ball *ball) {
+  double sum = 0.0; /* stays 0 unless a term is infinite or NaN */
+  for (int k = 0; k < 3; k++)
+    sum += ball->r[k] * 0.0 + ball->v[k] * 0.0 + ball->w[k] * 0.0;
+  return sum == 0.0;
+}
+
+static carom_status first_not_finite(const double x[3], carom_status status, int base, int *field) {
+  for (int k = 0; k < 3; k++)
+    if (!isfinite(x[k])) {
+      *field = base + k;
+      return status;
+    }
+  return CAROM_OK;
+}
+
+static carom_status check_ball(const carom_ball *ball, int base, int *field) {
+  carom_status status;
+  if ((status = first_not_finite(ball->r, CAROM_ERROR_POSITION, base, field)) != CAROM_OK ||
+      (status = first_not_finite(ball->v, CAROM_ERROR_VELOCITY, base + 3, field)) != CAROM_OK ||
+      (status = first_not_finite(ball->w, CAROM_ERROR_SPIN, base + 6, field)) != CAROM_OK)
+    return status;
+  if (!positive(ball->radius)) {
+    *field = base + field_at(offsetof(carom_ball, radius));
+    return CAROM_ERROR_RADIUS;
+  }
+  if (!positive(ball->mass)) {
+    *field = base + field_at(offsetof(carom_ball, mass));
+    return CAROM_ERROR_MASS;
+  }
+  if (!unit_interval(ball->mu_cloth)) {
+    *field = base + field_at(offsetof(carom_ball, mu_cloth));
+    return CAROM_ERROR_MU_CLOTH;
+  }
+  return CAROM_OK;
+}
+
+static carom_status blame(const carom_impact *in, int *field) {
+  carom_status status;
+  if ((status = check_ball(&in->a, FIELD(a), field)) != CAROM_OK || (status = check_ball(&in->b, FIELD(b), field)) != CAROM_OK)
+    return status;
+  if (!unit_interval(in->mu_ball)) {
+    *field = FIELD(mu_ball);
+    return CAROM_ERROR_MU_BALL;
+  }
+  if (!unit_interval(in->restitution)) {
+    *field = FIELD(restitution);
+    return CAROM_ERROR_RESTITUTION;
+  }
+  if (in->a.radius != in->b.radius) {
+    *field = FIELD(b.radius);
+    return CAROM_ERROR_RADII_DIFFER;
+  }
+  if (coincident(in))
+    return CAROM_ERROR_COINCIDENT;
+  if (heights_differ(in)) {
+    *field = FIELD(b.r[2]);
+    return CAROM_ERROR_HEIGHTS_DIFFER;
+  }
+  if (vertical(&in->a) || vertical(&in->b)) {
+    *field = vertical(&in->a) ? FIELD(a.v[2]) : FIELD(b.v[2]);
+    return CAROM_ERROR_VERTICAL;
+  }
+  return CAROM_OK;
+}
+
+carom_status carom_check_impact(const carom_impact *in, int *field) {
+  *field = -1;
+  bool good = true; /* joined by & so that all conditions are evaluated and only one branch is taken */
+  good &= motion_is_finite(&in->a);
+  good &= motion_is_finite(&in->b);
+  good &= positive(in->a.radius);
+  good &= positive(in->a.mass);
+  good &= positive(in->b.mass);
+  good &= unit_interval(in->a.mu_cloth);
+  good &= unit_interval(in->b.mu_cloth);
+  good &= unit_interval(in->mu_ball);
+  good &= unit_interval(in->restitution);
+  good &= in->a.radius == in->b.radius;
+  good &= !coincident(in);
+  good &= !heights_differ(in);
+  good &= !vertical(&in->a);
+  good &= !vertical(&in->b);
+  return good ? CAROM_OK : blame(in, field);
+}
+
+carom_status carom_check(const carom_impact *in, const carom_options *opt, int *field) {
+  int unused;
+  int *where = field != NULL ? field : &unused;
+  *where = -1;
+  if (in == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_status status = opt != NULL ? carom_check_options(opt) : CAROM_OK;
+  return status != CAROM_OK ? status : carom_check_impact(in, where);
+}

@@ -1,0 +1,241 @@
+/* The carrier of the collocation text: what a register holds, and the operations that this decides.
+ *
+ * The text (plan.h and what it includes) is written once, over two types:
+ *
+ *     vreal    a number of a collision                      lanes.h has its operations
+ *     reg      a number at the nodes of a step; n nodes take REGS(n) of them
+ *
+ * A batch computes LANES collisions at once: a vreal has a lane for each, and so has a reg, which holds one node of each of
+ * them. A single call (CAROM_LANES_ONE) computes one: a vreal is a float, and a reg holds all nodes, so that a chain of dependent
+ * operations, which is what a single call waits for, is gone through once for all of them. Sums over nodes are taken in the same
+ * order in both, so the bits are the same. In a step of four nodes a reg of a single call has four to spare, whose junk no sum and
+ * no maximum takes in.
+ */
+#ifndef CAROM_SRC_BALL_BALL_CARRIER_H
+#define CAROM_SRC_BALL_BALL_CARRIER_H
+
+#include "ball_ball/lanes.h"
+
+#define always static inline __attribute__((always_inline)) /* the constants of a rule must reach the inner loops */
+
+enum { MOST_NODES = 8 };
+/* Numbers at the nodes, in memory. */
+typedef float node_row[MOST_NODES];
+
+#ifdef CAROM_LANES_ONE
+typedef float reg __attribute__((vector_size(32)));
+typedef int32_t reg_int __attribute__((vector_size(32)));
+typedef float reg_unaligned __attribute__((vector_size(32), aligned(4), may_alias));
+typedef float half_reg __attribute__((vector_size(16)));
+#define REGS(n) 1
+#define MOST_REGS 1
+#define LOW(x) __builtin_shufflevector(x, x, 0, 1, 2, 3)
+#define HIGH(x) __builtin_shufflevector(x, x, 4, 5, 6, 7)
+#define WHOLE(low, high) __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7)
+/* Register k of a row. */
+#define AT(row, k) ((reg) * (const reg_unaligned *)(row))
+/* Any of its numbers, where all are the same. */
+#define ONE_OF(x) ((x)[0])
+#else
+typedef vreal reg;
+typedef vint reg_int;
+#define REGS(n) (n)
+#define MOST_REGS MOST_NODES
+#define AT(row, k) ((row)[k])
+#define ONE_OF(x) (x)
+#endif
+
+/* For every register of n nodes. What is done for eight registers in turn would not stay in the cache of instructions. */
+#define EACH_REG(k, n) EACH_REG_(k, n)
+#define EACH_REG_(k, n) _Pragma("GCC unroll 4") for (int k = 0; k < REGS(n); k++)
+
+/* The same number at every node of a register; of a reg, itself. */
+#define SPREAD(x) _Generic((x), reg: reg_itself, default: reg_of)(x)
+always reg reg_itself(reg x) {
+  return x;
+}
+#ifdef CAROM_LANES_ONE
+always reg reg_of(float x) {
+  return (reg){x, x, x, x, x, x, x, x};
+}
+#else
+#define reg_of v_splat
+#endif
+/* a b + c as a reg, each of them a reg or one number. */
+#define MADD(a, b, c) reg_fma(SPREAD(a), SPREAD(b), SPREAD(c))
+
+/* ---- Single calls ----------------------------------------------------------------------------------------------------- */
+
+#ifdef CAROM_LANES_ONE
+
+always reg reg_fma(reg a, reg b, reg c) {
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
+  return (reg)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
+#elif defined(CAROM_LANES_NEON)
+  const half_reg low = (half_reg)vfmaq_f32((float32x4_t)LOW(c), (float32x4_t)LOW(a), (float32x4_t)LOW(b));
+  const half_reg high = (half_reg)vfmaq_f32((float32x4_t)HIGH(c), (float32x4_t)HIGH(a), (float32x4_t)HIGH(b));
+  return WHOLE(low, high);
+#else
+  return a * b + c;
+#endif
+}
+
+/* 1/sqrt(x) and 1/x: to three digits, for predictors; and properly. */
+always reg rough_reciprocal_sqrt(reg x) {
+#if defined(CAROM_LANES_AVX512)
+  return (reg)_mm256_rsqrt14_ps((__m256)x);
+#elif defined(CAROM_LANES_AVX2)
+  return (reg)_mm256_rsqrt_ps((__m256)x);
+#elif defined(CAROM_LANES_SSE2)
+  return WHOLE((half_reg)_mm_rsqrt_ps((__m128)LOW(x)), (half_reg)_mm_rsqrt_ps((__m128)HIGH(x)));
+#elif defined(CAROM_LANES_NEON)
+  return 1 / WHOLE((half_reg)vsqrtq_f32((float32x4_t)LOW(x)), (half_reg)vsqrtq_f32((float32x4_t)HIGH(x)));
+#else
+  reg y;
+  for (int k = 0; k < MOST_NODES; k++)
+    y[k] = sqrtf(x[k]);
+  return 1 / y;
+#endif
+}
+always reg rough_reciprocal(reg x) {
+#if defined(CAROM_LANES_AVX512)
+  return (reg)_mm256_rcp14_ps((__m256)x);
+#elif defined(CAROM_LANES_AVX2)
+  return (reg)_mm256_rcp_ps((__m256)x);
+#elif defined(CAROM_LANES_SSE2)
+  return WHOLE((half_reg)_mm_rcp_ps((__m128)LOW(x)), (half_reg)_mm_rcp_ps((__m128)HIGH(x)));
+#else
+  return 1 / x;
+#endif
+}
+always reg reg_reciprocal_sqrt(reg x) {
+  const reg y = rough_reciprocal_sqrt(x);
+  return V_ESTIMATES ? reg_fma(0.5f * y, reg_fma(-(x * y), y, SPREAD(1.0f)), y) : y;
+}
+always reg reg_reciprocal(reg x) {
+  const reg y = rough_reciprocal(x);
+  return V_ESTIMATES ? reg_fma(y, reg_fma(-x, y, SPREAD(1.0f)), y) : y;
+}
+
+always reg reg_abs(reg x) {
+  return (reg)((reg_int)x & 0x7fffffff);
+}
+
+/* The largest of the numbers at n nodes. */
+always vreal largest(const reg *x, int n) {
+  const half_reg low = LOW(x[0]), high = HIGH(x[0]);
+  vreal most[4];
+  lanes_unrolled for (int k = 0; k < 4; k++) most[k] = n == 8 ? v_max(low[k], high[k]) : low[k];
+  return v_max(v_max(most[0], most[2]), v_max(most[1], most[3]));
+}
+
+/* The sum of numbers at n nodes. */
+always vreal sum_of(reg x, int n) {
+  const half_reg sum = n == 8 ? LOW(x) + HIGH(x) : LOW(x);
+  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+/* Sum over the nodes of weight times x; the weights those of a rule, or computed. */
+always vreal dot(const float *weight, const reg *x, int n) {
+  return sum_of(AT(weight, 0) * x[0], n);
+}
+always vreal sum_of_products(const reg *weight, const reg *x, int n) {
+  return sum_of(weight[0] * x[0], n);
+}
+
+/* out = M' x: out at node k is the sum over the nodes j of M[j][k] x at j. */
+always void apply(const node_row *M, const reg *x, reg *out, int n) {
+  reg pair[MOST_NODES / 2];
+  lanes_unrolled for (int j = 0; j < n; j += 2) pair[j / 2] = MADD(AT(M[j + 1], 0), x[0][j + 1], AT(M[j], 0) * x[0][j]);
+  out[0] = n == 8 ? (pair[0] + pair[1]) + (pair[2] + pair[3]) : pair[0] + pair[1];
+}
+
+/* ---- Batches ---------------------------------------------------------------------------------------------------------- */
+
+#else
+
+always reg reg_fma(reg a, reg b, reg c) {
+  return v_fma(a, b, c);
+}
+always reg rough_reciprocal_sqrt(reg x) {
+  return v_rough_reciprocal_sqrt(x);
+}
+always reg rough_reciprocal(reg x) {
+  return v_rough_reciprocal(x);
+}
+always reg reg_reciprocal_sqrt(reg x) {
+  return v_reciprocal_sqrt(x);
+}
+always reg reg_reciprocal(reg x) {
+  return v_reciprocal(x);
+}
+always reg reg_abs(reg x) {
+  return v_abs(x);
+}
+
+always vreal largest(const reg *x, int n) {
+  vreal most[4];
+  lanes_unrolled for (int k = 0; k < 4; k++) most[k] = n == 8 ? v_max(x[k], x[k + 4]) : x[k];
+  return v_max(v_max(most[0], most[2]), v_max(most[1], most[3]));
+}
+
+always vreal dot(const float *weight, const reg *x, int n) {
+  vreal sum[4];
+  lanes_unrolled for (int k = 0; k < 4; k++) sum[k] = n == 8 ? weight[k] * x[k] + weight[k + 4] * x[k + 4] : weight[k] * x[k];
+  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+always vreal sum_of_products(const reg *weight, const reg *x, int n) {
+  vreal sum[4];
+  lanes_unrolled for (int k = 0; k < 4; k++) sum[k] = n == 8 ? weight[k] * x[k] + weight[k + 4] * x[k + 4] : weight[k] * x[k];
+  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
+always void apply(const node_row *M, const reg *x, reg *out, int n) {
+  EACH_REG(k, n) {
+    reg pair[MOST_NODES / 2];
+    lanes_unrolled for (int j = 0; j < n; j += 2) pair[j / 2] = MADD(M[j + 1][k], x[j + 1], M[j][k] * x[j]);
+    out[k] = n == 8 ? (pair[0] + pair[1]) + (pair[2] + pair[3]) : pair[0] + pair[1];
+  }
+}
+
+#endif
+
+/* ---- Functions over both ------------------------------------------------------------------------------------------------ */
+
+/* sqrt(x) for x > 0, to the precision of its reciprocal. */
+always vreal root(vreal x) {
+  return x * v_reciprocal_sqrt(x);
+}
+always reg reg_root(reg x) {
+  return x * reg_reciprocal_sqrt(x);
+}
+
+/* e^x for |x| < 80, to about 2e-7: 2^n times a polynomial in what is left of x. */
+always reg exponential(reg x) {
+  const float rounder = 12582912.0f; /* 1.5 2^23: adding it rounds to an integer, which then stands in the lowest bits */
+  const reg shifted = MADD(x, 1.44269504f, rounder), n = shifted - rounder;
+  const reg r = MADD(n, -1.42860677e-6f, MADD(n, -0.693145752f, x)); /* log(2) in two parts, the first of few digits */
+  const reg p = MADD(r, MADD(r, MADD(r, MADD(r, MADD(r, 1 / 720.0f, 1 / 120.0f), 1 / 24.0f), 1 / 6.0f), 0.5f), 1.0f);
+  return (reg)((reg_int)MADD(r, p, 1.0f) + ((reg_int)shifted << 23));
+}
+
+/* log(x) for x > 0, to about 6e-7: the exponent, and the series of 2 artanh in what is left. */
+always reg logarithm(reg x) {
+  const reg_int bits = (reg_int)x - 0x3f3504f3; /* of sqrt(1/2): what is left is between that and sqrt(2) */
+  const reg exponent = __builtin_convertvector(bits >> 23, reg), m = (reg)((bits & 0x7fffff) + 0x3f3504f3);
+  const reg t = (m - 1) * reg_reciprocal(m + 1), t2 = t * t;
+  const reg series = MADD(t2, MADD(t2, MADD(t2, 2 / 7.0f, 2 / 5.0f), 2 / 3.0f), 2.0f);
+  return MADD(exponent, 0.693147181f, t * series);
+}
+
+/* x^(1/n) for x > 0. */
+always vreal root_of(int n, vreal x) {
+  return ONE_OF(exponential((1.0f / (float)n) * logarithm(SPREAD(x))));
+}
+
+/* The inverse hyperbolic sine. */
+always vreal inverse_sinh(vreal x) {
+  const vreal size = v_abs(x), y = ONE_OF(logarithm(SPREAD(size + root(v_fma(size, size, v_splat(1))))));
+  return v_select(v_less(x, v_splat(0)), -y, y);
+}
+
+#endif

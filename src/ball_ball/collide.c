@@ -1,0 +1,168 @@
+/* The public entry points: collocation, and for what it does not take: check, go to the collision frame, solve, come back, say how
+ * it went. */
+#include "carom.h"
+
+#include "ball_ball/arguments.h"
+#include "ball_ball/batch.h"
+#include "ball_ball/detail.h"
+#include "ball_ball/euler.h"
+#include "ball_ball/fallback.h"
+#include "ball_ball/frame.h"
+#include "ball_ball/kernels.h"
+#include "ball_ball/result.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+carom_options carom_default_options(void) {
+  return (carom_options){.solver = CAROM_SOLVER_EXACT, .slip = CAROM_SLIP_PAPER, .steps = 1000};
+}
+
+static bool collocate(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+  float solution[OUT_COLUMNS];
+  const int evaluations =
+      carom_kernels_in_force()->single[CAROM_DOUBLE](in, carom_spin_sign(opt->slip), out, detail == NULL ? NULL : solution);
+  if (evaluations > 0 && detail != NULL) {
+    const carom_frame frame = carom_frame_of(in);
+    const carom_local before = carom_to_frame(&frame, in, opt->slip);
+    *detail = carom_detail_of_solution(&frame, &before, solution, evaluations);
+  }
+  return evaluations > 0;
+}
+
+static carom_status solve_exact(const carom_frame *frame, carom_local *local, carom_detail *detail) {
+  const carom_reduced c = carom_reduce(local);
+  carom_way way;
+  const carom_status status = carom_fallback(&c, &way);
+  if (status == CAROM_OK && detail != NULL)
+    *detail = carom_detail_of_way(frame, local, &way);
+  carom_restore(&c, &way.at, local);
+  return status;
+}
+
+static carom_status solve_euler(const carom_frame *frame, carom_local *local, int steps, carom_detail *detail) {
+  const carom_local before = *local;
+  carom_euler_run run;
+  const carom_status status = carom_euler(local, steps, INT64_MAX, &run);
+  if (status == CAROM_OK && detail != NULL)
+    *detail = carom_detail_of_euler(frame, &before, local, &run);
+  return status;
+}
+
+static carom_status solve(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+  if (opt->solver == CAROM_SOLVER_EXACT && collocate(in, opt, out, detail))
+    return CAROM_OK;
+  int field;
+  const carom_status bad = carom_check_impact(in, &field);
+  if (bad != CAROM_OK)
+    return bad;
+  const carom_frame frame = carom_frame_of(in);
+  if (frame.distance == 0.0) /* centres so near that the square of their distance underflows */
+    return CAROM_ERROR_COINCIDENT;
+  if (isinf(frame.distance))
+    return CAROM_ERROR_OVERFLOW;
+  carom_local local = carom_to_frame(&frame, in, opt->slip);
+  if (local.v_jy - local.v_iy >= 0.0) {
+    carom_copy_state(in, out);
+    return CAROM_SEPARATING;
+  }
+  const carom_status status =
+      opt->solver == CAROM_SOLVER_EXACT ? solve_exact(&frame, &local, detail) : solve_euler(&frame, &local, opt->steps, detail);
+  if (status != CAROM_OK)
+    return status;
+  carom_from_frame(&frame, &local, out);
+  return carom_result_is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+}
+
+carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+  if (detail != NULL)
+    *detail = carom_detail_of_nothing();
+  if (in == NULL || out == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_options defaults = carom_default_options();
+  if (opt == NULL)
+    opt = &defaults;
+  carom_status status = carom_check_options(opt);
+  if (status == CAROM_OK)
+    status = solve(in, opt, out, detail);
+  if (status < 0)
+    carom_fill_nan(out);
+  return status;
+}
+
+carom_status carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out) {
+  return carom_collide_detail(in, opt, out, NULL);
+}
+
+static void to_double(const carom_impact_f32 *in, carom_impact *out) {
+  const float *from = (const float *)in;
+  double *to = (double *)out;
+  for (size_t k = 0; k < sizeof *in / sizeof *from; k++)
+    to[k] = from[k];
+}
+
+static carom_status to_single(carom_status status, const carom_result *in, carom_result_f32 *out) {
+  const double *from = (const double *)in;
+  float *to = (float *)out;
+  bool fits = true;
+  for (size_t k = 0; k < sizeof *out / sizeof *to; k++) {
+    to[k] = (float)from[k];
+    fits &= isfinite(to[k]) || !isfinite(from[k]);
+  }
+  if (fits)
+    return status;
+  for (size_t k = 0; k < sizeof *out / sizeof *to; k++)
+    to[k] = NAN;
+  return CAROM_ERROR_OVERFLOW;
+}
+
+carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt, carom_result_f32 *out) {
+  if (in == NULL || out == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_options defaults = carom_default_options();
+  if (opt == NULL)
+    opt = &defaults;
+  if (opt->solver == CAROM_SOLVER_EXACT && carom_check_options(opt) == CAROM_OK &&
+      carom_kernels_in_force()->single[CAROM_SINGLE](in, carom_spin_sign(opt->slip), out, NULL) > 0)
+    return CAROM_OK;
+  carom_impact wide;
+  carom_result result;
+  to_double(in, &wide);
+  return to_single(carom_collide(&wide, opt, &result), &result, out);
+}
+
+carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt, void *out) {
+  return precision == CAROM_DOUBLE ? carom_collide(in, opt, out) : carom_collide_f32(in, opt, out);
+}
+
+static carom_status collide_batch(carom_precision precision, const void *in, size_t n, const carom_options *opt, void *out,
+                                  uint8_t *status) {
+  const carom_options defaults = carom_default_options();
+  if (opt == NULL)
+    opt = &defaults;
+  carom_status bad = carom_check_options(opt);
+  if (bad == CAROM_OK && n > 0 && (in == NULL || out == NULL))
+    bad = CAROM_ERROR_NULL;
+  if (bad != CAROM_OK || n == 0)
+    return bad;
+  carom_batch_solver *const exact = precision == CAROM_DOUBLE ? carom_exact_batch_double : carom_exact_batch_single;
+  carom_batch_solver *const solver = opt->solver == CAROM_SOLVER_EXACT ? exact : carom_kernels_in_force()->euler[precision];
+  const size_t first_bad = carom_batch_in_threads(solver, precision, in, n, opt, out, status);
+  if (first_bad == n)
+    return CAROM_OK;
+  /* Only its index came back through the threads; doing the pair again tells its status. */
+  const char *pair =
+      (const char *)in + first_bad * (precision == CAROM_DOUBLE ? sizeof(carom_impact) : sizeof(carom_impact_f32));
+  carom_result unused;
+  return carom_collide_one(precision, pair, opt, &unused);
+}
+
+carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
+                                 uint8_t *status) {
+  return collide_batch(CAROM_DOUBLE, in, n, opt, out, status);
+}
+
+carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt, carom_result_f32 *out,
+                                     uint8_t *status) {
+  return collide_batch(CAROM_SINGLE, in, n, opt, out, status);
+}

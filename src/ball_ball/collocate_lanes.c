@@ -1,0 +1,184 @@
+/* One collocation step of many collisions, one in each lane. plan.h has the steps; batch.c sorts collisions by the step that they
+ * need next. The decisions are those of collocate_one.c. */
+#include "ball_ball/kernels.h"
+#include "ball_ball/plan.h"
+
+#define PASTE_(a, b) a##b
+#define PASTE(a, b) PASTE_(a, b)
+#define apart static __attribute__((noinline)) /* the inlined text of a step is long */
+
+apart vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return end_step(4, EASY_ITERATIONS, a, g, s, to_end, out);
+}
+apart vreal take_full_step(int iterations, const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return end_step(8, iterations, a, g, s, to_end, out);
+}
+apart vreal take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
+  return stick_step(a, g, s, out);
+}
+apart vreal take_part(const problem *a, const turn_plan *p, const state *s, state *next) {
+  const prediction g = predict(a, s, p->length);
+  return part_step(PART_ITERATIONS, false, a, &g, p, v_not(v_all()), s, next, NULL);
+}
+apart vreal take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
+  const prediction g = predict(a, s, p->length);
+  return part_step(TURN_ITERATIONS, true, a, &g, p, last, s, next, out);
+}
+
+static state load_state(carom_moving moving) {
+  return (state){.u_x = v_load(moving[MOVING_U_X]),
+                 .u_z = v_load(moving[MOVING_U_Z]),
+                 .d_x = v_load(moving[MOVING_D_X]),
+                 .d_y = v_load(moving[MOVING_D_Y]),
+                 .v = v_load(moving[MOVING_V]),
+                 .K = v_load(moving[MOVING_K]),
+                 .K_c = v_load(moving[MOVING_K_C]),
+                 .c_0 = v_load(moving[MOVING_C_0]),
+                 .z_0 = v_load(moving[MOVING_Z_0]),
+                 .J_c = v_load(moving[MOVING_J_C]),
+                 .J_z = v_load(moving[MOVING_J_Z]),
+                 .I_x = v_load(moving[MOVING_I_X]),
+                 .I_y = v_load(moving[MOVING_I_Y]),
+                 .restitution = v_less(v_splat(0), v_load(moving[MOVING_RESTITUTION]))};
+}
+
+static void store_state(const state *s, carom_moving moving) {
+  v_store(moving[MOVING_U_X], s->u_x);
+  v_store(moving[MOVING_U_Z], s->u_z);
+  v_store(moving[MOVING_D_X], s->d_x);
+  v_store(moving[MOVING_D_Y], s->d_y);
+  v_store(moving[MOVING_V], s->v);
+  v_store(moving[MOVING_K], s->K);
+  v_store(moving[MOVING_K_C], s->K_c);
+  v_store(moving[MOVING_C_0], s->c_0);
+  v_store(moving[MOVING_Z_0], s->z_0);
+  v_store(moving[MOVING_J_C], s->J_c);
+  v_store(moving[MOVING_J_Z], s->J_z);
+  v_store(moving[MOVING_I_X], s->I_x);
+  v_store(moving[MOVING_I_Y], s->I_y);
+  v_store(moving[MOVING_RESTITUTION], v_select(s->restitution, v_splat(1), v_splat(0)));
+}
+
+static state choose_state(vmask m, const state *yes, const state *no) {
+  return (state){.u_x = v_select(m, yes->u_x, no->u_x),
+                 .u_z = v_select(m, yes->u_z, no->u_z),
+                 .d_x = v_select(m, yes->d_x, no->d_x),
+                 .d_y = v_select(m, yes->d_y, no->d_y),
+                 .v = v_select(m, yes->v, no->v),
+                 .K = v_select(m, yes->K, no->K),
+                 .K_c = v_select(m, yes->K_c, no->K_c),
+                 .c_0 = no->c_0,
+                 .z_0 = no->z_0,
+                 .J_c = v_select(m, yes->J_c, no->J_c),
+                 .J_z = v_select(m, yes->J_z, no->J_z),
+                 .I_x = v_select(m, yes->I_x, no->I_x),
+                 .I_y = v_select(m, yes->I_y, no->I_y),
+                 .restitution = (m & yes->restitution) | (v_not(m) & no->restitution)};
+}
+
+static vreal mark(vmask m, enum step_kind kind, vreal otherwise) {
+  return v_select(m, v_splat((float)kind), otherwise);
+}
+
+/* What comes next, a step_kind as a number. `fresh`: the state is that at the start, which is not easy. */
+apart vreal next_kind(const problem *a, const state *s, vreal to_end, const prediction *g, const progress *so_far, bool fresh) {
+  const prediction ahead = look_ahead(a, s, g, to_end);
+  const choice c = choose(a, s, &ahead, to_end, so_far);
+  vreal kind = mark(c.part, PART, v_splat((float)TURN));
+  kind = mark(c.stick, STICK, kind);
+  kind = mark(c.full, FULL, kind);
+  kind = mark(c.full & c.long_, FULL_LONG, kind);
+  return fresh ? kind : mark(v_less(so_far->caution, v_splat(1)) & is_easy(a, s, g, to_end), EASY, kind);
+}
+
+static void store_kinds(vreal kind, uint8_t next[MOST_LANES]) {
+  lanes_unrolled for (int k = 0; k < LANES; k++) next[k] = (uint8_t)kind[k];
+}
+
+void PASTE(carom_first_step_, CAROM_LANES_SUFFIX)(carom_in in, float spin, float tolerance, carom_out out, carom_moving moving,
+                                                  uint8_t next[MOST_LANES]) {
+  const problem a = problem_of(in, spin, tolerance);
+  const state s = state_of(&a, in);
+  const vreal to_end = 1 + a.e;
+  const prediction g = predict(&a, &s, to_end);
+  const vmask easy = is_easy(&a, &s, &g, to_end);
+  solution answer;
+  const vreal error = take_easy_step(&a, &g, to_end, &s, &answer);
+  const vmask solved = easy & v_less(error, v_splat(tolerance));
+  put_solution(&answer, out);
+  if (!v_any(v_not(solved))) {
+    memset(next, SOLVED, MOST_LANES);
+    return;
+  }
+  const progress so_far = {.share = v_splat(1), .caution = v_select(easy, v_splat(1), v_splat(0))};
+  store_kinds(mark(solved, SOLVED, next_kind(&a, &s, to_end, &g, &so_far, true)), next);
+  if (v_any(easy & v_not(solved))) { /* these have been tried */
+    store_state(&s, moving);
+    v_store(moving[MOVING_SHARE], so_far.share);
+    v_store(moving[MOVING_CAUTION], so_far.caution);
+    v_store(moving[MOVING_ATTEMPTS], v_splat(0));
+  }
+}
+
+void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh, carom_in in, float spin, float tolerance,
+                                                 carom_moving moving, carom_out out, uint8_t next[MOST_LANES]) {
+  const problem a = problem_of(in, spin, tolerance);
+  const vreal zero = v_splat(0), one = v_splat(1);
+  const vmask none = v_not(v_all());
+  state s, after;
+  progress so_far = {.share = one, .caution = zero};
+  vreal attempts = one, error, to_end;
+  if (fresh) {
+    s = state_of(&a, in);
+    to_end = 1 + a.e;
+  } else {
+    s = load_state(moving);
+    so_far = (progress){.share = v_load(moving[MOVING_SHARE]), .caution = v_load(moving[MOVING_CAUTION])};
+    attempts = v_load(moving[MOVING_ATTEMPTS]) + 1;
+    to_end = way_to_end(&a, &s);
+  }
+  prediction g = predict(&a, &s, to_end);
+  solution answer;
+  vmask last = v_all(), impossible = none;
+  if (kind == EASY)
+    error = take_easy_step(&a, &g, to_end, &s, &answer);
+  else {
+    const prediction ahead = look_ahead(&a, &s, &g, to_end);
+    if (kind == FULL || kind == FULL_LONG)
+      error = take_full_step(kind == FULL ? FULL_ITERATIONS : FULL_LONG_ITERATIONS, &a, &ahead, to_end, &s, &answer);
+    else if (kind == STICK)
+      error = take_stick_step(&a, &ahead, &s, &answer);
+    else if (kind == PART) {
+      const turn_plan p = plan_part(&ahead, to_end);
+      error = take_part(&a, &p, &s, &after);
+      last = none;
+    } else {
+      const turn_plan p = plan_turn(&a, &s, &ahead, to_end, &so_far, &last, &impossible);
+      error = take_turn_step(&a, &p, last, &s, &after, &answer);
+    }
+  }
+  const vmask accepted = v_less(error, v_splat(tolerance)) & v_not(impossible), solved = accepted & last;
+  if (kind != PART)
+    put_solution(&answer, out);
+  if (!v_any(v_not(solved))) {
+    memset(next, SOLVED, MOST_LANES);
+    return;
+  }
+  if (kind == PART || kind == TURN) {
+    const vmask moved_on = accepted & v_not(last);
+    const progress refused = after_refusal(&so_far, none, kind == TURN ? v_all() : none);
+    so_far.share = v_select(moved_on, one, refused.share);
+    so_far.caution = v_select(moved_on, zero, refused.caution);
+    s = choose_state(moved_on, &after, &s);
+    to_end = way_to_end(&a, &s);
+    g = predict(&a, &s, to_end);
+  } else
+    so_far = after_refusal(&so_far, kind == EASY || kind == STICK ? v_all() : none, none);
+  const vmask spent = v_less_equal(v_splat(MOST_ATTEMPTS), attempts) | impossible;
+  const vreal then = next_kind(&a, &s, to_end, &g, &so_far, false);
+  store_kinds(mark(solved, SOLVED, mark(spent, REFUSED, then)), next);
+  store_state(&s, moving);
+  v_store(moving[MOVING_SHARE], so_far.share);
+  v_store(moving[MOVING_CAUTION], so_far.caution);
+  v_store(moving[MOVING_ATTEMPTS], attempts);
+}

@@ -1,0 +1,98 @@
+/* The exact limit of one collision by collocation steps, all nodes of a step in a register. plan.h has the steps; batch.c computes
+ * many collisions. */
+#include "ball_ball/plan.h"
+#include "ball_ball/kernels.h"
+
+#define PASTE_(a, b) a##b
+#define PASTE(a, b) PASTE_(a, b)
+#define rare static __attribute__((noinline)) /* the inlined text of a step is long */
+
+rare float take_full_step(int iterations, const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return end_step(8, iterations, a, g, s, to_end, out);
+}
+rare float take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
+  return stick_step(a, g, s, out);
+}
+rare float take_part(const problem *a, const turn_plan *p, const state *s, state *next) {
+  const prediction g = predict(a, s, p->length);
+  return part_step(PART_ITERATIONS, false, a, &g, p, 0, s, next, NULL);
+}
+rare float take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
+  const prediction g = predict(a, s, p->length);
+  return part_step(TURN_ITERATIONS, true, a, &g, p, last, s, next, out);
+}
+/* Behind the first step. */
+rare float take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return end_step(4, EASY_ITERATIONS, a, g, s, to_end, out);
+}
+
+/* From *s, predicted *g and with `to_end`, to the end. Returns the number of right-hand sides evaluated, 0 if it did not get there. */
+rare int take_steps(const problem *a, state s, prediction g, vreal to_end, progress so_far, solution *out) {
+  int evaluations = 0;
+  for (int attempt = 1; attempt <= MOST_ATTEMPTS; attempt++) {
+    state next;
+    float error;
+    int last = 1, light = 0, turn = 0;
+    if (so_far.caution < 1 && attempt > 1 && is_easy(a, &s, &g, to_end)) {
+      error = take_easy_step(a, &g, to_end, &s, out);
+      evaluations += 4 * (EASY_ITERATIONS + 1);
+      light = 1;
+    } else {
+      const prediction ahead = look_ahead(a, &s, &g, to_end);
+      const choice c = choose(a, &s, &ahead, to_end, &so_far);
+      int iterations = TURN_ITERATIONS;
+      if (c.full) {
+        iterations = c.long_ ? FULL_LONG_ITERATIONS : FULL_ITERATIONS;
+        error = take_full_step(iterations, a, &ahead, to_end, &s, out);
+      } else if (c.stick) {
+        iterations = STICK_ITERATIONS;
+        error = take_stick_step(a, &ahead, &s, out);
+        light = 1;
+      } else if (c.part) {
+        iterations = PART_ITERATIONS;
+        const turn_plan p = plan_part(&ahead, to_end);
+        error = take_part(a, &p, &s, &next);
+        last = 0;
+      } else {
+        vmask refused;
+        const turn_plan p = plan_turn(a, &s, &ahead, to_end, &so_far, &last, &refused);
+        if (refused)
+          return 0;
+        error = take_turn_step(a, &p, last, &s, &next, out);
+        turn = 1;
+      }
+      evaluations += MOST_NODES * (iterations + 1);
+    }
+    if (!(error < a->tolerance))
+      so_far = after_refusal(&so_far, light, turn);
+    else if (last)
+      return evaluations;
+    else {
+      s = next;
+      to_end = way_to_end(a, &s);
+      g = predict(a, &s, to_end);
+      so_far = (progress){.share = 1};
+    }
+  }
+  return 0;
+}
+
+int PASTE(carom_collocate_, CAROM_LANES_SUFFIX)(const float in[IN_COLUMNS], float spin, float tolerance,
+                                                float out[OUT_COLUMNS]) {
+  const problem a = problem_of(in, spin, tolerance);
+  const state s = state_of(&a, in);
+  const vreal to_end = 1 + a.e;
+  const prediction g = predict(&a, &s, to_end);
+  progress so_far = {.share = 1};
+  solution answer;
+  if (is_easy(&a, &s, &g, to_end)) {
+    if (end_step(4, EASY_ITERATIONS, &a, &g, &s, to_end, &answer) < tolerance) {
+      put_solution(&answer, out);
+      return 4 * (EASY_ITERATIONS + 1);
+    }
+    so_far.caution = 1;
+  }
+  const int evaluations = take_steps(&a, s, g, to_end, so_far, &answer);
+  put_solution(&answer, out);
+  return evaluations;
+}

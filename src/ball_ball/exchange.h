@@ -1,0 +1,47 @@
+/* What the parts of the exact solver hand to each other: rows.h, in the caller's precision, reduces collisions to eight numbers
+ * each and turns their solutions into velocities; between them collocation (plan.h) computes in single precision, in as many
+ * steps as it takes. */
+#ifndef CAROM_SRC_BALL_BALL_EXCHANGE_H
+#define CAROM_SRC_BALL_BALL_EXCHANGE_H
+
+#include <stdint.h>
+
+/* Reduced collisions, a column for each quantity of reduced.h in units of |v_n0| / kappa. */
+enum { IN_U_X, IN_U_Z, IN_D_X, IN_D_Y, IN_KAPPA, IN_MU, IN_MU_B, IN_E, IN_COLUMNS };
+/* Solutions: those of problem.h. */
+enum { OUT_J_C, OUT_J_Z, OUT_I_X, OUT_I_Y, OUT_EXTRA, OUT_STICK, OUT_K_C, OUT_COLUMNS };
+/* A collision between two steps: its state, and what has been tried. */
+enum {
+  MOVING_U_X,
+  MOVING_U_Z,
+  MOVING_D_X,
+  MOVING_D_Y,
+  MOVING_V,
+  MOVING_K,
+  MOVING_K_C,
+  MOVING_C_0,
+  MOVING_Z_0,
+  MOVING_J_C,
+  MOVING_J_Z,
+  MOVING_I_X,
+  MOVING_I_Y,
+  MOVING_RESTITUTION, /* 1 or 0 */
+  MOVING_SHARE,
+  MOVING_CAUTION,
+  MOVING_ATTEMPTS,
+  MOVING_COLUMNS
+};
+
+enum { MOST_LANES = 16 }; /* of floats in a vector */
+typedef float carom_in[IN_COLUMNS][MOST_LANES];
+typedef float carom_out[OUT_COLUMNS][MOST_LANES];
+typedef float carom_moving[MOVING_COLUMNS][MOST_LANES];
+
+/* Kinds of steps (plan.h), FULL with few iterations or with many; and what else may come next: a collision is solved, or
+ * collocation refuses it. */
+enum step_kind { EASY, FULL, FULL_LONG, STICK, PART, TURN, STEP_KINDS, SOLVED = STEP_KINDS, REFUSED };
+
+/* Error in p, in units of |v_n0| / kappa, that a step may add by its estimate, for results in double and in single precision. */
+static const float carom_tolerances[2] = {3e-7f, 6e-6f};
+
+#endif

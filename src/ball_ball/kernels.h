@@ -1,0 +1,66 @@
+/* What is compiled once for every instruction set, as tables of functions: reduction and restoration of rows, collocation steps
+ * of many collisions, one collision as a whole, and Euler's method. dispatch.c has the tables. */
+#ifndef CAROM_SRC_BALL_BALL_KERNELS_H
+#define CAROM_SRC_BALL_BALL_KERNELS_H
+
+#include "carom.h"
+
+#include "ball_ball/exchange.h"
+#include "platform/isa.h"
+
+typedef enum carom_precision { CAROM_DOUBLE, CAROM_SINGLE, CAROM_PRECISIONS } carom_precision;
+
+/* What rows.h keeps of a register of rows, from reduction to restoration. */
+typedef struct carom_context {
+  _Alignas(64) unsigned char bytes[4608];
+} carom_context;
+
+/* Reduces as many rows (carom_impact or its twin) as a vector has floats. Returns a bit for each row that passes every check,
+ * approaches, and is within what collocation is tried on; the columns of others hold junk. s: see frame.h. */
+typedef uint32_t carom_rows_in(const void *const row[MOST_LANES], double s, carom_context *context, carom_in in);
+/* Writes the velocities (carom_result or its twin). Returns a bit for each row whose numbers are all finite. */
+typedef uint32_t carom_rows_out(const carom_context *context, carom_out solution, void *const row[MOST_LANES]);
+
+/* The first step, if it is an easy one. next: what comes next, an enum step_kind for each lane; *out of those that are SOLVED;
+ * *moving of those for which an easy step was tried in vain. spin: 5/2 s. */
+typedef void carom_first_step(carom_in in, float spin, float tolerance, carom_out out, carom_moving moving,
+                              uint8_t next[MOST_LANES]);
+/* A step of a kind, for collisions that are `fresh`, or stand at *moving, which becomes where they stand after it. */
+typedef void carom_next_step(enum step_kind kind, int fresh, carom_in in, float spin, float tolerance, carom_moving moving,
+                             carom_out out, uint8_t next[MOST_LANES]);
+
+/* One reduced collision, by all steps that it takes. Returns the number of right-hand sides
+ * evaluated, or 0 if no step within the tolerance leads on. */
+typedef int carom_collocate(const float in[IN_COLUMNS], float spin, float tolerance, float out[OUT_COLUMNS]);
+/* One row from end to end. Returns the same number, 0 also for a row that is not good; *solution may be NULL. */
+typedef int carom_single(const void *in, double s, void *out, float solution[OUT_COLUMNS]);
+
+/* Resolves n pairs of one precision with checked options; in, out and status as in carom_collide_batch(), status may be NULL.
+ * Returns the index of the first pair in error, or n. */
+typedef size_t carom_batch_solver(const void *in, size_t n, const carom_options *opt, void *out, uint8_t *status);
+
+typedef struct carom_kernels {
+  int lanes; /* floats in a vector */
+  carom_rows_in *rows_in[CAROM_PRECISIONS];
+  carom_rows_out *rows_out[CAROM_PRECISIONS];
+  carom_first_step *first_step;
+  carom_next_step *next_step;
+  carom_single *single[CAROM_PRECISIONS];
+  carom_batch_solver *euler[CAROM_PRECISIONS];
+} carom_kernels;
+
+#define CAROM_KERNEL_PROTOTYPES(NAME, suffix)                                              \
+  carom_rows_in carom_rows_in_##suffix##_double, carom_rows_in_##suffix##_single;             \
+  carom_rows_out carom_rows_out_##suffix##_double, carom_rows_out_##suffix##_single;          \
+  carom_first_step carom_first_step_##suffix;                                              \
+  carom_next_step carom_next_step_##suffix;                                                \
+  carom_collocate carom_collocate_##suffix;                                                \
+  carom_single carom_single_##suffix##_double, carom_single_##suffix##_single;             \
+  carom_batch_solver carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single;
+CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
+#undef CAROM_KERNEL_PROTOTYPES
+
+/* Those for the instruction set in force. */
+const carom_kernels *carom_kernels_in_force(void);
+
+#endif

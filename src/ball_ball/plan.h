@@ -1,0 +1,170 @@
+/* Which collocation step comes next.
+ *
+ * At the rate of its start a collision loses the share q of |u| on the whole way to its end. If q is not large and the direction
+ * of the cloth slip smooth, one step in the impulse ends it: with four nodes (EASY) or eight (FULL). If it will stick, and what is
+ * left of |u| is so small that the error of a step to there does not count, that ends it (STICK); else a step takes away most of
+ * |u| first (PART). Where the cloth slip turns, steps with their nodes drawn together there lose less of |u| at a
+ * time (TURN).
+ *
+ * HOW SMOOTH. Along the straight way that d is about to take, t is analytic in the ellipse with foci at the ends of the step
+ * that passes through the zeros of |d|^2; with rho the sum of its half axes over the half length of the step, n Gauss nodes leave
+ * out about rho^-2n. For a TURN step, whose map takes the zeros to xi = +- i pi / 2, the same holds with the range of xi.
+ *
+ * A step is accepted if its error estimate is below the tolerance. If it is not, a more careful kind is tried, and TURN steps at
+ * half the length. After MOST_ATTEMPTS steps, or if they get too short, collocation refuses the collision, which then is for the
+ * fallback (fallback.c).
+ *
+ * The limits below were found with `carom stress`, which finds them again: it prints the largest errors of what was accepted.
+ */
+#ifndef CAROM_SRC_BALL_BALL_PLAN_H
+#define CAROM_SRC_BALL_BALL_PLAN_H
+
+#include "ball_ball/end_step.h"
+#include "ball_ball/stick_step.h"
+#include "ball_ball/part_step.h"
+
+enum { EASY_ITERATIONS = 2, FULL_ITERATIONS = 4, FULL_LONG_ITERATIONS = 8, PART_ITERATIONS = 8 };
+enum { TURN_ITERATIONS = 4, MOST_ATTEMPTS = 14 };
+
+static const float EASY_SHARE = 1.2e-3f;      /* error of an EASY step over mu_b q^8, */
+static const float MOST_EASY_PULL = 5e-3f;    /* and its mu mu_b q^2 */
+static const float FULL_Q = 0.6f;             /* q of a FULL step with few iterations, */
+static const float FULL_LONG_Q = 0.86f;       /* and with many */
+static const float BEND_4 = 20, BEND_8 = 100; /* by q^2: what a way that is not straight adds to the error of n nodes */
+static const float STICK_Q = 1.05f;           /* q from which the balls will stick */
+static const float TURN_Q = 0.5f;             /* q of a TURN step */
+static const float LEFT_Q = 0.5f;             /* q that a PART would leave; */
+static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f; /* its share of |u|, and of q */
+static const float LEAST_WIDTH = 1e-5f;       /* distance delta of a turn */
+static const float WIDEST_RANGE = 6;          /* of xi of a TURN step */
+static const float TURN_SHARE = 350;          /* its error over (mu mu_b sigma)^2 L rho^-16 */
+static const float LEAST_SHARE = 0.1f;        /* of its usual length */
+
+/* After refusals of steps from a state. */
+typedef struct progress {
+  vreal share;   /* of the usual length that a TURN step may have */
+  vreal caution; /* 1: not EASY, and not to stick; 2: TURN */
+} progress;
+
+always vreal power_4(vreal x) {
+  return (x * x) * (x * x);
+}
+
+/* 1 / rho, at most: with d_1 for d at the end of the way, rho + 1 / rho = 2 (|d| + |d_1|) / |d_1 - d|. */
+always vreal inverse_rho(const problem *a, const state *s, const prediction *g, vreal length) {
+  const vreal g_x = length * (a->mu_b * g->c), g_y = length * v_fma(-a->spin * a->mu_b, g->z, v_splat(1)), tiny = v_splat(TINY);
+  const vreal d_x = s->d_x - g_x, d_y = s->d_y - g_y;
+  const vreal d_0 = root(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, tiny))), d_1 = root(v_fma(d_x, d_x, v_fma(d_y, d_y, tiny)));
+  const vreal sum = (d_0 + d_1) * inverse_length(g_x, g_y);
+  return v_select(is_at_rest(a, s), v_splat(0), v_reciprocal(2 * sum - v_reciprocal(sum)));
+}
+
+/* Is the direction of the cloth slip smooth enough for n nodes? The more of |u| is lost, the less straight the way. */
+always vmask is_smooth(int n, const problem *a, const state *s, const prediction *g, vreal length) {
+  const vreal inverse_4 = power_4(inverse_rho(a, s, g, length)), inverse_8 = inverse_4 * inverse_4, q = g->rate * length;
+  const vreal left_out = 4 * a->pull * g->z * length * (n == 8 ? inverse_8 * inverse_8 : inverse_8);
+  return v_less(left_out * v_fma((n == 8 ? BEND_8 : BEND_4) * q, q, v_splat(1)), v_splat(a->tolerance));
+}
+
+/* Will an EASY step do? *g: to the end. */
+always vmask is_easy(const problem *a, const state *s, const prediction *g, vreal to_end) {
+  const vreal q = g->rate * to_end, q_4 = power_4(q);
+  const vmask mild = v_less(EASY_SHARE * a->mu_b * (q_4 * q_4), v_splat(a->tolerance)) & v_less(a->pull * q * q, v_splat(MOST_EASY_PULL));
+  return v_any(mild) ? mild & is_smooth(4, a, s, g, to_end) : mild;
+}
+
+/* The error of a step to stick, over |u|, by how smooth tau and W are in lambda. */
+always vreal stick_error(const problem *a, const state *s, const prediction *g) {
+  const vreal inverse = inverse_rho(a, s, g, v_reciprocal(g->rate)), inverse_2 = inverse * inverse, mu = a->mu;
+  const vreal by_turn = v_fma(0.05f * inverse_2, inverse_2 * inverse_2, v_splat(1e-6f));
+  const vreal by_z = v_max(v_fma(-1.8e-4f * g->z, g->z, v_splat(6e-6f)), v_splat(0)); /* |u| has a kink where W is about u_z */
+  return mu * (v_select(is_at_rest(a, s), 2e-5f * (mu * mu * mu), by_turn) + by_z);
+}
+
+/* A TURN step. `last`: it ends the collision; `refused`: it would be too short, or the turn is too sharp. */
+always turn_plan plan_turn(const problem *a, const state *s, const prediction *g, vreal to_end, const progress *so_far, vmask *last,
+                           vmask *refused) {
+  turn_plan p;
+  /* the velocity of d, with the cloth's own pull along d, and its curvature as u turns */
+  const vreal own = (a->spin - 1) * a->pull * g->z * inverse_length(s->d_x, s->d_y);
+  const vreal g_x = own * s->d_x - a->mu_b * g->c, g_y = own * s->d_y + (a->spin * a->mu_b * g->z - 1);
+  const vreal angular = -a->mu_b * g->inverse_u * g->z * g->c * a->kappa;
+  const vreal c_x = -a->mu_b * g->z * angular, c_y = -a->spin * a->mu_b * g->c * angular;
+  const vreal straight = -(s->d_x * g_x + s->d_y * g_y) * v_reciprocal(g_x * g_x + g_y * g_y + TINY);
+  /* the closest point of the straight line, and from there that of the line along the curve */
+  const vreal d_x = s->d_x + straight * (g_x + 0.5f * straight * c_x), d_y = s->d_y + straight * (g_y + 0.5f * straight * c_y);
+  const vreal v_x = g_x + straight * c_x, v_y = g_y + straight * c_y, per_v = inverse_length(v_x, v_y), per_v2 = per_v * per_v;
+  const vreal side = (d_x * v_y - d_y * v_x) * per_v2, at = straight - (d_x * v_x + d_y * v_y) * per_v2, width = v_abs(side);
+
+  /* the range of xi that the tolerance allows: rho = y + sqrt(y^2 + 1) with y = pi / range */
+  const vreal one = v_splat(1), q = g->rate * to_end, reach = so_far->share * v_min(to_end, TURN_Q * v_reciprocal(g->rate));
+  const vreal cloth = a->pull * g->z, needed = v_max((TURN_SHARE / a->tolerance) * cloth * cloth * reach, v_splat(1.0001f));
+  const vreal rho = root(root(root(root(needed))));
+  const vreal widest = v_min(6.2831853f * v_reciprocal(rho - v_reciprocal(rho)), v_splat(WIDEST_RANGE));
+  /* a turn far away is as good as one nearer by and wider */
+  const vmask rests = is_at_rest(a, s);
+  p.at = v_select(rests, 2 * reach, v_min(v_max(at, -reach), 2 * reach));
+  const vreal moved = v_select(rests, reach, v_abs(at - p.at));
+  p.width = v_min(v_max(v_max(width, v_splat(LEAST_WIDTH)), moved), 2 * reach);
+  const vreal per_width = v_reciprocal(p.width), a_0 = -p.at * per_width, a_1 = (reach - p.at) * per_width;
+  const vreal from = inverse_sinh(a_0), range = inverse_sinh(a_1) - from;
+  const vreal e = ONE_OF(exponential(SPREAD(from + widest))), bound = p.at + 0.5f * p.width * (e - v_reciprocal(e));
+  const vmask whole = v_less_equal(range, widest);
+  p.length = v_select(whole, reach, v_min(bound, reach));
+  *last = whole & v_less(q, v_splat(TURN_Q)) & v_less_equal(one, so_far->share);
+  *refused = v_less(so_far->share, v_splat(LEAST_SHARE)) |
+             (v_less(width, v_splat(LEAST_WIDTH)) & v_not(rests) & v_less(v_splat(0), at) & v_less(at, reach));
+  /* the mean of t_y on the straight way, and with it of f */
+  const vreal along = root(v_fma(a_1, a_1, one)) - root(v_fma(a_0, a_0, one)), across = v_select(v_less(side, v_splat(0)), v_x, -v_x) * range;
+  const vreal mean_y = p.width * per_v * v_reciprocal(reach) * v_fma(v_y, along, across);
+  p.mean_f = -a->pull_y * g->z * v_select(v_less(moved, v_splat(TINY)), mean_y, g->t_y);
+  return p;
+}
+
+/* The way ahead of a state that is not easy, to the end or to stick; *first: predicted for the way to the end. */
+always prediction look_ahead(const problem *a, const state *s, const prediction *first, vreal to_end) {
+  const vmask is_short = v_less(first->rate * to_end, v_splat(FULL_LONG_Q));
+  if (!v_any(v_not(is_short)))
+    return *first;
+  return predict(a, s, v_select(is_short, to_end, v_min(to_end, v_reciprocal(first->rate))));
+}
+
+/* The share of |u| that a PART takes away. */
+always vreal part_share(vreal q) {
+  const vreal most = v_select(v_less(v_splat(STICK_Q), q), v_splat(MOST_PART), v_min(MOST_OF_WAY * q, v_splat(MOST_PART)));
+  return v_min(v_max((q - LEFT_Q) * (1 / (1 - LEFT_Q)), v_splat(LEAST_PART)), most);
+}
+always turn_plan plan_part(const prediction *g, vreal to_end) {
+  return (turn_plan){.length = part_share(g->rate * to_end) * v_reciprocal(g->rate)};
+}
+
+/* The kind of step for a state that is not easy: FULL, with many iterations where `long_`; to STICK; a PART; or else TURN. *g: the
+ * way ahead. */
+typedef struct choice {
+  vmask full, stick, part, long_;
+} choice;
+
+always choice choose(const problem *a, const state *s, const prediction *g, vreal to_end, const progress *so_far) {
+  const vreal q = g->rate * to_end, to_stick = v_reciprocal(g->rate), u = v_reciprocal(g->inverse_u);
+  const vmask usual = v_less(so_far->caution, v_splat(2));
+  choice c;
+  c.full = usual & v_less(q, v_splat(FULL_LONG_Q));
+  if (v_any(c.full))
+    c.full = c.full & is_smooth(8, a, s, g, to_end);
+  c.stick = v_less(so_far->caution, v_splat(1)) & v_less(v_splat(STICK_Q), q);
+  if (v_any(c.stick))
+    c.stick = c.stick & v_less(u * stick_error(a, s, g), v_splat(a->tolerance));
+  c.long_ = c.full & v_less(v_splat(FULL_Q), q);
+  c.part = usual & v_less_equal(v_splat(TURN_Q), q) & v_not(c.stick | c.full);
+  if (v_any(c.part))
+    c.part = c.part & is_smooth(8, a, s, g, part_share(q) * to_stick);
+  return c;
+}
+
+/* After a step that was refused; `light`: an EASY one, or one to stick. */
+always progress after_refusal(const progress *so_far, vmask light, vmask turn) {
+  return (progress){.share = v_select(turn, 0.5f * so_far->share, so_far->share),
+                    .caution = v_select(light, v_splat(1), v_splat(2))};
+}
+
+#endif

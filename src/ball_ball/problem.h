@@ -1,0 +1,140 @@
+/* A collision on its way, as the collocation steps see it, where it is going, and what comes of it. All in single precision, in
+ * units of |v_n0| / kappa, so that the impulse that stops a ball without friction is 1; reduced.h has the symbols. Instead of v_n
+ * there is v = v_n / kappa, which starts at -1 and has the slope 1 - f with f = f_y / kappa = -pull_y sigma t_y.
+ *
+ * THE END of the collision: v' = 1 - f times v, integrated, gives v^2 / 2 + K = int v dp with K = int v f dp, the work on the
+ * cloth's friction. Restitution returns e^2 of the work of compression, so that v^2 = e^2 + 2 (1 - e^2) K_c - 2 K at the end,
+ * with K_c for K at v = 0, where it is stationary. K is small, so no difference of large numbers is taken. */
+#ifndef CAROM_SRC_BALL_BALL_PROBLEM_H
+#define CAROM_SRC_BALL_BALL_PROBLEM_H
+
+#include "ball_ball/exchange.h"
+#include "ball_ball/quadrature.h"
+
+static const float TINY = 1e-36f; /* keeps 0 / 0 away */
+
+/* What stays. */
+typedef struct problem {
+  vreal kappa, per_kappa, mu, mu_b, e;
+  vreal pull, pull_y; /* mu mu_b; mu mu_b / kappa */
+  float spin;         /* 5/2 s */
+  float tolerance;    /* of a step's error estimate, in p */
+} problem;
+
+/* What moves. */
+typedef struct state {
+  vreal u_x, u_z, d_x, d_y, v;
+  vreal K, K_c;             /* int v f dp so far, and at v = 0 */
+  vreal c_0, z_0;           /* direction of u at the start of the collision */
+  vreal J_c, J_z, I_x, I_y; /* integrals over p of c - c_0, sigma - z_0, sigma t */
+  vmask restitution;        /* v = 0 has been passed */
+} state;
+
+/* What comes of it: those integrals over the whole collision, p beyond 1 + e, p where the balls stuck (-1: they did not), K_c. */
+typedef struct solution {
+  vreal J_c, J_z, I_x, I_y, extra, stick, K_c;
+} solution;
+
+/* Where things go from a state: for a way of given length in p. */
+typedef struct prediction {
+  vreal inverse_u, c, z; /* 1 / |u| and the direction of u */
+  vreal t_x, t_y;        /* direction of d half way */
+  vreal rate;            /* share of |u| lost per p; its inverse is about the way to stick */
+} prediction;
+
+/* sqrt(x^2 + y^2) inverted, as closely as needed. */
+always vreal inverse_length(vreal x, vreal y) {
+  return v_reciprocal_sqrt(v_fma(x, x, v_fma(y, y, v_splat(TINY))));
+}
+
+static const float AT_REST = 0.03f; /* mu mu_b |d|, over the tolerance, of a ball that slips so little that it does not matter */
+
+always vmask is_at_rest(const problem *a, const state *s) {
+  const float limit = AT_REST * a->tolerance;
+  return v_less(a->pull * a->pull * v_fma(s->d_x, s->d_x, s->d_y * s->d_y), v_splat(limit * limit));
+}
+
+always prediction predict(const problem *a, const state *s, vreal length) {
+  prediction g;
+  g.inverse_u = inverse_length(s->u_x, s->u_z);
+  g.c = s->u_x * g.inverse_u;
+  g.z = s->u_z * g.inverse_u;
+  /* d runs straight, but for the friction between the balls */
+  const vreal half = 0.5f * length, d_x = v_fma(-half * a->mu_b, g.c, s->d_x);
+  const vreal d_y = v_fma(half * a->spin * a->mu_b, g.z, s->d_y - half);
+  const vreal i_d = v_rough_reciprocal_sqrt(v_fma(d_x, d_x, v_fma(d_y, d_y, v_splat(TINY))));
+  g.t_x = d_x * i_d;
+  g.t_y = d_y * i_d;
+  /* |u|' at first; as u turns towards z it falls more slowly, for which the last factor stands */
+  const vreal c2 = g.c * g.c, cloth = a->mu * g.z * v_fma(2.5f * g.t_y, g.z, g.t_x * g.c);
+  g.rate = (a->mu_b * g.inverse_u) * v_fma(a->kappa, 2.5f + c2, cloth) * v_fma(-0.182f * c2, 1 - c2, v_splat(1));
+  return g;
+}
+
+/* v^2 at the end beyond e^2, if no more work were done on the cloth's friction than so far. */
+always vreal work_returned(const problem *a, vreal K_c, vreal K) {
+  return 2 * v_fma(v_fma(-a->e, a->e, v_splat(1)), K_c, -K);
+}
+
+/* The way to the end of the collision, if no work were done on friction from here. */
+always vreal way_to_end(const problem *a, const state *s) {
+  const vreal square = v_fma(a->e, a->e, work_returned(a, v_select(s->restitution, s->K_c, s->K), s->K));
+  return v_sqrt(v_max(square, v_splat(0))) - s->v;
+}
+
+/* Columns of exchange.h, in a register each. */
+#ifdef CAROM_LANES_ONE
+typedef float column;
+typedef const float in_column;
+#define COLUMN(columns, k) ((columns)[k])
+#else
+typedef float column[MOST_LANES];
+typedef column in_column; /* const would not convert in C17 */
+#define COLUMN(columns, k) v_load((columns)[k])
+#endif
+
+always problem problem_of(in_column *columns, float spin, float tolerance) {
+  problem a = {.kappa = COLUMN(columns, IN_KAPPA),
+               .mu = COLUMN(columns, IN_MU),
+               .mu_b = COLUMN(columns, IN_MU_B),
+               .e = COLUMN(columns, IN_E),
+               .spin = spin,
+               .tolerance = tolerance};
+  a.per_kappa = v_reciprocal(a.kappa);
+  a.pull = a.mu * a.mu_b;
+  a.pull_y = a.pull * a.per_kappa;
+  return a;
+}
+
+/* At the start. */
+always state state_of(const problem *a, in_column *columns) {
+  state s = {.u_x = COLUMN(columns, IN_U_X),
+             .u_z = COLUMN(columns, IN_U_Z),
+             .d_x = COLUMN(columns, IN_D_X),
+             .d_y = COLUMN(columns, IN_D_Y),
+             .v = v_splat(-1)};
+  const prediction g = predict(a, &s, v_splat(1));
+  s.c_0 = g.c;
+  s.z_0 = g.z;
+  return s;
+}
+
+always void put(column *columns, int k, vreal x) {
+#ifdef CAROM_LANES_ONE
+  columns[k] = x;
+#else
+  v_store(columns[k], x);
+#endif
+}
+
+always void put_solution(const solution *s, column *out) {
+  put(out, OUT_J_C, s->J_c);
+  put(out, OUT_J_Z, s->J_z);
+  put(out, OUT_I_X, s->I_x);
+  put(out, OUT_I_Y, s->I_y);
+  put(out, OUT_EXTRA, s->extra);
+  put(out, OUT_STICK, s->stick);
+  put(out, OUT_K_C, s->K_c);
+}
+
+#endif

@@ -1,0 +1,118 @@
+/* Rows of memory to reduced collisions and back, LANES at once, in the caller's precision.
+ *
+ * A row is a carom_impact (26 numbers) or a carom_result (12), or their single precision twins. The line of centres is y, and
+ * x = (y_y, -y_x); reduced.h has the reduction, the equations and the way back. With g = |v_n0| / (M_a + M_b), impulses in
+ * units of |v_n0| / kappa and the signs of the second case worked in (F_a is F if ball a is the pressed one, else 0; F_b
+ * likewise; Q_2 has the sign of u_z), the velocities change by
+ *
+ *     ball a:  v  g M_b (F_a - (Q_1, p))     w  5/(2R) g M_b (F_ay - Q_2, -F_ax, Q_1)
+ *     ball b:  v  g M_a ((Q_1, p) - F_b)     w  5/(2R) g M_a (-F_by - Q_2, F_bx, Q_1)
+ *
+ * Products that are summed are not fused: a table turned by 90 degrees, mirrored, or with the balls exchanged gives the same
+ * bits.
+ */
+#ifndef CAROM_SRC_BALL_BALL_ROWS_H
+#define CAROM_SRC_BALL_BALL_ROWS_H
+
+#include "ball_ball/exchange.h"
+#include "ball_ball/columns.h"
+
+/* What the way back needs. */
+typedef struct row_lanes {
+  vreal x[IN_NUMBERS];       /* the columns of the rows */
+  vreal y_x, y_y;            /* line of centres */
+  vreal approach, per_total; /* |v_n0|; 1 / (M_a + M_b) */
+  vreal kappa, u_x, u_z;     /* u in units of |v_n0| / kappa, u_z >= 0 */
+  vmask b_pressed;
+} row_lanes;
+
+/* What collocation can be tried on: beyond these limits the fallback is needed anyway, or nothing is known of it. */
+static const real LEAST_E = (real)0.05, MOST_MU_B = (real)0.5, MOST_PULL = (real)0.25, LEAST_RATIO = (real)0.05;
+static const real MOST_RATIO = 20, LEAST_MARGIN = (real)0.5, MOST_SLIP = (real)1e6, LEAST_APPROACH = (real)1e-30;
+static const real MOST_APPROACH = (real)1e30;
+
+/* Reads rows into *r and lane k of the columns of `out`. Returns the lanes whose row passes every check and approaches, within
+ * those limits; the others hold junk. Motion that is not finite leaves a result that is not finite. */
+static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes *r, vreal out[IN_COLUMNS]) {
+  load_rows(row, r->x);
+  const vreal *a = r->x, *b = r->x + 12, zero = v_splat(0);
+  const vreal R = a[9], M_a = a[10], M_b = b[10], mu_b = r->x[24], e = r->x[25];
+
+  /* the frame and the relative motion in it */
+  const vreal r_x = b[0] - a[0], r_y = b[1] - a[1], inverse = v_reciprocal_sqrt(r_x * r_x + r_y * r_y);
+  const vreal y_x = r->y_x = r_x * inverse, y_y = r->y_y = r_y * inverse;
+  const vreal v_x = a[3] - b[3], v_y = a[4] - b[4], w_x = a[6] + b[6], w_y = a[7] + b[7], w_z = a[8] + b[8];
+  r->approach = v_x * y_x + v_y * y_y;
+  const vreal u_x = (v_x * y_y - v_y * y_x) - R * w_z, u_z = R * (w_x * y_y - w_y * y_x);
+  const vmask b_pressed = r->b_pressed = v_less(u_z, zero);
+
+  /* the slip of the pressed ball on the cloth */
+  const vreal sR = s * R, slip_x = v_select(b_pressed, b[3], a[3]) + sR * v_select(b_pressed, b[7], a[7]);
+  const vreal slip_y = v_select(b_pressed, b[4], a[4]) - sR * v_select(b_pressed, b[6], a[6]);
+  const vreal d_x = slip_x * y_y - slip_y * y_x, d_y = slip_x * y_x + slip_y * y_y;
+
+  /* masses and units */
+  const vreal M_p = v_select(b_pressed, M_b, M_a), M_o = v_select(b_pressed, M_a, M_b), ratio = M_p * v_reciprocal(M_o);
+  const vreal kappa = r->kappa = 1 + ratio, per_unit = kappa * v_reciprocal(r->approach);
+  r->per_total = v_reciprocal(M_a + M_b);
+  r->u_x = u_x * per_unit;
+  r->u_z = v_abs(u_z) * per_unit;
+  const vreal side = v_select(b_pressed, -per_unit, per_unit), mu = v_select(b_pressed, b[11], a[11]);
+  out[IN_U_X] = r->u_x;
+  out[IN_U_Z] = r->u_z;
+  out[IN_D_X] = d_x * side;
+  out[IN_D_Y] = d_y * side;
+  out[IN_KAPPA] = kappa;
+  out[IN_MU] = v_select(v_less_equal(r->u_z, v_splat((real)1e-10)), zero, mu); /* no ball is pressed to speak of */
+  out[IN_MU_B] = v_max(mu_b, v_splat((real)1e-9));
+  out[IN_E] = e;
+
+  const vreal fastest = v_max(v_max(v_abs(out[IN_U_X]), out[IN_U_Z]), v_max(v_abs(out[IN_D_X]), v_abs(out[IN_D_Y])));
+  const vmask in_range = v_less(v_splat(LEAST_APPROACH), r->approach) & v_less(r->approach, v_splat(MOST_APPROACH)) &
+                         v_less(fastest, v_splat(MOST_SLIP)) & v_less(v_splat(LEAST_E), e) & v_less(mu_b, v_splat(MOST_MU_B)) &
+                         v_less(mu * mu_b, v_splat(MOST_PULL)) & v_less(v_splat(LEAST_MARGIN), kappa - mu) &
+                         v_less(v_splat(LEAST_RATIO), ratio) & v_less(ratio, v_splat(MOST_RATIO));
+  return are_sound(r->x) & in_range;
+}
+
+/* The integrals of the solution, in units of |v_n0| / kappa. */
+typedef struct row_impulses {
+  vreal p, Q_1, Q_2, F_x, F_y;
+} row_impulses;
+
+static inline row_impulses impulses_of(const row_lanes *r, const vreal in[OUT_COLUMNS]) {
+  const vreal e = r->x[25], mu_b = v_max(r->x[24], v_splat((real)1e-9));
+  const vreal mu = v_select(v_less_equal(r->u_z, v_splat((real)1e-10)), v_splat(0), v_select(r->b_pressed, r->x[23], r->x[11]));
+  const vreal pull = mu * mu_b;
+  row_impulses q = {.p = (1 + e) + in[OUT_EXTRA], .F_x = -pull * in[OUT_I_X], .F_y = -pull * in[OUT_I_Y]};
+  /* if the balls slip to the end, from the direction of u at the start; if they stick, from u = 0 */
+  const vmask sticks = v_less_equal(v_splat(0), in[OUT_STICK]);
+  const vreal i_u = v_reciprocal_sqrt(r->u_x * r->u_x + r->u_z * r->u_z + (real)1e-36), per_kappa = v_reciprocal(r->kappa);
+  q.Q_1 = v_select(sticks, (r->u_x + q.F_x) * (per_kappa * (real)(1 / 3.5)), mu_b * (r->u_x * i_u * q.p + in[OUT_J_C]));
+  q.Q_2 = v_select(sticks, (r->u_z + (real)2.5 * q.F_y) * (per_kappa * (real)0.4), mu_b * (r->u_z * i_u * q.p + in[OUT_J_Z]));
+  return q;
+}
+
+/* Writes the velocities behind the collision. Returns the lanes in which every number is finite. */
+static inline vmask restore_rows(const row_lanes *r, const row_impulses *q, real *const row[LANES]) {
+  const vreal *a = r->x, *b = r->x + 12, zero = v_splat(0), y_x = r->y_x, y_y = r->y_y;
+  const vmask b_pressed = r->b_pressed;
+  const vreal g = r->approach * r->per_total, on_a = g * b[10], on_b = g * a[10], C = (real)2.5 * v_reciprocal(a[9]);
+  const vreal Q_2 = v_select(b_pressed, -q->Q_2, q->Q_2);
+  const vreal F_ax = v_select(b_pressed, zero, q->F_x), F_ay = v_select(b_pressed, zero, q->F_y);
+  const vreal F_bx = v_select(b_pressed, q->F_x, zero), F_by = v_select(b_pressed, q->F_y, zero);
+  const vreal a_x = on_a * (F_ax - q->Q_1), a_y = on_a * (F_ay - q->p), b_x = on_b * (q->Q_1 - F_bx),
+              b_y = on_b * (q->p - F_by);
+  const vreal C_a = C * on_a, C_b = C * on_b;
+  const vreal aw_x = C_a * (F_ay - Q_2), aw_y = -(C_a * F_ax), bw_x = -(C_b * (F_by + Q_2)), bw_y = C_b * F_bx;
+  const vreal x[OUT_NUMBERS] = {a[3] + (a_x * y_y + a_y * y_x),   a[4] + (a_y * y_y - a_x * y_x),   zero,
+                                a[6] + (aw_x * y_y + aw_y * y_x), a[7] + (aw_y * y_y - aw_x * y_x), a[8] + C_a * q->Q_1,
+                                b[3] + (b_x * y_y + b_y * y_x),   b[4] + (b_y * y_y - b_x * y_x),   zero,
+                                b[6] + (bw_x * y_y + bw_y * y_x), b[7] + (bw_y * y_y - bw_x * y_x), b[8] + C_b * q->Q_1};
+  vreal sum = zero; /* stays 0 unless a term is infinite or NaN */
+  lanes_unrolled for (int k = 0; k < OUT_NUMBERS; k++) sum = sum + x[k] * zero;
+  lanes_unrolled for (int at = 0; at < OUT_NUMBERS; at += CHUNK) v_store_columns(row, at, x + at);
+  return v_equal(sum, zero);
+}
+
+#endif

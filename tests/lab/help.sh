@@ -1,0 +1,18 @@
+# Help, version and the lists of the study's program, as its user sees them.
+try lab --help
+lab --version | sed 's/[0-9][0-9]*/N/g'
+for command in kernels resolve verify bench experiments; do
+  echo "--- $command"
+  try lab "$command" --help
+done
+echo "--- the table"
+try lab kernels | sed '/^configurations/s/:.*/:/; /rsqrt14/d' # what depends on the machine
+lab kernels --csv -o kernels.csv
+python -c 'import csv; rows = list(csv.DictReader(open("kernels.csv"))); print(len(rows), [k for k in rows[1]], [r["kernel"] for r in rows if not r["parent"]])'
+echo "--- the examples do what they show"
+cp "$DATA/collisions-204.csv" before.csv
+for command in "" kernels resolve verify bench experiments; do
+  example=$(lab $command --help | tail -n 1 | sed -n 's/^  carom-lab //p' | sed 's/--budget [0-9]*/--budget 0.1/')
+  [ -n "$example" ] && eval "lab $example" > said 2>&1 || { echo "the example of '$command' fails:"; cat said; }
+done
+ls

@@ -1,0 +1,18 @@
+# Ladder kernels by --kernel and --config, and what is refused.
+lab resolve --kernel base --config o3 --slip pooltool "$DATA/collisions-204.csv" > base.csv
+lab resolve --kernel euler --slip pooltool "$DATA/collisions-204.csv" > euler.csv
+cmp base.csv euler.csv && echo "the direct port is euler"
+lab resolve --kernel cse --slip pooltool "$DATA/collisions-204.csv" > cse.csv
+lab resolve --kernel cse --config default --slip pooltool "$DATA/collisions-204.csv" | cmp - cse.csv && echo "default is the default"
+try lab resolve --kernel euler --config o3 "$DATA/collisions-204.csv"
+try lab resolve --kernel cse --config o4 "$DATA/collisions-204.csv" 2>&1 | sed 's/there are .*/there are .../'
+try lab verify --config o4 2>&1 | sed 's/there are .*/there are .../'
+lab verify --kernel double --config o3 | cut -d' ' -f1
+{
+  sed '1s/,M,/,M1,M2,/; 1q' "$DATA/collisions-204.csv"
+  echo unequal,hand,0,0,0,0,1,0,0,0,0,0,0.06,0,0,0,0,0,0,0,0.03,0.17,0.16,0.2,0.2,0.05,0.95
+  echo slow,hand,0,0,0,0,1e-18,0,0,0,0,0,0.06,0,0,0,0,0,0,0,0.03,0.17,0.17,0.2,0.2,0.05,0.95
+  echo good,hand,0,0,0,0,1,0,0,0,0,0,0.06,0,0,0,0,0,0,0,0.03,0.17,0.17,0.2,0.2,0.05,0.95
+} > mixed.csv
+try lab resolve --kernel float mixed.csv -o out.csv
+sed 's/,.*,/ /' out.csv

@@ -1,0 +1,13 @@
+# Bad usage of the study's program: exit 2, and a message that says what would be right.
+try lab
+try lab trace
+try lab kernels now
+try lab kernels --csv -o nowhere/kernels.csv
+try lab verify now
+try lab verify --kernel fast
+try lab verify --data nowhere
+try lab resolve
+try lab resolve --kernel fast x.csv
+try lab resolve --solver exact x.csv
+try lab resolve --kernel base --precision single x.csv
+lab kernels > /dev/full || echo "exit $?"

@@ -1,0 +1,23 @@
+# verify passes on the real references and fails when a reference is wrong.
+lab verify > table
+echo "exit $?"
+grep -c '^euler *single calls .*pass' table
+grep -c '^euler *lanes, plain .*pass' table
+grep -c FAIL table || true
+mkdir data
+cp "$DATA"/*.csv data
+sed '2s/,-0.008/,-0.009/' "$DATA/reference-pooltool-n1000.csv" > data/reference-pooltool-n1000.csv
+lab verify --data data > table || echo "exit $?"
+grep -c '^euler *single calls .*FAIL' table
+CAROM_DATA=data lab verify > table || echo "exit $?"
+sed '3d' "$DATA/reference-pooltool-n1000.csv" > data/reference-pooltool-n1000.csv
+lab verify --data data > table || echo "exit $?"
+echo "--- as CSV"
+lab verify --kernel euler --csv -o table.csv
+grep -v ',library-' table.csv | cut -d, -f1-7,12,17
+echo "--- in sentences"
+lab verify --brief | grep -e '^euler' -e '^ladder' | sed '/^ladder/s/[0-9][0-9]*/N/g; s/N\.N/N/g'
+sed '2s/,-0.008/,-0.009/' "$DATA/reference-pooltool-n1000.csv" > data/reference-pooltool-n1000.csv
+try lab verify --brief --kernel euler --data data
+lab verify --brief --kernel double --config o3 --data data | sed 's/ in [a-z]*-o3/ in .../' | tail -n 2
+try lab verify --brief --csv

@@ -1,0 +1,146 @@
+"""A report from the stored run: whole, the same bytes each time, and without what is not there."""
+
+import os
+import shutil
+
+from conftest import STORED
+
+FIGURES = ["experiments", "trace", "smooth", "accuracy", "isas", "batch", "floor", "speedup", "runtime", "configs", "performance"]
+SECTIONS = ["physics", "table-experiments", "error", "table-verification", "table-batches", "paper", "table-speedups"] + [
+    "table-configurations",
+    "table-operations",
+    "machine",
+    "again",
+]
+PICTURES = [f"{name}{kind}.svg" for name in FIGURES for kind in ("", "-narrow")]
+GIVEN = sorted(path.name for path in STORED.glob("*.csv"))
+
+
+def bytes_of(folder):
+    return {path.name: path.read_bytes() for path in sorted(folder.iterdir())}
+
+
+def test_it_is_whole(stored):
+    assert stored.code == 0, stored.complaints
+    assert sorted(GIVEN + ["index.html", "performance.csv", "speedup.csv"] + PICTURES) == sorted(
+        bytes_of(stored.folder)
+    )
+    assert stored.ids("figure") == [f"figure-{name}" for name in FIGURES]
+    assert stored.ids("h2", "h3") == SECTIONS
+    assert stored.missing() == []
+    assert stored.page.count("<svg") == len(PICTURES)
+
+
+def test_the_same_bytes_each_time(stored, make):
+    assert bytes_of(make("again", "--from", STORED).folder) == bytes_of(stored.folder)
+    assert bytes_of(make("own", "--from", stored.folder).folder) == bytes_of(stored.folder)
+    before = bytes_of(stored.folder)
+    assert make("stored", "--from", stored.folder).code == 0
+    assert bytes_of(stored.folder) == before
+
+
+def test_it_needs_nothing_from_outside(stored):
+    for outside in (" src=", "<link", "<script", "@import"):
+        assert outside not in stored.page
+    for element in stored.elements:
+        assert all(value.startswith("#") for name, value in element.attrib.items() if name.endswith("href"))
+
+
+def test_every_picture_says_what_it_is(stored):
+    pictures = [e for e in stored.elements if e.tag == "{http://www.w3.org/2000/svg}svg"]
+    captions = [e.find("figcaption/b").text for e in stored.elements if e.tag == "figure"]
+    assert [picture[0].text for picture in pictures] == [caption for caption in captions for _ in ("wide", "narrow")]
+    assert all(int(picture.get("width")) == 470 for picture in pictures[1::2])
+    assert all(picture[1].tag.endswith("desc") and len(picture[1].text) > 80 for picture in pictures)
+    for name in PICTURES:
+        assert "Gnuplot" not in (stored.folder / name).read_text(encoding="utf-8")
+
+
+def test_what_the_tables_say(stored):
+    """Every cell of every table, as in tables.expected; UPDATE=1 rewrites it."""
+    said = "".join(
+        f"{name}\n" + "".join("    " + " | ".join(row) + "\n" for row in stored.table(name))
+        for name in [section.removeprefix("table-") for section in SECTIONS if section.startswith("table-")]
+    )
+    expected = STORED / "tables.expected"
+    if os.environ.get("UPDATE"):
+        expected.write_text(said, encoding="utf-8")
+    assert said == expected.read_text(encoding="utf-8")
+
+
+def test_what_the_captions_quote(stored):
+    for text in [
+        "Best of all: <b>float with clang-archnative, 1.95</b>; in the paper it is float with archnative on clang, 1.93.",
+        "<b>base</b> has 6 % fewer operations than the paper counts and a bound 10 % lower than the paper's.",
+        "<b>double</b> has 10 % more operations than the paper counts and a bound 40 % higher than the paper's.",
+        "15 of 15 comparisons are within their bounds.",
+        "<dt>clang-default</dt><dd>clang, Debian Clang 19.1.7",
+        "<dt>processor</dt><dd>AMD EPYC</dd>",
+    ]:
+        assert text in stored.page, text
+
+
+def test_the_speedups_as_text(stored):
+    said = stored.out.splitlines()
+    assert "speedup over base, clang-default, N = 1000, AMD EPYC" in said
+    assert "float                  8941      1.93  1.87" in said
+    assert "exact                  64.6       266  in batches, avx512, single, 2 threads" in said
+
+
+def test_png(make):
+    made = make("png", "--png", "--from", STORED)
+    assert made.code == 0
+    for name in FIGURES:
+        assert (made.folder / f"{name}.png").read_bytes()[1:4] == b"PNG"
+
+
+def test_without_gnuplot(make):
+    made = make("bare", "--from", STORED, PATH="/nowhere")
+    assert made.code == 1
+    assert made.complaints == (
+        "report: no figures: gnuplot is not installed (Debian: gnuplot-nox); the CSV files and the page's tables come all the same\n"
+    )
+    assert made.ids("h2", "h3") == SECTIONS
+    assert len(made.missing()) == len(FIGURES)
+    assert all("gnuplot is not installed" in text for text in made.missing())
+    assert sorted(bytes_of(made.folder)) == sorted(GIVEN + ["index.html", "performance.csv", "speedup.csv"])
+
+
+def test_with_a_part_of_the_data(make, tmp_path):
+    part = tmp_path / "part"
+    part.mkdir()
+    for name in ("kernels", "ladder", "steps"):
+        shutil.copy(STORED / f"{name}.csv", part)
+    made = make("some", "--from", part)
+    absent = [name for name in GIVEN if name not in ("kernels.csv", "ladder.csv", "steps.csv")]
+    assert made.code == 1
+    for name in absent:
+        assert f"report: there is no {name}" in made.complaints.splitlines()
+    assert "report: performance.csv cannot be made: there are no data in cycles.csv" in made.complaints.splitlines()
+    assert sorted(path.stem for path in made.folder.glob("*.svg")) == ["runtime", "runtime-narrow", "speedup", "speedup-narrow"]
+    assert "There is no table: there are no data in verify.csv." in made.missing()
+    assert made.table("speedups")[1][0] == "base"
+
+
+def test_an_earlier_report_does_not_show_through(stored, make, tmp_path):
+    part = tmp_path / "part"
+    part.mkdir()
+    shutil.copy(STORED / "kernels.csv", part)
+    made = make("stored", "--from", part)
+    assert made.code == 1 and list(made.folder.glob("*.svg")) == [] and not (made.folder / "ladder.csv").exists()
+
+
+def test_usage(make, tmp_path):
+    (tmp_path / "file").write_text("")
+    for name, words, says in [
+        ("one", ["two"], "unrecognized arguments"),
+        ("one", ["--budget", "0"], "--budget: is a number of seconds above 0, up to 86400, not '0'"),
+        ("one", ["--from", tmp_path / "nowhere"], "there is no folder"),
+        ("one", ["--build", tmp_path], "there is no program"),
+        ("file", ["--from", STORED], "cannot write the report"),
+    ]:
+        made = make(name, *words)
+        assert made.code == 2 and says in made.complaints, made.complaints
+        assert not (tmp_path / "one").exists()
+    help = make("one", "--help")
+    assert help.code == 0 and "example:\n  tools/python -m lab.report" in help.out

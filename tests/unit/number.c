@@ -1,0 +1,160 @@
+/* Numbers as text: what is read, and that what is written is the shortest that reads back. */
+#include "number.h"
+#include "support.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+START_TEST(what_is_read) {
+  const struct {
+    const char *text;
+    double value;
+  } good[] = {{"1", 1},
+              {"-1.5e-3", -0.0015},
+              {" 2 ", 2},
+              {"+.5", 0.5},
+              {"0x1p-2", 0.25},
+              {"inf", INFINITY},
+              {"-INF", -INFINITY},
+              {"Infinity", INFINITY},
+              {"1e999", INFINITY},
+              {"1e-999", 0}};
+  double x;
+  for (size_t k = 0; k < sizeof good / sizeof good[0]; k++) {
+    ck_assert_msg(parse_number(good[k].text, &x), "%s", good[k].text);
+    ck_assert(x == good[k].value);
+  }
+  ck_assert(parse_number("NaN", &x) && isnan(x));
+  const char *const bad[] = {"", " ", "1,5", "1.5.2", "one", "1e", "--1", "1 2", "0x"};
+  for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
+    ck_assert_msg(!parse_number(bad[k], &x), "%s", bad[k]);
+}
+END_TEST
+
+static int digits_of(const char *text) {
+  char bare[NUMBER_TEXT];
+  int count = 0;
+  for (; *text != '\0' && *text != 'e'; text++)
+    if (*text >= '0' && *text <= '9')
+      bare[count++] = *text;
+  int first = 0;
+  while (first < count - 1 && bare[first] == '0')
+    first++;
+  while (count > first + 1 && bare[count - 1] == '0')
+    count--;
+  return count - first;
+}
+
+/* The least number of significant digits with which a decimal reads back as x, by trying: the nearest and both of its
+ * neighbours with 1, 2, ... 17 digits. */
+static int least_digits(double x) {
+  for (int n = 1; n < 17; n++) {
+    char text[64];
+    snprintf(text, sizeof text, "%.*e", n - 1, fabs(x));
+    const int exponent = atoi(strchr(text, 'e') + 1);
+    char *point = strchr(text, '.');
+    if (point != NULL)
+      memmove(point, point + 1, strlen(point));
+    const long long whole = strtoll(text, NULL, 10);
+    for (long long k = whole - 1; k <= whole + 1; k++) {
+      char tried[64];
+      snprintf(tried, sizeof tried, "%llde%d", k, exponent - n + 1);
+      if (strtod(tried, NULL) == fabs(x))
+        return n;
+    }
+  }
+  return 17;
+}
+
+static void check_shortest(double x) {
+  char text[NUMBER_TEXT];
+  double back;
+  ck_assert_ptr_eq(number_text(x, text), text);
+  ck_assert_msg(parse_number(text, &back), "%s", text);
+  ck_assert_msg(memcmp(&back, &x, sizeof x) == 0, "%a is written as %s, which is %a", x, text, back);
+  if (x != 0.0 && isfinite(x))
+    ck_assert_msg(digits_of(text) == least_digits(x), "%a is written as %s, but %d digits are enough", x, text,
+                  least_digits(x));
+}
+
+START_TEST(what_is_written_is_the_shortest) {
+  const double chosen[] = {0.0,
+                           -0.0,
+                           1.0,
+                           -1.0,
+                           0.1,
+                           1.0 / 3.0,
+                           100.0,
+                           1e15,
+                           1e16,
+                           123456789012345680.0,
+                           5e-324,
+                           DBL_MIN,
+                           DBL_MAX,
+                           DBL_EPSILON,
+                           INFINITY,
+                           9.95,
+                           0.028575,
+                           8.41,
+                           2e-308,
+                           0.30000000000000004,
+                           1e22,
+                           1e23,
+                           9007199254740993.0,
+                           5.684341886080802e-14,
+                           9999999999999999.0};
+  for (size_t k = 0; k < sizeof chosen / sizeof chosen[0]; k++) {
+    check_shortest(chosen[k]);
+    check_shortest(-chosen[k]);
+  }
+}
+END_TEST
+
+START_TEST(powers_of_two_are_asymmetric) {
+  for (int exponent = -1074; exponent <= 1023; exponent++)
+    check_shortest(ldexp(1.0, exponent));
+}
+END_TEST
+
+START_TEST(random_doubles_and_random_decimals) {
+  random_source source = {test_seed()};
+  for (int k = 0; k < 50000; k++) {
+    const double usual = random_between(&source, -1.0, 1.0) * pow(10.0, floor(random_between(&source, -9.0, 17.0)));
+    check_shortest(usual);
+    check_shortest((double)(float)usual);
+    check_shortest(ldexp(random_between(&source, 1.0, 2.0), (int)random_between(&source, -1074.0, 1023.0)));
+    char text[NUMBER_TEXT];
+    double decimal;
+    snprintf(text, sizeof text, "%.*g", 1 + (int)random_between(&source, 0.0, 17.0), usual);
+    ck_assert(parse_number(text, &decimal));
+    check_shortest(decimal);
+  }
+}
+END_TEST
+
+START_TEST(notation) {
+  const struct {
+    double x;
+    const char *text;
+  } known[] = {{0.1, "0.1"},
+               {-0.0, "-0"},
+               {100.0, "100"},
+               {1e22, "1e+22"},
+               {1e-5, "1e-05"},
+               {-29.073183936672191, "-29.07318393667219"},
+               {0.28659555840659967, "0.28659555840659967"},
+               {(double)NAN, "nan"},
+               {-INFINITY, "-inf"}};
+  char text[NUMBER_TEXT];
+  for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
+    ck_assert_str_eq(number_text(known[k].x, text), known[k].text);
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("number", what_is_read, what_is_written_is_the_shortest, powers_of_two_are_asymmetric,
+                   random_doubles_and_random_decimals, notation);
+}

@@ -1,0 +1,105 @@
+"""Prints the quadrature rules of the collocation steps, computed with 50 digits. Needs mpmath; what it prints is kept in the tree:
+
+    python3 tools/collocation_rules.py > src/ball_ball/rules.h && cmake --build build --target format
+
+Gauss rules of n nodes on [0, 1], and one of Gauss and Jacobi for the weight (1 - x)^4, for steps to stick. With L_j the Lagrange basis
+on the nodes x_k:
+
+    node[k]        x_k, ascending
+    end[k], bend[k]  L_k at 1, and half its slope there
+    all[k]         integral of (the weight times) L_k over [0, 1]
+    sum[j][k]      integral of (the weight times) L_j from 0 to x_k
+    basis[m][k]    L_k as powers m of 2 x - 1, whose coefficients stay small; for the rule to stick as powers of 1 - 2 x
+    part[m][k]     integral of L_k from 0 to x, divided by x, as such powers;
+                   with the weight: from x to 1, divided by (1 - x)^5
+    twice[m][k]    without a weight: the integral of that integral from 0 to x, divided by x^2"""
+from mpmath import matrix, mp, mpf, polyroots
+
+mp.dps = 50
+
+
+def times(a, b):
+    product = [mpf(0)] * (len(a) + len(b) - 1)
+    for i, x in enumerate(a):
+        for j, y in enumerate(b):
+            product[i + j] += x * y
+    return product
+
+
+def gauss_nodes(n, w):
+    """Zeros of the polynomial of degree n that is orthogonal on [0, 1] for the weight x^w."""
+    A = matrix(n, n)
+    b = matrix(n, 1)
+    for i in range(n):
+        for j in range(n):
+            A[i, j] = mpf(1) / (i + j + w + 1)
+        b[i] = -mpf(1) / (i + n + w + 1)
+    c = mp.lu_solve(A, b)
+    roots = polyroots([mpf(1)] + [c[n - 1 - i] for i in range(n)], maxsteps=500, extraprec=300)
+    return sorted(root.real for root in roots)
+
+
+def lagrange_basis(nodes):
+    basis = []
+    for x in nodes:
+        c = [mpf(1)]
+        for y in nodes:
+            if y != x:
+                c = [v / (x - y) for v in times(c, [-y, mpf(1)])]
+        basis.append(c)
+    return basis
+
+
+def integral(c, w, a, b):
+    """Of sum c_m x^m times x^w from a to b."""
+    return sum(v * (b ** (m + w + 1) - a ** (m + w + 1)) / (m + w + 1) for m, v in enumerate(c))
+
+
+def centred(c):
+    """The polynomial sum c_m x^m in powers of 2 x - 1."""
+    out, power = [mpf(0)] * len(c), [mpf(1)]
+    for v in c:
+        for i, x in enumerate(power):
+            out[i] += v * x
+        power = times(power, [mpf(1) / 2, mpf(1) / 2])
+    return out
+
+
+def text(row):
+    numbers = [mp.nstr(v, 10, min_fixed=-4, max_fixed=4) for v in row]
+    return "{" + ", ".join((t if "." in t or "e" in t else t + ".0") + "f" for t in numbers) + "}"
+
+
+def print_rule(name, n, w):
+    zero, one, span = mpf(0), mpf(1), range(n)
+    y = gauss_nodes(n, w)  # with a weight: 1 - x
+    if w:
+        y.reverse()
+    L = lagrange_basis(y)
+    part = [centred([v / (m + w + 1) for m, v in enumerate(c)]) for c in L]
+    between = (lambda c, at: integral(c, w, at, one)) if w else (lambda c, at: integral(c, 0, zero, at))
+    print("static const gauss_rule %s_%d = {" % (name, n))
+    print("    .node = %s," % text([one - at for at in y] if w else y))
+    print("    .end = %s," % text([c[0] if w else sum(c) for c in L]))
+    if not w:
+        print("    .bend = %s," % text([sum(m * v for m, v in enumerate(c)) / 2 for c in L]))
+    print("    .all = %s," % text([integral(c, w, zero, one) for c in L]))
+    print("    .sum = {%s}," % ",\n".join(text([between(c, at) for at in y]) for c in L))
+    print("    .basis = {%s}," % ",\n".join(text([centred(c)[m] for c in L]) for m in span))
+    print("    .part = {%s}," % ",\n".join(text([p[m] for p in part]) for m in span))
+    if w:
+        turn = lambda c, at: 2 * at ** 2 * sum(v * (-mp.log(at) if m == 2 else (1 - at ** (m - 2)) / (m - 2)) for m, v in enumerate(c))
+        print("    .turn = {%s}," % ",\n".join(text([turn(c, at) for at in y]) for c in L))
+    if not w:
+        twice = [centred([v / ((m + 1) * (m + 2)) for m, v in enumerate(c)]) for c in L]
+        print("    .twice = {%s}," % ",\n".join(text([p[m] for p in twice]) for m in span))
+    print("};")
+
+
+GUARD = "CAROM_SRC_BALL_BALL_RULES_H"
+print("/* The quadrature rules of the collocation steps: see tools/collocation_rules.py, which printed them. */")
+print("#ifndef %s\n#define %s\n\n#include \"ball_ball/quadrature.h\"\n" % (GUARD, GUARD))
+print_rule("gauss", 4, 0)
+print_rule("gauss", 8, 0)
+print_rule("jacobi", 8, 4)
+print("\n#endif")
