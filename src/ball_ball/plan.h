@@ -14,14 +14,13 @@
  * half the length. After MOST_ATTEMPTS steps, or if they get too short, collocation refuses the collision, which then is for the
  * fallback (fallback.c).
  *
- * The limits below were found with `carom stress`, which finds them again: it prints the largest errors of what was accepted.
+ * The limits below were found with `carom-lab stress`, which finds them again: it prints the largest errors of what was accepted.
  */
 #ifndef CAROM_SRC_BALL_BALL_PLAN_H
 #define CAROM_SRC_BALL_BALL_PLAN_H
 
-#include "ball_ball/end_step.h"
+#include "ball_ball/impulse_step.h"
 #include "ball_ball/stick_step.h"
-#include "ball_ball/part_step.h"
 
 enum { EASY_ITERATIONS = 2, FULL_ITERATIONS = 4, FULL_LONG_ITERATIONS = 8, PART_ITERATIONS = 8 };
 enum { TURN_ITERATIONS = 4, MOST_ATTEMPTS = 14 };
@@ -134,8 +133,8 @@ always vreal part_share(vreal q) {
   const vreal most = v_select(v_less(v_splat(STICK_Q), q), v_splat(MOST_PART), v_min(MOST_OF_WAY * q, v_splat(MOST_PART)));
   return v_min(v_max((q - LEFT_Q) * (1 / (1 - LEFT_Q)), v_splat(LEAST_PART)), most);
 }
-always turn_plan plan_part(const prediction *g, vreal to_end) {
-  return (turn_plan){.length = part_share(g->rate * to_end) * v_reciprocal(g->rate)};
+always vreal part_length(const prediction *g, vreal to_end) {
+  return part_share(g->rate * to_end) * v_reciprocal(g->rate);
 }
 
 /* The kind of step for a state that is not easy: FULL, with many iterations where `long_`; to STICK; a PART; or else TURN. *g: the

@@ -6,7 +6,7 @@
 
 /* The fields are explained where they are computed, in tools/collocation_rules.py. */
 typedef struct gauss_rule {
-  node_row node, all, end, bend;
+  node_row node, all, end, bend, third;
   node_row sum[MOST_NODES], basis[MOST_NODES], part[MOST_NODES], twice[MOST_NODES], turn[MOST_NODES];
 } gauss_rule;
 
