@@ -28,17 +28,48 @@ always state behind(const prediction *g, const step_law *l, const state *s, vrea
   return end;
 }
 
-/* K at v = 0, which lies at x in the rule's variable, or near it: from there by one more term, for a mean f.
- *
- * By parts, so that nothing but w_y is interpolated: int v w_y dX = v S - int S v' dX, with S for int w_y dX and
- * v' = L + pull_y w_y. */
-always vreal K_by_parts(const gauss_rule *r, int n, const step_law *l, const state *s, vreal x, vreal f, const reg *w_y) {
-  reg once[MOST_REGS], twice[MOST_REGS];
-  integrals_up_to(r, n, x, once);
-  polynomials_at(r->twice, n, 2 * x - 1, twice);
-  const vreal S = sum_of_products(once, w_y, n), int_S = (x * x) * sum_of_products(twice, w_y, n);
-  const vreal v = v_fma(l->length, x, v_fma(l->pull_y, S, s->v)), by_parts = v_fma(v_fma(0.5f * l->pull_y, S, -v), S, l->length * int_S);
+/* K at v = 0 by parts, so that nothing but w_y is interpolated, given v and the integral S of w_y up to a point near v = 0, and that of
+ * S: int v w_y dX = v S - int S v' dX with v' = L + pull_y w_y. The little that is left for a mean f. */
+always vreal K_by_parts(const step_law *l, const state *s, vreal f, vreal v, vreal S, vreal int_S) {
+  const vreal by_parts = v_fma(v_fma(0.5f * l->pull_y, S, -v), S, l->length * int_S);
   return v_fma(l->pull_y, by_parts, v_fma(-0.5f * f * (1 + f), v * v, s->K));
+}
+
+/* That point is where the mean f lets v = 0 be, or if `improved` one of Newton's steps from there. */
+always vreal K_at_v_0(const gauss_rule *r, int n, bool improved, const step_law *l, const state *s, vreal f, const reg *w_y) {
+  const vreal per = v_reciprocal((1 - f) * l->length), zero = v_splat(0), one = v_splat(1);
+  vreal x = v_min(v_max(-s->v * per, zero), one), S, v;
+  reg once[MOST_REGS], twice[MOST_REGS];
+  lanes_rolled for (int i = improved ? 0 : 1; i < 2; i++) {
+    integrals_up_to(r, n, x, once);
+    S = sum_of_products(once, w_y, n);
+    v = v_fma(l->length, x, v_fma(l->pull_y, S, s->v));
+    x = i == 0 ? v_min(v_max(x - v * per, zero), one) : x;
+  }
+  polynomials_at(r->twice, n, 2 * x - 1, twice);
+  return K_by_parts(l, s, f, v, S, (x * x) * sum_of_products(twice, w_y, n));
+}
+
+/* The same on a turn, where S is a polynomial in xi, and its integral over X by Gauss's rule up to that point. */
+always vreal K_at_v_0_on_turn(const gauss_rule *r, int n, const turn_range *range, const step_law *l, const state *s, vreal f,
+                              const reg *w_y) {
+  const vreal per = v_reciprocal((1 - f) * l->length), zero = v_splat(0), one = v_splat(1);
+  vreal S_power[MOST_NODES], X = v_min(v_max(-s->v * per, zero), one), x, S, v;
+  sum_polynomials(r->part, n, w_y, S_power);
+  lanes_rolled for (int i = 0; i < 2; i++) {
+    x = share_at(range, X);
+    S = x * polynomial(S_power, n, 2 * x - 1);
+    v = v_fma(l->length, X, v_fma(l->pull_y, S, s->v));
+    X = i == 0 ? v_min(v_max(X - v * per, zero), one) : X;
+  }
+  mesh up_to;
+  lay_nodes(r, range, x, &up_to);
+  reg slope[MOST_REGS];
+  EACH_REG(k, n) {
+    const reg xi = x * AT(r->node, k);
+    slope[k] = up_to.weight[k] * (xi * polynomial_at_nodes(S_power, n, 2 * xi - 1));
+  }
+  return K_by_parts(l, s, f, v, S, dot(r->all, slope, n));
 }
 
 /* From *s on for a length, for which *g has been predicted. *next becomes the state behind the step; in the lanes of `last` that is
@@ -50,9 +81,10 @@ always vreal impulse_step(int n, int iterations, const problem *a, const predict
   const step_law l = law_of(a, g, length);
   mesh m;
   turn_range range = {0};
-  if (turn != NULL)
-    range = lay_nodes(r, turn, length, &m);
-  else
+  if (turn != NULL) {
+    range = range_of(turn, length);
+    lay_nodes(r, &range, v_splat(1), &m);
+  } else
     EACH_REG(k, n) m.X[k] = SPREAD(AT(r->node, k));
   directions f;
   find_directions(n, iterations, turn != NULL, r, a, g, s, &l, &m, &f);
@@ -65,38 +97,29 @@ always vreal impulse_step(int n, int iterations, const problem *a, const predict
   mean_turning(r, n, g, &f, &dC, &dZ);
   state end = behind(g, &l, s, X, Y, dC, dZ, dot(r->all, work, n));
 
-  /* K at v = 0, where the mean f lets it be; if that is not near enough, at the second of Newton's points */
+  /* K at v = 0 */
   const bool ends = out != NULL && turn == NULL;
   vmask passes = v_not(s->restitution) & v_less(v_splat(0), end.v);
   if (out != NULL)
     passes = passes | (v_not(s->restitution) & last);
   if (ends || v_any(passes)) {
-    const vreal mean = -a->pull_y * Y, per = v_reciprocal((1 - mean) * length), zero = v_splat(0), one = v_splat(1);
-    vreal share = v_min(v_max(-s->v * per, zero), one), K_c;
-    if (ends)
-      K_c = K_by_parts(r, n, &l, s, share, mean, f.w_y);
-    else {
-      reg up_to[MOST_REGS];
-      vreal v_c = zero;
-      lanes_rolled for (int i = 0; i < 2; i++) {
-        share = i == 0 ? share : v_min(v_max(share - v_c * per, zero), one);
-        integrals_up_to(r, n, turn != NULL ? node_of_share(&range, share) : share, up_to);
-        v_c = s->v + v_fma(length, share, l.pull_y * sum_of_products(up_to, f.w_y, n));
-      }
-      K_c = s->K + (sum_of_products(up_to, work, n) - 0.5f * mean * v_c * v_c);
-    }
+    const vreal f_mean = -a->pull_y * Y;
+    const vreal K_c = turn != NULL ? K_at_v_0_on_turn(r, n, &range, &l, s, f_mean, f.w_y) : K_at_v_0(r, n, !ends, &l, s, f_mean, f.w_y);
     end.K_c = v_select(passes, K_c, s->K_c);
   }
   end.restitution = s->restitution | passes;
 
   const arrival at_end = arrive(a, &end);
   vreal error = iteration_error(a, &l, f.moved);
-  if (!ends) {
+  if (turn != NULL)
+    error = 2 * error;
+  if (n == 8) {
     /* the defect of the polynomials at the end, which is the first coefficient that the nodes leave out */
     const vreal defect = v_abs(dot(r->end, f.c, n) - at_end.c) + v_abs(dot(r->end, f.z, n) - at_end.z);
     error = v_fma(4 * l.mu_b, defect * defect, error);
-    *next = end;
   }
+  if (next != NULL)
+    *next = end;
   if (out == NULL || !v_any(last))
     return error;
 

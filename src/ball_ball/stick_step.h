@@ -37,7 +37,7 @@ always void tau_of(const problem *a, reg d_x, reg d_y, reg *tau_x, reg *tau_y) {
 
 /* K at v = 0 on the step, given v' and tau_y at the nodes, v where the balls stick, and the mean of f: tau_y is a polynomial
  * through the nodes, v what it is at stick less lambda^5 times one; by Gauss's rule up to there. */
-always vreal K_at_v_0(const gauss_rule *r, const state *s, vreal v, const reg *slope, const reg *tau_y, vreal per_f, vreal f) {
+always vreal K_at_v_0_to_stick(const gauss_rule *r, const state *s, vreal v, const reg *slope, const reg *tau_y, vreal per_f, vreal f) {
   enum { n = STICK_NODES };
   vreal v_power[MOST_NODES], tau_power[MOST_NODES];
   sum_polynomials(r->part, n, slope, v_power);
@@ -130,7 +130,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   const vmask passes = v_not(s->restitution) & v_less(zero, v);
   vreal K_c = v_select(s->restitution, s->K_c, K);
   if (v_any(passes))
-    K_c = v_select(passes, K_at_v_0(r, s, v, slope_v, tau_y, per_f, per_f * Y_sum * v_reciprocal(p)), K_c);
+    K_c = v_select(passes, K_at_v_0_to_stick(r, s, v, slope_v, tau_y, per_f, per_f * Y_sum * v_reciprocal(p)), K_c);
 
   /* the end of the collision must lie behind the step */
   const vreal returned = work_returned(a, K_c, K), v_end = v_sqrt(v_max(v_fma(a->e, a->e, returned), zero)), share = p * g->rate;

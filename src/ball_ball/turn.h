@@ -12,28 +12,32 @@ typedef struct turn_plan {
   vreal at, width, length, mean_f;
 } turn_plan;
 
-/* sinh(xi) runs from `from` on along the step, and xi by `range` from `low` on. */
+/* sinh(xi) runs from `from` on along the step, and xi by `range` from `low` on; half: delta / (2 L). */
 typedef struct turn_range {
-  vreal from, low, range, per_width; /* per_width: L / delta */
+  vreal from, low, range, half;
 } turn_range;
 
-always turn_range lay_nodes(const gauss_rule *r, const turn_plan *p, vreal length, mesh *nodes) {
-  const vreal per_delta = v_reciprocal(p->width), half = 0.5f * p->width * v_reciprocal(length);
-  turn_range m = {.from = -p->at * per_delta, .per_width = length * per_delta};
+always turn_range range_of(const turn_plan *p, vreal length) {
+  const vreal per_delta = v_reciprocal(p->width);
+  turn_range m = {.from = -p->at * per_delta, .half = 0.5f * p->width * v_reciprocal(length)};
   m.low = inverse_sinh(m.from);
   m.range = inverse_sinh((length - p->at) * per_delta) - m.low;
-  const vreal slope = m.range * half, start = 2 * m.from * half;
-  EACH_REG(k, MOST_NODES) {
-    const reg e = exponential(MADD(m.range, AT(r->node, k), m.low)), i = reg_reciprocal(e);
-    nodes->X[k] = MADD(half, e - i, -start);
-    nodes->weight[k] = slope * (e + i);
-  }
   return m;
 }
 
-/* The node variable where X is `share`. */
-always vreal node_of_share(const turn_range *m, vreal share) {
-  return (inverse_sinh(v_fma(share, m->per_width, m->from)) - m->low) * v_reciprocal(m->range);
+/* X and its slope at the nodes of a rule from 0 to a share of the range. */
+always void lay_nodes(const gauss_rule *r, const turn_range *m, vreal share, mesh *nodes) {
+  const vreal range = share * m->range, slope = range * m->half, start = 2 * m->from * m->half;
+  EACH_REG(k, MOST_NODES) {
+    const reg e = exponential(MADD(range, AT(r->node, k), m->low)), i = reg_reciprocal(e);
+    nodes->X[k] = MADD(m->half, e - i, -start);
+    nodes->weight[k] = slope * (e + i);
+  }
+}
+
+/* The share of the range at which X has a value. */
+always vreal share_at(const turn_range *m, vreal X) {
+  return (inverse_sinh(v_fma(X, v_reciprocal(2 * m->half), m->from)) - m->low) * v_reciprocal(m->range);
 }
 
 #endif
