@@ -36,7 +36,7 @@ static const float LEFT_Q = 0.5f;             /* q that a PART would leave; */
 static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f; /* its share of |u|, and of q */
 static const float KINK = 3e-5f, KINK_Z = 4e-4f;
 static const float LEAST_WIDTH = 1e-5f;       /* distance delta of a turn */
-static const float WIDEST_RANGE = 6, RANGE_V_0 = 6; /* of xi of a TURN step; of one on which v = 0 lies */
+static const float WIDEST_RANGE = 4.5f;         /* of xi of a TURN step */
 static const float TURN_SHARE = 350;          /* its error over (mu mu_b sigma)^2 L rho^-16 */
 static const float LEAST_SHARE = 0.1f;        /* of its usual length */
 
@@ -50,14 +50,15 @@ always vreal power_4(vreal x) {
   return (x * x) * (x * x);
 }
 
-/* 1 / rho, at most: with d_1 for d at the end of the way, rho + 1 / rho = 2 (|d| + |d_1|) / |d_1 - d|. */
+/* 1 / rho, at most: with d_1 for d at the end of the way, rho + 1 / rho = 2 (|d| + |d_1|) / |d_1 - d|; less what the cloth takes
+ * from |d| on the way, whatever the direction. */
 always vreal inverse_rho(const problem *a, const state *s, const prediction *g, vreal length) {
-  const vreal own = (1 - a->spin) * a->pull * g->z, tiny = v_splat(TINY); /* the cloth's pull on d, along t */
-  const vreal g_x = length * v_fma(own, g->t_x, a->mu_b * g->c);
-  const vreal g_y = length * v_fma(own, g->t_y, v_fma(-a->spin * a->mu_b, g->z, v_splat(1)));
+  const float own = a->spin < 1 ? 1 - a->spin : 0;
+  const vreal g_x = length * (a->mu_b * g->c), g_y = length * v_fma(-a->spin * a->mu_b, g->z, v_splat(1)), tiny = v_splat(TINY);
   const vreal d_x = s->d_x - g_x, d_y = s->d_y - g_y;
   const vreal d_0 = root(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, tiny))), d_1 = root(v_fma(d_x, d_x, v_fma(d_y, d_y, tiny)));
-  const vreal sum = (d_0 + d_1) * inverse_length(g_x, g_y);
+  const vreal taken = own * a->pull * g->z * length;
+  const vreal sum = v_max((d_0 + d_1 - taken) * inverse_length(g_x, g_y), v_splat(1));
   return v_select(is_at_rest(a, s), v_splat(0), v_reciprocal(2 * sum - v_reciprocal(sum)));
 }
 
@@ -82,7 +83,7 @@ always vreal stick_error(const problem *a, const state *s, const prediction *g) 
   /* |u| has a kink where W is about u_z, which K at v = 0 feels the more */
   const vreal kink = v_select(s->restitution, v_splat(6e-6f), v_splat(KINK)), bend = v_select(s->restitution, v_splat(-1.8e-4f), v_splat(-KINK_Z));
   const vreal by_z = v_max(v_fma(bend * g->z, g->z, kink), v_splat(0));
-  return mu * (v_select(is_at_rest(a, s), 2e-5f * (mu * mu * mu), by_turn) + by_z);
+  return mu * (v_select(is_at_rest(a, s), 8e-5f * (mu * mu * mu), by_turn) + by_z);
 }
 
 /* A TURN step. `last`: it ends the collision; `refused`: it would be too short, or the turn is too sharp. */
@@ -104,8 +105,7 @@ always turn_plan plan_turn(const problem *a, const state *s, const prediction *g
   const vreal one = v_splat(1), q = g->rate * to_end, reach = so_far->share * v_min(to_end, TURN_Q * v_reciprocal(g->rate));
   const vreal cloth = a->pull * g->z, needed = v_max((TURN_SHARE / a->tolerance) * cloth * cloth * reach, v_splat(1.0001f));
   const vreal rho = root(root(root(root(needed))));
-  const vmask passes = v_not(s->restitution) & v_less(v_splat(0), s->v + reach);
-  const vreal widest = v_min(6.2831853f * v_reciprocal(rho - v_reciprocal(rho)), v_select(passes, v_splat(RANGE_V_0), v_splat(WIDEST_RANGE)));
+  const vreal widest = v_min(6.2831853f * v_reciprocal(rho - v_reciprocal(rho)), v_splat(WIDEST_RANGE));
   /* a turn far away is as good as one nearer by and wider */
   const vmask rests = is_at_rest(a, s);
   p.at = v_select(rests, 2 * reach, v_min(v_max(at, -reach), 2 * reach));

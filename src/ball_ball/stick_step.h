@@ -137,7 +137,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   const vmask in_reach = v_less_equal(v, v_end) & v_less(v_splat(0.3f), share) & v_less(share, v_splat(3));
   *out = (solution){.J_c = zero, .J_z = zero, .I_x = v_fma(weight, X_sum, s->I_x), .I_y = v_fma(weight, Y_sum, s->I_y), .K_c = K_c};
   out->extra = returned * v_reciprocal(v_end + a->e) - a->pull_y * out->I_y;
-  out->stick = 1 + v - a->pull_y * out->I_y;
+  out->stick = v_max(1 + v - a->pull_y * out->I_y, zero);
   return v_select(in_reach, CONTRACTION_STICK * largest(moved, n), v_splat(HUGE_VALF));
 }
 
