@@ -34,7 +34,8 @@ static const float STICK_Q = 1.05f;           /* q from which the balls will sti
 static const float TURN_Q = 0.5f;             /* q of a TURN step */
 static const float LEFT_Q = 0.5f;             /* q that a PART would leave; */
 static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f; /* its share of |u|, and of q */
-static const float KINK = 3e-5f, KINK_Z = 4e-4f;
+static const float KINK = 3e-5f, KINK_Z = 4e-4f, AT_REST_SHARE = 2.6e-4f; /* parts of the error of a step to stick */
+static const float MOST_EASY_Q = 0.9f;
 static const float LEAST_WIDTH = 1e-5f;       /* distance delta of a turn */
 static const float WIDEST_RANGE = 4.5f;         /* of xi of a TURN step */
 static const float TURN_SHARE = 350;          /* its error over (mu mu_b sigma)^2 L rho^-16 */
@@ -73,7 +74,7 @@ always vmask is_smooth(int n, const problem *a, const state *s, const prediction
 always vmask is_easy(const problem *a, const state *s, const prediction *g, vreal to_end) {
   const vreal q = g->rate * to_end, q_4 = power_4(q);
   const vmask mild = v_less(EASY_SHARE * a->mu_b * (q_4 * q_4), v_splat(a->tolerance)) & v_less(a->pull * q * q, v_splat(MOST_EASY_PULL));
-  return v_any(mild) ? mild & is_smooth(4, a, s, g, to_end) : mild;
+  return v_any(mild) ? mild & v_less(q, v_splat(MOST_EASY_Q)) & is_smooth(4, a, s, g, to_end) : mild;
 }
 
 /* The error of a step to stick, over |u|, by how smooth tau and W are in lambda. */
@@ -82,8 +83,9 @@ always vreal stick_error(const problem *a, const state *s, const prediction *g) 
   const vreal by_turn = v_fma(0.05f * inverse_2, inverse_2 * inverse_2, v_splat(1e-6f));
   /* |u| has a kink where W is about u_z, which K at v = 0 feels the more */
   const vreal kink = v_select(s->restitution, v_splat(6e-6f), v_splat(KINK)), bend = v_select(s->restitution, v_splat(-1.8e-4f), v_splat(-KINK_Z));
+  const vreal share = mu * v_reciprocal(a->kappa - mu);
   const vreal by_z = v_max(v_fma(bend * g->z, g->z, kink), v_splat(0));
-  return mu * (v_select(is_at_rest(a, s), 8e-5f * (mu * mu * mu), by_turn) + by_z);
+  return mu * (v_select(is_at_rest(a, s), AT_REST_SHARE * (share * share * share), by_turn) + by_z);
 }
 
 /* A TURN step. `last`: it ends the collision; `refused`: it would be too short, or the turn is too sharp. */
