@@ -205,8 +205,8 @@ static size_t solve(carom_precision precision, const void *in, size_t in_size, s
   return w.first_bad;
 }
 
-static size_t solve_all(carom_precision precision, const char *in, size_t in_size, size_t n, const carom_options *opt, char *out,
-                        size_t out_size, uint8_t *status) {
+static size_t solve_all(carom_precision precision, const char *in, size_t in_size, size_t n, const carom_options *opt,
+                        char *out, size_t out_size, uint8_t *status) {
   size_t first_bad = n;
   for (size_t from = 0; from < n; from += MOST_ROWS) {
     const size_t rows = n - from < MOST_ROWS ? n - from : MOST_ROWS;

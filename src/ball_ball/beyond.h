@@ -23,8 +23,8 @@ always arrival arrive(const problem *a, const state *s) {
   return end;
 }
 
-/* From *s, with s = (x, y) and its slopes in *here and a sixth of its second derivative in third_x and third_y, to the end of the
- * collision. Returns the way there, which may be negative.
+/* From *s, with s = (x, y) and its slopes in *here and a sixth of its second derivative in third_x and third_y, to the end of
+ * the collision. Returns the way there, which may be negative.
  *
  * For a constant f the balance of work is a linear equation for v^2; the slope of f, and of that, are taken along the way that
  * the constant f leaves. */

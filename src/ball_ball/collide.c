@@ -1,5 +1,5 @@
-/* The public entry points: collocation, and for what it does not take: check, go to the collision frame, solve, come back, say how
- * it went. */
+/* The public entry points: collocation, and for what it does not take: check, go to the collision frame, solve, come back, say
+ * how it went. */
 #include "carom.h"
 
 #include "ball_ball/arguments.h"

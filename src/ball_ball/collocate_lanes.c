@@ -1,5 +1,5 @@
-/* One collocation step of many collisions, one in each lane. plan.h has the steps; batch.c sorts collisions by the step that they
- * need next. The decisions are those of collocate_one.c. */
+/* One collocation step of many collisions, one in each lane. plan.h has the steps; batch.c sorts collisions by the step that
+ * they need next. The decisions are those of collocate_one.c. */
 #include "ball_ball/kernels.h"
 #include "ball_ball/plan.h"
 

@@ -1,7 +1,7 @@
-/* The exact limit of one collision by collocation steps, all nodes of a step in a register. plan.h has the steps; batch.c computes
- * many collisions. */
-#include "ball_ball/plan.h"
+/* The exact limit of one collision by collocation steps, all nodes of a step in a register. plan.h has the steps; batch.c
+ * computes many collisions. */
 #include "ball_ball/kernels.h"
+#include "ball_ball/plan.h"
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
@@ -27,7 +27,8 @@ rare float take_easy_step(const problem *a, const prediction *g, vreal to_end, c
   return end_step(4, EASY_ITERATIONS, a, g, s, to_end, out);
 }
 
-/* From *s, predicted *g and with `to_end`, to the end. Returns the number of right-hand sides evaluated, 0 if it did not get there. */
+/* From *s, predicted *g and with `to_end`, to the end. Returns the number of right-hand sides evaluated, 0 if it did not get
+ * there. */
 rare int take_steps(const problem *a, state s, prediction g, vreal to_end, progress so_far, solution *out) {
   int evaluations = 0;
   for (int attempt = 1; attempt <= MOST_ATTEMPTS; attempt++) {

@@ -52,8 +52,10 @@ carom_detail carom_detail_of_solution(const carom_frame *frame, const carom_loca
     g.Q_2 = c.mu_b * (c.u_z / u * g.p + unit * (double)solution[OUT_J_Z]);
   }
   /* v = v_n / kappa in units of `unit`, with the slope 1 - f: see problem.h */
-  const double compression = c.kappa * unit * unit * ((double)solution[OUT_K_C] - 0.5), p_stick = unit * (double)solution[OUT_STICK];
-  carom_detail d = of_integrals(frame, &c, before, &g, compression, stick ? p_stick : NAN, c.v_n + c.kappa * p_stick - g.F_y < 0);
+  const double compression = c.kappa * unit * unit * ((double)solution[OUT_K_C] - 0.5),
+               p_stick = unit * (double)solution[OUT_STICK];
+  carom_detail d =
+      of_integrals(frame, &c, before, &g, compression, stick ? p_stick : NAN, c.v_n + c.kappa * p_stick - g.F_y < 0);
   d.evaluations = evaluations;
   return d;
 }

@@ -41,7 +41,8 @@ typedef float carom_moving[MOVING_COLUMNS][MOST_LANES];
  * collocation refuses it. */
 enum step_kind { EASY, FULL, FULL_LONG, STICK, PART, TURN, STEP_KINDS, SOLVED = STEP_KINDS, REFUSED };
 
-/* Error in p, in units of |v_n0| / kappa, that a step may add by its estimate, for results in double and in single precision. */
+/* Error in p, in units of |v_n0| / kappa, that a step may add by its estimate, for results in double and in single precision.
+ */
 static const float carom_tolerances[2] = {3e-7f, 6e-6f};
 
 #endif

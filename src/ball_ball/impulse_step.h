@@ -1,5 +1,5 @@
-/* The step in the normal impulse, over Gauss nodes in p or, where the cloth slip turns, over those of turn.h. It leaves a part of
- * the way, or comes near the end of the collision, and from there by a Taylor series to the end. */
+/* The step in the normal impulse, over Gauss nodes in p or, where the cloth slip turns, over those of turn.h. It leaves a part
+ * of the way, or comes near the end of the collision, and from there by a Taylor series to the end. */
 #ifndef CAROM_SRC_BALL_BALL_IMPULSE_STEP_H
 #define CAROM_SRC_BALL_BALL_IMPULSE_STEP_H
 
@@ -10,8 +10,8 @@
 /* How far the Taylor series is trusted, over the length of the step before it. */
 static const float MOST_BEYOND = 0.03f, MOST_BEYOND_TURN = 0.1f;
 
-/* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and those of c and sigma against their
- * values at first; K at v = 0 stays what it is. */
+/* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and those of c and sigma against
+ * their values at first; K at v = 0 stays what it is. */
 always state behind(const prediction *g, const step_law *l, const state *s, vreal X, vreal Y, vreal dC, vreal dZ, vreal K) {
   const vreal C = g->c + dC, Z = g->z + dZ;
   state end = *s;
@@ -28,8 +28,8 @@ always state behind(const prediction *g, const step_law *l, const state *s, vrea
   return end;
 }
 
-/* K at v = 0 by parts, so that nothing but w_y is interpolated, given v and the integral S of w_y up to a point near v = 0, and that of
- * S: int v w_y dX = v S - int S v' dX with v' = L + pull_y w_y. The little that is left for a mean f. */
+/* K at v = 0 by parts, so that nothing but w_y is interpolated, given v and the integral S of w_y up to a point near v = 0, and
+ * that of S: int v w_y dX = v S - int S v' dX with v' = L + pull_y w_y. The little that is left for a mean f. */
 always vreal K_by_parts(const step_law *l, const state *s, vreal f, vreal v, vreal S, vreal int_S) {
   const vreal by_parts = v_fma(v_fma(0.5f * l->pull_y, S, -v), S, l->length * int_S);
   return v_fma(l->pull_y, by_parts, v_fma(-0.5f * f * (1 + f), v * v, s->K));
@@ -72,11 +72,12 @@ always vreal K_at_v_0_on_turn(const gauss_rule *r, int n, const turn_range *rang
   return K_by_parts(l, s, f, v, S, dot(r->all, slope, n));
 }
 
-/* From *s on for a length, for which *g has been predicted. *next becomes the state behind the step; in the lanes of `last` that is
- * near the end of the collision, and *out becomes the solution. `turn`: over the nodes of that plan, else `turn` is NULL;
- * `by_parts`: v = 0 is where the first guess is. Returns an estimate of the error, in p; infinite if the end is not near. */
-always vreal impulse_step(int n, int iterations, const problem *a, const prediction *g, vreal length, const turn_plan *turn, vmask last,
-                          const state *s, state *next, solution *out) {
+/* From *s on for a length, for which *g has been predicted. *next becomes the state behind the step; in the lanes of `last`
+ * that is near the end of the collision, and *out becomes the solution. `turn`: over the nodes of that plan, else `turn` is
+ * NULL; `by_parts`: v = 0 is where the first guess is. Returns an estimate of the error, in p; infinite if the end is not near.
+ */
+always vreal impulse_step(int n, int iterations, const problem *a, const prediction *g, vreal length, const turn_plan *turn,
+                          vmask last, const state *s, state *next, solution *out) {
   const gauss_rule *r = n == 8 ? &gauss_8 : &gauss_4;
   const step_law l = law_of(a, g, length);
   mesh m;
@@ -104,7 +105,8 @@ always vreal impulse_step(int n, int iterations, const problem *a, const predict
     passes = passes | (v_not(s->restitution) & last);
   if (ends || v_any(passes)) {
     const vreal f_mean = -a->pull_y * Y;
-    const vreal K_c = turn != NULL ? K_at_v_0_on_turn(r, n, &range, &l, s, f_mean, f.w_y) : K_at_v_0(r, n, !ends, &l, s, f_mean, f.w_y);
+    const vreal K_c =
+        turn != NULL ? K_at_v_0_on_turn(r, n, &range, &l, s, f_mean, f.w_y) : K_at_v_0(r, n, !ends, &l, s, f_mean, f.w_y);
     end.K_c = v_select(passes, K_c, s->K_c);
   }
   end.restitution = s->restitution | passes;
@@ -133,7 +135,8 @@ always vreal impulse_step(int n, int iterations, const problem *a, const predict
   const vreal way = v_abs(finish(a, &end, &at_end, third_x, third_y, out));
   if (turn != NULL) {
     /* the third term, as large as the distance from the turn lets it be */
-    const vreal apart = length - turn->at, left_out = a->pull * way * (way * way) * v_reciprocal(v_fma(apart, apart, turn->width * turn->width));
+    const vreal apart = length - turn->at,
+                left_out = a->pull * way * (way * way) * v_reciprocal(v_fma(apart, apart, turn->width * turn->width));
     error = error + v_select(last, left_out, v_splat(0));
   }
   const vmask in_reach = v_less(way, (turn != NULL ? MOST_BEYOND_TURN : MOST_BEYOND) * length);
@@ -141,7 +144,8 @@ always vreal impulse_step(int n, int iterations, const problem *a, const predict
 }
 
 /* To the end, of which `to_end` is the way that would be left without work on friction. */
-always vreal end_step(int n, int iterations, const problem *a, const prediction *g, const state *s, vreal to_end, solution *out) {
+always vreal end_step(int n, int iterations, const problem *a, const prediction *g, const state *s, vreal to_end,
+                      solution *out) {
   const vreal f = -a->pull_y * g->z * g->t_y;
   return impulse_step(n, iterations, a, g, to_end * v_fma(f, 1 + f, v_splat(1)), NULL, v_all(), s, NULL, out);
 }

@@ -1,13 +1,13 @@
-/* carom_trace(): a collision on its way, sampled at equal steps of normal impulse. The exact limit is followed by the integrator
- * (fallback.c), Euler's method is simply stopped on its way, once for each sample. */
+/* carom_trace(): a collision on its way, sampled at equal steps of normal impulse. The exact limit is followed by the
+ * integrator (fallback.c), Euler's method is simply stopped on its way, once for each sample. */
 #include "ball_ball/euler.h"
 #include "ball_ball/fallback.h"
 #include "ball_ball/frame.h"
 #include "ball_ball/result.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdbool.h>
-#include <limits.h>
 #include <stdint.h>
 
 /* Contact A is ball on ball, D and B are the first and the second ball on the cloth; see carom_trace_point. */
@@ -29,7 +29,8 @@ static void put_point(const carom_frame *frame, const carom_local *c, double P, 
 }
 
 /* P: normal impulse at the end. */
-static carom_status trace_exact(const carom_frame *frame, const carom_local *start, double P, size_t n, carom_trace_point *points) {
+static carom_status trace_exact(const carom_frame *frame, const carom_local *start, double P, size_t n,
+                                carom_trace_point *points) {
   const carom_reduced c = carom_reduce(start);
   const double M = c.j_pressed ? start->M_j : start->M_i;
   carom_way way;

@@ -7,7 +7,8 @@
 
 #include "ball_ball/directions.h"
 
-/* A turn, as seen from a state: p_t and delta; the length of the step; what f will be on it, in the mean, were the way straight. */
+/* A turn, as seen from a state: p_t and delta; the length of the step; what f will be on it, in the mean, were the way
+ * straight. */
 typedef struct turn_plan {
   vreal at, width, length, mean_f;
 } turn_plan;

@@ -1,7 +1,8 @@
 /* Run-time choice of the instruction set: the highest that the processor has, or a lower one where that is asked for.
  *
- * The one piece of global state of the library is here: the set in force, an atomic that the first use fills. Asking for a lower
- * set is for tests, comparisons and bug reports; the results of the exact solver agree within its contract on all of them.
+ * The one piece of global state of the library is here: the set in force, an atomic that the first use fills. Asking for a
+ * lower set is for tests, comparisons and bug reports; the results of the exact solver agree within its contract on all of
+ * them.
  */
 #define _GNU_SOURCE /* secure_getenv: the environment says nothing to programs with more rights than their user */
 #include "platform/isa.h"

@@ -164,8 +164,8 @@ static carom_status by_fallback(const carom_impact *in, carom_slip slip, carom_r
   return status;
 }
 
-/* Collocation and the fallback share no arithmetic, and together are what carom_collide() does. Here each is asked by itself: they
- * agree, and collocation takes what it is made for. */
+/* Collocation and the fallback share no arithmetic, and together are what carom_collide() does. Here each is asked by itself:
+ * they agree, and collocation takes what it is made for. */
 START_TEST(collocation_and_fallback_agree) {
   int drawn = 0, taken = 0, apart = 0, sets = 0;
   FOR_EACH_ISA(isa) sets++;
@@ -343,5 +343,6 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("exact", references, oracle_agrees_with_the_references, oracle_in_every_regime, details,
-                   details_of_euler_come_near, hard_cases, collocation_and_fallback_agree, collocation_takes_the_references, speeds_scale);
+                   details_of_euler_come_near, hard_cases, collocation_and_fallback_agree, collocation_takes_the_references,
+                   speeds_scale);
 }
