@@ -105,7 +105,7 @@ void PASTE(carom_first_step_, CAROM_LANES_SUFFIX)(carom_in in, float spin, float
   const vmask easy = is_easy(&a, &s, &g, to_end);
   solution answer;
   const vreal error = take_easy_step(&a, &g, to_end, &s, &answer);
-  const vmask solved = easy & v_less(error, v_splat(tolerance));
+  const vmask solved = easy & v_less(error, a.tolerance);
   put_solution(&answer, out);
   if (!v_any(v_not(solved))) {
     memset(next, SOLVED, MOST_LANES);
@@ -157,7 +157,7 @@ void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh,
       error = take_turn_step(&a, &p, last, &s, &after, &answer);
     }
   }
-  const vmask accepted = v_less(error, v_splat(tolerance)) & v_not(impossible), solved = accepted & last;
+  const vmask accepted = v_less(error, a.tolerance) & v_not(impossible), solved = accepted & last;
   if (kind != PART)
     put_solution(&answer, out);
   if (!v_any(v_not(solved))) {

@@ -87,7 +87,7 @@ int PASTE(carom_collocate_, CAROM_LANES_SUFFIX)(const float in[IN_COLUMNS], floa
   progress so_far = {.share = 1};
   solution answer;
   if (is_easy(&a, &s, &g, to_end)) {
-    if (end_step(4, EASY_ITERATIONS, &a, &g, &s, to_end, &answer) < tolerance) {
+    if (end_step(4, EASY_ITERATIONS, &a, &g, &s, to_end, &answer) < a.tolerance) {
       put_solution(&answer, out);
       return 4 * (EASY_ITERATIONS + 1);
     }

@@ -27,6 +27,7 @@ enum { EASY_ITERATIONS = 2, FULL_ITERATIONS = 4, FULL_LONG_ITERATIONS = 8, PART_
 enum { TURN_ITERATIONS = 4, MOST_ATTEMPTS = 14 };
 
 static const float EASY_SHARE = 1.2e-3f;      /* error of an EASY step over mu_b q^8, */
+static const float MOST_EASY_Q = 0.9f;        /* its q */
 static const float MOST_EASY_PULL = 5e-3f;    /* and its mu mu_b q^2 */
 static const float FULL_Q = 0.6f;             /* q of a FULL step with few iterations, */
 static const float FULL_LONG_Q = 0.86f;       /* and with many */
@@ -35,12 +36,10 @@ static const float STICK_Q = 1.05f;           /* q from which the balls will sti
 static const float TURN_Q = 0.5f;             /* q of a TURN step */
 static const float LEFT_Q = 0.5f;             /* q that a PART would leave; */
 static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f; /* its share of |u|, and of q */
-static const float KINK = 3e-5f, KINK_Z = 4e-4f, AT_REST_SHARE = 2.6e-4f;    /* parts of the error of a step to stick */
-static const float MOST_EASY_Q = 0.9f;
-static const float LEAST_WIDTH = 1e-5f; /* distance delta of a turn */
-static const float WIDEST_RANGE = 4.5f; /* of xi of a TURN step */
-static const float TURN_SHARE = 350;    /* its error over (mu mu_b sigma)^2 L rho^-16 */
-static const float LEAST_SHARE = 0.1f;  /* of its usual length */
+static const float LEAST_WIDTH = 1e-5f;                                      /* distance delta of a turn */
+static const float WIDEST_RANGE = 4.5f;                                      /* of xi of a TURN step */
+static const float TURN_SHARE = 350;                                         /* its error over (mu mu_b sigma)^2 L rho^-16 */
+static const float LEAST_SHARE = 0.1f;                                       /* of its usual length */
 
 /* After refusals of steps from a state. */
 typedef struct progress {
@@ -69,14 +68,14 @@ always vreal inverse_rho(const problem *a, const state *s, const prediction *g, 
 always vmask is_smooth(int n, const problem *a, const state *s, const prediction *g, vreal length) {
   const vreal inverse_4 = power_4(inverse_rho(a, s, g, length)), inverse_8 = inverse_4 * inverse_4, q = g->rate * length;
   const vreal left_out = 4 * a->pull * g->z * length * (n == 8 ? inverse_8 * inverse_8 : inverse_8);
-  return v_less(left_out * v_fma((n == 8 ? BEND_8 : BEND_4) * q, q, v_splat(1)), v_splat(a->tolerance));
+  return v_less(left_out * v_fma((n == 8 ? BEND_8 : BEND_4) * q, q, v_splat(1)), a->tolerance);
 }
 
 /* Will an EASY step do? *g: to the end. */
 always vmask is_easy(const problem *a, const state *s, const prediction *g, vreal to_end) {
   const vreal q = g->rate * to_end, q_4 = power_4(q);
   const vmask mild =
-      v_less(EASY_SHARE * a->mu_b * (q_4 * q_4), v_splat(a->tolerance)) & v_less(a->pull * q * q, v_splat(MOST_EASY_PULL));
+      v_less(EASY_SHARE * a->mu_b * (q_4 * q_4), a->tolerance) & v_less(a->pull * q * q, v_splat(MOST_EASY_PULL));
   return v_any(mild) ? mild & v_less(q, v_splat(MOST_EASY_Q)) & is_smooth(4, a, s, g, to_end) : mild;
 }
 
@@ -84,12 +83,11 @@ always vmask is_easy(const problem *a, const state *s, const prediction *g, vrea
 always vreal stick_error(const problem *a, const state *s, const prediction *g) {
   const vreal inverse = inverse_rho(a, s, g, v_reciprocal(g->rate)), inverse_2 = inverse * inverse, mu = a->mu;
   const vreal by_turn = v_fma(0.05f * inverse_2, inverse_2 * inverse_2, v_splat(1e-6f));
-  /* |u| has a kink where W is about u_z, which K at v = 0 feels the more */
-  const vreal kink = v_select(s->restitution, v_splat(6e-6f), v_splat(KINK)),
-              bend = v_select(s->restitution, v_splat(-1.8e-4f), v_splat(-KINK_Z));
   const vreal share = mu * v_reciprocal(a->kappa - mu);
-  const vreal by_z = v_max(v_fma(bend * g->z, g->z, kink), v_splat(0));
-  return mu * (v_select(is_at_rest(a, s), AT_REST_SHARE * (share * share * share), by_turn) + by_z);
+  const vreal by_b =
+      1e-4f * v_max(v_fma(-12 * mu, g->t_y, -5 * a->kappa), v_splat(0));              /* W falls with a high power of lambda */
+  const vreal by_z = v_max(v_fma(-1.8e-4f * g->z, g->z, v_splat(6e-6f)), v_splat(0)); /* |u| has a kink where W is about u_z */
+  return mu * (v_select(is_at_rest(a, s), 2.6e-4f * (share * share * share), by_turn) + by_z + by_b);
 }
 
 /* A TURN step. `last`: it ends the collision; `refused`: it would be too short, or the turn is too sharp. */
@@ -109,7 +107,8 @@ always turn_plan plan_turn(const problem *a, const state *s, const prediction *g
 
   /* the range of xi that the tolerance allows: rho = y + sqrt(y^2 + 1) with y = pi / range */
   const vreal one = v_splat(1), q = g->rate * to_end, reach = so_far->share * v_min(to_end, TURN_Q * v_reciprocal(g->rate));
-  const vreal cloth = a->pull * g->z, needed = v_max((TURN_SHARE / a->tolerance) * cloth * cloth * reach, v_splat(1.0001f));
+  const vreal cloth = a->pull * g->z,
+              needed = v_max((TURN_SHARE * v_reciprocal(a->tolerance)) * cloth * cloth * reach, v_splat(1.0001f));
   const vreal rho = root(root(root(root(needed))));
   const vreal widest = v_min(6.2831853f * v_reciprocal(rho - v_reciprocal(rho)), v_splat(WIDEST_RANGE));
   /* a turn far away is as good as one nearer by and wider */
@@ -165,7 +164,7 @@ always choice choose(const problem *a, const state *s, const prediction *g, vrea
     c.full = c.full & is_smooth(8, a, s, g, to_end);
   c.stick = v_less(so_far->caution, v_splat(1)) & v_less(v_splat(STICK_Q), q);
   if (v_any(c.stick))
-    c.stick = c.stick & v_less(u * stick_error(a, s, g), v_splat(a->tolerance));
+    c.stick = c.stick & v_less(u * stick_error(a, s, g), a->tolerance);
   c.long_ = c.full & v_less(v_splat(FULL_Q), q);
   c.part = usual & v_less_equal(v_splat(TURN_Q), q) & v_not(c.stick | c.full);
   if (v_any(c.part))

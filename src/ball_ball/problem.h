@@ -18,7 +18,7 @@ typedef struct problem {
   vreal kappa, per_kappa, mu, mu_b, e;
   vreal pull, pull_y; /* mu mu_b; mu mu_b / kappa */
   float spin;         /* 5/2 s */
-  float tolerance;    /* of a step's error estimate, in p */
+  vreal tolerance;    /* of a step's error estimate, in p */
 } problem;
 
 /* What moves. */
@@ -52,8 +52,8 @@ static const float AT_REST =
     0.03f; /* mu mu_b |d|, over the tolerance, of a ball that slips so little that it does not matter */
 
 always vmask is_at_rest(const problem *a, const state *s) {
-  const float limit = AT_REST * a->tolerance;
-  return v_less(a->pull * a->pull * v_fma(s->d_x, s->d_x, s->d_y * s->d_y), v_splat(limit * limit));
+  const vreal limit = AT_REST * a->tolerance;
+  return v_less(a->pull * a->pull * v_fma(s->d_x, s->d_x, s->d_y * s->d_y), limit * limit);
 }
 
 always prediction predict(const problem *a, const state *s, vreal length) {
@@ -100,8 +100,9 @@ always problem problem_of(in_column *columns, float spin, float tolerance) {
                .mu = COLUMN(columns, IN_MU),
                .mu_b = COLUMN(columns, IN_MU_B),
                .e = COLUMN(columns, IN_E),
-               .spin = spin,
-               .tolerance = tolerance};
+               .spin = spin};
+  /* the less comes back, the more the end feels of it */
+  a.tolerance = tolerance * v_min(2 * a.e, v_splat(1));
   a.per_kappa = v_reciprocal(a.kappa);
   a.pull = a.mu * a.mu_b;
   a.pull_y = a.pull * a.per_kappa;

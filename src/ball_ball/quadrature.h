@@ -33,6 +33,15 @@ always vreal polynomial(const vreal *coefficient, int n, vreal t) {
   lanes_unrolled for (int m = n - 2; m >= 0; m--) sum = v_fma(t, sum, coefficient[m]);
   return sum;
 }
+always vreal polynomial_and_slope(const vreal *coefficient, int n, vreal t, vreal *slope) {
+  vreal sum = coefficient[n - 1];
+  *slope = v_splat(0);
+  lanes_unrolled for (int m = n - 2; m >= 0; m--) {
+    *slope = v_fma(t, *slope, sum);
+    sum = v_fma(t, sum, coefficient[m]);
+  }
+  return sum;
+}
 always reg polynomial_at_nodes(const vreal *coefficient, int n, reg t) {
   reg sum = SPREAD(coefficient[n - 1]);
   lanes_unrolled for (int m = n - 2; m >= 0; m--) sum = MADD(t, sum, coefficient[m]);

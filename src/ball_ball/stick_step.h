@@ -35,28 +35,36 @@ always void tau_of(const problem *a, reg d_x, reg d_y, reg *tau_x, reg *tau_y) {
   *tau_y = t_y * per;
 }
 
-/* K at v = 0 on the step, given v' and tau_y at the nodes, v where the balls stick, and the mean of f: tau_y is a polynomial
- * through the nodes, v what it is at stick less lambda^5 times one; by Gauss's rule up to there. */
-always vreal K_at_v_0_to_stick(const gauss_rule *r, const state *s, vreal v, const reg *slope, const reg *tau_y, vreal per_f,
-                               vreal f) {
+/* K at v = 0 on the step, given v where the balls stick, the mean of f, and at the nodes W, tau_y and slope = v' / lambda^4.
+ *
+ * v = 0 is found on the polynomial through the slopes: v is what it is at stick less lambda^5 times a polynomial. From the
+ * start to there Gauss's rule, with the slopes not of that polynomial but of those through W and tau_y, which are smoother. */
+always vreal K_at_v_0_to_stick(const problem *a, const gauss_rule *r, const state *s, vreal v, const reg *slope, const reg *W,
+                               const reg *tau_y, vreal u_z2, vreal per_p, vreal per_f, vreal f) {
   enum { n = STICK_NODES };
-  vreal v_power[MOST_NODES], tau_power[MOST_NODES];
+  vreal v_power[MOST_NODES], tau_power[MOST_NODES], W_power[MOST_NODES];
   sum_polynomials(r->part, n, slope, v_power);
   sum_polynomials(r->basis, n, tau_y, tau_power);
-  vreal x_c = v_min(1 - root_of(5, v_max(v * v_reciprocal(v - s->v), v_splat(1e-10f))), v_splat(1)), v_c;
+  sum_polynomials(r->basis, n, W, W_power);
+  vreal x_c = v_min(1 - root_of(5, v_max(v * v_reciprocal(v - s->v), v_splat(1e-10f))), v_splat(1));
   for (int i = 0; i < 3; i++) {
-    const vreal l = 1 - x_c, l4 = (l * l) * (l * l), sum = polynomial(v_power, n, 2 * l - 1);
-    v_c = v_fma(-l4 * l, sum, v);
-    if (i < 2)
-      x_c = v_min(v_max(x_c - v_c * v_reciprocal(v_fma(5 * l4, sum, v_splat(TINY))), v_splat(0)), v_splat(1));
+    const vreal l = 1 - x_c, l4 = (l * l) * (l * l);
+    vreal bend;
+    const vreal sum = polynomial_and_slope(v_power, n, 2 * l - 1, &bend), v_c = v_fma(-l4 * l, sum, v);
+    const vreal rise = v_max(l4 * v_fma(2 * l, bend, 5 * sum), v_splat(TINY));
+    x_c = v_min(v_max(x_c - v_c * v_reciprocal(rise), v_splat(0)), v_splat(1));
   }
-  reg part[MOST_REGS];
+  reg dv[MOST_REGS], tau[MOST_REGS], on_way[MOST_REGS], part[MOST_REGS];
   EACH_REG(k, n) {
     const reg l = MADD(-x_c, AT(gauss_8.node, k), 1.0f), l4 = (l * l) * (l * l), t = 2 * l - 1;
-    const reg v_x = MADD(-(l4 * l), polynomial_at_nodes(v_power, n, t), v);
-    part[k] = (l4 * v_x) * polynomial_at_nodes(tau_power, n, t);
+    const reg W_k = polynomial_at_nodes(W_power, n, t), tau_k = polynomial_at_nodes(tau_power, n, t);
+    dv[k] = (x_c * l4) * MADD(per_p * reg_root(MADD(W_k, W_k, u_z2)), MADD(-a->mu, tau_k, 1.0f), -per_f * tau_k);
+    tau[k] = (x_c * l4) * tau_k;
   }
-  return s->K + (x_c * per_f) * dot(gauss_8.all, part, n) - 0.5f * f * v_c * v_c * v_reciprocal(1 - f);
+  apply(gauss_8.sum, dv, on_way, n);
+  EACH_REG(k, n) part[k] = tau[k] * (s->v + on_way[k]);
+  const vreal v_c = s->v + dot(gauss_8.all, dv, n);
+  return v_fma(per_f, dot(gauss_8.all, part, n), s->K) - 0.5f * f * v_c * v_c * v_reciprocal(1 - f);
 }
 
 /* From *s, where *g has been predicted for the way to stick. Returns an estimate of the error, in p; infinite if the collision
@@ -123,18 +131,20 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   reg work[MOST_REGS], slope_v[MOST_REGS];
   EACH_REG(k, n) {
     slope[k] = reg_root(MADD(W[k], W[k], u_z2)) * MADD(-mu, tau_y[k], 1.0f);
-    work[k] = (per_f * tau_y[k]) * (s->v + MADD(per_p, P[k], -per_f * Y[k]));
     slope_v[k] = MADD(per_p, slope[k], -per_f * tau_y[k]);
+    work[k] = Y[k] * slope_v[k];
   }
   const vreal X_sum = dot(r->all, tau_x, n), Y_sum = dot(r->all, tau_y, n), p = per_p * dot(r->all, slope, n);
-  const vreal K = s->K + dot(r->all, work, n), v = s->v + (p - per_f * Y_sum);
+  /* K by parts, since slope bends where W is about u_z, and tau does not */
+  const vreal v = s->v + (p - per_f * Y_sum), K = v_fma(per_f, v_fma(v, Y_sum, -dot(r->all, work, n)), s->K);
   const vreal weight = 2 * u_z * per_mu_b; /* F = -mu mu_b I */
 
   /* K at v = 0; behind stick K stays what it is */
   const vmask passes = v_not(s->restitution) & v_less(zero, v);
   vreal K_c = v_select(s->restitution, s->K_c, K);
   if (v_any(passes))
-    K_c = v_select(passes, K_at_v_0_to_stick(r, s, v, slope_v, tau_y, per_f, per_f * Y_sum * v_reciprocal(p)), K_c);
+    K_c = v_select(passes,
+                   K_at_v_0_to_stick(a, r, s, v, slope_v, W, tau_y, u_z2, per_p, per_f, per_f * Y_sum * v_reciprocal(p)), K_c);
 
   /* the end of the collision must lie behind the step */
   const vreal returned = work_returned(a, K_c, K), v_end = v_sqrt(v_max(v_fma(a->e, a->e, returned), zero)),
