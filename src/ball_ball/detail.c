@@ -38,8 +38,12 @@ static carom_detail of_integrals(const carom_frame *frame, const carom_reduced *
 
 carom_detail carom_detail_of_solution(const carom_frame *frame, const carom_local *before, const float solution[OUT_COLUMNS],
                                       int evaluations) {
-  const carom_reduced c = carom_reduce(before);
-  const double unit = -c.v_n / c.kappa, u = hypot(c.u_x, c.u_z), pull = c.mu * c.mu_b * unit;
+  carom_reduced c = carom_reduce(before);
+  const double unit = -c.v_n / c.kappa, u = hypot(c.u_x, c.u_z);
+  /* as in rows.h */
+  c.mu = c.u_z <= LEAST_PRESS * unit ? 0 : c.mu;
+  c.mu_b = fmax(c.mu_b, LEAST_MU_B);
+  const double pull = c.mu * c.mu_b * unit;
   const bool stick = solution[OUT_STICK] >= 0;
   carom_integrals g = {.p = unit * (1 + c.e + (double)solution[OUT_EXTRA]),
                        .F_x = -pull * (double)solution[OUT_I_X],

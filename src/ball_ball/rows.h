@@ -64,8 +64,8 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
   out[IN_D_X] = d_x * side;
   out[IN_D_Y] = d_y * side;
   out[IN_KAPPA] = kappa;
-  out[IN_MU] = v_select(v_less_equal(r->u_z, v_splat((real)1e-10)), zero, mu); /* no ball is pressed to speak of */
-  out[IN_MU_B] = v_max(mu_b, v_splat((real)1e-9));
+  out[IN_MU] = v_select(v_less_equal(r->u_z, v_splat((real)LEAST_PRESS)), zero, mu); /* no ball is pressed to speak of */
+  out[IN_MU_B] = v_max(mu_b, v_splat((real)LEAST_MU_B));
   out[IN_E] = e;
 
   const vreal fastest = v_max(v_max(v_abs(out[IN_U_X]), out[IN_U_Z]), v_max(v_abs(out[IN_D_X]), v_abs(out[IN_D_Y])));
@@ -86,8 +86,9 @@ typedef struct row_impulses {
 } row_impulses;
 
 static inline row_impulses impulses_of(const row_lanes *r, const vreal in[OUT_COLUMNS]) {
-  const vreal e = r->x[25], mu_b = v_max(r->x[24], v_splat((real)1e-9));
-  const vreal mu = v_select(v_less_equal(r->u_z, v_splat((real)1e-10)), v_splat(0), v_select(r->b_pressed, r->x[23], r->x[11]));
+  const vreal e = r->x[25], mu_b = v_max(r->x[24], v_splat((real)LEAST_MU_B));
+  const vreal mu =
+      v_select(v_less_equal(r->u_z, v_splat((real)LEAST_PRESS)), v_splat(0), v_select(r->b_pressed, r->x[23], r->x[11]));
   const vreal pull = mu * mu_b;
   row_impulses q = {.p = (1 + e) + in[OUT_EXTRA], .F_x = -pull * in[OUT_I_X], .F_y = -pull * in[OUT_I_Y]};
   /* if the balls slip to the end, from the direction of u at the start; if they stick, from u = 0 */
