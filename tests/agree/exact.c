@@ -96,8 +96,7 @@ static void tell_regime(tally *t) {
     printf(" %.1e | %.1e | %.1e |", t->error[t->seen / 2], t->error[t->seen * 9 / 10], t->error[t->seen - 1]);
 }
 
-/* Nearly all collisions are within 1e-6. At the corners - stick at the very end, strong friction where the cloth's slip turns
- * near zero, which with the pooltool sign is unstable in itself - single ones are not, and none is far off. */
+/* Nearly all collisions are within 1e-6. At the corners single ones are not, and none is farther off than 1e-5. */
 START_TEST(oracle_in_every_regime) {
   tally alone = {0}, batch = {0};
   const int draws = draws_per_regime();
@@ -121,7 +120,7 @@ START_TEST(oracle_in_every_regime) {
         FOR_EACH_ISA(isa) {
           ck_assert_int_eq(carom_collide(&in, &options, &out), CAROM_OK);
           error = result_distance(&out, &exact, in.a.radius);
-          ck_assert_msg(error <= 1e-4, "%s, slip %d, draw %d is %g off with %s", regimes_name(regime), slip, k, error,
+          ck_assert_msg(error <= 1e-5, "%s, slip %d, draw %d is %g off with %s", regimes_name(regime), slip, k, error,
                         carom_isa_name((carom_isa)isa));
         }
         count(&alone, error);
@@ -131,7 +130,7 @@ START_TEST(oracle_in_every_regime) {
           many[lane] = in;
         ck_assert_int_eq(carom_collide_batch(many, FILL, &options, outs, NULL), CAROM_OK);
         const double batch_error = result_distance(&outs[FILL - 1], &exact, in.a.radius);
-        ck_assert_msg(batch_error <= 1e-4, "%s, slip %d, draw %d is %g off in a batch", regimes_name(regime), slip, k,
+        ck_assert_msg(batch_error <= 1e-5, "%s, slip %d, draw %d is %g off in a batch", regimes_name(regime), slip, k,
                       batch_error);
         count(&batch, batch_error);
       }
@@ -148,8 +147,8 @@ START_TEST(oracle_in_every_regime) {
   free(batch.error);
   printf("%d collisions: single calls: worst %.1e, %d above 1e-6; in lanes: worst %.1e, %d above 1e-6\n", alone.count,
          alone.worst, alone.above_1e6, batch.worst, batch.above_1e6);
-  ck_assert_int_le(alone.above_1e6, alone.count / 300);
-  ck_assert_int_le(batch.above_1e6, batch.count / 50);
+  ck_assert_int_le(alone.above_1e6, alone.count / 1000);
+  ck_assert_int_le(batch.above_1e6, batch.count / 1000);
 }
 END_TEST
 
