@@ -18,7 +18,7 @@
 #include <float.h>
 #include <math.h>
 
-static const double TOLERANCE = 1e-12;               /* of a step, over the approach */
+static const double TOLERANCE = 1e-13;               /* of a step, over the approach */
 static const double SHARE_OF_U = 0.7;                /* of the way to stick that a step may go, */
 static const double SHARE_OF_D = 0.8;                /* and of the way to d = 0 */
 static const double STUCK = 1e-12, AT_REST = 1e-12;  /* |u| and |d| that are none, over |v_n| / kappa */
