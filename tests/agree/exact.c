@@ -73,38 +73,18 @@ enum { FILL = 64 }; /* more than the lanes of any instruction set */
 typedef struct tally {
   int count, above_1e6;
   double worst;
-  int seen; /* errors of the regime at hand */
-  double *error;
 } tally;
 
 static void count(tally *t, double error) {
   t->count++;
   t->above_1e6 += error > 1e-6;
   t->worst = fmax(t->worst, error);
-  t->error[t->seen++] = error;
-}
-
-static int ascending(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-/* Median, 90 % and largest error of the regime at hand, as columns of the table in docs/numerics.md. */
-static void tell_regime(tally *t) {
-  qsort(t->error, (size_t)t->seen, sizeof *t->error, ascending);
-  if (t->seen > 0)
-    printf(" %.1e | %.1e | %.1e |", t->error[t->seen / 2], t->error[t->seen * 9 / 10], t->error[t->seen - 1]);
 }
 
 /* Nearly all collisions are within 1e-6. At the corners single ones are not, and none is farther off than 1e-5. */
 START_TEST(oracle_in_every_regime) {
   tally alone = {0}, batch = {0};
   const int draws = draws_per_regime();
-  const bool table = getenv("CAROM_TEST_DRAWS") != NULL;
-  const size_t most = (size_t)draws * CAROM_SLIP_COUNT;
-  alone.error = calloc(most, sizeof *alone.error);
-  batch.error = calloc(most, sizeof *batch.error);
-  ck_assert(alone.error != NULL && batch.error != NULL);
   for (int regime = 0; regime < regimes_count(); regime++) {
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
       regimes_rng rng = {test_seed() + 1000003u * (uint64_t)(2 * regime + slip)};
@@ -135,16 +115,7 @@ START_TEST(oracle_in_every_regime) {
         count(&batch, batch_error);
       }
     }
-    if (table) {
-      printf("| %s |", regimes_name(regime));
-      tell_regime(&alone);
-      tell_regime(&batch);
-      putchar('\n');
-    }
-    alone.seen = batch.seen = 0;
   }
-  free(alone.error);
-  free(batch.error);
   printf("%d collisions: single calls: worst %.1e, %d above 1e-6; in lanes: worst %.1e, %d above 1e-6\n", alone.count,
          alone.worst, alone.above_1e6, batch.worst, batch.above_1e6);
   ck_assert_int_le(alone.above_1e6, alone.count / 1000);
