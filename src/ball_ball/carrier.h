@@ -25,6 +25,7 @@ typedef float node_row[MOST_NODES];
 #ifdef CAROM_LANES_ONE
 typedef float reg __attribute__((vector_size(32)));
 typedef int32_t reg_int __attribute__((vector_size(32)));
+typedef uint32_t reg_bits __attribute__((vector_size(32))); /* sums of junk may wrap */
 typedef float reg_unaligned __attribute__((vector_size(32), aligned(4), may_alias));
 typedef float half_reg __attribute__((vector_size(16)));
 #define REGS(n) 1
@@ -39,6 +40,7 @@ typedef float half_reg __attribute__((vector_size(16)));
 #else
 typedef vreal reg;
 typedef vint reg_int;
+typedef uint32_t reg_bits __attribute__((vector_size(VECTOR_BYTES)));
 #define REGS(n) (n)
 #define MOST_REGS MOST_NODES
 #define AT(row, k) ((row)[k])
@@ -215,12 +217,12 @@ always reg exponential(reg x) {
   const reg shifted = MADD(x, 1.44269504f, rounder), n = shifted - rounder;
   const reg r = MADD(n, -1.42860677e-6f, MADD(n, -0.693145752f, x)); /* log(2) in two parts, the first of few digits */
   const reg p = MADD(r, MADD(r, MADD(r, MADD(r, MADD(r, 1 / 720.0f, 1 / 120.0f), 1 / 24.0f), 1 / 6.0f), 0.5f), 1.0f);
-  return (reg)((reg_int)MADD(r, p, 1.0f) + ((reg_int)shifted << 23));
+  return (reg)((reg_bits)MADD(r, p, 1.0f) + ((reg_bits)shifted << 23));
 }
 
 /* log(x) for x > 0, to about 6e-7: the exponent, and the series of 2 artanh in what is left. */
 always reg logarithm(reg x) {
-  const reg_int bits = (reg_int)x - 0x3f3504f3; /* of sqrt(1/2): what is left is between that and sqrt(2) */
+  const reg_int bits = (reg_int)((reg_bits)x - 0x3f3504f3); /* of sqrt(1/2): what is left is between that and sqrt(2) */
   const reg exponent = __builtin_convertvector(bits >> 23, reg), m = (reg)((bits & 0x7fffff) + 0x3f3504f3);
   const reg t = (m - 1) * reg_reciprocal(m + 1), t2 = t * t;
   const reg series = MADD(t2, MADD(t2, MADD(t2, 2 / 7.0f, 2 / 5.0f), 2 / 3.0f), 2.0f);
