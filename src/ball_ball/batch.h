@@ -13,6 +13,6 @@ carom_status carom_collide_one(carom_precision precision, const void *in, const 
 
 /* Splits n pairs over threads (opt->threads) and runs `solver` on each part; returns as `solver` does. */
 size_t carom_batch_in_threads(carom_batch_solver *solver, carom_precision precision, const void *in, size_t n,
-                              const carom_options *opt, void *out, uint8_t *status);
+                              const carom_options *opt, void *out, int8_t *status);
 
 #endif

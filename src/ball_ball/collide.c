@@ -1,5 +1,5 @@
-/* The public entry points: collocation, and for what it does not take: check, go to the collision frame, solve, come back, say how
- * it went. */
+/* The public entry points: collocation, and for what it does not take: check, go to the collision frame, solve, come back, say
+ * how it went. */
 #include "carom.h"
 
 #include "ball_ball/arguments.h"
@@ -13,10 +13,6 @@
 
 #include <math.h>
 #include <stdbool.h>
-
-carom_options carom_default_options(void) {
-  return (carom_options){.solver = CAROM_SOLVER_EXACT, .slip = CAROM_SLIP_PAPER, .steps = 1000};
-}
 
 static bool collocate(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
   float solution[OUT_COLUMNS];
@@ -66,8 +62,8 @@ static carom_status solve(const carom_impact *in, const carom_options *opt, caro
     carom_copy_state(in, out);
     return CAROM_SEPARATING;
   }
-  const carom_status status =
-      opt->solver == CAROM_SOLVER_EXACT ? solve_exact(&frame, &local, detail) : solve_euler(&frame, &local, opt->steps, detail);
+  const carom_status status = opt->solver == CAROM_SOLVER_EXACT ? solve_exact(&frame, &local, detail)
+                                                                : solve_euler(&frame, &local, carom_steps(opt), detail);
   if (status != CAROM_OK)
     return status;
   carom_from_frame(&frame, &local, out);
@@ -79,7 +75,7 @@ carom_status carom_collide_detail(const carom_impact *in, const carom_options *o
     *detail = carom_detail_of_nothing();
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
-  const carom_options defaults = carom_default_options();
+  const carom_options defaults = {0};
   if (opt == NULL)
     opt = &defaults;
   carom_status status = carom_check_options(opt);
@@ -119,7 +115,7 @@ static carom_status to_single(carom_status status, const carom_result *in, carom
 carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt, carom_result_f32 *out) {
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
-  const carom_options defaults = carom_default_options();
+  const carom_options defaults = {0};
   if (opt == NULL)
     opt = &defaults;
   if (opt->solver == CAROM_SOLVER_EXACT && carom_check_options(opt) == CAROM_OK &&
@@ -136,8 +132,8 @@ carom_status carom_collide_one(carom_precision precision, const void *in, const 
 }
 
 static carom_status collide_batch(carom_precision precision, const void *in, size_t n, const carom_options *opt, void *out,
-                                  uint8_t *status) {
-  const carom_options defaults = carom_default_options();
+                                  int8_t *status) {
+  const carom_options defaults = {0};
   if (opt == NULL)
     opt = &defaults;
   carom_status bad = carom_check_options(opt);
@@ -158,11 +154,11 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
 }
 
 carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
-                                 uint8_t *status) {
+                                 int8_t *status) {
   return collide_batch(CAROM_DOUBLE, in, n, opt, out, status);
 }
 
 carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt, carom_result_f32 *out,
-                                     uint8_t *status) {
+                                     int8_t *status) {
   return collide_batch(CAROM_SINGLE, in, n, opt, out, status);
 }

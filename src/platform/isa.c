@@ -1,12 +1,13 @@
 /* Run-time choice of the instruction set: the highest that the processor has, or a lower one where that is asked for.
  *
- * The one piece of global state of the library is here: the set in force, an atomic that the first use fills. Asking for a lower
- * set is for tests, comparisons and bug reports; the results of the exact solver agree within its contract on all of them.
+ * The one piece of global state of the library is here: the set in force, an atomic that the first use fills. Asking for a
+ * lower set is for tests, comparisons and bug reports; the results of the exact solver agree within its contract on all of
+ * them.
  */
 #define _GNU_SOURCE /* secure_getenv: the environment says nothing to programs with more rights than their user */
 #include "platform/isa.h"
 
-#include "carom.h"
+#include "enumerations.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -41,15 +42,6 @@ static bool processor_has(carom_isa isa) {
 
 int carom_isa_available(carom_isa isa) {
   return (int)isa >= 0 && isa < CAROM_ISA_COUNT && built[isa] && processor_has(isa);
-}
-
-const char *carom_isa_name(carom_isa isa) {
-  static const char *const names[] = {
-#define NAME_OF(NAME, name) [CAROM_ISA_##NAME] = name,
-      CAROM_ISA_LIST(NAME_OF)
-#undef NAME_OF
-  };
-  return (int)isa >= 0 && isa < CAROM_ISA_COUNT ? names[isa] : NULL;
 }
 
 /* The best set that is available and not above `limit`: sets of one processor family are listed from low to high. */

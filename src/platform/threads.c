@@ -5,6 +5,7 @@
  * itself, and all of it if no thread can be started. A batch too small to be worth a thread is not cut: starting one costs
  * about as much as some hundred exact collisions.
  */
+#include "ball_ball/arguments.h"
 #include "ball_ball/batch.h"
 
 #include <pthread.h>
@@ -19,7 +20,7 @@ enum {
 /* Fewer pairs than this are not worth a thread: about 50 us of work. */
 static size_t least_part(const carom_options *opt) {
   if (opt->solver == CAROM_SOLVER_EULER) {
-    const size_t part = 20000 / (size_t)opt->steps;
+    const size_t part = 20000 / (size_t)carom_steps(opt);
     return part > UNIT ? part : UNIT;
   }
   return 4096;
@@ -31,7 +32,7 @@ typedef struct part {
   size_t n;
   const carom_options *opt;
   char *out;
-  uint8_t *status;
+  int8_t *status;
   size_t first_bad;
 } part;
 
@@ -47,8 +48,8 @@ static size_t processors(void) {
 }
 
 size_t carom_batch_in_threads(carom_batch_solver *solver, carom_precision precision, const void *in, size_t n,
-                              const carom_options *opt, void *out, uint8_t *status) {
-  size_t threads = opt->threads > 0 ? (size_t)opt->threads : processors();
+                              const carom_options *opt, void *out, int8_t *status) {
+  size_t threads = opt->threads == CAROM_ALL_THREADS ? processors() : (size_t)opt->threads;
   const size_t useful = n / least_part(opt);
   if (threads > useful)
     threads = useful;
