@@ -11,10 +11,16 @@
 
 #include "enumerations.h"
 
+#include <float.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* With more digits between two operations results would not have the promised bits. */
+#if FLT_EVAL_METHOD != 0
+#error "carom needs float and double computed in their own precision; for 32-bit x86 compile with -msse2 -mfpmath=sse"
+#endif
 
 static const bool built[CAROM_ISA_COUNT] = {
 #define BUILT(NAME, suffix) [CAROM_ISA_##NAME] = true,

@@ -79,7 +79,7 @@ static void *call_batches(void *argument) {
   sigemptyset(&own);
   sigaddset(&own, SIGUSR1);
   pthread_sigmask(SIG_UNBLOCK, &own, NULL);
-  for (int k = 0; k < 20; k++)
+  for (int k = 0; k < 8; k++)
     carom_collide_batch(in, ROWS, &options, out, NULL);
   /* The mask of the calling thread is as it was. */
   sigset_t now;
