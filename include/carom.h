@@ -20,7 +20,7 @@
  * one global state is the instruction set in force.
  *
  * Stack. In a build that optimises, every call fits a thread with 64 KiB of stack, of which the C library takes some. On x86-64
- * a single call takes at most 7 KiB, a trace 10, a batch 42, and one over threads 51 in the calling thread (measured by
+ * a single call takes at most 7 KiB, a trace 10, a batch 44, and one over threads 53 in the calling thread (measured by
  * tests/unit/stack.c).
  *
  * Determinism. What gives equal bits:
