@@ -1,6 +1,8 @@
 /* The tables of kernels.h. */
 #include "ball_ball/kernels.h"
 
+#include "enumerations.h"
+
 #define LANES_OF_PLAIN 4
 #define LANES_OF_SSE2 4
 #define LANES_OF_NEON 4

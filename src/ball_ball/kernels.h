@@ -37,7 +37,7 @@ typedef int carom_single(const void *in, double s, void *out, float solution[OUT
 
 /* Resolves n pairs of one precision with checked options; in, out and status as in carom_collide_batch(), status may be NULL.
  * Returns the index of the first pair in error, or n. */
-typedef size_t carom_batch_solver(const void *in, size_t n, const carom_options *opt, void *out, uint8_t *status);
+typedef size_t carom_batch_solver(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status);
 
 typedef struct carom_kernels {
   int lanes; /* floats in a vector */

@@ -20,7 +20,7 @@ enum { MOST_EVALUATIONS = 4000 + 1000 };
 static const double accepted = 1e-5, realistic = 1e-6, by_the_fallback = 1e-9, in_single = 2e-5;
 
 static carom_options options_for(carom_slip slip) {
-  carom_options options = carom_default_options();
+  carom_options options = {0};
   options.slip = slip;
   return options;
 }
