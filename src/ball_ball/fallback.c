@@ -23,7 +23,7 @@ static const double SHARE_OF_U = 0.7;                /* of the way to stick that
 static const double SHARE_OF_D = 0.8;                /* and of the way to d = 0 */
 static const double STUCK = 1e-12, AT_REST = 1e-12;  /* |u| and |d| that are none, over |v_n| / kappa */
 static const double PAST_REST = 2.2;                 /* of AT_REST: a step that jumps over d = 0 */
-static const double MOST_GROWTH = 13.8;              /* a million */
+static const double MOST_GROWTH = 9.2;               /* ten thousand: errors reach 1e-9 */
 static const double MOST_SLIP = 1e100;               /* over the approach; squares of more would overflow */
 enum { BUDGET = 4000 };                              /* right-hand sides: about 150 us */
 enum { Q_1, Q_2, F_X, F_Y, WORK, GROWTH, UNKNOWNS }; /* y */
