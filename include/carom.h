@@ -57,6 +57,12 @@ typedef struct carom_impact {
   double restitution; /* e, 0 to 1: the collision ends once e^2 of the work of compression has been given back. */
 } carom_impact;
 
+/* The motion of a ball. */
+typedef struct carom_motion {
+  double v[3]; /* velocity, m/s. */
+  double w[3]; /* angular velocity, rad/s. */
+} carom_motion;
+
 /* The balls just after the collision; positions do not change. 12 doubles without gaps. */
 typedef struct carom_result {
   double v_a[3], w_a[3]; /* first ball: velocity, m/s, and angular velocity, rad/s. */
@@ -66,33 +72,40 @@ typedef struct carom_result {
 /* ---- How a call ended ------------------------------------------------------------------------------------------------ */
 
 /* 0 is success, a positive value a valid outcome worth a remark, a negative value an error: X(NAME, value, name, text). */
-#define CAROM_STATUS_LIST(X)                                                                                   \
-  X(OK, 0, "ok", "resolved")                                                                                   \
-  X(SEPARATING, 1, "separating", "the balls do not approach each other; their state is returned unchanged")    \
-  X(ERROR_NULL, -1, "null_pointer", "a required pointer is NULL")                                              \
-  X(ERROR_SOLVER, -2, "bad_solver", "options.solver is not one of carom_solver")                               \
-  X(ERROR_SLIP, -3, "bad_slip", "options.slip is not one of carom_slip")                                       \
-  X(ERROR_STEPS, -4, "bad_steps", "options.steps must be at least 1")                                          \
-  X(ERROR_POSITION, -5, "bad_position", "a position must be finite")                                           \
-  X(ERROR_VELOCITY, -6, "bad_velocity", "a velocity must be finite")                                           \
-  X(ERROR_SPIN, -7, "bad_spin", "an angular velocity must be finite")                                          \
-  X(ERROR_RADIUS, -8, "bad_radius", "a radius must be positive and finite")                                    \
-  X(ERROR_MASS, -9, "bad_mass", "a mass must be positive and finite")                                          \
-  X(ERROR_MU_CLOTH, -10, "bad_mu_cloth", "the friction of ball and cloth must be in [0, 1]")                   \
-  X(ERROR_MU_BALL, -11, "bad_mu_ball", "the friction of ball and ball must be in [0, 1]")                      \
-  X(ERROR_RESTITUTION, -12, "bad_restitution", "the restitution must be in [0, 1]")                            \
-  X(ERROR_RADII_DIFFER, -13, "radii_differ", "both balls must have the same radius")                           \
-  X(ERROR_HEIGHTS_DIFFER, -14, "heights_differ", "both centres must be at the same height")                    \
-  X(ERROR_VERTICAL, -15, "vertical_velocity", "the vertical velocity must be 0: both balls stay on the table") \
-  X(ERROR_COINCIDENT, -16, "centres_coincide", "the centres coincide, so there is no line of centres")         \
-  X(ERROR_TOO_SLOW, -17, "too_slow",                                                                           \
-    "Euler's method is too slow here: its steps are lost in rounding, or more than 16 N of them are needed")   \
-  X(ERROR_OVERFLOW, -18, "overflow", "the collision overflows the range of double")                            \
-  X(ERROR_MASSES_DIFFER, -19, "masses_differ", "this kernel is for balls of equal mass only")                  \
-  X(ERROR_THREADS, -20, "bad_threads", "options.threads must not be negative")                                 \
-  X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                        \
-  X(ERROR_UNRESOLVED, -22, "unresolved",                                                                       \
-    "the collision is too extreme: its result hangs on rounding errors, or takes more work than a call may cost")
+#define CAROM_STATUS_LIST(X)                                                                                      \
+  X(OK, 0, "ok", "resolved")                                                                                      \
+  X(SEPARATING, 1, "separating", "the balls do not approach each other; their state is returned unchanged")       \
+  X(ERROR_NULL, -1, "null_pointer", "a required pointer is NULL")                                                 \
+  X(ERROR_SOLVER, -2, "bad_solver", "options.solver is not one of carom_solver")                                  \
+  X(ERROR_SLIP, -3, "bad_slip", "options.slip is not one of carom_slip")                                          \
+  X(ERROR_STEPS, -4, "bad_steps", "options.steps must be at least 1")                                             \
+  X(ERROR_POSITION, -5, "bad_position", "a position must be finite")                                              \
+  X(ERROR_VELOCITY, -6, "bad_velocity", "a velocity must be finite")                                              \
+  X(ERROR_SPIN, -7, "bad_spin", "an angular velocity must be finite")                                             \
+  X(ERROR_RADIUS, -8, "bad_radius", "a radius must be positive and finite")                                       \
+  X(ERROR_MASS, -9, "bad_mass", "a mass must be positive and finite")                                             \
+  X(ERROR_MU_CLOTH, -10, "bad_mu_cloth", "the friction of ball and cloth must be in [0, 1]")                      \
+  X(ERROR_MU_BALL, -11, "bad_mu_ball", "the friction of ball and ball must be in [0, 1]")                         \
+  X(ERROR_RESTITUTION, -12, "bad_restitution", "the restitution must be in [0, 1]")                               \
+  X(ERROR_RADII_DIFFER, -13, "radii_differ", "both balls must have the same radius")                              \
+  X(ERROR_HEIGHTS_DIFFER, -14, "heights_differ", "both centres must be at the same height")                       \
+  X(ERROR_VERTICAL, -15, "vertical_velocity", "the vertical velocity must be 0: both balls stay on the table")    \
+  X(ERROR_COINCIDENT, -16, "centres_coincide", "the centres coincide, so there is no line of centres")            \
+  X(ERROR_TOO_SLOW, -17, "too_slow",                                                                              \
+    "Euler's method is too slow here: its steps are lost in rounding, or more than 16 N of them are needed")      \
+  X(ERROR_OVERFLOW, -18, "overflow", "the collision overflows the range of double")                               \
+  X(ERROR_MASSES_DIFFER, -19, "masses_differ", "this kernel is for balls of equal mass only")                     \
+  X(ERROR_THREADS, -20, "bad_threads", "options.threads must not be negative")                                    \
+  X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                           \
+  X(ERROR_UNRESOLVED, -22, "unresolved",                                                                          \
+    "the collision is too extreme: its result hangs on rounding errors, or takes more work than a call may cost") \
+  X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model", "options.model is not one of carom_cushion_model")             \
+  X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options",                                                            \
+    "an option of the cushion is out of its range, or a reserved one is not 0")                                   \
+  X(ERROR_NORMAL, -32, "bad_normal", "the direction into the cushion must be finite and not 0")                   \
+  X(ERROR_NOSE_HEIGHT, -33, "bad_nose_height", "the nose must be between the cloth and the top of the ball")      \
+  X(ERROR_MU_CUSHION, -34, "bad_mu_cushion", "the friction of ball and cushion must be in [0, 1]")                \
+  X(ERROR_JAW_RADIUS, -35, "bad_jaw_radius", "the radius of a jaw must be finite and not negative")
 
 typedef enum carom_status {
 #define CAROM_STATUS_ENUM(NAME, value, name, text) CAROM_##NAME = (value),
@@ -145,6 +158,8 @@ typedef struct carom_options {
   int threads;         /* most threads that a batch may use, >= 0; default 0: one for each processor. Results do not depend on
                           it. 1 starts none; single calls never do. */
 } carom_options;
+
+enum { CAROM_ALL_THREADS = -1 }; /* for options.threads of carom_shot.h */
 
 CAROM_API carom_options carom_default_options(void);
 
