@@ -1,5 +1,343 @@
+/* The exact limit of the model of the 2010 paper: impulses at nose and cloth as a differential equation in p = P / M.
+ *
+ * The unknowns are the four slips of contact.h, whose rates coulomb.c gives, and int v_y dp. They say all:
+ * v_y = (c_y - s_t) / (1 + sin), and the frictions' impulses Q = int f dp, G = int F dp follow at the end from the changes of
+ * the slips, in which they are linear:
+ *
+ *     7/2 Q_x + k_x G_x = s_x - s_x0                              k_x Q_x + 7/2 G_x = c_x - c_x0
+ *     k_t Q_t + k_y G_y = s_t - s_t0 - sin cos p                  k_y Q_t + 7/2 G_y = c_y - c_y0 + cos p
+ *
+ * so the balance of momentum is exact. Speeds are over the approach v_y; platform/integrate.c takes the steps.
+ *
+ * REGIMES. Within a regime (what sticks, whether the cloth is loaded) the right-hand side is smooth but for the direction of a
+ * slip that comes near to zero; a step is at most a share of |s|/|s'|, the radius in which the solution is analytic. A regime
+ * ends
+ *
+ *     where a slip is zero (REST)                                           steps shrink towards it until it is
+ *     where the friction that holds a contact leaves the cone               event
+ *     where the load of the cloth, g, passes zero                           event
+ *
+ * and carom_decide() says what follows. Compression ends at v_y = 0, the impact where the work given back is e^2 of that of
+ * compression: events too. A ball that is wedged (both contacts stick, v_y = 0) stays so whatever the impulse: the impact ends
+ * there, and what has not been given back is lost.
+ *
+ * BOUNDS. MOST_CHANGES of the regime and BUDGET right-hand sides; beyond either the result is CAROM_ERROR_UNRESOLVED. */
+#include "cushion/mathavan.h"
 #include "cushion/models.h"
+
+#include <float.h>
+
+static const double TOLERANCE = 1e-11; /* of a step, over the approach */
+static const double EVENT_TOLERANCE = 1e-8;
+static const double SHARE = 0.9; /* of |s|/|s'| that a step may go */
+static const double NEARLY = 1e-6;
+static const double REST = 1e-11;           /* a slip that is none, over the approach and the largest slip together */
+static const double MOST_SLIP = 1e100;      /* over the approach; squares of more would overflow */
+static const double SLOW = 1e-4;            /* up to which a slip is slow, over the approach */
+static const double SLOW_DIFFERENCE = 1e-5; /* of |c|/|c'|: a difference for how its direction turns */
+static const double DIFFERENCE = 1e-7;      /* of |s|/|s'|: a difference for the rate of an event */
+enum { BUDGET = 4000, MOST_CHANGES = 64 };
+enum { S_X, S_T, C_X, C_Y, WORK, P, UNKNOWNS }; /* y */
+
+static carom_slips slips_of(const double *y) {
+  return (carom_slips){{y[S_X], y[S_T]}, {y[C_X], y[C_Y]}};
+}
+
+static double length(carom_vector a) {
+  return sqrt(a.x * a.x + a.y * a.y);
+}
+
+static double speed_into(const carom_coulomb *law, const double *y) {
+  return (y[C_Y] - y[S_T]) / (1 + law->sine);
+}
+
+/* dp / d(theta) */
+static double pace(const carom_cushion_way *w, const carom_slips *at) {
+  double inverse = 1;
+  if (w->nose_singular)
+    inverse += 1 / length(at->s);
+  if (w->cloth_singular)
+    inverse += 1 / length(at->c);
+  return 1 / inverse;
+}
+
+/* The frictions while the nose slips slowly: see coulomb.c. */
+static carom_friction slow_friction(const carom_cushion_way *w, const carom_slips *slips) {
+  carom_regime regime = w->regime;
+  carom_slips at = {.c = slips->c};
+  carom_vector turning = {0, 0};
+  carom_slow_direction(&w->law, &at, 0, turning, &regime);
+  const carom_vector now = regime.nose;
+  const carom_friction friction = carom_friction_of(&w->law, &regime, &at);
+  const carom_slips rates = carom_slip_rates(&w->law, &friction);
+  const double c = length(at.c), slip = length(slips->s);
+  if (!w->regime.cloth_sticks && c > 0 && slip > 0) {
+    const double h = SLOW_DIFFERENCE * c / (length(rates.c) + DBL_MIN);
+    const carom_slips next = {.c = {at.c.x + h * rates.c.x, at.c.y + h * rates.c.y}};
+    carom_slow_direction(&w->law, &next, 0, turning, &regime);
+    turning = (carom_vector){(regime.nose.x - now.x) / h, (regime.nose.y - now.y) / h};
+    carom_slow_direction(&w->law, &at, slip, turning, &regime);
+  }
+  return carom_friction_of(&w->law, &regime, &at);
+}
+
+static carom_friction friction_at(const carom_cushion_way *w, const carom_slips *slips) {
+  return w->slow ? slow_friction(w, slips) : carom_friction_of(&w->law, &w->regime, slips);
+}
+
+static void slope(const void *model, double x, const double *y, double *f) {
+  (void)x;
+  const carom_cushion_way *w = model;
+  const carom_slips slips = slips_of(y);
+  const carom_friction friction = friction_at(w, &slips);
+  const carom_slips rates = carom_slip_rates(&w->law, &friction);
+  const double rho = pace(w, &slips), nose = w->regime.nose_sticks ? 0 : rho, cloth = w->regime.cloth_sticks ? 0 : rho;
+  f[S_X] = nose * rates.s.x;
+  f[S_T] = nose * rates.s.y;
+  f[C_X] = cloth * rates.c.x;
+  f[C_Y] = cloth * rates.c.y;
+  f[WORK] = rho * speed_into(&w->law, y);
+  f[P] = rho;
+}
+
+/* How far a slip may go that had been zero, before it comes near to zero again. */
+static double reach(carom_vector slip, carom_vector rate) {
+  return slip.x * rate.x + slip.y * rate.y < 0 ? SHARE * length(slip) / length(rate) : DBL_MAX;
+}
+
+static double longest(const void *model, double p, const double *y, const double *f) {
+  (void)p;
+  const carom_cushion_way *w = model;
+  const carom_slips at = slips_of(y), rate = slips_of(f);
+  double h = DBL_MAX;
+  if (!w->regime.nose_sticks && w->law.mu_w > 0 && !w->nose_singular)
+    h = reach(at.s, rate.s);
+  if (!w->regime.cloth_sticks && w->regime.loaded && w->law.mu_s > 0 && !w->cloth_singular)
+    h = fmin(h, reach(at.c, rate.c));
+  return h;
+}
+
+/* By how much the regime is violated: the friction of a contact that sticks beyond the cone, as a share of it, or the load of
+ * the wrong sign. */
+static double violation(const carom_cushion_way *w, const carom_slips *slips) {
+  const carom_friction friction = friction_at(w, slips);
+  if (w->regime.nose_sticks)
+    return length(friction.f) / w->law.mu_w - 1;
+  if (w->regime.cloth_sticks)
+    return length(friction.F) / (w->law.mu_s * friction.g) - 1;
+  return w->regime.loaded ? -friction.g : friction.g;
+}
+
+static bool may_be_violated(const carom_cushion_way *w) {
+  return w->law.mu_w > 0 && (w->law.mu_s > 0 || w->regime.nose_sticks);
+}
+
+/* Positive behind the end of the phase. */
+static double phase_event(const carom_cushion_way *w, const double *y, const double *f, double *rate) {
+  if (w->in_restitution) {
+    *rate = -f[WORK];
+    return (1 - w->e * w->e) * w->work_c - y[WORK];
+  }
+  *rate = -speed_into(&w->law, f);
+  return -speed_into(&w->law, y);
+}
+
+/* Positive behind the end of the regime or of the phase: the larger of the two. */
+static double event(const void *model, double p, const double *y, const double *f, double *rate) {
+  (void)p;
+  const carom_cushion_way *w = model;
+  double value = phase_event(w, y, f, rate);
+  const carom_slips at = slips_of(y);
+  if (w->slow && length(at.s) / SLOW - 1 > value) {
+    value = length(at.s) / SLOW - 1;
+    *rate = (at.s.x * f[S_X] + at.s.y * f[S_T]) / (length(at.s) * SLOW);
+  }
+  if (!may_be_violated(w))
+    return value;
+  const double other = violation(w, &at);
+  if (!(other > value))
+    return value;
+  const carom_slips by = slips_of(f);
+  const double h = DIFFERENCE * fmin((length(at.s) + w->rest) / (length(by.s) + DBL_MIN),
+                                     (length(at.c) + w->rest) / (length(by.c) + DBL_MIN));
+  const carom_slips next = {{at.s.x + h * by.s.x, at.s.y + h * by.s.y}, {at.c.x + h * by.c.x, at.c.y + h * by.c.y}};
+  *rate = (violation(w, &next) - other) / h;
+  return other;
+}
+
+static carom_ode equations(const carom_cushion_way *w) {
+  static const double weight[UNKNOWNS] = {1, 1, 1, 1, 0, 1};
+  return (carom_ode){.size = UNKNOWNS,
+                     .slope = slope,
+                     .longest = longest,
+                     .event = event,
+                     .model = w,
+                     .weight = weight,
+                     .tolerance = TOLERANCE,
+                     .event_tolerance = EVENT_TOLERANCE};
+}
+
+/* The regime from here on. */
+static carom_status change(carom_cushion_way *w) {
+  carom_slips at = slips_of(w->point.y);
+  if (w->changes++ >= MOST_CHANGES || !carom_decide(&w->law, &at, w->rest, &w->regime))
+    return CAROM_ERROR_UNRESOLVED;
+  w->point.y[S_X] = at.s.x;
+  w->point.y[S_T] = at.s.y;
+  w->point.y[C_X] = at.c.x;
+  w->point.y[C_Y] = at.c.y;
+  w->nose_singular = w->law.mu_w > 0 && !w->regime.nose_sticks && length(at.s) > 0;
+  w->cloth_singular = w->law.mu_s > 0 && w->regime.loaded && !w->regime.cloth_sticks && length(at.c) > 0;
+  w->wedged = w->regime.nose_sticks && w->regime.cloth_sticks;
+  w->slow = false;
+  const carom_ode ode = equations(w);
+  carom_ode_set(&ode, &w->point);
+  /* a slip that begins with a small rate, where friction has just left the cone */
+  const carom_slips rate = slips_of(w->point.f);
+  w->slow = w->law.mu_w > 0 && !w->regime.nose_sticks && length(at.s) == 0 && length(rate.s) < w->law.mu_w * w->point.f[P];
+  return CAROM_OK;
+}
+
+carom_status carom_cushion_way_begin(const carom_contact *c, carom_cushion_way *w) {
+  const double per = 1 / c->v_y;
+  *w = (carom_cushion_way){
+      .law = {.sine = c->sine,
+              .cosine = c->cosine,
+              .mu_s = c->mu_s,
+              .mu_w = c->mu_w,
+              .k_x = 1 - 2.5 * c->sine,
+              .k_t = 2.5 + c->sine * c->sine,
+              .k_y = 2.5 - c->sine},
+      .e = c->e,
+      .approach = c->v_y,
+      .start = {{per * carom_slip_x(c), per * carom_slip_t(c)}, {per * carom_cloth_x(c), per * carom_cloth_y(c)}}};
+  const double most = fabs(w->start.s.x) + fabs(w->start.s.y) + fabs(w->start.c.x) + fabs(w->start.c.y);
+  if (!(most < MOST_SLIP))
+    return CAROM_ERROR_OVERFLOW;
+  w->rest = REST * (1 + most);
+  w->point = (carom_ode_point){.y = {w->start.s.x, w->start.s.y, w->start.c.x, w->start.c.y}, .next = 0.5};
+  return change(w);
+}
+
+/* Goes on by a small p along the tangent. */
+static void go_on(carom_ode_point *at, double p) {
+  for (int k = 0; k < UNKNOWNS; k++)
+    at->y[k] += at->f[k] / at->f[P] * p;
+}
+
+/* From where a phase has ended, but for EVENT_TOLERANCE, to its end by the parabola of the work. */
+static void end_phase(carom_cushion_way *w) {
+  carom_ode_point *at = &w->point;
+  const double v = speed_into(&w->law, at->y), dv = speed_into(&w->law, at->f) / at->f[P];
+  if (!w->in_restitution) {
+    w->in_restitution = true;
+    w->work_c = at->y[WORK] - v * v / (2 * dv);
+    w->ended = !(w->e * w->e * w->work_c > 0);
+    if (w->ended)
+      go_on(at, -v / dv);
+  } else {
+    /* v q + dv q^2 / 2 = what is missing of the work */
+    const double missing = (1 - w->e * w->e) * w->work_c - at->y[WORK], root = sqrt(fmax(v * v + 2 * dv * missing, 0));
+    go_on(at, missing != 0 ? 2 * missing / (v - root) : 0);
+    w->ended = true;
+  }
+}
+
+/* One regime, or what is left to `most` (of p) of it, of an impact without motion along the cushion. Then the directions of the
+ * slips are constant, and so are all rates: closed form. Returns whether the regime has ended. */
+static bool go_straight(carom_cushion_way *w, double most) {
+  carom_ode_point *at = &w->point;
+  double rate[UNKNOWNS];
+  for (int k = 0; k < UNKNOWNS; k++)
+    rate[k] = at->f[k] / at->f[P];
+  const double v = speed_into(&w->law, at->y), dv = speed_into(&w->law, rate);
+  /* the end of the phase */
+  double p = -v / dv;
+  if (w->in_restitution) {
+    const double missing = (1 - w->e * w->e) * w->work_c - at->y[WORK];
+    p = 2 * missing / (v - sqrt(v * v + 2 * dv * missing));
+  }
+  const double to_end = p >= 0 ? p : INFINITY;
+  /* slips that come to rest before */
+  const bool nose = at->y[S_T] * rate[S_T] < 0 && w->law.mu_w > 0;
+  const bool cloth = at->y[C_Y] * rate[C_Y] < 0 && w->law.mu_s > 0 && w->regime.loaded;
+  p = fmin(fmin(most, to_end), fmin(nose ? -at->y[S_T] / rate[S_T] : INFINITY, cloth ? -at->y[C_Y] / rate[C_Y] : INFINITY));
+  for (int k = 0; k < UNKNOWNS; k++)
+    at->y[k] += k == WORK ? p * (v + 0.5 * dv * p) : p * rate[k];
+  if (p == to_end)
+    end_phase(w);
+  at->evaluations++;
+  return !w->ended && ((nose && fabs(at->y[S_T]) <= w->rest) || (cloth && fabs(at->y[C_Y]) <= w->rest));
+}
+
+/* Whether a slip comes to rest here: it is nearly zero, and what is left goes straight to zero. Then it is taken there. */
+static bool comes_to_rest(carom_cushion_way *w, int k_x, int k_y) {
+  const double *y = w->point.y, *f = w->point.f, x = y[k_x], t = y[k_y], dx = f[k_x], dt = f[k_y];
+  const double left = sqrt(x * x + t * t), rate = sqrt(dx * dx + dt * dt);
+  if (!(x * dx + t * dt < 0) || !(left <= w->rest || (left <= NEARLY && fabs(x * dt - t * dx) <= w->rest * rate)))
+    return false;
+  if (left > w->rest)
+    go_on(&w->point, left / rate * f[P]);
+  w->point.y[k_x] = w->point.y[k_y] = 0;
+  return true;
+}
+
+carom_status carom_cushion_way_on(carom_cushion_way *w, double to, int budget) {
+  const double p = to / w->approach;
+  carom_ode_point *at = &w->point;
+  while (!w->ended && !w->wedged && at->y[P] < p && at->evaluations < budget) {
+    if (at->y[S_X] == 0 && at->y[C_X] == 0) {
+      const carom_status status = go_straight(w, p - at->y[P]) ? change(w) : CAROM_OK;
+      if (status != CAROM_OK)
+        return status;
+      continue;
+    }
+    const carom_ode ode = equations(w);
+    bool changes = carom_ode_step(&ode, at, INFINITY) != 0;
+    double unused;
+    if (changes && fabs(phase_event(w, at->y, at->f, &unused)) <= EVENT_TOLERANCE) {
+      end_phase(w);
+      changes = false;
+    }
+    if (changes && w->slow && fabs(length(slips_of(at->y).s) / SLOW - 1) <= EVENT_TOLERANCE) {
+      w->slow = changes = false;
+      w->nose_singular = true;
+      carom_ode_set(&ode, at);
+    }
+    if (!w->ended && !w->regime.nose_sticks && w->law.mu_w > 0)
+      changes |= comes_to_rest(w, S_X, S_T);
+    if (!w->ended && !w->regime.cloth_sticks && w->regime.loaded && w->law.mu_s > 0)
+      changes |= comes_to_rest(w, C_X, C_Y);
+    if (changes && !w->ended) {
+      const carom_status status = change(w);
+      if (status != CAROM_OK)
+        return status;
+    }
+  }
+  return w->ended || w->wedged || at->y[P] >= p ? CAROM_OK : CAROM_ERROR_UNRESOLVED;
+}
+
+carom_impulse carom_cushion_way_impulse(const carom_cushion_way *w) {
+  const carom_coulomb *k = &w->law;
+  const double *y = w->point.y, p = y[P], all = w->approach;
+  const double s_x = y[S_X] - w->start.s.x, c_x = y[C_X] - w->start.c.x, det_x = 12.25 - k->k_x * k->k_x;
+  const double s_t = y[S_T] - w->start.s.y - k->sine * k->cosine * p, c_y = y[C_Y] - w->start.c.y + k->cosine * p;
+  const double det_t = 2.5 * (1 + k->sine) * (1 + k->sine);
+  return (carom_impulse){.P = all * p,
+                         .f_x = all * (3.5 * s_x - k->k_x * c_x) / det_x,
+                         .f_t = all * (3.5 * s_t - k->k_y * c_y) / det_t,
+                         .F_x = all * (3.5 * c_x - k->k_x * s_x) / det_x,
+                         .F_y = all * (k->k_t * c_y - k->k_y * s_t) / det_t};
+}
+
 carom_status carom_mathavan(carom_contact *c) {
-  (void)c;
-  return CAROM_ERROR_UNRESOLVED;
+  carom_cushion_way way;
+  carom_status status = carom_cushion_way_begin(c, &way);
+  if (status == CAROM_OK)
+    status = carom_cushion_way_on(&way, INFINITY, BUDGET);
+  if (status != CAROM_OK)
+    return status;
+  const carom_impulse q = carom_cushion_way_impulse(&way);
+  carom_push(c, &q);
+  return CAROM_OK;
 }

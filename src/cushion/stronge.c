@@ -52,9 +52,9 @@ static double hold(const spring *s, double tau) {
 /* Where it slips again, in restitution: false position, with a bisection now and then. */
 static double slips_again(const spring *s) {
   double low = fmax(s->tau_k, HALF_PI), high = s->end;
-  /* if it has just stuck, `hold` is zero at `low` too: go to where it is positive */
   double g_low = hold(s, low);
-  for (int k = 1; s->tau_k >= HALF_PI && k < MOST_TRIALS && !(g_low > 0); k++) {
+  /* if it has just stuck, `hold` has a double zero at `low`, where its sign is rounding: go to where it is positive */
+  for (int k = 1; s->tau_k >= HALF_PI && k < MOST_TRIALS && (k == 1 || !(g_low > 0)); k++) {
     low = s->tau_k + ldexp(high - s->tau_k, -k);
     g_low = hold(s, low);
   }

@@ -198,7 +198,8 @@ int carom_ode_step(const carom_ode *ode, carom_ode_point *at, double x_end) {
   if (!(high.g >= 0))
     return 0;
   /* an event inside it, behind `low` and not behind `high` */
-  for (int k = 0; k < MOST_TRIALS && at->x != start.x; k++) {
+  double nearest = high.g > 0 ? high.g : DBL_MIN;
+  for (int k = 0; k < MOST_TRIALS && at->x != start.x && !(nearest <= ode->event_tolerance); k++) {
     const double last = at->x - start.x, x = zero_between(&low, &high);
     if (fabs(x - last) <= EVENT_WIDTH * h)
       break;
@@ -211,6 +212,7 @@ int carom_ode_step(const carom_ode *ode, carom_ode_point *at, double x_end) {
     arrive(ode, at, start.x + x, &t);
     const reading here = read_event(ode, at, x);
     *(here.g >= 0 ? &high : &low) = here;
+    nearest = fabs(here.g);
   }
   return 1;
 }
