@@ -258,14 +258,14 @@ typedef enum carom_ball_model {
 } carom_ball_model;
 
 /* Friction between two balls: by Alciatore's law from their speed of slip, or mu_ball of the balls. */
-typedef enum carom_friction { CAROM_FRICTION_ALCIATORE = 0, CAROM_FRICTION_CONSTANT = 1 } carom_friction;
+typedef enum carom_ball_friction { CAROM_FRICTION_ALCIATORE = 0, CAROM_FRICTION_CONSTANT = 1 } carom_ball_friction;
 
 /* All zero means the defaults. */
 typedef struct carom_shot_options {
   int32_t world;         /* carom_world */
   int32_t ball_model;    /* carom_ball_model */
   int32_t cushion_model; /* 0: mathavan in the world carom, stronge in pooltool; else 1 + a carom_cushion_model. */
-  int32_t friction;      /* carom_friction */
+  int32_t friction;      /* carom_ball_friction */
   int32_t steps;         /* of Euler's models; 0: 1000. */
   int32_t events_most;   /* events of a shot; 0: 10000. */
   int32_t threads;       /* of a batch; 0: the calling thread alone; CAROM_ALL_THREADS. */
