@@ -17,6 +17,8 @@ typedef struct bench_job {
   count_list threads; /* of a batch; none: the default */
   double budget;
   bool csv, spread, errors, counters, show_pairs;
+  const char *shots; /* a file of shots to time instead */
+  int models;        /* carom_world of theirs */
   const char *folder;
   case_set cases;
   case_tiles tiles;
