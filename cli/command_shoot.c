@@ -46,7 +46,8 @@ OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_co
        "a shot is stopped after so many events (default 10000)");
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
        "a shot is stopped after so much time of its clock (default 1000)");
-OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT.svg", set_svg, 0, "draw the table and the ball's paths, of the first shot that is good");
+OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT.svg", set_svg, 0,
+       "draw the table and the ball's paths, of the first shot that is good");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
 
 static carom_shot_options options_of(const shoot_job *job) {
@@ -76,7 +77,8 @@ static void play(block *b, int from, int end, const carom_shot_options *options)
     *status = (carom_status)b->batch_status[k];
     int where;
     const carom_status common =
-        bad != CAROM_OK ? carom_shot_check(&first->table->table, b->line[from + k].ball, count, &b->cue[k], options, &where) : CAROM_OK;
+        bad != CAROM_OK ? carom_shot_check(&first->table->table, b->line[from + k].ball, count, &b->cue[k], options, &where)
+                        : CAROM_OK;
     if (common != CAROM_OK)
       *status = common;
     if (common == CAROM_OK && shot->room > 0 && shot->count > shot->room) { /* once more, with room for all */
@@ -196,13 +198,16 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out) {
 static const command_form form = {
     .name = "shoot",
     .usage = "[OPTIONS] IN.jsonl",
-    .about = "Plays whole shots, from the strike of the cue until nothing moves. Reads tables and shots as JSON Lines (docs/shots.md has the\n"
-             "format; recorded results in them are ignored) and writes each table and each shot with its events and final states. IN may be -.\n",
+    .about = "Plays whole shots, from the strike of the cue until nothing moves. Reads tables and shots as JSON Lines "
+             "(docs/shots.md has the\n"
+             "format; recorded results in them are ignored) and writes each table and each shot with its events and final "
+             "states. IN may be -.\n",
     .options = (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion, &option_events, &option_steps,
-                                           &option_events_most, &option_time_most, &option_threads, &option_plot, &option_shot_id,
-                                           &option_output, NULL},
-    .details = "exit code: 0 if all shots came to rest, 1 if some are in error (they have a status and an error; the others are\n"
-               "played), 2 for bad usage or unreadable input\n",
+                                           &option_events_most, &option_time_most, &option_threads, &option_plot,
+                                           &option_shot_id, &option_output, NULL},
+    .details =
+        "exit code: 0 if all shots came to rest, 1 if some are in error (they have a status and an error; the others are\n"
+        "played), 2 for bad usage or unreadable input\n",
     .example = "carom shoot --plot break.svg -o played.jsonl shots.jsonl",
     .files = ONE_FILE,
 };

@@ -110,7 +110,8 @@ static bool read_rail(const json_t *v, const char *where, carom_rail *rail, char
   return get_id(v, where, id, f);
 }
 
-static bool read_circle(const json_t *v, const char *where, double centre[2], double *third, double *radius, char **id, fault *f) {
+static bool read_circle(const json_t *v, const char *where, double centre[2], double *third, double *radius, char **id,
+                        fault *f) {
   double c[3] = {0.0};
   char key[80];
   snprintf(key, sizeof key, "%scenter", where);
@@ -139,8 +140,8 @@ static bool read_table(const json_t *json, named_table *t, fault *f) {
   size_t k;
   char where[64];
   carom_table *table = &t->table;
-  if (!get_id(json, "", &t->id, f) || !get_number(json, "", "w", &table->width, f) || !get_number(json, "", "l", &table->length, f) ||
-      !get_list(json, "linear", CAROM_RAILS_MOST, &list, f))
+  if (!get_id(json, "", &t->id, f) || !get_number(json, "", "w", &table->width, f) ||
+      !get_number(json, "", "l", &table->length, f) || !get_list(json, "linear", CAROM_RAILS_MOST, &list, f))
     return false;
   json_array_foreach((json_t *)list, k, v) {
     snprintf(where, sizeof where, "linear[%zu].", k);
@@ -187,7 +188,8 @@ static void keep_table(shot_file *file, named_table *t) {
 /* Tables that need no line, by the name of carom_table_make()'s kinds. */
 static named_table *built_in_table(shot_file *file, const char *id) {
   static const char *const names[] = {"7ft", "8ft", "9ft", "snooker", "threecushion"};
-  static const char *const rails[] = {"3", "6", "15", "12", "18", "9", "5", "4", "13", "14", "1", "2", "8", "7", "11", "10", "16", "17"};
+  static const char *const rails[] = {"3",  "6", "15", "12", "18", "9",  "5",  "4",  "13",
+                                      "14", "1", "2",  "8",  "7",  "11", "10", "16", "17"};
   static const char *const plain[] = {"3", "12", "9", "18"};
   static const char *const jaws[] = {"1t", "2t", "4t", "5t", "7t", "8t", "10t", "11t", "13t", "14t", "16t", "17t"};
   static const char *const pockets[] = {"lb", "lc", "lt", "rb", "rc", "rt"};
@@ -229,8 +231,9 @@ static bool read_ball(const json_t *v, int k, shot_line *line, fault *f) {
   if (!get_number(params, key, "m", &kind->mass, f) || !get_number(params, key, "R", &kind->radius, f) ||
       !get_number(params, key, "u_s", &kind->mu_slide, f) || !get_number(params, key, "u_r", &kind->mu_roll, f) ||
       !get_number(params, key, "u_sp", &spin, f) || !get_number(params, key, "u_b", &kind->mu_ball, f) ||
-      !get_number(params, key, "e_b", &kind->restitution, f) || !get_number(params, key, "e_c", &kind->restitution_cushion, f) ||
-      !get_number(params, key, "f_c", &kind->mu_cushion, f) || !get_number(params, key, "g", &kind->gravity, f))
+      !get_number(params, key, "e_b", &kind->restitution, f) ||
+      !get_number(params, key, "e_c", &kind->restitution_cushion, f) || !get_number(params, key, "f_c", &kind->mu_cushion, f) ||
+      !get_number(params, key, "g", &kind->gravity, f))
     return false;
   kind->mu_spin = isnan(spin) ? 10.0 * 2.0 / 5.0 / 9.0 * kind->radius : spin;
   double state[10];

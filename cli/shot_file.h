@@ -25,7 +25,7 @@ typedef struct shot_line {
   carom_shot_ball ball[CAROM_BALLS_MOST];
   char *name[CAROM_BALLS_MOST]; /* the balls' ids */
   carom_cue cue;
-  char *error; /* what is wrong with the line, or NULL */
+  char *error;  /* what is wrong with the line, or NULL */
   json_t *json; /* the line; NULL where it is no JSON */
 } shot_line;
 
@@ -36,8 +36,9 @@ shot_file *shot_file_open(const char *path);
 
 typedef enum shot_read { SHOT_END, SHOT_SHOT, SHOT_TABLE, SHOT_FAILED } shot_read;
 
-/* Reads on to the next shot or table; other kinds of lines are passed over. SHOT_SHOT: *line is to be freed by shot_line_free().
- * SHOT_TABLE: *text is the line, until the next call. A table that is wrong is a shot in error. SHOT_FAILED: after a complaint. */
+/* Reads on to the next shot or table; other kinds of lines are passed over. SHOT_SHOT: *line is to be freed by
+ * shot_line_free(). SHOT_TABLE: *text is the line, until the next call. A table that is wrong is a shot in error. SHOT_FAILED:
+ * after a complaint. */
 shot_read shot_file_next(shot_file *file, shot_line *line, const char **text);
 
 /* The engine that the last line of kind meta named, or "". */

@@ -1,5 +1,5 @@
-/* A shot as a picture. Paths are drawn by evaluating the motion between events, so a curve is a curve. Long tables lie on their side: y
- * of the table runs to the right. */
+/* A shot as a picture. Paths are drawn by evaluating the motion between events, so a curve is a curve. Long tables lie on their
+ * side: y of the table runs to the right. */
 #include "shot_picture.h"
 
 #include "message.h"
@@ -131,15 +131,16 @@ static void draw_ball(const view *v, const shot_line *line, const carom_ball_sta
   const char *colour = colour_of(line->name[ball], ball), *name = line->name[ball];
   const double x = across(v, s->r), y = down(v, s->r), r = scale * line->ball[ball].kind.radius;
   if (!final) {
-    fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"/>\n", x, y, r,
-            colour);
+    fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"/>\n", x, y,
+            r, colour);
     return;
   }
   const bool dark = strcmp(colour, "#ffffff") != 0 && strcmp(colour, "#f2c230") != 0;
-  fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" stroke=\"#111\" stroke-width=\"0.8\"/>\n", x, y, r, colour);
+  fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" stroke=\"#111\" stroke-width=\"0.8\"/>\n", x, y, r,
+          colour);
   fprintf(v->out,
-          "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" fill=\"%s\" text-anchor=\"middle\" dominant-baseline=\"central\">", x, y,
-          strlen(name) > 2 ? 7.0 : 11.0, dark ? "#fff" : "#111");
+          "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" fill=\"%s\" text-anchor=\"middle\" dominant-baseline=\"central\">", x,
+          y, strlen(name) > 2 ? 7.0 : 11.0, dark ? "#fff" : "#111");
   for (const char *c = name; *c != '\0' && c < name + 5; c++) {
     if (*c == '<' || *c == '&')
       fputs(*c == '<' ? "&lt;" : "&amp;", v->out);

@@ -18,7 +18,7 @@ const char *shot_event_name(int type) {
 }
 
 const char *shot_part_name(const named_table *table, const carom_event *event) {
-  return event->type == CAROM_EVENT_RAIL ? table->rail[event->b]
+  return event->type == CAROM_EVENT_RAIL  ? table->rail[event->b]
          : event->type == CAROM_EVENT_JAW ? table->jaw[event->b]
                                           : table->pocket[event->b];
 }

@@ -1,8 +1,8 @@
 /* `carom-lab bench --shots`: whole shots timed, beside the time that pooltool took for each.
  *
- * A sample plays one shot as often as takes about 2 ms, nothing kept of its events, and the shots take turns; a shot's time is the median
- * of its samples. With threads a sample is a batch of the same shot. What is timed has been played once before: a shot that ends in
- * error, or by pooltool's models with another number of events than recorded, is refused. */
+ * A sample plays one shot as often as takes about 2 ms, nothing kept of its events, and the shots take turns; a shot's time is
+ * the median of its samples. With threads a sample is a batch of the same shot. What is timed has been played once before: a
+ * shot that ends in error, or by pooltool's models with another number of events than recorded, is refused. */
 #include "bench_shots.h"
 
 #include "bench_job.h"
@@ -54,7 +54,8 @@ static bool verified(const timed_shot *t, const carom_shot_options *options, dou
   const json_int_t same = json_integer_value(json_object_get(sens, "same_events"));
   if (shot.count + 2 == recorded || same < recorded)
     return true;
-  complain("line %zu: refused: %lld events, not the %lld recorded", t->line.number, (long long)shot.count + 2, (long long)recorded);
+  complain("line %zu: refused: %lld events, not the %lld recorded", t->line.number, (long long)shot.count + 2,
+           (long long)recorded);
   return false;
 }
 
@@ -145,17 +146,19 @@ static void print_row(const shots_bench *b, const char *family, double *scratch)
     scratch[n++] = t->us;
   }
   const double count = (double)n, median = summarise(scratch, n).median;
-  printf(b->job->csv ? "%s,%.2f,%zu,%.1f,%.3f,%.0f,%.1f,%.0f,%.0f\n" : "%-16s %6.2f %6zu %8.1f %10.3f %10.0f %12.1f %8.0f %8.0f\n",
-         family != NULL ? family : "all", balls / count, n, events / count, median, 1e6 * count / us, recorded / count, recorded / us,
-         slowest);
+  printf(b->job->csv ? "%s,%.2f,%zu,%.1f,%.3f,%.0f,%.1f,%.0f,%.0f\n"
+                     : "%-16s %6.2f %6zu %8.1f %10.3f %10.0f %12.1f %8.0f %8.0f\n",
+         family != NULL ? family : "all", balls / count, n, events / count, median, 1e6 * count / us, recorded / count,
+         recorded / us, slowest);
 }
 
 static void print_all(const shots_bench *b) {
   double *scratch = allocate(b->count, sizeof *scratch);
   if (b->job->csv) {
     machine_describe(stdout);
-    machine_note(stdout, "shots", "%s, %d thread%s", b->options.world == CAROM_WORLD_POOLTOOL ? "pooltool's models" : "carom's models",
-                 b->threads, b->threads == 1 ? "" : "s");
+    machine_note(stdout, "shots", "%s, %d thread%s",
+                 b->options.world == CAROM_WORLD_POOLTOOL ? "pooltool's models" : "carom's models", b->threads,
+                 b->threads == 1 ? "" : "s");
     puts("family,balls,shots,events_per_shot,us_median,shots_per_s,recorded_us,speedup,speedup_least");
   } else {
     printf("%-16s %6s %6s %8s %10s %10s %12s %8s %8s\n", "family", "balls", "shots", "events", "us_median", "shots_per_s",

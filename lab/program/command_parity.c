@@ -1,7 +1,7 @@
 /* `carom-lab parity`: whole shots beside the histories that pooltool recorded.
  *
- * A shot agrees if its first events, up to where pooltool's own histories part when the start is moved by 1e-13, have the same types and
- * balls in the same order, and times and states are within 1e-12 + 5e-13 times the recorded amplification. */
+ * A shot agrees if its first events, up to where pooltool's own histories part when the start is moved by 1e-13, have the same
+ * types and balls in the same order, and times and states are within 1e-12 + 5e-13 times the recorded amplification. */
 #include "command.h"
 #include "memory.h"
 #include "message.h"
@@ -62,9 +62,9 @@ static bool same_event(const shot_line *line, const carom_event *e, const json_t
   const json_t *ids = json_array_get(recorded, 2);
   const size_t first = e->type == CAROM_EVENT_STRIKE ? 1 : 0;
   const bool pair = e->type == CAROM_EVENT_BALL_BALL;
-  const char *other = pair                                                             ? line->name[e->b]
+  const char *other = pair                                                           ? line->name[e->b]
                       : e->type >= CAROM_EVENT_RAIL && e->type <= CAROM_EVENT_POCKET ? shot_part_name(line->table, e)
-                                                                                       : NULL;
+                                                                                     : NULL;
   const char *type = json_string_value(json_array_get(recorded, 1)), *id = json_string_value(json_array_get(ids, first));
   const char *other_id = json_string_value(json_array_get(ids, first + 1));
   return type != NULL && id != NULL && strcmp(type, shot_event_name(e->type)) == 0 && strcmp(id, line->name[e->a]) == 0 &&
@@ -100,8 +100,8 @@ static bool compare(const shot_line *line, const carom_shot *shot, family *f, ch
     f->state = fmax(f->state, worst);
     f->events++;
     if (!(dt <= 1.0 && worst <= 1.0)) {
-      snprintf(why, 200, "event %zu of %zu, %s: time %.2g and state %.2g times the allowed", k, recorded, shot_event_name(e->type),
-               dt, worst);
+      snprintf(why, 200, "event %zu of %zu, %s: time %.2g and state %.2g times the allowed", k, recorded,
+               shot_event_name(e->type), dt, worst);
       return false;
     }
   }
@@ -165,12 +165,14 @@ static int compare_all(const parity_job *job, shot_file *file, families *all) {
 static const command_form form = {
     .name = "parity",
     .usage = "[OPTIONS] IN.jsonl",
-    .about = "Plays recorded shots by pooltool's rules and models and compares every event with what pooltool recorded, as far as\n"
-             "the recorded sensitivity makes sense of it.\n",
+    .about =
+        "Plays recorded shots by pooltool's rules and models and compares every event with what pooltool recorded, as far as\n"
+        "the recorded sensitivity makes sense of it.\n",
     .options = (const option_row *const[]){&option_verbose, NULL},
-    .details = "columns: shots; events compared; shots that agree; shots that agree to their end, where the recording has no chaos;\n"
-               "largest difference of times, and of states, over the allowed 1e-12 + 5e-13 times the amplification\n\n"
-               "exit code: 0 if all agree, 1 if one does not, 2 for bad usage or unreadable input\n",
+    .details =
+        "columns: shots; events compared; shots that agree; shots that agree to their end, where the recording has no chaos;\n"
+        "largest difference of times, and of states, over the allowed 1e-12 + 5e-13 times the amplification\n\n"
+        "exit code: 0 if all agree, 1 if one does not, 2 for bad usage or unreadable input\n",
     .example = "carom-lab parity data/shots-pooltool.jsonl",
     .files = ONE_FILE,
 };

@@ -1,8 +1,9 @@
 /* `carom-lab stress --shots`: random whole shots of every kind, and the invariants that they keep.
  *
- * In the world carom a shot must end in status ok; no ball may be deeper than 1e-9 m in another, in a rail or in a jaw at any place
- * that is sampled; energy may rise by rounding only; momentum may change in a collision by the friction of the cloth only; each state
- * before an event must be what the motion since the ball's last event gives; and all must end at rest or pocketed. */
+ * In the world carom a shot must end in status ok; no ball may be deeper than 1e-9 m in another, in a rail or in a jaw at any
+ * place that is sampled; energy may rise by rounding only; momentum may change in a collision by the friction of the cloth
+ * only; each state before an event must be what the motion since the ball's last event gives; and all must end at rest or
+ * pocketed. */
 #include "stress_shots.h"
 
 #include "command.h"
@@ -81,17 +82,18 @@ int stress_shots(int shots, uint64_t seed, int world, int cushion_model) {
     if (!good(&m, status)) {
       t->failed++;
       if (told++ < TOLD)
-        complain("%s %d: %s, %lld events in %g s; overlap %.2g, intrusion %.2g (after %s), gain %.2g, momentum %.2g, jump %.2g, %d restless",
-                 s.kind, n / kinds, carom_status_name(status), (long long)shot.count, shot.time, m.overlap, m.intrusion, m.worst_at,
-                 m.gain, m.momentum, m.jump, m.restless);
+        complain("%s %d: %s, %lld events in %g s; overlap %.2g, intrusion %.2g (after %s), gain %.2g, momentum %.2g, jump "
+                 "%.2g, %d restless",
+                 s.kind, n / kinds, carom_status_name(status), (long long)shot.count, shot.time, m.overlap, m.intrusion,
+                 m.worst_at, m.gain, m.momentum, m.jump, m.restless);
     }
     progress_show("shots", n, shots);
   }
   progress_clear();
   free(shot.events);
   printf("%d random shots, seed %llu, %d places sampled between events\n\n", shots, (unsigned long long)seed, SAMPLES);
-  printf("%-16s %8s %7s %8s %8s %7s %9s %9s %9s %9s %9s %6s\n", "kind", "shots", "failed", "too_many", "events", "most", "overlap",
-         "intrusion", "gain", "momentum", "jump", "moving");
+  printf("%-16s %8s %7s %8s %8s %7s %9s %9s %9s %9s %9s %6s\n", "kind", "shots", "failed", "too_many", "events", "most",
+         "overlap", "intrusion", "gain", "momentum", "jump", "moving");
   for (int k = 0; k < kinds && tally[k].shots > 0; k++) {
     print(random_shot_kind(k), &tally[k]);
     all.shots += tally[k].shots;

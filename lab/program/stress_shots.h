@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-/* Plays `shots` random shots, the kinds in turn, and prints what invariants they keep. `world` and `ball_model` and `cushion_model` as
- * in carom_shot_options. An exit code. */
+/* Plays `shots` random shots, the kinds in turn, and prints what invariants they keep. `world` and `ball_model` and
+ * `cushion_model` as in carom_shot_options. An exit code. */
 int stress_shots(int shots, uint64_t seed, int world, int cushion_model);
 
 #endif

@@ -1,5 +1,5 @@
-/* What every shot must satisfy. The motion between events is written here once more, from the equations and not from the library, so
- * that a wrong path shows: as a jump at the next event, an overlap, or a rise of energy. */
+/* What every shot must satisfy. The motion between events is written here once more, from the equations and not from the
+ * library, so that a wrong path shows: as a jump at the next event, an overlap, or a rise of energy. */
 #include "invariants.h"
 
 #include <math.h>
@@ -71,7 +71,8 @@ static void measure_energy(follower *f) {
 }
 
 static const char *type_name(int type) {
-  static const char *const names[] = {"begin", "strike", "ball_ball", "rail", "jaw", "pocket", "rolls", "spins", "stops", "stops"};
+  static const char *const names[] = {"begin",  "strike", "ball_ball", "rail",  "jaw",
+                                      "pocket", "rolls",  "spins",     "stops", "stops"};
   return names[type];
 }
 
@@ -93,7 +94,7 @@ static void measure_places(follower *f) {
       const carom_rail *rail = &f->table->rail[k];
       const double e_x = rail->q[0] - rail->p[0], e_y = rail->q[1] - rail->p[1], x = r[0] - rail->p[0], y = r[1] - rail->p[1];
       const double size = length2(e_x, e_y), place = (x * e_x + y * e_y) / (size * size);
-      double left = (e_x * y - e_y * x) / size; /* distance on the left of p -> q */
+      double left = (e_x * y - e_y * x) / size;                       /* distance on the left of p -> q */
       const double line = rail->line[0] * -e_y + rail->line[1] * e_x; /* whether the given line counts that as positive */
       left = (rail->side == 1) == (line >= 0.0) ? left : -left;
       const double intrusion = R - left;
@@ -116,17 +117,19 @@ static void measure_places(follower *f) {
 static double jump_of(const carom_ball_state *a, const carom_ball_state *b, double R) {
   double worst = 0.0;
   for (int axis = 0; axis < 3; axis++)
-    worst = fmax(worst, fmax(fabs(a->r[axis] - b->r[axis]),
-                             fmax(fabs(a->v[axis] - b->v[axis]), R * fabs(a->w[axis] - b->w[axis]))));
+    worst = fmax(worst,
+                 fmax(fabs(a->r[axis] - b->r[axis]), fmax(fabs(a->v[axis] - b->v[axis]), R * fabs(a->w[axis] - b->w[axis]))));
   return worst;
 }
 
-/* The cloth takes at most mu_slide times the vertical impulse, which is friction's, at most 0.12 of the normal one (or mu_ball). */
+/* The cloth takes at most mu_slide times the vertical impulse, which is friction's, at most 0.12 of the normal one (or
+ * mu_ball). */
 static double momentum_change(const follower *f, const carom_event *e) {
   const carom_ball_kind *a = &f->balls[e->a].kind, *b = &f->balls[e->b].kind;
   double change[2], normal[2];
   for (int axis = 0; axis < 2; axis++) {
-    const double p_a = a->mass * (e->after[0].v[axis] - e->before[0].v[axis]), p_b = b->mass * (e->after[1].v[axis] - e->before[1].v[axis]);
+    const double p_a = a->mass * (e->after[0].v[axis] - e->before[0].v[axis]),
+                 p_b = b->mass * (e->after[1].v[axis] - e->before[1].v[axis]);
     change[axis] = p_a + p_b;
     normal[axis] = p_b;
   }

@@ -1,5 +1,5 @@
-/* Random shots: breaks, layouts, racks of other games, and what simulators trip over: frozen racks, lines and clusters of touching balls,
- * balls frozen to rails and in corners, much spin, unlike balls, extreme restitution. */
+/* Random shots: breaks, layouts, racks of other games, and what simulators trip over: frozen racks, lines and clusters of
+ * touching balls, balls frozen to rails and in corners, much spin, unlike balls, extreme restitution. */
 #include "random_shots.h"
 
 #include <math.h>
@@ -39,7 +39,8 @@ static void add(random_shot *s, carom_game game, double x, double y) {
 static void add_anywhere(random_shot *s, shot_random *r, carom_game game) {
   const double R = carom_ball_kind_of(game).radius, room = 2.0 * R + 1e-4;
   for (int trial = 0; trial < 1000; trial++) {
-    const double x = shot_uniform(r, R + 1e-4, s->table.width - R - 1e-4), y = shot_uniform(r, R + 1e-4, s->table.length - R - 1e-4);
+    const double x = shot_uniform(r, R + 1e-4, s->table.width - R - 1e-4),
+                 y = shot_uniform(r, R + 1e-4, s->table.length - R - 1e-4);
     bool good = is_free(s, x, y, room);
     for (int k = 0; k < s->table.pockets; k++)
       good &= hypot(s->table.pocket[k].centre[0] - x, s->table.pocket[k].centre[1] - y) > s->table.pocket[k].radius + R;
@@ -65,7 +66,8 @@ static void any_cue(random_shot *s, shot_random *r, double slow, double fast) {
 /* At ball 1, give or take some degrees. */
 static void aim(random_shot *s, shot_random *r, double off) {
   if (s->count > 1)
-    s->cue.phi = 57.29577951308232 * atan2(s->ball[1].state.r[1] - s->ball[0].state.r[1], s->ball[1].state.r[0] - s->ball[0].state.r[0]) +
+    s->cue.phi = 57.29577951308232 *
+                     atan2(s->ball[1].state.r[1] - s->ball[0].state.r[1], s->ball[1].state.r[0] - s->ball[0].state.r[0]) +
                  shot_uniform(r, -off, off);
 }
 
@@ -182,7 +184,8 @@ static void cluster(random_shot *s, shot_random *r) {
     const carom_ball_state *to = &s->ball[whole(r, 1, s->count - 1)].state;
     const double way = shot_uniform(r, 0.0, 6.283185307179586);
     const double x = to->r[0] + 2.0 * R * cos(way), y = to->r[1] + 2.0 * R * sin(way);
-    if (is_free(s, x, y, 2.0 * R - 1e-12) && x > 2.0 * R && x < s->table.width - 2.0 * R && y < 0.9 * s->table.length && y > 0.4)
+    if (is_free(s, x, y, 2.0 * R - 1e-12) && x > 2.0 * R && x < s->table.width - 2.0 * R && y < 0.9 * s->table.length &&
+        y > 0.4)
       add(s, CAROM_GAME_POOL, x, y);
   }
   any_cue(s, r, 0.5, 8.0);
@@ -222,9 +225,18 @@ static const struct {
   const char *name;
   void (*make)(random_shot *shot, shot_random *r);
 } kinds[] = {
-    {"nineball", nineball},         {"eightball", eightball}, {"tenball", tenball}, {"frozen_rack", frozen_rack},
-    {"snooker", snooker},           {"layout", layout},       {"threecushion", threecushion}, {"moving", moving},
-    {"cradle", cradle},             {"frozen_to_rail", frozen_to_rail}, {"cluster", cluster}, {"unlike", unlike},
+    {"nineball", nineball},
+    {"eightball", eightball},
+    {"tenball", tenball},
+    {"frozen_rack", frozen_rack},
+    {"snooker", snooker},
+    {"layout", layout},
+    {"threecushion", threecushion},
+    {"moving", moving},
+    {"cradle", cradle},
+    {"frozen_to_rail", frozen_to_rail},
+    {"cluster", cluster},
+    {"unlike", unlike},
     {"near_pocket", near_pocket},
 };
 

@@ -50,9 +50,12 @@ static double zero_from_left(const quartic *f, double t, double T, double small)
   double ahead = T; /* how far the bound reaches */
   for (int k = 0; k < MOST_STEPS; k++) {
     const double y = value(f, t), y1 = slope(f, t);
-    if (y <= small && y1 < 0.0) {
-      const double last = t - y / y1;
-      return last <= T ? fmax(last, 0.0) : INFINITY;
+    if (y <= small && y1 < 0.0) { /* the last step, by the parabola that touches f here */
+      const double own = y1 * y1 - 4.0 * half_curvature(f, t) * y;
+      if (own >= 0.0) {
+        const double last = t + 2.0 * y / (-y1 + sqrt(own));
+        return last <= T ? fmax(last, 0.0) : INFINITY;
+      }
     }
     const double m = least_half_curvature(f, t, ahead), D = y1 * y1 - 4.0 * m * y;
     const double s = D >= 0.0 ? 2.0 * y / (-y1 + sqrt(D)) : INFINITY;

@@ -60,7 +60,7 @@ static void keep_touching(const double n[2], carom_ball_state *a, carom_ball_sta
   }
 }
 
-carom_status carom_pooltool_balls(const carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b) {
+carom_status carom_pooltool_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b) {
   if (!kiss_balls(sim->rates[i].radius, a, b))
     return CAROM_ERROR_UNRESOLVED;
   double n[2] = {b->r[0] - a->r[0], b->r[1] - a->r[1]};
@@ -113,7 +113,7 @@ static bool kiss_jaw(const carom_jaw *jaw, double R, double n[2], carom_ball_sta
   return true;
 }
 
-carom_status carom_pooltool_cushion(const carom_sim *sim, int i, const carom_due *due, carom_ball_state *s) {
+carom_status carom_pooltool_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *s) {
   const double R = sim->rates[i].radius;
   double n[2];
   carom_status status;

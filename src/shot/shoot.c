@@ -159,6 +159,7 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   sim.pooltool = opt->world == CAROM_WORLD_POOLTOOL;
   sim.now = 0.0;
   sim.round = 0;
+  sim.slow_contacts = 0;
   shot->count = 0;
   shot->time = 0.0;
   begin(&sim);

@@ -33,7 +33,8 @@ typedef struct carom_sim {
   int count;
   bool pooltool;
   double now;
-  int64_t round; /* events so far: tells when an entry below was computed */
+  int64_t slow_contacts; /* so far: see resolve.c */
+  int64_t round;         /* events so far: tells when an entry below was computed */
   carom_ball_rates rates[CAROM_BALLS_MOST];
   carom_path path[CAROM_BALLS_MOST];
   /* the paths once more, in columns: those of pairs are searched many at a time */
@@ -65,10 +66,10 @@ carom_due carom_next(const carom_sim *sim);
 
 /* resolve.c and resolve_pooltool.c: a contact of two balls, or of a ball with a rail or a jaw, now. Changes the states, labels
  * too. */
-carom_status carom_resolve_balls(const carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
-carom_status carom_resolve_cushion(const carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
-carom_status carom_pooltool_balls(const carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
-carom_status carom_pooltool_cushion(const carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
+carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
+carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
+carom_status carom_pooltool_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
+carom_status carom_pooltool_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
 
 /* models.c: v and w after a collision by the model asked for. normal: unit vector from a to b; for a cushion, into it. `jaw`:
  * the radius of a jaw, 0 for a rail. */
