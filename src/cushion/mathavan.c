@@ -32,6 +32,7 @@ static const double EVENT_TOLERANCE = 1e-8;
 static const double SHARE = 0.9; /* of |s|/|s'| that a step may go */
 static const double NEARLY = 1e-6;
 static const double REST = 1e-11;           /* a slip that is none, over the approach and the largest slip together */
+static const double CORNER = 5e-9;          /* slips at both contacts together that are none, likewise */
 static const double MOST_SLIP = 1e100;      /* over the approach; squares of more would overflow */
 static const double SLOW = 1e-5;            /* a slow slip times how fast its direction turns, over what friction does to it */
 static const double SLOW_SHARE = 1e-3;      /* of the other slip: the most that a slow one may be */
@@ -415,6 +416,23 @@ static bool end_slow(carom_cushion_way *w) {
   return false;
 }
 
+/* Takes to zero what is as good as that: slips along the cushion where both are REST, which leaves a planar impact; and, once
+ * in an impact, all slips where they are CORNER. Contacts that come to rest in turns would go round that corner without end.
+ * Returns whether there was anything. */
+static bool tidy(carom_cushion_way *w) {
+  double *y = w->point.y;
+  const carom_slips at = slips_of(y);
+  if (!w->cornered && length(at.s) + length(at.c) <= CORNER * w->rest / REST) {
+    w->cornered = true;
+    y[S_X] = y[S_T] = y[C_X] = y[C_Y] = 0;
+    return true;
+  }
+  if (fmax(fabs(y[S_X]), fabs(y[C_X])) > w->rest || (y[S_X] == 0 && y[C_X] == 0))
+    return false;
+  y[S_X] = y[C_X] = 0;
+  return true;
+}
+
 carom_status carom_cushion_way_on(carom_cushion_way *w, double to, int budget) {
   const double p = to / w->approach;
   carom_ode_point *at = &w->point;
@@ -442,6 +460,8 @@ carom_status carom_cushion_way_on(carom_cushion_way *w, double to, int budget) {
       changes |= comes_to_rest(w, S_X, S_T);
     if (!w->ended && !w->regime.cloth_sticks && w->regime.loaded && w->law.mu_s > 0)
       changes |= comes_to_rest(w, C_X, C_Y);
+    if (!w->ended && tidy(w))
+      changes = true;
     if (changes && !w->ended) {
       const carom_status status = change(w);
       if (status != CAROM_OK)

@@ -19,7 +19,7 @@ typedef struct carom_cushion_way {
   enum { CAROM_NO_SLIP_IS_SLOW, CAROM_NOSE_IS_SLOW, CAROM_CLOTH_IS_SLOW } slow;
   bool falls;  /* the slow slip, */
   double most; /* which may be so large */
-  bool in_restitution, ended, wedged;
+  bool in_restitution, ended, wedged, cornered;
   carom_ode_point point;
 } carom_cushion_way;
 
