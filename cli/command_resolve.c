@@ -3,7 +3,7 @@
 #include "subcommands.h"
 
 static void by_library(const void *context, const carom_options *options, bool single, const void *in, size_t n, void *out,
-                       uint8_t *status) {
+                       int8_t *status) {
   (void)context;
   if (single)
     carom_collide_batch_f32(in, n, options, out, status);
@@ -23,7 +23,7 @@ static const command_form form = {
 };
 
 int command_resolve(int argc, char **argv) {
-  resolving job = {.shared = {.options = carom_default_options(), .precision = ANY_PRECISION}, .solve = by_library};
+  resolving job = {.shared = {.options = COMMAND_OPTIONS, .precision = ANY_PRECISION}, .solve = by_library};
   const char *file;
   const int code = parse_arguments(&form, argc, argv, &job, &file);
   if (code >= 0)

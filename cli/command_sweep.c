@@ -69,7 +69,7 @@ static outcome resolve(const sweep *s, carom_solver solver, int k) {
   o.status = carom_collide_detail(&in, &options, &o.result, &detail);
   o.stick_share = detail.stick_normal / detail.normal;
   const double along[2] = {in.b.r[0] - in.a.r[0], in.b.r[1] - in.a.r[1]};
-  const double change[2] = {o.result.v_b[0] - in.b.v[0], o.result.v_b[1] - in.b.v[1]};
+  const double change[2] = {o.result.b.v[0] - in.b.v[0], o.result.b.v[1] - in.b.v[1]};
   o.throw_deg = atan2(along[0] * change[1] - along[1] * change[0], along[0] * change[0] + along[1] * change[1]) / degree;
   for (int c = 0; c < RESULTS; c++) {
     o.speed[c] = ((const double *)&o.result)[c] * (c / 3 % 2 == 1 ? in.a.radius : 1.0);
@@ -170,7 +170,7 @@ static const command_form form = {
 };
 
 int command_sweep(int argc, char **argv) {
-  sweep s = {.asked = {.options = carom_default_options(), .solvers = {{CAROM_SOLVER_EXACT}, 1}, .output = "-"},
+  sweep s = {.asked = {.options = COMMAND_OPTIONS, .solvers = {{CAROM_SOLVER_EXACT}, 1}, .output = "-"},
              .points = 10001,
              .from = NAN,
              .to = NAN};

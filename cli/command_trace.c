@@ -34,8 +34,8 @@ static void print_point(FILE *out, const trace *t, carom_solver solver, const ca
   write_numbers(out, (const double[]){p->normal, p->work}, 2);
   fprintf(out, ",%s,%d", p->phase == CAROM_PHASE_COMPRESSION ? "compression" : "restitution", p->sticks);
   write_numbers(out, (const double[]){p->v_n, p->u_x, p->u_z, p->d_x, p->d_y, p->b_x, p->b_y}, 7);
-  print_in_frame(out, &t->impact, p->state.v_a);
-  print_in_frame(out, &t->impact, p->state.v_b);
+  print_in_frame(out, &t->impact, p->state.a.v);
+  print_in_frame(out, &t->impact, p->state.b.v);
   write_numbers(out, (const double *)&p->state, sizeof p->state / sizeof(double));
   fputc('\n', out);
 }
@@ -140,7 +140,7 @@ static const command_form form = {
 };
 
 int command_trace(int argc, char **argv) {
-  trace t = {.asked = {.options = carom_default_options(), .solvers = {{CAROM_SOLVER_EXACT}, 1}}, .points = 201};
+  trace t = {.asked = {.options = COMMAND_OPTIONS, .solvers = {{CAROM_SOLVER_EXACT}, 1}}, .points = 201};
   const char *file;
   int code = parse_arguments(&form, argc, argv, &t, &file);
   if (code >= 0)

@@ -35,6 +35,16 @@ OPTION_SET(set_count) {
   return true;
 }
 
+/* 0 stands for all, as in other commands. */
+static OPTION_SET(set_threads) {
+  int *threads = field;
+  if (!set_count(row, text, threads))
+    return false;
+  if (*threads == 0)
+    *threads = CAROM_ALL_THREADS;
+  return true;
+}
+
 OPTION_SET(set_number) {
   if (parse_number(text, field) && isfinite(*(double *)field))
     return true;
@@ -100,7 +110,7 @@ ROW(option_solvers, "solver", solvers, 0, "LIST", set_solvers, 0, "exact (defaul
 ROW(option_slip, "slip", options.slip, 0, "paper|pooltool", set_choice, 0,
     "sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's");
 ROW(option_steps, "steps", options.steps, 0, "N", set_count, 1, "steps of Euler's method, 1 or more (default 1000)");
-ROW(option_threads, "threads", options.threads, 0, "N", set_count, 0,
+ROW(option_threads, "threads", options.threads, 0, "N", set_threads, 0,
     "most threads for solving; 0, the default: one for each processor");
 ROW(option_friction, "friction", friction, 0, "LAW", set_law, 0,
     "friction between the balls by their slip speed instead of the column u_b: alciatore,\n"

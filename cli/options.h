@@ -74,6 +74,10 @@ typedef struct shared_options {
   bool summary;
 } shared_options;
 
+/* What the options are where none is given: as the library's, but on all processors, and with the steps to be shown. */
+#define COMMAND_OPTIONS \
+  { .steps = CAROM_DEFAULT_STEPS, .threads = CAROM_ALL_THREADS }
+
 extern const option_row option_solver, option_solvers, option_slip, option_steps, option_threads, option_friction,
     option_precision, option_id, option_data, option_output, option_summary;
 

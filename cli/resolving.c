@@ -55,7 +55,7 @@ typedef struct run {
   double solving; /* ns */
   /* What the solver works on, in the precision of the run. */
   void *impact, *result;
-  uint8_t *status;
+  int8_t *status;
 } run;
 
 static void *read_block(void *argument) {
@@ -91,7 +91,7 @@ static void solve_and_write(run *r, const source_block *block) {
   for (size_t k = 0; k < block->count; k++) {
     const impact_row *row = block->row != NULL ? &block->row[k] : NULL;
     const char *error = row != NULL ? row->error : NULL;
-    const carom_status status = carom_status_of_byte(r->status[k]);
+    const carom_status status = r->status[k];
     const bool bad = error != NULL || status < 0;
     if (bad)
       source_report(r->in, block, k, &r->job->shared.options, status);

@@ -16,8 +16,8 @@ int main(void) {
   in.b = (carom_ball){.r = {0.0, 2.0 * radius, 0.0}, .radius = radius, .mass = 0.17, .mu_cloth = 0.2};
   in.mu_ball = carom_mu_ball(&in, carom_alciatore());
 
-  carom_options options = carom_default_options();
-  for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
+  carom_options options = {0};
+  for (int slip = CAROM_SLIP_PAPER; slip <= CAROM_SLIP_POOLTOOL; slip++) {
     carom_result out;
     carom_detail detail;
     double rolling[3];
@@ -27,9 +27,9 @@ int main(void) {
       fprintf(stderr, "%s\n", carom_status_string(status));
       return 1;
     }
-    carom_rolling_velocity(out.v_a, out.w_a, radius, rolling);
+    carom_rolling_velocity(out.a.v, out.a.w, radius, rolling);
     printf("%-8s  cue ball: %+.4f m/s, rolls back at %+.4f m/s; object ball: %+.4f m/s; normal impulse %.4f N s\n",
-           carom_slip_name(options.slip), out.v_a[1], rolling[1], out.v_b[1], detail.normal);
+           carom_slip_name(options.slip), out.a.v[1], rolling[1], out.b.v[1], detail.normal);
   }
   return 0;
 }

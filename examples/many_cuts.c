@@ -14,7 +14,7 @@ enum { CUTS = 900 };
 int main(void) {
   static carom_impact in[CUTS];
   static carom_result out[CUTS];
-  static uint8_t status[CUTS];
+  static int8_t status[CUTS];
   const double speed = 1.5, radius = 0.02625, degree = 3.14159265358979323846 / 180.0;
   for (int k = 0; k < CUTS; k++) {
     const double cut = 0.1 * k * degree, v_x = speed * sin(cut), v_y = speed * cos(cut);
@@ -27,9 +27,9 @@ int main(void) {
     return 1;
   int most = 0;
   for (int k = 0; k < CUTS; k++)
-    if (fabs(atan2(out[k].v_b[0], out[k].v_b[1])) > fabs(atan2(out[most].v_b[0], out[most].v_b[1])))
+    if (fabs(atan2(out[k].b.v[0], out[k].b.v[1])) > fabs(atan2(out[most].b.v[0], out[most].b.v[1])))
       most = k;
   printf("%d collisions on %s: the greatest throw, %.2f degrees, is at a cut of %.1f degrees\n", CUTS,
-         carom_isa_name(carom_isa_in_force()), fabs(atan2(out[most].v_b[0], out[most].v_b[1])) / degree, 0.1 * most);
+         carom_isa_name(carom_isa_in_force()), fabs(atan2(out[most].b.v[0], out[most].b.v[1])) / degree, 0.1 * most);
   return 0;
 }

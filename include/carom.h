@@ -22,12 +22,15 @@
 #include <stdint.h>
 
 #define CAROM_VERSION_MAJOR 0
-#define CAROM_VERSION_MINOR 1
+#define CAROM_VERSION_MINOR 2
 #define CAROM_VERSION_PATCH 0
 
-#if defined(_WIN32)
-#define CAROM_API
-#elif defined(__GNUC__)
+/* Marks what the library exports. On Windows define CAROM_DLL to use it as a DLL; CAROM_BUILD is for its own build. */
+#if defined(_WIN32) && defined(CAROM_BUILD)
+#define CAROM_API __declspec(dllexport)
+#elif defined(_WIN32) && defined(CAROM_DLL)
+#define CAROM_API __declspec(dllimport)
+#elif defined(__GNUC__) && !defined(_WIN32)
 #define CAROM_API __attribute__((visibility("default")))
 #else
 #define CAROM_API
@@ -65,55 +68,49 @@ typedef struct carom_motion {
 
 /* The balls just after the collision; positions do not change. 12 doubles without gaps. */
 typedef struct carom_result {
-  double v_a[3], w_a[3]; /* first ball: velocity, m/s, and angular velocity, rad/s. */
-  double v_b[3], w_b[3]; /* second ball. */
+  carom_motion a, b;
 } carom_result;
 
 /* ---- How a call ended ------------------------------------------------------------------------------------------------ */
 
-/* 0 is success, a positive value a valid outcome worth a remark, a negative value an error: X(NAME, value, name, text). */
-#define CAROM_STATUS_LIST(X)                                                                                      \
-  X(OK, 0, "ok", "resolved")                                                                                      \
-  X(SEPARATING, 1, "separating", "the balls do not approach each other; their state is returned unchanged")       \
-  X(ERROR_NULL, -1, "null_pointer", "a required pointer is NULL")                                                 \
-  X(ERROR_SOLVER, -2, "bad_solver", "options.solver is not one of carom_solver")                                  \
-  X(ERROR_SLIP, -3, "bad_slip", "options.slip is not one of carom_slip")                                          \
-  X(ERROR_STEPS, -4, "bad_steps", "options.steps must be at least 1")                                             \
-  X(ERROR_POSITION, -5, "bad_position", "a position must be finite")                                              \
-  X(ERROR_VELOCITY, -6, "bad_velocity", "a velocity must be finite")                                              \
-  X(ERROR_SPIN, -7, "bad_spin", "an angular velocity must be finite")                                             \
-  X(ERROR_RADIUS, -8, "bad_radius", "a radius must be positive and finite")                                       \
-  X(ERROR_MASS, -9, "bad_mass", "a mass must be positive and finite")                                             \
-  X(ERROR_MU_CLOTH, -10, "bad_mu_cloth", "the friction of ball and cloth must be in [0, 1]")                      \
-  X(ERROR_MU_BALL, -11, "bad_mu_ball", "the friction of ball and ball must be in [0, 1]")                         \
-  X(ERROR_RESTITUTION, -12, "bad_restitution", "the restitution must be in [0, 1]")                               \
-  X(ERROR_RADII_DIFFER, -13, "radii_differ", "both balls must have the same radius")                              \
-  X(ERROR_HEIGHTS_DIFFER, -14, "heights_differ", "both centres must be at the same height")                       \
-  X(ERROR_VERTICAL, -15, "vertical_velocity", "the vertical velocity must be 0: both balls stay on the table")    \
-  X(ERROR_COINCIDENT, -16, "centres_coincide", "the centres coincide, so there is no line of centres")            \
-  X(ERROR_TOO_SLOW, -17, "too_slow",                                                                              \
-    "Euler's method is too slow here: its steps are lost in rounding, or more than 16 N of them are needed")      \
-  X(ERROR_OVERFLOW, -18, "overflow", "the collision overflows the range of double")                               \
-  X(ERROR_MASSES_DIFFER, -19, "masses_differ", "this kernel is for balls of equal mass only")                     \
-  X(ERROR_THREADS, -20, "bad_threads", "options.threads must not be negative")                                    \
-  X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                           \
-  X(ERROR_UNRESOLVED, -22, "unresolved",                                                                          \
-    "the collision is too extreme: its result hangs on rounding errors, or takes more work than a call may cost") \
-  X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model", "options.model is not one of carom_cushion_model")             \
-  X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options",                                                            \
-    "an option of the cushion is out of its range, or a reserved one is not 0")                                   \
-  X(ERROR_NORMAL, -32, "bad_normal", "the direction into the cushion must be finite and not 0")                   \
-  X(ERROR_NOSE_HEIGHT, -33, "bad_nose_height", "the nose must be between the cloth and the top of the ball")      \
-  X(ERROR_MU_CUSHION, -34, "bad_mu_cushion", "the friction of ball and cushion must be in [0, 1]")                \
-  X(ERROR_JAW_RADIUS, -35, "bad_jaw_radius", "the radius of a jaw must be finite and not negative")
-
+/* 0 is success, a positive value a valid outcome worth a remark, a negative value an error. Values are never renumbered or used
+ * again. -30 to -39 are reserved for cushions, -40 to -59 for shots. What each means is told by carom_status_string(). */
 typedef enum carom_status {
-#define CAROM_STATUS_ENUM(NAME, value, name, text) CAROM_##NAME = (value),
-  CAROM_STATUS_LIST(CAROM_STATUS_ENUM)
-#undef CAROM_STATUS_ENUM
+  CAROM_OK = 0,                     /* resolved. */
+  CAROM_SEPARATING = 1,             /* the balls do not approach each other; their state is returned unchanged. */
+  CAROM_ERROR_NULL = -1,            /* a required pointer is NULL. */
+  CAROM_ERROR_SOLVER = -2,          /* options.solver is not one of carom_solver. */
+  CAROM_ERROR_SLIP = -3,            /* options.slip is not one of carom_slip. */
+  CAROM_ERROR_STEPS = -4,           /* options.steps is negative. */
+  CAROM_ERROR_POSITION = -5,        /* a position is not finite. */
+  CAROM_ERROR_VELOCITY = -6,        /* a velocity is not finite. */
+  CAROM_ERROR_SPIN = -7,            /* an angular velocity is not finite. */
+  CAROM_ERROR_RADIUS = -8,          /* a radius is not positive and finite. */
+  CAROM_ERROR_MASS = -9,            /* a mass is not positive and finite. */
+  CAROM_ERROR_MU_CLOTH = -10,       /* the friction of ball and cloth is not in [0, 1]. */
+  CAROM_ERROR_MU_BALL = -11,        /* the friction of ball and ball is not in [0, 1]. */
+  CAROM_ERROR_RESTITUTION = -12,    /* the restitution is not in [0, 1]. */
+  CAROM_ERROR_RADII_DIFFER = -13,   /* the balls have different radii. */
+  CAROM_ERROR_HEIGHTS_DIFFER = -14, /* the centres are at different heights. */
+  CAROM_ERROR_VERTICAL = -15,       /* a vertical velocity is not 0: both balls stay on the table. */
+  CAROM_ERROR_COINCIDENT = -16,     /* the centres coincide, so there is no line of centres. */
+  CAROM_ERROR_TOO_SLOW = -17,       /* Euler's steps are lost in rounding, or more than 16 N of them are needed. */
+  CAROM_ERROR_OVERFLOW = -18,       /* the collision overflows the range of double, or of float for single precision. */
+  CAROM_ERROR_MASSES_DIFFER = -19,  /* the masses differ, for the kernels of the study that take equal ones only. */
+  CAROM_ERROR_THREADS = -20,        /* options.threads is neither CAROM_ALL_THREADS nor 0 or more. */
+  CAROM_ERROR_POINTS = -21,         /* a trace needs at least 2 points. */
+  CAROM_ERROR_UNRESOLVED = -22, /* too extreme: the result hangs on rounding errors, or takes more work than a call may cost. */
+  CAROM_ERROR_OPTIONS = -23,    /* a reserved field of the options is not 0. */
+  CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model of carom_shot.h is not one of carom_cushion_model. */
+  CAROM_ERROR_CUSHION_OPTIONS = -31, /* an option of a cushion is out of its range. */
+  CAROM_ERROR_NORMAL = -32,          /* the direction into a cushion is not finite, or 0. */
+  CAROM_ERROR_NOSE_HEIGHT = -33,     /* the nose is not between the cloth and the top of the ball. */
+  CAROM_ERROR_MU_CUSHION = -34,      /* the friction of ball and cushion is not in [0, 1]. */
+  CAROM_ERROR_JAW_RADIUS = -35,      /* the radius of a jaw is not finite, or negative. */
 } carom_status;
 
-/* The short name of a status ("separating"), as it stands in the command's output. "unknown" for a value not listed. */
+/* The short name of a status ("separating"), as it stands in the command's output. "unknown" for a value not listed. Arrays of
+ * statuses are of int8_t, each with the value of a carom_status. */
 CAROM_API const char *carom_status_name(carom_status status);
 
 /* What the status means, in one sentence without a full stop, fit for a message. Never NULL. */
@@ -121,68 +118,53 @@ CAROM_API const char *carom_status_string(carom_status status);
 
 /* ---- Resolving ------------------------------------------------------------------------------------------------------- */
 
-/* How the collision is computed: X(NAME, name, text). */
-#define CAROM_SOLVER_LIST(X)                                                                               \
-  X(EXACT, "exact", "the limit of infinitely many steps, by collocation: the physics of the model itself") \
-  X(EULER, "euler", "Mathavan's N steps of equal normal impulse; with the pooltool slip, pooltool's result to the last bit")
-
+/* How the collision is computed. */
 typedef enum carom_solver {
-#define CAROM_SOLVER_ENUM(NAME, name, text) CAROM_SOLVER_##NAME,
-  CAROM_SOLVER_LIST(CAROM_SOLVER_ENUM)
-#undef CAROM_SOLVER_ENUM
-      CAROM_SOLVER_COUNT
+  CAROM_SOLVER_EXACT = 0, /* the limit of infinitely many steps, by collocation: the physics of the model itself. */
+  CAROM_SOLVER_EULER = 1, /* Mathavan's N steps of equal normal impulse; with the slip of pooltool, pooltool's result to the
+                             last bit. */
 } carom_solver;
 
-/* Which velocity slips over the cloth. PAPER is the 2014 paper's (a ball that rolls does not slip). POOLTOOL is what the
- * simulator pooltool computes, with the opposite sign of the spin: for parity with it, not for truth. X(NAME, name, text). */
-#define CAROM_SLIP_LIST(X)                                        \
-  X(PAPER, "paper", "v_x - R w_y, v_y + R w_x: the 2014 paper's") \
-  X(POOLTOOL, "pooltool", "v_x + R w_y, v_y - R w_x: pooltool's")
-
+/* Which velocity slips over the cloth. */
 typedef enum carom_slip {
-#define CAROM_SLIP_ENUM(NAME, name, text) CAROM_SLIP_##NAME,
-  CAROM_SLIP_LIST(CAROM_SLIP_ENUM)
-#undef CAROM_SLIP_ENUM
-      CAROM_SLIP_COUNT
+  CAROM_SLIP_PAPER = 0,    /* v_x - R w_y, v_y + R w_x: the 2014 paper's. A ball that rolls does not slip. */
+  CAROM_SLIP_POOLTOOL = 1, /* v_x + R w_y, v_y - R w_x: what the simulator pooltool computes, with the opposite sign of the
+                              spin: for parity with it, not for truth. */
 } carom_slip;
 
 /* The names above as text ("euler", "paper"), or NULL for a value not listed. */
 CAROM_API const char *carom_solver_name(carom_solver solver);
 CAROM_API const char *carom_slip_name(carom_slip slip);
 
-/* Options of a call. Begin with carom_default_options() and change what you need, so that new fields keep their defaults. */
+enum {
+  CAROM_DEFAULT_STEPS = 1000,
+  CAROM_ALL_THREADS = -1, /* for options.threads */
+};
+
+/* Options of a call. All zero means the defaults: `carom_options options = {0};` in C, `{}` in C++, then set what you need. A
+ * pointer to options may be NULL for the defaults. */
 typedef struct carom_options {
-  carom_solver solver; /* default CAROM_SOLVER_EXACT. */
-  carom_slip slip;     /* default CAROM_SLIP_PAPER. */
-  int steps;           /* Euler's N >= 1, default 1000: about so many steps are taken; the error falls as 1/N. */
-  int threads;         /* most threads that a batch may use, >= 0; default 0: one for each processor. Results do not depend on
-                          it. 1 starts none; single calls never do. */
+  carom_solver solver;  /* default CAROM_SOLVER_EXACT. */
+  carom_slip slip;      /* default CAROM_SLIP_PAPER. */
+  int steps;            /* Euler's N: about so many steps are taken; the error falls as 1/N. 0: CAROM_DEFAULT_STEPS. */
+  int threads;          /* most threads that a batch may use, the calling one among them. 0, the default: that one alone.
+                           CAROM_ALL_THREADS: one for each processor that the process may use, by its affinity and the limit of
+                           its control group. Results do not depend on it. Small batches and single calls start none. */
+  uint64_t reserved[6]; /* must be 0: room for options to come, which 0 will leave at their defaults. */
 } carom_options;
-
-enum { CAROM_ALL_THREADS = -1 }; /* for options.threads of carom_shot.h */
-
-CAROM_API carom_options carom_default_options(void);
 
 /* Resolves one collision. `opt` may be NULL for the defaults; `out` may not overlap `in`.
  * CAROM_OK: `*out` is the state after the collision. CAROM_SEPARATING: `*out` is the state before it. An error: every number
  * of `*out` is NaN (but `*out` is untouched when a pointer is NULL). */
 CAROM_API carom_status carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out);
 
-/* Resolves `n` collisions, in[0..n-1] to out[0..n-1], each as carom_collide would: a bad pair gets NaN and its own status and
- * changes nothing for the others. `status` takes the n statuses as bytes, to be read with carom_status_of_byte(); it may be
- * NULL. `in`, `out` and `status` may not overlap; with n = 0 they may be NULL.
- * Euler's results have the bits of carom_collide. Exact ones differ from it by their errors, since lanes go another way; they
- * are the same for any number of threads, but not on every instruction set. Few pairs (up to 43; 199 with SSE2 or NEON), and
- * all in plain double precision, are done one by one, where that is faster.
- * Returns CAROM_OK if no pair is in error, else the status of the first that is; if the call itself cannot be served (NULL,
- * bad options), that error, with nothing written. */
+/* Resolves `n` collisions, in[0..n-1] to out[0..n-1], each as carom_collide() does, bit for bit: a bad pair gets NaN and its
+ * own status and changes nothing for the others. `status` takes the n statuses; it may be NULL. `in`, `out` and `status` may
+ * not overlap; with n = 0 they may be NULL. A caller with threads of its own may cut a batch as it likes. Returns CAROM_OK if
+ * no pair is in error, else the status of the first that is; if the call itself cannot be served (NULL, bad options), that
+ * error, with nothing written. */
 CAROM_API carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
-                                           uint8_t *status);
-
-/* The status that a byte of carom_collide_batch stands for: errors are negative, in two's complement. */
-static inline carom_status carom_status_of_byte(uint8_t byte) {
-  return (carom_status)(byte < 128 ? (int)byte : (int)byte - 256);
-}
+                                           int8_t *status);
 
 /* ---- Friction between the balls -------------------------------------------------------------------------------------- */
 
@@ -207,7 +189,8 @@ CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], doub
 
 /* ---- Single precision ------------------------------------------------------------------------------------------------ */
 
-/* The same in float: half the memory, twice the lanes. The worst pair error of a batch by the exact limit stays below 2e-5. */
+/* The same in single precision, with the suffix _f32: half the memory, twice the lanes. The worst pair error of a batch by the
+ * exact limit stays below 2e-5. */
 typedef struct carom_ball_f32 {
   float r[3], v[3], w[3];
   float radius, mass, mu_cloth;
@@ -218,34 +201,36 @@ typedef struct carom_impact_f32 {
   float mu_ball, restitution;
 } carom_impact_f32;
 
+typedef struct carom_motion_f32 {
+  float v[3], w[3];
+} carom_motion_f32;
+
 typedef struct carom_result_f32 {
-  float v_a[3], w_a[3], v_b[3], w_b[3];
+  carom_motion_f32 a, b;
 } carom_result_f32;
 
-/* carom_collide() on floats, which become doubles and back. */
+/* carom_collide() in single precision. Euler's method is computed in double precision and rounded. */
 CAROM_API carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt, carom_result_f32 *out);
 
-/* carom_collide_batch() on floats, computed in float; rows that are too extreme for float are done in double. */
+/* carom_collide_batch() in single precision: by the exact solver each row as carom_collide_f32() does, bit for bit. Euler's
+ * method is computed in single precision here, so its rows differ from single calls by their rounding, though not with the
+ * number of threads, nor with the other rows. */
 CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt,
-                                               carom_result_f32 *out, uint8_t *status);
+                                               carom_result_f32 *out, int8_t *status);
 
 /* ---- Instruction sets ------------------------------------------------------------------------------------------------ */
 
-/* What batches and single calls of the exact limit compute with, from low to high: X(NAME, name). They take the highest that
- * the processor has; results differ within the solver's errors from one to another. The environment variable CAROM_ISA, set to
- * one of the names before the first call, limits it for the whole process. */
-#define CAROM_ISA_LIST(X) \
-  X(PLAIN, "plain")       \
-  X(SSE2, "sse2")         \
-  X(NEON, "neon")         \
-  X(AVX2, "avx2")         \
-  X(AVX512, "avx512")
-
+/* What batches and single calls of the exact limit compute with, from low to high. They take the highest that the processor
+ * has; results differ within the solver's errors from one to another. The environment variable CAROM_ISA, set to one of the
+ * names ("plain", "sse2", "neon", "avx2", "avx512") before the first call, limits it for the whole process; other values are
+ * ignored. */
 typedef enum carom_isa {
-#define CAROM_ISA_ENUM(NAME, name) CAROM_ISA_##NAME,
-  CAROM_ISA_LIST(CAROM_ISA_ENUM)
-#undef CAROM_ISA_ENUM
-      CAROM_ISA_COUNT
+  CAROM_ISA_ANY = -1, /* no limit: for carom_isa_limit(). */
+  CAROM_ISA_PLAIN = 0,
+  CAROM_ISA_SSE2 = 1,
+  CAROM_ISA_NEON = 2,
+  CAROM_ISA_AVX2 = 3,
+  CAROM_ISA_AVX512 = 4,
 } carom_isa;
 
 /* The name of an instruction set, or NULL for a value not listed. */
@@ -257,17 +242,17 @@ CAROM_API int carom_isa_available(carom_isa isa);
 /* The one that is used. */
 CAROM_API carom_isa carom_isa_in_force(void);
 
-/* From now on the whole process uses no higher one than `isa`; a value not listed lifts the limit. Returns the one then in
- * force. Call it while no batch runs. */
+/* From now on the whole process uses no higher one than `isa`; CAROM_ISA_ANY lifts the limit, but for CAROM_ISA. Returns the
+ * one then in force. Call it while no batch runs. */
 CAROM_API carom_isa carom_isa_limit(carom_isa isa);
 
 /* ---- Looking closer -------------------------------------------------------------------------------------------------- */
 
 /* When the surfaces of the balls ceased to slip on each other, if they did. */
 typedef enum carom_stick {
-  CAROM_STICK_NEVER,          /* they slipped to the end */
-  CAROM_STICK_IN_COMPRESSION, /* while the balls still approached each other */
-  CAROM_STICK_IN_RESTITUTION, /* while they were parting */
+  CAROM_STICK_NEVER = 0,          /* they slipped to the end */
+  CAROM_STICK_IN_COMPRESSION = 1, /* while the balls still approached each other */
+  CAROM_STICK_IN_RESTITUTION = 2, /* while they were parting */
 } carom_stick;
 
 /* What else is known of a collision. Impulses in N s, as vectors along the axes of the table where they have a direction. */
@@ -282,6 +267,7 @@ typedef struct carom_detail {
   double work;             /* the same over the whole collision: (1 + e^2) of it, for Euler's method a whole step more. */
   carom_stick stick;       /* CAROM_STICK_NEVER from Euler's method, which chatters instead. */
   double stick_normal;     /* the normal impulse so far when they stuck; NaN if they never did. */
+  double reserved[4];      /* 0; room for what may be told later. */
 } carom_detail;
 
 /* carom_collide that also tells how it went. `*detail` is filled whatever the status, with 0 and NaN where nothing was solved.
@@ -290,7 +276,7 @@ CAROM_API carom_status carom_collide_detail(const carom_impact *in, const carom_
                                             carom_detail *detail);
 
 /* Compression lasts while the balls approach each other; in restitution they part. */
-typedef enum carom_phase { CAROM_PHASE_COMPRESSION, CAROM_PHASE_RESTITUTION } carom_phase;
+typedef enum carom_phase { CAROM_PHASE_COMPRESSION = 0, CAROM_PHASE_RESTITUTION = 1 } carom_phase;
 
 /* A collision on its way. Slips are in the collision frame: y is the line of centres from the first ball to the second, z
  * points up, x = y x z. A slip is the velocity, m/s, of one surface over the other where they touch. */
@@ -304,6 +290,7 @@ typedef struct carom_trace_point {
   double d_x, d_y;    /* slip of the first ball over the cloth, with the sign of options.slip, */
   double b_x, b_y;    /* and of the second ball. */
   carom_result state; /* both balls, along the axes of the table. */
+  double reserved[4]; /* 0; room for what may be told later. */
 } carom_trace_point;
 
 /* Follows one collision through `n` >= 2 points at equal steps of normal impulse, from 0 at points[0] to the end, which is the
@@ -322,8 +309,18 @@ CAROM_API carom_status carom_check(const carom_impact *in, const carom_options *
 /* The C name of number `field` of a carom_impact, 0 to 25: "a.r[0]" ... "restitution". NULL outside that range. */
 CAROM_API const char *carom_field_name(int field);
 
-/* The version of the library that runs, "major.minor.patch"; the macros above are those of the header compiled against. */
+/* ---- Version --------------------------------------------------------------------------------------------------------- */
+
+/* The version of this header as a number, 200 for 0.2.0. */
+#define CAROM_VERSION_NUMBER (CAROM_VERSION_MAJOR * 10000 + CAROM_VERSION_MINOR * 100 + CAROM_VERSION_PATCH)
+
+/* The version of the library that runs, as "major.minor.patch" and as a number. */
 CAROM_API const char *carom_version(void);
+CAROM_API int carom_version_number(void);
+
+/* Whether this library serves a caller compiled with the header of that version, 1 or 0: carom_serves(CAROM_VERSION_NUMBER).
+ * Before 1.0 it must be the same minor version, from then on the same major version and a minor one not above the library's. */
+CAROM_API int carom_serves(int header_version_number);
 
 #ifdef __cplusplus
 }

@@ -1,19 +1,74 @@
-/* Names and texts of the public enumerations, from the lists in carom.h. */
+/* Names and texts of the public enumerations. The lists are private; carom.h spells the enumerators out, and the compiler says
+ * where the two differ. */
 #include "carom.h"
+
+#include "enumerations.h"
 
 #define TEXT_OF(x) #x
 #define TEXT(x) TEXT_OF(x)
+
+/* X(NAME, value, name, text) */
+#define STATUS_LIST(X)                                                                                            \
+  X(OK, 0, "ok", "resolved")                                                                                      \
+  X(SEPARATING, 1, "separating", "the balls do not approach each other; their state is returned unchanged")       \
+  X(ERROR_NULL, -1, "null_pointer", "a required pointer is NULL")                                                 \
+  X(ERROR_SOLVER, -2, "bad_solver", "options.solver is not one of carom_solver")                                  \
+  X(ERROR_SLIP, -3, "bad_slip", "options.slip is not one of carom_slip")                                          \
+  X(ERROR_STEPS, -4, "bad_steps", "options.steps must not be negative (0 is the default)")                        \
+  X(ERROR_POSITION, -5, "bad_position", "a position must be finite")                                              \
+  X(ERROR_VELOCITY, -6, "bad_velocity", "a velocity must be finite")                                              \
+  X(ERROR_SPIN, -7, "bad_spin", "an angular velocity must be finite")                                             \
+  X(ERROR_RADIUS, -8, "bad_radius", "a radius must be positive and finite")                                       \
+  X(ERROR_MASS, -9, "bad_mass", "a mass must be positive and finite")                                             \
+  X(ERROR_MU_CLOTH, -10, "bad_mu_cloth", "the friction of ball and cloth must be in [0, 1]")                      \
+  X(ERROR_MU_BALL, -11, "bad_mu_ball", "the friction of ball and ball must be in [0, 1]")                         \
+  X(ERROR_RESTITUTION, -12, "bad_restitution", "the restitution must be in [0, 1]")                               \
+  X(ERROR_RADII_DIFFER, -13, "radii_differ", "both balls must have the same radius")                              \
+  X(ERROR_HEIGHTS_DIFFER, -14, "heights_differ", "both centres must be at the same height")                       \
+  X(ERROR_VERTICAL, -15, "vertical_velocity", "the vertical velocity must be 0: both balls stay on the table")    \
+  X(ERROR_COINCIDENT, -16, "centres_coincide", "the centres coincide, so there is no line of centres")            \
+  X(ERROR_TOO_SLOW, -17, "too_slow",                                                                              \
+    "Euler's method is too slow here: its steps are lost in rounding, or more than 16 N of them are needed")      \
+  X(ERROR_OVERFLOW, -18, "overflow", "the collision overflows the range of double")                               \
+  X(ERROR_MASSES_DIFFER, -19, "masses_differ", "this kernel is for balls of equal mass only")                     \
+  X(ERROR_THREADS, -20, "bad_threads", "options.threads must be CAROM_ALL_THREADS, or 0 or more")                 \
+  X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                           \
+  X(ERROR_UNRESOLVED, -22, "unresolved",                                                                          \
+    "the collision is too extreme: its result hangs on rounding errors, or takes more work than a call may cost") \
+  X(ERROR_OPTIONS, -23, "bad_options", "the reserved fields of the options must be 0")                            \
+  X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model", "options.model is not one of carom_cushion_model")             \
+  X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options", "an option of the cushion is out of its range")            \
+  X(ERROR_NORMAL, -32, "bad_normal", "the direction into the cushion must be finite and not 0")                   \
+  X(ERROR_NOSE_HEIGHT, -33, "bad_nose_height", "the nose must be between the cloth and the top of the ball")      \
+  X(ERROR_MU_CUSHION, -34, "bad_mu_cushion", "the friction of ball and cushion must be in [0, 1]")                \
+  X(ERROR_JAW_RADIUS, -35, "bad_jaw_radius", "the radius of a jaw must be finite and not negative")
+
+#define AGREES(NAME, value, name, text) _Static_assert(CAROM_##NAME == (value), "values are never renumbered");
+STATUS_LIST(AGREES)
+#undef AGREES
 
 const char *carom_version(void) {
   return TEXT(CAROM_VERSION_MAJOR) "." TEXT(CAROM_VERSION_MINOR) "." TEXT(CAROM_VERSION_PATCH);
 }
 
+int carom_version_number(void) {
+  return CAROM_VERSION_NUMBER;
+}
+
+int carom_serves(int header) {
+  const int major = header / 10000, minor = header / 100 % 100;
+  if (header < 0 || major != CAROM_VERSION_MAJOR)
+    return 0;
+  return major == 0 ? minor == CAROM_VERSION_MINOR : minor <= CAROM_VERSION_MINOR;
+}
+
+/* A status that is in carom.h but not in the list is a warning here (-Wswitch). */
 const char *carom_status_name(carom_status status) {
   switch (status) {
 #define CASE(NAME, value, name, text) \
   case CAROM_##NAME:                  \
     return name;
-    CAROM_STATUS_LIST(CASE)
+    STATUS_LIST(CASE)
 #undef CASE
   }
   return "unknown";
@@ -24,28 +79,48 @@ const char *carom_status_string(carom_status status) {
 #define CASE(NAME, value, name, text) \
   case CAROM_##NAME:                  \
     return text;
-    CAROM_STATUS_LIST(CASE)
+    STATUS_LIST(CASE)
 #undef CASE
   }
   return "not a status of this library";
 }
 
 const char *carom_solver_name(carom_solver solver) {
-  static const char *const names[] = {
-#define NAME_OF(NAME, name, text) [CAROM_SOLVER_##NAME] = name,
-      CAROM_SOLVER_LIST(NAME_OF)
-#undef NAME_OF
-  };
-  return (int)solver >= 0 && solver < CAROM_SOLVER_COUNT ? names[solver] : NULL;
+  switch (solver) {
+  case CAROM_SOLVER_EXACT:
+    return "exact";
+  case CAROM_SOLVER_EULER:
+    return "euler";
+  }
+  return NULL;
 }
 
 const char *carom_slip_name(carom_slip slip) {
-  static const char *const names[] = {
-#define NAME_OF(NAME, name, text) [CAROM_SLIP_##NAME] = name,
-      CAROM_SLIP_LIST(NAME_OF)
-#undef NAME_OF
-  };
-  return (int)slip >= 0 && slip < CAROM_SLIP_COUNT ? names[slip] : NULL;
+  switch (slip) {
+  case CAROM_SLIP_PAPER:
+    return "paper";
+  case CAROM_SLIP_POOLTOOL:
+    return "pooltool";
+  }
+  return NULL;
+}
+
+const char *carom_isa_name(carom_isa isa) {
+  switch (isa) {
+  case CAROM_ISA_PLAIN:
+    return "plain";
+  case CAROM_ISA_SSE2:
+    return "sse2";
+  case CAROM_ISA_NEON:
+    return "neon";
+  case CAROM_ISA_AVX2:
+    return "avx2";
+  case CAROM_ISA_AVX512:
+    return "avx512";
+  case CAROM_ISA_ANY:
+    break;
+  }
+  return NULL;
 }
 
 const char *carom_field_name(int field) {

@@ -46,7 +46,7 @@ int main(int argc, char **argv) {
     carom_local state = frame_in(&in, &frame);
     CHOSEN_RUNG(&state, steps);
     frame_out(&frame, &state, &out);
-    sum += out.v_a[0] + out.v_b[1] + out.w_a[2];
+    sum += out.a.v[0] + out.b.v[1] + out.a.w[2];
   }
   printf("%.17g\n", sum);
   return 0;

@@ -19,6 +19,7 @@
  */
 #include "ladder.h"
 
+#include "ball_ball/arguments.h"
 #include "ball_ball/result.h"
 
 #include <float.h>
@@ -66,16 +67,16 @@ static carom_status solve(const ladder_module *module, const ladder_rung *rung, 
   }
   if (!representable(&local))
     return CAROM_ERROR_OVERFLOW;
-  if (!resolved(&local, opt->steps, rung->precision))
+  if (!resolved(&local, carom_steps(opt), rung->precision))
     return CAROM_ERROR_TOO_SLOW;
-  module->run[number_of(rung)](&local, opt->steps);
+  module->run[number_of(rung)](&local, carom_steps(opt));
   carom_from_frame(&frame, &local, out);
   return carom_result_is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }
 
 carom_status ladder_resolve(const ladder_module *module, const ladder_rung *rung, const carom_impact *in,
                             const carom_options *opt, carom_result *out) {
-  const carom_options defaults = carom_default_options();
+  const carom_options defaults = {0};
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
   const carom_status status = solve(module, rung, in, opt != NULL ? opt : &defaults, out);

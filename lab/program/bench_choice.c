@@ -45,7 +45,7 @@ static void add_calls(bench_job *job, const kernel *one, const ladder_module *mo
 static void add_steps(bench_job *job, const kernel *one, const ladder_module *module) {
   const size_t count = workload_takes_steps(one) ? job->steps.count : 1; /* where it takes none, they are not read */
   for (size_t k = 0; k < count; k++)
-    add_calls(job, one, module, workload_takes_steps(one) ? job->steps.value[k] : carom_default_options().steps);
+    add_calls(job, one, module, workload_takes_steps(one) ? job->steps.value[k] : CAROM_DEFAULT_STEPS);
 }
 
 static bool add_config(bench_job *job, const kernel *one, const char *config) {
@@ -192,7 +192,7 @@ static const kernel *yardstick_kernel(void) {
 /* As many steps as the yardstick of this workload takes: its own, or the default where it takes none. */
 static int yardstick_steps(const workload *w) {
   const int steps = workload_steps(w);
-  return steps > 0 ? steps : carom_default_options().steps;
+  return steps > 0 ? steps : CAROM_DEFAULT_STEPS;
 }
 
 static bool is_yardstick(const bench_job *job, const workload *w) {

@@ -222,7 +222,7 @@ static int bench(bench_job *job) {
   }
   job->show_pairs = job->pairs.count > 0;
   if (job->steps.count == 0)
-    add_count(&job->steps, carom_default_options().steps);
+    add_count(&job->steps, CAROM_DEFAULT_STEPS);
   job->folder = data_folder(job->shared.folder);
   job->isa = carom_isa_in_force();
   const int code = bench_all(job) ? job->code : EXIT_USAGE;

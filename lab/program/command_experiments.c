@@ -86,14 +86,14 @@ static carom_impact impact_of(const shot *s) {
 
 static bool outcome_of(const shot *s, const kernel *one, carom_slip slip, double outcome[OUTCOMES]) {
   const carom_impact in = impact_of(s);
-  carom_options options = carom_default_options();
+  carom_options options = {0};
   carom_result out;
   double cue[3], object[3];
   options.slip = slip;
   if (kernel_resolve(one, NULL, &in, 1, &options, &out, NULL) != CAROM_OK)
     return false;
-  carom_rolling_velocity(out.v_a, out.w_a, in.a.radius, cue);
-  carom_rolling_velocity(out.v_b, out.w_b, in.b.radius, object);
+  carom_rolling_velocity(out.a.v, out.a.w, in.a.radius, cue);
+  carom_rolling_velocity(out.b.v, out.b.w, in.b.radius, object);
   outcome[V_CUE] = hypot(cue[0], cue[1]);
   outcome[V_OBJECT] = hypot(object[0], object[1]);
   outcome[ANGLE_CUE] = atan2(cue[0], cue[1]) / degree - s->theta / degree;
@@ -181,7 +181,7 @@ static const command_form form = {
 };
 
 int command_experiments(int argc, char **argv) {
-  experiments_job job = {.shared = {.options = carom_default_options(), .output = "-"}};
+  experiments_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;

@@ -13,7 +13,7 @@ typedef struct resolve_job {
 } resolve_job;
 
 static void by_kernel(const void *context, const carom_options *options, bool single, const void *in, size_t n, void *out,
-                      uint8_t *status) {
+                      int8_t *status) {
   const resolve_job *job = context;
   if (single)
     kernel_resolve_f32(job->kernel, in, n, options, out, status);
@@ -37,9 +37,8 @@ static const command_form form = {
 };
 
 int command_resolve(int argc, char **argv) {
-  resolve_job job = {
-      .resolving = {.shared = {.options = carom_default_options(), .precision = ANY_PRECISION}, .solve = by_kernel},
-      .kernel = kernel_at(0)};
+  resolve_job job = {.resolving = {.shared = {.options = COMMAND_OPTIONS, .precision = ANY_PRECISION}, .solve = by_kernel},
+                     .kernel = kernel_at(0)};
   const char *file;
   const int code = parse_arguments(&form, argc, argv, &job, &file);
   if (code >= 0)

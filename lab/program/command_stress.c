@@ -16,6 +16,7 @@
 
 #include "ball_ball/fallback.h"
 #include "ball_ball/kernels.h"
+#include "enumerations.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -68,7 +69,7 @@ typedef struct shift {
   carom_impact_f32 in32[BLOCK];
   carom_result out[BLOCK], exact[BLOCK];
   carom_result_f32 out32[BLOCK];
-  uint8_t status[BLOCK], status32[BLOCK];
+  int8_t status[BLOCK], status32[BLOCK];
 } shift;
 
 static pthread_mutex_t next_block_lock = PTHREAD_MUTEX_INITIALIZER;
@@ -178,7 +179,7 @@ static void run_block(shift *w, uint64_t block) {
   const stress_job *job = w->job;
   const carom_slip slip = (carom_slip)(block % CAROM_SLIP_COUNT);
   const uint64_t first = block / CAROM_SLIP_COUNT * BLOCK;
-  carom_options options = carom_default_options();
+  carom_options options = {0};
   options.slip = slip;
   options.threads = 1;
   size_t n = 0;
@@ -194,8 +195,8 @@ static void run_block(shift *w, uint64_t block) {
     carom_result_f32 alone32;
     const carom_status status = carom_collide(&w->in[k], &options, &alone);
     const carom_status status32 = carom_collide_f32(&w->in32[k], &options, &alone32);
-    w->other_bits += status != carom_status_of_byte(w->status[k]) || memcmp(&alone, &w->out[k], sizeof alone) != 0;
-    w->other_bits += status32 != carom_status_of_byte(w->status32[k]) || memcmp(&alone32, &w->out32[k], sizeof alone32) != 0;
+    w->other_bits += status != w->status[k] || memcmp(&alone, &w->out[k], sizeof alone) != 0;
+    w->other_bits += status32 != w->status32[k] || memcmp(&alone32, &w->out32[k], sizeof alone32) != 0;
     count_double(w, slip, first + k, &w->in[k], &alone, status, &w->exact[k]);
     count_single(w, slip, &w->in32[k], &alone32, status32);
   }
@@ -307,7 +308,7 @@ static const command_form form = {
 };
 
 int command_stress(int argc, char **argv) {
-  stress_job job = {.shared = {.options = carom_default_options(), .output = "-"}, .draws = 100000, .seed = 1};
+  stress_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .draws = 100000, .seed = 1};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;

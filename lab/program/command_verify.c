@@ -119,7 +119,7 @@ static bool verify_claim(verification *v, const kernel *one, const ladder_module
   reference_set reference;
   const bool loaded = reference_load(v->folder, claim->reference, &v->cases, &reference);
   if (loaded) {
-    carom_options options = carom_default_options();
+    carom_options options = {0};
     options.slip = claim->slip;
     options.steps = claim->steps;
     if (module == NULL && v->way == SINGLE_CALLS) {

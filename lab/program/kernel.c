@@ -56,7 +56,7 @@ OPTION_SET(set_kernel) {
 }
 
 carom_status kernel_resolve(const kernel *k, const ladder_module *module, const carom_impact *in, size_t n,
-                            const carom_options *options, carom_result *out, uint8_t *status) {
+                            const carom_options *options, carom_result *out, int8_t *status) {
   carom_options own = *options;
   if (!k->is_rung) {
     own.solver = k->solver;
@@ -67,7 +67,7 @@ carom_status kernel_resolve(const kernel *k, const ladder_module *module, const 
   for (size_t pair = 0; pair < n; pair++) {
     const carom_status one = ladder_resolve(module, rung, &in[pair], &own, &out[pair]);
     if (status != NULL)
-      status[pair] = (uint8_t)one;
+      status[pair] = (int8_t)one;
     if (one < 0 && first_error == CAROM_OK)
       first_error = one;
   }
@@ -75,7 +75,7 @@ carom_status kernel_resolve(const kernel *k, const ladder_module *module, const 
 }
 
 carom_status kernel_resolve_f32(const kernel *k, const carom_impact_f32 *in, size_t n, const carom_options *options,
-                                carom_result_f32 *out, uint8_t *status) {
+                                carom_result_f32 *out, int8_t *status) {
   carom_options own = *options;
   own.solver = k->solver;
   return carom_collide_batch_f32(in, n, &own, out, status);

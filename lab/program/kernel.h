@@ -35,11 +35,11 @@ OPTION_SET(set_kernel);
 
 /* Resolves n pairs as carom_collide_batch() does. `module` is the build of the ladder to take; NULL for a solver. */
 carom_status kernel_resolve(const kernel *k, const ladder_module *module, const carom_impact *in, size_t n,
-                            const carom_options *options, carom_result *out, uint8_t *status);
+                            const carom_options *options, carom_result *out, int8_t *status);
 
 /* The same in single precision, for a solver. */
 carom_status kernel_resolve_f32(const kernel *k, const carom_impact_f32 *in, size_t n, const carom_options *options,
-                                carom_result_f32 *out, uint8_t *status);
+                                carom_result_f32 *out, int8_t *status);
 
 /* Finds the module for `config` ("o3", "gcc-o3"; NULL for the default) if `k` is a rung. Complains and returns false if there
  * is none, if the rung cannot run here, or if a solver is given a configuration. */

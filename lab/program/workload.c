@@ -63,7 +63,7 @@ int workload_steps(const workload *w) {
 }
 
 void workload_of_calls(workload *w, const kernel *one, const ladder_module *module, int steps, const case_set *cases) {
-  *w = (workload){.kernel = one, .module = module, .isa = "scalar", .options = carom_default_options(), .cases = cases};
+  *w = (workload){.kernel = one, .module = module, .isa = "scalar", .options = {.steps = CAROM_DEFAULT_STEPS}, .cases = cases};
   w->options.slip = one->claims[0].slip;
   if (workload_takes_steps(one))
     w->options.steps = steps;
@@ -147,7 +147,7 @@ static bool verify_claim(workload *w, const char *folder, char message[WORKLOAD_
 
 static bool too_slow(const workload *w, size_t row) {
   carom_result result;
-  return isnan(w->result[row].v_a[0]) &&
+  return isnan(w->result[row].a.v[0]) &&
          kernel_resolve(w->kernel, w->module, &w->in[row], 1, &w->options, &result, NULL) == CAROM_ERROR_TOO_SLOW;
 }
 

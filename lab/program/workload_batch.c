@@ -83,7 +83,7 @@ void workload_of_batch(workload *w, const kernel *one, carom_isa isa, bool singl
   const size_t shared = common_divisor(size, cases->count), calls = size < LARGE ? cases->count / shared : 1;
   *w = (workload){.kernel = one,
                   .isa = carom_isa_name(isa),
-                  .options = carom_default_options(),
+                  .options = {.steps = CAROM_DEFAULT_STEPS},
                   .cases = cases,
                   .in = tiles->in,
                   .rows = calls > 1 ? size + cases->count - shared : size,

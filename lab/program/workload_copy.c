@@ -89,7 +89,7 @@ static void copy_all(void *context) {
 
 void workload_of_copy(workload *w, bool single, int threads, size_t size, const case_set *cases, const case_tiles *tiles) {
   *w = (workload){.isa = "memcpy",
-                  .options = carom_default_options(),
+                  .options = {.steps = CAROM_DEFAULT_STEPS},
                   .cases = cases,
                   .in = tiles->in,
                   .rows = size,

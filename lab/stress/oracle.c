@@ -246,10 +246,10 @@ int oracle_collide(const carom_impact *in, double s, carom_result *out, oracle_s
   if (story)
     *story = tale;
   for (int k = 0; k < 3; k++) {
-    out->v_a[k] = (double)(y[V_IX] * e_x[k] + y[V_IY] * e_y[k]);
-    out->v_b[k] = (double)(y[V_JX] * e_x[k] + y[V_JY] * e_y[k]);
-    out->w_a[k] = k == 2 ? (double)y[W_IZ] : (double)(y[W_IX] * e_x[k] + y[W_IY] * e_y[k]);
-    out->w_b[k] = k == 2 ? (double)y[W_JZ] : (double)(y[W_JX] * e_x[k] + y[W_JY] * e_y[k]);
+    out->a.v[k] = (double)(y[V_IX] * e_x[k] + y[V_IY] * e_y[k]);
+    out->b.v[k] = (double)(y[V_JX] * e_x[k] + y[V_JY] * e_y[k]);
+    out->a.w[k] = k == 2 ? (double)y[W_IZ] : (double)(y[W_IX] * e_x[k] + y[W_IY] * e_y[k]);
+    out->b.w[k] = k == 2 ? (double)y[W_JZ] : (double)(y[W_JX] * e_x[k] + y[W_JY] * e_y[k]);
   }
   return 0;
 }

@@ -5,6 +5,8 @@
  */
 #include "ball_ball/arguments.h"
 
+#include "enumerations.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,14 +26,19 @@ static int field_at(size_t offset) {
 #define FIELD(member) field_at(offsetof(carom_impact, member))
 
 carom_status carom_check_options(const carom_options *opt) {
+  uint64_t reserved = 0;
+  for (size_t k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++)
+    reserved |= opt->reserved[k];
   if ((int)opt->solver < 0 || opt->solver >= CAROM_SOLVER_COUNT)
     return CAROM_ERROR_SOLVER;
   if ((int)opt->slip < 0 || opt->slip >= CAROM_SLIP_COUNT)
     return CAROM_ERROR_SLIP;
-  if (opt->steps < 1)
+  if (opt->steps < 0)
     return CAROM_ERROR_STEPS;
-  if (opt->threads < 0)
+  if (opt->threads < CAROM_ALL_THREADS)
     return CAROM_ERROR_THREADS;
+  if (reserved != 0)
+    return CAROM_ERROR_OPTIONS;
   return CAROM_OK;
 }
 

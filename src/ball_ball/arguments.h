@@ -4,6 +4,11 @@
 
 #include "carom.h"
 
+/* Euler's N, for options that may leave it to the default. */
+static inline int carom_steps(const carom_options *opt) {
+  return opt->steps != 0 ? opt->steps : CAROM_DEFAULT_STEPS;
+}
+
 /* CAROM_OK, or the error of the first option at fault. */
 carom_status carom_check_options(const carom_options *opt);
 

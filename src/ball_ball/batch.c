@@ -17,7 +17,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { ROOM = 4 * MOST_LANES };
+/* Rows wait for a register of their kind, so a list rarely holds two. More room would take stack. */
+enum { ROOM = 2 * MOST_LANES };
 
 typedef struct fresh_list {
   int count;
@@ -39,7 +40,7 @@ typedef struct work {
   size_t in_size, out_size;
   const carom_options *opt;
   double s;
-  uint8_t *status;
+  int8_t *status;
   size_t first_bad;
   fresh_list fresh[STEP_KINDS];
   moving_list moving[STEP_KINDS];
@@ -50,7 +51,7 @@ enum { MOST_ROWS = 1 << 30, CACHE_LINE = 64 };
 static void one_by_one(work *w, uint32_t row) {
   const carom_status status = carom_collide_one(w->precision, w->in + row * w->in_size, w->opt, w->out + row * w->out_size);
   if (w->status != NULL)
-    w->status[row] = (uint8_t)status;
+    w->status[row] = (int8_t)status;
   if (status < 0 && row < w->first_bad)
     w->first_bad = row;
 }
@@ -111,7 +112,8 @@ static void sort(work *w, const team *t, uint32_t good, const carom_context *con
   }
 }
 
-static void first_steps(work *w, team *t) {
+/* Not inlined, nor are next_steps(): only one of their frames is on the stack at a time. */
+__attribute__((noinline)) static void first_steps(work *w, team *t) {
   carom_context context;
   carom_in in;
   carom_out out;
@@ -124,7 +126,7 @@ static void first_steps(work *w, team *t) {
   sort(w, t, good, &context, out, moving, false, next);
 }
 
-static void next_steps(work *w, enum step_kind kind, bool fresh, team *t, carom_moving moving) {
+__attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, bool fresh, team *t, carom_moving moving) {
   carom_context context;
   carom_in in;
   carom_out out;
@@ -176,7 +178,7 @@ static bool work_off(work *w, int least) {
 }
 
 static size_t solve(carom_precision precision, const void *in, size_t in_size, size_t n, const carom_options *opt, void *out,
-                    size_t out_size, uint8_t *status) {
+                    size_t out_size, int8_t *status) {
   work w = {.with = carom_kernels_in_force(),
             .precision = precision,
             .in = in,
@@ -205,8 +207,8 @@ static size_t solve(carom_precision precision, const void *in, size_t in_size, s
   return w.first_bad;
 }
 
-static size_t solve_all(carom_precision precision, const char *in, size_t in_size, size_t n, const carom_options *opt, char *out,
-                        size_t out_size, uint8_t *status) {
+static size_t solve_all(carom_precision precision, const char *in, size_t in_size, size_t n, const carom_options *opt,
+                        char *out, size_t out_size, int8_t *status) {
   size_t first_bad = n;
   for (size_t from = 0; from < n; from += MOST_ROWS) {
     const size_t rows = n - from < MOST_ROWS ? n - from : MOST_ROWS;
@@ -218,10 +220,10 @@ static size_t solve_all(carom_precision precision, const char *in, size_t in_siz
   return first_bad;
 }
 
-size_t carom_exact_batch_double(const void *in, size_t n, const carom_options *opt, void *out, uint8_t *status) {
+size_t carom_exact_batch_double(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
   return solve_all(CAROM_DOUBLE, in, sizeof(carom_impact), n, opt, out, sizeof(carom_result), status);
 }
 
-size_t carom_exact_batch_single(const void *in, size_t n, const carom_options *opt, void *out, uint8_t *status) {
+size_t carom_exact_batch_single(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
   return solve_all(CAROM_SINGLE, in, sizeof(carom_impact_f32), n, opt, out, sizeof(carom_result_f32), status);
 }

@@ -1,5 +1,5 @@
-/* The public entry points: collocation, and for what it does not take: check, go to the collision frame, solve, come back, say how
- * it went. */
+/* The public entry points: collocation, and for what it does not take: check, go to the collision frame, solve, come back, say
+ * how it went. */
 #include "carom.h"
 
 #include "ball_ball/arguments.h"
@@ -10,13 +10,10 @@
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
 #include "ball_ball/result.h"
+#include "platform/threads.h"
 
 #include <math.h>
 #include <stdbool.h>
-
-carom_options carom_default_options(void) {
-  return (carom_options){.solver = CAROM_SOLVER_EXACT, .slip = CAROM_SLIP_PAPER, .steps = 1000};
-}
 
 static bool collocate(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
   float solution[OUT_COLUMNS];
@@ -66,8 +63,8 @@ static carom_status solve(const carom_impact *in, const carom_options *opt, caro
     carom_copy_state(in, out);
     return CAROM_SEPARATING;
   }
-  const carom_status status =
-      opt->solver == CAROM_SOLVER_EXACT ? solve_exact(&frame, &local, detail) : solve_euler(&frame, &local, opt->steps, detail);
+  const carom_status status = opt->solver == CAROM_SOLVER_EXACT ? solve_exact(&frame, &local, detail)
+                                                                : solve_euler(&frame, &local, carom_steps(opt), detail);
   if (status != CAROM_OK)
     return status;
   carom_from_frame(&frame, &local, out);
@@ -79,7 +76,7 @@ carom_status carom_collide_detail(const carom_impact *in, const carom_options *o
     *detail = carom_detail_of_nothing();
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
-  const carom_options defaults = carom_default_options();
+  const carom_options defaults = {0};
   if (opt == NULL)
     opt = &defaults;
   carom_status status = carom_check_options(opt);
@@ -119,7 +116,7 @@ static carom_status to_single(carom_status status, const carom_result *in, carom
 carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt, carom_result_f32 *out) {
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
-  const carom_options defaults = carom_default_options();
+  const carom_options defaults = {0};
   if (opt == NULL)
     opt = &defaults;
   if (opt->solver == CAROM_SOLVER_EXACT && carom_check_options(opt) == CAROM_OK &&
@@ -135,9 +132,33 @@ carom_status carom_collide_one(carom_precision precision, const void *in, const 
   return precision == CAROM_DOUBLE ? carom_collide(in, opt, out) : carom_collide_f32(in, opt, out);
 }
 
+/* A batch as threads see it. */
+typedef struct batch {
+  carom_batch_solver *solver;
+  const char *in;
+  char *out;
+  int8_t *status;
+  size_t in_size, out_size;
+  const carom_options *opt;
+} batch;
+
+static size_t solve_part(const void *job, size_t from, size_t end) {
+  const batch *b = job;
+  return from + b->solver(b->in + from * b->in_size, end - from, b->opt, b->out + from * b->out_size,
+                          b->status != NULL ? b->status + from : NULL);
+}
+
+/* Fewer pairs than this are not worth a thread: about 50 us of work, some times what starting one costs. */
+static size_t least_part(const carom_options *opt) {
+  const size_t exact = 4096, least = 64, euler = 20000 / (size_t)carom_steps(opt);
+  if (opt->solver != CAROM_SOLVER_EULER)
+    return exact;
+  return euler > least ? euler : least;
+}
+
 static carom_status collide_batch(carom_precision precision, const void *in, size_t n, const carom_options *opt, void *out,
-                                  uint8_t *status) {
-  const carom_options defaults = carom_default_options();
+                                  int8_t *status) {
+  const carom_options defaults = {0};
   if (opt == NULL)
     opt = &defaults;
   carom_status bad = carom_check_options(opt);
@@ -146,23 +167,27 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
   if (bad != CAROM_OK || n == 0)
     return bad;
   carom_batch_solver *const exact = precision == CAROM_DOUBLE ? carom_exact_batch_double : carom_exact_batch_single;
-  carom_batch_solver *const solver = opt->solver == CAROM_SOLVER_EXACT ? exact : carom_kernels_in_force()->euler[precision];
-  const size_t first_bad = carom_batch_in_threads(solver, precision, in, n, opt, out, status);
+  const batch job = {.solver = opt->solver == CAROM_SOLVER_EXACT ? exact : carom_kernels_in_force()->euler[precision],
+                     .in = in,
+                     .out = out,
+                     .status = status,
+                     .in_size = precision == CAROM_DOUBLE ? sizeof(carom_impact) : sizeof(carom_impact_f32),
+                     .out_size = precision == CAROM_DOUBLE ? sizeof(carom_result) : sizeof(carom_result_f32),
+                     .opt = opt};
+  const size_t first_bad = carom_in_threads(solve_part, &job, n, opt->threads, least_part(opt));
   if (first_bad == n)
     return CAROM_OK;
   /* Only its index came back through the threads; doing the pair again tells its status. */
-  const char *pair =
-      (const char *)in + first_bad * (precision == CAROM_DOUBLE ? sizeof(carom_impact) : sizeof(carom_impact_f32));
   carom_result unused;
-  return carom_collide_one(precision, pair, opt, &unused);
+  return carom_collide_one(precision, job.in + first_bad * job.in_size, opt, &unused);
 }
 
 carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
-                                 uint8_t *status) {
+                                 int8_t *status) {
   return collide_batch(CAROM_DOUBLE, in, n, opt, out, status);
 }
 
 carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt, carom_result_f32 *out,
-                                     uint8_t *status) {
+                                     int8_t *status) {
   return collide_batch(CAROM_SINGLE, in, n, opt, out, status);
 }

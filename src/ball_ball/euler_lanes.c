@@ -9,6 +9,7 @@
  * The time goes into square roots and quotients that wait for each other, so several vectors are stepped together. Replacing
  * the quotients by products with corrected reciprocals was slower (docs/batch.md).
  */
+#include "ball_ball/arguments.h"
 #include "ball_ball/batch.h"
 #include "ball_ball/block.h"
 #include "ball_ball/euler.h"
@@ -49,7 +50,7 @@ static inline void slips(euler_lanes *l) {
 
 static inline void start(euler_lanes *l, const carom_options *opt) {
   block *c = &l->now;
-  const real s = opt->slip == CAROM_SLIP_POOLTOOL ? 1 : -1, N = (real)opt->steps;
+  const real s = opt->slip == CAROM_SLIP_POOLTOOL ? 1 : -1, N = (real)carom_steps(opt);
   const vreal one = v_splat(1), two = v_splat(2), half = v_splat((real)0.5), zero = v_splat(0);
   const vreal M = v_select(v_equal(c->M_i, c->M_j), c->M_i, two / (one / c->M_i + one / c->M_j));
   l->sR = s * c->R;
@@ -151,7 +152,7 @@ static void run(euler_lanes l[BLOCKS]) {
   }
 }
 
-size_t SOLVER(const void *in, size_t n, const carom_options *opt, void *out, uint8_t *status) {
+size_t SOLVER(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
   const real *from = in;
   real *to = out;
   real spare[OUT_NUMBERS]; /* takes what the lanes beyond the last pair compute */
@@ -183,7 +184,7 @@ size_t SOLVER(const void *in, size_t n, const carom_options *opt, void *out, uin
         if ((good >> k & 1) == 0)
           one = carom_collide_one(precision, from + IN_NUMBERS * pair, opt, to + OUT_NUMBERS * pair);
         if (status != NULL)
-          status[pair] = (uint8_t)one;
+          status[pair] = (int8_t)one;
         if (one < 0 && first_bad == n)
           first_bad = pair;
       }

@@ -77,10 +77,10 @@ static inline carom_local carom_to_frame(const carom_frame *f, const carom_impac
 
 static inline void carom_from_frame(const carom_frame *f, const carom_local *c, carom_result *out) {
   for (int k = 0; k < 3; k++) {
-    out->v_a[k] = f->x[k] * c->v_ix + f->y[k] * c->v_iy;
-    out->v_b[k] = f->x[k] * c->v_jx + f->y[k] * c->v_jy;
-    out->w_a[k] = f->x[k] * c->w_ix + f->y[k] * c->w_iy + f->z[k] * c->w_iz;
-    out->w_b[k] = f->x[k] * c->w_jx + f->y[k] * c->w_jy + f->z[k] * c->w_jz;
+    out->a.v[k] = f->x[k] * c->v_ix + f->y[k] * c->v_iy;
+    out->b.v[k] = f->x[k] * c->v_jx + f->y[k] * c->v_jy;
+    out->a.w[k] = f->x[k] * c->w_ix + f->y[k] * c->w_iy + f->z[k] * c->w_iz;
+    out->b.w[k] = f->x[k] * c->w_jx + f->y[k] * c->w_jy + f->z[k] * c->w_jz;
   }
 }
 

@@ -1,6 +1,8 @@
 /* The tables of kernels.h. */
 #include "ball_ball/kernels.h"
 
+#include "enumerations.h"
+
 #define LANES_OF_PLAIN 4
 #define LANES_OF_SSE2 4
 #define LANES_OF_NEON 4
@@ -8,15 +10,15 @@
 #define LANES_OF_AVX512 16
 
 static const carom_kernels kernels[CAROM_ISA_COUNT] = {
-#define ROW(NAME, suffix)                                                            \
-  [CAROM_ISA_##NAME] = {                                                             \
-      .lanes = LANES_OF_##NAME,                                                      \
-      .rows_in = {carom_rows_in_##suffix##_double, carom_rows_in_##suffix##_single},    \
-      .rows_out = {carom_rows_out_##suffix##_double, carom_rows_out_##suffix##_single}, \
-      .first_step = carom_first_step_##suffix,                                       \
-      .next_step = carom_next_step_##suffix,                                         \
-      .single = {carom_single_##suffix##_double, carom_single_##suffix##_single},    \
-      .euler = {carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single},\
+#define ROW(NAME, suffix)                                                                  \
+  [CAROM_ISA_##NAME] = {                                                                   \
+      .lanes = LANES_OF_##NAME,                                                            \
+      .rows_in = {carom_rows_in_##suffix##_double, carom_rows_in_##suffix##_single},       \
+      .rows_out = {carom_rows_out_##suffix##_double, carom_rows_out_##suffix##_single},    \
+      .first_step = carom_first_step_##suffix,                                             \
+      .next_step = carom_next_step_##suffix,                                               \
+      .single = {carom_single_##suffix##_double, carom_single_##suffix##_single},          \
+      .euler = {carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single}, \
   },
     CAROM_BUILT_ISAS(ROW)
 #undef ROW

@@ -37,7 +37,7 @@ typedef int carom_single(const void *in, double s, void *out, float solution[OUT
 
 /* Resolves n pairs of one precision with checked options; in, out and status as in carom_collide_batch(), status may be NULL.
  * Returns the index of the first pair in error, or n. */
-typedef size_t carom_batch_solver(const void *in, size_t n, const carom_options *opt, void *out, uint8_t *status);
+typedef size_t carom_batch_solver(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status);
 
 typedef struct carom_kernels {
   int lanes; /* floats in a vector */
@@ -49,13 +49,13 @@ typedef struct carom_kernels {
   carom_batch_solver *euler[CAROM_PRECISIONS];
 } carom_kernels;
 
-#define CAROM_KERNEL_PROTOTYPES(NAME, suffix)                                              \
-  carom_rows_in carom_rows_in_##suffix##_double, carom_rows_in_##suffix##_single;             \
-  carom_rows_out carom_rows_out_##suffix##_double, carom_rows_out_##suffix##_single;          \
-  carom_first_step carom_first_step_##suffix;                                              \
-  carom_next_step carom_next_step_##suffix;                                                \
-  carom_collocate carom_collocate_##suffix;                                                \
-  carom_single carom_single_##suffix##_double, carom_single_##suffix##_single;             \
+#define CAROM_KERNEL_PROTOTYPES(NAME, suffix)                                        \
+  carom_rows_in carom_rows_in_##suffix##_double, carom_rows_in_##suffix##_single;    \
+  carom_rows_out carom_rows_out_##suffix##_double, carom_rows_out_##suffix##_single; \
+  carom_first_step carom_first_step_##suffix;                                        \
+  carom_next_step carom_next_step_##suffix;                                          \
+  carom_collocate carom_collocate_##suffix;                                          \
+  carom_single carom_single_##suffix##_double, carom_single_##suffix##_single;       \
   carom_batch_solver carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single;
 CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 #undef CAROM_KERNEL_PROTOTYPES

@@ -1,13 +1,14 @@
-/* carom_trace(): a collision on its way, sampled at equal steps of normal impulse. The exact limit is followed by the integrator
- * (fallback.c), Euler's method is simply stopped on its way, once for each sample. */
+/* carom_trace(): a collision on its way, sampled at equal steps of normal impulse. The exact limit is followed by the
+ * integrator (fallback.c), Euler's method is simply stopped on its way, once for each sample. */
+#include "ball_ball/arguments.h"
 #include "ball_ball/euler.h"
 #include "ball_ball/fallback.h"
 #include "ball_ball/frame.h"
 #include "ball_ball/result.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdbool.h>
-#include <limits.h>
 #include <stdint.h>
 
 /* Contact A is ball on ball, D and B are the first and the second ball on the cloth; see carom_trace_point. */
@@ -29,7 +30,8 @@ static void put_point(const carom_frame *frame, const carom_local *c, double P, 
 }
 
 /* P: normal impulse at the end. */
-static carom_status trace_exact(const carom_frame *frame, const carom_local *start, double P, size_t n, carom_trace_point *points) {
+static carom_status trace_exact(const carom_frame *frame, const carom_local *start, double P, size_t n,
+                                carom_trace_point *points) {
   const carom_reduced c = carom_reduce(start);
   const double M = c.j_pressed ? start->M_j : start->M_i;
   carom_way way;
@@ -94,7 +96,7 @@ carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_
     return CAROM_ERROR_NULL;
   if (n < 2)
     return CAROM_ERROR_POINTS;
-  const carom_options defaults = carom_default_options();
+  const carom_options defaults = {0};
   if (opt == NULL)
     opt = &defaults;
   carom_result end;
@@ -106,7 +108,7 @@ carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_
     if (status == CAROM_SEPARATING)
       trace_nothing(in, &frame, &start, n, points);
     else if (opt->solver == CAROM_SOLVER_EULER)
-      status = trace_euler(&frame, &start, opt->steps, detail.steps, n, points);
+      status = trace_euler(&frame, &start, carom_steps(opt), detail.steps, n, points);
     else
       status = trace_exact(&frame, &start, detail.normal, n, points);
   }

@@ -1,17 +1,26 @@
 /* Run-time choice of the instruction set: the highest that the processor has, or a lower one where that is asked for.
  *
- * The one piece of global state of the library is here: the set in force, an atomic that the first use fills. Asking for a lower
- * set is for tests, comparisons and bug reports; the results of the exact solver agree within its contract on all of them.
+ * The one piece of global state of the library is here: the set in force, an atomic that the first use fills. Asking for a
+ * lower set is for tests, comparisons and bug reports; the results of the exact solver agree within its contract on all of
+ * them.
  */
+#if defined(__linux__)
 #define _GNU_SOURCE /* secure_getenv: the environment says nothing to programs with more rights than their user */
+#endif
 #include "platform/isa.h"
 
-#include "carom.h"
+#include "enumerations.h"
 
+#include <float.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* With more digits between two operations results would not have the promised bits. */
+#if FLT_EVAL_METHOD != 0
+#error "carom needs float and double computed in their own precision; for 32-bit x86 compile with -msse2 -mfpmath=sse"
+#endif
 
 static const bool built[CAROM_ISA_COUNT] = {
 #define BUILT(NAME, suffix) [CAROM_ISA_##NAME] = true,
@@ -43,15 +52,6 @@ int carom_isa_available(carom_isa isa) {
   return (int)isa >= 0 && isa < CAROM_ISA_COUNT && built[isa] && processor_has(isa);
 }
 
-const char *carom_isa_name(carom_isa isa) {
-  static const char *const names[] = {
-#define NAME_OF(NAME, name) [CAROM_ISA_##NAME] = name,
-      CAROM_ISA_LIST(NAME_OF)
-#undef NAME_OF
-  };
-  return (int)isa >= 0 && isa < CAROM_ISA_COUNT ? names[isa] : NULL;
-}
-
 /* The best set that is available and not above `limit`: sets of one processor family are listed from low to high. */
 static carom_isa best_up_to(carom_isa limit) {
   for (int isa = (int)limit; isa > CAROM_ISA_PLAIN; isa--)
@@ -61,7 +61,11 @@ static carom_isa best_up_to(carom_isa limit) {
 }
 
 static carom_isa from_environment(void) {
+#if defined(__linux__)
   const char *wanted = secure_getenv("CAROM_ISA");
+#else
+  const char *wanted = getenv("CAROM_ISA");
+#endif
   for (int isa = 0; wanted != NULL && isa < CAROM_ISA_COUNT; isa++)
     if (strcmp(wanted, carom_isa_name((carom_isa)isa)) == 0)
       return best_up_to((carom_isa)isa);

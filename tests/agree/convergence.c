@@ -7,7 +7,7 @@
 
 static double mean_error(const case_set *cases, const reference_set *reference, carom_slip slip, int steps) {
   pair_accuracy each[204];
-  carom_options options = carom_default_options();
+  carom_options options = {0};
   options.solver = CAROM_SOLVER_EULER;
   options.slip = slip;
   options.steps = steps;

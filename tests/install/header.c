@@ -14,7 +14,11 @@ STATIC_ASSERT(CAROM_OK == 0 && CAROM_SEPARATING > 0 && CAROM_ERROR_NULL < 0, "si
 
 int use(const carom_impact *in, carom_result *out);
 int use(const carom_impact *in, carom_result *out) {
-  carom_options options = carom_default_options();
+#ifdef __cplusplus
+  carom_options options = {};
+#else
+  carom_options options = {0};
+#endif
   options.slip = CAROM_SLIP_POOLTOOL;
-  return carom_collide(in, &options, out) == CAROM_OK && carom_status_of_byte(1) == CAROM_SEPARATING;
+  return carom_collide(in, &options, out) == CAROM_OK && carom_serves(CAROM_VERSION_NUMBER);
 }

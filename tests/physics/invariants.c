@@ -24,7 +24,7 @@ static carom_solver solving; /* by which solver collide() goes */
   for (int which = 0; solving = (carom_solver)which, which < CAROM_SOLVER_COUNT; which++)
 
 static carom_result collide(const carom_impact *in, carom_slip slip) {
-  carom_options options = carom_default_options();
+  carom_options options = {0};
   options.solver = solving;
   carom_result out;
   options.slip = slip;
@@ -42,10 +42,10 @@ static void unequal_masses(random_source *source, carom_impact *in) {
 
 static carom_impact after(const carom_impact *in, const carom_result *out) {
   carom_impact end = *in;
-  memcpy(end.a.v, out->v_a, sizeof end.a.v);
-  memcpy(end.a.w, out->w_a, sizeof end.a.w);
-  memcpy(end.b.v, out->v_b, sizeof end.b.v);
-  memcpy(end.b.w, out->w_b, sizeof end.b.w);
+  memcpy(end.a.v, out->a.v, sizeof end.a.v);
+  memcpy(end.a.w, out->a.w, sizeof end.a.w);
+  memcpy(end.b.v, out->b.v, sizeof end.b.v);
+  memcpy(end.b.w, out->b.w, sizeof end.b.w);
   return end;
 }
 
@@ -147,7 +147,7 @@ static carom_impact turn(const carom_impact *in) {
 
 static carom_result turn_result(const carom_result *out) {
   carom_result t = *out;
-  turn3(t.v_a), turn3(t.w_a), turn3(t.v_b), turn3(t.w_b);
+  turn3(t.a.v), turn3(t.a.w), turn3(t.b.v), turn3(t.b.w);
   return t;
 }
 
@@ -170,7 +170,7 @@ static carom_impact mirror(const carom_impact *in) {
 
 static carom_result mirror_result(const carom_result *out) {
   carom_result t = *out;
-  mirror_vector(t.v_a), mirror_axial(t.w_a), mirror_vector(t.v_b), mirror_axial(t.w_b);
+  mirror_vector(t.a.v), mirror_axial(t.a.w), mirror_vector(t.b.v), mirror_axial(t.b.w);
   return t;
 }
 
@@ -183,10 +183,10 @@ static carom_impact swap(const carom_impact *in) {
 
 static carom_result swap_result(const carom_result *out) {
   carom_result t;
-  memcpy(t.v_a, out->v_b, sizeof t.v_a);
-  memcpy(t.w_a, out->w_b, sizeof t.w_a);
-  memcpy(t.v_b, out->v_a, sizeof t.v_b);
-  memcpy(t.w_b, out->w_a, sizeof t.w_b);
+  memcpy(t.a.v, out->b.v, sizeof t.a.v);
+  memcpy(t.a.w, out->b.w, sizeof t.a.w);
+  memcpy(t.b.v, out->a.v, sizeof t.b.v);
+  memcpy(t.b.w, out->a.w, sizeof t.b.w);
   return t;
 }
 
@@ -250,7 +250,7 @@ START_TEST(any_rotation_is_close) {
       }
       carom_result expected = collide(&in, CAROM_SLIP_PAPER);
       const carom_result seen = collide(&image, CAROM_SLIP_PAPER);
-      rotate3(expected.v_a, angle), rotate3(expected.w_a, angle), rotate3(expected.v_b, angle), rotate3(expected.w_b, angle);
+      rotate3(expected.a.v, angle), rotate3(expected.a.w, angle), rotate3(expected.b.v, angle), rotate3(expected.b.w, angle);
       const double distance = result_distance(&seen, &expected, in.a.radius);
       ck_assert_double_le(distance, solving == CAROM_SOLVER_EULER ? 5e-3 : 1e-5);
       visible += distance > 1e-10;

@@ -161,7 +161,7 @@ START_TEST(exact_is_smooth) {
     finding f = {.id = "any"};
     for (int one = 0; one < IDS; one++)
       for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
-        carom_options options = carom_default_options();
+        carom_options options = {0};
         options.slip = (carom_slip)slip;
         const carom_impact in = find_case(&cases, ids[one]);
         look(&in, ids[one], &options, k, &f);
@@ -180,7 +180,7 @@ START_TEST(euler_is_not) {
   case_set cases;
   ck_assert(cases_load(CAROM_TEST_DATA, "collisions-204.csv", &cases));
   const carom_impact in = find_case(&cases, "pooltool-135");
-  carom_options options = carom_default_options();
+  carom_options options = {0};
   options.solver = CAROM_SOLVER_EULER;
   sample at[4] = {{.collides = false}};
   int jumps = 0;

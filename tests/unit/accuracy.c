@@ -5,23 +5,23 @@
 #include <math.h>
 
 START_TEST(pair_and_component_errors) {
-  const carom_result reference = {.v_a = {2.0, 0.001, 0.0}, .w_b = {0.0, 0.0, 100.0}};
+  const carom_result reference = {.a.v = {2.0, 0.001, 0.0}, .b.w = {0.0, 0.0, 100.0}};
   carom_result result = reference;
   pair_accuracy a = accuracy_of(&result, &reference, 0.03);
   ck_assert(a.identical);
   ck_assert_double_eq(a.pair, 0.0);
   ck_assert_double_eq(a.component, 0.0);
-  result.v_a[1] = 0.003; /* 0.002 off: of the scale 3 = 0.03 * 100; itself below a thousandth of it */
+  result.a.v[1] = 0.003; /* 0.002 off: of the scale 3 = 0.03 * 100; itself below a thousandth of it */
   a = accuracy_of(&result, &reference, 0.03);
   ck_assert(!a.identical);
   ck_assert_double_eq_tol(a.pair, 0.002 / 3.0, 1e-15);
   ck_assert_double_eq_tol(a.component, 0.002 / 0.003, 1e-12);
   result = reference;
-  result.w_b[2] = 101.0;
+  result.b.w[2] = 101.0;
   a = accuracy_of(&result, &reference, 0.03);
   ck_assert_double_eq_tol(a.pair, 0.01, 1e-12);
   ck_assert_double_eq_tol(a.component, 0.01, 1e-12);
-  result.v_b[0] = NAN;
+  result.b.v[0] = NAN;
   a = accuracy_of(&result, &reference, 0.03);
   ck_assert(isinf(a.pair) && isinf(a.component) && !a.identical);
 }

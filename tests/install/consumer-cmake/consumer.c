@@ -10,6 +10,6 @@ int main(void) {
   in.b.r[1] = 0.06;
   in.b.v[1] = 0.0;
   const carom_status status = carom_collide(&in, NULL, &out);
-  printf("carom %s: %s, v = %g and %g m/s\n", carom_version(), carom_status_string(status), out.v_a[1], out.v_b[1]);
-  return status == CAROM_OK && out.v_b[1] > 0.99 && out.v_b[1] < 1.01 ? 0 : 1;
+  printf("carom %s: %s, v = %g and %g m/s\n", carom_version(), carom_status_string(status), out.a.v[1], out.b.v[1]);
+  return status == CAROM_OK && out.b.v[1] > 0.99 && out.b.v[1] < 1.01 ? 0 : 1;
 }
