@@ -5,6 +5,7 @@
 #include "message.h"
 #include "output.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +26,22 @@ static int finish(int code) {
   return EXIT_USAGE;
 }
 
+/* The library ignores what it does not know, as it cannot speak; a command can. */
+static bool isa_is_known(void) {
+  const char *wanted = getenv("CAROM_ISA"), *name;
+  char names[100] = "";
+  if (wanted == NULL || wanted[0] == '\0')
+    return true;
+  for (int isa = 0; (name = carom_isa_name((carom_isa)isa)) != NULL; isa++) {
+    if (strcmp(wanted, name) == 0)
+      return true;
+    const size_t used = strlen(names);
+    snprintf(names + used, sizeof names - used, "%s%s", isa == 0 ? "" : ", ", name);
+  }
+  complain("CAROM_ISA is '%s', which is none of the instruction sets %s", wanted, names);
+  return false;
+}
+
 int program_run(const program *p, int argc, char **argv) {
   program_name = p->name;
   atexit(output_abandon); /* a program that ends early leaves no half-written output */
@@ -41,6 +58,8 @@ int program_run(const program *p, int argc, char **argv) {
     printf("%s %s\n", p->name, carom_version());
     return finish(EXIT_GOOD);
   }
+  if (!isa_is_known())
+    return EXIT_USAGE;
   for (size_t k = 0; k < p->count; k++)
     if (strcmp(name, p->commands[k].name) == 0)
       return finish(p->commands[k].run(argc - 1, argv + 1));

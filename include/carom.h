@@ -74,7 +74,7 @@ typedef struct carom_result {
 /* ---- How a call ended ------------------------------------------------------------------------------------------------ */
 
 /* 0 is success, a positive value a valid outcome worth a remark, a negative value an error. Values are never renumbered or used
- * again. -30 to -39 are those of cushions, -40 to -59 of shots. What each means is told by carom_status_string(). */
+ * again. -30 to -39 are reserved for cushions, -40 to -59 for shots. What each means is told by carom_status_string(). */
 typedef enum carom_status {
   CAROM_OK = 0,                     /* resolved. */
   CAROM_SEPARATING = 1,             /* the balls do not approach each other; their state is returned unchanged. */
@@ -101,12 +101,12 @@ typedef enum carom_status {
   CAROM_ERROR_POINTS = -21,         /* a trace needs at least 2 points. */
   CAROM_ERROR_UNRESOLVED = -22, /* too extreme: the result hangs on rounding errors, or takes more work than a call may cost. */
   CAROM_ERROR_OPTIONS = -23,    /* a reserved field of the options is not 0. */
-  CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model is not one of carom_cushion_model. */
-  CAROM_ERROR_CUSHION_OPTIONS = -31, /* an option of the cushion is out of its range, or a reserved one is not 0. */
-  CAROM_ERROR_NORMAL = -32,          /* the direction into the cushion is not finite, or 0. */
+  CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model of carom_shot.h is not one of carom_cushion_model. */
+  CAROM_ERROR_CUSHION_OPTIONS = -31, /* an option of a cushion is out of its range. */
+  CAROM_ERROR_NORMAL = -32,          /* the direction into a cushion is not finite, or 0. */
   CAROM_ERROR_NOSE_HEIGHT = -33,     /* the nose is not between the cloth and the top of the ball. */
   CAROM_ERROR_MU_CUSHION = -34,      /* the friction of ball and cushion is not in [0, 1]. */
-  CAROM_ERROR_JAW_RADIUS = -35,      /* the radius of a jaw is negative or not finite. */
+  CAROM_ERROR_JAW_RADIUS = -35,      /* the radius of a jaw is not finite, or negative. */
   CAROM_ERROR_TOO_MANY_EVENTS = -40, /* a shot has more than options.events_most events. */
   CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than options.time_most. */
   CAROM_ERROR_LEFT_TABLE = -42,      /* a ball left the table. */

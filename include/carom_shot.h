@@ -65,7 +65,7 @@ typedef struct carom_cushion_options {
   carom_cushion_model model;           /* default CAROM_CUSHION_MATHAVAN. */
   carom_cushion_convention convention; /* default CAROM_CONVENTION_PAPER. */
   carom_cushion_law law;               /* default CAROM_CUSHION_LAW_CONSTANT. */
-  int steps;                           /* Euler's N: compression and restitution take about so many steps each; 0: 1000. */
+  int steps;            /* Euler's N: compression and restitution take about so many steps each; 0: CAROM_DEFAULT_STEPS. */
   int threads;          /* most threads that a batch may use, the calling one among them. 0, the default: that one alone;
                            CAROM_ALL_THREADS: one for each processor. Results do not depend on it. */
   int unused;           /* must be 0. */

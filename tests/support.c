@@ -1,9 +1,14 @@
 /* What several tests share. */
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* MAP_ANONYMOUS */
+#endif
 #include "support.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 static const double pi = 3.14159265358979323846;
 
@@ -71,6 +76,30 @@ double result_distance(const carom_result *a, const carom_result *b, double radi
       return INFINITY;
   }
   return worst == 0.0 ? 0.0 : worst / scale;
+}
+
+edge edge_make(size_t size, bool odd) {
+  const size_t page = (size_t)sysconf(_SC_PAGESIZE), whole = (size + page - 1) / page * page;
+  edge e = {0};
+  if (odd) {
+    e.base = malloc(size + 8);
+    ck_assert_ptr_nonnull(e.base);
+    e.memory = (char *)e.base + 8;
+    return e;
+  }
+  e.size = whole + page;
+  e.base = mmap(NULL, e.size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  ck_assert_ptr_ne(e.base, MAP_FAILED);
+  ck_assert_int_eq(mprotect((char *)e.base + whole, page, PROT_NONE), 0);
+  e.memory = (char *)e.base + whole - size;
+  return e;
+}
+
+void edge_free(const edge *e) {
+  if (e->size == 0)
+    free(e->base);
+  else
+    munmap(e->base, e->size);
 }
 
 int run_tests(const char *name, const TTest *const *tests, size_t count) {

@@ -5,6 +5,7 @@
 #include "enumerations.h"
 
 #include <check.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 /* The seed of this run: $CAROM_TEST_SEED, or a fixed one. Printed once, so that a failure can be replayed. */
@@ -23,6 +24,17 @@ carom_impact random_impact(random_source *source);
 
 /* Largest difference of two results, times `radius` for angular velocities, over the largest such value of `b`. */
 double result_distance(const carom_result *a, const carom_result *b, double radius);
+
+/* Memory that ends exactly: so that reading or writing past it is seen. With `odd` it is a block of the exact size at a place
+ * that is aligned for double, not for a vector: the address sanitizer sees what is beyond it. Else it ends at a page which may
+ * not be touched, so every build does. */
+typedef struct edge {
+  void *memory, *base;
+  size_t size; /* of what is mapped, 0 for a block */
+} edge;
+
+edge edge_make(size_t size, bool odd);
+void edge_free(const edge *e);
 
 /* A loop over the instruction sets that this processor has, each in force within. */
 #define FOR_EACH_ISA(isa)                         \

@@ -17,7 +17,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { ROOM = 4 * MOST_LANES };
+/* Rows wait for a register of their kind, so a list rarely holds two. More room would take stack. */
+enum { ROOM = 2 * MOST_LANES };
 
 typedef struct fresh_list {
   int count;
@@ -111,7 +112,8 @@ static void sort(work *w, const team *t, uint32_t good, const carom_context *con
   }
 }
 
-static void first_steps(work *w, team *t) {
+/* Not inlined, nor are next_steps(): only one of their frames is on the stack at a time. */
+__attribute__((noinline)) static void first_steps(work *w, team *t) {
   carom_context context;
   carom_in in;
   carom_out out;
@@ -124,7 +126,7 @@ static void first_steps(work *w, team *t) {
   sort(w, t, good, &context, out, moving, false, next);
 }
 
-static void next_steps(work *w, enum step_kind kind, bool fresh, team *t, carom_moving moving) {
+__attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, bool fresh, team *t, carom_moving moving) {
   carom_context context;
   carom_in in;
   carom_out out;

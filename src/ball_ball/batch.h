@@ -1,4 +1,4 @@
-/* Batches: by the exact limit, and in threads. */
+/* Batches by the exact limit. */
 #ifndef CAROM_SRC_BALL_BALL_BATCH_H
 #define CAROM_SRC_BALL_BALL_BATCH_H
 
@@ -10,9 +10,5 @@ carom_batch_solver carom_exact_batch_double, carom_exact_batch_single;
 /* One pair by a single call, with the checks and the status of carom_collide(): what lanes leave to it is a row that is not
  * plainly good. `in` and `out` are of the precision. */
 carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt, void *out);
-
-/* Splits n pairs over threads (opt->threads) and runs `solver` on each part; returns as `solver` does. */
-size_t carom_batch_in_threads(carom_batch_solver *solver, carom_precision precision, const void *in, size_t n,
-                              const carom_options *opt, void *out, int8_t *status);
 
 #endif

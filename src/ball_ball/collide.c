@@ -10,6 +10,7 @@
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
 #include "ball_ball/result.h"
+#include "platform/threads.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -131,6 +132,30 @@ carom_status carom_collide_one(carom_precision precision, const void *in, const 
   return precision == CAROM_DOUBLE ? carom_collide(in, opt, out) : carom_collide_f32(in, opt, out);
 }
 
+/* A batch as threads see it. */
+typedef struct batch {
+  carom_batch_solver *solver;
+  const char *in;
+  char *out;
+  int8_t *status;
+  size_t in_size, out_size;
+  const carom_options *opt;
+} batch;
+
+static size_t solve_part(const void *job, size_t from, size_t end) {
+  const batch *b = job;
+  return from + b->solver(b->in + from * b->in_size, end - from, b->opt, b->out + from * b->out_size,
+                          b->status != NULL ? b->status + from : NULL);
+}
+
+/* Fewer pairs than this are not worth a thread: about 50 us of work, some times what starting one costs. */
+static size_t least_part(const carom_options *opt) {
+  const size_t exact = 4096, least = 64, euler = 20000 / (size_t)carom_steps(opt);
+  if (opt->solver != CAROM_SOLVER_EULER)
+    return exact;
+  return euler > least ? euler : least;
+}
+
 static carom_status collide_batch(carom_precision precision, const void *in, size_t n, const carom_options *opt, void *out,
                                   int8_t *status) {
   const carom_options defaults = {0};
@@ -142,15 +167,19 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
   if (bad != CAROM_OK || n == 0)
     return bad;
   carom_batch_solver *const exact = precision == CAROM_DOUBLE ? carom_exact_batch_double : carom_exact_batch_single;
-  carom_batch_solver *const solver = opt->solver == CAROM_SOLVER_EXACT ? exact : carom_kernels_in_force()->euler[precision];
-  const size_t first_bad = carom_batch_in_threads(solver, precision, in, n, opt, out, status);
+  const batch job = {.solver = opt->solver == CAROM_SOLVER_EXACT ? exact : carom_kernels_in_force()->euler[precision],
+                     .in = in,
+                     .out = out,
+                     .status = status,
+                     .in_size = precision == CAROM_DOUBLE ? sizeof(carom_impact) : sizeof(carom_impact_f32),
+                     .out_size = precision == CAROM_DOUBLE ? sizeof(carom_result) : sizeof(carom_result_f32),
+                     .opt = opt};
+  const size_t first_bad = carom_in_threads(solve_part, &job, n, opt->threads, least_part(opt));
   if (first_bad == n)
     return CAROM_OK;
   /* Only its index came back through the threads; doing the pair again tells its status. */
-  const char *pair =
-      (const char *)in + first_bad * (precision == CAROM_DOUBLE ? sizeof(carom_impact) : sizeof(carom_impact_f32));
   carom_result unused;
-  return carom_collide_one(precision, pair, opt, &unused);
+  return carom_collide_one(precision, job.in + first_bad * job.in_size, opt, &unused);
 }
 
 carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,

@@ -11,6 +11,8 @@ carom_speed_law carom_alciatore(void) {
 }
 
 double carom_mu_ball(const carom_impact *in, carom_speed_law law) {
+  if (in == NULL)
+    return NAN;
   const carom_frame frame = carom_frame_of(in);
   const carom_local c = carom_to_frame(&frame, in, CAROM_SLIP_PAPER);
   const double u_x = c.v_ix - c.v_jx - c.R * (c.w_iz + c.w_jz);
@@ -19,7 +21,8 @@ double carom_mu_ball(const carom_impact *in, carom_speed_law law) {
 }
 
 void carom_rolling_velocity(const double v[3], const double w[3], double radius, double rolling[3]) {
-  rolling[0] = (5.0 * v[0] + 2.0 * radius * w[1]) / 7.0;
+  const double x = (5.0 * v[0] + 2.0 * radius * w[1]) / 7.0; /* first both: `rolling` may be v or w */
   rolling[1] = (5.0 * v[1] - 2.0 * radius * w[0]) / 7.0;
+  rolling[0] = x;
   rolling[2] = 0.0;
 }

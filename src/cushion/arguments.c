@@ -25,11 +25,13 @@ carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
     return CAROM_ERROR_STEPS;
   if (opt->threads < 0 && opt->threads != CAROM_ALL_THREADS)
     return CAROM_ERROR_THREADS;
+  if (reserved)
+    return CAROM_ERROR_OPTIONS;
   const bool convention = (int)opt->convention >= 0 && opt->convention <= CAROM_CONVENTION_POOLTOOL;
   const bool law = (int)opt->law >= 0 && opt->law <= CAROM_CUSHION_LAW_HAN;
   const bool step = opt->least_step >= 0 && opt->least_step < INFINITY;
   const bool ratio = opt->omega_ratio == 0 || (opt->omega_ratio > 1 && opt->omega_ratio < 2);
-  return convention && law && step && ratio && !reserved ? CAROM_OK : CAROM_ERROR_CUSHION_OPTIONS;
+  return convention && law && step && ratio ? CAROM_OK : CAROM_ERROR_CUSHION_OPTIONS;
 }
 
 static bool unit_interval(double x) {

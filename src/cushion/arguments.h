@@ -12,7 +12,7 @@ carom_status carom_cushion_check_impact(const carom_cushion_impact *in, int *fie
 
 /* Euler's N of options that have been checked. */
 static inline int carom_cushion_steps(const carom_cushion_options *opt) {
-  return opt->steps > 0 ? opt->steps : 1000;
+  return opt->steps > 0 ? opt->steps : CAROM_DEFAULT_STEPS;
 }
 
 #endif

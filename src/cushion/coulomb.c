@@ -98,16 +98,16 @@ typedef struct search {
   double slope, across, along, angle;
 } search;
 
-/* One step of Newton's method; how far it went. */
-static double turn(search *s, carom_vector rate) {
+/* One step of Newton's method; how far it went. The rate along u should be positive, unless the slip falls. */
+static double turn(search *s, carom_vector rate, bool falls) {
   const double across = rate.y * s->u->x - rate.x * s->u->y, along = rate.x * s->u->x + rate.y * s->u->y;
   const double slope = s->angle != 0 ? (s->across - across) / s->angle - s->along : 0;
   if (slope > 0.2 * s->slope && slope < 5 * s->slope)
     s->slope = slope;
-  const double angle = across / (s->slope + fmax(along, 0));
+  const double angle = across / fmax(s->slope + (falls ? along : fmax(along, 0)), 0.02 * s->slope);
   s->across = across;
   s->along = along;
-  s->angle = along < 0 || fabs(angle) > 0.5 ? 0 : angle;
+  s->angle = (along < 0 && !falls) || fabs(angle) > 0.5 ? 0 : angle;
   /* far from the direction sought, the rate without the friction along u is the better guess */
   const carom_vector to = s->angle == 0 && angle != 0
                               ? (carom_vector){rate.x + 2 * s->slope * s->u->x, rate.y + 2 * s->slope * s->u->y}
@@ -136,26 +136,31 @@ static bool begin(const carom_coulomb *law, const carom_slips *slips, bool nose,
     const carom_slips rates = carom_slip_rates(law, &friction);
     way = 0;
     if (nose)
-      way = fmax(way, turn(&s, rates.s));
+      way = fmax(way, turn(&s, rates.s, false));
     if (cloth && regime->loaded) {
       c.slope = 3.5 * law->mu_s * friction.g;
       c.angle = 0;
-      way = fmax(way, turn(&c, rates.c));
+      way = fmax(way, turn(&c, rates.c, false));
     }
   }
   return way < 1e-9;
 }
 
-void carom_slow_direction(const carom_coulomb *law, const carom_slips *slips, double slip, carom_vector turning,
-                          carom_regime *regime) {
-  const carom_slips at = {.c = slips->c};
-  search s = {.u = &regime->nose, .slope = 3 * law->mu_w};
+bool carom_slow_direction(const carom_coulomb *law, const carom_slips *slips, bool at_cloth, bool falls, double slip,
+                          carom_vector turning, carom_regime *regime) {
+  search s = {.u = at_cloth ? &regime->cloth : &regime->nose, .slope = 3 * law->mu_w};
   double way = INFINITY;
   for (int k = 0; k < MOST_ITERATIONS && way > CONVERGED; k++) {
-    const carom_friction friction = carom_friction_of(law, regime, &at);
+    const carom_friction friction = carom_friction_of(law, regime, slips);
     const carom_slips rates = carom_slip_rates(law, &friction);
-    way = turn(&s, (carom_vector){rates.s.x - slip * turning.x, rates.s.y - slip * turning.y});
+    const carom_vector rate = at_cloth ? rates.c : rates.s;
+    if (at_cloth) {
+      s.slope = 3.5 * law->mu_s * friction.g;
+      s.angle = regime->nose_sticks ? s.angle : 0;
+    }
+    way = turn(&s, (carom_vector){rate.x - slip * turning.x, rate.y - slip * turning.y}, falls);
   }
+  return way < 1e-9;
 }
 
 bool carom_decide(const carom_coulomb *law, carom_slips *slips, double rest, carom_regime *regime) {

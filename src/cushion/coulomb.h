@@ -37,10 +37,11 @@ carom_friction carom_friction_of(const carom_coulomb *law, const carom_regime *r
 /* What they make of the slips. */
 carom_slips carom_slip_rates(const carom_coulomb *law, const carom_friction *friction);
 
-/* The direction of a nose slip that begins slowly, from rest, and has the size `slip`: see coulomb.c. Begins from and goes to
- * regime->nose. `turning` is the rate of that direction by p. */
-void carom_slow_direction(const carom_coulomb *law, const carom_slips *slips, double slip, carom_vector turning,
-                          carom_regime *regime);
+/* The direction of a slip of the size `slip` whose rate is small against what friction does: see coulomb.c. It is that at the
+ * cloth or else at the nose, where `slips` must be zero; found from and put into *regime. `turning` is its rate by p, and
+ * `falls` says that the slip becomes smaller. False if none is found. */
+bool carom_slow_direction(const carom_coulomb *law, const carom_slips *slips, bool at_cloth, bool falls, double slip,
+                          carom_vector turning, carom_regime *regime);
 
 /* The regime that follows where the slips stand: which contacts stick, and where the others go. Slips no larger than `rest` are
  * set to zero. False if there is none. */

@@ -2,7 +2,7 @@
 #include "cushion/arguments.h"
 #include "cushion/frame.h"
 #include "cushion/models.h"
-#include "platform/parts.h"
+#include "platform/threads.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -122,7 +122,7 @@ carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n, const
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
   const batch work = {in, opt, out, status};
-  const size_t first_bad = carom_in_parts(n, least_part(opt), opt->threads, solve_rows, &work);
+  const size_t first_bad = carom_in_threads(solve_rows, &work, n, opt->threads, least_part(opt));
   if (first_bad == n)
     return CAROM_OK;
   /* Only its index came back through the threads; doing the row again tells its status. */

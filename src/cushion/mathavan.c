@@ -32,11 +32,15 @@ static const double EVENT_TOLERANCE = 1e-8;
 static const double SHARE = 0.9; /* of |s|/|s'| that a step may go */
 static const double NEARLY = 1e-6;
 static const double REST = 1e-11;           /* a slip that is none, over the approach and the largest slip together */
+static const double CORNER = 5e-9;          /* slips at both contacts together that are none, likewise */
 static const double MOST_SLIP = 1e100;      /* over the approach; squares of more would overflow */
-static const double SLOW = 1e-4;            /* up to which a slip is slow, over the approach */
+static const double SLOW = 1e-5;            /* a slow slip times how fast its direction turns, over what friction does to it */
+static const double SLOW_SHARE = 1e-3;      /* of the other slip: the most that a slow one may be */
+static const double SMALL = 0.1;            /* a slip that may be slow, over the approach */
+static const double STIFF = 2;              /* the rate of a slow slip, over that by friction alone */
 static const double SLOW_DIFFERENCE = 1e-5; /* of |c|/|c'|: a difference for how its direction turns */
 static const double DIFFERENCE = 1e-7;      /* of |s|/|s'|: a difference for the rate of an event */
-enum { BUDGET = 4000, MOST_CHANGES = 64 };
+enum { BUDGET = 8000, MOST_CHANGES = 64 };
 enum { S_X, S_T, C_X, C_Y, WORK, P, UNKNOWNS }; /* y */
 
 static carom_slips slips_of(const double *y) {
@@ -61,28 +65,58 @@ static double pace(const carom_cushion_way *w, const carom_slips *at) {
   return 1 / inverse;
 }
 
-/* The frictions while the nose slips slowly: see coulomb.c. */
+static carom_vector *slip_at(carom_slips *slips, bool cloth) {
+  return cloth ? &slips->c : &slips->s;
+}
+
+static carom_vector *direction_at(carom_regime *regime, bool cloth) {
+  return cloth ? &regime->cloth : &regime->nose;
+}
+
+/* Whether nothing that changes acts on the direction of a slip, as the other contact sticks or has no friction. */
+static bool is_alone(const carom_cushion_way *w, bool cloth) {
+  if (cloth)
+    return w->regime.nose_sticks || !(w->law.mu_w > 0);
+  return w->regime.cloth_sticks || !w->regime.loaded || !(w->law.mu_s > 0);
+}
+
+/* The regime with the direction of a slow slip (see coulomb.c), which *slips is left without, and how fast it turns. False if
+ * there is none. */
+static bool slow_regime(const carom_cushion_way *w, bool cloth, bool falls, carom_slips *slips, carom_regime *regime,
+                        double *turns) {
+  const carom_vector none = {0, 0}, slip = *slip_at(slips, cloth), there = *slip_at(slips, !cloth);
+  const carom_vector *const u = direction_at(regime, cloth);
+  *slip_at(slips, cloth) = none;
+  *turns = 0;
+  if (!carom_slow_direction(&w->law, slips, cloth, falls, 0, none, regime))
+    return false;
+  const carom_vector now = *u;
+  const double other = length(there), size = slip.x * now.x + slip.y * now.y;
+  if (is_alone(w, cloth) || !(other > 0))
+    return true;
+  /* how it turns: from the direction a little later */
+  const carom_friction friction = carom_friction_of(&w->law, regime, slips);
+  carom_slips rates = carom_slip_rates(&w->law, &friction);
+  const carom_vector rate = *slip_at(&rates, !cloth);
+  const double h = SLOW_DIFFERENCE * other / (length(rate) + DBL_MIN);
+  *slip_at(slips, !cloth) = (carom_vector){there.x + h * rate.x, there.y + h * rate.y};
+  const bool later = carom_slow_direction(&w->law, slips, cloth, falls, 0, none, regime);
+  const carom_vector turning = {(u->x - now.x) / h, (u->y - now.y) / h};
+  *slip_at(slips, !cloth) = there;
+  *turns = length(turning);
+  return later && carom_slow_direction(&w->law, slips, cloth, falls, size, turning, regime);
+}
+
 static carom_friction slow_friction(const carom_cushion_way *w, const carom_slips *slips) {
   carom_regime regime = w->regime;
-  carom_slips at = {.c = slips->c};
-  carom_vector turning = {0, 0};
-  carom_slow_direction(&w->law, &at, 0, turning, &regime);
-  const carom_vector now = regime.nose;
-  const carom_friction friction = carom_friction_of(&w->law, &regime, &at);
-  const carom_slips rates = carom_slip_rates(&w->law, &friction);
-  const double c = length(at.c), slip = length(slips->s);
-  if (!w->regime.cloth_sticks && c > 0 && slip > 0) {
-    const double h = SLOW_DIFFERENCE * c / (length(rates.c) + DBL_MIN);
-    const carom_slips next = {.c = {at.c.x + h * rates.c.x, at.c.y + h * rates.c.y}};
-    carom_slow_direction(&w->law, &next, 0, turning, &regime);
-    turning = (carom_vector){(regime.nose.x - now.x) / h, (regime.nose.y - now.y) / h};
-    carom_slow_direction(&w->law, &at, slip, turning, &regime);
-  }
+  carom_slips at = *slips;
+  double turns;
+  slow_regime(w, w->slow == CAROM_CLOTH_IS_SLOW, w->falls, &at, &regime, &turns);
   return carom_friction_of(&w->law, &regime, &at);
 }
 
 static carom_friction friction_at(const carom_cushion_way *w, const carom_slips *slips) {
-  return w->slow ? slow_friction(w, slips) : carom_friction_of(&w->law, &w->regime, slips);
+  return w->slow != CAROM_NO_SLIP_IS_SLOW ? slow_friction(w, slips) : carom_friction_of(&w->law, &w->regime, slips);
 }
 
 static void slope(const void *model, double x, const double *y, double *f) {
@@ -142,15 +176,31 @@ static double phase_event(const carom_cushion_way *w, const double *y, const dou
   return -speed_into(&w->law, y);
 }
 
+/* Positive where a slow slip has become zero or too large for that. */
+static double slow_event(const carom_cushion_way *w, const double *y, const double *f, double *rate) {
+  if (w->slow == CAROM_NO_SLIP_IS_SLOW)
+    return -INFINITY;
+  const int at = w->slow == CAROM_CLOTH_IS_SLOW ? C_X : S_X;
+  const carom_vector u = w->slow == CAROM_CLOTH_IS_SLOW ? w->regime.cloth : w->regime.nose;
+  *rate = (y[at] * f[at] + y[at + 1] * f[at + 1]) / (sqrt(y[at] * y[at] + y[at + 1] * y[at + 1]) * w->most);
+  if (w->falls) {
+    *rate = -(u.x * f[at] + u.y * f[at + 1]) / w->most;
+    return -(u.x * y[at] + u.y * y[at + 1]) / w->most;
+  }
+  return sqrt(y[at] * y[at] + y[at + 1] * y[at + 1]) / w->most - 1;
+}
+
 /* Positive behind the end of the regime or of the phase: the larger of the two. */
 static double event(const void *model, double p, const double *y, const double *f, double *rate) {
   (void)p;
   const carom_cushion_way *w = model;
   double value = phase_event(w, y, f, rate);
   const carom_slips at = slips_of(y);
-  if (w->slow && length(at.s) / SLOW - 1 > value) {
-    value = length(at.s) / SLOW - 1;
-    *rate = (at.s.x * f[S_X] + at.s.y * f[S_T]) / (length(at.s) * SLOW);
+  double slow_rate;
+  const double slow = slow_event(w, y, f, &slow_rate);
+  if (slow > value) {
+    value = slow;
+    *rate = slow_rate;
   }
   if (!may_be_violated(w))
     return value;
@@ -177,6 +227,74 @@ static carom_ode equations(const carom_cushion_way *w) {
                      .event_tolerance = EVENT_TOLERANCE};
 }
 
+/* What friction alone does to the slip of a contact; 0 if it does not slip. */
+static double friction_rate(const carom_cushion_way *w, bool cloth) {
+  if (cloth ? w->regime.cloth_sticks || !w->regime.loaded : w->regime.nose_sticks)
+    return 0;
+  const carom_slips at = slips_of(w->point.y);
+  return 3.5 * (cloth ? w->law.mu_s * friction_at(w, &at).g : w->law.mu_w);
+}
+
+static bool is_stiff(const carom_cushion_way *w, bool cloth) {
+  carom_slips rate = slips_of(w->point.f);
+  return length(*slip_at(&rate, cloth)) < STIFF * friction_rate(w, cloth) * w->point.f[P];
+}
+
+/* How large a slow slip may be: small against what turns it, now and where the other slip may soon be. */
+static double most_slow(const carom_cushion_way *w, bool cloth, double turns) {
+  carom_slips at = slips_of(w->point.y);
+  const double other = length(*slip_at(&at, !cloth));
+  return is_alone(w, cloth) ? INFINITY
+                            : fmin(SLOW * friction_rate(w, cloth) / turns, other > 0 ? SLOW_SHARE * other : INFINITY);
+}
+
+/* Takes a slip as slow from here on, if it is small against what turns it. `regime` has the direction with which to begin. */
+static bool begin_slow(carom_cushion_way *w, bool cloth, bool falls, carom_regime regime) {
+  carom_slips at = slips_of(w->point.y);
+  const carom_vector slip = *slip_at(&at, cloth), *const u = direction_at(&regime, cloth);
+  double turns;
+  if (!slow_regime(w, cloth, falls, &at, &regime, &turns) || !(fabs(slip.x * u->y - slip.y * u->x) <= w->rest))
+    return false;
+  const double most = most_slow(w, cloth, turns);
+  if (!(length(slip) <= most))
+    return false;
+  w->most = fmin(most, 1);
+  w->regime = regime;
+  w->falls = falls;
+  w->slow = cloth ? CAROM_CLOTH_IS_SLOW : CAROM_NOSE_IS_SLOW;
+  *(cloth ? &w->cloth_singular : &w->nose_singular) = false;
+  const carom_ode ode = equations(w);
+  carom_ode_set(&ode, &w->point);
+  return true;
+}
+
+/* A slip may have become slow: small, stiff, and in the quasi-steady direction. One that grows stays so only alone. */
+static bool becomes_slow(carom_cushion_way *w, bool cloth) {
+  carom_slips at = slips_of(w->point.y), rates = slips_of(w->point.f);
+  const carom_vector slip = *slip_at(&at, cloth), rate = *slip_at(&rates, cloth);
+  const double size = length(slip);
+  const bool falls = slip.x * rate.x + slip.y * rate.y < 0;
+  if (!(size > 0 && size < SMALL) || !(falls || is_alone(w, cloth)) || !is_stiff(w, cloth))
+    return false;
+  carom_regime regime = w->regime;
+  *direction_at(&regime, cloth) = (carom_vector){slip.x / size, slip.y / size};
+  return begin_slow(w, cloth, falls, regime);
+}
+
+/* After a step of a slow slip: its direction is the quasi-steady one, whatever errors have added up to. */
+static void keep_slow(carom_cushion_way *w) {
+  const bool cloth = w->slow == CAROM_CLOTH_IS_SLOW;
+  carom_slips at = slips_of(w->point.y);
+  const carom_vector slip = *slip_at(&at, cloth), *const u = direction_at(&w->regime, cloth);
+  double turns;
+  if (!slow_regime(w, cloth, w->falls, &at, &w->regime, &turns))
+    return;
+  const double size = slip.x * u->x + slip.y * u->y;
+  w->point.y[cloth ? C_X : S_X] = size * u->x;
+  w->point.y[cloth ? C_Y : S_T] = size * u->y;
+  w->most = fmin(most_slow(w, cloth, turns), 1);
+}
+
 /* The regime from here on. */
 static carom_status change(carom_cushion_way *w) {
   carom_slips at = slips_of(w->point.y);
@@ -189,12 +307,14 @@ static carom_status change(carom_cushion_way *w) {
   w->nose_singular = w->law.mu_w > 0 && !w->regime.nose_sticks && length(at.s) > 0;
   w->cloth_singular = w->law.mu_s > 0 && w->regime.loaded && !w->regime.cloth_sticks && length(at.c) > 0;
   w->wedged = w->regime.nose_sticks && w->regime.cloth_sticks;
-  w->slow = false;
+  w->slow = CAROM_NO_SLIP_IS_SLOW;
   const carom_ode ode = equations(w);
   carom_ode_set(&ode, &w->point);
-  /* a slip that begins with a small rate, where friction has just left the cone */
-  const carom_slips rate = slips_of(w->point.f);
-  w->slow = w->law.mu_w > 0 && !w->regime.nose_sticks && length(at.s) == 0 && length(rate.s) < w->law.mu_w * w->point.f[P];
+  /* slips that begin with a small rate */
+  if (!w->nose_singular && is_stiff(w, false))
+    begin_slow(w, false, false, w->regime);
+  else if (!w->cloth_singular && is_stiff(w, true))
+    begin_slow(w, true, false, w->regime);
   return CAROM_OK;
 }
 
@@ -282,6 +402,37 @@ static bool comes_to_rest(carom_cushion_way *w, int k_x, int k_y) {
   return true;
 }
 
+/* A slow slip has become zero, which may change the regime, or too large. */
+static bool end_slow(carom_cushion_way *w) {
+  const bool cloth = w->slow == CAROM_CLOTH_IS_SLOW;
+  w->slow = CAROM_NO_SLIP_IS_SLOW;
+  if (w->falls) {
+    w->point.y[cloth ? C_X : S_X] = w->point.y[cloth ? C_Y : S_T] = 0;
+    return true;
+  }
+  *(cloth ? &w->cloth_singular : &w->nose_singular) = true;
+  const carom_ode ode = equations(w);
+  carom_ode_set(&ode, &w->point);
+  return false;
+}
+
+/* Takes to zero what is as good as that: slips along the cushion where both are REST, which leaves a planar impact; and, once
+ * in an impact, all slips where they are CORNER. Contacts that come to rest in turns would go round that corner without end.
+ * Returns whether there was anything. */
+static bool tidy(carom_cushion_way *w) {
+  double *y = w->point.y;
+  const carom_slips at = slips_of(y);
+  if (!w->cornered && length(at.s) + length(at.c) <= CORNER * w->rest / REST) {
+    w->cornered = true;
+    y[S_X] = y[S_T] = y[C_X] = y[C_Y] = 0;
+    return true;
+  }
+  if (fmax(fabs(y[S_X]), fabs(y[C_X])) > w->rest || (y[S_X] == 0 && y[C_X] == 0))
+    return false;
+  y[S_X] = y[C_X] = 0;
+  return true;
+}
+
 carom_status carom_cushion_way_on(carom_cushion_way *w, double to, int budget) {
   const double p = to / w->approach;
   carom_ode_point *at = &w->point;
@@ -299,15 +450,18 @@ carom_status carom_cushion_way_on(carom_cushion_way *w, double to, int budget) {
       end_phase(w);
       changes = false;
     }
-    if (changes && w->slow && fabs(length(slips_of(at->y).s) / SLOW - 1) <= EVENT_TOLERANCE) {
-      w->slow = changes = false;
-      w->nose_singular = true;
-      carom_ode_set(&ode, at);
-    }
+    if (w->slow != CAROM_NO_SLIP_IS_SLOW) {
+      keep_slow(w);
+      if (changes && fabs(slow_event(w, at->y, at->f, &unused)) <= EVENT_TOLERANCE && !w->ended)
+        changes = end_slow(w);
+    } else if (!w->ended && !becomes_slow(w, false))
+      becomes_slow(w, true);
     if (!w->ended && !w->regime.nose_sticks && w->law.mu_w > 0)
       changes |= comes_to_rest(w, S_X, S_T);
     if (!w->ended && !w->regime.cloth_sticks && w->regime.loaded && w->law.mu_s > 0)
       changes |= comes_to_rest(w, C_X, C_Y);
+    if (!w->ended && tidy(w))
+      changes = true;
     if (changes && !w->ended) {
       const carom_status status = change(w);
       if (status != CAROM_OK)

@@ -15,8 +15,11 @@ typedef struct carom_cushion_way {
   double approach;   /* v_y at the start, m/s */
   double work_c;     /* int v_y dp over compression */
   int changes;       /* of the regime, so far */
-  bool nose_singular, cloth_singular, slow;
-  bool in_restitution, ended, wedged;
+  bool nose_singular, cloth_singular;
+  enum { CAROM_NO_SLIP_IS_SLOW, CAROM_NOSE_IS_SLOW, CAROM_CLOTH_IS_SLOW } slow;
+  bool falls;  /* the slow slip, */
+  double most; /* which may be so large */
+  bool in_restitution, ended, wedged, cornered;
   carom_ode_point point;
 } carom_cushion_way;
 

@@ -4,15 +4,23 @@
  * lower set is for tests, comparisons and bug reports; the results of the exact solver agree within its contract on all of
  * them.
  */
+#if defined(__linux__)
 #define _GNU_SOURCE /* secure_getenv: the environment says nothing to programs with more rights than their user */
+#endif
 #include "platform/isa.h"
 
 #include "enumerations.h"
 
+#include <float.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* With more digits between two operations results would not have the promised bits. */
+#if FLT_EVAL_METHOD != 0
+#error "carom needs float and double computed in their own precision; for 32-bit x86 compile with -msse2 -mfpmath=sse"
+#endif
 
 static const bool built[CAROM_ISA_COUNT] = {
 #define BUILT(NAME, suffix) [CAROM_ISA_##NAME] = true,
@@ -53,7 +61,11 @@ static carom_isa best_up_to(carom_isa limit) {
 }
 
 static carom_isa from_environment(void) {
+#if defined(__linux__)
   const char *wanted = secure_getenv("CAROM_ISA");
+#else
+  const char *wanted = getenv("CAROM_ISA");
+#endif
   for (int isa = 0; wanted != NULL && isa < CAROM_ISA_COUNT; isa++)
     if (strcmp(wanted, carom_isa_name((carom_isa)isa)) == 0)
       return best_up_to((carom_isa)isa);

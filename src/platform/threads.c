@@ -1,89 +1,86 @@
-/* Threads: a batch cut into equal parts, one for each.
+/* Threads: rows cut into equal parts, one for each.
  *
- * Each pair's result depends on nothing but the pair once the solver is chosen for the whole batch, so it is the same for any
- * number of threads. Threads are started for the call and joined before it returns; the calling thread does the first part
- * itself, and all of it if no thread can be started. A batch too small to be worth a thread is not cut: starting one costs
- * about as much as some hundred exact collisions.
+ * Where the cuts are makes no difference to a row, so results are the same for any number of threads. Threads are started for
+ * the call and joined before it returns; the calling thread does the first part itself, and all of it if no thread can be
+ * started. They block every signal, so that no handler of the process runs on them. A job too small to be worth a thread is not
+ * cut.
  */
-#include "ball_ball/arguments.h"
-#include "ball_ball/batch.h"
+#include "platform/threads.h"
+
+#include "carom.h"
+#include "platform/processors.h"
 
 #include <pthread.h>
+#include <signal.h>
 #include <stdbool.h>
-#include <unistd.h>
 
 enum {
   MOST_THREADS = 256,
   UNIT = 64, /* parts are multiples of this, so that only the last has lanes to spare */
 };
 
-/* Fewer pairs than this are not worth a thread: about 50 us of work. */
-static size_t least_part(const carom_options *opt) {
-  if (opt->solver == CAROM_SOLVER_EULER) {
-    const size_t part = 20000 / (size_t)carom_steps(opt);
-    return part > UNIT ? part : UNIT;
-  }
-  return 4096;
-}
+typedef struct cut {
+  carom_part_worker *worker;
+  const void *job;
+  size_t n, count;
+} cut;
 
+/* Short, as all of them are on the stack of the caller. */
 typedef struct part {
-  carom_batch_solver *solver;
-  const char *in;
-  size_t n;
-  const carom_options *opt;
-  char *out;
-  int8_t *status;
-  size_t first_bad;
+  const cut *of;
+  size_t number, first_bad;
+  pthread_t thread;
 } part;
+
+/* Where a part begins; that of one beyond the last is n. */
+static size_t start_of(const cut *of, size_t number) {
+  const size_t units = (of->n + UNIT - 1) / UNIT, start = units * number / of->count * UNIT;
+  return start < of->n ? start : of->n;
+}
 
 static void *run_part(void *argument) {
   part *p = argument;
-  p->first_bad = p->solver(p->in, p->n, p->opt, p->out, p->status);
+  p->first_bad = p->of->worker(p->of->job, start_of(p->of, p->number), start_of(p->of, p->number + 1));
   return NULL;
 }
 
-static size_t processors(void) {
-  const long count = sysconf(_SC_NPROCESSORS_ONLN);
-  return count > 0 ? (size_t)count : 1;
+/* Starts a thread for each part but the first. A thread inherits the signals that are blocked where it is made. */
+static void start_threads(part *parts, size_t count, bool *started) {
+  sigset_t all, before;
+  sigfillset(&all);
+  const bool blocked = pthread_sigmask(SIG_SETMASK, &all, &before) == 0;
+  for (size_t t = 1; t < count; t++)
+    started[t] = pthread_create(&parts[t].thread, NULL, run_part, &parts[t]) == 0;
+  if (blocked)
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
-size_t carom_batch_in_threads(carom_batch_solver *solver, carom_precision precision, const void *in, size_t n,
-                              const carom_options *opt, void *out, int8_t *status) {
-  size_t threads = opt->threads == CAROM_ALL_THREADS ? processors() : (size_t)opt->threads;
-  const size_t useful = n / least_part(opt);
-  if (threads > useful)
-    threads = useful;
-  if (threads > MOST_THREADS)
-    threads = MOST_THREADS;
-  if (threads <= 1)
-    return solver(in, n, opt, out, status);
+size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads, size_t least) {
+  /* How many are useful is asked first: counting the processors takes some system calls. */
+  size_t count = n / least;
+  if (count > 1 && threads == CAROM_ALL_THREADS)
+    threads = carom_processors();
+  const size_t most = threads < 1 ? 1 : threads < MOST_THREADS ? (size_t)threads : MOST_THREADS;
+  if (count > most)
+    count = most;
+  if (count <= 1)
+    return worker(job, 0, n);
 
-  const size_t in_size = precision == CAROM_DOUBLE ? sizeof(carom_impact) : sizeof(carom_impact_f32);
-  const size_t out_size = precision == CAROM_DOUBLE ? sizeof(carom_result) : sizeof(carom_result_f32);
+  const cut of = {worker, job, n, count};
   part parts[MOST_THREADS];
-  pthread_t id[MOST_THREADS];
   bool started[MOST_THREADS] = {false};
-  const size_t units = (n + UNIT - 1) / UNIT;
-  for (size_t t = 0; t < threads; t++) {
-    const size_t from = units * t / threads * UNIT, end = units * (t + 1) / threads * UNIT;
-    parts[t] = (part){.solver = solver,
-                      .in = (const char *)in + from * in_size,
-                      .n = (end < n ? end : n) - from,
-                      .opt = opt,
-                      .out = (char *)out + from * out_size,
-                      .status = status != NULL ? status + from : NULL};
-    started[t] = t > 0 && pthread_create(&id[t], NULL, run_part, &parts[t]) == 0;
-  }
-  for (size_t t = 0; t < threads; t++)
+  for (size_t t = 0; t < count; t++)
+    parts[t] = (part){.of = &of, .number = t};
+  start_threads(parts, count, started);
+  for (size_t t = 0; t < count; t++)
     if (!started[t])
       run_part(&parts[t]);
-  size_t first_bad = n, before = 0;
-  for (size_t t = 0; t < threads; t++) {
+  size_t first_bad = n;
+  for (size_t t = 0; t < count; t++) {
     if (started[t])
-      pthread_join(id[t], NULL);
-    if (first_bad == n && parts[t].first_bad < parts[t].n)
-      first_bad = before + parts[t].first_bad;
-    before += parts[t].n;
+      pthread_join(parts[t].thread, NULL);
+    if (first_bad == n && parts[t].first_bad < start_of(&of, t + 1))
+      first_bad = parts[t].first_bad;
   }
   return first_bad;
 }

@@ -1,5 +1,5 @@
 /* The loop of a shot: find the next event, bring the balls in it there, resolve it, look again what they will meet. */
-#include "platform/parts.h"
+#include "platform/threads.h"
 #include "shot/sim.h"
 
 #include <math.h>
@@ -242,7 +242,7 @@ carom_status carom_shoot_batch(const carom_table *table, const carom_shot_ball *
     return bad;
   const batch work = {table, &features, balls, count, one_layout, one_cue, cues, opt, shots, status};
   enum { LEAST = 4 }; /* shots worth a thread */
-  const size_t first_bad = carom_in_parts(n, LEAST, opt->threads, shoot_rows, &work);
+  const size_t first_bad = carom_in_threads(shoot_rows, &work, n, opt->threads, LEAST);
   return first_bad == n ? CAROM_OK : shoot_row(&work, first_bad); /* only its index came back through the threads */
 }
 

@@ -1,28 +1,50 @@
-/* Batches agree with single calls: every instruction set that the processor has, both precisions, every solver.
+/* A batch is n single calls, bit for bit: every instruction set that the processor has, both precisions, every solver and slip.
+ * Only Euler's method in single precision is computed otherwise in lanes than alone: there each row has the bits of a batch of
+ * one.
  *
- * Euler's method agrees bit for bit in double. What is computed otherwise in lanes than alone has a bound of its own in
- * `agreements`. All sizes from 0 to beyond three vectors are tried, with guards around every array, rows in error and rows of
- * junk between good ones, arrays that are not aligned, and any number of threads.
- */
+ * All sizes from 0 to beyond three vectors, rows in error and rows of junk between good ones, all regimes side by side, batches
+ * cut at random places, in random order, over any number of threads. Arrays end where memory ends, so that reading or writing
+ * past them is seen, and begin at odd places. */
 #include "cases.h"
 #include "regimes.h"
 #include "support.h"
 
 #include <math.h>
 #include <pthread.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDEST = 16, MOST = 3 * WIDEST + 1, MANY = 20000 };
+enum { WIDEST = 16, MOST = 3 * WIDEST + 1, MANY = 29000 };
 
-/* Allowed distance from a single call in double, relative to the pair's scale; 0 asks for the same bits. */
-static const struct {
-  double in_double, in_single;
-} agreements[CAROM_SOLVER_COUNT] = {
-    [CAROM_SOLVER_EXACT] = {1e-5, 2e-4},
-    [CAROM_SOLVER_EULER] = {0.0, 2e-2},
-};
+/* ---- Both precisions by the same calls */
+
+enum { IN_DOUBLE, IN_SINGLE, PRECISIONS };
+static const size_t in_size[] = {sizeof(carom_impact), sizeof(carom_impact_f32)};
+static const size_t out_size[] = {sizeof(carom_result), sizeof(carom_result_f32)};
+
+static carom_status collide(int precision, const void *in, const carom_options *options, void *out) {
+  return precision == IN_DOUBLE ? carom_collide(in, options, out) : carom_collide_f32(in, options, out);
+}
+
+static carom_status collide_batch(int precision, const void *in, size_t n, const carom_options *options, void *out,
+                                  int8_t *status) {
+  return precision == IN_DOUBLE ? carom_collide_batch(in, n, options, out, status)
+                                : carom_collide_batch_f32(in, n, options, out, status);
+}
+
+static void put_row(int precision, void *rows, size_t k, const carom_impact *in) {
+  for (int c = 0; c < 26; c++) {
+    const double x = ((const double *)in)[c];
+    if (precision == IN_DOUBLE)
+      ((double *)rows)[26 * k + (size_t)c] = x;
+    else
+      ((float *)rows)[26 * k + (size_t)c] = (float)x;
+  }
+}
+
+/* ---- Rows */
 
 typedef carom_impact make_row(random_source *source, size_t k);
 
@@ -53,68 +75,81 @@ static carom_impact mixed_row(random_source *source, size_t k) {
 }
 
 static carom_options options_for(int solver, int slip) {
-  carom_options options = {0};
-  options.solver = (carom_solver)solver;
-  options.slip = (carom_slip)slip;
-  options.steps = 200;
-  options.threads = 1;
-  return options;
+  return (carom_options){.solver = (carom_solver)solver, .slip = (carom_slip)slip, .steps = 100};
 }
 
-static void expect_same_double(const carom_impact *in, const carom_options *options, const carom_result *seen, int status) {
-  carom_result alone;
-  ck_assert_int_eq(status, carom_collide(in, options, &alone));
-  const double allowed = agreements[options->solver].in_double;
-  if (allowed == 0.0 || status != CAROM_OK)
-    for (int c = 0; c < 12; c++) {
-      const double x = ((const double *)seen)[c], y = ((const double *)&alone)[c];
-      ck_assert_msg(memcmp(&x, &y, sizeof x) == 0 || (isnan(x) && isnan(y)), "%s: component %d is %.17g, alone %.17g",
-                    carom_isa_name(carom_isa_in_force()), c, x, y);
-    }
-  else
-    ck_assert_double_le(result_distance(seen, &alone, in->a.radius), allowed);
-}
-
-/* Runs n rows through carom_collide_batch at an odd place in guarded arrays. */
-static void expect_agreement(const carom_impact *in, size_t n, const carom_options *options) {
-  unsigned char *in_bytes = malloc((n + 2) * sizeof *in), *out_bytes = malloc((n + 2) * sizeof(carom_result));
-  int8_t *status = malloc(n + 2);
-  memset(out_bytes, 0xA5, (n + 2) * sizeof(carom_result));
-  memset(status, 0xA5, n + 2);
-  carom_impact *from = (carom_impact *)(void *)(in_bytes + 8); /* aligned for double, not for a vector */
-  carom_result *to = (carom_result *)(void *)(out_bytes + 8);
-  memcpy(from, in, n * sizeof *in);
-  const carom_status whole = carom_collide_batch(from, n, options, to, status + 1);
-  carom_status first_error = CAROM_OK;
+/* What the rows of a batch must come to. */
+static void alone(int precision, const void *in, size_t n, const carom_options *options, void *out, int8_t *status) {
+  const bool by_batches_of_one = precision == IN_SINGLE && options->solver == CAROM_SOLVER_EULER;
   for (size_t k = 0; k < n; k++) {
-    expect_same_double(&in[k], options, &to[k], status[k + 1]);
-    if (first_error == CAROM_OK && status[k + 1] < 0)
-      first_error = status[k + 1];
+    const void *from = (const char *)in + k * in_size[precision];
+    void *to = (char *)out + k * out_size[precision];
+    status[k] = (int8_t)collide(precision, from, options, to);
+    if (by_batches_of_one)
+      collide_batch(precision, from, 1, options, to, &status[k]);
   }
-  ck_assert_int_eq(whole, first_error);
-  for (size_t k = 0; k < 8; k++)
-    ck_assert_uint_eq(out_bytes[k], 0xA5);
-  for (size_t k = 8 + n * sizeof(carom_result); k < (n + 2) * sizeof(carom_result); k++)
-    ck_assert_uint_eq(out_bytes[k], 0xA5);
-  ck_assert_int_eq(status[0], (int8_t)0xA5);
-  ck_assert_int_eq(status[n + 1], (int8_t)0xA5);
-  free(in_bytes);
-  free(out_bytes);
-  free(status);
 }
+
+/* The rows of in[0..n-1] as one batch, in memory that ends exactly, small ones without an array of statuses too. */
+static void expect_batch(int precision, const void *in, size_t n, const carom_options *options, const void *out,
+                         const int8_t *status) {
+  const size_t bytes = n * out_size[precision];
+  const edge from = edge_make(n * in_size[precision], n % 2 == 1), to = edge_make(bytes, n % 2 == 1),
+             said = edge_make(n, false);
+  memcpy(from.memory, in, n * in_size[precision]);
+  carom_status first_error = CAROM_OK;
+  for (size_t k = 0; k < n && first_error == CAROM_OK; k++)
+    first_error = status[k] < 0 ? status[k] : CAROM_OK;
+  for (int with = n <= MOST ? 0 : 1; with < 2; with++) {
+    memset(to.memory, 0xA5, bytes);
+    ck_assert_int_eq(collide_batch(precision, from.memory, n, options, to.memory, with ? said.memory : NULL), first_error);
+    for (size_t k = 0; k < n; k++)
+      ck_assert_msg(memcmp((const char *)to.memory + k * out_size[precision], (const char *)out + k * out_size[precision],
+                           out_size[precision]) == 0,
+                    "%s, %s, slip %s, %s, %d threads: row %zu of %zu has other bits than alone",
+                    carom_isa_name(carom_isa_in_force()), carom_solver_name(options->solver), carom_slip_name(options->slip),
+                    precision == IN_DOUBLE ? "double" : "single", options->threads, k, n);
+  }
+  ck_assert(n == 0 || memcmp(said.memory, status, n) == 0);
+  ck_assert(n == 0 || memcmp(from.memory, in, n * in_size[precision]) == 0);
+  edge_free(&from), edge_free(&to), edge_free(&said);
+}
+
+/* Rows with what they come to alone, in both precisions. */
+typedef struct table {
+  size_t n;
+  void *in, *out;
+  int8_t *status;
+} table;
+
+static table table_make(size_t n) {
+  return (table){n, malloc(n * sizeof(carom_impact) + 1), malloc(n * sizeof(carom_result) + 1), malloc(n + 1)};
+}
+
+static void table_free(const table *t) {
+  free(t->in), free(t->out), free(t->status);
+}
+
+#define FOR_EACH_WAY(solver, slip, precision)                 \
+  for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++) \
+    for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)       \
+      for (int precision = 0; precision < PRECISIONS; precision++)
 
 static void every_size(make_row *row) {
-  carom_impact in[MOST] = {0};
+  const table t = table_make(MOST);
   random_source source = {test_seed()};
   FOR_EACH_ISA(isa)
-  for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++)
-    for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)
-      for (size_t n = 0; n <= MOST; n++) {
-        for (size_t k = 0; k < n; k++)
-          in[k] = row(&source, k);
-        const carom_options options = options_for(solver, slip);
-        expect_agreement(in, n, &options);
-      }
+  FOR_EACH_WAY(solver, slip, precision)
+  for (size_t n = 0; n <= MOST; n++) {
+    const carom_options options = options_for(solver, slip);
+    for (size_t k = 0; k < n; k++) {
+      const carom_impact in = row(&source, k);
+      put_row(precision, t.in, k, &in);
+    }
+    alone(precision, t.in, n, &options, t.out, t.status);
+    expect_batch(precision, t.in, n, &options, t.out, t.status);
+  }
+  table_free(&t);
 }
 
 START_TEST(good_rows_at_every_size) {
@@ -130,105 +165,114 @@ END_TEST
 START_TEST(the_204_cases) {
   case_set cases;
   ck_assert(cases_load(CAROM_TEST_DATA, "collisions-204.csv", &cases));
+  const table t = table_make(cases.count);
   FOR_EACH_ISA(isa)
-  for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++)
-    for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
-      carom_options options = options_for(solver, slip);
-      options.steps = 1000;
-      expect_agreement(cases.impact, cases.count, &options);
-    }
+  FOR_EACH_WAY(solver, slip, precision) {
+    carom_options options = options_for(solver, slip);
+    options.steps = 1000;
+    for (size_t k = 0; k < cases.count; k++)
+      put_row(precision, t.in, k, &cases.impact[k]);
+    alone(precision, t.in, cases.count, &options, t.out, t.status);
+    expect_batch(precision, t.in, cases.count, &options, t.out, t.status);
+  }
+  table_free(&t);
   cases_free(&cases);
 }
 END_TEST
 
-static carom_impact_f32 to_single(const carom_impact *in) {
-  carom_impact_f32 narrow;
-  for (int k = 0; k < 26; k++)
-    ((float *)&narrow)[k] = (float)((const double *)in)[k];
-  return narrow;
+/* Whoever its neighbours are, a row keeps its bits; some regimes are too slow for Euler's method. */
+START_TEST(all_regimes_side_by_side) {
+  const table t = table_make((size_t)regimes_count() * 16);
+  FOR_EACH_ISA(isa)
+  FOR_EACH_WAY(solver, slip, precision) {
+    const carom_options options = options_for(solver, slip);
+    regimes_rng rng = {test_seed()};
+    for (size_t k = 0; k < t.n; k++) {
+      const carom_impact in = regimes_draw((int)k % regimes_count(), slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0, &rng);
+      put_row(precision, t.in, k, &in);
+    }
+    alone(precision, t.in, t.n, &options, t.out, t.status);
+    expect_batch(precision, t.in, t.n, &options, t.out, t.status);
+  }
+  table_free(&t);
+}
+END_TEST
+
+/* Moves row `from` of a table to place `to` of another. */
+static void copy_row(int precision, const table *source, size_t from, const table *target, size_t to) {
+  const size_t in = in_size[precision], out = out_size[precision];
+  memcpy((char *)target->in + to * in, (const char *)source->in + from * in, in);
+  memcpy((char *)target->out + to * out, (const char *)source->out + from * out, out);
+  target->status[to] = source->status[from];
 }
 
-START_TEST(single_precision_is_near) {
+/* The rows in random order, cut at random places into batches, each with 1, 2, 3 or 7 threads. Euler's method takes fewer rows
+ * to be worth a thread. */
+START_TEST(cut_anywhere_in_any_order) {
+  static const int threads[] = {1, 2, 3, 7};
+  const table t = table_make(MANY), mixed = table_make(MANY);
+  size_t *order = malloc(MANY * sizeof *order);
   random_source source = {test_seed()};
+  FOR_EACH_ISA(isa)
+  FOR_EACH_WAY(solver, slip, precision) {
+    carom_options options = options_for(solver, slip);
+    const size_t n = solver == CAROM_SOLVER_EXACT ? MANY : MANY / 15;
+    for (size_t k = 0; k < n; k++) {
+      const carom_impact in = k % 8 == 7 ? mixed_row(&source, k) : good_row(&source, k);
+      put_row(precision, t.in, k, &in);
+      order[k] = k;
+    }
+    alone(precision, t.in, n, &options, t.out, t.status);
+    for (size_t k = 0; k < n; k++) { /* Fisher and Yates */
+      const size_t other = k + (size_t)random_between(&source, 0.0, (double)(n - k)), kept = order[k];
+      order[k] = order[other];
+      order[other] = kept;
+      copy_row(precision, &t, order[k], &mixed, k);
+    }
+    /* as a whole by each number of threads, then in pieces */
+    for (int k = 0; k < 4; k++) {
+      options.threads = threads[k];
+      expect_batch(precision, mixed.in, n, &options, mixed.out, mixed.status);
+    }
+    for (size_t from = 0, end; from < n; from = end) {
+      end = from + (size_t)random_between(&source, 0.0, random_between(&source, 0.0, 1.0) < 0.5 ? 100.0 : (double)n);
+      end = end < n ? end : n;
+      options.threads = threads[(size_t)random_between(&source, 0.0, 4.0)];
+      expect_batch(precision, (char *)mixed.in + from * in_size[precision], end - from, &options,
+                   (char *)mixed.out + from * out_size[precision], mixed.status + from);
+    }
+  }
+  table_free(&t), table_free(&mixed), free(order);
+}
+END_TEST
+
+/* Single precision against double, relative to the pair's scale. */
+START_TEST(single_precision_is_near) {
+  static const double allowed[CAROM_SOLVER_COUNT] = {[CAROM_SOLVER_EXACT] = 2e-4, [CAROM_SOLVER_EULER] = 2e-2};
+  random_source source = {test_seed()};
+  carom_impact wide[MOST];
   carom_impact_f32 in[MOST];
-  carom_result_f32 out[MOST + 1];
+  carom_result_f32 out[MOST];
   int8_t status[MOST];
   FOR_EACH_ISA(isa)
   for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++)
-    for (size_t n = 0; n <= MOST; n++) {
+    for (int trial = 0; trial < 20; trial++) {
       const carom_options options = options_for(solver, CAROM_SLIP_PAPER);
-      for (size_t k = 0; k < n; k++) {
-        const carom_impact wide = n % 2 == 0 ? good_row(&source, k) : mixed_row(&source, k);
-        in[k] = to_single(&wide);
-      }
-      memset(out, 0xA5, sizeof out);
-      carom_collide_batch_f32(in, n, &options, out, status);
-      for (size_t k = 0; k < n; k++) {
-        carom_impact wide;
-        carom_result alone, seen;
-        carom_result_f32 alone_f32;
+      for (size_t k = 0; k < MOST; k++) {
+        const carom_impact drawn = good_row(&source, k);
+        put_row(IN_SINGLE, in, k, &drawn);
         for (int c = 0; c < 26; c++)
-          ((double *)&wide)[c] = ((const float *)&in[k])[c];
-        const carom_status expected = carom_collide_f32(&in[k], &options, &alone_f32);
-        ck_assert_int_eq(status[k], expected);
+          ((double *)&wide[k])[c] = ((const float *)&in[k])[c];
+      }
+      carom_collide_batch_f32(in, MOST, &options, out, status);
+      for (size_t k = 0; k < MOST; k++) {
+        carom_result near, seen;
+        ck_assert_int_eq(status[k], carom_collide(&wide[k], &options, &near));
         for (int c = 0; c < 12; c++)
           ((double *)&seen)[c] = ((const float *)&out[k])[c];
-        if (expected == CAROM_OK && carom_collide(&wide, &options, &alone) == CAROM_OK)
-          ck_assert_double_le(result_distance(&seen, &alone, wide.a.radius), agreements[solver].in_single);
-        else
-          ck_assert(expected == CAROM_SEPARATING || isnan(out[k].a.v[0]));
+        ck_assert_double_le(result_distance(&seen, &near, wide[k].a.radius), allowed[solver]);
       }
-      for (size_t k = 0; k < sizeof out[n]; k++)
-        ck_assert_uint_eq(((unsigned char *)&out[n])[k], 0xA5);
     }
-}
-END_TEST
-
-START_TEST(any_number_of_threads) {
-  random_source source = {test_seed()};
-  carom_impact *in = malloc(MANY * sizeof *in);
-  carom_result *one = malloc(MANY * sizeof *one), *many = malloc(MANY * sizeof *many);
-  int8_t *status_one = malloc(MANY), *status_many = malloc(MANY);
-  for (size_t k = 0; k < MANY; k++)
-    in[k] = mixed_row(&source, k);
-  for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++) {
-    carom_options options = options_for(solver, CAROM_SLIP_PAPER);
-    options.steps = 50;
-    const carom_status whole = carom_collide_batch(in, MANY, &options, one, status_one);
-    for (options.threads = 0; options.threads <= 8; options.threads++) {
-      const size_t n = options.threads % 2 == 0 ? MANY : MANY - 77;
-      memset(many, 0xA5, MANY * sizeof *many);
-      ck_assert_int_eq(carom_collide_batch(in, n, &options, many, status_many), whole);
-      ck_assert_mem_eq(many, one, n * sizeof *one);
-      ck_assert_mem_eq(status_many, status_one, n);
-    }
-  }
-  free(in), free(one), free(many), free(status_one), free(status_many);
-}
-END_TEST
-
-/* All regimes side by side: whoever its neighbours are, a row keeps its bits. */
-START_TEST(neighbours_make_no_difference) {
-  enum { EACH = 16 };
-  const size_t n = (size_t)regimes_count() * EACH;
-  carom_impact *in = malloc(n * sizeof *in), *turned = malloc(n * sizeof *turned);
-  carom_result *out = malloc(n * sizeof *out), *back = malloc(n * sizeof *back);
-  FOR_EACH_ISA(isa)
-  for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++)
-    for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
-      const carom_options options = options_for(solver, slip);
-      regimes_rng rng = {test_seed()};
-      for (size_t k = 0; k < n; k++) {
-        in[k] = regimes_draw((int)k % regimes_count(), slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0, &rng);
-        turned[n - 1 - k] = in[k];
-      }
-      carom_collide_batch(in, n, &options, out, NULL); /* some regimes are too slow for Euler: what counts is the rows */
-      carom_collide_batch(turned, n, &options, back, NULL);
-      for (size_t k = 0; k < n; k++)
-        ck_assert_msg(memcmp(&out[k], &back[n - 1 - k], sizeof out[k]) == 0, "%s: row %zu of %s depends on its neighbours",
-                      carom_isa_name((carom_isa)isa), k, regimes_name((int)k % regimes_count()));
-    }
-  free(in), free(turned), free(out), free(back);
 }
 END_TEST
 
@@ -284,6 +328,6 @@ START_TEST(lower_sets_can_be_asked_for) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("batch", good_rows_at_every_size, mixed_rows_at_every_size, the_204_cases, single_precision_is_near,
-                   any_number_of_threads, neighbours_make_no_difference, many_callers_at_once, lower_sets_can_be_asked_for);
+  return RUN_TESTS("batch", good_rows_at_every_size, mixed_rows_at_every_size, the_204_cases, all_regimes_side_by_side,
+                   cut_anywhere_in_any_order, single_precision_is_near, many_callers_at_once, lower_sets_can_be_asked_for);
 }

@@ -27,3 +27,6 @@ echo "$header" | sed 's/,M,/,M1,/' > half.csv
 try carom resolve -o out.csv half.csv
 try carom resolve -o nowhere/out.csv "$DATA/collisions-204.csv"
 ls out.csv* 2>/dev/null || echo "no output"
+try env CAROM_ISA=avx3 "$CAROM" resolve -o out.csv "$DATA/collisions-204.csv"
+try env CAROM_ISA= "$CAROM" resolve -o /dev/null "$DATA/collisions-204.csv"
+ls out.csv* 2>/dev/null || echo "no output"

@@ -58,6 +58,7 @@ echo "--- usage"
 try lab bench --isa mmx 2>&1 | sed 's/best, .*/best, .../'
 try env CAROM_ISA=plain "$LAB" bench --isa avx512
 try lab bench --isa ,
+try env CAROM_ISA=AVX2 "$LAB" bench
 try lab bench --batch --kernel base
 try lab bench --kernel exact --isa scalar --precision single
 try lab bench --precision half

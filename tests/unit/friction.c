@@ -16,6 +16,7 @@ START_TEST(known_slips) {
   ck_assert_double_eq(carom_mu_ball(&in, (carom_speed_law){0.07, 0.0, 1.0}), 0.07);
   in.a.v[0] = NAN;
   ck_assert(isnan(carom_mu_ball(&in, law)));
+  ck_assert(isnan(carom_mu_ball(NULL, law)));
 }
 END_TEST
 
@@ -28,6 +29,9 @@ START_TEST(rolling) {
   carom_rolling_velocity(v, rolls, 0.03, end); /* what rolls already goes on */
   for (int k = 0; k < 3; k++)
     ck_assert_double_eq_tol(end[k], v[k], 1e-15);
+  double in_place[3] = {rolls[0], rolls[1], rolls[2]};
+  carom_rolling_velocity(v, in_place, 0.03, in_place);
+  ck_assert_mem_eq(in_place, end, sizeof end);
 }
 END_TEST
 

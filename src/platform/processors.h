@@ -1,0 +1,12 @@
+/* How many processors this process may use; see processors.c. */
+#ifndef CAROM_SRC_PLATFORM_PROCESSORS_H
+#define CAROM_SRC_PLATFORM_PROCESSORS_H
+
+/* 1 or more: those of the calling thread's affinity, but no more than its control group's limit on processor time. */
+int carom_processors(void);
+
+/* The limit alone, rounded up to whole processors, INT_MAX where there is none. `self` lists the groups of the process
+ * (/proc/self/cgroup), `root` is where they are mounted (/sys/fs/cgroup). */
+int carom_group_limit(const char *self, const char *root);
+
+#endif
