@@ -47,7 +47,7 @@ static bool verified(const timed_shot *t, const carom_shot_options *options, dou
   *events = (double)shot.count;
   if (status < 0)
     complain("line %zu: refused: %s", t->line.number, carom_status_string(status));
-  if (status < 0 || options->world != CAROM_WORLD_POOLTOOL)
+  if (status < 0 || options->world != CAROM_WORLD_POOLTOOL || options->cushion_model != 0)
     return status >= 0;
   const json_t *json = t->line.json, *sens = json_object_get(json, "sens");
   const json_int_t recorded = json_integer_value(json_object_get(json, "n_events"));
@@ -177,7 +177,7 @@ static void print_all(const shots_bench *b) {
 
 int bench_shots(const bench_job *job) {
   shots_bench b = {.job = job, .threads = job->threads.count > 0 ? job->threads.value[0] : 1, .code = EXIT_GOOD};
-  b.options = (carom_shot_options){.world = job->models, .threads = b.threads};
+  b.options = (carom_shot_options){.world = job->models, .cushion_model = job->cushion, .threads = b.threads};
   if (!read_shots(&b, job->shots))
     return EXIT_USAGE;
   time_all(&b);

@@ -13,6 +13,7 @@
  * An event is where the gap is <= 0 and closing: M. N. Bannerman, S. Strobl, A. Formella, T. Poeschel, Stable algorithm for
  * event detection in event-driven particle dynamics, Comp. Part. Mech. 1 (2014) 191-198. */
 #include "shot/contact.h"
+#include "shot/path.h"
 
 #include <math.h>
 
@@ -35,11 +36,11 @@ static double half_curvature(const quartic *f, double t) {
 
 /* The least half curvature on [from, to]. */
 static double least_half_curvature(const quartic *f, double from, double to) {
-  double least = fmin(half_curvature(f, from), half_curvature(f, to));
+  double least = carom_lesser(half_curvature(f, from), half_curvature(f, to));
   if (f->c[4] > 0.0) {
     const double lowest = -f->c[3] / (4.0 * f->c[4]);
     if (lowest > from && lowest < to)
-      least = fmin(least, half_curvature(f, lowest));
+      least = carom_lesser(least, half_curvature(f, lowest));
   }
   return least;
 }
@@ -54,7 +55,7 @@ static double zero_from_left(const quartic *f, double t, double T, double small)
       const double own = y1 * y1 - 4.0 * half_curvature(f, t) * y;
       if (own >= 0.0) {
         const double last = t + 2.0 * y / (-y1 + sqrt(own));
-        return last <= T ? fmax(last, 0.0) : INFINITY;
+        return last <= T ? carom_greater(last, 0.0) : INFINITY;
       }
     }
     const double m = least_half_curvature(f, t, ahead), D = y1 * y1 - 4.0 * m * y;
@@ -64,7 +65,7 @@ static double zero_from_left(const quartic *f, double t, double T, double small)
       if (ahead >= T)
         return INFINITY;
       const double reached = ahead;
-      ahead = fmin(T, reached + 4.0 * (reached - t));
+      ahead = carom_lesser(T, reached + 4.0 * (reached - t));
       t = reached;
       if (value(f, t) <= 0.0) /* rounding: the zero is here */
         return t;
@@ -74,7 +75,7 @@ static double zero_from_left(const quartic *f, double t, double T, double small)
       return y1 < 0.0 ? t : INFINITY;
     t += s;
     if (k >= LONG_STEPS)
-      ahead = fmin(T, t + 4.0 * s);
+      ahead = carom_lesser(T, t + 4.0 * s);
   }
   return t; /* not reached in practice: f has come as near to 0 as rounding lets it */
 }
@@ -158,7 +159,7 @@ int carom_quadratic_zeros(double a, double b, double c, double zero[2]) {
     return 0;
   const double q = -b - copysign(sqrt(D), b);
   const double x = q / (2.0 * a), y = q != 0.0 ? 2.0 * c / q : x;
-  zero[0] = fmin(x, y);
-  zero[1] = fmax(x, y);
+  zero[0] = carom_lesser(x, y);
+  zero[1] = carom_greater(x, y);
   return 2;
 }

@@ -28,13 +28,13 @@ static motion motion_now(const carom_sim *sim, int i) {
 /* The range of one coordinate on [0, T]. */
 static void range_of(double r, double v, double a, double T, double *low, double *high) {
   const double end = r + T * (v + T * a);
-  *low = fmin(r, end);
-  *high = fmax(r, end);
+  *low = carom_lesser(r, end);
+  *high = carom_greater(r, end);
   const double turn = -v / (2.0 * a);
   if (turn > 0.0 && turn < T) {
     const double there = r + 0.5 * turn * v;
-    *low = fmin(*low, there);
-    *high = fmax(*high, there);
+    *low = carom_lesser(*low, there);
+    *high = carom_greater(*high, there);
   }
 }
 
@@ -80,7 +80,7 @@ static bool stays_away(const carom_separation *d, double reach, double T) {
   const double c0 = d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1], l = sqrt(c0);
   const double h0 = c0 - reach * l, h1 = d->d0[0] * d->d1[0] + d->d0[1] * d->d1[1],
                h2 = d->d0[0] * d->d2[0] + d->d0[1] * d->d2[1];
-  const double turn = h2 > 0.0 ? fmin(fmax(-h1 / (2.0 * h2), 0.0), T) : T;
+  const double turn = h2 > 0.0 ? carom_lesser(carom_greater(-h1 / (2.0 * h2), 0.0), T) : T;
   return h0 > 1e-12 * reach * reach && h0 + T * (h1 + T * h2) > 0.0 && h0 + turn * (h1 + turn * h2) > 0.0;
 }
 
@@ -109,7 +109,7 @@ static double leave_hull(const carom_features *f, const motion *m, double T) {
   for (int k = 0; k < 2; k++) {
     const double low[3] = {m->r[k] - f->hull[2 * k], m->v[k], m->a[k]},
                  high[3] = {f->hull[2 * k + 1] - m->r[k], -m->v[k], -m->a[k]};
-    first = fmin(first, fmin(carom_first_touch(low, 0.0, T), carom_first_touch(high, 0.0, T)));
+    first = carom_lesser(first, carom_lesser(carom_first_touch(low, 0.0, T), carom_first_touch(high, 0.0, T)));
   }
   return first;
 }
@@ -123,7 +123,7 @@ static carom_meeting meet_table(const carom_sim *sim, const motion *m, double ra
   range_of(m->r[1], m->v[1], m->a[1], T, &low_y, &high_y);
   if (low_x < f->hull[0] || high_x > f->hull[1] || low_y < f->hull[2] || high_y > f->hull[3]) {
     first.time = leave_hull(f, m, T);
-    T = fmin(T, first.time);
+    T = carom_lesser(T, first.time);
     range_of(m->r[0], m->v[0], m->a[0], T, &low_x, &high_x);
     range_of(m->r[1], m->v[1], m->a[1], T, &low_y, &high_y);
   }
@@ -241,7 +241,7 @@ static void take_path(carom_sim *sim, int i) {
   const motion m = motion_now(sim, i);
   sim->meeting[i] = meet_table(sim, &m, sim->rates[i].radius, path->end - sim->now);
   sim->meeting[i].time += sim->now;
-  sim->horizon[i] = fmin(path->end, sim->meeting[i].time);
+  sim->horizon[i] = carom_lesser(path->end, sim->meeting[i].time);
 }
 
 void carom_detect(carom_sim *sim, int i, int j) {

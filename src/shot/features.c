@@ -5,18 +5,20 @@
 #include <math.h>
 #include <string.h>
 
-/* The box of feature k grows to hold a point with a margin around it. */
-static void enclose(carom_features *f, int k, double x, double y, double margin) {
-  /* a millionth more, so that rounding to single precision cannot lose anything */
-  const double room = margin + 1e-5;
-  f->low_x[k] = fminf(f->low_x[k], (float)(x - room));
-  f->high_x[k] = fmaxf(f->high_x[k], (float)(x + room));
-  f->low_y[k] = fminf(f->low_y[k], (float)(y - room));
-  f->high_y[k] = fmaxf(f->high_y[k], (float)(y + room));
-  f->hull[0] = fmin(f->hull[0], x - margin);
-  f->hull[1] = fmax(f->hull[1], x + margin);
-  f->hull[2] = fmin(f->hull[2], y - margin);
-  f->hull[3] = fmax(f->hull[3], y + margin);
+/* The box of feature k: around two points, with a margin. The hull grows to hold it. */
+static void enclose(carom_features *f, int k, const double p[2], const double q[2], double margin, double reach) {
+  const double low_x = carom_lesser(p[0], q[0]) - margin, high_x = carom_greater(p[0], q[0]) + margin;
+  const double low_y = carom_lesser(p[1], q[1]) - margin, high_y = carom_greater(p[1], q[1]) + margin;
+  /* a trace more, so that rounding to single precision cannot lose anything */
+  const double room = reach + 1e-5;
+  f->low_x[k] = (float)(low_x - room);
+  f->high_x[k] = (float)(high_x + room);
+  f->low_y[k] = (float)(low_y - room);
+  f->high_y[k] = (float)(high_y + room);
+  f->hull[0] = carom_lesser(f->hull[0], low_x);
+  f->hull[1] = carom_greater(f->hull[1], high_x);
+  f->hull[2] = carom_lesser(f->hull[2], low_y);
+  f->hull[3] = carom_greater(f->hull[3], high_y);
 }
 
 static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
@@ -43,25 +45,14 @@ void carom_features_of(const carom_table *table, double radius, carom_features *
   f->count = f->rails + f->jaws + f->pockets;
   f->hull[0] = f->hull[2] = INFINITY;
   f->hull[1] = f->hull[3] = -INFINITY;
-  for (int k = 0; k < MOST_FEATURES; k++) {
-    f->low_x[k] = f->low_y[k] = INFINITY;
-    f->high_x[k] = f->high_y[k] = -INFINITY;
-  }
+  /* what is met by a ball's surface reaches as far as its radius */
   int at = 0;
   for (int k = 0; k < f->rails; k++, at++) {
     prepare_rail(&table->rail[k], k, f);
-    enclose(f, at, table->rail[k].p[0], table->rail[k].p[1], 0.0);
-    enclose(f, at, table->rail[k].q[0], table->rail[k].q[1], 0.0);
+    enclose(f, at, table->rail[k].p, table->rail[k].q, 0.0, radius);
   }
   for (int k = 0; k < f->jaws; k++, at++)
-    enclose(f, at, table->jaw[k].centre[0], table->jaw[k].centre[1], table->jaw[k].radius);
+    enclose(f, at, table->jaw[k].centre, table->jaw[k].centre, table->jaw[k].radius, radius);
   for (int k = 0; k < f->pockets; k++, at++)
-    enclose(f, at, table->pocket[k].centre[0], table->pocket[k].centre[1], table->pocket[k].radius);
-  /* what is met by a ball's surface reaches as far as its radius */
-  for (int k = 0; k < f->rails + f->jaws; k++) {
-    f->low_x[k] -= (float)radius;
-    f->high_x[k] += (float)radius;
-    f->low_y[k] -= (float)radius;
-    f->high_y[k] += (float)radius;
-  }
+    enclose(f, at, table->pocket[k].centre, table->pocket[k].centre, table->pocket[k].radius, 0.0);
 }

@@ -79,7 +79,7 @@ static void stop(carom_ball_state *s) {
 int64_t carom_label_of(carom_ball_state *s, double radius) {
   static const double nothing = 1e-12; /* m/s: a thousandth of the rounding errors of a shot would be less */
   const double u_x = s->v[0] - radius * s->w[1], u_y = s->v[1] + radius * s->w[0];
-  const double v = fmax(fabs(s->v[0]), fabs(s->v[1])), u = fmax(fabs(u_x), fabs(u_y));
+  const double v = carom_greater(fabs(s->v[0]), fabs(s->v[1])), u = carom_greater(fabs(u_x), fabs(u_y));
   if (u > nothing)
     s->label = CAROM_BALL_SLIDING;
   else if (v > nothing)

@@ -15,6 +15,14 @@
 
 #include <stdbool.h>
 
+/* fmin() and fmax() without their care for NaN, which costs a call. */
+static inline double carom_lesser(double a, double b) {
+  return a < b ? a : b;
+}
+static inline double carom_greater(double a, double b) {
+  return a > b ? a : b;
+}
+
 /* What follows from a ball's kind, once for a shot. */
 typedef struct carom_ball_rates {
   double radius, slide, roll; /* R; mu_s g and mu_r g, m/s^2 */

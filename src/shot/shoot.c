@@ -135,10 +135,10 @@ static carom_status play(carom_sim *sim) {
     if (sim->shot->count >= events_most)
       return CAROM_ERROR_TOO_MANY_EVENTS;
     if (due.type == 0) {
-      sim->shot->time = sim->now = fmax(sim->now, due.time);
+      sim->shot->time = sim->now = carom_greater(sim->now, due.time);
       return CAROM_ERROR_LEFT_TABLE;
     }
-    sim->now = fmax(sim->now, due.time); /* of simultaneous events one may have been found a trace earlier */
+    sim->now = carom_greater(sim->now, due.time); /* of simultaneous events one may have been found a trace earlier */
     sim->round++;
     status = step(sim, &due);
   }
@@ -254,7 +254,7 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
     return CAROM_ERROR_NULL;
   if (count < 1 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
-  time = time > 0.0 ? fmin(time, shot->time) : 0.0;
+  time = time > 0.0 ? carom_lesser(time, shot->time) : 0.0;
   if (shot->count > shot->room && (shot->room == 0 || time > shot->events[shot->room - 1].time))
     return CAROM_ERROR_EVENTS_LOST;
   carom_path path[CAROM_BALLS_MOST];
