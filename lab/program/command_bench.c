@@ -218,7 +218,7 @@ static const command_form form = {
     .options = (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch, &option_isa,
                                            &option_one_precision, &option_thread_counts, &option_pairs, &option_budget,
                                            &option_csv, &option_spread, &option_errors, &option_counters, &option_shots,
-                                           &option_models, &option_data, &option_output, NULL},
+                                           &option_models, &option_cushion, &option_data, &option_output, NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };
