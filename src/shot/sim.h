@@ -53,6 +53,9 @@ typedef struct carom_due {
   int type, a, b; /* type 0: ball a leaves the table; -1: nothing will happen any more */
 } carom_due;
 
+/* table_pooltool.c */
+extern const carom_table carom_table_pooltool;
+
 /* features.c: what follows from a table for balls of one radius. */
 void carom_features_of(const carom_table *table, double radius, carom_features *features);
 

@@ -149,8 +149,8 @@ carom_status carom_table_make(carom_table_kind kind, carom_table *table) {
   switch (kind) {
   case CAROM_TABLE_POOL_7FT:
   case CAROM_TABLE_POOLTOOL:
-    m = pool(1.9812);
-    break;
+    *table = carom_table_pooltool;
+    return CAROM_OK;
   case CAROM_TABLE_POOL_8FT:
     m = pool(2.2352);
     break;
