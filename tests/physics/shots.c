@@ -304,7 +304,7 @@ START_TEST(cradle) {
     ck_assert_double_gt(final[n].r[0] - b[n].state.r[0], 0.5);
     for (int k = 1; k < n; k++)
       ck_assert_double_eq_tol(final[k].r[0], b[k].state.r[0], 0.1);
-    ck_assert_int_lt(shot.count, 1000);
+    ck_assert_int_lt(shot.count, 5000);
     carom_shot bounded = {0};
     carom_shot_options theirs = pooltool;
     const carom_status status = carom_shoot(&t, b, n + 1, NULL, &theirs, &bounded);
