@@ -179,7 +179,7 @@ static bool find_direction(const model *m, real u[CONTACTS][2], int contact) {
   }
   u[contact][0] = cosl(found);
   u[contact][1] = sinl(found);
-  return best >= 0;
+  return best >= -1e-12L; /* at the boundary of the cone it is zero */
 }
 
 /* Directions of all slips at y. */
@@ -324,6 +324,17 @@ static bool sort_slips(model *m, const real y[SIZE]) {
   return rests;
 }
 
+/* Whether a fresh slip is larger than it may be for that. */
+static bool outgrown(const model *m, const real y[SIZE]) {
+  bool large = false;
+  for (int contact = 0; contact < CONTACTS; contact++) {
+    real s[2];
+    slip(m, contact, y, s);
+    large |= m->fresh[contact] && size(s) > FRESH;
+  }
+  return large;
+}
+
 /* From contact to parting, in units of the approach. */
 static carom_status integrate(model *m, real y[SIZE]) {
   if (!decide(m, y))
@@ -334,9 +345,9 @@ static carom_status integrate(model *m, real y[SIZE]) {
     if (m->sticks[NOSE] && m->sticks[CLOTH])
       return CAROM_OK; /* wedged: nothing changes any more */
     real out[SIZE], H = fminl(longest(m, y), next), error;
-    while ((error = try_step(m, y, H, out)) > TOLERANCE * (1 + m->rest / REST) && H > 1e-19L)
+    while (((error = try_step(m, y, H, out)) > TOLERANCE * (1 + m->rest / REST) || outgrown(m, out)) && H > 1e-19L)
       H /= 2;
-    next = error < TOLERANCE / 1000 ? 2 * H : H;
+    next = 2 * H;
     /* the end of the phase or of the regime inside the step: the first point where either holds */
     const real target = (1 - m->e * m->e) * work_c;
     bool ends = in_restitution ? out[WORK] <= target : out[V_Y] <= 0, breaks = violated(m, out);
