@@ -41,7 +41,7 @@
 
 static const double CONVERGED = 1e-15;
 static const double BACKWARDS = 1e-6; /* rate along a direction found that MARGIN may cause */
-static const double MARGIN = 1e-7; /* inside the cone, as a share of it, that friction must be to begin to hold */
+static const double MARGIN = 1e-7;    /* inside the cone, as a share of it, that friction must be to begin to hold */
 enum { MOST_ITERATIONS = 60 };
 
 static double length(carom_vector a) {
