@@ -40,7 +40,8 @@
 #include <math.h>
 
 static const double CONVERGED = 1e-15;
-static const double MARGIN = 1e-7; /* inside the cone, as a share of it, that friction must be to begin to hold */
+static const double BACKWARDS = 1e-6; /* rate along a direction found that MARGIN may cause */
+static const double MARGIN = 1e-7;    /* inside the cone, as a share of it, that friction must be to begin to hold */
 enum { MOST_ITERATIONS = 60 };
 
 static double length(carom_vector a) {
@@ -107,10 +108,10 @@ static double turn(search *s, carom_vector rate, bool falls) {
   const double angle = across / fmax(s->slope + (falls ? along : fmax(along, 0)), 0.02 * s->slope);
   s->across = across;
   s->along = along;
-  s->angle = (along < 0 && !falls) || fabs(angle) > 0.5 ? 0 : angle;
+  const bool far = (along < 0 && !falls) || fabs(angle) > 0.5;
+  s->angle = far ? 0 : angle;
   /* far from the direction sought, the rate without the friction along u is the better guess */
-  const carom_vector to = s->angle == 0 && angle != 0
-                              ? (carom_vector){rate.x + 2 * s->slope * s->u->x, rate.y + 2 * s->slope * s->u->y}
+  const carom_vector to = far ? (carom_vector){rate.x + 2 * s->slope * s->u->x, rate.y + 2 * s->slope * s->u->y}
                               : (carom_vector){s->u->x - angle * s->u->y, s->u->y + angle * s->u->x};
   const double size = length(to);
   if (!(size > 0))
@@ -143,7 +144,7 @@ static bool begin(const carom_coulomb *law, const carom_slips *slips, bool nose,
       way = fmax(way, turn(&c, rates.c, false));
     }
   }
-  return way < 1e-9;
+  return way < 1e-9 && !(nose && s.along < -BACKWARDS) && !(cloth && regime->loaded && c.along < -BACKWARDS);
 }
 
 bool carom_slow_direction(const carom_coulomb *law, const carom_slips *slips, bool at_cloth, bool falls, double slip,

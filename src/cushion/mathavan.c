@@ -182,12 +182,9 @@ static double slow_event(const carom_cushion_way *w, const double *y, const doub
     return -INFINITY;
   const int at = w->slow == CAROM_CLOTH_IS_SLOW ? C_X : S_X;
   const carom_vector u = w->slow == CAROM_CLOTH_IS_SLOW ? w->regime.cloth : w->regime.nose;
-  *rate = (y[at] * f[at] + y[at + 1] * f[at + 1]) / (sqrt(y[at] * y[at] + y[at + 1] * y[at + 1]) * w->most);
-  if (w->falls) {
-    *rate = -(u.x * f[at] + u.y * f[at + 1]) / w->most;
-    return -(u.x * y[at] + u.y * y[at + 1]) / w->most;
-  }
-  return sqrt(y[at] * y[at] + y[at + 1] * y[at + 1]) / w->most - 1;
+  const double size = (u.x * y[at] + u.y * y[at + 1]) / w->most, grows = (u.x * f[at] + u.y * f[at + 1]) / w->most;
+  *rate = w->falls && size < 0.5 ? -grows : grows;
+  return w->falls && size < 0.5 ? -size : size - 1;
 }
 
 /* Positive behind the end of the regime or of the phase: the larger of the two. */
@@ -281,18 +278,23 @@ static bool becomes_slow(carom_cushion_way *w, bool cloth) {
   return begin_slow(w, cloth, falls, regime);
 }
 
-/* After a step of a slow slip: its direction is the quasi-steady one, whatever errors have added up to. */
-static void keep_slow(carom_cushion_way *w) {
+/* After a step of a slow slip: its direction is the quasi-steady one, whatever errors have added up to. False if it is too
+ * large for that now. */
+static bool keep_slow(carom_cushion_way *w) {
   const bool cloth = w->slow == CAROM_CLOTH_IS_SLOW;
   carom_slips at = slips_of(w->point.y);
   const carom_vector slip = *slip_at(&at, cloth), *const u = direction_at(&w->regime, cloth);
   double turns;
   if (!slow_regime(w, cloth, w->falls, &at, &w->regime, &turns))
-    return;
+    return false;
   const double size = slip.x * u->x + slip.y * u->y;
   w->point.y[cloth ? C_X : S_X] = size * u->x;
   w->point.y[cloth ? C_Y : S_T] = size * u->y;
+  carom_slips rates = slips_of(w->point.f);
+  const carom_vector rate = *slip_at(&rates, cloth);
+  w->falls = size * (rate.x * u->x + rate.y * u->y) < 0;
   w->most = fmin(most_slow(w, cloth, turns), 1);
+  return size <= w->most;
 }
 
 /* The regime from here on. */
@@ -405,8 +407,9 @@ static bool comes_to_rest(carom_cushion_way *w, int k_x, int k_y) {
 /* A slow slip has become zero, which may change the regime, or too large. */
 static bool end_slow(carom_cushion_way *w) {
   const bool cloth = w->slow == CAROM_CLOTH_IS_SLOW;
+  const carom_slips at = slips_of(w->point.y);
   w->slow = CAROM_NO_SLIP_IS_SLOW;
-  if (w->falls) {
+  if (w->falls && length(cloth ? at.c : at.s) < 0.5 * w->most) {
     w->point.y[cloth ? C_X : S_X] = w->point.y[cloth ? C_Y : S_T] = 0;
     return true;
   }
@@ -451,8 +454,8 @@ carom_status carom_cushion_way_on(carom_cushion_way *w, double to, int budget) {
       changes = false;
     }
     if (w->slow != CAROM_NO_SLIP_IS_SLOW) {
-      keep_slow(w);
-      if (changes && fabs(slow_event(w, at->y, at->f, &unused)) <= EVENT_TOLERANCE && !w->ended)
+      const bool ends = changes && fabs(slow_event(w, at->y, at->f, &unused)) <= EVENT_TOLERANCE;
+      if (!w->ended && (!keep_slow(w) || ends))
         changes = end_slow(w);
     } else if (!w->ended && !becomes_slow(w, false))
       becomes_slow(w, true);
