@@ -30,20 +30,26 @@ bool shot_has_id(const shot_line *line, const char *id) {
 
 static const double scale = 400.0, margin = 0.11; /* pixels a metre; m */
 
-/* The usual colours of pool balls by number, for a dark and a light background; the first is for the cue ball and others. */
-static const char *const colours[] = {"#ffffff", "#f2c230", "#2456c7", "#d9322a", "#6b3fa0", "#ee7a22", "#1f8a4c", "#7d2430",
-                                      "#222222", "#f2c230", "#2456c7", "#d9322a", "#6b3fa0", "#ee7a22", "#1f8a4c", "#7d2430"};
+/* The usual colours of pool balls by number; the first is for the cue ball and others. */
+static const char *const colours[] = {"#ffffff", "#f2c230", "#1d4fd8", "#e02d24", "#5b2a9d", "#ee7a22", "#0b5d2e", "#8c1d3a",
+                                      "#222222", "#f2c230", "#1d4fd8", "#e02d24", "#5b2a9d", "#ee7a22", "#0b5d2e", "#8c1d3a"};
 
 static const char *colour_of(const char *name, int index) {
   static const struct {
     const char *name, *colour;
-  } named[] = {{"cue", "#ffffff"}, {"white", "#ffffff"}, {"yellow", "#f2c230"}, {"red", "#d9322a"}, {"black", "#222222"}};
+  } named[] = {{"cue", "#ffffff"}, {"white", "#ffffff"}, {"yellow", "#f2c230"}, {"red", "#e02d24"}, {"black", "#222222"}};
   for (size_t k = 0; k < sizeof named / sizeof named[0]; k++)
     if (strcmp(name, named[k].name) == 0)
       return named[k].colour;
   char *end;
   const long number = strtol(name, &end, 10);
   return *end == '\0' && number >= 1 && number <= 15 ? colours[number] : colours[index % 16];
+}
+
+static bool is_striped(const char *name) {
+  char *end;
+  const long number = strtol(name, &end, 10);
+  return *end == '\0' && number >= 9 && number <= 15;
 }
 
 /* The table's axes on the picture. */
@@ -82,16 +88,16 @@ static void draw_table(const view *v, const carom_table *t) {
           "font-family=\"sans-serif\">\n<rect width=\"100%%\" height=\"100%%\" rx=\"18\" fill=\"#5b3a21\"/>\n",
           width, height, width, height);
   const double inset = scale * 0.5 * margin;
-  fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"10\" fill=\"#1e6b57\"/>\n", inset, inset,
+  fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"10\" fill=\"#3f9d80\"/>\n", inset, inset,
           width - 2.0 * inset, height - 2.0 * inset);
   for (int k = 0; k < t->pockets; k++)
     fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#111\"/>\n", across(v, t->pocket[k].centre),
             down(v, t->pocket[k].centre), scale * t->pocket[k].radius);
   for (int k = 0; k < t->jaws; k++)
-    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#14503f\"/>\n", across(v, t->jaw[k].centre),
+    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#2b6f5a\"/>\n", across(v, t->jaw[k].centre),
             down(v, t->jaw[k].centre), scale * t->jaw[k].radius);
   for (int k = 0; k < t->rails; k++)
-    fprintf(out, "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#0d3b2e\" stroke-width=\"4\" stroke-linecap=\"round\"/>\n",
+    fprintf(out, "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#1d4a3c\" stroke-width=\"4\" stroke-linecap=\"round\"/>\n",
             across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q), down(v, t->rail[k].q));
 }
 
@@ -111,8 +117,8 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
     if (moved || e->time > last) {
       if (!moved) {
         carom_shot_at(line->ball, line->count, shot, last, states);
-        fprintf(v->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2\" stroke-opacity=\"0.8\" d=\"M%.1f %.1f", colour,
-                across(v, states[ball].r), down(v, states[ball].r));
+        fprintf(v->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"M%.1f %.1f",
+                colour, across(v, states[ball].r), down(v, states[ball].r));
         moved = true;
       }
       for (int n = 1; curved && n < 8; n++) {
@@ -138,6 +144,9 @@ static void draw_ball(const view *v, const shot_line *line, const carom_ball_sta
   const bool dark = strcmp(colour, "#ffffff") != 0 && strcmp(colour, "#f2c230") != 0;
   fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" stroke=\"#111\" stroke-width=\"0.8\"/>\n", x, y, r,
           colour);
+  if (is_striped(name))
+    fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\"/>\n", x, y,
+            r - 1.8);
   fprintf(v->out,
           "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" fill=\"%s\" text-anchor=\"middle\" dominant-baseline=\"central\">", x,
           y, strlen(name) > 2 ? 7.0 : 11.0, dark ? "#fff" : "#111");
@@ -158,7 +167,7 @@ static void spread_pocketed(const shot_line *line, carom_ball_state *final) {
       before += final[k].label == CAROM_BALL_POCKETED && line->ball[k].state.label != CAROM_BALL_POCKETED &&
                 fabs(final[other].r[0] - final[k].r[0]) < 0.2 && fabs(final[other].r[1] - final[k].r[1]) < 1e-9 &&
                 final[other].label == CAROM_BALL_POCKETED;
-    final[k].r[0] += 0.6 * before * line->ball[k].kind.radius;
+    final[k].r[0] += 1.6 * before * line->ball[k].kind.radius;
   }
 }
 

@@ -397,6 +397,6 @@ START_TEST(begins_in_a_pocket) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("shots", invariants, invariants_of_exact_cushions, mirror, alone, tangent_line_and_thirty_degrees, draw_and_follow,
+  return RUN_TESTS("whole_shots", invariants, invariants_of_exact_cushions, mirror, alone, tangent_line_and_thirty_degrees, draw_and_follow,
                    straight_follow, rolling_together, cradle, starts_at_a_rail, two_at_once, order_of_balls, begins_in_a_pocket);
 }
