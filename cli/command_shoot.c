@@ -36,10 +36,11 @@ typedef struct block {
 
 OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
        "whose rules of contact and models (default carom)");
-OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "default|exact|euler|inelastic|mirror", set_choice, 0,
-       "the collision of two balls (default: exact; by pooltool's models inelastic)");
-OPTION(shoot_job, option_cushion, "cushion", cushion, 0, "default|mathavan|stronge|han|mirror|euler", set_choice, 0,
-       "the impact on a cushion (default: mathavan, the exact limit; by pooltool's models\nstronge)");
+OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "MODEL", set_ball_model, 0,
+       "the collision of two balls: exact, euler, inelastic or mirror (default: exact; by\npooltool's models inelastic)");
+OPTION(shoot_job, option_cushion, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
+       "the impact on a cushion: mathavan (the exact limit), stronge, han, mirror or euler (default:\nmathavan; by pooltool's "
+       "models stronge)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
        "what is told of events: nothing, time, type and ids, or states too (default full)");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,

@@ -306,8 +306,8 @@ OPTION(stress_job, option_shots, "shots", shots, 0, "N", set_count, 1,
        "play so many random whole shots instead, and check the invariants that they keep");
 OPTION(stress_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
        "whose rules and models the shots follow");
-OPTION(stress_job, option_cushion, "cushion", cushion, 0, "default|mathavan|stronge|han|mirror|euler", set_choice, 0,
-       "the impact on a cushion in the shots");
+OPTION(stress_job, option_cushion, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
+       "impacts on cushions in the shots: mathavan, stronge, han, mirror or euler");
 
 static const command_form form = {
     .name = "stress",
