@@ -214,7 +214,7 @@ static const command_form form = {
 };
 
 int command_shoot(int argc, char **argv) {
-  shoot_job job = {.shared = {.output = "-"}, .events = EVENTS_FULL};
+  shoot_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .events = EVENTS_FULL};
   const char *path;
   int code = parse_arguments(&form, argc, argv, &job, &path);
   if (code >= 0)

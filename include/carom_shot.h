@@ -268,9 +268,10 @@ typedef struct carom_shot_options {
   int32_t friction;      /* carom_ball_friction */
   int32_t steps;         /* of Euler's models; 0: 1000. */
   int32_t events_most;   /* events of a shot; 0: 10000. */
-  int32_t threads;       /* of a batch; 0: the calling thread alone; CAROM_ALL_THREADS. */
-  int32_t reserved;      /* 0 */
+  int32_t threads;       /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
+  int32_t unused;        /* must be 0. */
   double time_most;      /* of the clock of a shot, s; 0: 1000. */
+  uint64_t reserved[5];  /* must be 0. */
 } carom_shot_options;
 
 /* ---- What happened ---------------------------------------------------------------------------------------------------- */

@@ -91,7 +91,8 @@ static bool read_shots(shots_bench *b, const char *path) {
 
 /* ---- Timing */
 
-/* The processor's time with one thread, which other programs disturb least, as pooltool's was taken; else the clock on the wall. */
+/* The processor's time with one thread, which other programs disturb least, as pooltool's was taken; else the clock on the
+ * wall. */
 static double now_ns(const shots_bench *b) {
   struct timespec t;
   clock_gettime(b->threads > 1 ? CLOCK_MONOTONIC : CLOCK_PROCESS_CPUTIME_ID, &t);

@@ -18,10 +18,13 @@ static bool friction(double x) {
 }
 
 static carom_status check_options(const carom_shot_options *o) {
+  bool reserved = false;
+  for (size_t k = 0; k < sizeof o->reserved / sizeof o->reserved[0]; k++)
+    reserved |= o->reserved[k] != 0;
   const bool good = o->world >= 0 && o->world <= CAROM_WORLD_POOLTOOL && o->ball_model >= 0 &&
                     o->ball_model <= CAROM_BALL_MODEL_MIRROR && o->cushion_model >= 0 &&
                     o->cushion_model <= 1 + CAROM_CUSHION_EULER && o->friction >= 0 && o->friction <= CAROM_FRICTION_CONSTANT &&
-                    o->events_most >= 0 && o->reserved == 0 && o->time_most >= 0.0 && o->time_most < INFINITY;
+                    o->events_most >= 0 && o->unused == 0 && !reserved && o->time_most >= 0.0 && o->time_most < INFINITY;
   if (!good)
     return CAROM_ERROR_SHOT_OPTIONS;
   if (o->steps < 0)

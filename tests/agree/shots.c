@@ -1,4 +1,5 @@
-/* Whole shots with equal bits: a batch and single calls, whatever the threads and the cut; and, with CAROM_ISA=plain, every machine.
+/* Whole shots with equal bits: a batch and single calls, whatever the threads and the cut; and, with CAROM_ISA=plain, every
+ * machine.
  *
  * The golden values change only with the numerics, in the commit that says why: the test prints what it found. */
 #include "random_shots.h"
@@ -113,7 +114,8 @@ START_TEST(batch_is_singles) {
     for (int from = 0, size; from < SHOTS; from += size) {
       size = (int)shot_uniform(&r, 1.0, 9.0);
       size = from + size <= SHOTS ? size : SHOTS - from;
-      carom_shoot_batch(&table, balls + 16 * from, 16, 0, cues + from, 0, (size_t)size, &options, cut->shot + from, cut->status + from);
+      carom_shoot_batch(&table, balls + 16 * from, 16, 0, cues + from, 0, (size_t)size, &options, cut->shot + from,
+                        cut->status + from);
     }
     same_results(single, cut);
     free_results(cut);
@@ -130,10 +132,11 @@ START_TEST(one_for_all) {
   for (int which = 0; which < 2; which++) {
     results *single = make_results(), *batch = make_results();
     for (int k = 0; k < SHOTS; k++)
-      single->status[k] = (int8_t)carom_shoot(&table, balls + (which == 0 ? 0 : 16 * k), 16, &cues[which == 0 ? k : 0], &options,
-                                              &single->shot[k]);
-    ck_assert_int_eq(carom_shoot_batch(&table, balls, 16, which == 0, cues, which == 1, SHOTS, &options, batch->shot, batch->status),
-                     CAROM_OK);
+      single->status[k] = (int8_t)carom_shoot(&table, balls + (which == 0 ? 0 : 16 * k), 16, &cues[which == 0 ? k : 0],
+                                              &options, &single->shot[k]);
+    ck_assert_int_eq(
+        carom_shoot_batch(&table, balls, 16, which == 0, cues, which == 1, SHOTS, &options, batch->shot, batch->status),
+        CAROM_OK);
     same_results(single, batch);
     free_results(single);
     free_results(batch);
@@ -176,7 +179,8 @@ START_TEST(plain_is_the_same_everywhere) {
 }
 END_TEST
 
-/* On every instruction set a shot ends well, and the first events, which nothing has amplified yet, are the same but for rounding. */
+/* On every instruction set a shot ends well, and the first events, which nothing has amplified yet, are the same but for
+ * rounding. */
 START_TEST(instruction_sets) {
   static carom_event events[ROOM], others[ROOM];
   make_breaks();

@@ -1,4 +1,5 @@
-/* Whole shots: invariants of random shots of every kind, the physics that players know, and the cases in which pooltool fails. */
+/* Whole shots: invariants of random shots of every kind, the physics that players know, and the cases in which pooltool fails.
+ */
 #include "invariants.h"
 #include "random_shots.h"
 #include "support.h"
@@ -125,11 +126,12 @@ START_TEST(mirror) {
       ck_assert_int_eq(a.count, b.count);
       for (int k = 0; k < a.count; k++) {
         const carom_event *e = &events[k], *f = &other[k];
-        ck_assert_msg(e->time == f->time && e->type == f->type && e->a == f->a && e->b == f->b, "%s %d: event %d", s.kind, n, k);
+        ck_assert_msg(e->time == f->time && e->type == f->type && e->a == f->a && e->b == f->b, "%s %d: event %d", s.kind, n,
+                      k);
         for (int side = 0; side < 2; side++) {
           const carom_ball_state before = mirrored(e->before[side]), after = mirrored(e->after[side]);
-          ck_assert_msg(same(&before, &f->before[side]) && same(&after, &f->after[side]), "%s %d: states of event %d, type %d", s.kind,
-                        n, k, e->type);
+          ck_assert_msg(same(&before, &f->before[side]) && same(&after, &f->after[side]), "%s %d: states of event %d, type %d",
+                        s.kind, n, k, e->type);
         }
       }
     }
@@ -184,7 +186,8 @@ START_TEST(alone) {
 }
 END_TEST
 
-/* The direction in which ball 0 leaves its collision with ball 1, in degrees from its own, once it rolls. fullness: 1 full, 0 a miss. */
+/* The direction in which ball 0 leaves its collision with ball 1, in degrees from its own, once it rolls. fullness: 1 full, 0 a
+ * miss. */
 static double deflection(double fullness, double speed, double roll, const carom_shot_options *options, double *at_once) {
   const carom_table t = empty_table(50.0);
   carom_shot_ball b[2] = {ball_at(20.0, 20.0), ball_at(20.1, 20.0)};
@@ -237,7 +240,8 @@ START_TEST(draw_and_follow) {
     while (events[k].type != CAROM_EVENT_BALL_BALL)
       k++;
     const double v = 2.0 / 7.0 * b[0].kind.radius * events[k].before[0].w[1];
-    const double slid = 0.5 * v * 2.0 * b[0].kind.radius * fabs(events[k].before[0].w[1]) / (7.0 * b[0].kind.mu_slide * b[0].kind.gravity);
+    const double slid =
+        0.5 * v * 2.0 * b[0].kind.radius * fabs(events[k].before[0].w[1]) / (7.0 * b[0].kind.mu_slide * b[0].kind.gravity);
     const double distance = slid + 0.5 * v * fabs(v) / (b[0].kind.mu_roll * b[0].kind.gravity);
     ck_assert_double_eq_tol(final[0].r[0] - events[k].after[0].r[0], distance, 1e-9);
     ck_assert(distance * way > 0.0);
@@ -249,7 +253,8 @@ END_TEST
 
 static const carom_shot_options pooltool = {.world = CAROM_WORLD_POOLTOOL};
 
-/* Full hits with follow along x: two balls with equal accelerations, of which it makes a polynomial without leading coefficient. */
+/* Full hits with follow along x: two balls with equal accelerations, of which it makes a polynomial without leading
+ * coefficient. */
 START_TEST(straight_follow) {
   carom_table t;
   carom_table_make(CAROM_TABLE_POOLTOOL, &t);
@@ -287,7 +292,8 @@ START_TEST(rolling_together) {
 }
 END_TEST
 
-/* Newton's cradle: the last ball of a row goes; the others move by the rest of the first one's topspin only. It ends. By pooltool's rules it ends or a bound ends it. */
+/* Newton's cradle: the last ball of a row goes; the others move by the rest of the first one's topspin only. It ends. By
+ * pooltool's rules it ends or a bound ends it. */
 START_TEST(cradle) {
   const carom_table t = empty_table(30.0);
   for (int n = 2; n <= 6; n++) {
@@ -333,13 +339,14 @@ START_TEST(starts_at_a_rail) {
 }
 END_TEST
 
-/* Two contacts at the same instant, mirror images of each other: one is resolved after the other, by index, in a way that rounding does
- * not decide; where both closings are alike the results are the same from one place on the table to another. */
+/* Two contacts at the same instant, mirror images of each other: one is resolved after the other, by index, in a way that
+ * rounding does not decide; where both closings are alike the results are the same from one place on the table to another. */
 START_TEST(two_at_once) {
   const carom_table t = empty_table(30.0);
   double first[3][2];
   for (int place = 0; place < 50; place++) {
-    carom_shot_ball b[3] = {ball_at(10.0 + 0.0137 * place, 10.0), ball_at(11.0 + 0.0137 * place, 10.0), ball_at(11.0 + 0.0137 * place, 10.0)};
+    carom_shot_ball b[3] = {ball_at(10.0 + 0.0137 * place, 10.0), ball_at(11.0 + 0.0137 * place, 10.0),
+                            ball_at(11.0 + 0.0137 * place, 10.0)};
     const double R = b[0].kind.radius;
     b[1].state.r[1] += R;
     b[2].state.r[1] -= R;
@@ -397,6 +404,7 @@ START_TEST(begins_in_a_pocket) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("whole_shots", invariants, invariants_of_exact_cushions, mirror, alone, tangent_line_and_thirty_degrees, draw_and_follow,
-                   straight_follow, rolling_together, cradle, starts_at_a_rail, two_at_once, order_of_balls, begins_in_a_pocket);
+  return RUN_TESTS("whole_shots", invariants, invariants_of_exact_cushions, mirror, alone, tangent_line_and_thirty_degrees,
+                   draw_and_follow, straight_follow, rolling_together, cradle, starts_at_a_rail, two_at_once, order_of_balls,
+                   begins_in_a_pocket);
 }

@@ -1,6 +1,6 @@
 /* First contacts against a search in small steps, and the elementary functions against the system's. */
-#include "platform/elementary.h"
 #include "shot/contact.h"
+#include "platform/elementary.h"
 #include "support.h"
 
 #include <math.h>
@@ -13,9 +13,11 @@ static long double gap(const carom_separation *d, long double t) {
 
 static carom_separation random_pair(random_source *r, double reach) {
   const double far = reach * pow(10.0, random_between(r, 0.0, 1.5)) + 1e-9, way = random_between(r, 0.0, 6.283185307);
-  const double speed = pow(10.0, random_between(r, -3.0, 1.0)), to = way + 3.14159265 + random_between(r, -1.0, 1.0) * reach / far * 1.5;
+  const double speed = pow(10.0, random_between(r, -3.0, 1.0)),
+               to = way + 3.14159265 + random_between(r, -1.0, 1.0) * reach / far * 1.5;
   const double push = random_between(r, 0.0, 4.0), along = random_between(r, 0.0, 6.283185307);
-  return (carom_separation){{far * cos(way), far * sin(way)}, {speed * cos(to), speed * sin(to)}, {0.5 * push * cos(along), 0.5 * push * sin(along)}};
+  return (carom_separation){
+      {far * cos(way), far * sin(way)}, {speed * cos(to), speed * sin(to)}, {0.5 * push * cos(along), 0.5 * push * sin(along)}};
 }
 
 /* Nothing is stepped over, and what is found is a contact. */
@@ -52,7 +54,8 @@ START_TEST(grazing) {
   for (int n = 0; n < 20000; n++) {
     const double miss = reach * pow(10.0, random_between(&r, -15.0, -3.0)) * (random_between(&r, -1.0, 1.0) > 0.0 ? 1.0 : -1.0);
     /* past the origin at distance reach + miss, speeding up or slowing down along its way */
-    const carom_separation d = {{-0.3, reach + miss}, {random_between(&r, 0.5, 5.0), 0.0}, {random_between(&r, -0.1, 0.4), 0.0}};
+    const carom_separation d = {
+        {-0.3, reach + miss}, {random_between(&r, 0.5, 5.0), 0.0}, {random_between(&r, -0.1, 0.4), 0.0}};
     const double t = carom_first_contact(&d, reach, 1e-12, 0.5);
     if (miss > 1e-14)
       ck_assert_msg(isinf(t), "missing by %g is taken for a contact at %g", miss, t);
@@ -84,7 +87,8 @@ END_TEST
 START_TEST(elementary) {
   random_source r = {test_seed()};
   for (int n = 0; n < 100000; n++) {
-    const double x = -pow(10.0, random_between(&r, -6.0, 2.8)), degrees = random_between(&r, -1.0, 1.0) * pow(10.0, random_between(&r, 0.0, 5.0));
+    const double x = -pow(10.0, random_between(&r, -6.0, 2.8)),
+                 degrees = random_between(&r, -1.0, 1.0) * pow(10.0, random_between(&r, 0.0, 5.0));
     ck_assert_double_le(fabs(carom_exp_negative(x) / exp(x) - 1.0), 5e-16);
     double s, c;
     carom_sincos_degrees(degrees, &s, &c);

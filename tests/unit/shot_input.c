@@ -137,7 +137,8 @@ START_TEST(options_and_calls) {
   REFUSED(options.cushion_model, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.friction, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.events_most, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.reserved, 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.unused, 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.reserved[4], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.time_most, NAN, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.steps, -1, CAROM_ERROR_STEPS, -1);
   REFUSED(options.threads, -2, CAROM_ERROR_THREADS, -1);
