@@ -97,6 +97,30 @@ CAROM_API carom_status carom_cushion_check(const carom_cushion_impact *in, const
 /* The C name of number `field` of a carom_cushion_impact, 0 to 14: "v[0]" ... "jaw_radius". NULL outside that range. */
 CAROM_API const char *carom_cushion_field_name(int field);
 
+/* An impact on its way. Slips are in the frame of the cushion: x along it, y into it, z up. A slip is the velocity, m/s, of the
+ * surface of the ball over what it touches. */
+typedef struct carom_cushion_point {
+  double normal;      /* normal impulse so far, N s: the measure of how far the impact has come. */
+  double work;        /* work of the normal force so far, J: the sum of |v_n| dP. */
+  carom_phase phase;  /* CAROM_PHASE_COMPRESSION up to v_n = 0. */
+  int nose_sticks;    /* 1 where the ball does not slip on the nose, */
+  int cloth_sticks;   /* and on the cloth; else 0, and always by Euler's method. */
+  int unused;         /* 0. */
+  double v_n;         /* speed into the nose, along the normal there, m/s; negative while they part. */
+  double s_x, s_t;    /* slip on the nose, along the cushion and upwards across it. */
+  double c_x, c_y;    /* slip on the cloth. */
+  carom_motion state; /* along the axes of the table. */
+  double reserved[4]; /* 0; room for what may be told later. */
+} carom_cushion_point;
+
+/* Follows one impact, by the model MATHAVAN or EULER, through `n` >= 2 points at equal steps of normal impulse (EULER: the
+ * nearest whole steps) from 0 at points[0] to the end, which is the result of carom_cushion(). `opt` may be NULL. Made for
+ * looking, not for speed: EULER takes n/2 times an impact. Returns what carom_cushion() does, or CAROM_ERROR_CUSHION_MODEL for
+ * a model in closed form. CAROM_SEPARATING: every point is the motion before, with impulse 0. An error: every number is NaN
+ * (but nothing is written when a pointer is NULL or n < 2). */
+CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cushion_options *opt, size_t n,
+                                           carom_cushion_point *points);
+
 /* ==== Whole shots ========================================================================================================
  *
  * From the strike of a cue to rest, event by event: between events every ball moves in closed form, and no contact is stepped
@@ -111,7 +135,7 @@ CAROM_API const char *carom_cushion_field_name(int field);
  *     carom_event events[256];
  *     carom_shot shot = {.events = events, .room = 256};
  *     carom_status status = carom_shoot(&table, balls, 10, &cue, NULL, &shot);  // balls[] are not changed,
- *     carom_shot_at(&table, balls, 10, &shot, 1.5, moved);                      // the state after 1.5 s goes to moved[10]
+ *     carom_shot_at(balls, 10, &shot, 1.5, moved);                              // the state after 1.5 s goes to moved[10]
  *
  * The playing surface is 0 <= x <= width, 0 <= y <= length for the built-in tables, with z up and the cloth at z = 0: a ball on
  * it has its centre at z = R. docs/shots.md tells the models, the rules and the bounds. */
@@ -216,7 +240,7 @@ typedef enum carom_rack_kind {
 /* The number of balls of a rack; 0 if there is no such kind. */
 CAROM_API int carom_rack_size(carom_rack_kind kind);
 
-/* Sets up a rack on the table. Neighbours are `gap` apart, and each ball is moved by up to half a gap more in a direction drawn
+/* Sets up a rack on the table. Neighbours are `gap` apart, and each ball is moved by up to a quarter of it in a direction drawn
  * from `seed`, which also draws where the other balls of the rack go; gap 0 is a frozen rack. `room` is the number of elements
  * of balls[]. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_RACK: no such kind, a gap below 0 or above R, too little room. */
 CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double gap, uint64_t seed,

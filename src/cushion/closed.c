@@ -8,6 +8,16 @@
  * MIRROR. v_y becomes -e v_y. */
 #include "cushion/models.h"
 
+static double unit_interval(double x) {
+  return fmin(fmax(x, 0), 1);
+}
+
+void carom_apply_han(carom_contact *c) {
+  const double v = c->v_y;
+  c->e = unit_interval(0.39 + 0.257 * v - 0.044 * v * v);
+  c->mu_w = unit_interval(0.471 - 0.241 * atan(fabs(c->v_x) / v));
+}
+
 carom_status carom_han(carom_contact *c) {
   const double s_x = carom_slip_x(c), s_t = carom_slip_t(c), slip = sqrt(s_x * s_x + s_t * s_t);
   const double P = (1 + c->e) * (c->v_y * c->cosine), most = c->mu_w * P;

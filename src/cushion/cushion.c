@@ -9,17 +9,6 @@
 
 static const carom_cushion_options defaults = {0};
 
-static double unit_interval(double x) {
-  return fmin(fmax(x, 0), 1);
-}
-
-/* Han's fits for restitution and friction; v_y > 0. */
-static void apply_law(carom_contact *c) {
-  const double v = c->v_y;
-  c->e = unit_interval(0.39 + 0.257 * v - 0.044 * v * v);
-  c->mu_w = unit_interval(0.471 - 0.241 * atan(fabs(c->v_x) / v));
-}
-
 static carom_status by_model(carom_contact *c, const carom_cushion_options *opt, double mass) {
   const bool pooltool = opt->convention == CAROM_CONVENTION_POOLTOOL;
   carom_cushion_run run;
@@ -55,7 +44,7 @@ static carom_status solve(const carom_cushion_impact *in, const carom_cushion_op
       return CAROM_SEPARATING;
     }
     if (opt->law == CAROM_CUSHION_LAW_HAN)
-      apply_law(&contact);
+      carom_apply_han(&contact);
     status = by_model(&contact, opt, in->mass);
     if (status == CAROM_OK) {
       carom_from_cushion(&frame, &contact, in->radius, out);

@@ -21,7 +21,8 @@
  * compression: events too. A ball that is wedged (both contacts stick, v_y = 0) stays so whatever the impulse: the impact ends
  * there, and what has not been given back is lost.
  *
- * BOUNDS. MOST_CHANGES of the regime and BUDGET right-hand sides; beyond either the result is CAROM_ERROR_UNRESOLVED. */
+ * BOUNDS. MOST_CHANGES of the regime and CAROM_CUSHION_BUDGET right-hand sides; beyond either the result is
+ * CAROM_ERROR_UNRESOLVED. */
 #include "cushion/mathavan.h"
 #include "cushion/models.h"
 
@@ -40,7 +41,7 @@ static const double SMALL = 0.1;            /* a slip that may be slow, over the
 static const double STIFF = 2;              /* the rate of a slow slip, over that by friction alone */
 static const double SLOW_DIFFERENCE = 1e-5; /* of |c|/|c'|: a difference for how its direction turns */
 static const double DIFFERENCE = 1e-7;      /* of |s|/|s'|: a difference for the rate of an event */
-enum { BUDGET = 8000, MOST_CHANGES = 64 };
+enum { MOST_CHANGES = 64 };
 enum { S_X, S_T, C_X, C_Y, WORK, P, UNKNOWNS }; /* y */
 
 static carom_slips slips_of(const double *y) {
@@ -198,6 +199,10 @@ static double event(const void *model, double p, const double *y, const double *
   if (slow > value) {
     value = slow;
     *rate = slow_rate;
+  }
+  if (y[P] - w->to > value) {
+    value = y[P] - w->to;
+    *rate = f[P];
   }
   if (!may_be_violated(w))
     return value;
@@ -437,7 +442,7 @@ static bool tidy(carom_cushion_way *w) {
 }
 
 carom_status carom_cushion_way_on(carom_cushion_way *w, double to, int budget) {
-  const double p = to / w->approach;
+  const double p = w->to = to / w->approach;
   carom_ode_point *at = &w->point;
   while (!w->ended && !w->wedged && at->y[P] < p && at->evaluations < budget) {
     if (at->y[S_X] == 0 && at->y[C_X] == 0) {
@@ -448,6 +453,11 @@ carom_status carom_cushion_way_on(carom_cushion_way *w, double to, int budget) {
     }
     const carom_ode ode = equations(w);
     bool changes = carom_ode_step(&ode, at, INFINITY) != 0;
+    if (changes && fabs(at->y[P] - p) <= EVENT_TOLERANCE) {
+      go_on(at, p - at->y[P]);
+      at->y[P] = p;
+      break;
+    }
     double unused;
     if (changes && fabs(phase_event(w, at->y, at->f, &unused)) <= EVENT_TOLERANCE) {
       end_phase(w);
@@ -474,6 +484,10 @@ carom_status carom_cushion_way_on(carom_cushion_way *w, double to, int budget) {
   return w->ended || w->wedged || at->y[P] >= p ? CAROM_OK : CAROM_ERROR_UNRESOLVED;
 }
 
+double carom_cushion_way_work(const carom_cushion_way *w) {
+  return w->point.y[WORK];
+}
+
 carom_impulse carom_cushion_way_impulse(const carom_cushion_way *w) {
   const carom_coulomb *k = &w->law;
   const double *y = w->point.y, p = y[P], all = w->approach;
@@ -491,7 +505,7 @@ carom_status carom_mathavan(carom_contact *c) {
   carom_cushion_way way;
   carom_status status = carom_cushion_way_begin(c, &way);
   if (status == CAROM_OK)
-    status = carom_cushion_way_on(&way, INFINITY, BUDGET);
+    status = carom_cushion_way_on(&way, INFINITY, CAROM_CUSHION_BUDGET);
   if (status != CAROM_OK)
     return status;
   const carom_impulse q = carom_cushion_way_impulse(&way);

@@ -14,6 +14,7 @@ typedef struct carom_cushion_way {
   carom_slips start; /* slips at the start */
   double approach;   /* v_y at the start, m/s */
   double work_c;     /* int v_y dp over compression */
+  double to;         /* p at which to stop */
   int changes;       /* of the regime, so far */
   bool nose_singular, cloth_singular;
   enum { CAROM_NO_SLIP_IS_SLOW, CAROM_NOSE_IS_SLOW, CAROM_CLOTH_IS_SLOW } slow;
@@ -28,6 +29,12 @@ carom_status carom_cushion_way_begin(const carom_contact *contact, carom_cushion
 
 /* On to p = `to`, m/s, or to the end if that comes first. */
 carom_status carom_cushion_way_on(carom_cushion_way *way, double to, int budget);
+
+/* The budget of a call of carom_cushion(). */
+enum { CAROM_CUSHION_BUDGET = 8000 };
+
+/* int v_y dp so far, over the square of the approach. */
+double carom_cushion_way_work(const carom_cushion_way *way);
 
 /* Impulses so far, over the mass. */
 carom_impulse carom_cushion_way_impulse(const carom_cushion_way *way);

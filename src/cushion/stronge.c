@@ -31,7 +31,7 @@
 static const double BETA = 3.5, HALF_PI = 1.57079632679489661923;
 static const double ROOT_WIDTH = 1e-10;
 static const double SMALL = 1e-8, NEAR = 1e-5; /* how pooltool tells that rho is at a limit */
-enum { MOST_TRIALS = 60 };
+enum { MOST_TRIALS = 60, MOST_HALVINGS = 20 };
 
 typedef struct spring {
   double mu, e, ratio, eta_squared, end;
@@ -52,9 +52,9 @@ static double hold(const spring *s, double tau) {
 /* Where it slips again, in restitution: false position, with a bisection now and then. */
 static double slips_again(const spring *s) {
   double low = fmax(s->tau_k, HALF_PI), high = s->end;
-  double g_low = hold(s, low);
-  /* if it has just stuck, `hold` has a double zero at `low`, where its sign is rounding: go to where it is positive */
-  for (int k = 1; s->tau_k >= HALF_PI && k < MOST_TRIALS && (k == 1 || !(g_low > 0)); k++) {
+  /* if it has just stuck, `hold` is zero at `low` too, to rounding: go to where it is positive */
+  double g_low = s->tau_k >= HALF_PI ? 0 : hold(s, low);
+  for (int k = 1; s->tau_k >= HALF_PI && k < MOST_HALVINGS && !(g_low > 0); k++) {
     low = s->tau_k + ldexp(high - s->tau_k, -k);
     g_low = hold(s, low);
   }
