@@ -126,8 +126,7 @@ static carom_status check_cue(const carom_shot_ball *balls, int count, const car
     return CAROM_OK;
   if (cue->ball < 0 || cue->ball >= count || balls[cue->ball].state.label == CAROM_BALL_POCKETED)
     return CAROM_ERROR_CUE;
-  carom_motion unused;
-  return carom_strike(cue, &balls[cue->ball].kind, &unused);
+  return carom_check_cue(cue);
 }
 
 carom_status carom_check_layout(const carom_table *table, const carom_features *features, const carom_shot_ball *balls,

@@ -234,6 +234,7 @@ static void take_path(carom_sim *sim, int i) {
   sim->a_y[i] = path->a[1];
   sim->meeting[i] = (carom_meeting){INFINITY, 0, 0};
   sim->meeting_round[i] = (int32_t)sim->round;
+  sim->own[i] = path->end;
   /* a ball that stays where it is does so for any time, and a pocketed ball meets nothing */
   sim->horizon[i] = path->from.label == CAROM_BALL_POCKETED ? -INFINITY : INFINITY;
   if (!translates)
@@ -241,7 +242,7 @@ static void take_path(carom_sim *sim, int i) {
   const motion m = motion_now(sim, i);
   sim->meeting[i] = meet_table(sim, &m, sim->rates[i].radius, path->end - sim->now);
   sim->meeting[i].time += sim->now;
-  sim->horizon[i] = carom_lesser(path->end, sim->meeting[i].time);
+  sim->own[i] = sim->horizon[i] = carom_lesser(path->end, sim->meeting[i].time);
 }
 
 void carom_detect(carom_sim *sim, int i, int j) {

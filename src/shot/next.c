@@ -40,9 +40,9 @@ static carom_due pair_of(const carom_sim *sim, int i, int j) {
 static int list_due(const carom_sim *sim, double limit, carom_due due[MOST_DUE]) {
   int count = 0;
   for (int i = 0; i < sim->count && count < MOST_DUE - CAROM_BALLS_MOST - 2; i++) {
-    if (sim->path[i].end <= limit)
+    if (sim->own[i] <= limit && sim->path[i].end <= limit)
       due[count++] = end_of(sim, i);
-    if (sim->meeting[i].time <= limit)
+    if (sim->own[i] <= limit && sim->meeting[i].time <= limit)
       due[count++] = meeting_of(sim, i);
     for (int j = i + 1; sim->first[i] <= limit && j < sim->count; j++)
       if (sim->pair[i][j] <= limit)
@@ -163,9 +163,8 @@ static carom_due choose_pooltool(const carom_sim *sim, const carom_due *due, int
 carom_due carom_next(const carom_sim *sim) {
   double first = INFINITY;
   for (int i = 0; i < sim->count; i++) {
-    const double t = sim->path[i].end < sim->meeting[i].time ? sim->path[i].end : sim->meeting[i].time;
-    const double soonest = t < sim->first[i] ? t : sim->first[i];
-    first = soonest < first ? soonest : first;
+    const double soonest = carom_lesser(sim->own[i], sim->first[i]);
+    first = carom_lesser(soonest, first);
   }
   if (!(first < INFINITY))
     return (carom_due){INFINITY, -1, -1, -1};

@@ -43,6 +43,7 @@ typedef struct carom_sim {
   carom_meeting meeting[CAROM_BALLS_MOST];         /* with the table */
   double pair[CAROM_BALLS_MOST][CAROM_BALLS_MOST]; /* when i < j meet; infinite where not before a path ends */
   int32_t pair_round[CAROM_BALLS_MOST][CAROM_BALLS_MOST], meeting_round[CAROM_BALLS_MOST];
+  double own[CAROM_BALLS_MOST];   /* the end of the ball's phase or its meeting, whichever is earlier */
   double first[CAROM_BALLS_MOST]; /* of row i of pair[] */
   int8_t first_with[CAROM_BALLS_MOST];
 } carom_sim;
@@ -80,6 +81,9 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
                                carom_ball_state *b);
 carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], double height, double jaw,
                                  carom_ball_state *state);
+
+/* strike.c: the numbers of a cue, apart from its ball. */
+carom_status carom_check_cue(const carom_cue *cue);
 
 /* check.c: what a batch has in common, which also prepares the table; and one layout with its cue. */
 carom_status carom_check_shot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot_options *opt,

@@ -8,7 +8,7 @@
  *
  * The part of the blow that goes down into the table is lost. Sources: D. Alciatore, TP A-30 and TP A-31; pooltool's. */
 #include "platform/elementary.h"
-#include "shot/path.h"
+#include "shot/sim.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -17,7 +17,7 @@ static bool positive(double x) {
   return x > 0.0 && x < INFINITY;
 }
 
-static carom_status check(const carom_cue *cue) {
+carom_status carom_check_cue(const carom_cue *cue) {
   if (!(cue->speed >= 0.0 && cue->speed <= 1e3) || !(fabs(cue->phi) <= 1e9) || !(cue->theta >= 0.0 && cue->theta <= 90.0) ||
       !positive(cue->mass) || !positive(cue->end_mass))
     return CAROM_ERROR_CUE;
@@ -27,7 +27,7 @@ static carom_status check(const carom_cue *cue) {
 carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out) {
   if (cue == NULL || kind == NULL || out == NULL)
     return CAROM_ERROR_NULL;
-  const carom_status bad = check(cue);
+  const carom_status bad = carom_check_cue(cue);
   if (bad != CAROM_OK)
     return bad;
   const double a = cue->a, b = cue->b, inside = 1.0 - a * a;
