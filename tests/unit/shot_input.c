@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static carom_table table;
@@ -204,6 +205,73 @@ START_TEST(lost_ball) {
 }
 END_TEST
 
+/* A number of any size, or none. */
+static double wild(random_source *r, double least, double most) {
+  const double kind = random_between(r, 0.0, 1.0);
+  if (kind < 0.01)
+    return kind < 0.003 ? NAN : kind < 0.006 ? INFINITY : 0.0;
+  return kind < 0.6 ? random_between(r, least, most) : most * pow(10.0, random_between(r, -12.0, 0.0));
+}
+
+/* Whatever numbers a shot is made of, it ends, with a status, and its states are numbers. */
+START_TEST(wild_shots) {
+  random_source r = {test_seed()};
+  static carom_event events[2000];
+  int played = 0, statuses[128] = {0};
+  for (int n = 0; n < 2500; n++) {
+    set_up();
+    carom_table_make((carom_table_kind)(int)random_between(&r, 0.0, 4.99), &table);
+    const int count = 1 + (int)random_between(&r, 0.0, 9.99);
+    for (int k = 0; k < count; k++) {
+      carom_ball_kind *b = &balls[k].kind;
+      b->mass = wild(&r, 0.01, 10.0);
+      b->mu_slide = wild(&r, 0.01, 1.0);
+      b->mu_roll = wild(&r, 0.001, 1.0);
+      b->mu_spin = wild(&r, 0.001, 1.0);
+      b->restitution = wild(&r, 0.0, 1.0);
+      b->restitution_cushion = wild(&r, 0.0, 1.0);
+      b->mu_cushion = wild(&r, 0.0, 1.0);
+      b->gravity = wild(&r, 1.0, 100.0);
+      carom_ball_state *s = &balls[k].state;
+      s->r[0] = random_between(&r, 0.03, table.width - 0.03);
+      s->r[1] = random_between(&r, 0.03, table.length - 0.03);
+      for (int axis = 0; axis < 2; axis++)
+        s->v[axis] = random_between(&r, 0.0, 1.0) < 0.5 ? 0.0 : wild(&r, -10.0, 1e4);
+      for (int axis = 0; axis < 3; axis++)
+        s->w[axis] = random_between(&r, 0.0, 1.0) < 0.5 ? 0.0 : wild(&r, -300.0, 1e6);
+    }
+    cue.speed = wild(&r, 0.0, 1e3);
+    cue.phi = wild(&r, 0.0, 1e9);
+    cue.theta = wild(&r, 0.0, 90.0);
+    cue.a = wild(&r, -1.0, 1.0);
+    options.world = n % 2;
+    options.events_most = 2000;
+    options.cushion_model = n % 3 == 0 ? 0 : 1 + CAROM_CUSHION_HAN;
+    carom_ball_state final[10];
+    carom_shot shot = {.events = events, .room = 2000, .final = final};
+    const carom_status status = carom_shoot(&table, balls, count, &cue, &options, &shot);
+    ck_assert_str_ne(carom_status_name(status), "unknown");
+    ck_assert_int_le(shot.count, 2000);
+    if (shot.count == 0)
+      continue;
+    played++;
+    statuses[-status]++;
+    for (int k = 0; k < count; k++)
+      for (int axis = 0; axis < 3; axis++)
+        ck_assert_msg(isfinite(final[k].r[axis]) && isfinite(final[k].v[axis]) && isfinite(final[k].w[axis]),
+                      "shot %d ends with states that are no numbers, status %s", n, carom_status_name(status));
+    for (int k = 1; k < shot.count; k++)
+      ck_assert_double_ge(events[k].time, events[k - 1].time);
+  }
+  printf("%d were played:", played);
+  for (int k = 0; k < 128; k++)
+    if (statuses[k] > 0)
+      printf(" %d %s", statuses[k], carom_status_name((carom_status)-k));
+  printf("\n");
+  ck_assert_int_gt(played, 200);
+}
+END_TEST
+
 int main(void) {
-  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, bounds, lost_ball);
+  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, bounds, lost_ball, wild_shots);
 }
