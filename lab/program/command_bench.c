@@ -1,6 +1,8 @@
 /* `carom-lab bench`: times every kernel on the reference cases, once it is verified. */
 #include "bench_job.h"
 #include "command.h"
+#include "cushion_lab.h"
+#include "cushion_rows.h"
 #include "machine.h"
 #include "memory.h"
 #include "message.h"
@@ -207,10 +209,10 @@ static const command_form form = {
     .name = "bench",
     .usage = "[OPTIONS]",
     .about = about,
-    .options =
-        (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch, &option_isa,
-                                    &option_one_precision, &option_thread_counts, &option_pairs, &option_budget, &option_csv,
-                                    &option_spread, &option_errors, &option_counters, &option_data, &option_output, NULL},
+    .options = (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch, &option_isa,
+                                           &option_one_precision, &option_thread_counts, &option_pairs, &option_budget,
+                                           &option_csv, &option_spread, &option_errors, &option_counters, &option_data,
+                                           &option_cushion, &option_output, NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };
@@ -231,6 +233,8 @@ static int bench(bench_job *job) {
 }
 
 int command_bench(int argc, char **argv) {
+  if (cushion_asked(&argc, argv))
+    return cushion_bench_command(argc, argv);
   bench_job job = {.shared = {.precision = ANY_PRECISION, .output = "-"}, .budget = 20.0, .code = EXIT_GOOD};
   int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code < 0)
