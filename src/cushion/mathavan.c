@@ -28,7 +28,7 @@
 
 #include <float.h>
 
-static const double TOLERANCE = 1e-11; /* of a step, over the approach */
+static const double TOLERANCE = 3e-11; /* of a step, over the approach */
 static const double EVENT_TOLERANCE = 1e-8;
 static const double SHARE = 0.9; /* of |s|/|s'| that a step may go */
 static const double NEARLY = 1e-6;
@@ -36,6 +36,7 @@ static const double REST = 1e-11;           /* a slip that is none, over the app
 static const double CORNER = 5e-9;          /* slips at both contacts together that are none, likewise */
 static const double MOST_SLIP = 1e100;      /* over the approach; squares of more would overflow */
 static const double SLOW = 1e-5;            /* a slow slip times how fast its direction turns, over what friction does to it */
+static const double ALIGNED = 1e-4;         /* rate across a slip, over what friction does to it, that may be quasi-steady */
 static const double SLOW_SHARE = 1e-3;      /* of the other slip: the most that a slow one may be */
 static const double SMALL = 0.1;            /* a slip that may be slow, over the approach */
 static const double STIFF = 2;              /* the rate of a slow slip, over that by friction alone */
@@ -112,7 +113,10 @@ static carom_friction slow_friction(const carom_cushion_way *w, const carom_slip
   carom_regime regime = w->regime;
   carom_slips at = *slips;
   double turns;
-  slow_regime(w, w->slow == CAROM_CLOTH_IS_SLOW, w->falls, &at, &regime, &turns);
+  if (is_alone(w, w->slow == CAROM_CLOTH_IS_SLOW)) /* the direction does not change */
+    *slip_at(&at, w->slow == CAROM_CLOTH_IS_SLOW) = (carom_vector){0, 0};
+  else
+    slow_regime(w, w->slow == CAROM_CLOTH_IS_SLOW, w->falls, &at, &regime, &turns);
   return carom_friction_of(&w->law, &regime, &at);
 }
 
@@ -120,9 +124,31 @@ static carom_friction friction_at(const carom_cushion_way *w, const carom_slips 
   return w->slow != CAROM_NO_SLIP_IS_SLOW ? slow_friction(w, slips) : carom_friction_of(&w->law, &w->regime, slips);
 }
 
+/* The right-hand side while both contacts slip and neither slip is slow: what follows, with each root taken once. */
+static void slipping_slope(const carom_cushion_way *w, const double *y, double *f) {
+  const carom_coulomb *k = &w->law;
+  const double s_2 = y[S_X] * y[S_X] + y[S_T] * y[S_T], c_2 = y[C_X] * y[C_X] + y[C_Y] * y[C_Y];
+  const double by_s = 1 / sqrt(s_2), by_c = 1 / sqrt(c_2);
+  const double u_x = s_2 > 0 ? y[S_X] * by_s : w->regime.nose.x, u_t = s_2 > 0 ? y[S_T] * by_s : w->regime.nose.y;
+  const double t_x = c_2 > 0 ? y[C_X] * by_c : w->regime.cloth.x, t_y = c_2 > 0 ? y[C_Y] * by_c : w->regime.cloth.y;
+  const double rho = 1 / (1 + (w->nose_singular ? by_s : 0) + (w->cloth_singular ? by_c : 0));
+  const double f_x = -k->mu_w * u_x, f_t = -k->mu_w * u_t, load = w->regime.loaded ? k->mu_s * (k->sine - k->cosine * f_t) : 0;
+  const double F_x = -load * t_x, F_y = -load * t_y;
+  f[S_X] = rho * (3.5 * f_x + k->k_x * F_x);
+  f[S_T] = rho * (k->sine * k->cosine + k->k_t * f_t + k->k_y * F_y);
+  f[C_X] = rho * (k->k_x * f_x + 3.5 * F_x);
+  f[C_Y] = rho * (k->k_y * f_t + 3.5 * F_y - k->cosine);
+  f[WORK] = rho * ((y[C_Y] - y[S_T]) * w->per_sine);
+  f[P] = rho;
+}
+
 static void slope(const void *model, double x, const double *y, double *f) {
   (void)x;
   const carom_cushion_way *w = model;
+  if (!w->regime.nose_sticks && !w->regime.cloth_sticks && w->slow == CAROM_NO_SLIP_IS_SLOW) {
+    slipping_slope(w, y, f);
+    return;
+  }
   const carom_slips slips = slips_of(y);
   const carom_friction friction = friction_at(w, &slips);
   const carom_slips rates = carom_slip_rates(&w->law, &friction);
@@ -278,6 +304,10 @@ static bool becomes_slow(carom_cushion_way *w, bool cloth) {
   const bool falls = slip.x * rate.x + slip.y * rate.y < 0;
   if (!(size > 0 && size < SMALL) || !(falls || is_alone(w, cloth)) || !is_stiff(w, cloth))
     return false;
+  /* in the quasi-steady direction the slip turns slowly: else there is no need to look closer */
+  const double turns = fabs(slip.x * rate.y - slip.y * rate.x) / size;
+  if (turns > ALIGNED * friction_rate(w, cloth) * w->point.f[P])
+    return false;
   carom_regime regime = w->regime;
   *direction_at(&regime, cloth) = (carom_vector){slip.x / size, slip.y / size};
   return begin_slow(w, cloth, falls, regime);
@@ -328,6 +358,8 @@ static carom_status change(carom_cushion_way *w) {
 carom_status carom_cushion_way_begin(const carom_contact *c, carom_cushion_way *w) {
   const double per = 1 / c->v_y;
   *w = (carom_cushion_way){
+      .per_sine = 1 / (1 + c->sine),
+
       .law = {.sine = c->sine,
               .cosine = c->cosine,
               .mu_s = c->mu_s,
