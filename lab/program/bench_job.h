@@ -19,7 +19,7 @@ typedef struct bench_job {
   bool csv, spread, errors, counters, show_pairs;
   const char *shots; /* a file of shots to time instead */
   int models;        /* carom_world of theirs */
-  int cushion;       /* and the model of their cushions, as in carom_shot_options */
+  int cushion_model; /* and the model of their cushions, as in carom_shot_options */
   const char *folder;
   case_set cases;
   case_tiles tiles;

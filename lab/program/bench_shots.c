@@ -183,7 +183,7 @@ static void print_all(const shots_bench *b) {
 
 int bench_shots(const bench_job *job) {
   shots_bench b = {.job = job, .threads = job->threads.count > 0 ? job->threads.value[0] : 1, .code = EXIT_GOOD};
-  b.options = (carom_shot_options){.world = job->models, .cushion_model = job->cushion, .threads = b.threads};
+  b.options = (carom_shot_options){.world = job->models, .cushion_model = job->cushion_model, .threads = b.threads};
   if (!read_shots(&b, job->shots))
     return EXIT_USAGE;
   time_all(&b);

@@ -306,7 +306,7 @@ OPTION(stress_job, option_shots, "shots", shots, 0, "N", set_count, 1,
        "play so many random whole shots instead, and check the invariants that they keep");
 OPTION(stress_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
        "whose rules and models the shots follow");
-OPTION(stress_job, option_cushion, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
+OPTION(stress_job, option_cushion_model, "cushion-model", cushion, 0, "MODEL", set_cushion_model, 0,
        "impacts on cushions in the shots: mathavan, stronge, han, mirror or euler");
 
 static const command_form form = {
@@ -316,7 +316,7 @@ static const command_form form = {
         "Draws random collisions and compares the exact solver's results, by single calls and in batches, in double and in\n"
         "single precision, with an adaptive integrator, and where they differ with the tests' oracle.\n",
     .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_worst, &option_shots,
-                                           &option_models, &option_cushion, &option_threads, &option_output, NULL},
+                                           &option_models, &option_cushion_model, &option_threads, &option_output, NULL},
     .details = "exit code: 0; 1 if an error is larger than carom.h promises, or bits of a batch differ from a single call's;\n"
                "           2 for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",

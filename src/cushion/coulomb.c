@@ -149,6 +149,14 @@ static bool begin(const carom_coulomb *law, const carom_slips *slips, bool nose,
 
 bool carom_slow_direction(const carom_coulomb *law, const carom_slips *slips, bool at_cloth, bool falls, double slip,
                           carom_vector turning, carom_regime *regime) {
+  if (at_cloth && !regime->nose_sticks) {
+    /* friction at the cloth has no part in that at the nose and acts along u: u is the direction of the rest */
+    const carom_vector at = direction(slips->s, regime->nose);
+    const double x = -law->k_x * law->mu_w * at.x - slip * turning.x,
+                 y = -law->k_y * law->mu_w * at.y - law->cosine - slip * turning.y;
+    regime->cloth = direction((carom_vector){x, y}, regime->cloth);
+    return true;
+  }
   search s = {.u = at_cloth ? &regime->cloth : &regime->nose, .slope = 3 * law->mu_w};
   double way = INFINITY;
   for (int k = 0; k < MOST_ITERATIONS && way > CONVERGED; k++) {

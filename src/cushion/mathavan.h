@@ -14,6 +14,7 @@ typedef struct carom_cushion_way {
   carom_slips start; /* slips at the start */
   double approach;   /* v_y at the start, m/s */
   double work_c;     /* int v_y dp over compression */
+  double per_sine;   /* 1 / (1 + sin) */
   double to;         /* p at which to stop */
   int changes;       /* of the regime, so far */
   bool nose_singular, cloth_singular;
