@@ -127,7 +127,13 @@ carom_status carom_model_cushion(const carom_sim *sim, int i, const double norma
     options.least_step = 0.001;
   }
   carom_motion out;
-  const carom_status status = carom_cushion(&in, &options, &out);
+  carom_status status = carom_cushion(&in, &options, &out);
+  if (status == CAROM_ERROR_UNRESOLVED && options.model == CAROM_CUSHION_MATHAVAN) {
+    /* a shot goes on by the same model's steps where its limit is refused, as for a ball whose rolling is exact but for
+     * rounding */
+    options.model = CAROM_CUSHION_EULER;
+    status = carom_cushion(&in, &options, &out);
+  }
   if (status >= 0)
     take_motion(&out, state);
   return status;
