@@ -31,6 +31,7 @@ typedef struct timed_shot {
 
 typedef struct shots_bench {
   const bench_job *job;
+  shot_file *file; /* open as long as its tables are needed */
   carom_shot_options options;
   int threads;
   timed_shot *shot;
@@ -60,13 +61,12 @@ static bool verified(const timed_shot *t, const carom_shot_options *options, dou
 }
 
 static bool read_shots(shots_bench *b, const char *path) {
-  shot_file *file = shot_file_open(path);
+  shot_file *file = b->file = shot_file_open(path);
   if (file == NULL)
     return false;
   const char *text;
   timed_shot t = {.us = NAN};
   shot_read what;
-  /* the file stays open as long as the program runs: lines refer to its tables */
   while ((what = shot_file_next(file, &t.line, &text)) == SHOT_SHOT || what == SHOT_TABLE) {
     if (what == SHOT_TABLE)
       continue;
@@ -184,12 +184,16 @@ static void print_all(const shots_bench *b) {
 int bench_shots(const bench_job *job) {
   shots_bench b = {.job = job, .threads = job->threads.count > 0 ? job->threads.value[0] : 1, .code = EXIT_GOOD};
   b.options = (carom_shot_options){.world = job->models, .cushion_model = job->cushion_model, .threads = b.threads};
-  if (!read_shots(&b, job->shots))
-    return EXIT_USAGE;
-  time_all(&b);
-  print_all(&b);
+  if (read_shots(&b, job->shots)) {
+    time_all(&b);
+    print_all(&b);
+  } else {
+    b.code = EXIT_USAGE;
+  }
   for (size_t k = 0; k < b.count; k++)
     shot_line_free(&b.shot[k].line);
   free(b.shot);
+  if (b.file != NULL)
+    shot_file_close(b.file);
   return b.code;
 }

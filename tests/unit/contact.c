@@ -25,13 +25,14 @@ START_TEST(pairs) {
   random_source r = {test_seed()};
   const double reach = 0.05715;
   int found = 0;
-  for (int n = 0; n < 20000; n++) {
+  for (int n = 0; n < 8000; n++) {
     const carom_separation d = random_pair(&r, reach);
     const double horizon = random_between(&r, 0.05, 2.0), t = carom_first_contact(&d, reach, 1e-12, horizon);
     const double until = t < horizon ? t : horizon;
-    for (int s = 0; s < 500; s++) {
-      const long double at = until * s / 500.0L;
-      ck_assert_msg(gap(&d, at) > reach - 1e-12L || at >= t, "pair %d is stepped over at %Lg before %g", n, at, t);
+    for (int s = 0; s < 300; s++) {
+      const double at = until * s / 300.0;
+      if (!(gap(&d, at) > reach - 1e-12L || at >= t))
+        ck_abort_msg("pair %d is stepped over at %g before %g", n, at, t);
     }
     if (t <= horizon) {
       found++;
@@ -41,8 +42,8 @@ START_TEST(pairs) {
     }
     ck_assert_double_eq(carom_first_crossing(&d, reach, horizon), t);
   }
-  printf("%d of 20000 pairs meet\n", found);
-  ck_assert_int_gt(found, 4000);
+  printf("%d of 8000 pairs meet\n", found);
+  ck_assert_int_gt(found, 1600);
 }
 END_TEST
 
@@ -86,7 +87,7 @@ END_TEST
 
 START_TEST(elementary) {
   random_source r = {test_seed()};
-  for (int n = 0; n < 100000; n++) {
+  for (int n = 0; n < 20000; n++) {
     const double x = -pow(10.0, random_between(&r, -6.0, 2.8)),
                  degrees = random_between(&r, -1.0, 1.0) * pow(10.0, random_between(&r, 0.0, 5.0));
     ck_assert_double_le(fabs(carom_exp_negative(x) / exp(x) - 1.0), 5e-16);
