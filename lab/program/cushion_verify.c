@@ -53,7 +53,7 @@ static bool print(FILE *out, bool csv, comparison *c) {
 /* Against the judge. */
 static bool judge(FILE *out, bool csv, cushion_draw kind, int draws, double done, double total) {
   comparison c = {.model = "mathavan",
-                  .reference = kind == CUSHION_PLAY ? "judge, impacts of play" : "judge, any impacts",
+                  .reference = kind == CUSHION_PLAY ? "judge: impacts of play" : "judge: any impacts",
                   .error = allocate((size_t)draws, sizeof *c.error),
                   .worst_bound = judge_worst,
                   .median_bound = judge_median};
