@@ -107,6 +107,7 @@ static void print_shot_types(void) {
   FIELD(carom_shot, count);
   FIELD(carom_shot, final);
   FIELD(carom_shot, time);
+  FIELD(carom_shot, reserved);
 }
 
 static void print_types(void) {
