@@ -30,7 +30,7 @@
 #include "cushion/slow.h"
 
 static const double NEARLY = 1e-6;
-static const double REST = 1e-11;      /* a slip that is none, over the approach and the largest slip together */
+static const double REST = 2e-11;      /* a slip that is none, over the approach and the largest slip together */
 static const double CORNER = 5e-9;     /* slips at both contacts together that are none, likewise */
 static const double MOST_SLIP = 1e100; /* over the approach; squares of more would overflow */
 enum { MOST_CHANGES = 64 };

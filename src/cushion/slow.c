@@ -2,7 +2,7 @@
  * quasi-steady one of coulomb.c. A slip is slow
  *
  *     where it begins from zero with a rate below STIFF, as where friction has just left its cone;
- *     where it falls, once it is small and has come to that direction; or grows, if nothing that changes acts on it
+ *     where it falls, once it is small and has come to that direction; likewise where it grows again
  *
  * as long as r |u'| is below SLOW of what friction does to it, and r below SLOW_SHARE of the other slip, since u' may soon be
  * larger where that one is small. The limits were found with `carom-lab verify --cushion`: ten times larger ones let errors
@@ -13,7 +13,7 @@
 
 static const double SLOW = 1e-5;       /* a slow slip times how fast its direction turns, over what friction does to it */
 static const double ALIGNED = 1e-4;    /* rate across a slip, over what friction does to it, that may be quasi-steady */
-static const double SLOW_SHARE = 1e-3; /* of the other slip: the most that a slow one may be */
+static const double SLOW_SHARE = 3e-3; /* of the other slip: the most that a slow one may be */
 static const double SMALL = 0.1;       /* a slip that may be slow, over the approach */
 static const double STIFF = 2;         /* the rate of a slow slip, over that by friction alone */
 
@@ -59,13 +59,13 @@ bool carom_slow_begin(carom_cushion_way *w, bool cloth, bool falls, carom_regime
   return true;
 }
 
-/* A slip may have become slow: small, stiff, and in the quasi-steady direction. One that grows stays so only alone. */
+/* A slip may have become slow: small, stiff, and in the quasi-steady direction. */
 bool carom_slow_try(carom_cushion_way *w, bool cloth) {
   carom_slips at = slips_of(w->point.y), rates = slips_of(w->point.f);
   const carom_vector slip = *slip_at(&at, cloth), rate = *slip_at(&rates, cloth);
   const double size = length(slip);
   const bool falls = slip.x * rate.x + slip.y * rate.y < 0;
-  if (!(size > 0 && size < SMALL) || !(falls || carom_slip_is_alone(w, cloth)) || !carom_slip_is_stiff(w, cloth))
+  if (!(size > 0 && size < SMALL) || !carom_slip_is_stiff(w, cloth))
     return false;
   /* in the quasi-steady direction the slip turns slowly: else there is no need to look closer */
   const double turns = fabs(slip.x * rate.y - slip.y * rate.x) / size;
