@@ -1,4 +1,5 @@
 /* `carom resolve`: collisions from a file, by the library's solvers. */
+#include "cushion_rows.h"
 #include "resolving.h"
 #include "subcommands.h"
 
@@ -16,13 +17,15 @@ static const command_form form = {
     .usage = "[OPTIONS] IN",
     .about = resolve_about,
     .options = (const option_row *const[]){&option_solver, &option_slip, &option_steps, &option_friction, &option_precision,
-                                           &option_threads, &option_output, &option_summary, NULL},
+                                           &option_threads, &option_cushion, &option_output, &option_summary, NULL},
     .details = resolve_details,
     .example = "carom resolve --solver euler --slip pooltool -o after.csv before.csv",
     .files = ONE_FILE,
 };
 
 int command_resolve(int argc, char **argv) {
+  if (cushion_asked(&argc, argv))
+    return cushion_resolve(argc, argv);
   resolving job = {.shared = {.options = COMMAND_OPTIONS, .precision = ANY_PRECISION}, .solve = by_library};
   const char *file;
   const int code = parse_arguments(&form, argc, argv, &job, &file);

@@ -1,5 +1,6 @@
 /* `carom sweep`: one collision over and over, one of its inputs varied in fine steps. */
 #include "command.h"
+#include "cushion_rows.h"
 #include "impacts.h"
 #include "message.h"
 #include "number.h"
@@ -163,13 +164,15 @@ static const command_form form = {
     .about = about,
     .options = (const option_row *const[]){&option_id, &option_over, &option_from, &option_to, &option_points, &option_solvers,
                                            &option_slip, &option_steps, &option_friction, &option_brief, &option_data,
-                                           &option_output, NULL},
+                                           &option_cushion, &option_output, NULL},
     .details = details,
     .example = "carom sweep --id pooltool-135 --over w1z --from -60 --to 60 --brief -o sweep.csv",
     .files = FILE_OR_NONE,
 };
 
 int command_sweep(int argc, char **argv) {
+  if (cushion_asked(&argc, argv))
+    return cushion_sweep(argc, argv);
   sweep s = {.asked = {.options = COMMAND_OPTIONS, .solvers = {{CAROM_SOLVER_EXACT}, 1}, .output = "-"},
              .points = 10001,
              .from = NAN,

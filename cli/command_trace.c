@@ -1,5 +1,6 @@
 /* `carom trace`: one collision against normal impulse, as a CSV file and as a picture. */
 #include "command.h"
+#include "cushion_rows.h"
 #include "memory.h"
 #include "message.h"
 #include "number.h"
@@ -133,13 +134,15 @@ static const command_form form = {
     .usage = "--id X [OPTIONS] [FILE]",
     .about = about,
     .options = (const option_row *const[]){&option_id, &option_solvers, &option_slip, &option_steps, &option_points,
-                                           &option_friction, &option_plot, &option_data, &option_output, NULL},
+                                           &option_friction, &option_plot, &option_data, &option_cushion, &option_output, NULL},
     .details = details,
     .example = "carom trace --id pooltool-135 --solver exact,euler --plot trace.svg",
     .files = FILE_OR_NONE,
 };
 
 int command_trace(int argc, char **argv) {
+  if (cushion_asked(&argc, argv))
+    return cushion_trace(argc, argv);
   trace t = {.asked = {.options = COMMAND_OPTIONS, .solvers = {{CAROM_SOLVER_EXACT}, 1}}, .points = 201};
   const char *file;
   int code = parse_arguments(&form, argc, argv, &t, &file);

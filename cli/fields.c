@@ -71,6 +71,22 @@ OPTION_SET(set_choice) {
   return place >= 0;
 }
 
+/* One of many names, which would make the help too wide. */
+static bool set_model(const option_row *row, const char *text, const char *models, int *place) {
+  *place = place_among(models, text, strlen(text));
+  if (*place < 0)
+    complain("--%s is %s, not '%s'", row->name, models, text);
+  return *place >= 0;
+}
+
+OPTION_SET(set_ball_model) {
+  return set_model(row, text, "default|exact|euler|inelastic|mirror", field);
+}
+
+OPTION_SET(set_cushion_model) {
+  return set_model(row, text, "default|mathavan|stronge|han|mirror|euler", field);
+}
+
 static OPTION_SET(set_solvers) {
   static const solver_list lists[] = {
       {{CAROM_SOLVER_EXACT}, 1}, {{CAROM_SOLVER_EULER}, 1}, {{CAROM_SOLVER_EXACT, CAROM_SOLVER_EULER}, 2}};

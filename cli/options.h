@@ -48,6 +48,9 @@ OPTION_SET(set_count);  /* int: a whole number from row->least */
 OPTION_SET(set_number); /* double, finite */
 OPTION_SET(set_choice); /* int, or an enumeration of two: the place of the text in row->argument, "this|that" */
 
+OPTION_SET(set_ball_model);    /* int: carom_shot_options.ball_model */
+OPTION_SET(set_cushion_model); /* int: carom_shot_options.cushion_model */
+
 /* The place of `text`, of `size` characters, among words with blanks or bars between them; -1 if it is none of them. */
 int place_among(const char *words, const char *text, size_t size);
 

@@ -110,6 +110,7 @@ need_to_build() {
   need cmake cmake "build system"
   need ninja ninja-build "build system"
   need '/usr/include/csv.h' libcsv-dev "CSV reading in the programs"
+  need '/usr/include/jansson.h' libjansson-dev "JSON reading in the programs"
   want '/usr/bin/clang-1[5-9] /usr/bin/clang-[2-9][0-9]' clang-newest "a second compiler for the seed paper's kernels, and its first choice"
   want '/usr/include/papi.h' libpapi-dev "hardware counters in carom-lab bench, where the machine has some"
 }

@@ -17,6 +17,9 @@ typedef struct bench_job {
   count_list threads; /* of a batch; none: the default */
   double budget;
   bool csv, spread, errors, counters, show_pairs;
+  const char *shots; /* a file of shots to time instead */
+  int models;        /* carom_world of theirs */
+  int cushion_model; /* and the model of their cushions, as in carom_shot_options */
   const char *folder;
   case_set cases;
   case_tiles tiles;

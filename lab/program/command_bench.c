@@ -1,6 +1,9 @@
 /* `carom-lab bench`: times every kernel on the reference cases, once it is verified. */
 #include "bench_job.h"
+#include "bench_shots.h"
 #include "command.h"
+#include "cushion_lab.h"
+#include "cushion_rows.h"
 #include "machine.h"
 #include "memory.h"
 #include "message.h"
@@ -192,6 +195,14 @@ OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
 OPTION(bench_job, option_counters, "counters", counters, 0, NULL, set_flag, 0,
        "more columns in the CSV: reference cycles and hardware counters per collision, NA where\nthere are none");
 
+OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
+       "time the whole shots of this file instead, beside pooltool's recorded times");
+OPTION(bench_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
+       "whose rules and models the shots are played by (default carom)");
+OPTION(bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODEL", set_cushion_model, 0,
+       "impacts on cushions in the shots: mathavan, stronge, han, mirror or euler (default:\nmathavan; by pooltool's models "
+       "stronge)");
+
 static const char about[] =
     "Times kernels on the 204 reference cases, each case one call, in turns: A B C A B C ... What is timed has been verified\n"
     "just before; a kernel that is over its bound is refused. Figures are nanoseconds per collision, the mean over the cases;\n"
@@ -208,14 +219,18 @@ static const command_form form = {
     .usage = "[OPTIONS]",
     .about = about,
     .options =
-        (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch, &option_isa,
-                                    &option_one_precision, &option_thread_counts, &option_pairs, &option_budget, &option_csv,
-                                    &option_spread, &option_errors, &option_counters, &option_data, &option_output, NULL},
+        (const option_row *const[]){&option_kernel,   &option_config,        &option_counts,        &option_batch,
+                                    &option_isa,      &option_one_precision, &option_thread_counts, &option_pairs,
+                                    &option_budget,   &option_csv,           &option_spread,        &option_errors,
+                                    &option_counters, &option_shots,         &option_models,        &option_cushion_model,
+                                    &option_data,     &option_cushion,       &option_output,        NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };
 
 static int bench(bench_job *job) {
+  if (job->shots != NULL)
+    return bench_shots(job);
   if ((job->spread || job->errors || job->counters) && !job->csv) {
     complain("--spread, --errors and --counters add columns to the CSV: give --csv too");
     return usage_hint(&form);
@@ -231,6 +246,8 @@ static int bench(bench_job *job) {
 }
 
 int command_bench(int argc, char **argv) {
+  if (cushion_asked(&argc, argv))
+    return cushion_bench_command(argc, argv);
   bench_job job = {.shared = {.precision = ANY_PRECISION, .output = "-"}, .budget = 20.0, .code = EXIT_GOOD};
   int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code < 0)

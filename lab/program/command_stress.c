@@ -12,6 +12,7 @@
 #include "options.h"
 #include "oracle.h"
 #include "output.h"
+#include "stress_shots.h"
 #include "subcommands.h"
 
 #include "ball_ball/fallback.h"
@@ -54,6 +55,7 @@ enum { WAY_DOUBLE, WAY_SINGLE, WAYS };
 typedef struct stress_job {
   shared_options shared;
   int draws, seed, kind;
+  int shots, models, cushion; /* whole shots instead */
   bool worst_rows;
 } stress_job;
 
@@ -300,14 +302,21 @@ OPTION(stress_job, option_worst, "worst", worst_rows, 0, NULL, set_flag, 0,
        "print, instead of the table, the 20 collisions with the largest errors in double precision,\n"
        "as rows that `carom resolve` reads");
 
+OPTION(stress_job, option_shots, "shots", shots, 0, "N", set_count, 1,
+       "play so many random whole shots instead, and check the invariants that they keep");
+OPTION(stress_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
+       "whose rules and models the shots follow");
+OPTION(stress_job, option_cushion_model, "cushion-model", cushion, 0, "MODEL", set_cushion_model, 0,
+       "impacts on cushions in the shots: mathavan, stronge, han, mirror or euler");
+
 static const command_form form = {
     .name = "stress",
     .usage = "[OPTIONS]",
     .about =
         "Draws random collisions and compares the exact solver's results, by single calls and in batches, in double and in\n"
         "single precision, with an adaptive integrator, and where they differ with the tests' oracle.\n",
-    .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_worst, &option_threads,
-                                           &option_output, NULL},
+    .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_worst, &option_shots,
+                                           &option_models, &option_cushion_model, &option_threads, &option_output, NULL},
     .details = "exit code: 0; 1 if an error is larger than carom.h promises, or bits of a batch differ from a single call's;\n"
                "           2 for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
@@ -318,6 +327,8 @@ int command_stress(int argc, char **argv) {
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;
+  if (job.shots > 0)
+    return stress_shots(job.shots, (uint64_t)job.seed, job.models, job.cushion);
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;

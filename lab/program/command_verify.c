@@ -2,6 +2,8 @@
 #include "accuracy.h"
 #include "cases.h"
 #include "command.h"
+#include "cushion_lab.h"
+#include "cushion_rows.h"
 #include "kernel.h"
 #include "memory.h"
 #include "message.h"
@@ -22,6 +24,9 @@ typedef struct ladder_summary {
 
 /* How the library is called: pair by pair, or as a batch in the lanes of one instruction set. */
 enum { SINGLE_CALLS = -1 };
+
+/* Random impacts on cushions of each kind; `verify --cushion` takes more. */
+enum { CUSHION_DRAWS_HERE = 100 };
 
 typedef struct verification {
   shared_options shared;
@@ -202,6 +207,10 @@ static bool verify_all(verification *v) {
     tell_ladder(v);
   else if (!v->csv)
     fprintf(v->out, "\n%s", v->parity);
+  if (v->only == NULL && !v->csv && !v->brief) {
+    fputc('\n', v->out);
+    return cushion_verify(v->out, v->folder, CUSHION_DRAWS_HERE, false, &v->all_pass);
+  }
   return true;
 }
 
@@ -229,12 +238,14 @@ static const command_form form = {
     .usage = "[OPTIONS]",
     .about = about,
     .options = (const option_row *const[]){&option_kernel, &option_config, &option_data, &option_brief, &option_csv,
-                                           &option_output, NULL},
+                                           &option_cushion, &option_output, NULL},
     .details = details,
     .example = "carom-lab verify --kernel float",
 };
 
 int command_verify(int argc, char **argv) {
+  if (cushion_asked(&argc, argv))
+    return cushion_verify_command(argc, argv);
   verification v = {.shared.output = "-", .way = SINGLE_CALLS, .all_pass = true};
   int code = parse_arguments(&form, argc, argv, &v, NULL);
   if (code >= 0)

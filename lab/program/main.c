@@ -9,6 +9,7 @@ int main(int argc, char **argv) {
       {"verify", "compare every kernel with the references", command_verify},
       {"bench", "time every kernel, once it is verified", command_bench},
       {"stress", "test the exact solver on random collisions", command_stress},
+      {"parity", "compare whole shots with those that pooltool recorded", command_parity},
       {"experiments", "compare with the 2014 paper's measured shots", command_experiments},
   };
   static const program lab = {

@@ -7,7 +7,8 @@
  *
  * EVENTS. If the event function has become positive, its zero is located by trial steps of shorter length. Each goes to the
  * zero of the cubic Hermite interpolant of the event function on the bracket known so far, so two or three suffice, and the
- * point that is returned has the accuracy of a step; no dense output is needed.
+ * point that is returned has the accuracy of a step; no dense output is needed. After PATIENCE trials every other one halves
+ * the bracket: an event function may be the largest of several, and has corners then.
  *
  * The eighth root is three square roots: no function enters whose bits differ between systems.
  *
@@ -91,12 +92,12 @@ static const double e_3[STAGES] = {-0.18980075407240762,
                                    0.20136540080403034,
                                    0.02265179219836082};
 
-static const double SAFETY = 0.9;                 /* on the length that the estimate asks for */
-static const double SHRINK = 0.2;                 /* shortest step after a rejected one, over that */
-static const double GROW = 5;                     /* longest step after an accepted one, over that */
-static const double SHORTEST = 4 * DBL_EPSILON;   /* step, over x, that is taken whatever the estimate */
-static const double EVENT_WIDTH = 1e-12;          /* of a step: how narrowly an event is located */
-enum { MOST_TRIALS = 40, MOST_NEWTON_STEPS = 6 }; /* of one event */
+static const double SAFETY = 0.9;                               /* on the length that the estimate asks for */
+static const double SHRINK = 0.2;                               /* shortest step after a rejected one, over that */
+static const double GROW = 5;                                   /* longest step after an accepted one, over that */
+static const double SHORTEST = 4 * DBL_EPSILON;                 /* step, over x, that is taken whatever the estimate */
+static const double EVENT_WIDTH = 1e-12;                        /* of a step: how narrowly an event is located */
+enum { MOST_TRIALS = 60, PATIENCE = 6, MOST_NEWTON_STEPS = 6 }; /* of one event; trials without a bisection */
 
 /* The values of one step: the slopes of the stages, and y behind it. */
 typedef struct trial {
@@ -198,8 +199,9 @@ int carom_ode_step(const carom_ode *ode, carom_ode_point *at, double x_end) {
   if (!(high.g >= 0))
     return 0;
   /* an event inside it, behind `low` and not behind `high` */
-  for (int k = 0; k < MOST_TRIALS && at->x != start.x; k++) {
-    const double last = at->x - start.x, x = zero_between(&low, &high);
+  double nearest = high.g > 0 ? high.g : DBL_MIN;
+  for (int k = 0; k < MOST_TRIALS && at->x != start.x && !(nearest <= ode->event_tolerance); k++) {
+    const double last = at->x - start.x, x = k >= PATIENCE && k % 2 == 0 ? 0.5 * (low.x + high.x) : zero_between(&low, &high);
     if (fabs(x - last) <= EVENT_WIDTH * h)
       break;
     const int evaluations = at->evaluations;
@@ -211,6 +213,7 @@ int carom_ode_step(const carom_ode *ode, carom_ode_point *at, double x_end) {
     arrive(ode, at, start.x + x, &t);
     const reading here = read_event(ode, at, x);
     *(here.g >= 0 ? &high : &low) = here;
+    nearest = fabs(here.g);
   }
   return 1;
 }

@@ -14,8 +14,9 @@ typedef struct carom_ode {
   /* A function that rises to 0 at an event, and its derivative by x. */
   double (*event)(const void *model, double x, const double *y, const double *f, double *rate);
   const void *model;
-  const double *weight; /* what 1 of each unknown counts in the error of a step; 0 if it is not to be controlled */
-  double tolerance;     /* for the error of a step: the largest of its components times their weights */
+  const double *weight;   /* what 1 of each unknown counts in the error of a step; 0 if it is not to be controlled */
+  double tolerance;       /* for the error of a step: the largest of its components times their weights */
+  double event_tolerance; /* how far from 0 the event function may be where an event is said to be; 0: as near as can be */
 } carom_ode;
 
 /* Where an integration stands. */

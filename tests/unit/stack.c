@@ -1,6 +1,7 @@
 /* Every function runs on a thread with the smallest usual stack, 64 KiB, of which the C library takes its share too. The stack
  * is painted before, with a page that may not be touched below it; what lost its paint was used. */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
+#include "carom_shot.h"
 #include "regimes.h"
 #include "support.h"
 
@@ -75,6 +76,24 @@ static void *trace(void *argument) {
   return argument;
 }
 
+/* Breaks of all racks, by both worlds, one by one and in a batch. */
+static void *shots(void *argument) {
+  static carom_shot_ball balls[CAROM_BALLS_MOST];
+  static carom_table table;
+  static carom_shot shot[8];
+  for (int world = 0; world < 2; world++)
+    for (int rack = CAROM_RACK_NINEBALL; rack <= CAROM_RACK_SNOOKER; rack++) {
+      carom_table_make(rack == CAROM_RACK_SNOOKER ? CAROM_TABLE_SNOOKER : CAROM_TABLE_POOL_9FT, &table);
+      carom_rack((carom_rack_kind)rack, &table, 1e-4, 1, balls, CAROM_BALLS_MOST);
+      carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+      cue.speed = 7.0;
+      const carom_shot_options own = {.world = world, .threads = world};
+      carom_shoot(&table, balls, carom_rack_size((carom_rack_kind)rack), &cue, &own, &shot[0]);
+      carom_shoot_batch(&table, balls, carom_rack_size((carom_rack_kind)rack), 1, &cue, 1, 8, &own, shot, NULL);
+    }
+  return argument;
+}
+
 /* Bytes of a thread's stack that `body` takes. */
 static size_t stack_used(void *(*body)(void *)) {
   const size_t page = (size_t)sysconf(_SC_PAGESIZE);
@@ -101,8 +120,13 @@ static const struct {
   const char *name;
   void *(*body)(void *);
 } bodies[] = {
-    {"carom_collide", single_calls},        {"carom_collide_f32", single_calls_f32},   {"carom_collide_batch", batch},
-    {"carom_collide_batch_f32", batch_f32}, {"the same in threads", batch_in_threads}, {"carom_trace", trace},
+    {"carom_collide", single_calls},
+    {"carom_collide_f32", single_calls_f32},
+    {"carom_collide_batch", batch},
+    {"carom_collide_batch_f32", batch_f32},
+    {"the same in threads", batch_in_threads},
+    {"carom_trace", trace},
+    {"carom_shoot", shots},
 };
 
 static void make_rows(void) {

@@ -1,0 +1,237 @@
+/* `carom shoot`: whole shots from a file, from the strike to rest. */
+#include "command.h"
+#include "memory.h"
+#include "message.h"
+#include "options.h"
+#include "output.h"
+#include "shot_file.h"
+#include "shot_picture.h"
+#include "subcommands.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { BLOCK = 64, FIRST_ROOM = 512 };
+
+typedef struct shoot_job {
+  shared_options shared; /* --threads, --steps, --output */
+  int world, ball_model, cushion, events;
+  int events_most;
+  double time_most;
+  const char *plot, *id;
+} shoot_job;
+
+/* What is read at once, and its results. */
+typedef struct block {
+  shot_line line[BLOCK];
+  carom_shot shot[BLOCK];
+  carom_status status[BLOCK];
+  int count;
+  /* the shots without error, as batches take them */
+  carom_shot_ball ball[BLOCK * CAROM_BALLS_MOST];
+  carom_cue cue[BLOCK];
+  carom_shot batch[BLOCK];
+  int8_t batch_status[BLOCK];
+} block;
+
+OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
+       "whose rules of contact and models (default carom)");
+OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "MODEL", set_ball_model, 0,
+       "the collision of two balls: exact, euler, inelastic or mirror (default: exact; by\npooltool's models inelastic)");
+OPTION(shoot_job, option_cushion, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
+       "the impact on a cushion: mathavan (the exact limit), stronge, han, mirror or euler (default:\nmathavan; by pooltool's "
+       "models stronge)");
+OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
+       "what is told of events: nothing, time, type and ids, or states too (default full)");
+OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
+       "a shot is stopped after so many events (default 10000)");
+OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
+       "a shot is stopped after so much time of its clock (default 1000)");
+OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT.svg", set_svg, 0,
+       "draw the table and the ball's paths, of the first shot that is good");
+OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
+
+static carom_shot_options options_of(const shoot_job *job) {
+  return (carom_shot_options){.world = job->world,
+                              .ball_model = job->ball_model,
+                              .cushion_model = job->cushion,
+                              .steps = job->shared.options.steps,
+                              .events_most = job->events_most,
+                              .threads = job->shared.options.threads,
+                              .time_most = job->time_most};
+}
+
+/* Shots `from` to before `end` of a block: good lines of one table with one number of balls. */
+static void play(block *b, int from, int end, const carom_shot_options *options) {
+  const shot_line *first = &b->line[from];
+  const int count = first->count, n = end - from;
+  for (int k = 0; k < n; k++) {
+    memcpy(b->ball + k * count, b->line[from + k].ball, (size_t)count * sizeof *b->ball);
+    b->cue[k] = b->line[from + k].cue;
+  }
+  carom_status bad = carom_shoot_batch(&first->table->table, b->ball, count, 0, b->cue, 0, (size_t)n, options, b->shot + from,
+                                       b->batch_status);
+  for (int k = 0; k < n; k++) {
+    carom_shot *shot = &b->shot[from + k];
+    carom_status *status = &b->status[from + k];
+    /* what is common to the batch may be at fault, and then nothing was played */
+    *status = (carom_status)b->batch_status[k];
+    int where;
+    const carom_status common =
+        bad != CAROM_OK ? carom_shot_check(&first->table->table, b->line[from + k].ball, count, &b->cue[k], options, &where)
+                        : CAROM_OK;
+    if (common != CAROM_OK)
+      *status = common;
+    if (common == CAROM_OK && shot->room > 0 && shot->count > shot->room) { /* once more, with room for all */
+      shot->room = shot->count;
+      free(shot->events);
+      shot->events = allocate((size_t)shot->room, sizeof *shot->events);
+      *status = carom_shoot(&first->table->table, b->line[from + k].ball, count, &b->cue[k], options, shot);
+    }
+  }
+}
+
+static bool goes_with(const shot_line *a, const shot_line *b) {
+  return b->error == NULL && a->table == b->table && a->count == b->count;
+}
+
+/* What is wrong with the arguments of a shot, with the key. False if nothing is. */
+static bool argument_error(const shot_line *line, const carom_shot_options *options, char text[300]) {
+  int where;
+  const carom_status bad = carom_shot_check(&line->table->table, line->ball, line->count, &line->cue, options, &where);
+  if (bad == CAROM_OK)
+    return false;
+  if (bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT)
+    snprintf(text, 300, "table '%s': %s", line->table->id, carom_status_string(bad));
+  else if (bad == CAROM_ERROR_CUE || bad == CAROM_ERROR_MISCUE)
+    snprintf(text, 300, "cue: %s", carom_status_string(bad));
+  else if (where >= 0)
+    snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where], carom_status_string(bad));
+  else
+    snprintf(text, 300, "%s", carom_status_string(bad));
+  return true;
+}
+
+/* Plays what has been read and writes it; returns whether all was good. */
+static bool finish_block(block *b, const shoot_job *job, FILE *out, bool *drawn) {
+  const carom_shot_options options = options_of(job);
+  for (int from = 0, end; from < b->count; from = end) {
+    end = from + 1;
+    if (b->line[from].error != NULL)
+      continue;
+    while (end < b->count && goes_with(&b->line[from], &b->line[end]))
+      end++;
+    play(b, from, end, &options);
+  }
+  bool good = true;
+  for (int k = 0; k < b->count; k++) {
+    const shot_line *line = &b->line[k];
+    char text[300];
+    if (line->error != NULL) {
+      complain("line %zu: %s", line->number, line->error);
+      shot_write_error(out, line, "bad_line", line->error);
+      good = false;
+    } else if (b->status[k] < 0 && argument_error(line, &options, text)) {
+      complain("line %zu: %s", line->number, text);
+      shot_write_error(out, line, carom_status_name(b->status[k]), text);
+      good = false;
+    } else {
+      if (b->status[k] < 0)
+        complain("line %zu: after %g s: %s", line->number, b->shot[k].time, carom_status_string(b->status[k]));
+      good &= b->status[k] >= 0;
+      shot_write(out, line, &b->shot[k], b->status[k], job->events);
+      if (job->plot != NULL && !*drawn && shot_has_id(line, job->id))
+        *drawn = shot_draw(job->plot, line, &b->shot[k]);
+    }
+  }
+  return good;
+}
+
+static void begin_shot(block *b, bool events) {
+  carom_shot *shot = &b->shot[b->count];
+  *shot = (carom_shot){.room = events ? FIRST_ROOM : 0};
+  if (events)
+    shot->events = allocate((size_t)shot->room, sizeof *shot->events);
+  shot->final = allocate(CAROM_BALLS_MOST, sizeof *shot->final);
+}
+
+static void clear_block(block *b) {
+  for (int k = 0; k < b->count; k++) {
+    shot_line_free(&b->line[k]);
+    free(b->shot[k].events);
+    free(b->shot[k].final);
+  }
+  b->count = 0;
+}
+
+/* All shots of a file; an exit code. */
+static int shoot_all(const shoot_job *job, shot_file *file, FILE *out) {
+  block *b = allocate(1, sizeof *b);
+  const char *text;
+  bool good = true, drawn = false;
+  double done = 0.0;
+  shot_read what;
+  while ((what = shot_file_next(file, &b->line[b->count], &text)) == SHOT_SHOT || what == SHOT_TABLE) {
+    if (what == SHOT_TABLE) { /* behind the shots before it */
+      good &= finish_block(b, job, out, &drawn);
+      clear_block(b);
+      fputs(text, out);
+      continue;
+    }
+    begin_shot(b, job->events != EVENTS_NONE || job->plot != NULL);
+    if (++b->count == BLOCK) {
+      good &= finish_block(b, job, out, &drawn);
+      clear_block(b);
+      progress_show("shots", done += BLOCK, -1.0);
+    }
+  }
+  good &= finish_block(b, job, out, &drawn);
+  clear_block(b);
+  free(b);
+  progress_clear();
+  if (job->plot != NULL && !drawn) {
+    complain("nothing to draw: there is no good shot%s%s", job->id != NULL ? " " : "", job->id != NULL ? job->id : "");
+    good = false;
+  }
+  return what == SHOT_FAILED ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;
+}
+
+static const command_form form = {
+    .name = "shoot",
+    .usage = "[OPTIONS] IN.jsonl",
+    .about = "Plays whole shots, from the strike of the cue until nothing moves. Reads tables and shots as JSON Lines "
+             "(docs/shots.md has the\n"
+             "format; recorded results in them are ignored) and writes each table and each shot with its events and final "
+             "states. IN may be -.\n",
+    .options = (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion, &option_events, &option_steps,
+                                           &option_events_most, &option_time_most, &option_threads, &option_plot,
+                                           &option_shot_id, &option_output, NULL},
+    .details =
+        "exit code: 0 if all shots came to rest, 1 if some are in error (they have a status and an error; the others are\n"
+        "played), 2 for bad usage or unreadable input\n",
+    .example = "carom shoot --plot break.svg -o played.jsonl shots.jsonl",
+    .files = ONE_FILE,
+};
+
+int command_shoot(int argc, char **argv) {
+  shoot_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .events = EVENTS_FULL};
+  const char *path;
+  int code = parse_arguments(&form, argc, argv, &job, &path);
+  if (code >= 0)
+    return code;
+  if (job.time_most < 0.0) {
+    complain("--time-most is a number of seconds above 0");
+    return EXIT_USAGE;
+  }
+  shot_file *file = shot_file_open(path);
+  if (file == NULL)
+    return EXIT_USAGE;
+  FILE *out = output_open(job.shared.output);
+  code = out != NULL ? shoot_all(&job, file, out) : EXIT_USAGE;
+  shot_file_close(file);
+  if (out != NULL && code == EXIT_USAGE)
+    output_abandon();
+  else if (out != NULL && !output_commit())
+    code = EXIT_USAGE;
+  return code;
+}

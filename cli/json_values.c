@@ -1,0 +1,68 @@
+/* Values out of JSON objects. */
+#include "json_values.h"
+
+#include "memory.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+bool json_wrong(json_fault *f, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(f->text, sizeof f->text, format, arguments);
+  va_end(arguments);
+  return false;
+}
+
+/* The number object[key], or *value as it is where there is none. */
+bool json_get_number(const json_t *object, const char *where, const char *key, double *value, json_fault *f) {
+  const json_t *v = json_object_get(object, key);
+  if (v == NULL)
+    return true;
+  if (!json_is_number(v))
+    return json_wrong(f, "%s%s must be a number", where, key);
+  *value = json_number_value(v);
+  return true;
+}
+
+/* `count` numbers of an array. */
+bool json_get_numbers(const json_t *array, const char *where, size_t count, double *value, json_fault *f) {
+  if (!json_is_array(array) || json_array_size(array) < count)
+    return json_wrong(f, "%s must be an array of %zu numbers", where, count);
+  for (size_t k = 0; k < count; k++) {
+    const json_t *v = json_array_get(array, k);
+    if (!json_is_number(v))
+      return json_wrong(f, "%s[%zu] must be a number", where, k);
+    value[k] = json_number_value(v);
+  }
+  return true;
+}
+
+char *copy_text(const char *text) {
+  char *copy = allocate(strlen(text) + 1, 1);
+  return strcpy(copy, text);
+}
+
+/* An id: a text or a whole number. */
+bool json_get_id(const json_t *object, const char *where, char **id, json_fault *f) {
+  const json_t *v = json_object_get(object, "id");
+  char digits[32];
+  if (json_is_integer(v)) {
+    snprintf(digits, sizeof digits, "%lld", (long long)json_integer_value(v));
+    *id = copy_text(digits);
+  } else if (json_is_string(v)) {
+    *id = copy_text(json_string_value(v));
+  } else {
+    return json_wrong(f, "%sid must be a text", where);
+  }
+  return true;
+}
+
+/* The array object[key] with at most `most` elements; missing is empty. */
+bool json_get_list(const json_t *object, const char *key, size_t most, const json_t **list, json_fault *f) {
+  *list = json_object_get(object, key);
+  if (*list != NULL && !json_is_array(*list))
+    return json_wrong(f, "%s must be an array", key);
+  return json_array_size(*list) <= most ? true : json_wrong(f, "%s has more than %zu elements", key, most);
+}

@@ -1,0 +1,220 @@
+/* Tables and shots from JSON Lines. What is missing takes pooltool's defaults; what is wrong is told by its key. */
+#include "shot_file.h"
+
+#include "json_values.h"
+#include "memory.h"
+#include "message.h"
+#include "shot_table.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct shot_file {
+  FILE *in;
+  const char *path;
+  char *text;
+  size_t space, number;
+  named_table **table; /* each stays where it is, for the shots that refer to it */
+  size_t tables, room;
+  char engine[64];
+};
+
+static named_table *find_table(const shot_file *file, const char *id) {
+  for (size_t k = file->tables; k-- > 0;)
+    if (strcmp(file->table[k]->id, id) == 0)
+      return file->table[k];
+  return NULL;
+}
+
+static void keep_table(shot_file *file, named_table *t) {
+  file->table = grow(file->table, &file->room, file->tables + 1, sizeof *file->table);
+  file->table[file->tables++] = t;
+}
+
+/* ---- Shots */
+
+static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
+  char where[64], key[80];
+  snprintf(where, sizeof where, "balls[%d].", k);
+  if (!json_get_id(v, where, &line->name[k], f))
+    return false;
+  for (int other = 0; other < k; other++)
+    if (strcmp(line->name[other], line->name[k]) == 0)
+      return json_wrong(f, "%sid '%s' is that of another ball", where, line->name[k]);
+  carom_ball_kind *kind = &line->ball[k].kind;
+  *kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  const json_t *params = json_object_get(v, "params");
+  if (params != NULL && !json_is_object(params))
+    return json_wrong(f, "%sparams must be an object", where);
+  snprintf(key, sizeof key, "%sparams.", where);
+  double spin = NAN;
+  if (!json_get_number(params, key, "m", &kind->mass, f) || !json_get_number(params, key, "R", &kind->radius, f) ||
+      !json_get_number(params, key, "u_s", &kind->mu_slide, f) || !json_get_number(params, key, "u_r", &kind->mu_roll, f) ||
+      !json_get_number(params, key, "u_sp", &spin, f) || !json_get_number(params, key, "u_b", &kind->mu_ball, f) ||
+      !json_get_number(params, key, "e_b", &kind->restitution, f) ||
+      !json_get_number(params, key, "e_c", &kind->restitution_cushion, f) ||
+      !json_get_number(params, key, "f_c", &kind->mu_cushion, f) || !json_get_number(params, key, "g", &kind->gravity, f))
+    return false;
+  kind->mu_spin = isnan(spin) ? 10.0 * 2.0 / 5.0 / 9.0 * kind->radius : spin;
+  double state[10];
+  snprintf(key, sizeof key, "%sstate", where);
+  if (!json_get_numbers(json_object_get(v, "state"), key, 10, state, f))
+    return false;
+  if (!(state[0] >= 0.0 && state[0] <= 9.0))
+    return json_wrong(f, "%s[0] must be a label, 0 to 4", key);
+  carom_ball_state *s = &line->ball[k].state;
+  *s = (carom_ball_state){.r = {state[1], state[2], state[3]},
+                          .v = {state[4], state[5], state[6]},
+                          .w = {state[7], state[8], state[9]},
+                          .label = (int64_t)state[0]};
+  return true;
+}
+
+static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
+  const json_t *v = json_object_get(json, "cue");
+  carom_cue *cue = &line->cue;
+  *cue = carom_cue_of(CAROM_GAME_POOL);
+  cue->phi = 0.0;
+  if (v == NULL)
+    return true;
+  if (!json_is_object(v))
+    return json_wrong(f, "cue must be an object");
+  if (!json_get_number(v, "cue.", "V0", &cue->speed, f) || !json_get_number(v, "cue.", "phi", &cue->phi, f) ||
+      !json_get_number(v, "cue.", "theta", &cue->theta, f) || !json_get_number(v, "cue.", "a", &cue->a, f) ||
+      !json_get_number(v, "cue.", "b", &cue->b, f) || !json_get_number(v, "cue.", "M", &cue->mass, f) ||
+      !json_get_number(v, "cue.", "end_mass", &cue->end_mass, f) ||
+      !json_get_number(v, "cue.", "tip_radius", &cue->tip_radius, f))
+    return false;
+  const json_t *ball = json_object_get(v, "ball");
+  if (ball == NULL)
+    return true;
+  if (!json_is_string(ball))
+    return json_wrong(f, "cue.ball must be the id of a ball");
+  for (cue->ball = 0; cue->ball < line->count; cue->ball++)
+    if (strcmp(line->name[cue->ball], json_string_value(ball)) == 0)
+      return true;
+  return json_wrong(f, "cue.ball '%s' is no ball of the shot", json_string_value(ball));
+}
+
+static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json_fault *f) {
+  const json_t *id = json_object_get(json, "id"), *table = json_object_get(json, "table"), *balls, *v;
+  size_t k;
+  if (id != NULL)
+    line->id = json_dumps(id, JSON_ENCODE_ANY);
+  if (table != NULL && !json_is_string(table))
+    return json_wrong(f, "table must be the id of a table");
+  if (!json_get_list(json, "balls", CAROM_BALLS_MOST, &balls, f))
+    return false;
+  if (json_array_size(balls) == 0)
+    return json_wrong(f, "balls must be an array of 1 to %d balls", CAROM_BALLS_MOST);
+  json_array_foreach((json_t *)balls, k, v) {
+    if (!read_ball(v, (int)k, line, f))
+      return false;
+    line->count++;
+  }
+  if (!read_cue(json, line, f))
+    return false;
+  const char *name = table != NULL ? json_string_value(table) : "7ft";
+  const named_table *found = find_table(file, name);
+  named_table *built_in = found == NULL ? built_in_table(name) : NULL;
+  if (built_in != NULL)
+    keep_table(file, built_in);
+  found = found != NULL ? found : built_in;
+  if (found == NULL)
+    return json_wrong(f, "table '%s' is not in the lines above, nor 7ft, 8ft, 9ft, snooker or threecushion", name);
+  line->table = found;
+  return true;
+}
+
+/* ---- The file */
+
+shot_file *shot_file_open(const char *path) {
+  FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+  if (in == NULL) {
+    complain("cannot read %s: %s", path, strerror(errno));
+    return NULL;
+  }
+  shot_file *file = allocate(1, sizeof *file);
+  file->in = in;
+  file->path = path;
+  return file;
+}
+
+static shot_read bad_line(shot_line *line, const char *text) {
+  line->error = copy_text(text);
+  return SHOT_SHOT;
+}
+
+shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
+  ssize_t size;
+  while ((size = getline(&file->text, &file->space, file->in)) >= 0) {
+    file->number++;
+    if (strspn(file->text, " \t\r\n") == (size_t)size)
+      continue;
+    *line = (shot_line){.number = file->number};
+    json_fault f;
+    json_error_t error;
+    json_t *json = json_loadb(file->text, (size_t)size, 0, &error);
+    if (json == NULL) {
+      json_wrong(&f, "no JSON at column %d: %s", error.column, error.text);
+      return bad_line(line, f.text);
+    }
+    line->json = json;
+    const char *kind = json_string_value(json_object_get(json, "kind"));
+    if (kind == NULL)
+      return bad_line(line, "kind must be a text");
+    if (strcmp(kind, "shot") == 0) {
+      if (!read_shot(file, json, line, &f)) {
+        line->table = NULL;
+        return bad_line(line, f.text);
+      }
+      return SHOT_SHOT;
+    }
+    if (strcmp(kind, "table") == 0) {
+      named_table *t = allocate(1, sizeof *t);
+      if (!read_table(json, t, &f)) {
+        free_table(t);
+        return bad_line(line, f.text);
+      }
+      keep_table(file, t);
+      json_decref(json);
+      line->json = NULL;
+      *text = file->text;
+      return SHOT_TABLE;
+    }
+    const char *engine = json_string_value(json_object_get(json, "engine"));
+    if (engine != NULL)
+      snprintf(file->engine, sizeof file->engine, "%s", engine);
+    json_decref(json);
+  }
+  if (ferror(file->in)) {
+    complain("cannot read %s: %s", file->path, strerror(errno));
+    return SHOT_FAILED;
+  }
+  return SHOT_END;
+}
+
+const char *shot_file_engine(const shot_file *file) {
+  return file->engine;
+}
+
+void shot_line_free(shot_line *line) {
+  for (int k = 0; k < CAROM_BALLS_MOST; k++)
+    free(line->name[k]);
+  free(line->id);
+  free(line->error);
+  json_decref(line->json);
+  *line = (shot_line){0};
+}
+
+void shot_file_close(shot_file *file) {
+  for (size_t k = 0; k < file->tables; k++)
+    free_table(file->table[k]);
+  free(file->table);
+  free(file->text);
+  if (file->in != stdin)
+    fclose(file->in);
+  free(file);
+}

@@ -1,0 +1,62 @@
+/* Shots in JSON Lines: tables and shots read, tables and results written. docs/shots.md has the format. */
+#ifndef CAROM_CLI_SHOT_FILE_H
+#define CAROM_CLI_SHOT_FILE_H
+
+#include "carom_shot.h"
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+/* A table by its id, with the ids of its parts. */
+typedef struct named_table {
+  char *id;
+  carom_table table;
+  char *rail[CAROM_RAILS_MOST], *jaw[CAROM_JAWS_MOST], *pocket[CAROM_POCKETS_MOST];
+} named_table;
+
+/* A shot as it was read. */
+typedef struct shot_line {
+  size_t number;            /* of the line, from 1 */
+  char *id;                 /* as JSON text, or NULL where there is none */
+  const named_table *table; /* NULL where the line is in error */
+  int count;
+  carom_shot_ball ball[CAROM_BALLS_MOST];
+  char *name[CAROM_BALLS_MOST]; /* the balls' ids */
+  carom_cue cue;
+  char *error;  /* what is wrong with the line, or NULL */
+  json_t *json; /* the line; NULL where it is no JSON */
+} shot_line;
+
+typedef struct shot_file shot_file;
+
+/* Opens a file, "-" for stdin. Complains and returns NULL if that fails. */
+shot_file *shot_file_open(const char *path);
+
+typedef enum shot_read { SHOT_END, SHOT_SHOT, SHOT_TABLE, SHOT_FAILED } shot_read;
+
+/* Reads on to the next shot or table; other kinds of lines are passed over. SHOT_SHOT: *line is to be freed by
+ * shot_line_free(). SHOT_TABLE: *text is the line, until the next call. A table that is wrong is a shot in error. SHOT_FAILED:
+ * after a complaint. */
+shot_read shot_file_next(shot_file *file, shot_line *line, const char **text);
+
+/* The engine that the last line of kind meta named, or "". */
+const char *shot_file_engine(const shot_file *file);
+
+void shot_line_free(shot_line *line);
+void shot_file_close(shot_file *file);
+
+/* The name of an event's type as it stands in the files ("ball_ball"), or NULL. */
+const char *shot_event_name(int type);
+/* The id of what ball a met in an event of rail, jaw or pocket. */
+const char *shot_part_name(const named_table *table, const carom_event *event);
+
+enum { EVENTS_NONE, EVENTS_BRIEF, EVENTS_FULL };
+
+/* Writes a shot with its result as one line. */
+void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status, int events);
+/* Writes a line in error. */
+void shot_write_error(FILE *out, const shot_line *line, const char *status, const char *error);
+
+#endif

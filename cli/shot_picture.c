@@ -1,0 +1,198 @@
+/* A shot as a picture. Paths are drawn by evaluating the motion between events, so a curve is a curve. Long tables lie on their
+ * side: y of the table runs to the right. */
+#include "shot_picture.h"
+
+#include "message.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+OPTION_SET(set_svg) {
+  const size_t size = strlen(text);
+  *(const char **)field = text;
+  if (size > 4 && strcmp(text + size - 4, ".svg") == 0)
+    return true;
+  complain("--%s draws a picture whose name ends in .svg, not '%s'", row->name, text);
+  return false;
+}
+
+bool shot_has_id(const shot_line *line, const char *id) {
+  if (id == NULL)
+    return true;
+  const size_t size = strlen(id);
+  if (line->id == NULL)
+    return false;
+  return strcmp(line->id, id) == 0 ||
+         (strlen(line->id) == size + 2 && line->id[0] == '"' && strncmp(line->id + 1, id, size) == 0);
+}
+
+static const double scale = 400.0, margin = 0.11; /* pixels a metre; m */
+
+/* The usual colours of pool balls by number; the first is for the cue ball and others. */
+static const char *const colours[] = {"#ffffff", "#f2c230", "#1d4fd8", "#e02d24", "#5b2a9d", "#ee7a22", "#0b5d2e", "#8c1d3a",
+                                      "#222222", "#f2c230", "#1d4fd8", "#e02d24", "#5b2a9d", "#ee7a22", "#0b5d2e", "#8c1d3a"};
+
+static const char *colour_of(const char *name, int index) {
+  static const struct {
+    const char *name, *colour;
+  } named[] = {{"cue", "#ffffff"}, {"white", "#ffffff"}, {"yellow", "#f2c230"}, {"red", "#e02d24"}, {"black", "#222222"}};
+  for (size_t k = 0; k < sizeof named / sizeof named[0]; k++)
+    if (strcmp(name, named[k].name) == 0)
+      return named[k].colour;
+  char *end;
+  const long number = strtol(name, &end, 10);
+  return *end == '\0' && number >= 1 && number <= 15 ? colours[number] : colours[index % 16];
+}
+
+static bool is_striped(const char *name) {
+  char *end;
+  const long number = strtol(name, &end, 10);
+  return *end == '\0' && number >= 9 && number <= 15;
+}
+
+/* The table's axes on the picture. */
+typedef struct view {
+  FILE *out;
+  double low[2], high[2];
+  bool turned;
+} view;
+
+static double across(const view *v, const double r[2]) {
+  return scale * ((v->turned ? r[1] - v->low[1] : r[0] - v->low[0]) + margin);
+}
+static double down(const view *v, const double r[2]) {
+  return scale * ((v->turned ? r[0] - v->low[0] : v->high[1] - r[1]) + margin);
+}
+
+static view view_of(FILE *out, const carom_table *t) {
+  view v = {.out = out, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
+  for (int k = 0; k < t->rails; k++)
+    for (int end = 0; end < 2; end++)
+      for (int axis = 0; axis < 2; axis++) {
+        const double x = end == 0 ? t->rail[k].p[axis] : t->rail[k].q[axis];
+        v.low[axis] = fmin(v.low[axis], x);
+        v.high[axis] = fmax(v.high[axis], x);
+      }
+  v.turned = v.high[1] - v.low[1] > v.high[0] - v.low[0];
+  return v;
+}
+
+static void draw_table(const view *v, const carom_table *t) {
+  FILE *out = v->out;
+  const double width = scale * ((v->turned ? v->high[1] - v->low[1] : v->high[0] - v->low[0]) + 2.0 * margin);
+  const double height = scale * ((v->turned ? v->high[0] - v->low[0] : v->high[1] - v->low[1]) + 2.0 * margin);
+  fprintf(out,
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "
+          "font-family=\"sans-serif\">\n<rect width=\"100%%\" height=\"100%%\" rx=\"18\" fill=\"#5b3a21\"/>\n",
+          width, height, width, height);
+  const double inset = scale * 0.5 * margin;
+  fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"10\" fill=\"#3f9d80\"/>\n", inset, inset,
+          width - 2.0 * inset, height - 2.0 * inset);
+  for (int k = 0; k < t->pockets; k++)
+    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#111\"/>\n", across(v, t->pocket[k].centre),
+            down(v, t->pocket[k].centre), scale * t->pocket[k].radius);
+  for (int k = 0; k < t->jaws; k++)
+    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#2b6f5a\"/>\n", across(v, t->jaw[k].centre),
+            down(v, t->jaw[k].centre), scale * t->jaw[k].radius);
+  for (int k = 0; k < t->rails; k++)
+    fprintf(out, "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#1d4a3c\" stroke-width=\"4\" stroke-linecap=\"round\"/>\n",
+            across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q), down(v, t->rail[k].q));
+}
+
+/* The path of one ball: straight pieces where it rolls, short ones where it slides. */
+static void draw_path(const view *v, const shot_line *line, const carom_shot *shot, int ball) {
+  carom_ball_state states[CAROM_BALLS_MOST];
+  const char *colour = colour_of(line->name[ball], ball);
+  double last = 0.0;
+  bool moved = false;
+  for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
+    const carom_event *e = &shot->events[k];
+    const int side = e->a == ball ? 0 : e->type == CAROM_EVENT_BALL_BALL && e->b == ball ? 1 : -1;
+    if (side < 0)
+      continue;
+    const bool curved = e->before[side].label == CAROM_BALL_SLIDING;
+    const double *to = e->before[side].r;
+    if (moved || e->time > last) {
+      if (!moved) {
+        carom_shot_at(line->ball, line->count, shot, last, states);
+        fprintf(v->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"M%.1f %.1f",
+                colour, across(v, states[ball].r), down(v, states[ball].r));
+        moved = true;
+      }
+      for (int n = 1; curved && n < 8; n++) {
+        carom_shot_at(line->ball, line->count, shot, last + (e->time - last) * n / 8.0, states);
+        fprintf(v->out, "L%.1f %.1f", across(v, states[ball].r), down(v, states[ball].r));
+      }
+      fprintf(v->out, "L%.1f %.1f", across(v, to), down(v, to));
+    }
+    last = e->time;
+  }
+  if (moved)
+    fputs("\"/>\n", v->out);
+}
+
+static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball, bool final) {
+  const char *colour = colour_of(line->name[ball], ball), *name = line->name[ball];
+  const double x = across(v, s->r), y = down(v, s->r), r = scale * line->ball[ball].kind.radius;
+  if (!final) {
+    fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"/>\n", x, y,
+            r, colour);
+    return;
+  }
+  const bool dark = strcmp(colour, "#ffffff") != 0 && strcmp(colour, "#f2c230") != 0;
+  fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" stroke=\"#111\" stroke-width=\"0.8\"/>\n", x, y, r,
+          colour);
+  if (is_striped(name))
+    fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\"/>\n", x, y,
+            r - 1.8);
+  fprintf(v->out,
+          "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" fill=\"%s\" text-anchor=\"middle\" dominant-baseline=\"central\">", x,
+          y, strlen(name) > 2 ? 7.0 : 11.0, dark ? "#fff" : "#111");
+  for (const char *c = name; *c != '\0' && c < name + 5; c++) {
+    if (*c == '<' || *c == '&')
+      fputs(*c == '<' ? "&lt;" : "&amp;", v->out);
+    else
+      putc(*c, v->out);
+  }
+  fputs("</text>\n", v->out);
+}
+
+/* Balls that fell lie beside each other in the pocket's place. */
+static void spread_pocketed(const shot_line *line, carom_ball_state *final) {
+  for (int k = 0; k < line->count; k++) {
+    int before = 0;
+    for (int other = 0; other < k; other++)
+      before += final[k].label == CAROM_BALL_POCKETED && line->ball[k].state.label != CAROM_BALL_POCKETED &&
+                fabs(final[other].r[0] - final[k].r[0]) < 0.2 && fabs(final[other].r[1] - final[k].r[1]) < 1e-9 &&
+                final[other].label == CAROM_BALL_POCKETED;
+    final[k].r[0] += 1.6 * before * line->ball[k].kind.radius;
+  }
+}
+
+bool shot_draw(const char *path, const shot_line *line, const carom_shot *shot) {
+  FILE *out = fopen(path, "w");
+  if (out == NULL) {
+    complain("cannot write %s: %s", path, strerror(errno));
+    return false;
+  }
+  const view v = view_of(out, &line->table->table);
+  carom_ball_state final[CAROM_BALLS_MOST];
+  memcpy(final, shot->final, (size_t)line->count * sizeof *final);
+  draw_table(&v, &line->table->table);
+  for (int k = 0; k < line->count; k++)
+    draw_ball(&v, line, &line->ball[k].state, k, false);
+  for (int k = line->count - 1; k >= 0; k--)
+    draw_path(&v, line, shot, k);
+  spread_pocketed(line, final);
+  for (int k = 0; k < line->count; k++)
+    draw_ball(&v, line, &final[k], k, true);
+  fputs("</svg>\n", out);
+  const bool good = !ferror(out);
+  if (fclose(out) != 0 || !good) {
+    complain("cannot write %s: %s", path, strerror(errno));
+    return false;
+  }
+  return true;
+}

@@ -1,0 +1,17 @@
+/* A shot as a picture: the table, each ball's path, where the balls began and ended. */
+#ifndef CAROM_CLI_SHOT_PICTURE_H
+#define CAROM_CLI_SHOT_PICTURE_H
+
+#include "options.h"
+#include "shot_file.h"
+
+/* For a `const char *`: a name that ends in .svg. */
+OPTION_SET(set_svg);
+
+/* Whether the shot has this id; any has NULL. */
+bool shot_has_id(const shot_line *line, const char *id);
+
+/* Draws it as SVG. Complains and returns false if that fails. */
+bool shot_draw(const char *path, const shot_line *line, const carom_shot *shot);
+
+#endif

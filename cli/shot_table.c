@@ -1,0 +1,119 @@
+/* Tables from JSON, and those that are built in, with the ids that pooltool gives their parts. */
+#include "shot_table.h"
+
+#include "memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void free_table(named_table *t) {
+  for (int k = 0; k < CAROM_RAILS_MOST; k++)
+    free(t->rail[k]);
+  for (int k = 0; k < CAROM_JAWS_MOST; k++)
+    free(t->jaw[k]);
+  for (int k = 0; k < CAROM_POCKETS_MOST; k++)
+    free(t->pocket[k]);
+  free(t->id);
+  free(t);
+}
+
+static bool read_rail(const json_t *v, const char *where, carom_rail *rail, char **id, json_fault *f) {
+  double p[3], q[3], side = NAN;
+  char key[80];
+  snprintf(key, sizeof key, "%sp1", where);
+  if (!json_get_numbers(json_object_get(v, "p1"), key, 3, p, f))
+    return false;
+  snprintf(key, sizeof key, "%sp2", where);
+  if (!json_get_numbers(json_object_get(v, "p2"), key, 3, q, f))
+    return false;
+  *rail = (carom_rail){.p = {p[0], p[1]}, .q = {q[0], q[1]}, .height = p[2]};
+  if (!json_get_number(v, where, "lx", &rail->line[0], f) || !json_get_number(v, where, "ly", &rail->line[1], f) ||
+      !json_get_number(v, where, "l0", &rail->line[2], f) || !json_get_number(v, where, "direction", &side, f))
+    return false;
+  if (side != 0.0 && side != 1.0)
+    return json_wrong(f, "%sdirection must be 0 or 1", where);
+  rail->side = side == 1.0;
+  return json_get_id(v, where, id, f);
+}
+
+static bool read_circle(const json_t *v, const char *where, double centre[2], double *third, double *radius, char **id,
+                        json_fault *f) {
+  double c[3] = {0.0};
+  char key[80];
+  snprintf(key, sizeof key, "%scenter", where);
+  const size_t numbers = json_array_size(json_object_get(v, "center")) >= 3 ? 3 : 2;
+  if (!json_get_numbers(json_object_get(v, "center"), key, numbers, c, f))
+    return false;
+  centre[0] = c[0];
+  centre[1] = c[1];
+  *third = c[2];
+  *radius = NAN;
+  if (!json_get_number(v, where, "radius", radius, f))
+    return false;
+  return isnan(*radius) ? json_wrong(f, "%sradius is missing", where) : json_get_id(v, where, id, f);
+}
+
+bool read_table(const json_t *json, named_table *t, json_fault *f) {
+  const json_t *list, *v;
+  size_t k;
+  char where[64];
+  carom_table *table = &t->table;
+  if (!json_get_id(json, "", &t->id, f) || !json_get_number(json, "", "w", &table->width, f) ||
+      !json_get_number(json, "", "l", &table->length, f) || !json_get_list(json, "linear", CAROM_RAILS_MOST, &list, f))
+    return false;
+  json_array_foreach((json_t *)list, k, v) {
+    snprintf(where, sizeof where, "linear[%zu].", k);
+    if (!read_rail(v, where, &table->rail[k], &t->rail[k], f))
+      return false;
+    table->rails++;
+  }
+  if (!json_get_list(json, "circular", CAROM_JAWS_MOST, &list, f))
+    return false;
+  json_array_foreach((json_t *)list, k, v) {
+    carom_jaw *jaw = &table->jaw[k];
+    snprintf(where, sizeof where, "circular[%zu].", k);
+    if (!read_circle(v, where, jaw->centre, &jaw->height, &jaw->radius, &t->jaw[k], f))
+      return false;
+    table->jaws++;
+  }
+  if (!json_get_list(json, "pockets", CAROM_POCKETS_MOST, &list, f))
+    return false;
+  json_array_foreach((json_t *)list, k, v) {
+    carom_pocket *pocket = &table->pocket[k];
+    double unused;
+    snprintf(where, sizeof where, "pockets[%zu].", k);
+    pocket->depth = 0.08;
+    if (!read_circle(v, where, pocket->centre, &unused, &pocket->radius, &t->pocket[k], f) ||
+        !json_get_number(v, where, "depth", &pocket->depth, f))
+      return false;
+    table->pockets++;
+  }
+  return true;
+}
+
+/* Tables that need no line, by the name of carom_table_make()'s kinds. */
+named_table *built_in_table(const char *id) {
+  static const char *const names[] = {"7ft", "8ft", "9ft", "snooker", "threecushion"};
+  static const char *const rails[] = {"3",  "6", "15", "12", "18", "9",  "5",  "4",  "13",
+                                      "14", "1", "2",  "8",  "7",  "11", "10", "16", "17"};
+  static const char *const plain[] = {"3", "12", "9", "18"};
+  static const char *const jaws[] = {"1t", "2t", "4t", "5t", "7t", "8t", "10t", "11t", "13t", "14t", "16t", "17t"};
+  static const char *const pockets[] = {"lb", "lc", "lt", "rb", "rc", "rt"};
+  for (int kind = 0; kind <= CAROM_TABLE_THREECUSHION; kind++) {
+    if (strcmp(id, names[kind]) != 0)
+      continue;
+    named_table *t = allocate(1, sizeof *t);
+    carom_table_make((carom_table_kind)kind, &t->table);
+    t->id = copy_text(id);
+    for (int k = 0; k < t->table.rails; k++)
+      t->rail[k] = copy_text(t->table.rails == 4 ? plain[k] : rails[k]);
+    for (int k = 0; k < t->table.jaws; k++)
+      t->jaw[k] = copy_text(jaws[k]);
+    for (int k = 0; k < t->table.pockets; k++)
+      t->pocket[k] = copy_text(pockets[k]);
+    return t;
+  }
+  return NULL;
+}

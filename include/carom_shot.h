@@ -1,0 +1,368 @@
+/* carom_shot.h - balls on a table: what they meet there besides each other.
+ *
+ *     carom_cushion_impact in = {.v = {0.5, 1.2, 0}, .normal = {0, 1}, .height = 0.0365, .radius = 0.028575, .mass = 0.17,
+ *                                .mu_cloth = 0.2, .mu_cushion = 0.2, .restitution = 0.85};
+ *     carom_motion out;
+ *     carom_status status = carom_cushion(&in, NULL, &out);
+ *
+ * Units, axes and statuses are those of carom.h. */
+#ifndef CAROM_SHOT_H
+#define CAROM_SHOT_H
+
+#include "carom.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ==== A ball and a cushion ============================================================================================ */
+
+/* A ball that touches a cushion, just before the impact. 15 doubles without gaps, so an array of n is also an (n, 15) array in
+ * row order. */
+typedef struct carom_cushion_impact {
+  double v[3];        /* velocity, m/s. v[2] must be 0: the model keeps the ball on the table. */
+  double w[3];        /* angular velocity, rad/s. */
+  double normal[2];   /* horizontal direction from the ball into the cushion: across a rail, or from the centre of the ball to
+                         the axis of a jaw. Any length but 0. */
+  double height;      /* of the cushion's nose above the cloth, m, between 0 and 2 radius. */
+  double radius;      /* of the ball, m, > 0. */
+  double mass;        /* kg, > 0. The moment of inertia is that of a solid ball, 2/5 M R^2. */
+  double mu_cloth;    /* coefficient of sliding friction between ball and cloth, 0 to 1, */
+  double mu_cushion;  /* and between ball and cushion, 0 to 1. */
+  double restitution; /* e, 0 to 1: the impact ends once e^2 of the work of compression has been given back. */
+  double jaw_radius;  /* m, >= 0: radius of the jaw, 0 for a straight rail. The nose is touched at its height either way, so
+                         this counts only for Stronge's model with the convention of pooltool. */
+} carom_cushion_impact;
+
+/* How the impact is computed. */
+typedef enum carom_cushion_model {
+  CAROM_CUSHION_MATHAVAN = 0, /* rigid cushion, friction at nose and cloth, energetic restitution: S. Mathavan, M. R. Jackson,
+                                 R. M. Parkin, Proc. IMechE C 224 (2010) 1863-1873, as the exact limit of small impulses. */
+  CAROM_CUSHION_STRONGE = 1,  /* compliant nose, no cloth: W. J. Stronge, Impact Mechanics (2000); the default of pooltool. */
+  CAROM_CUSHION_HAN = 2,      /* rigid nose, no cloth: I. Han, J. Mech. Sci. Technol. 19 (2005) 976-984. */
+  CAROM_CUSHION_MIRROR = 3,   /* the velocity across the cushion is turned back and multiplied by e; spin stays. */
+  CAROM_CUSHION_EULER = 4,    /* the model of MATHAVAN in N steps of impulse, as pooltool takes them. */
+} carom_cushion_model;
+
+/* Whose conventions hold where the simulator pooltool departs from the papers: for parity with it, not for truth. */
+typedef enum carom_cushion_convention {
+  CAROM_CONVENTION_PAPER = 0, /* the nose is touched at its height: sin(theta) = (h - R) / R; a cloth cannot pull; no slip, no
+                                 friction. */
+  CAROM_CONVENTION_POOLTOOL = 1, /* STRONGE: tan(theta) = (h - R) / (R + jaw_radius + 1e-6 m). EULER: the cloth may pull, and a
+                                    slip of 0 has the direction of +x. Nothing changes for the other models. */
+} carom_cushion_convention;
+
+/* Where restitution and friction of the cushion come from. */
+typedef enum carom_cushion_law {
+  CAROM_CUSHION_LAW_CONSTANT = 0, /* the fields of the impact. */
+  CAROM_CUSHION_LAW_HAN = 1,      /* Han's fits, limited to 0 to 1, for any model; the fields are not used, though checked:
+                                     e = 0.39 + 0.257 v_y - 0.044 v_y^2, v_y in m/s the speed into the cushion, and
+                                     mu = 0.471 - 0.241 alpha, alpha in rad the angle of the velocity from the normal. */
+} carom_cushion_law;
+
+/* Options of a call. All zero means the defaults; a pointer to options may be NULL for the same. */
+typedef struct carom_cushion_options {
+  carom_cushion_model model;           /* default CAROM_CUSHION_MATHAVAN. */
+  carom_cushion_convention convention; /* default CAROM_CONVENTION_PAPER. */
+  carom_cushion_law law;               /* default CAROM_CUSHION_LAW_CONSTANT. */
+  int steps;            /* Euler's N: compression and restitution take about so many steps each; 0: CAROM_DEFAULT_STEPS. */
+  int threads;          /* most threads that a batch may use, the calling one among them. 0, the default: that one alone;
+                           CAROM_ALL_THREADS: one for each processor. Results do not depend on it. */
+  int unused;           /* must be 0. */
+  double least_step;    /* N s, >= 0: EULER takes no step of less impulse, but for the last ones. Default 0; pooltool: 0.001. */
+  double omega_ratio;   /* STRONGE: frequency of the nose along its surface over that across it, 1 to 2 without the ends. 0:
+                           1.8, which is that of pooltool. */
+  uint64_t reserved[4]; /* must be 0. */
+} carom_cushion_options;
+
+/* The name of a model ("mathavan", "stronge", "han", "mirror", "euler"), or NULL for a value not listed. */
+CAROM_API const char *carom_cushion_model_name(carom_cushion_model model);
+
+/* Resolves one impact. `opt` may be NULL for the defaults; `out` may not overlap `in`.
+ * CAROM_OK: `*out` is the motion after the impact. CAROM_SEPARATING: the ball does not move into the cushion, and `*out` is its
+ * motion before. An error: every number of `*out` is NaN (but `*out` is untouched when a pointer is NULL). */
+CAROM_API carom_status carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out);
+
+/* Resolves `n` impacts, in[0..n-1] to out[0..n-1], each as carom_cushion() does, bit for bit: a bad row gets NaN and its own
+ * status and changes nothing for the others. `status` takes the n statuses, each the value of a carom_status; it may be NULL.
+ * `in`, `out` and `status` may not overlap; with n = 0 they may be NULL. Returns CAROM_OK if no row is in error, else the
+ * status of the first that is; if the call itself cannot be served (NULL, bad options), that error, with nothing written. */
+CAROM_API carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n, const carom_cushion_options *opt,
+                                           carom_motion *out, int8_t *status);
+
+/* Checks the arguments and solves nothing. Returns CAROM_OK or an error. If `field` is not NULL, `*field` becomes the index of
+ * the offending number among the 15 doubles of `*in`, or -1 where none is to blame. `opt` may be NULL. */
+CAROM_API carom_status carom_cushion_check(const carom_cushion_impact *in, const carom_cushion_options *opt, int *field);
+
+/* The C name of number `field` of a carom_cushion_impact, 0 to 14: "v[0]" ... "jaw_radius". NULL outside that range. */
+CAROM_API const char *carom_cushion_field_name(int field);
+
+/* An impact on its way. Slips are in the frame of the cushion: x along it, y into it, z up. A slip is the velocity, m/s, of the
+ * surface of the ball over what it touches. */
+typedef struct carom_cushion_point {
+  double normal;      /* normal impulse so far, N s: the measure of how far the impact has come. */
+  double work;        /* work of the normal force so far, J: the sum of |v_n| dP. */
+  carom_phase phase;  /* CAROM_PHASE_COMPRESSION up to v_n = 0. */
+  int nose_sticks;    /* 1 where the ball does not slip on the nose, */
+  int cloth_sticks;   /* and on the cloth; else 0, and always by Euler's method. */
+  int unused;         /* 0. */
+  double v_n;         /* speed into the nose, along the normal there, m/s; negative while they part. */
+  double s_x, s_t;    /* slip on the nose, along the cushion and upwards across it. */
+  double c_x, c_y;    /* slip on the cloth. */
+  carom_motion state; /* along the axes of the table. */
+  double reserved[4]; /* 0; room for what may be told later. */
+} carom_cushion_point;
+
+/* Follows one impact, by the model MATHAVAN or EULER, through `n` >= 2 points at equal steps of normal impulse (EULER: the
+ * nearest whole steps) from 0 at points[0] to the end, which is the result of carom_cushion(). `opt` may be NULL. Made for
+ * looking, not for speed: EULER takes n/2 times an impact. Returns what carom_cushion() does, or CAROM_ERROR_CUSHION_MODEL for
+ * a model in closed form. CAROM_SEPARATING: every point is the motion before, with impulse 0. An error: every number is NaN
+ * (but nothing is written when a pointer is NULL or n < 2). */
+CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cushion_options *opt, size_t n,
+                                           carom_cushion_point *points);
+
+/* ==== Whole shots ========================================================================================================
+ *
+ * From the strike of a cue to rest, event by event: between events every ball moves in closed form, and no contact is stepped
+ * over.
+ *
+ *     carom_table table;
+ *     carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+ *     carom_shot_ball balls[10];
+ *     carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, balls, 10);              // gap 0.1 mm, seed 1; balls[0] is the cue ball
+ *     carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+ *     cue.speed = 8.0;                                                          // aimed at the rack by default
+ *     carom_event events[256];
+ *     carom_shot shot = {.events = events, .room = 256};
+ *     carom_status status = carom_shoot(&table, balls, 10, &cue, NULL, &shot);  // balls[] are not changed,
+ *     carom_shot_at(balls, 10, &shot, 1.5, moved);                              // the state after 1.5 s goes to moved[10]
+ *
+ * The playing surface is 0 <= x <= width, 0 <= y <= length for the built-in tables, with z up and the cloth at z = 0: a ball on
+ * it has its centre at z = R. docs/shots.md tells the models, the rules and the bounds.
+ *
+ * Bits: those of a batch are those of single calls, for any number of threads and any cut; with CAROM_ISA=plain they are the
+ * same on every machine in the world carom, but for Stronge's cushions. Cost: about 0.4 us an event with closed-form cushions,
+ * so 3 us for a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion, the default, costs some 30
+ * us an impact besides. Stack: 30 KiB. Nothing is allocated, but for the threads of a batch. */
+
+/* ---- Balls ------------------------------------------------------------------------------------------------------------ */
+
+/* How a ball moves. u = (v_x - R w_y, v_y + R w_x) is its slip over the cloth. */
+typedef enum carom_label {
+  CAROM_BALL_STATIONARY = 0, /* at rest */
+  CAROM_BALL_SPINNING = 1,   /* turning on the spot about the vertical, v = 0 and w_x = w_y = 0 */
+  CAROM_BALL_SLIDING = 2,    /* u is not 0; sliding friction acts against u */
+  CAROM_BALL_ROLLING = 3,    /* u = 0; rolling resistance acts against v */
+  CAROM_BALL_POCKETED = 4,   /* in a pocket, out of play */
+  CAROM_BALL_AIRBORNE = 5    /* kept for later versions; an error today */
+} carom_label;
+
+/* What a ball is made of and runs on. All doubles, without gaps. */
+typedef struct carom_ball_kind {
+  double mass;                /* kg, > 0. May differ from ball to ball in the world carom. */
+  double radius;              /* R, m, > 0. The same for all balls of a layout. */
+  double mu_slide;            /* sliding friction of ball and cloth, > 0, at most 1. Pool 0.2. */
+  double mu_roll;             /* rolling resistance, > 0, at most 1. Pool 0.01. */
+  double mu_spin;             /* friction of the ball turning on the spot, > 0, at most 1: w_z falls at 5 mu_spin g / (2 R). */
+  double mu_ball;             /* ball and ball, 0 to 1; a pair has the mean. Read with CAROM_FRICTION_CONSTANT only. */
+  double restitution;         /* ball and ball, 0 to 1; a pair has the mean. Pool 0.95. */
+  double mu_cushion;          /* ball and cushion, 0 to 1. Pool 0.2. */
+  double restitution_cushion; /* ball and cushion, 0 to 1. Pool 0.85. */
+  double gravity;             /* g, m/s^2, > 0. */
+} carom_ball_kind;
+
+/* Where a ball is and how it moves. */
+typedef struct carom_ball_state {
+  double r[3];   /* centre, m; r[2] = R on the table. */
+  double v[3];   /* velocity, m/s; v[2] = 0. */
+  double w[3];   /* angular velocity, rad/s. */
+  int64_t label; /* a carom_label. In a layout it is derived from v and w, but for CAROM_BALL_POCKETED, which is kept. */
+} carom_ball_state;
+
+typedef struct carom_shot_ball {
+  carom_ball_kind kind;
+  carom_ball_state state;
+} carom_shot_ball;
+
+/* Games whose balls and cues are in common use. */
+typedef enum carom_game { CAROM_GAME_POOL = 0, CAROM_GAME_SNOOKER = 1, CAROM_GAME_BILLIARD = 2 } carom_game;
+
+/* The balls of a game, with the figures of pooltool; those of pool for a value not listed. */
+CAROM_API carom_ball_kind carom_ball_kind_of(carom_game game);
+
+/* ---- Tables ----------------------------------------------------------------------------------------------------------- */
+
+enum { CAROM_RAILS_MOST = 32, CAROM_JAWS_MOST = 32, CAROM_POCKETS_MOST = 8, CAROM_BALLS_MOST = 32 };
+
+/* A straight piece of cushion: a vertical wall above the segment from p to q. `line` is lx, ly, l0 of the line lx x + ly y + l0
+ * = 0 through both, as a caller has it, or all 0: it is then derived. `side` says where balls are: 0 where lx x + ly y + l0 <
+ * 0, 1 where it is > 0. With a derived line, side 1 is on the left of p -> q, side 0 on its right. */
+typedef struct carom_rail {
+  double p[2], q[2], height; /* m; height of the nose above the cloth, between 0 and 2 R. */
+  double line[3];
+  int64_t side;
+} carom_rail;
+
+/* A rounded end of a cushion: a vertical cylinder, of which balls touch the outside. radius >= 0, m. */
+typedef struct carom_jaw {
+  double centre[2], radius, height;
+} carom_jaw;
+
+/* A pocket takes a ball when the ball's centre crosses the circle inward. */
+typedef struct carom_pocket {
+  double centre[2], radius, depth; /* m; a pocketed ball's state is at z = -depth. */
+} carom_pocket;
+
+/* A table: any geometry. Fill the counts and the arrays, or call carom_table_make(). */
+typedef struct carom_table {
+  double width, length; /* m, for drawing and racks. */
+  int64_t rails, jaws, pockets;
+  carom_rail rail[CAROM_RAILS_MOST];
+  carom_jaw jaw[CAROM_JAWS_MOST];
+  carom_pocket pocket[CAROM_POCKETS_MOST];
+} carom_table;
+
+typedef enum carom_table_kind {
+  CAROM_TABLE_POOL_7FT = 0,     /* 0.9906 x 1.9812 m */
+  CAROM_TABLE_POOL_8FT = 1,     /* 1.1176 x 2.2352 m */
+  CAROM_TABLE_POOL_9FT = 2,     /* 1.27 x 2.54 m */
+  CAROM_TABLE_SNOOKER = 3,      /* 12 ft, 1.778 x 3.569 m */
+  CAROM_TABLE_THREECUSHION = 4, /* 10 ft, 1.42 x 2.84 m, no pockets */
+  CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood": that of CAROM_TABLE_POOL_7FT, under this name for ever */
+} carom_table_kind;
+
+/* Fills *table. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_TABLE where there is no such kind. */
+CAROM_API carom_status carom_table_make(carom_table_kind kind, carom_table *table);
+
+/* Racks, with the cue ball first. */
+typedef enum carom_rack_kind {
+  CAROM_RACK_NINEBALL = 0,    /* 10 balls: cue ball, then 1 to 9 by number, 1 in front and 9 in the middle. */
+  CAROM_RACK_EIGHTBALL = 1,   /* 16 balls: cue ball, then 1 to 15 by number; 8 in the middle, both kinds in the corners. */
+  CAROM_RACK_TENBALL = 2,     /* 11 balls: cue ball, then 1 to 10 by number, 10 in the middle. */
+  CAROM_RACK_SNOOKER = 3,     /* 22 balls: white, 15 reds, yellow, green, brown, blue, pink, black. */
+  CAROM_RACK_THREECUSHION = 4 /* 3 balls: white, yellow, red, as for the opening. */
+} carom_rack_kind;
+
+/* The number of balls of a rack; 0 if there is no such kind. */
+CAROM_API int carom_rack_size(carom_rack_kind kind);
+
+/* Sets up a rack on the table. Neighbours are `gap` apart, and each ball is moved by up to a quarter of it in a direction drawn
+ * from `seed`, which also draws where the other balls of the rack go; gap 0 is a frozen rack. `room` is the number of elements
+ * of balls[]. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_RACK: no such kind, a gap below 0 or above R, too little room. */
+CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double gap, uint64_t seed,
+                                  carom_shot_ball *balls, int room);
+
+/* ---- The cue ---------------------------------------------------------------------------------------------------------- */
+
+typedef struct carom_cue {
+  double speed;      /* V0 of the cue before the strike, m/s, >= 0. 0: no strike. */
+  double phi;        /* direction in the plane, degrees from +x towards +y. */
+  double theta;      /* elevation of the butt, degrees, 0 to 90. */
+  double a, b;       /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre. a^2 + b^2 < 1. */
+  double mass;       /* M, kg, > 0. */
+  double end_mass;   /* effective mass of the tip's end, which makes squirt, kg, > 0. */
+  double tip_radius; /* m; not used by the strike, kept with the cue. */
+  int64_t ball;      /* index of the ball that is struck. */
+} carom_cue;
+
+/* The usual cue: speed 2, phi 90 (along the table), b = 0.25, ball 0. */
+CAROM_API carom_cue carom_cue_of(carom_game game);
+
+/* The motion of a ball at rest after a strike, into out->v and out->w. CAROM_OK, or an error of a field. */
+CAROM_API carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out);
+
+/* ---- Options ---------------------------------------------------------------------------------------------------------- */
+
+/* The rules of contact. CAROM_WORLD_CAROM: an event is where the gap is <= 0 and closing; nothing moves but by its motion.
+ * CAROM_WORLD_POOLTOOL: pooltool's, with its spacers of 1 um, its order of simultaneous events, and its exchange between balls
+ * that touch for long; for the same histories as pooltool's, not for truth. */
+typedef enum carom_world { CAROM_WORLD_CAROM = 0, CAROM_WORLD_POOLTOOL = 1 } carom_world;
+
+/* The collision of two balls. DEFAULT is EXACT in the world carom, INELASTIC in pooltool. */
+typedef enum carom_ball_model {
+  CAROM_BALL_MODEL_DEFAULT = 0,
+  CAROM_BALL_MODEL_EXACT = 1,     /* carom_collide(): the exact limit of the 2014 model */
+  CAROM_BALL_MODEL_EULER = 2,     /* carom_collide() in `steps` steps; with pooltool's slip in the world pooltool */
+  CAROM_BALL_MODEL_INELASTIC = 3, /* one closed-form impulse, as pooltool's default; for equal masses */
+  CAROM_BALL_MODEL_MIRROR = 4     /* no friction: normal velocities by the restitution alone */
+} carom_ball_model;
+
+/* Friction between two balls: by Alciatore's law from their speed of slip, or mu_ball of the balls. */
+typedef enum carom_ball_friction { CAROM_FRICTION_ALCIATORE = 0, CAROM_FRICTION_CONSTANT = 1 } carom_ball_friction;
+
+/* All zero means the defaults. */
+typedef struct carom_shot_options {
+  int32_t world;         /* carom_world */
+  int32_t ball_model;    /* carom_ball_model */
+  int32_t cushion_model; /* 0: mathavan in the world carom, stronge in pooltool; else 1 + a carom_cushion_model. */
+  int32_t friction;      /* carom_ball_friction */
+  int32_t steps;         /* of Euler's models; 0: 1000. */
+  int32_t events_most;   /* events of a shot; 0: 10000. */
+  int32_t threads;       /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
+  int32_t unused;        /* must be 0. */
+  double time_most;      /* of the clock of a shot, s; 0: 1000. */
+  uint64_t reserved[5];  /* must be 0. */
+} carom_shot_options;
+
+/* ---- What happened ---------------------------------------------------------------------------------------------------- */
+
+typedef enum carom_event_type {
+  CAROM_EVENT_STRIKE = 1,          /* the cue and ball a */
+  CAROM_EVENT_BALL_BALL = 2,       /* balls a and b */
+  CAROM_EVENT_RAIL = 3,            /* ball a and rail b */
+  CAROM_EVENT_JAW = 4,             /* ball a and jaw b */
+  CAROM_EVENT_POCKET = 5,          /* ball a and pocket b */
+  CAROM_EVENT_SLIDING_ROLLING = 6, /* ball a, as the rest */
+  CAROM_EVENT_ROLLING_SPINNING = 7,
+  CAROM_EVENT_ROLLING_STATIONARY = 8,
+  CAROM_EVENT_SPINNING_STATIONARY = 9
+} carom_event_type;
+
+/* One event. before[1] and after[1] are those of ball b of a CAROM_EVENT_BALL_BALL, else all zero. */
+typedef struct carom_event {
+  double time; /* s */
+  int32_t type, a, b, reserved;
+  carom_ball_state before[2], after[2];
+} carom_event;
+
+/* What a shot gives. The caller sets events and room (NULL and 0 if they are not wanted), and may set final. */
+typedef struct carom_shot {
+  carom_event *events; /* in the order in which they happened; the first `room` of them are kept. */
+  int64_t room;
+  int64_t count;           /* events that happened, also beyond room. */
+  carom_ball_state *final; /* the states at the end, one for each ball; may be NULL. */
+  double time;             /* when the last event happened, s. */
+  uint64_t reserved[4];    /* not read or written yet. */
+} carom_shot;
+
+/* Plays a shot until nothing moves. 1 to CAROM_BALLS_MOST balls. If a ball moves already, or cue is NULL or its speed 0, there
+ * is no strike. `opt` may be NULL for the defaults. Returns CAROM_OK; CAROM_ERROR_TOO_MANY_EVENTS or CAROM_ERROR_TOO_LONG where
+ * a bound ended it (the states are those at the last event); an error of a field, with count 0 and nothing else written
+ * (carom_shot_check() tells the field); or CAROM_ERROR_LEFT_TABLE, or one of a collision, with everything up to that event. */
+CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                   const carom_shot_options *opt, carom_shot *shot);
+
+/* The states of all balls at a time, by evaluation of the motion after each ball's last event. Before 0: as at 0; after the
+ * last event: as at that one. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_EVENTS_LOST where shot->room was too small to know. */
+CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
+                                     carom_ball_state *states);
+
+/* Plays n shots. Shot k is of balls[k * count ...] and cues[k]; where one_layout or one_cue is not 0, all are of the first.
+ * `shots` takes n results, whose events, room and final are set by the caller; `status` n statuses, may be NULL. Threads are
+ * those of the options. Each shot has the bits of carom_shoot(), and a bad one costs itself. Returns CAROM_OK or the status of
+ * the first shot in error; if the call itself cannot be served (NULL, bad table or options), that error, with nothing written.
+ */
+CAROM_API carom_status carom_shoot_batch(const carom_table *table, const carom_shot_ball *balls, int count, int one_layout,
+                                         const carom_cue *cues, int one_cue, size_t n, const carom_shot_options *opt,
+                                         carom_shot *shots, int8_t *status);
+
+/* Checks the arguments of carom_shoot() and plays nothing. *where becomes the index of the ball, rail, jaw or pocket at fault,
+ * or -1; it may be NULL. */
+CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                        const carom_shot_options *opt, int *where);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* CAROM_SHOT_H */

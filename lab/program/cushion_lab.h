@@ -1,0 +1,16 @@
+/* The cushion in the study's program: its models verified and timed. */
+#ifndef CAROM_LAB_CUSHION_LAB_H
+#define CAROM_LAB_CUSHION_LAB_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Compares `draws` random impacts of each kind with the judge (lab/stress/cushion_oracle.h), and the recorded impacts in
+ * `folder` with pooltool's. Prints a table, or CSV; `*pass` becomes false if a bound is not met. False after a complaint. */
+bool cushion_verify(FILE *out, const char *folder, int draws, bool csv, bool *pass);
+
+/* `carom-lab verify --cushion` and `carom-lab bench --cushion`, without that argument; return exit codes. */
+int cushion_verify_command(int argc, char **argv);
+int cushion_bench_command(int argc, char **argv);
+
+#endif

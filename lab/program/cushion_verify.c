@@ -1,0 +1,173 @@
+/* `carom-lab verify --cushion`: the exact limit against its judge, closed forms and Euler's steps against pooltool's records.
+ */
+#include "command.h"
+#include "cushion_lab.h"
+#include "cushion_oracle.h"
+#include "memory.h"
+#include "message.h"
+#include "number.h"
+#include "options.h"
+#include "output.h"
+#include "place.h"
+#include "records.h"
+
+#include "carom_shot.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SEED = 1, MOST_RECORDED = 4096, FIRST_NUMBER = 1, NUMBERS = 21, IN_NUMBERS = 15 };
+static const double judge_worst = 1e-8, judge_median = 1e-11, record_worst = 1e-9, euler_worst = 1e-5;
+
+/* The errors of one comparison. */
+typedef struct comparison {
+  const char *model, *reference;
+  double *error;
+  size_t count, left_out; /* compared; that the judge gives up, or whose result hangs on pooltool's rounding */
+  size_t unresolved;
+  double worst_bound, median_bound;
+} comparison;
+
+static int compare(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static bool print(FILE *out, bool csv, comparison *c) {
+  qsort(c->error, c->count, sizeof *c->error, compare);
+  const double median = c->count > 0 ? c->error[c->count / 2] : (double)NAN,
+               worst = c->count > 0 ? c->error[c->count - 1] : (double)NAN;
+  const double p99 = c->count > 0 ? c->error[c->count * 99 / 100] : (double)NAN;
+  const bool pass = c->count > 0 && worst <= c->worst_bound && median <= c->median_bound && c->unresolved == 0;
+  if (csv)
+    fprintf(out, "%s,%s,%zu,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%s\n", c->model, c->reference, c->count, c->left_out, c->unresolved,
+            median, p99, worst, c->worst_bound, pass ? "pass" : "fail");
+  else
+    fprintf(out, "%-9s %-27s %8zu %8zu %10zu %9.2g %9.2g %9.2g %7.1g  %s\n", c->model, c->reference, c->count, c->left_out,
+            c->unresolved, median, p99, worst, c->worst_bound, pass ? "pass" : "FAIL");
+  return pass;
+}
+
+/* Against the judge. */
+static bool judge(FILE *out, bool csv, cushion_draw kind, int draws, double done, double total) {
+  comparison c = {.model = "mathavan",
+                  .reference = kind == CUSHION_PLAY ? "judge: impacts of play" : "judge: any impacts",
+                  .error = allocate((size_t)draws, sizeof *c.error),
+                  .worst_bound = judge_worst,
+                  .median_bound = judge_median};
+  for (int k = 0; k < draws; k++) {
+    const carom_cushion_impact in = draw_cushion(kind, SEED, (uint64_t)k);
+    carom_motion own, exact;
+    const carom_status status = carom_cushion(&in, NULL, &own);
+    progress_show("impacts", done + k, total);
+    c.unresolved += status != CAROM_OK;
+    if (status != CAROM_OK || cushion_oracle(&in, &exact) != CAROM_OK)
+      c.left_out++;
+    else
+      c.error[c.count++] = cushion_distance(&in, &own, &exact);
+  }
+  progress_clear();
+  const bool pass = print(out, csv, &c);
+  free(c.error);
+  return pass;
+}
+
+/* A rolling ball slips on the cloth by rounding alone: pooltool's first step goes where its own rounding points. */
+static bool hangs_on_rounding(const carom_cushion_impact *in) {
+  return hypot(in->v[0] - in->radius * in->w[1], in->v[1] + in->radius * in->w[0]) < 1e-9;
+}
+
+/* Against pooltool's records: numbers in the order of tools/cushion_events.py. False after a complaint. */
+static bool recorded(FILE *out, bool csv, const char *folder, const char *name, carom_cushion_model model, bool *pass) {
+  char path[PATH_MAX];
+  const carom_cushion_options options = {.model = model, .convention = CAROM_CONVENTION_POOLTOOL, .least_step = 0.001};
+  comparison c = {.model = carom_cushion_model_name(model),
+                  .reference = name,
+                  .error = allocate(MOST_RECORDED, sizeof *c.error),
+                  .worst_bound = model == CAROM_CUSHION_EULER ? euler_worst : record_worst,
+                  .median_bound = record_worst};
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  record_reader *records = record_open(path);
+  record row;
+  read_result result = records != NULL ? record_next(records, &row) : READ_FAILED; /* the header */
+  while (result == READ_ONE && (result = record_next(records, &row)) == READ_ONE && c.count < MOST_RECORDED) {
+    double number[NUMBERS];
+    bool good = row.count == FIRST_NUMBER + NUMBERS;
+    for (int k = 0; k < NUMBERS && good; k++)
+      good = parse_number(row.field[FIRST_NUMBER + k], &number[k]);
+    if (!good) {
+      complain("%s:%lld: not a recorded impact of %d numbers", path, row.line, NUMBERS);
+      result = READ_FAILED;
+      break;
+    }
+    carom_cushion_impact in;
+    carom_motion after, own;
+    memcpy(&in, number, sizeof in);
+    memcpy(&after, number + IN_NUMBERS, sizeof after);
+    if (model == CAROM_CUSHION_EULER && hangs_on_rounding(&in)) {
+      c.left_out++;
+      continue;
+    }
+    c.unresolved += carom_cushion(&in, &options, &own) != CAROM_OK;
+    c.error[c.count++] = cushion_distance(&in, &own, &after);
+  }
+  if (result != READ_FAILED)
+    *pass &= print(out, csv, &c);
+  free(c.error);
+  record_close(records);
+  return result != READ_FAILED;
+}
+
+bool cushion_verify(FILE *out, const char *folder, int draws, bool csv, bool *pass) {
+  if (csv)
+    fputs("model,reference,cases,left_out,unresolved,median,p99,max,bound,verdict\n", out);
+  else
+    fprintf(out, "%-9s %-27s %8s %8s %10s %9s %9s %9s %7s\n", "cushion", "reference", "cases", "left out", "unresolved",
+            "median", "p99", "max", "bound");
+  *pass &= judge(out, csv, CUSHION_PLAY, draws, 0, 2 * draws);
+  *pass &= judge(out, csv, CUSHION_ANY, draws, draws, 2 * draws);
+  return recorded(out, csv, folder, "cushion-stronge.csv", CAROM_CUSHION_STRONGE, pass) &&
+         recorded(out, csv, folder, "cushion-mathavan2010.csv", CAROM_CUSHION_EULER, pass);
+}
+
+typedef struct verify_job {
+  shared_options shared;
+  int draws;
+  bool csv;
+} verify_job;
+
+OPTION(verify_job, option_draws, "draws", draws, 0, "N", set_count, 1,
+       "random impacts of each kind (default 500: about ten seconds)");
+OPTION(verify_job, option_csv, "csv", csv, 0, NULL, set_flag, 0, "as CSV");
+
+static const command_form form = {
+    .name = "verify --cushion",
+    .usage = "[OPTIONS]",
+    .about = "Compares the exact limit of an impact on a cushion with its judge, an integration in long double that knows "
+             "nothing of\n"
+             "it; Stronge's closed form and Euler's steps with what the simulator pooltool has recorded.\n",
+    .options = (const option_row *const[]){&option_draws, &option_csv, &option_data, &option_output, NULL},
+    .details =
+        "Errors are the largest deviation of v and R w over the largest of them before the impact. Left out is what the judge\n"
+        "gives up, and recorded balls that roll, whose slip on the cloth is pooltool's rounding.\n\n"
+        "exit code: 0 if all is within its bounds, 1 if something is not, 2 for bad usage or unreadable data\n",
+    .example = "carom-lab verify --cushion --draws 10000",
+};
+
+int cushion_verify_command(int argc, char **argv) {
+  verify_job job = {.shared = {.output = "-"}, .draws = 500};
+  int code = parse_arguments(&form, argc, argv, &job, NULL);
+  if (code >= 0)
+    return code;
+  FILE *out = output_open(job.shared.output);
+  bool pass = true;
+  if (out == NULL)
+    return EXIT_USAGE;
+  if (!cushion_verify(out, data_folder(job.shared.folder), job.draws, job.csv, &pass)) {
+    output_abandon();
+    return EXIT_USAGE;
+  }
+  return output_commit() ? (pass ? EXIT_GOOD : EXIT_SOME) : EXIT_USAGE;
+}

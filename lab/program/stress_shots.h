@@ -1,0 +1,11 @@
+/* `carom-lab stress --shots`: see stress_shots.c. */
+#ifndef CAROM_LAB_STRESS_SHOTS_H
+#define CAROM_LAB_STRESS_SHOTS_H
+
+#include <stdint.h>
+
+/* Plays `shots` random shots, the kinds in turn, and prints what invariants they keep. `world` and `ball_model` and
+ * `cushion_model` as in carom_shot_options. An exit code. */
+int stress_shots(int shots, uint64_t seed, int world, int cushion_model);
+
+#endif

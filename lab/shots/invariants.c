@@ -1,0 +1,179 @@
+/* What every shot must satisfy. The motion between events is written here once more, from the equations and not from the
+ * library, so that a wrong path shows: as a jump at the next event, an overlap, or a rise of energy. */
+#include "invariants.h"
+
+#include <math.h>
+#include <string.h>
+
+static double length2(double x, double y) {
+  return sqrt(x * x + y * y);
+}
+
+/* The state of a ball some time after it was *s. */
+static void move(const carom_ball_kind *k, const carom_ball_state *s, double t, carom_ball_state *out) {
+  *out = *s;
+  if (s->label == CAROM_BALL_STATIONARY || s->label == CAROM_BALL_POCKETED)
+    return;
+  const double fall = 2.5 * k->mu_spin * k->gravity / k->radius * t;
+  out->w[2] = fabs(s->w[2]) > fall ? s->w[2] - copysign(fall, s->w[2]) : 0.0;
+  if (s->label == CAROM_BALL_SPINNING)
+    return;
+  const int slides = s->label == CAROM_BALL_SLIDING;
+  const double x = slides ? s->v[0] - k->radius * s->w[1] : s->v[0], y = slides ? s->v[1] + k->radius * s->w[0] : s->v[1];
+  const double size = length2(x, y), a = (slides ? k->mu_slide : k->mu_roll) * k->gravity;
+  const double e[2] = {size > 0.0 ? x / size : 0.0, size > 0.0 ? y / size : 0.0};
+  for (int axis = 0; axis < 2; axis++) {
+    out->r[axis] = s->r[axis] + s->v[axis] * t - 0.5 * a * e[axis] * t * t;
+    out->v[axis] = s->v[axis] - a * e[axis] * t;
+  }
+  if (slides) {
+    out->w[0] = s->w[0] - 2.5 * a / k->radius * t * e[1];
+    out->w[1] = s->w[1] + 2.5 * a / k->radius * t * e[0];
+  } else {
+    out->w[0] = -out->v[1] / k->radius;
+    out->w[1] = out->v[0] / k->radius;
+  }
+}
+
+static double energy_of(const carom_ball_kind *k, const carom_ball_state *s) {
+  double v2 = 0.0, w2 = 0.0;
+  for (int axis = 0; axis < 3; axis++) {
+    v2 += s->v[axis] * s->v[axis];
+    w2 += s->w[axis] * s->w[axis];
+  }
+  return 0.5 * k->mass * v2 + 0.2 * k->mass * k->radius * k->radius * w2;
+}
+
+typedef struct follower {
+  const carom_table *table;
+  const carom_shot_ball *balls;
+  int count;
+  double since[CAROM_BALLS_MOST];
+  carom_ball_state from[CAROM_BALLS_MOST], at[CAROM_BALLS_MOST];
+  shot_measures m;
+  double energy, most_energy;
+  int last_type;
+} follower;
+
+static void go(follower *f, double time) {
+  for (int i = 0; i < f->count; i++)
+    move(&f->balls[i].kind, &f->from[i], time - f->since[i], &f->at[i]);
+}
+
+static void measure_energy(follower *f) {
+  double sum = 0.0;
+  for (int i = 0; i < f->count; i++)
+    sum += energy_of(&f->balls[i].kind, &f->at[i]);
+  f->most_energy = fmax(f->most_energy, sum);
+  if (f->most_energy > 0.0)
+    f->m.gain = fmax(f->m.gain, (sum - f->energy) / f->most_energy);
+  f->energy = sum;
+}
+
+static const char *type_name(int type) {
+  static const char *const names[] = {"begin",  "strike", "ball_ball", "rail",  "jaw",
+                                      "pocket", "rolls",  "spins",     "stops", "stops"};
+  return names[type];
+}
+
+static void measure_places(follower *f) {
+  for (int i = 0; i < f->count; i++) {
+    if (f->at[i].label == CAROM_BALL_POCKETED)
+      continue;
+    const double *r = f->at[i].r, R = f->balls[i].kind.radius;
+    for (int j = 0; j < i; j++) {
+      if (f->at[j].label == CAROM_BALL_POCKETED)
+        continue;
+      const double overlap = 2.0 * R - length2(r[0] - f->at[j].r[0], r[1] - f->at[j].r[1]);
+      if (overlap > f->m.overlap) {
+        f->m.overlap = overlap;
+        f->m.worst_at = type_name(f->last_type);
+      }
+    }
+    for (int k = 0; k < f->table->rails; k++) {
+      const carom_rail *rail = &f->table->rail[k];
+      const double e_x = rail->q[0] - rail->p[0], e_y = rail->q[1] - rail->p[1], x = r[0] - rail->p[0], y = r[1] - rail->p[1];
+      const double size = length2(e_x, e_y), place = (x * e_x + y * e_y) / (size * size);
+      double left = (e_x * y - e_y * x) / size;                       /* distance on the left of p -> q */
+      const double line = rail->line[0] * -e_y + rail->line[1] * e_x; /* whether the given line counts that as positive */
+      left = (rail->side == 1) == (line >= 0.0) ? left : -left;
+      const double intrusion = R - left;
+      if (place >= 0.0 && place <= 1.0 && left > -R && intrusion > f->m.intrusion) {
+        f->m.intrusion = intrusion;
+        f->m.worst_at = type_name(f->last_type);
+      }
+    }
+    for (int k = 0; k < f->table->jaws; k++) {
+      const carom_jaw *jaw = &f->table->jaw[k];
+      const double intrusion = R + jaw->radius - length2(r[0] - jaw->centre[0], r[1] - jaw->centre[1]);
+      if (intrusion > f->m.intrusion) {
+        f->m.intrusion = intrusion;
+        f->m.worst_at = type_name(f->last_type);
+      }
+    }
+  }
+}
+
+static double jump_of(const carom_ball_state *a, const carom_ball_state *b, double R) {
+  double worst = 0.0;
+  for (int axis = 0; axis < 3; axis++)
+    worst = fmax(worst,
+                 fmax(fabs(a->r[axis] - b->r[axis]), fmax(fabs(a->v[axis] - b->v[axis]), R * fabs(a->w[axis] - b->w[axis]))));
+  return worst;
+}
+
+/* The cloth takes at most mu_slide times the vertical impulse, which is friction's, at most 0.12 of the normal one (or
+ * mu_ball). */
+static double momentum_change(const follower *f, const carom_event *e) {
+  const carom_ball_kind *a = &f->balls[e->a].kind, *b = &f->balls[e->b].kind;
+  double change[2], normal[2];
+  for (int axis = 0; axis < 2; axis++) {
+    const double p_a = a->mass * (e->after[0].v[axis] - e->before[0].v[axis]),
+                 p_b = b->mass * (e->after[1].v[axis] - e->before[1].v[axis]);
+    change[axis] = p_a + p_b;
+    normal[axis] = p_b;
+  }
+  const double allowed = fmax(a->mu_slide, b->mu_slide) * 0.12 * 1.01 * length2(normal[0], normal[1]) / (1.0 - 0.12) + 1e-13;
+  return length2(change[0], change[1]) / allowed;
+}
+
+shot_measures shot_measure(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot *shot,
+                           carom_status status, int samples) {
+  follower f = {.table = table, .balls = balls, .count = count, .m = {.worst_at = "-"}, .energy = INFINITY};
+  carom_shot nothing = *shot;
+  nothing.count = 0; /* what the layout is taken for */
+  carom_shot_at(balls, count, &nothing, 0.0, f.from);
+  double now = 0.0;
+  go(&f, 0.0);
+  measure_energy(&f);
+  measure_places(&f);
+  for (int64_t k = 0; k < shot->count; k++) {
+    const carom_event *e = &shot->events[k];
+    for (int s = 1; s <= samples && e->time > now; s++) {
+      go(&f, now + (e->time - now) * s / (samples + 1));
+      measure_energy(&f);
+      measure_places(&f);
+    }
+    now = e->time;
+    go(&f, now);
+    measure_energy(&f);
+    measure_places(&f);
+    const int sides = e->type == CAROM_EVENT_BALL_BALL ? 2 : 1;
+    for (int side = 0; side < sides; side++) {
+      const int i = side == 0 ? e->a : e->b;
+      f.m.jump = fmax(f.m.jump, jump_of(&f.at[i], &e->before[side], balls[i].kind.radius));
+      f.from[i] = f.at[i] = e->after[side];
+      f.since[i] = now;
+    }
+    if (e->type == CAROM_EVENT_BALL_BALL)
+      f.m.momentum = fmax(f.m.momentum, momentum_change(&f, e));
+    f.last_type = e->type;
+    if (e->type == CAROM_EVENT_STRIKE)
+      f.energy = INFINITY;
+    measure_energy(&f);
+    measure_places(&f);
+  }
+  for (int i = 0; i < count && status == CAROM_OK; i++)
+    f.m.restless += f.from[i].label != CAROM_BALL_STATIONARY && f.from[i].label != CAROM_BALL_POCKETED;
+  return f.m;
+}

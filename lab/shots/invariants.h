@@ -1,0 +1,24 @@
+/* What every shot must satisfy whatever the models compute. */
+#ifndef CAROM_LAB_SHOT_INVARIANTS_H
+#define CAROM_LAB_SHOT_INVARIANTS_H
+
+#include "carom_shot.h"
+
+typedef struct shot_measures {
+  double overlap;   /* deepest of two balls, m */
+  double intrusion; /* deepest of a ball into a rail or a jaw, m */
+  double gain;      /* greatest rise of energy, over the greatest energy of the shot */
+  double momentum; /* greatest change of the momentum of two balls in their collision, over what the cloth may take away; > 1 is
+                      wrong */
+  double jump;  /* greatest difference of a state before an event from that which motion since the ball's last event gives: m,
+                   m/s, and R times rad/s */
+  int restless; /* balls that are neither at rest nor pocketed at the end of a shot with status CAROM_OK */
+  const char *worst_at; /* kind of the last event before the worst overlap or intrusion */
+} shot_measures;
+
+/* Follows a shot through all its events with its own evaluation of the motion, with `samples` places between two events. The
+ * shot has room for all events. */
+shot_measures shot_measure(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot *shot,
+                           carom_status status, int samples);
+
+#endif

@@ -1,0 +1,29 @@
+/* Random shots of every kind, from seeds. */
+#ifndef CAROM_LAB_RANDOM_SHOTS_H
+#define CAROM_LAB_RANDOM_SHOTS_H
+
+#include "carom_shot.h"
+
+/* splitmix64 */
+typedef struct shot_random {
+  uint64_t state;
+} shot_random;
+
+double shot_uniform(shot_random *r, double low, double high);
+
+typedef struct random_shot {
+  const char *kind;
+  carom_table table;
+  carom_shot_ball ball[CAROM_BALLS_MOST];
+  int count;
+  carom_cue cue;
+} random_shot;
+
+/* The number of kinds, and their names. */
+int random_shot_kinds(void);
+const char *random_shot_kind(int kind);
+
+/* Shot number `index` of a kind and seed. */
+void random_shot_make(int kind, uint64_t seed, uint64_t index, random_shot *shot);
+
+#endif

@@ -1,0 +1,120 @@
+/* The public entry points: check, go to the frame of the cushion, solve, come back. */
+#include "cushion/arguments.h"
+#include "cushion/frame.h"
+#include "cushion/models.h"
+#include "platform/threads.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+static const carom_cushion_options defaults = {0};
+
+static carom_status by_model(carom_contact *c, const carom_cushion_options *opt, double mass) {
+  const bool pooltool = opt->convention == CAROM_CONVENTION_POOLTOOL;
+  carom_cushion_run run;
+  switch (opt->model) {
+  case CAROM_CUSHION_MATHAVAN:
+    return carom_mathavan(c);
+  case CAROM_CUSHION_STRONGE:
+    return carom_stronge(c, opt->omega_ratio > 0 ? opt->omega_ratio : 1.8, pooltool);
+  case CAROM_CUSHION_HAN:
+    return carom_han(c);
+  case CAROM_CUSHION_MIRROR:
+    return carom_mirror(c);
+  case CAROM_CUSHION_EULER:
+    return carom_cushion_euler(c, carom_cushion_steps(opt), opt->least_step / mass, pooltool, INT64_MAX, &run);
+  }
+  return CAROM_ERROR_CUSHION_MODEL;
+}
+
+static bool is_finite(const carom_motion *m) {
+  return isfinite(m->v[0]) && isfinite(m->v[1]) && isfinite(m->w[0]) && isfinite(m->w[1]) && isfinite(m->w[2]);
+}
+
+/* One impact, with options that have been checked. */
+static carom_status solve(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out) {
+  int field;
+  carom_status status = carom_cushion_check_impact(in, &field);
+  if (status == CAROM_OK) {
+    const carom_cushion_frame frame = carom_cushion_frame_of(in);
+    carom_contact contact = carom_to_cushion(&frame, in, opt);
+    if (contact.v_y <= 0) {
+      memcpy(out->v, in->v, sizeof out->v);
+      memcpy(out->w, in->w, sizeof out->w);
+      return CAROM_SEPARATING;
+    }
+    if (opt->law == CAROM_CUSHION_LAW_HAN)
+      carom_apply_han(&contact);
+    status = by_model(&contact, opt, in->mass);
+    if (status == CAROM_OK) {
+      carom_from_cushion(&frame, &contact, in->radius, out);
+      status = is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+    }
+  }
+  if (status != CAROM_OK)
+    *out = (carom_motion){{NAN, NAN, NAN}, {NAN, NAN, NAN}};
+  return status;
+}
+
+carom_status carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out) {
+  if (in == NULL || out == NULL)
+    return CAROM_ERROR_NULL;
+  if (opt == NULL)
+    opt = &defaults;
+  const carom_status status = carom_cushion_check_options(opt);
+  if (status == CAROM_OK)
+    return solve(in, opt, out);
+  *out = (carom_motion){{NAN, NAN, NAN}, {NAN, NAN, NAN}};
+  return status;
+}
+
+typedef struct batch {
+  const carom_cushion_impact *in;
+  const carom_cushion_options *opt;
+  carom_motion *out;
+  int8_t *status;
+} batch;
+
+/* Rows from `first` on; returns the first in error, or `end`. */
+static size_t solve_rows(const void *context, size_t first, size_t end) {
+  const batch *b = context;
+  size_t first_bad = end;
+  for (size_t k = first; k < end; k++) {
+    const carom_status status = solve(&b->in[k], b->opt, &b->out[k]);
+    if (b->status != NULL)
+      b->status[k] = (int8_t)status;
+    if (status < 0 && first_bad == end)
+      first_bad = k;
+  }
+  return first_bad;
+}
+
+/* Fewer rows than this are not worth a thread: about 50 us of work. */
+static size_t least_part(const carom_cushion_options *opt) {
+  switch (opt->model) {
+  case CAROM_CUSHION_MATHAVAN:
+    return 16;
+  case CAROM_CUSHION_EULER:
+    return 1 + 2000 / (size_t)carom_cushion_steps(opt);
+  default:
+    return 512;
+  }
+}
+
+carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n, const carom_cushion_options *opt, carom_motion *out,
+                                 int8_t *status) {
+  if (opt == NULL)
+    opt = &defaults;
+  const carom_status bad = carom_cushion_check_options(opt);
+  if (bad != CAROM_OK || n == 0)
+    return bad;
+  if (in == NULL || out == NULL)
+    return CAROM_ERROR_NULL;
+  const batch work = {in, opt, out, status};
+  const size_t first_bad = carom_in_threads(solve_rows, &work, n, opt->threads, least_part(opt));
+  if (first_bad == n)
+    return CAROM_OK;
+  /* Only its index came back through the threads; doing the row again tells its status. */
+  carom_motion unused;
+  return solve(&in[first_bad], opt, &unused);
+}

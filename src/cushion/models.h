@@ -1,0 +1,34 @@
+/* The models of an impact on a cushion. Each takes a contact whose ball moves into the cushion and leaves it with the motion
+ * after the impact; CAROM_OK, or an error, and then the contact is of no use. */
+#ifndef CAROM_SRC_CUSHION_MODELS_H
+#define CAROM_SRC_CUSHION_MODELS_H
+
+#include "cushion/contact.h"
+
+#include <stdint.h>
+
+/* The exact limit. See mathavan.c. */
+carom_status carom_mathavan(carom_contact *contact);
+
+/* Compliant impact; `ratio` is options.omega_ratio. See stronge.c. */
+carom_status carom_stronge(carom_contact *contact, double ratio, int pooltool);
+
+/* Puts Han's fits for restitution and friction into a contact. See closed.c. */
+void carom_apply_han(carom_contact *contact);
+
+/* Coulomb impact on a rigid nose. See closed.c. */
+carom_status carom_han(carom_contact *contact);
+
+carom_status carom_mirror(carom_contact *contact);
+
+/* How a run of Euler's method ended. */
+typedef struct carom_cushion_run {
+  int64_t steps;                          /* of both phases together */
+  double impulse, work, work_compression; /* over the mass: normal impulse, m/s, and work, m^2/s^2 */
+} carom_cushion_run;
+
+/* N steps of impulse, of which none is below `least` (N s over the mass, m/s); no more than `most` are taken. See euler.c. */
+carom_status carom_cushion_euler(carom_contact *contact, int steps, double least, int pooltool, int64_t most,
+                                 carom_cushion_run *run);
+
+#endif

@@ -1,0 +1,118 @@
+/* Stronge's impact of a ball on a compliant nose, planar, in closed form; the default of the simulator pooltool.
+ *
+ * The nose is two springs: across its surface with the frequency w, along it with ratio w. Friction between them obeys
+ * Coulomb's law with mu. With beta = 7/2 (slip against friction impulse), eta^2 = beta / ratio^2, speeds over the approach v_n
+ * at the nose, and tau = w t, compression ends at tau = pi/2 and the impact at (1 + e) pi/2. Restitution has the phase phi =
+ * tau/e + pi/2 (1 - 1/e), from pi/2 to pi. With rho = |slip| / v_n before the impact, the slip after it is, over v_n,
+ *
+ *   if it slips to the end        rho - mu beta (1 + e)
+ *   if it sticks from tau_k on    U ratio sin(a) + V cos(a) + mu beta e (1 + cos phi(tau_s)),    a = ratio (tau_s - tau_k)
+ *
+ * where U and V are displacement (times w) and speed of the tangential spring at tau_k, and tau_s is where it slips again: its
+ * force |U cos(a) - V sin(a) / ratio| has come up to that of friction, mu eta^2 sin phi. It sticks
+ *
+ *   at once                       rho < mu eta^2
+ *   in compression                rho <= mu beta                                           rho at the limit: see NEAR
+ *   in restitution                rho <= mu [(1 + e) beta - eta^2/e]
+ *   never                         otherwise
+ *
+ * pooltool asks for "never" first, by the third limit alone. Below e = 1 / ratio that lies under the second, and balls that
+ * stick in compression are then taken to slip to the end, which can reverse the slip beyond its size and add energy. Its
+ * convention copies that.
+ *
+ * The force is continuous at tau_s, so an error there changes the result to second order only: the zero is located to
+ * ROOT_WIDTH, in at most MOST_TRIALS trials. With e = 0 restitution takes no time.
+ *
+ * Source: W. J. Stronge, Impact Mechanics (Cambridge, 2000), section 5.2. */
+#include "cushion/models.h"
+
+#include <stdbool.h>
+
+static const double BETA = 3.5, HALF_PI = 1.57079632679489661923;
+static const double ROOT_WIDTH = 1e-10;
+static const double SMALL = 1e-8, NEAR = 1e-5; /* how pooltool tells that rho is at a limit */
+enum { MOST_TRIALS = 60, MOST_HALVINGS = 20 };
+
+typedef struct spring {
+  double mu, e, ratio, eta_squared, end;
+  double tau_k, U, V;
+} spring;
+
+/* The phase of restitution. */
+static double phase(const spring *s, double tau) {
+  return s->e > 0 ? tau / s->e + HALF_PI * (1 - 1 / s->e) : 2 * HALF_PI;
+}
+
+/* By how much friction exceeds the force of the tangential spring: positive while it sticks. */
+static double hold(const spring *s, double tau) {
+  const double a = s->ratio * (tau - s->tau_k);
+  return s->mu * s->eta_squared * sin(phase(s, tau)) - fabs(s->U * cos(a) - s->V / s->ratio * sin(a));
+}
+
+/* Where it slips again, in restitution: false position, with a bisection now and then. */
+static double slips_again(const spring *s) {
+  double low = fmax(s->tau_k, HALF_PI), high = s->end;
+  /* if it has just stuck, `hold` is zero at `low` too, to rounding: go to where it is positive */
+  double g_low = s->tau_k >= HALF_PI ? 0 : hold(s, low);
+  for (int k = 1; s->tau_k >= HALF_PI && k < MOST_HALVINGS && !(g_low > 0); k++) {
+    low = s->tau_k + ldexp(high - s->tau_k, -k);
+    g_low = hold(s, low);
+  }
+  double g_high = hold(s, high);
+  if (!(g_low > 0))
+    return fmax(s->tau_k, HALF_PI);
+  if (!(g_high < 0))
+    return high;
+  for (int k = 0; k < MOST_TRIALS && high - low > ROOT_WIDTH; k++) {
+    const double tau = k % 3 == 2 ? 0.5 * (low + high) : low + (high - low) * (g_low / (g_low - g_high)), g = hold(s, tau);
+    if (g == 0)
+      return tau;
+    *(g > 0 ? &low : &high) = tau;
+    *(g > 0 ? &g_low : &g_high) = g;
+  }
+  return low + (high - low) * (g_low / (g_low - g_high));
+}
+
+/* The state of the tangential spring where it sticks on the way. */
+static void stick(spring *s, double rho) {
+  const double x = rho / s->mu - BETA;
+  double sine, cosine;
+  if (x <= 0) { /* in compression */
+    s->tau_k = acos(fmin(fmax(x / (s->eta_squared - BETA), -1), 1));
+    sine = sin(s->tau_k);
+    cosine = cos(s->tau_k);
+  } else {
+    const double angle = acos(fmin(fmax(x / (s->eta_squared / s->e - s->e * BETA), -1), 1));
+    s->tau_k = s->e * (angle - HALF_PI * (1 - 1 / s->e));
+    sine = sin(angle);
+    cosine = s->e * cos(angle);
+  }
+  s->U = -s->mu * s->eta_squared * sine;
+  s->V = rho - s->mu * BETA * (1 - cosine);
+}
+
+/* The slip after the impact, over v_n. */
+static double slip_after(double rho, double mu, double e, double ratio, bool pooltool) {
+  spring s = {.mu = mu, .e = e, .ratio = ratio, .eta_squared = BETA / (ratio * ratio), .end = HALF_PI * (1 + e), .V = rho};
+  const double at_once = mu * s.eta_squared, to_the_end = mu * ((1 + e) * BETA - s.eta_squared / e);
+  if (!(mu > 0) || (rho > to_the_end && (pooltool || rho > mu * BETA)))
+    return rho - mu * BETA * (1 + e);
+  if (rho >= at_once)
+    stick(&s, rho);
+  double tau_s;
+  if (fabs(rho - at_once) <= SMALL + NEAR * at_once)
+    tau_s = HALF_PI;
+  else if (rho <= SMALL || (e > 0 && fabs(rho - to_the_end) <= SMALL + NEAR * to_the_end))
+    tau_s = s.end;
+  else
+    tau_s = slips_again(&s);
+  const double a = ratio * (tau_s - s.tau_k);
+  return ratio * s.U * sin(a) + s.V * cos(a) + mu * BETA * e * (1 + cos(phase(&s, tau_s)));
+}
+
+carom_status carom_stronge(carom_contact *c, double ratio, int pooltool) {
+  const double s_x = carom_slip_x(c), s_t = carom_slip_t(c), slip = sqrt(s_x * s_x + s_t * s_t), v_n = c->v_y * c->cosine;
+  const double rho = slip / v_n, share = slip > 0 ? (1 - slip_after(rho, c->mu_w, c->e, ratio, pooltool) / rho) / BETA : 0;
+  carom_push(c, &(carom_impulse){.P = (1 + c->e) * v_n, .f_x = -share * s_x, .f_t = -share * s_t});
+  return CAROM_OK;
+}

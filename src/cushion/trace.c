@@ -1,0 +1,120 @@
+/* carom_cushion_trace(): an impact on its way, sampled at equal steps of normal impulse. The exact limit is followed by the
+ * integrator, Euler's method is simply stopped on its way, once for each sample. */
+#include "cushion/arguments.h"
+#include "cushion/frame.h"
+#include "cushion/mathavan.h"
+#include "cushion/models.h"
+
+#include <limits.h>
+#include <stdbool.h>
+
+/* The impact that is followed. */
+typedef struct subject {
+  const carom_cushion_impact *in;
+  carom_cushion_frame frame;
+  carom_contact start;
+} subject;
+
+static void put(const subject *s, const carom_contact *c, double P, double work, bool parting, carom_cushion_point *point) {
+  *point = (carom_cushion_point){.normal = P * s->in->mass,
+                                 .work = work * s->in->mass,
+                                 .phase = parting ? CAROM_PHASE_RESTITUTION : CAROM_PHASE_COMPRESSION,
+                                 .v_n = c->v_y * c->cosine,
+                                 .s_x = carom_slip_x(c),
+                                 .s_t = carom_slip_t(c),
+                                 .c_x = carom_cloth_x(c),
+                                 .c_y = carom_cloth_y(c)};
+  carom_from_cushion(&s->frame, c, s->in->radius, &point->state);
+}
+
+static carom_status trace_exact(const subject *s, size_t n, carom_cushion_point *points) {
+  carom_cushion_way way;
+  carom_status status = carom_cushion_way_begin(&s->start, &way);
+  if (status == CAROM_OK)
+    status = carom_cushion_way_on(&way, INFINITY, CAROM_CUSHION_BUDGET);
+  if (status != CAROM_OK)
+    return status;
+  const carom_impulse all = carom_cushion_way_impulse(&way);
+  carom_cushion_way_begin(&s->start, &way);
+  const double energy = s->start.v_y * s->start.v_y * s->start.cosine;
+  for (size_t k = 0; k < n; k++) {
+    const double p = k + 1 < n ? all.P * ((double)k / (double)(n - 1)) : INFINITY;
+    if ((status = carom_cushion_way_on(&way, p, INT_MAX)) != CAROM_OK)
+      return status;
+    carom_contact c = s->start;
+    carom_impulse q = carom_cushion_way_impulse(&way);
+    carom_push(&c, &q);
+    /* the work counts on after v_n = 0, where the integral of v_n falls */
+    const double work = carom_cushion_way_work(&way);
+    put(s, &c, q.P, energy * (way.in_restitution ? 2 * way.work_c - work : work), way.in_restitution, &points[k]);
+    points[k].nose_sticks = way.regime.nose_sticks;
+    points[k].cloth_sticks = way.regime.cloth_sticks;
+    if (way.regime.nose_sticks)
+      points[k].s_x = points[k].s_t = 0;
+    if (way.regime.cloth_sticks)
+      points[k].c_x = points[k].c_y = 0;
+  }
+  return CAROM_OK;
+}
+
+static carom_status trace_euler(const subject *s, const carom_cushion_options *opt, size_t n, carom_cushion_point *points) {
+  int64_t total = INT64_MAX;
+  /* first to the end, to count the steps; then to each point */
+  for (size_t k = n; k-- > 0;) {
+    carom_contact c = s->start;
+    carom_cushion_run run;
+    const int64_t most = k + 1 < n ? (int64_t)round((double)k * ((double)total / (double)(n - 1))) : INT64_MAX;
+    const carom_status status = carom_cushion_euler(&c, carom_cushion_steps(opt), opt->least_step / s->in->mass,
+                                                    opt->convention == CAROM_CONVENTION_POOLTOOL, most, &run);
+    if (status != CAROM_OK)
+      return status;
+    if (k + 1 == n)
+      total = run.steps;
+    put(s, &c, run.impulse, run.work, !isnan(run.work_compression), &points[k]);
+  }
+  return CAROM_OK;
+}
+
+static void fill_nan(size_t n, carom_cushion_point *points) {
+  for (size_t k = 0; k < n; k++)
+    points[k] = (carom_cushion_point){.normal = NAN,
+                                      .work = NAN,
+                                      .phase = CAROM_PHASE_RESTITUTION,
+                                      .v_n = NAN,
+                                      .s_x = NAN,
+                                      .s_t = NAN,
+                                      .c_x = NAN,
+                                      .c_y = NAN,
+                                      .state = {{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
+}
+
+carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cushion_options *opt, size_t n,
+                                 carom_cushion_point *points) {
+  static const carom_cushion_options defaults = {0};
+  if (in == NULL || points == NULL)
+    return CAROM_ERROR_NULL;
+  if (n < 2)
+    return CAROM_ERROR_POINTS;
+  if (opt == NULL)
+    opt = &defaults;
+  carom_motion end;
+  carom_status status = carom_cushion(in, opt, &end);
+  if (status >= 0) {
+    subject s = {.in = in, .frame = carom_cushion_frame_of(in)};
+    s.start = carom_to_cushion(&s.frame, in, opt);
+    if (opt->law == CAROM_CUSHION_LAW_HAN)
+      carom_apply_han(&s.start);
+    if (status == CAROM_SEPARATING)
+      for (size_t k = 0; k < n; k++) {
+        put(&s, &s.start, 0, 0, true, &points[k]);
+        points[k].state = end;
+      }
+    else if (opt->model == CAROM_CUSHION_MATHAVAN)
+      status = trace_exact(&s, n, points);
+    else
+      status = opt->model == CAROM_CUSHION_EULER ? trace_euler(&s, opt, n, points) : CAROM_ERROR_CUSHION_MODEL;
+  }
+  if (status < 0)
+    fill_nan(n, points);
+  return status;
+}

@@ -1,0 +1,197 @@
+/* The one place where the arguments of a shot are checked, by the conditions of the comments in carom_shot.h: what is common to
+ * a batch once, what belongs to a layout and its cue for each. */
+#include "shot/sim.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static const double most_overlap = 1e-6; /* m */
+
+static bool positive(double x) {
+  return x > 0.0 && x < INFINITY;
+}
+static bool unit_interval(double x) {
+  return x >= 0.0 && x <= 1.0;
+}
+static bool friction(double x) {
+  return x > 0.0 && x <= 1.0;
+}
+
+static carom_status check_options(const carom_shot_options *o) {
+  bool reserved = false;
+  for (size_t k = 0; k < sizeof o->reserved / sizeof o->reserved[0]; k++)
+    reserved |= o->reserved[k] != 0;
+  const bool good = o->world >= 0 && o->world <= CAROM_WORLD_POOLTOOL && o->ball_model >= 0 &&
+                    o->ball_model <= CAROM_BALL_MODEL_MIRROR && o->cushion_model >= 0 &&
+                    o->cushion_model <= 1 + CAROM_CUSHION_EULER && o->friction >= 0 && o->friction <= CAROM_FRICTION_CONSTANT &&
+                    o->events_most >= 0 && o->unused == 0 && !reserved && o->time_most >= 0.0 && o->time_most < INFINITY;
+  if (!good)
+    return CAROM_ERROR_SHOT_OPTIONS;
+  if (o->steps < 0)
+    return CAROM_ERROR_STEPS;
+  return o->threads >= 0 || o->threads == CAROM_ALL_THREADS ? CAROM_OK : CAROM_ERROR_THREADS;
+}
+
+static bool good_rail(const carom_rail *r) {
+  const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1];
+  return isfinite(r->p[0]) && isfinite(r->p[1]) && positive(x * x + y * y) && isfinite(r->line[0]) && isfinite(r->line[1]) &&
+         isfinite(r->line[2]) && (r->side == 0 || r->side == 1);
+}
+static bool good_circle(const double centre[2], double radius, double least) {
+  return isfinite(centre[0]) && isfinite(centre[1]) && radius >= least && radius < INFINITY;
+}
+
+static carom_status check_table(const carom_table *t, double R, int *where) {
+  *where = -1;
+  if (t->rails < 0 || t->rails > CAROM_RAILS_MOST || t->jaws < 0 || t->jaws > CAROM_JAWS_MOST || t->pockets < 0 ||
+      t->pockets > CAROM_POCKETS_MOST || t->rails + t->jaws < 1)
+    return CAROM_ERROR_TABLE;
+  for (*where = 0; *where < t->rails; ++*where) {
+    if (!good_rail(&t->rail[*where]))
+      return CAROM_ERROR_TABLE;
+    if (!(t->rail[*where].height > 0.0 && t->rail[*where].height < 2.0 * R))
+      return CAROM_ERROR_NOSE_HEIGHT;
+  }
+  for (*where = 0; *where < t->jaws; ++*where) {
+    if (!good_circle(t->jaw[*where].centre, t->jaw[*where].radius, 0.0))
+      return CAROM_ERROR_TABLE;
+    if (!(t->jaw[*where].height > 0.0 && t->jaw[*where].height < 2.0 * R))
+      return CAROM_ERROR_NOSE_HEIGHT;
+  }
+  for (*where = 0; *where < t->pockets; ++*where)
+    if (!good_circle(t->pocket[*where].centre, t->pocket[*where].radius, 1e-9) || !isfinite(t->pocket[*where].depth))
+      return CAROM_ERROR_TABLE;
+  *where = -1;
+  return CAROM_OK;
+}
+
+static carom_status check_kind(const carom_ball_kind *k) {
+  if (!positive(k->mass))
+    return CAROM_ERROR_MASS;
+  if (!positive(k->radius))
+    return CAROM_ERROR_RADIUS;
+  if (!friction(k->mu_slide) || !friction(k->mu_roll) || !friction(k->mu_spin))
+    return CAROM_ERROR_MU_MOTION;
+  if (!unit_interval(k->mu_ball))
+    return CAROM_ERROR_MU_BALL;
+  if (!unit_interval(k->restitution) || !unit_interval(k->restitution_cushion))
+    return CAROM_ERROR_RESTITUTION;
+  if (!unit_interval(k->mu_cushion))
+    return CAROM_ERROR_MU_CUSHION;
+  return positive(k->gravity) ? CAROM_OK : CAROM_ERROR_GRAVITY;
+}
+
+static bool bounded(const double x[3], double most) {
+  return fabs(x[0]) <= most && fabs(x[1]) <= most && fabs(x[2]) <= most;
+}
+
+static carom_status check_state(const carom_ball_state *s, double R) {
+  if (s->label < CAROM_BALL_STATIONARY || s->label > CAROM_BALL_POCKETED)
+    return CAROM_ERROR_LABEL;
+  if (!bounded(s->r, 1e6))
+    return CAROM_ERROR_POSITION;
+  if (!bounded(s->v, 1e4))
+    return CAROM_ERROR_VELOCITY;
+  if (!bounded(s->w, 1e6))
+    return CAROM_ERROR_SPIN;
+  if (s->label == CAROM_BALL_POCKETED)
+    return CAROM_OK;
+  if (s->v[2] != 0.0)
+    return CAROM_ERROR_VERTICAL;
+  return fabs(s->r[2] - R) <= most_overlap ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
+}
+
+/* Whether the ball stands within the cushions. */
+static bool on_table(const carom_table *table, const carom_features *f, const double r[3], double R) {
+  bool good = r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
+  const float x = (float)r[0], y = (float)r[1];
+  for (int k = 0; k < f->rails + f->jaws; k++) {
+    if (x < f->low_x[k] || x > f->high_x[k] || y < f->low_y[k] || y > f->high_y[k])
+      continue;
+    if (k < f->rails) {
+      const double gap = f->line[k][0] * r[0] + f->line[k][1] * r[1] + f->line[k][2] - R;
+      const double place = f->along[k][0] * r[0] + f->along[k][1] * r[1] + f->along[k][2];
+      good &= !(gap < -most_overlap && gap > -2.0 * R && place >= 0.0 && place <= 1.0);
+    } else {
+      const carom_jaw *jaw = &table->jaw[k - f->rails];
+      const double d_x = r[0] - jaw->centre[0], d_y = r[1] - jaw->centre[1], reach = jaw->radius + R - most_overlap;
+      good &= d_x * d_x + d_y * d_y >= reach * reach;
+    }
+  }
+  return good;
+}
+
+static carom_status check_cue(const carom_shot_ball *balls, int count, const carom_cue *cue) {
+  if (cue == NULL || cue->speed == 0.0)
+    return CAROM_OK;
+  if (cue->ball < 0 || cue->ball >= count || balls[cue->ball].state.label == CAROM_BALL_POCKETED)
+    return CAROM_ERROR_CUE;
+  return carom_check_cue(cue);
+}
+
+carom_status carom_check_layout(const carom_table *table, const carom_features *features, const carom_shot_ball *balls,
+                                int count, const carom_cue *cue, const carom_shot_options *opt, int *where) {
+  const double R = balls[0].kind.radius;
+  const bool one_mass = opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
+  for (*where = 0; *where < count; ++*where) {
+    const carom_shot_ball *ball = &balls[*where];
+    carom_status bad = check_kind(&ball->kind);
+    if (bad == CAROM_OK && ball->kind.radius != R)
+      bad = CAROM_ERROR_RADII_DIFFER;
+    if (bad == CAROM_OK && one_mass && ball->kind.mass != balls[0].kind.mass)
+      bad = CAROM_ERROR_MASSES_DIFFER;
+    if (bad == CAROM_OK)
+      bad = check_state(&ball->state, R);
+    if (bad != CAROM_OK)
+      return bad;
+    if (ball->state.label == CAROM_BALL_POCKETED)
+      continue;
+    if (!on_table(table, features, ball->state.r, R))
+      return CAROM_ERROR_OFF_TABLE;
+    const double reach = 2.0 * R - most_overlap;
+    for (int k = 0; k < *where; k++) {
+      const double x = balls[k].state.r[0] - ball->state.r[0], y = balls[k].state.r[1] - ball->state.r[1];
+      if (x * x + y * y < reach * reach && balls[k].state.label != CAROM_BALL_POCKETED)
+        return CAROM_ERROR_OVERLAP;
+    }
+  }
+  *where = -1;
+  return check_cue(balls, count, cue);
+}
+
+static carom_status check_all(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot_options *opt,
+                              carom_features *features, int *where) {
+  *where = -1;
+  carom_status bad = check_options(opt);
+  if (bad == CAROM_OK && (count < 1 || count > CAROM_BALLS_MOST))
+    bad = CAROM_ERROR_BALLS;
+  if (bad == CAROM_OK && !positive(balls[0].kind.radius)) {
+    *where = 0;
+    return CAROM_ERROR_RADIUS;
+  }
+  if (bad == CAROM_OK)
+    bad = check_table(table, balls[0].kind.radius, where);
+  if (bad == CAROM_OK)
+    carom_features_of(table, balls[0].kind.radius, features);
+  return bad;
+}
+
+carom_status carom_check_shot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot_options *opt,
+                              carom_features *features) {
+  int where;
+  return check_all(table, balls, count, opt, features, &where);
+}
+
+carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
+                              const carom_shot_options *opt, int *where) {
+  static const carom_shot_options no_options = {0};
+  int unused;
+  where = where != NULL ? where : &unused;
+  *where = -1;
+  if (table == NULL || balls == NULL)
+    return CAROM_ERROR_NULL;
+  opt = opt != NULL ? opt : &no_options;
+  carom_features features;
+  const carom_status bad = check_all(table, balls, count, opt, &features, where);
+  return bad != CAROM_OK ? bad : carom_check_layout(table, &features, balls, count, cue, opt, where);
+}

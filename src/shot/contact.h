@@ -1,0 +1,30 @@
+/* When two things on quadratic paths first touch: zeros of polynomials of the time since now, that cannot be stepped over. See
+ * contact.c. */
+#ifndef CAROM_SRC_SHOT_CONTACT_H
+#define CAROM_SRC_SHOT_CONTACT_H
+
+#include <stdbool.h>
+
+/* Touching things that close at less than this, m/s, do so by rounding. */
+#define CAROM_NO_SPEED 1e-11
+
+/* d(t) = d0 + d1 t + d2 t^2: from one centre to the other. */
+typedef struct carom_separation {
+  double d0[2], d1[2], d2[2];
+} carom_separation;
+
+/* The first time in [0, horizon] when |d(t)| = reach, or infinity: coming from outside, or, if the start is inside, going out.
+ */
+double carom_first_crossing(const carom_separation *d, double reach, double horizon);
+
+/* The first time in [0, horizon] when |d(t)| <= reach and falling, or infinity. `slack`, m: a start with a gap up to that,
+ * closing, is a contact now. */
+double carom_first_contact(const carom_separation *d, double reach, double slack, double horizon);
+
+/* The same for a gap of g[0] + g[1] t + g[2] t^2: the first time when it is <= 0 and falling. */
+double carom_first_touch(const double g[3], double slack, double horizon);
+
+/* Both real zeros of a polynomial of degree 2 or less, the earlier first; the number of them. */
+int carom_quadratic_zeros(double a, double b, double c, double zero[2]);
+
+#endif

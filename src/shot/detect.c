@@ -1,0 +1,277 @@
+/* Looking for what a ball will meet: rails, jaws and pockets, then other balls.
+ *
+ * A ball's horizon is the earlier of the end of its phase and its meeting with the table: it has another path after that at the
+ * latest, and is looked at again. So pairs are searched up to the nearer of two horizons only. Most things are rejected without
+ * solving: features of the table by boxes; pairs along the line of centres, where n . d(t) > R_i + R_j on the whole way, n =
+ * d(0)/|d(0)|. */
+#include "shot/contact.h"
+#include "shot/sim.h"
+
+#include <math.h>
+
+static const double slack = 1e-12; /* m: a gap that counts as contact when it closes */
+static const double behind = 1e-6; /* m: farther behind a rail's surface than that, a ball is not in contact with it */
+static const double root_least = 2.220446049250313e-14; /* s: pooltool's EPS; earlier zeros are no contact with a rail */
+
+/* A path seen from now on: r + v t + a t^2. */
+typedef struct line_of_motion {
+  double r[2], v[2], a[2];
+} motion;
+
+static motion motion_now(const carom_sim *sim, int i) {
+  const double t = sim->now - sim->start[i];
+  return (motion){{sim->x[i] + t * (sim->v_x[i] + t * sim->a_x[i]), sim->y[i] + t * (sim->v_y[i] + t * sim->a_y[i])},
+                  {sim->v_x[i] + 2.0 * t * sim->a_x[i], sim->v_y[i] + 2.0 * t * sim->a_y[i]},
+                  {sim->a_x[i], sim->a_y[i]}};
+}
+
+/* The range of one coordinate on [0, T]. */
+static void range_of(double r, double v, double a, double T, double *low, double *high) {
+  const double end = r + T * (v + T * a);
+  *low = carom_lesser(r, end);
+  *high = carom_greater(r, end);
+  const double turn = -v / (2.0 * a);
+  if (turn > 0.0 && turn < T) {
+    const double there = r + 0.5 * turn * v;
+    *low = carom_lesser(*low, there);
+    *high = carom_greater(*high, there);
+  }
+}
+
+static double place(const double line[3], const motion *m, double t) {
+  return line[0] * (m->r[0] + t * (m->v[0] + t * m->a[0])) + line[1] * (m->r[1] + t * (m->v[1] + t * m->a[1])) + line[2];
+}
+
+/* When the ball touches rail k, up to T; or infinity. */
+static double meet_rail(const carom_sim *sim, int k, double radius, const motion *m, double T) {
+  const double *n = sim->features->line[k], *along = sim->features->along[k];
+  const double g[3] = {n[0] * m->r[0] + n[1] * m->r[1] + n[2] - radius, n[0] * m->v[0] + n[1] * m->v[1],
+                       n[0] * m->a[0] + n[1] * m->a[1]};
+  if (sim->pooltool) { /* any zero counts, coming or going */
+    double zero[2];
+    const int zeros = carom_quadratic_zeros(g[2], g[1], g[0], zero);
+    for (int z = 0; z < zeros; z++)
+      if (zero[z] > root_least && zero[z] <= T) {
+        const double s = place(along, m, zero[z]);
+        if (s >= 0.0 && s <= 1.0)
+          return zero[z];
+      }
+    return INFINITY;
+  }
+  double t;
+  if (g[0] < -behind) { /* coming out of the cushion's back and falling onto it is the only way */
+    const double D = g[1] * g[1] - 4.0 * g[2] * g[0];
+    t = g[2] < 0.0 && D > 0.0 && g[1] > 0.0 ? (-g[1] - sqrt(D)) / (2.0 * g[2]) : INFINITY;
+  } else {
+    t = carom_first_touch(g, slack, T);
+  }
+  if (!(t <= T))
+    return INFINITY;
+  const double s = place(along, m, t);
+  return s >= 0.0 && s <= 1.0 ? t : INFINITY;
+}
+
+static carom_separation from_point(const double centre[2], const motion *m) {
+  return (carom_separation){{m->r[0] - centre[0], m->r[1] - centre[1]}, {m->v[0], m->v[1]}, {m->a[0], m->a[1]}};
+}
+
+/* Whether n . d(t) > reach on [0, T]: see above. */
+static bool stays_away(const carom_separation *d, double reach, double T) {
+  const double c0 = d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1], l = sqrt(c0);
+  const double h0 = c0 - reach * l, h1 = d->d0[0] * d->d1[0] + d->d0[1] * d->d1[1],
+               h2 = d->d0[0] * d->d2[0] + d->d0[1] * d->d2[1];
+  const double turn = h2 > 0.0 ? carom_lesser(carom_greater(-h1 / (2.0 * h2), 0.0), T) : T;
+  return h0 > 1e-12 * reach * reach && h0 + T * (h1 + T * h2) > 0.0 && h0 + turn * (h1 + turn * h2) > 0.0;
+}
+
+static double meet_jaw(const carom_sim *sim, int k, double radius, const motion *m, double T) {
+  const carom_jaw *jaw = &sim->table->jaw[k];
+  const carom_separation d = from_point(jaw->centre, m);
+  const double reach = jaw->radius + radius;
+  if (stays_away(&d, reach, T))
+    return INFINITY;
+  return sim->pooltool ? carom_first_crossing(&d, reach, T) : carom_first_contact(&d, reach, slack, T);
+}
+
+static double meet_pocket(const carom_sim *sim, int k, const motion *m, double T) {
+  const carom_pocket *pocket = &sim->table->pocket[k];
+  const carom_separation d = from_point(pocket->centre, m);
+  if (stays_away(&d, pocket->radius, T))
+    return INFINITY;
+  if (!sim->pooltool && d.d0[0] * d.d0[0] + d.d0[1] * d.d0[1] <= pocket->radius * pocket->radius)
+    return 0.0; /* it begins in there */
+  return carom_first_crossing(&d, pocket->radius, T);
+}
+
+/* When the centre leaves the hull, up to T; or infinity. */
+static double leave_hull(const carom_features *f, const motion *m, double T) {
+  double first = INFINITY;
+  for (int k = 0; k < 2; k++) {
+    const double low[3] = {m->r[k] - f->hull[2 * k], m->v[k], m->a[k]},
+                 high[3] = {f->hull[2 * k + 1] - m->r[k], -m->v[k], -m->a[k]};
+    first = carom_lesser(first, carom_lesser(carom_first_touch(low, 0.0, T), carom_first_touch(high, 0.0, T)));
+  }
+  return first;
+}
+
+static carom_meeting meet_table(const carom_sim *sim, const motion *m, double radius, double T) {
+  const carom_features *f = sim->features;
+  carom_meeting first = {INFINITY, 0, 0};
+  /* the box of the path; a path that leads out of the hull ends there */
+  double low_x, high_x, low_y, high_y;
+  range_of(m->r[0], m->v[0], m->a[0], T, &low_x, &high_x);
+  range_of(m->r[1], m->v[1], m->a[1], T, &low_y, &high_y);
+  if (low_x < f->hull[0] || high_x > f->hull[1] || low_y < f->hull[2] || high_y > f->hull[3]) {
+    first.time = leave_hull(f, m, T);
+    T = carom_lesser(T, first.time);
+    range_of(m->r[0], m->v[0], m->a[0], T, &low_x, &high_x);
+    range_of(m->r[1], m->v[1], m->a[1], T, &low_y, &high_y);
+  }
+  const float lx = (float)low_x, hx = (float)high_x, ly = (float)low_y, hy = (float)high_y;
+  uint8_t near[MOST_FEATURES];
+  for (int k = 0; k < f->count; k++)
+    near[k] = (f->low_x[k] <= hx) & (f->high_x[k] >= lx) & (f->low_y[k] <= hy) & (f->high_y[k] >= ly);
+  /* each narrows the horizon of those behind it; a pocket goes first where it comes at the same time */
+  for (int k = 0; k < f->count; k++) {
+    if (!near[k])
+      continue;
+    const int jaw = k - f->rails, pocket = jaw - f->jaws;
+    const int type = jaw < 0 ? CAROM_EVENT_RAIL : pocket < 0 ? CAROM_EVENT_JAW : CAROM_EVENT_POCKET;
+    const double t = jaw < 0      ? meet_rail(sim, k, radius, m, T)
+                     : pocket < 0 ? meet_jaw(sim, jaw, radius, m, T)
+                                  : meet_pocket(sim, pocket, m, T);
+    if (t < first.time || (t <= first.time && (first.type == 0 || type == CAROM_EVENT_POCKET) && t <= T)) {
+      first = (carom_meeting){t, type, jaw < 0 ? k : pocket < 0 ? jaw : pocket};
+      T = t;
+    }
+  }
+  return first;
+}
+
+/* When balls i and j meet, on the clock; their separation is d from now on. */
+static double meet_ball(const carom_sim *sim, const carom_separation *d, double reach, double T) {
+  if (sim->pooltool) /* overlapping balls collide now, even if they part */
+    return d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] < reach * reach ? 0.0 : carom_first_crossing(d, reach, T);
+  return carom_first_contact(d, reach, slack, T);
+}
+
+/* Pairs of ball i with all others: rejected in one loop that compilers turn into vectors, then solved. */
+static void meet_balls(carom_sim *sim, int i) {
+  const motion m = motion_now(sim, i);
+  const int n = sim->count;
+  const double now = sim->now, reach = 2.0 * sim->rates[i].radius, horizon = sim->horizon[i] - now;
+  double d_x[CAROM_BALLS_MOST], d_y[CAROM_BALLS_MOST], e_x[CAROM_BALLS_MOST], e_y[CAROM_BALLS_MOST];
+  double least[CAROM_BALLS_MOST], until[CAROM_BALLS_MOST];
+  for (int j = 0; j < n; j++) {
+    const double t = now - sim->start[j];
+    d_x[j] = sim->x[j] + t * (sim->v_x[j] + t * sim->a_x[j]) - m.r[0];
+    d_y[j] = sim->y[j] + t * (sim->v_y[j] + t * sim->a_y[j]) - m.r[1];
+    e_x[j] = sim->v_x[j] + 2.0 * t * sim->a_x[j] - m.v[0];
+    e_y[j] = sim->v_y[j] + 2.0 * t * sim->a_y[j] - m.v[1];
+    const double a_x = sim->a_x[j] - m.a[0], a_y = sim->a_y[j] - m.a[1];
+    const double T0 = sim->horizon[j] - now, T = T0 < horizon ? T0 : horizon;
+    const double c0 = d_x[j] * d_x[j] + d_y[j] * d_y[j], h0 = c0 - reach * sqrt(c0);
+    const double h1 = d_x[j] * e_x[j] + d_y[j] * e_y[j], h2 = d_x[j] * a_x + d_y[j] * a_y;
+    /* the least of h0 + h1 t + h2 t^2 on [0, T]; where the turning point is a maximum, its value does no harm */
+    double turn = -h1 / (2.0 * h2);
+    turn = turn > 0.0 ? turn : 0.0;
+    turn = turn < T ? turn : T;
+    const double end = h0 + T * (h1 + T * h2), middle = h0 + turn * (h1 + turn * h2);
+    const double low = end < middle ? end : middle;
+    least[j] = low < h0 ? low : h0;
+    until[j] = T;
+  }
+  const double touching = 1e-11 * reach * reach;
+  for (int j = 0; j < n; j++) {
+    if (j == i)
+      continue;
+    double t = INFINITY;
+    if (until[j] >= 0.0 && until[j] < INFINITY && !(least[j] > touching)) {
+      const carom_separation d = {{d_x[j], d_y[j]}, {e_x[j], e_y[j]}, {sim->a_x[j] - m.a[0], sim->a_y[j] - m.a[1]}};
+      t = now + meet_ball(sim, &d, reach, until[j]);
+    }
+    const int low = i < j ? i : j, high = i < j ? j : i;
+    sim->pair[low][high] = t;
+    sim->pair_round[low][high] = (int32_t)sim->round;
+  }
+}
+
+/* The first of row i again. */
+static void scan_row(carom_sim *sim, int i) {
+  double first = INFINITY;
+  int with = 0;
+  for (int j = i + 1; j < sim->count; j++)
+    if (sim->pair[i][j] < first) {
+      first = sim->pair[i][j];
+      with = j;
+    }
+  sim->first[i] = first;
+  sim->first_with[i] = (int8_t)with;
+}
+
+/* Column i of the pairs has changed: the firsts of the rows above. */
+static void update_rows(carom_sim *sim, int i) {
+  for (int k = 0; k < i; k++) {
+    if (sim->pair[k][i] < sim->first[k]) {
+      sim->first[k] = sim->pair[k][i];
+      sim->first_with[k] = (int8_t)i;
+    } else if (sim->first_with[k] == i) {
+      scan_row(sim, k);
+    }
+  }
+}
+
+/* Puts the path of ball i into the columns, and looks for what it will meet on the table. */
+static void take_path(carom_sim *sim, int i) {
+  const carom_path *path = &sim->path[i];
+  const bool translates = carom_translates(path->from.label);
+  sim->start[i] = path->start;
+  sim->x[i] = path->from.r[0];
+  sim->y[i] = path->from.r[1];
+  sim->v_x[i] = translates ? path->from.v[0] : 0.0;
+  sim->v_y[i] = translates ? path->from.v[1] : 0.0;
+  sim->a_x[i] = path->a[0];
+  sim->a_y[i] = path->a[1];
+  sim->meeting[i] = (carom_meeting){INFINITY, 0, 0};
+  sim->meeting_round[i] = (int32_t)sim->round;
+  sim->own[i] = path->end;
+  /* a ball that stays where it is does so for any time, and a pocketed ball meets nothing */
+  sim->horizon[i] = path->from.label == CAROM_BALL_POCKETED ? -INFINITY : INFINITY;
+  if (!translates)
+    return;
+  const motion m = motion_now(sim, i);
+  sim->meeting[i] = meet_table(sim, &m, sim->rates[i].radius, path->end - sim->now);
+  sim->meeting[i].time += sim->now;
+  sim->own[i] = sim->horizon[i] = carom_lesser(path->end, sim->meeting[i].time);
+}
+
+void carom_detect(carom_sim *sim, int i, int j) {
+  take_path(sim, i);
+  if (j >= 0)
+    take_path(sim, j);
+  meet_balls(sim, i);
+  if (j >= 0)
+    meet_balls(sim, j);
+  scan_row(sim, i);
+  update_rows(sim, i);
+  if (j >= 0) {
+    scan_row(sim, j);
+    update_rows(sim, j);
+  }
+}
+
+void carom_detect_all(carom_sim *sim) {
+  const int n = sim->count;
+  for (int i = 0; i < n; i++) {
+    take_path(sim, i);
+    for (int j = i + 1; j < n; j++) {
+      sim->pair[i][j] = INFINITY;
+      sim->pair_round[i][j] = 0;
+    }
+  }
+  for (int i = 0; i < n; i++)
+    if (carom_translates(sim->path[i].from.label))
+      meet_balls(sim, i);
+  for (int i = 0; i < n; i++)
+    scan_row(sim, i);
+}

@@ -1,0 +1,58 @@
+/* What a ball can meet on a table, prepared once for a shot: lines with unit normals, boxes for rejection, and the hull outside
+ * of which no centre has a place. */
+#include "shot/sim.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The box of feature k: around two points, with a margin. The hull grows to hold it. */
+static void enclose(carom_features *f, int k, const double p[2], const double q[2], double margin, double reach) {
+  const double low_x = carom_lesser(p[0], q[0]) - margin, high_x = carom_greater(p[0], q[0]) + margin;
+  const double low_y = carom_lesser(p[1], q[1]) - margin, high_y = carom_greater(p[1], q[1]) + margin;
+  /* a trace more, so that rounding to single precision cannot lose anything */
+  const double room = reach + 1e-5;
+  f->low_x[k] = (float)(low_x - room);
+  f->high_x[k] = (float)(high_x + room);
+  f->low_y[k] = (float)(low_y - room);
+  f->high_y[k] = (float)(high_y + room);
+  f->hull[0] = carom_lesser(f->hull[0], low_x);
+  f->hull[1] = carom_greater(f->hull[1], high_x);
+  f->hull[2] = carom_lesser(f->hull[2], low_y);
+  f->hull[3] = carom_greater(f->hull[3], high_y);
+}
+
+static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
+  const double *p = rail->p, *q = rail->q, e_x = q[0] - p[0], e_y = q[1] - p[1], size2 = e_x * e_x + e_y * e_y;
+  double l_x = rail->line[0], l_y = rail->line[1], l_0 = rail->line[2];
+  if (l_x == 0.0 && l_y == 0.0) { /* the left of p -> q is positive */
+    l_x = -e_y;
+    l_y = e_x;
+    l_0 = e_y * p[0] - e_x * p[1];
+  }
+  const double size = sqrt(l_x * l_x + l_y * l_y), turn = (rail->side == 0 ? -1.0 : 1.0) / size;
+  f->line[k][0] = l_x * turn;
+  f->line[k][1] = l_y * turn;
+  f->line[k][2] = l_0 * turn;
+  f->along[k][0] = e_x / size2;
+  f->along[k][1] = e_y / size2;
+  f->along[k][2] = -(e_x * p[0] + e_y * p[1]) / size2;
+}
+
+void carom_features_of(const carom_table *table, double radius, carom_features *f) {
+  f->rails = (int)table->rails;
+  f->jaws = (int)table->jaws;
+  f->pockets = (int)table->pockets;
+  f->count = f->rails + f->jaws + f->pockets;
+  f->hull[0] = f->hull[2] = INFINITY;
+  f->hull[1] = f->hull[3] = -INFINITY;
+  /* what is met by a ball's surface reaches as far as its radius */
+  int at = 0;
+  for (int k = 0; k < f->rails; k++, at++) {
+    prepare_rail(&table->rail[k], k, f);
+    enclose(f, at, table->rail[k].p, table->rail[k].q, 0.0, radius);
+  }
+  for (int k = 0; k < f->jaws; k++, at++)
+    enclose(f, at, table->jaw[k].centre, table->jaw[k].centre, table->jaw[k].radius, radius);
+  for (int k = 0; k < f->pockets; k++, at++)
+    enclose(f, at, table->pocket[k].centre, table->pocket[k].centre, table->pocket[k].radius, 0.0);
+}

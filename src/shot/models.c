@@ -1,0 +1,140 @@
+/* Collisions of balls with each other and with cushions, by the model that the options ask for. */
+#include "platform/elementary.h"
+#include "shot/sim.h"
+
+#include <math.h>
+
+/* Across the line of centres: along t = n x z, and up; the slip of the first ball's surface on the second's. */
+typedef struct contact_slip {
+  double t[2], along, up;
+} contact_slip;
+
+static contact_slip slip_of(const double n[2], double R, const carom_ball_state *a, const carom_ball_state *b) {
+  contact_slip s = {.t = {n[1], -n[0]}};
+  s.along = (a->v[0] - b->v[0]) * s.t[0] + (a->v[1] - b->v[1]) * s.t[1] - R * (a->w[2] + b->w[2]);
+  s.up = R * ((a->w[0] + b->w[0]) * s.t[0] + (a->w[1] + b->w[1]) * s.t[1]);
+  return s;
+}
+
+static double friction_of(const carom_sim *sim, int i, int j, const contact_slip *s) {
+  if (sim->opt->friction == CAROM_FRICTION_CONSTANT)
+    return 0.5 * (sim->ball[i].kind.mu_ball + sim->ball[j].kind.mu_ball);
+  const carom_speed_law law = carom_alciatore();
+  return law.a + law.b * carom_exp_negative(-law.c * sqrt(s->along * s->along + s->up * s->up));
+}
+
+/* Normal velocities by the restitution: w, the same for each unit of mass. */
+static void exchange(double e, double m_a, double m_b, const double n[2], carom_ball_state *a, carom_ball_state *b) {
+  const double closing = (a->v[0] - b->v[0]) * n[0] + (a->v[1] - b->v[1]) * n[1];
+  const double P = (1.0 + e) * closing / (1.0 / m_a + 1.0 / m_b);
+  for (int k = 0; k < 2; k++) {
+    a->v[k] -= P / m_a * n[k];
+    b->v[k] += P / m_b * n[k];
+  }
+}
+
+/* One closed-form impulse. Friction stops the slip, which takes -c/7 for each unit of mass, or slides to the end with mu times
+ * the speed at which the balls part; the vertical velocities that it gives are dropped. As pooltool's default, for equal
+ * masses. */
+static void inelastic(const double n[2], double R, double e, double mu, const contact_slip *s, carom_ball_state *a,
+                      carom_ball_state *b) {
+  const double closing = (a->v[0] - b->v[0]) * n[0] + (a->v[1] - b->v[1]) * n[1];
+  const double slip = sqrt(s->along * s->along + s->up * s->up), most = mu * e * fabs(closing);
+  const double share = 7.0 * most >= slip ? 1.0 / 7.0 : most / slip;
+  const double along = -share * s->along, up = -share * s->up;
+  exchange(e, 1.0, 1.0, n, a, b);
+  for (int k = 0; k < 2; k++) {
+    a->v[k] += along * s->t[k];
+    b->v[k] -= along * s->t[k];
+    a->w[k] += 2.5 / R * up * s->t[k];
+    b->w[k] += 2.5 / R * up * s->t[k];
+  }
+  a->w[2] -= 2.5 / R * along;
+  b->w[2] -= 2.5 / R * along;
+}
+
+static carom_ball impact_ball(const carom_ball_kind *kind, const carom_ball_state *s) {
+  return (carom_ball){.v = {s->v[0], s->v[1], 0.0},
+                      .w = {s->w[0], s->w[1], s->w[2]},
+                      .radius = kind->radius,
+                      .mass = kind->mass,
+                      .mu_cloth = kind->mu_slide};
+}
+
+static void take_motion(const carom_motion *motion, carom_ball_state *s) {
+  for (int k = 0; k < 3; k++) {
+    s->v[k] = motion->v[k];
+    s->w[k] = motion->w[k];
+  }
+  s->v[2] = 0.0;
+}
+
+static int ball_model(const carom_sim *sim) {
+  if (sim->opt->ball_model != CAROM_BALL_MODEL_DEFAULT)
+    return sim->opt->ball_model;
+  return sim->pooltool ? CAROM_BALL_MODEL_INELASTIC : CAROM_BALL_MODEL_EXACT;
+}
+
+carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double n[2], carom_ball_state *a,
+                               carom_ball_state *b) {
+  const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
+  const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
+  const contact_slip s = slip_of(n, R, a, b);
+  const int model = ball_model(sim);
+  if (model == CAROM_BALL_MODEL_MIRROR) {
+    exchange(e, kind_a->mass, kind_b->mass, n, a, b);
+    return CAROM_OK;
+  }
+  const double mu = friction_of(sim, i, j, &s);
+  if (model == CAROM_BALL_MODEL_INELASTIC) {
+    inelastic(n, R, e, mu, &s, a, b);
+    return CAROM_OK;
+  }
+  carom_impact in = {.a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .mu_ball = mu, .restitution = e};
+  /* the first ball at the origin: only the direction counts */
+  in.b.r[0] = n[0];
+  in.b.r[1] = n[1];
+  const carom_options options = {.solver = model == CAROM_BALL_MODEL_EULER ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
+                                 .slip = sim->pooltool ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER,
+                                 .steps = sim->opt->steps};
+  carom_result out;
+  const carom_status status = carom_collide(&in, &options, &out);
+  if (status >= 0) {
+    take_motion(&out.a, a);
+    take_motion(&out.b, b);
+  }
+  return status;
+}
+
+carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], double height, double jaw,
+                                 carom_ball_state *state) {
+  const carom_ball_kind *kind = &sim->ball[i].kind;
+  const carom_cushion_impact in = {.v = {state->v[0], state->v[1], 0.0},
+                                   .w = {state->w[0], state->w[1], state->w[2]},
+                                   .normal = {normal[0], normal[1]},
+                                   .height = height,
+                                   .radius = kind->radius,
+                                   .mass = kind->mass,
+                                   .mu_cloth = kind->mu_slide,
+                                   .mu_cushion = kind->mu_cushion,
+                                   .restitution = kind->restitution_cushion,
+                                   .jaw_radius = jaw};
+  const int asked = sim->opt->cushion_model;
+  carom_cushion_options options = {.steps = sim->opt->steps};
+  options.model = asked > 0 ? (carom_cushion_model)(asked - 1) : sim->pooltool ? CAROM_CUSHION_STRONGE : CAROM_CUSHION_MATHAVAN;
+  if (sim->pooltool) {
+    options.convention = CAROM_CONVENTION_POOLTOOL;
+    options.least_step = 0.001;
+  }
+  carom_motion out;
+  carom_status status = carom_cushion(&in, &options, &out);
+  if (status == CAROM_ERROR_UNRESOLVED && options.model == CAROM_CUSHION_MATHAVAN) {
+    /* a shot goes on by the same model's steps where its limit is refused, as for a ball whose rolling is exact but for
+     * rounding */
+    options.model = CAROM_CUSHION_EULER;
+    status = carom_cushion(&in, &options, &out);
+  }
+  if (status >= 0)
+    take_motion(&out, state);
+  return status;
+}

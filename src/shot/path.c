@@ -1,0 +1,107 @@
+/* The motion of a ball between events, in closed form; path.h has the equations. */
+#include "shot/path.h"
+
+#include <math.h>
+
+carom_ball_rates carom_rates_of(const carom_ball_kind *kind) {
+  return (carom_ball_rates){.radius = kind->radius,
+                            .slide = kind->mu_slide * kind->gravity,
+                            .roll = kind->mu_roll * kind->gravity,
+                            .spin = 5.0 * kind->mu_spin * kind->gravity / (2.0 * kind->radius)};
+}
+
+void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double now) {
+  const carom_ball_state *s = &path->from;
+  path->start = now;
+  path->end = INFINITY;
+  path->a[0] = path->a[1] = path->e[0] = path->e[1] = 0.0;
+  switch (s->label) {
+  case CAROM_BALL_SPINNING:
+    path->end = now + fabs(s->w[2]) / rates->spin;
+    break;
+  case CAROM_BALL_ROLLING:
+  case CAROM_BALL_SLIDING: {
+    const bool slides = s->label == CAROM_BALL_SLIDING;
+    const double friction = slides ? rates->slide : rates->roll;
+    double x = s->v[0], y = s->v[1];
+    if (slides) {
+      x -= rates->radius * s->w[1];
+      y += rates->radius * s->w[0];
+    }
+    const double size = sqrt(x * x + y * y);
+    if (size > 0.0) {
+      path->e[0] = x / size;
+      path->e[1] = y / size;
+    }
+    path->a[0] = -0.5 * friction * path->e[0];
+    path->a[1] = -0.5 * friction * path->e[1];
+    path->end = now + (slides ? 2.0 * size / (7.0 * friction) : size / friction);
+    break;
+  }
+  default:
+    break;
+  }
+}
+
+/* |w_z| after its friction has acted for a while. */
+static double spun_down(double w, double fall) {
+  return fabs(w) <= fall ? 0.0 : w > 0.0 ? w - fall : w + fall;
+}
+
+void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time, carom_ball_state *state) {
+  *state = path->from;
+  const double tau = time - path->start;
+  if (state->label == CAROM_BALL_STATIONARY || state->label == CAROM_BALL_POCKETED || !(tau > 0.0))
+    return;
+  state->w[2] = spun_down(state->w[2], rates->spin * tau);
+  if (state->label == CAROM_BALL_SPINNING)
+    return;
+  for (int k = 0; k < 2; k++) {
+    state->r[k] += tau * (state->v[k] + tau * path->a[k]);
+    state->v[k] += 2.0 * tau * path->a[k];
+  }
+  if (state->label == CAROM_BALL_ROLLING) {
+    state->w[0] = -state->v[1] / rates->radius;
+    state->w[1] = state->v[0] / rates->radius;
+  } else {
+    const double turn = 2.5 * rates->slide * tau / rates->radius;
+    state->w[0] -= turn * path->e[1];
+    state->w[1] += turn * path->e[0];
+  }
+}
+
+/* Comes to rest, or turns on the spot. */
+static void stop(carom_ball_state *s) {
+  s->v[0] = s->v[1] = s->v[2] = s->w[0] = s->w[1] = 0.0;
+  s->label = s->w[2] != 0.0 ? CAROM_BALL_SPINNING : CAROM_BALL_STATIONARY;
+}
+
+int64_t carom_label_of(carom_ball_state *s, double radius) {
+  static const double nothing = 1e-12; /* m/s: a thousandth of the rounding errors of a shot would be less */
+  const double u_x = s->v[0] - radius * s->w[1], u_y = s->v[1] + radius * s->w[0];
+  const double v = carom_greater(fabs(s->v[0]), fabs(s->v[1])), u = carom_greater(fabs(u_x), fabs(u_y));
+  if (u > nothing)
+    s->label = CAROM_BALL_SLIDING;
+  else if (v > nothing)
+    s->label = CAROM_BALL_ROLLING;
+  else
+    stop(s);
+  return s->label;
+}
+
+void carom_path_end(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state) {
+  carom_path_at(path, rates, path->end, state);
+  switch (path->from.label) {
+  case CAROM_BALL_SLIDING:
+    state->w[0] = -state->v[1] / rates->radius;
+    state->w[1] = state->v[0] / rates->radius;
+    state->label = CAROM_BALL_ROLLING;
+    break;
+  case CAROM_BALL_SPINNING:
+    state->w[2] = 0.0;
+    stop(state);
+    break;
+  default:
+    stop(state);
+  }
+}

@@ -1,0 +1,58 @@
+/* The motion of a ball between events, in closed form.
+ *
+ * With tau the time since the start of the path, u the slip at the start, e = u/|u|:
+ *
+ *   sliding    r = r0 + v0 tau - mu_s g/2 e tau^2   v = v0 - mu_s g e tau   w = w0 - 5 mu_s g/(2R) tau (e_y, -e_x, 0)
+ *              until tau = 2|u|/(7 mu_s g), when u = 0 (e does not turn on the way)
+ *   rolling    r = r0 + v0 tau - mu_r g/2 v0/|v0| tau^2   and so on, (w_x, w_y) = (-v_y, v_x)/R, until tau = |v0|/(mu_r g)
+ *   always     |w_z| falls at 5 mu_sp g/(2R) down to 0
+ *
+ * Source: W. C. Marlow, The Physics of Pocket Billiards (1994); D. Alciatore, TP A-4. */
+#ifndef CAROM_SRC_SHOT_PATH_H
+#define CAROM_SRC_SHOT_PATH_H
+
+#include "carom_shot.h"
+
+#include <stdbool.h>
+
+/* fmin() and fmax() without their care for NaN, which costs a call. */
+static inline double carom_lesser(double a, double b) {
+  return a < b ? a : b;
+}
+static inline double carom_greater(double a, double b) {
+  return a > b ? a : b;
+}
+
+/* What follows from a ball's kind, once for a shot. */
+typedef struct carom_ball_rates {
+  double radius, slide, roll; /* R; mu_s g and mu_r g, m/s^2 */
+  double spin;                /* 5 mu_sp g/(2R), rad/s^2 */
+} carom_ball_rates;
+
+carom_ball_rates carom_rates_of(const carom_ball_kind *kind);
+
+typedef struct carom_path {
+  double start, end;     /* of the phase, on the clock; end is infinite where nothing changes */
+  double a[2];           /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2 */
+  double e[2];           /* direction of the friction: of the slip, or of v */
+  carom_ball_state from; /* at the start; its label is that of the phase */
+} carom_path;
+
+/* Whether the centre moves in the phase. */
+static inline bool carom_translates(int64_t label) {
+  return label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING;
+}
+
+/* Starts a path at a time from path->from, whose label says the phase. */
+void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double now);
+
+/* The state at a time within the path. */
+void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time, carom_ball_state *state);
+
+/* The phase that v and w of a state amount to: not one that would end at once but for rounding. Tidies v and w. */
+int64_t carom_label_of(carom_ball_state *state, double radius);
+
+/* The phase that follows the path's own at its end, and the state there, with what has come to an end exactly 0. */
+void carom_path_end(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state);
+
+#endif

@@ -1,0 +1,154 @@
+/* Balls set up for the first shot of a game. */
+#include "carom_shot.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+static const int sizes[] = {10, 16, 11, 22, 3};
+
+int carom_rack_size(carom_rack_kind kind) {
+  return (int)kind >= 0 && kind <= CAROM_RACK_THREECUSHION ? sizes[kind] : 0;
+}
+
+/* splitmix64 */
+static uint64_t random_bits(uint64_t *state) {
+  uint64_t z = *state += 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+static double random_symmetric(uint64_t *state) { /* -1 to 1 */
+  return 2.0 * ((double)(random_bits(state) >> 11) * 0x1p-53) - 1.0;
+}
+
+typedef struct rack {
+  const carom_table *table;
+  carom_shot_ball *balls;
+  carom_ball_kind kind;
+  double gap;
+  uint64_t state;
+} rack;
+
+static void put(rack *k, int ball, double x, double y) {
+  k->balls[ball] = (carom_shot_ball){.kind = k->kind, .state = {.r = {x, y, k->kind.radius}}};
+}
+
+/* A place of the triangle: row 0 is its front, places count from the left. Up to a quarter of the gap off, in any direction. */
+static void put_in_row(rack *k, int ball, double front, int row, int place) {
+  const double pitch = 2.0 * k->kind.radius + k->gap;
+  double x, y;
+  do {
+    x = random_symmetric(&k->state);
+    y = random_symmetric(&k->state);
+  } while (x * x + y * y > 1.0);
+  put(k, ball, 0.5 * k->table->width + (place - 0.5 * row) * pitch + 0.25 * k->gap * x,
+      front + row * pitch * 0.8660254037844386 + 0.25 * k->gap * y);
+}
+
+/* The numbers from first to last, in an order drawn from the seed. */
+static void shuffle(rack *k, int *number, int count) {
+  for (int n = count - 1; n > 0; n--) {
+    const int other = (int)(random_bits(&k->state) % (uint64_t)(n + 1)), kept = number[n];
+    number[n] = number[other];
+    number[other] = kept;
+  }
+}
+
+/* Fills the places that are still 0 with what is not placed yet of 1 to `last`. */
+static void fill(rack *k, int *number, int last) {
+  int rest[16], count = 0, next = 0;
+  for (int n = 1; n <= last; n++) {
+    bool placed = false;
+    for (int p = 0; p < last; p++)
+      placed |= number[p] == n;
+    if (!placed)
+      rest[count++] = n;
+  }
+  shuffle(k, rest, count);
+  for (int p = 0; p < last; p++)
+    if (number[p] == 0)
+      number[p] = rest[next++];
+}
+
+static void triangle(rack *k, const int *number, int rows, double front) {
+  for (int row = 0, p = 0; row < rows; row++)
+    for (int place = 0; place <= row; place++)
+      put_in_row(k, number[p++], front, row, place);
+}
+
+static void nineball(rack *k, double front) {
+  static const int rows[9] = {0, 1, 1, 2, 2, 2, 3, 3, 4}, places[9] = {0, 0, 1, 0, 1, 2, 1, 2, 2};
+  int number[9] = {[0] = 1, [4] = 9};
+  fill(k, number, 9);
+  for (int p = 0; p < 9; p++)
+    put_in_row(k, number[p], front, rows[p], places[p]);
+}
+
+static void eightball(rack *k, double front) {
+  int number[15] = {[4] = 8};
+  const uint64_t drawn = random_bits(&k->state);
+  const int solid = 1 + (int)(drawn % 7), stripe = 9 + (int)(drawn / 7 % 7), left = drawn / 49 % 2 == 0;
+  number[10] = left ? solid : stripe;
+  number[14] = left ? stripe : solid;
+  fill(k, number, 15);
+  triangle(k, number, 5, front);
+}
+
+static void tenball(rack *k, double front) {
+  int number[10] = {[0] = 1, [4] = 10};
+  fill(k, number, 10);
+  triangle(k, number, 4, front);
+}
+
+/* Spots by the rules of the sport. */
+static void snooker(rack *k) {
+  const double w = k->table->width, l = k->table->length, baulk = 0.737 / 3.569 * l, d = 0.292 / 1.778 * w, R = k->kind.radius;
+  int number[15];
+  for (int n = 0; n < 15; n++)
+    number[n] = n + 1;
+  put(k, 0, 0.5 * w + 0.4 * d, baulk - 0.3 * d);
+  triangle(k, number, 5, 0.75 * l + 2.0 * R + fmax(k->gap, 1e-3));
+  put(k, 16, 0.5 * w + d, baulk);
+  put(k, 17, 0.5 * w - d, baulk);
+  put(k, 18, 0.5 * w, baulk);
+  put(k, 19, 0.5 * w, 0.5 * l);
+  put(k, 20, 0.5 * w, 0.75 * l);
+  put(k, 21, 0.5 * w, l - 0.324 / 3.569 * l);
+}
+
+static void threecushion(rack *k) {
+  const double w = k->table->width, l = k->table->length;
+  put(k, 0, 0.5 * w + 0.1825 / 1.42 * w, 0.25 * l);
+  put(k, 1, 0.5 * w, 0.25 * l);
+  put(k, 2, 0.5 * w, 0.75 * l);
+}
+
+carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double gap, uint64_t seed, carom_shot_ball *balls,
+                        int room) {
+  if (table == NULL || balls == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_game game = kind == CAROM_RACK_SNOOKER        ? CAROM_GAME_SNOOKER
+                          : kind == CAROM_RACK_THREECUSHION ? CAROM_GAME_BILLIARD
+                                                            : CAROM_GAME_POOL;
+  rack k = {table, balls, carom_ball_kind_of(game), gap, seed};
+  const int size = carom_rack_size(kind);
+  if (size == 0 || room < size || !(gap >= 0.0 && gap <= k.kind.radius))
+    return CAROM_ERROR_RACK;
+  const double front = 0.75 * table->length;
+  if (kind == CAROM_RACK_SNOOKER) {
+    snooker(&k);
+  } else if (kind == CAROM_RACK_THREECUSHION) {
+    threecushion(&k);
+  } else {
+    put(&k, 0, 0.5 * table->width, 0.25 * table->length);
+    if (kind == CAROM_RACK_NINEBALL)
+      nineball(&k, front);
+    else if (kind == CAROM_RACK_EIGHTBALL)
+      eightball(&k, front);
+    else
+      tenball(&k, front);
+  }
+  return CAROM_OK;
+}

@@ -1,0 +1,102 @@
+/* Contacts in the world carom: where the surfaces touch, at the instant when they touch, by the model.
+ *
+ * SLOW CONTACTS. A ball that its spin presses against another ball or a cushion bounces in ever smaller hops, infinitely many
+ * in a finite time. So a contact that closes at less than s is resolved without friction, and what touches parts at s: hops
+ * then last at least 2 s over the acceleration, and end when the spin that presses is used up. s is 1 mm/s for the first slow
+ * contact of a shot and grows by 1 mm/s with each 500 of them, so that a ball that pushes a row of others along does not take
+ * events without end. The energy that parting takes more than closing gives, some 1e-8 J, is taken from the spin of the balls
+ * in contact, so energy never rises; it takes half of the spin's at most, so balls that hardly move part at less than s, but
+ * soon stop. Momentum is kept. */
+#include "shot/sim.h"
+
+#include <math.h>
+
+static const double slow_first = 1e-3; /* m/s */
+static const double slow_contacts = 500;
+
+/* s, above. */
+static double slow_speed(const carom_sim *sim) {
+  return slow_first * (1.0 + (double)sim->slow_contacts / slow_contacts);
+}
+
+static double spin_energy(const carom_ball_kind *kind, const carom_ball_state *s) {
+  const double w2 = s->w[0] * s->w[0] + s->w[1] * s->w[1] + s->w[2] * s->w[2];
+  return 0.2 * kind->mass * kind->radius * kind->radius * w2;
+}
+
+static void slow_spin(carom_ball_state *s, double share) {
+  for (int k = 0; k < 3; k++)
+    s->w[k] *= share;
+}
+
+/* The speed at which a slow contact parts, `s` or less; takes the energy that it needs more from the spins. `m`: the reduced
+ * mass. */
+static double part_slowly(double s, double m, double closing, const carom_ball_kind *kind_a, carom_ball_state *a,
+                          const carom_ball_kind *kind_b, carom_ball_state *b) {
+  const double there = spin_energy(kind_a, a) + (b != NULL ? spin_energy(kind_b, b) : 0.0);
+  const double taken = fmin(0.5 * m * (s * s - closing * closing), 0.5 * there);
+  if (!(taken > 0.0))
+    return fmax(closing, 0.0);
+  const double share = sqrt(1.0 - taken / there) * (1.0 - 1e-15);
+  slow_spin(a, share);
+  if (b != NULL)
+    slow_spin(b, share);
+  return sqrt(closing * closing + 2.0 * taken / m);
+}
+
+carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b) {
+  const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
+  double n[2] = {b->r[0] - a->r[0], b->r[1] - a->r[1]};
+  const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
+  n[0] /= size;
+  n[1] /= size;
+  const double closing = (a->v[0] - b->v[0]) * n[0] + (a->v[1] - b->v[1]) * n[1];
+  const double slow = slow_speed(sim);
+  carom_status status = CAROM_OK;
+  if (closing >= slow) {
+    status = carom_model_balls(sim, i, j, n, a, b);
+  } else {
+    sim->slow_contacts++;
+    const double m = kind_a->mass * kind_b->mass / (kind_a->mass + kind_b->mass);
+    const double P = m * (closing + part_slowly(slow, m, closing, kind_a, a, kind_b, b));
+    for (int k = 0; k < 2; k++) {
+      a->v[k] -= P / kind_a->mass * n[k];
+      b->v[k] += P / kind_b->mass * n[k];
+    }
+  }
+  carom_label_of(a, kind_a->radius);
+  carom_label_of(b, kind_b->radius);
+  return status < 0 ? status : CAROM_OK;
+}
+
+carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *s) {
+  const carom_ball_kind *kind = &sim->ball[i].kind;
+  double n[2], height, jaw_radius = 0.0;
+  if (due->type == CAROM_EVENT_RAIL) {
+    n[0] = -sim->features->line[due->b][0];
+    n[1] = -sim->features->line[due->b][1];
+    height = sim->table->rail[due->b].height;
+  } else {
+    const carom_jaw *jaw = &sim->table->jaw[due->b];
+    n[0] = jaw->centre[0] - s->r[0];
+    n[1] = jaw->centre[1] - s->r[1];
+    const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
+    n[0] /= size;
+    n[1] /= size;
+    height = jaw->height;
+    jaw_radius = jaw->radius;
+  }
+  const double closing = s->v[0] * n[0] + s->v[1] * n[1];
+  const double slow = slow_speed(sim);
+  carom_status status = CAROM_OK;
+  if (closing >= slow) {
+    status = carom_model_cushion(sim, i, n, height, jaw_radius, s);
+  } else {
+    sim->slow_contacts++;
+    const double back = closing + part_slowly(slow, kind->mass, closing, kind, s, NULL, NULL);
+    for (int k = 0; k < 2; k++)
+      s->v[k] -= back * n[k];
+  }
+  carom_label_of(s, kind->radius);
+  return status < 0 ? status : CAROM_OK;
+}

@@ -1,0 +1,284 @@
+/* The loop of a shot: find the next event, bring the balls in it there, resolve it, look again what they will meet. */
+#include "platform/threads.h"
+#include "shot/sim.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+static const carom_shot_options no_options = {0};
+
+/* The next place for an event, or a spare one where there is no more room. */
+static carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
+  carom_shot *shot = sim->shot;
+  carom_event *event = shot->count < shot->room ? &shot->events[shot->count] : spare;
+  shot->count++;
+  shot->time = sim->now;
+  event->time = sim->now;
+  event->type = due->type;
+  event->a = due->a;
+  event->b = due->b;
+  event->reserved = 0;
+  if (due->type != CAROM_EVENT_BALL_BALL)
+    memset(&event->before[1], 0, sizeof event->before[1]);
+  return event;
+}
+
+/* Resolves an event: event->before to the paths of its balls. The change itself is made in path->from. */
+static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_event *event) {
+  const int i = due->a, j = due->b;
+  carom_ball_state *state = &sim->path[i].from;
+  switch (due->type) {
+  case CAROM_EVENT_BALL_BALL:
+    *state = event->before[0];
+    sim->path[j].from = event->before[1];
+    return (sim->pooltool ? carom_pooltool_balls : carom_resolve_balls)(sim, i, j, state, &sim->path[j].from);
+  case CAROM_EVENT_RAIL:
+  case CAROM_EVENT_JAW:
+    *state = event->before[0];
+    return (sim->pooltool ? carom_pooltool_cushion : carom_resolve_cushion)(sim, i, due, state);
+  case CAROM_EVENT_POCKET: {
+    const carom_pocket *pocket = &sim->table->pocket[j];
+    *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth}, .label = CAROM_BALL_POCKETED};
+    return CAROM_OK;
+  }
+  default: {
+    carom_ball_state end;
+    carom_path_end(&sim->path[i], &sim->rates[i], &end);
+    *state = end;
+    return CAROM_OK;
+  }
+  }
+}
+
+/* One event. */
+static carom_status step(carom_sim *sim, const carom_due *due) {
+  carom_event spare, *event = note(sim, &spare, due);
+  const int i = due->a, j = due->type == CAROM_EVENT_BALL_BALL ? due->b : -1;
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
+  if (j >= 0)
+    carom_path_at(&sim->path[j], &sim->rates[j], sim->now, &event->before[1]);
+  const carom_status status = resolve(sim, due, event);
+  if (status < 0) { /* nothing of it counts */
+    sim->path[i].from = event->before[0];
+    if (j >= 0)
+      sim->path[j].from = event->before[1];
+  }
+  if (event != &spare) {
+    event->after[0] = sim->path[i].from;
+    if (j >= 0)
+      event->after[1] = sim->path[j].from;
+    else
+      memset(&event->after[1], 0, sizeof event->after[1]);
+  }
+  carom_path_begin(&sim->path[i], &sim->rates[i], sim->now);
+  if (j >= 0)
+    carom_path_begin(&sim->path[j], &sim->rates[j], sim->now);
+  if (status >= 0)
+    carom_detect(sim, i, j);
+  return status;
+}
+
+/* The strike, where there is one. */
+static carom_status strike(carom_sim *sim) {
+  const carom_cue *cue = sim->cue;
+  if (cue == NULL || !(cue->speed > 0.0))
+    return CAROM_OK;
+  for (int i = 0; i < sim->count; i++) {
+    const int64_t label = sim->path[i].from.label;
+    if (label != CAROM_BALL_STATIONARY && label != CAROM_BALL_POCKETED)
+      return CAROM_OK;
+  }
+  const int i = (int)cue->ball;
+  carom_motion motion;
+  const carom_status status = carom_strike(cue, &sim->ball[i].kind, &motion);
+  if (status < 0)
+    return status;
+  const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
+  carom_event spare, *event = note(sim, &spare, &due);
+  carom_ball_state *state = &sim->path[i].from;
+  event->before[0] = *state;
+  memcpy(state->v, motion.v, sizeof state->v);
+  memcpy(state->w, motion.w, sizeof state->w);
+  carom_label_of(state, sim->rates[i].radius);
+  if (sim->pooltool)
+    state->label = CAROM_BALL_SLIDING;
+  event->after[0] = *state;
+  memset(&event->after[1], 0, sizeof event->after[1]);
+  carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
+  return CAROM_OK;
+}
+
+static void begin(carom_sim *sim) {
+  for (int i = 0; i < sim->count; i++) {
+    sim->rates[i] = carom_rates_of(&sim->ball[i].kind);
+    carom_ball_state *from = &sim->path[i].from;
+    *from = sim->ball[i].state;
+    if (from->label != CAROM_BALL_POCKETED)
+      carom_label_of(from, sim->rates[i].radius);
+    carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
+  }
+}
+
+static carom_status play(carom_sim *sim) {
+  const int64_t events_most = sim->opt->events_most > 0 ? sim->opt->events_most : 10000;
+  const double time_most = sim->opt->time_most > 0.0 ? sim->opt->time_most : 1000.0;
+  carom_status status = strike(sim);
+  if (status == CAROM_OK)
+    carom_detect_all(sim);
+  while (status == CAROM_OK) {
+    const carom_due due = carom_next(sim);
+    if (due.type < 0)
+      break;
+    if (due.time > time_most)
+      return CAROM_ERROR_TOO_LONG;
+    if (sim->shot->count >= events_most)
+      return CAROM_ERROR_TOO_MANY_EVENTS;
+    if (due.type == 0) {
+      sim->shot->time = sim->now = carom_greater(sim->now, due.time);
+      return CAROM_ERROR_LEFT_TABLE;
+    }
+    sim->now = carom_greater(sim->now, due.time); /* of simultaneous events one may have been found a trace earlier */
+    sim->round++;
+    status = step(sim, &due);
+  }
+  return status;
+}
+
+/* With arguments that have been checked. */
+static carom_status shoot(const carom_table *table, const carom_features *features, const carom_shot_ball *balls, int count,
+                          const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
+  carom_sim sim;
+  sim.table = table;
+  sim.features = features;
+  sim.ball = balls;
+  sim.opt = opt;
+  sim.cue = cue;
+  sim.shot = shot;
+  sim.count = count;
+  sim.pooltool = opt->world == CAROM_WORLD_POOLTOOL;
+  sim.now = 0.0;
+  sim.round = 0;
+  sim.slow_contacts = 0;
+  shot->count = 0;
+  shot->time = 0.0;
+  begin(&sim);
+  const carom_status status = play(&sim);
+  for (int i = 0; shot->final != NULL && i < count; i++)
+    carom_path_at(&sim.path[i], &sim.rates[i], sim.now, &shot->final[i]);
+  return status;
+}
+
+static carom_status shoot_checked(const carom_table *table, const carom_features *features, const carom_shot_ball *balls,
+                                  int count, const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
+  int where;
+  shot->count = 0;
+  shot->time = 0.0;
+  const carom_status bad = carom_check_layout(table, features, balls, count, cue, opt, &where);
+  return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot);
+}
+
+static bool room_is_there(const carom_shot *shot) {
+  return shot->room == 0 || (shot->room > 0 && shot->events != NULL);
+}
+
+carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
+                         const carom_shot_options *opt, carom_shot *shot) {
+  if (table == NULL || balls == NULL || shot == NULL || !room_is_there(shot))
+    return CAROM_ERROR_NULL;
+  opt = opt != NULL ? opt : &no_options;
+  shot->count = 0;
+  shot->time = 0.0;
+  carom_features features;
+  const carom_status bad = carom_check_shot(table, balls, count, opt, &features);
+  return bad != CAROM_OK ? bad : shoot_checked(table, &features, balls, count, cue, opt, shot);
+}
+
+/* ---- Many */
+
+typedef struct batch {
+  const carom_table *table;
+  const carom_features *features;
+  const carom_shot_ball *balls;
+  int count, one_layout, one_cue;
+  const carom_cue *cues;
+  const carom_shot_options *opt;
+  carom_shot *shots;
+  int8_t *status;
+} batch;
+
+static carom_status shoot_row(const batch *b, size_t k) {
+  const carom_shot_ball *balls = b->balls + (b->one_layout ? 0 : k * (size_t)b->count);
+  const carom_cue *cue = b->cues == NULL ? NULL : b->cues + (b->one_cue ? 0 : k);
+  if (!room_is_there(&b->shots[k]))
+    return CAROM_ERROR_NULL;
+  return shoot_checked(b->table, b->features, balls, b->count, cue, b->opt, &b->shots[k]);
+}
+
+static size_t shoot_rows(const void *context, size_t first, size_t end) {
+  const batch *b = context;
+  size_t first_bad = end;
+  for (size_t k = first; k < end; k++) {
+    const carom_status status = shoot_row(b, k);
+    if (b->status != NULL)
+      b->status[k] = (int8_t)status;
+    if (status < 0 && first_bad == end)
+      first_bad = k;
+  }
+  return first_bad;
+}
+
+carom_status carom_shoot_batch(const carom_table *table, const carom_shot_ball *balls, int count, int one_layout,
+                               const carom_cue *cues, int one_cue, size_t n, const carom_shot_options *opt, carom_shot *shots,
+                               int8_t *status) {
+  if (n == 0)
+    return CAROM_OK;
+  if (table == NULL || balls == NULL || shots == NULL)
+    return CAROM_ERROR_NULL;
+  opt = opt != NULL ? opt : &no_options;
+  carom_features features;
+  const carom_status bad = carom_check_shot(table, balls, count, opt, &features);
+  if (bad != CAROM_OK)
+    return bad;
+  const batch work = {table, &features, balls, count, one_layout, one_cue, cues, opt, shots, status};
+  enum { LEAST = 4 }; /* shots worth a thread */
+  const size_t first_bad = carom_in_threads(shoot_rows, &work, n, opt->threads, LEAST);
+  return first_bad == n ? CAROM_OK : shoot_row(&work, first_bad); /* only its index came back through the threads */
+}
+
+/* ---- Later */
+
+carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
+                           carom_ball_state *states) {
+  if (balls == NULL || shot == NULL || states == NULL || !room_is_there(shot))
+    return CAROM_ERROR_NULL;
+  if (count < 1 || count > CAROM_BALLS_MOST)
+    return CAROM_ERROR_BALLS;
+  time = time > 0.0 ? carom_lesser(time, shot->time) : 0.0;
+  if (shot->count > shot->room && (shot->room == 0 || time > shot->events[shot->room - 1].time))
+    return CAROM_ERROR_EVENTS_LOST;
+  carom_path path[CAROM_BALLS_MOST];
+  for (int i = 0; i < count; i++) {
+    path[i].from = balls[i].state;
+    path[i].start = 0.0;
+    if (path[i].from.label != CAROM_BALL_POCKETED)
+      carom_label_of(&path[i].from, balls[i].kind.radius);
+  }
+  /* the last event of each ball until then */
+  const int64_t known = shot->count < shot->room ? shot->count : shot->room;
+  for (int64_t k = 0; k < known && shot->events[k].time <= time; k++) {
+    const carom_event *event = &shot->events[k];
+    const int ball[2] = {event->a, event->type == CAROM_EVENT_BALL_BALL ? event->b : -1};
+    for (int side = 0; side < 2; side++)
+      if (ball[side] >= 0 && ball[side] < count) {
+        path[ball[side]].from = event->after[side];
+        path[ball[side]].start = event->time;
+      }
+  }
+  for (int i = 0; i < count; i++) {
+    const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
+    carom_path_begin(&path[i], &rates, path[i].start);
+    carom_path_at(&path[i], &rates, time, &states[i]);
+  }
+  return CAROM_OK;
+}

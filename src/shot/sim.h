@@ -1,0 +1,94 @@
+/* A shot on its way: what the parts of this room share. One of these stands on the stack of carom_shoot(), nothing is
+ * allocated. */
+#ifndef CAROM_SRC_SHOT_SIM_H
+#define CAROM_SRC_SHOT_SIM_H
+
+#include "shot/path.h"
+
+enum { MOST_FEATURES = CAROM_RAILS_MOST + CAROM_JAWS_MOST + CAROM_POCKETS_MOST };
+
+/* What a ball can meet on the table. In the order of rails, jaws, pockets. */
+typedef struct carom_features {
+  int rails, jaws, pockets, count;
+  double line[CAROM_RAILS_MOST][3];  /* unit normal towards the played side, and offset: distance = line . (x, y, 1) */
+  double along[CAROM_RAILS_MOST][3]; /* place along the rail, 0 at p and 1 at q: along . (x, y, 1) */
+  /* boxes around the things, in single precision, rounded outward */
+  float low_x[MOST_FEATURES], high_x[MOST_FEATURES], low_y[MOST_FEATURES], high_y[MOST_FEATURES];
+  double hull[4]; /* low x, high x, low y, high y: centres stay inside */
+} carom_features;
+
+/* What will happen to a ball by itself or on the table. */
+typedef struct carom_meeting {
+  double time;
+  int type, what; /* a carom_event_type, or 0 where it leaves the table; the index of rail, jaw or pocket */
+} carom_meeting;
+
+typedef struct carom_sim {
+  const carom_table *table;
+  const carom_features *features;
+  const carom_shot_ball *ball;
+  const carom_shot_options *opt;
+  const carom_cue *cue;
+  carom_shot *shot;
+  int count;
+  bool pooltool;
+  double now;
+  int64_t slow_contacts; /* so far: see resolve.c */
+  int64_t round;         /* events so far: tells when an entry below was computed */
+  carom_ball_rates rates[CAROM_BALLS_MOST];
+  carom_path path[CAROM_BALLS_MOST];
+  /* the paths once more, in columns: those of pairs are searched many at a time */
+  double x[CAROM_BALLS_MOST], y[CAROM_BALLS_MOST], v_x[CAROM_BALLS_MOST], v_y[CAROM_BALLS_MOST], a_x[CAROM_BALLS_MOST],
+      a_y[CAROM_BALLS_MOST], start[CAROM_BALLS_MOST], horizon[CAROM_BALLS_MOST];
+  carom_meeting meeting[CAROM_BALLS_MOST];         /* with the table */
+  double pair[CAROM_BALLS_MOST][CAROM_BALLS_MOST]; /* when i < j meet; infinite where not before a path ends */
+  int32_t pair_round[CAROM_BALLS_MOST][CAROM_BALLS_MOST], meeting_round[CAROM_BALLS_MOST];
+  double own[CAROM_BALLS_MOST];   /* the end of the ball's phase or its meeting, whichever is earlier */
+  double first[CAROM_BALLS_MOST]; /* of row i of pair[] */
+  int8_t first_with[CAROM_BALLS_MOST];
+} carom_sim;
+
+/* An event that is due. */
+typedef struct carom_due {
+  double time;
+  int type, a, b; /* type 0: ball a leaves the table; -1: nothing will happen any more */
+} carom_due;
+
+/* table_pooltool.c */
+extern const carom_table carom_table_pooltool;
+
+/* features.c: what follows from a table for balls of one radius. */
+void carom_features_of(const carom_table *table, double radius, carom_features *features);
+
+/* detect.c: looks again for all that balls i and j can meet, from now on; j may be -1. */
+void carom_detect(carom_sim *sim, int i, int j);
+/* The same for all balls, at the start. */
+void carom_detect_all(carom_sim *sim);
+
+/* next.c: the next event. */
+carom_due carom_next(const carom_sim *sim);
+
+/* resolve.c and resolve_pooltool.c: a contact of two balls, or of a ball with a rail or a jaw, now. Changes the states, labels
+ * too. */
+carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
+carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
+carom_status carom_pooltool_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
+carom_status carom_pooltool_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
+
+/* models.c: v and w after a collision by the model asked for. normal: unit vector from a to b; for a cushion, into it. `jaw`:
+ * the radius of a jaw, 0 for a rail. */
+carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double normal[2], carom_ball_state *a,
+                               carom_ball_state *b);
+carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], double height, double jaw,
+                                 carom_ball_state *state);
+
+/* strike.c: the numbers of a cue, apart from its ball. */
+carom_status carom_check_cue(const carom_cue *cue);
+
+/* check.c: what a batch has in common, which also prepares the table; and one layout with its cue. */
+carom_status carom_check_shot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot_options *opt,
+                              carom_features *features);
+carom_status carom_check_layout(const carom_table *table, const carom_features *features, const carom_shot_ball *balls,
+                                int count, const carom_cue *cue, const carom_shot_options *opt, int *where);
+
+#endif

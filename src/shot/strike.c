@@ -1,0 +1,78 @@
+/* The strike of a cue: an instantaneous, lossless impact of the tip, with squirt.
+ *
+ * With m the ball's mass, M the cue's, m_e the mass of its end, (a, b) the offset in units of R and I = 2/5 m R^2:
+ *
+ *   V = 2 V0 / (1 + m/M + 5/2 (a^2 + b^2))           speed along the cue
+ *   v = V cos(theta) in the direction phi + alpha     tan(alpha) = -(5/2) a sqrt(1 - a^2) / (1 + m/m_e + 5/2 (1 - a^2))
+ *   w = 5 V/(2R) (b, a sin(theta), -a cos(theta))     turned about z by phi + 90 degrees
+ *
+ * The part of the blow that goes down into the table is lost. Sources: D. Alciatore, TP A-30 and TP A-31; pooltool's. */
+#include "platform/elementary.h"
+#include "shot/sim.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static bool positive(double x) {
+  return x > 0.0 && x < INFINITY;
+}
+
+carom_status carom_check_cue(const carom_cue *cue) {
+  if (!(cue->speed >= 0.0 && cue->speed <= 1e3) || !(fabs(cue->phi) <= 1e9) || !(cue->theta >= 0.0 && cue->theta <= 90.0) ||
+      !positive(cue->mass) || !positive(cue->end_mass))
+    return CAROM_ERROR_CUE;
+  return cue->a * cue->a + cue->b * cue->b < 1.0 ? CAROM_OK : CAROM_ERROR_MISCUE;
+}
+
+carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out) {
+  if (cue == NULL || kind == NULL || out == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_status bad = carom_check_cue(cue);
+  if (bad != CAROM_OK)
+    return bad;
+  const double a = cue->a, b = cue->b, inside = 1.0 - a * a;
+  double sin_phi, cos_phi, sin_theta, cos_theta;
+  carom_sincos_degrees(cue->phi, &sin_phi, &cos_phi);
+  carom_sincos_degrees(cue->theta, &sin_theta, &cos_theta);
+  const double V = 2.0 * cue->speed / (1.0 + kind->mass / cue->mass + 2.5 * (a * a + b * b));
+  /* squirt as a turn of v, by its sine and cosine */
+  const double aside = -2.5 * a * sqrt(inside), ahead = 1.0 + kind->mass / cue->end_mass + 2.5 * inside;
+  const double size = sqrt(aside * aside + ahead * ahead), s = aside / size, c = ahead / size;
+  const double turn = 2.5 * V / kind->radius, x = turn * b, y = turn * a * sin_theta;
+  *out = (carom_motion){.v = {V * cos_theta * (cos_phi * c - sin_phi * s), V * cos_theta * (sin_phi * c + cos_phi * s), 0.0},
+                        .w = {-x * sin_phi - y * cos_phi, x * cos_phi - y * sin_phi, -turn * a * cos_theta}};
+  return CAROM_OK;
+}
+
+carom_cue carom_cue_of(carom_game game) {
+  const bool snooker = game == CAROM_GAME_SNOOKER;
+  return (carom_cue){.speed = 2.0,
+                     .phi = 90.0,
+                     .b = 0.25,
+                     .mass = snooker ? 0.478 : 0.567,
+                     .end_mass = carom_ball_kind_of(game).mass / 30.0,
+                     .tip_radius = 0.0106045};
+}
+
+carom_ball_kind carom_ball_kind_of(carom_game game) {
+  carom_ball_kind kind = {.mass = 0.170097,
+                          .radius = 0.028575,
+                          .mu_slide = 0.2,
+                          .mu_roll = 0.01,
+                          .mu_ball = 0.05,
+                          .restitution = 0.95,
+                          .mu_cushion = 0.2,
+                          .restitution_cushion = 0.85,
+                          .gravity = 9.81};
+  if (game == CAROM_GAME_SNOOKER) {
+    kind.mass = 0.140;
+    kind.radius = 0.02619375;
+    kind.mu_slide = kind.mu_cushion = 0.5;
+  } else if (game == CAROM_GAME_BILLIARD) {
+    kind.mass = 0.210;
+    kind.radius = 0.03075;
+    kind.mu_cushion = 0.15;
+  }
+  kind.mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind.radius;
+  return kind;
+}

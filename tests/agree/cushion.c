@@ -1,0 +1,152 @@
+/* The cushion against what is known of it: the judge in long double, pooltool's recorded impacts, Euler's steps, and the
+ * perpendicular rebounds that the 2010 paper fitted. */
+#include "cushion_oracle.h"
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { DRAWN = 250, MOST_ROWS = 600, NUMBERS = 21 };
+
+static int compare(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+START_TEST(exact_against_the_judge) {
+  for (cushion_draw kind = CUSHION_PLAY; kind < CUSHION_DRAWS; kind++) {
+    double error[DRAWN];
+    int count = 0;
+    for (uint64_t k = 0; k < DRAWN; k++) {
+      const carom_cushion_impact in = draw_cushion(kind, test_seed(), k);
+      carom_motion out, exact;
+      ck_assert_msg(carom_cushion(&in, NULL, &out) == CAROM_OK, "kind %d, impact %d", (int)kind, (int)k);
+      if (cushion_oracle(&in, &exact) != CAROM_OK)
+        continue;
+      error[count] = cushion_distance(&in, &out, &exact);
+      ck_assert_msg(error[count] <= 1e-8, "kind %d, impact %d: %.3g", (int)kind, (int)k, error[count]);
+      count++;
+    }
+    ck_assert_int_ge(count, DRAWN * 95 / 100);
+    qsort(error, (size_t)count, sizeof error[0], compare);
+    ck_assert_msg(error[count / 2] <= 1e-11, "median %.3g", error[count / 2]);
+  }
+}
+END_TEST
+
+/* One recorded impact. */
+typedef struct recorded {
+  carom_cushion_impact in;
+  carom_motion after;
+} recorded;
+
+static size_t load(const char *name, recorded rows[MOST_ROWS]) {
+  char path[1024], line[2048];
+  snprintf(path, sizeof path, "%s/%s", CAROM_TEST_DATA, name);
+  FILE *file = fopen(path, "r");
+  ck_assert_msg(file != NULL && fgets(line, sizeof line, file) != NULL, "%s cannot be read", path);
+  size_t count = 0;
+  while (count < MOST_ROWS && fgets(line, sizeof line, file) != NULL) {
+    char *at = line;
+    while (*at != ',')
+      at++;
+    double number[NUMBERS];
+    for (int k = 0; k < NUMBERS; k++) {
+      char *end;
+      number[k] = strtod(at + 1, &end);
+      ck_assert_msg(end > at + 1, "%s: row %zu", path, count);
+      at = end;
+    }
+    for (int k = 0; k < NUMBERS; k++)
+      (k < 15 ? (double *)&rows[count].in + k : (double *)&rows[count].after + (k - 15))[0] = number[k];
+    count++;
+  }
+  fclose(file);
+  return count;
+}
+
+START_TEST(stronge_as_recorded) {
+  static recorded rows[MOST_ROWS];
+  const size_t count = load("cushion-stronge.csv", rows);
+  const carom_cushion_options options = {.model = CAROM_CUSHION_STRONGE, .convention = CAROM_CONVENTION_POOLTOOL};
+  ck_assert_uint_eq(count, 479);
+  for (size_t k = 0; k < count; k++) {
+    carom_motion out;
+    ck_assert_int_eq(carom_cushion(&rows[k].in, &options, &out), CAROM_OK);
+    ck_assert_msg(cushion_distance(&rows[k].in, &out, &rows[k].after) <= 1e-9, "row %zu", k);
+  }
+}
+END_TEST
+
+/* A ball that rolls slips on the cloth by rounding alone, so pooltool's first step goes where its own rounding points. Two more
+ * differ by less than 1e-5: spins that amplify it. */
+START_TEST(euler_as_recorded) {
+  static recorded rows[MOST_ROWS];
+  const size_t count = load("cushion-mathavan2010.csv", rows);
+  const carom_cushion_options options = {
+      .model = CAROM_CUSHION_EULER, .convention = CAROM_CONVENTION_POOLTOOL, .least_step = 0.001};
+  size_t near = 0, rolling = 0;
+  ck_assert_uint_eq(count, 432);
+  for (size_t k = 0; k < count; k++) {
+    const carom_cushion_impact *in = &rows[k].in;
+    carom_motion out;
+    ck_assert_int_eq(carom_cushion(in, &options, &out), CAROM_OK);
+    const double error = cushion_distance(in, &out, &rows[k].after);
+    near += error <= 1e-9;
+    const bool rolls = hypot(in->v[0] - in->radius * in->w[1], in->v[1] + in->radius * in->w[0]) < 1e-9;
+    rolling += rolls;
+    ck_assert_msg(error <= (rolls ? 1e-2 : 1e-5), "row %zu: %.3g", k, error);
+  }
+  ck_assert_uint_ge(near + rolling, count - 2);
+  ck_assert_uint_ge(near, 390);
+}
+END_TEST
+
+/* Not where friction may lift the ball, sin < mu cos: there steps that chatter about stick load the cloth by turns, on the mean
+ * more than sticking does. */
+START_TEST(euler_converges_at_first_order) {
+  double mean[3] = {0};
+  for (uint64_t k = 0; k < 100; k++) {
+    carom_cushion_impact in = draw_cushion(CUSHION_PLAY, 1, k);
+    carom_motion exact, out;
+    in.mu_cushion = fmin(in.mu_cushion, in.height / in.radius - 1);
+    ck_assert_int_eq(carom_cushion(&in, NULL, &exact), CAROM_OK);
+    for (int j = 0; j < 3; j++) {
+      const carom_cushion_options options = {.model = CAROM_CUSHION_EULER, .steps = 1000 << 2 * j};
+      ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_OK);
+      mean[j] += cushion_distance(&in, &out, &exact) / 100;
+    }
+  }
+  ck_assert_double_lt(mean[0], 3e-3);
+  for (int j = 0; j < 2; j++)
+    ck_assert_msg(mean[j] / mean[j + 1] > 3 && mean[j] / mean[j + 1] < 5, "%g, then %g", mean[j], mean[j + 1]);
+}
+END_TEST
+
+/* Figure 7 of the 2010 paper: rolling balls straight into the cushion, as measured up to the speed for which a rigid cushion is
+ * said to hold. The restitution and friction are those that the paper fitted. */
+START_TEST(measured_rebounds) {
+  for (double speed = 0.3; speed <= 2.5; speed += 0.1) {
+    const double R = 0.02625;
+    const carom_cushion_impact in = {.v = {0, speed, 0},
+                                     .w = {-speed / R, 0, 0},
+                                     .normal = {0, 1},
+                                     .height = 1.4 * R,
+                                     .radius = R,
+                                     .mass = 0.1406,
+                                     .mu_cloth = 0.212,
+                                     .mu_cushion = 0.14,
+                                     .restitution = 0.98};
+    carom_motion out;
+    ck_assert_int_eq(carom_cushion(&in, NULL, &out), CAROM_OK);
+    const double measured = (-0.0877 * speed + 1.131) * speed - 0.0953;
+    ck_assert_msg(fabs(-out.v[1] - measured) < 0.08, "%g m/s: %g, measured %g", speed, -out.v[1], measured);
+  }
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("cushion", exact_against_the_judge, stronge_as_recorded, euler_as_recorded, euler_converges_at_first_order,
+                   measured_rebounds);
+}

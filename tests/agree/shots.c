@@ -1,0 +1,204 @@
+/* Whole shots with equal bits: a batch and single calls, whatever the threads and the cut; and, with CAROM_ISA=plain, every
+ * machine.
+ *
+ * The golden values change only with the numerics, in the commit that says why: the test prints what it found. */
+#include "random_shots.h"
+#include "support.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SHOTS = 60, ROOM = 1500 };
+
+/* FNV-1a, in an order that does not depend on that of bytes in memory. */
+static uint64_t add_to_hash(uint64_t hash, uint64_t bits) {
+  for (int k = 0; k < 8; k++)
+    hash = (hash ^ (bits >> 8 * k & 0xff)) * 0x100000001b3u;
+  return hash;
+}
+
+static uint64_t hash_state(uint64_t hash, const carom_ball_state *s) {
+  for (int k = 0; k < 9; k++) {
+    const double x = (k < 3 ? s->r : k < 6 ? s->v : s->w)[k % 3] + 0.0; /* -0 as 0 */
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    hash = add_to_hash(hash, bits);
+  }
+  return add_to_hash(hash, (uint64_t)s->label);
+}
+
+static uint64_t hash_events(const carom_shot *shot) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (int64_t k = 0; k < shot->count; k++) {
+    const carom_event *e = &shot->events[k];
+    uint64_t bits;
+    memcpy(&bits, &e->time, sizeof bits);
+    hash = add_to_hash(add_to_hash(hash, bits), (uint64_t)(e->type * 10000 + e->a * 100 + e->b));
+    for (int side = 0; side < (e->type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++)
+      hash = hash_state(hash_state(hash, &e->before[side]), &e->after[side]);
+  }
+  return hash;
+}
+
+static carom_table table;
+static carom_shot_ball balls[SHOTS * 16];
+static carom_cue cues[SHOTS];
+
+/* Eight-ball breaks, each with its own rack and cue; the fifth has a cue that misses. */
+static void make_breaks(void) {
+  shot_random r = {test_seed()};
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  for (int k = 0; k < SHOTS; k++) {
+    carom_rack(CAROM_RACK_EIGHTBALL, &table, 1e-4, (uint64_t)k, balls + 16 * k, 16);
+    cues[k] = carom_cue_of(CAROM_GAME_POOL);
+    cues[k].speed = shot_uniform(&r, 3.0, 10.0);
+    cues[k].phi = shot_uniform(&r, 88.0, 92.0);
+    cues[k].a = shot_uniform(&r, -0.3, 0.3);
+  }
+  cues[4].a = 2.0;
+}
+
+typedef struct results {
+  carom_shot shot[SHOTS];
+  carom_event *events;
+  carom_ball_state final[SHOTS][16];
+  int8_t status[SHOTS];
+} results;
+
+static results *make_results(void) {
+  results *r = calloc(1, sizeof *r);
+  r->events = calloc((size_t)SHOTS * ROOM, sizeof *r->events);
+  for (int k = 0; k < SHOTS; k++)
+    r->shot[k] = (carom_shot){.events = r->events + (size_t)k * ROOM, .room = ROOM, .final = r->final[k]};
+  return r;
+}
+
+static void same_results(const results *a, const results *b) {
+  for (int k = 0; k < SHOTS; k++) {
+    ck_assert_int_eq(a->status[k], b->status[k]);
+    ck_assert_int_eq(a->shot[k].count, b->shot[k].count);
+    ck_assert_int_eq(memcmp(&a->shot[k].time, &b->shot[k].time, sizeof a->shot[k].time), 0);
+  }
+  ck_assert_int_eq(memcmp(a->final, b->final, sizeof a->final), 0);
+  ck_assert_int_eq(memcmp(a->events, b->events, (size_t)SHOTS * ROOM * sizeof *a->events), 0);
+}
+
+static void free_results(results *r) {
+  free(r->events);
+  free(r);
+}
+
+START_TEST(batch_is_singles) {
+  make_breaks();
+  for (int world = 0; world < 2; world++) {
+    carom_shot_options options = {.world = world, .cushion_model = 1 + CAROM_CUSHION_HAN};
+    results *single = make_results();
+    for (int k = 0; k < SHOTS; k++)
+      single->status[k] = (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
+    ck_assert_int_eq(single->status[4], CAROM_ERROR_MISCUE);
+    ck_assert_int_eq(single->status[5], CAROM_OK);
+    static const int threads[] = {0, 1, 2, 3, 7, CAROM_ALL_THREADS};
+    for (size_t t = 0; t < sizeof threads / sizeof threads[0]; t++) {
+      results *batch = make_results();
+      options.threads = threads[t];
+      ck_assert_int_eq(carom_shoot_batch(&table, balls, 16, 0, cues, 0, SHOTS, &options, batch->shot, batch->status),
+                       CAROM_ERROR_MISCUE);
+      same_results(single, batch);
+      free_results(batch);
+    }
+    /* any cut */
+    shot_random r = {test_seed()};
+    results *cut = make_results();
+    for (int from = 0, size; from < SHOTS; from += size) {
+      size = (int)shot_uniform(&r, 1.0, 9.0);
+      size = from + size <= SHOTS ? size : SHOTS - from;
+      carom_shoot_batch(&table, balls + 16 * from, 16, 0, cues + from, 0, (size_t)size, &options, cut->shot + from,
+                        cut->status + from);
+    }
+    same_results(single, cut);
+    free_results(cut);
+    free_results(single);
+  }
+}
+END_TEST
+
+/* One layout for all cues, one cue for all layouts. */
+START_TEST(one_for_all) {
+  make_breaks();
+  cues[4].a = 0.0;
+  const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN};
+  for (int which = 0; which < 2; which++) {
+    results *single = make_results(), *batch = make_results();
+    for (int k = 0; k < SHOTS; k++)
+      single->status[k] = (int8_t)carom_shoot(&table, balls + (which == 0 ? 0 : 16 * k), 16, &cues[which == 0 ? k : 0],
+                                              &options, &single->shot[k]);
+    ck_assert_int_eq(
+        carom_shoot_batch(&table, balls, 16, which == 0, cues, which == 1, SHOTS, &options, batch->shot, batch->status),
+        CAROM_OK);
+    same_results(single, batch);
+    free_results(single);
+    free_results(batch);
+  }
+}
+END_TEST
+
+static const struct {
+  carom_rack_kind rack;
+  int cushion_model;
+  double gap, speed, phi;
+  uint64_t hash;
+} golden[] = {
+    {CAROM_RACK_NINEBALL, 0, 1e-4, 8.0, 90.5, 0xbcdb67198e557f9fu},
+    {CAROM_RACK_EIGHTBALL, 1 + CAROM_CUSHION_HAN, 0.0, 7.0, 89.0, 0xc36b771188c4d5d4u},
+};
+
+START_TEST(plain_is_the_same_everywhere) {
+  static carom_event events[ROOM];
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  bool good = true;
+  carom_isa_limit(CAROM_ISA_PLAIN);
+  for (size_t n = 0; n < sizeof golden / sizeof golden[0]; n++) {
+    carom_rack(golden[n].rack, &table, golden[n].gap, 7, balls, 16);
+    carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+    cue.speed = golden[n].speed;
+    cue.phi = golden[n].phi;
+    cue.theta = 3.0;
+    cue.a = 0.2;
+    carom_shot shot = {.events = events, .room = ROOM};
+    const carom_shot_options options = {.cushion_model = golden[n].cushion_model};
+    ck_assert_int_eq(carom_shoot(&table, balls, carom_rack_size(golden[n].rack), &cue, &options, &shot), CAROM_OK);
+    const uint64_t hash = hash_events(&shot);
+    printf("break %zu: %lld events, hash 0x%016llx\n", n, (long long)shot.count, (unsigned long long)hash);
+    fflush(stdout);
+    good &= hash == golden[n].hash;
+  }
+  carom_isa_limit(CAROM_ISA_ANY);
+  ck_assert_msg(good, "the bits of a break have changed");
+}
+END_TEST
+
+/* On every instruction set a shot ends well, and the first events, which nothing has amplified yet, are the same but for
+ * rounding. */
+START_TEST(instruction_sets) {
+  static carom_event events[ROOM], others[ROOM];
+  make_breaks();
+  carom_isa_limit(CAROM_ISA_PLAIN);
+  carom_shot plain = {.events = events, .room = ROOM};
+  ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], NULL, &plain), CAROM_OK);
+  FOR_EACH_ISA(isa) {
+    carom_shot shot = {.events = others, .room = ROOM};
+    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], NULL, &shot), CAROM_OK);
+    for (int k = 0; k < 8; k++) {
+      ck_assert_int_eq(others[k].type, events[k].type);
+      ck_assert_double_eq_tol(others[k].time, events[k].time, 1e-6);
+    }
+  }
+  carom_isa_limit(CAROM_ISA_ANY);
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("shots", batch_is_singles, one_for_all, plain_is_the_same_everywhere, instruction_sets);
+}

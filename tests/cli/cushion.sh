@@ -1,0 +1,52 @@
+# --cushion: impacts of a ball on a cushion, resolved, followed, swept.
+cat > impacts.csv <<END
+id,vx,vy,vz,wx,wy,wz,R,M,h,mu_s,mu_w,e
+side,0.5,1.2,0,0,0,30,0.028,0.17,0.036,0.2,0.2,0.85
+high,0.5,1,0,0,0,0,0.028,0.17,0.06,0.2,0.2,0.9
+word,x,1,0,0,0,0,0.028,0.17,0.036,0.2,0.2,0.9
+away,1,-1,0,0,0,0,0.028,0.17,0.036,0.2,0.2,0.9
+END
+echo "--- resolve"
+try carom resolve --cushion -o after.csv impacts.csv
+cut -d, -f1,8 after.csv
+for model in stronge han mirror euler; do
+  carom resolve --cushion --model $model impacts.csv 2> /dev/null | awk -F, -v model=$model '$1 == "side" { printf "%s %.4f %.4f %.3f\n", model, $2, $3, $7 }'
+done
+echo "--- pooltool's records, largest difference"
+for name in stronge mathavan2010; do
+  model=stronge; [ $name = stronge ] || model=euler
+  carom resolve --cushion --model $model --convention pooltool --least-step 0.001 "$DATA/cushion-$name.csv" > now.csv
+  cut -d, -f17-22 "$DATA/cushion-$name.csv" | paste -d, now.csv - | awk -F, -v name=$name 'NR > 1 { worst = 0
+    for (k = 2; k <= 7; k++) { d = $k - $(k + 7); if (d < 0) d = -d; if (k > 4) d *= 0.03; if (d > worst) worst = d }
+    if (worst < 1e-9) near++ } END { print name, near " of " NR - 1 " within 1e-9" }'
+done
+echo "--- the normal, and a jaw"
+printf 'vx,vy,vz,wx,wy,wz,R,M,h,mu_s,mu_w,e,nx,ny,rho\n1.2,-0.5,0,0,0,30,0.028,0.17,0.036,0.2,0.2,0.85,7,0,0.02\n' | carom resolve --cushion - |
+  awk -F, 'NR > 1 { printf "%s %.9f %.9f\n", $1, $2, $3 }'
+awk -F, '$1 == "side" { printf "%s %.9f %.9f\n", $1, $3, -$2 }' after.csv
+echo "--- trace"
+carom trace --cushion --id side --points 101 impacts.csv > trace.csv
+head -n 1 trace.csv
+tail -n 1 trace.csv | cut -d, -f12-17 > end
+awk -F, '$1 == "side"' after.csv | cut -d, -f2-7 | paste -d, end - | awk -F, '{ for (k = 1; k <= 6; k++) { d = $k - $(k + 6); if (d * d > 1e-16) print k, d } print "ends at the result" }'
+awk -F, 'NR > 1 { n[$4]++; stuck += $5 } END { print n["compression"], n["restitution"], stuck " stuck" }' trace.csv
+try carom trace --cushion --id side --model han impacts.csv
+try carom trace --cushion --id high impacts.csv
+try carom trace --cushion --id none impacts.csv
+carom trace --cushion --id away --points 2 impacts.csv 2>&1 | cut -d, -f1-4
+echo "--- sweep"
+for model in mathavan euler; do
+  carom sweep --cushion --id side --model $model --over wz --from -60 --to 60 impacts.csv |
+    awk -F, -v model=$model 'NR > 3 && $3 != "nan" && $3 > jump { jump = $3 } END { print model, NR - 1, (jump < 1e-6 ? "smooth" : jump > 1e-5 ? "jumps" : "so so") }'
+done
+try carom sweep --cushion --id side --over e --from 0.9 --to 1.1 --points 3 -o errors.csv impacts.csv
+cut -d, -f2,10 errors.csv
+try carom sweep --cushion --id side --over id --from 0 --to 1 impacts.csv
+try carom sweep --cushion --id side impacts.csv
+echo "--- usage"
+try carom resolve --cushion
+try carom resolve --cushion --model bumper impacts.csv
+try carom resolve --cushion --least-step -1 impacts.csv
+try carom resolve --cushion missing.csv
+printf 'vx,vy,vz,wx,wy,wz,R,M,h,mu_s,nx\n' > short.csv
+try carom resolve --cushion short.csv

@@ -1,0 +1,257 @@
+/* Invariants of the impact on a cushion: energy, mirror and rotation, closed forms, smooth sweeps, batches, traces. */
+#include "cushion_oracle.h"
+#include "support.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DRAWN = 2000, SWEPT = 60 };
+static const carom_cushion_model models[] = {CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN,
+                                             CAROM_CUSHION_MIRROR, CAROM_CUSHION_EULER};
+enum { MODELS = sizeof models / sizeof models[0] };
+
+/* Twice the kinetic energy, over the mass. */
+static double energy(const double v[3], const double w[3], double R) {
+  double sum = 0;
+  for (int c = 0; c < 3; c++)
+    sum += v[c] * v[c] + 0.4 * R * R * w[c] * w[c];
+  return sum;
+}
+
+START_TEST(energy_never_rises) {
+  for (uint64_t k = 0; k < DRAWN; k++)
+    for (int m = 0; m < MODELS; m++) {
+      const carom_cushion_impact in = draw_cushion(CUSHION_ANY, test_seed(), k);
+      const carom_cushion_options options = {.model = models[m], .steps = 200};
+      carom_motion out;
+      const carom_status status = carom_cushion(&in, &options, &out);
+      if (models[m] == CAROM_CUSHION_EULER && status == CAROM_ERROR_TOO_SLOW) /* a wedged ball is never done */
+        continue;
+      ck_assert_int_eq(status, CAROM_OK);
+      const double before = energy(in.v, in.w, in.radius), after = energy(out.v, out.w, in.radius);
+      const double slack = models[m] == CAROM_CUSHION_EULER ? 1e-2 : 1e-9;
+      ck_assert_msg(after <= before * (1 + slack), "model %d, impact %d: %.17g becomes %.17g", m, (int)k, before, after);
+    }
+}
+END_TEST
+
+/* The other way along the cushion: v_x, w_y and w_z change sign, and the result does likewise, to the last bit. */
+START_TEST(mirror_symmetry) {
+  for (uint64_t k = 0; k < DRAWN; k++)
+    for (int m = 0; m < MODELS; m++) {
+      carom_cushion_impact in = draw_cushion(CUSHION_ANY, test_seed(), k);
+      const carom_cushion_options options = {.model = models[m], .steps = 100};
+      carom_motion out, other;
+      in.normal[0] = 0;
+      in.normal[1] = 1;
+      in.v[1] = fabs(in.v[1]);
+      const carom_status status = carom_cushion(&in, &options, &out);
+      in.v[0] *= -1;
+      in.w[1] *= -1;
+      in.w[2] *= -1;
+      ck_assert_int_eq(carom_cushion(&in, &options, &other), status);
+      if (status < 0)
+        continue;
+      other.v[0] *= -1;
+      other.w[1] *= -1;
+      other.w[2] *= -1;
+      for (int c = 0; c < 6; c++) /* as numbers, since 0 and -0 are one here */
+        ck_assert_msg(((double *)&out)[c] == ((double *)&other)[c], "model %d, impact %d, number %d", m, (int)k, c);
+    }
+}
+END_TEST
+
+START_TEST(rotation_changes_nothing) {
+  for (uint64_t k = 0; k < DRAWN; k++) {
+    const carom_cushion_impact in = draw_cushion(CUSHION_PLAY, test_seed(), k);
+    const double c = cos(1.1), s = sin(1.1);
+    carom_cushion_impact turned = in;
+    double *const pairs[] = {turned.v, turned.w, turned.normal};
+    for (int j = 0; j < 3; j++) {
+      const double x = pairs[j][0], y = pairs[j][1];
+      pairs[j][0] = 7 * (c * x - s * y) / (j < 2 ? 7 : 1);
+      pairs[j][1] = 7 * (s * x + c * y) / (j < 2 ? 7 : 1);
+    }
+    carom_motion out, other, back;
+    ck_assert_int_eq(carom_cushion(&in, NULL, &out), CAROM_OK);
+    ck_assert_int_eq(carom_cushion(&turned, NULL, &other), CAROM_OK);
+    back = (carom_motion){{c * other.v[0] + s * other.v[1], c * other.v[1] - s * other.v[0], 0},
+                          {c * other.w[0] + s * other.w[1], c * other.w[1] - s * other.w[0], other.w[2]}};
+    ck_assert_msg(cushion_distance(&in, &out, &back) < 1e-9, "impact %d", (int)k);
+  }
+}
+END_TEST
+
+static carom_cushion_impact usual(void) {
+  const double R = 0.02625;
+  return (carom_cushion_impact){.v = {0.7, 1.3, 0},
+                                .w = {-20, 15, 30},
+                                .normal = {0, 1},
+                                .height = 1.4 * R,
+                                .radius = R,
+                                .mass = 0.1406,
+                                .mu_cloth = 0.212,
+                                .mu_cushion = 0.14,
+                                .restitution = 0.98};
+}
+
+/* Without friction only the speed into the nose changes: v_y becomes v_y (1 - (1 + e) cos^2), as nothing lifts the ball. */
+START_TEST(closed_forms) {
+  for (int k = 0; k <= 10; k++) {
+    carom_cushion_impact in = usual();
+    const double sine = in.height / in.radius - 1, cosine_2 = 1 - sine * sine;
+    carom_motion out;
+    in.mu_cloth = in.mu_cushion = 0;
+    in.restitution = k / 10.0;
+    const carom_cushion_options han = {.model = CAROM_CUSHION_HAN}, mirror = {.model = CAROM_CUSHION_MIRROR};
+    /* the ball cannot leave the cloth, so the work is done by v_y alone and its rebound is -e v_y */
+    ck_assert_int_eq(carom_cushion(&in, NULL, &out), CAROM_OK);
+    ck_assert_double_eq_tol(out.v[1], -in.restitution * in.v[1], 1e-12);
+    ck_assert_double_eq_tol(out.v[0], in.v[0], 1e-14);
+    for (int c = 0; c < 3; c++)
+      ck_assert_double_eq_tol(out.w[c], in.w[c], 1e-12);
+    ck_assert_int_eq(carom_cushion(&in, &han, &out), CAROM_OK);
+    ck_assert_double_eq_tol(out.v[1], in.v[1] * (1 - (1 + in.restitution) * cosine_2), 1e-14);
+    ck_assert_int_eq(carom_cushion(&in, &mirror, &out), CAROM_OK);
+    ck_assert_double_eq(out.v[1], -in.restitution * in.v[1]);
+    ck_assert_double_eq(out.v[0], in.v[0]);
+  }
+  /* e = 0: it stays at the cushion */
+  carom_cushion_impact in = usual();
+  carom_motion out;
+  in.restitution = 0;
+  ck_assert_int_eq(carom_cushion(&in, NULL, &out), CAROM_OK);
+  ck_assert_double_eq_tol(out.v[1], 0, 1e-12);
+}
+END_TEST
+
+/* Han's fits: what they say for one ball, by hand. */
+START_TEST(han_law) {
+  carom_cushion_impact in = usual();
+  in.v[0] = 1.3;
+  const carom_cushion_options fitted = {.law = CAROM_CUSHION_LAW_HAN}, given = {0};
+  carom_motion a, b;
+  ck_assert_int_eq(carom_cushion(&in, &fitted, &a), CAROM_OK);
+  in.restitution = 0.39 + 0.257 * 1.3 - 0.044 * 1.3 * 1.3;
+  in.mu_cushion = 0.471 - 0.241 * 0.78539816339744831;
+  ck_assert_int_eq(carom_cushion(&in, &given, &b), CAROM_OK);
+  ck_assert_msg(cushion_distance(&in, &a, &b) < 1e-12, "%g", cushion_distance(&in, &a, &b));
+}
+END_TEST
+
+START_TEST(separating_is_unchanged) {
+  for (int m = 0; m < MODELS; m++) {
+    carom_cushion_impact in = usual();
+    const carom_cushion_options options = {.model = models[m]};
+    for (double v = 0; v >= -1; v -= 0.5) {
+      carom_motion out;
+      in.v[1] = v;
+      ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_SEPARATING);
+      ck_assert_mem_eq(out.v, in.v, sizeof out.v);
+      ck_assert_mem_eq(out.w, in.w, sizeof out.w);
+    }
+  }
+}
+END_TEST
+
+static carom_motion swept(int field, double value) {
+  carom_cushion_impact in = usual();
+  carom_motion out;
+  ((double *)&in)[field] = value;
+  ck_assert_int_eq(carom_cushion(&in, NULL, &out), CAROM_OK);
+  return out;
+}
+
+/* How far the results at two values of an input are apart once the interval has been halved, towards the larger difference,
+ * until it is too short for anything but a jump. */
+static double jump_between(int field, double low, double high) {
+  const carom_cushion_impact in = usual();
+  carom_motion a = swept(field, low), b = swept(field, high);
+  for (int k = 0; k < 34; k++) {
+    const double value = 0.5 * (low + high);
+    const carom_motion middle = swept(field, value);
+    const bool left = cushion_distance(&in, &a, &middle) > cushion_distance(&in, &middle, &b);
+    *(left ? &b : &a) = middle;
+    *(left ? &high : &low) = value;
+  }
+  return cushion_distance(&in, &a, &b);
+}
+
+/* Sweeps of each input, over changes of regime too: there is no jump anywhere. */
+START_TEST(sweeps_are_smooth) {
+  static const struct {
+    int field;
+    double from, to;
+  } sweeps[] = {{0, -2, 2},       {1, 0.05, 3}, {3, -100, 100}, {4, -100, 100}, {5, -100, 100},
+                {8, 0.027, 0.04}, {11, 0, 1},   {12, 0, 1},     {13, 0, 1}};
+  for (size_t s = 0; s < sizeof sweeps / sizeof sweeps[0]; s++)
+    for (int k = 0; k < SWEPT; k++) {
+      const double step = (sweeps[s].to - sweeps[s].from) / SWEPT, from = sweeps[s].from + k * step;
+      const double jump = jump_between(sweeps[s].field, from, from + step);
+      ck_assert_msg(jump < 1e-9, "field %d near %g: %.3g", sweeps[s].field, from, jump);
+    }
+}
+END_TEST
+
+START_TEST(batches_are_single_calls) {
+  static carom_cushion_impact in[1000];
+  static carom_motion out[1000], alone[1000];
+  static int8_t status[1000], expected[1000];
+  for (int m = 0; m < MODELS; m++) {
+    for (uint64_t k = 0; k < 1000; k++) {
+      in[k] = draw_cushion(CUSHION_ANY, test_seed(), k);
+      if (k % 7 == 3)
+        ((double *)&in[k])[k % 15] = k % 2 == 0 ? NAN : -INFINITY;
+      if (k % 7 == 5)
+        in[k].v[0] = -in[k].v[0], in[k].v[1] = -in[k].v[1];
+      const carom_cushion_options one = {.model = models[m], .steps = 50};
+      expected[k] = (int8_t)carom_cushion(&in[k], &one, &alone[k]);
+    }
+    static const int threads[] = {0, 1, 3, 7, CAROM_ALL_THREADS};
+    for (int t = 0; t < 5; t++) {
+      const carom_cushion_options options = {.model = models[m], .steps = 50, .threads = threads[t]};
+      memset(out, 0, sizeof out);
+      const carom_status first = carom_cushion_batch(in, 1000, &options, out, status);
+      ck_assert_int_lt(first, 0);
+      ck_assert_mem_eq(out, alone, sizeof out);
+      ck_assert_mem_eq(status, expected, sizeof status);
+      ck_assert_int_eq(carom_cushion_batch(in, 3, &options, out, NULL), CAROM_OK);
+    }
+  }
+}
+END_TEST
+
+START_TEST(traces_end_where_calls_do) {
+  enum { POINTS = 101 };
+  static const carom_cushion_model traced[] = {CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_EULER};
+  for (uint64_t k = 0; k < 100; k++)
+    for (int m = 0; m < 2; m++) {
+      const carom_cushion_impact in = draw_cushion(CUSHION_PLAY, test_seed(), k);
+      const carom_cushion_options options = {.model = traced[m]};
+      carom_cushion_point point[POINTS];
+      carom_motion out;
+      ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_OK);
+      ck_assert_int_eq(carom_cushion_trace(&in, &options, POINTS, point), CAROM_OK);
+      ck_assert_msg(cushion_distance(&in, &point[POINTS - 1].state, &out) < 1e-9, "impact %d", (int)k);
+      double work_c = 0;
+      for (int j = 1; j < POINTS; j++) {
+        ck_assert_double_gt(point[j].normal, point[j - 1].normal);
+        ck_assert_double_ge(point[j].work, point[j - 1].work - 1e-12);
+        ck_assert_int_ge(point[j].phase, point[j - 1].phase);
+        if (m == 0)
+          ck_assert_msg((point[j].phase == CAROM_PHASE_RESTITUTION) == (point[j].v_n <= 1e-9), "impact %d, point %d", (int)k,
+                        j);
+        work_c = point[j].phase == CAROM_PHASE_COMPRESSION ? point[j].work : work_c;
+      }
+      const double all = point[POINTS - 1].work / (1 + in.restitution * in.restitution);
+      ck_assert_msg(work_c <= all * 1.02 && work_c >= 0.95 * all, "impact %d: %g of %g", (int)k, work_c, all);
+    }
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("cushion_physics", energy_never_rises, mirror_symmetry, rotation_changes_nothing, closed_forms, han_law,
+                   separating_is_unchanged, sweeps_are_smooth, batches_are_single_calls, traces_end_where_calls_do);
+}

@@ -1,0 +1,275 @@
+/* Whole shots: invariants of random shots of every kind, the physics that players know, and the cases in which pooltool fails.
+ */
+#include "invariants.h"
+#include "random_shots.h"
+#include "shot_support.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Invariants */
+
+static void keep_invariants(int cushion_model, int each) {
+  static random_shot s;
+  const carom_shot_options options = {.cushion_model = cushion_model};
+  for (int kind = 0; kind < random_shot_kinds(); kind++)
+    for (int n = 0; n < each; n++) {
+      random_shot_make(kind, test_seed(), (uint64_t)n, &s);
+      carom_shot shot = {.events = events, .room = ROOM, .final = final};
+      const carom_status status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &shot);
+      const shot_measures m = shot_measure(&s.table, s.ball, s.count, &shot, status, 3);
+      ck_assert_msg(status == CAROM_OK && m.overlap <= 1e-9 && m.intrusion <= 1e-9 && m.gain <= 1e-12 && m.momentum <= 1.0 &&
+                        m.jump <= 1e-9 && m.restless == 0,
+                    "%s %d: %s, overlap %g, intrusion %g, gain %g, momentum %g, jump %g, %d still move", s.kind, n,
+                    carom_status_name(status), m.overlap, m.intrusion, m.gain, m.momentum, m.jump, m.restless);
+      /* the state at any time is that of the events */
+      carom_ball_state at[CAROM_BALLS_MOST];
+      ck_assert_int_eq(carom_shot_at(s.ball, s.count, &shot, 2.0 * shot.time + 1.0, at), CAROM_OK);
+      for (int k = 0; k < s.count; k++)
+        ck_assert_int_eq(memcmp(&at[k], &final[k], sizeof at[k]), 0);
+    }
+}
+
+START_TEST(invariants) {
+  keep_invariants(1 + CAROM_CUSHION_HAN, 60);
+}
+END_TEST
+
+START_TEST(invariants_of_exact_cushions) {
+  keep_invariants(0, 4);
+}
+END_TEST
+
+/* The mirrored table gives the mirrored history, bit for bit about the origin. */
+static carom_ball_state mirrored(carom_ball_state s) {
+  s.r[0] = -s.r[0];
+  s.v[0] = -s.v[0];
+  s.w[1] = -s.w[1];
+  s.w[2] = -s.w[2];
+  return s;
+}
+
+static void mirror_table(carom_table *t) {
+  for (int k = 0; k < t->rails; k++) {
+    t->rail[k].p[0] = -t->rail[k].p[0];
+    t->rail[k].q[0] = -t->rail[k].q[0];
+    t->rail[k].side = 1 - t->rail[k].side;
+  }
+  for (int k = 0; k < t->jaws; k++)
+    t->jaw[k].centre[0] = -t->jaw[k].centre[0];
+  for (int k = 0; k < t->pockets; k++)
+    t->pocket[k].centre[0] = -t->pocket[k].centre[0];
+}
+
+/* With the origin in the middle, and lines that follow from the segments. */
+static void centre_table(random_shot *s) {
+  const double half = 0.5 * s->table.width;
+  for (int k = 0; k < s->table.rails; k++) {
+    carom_rail *r = &s->table.rail[k];
+    const double line = r->line[0] * -(r->q[1] - r->p[1]) + r->line[1] * (r->q[0] - r->p[0]);
+    r->side = line >= 0.0 ? r->side : 1 - r->side;
+    memset(r->line, 0, sizeof r->line);
+    r->p[0] -= half;
+    r->q[0] -= half;
+  }
+  for (int k = 0; k < s->table.jaws; k++)
+    s->table.jaw[k].centre[0] -= half;
+  for (int k = 0; k < s->table.pockets; k++)
+    s->table.pocket[k].centre[0] -= half;
+  for (int k = 0; k < s->count; k++)
+    s->ball[k].state.r[0] -= half;
+}
+
+static bool same(const carom_ball_state *a, const carom_ball_state *b) {
+  bool good = a->label == b->label;
+  for (int k = 0; k < 3; k++) /* by value: 0 and -0 are the same */
+    good = good && a->r[k] == b->r[k] && a->v[k] == b->v[k] && a->w[k] == b->w[k];
+  return good;
+}
+
+START_TEST(mirror) {
+  static random_shot s, m;
+  static carom_event other[ROOM];
+  random_source random = {test_seed()};
+  for (int kind = 0; kind < random_shot_kinds(); kind++)
+    for (int n = 0; n < 20; n++) {
+      random_shot_make(kind, test_seed(), (uint64_t)n, &s);
+      centre_table(&s);
+      /* a first ball that moves, since the direction of a cue is an angle */
+      s.cue.speed = 0.0;
+      s.ball[0].state.v[0] = random_between(&random, -4.0, 4.0);
+      s.ball[0].state.v[1] = random_between(&random, 2.0, 6.0);
+      s.ball[0].state.w[2] = random_between(&random, -50.0, 50.0);
+      m = s;
+      mirror_table(&m.table);
+      for (int k = 0; k < m.count; k++)
+        m.ball[k].state = mirrored(s.ball[k].state);
+      const carom_shot_options options = {.cushion_model = n % 4 == 0 ? 0 : 1 + CAROM_CUSHION_HAN};
+      carom_shot a = {.events = events, .room = ROOM}, b = {.events = other, .room = ROOM};
+      const carom_status status = carom_shoot(&s.table, s.ball, s.count, NULL, &options, &a);
+      ck_assert_int_eq(carom_shoot(&m.table, m.ball, m.count, NULL, &options, &b), status);
+      ck_assert_int_eq(a.count, b.count);
+      for (int k = 0; k < a.count; k++) {
+        const carom_event *e = &events[k], *f = &other[k];
+        ck_assert_msg(e->time == f->time && e->type == f->type && e->a == f->a && e->b == f->b, "%s %d: event %d", s.kind, n,
+                      k);
+        for (int side = 0; side < 2; side++) {
+          const carom_ball_state before = mirrored(e->before[side]), after = mirrored(e->after[side]);
+          ck_assert_msg(same(&before, &f->before[side]) && same(&after, &f->after[side]), "%s %d: states of event %d, type %d",
+                        s.kind, n, k, e->type);
+        }
+      }
+    }
+}
+END_TEST
+
+/* ---- What players know */
+
+/* A ball alone: it slides to 5/7 v + 2/7 R w, then rolls v^2 / (2 mu g). */
+START_TEST(alone) {
+  random_source r = {test_seed()};
+  const carom_table t = empty_table(200.0);
+  for (int n = 0; n < 200; n++) {
+    carom_shot_ball b = ball_at(100.0, 100.0);
+    for (int k = 0; k < 2; k++)
+      b.state.v[k] = random_between(&r, -3.0, 3.0);
+    for (int k = 0; k < 3; k++)
+      b.state.w[k] = random_between(&r, -150.0, 150.0);
+    const double R = b.kind.radius, g = b.kind.gravity, *v = b.state.v, *w = b.state.w;
+    const double u[2] = {v[0] - R * w[1], v[1] + R * w[0]}, size = hypot(u[0], u[1]);
+    const double slide = 2.0 * size / (7.0 * b.kind.mu_slide * g);
+    double rolling[3];
+    carom_rolling_velocity(v, w, R, rolling);
+    const double speed = hypot(rolling[0], rolling[1]);
+    const carom_shot shot = play(&t, &b, 1, NULL, NULL, CAROM_OK);
+    ck_assert_double_eq_tol(events[0].time, slide, 1e-13);
+    for (int k = 0; k < 2; k++) {
+      const double rolled = 0.5 * speed * rolling[k] / (b.kind.mu_roll * g);
+      ck_assert_double_eq_tol(events[0].after[0].v[k], rolling[k], 1e-13);
+      ck_assert_double_eq_tol(final[0].r[k], b.state.r[k] + 0.5 * (v[k] + rolling[k]) * slide + rolled, 1e-11);
+    }
+    const double spin = fabs(w[2]) * 2.0 * R / (5.0 * b.kind.mu_spin * g), roll = slide + speed / (b.kind.mu_roll * g);
+    ck_assert_double_eq_tol(shot.time, fmax(spin, roll), 1e-10);
+  }
+}
+END_TEST
+
+/* The direction in which ball 0 leaves its collision with ball 1, in degrees from its own, once it rolls. fullness: 1 full, 0 a
+ * miss. */
+static double deflection(double fullness, double speed, double roll, const carom_shot_options *options, double *at_once) {
+  const carom_table t = empty_table(50.0);
+  carom_shot_ball b[2] = {ball_at(20.0, 20.0), ball_at(20.1, 20.0)};
+  const double R = b[0].kind.radius;
+  b[1].state.r[1] += 2.0 * R * (1.0 - fullness);
+  b[0].state.v[0] = speed;
+  b[0].state.w[1] = roll * speed / R;
+  for (int k = 0; k < 2; k++)
+    b[k].kind.restitution = 1.0;
+  b[0].kind.mu_slide = b[1].kind.mu_slide = 0.2;
+  play(&t, b, 2, NULL, options, CAROM_OK);
+  int k = 0;
+  while (events[k].type != CAROM_EVENT_BALL_BALL)
+    k++;
+  *at_once = 57.29577951308232 * atan2(-events[k].after[0].v[1], events[k].after[0].v[0]);
+  while (events[k].a != 0 || events[k].type != CAROM_EVENT_SLIDING_ROLLING)
+    k++;
+  return 57.29577951308232 * atan2(-events[k].after[0].v[1], events[k].after[0].v[0]);
+}
+
+/* A stun shot leaves along the tangent line; a rolling ball by the angle of 30 degrees at half-ball hits (33.7 by the formula
+ * tan = sin a cos a / (sin^2 a + 2/5), a the cut angle), for perfect balls and nearly for real ones. */
+START_TEST(tangent_line_and_thirty_degrees) {
+  const carom_shot_options smooth = {.ball_model = CAROM_BALL_MODEL_MIRROR};
+  double at_once;
+  for (double fullness = 0.2; fullness < 0.95; fullness += 0.05) {
+    const double cut = asin(1.0 - fullness);
+    /* slides without spin over so short a way that what it gains of it turns the tangent line by little */
+    deflection(fullness, 5.0, 0.0, &smooth, &at_once);
+    ck_assert_double_eq_tol(at_once, 90.0 - 57.29577951308232 * cut, 0.5);
+    const double rolls = 57.29577951308232 * atan2(sin(cut) * cos(cut), sin(cut) * sin(cut) + 0.4);
+    ck_assert_double_eq_tol(deflection(fullness, 1.5, 1.0, &smooth, &at_once), rolls, 0.1);
+    ck_assert_double_eq_tol(deflection(fullness, 1.5, 1.0, NULL, &at_once), rolls, 3.0);
+  }
+  ck_assert_double_eq_tol(deflection(0.5, 1.5, 1.0, &smooth, &at_once), 33.67, 0.1);
+}
+END_TEST
+
+/* Draw and follow: a full hit leaves the cue ball with its spin, 2/7 R w of speed backward or forward. */
+START_TEST(draw_and_follow) {
+  const carom_table t = empty_table(50.0);
+  const carom_shot_options smooth = {.ball_model = CAROM_BALL_MODEL_MIRROR};
+  for (int way = -1; way <= 1; way += 2) {
+    carom_shot_ball b[2] = {ball_at(20.0, 20.0), ball_at(20.2, 20.0)};
+    b[0].kind.restitution = b[1].kind.restitution = 1.0;
+    b[0].state.v[0] = 2.0;
+    b[0].state.w[1] = way * 80.0;
+    play(&t, b, 2, NULL, &smooth, CAROM_OK);
+    int k = 0;
+    while (events[k].type != CAROM_EVENT_BALL_BALL)
+      k++;
+    const double v = 2.0 / 7.0 * b[0].kind.radius * events[k].before[0].w[1];
+    const double slid =
+        0.5 * v * 2.0 * b[0].kind.radius * fabs(events[k].before[0].w[1]) / (7.0 * b[0].kind.mu_slide * b[0].kind.gravity);
+    const double distance = slid + 0.5 * v * fabs(v) / (b[0].kind.mu_roll * b[0].kind.gravity);
+    ck_assert_double_eq_tol(final[0].r[0] - events[k].after[0].r[0], distance, 1e-9);
+    ck_assert(distance * way > 0.0);
+  }
+}
+END_TEST
+
+/* The 2014 paper's experiments as whole shots: a rolling cue ball cuts a ball at rest; speeds and angles once both roll are
+ * those that the paper predicts. */
+START_TEST(experiments_of_the_paper) {
+  FILE *file = fopen(CAROM_TEST_DATA "/experiments.csv", "r");
+  ck_assert_ptr_nonnull(file);
+  char line[400], id[40];
+  ck_assert_ptr_nonnull(fgets(line, sizeof line, file));
+  int shots = 0;
+  const carom_table t = empty_table(40.0);
+  for (double x[11]; fgets(line, sizeof line, file) != NULL; shots++) {
+    ck_assert_int_eq(sscanf(line, "%39[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", id, &x[0], &x[1], &x[2], &x[3], &x[4],
+                            &x[5], &x[6], &x[7], &x[8], &x[9], &x[10]),
+                     12);
+    const double R = 0.02625, cut = x[2] / 57.29577951308232, gap = 1e-7;
+    carom_shot_ball b[2] = {ball_at(20.0, 20.0), ball_at(0.0, 0.0)};
+    b[1].state.r[0] = 20.0 + (2.0 * R + gap) * cos(cut);
+    b[1].state.r[1] = 20.0 + (2.0 * R + gap) * sin(cut);
+    for (int k = 0; k < 2; k++) {
+      b[k].kind.mass = 0.1406;
+      b[k].kind.radius = b[k].state.r[2] = R;
+      b[k].kind.mu_slide = 0.21;
+      b[k].kind.mu_ball = 0.05;
+      b[k].kind.restitution = 0.89;
+    }
+    b[0].state.v[0] = x[0];
+    b[0].state.w[1] = x[1];
+    const carom_shot_options options = {.friction = CAROM_FRICTION_CONSTANT};
+    const carom_shot shot = play(&t, b, 2, NULL, &options, CAROM_OK);
+    double speed[2] = {0.0}, angle[2] = {0.0};
+    bool met = false;
+    for (int64_t k = 0; k < shot.count; k++) {
+      const carom_event *e = &events[k];
+      met |= e->type == CAROM_EVENT_BALL_BALL;
+      if (met && e->type == CAROM_EVENT_SLIDING_ROLLING && speed[e->a] == 0.0) {
+        speed[e->a] = hypot(e->after[0].v[0], e->after[0].v[1]);
+        angle[e->a] = fabs(57.29577951308232 * atan2(e->after[0].v[1], e->after[0].v[0]));
+      }
+    }
+    for (int k = 0; k < 2; k++) {
+      ck_assert_msg(fabs(speed[k] - x[5 + k]) < 0.0035, "%s: ball %d rolls at %g m/s, predicted %g", id, k, speed[k], x[5 + k]);
+      ck_assert_msg(fabs(angle[k] - x[9 + k]) < 0.15, "%s: ball %d rolls at %g degrees, predicted %g", id, k, angle[k],
+                    x[9 + k]);
+    }
+  }
+  fclose(file);
+  ck_assert_int_eq(shots, 5);
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("whole_shots", invariants, invariants_of_exact_cushions, mirror, alone, tangent_line_and_thirty_degrees,
+                   draw_and_follow, experiments_of_the_paper);
+}

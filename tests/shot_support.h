@@ -1,0 +1,40 @@
+/* What tests of whole shots share: playing one with room for its events, a large empty table, a ball on it. */
+#ifndef CAROM_TESTS_SHOT_SUPPORT_H
+#define CAROM_TESTS_SHOT_SUPPORT_H
+
+#include "carom_shot.h"
+#include "support.h"
+
+enum { ROOM = 12000 };
+static carom_event events[ROOM];
+static carom_ball_state final[CAROM_BALLS_MOST];
+
+/* Plays a shot into events[] and final[], which must end with this status. */
+static inline carom_shot play(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
+                              const carom_shot_options *options, carom_status expected) {
+  carom_shot shot = {.events = events, .room = ROOM, .final = final};
+  const carom_status status = carom_shoot(table, balls, count, cue, options, &shot);
+  ck_assert_msg(status == expected, "%s, not %s", carom_status_name(status), carom_status_name(expected));
+  return shot;
+}
+
+/* Four rails and nothing else. */
+static inline carom_table empty_table(double size) {
+  carom_table t = {.width = size, .length = size, .rails = 4};
+  const double corner[5][2] = {{0.0, 0.0}, {size, 0.0}, {size, size}, {0.0, size}, {0.0, 0.0}};
+  for (int k = 0; k < 4; k++)
+    t.rail[k] = (carom_rail){
+        .p = {corner[k][0], corner[k][1]}, .q = {corner[k + 1][0], corner[k + 1][1]}, .height = 0.036576, .side = 1};
+  return t;
+}
+
+/* A pool ball at rest. */
+static inline carom_shot_ball ball_at(double x, double y) {
+  carom_shot_ball b = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  b.state.r[0] = x;
+  b.state.r[1] = y;
+  b.state.r[2] = b.kind.radius;
+  return b;
+}
+
+#endif

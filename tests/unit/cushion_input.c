@@ -1,0 +1,135 @@
+/* Bad input of the cushion: each number and each option at fault gets its own status, and hangs nothing. */
+#include "carom_shot.h"
+#include "support.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static carom_cushion_impact good(void) {
+  return (carom_cushion_impact){.v = {0.7, 1.3, 0},
+                                .w = {-20, 15, 30},
+                                .normal = {0, 1},
+                                .height = 0.036,
+                                .radius = 0.028575,
+                                .mass = 0.17,
+                                .mu_cloth = 0.2,
+                                .mu_cushion = 0.2,
+                                .restitution = 0.85,
+                                .jaw_radius = 0.02};
+}
+
+static void expect(const carom_cushion_impact *in, const carom_cushion_options *options, carom_status status, int field) {
+  carom_motion out = {{1, 1, 1}, {1, 1, 1}};
+  int blamed;
+  const carom_status got = carom_cushion(in, options, &out);
+  ck_assert_msg(got == status, "field %d: %s, not %s", field, carom_status_name(got), carom_status_name(status));
+  for (int c = 0; c < 6 && status < 0; c++)
+    ck_assert(isnan(((double *)&out)[c]));
+  ck_assert_int_eq(carom_cushion_check(in, options, &blamed), status);
+  ck_assert_int_eq(blamed, field);
+}
+
+START_TEST(each_field_is_named) {
+  static const carom_status not_finite[15] = {
+      CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY,   CAROM_ERROR_SPIN,        CAROM_ERROR_SPIN,
+      CAROM_ERROR_SPIN,     CAROM_ERROR_NORMAL,   CAROM_ERROR_NORMAL,     CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RADIUS,
+      CAROM_ERROR_MASS,     CAROM_ERROR_MU_CLOTH, CAROM_ERROR_MU_CUSHION, CAROM_ERROR_RESTITUTION, CAROM_ERROR_JAW_RADIUS};
+  for (int field = 0; field < 15; field++)
+    for (int k = 0; k < 3; k++) {
+      carom_cushion_impact in = good();
+      ((double *)&in)[field] = k == 0 ? NAN : k == 1 ? INFINITY : -INFINITY;
+      expect(&in, NULL, not_finite[field], field);
+    }
+  static const struct {
+    int field;
+    double value;
+    carom_status status;
+  } cases[] = {{2, 0.1, CAROM_ERROR_VERTICAL},      {8, 0, CAROM_ERROR_NOSE_HEIGHT},
+               {8, -0.01, CAROM_ERROR_NOSE_HEIGHT}, {8, 0.05715, CAROM_ERROR_NOSE_HEIGHT},
+               {9, 0, CAROM_ERROR_RADIUS},          {9, -1, CAROM_ERROR_RADIUS},
+               {10, 0, CAROM_ERROR_MASS},           {10, -1, CAROM_ERROR_MASS},
+               {11, -1e-9, CAROM_ERROR_MU_CLOTH},   {11, 1.1, CAROM_ERROR_MU_CLOTH},
+               {12, -0.1, CAROM_ERROR_MU_CUSHION},  {12, 1.00001, CAROM_ERROR_MU_CUSHION},
+               {13, -1, CAROM_ERROR_RESTITUTION},   {13, 1.01, CAROM_ERROR_RESTITUTION},
+               {14, -0.1, CAROM_ERROR_JAW_RADIUS}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    carom_cushion_impact in = good();
+    ((double *)&in)[cases[k].field] = cases[k].value;
+    expect(&in, NULL, cases[k].status, cases[k].field);
+  }
+  carom_cushion_impact in = good();
+  in.normal[1] = 0;
+  expect(&in, NULL, CAROM_ERROR_NORMAL, 6);
+}
+END_TEST
+
+START_TEST(each_option_is_checked) {
+  const carom_cushion_impact in = good();
+  const struct {
+    carom_cushion_options options;
+    carom_status status;
+  } cases[] = {{{.model = (carom_cushion_model)5}, CAROM_ERROR_CUSHION_MODEL},
+               {{.model = (carom_cushion_model)-1}, CAROM_ERROR_CUSHION_MODEL},
+               {{.convention = (carom_cushion_convention)2}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.law = (carom_cushion_law)2}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.steps = -1}, CAROM_ERROR_STEPS},
+               {{.threads = -2}, CAROM_ERROR_THREADS},
+               {{.unused = 1}, CAROM_ERROR_OPTIONS},
+               {{.reserved = {0, 0, 0, 1}}, CAROM_ERROR_OPTIONS},
+               {{.least_step = -1}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.least_step = NAN}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.omega_ratio = 1}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.omega_ratio = 2}, CAROM_ERROR_CUSHION_OPTIONS}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    carom_motion out;
+    int8_t status = 77;
+    expect(&in, &cases[k].options, cases[k].status, -1);
+    ck_assert_int_eq(carom_cushion_batch(&in, 1, &cases[k].options, &out, &status), cases[k].status);
+    ck_assert_int_eq(status, 77);
+  }
+}
+END_TEST
+
+START_TEST(pointers_and_traces) {
+  const carom_cushion_impact in = good();
+  const carom_cushion_options closed = {.model = CAROM_CUSHION_HAN};
+  carom_cushion_point point[2];
+  carom_motion out;
+  ck_assert_int_eq(carom_cushion(NULL, NULL, &out), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_cushion(&in, NULL, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_cushion_batch(NULL, 1, NULL, &out, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_cushion_batch(NULL, 0, NULL, NULL, NULL), CAROM_OK);
+  ck_assert_int_eq(carom_cushion_check(NULL, NULL, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_cushion_trace(&in, NULL, 1, point), CAROM_ERROR_POINTS);
+  ck_assert_int_eq(carom_cushion_trace(NULL, NULL, 2, point), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_cushion_trace(&in, &closed, 2, point), CAROM_ERROR_CUSHION_MODEL);
+  ck_assert(isnan(point[1].work));
+  ck_assert_str_eq(carom_cushion_field_name(8), "height");
+  ck_assert_ptr_null(carom_cushion_field_name(15));
+  ck_assert_ptr_null(carom_cushion_field_name(-1));
+  ck_assert_str_eq(carom_cushion_model_name(CAROM_CUSHION_STRONGE), "stronge");
+  ck_assert_ptr_null(carom_cushion_model_name((carom_cushion_model)9));
+}
+END_TEST
+
+/* Numbers at the ends of the range: a result or an error, and soon. */
+START_TEST(extremes_end) {
+  static const double sizes[] = {1e-300, 1e-30, 1e-9, 1e9, 1e30, 1e150, 1e300};
+  for (size_t j = 0; j < sizeof sizes / sizeof sizes[0]; j++)
+    for (int field = 0; field < 15; field++)
+      for (int model = 0; model < 5; model++) {
+        carom_cushion_impact in = good();
+        const carom_cushion_options options = {.model = (carom_cushion_model)model, .steps = 10};
+        carom_motion out;
+        ((double *)&in)[field] *= sizes[j];
+        const carom_status status = carom_cushion(&in, &options, &out);
+        for (int c = 0; c < 6; c++)
+          ck_assert_msg(isfinite(((double *)&out)[c]) == (status >= 0), "field %d times %g, model %d: %s", field, sizes[j],
+                        model, carom_status_name(status));
+      }
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("cushion_input", each_field_is_named, each_option_is_checked, pointers_and_traces, extremes_end);
+}

@@ -1,0 +1,277 @@
+/* Bad input of every field of a shot: each its own status and place, and nothing else written. Bounds, too. */
+#include "carom_shot.h"
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static carom_table table;
+static carom_shot_ball balls[10];
+static carom_cue cue;
+static carom_shot_options options;
+
+/* A good nine-ball break. */
+static void set_up(void) {
+  ck_assert_int_eq(carom_table_make(CAROM_TABLE_POOL_9FT, &table), CAROM_OK);
+  ck_assert_int_eq(carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, balls, 10), CAROM_OK);
+  cue = carom_cue_of(CAROM_GAME_POOL);
+  cue.speed = 5.0;
+  options = (carom_shot_options){0};
+}
+
+/* The shot is refused for this reason, at this ball or part. */
+static void expect(carom_status status, int where) {
+  int at = -2;
+  carom_shot shot = {0};
+  ck_assert_int_eq(carom_shot_check(&table, balls, 10, &cue, &options, &at), status);
+  ck_assert_int_eq(at, where);
+  shot.count = 77;
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &options, &shot), status);
+  if (status != CAROM_OK)
+    ck_assert_int_eq(shot.count, 0);
+  /* in a batch it costs itself only */
+  carom_shot_ball two[20];
+  carom_cue cues[2] = {carom_cue_of(CAROM_GAME_POOL), cue};
+  carom_shot shots[2] = {{0}, {0}};
+  int8_t statuses[2] = {99, 99};
+  memcpy(two + 10, balls, sizeof balls);
+  carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, two, 10);
+  const carom_status first = carom_shoot_batch(&table, two, 10, 0, cues, 0, 2, &options, shots, statuses);
+  ck_assert_int_eq(first, status);
+  if (statuses[0] != 99) { /* what is wrong does not belong to all */
+    ck_assert_int_eq(statuses[0], CAROM_OK);
+    ck_assert_int_eq(statuses[1], status);
+    ck_assert_int_gt(shots[0].count, 0);
+  }
+}
+
+/* Changes a number, expects the status, and changes it back. */
+#define REFUSED(field, value, status, where) \
+  do {                                       \
+    set_up();                                \
+    (field) = (value);                       \
+    expect((status), (where));               \
+  } while (0)
+
+START_TEST(kinds) {
+  const double bad[] = {NAN, INFINITY, -1.0, 0.0};
+  for (int k = 0; k < 4; k++) {
+    REFUSED(balls[3].kind.mass, bad[k], CAROM_ERROR_MASS, 3);
+    REFUSED(balls[0].kind.radius, bad[k], CAROM_ERROR_RADIUS, 0);
+    REFUSED(balls[3].kind.gravity, bad[k], CAROM_ERROR_GRAVITY, 3);
+    REFUSED(balls[3].kind.mu_slide, bad[k], CAROM_ERROR_MU_MOTION, 3);
+    REFUSED(balls[3].kind.mu_roll, bad[k], CAROM_ERROR_MU_MOTION, 3);
+    REFUSED(balls[3].kind.mu_spin, bad[k], CAROM_ERROR_MU_MOTION, 3);
+  }
+  const double outside[] = {NAN, -0.1, 1.1};
+  for (int k = 0; k < 3; k++) {
+    REFUSED(balls[9].kind.mu_slide, outside[k], CAROM_ERROR_MU_MOTION, 9);
+    REFUSED(balls[9].kind.mu_ball, outside[k], CAROM_ERROR_MU_BALL, 9);
+    REFUSED(balls[9].kind.restitution, outside[k], CAROM_ERROR_RESTITUTION, 9);
+    REFUSED(balls[9].kind.restitution_cushion, outside[k], CAROM_ERROR_RESTITUTION, 9);
+    REFUSED(balls[9].kind.mu_cushion, outside[k], CAROM_ERROR_MU_CUSHION, 9);
+  }
+  REFUSED(balls[3].kind.radius, 0.03, CAROM_ERROR_RADII_DIFFER, 3);
+  set_up();
+  balls[3].kind.mass *= 1.1;
+  expect(CAROM_OK, -1);
+  options.world = CAROM_WORLD_POOLTOOL;
+  expect(CAROM_ERROR_MASSES_DIFFER, 3);
+}
+END_TEST
+
+START_TEST(states) {
+  for (int axis = 0; axis < 3; axis++) {
+    REFUSED(balls[2].state.r[axis], NAN, CAROM_ERROR_POSITION, 2);
+    REFUSED(balls[2].state.v[axis], INFINITY, CAROM_ERROR_VELOCITY, 2);
+    REFUSED(balls[2].state.w[axis], NAN, CAROM_ERROR_SPIN, 2);
+  }
+  REFUSED(balls[2].state.v[2], 0.1, CAROM_ERROR_VERTICAL, 2);
+  REFUSED(balls[2].state.r[2], 0.05, CAROM_ERROR_OFF_TABLE, 2);
+  REFUSED(balls[2].state.r[0], -0.5, CAROM_ERROR_OFF_TABLE, 2);
+  REFUSED(balls[2].state.r[0], 0.01, CAROM_ERROR_OFF_TABLE, 2); /* in the rail */
+  REFUSED(balls[2].state.label, 5, CAROM_ERROR_LABEL, 2);
+  REFUSED(balls[2].state.label, -1, CAROM_ERROR_LABEL, 2);
+  set_up();
+  balls[4].state = balls[1].state;
+  expect(CAROM_ERROR_OVERLAP, 4);
+  balls[4].state.label = CAROM_BALL_POCKETED; /* which is not there */
+  expect(CAROM_OK, -1);
+}
+END_TEST
+
+START_TEST(cues) {
+  REFUSED(cue.speed, NAN, CAROM_ERROR_CUE, -1);
+  REFUSED(cue.speed, -1.0, CAROM_ERROR_CUE, -1);
+  REFUSED(cue.phi, INFINITY, CAROM_ERROR_CUE, -1);
+  REFUSED(cue.theta, 91.0, CAROM_ERROR_CUE, -1);
+  REFUSED(cue.theta, NAN, CAROM_ERROR_CUE, -1);
+  REFUSED(cue.mass, 0.0, CAROM_ERROR_CUE, -1);
+  REFUSED(cue.end_mass, -1.0, CAROM_ERROR_CUE, -1);
+  REFUSED(cue.ball, 10, CAROM_ERROR_CUE, -1);
+  REFUSED(cue.ball, -1, CAROM_ERROR_CUE, -1);
+  REFUSED(cue.a, 1.0, CAROM_ERROR_MISCUE, -1);
+  REFUSED(cue.b, NAN, CAROM_ERROR_MISCUE, -1);
+}
+END_TEST
+
+START_TEST(tables) {
+  REFUSED(table.rails, 33, CAROM_ERROR_TABLE, -1);
+  REFUSED(table.jaws, -1, CAROM_ERROR_TABLE, -1);
+  REFUSED(table.pockets, 9, CAROM_ERROR_TABLE, -1);
+  REFUSED(table.rail[4].p[0], NAN, CAROM_ERROR_TABLE, 4);
+  REFUSED(table.rail[4].side, 2, CAROM_ERROR_TABLE, 4);
+  REFUSED(table.rail[4].height, 0.1, CAROM_ERROR_NOSE_HEIGHT, 4);
+  REFUSED(table.jaw[5].radius, -1.0, CAROM_ERROR_TABLE, 5);
+  REFUSED(table.jaw[5].height, 0.0, CAROM_ERROR_NOSE_HEIGHT, 5);
+  REFUSED(table.pocket[1].radius, 0.0, CAROM_ERROR_TABLE, 1);
+  REFUSED(table.pocket[1].depth, NAN, CAROM_ERROR_TABLE, 1);
+  ck_assert_int_eq(carom_table_make((carom_table_kind)99, &table), CAROM_ERROR_TABLE);
+  ck_assert_int_eq(carom_table_make(CAROM_TABLE_POOL_7FT, NULL), CAROM_ERROR_NULL);
+}
+END_TEST
+
+START_TEST(options_and_calls) {
+  REFUSED(options.world, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.ball_model, 5, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.cushion_model, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.friction, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.events_most, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.unused, 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.reserved[4], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.time_most, NAN, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.steps, -1, CAROM_ERROR_STEPS, -1);
+  REFUSED(options.threads, -2, CAROM_ERROR_THREADS, -1);
+  set_up();
+  carom_shot shot = {0};
+  ck_assert_int_eq(carom_shoot(NULL, balls, 10, &cue, NULL, &shot), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_shoot(&table, NULL, 10, &cue, NULL, &shot), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_shoot(&table, balls, 0, &cue, NULL, &shot), CAROM_ERROR_BALLS);
+  ck_assert_int_eq(carom_shoot(&table, balls, 33, &cue, NULL, &shot), CAROM_ERROR_BALLS);
+  shot.room = 5;
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_shoot_batch(&table, balls, 10, 1, &cue, 1, 0, NULL, NULL, NULL), CAROM_OK);
+  ck_assert_int_eq(carom_rack(CAROM_RACK_NINEBALL, &table, -1.0, 1, balls, 10), CAROM_ERROR_RACK);
+  ck_assert_int_eq(carom_rack(CAROM_RACK_NINEBALL, &table, 0.0, 1, balls, 9), CAROM_ERROR_RACK);
+  ck_assert_int_eq(carom_rack((carom_rack_kind)-1, &table, 0.0, 1, balls, 9), CAROM_ERROR_RACK);
+}
+END_TEST
+
+/* A bound ends a shot with its status and a valid state; a shot without a strike is none. */
+START_TEST(bounds) {
+  set_up();
+  carom_event events[40];
+  carom_ball_state final[10], at[10];
+  carom_shot shot = {.events = events, .room = 40, .final = final};
+  options.events_most = 30;
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &options, &shot), CAROM_ERROR_TOO_MANY_EVENTS);
+  ck_assert_int_eq(shot.count, 30);
+  ck_assert_double_eq(shot.time, events[29].time);
+  ck_assert_int_eq(carom_shot_at(balls, 10, &shot, shot.time, at), CAROM_OK);
+  for (int k = 0; k < 10; k++)
+    ck_assert_double_eq_tol(final[k].r[0], at[k].r[0], 1e-15);
+  options = (carom_shot_options){.time_most = 1.0};
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &options, &shot), CAROM_ERROR_TOO_LONG);
+  ck_assert_double_le(shot.time, 1.0);
+  /* more events than there is room for: the state is known up to the last one kept */
+  shot.room = 10;
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_OK);
+  ck_assert_int_gt(shot.count, 10);
+  ck_assert_int_eq(carom_shot_at(balls, 10, &shot, events[9].time, at), CAROM_OK);
+  ck_assert_int_eq(carom_shot_at(balls, 10, &shot, shot.time, at), CAROM_ERROR_EVENTS_LOST);
+  cue.speed = 0.0;
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_OK);
+  ck_assert_int_eq(shot.count, 0);
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, NULL, NULL, &shot), CAROM_OK);
+  ck_assert_int_eq(shot.count, 0);
+}
+END_TEST
+
+/* A table with a hole in its rails loses a ball: that is told. */
+START_TEST(lost_ball) {
+  carom_table_make(CAROM_TABLE_THREECUSHION, &table);
+  table.rail[1] = table.rail[2];
+  table.rail[2] = table.rail[3];
+  table.rails = 3; /* without the rail at x = width */
+  carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD), .state = {.r = {0.7, 1.0, 0.03075}}};
+  cue = carom_cue_of(CAROM_GAME_BILLIARD);
+  cue.phi = 0.0;
+  carom_ball_state final;
+  carom_shot shot = {.final = &final};
+  ck_assert_int_eq(carom_shoot(&table, &ball, 1, &cue, NULL, &shot), CAROM_ERROR_LEFT_TABLE);
+  ck_assert_double_eq_tol(final.r[0], table.width, 1e-9);
+}
+END_TEST
+
+/* A number of any size, or none. */
+static double wild(random_source *r, double least, double most) {
+  const double kind = random_between(r, 0.0, 1.0);
+  if (kind < 0.01)
+    return kind < 0.003 ? NAN : kind < 0.006 ? INFINITY : 0.0;
+  return kind < 0.6 ? random_between(r, least, most) : most * pow(10.0, random_between(r, -12.0, 0.0));
+}
+
+/* Whatever numbers a shot is made of, it ends, with a status, and its states are numbers. */
+START_TEST(wild_shots) {
+  random_source r = {test_seed()};
+  static carom_event events[2000];
+  int played = 0, statuses[128] = {0};
+  for (int n = 0; n < 2500; n++) {
+    set_up();
+    carom_table_make((carom_table_kind)(int)random_between(&r, 0.0, 4.99), &table);
+    const int count = 1 + (int)random_between(&r, 0.0, 9.99);
+    for (int k = 0; k < count; k++) {
+      carom_ball_kind *b = &balls[k].kind;
+      b->mass = wild(&r, 0.01, 10.0);
+      b->mu_slide = wild(&r, 0.01, 1.0);
+      b->mu_roll = wild(&r, 0.001, 1.0);
+      b->mu_spin = wild(&r, 0.001, 1.0);
+      b->restitution = wild(&r, 0.0, 1.0);
+      b->restitution_cushion = wild(&r, 0.0, 1.0);
+      b->mu_cushion = wild(&r, 0.0, 1.0);
+      b->gravity = wild(&r, 1.0, 100.0);
+      carom_ball_state *s = &balls[k].state;
+      s->r[0] = random_between(&r, 0.03, table.width - 0.03);
+      s->r[1] = random_between(&r, 0.03, table.length - 0.03);
+      for (int axis = 0; axis < 2; axis++)
+        s->v[axis] = random_between(&r, 0.0, 1.0) < 0.5 ? 0.0 : wild(&r, -10.0, 1e4);
+      for (int axis = 0; axis < 3; axis++)
+        s->w[axis] = random_between(&r, 0.0, 1.0) < 0.5 ? 0.0 : wild(&r, -300.0, 1e6);
+    }
+    cue.speed = wild(&r, 0.0, 1e3);
+    cue.phi = wild(&r, 0.0, 1e9);
+    cue.theta = wild(&r, 0.0, 90.0);
+    cue.a = wild(&r, -1.0, 1.0);
+    options.world = n % 2;
+    options.events_most = 2000;
+    options.cushion_model = n % 3 == 0 ? 0 : 1 + CAROM_CUSHION_HAN;
+    carom_ball_state final[10];
+    carom_shot shot = {.events = events, .room = 2000, .final = final};
+    const carom_status status = carom_shoot(&table, balls, count, &cue, &options, &shot);
+    ck_assert_str_ne(carom_status_name(status), "unknown");
+    ck_assert_int_le(shot.count, 2000);
+    if (shot.count == 0)
+      continue;
+    played++;
+    statuses[-status]++;
+    for (int k = 0; k < count; k++)
+      for (int axis = 0; axis < 3; axis++)
+        ck_assert_msg(isfinite(final[k].r[axis]) && isfinite(final[k].v[axis]) && isfinite(final[k].w[axis]),
+                      "shot %d ends with states that are no numbers, status %s", n, carom_status_name(status));
+    for (int k = 1; k < shot.count; k++)
+      ck_assert_double_ge(events[k].time, events[k - 1].time);
+  }
+  printf("%d were played:", played);
+  for (int k = 0; k < 128; k++)
+    if (statuses[k] > 0)
+      printf(" %d %s", statuses[k], carom_status_name((carom_status)-k));
+  printf("\n");
+  ck_assert_int_gt(played, 200);
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, bounds, lost_ball, wild_shots);
+}
