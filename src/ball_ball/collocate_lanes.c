@@ -166,14 +166,14 @@ void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh,
   }
   if (kind == PART || kind == TURN) {
     const vmask moved_on = accepted & v_not(last);
-    const progress refused = after_refusal(&so_far, none, kind == TURN ? v_all() : none);
+    const progress refused = after_refusal(&so_far, kind);
     so_far.share = v_select(moved_on, one, refused.share);
     so_far.caution = v_select(moved_on, zero, refused.caution);
     s = choose_state(moved_on, &after, &s);
     to_end = way_to_end(&a, &s);
     g = predict(&a, &s, to_end);
   } else
-    so_far = after_refusal(&so_far, kind == EASY || kind == STICK ? v_all() : none, none);
+    so_far = after_refusal(&so_far, kind);
   const vmask spent = v_less_equal(v_splat(MOST_ATTEMPTS), attempts) | impossible;
   const vreal then = next_kind(&a, &s, to_end, &g, &so_far, false);
   store_kinds(mark(solved, SOLVED, mark(spent, REFUSED, then)), next);

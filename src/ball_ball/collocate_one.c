@@ -34,23 +34,26 @@ rare int take_steps(const problem *a, state s, prediction g, vreal to_end, progr
   for (int attempt = 1; attempt <= MOST_ATTEMPTS; attempt++) {
     state next;
     float error;
-    int last = 1, light = 0, turn = 0;
+    int last = 1;
+    enum step_kind kind = TURN;
     if (so_far.caution < 1 && attempt > 1 && is_easy(a, &s, &g, to_end)) {
       error = take_easy_step(a, &g, to_end, &s, out);
       evaluations += 4 * (EASY_ITERATIONS + 1);
-      light = 1;
+      kind = EASY;
     } else {
       const prediction ahead = look_ahead(a, &s, &g, to_end);
       const choice c = choose(a, &s, &ahead, to_end, &so_far);
       int iterations = TURN_ITERATIONS;
       if (c.full) {
+        kind = c.long_ ? FULL_LONG : FULL;
         iterations = c.long_ ? FULL_LONG_ITERATIONS : FULL_ITERATIONS;
         error = take_full_step(iterations, a, &ahead, to_end, &s, out);
       } else if (c.stick) {
+        kind = STICK;
         iterations = STICK_ITERATIONS;
         error = take_stick_step(a, &ahead, &s, out);
-        light = 1;
       } else if (c.part) {
+        kind = PART;
         iterations = PART_ITERATIONS;
         error = take_part(a, part_length(&ahead, to_end), &s, &next);
         last = 0;
@@ -60,12 +63,11 @@ rare int take_steps(const problem *a, state s, prediction g, vreal to_end, progr
         if (refused)
           return 0;
         error = take_turn_step(a, &p, last, &s, &next, out);
-        turn = 1;
       }
       evaluations += MOST_NODES * (iterations + 1);
     }
     if (!(error < a->tolerance))
-      so_far = after_refusal(&so_far, light, turn);
+      so_far = after_refusal(&so_far, kind);
     else if (last)
       return evaluations;
     else {

@@ -18,7 +18,7 @@
 #include "ball_ball/problem.h"
 
 /* What an iteration leaves of what it moved, at least; by mu mu_b, for the cloth; by q^2, for u. */
-static const float CONTRACTION = 0.02f, CONTRACTION_CLOTH = 1.2f, CONTRACTION_Q = 0.24f;
+static const float CONTRACTION = 0.02f, CONTRACTION_CLOTH = 1.2f, CONTRACTION_Q = 0.35f;
 /* Of the old direction, over the diagonal of the derivative; for 4 nodes, which are for small q, and for 8. */
 static const float KEEP_4 = 0.25f, KEEP_8 = 0.15f;
 

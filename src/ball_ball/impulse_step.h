@@ -9,6 +9,8 @@
 
 /* How far the Taylor series is trusted, over the length of the step before it. */
 static const float MOST_BEYOND = 0.03f, MOST_BEYOND_TURN = 0.1f;
+/* The estimate of what the iterations leave is this much too small on turns. */
+static const float TURN_CAUTION = 4;
 
 /* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and those of c and sigma against
  * their values at first; K at v = 0 stays what it is. */
@@ -72,6 +74,19 @@ always vreal K_at_v_0_on_turn(const gauss_rule *r, int n, const turn_range *rang
   return K_by_parts(l, s, f, v, S, dot(r->all, slope, n));
 }
 
+/* At the end of a step whose four nodes will do, since t hardly turns: arrive() without its roots, by the polynomials. */
+always arrival arrive_on_nodes(const gauss_rule *r, int n, vreal per_length, const directions *f) {
+  const vreal twice = 2 * per_length; /* `bend` is half a slope */
+  return (arrival){.c = dot(r->end, f->c, n),
+                   .z = dot(r->end, f->z, n),
+                   .x = dot(r->end, f->s_x, n),
+                   .y = dot(r->end, f->s_y, n),
+                   .dc = twice * dot(r->bend, f->c, n),
+                   .dz = twice * dot(r->bend, f->z, n),
+                   .dx = twice * dot(r->bend, f->s_x, n),
+                   .dy = twice * dot(r->bend, f->s_y, n)};
+}
+
 /* From *s on for a length, for which *g has been predicted. *next becomes the state behind the step; in the lanes of `last`
  * that is near the end of the collision, and *out becomes the solution. `turn`: over the nodes of that plan, else `turn` is
  * NULL; `by_parts`: v = 0 is where the first guess is. Returns an estimate of the error, in p; infinite if the end is not near.
@@ -104,17 +119,18 @@ always vreal impulse_step(int n, int iterations, const problem *a, const predict
   if (out != NULL)
     passes = passes | (v_not(s->restitution) & last);
   if (ends || v_any(passes)) {
-    const vreal f_mean = -a->pull_y * Y;
+    const vreal f_mean = -a->pull_y * (ends ? g->z * g->t_y : Y); /* that of the prediction is known before the nodes are */
     const vreal K_c =
         turn != NULL ? K_at_v_0_on_turn(r, n, &range, &l, s, f_mean, f.w_y) : K_at_v_0(r, n, !ends, &l, s, f_mean, f.w_y);
     end.K_c = v_select(passes, K_c, s->K_c);
   }
   end.restitution = s->restitution | passes;
 
-  const arrival at_end = arrive(a, &end);
+  const vreal per_length = v_reciprocal(length);
+  const arrival at_end = n == 8 ? arrive(a, &end) : arrive_on_nodes(r, n, per_length, &f);
   vreal error = iteration_error(a, &l, f.moved);
   if (turn != NULL)
-    error = 2 * error;
+    error = TURN_CAUTION * error;
   if (n == 8) {
     /* the defect of the polynomials at the end, which is the first coefficient that the nodes leave out */
     const vreal defect = v_abs(dot(r->end, f.c, n) - at_end.c) + v_abs(dot(r->end, f.z, n) - at_end.z);
@@ -128,9 +144,8 @@ always vreal impulse_step(int n, int iterations, const problem *a, const predict
   /* to the end of the collision */
   vreal third_x = v_splat(0), third_y = third_x;
   if (turn == NULL) {
-    const vreal per = v_reciprocal(length), per_2 = per * per;
-    third_x = per_2 * dot(r->third, f.s_x, n);
-    third_y = per_2 * dot(r->third, f.s_y, n);
+    third_x = per_length * per_length * dot(r->third, f.s_x, n);
+    third_y = per_length * per_length * dot(r->third, f.s_y, n);
   }
   const vreal way = v_abs(finish(a, &end, &at_end, third_x, third_y, out));
   if (turn != NULL) {

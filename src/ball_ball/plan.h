@@ -23,7 +23,7 @@
 #include "ball_ball/impulse_step.h"
 #include "ball_ball/stick_step.h"
 
-enum { EASY_ITERATIONS = 2, FULL_ITERATIONS = 4, FULL_LONG_ITERATIONS = 8, PART_ITERATIONS = 8 };
+enum { EASY_ITERATIONS = 2, FULL_ITERATIONS = 3, FULL_LONG_ITERATIONS = 7, PART_ITERATIONS = 7 };
 enum { TURN_ITERATIONS = 4, MOST_ATTEMPTS = 14 };
 
 static const float EASY_SHARE = 1.2e-3f;      /* error of an EASY step over mu_b q^8, */
@@ -44,7 +44,7 @@ static const float LEAST_SHARE = 0.1f;                                       /* 
 /* After refusals of steps from a state. */
 typedef struct progress {
   vreal share;   /* of the usual length that a TURN step may have */
-  vreal caution; /* 1: not EASY, and not to stick; 2: TURN */
+  vreal caution; /* 1: not EASY, and not to stick; 2: with many iterations; 3: TURN */
 } progress;
 
 always vreal power_4(vreal x) {
@@ -157,7 +157,7 @@ typedef struct choice {
 
 always choice choose(const problem *a, const state *s, const prediction *g, vreal to_end, const progress *so_far) {
   const vreal q = g->rate * to_end, to_stick = v_reciprocal(g->rate), u = v_reciprocal(g->inverse_u);
-  const vmask usual = v_less(so_far->caution, v_splat(2));
+  const vmask usual = v_less(so_far->caution, v_splat(3));
   choice c;
   c.full = usual & v_less(q, v_splat(FULL_LONG_Q));
   if (v_any(c.full))
@@ -165,17 +165,17 @@ always choice choose(const problem *a, const state *s, const prediction *g, vrea
   c.stick = v_less(so_far->caution, v_splat(1)) & v_less(v_splat(STICK_Q), q);
   if (v_any(c.stick))
     c.stick = c.stick & v_less(u * stick_error(a, s, g), a->tolerance);
-  c.long_ = c.full & v_less(v_splat(FULL_Q), q);
+  c.long_ = c.full & (v_less(v_splat(FULL_Q), q) | v_less(v_splat(1), so_far->caution));
   c.part = usual & v_less_equal(v_splat(TURN_Q), q) & v_not(c.stick | c.full);
   if (v_any(c.part))
     c.part = c.part & is_smooth(8, a, s, g, part_share(q) * to_stick);
   return c;
 }
 
-/* After a step that was refused; `light`: an EASY one, or one to stick. */
-always progress after_refusal(const progress *so_far, vmask light, vmask turn) {
-  return (progress){.share = v_select(turn, 0.5f * so_far->share, so_far->share),
-                    .caution = v_select(light, v_splat(1), v_splat(2))};
+/* After a step of a kind that was refused. */
+always progress after_refusal(const progress *so_far, enum step_kind kind) {
+  const float caution = kind == EASY || kind == STICK ? 1 : kind == FULL ? 2 : 3;
+  return (progress){.share = kind == TURN ? 0.5f * so_far->share : so_far->share, .caution = v_splat(caution)};
 }
 
 #endif

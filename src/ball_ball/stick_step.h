@@ -23,7 +23,7 @@
 #include "ball_ball/directions.h"
 #include "ball_ball/rules.h"
 
-enum { STICK_NODES = 8, STICK_ITERATIONS = 4 };
+enum { STICK_NODES = 8, STICK_ITERATIONS = 3 };
 /* What an iteration of a step to stick leaves of what it moved. */
 static const float CONTRACTION_STICK = 0.1f;
 
