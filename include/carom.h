@@ -12,8 +12,35 @@
  * surface", Sports Engineering 17 (2014) 227-237: both balls stay on the cloth; friction acts between the balls, and between
  * the cloth and the ball that is pressed into it.
  *
- * Every function is reentrant and may be called from many threads at once. None prints or aborts, and none allocates memory,
- * except that carom_collide_batch() starts threads for large batches.
+ * Scope. One collision of two balls of the same radius at the same height, of any masses. Not here: finding the contact, balls
+ * that jump, three balls that touch at once, cushions, the motion between collisions.
+ *
+ * Calls. Every function is reentrant and may be called from many threads at once. None prints, aborts or allocates memory. Only
+ * a batch that is asked to (options.threads) starts threads; they take no signals of the process, and end with the call. The
+ * one global state is the instruction set in force.
+ *
+ * Stack. In a build that optimises, every call fits a thread with 64 KiB of stack, of which the C library takes some. On x86-64
+ * a single call takes at most 7 KiB, a trace 10, a batch 44, and one over threads 53 in the calling thread (measured by
+ * tests/unit/stack.c).
+ *
+ * Determinism. What gives equal bits:
+ *   - A batch and as many single calls: each row has the bits that it has alone, whoever its neighbours are, wherever the batch
+ *     is cut, and for any number of threads. (But for Euler's method in single precision: see carom_collide_batch_f32().)
+ *   - Two runs on one processor with one instruction set.
+ *   - All machines and compilers with the environment variable CAROM_ISA=plain, or after carom_isa_limit(CAROM_ISA_PLAIN): for
+ *     lockstep, replays and tests. tests/agree/plain.c holds the hashes; gcc and clang, x86-64 and arm64 agree on them.
+ *   - All instruction sets, by Euler's method in double precision.
+ *
+ * Otherwise the exact solver's bits differ between instruction sets, and with sse2 and avx2 between makes of processors, whose
+ * estimates of reciprocals differ; results then differ within the solver's errors. carom_mu_ball() calls exp(), whose last bits
+ * are the C library's. Traces and details have no promise.
+ *
+ * Floating-point environment. The rounding mode must be to nearest; with another, ordinary collisions come out some 1e-6 less
+ * accurate, with other bits. Exceptions must be masked, as in every C program at its start: the lanes of a batch compute on
+ * rows that are in error or not there, so invalid operations, overflow and division by zero are raised and thrown away.
+ * Flags may be left raised; nothing else is changed. Flushing subnormal numbers to zero makes no difference to collisions on a
+ * table. Threads of a batch have the environment of the calling thread. The library refuses to be built with
+ * -ffast-math.
  */
 #ifndef CAROM_H
 #define CAROM_H
@@ -178,13 +205,14 @@ CAROM_API carom_speed_law carom_alciatore(void);
 
 /* The friction between the balls of `*in` by the law, |u| being the slip just before the collision; in->mu_ball is not read.
  * Assign it to in->mu_ball. A law that leaves [0, 1] or motion that is not finite gives a number that carom_collide() refuses.
- */
+ * NaN if `in` is NULL. */
 CAROM_API double carom_mu_ball(const carom_impact *in, carom_speed_law law);
 
 /* ---- After the collision --------------------------------------------------------------------------------------------- */
 
 /* The velocity, m/s, at which a ball of the given velocity, angular velocity and radius stops sliding and begins to roll:
- * (5/7) v + (2/7) R (w_y, -w_x, 0). The cloth's friction does not matter, only the time that it takes. */
+ * (5/7) v + (2/7) R (w_y, -w_x, 0). The cloth's friction does not matter, only the time that it takes. `rolling` may be `v` or
+ * `w`. */
 CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], double radius, double rolling[3]);
 
 /* ---- Single precision ------------------------------------------------------------------------------------------------ */

@@ -6,7 +6,7 @@ Gauss rules of n nodes on [0, 1], and one of Gauss and Jacobi for the weight (1 
 on the nodes x_k:
 
     node[k]        x_k, ascending
-    end[k], bend[k]  L_k at 1, and half its slope there
+    end[k], bend[k], third[k]   the first Taylor coefficients of the integral of L_k beyond 1: L_k, L_k' / 2 and L_k'' / 6 at 1
     all[k]         integral of (the weight times) L_k over [0, 1]
     sum[j][k]      integral of (the weight times) L_j from 0 to x_k
     basis[m][k]    L_k as powers m of 2 x - 1, whose coefficients stay small; for the rule to stick as powers of 1 - 2 x
@@ -83,6 +83,7 @@ def print_rule(name, n, w):
     print("    .end = %s," % text([c[0] if w else sum(c) for c in L]))
     if not w:
         print("    .bend = %s," % text([sum(m * v for m, v in enumerate(c)) / 2 for c in L]))
+        print("    .third = %s," % text([sum(m * (m - 1) * v for m, v in enumerate(c)) / 6 for c in L]))
     print("    .all = %s," % text([integral(c, w, zero, one) for c in L]))
     print("    .sum = {%s}," % ",\n".join(text([between(c, at) for at in y]) for c in L))
     print("    .basis = {%s}," % ",\n".join(text([centred(c)[m] for c in L]) for m in span))

@@ -1,8 +1,8 @@
 /* `carom-lab stress`: the exact solver on random collisions, in every way it can be called, against the integrator behind it.
  *
  * Each collision is solved by a single call and in a batch, in double and in single precision, and by the fallback alone, whose
- * own error is about 1e-9 at most: where it and a single call differ by more than ORACLE_FROM, the oracle says who is right. Rows of
- * batches are compared with single calls bit by bit. */
+ * own error is about 1e-9 at most: where it and a single call differ by more than ORACLE_FROM, the oracle says who is right.
+ * Rows of batches are compared with single calls bit by bit. */
 #include "accuracy.h"
 #include "command.h"
 #include "draws.h"
@@ -157,7 +157,8 @@ static void count_double(shift *w, carom_slip slip, uint64_t k, const carom_impa
 }
 
 /* The same row in single precision, against the exact result for the rounded numbers. */
-static void count_single(shift *w, carom_slip slip, const carom_impact_f32 *in, const carom_result_f32 *out, carom_status status) {
+static void count_single(shift *w, carom_slip slip, const carom_impact_f32 *in, const carom_result_f32 *out,
+                         carom_status status) {
   tally *t = &w->tally[slip][WAY_SINGLE];
   carom_impact wide;
   carom_result result, exact;
@@ -257,10 +258,12 @@ static void print_worst(const stress_job *job, shift *w, FILE *out) {
 
 static void print_table(const stress_job *job, const shift *w, FILE *out) {
   static const char *const ways[] = {"double", "single"}, *const kinds[] = {"realistic", "regimes", "extreme"};
-  fprintf(out, "%s collisions, %d drawn for each slip with seed %d, instruction set %s\n\n", kinds[job->kind], job->draws, job->seed,
-          carom_isa_name(carom_isa_in_force()));
-  fprintf(out, "precision slip           rows   median      99 %%    99.9 %%   99.99 %%   largest   > 1e-6   > 1e-5   > 2e-5  fallback  "
-               "unresolved\n");
+  fprintf(out, "%s collisions, %d drawn for each slip with seed %d, instruction set %s\n\n", kinds[job->kind], job->draws,
+          job->seed, carom_isa_name(carom_isa_in_force()));
+  fprintf(
+      out,
+      "precision slip           rows   median      99 %%    99.9 %%   99.99 %%   largest   > 1e-6   > 1e-5   > 2e-5  fallback  "
+      "unresolved\n");
   for (int way = 0; way < WAYS; way++)
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
       const tally *t = &w->tally[slip][way];
@@ -270,9 +273,11 @@ static void print_table(const stress_job *job, const shift *w, FILE *out) {
               100.0 * (double)t->by_fallback / fmax(1, (double)(t->rows + t->unresolved)), t->unresolved);
     }
   fprintf(out, "\nrows of batches whose bits or status differ from single calls: %ld\n", w->other_bits);
-  fprintf(out, "fallback against the oracle, where single calls differ from it by more than %g, and 1 row in 1000: %ld rows, largest "
-               "error %.1e, %ld above 1e-9\n",
-          ORACLE_FROM, w->asked, w->fallback_largest, w->fallback_wrong);
+  fprintf(
+      out,
+      "fallback against the oracle, where single calls differ from it by more than %g, and 1 row in 1000: %ld rows, largest "
+      "error %.1e, %ld above 1e-9\n",
+      ORACLE_FROM, w->asked, w->fallback_largest, w->fallback_wrong);
 }
 
 /* The contract of carom.h. */
@@ -298,8 +303,9 @@ OPTION(stress_job, option_worst, "worst", worst_rows, 0, NULL, set_flag, 0,
 static const command_form form = {
     .name = "stress",
     .usage = "[OPTIONS]",
-    .about = "Draws random collisions and compares the exact solver's results, by single calls and in batches, in double and in\n"
-             "single precision, with an adaptive integrator, and where they differ with the tests' oracle.\n",
+    .about =
+        "Draws random collisions and compares the exact solver's results, by single calls and in batches, in double and in\n"
+        "single precision, with an adaptive integrator, and where they differ with the tests' oracle.\n",
     .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_worst, &option_threads,
                                            &option_output, NULL},
     .details = "exit code: 0; 1 if an error is larger than carom.h promises, or bits of a batch differ from a single call's;\n"

@@ -6,10 +6,10 @@
  *     reg      a number at the nodes of a step; n nodes take REGS(n) of them
  *
  * A batch computes LANES collisions at once: a vreal has a lane for each, and so has a reg, which holds one node of each of
- * them. A single call (CAROM_LANES_ONE) computes one: a vreal is a float, and a reg holds all nodes, so that a chain of dependent
- * operations, which is what a single call waits for, is gone through once for all of them. Sums over nodes are taken in the same
- * order in both, so the bits are the same. In a step of four nodes a reg of a single call has four to spare, whose junk no sum and
- * no maximum takes in.
+ * them. A single call (CAROM_LANES_ONE) computes one: a vreal is a float, and a reg holds all nodes, so that a chain of
+ * dependent operations, which is what a single call waits for, is gone through once for all of them. Sums over nodes are taken
+ * in the same order in both, so the bits are the same. In a step of four nodes a reg of a single call has four to spare, whose
+ * junk no sum and no maximum takes in.
  */
 #ifndef CAROM_SRC_BALL_BALL_CARRIER_H
 #define CAROM_SRC_BALL_BALL_CARRIER_H
@@ -50,7 +50,7 @@ typedef vint reg_int;
 #define EACH_REG_(k, n) _Pragma("GCC unroll 4") for (int k = 0; k < REGS(n); k++)
 
 /* The same number at every node of a register; of a reg, itself. */
-#define SPREAD(x) _Generic((x), reg: reg_itself, default: reg_of)(x)
+#define SPREAD(x) _Generic((x), reg : reg_itself, default : reg_of)(x)
 always reg reg_itself(reg x) {
   return x;
 }

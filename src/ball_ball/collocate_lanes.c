@@ -1,5 +1,5 @@
-/* One collocation step of many collisions, one in each lane. plan.h has the steps; batch.c sorts collisions by the step that they
- * need next. The decisions are those of collocate_one.c. */
+/* One collocation step of many collisions, one in each lane. plan.h has the steps; batch.c sorts collisions by the step that
+ * they need next. The decisions are those of collocate_one.c. */
 #include "ball_ball/kernels.h"
 #include "ball_ball/plan.h"
 
@@ -16,13 +16,14 @@ apart vreal take_full_step(int iterations, const problem *a, const prediction *g
 apart vreal take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
   return stick_step(a, g, s, out);
 }
-apart vreal take_part(const problem *a, const turn_plan *p, const state *s, state *next) {
-  const prediction g = predict(a, s, p->length);
-  return part_step(PART_ITERATIONS, false, a, &g, p, v_not(v_all()), s, next, NULL);
+apart vreal take_part(const problem *a, vreal length, const state *s, state *next) {
+  const prediction g = predict(a, s, length);
+  return impulse_step(8, PART_ITERATIONS, a, &g, length, NULL, v_not(v_all()), s, next, NULL);
 }
 apart vreal take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
   const prediction g = predict(a, s, p->length);
-  return part_step(TURN_ITERATIONS, true, a, &g, p, last, s, next, out);
+  const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
+  return impulse_step(8, TURN_ITERATIONS, a, &g, length, p, last, s, next, out);
 }
 
 static state load_state(carom_moving moving) {
@@ -104,7 +105,7 @@ void PASTE(carom_first_step_, CAROM_LANES_SUFFIX)(carom_in in, float spin, float
   const vmask easy = is_easy(&a, &s, &g, to_end);
   solution answer;
   const vreal error = take_easy_step(&a, &g, to_end, &s, &answer);
-  const vmask solved = easy & v_less(error, v_splat(tolerance));
+  const vmask solved = easy & v_less(error, a.tolerance);
   put_solution(&answer, out);
   if (!v_any(v_not(solved))) {
     memset(next, SOLVED, MOST_LANES);
@@ -149,15 +150,14 @@ void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh,
     else if (kind == STICK)
       error = take_stick_step(&a, &ahead, &s, &answer);
     else if (kind == PART) {
-      const turn_plan p = plan_part(&ahead, to_end);
-      error = take_part(&a, &p, &s, &after);
+      error = take_part(&a, part_length(&ahead, to_end), &s, &after);
       last = none;
     } else {
       const turn_plan p = plan_turn(&a, &s, &ahead, to_end, &so_far, &last, &impossible);
       error = take_turn_step(&a, &p, last, &s, &after, &answer);
     }
   }
-  const vmask accepted = v_less(error, v_splat(tolerance)) & v_not(impossible), solved = accepted & last;
+  const vmask accepted = v_less(error, a.tolerance) & v_not(impossible), solved = accepted & last;
   if (kind != PART)
     put_solution(&answer, out);
   if (!v_any(v_not(solved))) {

@@ -1,7 +1,7 @@
-/* The exact limit of one collision by collocation steps, all nodes of a step in a register. plan.h has the steps; batch.c computes
- * many collisions. */
-#include "ball_ball/plan.h"
+/* The exact limit of one collision by collocation steps, all nodes of a step in a register. plan.h has the steps; batch.c
+ * computes many collisions. */
 #include "ball_ball/kernels.h"
+#include "ball_ball/plan.h"
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
@@ -13,20 +13,22 @@ rare float take_full_step(int iterations, const problem *a, const prediction *g,
 rare float take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
   return stick_step(a, g, s, out);
 }
-rare float take_part(const problem *a, const turn_plan *p, const state *s, state *next) {
-  const prediction g = predict(a, s, p->length);
-  return part_step(PART_ITERATIONS, false, a, &g, p, 0, s, next, NULL);
+rare float take_part(const problem *a, vreal length, const state *s, state *next) {
+  const prediction g = predict(a, s, length);
+  return impulse_step(8, PART_ITERATIONS, a, &g, length, NULL, 0, s, next, NULL);
 }
 rare float take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
   const prediction g = predict(a, s, p->length);
-  return part_step(TURN_ITERATIONS, true, a, &g, p, last, s, next, out);
+  const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
+  return impulse_step(8, TURN_ITERATIONS, a, &g, length, p, last, s, next, out);
 }
 /* Behind the first step. */
 rare float take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
   return end_step(4, EASY_ITERATIONS, a, g, s, to_end, out);
 }
 
-/* From *s, predicted *g and with `to_end`, to the end. Returns the number of right-hand sides evaluated, 0 if it did not get there. */
+/* From *s, predicted *g and with `to_end`, to the end. Returns the number of right-hand sides evaluated, 0 if it did not get
+ * there. */
 rare int take_steps(const problem *a, state s, prediction g, vreal to_end, progress so_far, solution *out) {
   int evaluations = 0;
   for (int attempt = 1; attempt <= MOST_ATTEMPTS; attempt++) {
@@ -50,8 +52,7 @@ rare int take_steps(const problem *a, state s, prediction g, vreal to_end, progr
         light = 1;
       } else if (c.part) {
         iterations = PART_ITERATIONS;
-        const turn_plan p = plan_part(&ahead, to_end);
-        error = take_part(a, &p, &s, &next);
+        error = take_part(a, part_length(&ahead, to_end), &s, &next);
         last = 0;
       } else {
         vmask refused;
@@ -86,7 +87,7 @@ int PASTE(carom_collocate_, CAROM_LANES_SUFFIX)(const float in[IN_COLUMNS], floa
   progress so_far = {.share = 1};
   solution answer;
   if (is_easy(&a, &s, &g, to_end)) {
-    if (end_step(4, EASY_ITERATIONS, &a, &g, &s, to_end, &answer) < tolerance) {
+    if (end_step(4, EASY_ITERATIONS, &a, &g, &s, to_end, &answer) < a.tolerance) {
       put_solution(&answer, out);
       return 4 * (EASY_ITERATIONS + 1);
     }

@@ -38,8 +38,12 @@ static carom_detail of_integrals(const carom_frame *frame, const carom_reduced *
 
 carom_detail carom_detail_of_solution(const carom_frame *frame, const carom_local *before, const float solution[OUT_COLUMNS],
                                       int evaluations) {
-  const carom_reduced c = carom_reduce(before);
-  const double unit = -c.v_n / c.kappa, u = hypot(c.u_x, c.u_z), pull = c.mu * c.mu_b * unit;
+  carom_reduced c = carom_reduce(before);
+  const double unit = -c.v_n / c.kappa, u = hypot(c.u_x, c.u_z);
+  /* as in rows.h */
+  c.mu = c.u_z <= LEAST_PRESS * unit ? 0 : c.mu;
+  c.mu_b = fmax(c.mu_b, LEAST_MU_B);
+  const double pull = c.mu * c.mu_b * unit;
   const bool stick = solution[OUT_STICK] >= 0;
   carom_integrals g = {.p = unit * (1 + c.e + (double)solution[OUT_EXTRA]),
                        .F_x = -pull * (double)solution[OUT_I_X],
@@ -52,8 +56,10 @@ carom_detail carom_detail_of_solution(const carom_frame *frame, const carom_loca
     g.Q_2 = c.mu_b * (c.u_z / u * g.p + unit * (double)solution[OUT_J_Z]);
   }
   /* v = v_n / kappa in units of `unit`, with the slope 1 - f: see problem.h */
-  const double compression = c.kappa * unit * unit * ((double)solution[OUT_K_C] - 0.5), p_stick = unit * (double)solution[OUT_STICK];
-  carom_detail d = of_integrals(frame, &c, before, &g, compression, stick ? p_stick : NAN, c.v_n + c.kappa * p_stick - g.F_y < 0);
+  const double compression = c.kappa * unit * unit * ((double)solution[OUT_K_C] - 0.5),
+               p_stick = unit * (double)solution[OUT_STICK];
+  carom_detail d =
+      of_integrals(frame, &c, before, &g, compression, stick ? p_stick : NAN, c.v_n + c.kappa * p_stick - g.F_y < 0);
   d.evaluations = evaluations;
   return d;
 }

@@ -6,12 +6,12 @@
  *     u_x = u_x0 - 7/2 kappa mu_b L C - mu mu_b L S_x        u_z = u_z0 - 5/2 kappa mu_b L Z - 5/2 mu mu_b L S_y
  *     d_x = d_x0 - mu_b L C - (1 - 5/2 s) mu mu_b L S_x      d_y = d_y0 - L X + 5/2 s mu_b L Z - (1 - 5/2 s) mu mu_b L S_y
  *
- * THE PREDICTOR turns u by a series to third order, for a t that turns evenly, and lets d run with the means of the directions so
- * far.
+ * THE PREDICTOR turns u by a series to third order, for a t that turns evenly, and lets d run with the means of the directions
+ * so far.
  *
- * THE ITERATION takes the directions at the nodes through the integration matrix to the slips there, and these to new directions.
- * What the cloth does converges by itself, since mu mu_b is small. What u does to its own direction is damped: the new direction
- * is mixed with the old one, by a share of the diagonal that the derivative of the equations has. */
+ * THE ITERATION takes the directions at the nodes through the integration matrix to the slips there, and these to new
+ * directions. What the cloth does converges by itself, since mu mu_b is small. What u does to its own direction is damped: the
+ * new direction is mixed with the old one, by a share of the diagonal that the derivative of the equations has. */
 #ifndef CAROM_SRC_BALL_BALL_DIRECTIONS_H
 #define CAROM_SRC_BALL_BALL_DIRECTIONS_H
 
@@ -43,8 +43,8 @@ always step_law law_of(const problem *a, const prediction *g, vreal length) {
   return l;
 }
 
-/* At the nodes, times their weight: s and both ways in which u has turned away from its direction at first, the sine of the angle
- * and 1 - its cosine. Without weight: the directions, and the integral of s_y up to there. */
+/* At the nodes, times their weight: s and both ways in which u has turned away from its direction at first, the sine of the
+ * angle and 1 - its cosine. Without weight: the directions, and the integral of s_y up to there. */
 typedef struct directions {
   reg c[MOST_REGS], z[MOST_REGS], s_x[MOST_REGS], s_y[MOST_REGS];
   reg w_x[MOST_REGS], w_y[MOST_REGS], turned[MOST_REGS], lost[MOST_REGS], S_y[MOST_REGS];
@@ -61,7 +61,8 @@ always turning predict_turning(bool turn, const problem *a, const prediction *g,
   const vreal A = 3.5f * a->kappa, B = 2.5f * v_fma(a->mu, g->t_y, a->kappa), E = a->mu * g->t_x;
   const vreal c2 = g->c * g->c, z2 = g->z * g->z, cs = g->c * g->z, D = A - B;
   /* the derivative of the angle and its derivatives, over -b */
-  const vreal f_0 = g->z * v_fma(D, g->c, E * g->z), f_1 = v_fma(D, c2 - z2, 2 * E * cs), f_2 = v_fma(3 * E, c2 - z2, -6 * cs * D);
+  const vreal f_0 = g->z * v_fma(D, g->c, E * g->z), f_1 = v_fma(D, c2 - z2, 2 * E * cs),
+              f_2 = v_fma(3 * E, c2 - z2, -6 * cs * D);
   const vreal h = v_fma(A, c2, v_fma(E, cs, B * z2)), both = f_1 + h; /* h: |u|', over -mu_b */
   const vreal W_1 = -b * f_0, W_2 = 0.5f * b * W_1 * both;
   const vreal W_3 = (b * b) * W_1 * (1 / 6.0f) * v_fma(both, v_fma(v_splat(2), h, f_1), f_0 * f_2);
@@ -120,7 +121,8 @@ always void find_directions(int n, int iterations, bool turn, const gauss_rule *
     EACH_REG(k, n) {
       const reg du_x = MADD(l->k_x, C[k], no_x * S_x[k]), du_z = MADD(l->k_z, Z[k], l->k_y * f->S_y[k]);
       const reg u_x = s->u_x + du_x, u_z = s->u_z + du_z;
-      const reg d_x = MADD(l->on_d, S_x[k], MADD(no_b, C[k], s->d_x)), d_y = MADD(l->on_d, f->S_y[k], MADD(l->on_y, Z[k], straight_y[k]));
+      const reg d_x = MADD(l->on_d, S_x[k], MADD(no_b, C[k], s->d_x)),
+                d_y = MADD(l->on_d, f->S_y[k], MADD(l->on_y, Z[k], straight_y[k]));
       const reg i_u = reg_reciprocal_sqrt(MADD(u_x, u_x, MADD(u_z, u_z, TINY)));
       const reg i_d = reg_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
       const reg u_c = u_x * i_u, u_s = u_z * i_u, t_x = d_x * i_d, t_y = d_y * i_d;
@@ -133,7 +135,8 @@ always void find_directions(int n, int iterations, bool turn, const gauss_rule *
         f->lost[k] = MADD(keep[k], (1 - MADD(g->c, f->c[k], g->z * f->z[k])) - drop, drop);
       }
       if (last)
-        moved[k] = MADD(a->mu, reg_abs(x - f->s_x[k]) + reg_abs(y - f->s_y[k]), reg_abs(u_c - f->c[k]) + reg_abs(u_s - f->z[k]));
+        moved[k] =
+            MADD(a->mu, reg_abs(x - f->s_x[k]) + reg_abs(y - f->s_y[k]), reg_abs(u_c - f->c[k]) + reg_abs(u_s - f->z[k]));
       f->c[k] = c;
       f->z[k] = z;
       f->s_x[k] = x;

@@ -41,7 +41,12 @@ typedef float carom_moving[MOVING_COLUMNS][MOST_LANES];
  * collocation refuses it. */
 enum step_kind { EASY, FULL, FULL_LONG, STICK, PART, TURN, STEP_KINDS, SOLVED = STEP_KINDS, REFUSED };
 
-/* Error in p, in units of |v_n0| / kappa, that a step may add by its estimate, for results in double and in single precision. */
+/* A ball that u_z presses less, in units of |v_n0| / kappa, is not pressed; friction between the balls that is less counts as
+ * this, so that what is divided by it is finite. */
+static const double LEAST_PRESS = 1e-10, LEAST_MU_B = 1e-9;
+
+/* Error in p, in units of |v_n0| / kappa, that a step may add by its estimate, for results in double and in single precision.
+ */
 static const float carom_tolerances[2] = {3e-7f, 6e-6f};
 
 #endif

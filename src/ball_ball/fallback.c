@@ -1,24 +1,24 @@
 /* The exact limit by adaptive steps in the impulse p, in double precision: for whatever collocation refuses, and for traces.
  *
- * The unknowns are the integrals Q_1, Q_2, F_x, F_y of reduced.h, of which the slips and v_n are linear functions, and int v_n dp.
- * integrate.c takes the steps, with one tolerance for the error of each.
+ * The unknowns are the integrals Q_1, Q_2, F_x, F_y of reduced.h, of which the slips and v_n are linear functions, and int v_n
+ * dp. integrate.c takes the steps, with one tolerance for the error of each.
  *
  * SINGULAR POINTS. The directions of the slips are not smooth where a slip vanishes. u does at stick: a step is at most a share
- * of the way there, so steps shrink geometrically, until |u| is rounding; from there on the balls stick and no more is done. The
- * slip d over the cloth may come near to zero and leave again: a step towards it is at most a share of the way. A d that is zero
- * has the direction in which it is about to begin.
+ * of the way there, so steps shrink geometrically, until |u| is rounding; from there on the balls stick and no more is done.
+ * The slip d over the cloth may come near to zero and leave again: a step towards it is at most a share of the way. A d that is
+ * zero has the direction in which it is about to begin.
  *
  * EVENTS end a phase: v_n = 0 that of compression, the balance of work that of restitution.
  *
- * WHERE IT GIVES UP. With the pooltool slip the direction of d is unstable: errors grow like exp(int 3/2 mu mu_b sigma / |d| dp).
- * Beyond exp(MOST_GROWTH) the result hangs on rounding, and there is none. Nor is there one if the budget is spent: a pressed
- * ball with all but the mass of the world and friction near 1 loses a share of v_n so small that no step gets there. */
+ * WHERE IT GIVES UP. With the pooltool slip the direction of d is unstable: errors grow like exp(int 3/2 mu mu_b sigma / |d|
+ * dp). Beyond exp(MOST_GROWTH) the result hangs on rounding, and there is none. Nor is there one if the budget is spent: a
+ * pressed ball with all but the mass of the world and friction near 1 loses a share of v_n so small that no step gets there. */
 #include "ball_ball/fallback.h"
 
 #include <float.h>
 #include <math.h>
 
-static const double TOLERANCE = 1e-12;               /* of a step, over the approach */
+static const double TOLERANCE = 1e-13;               /* of a step, over the approach */
 static const double SHARE_OF_U = 0.7;                /* of the way to stick that a step may go, */
 static const double SHARE_OF_D = 0.8;                /* and of the way to d = 0 */
 static const double STUCK = 1e-12, AT_REST = 1e-12;  /* |u| and |d| that are none, over |v_n| / kappa */

@@ -1,4 +1,5 @@
-/* The exact limit by an adaptive integrator: slower than collocation, and as good as double precision allows. See fallback.c. */
+/* The exact limit by an adaptive integrator: slower than collocation, and as good as double precision allows. See fallback.c.
+ */
 #ifndef CAROM_SRC_BALL_BALL_FALLBACK_H
 #define CAROM_SRC_BALL_BALL_FALLBACK_H
 

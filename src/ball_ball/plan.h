@@ -1,32 +1,33 @@
 /* Which collocation step comes next.
  *
- * At the rate of its start a collision loses the share q of |u| on the whole way to its end. If q is not large and the direction
- * of the cloth slip smooth, one step in the impulse ends it: with four nodes (EASY) or eight (FULL). If it will stick, and what is
- * left of |u| is so small that the error of a step to there does not count, that ends it (STICK); else a step takes away most of
- * |u| first (PART). Where the cloth slip turns, steps with their nodes drawn together there lose less of |u| at a
- * time (TURN).
+ * At the rate of its start a collision loses the share q of |u| on the whole way to its end. If q is not large and the
+ * direction of the cloth slip smooth, one step in the impulse ends it: with four nodes (EASY) or eight (FULL). If it will
+ * stick, and what is left of |u| is so small that the error of a step to there does not count, that ends it (STICK); else a
+ * step takes away most of |u| first (PART). Where the cloth slip turns, steps with their nodes drawn together there lose less
+ * of |u| at a time (TURN).
  *
  * HOW SMOOTH. Along the straight way that d is about to take, t is analytic in the ellipse with foci at the ends of the step
- * that passes through the zeros of |d|^2; with rho the sum of its half axes over the half length of the step, n Gauss nodes leave
- * out about rho^-2n. For a TURN step, whose map takes the zeros to xi = +- i pi / 2, the same holds with the range of xi.
+ * that passes through the zeros of |d|^2; with rho the sum of its half axes over the half length of the step, n Gauss nodes
+ * leave out about rho^-2n. For a TURN step, whose map takes the zeros to xi = +- i pi / 2, the same holds with the range of xi.
  *
- * A step is accepted if its error estimate is below the tolerance. If it is not, a more careful kind is tried, and TURN steps at
- * half the length. After MOST_ATTEMPTS steps, or if they get too short, collocation refuses the collision, which then is for the
- * fallback (fallback.c).
+ * A step is accepted if its error estimate is below the tolerance. If it is not, a more careful kind is tried, and TURN steps
+ * at half the length. After MOST_ATTEMPTS steps, or if they get too short, collocation refuses the collision, which then is for
+ * the fallback (fallback.c).
  *
- * The limits below were found with `carom stress`, which finds them again: it prints the largest errors of what was accepted.
+ * The limits below were found with `carom-lab stress`, which finds them again: it prints the largest errors of what was
+ * accepted.
  */
 #ifndef CAROM_SRC_BALL_BALL_PLAN_H
 #define CAROM_SRC_BALL_BALL_PLAN_H
 
-#include "ball_ball/end_step.h"
+#include "ball_ball/impulse_step.h"
 #include "ball_ball/stick_step.h"
-#include "ball_ball/part_step.h"
 
 enum { EASY_ITERATIONS = 2, FULL_ITERATIONS = 4, FULL_LONG_ITERATIONS = 8, PART_ITERATIONS = 8 };
 enum { TURN_ITERATIONS = 4, MOST_ATTEMPTS = 14 };
 
 static const float EASY_SHARE = 1.2e-3f;      /* error of an EASY step over mu_b q^8, */
+static const float MOST_EASY_Q = 0.9f;        /* its q */
 static const float MOST_EASY_PULL = 5e-3f;    /* and its mu mu_b q^2 */
 static const float FULL_Q = 0.6f;             /* q of a FULL step with few iterations, */
 static const float FULL_LONG_Q = 0.86f;       /* and with many */
@@ -35,10 +36,10 @@ static const float STICK_Q = 1.05f;           /* q from which the balls will sti
 static const float TURN_Q = 0.5f;             /* q of a TURN step */
 static const float LEFT_Q = 0.5f;             /* q that a PART would leave; */
 static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f; /* its share of |u|, and of q */
-static const float LEAST_WIDTH = 1e-5f;       /* distance delta of a turn */
-static const float WIDEST_RANGE = 6;          /* of xi of a TURN step */
-static const float TURN_SHARE = 350;          /* its error over (mu mu_b sigma)^2 L rho^-16 */
-static const float LEAST_SHARE = 0.1f;        /* of its usual length */
+static const float LEAST_WIDTH = 1e-5f;                                      /* distance delta of a turn */
+static const float WIDEST_RANGE = 4.5f;                                      /* of xi of a TURN step */
+static const float TURN_SHARE = 350;                                         /* its error over (mu mu_b sigma)^2 L rho^-16 */
+static const float LEAST_SHARE = 0.1f;                                       /* of its usual length */
 
 /* After refusals of steps from a state. */
 typedef struct progress {
@@ -50,12 +51,16 @@ always vreal power_4(vreal x) {
   return (x * x) * (x * x);
 }
 
-/* 1 / rho, at most: with d_1 for d at the end of the way, rho + 1 / rho = 2 (|d| + |d_1|) / |d_1 - d|. */
+/* 1 / rho, at most: with d_1 for d at the end of the way, rho + 1 / rho = 2 (|d| + |d_1|) / |d_1 - d|; less what the cloth
+ * takes from |d| on the way, whatever the direction. */
 always vreal inverse_rho(const problem *a, const state *s, const prediction *g, vreal length) {
+  const float own = a->spin < 1 ? 1 - a->spin : 0;
   const vreal g_x = length * (a->mu_b * g->c), g_y = length * v_fma(-a->spin * a->mu_b, g->z, v_splat(1)), tiny = v_splat(TINY);
   const vreal d_x = s->d_x - g_x, d_y = s->d_y - g_y;
-  const vreal d_0 = root(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, tiny))), d_1 = root(v_fma(d_x, d_x, v_fma(d_y, d_y, tiny)));
-  const vreal sum = (d_0 + d_1) * inverse_length(g_x, g_y);
+  const vreal d_0 = root(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, tiny))),
+              d_1 = root(v_fma(d_x, d_x, v_fma(d_y, d_y, tiny)));
+  const vreal taken = own * a->pull * g->z * length;
+  const vreal sum = v_max((d_0 + d_1 - taken) * inverse_length(g_x, g_y), v_splat(1));
   return v_select(is_at_rest(a, s), v_splat(0), v_reciprocal(2 * sum - v_reciprocal(sum)));
 }
 
@@ -63,27 +68,31 @@ always vreal inverse_rho(const problem *a, const state *s, const prediction *g, 
 always vmask is_smooth(int n, const problem *a, const state *s, const prediction *g, vreal length) {
   const vreal inverse_4 = power_4(inverse_rho(a, s, g, length)), inverse_8 = inverse_4 * inverse_4, q = g->rate * length;
   const vreal left_out = 4 * a->pull * g->z * length * (n == 8 ? inverse_8 * inverse_8 : inverse_8);
-  return v_less(left_out * v_fma((n == 8 ? BEND_8 : BEND_4) * q, q, v_splat(1)), v_splat(a->tolerance));
+  return v_less(left_out * v_fma((n == 8 ? BEND_8 : BEND_4) * q, q, v_splat(1)), a->tolerance);
 }
 
 /* Will an EASY step do? *g: to the end. */
 always vmask is_easy(const problem *a, const state *s, const prediction *g, vreal to_end) {
   const vreal q = g->rate * to_end, q_4 = power_4(q);
-  const vmask mild = v_less(EASY_SHARE * a->mu_b * (q_4 * q_4), v_splat(a->tolerance)) & v_less(a->pull * q * q, v_splat(MOST_EASY_PULL));
-  return v_any(mild) ? mild & is_smooth(4, a, s, g, to_end) : mild;
+  const vmask mild =
+      v_less(EASY_SHARE * a->mu_b * (q_4 * q_4), a->tolerance) & v_less(a->pull * q * q, v_splat(MOST_EASY_PULL));
+  return v_any(mild) ? mild & v_less(q, v_splat(MOST_EASY_Q)) & is_smooth(4, a, s, g, to_end) : mild;
 }
 
 /* The error of a step to stick, over |u|, by how smooth tau and W are in lambda. */
 always vreal stick_error(const problem *a, const state *s, const prediction *g) {
   const vreal inverse = inverse_rho(a, s, g, v_reciprocal(g->rate)), inverse_2 = inverse * inverse, mu = a->mu;
   const vreal by_turn = v_fma(0.05f * inverse_2, inverse_2 * inverse_2, v_splat(1e-6f));
+  const vreal share = mu * v_reciprocal(a->kappa - mu);
+  const vreal by_b =
+      1e-4f * v_max(v_fma(-12 * mu, g->t_y, -5 * a->kappa), v_splat(0));              /* W falls with a high power of lambda */
   const vreal by_z = v_max(v_fma(-1.8e-4f * g->z, g->z, v_splat(6e-6f)), v_splat(0)); /* |u| has a kink where W is about u_z */
-  return mu * (v_select(is_at_rest(a, s), 2e-5f * (mu * mu * mu), by_turn) + by_z);
+  return mu * (v_select(is_at_rest(a, s), 2.6e-4f * (share * share * share), by_turn) + by_z + by_b);
 }
 
 /* A TURN step. `last`: it ends the collision; `refused`: it would be too short, or the turn is too sharp. */
-always turn_plan plan_turn(const problem *a, const state *s, const prediction *g, vreal to_end, const progress *so_far, vmask *last,
-                           vmask *refused) {
+always turn_plan plan_turn(const problem *a, const state *s, const prediction *g, vreal to_end, const progress *so_far,
+                           vmask *last, vmask *refused) {
   turn_plan p;
   /* the velocity of d, with the cloth's own pull along d, and its curvature as u turns */
   const vreal own = (a->spin - 1) * a->pull * g->z * inverse_length(s->d_x, s->d_y);
@@ -98,7 +107,8 @@ always turn_plan plan_turn(const problem *a, const state *s, const prediction *g
 
   /* the range of xi that the tolerance allows: rho = y + sqrt(y^2 + 1) with y = pi / range */
   const vreal one = v_splat(1), q = g->rate * to_end, reach = so_far->share * v_min(to_end, TURN_Q * v_reciprocal(g->rate));
-  const vreal cloth = a->pull * g->z, needed = v_max((TURN_SHARE / a->tolerance) * cloth * cloth * reach, v_splat(1.0001f));
+  const vreal cloth = a->pull * g->z,
+              needed = v_max((TURN_SHARE * v_reciprocal(a->tolerance)) * cloth * cloth * reach, v_splat(1.0001f));
   const vreal rho = root(root(root(root(needed))));
   const vreal widest = v_min(6.2831853f * v_reciprocal(rho - v_reciprocal(rho)), v_splat(WIDEST_RANGE));
   /* a turn far away is as good as one nearer by and wider */
@@ -115,7 +125,8 @@ always turn_plan plan_turn(const problem *a, const state *s, const prediction *g
   *refused = v_less(so_far->share, v_splat(LEAST_SHARE)) |
              (v_less(width, v_splat(LEAST_WIDTH)) & v_not(rests) & v_less(v_splat(0), at) & v_less(at, reach));
   /* the mean of t_y on the straight way, and with it of f */
-  const vreal along = root(v_fma(a_1, a_1, one)) - root(v_fma(a_0, a_0, one)), across = v_select(v_less(side, v_splat(0)), v_x, -v_x) * range;
+  const vreal along = root(v_fma(a_1, a_1, one)) - root(v_fma(a_0, a_0, one)),
+              across = v_select(v_less(side, v_splat(0)), v_x, -v_x) * range;
   const vreal mean_y = p.width * per_v * v_reciprocal(reach) * v_fma(v_y, along, across);
   p.mean_f = -a->pull_y * g->z * v_select(v_less(moved, v_splat(TINY)), mean_y, g->t_y);
   return p;
@@ -134,12 +145,12 @@ always vreal part_share(vreal q) {
   const vreal most = v_select(v_less(v_splat(STICK_Q), q), v_splat(MOST_PART), v_min(MOST_OF_WAY * q, v_splat(MOST_PART)));
   return v_min(v_max((q - LEFT_Q) * (1 / (1 - LEFT_Q)), v_splat(LEAST_PART)), most);
 }
-always turn_plan plan_part(const prediction *g, vreal to_end) {
-  return (turn_plan){.length = part_share(g->rate * to_end) * v_reciprocal(g->rate)};
+always vreal part_length(const prediction *g, vreal to_end) {
+  return part_share(g->rate * to_end) * v_reciprocal(g->rate);
 }
 
-/* The kind of step for a state that is not easy: FULL, with many iterations where `long_`; to STICK; a PART; or else TURN. *g: the
- * way ahead. */
+/* The kind of step for a state that is not easy: FULL, with many iterations where `long_`; to STICK; a PART; or else TURN. *g:
+ * the way ahead. */
 typedef struct choice {
   vmask full, stick, part, long_;
 } choice;
@@ -153,7 +164,7 @@ always choice choose(const problem *a, const state *s, const prediction *g, vrea
     c.full = c.full & is_smooth(8, a, s, g, to_end);
   c.stick = v_less(so_far->caution, v_splat(1)) & v_less(v_splat(STICK_Q), q);
   if (v_any(c.stick))
-    c.stick = c.stick & v_less(u * stick_error(a, s, g), v_splat(a->tolerance));
+    c.stick = c.stick & v_less(u * stick_error(a, s, g), a->tolerance);
   c.long_ = c.full & v_less(v_splat(FULL_Q), q);
   c.part = usual & v_less_equal(v_splat(TURN_Q), q) & v_not(c.stick | c.full);
   if (v_any(c.part))

@@ -1,6 +1,6 @@
 /* A collision on its way, as the collocation steps see it, where it is going, and what comes of it. All in single precision, in
- * units of |v_n0| / kappa, so that the impulse that stops a ball without friction is 1; reduced.h has the symbols. Instead of v_n
- * there is v = v_n / kappa, which starts at -1 and has the slope 1 - f with f = f_y / kappa = -pull_y sigma t_y.
+ * units of |v_n0| / kappa, so that the impulse that stops a ball without friction is 1; reduced.h has the symbols. Instead of
+ * v_n there is v = v_n / kappa, which starts at -1 and has the slope 1 - f with f = f_y / kappa = -pull_y sigma t_y.
  *
  * THE END of the collision: v' = 1 - f times v, integrated, gives v^2 / 2 + K = int v dp with K = int v f dp, the work on the
  * cloth's friction. Restitution returns e^2 of the work of compression, so that v^2 = e^2 + 2 (1 - e^2) K_c - 2 K at the end,
@@ -18,7 +18,7 @@ typedef struct problem {
   vreal kappa, per_kappa, mu, mu_b, e;
   vreal pull, pull_y; /* mu mu_b; mu mu_b / kappa */
   float spin;         /* 5/2 s */
-  float tolerance;    /* of a step's error estimate, in p */
+  vreal tolerance;    /* of a step's error estimate, in p */
 } problem;
 
 /* What moves. */
@@ -30,7 +30,8 @@ typedef struct state {
   vmask restitution;        /* v = 0 has been passed */
 } state;
 
-/* What comes of it: those integrals over the whole collision, p beyond 1 + e, p where the balls stuck (-1: they did not), K_c. */
+/* What comes of it: those integrals over the whole collision, p beyond 1 + e, p where the balls stuck (-1: they did not), K_c.
+ */
 typedef struct solution {
   vreal J_c, J_z, I_x, I_y, extra, stick, K_c;
 } solution;
@@ -47,11 +48,12 @@ always vreal inverse_length(vreal x, vreal y) {
   return v_reciprocal_sqrt(v_fma(x, x, v_fma(y, y, v_splat(TINY))));
 }
 
-static const float AT_REST = 0.03f; /* mu mu_b |d|, over the tolerance, of a ball that slips so little that it does not matter */
+static const float AT_REST =
+    0.03f; /* mu mu_b |d|, over the tolerance, of a ball that slips so little that it does not matter */
 
 always vmask is_at_rest(const problem *a, const state *s) {
-  const float limit = AT_REST * a->tolerance;
-  return v_less(a->pull * a->pull * v_fma(s->d_x, s->d_x, s->d_y * s->d_y), v_splat(limit * limit));
+  const vreal limit = AT_REST * a->tolerance;
+  return v_less(a->pull * a->pull * v_fma(s->d_x, s->d_x, s->d_y * s->d_y), limit * limit);
 }
 
 always prediction predict(const problem *a, const state *s, vreal length) {
@@ -98,8 +100,9 @@ always problem problem_of(in_column *columns, float spin, float tolerance) {
                .mu = COLUMN(columns, IN_MU),
                .mu_b = COLUMN(columns, IN_MU_B),
                .e = COLUMN(columns, IN_E),
-               .spin = spin,
-               .tolerance = tolerance};
+               .spin = spin};
+  /* the less comes back, the more the end feels of it */
+  a.tolerance = tolerance * v_min(2 * a.e, v_splat(1));
   a.per_kappa = v_reciprocal(a.kappa);
   a.pull = a.mu * a.mu_b;
   a.pull_y = a.pull * a.per_kappa;

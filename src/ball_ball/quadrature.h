@@ -6,7 +6,7 @@
 
 /* The fields are explained where they are computed, in tools/collocation_rules.py. */
 typedef struct gauss_rule {
-  node_row node, all, end, bend;
+  node_row node, all, end, bend, third;
   node_row sum[MOST_NODES], basis[MOST_NODES], part[MOST_NODES], twice[MOST_NODES], turn[MOST_NODES];
 } gauss_rule;
 
@@ -31,6 +31,15 @@ always void sum_polynomials(const node_row *coefficient, int n, const reg *value
 always vreal polynomial(const vreal *coefficient, int n, vreal t) {
   vreal sum = coefficient[n - 1];
   lanes_unrolled for (int m = n - 2; m >= 0; m--) sum = v_fma(t, sum, coefficient[m]);
+  return sum;
+}
+always vreal polynomial_and_slope(const vreal *coefficient, int n, vreal t, vreal *slope) {
+  vreal sum = coefficient[n - 1];
+  *slope = v_splat(0);
+  lanes_unrolled for (int m = n - 2; m >= 0; m--) {
+    *slope = v_fma(t, *slope, sum);
+    sum = v_fma(t, sum, coefficient[m]);
+  }
   return sum;
 }
 always reg polynomial_at_nodes(const vreal *coefficient, int n, reg t) {

@@ -1,6 +1,6 @@
 /* Rows of memory in and out for collocation in lanes: as many as a vector has floats, in one register of rows or two. */
-#include "ball_ball/kernels.h"
 #include "ball_ball/rows.h"
+#include "ball_ball/kernels.h"
 
 #define PASTE3(a, b, c) a##b##_##c
 #define PASTE(a, b, c) PASTE3(a, b, c)
@@ -17,8 +17,8 @@ _Static_assert(REGISTERS * sizeof(row_lanes) <= sizeof(carom_context), "a contex
 typedef float float_lanes __attribute__((vector_size(LANES * sizeof(float))));
 typedef float float_lanes_unaligned __attribute__((vector_size(LANES * sizeof(float)), aligned(4), may_alias));
 
-uint32_t PASTE(carom_rows_in_, CAROM_LANES_SUFFIX, PRECISION)(const void *const row[MOST_LANES], double s, carom_context *context,
-                                                             carom_in in) {
+uint32_t PASTE(carom_rows_in_, CAROM_LANES_SUFFIX, PRECISION)(const void *const row[MOST_LANES], double s,
+                                                              carom_context *context, carom_in in) {
   uint32_t good = 0;
   lanes_unrolled for (int k = 0; k < REGISTERS; k++) {
     const real *rows[LANES];
@@ -26,14 +26,14 @@ uint32_t PASTE(carom_rows_in_, CAROM_LANES_SUFFIX, PRECISION)(const void *const 
     vreal columns[IN_COLUMNS];
     row_lanes *r = (row_lanes *)context + k;
     good |= (uint32_t)v_bits(reduce_rows(rows, (real)s, r, columns)) << (k * LANES);
-    lanes_unrolled for (int c = 0; c < IN_COLUMNS; c++)
-        *(float_lanes_unaligned *)(in[c] + k * LANES) = __builtin_convertvector(columns[c], float_lanes);
+    lanes_unrolled for (int c = 0; c < IN_COLUMNS; c++) * (float_lanes_unaligned *)(in[c] + k * LANES) =
+        __builtin_convertvector(columns[c], float_lanes);
   }
   return good;
 }
 
 uint32_t PASTE(carom_rows_out_, CAROM_LANES_SUFFIX, PRECISION)(const carom_context *context, carom_out solution,
-                                                              void *const row[MOST_LANES]) {
+                                                               void *const row[MOST_LANES]) {
   uint32_t finite = 0;
   lanes_unrolled for (int k = 0; k < REGISTERS; k++) {
     real *rows[LANES];

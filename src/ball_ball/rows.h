@@ -14,8 +14,8 @@
 #ifndef CAROM_SRC_BALL_BALL_ROWS_H
 #define CAROM_SRC_BALL_BALL_ROWS_H
 
-#include "ball_ball/exchange.h"
 #include "ball_ball/columns.h"
+#include "ball_ball/exchange.h"
 
 /* What the way back needs. */
 typedef struct row_lanes {
@@ -28,7 +28,8 @@ typedef struct row_lanes {
 
 /* What collocation can be tried on: beyond these limits the fallback is needed anyway, or nothing is known of it. */
 static const real LEAST_E = (real)0.05, MOST_MU_B = (real)0.5, MOST_PULL = (real)0.25, LEAST_RATIO = (real)0.05;
-static const real MOST_RATIO = 20, LEAST_MARGIN = (real)0.5, MOST_SLIP = (real)1e6, LEAST_APPROACH = (real)1e-30;
+static const real MOST_RATIO = 20, LEAST_MARGIN = (real)0.5, LEAST_DRIFT = (real)0.25, MOST_SLIP = (real)1e6,
+                  LEAST_APPROACH = (real)1e-30;
 static const real MOST_APPROACH = (real)1e30;
 
 /* Reads rows into *r and lane k of the columns of `out`. Returns the lanes whose row passes every check and approaches, within
@@ -63,13 +64,17 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
   out[IN_D_X] = d_x * side;
   out[IN_D_Y] = d_y * side;
   out[IN_KAPPA] = kappa;
-  out[IN_MU] = v_select(v_less_equal(r->u_z, v_splat((real)1e-10)), zero, mu); /* no ball is pressed to speak of */
-  out[IN_MU_B] = v_max(mu_b, v_splat((real)1e-9));
+  out[IN_MU] = v_select(v_less_equal(r->u_z, v_splat((real)LEAST_PRESS)), zero, mu); /* no ball is pressed to speak of */
+  out[IN_MU_B] = v_max(mu_b, v_splat((real)LEAST_MU_B));
   out[IN_E] = e;
 
   const vreal fastest = v_max(v_max(v_abs(out[IN_U_X]), out[IN_U_Z]), v_max(v_abs(out[IN_D_X]), v_abs(out[IN_D_Y])));
-  const vmask in_range = v_less(v_splat(LEAST_APPROACH), r->approach) & v_less(r->approach, v_splat(MOST_APPROACH)) &
-                         v_less(fastest, v_splat(MOST_SLIP)) & v_less(v_splat(LEAST_E), e) & v_less(mu_b, v_splat(MOST_MU_B)) &
+  /* how much faster the collision takes the slip on the cloth along than friction does, which else would choose its direction
+   */
+  const vreal drift = s < 0 ? v_splat(1) : 1 - mu_b * ((real)2.5 + (real)1.5 * mu);
+  const vmask in_range = v_less(v_splat(LEAST_DRIFT), drift) & v_less(v_splat(LEAST_APPROACH), r->approach) &
+                         v_less(r->approach, v_splat(MOST_APPROACH)) & v_less(fastest, v_splat(MOST_SLIP)) &
+                         v_less(v_splat(LEAST_E), e) & v_less(mu_b, v_splat(MOST_MU_B)) &
                          v_less(mu * mu_b, v_splat(MOST_PULL)) & v_less(v_splat(LEAST_MARGIN), kappa - mu) &
                          v_less(v_splat(LEAST_RATIO), ratio) & v_less(ratio, v_splat(MOST_RATIO));
   return are_sound(r->x) & in_range;
@@ -81,8 +86,9 @@ typedef struct row_impulses {
 } row_impulses;
 
 static inline row_impulses impulses_of(const row_lanes *r, const vreal in[OUT_COLUMNS]) {
-  const vreal e = r->x[25], mu_b = v_max(r->x[24], v_splat((real)1e-9));
-  const vreal mu = v_select(v_less_equal(r->u_z, v_splat((real)1e-10)), v_splat(0), v_select(r->b_pressed, r->x[23], r->x[11]));
+  const vreal e = r->x[25], mu_b = v_max(r->x[24], v_splat((real)LEAST_MU_B));
+  const vreal mu =
+      v_select(v_less_equal(r->u_z, v_splat((real)LEAST_PRESS)), v_splat(0), v_select(r->b_pressed, r->x[23], r->x[11]));
   const vreal pull = mu * mu_b;
   row_impulses q = {.p = (1 + e) + in[OUT_EXTRA], .F_x = -pull * in[OUT_I_X], .F_y = -pull * in[OUT_I_Y]};
   /* if the balls slip to the end, from the direction of u at the start; if they stick, from u = 0 */

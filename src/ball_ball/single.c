@@ -25,7 +25,8 @@ int PASTE(carom_single_, CAROM_LANES_SUFFIX, PRECISION)(const void *in, double s
     return 0;
   for (int c = 0; c < IN_COLUMNS; c++)
     columns[c] = (float)reduced[c];
-  const int evaluations = PASTE2_(carom_collocate_, CAROM_LANES_SUFFIX)(columns, (float)(2.5 * s), carom_tolerances[PRECISION_OF_ROW], answer);
+  const int evaluations =
+      PASTE2_(carom_collocate_, CAROM_LANES_SUFFIX)(columns, (float)(2.5 * s), carom_tolerances[PRECISION_OF_ROW], answer);
   if (evaluations == 0)
     return 0;
   for (int c = 0; c < OUT_COLUMNS; c++)

@@ -1,7 +1,7 @@
 /* The step in the slip between the balls, to where they stick.
  *
- * With u_z = u_z0 lambda^5, lambda falls from 1 to 0. Nothing can be overshot, and what is singular in p is smooth in lambda. With
- * tau = t / (kappa + mu t_y) and W = u_x / lambda^5 the equations of reduced.h become
+ * With u_z = u_z0 lambda^5, lambda falls from 1 to 0. Nothing can be overshot, and what is singular in p is smooth in lambda.
+ * With tau = t / (kappa + mu t_y) and W = u_x / lambda^5 the equations of reduced.h become
  *
  *     p = 2 / (mu_b kappa) int lambda^4 sqrt(u_z0^2 + W^2) (1 - mu tau_y)        F = -2 mu u_z0 int lambda^4 tau
  *     lambda W' = 2 W - mu (7 tau_y W - 2 u_z0 tau_x)
@@ -11,10 +11,10 @@
  *
  *     T = 2 mu int lambda^(b - 3) (u_z0 (tau_x - constant) - 7/2 (tau_y - constant) W)
  *
- * The constant is tau where they stick, since the rest must vanish there. The predictor lets d run straight, and takes for W at a
- * node the formula with tau where its weighted mean lies on the way there. The iteration takes tau to p, F, T and d at the nodes,
- * and d to a new tau; what friction between the balls has done follows from u and F. Behind stick no more work is done, and the end
- * is a closed form.
+ * The constant is tau where they stick, since the rest must vanish there. The predictor lets d run straight, and takes for W at
+ * a node the formula with tau where its weighted mean lies on the way there. The iteration takes tau to p, F, T and d at the
+ * nodes, and d to a new tau; what friction between the balls has done follows from u and F. Behind stick no more work is done,
+ * and the end is a closed form.
  *
  * The rule has the weight lambda^4 built in (Gauss and Jacobi). */
 #ifndef CAROM_SRC_BALL_BALL_STICK_STEP_H
@@ -35,37 +35,47 @@ always void tau_of(const problem *a, reg d_x, reg d_y, reg *tau_x, reg *tau_y) {
   *tau_y = t_y * per;
 }
 
-/* K at v = 0 on the step, given v' and tau_y at the nodes, v where the balls stick, and the mean of f: tau_y is a polynomial
- * through the nodes, v what it is at stick less lambda^5 times one; by Gauss's rule up to there. */
-always vreal K_at_v_0(const gauss_rule *r, const state *s, vreal v, const reg *slope, const reg *tau_y, vreal per_f, vreal f) {
+/* K at v = 0 on the step, given v where the balls stick, the mean of f, and at the nodes W, tau_y and slope = v' / lambda^4.
+ *
+ * v = 0 is found on the polynomial through the slopes: v is what it is at stick less lambda^5 times a polynomial. From the
+ * start to there Gauss's rule, with the slopes not of that polynomial but of those through W and tau_y, which are smoother. */
+always vreal K_at_v_0_to_stick(const problem *a, const gauss_rule *r, const state *s, vreal v, const reg *slope, const reg *W,
+                               const reg *tau_y, vreal u_z2, vreal per_p, vreal per_f, vreal f) {
   enum { n = STICK_NODES };
-  vreal v_power[MOST_NODES], tau_power[MOST_NODES];
+  vreal v_power[MOST_NODES], tau_power[MOST_NODES], W_power[MOST_NODES];
   sum_polynomials(r->part, n, slope, v_power);
   sum_polynomials(r->basis, n, tau_y, tau_power);
-  vreal x_c = v_min(1 - root_of(5, v_max(v * v_reciprocal(v - s->v), v_splat(1e-10f))), v_splat(1)), v_c;
+  sum_polynomials(r->basis, n, W, W_power);
+  vreal x_c = v_min(1 - root_of(5, v_max(v * v_reciprocal(v - s->v), v_splat(1e-10f))), v_splat(1));
   for (int i = 0; i < 3; i++) {
-    const vreal l = 1 - x_c, l4 = (l * l) * (l * l), sum = polynomial(v_power, n, 2 * l - 1);
-    v_c = v_fma(-l4 * l, sum, v);
-    if (i < 2)
-      x_c = v_min(v_max(x_c - v_c * v_reciprocal(v_fma(5 * l4, sum, v_splat(TINY))), v_splat(0)), v_splat(1));
+    const vreal l = 1 - x_c, l4 = (l * l) * (l * l);
+    vreal bend;
+    const vreal sum = polynomial_and_slope(v_power, n, 2 * l - 1, &bend), v_c = v_fma(-l4 * l, sum, v);
+    const vreal rise = v_max(l4 * v_fma(2 * l, bend, 5 * sum), v_splat(TINY));
+    x_c = v_min(v_max(x_c - v_c * v_reciprocal(rise), v_splat(0)), v_splat(1));
   }
-  reg part[MOST_REGS];
+  reg dv[MOST_REGS], tau[MOST_REGS], on_way[MOST_REGS], part[MOST_REGS];
   EACH_REG(k, n) {
     const reg l = MADD(-x_c, AT(gauss_8.node, k), 1.0f), l4 = (l * l) * (l * l), t = 2 * l - 1;
-    const reg v_x = MADD(-(l4 * l), polynomial_at_nodes(v_power, n, t), v);
-    part[k] = (l4 * v_x) * polynomial_at_nodes(tau_power, n, t);
+    const reg W_k = polynomial_at_nodes(W_power, n, t), tau_k = polynomial_at_nodes(tau_power, n, t);
+    dv[k] = (x_c * l4) * MADD(per_p * reg_root(MADD(W_k, W_k, u_z2)), MADD(-a->mu, tau_k, 1.0f), -per_f * tau_k);
+    tau[k] = (x_c * l4) * tau_k;
   }
-  return s->K + (x_c * per_f) * dot(gauss_8.all, part, n) - 0.5f * f * v_c * v_c * v_reciprocal(1 - f);
+  apply(gauss_8.sum, dv, on_way, n);
+  EACH_REG(k, n) part[k] = tau[k] * (s->v + on_way[k]);
+  const vreal v_c = s->v + dot(gauss_8.all, dv, n);
+  return v_fma(per_f, dot(gauss_8.all, part, n), s->K) - 0.5f * f * v_c * v_c * v_reciprocal(1 - f);
 }
 
-/* From *s, where *g has been predicted for the way to stick. Returns an estimate of the error, in p; infinite if the collision ends
- * before the balls stick. */
+/* From *s, where *g has been predicted for the way to stick. Returns an estimate of the error, in p; infinite if the collision
+ * ends before the balls stick. */
 always vreal stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
   enum { n = STICK_NODES };
   const gauss_rule *r = &jacobi_8;
   const vreal u_z = s->u_z, mu = a->mu, way = v_reciprocal(g->rate), zero = v_splat(0), u_z2 = v_fma(u_z, u_z, v_splat(TINY));
   const vreal per_mu_b = v_reciprocal(a->mu_b), per_p = 2 * a->per_kappa * per_mu_b;
-  const vreal per_F = -2 * mu * u_z, per_f = per_F * a->per_kappa, per_x = a->per_kappa * (1 / 3.5f), per_z = a->per_kappa * 0.4f;
+  const vreal per_F = -2 * mu * u_z, per_f = per_F * a->per_kappa, per_x = a->per_kappa * (1 / 3.5f),
+              per_z = a->per_kappa * 0.4f;
   const vreal to_x = way * (a->mu_b * g->c), to_y = way * v_fma(-a->spin * a->mu_b, g->z, v_splat(1));
   const float on = 1 - a->spin;
 
@@ -74,7 +84,8 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   const vreal per_m = v_reciprocal(v_fma(mu, m_y * i_m, a->kappa)), mean_x = (m_x * i_m) * per_m, mean_y = (m_y * i_m) * per_m;
   const vreal b = 7 * mu * mean_y, A = (2 * mu * u_z) * mean_x * v_reciprocal(b - 2);
 
-  reg tau_x[MOST_REGS], tau_y[MOST_REGS], lambda_5[MOST_REGS], W[MOST_REGS], without_T[MOST_REGS], on_T[MOST_REGS], in_T[MOST_REGS];
+  reg tau_x[MOST_REGS], tau_y[MOST_REGS], lambda_5[MOST_REGS], W[MOST_REGS], without_T[MOST_REGS], on_T[MOST_REGS],
+      in_T[MOST_REGS];
   EACH_REG(k, n) {
     const reg l = MADD(-1.0f, AT(r->node, k), 1.0f), l2 = l * l, l4 = l2 * l2, log_l = logarithm(l), gone = MADD(-l4, l2, 1.0f);
     lambda_5[k] = l4 * l;
@@ -106,7 +117,8 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
     }
     EACH_REG(k, n) {
       const reg F_x = per_F * X[k], F_y = per_F * Y[k];
-      const reg Q_1 = per_x * (MADD(-lambda_5[k], W[k], s->u_x) + F_x), Q_2 = per_z * MADD(2.5f, F_y, MADD(-lambda_5[k], u_z, u_z));
+      const reg Q_1 = per_x * (MADD(-lambda_5[k], W[k], s->u_x) + F_x),
+                Q_2 = per_z * MADD(2.5f, F_y, MADD(-lambda_5[k], u_z, u_z));
       reg new_x, new_y;
       tau_of(a, s->d_x + MADD(on, F_x, -Q_1), MADD(-per_p, P[k], s->d_y) + MADD(a->spin, Q_2, on * F_y), &new_x, &new_y);
       moved[k] = mu * u_z * (reg_abs(new_x - tau_x[k]) + reg_abs(new_y - tau_y[k]));
@@ -119,25 +131,29 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   reg work[MOST_REGS], slope_v[MOST_REGS];
   EACH_REG(k, n) {
     slope[k] = reg_root(MADD(W[k], W[k], u_z2)) * MADD(-mu, tau_y[k], 1.0f);
-    work[k] = (per_f * tau_y[k]) * (s->v + MADD(per_p, P[k], -per_f * Y[k]));
     slope_v[k] = MADD(per_p, slope[k], -per_f * tau_y[k]);
+    work[k] = Y[k] * slope_v[k];
   }
   const vreal X_sum = dot(r->all, tau_x, n), Y_sum = dot(r->all, tau_y, n), p = per_p * dot(r->all, slope, n);
-  const vreal K = s->K + dot(r->all, work, n), v = s->v + (p - per_f * Y_sum);
+  /* K by parts, since slope bends where W is about u_z, and tau does not */
+  const vreal v = s->v + (p - per_f * Y_sum), K = v_fma(per_f, v_fma(v, Y_sum, -dot(r->all, work, n)), s->K);
   const vreal weight = 2 * u_z * per_mu_b; /* F = -mu mu_b I */
 
   /* K at v = 0; behind stick K stays what it is */
   const vmask passes = v_not(s->restitution) & v_less(zero, v);
   vreal K_c = v_select(s->restitution, s->K_c, K);
   if (v_any(passes))
-    K_c = v_select(passes, K_at_v_0(r, s, v, slope_v, tau_y, per_f, per_f * Y_sum * v_reciprocal(p)), K_c);
+    K_c = v_select(passes,
+                   K_at_v_0_to_stick(a, r, s, v, slope_v, W, tau_y, u_z2, per_p, per_f, per_f * Y_sum * v_reciprocal(p)), K_c);
 
   /* the end of the collision must lie behind the step */
-  const vreal returned = work_returned(a, K_c, K), v_end = v_sqrt(v_max(v_fma(a->e, a->e, returned), zero)), share = p * g->rate;
+  const vreal returned = work_returned(a, K_c, K), v_end = v_sqrt(v_max(v_fma(a->e, a->e, returned), zero)),
+              share = p * g->rate;
   const vmask in_reach = v_less_equal(v, v_end) & v_less(v_splat(0.3f), share) & v_less(share, v_splat(3));
-  *out = (solution){.J_c = zero, .J_z = zero, .I_x = v_fma(weight, X_sum, s->I_x), .I_y = v_fma(weight, Y_sum, s->I_y), .K_c = K_c};
+  *out = (solution){
+      .J_c = zero, .J_z = zero, .I_x = v_fma(weight, X_sum, s->I_x), .I_y = v_fma(weight, Y_sum, s->I_y), .K_c = K_c};
   out->extra = returned * v_reciprocal(v_end + a->e) - a->pull_y * out->I_y;
-  out->stick = 1 + v - a->pull_y * out->I_y;
+  out->stick = v_max(1 + v - a->pull_y * out->I_y, zero);
   return v_select(in_reach, CONTRACTION_STICK * largest(moved, n), v_splat(HUGE_VALF));
 }
 

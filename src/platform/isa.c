@@ -17,6 +17,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#ifdef __FAST_MATH__
+#error "carom finds bad input by NaN and infinity, and promises bits: do not build it with -ffast-math"
+#endif
 /* With more digits between two operations results would not have the promised bits. */
 #if FLT_EVAL_METHOD != 0
 #error "carom needs float and double computed in their own precision; for 32-bit x86 compile with -msse2 -mfpmath=sse"

@@ -73,39 +73,18 @@ enum { FILL = 64 }; /* more than the lanes of any instruction set */
 typedef struct tally {
   int count, above_1e6;
   double worst;
-  int seen; /* errors of the regime at hand */
-  double *error;
 } tally;
 
 static void count(tally *t, double error) {
   t->count++;
   t->above_1e6 += error > 1e-6;
   t->worst = fmax(t->worst, error);
-  t->error[t->seen++] = error;
 }
 
-static int ascending(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-/* Median, 90 % and largest error of the regime at hand, as columns of the table in docs/numerics.md. */
-static void tell_regime(tally *t) {
-  qsort(t->error, (size_t)t->seen, sizeof *t->error, ascending);
-  if (t->seen > 0)
-    printf(" %.1e | %.1e | %.1e |", t->error[t->seen / 2], t->error[t->seen * 9 / 10], t->error[t->seen - 1]);
-}
-
-/* Nearly all collisions are within 1e-6. At the corners - stick at the very end, strong friction where the cloth's slip turns
- * near zero, which with the pooltool sign is unstable in itself - single ones are not, and none is far off. */
+/* Nearly all collisions are within 1e-6. At the corners single ones are not, and none is farther off than 1e-5. */
 START_TEST(oracle_in_every_regime) {
   tally alone = {0}, batch = {0};
   const int draws = draws_per_regime();
-  const bool table = getenv("CAROM_TEST_DRAWS") != NULL;
-  const size_t most = (size_t)draws * CAROM_SLIP_COUNT;
-  alone.error = calloc(most, sizeof *alone.error);
-  batch.error = calloc(most, sizeof *batch.error);
-  ck_assert(alone.error != NULL && batch.error != NULL);
   for (int regime = 0; regime < regimes_count(); regime++) {
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
       regimes_rng rng = {test_seed() + 1000003u * (uint64_t)(2 * regime + slip)};
@@ -121,7 +100,7 @@ START_TEST(oracle_in_every_regime) {
         FOR_EACH_ISA(isa) {
           ck_assert_int_eq(carom_collide(&in, &options, &out), CAROM_OK);
           error = result_distance(&out, &exact, in.a.radius);
-          ck_assert_msg(error <= 1e-4, "%s, slip %d, draw %d is %g off with %s", regimes_name(regime), slip, k, error,
+          ck_assert_msg(error <= 1e-5, "%s, slip %d, draw %d is %g off with %s", regimes_name(regime), slip, k, error,
                         carom_isa_name((carom_isa)isa));
         }
         count(&alone, error);
@@ -131,25 +110,16 @@ START_TEST(oracle_in_every_regime) {
           many[lane] = in;
         ck_assert_int_eq(carom_collide_batch(many, FILL, &options, outs, NULL), CAROM_OK);
         const double batch_error = result_distance(&outs[FILL - 1], &exact, in.a.radius);
-        ck_assert_msg(batch_error <= 1e-4, "%s, slip %d, draw %d is %g off in a batch", regimes_name(regime), slip, k,
+        ck_assert_msg(batch_error <= 1e-5, "%s, slip %d, draw %d is %g off in a batch", regimes_name(regime), slip, k,
                       batch_error);
         count(&batch, batch_error);
       }
     }
-    if (table) {
-      printf("| %s |", regimes_name(regime));
-      tell_regime(&alone);
-      tell_regime(&batch);
-      putchar('\n');
-    }
-    alone.seen = batch.seen = 0;
   }
-  free(alone.error);
-  free(batch.error);
   printf("%d collisions: single calls: worst %.1e, %d above 1e-6; in lanes: worst %.1e, %d above 1e-6\n", alone.count,
          alone.worst, alone.above_1e6, batch.worst, batch.above_1e6);
-  ck_assert_int_le(alone.above_1e6, alone.count / 300);
-  ck_assert_int_le(batch.above_1e6, batch.count / 50);
+  ck_assert_int_le(alone.above_1e6, alone.count / 1000);
+  ck_assert_int_le(batch.above_1e6, batch.count / 1000);
 }
 END_TEST
 
@@ -164,8 +134,8 @@ static carom_status by_fallback(const carom_impact *in, carom_slip slip, carom_r
   return status;
 }
 
-/* Collocation and the fallback share no arithmetic, and together are what carom_collide() does. Here each is asked by itself: they
- * agree, and collocation takes what it is made for. */
+/* Collocation and the fallback share no arithmetic, and together are what carom_collide() does. Here each is asked by itself:
+ * they agree, and collocation takes what it is made for. */
 START_TEST(collocation_and_fallback_agree) {
   int drawn = 0, taken = 0, apart = 0, sets = 0;
   FOR_EACH_ISA(isa) sets++;
@@ -277,7 +247,7 @@ START_TEST(hard_cases) {
     ck_assert_int_eq(oracle_collide(&in, s, &exact, NULL), 0);
     ck_assert_double_le(result_distance(&out, &exact, R), 1e-6);
     ck_assert_double_le(result_distance(&outs[FILL - 1], &exact, R), 1e-6);
-    ck_assert_double_le(result_distance(&patient, &exact, R), 1e-6);
+    ck_assert_double_le(result_distance(&patient, &exact, R), 1e-9);
   }
 }
 END_TEST
@@ -343,5 +313,6 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("exact", references, oracle_agrees_with_the_references, oracle_in_every_regime, details,
-                   details_of_euler_come_near, hard_cases, collocation_and_fallback_agree, collocation_takes_the_references, speeds_scale);
+                   details_of_euler_come_near, hard_cases, collocation_and_fallback_agree, collocation_takes_the_references,
+                   speeds_scale);
 }

@@ -1,5 +1,5 @@
-/* Prints the binary interface as the compiler sees it: sizes, alignments, offsets of every field, values of every enumerator. The
- * script `abi` compares it with abi.expected. */
+/* Prints the binary interface as the compiler sees it: sizes, alignments, offsets of every field, values of every enumerator.
+ * The script `abi` compares it with abi.expected. */
 #include "carom.h"
 
 #include <stdio.h>

@@ -1,0 +1,48 @@
+/* From a state near the end of the collision to the end: a Taylor series, whose slopes are those of the equations. */
+#ifndef CAROM_SRC_BALL_BALL_BEYOND_H
+#define CAROM_SRC_BALL_BALL_BEYOND_H
+
+#include "ball_ball/problem.h"
+
+/* The directions c, sigma and s = sigma t at a state, and their slopes in p, by the equations. */
+typedef struct arrival {
+  vreal c, z, x, y, dc, dz, dx, dy;
+} arrival;
+
+always arrival arrive(const problem *a, const state *s) {
+  const vreal i_u = inverse_length(s->u_x, s->u_z), i_d = inverse_length(s->d_x, s->d_y);
+  const vreal c = s->u_x * i_u, z = s->u_z * i_u, t_x = s->d_x * i_d, t_y = s->d_y * i_d;
+  arrival end = {.c = c, .z = z, .x = z * t_x, .y = z * t_y};
+  const vreal turn_z = 2.5f * (a->kappa * z + a->mu * end.y), turn_x = 3.5f * a->kappa * c + a->mu * end.x;
+  const vreal turn_u = -a->mu_b * (z * turn_x - c * turn_z) * i_u;
+  const vreal turn_d = (t_x * (a->spin * a->mu_b * z - 1) + t_y * a->mu_b * c) * i_d;
+  end.dc = z * turn_u;
+  end.dz = -c * turn_u;
+  end.dx = end.dz * t_x - end.y * turn_d;
+  end.dy = end.dz * t_y + end.x * turn_d;
+  return end;
+}
+
+/* From *s, with s = (x, y) and its slopes in *here and a sixth of its second derivative in third_x and third_y, to the end of
+ * the collision. Returns the way there, which may be negative.
+ *
+ * For a constant f the balance of work is a linear equation for v^2; the slope of f, and of that, are taken along the way that
+ * the constant f leaves. */
+always vreal finish(const problem *a, const state *s, const arrival *here, vreal third_x, vreal third_y, solution *out) {
+  const vreal f = -a->pull_y * here->y, half_df = (-0.5f * a->pull_y) * here->dy, returned = work_returned(a, s->K_c, s->K);
+  const vreal half_excess = 0.5f * v_fma(-s->v, s->v, v_fma(a->e, a->e, returned));
+  const vreal near = half_excess * v_reciprocal(v_max(s->v, v_splat(TINY)));
+  const vreal bend = (near * near) * v_fma(near, -a->pull_y * third_y, half_df), K = v_fma(f, half_excess, bend * s->v);
+  const vreal left = v_fma(v_splat(-2), K, returned), v = root(v_max(v_fma(a->e, a->e, left), v_splat(TINY)));
+  const vreal way = ((v - s->v) + bend) * v_reciprocal(1 - f), half = 0.5f * way;
+  out->I_x = v_fma(way, v_fma(way, v_fma(way, third_x, 0.5f * here->dx), here->x), s->I_x);
+  out->I_y = v_fma(way, v_fma(way, v_fma(way, third_y, 0.5f * here->dy), here->y), s->I_y);
+  out->J_c = v_fma(way, v_fma(half, here->dc, here->c - s->c_0), s->J_c);
+  out->J_z = v_fma(way, v_fma(half, here->dz, here->z - s->z_0), s->J_z);
+  out->extra = v_fma(-a->pull_y, out->I_y, left * v_reciprocal(v + a->e));
+  out->K_c = s->K_c;
+  out->stick = v_splat(-1);
+  return way;
+}
+
+#endif

@@ -1,0 +1,153 @@
+/* The step in the normal impulse, over Gauss nodes in p or, where the cloth slip turns, over those of turn.h. It leaves a part
+ * of the way, or comes near the end of the collision, and from there by a Taylor series to the end. */
+#ifndef CAROM_SRC_BALL_BALL_IMPULSE_STEP_H
+#define CAROM_SRC_BALL_BALL_IMPULSE_STEP_H
+
+#include "ball_ball/beyond.h"
+#include "ball_ball/rules.h"
+#include "ball_ball/turn.h"
+
+/* How far the Taylor series is trusted, over the length of the step before it. */
+static const float MOST_BEYOND = 0.03f, MOST_BEYOND_TURN = 0.1f;
+
+/* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and those of c and sigma against
+ * their values at first; K at v = 0 stays what it is. */
+always state behind(const prediction *g, const step_law *l, const state *s, vreal X, vreal Y, vreal dC, vreal dZ, vreal K) {
+  const vreal C = g->c + dC, Z = g->z + dZ;
+  state end = *s;
+  end.u_x = s->u_x + v_fma(l->k_x, C, -l->pull * X);
+  end.u_z = s->u_z + v_fma(l->k_z, Z, l->k_y * Y);
+  end.d_x = s->d_x + v_fma(l->on_d, X, -l->mu_b * C);
+  end.d_y = (s->d_y - l->length) + v_fma(l->on_y, Z, l->on_d * Y);
+  end.v = s->v + v_fma(l->pull_y, Y, l->length);
+  end.K = s->K + K;
+  end.J_c = v_fma(l->length, (g->c - s->c_0) + dC, s->J_c);
+  end.J_z = v_fma(l->length, (g->z - s->z_0) + dZ, s->J_z);
+  end.I_x = v_fma(l->length, X, s->I_x);
+  end.I_y = v_fma(l->length, Y, s->I_y);
+  return end;
+}
+
+/* K at v = 0 by parts, so that nothing but w_y is interpolated, given v and the integral S of w_y up to a point near v = 0, and
+ * that of S: int v w_y dX = v S - int S v' dX with v' = L + pull_y w_y. The little that is left for a mean f. */
+always vreal K_by_parts(const step_law *l, const state *s, vreal f, vreal v, vreal S, vreal int_S) {
+  const vreal by_parts = v_fma(v_fma(0.5f * l->pull_y, S, -v), S, l->length * int_S);
+  return v_fma(l->pull_y, by_parts, v_fma(-0.5f * f * (1 + f), v * v, s->K));
+}
+
+/* That point is where the mean f lets v = 0 be, or if `improved` one of Newton's steps from there. */
+always vreal K_at_v_0(const gauss_rule *r, int n, bool improved, const step_law *l, const state *s, vreal f, const reg *w_y) {
+  const vreal per = v_reciprocal((1 - f) * l->length), zero = v_splat(0), one = v_splat(1);
+  vreal x = v_min(v_max(-s->v * per, zero), one), S, v;
+  reg once[MOST_REGS], twice[MOST_REGS];
+  lanes_rolled for (int i = improved ? 0 : 1; i < 2; i++) {
+    integrals_up_to(r, n, x, once);
+    S = sum_of_products(once, w_y, n);
+    v = v_fma(l->length, x, v_fma(l->pull_y, S, s->v));
+    x = i == 0 ? v_min(v_max(x - v * per, zero), one) : x;
+  }
+  polynomials_at(r->twice, n, 2 * x - 1, twice);
+  return K_by_parts(l, s, f, v, S, (x * x) * sum_of_products(twice, w_y, n));
+}
+
+/* The same on a turn, where S is a polynomial in xi, and its integral over X by Gauss's rule up to that point. */
+always vreal K_at_v_0_on_turn(const gauss_rule *r, int n, const turn_range *range, const step_law *l, const state *s, vreal f,
+                              const reg *w_y) {
+  const vreal per = v_reciprocal((1 - f) * l->length), zero = v_splat(0), one = v_splat(1);
+  vreal S_power[MOST_NODES], X = v_min(v_max(-s->v * per, zero), one), x, S, v;
+  sum_polynomials(r->part, n, w_y, S_power);
+  lanes_rolled for (int i = 0; i < 2; i++) {
+    x = share_at(range, X);
+    S = x * polynomial(S_power, n, 2 * x - 1);
+    v = v_fma(l->length, X, v_fma(l->pull_y, S, s->v));
+    X = i == 0 ? v_min(v_max(X - v * per, zero), one) : X;
+  }
+  mesh up_to;
+  lay_nodes(r, range, x, &up_to);
+  reg slope[MOST_REGS];
+  EACH_REG(k, n) {
+    const reg xi = x * AT(r->node, k);
+    slope[k] = up_to.weight[k] * (xi * polynomial_at_nodes(S_power, n, 2 * xi - 1));
+  }
+  return K_by_parts(l, s, f, v, S, dot(r->all, slope, n));
+}
+
+/* From *s on for a length, for which *g has been predicted. *next becomes the state behind the step; in the lanes of `last`
+ * that is near the end of the collision, and *out becomes the solution. `turn`: over the nodes of that plan, else `turn` is
+ * NULL; `by_parts`: v = 0 is where the first guess is. Returns an estimate of the error, in p; infinite if the end is not near.
+ */
+always vreal impulse_step(int n, int iterations, const problem *a, const prediction *g, vreal length, const turn_plan *turn,
+                          vmask last, const state *s, state *next, solution *out) {
+  const gauss_rule *r = n == 8 ? &gauss_8 : &gauss_4;
+  const step_law l = law_of(a, g, length);
+  mesh m;
+  turn_range range = {0};
+  if (turn != NULL) {
+    range = range_of(turn, length);
+    lay_nodes(r, &range, v_splat(1), &m);
+  } else
+    EACH_REG(k, n) m.X[k] = SPREAD(AT(r->node, k));
+  directions f;
+  find_directions(n, iterations, turn != NULL, r, a, g, s, &l, &m, &f);
+
+  /* the whole step */
+  reg work[MOST_REGS];
+  EACH_REG(k, n) work[k] = -(l.pull_y * f.w_y[k]) * MADD(l.pull_y, f.S_y[k], MADD(length, m.X[k], s->v));
+  const vreal X = dot(r->all, f.w_x, n), Y = dot(r->all, f.w_y, n);
+  vreal dC, dZ;
+  mean_turning(r, n, g, &f, &dC, &dZ);
+  state end = behind(g, &l, s, X, Y, dC, dZ, dot(r->all, work, n));
+
+  /* K at v = 0 */
+  const bool ends = out != NULL && turn == NULL;
+  vmask passes = v_not(s->restitution) & v_less(v_splat(0), end.v);
+  if (out != NULL)
+    passes = passes | (v_not(s->restitution) & last);
+  if (ends || v_any(passes)) {
+    const vreal f_mean = -a->pull_y * Y;
+    const vreal K_c =
+        turn != NULL ? K_at_v_0_on_turn(r, n, &range, &l, s, f_mean, f.w_y) : K_at_v_0(r, n, !ends, &l, s, f_mean, f.w_y);
+    end.K_c = v_select(passes, K_c, s->K_c);
+  }
+  end.restitution = s->restitution | passes;
+
+  const arrival at_end = arrive(a, &end);
+  vreal error = iteration_error(a, &l, f.moved);
+  if (turn != NULL)
+    error = 2 * error;
+  if (n == 8) {
+    /* the defect of the polynomials at the end, which is the first coefficient that the nodes leave out */
+    const vreal defect = v_abs(dot(r->end, f.c, n) - at_end.c) + v_abs(dot(r->end, f.z, n) - at_end.z);
+    error = v_fma(4 * l.mu_b, defect * defect, error);
+  }
+  if (next != NULL)
+    *next = end;
+  if (out == NULL || !v_any(last))
+    return error;
+
+  /* to the end of the collision */
+  vreal third_x = v_splat(0), third_y = third_x;
+  if (turn == NULL) {
+    const vreal per = v_reciprocal(length), per_2 = per * per;
+    third_x = per_2 * dot(r->third, f.s_x, n);
+    third_y = per_2 * dot(r->third, f.s_y, n);
+  }
+  const vreal way = v_abs(finish(a, &end, &at_end, third_x, third_y, out));
+  if (turn != NULL) {
+    /* the third term, as large as the distance from the turn lets it be */
+    const vreal apart = length - turn->at,
+                left_out = a->pull * way * (way * way) * v_reciprocal(v_fma(apart, apart, turn->width * turn->width));
+    error = error + v_select(last, left_out, v_splat(0));
+  }
+  const vmask in_reach = v_less(way, (turn != NULL ? MOST_BEYOND_TURN : MOST_BEYOND) * length);
+  return v_select(in_reach | v_not(last), error, v_splat(HUGE_VALF));
+}
+
+/* To the end, of which `to_end` is the way that would be left without work on friction. */
+always vreal end_step(int n, int iterations, const problem *a, const prediction *g, const state *s, vreal to_end,
+                      solution *out) {
+  const vreal f = -a->pull_y * g->z * g->t_y;
+  return impulse_step(n, iterations, a, g, to_end * v_fma(f, 1 + f, v_splat(1)), NULL, v_all(), s, NULL, out);
+}
+
+#endif
