@@ -150,8 +150,8 @@ static const struct {
   double gap, speed, phi;
   uint64_t hash;
 } golden[] = {
-    {CAROM_RACK_NINEBALL, 0, 1e-4, 8.0, 90.5, 0xbcdb67198e557f9fu},
-    {CAROM_RACK_EIGHTBALL, 1 + CAROM_CUSHION_HAN, 0.0, 7.0, 89.0, 0xc36b771188c4d5d4u},
+    {CAROM_RACK_NINEBALL, 0, 1e-4, 8.0, 90.5, 0xbd8fd8f6335082fbu},
+    {CAROM_RACK_EIGHTBALL, 1 + CAROM_CUSHION_HAN, 0.0, 7.0, 89.0, 0x58ece6883a94d1e0u},
 };
 
 START_TEST(plain_is_the_same_everywhere) {
