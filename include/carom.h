@@ -19,6 +19,18 @@
  * a batch that is asked to (options.threads) starts threads; they take no signals of the process, and end with the call. The
  * one global state is the instruction set in force.
  *
+ * Accuracy of the exact solver, which is the default. Errors are those of the fastest of the twelve numbers (times the radius
+ * for spins), against the limit of Mathavan's equations. In double precision: collisions of play (mu_ball up to 0.2, mu_cloth
+ * up to 0.5, e from 0.5, masses within 1 : 2, any speeds and spins) median 1e-9, every one of 20 million drawn within 1e-6;
+ * anything else that is accepted within 1e-5, or its status is CAROM_ERROR_UNRESOLVED. In single precision: median 1e-7,
+ * collisions of play within 2e-5. docs/accuracy.md has the figures and the command that prints them again. How near the model
+ * is to real balls is another matter: docs/physics.md.
+ *
+ * Cost of the exact solver, a collision, on one core of 2024 with AVX-512: a call 0.2 us where the cloth slip is smooth and 0.3
+ * to 1.5 us where it turns or the balls stick, 0.3 us in the mean of play; a row of a batch some 0.1 us. Strong friction,
+ * hardly any restitution or very unequal masses take 5 to 50 us; no input takes more than 200. With SSE2 or plain C calls take
+ * 4 to 5 times as long. Euler's method: about 20 ns a step.
+ *
  * Stack. In a build that optimises, every call fits a thread with 64 KiB of stack, of which the C library takes some. On x86-64
  * a single call takes at most 7 KiB, a trace 10, a batch 44, and one over threads 53 in the calling thread (measured by
  * tests/unit/stack.c).
@@ -232,8 +244,8 @@ CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], doub
 
 /* ---- Single precision ------------------------------------------------------------------------------------------------ */
 
-/* The same in single precision, with the suffix _f32: half the memory, twice the lanes. The worst pair error of a batch by the
- * exact limit stays below 2e-5. */
+/* The same in single precision, with the suffix _f32: half the memory, twice the lanes. By the exact solver collisions of play
+ * are within 2e-5 of the result for the rounded numbers. */
 typedef struct carom_ball_f32 {
   float r[3], v[3], w[3];
   float radius, mass, mu_cloth;

@@ -6,10 +6,10 @@
  *     reg      a number at the nodes of a step; n nodes take REGS(n) of them
  *
  * A batch computes LANES collisions at once: a vreal has a lane for each, and so has a reg, which holds one node of each of
- * them. A single call (CAROM_LANES_ONE) computes one: a vreal is a float, and a reg holds all nodes, so that a chain of
+ * them. A single call (CAROM_LANES_ONE) computes one: a vreal is a float, and a reg or two hold all nodes, so that a chain of
  * dependent operations, which is what a single call waits for, is gone through once for all of them. Sums over nodes are taken
- * in the same order in both, so the bits are the same. In a step of four nodes a reg of a single call has four to spare, whose
- * junk no sum and no maximum takes in.
+ * in the same order in both, so the bits are the same. In a step of four nodes a reg of eight has four to spare, whose junk no
+ * sum and no maximum takes in.
  */
 #ifndef CAROM_SRC_BALL_BALL_CARRIER_H
 #define CAROM_SRC_BALL_BALL_CARRIER_H
@@ -23,18 +23,21 @@ enum { MOST_NODES = 8 };
 typedef float node_row[MOST_NODES];
 
 #ifdef CAROM_LANES_ONE
-typedef float reg __attribute__((vector_size(32)));
-typedef int32_t reg_int __attribute__((vector_size(32)));
-typedef uint32_t reg_bits __attribute__((vector_size(32))); /* sums of junk may wrap */
-typedef float reg_unaligned __attribute__((vector_size(32), aligned(4), may_alias));
-typedef float half_reg __attribute__((vector_size(16)));
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
+#define REG_NODES 8
 #define REGS(n) 1
-#define MOST_REGS 1
-#define LOW(x) __builtin_shufflevector(x, x, 0, 1, 2, 3)
-#define HIGH(x) __builtin_shufflevector(x, x, 4, 5, 6, 7)
-#define WHOLE(low, high) __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7)
+#else
+#define REG_NODES 4
+#define REGS(n) ((n) / 4)
+#endif
+typedef float reg __attribute__((vector_size(4 * REG_NODES)));
+typedef int32_t reg_int __attribute__((vector_size(4 * REG_NODES)));
+typedef uint32_t reg_bits __attribute__((vector_size(4 * REG_NODES))); /* sums of junk may wrap */
+typedef float reg_unaligned __attribute__((vector_size(4 * REG_NODES), aligned(4), may_alias));
+typedef float quad __attribute__((vector_size(16)));
+enum { MOST_REGS = MOST_NODES / REG_NODES };
 /* Register k of a row. */
-#define AT(row, k) ((reg) * (const reg_unaligned *)(row))
+#define AT(row, k) ((reg) * (const reg_unaligned *)((row) + REG_NODES * (k)))
 /* Any of its numbers, where all are the same. */
 #define ONE_OF(x) ((x)[0])
 #else
@@ -42,7 +45,7 @@ typedef vreal reg;
 typedef vint reg_int;
 typedef uint32_t reg_bits __attribute__((vector_size(VECTOR_BYTES)));
 #define REGS(n) (n)
-#define MOST_REGS MOST_NODES
+enum { MOST_REGS = MOST_NODES };
 #define AT(row, k) ((row)[k])
 #define ONE_OF(x) (x)
 #endif
@@ -58,7 +61,11 @@ always reg reg_itself(reg x) {
 }
 #ifdef CAROM_LANES_ONE
 always reg reg_of(float x) {
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
   return (reg){x, x, x, x, x, x, x, x};
+#else
+  return (reg){x, x, x, x};
+#endif
 }
 #else
 #define reg_of v_splat
@@ -74,9 +81,7 @@ always reg reg_fma(reg a, reg b, reg c) {
 #if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
   return (reg)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
 #elif defined(CAROM_LANES_NEON)
-  const half_reg low = (half_reg)vfmaq_f32((float32x4_t)LOW(c), (float32x4_t)LOW(a), (float32x4_t)LOW(b));
-  const half_reg high = (half_reg)vfmaq_f32((float32x4_t)HIGH(c), (float32x4_t)HIGH(a), (float32x4_t)HIGH(b));
-  return WHOLE(low, high);
+  return (reg)vfmaq_f32((float32x4_t)c, (float32x4_t)a, (float32x4_t)b);
 #else
   return a * b + c;
 #endif
@@ -89,12 +94,12 @@ always reg rough_reciprocal_sqrt(reg x) {
 #elif defined(CAROM_LANES_AVX2)
   return (reg)_mm256_rsqrt_ps((__m256)x);
 #elif defined(CAROM_LANES_SSE2)
-  return WHOLE((half_reg)_mm_rsqrt_ps((__m128)LOW(x)), (half_reg)_mm_rsqrt_ps((__m128)HIGH(x)));
+  return (reg)_mm_rsqrt_ps((__m128)x);
 #elif defined(CAROM_LANES_NEON)
-  return 1 / WHOLE((half_reg)vsqrtq_f32((float32x4_t)LOW(x)), (half_reg)vsqrtq_f32((float32x4_t)HIGH(x)));
+  return 1 / (reg)vsqrtq_f32((float32x4_t)x);
 #else
   reg y;
-  for (int k = 0; k < MOST_NODES; k++)
+  for (int k = 0; k < REG_NODES; k++)
     y[k] = sqrtf(x[k]);
   return 1 / y;
 #endif
@@ -105,7 +110,7 @@ always reg rough_reciprocal(reg x) {
 #elif defined(CAROM_LANES_AVX2)
   return (reg)_mm256_rcp_ps((__m256)x);
 #elif defined(CAROM_LANES_SSE2)
-  return WHOLE((half_reg)_mm_rcp_ps((__m128)LOW(x)), (half_reg)_mm_rcp_ps((__m128)HIGH(x)));
+  return (reg)_mm_rcp_ps((__m128)x);
 #else
   return 1 / x;
 #endif
@@ -123,32 +128,48 @@ always reg reg_abs(reg x) {
   return (reg)((reg_int)x & 0x7fffffff);
 }
 
+/* Nodes 0 to 3 and 4 to 7. */
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
+#define FIRST_HALF(x) __builtin_shufflevector((x)[0], (x)[0], 0, 1, 2, 3)
+#define SECOND_HALF(x) __builtin_shufflevector((x)[0], (x)[0], 4, 5, 6, 7)
+#else
+#define FIRST_HALF(x) ((x)[0])
+#define SECOND_HALF(x) ((x)[1])
+#endif
+
 /* The largest of the numbers at n nodes. */
 always vreal largest(const reg *x, int n) {
-  const half_reg low = LOW(x[0]), high = HIGH(x[0]);
+  const quad low = FIRST_HALF(x), high = n == 8 ? SECOND_HALF(x) : low;
   vreal most[4];
   lanes_unrolled for (int k = 0; k < 4; k++) most[k] = n == 8 ? v_max(low[k], high[k]) : low[k];
   return v_max(v_max(most[0], most[2]), v_max(most[1], most[3]));
 }
 
 /* The sum of numbers at n nodes. */
-always vreal sum_of(reg x, int n) {
-  const half_reg sum = n == 8 ? LOW(x) + HIGH(x) : LOW(x);
+always vreal sum_of(const reg *x, int n) {
+  const quad low = FIRST_HALF(x), sum = n == 8 ? low + SECOND_HALF(x) : low;
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 /* Sum over the nodes of weight times x; the weights those of a rule, or computed. */
 always vreal dot(const float *weight, const reg *x, int n) {
-  return sum_of(AT(weight, 0) * x[0], n);
+  reg product[MOST_REGS];
+  EACH_REG(k, n) product[k] = AT(weight, k) * x[k];
+  return sum_of(product, n);
 }
 always vreal sum_of_products(const reg *weight, const reg *x, int n) {
-  return sum_of(weight[0] * x[0], n);
+  reg product[MOST_REGS];
+  EACH_REG(k, n) product[k] = weight[k] * x[k];
+  return sum_of(product, n);
 }
 
 /* out = M' x: out at node k is the sum over the nodes j of M[j][k] x at j. */
+#define NODE(x, j) ((x)[(j) / REG_NODES][(j) % REG_NODES])
 always void apply(const node_row *M, const reg *x, reg *out, int n) {
-  reg pair[MOST_NODES / 2];
-  lanes_unrolled for (int j = 0; j < n; j += 2) pair[j / 2] = MADD(AT(M[j + 1], 0), x[0][j + 1], AT(M[j], 0) * x[0][j]);
-  out[0] = n == 8 ? (pair[0] + pair[1]) + (pair[2] + pair[3]) : pair[0] + pair[1];
+  EACH_REG(k, n) {
+    reg pair[MOST_NODES / 2];
+    lanes_unrolled for (int j = 0; j < n; j += 2) pair[j / 2] = MADD(AT(M[j + 1], k), NODE(x, j + 1), AT(M[j], k) * NODE(x, j));
+    out[k] = n == 8 ? (pair[0] + pair[1]) + (pair[2] + pair[3]) : pair[0] + pair[1];
+  }
 }
 
 /* ---- Batches ---------------------------------------------------------------------------------------------------------- */
