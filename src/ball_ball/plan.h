@@ -23,8 +23,8 @@
 #include "ball_ball/impulse_step.h"
 #include "ball_ball/stick_step.h"
 
-enum { EASY_ITERATIONS = 2, FULL_ITERATIONS = 3, FULL_LONG_ITERATIONS = 7, PART_ITERATIONS = 7 };
-enum { TURN_ITERATIONS = 4, MOST_ATTEMPTS = 14 };
+enum { EASY_ITERATIONS = 2, FULL_ITERATIONS = 4, FULL_LONG_ITERATIONS = 7, PART_ITERATIONS = 8 };
+enum { TURN_ITERATIONS = 6, MOST_ATTEMPTS = 14 };
 
 static const float EASY_SHARE = 1.2e-3f;      /* error of an EASY step over mu_b q^8, */
 static const float MOST_EASY_Q = 0.9f;        /* its q */
