@@ -4,6 +4,7 @@
 #include "carom.h"
 #include "message.h"
 #include "output.h"
+#include "suggest.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -63,6 +64,11 @@ int program_run(const program *p, int argc, char **argv) {
   for (size_t k = 0; k < p->count; k++)
     if (strcmp(name, p->commands[k].name) == 0)
       return finish(p->commands[k].run(argc - 1, argv + 1));
+  for (size_t k = 0; k < p->count; k++)
+    if (resembles(name, p->commands[k].name)) {
+      complain("no command '%s'; is '%s' meant?", name, p->commands[k].name);
+      return EXIT_USAGE;
+    }
   complain("no command '%s'; `%s --help` lists them", name, p->name);
   return EXIT_USAGE;
 }

@@ -31,7 +31,7 @@ typedef struct sweep {
 typedef struct outcome {
   carom_result result;
   carom_status status;
-  double value, throw_deg, stick_share, scale;
+  double value, mu_ball, throw_deg, stick_share, scale;
   double speed[RESULTS]; /* the results, spins times radius */
 } outcome;
 
@@ -58,6 +58,8 @@ static carom_impact vary(const sweep *s, double value) {
     in.b.v[k] *= value;
     in.b.w[k] *= value;
   }
+  if (s->asked.friction.given) /* it depends on the slip, and so on what is varied */
+    in.mu_ball = carom_mu_ball(&in, s->asked.friction.law);
   return in;
 }
 
@@ -68,6 +70,7 @@ static outcome resolve(const sweep *s, carom_solver solver, int k) {
   carom_detail detail;
   options.solver = solver;
   o.status = carom_collide_detail(&in, &options, &o.result, &detail);
+  o.mu_ball = in.mu_ball;
   o.stick_share = detail.stick_normal / detail.normal;
   const double along[2] = {in.b.r[0] - in.a.r[0], in.b.r[1] - in.a.r[1]};
   const double change[2] = {o.result.b.v[0] - in.b.v[0], o.result.b.v[1] - in.b.v[1]};
@@ -95,7 +98,9 @@ static void print_outcome(FILE *out, const sweep *s, const outcome *o, carom_sol
   fputs(carom_solver_name(solver), out);
   write_numbers(out, (const double[]){o->value, o->throw_deg, o->stick_share, jump}, 4);
   write_numbers(out, (const double *)&o->result, s->brief ? 0 : RESULTS);
-  fprintf(out, ",%s\n", carom_status_name(o->status));
+  fprintf(out, ",%s", carom_status_name(o->status));
+  write_numbers(out, &o->mu_ball, 1);
+  fputc('\n', out);
 }
 
 /* Returns how many values made an error. */
@@ -103,7 +108,8 @@ static int print_sweep(FILE *out, const sweep *s) {
   int errors = 0;
   outcome first = {0};
   pick_describe(out, &s->asked, &s->impact);
-  fprintf(out, "# over: %s\nsolver,value,throw_deg,stick_share,jump,%sstatus\n", s->over, s->brief ? "" : RESULT_COLUMNS ",");
+  fprintf(out, "# over: %s\nsolver,value,throw_deg,stick_share,jump,%sstatus,mu_ball\n", s->over,
+          s->brief ? "" : RESULT_COLUMNS ",");
   for (int which = 0; which < s->asked.solvers.count; which++) {
     const carom_solver solver = s->asked.solvers.solver[which];
     outcome at[4] = {0}; /* k - 1 to k + 2, where they exist */
@@ -155,7 +161,8 @@ static const char details[] =
     "  jump                    how far the twelve results (radius times spin), over the largest of them, leave a smooth curve\n"
     "                          between this value and the next: the distance of their step from both neighbouring steps\n"
     "                          and all between. A corner is no jump; nan at the ends\n"
-    "  v1x ... w2z, status     as `carom resolve` writes them; v1x to w2z not with --brief\n\n"
+    "  v1x ... w2z, status     as `carom resolve` writes them; v1x to w2z not with --brief\n"
+    "  mu_ball                 friction between the balls; with --friction that of the law at this value\n\n"
     "exit code: 0; 1 if some values make an error; 2 for bad usage or unreadable input\n";
 
 static const command_form form = {
@@ -164,7 +171,7 @@ static const command_form form = {
     .about = about,
     .options = (const option_row *const[]){&option_id, &option_over, &option_from, &option_to, &option_points, &option_solvers,
                                            &option_slip, &option_steps, &option_friction, &option_brief, &option_data,
-                                           &option_cushion, &option_output, NULL},
+                                           &option_cushion, &option_strict, &option_output, NULL},
     .details = details,
     .example = "carom sweep --id pooltool-135 --over w1z --from -60 --to 60 --brief -o sweep.csv",
     .files = FILE_OR_NONE,
@@ -184,6 +191,10 @@ int command_sweep(int argc, char **argv) {
   if (s.asked.id == NULL || s.over == NULL || isnan(s.from) || isnan(s.to)) {
     complain("sweep needs --id, --over, --from and --to");
     return usage_hint(&form);
+  }
+  if (s.asked.friction.given && strcmp(s.over, "u_b") == 0) {
+    complain("--over u_b has no effect with --friction, which says what u_b is");
+    return EXIT_USAGE;
   }
   FILE *out = pick_impact(&s.asked, file, &s.impact) ? output_open(s.asked.output) : NULL;
   if (out == NULL)

@@ -138,4 +138,7 @@ ROW(option_data, "data", folder, 0, "DIR", set_text, 0,
     "folder of the reference collisions (default: $CAROM_DATA, else what came with carom)");
 ROW(option_output, "output", output, 'o', "OUT", set_text, 0,
     "file to write, - for standard output (default); it appears whole or not at all");
+ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0,
+    "refuse collisions that are only warned of otherwise: centres that are not R1 + R2\n"
+    "apart (to 1 %), more than 50 m/s or 2,000 rad/s");
 ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, "counts and time on standard error at the end");

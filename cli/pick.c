@@ -1,6 +1,7 @@
 /* One collision out of a file. */
 #include "pick.h"
 
+#include "doubts.h"
 #include "message.h"
 #include "place.h"
 #include "source.h"
@@ -53,8 +54,13 @@ bool pick_impact(const shared_options *asked, const char *file, carom_impact *im
       impact->mu_ball = carom_mu_ball(impact, asked->friction.law);
     const carom_status status = carom_check(impact, NULL, NULL);
     good = status == CAROM_OK && (block.row == NULL || block.row[k].error == NULL);
+    doubts found = {0};
+    const char *doubt = good ? doubts_about(&found, impact, true) : NULL;
+    doubts_report(&found, source_name(source));
+    if (asked->strict && doubt != NULL)
+      good = false;
     if (!good)
-      source_report(source, &block, k, NULL, status);
+      source_report(source, &block, k, NULL, status, doubt);
   }
   source_free_block(&block);
   source_close(source);

@@ -9,6 +9,7 @@
 #include "precision.h"
 
 #include <csv.h>
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,7 +58,10 @@ void sink_write(result_sink *s, const char *id, const void *result, carom_status
 
 bool sink_close(result_sink *s, bool good) {
   if (good && s->array && fseek(s->file, 0, SEEK_SET) != 0) {
-    complain("a .npy file needs a place that can be sought, not a pipe");
+    if (errno == ESPIPE)
+      complain("a .npy file needs a place that can be sought, not a pipe");
+    else
+      complain("cannot write the .npy file: %s", strerror(errno));
     good = false;
   }
   if (good && s->array) /* now that the rows have been counted */
