@@ -16,9 +16,9 @@ static const command_form form = {
     .name = "resolve",
     .usage = "[OPTIONS] IN",
     .about = resolve_about,
-    .options =
-        (const option_row *const[]){&option_solver, &option_slip, &option_steps, &option_friction, &option_precision,
-                                    &option_threads, &option_cushion, &option_strict, &option_output, &option_summary, NULL},
+    .options = (const option_row *const[]){&option_solver, &option_slip, &option_steps, &option_friction, &option_precision,
+                                           &option_threads, &option_cushion, &option_derived, &option_strict, &option_output,
+                                           &option_summary, NULL},
     .details = resolve_details,
     .example = "carom resolve --solver euler --slip pooltool -o after.csv before.csv",
     .files = ONE_FILE,

@@ -37,6 +37,12 @@ const char resolve_details[] =
     "  status is ok, separating (the balls do not approach; their state is unchanged) or the name of an error, with nan for "
     "the\n"
     "  numbers. Each number is the shortest text that reads back to the same double.\n\n"
+    "with --derived also, nan unless the status is ok:\n"
+    "  throw_deg               angle of ball 2's change of velocity from the line of centres, degrees, to the left from above\n"
+    "  deflection_deg          angle by which ball 1 is turned at once, and deflection_rolling_deg once it rolls\n"
+    "  roll1x roll1y           velocity of ball 1 once it rolls, m/s, and roll2x roll2y of ball 2\n"
+    "  spin_transfer           ball 2's change of w2z over ball 1's w1z before; nan where that is 0\n"
+    "  energy_lost             share of the kinetic energy that is lost, that of spins included\n\n"
     "exit code: 0 if every row is ok or separating, 1 if some rows are in error (each of the first thousand is named on\n"
     "standard error, the others are resolved), 2 for bad usage or unreadable input\n";
 
@@ -106,7 +112,7 @@ static void solve_and_write(run *r, const source_block *block) {
     const bool bad = error != NULL || status < 0;
     if (bad && r->errors < MOST_NAMED)
       source_report(r->in, block, k, &r->job->shared.options, status, doubt);
-    sink_write(r->out, row != NULL ? row->id : NULL, (const char *)r->result + k * size, status, error);
+    sink_write(r->out, row != NULL ? row->id : NULL, &impact, (const char *)r->result + k * size, status, error);
     r->ok += !bad && status == CAROM_OK;
     r->separating += !bad && status == CAROM_SEPARATING;
     r->errors += bad;
@@ -155,7 +161,7 @@ int resolve_file(const resolving *job, const char *file) {
   r.impact = allocate(NPY_BLOCK, sizeof(carom_impact));
   r.result = allocate(NPY_BLOCK, sizeof(carom_result));
   r.status = allocate(NPY_BLOCK, 1);
-  r.out = sink_open(job->shared.output != NULL ? job->shared.output : "-", r.single);
+  r.out = sink_open(job->shared.output != NULL ? job->shared.output : "-", r.single, job->shared.derived);
   if (r.out != NULL && sink_close(r.out, resolve_all(&r)))
     code = r.errors > 0 ? EXIT_SOME : EXIT_GOOD;
   free(r.impact);
