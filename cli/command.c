@@ -19,6 +19,15 @@ static void print_help(const program *p, FILE *to) {
           p->name, p->example);
 }
 
+/* The page NAME(1) of the manual, from the same table. */
+static void print_manual(const program *p) {
+  printf(".TH %s 1 \"\" \"carom %s\"\n.SH NAME\n%s \\- %s\n.SH SYNOPSIS\n.B %s\nCOMMAND [ARGUMENTS]\n.SH COMMANDS\n", p->name,
+         carom_version(), p->name, p->about, p->name);
+  for (size_t k = 0; k < p->count; k++)
+    printf(".TP\n.BR %s\\-%s (1)\n%s\n", p->name, p->commands[k].name, p->commands[k].text);
+  printf(".SH EXAMPLE\n.nf\n%s\n.fi\n", p->example);
+}
+
 /* What could not be written was not said, so the run was not good. */
 static int finish(int code) {
   if (code == EXIT_USAGE || (fflush(stdout) == 0 && !ferror(stdout)))
@@ -53,6 +62,10 @@ int program_run(const program *p, int argc, char **argv) {
   const char *name = argv[1];
   if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
     print_help(p, stdout);
+    return finish(EXIT_GOOD);
+  }
+  if (strcmp(name, "--man") == 0) {
+    print_manual(p);
     return finish(EXIT_GOOD);
   }
   if (strcmp(name, "--version") == 0) {
