@@ -4,6 +4,7 @@
 #include "carom.h"
 #include "message.h"
 #include "output.h"
+#include "suggest.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -16,6 +17,15 @@ static void print_help(const program *p, FILE *to) {
     fprintf(to, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
   fprintf(to, "\n`%s COMMAND --help` tells the arguments of each; `%s --version` the version.\n\nexample:\n  %s\n", p->name,
           p->name, p->example);
+}
+
+/* The page NAME(1) of the manual, from the same table. */
+static void print_manual(const program *p) {
+  printf(".TH %s 1 \"\" \"carom %s\"\n.SH NAME\n%s \\- %s\n.SH SYNOPSIS\n.B %s\nCOMMAND [ARGUMENTS]\n.SH COMMANDS\n", p->name,
+         carom_version(), p->name, p->about, p->name);
+  for (size_t k = 0; k < p->count; k++)
+    printf(".TP\n.BR %s\\-%s (1)\n%s\n", p->name, p->commands[k].name, p->commands[k].text);
+  printf(".SH EXAMPLE\n.nf\n%s\n.fi\n", p->example);
 }
 
 /* What could not be written was not said, so the run was not good. */
@@ -54,6 +64,10 @@ int program_run(const program *p, int argc, char **argv) {
     print_help(p, stdout);
     return finish(EXIT_GOOD);
   }
+  if (strcmp(name, "--man") == 0) {
+    print_manual(p);
+    return finish(EXIT_GOOD);
+  }
   if (strcmp(name, "--version") == 0) {
     printf("%s %s\n", p->name, carom_version());
     return finish(EXIT_GOOD);
@@ -63,6 +77,11 @@ int program_run(const program *p, int argc, char **argv) {
   for (size_t k = 0; k < p->count; k++)
     if (strcmp(name, p->commands[k].name) == 0)
       return finish(p->commands[k].run(argc - 1, argv + 1));
+  for (size_t k = 0; k < p->count; k++)
+    if (resembles(name, p->commands[k].name)) {
+      complain("no command '%s'; is '%s' meant?", name, p->commands[k].name);
+      return EXIT_USAGE;
+    }
   complain("no command '%s'; `%s --help` lists them", name, p->name);
   return EXIT_USAGE;
 }

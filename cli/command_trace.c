@@ -133,8 +133,9 @@ static const command_form form = {
     .name = "trace",
     .usage = "--id X [OPTIONS] [FILE]",
     .about = about,
-    .options = (const option_row *const[]){&option_id, &option_solvers, &option_slip, &option_steps, &option_points,
-                                           &option_friction, &option_plot, &option_data, &option_cushion, &option_output, NULL},
+    .options =
+        (const option_row *const[]){&option_id, &option_solvers, &option_slip, &option_steps, &option_points, &option_friction,
+                                    &option_plot, &option_data, &option_cushion, &option_strict, &option_output, NULL},
     .details = details,
     .example = "carom trace --id pooltool-135 --solver exact,euler --plot trace.svg",
     .files = FILE_OR_NONE,

@@ -85,6 +85,12 @@ static bool find_columns(cushion_reader *r, const record *header) {
   const char *file = record_file_name(r->records);
   char missing[128] = " ";
   r->width = header->count;
+  if (record_is_numbers(header)) {
+    complain("%s:%lld: no header: the first row holds numbers; the names of the columns come first (`%s resolve --cushion "
+             "--help` lists them)",
+             file, header->line, program_name);
+    return false;
+  }
   if (!find(header, file, "id", &r->id_at))
     return false;
   for (int k = 0; k < CUSHION_FIELDS; k++) {
@@ -137,7 +143,8 @@ static const char *fill(const cushion_reader *r, const record *in, cushion_row *
     }
     const char *text = in->field[r->at[k]];
     if (!parse_number(text, (double *)&row->impact + k)) {
-      snprintf(row->message, sizeof row->message, "%s = '%.60s' is not a number", columns[k], text);
+      snprintf(row->message, sizeof row->message, "%s = '%.60s' is not a number%s", columns[k], text,
+               strchr(text, ',') != NULL ? "; decimals have a point, not a comma" : "");
       return "not_a_number";
     }
   }

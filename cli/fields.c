@@ -103,12 +103,17 @@ static OPTION_SET(set_law) {
   static const char name[] = "alciatore";
   const size_t size = sizeof name - 1;
   char rest;
+  double mu;
   *law = (friction_law){.given = true, .law = carom_alciatore()};
+  if (parse_number(text, &mu) && mu >= 0.0 && mu <= 1.0) {
+    law->law = (carom_speed_law){.a = mu};
+    return true;
+  }
   if (strncmp(text, name, size) == 0 &&
       (text[size] == '\0' ||
        (text[size] == '=' && sscanf(text + size + 1, "%lf,%lf,%lf%c", &law->law.a, &law->law.b, &law->law.c, &rest) == 3)))
     return true;
-  complain("--%s is alciatore or alciatore=a,b,c (mu = a + b exp(-c |u|)), not '%s'", row->name, text);
+  complain("--%s is alciatore, alciatore=a,b,c (mu = a + b exp(-c |u|)) or a number from 0 to 1, not '%s'", row->name, text);
   return false;
 }
 
@@ -130,7 +135,7 @@ ROW(option_threads, "threads", options.threads, 0, "N", set_threads, 0,
     "most threads for solving; 0, the default: one for each processor");
 ROW(option_friction, "friction", friction, 0, "LAW", set_law, 0,
     "friction between the balls by their slip speed instead of the column u_b: alciatore,\n"
-    "which is mu = a + b exp(-c |u|) with the usual fit, or alciatore=a,b,c");
+    "which is mu = a + b exp(-c |u|) with the usual fit, alciatore=a,b,c, or a number");
 ROW(option_precision, "precision", precision, 0, "double|single", set_choice, 0,
     "of the solver (default: single for a float32 array, else double)");
 ROW(option_id, "id", id, 0, "X", set_text, 0, "which collision: its column id, or the number of its row if there is none");
@@ -138,4 +143,9 @@ ROW(option_data, "data", folder, 0, "DIR", set_text, 0,
     "folder of the reference collisions (default: $CAROM_DATA, else what came with carom)");
 ROW(option_output, "output", output, 'o', "OUT", set_text, 0,
     "file to write, - for standard output (default); it appears whole or not at all");
+ROW(option_derived, "derived", derived, 0, NULL, set_flag, 0,
+    "more columns, behind the status: throw, deflection, rolling velocities, spin, energy");
+ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0,
+    "refuse collisions that are only warned of otherwise: centres that are not R1 + R2\n"
+    "apart (to 1 %), more than 50 m/s or 2,000 rad/s");
 ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, "counts and time on standard error at the end");

@@ -4,6 +4,7 @@
 #include "memory.h"
 #include "message.h"
 #include "number.h"
+#include "suggest.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,9 +73,23 @@ static bool find_column(impact_reader *r, const record *header, int field) {
   return true;
 }
 
+/* A column that may have been meant by a missing one, or NULL. */
+static const char *meant_by(const record *header, const char *missing) {
+  for (size_t k = 0; k < header->count; k++)
+    if (impact_fields(header->field[k]) == 0 && strcmp(header->field[k], "id") != 0 && resembles(header->field[k], missing))
+      return header->field[k];
+  return NULL;
+}
+
 static bool find_columns(impact_reader *r, const record *header, bool mu_ball_needed) {
   const char *file = record_file_name(r->records);
-  char missing[256] = " ";
+  char missing[256] = " ", meant[160] = "";
+  if (record_is_numbers(header)) {
+    complain("%s:%lld: no header: the first row holds numbers; the names of the columns come first (`%s resolve --help` lists "
+             "them)",
+             file, header->line, program_name);
+    return false;
+  }
   r->width = header->count;
   if (!find_once(header, file, "id", &r->id_at))
     return false;
@@ -82,11 +97,15 @@ static bool find_columns(impact_reader *r, const record *header, bool mu_ball_ne
     if (!find_column(r, header, field))
       return false;
     const bool named = field >= OF_A_BALL && strcmp(r->name[field], r->name[field - OF_A_BALL]) == 0; /* R, M */
-    if (r->at[field] == SIZE_MAX && (field != MU_BALL || mu_ball_needed) && !named)
+    if (r->at[field] == SIZE_MAX && (field != MU_BALL || mu_ball_needed) && !named) {
+      const char *other = meant_by(header, r->name[field]);
+      if (other != NULL && meant[0] == '\0')
+        snprintf(meant, sizeof meant, "is '%.60s' meant to be %s? ", other, r->name[field]);
       strcat(strcat(missing, r->name[field]), " ");
+    }
   }
   if (missing[1] != '\0')
-    complain("%s:%lld: missing columns:%s(%s; `%s resolve --help` lists them)", file, header->line, missing,
+    complain("%s:%lld: missing columns:%s(%s%s; `%s resolve --help` lists them)", file, header->line, missing, meant,
              header->count > 1 ? "names are case-sensitive" : "the header is a single field, without commas", program_name);
   return missing[1] == '\0';
 }
@@ -136,7 +155,8 @@ static const char *fill(const impact_reader *r, const record *in, impact_row *ro
     }
     const char *text = in->field[r->at[field]];
     if (!parse_number(text, &number[field])) {
-      snprintf(row->message, sizeof row->message, "%s = '%.60s' is not a number", name, text);
+      snprintf(row->message, sizeof row->message, "%s = '%.60s' is not a number%s", name, text,
+               strchr(text, ',') != NULL ? "; decimals have a point, not a comma" : "");
       return "not_a_number";
     }
   }

@@ -5,6 +5,7 @@
 int main(int argc, char **argv) {
   static const command commands[] = {
       {"resolve", "resolve the collisions of a CSV file", command_resolve},
+      {"hit", "one collision from speed, cut and spin: in words and as a picture", command_hit},
       {"shoot", "play whole shots, from the cue to rest", command_shoot},
       {"trace", "follow one collision on its way", command_trace},
       {"sweep", "resolve one collision, one input varied finely", command_sweep},

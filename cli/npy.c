@@ -46,7 +46,8 @@ static bool parse_header(const char *path, const char *header, size_t columns, n
   }
   unsigned long long rows, width;
   char close;
-  if (sscanf(shape, "(%llu , %llu %c", &rows, &width, &close) != 3 || width != columns || close != ')') {
+  if (strcspn(shape, "-") < strcspn(shape, ")") || sscanf(shape, "(%llu , %llu %c", &rows, &width, &close) != 3 ||
+      width != columns || close != ')') {
     complain("%s: shape %.*s; (n, %zu) is needed, a row the numbers of carom_impact in their order", path,
              (int)strcspn(shape, ")") + 1, shape, columns);
     return false;

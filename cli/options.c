@@ -9,9 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_ROWS = 32, FIRST_CODE = UCHAR_MAX + 1 };
+enum { MOST_ROWS = 32, MANUAL_CODE = UCHAR_MAX + 1, FIRST_CODE };
 
 static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};
+static const option_row manual_row = {.name = "man", .help = ""}; /* for the build, and not in the help */
 
 /* "  -o, --output OUT" */
 static int write_head(const option_row *row, char text[80]) {
@@ -27,6 +28,44 @@ static void print_row(const option_row *row, int width) {
   for (const char *at = row->help; *at != '\0'; at++)
     printf(*at == '\n' ? "\n%*s" : "%c", *at == '\n' ? width : *at, "");
   putchar('\n');
+}
+
+/* Text for roff: what its lines would take for requests and escapes is put right. */
+static void print_roff(const char *text) {
+  for (bool first = true; *text != '\0'; first = *text == '\n', text++) {
+    if (first && (*text == '.' || *text == '\''))
+      fputs("\\&", stdout);
+    if (*text == '\\')
+      fputs("\\e", stdout);
+    else if (*text == '-')
+      fputs("\\-", stdout);
+    else
+      putchar(*text);
+  }
+  putchar('\n');
+}
+
+/* The page carom-NAME(1) of the manual, from the same table. */
+static void print_manual(const command_form *form) {
+  char head[80];
+  printf(".TH %s\\-%s 1 \"\" \"carom %s\"\n.SH NAME\n%s\\-%s \\- part of %s(1)\n.SH SYNOPSIS\n", program_name, form->name,
+         carom_version(), program_name, form->name, program_name);
+  printf(".B %s %s\n", program_name, form->name);
+  print_roff(form->usage);
+  puts(".SH DESCRIPTION");
+  print_roff(form->about);
+  puts(".SH OPTIONS");
+  for (size_t k = 0; form->options[k] != NULL; k++) {
+    write_head(form->options[k], head);
+    puts(".TP");
+    print_roff(head + 2);
+    print_roff(form->options[k]->help);
+  }
+  puts(".SH DETAILS\n.nf");
+  print_roff(form->details);
+  puts(".fi\n.SH EXAMPLE\n.nf");
+  print_roff(form->example);
+  puts(".fi");
 }
 
 static void print_help(const command_form *form) {
@@ -53,19 +92,20 @@ static const option_row *row_of(const command_form *form, int code) {
   for (int k = 0; form->options[k] != NULL; k++)
     if (code == FIRST_CODE + k || (code != 0 && code == form->options[k]->letter))
       return form->options[k];
-  return code == help_row.letter ? &help_row : NULL;
+  return code == help_row.letter ? &help_row : code == MANUAL_CODE ? &manual_row : NULL;
 }
 
 /* What getopt wants to know of the table. */
 static void list_options(const command_form *form, struct option longs[MOST_ROWS], char shorts[2 * MOST_ROWS]) {
   int k = 0;
-  for (; form->options[k] != NULL && k < MOST_ROWS - 2; k++) {
+  for (; form->options[k] != NULL && k < MOST_ROWS - 3; k++) {
     const option_row *row = form->options[k];
     longs[k] = (struct option){row->name, row->argument != NULL ? required_argument : no_argument, NULL, FIRST_CODE + k};
     if (row->letter != 0)
       strcat(strncat(shorts, &row->letter, 1), row->argument != NULL ? ":" : "");
   }
   longs[k] = (struct option){help_row.name, no_argument, NULL, help_row.letter};
+  longs[k + 1] = (struct option){manual_row.name, no_argument, NULL, MANUAL_CODE};
 }
 
 /* Sets the fields; -1, or an exit code. */
@@ -78,8 +118,8 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
     const option_row *row = row_of(form, option);
     if (row == NULL) /* getopt has complained */
       return usage_hint(form);
-    if (row == &help_row) {
-      print_help(form);
+    if (row == &help_row || row == &manual_row) {
+      (row == &help_row ? print_help : print_manual)(form);
       return EXIT_GOOD;
     }
     if (!row->set(row, optarg, (char *)job + row->field))

@@ -74,7 +74,7 @@ typedef struct shared_options {
   friction_law friction;
   int precision;                    /* enum precision */
   const char *id, *folder, *output; /* --id, --data, --output */
-  bool summary;
+  bool summary, strict, derived;
 } shared_options;
 
 /* What the options are where none is given: as the library's, but on all processors, and with the steps to be shown. */
@@ -82,7 +82,7 @@ typedef struct shared_options {
   { .steps = CAROM_DEFAULT_STEPS, .threads = CAROM_ALL_THREADS }
 
 extern const option_row option_solver, option_solvers, option_slip, option_steps, option_threads, option_friction,
-    option_precision, option_id, option_data, option_output, option_summary;
+    option_precision, option_id, option_data, option_output, option_summary, option_strict, option_derived;
 
 /* A row of one table alone: OPTION(job, option_NAME, field, letter, argument, set, least, help). */
 #define OPTION(job, row, name, member, letter, argument, set, least, help) \

@@ -5,6 +5,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <libgen.h>
+#include <limits.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,47 +14,85 @@
 #include <unistd.h>
 
 static FILE *file;
-static const char *name; /* for messages */
-static char *place;      /* NULL where the output streams */
-static char *temporary;  /* beside it; read by the signal handler */
+static const char *name;     /* for messages */
+static char place[PATH_MAX]; /* where the file is to be */
+/* Beside it, and whether it is there: read by the signal handler, and so never freed. */
+static char temporary[PATH_MAX];
+static volatile sig_atomic_t there;
 
 static void on_signal(int number) {
-  if (temporary != NULL)
+  if (there)
     unlink(temporary);
   signal(number, SIG_DFL);
   raise(number);
 }
 
 static void forget(void) {
-  free(place);
-  free(temporary);
   file = NULL;
-  place = temporary = NULL;
+  there = 0;
 }
 
+/* Signals that end the program wait while a file appears or goes that the handler must know of. */
+static void hold_signals(bool hold) {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGHUP);
+  sigprocmask(hold ? SIG_BLOCK : SIG_UNBLOCK, &set, NULL);
+}
+
+/* Writes into `place` where a path leads in the end, through symbolic links even to what is not there yet. */
+static bool follow_links(const char *path) {
+  char link[PATH_MAX], folder[PATH_MAX];
+  struct stat status;
+  if (realpath(path, place) != NULL)
+    return true;
+  bool good = snprintf(place, PATH_MAX, "%s", path) < PATH_MAX;
+  for (int k = 0; good && k < 40 && lstat(place, &status) == 0 && S_ISLNK(status.st_mode); k++) {
+    const ssize_t size = readlink(place, link, PATH_MAX - 1);
+    good = size > 0;
+    link[good ? size : 0] = '\0';
+    strcpy(folder, place);
+    good = good && (link[0] == '/' ? snprintf(place, PATH_MAX, "%s", link)
+                                   : snprintf(place, PATH_MAX, "%s/%s", dirname(folder), link)) < PATH_MAX;
+  }
+  return good;
+}
+
+/* NULL with errno where it cannot be written. */
 static FILE *open_beside(const char *path) {
-  place = realpath(path, NULL); /* so that a link stays a link to the new file */
-  if (place == NULL)
-    place = strdup(path);
-  if (place == NULL)
+  struct stat old;
+  if (!follow_links(path)) {
+    errno = ENAMETOOLONG;
     return NULL;
+  }
+  const bool exists = stat(place, &old) == 0;
+  if (exists && access(place, W_OK) != 0)
+    return NULL;
+  if (snprintf(temporary, PATH_MAX, "%s.XXXXXX", place) >= PATH_MAX) {
+    errno = ENAMETOOLONG;
+    return NULL;
+  }
   signal(SIGINT, on_signal);
   signal(SIGTERM, on_signal);
   signal(SIGHUP, on_signal);
-  char *beside;
-  if (asprintf(&beside, "%s.XXXXXX", place) < 0)
-    return NULL;
-  const int descriptor = mkostemp(beside, O_CLOEXEC);
-  if (descriptor < 0) {
-    free(beside); /* which keeps errno */
-    return NULL;
-  }
-  temporary = beside;
-  /* A file's mode stays; a new one's is what the umask leaves. */
+  hold_signals(true);
+  const int descriptor = mkostemp(temporary, O_CLOEXEC);
+  there = descriptor >= 0;
+  hold_signals(false);
+  if (descriptor < 0)
+    return exists ? fopen(place, "wb") : NULL;
+  /* A file's owner and mode stay; a new one's are what the system and the umask leave. */
   const mode_t mask = umask(0);
   umask(mask);
-  struct stat old;
-  fchmod(descriptor, stat(path, &old) == 0 ? old.st_mode & 07777 : 0666 & ~mask);
+  if (exists && fchown(descriptor, old.st_uid, old.st_gid) != 0) {
+    close(descriptor);
+    unlink(temporary);
+    there = 0;
+    return fopen(place, "wb");
+  }
+  fchmod(descriptor, exists ? old.st_mode & 07777 : 0666 & ~mask);
   return fdopen(descriptor, "wb");
 }
 
@@ -78,8 +118,12 @@ bool output_commit(void) {
   if (file != stdout)
     good = fclose(file) == 0 && good;
   file = NULL;
-  if (good && place != NULL)
+  if (good && there) {
+    hold_signals(true);
     good = rename(temporary, place) == 0;
+    there = !good;
+    hold_signals(false);
+  }
   if (!good) {
     complain("cannot write %s: %s", name, strerror(errno));
     output_abandon();
@@ -92,7 +136,7 @@ bool output_commit(void) {
 void output_abandon(void) {
   if (file != NULL && file != stdout)
     fclose(file);
-  if (temporary != NULL)
+  if (there)
     unlink(temporary);
   forget();
 }

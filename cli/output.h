@@ -1,7 +1,8 @@
 /* A file that appears whole or not at all: written beside its place, renamed when it is complete.
  *
  * "-" is stdout, and what exists already but is no regular file (a terminal, a pipe, /dev/null) is written in place: there
- * the output streams.
+ * the output streams. A symbolic link stays, and what it leads to is written. Mode and owner of a file stay too; where they
+ * could not, or where no file can be made beside it, the file is written in place and not whole or not at all.
  */
 #ifndef CAROM_CLI_OUTPUT_H
 #define CAROM_CLI_OUTPUT_H

@@ -1,11 +1,14 @@
 /* One collision out of a file. */
 #include "pick.h"
 
+#include "doubts.h"
+#include "memory.h"
 #include "message.h"
 #include "place.h"
 #include "source.h"
 
 #include <limits.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Adds an id to the text, with ", " between them, while there is room; counts what is left out. */
@@ -17,48 +20,78 @@ static void list_id(char *text, size_t room, const char *id, long long *left_out
     snprintf(text + used, room - used, "%s%s", used > 0 ? ", " : "", id);
 }
 
-/* Reads on to the row of that id, number k of the block; false after a complaint, which names those that are there. */
-static bool find_row(row_source *source, const char *file, const char *id, source_block *block, size_t *k) {
+/* Those asked for, and which of them have been met. */
+typedef struct search {
+  const shared_options *asked;
+  const char *const *id;
+  size_t count, found;
+  carom_impact *impact;
+  bool *there, good;
+} search;
+
+/* Row k of the block is number `which` of those asked for. */
+static void take(search *s, row_source *source, const source_block *block, size_t k, size_t which) {
+  carom_impact *impact = &s->impact[which];
+  *impact = source_impact(source, block, k);
+  if (s->asked->friction.given)
+    impact->mu_ball = carom_mu_ball(impact, s->asked->friction.law);
+  const carom_status status = carom_check(impact, NULL, NULL);
+  bool good = status == CAROM_OK && (block->row == NULL || block->row[k].error == NULL);
+  doubts found = {0};
+  const char *doubt = good ? doubts_about(&found, impact, true) : NULL;
+  doubts_report(&found, source_name(source));
+  good &= !(s->asked->strict && doubt != NULL);
+  if (!good)
+    source_report(source, block, k, NULL, status, doubt);
+  s->there[which] = true;
+  s->found++;
+  s->good &= good;
+}
+
+/* False after a complaint, which names the ids that are there. */
+static bool find_rows(search *s, row_source *source, source_block *block) {
   char there[400] = "", more[40] = "", number[24];
   long long left_out = 0;
-  read_result result;
-  while ((result = source_read(source, block)) == READ_ONE)
-    for (*k = 0; *k < block->count; ++*k) {
-      snprintf(number, sizeof number, "%zu", block->first + *k + 1);
-      const char *own = block->row != NULL ? block->row[*k].id : number;
-      if (strcmp(own, id) == 0)
-        return true;
+  read_result result = READ_ONE;
+  while (s->found < s->count && (result = source_read(source, block)) == READ_ONE)
+    for (size_t k = 0; k < block->count && s->found < s->count; k++) {
+      snprintf(number, sizeof number, "%zu", block->first + k + 1);
+      const char *own = block->row != NULL ? block->row[k].id : number;
+      for (size_t which = 0; which < s->count; which++)
+        if (!s->there[which] && strcmp(own, s->id[which]) == 0)
+          take(s, source, block, k, which);
       list_id(there, sizeof there, own, &left_out);
     }
   if (left_out > 0)
     snprintf(more, sizeof more, " and %lld more", left_out);
-  if (result == READ_END)
-    complain("%s has no collision '%s'; it has %s%s", file, id, there[0] != '\0' ? there : "none at all", more);
-  return false;
+  for (size_t which = 0; which < s->count && result == READ_END; which++)
+    if (!s->there[which]) {
+      complain("%s has no collision '%s'; it has %s%s", source_name(source), s->id[which],
+               there[0] != '\0' ? there : "none at all", more);
+      break;
+    }
+  return s->found == s->count && s->good;
 }
 
-bool pick_impact(const shared_options *asked, const char *file, carom_impact *impact) {
+bool pick_impacts(const shared_options *asked, const char *file, const char *const *id, size_t count, carom_impact *impact) {
   char path[PATH_MAX];
-  size_t k;
   if (file == NULL) {
     snprintf(path, sizeof path, "%s/collisions-204.csv", data_folder(asked->folder));
     file = path;
   }
   row_source *source = source_open(file, !asked->friction.given);
   source_block block = {0};
-  bool good = source != NULL && find_row(source, strcmp(file, "-") == 0 ? "standard input" : file, asked->id, &block, &k);
-  if (good) {
-    *impact = source_impact(source, &block, k);
-    if (asked->friction.given)
-      impact->mu_ball = carom_mu_ball(impact, asked->friction.law);
-    const carom_status status = carom_check(impact, NULL, NULL);
-    good = status == CAROM_OK && (block.row == NULL || block.row[k].error == NULL);
-    if (!good)
-      source_report(source, &block, k, NULL, status);
-  }
+  search s = {.asked = asked, .id = id, .count = count, .impact = impact, .good = true};
+  s.there = allocate(count, sizeof *s.there);
+  const bool good = source != NULL && find_rows(&s, source, &block);
+  free(s.there);
   source_free_block(&block);
   source_close(source);
   return good;
+}
+
+bool pick_impact(const shared_options *asked, const char *file, carom_impact *impact) {
+  return pick_impacts(asked, file, &asked->id, 1, impact);
 }
 
 void pick_describe(FILE *out, const shared_options *asked, const carom_impact *impact) {

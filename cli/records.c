@@ -7,6 +7,7 @@
 
 #include "memory.h"
 #include "message.h"
+#include "number.h"
 
 #include <csv.h>
 #include <errno.h>
@@ -22,6 +23,8 @@ struct record_reader {
   const char *name;
   double bytes;    /* of the whole file, or -1 */
   long long lines; /* read so far */
+  bool begun;      /* the first record has been met */
+  bool refused;    /* the file is of another kind */
   size_t line_size;
   char line[RECORD_LIMIT + 1]; /* the last of them, with its end */
   struct csv_parser parser;
@@ -88,20 +91,62 @@ static bool read_line(record_reader *r) {
   return to > r->line;
 }
 
+/* What a file is that its first bytes show to be no CSV; NULL if they do not. */
+static const char *other_kind(const char *line, size_t size) {
+  static const struct {
+    const char *bytes;
+    size_t size;
+    const char *kind;
+  } kinds[] = {{"\x93NUMPY", 6, "a NumPy array; give it as a file whose name ends in .npy"},
+               {"PK\x03\x04", 4, "an archive, such as .npz or .xlsx; save one array as .npy, or one sheet as CSV"},
+               {"\xFF\xFE", 2, "UTF-16 text; save it as CSV in UTF-8"},
+               {"\xFE\xFF", 2, "UTF-16 text; save it as CSV in UTF-8"}};
+  for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
+    if (size >= kinds[k].size && memcmp(line, kinds[k].bytes, kinds[k].size) == 0)
+      return kinds[k].kind;
+  return NULL;
+}
+
+/* The first record says what stands between fields. */
+static void find_delimiter(record_reader *r) {
+  const bool commas = memchr(r->line, ',', r->line_size) != NULL;
+  for (const char *other = ";\t"; !commas && *other != '\0'; other++)
+    if (memchr(r->line, *other, r->line_size) != NULL) {
+      csv_set_delim(&r->parser, (unsigned char)*other);
+      return;
+    }
+}
+
+/* Whether the line, the first of a record, is passed over. */
+static bool is_skipped(const record_reader *r) {
+  return r->line_size == 0 || r->line[0] == '\n' || r->line[0] == '\r' || (!r->begun && r->line[0] == '#');
+}
+
 /* Feeds lines until a record is complete or the input ends; false if it is malformed, which drops it. */
 static bool feed_record(record_reader *r, record *out) {
   size_t fed = 0;
   while (!r->complete && read_line(r)) {
-    if (fed == 0 && (r->line_size == 0 || r->line[0] == '\n' || r->line[0] == '\r'))
-      continue; /* a blank line between records */
+    const char *kind = r->lines == 1 ? other_kind(r->line, r->line_size) : NULL;
+    if (kind != NULL) {
+      complain("%s: not a CSV file, but %s", r->name, kind);
+      r->refused = true;
+      return false;
+    }
+    if (fed == 0 && is_skipped(r))
+      continue;
+    if (!r->begun)
+      find_delimiter(r);
+    r->begun = true;
     if (fed == 0)
       out->line = r->lines;
     fed += r->line_size;
     if (fed <= RECORD_LIMIT)
       csv_parse(&r->parser, r->line, r->line_size, on_field, on_record, r);
     if (!r->complete && fed > RECORD_LIMIT) {
+      const unsigned char delimiter = csv_get_delim(&r->parser);
       csv_free(&r->parser);
       csv_init(&r->parser, 0);
+      csv_set_delim(&r->parser, delimiter);
       return false;
     }
   }
@@ -110,12 +155,21 @@ static bool feed_record(record_reader *r, record *out) {
   return true;
 }
 
+/* Whether there is nothing in any of the fields, as in ",,,," below a table that came out of a spreadsheet. */
+static bool is_empty(const record_reader *r) {
+  return r->complete && r->count > 1 && r->text_size == r->count;
+}
+
 read_result record_next(record_reader *r, record *out) {
-  r->count = 0;
-  r->text_size = 0;
-  r->complete = false;
-  *out = (record){0};
-  out->malformed = !feed_record(r, out);
+  do {
+    r->count = 0;
+    r->text_size = 0;
+    r->complete = false;
+    *out = (record){0};
+    out->malformed = !feed_record(r, out);
+  } while (!out->malformed && is_empty(r));
+  if (r->refused)
+    return READ_FAILED;
   if (ferror(r->file)) {
     complain("cannot read %s: %s", r->name, strerror(errno));
     return READ_FAILED;
@@ -128,6 +182,14 @@ read_result record_next(record_reader *r, record *out) {
   out->count = r->count;
   out->field = r->field;
   return r->complete ? READ_ONE : READ_END;
+}
+
+bool record_is_numbers(const record *r) {
+  size_t numbers = 0;
+  double unused;
+  for (size_t k = 0; k < r->count; k++)
+    numbers += parse_number(r->field[k], &unused);
+  return 2 * numbers > r->count;
 }
 
 double record_share(const record_reader *r) {

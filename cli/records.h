@@ -1,8 +1,11 @@
 /* Records of a CSV file, one at a time, in constant memory.
  *
- * Understood: fields quoted or not, quoted commas, quotes and line ends, LF, CRLF and CR, a UTF-8 byte-order mark, blank lines
- * (skipped), a last line without its end. A record of more than a mebibyte, such as an unclosed quote makes, is malformed: it
- * costs that record, and reading goes on at the next line. A NUL in a field is read as '?'.
+ * Understood: fields quoted or not, quoted commas, quotes and line ends, LF, CRLF and CR, a UTF-8 byte-order mark, a last line
+ * without its end; fields between semicolons or tabs where the first record has no comma. Passed over: blank lines, records of
+ * which every field is empty, and lines that begin with # before the first record, which carom itself writes. Other kinds of
+ * files that are given for CSV (UTF-16, .npy, .npz, .xlsx) are refused by their name. A record of more than a mebibyte, such as
+ * an unclosed quote makes, is malformed: it costs that record, and reading goes on at the next line. A NUL in a field is read
+ * as '?'.
  */
 #ifndef CAROM_CLI_RECORDS_H
 #define CAROM_CLI_RECORDS_H
@@ -29,6 +32,9 @@ read_result record_next(record_reader *reader, record *out);
 
 /* The share of the file that has been read, or -1 where its size is not known: for progress. */
 double record_share(const record_reader *reader);
+
+/* Whether most fields are numbers: of a first record, that it is no header. */
+bool record_is_numbers(const record *r);
 
 /* The name of the file for messages. */
 const char *record_file_name(const record_reader *reader);

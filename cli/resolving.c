@@ -5,6 +5,7 @@
 #include "resolving.h"
 
 #include "command.h"
+#include "doubts.h"
 #include "memory.h"
 #include "message.h"
 #include "monotonic.h"
@@ -36,8 +37,17 @@ const char resolve_details[] =
     "  status is ok, separating (the balls do not approach; their state is unchanged) or the name of an error, with nan for "
     "the\n"
     "  numbers. Each number is the shortest text that reads back to the same double.\n\n"
-    "exit code: 0 if every row is ok or separating, 1 if some rows are in error (each is named on standard error, the\n"
-    "others are resolved), 2 for bad usage or unreadable input\n";
+    "with --derived also, nan unless the status is ok:\n"
+    "  throw_deg               angle of ball 2's change of velocity from the line of centres, degrees, to the left from above\n"
+    "  deflection_deg          angle by which ball 1 is turned at once, and deflection_rolling_deg once it rolls\n"
+    "  roll1x roll1y           velocity of ball 1 once it rolls, m/s, and roll2x roll2y of ball 2\n"
+    "  spin_transfer           ball 2's change of w2z over ball 1's w1z before; nan where that is 0\n"
+    "  energy_lost             share of the kinetic energy that is lost, that of spins included\n\n"
+    "exit code: 0 if every row is ok or separating, 1 if some rows are in error (each of the first thousand is named on\n"
+    "standard error, the others are resolved), 2 for bad usage or unreadable input\n";
+
+enum { MOST_NAMED = 1000 };             /* rows in error that are named */
+static const double least_timed = 10e6; /* ns; less is mostly cold caches, and no time is told */
 
 /* A block of the input, and how reading it ended. */
 typedef struct reading {
@@ -53,6 +63,7 @@ typedef struct run {
   result_sink *out;
   long long ok, separating, errors;
   double solving; /* ns */
+  doubts doubts;
   /* What the solver works on, in the precision of the run. */
   void *impact, *result;
   int8_t *status;
@@ -92,10 +103,16 @@ static void solve_and_write(run *r, const source_block *block) {
     const impact_row *row = block->row != NULL ? &block->row[k] : NULL;
     const char *error = row != NULL ? row->error : NULL;
     const carom_status status = r->status[k];
+    const carom_impact impact = source_impact(r->in, block, k);
+    const char *doubt = error == NULL && status >= 0 ? doubts_about(&r->doubts, &impact, true) : NULL;
+    if (r->job->shared.strict && doubt != NULL) {
+      error = doubt;
+      memset((char *)r->result + k * size, 0xff, size); /* NaN throughout */
+    }
     const bool bad = error != NULL || status < 0;
-    if (bad)
-      source_report(r->in, block, k, &r->job->shared.options, status);
-    sink_write(r->out, row != NULL ? row->id : NULL, (const char *)r->result + k * size, status, error);
+    if (bad && r->errors < MOST_NAMED)
+      source_report(r->in, block, k, &r->job->shared.options, status, doubt);
+    sink_write(r->out, row != NULL ? row->id : NULL, &impact, (const char *)r->result + k * size, status, error);
     r->ok += !bad && status == CAROM_OK;
     r->separating += !bad && status == CAROM_SEPARATING;
     r->errors += bad;
@@ -118,15 +135,21 @@ static bool resolve_all(run *r) {
     progress_show("rows", rows, share > 0.0 ? rows / share : -1.0);
   }
   progress_clear();
+  if (r->errors > MOST_NAMED)
+    complain("%lld more rows are in error; the column status says of each why", r->errors - MOST_NAMED);
+  doubts_report(&r->doubts, source_name(r->in));
   source_free_block(&now->block);
   source_free_block(&next->block);
   return now->result == READ_END;
 }
 
 static void print_summary(const run *r) {
-  fprintf(stderr, "%lld rows: %lld ok, %lld separating, %lld in error; %s took %.3g s, %.3g us per collision\n",
-          r->ok + r->separating + r->errors, r->ok, r->separating, r->errors, r->job->solver, 1e-9 * r->solving,
-          1e-3 * r->solving / (double)(r->ok > 0 ? r->ok : 1));
+  fprintf(stderr, "%lld rows: %lld ok, %lld separating, %lld in error", r->ok + r->separating + r->errors, r->ok, r->separating,
+          r->errors);
+  if (r->solving >= least_timed)
+    fprintf(stderr, "; %s took %.3g s, %.3g us per collision", r->job->solver, 1e-9 * r->solving,
+            1e-3 * r->solving / (double)(r->ok > 0 ? r->ok : 1));
+  fputc('\n', stderr);
 }
 
 int resolve_file(const resolving *job, const char *file) {
@@ -138,7 +161,7 @@ int resolve_file(const resolving *job, const char *file) {
   r.impact = allocate(NPY_BLOCK, sizeof(carom_impact));
   r.result = allocate(NPY_BLOCK, sizeof(carom_result));
   r.status = allocate(NPY_BLOCK, 1);
-  r.out = sink_open(job->shared.output != NULL ? job->shared.output : "-", r.single);
+  r.out = sink_open(job->shared.output != NULL ? job->shared.output : "-", r.single, job->shared.derived);
   if (r.out != NULL && sink_close(r.out, resolve_all(&r)))
     code = r.errors > 0 ? EXIT_SOME : EXIT_GOOD;
   free(r.impact);

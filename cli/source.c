@@ -91,8 +91,8 @@ static const char *shown(const char *id, char text[ID_SHOWN]) {
   return text;
 }
 
-void source_report(const row_source *s, const source_block *block, size_t k, const carom_options *options,
-                   carom_status status) {
+void source_report(const row_source *s, const source_block *block, size_t k, const carom_options *options, carom_status status,
+                   const char *doubt) {
   const impact_row *row = block->row != NULL ? &block->row[k] : NULL;
   const carom_impact impact = source_impact(s, block, k);
   int field;
@@ -110,8 +110,14 @@ void source_report(const row_source *s, const source_block *block, size_t k, con
     snprintf(what, sizeof what, "%s (number %d) = %s: ", carom_field_name(field), field, text);
   if (row != NULL && row->error != NULL)
     complain("%s: %s (%s)", where, row->message, row->error);
+  else if (doubt != NULL)
+    complain("%s: refused by --strict (%s)", where, doubt);
   else
     complain("%s: %s%s (%s)", where, what, carom_status_string(status), carom_status_name(status));
+}
+
+const char *source_name(const row_source *s) {
+  return s->csv != NULL ? record_file_name(impact_records(s->csv)) : s->name;
 }
 
 double source_share(const row_source *s) {

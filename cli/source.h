@@ -31,9 +31,12 @@ void source_free_block(source_block *block);
 carom_impact source_impact(const row_source *source, const source_block *block, size_t k);
 
 /* Complains about row k of a block: what, where and what would be right. `status` is the library's, CAROM_OK where the row
- * could not be read. */
+ * could not be read; `doubt` is NULL, or what --strict refuses the row for. */
 void source_report(const row_source *source, const source_block *block, size_t k, const carom_options *options,
-                   carom_status status);
+                   carom_status status, const char *doubt);
+
+/* The name of the input for messages. */
+const char *source_name(const row_source *source);
 
 /* The share of the input that has been read, 0 to 1, or -1 where it is not known; not while another thread reads. */
 double source_share(const row_source *source);

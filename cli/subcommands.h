@@ -3,6 +3,7 @@
 #define CAROM_CLI_SUBCOMMANDS_H
 
 int command_resolve(int argc, char **argv);
+int command_hit(int argc, char **argv);
 int command_shoot(int argc, char **argv);
 int command_trace(int argc, char **argv);
 int command_sweep(int argc, char **argv);

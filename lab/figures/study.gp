@@ -2,8 +2,14 @@
 call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../cli/figures/style.gp" ARG1 ARG2 ARG3 ARG4
 
 # Where and with what the data were measured: two lines at the foot, which need a bottom margin of about 105 points.
-if (!exists("build")) build = system("sed -n 's/^# \\([a-z0-9]*-[a-z0-9]*\\): .*/\\1/p' '".data."' | head -n 1")
-compiler = strlen(build) > 0 ? build.": ".note(build) : "compiler: ".note("compiler")
+# The compiler named is that of what is drawn: the ladder's, by its configuration such as clang-default, the library's, or both, as
+# where the yardstick is of the ladder.
+configs = system("awk -F, '/^#/ { next } !at { for (k = 1; k <= NF; k++) if ($k == \"config\") at = k; if (!at) at = NF + 1; next } \
+  $at != \"\" && !seen[$at]++ { print $at }' '".data."' | tr '\\n' ' '")
+drawn = ""; do for [name in configs] { if (strstrt(name, "-") > 0 && strlen(drawn) == 0) { drawn = name } }
+if (!exists("build")) build = drawn
+compiler = strlen(build) > 0 ? build.": ".note(build) : "compiler: ".note("compiler").", ".note("flags")
+if (strlen(build) > 0 && place_in(configs, "library") > 0) compiler = "library: ".note("compiler").";".(narrow ? "\n" : " ").compiler
 date = note("date")
 machine = note("processor").", family ".note("processor family")
 flags_at = strstrt(compiler, ", -")

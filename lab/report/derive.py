@@ -6,7 +6,7 @@ Each function gives the lines of a CSV from the other sheets, by their names in 
 import math
 import re
 
-from .sheet import number_of
+from .sheet import Missing, number_of
 from .text import general
 
 COUNTED_STEPS = 1000.0  # bounds.csv counts at this N
@@ -59,6 +59,21 @@ def counts_by_kernel(bounds):
     return counts
 
 
+def compiler_of(text):
+    """Version and flags in a note such as "clang, Debian Clang 19.1.7 (3~deb12u1), -O3 -march=znver2": ("19.1.7", "-O3 ...")."""
+    version, flags = re.search(r"\d+\.\d+(\.\d+)?", text or ""), re.search(r"(?:^|, )(-.*)", text or "")
+    return version[0] if version else "unknown", flags[1].strip() if flags else "unknown"
+
+
+def built_otherwise(cycles, bounds, config, counted):
+    """Why the times of `config` are not of the code whose operations were counted, as a sentence; None where they are."""
+    timed = compiler_of(cycles.note(config))
+    there = compiler_of(bounds.note(f"compiler {counted}"))[0], compiler_of(bounds.note("flags"))[1]
+    if timed == there:
+        return None
+    return f"{config} was timed as built by version {timed[0]} with {timed[1]}, the operations were counted with {there[0]}, {there[1]}"
+
+
 def ratio(above, below):
     return above / below if below else math.nan
 
@@ -66,7 +81,8 @@ def ratio(above, below):
 def performance(data):
     """Operations over N are those at N = 1000 and, for every step more or less, those of a step. Where the machine counts core
     cycles they are used, else reference cycles. The bound is of a step's operations over its longest chain, which is a number of
-    core cycles: on a machine that shows only reference cycles these are converted by the lengths of both, as measured."""
+    core cycles: on a machine that shows only reference cycles these are converted by the lengths of both, as measured. Times and
+    counts must be of the same code: of the same version of the compiler with the same flags."""
     cycles, bounds, latency = data["cycles"], data["bounds"], data["latency"]
     cycles.needs("kernel", "config", "steps", "ref_cycles")
     bounds.needs("kernel", "compiler", "flops_amd", "per_step_flops_amd", "chain_cycles_native")
@@ -74,14 +90,22 @@ def performance(data):
     rate, cycle = ticks_per_ns(cycles), latency.first(row="cycle")
     unit = 1.0 if core else rate * cycle.number("ns") if cycle is not None else math.nan
     counts, here = counts_by_kernel(bounds), same_machine(cycles, bounds)
+    other_code = {
+        row["config"]: built_otherwise(cycles, bounds, row["config"], counts[row["kernel"], row["config"].partition("-")[0]]["compiler"])
+        for row in cycles.rows
+        if row["config"].endswith("-zen2") and (row["kernel"], row["config"].partition("-")[0]) in counts
+    }
+    if other_code and all(other_code.values()):
+        raise Missing(next(iter(other_code.values())))
     yield from notes_of(cycles)
+    yield from (f"# left out: {reason}" for reason in other_code.values() if reason)
     yield f"# cycle: {'core' if core else 'reference'} cycles"
     yield f"# ticks per ns: {general(rate, 4)}"
     yield "kernel,config,steps,flops,cycles,flops_per_cycle,bound_flops_per_cycle,share_of_bound"
     for row in cycles.rows:
         compiler, _, config = row["config"].partition("-")
         count = counts.get((row["kernel"], compiler))
-        if config != "zen2" or count is None:
+        if config != "zen2" or count is None or other_code[row["config"]]:
             continue
         steps, a_step = row.number("steps"), count.number("per_step_flops_amd")
         flops = count.number("flops_amd") + (steps - COUNTED_STEPS) * a_step

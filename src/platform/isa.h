@@ -2,11 +2,33 @@
 #ifndef CAROM_SRC_PLATFORM_ISA_H
 #define CAROM_SRC_PLATFORM_ISA_H
 
+/* What CAROM_ISAS of CMakeLists.txt leaves out is defined as CAROM_WITHOUT_NAME. */
+#ifdef CAROM_WITHOUT_SSE2
+#define CAROM_IF_SSE2(X)
+#else
+#define CAROM_IF_SSE2(X) X(SSE2, sse2)
+#endif
+#ifdef CAROM_WITHOUT_AVX2
+#define CAROM_IF_AVX2(X)
+#else
+#define CAROM_IF_AVX2(X) X(AVX2, avx2)
+#endif
+#ifdef CAROM_WITHOUT_AVX512
+#define CAROM_IF_AVX512(X)
+#else
+#define CAROM_IF_AVX512(X) X(AVX512, avx512)
+#endif
+#ifdef CAROM_WITHOUT_NEON
+#define CAROM_IF_NEON(X)
+#else
+#define CAROM_IF_NEON(X) X(NEON, neon)
+#endif
+
 /* X(NAME, suffix) for the sets that sources are compiled for; see CMakeLists.txt. */
 #if defined(__x86_64__)
-#define CAROM_BUILT_ISAS(X) X(PLAIN, plain) X(SSE2, sse2) X(AVX2, avx2) X(AVX512, avx512)
+#define CAROM_BUILT_ISAS(X) X(PLAIN, plain) CAROM_IF_SSE2(X) CAROM_IF_AVX2(X) CAROM_IF_AVX512(X)
 #elif defined(__aarch64__)
-#define CAROM_BUILT_ISAS(X) X(PLAIN, plain) X(NEON, neon)
+#define CAROM_BUILT_ISAS(X) X(PLAIN, plain) CAROM_IF_NEON(X)
 #else
 #define CAROM_BUILT_ISAS(X) X(PLAIN, plain)
 #endif

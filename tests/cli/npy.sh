@@ -49,3 +49,8 @@ for name in big_endian integers fortran narrow flat cut short other missing; do
   try carom resolve -o refused.npy $name.npy
 done
 ls refused.npy* 2> /dev/null || echo "nothing written"
+# A shape that wraps around to the right one.
+python -c "
+text = b\"{'descr': '<f8', 'fortran_order': False, 'shape': (5, -18446744073709551590), }\".ljust(117) + b'\n'
+open('wrapped.npy', 'wb').write(b'\x93NUMPY\x01\x00' + len(text).to_bytes(2, 'little') + text + bytes(5 * 26 * 8))"
+try carom resolve -o /dev/null wrapped.npy

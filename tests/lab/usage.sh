@@ -11,3 +11,4 @@ try lab resolve --kernel fast x.csv
 try lab resolve --solver exact x.csv
 try lab resolve --kernel base --precision single x.csv
 lab kernels > /dev/full || echo "exit $?"
+for budget in x 0 -1 nan 1x ""; do try lab bench --budget "$budget"; done

@@ -169,3 +169,26 @@ def test_a_sheet_is_read_as_it_stands(tmp_path):
     assert len(sheet.groups("n")) == 3 and sheet.first(n="1")["n"] == "1"
     with pytest.raises(Missing, match="a.csv has no column absent"):
         sheet.needs("n", "absent")
+
+
+@pytest.mark.parametrize(
+    "was, now",
+    [
+        ("clang, Debian Clang 19.1.7 (3~deb12u1), -O3 -march=znver2", "clang, Debian Clang 22.1.0 (1~deb12u1), -O3 -march=znver2"),
+        ("3~deb12u1), -O3 -march=znver2", "3~deb12u1), -O2 -march=znver2"),
+    ],
+)
+def test_times_of_other_code_than_was_counted(make, tmp_path, was, now):
+    """Operations that clang 19 emits over the time of what another clang or other flags made would be no figure of either."""
+    part = tmp_path / "part"
+    part.mkdir()
+    for name in ("cycles", "bounds", "latency", "kernels"):
+        shutil.copy(STORED / f"{name}.csv", part)
+    cycles = part / "cycles.csv"
+    text = cycles.read_text(encoding="utf-8")
+    assert was in text
+    cycles.write_text(text.replace(was, now), encoding="utf-8")
+    made = make("other", "--from", part)
+    assert "performance.csv cannot be made: clang-zen2 was timed as built by version" in made.complaints
+    assert not (made.folder / "performance.csv").exists() and not (made.folder / "performance.svg").exists()
+    assert all("%" not in row[13] for row in made.table("operations")[1:])

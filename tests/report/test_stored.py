@@ -144,3 +144,12 @@ def test_usage(make, tmp_path):
         assert not (tmp_path / "one").exists()
     help = make("one", "--help")
     assert help.code == 0 and "example:\n  tools/python -m lab.report" in help.out
+
+
+def test_the_foot_names_the_compiler_of_what_is_drawn(stored):
+    """The ladder's kernels are clang's here, the library's gcc's; their speedups are over a kernel of the ladder."""
+    for name, library, ladder in [("isas", True, True), ("batch", True, True), ("runtime", False, True), ("accuracy", True, True)]:
+        for kind in ("", "-narrow"):
+            picture = (stored.folder / f"{name}{kind}.svg").read_text(encoding="utf-8")
+            assert ("library: gcc 12.2.0;" in picture) == library, name
+            assert ("Debian Clang 19" in picture) == ladder, name

@@ -135,7 +135,9 @@ START_TEST(bad_options) {
   } cases[] = {
       {{.solver = (carom_solver)99, .steps = 1000}, CAROM_ERROR_SOLVER},
       {{.solver = (carom_solver)-1, .steps = 1000}, CAROM_ERROR_SOLVER},
-      {{.slip = (carom_slip)2, .steps = 1000}, CAROM_ERROR_SLIP},
+      {{.solver = (carom_solver)CAROM_SOLVER_COUNT, .steps = 1000}, CAROM_ERROR_SOLVER},
+      {{.slip = (carom_slip)CAROM_SLIP_COUNT, .steps = 1000}, CAROM_ERROR_SLIP},
+      {{.slip = (carom_slip)-1, .steps = 1000}, CAROM_ERROR_SLIP},
       {{.steps = -1}, CAROM_ERROR_STEPS},
       {{.steps = -5}, CAROM_ERROR_STEPS},
       {{.threads = -2}, CAROM_ERROR_THREADS},

@@ -46,8 +46,34 @@ START_TEST(shapes_of_files) {
          "a,b\n1,2\n",
          "1:a|b;2:1|2;");
   expect("a\n\n\r\n1\n\n2\n", "1:a;4:1;6:2;");
-  expect("a,b\n,\n1\n1,2,3\n", "1:a|b;2:|;3:1;4:1|2|3;");
+  expect("a,b\n,\n1\n1,2,3\n", "1:a|b;3:1;4:1|2|3;");
   expect(" a , b \n", "1:a|b;");
+}
+END_TEST
+
+START_TEST(what_other_programs_write) {
+  expect("# note\n#,\na,b\n1,2\n", "3:a|b;4:1|2;");
+  expect("a,b\n#1,2\n", "1:a|b;2:#1|2;");
+  expect("a;b\n1,5;2\n", "1:a|b;2:1,5|2;");
+  expect("a\tb\n1\t\"2\t3\"\n", "1:a|b;2:1|2\t3;");
+  expect("a,b;c\n1,2;3\n", "1:a|b;c;2:1|2;3;");
+  expect("a,b\n , \n,,,\n1,2\n\"\",\n", "1:a|b;4:1|2;");
+  expect("\xFF\xFE"
+         "a\0",
+         "");
+  expect("PK\x03\x04,1\n2,3\n", "");
+}
+END_TEST
+
+START_TEST(a_first_record_of_numbers) {
+  static const char *const texts[] = {"x,1,2\n", "1,2\n", "a,b,1\n", "a,b\n"};
+  for (size_t k = 0; k < 4; k++) {
+    record_reader *reader = open_text(texts[k], strlen(texts[k]));
+    record in;
+    ck_assert_int_eq(record_next(reader, &in), READ_ONE);
+    ck_assert_msg(record_is_numbers(&in) == (k < 2), "%s", texts[k]);
+    record_close(reader);
+  }
 }
 END_TEST
 
@@ -117,6 +143,6 @@ START_TEST(a_nul_does_not_end_a_field) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("records", shapes_of_files, quotes, a_quote_left_open_costs_one_record, a_line_without_end_costs_one_record,
-                   a_nul_does_not_end_a_field);
+  return RUN_TESTS("records", shapes_of_files, what_other_programs_write, a_first_record_of_numbers, quotes,
+                   a_quote_left_open_costs_one_record, a_line_without_end_costs_one_record, a_nul_does_not_end_a_field);
 }

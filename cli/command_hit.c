@@ -1,0 +1,260 @@
+/* `carom hit`: one collision of a cue ball with a ball at rest, from speed, cut angle and spin; in words, as a row, as a
+ * picture.
+ *
+ * The cue ball comes along +x. A cut above 0 sends the object ball to the left as seen from above.
+ */
+#include "command.h"
+#include "derived.h"
+#include "doubts.h"
+#include "hit_picture.h"
+#include "message.h"
+#include "number.h"
+#include "output.h"
+#include "shot_picture.h"
+#include "subcommands.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_SPINS = 16, MOST_LINES = 24, LINE = 120 };
+
+typedef struct spin_list {
+  char name[MOST_SPINS][32];
+  int count;
+} spin_list;
+
+typedef struct hit {
+  shared_options asked;
+  double speed, cut, radius, mass, cloth, restitution;
+  spin_list spins;
+  const char *side;
+  bool csv;
+  const char *picture;
+} hit;
+
+/* What is told, line by line. */
+typedef struct report {
+  char line[MOST_LINES][LINE];
+  const char *lines[MOST_LINES + 1];
+  int count;
+} report;
+
+__attribute__((format(printf, 2, 3))) static void tell(report *r, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(r->line[r->count], LINE, format, arguments);
+  va_end(arguments);
+  r->lines[r->count] = r->line[r->count];
+  r->lines[++r->count] = NULL;
+}
+
+/* The spin about the horizontal axis across the way, rad/s: above 0 for follow. NaN if the text is none. */
+static double spin_of(const char *text, double rolling) {
+  double value;
+  switch (place_among("stun|follow|roll|draw", text, strlen(text))) {
+  case 0:
+    return 0.0;
+  case 1:
+  case 2:
+    return rolling;
+  case 3:
+    return -rolling;
+  default:
+    return parse_number(text, &value) && isfinite(value) ? value : (double)NAN;
+  }
+}
+
+static OPTION_SET(set_spins) {
+  spin_list *list = field;
+  char *rest;
+  list->count = 0;
+  for (char *name = strtok_r(text, ",", &rest); name != NULL; name = strtok_r(NULL, ",", &rest)) {
+    if (isnan(spin_of(name, 1.0)) || strlen(name) >= sizeof list->name[0] || list->count == MOST_SPINS) {
+      complain("--%s is stun, follow, roll, draw or a number of rad/s, or up to %d of them with commas, not '%.60s'", row->name,
+               MOST_SPINS, name);
+      return false;
+    }
+    strcpy(list->name[list->count++], name);
+  }
+  if (list->count == 0)
+    complain("--%s needs a spin", row->name);
+  return list->count > 0;
+}
+
+static OPTION_SET(set_side) {
+  double value;
+  *(const char **)field = text;
+  if (strcmp(text, "gearing") == 0 || (parse_number(text, &value) && isfinite(value)))
+    return true;
+  complain("--%s is a number of rad/s or gearing, not '%s'", row->name, text);
+  return false;
+}
+
+OPTION(hit, option_speed, "speed", speed, 0, "V", set_number, 0, "speed of the cue ball at contact, m/s (default 1.5)");
+OPTION(hit, option_cut, "cut", cut, 0, "DEGREES", set_number, 0,
+       "angle from its way to the line of centres, -90 to 90; above 0 the object ball\ngoes to the left (default 30)");
+OPTION(hit, option_spin, "spin", spins, 0, "SPIN", set_spins, 0,
+       "stun: none (default); follow or roll: it rolls; draw: as fast backwards; or a number,\n"
+       "rad/s, above 0 for follow. Several with commas: several collisions");
+OPTION(hit, option_side, "side", side, 0, "RAD/S", set_side, 0,
+       "side spin, rad/s, above 0 for right english (counterclockwise from above), or gearing:\n"
+       "as much as lets the balls roll on each other without slip (default 0)");
+OPTION(hit, option_radius, "radius", radius, 0, "R", set_number, 0, "of the balls, m (default 0.028575, a pool ball)");
+OPTION(hit, option_mass, "mass", mass, 0, "M", set_number, 0, "of the balls, kg (default 0.170097)");
+OPTION(hit, option_cloth, "cloth", cloth, 0, "MU", set_number, 0, "friction with the cloth (default 0.2)");
+OPTION(hit, option_restitution, "restitution", restitution, 0, "E", set_number, 0, "of the balls (default 0.95)");
+OPTION(hit, option_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "write the collision as `carom resolve` reads it; its id is the spin");
+OPTION(hit, option_plot, "plot", picture, 0, "OUT.svg", set_svg, 0, "draw the balls and their paths from above");
+
+static carom_impact impact_of(const hit *h, const char *spin) {
+  const double angle = h->cut * (3.14159265358979323846 / 180.0), rolling = h->speed / h->radius;
+  carom_impact in = {.restitution = h->restitution};
+  double side;
+  if (!parse_number(h->side, &side)) /* gearing: the surfaces move alike along the tangent line */
+    side = rolling * sin(angle);
+  in.a = (carom_ball){.r = {0.0, 0.0, h->radius},
+                      .v = {h->speed, 0.0, 0.0},
+                      .w = {0.0, spin_of(spin, rolling), side},
+                      .radius = h->radius,
+                      .mass = h->mass,
+                      .mu_cloth = h->cloth};
+  in.b = (carom_ball){.r = {2.0 * h->radius * cos(angle), 2.0 * h->radius * sin(angle), h->radius},
+                      .radius = h->radius,
+                      .mass = h->mass,
+                      .mu_cloth = h->cloth};
+  in.mu_ball = carom_mu_ball(&in, h->asked.friction.law);
+  return in;
+}
+
+static const char *side_of(double degrees) {
+  return degrees > 0.0 ? "left" : "right";
+}
+
+/* "1.2 m/s, 30.0 degrees to the left"; angles are from the cue ball's way, which is +x. */
+static const char *velocity_text(const double v[2], double scale, char text[64]) {
+  const double speed = hypot(v[0], v[1]), angle = angle_between((const double[]){1.0, 0.0}, v);
+  if (speed < 1e-9 * scale)
+    snprintf(text, 64, "at rest");
+  else if (fabs(angle) < 0.005)
+    snprintf(text, 64, "%.3f m/s, straight on", speed);
+  else if (fabs(angle) > 179.995)
+    snprintf(text, 64, "%.3f m/s, straight back", speed);
+  else
+    snprintf(text, 64, "%.3f m/s, %.2f degrees to the %s", speed, fabs(angle), side_of(angle));
+  return text;
+}
+
+static void tell_hit(const hit *h, const char *spin, const carom_impact *in, const carom_result *out, report *r) {
+  const derived d = derive(in, out);
+  const double energy = energy_of(&in->a, in->a.v, in->a.w), scale = h->speed;
+  char text[64];
+  tell(r, "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s (%.4g rad/s), side spin %.4g rad/s.",
+       h->speed, h->cut, spin, in->a.w[1], in->a.w[2]);
+  tell(r, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.", in->mu_ball, in->a.mu_cloth,
+       in->restitution);
+  tell(r, "object ball   at once:     %s", velocity_text(out->b.v, scale, text));
+  tell(r, "              rolling:     %s", velocity_text(d.rolling_2, scale, text));
+  if (fabs(d.throw_deg) < 0.005)
+    tell(r, "              throw:       none: it leaves along the line of centres");
+  else
+    tell(r, "              throw:       %.2f degrees to the %s of the line of centres", fabs(d.throw_deg),
+         side_of(d.throw_deg));
+  tell(r, "              takes spin:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis", out->b.w[2],
+       hypot(out->b.w[0], out->b.w[1]));
+  tell(r, "cue ball      at once:     %s", velocity_text(out->a.v, scale, text));
+  tell(r, "              rolling:     %s", velocity_text(d.rolling_1, scale, text));
+  tell(r, "              keeps spin:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis", out->a.w[2],
+       hypot(out->a.w[0], out->a.w[1]));
+  tell(r, "energy        lost:        %.2f %% of %.4g J", 100.0 * d.energy_lost, energy);
+}
+
+static void write_row(FILE *out, const char *id, const carom_impact *in) {
+  const double pair[4] = {in->a.mu_cloth, in->b.mu_cloth, in->mu_ball, in->restitution};
+  fputs(id, out);
+  write_numbers(out, in->a.r, 9);
+  write_numbers(out, in->b.r, 9);
+  write_numbers(out, &in->a.radius, 2);
+  write_numbers(out, pair, 4);
+  fputc('\n', out);
+}
+
+/* Every collision is resolved before anything is written. */
+static bool resolve_all(const hit *h, carom_impact *in, carom_result *out) {
+  doubts found = {0};
+  bool strange = false;
+  for (int k = 0; k < h->spins.count; k++) {
+    int field;
+    in[k] = impact_of(h, h->spins.name[k]);
+    const carom_status status = carom_collide(&in[k], &h->asked.options, &out[k]);
+    if (status != CAROM_OK) {
+      carom_check(&in[k], &h->asked.options, &field);
+      complain("no such collision: %s%s%s (%s)", field >= 0 ? carom_field_name(field) : "", field >= 0 ? ": " : "",
+               carom_status_string(status), carom_status_name(status));
+      return false;
+    }
+    strange |= doubts_about(&found, &in[k], true) != NULL;
+  }
+  doubts_report(&found, "hit");
+  return !(h->asked.strict && strange);
+}
+
+static bool write_hits(const hit *h, const carom_impact *in, const carom_result *result) {
+  FILE *out = output_open(h->asked.output);
+  report first = {0};
+  if (out == NULL)
+    return false;
+  if (h->csv)
+    fputs("id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R,M,u_s1,u_s2,u_b,e_b\n", out);
+  for (int k = 0; k < h->spins.count; k++) {
+    report r = {0};
+    tell_hit(h, h->spins.name[k], &in[k], &result[k], &r);
+    if (h->csv)
+      write_row(out, h->spins.name[k], &in[k]);
+    for (int line = 0; line < r.count && !h->csv; line++)
+      fprintf(out, "%s%s\n", k > 0 && line == 0 ? "\n" : "", r.line[line]);
+    if (k == 0)
+      tell_hit(h, h->spins.name[k], &in[k], &result[k], &first);
+  }
+  return output_commit() && (h->picture == NULL || hit_draw(h->picture, in, result, first.lines));
+}
+
+static const command_form form = {
+    .name = "hit",
+    .usage = "[OPTIONS]",
+    .about = "Hits a ball at rest with the cue ball and tells in words what becomes of both: throw, deflection, spin, speeds "
+             "at once "
+             "and\nonce they roll. Angles are from the way that the cue ball came, as seen from above.\n",
+    .options = (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side, &option_friction,
+                                           &option_restitution, &option_cloth, &option_radius, &option_mass, &option_solver,
+                                           &option_slip, &option_steps, &option_csv, &option_plot, &option_strict,
+                                           &option_output, NULL},
+    .details = "friction between the balls follows --friction; default: alciatore.\n\n"
+               "exit code: 0; 2 for bad usage or a collision that cannot be\n",
+    .example = "carom hit --speed 1.5 --cut 30 --spin draw --plot hit.svg",
+    .files = NO_FILES,
+};
+
+int command_hit(int argc, char **argv) {
+  hit h = {.asked = {.options = COMMAND_OPTIONS, .friction = {.law = carom_alciatore()}, .output = "-"},
+           .speed = 1.5,
+           .cut = 30.0,
+           .radius = 0.028575,
+           .mass = 0.170097,
+           .cloth = 0.2,
+           .restitution = 0.95,
+           .spins = {.name = {"stun"}, .count = 1},
+           .side = "0"};
+  carom_impact in[MOST_SPINS];
+  carom_result out[MOST_SPINS];
+  const int code = parse_arguments(&form, argc, argv, &h, NULL);
+  if (code >= 0)
+    return code;
+  if (!(h.speed > 0.0) || !(fabs(h.cut) < 90.0)) {
+    complain("--speed is above 0, and --cut between -90 and 90 degrees; at 90 the balls do not meet");
+    return EXIT_USAGE;
+  }
+  return resolve_all(&h, in, out) && write_hits(&h, in, out) ? EXIT_GOOD : EXIT_USAGE;
+}

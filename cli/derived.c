@@ -1,0 +1,45 @@
+/* What people ask of a collision beyond its twelve numbers. */
+#include "derived.h"
+
+#include <math.h>
+
+static const double degree = 3.14159265358979323846 / 180.0;
+
+double angle_between(const double a[2], const double b[2]) {
+  return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]) / degree;
+}
+
+double energy_of(const carom_ball *ball, const double v[3], const double w[3]) {
+  double speeds = 0.0, spins = 0.0;
+  for (int k = 0; k < 3; k++) {
+    speeds += v[k] * v[k];
+    spins += w[k] * w[k];
+  }
+  return 0.5 * ball->mass * (speeds + 0.4 * ball->radius * ball->radius * spins);
+}
+
+static double length(const double a[2]) {
+  return hypot(a[0], a[1]);
+}
+
+derived derive(const carom_impact *in, const carom_result *out) {
+  derived d;
+  double rolling[3];
+  const double along[2] = {in->b.r[0] - in->a.r[0], in->b.r[1] - in->a.r[1]};
+  const double change[2] = {out->b.v[0] - in->b.v[0], out->b.v[1] - in->b.v[1]};
+  d.throw_deg = angle_between(along, change);
+  carom_rolling_velocity(out->a.v, out->a.w, in->a.radius, rolling);
+  d.rolling_1[0] = rolling[0];
+  d.rolling_1[1] = rolling[1];
+  carom_rolling_velocity(out->b.v, out->b.w, in->b.radius, rolling);
+  d.rolling_2[0] = rolling[0];
+  d.rolling_2[1] = rolling[1];
+  /* A ball that stops to within rounding has no direction. */
+  const double least = 1e-9 * length(in->a.v);
+  d.deflection_deg = length(out->a.v) > least ? angle_between(in->a.v, out->a.v) : (double)NAN;
+  d.deflection_rolls = length(d.rolling_1) > least ? angle_between(in->a.v, d.rolling_1) : (double)NAN;
+  d.spin_transfer = in->a.w[2] != 0.0 ? (out->b.w[2] - in->b.w[2]) / in->a.w[2] : (double)NAN;
+  const double before = energy_of(&in->a, in->a.v, in->a.w) + energy_of(&in->b, in->b.v, in->b.w);
+  d.energy_lost = 1.0 - (energy_of(&in->a, out->a.v, out->a.w) + energy_of(&in->b, out->b.v, out->b.w)) / before;
+  return d;
+}

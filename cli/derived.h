@@ -1,0 +1,28 @@
+/* What people ask of a collision beyond its twelve numbers: throw, deflection, motion once both balls roll, spin, energy. */
+#ifndef CAROM_CLI_DERIVED_H
+#define CAROM_CLI_DERIVED_H
+
+#include "carom.h"
+
+/* Its numbers stand in the order of DERIVED_COLUMNS. Angles in degrees, to the left as seen from above. */
+typedef struct derived {
+  double throw_deg;                  /* of ball 2's change of velocity from the line of centres */
+  double deflection_deg;             /* of ball 1's velocity from what it was; NaN where it had or has none */
+  double deflection_rolls;           /* the same once ball 1 rolls */
+  double rolling_1[2], rolling_2[2]; /* velocities once sliding has turned to rolling, m/s */
+  double spin_transfer; /* ball 2's change of spin about the vertical over ball 1's spin before; NaN where that is 0 */
+  double energy_lost;   /* share of the kinetic energy, spins included */
+} derived;
+
+enum { DERIVED_NUMBERS = sizeof(derived) / sizeof(double) };
+#define DERIVED_COLUMNS "throw_deg,deflection_deg,deflection_rolling_deg,roll1x,roll1y,roll2x,roll2y,spin_transfer,energy_lost"
+
+derived derive(const carom_impact *in, const carom_result *out);
+
+/* The angle from a to b, degrees, -180 to 180, to the left as seen from above. */
+double angle_between(const double a[2], const double b[2]);
+
+/* Kinetic energy of a ball in motion, J. */
+double energy_of(const carom_ball *ball, const double v[3], const double w[3]);
+
+#endif

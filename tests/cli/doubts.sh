@@ -1,0 +1,41 @@
+# Input that can be resolved but hardly was meant: a warning with a count and a guess, and --strict refuses it.
+head -n 4 "$DATA/collisions-204.csv" > few.csv
+# scaled FACTOR COLUMN...: the same with the columns that begin so multiplied
+scaled() {
+  python - "$@" <<'PYTHON'
+import csv, sys
+rows = list(csv.DictReader(open("few.csv")))
+out = csv.DictWriter(sys.stdout, rows[0], lineterminator="\n")
+out.writeheader()
+for row in rows:
+    out.writerow({k: repr(float(v) * float(sys.argv[1])) if k.startswith(tuple(sys.argv[2:])) else v for k, v in row.items()})
+PYTHON
+}
+for factor in 1 1.009 1.02 0.9 100 1000 0.5 0.01 0.001; do
+  scaled $factor r1 r2 > in.csv
+  echo "positions times $factor:"
+  try carom resolve -o /dev/null in.csv
+done
+scaled 100 v1 v2 > fast.csv
+try carom resolve -o /dev/null fast.csv
+scaled 1000 w1 w2 > spin.csv
+try carom resolve -o /dev/null spin.csv
+echo "one of three, and with --strict:"
+scaled 100 r1 r2 | awk 'NR == FNR { if (FNR == 3) line = $0; next } FNR == 3 { $0 = line } 1' - few.csv > one.csv
+try carom resolve -o out.csv one.csv
+carom resolve few.csv | sed 3d > good.csv
+sed 3d out.csv | cmp - good.csv && echo "the others are as they were"
+try carom resolve --strict -o out.csv one.csv
+sed -n 3p out.csv
+sed 3d out.csv | cmp - good.csv && echo "the others are as they were"
+try carom resolve --strict fast.csv | cut -d, -f14
+try carom resolve --strict --precision single spin.csv | cut -d, -f2,14
+id=$(sed -n 3p few.csv | cut -d, -f1)
+try carom sweep --id "$id" --over u_b --from 0 --to 1 --points 2 --brief -o /dev/null one.csv
+try carom sweep --strict --id "$id" --over u_b --from 0 --to 1 --points 2 --brief one.csv
+try carom trace --id "$id" --points 2 -o /dev/null one.csv
+try carom trace --strict --id "$id" --points 2 one.csv
+echo "rows in error are not asked about, and no time is told of work below 10 ms:"
+sed '2,$s/^\([^,]*\),[^,]*,[^,]*/\1,,nan/' few.csv > bad.csv
+try carom resolve --summary -o /dev/null bad.csv
+try carom resolve --summary -o /dev/null few.csv

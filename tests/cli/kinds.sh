@@ -1,0 +1,37 @@
+# Files as other programs write them: read, or named for what they are; and what is mistyped is named with what was meant.
+head -n 3 "$DATA/collisions-204.csv" | cut -d, -f1,3- > plain.csv
+carom resolve plain.csv > plain.out
+same() { carom resolve "$1" | cmp - plain.out && echo "same: $1"; }
+tr , ';' < plain.csv > semicolons.csv; same semicolons.csv
+tr , '\t' < plain.csv > tabs.csv; same tabs.csv
+{ echo "# collision: 1"; echo "#"; cat plain.csv; } > notes.csv; same notes.csv
+{ cat plain.csv; echo ",,,,"; sed -n 2p plain.csv | sed 's/[^,]//g'; } > empty_rows.csv; same empty_rows.csv
+sed 's/\r*$/\r/' semicolons.csv > crlf.csv; same crlf.csv
+tr , ';' < plain.csv | tr . , > comma.csv
+try carom resolve -o /dev/null comma.csv
+tail -n 2 plain.csv > headless.csv; try carom resolve headless.csv
+tail -n 2 plain.csv | cut -d, -f2- > headless.csv; try carom resolve headless.csv
+{ printf '\377\376'; sed 's/./&\x00/g' plain.csv; } > utf16.csv; try carom resolve utf16.csv
+python -c "
+import numpy
+a = numpy.loadtxt('plain.csv', delimiter=',', skiprows=1, usecols=range(1, 25))
+numpy.savez('a.npz', a)
+numpy.save('a.npy', a)
+numpy.savetxt('numpy.csv', a, delimiter=',', header=open('plain.csv').readline().strip())"
+try carom resolve a.npz
+try carom resolve - < a.npy
+try carom resolve numpy.csv
+try carom resolve --cushion a.npz
+sed 1d "$DATA/cushion-stronge.csv" > headless.csv; try carom resolve --cushion headless.csv
+echo "what was meant:"
+sed '1s/v1y/V1Y/' plain.csv > case.csv; try carom resolve case.csv
+sed '1s/u_b/mu_b/; 1s/e_b/eb/' plain.csv > near.csv; try carom resolve near.csv
+sed '1s/u_b/friction/' plain.csv > far.csv; try carom resolve far.csv
+try carom resolv plain.csv
+try carom sweeep
+try carom Trace
+try carom re
+echo "messages have a limit:"
+{ head -n 1 plain.csv; yes "x,1,2" | head -n 1500; } > bad.csv
+try carom resolve -o bad.out bad.csv 2> said
+wc -l < said; sed -n '1p;1000p;$p' said; grep -c missing_value bad.out

@@ -1,0 +1,43 @@
+# sweep is resolve row by row: with a law of friction, which depends on what is varied, and over velocities and spins.
+cat > rows.py <<'PYTHON'
+import csv, math, sys
+# rows.py FILE ID OVER FROM TO POINTS: the collisions that a sweep resolves, one a row.
+file, name, over, low, high, points = sys.argv[1], sys.argv[2], sys.argv[3], float(sys.argv[4]), float(sys.argv[5]), int(sys.argv[6])
+reader = csv.DictReader(open(file))
+row = next(row for row in reader if row["id"] == name)
+out = csv.DictWriter(sys.stdout, reader.fieldnames, extrasaction="ignore", lineterminator="\n")
+out.writeheader()
+for k in range(points):
+    value, one = low + (high - low) * (k / (points - 1)), dict(row, id=k)
+    number = lambda name: float(row[name])
+    if over == "cut":
+        angle, x, y = value * (math.pi / 180), number("r2x") - number("r1x"), number("r2y") - number("r1y")
+        one["r2x"] = repr(number("r1x") + x * math.cos(angle) - y * math.sin(angle))
+        one["r2y"] = repr(number("r1y") + x * math.sin(angle) + y * math.cos(angle))
+    elif over == "speed":
+        one.update({a + b + c: repr(number(a + b + c) * value) for a in "vw" for b in "12" for c in "xyz"})
+    elif over == "u_s":
+        one.update(u_s1=repr(value), u_s2=repr(value))
+    else:
+        one[over] = repr(value)
+    out.writerow(one)
+PYTHON
+# compare OVER FROM TO ARGUMENTS...
+compare() {
+  over=$1 from=$2 to=$3
+  shift 3
+  python rows.py "$DATA/collisions-204.csv" pooltool-135 "$over" "$from" "$to" 41 > rows.csv
+  carom resolve "$@" rows.csv 2> /dev/null | tail -n +2 | cut -d, -f2-14 > resolved.csv
+  carom sweep --id pooltool-135 --over "$over" --from "$from" --to "$to" --points 41 "$@" > swept.csv
+  grep -v '^#' swept.csv | tail -n +2 | cut -d, -f6-18 | cmp - resolved.csv && echo "same: $over $*"
+}
+compare cut -40 40 --friction alciatore
+compare speed 0.1 4 --friction alciatore
+compare w1z -60 60 --friction alciatore
+compare speed 0.1 4
+compare u_s 0 0.5
+compare e_b 0.1 1 --slip pooltool
+compare v2x -0.5 0.5 --solver euler --steps 100
+carom sweep --id pooltool-135 --over speed --from 0.1 --to 4 --points 41 --friction alciatore --brief |
+  awk -F, '/^exact/ { n++; falls += n == 1 || $(NF - 1) < last; last = $(NF - 1) } END { print n, falls, "the friction falls with the speed" }'
+try carom sweep --id pooltool-135 --over u_b --from 0 --to 1 --friction alciatore
