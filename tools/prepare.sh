@@ -73,9 +73,12 @@ install_missing() {
 install_with_apt() {
   say "installing:$missing$wanted"
   log=$(mktemp)
+  keep_saying "installing" "$log"
+  saying=$!
   $as_root apt-get update > "$log" 2>&1 || say "apt-get update failed; going on with the lists that are here"
   # shellcheck disable=SC2086
   if [ -n "$missing" ] && ! apt_install $missing; then
+    kill "$saying" 2> /dev/null
     tail -n 20 "$log" >&2
     rm -f "$log"
     fail "apt-get could not install:$missing"
@@ -84,6 +87,8 @@ install_with_apt() {
   for package in $wanted; do
     apt_install "$(newest_of "$package")" || failed="$failed $package"
   done
+  kill "$saying" 2> /dev/null
+  wait "$saying" 2> /dev/null || true
   rm -f "$log"
   [ -n "$failed" ] || return 0
   say "could not be installed, going on without:$failed"
@@ -115,13 +120,24 @@ need_to_build() {
   want '/usr/include/papi.h' libpapi-dev "hardware counters in carom-lab bench, where the machine has some"
 }
 
-# build PRESET [CMAKE-OPTIONS]: configures and builds; quiet unless it fails.
+# keep_saying WHAT LOG: says each minute, in the background, that WHAT goes on, with the last line of its log; to be killed, by $!.
+keep_saying() {
+  while sleep 60 > /dev/null 2>&1 && kill -0 $$ 2> /dev/null; do say "still $1: $(tail -n 1 "$2" | cut -c 1-90)"; done &
+}
+
+# build PRESET [CMAKE-OPTIONS]: configures and builds; quiet but for a line a minute, unless it fails.
 build() {
   preset=$1
   shift
   log=$(mktemp)
   say "building ($preset) ..."
-  if ! { cmake --preset "$preset" "$@" && cmake --build --preset "$preset"; } > "$log" 2>&1; then
+  keep_saying "building ($preset)" "$log"
+  saying=$!
+  built=0
+  { cmake --preset "$preset" "$@" && cmake --build --preset "$preset"; } > "$log" 2>&1 || built=$?
+  kill "$saying" 2> /dev/null
+  wait "$saying" 2> /dev/null || true
+  if [ "$built" != 0 ]; then
     tail -n 60 "$log" >&2
     rm -f "$log"
     fail "the build ($preset) failed"

@@ -11,7 +11,9 @@
 #include "platform/processors.h"
 
 #include <pthread.h>
+#ifndef _WIN32
 #include <signal.h>
+#endif
 #include <stdbool.h>
 
 enum {
@@ -46,13 +48,17 @@ static void *run_part(void *argument) {
 
 /* Starts a thread for each part but the first. A thread inherits the signals that are blocked where it is made. */
 static void start_threads(part *parts, size_t count, bool *started) {
+#ifndef _WIN32 /* which has no such signals */
   sigset_t all, before;
   sigfillset(&all);
   const bool blocked = pthread_sigmask(SIG_SETMASK, &all, &before) == 0;
+#endif
   for (size_t t = 1; t < count; t++)
     started[t] = pthread_create(&parts[t].thread, NULL, run_part, &parts[t]) == 0;
+#ifndef _WIN32
   if (blocked)
     pthread_sigmask(SIG_SETMASK, &before, NULL);
+#endif
 }
 
 size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads, size_t least) {
