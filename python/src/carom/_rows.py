@@ -47,9 +47,8 @@ def output(given: Array | None, shape: tuple[int, ...], dtype: np.dtype[Any], na
     return given
 
 
-def pointer(ctype: str, array: Array) -> Any:
-    """The array's memory as a C array, which keeps the array alive."""
-    return ffi.from_buffer(ctype, array)
+pointer: Any = ffi.from_buffer
+"""pointer(ctype, array): the array's memory as a C array, which keeps the array alive."""
 
 
 def choice(names: dict[str, int], value: str, option: str) -> int:
