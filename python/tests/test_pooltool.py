@@ -3,7 +3,11 @@
 CAROM_TEST_SEED replays a run, CAROM_TEST_SHOTS is the number of random shots of each family.
 """
 
+import atexit
+import copy
 import os
+import pickle
+import shutil
 import tempfile
 
 import numpy as np
@@ -11,12 +15,16 @@ import pytest
 from test_shots import recorded
 
 # pooltool writes its settings into the home folder when it is imported.
+home = tempfile.mkdtemp(prefix="carom-pooltool-")
+atexit.register(shutil.rmtree, home, ignore_errors=True)
 with pytest.MonkeyPatch.context() as patch:
-    patch.setenv("HOME", tempfile.mkdtemp(prefix="carom-pooltool-"))
+    patch.setenv("HOME", home)
     pt = pytest.importorskip("pooltool", reason="pooltool-billiards is not installed")
     if not hasattr(pt, "simulate") or tuple(map(int, pt.__version__.split(".")[:2])) < (0, 6):
         pytest.skip("pooltool 0.6 or later is needed", allow_module_level=True)
     import carom.pooltool as bridge
+
+import attrs
 
 import carom
 
@@ -78,6 +86,22 @@ def spin(rng):
     return system
 
 
+def bank(rng):
+    """A hard shot of one to three balls."""
+    system = scattered(rng, int(rng.integers(1, 4)))
+    system.strike(V0=rng.uniform(3, 7), phi=rng.uniform(0, 360), a=rng.uniform(-0.2, 0.2), b=rng.uniform(0, 0.3))
+    return system
+
+
+def pot(rng):
+    """The cue ball aimed at another, off its centre by up to half a ball."""
+    system = scattered(rng, 3)
+    away = system.balls["1"].xyz - system.balls["cue"].xyz
+    off = np.degrees(np.arcsin(0.03 / np.hypot(away[0], away[1]))) * rng.uniform(-1, 1)
+    system.strike(V0=rng.uniform(1, 5), phi=np.degrees(np.arctan2(away[1], away[0])) + off, b=rng.uniform(-0.3, 0.3))
+    return system
+
+
 def moving(rng):
     """No strike: balls that slide already."""
     system = scattered(rng, 3)
@@ -88,7 +112,7 @@ def moving(rng):
     return system
 
 
-FAMILIES = [nineball_break, eightball_break, threecushion, layout, spin, moving]
+FAMILIES = [nineball_break, eightball_break, threecushion, layout, bank, spin, pot, moving]
 
 
 # ---- Comparing ---------------------------------------------------------------------------------------------------------
@@ -230,6 +254,39 @@ def test_in_place_and_saved(tmp_path):
     again = system.copy()
     again.reset_balls()
     assert [e.time for e in bridge.simulate(again).events] == [e.time for e in system.events]
+
+
+def test_objects_made_when_first_looked_at_are_pooltools():
+    """However they are first looked at: compared, copied, pickled, written to."""
+    system = pt.System.example()
+
+    def plain():
+        """A System in which everything has been looked at."""
+        looked = bridge.simulate(system)
+        for event in looked.events:
+            assert all(agent.initial is None or agent.id for agent in event.agents)
+        assert all(len(ball.history) for ball in looked.balls.values())
+        return looked
+
+    expected = plain()
+    assert {type(agent) for event in expected.events for agent in event.agents} == {pt.events.Agent}
+    assert {type(ball.history) for ball in expected.balls.values()} == {pt.objects.BallHistory}
+    for look in (lambda s: s, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s)), lambda s: s.copy()):
+        got = look(bridge.simulate(system))
+        assert got.balls == expected.balls and expected.balls == got.balls
+        assert [e.time for e in got.events] == [e.time for e in expected.events]
+        assert all(
+            mine == theirs
+            for a, b in zip(got.events[1:-1], expected.events[1:-1], strict=True)
+            for mine, theirs in zip(a.agents, b.agents, strict=True)
+        )
+    got = bridge.simulate(system)
+    agent = got.events[2].agents[0]
+    agent.final = None
+    assert type(agent) is pt.events.Agent and agent.initial is not None and agent.final is None
+    assert attrs.evolve(got.events[3].agents[0]) == expected.events[3].agents[0]
+    got.balls["cue"].history.states = []
+    assert got.balls["cue"].history == pt.objects.BallHistory()
 
 
 def test_nothing_to_simulate():

@@ -12,7 +12,8 @@ from carom._carom import lib as _lib
 from carom.collisions import ALL_THREADS, Outcome, alciatore, collide, impacts, mu_ball, trace
 from carom.cushions import cushion, cushion_impacts, cushion_trace
 from carom.layouts import Table, balls, cue, struck
-from carom.shots import EventType, Label, Shot, Shots, simulate, simulate_batch
+from carom.results import EventType, Label, Shot, Shots
+from carom.shots import simulate, simulate_batch
 from carom.status import CaromError, Status
 
 __version__: str = _ffi.string(_lib.carom_version()).decode()

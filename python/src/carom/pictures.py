@@ -11,7 +11,7 @@ from carom import dtypes
 
 if TYPE_CHECKING:
     from carom.layouts import Table
-    from carom.shots import Shot
+    from carom.results import Shot
 
 _SCALE = 300.0  # pixels a metre
 _MARGIN = 0.12  # m around the cushions, for pockets and the frame

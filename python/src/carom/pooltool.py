@@ -10,7 +10,6 @@ Needs pooltool 0.6 (pooltool-billiards). Its objects have no types here, so that
 from __future__ import annotations
 
 import importlib
-import math
 import sys
 from typing import Any, Literal
 
@@ -18,38 +17,34 @@ import numpy as np
 
 from carom import dtypes
 from carom._rows import Array
-from carom.collisions import alciatore, collide
-from carom.cushions import cushion as resolve_cushion
+from carom._pooltool_fill import fill
+from carom._pooltool_models import ExactBallBall, ExactCircularCushion, ExactLinearCushion
+from carom.collisions import alciatore
 from carom.layouts import Table
-from carom.shots import BallModel, EventType, Friction, Label, Shot, ShotCushion
+from carom.shots import BallModel, Friction, ShotCushion
 from carom.shots import simulate as _play
-from carom.status import CaromError, Status
+from carom.status import CaromError
+
+__all__ = [
+    "ExactBallBall",
+    "ExactCircularCushion",
+    "ExactLinearCushion",
+    "UnsupportedError",
+    "balls_of",
+    "cue_of",
+    "install",
+    "simulate",
+    "table_of",
+    "uninstall",
+]
 
 Models = Literal["pooltool", "carom"]
 
 _pt: Any = importlib.import_module("pooltool")
-_events: Any = importlib.import_module("pooltool.events")
-_balls: Any = importlib.import_module("pooltool.objects.ball.datatypes")
 _simulate: Any = importlib.import_module("pooltool.evolution.event_based.simulate")
-_friction: Any = importlib.import_module("pooltool.physics.resolve.ball_ball.friction")
-_ball_ball_core: Any = importlib.import_module("pooltool.physics.resolve.ball_ball.core")
-_ball_cushion_core: Any = importlib.import_module("pooltool.physics.resolve.ball_cushion.core")
 
-_PoolType = _events.EventType
-_AgentType = _events.AgentType
 _pooltools_simulate: Any = _simulate.simulate
 
-_TYPES: dict[int, Any] = {
-    EventType.STRIKE: _PoolType.STICK_BALL,
-    EventType.BALL_BALL: _PoolType.BALL_BALL,
-    EventType.RAIL: _PoolType.BALL_LINEAR_CUSHION,
-    EventType.JAW: _PoolType.BALL_CIRCULAR_CUSHION,
-    EventType.POCKET: _PoolType.BALL_POCKET,
-    EventType.SLIDING_ROLLING: _PoolType.SLIDING_ROLLING,
-    EventType.ROLLING_SPINNING: _PoolType.ROLLING_SPINNING,
-    EventType.ROLLING_STATIONARY: _PoolType.ROLLING_STATIONARY,
-    EventType.SPINNING_STATIONARY: _PoolType.SPINNING_STATIONARY,
-}
 # The models of the default engine of pooltool.
 _ENGINE = {"stick_ball": "InstantaneousPoint", "ball_pocket": "CanonicalBallPocket", "transition": "CanonicalTransition"}
 _CUSHIONS: dict[str, ShotCushion] = {"StrongeCompliant": "stronge", "Han2005": "han"}
@@ -126,102 +121,6 @@ def _models_of(resolver: Any) -> tuple[BallModel, ShotCushion, Friction, int]:
     if cushion_model == "stronge" and (linear.omega_ratio, circular.omega_ratio) != (1.8, 1.8):
         raise UnsupportedError("engine: carom knows an omega_ratio of 1.8 alone in whole shots")
     return ball_model, cushion_model, friction, int(getattr(pair, "num_iterations", 0))
-
-
-# ---- What comes out -----------------------------------------------------------------------------------------------------
-
-
-def _after_each_event(shot: Shot) -> dtypes.Records:
-    """The states of all balls just after each event, (events, balls)."""
-    events = shot.events
-    times = events["time"]
-    states = shot.states(times)
-    # A state at a time is that after everything of the time: events at the same instant are taken apart here.
-    for k in range(len(events) - 1, -1, -1):
-        event = events[k]
-        for side in range(2 if event["type"] == EventType.BALL_BALL else 1):
-            ball = event["b"] if side else event["a"]
-            states[k, ball] = event["after"][side]
-            earlier = k - 1
-            while earlier >= 0 and times[earlier] == times[k]:
-                states[earlier, ball] = event["before"][side]
-                earlier -= 1
-    return states
-
-
-def _rvw(states: dtypes.Records) -> dtypes.Doubles:
-    """Copies of r, v, w as pooltool has them, (..., 3, 3)."""
-    return np.stack([states["r"], states["v"], states["w"]], axis=-2)
-
-
-class _Filler:
-    """Makes pooltool's events from those of a shot."""
-
-    def __init__(self, system: Any) -> None:
-        self.system = system
-        self.balls = list(system.balls.values())
-        self.linear = list(system.table.cushion_segments.linear.values())
-        self.circular = list(system.table.cushion_segments.circular.values())
-        self.pockets = list(system.table.pockets.values())
-
-    def ball(self, index: int, rvw: dtypes.Doubles, label: int, time: float) -> Any:
-        """A ball in a state, without a history."""
-        ball = self.balls[index]
-        state = _balls.BallState(rvw, label, time)
-        return _balls.Ball(ball.id, state, ball.params, ball.ballset, ball.initial_orientation)
-
-    def event(self, event: Any, before: dtypes.Doubles, after: dtypes.Doubles, labels: Array) -> Any:
-        """An event with its agents, their states before and after it; pockets take their balls."""
-        time, kind = float(event["time"]), int(event["type"])
-        a, b = int(event["a"]), int(event["b"])
-        agents: list[Any] = []
-        # A pair is named in the order of the System, as pooltool names it.
-        sides = [(a, 0)] if kind != EventType.BALL_BALL else sorted([(a, 0), (b, 1)])
-        for index, side in sides:
-            initial = self.ball(index, before[side], int(labels[0][side]), time)
-            final = self.ball(index, after[side], int(labels[1][side]), time)
-            agents.append(_events.Agent(self.balls[index].id, _AgentType.BALL, initial, final))
-        if kind == EventType.STRIKE:
-            cue = self.system.cue
-            agents.insert(0, _events.Agent(cue.id, _AgentType.CUE, cue.copy()))
-        elif kind == EventType.RAIL:
-            agents.append(_events.Agent(self.linear[b].id, _AgentType.LINEAR_CUSHION_SEGMENT, self.linear[b].copy()))
-        elif kind == EventType.JAW:
-            agents.append(_events.Agent(self.circular[b].id, _AgentType.CIRCULAR_CUSHION_SEGMENT, self.circular[b].copy()))
-        elif kind == EventType.POCKET:
-            empty = self.pockets[b].copy()
-            self.pockets[b].add(self.balls[a].id)
-            agents.append(_events.Agent(self.pockets[b].id, _AgentType.POCKET, empty, self.pockets[b].copy()))
-        return _events.Event(_TYPES[kind], tuple(agents), time)
-
-
-def _fill(system: Any, shot: Shot, kept: int, stopped: bool) -> None:
-    """Writes the first `kept` events of a shot into the System; `stopped`: its balls are then stopped, as max_events does."""
-    events = shot.events[:kept]
-    states = _after_each_event(shot)[:kept]
-    before, after = _rvw(events["before"]), _rvw(events["after"])
-    labels = np.stack([events["before"]["label"], events["after"]["label"]], axis=1)
-    system.reset_history()
-    filler = _Filler(system)
-    happened = [filler.event(events[k], before[k], after[k], labels[k]) for k in range(kept)]
-    end = happened[-1].time if happened else 0.0
-    system.events = [_pt.events.null_event(time=0), *happened, _pt.events.null_event(time=end)]
-    system.t = end
-    histories, kinds, times = _rvw(states), states["label"].tolist(), events["time"].tolist()
-    for index, ball in enumerate(filler.balls):
-        entries = [
-            _balls.BallState(rvw, label[index], time) for rvw, label, time in zip(histories[:, index], kinds, times, strict=True)
-        ]
-        if entries:
-            # The last state is the ball's own, and stands twice: after the last event and at the end.
-            last = entries[-1]
-            last.rvw = last.rvw.copy()
-            ball.history.states = [ball.state, *entries, last]
-            ball.state = last
-        else:
-            ball.history.states = [ball.state, ball.state]
-    if stopped:
-        system.stop_balls()
 
 
 def simulate(
@@ -306,7 +205,7 @@ def simulate(
     if 0 < max_events < kept - 1:
         # pooltool looks after the event, and counts from 0.
         kept, stopped = max_events + 2, True
-    _fill(system, played, kept, stopped)
+    fill(system, played, kept, stopped)
     if continuous:
         _pt.continuize(system, dt=0.01 if dt is None else dt, inplace=True)
     return system
@@ -347,79 +246,3 @@ def _installed(
 
 _installed.__name__ = _installed.__qualname__ = "simulate"
 _installed.__doc__ = _pooltools_simulate.__doc__
-
-
-# ---- Models for pooltool's own engine -----------------------------------------------------------------------------------
-
-
-class ExactBallBall(_ball_ball_core.CoreBallBallCollision):  # type: ignore[misc]
-    """Two balls by the exact limit of Mathavan's model of 2014, for pooltool's own engine.
-
-    `Resolver.ball_ball = carom.pooltool.ExactBallBall()`.
-
-    Parameters
-    ----------
-    friction : a friction of pooltool's, optional
-        Default: pooltool's AlciatoreBallBallFriction().
-    """
-
-    model = "carom_exact"
-
-    def __init__(self, friction: Any = None) -> None:
-        self.friction = friction if friction is not None else _friction.AlciatoreBallBallFriction()
-
-    def solve(self, ball1: Any, ball2: Any) -> tuple[Any, Any]:
-        """The balls, with the motion after the collision, in place."""
-        rows = np.empty(26)
-        for ball, row in ((ball1, rows[:12]), (ball2, rows[12:24])):
-            row[:9] = ball.state.rvw.ravel()
-            row[9:] = ball.params.R, ball.params.m, ball.params.u_s
-        # The frame is that of two balls at one height.
-        rows[14] = rows[2]
-        rows[24] = self.friction.calculate_friction(ball1, ball2)
-        rows[25] = (ball1.params.e_b + ball2.params.e_b) / 2
-        motion, _ = collide(rows)
-        for ball, after in ((ball1, motion[:6]), (ball2, motion[6:])):
-            _set_motion(ball, after)
-        return ball1, ball2
-
-
-def _set_motion(ball: Any, motion: Array) -> None:
-    """Gives a ball the motion after an impact; it slides, until pooltool finds it rolling."""
-    rvw = ball.state.rvw.copy()
-    rvw[1:] = motion.reshape(2, 3)
-    ball.state = _balls.BallState(rvw, Label.SLIDING)
-
-
-def _resolve_cushion(ball: Any, cushion: Any, jaw_radius: float) -> None:
-    normal = cushion.get_normal_xy(ball.state.rvw[0].copy())[:2]
-    # Into the cushion: from a jaw's axis the normal points to the ball; a rail's has either sense.
-    if jaw_radius > 0.0 or np.dot(normal, ball.state.rvw[1][:2]) < 0.0:
-        normal = -normal
-    p = ball.params
-    numbers = (*ball.state.rvw[1], *ball.state.rvw[2], *normal, cushion.height, p.R, p.m, p.u_s, p.f_c, p.e_c, jaw_radius)
-    motion, status = resolve_cushion(np.array(numbers))
-    if int(status) != Status.SEPARATING and not math.isnan(float(motion[0])):
-        _set_motion(ball, motion)
-
-
-class ExactLinearCushion(_ball_cushion_core.CoreBallLCushionCollision):  # type: ignore[misc]
-    """A ball and a rail by the exact limit of Mathavan's model of 2010: `Resolver.ball_linear_cushion`."""
-
-    model = "carom_exact"
-
-    def solve(self, ball: Any, cushion: Any) -> tuple[Any, Any]:
-        """The ball, with the motion after the impact, in place."""
-        _resolve_cushion(ball, cushion, 0.0)
-        return ball, cushion
-
-
-class ExactCircularCushion(_ball_cushion_core.CoreBallCCushionCollision):  # type: ignore[misc]
-    """A ball and a jaw by the exact limit of Mathavan's model of 2010: `Resolver.ball_circular_cushion`."""
-
-    model = "carom_exact"
-
-    def solve(self, ball: Any, cushion: Any) -> tuple[Any, Any]:
-        """The ball, with the motion after the impact, in place."""
-        _resolve_cushion(ball, cushion, float(cushion.radius))
-        return ball, cushion

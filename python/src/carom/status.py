@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from carom._carom import ffi, lib
 
 if TYPE_CHECKING:
-    from carom.shots import Shot
+    from carom.results import Shot
 
 
 class Status(enum.IntEnum):
