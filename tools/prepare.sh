@@ -45,6 +45,14 @@ python_modules() {
   done
 }
 
+# want_python_package: what the tests of the package python/ are skipped without, unless the Python on the path has it already.
+want_python_package() {
+  python3 -c 'import os, sysconfig, venv, ensurepip
+assert os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.h"))' 2> /dev/null && return 0
+  want '/usr/lib/python3*/ensurepip' python3-venv "virtual environments, for the tests of the Python package"
+  want '/usr/include/python3*/Python.h' python3-dev "headers of Python, for the tests of the Python package"
+}
+
 # Installs what need() and want() have noted. Fails, and says what to install, where something needed cannot be had.
 install_missing() {
   [ -n "$missing$wanted" ] || return 0

@@ -1,0 +1,92 @@
+"""The exact Mathavan models as strategies for pooltool's own engine."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+import numpy as np
+
+from carom._rows import Array
+from carom.collisions import collide
+from carom.cushions import cushion as resolve_cushion
+from carom.results import Label
+from carom.status import Status
+
+_balls: Any = importlib.import_module("pooltool.objects.ball.datatypes")
+_friction: Any = importlib.import_module("pooltool.physics.resolve.ball_ball.friction")
+_ball_ball_core: Any = importlib.import_module("pooltool.physics.resolve.ball_ball.core")
+_ball_cushion_core: Any = importlib.import_module("pooltool.physics.resolve.ball_cushion.core")
+
+
+class ExactBallBall(_ball_ball_core.CoreBallBallCollision):  # type: ignore[misc]
+    """Two balls by the exact limit of Mathavan's model of 2014, for pooltool's own engine.
+
+    `Resolver.ball_ball = carom.pooltool.ExactBallBall()`.
+
+    Parameters
+    ----------
+    friction : a friction of pooltool's, optional
+        Default: pooltool's AlciatoreBallBallFriction().
+    """
+
+    model = "carom_exact"
+
+    def __init__(self, friction: Any = None) -> None:
+        self.friction = friction if friction is not None else _friction.AlciatoreBallBallFriction()
+
+    def solve(self, ball1: Any, ball2: Any) -> tuple[Any, Any]:
+        """The balls, with the motion after the collision, in place."""
+        rows = np.empty(26)
+        for ball, row in ((ball1, rows[:12]), (ball2, rows[12:24])):
+            row[:9] = ball.state.rvw.ravel()
+            row[9:] = ball.params.R, ball.params.m, ball.params.u_s
+        # The frame is that of two balls at one height.
+        rows[14] = rows[2]
+        rows[24] = self.friction.calculate_friction(ball1, ball2)
+        rows[25] = (ball1.params.e_b + ball2.params.e_b) / 2
+        motion, _ = collide(rows)
+        for ball, after in ((ball1, motion[:6]), (ball2, motion[6:])):
+            _set_motion(ball, after)
+        return ball1, ball2
+
+
+def _set_motion(ball: Any, motion: Array) -> None:
+    """Gives a ball the motion after an impact; it slides, until pooltool finds it rolling."""
+    rvw = ball.state.rvw.copy()
+    rvw[1:] = motion.reshape(2, 3)
+    ball.state = _balls.BallState(rvw, Label.SLIDING)
+
+
+def _resolve_cushion(ball: Any, cushion: Any, jaw_radius: float) -> None:
+    normal = cushion.get_normal_xy(ball.state.rvw[0].copy())[:2]
+    # Into the cushion: from a jaw's axis the normal points to the ball; a rail's has either sense.
+    if jaw_radius > 0.0 or np.dot(normal, ball.state.rvw[1][:2]) < 0.0:
+        normal = -normal
+    p = ball.params
+    numbers = (*ball.state.rvw[1], *ball.state.rvw[2], *normal, cushion.height, p.R, p.m, p.u_s, p.f_c, p.e_c, jaw_radius)
+    motion, status = resolve_cushion(np.array(numbers))
+    if int(status) != Status.SEPARATING:
+        _set_motion(ball, motion)
+
+
+class ExactLinearCushion(_ball_cushion_core.CoreBallLCushionCollision):  # type: ignore[misc]
+    """A ball and a rail by the exact limit of Mathavan's model of 2010: `Resolver.ball_linear_cushion`."""
+
+    model = "carom_exact"
+
+    def solve(self, ball: Any, cushion: Any) -> tuple[Any, Any]:
+        """The ball, with the motion after the impact, in place."""
+        _resolve_cushion(ball, cushion, 0.0)
+        return ball, cushion
+
+
+class ExactCircularCushion(_ball_cushion_core.CoreBallCCushionCollision):  # type: ignore[misc]
+    """A ball and a jaw by the exact limit of Mathavan's model of 2010: `Resolver.ball_circular_cushion`."""
+
+    model = "carom_exact"
+
+    def solve(self, ball: Any, cushion: Any) -> tuple[Any, Any]:
+        """The ball, with the motion after the impact, in place."""
+        _resolve_cushion(ball, cushion, float(cushion.radius))
+        return ball, cushion

@@ -1,0 +1,256 @@
+"""The collision of two balls: one and many, the friction between them, and a collision on its way."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes
+from carom._carom import ffi, lib
+from carom._rows import FLOAT32, FLOAT64, INT8, Array, choice, fill, output, pointer, rows
+from carom.status import CaromError
+
+Solver = Literal["exact", "euler"]
+Slip = Literal["paper", "pooltool"]
+_SOLVERS = {"exact": 0, "euler": 1}
+_SLIPS = {"paper": 0, "pooltool": 1}
+_VECTORS = {"r": 3, "v": 3, "w": 3}
+
+ALL_THREADS = -1
+"""For `threads`: one thread for each processor that the process may use."""
+
+
+class Outcome(NamedTuple):
+    """What impacts give: the motion after them, and how each ended."""
+
+    motion: Array
+    status: Array
+
+
+@functools.lru_cache(maxsize=256)
+def _options(solver: str, slip: str, steps: int, threads: int) -> Any:
+    """The options of C; they are never written to."""
+    return ffi.new(
+        "carom_options *",
+        {
+            "solver": choice(_SOLVERS, solver, "solver"),
+            "slip": choice(_SLIPS, slip, "slip"),
+            "steps": steps,
+            "threads": threads,
+        },
+    )
+
+
+def impacts(
+    *,
+    r_a: npt.ArrayLike = (0.0, 0.0, 0.0),
+    v_a: npt.ArrayLike,
+    w_a: npt.ArrayLike = 0.0,
+    r_b: npt.ArrayLike,
+    v_b: npt.ArrayLike = 0.0,
+    w_b: npt.ArrayLike = 0.0,
+    radius: npt.ArrayLike = 0.028575,
+    mass: npt.ArrayLike = 0.170097,
+    mass_b: npt.ArrayLike | None = None,
+    mu_cloth: npt.ArrayLike = 0.2,
+    mu_cloth_b: npt.ArrayLike | None = None,
+    mu_ball: npt.ArrayLike = 0.05,
+    restitution: npt.ArrayLike = 0.95,
+) -> dtypes.Records:
+    """Impacts for `collide`, from fields that are broadcast against each other.
+
+    Parameters
+    ----------
+    r_a, r_b : array_like, shape (..., 3)
+        Centres of the two balls, m, at the same height. Only the direction from a to b counts.
+    v_a, v_b : array_like, shape (..., 3)
+        Velocities, m/s; the vertical ones must be 0.
+    w_a, w_b : array_like, shape (..., 3)
+        Angular velocities, rad/s.
+    radius : array_like, shape (...)
+        Of both balls, m. The defaults of this and what follows are those of pool balls.
+    mass, mass_b : array_like, shape (...)
+        Masses, kg; `mass_b` is `mass` if it is not given.
+    mu_cloth, mu_cloth_b : array_like, shape (...)
+        Friction of each ball and the cloth, 0 to 1.
+    mu_ball : array_like, shape (...)
+        Friction between the balls, 0 to 1. `mu_ball()` computes it from the speed of slip.
+    restitution : array_like, shape (...)
+        0 to 1.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.impact`, shape (...)
+        `carom.dtypes.plain()` gives the numbers, of shape (..., 26).
+    """
+    return fill(
+        dtypes.impact,
+        _VECTORS,
+        {
+            "a.r": r_a,
+            "a.v": v_a,
+            "a.w": w_a,
+            "a.radius": radius,
+            "a.mass": mass,
+            "a.mu_cloth": mu_cloth,
+            "b.r": r_b,
+            "b.v": v_b,
+            "b.w": w_b,
+            "b.radius": radius,
+            "b.mass": mass if mass_b is None else mass_b,
+            "b.mu_cloth": mu_cloth if mu_cloth_b is None else mu_cloth_b,
+            "mu_ball": mu_ball,
+            "restitution": restitution,
+        },
+    )
+
+
+def collide(
+    impacts: npt.ArrayLike,
+    *,
+    solver: Solver = "exact",
+    slip: Slip = "paper",
+    steps: int = 0,
+    threads: int = 0,
+    out: tuple[Array, Array] | None = None,
+) -> Outcome:
+    """Resolve collisions of two balls.
+
+    Parameters
+    ----------
+    impacts : array_like, shape (..., 26), or structured of shape (...)
+        Rows of float64 or float32 (others are converted to float64), or of `carom.dtypes.impact`; see `carom.impacts`.
+        Not copied where they are in C order.
+    solver : {"exact", "euler"}
+        The limit of infinitely many steps of impulse, or Mathavan's N steps.
+    slip : {"paper", "pooltool"}
+        Which velocity slips over the cloth.
+    steps : int
+        Euler's N; 0 is 1000.
+    threads : int
+        Most threads to use; 0 is the calling one alone, -1 all processors. Results do not depend on it.
+    out : tuple of two arrays, optional
+        Where motion and status go: an earlier result, for example.
+
+    Returns
+    -------
+    motion : ndarray, shape (..., 12), or structured of shape (...)
+        v (m/s) and w (rad/s) of a, then of b, in the precision of the impacts, or as `carom.dtypes.result`. NaN in error.
+    status : ndarray of int8, shape (...)
+        0: resolved; 1: the balls do not approach each other, and motion is that before; negative: an error, see `Status`.
+
+    Raises
+    ------
+    CaromError
+        One impact, of shape (26,) or (), that is in error, or options out of range.
+    """
+    array = rows(impacts, dtypes.impact, "impacts", single=True)
+    options = _options(solver, slip, steps, threads)
+    record = array.dtype.names is not None
+    shape: tuple[int, ...] = array.shape if record else array.shape[:-1]
+    motion, status = (None, None) if out is None else out
+    if record:
+        motion = output(motion, shape, dtypes.result, "out[0]")
+    else:
+        motion = output(motion, (*shape, 12), array.dtype, "out[0]")
+    status = output(status, shape, INT8, "out[1]")
+    if array.dtype is not FLOAT64 and array.dtype == FLOAT32:
+        source, target = pointer("carom_impact_f32[]", array), pointer("carom_result_f32[]", motion)
+        code = lib.carom_collide_batch_f32(source, status.size, options, target, pointer("int8_t[]", status))
+    elif shape == ():
+        # One alone has the same bits by a call that does not fill lanes.
+        code = lib.carom_collide(pointer("carom_impact[]", array), options, pointer("carom_result[]", motion))
+        status[...] = code
+    else:
+        source, target = pointer("carom_impact[]", array), pointer("carom_result[]", motion)
+        code = lib.carom_collide_batch(source, status.size, options, target, pointer("int8_t[]", status))
+    if code < 0 and (shape == () or _options_at_fault(options)):
+        raise _error(code, array, options)
+    return Outcome(motion, status)
+
+
+def _options_at_fault(options: Any) -> bool:
+    """Whether the options are what is wrong: an impact that is right in all else tells."""
+    return bool(lib.carom_check(_good(), options, ffi.NULL) < 0)
+
+
+@functools.cache
+def _good() -> Any:
+    good = impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0))
+    return ffi.new("carom_impact *", ffi.from_buffer("carom_impact[]", good)[0])
+
+
+def _error(code: int, array: Array, options: Any) -> CaromError:
+    """The exception for one impact, with the field at fault."""
+    flat = np.ascontiguousarray(array).reshape(-1).view(FLOAT64 if array.dtype != FLOAT32 else FLOAT32)
+    row = flat[:26].astype(np.float64)
+    field = ffi.new("int *", -1)
+    if row.size == 26 and lib.carom_check(pointer("carom_impact[]", row), options, field) == code and field[0] >= 0:
+        return CaromError(code, ffi.string(lib.carom_field_name(field[0])).decode(), row[field[0]])
+    return CaromError(code)
+
+
+def alciatore() -> tuple[float, float, float]:
+    """The usual law of friction between pool balls: a, b (dimensionless) and c (s/m) of mu = a + b exp(-c |u|)."""
+    law = lib.carom_alciatore()
+    return (law.a, law.b, law.c)
+
+
+def mu_ball(impacts: npt.ArrayLike, law: tuple[float, float, float] | None = None) -> dtypes.Doubles:
+    """Friction between two balls from the speed of slip just before they collide.
+
+    Parameters
+    ----------
+    impacts : array_like, shape (..., 26), or structured of shape (...)
+        As for `collide`; their own mu_ball is not read.
+    law : tuple of a, b, c, optional
+        mu = a + b exp(-c |u|), |u| in m/s. Default: `alciatore()`.
+
+    Returns
+    -------
+    ndarray of float64, shape (...)
+        Dimensionless. A law that leaves [0, 1] or motion that is not finite gives a number that `collide` refuses.
+    """
+    array = rows(impacts, dtypes.impact, "impacts")
+    mu = np.empty(array.shape if array.dtype.names is not None else array.shape[:-1])
+    lib.carom_python_mu_ball(pointer("carom_impact[]", array), mu.size, law or alciatore(), pointer("double[]", mu))
+    return mu
+
+
+def trace(
+    impact: npt.ArrayLike, points: int = 101, *, solver: Solver = "exact", slip: Slip = "paper", steps: int = 0
+) -> dtypes.Records:
+    """Follow one collision, at equal steps of normal impulse from 0 to its end.
+
+    Parameters
+    ----------
+    impact : array_like, shape (26,), or structured of shape ()
+        As for `collide`.
+    points : int
+        How many, at least 2.
+    solver, slip, steps
+        As for `collide`; Euler's method gives the nearest whole steps.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.trace_point`, shape (points,)
+        normal (N s), work (J), phase (0 compression, 1 restitution), sticks, v_n and slips (m/s) in the frame of the collision,
+        state (both balls, along the axes of the table).
+
+    Raises
+    ------
+    CaromError
+        The impact is in error, or points or options are.
+    """
+    array = rows(impact, dtypes.impact, "impact")
+    if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
+        raise ValueError("impact: a trace is of one impact, of shape (26,), or structured of shape ()")
+    options = _options(solver, slip, steps, 0)
+    traced = np.zeros(max(points, 0), dtypes.trace_point)
+    code = lib.carom_trace(pointer("carom_impact[]", array), options, traced.size, pointer("carom_trace_point[]", traced))
+    if code < 0:
+        raise _error(code, array, options)
+    return traced

@@ -1,0 +1,219 @@
+"""The impact of a ball on a cushion: one and many, and an impact on its way."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes
+from carom._carom import ffi, lib
+from carom._rows import INT8, Array, choice, fill, output, pointer, rows
+from carom.collisions import Outcome
+from carom.status import CaromError
+
+CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler"]
+CushionConvention = Literal["paper", "pooltool"]
+CushionLaw = Literal["constant", "han"]
+_MODELS = {"mathavan": 0, "stronge": 1, "han": 2, "mirror": 3, "euler": 4}
+_CONVENTIONS = {"paper": 0, "pooltool": 1}
+_LAWS = {"constant": 0, "han": 1}
+
+
+@functools.lru_cache(maxsize=256)
+def _options(model: str, convention: str, law: str, steps: int, threads: int, least_step: float, omega_ratio: float) -> Any:
+    """The options of C; they are never written to."""
+    return ffi.new(
+        "carom_cushion_options *",
+        {
+            "model": choice(_MODELS, model, "model"),
+            "convention": choice(_CONVENTIONS, convention, "convention"),
+            "law": choice(_LAWS, law, "law"),
+            "steps": steps,
+            "threads": threads,
+            "least_step": least_step,
+            "omega_ratio": omega_ratio,
+        },
+    )
+
+
+def cushion_impacts(
+    *,
+    v: npt.ArrayLike,
+    w: npt.ArrayLike = 0.0,
+    normal: npt.ArrayLike = (0.0, 1.0),
+    height: npt.ArrayLike = 0.036576,
+    radius: npt.ArrayLike = 0.028575,
+    mass: npt.ArrayLike = 0.170097,
+    mu_cloth: npt.ArrayLike = 0.2,
+    mu_cushion: npt.ArrayLike = 0.2,
+    restitution: npt.ArrayLike = 0.85,
+    jaw_radius: npt.ArrayLike = 0.0,
+) -> dtypes.Records:
+    """Impacts for `cushion`, from fields that are broadcast against each other.
+
+    Parameters
+    ----------
+    v, w : array_like, shape (..., 3)
+        Velocity, m/s (vertical 0), and angular velocity, rad/s.
+    normal : array_like, shape (..., 2)
+        Direction from the ball into the cushion, of any length but 0.
+    height : array_like, shape (...)
+        Of the nose above the cloth, m, between 0 and 2 radius. The defaults are those of a pool table and its balls.
+    radius, mass : array_like, shape (...)
+        Of the ball, m and kg.
+    mu_cloth, mu_cushion, restitution : array_like, shape (...)
+        0 to 1.
+    jaw_radius : array_like, shape (...)
+        m; 0 for a straight rail.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.cushion_impact`, shape (...)
+    """
+    return fill(
+        dtypes.cushion_impact,
+        {"v": 3, "w": 3, "normal": 2},
+        {
+            "v": v,
+            "w": w,
+            "normal": normal,
+            "height": height,
+            "radius": radius,
+            "mass": mass,
+            "mu_cloth": mu_cloth,
+            "mu_cushion": mu_cushion,
+            "restitution": restitution,
+            "jaw_radius": jaw_radius,
+        },
+    )
+
+
+def cushion(
+    impacts: npt.ArrayLike,
+    *,
+    model: CushionModel = "mathavan",
+    convention: CushionConvention = "paper",
+    law: CushionLaw = "constant",
+    steps: int = 0,
+    least_step: float = 0.0,
+    omega_ratio: float = 0.0,
+    threads: int = 0,
+    out: tuple[Array, Array] | None = None,
+) -> Outcome:
+    """Resolve impacts of a ball on a cushion.
+
+    Parameters
+    ----------
+    impacts : array_like, shape (..., 15), or structured of shape (...)
+        Rows of float64 (others are converted), or of `carom.dtypes.cushion_impact`; see `carom.cushion_impacts`.
+    model : {"mathavan", "stronge", "han", "mirror", "euler"}
+        Mathavan's model of 2010 in its exact limit, closed forms, or the steps of that model.
+    convention : {"paper", "pooltool"}
+        Whose geometry holds where pooltool departs from the papers.
+    law : {"constant", "han"}
+        Restitution and friction from the impact, or Han's fits.
+    steps : int
+        Euler's N; 0 is 1000.
+    least_step : float
+        Least impulse of a step of Euler's, N s; pooltool has 0.001.
+    omega_ratio : float
+        Stronge's ratio of frequencies, between 1 and 2; 0 is 1.8.
+    threads : int
+        Most threads to use; 0 is the calling one alone, -1 all processors.
+    out : tuple of two arrays, optional
+        Where motion and status go.
+
+    Returns
+    -------
+    motion : ndarray of float64, shape (..., 6), or structured of shape (...)
+        v (m/s) and w (rad/s) after the impact, or `carom.dtypes.motion`. NaN in error.
+    status : ndarray of int8, shape (...)
+        0: resolved; 1: the ball does not move into the cushion; negative: an error, see `Status`.
+
+    Raises
+    ------
+    CaromError
+        One impact, of shape (15,) or (), that is in error, or options out of range.
+    """
+    array = rows(impacts, dtypes.cushion_impact, "impacts")
+    options = _options(model, convention, law, steps, threads, least_step, omega_ratio)
+    record = array.dtype.names is not None
+    shape: tuple[int, ...] = array.shape if record else array.shape[:-1]
+    motion, status = (None, None) if out is None else out
+    if record:
+        motion = output(motion, shape, dtypes.motion, "out[0]")
+    else:
+        motion = output(motion, (*shape, 6), array.dtype, "out[0]")
+    status = output(status, shape, INT8, "out[1]")
+    code = lib.carom_cushion_batch(
+        pointer("carom_cushion_impact[]", array),
+        status.size,
+        options,
+        pointer("carom_motion[]", motion),
+        pointer("int8_t[]", status),
+    )
+    if code < 0 and (shape == () or lib.carom_cushion_check(_good(), options, ffi.NULL) < 0):
+        raise _error(code, array, options)
+    return Outcome(motion, status)
+
+
+@functools.cache
+def _good() -> Any:
+    """An impact with nothing wrong, by which options at fault are told from rows at fault."""
+    return ffi.new("carom_cushion_impact *", pointer("carom_cushion_impact[]", cushion_impacts(v=(0.0, 1.0, 0.0)))[0])
+
+
+def _error(code: int, array: Array, options: Any) -> CaromError:
+    """The exception for one impact, with the field at fault."""
+    row = np.ascontiguousarray(array).reshape(-1).view(np.float64)[:15]
+    field = ffi.new("int *", -1)
+    if row.size == 15 and lib.carom_cushion_check(pointer("carom_cushion_impact[]", row), options, field) == code:
+        if field[0] >= 0:
+            return CaromError(code, ffi.string(lib.carom_cushion_field_name(field[0])).decode(), row[field[0]])
+    return CaromError(code)
+
+
+def cushion_trace(
+    impact: npt.ArrayLike,
+    points: int = 101,
+    *,
+    model: CushionModel = "mathavan",
+    convention: CushionConvention = "paper",
+    law: CushionLaw = "constant",
+    steps: int = 0,
+    least_step: float = 0.0,
+) -> dtypes.Records:
+    """Follow one impact by the model mathavan or euler, at equal steps of normal impulse from 0 to its end.
+
+    Parameters
+    ----------
+    impact : array_like, shape (15,), or structured of shape ()
+        As for `cushion`.
+    points : int
+        How many, at least 2.
+    model, convention, law, steps, least_step
+        As for `cushion`.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.cushion_point`, shape (points,)
+
+    Raises
+    ------
+    CaromError
+        The impact is in error, or points or options are.
+    """
+    array = rows(impact, dtypes.cushion_impact, "impact")
+    if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
+        raise ValueError("impact: a trace is of one impact, of shape (15,), or structured of shape ()")
+    options = _options(model, convention, law, steps, 0, least_step, 0.0)
+    traced = np.zeros(max(points, 0), dtypes.cushion_point)
+    code = lib.carom_cushion_trace(
+        pointer("carom_cushion_impact[]", array), options, traced.size, pointer("carom_cushion_point[]", traced)
+    )
+    if code < 0:
+        raise _error(code, array, options)
+    return traced

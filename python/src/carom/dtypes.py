@@ -1,0 +1,89 @@
+"""NumPy dtypes with the layout and the field names of the C structs, read from the compiled headers.
+
+An array of one of them is an array of the C struct, without conversion: `impacts["a"]["v"]` is a view of shape (..., 3).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carom._carom import ffi
+
+Record = np.dtype[np.void]
+"""Type of a structured dtype."""
+Records = npt.NDArray[np.void]
+"""Type of a structured array."""
+Doubles = npt.NDArray[np.float64]
+
+_NOT_SHOWN = {"reserved", "unused"}
+
+
+def _dtype(ctype: Any) -> np.dtype[Any]:
+    """The dtype of a C type; fields that only keep room for later are left out, their bytes are not."""
+    if ctype.kind == "array":
+        return np.dtype((_dtype(ctype.item), (ctype.length,)))
+    if ctype.kind == "struct":
+        fields = [(name, field) for name, field in ctype.fields if name not in _NOT_SHOWN]
+        return np.dtype(
+            {
+                "names": [name for name, _ in fields],
+                "formats": [_dtype(field.type) for _, field in fields],
+                "offsets": [field.offset for _, field in fields],
+                "itemsize": ffi.sizeof(ctype),
+            }
+        )
+    if ctype.kind == "pointer":
+        return np.dtype(np.uintp)
+    letter = "f" if ctype.cname in ("double", "float") else "u" if ctype.cname.startswith("u") else "i"
+    return np.dtype(f"{letter}{ffi.sizeof(ctype)}")
+
+
+def _record(name: str) -> Record:
+    return _dtype(ffi.typeof(name))
+
+
+impact: Record = _record("carom_impact")
+"""Two balls at the instant of contact: a, b (r, v, w, radius, mass, mu_cloth), mu_ball, restitution. 26 doubles."""
+result: Record = _record("carom_result")
+"""Two balls after the collision: a, b (v, w). 12 doubles."""
+motion: Record = _record("carom_motion")
+"""A ball's v (m/s) and w (rad/s). 6 doubles."""
+cushion_impact: Record = _record("carom_cushion_impact")
+"""A ball at a cushion: v, w, normal, height, radius, mass, mu_cloth, mu_cushion, restitution, jaw_radius. 15 doubles."""
+trace_point: Record = _record("carom_trace_point")
+"""A point of `carom.trace`."""
+cushion_point: Record = _record("carom_cushion_point")
+"""A point of `carom.cushion_trace`."""
+ball_kind: Record = _record("carom_ball_kind")
+"""What a ball is made of and runs on."""
+ball_state: Record = _record("carom_ball_state")
+"""Where a ball is and how it moves: r (m), v (m/s), w (rad/s), label (`carom.Label`)."""
+shot_ball: Record = _record("carom_shot_ball")
+"""A ball of a layout: kind, state."""
+cue: Record = _record("carom_cue")
+"""A cue and its strike."""
+rail: Record = _record("carom_rail")
+"""A straight piece of cushion."""
+jaw: Record = _record("carom_jaw")
+"""A rounded end of a cushion."""
+pocket: Record = _record("carom_pocket")
+"""A pocket."""
+table: Record = _record("carom_table")
+"""A table: any geometry."""
+event: Record = _record("carom_event")
+"""An event of a shot: time (s), type (`carom.EventType`), a, b, before and after (two ball states each)."""
+shot: Record = _record("carom_shot")
+"""What a shot gives, with the addresses of its arrays: for the calls of C."""
+
+
+def plain(records: Records) -> Doubles:
+    """The numbers of records that are all doubles, of shape (..., width): a view, where they are in C order.
+
+    >>> plain(carom.impacts(v_a=velocities, r_b=(0.05715, 0, 0))).shape
+    (1000, 26)
+    """
+    numbers = np.ascontiguousarray(records).reshape(-1).view(np.float64)
+    return numbers.reshape((*records.shape, records.dtype.itemsize // 8))

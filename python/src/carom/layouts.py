@@ -1,0 +1,242 @@
+"""What a shot begins with: tables, balls, cues."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes
+from carom._carom import ffi, lib
+from carom._rows import Array, choice, fill
+
+Game = Literal["pool", "snooker", "billiard"]
+_GAMES = {"pool": 0, "snooker": 1, "billiard": 2}
+
+
+class Table:
+    """A table of any geometry: cushions, their rounded ends, pockets.
+
+    Parameters
+    ----------
+    width, length : float
+        m, for drawing and racks. The built-in tables have their surface at 0 <= x <= width, 0 <= y <= length.
+    rails : ndarray of `carom.dtypes.rail`, shape (up to 32,)
+        Straight pieces of cushion: p, q and height (m), side, and line, all 0 to have it derived.
+    jaws : ndarray of `carom.dtypes.jaw`, shape (up to 32,)
+        Rounded ends: centre, radius, height (m).
+    pockets : ndarray of `carom.dtypes.pocket`, shape (up to 8,)
+        centre, radius, depth (m).
+    """
+
+    def __init__(
+        self,
+        width: float,
+        length: float,
+        *,
+        rails: dtypes.Records,
+        jaws: dtypes.Records | None = None,
+        pockets: dtypes.Records | None = None,
+    ) -> None:
+        record: Array = np.zeros((), dtypes.table)
+        record["width"], record["length"] = width, length
+        for name, part, values in (("rails", "rail", rails), ("jaws", "jaw", jaws), ("pockets", "pocket", pockets)):
+            if values is None:
+                continue
+            room = record[part].shape[0]
+            if values.dtype != record[part].dtype or values.ndim != 1 or len(values) > room:
+                raise ValueError(f"{name}: an array of carom.dtypes.{part} of shape (up to {room},) is needed")
+            record[name] = len(values)
+            record[part][: len(values)] = values
+        self.record: dtypes.Records = record
+
+    @classmethod
+    def from_record(cls, record: dtypes.Records) -> Table:
+        """The table of a record of `carom.dtypes.table`, of shape (), which is copied."""
+        table = cls.__new__(cls)
+        table.record = np.array(record, dtypes.table).reshape(())
+        return table
+
+    @property
+    def width(self) -> float:
+        """m, along x."""
+        return float(self.record["width"])
+
+    @property
+    def length(self) -> float:
+        """m, along y."""
+        return float(self.record["length"])
+
+    @property
+    def rails(self) -> dtypes.Records:
+        """The straight pieces of cushion, a view."""
+        return self._parts("rail", "rails")
+
+    @property
+    def jaws(self) -> dtypes.Records:
+        """The rounded ends of cushions, a view."""
+        return self._parts("jaw", "jaws")
+
+    @property
+    def pockets(self) -> dtypes.Records:
+        """The pockets, a view."""
+        return self._parts("pocket", "pockets")
+
+    def _parts(self, part: str, count: str) -> dtypes.Records:
+        parts: dtypes.Records = self.record[part]
+        return parts[: int(self.record[count])]
+
+    def __repr__(self) -> str:
+        sizes = f"{len(self.rails)} rails, {len(self.jaws)} jaws, {len(self.pockets)} pockets"
+        return f"<carom.Table {self.width:.4g} m x {self.length:.4g} m, {sizes}>"
+
+    def _repr_svg_(self) -> str:
+        from carom import pictures
+
+        return pictures.picture(self)
+
+
+def balls(
+    r: npt.ArrayLike,
+    *,
+    v: npt.ArrayLike = 0.0,
+    w: npt.ArrayLike = 0.0,
+    game: Game = "pool",
+    mass: npt.ArrayLike | None = None,
+    radius: npt.ArrayLike | None = None,
+    mu_slide: npt.ArrayLike | None = None,
+    mu_roll: npt.ArrayLike | None = None,
+    mu_spin: npt.ArrayLike | None = None,
+    mu_ball: npt.ArrayLike | None = None,
+    restitution: npt.ArrayLike | None = None,
+    mu_cushion: npt.ArrayLike | None = None,
+    restitution_cushion: npt.ArrayLike | None = None,
+    gravity: npt.ArrayLike | None = None,
+) -> dtypes.Records:
+    """Balls on a table, from fields that are broadcast against each other.
+
+    Parameters
+    ----------
+    r : array_like, shape (..., balls, 2) or (..., balls, 3)
+        Centres, m; without a z they lie on the cloth.
+    v, w : array_like, shape (..., 3)
+        Velocities, m/s, and angular velocities, rad/s.
+    game : {"pool", "snooker", "billiard"}
+        Whose balls they are, for all that follows.
+    mass, radius, gravity : array_like, shape (...)
+        kg, m, m/s^2. All balls of a layout have the same radius.
+    mu_slide, mu_roll, mu_spin : array_like, shape (...)
+        Friction of sliding, rolling and turning on the spot, above 0, at most 1.
+    mu_ball, restitution : array_like, shape (...)
+        Ball and ball, 0 to 1; a pair has the mean. mu_ball counts with friction="constant" only.
+    mu_cushion, restitution_cushion : array_like, shape (...)
+        Ball and cushion, 0 to 1.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.shot_ball`, shape (..., balls)
+    """
+    kind = lib.carom_ball_kind_of(choice(_GAMES, game, "game"))
+    given: dict[str, npt.ArrayLike | None] = {
+        "mass": mass,
+        "radius": radius,
+        "mu_slide": mu_slide,
+        "mu_roll": mu_roll,
+        "mu_spin": mu_spin,
+        "mu_ball": mu_ball,
+        "restitution": restitution,
+        "mu_cushion": mu_cushion,
+        "restitution_cushion": restitution_cushion,
+        "gravity": gravity,
+    }
+    fields: dict[str, npt.ArrayLike] = {
+        f"kind.{name}": float(getattr(kind, name)) if value is None else value for name, value in given.items()
+    }
+    centres = np.asarray(r, dtype=np.float64)
+    if centres.ndim < 2 or centres.shape[-1] not in (2, 3):
+        raise ValueError(f"r: the shape must be (..., balls, 2) or (..., balls, 3), not {centres.shape}")
+    if centres.shape[-1] == 2:
+        heights = np.broadcast_to(np.asarray(fields["kind.radius"], np.float64), centres.shape[:-1])
+        centres = np.concatenate([centres, heights[..., np.newaxis]], axis=-1)
+    return fill(
+        dtypes.shot_ball, {"r": 3, "v": 3, "w": 3}, {**fields, "state.r": centres, "state.v": v, "state.w": w}
+    )
+
+
+def cue(
+    *,
+    speed: npt.ArrayLike = 2.0,
+    phi: npt.ArrayLike = 90.0,
+    theta: npt.ArrayLike = 0.0,
+    a: npt.ArrayLike = 0.0,
+    b: npt.ArrayLike = 0.25,
+    ball: npt.ArrayLike = 0,
+    game: Game = "pool",
+    mass: npt.ArrayLike | None = None,
+    end_mass: npt.ArrayLike | None = None,
+    tip_radius: npt.ArrayLike | None = None,
+) -> dtypes.Records:
+    """A cue and its strike, or many, from fields that are broadcast against each other.
+
+    Parameters
+    ----------
+    speed : array_like, shape (...)
+        Of the cue before the strike, m/s; 0: no strike.
+    phi, theta : array_like, shape (...)
+        Direction in the plane from +x towards +y, and elevation of the butt, degrees.
+    a, b : array_like, shape (...)
+        Where the tip touches, in units of the ball's radius: a > 0 left, b > 0 above the centre; a^2 + b^2 < 1.
+    ball : array_like of int, shape (...)
+        Index of the ball that is struck.
+    game : {"pool", "snooker", "billiard"}
+        Whose cue it is, for what follows.
+    mass, end_mass, tip_radius : array_like, shape (...)
+        kg, kg, m.
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.cue`, shape (...)
+    """
+    usual = lib.carom_cue_of(choice(_GAMES, game, "game"))
+    return fill(
+        dtypes.cue,
+        {},
+        {
+            "speed": speed,
+            "phi": phi,
+            "theta": theta,
+            "a": a,
+            "b": b,
+            "ball": ball,
+            "mass": usual.mass if mass is None else mass,
+            "end_mass": usual.end_mass if end_mass is None else end_mass,
+            "tip_radius": usual.tip_radius if tip_radius is None else tip_radius,
+        },
+    )
+
+
+def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
+    """The motion of a ball at rest after a strike.
+
+    Parameters
+    ----------
+    cue : ndarray of `carom.dtypes.cue`, shape ()
+    kind : ndarray of `carom.dtypes.ball_kind`, shape ()
+
+    Returns
+    -------
+    ndarray of `carom.dtypes.motion`, shape ()
+    """
+    from carom.status import CaromError
+
+    motion: Array = np.zeros((), dtypes.motion)
+    arguments: list[Any] = [
+        ffi.from_buffer("carom_cue[]", np.array(cue, dtypes.cue).reshape(1)),
+        ffi.from_buffer("carom_ball_kind[]", np.array(kind, dtypes.ball_kind).reshape(1)),
+        ffi.from_buffer("carom_motion[]", motion),
+    ]
+    code = lib.carom_strike(*arguments)
+    if code < 0:
+        raise CaromError(code)
+    return motion

@@ -1,0 +1,31 @@
+"""The recorded references of the repository's data/, as arrays."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+DATA = Path(__file__).parents[2] / "data"
+
+
+def columns(name: str, wanted: str) -> np.ndarray:
+    """Columns of a file of data/, in the order wanted, as an array of rows."""
+    with open(DATA / name, newline="", encoding="utf-8") as file:
+        return np.array([[float(row[key]) for key in wanted.split()] for row in csv.DictReader(file)])
+
+
+BALL = "r{0}x r{0}y r{0}z v{0}x v{0}y v{0}z w{0}x w{0}y w{0}z R M u_s{0} "
+MOTION = "v1x v1y v1z w1x w1y w1z v2x v2y v2z w2x w2y w2z"
+
+
+@pytest.fixture(scope="session")
+def impacts() -> np.ndarray:
+    """The 204 recorded collisions, (204, 26)."""
+    return columns("collisions-204.csv", BALL.format(1) + BALL.format(2) + "u_b e_b")
+
+
+@pytest.fixture(scope="session")
+def reference():
+    """reference(name): the motion after the 204 collisions, (204, 12), by a file of data/."""
+    return lambda name: columns(name, MOTION)

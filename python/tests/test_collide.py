@@ -1,0 +1,177 @@
+"""carom.collide, impacts, mu_ball and trace against recorded references and the C calls' promises."""
+
+import threading
+
+import numpy as np
+import pytest
+
+import carom
+
+
+def pair_error(got, expected, before):
+    """Largest difference of a v or R w, over the fastest of them before the collision."""
+    scale = np.tile(np.repeat([1.0, 0.028575], 3), 2)
+    speeds = np.abs(np.concatenate([before[:, 3:9], before[:, 15:21]], axis=1) * scale).max(axis=1)
+    return (np.abs(got - expected) * scale).max(axis=1) / speeds
+
+
+@pytest.mark.parametrize("slip", ["paper", "pooltool"])
+def test_exact_references(impacts, reference, slip):
+    motion, status = carom.collide(impacts, slip=slip)
+    assert motion.shape == (204, 12) and status.dtype == np.int8 and not status.any()
+    assert pair_error(motion, reference(f"reference-exact-{slip}.csv"), impacts).max() < 1e-6
+
+
+def test_pooltools_bits(impacts, reference):
+    motion, _ = carom.collide(impacts, solver="euler", slip="pooltool", steps=1000)
+    np.testing.assert_array_equal(motion, reference("reference-pooltool-n1000.csv"))
+
+
+def test_single_precision(impacts, reference):
+    motion, status = carom.collide(impacts.astype(np.float32))
+    assert motion.dtype == np.float32 and not status.any()
+    assert pair_error(motion, reference("reference-exact-paper.csv"), impacts).max() < 2e-5
+
+
+def test_shapes_and_layouts_have_the_same_bits(impacts):
+    expected, _ = carom.collide(impacts)
+    for k in (0, 7, 203):
+        one, status = carom.collide(impacts[k])
+        assert one.shape == (12,) and status.shape == () and status == 0
+        np.testing.assert_array_equal(one, expected[k])
+    shaped, status = carom.collide(impacts.reshape(3, 68, 26))
+    assert status.shape == (3, 68)
+    np.testing.assert_array_equal(shaped.reshape(204, 12), expected)
+    np.testing.assert_array_equal(carom.collide(np.asfortranarray(impacts)).motion, expected)
+    np.testing.assert_array_equal(carom.collide(impacts[::-2]).motion, expected[::-2])
+    np.testing.assert_array_equal(carom.collide(impacts.astype(">f8")).motion, expected)
+    records = impacts.view(carom.dtypes.impact).reshape(204)
+    moved, _ = carom.collide(records)
+    assert moved.dtype == carom.dtypes.result
+    np.testing.assert_array_equal(moved["b"]["w"], expected[:, 9:])
+    np.testing.assert_array_equal(carom.collide(records[3]).motion["a"]["v"], expected[3, :3])
+    many = np.tile(impacts, (50, 1))
+    np.testing.assert_array_equal(carom.collide(many, threads=3).motion, np.tile(expected, (50, 1)))
+
+
+def test_no_rows():
+    motion, status = carom.collide(np.empty((0, 26)))
+    assert motion.shape == (0, 12) and status.shape == (0,)
+
+
+def test_out_is_written_and_checked(impacts):
+    out = (np.empty((204, 12)), np.empty(204, np.int8))
+    result = carom.collide(impacts, out=out)
+    assert result.motion is out[0] and result.status is out[1]
+    np.testing.assert_array_equal(out[0], carom.collide(impacts).motion)
+    with pytest.raises(ValueError, match=r"out\[0\].*\(204, 12\)"):
+        carom.collide(impacts, out=(np.empty((203, 12)), out[1]))
+    frozen = out[0].copy()
+    frozen.flags.writeable = False
+    with pytest.raises(ValueError, match="writeable"):
+        carom.collide(impacts, out=(frozen, out[1]))
+
+
+def test_a_bad_row_costs_itself(impacts):
+    expected, _ = carom.collide(impacts)
+    bad = impacts.copy()
+    bad[5, 10] = -1.0
+    motion, status = carom.collide(bad)
+    assert status[5] == carom.Status.ERROR_MASS and np.isnan(motion[5]).all()
+    keep = np.arange(204) != 5
+    np.testing.assert_array_equal(motion[keep], expected[keep])
+
+
+def test_one_bad_impact_is_an_exception_with_its_field(impacts):
+    bad = impacts[0].copy()
+    bad[10] = -1.0
+    with pytest.raises(carom.CaromError, match="a.mass = -1.0: a mass must be positive") as caught:
+        carom.collide(bad)
+    assert caught.value.field == "a.mass" and caught.value.status is carom.Status.ERROR_MASS
+    with pytest.raises(carom.CaromError, match="mu_ball"):
+        carom.collide(carom.impacts(v_a=(1, 0, 0), r_b=(0.05715, 0, 0), mu_ball=2.0))
+
+
+def test_bad_options(impacts):
+    with pytest.raises(ValueError, match="solver: must be one of 'exact', 'euler', not 'exakt'"):
+        carom.collide(impacts, solver="exakt")
+    for options in ({"steps": -1}, {"threads": -7}):
+        with pytest.raises(carom.CaromError, match=next(iter(options))):
+            carom.collide(impacts, **options)
+    with pytest.raises(ValueError, match=r"\(\.\.\., 26\)"):
+        carom.collide(np.zeros((4, 25)))
+
+
+def test_separating():
+    motion, status = carom.collide(carom.impacts(v_a=(-1, 0, 0), r_b=(0.05715, 0, 0)))
+    assert status == carom.Status.SEPARATING and motion["a"]["v"][0] == -1.0
+
+
+def test_impacts_broadcast():
+    built = carom.impacts(v_a=np.ones((5, 1, 3)) * [1, 0, 0], r_b=[0.05715, 0, 0], mu_ball=np.linspace(0, 0.1, 4))
+    assert built.shape == (5, 4) and built.dtype == carom.dtypes.impact
+    assert carom.collide(built).motion.shape == (5, 4)
+    assert carom.dtypes.plain(built).shape == (5, 4, 26) and carom.dtypes.plain(built[0, 0]).shape == (26,)
+    np.testing.assert_array_equal(carom.collide(carom.dtypes.plain(built)).motion, carom.dtypes.plain(carom.collide(built).motion))
+    with pytest.raises(ValueError, match=r"v_a|a\.v"):
+        carom.impacts(v_a=(1, 0), r_b=(1, 0, 0))
+
+
+def test_mu_ball(impacts):
+    a, b, c = carom.alciatore()
+    shot = carom.impacts(v_a=[(0, 0, 0), (0, 3, 0)], r_b=(0.05715, 0, 0))
+    np.testing.assert_allclose(carom.mu_ball(shot), a + b * np.exp(-c * np.array([0.0, 3.0])), rtol=1e-14)
+    assert carom.mu_ball(impacts).shape == (204,) and carom.mu_ball(impacts[0], law=(0.1, 0, 1)) == 0.1
+
+
+def test_trace(impacts):
+    points = carom.trace(impacts[0], 11)
+    assert points.shape == (11,) and points["normal"][0] == 0 and (np.diff(points["normal"]) > 0).all()
+    end = carom.collide(impacts[0]).motion
+    np.testing.assert_allclose(points["state"][-1]["a"]["v"], end[:3], atol=1e-5)
+    with pytest.raises(carom.CaromError, match="at least 2 points"):
+        carom.trace(impacts[0], 1)
+
+
+def test_threads_of_python(impacts):
+    """Calls from several threads at once have the bits of calls one after another."""
+    many = np.tile(impacts, (100, 1))
+    expected = carom.collide(many).motion
+    results = [None] * 4
+
+    def work(k):
+        results[k] = carom.collide(many).motion
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for result in results:
+        np.testing.assert_array_equal(result, expected)
+
+
+def test_the_lock_of_the_interpreter_is_released(impacts):
+    """While one call computes, this thread counts on: with the lock held it could not before the call has ended."""
+    many = np.tile(impacts, (20, 1))
+    done = threading.Event()
+
+    def work():
+        carom.collide(many, solver="euler", steps=2000)
+        done.set()
+
+    thread = threading.Thread(target=work)
+    counted = 0
+    thread.start()
+    while not done.wait(0.001):
+        counted += 1
+    thread.join()
+    assert counted > 5
+
+
+def test_statuses_are_those_of_c():
+    from carom._carom import ffi
+
+    names = {value: name.removeprefix("CAROM_") for value, name in ffi.typeof("carom_status").elements.items()}
+    assert {status.value: status.name for status in carom.Status} == names
+    assert carom.Status.ERROR_MASS.text == "a mass must be positive and finite"
