@@ -236,9 +236,13 @@ carom_status carom_shoot_batch(const carom_table *table, const carom_shot_ball *
   if (table == NULL || balls == NULL || shots == NULL)
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
-  carom_features features;
-  const carom_status bad = carom_check_shot(table, balls, count, opt, &features);
-  if (bad != CAROM_OK)
+  /* what is one for all is checked with the first layout whose radius is one: a bad layout costs itself */
+  carom_features features = {0};
+  size_t sound = 0;
+  carom_status bad = carom_check_shot(table, balls, count, opt, &features);
+  while (bad == CAROM_ERROR_RADIUS && !one_layout && ++sound < n)
+    bad = carom_check_shot(table, balls + sound * (size_t)count, count, opt, &features);
+  if (bad != CAROM_OK && (bad != CAROM_ERROR_RADIUS || one_layout))
     return bad;
   const batch work = {table, &features, balls, count, one_layout, one_cue, cues, opt, shots, status};
   enum { LEAST = 4 }; /* shots worth a thread */
