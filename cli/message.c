@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
+const char random_name[7] = {'X', 'X', 'X', 'X', 'X', 'X', '\0'};
+
 const char *program_name = "carom";
 static double started, drawn; /* ns */
 static bool standing;

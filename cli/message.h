@@ -15,4 +15,7 @@ void progress_show(const char *unit, double done, double total);
 /* Removes the line, if one stands there. */
 void progress_clear(void);
 
+/* The end of a template that mkstemp() and mkdtemp() make a name of. */
+extern const char random_name[7];
+
 #endif

@@ -70,7 +70,7 @@ static FILE *open_beside(const char *path) {
   const bool exists = stat(place, &old) == 0;
   if (exists && access(place, W_OK) != 0)
     return NULL;
-  if (snprintf(temporary, PATH_MAX, "%s.XXXXXX", place) >= PATH_MAX) {
+  if (snprintf(temporary, PATH_MAX, "%s.%s", place, random_name) >= PATH_MAX) {
     errno = ENAMETOOLONG;
     return NULL;
   }

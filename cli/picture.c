@@ -30,7 +30,7 @@ typedef struct work {
 /* Complains if there can be none. */
 static bool make_work(work *w, const char *ending) {
   const char *own = getenv("TMPDIR"), *temporary = own != NULL && own[0] != '\0' ? own : P_tmpdir;
-  const int size = snprintf(w->folder, PATH_MAX - 16, "%s/carom-XXXXXX", temporary);
+  const int size = snprintf(w->folder, PATH_MAX - 16, "%s/carom-%s", temporary, random_name);
   if (size >= PATH_MAX - 16 || mkdtemp(w->folder) == NULL) {
     complain("cannot make a folder in %s: %s", temporary, strerror(errno));
     return false;
