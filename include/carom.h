@@ -26,10 +26,10 @@
  * collisions of play within 2e-5. docs/accuracy.md has the figures and the command that prints them again. How near the model
  * is to real balls is another matter: docs/physics.md.
  *
- * Cost of the exact solver, a collision, on one core of 2024 with AVX-512: a call 0.2 us where the cloth slip is smooth and 0.3
- * to 1.5 us where it turns or the balls stick, 0.3 us in the mean of play; a row of a batch some 0.1 us. Strong friction,
- * hardly any restitution or very unequal masses take 5 to 50 us; no input takes more than 200. With SSE2 or plain C calls take
- * 4 to 5 times as long. Euler's method: about 20 ns a step.
+ * Cost of the exact solver, a collision, on one core of an Intel Xeon with AVX-512: a call 0.2 us where the cloth slip is
+ * smooth and 0.3 to 2.6 us where it turns or the balls stick, 0.4 us in the mean of play; a row of a batch 0.13 us. Strong
+ * friction, hardly any restitution or very unequal masses take 5 to 50 us; no input takes more than 200. With SSE2 a call takes
+ * a tenth longer, in plain C a third. Euler's method: about 20 ns a step.
  *
  * Stack. In a build that optimises, every call fits a thread with 64 KiB of stack, of which the C library takes some. On x86-64
  * a single call takes at most 7 KiB, a trace 10, a batch 44, and one over threads 53 in the calling thread (measured by
