@@ -1,9 +1,9 @@
 /* What every rung of the ladder sees: the state in the collision frame, and the one signature.
  *
  * A rung takes two approaching balls of equal mass from the instant of contact to the end of the collision, in about N steps
- * of Mathavan's algorithm (physics and symbols: src/euler.c). Getting into the frame and out of it, and refusing what a rung
- * could not end or could not represent, is done once for all of them in resolve.c; so a rung is the loop and nothing else, and
- * `diff cse.c reorder.c` shows the idea of reorder and nothing else.
+ * of Mathavan's algorithm (physics and symbols: src/ball_ball/euler.c). Getting into the frame and out of it, and refusing what
+ * a rung could not end or could not represent, is done once for all of them in resolve.c; so a rung is the loop and nothing
+ * else, and `diff cse.c reorder.c` shows the idea of reorder and nothing else.
  *
  * Names in the rungs: u, d, b are the slip velocities at the contacts A (ball on ball), D (ball i on the cloth), B (ball j on
  * the cloth); ru, rd, rb the reciprocals of their magnitudes; DP a normal impulse, DP1, DP2, DP_ix ... the friction impulses.

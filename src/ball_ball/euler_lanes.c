@@ -1,8 +1,8 @@
-/* Euler's method in lanes: LANES collisions at once, each with the bits of src/euler.c in double precision.
+/* Euler's method in lanes: LANES collisions at once, each with the bits of src/ball_ball/euler.c in double precision.
  *
- * Every lane does src/euler.c's step, its branches turned into selections, until the last lane has ended; a lane's state is put
- * aside at the step where it ends, so what it goes on to compute is junk that nobody reads. The bound on the steps is each
- * lane's own: a lane that needs more is left to a single call, which says so.
+ * Every lane does src/ball_ball/euler.c's step, its branches turned into selections, until the last lane has ended; a lane's
+ * state is put aside at the step where it ends, so what it goes on to compute is junk that nobody reads. The bound on the steps
+ * is each lane's own: a lane that needs more is left to a single call, which says so.
  *
  * Single precision takes the same steps in float; what float cannot resolve is left to a single call in double.
  *
@@ -69,7 +69,7 @@ static inline void start(euler_lanes *l, const carom_options *opt) {
   l->end = *c;
 }
 
-/* One step of src/euler.c in every lane; n steps have been taken with it. */
+/* One step of src/ball_ball/euler.c in every lane; n steps have been taken with it. */
 static inline void step(euler_lanes *l, real n) {
   block *c = &l->now;
   const vreal zero = v_splat(0), half = v_splat((real)0.5);

@@ -245,10 +245,10 @@ START_TEST(hard_cases) {
     carom_options options = {0};
     options.slip = s > 0 ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER;
     carom_impact many[FILL];
-    carom_result out, exact, patient, outs[FILL];
+    carom_result out, exact, alone, outs[FILL];
     for (int lane = 0; lane < FILL; lane++)
       many[lane] = in;
-    ck_assert_int_eq(by_fallback(&in, options.slip, &patient), CAROM_OK);
+    ck_assert_int_eq(by_fallback(&in, options.slip, &alone), CAROM_OK);
     ck_assert_int_eq(carom_collide(&in, &options, &out), CAROM_OK);
     ck_assert_int_eq(carom_collide_batch(many, FILL, &options, outs, NULL), CAROM_OK);
     ck_assert_int_eq(oracle_collide(&in, s, &exact, NULL), 0);
@@ -258,7 +258,7 @@ START_TEST(hard_cases) {
     const double allowed = of_play ? 1e-6 : 1e-5;
     ck_assert_msg(result_distance(&out, &exact, R) <= allowed, "case %zu is %g off", k, result_distance(&out, &exact, R));
     ck_assert_double_le(result_distance(&outs[FILL - 1], &exact, R), allowed);
-    ck_assert_double_le(result_distance(&patient, &exact, R), 1e-9);
+    ck_assert_double_le(result_distance(&alone, &exact, R), 1e-9);
   }
 }
 END_TEST
