@@ -4,9 +4,10 @@
 
 #include "ball_ball/problem.h"
 
-/* The directions c, sigma and s = sigma t at a state, and their slopes in p, by the equations. */
+/* The directions c, sigma and s = sigma t at a state, and their slopes in p, by the equations. bend: a sixth of the second
+ * derivative of the direction of u, about. */
 typedef struct arrival {
-  vreal c, z, x, y, dc, dz, dx, dy;
+  vreal c, z, x, y, dc, dz, dx, dy, bend;
 } arrival;
 
 always arrival arrive(const problem *a, const state *s) {
@@ -16,6 +17,8 @@ always arrival arrive(const problem *a, const state *s) {
   const vreal turn_z = 2.5f * (a->kappa * z + a->mu * end.y), turn_x = 3.5f * a->kappa * c + a->mu * end.x;
   const vreal turn_u = -a->mu_b * (z * turn_x - c * turn_z) * i_u;
   const vreal turn_d = (t_x * (a->spin * a->mu_b * z - 1) + t_y * a->mu_b * c) * i_d;
+  const vreal fall = 3.5f * a->kappa * a->mu_b * i_u, turning = v_abs(turn_u);
+  end.bend = (1 / 6.0f) * turning * v_fma(v_splat(2), fall, turning);
   end.dc = z * turn_u;
   end.dz = -c * turn_u;
   end.dx = end.dz * t_x - end.y * turn_d;

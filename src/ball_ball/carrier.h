@@ -40,6 +40,8 @@ enum { MOST_REGS = MOST_NODES / REG_NODES };
 #define AT(row, k) ((reg) * (const reg_unaligned *)((row) + REG_NODES * (k)))
 /* Any of its numbers, where all are the same. */
 #define ONE_OF(x) ((x)[0])
+/* A number at nodes: where a collision is in a lane of its own, by a mask of lanes; a single call does not come here if not. */
+#define REG_SELECT(m, yes, no) (yes)
 #else
 typedef vreal reg;
 typedef vint reg_int;
@@ -48,6 +50,7 @@ typedef uint32_t reg_bits __attribute__((vector_size(VECTOR_BYTES)));
 enum { MOST_REGS = MOST_NODES };
 #define AT(row, k) ((row)[k])
 #define ONE_OF(x) (x)
+#define REG_SELECT(m, yes, no) v_select(m, yes, no)
 #endif
 
 /* For every register of n nodes. What is done for eight registers in turn would not stay in the cache of instructions. */

@@ -7,23 +7,26 @@
 #define PASTE(a, b) PASTE_(a, b)
 #define apart static __attribute__((noinline)) /* the inlined text of a step is long */
 
-apart vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(4, EASY_ITERATIONS, a, g, s, to_end, out);
+apart vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, vmask going, solution *out) {
+  return end_step(4, EASY_MOST, EVEN, a, g, s, to_end, going, out);
 }
-apart vreal take_full_step(int iterations, const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(8, iterations, a, g, s, to_end, out);
+apart vreal take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return end_step(8, FULL_MOST, EVEN, a, g, s, to_end, v_all(), out);
+}
+apart vreal take_graded_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return end_step(8, FULL_GRADED_MOST, GRADED, a, g, s, to_end, v_all(), out);
 }
 apart vreal take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
   return stick_step(a, g, s, out);
 }
 apart vreal take_part(const problem *a, vreal length, const state *s, state *next) {
   const prediction g = predict(a, s, length);
-  return impulse_step(8, PART_ITERATIONS, a, &g, length, NULL, v_not(v_all()), s, next, NULL);
+  return impulse_step(8, PART_MOST, GRADED, a, &g, length, NULL, v_all(), v_not(v_all()), s, next, NULL);
 }
 apart vreal take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
   const prediction g = predict(a, s, p->length);
   const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
-  return impulse_step(8, TURN_ITERATIONS, a, &g, length, p, last, s, next, out);
+  return impulse_step(8, TURN_MOST, TURNED, a, &g, length, p, v_all(), last, s, next, out);
 }
 
 static state load_state(carom_moving moving) {
@@ -88,7 +91,7 @@ apart vreal next_kind(const problem *a, const state *s, vreal to_end, const pred
   vreal kind = mark(c.part, PART, v_splat((float)TURN));
   kind = mark(c.stick, STICK, kind);
   kind = mark(c.full, FULL, kind);
-  kind = mark(c.full & c.long_, FULL_LONG, kind);
+  kind = mark(c.full & c.graded, FULL_GRADED, kind);
   return fresh ? kind : mark(v_less(so_far->caution, v_splat(1)) & is_easy(a, s, g, to_end), EASY, kind);
 }
 
@@ -104,7 +107,7 @@ void PASTE(carom_first_step_, CAROM_LANES_SUFFIX)(carom_in in, float spin, float
   const prediction g = predict(&a, &s, to_end);
   const vmask easy = is_easy(&a, &s, &g, to_end);
   solution answer;
-  const vreal error = take_easy_step(&a, &g, to_end, &s, &answer);
+  const vreal error = take_easy_step(&a, &g, to_end, &s, easy, &answer);
   const vmask solved = easy & v_less(error, a.tolerance);
   put_solution(&answer, out);
   if (!v_any(v_not(solved))) {
@@ -142,11 +145,13 @@ void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh,
   solution answer;
   vmask last = v_all(), impossible = none;
   if (kind == EASY)
-    error = take_easy_step(&a, &g, to_end, &s, &answer);
+    error = take_easy_step(&a, &g, to_end, &s, v_all(), &answer);
   else {
     const prediction ahead = look_ahead(&a, &s, &g, to_end);
-    if (kind == FULL || kind == FULL_LONG)
-      error = take_full_step(kind == FULL ? FULL_ITERATIONS : FULL_LONG_ITERATIONS, &a, &ahead, to_end, &s, &answer);
+    if (kind == FULL)
+      error = take_full_step(&a, &ahead, to_end, &s, &answer);
+    else if (kind == FULL_GRADED)
+      error = take_graded_step(&a, &ahead, to_end, &s, &answer);
     else if (kind == STICK)
       error = take_stick_step(&a, &ahead, &s, &answer);
     else if (kind == PART) {

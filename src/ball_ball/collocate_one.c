@@ -7,24 +7,27 @@
 #define PASTE(a, b) PASTE_(a, b)
 #define rare static __attribute__((noinline)) /* the inlined text of a step is long */
 
-rare float take_full_step(int iterations, const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(8, iterations, a, g, s, to_end, out);
+rare float take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return end_step(8, FULL_MOST, EVEN, a, g, s, to_end, 1, out);
+}
+rare float take_graded_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return end_step(8, FULL_GRADED_MOST, GRADED, a, g, s, to_end, 1, out);
 }
 rare float take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
   return stick_step(a, g, s, out);
 }
 rare float take_part(const problem *a, vreal length, const state *s, state *next) {
   const prediction g = predict(a, s, length);
-  return impulse_step(8, PART_ITERATIONS, a, &g, length, NULL, 0, s, next, NULL);
+  return impulse_step(8, PART_MOST, GRADED, a, &g, length, NULL, 1, 0, s, next, NULL);
 }
 rare float take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
   const prediction g = predict(a, s, p->length);
   const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
-  return impulse_step(8, TURN_ITERATIONS, a, &g, length, p, last, s, next, out);
+  return impulse_step(8, TURN_MOST, TURNED, a, &g, length, p, 1, last, s, next, out);
 }
 /* Behind the first step. */
 rare float take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(4, EASY_ITERATIONS, a, g, s, to_end, out);
+  return end_step(4, EASY_MOST, EVEN, a, g, s, to_end, 1, out);
 }
 
 /* From *s, predicted *g and with `to_end`, to the end. Returns the number of right-hand sides evaluated, 0 if it did not get
@@ -38,23 +41,23 @@ rare int take_steps(const problem *a, state s, prediction g, vreal to_end, progr
     enum step_kind kind = TURN;
     if (so_far.caution < 1 && attempt > 1 && is_easy(a, &s, &g, to_end)) {
       error = take_easy_step(a, &g, to_end, &s, out);
-      evaluations += 4 * (EASY_ITERATIONS + 1);
+      evaluations += 4 * (EASY_MOST + 1);
       kind = EASY;
     } else {
       const prediction ahead = look_ahead(a, &s, &g, to_end);
       const choice c = choose(a, &s, &ahead, to_end, &so_far);
-      int iterations = TURN_ITERATIONS;
+      int iterations = TURN_MOST;
       if (c.full) {
-        kind = c.long_ ? FULL_LONG : FULL;
-        iterations = c.long_ ? FULL_LONG_ITERATIONS : FULL_ITERATIONS;
-        error = take_full_step(iterations, a, &ahead, to_end, &s, out);
+        kind = c.graded ? FULL_GRADED : FULL;
+        iterations = c.graded ? FULL_GRADED_MOST : FULL_MOST;
+        error = (c.graded ? take_graded_step : take_full_step)(a, &ahead, to_end, &s, out);
       } else if (c.stick) {
         kind = STICK;
         iterations = STICK_ITERATIONS;
         error = take_stick_step(a, &ahead, &s, out);
       } else if (c.part) {
         kind = PART;
-        iterations = PART_ITERATIONS;
+        iterations = PART_MOST;
         error = take_part(a, part_length(&ahead, to_end), &s, &next);
         last = 0;
       } else {
@@ -89,9 +92,9 @@ int PASTE(carom_collocate_, CAROM_LANES_SUFFIX)(const float in[IN_COLUMNS], floa
   progress so_far = {.share = 1};
   solution answer;
   if (is_easy(&a, &s, &g, to_end)) {
-    if (end_step(4, EASY_ITERATIONS, &a, &g, &s, to_end, &answer) < a.tolerance) {
+    if (end_step(4, EASY_MOST, EVEN, &a, &g, &s, to_end, 1, &answer) < a.tolerance) {
       put_solution(&answer, out);
-      return 4 * (EASY_ITERATIONS + 1);
+      return 4 * (EASY_MOST + 1);
     }
     so_far.caution = 1;
   }

@@ -10,22 +10,25 @@
  * so far.
  *
  * THE ITERATION takes the directions at the nodes through the integration matrix to the slips there, and these to new
- * directions. What the cloth does converges by itself, since mu mu_b is small. What u does to its own direction is damped: the
- * new direction is mixed with the old one, by a share of the diagonal that the derivative of the equations has. */
+ * directions. What the cloth does converges by itself, since mu mu_b is small. An angle rho by which u has moved would turn
+ * friction the wrong way, and u back: rho less the integral of D rho, where D = mu_b L kappa (5/2 + sigma^2) / |u|, is nearly
+ * what Newton's method would leave of it, since |u| falls at about the rate D |u|. Where little of |u| is lost, a share of
+ * X D rho stands for the integral.
+ *
+ * A collision's iteration ends when what it has left is small enough, whatever the other lanes do. */
 #ifndef CAROM_SRC_BALL_BALL_DIRECTIONS_H
 #define CAROM_SRC_BALL_BALL_DIRECTIONS_H
 
-#include "ball_ball/problem.h"
+#include "ball_ball/mesh.h"
 
 /* What an iteration leaves of what it moved, at least; by mu mu_b, for the cloth; by q^2, for u. */
-static const float CONTRACTION = 0.02f, CONTRACTION_CLOTH = 1.2f, CONTRACTION_Q = 0.35f;
-/* Of the old direction, over the diagonal of the derivative; for 4 nodes, which are for small q, and for 8. */
-static const float KEEP_4 = 0.25f, KEEP_8 = 0.15f;
-
-/* Where the nodes lie: X, and X' for those of a rule in another variable. */
-typedef struct mesh {
-  reg X[MOST_REGS], weight[MOST_REGS];
-} mesh;
+static const float CONTRACTION = 0.02f, CONTRACTION_CLOTH = 1.2f, CONTRACTION_Q = 0.1f;
+/* The estimate of what the iterations leave is this much too small on turns. */
+static const float TURN_CAUTION = 4;
+/* Of what a step may err, what the iteration may leave. */
+static const float ENOUGH = 0.25f;
+/* Of X D rho, instead of the integral, in steps of four nodes. */
+static const float SHARE_OF_BACK = 0.25f;
 
 /* Coefficients of the equations, times L; and q, the share of |u| that the stretch loses at its first rate. */
 typedef struct step_law {
@@ -48,7 +51,7 @@ always step_law law_of(const problem *a, const prediction *g, vreal length) {
 typedef struct directions {
   reg c[MOST_REGS], z[MOST_REGS], s_x[MOST_REGS], s_y[MOST_REGS];
   reg w_x[MOST_REGS], w_y[MOST_REGS], turned[MOST_REGS], lost[MOST_REGS], S_y[MOST_REGS];
-  vreal moved; /* at most, by the last iteration */
+  vreal error; /* what the iteration has left, in p */
 } directions;
 
 /* The angle w by which u turns on the way to X: powers of x = X / (1 - alpha X), which has its logarithm built in, and what a
@@ -77,17 +80,16 @@ always turning predict_turning(bool turn, const problem *a, const prediction *g,
   return w;
 }
 
-/* turn: d turns on the way and has no direction half way, and the nodes have weights. */
-always void find_directions(int n, int iterations, bool turn, const gauss_rule *r, const problem *a, const prediction *g,
-                            const state *s, const step_law *l, const mesh *m, directions *f) {
+/* nodes: TURNED where d turns on the way and has no direction half way. Iterates at most so often, in the lanes `going`. */
+always void find_directions(int n, int most, enum nodes nodes, const gauss_rule *r, const problem *a, const prediction *g,
+                            const state *s, const step_law *l, const mesh *m, vmask going, directions *f) {
+  const bool weighs = nodes != EVEN;
   const vreal b = l->mu_b * g->inverse_u;
-  const turning turns = predict_turning(turn, a, g, s, b);
+  const turning turns = predict_turning(nodes == TURNED, a, g, s, b);
   /* the cloth's own pull on d, along its direction half way */
-  const vreal own = turn ? v_splat(0) : l->on_d * g->z, own_x = own * g->t_x, own_y = l->length - own * g->t_y;
-  const vreal damp = (n == 8 ? KEEP_8 : KEEP_4) * a->kappa * b * v_fma(g->z, g->z, v_splat(2.5f));
+  const vreal own = nodes == TURNED ? v_splat(0) : l->on_d * g->z, own_x = own * g->t_x, own_y = l->length - own * g->t_y;
   const vreal half_b = 0.5f * l->mu_b, half_y = 0.5f * l->on_y;
-  reg keep[MOST_REGS], take[MOST_REGS], straight_y[MOST_REGS], moved[MOST_REGS] = {0};
-  const vreal no_x = -l->pull, no_b = -l->mu_b;
+  reg straight_y[MOST_REGS];
   EACH_REG(k, n) {
     const reg X = m->X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, 1.0f));
     const reg w = MADD(x, MADD(x, MADD(x, turns.w_3, turns.w_2), turns.w_1), turns.by_t * (X * (X - 1))), w2 = (0.5f * w) * w;
@@ -98,63 +100,80 @@ always void find_directions(int n, int iterations, bool turn, const gauss_rule *
     const reg sigma_d = f->z[k] * rough_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
     f->s_x[k] = sigma_d * d_x;
     f->s_y[k] = sigma_d * d_y;
-    const reg back = damp * X;
-    keep[k] = back * rough_reciprocal(MADD(-l->q, X, 1.0f) + back);
-    take[k] = 1 - keep[k];
     straight_y[k] = MADD(-l->length, X, s->d_y);
-    f->turned[k] = f->lost[k] = SPREAD(0.0f);
   }
 
-  lanes_rolled for (int i = 0; i < iterations; i++) {
-    reg w_c[MOST_REGS], w_z[MOST_REGS], C[MOST_REGS], Z[MOST_REGS], S_x[MOST_REGS];
+  const vreal no_x = -l->pull, no_b = -l->mu_b, mu_b_kappa = l->mu_b * a->kappa;
+  const vreal scale = nodes == TURNED ? v_splat(TURN_CAUTION) : v_splat(1);
+  const vreal per_moved =
+      scale * l->mu_b * v_fma(v_splat(CONTRACTION_CLOTH), a->pull, v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));
+  const vreal enough = ENOUGH * a->tolerance;
+  reg dx[MOST_REGS] = {0}, dz[MOST_REGS] = {0}, per_u[MOST_REGS] = {0}, turned_back[MOST_REGS] = {0};
+  EACH_REG(k, n) f->S_y[k] = SPREAD(0.0f);
+  f->error = v_splat(0);
+  lanes_rolled for (int i = 0; i < most; i++) {
+    reg w_c[MOST_REGS], w_z[MOST_REGS], C[MOST_REGS], Z[MOST_REGS], S_x[MOST_REGS], S_y[MOST_REGS];
     EACH_REG(k, n) {
-      w_c[k] = turn ? m->weight[k] * f->c[k] : f->c[k];
-      w_z[k] = turn ? m->weight[k] * f->z[k] : f->z[k];
-      f->w_x[k] = turn ? m->weight[k] * f->s_x[k] : f->s_x[k];
-      f->w_y[k] = turn ? m->weight[k] * f->s_y[k] : f->s_y[k];
+      w_c[k] = weighs ? m->weight[k] * f->c[k] : f->c[k];
+      w_z[k] = weighs ? m->weight[k] * f->z[k] : f->z[k];
+      f->w_x[k] = weighs ? m->weight[k] * f->s_x[k] : f->s_x[k];
+      f->w_y[k] = weighs ? m->weight[k] * f->s_y[k] : f->s_y[k];
     }
     apply(r->sum, w_c, C, n);
     apply(r->sum, w_z, Z, n);
     apply(r->sum, f->w_x, S_x, n);
-    apply(r->sum, f->w_y, f->S_y, n);
-    const bool last = i == iterations - 1;
+    apply(r->sum, f->w_y, S_y, n);
+    reg u_c[MOST_REGS], u_z[MOST_REGS], t_x[MOST_REGS], t_y[MOST_REGS], rate[MOST_REGS], back[MOST_REGS], moved[MOST_REGS];
     EACH_REG(k, n) {
-      const reg du_x = MADD(l->k_x, C[k], no_x * S_x[k]), du_z = MADD(l->k_z, Z[k], l->k_y * f->S_y[k]);
-      const reg u_x = s->u_x + du_x, u_z = s->u_z + du_z;
+      const reg du_x = MADD(l->k_x, C[k], no_x * S_x[k]), du_z = MADD(l->k_z, Z[k], l->k_y * S_y[k]);
+      const reg u_x_k = s->u_x + du_x, u_z_k = s->u_z + du_z;
       const reg d_x = MADD(l->on_d, S_x[k], MADD(no_b, C[k], s->d_x)),
-                d_y = MADD(l->on_d, f->S_y[k], MADD(l->on_y, Z[k], straight_y[k]));
-      const reg i_u = reg_reciprocal_sqrt(MADD(u_x, u_x, MADD(u_z, u_z, TINY)));
+                d_y = MADD(l->on_d, S_y[k], MADD(l->on_y, Z[k], straight_y[k]));
+      const reg i_u = reg_reciprocal_sqrt(MADD(u_x_k, u_x_k, MADD(u_z_k, u_z_k, TINY)));
       const reg i_d = reg_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
-      const reg u_c = u_x * i_u, u_s = u_z * i_u, t_x = d_x * i_d, t_y = d_y * i_d;
-      const reg c = MADD(u_c, take[k], keep[k] * f->c[k]), z = MADD(u_s, take[k], keep[k] * f->z[k]), x = z * t_x, y = z * t_y;
-      if (last) {
-        /* from the change of u, not from its direction: what is small keeps its digits */
-        const reg sine = MADD(g->c, du_z, -g->z * du_x) * i_u, e_c = u_c - g->c, e_z = u_s - g->z;
-        const reg drop = 0.5f * MADD(e_c, e_c, e_z * e_z);
-        f->turned[k] = MADD(keep[k], MADD(g->c, f->z[k], -g->z * f->c[k]) - sine, sine);
-        f->lost[k] = MADD(keep[k], (1 - MADD(g->c, f->c[k], g->z * f->z[k])) - drop, drop);
-      }
-      if (last)
-        moved[k] =
-            MADD(a->mu, reg_abs(x - f->s_x[k]) + reg_abs(y - f->s_y[k]), reg_abs(u_c - f->c[k]) + reg_abs(u_s - f->z[k]));
-      f->c[k] = c;
-      f->z[k] = z;
-      f->s_x[k] = x;
-      f->s_y[k] = y;
+      u_c[k] = u_x_k * i_u;
+      u_z[k] = u_z_k * i_u;
+      t_x[k] = d_x * i_d;
+      t_y[k] = d_y * i_d;
+      const reg rho = MADD(f->c[k], u_z[k], -(f->z[k] * u_c[k]));
+      const reg D = (mu_b_kappa * i_u) * MADD(f->z[k], f->z[k], 2.5f);
+      rate[k] = weighs ? m->weight[k] * (D * rho) : D * rho;
+      if (n == 4)
+        back[k] = (SHARE_OF_BACK * m->X[k]) * rate[k];
+      f->S_y[k] = REG_SELECT(going, S_y[k], f->S_y[k]);
+      dx[k] = REG_SELECT(going, du_x, dx[k]);
+      dz[k] = REG_SELECT(going, du_z, dz[k]);
+      per_u[k] = REG_SELECT(going, i_u, per_u[k]);
     }
+    if (n == 8)
+      apply(r->sum, rate, back, n);
+    EACH_REG(k, n) {
+      const reg c = MADD(u_z[k], back[k], u_c[k]), z = MADD(-u_c[k], back[k], u_z[k]), x = z * t_x[k], y = z * t_y[k];
+      moved[k] = MADD(a->mu, reg_abs(x - f->s_x[k]) + reg_abs(y - f->s_y[k]), reg_abs(c - f->c[k]) + reg_abs(z - f->z[k]));
+      turned_back[k] = REG_SELECT(going, back[k], turned_back[k]);
+      f->c[k] = REG_SELECT(going, c, f->c[k]);
+      f->z[k] = REG_SELECT(going, z, f->z[k]);
+      f->s_x[k] = REG_SELECT(going, x, f->s_x[k]);
+      f->s_y[k] = REG_SELECT(going, y, f->s_y[k]);
+    }
+    const vreal error = per_moved * largest(moved, n);
+    f->error = v_select(going, error, f->error);
+    going = going & v_not(v_less(error, enough));
+    if (!v_any(going))
+      break;
   }
   EACH_REG(k, n) {
-    f->w_x[k] = turn ? m->weight[k] * f->s_x[k] : f->s_x[k];
-    f->w_y[k] = turn ? m->weight[k] * f->s_y[k] : f->s_y[k];
-    f->turned[k] = turn ? m->weight[k] * f->turned[k] : f->turned[k];
-    f->lost[k] = turn ? m->weight[k] * f->lost[k] : f->lost[k];
+    /* from the change of u, not from its direction: what is small keeps its digits */
+    const reg u_x_k = s->u_x + dx[k], u_z_k = s->u_z + dz[k];
+    const reg sine = MADD(g->c, dz[k], -g->z * dx[k]) * per_u[k], e_c = MADD(u_x_k, per_u[k], -g->c),
+              e_z = MADD(u_z_k, per_u[k], -g->z);
+    const reg drop = 0.5f * MADD(e_c, e_c, e_z * e_z);
+    const reg turned = MADD(-turned_back[k], 1 - drop, sine), lost = MADD(-turned_back[k], sine, drop);
+    f->turned[k] = weighs ? m->weight[k] * turned : turned;
+    f->lost[k] = weighs ? m->weight[k] * lost : lost;
+    f->w_x[k] = weighs ? m->weight[k] * f->s_x[k] : f->s_x[k];
+    f->w_y[k] = weighs ? m->weight[k] * f->s_y[k] : f->s_y[k];
   }
-  f->moved = largest(moved, n);
-}
-
-/* What the iterations have left, in p. */
-always vreal iteration_error(const problem *a, const step_law *l, vreal moved) {
-  return l->mu_b * moved * v_fma(v_splat(CONTRACTION_CLOTH), a->pull, v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));
 }
 
 /* The means over the stretch of c and sigma, against their values at first. */

@@ -1,16 +1,14 @@
-/* The step in the normal impulse, over Gauss nodes in p or, where the cloth slip turns, over those of turn.h. It leaves a part
- * of the way, or comes near the end of the collision, and from there by a Taylor series to the end. */
+/* The step in the normal impulse, over Gauss nodes that lie as mesh.h says. It leaves a part of the way, or comes near the end
+ * of the collision, and from there by a Taylor series to the end. */
 #ifndef CAROM_SRC_BALL_BALL_IMPULSE_STEP_H
 #define CAROM_SRC_BALL_BALL_IMPULSE_STEP_H
 
 #include "ball_ball/beyond.h"
+#include "ball_ball/directions.h"
 #include "ball_ball/rules.h"
-#include "ball_ball/turn.h"
 
 /* How far the Taylor series is trusted, over the length of the step before it. */
 static const float MOST_BEYOND = 0.03f, MOST_BEYOND_TURN = 0.1f;
-/* The estimate of what the iterations leave is this much too small on turns. */
-static const float TURN_CAUTION = 4;
 
 /* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and those of c and sigma against
  * their values at first; K at v = 0 stays what it is. */
@@ -37,35 +35,31 @@ always vreal K_by_parts(const step_law *l, const state *s, vreal f, vreal v, vre
   return v_fma(l->pull_y, by_parts, v_fma(-0.5f * f * (1 + f), v * v, s->K));
 }
 
-/* That point is where the mean f lets v = 0 be, or if `improved` one of Newton's steps from there. */
-always vreal K_at_v_0(const gauss_rule *r, int n, bool improved, const step_law *l, const state *s, vreal f, const reg *w_y) {
-  const vreal per = v_reciprocal((1 - f) * l->length), zero = v_splat(0), one = v_splat(1);
-  vreal x = v_min(v_max(-s->v * per, zero), one), S, v;
+/* Over even nodes, that point being where the mean f lets v = 0 be. */
+always vreal K_at_v_0(const gauss_rule *r, int n, const step_law *l, const state *s, vreal f, const reg *w_y) {
+  const vreal x = v_min(v_max(-s->v * v_reciprocal((1 - f) * l->length), v_splat(0)), v_splat(1));
   reg once[MOST_REGS], twice[MOST_REGS];
-  lanes_rolled for (int i = improved ? 0 : 1; i < 2; i++) {
-    integrals_up_to(r, n, x, once);
-    S = sum_of_products(once, w_y, n);
-    v = v_fma(l->length, x, v_fma(l->pull_y, S, s->v));
-    x = i == 0 ? v_min(v_max(x - v * per, zero), one) : x;
-  }
+  integrals_up_to(r, n, x, once);
   polynomials_at(r->twice, n, 2 * x - 1, twice);
+  const vreal S = sum_of_products(once, w_y, n), v = v_fma(l->length, x, v_fma(l->pull_y, S, s->v));
   return K_by_parts(l, s, f, v, S, (x * x) * sum_of_products(twice, w_y, n));
 }
 
-/* The same on a turn, where S is a polynomial in xi, and its integral over X by Gauss's rule up to that point. */
-always vreal K_at_v_0_on_turn(const gauss_rule *r, int n, const turn_range *range, const step_law *l, const state *s, vreal f,
-                              const reg *w_y) {
+/* Over others: S is a polynomial in x, that point one of Newton's steps from there, and the integral of S over X is taken by
+ * Gauss's rule up to it. */
+always vreal K_at_v_0_mapped(enum nodes nodes, const gauss_rule *r, int n, const node_map *map, const step_law *l,
+                             const state *s, vreal f, const reg *w_y) {
   const vreal per = v_reciprocal((1 - f) * l->length), zero = v_splat(0), one = v_splat(1);
   vreal S_power[MOST_NODES], X = v_min(v_max(-s->v * per, zero), one), x, S, v;
   sum_polynomials(r->part, n, w_y, S_power);
   lanes_rolled for (int i = 0; i < 2; i++) {
-    x = share_at(range, X);
+    x = x_at(nodes, map, X);
     S = x * polynomial(S_power, n, 2 * x - 1);
     v = v_fma(l->length, X, v_fma(l->pull_y, S, s->v));
     X = i == 0 ? v_min(v_max(X - v * per, zero), one) : X;
   }
   mesh up_to;
-  lay_nodes(r, range, x, &up_to);
+  lay_nodes(nodes, r, map, x, &up_to);
   reg slope[MOST_REGS];
   EACH_REG(k, n) {
     const reg xi = x * AT(r->node, k);
@@ -87,23 +81,23 @@ always arrival arrive_on_nodes(const gauss_rule *r, int n, vreal per_length, con
                    .dy = twice * dot(r->bend, f->s_y, n)};
 }
 
-/* From *s on for a length, for which *g has been predicted. *next becomes the state behind the step; in the lanes of `last`
- * that is near the end of the collision, and *out becomes the solution. `turn`: over the nodes of that plan, else `turn` is
- * NULL; `by_parts`: v = 0 is where the first guess is. Returns an estimate of the error, in p; infinite if the end is not near.
- */
-always vreal impulse_step(int n, int iterations, const problem *a, const prediction *g, vreal length, const turn_plan *turn,
-                          vmask last, const state *s, state *next, solution *out) {
+/* From *s on for a length, for which *g has been predicted, with so many iterations at most. *next becomes the state behind the
+ * step; in the lanes of `last` that is near the end of the collision, and *out becomes the solution. `turn`: the plan of TURNED
+ * nodes. Returns an estimate of the error, in p; infinite if the end is not near. `going`: the lanes that matter. */
+always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, const prediction *g, vreal length,
+                          const turn_plan *turn, vmask going, vmask last, const state *s, state *next, solution *out) {
   const gauss_rule *r = n == 8 ? &gauss_8 : &gauss_4;
   const step_law l = law_of(a, g, length);
   mesh m;
-  turn_range range = {0};
-  if (turn != NULL) {
-    range = range_of(turn, length);
-    lay_nodes(r, &range, v_splat(1), &m);
-  } else
+  node_map map = {0};
+  if (nodes == EVEN)
     EACH_REG(k, n) m.X[k] = SPREAD(AT(r->node, k));
+  else {
+    map = nodes == TURNED ? turned_map(turn, length) : graded_map(l.q);
+    lay_nodes(nodes, r, &map, v_splat(1), &m);
+  }
   directions f;
-  find_directions(n, iterations, turn != NULL, r, a, g, s, &l, &m, &f);
+  find_directions(n, most, nodes, r, a, g, s, &l, &m, going, &f);
 
   /* the whole step */
   reg work[MOST_REGS];
@@ -114,23 +108,20 @@ always vreal impulse_step(int n, int iterations, const problem *a, const predict
   state end = behind(g, &l, s, X, Y, dC, dZ, dot(r->all, work, n));
 
   /* K at v = 0 */
-  const bool ends = out != NULL && turn == NULL;
   vmask passes = v_not(s->restitution) & v_less(v_splat(0), end.v);
   if (out != NULL)
     passes = passes | (v_not(s->restitution) & last);
-  if (ends || v_any(passes)) {
-    const vreal f_mean = -a->pull_y * (ends ? g->z * g->t_y : Y); /* that of the prediction is known before the nodes are */
-    const vreal K_c =
-        turn != NULL ? K_at_v_0_on_turn(r, n, &range, &l, s, f_mean, f.w_y) : K_at_v_0(r, n, !ends, &l, s, f_mean, f.w_y);
+  if (nodes == EVEN || v_any(passes)) {
+    const vreal f_mean = -a->pull_y * (nodes == EVEN ? g->z * g->t_y : Y); /* that of the prediction is known before the nodes */
+    const vreal K_c = nodes == EVEN ? K_at_v_0(r, n, &l, s, f_mean, f.w_y)
+                                    : K_at_v_0_mapped(nodes, r, n, &map, &l, s, f_mean, f.w_y);
     end.K_c = v_select(passes, K_c, s->K_c);
   }
   end.restitution = s->restitution | passes;
 
   const vreal per_length = v_reciprocal(length);
   const arrival at_end = n == 8 ? arrive(a, &end) : arrive_on_nodes(r, n, per_length, &f);
-  vreal error = iteration_error(a, &l, f.moved);
-  if (turn != NULL)
-    error = TURN_CAUTION * error;
+  vreal error = f.error;
   if (n == 8) {
     /* the defect of the polynomials at the end, which is the first coefficient that the nodes leave out */
     const vreal defect = v_abs(dot(r->end, f.c, n) - at_end.c) + v_abs(dot(r->end, f.z, n) - at_end.z);
@@ -143,26 +134,29 @@ always vreal impulse_step(int n, int iterations, const problem *a, const predict
 
   /* to the end of the collision */
   vreal third_x = v_splat(0), third_y = third_x;
-  if (turn == NULL) {
+  if (nodes == EVEN) {
     third_x = per_length * per_length * dot(r->third, f.s_x, n);
     third_y = per_length * per_length * dot(r->third, f.s_y, n);
   }
   const vreal way = v_abs(finish(a, &end, &at_end, third_x, third_y, out));
-  if (turn != NULL) {
-    /* the third term, as large as the distance from the turn lets it be */
-    const vreal apart = length - turn->at,
-                left_out = a->pull * way * (way * way) * v_reciprocal(v_fma(apart, apart, turn->width * turn->width));
-    error = error + v_select(last, left_out, v_splat(0));
+  if (n == 8) {
+    /* the third terms: of u; and of d at a turn, as large as the distance from it lets it be */
+    vreal bend = a->mu_b * at_end.bend;
+    if (nodes == TURNED) {
+      const vreal apart = length - turn->at;
+      bend = v_fma(a->pull, v_reciprocal(v_fma(apart, apart, turn->width * turn->width)), bend);
+    }
+    error = v_fma(v_select(last, way * (way * way), v_splat(0)), bend, error);
   }
-  const vmask in_reach = v_less(way, (turn != NULL ? MOST_BEYOND_TURN : MOST_BEYOND) * length);
+  const vmask in_reach = v_less(way, (nodes == TURNED ? MOST_BEYOND_TURN : MOST_BEYOND) * length);
   return v_select(in_reach | v_not(last), error, v_splat(HUGE_VALF));
 }
 
 /* To the end, of which `to_end` is the way that would be left without work on friction. */
-always vreal end_step(int n, int iterations, const problem *a, const prediction *g, const state *s, vreal to_end,
-                      solution *out) {
+always vreal end_step(int n, int most, enum nodes nodes, const problem *a, const prediction *g, const state *s, vreal to_end,
+                      vmask going, solution *out) {
   const vreal f = -a->pull_y * g->z * g->t_y;
-  return impulse_step(n, iterations, a, g, to_end * v_fma(f, 1 + f, v_splat(1)), NULL, v_all(), s, NULL, out);
+  return impulse_step(n, most, nodes, a, g, to_end * v_fma(f, 1 + f, v_splat(1)), NULL, going, v_all(), s, NULL, out);
 }
 
 #endif

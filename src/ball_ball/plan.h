@@ -23,14 +23,15 @@
 #include "ball_ball/impulse_step.h"
 #include "ball_ball/stick_step.h"
 
-enum { EASY_ITERATIONS = 2, FULL_ITERATIONS = 4, FULL_LONG_ITERATIONS = 7, PART_ITERATIONS = 8 };
-enum { TURN_ITERATIONS = 6, MOST_ATTEMPTS = 14 };
+/* Iterations at most. */
+enum { EASY_MOST = 3, FULL_MOST = 4, FULL_GRADED_MOST = 5, PART_MOST = 5, TURN_MOST = 6 };
+enum { MOST_ATTEMPTS = 14 };
 
-static const float EASY_SHARE = 1.2e-3f;      /* error of an EASY step over mu_b q^8, */
+static const float EASY_SHARE = 6;            /* error of an EASY step over mu_b rho^-8 with rho for u, */
 static const float MOST_EASY_Q = 0.9f;        /* its q */
 static const float MOST_EASY_PULL = 5e-3f;    /* and its mu mu_b q^2 */
-static const float FULL_Q = 0.6f;             /* q of a FULL step with few iterations, */
-static const float FULL_LONG_Q = 0.86f;       /* and with many */
+static const float FULL_Q = 0.7f;             /* q of a FULL step over even nodes, */
+static const float FULL_GRADED_Q = 0.96f;     /* and over graded ones */
 static const float BEND_4 = 20, BEND_8 = 100; /* by q^2: what a way that is not straight adds to the error of n nodes */
 static const float STICK_Q = 1.05f;           /* q from which the balls will stick */
 static const float TURN_Q = 0.5f;             /* q of a TURN step */
@@ -71,23 +72,24 @@ always vmask is_smooth(int n, const problem *a, const state *s, const prediction
   return v_less(left_out * v_fma((n == 8 ? BEND_8 : BEND_4) * q, q, v_splat(1)), a->tolerance);
 }
 
-/* Will an EASY step do? *g: to the end. */
+/* Will an EASY step do? *g: to the end. |u| would reach zero at X = 1 / q, so that (1 + s) / (1 - s) is its rho, with
+ * s^2 = 1 - q. */
 always vmask is_easy(const problem *a, const state *s, const prediction *g, vreal to_end) {
-  const vreal q = g->rate * to_end, q_4 = power_4(q);
+  const vreal q = g->rate * to_end, root_left = v_sqrt(v_max(1 - q, v_splat(0)));
+  const vreal inverse_4 = power_4((1 - root_left) * v_rough_reciprocal(1 + root_left));
   const vmask mild =
-      v_less(EASY_SHARE * a->mu_b * (q_4 * q_4), a->tolerance) & v_less(a->pull * q * q, v_splat(MOST_EASY_PULL));
+      v_less(EASY_SHARE * a->mu_b * (inverse_4 * inverse_4), a->tolerance) & v_less(a->pull * q * q, v_splat(MOST_EASY_PULL));
   return v_any(mild) ? mild & v_less(q, v_splat(MOST_EASY_Q)) & is_smooth(4, a, s, g, to_end) : mild;
 }
 
 /* The error of a step to stick, over |u|, by how smooth tau and W are in lambda. */
 always vreal stick_error(const problem *a, const state *s, const prediction *g) {
   const vreal inverse = inverse_rho(a, s, g, v_reciprocal(g->rate)), inverse_2 = inverse * inverse, mu = a->mu;
-  const vreal by_turn = v_fma(0.05f * inverse_2, inverse_2 * inverse_2, v_splat(1e-6f));
-  const vreal share = mu * v_reciprocal(a->kappa - mu);
+  const vreal by_turn = 0.05f * inverse_2 * (inverse_2 * inverse_2);
+  const vreal share = mu * v_reciprocal(a->kappa - mu), from_rest = 2.6e-4f * (share * share * share) * (g->z * g->z);
   const vreal by_b =
-      1e-4f * v_max(v_fma(-12 * mu, g->t_y, -5 * a->kappa), v_splat(0));              /* W falls with a high power of lambda */
-  const vreal by_z = v_max(v_fma(-1.8e-4f * g->z, g->z, v_splat(6e-6f)), v_splat(0)); /* |u| has a kink where W is about u_z */
-  return mu * (v_select(is_at_rest(a, s), 2.6e-4f * (share * share * share), by_turn) + by_z + by_b);
+      1e-4f * v_max(v_fma(-12 * mu, g->t_y, -5 * a->kappa), v_splat(0)); /* W falls with a high power of lambda */
+  return mu * (v_select(is_at_rest(a, s), from_rest, by_turn) + by_b + 1e-6f);
 }
 
 /* A TURN step. `last`: it ends the collision; `refused`: it would be too short, or the turn is too sharp. */
@@ -134,7 +136,7 @@ always turn_plan plan_turn(const problem *a, const state *s, const prediction *g
 
 /* The way ahead of a state that is not easy, to the end or to stick; *first: predicted for the way to the end. */
 always prediction look_ahead(const problem *a, const state *s, const prediction *first, vreal to_end) {
-  const vmask is_short = v_less(first->rate * to_end, v_splat(FULL_LONG_Q));
+  const vmask is_short = v_less(first->rate * to_end, v_splat(FULL_GRADED_Q));
   if (!v_any(v_not(is_short)))
     return *first;
   return predict(a, s, v_select(is_short, to_end, v_min(to_end, v_reciprocal(first->rate))));
@@ -149,23 +151,23 @@ always vreal part_length(const prediction *g, vreal to_end) {
   return part_share(g->rate * to_end) * v_reciprocal(g->rate);
 }
 
-/* The kind of step for a state that is not easy: FULL, with many iterations where `long_`; to STICK; a PART; or else TURN. *g:
+/* The kind of step for a state that is not easy: FULL, over graded nodes where `graded`; to STICK; a PART; or else TURN. *g:
  * the way ahead. */
 typedef struct choice {
-  vmask full, stick, part, long_;
+  vmask full, stick, part, graded;
 } choice;
 
 always choice choose(const problem *a, const state *s, const prediction *g, vreal to_end, const progress *so_far) {
   const vreal q = g->rate * to_end, to_stick = v_reciprocal(g->rate), u = v_reciprocal(g->inverse_u);
   const vmask usual = v_less(so_far->caution, v_splat(3));
   choice c;
-  c.full = usual & v_less(q, v_splat(FULL_LONG_Q));
+  c.full = usual & v_less(q, v_splat(FULL_GRADED_Q));
   if (v_any(c.full))
     c.full = c.full & is_smooth(8, a, s, g, to_end);
   c.stick = v_less(so_far->caution, v_splat(1)) & v_less(v_splat(STICK_Q), q);
   if (v_any(c.stick))
     c.stick = c.stick & v_less(u * stick_error(a, s, g), a->tolerance);
-  c.long_ = c.full & (v_less(v_splat(FULL_Q), q) | v_less(v_splat(1), so_far->caution));
+  c.graded = c.full & (v_less(v_splat(FULL_Q), q) | v_less(v_splat(1), so_far->caution));
   c.part = usual & v_less_equal(v_splat(TURN_Q), q) & v_not(c.stick | c.full);
   if (v_any(c.part))
     c.part = c.part & is_smooth(8, a, s, g, part_share(q) * to_stick);

@@ -20,7 +20,7 @@
 #ifndef CAROM_SRC_BALL_BALL_STICK_STEP_H
 #define CAROM_SRC_BALL_BALL_STICK_STEP_H
 
-#include "ball_ball/directions.h"
+#include "ball_ball/problem.h"
 #include "ball_ball/rules.h"
 
 enum { STICK_NODES = 8, STICK_ITERATIONS = 3 };
@@ -39,14 +39,16 @@ always void tau_of(const problem *a, reg d_x, reg d_y, reg *tau_x, reg *tau_y) {
  *
  * v = 0 is found on the polynomial through the slopes: v is what it is at stick less lambda^5 times a polynomial. From the
  * start to there Gauss's rule, with the slopes not of that polynomial but of those through W and tau_y, which are smoother. */
-always vreal K_at_v_0_to_stick(const problem *a, const gauss_rule *r, const state *s, vreal v, const reg *slope, const reg *W,
+always vreal K_at_v_0_to_stick(const problem *a, const gauss_rule *r, const state *s, vreal c, vreal v, const reg *slope, const reg *W,
                                const reg *tau_y, vreal u_z2, vreal per_p, vreal per_f, vreal f) {
   enum { n = STICK_NODES };
   vreal v_power[MOST_NODES], tau_power[MOST_NODES], W_power[MOST_NODES];
   sum_polynomials(r->part, n, slope, v_power);
   sum_polynomials(r->basis, n, tau_y, tau_power);
   sum_polynomials(r->basis, n, W, W_power);
-  vreal x_c = v_min(1 - root_of(5, v_max(v * v_reciprocal(v - s->v), v_splat(1e-10f))), v_splat(1));
+  /* |u| falls as lambda^(5 + 2 c^2) at first and more slowly then, so Newton's method comes from one side */
+  const vreal left = v_max(v * v_reciprocal(v - s->v), v_splat(1e-10f)), power = v_reciprocal(v_fma(2 * c, c, v_splat(5)));
+  vreal x_c = v_min(1 - ONE_OF(exponential(SPREAD(power) * logarithm(SPREAD(left)))), v_splat(1));
   for (int i = 0; i < 3; i++) {
     const vreal l = 1 - x_c, l4 = (l * l) * (l * l);
     vreal bend;
@@ -144,7 +146,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   vreal K_c = v_select(s->restitution, s->K_c, K);
   if (v_any(passes))
     K_c = v_select(passes,
-                   K_at_v_0_to_stick(a, r, s, v, slope_v, W, tau_y, u_z2, per_p, per_f, per_f * Y_sum * v_reciprocal(p)), K_c);
+                   K_at_v_0_to_stick(a, r, s, g->c, v, slope_v, W, tau_y, u_z2, per_p, per_f, per_f * Y_sum * v_reciprocal(p)), K_c);
 
   /* the end of the collision must lie behind the step */
   const vreal returned = work_returned(a, K_c, K), v_end = v_sqrt(v_max(v_fma(a->e, a->e, returned), zero)),
