@@ -9,10 +9,14 @@ on the nodes x_k:
     end[k], bend[k], third[k]   the first Taylor coefficients of the integral of L_k beyond 1: L_k, L_k' / 2 and L_k'' / 6 at 1
     all[k]         integral of (the weight times) L_k over [0, 1]
     sum[j][k]      integral of (the weight times) L_j from 0 to x_k
-    basis[m][k]    L_k as powers m of 2 x - 1, whose coefficients stay small; for the rule to stick as powers of 1 - 2 x
-    part[m][k]     integral of L_k from 0 to x, divided by x, as such powers;
-                   with the weight: from x to 1, divided by (1 - x)^5
-    twice[m][k]    without a weight: the integral of that integral from 0 to x, divided by x^2"""
+    part[m][k]     integral of L_k from 0 to x, divided by x, as powers m of 2 x - 1, whose coefficients stay small
+    twice[m][k]    the integral of that integral from 0 to x, divided by x^2, as such powers
+    powers[k][m]   part[m][k], to sum over k; for the rule to stick, with the weight: from x to 1, divided by (1 - x)^5, as powers
+                   of 1 - 2 x
+    basis[k][m]    for the rule to stick: L_k as such powers
+    turn[j][k]     for the rule to stick, with l = 1 - x, whose node is l_k: 2 l_k^2 times the integral of L_j l^-3 from l_k to 1
+    lambda[k], lambda_2[k], lambda_5[k], log[k], gone[k], gone_mean[k]   for the rule to stick: l, l^2, l^5, log l, 1 - l^6, 1 - m^6
+                   with m = 2 l / (1 + l)"""
 from mpmath import matrix, mp, mpf, polyroots
 
 mp.dps = 50
@@ -78,22 +82,32 @@ def print_rule(name, n, w):
     L = lagrange_basis(y)
     part = [centred([v / (m + w + 1) for m, v in enumerate(c)]) for c in L]
     between = (lambda c, at: integral(c, w, at, one)) if w else (lambda c, at: integral(c, 0, zero, at))
-    print("static const gauss_rule %s_%d = {" % (name, n))
-    print("    .node = %s," % text([one - at for at in y] if w else y))
-    print("    .end = %s," % text([c[0] if w else sum(c) for c in L]))
+    print("static const %s_rule %s_%d = {" % ("stick" if w else "gauss", name, n))
     if not w:
+        print("    .node = %s," % text(y))
+        print("    .end = %s," % text([sum(c) for c in L]))
         print("    .bend = %s," % text([sum(m * v for m, v in enumerate(c)) / 2 for c in L]))
         print("    .third = %s," % text([sum(m * (m - 1) * v for m, v in enumerate(c)) / 6 for c in L]))
     print("    .all = %s," % text([integral(c, w, zero, one) for c in L]))
     print("    .sum = {%s}," % ",\n".join(text([between(c, at) for at in y]) for c in L))
-    print("    .basis = {%s}," % ",\n".join(text([centred(c)[m] for c in L]) for m in span))
-    print("    .part = {%s}," % ",\n".join(text([p[m] for p in part]) for m in span))
-    if w:
-        turn = lambda c, at: 2 * at ** 2 * sum(v * (-mp.log(at) if m == 2 else (1 - at ** (m - 2)) / (m - 2)) for m, v in enumerate(c))
-        print("    .turn = {%s}," % ",\n".join(text([turn(c, at) for at in y]) for c in L))
+    by_node = lambda rows: ",\n".join(text([row[m] for m in span]) for row in rows)
     if not w:
         twice = [centred([v / ((m + 1) * (m + 2)) for m, v in enumerate(c)]) for c in L]
+        print("    .part = {%s}," % ",\n".join(text([p[m] for p in part]) for m in span))
         print("    .twice = {%s}," % ",\n".join(text([p[m] for p in twice]) for m in span))
+    if n == 8:
+        print("    .powers = {%s}," % by_node(part))
+    if w:
+        turn = lambda c, at: 2 * at ** 2 * sum(v * (-mp.log(at) if m == 2 else (1 - at ** (m - 2)) / (m - 2)) for m, v in enumerate(c))
+        mean = [2 * at / (1 + at) for at in y]
+        print("    .basis = {%s}," % by_node([centred(c) for c in L]))
+        print("    .turn = {%s}," % ",\n".join(text([turn(c, at) for at in y]) for c in L))
+        print("    .lambda = %s," % text(y))
+        print("    .lambda_2 = %s," % text([at ** 2 for at in y]))
+        print("    .lambda_5 = %s," % text([at ** 5 for at in y]))
+        print("    .log = %s," % text([mp.log(at) for at in y]))
+        print("    .gone = %s," % text([1 - at ** 6 for at in y]))
+        print("    .gone_mean = %s," % text([1 - at ** 6 for at in mean]))
     print("};")
 
 

@@ -165,8 +165,9 @@ always vreal sum_of_products(const reg *weight, const reg *x, int n) {
   return sum_of(product, n);
 }
 
-/* out = M' x: out at node k is the sum over the nodes j of M[j][k] x at j. */
+/* The number at node j. */
 #define NODE(x, j) ((x)[(j) / REG_NODES][(j) % REG_NODES])
+/* out = M' x: out at node k is the sum over the nodes j of M[j][k] x at j. */
 always void apply(const node_row *M, const reg *x, reg *out, int n) {
   EACH_REG(k, n) {
     reg pair[MOST_NODES / 2];
@@ -178,6 +179,8 @@ always void apply(const node_row *M, const reg *x, reg *out, int n) {
 /* ---- Batches ---------------------------------------------------------------------------------------------------------- */
 
 #else
+
+#define NODE(x, j) ((x)[j])
 
 always reg reg_fma(reg a, reg b, reg c) {
   return v_fma(a, b, c);

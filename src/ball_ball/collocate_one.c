@@ -53,7 +53,7 @@ rare int take_steps(const problem *a, state s, prediction g, vreal to_end, progr
         error = (c.graded ? take_graded_step : take_full_step)(a, &ahead, to_end, &s, out);
       } else if (c.stick) {
         kind = STICK;
-        iterations = STICK_ITERATIONS;
+        iterations = STICK_MOST;
         error = take_stick_step(a, &ahead, &s, out);
       } else if (c.part) {
         kind = PART;

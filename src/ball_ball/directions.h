@@ -25,8 +25,6 @@
 static const float CONTRACTION = 0.02f, CONTRACTION_CLOTH = 1.2f, CONTRACTION_Q = 0.1f;
 /* The estimate of what the iterations leave is this much too small on turns. */
 static const float TURN_CAUTION = 4;
-/* Of what a step may err, what the iteration may leave. */
-static const float ENOUGH = 0.25f;
 /* Of X D rho, instead of the integral, in steps of four nodes. */
 static const float SHARE_OF_BACK = 0.25f;
 

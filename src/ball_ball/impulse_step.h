@@ -51,7 +51,7 @@ always vreal K_at_v_0_mapped(enum nodes nodes, const gauss_rule *r, int n, const
                              const state *s, vreal f, const reg *w_y) {
   const vreal per = v_reciprocal((1 - f) * l->length), zero = v_splat(0), one = v_splat(1);
   vreal S_power[MOST_NODES], X = v_min(v_max(-s->v * per, zero), one), x, S, v;
-  sum_polynomials(r->part, n, w_y, S_power);
+  sum_polynomials(r->powers, n, w_y, S_power);
   lanes_rolled for (int i = 0; i < 2; i++) {
     x = x_at(nodes, map, X);
     S = x * polynomial(S_power, n, 2 * x - 1);
@@ -112,9 +112,10 @@ always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, c
   if (out != NULL)
     passes = passes | (v_not(s->restitution) & last);
   if (nodes == EVEN || v_any(passes)) {
-    const vreal f_mean = -a->pull_y * (nodes == EVEN ? g->z * g->t_y : Y); /* that of the prediction is known before the nodes */
-    const vreal K_c = nodes == EVEN ? K_at_v_0(r, n, &l, s, f_mean, f.w_y)
-                                    : K_at_v_0_mapped(nodes, r, n, &map, &l, s, f_mean, f.w_y);
+    const vreal f_mean =
+        -a->pull_y * (nodes == EVEN ? g->z * g->t_y : Y); /* that of the prediction is known before the nodes */
+    const vreal K_c =
+        nodes == EVEN ? K_at_v_0(r, n, &l, s, f_mean, f.w_y) : K_at_v_0_mapped(nodes, r, n, &map, &l, s, f_mean, f.w_y);
     end.K_c = v_select(passes, K_c, s->K_c);
   }
   end.restitution = s->restitution | passes;

@@ -12,6 +12,7 @@
 #include "ball_ball/quadrature.h"
 
 static const float TINY = 1e-36f; /* keeps 0 / 0 away */
+static const float ENOUGH = 0.5f; /* of what a step may err, what its iteration may leave */
 
 /* What stays. */
 typedef struct problem {

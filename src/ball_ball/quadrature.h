@@ -7,8 +7,12 @@
 /* The fields are explained where they are computed, in tools/collocation_rules.py. */
 typedef struct gauss_rule {
   node_row node, all, end, bend, third;
-  node_row sum[MOST_NODES], basis[MOST_NODES], part[MOST_NODES], twice[MOST_NODES], turn[MOST_NODES];
+  node_row sum[MOST_NODES], part[MOST_NODES], twice[MOST_NODES], powers[MOST_NODES];
 } gauss_rule;
+typedef struct stick_rule {
+  node_row all, lambda, lambda_2, lambda_5, log, gone, gone_mean;
+  node_row sum[MOST_NODES], turn[MOST_NODES], powers[MOST_NODES], basis[MOST_NODES];
+} stick_rule;
 
 /* Polynomials in t, one for each node, given by their coefficients; t = 2 x - 1. */
 always void polynomials_at(const node_row *coefficient, int n, vreal t, reg *value) {
@@ -24,9 +28,11 @@ always void integrals_up_to(const gauss_rule *r, int n, vreal x, reg *weight) {
   EACH_REG(k, n) weight[k] = weight[k] * x;
 }
 
-/* The coefficients of one polynomial in t: the sum of those polynomials times numbers at the nodes. */
+/* The coefficients of one polynomial in t: the sum of those polynomials, a row for each node, times numbers at the nodes. */
 always void sum_polynomials(const node_row *coefficient, int n, const reg *value, vreal *sum) {
-  lanes_unrolled for (int m = 0; m < n; m++) sum[m] = dot(coefficient[m], value, n);
+  reg sums[MOST_REGS];
+  apply(coefficient, value, sums, n);
+  lanes_unrolled for (int m = 0; m < n; m++) sum[m] = NODE(sums, m);
 }
 always vreal polynomial(const vreal *coefficient, int n, vreal t) {
   vreal sum = coefficient[n - 1];

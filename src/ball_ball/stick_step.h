@@ -23,7 +23,7 @@
 #include "ball_ball/problem.h"
 #include "ball_ball/rules.h"
 
-enum { STICK_NODES = 8, STICK_ITERATIONS = 3 };
+enum { STICK_NODES = 8, STICK_LEAST = 3, STICK_MOST = 5 }; /* iterations */
 /* What an iteration of a step to stick leaves of what it moved. */
 static const float CONTRACTION_STICK = 0.1f;
 
@@ -39,11 +39,11 @@ always void tau_of(const problem *a, reg d_x, reg d_y, reg *tau_x, reg *tau_y) {
  *
  * v = 0 is found on the polynomial through the slopes: v is what it is at stick less lambda^5 times a polynomial. From the
  * start to there Gauss's rule, with the slopes not of that polynomial but of those through W and tau_y, which are smoother. */
-always vreal K_at_v_0_to_stick(const problem *a, const gauss_rule *r, const state *s, vreal c, vreal v, const reg *slope, const reg *W,
-                               const reg *tau_y, vreal u_z2, vreal per_p, vreal per_f, vreal f) {
+always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const state *s, vreal c, vreal v, const reg *slope,
+                               const reg *W, const reg *tau_y, vreal u_z2, vreal per_p, vreal per_f, vreal f) {
   enum { n = STICK_NODES };
   vreal v_power[MOST_NODES], tau_power[MOST_NODES], W_power[MOST_NODES];
-  sum_polynomials(r->part, n, slope, v_power);
+  sum_polynomials(r->powers, n, slope, v_power);
   sum_polynomials(r->basis, n, tau_y, tau_power);
   sum_polynomials(r->basis, n, W, W_power);
   /* |u| falls as lambda^(5 + 2 c^2) at first and more slowly then, so Newton's method comes from one side */
@@ -73,7 +73,7 @@ always vreal K_at_v_0_to_stick(const problem *a, const gauss_rule *r, const stat
  * ends before the balls stick. */
 always vreal stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
   enum { n = STICK_NODES };
-  const gauss_rule *r = &jacobi_8;
+  const stick_rule *r = &jacobi_8;
   const vreal u_z = s->u_z, mu = a->mu, way = v_reciprocal(g->rate), zero = v_splat(0), u_z2 = v_fma(u_z, u_z, v_splat(TINY));
   const vreal per_mu_b = v_reciprocal(a->mu_b), per_p = 2 * a->per_kappa * per_mu_b;
   const vreal per_F = -2 * mu * u_z, per_f = per_F * a->per_kappa, per_x = a->per_kappa * (1 / 3.5f),
@@ -89,44 +89,55 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   reg tau_x[MOST_REGS], tau_y[MOST_REGS], lambda_5[MOST_REGS], W[MOST_REGS], without_T[MOST_REGS], on_T[MOST_REGS],
       in_T[MOST_REGS];
   EACH_REG(k, n) {
-    const reg l = MADD(-1.0f, AT(r->node, k), 1.0f), l2 = l * l, l4 = l2 * l2, log_l = logarithm(l), gone = MADD(-l4, l2, 1.0f);
-    lambda_5[k] = l4 * l;
+    const reg l2 = SPREAD(AT(r->lambda_2, k)), log_l = SPREAD(AT(r->log, k)), gone = SPREAD(AT(r->gone, k));
+    lambda_5[k] = SPREAD(AT(r->lambda_5, k));
     tau_of(a, MADD(-gone, to_x, s->d_x), MADD(-gone, to_y, s->d_y), &tau_x[k], &tau_y[k]);
     /* the rule for T has the weight lambda^-3, and the factor lambda^2 */
     on_T[k] = exponential(-(b * log_l));
     in_T[k] = mu * reg_reciprocal(on_T[k]);
     without_T[k] = MADD(s->u_x - A, l2 * on_T[k], A);
     /* the weight of tau in W is lambda^-3: for a tau linear in lambda its mean lies at 2 l / (1 + l) */
-    const reg m = 2 * l * reg_reciprocal(1 + l), m2 = m * m, far = MADD(-(m2 * m2), m2, 1.0f);
+    const reg far = SPREAD(AT(r->gone_mean, k));
     reg mean_tau_x, mean_tau_y;
     tau_of(a, MADD(-far, to_x, s->d_x), MADD(-far, to_y, s->d_y), &mean_tau_x, &mean_tau_y);
     const reg b_k = (7 * mu) * mean_tau_y, A_k = (2 * mu * u_z) * mean_tau_x * reg_reciprocal(b_k - 2);
     W[k] = MADD(s->u_x - A_k, l2 * exponential(-(b_k * log_l)), A_k);
   }
 
-  reg slope[MOST_REGS], rest[MOST_REGS], P[MOST_REGS], X[MOST_REGS], Y[MOST_REGS], T[MOST_REGS], moved[MOST_REGS];
-  for (int i = 0; i < STICK_ITERATIONS; i++) {
+  reg slope[MOST_REGS], Y[MOST_REGS] = {0};
+  vmask going = v_all();
+  vreal error = zero;
+  lanes_rolled for (int i = 0; i < STICK_MOST; i++) {
+    reg rest[MOST_REGS], P[MOST_REGS], X[MOST_REGS], new_Y[MOST_REGS], T[MOST_REGS], moved[MOST_REGS];
     EACH_REG(k, n) {
       slope[k] = reg_root(MADD(W[k], W[k], u_z2)) * MADD(-mu, tau_y[k], 1.0f);
       rest[k] = in_T[k] * MADD(u_z, tau_x[k] - mean_x, -3.5f * (tau_y[k] - mean_y) * W[k]);
     }
     apply(r->sum, slope, P, n);
     apply(r->sum, tau_x, X, n);
-    apply(r->sum, tau_y, Y, n);
+    apply(r->sum, tau_y, new_Y, n);
     if (i > 0) { /* the predictor's W is better than one from its tau */
       apply(r->turn, rest, T, n);
-      EACH_REG(k, n) W[k] = MADD(-on_T[k], T[k], without_T[k]);
+      EACH_REG(k, n) W[k] = REG_SELECT(going, MADD(-on_T[k], T[k], without_T[k]), W[k]);
     }
     EACH_REG(k, n) {
-      const reg F_x = per_F * X[k], F_y = per_F * Y[k];
+      const reg F_x = per_F * X[k], F_y = per_F * new_Y[k];
       const reg Q_1 = per_x * (MADD(-lambda_5[k], W[k], s->u_x) + F_x),
                 Q_2 = per_z * MADD(2.5f, F_y, MADD(-lambda_5[k], u_z, u_z));
       reg new_x, new_y;
       tau_of(a, s->d_x + MADD(on, F_x, -Q_1), MADD(-per_p, P[k], s->d_y) + MADD(a->spin, Q_2, on * F_y), &new_x, &new_y);
       moved[k] = mu * u_z * (reg_abs(new_x - tau_x[k]) + reg_abs(new_y - tau_y[k]));
-      tau_x[k] = new_x;
-      tau_y[k] = new_y;
+      tau_x[k] = REG_SELECT(going, new_x, tau_x[k]);
+      tau_y[k] = REG_SELECT(going, new_y, tau_y[k]);
+      Y[k] = REG_SELECT(going, new_Y[k], Y[k]);
     }
+    if (i + 1 < STICK_LEAST)
+      continue;
+    const vreal left = CONTRACTION_STICK * largest(moved, n);
+    error = v_select(going, left, error);
+    going = going & v_not(v_less(left, ENOUGH * a->tolerance));
+    if (!v_any(going))
+      break;
   }
 
   /* the whole step */
@@ -146,7 +157,8 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   vreal K_c = v_select(s->restitution, s->K_c, K);
   if (v_any(passes))
     K_c = v_select(passes,
-                   K_at_v_0_to_stick(a, r, s, g->c, v, slope_v, W, tau_y, u_z2, per_p, per_f, per_f * Y_sum * v_reciprocal(p)), K_c);
+                   K_at_v_0_to_stick(a, r, s, g->c, v, slope_v, W, tau_y, u_z2, per_p, per_f, per_f * Y_sum * v_reciprocal(p)),
+                   K_c);
 
   /* the end of the collision must lie behind the step */
   const vreal returned = work_returned(a, K_c, K), v_end = v_sqrt(v_max(v_fma(a->e, a->e, returned), zero)),
@@ -156,7 +168,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
       .J_c = zero, .J_z = zero, .I_x = v_fma(weight, X_sum, s->I_x), .I_y = v_fma(weight, Y_sum, s->I_y), .K_c = K_c};
   out->extra = returned * v_reciprocal(v_end + a->e) - a->pull_y * out->I_y;
   out->stick = v_max(1 + v - a->pull_y * out->I_y, zero);
-  return v_select(in_reach, CONTRACTION_STICK * largest(moved, n), v_splat(HUGE_VALF));
+  return v_select(in_reach, error, v_splat(HUGE_VALF));
 }
 
 #endif
