@@ -28,7 +28,7 @@ typedef struct fresh_list {
 typedef struct moving_list {
   int count;
   uint32_t row[ROOM];
-  float state[ROOM][MOVING_COLUMNS];
+  float state[MOVING_COLUMNS][ROOM];
 } moving_list;
 
 /* A stretch of rows; few enough for 32 bits. */
@@ -72,7 +72,7 @@ static void add_moving(work *w, enum step_kind kind, uint32_t row, carom_moving 
     return;
   }
   for (int c = 0; c < MOVING_COLUMNS; c++)
-    list->state[list->count][c] = moving[c][lane];
+    list->state[c][list->count] = moving[c][lane];
   list->row[list->count++] = row;
 }
 
@@ -92,24 +92,31 @@ static void gather(const work *w, team *t) {
   }
 }
 
-/* After a step: writes the rows that are solved, and puts the others where they belong. `stands`: those that have a state in
- * *moving. Rows that are not solved yet are written too, for now. */
+/* Lanes, from the lowest on. */
+#define EACH_LANE(lane, bits) for (uint32_t left_ = (bits), lane; left_ != 0 && (lane = lowest(left_), true); left_ &= left_ - 1)
+static inline uint32_t lowest(uint32_t bits) {
+  return (uint32_t)__builtin_ctz(bits);
+}
+
+/* After a step: writes the rows that are solved, and puts the others where they belong; `fresh`: they have not moved. Rows that
+ * are not solved yet may be written too, for now. */
 static void sort(work *w, const team *t, uint32_t good, const carom_context *context, carom_out out, carom_moving moving,
-                 bool all_move, const uint8_t next[MOST_LANES]) {
-  const uint32_t finite = w->with->rows_out[w->precision](context, out, t->to);
-  for (int lane = 0; lane < t->count; lane++) {
-    const uint32_t row = t->row[lane];
-    const enum step_kind kind = next[lane];
-    if ((good >> lane & 1) == 0 || kind == REFUSED || (kind == SOLVED && (finite >> lane & 1) == 0))
-      one_by_one(w, row);
-    else if (kind != SOLVED) {
-      if (all_move || moving[MOVING_CAUTION][lane] > 0)
-        add_moving(w, kind, row, moving, lane);
+                 bool fresh, const carom_next next) {
+  const uint32_t there = (uint32_t)((UINT64_C(1) << t->count) - 1), right = there & good;
+  uint32_t done = right & next[SOLVED];
+  if (done != 0)
+    done &= w->with->rows_out[w->precision](context, out, t->to);
+  for (int kind = 0; kind < STEP_KINDS; kind++) {
+    const uint32_t waiting = right & next[kind];
+    done |= waiting;
+    EACH_LANE(lane, waiting) {
+      if (fresh)
+        add_fresh(w, (enum step_kind)kind, t->row[lane]);
       else
-        add_fresh(w, kind, row);
-    } else if (w->status != NULL)
-      w->status[row] = CAROM_OK;
+        add_moving(w, (enum step_kind)kind, t->row[lane], moving, (int)lane);
+    }
   }
+  EACH_LANE(lane, there & ~done) one_by_one(w, t->row[lane]);
 }
 
 /* Not inlined, nor are next_steps(): only one of their frames is on the stack at a time. */
@@ -117,24 +124,22 @@ __attribute__((noinline)) static void first_steps(work *w, team *t) {
   carom_context context;
   carom_in in;
   carom_out out;
-  carom_moving moving;
-  uint8_t next[MOST_LANES];
+  carom_next next;
   gather(w, t);
-  memset(moving[MOVING_CAUTION], 0, sizeof moving[MOVING_CAUTION]);
   const uint32_t good = w->with->rows_in[w->precision](t->from, w->s, &context, in);
-  w->with->first_step(in, (float)(2.5 * w->s), carom_tolerances[w->precision], out, moving, next);
-  sort(w, t, good, &context, out, moving, false, next);
+  w->with->first_step(in, good, (float)(2.5 * w->s), carom_tolerances[w->precision], out, next);
+  sort(w, t, good, &context, out, NULL, true, next);
 }
 
 __attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, bool fresh, team *t, carom_moving moving) {
   carom_context context;
   carom_in in;
   carom_out out;
-  uint8_t next[MOST_LANES];
+  carom_next next;
   gather(w, t);
   const uint32_t good = w->with->rows_in[w->precision](t->from, w->s, &context, in);
   w->with->next_step(kind, fresh, in, (float)(2.5 * w->s), carom_tolerances[w->precision], moving, out, next);
-  sort(w, t, good, &context, out, moving, true, next);
+  sort(w, t, good, &context, out, moving, false, next);
 }
 
 /* Takes up to a register's worth off the end of a list. */
@@ -153,10 +158,13 @@ static void work_off_moving(work *w, enum step_kind kind) {
   team t = {.count = list->count < w->with->lanes ? list->count : w->with->lanes};
   list->count -= t.count;
   memcpy(t.row, list->row + list->count, (size_t)t.count * sizeof t.row[0]);
-  for (int lane = 0; lane < w->with->lanes; lane++) {
-    const float *state = list->state[list->count + (lane < t.count ? lane : t.count - 1)];
-    for (int c = 0; c < MOVING_COLUMNS; c++)
-      moving[c][lane] = state[c];
+  for (int c = 0; c < MOVING_COLUMNS; c++) {
+    const float *const column = list->state[c] + list->count;
+    if (t.count == w->with->lanes)
+      memcpy(moving[c], column, (size_t)t.count * sizeof(float));
+    else
+      for (int lane = 0; lane < w->with->lanes; lane++)
+        moving[c][lane] = column[lane < t.count ? lane : t.count - 1];
   }
   next_steps(w, kind, false, &t, moving);
 }
@@ -189,6 +197,8 @@ static size_t solve(carom_precision precision, const void *in, size_t in_size, s
             .s = carom_spin_sign(opt->slip),
             .status = status,
             .first_bad = n};
+  if (status != NULL)
+    memset(status, CAROM_OK, n * sizeof *status); /* what is not solved by a step, has its own */
   const int lanes = w.with->lanes;
   const size_t register_size = (size_t)lanes * in_size, size = n * in_size;
   for (size_t first = 0; first < n; first += (size_t)lanes) {

@@ -7,26 +7,27 @@
 #define PASTE(a, b) PASTE_(a, b)
 #define apart static __attribute__((noinline)) /* the inlined text of a step is long */
 
-apart vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, vmask going, solution *out) {
-  return end_step(4, EASY_MOST, EVEN, a, g, s, to_end, going, out);
+apart vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, vmask going, int patience,
+                           solution *out) {
+  return end_step(4, EASY_MOST, EVEN, a, g, s, to_end, going, patience, out);
 }
 apart vreal take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(8, FULL_MOST, EVEN, a, g, s, to_end, v_all(), out);
+  return end_step(8, FULL_MOST, EVEN, a, g, s, to_end, v_all(), 0, out);
 }
 apart vreal take_graded_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(8, FULL_GRADED_MOST, GRADED, a, g, s, to_end, v_all(), out);
+  return end_step(8, FULL_GRADED_MOST, GRADED, a, g, s, to_end, v_all(), 0, out);
 }
 apart vreal take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
   return stick_step(a, g, s, out);
 }
 apart vreal take_part(const problem *a, vreal length, const state *s, state *next) {
   const prediction g = predict(a, s, length);
-  return impulse_step(8, PART_MOST, GRADED, a, &g, length, NULL, v_all(), v_not(v_all()), s, next, NULL);
+  return impulse_step(8, PART_MOST, GRADED, a, &g, length, NULL, v_all(), 0, v_not(v_all()), s, next, NULL);
 }
 apart vreal take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
   const prediction g = predict(a, s, p->length);
   const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
-  return impulse_step(8, TURN_MOST, TURNED, a, &g, length, p, v_all(), last, s, next, out);
+  return impulse_step(8, TURN_MOST, TURNED, a, &g, length, p, v_all(), 0, last, s, next, out);
 }
 
 static state load_state(carom_moving moving) {
@@ -95,43 +96,40 @@ apart vreal next_kind(const problem *a, const state *s, vreal to_end, const pred
   return fresh ? kind : mark(v_less(so_far->caution, v_splat(1)) & is_easy(a, s, g, to_end), EASY, kind);
 }
 
-static void store_kinds(vreal kind, uint8_t next[MOST_LANES]) {
-  lanes_unrolled for (int k = 0; k < LANES; k++) next[k] = (uint8_t)kind[k];
+static void store_kinds(vreal kind, carom_next next) {
+  lanes_unrolled for (int k = 0; k < STEP_ENDS; k++) next[k] = v_bits(v_equal(kind, v_splat((float)k)));
 }
 
-void PASTE(carom_first_step_, CAROM_LANES_SUFFIX)(carom_in in, float spin, float tolerance, carom_out out, carom_moving moving,
-                                                  uint8_t next[MOST_LANES]) {
+/* Of the lanes of a register, as many as may be put off. */
+enum { PATIENCE = LANES / 8 };
+
+void PASTE(carom_first_step_, CAROM_LANES_SUFFIX)(carom_in in, uint32_t good, float spin, float tolerance, carom_out out,
+                                                  carom_next next) {
   const problem a = problem_of(in, spin, tolerance);
   const state s = state_of(&a, in);
   const vreal to_end = 1 + a.e;
   const prediction g = predict(&a, &s, to_end);
-  const vmask easy = is_easy(&a, &s, &g, to_end);
+  const vmask easy = v_from_bits(good) & is_easy(&a, &s, &g, to_end);
   solution answer;
-  const vreal error = take_easy_step(&a, &g, to_end, &s, easy, &answer);
+  const vreal error = take_easy_step(&a, &g, to_end, &s, easy, PATIENCE, &answer);
   const vmask solved = easy & v_less(error, a.tolerance);
   put_solution(&answer, out);
-  if (!v_any(v_not(solved))) {
-    memset(next, SOLVED, MOST_LANES);
+  memset(next, 0, sizeof(carom_next));
+  next[SOLVED] = v_bits(solved);
+  if (next[SOLVED] == good)
     return;
-  }
-  const progress so_far = {.share = v_splat(1), .caution = v_select(easy, v_splat(1), v_splat(0))};
-  store_kinds(mark(solved, SOLVED, next_kind(&a, &s, to_end, &g, &so_far, true)), next);
-  if (v_any(easy & v_not(solved))) { /* these have been tried */
-    store_state(&s, moving);
-    v_store(moving[MOVING_SHARE], so_far.share);
-    v_store(moving[MOVING_CAUTION], so_far.caution);
-    v_store(moving[MOVING_ATTEMPTS], v_splat(0));
-  }
+  const progress so_far = {.share = v_splat(1), .caution = v_splat(0)};
+  store_kinds(mark(solved, SOLVED, mark(easy, EASY, next_kind(&a, &s, to_end, &g, &so_far, true))), next);
 }
 
 void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh, carom_in in, float spin, float tolerance,
-                                                 carom_moving moving, carom_out out, uint8_t next[MOST_LANES]) {
+                                                 carom_moving moving, carom_out out, carom_next next) {
   const problem a = problem_of(in, spin, tolerance);
   const vreal zero = v_splat(0), one = v_splat(1);
   const vmask none = v_not(v_all());
   state s, after;
   progress so_far = {.share = one, .caution = zero};
-  vreal attempts = one, error, to_end;
+  vreal attempts = kind == EASY ? zero : one, error, to_end; /* an easy step from the start is not counted */
   if (fresh) {
     s = state_of(&a, in);
     to_end = 1 + a.e;
@@ -145,7 +143,7 @@ void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh,
   solution answer;
   vmask last = v_all(), impossible = none;
   if (kind == EASY)
-    error = take_easy_step(&a, &g, to_end, &s, v_all(), &answer);
+    error = take_easy_step(&a, &g, to_end, &s, v_all(), 0, &answer);
   else {
     const prediction ahead = look_ahead(&a, &s, &g, to_end);
     if (kind == FULL)
@@ -165,10 +163,10 @@ void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh,
   const vmask accepted = v_less(error, a.tolerance) & v_not(impossible), solved = accepted & last;
   if (kind != PART)
     put_solution(&answer, out);
-  if (!v_any(v_not(solved))) {
-    memset(next, SOLVED, MOST_LANES);
+  memset(next, 0, sizeof(carom_next));
+  next[SOLVED] = v_bits(solved);
+  if (!v_any(v_not(solved)))
     return;
-  }
   if (kind == PART || kind == TURN) {
     const vmask moved_on = accepted & v_not(last);
     const progress refused = after_refusal(&so_far, kind);

@@ -8,26 +8,26 @@
 #define rare static __attribute__((noinline)) /* the inlined text of a step is long */
 
 rare float take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(8, FULL_MOST, EVEN, a, g, s, to_end, 1, out);
+  return end_step(8, FULL_MOST, EVEN, a, g, s, to_end, 1, 0, out);
 }
 rare float take_graded_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(8, FULL_GRADED_MOST, GRADED, a, g, s, to_end, 1, out);
+  return end_step(8, FULL_GRADED_MOST, GRADED, a, g, s, to_end, 1, 0, out);
 }
 rare float take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
   return stick_step(a, g, s, out);
 }
 rare float take_part(const problem *a, vreal length, const state *s, state *next) {
   const prediction g = predict(a, s, length);
-  return impulse_step(8, PART_MOST, GRADED, a, &g, length, NULL, 1, 0, s, next, NULL);
+  return impulse_step(8, PART_MOST, GRADED, a, &g, length, NULL, 1, 0, 0, s, next, NULL);
 }
 rare float take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
   const prediction g = predict(a, s, p->length);
   const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
-  return impulse_step(8, TURN_MOST, TURNED, a, &g, length, p, 1, last, s, next, out);
+  return impulse_step(8, TURN_MOST, TURNED, a, &g, length, p, 1, 0, last, s, next, out);
 }
 /* Behind the first step. */
 rare float take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(4, EASY_MOST, EVEN, a, g, s, to_end, 1, out);
+  return end_step(4, EASY_MOST, EVEN, a, g, s, to_end, 1, 0, out);
 }
 
 /* From *s, predicted *g and with `to_end`, to the end. Returns the number of right-hand sides evaluated, 0 if it did not get
@@ -92,7 +92,7 @@ int PASTE(carom_collocate_, CAROM_LANES_SUFFIX)(const float in[IN_COLUMNS], floa
   progress so_far = {.share = 1};
   solution answer;
   if (is_easy(&a, &s, &g, to_end)) {
-    if (end_step(4, EASY_MOST, EVEN, &a, &g, &s, to_end, 1, &answer) < a.tolerance) {
+    if (end_step(4, EASY_MOST, EVEN, &a, &g, &s, to_end, 1, 0, &answer) < a.tolerance) {
       put_solution(&answer, out);
       return 4 * (EASY_MOST + 1);
     }

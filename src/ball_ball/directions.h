@@ -78,9 +78,10 @@ always turning predict_turning(bool turn, const problem *a, const prediction *g,
   return w;
 }
 
-/* nodes: TURNED where d turns on the way and has no direction half way. Iterates at most so often, in the lanes `going`. */
+/* nodes: TURNED where d turns on the way and has no direction half way. Iterates at most so often, in the lanes `going`, and no
+ * longer for `patience` lanes or fewer, whose error then is infinite. */
 always void find_directions(int n, int most, enum nodes nodes, const gauss_rule *r, const problem *a, const prediction *g,
-                            const state *s, const step_law *l, const mesh *m, vmask going, directions *f) {
+                            const state *s, const step_law *l, const mesh *m, vmask going, int patience, directions *f) {
   const bool weighs = nodes != EVEN;
   const vreal b = l->mu_b * g->inverse_u;
   const turning turns = predict_turning(nodes == TURNED, a, g, s, b);
@@ -157,8 +158,10 @@ always void find_directions(int n, int most, enum nodes nodes, const gauss_rule 
     const vreal error = per_moved * largest(moved, n);
     f->error = v_select(going, error, f->error);
     going = going & v_not(v_less(error, enough));
-    if (!v_any(going))
+    if (!v_more(going, patience)) {
+      f->error = v_select(going, v_splat(HUGE_VALF), f->error);
       break;
+    }
   }
   EACH_REG(k, n) {
     /* from the change of u, not from its direction: what is small keeps its digits */

@@ -39,7 +39,9 @@ typedef float carom_moving[MOVING_COLUMNS][MOST_LANES];
 
 /* Kinds of steps (plan.h), FULL over even or over graded nodes; and what else may come next: a collision is solved, or
  * collocation refuses it. */
-enum step_kind { EASY, FULL, FULL_GRADED, STICK, PART, TURN, STEP_KINDS, SOLVED = STEP_KINDS, REFUSED };
+enum step_kind { EASY, FULL, FULL_GRADED, STICK, PART, TURN, STEP_KINDS, SOLVED = STEP_KINDS, REFUSED, STEP_ENDS };
+/* For each, the lanes for which it comes next, a bit for each. */
+typedef uint32_t carom_next[STEP_ENDS];
 
 /* A ball that u_z presses less, in units of |v_n0| / kappa, is not pressed; friction between the balls that is less counts as
  * this, so that what is divided by it is finite. */

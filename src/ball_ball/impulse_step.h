@@ -83,9 +83,9 @@ always arrival arrive_on_nodes(const gauss_rule *r, int n, vreal per_length, con
 
 /* From *s on for a length, for which *g has been predicted, with so many iterations at most. *next becomes the state behind the
  * step; in the lanes of `last` that is near the end of the collision, and *out becomes the solution. `turn`: the plan of TURNED
- * nodes. Returns an estimate of the error, in p; infinite if the end is not near. `going`: the lanes that matter. */
+ * nodes. Returns an estimate of the error, in p; infinite if the end is not near. `going`: the lanes that matter; `patience`: see find_directions(). */
 always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, const prediction *g, vreal length,
-                          const turn_plan *turn, vmask going, vmask last, const state *s, state *next, solution *out) {
+                          const turn_plan *turn, vmask going, int patience, vmask last, const state *s, state *next, solution *out) {
   const gauss_rule *r = n == 8 ? &gauss_8 : &gauss_4;
   const step_law l = law_of(a, g, length);
   mesh m;
@@ -97,7 +97,7 @@ always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, c
     lay_nodes(nodes, r, &map, v_splat(1), &m);
   }
   directions f;
-  find_directions(n, most, nodes, r, a, g, s, &l, &m, going, &f);
+  find_directions(n, most, nodes, r, a, g, s, &l, &m, going, patience, &f);
 
   /* the whole step */
   reg work[MOST_REGS];
@@ -155,9 +155,9 @@ always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, c
 
 /* To the end, of which `to_end` is the way that would be left without work on friction. */
 always vreal end_step(int n, int most, enum nodes nodes, const problem *a, const prediction *g, const state *s, vreal to_end,
-                      vmask going, solution *out) {
+                      vmask going, int patience, solution *out) {
   const vreal f = -a->pull_y * g->z * g->t_y;
-  return impulse_step(n, most, nodes, a, g, to_end * v_fma(f, 1 + f, v_splat(1)), NULL, going, v_all(), s, NULL, out);
+  return impulse_step(n, most, nodes, a, g, to_end * v_fma(f, 1 + f, v_splat(1)), NULL, going, patience, v_all(), s, NULL, out);
 }
 
 #endif

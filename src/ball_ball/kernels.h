@@ -21,13 +21,12 @@ typedef uint32_t carom_rows_in(const void *const row[MOST_LANES], double s, caro
 /* Writes the velocities (carom_result or its twin). Returns a bit for each row whose numbers are all finite. */
 typedef uint32_t carom_rows_out(const carom_context *context, carom_out solution, void *const row[MOST_LANES]);
 
-/* The first step, if it is an easy one. next: what comes next, an enum step_kind for each lane; *out of those that are SOLVED;
- * *moving of those for which an easy step was tried in vain. spin: 5/2 s. */
-typedef void carom_first_step(carom_in in, float spin, float tolerance, carom_out out, carom_moving moving,
-                              uint8_t next[MOST_LANES]);
+/* The first step, where it is an easy one, in the lanes of `good`. next: what comes next; *out of those that are SOLVED. A lane
+ * for which the others would have to wait is put off: its next step is EASY again. spin: 5/2 s. */
+typedef void carom_first_step(carom_in in, uint32_t good, float spin, float tolerance, carom_out out, carom_next next);
 /* A step of a kind, for collisions that are `fresh`, or stand at *moving, which becomes where they stand after it. */
 typedef void carom_next_step(enum step_kind kind, int fresh, carom_in in, float spin, float tolerance, carom_moving moving,
-                             carom_out out, uint8_t next[MOST_LANES]);
+                             carom_out out, carom_next next);
 
 /* One reduced collision, by all steps that it takes. Returns the number of right-hand sides
  * evaluated, or 0 if no step within the tolerance leads on. */

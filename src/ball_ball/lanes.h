@@ -200,6 +200,10 @@ static inline vmask v_all(void) {
 static inline bool v_any(vmask m) {
   return v_bits(m) != 0;
 }
+/* Does it hold in more than so many lanes? */
+static inline bool v_more(vmask m, int count) {
+  return __builtin_popcount(v_bits(m)) > count;
+}
 /* ---- Arithmetic ----------------------------------------------------------------------------------------------------- */
 
 static inline vreal v_abs(vreal x) {

@@ -45,7 +45,7 @@ static const float LEAST_SHARE = 0.1f;                                       /* 
 /* After refusals of steps from a state. */
 typedef struct progress {
   vreal share;   /* of the usual length that a TURN step may have */
-  vreal caution; /* 1: not EASY, and not to stick; 2: with many iterations; 3: TURN */
+  vreal caution; /* 1: not EASY, and not to stick; 2: over graded nodes; 3: not to the end but by TURN; 4: TURN */
 } progress;
 
 always vreal power_4(vreal x) {
@@ -159,9 +159,9 @@ typedef struct choice {
 
 always choice choose(const problem *a, const state *s, const prediction *g, vreal to_end, const progress *so_far) {
   const vreal q = g->rate * to_end, to_stick = v_reciprocal(g->rate), u = v_reciprocal(g->inverse_u);
-  const vmask usual = v_less(so_far->caution, v_splat(3));
+  const vmask usual = v_less(so_far->caution, v_splat(4));
   choice c;
-  c.full = usual & v_less(q, v_splat(FULL_GRADED_Q));
+  c.full = v_less(so_far->caution, v_splat(3)) & v_less(q, v_splat(FULL_GRADED_Q));
   if (v_any(c.full))
     c.full = c.full & is_smooth(8, a, s, g, to_end);
   c.stick = v_less(so_far->caution, v_splat(1)) & v_less(v_splat(STICK_Q), q);
@@ -176,7 +176,7 @@ always choice choose(const problem *a, const state *s, const prediction *g, vrea
 
 /* After a step of a kind that was refused. */
 always progress after_refusal(const progress *so_far, enum step_kind kind) {
-  const float caution = kind == EASY || kind == STICK ? 1 : kind == FULL ? 2 : 3;
+  const float caution = kind == EASY || kind == STICK ? 1 : kind == FULL ? 2 : kind == FULL_GRADED ? 3 : 4;
   return (progress){.share = kind == TURN ? 0.5f * so_far->share : so_far->share, .caution = v_splat(caution)};
 }
 

@@ -49,7 +49,7 @@ always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const stat
   /* |u| falls as lambda^(5 + 2 c^2) at first and more slowly then, so Newton's method comes from one side */
   const vreal left = v_max(v * v_reciprocal(v - s->v), v_splat(1e-10f)), power = v_reciprocal(v_fma(2 * c, c, v_splat(5)));
   vreal x_c = v_min(1 - ONE_OF(exponential(SPREAD(power) * logarithm(SPREAD(left)))), v_splat(1));
-  for (int i = 0; i < 3; i++) {
+  for (int i = 0; i < 2; i++) {
     const vreal l = 1 - x_c, l4 = (l * l) * (l * l);
     vreal bend;
     const vreal sum = polynomial_and_slope(v_power, n, 2 * l - 1, &bend), v_c = v_fma(-l4 * l, sum, v);
