@@ -93,7 +93,8 @@ static void gather(const work *w, team *t) {
 }
 
 /* Lanes, from the lowest on. */
-#define EACH_LANE(lane, bits) for (uint32_t left_ = (bits), lane; left_ != 0 && (lane = lowest(left_), true); left_ &= left_ - 1)
+#define EACH_LANE(lane, bits) \
+  for (uint32_t left_ = (bits), lane; left_ != 0 && (lane = lowest(left_), true); left_ &= left_ - 1)
 static inline uint32_t lowest(uint32_t bits) {
   return (uint32_t)__builtin_ctz(bits);
 }

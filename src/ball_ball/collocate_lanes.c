@@ -86,14 +86,15 @@ static vreal mark(vmask m, enum step_kind kind, vreal otherwise) {
 }
 
 /* What comes next, a step_kind as a number. `fresh`: the state is that at the start, which is not easy. */
-apart vreal next_kind(const problem *a, const state *s, vreal to_end, const prediction *g, const progress *so_far, bool fresh) {
+apart vreal next_kind(const problem *a, const state *s, vreal to_end, const prediction *g, vreal inverse,
+                      const progress *so_far, bool fresh) {
   const prediction ahead = look_ahead(a, s, g, to_end);
-  const choice c = choose(a, s, &ahead, to_end, so_far);
+  const choice c = choose(a, s, &ahead, to_end, inverse, so_far);
   vreal kind = mark(c.part, PART, v_splat((float)TURN));
   kind = mark(c.stick, STICK, kind);
   kind = mark(c.full, FULL, kind);
   kind = mark(c.full & c.graded, FULL_GRADED, kind);
-  return fresh ? kind : mark(v_less(so_far->caution, v_splat(1)) & is_easy(a, s, g, to_end), EASY, kind);
+  return fresh ? kind : mark(v_less(so_far->caution, v_splat(1)) & is_easy(a, g, to_end, inverse), EASY, kind);
 }
 
 static void store_kinds(vreal kind, carom_next next) {
@@ -109,7 +110,8 @@ void PASTE(carom_first_step_, CAROM_LANES_SUFFIX)(carom_in in, uint32_t good, fl
   const state s = state_of(&a, in);
   const vreal to_end = 1 + a.e;
   const prediction g = predict(&a, &s, to_end);
-  const vmask easy = v_from_bits(good) & is_easy(&a, &s, &g, to_end);
+  const vreal inverse = inverse_rho_ahead(&a, &s, &g, to_end);
+  const vmask easy = v_from_bits(good) & is_easy(&a, &g, to_end, inverse);
   solution answer;
   const vreal error = take_easy_step(&a, &g, to_end, &s, easy, PATIENCE, &answer);
   const vmask solved = easy & v_less(error, a.tolerance);
@@ -119,7 +121,7 @@ void PASTE(carom_first_step_, CAROM_LANES_SUFFIX)(carom_in in, uint32_t good, fl
   if (next[SOLVED] == good)
     return;
   const progress so_far = {.share = v_splat(1), .caution = v_splat(0)};
-  store_kinds(mark(solved, SOLVED, mark(easy, EASY, next_kind(&a, &s, to_end, &g, &so_far, true))), next);
+  store_kinds(mark(solved, SOLVED, mark(easy, EASY, next_kind(&a, &s, to_end, &g, inverse, &so_far, true))), next);
 }
 
 void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh, carom_in in, float spin, float tolerance,
@@ -178,7 +180,7 @@ void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh,
   } else
     so_far = after_refusal(&so_far, kind);
   const vmask spent = v_less_equal(v_splat(MOST_ATTEMPTS), attempts) | impossible;
-  const vreal then = next_kind(&a, &s, to_end, &g, &so_far, false);
+  const vreal then = next_kind(&a, &s, to_end, &g, inverse_rho_ahead(&a, &s, &g, to_end), &so_far, false);
   store_kinds(mark(solved, SOLVED, mark(spent, REFUSED, then)), next);
   store_state(&s, moving);
   v_store(moving[MOVING_SHARE], so_far.share);

@@ -30,22 +30,22 @@ rare float take_easy_step(const problem *a, const prediction *g, vreal to_end, c
   return end_step(4, EASY_MOST, EVEN, a, g, s, to_end, 1, 0, out);
 }
 
-/* From *s, predicted *g and with `to_end`, to the end. Returns the number of right-hand sides evaluated, 0 if it did not get
+/* From *s, predicted *g, with `to_end` and `inverse` rho ahead, to the end. Returns the number of right-hand sides evaluated, 0 if it did not get
  * there. */
-rare int take_steps(const problem *a, state s, prediction g, vreal to_end, progress so_far, solution *out) {
+rare int take_steps(const problem *a, state s, prediction g, vreal to_end, vreal inverse, progress so_far, solution *out) {
   int evaluations = 0;
   for (int attempt = 1; attempt <= MOST_ATTEMPTS; attempt++) {
     state next;
     float error;
     int last = 1;
     enum step_kind kind = TURN;
-    if (so_far.caution < 1 && attempt > 1 && is_easy(a, &s, &g, to_end)) {
+    if (so_far.caution < 1 && attempt > 1 && is_easy(a, &g, to_end, inverse)) {
       error = take_easy_step(a, &g, to_end, &s, out);
       evaluations += 4 * (EASY_MOST + 1);
       kind = EASY;
     } else {
       const prediction ahead = look_ahead(a, &s, &g, to_end);
-      const choice c = choose(a, &s, &ahead, to_end, &so_far);
+      const choice c = choose(a, &s, &ahead, to_end, inverse, &so_far);
       int iterations = TURN_MOST;
       if (c.full) {
         kind = c.graded ? FULL_GRADED : FULL;
@@ -77,6 +77,7 @@ rare int take_steps(const problem *a, state s, prediction g, vreal to_end, progr
       s = next;
       to_end = way_to_end(a, &s);
       g = predict(a, &s, to_end);
+      inverse = inverse_rho_ahead(a, &s, &g, to_end);
       so_far = (progress){.share = 1};
     }
   }
@@ -89,16 +90,17 @@ int PASTE(carom_collocate_, CAROM_LANES_SUFFIX)(const float in[IN_COLUMNS], floa
   const state s = state_of(&a, in);
   const vreal to_end = 1 + a.e;
   const prediction g = predict(&a, &s, to_end);
+  const vreal inverse = inverse_rho_ahead(&a, &s, &g, to_end);
   progress so_far = {.share = 1};
   solution answer;
-  if (is_easy(&a, &s, &g, to_end)) {
+  if (is_easy(&a, &g, to_end, inverse)) {
     if (end_step(4, EASY_MOST, EVEN, &a, &g, &s, to_end, 1, 0, &answer) < a.tolerance) {
       put_solution(&answer, out);
       return 4 * (EASY_MOST + 1);
     }
     so_far.caution = 1;
   }
-  const int evaluations = take_steps(&a, s, g, to_end, so_far, &answer);
+  const int evaluations = take_steps(&a, s, g, to_end, inverse, so_far, &answer);
   put_solution(&answer, out);
   return evaluations;
 }

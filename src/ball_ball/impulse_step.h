@@ -83,9 +83,11 @@ always arrival arrive_on_nodes(const gauss_rule *r, int n, vreal per_length, con
 
 /* From *s on for a length, for which *g has been predicted, with so many iterations at most. *next becomes the state behind the
  * step; in the lanes of `last` that is near the end of the collision, and *out becomes the solution. `turn`: the plan of TURNED
- * nodes. Returns an estimate of the error, in p; infinite if the end is not near. `going`: the lanes that matter; `patience`: see find_directions(). */
+ * nodes. Returns an estimate of the error, in p; infinite if the end is not near. `going`: the lanes that matter; `patience`:
+ * see find_directions(). */
 always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, const prediction *g, vreal length,
-                          const turn_plan *turn, vmask going, int patience, vmask last, const state *s, state *next, solution *out) {
+                          const turn_plan *turn, vmask going, int patience, vmask last, const state *s, state *next,
+                          solution *out) {
   const gauss_rule *r = n == 8 ? &gauss_8 : &gauss_4;
   const step_law l = law_of(a, g, length);
   mesh m;

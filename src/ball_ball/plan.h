@@ -27,15 +27,15 @@
 enum { EASY_MOST = 3, FULL_MOST = 4, FULL_GRADED_MOST = 5, PART_MOST = 5, TURN_MOST = 6 };
 enum { MOST_ATTEMPTS = 14 };
 
-static const float EASY_SHARE = 6;            /* error of an EASY step over mu_b rho^-8 with rho for u, */
-static const float MOST_EASY_Q = 0.9f;        /* its q */
-static const float MOST_EASY_PULL = 5e-3f;    /* and its mu mu_b q^2 */
-static const float FULL_Q = 0.7f;             /* q of a FULL step over even nodes, */
-static const float FULL_GRADED_Q = 0.96f;     /* and over graded ones */
-static const float BEND_4 = 20, BEND_8 = 100; /* by q^2: what a way that is not straight adds to the error of n nodes */
-static const float STICK_Q = 1.05f;           /* q from which the balls will stick */
-static const float TURN_Q = 0.5f;             /* q of a TURN step */
-static const float LEFT_Q = 0.5f;             /* q that a PART would leave; */
+static const float EASY_SHARE = 6;           /* error of an EASY step over mu_b rho^-8 with rho for u, */
+static const float MOST_EASY_Q = 0.9f;       /* its q */
+static const float MOST_EASY_PULL = 5e-3f;   /* and its mu mu_b q^2 */
+static const float FULL_Q = 0.7f;            /* q of a FULL step over even nodes, */
+static const float FULL_GRADED_Q = 0.96f;    /* and over graded ones */
+static const float BEND_4 = 20, BEND_8 = 30; /* by q^2: what a way that is not straight adds to the error of n nodes */
+static const float STICK_Q = 1.05f;          /* q from which the balls will stick */
+static const float TURN_Q = 0.5f;            /* q of a TURN step */
+static const float LEFT_Q = 0.5f;            /* q that a PART would leave; */
 static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f; /* its share of |u|, and of q */
 static const float LEAST_WIDTH = 1e-5f;                                      /* distance delta of a turn */
 static const float WIDEST_RANGE = 4.5f;                                      /* of xi of a TURN step */
@@ -65,26 +65,30 @@ always vreal inverse_rho(const problem *a, const state *s, const prediction *g, 
   return v_select(is_at_rest(a, s), v_splat(0), v_reciprocal(2 * sum - v_reciprocal(sum)));
 }
 
+/* The same on the way ahead, to the end or to stick. */
+always vreal inverse_rho_ahead(const problem *a, const state *s, const prediction *g, vreal to_end) {
+  return inverse_rho(a, s, g, v_min(to_end, v_reciprocal(g->rate)));
+}
+
 /* Is the direction of the cloth slip smooth enough for n nodes? The more of |u| is lost, the less straight the way. */
-always vmask is_smooth(int n, const problem *a, const state *s, const prediction *g, vreal length) {
-  const vreal inverse_4 = power_4(inverse_rho(a, s, g, length)), inverse_8 = inverse_4 * inverse_4, q = g->rate * length;
-  const vreal left_out = 4 * a->pull * g->z * length * (n == 8 ? inverse_8 * inverse_8 : inverse_8);
+always vmask is_smooth(int n, const problem *a, const prediction *g, vreal length, vreal inverse) {
+  const vreal inverse_4 = power_4(inverse), inverse_8 = inverse_4 * inverse_4, q = g->rate * length;
+  const vreal left_out = 2 * a->pull * g->z * length * (n == 8 ? inverse_8 * inverse_8 : inverse_8);
   return v_less(left_out * v_fma((n == 8 ? BEND_8 : BEND_4) * q, q, v_splat(1)), a->tolerance);
 }
 
 /* Will an EASY step do? *g: to the end. |u| would reach zero at X = 1 / q, so that (1 + s) / (1 - s) is its rho, with
  * s^2 = 1 - q. */
-always vmask is_easy(const problem *a, const state *s, const prediction *g, vreal to_end) {
+always vmask is_easy(const problem *a, const prediction *g, vreal to_end, vreal inverse) {
   const vreal q = g->rate * to_end, root_left = v_sqrt(v_max(1 - q, v_splat(0)));
   const vreal inverse_4 = power_4((1 - root_left) * v_rough_reciprocal(1 + root_left));
-  const vmask mild =
-      v_less(EASY_SHARE * a->mu_b * (inverse_4 * inverse_4), a->tolerance) & v_less(a->pull * q * q, v_splat(MOST_EASY_PULL));
-  return v_any(mild) ? mild & v_less(q, v_splat(MOST_EASY_Q)) & is_smooth(4, a, s, g, to_end) : mild;
+  return v_less(EASY_SHARE * a->mu_b * (inverse_4 * inverse_4), a->tolerance) & v_less(q, v_splat(MOST_EASY_Q)) &
+         v_less(a->pull * q * q, v_splat(MOST_EASY_PULL)) & is_smooth(4, a, g, to_end, inverse);
 }
 
 /* The error of a step to stick, over |u|, by how smooth tau and W are in lambda. */
-always vreal stick_error(const problem *a, const state *s, const prediction *g) {
-  const vreal inverse = inverse_rho(a, s, g, v_reciprocal(g->rate)), inverse_2 = inverse * inverse, mu = a->mu;
+always vreal stick_error(const problem *a, const state *s, const prediction *g, vreal inverse) {
+  const vreal inverse_2 = inverse * inverse, mu = a->mu;
   const vreal by_turn = 0.05f * inverse_2 * (inverse_2 * inverse_2);
   const vreal share = mu * v_reciprocal(a->kappa - mu), from_rest = 2.6e-4f * (share * share * share) * (g->z * g->z);
   const vreal by_b =
@@ -157,20 +161,19 @@ typedef struct choice {
   vmask full, stick, part, graded;
 } choice;
 
-always choice choose(const problem *a, const state *s, const prediction *g, vreal to_end, const progress *so_far) {
+always choice choose(const problem *a, const state *s, const prediction *g, vreal to_end, vreal inverse,
+                     const progress *so_far) {
   const vreal q = g->rate * to_end, to_stick = v_reciprocal(g->rate), u = v_reciprocal(g->inverse_u);
-  const vmask usual = v_less(so_far->caution, v_splat(4));
   choice c;
-  c.full = v_less(so_far->caution, v_splat(3)) & v_less(q, v_splat(FULL_GRADED_Q));
-  if (v_any(c.full))
-    c.full = c.full & is_smooth(8, a, s, g, to_end);
-  c.stick = v_less(so_far->caution, v_splat(1)) & v_less(v_splat(STICK_Q), q);
-  if (v_any(c.stick))
-    c.stick = c.stick & v_less(u * stick_error(a, s, g), a->tolerance);
+  c.full = v_less(so_far->caution, v_splat(3)) & v_less(q, v_splat(FULL_GRADED_Q)) & is_smooth(8, a, g, to_end, inverse);
   c.graded = c.full & (v_less(v_splat(FULL_Q), q) | v_less(v_splat(1), so_far->caution));
-  c.part = usual & v_less_equal(v_splat(TURN_Q), q) & v_not(c.stick | c.full);
-  if (v_any(c.part))
-    c.part = c.part & is_smooth(8, a, s, g, part_share(q) * to_stick);
+  c.stick = v_less(so_far->caution, v_splat(1)) & v_less(v_splat(STICK_Q), q) &
+            v_less(u * stick_error(a, s, g, inverse), a->tolerance);
+  c.part = v_less(so_far->caution, v_splat(4)) & v_less_equal(v_splat(TURN_Q), q) & v_not(c.stick | c.full);
+  if (v_any(c.part)) {
+    const vreal length = part_share(q) * to_stick;
+    c.part = c.part & is_smooth(8, a, g, length, inverse_rho(a, s, g, length));
+  }
   return c;
 }
 

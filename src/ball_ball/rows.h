@@ -22,7 +22,7 @@ typedef struct row_lanes {
   vreal x[IN_NUMBERS];       /* the columns of the rows */
   vreal y_x, y_y;            /* line of centres */
   vreal approach, per_total; /* |v_n0|; 1 / (M_a + M_b) */
-  vreal kappa, u_x, u_z;     /* u in units of |v_n0| / kappa, u_z >= 0 */
+  vreal per_kappa, u_x, u_z; /* u in units of |v_n0| / kappa, u_z >= 0 */
   vmask b_pressed;
 } row_lanes;
 
@@ -39,23 +39,26 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
   const vreal *a = r->x, *b = r->x + 12, zero = v_splat(0);
   const vreal R = a[9], M_a = a[10], M_b = b[10], mu_b = r->x[24], e = r->x[25];
 
-  /* the frame and the relative motion in it */
-  const vreal r_x = b[0] - a[0], r_y = b[1] - a[1], inverse = v_reciprocal_sqrt(r_x * r_x + r_y * r_y);
-  const vreal y_x = r->y_x = r_x * inverse, y_y = r->y_y = r_y * inverse;
+  /* the frame, and what moves in it: u, d and the approach, times the distance of the centres */
+  const vreal r_x = b[0] - a[0], r_y = b[1] - a[1], square = r_x * r_x + r_y * r_y, inverse = v_reciprocal_sqrt(square);
+  r->y_x = r_x * inverse;
+  r->y_y = r_y * inverse;
   const vreal v_x = a[3] - b[3], v_y = a[4] - b[4], w_x = a[6] + b[6], w_y = a[7] + b[7], w_z = a[8] + b[8];
-  r->approach = v_x * y_x + v_y * y_y;
-  const vreal u_x = (v_x * y_y - v_y * y_x) - R * w_z, u_z = R * (w_x * y_y - w_y * y_x);
+  const vreal approach = v_x * r_x + v_y * r_y, u_z = R * (w_x * r_y - w_y * r_x);
+  const vreal u_x = (v_x * r_y - v_y * r_x) - (R * w_z) * (square * inverse);
   const vmask b_pressed = r->b_pressed = v_less(u_z, zero);
+  r->approach = approach * inverse;
 
   /* the slip of the pressed ball on the cloth */
   const vreal sR = s * R, slip_x = v_select(b_pressed, b[3], a[3]) + sR * v_select(b_pressed, b[7], a[7]);
   const vreal slip_y = v_select(b_pressed, b[4], a[4]) - sR * v_select(b_pressed, b[6], a[6]);
-  const vreal d_x = slip_x * y_y - slip_y * y_x, d_y = slip_x * y_x + slip_y * y_y;
+  const vreal d_x = slip_x * r_y - slip_y * r_x, d_y = slip_x * r_x + slip_y * r_y;
 
-  /* masses and units */
+  /* masses and units: |v_n0| / kappa */
   const vreal M_p = v_select(b_pressed, M_b, M_a), M_o = v_select(b_pressed, M_a, M_b), ratio = M_p * v_reciprocal(M_o);
-  const vreal kappa = r->kappa = 1 + ratio, per_unit = kappa * v_reciprocal(r->approach);
+  const vreal kappa = 1 + ratio, per_unit = kappa * v_reciprocal(approach);
   r->per_total = v_reciprocal(M_a + M_b);
+  r->per_kappa = M_o * r->per_total;
   r->u_x = u_x * per_unit;
   r->u_z = v_abs(u_z) * per_unit;
   const vreal side = v_select(b_pressed, -per_unit, per_unit), mu = v_select(b_pressed, b[11], a[11]);
@@ -93,7 +96,7 @@ static inline row_impulses impulses_of(const row_lanes *r, const vreal in[OUT_CO
   row_impulses q = {.p = (1 + e) + in[OUT_EXTRA], .F_x = -pull * in[OUT_I_X], .F_y = -pull * in[OUT_I_Y]};
   /* if the balls slip to the end, from the direction of u at the start; if they stick, from u = 0 */
   const vmask sticks = v_less_equal(v_splat(0), in[OUT_STICK]);
-  const vreal i_u = v_reciprocal_sqrt(r->u_x * r->u_x + r->u_z * r->u_z + (real)1e-36), per_kappa = v_reciprocal(r->kappa);
+  const vreal i_u = v_reciprocal_sqrt(r->u_x * r->u_x + r->u_z * r->u_z + (real)1e-36), per_kappa = r->per_kappa;
   q.Q_1 = v_select(sticks, (r->u_x + q.F_x) * (per_kappa * (real)(1 / 3.5)), mu_b * (r->u_x * i_u * q.p + in[OUT_J_C]));
   q.Q_2 = v_select(sticks, (r->u_z + (real)2.5 * q.F_y) * (per_kappa * (real)0.4), mu_b * (r->u_z * i_u * q.p + in[OUT_J_Z]));
   return q;
@@ -115,10 +118,10 @@ static inline vmask restore_rows(const row_lanes *r, const row_impulses *q, real
                                 a[6] + (aw_x * y_y + aw_y * y_x), a[7] + (aw_y * y_y - aw_x * y_x), a[8] + C_a * q->Q_1,
                                 b[3] + (b_x * y_y + b_y * y_x),   b[4] + (b_y * y_y - b_x * y_x),   zero,
                                 b[6] + (bw_x * y_y + bw_y * y_x), b[7] + (bw_y * y_y - bw_x * y_x), b[8] + C_b * q->Q_1};
-  vreal sum = zero; /* stays 0 unless a term is infinite or NaN */
-  lanes_unrolled for (int k = 0; k < OUT_NUMBERS; k++) sum = sum + x[k] * zero;
+  /* not finite if a term is not, or if two are almost too large: then, too, the row is looked at again */
+  const vreal sum = ((x[0] + x[1]) + (x[3] + x[4])) + ((x[5] + x[6]) + (x[7] + x[9])) + (x[10] + x[11]);
   lanes_unrolled for (int at = 0; at < OUT_NUMBERS; at += CHUNK) v_store_columns(row, at, x + at);
-  return v_equal(sum, zero);
+  return v_equal(sum * zero, zero);
 }
 
 #endif
