@@ -95,7 +95,7 @@ def print_rule(name, n, w):
         twice = [centred([v / ((m + 1) * (m + 2)) for m, v in enumerate(c)]) for c in L]
         print("    .part = {%s}," % ",\n".join(text([p[m] for p in part]) for m in span))
         print("    .twice = {%s}," % ",\n".join(text([p[m] for p in twice]) for m in span))
-    if n == 8:
+    if n == 8 or w:
         print("    .powers = {%s}," % by_node(part))
     if w:
         turn = lambda c, at: 2 * at ** 2 * sum(v * (-mp.log(at) if m == 2 else (1 - at ** (m - 2)) / (m - 2)) for m, v in enumerate(c))
@@ -115,6 +115,7 @@ GUARD = "CAROM_SRC_BALL_BALL_RULES_H"
 print("/* The quadrature rules of the collocation steps: see tools/collocation_rules.py, which printed them. */")
 print("#ifndef %s\n#define %s\n\n#include \"ball_ball/quadrature.h\"\n" % (GUARD, GUARD))
 print_rule("gauss", 4, 0)
+print_rule("gauss", 6, 0)
 print_rule("gauss", 8, 0)
-print_rule("jacobi", 8, 4)
+print_rule("jacobi", 6, 4)
 print("\n#endif")

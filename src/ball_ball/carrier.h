@@ -28,7 +28,7 @@ typedef float node_row[MOST_NODES];
 #define REGS(n) 1
 #else
 #define REG_NODES 4
-#define REGS(n) ((n) / 4)
+#define REGS(n) (((n) + 3) / 4)
 #endif
 typedef float reg __attribute__((vector_size(4 * REG_NODES)));
 typedef int32_t reg_int __attribute__((vector_size(4 * REG_NODES)));
@@ -142,15 +142,16 @@ always reg reg_abs(reg x) {
 
 /* The largest of the numbers at n nodes. */
 always vreal largest(const reg *x, int n) {
-  const quad low = FIRST_HALF(x), high = n == 8 ? SECOND_HALF(x) : low;
+  const quad low = FIRST_HALF(x), high = n > 4 ? SECOND_HALF(x) : low;
   vreal most[4];
-  lanes_unrolled for (int k = 0; k < 4; k++) most[k] = n == 8 ? v_max(low[k], high[k]) : low[k];
+  lanes_unrolled for (int k = 0; k < 4; k++) most[k] = k + 4 < n ? v_max(low[k], high[k]) : low[k];
   return v_max(v_max(most[0], most[2]), v_max(most[1], most[3]));
 }
 
 /* The sum of numbers at n nodes. */
 always vreal sum_of(const reg *x, int n) {
-  const quad low = FIRST_HALF(x), sum = n == 8 ? low + SECOND_HALF(x) : low;
+  const quad low = FIRST_HALF(x), both = n > 4 ? low + SECOND_HALF(x) : low;
+  const quad sum = n == 6 ? __builtin_shufflevector(both, low, 0, 1, 6, 7) : both;
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 /* Sum over the nodes of weight times x; the weights those of a rule, or computed. */
@@ -172,7 +173,7 @@ always void apply(const node_row *M, const reg *x, reg *out, int n) {
   EACH_REG(k, n) {
     reg pair[MOST_NODES / 2];
     lanes_unrolled for (int j = 0; j < n; j += 2) pair[j / 2] = MADD(AT(M[j + 1], k), NODE(x, j + 1), AT(M[j], k) * NODE(x, j));
-    out[k] = n == 8 ? (pair[0] + pair[1]) + (pair[2] + pair[3]) : pair[0] + pair[1];
+    out[k] = n == 8 ? (pair[0] + pair[1]) + (pair[2] + pair[3]) : n == 6 ? (pair[0] + pair[1]) + pair[2] : pair[0] + pair[1];
   }
 }
 
@@ -203,18 +204,20 @@ always reg reg_abs(reg x) {
 
 always vreal largest(const reg *x, int n) {
   vreal most[4];
-  lanes_unrolled for (int k = 0; k < 4; k++) most[k] = n == 8 ? v_max(x[k], x[k + 4]) : x[k];
+  lanes_unrolled for (int k = 0; k < 4; k++) most[k] = k + 4 < n ? v_max(x[k], x[k + 4]) : x[k];
   return v_max(v_max(most[0], most[2]), v_max(most[1], most[3]));
 }
 
 always vreal dot(const float *weight, const reg *x, int n) {
   vreal sum[4];
-  lanes_unrolled for (int k = 0; k < 4; k++) sum[k] = n == 8 ? weight[k] * x[k] + weight[k + 4] * x[k + 4] : weight[k] * x[k];
+  lanes_unrolled for (int k = 0; k < 4; k++) sum[k] =
+      k + 4 < n ? weight[k] * x[k] + weight[k + 4] * x[k + 4] : weight[k] * x[k];
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 always vreal sum_of_products(const reg *weight, const reg *x, int n) {
   vreal sum[4];
-  lanes_unrolled for (int k = 0; k < 4; k++) sum[k] = n == 8 ? weight[k] * x[k] + weight[k + 4] * x[k + 4] : weight[k] * x[k];
+  lanes_unrolled for (int k = 0; k < 4; k++) sum[k] =
+      k + 4 < n ? weight[k] * x[k] + weight[k + 4] * x[k + 4] : weight[k] * x[k];
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
@@ -222,7 +225,7 @@ always void apply(const node_row *M, const reg *x, reg *out, int n) {
   EACH_REG(k, n) {
     reg pair[MOST_NODES / 2];
     lanes_unrolled for (int j = 0; j < n; j += 2) pair[j / 2] = MADD(M[j + 1][k], x[j + 1], M[j][k] * x[j]);
-    out[k] = n == 8 ? (pair[0] + pair[1]) + (pair[2] + pair[3]) : pair[0] + pair[1];
+    out[k] = n == 8 ? (pair[0] + pair[1]) + (pair[2] + pair[3]) : n == 6 ? (pair[0] + pair[1]) + pair[2] : pair[0] + pair[1];
   }
 }
 

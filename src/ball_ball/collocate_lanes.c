@@ -9,10 +9,10 @@
 
 apart vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, vmask going, int patience,
                            solution *out) {
-  return end_step(4, EASY_MOST, EVEN, a, g, s, to_end, going, patience, out);
+  return end_step(EASY_NODES, EASY_MOST, EVEN, a, g, s, to_end, going, patience, out);
 }
 apart vreal take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(8, FULL_MOST, EVEN, a, g, s, to_end, v_all(), 0, out);
+  return end_step(FULL_NODES, FULL_MOST, EVEN, a, g, s, to_end, v_all(), 0, out);
 }
 apart vreal take_graded_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
   return end_step(8, FULL_GRADED_MOST, GRADED, a, g, s, to_end, v_all(), 0, out);

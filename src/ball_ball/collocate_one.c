@@ -8,7 +8,7 @@
 #define rare static __attribute__((noinline)) /* the inlined text of a step is long */
 
 rare float take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(8, FULL_MOST, EVEN, a, g, s, to_end, 1, 0, out);
+  return end_step(FULL_NODES, FULL_MOST, EVEN, a, g, s, to_end, 1, 0, out);
 }
 rare float take_graded_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
   return end_step(8, FULL_GRADED_MOST, GRADED, a, g, s, to_end, 1, 0, out);
@@ -27,11 +27,11 @@ rare float take_turn_step(const problem *a, const turn_plan *p, vmask last, cons
 }
 /* Behind the first step. */
 rare float take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(4, EASY_MOST, EVEN, a, g, s, to_end, 1, 0, out);
+  return end_step(EASY_NODES, EASY_MOST, EVEN, a, g, s, to_end, 1, 0, out);
 }
 
-/* From *s, predicted *g, with `to_end` and `inverse` rho ahead, to the end. Returns the number of right-hand sides evaluated, 0 if it did not get
- * there. */
+/* From *s, predicted *g, with `to_end` and `inverse` rho ahead, to the end. Returns the number of right-hand sides evaluated, 0
+ * if it did not get there. */
 rare int take_steps(const problem *a, state s, prediction g, vreal to_end, vreal inverse, progress so_far, solution *out) {
   int evaluations = 0;
   for (int attempt = 1; attempt <= MOST_ATTEMPTS; attempt++) {
@@ -41,19 +41,21 @@ rare int take_steps(const problem *a, state s, prediction g, vreal to_end, vreal
     enum step_kind kind = TURN;
     if (so_far.caution < 1 && attempt > 1 && is_easy(a, &g, to_end, inverse)) {
       error = take_easy_step(a, &g, to_end, &s, out);
-      evaluations += 4 * (EASY_MOST + 1);
+      evaluations += EASY_NODES * (EASY_MOST + 1);
       kind = EASY;
     } else {
       const prediction ahead = look_ahead(a, &s, &g, to_end);
       const choice c = choose(a, &s, &ahead, to_end, inverse, &so_far);
-      int iterations = TURN_MOST;
+      int iterations = TURN_MOST, nodes = MOST_NODES;
       if (c.full) {
         kind = c.graded ? FULL_GRADED : FULL;
         iterations = c.graded ? FULL_GRADED_MOST : FULL_MOST;
+        nodes = c.graded ? MOST_NODES : FULL_NODES;
         error = (c.graded ? take_graded_step : take_full_step)(a, &ahead, to_end, &s, out);
       } else if (c.stick) {
         kind = STICK;
         iterations = STICK_MOST;
+        nodes = STICK_NODES;
         error = take_stick_step(a, &ahead, &s, out);
       } else if (c.part) {
         kind = PART;
@@ -67,7 +69,7 @@ rare int take_steps(const problem *a, state s, prediction g, vreal to_end, vreal
           return 0;
         error = take_turn_step(a, &p, last, &s, &next, out);
       }
-      evaluations += MOST_NODES * (iterations + 1);
+      evaluations += nodes * (iterations + 1);
     }
     if (!(error < a->tolerance))
       so_far = after_refusal(&so_far, kind);
@@ -94,9 +96,9 @@ int PASTE(carom_collocate_, CAROM_LANES_SUFFIX)(const float in[IN_COLUMNS], floa
   progress so_far = {.share = 1};
   solution answer;
   if (is_easy(&a, &g, to_end, inverse)) {
-    if (end_step(4, EASY_MOST, EVEN, &a, &g, &s, to_end, 1, 0, &answer) < a.tolerance) {
+    if (end_step(EASY_NODES, EASY_MOST, EVEN, &a, &g, &s, to_end, 1, 0, &answer) < a.tolerance) {
       put_solution(&answer, out);
-      return 4 * (EASY_MOST + 1);
+      return EASY_NODES * (EASY_MOST + 1);
     }
     so_far.caution = 1;
   }

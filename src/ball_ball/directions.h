@@ -144,7 +144,7 @@ always void find_directions(int n, int most, enum nodes nodes, const gauss_rule 
       dz[k] = REG_SELECT(going, du_z, dz[k]);
       per_u[k] = REG_SELECT(going, i_u, per_u[k]);
     }
-    if (n == 8)
+    if (n > 4)
       apply(r->sum, rate, back, n);
     EACH_REG(k, n) {
       const reg c = MADD(u_z[k], back[k], u_c[k]), z = MADD(-u_c[k], back[k], u_z[k]), x = z * t_x[k], y = z * t_y[k];

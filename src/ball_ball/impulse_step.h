@@ -59,7 +59,7 @@ always vreal K_at_v_0_mapped(enum nodes nodes, const gauss_rule *r, int n, const
     X = i == 0 ? v_min(v_max(X - v * per, zero), one) : X;
   }
   mesh up_to;
-  lay_nodes(nodes, r, map, x, &up_to);
+  lay_nodes(nodes, r, n, map, x, &up_to);
   reg slope[MOST_REGS];
   EACH_REG(k, n) {
     const reg xi = x * AT(r->node, k);
@@ -88,7 +88,7 @@ always arrival arrive_on_nodes(const gauss_rule *r, int n, vreal per_length, con
 always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, const prediction *g, vreal length,
                           const turn_plan *turn, vmask going, int patience, vmask last, const state *s, state *next,
                           solution *out) {
-  const gauss_rule *r = n == 8 ? &gauss_8 : &gauss_4;
+  const gauss_rule *r = n == 8 ? &gauss_8 : n == 6 ? &gauss_6 : &gauss_4;
   const step_law l = law_of(a, g, length);
   mesh m;
   node_map map = {0};
@@ -96,7 +96,7 @@ always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, c
     EACH_REG(k, n) m.X[k] = SPREAD(AT(r->node, k));
   else {
     map = nodes == TURNED ? turned_map(turn, length) : graded_map(l.q);
-    lay_nodes(nodes, r, &map, v_splat(1), &m);
+    lay_nodes(nodes, r, n, &map, v_splat(1), &m);
   }
   directions f;
   find_directions(n, most, nodes, r, a, g, s, &l, &m, going, patience, &f);
@@ -123,9 +123,9 @@ always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, c
   end.restitution = s->restitution | passes;
 
   const vreal per_length = v_reciprocal(length);
-  const arrival at_end = n == 8 ? arrive(a, &end) : arrive_on_nodes(r, n, per_length, &f);
+  const arrival at_end = n > 4 ? arrive(a, &end) : arrive_on_nodes(r, n, per_length, &f);
   vreal error = f.error;
-  if (n == 8) {
+  if (n > 4) {
     /* the defect of the polynomials at the end, which is the first coefficient that the nodes leave out */
     const vreal defect = v_abs(dot(r->end, f.c, n) - at_end.c) + v_abs(dot(r->end, f.z, n) - at_end.z);
     error = v_fma(4 * l.mu_b, defect * defect, error);
@@ -142,7 +142,7 @@ always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, c
     third_y = per_length * per_length * dot(r->third, f.s_y, n);
   }
   const vreal way = v_abs(finish(a, &end, &at_end, third_x, third_y, out));
-  if (n == 8) {
+  if (n > 4) {
     /* the third terms: of u; and of d at a turn, as large as the distance from it lets it be */
     vreal bend = a->mu_b * at_end.bend;
     if (nodes == TURNED) {

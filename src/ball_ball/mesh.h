@@ -49,17 +49,18 @@ always node_map turned_map(const turn_plan *p, vreal length) {
 }
 
 /* X and its slope at the nodes of a rule from 0 to a share of x. */
-always void lay_nodes(enum nodes nodes, const gauss_rule *r, const node_map *m, vreal share, mesh *to) {
+always void lay_nodes(enum nodes nodes, const gauss_rule *r, int n, const node_map *m, vreal share, mesh *to) {
+  (void)n; /* in single calls registers count */
   if (nodes == GRADED) {
     const vreal h = share * m->h, to_X = share * m->per;
-    EACH_REG(k, MOST_NODES) {
+    EACH_REG(k, n) {
       const reg x = SPREAD(AT(r->node, k)), y = MADD(-h, x, 1.0f), y2 = y * y;
       to->X[k] = (to_X * x) * ((1 + y) * (1 + y2));
       to->weight[k] = (4 * to_X) * (y2 * y);
     }
   } else {
     const vreal range = share * m->range, slope = range * m->half, start = 2 * m->from * m->half;
-    EACH_REG(k, MOST_NODES) {
+    EACH_REG(k, n) {
       const reg e = exponential(MADD(range, AT(r->node, k), m->low)), i = reg_reciprocal(e);
       to->X[k] = MADD(m->half, e - i, -start);
       to->weight[k] = slope * (e + i);

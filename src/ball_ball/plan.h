@@ -23,6 +23,7 @@
 #include "ball_ball/impulse_step.h"
 #include "ball_ball/stick_step.h"
 
+enum { EASY_NODES = 4, FULL_NODES = 6 }; /* all others have 8, but STICK */
 /* Iterations at most. */
 enum { EASY_MOST = 3, FULL_MOST = 4, FULL_GRADED_MOST = 5, PART_MOST = 5, TURN_MOST = 6 };
 enum { MOST_ATTEMPTS = 14 };
@@ -30,7 +31,7 @@ enum { MOST_ATTEMPTS = 14 };
 static const float EASY_SHARE = 6;           /* error of an EASY step over mu_b rho^-8 with rho for u, */
 static const float MOST_EASY_Q = 0.9f;       /* its q */
 static const float MOST_EASY_PULL = 5e-3f;   /* and its mu mu_b q^2 */
-static const float FULL_Q = 0.7f;            /* q of a FULL step over even nodes, */
+static const float FULL_Q = 0.6f;            /* q of a FULL step over even nodes, */
 static const float FULL_GRADED_Q = 0.96f;    /* and over graded ones */
 static const float BEND_4 = 20, BEND_8 = 30; /* by q^2: what a way that is not straight adds to the error of n nodes */
 static const float STICK_Q = 1.05f;          /* q from which the balls will stick */
@@ -89,7 +90,7 @@ always vmask is_easy(const problem *a, const prediction *g, vreal to_end, vreal 
 /* The error of a step to stick, over |u|, by how smooth tau and W are in lambda. */
 always vreal stick_error(const problem *a, const state *s, const prediction *g, vreal inverse) {
   const vreal inverse_2 = inverse * inverse, mu = a->mu;
-  const vreal by_turn = 0.05f * inverse_2 * (inverse_2 * inverse_2);
+  const vreal by_turn = 0.2f * inverse_2 * (inverse_2 * inverse_2);
   const vreal share = mu * v_reciprocal(a->kappa - mu), from_rest = 2.6e-4f * (share * share * share) * (g->z * g->z);
   const vreal by_b =
       1e-4f * v_max(v_fma(-12 * mu, g->t_y, -5 * a->kappa), v_splat(0)); /* W falls with a high power of lambda */

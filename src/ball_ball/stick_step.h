@@ -23,7 +23,7 @@
 #include "ball_ball/problem.h"
 #include "ball_ball/rules.h"
 
-enum { STICK_NODES = 8, STICK_LEAST = 3, STICK_MOST = 5 }; /* iterations */
+enum { STICK_NODES = 6, STICK_LEAST = 3, STICK_MOST = 5 }; /* iterations */
 /* What an iteration of a step to stick leaves of what it moved. */
 static const float CONTRACTION_STICK = 0.1f;
 
@@ -58,22 +58,22 @@ always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const stat
   }
   reg dv[MOST_REGS], tau[MOST_REGS], on_way[MOST_REGS], part[MOST_REGS];
   EACH_REG(k, n) {
-    const reg l = MADD(-x_c, AT(gauss_8.node, k), 1.0f), l4 = (l * l) * (l * l), t = 2 * l - 1;
+    const reg l = MADD(-x_c, AT(gauss_6.node, k), 1.0f), l4 = (l * l) * (l * l), t = 2 * l - 1;
     const reg W_k = polynomial_at_nodes(W_power, n, t), tau_k = polynomial_at_nodes(tau_power, n, t);
     dv[k] = (x_c * l4) * MADD(per_p * reg_root(MADD(W_k, W_k, u_z2)), MADD(-a->mu, tau_k, 1.0f), -per_f * tau_k);
     tau[k] = (x_c * l4) * tau_k;
   }
-  apply(gauss_8.sum, dv, on_way, n);
+  apply(gauss_6.sum, dv, on_way, n);
   EACH_REG(k, n) part[k] = tau[k] * (s->v + on_way[k]);
-  const vreal v_c = s->v + dot(gauss_8.all, dv, n);
-  return v_fma(per_f, dot(gauss_8.all, part, n), s->K) - 0.5f * f * v_c * v_c * v_reciprocal(1 - f);
+  const vreal v_c = s->v + dot(gauss_6.all, dv, n);
+  return v_fma(per_f, dot(gauss_6.all, part, n), s->K) - 0.5f * f * v_c * v_c * v_reciprocal(1 - f);
 }
 
 /* From *s, where *g has been predicted for the way to stick. Returns an estimate of the error, in p; infinite if the collision
  * ends before the balls stick. */
 always vreal stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
   enum { n = STICK_NODES };
-  const stick_rule *r = &jacobi_8;
+  const stick_rule *r = &jacobi_6;
   const vreal u_z = s->u_z, mu = a->mu, way = v_reciprocal(g->rate), zero = v_splat(0), u_z2 = v_fma(u_z, u_z, v_splat(TINY));
   const vreal per_mu_b = v_reciprocal(a->mu_b), per_p = 2 * a->per_kappa * per_mu_b;
   const vreal per_F = -2 * mu * u_z, per_f = per_F * a->per_kappa, per_x = a->per_kappa * (1 / 3.5f),
