@@ -35,9 +35,11 @@ typedef int32_t reg_int __attribute__((vector_size(4 * REG_NODES)));
 typedef uint32_t reg_bits __attribute__((vector_size(4 * REG_NODES))); /* sums of junk may wrap */
 typedef float reg_unaligned __attribute__((vector_size(4 * REG_NODES), aligned(4), may_alias));
 typedef float quad __attribute__((vector_size(16)));
+typedef float quad_unaligned __attribute__((vector_size(16), aligned(4), may_alias));
 enum { MOST_REGS = MOST_NODES / REG_NODES };
 /* Register k of a row. */
 #define AT(row, k) ((reg) * (const reg_unaligned *)((row) + REG_NODES * (k)))
+#define QUAD_AT(row) ((quad) * (const quad_unaligned *)(row))
 /* Any of its numbers, where all are the same. */
 #define ONE_OF(x) ((x)[0])
 /* A number at nodes: where a collision is in a lane of its own, by a mask of lanes; a single call does not come here if not. */
@@ -142,9 +144,15 @@ always reg reg_abs(reg x) {
 
 /* The largest of the numbers at n nodes. */
 always vreal largest(const reg *x, int n) {
-  const quad low = FIRST_HALF(x), high = n > 4 ? SECOND_HALF(x) : low;
-  vreal most[4];
-  lanes_unrolled for (int k = 0; k < 4; k++) most[k] = k + 4 < n ? v_max(low[k], high[k]) : low[k];
+  const quad low = FIRST_HALF(x), high = n == 8   ? SECOND_HALF(x)
+                                         : n == 6 ? __builtin_shufflevector(SECOND_HALF(x), low, 0, 1, 6, 7)
+                                                  : low;
+#if LANES_X86
+  const quad most = (quad)_mm_max_ps((__m128)low, (__m128)high);
+#else
+  quad most;
+  lanes_unrolled for (int k = 0; k < 4; k++) most[k] = v_max(low[k], high[k]);
+#endif
   return v_max(v_max(most[0], most[2]), v_max(most[1], most[3]));
 }
 
@@ -168,11 +176,40 @@ always vreal sum_of_products(const reg *weight, const reg *x, int n) {
 
 /* The number at node j. */
 #define NODE(x, j) ((x)[(j) / REG_NODES][(j) % REG_NODES])
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
+/* The number at node j, at every node. */
+always reg at_all_nodes(const reg *x, int j) {
+  return (reg)_mm256_permutevar8x32_ps((__m256)x[0], _mm256_set1_epi32(j));
+}
+/* Four nodes need half a register, inside of which numbers move faster. */
+always quad quad_at_all_nodes(quad x, int j) {
+  return (quad)_mm_permutevar_ps((__m128)x, _mm_set1_epi32(j));
+}
+always void apply_to_four(const node_row *M, const reg *x, reg *out) {
+  const quad low = FIRST_HALF(x);
+  quad pair[2];
+  lanes_unrolled for (int j = 0; j < 4; j += 2) pair[j / 2] = (quad)_mm_fmadd_ps(
+      (__m128)QUAD_AT(M[j + 1]), (__m128)quad_at_all_nodes(low, j + 1), (__m128)(QUAD_AT(M[j]) * quad_at_all_nodes(low, j)));
+  out[0] = (reg)_mm256_castps128_ps256((__m128)(pair[0] + pair[1]));
+}
+#else
+always reg at_all_nodes(const reg *x, int j) {
+  return SPREAD(NODE(x, j));
+}
+#endif
+
 /* out = M' x: out at node k is the sum over the nodes j of M[j][k] x at j. */
 always void apply(const node_row *M, const reg *x, reg *out, int n) {
+#if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
+  if (n == 4) {
+    apply_to_four(M, x, out);
+    return;
+  }
+#endif
   EACH_REG(k, n) {
     reg pair[MOST_NODES / 2];
-    lanes_unrolled for (int j = 0; j < n; j += 2) pair[j / 2] = MADD(AT(M[j + 1], k), NODE(x, j + 1), AT(M[j], k) * NODE(x, j));
+    lanes_unrolled for (int j = 0; j < n; j += 2) pair[j / 2] =
+        MADD(AT(M[j + 1], k), at_all_nodes(x, j + 1), AT(M[j], k) * at_all_nodes(x, j));
     out[k] = n == 8 ? (pair[0] + pair[1]) + (pair[2] + pair[3]) : n == 6 ? (pair[0] + pair[1]) + pair[2] : pair[0] + pair[1];
   }
 }

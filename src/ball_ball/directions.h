@@ -52,10 +52,10 @@ typedef struct directions {
   vreal error; /* what the iteration has left, in p */
 } directions;
 
-/* The angle w by which u turns on the way to X: powers of x = X / (1 - alpha X), which has its logarithm built in, and what a
- * turning t adds. */
+/* The angle w by which u turns on the way to X: x w_1 (1 + x (second + x third)) with x = X / (1 - alpha X), which has its
+ * logarithm built in, and what a turning t adds. */
 typedef struct turning {
-  vreal alpha, w_1, w_2, w_3, by_t;
+  vreal alpha, w_1, second, third, by_t;
 } turning;
 
 always turning predict_turning(bool turn, const problem *a, const prediction *g, const state *s, vreal b) {
@@ -65,11 +65,10 @@ always turning predict_turning(bool turn, const problem *a, const prediction *g,
   const vreal f_0 = g->z * v_fma(D, g->c, E * g->z), f_1 = v_fma(D, c2 - z2, 2 * E * cs),
               f_2 = v_fma(3 * E, c2 - z2, -6 * cs * D);
   const vreal h = v_fma(A, c2, v_fma(E, cs, B * z2)), both = f_1 + h; /* h: |u|', over -mu_b */
-  const vreal W_1 = -b * f_0, W_2 = 0.5f * b * W_1 * both;
-  const vreal W_3 = (b * b) * W_1 * (1 / 6.0f) * v_fma(both, v_fma(v_splat(2), h, f_1), f_0 * f_2);
-  turning w = {.alpha = 0.5f * b * h, .w_1 = W_1, .by_t = v_splat(0)};
-  w.w_2 = v_fma(-w.alpha, W_1, W_2);
-  w.w_3 = v_fma(w.alpha, v_fma(w.alpha, W_1, -2 * W_2), W_3);
+  turning w = {.alpha = b * a->kappa * v_fma(v_splat(0.5f), c2, v_splat(1.25f)), .w_1 = -b * f_0, .by_t = v_splat(0)};
+  const vreal b_both = b * both;
+  w.second = v_fma(v_splat(0.5f), b_both, -w.alpha);
+  w.third = v_fma((1 / 6.0f) * b, b * v_fma(both, v_fma(v_splat(2), h, f_1), f_0 * f_2), w.alpha * (w.alpha - b_both));
   if (!turn) {
     const vreal i_d = v_rough_reciprocal_sqrt(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, v_splat(1e-12f))));
     const vreal half_x = v_fma(-s->d_x, i_d, g->t_x), half_y = v_fma(-s->d_y, i_d, g->t_y);
@@ -90,12 +89,13 @@ always void find_directions(int n, int most, enum nodes nodes, const gauss_rule 
   const vreal half_b = 0.5f * l->mu_b, half_y = 0.5f * l->on_y;
   reg straight_y[MOST_REGS];
   EACH_REG(k, n) {
+    /* sums begin with what is known first */
     const reg X = m->X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, 1.0f));
-    const reg w = MADD(x, MADD(x, MADD(x, turns.w_3, turns.w_2), turns.w_1), turns.by_t * (X * (X - 1))), w2 = (0.5f * w) * w;
-    f->c[k] = MADD(-g->c, w2, MADD(g->z, w, g->c));
-    f->z[k] = MADD(-g->z, w2, MADD(-g->c, w, g->z));
-    const reg d_x = MADD(-X, MADD(half_b, g->c + f->c[k], -own_x), s->d_x);
-    const reg d_y = MADD(-X, MADD(-half_y, g->z + f->z[k], own_y), s->d_y);
+    const reg w = MADD(turns.w_1 * x, MADD(x * x, turns.third, MADD(x, turns.second, 1.0f)), turns.by_t * (X * (X - 1)));
+    f->c[k] = MADD(w, MADD(-0.5f * g->c, w, g->z), g->c);
+    f->z[k] = MADD(w, MADD(-0.5f * g->z, w, -g->c), g->z);
+    const reg d_x = MADD(-half_b * X, f->c[k], MADD(-X, half_b * g->c - own_x, s->d_x));
+    const reg d_y = MADD(half_y * X, f->z[k], MADD(-X, own_y - half_y * g->z, s->d_y));
     const reg sigma_d = f->z[k] * rough_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
     f->s_x[k] = sigma_d * d_x;
     f->s_y[k] = sigma_d * d_y;

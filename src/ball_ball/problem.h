@@ -60,11 +60,12 @@ always vmask is_at_rest(const problem *a, const state *s) {
 always prediction predict(const problem *a, const state *s, vreal length) {
   prediction g;
   g.inverse_u = inverse_length(s->u_x, s->u_z);
+  const vreal rough = v_rough_reciprocal_sqrt(v_fma(s->u_x, s->u_x, v_fma(s->u_z, s->u_z, v_splat(TINY))));
   g.c = s->u_x * g.inverse_u;
   g.z = s->u_z * g.inverse_u;
   /* d runs straight, but for the friction between the balls */
-  const vreal half = 0.5f * length, d_x = v_fma(-half * a->mu_b, g.c, s->d_x);
-  const vreal d_y = v_fma(half * a->spin * a->mu_b, g.z, s->d_y - half);
+  const vreal half = 0.5f * length, friction = half * a->mu_b * rough;
+  const vreal d_x = v_fma(-friction, s->u_x, s->d_x), d_y = v_fma(friction * a->spin, s->u_z, s->d_y - half);
   const vreal i_d = v_rough_reciprocal_sqrt(v_fma(d_x, d_x, v_fma(d_y, d_y, v_splat(TINY))));
   g.t_x = d_x * i_d;
   g.t_y = d_y * i_d;
