@@ -1,9 +1,10 @@
 """The best of 100,000 ways to play one pot: not the one that goes in, but the one that goes in with the widest margin.
 
-A cut of 31 degrees into a corner pocket, after which the cue ball may go down too. A grid of aims, speeds and heights of the tip is played, every shot until all balls rest.
-Those that pot the ball and keep the cue ball on the table have a margin: the distance to the nearest shot of the grid that does
-not, in units of a player's errors; what lies outside of the grid counts as missed. The widest margin is the shot to play. It is
-then played with random errors, beside the shot aimed by geometry alone, which forgets that friction throws the object ball.
+A cut of 31 degrees into a corner pocket, after which the cue ball may go down too. A grid of aims, speeds and heights of the tip
+is played, every shot until all balls rest. Those that pot the ball and keep the cue ball on the table have a margin: the distance
+to the nearest shot of the grid that does not, in units of a player's errors; what lies outside of the grid counts as missed. The
+widest margin is the shot to play. It is then played with random errors, beside the shot aimed by geometry alone, which forgets
+that friction throws the object ball.
 
     python best_of_many.py --draws 100000 --seed 1 --out best_of_many.png
 """
@@ -16,6 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Circle
 from tqdm import tqdm
@@ -115,7 +118,7 @@ def executions(best: tuple[float, float, float], count: int, seed: int) -> carom
     return cue(aim + ERRORS["aim"] * errors[0], speed * np.exp(ERRORS["speed"] * errors[1]), heights)
 
 
-def draw_shot(axes: picture.Axes, best: tuple[float, float, float], shares: dict[str, float], seed: int) -> None:
+def draw_shot(axes: Axes, best: tuple[float, float, float], shares: dict[str, float], seed: int) -> None:
     """The table with the best shot, and faintly what a player makes of it."""
     picture.draw_table(axes, table)
     played = carom.simulate_batch(table, layout, executions(best, 40, seed), room=256)
@@ -142,7 +145,7 @@ def draw_shot(axes: picture.Axes, best: tuple[float, float, float], shares: dict
     axes.text(0, -0.04, "\n".join(words), transform=axes.transAxes, va="top", linespacing=1.6)
 
 
-def draw_map(axes: picture.Axes, x: Doubles, y: Doubles, outcomes: npt.NDArray[np.int8], margin: Doubles, most: float) -> object:
+def draw_map(axes: Axes, x: Doubles, y: Doubles, outcomes: npt.NDArray[np.int8], margin: Doubles, most: float) -> ScalarMappable:
     """Outcomes over two inputs: pale where missed or scratched, else coloured by the margin."""
     kinds = ListedColormap(["#efefef", "#f3c9b6"])
     axes.pcolormesh(x, y, np.ma.masked_equal(outcomes, POTTED), cmap=kinds, vmin=MISSED, vmax=SCRATCHED, rasterized=True)
@@ -151,9 +154,7 @@ def draw_map(axes: picture.Axes, x: Doubles, y: Doubles, outcomes: npt.NDArray[n
     return axes.pcolormesh(x, y, shown, cmap="viridis", vmin=0, vmax=most, rasterized=True)
 
 
-def draw(
-    out: str, grid: Grid, outcomes: npt.NDArray[np.int8], margin: Doubles, shares: dict[str, float], seed: int
-) -> None:
+def draw(out: str, grid: Grid, outcomes: npt.NDArray[np.int8], margin: Doubles, shares: dict[str, float], seed: int) -> None:
     """The picture: the shot on its table, two sections through the grid."""
     i, j, k = widest(margin)
     best = (float(grid.aim[i]), float(grid.speed[j]), float(grid.height[k]))
@@ -173,7 +174,7 @@ def draw(
     by_speed.text(-0.95, 1.0, "missed", color="#777777")
     by_speed.text(-0.33, 2.45, "cue ball\ndown", color="#9c4a26", va="center")
     by_height.text(0.03, -0.5, "by\ngeometry", color=picture.INK, va="center")
-    figure.colorbar(colours, ax=by_height, label="margin (player's errors)", pad=0.02)  # type: ignore[arg-type]
+    figure.colorbar(colours, ax=by_height, label="margin (player's errors)", pad=0.02)
     picture.save(figure, out)
 
 

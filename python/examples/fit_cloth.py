@@ -116,6 +116,8 @@ def fit(recorded: Doubles, most: int = 40) -> Fit:
             progress.update(tried.size // 8 + ends.size // 8)
             if np.abs(step[:, 0]).max() < 1e-7:
                 break
+        else:
+            raise RuntimeError(f"a step is still {np.abs(step[:, 0]).max():.1e} of the scales after {most} iterations")
     variance = (residual**2).sum(axis=1) / (residual.shape[1] - 8)
     covariance = variance[:, None, None] * np.linalg.inv(normal) * SCALES[:, None] * SCALES
     return Fit(x, covariance, iteration, shots)
@@ -123,7 +125,7 @@ def fit(recorded: Doubles, most: int = 40) -> Fit:
 
 def errors(fits: Fit) -> Doubles:
     """What was found less the truth, in stated standard deviations, of shape (n, 8): standard normal, if all is well."""
-    return (fits.found - TRUTH) / np.sqrt(np.diagonal(fits.covariance, axis1=1, axis2=2))
+    return np.asarray((fits.found - TRUTH) / np.sqrt(np.diagonal(fits.covariance, axis1=1, axis2=2)))
 
 
 def ellipse(covariance: Doubles, deviations: float) -> Doubles:
@@ -134,7 +136,7 @@ def ellipse(covariance: Doubles, deviations: float) -> Doubles:
 
 def inside(fits: Fit, deviations: float) -> float:
     """The share of the fits whose ellipse of both frictions has the truth in it; of normal errors 1 - exp(-deviations^2 / 2)."""
-    off = (fits.found - TRUTH)[:, :2]
+    off = fits.found[:, :2] - TRUTH[:2]
     distance = (off[:, None, :] @ np.linalg.inv(fits.covariance[:, :2, :2]) @ off[:, :, None])[:, 0, 0]
     return float((distance < deviations**2).mean())
 
@@ -199,7 +201,7 @@ def main(arguments: list[str] | None = None) -> None:
     print(f"{given.draws} fits, {fits.iterations} iterations, {fits.shots} shots in {took:.1f} s")
     for k, name in enumerate(NAMES):
         print(f"{name:8} {fits.found[0, k]:10.5f} +- {np.sqrt(fits.covariance[0, k, k]):.5f}  truth {TRUTH[k]:g}")
-    print(f"truth inside the ellipses of the frictions: 1 sigma {inside(fits, 1):.1%} (39.3%), 2 sigma {inside(fits, 2):.1%} (86.5%)")
+    print(f"truth inside the ellipses: 1 sigma {inside(fits, 1):.1%} (39.3% if normal), 2 sigma {inside(fits, 2):.1%} (86.5%)")
     draw(given.out, recorded, fits)
 
 

@@ -50,7 +50,7 @@ def start(columns: int, size: tuple[float, float], **more: Any) -> tuple[Figure,
         }
     )
     figure, axes = plt.subplots(1, columns, figsize=size, layout="constrained", squeeze=False, **more)
-    figure.get_layout_engine().set(w_pad=0.08, h_pad=0.06, wspace=0.04)  # type: ignore[union-attr]
+    figure.get_layout_engine().set(w_pad=0.08, h_pad=0.06, wspace=0.04)
     return figure, list(axes[0])
 
 

@@ -41,7 +41,7 @@ def throw(cut: Doubles, **options: Any) -> Doubles:
     motion, status = carom.collide(pairs, **options)
     assert (status == carom.Status.OK).all()
     v = motion["b"]["v"]
-    return cut - np.degrees(np.arctan2(v[:, 1], v[:, 0]))
+    return np.asarray(cut - np.degrees(np.arctan2(v[:, 1], v[:, 0])))
 
 
 def jumps(results: Doubles) -> Doubles:
@@ -68,8 +68,9 @@ def draw(out: str, draws: int, exact: float, euler: dict[int, float]) -> None:
     cut = np.linspace(*WIDE, 801)
     wide.plot(cut, throw(cut, solver="euler"), color=picture.ORANGE, lw=1.2)
     wide.plot(cut, throw(cut), color=picture.BLUE, lw=1.2)
-    wide.axvline(np.mean(NARROW), color=picture.GREY, lw=1, ls=":")
-    wide.text(np.mean(NARROW) + 0.9, 1.72, "enlarged on the right", color=picture.GREY)
+    middle = sum(NARROW) / 2
+    wide.axvline(middle, color=picture.GREY, lw=1, ls=":")
+    wide.text(middle + 0.9, 1.72, "enlarged on the right", color=picture.GREY)
     wide.set(title="The whole sweep: one curve", xlabel="cut angle (degrees)", ylabel="throw (degrees)")
 
     # The small part, less the chord of the exact curve.
@@ -89,7 +90,8 @@ def draw(out: str, draws: int, exact: float, euler: dict[int, float]) -> None:
     by_steps.loglog(n, list(euler.values()), "o-", color=picture.ORANGE)
     by_steps.axhline(exact, color=picture.BLUE)
     digits, power = f"{exact:.0e}".split("e")
-    by_steps.text(n[-1], 0.5 * exact, rf"exact: ${digits} \times 10^{{{int(power)}}}$ degrees", color=picture.BLUE, va="top", ha="right")
+    words = rf"exact: ${digits} \times 10^{{{int(power)}}}$ degrees"
+    by_steps.text(n[-1], 0.5 * exact, words, color=picture.BLUE, va="top", ha="right")
     by_steps.text(n[2] * 1.3, euler[int(n[2])] * 1.5, "Euler", color=picture.ORANGE)
     by_steps.set(title="The largest jump of the sweep", xlabel="Euler's steps N", ylabel="jump of the throw (degrees)")
     by_steps.set_ylim(exact / 10, 1)

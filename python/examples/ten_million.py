@@ -37,7 +37,7 @@ Doubles = npt.NDArray[np.float64]
 RADIUS, MASS = 0.028575, 0.170097  # m, kg
 CHUNK = 100_000  # impacts: 21 MB in, 10 MB out
 CUTS, DEFLECTIONS = (0.0, 90.0), (0.0, 180.0)  # of the density, degrees
-BINS = (360, 480)
+BINS = (360, 540)
 
 
 class Tally(NamedTuple):
@@ -81,12 +81,12 @@ def kept(r: Doubles, a: Doubles, b: Doubles) -> Doubles:
     v, w = a[:, :3] + b[:, :3], a[:, 3:] + b[:, 3:]
     along = r / (2 * RADIUS)
     across = np.stack([along[:, 1], -along[:, 0]], axis=-1)
-    return MASS * ((v[:, :2] * across).sum(axis=-1) + 0.4 * RADIUS * (w[:, :2] * along).sum(axis=-1))
+    return np.asarray(MASS * ((v[:, :2] * across).sum(axis=-1) + 0.4 * RADIUS * (w[:, :2] * along).sum(axis=-1)))
 
 
 def energy(motion: Doubles) -> Doubles:
     """Kinetic energy of motions (v, w) of shape (n, 6), J."""
-    return 0.5 * MASS * ((motion[:, :3] ** 2).sum(axis=-1) + 0.4 * RADIUS**2 * (motion[:, 3:] ** 2).sum(axis=-1))
+    return np.asarray(0.5 * MASS * ((motion[:, :3] ** 2).sum(axis=-1) + 0.4 * RADIUS**2 * (motion[:, 3:] ** 2).sum(axis=-1)))
 
 
 def chunk(seed: np.random.SeedSequence, count: int, friction: float | None) -> Tally:
@@ -130,7 +130,7 @@ def collide_many(draws: int, seed: int, threads: int, friction: float | None = N
 def rolling_rule(cut: Doubles) -> Doubles:
     """The deflection of a rolling cue ball by smooth balls without loss, degrees: the rule of 30 degrees."""
     angle = np.radians(cut)
-    return np.degrees(np.arctan2(np.sin(angle) * np.cos(angle), np.sin(angle) ** 2 + 0.4))
+    return np.asarray(np.degrees(np.arctan2(np.sin(angle) * np.cos(angle), np.sin(angle) ** 2 + 0.4)))
 
 
 def draw(out: str, total: Tally) -> None:
@@ -148,7 +148,8 @@ def draw(out: str, total: Tally) -> None:
     axes.plot(cut, 90 - cut, color="white", lw=0.9, ls=":")
     axes.text(18, 15, "rolling, without loss and friction:\nthe rule of 30 degrees (dashed)", color="white", va="center")
     thin = {"arrowstyle": "-", "color": "white", "lw": 0.8}
-    axes.annotate("stun, without loss and friction:\nthe rule of 90 degrees (dotted)", (36, 54), (51, 95), color="white", arrowprops=thin)
+    words = "stun, without loss and friction:\nthe rule of 90 degrees (dotted)"
+    axes.annotate(words, (36, 54), (51, 95), color="white", arrowprops=thin)
     axes.annotate("stun, as it is", (17, 67), (36, 125), color="white", arrowprops=thin)
     axes.set(title=f"{total.collisions:,} random collisions", xlabel="cut angle (degrees)")
     axes.set_ylabel("deflection of the cue ball, once it rolls (degrees)")
@@ -169,7 +170,8 @@ def main(arguments: list[str] | None = None) -> None:
     begin = time.perf_counter()
     total = collide_many(given.draws, given.seed, given.threads, given.friction)
     took = time.perf_counter() - begin
-    print(f"{total.collisions:,} collisions in {took:.2f} s by {given.threads} threads: {total.collisions / took:,.0f} a second, all told")
+    rate = total.collisions / took
+    print(f"{total.collisions:,} collisions in {took:.2f} s by {given.threads} threads: {rate:,.0f} a second, all told")
     print(f"of that in carom.collide, a thread: {1e9 * total.seconds / total.collisions:.0f} ns a pair")
     print(f"momentum: worst change {total.momentum:.1e} of M v; energy: largest gain {total.gain:.1e} of it")
     draw(given.out, total)

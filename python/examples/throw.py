@@ -32,7 +32,7 @@ MEASURED = ((0.1, 0.11), (1.0, 0.06), (10.0, 0.01))
 SPINS = {"stun": 0.0, "follow": 1.0, "draw": -1.0}
 
 
-def cuts(cut: npt.ArrayLike, speed: float, spin: str) -> carom.dtypes.Records:
+def cuts(cut: float | Doubles, speed: float, spin: str) -> carom.dtypes.Records:
     """A cue ball that runs along x hits one at rest that lies to its left by the cut angles, degrees: impacts of their shape."""
     angle = np.radians(np.asarray(cut, dtype=np.float64))
     centres = 2 * RADIUS * np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=-1)
@@ -41,12 +41,12 @@ def cuts(cut: npt.ArrayLike, speed: float, spin: str) -> carom.dtypes.Records:
     return pairs
 
 
-def throw(cut: npt.ArrayLike, speed: float, spin: str) -> Doubles:
+def throw(cut: float | Doubles, speed: float, spin: str) -> Doubles:
     """The angle from the line of centres to the object ball's way, towards the cue ball's, degrees."""
     motion, status = carom.collide(cuts(cut, speed, spin))
     assert (status == carom.Status.OK).all()
     v = motion["b"]["v"]
-    return np.asarray(cut, dtype=np.float64) - np.degrees(np.arctan2(v[..., 1], v[..., 0]))
+    return np.asarray(cut - np.degrees(np.arctan2(v[..., 1], v[..., 0])))
 
 
 def measured_throw() -> Doubles:
@@ -79,7 +79,7 @@ def draw(out: str, draws: int) -> None:
     for (speed, _), at, hue in zip(MEASURED, measured_throw(), hues, strict=True):
         by_speed.plot(cut, throw(cut, speed, "stun"), color=hue)
         by_speed.plot(MEASURED_CUT, at, "o", ms=8, mfc="white", mec=hue, mew=2.2, zorder=3)
-        by_speed.text(88, throw(88.0, speed, "stun") + 0.18, f"{speed:g} m/s", color=hue, ha="right")
+        by_speed.text(88, float(throw(88.0, speed, "stun")) + 0.18, f"{speed:g} m/s", color=hue, ha="right")
     by_speed.annotate(
         "here slip ends before\nthe balls part", (31.6, 5.15), (42, 4.88), arrowprops={"arrowstyle": "-", "color": picture.GREY}
     )
