@@ -163,7 +163,11 @@ def draw(out: str, grid: Grid, outcomes: npt.NDArray[np.int8], margin: Doubles, 
     most = float(margin.max())
     draw_map(by_speed, grid.aim, grid.speed, outcomes[:, :, k].T, margin[:, :, k].T, most)
     colours = draw_map(by_height, grid.aim, grid.height, outcomes[:, j, :].T, margin[:, j, :].T, most)
-    by_speed.set(title=f"Tip at {best[2]:+.2f} radii", ylabel="speed of the cue (m/s)", yscale="log")
+    by_speed.set(
+        title=f"Tip {abs(best[2]):.2f} radii {'above' if best[2] > 0 else 'below'} the centre",
+        ylabel="speed of the cue (m/s)",
+        yscale="log",
+    )
     by_speed.set_yticks([1, 2, 3, 4], ["1", "2", "3", "4"])
     by_speed.minorticks_off()
     by_height.set(title=f"Speed {best[1]:.1f} m/s", ylabel="height of the tip (radii)")

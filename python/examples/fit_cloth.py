@@ -174,7 +174,9 @@ def draw(out: str, recorded: Doubles, fits: Fit) -> None:
     off = 1e4 * (fits.found - TRUTH)
     cloud.plot(off[:, 0], off[:, 1], ".", color=picture.GREY, ms=4, alpha=0.6, zorder=1)
     cloud.plot(off[0, 0], off[0, 1], "o", color=picture.BLUE, ms=6, zorder=3)
-    cloud.text(off[0, 0] + 0.4, off[0, 1], "the first", color=picture.BLUE, va="center", zorder=4)
+    thin = {"arrowstyle": "-", "color": picture.BLUE, "lw": 0.8}
+    place = (0.98 * off[:, 0].max(), 0.92 * off[:, 1].max())
+    cloud.annotate("the first", off[0, :2], place, color=picture.BLUE, ha="right", arrowprops=thin, zorder=4)
     for deviations in (1, 2):
         ring = 1e4 * ellipse(fits.covariance[0, :2, :2], deviations)
         cloud.plot(ring[0], ring[1], color=picture.BLUE, lw=1.5)

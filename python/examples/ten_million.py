@@ -89,6 +89,13 @@ def energy(motion: Doubles) -> Doubles:
     return np.asarray(0.5 * MASS * ((motion[:, :3] ** 2).sum(axis=-1) + 0.4 * RADIUS**2 * (motion[:, 3:] ** 2).sum(axis=-1)))
 
 
+def deflection(motion: Doubles) -> Doubles:
+    """The angle from x to the way of balls that move by (v, w), of shape (n, 6), once they roll; degrees, 0 to 180."""
+    x = 5 * motion[:, 0] + 2 * RADIUS * motion[:, 4]
+    y = 5 * motion[:, 1] - 2 * RADIUS * motion[:, 3]
+    return np.degrees(np.abs(np.arctan2(y, x)))
+
+
 def chunk(seed: np.random.SeedSequence, count: int, friction: float | None) -> Tally:
     """Draw, collide and look at one chunk."""
     pairs = random_impacts(np.random.default_rng(seed), count, friction)
@@ -105,11 +112,9 @@ def chunk(seed: np.random.SeedSequence, count: int, friction: float | None) -> T
     scale = MASS * before[:, 3]
 
     # The deflection once the cue ball rolls, and the density.
-    x = 5 * after[:, 0] + 2 * RADIUS * after[:, 4]
-    y = 5 * after[:, 1] - 2 * RADIUS * after[:, 3]
-    deflection, cut = np.degrees(np.abs(np.arctan2(y, x))), np.degrees(np.arctan2(r[:, 1], r[:, 0]))
+    turned, cut = deflection(after[:, :6]), np.degrees(np.arctan2(r[:, 1], r[:, 0]))
     column = np.minimum((cut - CUTS[0]) * (BINS[0] / (CUTS[1] - CUTS[0])), BINS[0] - 1).astype(np.int64)
-    row = np.minimum((deflection - DEFLECTIONS[0]) * (BINS[1] / (DEFLECTIONS[1] - DEFLECTIONS[0])), BINS[1] - 1).astype(np.int64)
+    row = np.minimum((turned - DEFLECTIONS[0]) * (BINS[1] / (DEFLECTIONS[1] - DEFLECTIONS[0])), BINS[1] - 1).astype(np.int64)
     counts = np.bincount(column * BINS[1] + row, minlength=BINS[0] * BINS[1]).reshape(BINS)
     return Tally(counts, count, float(np.abs(change / scale).max()), float((gain / energy(a)).max()), seconds)
 
@@ -140,7 +145,7 @@ def draw(out: str, total: Tally) -> None:
     density = total.counts.T / area / total.collisions
     edges = np.linspace(*CUTS, BINS[0] + 1), np.linspace(*DEFLECTIONS, BINS[1] + 1)
     shown = np.ma.masked_less_equal(density, 0)
-    mesh = axes.pcolormesh(*edges, shown, cmap="magma", norm=LogNorm(1e-6, shown.max()), rasterized=True)
+    mesh = axes.pcolormesh(*edges, shown, cmap="magma", norm=LogNorm(1e-5, shown.max()), rasterized=True)
     axes.set_facecolor("black")
     axes.grid(False)
     cut = np.linspace(*CUTS, 200)

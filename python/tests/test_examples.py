@@ -154,6 +154,15 @@ def test_ten_million(tmp_path, capsys):
     changed = ten_million.kept(r, after[:, :6] * (1 + 1e-6), after[:, 6:]) - begun
     assert np.abs(changed / (ten_million.MASS * before[:, 3])).max() > 1e-8
 
+    # The deflection is that of the ball on a table, when it begins to roll there; slow balls do so before a cushion.
+    slow = after[before[:, 3] < 1.0][:50, :6]
+    balls = carom.balls(np.full((len(slow), 1, 2), 0.9), v=slow[:, None, :3], w=slow[:, None, 3:])
+    shots = carom.simulate_batch(carom.tables.snooker(), balls, room=1)
+    assert (shots.events["type"] == carom.EventType.SLIDING_ROLLING).all()
+    rolls = shots.events["after"]["v"][:, 0, 0]
+    turned = np.degrees(np.abs(np.arctan2(rolls[:, 1], rolls[:, 0])))
+    np.testing.assert_allclose(ten_million.deflection(slow), turned, atol=1e-9)
+
     # A ball that rolls is deflected least: nothing is below the rule of 30 degrees, but for what friction takes; much is just above.
     density = total.counts.reshape(90, 4, 180, -1).sum(axis=(1, 3))
     for cut in range(10, 80, 10):
