@@ -84,7 +84,7 @@ def by_ray(parts: list[Part], workers: int, address: str) -> Iterator[Summary]:
     if address:
         ray.init(address=address)
     else:
-        ray.init(num_cpus=workers, include_dashboard=False, configure_logging=True, logging_level="error")
+        ray.init(address="local", num_cpus=workers, include_dashboard=False, logging_level="error")
     remote = ray.remote(num_cpus=max(1, parts[0].threads))(play)
     for reference in [remote.remote(part) for part in parts]:
         yield ray.get(reference)

@@ -39,7 +39,7 @@ MOST_CUT = 80.0  # degrees
 def random_agent(seed: int) -> Agent:
     """Any direction, speed and place of the tip."""
     generator = np.random.default_rng(seed)
-    return lambda rules, observation: generator.uniform(-1.0, 1.0, 4)
+    return lambda rules, observation: np.asarray(generator.uniform(-1.0, 1.0, 4))
 
 
 def aims(rules: Potting, observation: Doubles) -> Doubles:
@@ -53,7 +53,7 @@ def aims(rules: Potting, observation: Doubles) -> Doubles:
     possible = (line * way).sum(axis=-1) > np.cos(np.radians(MOST_CUT))
     # Where no ball can be cut into a pocket, the balls themselves are aimed at.
     chosen = line[possible] if possible.any() else balls - cue_ball
-    return np.degrees(np.arctan2(chosen[:, 1], chosen[:, 0]))
+    return np.asarray(np.degrees(np.arctan2(chosen[:, 1], chosen[:, 0])))
 
 
 def greedy_agent(rules: Potting, observation: Doubles) -> Doubles:

@@ -61,7 +61,9 @@ def test_strokes_are_those_of_simulate():
     for k, action in enumerate(actions):
         shot = rules.shot(layout, action)
         assert strokes.layouts["state"][k].tobytes() == shot.final.tobytes()
-        alone = carom.simulate(rules.table, layout, carom.cue(phi=180 * action[0], speed=3.25 + 2.75 * action[1], a=[0.3, 0, -0.1][k], b=0.2))
+        alone = carom.simulate(
+            rules.table, layout, carom.cue(phi=180 * action[0], speed=3.25 + 2.75 * action[1], a=[0.3, 0, -0.1][k], b=0.2)
+        )
         np.testing.assert_allclose(shot.final["r"], alone.final["r"], atol=1e-9)
 
 

@@ -133,9 +133,7 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         self.observation_space, self.action_space = _spaces(self.rules)
         self._games = _Games(self.rules, 1, render_mode)
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[dtypes.Doubles, dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dtypes.Doubles, dict[str, Any]]:
         """Begin a game: a layout drawn from the seed, or from the generator as it stands."""
         super().reset(seed=seed)
         given = _checked(options)

@@ -206,9 +206,7 @@ class Potting:
         Strokes
             Of the broadcast shape. Each stroke has the bits that it has alone.
         """
-        shots = simulate_batch(
-            self.table, balls, self.cues(actions), cushion_model=self.cushion_model, threads=self.threads
-        )
+        shots = simulate_batch(self.table, balls, self.cues(actions), cushion_model=self.cushion_model, threads=self.threads)
         before = np.broadcast_to(balls, shots.final.shape)
         played = shots.status >= 0
         after = before.copy()
