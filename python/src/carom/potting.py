@@ -101,8 +101,11 @@ class Potting:
         self.speeds = speeds
         self.cushion_model: ShotCushion = cushion_model
         self.threads = threads
-        self._kind = layouts.balls(np.zeros((1, 2)))["kind"][0]
-        self.radius = float(self._kind["radius"])
+        self._balls_at_0 = layouts.balls(np.zeros((balls + 1, 2)))
+        self.radius = float(self._balls_at_0["kind"]["radius"][0])
+        # What a ball that is placed has to be clear of: pockets and the rounded ends of cushions, each with the least distance, m.
+        self._fixed = np.concatenate([self.table.pockets["centre"], self.table.jaws["centre"]])
+        self._clear = np.concatenate([self.table.pockets["radius"], self.table.jaws["radius"]]) + self.radius + _GAP
 
     # ---- Actions and observations ---------------------------------------------------------------------------------------
 
@@ -152,7 +155,8 @@ class Potting:
 
     def _balls(self, centres: dtypes.Doubles, in_play: npt.NDArray[np.bool_]) -> dtypes.Records:
         """Balls at rest, those that are not in play in a pocket."""
-        made = layouts.balls(centres)
+        made = np.broadcast_to(self._balls_at_0, centres.shape[:-1]).copy()
+        made["state"]["r"][..., :2] = centres
         made["state"]["label"] = np.where(in_play, int(Label.STATIONARY), int(Label.POCKETED))
         return made
 
@@ -167,30 +171,31 @@ class Potting:
             layout = self._balls(given, np.ones(self.balls + 1, np.bool_))
             simulate(self.table, layout)  # without a strike: raises CaromError where balls overlap or are not on the table
             return layout
-        placed = np.zeros((0, 2))
-        while len(placed) <= self.balls:
-            placed = np.concatenate([placed, self._free_place(generator, placed)[np.newaxis]])
-        return self._balls(placed, np.ones(self.balls + 1, np.bool_))
+        return self._balls(self._places(generator, self.balls + 1, np.zeros((0, 2))), np.ones(self.balls + 1, np.bool_))
 
     def put_back(self, layout: dtypes.Records, generator: np.random.Generator) -> None:
         """Put the cue ball of a layout, of shape (balls + 1,), back on the table, at random."""
         others = layout[1:]["state"]
         in_play = others["label"] != Label.POCKETED
-        layout["state"]["r"][0, :2] = self._free_place(generator, others["r"][in_play, :2])
+        layout["state"]["r"][0, :2] = self._places(generator, 1, others["r"][in_play, :2])[0]
         layout["state"]["r"][0, 2] = self.radius
         layout["state"]["label"][0] = Label.STATIONARY
 
-    def _free_place(self, generator: np.random.Generator, taken: dtypes.Doubles) -> dtypes.Doubles:
-        """A place for a ball, drawn until it is clear of cushions, pockets and the balls whose centres are taken."""
+    def _places(self, generator: np.random.Generator, count: int, taken: dtypes.Doubles) -> dtypes.Doubles:
+        """Places for balls, of shape (count, 2): drawn together until all are clear of each other, what is fixed, and balls taken."""
         low = np.full(2, self.radius + _GAP)
         high = np.array([self.table.width, self.table.length]) - low
-        centres = np.concatenate([taken, self.table.pockets["centre"], self.table.jaws["centre"]])
-        radii = np.concatenate([np.full(len(taken), self.radius), self.table.pockets["radius"], self.table.jaws["radius"]])
         for _ in range(_TRIES):
-            place = generator.uniform(low, high)
-            if (np.hypot(*(centres - place).T) > radii + self.radius + _GAP).all():
-                return place
-        raise ValueError(f"table: no free place for a ball in {_TRIES} draws: it is too small for {self.balls} balls")
+            places = generator.uniform(low, high, (count, 2))
+            others = np.concatenate([places, taken])
+            apart = np.hypot(*(places[:, np.newaxis] - others).T)
+            np.fill_diagonal(apart, np.inf)
+            if (
+                apart.min() > 2.0 * self.radius + _GAP
+                and (np.hypot(*(places[:, np.newaxis] - self._fixed).T).T > self._clear).all()
+            ):
+                return places
+        raise ValueError(f"table: no free places for {count} balls in {_TRIES} draws: it is too small for {self.balls}")
 
     def play(self, balls: dtypes.Records, actions: npt.ArrayLike) -> Strokes:
         """Play strokes.
