@@ -12,12 +12,15 @@ two ways of playing the batch had the same bits. Without --address a cluster of 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import hashlib
+import importlib
 import os
 import sys
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -66,21 +69,20 @@ def by_local(parts: list[Part], workers: int, address: str) -> Iterator[Summary]
 
 
 def by_dask(parts: list[Part], workers: int, address: str) -> Iterator[Summary]:
-    """Over a scheduler of Dask. Futures are gathered in their order."""
-    import distributed
-
-    def cluster() -> distributed.LocalCluster:
-        return distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None)
-
-    with distributed.Client(address or cluster()) as client:
+    """Over a scheduler of Dask. Summaries are taken in the order of the parts."""
+    distributed: Any = importlib.import_module("distributed")
+    with contextlib.ExitStack() as stack:
+        if not address:
+            cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None)
+            address = stack.enter_context(cluster).scheduler_address
+        client = stack.enter_context(distributed.Client(address))
         for future in client.map(play, parts, pure=False):
             yield future.result()
 
 
 def by_ray(parts: list[Part], workers: int, address: str) -> Iterator[Summary]:
     """Over Ray. Each task asks for as many processors as it has threads."""
-    import ray
-
+    ray: Any = importlib.import_module("ray")
     if address:
         ray.init(address=address)
     else:
