@@ -1,4 +1,4 @@
-"""Writes the C source of the extension module carom._carom from the public headers: write_module.py OUT HEADER...
+"""Writes the C source of the extension module carom._carom from headers: write_module.py OUT HEADER...
 
 The declarations that cffi needs are the headers without what its parser does not take: comments, preprocessor lines,
 the braces of extern "C", the export mark. So the module can never differ from the headers.
@@ -21,11 +21,11 @@ def declarations(header: str) -> str:
 
 def main() -> None:
     out, *headers = map(Path, sys.argv[1:])
-    loops = Path(__file__).with_name("loops.h")
     ffi = FFI()
-    for path in (*headers, loops):
+    for path in headers:
         ffi.cdef(declarations(path.read_text(encoding="utf-8")))
-    ffi.set_source("carom._carom", '#include <carom_shot.h>\n#include "loops.h"\n', py_limited_api=True)
+    includes = "".join(f"#include <{path.name}>\n" for path in headers)
+    ffi.set_source("carom._carom", includes, py_limited_api=True)
     ffi.emit_c_code(str(out))
 
 

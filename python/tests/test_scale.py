@@ -1,4 +1,9 @@
-"""The recipes of docs/python.md: Dask and xarray over collide, and a batch of shots over a cluster of two worker processes."""
+"""The recipes of docs/scale.md: Dask and xarray over collide, and a batch of shots over clusters of two worker processes."""
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -6,11 +11,7 @@ import pytest
 import carom
 
 
-def shots_of(cues):
-    """What a worker does: its own table and layout, the cues of its part."""
-    table = carom.tables.pool_9ft()
-    shots = carom.simulate_batch(table, carom.racks.nineball(table), cues, cushion_model="han")
-    return shots.final, shots.status
+EXAMPLE = Path(__file__).parents[1] / "examples" / "on_a_cluster.py"
 
 
 def test_dask_array(impacts):
@@ -30,14 +31,22 @@ def test_xarray(impacts):
     np.testing.assert_array_equal(motion.values.reshape(204, 12), carom.collide(impacts).motion)
 
 
-def test_two_worker_processes(tmp_path):
-    distributed = pytest.importorskip("distributed", reason="Dask's distributed is not installed")
-    cues = carom.cue(speed=8.0, phi=np.linspace(85.0, 95.0, 60))
-    expected, status = shots_of(cues)
-    cluster = distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=str(tmp_path)
-    )
-    with cluster, distributed.Client(cluster) as client:
-        parts = client.gather(client.map(shots_of, np.array_split(cues, 6)))
-    assert np.concatenate([final for final, _ in parts]).tobytes() == expected.tobytes()
-    assert np.concatenate([part for _, part in parts]).tobytes() == status.tobytes()
+def digest_of(*arguments):
+    """What examples/on_a_cluster.py prints as the digest of the same small batch."""
+    command = [sys.executable, str(EXAMPLE), "--shots", "300", "--parts", "6", *arguments]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    name, digest = done.stdout.splitlines()[-1].split()
+    assert name == "digest:" and len(digest) == 64
+    return digest
+
+
+@pytest.mark.parametrize("by", ["dask", "ray"])
+def test_two_worker_processes(by):
+    """A batch over a cluster of two worker processes has the bits that it has in one process."""
+    package = {"dask": "distributed", "ray": "ray"}[by]
+    if importlib.util.find_spec(package) is None:
+        pytest.skip(f"{package} is not installed")
+    here = digest_of("--by", "local")
+    assert digest_of("--by", by, "--workers", "2") == here
+    assert digest_of("--by", "local", "--seed", "2") != here

@@ -15,8 +15,8 @@ from carom.status import CaromError
 
 Solver = Literal["exact", "euler"]
 Slip = Literal["paper", "pooltool"]
-_SOLVERS = {"exact": 0, "euler": 1}
-_SLIPS = {"paper": 0, "pooltool": 1}
+SOLVERS = {"exact": 0, "euler": 1}
+SLIPS = {"paper": 0, "pooltool": 1}
 _VECTORS = {"r": 3, "v": 3, "w": 3}
 
 ALL_THREADS = -1
@@ -36,8 +36,8 @@ def _options(solver: str, slip: str, steps: int, threads: int) -> Any:
     return ffi.new(
         "carom_options *",
         {
-            "solver": choice(_SOLVERS, solver, "solver"),
-            "slip": choice(_SLIPS, slip, "slip"),
+            "solver": choice(SOLVERS, solver, "solver"),
+            "slip": choice(SLIPS, slip, "slip"),
             "steps": steps,
             "threads": threads,
         },

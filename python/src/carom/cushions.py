@@ -17,9 +17,9 @@ from carom.status import CaromError
 CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler"]
 CushionConvention = Literal["paper", "pooltool"]
 CushionLaw = Literal["constant", "han"]
-_MODELS = {"mathavan": 0, "stronge": 1, "han": 2, "mirror": 3, "euler": 4}
-_CONVENTIONS = {"paper": 0, "pooltool": 1}
-_LAWS = {"constant": 0, "han": 1}
+MODELS = {"mathavan": 0, "stronge": 1, "han": 2, "mirror": 3, "euler": 4}
+CONVENTIONS = {"paper": 0, "pooltool": 1}
+LAWS = {"constant": 0, "han": 1}
 
 
 @functools.lru_cache(maxsize=256)
@@ -28,9 +28,9 @@ def _options(model: str, convention: str, law: str, steps: int, threads: int, le
     return ffi.new(
         "carom_cushion_options *",
         {
-            "model": choice(_MODELS, model, "model"),
-            "convention": choice(_CONVENTIONS, convention, "convention"),
-            "law": choice(_LAWS, law, "law"),
+            "model": choice(MODELS, model, "model"),
+            "convention": choice(CONVENTIONS, convention, "convention"),
+            "law": choice(LAWS, law, "law"),
             "steps": steps,
             "threads": threads,
             "least_step": least_step,

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from carom.results import Shot
 
 _SCALE = 300.0  # pixels a metre
-_MARGIN = 0.12  # m around the cushions, for pockets and the frame
-_CLOTH, _CUSHION, _WOOD, _POCKET = "#2e7d5b", "#1b5e42", "#6d4c33", "#111111"
+MARGIN = 0.12  # m around the cushions, for pockets and the frame
+CLOTH, CUSHION, WOOD, POCKET = "#2e7d5b", "#1b5e42", "#6d4c33", "#111111"
 # The balls in the order of the layout: the cue ball, then 1 to 15 in the colours of pool, and again.
 _COLOURS = (
     "#ffffff #f2c200 #1f4fd8 #d32f2f #6a1b9a #ef6c00 #2e9b3a #7b1c1c #222222 #f7dc6f #7fa3f5 #ef8a8a #b58ad4 #f7b27a #8fd19a #c58a8a"
@@ -47,8 +47,8 @@ class _Canvas:
         ends = np.concatenate([table.rails["p"], table.rails["q"]]) if len(table.rails) else np.zeros((1, 2))
         corners = np.array([[0.0, 0.0], [table.width, table.length]])
         everything = np.concatenate([ends, corners])
-        self.low = everything.min(axis=0) - _MARGIN
-        self.high = everything.max(axis=0) + _MARGIN
+        self.low = everything.min(axis=0) - MARGIN
+        self.high = everything.max(axis=0) + MARGIN
         self.size = (self.high - self.low) * _SCALE
 
     def x(self, x: float) -> str:
@@ -67,23 +67,23 @@ class _Canvas:
     def document(self, parts: list[str]) -> str:
         width, height = _number(float(self.size[0])), _number(float(self.size[1]))
         head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">'
-        return "\n".join([head, f'<rect width="{width}" height="{height}" rx="12" fill="{_WOOD}"/>', *parts, "</svg>", ""])
+        return "\n".join([head, f'<rect width="{width}" height="{height}" rx="12" fill="{WOOD}"/>', *parts, "</svg>", ""])
 
 
 def _table(canvas: _Canvas, table: Table) -> list[str]:
     corner = f'x="{canvas.x(0.0)}" y="{canvas.y(table.length)}"'
     size = f'width="{_number(table.width * _SCALE)}" height="{_number(table.length * _SCALE)}"'
-    parts = [f'<rect {corner} {size} fill="{_CLOTH}"/>']
-    parts += [canvas.circle(pocket["centre"], float(pocket["radius"]), f'fill="{_POCKET}"') for pocket in table.pockets]
+    parts = [f'<rect {corner} {size} fill="{CLOTH}"/>']
+    parts += [canvas.circle(pocket["centre"], float(pocket["radius"]), f'fill="{POCKET}"') for pocket in table.pockets]
     parts += [
-        f'<polyline points="{canvas.point(rail["p"])} {canvas.point(rail["q"])}" stroke="{_CUSHION}" stroke-width="4" fill="none"/>'
+        f'<polyline points="{canvas.point(rail["p"])} {canvas.point(rail["q"])}" stroke="{CUSHION}" stroke-width="4" fill="none"/>'
         for rail in table.rails
     ]
-    parts += [canvas.circle(jaw["centre"], float(jaw["radius"]), f'fill="{_CUSHION}"') for jaw in table.jaws]
+    parts += [canvas.circle(jaw["centre"], float(jaw["radius"]), f'fill="{CUSHION}"') for jaw in table.jaws]
     return parts
 
 
-def _colour(ball: int) -> str:
+def colour(ball: int) -> str:
     return _COLOURS[ball] if ball < len(_COLOURS) else _COLOURS[1 + (ball - 1) % (len(_COLOURS) - 1)]
 
 
@@ -98,11 +98,11 @@ def picture(table: Table, shot: Shot | None = None) -> str:
         for ball in range(len(shot.balls)):
             points = list(dict.fromkeys(canvas.point(r) for r in paths[:, ball]))
             if len(points) > 1:
-                line = f'points="{" ".join(points)}" stroke="{_colour(ball)}" stroke-width="1.5" stroke-opacity="0.8" fill="none"'
+                line = f'points="{" ".join(points)}" stroke="{colour(ball)}" stroke-width="1.5" stroke-opacity="0.8" fill="none"'
                 parts.append(f"<polyline {line}/>")
         for states, opacity in ((shot.balls["state"], 0.35), (shot.final, 1.0)):
             for ball, state in enumerate(states):
-                style = f'fill="{_colour(ball)}" fill-opacity="{opacity}" stroke="#000" stroke-width="0.5"'
+                style = f'fill="{colour(ball)}" fill-opacity="{opacity}" stroke="#000" stroke-width="0.5"'
                 parts.append(canvas.circle(state["r"], float(shot.balls["kind"]["radius"][ball]), style))
     return canvas.document(parts)
 
@@ -124,6 +124,6 @@ def animation(shot: Shot, speed: float) -> Animation:
             for name, values in (("cx", xs), ("cy", ys))
             if len(set(values)) > 1
         )
-        style = f'fill="{_colour(ball)}" stroke="#000" stroke-width="0.5"'
+        style = f'fill="{colour(ball)}" stroke="#000" stroke-width="0.5"'
         parts.append(canvas.circle(paths[0, ball], float(shot.balls["kind"]["radius"][ball]), style, moves))
     return Animation(canvas.document(parts))

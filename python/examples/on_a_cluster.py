@@ -1,0 +1,135 @@
+"""The same batch of shots on this machine, over a cluster of Dask or over one of Ray, with the same bits.
+
+A part of the batch is a few numbers, from which whoever plays it draws its cues; what comes back is a summary: how many shots potted
+how many balls, and a digest (SHA-256) of all final states. So hardly anything travels, and the digest of the digests tells whether
+two ways of playing the batch had the same bits. Without --address a cluster of --workers processes is started on this machine.
+
+    python on_a_cluster.py --by local
+    python on_a_cluster.py --by dask --workers 2
+    python on_a_cluster.py --by ray --address auto --isa plain
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import hashlib
+import importlib
+import os
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+
+@dataclass(frozen=True)
+class Part:
+    """Which shots: those of the part of this number, of a batch with this seed."""
+
+    seed: int
+    number: int
+    shots: int
+    threads: int
+    isa: str
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What a part gave: digest of the final states, how many shots potted 0, 1, ... balls, and what it was computed with."""
+
+    digest: bytes
+    potted: npt.NDArray[np.int64]
+    isa: str
+
+
+def play(part: Part) -> Summary:
+    """Plays a part: breaks of nine-ball with the cue's direction and speed drawn at random. This runs in the workers."""
+    if part.isa:
+        os.environ["CAROM_ISA"] = part.isa  # read at the first call of a process, so too late where one ran before
+    import carom
+
+    if part.isa not in ("", carom.isa_in_force()):
+        raise RuntimeError(f"this worker computes with {carom.isa_in_force()}, not {part.isa}: start it with CAROM_ISA={part.isa}")
+    generator = np.random.default_rng([part.seed, part.number])
+    cues = carom.cue(speed=generator.uniform(4.0, 10.0, part.shots), phi=generator.uniform(85.0, 95.0, part.shots))
+    table = carom.tables.pool_9ft()
+    shots = carom.simulate_batch(table, carom.racks.nineball(table), cues, cushion_model="han", threads=part.threads)
+    digest = hashlib.sha256(shots.final.tobytes() + shots.status.tobytes()).digest()
+    down = (shots.final["label"] == carom.Label.POCKETED).sum(axis=-1)
+    return Summary(digest, np.bincount(down, minlength=11), carom.isa_in_force())
+
+
+def by_local(parts: list[Part], workers: int, address: str) -> Iterator[Summary]:
+    """In this process, one part after another; --threads of C."""
+    yield from map(play, parts)
+
+
+def by_dask(parts: list[Part], workers: int, address: str) -> Iterator[Summary]:
+    """Over a scheduler of Dask. Summaries are taken in the order of the parts."""
+    distributed: Any = importlib.import_module("distributed")
+    with contextlib.ExitStack() as stack:
+        if not address:
+            cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None)
+            address = stack.enter_context(cluster).scheduler_address
+        client = stack.enter_context(distributed.Client(address))
+        for future in client.map(play, parts, pure=False):
+            yield future.result()
+
+
+def by_ray(parts: list[Part], workers: int, address: str) -> Iterator[Summary]:
+    """Over Ray. Each task asks for as many processors as it has threads."""
+    ray: Any = importlib.import_module("ray")
+    if address:
+        ray.init(address=address)
+    else:
+        ray.init(address="local", num_cpus=workers, include_dashboard=False, logging_level="error")
+    remote = ray.remote(num_cpus=max(1, parts[0].threads))(play)
+    for reference in [remote.remote(part) for part in parts]:
+        yield ray.get(reference)
+    ray.shutdown()
+
+
+WAYS = {"local": by_local, "dask": by_dask, "ray": by_ray}
+
+
+def main(arguments: list[str] | None = None) -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--by", choices=WAYS, default="local")
+    parser.add_argument("--address", default="", help="of a scheduler of Dask or a head of Ray that runs already")
+    parser.add_argument("--workers", type=int, default=2, help="processes: how many to start, or how many there are")
+    parser.add_argument("--threads", type=int, default=1, help="of each part; -1: all processors")
+    parser.add_argument("--shots", type=int, default=100_000)
+    parser.add_argument("--parts", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--isa", default="", help="instruction set of all workers, as for CAROM_ISA: plain where machines differ")
+    given = parser.parse_args(arguments)
+    sizes = np.diff(np.linspace(0, given.shots, given.parts + 1).astype(int))
+    parts = [Part(given.seed, k, int(size), given.threads, given.isa) for k, size in enumerate(sizes)]
+
+    # The first summaries come when processes have started and libraries are loaded: the rate is that of the others.
+    skipped = 1 if given.by == "local" else given.workers
+    together, potted, isas, begun = hashlib.sha256(), np.zeros(11, np.int64), set[str](), time.monotonic()
+    first = begun
+    for k, summary in enumerate(WAYS[given.by](parts, given.workers, given.address)):
+        if k == skipped - 1:
+            first = time.monotonic()
+        together.update(summary.digest)
+        potted += summary.potted
+        isas.add(summary.isa)
+        if sys.stderr.isatty():
+            print(f"\r{k + 1} of {len(parts)} parts", end="", file=sys.stderr, flush=True)
+    ended = time.monotonic()
+    if sys.stderr.isatty():
+        print(file=sys.stderr)
+    print(f"{given.shots} breaks by {given.by}, computed with {', '.join(sorted(isas))}, in {ended - begun:.2f} s", end="")
+    print(f"; once all workers run {sizes[skipped:].sum() / (ended - first):.0f} shots/s" if len(parts) > skipped else "")
+    print("balls potted:", *(f"{balls}: {count}" for balls, count in enumerate(potted) if count))
+    print("digest:", together.hexdigest())
+
+
+if __name__ == "__main__":
+    main()

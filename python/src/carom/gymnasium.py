@@ -1,0 +1,271 @@
+"""The game of `carom.potting` as environments of gymnasium: one game, and many at once.
+
+    import gymnasium
+    import carom.gymnasium
+
+    game = gymnasium.make("carom/Potting-v0", balls=5, strokes=5, render_mode="rgb_array")
+    games = gymnasium.make_vec("carom/Potting-v0", num_envs=64, cushion_model="han", threads=-1)
+
+Actions, observations, rewards and ends are those of `carom.potting.Potting`, whose arguments both take; `rules` is that object. Game k
+of many with the seed s is the game alone with the seed s + k, to the bit. Needs gymnasium 1.1 or later.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes, pictures
+from carom.pixels import Pixels, pixels
+from carom.potting import Potting, Strokes
+
+try:
+    import gymnasium
+    from gymnasium import spaces
+    from gymnasium.utils import seeding
+    from gymnasium.vector import AutoresetMode, VectorEnv
+    from gymnasium.vector.utils import batch_space
+except ImportError as missing:
+    message = "carom.gymnasium needs gymnasium 1.1 or later, which is not installed here: pip install gymnasium"
+    raise ImportError(message, name=missing.name) from missing
+
+__all__ = ["PottingEnv", "PottingVectorEnv"]
+
+RenderMode = Literal["rgb_array", "svg"]
+_RENDER_MODES = ("rgb_array", "svg")
+_OPTIONS = {"layout", "strokes"}
+_Bools = npt.NDArray[np.bool_]
+
+
+class _Games:
+    """The state of games, and what both environments do with it. Each game has a generator of its own, given by the caller."""
+
+    def __init__(self, rules: Potting, games: int, render_mode: str | None) -> None:
+        if render_mode is not None and render_mode not in _RENDER_MODES:
+            raise ValueError(f"render_mode: must be None or one of {', '.join(map(repr, _RENDER_MODES))}, not {render_mode!r}")
+        self.rules = rules
+        self.balls: dtypes.Records = np.zeros((games, rules.balls + 1), dtypes.shot_ball)
+        self.left: npt.NDArray[np.int64] = np.zeros(games, np.int64)
+        self.ended: _Bools = np.ones(games, np.bool_)
+        # The last stroke, to be drawn.
+        self.before = self.balls.copy()
+        self.actions: list[dtypes.Doubles | None] = [None] * games
+
+    def reset(self, game: int, generator: np.random.Generator, layout: npt.ArrayLike | None, strokes: int | None) -> None:
+        """Begin one game."""
+        if strokes is not None and not 1 <= strokes <= self.rules.strokes:
+            raise ValueError(f"strokes: must be 1 to {self.rules.strokes}, that of the environment, not {strokes}")
+        self.balls[game] = self.rules.deal(generator, layout)
+        self.left[game] = self.rules.strokes if strokes is None else strokes
+        self.ended[game] = False
+        self.before[game] = self.balls[game]
+        self.actions[game] = None
+
+    def play(self, games: npt.NDArray[np.int64], actions: dtypes.Doubles, generators: Sequence[np.random.Generator]) -> Strokes:
+        """One stroke of each of some games."""
+        self.before[games] = self.balls[games]
+        strokes = self.rules.play(self.before[games], actions)
+        self.left[games] -= 1
+        self.ended[games] = self.rules.ended(strokes.layouts, self.left[games])
+        self.balls[games] = strokes.layouts
+        for k in range(len(games)):
+            game = int(games[k])
+            self.actions[game] = np.array(actions[k])
+            if strokes.scratch[k]:
+                self.rules.put_back(self.balls[game], generators[game])
+        return strokes
+
+    def observe(self) -> dtypes.Doubles:
+        return self.rules.observe(self.balls, self.left)
+
+    def render(self, game: int, mode: str | None) -> Pixels | str | None:
+        """The picture of one game: its balls and the paths of its last stroke."""
+        if mode is None:
+            return None
+        shot = self.rules.shot(self.before[game], self.actions[game])
+        if mode == "svg":
+            return pictures.picture(self.rules.table, shot)
+        return pixels(self.rules.table, self.balls[game], shot)
+
+
+def _spaces(rules: Potting) -> tuple[Any, Any]:
+    """Of one game: that of observations, that of actions. Versions of gymnasium differ in what type a Box has."""
+    low, high = rules.bounds()
+    return spaces.Box(low, high, dtype=np.float64), spaces.Box(-1.0, 1.0, (4,), dtype=np.float64)
+
+
+def _checked(options: dict[str, Any] | None) -> dict[str, Any]:
+    """The options of a reset, none of them unknown."""
+    given = {} if options is None else options
+    if not given.keys() <= _OPTIONS:
+        raise ValueError(f"options: 'layout' and 'strokes' are known, not {', '.join(map(repr, sorted(given.keys() - _OPTIONS)))}")
+    return given
+
+
+class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
+    """One game of `carom.potting.Potting`.
+
+    Parameters
+    ----------
+    balls, strokes
+        As for `Potting`.
+    render_mode : {None, "rgb_array", "svg"}
+        What `render` gives: nothing; an array of uint8, of shape (rows, columns, 3), with the balls as they lie and the paths of the
+        last stroke; the text of a picture of that stroke, from where the balls lay (faint) to where they came to rest.
+    **rules
+        Other arguments of `Potting`.
+
+    Notes
+    -----
+    `info` after a stroke: potted (int), scratch (bool), status (int, as `carom.Status`), time (s). Options of `reset`: layout, the
+    centres (m) of shape (balls + 1, 2), the cue ball first; strokes, at most those of the environment. There is no truncation: how
+    many strokes are left is a part of what is observed.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": list(_RENDER_MODES), "render_fps": 1}
+
+    def __init__(self, balls: int = 5, strokes: int = 5, *, render_mode: RenderMode | None = None, **rules: Any) -> None:
+        self.rules = Potting(balls, strokes, **rules)
+        self.render_mode = render_mode
+        self.observation_space, self.action_space = _spaces(self.rules)
+        self._games = _Games(self.rules, 1, render_mode)
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dtypes.Doubles, dict[str, Any]]:
+        """Begin a game: a layout drawn from the seed, or from the generator as it stands."""
+        super().reset(seed=seed)
+        given = _checked(options)
+        self._games.reset(0, self.np_random, given.get("layout"), given.get("strokes"))
+        return self._games.observe()[0], {}
+
+    def step(self, action: npt.ArrayLike) -> tuple[dtypes.Doubles, float, bool, bool, dict[str, Any]]:
+        """Play a stroke.
+
+        Returns
+        -------
+        observation, reward, terminated, truncated, info
+        """
+        if self._games.ended[0]:
+            raise gymnasium.error.ResetNeeded("the game has ended, or has not begun: call reset()")
+        strokes = self._games.play(np.zeros(1, np.int64), np.asarray(action, np.float64)[np.newaxis], [self.np_random])
+        info = {
+            "potted": int(strokes.potted[0]),
+            "scratch": bool(strokes.scratch[0]),
+            "status": int(strokes.status[0]),
+            "time": float(strokes.time[0]),
+        }
+        return self._games.observe()[0], float(strokes.rewards[0]), bool(self._games.ended[0]), False, info
+
+    def render(self) -> Any:
+        """The picture, as `render_mode` says."""
+        return self._games.render(0, self.render_mode)
+
+
+class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]]):
+    """Many games of `carom.potting.Potting`, all strokes of a step in one `carom.simulate_batch`.
+
+    Parameters
+    ----------
+    num_envs : int
+        How many games.
+    balls, strokes, render_mode, **rules
+        As for `PottingEnv`; `render` gives a tuple of pictures. `threads` plays the strokes of a step side by side.
+
+    Notes
+    -----
+    A game that has ended begins anew with the next step, whose action for it is not played (AutoresetMode.NEXT_STEP, gymnasium's
+    default). Seeds are as for gymnasium's SyncVectorEnv: s is s, s + 1, ...; a list has one for each game. Options of `reset` are as
+    for `PottingEnv`; layout may be of shape (num_envs, balls + 1, 2). `infos` has arrays, and under "_" + name where they are set.
+    """
+
+    metadata: dict[str, Any] = {
+        "render_modes": list(_RENDER_MODES),
+        "render_fps": 1,
+        "autoreset_mode": AutoresetMode.NEXT_STEP,
+    }
+
+    def __init__(
+        self, num_envs: int = 1, balls: int = 5, strokes: int = 5, *, render_mode: RenderMode | None = None, **rules: Any
+    ) -> None:
+        if num_envs < 1:
+            raise ValueError(f"num_envs: must be at least 1, not {num_envs}")
+        self.rules = Potting(balls, strokes, **rules)
+        self.num_envs = num_envs
+        self.render_mode = render_mode
+        observed, acted = _spaces(self.rules)
+        self.single_observation_space, self.single_action_space = observed, acted
+        self.observation_space, self.action_space = batch_space(observed, num_envs), batch_space(acted, num_envs)
+        self._games = _Games(self.rules, num_envs, render_mode)
+        self._generators: list[np.random.Generator] = [seeding.np_random()[0] for _ in range(num_envs)]
+
+    def reset(
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dtypes.Doubles, dict[str, Any]]:
+        """Begin all games anew."""
+        seeds = [None] * self.num_envs if seed is None else seed
+        if isinstance(seeds, int):
+            seeds = [seeds + k for k in range(self.num_envs)]
+        if len(seeds) != self.num_envs:
+            raise ValueError(f"seed: one number or {self.num_envs} are needed, not {len(seeds)}")
+        given = _checked(options)
+        layouts: list[Any] = [None] * self.num_envs
+        if given.get("layout") is not None:
+            centres = np.asarray(given["layout"], dtype=np.float64)
+            layouts = list(centres) if centres.ndim == 3 else [centres] * self.num_envs
+            if len(layouts) != self.num_envs:
+                raise ValueError(f"layout: one or {self.num_envs} are needed, not {len(layouts)}")
+        for game, (own, layout) in enumerate(zip(seeds, layouts, strict=True)):
+            if own is not None:
+                self._generators[game] = seeding.np_random(own)[0]
+            self._games.reset(game, self._generators[game], layout, given.get("strokes"))
+        return self._games.observe(), {}
+
+    def step(
+        self, actions: npt.ArrayLike
+    ) -> tuple[dtypes.Doubles, npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any], dict[str, Any]]:
+        """Play a stroke of each game, or begin it anew.
+
+        Returns
+        -------
+        observations, rewards, terminated, truncated, infos
+            The first of shape (num_envs, ...), the next three of shape (num_envs,).
+        """
+        given = np.asarray(actions, dtype=np.float64)
+        if given.shape != (self.num_envs, 4):
+            raise ValueError(f"actions: the shape must be ({self.num_envs}, 4), not {given.shape}")
+        playing = ~self._games.ended
+        for game in np.flatnonzero(~playing):
+            self._games.reset(int(game), self._generators[game], None, None)
+        rewards = np.zeros(self.num_envs)
+        infos: dict[str, Any] = {}
+        if playing.any():
+            strokes = self._games.play(np.flatnonzero(playing), given[playing], self._generators)
+            rewards[playing] = strokes.rewards
+            told: dict[str, npt.NDArray[Any]] = {
+                "potted": strokes.potted,
+                "scratch": strokes.scratch,
+                "status": strokes.status.astype(np.int64),
+                "time": strokes.time,
+            }
+            for name, values in told.items():
+                infos[name] = np.zeros(self.num_envs, values.dtype)
+                infos[name][playing] = values
+                infos["_" + name] = playing.copy()
+        return self._games.observe(), rewards, self._games.ended.copy(), np.zeros(self.num_envs, np.bool_), infos
+
+    def render(self) -> tuple[Any, ...] | None:
+        """The pictures of all games, as `render_mode` says."""
+        if self.render_mode is None:
+            return None
+        return tuple(self._games.render(game, self.render_mode) for game in range(self.num_envs))
+
+
+_registry = cast("Any", gymnasium)
+if "carom/Potting-v0" not in _registry.registry:
+    _registry.register(
+        "carom/Potting-v0",
+        entry_point="carom.gymnasium:PottingEnv",
+        vector_entry_point="carom.gymnasium:PottingVectorEnv",
+    )

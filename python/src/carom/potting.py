@@ -1,0 +1,232 @@
+"""A game for agents: pot as many balls of a random layout as you can within a number of strokes. `carom.gymnasium` plays it.
+
+Nothing here needs gymnasium. `Potting` holds the rules, as functions of arrays over many games at once: an agent that plans has them
+too, and plays a thousand strokes of its own from what it observes before it chooses one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes, layouts, tables
+from carom.layouts import Table
+from carom.results import Label, Shot
+from carom.shots import ShotCushion, simulate, simulate_batch
+
+_GAP = 1e-3  # m, the least distance between balls that are placed
+_TRIES = 10_000
+
+
+@dataclass(frozen=True)
+class Strokes:
+    """What strokes gave, each an array over the games.
+
+    Attributes
+    ----------
+    layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls + 1)
+        The balls at rest after the stroke. A cue ball that was potted is still down.
+    rewards : ndarray of float64, shape (...)
+        Balls that were potted, less 1 for a foul.
+    potted : ndarray of int64, shape (...)
+        Balls that were potted, without the cue ball.
+    scratch : ndarray of bool, shape (...)
+        Whether the cue ball was potted, a foul.
+    status : ndarray of int8, shape (...)
+        As `carom.Status`. In error (a ball left the table, for example) the stroke is a foul and the balls are where they were.
+    time : ndarray of float64, shape (...)
+        How long the balls moved, s.
+    """
+
+    layouts: dtypes.Records
+    rewards: dtypes.Doubles
+    potted: npt.NDArray[np.int64]
+    scratch: npt.NDArray[np.bool_]
+    status: npt.NDArray[np.int8]
+    time: dtypes.Doubles
+
+
+class Potting:
+    """The rules: balls lie at random on a table of pool, the cue ball among them, and a number of strokes is to pot them.
+
+    An **action** is four numbers from -1 to 1 (what is beyond is taken as the bound): the direction, 180 degrees times it, from +x
+    towards +y; the speed of the cue, from the least to the most; and where the tip touches the ball, to the left and above the
+    centre, 0.35 radii times them, so that it never slips off. The cue is level.
+
+    An **observation** is 3 (balls + 1) + 1 numbers: x (m), y (m) and whether it is in play (1 or 0, with x = y = 0) of each ball, the
+    cue ball first; then how many strokes are left. It is all that there is to know: `layouts()` makes the same balls of it, to the bit.
+
+    The **reward** of a stroke is how many balls it pots, less 1 for a foul: the cue ball goes down too (it is then put back at
+    random), or the stroke ends in an error (it is then taken back). The game ends when all balls are down, or with the last stroke.
+
+    Parameters
+    ----------
+    balls : int
+        Besides the cue ball, 1 to 15.
+    strokes : int
+        At least 1.
+    table : Table, optional
+        A rectangular one with pockets, for balls of pool; by default `carom.tables.pool_9ft()`.
+    speeds : tuple of two floats
+        The least and the most speed of the cue, m/s.
+    cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
+        As for `carom.simulate`. "han" takes a tenth of the time.
+    threads : int
+        Most threads for many games; no bit depends on it.
+    """
+
+    def __init__(
+        self,
+        balls: int = 5,
+        strokes: int = 5,
+        *,
+        table: Table | None = None,
+        speeds: tuple[float, float] = (0.5, 6.0),
+        cushion_model: ShotCushion = "default",
+        threads: int = 0,
+    ) -> None:
+        if not 1 <= balls <= 15:
+            raise ValueError(f"balls: must be 1 to 15, not {balls}")
+        if strokes < 1:
+            raise ValueError(f"strokes: must be at least 1, not {strokes}")
+        if not 0.0 < speeds[0] <= speeds[1] < np.inf:
+            raise ValueError(f"speeds: must be the least and the most, positive and finite, not {speeds}")
+        self.table = tables.pool_9ft() if table is None else table
+        if len(self.table.pockets) == 0:
+            raise ValueError("table: must have pockets")
+        self.balls = balls
+        self.strokes = strokes
+        self.speeds = speeds
+        self.cushion_model: ShotCushion = cushion_model
+        self.threads = threads
+        self._balls_at_0 = layouts.balls(np.zeros((balls + 1, 2)))
+        self.radius = float(self._balls_at_0["kind"]["radius"][0])
+        # What a ball that is placed has to be clear of: pockets and the rounded ends of cushions, each with the least distance, m.
+        self._fixed = np.concatenate([self.table.pockets["centre"], self.table.jaws["centre"]])
+        self._clear = np.concatenate([self.table.pockets["radius"], self.table.jaws["radius"]]) + self.radius + _GAP
+
+    # ---- Actions and observations ---------------------------------------------------------------------------------------
+
+    def bounds(self) -> tuple[dtypes.Doubles, dtypes.Doubles]:
+        """The least and the most of each number of an observation; balls may rest in the mouth of a pocket, beyond the cushions."""
+        beyond = 0.2
+        low = np.append(np.tile([-beyond, -beyond, 0.0], self.balls + 1), 0.0)
+        high = np.append(np.tile([self.table.width + beyond, self.table.length + beyond, 1.0], self.balls + 1), self.strokes)
+        return low, high
+
+    def cues(self, actions: npt.ArrayLike) -> dtypes.Records:
+        """The strikes of actions, of shape (..., 4): `carom.dtypes.cue` of shape (...)."""
+        given = np.asarray(actions, dtype=np.float64)
+        if given.ndim == 0 or given.shape[-1] != 4 or not np.isfinite(given).all():
+            raise ValueError(f"actions: finite numbers of shape (..., 4) are needed, not of shape {given.shape}: {given}")
+        given = np.clip(given, -1.0, 1.0)
+        least, most = self.speeds
+        return layouts.cue(
+            phi=180.0 * given[..., 0],
+            speed=least + (most - least) * (given[..., 1] + 1.0) / 2.0,
+            a=0.35 * given[..., 2],
+            b=0.35 * given[..., 3],
+        )
+
+    def actions(self, phi: npt.ArrayLike, speed: npt.ArrayLike, a: npt.ArrayLike = 0.0, b: npt.ArrayLike = 0.0) -> dtypes.Doubles:
+        """The actions, of shape (..., 4), of directions (degrees), speeds (m/s) and places of the tip (radii), of shape (...)."""
+        least, most = self.speeds
+        turn = (np.asarray(phi, dtype=np.float64) + 180.0) % 360.0 / 180.0 - 1.0
+        hard = 2.0 * (np.asarray(speed, dtype=np.float64) - least) / max(most - least, 1e-12) - 1.0
+        parts = np.broadcast_arrays(turn, hard, np.asarray(a, dtype=np.float64) / 0.35, np.asarray(b, dtype=np.float64) / 0.35)
+        return np.stack(parts, axis=-1)
+
+    def observe(self, balls: dtypes.Records, strokes_left: npt.ArrayLike) -> dtypes.Doubles:
+        """What an agent sees of layouts, of shape (..., balls + 1): of shape (..., 3 (balls + 1) + 1)."""
+        in_play = balls["state"]["label"] != Label.POCKETED
+        seen = np.zeros((*balls.shape, 3))
+        seen[..., :2] = np.where(in_play[..., np.newaxis], balls["state"]["r"][..., :2], 0.0)
+        seen[..., 2] = in_play
+        left = np.broadcast_to(np.asarray(strokes_left, dtype=np.float64), balls.shape[:-1])
+        return np.concatenate([seen.reshape((*balls.shape[:-1], -1)), left[..., np.newaxis]], axis=-1)
+
+    def layouts(self, observations: npt.ArrayLike) -> dtypes.Records:
+        """The balls of observations: `carom.dtypes.shot_ball` of shape (..., balls + 1)."""
+        given = np.asarray(observations, dtype=np.float64)
+        seen = given[..., :-1].reshape((*given.shape[:-1], self.balls + 1, 3))
+        return self._balls(seen[..., :2], seen[..., 2] != 0.0)
+
+    def _balls(self, centres: dtypes.Doubles, in_play: npt.NDArray[np.bool_]) -> dtypes.Records:
+        """Balls at rest, those that are not in play in a pocket."""
+        made = np.broadcast_to(self._balls_at_0, centres.shape[:-1]).copy()
+        made["state"]["r"][..., :2] = centres
+        made["state"]["label"] = np.where(in_play, int(Label.STATIONARY), int(Label.POCKETED))
+        return made
+
+    # ---- The game -------------------------------------------------------------------------------------------------------
+
+    def deal(self, generator: np.random.Generator, centres: npt.ArrayLike | None = None) -> dtypes.Records:
+        """A layout of shape (balls + 1,): at random, or with centres (m) of shape (balls + 1, 2), which are checked."""
+        if centres is not None:
+            given = np.asarray(centres, dtype=np.float64)
+            if given.shape != (self.balls + 1, 2):
+                raise ValueError(f"layout: the shape must be ({self.balls + 1}, 2), the cue ball first, not {given.shape}")
+            layout = self._balls(given, np.ones(self.balls + 1, np.bool_))
+            simulate(self.table, layout)  # without a strike: raises CaromError where balls overlap or are not on the table
+            return layout
+        return self._balls(self._places(generator, self.balls + 1, np.zeros((0, 2))), np.ones(self.balls + 1, np.bool_))
+
+    def put_back(self, layout: dtypes.Records, generator: np.random.Generator) -> None:
+        """Put the cue ball of a layout, of shape (balls + 1,), back on the table, at random."""
+        others = layout[1:]["state"]
+        in_play = others["label"] != Label.POCKETED
+        layout["state"]["r"][0, :2] = self._places(generator, 1, others["r"][in_play, :2])[0]
+        layout["state"]["r"][0, 2] = self.radius
+        layout["state"]["label"][0] = Label.STATIONARY
+
+    def _places(self, generator: np.random.Generator, count: int, taken: dtypes.Doubles) -> dtypes.Doubles:
+        """Places for balls, of shape (count, 2): drawn together until all are clear of each other, what is fixed, and balls taken."""
+        low = np.full(2, self.radius + _GAP)
+        high = np.array([self.table.width, self.table.length]) - low
+        for _ in range(_TRIES):
+            places = generator.uniform(low, high, (count, 2))
+            others = np.concatenate([places, taken])
+            apart = np.hypot(*(places[:, np.newaxis] - others).T)
+            np.fill_diagonal(apart, np.inf)
+            if (
+                apart.min() > 2.0 * self.radius + _GAP
+                and (np.hypot(*(places[:, np.newaxis] - self._fixed).T).T > self._clear).all()
+            ):
+                return places
+        raise ValueError(f"table: no free places for {count} balls in {_TRIES} draws: it is too small for {self.balls}")
+
+    def play(self, balls: dtypes.Records, actions: npt.ArrayLike) -> Strokes:
+        """Play strokes.
+
+        Parameters
+        ----------
+        balls : ndarray of `carom.dtypes.shot_ball`, shape (..., balls + 1)
+        actions : array_like, shape (..., 4)
+            Broadcast against the leading dimensions of the balls: many actions from one layout, or one for each of many.
+
+        Returns
+        -------
+        Strokes
+            Of the broadcast shape. Each stroke has the bits that it has alone.
+        """
+        shots = simulate_batch(self.table, balls, self.cues(actions), cushion_model=self.cushion_model, threads=self.threads)
+        before = np.broadcast_to(balls, shots.final.shape)
+        played = shots.status >= 0
+        after = before.copy()
+        after["state"] = np.where(played[..., np.newaxis], shots.final, before["state"])
+        down = (after["state"]["label"] == Label.POCKETED) & (before["state"]["label"] != Label.POCKETED)
+        potted, scratch = down[..., 1:].sum(axis=-1), down[..., 0]
+        rewards = potted - 1.0 * (scratch | ~played)
+        return Strokes(after, rewards, potted, scratch, shots.status, shots.time)
+
+    def ended(self, balls: dtypes.Records, strokes_left: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+        """Whether games have ended: layouts of shape (..., balls + 1) to (...)."""
+        all_down = (balls["state"]["label"][..., 1:] == Label.POCKETED).all(axis=-1)
+        return np.asarray(all_down | (np.asarray(strokes_left) <= 0), dtype=np.bool_)
+
+    def shot(self, balls: dtypes.Records, action: npt.ArrayLike | None) -> Shot:
+        """One stroke with its events, for looking at; without an action the balls lie still."""
+        cue = None if action is None else self.cues(action)
+        return simulate(self.table, balls, cue, cushion_model=self.cushion_model)

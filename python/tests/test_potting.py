@@ -1,0 +1,245 @@
+"""The game of carom.potting by its rules, and its environments of gymnasium by gymnasium's checker and against each other."""
+
+import importlib.util
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+import carom
+from carom.potting import Potting
+
+EXAMPLE = Path(__file__).parents[1] / "examples" / "potting_agents.py"
+
+
+@pytest.fixture
+def gymnasium():
+    gymnasium = pytest.importorskip("gymnasium", reason="gymnasium is not installed")
+    import carom.gymnasium  # noqa: F401
+
+    return gymnasium
+
+
+# ---- The rules ------------------------------------------------------------------------------------------------------------
+
+
+def lined_up(rules, distance=0.3):
+    """Centres of a cue ball, a ball and a corner pocket in one line, the other balls far away; and the direction, degrees."""
+    pocket = rules.table.pockets["centre"][np.argmin(rules.table.pockets["centre"].sum(axis=1))]
+    way = np.array([1.0, 1.0]) / np.sqrt(2.0)
+    line = [pocket + (0.2 + distance) * way, pocket + 0.2 * way]
+    rest = [(0.3 + 0.1 * k, 2.2) for k in range(rules.balls - 1)]
+    return np.array([*line, *rest]), -135.0
+
+
+def test_a_pot_and_a_scratch_by_hand():
+    rules = Potting(balls=1, strokes=3)
+    centres, phi = lined_up(rules)
+    layout = rules.deal(np.random.default_rng(1), centres)
+    stroke = rules.play(layout, rules.actions(phi, 2.0, b=-0.2))
+    assert (stroke.potted, stroke.scratch, stroke.rewards, stroke.status) == (1, False, 1.0, 0)
+    assert rules.ended(stroke.layouts, 2) and not rules.ended(layout, 2) and rules.ended(layout, 0)
+    # Without the other ball in its way the cue ball goes down instead; put back, it lies on the table, clear of the other.
+    moved = rules.deal(np.random.default_rng(1), [centres[0], [0.6, 2.0]])
+    foul = rules.play(moved, rules.actions(phi, 2.0))
+    assert (foul.potted, foul.scratch, foul.rewards) == (0, True, -1.0)
+    back = foul.layouts.copy()
+    rules.put_back(back, np.random.default_rng(2))
+    assert rules.play(back, rules.actions(0.0, 0.5)).status == 0
+    np.testing.assert_array_equal(back[1], foul.layouts[1])
+
+
+def test_strokes_are_those_of_simulate():
+    rules = Potting(balls=5)
+    layout = rules.deal(np.random.default_rng(3))
+    actions = rules.actions([10.0, 170.0, -60.0], [1.0, 3.0, 6.0], a=[0.3, 0.0, -0.1], b=0.2)
+    strokes = rules.play(layout, actions)
+    for k, action in enumerate(actions):
+        shot = rules.shot(layout, action)
+        assert strokes.layouts["state"][k].tobytes() == shot.final.tobytes()
+        alone = carom.simulate(
+            rules.table, layout, carom.cue(phi=180 * action[0], speed=3.25 + 2.75 * action[1], a=[0.3, 0, -0.1][k], b=0.2)
+        )
+        np.testing.assert_allclose(shot.final["r"], alone.final["r"], atol=1e-9)
+
+
+def test_a_stroke_in_error_is_taken_back():
+    table = carom.tables.pool_9ft()
+    # Without the cushions of one long side a ball can leave the table.
+    there = (table.rails["p"][:, 0] > 0.1) | (table.rails["q"][:, 0] > 0.1)
+    opened = carom.Table(table.width, table.length, rails=table.rails[there], jaws=table.jaws, pockets=table.pockets)
+    rules = Potting(balls=1, table=opened)
+    layout = rules.deal(np.random.default_rng(1), [[0.4, 0.9], [1.0, 2.0]])
+    stroke = rules.play(layout, rules.actions(180.0, 4.0))
+    assert stroke.status < 0 and stroke.rewards == -1.0 and not stroke.scratch
+    assert stroke.layouts.tobytes() == layout.tobytes()
+
+
+def test_any_game_keeps_the_rules():
+    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    print(f"seed {seed}")
+    generator = np.random.default_rng(seed)
+    rules = Potting(balls=4, strokes=30, cushion_model="han")
+    low, high = rules.bounds()
+    layouts = np.stack([rules.deal(generator) for _ in range(300)])
+    assert np.unique(layouts["state"]["r"], axis=0).shape[0] == 300
+    down = np.zeros((300, 4), bool)
+    for left in range(29, 9, -1):
+        actions = generator.uniform(-1.2, 1.2, (300, 4))
+        stroke = rules.play(layouts, actions)
+        assert (stroke.status == 0).all()
+        now = stroke.layouts["state"]["label"][:, 1:] == carom.Label.POCKETED
+        assert (now >= down).all(), "a ball came back"
+        np.testing.assert_array_equal(stroke.potted, (now & ~down).sum(axis=1))
+        np.testing.assert_array_equal(stroke.rewards, stroke.potted - stroke.scratch)
+        down, layouts = now, stroke.layouts
+        for game in np.flatnonzero(stroke.scratch):
+            rules.put_back(layouts[game], generator)
+        seen = rules.observe(layouts, left)
+        assert ((seen >= low) & (seen <= high)).all()
+        again = rules.layouts(seen)
+        in_play = again["state"]["label"] != carom.Label.POCKETED
+        assert again[in_play].tobytes() == layouts[in_play].tobytes()
+        np.testing.assert_array_equal(in_play[:, 1:], ~down)
+    assert down.any() and not down.all()
+
+
+def test_what_the_rules_refuse():
+    for arguments, words in (
+        ({"balls": 0}, "balls: must be 1 to 15"),
+        ({"strokes": 0}, "strokes: must be at least 1"),
+        ({"speeds": (2.0, 1.0)}, "speeds: must be the least and the most"),
+        ({"table": carom.tables.threecushion()}, "table: must have pockets"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            Potting(**arguments)
+    rules = Potting(balls=1)
+    with pytest.raises(ValueError, match=r"layout: the shape must be \(2, 2\)"):
+        rules.deal(np.random.default_rng(1), [[0.5, 0.5]])
+    with pytest.raises(carom.CaromError, match="overlap"):
+        rules.deal(np.random.default_rng(1), [[0.5, 0.5], [0.5, 0.51]])
+    with pytest.raises(ValueError, match="actions: finite numbers"):
+        rules.cues([0.0, np.nan, 0.0, 0.0])
+
+
+# ---- The environments -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("render_mode", [None, "rgb_array", "svg"])
+def test_gymnasiums_checker(gymnasium, render_mode):
+    from gymnasium.utils.env_checker import check_env
+
+    env = gymnasium.make("carom/Potting-v0", render_mode=render_mode, cushion_model="han")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(env.unwrapped)
+
+
+@pytest.mark.parametrize("threads", [0, 2])
+def test_many_games_are_single_games(gymnasium, threads):
+    """Against gymnasium's own vector of single environments: observations, rewards, ends and infos to the bit, over many games."""
+    seed = int(np.random.SeedSequence().generate_state(1)[0] // 2)
+    print(f"seed {seed}")
+    arguments = {"balls": 3, "strokes": 4, "cushion_model": "han"}
+    envs = gymnasium.make_vec("carom/Potting-v0", num_envs=7, threads=threads, **arguments)
+    singles = gymnasium.make_vec("carom/Potting-v0", num_envs=7, vectorization_mode="sync", **arguments)
+    assert type(envs.unwrapped).__name__ == "PottingVectorEnv" and type(singles).__name__ == "SyncVectorEnv"
+    assert envs.observation_space == singles.observation_space and envs.action_space == singles.action_space
+    assert envs.metadata["autoreset_mode"] == singles.metadata["autoreset_mode"]
+    generator = np.random.default_rng(seed)
+    ended = 0
+    for got, expected in ((envs.reset(seed=seed), singles.reset(seed=seed)), (envs.reset(), singles.reset())):
+        assert got[0].tobytes() == expected[0].tobytes() and got[1] == expected[1] == {}
+    for _ in range(40):
+        actions = generator.uniform(-1.0, 1.0, (7, 4))
+        got, expected = envs.step(actions), singles.step(actions)
+        for ours, theirs in zip(got[:4], expected[:4], strict=True):
+            assert ours.dtype == theirs.dtype and ours.tobytes() == theirs.tobytes()
+        assert got[0] in envs.observation_space
+        assert got[4].keys() == expected[4].keys()
+        for name, values in got[4].items():
+            assert values.dtype == expected[4][name].dtype
+            np.testing.assert_array_equal(values, expected[4][name], err_msg=name)
+        ended += got[2].sum()
+    assert ended > 40
+    seeds = [5, None, 7, None, None, 5, 1]
+    assert envs.reset(seed=seeds)[0].tobytes() == singles.reset(seed=seeds)[0].tobytes()
+
+
+def test_reset_options(gymnasium):
+    env = gymnasium.make("carom/Potting-v0", balls=2, strokes=6)
+    centres, phi = lined_up(env.unwrapped.rules)
+    seen, _ = env.reset(seed=1, options={"layout": centres, "strokes": 2})
+    np.testing.assert_array_equal(seen[:-1].reshape(3, 3), np.column_stack([centres, np.ones(3)]))
+    action = env.unwrapped.rules.actions(phi, 2.0, b=-0.2)
+    seen, reward, terminated, truncated, info = env.step(action)
+    assert (reward, terminated, truncated, info["potted"], seen[-1]) == (1.0, False, False, 1, 1.0)
+    assert seen[3:6].tolist() == [0.0, 0.0, 0.0]
+    assert env.step(action)[2]  # the last stroke
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        env.step(action)
+    for options, words in (
+        ({"strokes": 7}, "strokes: must be 1 to 6"),
+        ({"ball": 3}, "'layout' and 'strokes' are known, not 'ball'"),
+        ({"layout": centres[:2]}, r"layout: the shape must be \(3, 2\)"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            env.reset(options=options)
+    envs = gymnasium.make_vec("carom/Potting-v0", num_envs=2, balls=2, strokes=6)
+    seen, _ = envs.reset(seed=1, options={"layout": np.stack([centres, centres + 0.01])})
+    np.testing.assert_array_equal(seen[1, :2], centres[0] + 0.01)
+    with pytest.raises(ValueError, match="layout: one or 2 are needed, not 3"):
+        envs.reset(options={"layout": np.stack([centres] * 3)})
+    with pytest.raises(ValueError, match=r"actions: the shape must be \(2, 4\)"):
+        envs.step(np.zeros((3, 4)))
+
+
+def test_pictures(gymnasium):
+    envs = gymnasium.make_vec("carom/Potting-v0", num_envs=2, balls=2, strokes=5, render_mode="rgb_array")
+    seen, _ = envs.reset(seed=4)
+    still = envs.render()[1]
+    table = envs.unwrapped.rules.table
+    assert still.dtype == np.uint8 and still.ndim == 3 and abs(still.shape[0] / still.shape[1] - 2.78 / 1.51) < 0.01
+
+    def colour_at(image, x, y):
+        column, row = (x + 0.12) * 200, (table.length + 0.12 - y) * 200
+        return tuple(int(part) for part in image[int(row), int(column)])
+
+    for ball, colour in enumerate(("#ffffff", "#f2c200", "#1f4fd8")):
+        expected = tuple(int(colour[k : k + 2], 16) for k in (1, 3, 5))
+        assert colour_at(still, *seen[1, 3 * ball : 3 * ball + 2]) == expected
+    assert colour_at(still, *table.pockets["centre"][0]) == (0x11, 0x11, 0x11)
+    envs.step(np.full((2, 4), 0.3))
+    assert (envs.render()[1] != still).any()
+    env = gymnasium.make("carom/Potting-v0", render_mode="svg")
+    env.reset(seed=1)
+    env.step(np.array([0.5, 0.5, 0.0, 0.0]))
+    assert "polyline" in env.render() and ElementTree.fromstring(env.render()).tag.endswith("svg")
+    with pytest.raises(ValueError, match="render_mode: must be None or one of"):
+        carom.gymnasium.PottingEnv(render_mode="human")
+
+
+def test_the_greedy_agent_does_better_than_chance(gymnasium, tmp_path):
+    """Paired over 40 games with the same layouts: the mean difference is above 0 by ten of its standard errors."""
+    spec = importlib.util.spec_from_file_location("potting_agents", EXAMPLE)
+    example = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(example)
+    picture = tmp_path / "potting.svg"
+    by_chance, by_greed = example.main(["--games", "40", "--seed", "7", "--out", str(picture)])
+    more = by_greed - by_chance
+    assert more.mean() > 10.0 * more.std(ddof=1) / np.sqrt(len(more))
+    assert by_greed.mean() > 3.0 and by_greed.max() <= 5.0
+    assert ElementTree.parse(picture).getroot().tag.endswith("svg")
+    again, _ = example.main(["--games", "40", "--seed", "7", "--out", str(picture)])
+    np.testing.assert_array_equal(again, by_chance)
+
+
+def test_without_gymnasium():
+    blocked = "import sys; sys.modules['gymnasium'] = None; import carom.potting; print('rules'); import carom.gymnasium"
+    done = subprocess.run([sys.executable, "-c", blocked], capture_output=True, text=True)
+    assert done.returncode == 1 and done.stdout == "rules\n"
+    assert "ImportError: carom.gymnasium needs gymnasium" in done.stderr and "pip install gymnasium" in done.stderr
