@@ -1,8 +1,8 @@
 /* Which collocation step comes next.
  *
  * At the rate of its start a collision loses the share q of |u| on the whole way to its end. If q is not large and the
- * direction of the cloth slip smooth, one step in the impulse ends it: with four nodes (EASY) or eight (FULL). If it will
- * stick, and what is left of |u| is so small that the error of a step to there does not count, that ends it (STICK); else a
+ * direction of the cloth slip smooth, one step in the impulse ends it: with four nodes (EASY), six (FULL) or, where much of |u|
+ * is lost, eight graded ones (FULL_GRADED). If it will stick, and what is left of |u| is so small that the error of a step to there does not count, that ends it (STICK); else a
  * step takes away most of |u| first (PART). Where the cloth slip turns, steps with their nodes drawn together there lose less
  * of |u| at a time (TURN).
  *
@@ -23,7 +23,7 @@
 #include "ball_ball/impulse_step.h"
 #include "ball_ball/stick_step.h"
 
-enum { EASY_NODES = 4, FULL_NODES = 6 }; /* all others have 8, but STICK */
+enum { EASY_NODES = 4, FULL_NODES = 6 }; /* of STICK: stick_step.h; of all others: MOST_NODES */
 /* Iterations at most. */
 enum { EASY_MOST = 3, FULL_MOST = 4, FULL_GRADED_MOST = 5, PART_MOST = 5, TURN_MOST = 6 };
 enum { MOST_ATTEMPTS = 14 };
@@ -31,9 +31,9 @@ enum { MOST_ATTEMPTS = 14 };
 static const float EASY_SHARE = 6;           /* error of an EASY step over mu_b rho^-8 with rho for u, */
 static const float MOST_EASY_Q = 0.9f;       /* its q */
 static const float MOST_EASY_PULL = 5e-3f;   /* and its mu mu_b q^2 */
-static const float FULL_Q = 0.6f;            /* q of a FULL step over even nodes, */
+static const float FULL_Q = 0.66f;           /* q of a FULL step over even nodes, */
 static const float FULL_GRADED_Q = 0.96f;    /* and over graded ones */
-static const float BEND_4 = 20, BEND_8 = 30; /* by q^2: what a way that is not straight adds to the error of n nodes */
+static const float BEND_4 = 20, BEND_8 = 30; /* by q^2: what a way that is not straight adds to the error, with 4 nodes and with more */
 static const float STICK_Q = 1.05f;          /* q from which the balls will stick */
 static const float TURN_Q = 0.5f;            /* q of a TURN step */
 static const float LEFT_Q = 0.5f;            /* q that a PART would leave; */

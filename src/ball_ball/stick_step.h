@@ -23,7 +23,8 @@
 #include "ball_ball/problem.h"
 #include "ball_ball/rules.h"
 
-enum { STICK_NODES = 6, STICK_LEAST = 3, STICK_MOST = 5 }; /* iterations */
+enum { STICK_NODES = 6 };
+enum { STICK_LEAST = 3, STICK_MOST = 5 }; /* iterations; fewer would not show what the new W does */
 /* What an iteration of a step to stick leaves of what it moved. */
 static const float CONTRACTION_STICK = 0.1f;
 
