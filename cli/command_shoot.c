@@ -112,8 +112,32 @@ static bool argument_error(const shot_line *line, const carom_shot_options *opti
   return true;
 }
 
+/* The picture, kept in memory until the shots are written: one file at a time is written whole. */
+typedef struct drawing {
+  char *text; /* NULL: none was drawn */
+  size_t size;
+} drawing;
+
+static void draw(drawing *picture, const shot_line *line, const carom_shot *shot) {
+  FILE *out = open_memstream(&picture->text, &picture->size);
+  if (out == NULL)
+    out_of_memory();
+  shot_draw(out, line, shot);
+  if (fclose(out) != 0)
+    out_of_memory();
+}
+
+/* False after a complaint. */
+static bool put_picture(const char *path, const drawing *picture) {
+  FILE *out = output_open(path);
+  if (out == NULL)
+    return false;
+  fwrite(picture->text, 1, picture->size, out);
+  return output_commit();
+}
+
 /* Plays what has been read and writes it; returns whether all was good. */
-static bool finish_block(block *b, const shoot_job *job, FILE *out, bool *drawn) {
+static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *picture) {
   const carom_shot_options options = options_of(job);
   for (int from = 0, end; from < b->count; from = end) {
     end = from + 1;
@@ -140,8 +164,8 @@ static bool finish_block(block *b, const shoot_job *job, FILE *out, bool *drawn)
         complain("line %zu: after %g s: %s", line->number, b->shot[k].time, carom_status_string(b->status[k]));
       good &= b->status[k] >= 0;
       shot_write(out, line, &b->shot[k], b->status[k], job->events);
-      if (job->plot != NULL && !*drawn && shot_has_id(line, job->id))
-        *drawn = shot_draw(job->plot, line, &b->shot[k]);
+      if (job->plot != NULL && picture->text == NULL && shot_has_id(line, job->id))
+        draw(picture, line, &b->shot[k]);
     }
   }
   return good;
@@ -165,31 +189,31 @@ static void clear_block(block *b) {
 }
 
 /* All shots of a file; an exit code. */
-static int shoot_all(const shoot_job *job, shot_file *file, FILE *out) {
+static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *picture) {
   block *b = allocate(1, sizeof *b);
   const char *text;
-  bool good = true, drawn = false;
+  bool good = true;
   double done = 0.0;
   shot_read what;
   while ((what = shot_file_next(file, &b->line[b->count], &text)) == SHOT_SHOT || what == SHOT_TABLE) {
     if (what == SHOT_TABLE) { /* behind the shots before it */
-      good &= finish_block(b, job, out, &drawn);
+      good &= finish_block(b, job, out, picture);
       clear_block(b);
       fputs(text, out);
       continue;
     }
     begin_shot(b, job->events != EVENTS_NONE || job->plot != NULL);
     if (++b->count == BLOCK) {
-      good &= finish_block(b, job, out, &drawn);
+      good &= finish_block(b, job, out, picture);
       clear_block(b);
       progress_show("shots", done += BLOCK, -1.0);
     }
   }
-  good &= finish_block(b, job, out, &drawn);
+  good &= finish_block(b, job, out, picture);
   clear_block(b);
   free(b);
   progress_clear();
-  if (job->plot != NULL && !drawn) {
+  if (job->plot != NULL && picture->text == NULL) {
     complain("nothing to draw: there is no good shot%s%s", job->id != NULL ? " " : "", job->id != NULL ? job->id : "");
     good = false;
   }
@@ -227,11 +251,15 @@ int command_shoot(int argc, char **argv) {
   if (file == NULL)
     return EXIT_USAGE;
   FILE *out = output_open(job.shared.output);
-  code = out != NULL ? shoot_all(&job, file, out) : EXIT_USAGE;
+  drawing picture = {0};
+  code = out != NULL ? shoot_all(&job, file, out, &picture) : EXIT_USAGE;
   shot_file_close(file);
   if (out != NULL && code == EXIT_USAGE)
     output_abandon();
   else if (out != NULL && !output_commit())
     code = EXIT_USAGE;
+  else if (picture.text != NULL && !put_picture(job.plot, &picture))
+    code = EXIT_SOME;
+  free(picture.text);
   return code;
 }

@@ -3,15 +3,20 @@
 
 #include "command.h"
 #include "message.h"
+#include "output.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 
+void out_of_memory(void) {
+  complain("out of memory");
+  output_abandon();
+  exit(EXIT_USAGE);
+}
+
 static void *checked(void *block) {
-  if (block == NULL) {
-    complain("out of memory");
-    exit(EXIT_USAGE);
-  }
+  if (block == NULL)
+    out_of_memory();
   return block;
 }
 
