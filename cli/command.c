@@ -60,6 +60,13 @@ int program_run(const program *p, int argc, char **argv) {
     return EXIT_USAGE;
   }
   const char *name = argv[1];
+  static char help[] = "--help";
+  char *for_help[] = {argv[0], argc > 2 ? argv[2] : NULL, help, NULL};
+  if (strcmp(name, "help") == 0 && argc > 2) { /* help COMMAND */
+    name = argv[2];
+    argc = 3;
+    argv = for_help;
+  }
   if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
     print_help(p, stdout);
     return finish(EXIT_GOOD);
@@ -80,6 +87,12 @@ int program_run(const program *p, int argc, char **argv) {
   for (size_t k = 0; k < p->count; k++)
     if (resembles(name, p->commands[k].name)) {
       complain("no command '%s'; is '%s' meant?", name, p->commands[k].name);
+      return EXIT_USAGE;
+    }
+  static const char *const own[] = {"--help", "--version"};
+  for (size_t k = 0; k < sizeof own / sizeof own[0]; k++)
+    if (resembles(name, own[k])) {
+      complain("no command '%s'; is '%s' meant?", name, own[k]);
       return EXIT_USAGE;
     }
   complain("no command '%s'; `%s --help` lists them", name, p->name);

@@ -183,13 +183,23 @@ static const char *velocity_text(const double v[2], double scale, char text[64])
   const double speed = hypot(v[0], v[1]), angle = angle_between((const double[]){1.0, 0.0}, v);
   if (speed < 1e-9 * scale)
     snprintf(text, 64, "at rest");
-  else if (fabs(angle) < 0.005)
-    snprintf(text, 64, "%.3f m/s, straight on", speed);
-  else if (fabs(angle) > 179.995)
-    snprintf(text, 64, "%.3f m/s, straight back", speed);
-  else
-    snprintf(text, 64, "%.3f m/s, %.2f degrees to the %s", speed, fabs(angle), side_of(angle));
+  else {
+    const int size = snprintf(text, 64, speed < 1e6 ? "%.3f m/s, " : "%.4g m/s, ", speed);
+    if (fabs(angle) < 0.005 || fabs(angle) > 179.995)
+      snprintf(text + size, (size_t)(64 - size), "straight %s", fabs(angle) < 90.0 ? "on" : "back");
+    else
+      snprintf(text + size, (size_t)(64 - size), "%.2f degrees to the %s", fabs(angle), side_of(angle));
+  }
   return text;
+}
+
+static void tell_spin(report *r, const char *verb, const double w[3]) {
+  const double level = hypot(w[0], w[1]);
+  tell(r,
+       fmax(fabs(w[2]), level) < 1e9
+           ? "              %s spin:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis"
+           : "              %s spin:  %.4g rad/s about the vertical, %.4g rad/s about a horizontal axis",
+       verb, w[2], level);
 }
 
 static void tell_hit(const hit *h, const one_hit *one, const carom_impact *in, const carom_result *out, report *r) {
@@ -207,13 +217,14 @@ static void tell_hit(const hit *h, const one_hit *one, const carom_impact *in, c
   else
     tell(r, "              throw:       %.2f degrees to the %s of the line of centres", fabs(d.throw_deg),
          side_of(d.throw_deg));
-  tell(r, "              takes spin:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis", out->b.w[2],
-       hypot(out->b.w[0], out->b.w[1]));
+  tell_spin(r, "takes", out->b.w);
   tell(r, "cue ball      at once:     %s", velocity_text(out->a.v, scale, text));
   tell(r, "              rolling:     %s", velocity_text(d.rolling_1, scale, text));
-  tell(r, "              keeps spin:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis", out->a.w[2],
-       hypot(out->a.w[0], out->a.w[1]));
-  tell(r, "energy        lost:        %.2f %% of %.4g J", 100.0 * d.energy_lost, energy);
+  tell_spin(r, "keeps", out->a.w);
+  if (isfinite(d.energy_lost))
+    tell(r, "energy        lost:        %.2f %% of %.4g J", 100.0 * d.energy_lost, energy);
+  else
+    tell(r, "energy        lost:        cannot be told: the energies are beyond the range of numbers");
 }
 
 static void write_row(FILE *out, const char *id, const carom_impact *in) {

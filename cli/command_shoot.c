@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BLOCK = 64, FIRST_ROOM = 512 };
+enum { BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 }; /* lines in error that are named */
 
 typedef struct shoot_job {
   shared_options shared; /* --threads, --steps, --output */
@@ -27,6 +27,8 @@ typedef struct block {
   carom_shot shot[BLOCK];
   carom_status status[BLOCK];
   int count;
+  const char *file;  /* its name, for messages */
+  long long unnamed; /* lines in error beyond those that are named, -MOST_NAMED at first */
   /* the shots without error, as batches take them */
   carom_shot_ball ball[BLOCK * CAROM_BALLS_MOST];
   carom_cue cue[BLOCK];
@@ -112,6 +114,11 @@ static bool argument_error(const shot_line *line, const carom_shot_options *opti
   return true;
 }
 
+/* Whether one more line in error is named. */
+static bool is_named(block *b) {
+  return b->unnamed++ < 0;
+}
+
 /* The picture, kept in memory until the shots are written: one file at a time is written whole. */
 typedef struct drawing {
   char *text; /* NULL: none was drawn */
@@ -152,16 +159,18 @@ static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *pic
     const shot_line *line = &b->line[k];
     char text[300];
     if (line->error != NULL) {
-      complain("line %zu: %s", line->number, line->error);
+      if (is_named(b))
+        complain("%s:%zu: %s", b->file, line->number, line->error);
       shot_write_error(out, line, "bad_line", line->error);
       good = false;
     } else if (b->status[k] < 0 && argument_error(line, &options, text)) {
-      complain("line %zu: %s", line->number, text);
+      if (is_named(b))
+        complain("%s:%zu: %s", b->file, line->number, text);
       shot_write_error(out, line, carom_status_name(b->status[k]), text);
       good = false;
     } else {
-      if (b->status[k] < 0)
-        complain("line %zu: after %g s: %s", line->number, b->shot[k].time, carom_status_string(b->status[k]));
+      if (b->status[k] < 0 && is_named(b))
+        complain("%s:%zu: after %g s: %s", b->file, line->number, b->shot[k].time, carom_status_string(b->status[k]));
       good &= b->status[k] >= 0;
       shot_write(out, line, &b->shot[k], b->status[k], job->events);
       if (job->plot != NULL && picture->text == NULL && shot_has_id(line, job->id))
@@ -191,6 +200,8 @@ static void clear_block(block *b) {
 /* All shots of a file; an exit code. */
 static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *picture) {
   block *b = allocate(1, sizeof *b);
+  b->file = shot_file_name(file);
+  b->unnamed = -MOST_NAMED;
   const char *text;
   bool good = true;
   double done = 0.0;
@@ -211,6 +222,8 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
   }
   good &= finish_block(b, job, out, picture);
   clear_block(b);
+  if (b->unnamed > 0)
+    complain("%s: %lld more lines in error", b->file, b->unnamed);
   free(b);
   progress_clear();
   if (job->plot != NULL && picture->text == NULL) {

@@ -3,14 +3,12 @@
 
 #include "command.h"
 #include "message.h"
-#include "output.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 
 void out_of_memory(void) {
   complain("out of memory");
-  output_abandon();
   exit(EXIT_USAGE);
 }
 

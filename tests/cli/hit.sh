@@ -100,3 +100,5 @@ for words in "--speed 1,,x" "--speed ," "--speed 1,2,3,4 --spin 1,2,3,4,5" "--sp
 done
 ls refused.txt 2> /dev/null || echo "nothing written"
 try carom resolve --derived -o out.npy rows.csv
+echo "numbers too large for words:"
+try carom hit --speed 1e300 2> /dev/null
