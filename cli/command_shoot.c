@@ -217,7 +217,7 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
     if (++b->count == BLOCK) {
       good &= finish_block(b, job, out, picture);
       clear_block(b);
-      progress_show("shots", done += BLOCK, -1.0);
+      progress_show("shots", done += (double)BLOCK, -1.0);
     }
   }
   good &= finish_block(b, job, out, picture);
