@@ -8,7 +8,7 @@ from(what) = real(note(what))
 what = note("model") eq "euler" ? "Mathavan's model of 2010 in steps, N = ".note("steps")."." : "The exact limit of Mathavan's model of 2010."
 set label 1001 note("impact").": friction ".note("friction of the cushion")." with the cushion,".(narrow ? "\n" : " ").\
   note("friction of the cloth")." with the cloth; restitution ".note("restitution").".".(narrow ? "\n" : "  ").\
-  what at screen 0.012, screen (narrow ? px(38) : 0.022) font ",11" textcolor rgb grey noenhanced
+  what at screen 0.012, screen (narrow ? px(44) : 0.022) font ",11" textcolor rgb grey noenhanced
 
 set multiplot
 if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen (narrow ? 1 - px(16) : 0.968) center font large textcolor rgb ink noenhanced
