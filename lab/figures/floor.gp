@@ -25,7 +25,7 @@ set xlabel "bytes read and written by a batch"
 set ylabel "time of a pair (ns)" offset 0.5,0
 set lmargin at screen (narrow ? 0.18 : 0.085); set rmargin at screen (narrow ? 0.95 : 0.765)
 set key at screen 0.785, graph 1 left top Left reverse noenhanced samplen 3
-if (narrow) { set bmargin at screen px(215); set key at screen 0.03, screen px(142) left top }
+if (narrow) { set bmargin at screen px(228); set key at screen 0.03, screen px(152) left top }
 stats data using (at("solver", "single")) name "x" nooutput
 set xrange [0.8 * x_min:2**28]
 caches = note("caches")
