@@ -194,12 +194,12 @@ static const char *velocity_text(const double v[2], double scale, char text[64])
 }
 
 static void tell_spin(report *r, const char *verb, const double w[3]) {
-  const double level = hypot(w[0], w[1]);
+  const double level = hypot(w[0], w[1]), upright = fabs(w[2]) < 0.005 ? 0.0 : w[2]; /* not -0.00 */
   tell(r,
        fmax(fabs(w[2]), level) < 1e9
            ? "              %s spin:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis"
            : "              %s spin:  %.4g rad/s about the vertical, %.4g rad/s about a horizontal axis",
-       verb, w[2], level);
+       verb, upright, level);
 }
 
 static void tell_hit(const hit *h, const one_hit *one, const carom_impact *in, const carom_result *out, report *r) {
