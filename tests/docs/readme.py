@@ -45,7 +45,7 @@ with tempfile.TemporaryDirectory() as work:
     for kind, text in readme:
         if kind == "sh" and "build/" not in text:
             shell(text, reader, PATH=f"{BUILD}:{os.environ['PATH']}")
-    for picture in ("hit", "throw", "speeds", "trace", "break"):
+    for picture in ("hit", "throw", "speeds", "trace", "break", "rail"):
         assert (reader / f"{picture}.svg").read_text(encoding="utf-8").rstrip().endswith("</svg>"), picture
 
     # Installing, from a copy of what a clone has.
