@@ -6,10 +6,12 @@
 #include "output.h"
 #include "suggest.h"
 
+#include <fcntl.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static void print_help(const program *p, FILE *to) {
   fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n\ncommands:\n", p->name, p->about);
@@ -52,8 +54,17 @@ static bool isa_is_known(void) {
   return false;
 }
 
+/* Where standard input, output or error are closed, something stands in their places on which every reading and writing fails:
+ * else the next file opened would take the number, and be what the program and gnuplot write to. */
+static void hold_standard_places(void) {
+  for (int place = STDIN_FILENO; place <= STDERR_FILENO; place++)
+    if (fcntl(place, F_GETFD) < 0 && open("/dev/null", place == STDIN_FILENO ? O_WRONLY : O_RDONLY) != place)
+      exit(EXIT_USAGE);
+}
+
 int program_run(const program *p, int argc, char **argv) {
   program_name = p->name;
+  hold_standard_places();
   atexit(output_abandon); /* a program that ends early leaves no half-written output */
   if (argc < 2) {
     print_help(p, stderr);

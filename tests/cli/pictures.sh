@@ -50,3 +50,9 @@ try carom trace --id stun --plot full.svg hit.csv
 ln -sf link_to.svg linked.svg
 try carom shoot --events none --plot linked.svg -o /dev/null "$DATA/break-nineball.jsonl"
 test -L linked.svg && tail -n 1 link_to.svg
+# With the standard places closed files take none of them.
+for closed in "<&-" ">&-" "2>&-" "<&- >&- 2>&-"; do
+  rm -f closed.svg closed.csv
+  eval "timeout 60 \"\$CAROM\" trace --id stun --plot closed.svg -o closed.csv hit.csv $closed" || echo "exit $?"
+  echo "closed $closed: $(grep -c '</svg>' closed.svg) $(grep -c ^exact closed.csv)"
+done
