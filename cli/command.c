@@ -6,10 +6,12 @@
 #include "output.h"
 #include "suggest.h"
 
+#include <fcntl.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static void print_help(const program *p, FILE *to) {
   fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n\ncommands:\n", p->name, p->about);
@@ -52,14 +54,30 @@ static bool isa_is_known(void) {
   return false;
 }
 
+/* Where standard input, output or error are closed, something stands in their places on which every reading and writing fails:
+ * else the next file opened would take the number, and be what the program and gnuplot write to. */
+static void hold_standard_places(void) {
+  for (int place = STDIN_FILENO; place <= STDERR_FILENO; place++)
+    if (fcntl(place, F_GETFD) < 0 && open("/dev/null", place == STDIN_FILENO ? O_WRONLY : O_RDONLY) != place)
+      exit(EXIT_USAGE);
+}
+
 int program_run(const program *p, int argc, char **argv) {
   program_name = p->name;
+  hold_standard_places();
   atexit(output_abandon); /* a program that ends early leaves no half-written output */
   if (argc < 2) {
     print_help(p, stderr);
     return EXIT_USAGE;
   }
   const char *name = argv[1];
+  static char help[] = "--help";
+  char *for_help[] = {argv[0], argc > 2 ? argv[2] : NULL, help, NULL};
+  if (strcmp(name, "help") == 0 && argc > 2) { /* help COMMAND */
+    name = argv[2];
+    argc = 3;
+    argv = for_help;
+  }
   if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
     print_help(p, stdout);
     return finish(EXIT_GOOD);
@@ -80,6 +98,12 @@ int program_run(const program *p, int argc, char **argv) {
   for (size_t k = 0; k < p->count; k++)
     if (resembles(name, p->commands[k].name)) {
       complain("no command '%s'; is '%s' meant?", name, p->commands[k].name);
+      return EXIT_USAGE;
+    }
+  static const char *const own[] = {"--help", "--version"};
+  for (size_t k = 0; k < sizeof own / sizeof own[0]; k++)
+    if (resembles(name, own[k])) {
+      complain("no command '%s'; is '%s' meant?", name, own[k]);
       return EXIT_USAGE;
     }
   complain("no command '%s'; `%s --help` lists them", name, p->name);

@@ -18,17 +18,27 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_SPINS = 16, MOST_LINES = 24, LINE = 120 };
+enum { MOST_HITS = 16, NAME = 32, MOST_LINES = 24, LINE = 120 };
 
-typedef struct spin_list {
-  char name[MOST_SPINS][32];
+/* Spins or speeds as they were given. */
+typedef struct name_list {
+  char name[MOST_HITS][NAME];
   int count;
-} spin_list;
+} name_list;
+
+/* One of the collisions asked for: each spin at each speed. */
+typedef struct one_hit {
+  double speed;
+  const char *spin;
+  char id[2 * NAME];
+} one_hit;
 
 typedef struct hit {
   shared_options asked;
-  double speed, cut, radius, mass, cloth, restitution;
-  spin_list spins;
+  double cut, radius, mass, cloth, restitution;
+  name_list speeds, spins;
+  one_hit hits[MOST_HITS];
+  int count;
   const char *side;
   bool csv;
   const char *picture;
@@ -66,21 +76,37 @@ static double spin_of(const char *text, double rolling) {
   }
 }
 
-static OPTION_SET(set_spins) {
-  spin_list *list = field;
+static bool is_spin(const char *text) {
+  return !isnan(spin_of(text, 1.0));
+}
+
+static bool is_speed(const char *text) {
+  double value;
+  return parse_number(text, &value) && value > 0.0 && isfinite(value);
+}
+
+/* Cuts a list with commas apart. */
+static bool set_list(const option_row *row, char *text, name_list *list, bool (*is_one)(const char *), const char *what) {
   char *rest;
   list->count = 0;
   for (char *name = strtok_r(text, ",", &rest); name != NULL; name = strtok_r(NULL, ",", &rest)) {
-    if (isnan(spin_of(name, 1.0)) || strlen(name) >= sizeof list->name[0] || list->count == MOST_SPINS) {
-      complain("--%s is stun, follow, roll, draw or a number of rad/s, or up to %d of them with commas, not '%.60s'", row->name,
-               MOST_SPINS, name);
+    if (!is_one(name) || strlen(name) >= NAME || list->count == MOST_HITS) {
+      complain("--%s is %s, or up to %d of them with commas, not '%.60s'", row->name, what, MOST_HITS, name);
       return false;
     }
     strcpy(list->name[list->count++], name);
   }
   if (list->count == 0)
-    complain("--%s needs a spin", row->name);
+    complain("--%s is %s", row->name, what);
   return list->count > 0;
+}
+
+static OPTION_SET(set_spins) {
+  return set_list(row, text, field, is_spin, "stun, follow, roll, draw or a number of rad/s");
+}
+
+static OPTION_SET(set_speeds) {
+  return set_list(row, text, field, is_speed, "a number of m/s above 0");
 }
 
 static OPTION_SET(set_side) {
@@ -92,7 +118,9 @@ static OPTION_SET(set_side) {
   return false;
 }
 
-OPTION(hit, option_speed, "speed", speed, 0, "V", set_number, 0, "speed of the cue ball at contact, m/s (default 1.5)");
+OPTION(
+    hit, option_speed, "speed", speeds, 0, "V", set_speeds, 0,
+    "speed of the cue ball at contact, m/s (default 1.5). Several with commas: several\ncollisions, each spin at each speed");
 OPTION(hit, option_cut, "cut", cut, 0, "DEGREES", set_number, 0,
        "angle from its way to the line of centres, -90 to 90; above 0 the object ball\ngoes to the left (default 30)");
 OPTION(hit, option_spin, "spin", spins, 0, "SPIN", set_spins, 0,
@@ -105,19 +133,36 @@ OPTION(hit, option_radius, "radius", radius, 0, "R", set_number, 0, "of the ball
 OPTION(hit, option_mass, "mass", mass, 0, "M", set_number, 0, "of the balls, kg (default 0.170097)");
 OPTION(hit, option_cloth, "cloth", cloth, 0, "MU", set_number, 0, "friction with the cloth (default 0.2)");
 OPTION(hit, option_restitution, "restitution", restitution, 0, "E", set_number, 0, "of the balls (default 0.95)");
-OPTION(hit, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "write the collision as `carom resolve` reads it; its id is the spin");
+OPTION(
+    hit, option_csv, "csv", csv, 0, NULL, set_flag, 0,
+    "write the collision as `carom resolve` reads it; its id is the spin, with several\nspeeds spin-speed, such as draw-1.5");
 OPTION(hit, option_plot, "plot", picture, 0, "OUT.svg", set_svg, 0, "draw the balls and their paths from above");
 
-static carom_impact impact_of(const hit *h, const char *spin) {
-  const double angle = h->cut * (3.14159265358979323846 / 180.0), rolling = h->speed / h->radius;
+/* False after a complaint. */
+static bool list_hits(hit *h) {
+  if (h->speeds.count * h->spins.count > MOST_HITS) {
+    complain("%d speeds times %d spins are too many; at most %d collisions", h->speeds.count, h->spins.count, MOST_HITS);
+    return false;
+  }
+  for (int spin = 0; spin < h->spins.count; spin++)
+    for (int speed = 0; speed < h->speeds.count; speed++) {
+      one_hit *one = &h->hits[h->count++];
+      one->spin = h->spins.name[spin];
+      parse_number(h->speeds.name[speed], &one->speed);
+      snprintf(one->id, sizeof one->id, h->speeds.count > 1 ? "%s-%s" : "%s", one->spin, h->speeds.name[speed]);
+    }
+  return true;
+}
+
+static carom_impact impact_of(const hit *h, const one_hit *one) {
+  const double angle = h->cut * (3.14159265358979323846 / 180.0), rolling = one->speed / h->radius;
   carom_impact in = {.restitution = h->restitution};
   double side;
   if (!parse_number(h->side, &side)) /* gearing: the surfaces move alike along the tangent line */
     side = rolling * sin(angle);
   in.a = (carom_ball){.r = {0.0, 0.0, h->radius},
-                      .v = {h->speed, 0.0, 0.0},
-                      .w = {0.0, spin_of(spin, rolling), side},
+                      .v = {one->speed, 0.0, 0.0},
+                      .w = {0.0, spin_of(one->spin, rolling), side},
                       .radius = h->radius,
                       .mass = h->mass,
                       .mu_cloth = h->cloth};
@@ -138,21 +183,31 @@ static const char *velocity_text(const double v[2], double scale, char text[64])
   const double speed = hypot(v[0], v[1]), angle = angle_between((const double[]){1.0, 0.0}, v);
   if (speed < 1e-9 * scale)
     snprintf(text, 64, "at rest");
-  else if (fabs(angle) < 0.005)
-    snprintf(text, 64, "%.3f m/s, straight on", speed);
-  else if (fabs(angle) > 179.995)
-    snprintf(text, 64, "%.3f m/s, straight back", speed);
-  else
-    snprintf(text, 64, "%.3f m/s, %.2f degrees to the %s", speed, fabs(angle), side_of(angle));
+  else {
+    const int size = snprintf(text, 64, speed < 1e6 ? "%.3f m/s, " : "%.4g m/s, ", speed);
+    if (fabs(angle) < 0.005 || fabs(angle) > 179.995)
+      snprintf(text + size, (size_t)(64 - size), "straight %s", fabs(angle) < 90.0 ? "on" : "back");
+    else
+      snprintf(text + size, (size_t)(64 - size), "%.2f degrees to the %s", fabs(angle), side_of(angle));
+  }
   return text;
 }
 
-static void tell_hit(const hit *h, const char *spin, const carom_impact *in, const carom_result *out, report *r) {
+static void tell_spin(report *r, const char *verb, const double w[3]) {
+  const double level = hypot(w[0], w[1]), upright = fabs(w[2]) < 0.005 ? 0.0 : w[2]; /* not -0.00 */
+  tell(r,
+       fmax(fabs(w[2]), level) < 1e9
+           ? "              %s spin:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis"
+           : "              %s spin:  %.4g rad/s about the vertical, %.4g rad/s about a horizontal axis",
+       verb, upright, level);
+}
+
+static void tell_hit(const hit *h, const one_hit *one, const carom_impact *in, const carom_result *out, report *r) {
   const derived d = derive(in, out);
-  const double energy = energy_of(&in->a, in->a.v, in->a.w), scale = h->speed;
+  const double energy = energy_of(&in->a, in->a.v, in->a.w), scale = one->speed;
   char text[64];
   tell(r, "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s (%.4g rad/s), side spin %.4g rad/s.",
-       h->speed, h->cut, spin, in->a.w[1], in->a.w[2]);
+       one->speed, h->cut, one->spin, in->a.w[1], in->a.w[2]);
   tell(r, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.", in->mu_ball, in->a.mu_cloth,
        in->restitution);
   tell(r, "object ball   at once:     %s", velocity_text(out->b.v, scale, text));
@@ -162,13 +217,14 @@ static void tell_hit(const hit *h, const char *spin, const carom_impact *in, con
   else
     tell(r, "              throw:       %.2f degrees to the %s of the line of centres", fabs(d.throw_deg),
          side_of(d.throw_deg));
-  tell(r, "              takes spin:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis", out->b.w[2],
-       hypot(out->b.w[0], out->b.w[1]));
+  tell_spin(r, "takes", out->b.w);
   tell(r, "cue ball      at once:     %s", velocity_text(out->a.v, scale, text));
   tell(r, "              rolling:     %s", velocity_text(d.rolling_1, scale, text));
-  tell(r, "              keeps spin:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis", out->a.w[2],
-       hypot(out->a.w[0], out->a.w[1]));
-  tell(r, "energy        lost:        %.2f %% of %.4g J", 100.0 * d.energy_lost, energy);
+  tell_spin(r, "keeps", out->a.w);
+  if (isfinite(d.energy_lost))
+    tell(r, "energy        lost:        %.2f %% of %.4g J", 100.0 * d.energy_lost, energy);
+  else
+    tell(r, "energy        lost:        cannot be told: the energies are beyond the range of numbers");
 }
 
 static void write_row(FILE *out, const char *id, const carom_impact *in) {
@@ -185,9 +241,9 @@ static void write_row(FILE *out, const char *id, const carom_impact *in) {
 static bool resolve_all(const hit *h, carom_impact *in, carom_result *out) {
   doubts found = {0};
   bool strange = false;
-  for (int k = 0; k < h->spins.count; k++) {
+  for (int k = 0; k < h->count; k++) {
     int field;
-    in[k] = impact_of(h, h->spins.name[k]);
+    in[k] = impact_of(h, &h->hits[k]);
     const carom_status status = carom_collide(&in[k], &h->asked.options, &out[k]);
     if (status != CAROM_OK) {
       carom_check(&in[k], &h->asked.options, &field);
@@ -208,15 +264,15 @@ static bool write_hits(const hit *h, const carom_impact *in, const carom_result 
     return false;
   if (h->csv)
     fputs("id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R,M,u_s1,u_s2,u_b,e_b\n", out);
-  for (int k = 0; k < h->spins.count; k++) {
+  for (int k = 0; k < h->count; k++) {
     report r = {0};
-    tell_hit(h, h->spins.name[k], &in[k], &result[k], &r);
+    tell_hit(h, &h->hits[k], &in[k], &result[k], &r);
     if (h->csv)
-      write_row(out, h->spins.name[k], &in[k]);
+      write_row(out, h->hits[k].id, &in[k]);
     for (int line = 0; line < r.count && !h->csv; line++)
       fprintf(out, "%s%s\n", k > 0 && line == 0 ? "\n" : "", r.line[line]);
     if (k == 0)
-      tell_hit(h, h->spins.name[k], &in[k], &result[k], &first);
+      tell_hit(h, &h->hits[k], &in[k], &result[k], &first);
   }
   return output_commit() && (h->picture == NULL || hit_draw(h->picture, in, result, first.lines));
 }
@@ -239,22 +295,24 @@ static const command_form form = {
 
 int command_hit(int argc, char **argv) {
   hit h = {.asked = {.options = COMMAND_OPTIONS, .friction = {.law = carom_alciatore()}, .output = "-"},
-           .speed = 1.5,
            .cut = 30.0,
            .radius = 0.028575,
            .mass = 0.170097,
            .cloth = 0.2,
            .restitution = 0.95,
+           .speeds = {.name = {"1.5"}, .count = 1},
            .spins = {.name = {"stun"}, .count = 1},
            .side = "0"};
-  carom_impact in[MOST_SPINS];
-  carom_result out[MOST_SPINS];
+  carom_impact in[MOST_HITS];
+  carom_result out[MOST_HITS];
   const int code = parse_arguments(&form, argc, argv, &h, NULL);
   if (code >= 0)
     return code;
-  if (!(h.speed > 0.0) || !(fabs(h.cut) < 90.0)) {
-    complain("--speed is above 0, and --cut between -90 and 90 degrees; at 90 the balls do not meet");
+  if (!(fabs(h.cut) < 90.0)) {
+    complain("--cut is between -90 and 90 degrees; at 90 the balls do not meet");
     return EXIT_USAGE;
   }
+  if (!list_hits(&h))
+    return EXIT_USAGE;
   return resolve_all(&h, in, out) && write_hits(&h, in, out) ? EXIT_GOOD : EXIT_USAGE;
 }

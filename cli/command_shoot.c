@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BLOCK = 64, FIRST_ROOM = 512 };
+enum { BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 }; /* lines in error that are named */
 
 typedef struct shoot_job {
   shared_options shared; /* --threads, --steps, --output */
@@ -27,6 +27,8 @@ typedef struct block {
   carom_shot shot[BLOCK];
   carom_status status[BLOCK];
   int count;
+  const char *file;  /* its name, for messages */
+  long long unnamed; /* lines in error beyond those that are named, -MOST_NAMED at first */
   /* the shots without error, as batches take them */
   carom_shot_ball ball[BLOCK * CAROM_BALLS_MOST];
   carom_cue cue[BLOCK];
@@ -112,8 +114,37 @@ static bool argument_error(const shot_line *line, const carom_shot_options *opti
   return true;
 }
 
+/* Whether one more line in error is named. */
+static bool is_named(block *b) {
+  return b->unnamed++ < 0;
+}
+
+/* The picture, kept in memory until the shots are written: one file at a time is written whole. */
+typedef struct drawing {
+  char *text; /* NULL: none was drawn */
+  size_t size;
+} drawing;
+
+static void draw(drawing *picture, const shot_line *line, const carom_shot *shot) {
+  FILE *out = open_memstream(&picture->text, &picture->size);
+  if (out == NULL)
+    out_of_memory();
+  shot_draw(out, line, shot);
+  if (fclose(out) != 0)
+    out_of_memory();
+}
+
+/* False after a complaint. */
+static bool put_picture(const char *path, const drawing *picture) {
+  FILE *out = output_open(path);
+  if (out == NULL)
+    return false;
+  fwrite(picture->text, 1, picture->size, out);
+  return output_commit();
+}
+
 /* Plays what has been read and writes it; returns whether all was good. */
-static bool finish_block(block *b, const shoot_job *job, FILE *out, bool *drawn) {
+static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *picture) {
   const carom_shot_options options = options_of(job);
   for (int from = 0, end; from < b->count; from = end) {
     end = from + 1;
@@ -128,20 +159,22 @@ static bool finish_block(block *b, const shoot_job *job, FILE *out, bool *drawn)
     const shot_line *line = &b->line[k];
     char text[300];
     if (line->error != NULL) {
-      complain("line %zu: %s", line->number, line->error);
+      if (is_named(b))
+        complain("%s:%zu: %s", b->file, line->number, line->error);
       shot_write_error(out, line, "bad_line", line->error);
       good = false;
     } else if (b->status[k] < 0 && argument_error(line, &options, text)) {
-      complain("line %zu: %s", line->number, text);
+      if (is_named(b))
+        complain("%s:%zu: %s", b->file, line->number, text);
       shot_write_error(out, line, carom_status_name(b->status[k]), text);
       good = false;
     } else {
-      if (b->status[k] < 0)
-        complain("line %zu: after %g s: %s", line->number, b->shot[k].time, carom_status_string(b->status[k]));
+      if (b->status[k] < 0 && is_named(b))
+        complain("%s:%zu: after %g s: %s", b->file, line->number, b->shot[k].time, carom_status_string(b->status[k]));
       good &= b->status[k] >= 0;
       shot_write(out, line, &b->shot[k], b->status[k], job->events);
-      if (job->plot != NULL && !*drawn && shot_has_id(line, job->id))
-        *drawn = shot_draw(job->plot, line, &b->shot[k]);
+      if (job->plot != NULL && picture->text == NULL && shot_has_id(line, job->id))
+        draw(picture, line, &b->shot[k]);
     }
   }
   return good;
@@ -165,31 +198,35 @@ static void clear_block(block *b) {
 }
 
 /* All shots of a file; an exit code. */
-static int shoot_all(const shoot_job *job, shot_file *file, FILE *out) {
+static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *picture) {
   block *b = allocate(1, sizeof *b);
+  b->file = shot_file_name(file);
+  b->unnamed = -MOST_NAMED;
   const char *text;
-  bool good = true, drawn = false;
+  bool good = true;
   double done = 0.0;
   shot_read what;
   while ((what = shot_file_next(file, &b->line[b->count], &text)) == SHOT_SHOT || what == SHOT_TABLE) {
     if (what == SHOT_TABLE) { /* behind the shots before it */
-      good &= finish_block(b, job, out, &drawn);
+      good &= finish_block(b, job, out, picture);
       clear_block(b);
       fputs(text, out);
       continue;
     }
     begin_shot(b, job->events != EVENTS_NONE || job->plot != NULL);
     if (++b->count == BLOCK) {
-      good &= finish_block(b, job, out, &drawn);
+      good &= finish_block(b, job, out, picture);
       clear_block(b);
-      progress_show("shots", done += BLOCK, -1.0);
+      progress_show("shots", done += (double)BLOCK, -1.0);
     }
   }
-  good &= finish_block(b, job, out, &drawn);
+  good &= finish_block(b, job, out, picture);
   clear_block(b);
+  if (b->unnamed > 0)
+    complain("%s: %lld more lines in error", b->file, b->unnamed);
   free(b);
   progress_clear();
-  if (job->plot != NULL && !drawn) {
+  if (job->plot != NULL && picture->text == NULL) {
     complain("nothing to draw: there is no good shot%s%s", job->id != NULL ? " " : "", job->id != NULL ? job->id : "");
     good = false;
   }
@@ -227,11 +264,15 @@ int command_shoot(int argc, char **argv) {
   if (file == NULL)
     return EXIT_USAGE;
   FILE *out = output_open(job.shared.output);
-  code = out != NULL ? shoot_all(&job, file, out) : EXIT_USAGE;
+  drawing picture = {0};
+  code = out != NULL ? shoot_all(&job, file, out, &picture) : EXIT_USAGE;
   shot_file_close(file);
   if (out != NULL && code == EXIT_USAGE)
     output_abandon();
   else if (out != NULL && !output_commit())
     code = EXIT_USAGE;
+  else if (picture.text != NULL && !put_picture(job.plot, &picture))
+    code = EXIT_SOME;
+  free(picture.text);
   return code;
 }

@@ -102,9 +102,11 @@ static bool find_columns(cushion_reader *r, const record *header) {
   }
   if ((r->at[6] == SIZE_MAX) != (r->at[7] == SIZE_MAX))
     strcat(missing, r->at[6] == SIZE_MAX ? "nx " : "ny ");
+  size_t ball;
+  const bool of_balls = missing[1] != '\0' && find(header, file, "r2x", &ball) && ball != SIZE_MAX;
   if (missing[1] != '\0')
-    complain("%s:%lld: missing columns:%s(names are case-sensitive; `%s resolve --cushion --help` lists them)", file,
-             header->line, missing, program_name);
+    complain("%s:%lld: missing columns:%s(%snames are case-sensitive; `%s resolve --cushion --help` lists them)", file,
+             header->line, missing, of_balls ? "collisions of two balls are read without --cushion; " : "", program_name);
   return missing[1] == '\0';
 }
 

@@ -11,7 +11,7 @@
 #include <stdio.h>
 
 enum { STEPS = 24 };
-static const double gravity = 9.81, width = 900.0, margin = 30.0; /* m/s^2; pixels */
+static const double steps = STEPS, gravity = 9.81, width = 900.0, margin = 30.0; /* m/s^2; pixels */
 
 /* A path: where it begins, its velocity at once and when rolling, how long it slides, how long it is drawn. */
 typedef struct path {
@@ -81,7 +81,7 @@ static void draw_path(const view *v, const path *p, double radius, const char *c
   fprintf(v->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"4\" d=\"M%.1f %.1f", colour, across(v, p->from[0]),
           down(v, p->from[1]));
   for (int k = 1; k <= STEPS; k++) {
-    place_at(p, slid * k / STEPS, r);
+    place_at(p, slid * k / steps, r);
     fprintf(v->out, "L%.1f %.1f", across(v, r[0]), down(v, r[1]));
   }
   fprintf(v->out, "\"/>\n<path stroke=\"%s\" stroke-width=\"1.8\" d=\"M%.1f %.1f", colour, across(v, r[0]), down(v, r[1]));
@@ -112,7 +112,7 @@ bool hit_draw(const char *name, const carom_impact *in, const carom_result *out,
   for (int ball = 0; ball < 2; ball++)
     for (int k = 0; k <= STEPS; k++) {
       double r[2];
-      place_at(&paths[ball], paths[ball].drawn * k / STEPS, r);
+      place_at(&paths[ball], paths[ball].drawn * k / steps, r);
       include(&v, r, 1.5 * radius);
     }
   v.scale = fmin((width - 2.0 * margin) / (v.high[0] - v.low[0]), 700.0 / (v.high[1] - v.low[1]));

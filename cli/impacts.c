@@ -104,6 +104,9 @@ static bool find_columns(impact_reader *r, const record *header, bool mu_ball_ne
       strcat(strcat(missing, r->name[field]), " ");
     }
   }
+  size_t rail;
+  if (missing[1] != '\0' && find_once(header, file, "mu_w", &rail) && rail != SIZE_MAX)
+    snprintf(meant, sizeof meant, "with --cushion impacts on a cushion are read; ");
   if (missing[1] != '\0')
     complain("%s:%lld: missing columns:%s(%s%s; `%s resolve --help` lists them)", file, header->line, missing, meant,
              header->count > 1 ? "names are case-sensitive" : "the header is a single field, without commas", program_name);

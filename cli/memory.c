@@ -7,11 +7,14 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+void out_of_memory(void) {
+  complain("out of memory");
+  exit(EXIT_USAGE);
+}
+
 static void *checked(void *block) {
-  if (block == NULL) {
-    complain("out of memory");
-    exit(EXIT_USAGE);
-  }
+  if (block == NULL)
+    out_of_memory();
   return block;
 }
 

@@ -4,6 +4,9 @@
 
 #include <stddef.h>
 
+/* Ends the program so; command.c has seen to the output. */
+__attribute__((noreturn)) void out_of_memory(void);
+
 /* `count` elements of `size` bytes, all zero; to be freed. */
 void *allocate(size_t count, size_t size);
 

@@ -3,6 +3,7 @@
 
 #include "command.h"
 #include "message.h"
+#include "suggest.h"
 
 #include <getopt.h>
 #include <limits.h>
@@ -108,16 +109,60 @@ static void list_options(const command_form *form, struct option longs[MOST_ROWS
   longs[k + 1] = (struct option){manual_row.name, no_argument, NULL, MANUAL_CODE};
 }
 
+/* Whether `text`, "--name" or "--name=argument", is the beginning of a name. */
+static bool begins(const char *text, const char *name) {
+  return strncmp(text + 2, name, strcspn(text + 2, "=")) == 0;
+}
+
+/* "--text" is none of the options, or the beginning of several: says which may be meant. */
+static void complain_of_name(const command_form *form, const char *text, const struct option *longs) {
+  char name[40] = "", which[200] = "";
+  const char *meant = NULL;
+  int beginnings = 0;
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(text + 2, "="), text + 2);
+  for (const struct option *row = longs; row->name != NULL; row++) {
+    if (row->val == MANUAL_CODE)
+      continue;
+    if (begins(text, row->name)) {
+      const size_t used = strlen(which);
+      snprintf(which + used, sizeof which - used, "%s--%s", beginnings++ > 0 ? ", " : "", row->name);
+    }
+    if (meant == NULL && resembles(name, row->name))
+      meant = row->name;
+  }
+  if (beginnings > 1)
+    complain("%s: option '%s' may be %s", form->name, text, which);
+  else if (meant != NULL)
+    complain("%s: unrecognized option '%s'; is '--%s' meant?", form->name, text, meant);
+  else
+    complain("%s: unrecognized option '%s'", form->name, text);
+}
+
+/* What getopt did not take. */
+static int refuse(const command_form *form, char **argv, int found, const struct option *longs) {
+  const option_row *row = row_of(form, optopt);
+  if (found == ':')
+    complain("%s: option '%s' needs an argument", form->name, argv[optind - 1]);
+  else if (optopt == 0)
+    complain_of_name(form, argv[optind - 1], longs);
+  else if (row != NULL)
+    complain("%s: option '--%s' takes no argument", form->name, row->name);
+  else
+    complain("%s: invalid option '-%c'", form->name, optopt);
+  return usage_hint(form);
+}
+
 /* Sets the fields; -1, or an exit code. */
 static int parse_options(const command_form *form, int argc, char **argv, void *job) {
   struct option longs[MOST_ROWS] = {0};
-  char shorts[2 * MOST_ROWS] = "h";
+  char shorts[2 * MOST_ROWS] = ":h"; /* the colon: a missing argument is told apart */
   int option;
+  opterr = 0;
   list_options(form, longs, shorts);
   while ((option = getopt_long(argc, argv, shorts, longs, NULL)) != -1) {
     const option_row *row = row_of(form, option);
-    if (row == NULL) /* getopt has complained */
-      return usage_hint(form);
+    if (row == NULL)
+      return refuse(form, argv, option, longs);
     if (row == &help_row || row == &manual_row) {
       (row == &help_row ? print_help : print_manual)(form);
       return EXIT_GOOD;
@@ -129,9 +174,6 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
 }
 
 int parse_arguments(const command_form *form, int argc, char **argv, void *job, const char **file) {
-  static char self[64];
-  snprintf(self, sizeof self, "%s: %s", program_name, form->name); /* getopt's own complaints begin with it */
-  argv[0] = self;
   const int code = parse_options(form, argc, argv, job), files = argc - optind;
   if (code >= 0)
     return code;
@@ -141,6 +183,8 @@ int parse_arguments(const command_form *form, int argc, char **argv, void *job, 
     complain("%s needs the name of a file", form->name);
   else if (files > 1)
     complain("%s takes one file, but got %d", form->name, files);
+  else if (files == 1 && argv[optind][0] == '\0')
+    complain("%s needs the name of a file, and got an empty one", form->name);
   else {
     if (file != NULL)
       *file = files == 1 ? argv[optind] : NULL;

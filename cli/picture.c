@@ -1,4 +1,5 @@
-/* Pictures that gnuplot draws, in a temporary folder: the CSV and the picture are moved or dropped when it is done. */
+/* Pictures that gnuplot draws. It reads the CSV and writes the picture in memory, so that no temporary file can stay behind; a
+ * picture that is whole then goes to its place. */
 #include "picture.h"
 
 #include "message.h"
@@ -6,8 +7,8 @@
 #include "place.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,53 +23,54 @@ OPTION_SET(set_picture) {
   return false;
 }
 
-/* The working folder, which only this user may enter, and the files in it. */
+/* Files in memory: nothing has to be removed, however this process or gnuplot ends. */
 typedef struct work {
-  char folder[PATH_MAX], csv[PATH_MAX], noise[PATH_MAX], picture[PATH_MAX];
+  FILE *csv, *noise, *picture;
 } work;
 
-/* Complains if there can be none. */
-static bool make_work(work *w, const char *ending) {
-  const char *own = getenv("TMPDIR"), *temporary = own != NULL && own[0] != '\0' ? own : P_tmpdir;
-  const int size = snprintf(w->folder, PATH_MAX - 16, "%s/carom-%s", temporary, random_name);
-  if (size >= PATH_MAX - 16 || mkdtemp(w->folder) == NULL) {
-    complain("cannot make a folder in %s: %s", temporary, strerror(errno));
-    return false;
-  }
-  strcat(strcpy(w->csv, w->folder), "/data.csv");
-  strcat(strcpy(w->noise, w->folder), "/noise");
-  strcat(strcat(strcpy(w->picture, w->folder), "/picture"), ending);
-  return true;
+/* A file in memory, which the child inherits. Complains and returns NULL if there can be none. */
+static FILE *in_memory(const char *name) {
+  const int descriptor = memfd_create(name, 0);
+  FILE *file = descriptor >= 0 ? fdopen(descriptor, "w+b") : NULL;
+  if (file == NULL)
+    complain("cannot make a file in memory: %s", strerror(errno));
+  return file;
 }
 
-/* Copies a file to a stream; false if it cannot be read. */
-static bool copy(const char *from, FILE *to) {
-  FILE *in = fopen(from, "rb");
+static void forget(const work *w) {
+  FILE *const files[] = {w->csv, w->noise, w->picture};
+  for (size_t k = 0; k < sizeof files / sizeof files[0]; k++)
+    if (files[k] != NULL)
+      fclose(files[k]);
+}
+
+/* Copies a whole file in memory to a stream; returns how much there was. */
+static size_t copy(FILE *from, FILE *to) {
   char block[65536];
-  for (size_t size; in != NULL && (size = fread(block, 1, sizeof block, in)) > 0;)
+  size_t all = 0;
+  rewind(from);
+  for (size_t size; (size = fread(block, 1, sizeof block, from)) > 0; all += size)
     fwrite(block, 1, size, to);
-  const bool good = in != NULL && !ferror(in);
-  if (in != NULL)
-    fclose(in);
-  return good;
+  return all;
 }
 
 /* What gnuplot says is shown only if it fails: it also warns of every part of a plot that a CSV has no rows for, and those are
  * optional. False after a complaint. */
 static bool run_gnuplot(const work *w, const char *path, const char *name, const char *title) {
-  char scripts[PATH_MAX], script[PATH_MAX + 64];
+  char scripts[PATH_MAX], script[PATH_MAX + 64], data[32];
   int status;
   snprintf(script, sizeof script, "%s/%s.gp", place_find("figures", scripts), name);
+  snprintf(data, sizeof data, "/dev/fd/%d", fileno(w->csv));
   fflush(NULL);
   const pid_t child = fork();
   if (child == 0) {
-    if (chdir(w->folder) == 0 && freopen("noise", "wb", stderr) != NULL)
-      execlp("gnuplot", "gnuplot", "-c", script, "data.csv", w->picture, title, (char *)NULL);
+    if (dup2(fileno(w->picture), STDOUT_FILENO) >= 0 && dup2(fileno(w->noise), STDERR_FILENO) >= 0)
+      execlp("gnuplot", "gnuplot", "-c", script, data, path + strlen(path) - 4, title, (char *)NULL);
     _exit(NO_GNUPLOT);
   }
   if (child < 0 || waitpid(child, &status, 0) != child)
     status = -1;
-  if (status == 0 && access(w->picture, R_OK) == 0)
+  if (status == 0)
     return true;
   if (WIFEXITED(status) && WEXITSTATUS(status) == NO_GNUPLOT)
     complain("cannot draw %s: gnuplot is not installed (Debian: gnuplot-nox)", path);
@@ -81,17 +83,18 @@ static bool run_gnuplot(const work *w, const char *path, const char *name, const
 
 bool picture_draw(const char *path, const char *name, const char *title, void (*write)(FILE *out, const void *data),
                   const void *data) {
-  work w;
-  if (!make_work(&w, path + strlen(path) - 4))
-    return false;
-  FILE *out = output_open(w.csv);
-  if (out != NULL)
-    write(out, data);
-  out = out != NULL && output_commit() && run_gnuplot(&w, path, name, title) ? output_open(path) : NULL;
-  const bool good = out != NULL && copy(w.picture, out) && output_commit();
-  unlink(w.csv);
-  unlink(w.noise);
-  unlink(w.picture);
-  rmdir(w.folder);
+  const work w = {in_memory("data"), in_memory("noise"), in_memory("picture")};
+  FILE *out = NULL;
+  if (w.csv != NULL && w.noise != NULL && w.picture != NULL) {
+    write(w.csv, data);
+    out = run_gnuplot(&w, path, name, title) ? output_open(path) : NULL;
+  }
+  bool good = out != NULL && copy(w.picture, out) > 0;
+  if (out != NULL && !good) {
+    complain("cannot draw %s: gnuplot drew nothing", path);
+    output_abandon();
+  }
+  good = good && output_commit();
+  forget(&w);
   return good;
 }

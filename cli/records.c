@@ -5,6 +5,7 @@
  */
 #include "records.h"
 
+#include "kinds.h"
 #include "memory.h"
 #include "message.h"
 #include "number.h"
@@ -63,7 +64,7 @@ record_reader *record_open(const char *path) {
   r->file = is_stdin ? stdin : fopen(path, "rb");
   struct stat status;
   if (r->file == NULL || fstat(fileno(r->file), &status) != 0 || (S_ISDIR(status.st_mode) && (errno = EISDIR))) {
-    complain("cannot read %s: %s", path, strerror(errno));
+    complain("cannot read %s: %s", r->name, strerror(errno));
     record_close(r);
     return NULL;
   }
@@ -91,20 +92,11 @@ static bool read_line(record_reader *r) {
   return to > r->line;
 }
 
-/* What a file is that its first bytes show to be no CSV; NULL if they do not. */
-static const char *other_kind(const char *line, size_t size) {
-  static const struct {
-    const char *bytes;
-    size_t size;
-    const char *kind;
-  } kinds[] = {{"\x93NUMPY", 6, "a NumPy array; give it as a file whose name ends in .npy"},
-               {"PK\x03\x04", 4, "an archive, such as .npz or .xlsx; save one array as .npy, or one sheet as CSV"},
-               {"\xFF\xFE", 2, "UTF-16 text; save it as CSV in UTF-8"},
-               {"\xFE\xFF", 2, "UTF-16 text; save it as CSV in UTF-8"}};
-  for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
-    if (size >= kinds[k].size && memcmp(line, kinds[k].bytes, kinds[k].size) == 0)
-      return kinds[k].kind;
-  return NULL;
+/* The kind of a file that is no CSV, by its first line; NULL if it may be. */
+static const char *kind_of(const record_reader *r) {
+  const char *first = r->line + strspn(r->line, " \t");
+  return r->line_size > 1 && *first == '{' ? "JSON; whole shots in it are played by `carom shoot`"
+                                           : other_kind(r->line, r->line_size);
 }
 
 /* The first record says what stands between fields. */
@@ -126,7 +118,7 @@ static bool is_skipped(const record_reader *r) {
 static bool feed_record(record_reader *r, record *out) {
   size_t fed = 0;
   while (!r->complete && read_line(r)) {
-    const char *kind = r->lines == 1 ? other_kind(r->line, r->line_size) : NULL;
+    const char *kind = r->lines == 1 ? kind_of(r) : NULL;
     if (kind != NULL) {
       complain("%s: not a CSV file, but %s", r->name, kind);
       r->refused = true;

@@ -2,6 +2,7 @@
 #include "shot_file.h"
 
 #include "json_values.h"
+#include "kinds.h"
 #include "memory.h"
 #include "message.h"
 #include "shot_table.h"
@@ -16,6 +17,7 @@ struct shot_file {
   const char *path;
   char *text;
   size_t space, number;
+  bool begun;          /* a line has been met that is not blank */
   named_table **table; /* each stays where it is, for the shots that refer to it */
   size_t tables, room;
   char engine[64];
@@ -138,13 +140,31 @@ shot_file *shot_file_open(const char *path) {
   }
   shot_file *file = allocate(1, sizeof *file);
   file->in = in;
-  file->path = path;
+  file->path = in == stdin ? "standard input" : path;
   return file;
+}
+
+const char *shot_file_name(const shot_file *file) {
+  return file->path;
 }
 
 static shot_read bad_line(shot_line *line, const char *text) {
   line->error = copy_text(text);
   return SHOT_SHOT;
+}
+
+/* Whether the file is of another kind, by its first line, which is `json` or cannot be read as such: says what it is. */
+static bool is_other_kind(const shot_file *file, size_t size, const json_t *json) {
+  const char *first = file->text + strspn(file->text, " \t"), *kind = other_kind(file->text, size);
+  if (kind == NULL && *first == '[')
+    kind = "one array of JSON; each shot is a line (`jq -c '.[]'` makes lines of it)";
+  else if (kind == NULL && json == NULL && *first == '{' && strpbrk(first, ":,}") == NULL)
+    kind = "JSON over several lines; each shot is one line (`jq -c .` makes lines of it)";
+  else if (kind == NULL && json == NULL && *first != '{')
+    kind = "other text; CSV is read by `carom resolve`";
+  if (kind != NULL)
+    complain("%s: not JSON Lines, but %s", file->path, kind);
+  return kind != NULL;
 }
 
 shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
@@ -157,6 +177,11 @@ shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
     json_fault f;
     json_error_t error;
     json_t *json = json_loadb(file->text, (size_t)size, 0, &error);
+    if (!file->begun && is_other_kind(file, (size_t)size, json)) {
+      json_decref(json);
+      return SHOT_FAILED;
+    }
+    file->begun = true;
     if (json == NULL) {
       json_wrong(&f, "no JSON at column %d: %s", error.column, error.text);
       return bad_line(line, f.text);
@@ -191,6 +216,10 @@ shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
   }
   if (ferror(file->in)) {
     complain("cannot read %s: %s", file->path, strerror(errno));
+    return SHOT_FAILED;
+  }
+  if (!file->begun) {
+    complain("%s: empty; a shot is a line of JSON", file->path);
     return SHOT_FAILED;
   }
   return SHOT_END;

@@ -34,6 +34,9 @@ typedef struct shot_file shot_file;
 /* Opens a file, "-" for stdin. Complains and returns NULL if that fails. */
 shot_file *shot_file_open(const char *path);
 
+/* The name of the file for messages. */
+const char *shot_file_name(const shot_file *file);
+
 typedef enum shot_read { SHOT_END, SHOT_SHOT, SHOT_TABLE, SHOT_FAILED } shot_read;
 
 /* Reads on to the next shot or table; other kinds of lines are passed over. SHOT_SHOT: *line is to be freed by

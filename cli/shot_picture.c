@@ -4,7 +4,6 @@
 
 #include "message.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -171,12 +170,7 @@ static void spread_pocketed(const shot_line *line, carom_ball_state *final) {
   }
 }
 
-bool shot_draw(const char *path, const shot_line *line, const carom_shot *shot) {
-  FILE *out = fopen(path, "w");
-  if (out == NULL) {
-    complain("cannot write %s: %s", path, strerror(errno));
-    return false;
-  }
+void shot_draw(FILE *out, const shot_line *line, const carom_shot *shot) {
   const view v = view_of(out, &line->table->table);
   carom_ball_state final[CAROM_BALLS_MOST];
   memcpy(final, shot->final, (size_t)line->count * sizeof *final);
@@ -189,10 +183,4 @@ bool shot_draw(const char *path, const shot_line *line, const carom_shot *shot) 
   for (int k = 0; k < line->count; k++)
     draw_ball(&v, line, &final[k], k, true);
   fputs("</svg>\n", out);
-  const bool good = !ferror(out);
-  if (fclose(out) != 0 || !good) {
-    complain("cannot write %s: %s", path, strerror(errno));
-    return false;
-  }
-  return true;
 }

@@ -11,7 +11,7 @@ OPTION_SET(set_svg);
 /* Whether the shot has this id; any has NULL. */
 bool shot_has_id(const shot_line *line, const char *id);
 
-/* Draws it as SVG. Complains and returns false if that fails. */
-bool shot_draw(const char *path, const shot_line *line, const carom_shot *shot);
+/* Draws it as SVG. */
+void shot_draw(FILE *out, const shot_line *line, const carom_shot *shot);
 
 #endif

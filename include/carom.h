@@ -86,7 +86,7 @@ typedef struct carom_ball {
   double r[3];     /* centre, m. Both balls of a pair lie at the same height r[2]. */
   double v[3];     /* velocity, m/s. v[2] must be 0: the model keeps both balls on the table. */
   double w[3];     /* angular velocity, rad/s. */
-  double radius;   /* m, > 0, the same for both balls of a pair. */
+  double radius;   /* m, > 0, the same for both balls of a pair within 1e-9 of it; that of ball a is computed with. */
   double mass;     /* kg, > 0, may differ between the balls. The moment of inertia is that of a solid ball, 2/5 M R^2. */
   double mu_cloth; /* coefficient of sliding friction between this ball and the cloth, 0 to 1. */
 } carom_ball;
@@ -129,7 +129,7 @@ typedef enum carom_status {
   CAROM_ERROR_MU_CLOTH = -10,       /* the friction of ball and cloth is not in [0, 1]. */
   CAROM_ERROR_MU_BALL = -11,        /* the friction of ball and ball is not in [0, 1]. */
   CAROM_ERROR_RESTITUTION = -12,    /* the restitution is not in [0, 1]. */
-  CAROM_ERROR_RADII_DIFFER = -13,   /* the balls have different radii. */
+  CAROM_ERROR_RADII_DIFFER = -13,   /* the balls have different radii, by more than 1e-9 of them. */
   CAROM_ERROR_HEIGHTS_DIFFER = -14, /* the centres are at different heights. */
   CAROM_ERROR_VERTICAL = -15,       /* a vertical velocity is not 0: both balls stay on the table. */
   CAROM_ERROR_COINCIDENT = -16,     /* the centres coincide, so there is no line of centres. */

@@ -1,5 +1,5 @@
 # What all figures share; each begins by calling it. They are called as `gnuplot -c NAME.gp DATA.csv PICTURE [TITLE [narrow]]`, where
-# the picture's ending, .svg or .png, decides what it is. A narrow one is for screens of 500 pixels: 470 wide and `tall`, its panels
+# the picture's ending, .svg or .png, decides what it is; an ending alone stands for standard output. A narrow one is for screens of 500 pixels: 470 wide and `tall`, its panels
 # below each other and its key below the plot, the letters as large as in the wide one.
 #
 # Colours are Okabe and Ito's, which stay apart without colour vision; marks and dashes differ too.
@@ -23,7 +23,7 @@ if (picture[strlen(picture)-3:] eq ".png") {
 } else {
   set terminal svg size width, height fixed font "Helvetica, Arial, DejaVu Sans, sans-serif,14" linewidth 1 background "white"
 }
-set output picture
+if (strlen(picture) > 4) set output picture
 set encoding utf8
 
 set datafile separator ","

@@ -14,7 +14,7 @@ euler = "Euler's method, N = ".note("steps")
 what = both ? "Lines: the exact limit. Circles: ".euler."." : (solvers[1:5] eq "exact" ? "The exact limit." : euler.".")
 set label 1001 note("collision").": friction ".note("friction between the balls")." between the balls,".(narrow ? "\n" : " ").\
   note("friction of the cloth")." with the cloth; restitution ".note("restitution")."; slip: ".note("slip").".".(narrow ? "\n" : "  ").\
-  what at screen 0.012, screen (narrow ? px(38) : 0.022) font ",11" textcolor rgb grey noenhanced
+  what at screen 0.012, screen (narrow ? px(44) : 0.022) font ",11" textcolor rgb grey noenhanced
 
 set multiplot
 if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen (narrow ? 1 - px(16) : 0.968) center font large textcolor rgb ink noenhanced

@@ -25,14 +25,14 @@ set xlabel "bytes read and written by a batch"
 set ylabel "time of a pair (ns)" offset 0.5,0
 set lmargin at screen (narrow ? 0.18 : 0.085); set rmargin at screen (narrow ? 0.95 : 0.765)
 set key at screen 0.785, graph 1 left top Left reverse noenhanced samplen 3
-if (narrow) { set bmargin at screen px(215); set key at screen 0.03, screen px(150) left top }
+if (narrow) { set bmargin at screen px(228); set key at screen 0.03, screen px(152) left top }
 stats data using (at("solver", "single")) name "x" nooutput
 set xrange [0.8 * x_min:2**28]
 caches = note("caches")
 do for [level=1:4] {
   mark = strstrt(caches, sprintf("L%d ", level))
-  if (mark > 0) {
-    size = 1024.0 * real(caches[mark+3:])
+  size = mark > 0 ? 1024.0 * real(caches[mark+3:]) : 0
+  if (size > 0.8 * x_min && size < 2**28) {
     set arrow level from first size, graph 0 to first size, graph 1 nohead lc rgb grey lw 1 dt (6,4) back
     set label 10+level sprintf("L%d", level) at first size, graph 0.965 right offset -0.6,0 font ",13" textcolor rgb grey
   }

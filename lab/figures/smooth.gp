@@ -8,7 +8,7 @@ over = note("over")
 swept = over eq "w1z" ? "side spin of ball 1 (rad/s)" : over eq "cut" ? "turn of the line of centres (degrees)" : over
 set label 1001 note("collision").": friction ".note("friction between the balls")." between the balls,".\
   (narrow ? "\n" : " ").note("friction of the cloth")." with the cloth; restitution ".note("restitution")."; slip: ".note("slip").\
-  ".".(narrow ? "\n" : "  ")."Euler's method: N = ".note("steps")."." at screen 0.012, screen (narrow ? px(38) : 0.022) font ",11" textcolor rgb grey noenhanced
+  ".".(narrow ? "\n" : "  ")."Euler's method: N = ".note("steps")."." at screen 0.012, screen (narrow ? px(44) : 0.022) font ",11" textcolor rgb grey noenhanced
 solvers = words_of("solver")
 colour(name) = name eq "exact" ? sky : vermilion
 full(name) = name eq "exact" ? "exact" : "Euler, N = ".note("steps")

@@ -9,7 +9,7 @@ configs = system("awk -F, '/^#/ { next } !at { for (k = 1; k <= NF; k++) if ($k 
 drawn = ""; do for [name in configs] { if (strstrt(name, "-") > 0 && strlen(drawn) == 0) { drawn = name } }
 if (!exists("build")) build = drawn
 compiler = strlen(build) > 0 ? build.": ".note(build) : "compiler: ".note("compiler").", ".note("flags")
-if (strlen(build) > 0 && place_in(configs, "library") > 0) compiler = "library: ".note("compiler").";".(narrow ? "\n" : " ").compiler
+if (strlen(build) > 0 && place_in(configs, "library") > 0) compiler = "library: ".note("compiler")."; ".compiler
 date = note("date")
 machine = note("processor").", family ".note("processor family")
 flags_at = strstrt(compiler, ", -")

@@ -29,13 +29,13 @@ def speedup(data):
     kernels.needs("kernel", "parent", "needs", "paper")
     ladder.needs("kernel", "config", "ns_median", "ns_spread", "speedup", "speedup_spread")
     yield from notes_of(ladder)
-    yield "kernel,parent,needs,ns,ns_spread,speedup,speedup_spread,paper,paper_text"
+    yield "kernel,parent,needs,ns,ns_spread,speedup,speedup_spread,paper,paper_text,config"
     for rung in kernels.rows:
         row = ladder.first(kernel=rung["kernel"], config=default_config(ladder)) if rung["parent"] else None
         if row is not None:
             paper = rung["paper"] if math.isfinite(number_of(rung["paper"])) else "NA"
             measured = [row[name] for name in ("ns_median", "ns_spread", "speedup", "speedup_spread")]
-            yield ",".join([rung["kernel"], rung["parent"], rung["needs"], *measured, paper, rung["paper"]])
+            yield ",".join([rung["kernel"], rung["parent"], rung["needs"], *measured, paper, rung["paper"], row["config"]])
 
 
 def ticks_per_ns(sheet):

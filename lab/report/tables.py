@@ -141,7 +141,7 @@ def batches(data):
         table.rows.append(
             cells(
                 *(row["kernel"], row["isa"], row["precision"], row["threads"], text.nanoseconds(ns)),
-                *(text.general(row.number("ns_spread"), 2), text.ratio(row.number("speedup"))),
+                *(text.spread(row.number("ns_spread")), text.ratio(row.number("speedup"))),
                 "the same bits" if row["pair_error_max"] == "0" else row["pair_error_max"],
                 *(text.general(rate, 3), text.of("%.1f" if times < 10.0 else "%.0f", times)),
                 t=(0, 1, 2),
@@ -215,7 +215,7 @@ def speedups(data):
         table.rows.append(
             cells(
                 *(row["kernel"], f"the library, {row['isa']}, {row['precision']}", text.nanoseconds(row.number("ns_median"))),
-                text.general(row.number("ns_spread"), 2),
+                text.spread(row.number("ns_spread")),
                 *(text.of("%.2f" if speedup < 100.0 else "%.4g", speedup), text.general(row.number("speedup_spread"), 2), "", ""),
                 **{"t": (0,), "wrap": (1, 7), "paper": (6,)},
             )

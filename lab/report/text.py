@@ -22,6 +22,11 @@ def nanoseconds(x):
     return count(x) if x >= 1000.0 else general(x, 4)
 
 
+def spread(x):
+    """Two digits or, from a hundred, whole and grouped by thousands."""
+    return count(x) if x >= 100.0 else general(x, 2)
+
+
 def ratio(x):
     """Two decimals or, from a hundred, whole."""
     return of("%.2f" if x < 100.0 else "%.0f", x)

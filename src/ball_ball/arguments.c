@@ -11,8 +11,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Heights and vertical velocities come out of other programs' arithmetic; what is below this share of the distance or of the
- * speed moves no result beyond rounding of the solvers' own size. */
+/* Radii, heights and vertical velocities come out of other programs' arithmetic; what is below this share of the radius, of the
+ * distance or of the speed moves no result beyond rounding of the solvers' own size. */
 static const double level = 1e-9;
 
 enum { BALL_FIELDS = 12, FIELDS = 26 };
@@ -57,6 +57,11 @@ static bool vertical(const carom_ball *ball) {
 static bool heights_differ(const carom_impact *in) {
   const double dx = in->b.r[0] - in->a.r[0], dy = in->b.r[1] - in->a.r[1], dz = in->b.r[2] - in->a.r[2];
   return fabs(dz) > level * (fabs(dx) + fabs(dy));
+}
+
+/* Two radii: that of ball a is the one that is computed with. */
+static bool radii_differ(const carom_impact *in) {
+  return !(fabs(in->b.radius - in->a.radius) <= level * in->a.radius);
 }
 
 static bool coincident(const carom_impact *in) {
@@ -112,7 +117,7 @@ static carom_status blame(const carom_impact *in, int *field) {
     *field = FIELD(restitution);
     return CAROM_ERROR_RESTITUTION;
   }
-  if (in->a.radius != in->b.radius) {
+  if (radii_differ(in)) {
     *field = FIELD(b.radius);
     return CAROM_ERROR_RADII_DIFFER;
   }
@@ -141,7 +146,7 @@ carom_status carom_check_impact(const carom_impact *in, int *field) {
   good &= unit_interval(in->b.mu_cloth);
   good &= unit_interval(in->mu_ball);
   good &= unit_interval(in->restitution);
-  good &= in->a.radius == in->b.radius;
+  good &= !radii_differ(in);
   good &= !coincident(in);
   good &= !heights_differ(in);
   good &= !vertical(&in->a);

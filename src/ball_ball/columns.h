@@ -24,14 +24,17 @@ static inline vmask in_unit_interval(vreal x) {
 static inline vmask is_positive(vreal x) {
   return v_less(v_splat(0), x) & v_less(x, v_splat((real)INFINITY));
 }
-/* What arguments.c allows for heights and vertical velocities. */
+/* What arguments.c allows for radii, heights and vertical velocities. */
+static inline vmask are_one_radius(vreal a, vreal b) {
+  return v_less_equal(v_abs(b - a), (real)1e-9 * a);
+}
 static inline vmask is_level(vreal z, vreal x, vreal y) {
   return v_less_equal(v_abs(z), (real)1e-9 * (v_abs(x) + v_abs(y)));
 }
 
 static inline vmask are_sound(const vreal x[IN_NUMBERS]) {
   const vreal *a = x, *b = x + 12;
-  return is_positive(a[9]) & v_equal(a[9], b[9]) & is_positive(a[10]) & is_positive(b[10]) & in_unit_interval(a[11]) &
+  return is_positive(a[9]) & are_one_radius(a[9], b[9]) & is_positive(a[10]) & is_positive(b[10]) & in_unit_interval(a[11]) &
          in_unit_interval(b[11]) & in_unit_interval(x[24]) & in_unit_interval(x[25]) &
          is_level(b[2] - a[2], b[0] - a[0], b[1] - a[1]) & is_level(a[5], a[3], a[4]) & is_level(b[5], b[3], b[4]);
 }

@@ -42,7 +42,7 @@ static int64_t step_bound(const carom_local *c, double M, int N) {
   const double loss_i = c->mu_i * c->mu_b * M / c->M_i;
   const double loss_j = c->mu_j * c->mu_b * M / c->M_j;
   const double per_N = 2.0 / (2.0 - fmax(loss_i, loss_j));
-  return per_N <= CAROM_EULER_MOST ? (int64_t)(2.0 * (per_N * N + 2.0)) : 0;
+  return per_N <= (double)CAROM_EULER_MOST ? (int64_t)(2.0 * (per_N * N + 2.0)) : 0;
 }
 
 carom_status carom_euler(carom_local *state, int N, int64_t most, carom_euler_run *run) {

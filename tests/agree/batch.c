@@ -71,6 +71,8 @@ static carom_impact mixed_row(random_source *source, size_t k) {
     memset(in.a.w, 0, sizeof in.a.w), memset(in.b.w, 0, sizeof in.b.w);
   if (k % 17 == 7)
     memset(in.b.v, 0, sizeof in.b.v), memset(in.b.w, 0, sizeof in.b.w);
+  if (k % 19 == 8) /* about what is still one radius */
+    in.b.radius *= 1.0 + random_between(source, -2e-9, 2e-9);
   return in;
 }
 

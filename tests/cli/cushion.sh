@@ -25,15 +25,35 @@ printf 'vx,vy,vz,wx,wy,wz,R,M,h,mu_s,mu_w,e,nx,ny,rho\n1.2,-0.5,0,0,0,30,0.028,0
   awk -F, 'NR > 1 { printf "%s %.9f %.9f\n", $1, $2, $3 }'
 awk -F, '$1 == "side" { printf "%s %.9f %.9f\n", $1, $3, -$2 }' after.csv
 echo "--- trace"
-carom trace --cushion --id side --points 101 impacts.csv > trace.csv
+carom trace --cushion --id side --points 101 impacts.csv > noted.csv
+grep '^#' noted.csv
+grep -v '^#' noted.csv > trace.csv
 head -n 1 trace.csv
-tail -n 1 trace.csv | cut -d, -f12-17 > end
+awk -F, 'NR > 1 && ($12 != $14 || $13 != $15) { print "not in the axes of the cushion" }' trace.csv
+tail -n 1 trace.csv | cut -d, -f14-19 > end
 awk -F, '$1 == "side"' after.csv | cut -d, -f2-7 | paste -d, end - | awk -F, '{ for (k = 1; k <= 6; k++) { d = $k - $(k + 6); if (d * d > 1e-16) print k, d } print "ends at the result" }'
 awk -F, 'NR > 1 { n[$4]++; stuck += $5 } END { print n["compression"], n["restitution"], stuck " stuck" }' trace.csv
 try carom trace --cushion --id side --model han impacts.csv
 try carom trace --cushion --id high impacts.csv
 try carom trace --cushion --id none impacts.csv
-carom trace --cushion --id away --points 2 impacts.csv 2>&1 | cut -d, -f1-4
+carom trace --cushion --id away --points 2 impacts.csv 2>&1 | grep -v '^#' | cut -d, -f1-4
+echo "--- pictures"
+carom trace --cushion --id side --points 101 --plot side.svg impacts.csv
+python - <<'PYTHON'
+import csv, xml.etree.ElementTree as tree
+page = tree.parse("side.svg").getroot()
+texts = ["".join(e.itertext()).strip() for e in page.iter("{http://www.w3.org/2000/svg}text")]
+print([t for t in texts if t.startswith(("Impact", "side:", "slip", "velocity", "work", "it sticks")) or t in ("along", "into it", "upwards")])
+from curves import curves, shows
+rows = list(csv.DictReader(line for line in open("noted.csv") if not line.startswith("#")))
+column = lambda name: [float(row[name]) for row in rows]
+names = ["s_x_m_s", "s_t_m_s", "c_x_m_s", "c_y_m_s", "v_x_m_s", "v_y_m_s", "work_J"]
+print([shows(points, column("impulse_N_s"), column(name)) for (_, points), name in zip(curves("side.svg"), names, strict=True)])
+PYTHON
+carom trace --cushion --id side --model euler --plot side.png -o side.csv impacts.csv && head -c 4 side.png | tail -c 3 && echo && grep -c -v '^#' side.csv
+(PATH=/nowhere && try "$CAROM" trace --cushion --id side --plot none.svg -o kept.csv impacts.csv)
+ls none.svg kept.csv 2>&1 | sed 's/^ls: [^:]*none.svg.*/no none.svg/'
+try carom trace --cushion --id away --plot none.svg impacts.csv
 echo "--- sweep"
 for model in mathavan euler; do
   carom sweep --cushion --id side --model $model --over wz --from -60 --to 60 impacts.csv |

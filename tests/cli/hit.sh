@@ -75,10 +75,30 @@ grep -o '>\(stun\|follow\|draw\)<' throw.svg
 try carom sweep --id draw,stun --over cut --from 0 --to 80 --points 3 --brief --friction alciatore three.csv > swept.csv
 grep -v '^#' swept.csv | cut -d, -f1,2,6,8
 try carom sweep --id stun,lag --over cut --from 0 --to 80 three.csv
+echo "several speeds, and each spin at each speed:"
+carom hit --spin stun,draw --speed 1,2,4.5 --cut 0 --csv > six.csv
+cut -d, -f1,5,9 six.csv
+carom sweep --id stun-1,stun-2,stun-4.5,draw-1,draw-2,draw-4.5 --over cut --from 0 --to 80 --points 361 --friction alciatore --plot six.svg -o six.out six.csv
+python - <<'PYTHON'
+import csv, os, subprocess
+from curves import curves, shows
+rows = {}
+for row in csv.DictReader(line for line in open("six.out") if not line.startswith("#")):
+    rows.setdefault(row["id"], []).append((float(row["value"]), float(row["throw_deg"])))
+drawn = curves("six.svg")
+print([name for name, _ in drawn] == list(rows), [shows(points, *zip(*rows[name])) for name, points in drawn])
+# One by one the same.
+for spin, speed in (("stun", "2"), ("draw", "4.5")):
+    one = subprocess.run([os.environ["CAROM"], "hit", "--spin", spin, "--speed", speed, "--cut", "0", "--csv"], capture_output=True, text=True).stdout
+    rows = {line.split(",")[0]: line.split(",", 1)[1] for line in open("six.csv")}
+    print(rows[f"{spin}-{speed}"] == one.splitlines(True)[1].split(",", 1)[1])
+PYTHON
 echo "refused:"
-for words in "--spin spinny" "--spin nan" "--spin ,"  "--side much" "--cut 90" "--speed 0" "--speed -1" "--radius 0" "--cloth 2" "--friction 2" "--restitution -1" "--plot hit.png" "extra" "--strict --speed 60"; do
+for words in "--speed 1,,x" "--speed ," "--speed 1,2,3,4 --spin 1,2,3,4,5" "--spin spinny" "--spin nan" "--spin ,"  "--side much" "--cut 90" "--speed 0" "--speed -1" "--radius 0" "--cloth 2" "--friction 2" "--restitution -1" "--plot hit.png" "extra" "--strict --speed 60"; do
   # shellcheck disable=SC2086
   try carom hit -o refused.txt $words
 done
 ls refused.txt 2> /dev/null || echo "nothing written"
 try carom resolve --derived -o out.npy rows.csv
+echo "numbers too large for words:"
+try carom hit --speed 1e300 2> /dev/null

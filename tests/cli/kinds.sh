@@ -23,7 +23,29 @@ try carom resolve - < a.npy
 try carom resolve numpy.csv
 try carom resolve --cushion a.npz
 sed 1d "$DATA/cushion-stronge.csv" > headless.csv; try carom resolve --cushion headless.csv
+sed 's/./&\x00/g' plain.csv > utf16.csv; try carom resolve utf16.csv
+gzip plain.csv -c > plain.csv.gz; try carom resolve plain.csv.gz
+head -n 1 "$DATA/break-nineball.jsonl" > shots.jsonl; try carom resolve shots.jsonl
+head -n 2 "$DATA/cushion-stronge.csv" > rail.csv; try carom resolve rail.csv
+try carom resolve --cushion plain.csv
+try carom resolve - <&-
+echo "whole shots:"
+: > empty; try carom shoot empty
+try carom shoot - < plain.csv
+try carom shoot plain.csv.gz
+try carom shoot utf16.csv
+python -c "
+import json, sys
+lines = [json.loads(line) for line in open(sys.argv[1])]
+json.dump(lines, open('array.json', 'w'))
+json.dump(lines[0], open('pretty.json', 'w'), indent=1)" "$DATA/break-nineball.jsonl"
+try carom shoot array.json
+try carom shoot pretty.json
+head -c 400 "$DATA/break-nineball.jsonl" > cut.jsonl; try carom shoot -o cut.out cut.jsonl
+try carom shoot .
 echo "what was meant:"
+try carom trace --id pooltool002 "$DATA/collisions-204.csv" 2>&1 | sed 's/^.*\/coll/coll/'
+try carom trace --id a plain.csv
 sed '1s/v1y/V1Y/' plain.csv > case.csv; try carom resolve case.csv
 sed '1s/u_b/mu_b/; 1s/e_b/eb/' plain.csv > near.csv; try carom resolve near.csv
 sed '1s/u_b/friction/' plain.csv > far.csv; try carom resolve far.csv
@@ -35,3 +57,6 @@ echo "messages have a limit:"
 { head -n 1 plain.csv; yes "x,1,2" | head -n 1500; } > bad.csv
 try carom resolve -o bad.out bad.csv 2> said
 wc -l < said; sed -n '1p;1000p;$p' said; grep -c missing_value bad.out
+{ cat "$DATA/break-nineball.jsonl"; yes "{" | head -n 1500; } > bad.jsonl
+try carom shoot --events none -o bad.out bad.jsonl 2> said
+wc -l < said; sed -n '1p;1000p;$p' said; grep -c bad_line bad.out

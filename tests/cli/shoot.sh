@@ -39,7 +39,7 @@ ball='{"id": "cue", "state": [0, 0.3, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}'
 carom shoot -o bad.out bad.jsonl || echo "exit $?"
 sed 's/"table".*"final"/.../; s/"t": .*}, "pockets"/.../' bad.out
 echo "--- bounds"
-try carom shoot --events-most 5 --events none "$DATA/break-nineball.jsonl" > bounds.out
+try carom shoot --events-most 5 --events none - < "$DATA/break-nineball.jsonl" > bounds.out
 grep -o '"status": "[a-z_]*"' bounds.out
 echo "--- usage"
 try carom shoot

@@ -5,6 +5,16 @@ try carom frobnicate
 try carom resolve
 try carom resolve a b
 try carom resolve --frobnicate x.csv
+try carom resolve --outptu x.csv
+try carom hit --sp 3
+try carom hit --csv=3
+try carom resolve -o
+try carom resolve --steps
+try carom resolve -x x.csv
+try carom resolve ""
+try carom --verison
+try carom help nosuch
+carom help hit | head -n 1
 try carom resolve --solver fast x.csv
 try carom resolve --precision half x.csv
 try carom resolve --threads -1 x.csv

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import xml.etree.ElementTree as tree
 
 from conftest import STORED
 
@@ -148,8 +149,20 @@ def test_usage(make, tmp_path):
 
 def test_the_foot_names_the_compiler_of_what_is_drawn(stored):
     """The ladder's kernels are clang's here, the library's gcc's; their speedups are over a kernel of the ladder."""
-    for name, library, ladder in [("isas", True, True), ("batch", True, True), ("runtime", False, True), ("accuracy", True, True)]:
+    for name, library, ladder in [("isas", True, True), ("batch", True, True), ("runtime", False, True), ("accuracy", True, True), ("speedup", False, True)]:
         for kind in ("", "-narrow"):
             picture = (stored.folder / f"{name}{kind}.svg").read_text(encoding="utf-8")
             assert ("library: gcc 12.2.0;" in picture) == library, name
             assert ("Debian Clang 19" in picture) == ladder, name
+            assert "-ffast-math" in picture, name
+
+
+def test_nothing_is_written_beyond_the_edges(stored):
+    svg = "{http://www.w3.org/2000/svg}"
+    for name in FIGURES:
+        for kind in ("", "-narrow"):
+            picture = tree.parse(stored.folder / f"{name}{kind}.svg").getroot()
+            width, height = map(float, picture.get("viewBox").split()[2:])
+            places = [g.get("transform") for g in picture.iter(svg + "g") if g.find(svg + "text") is not None]
+            for x, y in (map(float, place[len("translate(") :].split(")")[0].split(",")) for place in places):
+                assert 0 <= x <= width and 0 <= y <= height - 2, (name, kind, x, y)

@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Index of a field among the 26 doubles. */
@@ -122,6 +123,36 @@ START_TEST(noise_in_the_heights_passes) {
   in.b.r[2] += 1e-15;
   in.a.v[2] = 1e-15;
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
+}
+END_TEST
+
+/* Radii that differ by rounding are one radius, ball a's, in single calls and in rows of a batch, by each solver. */
+START_TEST(noise_in_the_radii_passes) {
+  enum { ROWS = 40 };
+  for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++) {
+    const carom_options options = {.solver = (carom_solver)solver};
+    carom_impact in[ROWS];
+    carom_result out[ROWS], expected, alone;
+    int8_t status[ROWS];
+    in[0] = good_impact();
+    ck_assert_int_eq(carom_collide(&in[0], &options, &expected), CAROM_OK);
+    for (int k = 0; k < ROWS; k++) {
+      in[k] = good_impact();
+      in[k].b.radius *= 1.0 + (k - ROWS / 2) * 1e-10; /* from 2e-9 below */
+    }
+    carom_collide_batch(in, ROWS, &options, out, status);
+    for (int k = 0; k < ROWS; k++) {
+      const int off = abs(k - ROWS / 2); /* at 10 rounding decides, but for both alike */
+      const carom_status as_one = carom_collide(&in[k], &options, &alone);
+      ck_assert_int_eq(status[k], as_one);
+      if (off != 10)
+        ck_assert_int_eq(as_one, off < 10 ? CAROM_OK : CAROM_ERROR_RADII_DIFFER);
+      if (as_one == CAROM_OK) {
+        ck_assert_mem_eq(&alone, &expected, sizeof alone);
+        ck_assert_mem_eq(&out[k], &expected, sizeof alone);
+      }
+    }
+  }
 }
 END_TEST
 
@@ -293,6 +324,6 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("bad_input", each_field_is_named, coincident_centres, good_input_passes_the_check,
-                   noise_in_the_heights_passes, bad_options, zero_is_the_default, null_pointers,
+                   noise_in_the_heights_passes, noise_in_the_radii_passes, bad_options, zero_is_the_default, null_pointers,
                    a_bad_row_disturbs_no_neighbour, separating_pairs_are_unchanged, too_slow_for_euler, overflow_is_told);
 }

@@ -1,0 +1,58 @@
+# Pictures appear whole or not at all, however the program that draws them is ended, and nothing stays behind.
+mkdir bin temporary
+export TMPDIR="$PWD/temporary"
+# A gnuplot that says that it has begun, and goes on when it may.
+mkfifo begun go_on
+cat > bin/gnuplot <<'END'
+#!/bin/sh
+echo half
+echo > begun
+cat go_on
+END
+chmod +x bin/gnuplot
+carom hit --csv > hit.csv
+tail -n 1 "$DATA/cushion-stronge.csv" | cut -d, -f1 > rail_id
+nothing_else() { ls temporary; ls ./*.svg* | tr '\n' ' '; cat kept.svg; }
+for signal in TERM KILL; do
+  for words in "trace --id stun --plot kept.svg hit.csv" "sweep --id stun --over cut --from 0 --to 60 --plot kept.svg hit.csv" \
+    "trace --cushion --id $(cat rail_id) --plot kept.svg $DATA/cushion-stronge.csv"; do
+    echo old > kept.svg
+    # shellcheck disable=SC2086
+    PATH="$PWD/bin:$PATH" "$CAROM" $words &
+    read -r _ < begun
+    kill -$signal $!
+    wait $! 2> /dev/null || echo "ended: ${words%% --id*}"
+    : > go_on
+    nothing_else
+  done
+done
+# A gnuplot that fails, one that draws nothing, and none: the old picture stays.
+printf '#!/bin/sh\necho half\necho "no such terminal" >&2\nexit 1\n' > bin/gnuplot
+PATH="$PWD/bin:$PATH" try "$CAROM" trace --id stun --plot kept.svg hit.csv 2>&1 | sed 's/on .*\/trace.gp/on trace.gp/'
+printf '#!/bin/sh\nexit 0\n' > bin/gnuplot
+PATH="$PWD/bin:$PATH" try "$CAROM" trace --id stun --plot kept.svg hit.csv
+nothing_else
+# shoot: ended while it plays; a picture that cannot be written; one that is no file is written in place.
+mkfifo shots
+"$CAROM" shoot --plot kept.svg -o kept.jsonl shots &
+exec 3> shots
+cat "$DATA/break-nineball.jsonl" >&3
+kill $!
+wait $! 2> /dev/null || echo "ended: shoot"
+exec 3>&-
+nothing_else
+ls kept.jsonl 2> /dev/null || echo "no shots"
+ln -s /dev/full full.svg
+try carom shoot --events none --plot full.svg -o /dev/null "$DATA/break-nineball.jsonl"
+try carom shoot --events none --plot nowhere/break.svg -o /dev/null "$DATA/break-nineball.jsonl"
+try carom hit --plot full.svg -o /dev/null
+try carom trace --id stun --plot full.svg hit.csv
+ln -sf link_to.svg linked.svg
+try carom shoot --events none --plot linked.svg -o /dev/null "$DATA/break-nineball.jsonl"
+test -L linked.svg && tail -n 1 link_to.svg
+# With the standard places closed files take none of them.
+for closed in "<&-" ">&-" "2>&-" "<&- >&- 2>&-"; do
+  rm -f closed.svg closed.csv
+  eval "timeout 60 \"\$CAROM\" trace --id stun --plot closed.svg -o closed.csv hit.csv $closed" || echo "exit $?"
+  echo "closed $closed: $(grep -c '</svg>' closed.svg) $(grep -c ^exact closed.csv)"
+done

@@ -1,0 +1,42 @@
+"""The code blocks of README and docs, and what runs each kind. Every block is of one of these kinds, so that none goes untested.
+
+    sh            run by readme.py (README's, with `carom` on the path) or pages.py (with the tree and its build beside)
+    sh install    README's: installed by readme.py
+    sh started    takes minutes: pages.py starts each line, sees that it is not refused, and ends it
+    sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the test python/package, cmake by every
+                  build, the scripts of python/examples by the test of that name; a cluster of many machines by who has one
+    c, cmake ...  README's: built by readme.py
+    python        a page is a session, in the environment of the test python/package; its kinds pooltool, numba, gymnasium and scale need those packages
+"""
+
+import re
+from pathlib import Path
+
+KINDS = {"sh", "sh install", "sh started", "sh elsewhere", "c", "cmake fetch", "cmake package", "python"}
+KINDS |= {f"python {need}" for need in ("pooltool", "numba", "gymnasium", "scale", "elsewhere")}
+
+# Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.
+ELSEWHERE = {"README.md": 2, "docs/examples.md": 6, "docs/python.md": 1, "docs/report.md": 1, "docs/scale.md": 3, "python/README.md": 1}
+
+# What may be indented instead: formulas and what programs print, but no line that one would paste.
+PASTED = re.compile(r" {4}(\./|build/|tools/|pip3? |cmake |ctest |gnuplot |carom(-lab)? |python3? |git |sudo |import |from \w+ import|#include)")
+
+
+def pages(source):
+    """The names of all pages."""
+    return ["README.md", *sorted(f"docs/{page.name}" for page in Path(source, "docs").glob("*.md")), "examples/README.md", "python/README.md"]
+
+
+def blocks(source, page):
+    """Kind and text of each block of a page."""
+    text = Path(source, page).read_text(encoding="utf-8")
+    found = re.findall(r"^```([^\n]*)\n(.*?)^```$", text, flags=re.M | re.S)
+    rest = re.sub(r"^```[^\n]*\n.*?^```$", "", text, flags=re.M | re.S)
+    assert "```" not in rest, f"{page}: a fence that is not closed, or not at the beginning of its line"
+    for line in rest.splitlines():
+        assert not PASTED.match(line), f"{page}: '{line.strip()}' is code: it belongs between fences, with one of the kinds of tests/docs/blocks.py"
+    for kind, _ in found:
+        assert kind in KINDS, f"{page}: no test runs blocks of the kind '{kind}'"
+    elsewhere = sum(kind.endswith(" elsewhere") for kind, _ in found)
+    assert elsewhere == ELSEWHERE.get(page, 0), f"{page}: {elsewhere} blocks are run elsewhere, not {ELSEWHERE.get(page, 0)}"
+    return found

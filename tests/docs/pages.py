@@ -1,0 +1,64 @@
+"""pages.py SOURCE BUILD PYTHON-ENVIRONMENT: runs the shell blocks of the docs, and those of README that speak of the study, as a reader
+would who has run ./run: in a folder with the tree's own folders and its build.
+
+The report's blocks find measured CSV files in DIR. Blocks that take minutes are started, line by line, and ended after half a second: they
+must not end in error before.
+"""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from blocks import blocks, pages
+
+SOURCE, BUILD = Path(sys.argv[1]), Path(sys.argv[2])
+ENVIRONMENT = {**os.environ, "CAROM_PYTHON_ENVIRONMENT": sys.argv[3], "PYTHONDONTWRITEBYTECODE": "1"}
+START = 0.5  # seconds
+
+
+def start(line, folder):
+    """Fails where the command ends in error within that time; then ends it, with all that it has started."""
+    job = subprocess.Popen(["sh", "-c", line], cwd=folder, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                           start_new_session=True)
+    try:
+        said, code = job.communicate(timeout=START)[1], job.returncode
+    except subprocess.TimeoutExpired:
+        said, code = "", 0
+        os.killpg(job.pid, signal.SIGKILL)
+        job.communicate()
+    return f"{line}\n{said}exit {code}" if code else None
+
+
+run = started = 0
+with tempfile.TemporaryDirectory() as work:
+    folder = Path(work)
+    for part in ("data", "tools", "docs", "cli"):
+        (folder / part).symlink_to(SOURCE / part)
+    shutil.copytree(SOURCE / "lab", folder / "lab")  # whose report looks for the build from where it lies
+    (folder / "build").symlink_to(BUILD)
+    (folder / "DIR").mkdir()
+    for measured in Path(SOURCE, "tests/report").glob("*.csv"):
+        shutil.copy(measured, folder / "DIR")
+    shutil.copy(folder / "DIR/steps.csv", folder)
+    for page in pages(SOURCE):
+        for kind, text in blocks(SOURCE, page):
+            if kind == "sh started":
+                failures = [start(line, folder) for line in text.splitlines() if line]
+                started += len(failures)
+                if any(failures):
+                    sys.exit(f"{page}: " + "\n".join(filter(None, failures)))
+            elif kind == "sh" and (page != "README.md" or "build/" in text):
+                done = subprocess.run(["sh", "-eu", "-c", text], cwd=folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
+                                      stderr=subprocess.STDOUT, text=True)
+                if done.returncode:
+                    sys.exit(f"{page}:\n{text}{done.stdout[-4000:]}exit {done.returncode}")
+                run += 1
+    # What they leave, where they leave something.
+    for name in ("OTHER/index.html", "DIR/runtime.png", "runtime.svg", "runtime-narrow.svg"):
+        assert (folder / name).stat().st_size > 1000, name
+assert run >= 4 and started >= 12, (run, started)
+print(f"{run} blocks run, {started} lines started")
