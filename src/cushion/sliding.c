@@ -13,6 +13,8 @@
 #include "cushion/equations.h"
 #include "platform/extrapolate.h"
 
+#include <float.h>
+#include <stdint.h>
 #include <string.h>
 
 static const double TOLERANCE = 1e-12; /* of a step, over the approach */
@@ -21,25 +23,25 @@ static const double SHRINK = 0.2;      /* shortest step after a rejected one, ov
 static const double GROW = 5;          /* longest step after an accepted one, over that */
 static const double SHORTEST = 1e-12;  /* step that is taken whatever the estimate */
 static const double EVENT_WIDTH = 1e-12;
-enum { MOST_TRIALS = 60, PATIENCE = 6 };
+static const double NEAR = 0.1; /* a step that fewer sequences may do */
+enum { LONG = 7, SHORT = 3, MOST_TRIALS = 60, PATIENCE = 6 };
 
 typedef carom_pair pair;
 enum { T_X, T_Y, Q, WORK_DONE, IMPULSE, HELD, U_X = HELD, U_T, R, FREE };
 
 typedef struct numbers {
-  double s_by_u_x, s_by_u_t, c_by_u_x, c_by_u_t; /* friction at the nose in the rates */
-  double k_x, k_y, k_t, free_t, cosine;          /* free_t: sin cos */
-  double load, load_by_u_t;                      /* mu_s g = load + load_by_u_t u_t */
-  double b, held_load, held_rate, sine;          /* of a nose that sticks */
-  double per_sine, nose, cloth;                  /* 1 where the pace has 1/r, 1/q */
+  double mu_w, s_by_u_x, anisotropy;    /* s_by_u_x: 7/2 mu_w; (7/2 - k_t) mu_w */
+  double k_x, k_y, k_t, free_t, cosine; /* free_t: sin cos */
+  double load, load_by_u_t;             /* mu_s g = load + load_by_u_t u_t */
+  double b, held_load, held_rate, sine; /* of a nose that sticks */
+  double per_sine, nose, cloth;         /* 1 where the pace has 1/r, 1/q */
 } numbers;
 
 static numbers numbers_of(const carom_cushion_way *w) {
   const carom_coulomb *k = &w->law;
-  return (numbers){.s_by_u_x = 3.5 * k->mu_w,
-                   .s_by_u_t = k->k_t * k->mu_w,
-                   .c_by_u_x = k->k_x * k->mu_w,
-                   .c_by_u_t = k->k_y * k->mu_w,
+  return (numbers){.mu_w = k->mu_w,
+                   .s_by_u_x = 3.5 * k->mu_w,
+                   .anisotropy = (3.5 - k->k_t) * k->mu_w,
                    .k_x = k->k_x,
                    .k_y = k->k_y,
                    .k_t = k->k_t,
@@ -56,21 +58,25 @@ static numbers numbers_of(const carom_cushion_way *w) {
                    .cloth = w->cloth_singular};
 }
 
-/* Both contacts slip. */
+/* Both contacts slip. The products of rates and directions are multiplied out: friction at the cloth is along t, so the chain
+ * from u to its turning is shorter, and |u| = 1 takes two squares. */
 static inline void slope_of_both(const void *model, const pair *y, pair scale, pair *f) {
   const numbers *k = model;
   const pair u_x = y[U_X], u_t = y[U_T], t_x = y[T_X], t_y = y[T_Y], r = y[R], q = y[Q], rq = r * q;
   const pair per = scale / (rq + (k->nose * q + k->cloth * r)), by_s = q * per, by_c = r * per, rho = rq * per;
-  const pair load = k->load + k->load_by_u_t * u_t, G_x = load * t_x, G_y = load * t_y;
-  const pair s_x = -(k->s_by_u_x * u_x + k->k_x * G_x), s_t = (k->free_t - k->s_by_u_t * u_t) - k->k_y * G_y;
-  const pair c_x = -(k->c_by_u_x * u_x + 3.5 * G_x), c_y = -((k->cosine + k->c_by_u_t * u_t) + 3.5 * G_y);
-  const pair turn_u = by_s * (s_t * u_x - s_x * u_t), turn_t = by_c * (c_y * t_x - c_x * t_y);
+  const pair load = k->load + k->load_by_u_t * u_t, drive = k->free_t + k->anisotropy * u_t;
+  const pair k_u_x = k->k_x * u_x, k_u_t = k->k_y * u_t, both = k_u_x * t_x + k_u_t * t_y;
+  const pair s_across = u_x * drive - load * (k->k_y * t_y * u_x - k->k_x * t_x * u_t);
+  const pair s_along = (u_t * drive - k->s_by_u_x) - load * both;
+  const pair c_across = k->mu_w * (k_u_x * t_y - k_u_t * t_x) - k->cosine * t_x;
+  const pair c_along = -(k->mu_w * both + (k->cosine * t_y + 3.5 * load));
+  const pair turn_u = by_s * s_across, turn_t = by_c * c_across;
   f[U_X] = -(turn_u * u_t);
   f[U_T] = turn_u * u_x;
-  f[R] = rho * (s_x * u_x + s_t * u_t);
+  f[R] = rho * s_along;
   f[T_X] = -(turn_t * t_y);
   f[T_Y] = turn_t * t_x;
-  f[Q] = rho * (c_x * t_x + c_y * t_y);
+  f[Q] = rho * c_along;
   f[WORK_DONE] = rho * ((q * t_y - r * u_t) * k->per_sine);
   f[IMPULSE] = rho;
 }
@@ -104,7 +110,7 @@ static double split(const double *slip, const double *rate, double *direction, d
 
 /* From *at by h, with `size` unknowns; the estimate of the error. */
 static inline __attribute__((always_inline)) double move(const carom_cushion_way *w, const carom_ode_point *at, double h,
-                                                         int size, carom_lane_slope *slope, double *y) {
+                                                         int columns, int size, carom_lane_slope *slope, double *y) {
   const numbers k = numbers_of(w);
   double y_0[FREE], f_0[FREE], e_6 = 0, e_5 = 0;
   y_0[Q] = split(at->y + C_X, at->f + C_X, y_0 + T_X, f_0 + T_X, f_0 + Q);
@@ -115,7 +121,7 @@ static inline __attribute__((always_inline)) double move(const carom_cushion_way
   y_0[IMPULSE] = at->y[P];
   f_0[IMPULSE] = at->f[P];
   carom_extrapolated end[FREE];
-  carom_extrapolate(size, slope, &k, y_0, f_0, h, end);
+  carom_extrapolate(columns, size, slope, &k, y_0, f_0, h, end);
   for (int i = 0; i < size; i++) {
     const double weight = i == WORK_DONE ? 0 : i == T_X || i == T_Y ? y_0[Q] : i == U_X || i == U_T ? y_0[R] : 1;
     e_6 += weight * fabs(end[i].e_6);
@@ -130,18 +136,36 @@ static inline __attribute__((always_inline)) double move(const carom_cushion_way
   return e_6 < e_5 ? e_6 * (e_6 / e_5) : e_6;
 }
 
-static double move_both(const carom_cushion_way *w, const carom_ode_point *at, double h, double *y) {
-  return move(w, at, h, FREE, slope_of_both, y);
+static double long_of_both(const carom_cushion_way *w, const carom_ode_point *at, double h, double *y) {
+  return move(w, at, h, LONG, FREE, slope_of_both, y);
 }
 
-static double move_cloth(const carom_cushion_way *w, const carom_ode_point *at, double h, double *y) {
-  return move(w, at, h, HELD, slope_of_cloth, y);
+static double long_of_cloth(const carom_cushion_way *w, const carom_ode_point *at, double h, double *y) {
+  return move(w, at, h, LONG, HELD, slope_of_cloth, y);
 }
 
-/* From *start by h to the present point. */
+static double short_of_both(const carom_cushion_way *w, const carom_ode_point *at, double h, double *y) {
+  return move(w, at, h, SHORT, FREE, slope_of_both, y);
+}
+
+static double short_of_cloth(const carom_cushion_way *w, const carom_ode_point *at, double h, double *y) {
+  return move(w, at, h, SHORT, HELD, slope_of_cloth, y);
+}
+
+/* From *start by h; the estimate of the error. */
 static double go(carom_cushion_way *w, const carom_ode_point *start, double h, double *y) {
-  w->point.evaluations += 2 * CAROM_EXTRAPOLATE_COLUMNS - 1;
-  return (w->regime.nose_sticks ? move_cloth : move_both)(w, start, h, y);
+  w->point.evaluations += 2 * LONG - 1;
+  return (w->regime.nose_sticks ? long_of_cloth : long_of_both)(w, start, h, y);
+}
+
+/* The same, by fewer sequences where they do. */
+static void go_near(carom_cushion_way *w, const carom_ode_point *start, double h, double *y) {
+  if (h < NEAR) {
+    w->point.evaluations += 2 * SHORT - 1;
+    if ((w->regime.nose_sticks ? short_of_cloth : short_of_both)(w, start, h, y) <= TOLERANCE)
+      return;
+  }
+  go(w, start, h, y);
 }
 
 static void arrive(carom_cushion_way *w, double x, const double *y) {
@@ -159,9 +183,21 @@ bool carom_sliding_applies(const carom_cushion_way *w) {
   return w->regime.nose_sticks || (w->law.mu_w > 0 && (y[S_X] != 0 || y[S_T] != 0));
 }
 
-/* What the estimate makes of a step's length, as a factor. */
+/* The root of order 16, to some parts in a thousand: its exponent and, nearly, its mantissa are a sixteenth. */
+static double root_16(double x) {
+  uint64_t bits;
+  const uint64_t one = 1023ull << 52;
+  memcpy(&bits, &x, sizeof bits);
+  bits = bits / 16 + (one - one / 16);
+  memcpy(&x, &bits, sizeof x);
+  return x;
+}
+
+/* What the estimate makes of a step's length, as a factor; a number that is not finite counts as a large error. */
 static double factor(double error) {
-  const double share = SAFETY * sqrt(sqrt(sqrt(sqrt(TOLERANCE / error))));
+  if (!(error <= DBL_MAX))
+    return SHRINK;
+  const double share = SAFETY * root_16(TOLERANCE / error);
   return share > GROW ? GROW : share > SHRINK ? share : SHRINK;
 }
 
@@ -191,7 +227,7 @@ void carom_sliding_locate(carom_cushion_way *w, const carom_ode_point *start) {
     if (!(x - low.x > EVENT_WIDTH * width))
       break;
     double y[UNKNOWNS];
-    go(w, &behind, x - low.x, y);
+    go_near(w, &behind, x - low.x, y);
     arrive(w, x, y);
     const carom_ode_reading here = read_event(w, &w->point, x);
     nearest = fabs(here.g) / fmin(fabs(here.rate), 1);
