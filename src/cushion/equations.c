@@ -1,4 +1,5 @@
-/* The impact in the exact limit as a differential equation, for the integrator.
+/* The impact in the exact limit as a differential equation in the slips: for the integrator, and for all that asks where an
+ * impact stands. While what slips has a direction sliding.c has the same equation in other unknowns.
  *
  * The unknowns are the four slips of contact.h, int v_y dp, and p = P / M itself; speeds are over the approach v_y. coulomb.c
  * has the rates by p. They say all: v_y = (c_y - s_t) / (1 + sin), and the rest follows at the end (mathavan.c).

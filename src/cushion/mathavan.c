@@ -1,7 +1,8 @@
 /* The exact limit of the model of the 2010 paper: impulses at nose and cloth as a differential equation in p = P / M.
  *
- * equations.c has the equation for the slips, coulomb.c the law of friction, platform/integrate.c takes the steps. The impulses
- * of friction Q = int f dp and G = int F dp follow at the end from the changes of the slips, in which they are linear:
+ * coulomb.c has the law of friction. sliding.c takes the steps while what slips has a direction; else equations.c has the
+ * equation for the slips, and platform/integrate.c takes the steps. The impulses of friction Q = int f dp and G = int F dp
+ * follow at the end from the changes of the slips, in which they are linear:
  *
  *     7/2 Q_x + k_x G_x = s_x - s_x0                              k_x Q_x + 7/2 G_x = c_x - c_x0
  *     k_t Q_t + k_y G_y = s_t - s_t0 - sin cos p                  k_y Q_t + 7/2 G_y = c_y - c_y0 + cos p
@@ -34,6 +35,8 @@ static const double NEARLY = 1e-6;
 static const double REST = 2e-11;      /* a slip that is none, over the approach and the largest slip together */
 static const double CORNER = 5e-9;     /* slips at both contacts together that are none, likewise */
 static const double MOST_SLIP = 1e100; /* over the approach; squares of more would overflow */
+/* First steps of a regime: both slip, one sticks, a slip begins from zero. By `carom-lab bench --shots`; a step too long is
+ * only refused. */
 static const double FIRST = 2, FIRST_STUCK = 0.6, FIRST_FRESH = 0.5;
 enum { MOST_CHANGES = 64 };
 
@@ -50,9 +53,8 @@ static carom_status change(carom_cushion_way *w) {
   w->cloth_singular = w->law.mu_s > 0 && w->regime.loaded && !w->regime.cloth_sticks && length(at.c) > 0;
   w->wedged = w->regime.nose_sticks && w->regime.cloth_sticks;
   w->slow = CAROM_NO_SLIP_IS_SLOW;
-  w->point.next = w->regime.nose_sticks || w->regime.cloth_sticks ? FIRST_STUCK
-                  : !w->nose_singular || !w->cloth_singular       ? FIRST_FRESH
-                                                                  : FIRST;
+  const bool stuck = w->regime.nose_sticks || w->regime.cloth_sticks;
+  w->point.next = stuck ? FIRST_STUCK : w->nose_singular && w->cloth_singular ? FIRST : FIRST_FRESH;
   const carom_ode ode = carom_cushion_equations(w);
   carom_ode_set(&ode, &w->point);
   /* slips that begin with a small rate */

@@ -7,7 +7,12 @@
  *     r' = s' . u        r u' = (s' x u) (-u_t, u_x)        q' = c' . t        q t' = (c' x t) (-t_y, t_x)
  *
  * where the cross product is that which is positive if s' lies anticlockwise of u. If the nose sticks, r and u are left out.
- * extrapolate.h takes the steps. */
+ *
+ * STEPS are those of extrapolate.h. E6 and E5, of which its head tells, are sums over the unknowns, directions counting as much
+ * as the slip at the start of the step; since E6 : E5 is as the error of the step : E6, the estimate is E6^2 / E5.
+ *
+ * EVENTS may lie inside a step. They are located by shorter steps, each from the last point that is known to lie before the
+ * event, to the zero of the cubic on the bracket known so far. */
 #include "cushion/sliding.h"
 
 #include "cushion/equations.h"
@@ -17,18 +22,22 @@
 #include <stdint.h>
 #include <string.h>
 
-static const double TOLERANCE = 1e-12; /* of a step, over the approach */
-static const double SAFETY = 0.9;      /* on the length that the estimate asks for */
-static const double SHRINK = 0.2;      /* shortest step after a rejected one, over that */
-static const double GROW = 5;          /* longest step after an accepted one, over that */
-static const double SHORTEST = 1e-12;  /* step that is taken whatever the estimate */
-static const double EVENT_WIDTH = 1e-12;
-static const double NEAR = 0.1; /* a step that fewer sequences may do */
-enum { LONG = 7, SHORT = 3, MOST_TRIALS = 60, PATIENCE = 6 };
+/* The tolerance was found with `carom-lab verify --cushion` and tests/physics/cushion_invariants.c: see docs/tried.md. */
+static const double TOLERANCE = 1e-12;   /* of a step, over the approach */
+static const double SAFETY = 0.9;        /* on the length that the estimate asks for */
+static const double SHRINK = 0.2;        /* shortest step after a rejected one, over that */
+static const double GROW = 5;            /* longest step after an accepted one, over that */
+static const double SHORTEST = 1e-12;    /* step that is taken whatever the estimate */
+static const double EVENT_WIDTH = 1e-12; /* of a step: how narrowly an event is located */
+static const double NEAR = 0.1;          /* a step that SHORT sequences may do */
+enum { LONG = 7, SHORT = 3 };            /* sequences of a step */
+enum { MOST_TRIALS = 60, PATIENCE = 6 }; /* of one event; trials without a bisection */
 
 typedef carom_pair pair;
+/* The unknowns; HELD of them where the nose sticks, FREE where it slips. */
 enum { T_X, T_Y, Q, WORK_DONE, IMPULSE, HELD, U_X = HELD, U_T, R, FREE };
 
+/* What does not change in a regime. */
 typedef struct numbers {
   double mu_w, s_by_u_x, anisotropy;    /* s_by_u_x: 7/2 mu_w; (7/2 - k_t) mu_w */
   double k_x, k_y, k_t, free_t, cosine; /* free_t: sin cos */
@@ -108,7 +117,7 @@ static double split(const double *slip, const double *rate, double *direction, d
   return size;
 }
 
-/* From *at by h, with `size` unknowns; the estimate of the error. */
+/* From *at by h, with `columns` sequences and `size` unknowns, to y; the estimate of the error. */
 static inline __attribute__((always_inline)) double move(const carom_cushion_way *w, const carom_ode_point *at, double h,
                                                          int columns, int size, carom_lane_slope *slope, double *y) {
   const numbers k = numbers_of(w);
@@ -168,6 +177,7 @@ static void go_near(carom_cushion_way *w, const carom_ode_point *start, double h
   go(w, start, h, y);
 }
 
+/* Puts the present point to y, a distance x on. */
 static void arrive(carom_cushion_way *w, double x, const double *y) {
   w->point.x = x;
   memcpy(w->point.y, y, UNKNOWNS * sizeof *y);

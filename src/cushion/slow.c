@@ -5,7 +5,8 @@
  *     where it falls, once it is small and has come to that direction; likewise where it grows again
  *
  * as long as r |u'| is below SLOW of what friction does to it, and r below SLOW_SHARE of the other slip, since u' may soon be
- * larger where that one is small. The limits were found with `carom-lab verify --cushion`: ten times larger ones let errors
+ * larger where that one is small. Where little p is left till it ends, at zero or because it is too large, one step goes there;
+ * else the integrator does. The limits were found with `carom-lab verify --cushion`: ten times larger ones let errors
  * above 1e-8 through, smaller ones cost steps. */
 #include "cushion/slow.h"
 
@@ -15,7 +16,7 @@ static const double SLOW = 1e-5;       /* a slow slip times how fast its directi
 static const double ALIGNED = 1e-4;    /* rate across a slip, over what friction does to it, that may be quasi-steady */
 static const double SLOW_SHARE = 3e-3; /* of the other slip: the most that a slow one may be */
 static const double SMALL = 0.1;       /* a slip that may be slow, over the approach */
-static const double SHORT = 0.02;      /* of the other slip: impulse in which a slow slip may be taken to zero at once */
+static const double SHORT = 0.02;      /* p, over the other slip or 1, in which one step may take it to its end */
 static const double STIFF = 2;         /* the rate of a slow slip, over that by friction alone */
 
 /* What friction alone does to the slip of a contact; 0 if it does not slip. */
