@@ -40,8 +40,9 @@
 #include <math.h>
 
 static const double CONVERGED = 1e-15;
-static const double BACKWARDS = 1e-6; /* rate along a direction found that MARGIN may cause */
-static const double MARGIN = 1e-7;    /* inside the cone, as a share of it, that friction must be to begin to hold */
+static const double NEWTON_CONVERGED = 3e-8; /* where the derivative is known */
+static const double BACKWARDS = 1e-6;        /* rate along a direction found that MARGIN may cause */
+static const double MARGIN = 1e-7;           /* inside the cone, as a share of it, that friction must be to begin to hold */
 enum { MOST_ITERATIONS = 60 };
 
 static double length(carom_vector a) {
@@ -147,6 +148,20 @@ static bool begin(const carom_coulomb *law, const carom_slips *slips, bool nose,
   return way < 1e-9 && !(nose && s.along < -BACKWARDS) && !(cloth && regime->loaded && c.along < -BACKWARDS);
 }
 
+/* What friction does to the rate across u at the nose if u turns, with the sign of `search`: the change of u is across u, that
+ * of f is -mu_w times that, and F follows. */
+static double slope_at_nose(const carom_coulomb *law, const carom_regime *regime, const carom_friction *now) {
+  const carom_vector n = {-regime->nose.y, regime->nose.x};
+  carom_friction change = {.f = {-law->mu_w * n.x, -law->mu_w * n.y}};
+  if (regime->cloth_sticks)
+    change.F = (carom_vector){-2.0 / 7.0 * law->k_x * change.f.x, -2.0 / 7.0 * law->k_y * change.f.y};
+  else if (now->g != 0) {
+    const double share = -law->cosine * change.f.y / now->g;
+    change.F = (carom_vector){share * now->F.x, share * now->F.y};
+  }
+  return -(n.x * (3.5 * change.f.x + law->k_x * change.F.x) + n.y * (law->k_t * change.f.y + law->k_y * change.F.y));
+}
+
 bool carom_slow_direction(const carom_coulomb *law, const carom_slips *slips, bool at_cloth, bool falls, double slip,
                           carom_vector turning, carom_regime *regime) {
   if (at_cloth && !regime->nose_sticks) {
@@ -158,18 +173,22 @@ bool carom_slow_direction(const carom_coulomb *law, const carom_slips *slips, bo
     return true;
   }
   search s = {.u = at_cloth ? &regime->cloth : &regime->nose, .slope = 3 * law->mu_w};
+  /* with the derivative itself what is left is the square of the last step */
+  const double converged = at_cloth ? CONVERGED : NEWTON_CONVERGED;
   double way = INFINITY;
-  for (int k = 0; k < MOST_ITERATIONS && way > CONVERGED; k++) {
+  for (int k = 0; k < MOST_ITERATIONS && way > converged; k++) {
     const carom_friction friction = carom_friction_of(law, regime, slips);
     const carom_slips rates = carom_slip_rates(law, &friction);
     const carom_vector rate = at_cloth ? rates.c : rates.s;
-    if (at_cloth) {
+    if (at_cloth)
       s.slope = 3.5 * law->mu_s * friction.g;
-      s.angle = regime->nose_sticks ? s.angle : 0;
+    else {
+      s.slope = slope_at_nose(law, regime, &friction);
+      s.angle = 0;
     }
     way = turn(&s, (carom_vector){rate.x - slip * turning.x, rate.y - slip * turning.y}, falls);
   }
-  return way < 1e-9;
+  return way <= fmax(converged, 1e-9);
 }
 
 bool carom_decide(const carom_coulomb *law, carom_slips *slips, double rest, carom_regime *regime) {

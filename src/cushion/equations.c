@@ -1,4 +1,5 @@
-/* The impact in the exact limit as a differential equation, for the integrator.
+/* The impact in the exact limit as a differential equation in the slips: for the integrator, and for all that asks where an
+ * impact stands. While what slips has a direction sliding.c has the same equation in other unknowns.
  *
  * The unknowns are the four slips of contact.h, int v_y dp, and p = P / M itself; speeds are over the approach v_y. coulomb.c
  * has the rates by p. They say all: v_y = (c_y - s_t) / (1 + sin), and the rest follows at the end (mathavan.c).
@@ -133,19 +134,19 @@ static double longest(const void *model, double p, const double *y, const double
   return h;
 }
 
-/* By how much the regime is violated: the friction of a contact that sticks beyond the cone, as a share of it, or the load of
- * the wrong sign. */
-static double violation(const carom_cushion_way *w, const carom_slips *slips) {
+static bool may_be_violated(const carom_cushion_way *w) {
+  return w->law.mu_w > 0 && (w->law.mu_s > 0 || w->regime.nose_sticks);
+}
+
+double carom_violation(const carom_cushion_way *w, const carom_slips *slips) {
+  if (!may_be_violated(w))
+    return -INFINITY;
   const carom_friction friction = carom_friction_here(w, slips);
   if (w->regime.nose_sticks)
     return length(friction.f) / w->law.mu_w - 1;
   if (w->regime.cloth_sticks)
     return length(friction.F) / (w->law.mu_s * friction.g) - 1;
   return w->regime.loaded ? -friction.g : friction.g;
-}
-
-static bool may_be_violated(const carom_cushion_way *w) {
-  return w->law.mu_w > 0 && (w->law.mu_s > 0 || w->regime.nose_sticks);
 }
 
 /* Positive behind the end of the phase. */
@@ -169,10 +170,7 @@ double carom_slow_event(const carom_cushion_way *w, const double *y, const doubl
   return w->falls && size < 0.5 ? -size : size - 1;
 }
 
-/* Positive behind the end of the regime or of the phase: the larger of the two. */
-static double event(const void *model, double p, const double *y, const double *f, double *rate) {
-  (void)p;
-  const carom_cushion_way *w = model;
+double carom_cushion_event(const carom_cushion_way *w, const double *y, const double *f, double *rate) {
   double value = carom_phase_event(w, y, f, rate);
   const carom_slips at = slips_of(y);
   double slow_rate;
@@ -185,17 +183,20 @@ static double event(const void *model, double p, const double *y, const double *
     value = y[P] - w->to;
     *rate = f[P];
   }
-  if (!may_be_violated(w))
-    return value;
-  const double other = violation(w, &at);
+  const double other = carom_violation(w, &at);
   if (!(other > value))
     return value;
   const carom_slips by = slips_of(f);
   const double h = DIFFERENCE * fmin((length(at.s) + w->rest) / (length(by.s) + DBL_MIN),
                                      (length(at.c) + w->rest) / (length(by.c) + DBL_MIN));
   const carom_slips next = {{at.s.x + h * by.s.x, at.s.y + h * by.s.y}, {at.c.x + h * by.c.x, at.c.y + h * by.c.y}};
-  *rate = (violation(w, &next) - other) / h;
+  *rate = (carom_violation(w, &next) - other) / h;
   return other;
+}
+
+static double event(const void *model, double x, const double *y, const double *f, double *rate) {
+  (void)x;
+  return carom_cushion_event(model, y, f, rate);
 }
 
 carom_ode carom_cushion_equations(const carom_cushion_way *w) {

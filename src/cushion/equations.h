@@ -32,6 +32,13 @@ static inline carom_vector *direction_at(carom_regime *regime, bool cloth) {
 /* The equation and its events in the present regime. */
 carom_ode carom_cushion_equations(const carom_cushion_way *way);
 
+/* Positive behind the end of the regime or of the phase, and its derivative: the larger of the two. */
+double carom_cushion_event(const carom_cushion_way *way, const double *y, const double *f, double *rate);
+
+/* By how much the regime is violated: the friction of a contact that sticks beyond the cone, as a share of it, or the load of
+ * the wrong sign. */
+double carom_violation(const carom_cushion_way *way, const carom_slips *slips);
+
 /* Positive behind the end of the phase; and where a slow slip has become zero, or too large for that. */
 double carom_phase_event(const carom_cushion_way *way, const double *y, const double *f, double *rate);
 double carom_slow_event(const carom_cushion_way *way, const double *y, const double *f, double *rate);

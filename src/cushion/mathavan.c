@@ -1,7 +1,8 @@
 /* The exact limit of the model of the 2010 paper: impulses at nose and cloth as a differential equation in p = P / M.
  *
- * equations.c has the equation for the slips, coulomb.c the law of friction, platform/integrate.c takes the steps. The impulses
- * of friction Q = int f dp and G = int F dp follow at the end from the changes of the slips, in which they are linear:
+ * coulomb.c has the law of friction. sliding.c takes the steps while what slips has a direction; else equations.c has the
+ * equation for the slips, and platform/integrate.c takes the steps. The impulses of friction Q = int f dp and G = int F dp
+ * follow at the end from the changes of the slips, in which they are linear:
  *
  *     7/2 Q_x + k_x G_x = s_x - s_x0                              k_x Q_x + 7/2 G_x = c_x - c_x0
  *     k_t Q_t + k_y G_y = s_t - s_t0 - sin cos p                  k_y Q_t + 7/2 G_y = c_y - c_y0 + cos p
@@ -27,12 +28,16 @@
 
 #include "cushion/equations.h"
 #include "cushion/models.h"
+#include "cushion/sliding.h"
 #include "cushion/slow.h"
 
 static const double NEARLY = 1e-6;
 static const double REST = 2e-11;      /* a slip that is none, over the approach and the largest slip together */
 static const double CORNER = 5e-9;     /* slips at both contacts together that are none, likewise */
 static const double MOST_SLIP = 1e100; /* over the approach; squares of more would overflow */
+/* First steps of a regime: both slip, one sticks, a slip begins from zero. By `carom-lab bench --shots`; a step too long is
+ * only refused. */
+static const double FIRST = 2, FIRST_STUCK = 0.6, FIRST_FRESH = 0.5;
 enum { MOST_CHANGES = 64 };
 
 /* The regime from here on. */
@@ -48,6 +53,8 @@ static carom_status change(carom_cushion_way *w) {
   w->cloth_singular = w->law.mu_s > 0 && w->regime.loaded && !w->regime.cloth_sticks && length(at.c) > 0;
   w->wedged = w->regime.nose_sticks && w->regime.cloth_sticks;
   w->slow = CAROM_NO_SLIP_IS_SLOW;
+  const bool stuck = w->regime.nose_sticks || w->regime.cloth_sticks;
+  w->point.next = stuck ? FIRST_STUCK : w->nose_singular && w->cloth_singular ? FIRST : FIRST_FRESH;
   const carom_ode ode = carom_cushion_equations(w);
   carom_ode_set(&ode, &w->point);
   /* slips that begin with a small rate */
@@ -77,7 +84,7 @@ carom_status carom_cushion_way_begin(const carom_contact *c, carom_cushion_way *
   if (!(most < MOST_SLIP))
     return CAROM_ERROR_OVERFLOW;
   w->rest = REST * (1 + most);
-  w->point = (carom_ode_point){.y = {w->start.s.x, w->start.s.y, w->start.c.x, w->start.c.y}, .next = 0.5};
+  w->point = (carom_ode_point){.y = {w->start.s.x, w->start.s.y, w->start.c.x, w->start.c.y}, .next = FIRST};
   return change(w);
 }
 
@@ -161,6 +168,36 @@ static bool tidy(carom_cushion_way *w) {
   return true;
 }
 
+/* One step, no further than the first event. Returns whether it ended there. */
+static bool step(carom_cushion_way *w) {
+  carom_ode_point *at = &w->point;
+  if (!carom_sliding_applies(w)) {
+    const carom_ode ode = carom_cushion_equations(w);
+    return carom_ode_step(&ode, at, INFINITY) != 0;
+  }
+  double unused;
+  carom_ode_point start = *at;
+  carom_sliding_step(w);
+  if (!(carom_cushion_event(w, at->y, at->f, &unused) >= 0))
+    return false;
+  carom_ode_point end = *at;
+  carom_sliding_locate(w, &start);
+  if (w->in_restitution || fabs(carom_phase_event(w, at->y, at->f, &unused)) > CAROM_CUSHION_EVENT_TOLERANCE ||
+      fabs(at->y[P] - w->to) <= CAROM_CUSHION_EVENT_TOLERANCE)
+    return true;
+  /* v_y = 0 changes nothing but the phase: the step counts to its end, or to the first event of restitution */
+  start = *at;
+  end_phase(w);
+  if (w->ended)
+    return false;
+  end.evaluations = at->evaluations;
+  *at = end;
+  if (!(carom_cushion_event(w, at->y, at->f, &unused) >= 0))
+    return false;
+  carom_sliding_locate(w, &start);
+  return true;
+}
+
 carom_status carom_cushion_way_on(carom_cushion_way *w, double to, int budget) {
   const double p = w->to = to / w->approach;
   carom_ode_point *at = &w->point;
@@ -171,8 +208,13 @@ carom_status carom_cushion_way_on(carom_cushion_way *w, double to, int budget) {
         return status;
       continue;
     }
-    const carom_ode ode = carom_cushion_equations(w);
-    bool changes = carom_ode_step(&ode, at, INFINITY) != 0;
+    if (carom_slow_finish(w)) {
+      const carom_status status = carom_slow_end(w) ? change(w) : CAROM_OK;
+      if (status != CAROM_OK)
+        return status;
+      continue;
+    }
+    bool changes = step(w);
     if (changes && fabs(at->y[P] - p) <= CAROM_CUSHION_EVENT_TOLERANCE) {
       go_on(at, p - at->y[P]);
       at->y[P] = p;

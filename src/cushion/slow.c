@@ -5,7 +5,8 @@
  *     where it falls, once it is small and has come to that direction; likewise where it grows again
  *
  * as long as r |u'| is below SLOW of what friction does to it, and r below SLOW_SHARE of the other slip, since u' may soon be
- * larger where that one is small. The limits were found with `carom-lab verify --cushion`: ten times larger ones let errors
+ * larger where that one is small. Where little p is left till it ends, at zero or because it is too large, one step goes there;
+ * else the integrator does. The limits were found with `carom-lab verify --cushion`: ten times larger ones let errors
  * above 1e-8 through, smaller ones cost steps. */
 #include "cushion/slow.h"
 
@@ -15,6 +16,7 @@ static const double SLOW = 1e-5;       /* a slow slip times how fast its directi
 static const double ALIGNED = 1e-4;    /* rate across a slip, over what friction does to it, that may be quasi-steady */
 static const double SLOW_SHARE = 3e-3; /* of the other slip: the most that a slow one may be */
 static const double SMALL = 0.1;       /* a slip that may be slow, over the approach */
+static const double SHORT = 0.02;      /* p, over the other slip or 1, in which one step may take it to its end */
 static const double STIFF = 2;         /* the rate of a slow slip, over that by friction alone */
 
 /* What friction alone does to the slip of a contact; 0 if it does not slip. */
@@ -44,7 +46,8 @@ bool carom_slow_begin(carom_cushion_way *w, bool cloth, bool falls, carom_regime
   carom_slips at = slips_of(w->point.y);
   const carom_vector slip = *slip_at(&at, cloth), *const u = direction_at(&regime, cloth);
   double turns;
-  if (!carom_slow_regime(w, cloth, falls, &at, &regime, &turns) || !(fabs(slip.x * u->y - slip.y * u->x) <= w->rest))
+  if (!carom_slow_regime(w, cloth, falls, &at, &regime, &turns) || !(fabs(slip.x * u->y - slip.y * u->x) <= w->rest) ||
+      slip.x * u->x + slip.y * u->y < 0)
     return false;
   const double most = most_slow(w, cloth, turns);
   if (!(length(slip) <= most))
@@ -93,6 +96,85 @@ bool carom_slow_keep(carom_cushion_way *w) {
   w->falls = size * (rate.x * u->x + rate.y * u->y) < 0;
   w->most = fmin(most_slow(w, cloth, turns), 1);
   return size <= w->most;
+}
+
+/* What changes while a slip is slow: its size, the other slip, p, and the work. */
+typedef struct state {
+  double size, x, y, p, work;
+} state;
+
+/* from + h slope */
+static state beyond(const state *from, double h, const state *slope) {
+  return (state){from->size + h * slope->size, from->x + h * slope->x, from->y + h * slope->y, from->p + h * slope->p,
+                 from->work + h * slope->work};
+}
+
+/* Its derivative: by the size while that falls, as nothing is singular where it is zero; by p otherwise. Directions are found
+ * with and put into *regime. False if the size does not change as w->falls says. */
+static bool rates_of(const carom_cushion_way *w, const state *k, carom_regime *regime, state *slope) {
+  const bool cloth = w->slow == CAROM_CLOTH_IS_SLOW;
+  const carom_vector *const u = direction_at(regime, cloth);
+  carom_slips at;
+  double turns;
+  *slip_at(&at, cloth) = (carom_vector){k->size * u->x, k->size * u->y};
+  *slip_at(&at, !cloth) = (carom_vector){k->x, k->y};
+  const double v = (at.c.y - at.s.y) * w->per_sine;
+  if (!carom_slow_regime(w, cloth, w->falls, &at, regime, &turns))
+    return false;
+  const carom_friction friction = carom_friction_of(&w->law, regime, &at);
+  carom_slips rates = carom_slip_rates(&w->law, &friction);
+  const carom_vector own = *slip_at(&rates, cloth), other = *slip_at(&rates, !cloth);
+  const double rate = own.x * u->x + own.y * u->y;
+  const double per = w->falls ? 1 / rate : 1;
+  *slope = (state){per * rate, per * other.x, per * other.y, per, per * v};
+  return w->falls == (rate < 0);
+}
+
+/* One step of the classical method of order 4. */
+bool carom_slow_finish(carom_cushion_way *w) {
+  const bool cloth = w->slow == CAROM_CLOTH_IS_SLOW;
+  if (w->slow == CAROM_NO_SLIP_IS_SLOW || carom_slip_is_alone(w, cloth))
+    return false;
+  const int own = cloth ? C_X : S_X, other = cloth ? S_X : C_X;
+  const carom_ode_point start = w->point;
+  carom_ode_point *const at = &w->point;
+  const state y = {length((carom_vector){at->y[own], at->y[own + 1]}), at->y[other], at->y[other + 1], at->y[P], at->y[WORK]};
+  const double longest = SHORT * fmin(length((carom_vector){y.x, y.y}), 1);
+  carom_regime regime = w->regime;
+  state k_1, k_2, k_3, k_4, to;
+  if (!rates_of(w, &y, &regime, &k_1))
+    return false;
+  const double h = w->falls ? -y.size : (w->most - y.size) / k_1.size;
+  if (!(h * k_1.p <= longest))
+    return false;
+  to = beyond(&y, 0.5 * h, &k_1);
+  if (!rates_of(w, &to, &regime, &k_2))
+    return false;
+  to = beyond(&y, 0.5 * h, &k_2);
+  if (!rates_of(w, &to, &regime, &k_3))
+    return false;
+  to = beyond(&y, h, &k_3);
+  if (!rates_of(w, &to, &regime, &k_4) || !(h * k_4.p <= longest))
+    return false;
+  to = beyond(&y, h / 6, &k_1);
+  to = beyond(&to, h / 3, &k_2);
+  to = beyond(&to, h / 3, &k_3);
+  to = beyond(&to, h / 6, &k_4);
+  const carom_vector u = *direction_at(&regime, cloth);
+  at->y[own] = w->falls ? 0 : to.size * u.x;
+  at->y[own + 1] = w->falls ? 0 : to.size * u.y;
+  at->y[other] = to.x;
+  at->y[other + 1] = to.y;
+  at->y[P] = to.p;
+  at->y[WORK] = to.work;
+  at->evaluations += 4;
+  const carom_slips slips = slips_of(at->y);
+  double unused;
+  if (to.size <= 1.1 * w->most && carom_phase_event(w, at->y, at->f, &unused) < 0 && at->y[P] < w->to &&
+      carom_violation(w, &slips) < 0)
+    return true;
+  *at = start;
+  return false;
 }
 
 /* A slow slip has become zero, which may change the regime, or too large. */

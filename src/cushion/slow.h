@@ -17,6 +17,10 @@ bool carom_slow_try(carom_cushion_way *way, bool cloth);
  * large for that now. */
 bool carom_slow_keep(carom_cushion_way *way);
 
+/* Takes a slow slip to where it ends, at zero or because it is too large, if the way there is short and no event is on it.
+ * carom_slow_end() is due then. */
+bool carom_slow_finish(carom_cushion_way *way);
+
 /* A slow slip has become zero, which may change the regime, or too large. Returns whether it is zero. */
 bool carom_slow_end(carom_cushion_way *way);
 

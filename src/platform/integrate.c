@@ -154,13 +154,7 @@ static void arrive(const carom_ode *ode, carom_ode_point *at, double x, const tr
   carom_ode_set(ode, at);
 }
 
-/* An event function at a distance x from the beginning of a step: value and derivative. */
-typedef struct reading {
-  double x, g, rate;
-} reading;
-
-/* The zero of the cubic through two readings, of which the first is negative and the second is not. */
-static double zero_between(const reading *low, const reading *high) {
+double carom_ode_zero_between(const carom_ode_reading *low, const carom_ode_reading *high) {
   const double h = high->x - low->x, rise = high->g - low->g, r_0 = h * low->rate, r_1 = h * high->rate;
   const double c_2 = 3 * rise - 2 * r_0 - r_1, c_3 = r_0 + r_1 - 2 * rise;
   double t = -low->g / rise;
@@ -173,8 +167,8 @@ static double zero_between(const reading *low, const reading *high) {
   return low->x + h * t;
 }
 
-static reading read_event(const carom_ode *ode, const carom_ode_point *at, double x) {
-  reading r = {.x = x};
+static carom_ode_reading read_event(const carom_ode *ode, const carom_ode_point *at, double x) {
+  carom_ode_reading r = {.x = x};
   r.g = ode->event(ode->model, at->x, at->y, at->f, &r.rate);
   return r;
 }
@@ -193,15 +187,16 @@ int carom_ode_step(const carom_ode *ode, carom_ode_point *at, double x_end) {
   while (try_step(ode, at, h, &t), !(t.error <= ode->tolerance) && h > least)
     h = fmax(h * fmin(factor(ode->tolerance, t.error), SAFETY), least);
   at->next = h * factor(ode->tolerance, t.error);
-  reading low = read_event(ode, at, 0);
+  carom_ode_reading low = read_event(ode, at, 0);
   arrive(ode, at, h < left ? start.x + h : x_end, &t);
-  reading high = read_event(ode, at, h);
+  carom_ode_reading high = read_event(ode, at, h);
   if (!(high.g >= 0))
     return 0;
   /* an event inside it, behind `low` and not behind `high` */
   double nearest = high.g > 0 ? high.g : DBL_MIN;
   for (int k = 0; k < MOST_TRIALS && at->x != start.x && !(nearest <= ode->event_tolerance); k++) {
-    const double last = at->x - start.x, x = k >= PATIENCE && k % 2 == 0 ? 0.5 * (low.x + high.x) : zero_between(&low, &high);
+    const double last = at->x - start.x,
+                 x = k >= PATIENCE && k % 2 == 0 ? 0.5 * (low.x + high.x) : carom_ode_zero_between(&low, &high);
     if (fabs(x - last) <= EVENT_WIDTH * h)
       break;
     const int evaluations = at->evaluations;
@@ -211,7 +206,7 @@ int carom_ode_step(const carom_ode *ode, carom_ode_point *at, double x_end) {
     at->next = next;
     try_step(ode, at, x, &t);
     arrive(ode, at, start.x + x, &t);
-    const reading here = read_event(ode, at, x);
+    const carom_ode_reading here = read_event(ode, at, x);
     *(here.g >= 0 ? &high : &low) = here;
     nearest = fabs(here.g);
   }

@@ -34,4 +34,12 @@ void carom_ode_set(const carom_ode *ode, carom_ode_point *at);
  * finite. */
 int carom_ode_step(const carom_ode *ode, carom_ode_point *at, double x_end);
 
+/* An event function at a distance x from the beginning of a step: value and derivative. */
+typedef struct carom_ode_reading {
+  double x, g, rate;
+} carom_ode_reading;
+
+/* The zero of the cubic through two readings, of which the first is negative and the second is not. */
+double carom_ode_zero_between(const carom_ode_reading *low, const carom_ode_reading *high);
+
 #endif

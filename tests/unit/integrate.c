@@ -1,5 +1,6 @@
 /* The adaptive integrator by itself, on problems whose solution is known. */
 #include "platform/integrate.h"
+#include "platform/extrapolate.h"
 #include "support.h"
 
 #include <float.h>
@@ -110,7 +111,47 @@ START_TEST(ends_on_what_is_not_finite) {
 }
 END_TEST
 
+static void circle_in_lanes(const void *model, const carom_pair *y, carom_pair scale, carom_pair *f) {
+  (void)model;
+  f[0] = scale * y[1];
+  f[1] = -(scale * y[0]);
+}
+
+/* One extrapolated step along the circle: its error, and what it says of the two lower orders. */
+static double extrapolated_error(int columns, double h, double *e_6, double *e_5) {
+  const double y_0[] = {0, 1}, f_0[] = {1, 0};
+  carom_extrapolated out[2];
+  if (columns == 3)
+    carom_extrapolate(3, 2, circle_in_lanes, NULL, y_0, f_0, h, out);
+  else
+    carom_extrapolate(7, 2, circle_in_lanes, NULL, y_0, f_0, h, out);
+  *e_6 = hypot(out[0].e_6, out[1].e_6);
+  *e_5 = hypot(out[0].e_5, out[1].e_5);
+  return hypot(out[0].y - sin(h), out[1].y - cos(h));
+}
+
+/* Halving a step of an order p divides its error by 2^(p + 1), and so do the errors of the orders p - 2 and p - 4. */
+START_TEST(extrapolation_has_its_order) {
+  static const struct {
+    int columns;
+    double h;
+  } of[] = {{3, 0.5}, {7, 2.5}};
+  for (int k = 0; k < 2; k++) {
+    double e_6[2], e_5[2];
+    const int order = 2 * of[k].columns;
+    const double whole = extrapolated_error(of[k].columns, of[k].h, &e_6[0], &e_5[0]);
+    const double half = extrapolated_error(of[k].columns, of[k].h / 2, &e_6[1], &e_5[1]);
+    ck_assert_double_eq_tol(log2(whole / half), order + 1, 1);
+    ck_assert_double_eq_tol(log2(e_6[0] / e_6[1]), order - 1, 1);
+    ck_assert_double_eq_tol(log2(e_5[0] / e_5[1]), order - 3, 1);
+    /* the estimate that sliding.c makes of them is that of the step, within a factor */
+    const double estimate = e_6[0] * e_6[0] / e_5[0];
+    ck_assert_msg(estimate > whole / 10 && estimate < 1000 * whole, "%g, estimated %g", whole, estimate);
+  }
+}
+END_TEST
+
 int main(void) {
-  return RUN_TESTS("integrate", tolerance_is_kept, events_are_located, singularities_are_approached,
-                   ends_on_what_is_not_finite);
+  return RUN_TESTS("integrate", tolerance_is_kept, events_are_located, singularities_are_approached, ends_on_what_is_not_finite,
+                   extrapolation_has_its_order);
 }
