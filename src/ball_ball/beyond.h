@@ -4,10 +4,10 @@
 
 #include "ball_ball/problem.h"
 
-/* The directions c, sigma and s = sigma t at a state, and their slopes in p, by the equations. bend: a sixth of the second
- * derivative of the direction of u, about. */
+/* The directions c, sigma and s = sigma t at a state, and their slopes in p, by the equations. bend_u, bend_d: a sixth of the
+ * second derivatives of the direction of u, about, and of s, at most. */
 typedef struct arrival {
-  vreal c, z, x, y, dc, dz, dx, dy, bend;
+  vreal c, z, x, y, dc, dz, dx, dy, bend_u, bend_d;
 } arrival;
 
 always arrival arrive(const problem *a, const state *s) {
@@ -16,9 +16,11 @@ always arrival arrive(const problem *a, const state *s) {
   arrival end = {.c = c, .z = z, .x = z * t_x, .y = z * t_y};
   const vreal turn_z = 2.5f * (a->kappa * z + a->mu * end.y), turn_x = 3.5f * a->kappa * c + a->mu * end.x;
   const vreal turn_u = -a->mu_b * (z * turn_x - c * turn_z) * i_u;
-  const vreal turn_d = (t_x * (a->spin * a->mu_b * z - 1) + t_y * a->mu_b * c) * i_d;
+  const vreal d_x = a->mu_b * c, d_y = v_fma(a->spin * a->mu_b, z, v_splat(-1)); /* d', without the cloth's own pull */
+  const vreal turn_d = (t_x * d_y + t_y * d_x) * i_d;
   const vreal fall = 3.5f * a->kappa * a->mu_b * i_u, turning = v_abs(turn_u);
-  end.bend = (1 / 6.0f) * turning * v_fma(v_splat(2), fall, turning);
+  end.bend_u = (1 / 6.0f) * turning * v_fma(v_splat(2), fall, turning);
+  end.bend_d = v_select(is_at_rest(a, s), v_splat(0), 0.5f * z * v_fma(d_x, d_x, d_y * d_y) * (i_d * i_d));
   end.dc = z * turn_u;
   end.dz = -c * turn_u;
   end.dx = end.dz * t_x - end.y * turn_d;

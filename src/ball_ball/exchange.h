@@ -49,6 +49,6 @@ static const double LEAST_PRESS = 1e-10, LEAST_MU_B = 1e-9;
 
 /* Error in p, in units of |v_n0| / kappa, that a step may add by its estimate, for results in double and in single precision.
  */
-static const float carom_tolerances[2] = {2.7e-7f, 6e-6f};
+static const float carom_tolerances[2] = {2.5e-7f, 5e-6f};
 
 #endif

@@ -143,12 +143,8 @@ always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, c
   }
   const vreal way = v_abs(finish(a, &end, &at_end, third_x, third_y, out));
   if (n > 4) {
-    /* the third terms: of u; and of d at a turn, as large as the distance from it lets it be */
-    vreal bend = a->mu_b * at_end.bend;
-    if (nodes == TURNED) {
-      const vreal apart = length - turn->at;
-      bend = v_fma(a->pull, v_reciprocal(v_fma(apart, apart, turn->width * turn->width)), bend);
-    }
+    /* the third terms */
+    const vreal bend = v_fma(a->mu_b, at_end.bend_u, a->pull * at_end.bend_d);
     error = v_fma(v_select(last, way * (way * way), v_splat(0)), bend, error);
   }
   const vmask in_reach = v_less(way, (nodes == TURNED ? MOST_BEYOND_TURN : MOST_BEYOND) * length);

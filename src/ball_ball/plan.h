@@ -2,9 +2,9 @@
  *
  * At the rate of its start a collision loses the share q of |u| on the whole way to its end. If q is not large and the
  * direction of the cloth slip smooth, one step in the impulse ends it: with four nodes (EASY), six (FULL) or, where much of |u|
- * is lost, eight graded ones (FULL_GRADED). If it will stick, and what is left of |u| is so small that the error of a step to there does not count, that ends it (STICK); else a
- * step takes away most of |u| first (PART). Where the cloth slip turns, steps with their nodes drawn together there lose less
- * of |u| at a time (TURN).
+ * is lost, eight graded ones (FULL_GRADED). If it will stick, and what is left of |u| is so small that the error of a step to
+ * there does not count, that ends it (STICK); else a step takes away most of |u| first (PART). Where the cloth slip turns,
+ * steps with their nodes drawn together there lose less of |u| at a time (TURN).
  *
  * HOW SMOOTH. Along the straight way that d is about to take, t is analytic in the ellipse with foci at the ends of the step
  * that passes through the zeros of |d|^2; with rho the sum of its half axes over the half length of the step, n Gauss nodes
@@ -28,15 +28,16 @@ enum { EASY_NODES = 4, FULL_NODES = 6 }; /* of STICK: stick_step.h; of all other
 enum { EASY_MOST = 3, FULL_MOST = 4, FULL_GRADED_MOST = 5, PART_MOST = 5, TURN_MOST = 6 };
 enum { MOST_ATTEMPTS = 14 };
 
-static const float EASY_SHARE = 6;           /* error of an EASY step over mu_b rho^-8 with rho for u, */
-static const float MOST_EASY_Q = 0.9f;       /* its q */
-static const float MOST_EASY_PULL = 5e-3f;   /* and its mu mu_b q^2 */
-static const float FULL_Q = 0.66f;           /* q of a FULL step over even nodes, */
-static const float FULL_GRADED_Q = 0.96f;    /* and over graded ones */
-static const float BEND_4 = 20, BEND_8 = 30; /* by q^2: what a way that is not straight adds to the error, with 4 nodes and with more */
-static const float STICK_Q = 1.05f;          /* q from which the balls will stick */
-static const float TURN_Q = 0.5f;            /* q of a TURN step */
-static const float LEFT_Q = 0.5f;            /* q that a PART would leave; */
+static const float EASY_SHARE = 6;         /* error of an EASY step over mu_b rho^-8 with rho for u, */
+static const float MOST_EASY_Q = 0.62f;    /* its q */
+static const float MOST_EASY_PULL = 5e-3f; /* and its mu mu_b q^2 */
+static const float FULL_Q = 0.66f;         /* q of a FULL step over even nodes, */
+static const float FULL_GRADED_Q = 0.96f;  /* and over graded ones */
+static const float BEND_4 = 20,
+                   BEND_8 = 30;     /* by q^2: what a way that is not straight adds to the error, with 4 nodes and with more */
+static const float STICK_Q = 1.05f; /* q from which the balls will stick */
+static const float TURN_Q = 0.5f;   /* q of a TURN step */
+static const float LEFT_Q = 0.5f;   /* q that a PART would leave; */
 static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f; /* its share of |u|, and of q */
 static const float LEAST_WIDTH = 1e-5f;                                      /* distance delta of a turn */
 static const float WIDEST_RANGE = 4.5f;                                      /* of xi of a TURN step */
@@ -74,8 +75,8 @@ always vreal inverse_rho_ahead(const problem *a, const state *s, const predictio
 /* Is the direction of the cloth slip smooth enough for n nodes? The more of |u| is lost, the less straight the way. */
 always vmask is_smooth(int n, const problem *a, const prediction *g, vreal length, vreal inverse) {
   const vreal inverse_4 = power_4(inverse), inverse_8 = inverse_4 * inverse_4, q = g->rate * length;
-  const vreal left_out = 2 * a->pull * g->z * length * (n == 8 ? inverse_8 * inverse_8 : inverse_8);
-  return v_less(left_out * v_fma((n == 8 ? BEND_8 : BEND_4) * q, q, v_splat(1)), a->tolerance);
+  const vreal left_out = a->pull * g->z * length * (n == 4 ? 4 * inverse_8 : (n == 6 ? 6.0f : 2.0f) * (inverse_8 * inverse_8));
+  return v_less(left_out * v_fma((n == 4 ? BEND_4 : BEND_8) * q, q, v_splat(1)), a->tolerance);
 }
 
 /* Will an EASY step do? *g: to the end. |u| would reach zero at X = 1 / q, so that (1 + s) / (1 - s) is its rho, with
@@ -90,7 +91,7 @@ always vmask is_easy(const problem *a, const prediction *g, vreal to_end, vreal 
 /* The error of a step to stick, over |u|, by how smooth tau and W are in lambda. */
 always vreal stick_error(const problem *a, const state *s, const prediction *g, vreal inverse) {
   const vreal inverse_2 = inverse * inverse, mu = a->mu;
-  const vreal by_turn = 0.2f * inverse_2 * (inverse_2 * inverse_2);
+  const vreal by_turn = 0.35f * inverse_2 * (inverse_2 * inverse_2);
   const vreal share = mu * v_reciprocal(a->kappa - mu), from_rest = 2.6e-4f * (share * share * share) * (g->z * g->z);
   const vreal by_b =
       1e-4f * v_max(v_fma(-12 * mu, g->t_y, -5 * a->kappa), v_splat(0)); /* W falls with a high power of lambda */
@@ -167,7 +168,8 @@ always choice choose(const problem *a, const state *s, const prediction *g, vrea
   const vreal q = g->rate * to_end, to_stick = v_reciprocal(g->rate), u = v_reciprocal(g->inverse_u);
   choice c;
   c.full = v_less(so_far->caution, v_splat(3)) & v_less(q, v_splat(FULL_GRADED_Q)) & is_smooth(8, a, g, to_end, inverse);
-  c.graded = c.full & (v_less(v_splat(FULL_Q), q) | v_less(v_splat(1), so_far->caution));
+  c.graded = c.full & (v_less(v_splat(FULL_Q), q) | v_less(v_splat(1), so_far->caution) |
+                       v_not(is_smooth(FULL_NODES, a, g, to_end, inverse)));
   c.stick = v_less(so_far->caution, v_splat(1)) & v_less(v_splat(STICK_Q), q) &
             v_less(u * stick_error(a, s, g, inverse), a->tolerance);
   c.part = v_less(so_far->caution, v_splat(4)) & v_less_equal(v_splat(TURN_Q), q) & v_not(c.stick | c.full);
