@@ -142,11 +142,15 @@ always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, c
     third_y = per_length * per_length * dot(r->third, f.s_y, n);
   }
   const vreal way = v_abs(finish(a, &end, &at_end, third_x, third_y, out));
-  if (n > 4) {
-    /* the third terms */
-    const vreal bend = v_fma(a->mu_b, at_end.bend_u, a->pull * at_end.bend_d);
-    error = v_fma(v_select(last, way * (way * way), v_splat(0)), bend, error);
-  }
+  /* what the series leaves out: of four nodes, by how far their polynomials miss s; else its third terms for u and s */
+  vreal left_out;
+  if (n == 4) {
+    const vreal sigma_d = at_end.z * v_rough_reciprocal_sqrt(v_fma(end.d_x, end.d_x, v_fma(end.d_y, end.d_y, v_splat(TINY))));
+    const vreal missed = v_abs(v_fma(-sigma_d, end.d_x, at_end.x)) + v_abs(v_fma(-sigma_d, end.d_y, at_end.y));
+    left_out = way * v_select(is_at_rest(a, &end), v_splat(0), a->pull * missed);
+  } else
+    left_out = way * (way * way) * v_fma(a->mu_b, at_end.bend_u, a->pull * at_end.bend_d);
+  error = error + v_select(last, left_out, v_splat(0));
   const vmask in_reach = v_less(way, (nodes == TURNED ? MOST_BEYOND_TURN : MOST_BEYOND) * length);
   return v_select(in_reach | v_not(last), error, v_splat(HUGE_VALF));
 }
