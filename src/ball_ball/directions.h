@@ -77,17 +77,13 @@ always turning predict_turning(bool turn, const problem *a, const prediction *g,
   return w;
 }
 
-/* nodes: TURNED where d turns on the way and has no direction half way. Iterates at most so often, in the lanes `going`, and no
- * longer for `patience` lanes or fewer, whose error then is infinite. */
-always void find_directions(int n, int most, enum nodes nodes, const gauss_rule *r, const problem *a, const prediction *g,
-                            const state *s, const step_law *l, const mesh *m, vmask going, int patience, directions *f) {
-  const bool weighs = nodes != EVEN;
-  const vreal b = l->mu_b * g->inverse_u;
-  const turning turns = predict_turning(nodes == TURNED, a, g, s, b);
+/* The directions at the nodes, before any iteration. nodes: TURNED where d turns on the way and has no direction half way. */
+always void predict_directions(int n, enum nodes nodes, const problem *a, const prediction *g, const state *s,
+                               const step_law *l, const mesh *m, directions *f) {
+  const turning turns = predict_turning(nodes == TURNED, a, g, s, l->mu_b * g->inverse_u);
   /* the cloth's own pull on d, along its direction half way */
   const vreal own = nodes == TURNED ? v_splat(0) : l->on_d * g->z, own_x = own * g->t_x, own_y = l->length - own * g->t_y;
   const vreal half_b = 0.5f * l->mu_b, half_y = 0.5f * l->on_y;
-  reg straight_y[MOST_REGS];
   EACH_REG(k, n) {
     /* sums begin with what is known first */
     const reg X = m->X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, 1.0f));
@@ -99,9 +95,18 @@ always void find_directions(int n, int most, enum nodes nodes, const gauss_rule 
     const reg sigma_d = f->z[k] * rough_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
     f->s_x[k] = sigma_d * d_x;
     f->s_y[k] = sigma_d * d_y;
-    straight_y[k] = MADD(-l->length, X, s->d_y);
   }
+}
 
+/* Iterates at most so often, in the lanes `going`, and no longer for `patience` lanes or fewer, whose error then is infinite.
+ */
+always void find_directions(int n, int most, enum nodes nodes, const gauss_rule *r, const problem *a, const prediction *g,
+                            const state *s, const step_law *l, const mesh *m, vmask going, int patience, directions *f) {
+  predict_directions(n, nodes, a, g, s, l, m, f);
+
+  const bool weighs = nodes != EVEN;
+  reg straight_y[MOST_REGS];
+  EACH_REG(k, n) straight_y[k] = MADD(-l->length, m->X[k], s->d_y);
   const vreal no_x = -l->pull, no_b = -l->mu_b, mu_b_kappa = l->mu_b * a->kappa;
   const vreal scale = nodes == TURNED ? v_splat(TURN_CAUTION) : v_splat(1);
   const vreal per_moved =
