@@ -25,7 +25,7 @@ typedef float node_row[MOST_NODES];
 #ifdef CAROM_LANES_ONE
 #if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
 #define REG_NODES 8
-#define REGS(n) 1
+#define REGS(n) ((n) > 0) /* 1 */
 #else
 #define REG_NODES 4
 #define REGS(n) (((n) + 3) / 4)

@@ -50,7 +50,6 @@ always node_map turned_map(const turn_plan *p, vreal length) {
 
 /* X and its slope at the nodes of a rule from 0 to a share of x. */
 always void lay_nodes(enum nodes nodes, const gauss_rule *r, int n, const node_map *m, vreal share, mesh *to) {
-  (void)n; /* in single calls registers count */
   if (nodes == GRADED) {
     const vreal h = share * m->h, to_X = share * m->per;
     EACH_REG(k, n) {
