@@ -21,13 +21,13 @@
  *
  * Accuracy of the exact solver, which is the default. Errors are those of the fastest of the twelve numbers (times the radius
  * for spins), against the limit of Mathavan's equations. In double precision: collisions of play (mu_ball up to 0.2, mu_cloth
- * up to 0.5, e from 0.5, masses within 1 : 2, any speeds and spins) median 1e-9, every one of 20 million drawn within 1e-6;
+ * up to 0.5, e from 0.5, masses within 1 : 2, any speeds and spins) median 2e-9, every one of 20 million drawn within 1e-6;
  * anything else that is accepted within 1e-5, or its status is CAROM_ERROR_UNRESOLVED. In single precision: median 1e-7,
  * collisions of play within 2e-5. docs/accuracy.md has the figures and the command that prints them again. How near the model
  * is to real balls is another matter: docs/physics.md.
  *
  * Cost of the exact solver, a collision, on one core of an Intel Xeon with AVX-512: a call 0.2 us where the cloth slip is
- * smooth and 0.3 to 2.6 us where it turns or the balls stick, 0.4 us in the mean of play; a row of a batch 0.13 us. Strong
+ * smooth and 0.3 to 2.7 us where it turns or the balls stick, 0.36 us in the mean of play; a row of a batch 0.12 us. Strong
  * friction, hardly any restitution or very unequal masses take 5 to 50 us; no input takes more than 200. With SSE2 a call takes
  * a tenth longer, in plain C a third. Euler's method: about 20 ns a step.
  *
