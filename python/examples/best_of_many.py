@@ -101,7 +101,8 @@ def margins(good: npt.NDArray[np.bool_], grid: Grid) -> Doubles:
         apart = (places[:, None] - places[None, :]) ** 2
         lines = np.moveaxis(squared, axis, -1)
         squared = np.moveaxis(np.stack([(lines + row).min(axis=-1) for row in apart], axis=-1), -1, axis)
-    return np.sqrt(squared[1:-1, 1:-1, 1:-1])
+    distances: Doubles = np.sqrt(squared[1:-1, 1:-1, 1:-1])
+    return distances
 
 
 def widest(margin: Doubles) -> tuple[int, int, int]:
@@ -148,9 +149,9 @@ def draw_shot(axes: Axes, best: tuple[float, float, float], shares: dict[str, fl
 def draw_map(axes: Axes, x: Doubles, y: Doubles, outcomes: npt.NDArray[np.int8], margin: Doubles, most: float) -> ScalarMappable:
     """Outcomes over two inputs: pale where missed or scratched, else coloured by the margin."""
     kinds = ListedColormap(["#efefef", "#f3c9b6"])
-    axes.pcolormesh(x, y, np.ma.masked_equal(outcomes, POTTED), cmap=kinds, vmin=MISSED, vmax=SCRATCHED, rasterized=True)
+    axes.pcolormesh(x, y, np.where(outcomes == POTTED, np.nan, outcomes), cmap=kinds, vmin=MISSED, vmax=SCRATCHED, rasterized=True)
     axes.grid(False)
-    shown = np.ma.masked_where(outcomes != POTTED, margin)
+    shown = np.where(outcomes == POTTED, margin, np.nan)
     return axes.pcolormesh(x, y, shown, cmap="viridis", vmin=0, vmax=most, rasterized=True)
 
 

@@ -49,7 +49,8 @@ def jumps(results: Doubles) -> Doubles:
     step = np.diff(results)
     before, here, after = step[:-2], step[1:-1], step[2:]
     outside = np.maximum(np.minimum(before, after) - here, here - np.maximum(before, after))
-    return np.maximum(outside, 0.0)
+    jumps: Doubles = np.maximum(outside, 0.0)
+    return jumps
 
 
 def largest_jumps(draws: int, steps: tuple[int, ...] = STEPS) -> tuple[float, dict[int, float]]:

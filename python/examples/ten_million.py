@@ -93,7 +93,8 @@ def deflection(motion: Doubles) -> Doubles:
     """The angle from x to the way of balls that move by (v, w), of shape (n, 6), once they roll; degrees, 0 to 180."""
     x = 5 * motion[:, 0] + 2 * RADIUS * motion[:, 4]
     y = 5 * motion[:, 1] - 2 * RADIUS * motion[:, 3]
-    return np.degrees(np.abs(np.arctan2(y, x)))
+    angles: Doubles = np.degrees(np.abs(np.arctan2(y, x)))
+    return angles
 
 
 def chunk(seed: np.random.SeedSequence, count: int, friction: float | None) -> Tally:
@@ -144,8 +145,8 @@ def draw(out: str, total: Tally) -> None:
     area = (CUTS[1] - CUTS[0]) / BINS[0] * (DEFLECTIONS[1] - DEFLECTIONS[0]) / BINS[1]
     density = total.counts.T / area / total.collisions
     edges = np.linspace(*CUTS, BINS[0] + 1), np.linspace(*DEFLECTIONS, BINS[1] + 1)
-    shown = np.ma.masked_less_equal(density, 0)
-    mesh = axes.pcolormesh(*edges, shown, cmap="magma", norm=LogNorm(1e-5, shown.max()), rasterized=True)
+    shown = np.where(density > 0, density, np.nan)
+    mesh = axes.pcolormesh(*edges, shown, cmap="magma", norm=LogNorm(1e-5, density.max()), rasterized=True)
     axes.set_facecolor("black")
     axes.grid(False)
     cut = np.linspace(*CUTS, 200)

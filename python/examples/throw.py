@@ -51,7 +51,8 @@ def throw(cut: float | Doubles, speed: float, spin: str) -> Doubles:
 
 def measured_throw() -> Doubles:
     """What Marlow's friction throws a ball by that slips throughout, degrees, one for each of MEASURED."""
-    return np.degrees(np.arctan([mu for _, mu in MEASURED]))
+    angles: Doubles = np.degrees(np.arctan([mu for _, mu in MEASURED]))
+    return angles
 
 
 def draw(out: str, draws: int) -> None:

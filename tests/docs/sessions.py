@@ -26,9 +26,12 @@ with tempfile.TemporaryDirectory() as work:
             if not all(importlib.util.find_spec(module) for module in NEEDS[kind]):
                 left_out += 1
                 continue
+            # A file, as Numba keeps what it compiles beside the source.
+            where = os.path.join(work, f"{page.replace('/', '_')}_block_{number}.py")
+            with open(where, "w", encoding="utf-8") as file:
+                file.write(text)
             # Statement by statement, as one who types them: an expression's value is shown, so it must show.
             for statement in ast.parse(text).body:
-                where = f"<{page}, block {number}>"
                 if isinstance(statement, ast.Expr):
                     shown += len(repr(eval(compile(ast.Expression(statement.value), where, "eval"), session))) > 0
                 else:
