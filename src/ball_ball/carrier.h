@@ -296,11 +296,6 @@ always reg logarithm(reg x) {
   return MADD(exponent, 0.693147181f, t * series);
 }
 
-/* x^(1/n) for x > 0. */
-always vreal root_of(int n, vreal x) {
-  return ONE_OF(exponential((1.0f / (float)n) * logarithm(SPREAD(x))));
-}
-
 /* The inverse hyperbolic sine. */
 always vreal inverse_sinh(vreal x) {
   const vreal size = v_abs(x), y = ONE_OF(logarithm(SPREAD(size + root(v_fma(size, size, v_splat(1))))));

@@ -1,5 +1,5 @@
 /* What is compiled once for every instruction set, as tables of functions: reduction and restoration of rows, collocation steps
- * of many collisions, one collision as a whole, and Euler's method. dispatch.c has the tables. */
+ * of many collisions, one collision as a whole, and Euler's method. kernels.c has the tables. */
 #ifndef CAROM_SRC_BALL_BALL_KERNELS_H
 #define CAROM_SRC_BALL_BALL_KERNELS_H
 

@@ -246,7 +246,7 @@ static inline vreal v_sqrt(vreal x) {
 #endif
 }
 
-/* a b + c: rounded once where the instruction set fuses (V_FMA_IS_FUSED), twice elsewhere. */
+/* a b + c: rounded once where the instruction set fuses (V_FUSES), twice elsewhere. */
 static inline vreal v_fma(vreal a, vreal b, vreal c) {
 #if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
   return SIMD(fmadd)(a, b, c);
