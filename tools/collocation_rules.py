@@ -2,8 +2,8 @@
 
     python3 tools/collocation_rules.py > src/ball_ball/rules.h && cmake --build build --target format
 
-Gauss rules of n nodes on [0, 1], and one of Gauss and Jacobi for the weight (1 - x)^4, for steps to stick. With L_j the Lagrange basis
-on the nodes x_k:
+Gauss rules of n nodes on [0, 1], and one of Gauss and Jacobi for the weight (1 - x)^4, for steps to stick; each has what the steps over
+its nodes need. With L_j the Lagrange basis on the nodes x_k:
 
     node[k]        x_k, ascending
     end[k], bend[k], third[k]   the first Taylor coefficients of the integral of L_k beyond 1: L_k, L_k' / 2 and L_k'' / 6 at 1
@@ -86,12 +86,14 @@ def print_rule(name, n, w):
     if not w:
         print("    .node = %s," % text(y))
         print("    .end = %s," % text([sum(c) for c in L]))
+    if n == 4:
         print("    .bend = %s," % text([sum(m * v for m, v in enumerate(c)) / 2 for c in L]))
+    if not w and n < 8:
         print("    .third = %s," % text([sum(m * (m - 1) * v for m, v in enumerate(c)) / 6 for c in L]))
     print("    .all = %s," % text([integral(c, w, zero, one) for c in L]))
     print("    .sum = {%s}," % ",\n".join(text([between(c, at) for at in y]) for c in L))
     by_node = lambda rows: ",\n".join(text([row[m] for m in span]) for row in rows)
-    if not w:
+    if not w and n < 8:
         twice = [centred([v / ((m + 1) * (m + 2)) for m, v in enumerate(c)]) for c in L]
         print("    .part = {%s}," % ",\n".join(text([p[m] for p in part]) for m in span))
         print("    .twice = {%s}," % ",\n".join(text([p[m] for p in twice]) for m in span))

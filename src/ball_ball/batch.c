@@ -80,17 +80,15 @@ static void add_moving(work *w, enum step_kind kind, uint32_t row, carom_moving 
 typedef struct team {
   int count;
   uint32_t row[MOST_LANES];
-  const void *from[MOST_LANES];
-  void *to[MOST_LANES];
 } team;
 
-static void gather(const work *w, team *t) {
-  for (int lane = 0; lane < w->with->lanes; lane++) {
-    const uint32_t row = t->row[lane < t->count ? lane : t->count - 1];
-    t->from[lane] = w->in + row * w->in_size;
-    t->to[lane] = w->out + row * w->out_size;
-  }
-}
+/* What steps and rows hand to each other on the way. */
+typedef struct handed {
+  carom_context context;
+  carom_in in;
+  carom_out out;
+  carom_next next;
+} handed;
 
 /* Lanes, from the lowest on. */
 #define EACH_LANE(lane, bits) \
@@ -101,14 +99,13 @@ static inline uint32_t lowest(uint32_t bits) {
 
 /* After a step: writes the rows that are solved, and puts the others where they belong; `fresh`: they have not moved. Rows that
  * are not solved yet may be written too, for now. */
-static void sort(work *w, const team *t, uint32_t good, const carom_context *context, carom_out out, carom_moving moving,
-                 bool fresh, const carom_next next) {
+static void sort(work *w, const team *t, uint32_t good, const handed *h, carom_moving moving, bool fresh) {
   const uint32_t there = (uint32_t)((UINT64_C(1) << t->count) - 1), right = there & good;
-  uint32_t done = right & next[SOLVED];
+  uint32_t done = right & h->next[SOLVED];
   if (done != 0)
-    done &= w->with->rows_out[w->precision](context, out, t->to);
+    done &= w->with->rows_out[w->precision](&h->context, h->out, w->out, t->row);
   for (int kind = 0; kind < STEP_KINDS; kind++) {
-    const uint32_t waiting = right & next[kind];
+    const uint32_t waiting = right & h->next[kind];
     done |= waiting;
     EACH_LANE(lane, waiting) {
       if (fresh)
@@ -121,52 +118,48 @@ static void sort(work *w, const team *t, uint32_t good, const carom_context *con
 }
 
 /* Not inlined, nor are next_steps(): only one of their frames is on the stack at a time. */
-__attribute__((noinline)) static void first_steps(work *w, team *t) {
-  carom_context context;
-  carom_in in;
-  carom_out out;
-  carom_next next;
-  gather(w, t);
-  const uint32_t good = w->with->rows_in[w->precision](t->from, w->s, &context, in);
-  w->with->first_step(in, good, (float)(2.5 * w->s), carom_tolerances[w->precision], out, next);
-  sort(w, t, good, &context, out, NULL, true, next);
+__attribute__((noinline)) static void first_steps(work *w, const team *t) {
+  handed h;
+  const uint32_t good = w->with->rows_in[w->precision](w->in, t->row, w->s, &h.context, h.in);
+  w->with->first_step(h.in, good, (float)(2.5 * w->s), carom_tolerances[w->precision], h.out, h.next);
+  sort(w, t, good, &h, NULL, true);
 }
 
-__attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, bool fresh, team *t, carom_moving moving) {
-  carom_context context;
-  carom_in in;
-  carom_out out;
-  carom_next next;
-  gather(w, t);
-  const uint32_t good = w->with->rows_in[w->precision](t->from, w->s, &context, in);
-  w->with->next_step(kind, fresh, in, (float)(2.5 * w->s), carom_tolerances[w->precision], moving, out, next);
-  sort(w, t, good, &context, out, moving, false, next);
+__attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, bool fresh, const team *t, carom_moving moving) {
+  handed h;
+  const uint32_t good = w->with->rows_in[w->precision](w->in, t->row, w->s, &h.context, h.in);
+  w->with->next_step(kind, fresh, h.in, (float)(2.5 * w->s), carom_tolerances[w->precision], moving, h.out, h.next);
+  sort(w, t, good, &h, moving, false);
 }
 
-/* Takes up to a register's worth off the end of a list. */
+/* Takes up to a register's worth of rows off the end of a list. */
+static void take(const work *w, uint32_t *row, int *count, team *t) {
+  const int lanes = w->with->lanes;
+  t->count = *count < lanes ? *count : lanes;
+  *count -= t->count;
+  for (int lane = 0; lane < lanes; lane++)
+    t->row[lane] = row[*count + (lane < t->count ? lane : t->count - 1)];
+}
+
 static void work_off_fresh(work *w, enum step_kind kind) {
   fresh_list *list = &w->fresh[kind];
   carom_moving moving;
-  team t = {.count = list->count < w->with->lanes ? list->count : w->with->lanes};
-  list->count -= t.count;
-  memcpy(t.row, list->row + list->count, (size_t)t.count * sizeof t.row[0]);
+  team t;
+  take(w, list->row, &list->count, &t);
   next_steps(w, kind, true, &t, moving);
 }
 
 static void work_off_moving(work *w, enum step_kind kind) {
   moving_list *list = &w->moving[kind];
   carom_moving moving;
-  team t = {.count = list->count < w->with->lanes ? list->count : w->with->lanes};
-  list->count -= t.count;
-  memcpy(t.row, list->row + list->count, (size_t)t.count * sizeof t.row[0]);
-  for (int c = 0; c < MOVING_COLUMNS; c++) {
-    const float *const column = list->state[c] + list->count;
+  team t;
+  take(w, list->row, &list->count, &t);
+  for (int c = 0; c < MOVING_COLUMNS; c++)
     if (t.count == w->with->lanes)
-      memcpy(moving[c], column, (size_t)t.count * sizeof(float));
+      memcpy(moving[c], list->state[c] + list->count, (size_t)t.count * sizeof(float));
     else
       for (int lane = 0; lane < w->with->lanes; lane++)
-        moving[c][lane] = column[lane < t.count ? lane : t.count - 1];
-  }
+        moving[c][lane] = list->state[c][list->count + (lane < t.count ? lane : t.count - 1)];
   next_steps(w, kind, false, &t, moving);
 }
 
@@ -200,18 +193,18 @@ static size_t solve(carom_precision precision, const void *in, size_t in_size, s
             .first_bad = n};
   if (status != NULL)
     memset(status, CAROM_OK, n * sizeof *status); /* what is not solved by a step, has its own */
-  const int lanes = w.with->lanes;
-  const size_t register_size = (size_t)lanes * in_size, size = n * in_size;
-  for (size_t first = 0; first < n; first += (size_t)lanes) {
+  const size_t lanes = (size_t)w.with->lanes, register_size = lanes * in_size, size = n * in_size;
+  for (size_t first = 0; first < n; first += lanes) {
     /* what comes two registers later, while there is work to hide it */
-    const size_t ahead = first * in_size + 2 * register_size;
-    for (size_t at = ahead; at < ahead + register_size && at < size; at += CACHE_LINE)
+    const size_t ahead = (first + 2 * lanes) * in_size, end = ahead + register_size < size ? ahead + register_size : size;
+    for (size_t at = ahead; at < end; at += CACHE_LINE)
       __builtin_prefetch(w.in + at);
-    team t = {.count = n - first < (size_t)lanes ? (int)(n - first) : lanes};
-    for (int lane = 0; lane < t.count; lane++)
-      t.row[lane] = (uint32_t)(first + (size_t)lane);
+    team t;
+    t.count = n - first < lanes ? (int)(n - first) : (int)lanes;
+    for (uint32_t lane = 0; lane < MOST_LANES; lane++)
+      t.row[lane] = (uint32_t)first + (lane < (uint32_t)t.count ? lane : (uint32_t)t.count - 1);
     first_steps(&w, &t);
-    work_off(&w, lanes);
+    work_off(&w, (int)lanes);
   }
   while (work_off(&w, 1)) {
   }

@@ -42,8 +42,9 @@ enum { MOST_REGS = MOST_NODES / REG_NODES };
 #define QUAD_AT(row) ((quad) * (const quad_unaligned *)(row))
 /* Any of its numbers, where all are the same. */
 #define ONE_OF(x) ((x)[0])
-/* A number at nodes: where a collision is in a lane of its own, by a mask of lanes; a single call does not come here if not. */
-#define REG_SELECT(m, yes, no) (yes)
+/* A number at nodes replaced: in the lanes of a mask, where a collision is in a lane of its own; a single call does not come
+ * here if not. */
+#define REG_MOVE(m, to, x) (*(to) = (x))
 #else
 typedef vreal reg;
 typedef vint reg_int;
@@ -52,7 +53,7 @@ typedef uint32_t reg_bits __attribute__((vector_size(VECTOR_BYTES)));
 enum { MOST_REGS = MOST_NODES };
 #define AT(row, k) ((row)[k])
 #define ONE_OF(x) (x)
-#define REG_SELECT(m, yes, no) v_select(m, yes, no)
+#define REG_MOVE(m, to, x) (*(to) = v_select(m, x, *(to)))
 #endif
 
 /* For every register of n nodes. What is done for eight registers in turn would not stay in the cache of instructions. */
@@ -103,7 +104,7 @@ always reg rough_reciprocal_sqrt(reg x) {
 #elif defined(CAROM_LANES_NEON)
   return 1 / (reg)vsqrtq_f32((float32x4_t)x);
 #else
-  reg y;
+  reg y = x;
   for (int k = 0; k < REG_NODES; k++)
     y[k] = sqrtf(x[k]);
   return 1 / y;
@@ -207,10 +208,12 @@ always void apply(const node_row *M, const reg *x, reg *out, int n) {
   }
 #endif
   EACH_REG(k, n) {
-    reg pair[MOST_NODES / 2];
-    lanes_unrolled for (int j = 0; j < n; j += 2) pair[j / 2] =
-        MADD(AT(M[j + 1], k), at_all_nodes(x, j + 1), AT(M[j], k) * at_all_nodes(x, j));
-    out[k] = n == 8 ? (pair[0] + pair[1]) + (pair[2] + pair[3]) : n == 6 ? (pair[0] + pair[1]) + pair[2] : pair[0] + pair[1];
+    reg low = AT(M[0], k) * at_all_nodes(x, 0), high = AT(M[n / 2], k) * at_all_nodes(x, n / 2);
+    lanes_unrolled for (int j = 1; j < n / 2; j++) {
+      low = MADD(AT(M[j], k), at_all_nodes(x, j), low);
+      high = MADD(AT(M[n / 2 + j], k), at_all_nodes(x, n / 2 + j), high);
+    }
+    out[k] = low + high;
   }
 }
 
@@ -259,10 +262,13 @@ always vreal sum_of_products(const reg *weight, const reg *x, int n) {
 }
 
 always void apply(const node_row *M, const reg *x, reg *out, int n) {
-  EACH_REG(k, n) {
-    reg pair[MOST_NODES / 2];
-    lanes_unrolled for (int j = 0; j < n; j += 2) pair[j / 2] = MADD(M[j + 1][k], x[j + 1], M[j][k] * x[j]);
-    out[k] = n == 8 ? (pair[0] + pair[1]) + (pair[2] + pair[3]) : n == 6 ? (pair[0] + pair[1]) + pair[2] : pair[0] + pair[1];
+  lanes_unrolled for (int k = 0; k < n; k++) { /* rolled, gcc would move each weight through a register to spread it */
+    reg low = M[0][k] * x[0], high = M[n / 2][k] * x[n / 2];
+    lanes_unrolled for (int j = 1; j < n / 2; j++) {
+      low = MADD(M[j][k], x[j], low);
+      high = MADD(M[n / 2 + j][k], x[n / 2 + j], high);
+    }
+    out[k] = low + high;
   }
 }
 

@@ -3,82 +3,25 @@
 #include "ball_ball/kernels.h"
 #include "ball_ball/plan.h"
 
-#define PASTE_(a, b) a##b
-#define PASTE(a, b) PASTE_(a, b)
-#define apart static __attribute__((noinline)) /* the inlined text of a step is long */
-
-apart vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, vmask going, int patience,
-                           solution *out) {
-  return end_step(EASY_NODES, EASY_MOST, EVEN, a, g, s, to_end, going, patience, out);
-}
-apart vreal take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(FULL_NODES, FULL_MOST, EVEN, a, g, s, to_end, v_all(), 0, out);
-}
-apart vreal take_graded_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(8, FULL_GRADED_MOST, GRADED, a, g, s, to_end, v_all(), 0, out);
-}
-apart vreal take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
-  return stick_step(a, g, s, out);
-}
-apart vreal take_part(const problem *a, vreal length, const state *s, state *next) {
-  const prediction g = predict(a, s, length);
-  return impulse_step(8, PART_MOST, GRADED, a, &g, length, NULL, v_all(), 0, v_not(v_all()), s, next, NULL);
-}
-apart vreal take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
-  const prediction g = predict(a, s, p->length);
-  const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
-  return impulse_step(8, TURN_MOST, TURNED, a, &g, length, p, v_all(), 0, last, s, next, out);
-}
+_Static_assert(MOVING_STATE + (int)STATE_COLUMNS == MOVING_RESTITUTION, "the columns of a state come first");
 
 static state load_state(carom_moving moving) {
-  return (state){.u_x = v_load(moving[MOVING_U_X]),
-                 .u_z = v_load(moving[MOVING_U_Z]),
-                 .d_x = v_load(moving[MOVING_D_X]),
-                 .d_y = v_load(moving[MOVING_D_Y]),
-                 .v = v_load(moving[MOVING_V]),
-                 .K = v_load(moving[MOVING_K]),
-                 .K_c = v_load(moving[MOVING_K_C]),
-                 .c_0 = v_load(moving[MOVING_C_0]),
-                 .z_0 = v_load(moving[MOVING_Z_0]),
-                 .J_c = v_load(moving[MOVING_J_C]),
-                 .J_z = v_load(moving[MOVING_J_Z]),
-                 .I_x = v_load(moving[MOVING_I_X]),
-                 .I_y = v_load(moving[MOVING_I_Y]),
-                 .restitution = v_less(v_splat(0), v_load(moving[MOVING_RESTITUTION]))};
+  state s;
+  lanes_unrolled for (int c = 0; c < STATE_COLUMNS; c++) s.column[c] = v_load(moving[MOVING_STATE + c]);
+  s.restitution = v_less(v_splat(0), v_load(moving[MOVING_RESTITUTION]));
+  return s;
 }
 
 static void store_state(const state *s, carom_moving moving) {
-  v_store(moving[MOVING_U_X], s->u_x);
-  v_store(moving[MOVING_U_Z], s->u_z);
-  v_store(moving[MOVING_D_X], s->d_x);
-  v_store(moving[MOVING_D_Y], s->d_y);
-  v_store(moving[MOVING_V], s->v);
-  v_store(moving[MOVING_K], s->K);
-  v_store(moving[MOVING_K_C], s->K_c);
-  v_store(moving[MOVING_C_0], s->c_0);
-  v_store(moving[MOVING_Z_0], s->z_0);
-  v_store(moving[MOVING_J_C], s->J_c);
-  v_store(moving[MOVING_J_Z], s->J_z);
-  v_store(moving[MOVING_I_X], s->I_x);
-  v_store(moving[MOVING_I_Y], s->I_y);
+  lanes_unrolled for (int c = 0; c < STATE_COLUMNS; c++) v_store(moving[MOVING_STATE + c], s->column[c]);
   v_store(moving[MOVING_RESTITUTION], v_select(s->restitution, v_splat(1), v_splat(0)));
 }
 
 static state choose_state(vmask m, const state *yes, const state *no) {
-  return (state){.u_x = v_select(m, yes->u_x, no->u_x),
-                 .u_z = v_select(m, yes->u_z, no->u_z),
-                 .d_x = v_select(m, yes->d_x, no->d_x),
-                 .d_y = v_select(m, yes->d_y, no->d_y),
-                 .v = v_select(m, yes->v, no->v),
-                 .K = v_select(m, yes->K, no->K),
-                 .K_c = v_select(m, yes->K_c, no->K_c),
-                 .c_0 = no->c_0,
-                 .z_0 = no->z_0,
-                 .J_c = v_select(m, yes->J_c, no->J_c),
-                 .J_z = v_select(m, yes->J_z, no->J_z),
-                 .I_x = v_select(m, yes->I_x, no->I_x),
-                 .I_y = v_select(m, yes->I_y, no->I_y),
-                 .restitution = (m & yes->restitution) | (v_not(m) & no->restitution)};
+  state s;
+  lanes_unrolled for (int c = 0; c < STATE_COLUMNS; c++) s.column[c] = v_select(m, yes->column[c], no->column[c]);
+  s.restitution = (m & yes->restitution) | (v_not(m) & no->restitution);
+  return s;
 }
 
 static vreal mark(vmask m, enum step_kind kind, vreal otherwise) {
@@ -104,8 +47,7 @@ static void store_kinds(vreal kind, carom_next next) {
 /* Of the lanes of a register, as many as may be put off. */
 enum { PATIENCE = LANES / 8 };
 
-void PASTE(carom_first_step_, CAROM_LANES_SUFFIX)(carom_in in, uint32_t good, float spin, float tolerance, carom_out out,
-                                                  carom_next next) {
+void KERNEL(carom_first_step)(carom_in in, uint32_t good, float spin, float tolerance, carom_out out, carom_next next) {
   const problem a = problem_of(in, spin, tolerance);
   const state s = state_of(&a, in);
   const vreal to_end = 1 + a.e;
@@ -113,7 +55,13 @@ void PASTE(carom_first_step_, CAROM_LANES_SUFFIX)(carom_in in, uint32_t good, fl
   const vreal inverse = inverse_rho_ahead(&a, &s, &g, to_end);
   const vmask easy = v_from_bits(good) & is_easy(&a, &g, to_end, inverse);
   solution answer;
-  const vreal error = take_easy_step(&a, &g, to_end, &s, easy, PATIENCE, &answer);
+  stretch step;
+  begin_step(EASY_NODES, EVEN, &a, &g, &s, length_to_end(&a, &g, to_end), NULL, &step);
+  step.f.going = easy;
+  for (int i = 0; i < EASY_MOST && v_more(step.f.going, PATIENCE); i++)
+    iterate(EASY_NODES, EVEN, &gauss_4, &step);
+  const vreal own_error = end_step(EASY_NODES, EVEN, &step, v_all(), NULL, &answer);
+  const vreal error = v_select(step.f.going, v_splat(HUGE_VALF), own_error);
   const vmask solved = easy & v_less(error, a.tolerance);
   put_solution(&answer, out);
   memset(next, 0, sizeof(carom_next));
@@ -124,8 +72,8 @@ void PASTE(carom_first_step_, CAROM_LANES_SUFFIX)(carom_in in, uint32_t good, fl
   store_kinds(mark(solved, SOLVED, mark(easy, EASY, next_kind(&a, &s, to_end, &g, inverse, &so_far, true))), next);
 }
 
-void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh, carom_in in, float spin, float tolerance,
-                                                 carom_moving moving, carom_out out, carom_next next) {
+void KERNEL(carom_next_step)(enum step_kind kind, int fresh, carom_in in, float spin, float tolerance, carom_moving moving,
+                             carom_out out, carom_next next) {
   const problem a = problem_of(in, spin, tolerance);
   const vreal zero = v_splat(0), one = v_splat(1);
   const vmask none = v_not(v_all());
@@ -145,7 +93,7 @@ void PASTE(carom_next_step_, CAROM_LANES_SUFFIX)(enum step_kind kind, int fresh,
   solution answer;
   vmask last = v_all(), impossible = none;
   if (kind == EASY)
-    error = take_easy_step(&a, &g, to_end, &s, v_all(), 0, &answer);
+    error = take_easy_step(&a, &g, to_end, &s, &answer);
   else {
     const prediction ahead = look_ahead(&a, &s, &g, to_end);
     if (kind == FULL)

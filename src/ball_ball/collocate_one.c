@@ -3,36 +3,9 @@
 #include "ball_ball/kernels.h"
 #include "ball_ball/plan.h"
 
-#define PASTE_(a, b) a##b
-#define PASTE(a, b) PASTE_(a, b)
-#define rare static __attribute__((noinline)) /* the inlined text of a step is long */
-
-rare float take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(FULL_NODES, FULL_MOST, EVEN, a, g, s, to_end, 1, 0, out);
-}
-rare float take_graded_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(8, FULL_GRADED_MOST, GRADED, a, g, s, to_end, 1, 0, out);
-}
-rare float take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
-  return stick_step(a, g, s, out);
-}
-rare float take_part(const problem *a, vreal length, const state *s, state *next) {
-  const prediction g = predict(a, s, length);
-  return impulse_step(8, PART_MOST, GRADED, a, &g, length, NULL, 1, 0, 0, s, next, NULL);
-}
-rare float take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
-  const prediction g = predict(a, s, p->length);
-  const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
-  return impulse_step(8, TURN_MOST, TURNED, a, &g, length, p, 1, 0, last, s, next, out);
-}
-/* Behind the first step. */
-rare float take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return end_step(EASY_NODES, EASY_MOST, EVEN, a, g, s, to_end, 1, 0, out);
-}
-
 /* From *s, predicted *g, with `to_end` and `inverse` rho ahead, to the end. Returns the number of right-hand sides evaluated, 0
  * if it did not get there. */
-rare int take_steps(const problem *a, state s, prediction g, vreal to_end, vreal inverse, progress so_far, solution *out) {
+apart int take_steps(const problem *a, state s, prediction g, vreal to_end, vreal inverse, progress so_far, solution *out) {
   int evaluations = 0;
   for (int attempt = 1; attempt <= MOST_ATTEMPTS; attempt++) {
     state next;
@@ -86,8 +59,7 @@ rare int take_steps(const problem *a, state s, prediction g, vreal to_end, vreal
   return 0;
 }
 
-int PASTE(carom_collocate_, CAROM_LANES_SUFFIX)(const float in[IN_COLUMNS], float spin, float tolerance,
-                                                float out[OUT_COLUMNS]) {
+int KERNEL(carom_collocate)(const float in[IN_COLUMNS], float spin, float tolerance, float out[OUT_COLUMNS]) {
   const problem a = problem_of(in, spin, tolerance);
   const state s = state_of(&a, in);
   const vreal to_end = 1 + a.e;
@@ -96,7 +68,8 @@ int PASTE(carom_collocate_, CAROM_LANES_SUFFIX)(const float in[IN_COLUMNS], floa
   progress so_far = {.share = 1};
   solution answer;
   if (is_easy(&a, &g, to_end, inverse)) {
-    if (end_step(EASY_NODES, EASY_MOST, EVEN, &a, &g, &s, to_end, 1, 0, &answer) < a.tolerance) {
+    if (take_step(EASY_NODES, EASY_MOST, EVEN, &a, &g, &s, length_to_end(&a, &g, to_end), NULL, 1, NULL, &answer) <
+        a.tolerance) {
       put_solution(&answer, out);
       return EASY_NODES * (EASY_MOST + 1);
     }

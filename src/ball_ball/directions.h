@@ -12,8 +12,7 @@
  * THE ITERATION takes the directions at the nodes through the integration matrix to the slips there, and these to new
  * directions. What the cloth does converges by itself, since mu mu_b is small. An angle rho by which u has moved would turn
  * friction the wrong way, and u back: rho less the integral of D rho, where D = mu_b L kappa (5/2 + sigma^2) / |u|, is nearly
- * what Newton's method would leave of it, since |u| falls at about the rate D |u|. Where little of |u| is lost, a share of
- * X D rho stands for the integral.
+ * what Newton's method would leave of it, since |u| falls at about the rate D |u|.
  *
  * A collision's iteration ends when what it has left is small enough, whatever the other lanes do. */
 #ifndef CAROM_SRC_BALL_BALL_DIRECTIONS_H
@@ -23,10 +22,10 @@
 
 /* What an iteration leaves of what it moved, at least; by mu mu_b, for the cloth; by q^2, for u. */
 static const float CONTRACTION = 0.02f, CONTRACTION_CLOTH = 1.2f, CONTRACTION_Q = 0.1f;
-/* The estimate of what the iterations leave is this much too small on turns. */
-static const float TURN_CAUTION = 4;
-/* Of X D rho, instead of the integral, in steps of four nodes. */
-static const float SHARE_OF_BACK = 0.25f;
+/* That estimate is too small on turns, and too large over the few nodes of what is smooth. */
+always float caution(int n, enum nodes nodes) {
+  return nodes == TURNED ? 4 : n == 4 ? 0.33f : n == 6 ? 0.4f : 1;
+}
 
 /* Coefficients of the equations, times L; and q, the share of |u| that the stretch loses at its first rate. */
 typedef struct step_law {
@@ -44,13 +43,25 @@ always step_law law_of(const problem *a, const prediction *g, vreal length) {
   return l;
 }
 
-/* At the nodes, times their weight: s and both ways in which u has turned away from its direction at first, the sine of the
- * angle and 1 - its cosine. Without weight: the directions, and the integral of s_y up to there. */
+/* At the nodes: the directions; s times the weight of the node; the integral of s_y up to there. And of the last iteration: the
+ * change of u, 1 / |u|, the angle by which u was turned back. */
 typedef struct directions {
-  reg c[MOST_REGS], z[MOST_REGS], s_x[MOST_REGS], s_y[MOST_REGS];
-  reg w_x[MOST_REGS], w_y[MOST_REGS], turned[MOST_REGS], lost[MOST_REGS], S_y[MOST_REGS];
-  vreal error; /* what the iteration has left, in p */
+  reg c[MOST_REGS], z[MOST_REGS], s_x[MOST_REGS], s_y[MOST_REGS], w_x[MOST_REGS], w_y[MOST_REGS], S_y[MOST_REGS];
+  reg dx[MOST_REGS], dz[MOST_REGS], per_u[MOST_REGS], back[MOST_REGS];
+  vmask going; /* iterations are still to come */
+  vreal error; /* what they have left, in p */
 } directions;
+
+/* A stretch of the collision from *s on, for which *g has been predicted. map: of nodes that are not even. */
+typedef struct stretch {
+  const problem *a;
+  const prediction *g;
+  const state *s;
+  step_law l;
+  node_map map;
+  mesh m;
+  directions f;
+} stretch;
 
 /* The angle w by which u turns on the way to X: x w_1 (1 + x (second + x third)) with x = X / (1 - alpha X), which has its
  * logarithm built in, and what a turning t adds. */
@@ -78,115 +89,114 @@ always turning predict_turning(bool turn, const problem *a, const prediction *g,
 }
 
 /* The directions at the nodes, before any iteration. nodes: TURNED where d turns on the way and has no direction half way. */
-always void predict_directions(int n, enum nodes nodes, const problem *a, const prediction *g, const state *s,
-                               const step_law *l, const mesh *m, directions *f) {
-  const turning turns = predict_turning(nodes == TURNED, a, g, s, l->mu_b * g->inverse_u);
+always void predict_directions(int n, enum nodes nodes, stretch *p) {
+  const prediction *const g = p->g;
+  const state *const s = p->s;
+  const step_law *const l = &p->l;
+  directions *const f = &p->f;
+  const turning turns = predict_turning(nodes == TURNED, p->a, g, s, l->mu_b * g->inverse_u);
   /* the cloth's own pull on d, along its direction half way */
   const vreal own = nodes == TURNED ? v_splat(0) : l->on_d * g->z, own_x = own * g->t_x, own_y = l->length - own * g->t_y;
   const vreal half_b = 0.5f * l->mu_b, half_y = 0.5f * l->on_y;
   EACH_REG(k, n) {
     /* sums begin with what is known first */
-    const reg X = m->X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, 1.0f));
+    const reg X = p->m.X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, 1.0f));
     const reg w = MADD(turns.w_1 * x, MADD(x * x, turns.third, MADD(x, turns.second, 1.0f)), turns.by_t * (X * (X - 1)));
     f->c[k] = MADD(w, MADD(-0.5f * g->c, w, g->z), g->c);
     f->z[k] = MADD(w, MADD(-0.5f * g->z, w, -g->c), g->z);
     const reg d_x = MADD(-half_b * X, f->c[k], MADD(-X, half_b * g->c - own_x, s->d_x));
     const reg d_y = MADD(half_y * X, f->z[k], MADD(-X, own_y - half_y * g->z, s->d_y));
-    const reg sigma_d = f->z[k] * rough_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
+    const reg sigma_d = f->z[k] * reg_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
     f->s_x[k] = sigma_d * d_x;
     f->s_y[k] = sigma_d * d_y;
+    f->dx[k] = f->dz[k] = f->per_u[k] = f->back[k] = f->S_y[k] = SPREAD(0.0f);
   }
-}
-
-/* Iterates at most so often, in the lanes `going`, and no longer for `patience` lanes or fewer, whose error then is infinite.
- */
-always void find_directions(int n, int most, enum nodes nodes, const gauss_rule *r, const problem *a, const prediction *g,
-                            const state *s, const step_law *l, const mesh *m, vmask going, int patience, directions *f) {
-  predict_directions(n, nodes, a, g, s, l, m, f);
-
-  const bool weighs = nodes != EVEN;
-  reg straight_y[MOST_REGS];
-  EACH_REG(k, n) straight_y[k] = MADD(-l->length, m->X[k], s->d_y);
-  const vreal no_x = -l->pull, no_b = -l->mu_b, mu_b_kappa = l->mu_b * a->kappa;
-  const vreal scale = nodes == TURNED ? v_splat(TURN_CAUTION) : v_splat(1);
-  const vreal per_moved =
-      scale * l->mu_b * v_fma(v_splat(CONTRACTION_CLOTH), a->pull, v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));
-  const vreal enough = ENOUGH * a->tolerance;
-  reg dx[MOST_REGS] = {0}, dz[MOST_REGS] = {0}, per_u[MOST_REGS] = {0}, turned_back[MOST_REGS] = {0};
-  EACH_REG(k, n) f->S_y[k] = SPREAD(0.0f);
   f->error = v_splat(0);
-  lanes_rolled for (int i = 0; i < most; i++) {
-    reg w_c[MOST_REGS], w_z[MOST_REGS], C[MOST_REGS], Z[MOST_REGS], S_x[MOST_REGS], S_y[MOST_REGS];
-    EACH_REG(k, n) {
-      w_c[k] = weighs ? m->weight[k] * f->c[k] : f->c[k];
-      w_z[k] = weighs ? m->weight[k] * f->z[k] : f->z[k];
-      f->w_x[k] = weighs ? m->weight[k] * f->s_x[k] : f->s_x[k];
-      f->w_y[k] = weighs ? m->weight[k] * f->s_y[k] : f->s_y[k];
-    }
-    apply(r->sum, w_c, C, n);
-    apply(r->sum, w_z, Z, n);
-    apply(r->sum, f->w_x, S_x, n);
-    apply(r->sum, f->w_y, S_y, n);
-    reg u_c[MOST_REGS], u_z[MOST_REGS], t_x[MOST_REGS], t_y[MOST_REGS], rate[MOST_REGS], back[MOST_REGS], moved[MOST_REGS];
-    EACH_REG(k, n) {
-      const reg du_x = MADD(l->k_x, C[k], no_x * S_x[k]), du_z = MADD(l->k_z, Z[k], l->k_y * S_y[k]);
-      const reg u_x_k = s->u_x + du_x, u_z_k = s->u_z + du_z;
-      const reg d_x = MADD(l->on_d, S_x[k], MADD(no_b, C[k], s->d_x)),
-                d_y = MADD(l->on_d, S_y[k], MADD(l->on_y, Z[k], straight_y[k]));
-      const reg i_u = reg_reciprocal_sqrt(MADD(u_x_k, u_x_k, MADD(u_z_k, u_z_k, TINY)));
-      const reg i_d = reg_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
-      u_c[k] = u_x_k * i_u;
-      u_z[k] = u_z_k * i_u;
-      t_x[k] = d_x * i_d;
-      t_y[k] = d_y * i_d;
-      const reg rho = MADD(f->c[k], u_z[k], -(f->z[k] * u_c[k]));
-      const reg D = (mu_b_kappa * i_u) * MADD(f->z[k], f->z[k], 2.5f);
-      rate[k] = weighs ? m->weight[k] * (D * rho) : D * rho;
-      if (n == 4)
-        back[k] = (SHARE_OF_BACK * m->X[k]) * rate[k];
-      f->S_y[k] = REG_SELECT(going, S_y[k], f->S_y[k]);
-      dx[k] = REG_SELECT(going, du_x, dx[k]);
-      dz[k] = REG_SELECT(going, du_z, dz[k]);
-      per_u[k] = REG_SELECT(going, i_u, per_u[k]);
-    }
-    if (n > 4)
-      apply(r->sum, rate, back, n);
-    EACH_REG(k, n) {
-      const reg c = MADD(u_z[k], back[k], u_c[k]), z = MADD(-u_c[k], back[k], u_z[k]), x = z * t_x[k], y = z * t_y[k];
-      moved[k] = MADD(a->mu, reg_abs(x - f->s_x[k]) + reg_abs(y - f->s_y[k]), reg_abs(c - f->c[k]) + reg_abs(z - f->z[k]));
-      turned_back[k] = REG_SELECT(going, back[k], turned_back[k]);
-      f->c[k] = REG_SELECT(going, c, f->c[k]);
-      f->z[k] = REG_SELECT(going, z, f->z[k]);
-      f->s_x[k] = REG_SELECT(going, x, f->s_x[k]);
-      f->s_y[k] = REG_SELECT(going, y, f->s_y[k]);
-    }
-    const vreal error = per_moved * largest(moved, n);
-    f->error = v_select(going, error, f->error);
-    going = going & v_not(v_less(error, enough));
-    if (!v_more(going, patience)) {
-      f->error = v_select(going, v_splat(HUGE_VALF), f->error);
-      break;
-    }
-  }
-  EACH_REG(k, n) {
-    /* from the change of u, not from its direction: what is small keeps its digits */
-    const reg u_x_k = s->u_x + dx[k], u_z_k = s->u_z + dz[k];
-    const reg sine = MADD(g->c, dz[k], -g->z * dx[k]) * per_u[k], e_c = MADD(u_x_k, per_u[k], -g->c),
-              e_z = MADD(u_z_k, per_u[k], -g->z);
-    const reg drop = 0.5f * MADD(e_c, e_c, e_z * e_z);
-    const reg turned = MADD(-turned_back[k], 1 - drop, sine), lost = MADD(-turned_back[k], sine, drop);
-    f->turned[k] = weighs ? m->weight[k] * turned : turned;
-    f->lost[k] = weighs ? m->weight[k] * lost : lost;
-    f->w_x[k] = weighs ? m->weight[k] * f->s_x[k] : f->s_x[k];
-    f->w_y[k] = weighs ? m->weight[k] * f->s_y[k] : f->s_y[k];
-  }
 }
 
-/* The means over the stretch of c and sigma, against their values at first. */
-always void mean_turning(const gauss_rule *r, int n, const prediction *g, const directions *f, vreal *c, vreal *z) {
-  const vreal turned = dot(r->all, f->turned, n), lost = dot(r->all, f->lost, n);
-  *c = v_fma(-g->z, turned, -g->c * lost);
-  *z = v_fma(g->c, turned, -g->z * lost);
+/* Times the weight of node k. */
+always reg weighed(enum nodes nodes, const mesh *m, int k, reg x) {
+  return nodes != EVEN ? m->weight[k] * x : x;
+}
+
+/* One iteration, in the lanes where it goes on. */
+always void iterate(int n, enum nodes nodes, const gauss_rule *r, stretch *p) {
+  const problem *const a = p->a;
+  const state *const s = p->s;
+  const step_law *const l = &p->l;
+  const mesh *const m = &p->m;
+  directions *const f = &p->f;
+  const vmask going = f->going;
+  const vreal no_x = -l->pull, no_b = -l->mu_b, mu_b_kappa = l->mu_b * a->kappa;
+  reg w_c[MOST_REGS], w_z[MOST_REGS], C[MOST_REGS], Z[MOST_REGS], S_x[MOST_REGS], S_y[MOST_REGS];
+  EACH_REG(k, n) {
+    w_c[k] = weighed(nodes, m, k, f->c[k]);
+    w_z[k] = weighed(nodes, m, k, f->z[k]);
+    f->w_x[k] = weighed(nodes, m, k, f->s_x[k]);
+    f->w_y[k] = weighed(nodes, m, k, f->s_y[k]);
+  }
+  apply(r->sum, w_c, C, n);
+  apply(r->sum, w_z, Z, n);
+  apply(r->sum, f->w_x, S_x, n);
+  apply(r->sum, f->w_y, S_y, n);
+  reg u_c[MOST_REGS], u_z[MOST_REGS], t_x[MOST_REGS], t_y[MOST_REGS], rate[MOST_REGS], back[MOST_REGS], moved[MOST_REGS];
+  EACH_REG(k, n) {
+    const reg du_x = MADD(l->k_x, C[k], no_x * S_x[k]), du_z = MADD(l->k_z, Z[k], l->k_y * S_y[k]);
+    const reg u_x_k = s->u_x + du_x, u_z_k = s->u_z + du_z;
+    const reg d_x = MADD(l->on_d, S_x[k], MADD(no_b, C[k], s->d_x)),
+              d_y = MADD(l->on_d, S_y[k], MADD(l->on_y, Z[k], MADD(-l->length, m->X[k], s->d_y)));
+    const reg i_u = reg_reciprocal_sqrt(MADD(u_x_k, u_x_k, MADD(u_z_k, u_z_k, TINY)));
+    const reg i_d = reg_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
+    u_c[k] = u_x_k * i_u;
+    u_z[k] = u_z_k * i_u;
+    t_x[k] = d_x * i_d;
+    t_y[k] = d_y * i_d;
+    const reg rho = MADD(f->c[k], u_z[k], -(f->z[k] * u_c[k]));
+    const reg D = (mu_b_kappa * i_u) * MADD(f->z[k], f->z[k], 2.5f);
+    rate[k] = weighed(nodes, m, k, D * rho);
+    REG_MOVE(going, &f->S_y[k], S_y[k]);
+    REG_MOVE(going, &f->dx[k], du_x);
+    REG_MOVE(going, &f->dz[k], du_z);
+    REG_MOVE(going, &f->per_u[k], i_u);
+  }
+  apply(r->sum, rate, back, n);
+  EACH_REG(k, n) {
+    const reg c = MADD(u_z[k], back[k], u_c[k]), z = MADD(-u_c[k], back[k], u_z[k]), x = z * t_x[k], y = z * t_y[k];
+    moved[k] = MADD(a->mu, reg_abs(x - f->s_x[k]) + reg_abs(y - f->s_y[k]), reg_abs(c - f->c[k]) + reg_abs(z - f->z[k]));
+    REG_MOVE(going, &f->back[k], back[k]);
+    REG_MOVE(going, &f->c[k], c);
+    REG_MOVE(going, &f->z[k], z);
+    REG_MOVE(going, &f->s_x[k], x);
+    REG_MOVE(going, &f->s_y[k], y);
+  }
+  const vreal per_moved = caution(n, nodes) * l->mu_b *
+                          v_fma(v_splat(CONTRACTION_CLOTH), a->pull, v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));
+  const vreal error = per_moved * largest(moved, n);
+  f->error = v_select(going, error, f->error);
+  f->going = going & v_not(v_less(error, ENOUGH * a->tolerance));
+}
+
+/* After the last: the means over the stretch of c and sigma, against their values at first, from the sine of the angle by which
+ * u has turned and 1 - its cosine; and w_x, w_y. From the change of u, not from its direction: what is small keeps its digits.
+ */
+always void end_iterations(int n, enum nodes nodes, const gauss_rule *r, stretch *p, vreal *dc, vreal *dz) {
+  const prediction *const g = p->g;
+  const state *const s = p->s;
+  directions *const f = &p->f;
+  reg turned[MOST_REGS], lost[MOST_REGS];
+  EACH_REG(k, n) {
+    const reg u_x_k = s->u_x + f->dx[k], u_z_k = s->u_z + f->dz[k];
+    const reg sine = MADD(g->c, f->dz[k], -g->z * f->dx[k]) * f->per_u[k], e_c = MADD(u_x_k, f->per_u[k], -g->c),
+              e_z = MADD(u_z_k, f->per_u[k], -g->z);
+    const reg drop = 0.5f * MADD(e_c, e_c, e_z * e_z);
+    turned[k] = weighed(nodes, &p->m, k, MADD(-f->back[k], 1 - drop, sine));
+    lost[k] = weighed(nodes, &p->m, k, MADD(-f->back[k], sine, drop));
+    f->w_x[k] = weighed(nodes, &p->m, k, f->s_x[k]);
+    f->w_y[k] = weighed(nodes, &p->m, k, f->s_y[k]);
+  }
+  const vreal sine = dot(r->all, turned, n), drop = dot(r->all, lost, n);
+  *dc = v_fma(-g->z, sine, -g->c * drop);
+  *dz = v_fma(g->c, sine, -g->z * drop);
 }
 
 #endif

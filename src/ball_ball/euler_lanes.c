@@ -14,18 +14,11 @@
 #include "ball_ball/block.h"
 #include "ball_ball/euler.h"
 
-#define PASTE3(a, b, c) a##b##_##c
-#define PASTE(a, b, c) PASTE3(a, b, c)
 #ifdef CAROM_LANES_SINGLE
-#define PRECISION_SUFFIX single
-static const carom_precision precision = CAROM_SINGLE;
 static const real no_slip = 1e-16f;
 #else
-#define PRECISION_SUFFIX double
-static const carom_precision precision = CAROM_DOUBLE;
 static const real no_slip = 1e-16;
 #endif
-#define SOLVER PASTE(carom_euler_lanes_, CAROM_LANES_SUFFIX, PRECISION_SUFFIX)
 
 enum { BLOCKS = 2 }; /* taken together, so that one's long divisions hide behind the other's */
 
@@ -152,7 +145,7 @@ static void run(euler_lanes l[BLOCKS]) {
   }
 }
 
-size_t SOLVER(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
+size_t PRECISE_KERNEL(carom_euler_lanes)(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
   const real *from = in;
   real *to = out;
   real spare[OUT_NUMBERS]; /* takes what the lanes beyond the last pair compute */
@@ -182,7 +175,7 @@ size_t SOLVER(const void *in, size_t n, const carom_options *opt, void *out, int
           break;
         carom_status one = CAROM_OK;
         if ((good >> k & 1) == 0)
-          one = carom_collide_one(precision, from + IN_NUMBERS * pair, opt, to + OUT_NUMBERS * pair);
+          one = carom_collide_one(KERNEL_PRECISION, from + IN_NUMBERS * pair, opt, to + OUT_NUMBERS * pair);
         if (status != NULL)
           status[pair] = (int8_t)one;
         if (one < 0 && first_bad == n)

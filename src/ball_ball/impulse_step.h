@@ -81,32 +81,43 @@ always arrival arrive_on_nodes(const gauss_rule *r, int n, vreal per_length, con
                    .dy = twice * dot(r->bend, f->s_y, n)};
 }
 
-/* From *s on for a length, for which *g has been predicted, with so many iterations at most. *next becomes the state behind the
- * step; in the lanes of `last` that is near the end of the collision, and *out becomes the solution. `turn`: the plan of TURNED
- * nodes. Returns an estimate of the error, in p; infinite if the end is not near. `going`: the lanes that matter; `patience`:
- * see find_directions(). */
-always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, const prediction *g, vreal length,
-                          const turn_plan *turn, vmask going, int patience, vmask last, const state *s, state *next,
-                          solution *out) {
-  const gauss_rule *r = n == 8 ? &gauss_8 : n == 6 ? &gauss_6 : &gauss_4;
-  const step_law l = law_of(a, g, length);
-  mesh m;
-  node_map map = {0};
+always const gauss_rule *rule_of(int n) {
+  return n == 8 ? &gauss_8 : n == 6 ? &gauss_6 : &gauss_4;
+}
+
+/* `turn`: the plan of TURNED nodes. */
+always void begin_step(int n, enum nodes nodes, const problem *a, const prediction *g, const state *s, vreal length,
+                       const turn_plan *turn, stretch *p) {
+  p->a = a;
+  p->g = g;
+  p->s = s;
+  p->l = law_of(a, g, length);
   if (nodes == EVEN)
-    EACH_REG(k, n) m.X[k] = SPREAD(AT(r->node, k));
+    EACH_REG(k, n) p->m.X[k] = SPREAD(AT(rule_of(n)->node, k));
   else {
-    map = nodes == TURNED ? turned_map(turn, length) : graded_map(l.q);
-    lay_nodes(nodes, r, n, &map, v_splat(1), &m);
+    p->map = nodes == TURNED ? turned_map(turn, length) : graded_map(p->l.q);
+    lay_nodes(nodes, rule_of(n), n, &p->map, v_splat(1), &p->m);
   }
-  directions f;
-  find_directions(n, most, nodes, r, a, g, s, &l, &m, going, patience, &f);
+  predict_directions(n, nodes, p);
+  p->f.going = v_all();
+}
+
+/* *next becomes the state behind the step; in the lanes of `last` that is near the end of the collision, and *out becomes the
+ * solution. Returns an estimate of the error, in p; infinite if the end is not near. */
+always vreal end_step(int n, enum nodes nodes, stretch *p, vmask last, state *next, solution *out) {
+  const gauss_rule *r = rule_of(n);
+  const problem *const a = p->a;
+  const prediction *const g = p->g;
+  const state *const s = p->s;
+  const step_law l = p->l;
+  directions *const f = &p->f;
+  vreal dC, dZ;
+  end_iterations(n, nodes, r, p, &dC, &dZ);
 
   /* the whole step */
   reg work[MOST_REGS];
-  EACH_REG(k, n) work[k] = -(l.pull_y * f.w_y[k]) * MADD(l.pull_y, f.S_y[k], MADD(length, m.X[k], s->v));
-  const vreal X = dot(r->all, f.w_x, n), Y = dot(r->all, f.w_y, n);
-  vreal dC, dZ;
-  mean_turning(r, n, g, &f, &dC, &dZ);
+  EACH_REG(k, n) work[k] = -(l.pull_y * f->w_y[k]) * MADD(l.pull_y, f->S_y[k], MADD(l.length, p->m.X[k], s->v));
+  const vreal X = dot(r->all, f->w_x, n), Y = dot(r->all, f->w_y, n);
   state end = behind(g, &l, s, X, Y, dC, dZ, dot(r->all, work, n));
 
   /* K at v = 0 */
@@ -117,17 +128,17 @@ always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, c
     const vreal f_mean =
         -a->pull_y * (nodes == EVEN ? g->z * g->t_y : Y); /* that of the prediction is known before the nodes */
     const vreal K_c =
-        nodes == EVEN ? K_at_v_0(r, n, &l, s, f_mean, f.w_y) : K_at_v_0_mapped(nodes, r, n, &map, &l, s, f_mean, f.w_y);
+        nodes == EVEN ? K_at_v_0(r, n, &l, s, f_mean, f->w_y) : K_at_v_0_mapped(nodes, r, n, &p->map, &l, s, f_mean, f->w_y);
     end.K_c = v_select(passes, K_c, s->K_c);
   }
   end.restitution = s->restitution | passes;
 
-  const vreal per_length = v_reciprocal(length);
-  const arrival at_end = n > 4 ? arrive(a, &end) : arrive_on_nodes(r, n, per_length, &f);
-  vreal error = f.error;
+  const vreal per_length = v_reciprocal(l.length);
+  const arrival at_end = n > 4 ? arrive(a, &end) : arrive_on_nodes(r, n, per_length, f);
+  vreal error = f->error;
   if (n > 4) {
     /* the defect of the polynomials at the end, which is the first coefficient that the nodes leave out */
-    const vreal defect = v_abs(dot(r->end, f.c, n) - at_end.c) + v_abs(dot(r->end, f.z, n) - at_end.z);
+    const vreal defect = v_abs(dot(r->end, f->c, n) - at_end.c) + v_abs(dot(r->end, f->z, n) - at_end.z);
     error = v_fma(4 * l.mu_b, defect * defect, error);
   }
   if (next != NULL)
@@ -138,8 +149,8 @@ always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, c
   /* to the end of the collision */
   vreal third_x = v_splat(0), third_y = third_x;
   if (nodes == EVEN) {
-    third_x = per_length * per_length * dot(r->third, f.s_x, n);
-    third_y = per_length * per_length * dot(r->third, f.s_y, n);
+    third_x = per_length * per_length * dot(r->third, f->s_x, n);
+    third_y = per_length * per_length * dot(r->third, f->s_y, n);
   }
   const vreal way = v_abs(finish(a, &end, &at_end, third_x, third_y, out));
   /* what the series leaves out: of four nodes, by how far their polynomials miss s; else its third terms for u and s */
@@ -151,15 +162,24 @@ always vreal impulse_step(int n, int most, enum nodes nodes, const problem *a, c
   } else
     left_out = way * (way * way) * v_fma(a->mu_b, at_end.bend_u, a->pull * at_end.bend_d);
   error = error + v_select(last, left_out, v_splat(0));
-  const vmask in_reach = v_less(way, (nodes == TURNED ? MOST_BEYOND_TURN : MOST_BEYOND) * length);
+  const vmask in_reach = v_less(way, (nodes == TURNED ? MOST_BEYOND_TURN : MOST_BEYOND) * l.length);
   return v_select(in_reach | v_not(last), error, v_splat(HUGE_VALF));
 }
 
-/* To the end, of which `to_end` is the way that would be left without work on friction. */
-always vreal end_step(int n, int most, enum nodes nodes, const problem *a, const prediction *g, const state *s, vreal to_end,
-                      vmask going, int patience, solution *out) {
+/* All of it, with so many iterations at most. */
+always vreal take_step(int n, int most, enum nodes nodes, const problem *a, const prediction *g, const state *s, vreal length,
+                       const turn_plan *turn, vmask last, state *next, solution *out) {
+  stretch p;
+  begin_step(n, nodes, a, g, s, length, turn, &p);
+  for (int i = 0; i < most && v_any(p.f.going); i++)
+    iterate(n, nodes, rule_of(n), &p);
+  return end_step(n, nodes, &p, last, next, out);
+}
+
+/* The length of a step to the end, of which `to_end` is the way that would be left without work on friction. */
+always vreal length_to_end(const problem *a, const prediction *g, vreal to_end) {
   const vreal f = -a->pull_y * g->z * g->t_y;
-  return impulse_step(n, most, nodes, a, g, to_end * v_fma(f, 1 + f, v_splat(1)), NULL, going, patience, v_all(), s, NULL, out);
+  return to_end * v_fma(f, 1 + f, v_splat(1));
 }
 
 #endif

@@ -12,14 +12,17 @@ typedef enum carom_precision { CAROM_DOUBLE, CAROM_SINGLE, CAROM_PRECISIONS } ca
 
 /* What rows.h keeps of a register of rows, from reduction to restoration. */
 typedef struct carom_context {
-  _Alignas(64) unsigned char bytes[4608];
+  _Alignas(64) unsigned char bytes[3200];
 } carom_context;
 
-/* Reduces as many rows (carom_impact or its twin) as a vector has floats. Returns a bit for each row that passes every check,
- * approaches, and is within what collocation is tried on; the columns of others hold junk. s: see frame.h. */
-typedef uint32_t carom_rows_in(const void *const row[MOST_LANES], double s, carom_context *context, carom_in in);
-/* Writes the velocities (carom_result or its twin). Returns a bit for each row whose numbers are all finite. */
-typedef uint32_t carom_rows_out(const carom_context *context, carom_out solution, void *const row[MOST_LANES]);
+/* Reduces as many rows as a vector has floats, given by their numbers in an array of carom_impact or its twin. Returns a bit
+ * for each row that passes every check, approaches, and is within what collocation is tried on; the columns of others hold
+ * junk. s: see frame.h. */
+typedef uint32_t carom_rows_in(const void *in, const uint32_t row[MOST_LANES], double s, carom_context *context,
+                               carom_in columns);
+/* Writes the velocities, to an array of carom_result or its twin. Returns a bit for each row whose numbers are all finite. */
+typedef uint32_t carom_rows_out(const carom_context *context, const carom_out solution, void *out,
+                                const uint32_t row[MOST_LANES]);
 
 /* The first step, where it is an easy one, in the lanes of `good`. next: what comes next; *out of those that are SOLVED. A lane
  * for which the others would have to wait is put off: its next step is EASY again. spin: 5/2 s. */
@@ -58,6 +61,21 @@ typedef struct carom_kernels {
   carom_batch_solver carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single;
 CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 #undef CAROM_KERNEL_PROTOTYPES
+
+/* In a source of kernels: the name of one, of the build's instruction set or of its precision too; and what that is. */
+#ifdef CAROM_LANES_SUFFIX
+#ifdef CAROM_LANES_SINGLE
+#define KERNEL_SUFFIX single
+#define KERNEL_PRECISION CAROM_SINGLE
+#else
+#define KERNEL_SUFFIX double
+#define KERNEL_PRECISION CAROM_DOUBLE
+#endif
+#define KERNEL_PASTE(a, b) a##_##b
+#define KERNEL_PASTE_EXPANDED(a, b) KERNEL_PASTE(a, b)
+#define KERNEL(name) KERNEL_PASTE_EXPANDED(name, CAROM_LANES_SUFFIX)
+#define PRECISE_KERNEL(name) KERNEL_PASTE_EXPANDED(KERNEL(name), KERNEL_SUFFIX)
+#endif
 
 /* Those for the instruction set in force. */
 const carom_kernels *carom_kernels_in_force(void);

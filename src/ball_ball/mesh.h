@@ -33,7 +33,8 @@ typedef struct node_map {
 static const float MOST_GRADING = 0.995f; /* q */
 
 always node_map graded_map(vreal q) {
-  node_map m = {.q = v_min(q, v_splat(MOST_GRADING))};
+  node_map m;
+  m.q = v_min(q, v_splat(MOST_GRADING));
   const vreal y = root(root(1 - m.q));
   m.h = 1 - y;
   m.per = v_reciprocal((1 + y) * v_fma(y, y, v_splat(1)));
@@ -42,7 +43,9 @@ always node_map graded_map(vreal q) {
 
 always node_map turned_map(const turn_plan *p, vreal length) {
   const vreal per_delta = v_reciprocal(p->width);
-  node_map m = {.from = -p->at * per_delta, .half = 0.5f * p->width * v_reciprocal(length)};
+  node_map m;
+  m.from = -p->at * per_delta;
+  m.half = 0.5f * p->width * v_reciprocal(length);
   m.low = inverse_sinh(m.from);
   m.range = inverse_sinh((length - p->at) * per_delta) - m.low;
   return m;

@@ -186,4 +186,30 @@ always progress after_refusal(const progress *so_far, enum step_kind kind) {
   return (progress){.share = kind == TURN ? 0.5f * so_far->share : so_far->share, .caution = v_splat(caution)};
 }
 
+/* ---- The kinds of steps ------------------------------------------------------------------------------------------------ */
+
+#define apart static __attribute__((noinline)) /* the inlined text of a step is long */
+
+apart vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return take_step(EASY_NODES, EASY_MOST, EVEN, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
+}
+apart vreal take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return take_step(FULL_NODES, FULL_MOST, EVEN, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
+}
+apart vreal take_graded_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return take_step(MOST_NODES, FULL_GRADED_MOST, GRADED, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
+}
+apart vreal take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
+  return stick_step(a, g, s, out);
+}
+apart vreal take_part(const problem *a, vreal length, const state *s, state *next) {
+  const prediction g = predict(a, s, length);
+  return take_step(MOST_NODES, PART_MOST, GRADED, a, &g, s, length, NULL, v_not(v_all()), next, NULL);
+}
+apart vreal take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
+  const prediction g = predict(a, s, p->length);
+  const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
+  return take_step(MOST_NODES, TURN_MOST, TURNED, a, &g, s, length, p, last, next, out);
+}
+
 #endif

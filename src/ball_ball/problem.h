@@ -22,13 +22,19 @@ typedef struct problem {
   vreal tolerance;    /* of a step's error estimate, in p */
 } problem;
 
-/* What moves. */
+/* What moves, number by number or as columns. */
+enum { STATE_COLUMNS = 13 };
 typedef struct state {
-  vreal u_x, u_z, d_x, d_y, v;
-  vreal K, K_c;             /* int v f dp so far, and at v = 0 */
-  vreal c_0, z_0;           /* direction of u at the start of the collision */
-  vreal J_c, J_z, I_x, I_y; /* integrals over p of c - c_0, sigma - z_0, sigma t */
-  vmask restitution;        /* v = 0 has been passed */
+  union {
+    struct {
+      vreal u_x, u_z, d_x, d_y, v;
+      vreal K, K_c;             /* int v f dp so far, and at v = 0 */
+      vreal c_0, z_0;           /* direction of u at the start of the collision */
+      vreal J_c, J_z, I_x, I_y; /* integrals over p of c - c_0, sigma - z_0, sigma t */
+    };
+    vreal column[STATE_COLUMNS];
+  };
+  vmask restitution; /* v = 0 has been passed */
 } state;
 
 /* What comes of it: those integrals over the whole collision, p beyond 1 + e, p where the balls stuck (-1: they did not), K_c.
@@ -98,11 +104,12 @@ typedef column in_column; /* const would not convert in C17 */
 #endif
 
 always problem problem_of(in_column *columns, float spin, float tolerance) {
-  problem a = {.kappa = COLUMN(columns, IN_KAPPA),
-               .mu = COLUMN(columns, IN_MU),
-               .mu_b = COLUMN(columns, IN_MU_B),
-               .e = COLUMN(columns, IN_E),
-               .spin = spin};
+  problem a;
+  a.kappa = COLUMN(columns, IN_KAPPA);
+  a.mu = COLUMN(columns, IN_MU);
+  a.mu_b = COLUMN(columns, IN_MU_B);
+  a.e = COLUMN(columns, IN_E);
+  a.spin = spin;
   /* the less comes back, the more the end feels of it */
   a.tolerance = tolerance * v_min(2 * a.e, v_splat(1));
   a.per_kappa = v_reciprocal(a.kappa);
@@ -113,11 +120,14 @@ always problem problem_of(in_column *columns, float spin, float tolerance) {
 
 /* At the start. */
 always state state_of(const problem *a, in_column *columns) {
-  state s = {.u_x = COLUMN(columns, IN_U_X),
-             .u_z = COLUMN(columns, IN_U_Z),
-             .d_x = COLUMN(columns, IN_D_X),
-             .d_y = COLUMN(columns, IN_D_Y),
-             .v = v_splat(-1)};
+  state s;
+  s.u_x = COLUMN(columns, IN_U_X);
+  s.u_z = COLUMN(columns, IN_U_Z);
+  s.d_x = COLUMN(columns, IN_D_X);
+  s.d_y = COLUMN(columns, IN_D_Y);
+  s.v = v_splat(-1);
+  s.K = s.K_c = s.J_c = s.J_z = s.I_x = s.I_y = v_splat(0);
+  s.restitution = v_less(v_splat(0), v_splat(0));
   const prediction g = predict(a, &s, v_splat(1));
   s.c_0 = g.c;
   s.z_0 = g.z;

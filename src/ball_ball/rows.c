@@ -2,42 +2,35 @@
 #include "ball_ball/rows.h"
 #include "ball_ball/kernels.h"
 
-#define PASTE3(a, b, c) a##b##_##c
-#define PASTE(a, b, c) PASTE3(a, b, c)
-#ifdef CAROM_LANES_SINGLE
-#define PRECISION single
-enum { REGISTERS = 1 };
-#else
-#define PRECISION double
-enum { REGISTERS = 2 };
-#endif
-
+enum { REGISTERS = sizeof(real) / sizeof(float) };
 _Static_assert(REGISTERS * sizeof(row_lanes) <= sizeof(carom_context), "a context has room for the rows");
 
 typedef float float_lanes __attribute__((vector_size(LANES * sizeof(float))));
 typedef float float_lanes_unaligned __attribute__((vector_size(LANES * sizeof(float)), aligned(4), may_alias));
 
-uint32_t PASTE(carom_rows_in_, CAROM_LANES_SUFFIX, PRECISION)(const void *const row[MOST_LANES], double s,
-                                                              carom_context *context, carom_in in) {
+uint32_t PRECISE_KERNEL(carom_rows_in)(const void *in, const uint32_t row[MOST_LANES], double s, carom_context *context,
+                                       carom_in to) {
   uint32_t good = 0;
   lanes_unrolled for (int k = 0; k < REGISTERS; k++) {
     const real *rows[LANES];
-    lanes_unrolled for (int lane = 0; lane < LANES; lane++) rows[lane] = row[k * LANES + lane];
+    lanes_unrolled for (int lane = 0; lane < LANES; lane++) rows[lane] =
+        (const real *)in + (size_t)row[k * LANES + lane] * IN_NUMBERS;
     vreal columns[IN_COLUMNS];
     row_lanes *r = (row_lanes *)context + k;
     good |= (uint32_t)v_bits(reduce_rows(rows, (real)s, r, columns)) << (k * LANES);
-    lanes_unrolled for (int c = 0; c < IN_COLUMNS; c++) * (float_lanes_unaligned *)(in[c] + k * LANES) =
+    lanes_unrolled for (int c = 0; c < IN_COLUMNS; c++) * (float_lanes_unaligned *)(to[c] + k * LANES) =
         __builtin_convertvector(columns[c], float_lanes);
   }
   return good;
 }
 
-uint32_t PASTE(carom_rows_out_, CAROM_LANES_SUFFIX, PRECISION)(const carom_context *context, carom_out solution,
-                                                               void *const row[MOST_LANES]) {
+uint32_t PRECISE_KERNEL(carom_rows_out)(const carom_context *context, const carom_out solution, void *out,
+                                        const uint32_t row[MOST_LANES]) {
   uint32_t finite = 0;
   lanes_unrolled for (int k = 0; k < REGISTERS; k++) {
     real *rows[LANES];
-    lanes_unrolled for (int lane = 0; lane < LANES; lane++) rows[lane] = row[k * LANES + lane];
+    lanes_unrolled for (int lane = 0; lane < LANES; lane++) rows[lane] =
+        (real *)out + (size_t)row[k * LANES + lane] * OUT_NUMBERS;
     vreal columns[OUT_COLUMNS];
     lanes_unrolled for (int c = 0; c < OUT_COLUMNS; c++) columns[c] =
         __builtin_convertvector((float_lanes) * (const float_lanes_unaligned *)(solution[c] + k * LANES), vreal);

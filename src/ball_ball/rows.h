@@ -19,10 +19,11 @@
 
 /* What the way back needs. */
 typedef struct row_lanes {
-  vreal x[IN_NUMBERS];       /* the columns of the rows */
-  vreal y_x, y_y;            /* line of centres */
-  vreal approach, per_total; /* |v_n0|; 1 / (M_a + M_b) */
-  vreal per_kappa, u_x, u_z; /* u in units of |v_n0| / kappa, u_z >= 0 */
+  vreal a_v[2], a_w[3], b_v[2], b_w[3]; /* motion before */
+  vreal M_a, M_b, R, mu, mu_b, e;       /* mu of the pressed ball; both frictions as collocation takes them */
+  vreal y_x, y_y;                       /* line of centres */
+  vreal approach, per_total;            /* |v_n0|; 1 / (M_a + M_b) */
+  vreal per_kappa, u_x, u_z;            /* u in units of |v_n0| / kappa, u_z >= 0 */
   vmask b_pressed;
 } row_lanes;
 
@@ -35,9 +36,10 @@ static const real MOST_APPROACH = (real)1e30;
 /* Reads rows into *r and lane k of the columns of `out`. Returns the lanes whose row passes every check and approaches, within
  * those limits; the others hold junk. Motion that is not finite leaves a result that is not finite. */
 static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes *r, vreal out[IN_COLUMNS]) {
-  load_rows(row, r->x);
-  const vreal *a = r->x, *b = r->x + 12, zero = v_splat(0);
-  const vreal R = a[9], M_a = a[10], M_b = b[10], mu_b = r->x[24], e = r->x[25];
+  vreal x[IN_NUMBERS];
+  load_rows(row, x);
+  const vreal *a = x, *b = x + 12, zero = v_splat(0);
+  const vreal R = a[9], M_a = a[10], M_b = b[10], mu_b = x[24], e = x[25];
 
   /* the frame, and what moves in it: u, d and the approach, times the distance of the centres */
   const vreal r_x = b[0] - a[0], r_y = b[1] - a[1], square = r_x * r_x + r_y * r_y, inverse = v_reciprocal_sqrt(square);
@@ -80,7 +82,21 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
                          v_less(v_splat(LEAST_E), e) & v_less(mu_b, v_splat(MOST_MU_B)) &
                          v_less(mu * mu_b, v_splat(MOST_PULL)) & v_less(v_splat(LEAST_MARGIN), kappa - mu) &
                          v_less(v_splat(LEAST_RATIO), ratio) & v_less(ratio, v_splat(MOST_RATIO));
-  return are_sound(r->x) & in_range;
+  lanes_unrolled for (int k = 0; k < 2; k++) {
+    r->a_v[k] = a[3 + k];
+    r->b_v[k] = b[3 + k];
+  }
+  lanes_unrolled for (int k = 0; k < 3; k++) {
+    r->a_w[k] = a[6 + k];
+    r->b_w[k] = b[6 + k];
+  }
+  r->M_a = M_a;
+  r->M_b = M_b;
+  r->R = R;
+  r->mu = out[IN_MU];
+  r->mu_b = out[IN_MU_B];
+  r->e = e;
+  return are_sound(x) & in_range;
 }
 
 /* The integrals of the solution, in units of |v_n0| / kappa. */
@@ -89,11 +105,8 @@ typedef struct row_impulses {
 } row_impulses;
 
 static inline row_impulses impulses_of(const row_lanes *r, const vreal in[OUT_COLUMNS]) {
-  const vreal e = r->x[25], mu_b = v_max(r->x[24], v_splat((real)LEAST_MU_B));
-  const vreal mu =
-      v_select(v_less_equal(r->u_z, v_splat((real)LEAST_PRESS)), v_splat(0), v_select(r->b_pressed, r->x[23], r->x[11]));
-  const vreal pull = mu * mu_b;
-  row_impulses q = {.p = (1 + e) + in[OUT_EXTRA], .F_x = -pull * in[OUT_I_X], .F_y = -pull * in[OUT_I_Y]};
+  const vreal mu_b = r->mu_b, pull = r->mu * mu_b;
+  row_impulses q = {.p = (1 + r->e) + in[OUT_EXTRA], .F_x = -pull * in[OUT_I_X], .F_y = -pull * in[OUT_I_Y]};
   /* if the balls slip to the end, from the direction of u at the start; if they stick, from u = 0 */
   const vmask sticks = v_less_equal(v_splat(0), in[OUT_STICK]);
   const vreal i_u = v_reciprocal_sqrt(r->u_x * r->u_x + r->u_z * r->u_z + (real)1e-36), per_kappa = r->per_kappa;
@@ -104,9 +117,9 @@ static inline row_impulses impulses_of(const row_lanes *r, const vreal in[OUT_CO
 
 /* Writes the velocities behind the collision. Returns the lanes in which every number is finite. */
 static inline vmask restore_rows(const row_lanes *r, const row_impulses *q, real *const row[LANES]) {
-  const vreal *a = r->x, *b = r->x + 12, zero = v_splat(0), y_x = r->y_x, y_y = r->y_y;
+  const vreal zero = v_splat(0), y_x = r->y_x, y_y = r->y_y;
   const vmask b_pressed = r->b_pressed;
-  const vreal g = r->approach * r->per_total, on_a = g * b[10], on_b = g * a[10], C = (real)2.5 * v_reciprocal(a[9]);
+  const vreal g = r->approach * r->per_total, on_a = g * r->M_b, on_b = g * r->M_a, C = (real)2.5 * v_reciprocal(r->R);
   const vreal Q_2 = v_select(b_pressed, -q->Q_2, q->Q_2);
   const vreal F_ax = v_select(b_pressed, zero, q->F_x), F_ay = v_select(b_pressed, zero, q->F_y);
   const vreal F_bx = v_select(b_pressed, q->F_x, zero), F_by = v_select(b_pressed, q->F_y, zero);
@@ -114,10 +127,11 @@ static inline vmask restore_rows(const row_lanes *r, const row_impulses *q, real
               b_y = on_b * (q->p - F_by);
   const vreal C_a = C * on_a, C_b = C * on_b;
   const vreal aw_x = C_a * (F_ay - Q_2), aw_y = -(C_a * F_ax), bw_x = -(C_b * (F_by + Q_2)), bw_y = C_b * F_bx;
-  const vreal x[OUT_NUMBERS] = {a[3] + (a_x * y_y + a_y * y_x),   a[4] + (a_y * y_y - a_x * y_x),   zero,
-                                a[6] + (aw_x * y_y + aw_y * y_x), a[7] + (aw_y * y_y - aw_x * y_x), a[8] + C_a * q->Q_1,
-                                b[3] + (b_x * y_y + b_y * y_x),   b[4] + (b_y * y_y - b_x * y_x),   zero,
-                                b[6] + (bw_x * y_y + bw_y * y_x), b[7] + (bw_y * y_y - bw_x * y_x), b[8] + C_b * q->Q_1};
+  const vreal *a_v = r->a_v, *a_w = r->a_w, *b_v = r->b_v, *b_w = r->b_w;
+  const vreal x[OUT_NUMBERS] = {a_v[0] + (a_x * y_y + a_y * y_x),   a_v[1] + (a_y * y_y - a_x * y_x),   zero,
+                                a_w[0] + (aw_x * y_y + aw_y * y_x), a_w[1] + (aw_y * y_y - aw_x * y_x), a_w[2] + C_a * q->Q_1,
+                                b_v[0] + (b_x * y_y + b_y * y_x),   b_v[1] + (b_y * y_y - b_x * y_x),   zero,
+                                b_w[0] + (bw_x * y_y + bw_y * y_x), b_w[1] + (bw_y * y_y - bw_x * y_x), b_w[2] + C_b * q->Q_1};
   /* not finite if a term is not, or if two are almost too large: then, too, the row is looked at again */
   const vreal sum = ((x[0] + x[1]) + (x[3] + x[4])) + ((x[5] + x[6]) + (x[7] + x[9])) + (x[10] + x[11]);
   lanes_unrolled for (int at = 0; at < OUT_NUMBERS; at += CHUNK) v_store_columns(row, at, x + at);

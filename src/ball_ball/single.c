@@ -2,19 +2,7 @@
 #include "ball_ball/kernels.h"
 #include "ball_ball/rows.h"
 
-#define PASTE2(a, b) a##b
-#define PASTE2_(a, b) PASTE2(a, b)
-#define PASTE3(a, b, c) a##b##_##c
-#define PASTE(a, b, c) PASTE3(a, b, c)
-#ifdef CAROM_LANES_SINGLE
-#define PRECISION single
-enum { PRECISION_OF_ROW = CAROM_SINGLE };
-#else
-#define PRECISION double
-enum { PRECISION_OF_ROW = CAROM_DOUBLE };
-#endif
-
-int PASTE(carom_single_, CAROM_LANES_SUFFIX, PRECISION)(const void *in, double s, void *out, float report[OUT_COLUMNS]) {
+int PRECISE_KERNEL(carom_single)(const void *in, double s, void *out, float report[OUT_COLUMNS]) {
   const real *const from[1] = {in};
   real *const to[1] = {out};
   row_lanes r;
@@ -25,8 +13,7 @@ int PASTE(carom_single_, CAROM_LANES_SUFFIX, PRECISION)(const void *in, double s
     return 0;
   for (int c = 0; c < IN_COLUMNS; c++)
     columns[c] = (float)reduced[c];
-  const int evaluations =
-      PASTE2_(carom_collocate_, CAROM_LANES_SUFFIX)(columns, (float)(2.5 * s), carom_tolerances[PRECISION_OF_ROW], answer);
+  const int evaluations = KERNEL(carom_collocate)(columns, (float)(2.5 * s), carom_tolerances[KERNEL_PRECISION], answer);
   if (evaluations == 0)
     return 0;
   for (int c = 0; c < OUT_COLUMNS; c++)

@@ -12,9 +12,9 @@
  *     T = 2 mu int lambda^(b - 3) (u_z0 (tau_x - constant) - 7/2 (tau_y - constant) W)
  *
  * The constant is tau where they stick, since the rest must vanish there. The predictor lets d run straight, and takes for W at
- * a node the formula with tau where its weighted mean lies on the way there. The iteration takes tau to p, F, T and d at the
- * nodes, and d to a new tau; what friction between the balls has done follows from u and F. Behind stick no more work is done,
- * and the end is a closed form.
+ * a node the formula with tau where its weighted mean lies on the way there. The iteration takes tau to T and W at the nodes,
+ * both to p and F, these to d, and d to a new tau; what friction between the balls has done follows from u and F. Behind stick
+ * no more work is done, and the end is a closed form.
  *
  * The rule has the weight lambda^4 built in (Gauss and Jacobi). */
 #ifndef CAROM_SRC_BALL_BALL_STICK_STEP_H
@@ -24,9 +24,9 @@
 #include "ball_ball/rules.h"
 
 enum { STICK_NODES = 6 };
-enum { STICK_LEAST = 3, STICK_MOST = 5 }; /* iterations; fewer would not show what the new W does */
+enum { STICK_LEAST = 2, STICK_MOST = 5 }; /* iterations; the first does not turn W */
 /* What an iteration of a step to stick leaves of what it moved. */
-static const float CONTRACTION_STICK = 0.1f;
+static const float CONTRACTION_STICK = 0.05f;
 
 /* tau at the nodes, from d there. */
 always void tau_of(const problem *a, reg d_x, reg d_y, reg *tau_x, reg *tau_y) {
@@ -105,22 +105,22 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
     W[k] = MADD(s->u_x - A_k, l2 * exponential(-(b_k * log_l)), A_k);
   }
 
-  reg slope[MOST_REGS], Y[MOST_REGS] = {0};
+  reg slope[MOST_REGS], Y[MOST_REGS];
+  EACH_REG(k, n) Y[k] = SPREAD(0.0f);
   vmask going = v_all();
   vreal error = zero;
   lanes_rolled for (int i = 0; i < STICK_MOST; i++) {
-    reg rest[MOST_REGS], P[MOST_REGS], X[MOST_REGS], new_Y[MOST_REGS], T[MOST_REGS], moved[MOST_REGS];
-    EACH_REG(k, n) {
-      slope[k] = reg_root(MADD(W[k], W[k], u_z2)) * MADD(-mu, tau_y[k], 1.0f);
-      rest[k] = in_T[k] * MADD(u_z, tau_x[k] - mean_x, -3.5f * (tau_y[k] - mean_y) * W[k]);
+    reg P[MOST_REGS], X[MOST_REGS], new_Y[MOST_REGS], moved[MOST_REGS];
+    if (i > 0) { /* the predictor's W is better than one from its tau */
+      reg rest[MOST_REGS], T[MOST_REGS];
+      EACH_REG(k, n) rest[k] = in_T[k] * MADD(u_z, tau_x[k] - mean_x, -3.5f * (tau_y[k] - mean_y) * W[k]);
+      apply(r->turn, rest, T, n);
+      EACH_REG(k, n) REG_MOVE(going, &W[k], MADD(-on_T[k], T[k], without_T[k]));
     }
+    EACH_REG(k, n) slope[k] = reg_root(MADD(W[k], W[k], u_z2)) * MADD(-mu, tau_y[k], 1.0f);
     apply(r->sum, slope, P, n);
     apply(r->sum, tau_x, X, n);
     apply(r->sum, tau_y, new_Y, n);
-    if (i > 0) { /* the predictor's W is better than one from its tau */
-      apply(r->turn, rest, T, n);
-      EACH_REG(k, n) W[k] = REG_SELECT(going, MADD(-on_T[k], T[k], without_T[k]), W[k]);
-    }
     EACH_REG(k, n) {
       const reg F_x = per_F * X[k], F_y = per_F * new_Y[k];
       const reg Q_1 = per_x * (MADD(-lambda_5[k], W[k], s->u_x) + F_x),
@@ -128,9 +128,9 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
       reg new_x, new_y;
       tau_of(a, s->d_x + MADD(on, F_x, -Q_1), MADD(-per_p, P[k], s->d_y) + MADD(a->spin, Q_2, on * F_y), &new_x, &new_y);
       moved[k] = mu * u_z * (reg_abs(new_x - tau_x[k]) + reg_abs(new_y - tau_y[k]));
-      tau_x[k] = REG_SELECT(going, new_x, tau_x[k]);
-      tau_y[k] = REG_SELECT(going, new_y, tau_y[k]);
-      Y[k] = REG_SELECT(going, new_Y[k], Y[k]);
+      REG_MOVE(going, &tau_x[k], new_x);
+      REG_MOVE(going, &tau_y[k], new_y);
+      REG_MOVE(going, &Y[k], new_Y[k]);
     }
     if (i + 1 < STICK_LEAST)
       continue;
@@ -165,8 +165,10 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   const vreal returned = work_returned(a, K_c, K), v_end = v_sqrt(v_max(v_fma(a->e, a->e, returned), zero)),
               share = p * g->rate;
   const vmask in_reach = v_less_equal(v, v_end) & v_less(v_splat(0.3f), share) & v_less(share, v_splat(3));
-  *out = (solution){
-      .J_c = zero, .J_z = zero, .I_x = v_fma(weight, X_sum, s->I_x), .I_y = v_fma(weight, Y_sum, s->I_y), .K_c = K_c};
+  out->J_c = out->J_z = zero;
+  out->I_x = v_fma(weight, X_sum, s->I_x);
+  out->I_y = v_fma(weight, Y_sum, s->I_y);
+  out->K_c = K_c;
   out->extra = returned * v_reciprocal(v_end + a->e) - a->pull_y * out->I_y;
   out->stick = v_max(1 + v - a->pull_y * out->I_y, zero);
   return v_select(in_reach, error, v_splat(HUGE_VALF));
