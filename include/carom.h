@@ -32,7 +32,7 @@
  * a tenth longer, in plain C a quarter. Euler's method: about 20 ns a step.
  *
  * Stack. In a build that optimises, every call fits a thread with 64 KiB of stack, of which the C library takes some. On x86-64
- * a single call takes at most 7 KiB, a trace 10, a batch 48, and one over threads 57 in the calling thread (measured by
+ * a single call takes at most 7 KiB, a trace 10, a batch 46, and one over threads 55 in the calling thread (measured by
  * tests/unit/stack.c).
  *
  * Determinism. What gives equal bits:

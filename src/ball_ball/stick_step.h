@@ -25,8 +25,8 @@
 
 enum { STICK_NODES = 6 };
 enum { STICK_LEAST = 2, STICK_MOST = 5 }; /* iterations; the first does not turn W */
-/* What an iteration of a step to stick leaves of what it moved. */
-static const float CONTRACTION_STICK = 0.05f;
+/* What an iteration of a step to stick leaves of what it moved, at least and by mu. */
+static const float CONTRACTION_STICK = 0.05f, CONTRACTION_STICK_MU = 0.25f;
 
 /* tau at the nodes, from d there. */
 always void tau_of(const problem *a, reg d_x, reg d_y, reg *tau_x, reg *tau_y) {
@@ -134,7 +134,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
     }
     if (i + 1 < STICK_LEAST)
       continue;
-    const vreal left = CONTRACTION_STICK * largest(moved, n);
+    const vreal left = v_max(v_splat(CONTRACTION_STICK), CONTRACTION_STICK_MU * mu) * largest(moved, n);
     error = v_select(going, left, error);
     going = going & v_not(v_less(left, ENOUGH * a->tolerance));
     if (!v_any(going))
