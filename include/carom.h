@@ -26,8 +26,8 @@
  * collisions of play within 2e-5. docs/accuracy.md has the figures and the command that prints them again. How near the model
  * is to real balls is another matter: docs/physics.md.
  *
- * Cost of the exact solver, a collision, on one core of an Intel Xeon with AVX-512: a call 0.2 us where the cloth slip is
- * smooth and 0.3 to 2.7 us where it turns or the balls stick, 0.36 us in the mean of play; a row of a batch 0.12 us. Strong
+ * Cost of the exact solver, a collision, on one core of an Intel Xeon of 2 GHz with AVX-512: a call 0.2 us where the cloth slip
+ * is smooth and 0.3 to 3 us where it turns or the balls stick, 0.4 us in the mean of play; a row of a batch 0.16 us. Strong
  * friction, hardly any restitution or very unequal masses take 5 to 50 us; no input takes more than 200. With SSE2 a call takes
  * a tenth longer, in plain C a quarter. Euler's method: about 20 ns a step.
  *

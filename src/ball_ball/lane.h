@@ -41,9 +41,6 @@ static inline unsigned v_bits(vmask m) {
 static inline bool v_any(vmask m) {
   return m != 0;
 }
-static inline bool v_more(vmask m, int count) {
-  return m > count;
-}
 static inline vreal v_abs(vreal x) {
   return LANE(fabs)(x);
 }
