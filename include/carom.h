@@ -28,8 +28,8 @@
  *
  * Cost of the exact solver, a collision, on one core of an Intel Xeon of 2 GHz with AVX-512: a call 0.2 us where the cloth slip
  * is smooth and 0.3 to 3 us where it turns or the balls stick, 0.4 us in the mean of play; a row of a batch 0.16 us. Strong
- * friction, hardly any restitution or very unequal masses take 5 to 50 us; no input takes more than 200. With SSE2 a call takes
- * a tenth longer, in plain C a quarter. Euler's method: about 20 ns a step.
+ * friction, hardly any restitution or very unequal masses take 5 to 50 us; no input takes more than 200. With SSE2 or in plain
+ * C a call takes a quarter longer. Euler's method: about 20 ns a step.
  *
  * Stack. In a build that optimises, every call fits a thread with 64 KiB of stack, of which the C library takes some. On x86-64
  * a single call takes at most 7 KiB, a trace 10, a batch 46, and one over threads 55 in the calling thread (measured by
