@@ -60,9 +60,8 @@ void KERNEL(carom_first_step)(carom_in in, uint32_t good, float spin, float tole
   step.f.going = easy;
   for (int i = 0; i < EASY_MOST && v_more(step.f.going, PATIENCE); i++)
     iterate(EASY_NODES, EVEN, &gauss_4, &step);
-  const vreal own_error = end_step(EASY_NODES, EVEN, &step, v_all(), NULL, &answer);
-  const vreal error = v_select(step.f.going, v_splat(HUGE_VALF), own_error);
-  const vmask solved = easy & v_less(error, a.tolerance);
+  const vreal error = end_step(EASY_NODES, EVEN, &step, v_all(), NULL, &answer);
+  const vmask solved = easy & v_not(step.f.going) & v_less(error, a.tolerance);
   put_solution(&answer, out);
   memset(next, 0, sizeof(carom_next));
   next[SOLVED] = v_bits(solved);

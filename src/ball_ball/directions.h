@@ -22,8 +22,8 @@
 
 /* What an iteration leaves of what it moved, at least; by mu mu_b, for the cloth; by q^2, for u. */
 static const float CONTRACTION = 0.02f, CONTRACTION_CLOTH = 1.2f, CONTRACTION_Q = 0.1f;
-/* That estimate is too small on turns, and too large over the few nodes of what is smooth. */
-always float caution(int n, enum nodes nodes) {
+/* What that is multiplied by: it is too little on turns, and too much over the few nodes of what is smooth. */
+always float estimate_scale(int n, enum nodes nodes) {
   return nodes == TURNED ? 4 : n == 4 ? 0.33f : n == 6 ? 0.4f : 1;
 }
 
@@ -169,7 +169,7 @@ always void iterate(int n, enum nodes nodes, const gauss_rule *r, stretch *p) {
     REG_MOVE(going, &f->s_x[k], x);
     REG_MOVE(going, &f->s_y[k], y);
   }
-  const vreal per_moved = caution(n, nodes) * l->mu_b *
+  const vreal per_moved = estimate_scale(n, nodes) * l->mu_b *
                           v_fma(v_splat(CONTRACTION_CLOTH), a->pull, v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));
   const vreal error = per_moved * largest(moved, n);
   f->error = v_select(going, error, f->error);
