@@ -9,6 +9,7 @@ END
 echo "--- resolve"
 try carom resolve --cushion -o after.csv impacts.csv
 cut -d, -f1,8 after.csv
+{ printf '\357\273\277'; cat impacts.csv; } | carom resolve --cushion - 2> /dev/null | cmp - after.csv && echo "the same with a byte-order mark"
 for model in stronge han mirror euler; do
   carom resolve --cushion --model $model impacts.csv 2> /dev/null | awk -F, -v model=$model '$1 == "side" { printf "%s %.4f %.4f %.3f\n", model, $2, $3, $7 }'
 done

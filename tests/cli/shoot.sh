@@ -38,6 +38,11 @@ ball='{"id": "cue", "state": [0, 0.3, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}'
 } > bad.jsonl
 carom shoot -o bad.out bad.jsonl || echo "exit $?"
 sed 's/"table".*"final"/.../; s/"t": .*}, "pockets"/.../' bad.out
+echo "--- a byte-order mark"
+{ printf '\357\273\277'; cat "$DATA/break-nineball.jsonl"; } > mark.jsonl
+carom shoot mark.jsonl | cmp - once.jsonl && echo "the same with one"
+{ printf '\357\273\277'; grep -m 1 '"kind": "table"' "$DATA/shots-pooltool.jsonl"; } > mark.jsonl
+carom shoot mark.jsonl | head -c 15 && echo
 echo "--- bounds"
 try carom shoot --events-most 5 --events none - < "$DATA/break-nineball.jsonl" > bounds.out
 grep -o '"status": "[a-z_]*"' bounds.out
