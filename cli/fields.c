@@ -142,7 +142,9 @@ ROW(option_id, "id", id, 0, "X", set_text, 0, "which collision: its column id, o
 ROW(option_data, "data", folder, 0, "DIR", set_text, 0,
     "folder of the reference collisions (default: $CAROM_DATA, else what came with carom)");
 ROW(option_output, "output", output, 'o', "OUT", set_text, 0,
-    "file to write, - for standard output (default); it appears whole or not at all");
+    "file to write, - for standard output (default). It appears whole or not at all: it is\n"
+    "renamed to OUT when it is complete. Where no file can be made beside OUT, such as in a\n"
+    "folder that may not be written, OUT is overwritten at the end instead; until then it stays");
 ROW(option_derived, "derived", derived, 0, NULL, set_flag, 0,
     "more columns, behind the status: throw, deflection, rolling velocities, spin, energy");
 ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0,
