@@ -171,18 +171,18 @@ read_result cushion_next(cushion_reader *r, cushion_row *row) {
 
 void cushion_report(const cushion_reader *r, const cushion_row *row, const carom_cushion_options *options,
                     carom_status status) {
-  char what[64] = "", text[NUMBER_TEXT];
+  char what[64] = "", text[NUMBER_TEXT], id[ID_TEXT];
   int field;
   const char *file = record_file_name(r->records);
+  id_text(row->id, id);
   if (row->error != NULL) {
-    complain("%s:%lld: id '%.60s': %s (%s)", file, row->line, row->id, row->message, row->error);
+    complain("%s:%lld: id '%s': %s (%s)", file, row->line, id, row->message, row->error);
     return;
   }
   carom_cushion_check(&row->impact, options, &field);
   if (field >= 0)
     snprintf(what, sizeof what, "%s = %s: ", columns[field], number_text(((const double *)&row->impact)[field], text));
-  complain("%s:%lld: id '%.60s': %s%s (%s)", file, row->line, row->id, what, carom_status_string(status),
-           carom_status_name(status));
+  complain("%s:%lld: id '%s': %s%s (%s)", file, row->line, id, what, carom_status_string(status), carom_status_name(status));
 }
 
 void cushion_close(cushion_reader *r) {

@@ -13,6 +13,13 @@ cut -d, -f1,8 after.csv
 for model in stronge han mirror euler; do
   carom resolve --cushion --model $model impacts.csv 2> /dev/null | awk -F, -v model=$model '$1 == "side" { printf "%s %.4f %.4f %.3f\n", model, $2, $3, $7 }'
 done
+row=",1,1,0,0,0,0,0.028,-1,0.036,0.2,0.2,0.9"
+{
+  head -n 1 impacts.csv
+  printf '\033[2J\302\233id%s\n' "$row"
+  printf "%60s$row\n%61s$row\n" . . | tr ' ' x
+} > ids.csv
+carom resolve --cushion ids.csv 2>&1 > /dev/null | LC_ALL=C sed 's/[^ -~]/<a byte>/g'
 echo "--- pooltool's records, largest difference"
 for name in stronge mathavan2010; do
   model=stronge; [ $name = stronge ] || model=euler
