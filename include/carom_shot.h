@@ -107,8 +107,8 @@ typedef struct carom_cushion_point {
   int cloth_sticks;   /* and on the cloth; else 0, and always by Euler's method. */
   int unused;         /* 0. */
   double v_n;         /* speed into the nose, along the normal there, m/s; negative while they part. */
-  double s_x, s_t;    /* slip on the nose, along the cushion and upwards across it. */
-  double c_x, c_y;    /* slip on the cloth. */
+  double s_x, s_t;    /* slip on the nose, along the cushion and upwards across it; exactly 0 where it sticks. */
+  double c_x, c_y;    /* slip on the cloth; exactly 0 where it sticks. */
   carom_motion state; /* along the axes of the table. */
   double reserved[4]; /* 0; room for what may be told later. */
 } carom_cushion_point;
