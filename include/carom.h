@@ -40,7 +40,7 @@
  *     is cut, and for any number of threads. (But for Euler's method in single precision: see carom_collide_batch_f32().)
  *   - Two runs on one processor with one instruction set.
  *   - All machines and compilers with the environment variable CAROM_ISA=plain, or after carom_isa_limit(CAROM_ISA_PLAIN): for
- *     lockstep, replays and tests. tests/agree/plain.c holds the hashes; gcc and clang, x86-64 and arm64 agree on them.
+ *     lockstep, replays and tests. tests/platforms/bits.expected has hashes, which gcc and clang, x86-64 and arm64 agree on.
  *   - All instruction sets, by Euler's method in double precision.
  *
  * Otherwise the exact solver's bits differ between instruction sets, and with sse2 and avx2 between makes of processors, whose
