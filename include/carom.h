@@ -44,8 +44,7 @@
  *   - All instruction sets, by Euler's method in double precision.
  *
  * Otherwise the exact solver's bits differ between instruction sets, and with sse2 and avx2 between makes of processors, whose
- * estimates of reciprocals differ; results then differ within the solver's errors. carom_mu_ball() calls exp(), whose last bits
- * are the C library's. Traces and details have no promise.
+ * estimates of reciprocals differ; results then differ within the solver's errors. Traces and details have no promise.
  *
  * Floating-point environment. The rounding mode must be to nearest; with another, ordinary collisions come out some 1e-6 less
  * accurate, with other bits. Exceptions must be masked, as in every C program at its start: the lanes of a batch compute on
