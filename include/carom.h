@@ -50,8 +50,8 @@
  * accurate, with other bits. Exceptions must be masked, as in every C program at its start: the lanes of a batch compute on
  * rows that are in error or not there, so invalid operations, overflow and division by zero are raised and thrown away.
  * Flags may be left raised; nothing else is changed. Flushing subnormal numbers to zero makes no difference to collisions on a
- * table. Threads of a batch have the environment of the calling thread. The library refuses to be built with
- * -ffast-math.
+ * table. Threads of a batch have the environment of the calling thread. The library refuses to be compiled with flags that
+ * change results, such as -ffast-math, -ffinite-math-only or -fno-signed-zeros; -march, -mfma and LTO change no bit of plain.
  */
 #ifndef CAROM_H
 #define CAROM_H

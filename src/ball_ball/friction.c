@@ -1,6 +1,7 @@
 /* Friction around the collision: that between the balls by the speed of their slip, and what the cloth's makes of a ball
  * afterwards. */
 #include "carom.h"
+#include "platform/arithmetic.h"
 
 #include "ball_ball/frame.h"
 #include "platform/elementary.h"

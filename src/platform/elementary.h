@@ -4,6 +4,8 @@
 #ifndef CAROM_SRC_PLATFORM_ELEMENTARY_H
 #define CAROM_SRC_PLATFORM_ELEMENTARY_H
 
+#include "platform/arithmetic.h"
+
 /* exp(x), to 1.2 ulp; 0 below -708, infinite where it is beyond all numbers. */
 double carom_exp(double x);
 
