@@ -19,7 +19,7 @@
 #pragma STDC FP_CONTRACT OFF /* gcc has -ffp-contract=off of the command line */
 #endif
 
-enum { ROWS = 4000, EDGES = 800, CUSHIONS = 800, SHOTS = 4, ROOM = 4096, NUMBERS = 1500 };
+enum { ROWS = 4000, EDGES = 800, CUSHIONS = 800, SHOTS = 4, ROOM = 4096, NUMBERS = 1500, LOOKS = 400, TRACES = 40, POINTS = 9 };
 
 /* splitmix64 */
 static uint64_t state;
@@ -142,7 +142,8 @@ static void collisions(const char *drawn, size_t n) {
   for (int way = 0; way < 4; way++) {
     const carom_options options = {.solver = way < 2 ? CAROM_SOLVER_EXACT : CAROM_SOLVER_EULER,
                                    .slip = way % 2 == 0 ? CAROM_SLIP_PAPER : CAROM_SLIP_POOLTOOL,
-                                   .steps = 100};
+                                   .steps = 100,
+                                   .threads = 3}; /* where there are threads; no bit depends on them */
     const char *solver = carom_solver_name(options.solver), *slip = carom_slip_name(options.slip);
     carom_collide_batch(in, n, &options, out, status);
     uint64_t hash = add_numbers(START, (const double *)out, n * 12);
@@ -161,6 +162,38 @@ static void collisions(const char *drawn, size_t n) {
   }
   snprintf(what, sizeof what, "%s: carom_mu_ball()", drawn);
   show(what, hash);
+}
+
+/* A few collisions on their way, and what else is known of them. Of a point the doubles are hashed; NaN is one of them. */
+static void looks(void) {
+  static carom_trace_point points[POINTS];
+  for (int way = 0; way < 4; way++) {
+    const carom_options options = {.solver = way < 2 ? CAROM_SOLVER_EXACT : CAROM_SOLVER_EULER,
+                                   .slip = way % 2 == 0 ? CAROM_SLIP_PAPER : CAROM_SLIP_POOLTOOL,
+                                   .steps = 100};
+    uint64_t details = START, traces = START;
+    for (int k = 0; k < LOOKS; k++) {
+      carom_result out;
+      carom_detail detail;
+      carom_collide_detail(&in[k], &options, &out, &detail);
+      details = add(add_numbers(details, (const double *)&out, 12), (uint64_t)detail.evaluations);
+      details = add(add_numbers(details, &detail.normal, 12), (uint64_t)detail.stick);
+      details = add_numbers(details, &detail.stick_normal, 1);
+    }
+    for (int k = 0; k < TRACES; k++) {
+      traces = add(traces, (uint64_t)(int64_t)carom_trace(&in[k], &options, POINTS, points));
+      for (int n = 0; n < POINTS; n++) {
+        traces = add(add_numbers(traces, &points[n].normal, 2), (uint64_t)((int)points[n].phase * 2 + points[n].sticks));
+        traces = add_numbers(add_numbers(traces, &points[n].v_n, 7), (const double *)&points[n].state, 12);
+      }
+    }
+    char what[100];
+    const char *solver = carom_solver_name(options.solver), *slip = carom_slip_name(options.slip);
+    snprintf(what, sizeof what, "details: %s, slip %s", solver, slip);
+    show(what, details);
+    snprintf(what, sizeof what, "traces: %s, slip %s", solver, slip);
+    show(what, traces);
+  }
 }
 
 /* ---- A ball and a cushion --------------------------------------------------------------------------------------------- */
@@ -213,6 +246,26 @@ static void cushions(void) {
                way % 2 == 0 ? "paper" : "pooltool", way < 2 ? "constant" : "han");
       show(what, hash);
     }
+}
+
+/* A few impacts on their way. */
+static void cushion_traces(void) {
+  static carom_cushion_point points[POINTS];
+  state = 5;
+  for (int way = 0; way < 2; way++) {
+    const carom_cushion_options options = {.model = way == 0 ? CAROM_CUSHION_MATHAVAN : CAROM_CUSHION_EULER, .steps = 100};
+    uint64_t hash = START;
+    for (size_t k = 0; k < TRACES; k++) {
+      const carom_cushion_impact rail = draw_cushion(k);
+      hash = add(hash, (uint64_t)(int64_t)carom_cushion_trace(&rail, &options, POINTS, points));
+      for (int n = 0; n < POINTS; n++) {
+        hash = add_numbers(hash, &points[n].normal, 2);
+        hash = add(hash, (uint64_t)((int)points[n].phase * 4 + points[n].nose_sticks * 2 + points[n].cloth_sticks));
+        hash = add_numbers(add_numbers(hash, &points[n].v_n, 5), (const double *)&points[n].state, 6);
+      }
+    }
+    show(way == 0 ? "cushion traces: mathavan" : "cushion traces: euler", hash);
+  }
 }
 
 /* ---- Whole shots ------------------------------------------------------------------------------------------------------ */
@@ -303,12 +356,15 @@ int main(int argc, char **argv) {
   if (numbers)
     return 0;
   collisions("collisions", ROWS);
+  if (argc == 1)
+    looks();
   for (size_t k = 0; k < EDGES; k++)
     in[k] = draw_edge(k);
   collisions("edges", EDGES);
   if (argc > 1)
     return 0;
   cushions();
+  cushion_traces();
   shots();
   return 0;
 }
