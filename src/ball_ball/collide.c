@@ -1,6 +1,7 @@
 /* The public entry points: collocation, and for what it does not take: check, go to the collision frame, solve, come back, say
  * how it went. */
 #include "carom.h"
+#include "platform/arithmetic.h"
 
 #include "ball_ball/arguments.h"
 #include "ball_ball/batch.h"

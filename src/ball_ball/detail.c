@@ -39,7 +39,7 @@ static carom_detail of_integrals(const carom_frame *frame, const carom_reduced *
 carom_detail carom_detail_of_solution(const carom_frame *frame, const carom_local *before, const float solution[OUT_COLUMNS],
                                       int evaluations) {
   carom_reduced c = carom_reduce(before);
-  const double unit = -c.v_n / c.kappa, u = hypot(c.u_x, c.u_z);
+  const double unit = -c.v_n / c.kappa, u = sqrt(c.u_x * c.u_x + c.u_z * c.u_z);
   /* as in rows.h */
   c.mu = c.u_z <= LEAST_PRESS * unit ? 0 : c.mu;
   c.mu_b = fmax(c.mu_b, LEAST_MU_B);

@@ -2,6 +2,8 @@
 #ifndef CAROM_SRC_CUSHION_COULOMB_H
 #define CAROM_SRC_CUSHION_COULOMB_H
 
+#include "platform/arithmetic.h"
+
 #include <stdbool.h>
 
 typedef struct carom_vector {

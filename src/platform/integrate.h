@@ -2,6 +2,8 @@
 #ifndef CAROM_SRC_PLATFORM_INTEGRATE_H
 #define CAROM_SRC_PLATFORM_INTEGRATE_H
 
+#include "platform/arithmetic.h"
+
 enum { CAROM_ODE_MOST = 10 }; /* unknowns at most; even */
 
 /* y' = f(x, y) with `size` unknowns. */
