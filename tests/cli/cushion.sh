@@ -41,7 +41,7 @@ grep -v '^#' noted.csv > trace.csv
 head -n 1 trace.csv
 awk -F, 'NR > 1 && ($12 != $14 || $13 != $15) { print "not in the axes of the cushion" }' trace.csv
 tail -n 1 trace.csv | cut -d, -f14-19 > end
-awk -F, '$1 == "side"' after.csv | cut -d, -f2-7 | paste -d, end - | awk -F, '{ for (k = 1; k <= 6; k++) { d = $k - $(k + 6); if (d * d > 1e-16) print k, d } print "ends at the result" }'
+awk -F, '$1 == "side"' after.csv | cut -d, -f2-7 | paste -d, end - | awk -F, '{ for (k = 1; k <= 6; k++) { d = $k - $(k + 6); if (d * d > 1e-12) print k, d } print "ends at the result" }'
 awk -F, 'NR > 1 { n[$4]++; stuck += $5 } END { print n["compression"], n["restitution"], stuck " stuck" }' trace.csv
 try carom trace --cushion --id side --model han impacts.csv
 try carom trace --cushion --id high impacts.csv
