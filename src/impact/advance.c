@@ -21,18 +21,17 @@
 #include <float.h>
 
 /* Found by trial with `carom-lab stress --cushion` and `carom-lab bench --shots`; see docs/study/tried.md. */
-static const double MOST_TURN = 2.3;        /* D tau of a stretched step, */
-static const double MOST_FALL = 2.6;        /* and the logarithm by which r falls in it: */
-static const double BOLDER = 0.15;          /* both plus this times -log(r), since small slips matter less */
-static const double STIFF = 3;              /* D p / r from which on a slip is quasi-steady, */
-static const double ALIGNED = 0.15;         /* if sin(psi) is at most this */
-static const double SETTLING = 10;          /* D p / r of a quasi-steady step whose direction still settles */
-static const double NEGLIGIBLE = 1e-7;      /* r sin(psi) that need not settle first */
-static const double SLOW = 0.5;             /* rate of a slip over that by friction alone, below which it is quasi-steady */
-static const double CAREFUL_SHARE = 0.6;    /* of the way to a slip of zero, for a careful step */
-static const double AT_ONCE = 1e-9;         /* share of a step at which an event happens where the step begins */
-static const double MOST_GROWTH = 9.2;      /* carom_point.growth: log of 1e4 */
-static const double MOST_PLANAR_GROWTH = 2; /* see go_straight() */
+static const double MOST_TURN = 2.3;     /* D tau of a stretched step, */
+static const double MOST_FALL = 2.6;     /* and the logarithm by which r falls in it: */
+static const double BOLDER = 0.15;       /* both plus this times -log(r), since small slips matter less */
+static const double STIFF = 3;           /* D p / r from which on a slip is quasi-steady, */
+static const double ALIGNED = 0.15;      /* if sin(psi) is at most this */
+static const double SETTLING = 10;       /* D p / r of a quasi-steady step whose direction still settles */
+static const double NEGLIGIBLE = 1e-7;   /* r sin(psi) that need not settle first */
+static const double SLOW = 0.5;          /* rate of a slip over that by friction alone, below which it is quasi-steady */
+static const double CAREFUL_SHARE = 0.6; /* of the way to a slip of zero, for a careful step */
+static const double AT_ONCE = 1e-9;      /* share of a step at which an event happens where the step begins */
+static const double MOST_GROWTH = 6.9;   /* carom_point.growth: log of 1000 */
 enum {
   MOST_REFUSALS = 6,         /* in a row, before steps become careful; */
   MOST_CAREFUL_REFUSALS = 30 /* and before careful ones give up */
@@ -259,10 +258,7 @@ static bool tidy(carom_trajectory *path, const carom_point *before) {
   return a_ends || b_ends;
 }
 
-/* All rates are constant: on to the goal, or to where a slip is zero. Returns whether that is the goal.
- *
- * Where friction drives the slip b (H < 0) and b passes zero along y, an error e of b_x grows to e^(1 / (1 + g)) with
- * g = |H| w / |b'|: beyond MOST_PLANAR_GROWTH rounding errors would decide. */
+/* All rates are constant: on to the goal, or to where a slip is zero. Returns whether that is the goal. */
 static bool go_straight(carom_trajectory *path, const beginning *s) {
   carom_point *at = &path->at;
   const double to_a = slips(path) && at->a_y * s->a_y < 0 ? -at->a_y / s->a_y : INFINITY;
@@ -275,8 +271,6 @@ static bool go_straight(carom_trajectory *path, const beginning *s) {
   at->a_y = length == to_a ? 0 : at->a_y + s->a_y * length;
   at->b_x += s->b_x * length;
   at->b_y = length == to_b ? 0 : at->b_y + s->b_y * length;
-  if (length == to_b && -path->terms.H_y * s->w > MOST_PLANAR_GROWTH * fabs(s->b_y))
-    at->growth = INFINITY;
   path->iterations++;
   return length == s->to_goal;
 }

@@ -15,6 +15,10 @@
  * from positive to negative, where a' points along u: with friction that opposes slip there is one. Where both slips are zero
  * all is symmetric about the y axis, and so are the directions.
  *
+ * UNSTABLE. Where H < 0 friction drives the slip on the cloth. Let it begin at b = 0 with the rate d without friction, and let
+ * friction alone have the rate h. A slip that is not zero but an error e goes on in its own direction if h > d, and grows to
+ * e^(1 - h/d) if not: where h is more than MOST_AMPLIFIED times d - h, rounding errors would decide, and there is no result.
+ *
  * A frictionless contact has no direction and no cone. */
 #include "impact/impact.h"
 
@@ -22,6 +26,7 @@
 
 static const double EDGE = 1e-9;          /* share of the cone that is not used */
 static const double BACKWARDS = 1e-6;     /* rate of a slip that begins at the edge of the cone */
+static const double MOST_AMPLIFIED = 2;   /* exponent of an error: see the head */
 static const double NEARLY_JAMMED = 5e-8; /* v and both slips together, of a ball that is about to be jammed */
 enum { DIRECTIONS = 64, BISECTIONS = 50 };
 static const double STEP_COSINE = 0x1.fd88da3d12526p-1, STEP_SINE = 0x1.917a6bc29b42cp-4; /* of 360 / DIRECTIONS degrees */
@@ -183,7 +188,10 @@ static bool choose(const carom_law *l, const carom_point *at, bool event, carom_
   if (b_rests && r->loaded) {
     r->cloth_held = cloth_holds(l, f) && !(event && last.cloth_held);
     r->loaded = !r->cloth_held;
-    const pair lead = direction(cloth_drive(l, f), (pair){0, -1});
+    const pair drive = cloth_drive(l, f), lead = direction(drive, (pair){0, -1});
+    const double driven = -l->H * l->mu_c * load(l, f.y);
+    if (r->loaded && driven > MOST_AMPLIFIED * (size(drive) - driven))
+      return false;
     r->t_x = lead.x;
     r->t_y = lead.y;
   }

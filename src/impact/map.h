@@ -20,8 +20,8 @@
 
 static const double ELLIPSE =
     3; /* b passes near zero if that point of the complex plane lies within this ellipse: see nearest() */
-static const double LEAST_D = 1e-3;  /* least d, as a share of the distance to p_c */
-static const double SINH_LENGTH = 3; /* length of a step in x */
+static const double LEAST_D = 1e-3, LEAST_D_UNSTABLE = 1e-14; /* least d, as a share of the distance to p_c */
+static const double SINH_LENGTH = 3;                          /* length of a step in x */
 
 /* What a step begins with. */
 typedef struct beginning {
@@ -71,7 +71,8 @@ static passage passage_of_b(const carom_point *at, const carom_terms *k, const b
     g = nearest(at, s->line_x, s->line_y, length);
   if (!g.near && k->H_x < 0)
     g = nearest(at, s->b_x, s->b_y, length);
-  const double least = LEAST_D * s->q / rate;
+  /* a slip that friction drives stays near zero for long: there the map has to resolve more */
+  const double least = (k->H_x > 0 ? LEAST_D : LEAST_D_UNSTABLE) * s->q / rate;
   g.d = g.d > least ? g.d : least;
   return g;
 }
