@@ -18,7 +18,7 @@ FLOAT64 = np.dtype(np.float64)
 INT8 = np.dtype(np.int8)
 
 
-def as_array(values: npt.ArrayLike, name: str, dtype: npt.DTypeLike = None) -> Array:
+def as_array(values: npt.ArrayLike, name: str, dtype: npt.DTypeLike | None = None) -> Array:
     """np.asarray(), but that a masked array is refused: its mask would be lost without a word."""
     if isinstance(values, np.ma.MaskedArray):
         raise TypeError(f"{name}: masks are not read; give the rows that count alone (compressed), or the array's filled() values")
