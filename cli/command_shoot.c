@@ -237,7 +237,7 @@ static const command_form form = {
     .name = "shoot",
     .usage = "[OPTIONS] IN.jsonl",
     .about = "Plays whole shots, from the strike of the cue until nothing moves. Reads tables and shots as JSON Lines "
-             "(docs/shots.md has the\n"
+             "(docs/using/shots.md has the\n"
              "format; recorded results in them are ignored) and writes each table and each shot with its events and final "
              "states. IN may be -.\n",
     .options = (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion, &option_events, &option_steps,

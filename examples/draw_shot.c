@@ -2,7 +2,7 @@
  *
  * A cue ball meets a resting ball full on, spinning backwards at the rate at which it would roll the other way. The balls
  * exchange velocities, nearly; the spin stays, and draws the cue ball back once the collision is over: a sliding ball comes to
- * roll with (5/7) v + (2/7) R (w_y, -w_x). Physics: docs/physics.md.
+ * roll with (5/7) v + (2/7) R (w_y, -w_x). Physics: docs/understanding/physics.md.
  */
 #include <carom.h>
 #include <stdio.h>

@@ -23,8 +23,8 @@
  * for spins), against the limit of Mathavan's equations. In double precision: collisions of play (mu_ball up to 0.2, mu_cloth
  * up to 0.5, e from 0.5, masses within 1 : 2, any speeds and spins) median 2e-9, every one of 20 million drawn within 1e-6;
  * anything else that is accepted within 1e-5, or its status is CAROM_ERROR_UNRESOLVED. In single precision: median 1e-7,
- * collisions of play within 2e-5. docs/accuracy.md has the figures and the command that prints them again. How near the model
- * is to real balls is another matter: docs/physics.md.
+ * collisions of play within 2e-5. docs/understanding/accuracy.md has the figures and the command that prints them again. How near the model
+ * is to real balls is another matter: docs/understanding/physics.md.
  *
  * Cost of the exact solver, a collision, on one core of an Intel Xeon of 2 GHz with AVX-512: a call 0.2 us where the cloth slip
  * is smooth and 0.3 to 3 us where it turns or the balls stick, 0.4 us in the mean of play; a row of a batch 0.16 us. Strong
@@ -53,7 +53,7 @@
  * rows that are in error or not there, so invalid operations, overflow and division by zero are raised and thrown away.
  * Flags may be left raised; nothing else is changed. Flushing subnormal numbers to zero makes no difference to collisions on a
  * table. Threads of a batch have the environment of the calling thread, but on Windows that of any new thread. The library
- * refuses to be compiled with flags that change results, such as -ffast-math or -fno-signed-zeros: see docs/building.md.
+ * refuses to be compiled with flags that change results, such as -ffast-math or -fno-signed-zeros: see docs/using/building.md.
  */
 #ifndef CAROM_H
 #define CAROM_H

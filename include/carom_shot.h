@@ -138,7 +138,7 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
  *     carom_shot_at(balls, 10, &shot, 1.5, moved);                              // the state after 1.5 s goes to moved[10]
  *
  * The playing surface is 0 <= x <= width, 0 <= y <= length for the built-in tables, with z up and the cloth at z = 0: a ball on
- * it has its centre at z = R. docs/shots.md tells the models, the rules and the bounds.
+ * it has its centre at z = R. docs/using/shots.md tells the models, the rules and the bounds.
  *
  * Bits: those of a batch are those of single calls, for any number of threads and any cut; with CAROM_ISA=plain they are the
  * same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with closed-form cushions, so 3 us for

@@ -1,5 +1,5 @@
 #!/bin/sh
-# cushion_figure.sh BUILD OUT.svg: the figure of docs/cushion.md, from what `carom` computes. Needs gnuplot.
+# cushion_figure.sh BUILD OUT.svg: the figure of docs/understanding/cushion.md, from what `carom` computes. Needs gnuplot.
 set -eu
 build=$1
 out=$2

@@ -13,7 +13,7 @@ from .summary import lines
 
 ABOUT = """Verifies and times the kernels, and writes to DIR (made if it is not there): the CSV files, the figures as SVG, and
 index.html, one page with the figures and tables and the seed paper's values beside ours. Figures are drawn by gnuplot; without
-it the CSV files and the tables come all the same. docs/report.md says which command makes which file, and how to add a figure."""
+it the CSV files and the tables come all the same. docs/study/report.md says which command makes which file, and how to add a figure."""
 
 AFTER = """exit code: 0 if all is there, 1 if data or figures are missing (the page says which), 2 for bad usage or if DIR cannot be
 written

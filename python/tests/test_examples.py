@@ -63,7 +63,7 @@ def test_throw(tmp_path, capsys):
 
 def test_smoothness(tmp_path):
     exact, euler = smoothness.largest_jumps(4001, (100, 1000, 10000))
-    # docs/accuracy.md promises pair errors below 1e-6, about as much in radians of the throw; a fifth of that is met with room.
+    # docs/understanding/accuracy.md promises pair errors below 1e-6, about as much in radians of the throw; a fifth of that is met with room.
     assert exact < np.degrees(2e-7)
     # Euler's are thousands of times larger, and fall as 1/N.
     assert euler[1000] > 1e-3 and euler[1000] > 1000 * exact

@@ -1,4 +1,4 @@
-"""The recipes of docs/scale.md: Dask and xarray over collide, and a batch of shots over clusters of two worker processes."""
+"""The recipes of docs/using/scale.md: Dask and xarray over collide, and a batch of shots over clusters of two worker processes."""
 
 import importlib.util
 import subprocess

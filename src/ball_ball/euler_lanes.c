@@ -7,7 +7,7 @@
  * Single precision takes the same steps in float; what float cannot resolve is left to a single call in double.
  *
  * The time goes into square roots and quotients that wait for each other, so several vectors are stepped together. Replacing
- * the quotients by products with corrected reciprocals was slower (docs/tried.md).
+ * the quotients by products with corrected reciprocals was slower (docs/study/tried.md).
  */
 #include "ball_ball/arguments.h"
 #include "ball_ball/batch.h"

@@ -1,5 +1,5 @@
 /* Lanes: the small vocabulary in which whatever is done for many collisions at once is written, so that its algebra reads like
- * docs/physics.md.
+ * docs/understanding/physics.md.
  *
  * A `vreal` holds LANES numbers of type `real`, one pair of balls in each. + - * / and unary - are the compiler's own (GNU
  * vector extensions); comparisons, selection and what else the extensions lack are the functions below. A `vmask` holds a truth

@@ -23,7 +23,7 @@
  * which makes the balance of momentum exact. The work of the normal force is M_pressed int |v_n| dp; the collision ends once
  * e^2 of the work of compression has been given back.
  *
- * Source: the 2014 paper named in carom.h; the reduction is derived in docs/method.md. */
+ * Source: the 2014 paper named in carom.h; the reduction is derived in docs/understanding/method.md. */
 #ifndef CAROM_SRC_BALL_BALL_REDUCED_H
 #define CAROM_SRC_BALL_BALL_REDUCED_H
 

@@ -6,7 +6,7 @@
     sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the test python/package, cmake by every
                   build, the scripts of python/examples by the test of that name; a cluster of many machines by who has one
     c, cmake ...  README's: built by readme.py
-    cmake windows    docs/building.md's: built and run by the test platforms/windows
+    cmake windows    docs/using/building.md's: built and run by the test platforms/windows
     python        a page is a session, in the environment of the test python/package; its kinds pooltool, numba, gymnasium and scale need those packages
 """
 
@@ -17,7 +17,7 @@ KINDS = {"sh", "sh install", "sh started", "sh elsewhere", "c", "cmake fetch", "
 KINDS |= {f"python {need}" for need in ("pooltool", "numba", "gymnasium", "scale", "elsewhere")}
 
 # Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.
-ELSEWHERE = {"README.md": 2, "docs/examples.md": 6, "docs/python.md": 1, "docs/report.md": 1, "docs/scale.md": 3, "python/README.md": 1}
+ELSEWHERE = {"README.md": 2, "docs/using/examples.md": 6, "docs/using/python.md": 1, "docs/study/report.md": 1, "docs/using/scale.md": 3, "python/README.md": 1}
 
 # What may be indented instead: formulas and what programs print, but no line that one would paste.
 PASTED = re.compile(r" {4}(\./|build/|tools/|pip3? |cmake |ctest |gnuplot |carom(-lab)? |python3? |git |sudo |import |from \w+ import|#include)")
@@ -25,7 +25,7 @@ PASTED = re.compile(r" {4}(\./|build/|tools/|pip3? |cmake |ctest |gnuplot |carom
 
 def pages(source):
     """The names of all pages."""
-    return ["README.md", *sorted(f"docs/{page.name}" for page in Path(source, "docs").glob("*.md")), "examples/README.md", "python/README.md"]
+    return ["README.md", *sorted(str(page.relative_to(source)) for page in Path(source, "docs").glob("*/*.md")), "examples/README.md", "python/README.md"]
 
 
 def blocks(source, page):
