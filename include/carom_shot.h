@@ -80,7 +80,12 @@ CAROM_API const char *carom_cushion_model_name(carom_cushion_model model);
 
 /* Resolves one impact. `opt` may be NULL for the defaults; `out` may not overlap `in`.
  * CAROM_OK: `*out` is the motion after the impact. CAROM_SEPARATING: the ball does not move into the cushion, and `*out` is its
- * motion before. An error: every number of `*out` is NaN (but `*out` is untouched when a pointer is NULL). */
+ * motion before. An error: every number of `*out` is NaN (but `*out` is untouched when a pointer is NULL).
+ *
+ * MATHAVAN: impacts of play (mu_cloth and mu_cushion 0.1 to 0.4, e from 0.6, the nose 1.2 to 1.45 radii high) within 1e-6 of
+ * the fastest of the numbers, times the radius for spins; anything else that is accepted within 1e-5, or its status is
+ * CAROM_ERROR_UNRESOLVED. Down to an approach of 1e-9 of the speed. 2.4 us in the mean of play with AVX2, 3.7 in plain C. The
+ * solver ends after 400 iterations, at most 3,300 evaluations of the equations and 200 us. */
 CAROM_API carom_status carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out);
 
 /* Resolves `n` impacts, in[0..n-1] to out[0..n-1], each as carom_cushion() does, bit for bit: a bad row gets NaN and its own
@@ -115,9 +120,9 @@ typedef struct carom_cushion_point {
 
 /* Follows one impact, by the model MATHAVAN or EULER, through `n` >= 2 points at equal steps of normal impulse (EULER: the
  * nearest whole steps) from 0 at points[0] to the end, which is the result of carom_cushion(). `opt` may be NULL. Made for
- * looking, not for speed: EULER takes n/2 times an impact. Returns what carom_cushion() does, or CAROM_ERROR_CUSHION_MODEL for
- * a model in closed form. CAROM_SEPARATING: every point is the motion before, with impulse 0. An error: every number is NaN
- * (but nothing is written when a pointer is NULL or n < 2). */
+ * looking, not for speed: MATHAVAN may take 400 iterations for each point, EULER takes n/2 times an impact. Returns what
+ * carom_cushion() does, or CAROM_ERROR_CUSHION_MODEL for a model in closed form. CAROM_SEPARATING: every point is the motion
+ * before, with impulse 0. An error: every number is NaN (but nothing is written when a pointer is NULL or n < 2). */
 CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cushion_options *opt, size_t n,
                                            carom_cushion_point *points);
 

@@ -211,7 +211,8 @@ static const char about[] =
     "with every instruction set; the copy beside them moves a batch's bytes and computes nothing.\n";
 
 static const char details[] =
-    "Spread is the median absolute deviation: half of the rounds lie within it. docs/study/measuring.md tells what to make of it.\n\n"
+    "Spread is the median absolute deviation: half of the rounds lie within it. docs/study/measuring.md tells what to make of "
+    "it.\n\n"
     "exit code: 0 if all was timed, 1 if a kernel was refused (the others are timed), 2 for bad usage or unreadable data\n";
 
 static const command_form form = {

@@ -1,5 +1,5 @@
-/* Whole shots where pooltool's default engine fails (commit 9a8abfe0; docs/using/shots.md has the list): right in the world carom, an
- * error or its own answer by its rules, never a crash, a hang or a lost ball. */
+/* Whole shots where pooltool's default engine fails (commit 9a8abfe0; docs/using/shots.md has the list): right in the world
+ * carom, an error or its own answer by its rules, never a crash, a hang or a lost ball. */
 #include "random_shots.h"
 #include "shot_support.h"
 
