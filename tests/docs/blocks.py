@@ -5,7 +5,8 @@
     sh started    takes minutes: pages.py starts each line, sees that it is not refused, and ends it
     sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the test python/package, cmake by every
                   build, the scripts of python/examples by the test of that name; a cluster of many machines by who has one
-    c, cmake ...  README's: built by readme.py
+    c, c shot     README's: built by readme.py
+    cmake fetch, cmake package    docs/using/building.md's: built by readme.py
     cmake windows    docs/using/building.md's: built and run by the test platforms/windows
     python        a page is a session, in the environment of the test python/package; its kinds pooltool, numba, gymnasium and scale need those packages
 """
@@ -13,11 +14,11 @@
 import re
 from pathlib import Path
 
-KINDS = {"sh", "sh install", "sh started", "sh elsewhere", "c", "cmake fetch", "cmake package", "cmake windows", "python"}
+KINDS = {"sh", "sh install", "sh started", "sh elsewhere", "c", "c shot", "cmake fetch", "cmake package", "cmake windows", "python"}
 KINDS |= {f"python {need}" for need in ("pooltool", "numba", "gymnasium", "scale", "elsewhere")}
 
 # Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.
-ELSEWHERE = {"README.md": 2, "docs/using/examples.md": 6, "docs/using/python.md": 1, "docs/study/report.md": 1, "docs/using/scale.md": 3, "python/README.md": 1}
+ELSEWHERE = {"docs/using/examples.md": 6, "docs/using/python.md": 1, "docs/study/report.md": 1, "docs/using/scale.md": 3, "python/README.md": 1}
 
 # What may be indented instead: formulas and what programs print, but no line that one would paste.
 PASTED = re.compile(r" {4}(\./|build/|tools/|pip3? |cmake |ctest |gnuplot |carom(-lab)? |python3? |git |sudo |import |from \w+ import|#include)")

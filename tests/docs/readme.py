@@ -1,7 +1,7 @@
 """readme.py SOURCE BUILD CMAKE CC: runs the code blocks of README.md as a reader would who pastes them, in an empty folder.
 
-Blocks of sh run with `carom` on the path; the one that installs is built with one instruction set, to be quick. The C program is built
-by both CMake files and by pkg-config, against what has been installed. blocks.py says what runs the others.
+Blocks of sh run with `carom` on the path; the one that installs is built with one instruction set, to be quick. The C programs are built
+by the CMake files of docs/using/building.md and by pkg-config, against what has been installed. blocks.py says what runs the others.
 """
 
 import os
@@ -29,10 +29,10 @@ def shell(text, folder, **more):
     return run(["sh", "-eu", "-c", text], folder, **more)
 
 
-readme = blocks(SOURCE, "README.md")
-kinds = [kind for kind, _ in readme]
-assert all(kinds.count(kind) == 1 for kind in ("c", "cmake fetch", "cmake package", "sh install")), kinds
-of = dict(readme)
+readme, building = blocks(SOURCE, "README.md"), blocks(SOURCE, "docs/using/building.md")
+kinds = [kind for kind, _ in readme + building]
+assert all(kinds.count(kind) == 1 for kind in ("c", "c shot", "cmake fetch", "cmake package", "sh install")), kinds
+of = dict(readme + building)
 
 with tempfile.TemporaryDirectory() as work:
     work = Path(work)
@@ -45,7 +45,7 @@ with tempfile.TemporaryDirectory() as work:
     for kind, text in readme:
         if kind == "sh" and "build/" not in text:
             shell(text, reader, PATH=f"{BUILD}:{os.environ['PATH']}")
-    for picture in ("hit", "throw", "speeds", "trace", "break", "rail"):
+    for picture in ("hit", "throw", "trace", "break", "rail"):
         assert (reader / f"{picture}.svg").read_text(encoding="utf-8").rstrip().endswith("</svg>"), picture
 
     # Installing, from a copy of what a clone has.
@@ -56,19 +56,21 @@ with tempfile.TemporaryDirectory() as work:
     prefix = home / ".local"
     assert "carom 0." in run([prefix / "bin/carom", "--version"], reader)
 
-    # The program, built in each of the three ways.
+    # The programs, built in each of the three ways.
     said = set()
-    for way, more in (("fetch", [QUICK]), ("package", [f"-DCMAKE_PREFIX_PATH={prefix}"])):
-        folder = work / way
-        folder.mkdir()
-        (folder / "carom").symlink_to(SOURCE)
-        (folder / "main.c").write_text(of["c"], encoding="utf-8")
-        (folder / "CMakeLists.txt").write_text(of[f"cmake {way}"], encoding="utf-8")
-        run([CMAKE, "-B", "b", *more], folder)
-        run([CMAKE, "--build", "b"], folder)
-        said.add(run([folder / "b/game"], folder))
-    library = next(prefix.glob("lib*/**/libcarom.so")).parent
-    shell('"$CC" main.c $(pkg-config --cflags --libs carom) -o game', folder, PKG_CONFIG_PATH=str(library / "pkgconfig"))
-    said.add(run(["./game"], folder, LD_LIBRARY_PATH=str(library), CAROM_ISA="plain"))
-    assert said == {"ok: the object ball leaves with 1.103, 0.615 m/s\n"}, said
+    for program in ("c", "c shot"):
+        for way, more in (("fetch", [QUICK]), ("package", [f"-DCMAKE_PREFIX_PATH={prefix}"])):
+            folder = work / way
+            folder.mkdir(exist_ok=True)
+            if not (folder / "carom").exists():
+                (folder / "carom").symlink_to(SOURCE)
+            (folder / "main.c").write_text(of[program], encoding="utf-8")
+            (folder / "CMakeLists.txt").write_text(of[f"cmake {way}"], encoding="utf-8")
+            run([CMAKE, "-B", "b", *more], folder)
+            run([CMAKE, "--build", "b"], folder)
+            said.add(run([folder / "b/game"], folder))
+        library = next(prefix.glob("lib*/**/libcarom.so")).parent
+        shell('"$CC" main.c $(pkg-config --cflags --libs carom) -o game', folder, PKG_CONFIG_PATH=str(library / "pkgconfig"))
+        said.add(run(["./game"], folder, LD_LIBRARY_PATH=str(library), CAROM_ISA="plain"))
+    assert said == {"ok: the object ball leaves with 1.103, 0.615 m/s\n", "ok: ball 1 is hit after 0.111 s\n"}, said
 print("README.md: pasted, installed and built in three ways")
