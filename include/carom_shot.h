@@ -349,8 +349,10 @@ CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count, co
 
 /* Plays n shots. Shot k is of balls[k * count ...] and cues[k]; where one_layout or one_cue is not 0, all are of the first.
  * `shots` takes n results, whose events, room and final are set by the caller; `status` n statuses, may be NULL. Threads are
- * those of the options. Each shot has the bits of carom_shoot(), and a bad one costs itself. Returns CAROM_OK or the status of
- * the first shot in error; if the call itself cannot be served (NULL, bad table or options), that error, with nothing written.
+ * those of the options. Each shot has the bits and the status of carom_shoot(), and a bad one costs itself: each layout is
+ * checked with its own radius, which may differ from layout to layout, and balls too small or too large for the noses of the
+ * table cost their own shot only. Returns CAROM_OK or the status of the first shot in error; if the call itself cannot be
+ * served (NULL, a bad option, a bad count, a part of the table that is bad for every radius), that error, with nothing written.
  */
 CAROM_API carom_status carom_shoot_batch(const carom_table *table, const carom_shot_ball *balls, int count, int one_layout,
                                          const carom_cue *cues, int one_cue, size_t n, const carom_shot_options *opt,

@@ -1,5 +1,5 @@
 /* The one place where the arguments of a shot are checked, by the conditions of the comments in carom_shot.h: what is common to
- * a batch once, what belongs to a layout and its cue for each. */
+ * a batch once; a layout, its cue, and whether the table suits the radius of its balls, for each. */
 #include "shot/sim.h"
 
 #include <math.h>
@@ -41,27 +41,39 @@ static bool good_circle(const double centre[2], double radius, double least) {
   return isfinite(centre[0]) && isfinite(centre[1]) && radius >= least && radius < INFINITY;
 }
 
-static carom_status check_table(const carom_table *t, double R, int *where) {
+static carom_status check_table(const carom_table *t, int *where) {
   *where = -1;
   if (t->rails < 0 || t->rails > CAROM_RAILS_MOST || t->jaws < 0 || t->jaws > CAROM_JAWS_MOST || t->pockets < 0 ||
       t->pockets > CAROM_POCKETS_MOST || t->rails + t->jaws < 1)
     return CAROM_ERROR_TABLE;
-  for (*where = 0; *where < t->rails; ++*where) {
+  for (*where = 0; *where < t->rails; ++*where)
     if (!good_rail(&t->rail[*where]))
       return CAROM_ERROR_TABLE;
-    if (!(t->rail[*where].height > 0.0 && t->rail[*where].height < 2.0 * R))
-      return CAROM_ERROR_NOSE_HEIGHT;
-  }
-  for (*where = 0; *where < t->jaws; ++*where) {
+  for (*where = 0; *where < t->jaws; ++*where)
     if (!good_circle(t->jaw[*where].centre, t->jaw[*where].radius, 0.0))
       return CAROM_ERROR_TABLE;
-    if (!(t->jaw[*where].height > 0.0 && t->jaw[*where].height < 2.0 * R))
-      return CAROM_ERROR_NOSE_HEIGHT;
-  }
   for (*where = 0; *where < t->pockets; ++*where)
     if (!good_circle(t->pocket[*where].centre, t->pocket[*where].radius, 1e-9) || !isfinite(t->pocket[*where].depth))
       return CAROM_ERROR_TABLE;
   *where = -1;
+  return CAROM_OK;
+}
+
+/* Prepares the table for balls of radius R, unless that has been done. */
+static carom_status prepare(const carom_table *t, double R, carom_features *features, int *where) {
+  *where = 0;
+  if (features->radius == R)
+    return CAROM_OK;
+  if (!positive(R))
+    return CAROM_ERROR_RADIUS;
+  /* every nose is above the cloth and below the top of a ball */
+  for (*where = 0; *where < t->rails; ++*where)
+    if (!(t->rail[*where].height > 0.0 && t->rail[*where].height < 2.0 * R))
+      return CAROM_ERROR_NOSE_HEIGHT;
+  for (*where = 0; *where < t->jaws; ++*where)
+    if (!(t->jaw[*where].height > 0.0 && t->jaw[*where].height < 2.0 * R))
+      return CAROM_ERROR_NOSE_HEIGHT;
+  carom_features_of(t, R, features);
   return CAROM_OK;
 }
 
@@ -129,13 +141,24 @@ static carom_status check_cue(const carom_shot_ball *balls, int count, const car
   return carom_check_cue(cue);
 }
 
-carom_status carom_check_layout(const carom_table *table, const carom_features *features, const carom_shot_ball *balls,
-                                int count, const carom_cue *cue, const carom_shot_options *opt, int *where) {
+carom_status carom_check_common(const carom_table *table, int count, const carom_shot_options *opt, int *where) {
+  *where = -1;
+  const carom_status bad = check_options(opt);
+  if (bad != CAROM_OK)
+    return bad;
+  return count < 1 || count > CAROM_BALLS_MOST ? CAROM_ERROR_BALLS : check_table(table, where);
+}
+
+carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
+                                const carom_cue *cue, const carom_shot_options *opt, int *where) {
   const double R = balls[0].kind.radius;
   const bool one_mass = opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
+  carom_status bad = prepare(table, R, features, where);
+  if (bad != CAROM_OK)
+    return bad;
   for (*where = 0; *where < count; ++*where) {
     const carom_shot_ball *ball = &balls[*where];
-    carom_status bad = check_kind(&ball->kind);
+    bad = check_kind(&ball->kind);
     if (bad == CAROM_OK && ball->kind.radius != R)
       bad = CAROM_ERROR_RADII_DIFFER;
     if (bad == CAROM_OK && one_mass && ball->kind.mass != balls[0].kind.mass)
@@ -159,29 +182,6 @@ carom_status carom_check_layout(const carom_table *table, const carom_features *
   return check_cue(balls, count, cue);
 }
 
-static carom_status check_all(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot_options *opt,
-                              carom_features *features, int *where) {
-  *where = -1;
-  carom_status bad = check_options(opt);
-  if (bad == CAROM_OK && (count < 1 || count > CAROM_BALLS_MOST))
-    bad = CAROM_ERROR_BALLS;
-  if (bad == CAROM_OK && !positive(balls[0].kind.radius)) {
-    *where = 0;
-    return CAROM_ERROR_RADIUS;
-  }
-  if (bad == CAROM_OK)
-    bad = check_table(table, balls[0].kind.radius, where);
-  if (bad == CAROM_OK)
-    carom_features_of(table, balls[0].kind.radius, features);
-  return bad;
-}
-
-carom_status carom_check_shot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot_options *opt,
-                              carom_features *features) {
-  int where;
-  return check_all(table, balls, count, opt, features, &where);
-}
-
 carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                               const carom_shot_options *opt, int *where) {
   static const carom_shot_options no_options = {0};
@@ -191,7 +191,8 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
   if (table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
+  const carom_status bad = carom_check_common(table, count, opt, where);
   carom_features features;
-  const carom_status bad = check_all(table, balls, count, opt, &features, where);
+  features.radius = 0.0;
   return bad != CAROM_OK ? bad : carom_check_layout(table, &features, balls, count, cue, opt, where);
 }

@@ -9,6 +9,7 @@ enum { MOST_FEATURES = CAROM_RAILS_MOST + CAROM_JAWS_MOST + CAROM_POCKETS_MOST }
 
 /* What a ball can meet on the table. In the order of rails, jaws, pockets. */
 typedef struct carom_features {
+  double radius; /* of the balls for which the rest was prepared; 0: nothing yet */
   int rails, jaws, pockets, count;
   double line[CAROM_RAILS_MOST][3];  /* unit normal towards the played side, and offset: distance = line . (x, y, 1) */
   double along[CAROM_RAILS_MOST][3]; /* place along the rail, 0 at p and 1 at q: along . (x, y, 1) */
@@ -85,10 +86,10 @@ carom_status carom_model_cushion(const carom_sim *sim, int i, const double norma
 /* strike.c: the numbers of a cue, apart from its ball. */
 carom_status carom_check_cue(const carom_cue *cue);
 
-/* check.c: what a batch has in common, which also prepares the table; and one layout with its cue. */
-carom_status carom_check_shot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot_options *opt,
-                              carom_features *features);
-carom_status carom_check_layout(const carom_table *table, const carom_features *features, const carom_shot_ball *balls,
-                                int count, const carom_cue *cue, const carom_shot_options *opt, int *where);
+/* check.c: what a batch has in common. */
+carom_status carom_check_common(const carom_table *table, int count, const carom_shot_options *opt, int *where);
+/* One layout with its cue. Prepares the table for the radius of the balls, where *features are for another. */
+carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
+                                const carom_cue *cue, const carom_shot_options *opt, int *where);
 
 #endif

@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -39,10 +40,11 @@ static void expect(carom_status status, int where) {
   carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, two, 10);
   const carom_status first = carom_shoot_batch(&table, two, 10, 0, cues, 0, 2, &options, shots, statuses);
   ck_assert_int_eq(first, status);
-  if (statuses[0] != 99) { /* what is wrong does not belong to all */
-    ck_assert_int_eq(statuses[0], CAROM_OK);
+  if (statuses[0] != 99) { /* what is wrong does not belong to all, but that both layouts have balls too low for a nose */
+    const bool both = status == CAROM_ERROR_NOSE_HEIGHT;
+    ck_assert_int_eq(statuses[0], both ? status : CAROM_OK);
     ck_assert_int_eq(statuses[1], status);
-    ck_assert_int_gt(shots[0].count, 0);
+    ck_assert_int_eq(shots[0].count > 0, !both);
   }
 }
 
