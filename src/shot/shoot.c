@@ -159,7 +159,8 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   sim.pooltool = opt->world == CAROM_WORLD_POOLTOOL;
   sim.now = 0.0;
   sim.round = 0;
-  sim.slow_contacts = 0;
+  sim.slow_instants = 0;
+  sim.slow_last = -1.0;
   shot->count = 0;
   shot->time = 0.0;
   begin(&sim);

@@ -34,7 +34,8 @@ typedef struct carom_sim {
   int count;
   bool pooltool;
   double now;
-  int64_t slow_contacts; /* so far: see resolve.c */
+  int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */
+  double slow_last;      /* s: the last of them */
   int64_t round;         /* events so far: tells when an entry below was computed */
   carom_ball_rates rates[CAROM_BALLS_MOST];
   carom_path path[CAROM_BALLS_MOST];
