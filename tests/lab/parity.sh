@@ -13,4 +13,4 @@ echo "--- timing"
 lab bench --shots "$DATA/shots-mathavan.jsonl" --csv | grep -v '^#' | cut -d, -f1-3
 lab bench --shots "$DATA/shots-pooltool.jsonl" --models pooltool | cut -c1-30
 echo "--- invariants"
-lab stress --shots 130 --cushion-model han | cut -c1-34
+lab stress --shots 150 --cushion-model han | cut -c1-34
