@@ -359,7 +359,10 @@ CAROM_API carom_status carom_shoot_batch(const carom_table *table, const carom_s
                                          carom_shot *shots, int8_t *status);
 
 /* Checks the arguments of carom_shoot() and plays nothing. *where becomes the index of the ball, rail, jaw or pocket at fault,
- * or -1; it may be NULL. */
+ * or -1; it may be NULL. CAROM_ERROR_OFF_TABLE: a ball is in a cushion by more than 1e-6 m; or its centre is behind one,
+ * outside the ring of rails, jaws and pockets; or its centre is in a pocket and its label is not CAROM_BALL_POCKETED. Outside
+ * is where no played side of a rail is seen in any of 16 directions, but the back of one or a pocket is; on tables whose ring
+ * has gaps a place outside may pass. */
 CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                                         const carom_shot_options *opt, int *where);
 

@@ -52,6 +52,7 @@ void carom_features_of(const carom_table *table, double radius, carom_features *
     prepare_rail(&table->rail[k], k, f);
     enclose(f, at, table->rail[k].p, table->rail[k].q, 0.0, radius);
   }
+  memcpy(f->ends, f->hull, sizeof f->ends);
   for (int k = 0; k < f->jaws; k++, at++)
     enclose(f, at, table->jaw[k].centre, table->jaw[k].centre, table->jaw[k].radius, radius);
   for (int k = 0; k < f->pockets; k++, at++)

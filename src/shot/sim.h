@@ -16,6 +16,7 @@ typedef struct carom_features {
   /* boxes around the things, in single precision, rounded outward */
   float low_x[MOST_FEATURES], high_x[MOST_FEATURES], low_y[MOST_FEATURES], high_y[MOST_FEATURES];
   double hull[4]; /* low x, high x, low y, high y: centres stay inside */
+  double ends[4]; /* the same around the ends of the rails alone */
 } carom_features;
 
 /* What will happen to a ball by itself or on the table. */

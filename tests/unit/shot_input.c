@@ -129,6 +129,19 @@ START_TEST(tables) {
   REFUSED(table.jaw[5].height, 0.0, CAROM_ERROR_NOSE_HEIGHT, 5);
   REFUSED(table.pocket[1].radius, 0.0, CAROM_ERROR_TABLE, 1);
   REFUSED(table.pocket[1].depth, NAN, CAROM_ERROR_TABLE, 1);
+  /* exactly as many parts as there is room for */
+  set_up();
+  while (table.rails < CAROM_RAILS_MOST)
+    table.rail[table.rails++] = table.rail[0];
+  while (table.jaws < CAROM_JAWS_MOST)
+    table.jaw[table.jaws++] = table.jaw[0];
+  while (table.pockets < CAROM_POCKETS_MOST)
+    table.pocket[table.pockets++] = table.pocket[0];
+  expect(CAROM_OK, -1);
+  /* posts alone, and a pocket between them */
+  table = (carom_table){.jaws = 2, .pockets = 1, .jaw = {{{-5.0, -5.0}, 0.1, 0.036}, {{5.0, 5.0}, 0.1, 0.036}}};
+  table.pocket[0] = (carom_pocket){{3.0, -2.0}, 1.0, 0.08};
+  ck_assert_int_eq(carom_shot_check(&table, balls, 10, NULL, NULL, NULL), CAROM_OK);
   ck_assert_int_eq(carom_table_make((carom_table_kind)99, &table), CAROM_ERROR_TABLE);
   ck_assert_int_eq(carom_table_make(CAROM_TABLE_POOL_7FT, NULL), CAROM_ERROR_NULL);
 }
@@ -207,6 +220,75 @@ START_TEST(lost_ball) {
 }
 END_TEST
 
+/* ---- Where a ball may stand */
+
+/* How far a ball is from a cushion: 0 where it touches. */
+static double room_at(double x, double y, double R) {
+  double room = INFINITY;
+  for (int k = 0; k < table.rails; k++) {
+    const carom_rail *r = &table.rail[k];
+    const double e_x = r->q[0] - r->p[0], e_y = r->q[1] - r->p[1], d_x = x - r->p[0], d_y = y - r->p[1];
+    const double place = fmin(fmax((d_x * e_x + d_y * e_y) / (e_x * e_x + e_y * e_y), 0.0), 1.0);
+    room = fmin(room, hypot(d_x - place * e_x, d_y - place * e_y) - R);
+  }
+  for (int k = 0; k < table.jaws; k++)
+    room = fmin(room, hypot(x - table.jaw[k].centre[0], y - table.jaw[k].centre[1]) - table.jaw[k].radius - R);
+  return room;
+}
+
+static bool in_pocket(double x, double y) {
+  for (int k = 0; k < table.pockets; k++)
+    if (hypot(x - table.pocket[k].centre[0], y - table.pocket[k].centre[1]) < table.pocket[k].radius)
+      return true;
+  return false;
+}
+
+/* A ball may stand where it can be rolled to from the middle of the table, and nowhere else: not behind a cushion, not in a
+ * pocket. All places of a grid, by flooding. */
+START_TEST(places) {
+  enum { MOST_X = 530, MOST_Y = 980 };
+  static uint8_t reached[MOST_X][MOST_Y];
+  static int queue[MOST_X * MOST_Y];
+  const double step = 0.004, margin = 0.15;
+  for (int kind = CAROM_TABLE_POOL_7FT; kind <= CAROM_TABLE_POOLTOOL; kind++) {
+    carom_table_make((carom_table_kind)kind, &table);
+    carom_shot_ball ball = {.kind = carom_ball_kind_of(kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
+                                                       : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
+                                                                                          : CAROM_GAME_POOL)};
+    const double R = ball.state.r[2] = ball.kind.radius;
+    const int n_x = (int)((table.width + 2.0 * margin) / step), n_y = (int)((table.length + 2.0 * margin) / step);
+    ck_assert(n_x < MOST_X && n_y < MOST_Y);
+    memset(reached, 0, sizeof reached);
+    int waiting = 0, counts[2] = {0, 0};
+    queue[waiting++] = n_x / 2 * MOST_Y + n_y / 2;
+    reached[n_x / 2][n_y / 2] = 1;
+    while (waiting > 0) {
+      const int at = queue[--waiting];
+      for (int way = 0; way < 4; way++) {
+        const int i = at / MOST_Y + (way == 0) - (way == 1), j = at % MOST_Y + (way == 2) - (way == 3);
+        const double x = i * step - margin, y = j * step - margin;
+        ck_assert_msg(i > 0 && i < n_x && j > 0 && j < n_y, "table %d has a hole", kind);
+        if (!reached[i][j] && room_at(x, y, R) > 0.0 && !in_pocket(x, y)) {
+          reached[i][j] = 1;
+          queue[waiting++] = i * MOST_Y + j;
+        }
+      }
+    }
+    for (int i = 0; i < n_x; i++)
+      for (int j = 0; j < n_y; j++) {
+        ball.state.r[0] = i * step - margin;
+        ball.state.r[1] = j * step - margin;
+        const carom_status expected = reached[i][j] ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
+        const carom_status status = carom_shot_check(&table, &ball, 1, NULL, NULL, NULL);
+        counts[reached[i][j]]++;
+        ck_assert_msg(status == expected || fabs(room_at(ball.state.r[0], ball.state.r[1], R)) < 1.1e-6,
+                      "table %d, (%g, %g): %s", kind, ball.state.r[0], ball.state.r[1], carom_status_name(status));
+      }
+    printf("table %d: a ball may stand at %d of %d places\n", kind, counts[1], counts[0] + counts[1]);
+  }
+}
+END_TEST
+
 /* A number of any size, or none. */
 static double wild(random_source *r, double least, double most) {
   const double kind = random_between(r, 0.0, 1.0);
@@ -275,5 +357,5 @@ START_TEST(wild_shots) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, bounds, lost_ball, wild_shots);
+  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, bounds, lost_ball, places, wild_shots);
 }
