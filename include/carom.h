@@ -161,6 +161,7 @@ typedef enum carom_status {
   CAROM_ERROR_TABLE = -52,           /* the table has too many parts, or a part that is not finite or has no length. */
   CAROM_ERROR_RACK = -53,            /* no such rack, a gap that is not between 0 and R, or too little room. */
   CAROM_ERROR_EVENTS_LOST = -54,     /* carom_shot_at(): the shot had more events than there was room for. */
+  CAROM_ERROR_TIME = -55,            /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */
 } carom_status;
 
 /* The short name of a status ("separating"), as it stands in the command's output. "unknown" for a value not listed. Arrays of

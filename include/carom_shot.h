@@ -300,7 +300,7 @@ typedef struct carom_shot_options {
   int32_t events_most;   /* events of a shot; 0: 10000. */
   int32_t threads;       /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
   int32_t unused;        /* must be 0. */
-  double time_most;      /* of the clock of a shot, s; 0: 1000. */
+  double time_most;      /* of the clock of a shot, s; 0: 1000. The shot ends at the last event before that. */
   uint64_t reserved[5];  /* must be 0. */
 } carom_shot_options;
 
@@ -331,7 +331,8 @@ typedef struct carom_shot {
   int64_t room;
   int64_t count;           /* events that happened, also beyond room. */
   carom_ball_state *final; /* the states at the end, one for each ball; may be NULL. */
-  double time;             /* when the last event happened, s. */
+  double time;             /* s: when the last event happened, or a ball left the table. carom_shot_at() knows no later state of
+                              a shot that ended while balls moved. */
   uint64_t reserved[4];    /* not read or written yet. */
 } carom_shot;
 
@@ -343,7 +344,9 @@ CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ba
                                    const carom_shot_options *opt, carom_shot *shot);
 
 /* The states of all balls at a time, by evaluation of the motion after each ball's last event. Before 0: as at 0; after the
- * last event: as at that one. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_EVENTS_LOST where shot->room was too small to know. */
+ * end: as at the end, where nothing moves any more. CAROM_OK, or an error with nothing written: CAROM_ERROR_NULL;
+ * CAROM_ERROR_BALLS; CAROM_ERROR_EVENTS_LOST where shot->room was too small to know; CAROM_ERROR_TIME for a time that is not a
+ * number, and for one after shot->time where balls still move then, since a bound or an error ended the shot. */
 CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
                                      carom_ball_state *states);
 

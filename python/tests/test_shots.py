@@ -205,7 +205,12 @@ def test_other_errors():
     with pytest.raises(carom.CaromError) as caught:
         carom.simulate(table, rack, carom.cue(speed=8.0), events_most=20)
     assert caught.value.status is carom.Status.ERROR_TOO_MANY_EVENTS
-    assert caught.value.shot is not None and caught.value.shot.count == 20
+    stopped = caught.value.shot
+    assert stopped is not None and stopped.count == 20 and stopped.states(stopped.time).tobytes() == stopped.final.tobytes()
+    for time in (stopped.time + 1.0, np.nan):
+        with pytest.raises(carom.CaromError) as caught:
+            stopped.states([0.0, time])
+        assert caught.value.status is carom.Status.ERROR_TIME
     with pytest.raises(TypeError, match=r"carom\.balls\(\)"):
         carom.simulate(table, np.zeros((2, 20)))
     with pytest.raises(ValueError, match="cushion_model: must be one of"):

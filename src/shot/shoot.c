@@ -264,8 +264,10 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
     return CAROM_ERROR_NULL;
   if (count < 1 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
-  time = time > 0.0 ? carom_lesser(time, shot->time) : 0.0;
-  if (shot->count > shot->room && (shot->room == 0 || time > shot->events[shot->room - 1].time))
+  if (isnan(time))
+    return CAROM_ERROR_TIME;
+  const double at = carom_greater(carom_lesser(time, shot->time), 0.0);
+  if (shot->count > shot->room && (shot->room == 0 || at > shot->events[shot->room - 1].time))
     return CAROM_ERROR_EVENTS_LOST;
   carom_path path[CAROM_BALLS_MOST];
   for (int i = 0; i < count; i++) {
@@ -276,7 +278,7 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
   }
   /* the last event of each ball until then */
   const int64_t known = shot->count < shot->room ? shot->count : shot->room;
-  for (int64_t k = 0; k < known && shot->events[k].time <= time; k++) {
+  for (int64_t k = 0; k < known && shot->events[k].time <= at; k++) {
     const carom_event *event = &shot->events[k];
     const int ball[2] = {event->a, event->type == CAROM_EVENT_BALL_BALL ? event->b : -1};
     for (int side = 0; side < 2; side++)
@@ -285,10 +287,14 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
         path[ball[side]].start = event->time;
       }
   }
+  /* what moves at the end goes on nobody knows how */
+  for (int i = 0; i < count; i++)
+    if (time > shot->time && path[i].from.label != CAROM_BALL_STATIONARY && path[i].from.label != CAROM_BALL_POCKETED)
+      return CAROM_ERROR_TIME;
   for (int i = 0; i < count; i++) {
     const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
     carom_path_begin(&path[i], &rates, path[i].start);
-    carom_path_at(&path[i], &rates, time, &states[i]);
+    carom_path_at(&path[i], &rates, at, &states[i]);
   }
   return CAROM_OK;
 }

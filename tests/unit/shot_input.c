@@ -174,22 +174,44 @@ START_TEST(options_and_calls) {
 }
 END_TEST
 
+/* What a shot ended with is known up to its end, and nothing after it where balls still move: states are not touched. */
+static void ends_there(const carom_shot *shot, int count) {
+  carom_ball_state at[10], untouched[10];
+  memset(untouched, 77, sizeof untouched);
+  ck_assert_int_eq(carom_shot_at(balls, count, shot, shot->time, at), CAROM_OK);
+  for (int k = 0; k < count; k++)
+    for (int axis = 0; axis < 3; axis++)
+      ck_assert_double_eq_tol(shot->final[k].r[axis], at[k].r[axis], 1e-15);
+  const double later[] = {nextafter(shot->time, INFINITY), shot->time + 1.0, INFINITY, NAN};
+  for (int n = 0; n < 4; n++) {
+    memset(at, 77, sizeof at);
+    ck_assert_int_eq(carom_shot_at(balls, count, shot, later[n], at), CAROM_ERROR_TIME);
+    ck_assert_int_eq(memcmp(at, untouched, sizeof at), 0);
+  }
+}
+
 /* A bound ends a shot with its status and a valid state; a shot without a strike is none. */
 START_TEST(bounds) {
   set_up();
   carom_event events[40];
+  static carom_event rested[1000];
   carom_ball_state final[10], at[10];
   carom_shot shot = {.events = events, .room = 40, .final = final};
   options.events_most = 30;
   ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &options, &shot), CAROM_ERROR_TOO_MANY_EVENTS);
   ck_assert_int_eq(shot.count, 30);
   ck_assert_double_eq(shot.time, events[29].time);
-  ck_assert_int_eq(carom_shot_at(balls, 10, &shot, shot.time, at), CAROM_OK);
-  for (int k = 0; k < 10; k++)
-    ck_assert_double_eq_tol(final[k].r[0], at[k].r[0], 1e-15);
-  options = (carom_shot_options){.time_most = 1.0};
+  ends_there(&shot, 10);
+  options = (carom_shot_options){.time_most = 0.15};
   ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &options, &shot), CAROM_ERROR_TOO_LONG);
-  ck_assert_double_le(shot.time, 1.0);
+  ck_assert_double_le(shot.time, 0.15);
+  ends_there(&shot, 10);
+  /* a shot that came to rest is known for ever, but not at no time */
+  carom_shot rest = {.events = rested, .room = 1000, .final = final};
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &rest), CAROM_OK);
+  ck_assert_int_eq(carom_shot_at(balls, 10, &rest, INFINITY, at), CAROM_OK);
+  ck_assert_int_eq(memcmp(at, final, sizeof at), 0);
+  ck_assert_int_eq(carom_shot_at(balls, 10, &rest, NAN, at), CAROM_ERROR_TIME);
   /* more events than there is room for: the state is known up to the last one kept */
   shot.room = 10;
   ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_OK);
@@ -210,13 +232,15 @@ START_TEST(lost_ball) {
   table.rail[1] = table.rail[2];
   table.rail[2] = table.rail[3];
   table.rails = 3; /* without the rail at x = width */
-  carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD), .state = {.r = {0.7, 1.0, 0.03075}}};
+  balls[0] = (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD), .state = {.r = {0.7, 1.0, 0.03075}}};
   cue = carom_cue_of(CAROM_GAME_BILLIARD);
   cue.phi = 0.0;
+  carom_event events[10];
   carom_ball_state final;
-  carom_shot shot = {.final = &final};
-  ck_assert_int_eq(carom_shoot(&table, &ball, 1, &cue, NULL, &shot), CAROM_ERROR_LEFT_TABLE);
+  carom_shot shot = {.events = events, .room = 10, .final = &final};
+  ck_assert_int_eq(carom_shoot(&table, balls, 1, &cue, NULL, &shot), CAROM_ERROR_LEFT_TABLE);
   ck_assert_double_eq_tol(final.r[0], table.width, 1e-9);
+  ends_there(&shot, 1);
 }
 END_TEST
 
