@@ -222,6 +222,53 @@ START_TEST(along_a_rail) {
 }
 END_TEST
 
+/* Han's and Stronge's formulas leave a ball moving into the cushion where its restitution is small or its nose far from the
+ * height of the centre. The shot turns it back in the same event. */
+START_TEST(left_moving_into_the_cushion) {
+  static const double restitutions[] = {0.0, 0.02, 0.1, 0.3, 0.85}, heights[] = {0.01, 0.5, 1.0, 1.28, 1.7, 1.999};
+  random_source r = {test_seed()};
+  int turned = 0;
+  for (int n = 0; n < 6000; n++) {
+    carom_table t = empty_table(8.0);
+    carom_shot_ball b = ball_at(4.0, random_between(&r, 0.03, 0.2));
+    const double R = b.kind.radius, e = restitutions[n % 5], speed = pow(10.0, random_between(&r, -2.5, 1.0));
+    for (int k = 0; k < 4; k++)
+      t.rail[k].height = heights[n / 5 % 6] * R;
+    b.kind.restitution_cushion = e;
+    b.kind.mu_cushion = random_between(&r, 0.0, 0.6);
+    b.state.v[0] = random_between(&r, -1.0, 1.0) * speed;
+    b.state.v[1] = -speed;
+    for (int axis = 0; axis < 3; axis++)
+      b.state.w[axis] = random_between(&r, -2.0, 2.0) * speed / R;
+    const carom_shot_options options = {.cushion_model = 1 + (n % 2 == 0 ? CAROM_CUSHION_HAN : CAROM_CUSHION_STRONGE)};
+    const carom_shot shot = play(&t, &b, 1, NULL, &options, CAROM_OK);
+    const shot_measures m = shot_measure(&t, &b, 1, &shot, CAROM_OK, 3);
+    ck_assert_msg(shot.count <= 3000 && m.intrusion <= 1e-9 && m.gain <= 1e-12 && m.restless == 0,
+                  "shot %d: %lld events, intrusion %g, gain %g", n, (long long)shot.count, m.intrusion, m.gain);
+    for (int k = 0; k < shot.count; k++) {
+      if (events[k].type != CAROM_EVENT_RAIL || events[k].b != 0)
+        continue;
+      const carom_ball_state *before = &events[k].before[0];
+      ck_assert_msg(events[k].after[0].v[1] >= 0.0, "shot %d: event %d leaves %g m/s into the cushion", n, k,
+                    -events[k].after[0].v[1]);
+      const carom_cushion_impact in = {.v = {before->v[0], before->v[1], 0.0},
+                                       .w = {before->w[0], before->w[1], before->w[2]},
+                                       .normal = {0.0, -1.0},
+                                       .height = t.rail[0].height,
+                                       .radius = R,
+                                       .mass = b.kind.mass,
+                                       .mu_cloth = b.kind.mu_slide,
+                                       .mu_cushion = b.kind.mu_cushion,
+                                       .restitution = e};
+      const carom_cushion_options of_model = {.model = (carom_cushion_model)(options.cushion_model - 1)};
+      carom_motion out;
+      turned += carom_cushion(&in, &of_model, &out) == CAROM_OK && out.v[1] < 0.0;
+    }
+  }
+  ck_assert_int_gt(turned, 1000);
+}
+END_TEST
+
 /* ---- What players know */
 
 /* A ball alone: it slides to 5/7 v + 2/7 R w, then rolls v^2 / (2 mu g). */
@@ -367,5 +414,6 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("whole_shots", invariants, invariants_of_exact_cushions, mirror, pressed_line, pressed_triangle, wedged,
-                   along_a_rail, alone, tangent_line_and_thirty_degrees, draw_and_follow, experiments_of_the_paper);
+                   along_a_rail, left_moving_into_the_cushion, alone, tangent_line_and_thirty_degrees, draw_and_follow,
+                   experiments_of_the_paper);
 }
