@@ -1,5 +1,5 @@
 # Whole shots agree with pooltool's, event by event; a record that is changed disagrees. Figures that depend on rounding are cut.
-for file in shots-pooltool shots-mathavan; do
+for file in shots-pooltool shots-mathavan shots-racks; do
   code=0
   lab parity "$DATA/$file.jsonl" > table || code=$?
   cut -c1-37 table
