@@ -5,12 +5,11 @@
 #include "message.h"
 #include "number.h"
 #include "output.h"
+#include "sink.h"
 #include "subcommands.h"
 
-#include <csv.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { BLOCK = 4096, NUMBERS = sizeof(carom_motion) / sizeof(double) };
 
@@ -32,10 +31,7 @@ static void write_row(run *r, size_t k) {
     cushion_report(r->in, row, &r->options, status);
     r->errors++;
   }
-  if (strpbrk(row->id, ",\"\r\n") != NULL)
-    csv_fwrite(r->out, row->id, strlen(row->id));
-  else
-    fputs(row->id, r->out);
+  write_id(r->out, row->id);
   carom_motion motion = r->motion[k];
   for (int c = 0; c < NUMBERS && row->error != NULL; c++)
     ((double *)&motion)[c] = (double)NAN;
@@ -100,6 +96,8 @@ int cushion_resolve(int argc, char **argv) {
     else if (output_commit())
       code = r.errors > 0 ? EXIT_SOME : EXIT_GOOD;
   }
+  for (size_t k = 0; k < BLOCK; k++)
+    free(r.row[k].id);
   free(r.row);
   free(r.impact);
   free(r.motion);

@@ -161,28 +161,29 @@ read_result cushion_next(cushion_reader *r, cushion_row *row) {
   r->rows++;
   row->line = in.line;
   row->impact = defaults;
-  if (!in.malformed && r->id_at < in.count)
-    snprintf(row->id, sizeof row->id, "%s", in.field[r->id_at]);
-  else
-    snprintf(row->id, sizeof row->id, "%lld", r->rows);
+  char number[24];
+  snprintf(number, sizeof number, "%lld", r->rows);
+  const char *id = !in.malformed && r->id_at < in.count ? in.field[r->id_at] : number;
+  row->id = grow(row->id, &row->id_room, strlen(id) + 1, 1);
+  strcpy(row->id, id);
   row->error = fill(r, &in, row);
   return READ_ONE;
 }
 
 void cushion_report(const cushion_reader *r, const cushion_row *row, const carom_cushion_options *options,
                     carom_status status) {
-  char what[64] = "", text[NUMBER_TEXT];
+  char what[64] = "", text[NUMBER_TEXT], id[ID_TEXT];
   int field;
   const char *file = record_file_name(r->records);
+  id_text(row->id, id);
   if (row->error != NULL) {
-    complain("%s:%lld: id '%.60s': %s (%s)", file, row->line, row->id, row->message, row->error);
+    complain("%s:%lld: id '%s': %s (%s)", file, row->line, id, row->message, row->error);
     return;
   }
   carom_cushion_check(&row->impact, options, &field);
   if (field >= 0)
     snprintf(what, sizeof what, "%s = %s: ", columns[field], number_text(((const double *)&row->impact)[field], text));
-  complain("%s:%lld: id '%.60s': %s%s (%s)", file, row->line, row->id, what, carom_status_string(status),
-           carom_status_name(status));
+  complain("%s:%lld: id '%s': %s%s (%s)", file, row->line, id, what, carom_status_string(status), carom_status_name(status));
 }
 
 void cushion_close(cushion_reader *r) {
@@ -194,7 +195,7 @@ void cushion_close(cushion_reader *r) {
 
 bool cushion_pick(const char *path, const char *id, const carom_cushion_options *options, carom_cushion_impact *impact) {
   cushion_reader *r = cushion_open(path);
-  cushion_row row;
+  cushion_row row = {0};
   read_result result = READ_FAILED;
   while (r != NULL && (result = cushion_next(r, &row)) == READ_ONE && strcmp(row.id, id) != 0) {
   }
@@ -207,6 +208,7 @@ bool cushion_pick(const char *path, const char *id, const carom_cushion_options 
       cushion_report(r, &row, options, status);
   } else if (result == READ_END)
     complain("%s has no impact '%s' among its %lld", record_file_name(r->records), id, r->rows);
+  free(row.id);
   cushion_close(r);
   return good;
 }

@@ -47,7 +47,8 @@ bool cushion_asked(int *argc, char **argv);
 typedef struct cushion_reader cushion_reader;
 
 typedef struct cushion_row {
-  char id[128]; /* cut there */
+  char *id; /* kept with its room from row to row; whoever has the row frees it */
+  size_t id_room;
   long long line;
   const char *error; /* NULL, or the name of what kept the row from being read, */
   char message[160]; /* and a sentence about it */

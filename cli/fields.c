@@ -62,29 +62,33 @@ int place_among(const char *words, const char *text, size_t size) {
   return -1;
 }
 
-OPTION_SET(set_choice) {
-  const int place = place_among(row->argument, text, strlen(text)), first = (int)strcspn(row->argument, "|");
-  if (place >= 0)
-    *(int *)field = place;
+/* Sets the place of the text among words with bars between them; complains where it is none of them. */
+static bool set_place(const option_row *row, const char *text, const char *words, int *place) {
+  const int found = place_among(words, text, strlen(text));
+  char list[120] = ""; /* "this, that or another" */
+  for (const char *at = words; found < 0 && *at != '\0';) {
+    const size_t used = strlen(list), size = strcspn(at, "|");
+    const bool last = at[size] == '\0';
+    snprintf(list + used, sizeof list - used, "%s%.*s", at == words ? "" : last ? " or " : ", ", (int)size, at);
+    at += size + !last;
+  }
+  if (found >= 0)
+    *place = found;
   else
-    complain("--%s is %.*s or %s, not '%s'", row->name, first, row->argument, row->argument + first + 1, text);
-  return place >= 0;
+    complain("--%s is %s, not '%s'", row->name, list, text);
+  return found >= 0;
 }
 
-/* One of many names, which would make the help too wide. */
-static bool set_model(const option_row *row, const char *text, const char *models, int *place) {
-  *place = place_among(models, text, strlen(text));
-  if (*place < 0)
-    complain("--%s is %s, not '%s'", row->name, models, text);
-  return *place >= 0;
+OPTION_SET(set_choice) {
+  return set_place(row, text, row->argument, field);
 }
 
 OPTION_SET(set_ball_model) {
-  return set_model(row, text, "default|exact|euler|inelastic|mirror", field);
+  return set_place(row, text, "default|exact|euler|inelastic|mirror", field);
 }
 
 OPTION_SET(set_cushion_model) {
-  return set_model(row, text, "default|mathavan|stronge|han|mirror|euler", field);
+  return set_place(row, text, "default|mathavan|stronge|han|mirror|euler", field);
 }
 
 static OPTION_SET(set_solvers) {
@@ -142,7 +146,9 @@ ROW(option_id, "id", id, 0, "X", set_text, 0, "which collision: its column id, o
 ROW(option_data, "data", folder, 0, "DIR", set_text, 0,
     "folder of the reference collisions (default: $CAROM_DATA, else what came with carom)");
 ROW(option_output, "output", output, 'o', "OUT", set_text, 0,
-    "file to write, - for standard output (default); it appears whole or not at all");
+    "file to write, - for standard output (default). It appears whole or not at all: it is\n"
+    "renamed to OUT when it is complete. Where no file can be made beside OUT, such as in a\n"
+    "folder that may not be written, OUT is overwritten at the end instead; until then it stays");
 ROW(option_derived, "derived", derived, 0, NULL, set_flag, 0,
     "more columns, behind the status: throw, deflection, rolling velocities, spin, energy");
 ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0,

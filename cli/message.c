@@ -3,10 +3,14 @@
 
 #include "monotonic.h"
 
+#include <limits.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
+
+enum { LONGEST = 2 * PATH_MAX }; /* a message; what is beyond is cut */
 
 const char random_name[7] = {'X', 'X', 'X', 'X', 'X', 'X', '\0'};
 
@@ -14,16 +18,32 @@ const char *program_name = "carom";
 static double started, drawn; /* ns */
 static bool standing;
 
+/* What a terminal would obey becomes '?': control characters of ASCII, and those that UTF-8 writes as C2 80 to C2 9F. */
+static void disarm(char *text) {
+  for (unsigned char *at = (unsigned char *)text; *at != '\0'; at++)
+    if (*at < 0x20 || *at == 0x7f)
+      *at = '?';
+    else if (*at == 0xC2 && at[1] >= 0x80 && at[1] < 0xA0)
+      at[0] = at[1] = '?';
+}
+
 void complain(const char *format, ...) {
-  flockfile(stderr); /* the reading thread complains too */
-  progress_clear();
+  char text[LONGEST];
   va_list arguments;
   va_start(arguments, format);
-  fprintf(stderr, "%s: ", program_name);
-  vfprintf(stderr, format, arguments);
-  fputc('\n', stderr);
+  vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
+  disarm(text);
+  flockfile(stderr); /* the reading thread complains too */
+  progress_clear();
+  fprintf(stderr, "%s: %s\n", program_name, text);
   funlockfile(stderr);
+}
+
+const char *id_text(const char *id, char text[ID_TEXT]) {
+  const int most = ID_TEXT - 4;
+  snprintf(text, ID_TEXT, "%.*s%s", most, id, strlen(id) > (size_t)most ? "..." : "");
+  return text;
 }
 
 void progress_show(const char *unit, double done, double total) {

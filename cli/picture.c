@@ -44,16 +44,6 @@ static void forget(const work *w) {
       fclose(files[k]);
 }
 
-/* Copies a whole file in memory to a stream; returns how much there was. */
-static size_t copy(FILE *from, FILE *to) {
-  char block[65536];
-  size_t all = 0;
-  rewind(from);
-  for (size_t size; (size = fread(block, 1, sizeof block, from)) > 0; all += size)
-    fwrite(block, 1, size, to);
-  return all;
-}
-
 /* What gnuplot says is shown only if it fails: it also warns of every part of a plot that a CSV has no rows for, and those are
  * optional. False after a complaint. */
 static bool run_gnuplot(const work *w, const char *path, const char *name, const char *title) {
@@ -75,7 +65,7 @@ static bool run_gnuplot(const work *w, const char *path, const char *name, const
   if (WIFEXITED(status) && WEXITSTATUS(status) == NO_GNUPLOT)
     complain("cannot draw %s: gnuplot is not installed (Debian: gnuplot-nox)", path);
   else {
-    copy(w->noise, stderr);
+    output_copy(w->noise, stderr);
     complain("cannot draw %s: gnuplot failed on %s", path, script);
   }
   return false;
@@ -89,7 +79,7 @@ bool picture_draw(const char *path, const char *name, const char *title, void (*
     write(w.csv, data);
     out = run_gnuplot(&w, path, name, title) ? output_open(path) : NULL;
   }
-  bool good = out != NULL && copy(w.picture, out) > 0;
+  bool good = out != NULL && output_copy(w.picture, out) > 0;
   if (out != NULL && !good) {
     complain("cannot draw %s: gnuplot drew nothing", path);
     output_abandon();

@@ -170,7 +170,8 @@ static bool is_other_kind(const shot_file *file, size_t size, const json_t *json
 shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
   ssize_t size;
   while ((size = getline(&file->text, &file->space, file->in)) >= 0) {
-    file->number++;
+    if (file->number++ == 0 && size >= 3 && memcmp(file->text, "\xEF\xBB\xBF", 3) == 0)
+      memmove(file->text, file->text + 3, (size_t)(size -= 3) + 1); /* the byte-order mark */
     if (strspn(file->text, " \t\r\n") == (size_t)size)
       continue;
     *line = (shot_line){.number = file->number};

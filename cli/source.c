@@ -7,12 +7,9 @@
 #include "number.h"
 #include "precision.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { ID_SHOWN = 64 };
 
 struct row_source {
   const char *name;
@@ -82,26 +79,18 @@ carom_impact source_impact(const row_source *s, const source_block *block, size_
   return impact;
 }
 
-/* An id as a message shows it: not without end, and nothing that a terminal would obey. */
-static const char *shown(const char *id, char text[ID_SHOWN]) {
-  snprintf(text, ID_SHOWN, "%.*s%s", ID_SHOWN - 4, id, strlen(id) > ID_SHOWN - 4 ? "..." : "");
-  for (char *at = text; *at != '\0'; at++)
-    if (iscntrl((unsigned char)*at))
-      *at = '?';
-  return text;
-}
-
 void source_report(const row_source *s, const source_block *block, size_t k, const carom_options *options, carom_status status,
                    const char *doubt) {
   const impact_row *row = block->row != NULL ? &block->row[k] : NULL;
   const carom_impact impact = source_impact(s, block, k);
   int field;
-  char where[256], what[64] = "", id[ID_SHOWN], text[NUMBER_TEXT] = "";
+  char where[256], what[64] = "", id[ID_TEXT], text[NUMBER_TEXT] = "";
   carom_check(&impact, options, &field);
   if (field >= 0)
     number_text(((const double *)&impact)[field], text);
   if (row != NULL)
-    snprintf(where, sizeof where, "%s:%lld: id '%s'", record_file_name(impact_records(s->csv)), row->line, shown(row->id, id));
+    snprintf(where, sizeof where, "%s:%lld: id '%s'", record_file_name(impact_records(s->csv)), row->line,
+             id_text(row->id, id));
   else
     snprintf(where, sizeof where, "%s: row %zu", s->name, block->first + k);
   if (row != NULL && field >= 0)

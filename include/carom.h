@@ -40,19 +40,20 @@
  *     is cut, and for any number of threads. (But for Euler's method in single precision: see carom_collide_batch_f32().)
  *   - Two runs on one processor with one instruction set.
  *   - All machines and compilers with the environment variable CAROM_ISA=plain, or after carom_isa_limit(CAROM_ISA_PLAIN): for
- *     lockstep, replays and tests. tests/agree/plain.c holds the hashes; gcc and clang, x86-64 and arm64 agree on them.
+ *     lockstep, replays and tests. This holds for every function, traces and details included, and under flags such as -mfma,
+ *     -march=native and LTO. tests/platforms/bits.expected has hashes, which gcc and clang agree on, and Linux on x86-64 and
+ *     arm64, Windows and WebAssembly.
  *   - All instruction sets, by Euler's method in double precision.
  *
  * Otherwise the exact solver's bits differ between instruction sets, and with sse2 and avx2 between makes of processors, whose
- * estimates of reciprocals differ; results then differ within the solver's errors. carom_mu_ball() calls exp(), whose last bits
- * are the C library's. Traces and details have no promise.
+ * estimates of reciprocals differ; results then differ within the solver's errors. The bits of a NaN have no promise.
  *
  * Floating-point environment. The rounding mode must be to nearest; with another, ordinary collisions come out some 1e-6 less
  * accurate, with other bits. Exceptions must be masked, as in every C program at its start: the lanes of a batch compute on
  * rows that are in error or not there, so invalid operations, overflow and division by zero are raised and thrown away.
  * Flags may be left raised; nothing else is changed. Flushing subnormal numbers to zero makes no difference to collisions on a
- * table. Threads of a batch have the environment of the calling thread. The library refuses to be built with
- * -ffast-math.
+ * table. Threads of a batch have the environment of the calling thread, but on Windows that of any new thread. The library
+ * refuses to be compiled with flags that change results, such as -ffast-math or -fno-signed-zeros: see docs/building.md.
  */
 #ifndef CAROM_H
 #define CAROM_H
@@ -204,7 +205,8 @@ typedef struct carom_options {
   int steps;            /* Euler's N: about so many steps are taken; the error falls as 1/N. 0: CAROM_DEFAULT_STEPS. */
   int threads;          /* most threads that a batch may use, the calling one among them. 0, the default: that one alone.
                            CAROM_ALL_THREADS: one for each processor that the process may use, by its affinity and the limit of
-                           its control group. Results do not depend on it. Small batches and single calls start none. */
+                           its control group. Results do not depend on it. Small batches and single calls start none, nor
+                           does a library that was built without threads. */
   uint64_t reserved[6]; /* must be 0: room for options to come, which 0 will leave at their defaults. */
 } carom_options;
 

@@ -110,8 +110,8 @@ typedef struct carom_cushion_point {
   int cloth_sticks;   /* and on the cloth; else 0, and always by Euler's method. */
   int unused;         /* 0. */
   double v_n;         /* speed into the nose, along the normal there, m/s; negative while they part. */
-  double s_x, s_t;    /* slip on the nose, along the cushion and upwards across it. */
-  double c_x, c_y;    /* slip on the cloth. */
+  double s_x, s_t;    /* slip on the nose, along the cushion and upwards across it; exactly 0 where it sticks. */
+  double c_x, c_y;    /* slip on the cloth; exactly 0 where it sticks. */
   carom_motion state; /* along the axes of the table. */
   double reserved[4]; /* 0; room for what may be told later. */
 } carom_cushion_point;
@@ -144,9 +144,9 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
  * it has its centre at z = R. docs/shots.md tells the models, the rules and the bounds.
  *
  * Bits: those of a batch are those of single calls, for any number of threads and any cut; with CAROM_ISA=plain they are the
- * same on every machine in the world carom, but for Stronge's cushions. Cost: about 0.4 us an event with closed-form cushions,
- * so 3 us for a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion, the default, costs some 7 to
- * 10 us an impact besides. Stack: 30 KiB. Nothing is allocated, but for the threads of a batch. */
+ * same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with closed-form cushions, so 3 us for
+ * a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion, the default, costs some 7 to 10 us an
+ * impact besides. Stack: 30 KiB. Nothing is allocated, but for the threads of a batch. */
 
 /* ---- Balls ------------------------------------------------------------------------------------------------------------ */
 

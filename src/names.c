@@ -1,6 +1,7 @@
 /* Names and texts of the public enumerations. The lists are private; carom.h spells the enumerators out, and the compiler says
  * where the two differ. */
 #include "carom.h"
+#include "platform/arithmetic.h"
 
 #include "enumerations.h"
 

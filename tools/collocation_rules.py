@@ -1,6 +1,9 @@
 """Prints the quadrature rules of the collocation steps, computed with 50 digits. Needs mpmath; what it prints is kept in the tree:
 
-    python3 tools/collocation_rules.py > src/ball_ball/rules.h && cmake --build build --target format
+    python3 tools/collocation_rules.py ball_ball > src/ball_ball/rules.h
+    python3 tools/collocation_rules.py impact > src/impact/rules.h && cmake --build build --target format
+
+For impact: Gauss's rule of 8 nodes on [0, 1] in double precision, described in that file. For ball_ball, in single precision:
 
 Gauss rules of n nodes on [0, 1], and one of Gauss and Jacobi for the weight (1 - x)^4, for steps to stick; each has what the steps over
 its nodes need. With L_j the Lagrange basis on the nodes x_k:
@@ -17,6 +20,8 @@ its nodes need. With L_j the Lagrange basis on the nodes x_k:
     turn[j][k]     for the rule to stick, with l = 1 - x, whose node is l_k: 2 l_k^2 times the integral of L_j l^-3 from l_k to 1
     lambda[k], lambda_2[k], lambda_5[k], log[k], gone[k], gone_mean[k]   for the rule to stick: l, l^2, l^5, log l, 1 - l^6, 1 - m^6
                    with m = 2 l / (1 + l)"""
+import sys
+
 from mpmath import matrix, mp, mpf, polyroots
 
 mp.dps = 50
@@ -113,11 +118,34 @@ def print_rule(name, n, w):
     print("};")
 
 
-GUARD = "CAROM_SRC_BALL_BALL_RULES_H"
+def print_ball_ball():
+    print("#include \"ball_ball/quadrature.h\"\n")
+    print_rule("gauss", 4, 0)
+    print_rule("gauss", 6, 0)
+    print_rule("gauss", 8, 0)
+    print_rule("jacobi", 6, 4)
+
+
+def print_impact():
+    zero, one, x = mpf(0), mpf(1), gauss_nodes(8, 0)
+    L = lagrange_basis(x)
+    weight = [integral(c, 0, zero, one) for c in L]
+    highest = [15 * w * mp.legendre(7, 2 * at - 1) for w, at in zip(weight, x)]
+    text = lambda row: "{" + ", ".join(repr(float(v)) for v in row) + "}"
+    row = "\n/* %s */\nstatic const double __attribute__((aligned(64))) %s = %s;"
+    print("enum { NODES = 8 };")
+    print(row % ("Nodes on [0, 1], and weights.", "NODE[NODES]", text(x)))
+    print("static const double __attribute__((aligned(64))) WEIGHT[NODES] = %s;" % text(weight))
+    print(row % ("Sum with the values at the nodes: the coefficient of the Legendre polynomial of degree 7.", "HIGHEST[NODES]", text(highest)))
+    sums = ",\n".join(text([integral(c, 0, zero, at) for at in x]) for c in L)
+    print(row % ("[j][k]: integral of the Lagrange polynomial of node j from 0 to node k.", "INTEGRAL[NODES][NODES]", "{%s}" % sums))
+
+
+room = sys.argv[1] if len(sys.argv) == 2 else ""
+if room not in ("ball_ball", "impact"):
+    sys.exit("usage: collocation_rules.py ball_ball|impact")
+guard = "CAROM_SRC_%s_RULES_H" % room.upper()
 print("/* The quadrature rules of the collocation steps: see tools/collocation_rules.py, which printed them. */")
-print("#ifndef %s\n#define %s\n\n#include \"ball_ball/quadrature.h\"\n" % (GUARD, GUARD))
-print_rule("gauss", 4, 0)
-print_rule("gauss", 6, 0)
-print_rule("gauss", 8, 0)
-print_rule("jacobi", 6, 4)
+print("#ifndef %s\n#define %s\n" % (guard, guard))
+(print_ball_ball if room == "ball_ball" else print_impact)()
 print("\n#endif")

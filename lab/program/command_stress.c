@@ -15,7 +15,7 @@
 #include "stress_shots.h"
 #include "subcommands.h"
 
-#include "ball_ball/fallback.h"
+#include "ball_ball/precise.h"
 #include "ball_ball/kernels.h"
 #include "enumerations.h"
 
@@ -120,9 +120,10 @@ static carom_status by_fallback(const carom_impact *in, carom_slip slip, carom_r
   if (local.v_jy >= local.v_iy)
     return CAROM_SEPARATING;
   const carom_reduced c = carom_reduce(&local);
-  carom_way way;
-  const carom_status status = carom_fallback(&c, &way);
-  carom_restore(&c, &way.at, &local);
+  carom_trajectory path;
+  const carom_status status = carom_precise(&c, 1e-3, &path);
+  const carom_integrals all = carom_precise_integrals(&c, &path);
+  carom_restore(&c, &all, &local);
   carom_from_frame(&frame, &local, out);
   return status;
 }

@@ -5,10 +5,14 @@ CAROM_TEST_SEED replays a run, CAROM_TEST_SHOTS is the number of random shots of
 
 import atexit
 import copy
+import importlib
 import os
 import pickle
 import shutil
+import sys
 import tempfile
+import types
+import warnings
 
 import numpy as np
 import pytest
@@ -310,7 +314,8 @@ def test_what_it_refuses_and_the_fallback():
     engine.resolver.ball_linear_cushion.omega_ratio = 1.5
     with pytest.raises(bridge.UnsupportedError, match="omega_ratio"):
         bridge.simulate(system, engine=engine)
-    theirs, mine = pt.simulate(system, engine), bridge.simulate(system, engine=engine, fallback=True)
+    with pytest.warns(bridge.FallbackWarning, match="omega_ratio"):
+        theirs, mine = pt.simulate(system, engine), bridge.simulate(system, engine=engine, fallback=True)
     assert [e.time for e in theirs.events] == [e.time for e in mine.events]
     with pytest.raises(bridge.UnsupportedError, match="include"):
         bridge.simulate(system, include={pt.EventType.BALL_BALL})
@@ -321,16 +326,83 @@ def test_what_it_refuses_and_the_fallback():
         bridge.simulate(system)
 
 
-def test_installed():
+@pytest.fixture
+def installed():
     original = pt.simulate
     bridge.install()
+    yield original
+    bridge.uninstall()
+    assert pt.simulate is original
+
+
+@pytest.fixture
+def played(monkeypatch):
+    """How many shots carom has played."""
+    counted = []
+
+    def count(*arguments, **options):
+        counted.append(1)
+        return carom.simulate(*arguments, **options)
+
+    monkeypatch.setattr(bridge, "_play", count)
+    return counted
+
+
+def test_installed(installed, played):
+    assert pt.simulate is not installed and pt.evolution.simulate is pt.simulate
+    system = pt.simulate(pt.System.example())
+    assert len(played) == 1
+    assert [e.time for e in system.events] == [e.time for e in bridge.simulate(pt.System.example()).events]
+
+
+def test_installed_wherever_it_was_imported(played, monkeypatch):
+    """In the module that defines it, from which pooltool's own tests take it, and in every module that has it by any name."""
+    defining = importlib.import_module("pooltool.evolution.event_based.simulate")
+    original, user = pt.simulate, types.ModuleType("a_users_module")
+    exec("from pooltool.evolution.event_based.simulate import simulate\nfrom pooltool import simulate as play", vars(user))
+    monkeypatch.setitem(sys.modules, user.__name__, user)
+    names = [(name, key, value) for name, module in sys.modules.items() for key, value in getattr(module, "__dict__", {}).items()]
+    holders = [(name, key) for name, key, value in names if value is original]
+    bridge.install()
     try:
-        assert pt.simulate is not original and pt.evolution.simulate is pt.simulate
-        system = pt.simulate(pt.System.example())
-        assert [e.time for e in system.events] == [e.time for e in bridge.simulate(pt.System.example()).events]
+        ours = pt.simulate
+        for name, key in holders:
+            assert vars(sys.modules[name])[key] is (original if name == bridge.__name__ else ours), (name, key)
+        for simulate in (defining.simulate, user.simulate, user.play):
+            simulate(pt.System.example())
+        exec("from pooltool.evolution.event_based.simulate import simulate as late", vars(user))
+        user.late(pt.System.example())
+        assert len(played) == 4 and {"pooltool", "pooltool.evolution", defining.__name__} <= {name for name, _ in holders}
     finally:
         bridge.uninstall()
-    assert pt.simulate is original and pt.evolution.simulate is original
+    assert {user.simulate, user.play, user.late, defining.simulate} == {original} == {pt.simulate}
+
+
+def test_what_pooltool_plays_is_told_once(installed, played):
+    """Each reason once, at the line that asked; and anew after install()."""
+    exact = pt.physics.PhysicsEngine()
+    exact.resolver.ball_ball = bridge.ExactBallBall()
+    other = pt.physics.PhysicsEngine()
+    other.resolver.ball_linear_cushion.omega_ratio = 1.5
+    without = set(importlib.import_module("pooltool.evolution.event_based.config").INCLUDED_EVENTS) - {pt.EventType.BALL_POCKET}
+    overlapping = pt.System.example()
+    overlapping.balls["cue"].state.rvw[0] = overlapping.balls["1"].state.rvw[0] + [0.01, 0, 0]
+    for _ in range(2):
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            for _ in range(2):
+                assert pt.simulate(pt.System.example(), exact).simulated
+                assert pt.simulate(pt.System.example(), other).simulated
+                assert pt.simulate(pt.System.example(), include=without, max_events=1).simulated
+                pt.simulate(overlapping, max_events=1)
+                pt.simulate(pt.System.example())
+        texts = [str(warning.message) for warning in told]
+        assert all(warning.category is bridge.FallbackWarning and warning.filename == __file__ for warning in told)
+        assert all(text.startswith("pooltool plays this system instead of carom: ") for text in texts)
+        parts = ("ExactBallBall", "omega_ratio", "include", "overlap")
+        assert [sum(part in text for text in texts) for part in parts] == [1, 1, 1, 1] and len(texts) == 4, texts
+        bridge.install()
+    assert len(played) == 8  # the overlapping ones are refused by carom, the last ones played
 
 
 def test_strategies_in_pooltools_engine():

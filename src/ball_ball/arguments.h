@@ -3,6 +3,7 @@
 #define CAROM_SRC_ARGUMENTS_H
 
 #include "carom.h"
+#include "platform/arithmetic.h"
 
 /* Euler's N, for options that may leave it to the default. */
 static inline int carom_steps(const carom_options *opt) {

@@ -1,14 +1,15 @@
 /* The public entry points: collocation, and for what it does not take: check, go to the collision frame, solve, come back, say
  * how it went. */
 #include "carom.h"
+#include "platform/arithmetic.h"
 
 #include "ball_ball/arguments.h"
 #include "ball_ball/batch.h"
 #include "ball_ball/detail.h"
 #include "ball_ball/euler.h"
-#include "ball_ball/fallback.h"
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
+#include "ball_ball/precise.h"
 #include "ball_ball/result.h"
 #include "platform/threads.h"
 
@@ -29,11 +30,12 @@ static bool collocate(const carom_impact *in, const carom_options *opt, carom_re
 
 static carom_status solve_exact(const carom_frame *frame, carom_local *local, carom_detail *detail) {
   const carom_reduced c = carom_reduce(local);
-  carom_way way;
-  const carom_status status = carom_fallback(&c, &way);
+  carom_trajectory path;
+  const carom_status status = carom_precise(&c, CAROM_PRECISE_TOLERANCE, &path);
+  const carom_integrals all = carom_precise_integrals(&c, &path);
   if (status == CAROM_OK && detail != NULL)
-    *detail = carom_detail_of_way(frame, local, &way);
-  carom_restore(&c, &way.at, local);
+    *detail = carom_detail_of_path(frame, local, &path);
+  carom_restore(&c, &all, local);
   return status;
 }
 

@@ -39,7 +39,7 @@ static carom_detail of_integrals(const carom_frame *frame, const carom_reduced *
 carom_detail carom_detail_of_solution(const carom_frame *frame, const carom_local *before, const float solution[OUT_COLUMNS],
                                       int evaluations) {
   carom_reduced c = carom_reduce(before);
-  const double unit = -c.v_n / c.kappa, u = hypot(c.u_x, c.u_z);
+  const double unit = -c.v_n / c.kappa, u = sqrt(c.u_x * c.u_x + c.u_z * c.u_z);
   /* as in rows.h */
   c.mu = c.u_z <= LEAST_PRESS * unit ? 0 : c.mu;
   c.mu_b = fmax(c.mu_b, LEAST_MU_B);
@@ -64,11 +64,13 @@ carom_detail carom_detail_of_solution(const carom_frame *frame, const carom_loca
   return d;
 }
 
-carom_detail carom_detail_of_way(const carom_frame *frame, const carom_local *before, const carom_way *way) {
+carom_detail carom_detail_of_path(const carom_frame *frame, const carom_local *before, const carom_trajectory *path) {
   const carom_reduced c = carom_reduce(before);
-  carom_detail d = of_integrals(frame, &c, before, &way->at, way->compression, way->p_stick,
-                                c.v_n + c.kappa * way->p_stick - way->at.F_y < 0);
-  d.evaluations = way->evaluations;
+  const carom_integrals all = carom_precise_integrals(&c, path);
+  const double p_stick = -c.v_n * path->p_stick;
+  carom_detail d =
+      of_integrals(frame, &c, before, &all, -(c.v_n * c.v_n) * path->W_c, p_stick, c.v_n + c.kappa * p_stick - all.F_y < 0);
+  d.evaluations = 8 * path->iterations;
   return d;
 }
 

@@ -4,8 +4,8 @@
 
 #include "ball_ball/euler.h"
 #include "ball_ball/exchange.h"
-#include "ball_ball/fallback.h"
 #include "ball_ball/frame.h"
+#include "ball_ball/precise.h"
 
 carom_detail carom_detail_of_nothing(void);
 
@@ -13,8 +13,8 @@ carom_detail carom_detail_of_nothing(void);
 carom_detail carom_detail_of_solution(const carom_frame *frame, const carom_local *before, const float solution[OUT_COLUMNS],
                                       int evaluations);
 
-/* Of one at its end by the fallback. */
-carom_detail carom_detail_of_way(const carom_frame *frame, const carom_local *before, const carom_way *way);
+/* Of one that the precise solver has followed to its end. */
+carom_detail carom_detail_of_path(const carom_frame *frame, const carom_local *before, const carom_trajectory *path);
 
 /* Euler's method keeps no account of its impulses; the balance of what changed gives them. */
 carom_detail carom_detail_of_euler(const carom_frame *frame, const carom_local *before, const carom_local *after,

@@ -3,6 +3,7 @@
 #define CAROM_SRC_EULER_H
 
 #include "ball_ball/frame.h"
+#include "platform/arithmetic.h"
 
 #include <stdint.h>
 

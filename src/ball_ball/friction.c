@@ -1,8 +1,10 @@
 /* Friction around the collision: that between the balls by the speed of their slip, and what the cloth's makes of a ball
  * afterwards. */
 #include "carom.h"
+#include "platform/arithmetic.h"
 
 #include "ball_ball/frame.h"
+#include "platform/elementary.h"
 
 #include <math.h>
 
@@ -17,7 +19,7 @@ double carom_mu_ball(const carom_impact *in, carom_speed_law law) {
   const carom_local c = carom_to_frame(&frame, in, CAROM_SLIP_PAPER);
   const double u_x = c.v_ix - c.v_jx - c.R * (c.w_iz + c.w_jz);
   const double u_z = c.R * (c.w_ix + c.w_jx);
-  return law.a + law.b * exp(-law.c * sqrt(u_x * u_x + u_z * u_z));
+  return law.a + law.b * carom_exp(-law.c * sqrt(u_x * u_x + u_z * u_z));
 }
 
 void carom_rolling_velocity(const double v[3], const double w[3], double radius, double rolling[3]) {

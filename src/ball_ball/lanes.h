@@ -16,6 +16,8 @@
 #ifndef CAROM_SRC_BALL_BALL_LANES_H
 #define CAROM_SRC_BALL_BALL_LANES_H
 
+#include "platform/arithmetic.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>

@@ -28,6 +28,7 @@
 #define CAROM_SRC_BALL_BALL_REDUCED_H
 
 #include "ball_ball/frame.h"
+#include "platform/arithmetic.h"
 
 typedef struct carom_reduced {
   double u_x, u_z, d_x, d_y, v_n; /* at the start, m/s; u_z >= 0, v_n < 0 */

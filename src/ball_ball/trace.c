@@ -1,12 +1,11 @@
-/* carom_trace(): a collision on its way, sampled at equal steps of normal impulse. The exact limit is followed by the
- * integrator (fallback.c), Euler's method is simply stopped on its way, once for each sample. */
+/* carom_trace(): a collision on its way, sampled at equal steps of normal impulse. The precise solver follows the exact limit
+ * from sample to sample; Euler's method is stopped on its way, once for each sample. */
 #include "ball_ball/arguments.h"
 #include "ball_ball/euler.h"
-#include "ball_ball/fallback.h"
 #include "ball_ball/frame.h"
+#include "ball_ball/precise.h"
 #include "ball_ball/result.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -34,18 +33,19 @@ static carom_status trace_exact(const carom_frame *frame, const carom_local *sta
                                 carom_trace_point *points) {
   const carom_reduced c = carom_reduce(start);
   const double M = c.j_pressed ? start->M_j : start->M_i;
-  carom_way way;
-  carom_way_begin(&c, &way);
+  carom_trajectory path;
+  carom_precise_begin(&c, CAROM_PRECISE_TOLERANCE, &path);
   for (size_t k = 0; k < n; k++) {
-    const double p = k + 1 < n ? P / M * ((double)k / (double)(n - 1)) : INFINITY;
-    const carom_status status = carom_way_on(&way, p, INT_MAX);
+    const double p = k + 1 < n ? P / (M * -c.v_n) * ((double)k / (double)(n - 1)) : INFINITY;
+    const carom_status status = carom_impact_advance(&path, p, path.iterations + CAROM_IMPACT_ITERATIONS);
     if (status != CAROM_OK)
       return status;
+    const carom_integrals so_far = carom_precise_integrals(&c, &path);
     carom_local local = *start;
-    carom_restore(&c, &way.at, &local);
-    const bool parting = way.in_restitution || k + 1 == n;
-    put_point(frame, &local, M * way.at.p, -M * way.compression + M * way.restitution,
-              parting ? CAROM_PHASE_RESTITUTION : CAROM_PHASE_COMPRESSION, !isnan(way.p_stick), &points[k]);
+    carom_restore(&c, &so_far, &local);
+    const bool parting = path.restitution || k + 1 == n;
+    put_point(frame, &local, M * so_far.p, M * (c.v_n * c.v_n) * carom_impact_work(&path),
+              parting ? CAROM_PHASE_RESTITUTION : CAROM_PHASE_COMPRESSION, !isnan(path.p_stick), &points[k]);
   }
   return CAROM_OK;
 }

@@ -3,6 +3,7 @@
 #define CAROM_SRC_CUSHION_ARGUMENTS_H
 
 #include "carom_shot.h"
+#include "platform/arithmetic.h"
 
 /* CAROM_OK, or the error of the first option at fault. */
 carom_status carom_cushion_check_options(const carom_cushion_options *opt);

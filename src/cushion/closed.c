@@ -7,6 +7,7 @@
  *
  * MIRROR. v_y becomes -e v_y. */
 #include "cushion/models.h"
+#include "platform/elementary.h"
 
 static double unit_interval(double x) {
   return fmin(fmax(x, 0), 1);
@@ -15,7 +16,7 @@ static double unit_interval(double x) {
 void carom_apply_han(carom_contact *c) {
   const double v = c->v_y;
   c->e = unit_interval(0.39 + 0.257 * v - 0.044 * v * v);
-  c->mu_w = unit_interval(0.471 - 0.241 * atan(fabs(c->v_x) / v));
+  c->mu_w = unit_interval(0.471 - 0.241 * carom_atan(fabs(c->v_x) / v));
 }
 
 carom_status carom_han(carom_contact *c) {

@@ -16,6 +16,7 @@
 #define CAROM_SRC_CUSHION_CONTACT_H
 
 #include "carom_shot.h"
+#include "platform/arithmetic.h"
 
 #include <math.h>
 

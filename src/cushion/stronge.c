@@ -25,6 +25,7 @@
  *
  * Source: W. J. Stronge, Impact Mechanics (Cambridge, 2000), section 5.2. */
 #include "cushion/models.h"
+#include "platform/elementary.h"
 
 #include <stdbool.h>
 
@@ -45,8 +46,10 @@ static double phase(const spring *s, double tau) {
 
 /* By how much friction exceeds the force of the tangential spring: positive while it sticks. */
 static double hold(const spring *s, double tau) {
-  const double a = s->ratio * (tau - s->tau_k);
-  return s->mu * s->eta_squared * sin(phase(s, tau)) - fabs(s->U * cos(a) - s->V / s->ratio * sin(a));
+  double sine, cosine, sine_phase, unused;
+  carom_sincos(s->ratio * (tau - s->tau_k), &sine, &cosine);
+  carom_sincos(phase(s, tau), &sine_phase, &unused);
+  return s->mu * s->eta_squared * sine_phase - fabs(s->U * cosine - s->V / s->ratio * sine);
 }
 
 /* Where it slips again, in restitution: false position, with a bisection now and then. */
@@ -78,14 +81,13 @@ static void stick(spring *s, double rho) {
   const double x = rho / s->mu - BETA;
   double sine, cosine;
   if (x <= 0) { /* in compression */
-    s->tau_k = acos(fmin(fmax(x / (s->eta_squared - BETA), -1), 1));
-    sine = sin(s->tau_k);
-    cosine = cos(s->tau_k);
+    s->tau_k = carom_acos(fmin(fmax(x / (s->eta_squared - BETA), -1), 1));
+    carom_sincos(s->tau_k, &sine, &cosine);
   } else {
-    const double angle = acos(fmin(fmax(x / (s->eta_squared / s->e - s->e * BETA), -1), 1));
+    const double angle = carom_acos(fmin(fmax(x / (s->eta_squared / s->e - s->e * BETA), -1), 1));
     s->tau_k = s->e * (angle - HALF_PI * (1 - 1 / s->e));
-    sine = sin(angle);
-    cosine = s->e * cos(angle);
+    carom_sincos(angle, &sine, &cosine);
+    cosine *= s->e;
   }
   s->U = -s->mu * s->eta_squared * sine;
   s->V = rho - s->mu * BETA * (1 - cosine);
@@ -106,8 +108,10 @@ static double slip_after(double rho, double mu, double e, double ratio, bool poo
     tau_s = s.end;
   else
     tau_s = slips_again(&s);
-  const double a = ratio * (tau_s - s.tau_k);
-  return ratio * s.U * sin(a) + s.V * cos(a) + mu * BETA * e * (1 + cos(phase(&s, tau_s)));
+  double sine, cosine, unused, cosine_phase;
+  carom_sincos(ratio * (tau_s - s.tau_k), &sine, &cosine);
+  carom_sincos(phase(&s, tau_s), &unused, &cosine_phase);
+  return ratio * s.U * sine + s.V * cosine + mu * BETA * e * (1 + cosine_phase);
 }
 
 carom_status carom_stronge(carom_contact *c, double ratio, int pooltool) {

@@ -1,12 +1,13 @@
-/* carom_cushion_trace(): an impact on its way, sampled at equal steps of normal impulse. The exact limit is followed by the
- * integrator, Euler's method is simply stopped on its way, once for each sample. */
+/* carom_cushion_trace(): an impact on its way, sampled at equal steps of normal impulse. The precise solver follows the
+ * exact limit from sample to sample; Euler's method is stopped on its way, once for each sample. */
 #include "cushion/arguments.h"
 #include "cushion/frame.h"
 #include "cushion/mathavan.h"
 #include "cushion/models.h"
 
-#include <limits.h>
 #include <stdbool.h>
+
+static const double TOLERANCE = 1e-3; /* see impact/impact.h */
 
 /* The impact that is followed. */
 typedef struct subject {
@@ -28,33 +29,27 @@ static void put(const subject *s, const carom_contact *c, double P, double work,
 }
 
 static carom_status trace_exact(const subject *s, size_t n, carom_cushion_point *points) {
-  carom_cushion_way way;
-  carom_status status = carom_cushion_way_begin(&s->start, &way);
-  if (status == CAROM_OK)
-    status = carom_cushion_way_on(&way, INFINITY, CAROM_CUSHION_BUDGET);
-  if (status != CAROM_OK)
-    return status;
-  const carom_impulse all = carom_cushion_way_impulse(&way);
-  carom_cushion_way_begin(&s->start, &way);
-  const double energy = s->start.v_y * s->start.v_y * s->start.cosine;
-  for (size_t k = 0; k < n; k++) {
-    const double p = k + 1 < n ? all.P * ((double)k / (double)(n - 1)) : INFINITY;
-    if ((status = carom_cushion_way_on(&way, p, INT_MAX)) != CAROM_OK)
-      return status;
+  /* first to the end, for the impulse of the whole impact; then to each sample */
+  carom_trajectory path;
+  carom_mathavan_begin(&s->start, TOLERANCE, &path);
+  carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
+  const double p = path.at.p, energy = s->start.v_y * s->start.v_y * s->start.cosine;
+  carom_mathavan_begin(&s->start, TOLERANCE, &path);
+  for (size_t k = 0; k < n && status == CAROM_OK; k++) {
+    status = carom_impact_advance(&path, k + 1 < n ? p * ((double)k / (double)(n - 1)) : INFINITY,
+                                  path.iterations + CAROM_IMPACT_ITERATIONS);
     carom_contact c = s->start;
-    carom_impulse q = carom_cushion_way_impulse(&way);
-    carom_push(&c, &q);
-    /* the work counts on after v_n = 0, where the integral of v_n falls */
-    const double work = carom_cushion_way_work(&way);
-    put(s, &c, q.P, energy * (way.in_restitution ? 2 * way.work_c - work : work), way.in_restitution, &points[k]);
-    points[k].nose_sticks = way.regime.nose_sticks;
-    points[k].cloth_sticks = way.regime.cloth_sticks;
-    if (way.regime.nose_sticks)
+    const carom_impulse so_far = carom_mathavan_impulse(&s->start, &path);
+    carom_push(&c, &so_far);
+    put(s, &c, so_far.P, energy * carom_impact_work(&path), path.restitution, &points[k]);
+    points[k].nose_sticks = path.regime.held;
+    points[k].cloth_sticks = path.regime.cloth_held;
+    if (path.regime.held)
       points[k].s_x = points[k].s_t = 0;
-    if (way.regime.cloth_sticks)
+    if (path.regime.cloth_held)
       points[k].c_x = points[k].c_y = 0;
   }
-  return CAROM_OK;
+  return status;
 }
 
 static carom_status trace_euler(const subject *s, const carom_cushion_options *opt, size_t n, carom_cushion_point *points) {

@@ -1,5 +1,13 @@
 /* Elementary functions whose bits do not depend on the system's mathematical library. Argument reduction is exact or nearly so,
- * then Taylor's polynomial on a range where its remainder is below rounding. */
+ * then Taylor's polynomial on a range where its remainder is below rounding:
+ *
+ *     exp(x) = 2^k exp(r)                       k the whole number nearest to x / log 2, |r| <= log(2)/2
+ *     sin and cos of n pi/2 + r                 n whole, |r| <= pi/4
+ *     atan(x) = atan(k/8) + atan(t)             for 0 <= x <= 1: t = (x - k/8) / (1 + x k/8), |t| <= 1/16
+ *             = pi/2 - atan(1/x)                for x > 1
+ *     acos(x) = 2 atan(sqrt((1 - x) / (1 + x)))
+ *
+ * tests/unit/elementary.c compares them with the functions of the C library in long double. */
 #include "platform/elementary.h"
 
 #include <math.h>
@@ -29,25 +37,32 @@ static const double inverse_factorial[HIGHEST] = {1.0,
                                                   1.0 / 6402373705728000.0,
                                                   1.0 / 121645100408832000.0};
 
-double carom_exp_negative(double x) {
+/* 2^k, for a normal result. */
+static double power_of_two(double k) {
+  const int64_t exponent = (int64_t)(k + 1023.0) << 52;
+  double x;
+  memcpy(&x, &exponent, sizeof x);
+  return x;
+}
+
+double carom_exp(double x) {
   if (!(x > -708.0))
-    return 0.0;
+    return isnan(x) ? x : 0.0;
+  if (x > 710.0)
+    return (double)INFINITY;
   /* x = k log 2 + r, |r| <= log(2)/2; log 2 in two parts, of which k times the first is exact */
   const double k = floor(x * 0x1.71547652b82fep+0 + 0.5);
   const double r = (x - k * 0x1.62e42feep-1) - k * 0x1.a39ef35793c76p-33;
   double sum = inverse_factorial[13]; /* r^14/14! < 5e-18 */
   for (int n = 12; n >= 0; n--)
     sum = inverse_factorial[n] + sum * r;
-  const int64_t exponent = (int64_t)(k + 1023.0) << 52;
-  double scale;
-  memcpy(&scale, &exponent, sizeof scale);
-  return sum * scale;
+  const double half = floor(0.5 * k); /* 2^1024 is beyond all numbers, the result may not be */
+  return sum * power_of_two(half) * power_of_two(k - half);
 }
 
-void carom_sincos_degrees(double degrees, double *sine, double *cosine) {
-  /* quarter turns, exact; the rest is within 45 degrees */
-  const double turns = floor(degrees / 90.0 + 0.5);
-  const double x = (degrees - 90.0 * turns) * 0x1.1df46a2529d39p-6, x2 = -x * x;
+/* Sine and cosine of so many quarter turns and x, |x| <= pi/4. */
+static void sincos_turned(double turns, double x, double *sine, double *cosine) {
+  const double x2 = -x * x;
   double s = inverse_factorial[17], c = inverse_factorial[18]; /* (pi/4)^19/19! < 1e-19 */
   for (int n = 15; n > 0; n -= 2) {
     s = inverse_factorial[n] + s * x2;
@@ -58,4 +73,45 @@ void carom_sincos_degrees(double degrees, double *sine, double *cosine) {
   const double quarter = turns - 4.0 * floor(turns / 4.0);
   *sine = quarter == 0.0 ? s : quarter == 1.0 ? c : quarter == 2.0 ? -s : -c;
   *cosine = quarter == 0.0 ? c : quarter == 1.0 ? -s : quarter == 2.0 ? -c : s;
+}
+
+void carom_sincos_degrees(double degrees, double *sine, double *cosine) {
+  /* quarter turns, exact; the rest is within 45 degrees */
+  const double turns = floor(degrees / 90.0 + 0.5);
+  sincos_turned(turns, (degrees - 90.0 * turns) * 0x1.1df46a2529d39p-6, sine, cosine);
+}
+
+void carom_sincos(double x, double *sine, double *cosine) {
+  /* pi/2 in three parts; so many times the first and the second, of 33 digits each, is exact */
+  const double turns = floor(x * 0x1.45f306dc9c883p-1 + 0.5);
+  sincos_turned(turns, ((x - turns * 0x1.921fb544p+0) - turns * 0x1.0b4611a6p-34) - turns * 0x1.3198a2e037073p-69, sine,
+                cosine);
+}
+
+double carom_atan(double x) {
+  /* atan(k/8) */
+  static const double at_eighth[9] = {0.0,
+                                      0x1.fd5ba9aac2f6ep-4,
+                                      0x1.f5b75f92c80ddp-3,
+                                      0x1.6f61941e4def1p-2,
+                                      0x1.dac670561bb4fp-2,
+                                      0x1.1e00babdefeb4p-1,
+                                      0x1.4978fa3269ee1p-1,
+                                      0x1.700a7c5784634p-1,
+                                      0x1.921fb54442d18p-1};
+  if (isnan(x))
+    return x;
+  /* |x| as z in 0 to 1, by eighths and what is left */
+  const double z = fabs(x) > 1.0 ? 1.0 / fabs(x) : fabs(x);
+  const int k = (int)(8.0 * z + 0.5);
+  const double eighths = 0.125 * k, t = (z - eighths) / (1.0 + z * eighths), t2 = t * t;
+  double sum = 1.0 / 13.0; /* t^15/15 < 6e-20 */
+  for (int n = 11; n > 0; n -= 2)
+    sum = 1.0 / n - sum * t2;
+  const double angle = at_eighth[k] + t * sum;
+  return copysign(fabs(x) > 1.0 ? 0x1.921fb54442d18p+0 - angle : angle, x);
+}
+
+double carom_acos(double x) {
+  return 2.0 * carom_atan(sqrt((1.0 - x) / (1.0 + x)));
 }

@@ -11,18 +11,47 @@
 
 #include "enumerations.h"
 
-#include <float.h>
+#include <math.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#ifdef __FAST_MATH__
-#error "carom finds bad input by NaN and infinity, and promises bits: do not build it with -ffast-math"
+/* clang has no macro for some flags by which it changes results. They show in what it takes for constant whatever x is; the
+ * call that this leads to is then an error of the compiler. Without optimisation the flags have no effect, nor has this. */
+#if defined(__has_attribute)
+#if __has_attribute(error)
+#define REFUSE(name, flag) \
+  void carom_refuses_##name(void) __attribute__((error("carom promises bits: compile its sources without " flag)))
+REFUSE(associative_math, "-fassociative-math (which -funsafe-math-optimizations and -ffp-model=fast set)");
+REFUSE(reciprocal_math, "-freciprocal-math (which -funsafe-math-optimizations and -ffp-model=fast set)");
+REFUSE(no_signed_zeros, "-fno-signed-zeros (which -funsafe-math-optimizations and -ffp-model=fast set)");
+REFUSE(no_honor_nans, "-fno-honor-nans");
+REFUSE(no_honor_infinities, "-fno-honor-infinities");
+
+static uint64_t bits_of(double x) {
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+__attribute__((used)) static void refuse_flags(double x) {
+  const double added = (x + 1.0) - x;
+  const bool divided = bits_of(x / 3.0) == bits_of(x * (1.0 / 3.0)), zero = bits_of(x + 0.0) == bits_of(x);
+  const bool nan = isnan(x), infinite = isinf(x);
+  if (__builtin_constant_p(added))
+    carom_refuses_associative_math();
+  if (__builtin_constant_p(divided))
+    carom_refuses_reciprocal_math();
+  if (__builtin_constant_p(zero))
+    carom_refuses_no_signed_zeros();
+  if (__builtin_constant_p(nan))
+    carom_refuses_no_honor_nans();
+  if (__builtin_constant_p(infinite))
+    carom_refuses_no_honor_infinities();
+}
 #endif
-/* With more digits between two operations results would not have the promised bits. */
-#if FLT_EVAL_METHOD != 0
-#error "carom needs float and double computed in their own precision; for 32-bit x86 compile with -msse2 -mfpmath=sse"
 #endif
 
 static const bool built[CAROM_ISA_COUNT] = {

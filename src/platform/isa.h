@@ -2,6 +2,8 @@
 #ifndef CAROM_SRC_PLATFORM_ISA_H
 #define CAROM_SRC_PLATFORM_ISA_H
 
+#include "platform/arithmetic.h"
+
 /* What CAROM_ISAS of CMakeLists.txt leaves out is defined as CAROM_WITHOUT_NAME. */
 #ifdef CAROM_WITHOUT_SSE2
 #define CAROM_IF_SSE2(X)

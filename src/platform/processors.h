@@ -2,6 +2,8 @@
 #ifndef CAROM_SRC_PLATFORM_PROCESSORS_H
 #define CAROM_SRC_PLATFORM_PROCESSORS_H
 
+#include "platform/arithmetic.h"
+
 /* 1 or more: those of the calling thread's affinity, but no more than its control group's limit on processor time. */
 int carom_processors(void);
 

@@ -2,19 +2,37 @@
  *
  * Where the cuts are makes no difference to a row, so results are the same for any number of threads. Threads are started for
  * the call and joined before it returns; the calling thread does the first part itself, and all of it if no thread can be
- * started. They block every signal, so that no handler of the process runs on them. A job too small to be worth a thread is not
- * cut.
+ * started, which is so where the system has none. They block every signal, so that no handler of the process runs on them. A
+ * job too small to be worth a thread is not cut. With CAROM_WITHOUT_THREADS nothing is cut, and no library of threads is
+ * needed.
  */
+#if !defined(_WIN32) && !defined(_POSIX_C_SOURCE)
+#define _POSIX_C_SOURCE 200809L /* pthread_sigmask */
+#endif
 #include "platform/threads.h"
+
+#ifdef CAROM_WITHOUT_THREADS
+
+size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads, size_t least) {
+  (void)threads, (void)least;
+  return worker(job, 0, n);
+}
+
+#else
 
 #include "carom.h"
 #include "platform/processors.h"
 
-#include <pthread.h>
-#ifndef _WIN32
-#include <signal.h>
-#endif
 #include <stdbool.h>
+#ifdef _WIN32
+#include <process.h>
+#include <windows.h>
+typedef HANDLE thread_handle;
+#else
+#include <pthread.h>
+#include <signal.h>
+typedef pthread_t thread_handle;
+#endif
 
 enum {
   MOST_THREADS = 256,
@@ -31,7 +49,7 @@ typedef struct cut {
 typedef struct part {
   const cut *of;
   size_t number, first_bad;
-  pthread_t thread;
+  thread_handle thread;
 } part;
 
 /* Where a part begins; that of one beyond the last is n. */
@@ -40,26 +58,53 @@ static size_t start_of(const cut *of, size_t number) {
   return start < of->n ? start : of->n;
 }
 
-static void *run_part(void *argument) {
-  part *p = argument;
+static void run_part(part *p) {
   p->first_bad = p->of->worker(p->of->job, start_of(p->of, p->number), start_of(p->of, p->number + 1));
+}
+
+#ifdef _WIN32
+
+static unsigned __stdcall run_on_thread(void *argument) {
+  run_part(argument);
+  return 0;
+}
+
+/* Starts a thread for each part but the first. */
+static void start_threads(part *parts, size_t count, bool *started) {
+  for (size_t t = 1; t < count; t++) {
+    parts[t].thread = (HANDLE)_beginthreadex(NULL, 0, run_on_thread, &parts[t], 0, NULL);
+    started[t] = parts[t].thread != NULL;
+  }
+}
+
+static void join(thread_handle thread) {
+  WaitForSingleObject(thread, INFINITE);
+  CloseHandle(thread);
+}
+
+#else
+
+static void *run_on_thread(void *argument) {
+  run_part(argument);
   return NULL;
 }
 
 /* Starts a thread for each part but the first. A thread inherits the signals that are blocked where it is made. */
 static void start_threads(part *parts, size_t count, bool *started) {
-#ifndef _WIN32 /* which has no such signals */
   sigset_t all, before;
   sigfillset(&all);
   const bool blocked = pthread_sigmask(SIG_SETMASK, &all, &before) == 0;
-#endif
   for (size_t t = 1; t < count; t++)
-    started[t] = pthread_create(&parts[t].thread, NULL, run_part, &parts[t]) == 0;
-#ifndef _WIN32
+    started[t] = pthread_create(&parts[t].thread, NULL, run_on_thread, &parts[t]) == 0;
   if (blocked)
     pthread_sigmask(SIG_SETMASK, &before, NULL);
-#endif
 }
+
+static void join(thread_handle thread) {
+  pthread_join(thread, NULL);
+}
+
+#endif
 
 size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads, size_t least) {
   /* How many are useful is asked first: counting the processors takes some system calls. */
@@ -84,9 +129,11 @@ size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, in
   size_t first_bad = n;
   for (size_t t = 0; t < count; t++) {
     if (started[t])
-      pthread_join(parts[t].thread, NULL);
+      join(parts[t].thread);
     if (first_bad == n && parts[t].first_bad < start_of(&of, t + 1))
       first_bad = parts[t].first_bad;
   }
   return first_bad;
 }
+
+#endif

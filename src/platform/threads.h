@@ -2,6 +2,8 @@
 #ifndef CAROM_SRC_PLATFORM_THREADS_H
 #define CAROM_SRC_PLATFORM_THREADS_H
 
+#include "platform/arithmetic.h"
+
 #include <stddef.h>
 
 /* Works on the rows from `from` to before `end` of a job; returns the first of them that is in error, or `end`. Called from

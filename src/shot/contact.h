@@ -3,6 +3,8 @@
 #ifndef CAROM_SRC_SHOT_CONTACT_H
 #define CAROM_SRC_SHOT_CONTACT_H
 
+#include "platform/arithmetic.h"
+
 #include <stdbool.h>
 
 /* Touching things that close at less than this, m/s, do so by rounding. */

@@ -22,7 +22,7 @@ static double friction_of(const carom_sim *sim, int i, int j, const contact_slip
   if (sim->opt->friction == CAROM_FRICTION_CONSTANT)
     return 0.5 * (sim->ball[i].kind.mu_ball + sim->ball[j].kind.mu_ball);
   const carom_speed_law law = carom_alciatore();
-  return law.a + law.b * carom_exp_negative(-law.c * sqrt(s->along * s->along + s->up * s->up));
+  return law.a + law.b * carom_exp(-law.c * sqrt(s->along * s->along + s->up * s->up));
 }
 
 /* Normal velocities by the restitution: w, the same for each unit of mass. */

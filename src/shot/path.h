@@ -12,6 +12,7 @@
 #define CAROM_SRC_SHOT_PATH_H
 
 #include "carom_shot.h"
+#include "platform/arithmetic.h"
 
 #include <stdbool.h>
 

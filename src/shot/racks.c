@@ -1,5 +1,6 @@
 /* Balls set up for the first shot of a game. */
 #include "carom_shot.h"
+#include "platform/arithmetic.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -76,8 +76,8 @@ static carom_impact mixed_row(random_source *source, size_t k) {
   return in;
 }
 
-/* The motion has zeros of both signs in random places, and the line of centres lies along an axis. The products in the collision
- * frame are then zeros, and their signs decide the sign of a sum. */
+/* The motion has zeros of both signs in random places, and the line of centres lies along an axis. The products in the
+ * collision frame are then zeros, and their signs decide the sign of a sum. */
 static carom_impact zero_row(random_source *source, size_t k) {
   static const double zeros[] = {0.0, -0.0, 0.0, -0.0, 1.0, -1.0};
   carom_impact in = random_impact(source);

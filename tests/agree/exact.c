@@ -10,7 +10,7 @@
 #include "regimes.h"
 #include "support.h"
 
-#include "ball_ball/fallback.h"
+#include "ball_ball/precise.h"
 #include "ball_ball/kernels.h"
 
 #include <math.h>
@@ -134,9 +134,10 @@ static carom_status by_fallback(const carom_impact *in, carom_slip slip, carom_r
   const carom_frame frame = carom_frame_of(in);
   carom_local local = carom_to_frame(&frame, in, slip);
   const carom_reduced c = carom_reduce(&local);
-  carom_way way;
-  const carom_status status = carom_fallback(&c, &way);
-  carom_restore(&c, &way.at, &local);
+  carom_trajectory path;
+  const carom_status status = carom_precise(&c, 1e-3, &path);
+  const carom_integrals all = carom_precise_integrals(&c, &path);
+  carom_restore(&c, &all, &local);
   carom_from_frame(&frame, &local, out);
   return status;
 }

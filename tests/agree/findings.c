@@ -6,7 +6,7 @@
 #include "regimes.h"
 #include "support.h"
 
-#include "ball_ball/fallback.h"
+#include "ball_ball/precise.h"
 
 #include <float.h>
 #include <math.h>
@@ -14,10 +14,11 @@
 #include <string.h>
 
 enum { FILL = 40 }; /* more than the lanes of any instruction set */
-/* Right-hand sides of one call: the fallback's budget, a step that may end it, and what collocation spent before it. */
-enum { MOST_EVALUATIONS = 4000 + 1000 };
+/* Right-hand sides of one call: those of the precise solver, whose last step may exceed its budget, and what collocation spent.
+ */
+enum { MOST_EVALUATIONS = 8 * (CAROM_IMPACT_ITERATIONS + 12) + 1000 };
 
-static const double accepted = 1e-5, realistic = 1e-6, by_the_fallback = 1e-9, in_single = 2e-5;
+static const double accepted = 1e-5, realistic = 1e-6, precisely = 1e-7, in_single = 2e-5;
 
 static carom_options options_for(carom_slip slip) {
   carom_options options = {0};
@@ -25,13 +26,14 @@ static carom_options options_for(carom_slip slip) {
   return options;
 }
 
-static carom_status solve_by_fallback(const carom_impact *in, carom_slip slip, carom_result *out) {
+static carom_status solve_precisely(const carom_impact *in, carom_slip slip, carom_result *out) {
   const carom_frame frame = carom_frame_of(in);
   carom_local local = carom_to_frame(&frame, in, slip);
   const carom_reduced c = carom_reduce(&local);
-  carom_way way;
-  const carom_status status = carom_fallback(&c, &way);
-  carom_restore(&c, &way.at, &local);
+  carom_trajectory path;
+  const carom_status status = carom_precise(&c, 1e-3, &path);
+  const carom_integrals all = carom_precise_integrals(&c, &path);
+  carom_restore(&c, &all, &local);
   carom_from_frame(&frame, &local, out);
   return status;
 }
@@ -60,9 +62,9 @@ static bool expect_solved(const carom_impact *in, carom_slip slip, double bound,
       ck_assert_msg(error <= bound, "%s: %g off with %s", what, error, carom_isa_name((carom_isa)isa));
     }
   }
-  if (solved && known && solve_by_fallback(in, slip, &out) == CAROM_OK) {
+  if (solved && known && solve_precisely(in, slip, &out) == CAROM_OK) {
     const double error = result_distance(&out, &exact, in->a.radius);
-    ck_assert_msg(error <= by_the_fallback, "%s: the fallback is %g off", what, error);
+    ck_assert_msg(error <= precisely, "%s: the precise solver is %g off", what, error);
   }
   return solved;
 }

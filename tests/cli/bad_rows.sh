@@ -26,3 +26,15 @@ good="0,0,0.03,0.3,1,0,-33,10,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0.17,0.2,0.2,0.05,0
 try carom resolve --solver euler -o out.csv in.csv
 cut -d, -f1,2,3,14 out.csv
 grep ^good out.csv | cut -d, -f2- | sort -u | wc -l
+# Messages show an id of up to 60 characters whole, and nothing of a file that a terminal would obey.
+strange() { "$@" 2>&1 > /dev/null | LC_ALL=C sed 's/[^ -~]/<a byte>/g'; }
+bad="0,0,0.03,0,1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0,0.2,0.2,0.05,0.95"
+{
+  echo "$header"
+  for size in 60 61 63 64 65 68 69 300; do printf "%${size}s,%s\n" "$size" "$bad" | tr ' ' x; done
+  printf '\033[2J\007\tid \302\233\302\240\177,%s\nw,\033[31m%s\n' "$bad" "$bad"
+} > ids.csv
+strange carom resolve ids.csv
+strange carom resolve "$(printf 'no\nfile\033')"
+printf '{"kind": "shot", "table": "\\u001b[2J", "balls": [{"id": "c", "state": [0, 1, 1, 0, 0, 0, 0, 0, 0, 0]}]}\n' > id.jsonl
+strange carom shoot id.jsonl

@@ -9,9 +9,19 @@ END
 echo "--- resolve"
 try carom resolve --cushion -o after.csv impacts.csv
 cut -d, -f1,8 after.csv
+{ printf '\357\273\277'; cat impacts.csv; } | carom resolve --cushion - 2> /dev/null | cmp - after.csv && echo "the same with a byte-order mark"
 for model in stronge han mirror euler; do
   carom resolve --cushion --model $model impacts.csv 2> /dev/null | awk -F, -v model=$model '$1 == "side" { printf "%s %.4f %.4f %.3f\n", model, $2, $3, $7 }'
 done
+row=",1,1,0,0,0,0,0.028,-1,0.036,0.2,0.2,0.9"
+{
+  head -n 1 impacts.csv
+  printf '\033[2J\302\233id%s\n' "$row"
+  printf "%60s$row\n%61s$row\n%300s$row\n" . . . | tr ' ' x
+} > ids.csv
+carom resolve --cushion ids.csv 2>&1 > ids.out | LC_ALL=C sed 's/[^ -~]/<a byte>/g'
+cut -d, -f1 ids.csv > ids
+cut -d, -f1 ids.out | cmp - ids && echo "the ids are whole"
 echo "--- pooltool's records, largest difference"
 for name in stronge mathavan2010; do
   model=stronge; [ $name = stronge ] || model=euler
@@ -31,7 +41,7 @@ grep -v '^#' noted.csv > trace.csv
 head -n 1 trace.csv
 awk -F, 'NR > 1 && ($12 != $14 || $13 != $15) { print "not in the axes of the cushion" }' trace.csv
 tail -n 1 trace.csv | cut -d, -f14-19 > end
-awk -F, '$1 == "side"' after.csv | cut -d, -f2-7 | paste -d, end - | awk -F, '{ for (k = 1; k <= 6; k++) { d = $k - $(k + 6); if (d * d > 1e-16) print k, d } print "ends at the result" }'
+awk -F, '$1 == "side"' after.csv | cut -d, -f2-7 | paste -d, end - | awk -F, '{ for (k = 1; k <= 6; k++) { d = $k - $(k + 6); if (d * d > 1e-12) print k, d } print "ends at the result" }'
 awk -F, 'NR > 1 { n[$4]++; stuck += $5 } END { print n["compression"], n["restitution"], stuck " stuck" }' trace.csv
 try carom trace --cushion --id side --model han impacts.csv
 try carom trace --cushion --id high impacts.csv

@@ -2,6 +2,39 @@
 try carom hit
 try carom hit --spin draw,20 --cut -40 --side gearing --speed 3 --friction 0.05
 try carom hit --cut 0 --spin stun --restitution 1 --friction 0
+echo "--derived, of recorded collisions:"
+carom resolve --derived -o derived.csv "$DATA/collisions-204.csv"
+python - <<'PYTHON'
+import csv, math, os
+
+def turned(a, b):
+    return math.degrees(math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])) if math.hypot(*b) > 1e-9 * math.hypot(*a) else math.nan
+
+worst, undefined = {}, {}
+rows = [list(csv.DictReader(open(name))) for name in (f"{os.environ['DATA']}/collisions-204.csv", "derived.csv")]
+for before, after in zip(*rows, strict=True):
+    a, b = ({name: float(x) for name, x in row.items() if name not in ("id", "status", "source", "steps")} for row in (before, after))
+    two = lambda row, name, ball: (row[f"{name}{ball}x"], row[f"{name}{ball}y"])
+    R = a["R"]
+    # Rolling, a ball moves on as fast as the angular momentum about its lowest point has it.
+    roll = {ball: [(5 * v + 2 * s * R * b[f"w{ball}{axis}"]) / 7 for v, s, axis in zip(two(b, "v", ball), (1, -1), "yx")] for ball in (1, 2)}
+    energy = lambda row: sum(row[f"v{ball}{k}"] ** 2 + 0.4 * R * R * row[f"w{ball}{k}"] ** 2 for ball in (1, 2) for k in "xyz")
+    expected = {
+        "throw_deg": turned([y - x for x, y in zip(two(a, "r", 1), two(a, "r", 2))], [y - x for x, y in zip(two(a, "v", 2), two(b, "v", 2))]),
+        "deflection_deg": turned(two(a, "v", 1), two(b, "v", 1)),
+        "deflection_rolling_deg": turned(two(a, "v", 1), roll[1]),
+        "roll1x": roll[1][0], "roll1y": roll[1][1], "roll2x": roll[2][0], "roll2y": roll[2][1],
+        "spin_transfer": (b["w2z"] - a["w2z"]) / a["w1z"] if a["w1z"] else math.nan,
+        "energy_lost": 1 - energy(b) / energy(a),
+    }
+    for name, value in expected.items():
+        if math.isnan(value) or math.isnan(b[name]):
+            undefined[name] = undefined.get(name, 0) + 1
+            assert math.isnan(value) and math.isnan(b[name]), (before["id"], name, value, b[name])
+        else:
+            worst[name] = max(worst.get(name, 0), abs(value - b[name]) / max(1, abs(value)))
+print(len(rows[0]), {name: value < 1e-9 for name, value in worst.items()}, undefined)
+PYTHON
 echo "the row is what resolve reads:"
 carom hit --spin stun,follow,roll,draw,-7.5 --csv > rows.csv
 carom resolve --derived rows.csv > out.csv
@@ -13,19 +46,67 @@ rows["follow"].pop("id"), rows["roll"].pop("id")
 print(rows["follow"] == rows["roll"])
 print(f"{-float(rows['stun']['throw_deg']):.2f} {-float(rows['stun']['deflection_deg']):.2f} {100 * float(rows['stun']['energy_lost']):.2f}")
 PYTHON
-try carom hit --csv --spin draw -o row.csv --plot row.svg
-python - <<'PYTHON'
-import xml.etree.ElementTree as tree
-page = tree.parse("row.svg").getroot()
-texts = [e.text for e in page.iter("{http://www.w3.org/2000/svg}text")]
-circles, paths = ([e for e in page.iter("{http://www.w3.org/2000/svg}" + name)] for name in ("circle", "path"))
-print(len(circles), "circles", len(paths), "paths", "tangent line" in texts, any(t.startswith("cue ball") for t in texts))
-curve = next(p.get("d") for p in paths if p.get("stroke-width") == "4")
-points = [tuple(map(float, p.split())) for p in curve[1:].split("L")]
-(x0, y0), (x1, y1), (x2, y2) = points[0], points[1], points[-1]
-# a draw shot bends back: the last of the path lies to the left of its first direction's end
-print("bends back:", (x1 - x0) > 0 and (x2 - x0) / abs(y2 - y0) < (x1 - x0) / abs(y1 - y0))
+echo "words and pictures say what the numbers say:"
+cat > said.py <<'PYTHON'
+import csv, math, os, re, subprocess
+from drawn import check_hit
+
+carom = os.environ["CAROM"]
+
+def run(*words, **given):
+    return subprocess.run([carom, *words], capture_output=True, text=True, check=True, **given).stdout
+
+def degrees(x, y):
+    return math.degrees(math.atan2(y, x))
+
+def turned(a, b):
+    """The angle from a to b, to the left."""
+    return (b - a + 180) % 360 - 180
+
+def velocity(x, y, scale):
+    if math.hypot(x, y) < 1e-9 * scale:
+        return "at rest"
+    angle = degrees(x, y)
+    way = "straight on" if abs(angle) < 0.005 else "straight back" if abs(angle) > 179.995 else ""
+    return f"{math.hypot(x, y):.3f} m/s, {way or f'{abs(angle):.2f} degrees to the ' + ('left' if angle > 0 else 'right')}"
+
+def said(row, after, spin, cut):
+    """The report in the words of `carom hit`."""
+    f = {name: float(x) for name, x in row.items() if name != "id"} | {name: float(x) for name, x in after.items() if name not in row and name != "status"}
+    b = {name: float(after[name]) for name in after if name not in ("id", "status")}
+    v, energy = f["v1x"], lambda m, *parts: 0.5 * f["M"] * sum(m[p] ** 2 * (1 if p[0] == "v" else 0.4 * f["R"] ** 2) for p in parts)
+    names = lambda ball: [f"{kind}{ball}{axis}" for kind in "vw" for axis in "xyz"]
+    at_first = energy(f, *names(1))
+    lost = 1 - energy(b, *names(1), *names(2)) / at_first
+    throw = turned(degrees(f["r2x"], f["r2y"]), degrees(b["v2x"], b["v2y"]))
+    spins = lambda ball: f"{b[f'w{ball}z'] if abs(b[f'w{ball}z']) >= 0.005 else 0:.2f} rad/s about the vertical, {math.hypot(b[f'w{ball}x'], b[f'w{ball}y']):.2f} rad/s about a horizontal axis"
+    side = "left" if throw > 0 else "right"
+    return [
+        f"A cue ball at {v:.4g} m/s meets a ball at rest: cut {cut:.4g} degrees, spin {spin} ({f['w1y']:.4g} rad/s), side spin {f['w1z']:.4g} rad/s.",
+        f"Friction between the balls {f['u_b']:.4f}, with the cloth {f['u_s1']:.4g}, restitution {f['e_b']:.4g}.",
+        "object ball   at once:     " + velocity(b["v2x"], b["v2y"], v),
+        "              rolling:     " + velocity(b["roll2x"], b["roll2y"], v),
+        "              throw:       " + ("none: it leaves along the line of centres" if abs(throw) < 0.005 else f"{abs(throw):.2f} degrees to the {side} of the line of centres"),
+        "              takes spin:  " + spins(2),
+        "cue ball      at once:     " + velocity(b["v1x"], b["v1y"], v),
+        "              rolling:     " + velocity(b["roll1x"], b["roll1y"], v),
+        "              keeps spin:  " + spins(1),
+        f"energy        lost:        {100 * lost:.2f} % of {at_first:.4g} J",
+    ]
+
+# Both sides, every spin, a ball that stops, one that comes straight back, a smooth cloth, other balls.
+for cut, spin, more in (
+    (30, "stun", ""), (-40, "draw", "--side gearing --speed 3 --friction 0.05"), (0, "draw", "--speed 4"), (0, "stun", "--restitution 1 --friction 0"),
+    (75, "follow", "--side -40 --speed 6"), (-15, "-80", "--side 25 --cloth 0"), (50, "roll", "--radius 0.0307 --mass 0.2107 --restitution 0.8"), (10, "20", "--speed 0.3"),
+):
+    asked = ["hit", "--cut", str(cut), "--spin", spin, *more.split()]
+    words, rows = run(*asked, "--plot", "hit.svg").splitlines(), run(*asked, "--csv")
+    row = next(csv.DictReader(rows.splitlines()))
+    after = next(csv.DictReader(run("resolve", "--derived", "-", input=rows).splitlines()))
+    expected = said(row, after, spin, cut)
+    print(*asked, words == expected or [pair for pair in zip(words, expected) if pair[0] != pair[1]], check_hit("hit.svg", row, after, words))
 PYTHON
+python said.py
 echo "textbooks:"
 cat > textbooks.py <<'PYTHON'
 import csv, math, os, subprocess

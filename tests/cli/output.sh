@@ -36,6 +36,21 @@ try carom resolve -o link.csv "$in"
 test -L link.csv && wc -l < nowhere.csv
 ln -s /dev/full full.npy
 try carom resolve -o full.npy "$in"
+# Any name that a file can have; and one that none can have, links in a circle too, is refused before anything is computed.
+for size in 249 255 256; do
+  long=$(printf "%${size}s" | tr ' ' n)
+  try carom resolve -o "$long" "$in" 2>&1 | sed 's/n\{200,\}/a long name/'
+  [ $size = 256 ] || wc -l < "$long"
+done
+rm -f nnn*
+ln -s circle.csv circle.csv
+ln -s there.csv here.csv
+ln -s here.csv there.csv
+for name in circle.csv here.csv; do
+  try carom resolve -o $name "$in"
+  test -L $name && readlink $name
+done
+try carom shoot --plot circle.svg -o circle.csv "$DATA/break-nineball.jsonl"
 # Another user's file stays that user's where one may write to it, and a file is written where its folder may not be; a file that
 # may not be written is not replaced. Only root can set this up.
 if [ "$(id -u)" = 0 ] && command -v setpriv > /dev/null; then

@@ -11,11 +11,69 @@ grep -o '"kind": "[a-z]*"' one.jsonl | sort | uniq -c | tr -s ' '
 carom shoot --models pooltool --events brief "$DATA/shots-pooltool.jsonl" | grep -o '"n_events": [0-9]*' | tr -d ' ' > ours
 tr -d ' ' < "$DATA/shots-pooltool.jsonl" | grep -o '"n_events":[0-9]*' | cmp - ours && echo "as many events as recorded"
 carom shoot --models pooltool --events brief "$DATA/shots-pooltool.jsonl" | grep public-017 | sed 's/\[\([0-9.]*\), "/["/g; s/"final".*//; s/.*"events"/"events"/'
+echo "--- what is written of shots that pooltool recorded"
+carom shoot --models pooltool "$DATA/shots-pooltool.jsonl" > written.jsonl
+python - <<'PYTHON'
+import json, os
+
+def shots(name):
+    return {line["id"]: line for line in map(json.loads, open(name, encoding="utf-8")) if line["kind"] == "shot"}
+
+def differ(ours, theirs, allowed):
+    """States: a label and nine numbers, of which spins count times 0.03 m."""
+    return len(ours) != len(theirs) or any(
+        len(a) != 10 or a[0] != b[0] or any(abs(x - y) * (0.03 if k > 5 else 1) > allowed for k, (x, y) in enumerate(zip(a[1:], b[1:])))
+        for a, b in zip(ours, theirs)
+    )
+
+written, recorded = shots("written.jsonl"), shots(f"{os.environ['DATA']}/shots-pooltool.jsonl")
+wrong, compared, whole = [], 0, 0
+for name, theirs in recorded.items():
+    ours, same = written[name], theirs["sens"]["same_events"]
+    wrong += [(name, key) for key in ("family", "table", "cue", "balls") if ours[key] != theirs[key]]
+    for k, (one, other) in enumerate(zip(ours["events"][:same], theirs["events"])):
+        # pooltool may name a pair in the other order.
+        order = slice(None, None, -1 if one[2] != other[2] else 1)
+        grown = max(theirs["sens"]["state"][max(k - 1, 0) : k + 1] + [1.0])
+        bad = one[1] != other[1] or one[2][order] != other[2] or abs(one[0] - other[0]) > 1e-12 + 5e-13 * max(theirs["sens"]["t"][k], 1.0)
+        bad |= any(differ(one[side][order], other[side], 1e-12 + 1e-12 * grown) for side in (3, 4))
+        wrong += [(name, k, one, other)] if bad else []
+        compared += 1
+    if same == len(theirs["events"]):
+        whole += 1
+        final, balls = ours["final"], list(theirs["final"]["balls"])
+        grown = 1e-12 + 1e-11 * max(theirs["sens"]["state"] + [1.0])
+        bad = len(ours["events"]) != same or differ([final["balls"][b] for b in balls], list(theirs["final"]["balls"].values()), grown)
+        bad |= len(final["balls"]) != len(balls) or abs(final["t"] - theirs["final"]["t"]) > grown
+        bad |= {p: b for p, b in final["pockets"].items() if b} != theirs["final"]["pockets"]
+        wrong += [(name, "final")] if bad else []
+print(compared, "events", whole, "whole shots", wrong)
+PYTHON
 echo "--- a picture"
 carom shoot --events none --plot break.svg "$DATA/break-nineball.jsonl" > none.jsonl
 grep -c events none.jsonl
 grep -c '<path fill' break.svg
 tail -n 1 break.svg
+# Its parts are where the numbers say: of the break, and on a table that lies along x away from the origin, whose balls have odd names.
+rail() { printf '{"id": "%s", "p1": [%s, 0.036], "p2": [%s, 0.036], "direction": %s}' "$@"; }
+{
+  printf '{"kind": "table", "id": "odd", "w": 2.4, "l": 1.1, "linear": [%s, %s, %s, %s], ' "$(rail left '-0.3, 0.2' '-0.3, 1.3' 0)" \
+    "$(rail right '2.1, 0.2' '2.1, 1.3' 1)" "$(rail near '-0.3, 0.2' '2.1, 0.2' 1)" "$(rail far '-0.3, 1.3' '2.1, 1.3' 0)"
+  printf '"circular": [{"id": "j", "center": [2.1, 0.2, 0.036], "radius": 0.05}], '
+  printf '"pockets": [{"id": "hole", "center": [0.9, 1.33], "radius": 0.07}, {"id": "other", "center": [-0.3, 0.2], "radius": 0.06}]}\n'
+  # r, v and spin of balls that slide already; the first two fall into one pocket
+  ball() { printf '{"id": "%s", "state": [2, %s, %s, 0.028575, %s, %s, 0, %s, %s, %s]}' "$@"; }
+  printf '{"kind": "shot", "id": 7, "table": "odd", "cue": {"ball": "cue"}, "balls": [%s, %s, %s, %s, %s]}\n' \
+    "$(ball '<&long name' 0.9 0.96 0 1.5 0 0 0)" "$(ball 12 0.8 0.9 0.2 0.86 0 0 0)" "$(ball cue 0.5 0.4 0.9 -0.1 40 60 90)" "$(ball 3 1.5 0.6 -0.4 0.5 0 0 -50)" \
+    '{"id": "5", "state": [0, 1.9, 0.9, 0.028575, 0, 0, 0, 0, 0, 0]}'
+} > odd.jsonl
+carom shoot -o odd.out --plot odd.svg odd.jsonl
+grep -o '"status": "[a-z]*"' odd.out
+carom shoot -o pool.out --models pooltool --plot pool.svg --id public-000 "$DATA/shots-pooltool.jsonl"
+python - <<'PYTHON'
+from drawn import check_shots
+print(check_shots("odd.out", "odd.svg", 7), check_shots("pool.out", "pool.svg", "public-000"))
+PYTHON
 carom shoot --plot break.svg --id nosuch "$DATA/break-nineball.jsonl" > /dev/null || echo "exit $?"
 echo "--- bad lines"
 ball='{"id": "cue", "state": [0, 0.3, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}'
@@ -38,6 +96,11 @@ ball='{"id": "cue", "state": [0, 0.3, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}'
 } > bad.jsonl
 carom shoot -o bad.out bad.jsonl || echo "exit $?"
 sed 's/"table".*"final"/.../; s/"t": .*}, "pockets"/.../' bad.out
+echo "--- a byte-order mark"
+{ printf '\357\273\277'; cat "$DATA/break-nineball.jsonl"; } > mark.jsonl
+carom shoot mark.jsonl | cmp - once.jsonl && echo "the same with one"
+{ printf '\357\273\277'; grep -m 1 '"kind": "table"' "$DATA/shots-pooltool.jsonl"; } > mark.jsonl
+carom shoot mark.jsonl | head -c 15 && echo
 echo "--- bounds"
 try carom shoot --events-most 5 --events none - < "$DATA/break-nineball.jsonl" > bounds.out
 grep -o '"status": "[a-z_]*"' bounds.out

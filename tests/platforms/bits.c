@@ -1,58 +1,370 @@
-/* The bits of many collisions and of cushions' impacts, to be compared between platforms: a line for each result, first what
- * computed it, then its numbers as hexadecimal floats. Its input is made by whole numbers alone, so that it is the same
- * everywhere. */
+/* CAROM_ISA=plain gives the same bits on every machine and with every compiler: a hash of results for each part of the library.
+ * Inputs are drawn by correctly rounded operations alone, so they have the same bits everywhere too. bits.expected has the
+ * hashes. They change only with the numerics, in the commit that says why.
+ *
+ *     bits            prints a line for each part: what was computed, and the hash of its results
+ *     bits best       the same by the best instruction set there is, of collisions of balls alone
+ *     bits numbers    prints results of the exact solver instead, as hexadecimal floats, by the best instruction set
+ *
+ * This program is run under emulators, so it needs nothing but the library. */
 #include <carom.h>
 #include <carom_shot.h>
-#include <stdint.h>
+
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-static uint64_t state = 42;
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF /* gcc has -ffp-contract=off of the command line */
+#endif
 
-/* A number from low to high, of 32 bits: every operation is exact or rounded once. */
+enum { ROWS = 4000, EDGES = 800, CUSHIONS = 800, SHOTS = 4, ROOM = 4096, NUMBERS = 1500, LOOKS = 400, TRACES = 40, POINTS = 9 };
+
+/* splitmix64 */
+static uint64_t state;
+
+static uint64_t random_bits(void) {
+  uint64_t z = state += 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
 static double between(double low, double high) {
-  state = state * 6364136223846793005u + 1442695040888963407u;
-  return low + (high - low) * ((double)(state >> 32) / 4294967296.0);
+  return low + (high - low) * (double)(random_bits() >> 11) * 0x1p-53;
 }
 
-static carom_ball ball(void) {
-  carom_ball b = {.radius = 0.028575, .mass = between(0.15, 0.2), .mu_cloth = between(0.1, 0.4)};
-  for (int k = 0; k < 3; k++) {
-    b.v[k] = k < 2 ? between(-2.0, 2.0) : 0.0;
-    b.w[k] = between(-100.0, 100.0);
+/* A power of two between 2^low and 2^high, by products that are exact. */
+static double power_of_two(double low, double high) {
+  double x = 1.0;
+  const double exponent = between(low, high);
+  for (int k = 1; k <= exponent; k++)
+    x *= 2.0;
+  for (int k = -1; k >= exponent; k--)
+    x *= 0.5;
+  return x;
+}
+
+/* FNV-1a, in an order that does not depend on that of bytes in memory. NaN has many bits: only that it is NaN counts. */
+static const uint64_t START = 0xcbf29ce484222325u;
+
+static uint64_t add(uint64_t hash, uint64_t bits) {
+  for (int k = 0; k < 8; k++)
+    hash = (hash ^ (bits >> 8 * k & 0xff)) * 0x100000001b3u;
+  return hash;
+}
+
+static uint64_t add_numbers(uint64_t hash, const double *x, size_t n) {
+  for (size_t k = 0; k < n; k++) {
+    uint64_t bits = 1;
+    if (!isnan(x[k]))
+      memcpy(&bits, &x[k], sizeof bits);
+    hash = add(hash, bits);
   }
-  return b;
+  return hash;
 }
 
-static void show(const char *what, const double *x, int count) {
-  fputs(what, stdout);
-  for (int k = 0; k < count; k++)
-    printf(" %a", x[k]);
-  putchar('\n');
+static uint64_t add_singles(uint64_t hash, const float *x, size_t n) {
+  for (size_t k = 0; k < n; k++) {
+    uint32_t bits = 1;
+    if (!isnan(x[k]))
+      memcpy(&bits, &x[k], sizeof bits);
+    hash = add(hash, bits);
+  }
+  return hash;
 }
 
-int main(void) {
-  const carom_options euler = {.solver = CAROM_SOLVER_EULER, .steps = 200};
-  for (int k = 0; k < 2000; k++) {
-    carom_impact in = {.a = ball(), .b = ball(), .mu_ball = between(0.0, 0.3), .restitution = between(0.5, 1.0)};
+static void show(const char *what, uint64_t hash) {
+  printf("%s %08lx%08lx\n", what, (unsigned long)(hash >> 32), (unsigned long)(hash & 0xffffffffu));
+}
+
+/* ---- Two balls -------------------------------------------------------------------------------------------------------- */
+
+/* Plain shots, in turn with friction and motion of all sizes; some rows in error. */
+static carom_impact draw_collision(size_t k) {
+  const int wild = k % 2 == 1;
+  const double radius = 0.028575, x = between(-1.0, 1.0), y = between(-1.0, 1.0);
+  const double length = sqrt(x * x + y * y) + 0x1p-60;
+  carom_ball a = {.radius = radius, .mass = 0.17, .mu_cloth = between(0.0, wild ? 1.0 : 0.4)}, b = a;
+  b.mu_cloth = between(0.0, wild ? 1.0 : 0.4);
+  b.mass = wild ? 0.17 * power_of_two(-3.0, 3.0) : 0.17;
+  b.r[0] = 2.0 * radius * x / length;
+  b.r[1] = 2.0 * radius * y / length;
+  for (int c = 0; c < 2; c++) {
+    a.v[c] = between(-2.0, 2.0);
+    b.v[c] = wild ? between(-2.0, 2.0) : 0.0;
+    if (wild)
+      b.v[c] *= power_of_two(-30.0, 2.0);
+  }
+  for (int c = 0; c < 3; c++) {
+    a.w[c] = between(-100.0, 100.0);
+    if (wild)
+      a.w[c] *= power_of_two(-30.0, 3.0);
+    b.w[c] = wild ? between(-100.0, 100.0) : 0.0;
+  }
+  carom_impact in = {.a = a, .b = b};
+  in.mu_ball = between(0.0, wild ? 1.0 : 0.12);
+  in.restitution = between(wild ? 0.0 : 0.8, 1.0);
+  if (k % 97 == 50)
+    in.restitution = 2.0;
+  return in;
+}
+
+/* What users type: a ball that rolls along an axis onto a resting one, with round numbers that are equal or 0 in pairs. */
+static carom_impact draw_edge(size_t k) {
+  static const double frictions[] = {0.0, 0.05, 0.2, 0.4, 1.0}, cuts[] = {0.0, 0.25, 0.5, 0.75};
+  const double R = 0.028575, side = cuts[k % 4], speed = 0.5 * (double)(1 + k % 3);
+  carom_impact in = {.a = {.v = {speed, 0.0, 0.0}, .radius = R, .mass = 0.17, .mu_cloth = frictions[k / 4 % 5]},
+                     .mu_ball = frictions[k / 20 % 5],
+                     .restitution = k / 100 % 2 == 0 ? 1.0 : 0.9};
+  in.a.w[1] = k / 200 % 2 == 0 ? speed / R : 0.0;
+  in.a.w[2] = k / 400 % 2 == 0 ? 0.0 : 20.0;
+  in.b = in.a;
+  memset(in.b.v, 0, sizeof in.b.v);
+  memset(in.b.w, 0, sizeof in.b.w);
+  in.b.r[0] = 2.0 * R * sqrt(1.0 - side * side);
+  in.b.r[1] = 2.0 * R * side;
+  return in;
+}
+
+static carom_impact in[ROWS];
+static carom_impact_f32 in_f32[ROWS];
+
+static void collisions(const char *drawn, size_t n) {
+  static carom_result out[ROWS];
+  static carom_result_f32 out_f32[ROWS];
+  static int8_t status[ROWS];
+  char what[100];
+  for (size_t k = 0; k < n; k++)
+    for (int c = 0; c < 26; c++)
+      ((float *)&in_f32[k])[c] = (float)((const double *)&in[k])[c];
+  for (int way = 0; way < 4; way++) {
+    const carom_options options = {.solver = way < 2 ? CAROM_SOLVER_EXACT : CAROM_SOLVER_EULER,
+                                   .slip = way % 2 == 0 ? CAROM_SLIP_PAPER : CAROM_SLIP_POOLTOOL,
+                                   .steps = 100,
+                                   .threads = 3}; /* where there are threads; no bit depends on them */
+    const char *solver = carom_solver_name(options.solver), *slip = carom_slip_name(options.slip);
+    carom_collide_batch(in, n, &options, out, status);
+    uint64_t hash = add_numbers(START, (const double *)out, n * 12);
+    for (size_t k = 0; k < n; k++)
+      hash = add(hash, (uint64_t)(uint8_t)status[k]);
+    snprintf(what, sizeof what, "%s: %s, slip %s, double", drawn, solver, slip);
+    show(what, hash);
+    carom_collide_batch_f32(in_f32, n, &options, out_f32, status);
+    snprintf(what, sizeof what, "%s: %s, slip %s, single", drawn, solver, slip);
+    show(what, add_singles(START, (const float *)out_f32, n * 12));
+  }
+  uint64_t hash = START;
+  for (size_t k = 0; k < n; k++) {
+    const double mu = carom_mu_ball(&in[k], carom_alciatore());
+    hash = add_numbers(hash, &mu, 1);
+  }
+  snprintf(what, sizeof what, "%s: carom_mu_ball()", drawn);
+  show(what, hash);
+}
+
+/* A few collisions on their way, and what else is known of them. Of a point the doubles are hashed; NaN is one of them. */
+static void looks(void) {
+  static carom_trace_point points[POINTS];
+  for (int way = 0; way < 4; way++) {
+    const carom_options options = {.solver = way < 2 ? CAROM_SOLVER_EXACT : CAROM_SOLVER_EULER,
+                                   .slip = way % 2 == 0 ? CAROM_SLIP_PAPER : CAROM_SLIP_POOLTOOL,
+                                   .steps = 100};
+    uint64_t details = START, traces = START;
+    for (int k = 0; k < LOOKS; k++) {
+      carom_result out;
+      carom_detail detail;
+      carom_collide_detail(&in[k], &options, &out, &detail);
+      details = add(add_numbers(details, (const double *)&out, 12), (uint64_t)detail.evaluations);
+      details = add(add_numbers(details, &detail.normal, 12), (uint64_t)detail.stick);
+      details = add_numbers(details, &detail.stick_normal, 1);
+    }
+    for (int k = 0; k < TRACES; k++) {
+      traces = add(traces, (uint64_t)(int64_t)carom_trace(&in[k], &options, POINTS, points));
+      for (int n = 0; n < POINTS; n++) {
+        traces = add(add_numbers(traces, &points[n].normal, 2), (uint64_t)((int)points[n].phase * 2 + points[n].sticks));
+        traces = add_numbers(add_numbers(traces, &points[n].v_n, 7), (const double *)&points[n].state, 12);
+      }
+    }
+    char what[100];
+    const char *solver = carom_solver_name(options.solver), *slip = carom_slip_name(options.slip);
+    snprintf(what, sizeof what, "details: %s, slip %s", solver, slip);
+    show(what, details);
+    snprintf(what, sizeof what, "traces: %s, slip %s", solver, slip);
+    show(what, traces);
+  }
+}
+
+/* ---- A ball and a cushion --------------------------------------------------------------------------------------------- */
+
+/* Impacts of play; every fourth has a ball that rolls or does not turn, straight at the cushion or not. */
+static carom_cushion_impact draw_cushion(size_t k) {
+  carom_cushion_impact rail = {.normal = {0.0, 1.0}, .height = 0.0365, .radius = 0.028575, .mass = 0.17};
+  rail.v[0] = between(-3.0, 3.0);
+  rail.v[1] = between(0.05, 4.0);
+  for (int c = 0; c < 3; c++)
+    rail.w[c] = between(-120.0, 120.0);
+  rail.mu_cloth = between(0.0, 0.4);
+  rail.mu_cushion = between(0.0, 0.6);
+  rail.restitution = between(0.4, 1.0);
+  rail.jaw_radius = k % 3 == 0 ? 0.02 : 0.0;
+  if (k % 4 == 3) {
+    const int rolls = k / 4 % 2 == 0;
+    if (k / 8 % 2 == 0)
+      rail.v[0] = 0.0;
+    rail.w[0] = rolls ? -rail.v[1] / rail.radius : 0.0;
+    rail.w[1] = rolls ? rail.v[0] / rail.radius : 0.0;
+    rail.w[2] = k / 16 % 2 == 0 ? 0.0 : rail.w[2];
+  } else if (k % 2 == 0) {
+    rail.normal[0] = between(-1.0, 1.0);
+    rail.normal[1] = between(-1.0, 1.0);
+  }
+  return rail;
+}
+
+static void cushions(void) {
+  static carom_cushion_impact rail[CUSHIONS];
+  static carom_motion out[CUSHIONS];
+  static int8_t status[CUSHIONS];
+  state = 3;
+  for (size_t k = 0; k < CUSHIONS; k++)
+    rail[k] = draw_cushion(k);
+  for (int model = CAROM_CUSHION_MATHAVAN; model <= CAROM_CUSHION_EULER; model++)
+    for (int way = 0; way < 4; way++) {
+      const carom_cushion_options options = {.model = (carom_cushion_model)model,
+                                             .convention = way % 2 == 0 ? CAROM_CONVENTION_PAPER : CAROM_CONVENTION_POOLTOOL,
+                                             .law = way < 2 ? CAROM_CUSHION_LAW_CONSTANT : CAROM_CUSHION_LAW_HAN,
+                                             .steps = 100,
+                                             .omega_ratio = way == 3 ? 1.3 : 0.0};
+      carom_cushion_batch(rail, CUSHIONS, &options, out, status);
+      uint64_t hash = add_numbers(START, (const double *)out, CUSHIONS * 6);
+      for (size_t k = 0; k < CUSHIONS; k++)
+        hash = add(hash, (uint64_t)(uint8_t)status[k]);
+      char what[100];
+      snprintf(what, sizeof what, "cushions: %s, convention %s, law %s", carom_cushion_model_name(options.model),
+               way % 2 == 0 ? "paper" : "pooltool", way < 2 ? "constant" : "han");
+      show(what, hash);
+    }
+}
+
+/* A few impacts on their way. */
+static void cushion_traces(void) {
+  static carom_cushion_point points[POINTS];
+  state = 5;
+  for (int way = 0; way < 2; way++) {
+    const carom_cushion_options options = {.model = way == 0 ? CAROM_CUSHION_MATHAVAN : CAROM_CUSHION_EULER, .steps = 100};
+    uint64_t hash = START;
+    for (size_t k = 0; k < TRACES; k++) {
+      const carom_cushion_impact rail = draw_cushion(k);
+      hash = add(hash, (uint64_t)(int64_t)carom_cushion_trace(&rail, &options, POINTS, points));
+      for (int n = 0; n < POINTS; n++) {
+        hash = add_numbers(hash, &points[n].normal, 2);
+        hash = add(hash, (uint64_t)((int)points[n].phase * 4 + points[n].nose_sticks * 2 + points[n].cloth_sticks));
+        hash = add_numbers(add_numbers(hash, &points[n].v_n, 5), (const double *)&points[n].state, 6);
+      }
+    }
+    show(way == 0 ? "cushion traces: mathavan" : "cushion traces: euler", hash);
+  }
+}
+
+/* ---- Whole shots ------------------------------------------------------------------------------------------------------ */
+
+static uint64_t add_state(uint64_t hash, const carom_ball_state *s) {
+  return add(add_numbers(hash, s->r, 9), (uint64_t)s->label);
+}
+
+static uint64_t add_shot(uint64_t hash, const carom_shot *shot, int balls, carom_status status) {
+  hash = add(add(hash, (uint64_t)(int64_t)status), (uint64_t)shot->count);
+  for (int64_t k = 0; k < shot->count && k < ROOM; k++) {
+    const carom_event *e = &shot->events[k];
+    hash = add(add_numbers(hash, &e->time, 1), (uint64_t)(e->type * 10000 + e->a * 100 + e->b));
+    for (int side = 0; side < (e->type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++)
+      hash = add_state(add_state(hash, &e->before[side]), &e->after[side]);
+  }
+  for (int k = 0; k < balls; k++)
+    hash = add_state(hash, &shot->final[k]);
+  return add_numbers(hash, &shot->time, 1);
+}
+
+static void shots(void) {
+  static const struct {
+    const char *name;
+    carom_rack_kind rack;
+    carom_table_kind table;
+    carom_game game;
+  } games[] = {{"nine-ball", CAROM_RACK_NINEBALL, CAROM_TABLE_POOL_9FT, CAROM_GAME_POOL},
+               {"eight-ball", CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_7FT, CAROM_GAME_POOL},
+               {"snooker", CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, CAROM_GAME_SNOOKER},
+               {"three-cushion", CAROM_RACK_THREECUSHION, CAROM_TABLE_THREECUSHION, CAROM_GAME_BILLIARD}};
+  /* the options of a shot: its world, its models of balls and cushions, its friction */
+  static const struct {
+    const char *name;
+    carom_shot_options options;
+  } models[] = {{"default", {0}},
+                {"stronge", {.cushion_model = 1 + CAROM_CUSHION_STRONGE}},
+                {"han", {.cushion_model = 1 + CAROM_CUSHION_HAN, .friction = CAROM_FRICTION_CONSTANT}},
+                {"mirror", {.cushion_model = 1 + CAROM_CUSHION_MIRROR, .ball_model = CAROM_BALL_MODEL_INELASTIC}},
+                {"euler", {.cushion_model = 1 + CAROM_CUSHION_EULER, .ball_model = CAROM_BALL_MODEL_EULER, .steps = 100}},
+                {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}}};
+  static carom_event events[ROOM];
+  static carom_shot_ball balls[CAROM_BALLS_MOST];
+  static carom_ball_state final[CAROM_BALLS_MOST], later[CAROM_BALLS_MOST];
+  static carom_table table;
+  state = 4;
+  for (int m = 0; m < 6; m++)
+    for (int g = 0; g < 4; g++) {
+      uint64_t hash = START;
+      carom_table_make(games[g].table, &table);
+      for (int k = 0; k < SHOTS; k++) {
+        /* a break from a rack with gaps, or frozen; in three-cushion in any direction; every fourth with the butt raised */
+        const int count = carom_rack_size(games[g].rack);
+        carom_rack(games[g].rack, &table, k == 1 ? 0.0 : 1e-4, (uint64_t)k, balls, count);
+        carom_cue cue = carom_cue_of(games[g].game);
+        cue.speed = between(0.5, 8.5);
+        cue.phi = g == 3 ? between(0.0, 360.0) : between(80.0, 100.0);
+        cue.theta = k == 3 ? between(0.0, 60.0) : 2.0;
+        cue.a = between(-0.4, 0.4);
+        cue.b = between(-0.4, 0.4);
+        carom_shot shot = {.events = events, .room = ROOM, .final = final};
+        const carom_status status = carom_shoot(&table, balls, count, &cue, &models[m].options, &shot);
+        hash = add_shot(hash, &shot, count, status);
+        if (carom_shot_at(balls, count, &shot, 1.25, later) == CAROM_OK)
+          for (int n = 0; n < count; n++)
+            hash = add_state(hash, &later[n]);
+      }
+      char what[100];
+      snprintf(what, sizeof what, "shots: %s, %s", games[g].name, models[m].name);
+      show(what, hash);
+    }
+}
+
+int main(int argc, char **argv) {
+  const int numbers = argc > 1 && strcmp(argv[1], "numbers") == 0;
+  if (argc == 1)
+    carom_isa_limit(CAROM_ISA_PLAIN);
+  state = 1;
+  for (size_t k = 0; k < ROWS; k++)
+    in[k] = draw_collision(k);
+  for (size_t k = 0; numbers && k < NUMBERS; k++) {
     carom_result out;
-    in.b.r[0] = between(-1.0, 1.0);
-    in.b.r[1] = between(-1.0, 1.0);
-    if (carom_collide(&in, NULL, &out) == CAROM_OK)
-      show("exact", (const double *)&out, 12);
-    if (k < 200 && carom_collide(&in, &euler, &out) == CAROM_OK)
-      show("euler", (const double *)&out, 12);
-    carom_cushion_impact rail = {.v = {between(-2.0, 2.0), between(0.1, 3.0), 0.0},
-                                 .w = {in.a.w[0], in.a.w[1], in.a.w[2]},
-                                 .normal = {0.0, 1.0},
-                                 .height = 0.0365,
-                                 .radius = 0.028575,
-                                 .mass = 0.17,
-                                 .mu_cloth = 0.2,
-                                 .mu_cushion = 0.14,
-                                 .restitution = 0.85};
-    carom_motion after;
-    if (k < 200 && carom_cushion(&rail, NULL, &after) == CAROM_OK)
-      show("cushion", (const double *)&after, 6);
+    if (carom_collide(&in[k], NULL, &out) != CAROM_OK)
+      continue;
+    for (int c = 0; c < 12; c++)
+      printf("%a%c", ((const double *)&out)[c], c < 11 ? ' ' : '\n');
   }
+  if (numbers)
+    return 0;
+  collisions("collisions", ROWS);
+  if (argc == 1)
+    looks();
+  for (size_t k = 0; k < EDGES; k++)
+    in[k] = draw_edge(k);
+  collisions("edges", EDGES);
+  if (argc > 1)
+    return 0;
+  cushions();
+  cushion_traces();
+  shots();
   return 0;
 }

@@ -1,6 +1,5 @@
-/* First contacts against a search in small steps, and the elementary functions against the system's. */
+/* First contacts against a search in small steps. */
 #include "shot/contact.h"
-#include "platform/elementary.h"
 #include "support.h"
 
 #include <math.h>
@@ -149,28 +148,6 @@ START_TEST(third_derivative) {
 }
 END_TEST
 
-START_TEST(elementary) {
-  random_source r = {test_seed()};
-  for (int n = 0; n < 20000; n++) {
-    const double x = -pow(10.0, random_between(&r, -6.0, 2.8)),
-                 degrees = random_between(&r, -1.0, 1.0) * pow(10.0, random_between(&r, 0.0, 5.0));
-    ck_assert_double_le(fabs(carom_exp_negative(x) / exp(x) - 1.0), 5e-16);
-    double s, c;
-    carom_sincos_degrees(degrees, &s, &c);
-    const long double angle = fmodl(degrees, 360.0L) * 3.14159265358979323846L / 180.0L;
-    ck_assert_double_le(fabs((double)(s - sinl(angle))), 3e-16);
-    ck_assert_double_le(fabs((double)(c - cosl(angle))), 3e-16);
-  }
-  double s, c;
-  for (int quarter = -8; quarter <= 8; quarter++) {
-    carom_sincos_degrees(90.0 * quarter, &s, &c);
-    ck_assert(quarter % 2 != 0 ? c == 0.0 && fabs(s) == 1.0 : s == 0.0 && fabs(c) == 1.0);
-  }
-  ck_assert_double_eq(carom_exp_negative(-800.0), 0.0);
-  ck_assert_double_eq(carom_exp_negative(0.0), 1.0);
-}
-END_TEST
-
 int main(void) {
-  return RUN_TESTS("contact", pairs, grazing, from_inside, touching, pressed, third_derivative, elementary);
+  return RUN_TESTS("contact", pairs, grazing, from_inside, touching, pressed, third_derivative);
 }

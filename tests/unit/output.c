@@ -3,8 +3,9 @@
  * The linker puts the functions below in place of those of the C library that touch files, signals or memory. Each is a moment:
  * a child process writes a file, and at the moment of its number a signal ends it, just before the call or just after. Children
  * go through all moments one by one. Each must die of that signal, leave the old file or the new one, and nothing beside it;
- * and its handler must unlink nothing but the file beside. Freed memory is overwritten first, so that a handler that reads it
- * is seen without an address sanitizer too. */
+ * and its handler must unlink nothing but the file beside. The same where no file can be made beside the old one, which is
+ * then overwritten. Freed memory is overwritten first, so that a handler that reads it is seen without an address sanitizer
+ * too. */
 #include "output.h"
 #include "message.h"
 #include "support.h"
@@ -21,13 +22,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { STRANGE = 99, MOST_MOMENTS = 400, SIGNALS = 3 };
-static const int signals[SIGNALS] = {SIGTERM, SIGINT, SIGHUP};
-static const char old_text[] = "old\n", new_text[] = "new, and longer\n";
+enum { STRANGE = 99, MOST_MOMENTS = 400, SIGNALS = 5 };
+static const int signals[SIGNALS] = {SIGTERM, SIGINT, SIGHUP, SIGPIPE, SIGXFSZ};
+static const char old_text[] = "old, and longer\n", new_text[] = "new\n";
 
 static volatile int moment, told_to_end = -1, signal_number;
 static volatile sig_atomic_t counting;
-static char folder[4096], path[4200];
+static char folder[4096], path[4200], beside[4200];
+static bool sealed, full; /* no file can be made in the folder; the disk is full */
 
 static void pass_moment(void) {
   if (!counting)
@@ -51,7 +53,22 @@ static void pass_moment(void) {
     AROUND(type, __real_##name given);                   \
   }
 
-WRAP(int, mkostemp, (char *name, int flags), (name, flags))
+int __real_mkostemp(char *name, int flags);
+int __wrap_mkostemp(char *name, int flags);
+int __wrap_mkostemp(char *name, int flags) {
+  if (sealed)
+    errno = EACCES;
+  AROUND(int, sealed ? -1 : __real_mkostemp(name, flags));
+}
+
+int __real_posix_fallocate(int descriptor, off_t from, off_t size);
+int __wrap_posix_fallocate(int descriptor, off_t from, off_t size);
+int __wrap_posix_fallocate(int descriptor, off_t from, off_t size) {
+  AROUND(int, full ? ENOSPC : __real_posix_fallocate(descriptor, from, size));
+}
+
+WRAP(FILE *, tmpfile, (void), ())
+WRAP(int, ftruncate, (int descriptor, off_t size), (descriptor, size))
 WRAP(int, rename, (const char *from, const char *to), (from, to))
 WRAP(int, fclose, (FILE * file), (file))
 WRAP(int, fflush, (FILE * file), (file))
@@ -67,7 +84,7 @@ int __wrap_unlink(const char *name);
 int __wrap_unlink(const char *name) {
   if (!counting)
     return __real_unlink(name);
-  if (strncmp(name, path, strlen(path)) != 0 || name[strlen(path)] != '.')
+  if (strncmp(name, beside, strlen(beside)) != 0)
     _exit(STRANGE); /* not the file beside: what was read is not its name */
   AROUND(int, __real_unlink(name));
 }
@@ -106,7 +123,7 @@ static const char *text_there(void) {
   DIR *listing = opendir(folder);
   int others = 0;
   for (const struct dirent *entry; (entry = readdir(listing)) != NULL;)
-    others += entry->d_name[0] != '.' && strcmp(entry->d_name, "out") != 0;
+    others += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 && strcmp(entry->d_name, "out") != 0;
   closedir(listing);
   ck_assert_msg(others == 0, "moment %d, signal %d: a file is left behind", told_to_end, signal_number);
   return text;
@@ -135,7 +152,8 @@ static int run_child(bool keep) {
   return status;
 }
 
-START_TEST(a_signal_at_every_moment) {
+/* Goes through all moments; checks that there were enough of them before the new file is in its place, and some behind. */
+static void go_through_moments(void) {
   int kept_old = 0, kept_new = 0, ended = 0;
   for (int keep = 0; keep < 2; keep++) {
     int status = -1;
@@ -158,9 +176,30 @@ START_TEST(a_signal_at_every_moment) {
     }
     ck_assert_int_eq(status, 0); /* the last went through all moments */
   }
-  /* both ways, with moments before the new file is in its place and behind */
   ck_assert_int_ge(ended, 30);
   ck_assert(kept_old > 20 && kept_new > 0);
+}
+
+START_TEST(a_signal_at_every_moment) {
+  go_through_moments();
+}
+END_TEST
+
+START_TEST(a_signal_at_every_moment_in_a_sealed_folder) {
+  sealed = true;
+  go_through_moments();
+  sealed = false;
+}
+END_TEST
+
+START_TEST(a_full_disk_in_a_sealed_folder) {
+  sealed = full = true;
+  told_to_end = -1;
+  put_old();
+  const int status = run_child(true);
+  sealed = full = false;
+  ck_assert_int_eq(WEXITSTATUS(status), 1);
+  ck_assert_str_eq(text_there(), old_text);
 }
 END_TEST
 
@@ -171,8 +210,10 @@ int main(void) {
     return 1;
   char *whole = realpath(folder, NULL); /* as output.c has it, whatever links lead there */
   snprintf(path, sizeof path, "%s/out", whole);
+  snprintf(beside, sizeof beside, "%s/.carom-", whole);
   free(whole);
-  const int code = RUN_TESTS("output", a_signal_at_every_moment);
+  const int code = RUN_TESTS("output", a_signal_at_every_moment, a_signal_at_every_moment_in_a_sealed_folder,
+                             a_full_disk_in_a_sealed_folder);
   __real_unlink(path);
   rmdir(folder);
   return code;

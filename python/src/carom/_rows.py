@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import time
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -15,9 +18,16 @@ FLOAT64 = np.dtype(np.float64)
 INT8 = np.dtype(np.int8)
 
 
+def as_array(values: npt.ArrayLike, name: str, dtype: npt.DTypeLike | None = None) -> Array:
+    """np.asarray(), but that a masked array is refused: its mask would be lost without a word."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise TypeError(f"{name}: masks are not read; give the rows that count alone (compressed), or the array's filled() values")
+    return np.asarray(values, dtype)
+
+
 def rows(values: npt.ArrayLike, record: np.dtype[Any], name: str, single: bool = False) -> Array:
     """The values as an array in C order: of the record, of shape (..., width) in double, or in single precision if allowed."""
-    array = np.asarray(values)
+    array = as_array(values, name)
     width = record.itemsize // 8
     # The usual case is told by identity: comparing with a structured dtype takes longer than all else here.
     if array.dtype is FLOAT64 or array.dtype != record:
@@ -37,6 +47,7 @@ def output(given: Array | None, shape: tuple[int, ...], dtype: np.dtype[Any], na
     """The array given to be written to, checked, or a new one."""
     if given is None:
         return np.empty(shape, dtype)
+    as_array(given, name)
     flags = given.flags
     right = given.shape == shape and (given.dtype is dtype or given.dtype == dtype)
     if not (right and flags.c_contiguous and flags.writeable and flags.aligned):
@@ -45,6 +56,46 @@ def output(given: Array | None, shape: tuple[int, ...], dtype: np.dtype[Any], na
             f"dtype {given.dtype}"
         )
     return given
+
+
+def apart(inputs: tuple[tuple[str, Array], ...], outputs: tuple[tuple[str, Array], ...]) -> None:
+    """Refuses arrays to be written to that overlap what is read, or each other. All are in C order, so their bounds tell."""
+    taken = inputs
+    for output in outputs:
+        for other in taken:
+            if np.may_share_memory(output[1], other[1]):
+                raise ValueError(f"{output[0]}: its memory overlaps that of {other[0]}; give an array of its own")
+        taken += (output,)
+
+
+def workers(threads: int) -> int:
+    """How many threads can be busy at once for an option `threads`."""
+    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return processors if threads < 0 else max(min(threads, processors), 1)
+
+
+def in_chunks(n: int, seconds: float, threads: int, call: Callable[[int, int], int]) -> int:
+    """Calls call(first row, number of rows) for chunks of n rows, one after another, in each of which C computes without Python.
+
+    Between two chunks Python handles signals, so that Ctrl-C ends a long batch. The first chunk has as many rows as take 1 ms on
+    each thread by `seconds`, what a row usually takes; a batch of fewer is one call. By the time that a chunk took, the next is to
+    last 20 ms, or 100 ms where threads have to be started for each. Gives the status of the first chunk in error, or 0.
+    """
+    count = max(64, int(0.001 / seconds))
+    if n <= count:
+        return call(0, n)
+    hands = workers(threads) if threads else 1
+    count *= hands
+    wanted, least, begin, status = 0.02 if hands == 1 else 0.1, 64 * hands if hands > 1 else 1, 0, 0
+    while begin < n:
+        count = min(count, n - begin)
+        since = time.perf_counter()
+        code = call(begin, count)
+        spent = time.perf_counter() - since
+        status = code if status >= 0 > code else status
+        begin += count
+        count = max(least, min(8 * count, int(count * wanted / max(spent, 1e-9))))
+    return status
 
 
 pointer: Any = ffi.from_buffer
@@ -64,7 +115,7 @@ def fill(record: np.dtype[Any], vectors: dict[str, int], fields: dict[str, npt.A
     arrays: dict[str, npt.NDArray[np.float64]] = {}
     shapes: list[tuple[int, ...]] = []
     for name, value in fields.items():
-        array = np.asarray(value, dtype=np.float64)
+        array = as_array(value, name, np.float64)
         length = vectors.get(name.rpartition(".")[2])
         if length is not None:
             if array.ndim == 0:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import FLOAT32, FLOAT64, INT8, Array, choice, fill, output, pointer, rows
+from carom._rows import FLOAT32, FLOAT64, INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows
 from carom.status import CaromError
 
 Solver = Literal["exact", "euler"]
@@ -133,7 +133,7 @@ def collide(
     threads : int
         Most threads to use; 0 is the calling one alone, -1 all processors. Results do not depend on it.
     out : tuple of two arrays, optional
-        Where motion and status go: an earlier result, for example.
+        Where motion and status go: an earlier result, for example. They may not overlap each other or the impacts.
 
     Returns
     -------
@@ -157,16 +157,23 @@ def collide(
     else:
         motion = output(motion, (*shape, 12), array.dtype, "out[0]")
     status = output(status, shape, INT8, "out[1]")
-    if array.dtype is not FLOAT64 and array.dtype == FLOAT32:
-        source, target = pointer("carom_impact_f32[]", array), pointer("carom_result_f32[]", motion)
-        code = lib.carom_collide_batch_f32(source, status.size, options, target, pointer("int8_t[]", status))
-    elif shape == ():
+    if out is not None:
+        apart((("impacts", array),), (("out[0]", motion), ("out[1]", status)))
+    single = array.dtype is not FLOAT64 and array.dtype == FLOAT32
+    if shape == () and not single:
         # One alone has the same bits by a call that does not fill lanes.
         code = lib.carom_collide(pointer("carom_impact[]", array), options, pointer("carom_result[]", motion))
         status[...] = code
     else:
-        source, target = pointer("carom_impact[]", array), pointer("carom_result[]", motion)
-        code = lib.carom_collide_batch(source, status.size, options, target, pointer("int8_t[]", status))
+        width = "_f32" if single else ""
+        batch = lib.carom_collide_batch_f32 if single else lib.carom_collide_batch
+        source, target = pointer(f"carom_impact{width}[]", array), pointer(f"carom_result{width}[]", motion)
+        flags = pointer("int8_t[]", status)
+
+        def solve(begin: int, count: int) -> int:
+            return int(batch(source + begin, count, options, target + begin, flags + begin))
+
+        code = in_chunks(status.size, 2e-7 if solver == "exact" else 1e-8 * (steps or 1000), threads, solve)
     if code < 0 and (shape == () or _options_at_fault(options)):
         raise _error(code, array, options)
     return Outcome(motion, status)
@@ -216,7 +223,13 @@ def mu_ball(impacts: npt.ArrayLike, law: tuple[float, float, float] | None = Non
     """
     array = rows(impacts, dtypes.impact, "impacts")
     mu = np.empty(array.shape if array.dtype.names is not None else array.shape[:-1])
-    lib.carom_python_mu_ball(pointer("carom_impact[]", array), mu.size, law or alciatore(), pointer("double[]", mu))
+    source, target, a_b_c = pointer("carom_impact[]", array), pointer("double[]", mu), law or alciatore()
+
+    def fill_in(begin: int, count: int) -> int:
+        lib.carom_python_mu_ball(source + begin, count, a_b_c, target + begin)
+        return 0
+
+    in_chunks(mu.size, 5e-8, 0, fill_in)
     return mu
 
 

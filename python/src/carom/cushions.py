@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, choice, fill, output, pointer, rows
+from carom._rows import INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows
 from carom.collisions import Outcome
 from carom.status import CaromError
 
@@ -124,7 +124,7 @@ def cushion(
     threads : int
         Most threads to use; 0 is the calling one alone, -1 all processors.
     out : tuple of two arrays, optional
-        Where motion and status go.
+        Where motion and status go. They may not overlap each other or the impacts.
 
     Returns
     -------
@@ -148,13 +148,15 @@ def cushion(
     else:
         motion = output(motion, (*shape, 6), array.dtype, "out[0]")
     status = output(status, shape, INT8, "out[1]")
-    code = lib.carom_cushion_batch(
-        pointer("carom_cushion_impact[]", array),
-        status.size,
-        options,
-        pointer("carom_motion[]", motion),
-        pointer("int8_t[]", status),
-    )
+    if out is not None:
+        apart((("impacts", array),), (("out[0]", motion), ("out[1]", status)))
+    source, target, flags = pointer("carom_cushion_impact[]", array), pointer("carom_motion[]", motion), pointer("int8_t[]", status)
+
+    def solve(begin: int, count: int) -> int:
+        return int(lib.carom_cushion_batch(source + begin, count, options, target + begin, flags + begin))
+
+    seconds = 1e-5 if model == "mathavan" else 1e-7 * (steps or 1000) if model == "euler" else 1e-7
+    code = in_chunks(status.size, seconds, threads, solve)
     if code < 0 and (shape == () or lib.carom_cushion_check(_good(), options, ffi.NULL) < 0):
         raise _error(code, array, options)
     return Outcome(motion, status)

@@ -5,6 +5,7 @@ An array of one of them is an array of the C struct, without conversion: `impact
 
 from __future__ import annotations
 
+import functools
 from typing import Any
 
 import numpy as np
@@ -79,11 +80,28 @@ shot: Record = _record("carom_shot")
 """What a shot gives, with the addresses of its arrays: for the calls of C."""
 
 
+@functools.lru_cache(maxsize=64)
+def _integers(dtype: np.dtype[Any], name: str = "") -> tuple[str, ...]:
+    """The names of the fields that are no float64, with those of the parts that they are in."""
+    part = dtype.base
+    if part.names is None:
+        return () if part == np.float64 else (name,)
+    return tuple(found for field in part.names for found in _integers(part[field], f"{name}.{field}" if name else field))
+
+
 def plain(records: Records) -> Doubles:
     """The numbers of records that are all doubles, of shape (..., width): a view, where they are in C order.
+
+    Records with integers, such as labels, event types or indices, are refused: their bytes would be read as doubles.
 
     >>> plain(carom.impacts(v_a=velocities, r_b=(0.05715, 0, 0))).shape
     (1000, 26)
     """
+    if records.dtype.names is None:
+        raise TypeError(f"records: a structured array is needed, such as carom.impacts() gives, not one of {records.dtype}")
+    integers = _integers(records.dtype)
+    if integers:
+        which = f"{integers[0]} and {len(integers) - 1} more hold" if len(integers) > 1 else f"{integers[0]} holds"
+        raise TypeError(f"records: {which} integers, but rows of float64 were asked for; take the fields by their names")
     numbers = np.ascontiguousarray(records).reshape(-1).view(np.float64)
     return numbers.reshape((*records.shape, records.dtype.itemsize // 8))

@@ -9,7 +9,8 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, choice, fill
+from carom._rows import Array, as_array, choice, fill
+from carom.status import CaromError
 
 Game = Literal["pool", "snooker", "billiard"]
 _GAMES = {"pool": 0, "snooker": 1, "billiard": 2}
@@ -153,7 +154,7 @@ def balls(
     fields: dict[str, npt.ArrayLike] = {
         f"kind.{name}": float(getattr(kind, name)) if value is None else value for name, value in given.items()
     }
-    centres = np.asarray(r, dtype=np.float64)
+    centres = as_array(r, "r", np.float64)
     if centres.ndim < 2 or centres.shape[-1] not in (2, 3):
         raise ValueError(f"r: the shape must be (..., balls, 2) or (..., balls, 3), not {centres.shape}")
     if centres.shape[-1] == 2:
@@ -216,6 +217,25 @@ def cue(
     )
 
 
+def cue_error(status: int, cue: dtypes.Records, balls: dtypes.Records | None = None) -> CaromError:
+    """The exception for a cue that C refuses, with the field at fault; `balls` is the layout, if there is one."""
+    number = int(cue["ball"])
+    if balls is not None and not 0 <= number < len(balls):
+        return CaromError(status, "cue.ball", number, text=f"it must be the index of one of the balls, 0 to {len(balls) - 1}")
+    if balls is not None and balls["state"]["label"][number] == lib.CAROM_BALL_POCKETED:
+        return CaromError(status, "cue.ball", number, text="this ball is pocketed; a ball on the table must be struck")
+    for field, low, high, text in (
+        ("speed", 0.0, 1e3, "it must be 0 to 1000 m/s"),
+        ("phi", -1e9, 1e9, "it must be a direction in degrees"),
+        ("theta", 0.0, 90.0, "it must be 0 to 90 degrees"),
+        ("mass", 5e-324, 1.7976931348623157e308, "it must be positive and finite"),
+        ("end_mass", 5e-324, 1.7976931348623157e308, "it must be positive and finite"),
+    ):
+        if not low <= cue[field] <= high:
+            return CaromError(status, f"cue.{field}", float(cue[field]), text=text)
+    return CaromError(status, "cue")
+
+
 def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
     """The motion of a ball at rest after a strike.
 
@@ -228,15 +248,16 @@ def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
     -------
     ndarray of `carom.dtypes.motion`, shape ()
     """
-    from carom.status import CaromError
-
     motion: Array = np.zeros((), dtypes.motion)
+    strike = np.array(cue, dtypes.cue).reshape(())
     arguments: list[Any] = [
-        ffi.from_buffer("carom_cue[]", np.array(cue, dtypes.cue).reshape(1)),
+        ffi.from_buffer("carom_cue[]", strike),
         ffi.from_buffer("carom_ball_kind[]", np.array(kind, dtypes.ball_kind).reshape(1)),
         ffi.from_buffer("carom_motion[]", motion),
     ]
     code = lib.carom_strike(*arguments)
+    if code in (lib.CAROM_ERROR_CUE, lib.CAROM_ERROR_MISCUE):
+        raise cue_error(code, strike)
     if code < 0:
         raise CaromError(code)
     return motion

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 import importlib
 import sys
+import types
+import warnings
 from typing import Any, Literal
 
 import numpy as np
@@ -29,6 +31,7 @@ __all__ = [
     "ExactBallBall",
     "ExactCircularCushion",
     "ExactLinearCushion",
+    "FallbackWarning",
     "UnsupportedError",
     "balls_of",
     "cue_of",
@@ -52,6 +55,10 @@ _CUSHIONS: dict[str, ShotCushion] = {"StrongeCompliant": "stronge", "Han2005": "
 
 class UnsupportedError(ValueError):
     """What is asked for is pooltool's alone; `simulate(..., fallback=True)` lets pooltool do it."""
+
+
+class FallbackWarning(UserWarning):
+    """pooltool plays a system, at its own speed, because carom cannot. Each reason is told once."""
 
 
 # ---- What goes in -------------------------------------------------------------------------------------------------------
@@ -155,7 +162,7 @@ def simulate(
     cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
         With models="carom" only; as for `carom.simulate`.
     fallback : bool
-        What carom cannot do is played by pooltool instead of an error.
+        What carom cannot do is played by pooltool instead of an error. A `FallbackWarning` says why, once for each reason.
 
     Returns
     -------
@@ -193,9 +200,10 @@ def simulate(
             if engine is not None:
                 raise UnsupportedError("engine: with models='carom' the models are carom's")
             played = _play(table, balls, cue, cushion_model=cushion_model)
-    except (UnsupportedError, CaromError):
+    except (UnsupportedError, CaromError) as reason:
         if not fallback:
             raise
+        _tell(reason)
         return _pooltools_simulate(shot, engine, inplace, continuous, dt, t_final, include, max_events)
     system = shot if inplace else shot.copy()
     kept, stopped = played.count, False
@@ -211,18 +219,40 @@ def simulate(
     return system
 
 
+_told: set[object] = set()
+
+
+def _tell(reason: UnsupportedError | CaromError) -> None:
+    """Warns, once for each reason, whoever called simulate() from outside this module."""
+    kind = reason.status if isinstance(reason, CaromError) else str(reason)
+    if kind in _told:
+        return
+    _told.add(kind)
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and frame.f_globals is globals():
+        level, frame = level + 1, frame.f_back
+    warnings.warn(f"pooltool plays this system instead of carom: {reason}", FallbackWarning, stacklevel=level)
+
+
 # ---- In its place -------------------------------------------------------------------------------------------------------
 
 
 def _replace(old: Any, new: Any) -> None:
-    """In every module of pooltool that has the old function under the name simulate, but where it is defined."""
+    """Under every name that the old function has in a module, but in this one, which keeps both."""
     for name, module in list(sys.modules.items()):
-        if name.partition(".")[0] == "pooltool" and module is not _simulate and vars(module).get("simulate") is old:
-            vars(module)["simulate"] = new
+        if name != __name__ and issubclass(type(module), types.ModuleType):
+            # Not by vars(), which would load a module that waits for its first use.
+            names = object.__getattribute__(module, "__dict__")
+            for its in [its for its, value in list(names.items()) if value is old]:
+                names[its] = new
 
 
 def install() -> None:
-    """Put carom in place of `pooltool.simulate`; what carom cannot do is then played by pooltool."""
+    """Put carom in place of `pooltool.simulate`: in pooltool, and in every module that has imported it by now under any name.
+
+    What carom cannot do is then played by pooltool; a `FallbackWarning` says why, once for each reason.
+    """
+    _told.clear()
     _replace(_pooltools_simulate, _installed)
 
 

@@ -16,6 +16,8 @@ from carom.status import CaromError
 
 
 def _rack(kind: int, table: Table, gap: float, seed: int) -> dtypes.Records:
+    if not 0 <= seed < 2**64:
+        raise ValueError(f"seed: it must be a whole number from 0 to 2**64 - 1, not {seed}")
     size = int(lib.carom_rack_size(kind))
     balls: Array = np.zeros(size, dtypes.shot_ball)
     of_table = ffi.from_buffer("carom_table[]", table.record)

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, pointer
+from carom._rows import INT8, Array, as_array, in_chunks, pointer
 from carom.layouts import Table
 from carom.status import CaromError, Status
 
@@ -95,24 +95,27 @@ class Shot:
         Raises
         ------
         CaromError
-            Not all events were kept (`simulate_batch` with too little room). Or a time is not a number, or after the end of a shot
-            that a bound or an error stopped while balls moved.
+            Not all events were kept (`simulate_batch` with too little room), or a time is after the end of a shot that a bound
+            or an error stopped while balls moved.
+        ValueError
+            A time is nan.
         """
-        at = np.asarray(times, dtype=np.float64, order="C")
+        at = np.asarray(as_array(times, "times", np.float64), order="C")
+        if np.isnan(at).any():
+            raise ValueError("times: a time must be a number of seconds, not nan")
         states: Array = np.zeros((*at.shape, len(self.balls)), dtypes.ball_state)
         events = np.ascontiguousarray(self.events)
         shot = ffi.new(
             "carom_shot *",
             {"events": pointer("carom_event[]", events), "room": len(events), "count": self.count, "time": self.time},
         )
-        code = lib.carom_python_shot_at(
-            pointer("carom_shot_ball[]", self.balls),
-            len(self.balls),
-            shot,
-            at.size,
-            pointer("double[]", at),
-            pointer("carom_ball_state[]", states),
-        )
+        balls, count = pointer("carom_shot_ball[]", self.balls), len(self.balls)
+        moments, target = pointer("double[]", at), pointer("carom_ball_state[]", states)
+
+        def look(begin: int, many: int) -> int:
+            return int(lib.carom_python_shot_at(balls, count, shot, many, moments + begin, target + begin * count))
+
+        code = in_chunks(at.size, 1e-6, 0, look)
         if code < 0:
             raise CaromError(code)
         return states
@@ -129,6 +132,11 @@ class Shot:
         -------
         ndarray of float64, shape (..., balls, 3)
             m.
+
+        Raises
+        ------
+        CaromError, ValueError
+            As for `states`.
         """
         return np.asarray(self.states(times)["r"], dtype=np.float64)
 

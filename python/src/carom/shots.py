@@ -9,8 +9,8 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, choice, output, pointer
-from carom.layouts import Table
+from carom._rows import INT8, Array, apart, as_array, choice, in_chunks, output, pointer
+from carom.layouts import Table, cue_error
 from carom.results import Shot, Shots
 from carom.status import CaromError, Status
 
@@ -53,7 +53,7 @@ def _options(
 
 
 def _records(values: dtypes.Records, record: dtypes.Record, name: str, builder: str) -> Array:
-    array = np.asarray(values)
+    array = as_array(values, name)
     if array.dtype != record:
         raise TypeError(f"{name}: an array of the dtype of carom.{builder} is needed, not of {array.dtype}")
     return np.asarray(array, order="C")
@@ -122,7 +122,7 @@ def simulate(
     final: Array = np.zeros(layout.shape, dtypes.ball_state)
     arguments = (pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), strike, options)
     if lib.carom_shot_check(*arguments, ffi.NULL) < 0:
-        raise _argument_error(arguments, layout)
+        raise _argument_error(arguments, layout, None if cue is None else cues.reshape(()))
     # A shot that has more events than there is room for is played again with enough of it: it has the same bits.
     room = _FIRST_ROOM
     while True:
@@ -206,6 +206,9 @@ def simulate_batch(
     output(shots.status, shape, INT8, "out.status")
     output(shots.final, (*shape, count), dtypes.ball_state, "out.final")
     output(shots.events, (*shape, room), dtypes.event, "out.events")
+    if out is not None:
+        written = (("out.status", out.status), ("out.final", out.final), ("out.events", out.events), ("out.record", out.record))
+        apart((("layouts", all_balls), ("cues", all_cues), ("table", table.record)), written)
     shots.table, shots.layouts = table, all_balls
     n = shots.status.size
     record = shots.record
@@ -216,18 +219,20 @@ def simulate_batch(
     flat["final"] = shots.final.ctypes.data + numbers * np.uintp(count * dtypes.ball_state.itemsize)
     options = _options(world, ball_model, cushion_model, friction, steps, events_most, time_most, threads)
     shots.status[...] = Status.OK
-    code = lib.carom_shoot_batch(
-        pointer("carom_table[]", table.record),
-        pointer("carom_shot_ball[]", all_balls),
-        count,
-        int(one_layout),
-        ffi.NULL if cues is None else pointer("carom_cue[]", all_cues),
-        int(one_cue),
-        n,
-        options,
-        pointer("carom_shot[]", record),
-        pointer("int8_t[]", shots.status),
-    )
+    balls, results, flags = pointer("carom_shot_ball[]", all_balls), pointer("carom_shot[]", record), pointer("int8_t[]", shots.status)
+    strikes = ffi.NULL if cues is None else pointer("carom_cue[]", all_cues)
+    of_table = pointer("carom_table[]", table.record)
+
+    def play(begin: int, many: int) -> int:
+        first = balls if one_layout else balls + begin * count
+        strike = strikes if one_cue else strikes + begin
+        return int(
+            lib.carom_shoot_batch(
+                of_table, first, count, int(one_layout), strike, int(one_cue), many, options, results + begin, flags + begin
+            )
+        )
+
+    code = in_chunks(n, 5e-5, threads, play)
     if code < 0 and not (shots.status < 0).any():
         raise CaromError(code)
     return shots
@@ -252,12 +257,12 @@ _BALL_FIELDS = {
 }
 
 
-def _argument_error(arguments: tuple[Any, ...], layout: Array) -> CaromError:
+def _argument_error(arguments: tuple[Any, ...], layout: Array, cue: Array | None) -> CaromError:
     """The exception for arguments that carom_shot_check() refuses."""
     where = ffi.new("int *", -1)
     status = Status(lib.carom_shot_check(*arguments, where))
-    if status in (Status.ERROR_CUE, Status.ERROR_MISCUE):
-        return CaromError(status, "cue")
+    if cue is not None and status in (Status.ERROR_CUE, Status.ERROR_MISCUE):
+        return cue_error(status, cue, layout)
     if status in (Status.ERROR_TABLE, Status.ERROR_NOSE_HEIGHT):
         return CaromError(status, "table")
     if not 0 <= where[0] < len(layout):

@@ -65,7 +65,9 @@ class Status(enum.IntEnum):
     @property
     def text(self) -> str:
         """What the status means, in one sentence."""
-        return str(ffi.string(lib.carom_status_string(self)).decode())
+        text: str = ffi.string(lib.carom_status_string(self)).decode()
+        # What C has in a struct is an argument here.
+        return text.replace("options.", "").replace("CAROM_ALL_THREADS", "carom.ALL_THREADS")
 
 
 class CaromError(ValueError):
@@ -76,13 +78,23 @@ class CaromError(ValueError):
     status : Status
     field : str or None
         Name of the field at fault ("a.mass", "balls[3].state.r"), None where no single one is to blame.
+    value : object
+        What stands there, None where nothing is to be shown.
     shot : Shot or None
         What had happened until then, where a shot ended in an error.
     """
 
-    def __init__(self, status: int, field: str | None = None, value: object = None, shot: Shot | None = None) -> None:
+    def __init__(
+        self, status: int, field: str | None = None, value: object = None, shot: Shot | None = None, text: str | None = None
+    ) -> None:
         self.status = Status(status)
         self.field = field
+        self.value = value
         self.shot = shot
+        self._text = text or self.status.text
         where = "" if field is None else f"{field}: " if value is None else f"{field} = {value}: "
-        super().__init__(where + self.status.text)
+        super().__init__(where + self._text)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """What pickle and the pools of multiprocessing make it of again; by default they would call it with its sentence alone."""
+        return type(self), (self.status, self.field, self.value, self.shot, self._text), self.__dict__

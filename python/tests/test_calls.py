@@ -1,0 +1,285 @@
+"""What all calls share: which arrays they take, errors that travel between processes, Ctrl-C."""
+
+import concurrent.futures
+import functools
+import multiprocessing
+import os
+import pickle
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import carom
+
+GOOD = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0))
+BAD = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0), mass=-1.0)
+
+
+# ---- Errors ------------------------------------------------------------------------------------------------------------
+
+
+def stopped():
+    """The error of a shot that a bound stopped."""
+    table = carom.tables.pool_9ft()
+    with pytest.raises(carom.CaromError) as caught:
+        carom.simulate(table, carom.racks.nineball(table), carom.cue(speed=8.0), events_most=7)
+    return caught.value
+
+
+def test_errors_can_be_pickled():
+    with pytest.raises(carom.CaromError) as caught:
+        carom.collide(BAD)
+    others = carom.CaromError(carom.Status.ERROR_TABLE), carom.CaromError(-50, "cue", text="odd")
+    for error in (caught.value, stopped(), *others):
+        error.note = "kept"
+        for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
+            again = pickle.loads(pickle.dumps(error, protocol))
+            assert type(again) is carom.CaromError and str(again) == str(error) and again.note == "kept"
+            assert (again.status, again.field, again.value) == (error.status, error.field, error.value)
+            if error.shot is not None:
+                assert again.shot.count == error.shot.count == 7
+                np.testing.assert_array_equal(again.shot.positions([0.0, 0.1]), error.shot.positions([0.0, 0.1]))
+
+
+def test_errors_reach_the_process_that_asked():
+    """An exception that cannot be unpickled leaves a pool waiting for ever, so each call has its time."""
+    context = multiprocessing.get_context("spawn")
+    with context.Pool(1) as pool:
+        assert pool.map_async(carom.collide, [GOOD]).get(timeout=120)[0].status == 0
+        with pytest.raises(carom.CaromError, match=r"a\.mass = -1\.0: a mass must be positive") as caught:
+            pool.map_async(carom.collide, [GOOD, BAD]).get(timeout=120)
+        assert caught.value.field == "a.mass" and caught.value.status is carom.Status.ERROR_MASS
+    with concurrent.futures.ProcessPoolExecutor(1, mp_context=context) as executor:
+        with pytest.raises(carom.CaromError, match="mass"):
+            executor.submit(carom.collide, BAD).result(timeout=120)
+        assert executor.submit(carom.collide, GOOD).result(timeout=120).status == 0
+
+
+def test_messages_name_arguments_of_python():
+    with pytest.raises(carom.CaromError, match=r"^threads must be carom\.ALL_THREADS, or 0 or more$"):
+        carom.collide(GOOD, threads=-7)
+    with pytest.raises(carom.CaromError, match=r"^steps must not be negative"):
+        carom.collide(GOOD, solver="euler", steps=-1)
+    assert "than events_most" in str(stopped())
+    for status in carom.Status:
+        assert "options." not in status.text
+
+
+def test_messages_name_what_is_wrong_with_a_cue():
+    table = carom.tables.pool_9ft()
+    rack = carom.racks.nineball(table)
+    rack[3]["state"]["label"] = carom.Label.POCKETED
+    for given, field, message in (
+        ({"speed": np.nan}, "cue.speed", r"cue\.speed = nan: it must be 0 to 1000 m/s"),
+        ({"speed": -1.0}, "cue.speed", r"cue\.speed = -1\.0: it must be 0"),
+        ({"phi": np.inf}, "cue.phi", r"cue\.phi = inf: .* direction"),
+        ({"theta": 91.0}, "cue.theta", "0 to 90 degrees"),
+        ({"mass": 0.0}, "cue.mass", "positive"),
+        ({"end_mass": np.inf}, "cue.end_mass", "positive and finite"),
+        ({"ball": 99}, "cue.ball", r"cue\.ball = 99: .* index of one of the balls, 0 to 9"),
+        ({"ball": -1}, "cue.ball", "0 to 9"),
+        ({"ball": 3}, "cue.ball", r"cue\.ball = 3: this ball is pocketed"),
+        ({"a": 0.8, "b": 0.8}, "cue", "the tip misses the ball"),
+    ):
+        with pytest.raises(carom.CaromError, match=message) as caught:
+            carom.simulate(table, rack, carom.cue(**given))
+        assert caught.value.field == field
+        if "ball" not in given:
+            with pytest.raises(carom.CaromError, match=message):
+                carom.struck(carom.cue(**given), rack[0]["kind"])
+    for seed in (-1, 2**64):
+        with pytest.raises(ValueError, match="seed: it must be a whole number from 0"):
+            carom.racks.nineball(table, seed=seed)
+    assert len(carom.racks.nineball(table, seed=2**64 - 1)) == 10
+
+
+# ---- Arrays ------------------------------------------------------------------------------------------------------------
+
+
+def test_plain_takes_records_of_doubles_alone():
+    for name in ("impact", "result", "motion", "cushion_impact", "ball_kind", "jaw", "pocket"):
+        records = np.zeros((2, 3), getattr(carom.dtypes, name))
+        assert carom.dtypes.plain(records).shape == (2, 3, records.dtype.itemsize // 8)
+    for name, field in (
+        ("ball_state", "label"), ("shot_ball", r"state\.label"), ("event", r"type and \d+ more"), ("trace_point", "phase"),
+        ("cushion_point", "phase"), ("cue", "ball"), ("rail", "side"), ("table", ""), ("shot", ""),
+    ):  # fmt: skip
+        with pytest.raises(TypeError, match=rf"records: .*{field}.* integers.* by their names"):
+            carom.dtypes.plain(np.zeros(2, getattr(carom.dtypes, name)))
+    with pytest.raises(TypeError, match="a structured array is needed"):
+        carom.dtypes.plain(np.zeros((2, 26)))
+
+
+def test_masks_are_refused(impacts):
+    masked = np.ma.masked_array(impacts, mask=np.zeros_like(impacts, bool))
+    cushions = carom.cushion_impacts(v=(0.0, 1.0, 0.0))
+    table = carom.tables.pool_9ft()
+    shot = carom.simulate(table, carom.racks.nineball(table), carom.cue(speed=1.0))
+    for name, call in {
+        "impacts": lambda: carom.collide(masked),
+        "impact": lambda: carom.trace(masked[0]),
+        r"out\[0\]": lambda: carom.collide(impacts, out=(np.ma.zeros((204, 12)), np.zeros(204, np.int8))),
+        "restitution": lambda: carom.impacts(v_a=(1, 0, 0), r_b=(1, 0, 0), restitution=np.ma.masked_array([0.9], mask=[True])),
+        "layouts": lambda: carom.simulate_batch(table, np.ma.masked_array(carom.racks.nineball(table))),
+        "times": lambda: shot.positions(np.ma.masked_array([0.1], mask=[True])),
+        "r": lambda: carom.balls(np.ma.zeros((3, 2))),
+    }.items():
+        with pytest.raises(TypeError, match=rf"^{name}: masks are not read"):
+            call()
+    for call in (lambda: carom.cushion(np.ma.masked_array(cushions)), lambda: carom.mu_ball(masked)):
+        with pytest.raises(TypeError, match="^impacts: masks are not read"):
+            call()
+    np.testing.assert_array_equal(carom.collide(masked.filled()).motion, carom.collide(impacts).motion)
+
+
+def test_memory_that_overlaps_is_refused(impacts):
+    n = len(impacts)
+    memory, status = np.zeros(40 * n), np.zeros(n, np.int8)
+    inside = memory[: 26 * n].reshape(n, 26)
+    inside[:] = impacts
+    beside = memory[26 * n : 38 * n].reshape(n, 12)
+    bytes_from = lambda place: memory[place:].view(np.int8)[:n]
+    for out, what in (
+        ((memory[: 12 * n].reshape(n, 12), status), r"out\[0\]: .* impacts"),
+        ((memory[26 * n - 1 : 38 * n - 1].reshape(n, 12), status), r"out\[0\]: .* impacts"),
+        ((beside, bytes_from(26 * n - 1)), r"out\[1\]: .* impacts"),
+        ((beside, bytes_from(38 * n - 1)), r"out\[1\]: .* out\[0\]"),
+    ):
+        with pytest.raises(ValueError, match=what):
+            carom.collide(inside, out=out)
+    np.testing.assert_array_equal(inside, impacts)
+    # Side by side in one block is as good as apart; and an input that is copied first may be written over.
+    expected = carom.collide(impacts).motion
+    np.testing.assert_array_equal(carom.collide(inside, out=(beside, bytes_from(38 * n))).motion, expected)
+    turned = np.asfortranarray(impacts)
+    over = turned.T.reshape(-1)[: 12 * n].reshape(n, 12)
+    assert np.may_share_memory(turned, over)
+    np.testing.assert_array_equal(carom.collide(turned, out=(over, status)).motion, expected)
+    with pytest.raises(ValueError, match=r"out\[0\]: .* impacts"):
+        carom.cushion(memory[: 15 * n].reshape(n, 15), out=(memory[10 * n : 16 * n].reshape(n, 6), status))
+    table, rack, cues = shots_of(2)
+    shots = carom.simulate_batch(table, rack, cues)
+    shots.status = shots.record.view(np.int8)[:2]
+    with pytest.raises(ValueError, match=r"out\.record: .* out\.status"):
+        carom.simulate_batch(table, rack, cues, out=shots)
+
+
+def test_a_time_must_be_a_number():
+    table = carom.tables.pool_9ft()
+    shot = carom.simulate(table, carom.racks.nineball(table), carom.cue(speed=1.0))
+    for call in (shot.positions, shot.states):
+        with pytest.raises(ValueError, match="times: .* not nan"):
+            call([0.1, np.nan])
+    np.testing.assert_array_equal(shot.positions([-np.inf, np.inf]), shot.positions([0.0, shot.time]))
+
+
+# ---- Chunks and Ctrl-C -------------------------------------------------------------------------------------------------
+
+
+@functools.cache
+def hard():
+    """Collisions under strong friction, which take the exact solver a hundred times as long as those of play."""
+    rng = np.random.default_rng(1)
+    n = 100_000
+    angle = rng.uniform(0, 1.2, n)
+    return carom.impacts(
+        v_a=rng.uniform(0.1, 3, (n, 1)) * [1, 0, 0], w_a=rng.uniform(-80, 80, (n, 3)), mass_b=2.0, mu_cloth=1.0, mu_ball=1.0,
+        r_b=np.stack([np.cos(angle), np.sin(angle), np.zeros(n)], axis=-1), restitution=0.1,
+    )  # fmt: skip
+
+
+def shots_of(n):
+    table = carom.tables.pool_9ft()
+    return table, carom.racks.nineball(table), carom.cue(speed=np.linspace(4.0, 9.0, n))
+
+
+@functools.cache
+def long_calls():
+    """Each takes several seconds."""
+    easy = np.tile(hard()[:1], 1_000_000)
+    cushions = np.tile(carom.cushion_impacts(v=(0.5, 1.0, 0.0), w=(0.0, 20.0, 60.0)), 400_000)
+    table, rack, cues = shots_of(30_000)
+    shot = carom.simulate(*shots_of(1)[:2], carom.cue(speed=9.0))
+    return {
+        "exact": lambda: carom.collide(hard()),
+        "exact, threads": lambda: carom.collide(np.tile(hard(), 2), threads=2),
+        "euler": lambda: carom.collide(easy, solver="euler"),
+        "euler, threads": lambda: carom.collide(easy, solver="euler", threads=-1, steps=2000),
+        "single": lambda: carom.collide(carom.dtypes.plain(easy).astype(np.float32), solver="euler"),
+        "cushion": lambda: carom.cushion(cushions),
+        "shots": lambda: carom.simulate_batch(table, rack, cues),
+        "shots, threads": lambda: carom.simulate_batch(table, rack, cues, threads=2),
+        "states": lambda: shot.states(np.linspace(0, shot.time, 2_000_000)),
+    }
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+@pytest.mark.parametrize("name", list(long_calls()))
+def test_ctrl_c_ends_a_long_call(name):
+    call, sent = long_calls()[name], []
+
+    def interrupt():
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(0.7, interrupt)
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            call()
+            timer.join()
+            time.sleep(0.1)  # where the call was over too soon
+            pytest.fail(f"{name} took less than 0.7 s")
+        took = time.monotonic() - sent[0]
+    finally:
+        timer.cancel()
+    print(f"{name}: {took:.3f} s")
+    assert took < 1.0  # half a second, and room for a machine that has other work
+
+
+def test_chunks_have_the_bits_of_one_call(impacts, monkeypatch):
+    from carom import _rows, collisions, cushions, results, shots
+
+    def calls():
+        many = np.tile(impacts, (70, 1))
+        many[12345, 10] = -1.0
+        walls = carom.cushion_impacts(v=np.linspace(0.1, 2, 3000)[:, None] * [0.3, 1, 0], w=(0, 0, 30))
+        table, rack, cues = shots_of(200)
+        several = carom.simulate_batch(table, np.tile(rack, (200, 1)), cues, room=20, threads=2)
+        one = carom.simulate(table, rack, cues[-1])
+        yield from carom.collide(many)
+        yield from carom.collide(many, threads=2, solver="euler", steps=50)
+        yield from carom.collide(many.astype(np.float32))
+        yield from carom.cushion(walls)
+        yield from (several.final, several.events["time"], several.status, several.count)
+        yield from (carom.mu_ball(np.tile(many, (4, 1))), one.states(np.linspace(0, one.time, 5000)))
+
+    seen = [array.tobytes() for array in calls()]
+    for module in (collisions, cushions, results, shots):
+        assert module.in_chunks is _rows.in_chunks
+        monkeypatch.setattr(module, "in_chunks", lambda n, seconds, threads, call: call(0, n))
+    assert seen == [array.tobytes() for array in calls()]
+
+
+def test_chunks_cover_every_row_once(monkeypatch):
+    """However long they take."""
+    from carom import _rows
+
+    for pace in (1e-9, 1e-6, 1e-3, 1.0):
+        now, seen = [0.0], []
+
+        def call(begin, count):
+            now[0] += count * pace
+            seen.append((begin, count))
+            return -7 if begin == 0 else -8
+
+        monkeypatch.setattr(_rows.time, "perf_counter", lambda: now[0])
+        for threads in (0, 2):
+            for n in (0, 1, 63, 64, 1000, 5001, 100_000):
+                seen.clear()
+                assert _rows.in_chunks(n, 2e-7, threads, call) == -7
+                assert [begin for begin, _ in seen] == list(np.cumsum([0, *(count for _, count in seen[:-1])]))
+                assert sum(count for _, count in seen) == n and all(count > 0 for _, count in seen) == (n > 0)

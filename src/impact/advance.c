@@ -1,0 +1,354 @@
+/* An impact step by step: which step comes next, and what follows it.
+ *
+ * A REGIME (contact.c) lasts until a slip is zero or its event happens. Where all rates are constant, as in an impact without
+ * motion along x, the solution is a straight line. Otherwise a step is planned by the motion of the slip a at the driving
+ * contact:
+ *
+ *     a slides             a stretched map (map.h)
+ *     a is quasi-steady    friction nearly balances what drives a, and a has settled in the direction in which friction lets it
+ *                          go. The equations are stiff and their solution is smooth: an even map, and exact steps
+ *     a begins from zero   the same
+ *     a is held            only b moves: an even map
+ *
+ * A step in which b passes near zero has a sinh map. A b that is quasi-steady takes an even map and exact steps.
+ *
+ * SAFETY. A step that is refused is tried again with a shorter length. After MOST_REFUSALS in a row the rest of the impact goes
+ * by careful steps: exact ones over even maps, each only a share of the way to where a slip could vanish. The caller bounds the
+ * number of iterations of all steps together. */
+#include "impact/advance.h"
+#include "impact/map.h"
+
+#include <float.h>
+
+/* Found by trial with `carom-lab stress --cushion` and `carom-lab bench --shots`; see docs/study/tried.md. */
+static const double MOST_TURN = 2.3;     /* D tau of a stretched step, */
+static const double MOST_FALL = 2.6;     /* and the logarithm by which r falls in it: */
+static const double BOLDER = 0.15;       /* both plus this times -log(r), since small slips matter less */
+static const double STIFF = 3;           /* D p / r from which on a slip is quasi-steady, */
+static const double ALIGNED = 0.15;      /* if sin(psi) is at most this */
+static const double SETTLING = 10;       /* D p / r of a quasi-steady step whose direction still settles */
+static const double NEGLIGIBLE = 1e-7;   /* r sin(psi) that need not settle first */
+static const double SLOW = 0.5;          /* rate of a slip over that by friction alone, below which it is quasi-steady */
+static const double CAREFUL_SHARE = 0.6; /* of the way to a slip of zero, for a careful step */
+static const double AT_ONCE = 1e-9;      /* share of a step at which an event happens where the step begins */
+static const double MOST_GROWTH = 6.9;   /* carom_point.growth: log of 1000 */
+enum {
+  MOST_REFUSALS = 6,         /* in a row, before steps become careful; */
+  MOST_CAREFUL_REFUSALS = 30 /* and before careful ones give up */
+};
+
+/* The kinds of steps, compiled one by one so that each leaves out what it does not need. */
+typedef enum refusal step_kind(const carom_terms *, const step *, carom_point *, int *, double *);
+#define KIND(name, slips, loaded, exact)                                                                                    \
+  static __attribute__((noinline)) enum refusal name(const carom_terms *k, const step *s, carom_point *at, int *iterations, \
+                                                     double *advice) {                                                      \
+    return take_step(k, s, slips, loaded, exact, at, iterations, advice);                                                   \
+  }
+KIND(sliding, true, true, FOR_NONE)
+KIND(sliding_unloaded, true, false, FOR_NONE)
+KIND(exact_in_a, true, true, FOR_U)
+KIND(exact_unloaded, true, false, FOR_U)
+KIND(exact_in_both, true, true, FOR_BOTH)
+KIND(held, false, true, FOR_NONE)
+KIND(held_exact, false, true, FOR_BOTH)
+
+/* A plan: the step and its kind. */
+typedef struct plan {
+  step s;
+  step_kind *kind;
+} plan;
+
+static double least(double x, double y) {
+  return x < y ? x : y;
+}
+
+static double most_of(double x, double y) {
+  return x > y ? x : y;
+}
+
+static bool slips(const carom_trajectory *path) {
+  return !path->regime.held && path->law.mu > 0;
+}
+
+/* W at the end of restitution. */
+static double work_end(const carom_trajectory *path) {
+  return -path->law.e * path->law.e * path->W_c;
+}
+
+static void begin_step(const carom_trajectory *path, double to, beginning *s) {
+  const carom_point *at = &path->at;
+  const carom_terms *k = &path->terms;
+  s->r = sqrt(at->a_x * at->a_x + at->a_y * at->a_y);
+  s->q = sqrt(at->b_x * at->b_x + at->b_y * at->b_y);
+  const double per_r = 1 / s->r, per_q = 1 / s->q;
+  s->u_x = s->r > 0 ? at->a_x * per_r : path->regime.u_x;
+  s->u_y = s->r > 0 ? at->a_y * per_r : path->regime.u_y;
+  s->t_x = s->q > 0 ? at->b_x * per_q : path->regime.t_x;
+  s->t_y = s->q > 0 ? at->b_y * per_q : path->regime.t_y;
+  /* the rates */
+  s->w = (k->w_0 + k->w_u * s->u_y) / (1 - k->w_t * s->t_y);
+  const double x = s->w * s->t_x, y = s->w * s->t_y;
+  s->a_x = k->S_x * s->u_x - k->C_x * x;
+  s->a_y = k->A_0 + k->S_y * s->u_y - k->C_y * y;
+  s->b_x = k->R_x * s->u_x - k->H_x * x;
+  s->b_y = k->B_0 + k->R_y * s->u_y - k->H_y * y;
+  s->v = k->V_0 + k->V_u * s->u_y - k->V_w * y;
+  s->line_x = s->b_x + 0.5 * k->H_x * x;
+  s->line_y = s->b_y + 0.5 * k->H_y * y;
+  /* the end of the phase if v' were constant; or what comes before it */
+  if (path->restitution) {
+    s->goal = AT_WORK;
+    s->target = work_end(path);
+    const double missing = s->target - at->W;
+    s->to_goal = 2 * missing / (at->v - sqrt(most_of(at->v * at->v + 2 * s->v * missing, 0)));
+  } else {
+    s->goal = AT_END_OF_APPROACH;
+    s->target = 0;
+    s->to_goal = -at->v / s->v;
+  }
+  if (to - at->p < s->to_goal) {
+    s->goal = AT_P;
+    s->target = s->to_goal = to - at->p;
+  }
+  if (path->event_at - at->p < (s->goal == AT_P ? s->to_goal : DBL_MAX)) {
+    s->goal = AT_EVENT;
+    s->to_goal = most_of(path->event_at - at->p, DBL_MIN);
+  }
+  if (path->longest < s->to_goal) {
+    s->goal = AT_LENGTH;
+    s->to_goal = path->longest;
+  }
+}
+
+/* Directions to begin with: both slips along straight lines. */
+static void aim_u(plan *n, const carom_point *at, const beginning *s) {
+  aim(&n->s, at->a_x, at->a_y, s->a_x, s->a_y, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
+}
+
+static void aim_t(plan *n, const carom_point *at, const beginning *s) {
+  aim(&n->s, at->b_x, at->b_y, s->line_x, s->line_y, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
+}
+
+/* Limits the length, which then is the end of the step. */
+static void limit(double *length, enum goal *goal, double most) {
+  if (*length > most) {
+    *length = most;
+    *goal = AT_LENGTH;
+  }
+}
+
+static void plan_carefully(const carom_trajectory *path, const beginning *s, plan *n) {
+  double length = s->to_goal;
+  n->s.goal = s->goal;
+  if (slips(path) && s->r > 0)
+    limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->a_x) + fabs(s->a_y) + DBL_MIN));
+  if (path->regime.loaded && s->q > 0)
+    limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->b_x) + fabs(s->b_y) + DBL_MIN));
+  even_map(&n->s, length);
+  n->kind = !slips(path) ? held_exact : path->regime.loaded ? exact_in_both : exact_unloaded;
+  aim_u(n, &path->at, s);
+  aim_t(n, &path->at, s);
+}
+
+/* Whether the slip on the cloth begins, or is quasi-steady. */
+static bool cloth_is_stiff(const carom_trajectory *path, const beginning *s) {
+  const double friction = path->terms.H_y * s->w;
+  if (!path->regime.loaded || friction * s->to_goal < STIFF * s->q)
+    return false;
+  if (s->q == 0)
+    return fabs(s->b_x) + fabs(s->b_y) < SLOW * friction || path->regime.held;
+  const double along = s->t_x * s->b_x + s->t_y * s->b_y, across = s->t_x * s->b_y - s->t_y * s->b_x;
+  return fabs(across) < ALIGNED * friction && fabs(along) < SLOW * friction;
+}
+
+static void plan_stiff_cloth(const carom_trajectory *path, const beginning *s, plan *n) {
+  const double along = s->t_x * s->b_x + s->t_y * s->b_y;
+  double length = s->to_goal;
+  n->s.goal = s->goal;
+  if (s->q > 0 && along < 0 && length > -0.95 * s->q / along) {
+    length = -0.95 * s->q / along;
+    n->s.goal = AT_CLOTH_STICK;
+  }
+  if (slips(path) && s->r > 0)
+    limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->a_x) + fabs(s->a_y) + DBL_MIN));
+  even_map(&n->s, length);
+  n->kind = slips(path) ? exact_in_both : held_exact;
+  aim_u(n, &path->at, s);
+  aim(&n->s, 0, 0, 0, 0, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
+}
+
+static void plan_held(const carom_trajectory *path, const beginning *s, plan *n) {
+  const passage g = passage_of_b(&path->at, &path->terms, s, s->to_goal);
+  n->kind = held;
+  n->s.goal = s->goal;
+  if (!g.near)
+    even_map(&n->s, s->to_goal);
+  else if (!sinh_map(&n->s, &g, s->to_goal))
+    n->s.goal = AT_LENGTH;
+  aim_t(n, &path->at, s);
+}
+
+/* a is quasi-steady, or begins. */
+static void plan_stiff(const carom_trajectory *path, const beginning *s, const closed_form *c, plan *n) {
+  const double along = s->u_x * s->a_x + s->u_y * s->a_y;
+  double length = s->to_goal;
+  n->s.goal = s->goal;
+  if (fabs(c->sine) * s->r > NEGLIGIBLE)
+    limit(&length, &n->s.goal, SETTLING * s->r / c->D);
+  if (s->r > 0 && along < 0 && length > -0.97 * s->r / along) {
+    length = -0.95 * s->r / along;
+    n->s.goal = AT_STICK;
+  }
+  if (path->regime.loaded && passage_of_b(&path->at, &path->terms, s, length).near)
+    limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->b_x) + fabs(s->b_y)));
+  even_map(&n->s, length);
+  n->kind = path->regime.loaded ? exact_in_a : exact_unloaded;
+  aim(&n->s, 0, 0, 0, 0, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
+  aim_t(n, &path->at, s);
+}
+
+static void plan_sliding(const carom_trajectory *path, const beginning *s, plan *n) {
+  const closed_form c = closed_form_of(&path->terms, s);
+  if (s->r == 0 || (c.cosine > 0.9 && fabs(c.sine) < ALIGNED && s->to_goal * c.D > STIFF * s->r)) {
+    plan_stiff(path, s, &c, n);
+    return;
+  }
+  n->kind = path->regime.loaded ? sliding : sliding_unloaded;
+  n->s.goal = s->goal;
+  const double along = s->u_x * s->a_x + s->u_y * s->a_y;
+  passage g = {.near = false};
+  if (path->regime.loaded)
+    g = passage_of_b(&path->at, &path->terms, s, s->to_goal);
+  if (g.near) {
+    /* a changes little in the step */
+    double length = s->to_goal;
+    limit(&length, &n->s.goal, 0.7 * s->r / (fabs(s->a_x) + fabs(s->a_y)));
+    if (!sinh_map(&n->s, &g, length))
+      n->s.goal = AT_LENGTH;
+    aim_u(n, &path->at, s);
+    EACH n->s.E[i] = exponential(-c.m * n->s.p[i] / (s->r + 0.5 * along * n->s.p[i]));
+  } else {
+    /* tau to the goal, or the largest that is allowed; two equal steps rather than a long and a short one */
+    const double ln = s->r < 1 ? rough_log(1 / s->r) : 0, growth = along * s->to_goal / s->r;
+    const double fall = most_of(most_of(-along, c.m - 0.5 * c.D), 1e-12);
+    const double most = least((MOST_TURN + BOLDER * ln) / c.D, (MOST_FALL + BOLDER * ln) / fall);
+    double tau = tau_at(&c, s->to_goal, growth > -0.9 ? s->to_goal / s->r * (6 + growth) / (6 + 4 * growth) : most, most);
+    if (tau > 1.1 * most) {
+      n->s.goal = AT_LENGTH;
+      tau = tau < 2 * most ? 0.5 * tau : most;
+    }
+    stretched_map(&n->s, &c, s, tau);
+  }
+  aim_t(n, &path->at, s);
+}
+
+/* Sets to zero a slip that has become negligible, and the motion along x of an impact that has become planar. Returns whether
+ * the regime has ended. before: where the step began. */
+static bool tidy(carom_trajectory *path, const carom_point *before) {
+  carom_point *at = &path->at;
+  if (fabs(at->a_x) <= path->rest && fabs(at->b_x) <= path->rest)
+    at->a_x = at->b_x = 0;
+  const double a = fabs(at->a_x) + fabs(at->a_y), b = fabs(at->b_x) + fabs(at->b_y);
+  const bool a_ends = slips(path) && a <= path->rest && a < fabs(before->a_x) + fabs(before->a_y);
+  const bool b_ends = path->regime.loaded && b <= path->rest && b < fabs(before->b_x) + fabs(before->b_y);
+  if (a_ends)
+    at->a_x = at->a_y = 0;
+  if (b_ends)
+    at->b_x = at->b_y = 0;
+  return a_ends || b_ends;
+}
+
+/* All rates are constant: on to the goal, or to where a slip is zero. Returns whether that is the goal. */
+static bool go_straight(carom_trajectory *path, const beginning *s) {
+  carom_point *at = &path->at;
+  const double to_a = slips(path) && at->a_y * s->a_y < 0 ? -at->a_y / s->a_y : INFINITY;
+  const double to_b = path->regime.loaded && at->b_y * s->b_y < 0 ? -at->b_y / s->b_y : INFINITY;
+  const double length = least(s->to_goal, least(to_a, to_b));
+  at->W += length * (at->v + 0.5 * s->v * length);
+  at->v += s->v * length;
+  at->p += length;
+  at->a_x += s->a_x * length;
+  at->a_y = length == to_a ? 0 : at->a_y + s->a_y * length;
+  at->b_x += s->b_x * length;
+  at->b_y = length == to_b ? 0 : at->b_y + s->b_y * length;
+  path->iterations++;
+  return length == s->to_goal;
+}
+
+static void end_phase(carom_trajectory *path) {
+  if (path->restitution)
+    path->ended = true;
+  else {
+    path->restitution = true;
+    path->at.v = 0;
+    path->W_c = path->at.W;
+    path->at.W = 0;
+    path->ended = path->law.e == 0;
+  }
+}
+
+/* Plans a step and takes it, or draws the consequences of its refusal. Returns false if there is no way on. */
+static bool next_step(carom_trajectory *path, double to) {
+  beginning s;
+  begin_step(path, to, &s);
+  const carom_point before = path->at;
+  const bool planar = before.a_x == 0 && before.b_x == 0 && s.u_x == 0 && s.t_x == 0;
+  if (planar || (!slips(path) && !path->regime.loaded)) {
+    if (go_straight(path, &s) && s.goal != AT_P)
+      end_phase(path);
+    return !tidy(path, &before) || carom_impact_regime(path, false);
+  }
+  plan n;
+  n.s.target = s.target;
+  n.s.restitution = path->restitution;
+  n.s.least_work = work_end(path);
+  n.s.tolerance = path->tolerance;
+  if (path->careful)
+    plan_carefully(path, &s, &n);
+  else if (cloth_is_stiff(path, &s))
+    plan_stiff_cloth(path, &s, &n);
+  else if (slips(path))
+    plan_sliding(path, &s, &n);
+  else
+    plan_held(path, &s, &n);
+  double advice = 1;
+  const enum refusal r = n.kind(&path->terms, &n.s, &path->at, &path->iterations, &advice);
+  if (r == TAKEN) {
+    path->longest = INFINITY;
+    path->refusals = 0;
+    if (n.s.goal == AT_STICK || n.s.goal == AT_CLOTH_STICK || n.s.goal == AT_EVENT) {
+      path->event_at = INFINITY;
+      return carom_impact_regime(path, n.s.goal == AT_EVENT);
+    }
+    if (n.s.goal == AT_END_OF_APPROACH || n.s.goal == AT_WORK)
+      end_phase(path);
+    return !tidy(path, &before) || carom_impact_regime(path, false);
+  }
+  if (r == EVENT_WITHIN) {
+    path->event_at = path->at.p + advice;
+    if (advice < AT_ONCE * s.to_goal) {
+      path->event_at = INFINITY;
+      return carom_impact_regime(path, true);
+    }
+  } else /* the error is of order 16 in the length */
+    path->longest = n.s.length * (r == INACCURATE && advice < 1e12 ? most_of(0.3, 0.9 / sqrt(sqrt(sqrt(sqrt(advice))))) : 0.5);
+  path->refusals++;
+  if (path->refusals == MOST_REFUSALS && !path->careful) {
+    path->careful = true;
+    path->refusals = 0;
+    path->longest = INFINITY;
+  }
+  return path->refusals < MOST_CAREFUL_REFUSALS;
+}
+
+carom_status CAROM_IMPACT_ADVANCE(carom_trajectory *path, double to, int most) {
+  while (!path->ended && path->at.p < to) {
+    if (path->iterations >= most || !next_step(path, to) || !(path->at.growth <= MOST_GROWTH))
+      return CAROM_ERROR_UNRESOLVED;
+    if (path->regime.held && isnan(path->p_stick))
+      path->p_stick = path->at.p;
+    if ((path->regime.held && path->regime.cloth_held) || carom_impact_jams(path))
+      path->ended = true;
+  }
+  return CAROM_OK;
+}

@@ -1,0 +1,400 @@
+/* One collocation step of an impact, over eight Gauss nodes.
+ *
+ * EQUATIONS. They are those of law.h in one regime. With u = a/|a| and t = b/|b| the directions of the slips, and w the
+ * friction of the cloth per unit of p (its load times its coefficient),
+ *
+ *     a' = (S_x u_x - C_x w t_x, A_0 + S_y u_y - C_y w t_y)          v' = V_0 + V_u u_y - V_w w t_y
+ *     b' = (R_x u_x - H_x w t_x, B_0 + R_y u_y - H_y w t_y)          w  = (w_0 + w_u u_y) / (1 - w_t t_y)
+ *
+ * Where the driving contact holds there is no u, and where the cloth holds or bears no load w = 0; the coefficients contain
+ * what holds (contact.c).
+ *
+ * COLLOCATION. A map takes X in [0, 1] to p, with dp = z dX. With M the matrix that integrates the polynomial through the
+ * nodes, the directions u, t at the nodes have to be those of
+ *
+ *     a = a_0 + M(z a'),     b = b_0 + M(z b')
+ *
+ * ITERATION. The directions give a and b, whose directions differ from u and t by angles. Let r be that of a to u. A rotation
+ * of u by d rotates a too, by (1/|a|) times the component across u of the integral of z da'/dphi d. Newton's method asks for
+ *
+ *     d = r - (1/|a|) M(z k d),     k = -(component of da'/dphi across u)
+ *
+ * An integrating factor E with E' = -z k E / |a| solves this: d = r - (E/|a|) M(z k r / E). The map comes with an estimate of
+ * E. A step that is stiff solves the linear equations for d instead (`exact`). For t, 1/(1 + M(z k) / |b|) takes the place of
+ * 1/E.
+ *
+ * END. The step ends at a given p or at one of the events of `enum goal`. Then its length is unknown, and each iteration
+ * corrects it by Newton's method from the rates at the last node.
+ *
+ * ERROR. The error at the end is of the order of the square of what the polynomials of a' and b' miss. The estimate of that is
+ * the coefficient of their highest Legendre polynomial. */
+#ifndef CAROM_SRC_IMPACT_STEP_H
+#define CAROM_SRC_IMPACT_STEP_H
+
+#include "impact/impact.h"
+#include "impact/nodes.h"
+
+/* Found by trial with `carom-lab stress --cushion`; see docs/study/tried.md. Angles are in radians, lengths in units of p. */
+static const double CONVERGED = 4e-8;       /* error that the iteration may leave in directions */
+static const double TOLERANCE = 1e-6;       /* square of the error estimate, over the length of the step, */
+static const double TOLERANCE_EXACT = 1e-9; /* and where the step is exact */
+static const double SETTLED = 1e-6;         /* last correction of the length, as a share of it */
+static const double EVENT_TOLERANCE = 1e-8; /* event function that does not yet end a regime, */
+static const double LATE = 1e-5;            /* and within a step that ends at its event */
+static const double AT_REST = 1e-8;         /* v that counts as 0 where the cloth's slip has come to rest */
+static const double NEAR = 3e-3;            /* correction after which Newton's method updates inverse lengths, */
+static const double FRESH = 0.02;           /* and that after which an exact step keeps its matrix */
+enum { MOST_ITERATIONS = 12 };
+
+/* Where a step ends. */
+enum goal {
+  AT_LENGTH,          /* at the length of its map */
+  AT_P,               /* where p has grown by target */
+  AT_END_OF_APPROACH, /* at v = 0 */
+  AT_WORK,            /* where W = target */
+  AT_STICK,           /* where the slip at the driving contact becomes zero, */
+  AT_CLOTH_STICK,     /* and that on the cloth */
+  AT_EVENT            /* where the regime ends: carom_terms.event */
+};
+
+enum refusal { TAKEN, DIVERGED, INACCURATE, EVENT_WITHIN, BEYOND_PHASE /* of compression or restitution */ };
+
+/* For which directions the iteration solves Newton's equations exactly. */
+enum exact { FOR_NONE, FOR_U, FOR_BOTH };
+
+/* A step that has been planned. */
+typedef struct step {
+  nodes z, p, E;            /* dp/dX; p from the beginning of the step; see above */
+  nodes u_x, u_y, t_x, t_y; /* directions to begin with */
+  double length;            /* p at X = 1 */
+  enum goal goal;
+  double target;
+  bool restitution; /* v <= 0, and W >= least_work */
+  double least_work;
+  double tolerance; /* scales CONVERGED and TOLERANCE */
+} step;
+
+/* What the iteration has at the nodes. */
+typedef struct iterate {
+  nodes u_x, u_y, t_x, t_y;     /* directions */
+  nodes w, v;                   /* friction of the cloth, v' */
+  nodes za_x, za_y, zb_x, zb_y; /* z a', z b' */
+} iterate;
+
+/* The rates from the directions. scale: of z. */
+always void rates(const carom_terms *k, const part *z, double scale, const bool slips, const bool loaded, iterate *c) {
+  EACH {
+    const part zs = scale * z[i];
+    part a_x = splat(0), a_y = splat(k->A_0), b_x = splat(0), b_y = splat(k->B_0), v = splat(k->V_0);
+    /* friction of the driving contact */
+    if (slips) {
+      a_x = k->S_x * c->u_x[i];
+      a_y = madd(c->u_y[i], splat(k->S_y), a_y);
+      b_x = k->R_x * c->u_x[i];
+      b_y = madd(c->u_y[i], splat(k->R_y), b_y);
+      v = madd(c->u_y[i], splat(k->V_u), v);
+    }
+    /* friction of the cloth */
+    if (loaded) {
+      if (slips)
+        c->w[i] = madd(c->u_y[i], splat(k->w_u), splat(k->w_0));
+      else
+        c->w[i] = k->w_0 / (1 - k->w_t * c->t_y[i]);
+      const part x = c->w[i] * c->t_x[i], y = c->w[i] * c->t_y[i];
+      a_x = madd(x, splat(-k->C_x), a_x);
+      a_y = madd(y, splat(-k->C_y), a_y);
+      b_x = madd(x, splat(-k->H_x), b_x);
+      b_y = madd(y, splat(-k->H_y), b_y);
+      v = madd(y, splat(-k->V_w), v);
+    }
+    c->za_x[i] = zs * a_x;
+    c->za_y[i] = zs * a_y;
+    c->zb_x[i] = zs * b_x;
+    c->zb_y[i] = zs * b_y;
+    c->v[i] = v;
+  }
+}
+
+/* A slip at the nodes, from where it begins and its rate times z. */
+always void integrate_slip(double x, double y, const part *zx, const part *zy, part *to_x, part *to_y) {
+  integrate(zx, to_x);
+  integrate(zy, to_y);
+  EACH {
+    to_x[i] += x;
+    to_y[i] += y;
+  }
+}
+
+/* x, y over their length, whose inverse becomes *inverse. near: *inverse has the inverse of a similar length. */
+always void normalise(part *x, part *y, bool near, part *inverse) {
+  EACH {
+    const part square = madd(x[i], x[i], madd(y[i], y[i], splat(1e-300)));
+    if (near) { /* one step of third order */
+      const part left = 1 - square * (inverse[i] * inverse[i]);
+      inverse[i] = madd(inverse[i] * left, madd(left, splat(0.375), splat(0.5)), inverse[i]);
+    } else
+      inverse[i] = 1 / square_root(square);
+    x[i] *= inverse[i];
+    y[i] *= inverse[i];
+  }
+}
+
+/* One step of Newton's method for the directions u of the slip a, by an integrating factor. zk: z times k of the head of this
+ * file; before: 1/E; after: E. a becomes a unit vector. correction: by which angles, with r for d where that is smaller. */
+always void rotate(part *a_x, part *a_y, const part *zk, const part *before, const part *after, bool near, part *inverse,
+                   part *u_x, part *u_y, part *correction) {
+  nodes across, f, angle;
+  EACH across[i] = madd(u_x[i], a_y[i], -(u_y[i] * a_x[i]));
+  normalise(a_x, a_y, near, inverse);
+  EACH f[i] = zk[i] * before[i] * across[i] * inverse[i];
+  integrate(f, angle);
+  EACH {
+    angle[i] *= after[i] * inverse[i];
+    correction[i] = magnitude(across[i] * inverse[i] - angle[i]);
+    u_x[i] = madd(a_y[i], angle[i], a_x[i]);
+    u_y[i] = madd(a_x[i], -angle[i], a_y[i]);
+  }
+}
+
+/* The same by solving the linear equations for the angles d of rotation, where D = z da'/dphi:
+ *
+ *     (u . a) d - u x M(D d) = u x a
+ *
+ * which also holds where a is nearly zero. solved: the inverse of the matrix, computed anew or kept. Returns whether a points
+ * along u at all nodes. */
+always bool rotate_exactly(const part *a_x, const part *a_y, const part *D_x, const part *D_y, bool anew,
+                           double (*solved)[NODES], part *u_x, part *u_y, part *correction) {
+  nodes across, along, angle;
+  EACH {
+    across[i] = u_x[i] * a_y[i] - u_y[i] * a_x[i];
+    along[i] = u_x[i] * a_x[i] + u_y[i] * a_y[i];
+  }
+  if (anew) {
+    for (int j = 0; j < NODES; j++) {
+      EACH((part_of_row *)solved[j])
+      [i] = (part_of_row)(PART(INTEGRAL[j], i) * (u_y[i] * splat(AT(D_x, j)) - u_x[i] * splat(AT(D_y, j))));
+      solved[j][j] += AT(along, j);
+    }
+    invert(solved);
+  }
+  apply((const double(*)[NODES])solved, across, angle);
+  EACH {
+    const part x = u_x[i], s = within(angle[i], 0.6);
+    u_x[i] = x - u_y[i] * s;
+    u_y[i] = u_y[i] + x * s;
+    along[i] = -along[i];
+    correction[i] = magnitude(angle[i]);
+  }
+  normalise(u_x, u_y, false, angle);
+  return largest(along) <= 0;
+}
+
+/* The event function where the direction u, or w t, is x, y. */
+always double event_of(const carom_terms *k, double x, double y) {
+  return k->event[0] + y * (k->event[1] + y * k->event[3]) + x * x * k->event[2];
+}
+
+/* The same at the nodes. */
+always void events(const carom_terms *k, const iterate *c, const bool slips, part *event) {
+  EACH {
+    const part x = slips ? c->u_x[i] : c->w[i] * c->t_x[i], y = slips ? c->u_y[i] : c->w[i] * c->t_y[i];
+    event[i] = madd(y, madd(y, splat(k->event[3]), splat(k->event[1])), madd(x * x, splat(k->event[2]), splat(k->event[0])));
+  }
+}
+
+/* The event function at a point; 0 where the slip has no direction. */
+static double event_at(const carom_terms *k, const carom_point *at, const bool slips) {
+  const double x = slips ? at->a_x : at->b_x, y = slips ? at->a_y : at->b_y, size = sqrt(x * x + y * y);
+  if (!(size > 0))
+    return 0;
+  const double w = slips ? 1 : k->w_0 / (1 - k->w_t * y / size);
+  return event_of(k, w * x / size, w * y / size);
+}
+
+/* p from the beginning of the step to where the event function, at the nodes *f, first becomes positive, by linear
+ * interpolation between nodes. scale: of z. */
+static double first_event(const carom_terms *k, const carom_point *at, const step *s, double scale, const part *f,
+                          const bool slips) {
+  double p = 0, value = event_at(k, at, slips);
+  for (int n = 0; n <= NODES; n++) {
+    const double next_p = scale * (n < NODES ? AT(s->p, n) : s->length), next = n < NODES ? AT(f, n) : 1;
+    if (next > 0)
+      return n == NODES ? 0.5 * (p + next_p) : value < 0 ? p + (next_p - p) * value / (value - next) : p;
+    p = next_p;
+    value = next;
+  }
+  return p;
+}
+
+/* int v dp from *at to the end of the step. to_end: weights of the integral of an integral. */
+always double work(const carom_point *at, double length, double scale, const double *to_end, const iterate *c) {
+  return at->v * length + scale * scale * dot(to_end, c->v);
+}
+
+/* By how much p has to grow for the step to end at its goal: a step of Newton's method. */
+always double to_goal(const carom_terms *k, const carom_point *from, const step *s, const iterate *c, double scale,
+                      const part *to_end, const bool slips) {
+  const double length = scale * s->length;
+  if (s->goal == AT_P)
+    return s->target - length;
+  if (s->goal == AT_END_OF_APPROACH || s->goal == AT_WORK) {
+    nodes zv;
+    EACH zv[i] = s->z[i] * c->v[i];
+    const double v = from->v + scale * dot(WEIGHT, zv);
+    if (s->goal == AT_END_OF_APPROACH)
+      return -v / LAST(c->v);
+    return v < 0 ? (s->target - from->W - work(from, length, scale, (const double *)to_end, c)) / v : 0.3 * length;
+  }
+  /* the slip at the end, and its rate there */
+  const bool driving = s->goal == AT_STICK || (s->goal == AT_EVENT && slips);
+  const part *zx = driving ? c->za_x : c->zb_x, *zy = driving ? c->za_y : c->zb_y;
+  const double last = 1 / (scale * LAST(s->z)), dx = LAST(zx) * last, dy = LAST(zy) * last;
+  double x = (driving ? from->a_x : from->b_x) + dot(WEIGHT, zx), y = (driving ? from->a_y : from->b_y) + dot(WEIGHT, zy);
+  if (s->goal != AT_EVENT) {
+    const double u_x = driving ? LAST(c->u_x) : LAST(c->t_x), u_y = driving ? LAST(c->u_y) : LAST(c->t_y);
+    return -(x * u_x + y * u_y) / (dx * u_x + dy * u_y);
+  }
+  /* the direction at the end, how fast it turns, and what that makes of w */
+  const double inverse = 1 / sqrt(x * x + y * y), turning = (x * dy - y * dx) * inverse * inverse;
+  double w = 1, growth = 0;
+  x *= inverse;
+  y *= inverse;
+  if (!slips) {
+    w = k->w_0 / (1 - k->w_t * y);
+    growth = w * k->w_t * x * turning / (1 - k->w_t * y);
+  }
+  /* the rate of the event function */
+  const double X = w * x, Y = w * y;
+  const double rate = (k->event[1] + 2 * k->event[3] * Y) * (w * x * turning + growth * y) +
+                      2 * k->event[2] * X * (growth * x - w * y * turning);
+  return rate > 0 ? -event_of(k, X, Y) / rate : 0.2 * length;
+}
+
+/* Takes a step from *at. slips: the driving contact slips; loaded: the cloth bears a load, and slips. A refused step leaves *at
+ * as it is; then *advice is, for INACCURATE, the squared error estimate over the tolerance, and for EVENT_WITHIN the p from
+ * here to the event. */
+always enum refusal take_step(const carom_terms *terms, const step *s, const bool slips, const bool loaded,
+                              const enum exact exact, carom_point *at, int *iterations, double *advice) {
+  const carom_terms k = *terms;
+  iterate c;
+  nodes per_E, ease, one, to_end, inverse_a, inverse_b, slip_x, slip_y, D_x, D_y, zk, f, correction, correction_t;
+  double for_u[NODES][NODES] __attribute__((aligned(PART_BYTES))), for_t[NODES][NODES] __attribute__((aligned(PART_BYTES)));
+  EACH {
+    c.u_x[i] = s->u_x[i];
+    c.u_y[i] = s->u_y[i];
+    c.t_x[i] = s->t_x[i];
+    c.t_y[i] = s->t_y[i];
+    one[i] = splat(1);
+    ease[i] = inverse_a[i] = inverse_b[i] = splat(0);
+    per_E[i] = slips && exact == FOR_NONE ? 1 / s->E[i] : splat(1);
+    to_end[i] = PART(WEIGHT, i) * s->z[i] * (s->length - s->p[i]);
+  }
+  double scale = 1, last = 1, last_rate = 0.3;
+  bool converged = false, forward = true;
+  for (int n = 0; n < MOST_ITERATIONS && !converged; n++) {
+    forward = true;
+    ++*iterations;
+    rates(&k, s->z, scale, slips, loaded, &c);
+    const double change = s->goal == AT_LENGTH ? 0 : to_goal(&k, at, s, &c, scale, to_end, slips) / (scale * s->length);
+    EACH correction[i] = splat(0);
+    if (slips) {
+      integrate_slip(at->a_x, at->a_y, c.za_x, c.za_y, slip_x, slip_y);
+      /* z da'/dphi, of which u has a part in the load too */
+      EACH {
+        const part zs = scale * s->z[i], w_u = loaded ? k.w_u * c.u_x[i] : splat(0);
+        D_x[i] = -zs * madd(c.u_y[i], splat(k.S_x), (k.C_x * w_u) * c.t_x[i]);
+        D_y[i] = zs * madd(c.u_x[i], splat(k.S_y), (-k.C_y * w_u) * c.t_y[i]);
+        zk[i] = madd(c.u_y[i], D_x[i], -(c.u_x[i] * D_y[i]));
+      }
+      if (exact)
+        forward = rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_u, c.u_x, c.u_y, correction);
+      else
+        rotate(slip_x, slip_y, zk, per_E, s->E, last < NEAR, inverse_a, c.u_x, c.u_y, correction);
+    }
+    if (loaded) {
+      integrate_slip(at->b_x, at->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
+      /* z db'/dphi, of which t has a part in the load where the driving contact holds */
+      if (slips && exact != FOR_BOTH)
+        EACH zk[i] = (scale * s->z[i]) * (k.H_x * c.w[i]);
+      else
+        EACH {
+          const part zw = (scale * s->z[i]) * c.w[i];
+          const part w_t = slips ? splat(0) : zw * k.w_t * c.t_x[i] / (1 - k.w_t * c.t_y[i]);
+          D_x[i] = k.H_x * (zw * c.t_y[i] - w_t * c.t_x[i]);
+          D_y[i] = -k.H_y * (zw * c.t_x[i] + w_t * c.t_y[i]);
+          zk[i] = c.t_y[i] * D_x[i] - c.t_x[i] * D_y[i];
+        }
+      if (exact == FOR_BOTH)
+        forward &= rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_t, c.t_x, c.t_y, correction_t);
+      else {
+        rotate(slip_x, slip_y, zk, ease, one, last < NEAR, inverse_b, c.t_x, c.t_y, correction_t);
+        if (n < 2) {
+          integrate(zk, f);
+          EACH ease[i] = 1 / (1 + f[i] * inverse_b[i]);
+        }
+        EACH correction_t[i] *= 0.3; /* a later iteration corrects t by far less than this */
+      }
+      EACH correction[i] = greater(correction[i], correction_t[i]);
+    }
+    /* what is left is the last correction times the rate of convergence; it acts over the length of the step */
+    const double now = largest(correction), rate = n > 0 ? now / last : 0.3, worst = rate > last_rate ? rate : last_rate;
+    if (!(now < 10) || (n >= 3 && rate > 0.6 && now > 1e-3))
+      return DIVERGED;
+    const double share = scale * s->length < 1 ? scale * s->length : 1;
+    converged = now * (worst < 1 ? worst : 1) * share < CONVERGED * s->tolerance && now < 1e-3 && fabs(change) < SETTLED;
+    scale *= 1 + (change > 0.5 ? 0.5 : change > -0.4 ? change : -0.4);
+    last = now;
+    last_rate = rate;
+  }
+  if (!converged || !forward)
+    return DIVERGED;
+  /* the point at the end */
+  rates(&k, s->z, scale, slips, loaded, &c);
+  const double length = scale * s->length;
+  EACH f[i] = s->z[i] * c.v[i];
+  carom_point to = {.a_x = at->a_x + dot(WEIGHT, c.za_x),
+                    .a_y = at->a_y + dot(WEIGHT, c.za_y),
+                    .b_x = at->b_x + dot(WEIGHT, c.zb_x),
+                    .b_y = at->b_y + dot(WEIGHT, c.zb_y),
+                    .v = at->v + scale * dot(WEIGHT, f),
+                    .W = at->W + work(at, length, scale, (const double *)to_end, &c),
+                    .p = at->p + length,
+                    .growth = at->growth};
+  /* the estimate of its error */
+  double error = 0;
+  if (slips)
+    error += fabs(dot(HIGHEST, c.za_x)) + fabs(dot(HIGHEST, c.za_y));
+  if (loaded)
+    error += fabs(dot(HIGHEST, c.zb_x)) + fabs(dot(HIGHEST, c.zb_y));
+  *advice = error * error / ((exact ? TOLERANCE_EXACT : TOLERANCE) * s->tolerance * length);
+  if (!(*advice < 1))
+    return INACCURATE;
+  /* whether the regime has lasted to the end */
+  events(&k, &c, slips, f);
+  const double event = largest(f), end = event_at(&k, &to, slips);
+  const bool sticks = s->goal == AT_STICK || s->goal == AT_CLOTH_STICK;
+  if (s->goal == AT_EVENT ? event > LATE : event > EVENT_TOLERANCE || (end > EVENT_TOLERANCE && !sticks)) {
+    *advice = first_event(&k, at, s, scale, f, slips);
+    return EVENT_WITHIN;
+  }
+  /* where friction drives the slip on the cloth, an error of its direction grows by exp(int |H| w / |b| dp) */
+  if (loaded && k.H_x < 0) {
+    integrate_slip(at->b_x, at->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
+    normalise(slip_x, slip_y, false, inverse_b);
+    EACH f[i] = s->z[i] * c.w[i] * inverse_b[i];
+    to.growth -= scale * k.H_x * dot(WEIGHT, f);
+  }
+  /* what the goal makes exactly zero */
+  if (s->goal == AT_STICK)
+    to.a_x = to.a_y = 0;
+  if (s->goal == AT_CLOTH_STICK)
+    to.b_x = to.b_y = 0;
+  if (s->goal == AT_END_OF_APPROACH || (s->goal == AT_CLOTH_STICK && fabs(to.v) < AT_REST))
+    to.v = 0;
+  else if (s->goal != AT_WORK && (s->restitution ? to.W < s->least_work : to.v < 0))
+    return BEYOND_PHASE;
+  *at = to;
+  return TAKEN;
+}
+
+#endif

@@ -1,0 +1,196 @@
+"""Pictures that carom draws itself, beside the numbers that they show, computed here from the definitions of motion on the cloth.
+
+Each check gives a list of what differs, which is empty for a picture that is right to the tenth of a pixel in which it is written.
+"""
+
+import json
+import math
+import xml.etree.ElementTree as tree
+
+SVG = "{http://www.w3.org/2000/svg}"
+GRAVITY, NEAR = 9.81, 0.0501
+
+
+def elements(page, name):
+    return list(page.iter(SVG + name))
+
+
+def numbers(element, *names):
+    return [float(element.get(name)) for name in names]
+
+
+def vertices(path, relative=False):
+    """The points of a path of straight pieces, "M0 1L2 3 ..."; or of "M0 1l2 3", whose second is given from the first."""
+    pairs = [tuple(map(float, pair.split())) for pair in path.get("d")[1:].replace("l", "L").split("L")]
+    if relative:
+        pairs[1] = (pairs[0][0] + pairs[1][0], pairs[0][1] + pairs[1][1])
+    return pairs
+
+
+class Report:
+    """What differs."""
+
+    def __init__(self):
+        self.found = []
+
+    def near(self, what, seen, expected, allowed=NEAR):
+        seen, expected = list(seen), list(expected)
+        far = [(k, a, b) for k, (a, b) in enumerate(zip(seen, expected)) if not abs(a - b) <= allowed]
+        if len(seen) != len(expected):
+            self.found.append(f"{what}: {len(seen)} numbers, not {len(expected)}")
+        elif far:
+            self.found.append("{}: number {} is {}, not {}".format(what, *far[0]))
+
+    def path(self, what, seen, expected, allowed=NEAR):
+        self.near(what, *([x for point in points for x in point] for points in (seen, expected)), allowed)
+
+    def same(self, what, seen, expected):
+        if seen != expected:
+            self.found.append(f"{what}: {seen!r}, not {expected!r}")
+
+
+# ---- Shots -------------------------------------------------------------------------------------------------------------
+
+
+def slid(state, params, time):
+    """Where a ball is that has been sliding for a time: its slip, of constant direction, slows it down by mu g."""
+    _, x, y, _, vx, vy, _, wx, wy, _ = state
+    u = (vx - params.get("R", 0.028575) * wy, vy + params.get("R", 0.028575) * wx)
+    a = 0.5 * params.get("u_s", 0.2) * params.get("g", GRAVITY) * time * time / math.hypot(*u)
+    return x + vx * time - a * u[0], y + vy * time - a * u[1]
+
+
+def way(shot, ball):
+    """Points on the way of a ball, m: its start, each event that it is in, and seven between two of them where it slides."""
+    state, since = ball["state"], 0.0
+    points = [tuple(state[1:3])]
+    for time, kind, names, before, after in shot["events"]:
+        names = names[1:] if kind == "stick_ball" else names[: len(before)]
+        if ball["id"] not in names:
+            continue
+        side = names.index(ball["id"])
+        if time > 0 and before[side][0] == 2:
+            points += [slid(state, ball.get("params", {}), (time - since) * k / 8) for k in range(1, 8)]
+        if time > 0:
+            points.append(tuple(before[side][1:3]))
+        state, since = after[side], time
+    return points
+
+
+def check_shot(picture, shot, table):
+    """A picture of `carom shoot --plot` beside the line of the shot, with its events in full, and the table's."""
+    report, page = Report(), tree.parse(picture).getroot()
+    ends = [rail[end][:2] for rail in table["linear"] for end in ("p1", "p2")]
+    low, high = [min(p) for p in zip(*ends)], [max(p) for p in zip(*ends)]
+    # 400 pixels a metre and a margin of 11 cm; a table that is longer than wide is turned to lie along the picture.
+    turned = high[1] - low[1] > high[0] - low[0]
+    size = [400 * (high[k] - low[k] + 0.22) for k in ((1, 0) if turned else (0, 1))]
+
+    def at(r):
+        across, down = (r[1] - low[1], r[0] - low[0]) if turned else (r[0] - low[0], high[1] - r[1])
+        return 400 * (across + 0.11), 400 * (down + 0.11)
+
+    report.near("size", map(float, page.get("viewBox").split()), [0, 0, *size], 0.5)
+    report.near("cloth", numbers(elements(page, "rect")[1], "x", "y", "width", "height"), [22, 22, size[0] - 44, size[1] - 44])
+    circles, paths, texts = (elements(page, name) for name in ("circle", "path", "text"))
+    # Holes, jaws, balls at first; paths between; balls at the end, striped ones with a ring.
+    expected = [(f"{kind} {part['id']}", part["center"], part["radius"], None) for kind in ("pockets", "circular") for part in table[kind]]
+    radius = [ball.get("params", {}).get("R", 0.028575) for ball in shot["balls"]]
+    expected += [(f"start of {ball['id']}", ball["state"][1:3], r, "none") for ball, r in zip(shot["balls"], radius)]
+    fallen = {name: pocket for pocket, names in shot["final"]["pockets"].items() for name in names}
+    final = {}
+    for ball, r in zip(shot["balls"], radius):
+        name = ball["id"]
+        place = shot["final"]["balls"][name][1:3]
+        beside = sum(fallen.get(other) == fallen[name] for other in final) if name in fallen else 0
+        final[name] = at((place[0] + 1.6 * r * beside, place[1]))
+        expected.append((f"end of {name}", (place[0] + 1.6 * r * beside, place[1]), r, None))
+        if name.isdigit() and 9 <= int(name) <= 15:
+            expected.append((f"ring of {name}", (place[0] + 1.6 * r * beside, place[1]), r - 1.8 / 400, "none"))
+    report.same("circles", len(circles), len(expected))
+    for circle, (what, place, r, fill) in zip(circles, expected):
+        report.near(what, numbers(circle, "cx", "cy", "r"), [*at(place), 400 * r])
+        report.same(f"{what} is filled", circle.get("fill") != "none", fill != "none")
+    report.same("texts", [text.text for text in texts], [name[:5] for name in final])
+    for text, (name, place) in zip(texts, final.items()):
+        report.near(f"text of {name}", numbers(text, "x", "y"), place)
+    rails = [path for path in paths if path.get("stroke-linecap")]
+    report.same("rails", len(rails), len(table["linear"]))
+    for path, rail in zip(rails, table["linear"]):
+        report.near(rail["id"], sum(vertices(path), ()), [*at(rail["p1"]), *at(rail["p2"])])
+    # The last ball is drawn first, so that the cue ball's path is on top.
+    ways = {ball["id"]: [at(point) for point in way(shot, ball)] for ball in reversed(shot["balls"])}
+    moved = {name: points for name, points in ways.items() if len(points) > 1}
+    drawn = [path for path in paths if path.get("fill") == "none"]
+    report.same("ways", len(drawn), len(moved))
+    for path, (name, points) in zip(drawn, moved.items()):
+        report.path(f"way of {name}", vertices(path), points)
+    return report.found
+
+
+def check_shots(lines, picture, shot_id):
+    """The same, with shots and tables from a file of `carom shoot`."""
+    lines = [json.loads(line) for line in open(lines, encoding="utf-8")]
+    shot = next(line for line in lines if line["kind"] == "shot" and line["id"] == shot_id)
+    table = next(line for line in lines if line["kind"] == "table" and line["id"] == shot["table"])
+    return check_shot(picture, shot, table)
+
+
+# ---- One collision -----------------------------------------------------------------------------------------------------
+
+
+def check_hit(picture, row, after, words):
+    """A picture of `carom hit --plot` beside the row of `--csv`, that of `carom resolve --derived`, and the words of the report."""
+    report, page = Report(), tree.parse(picture).getroot()
+    row, after = ({name: float(x) for name, x in one.items() if name not in ("id", "status")} for one in (row, after))
+    R = row["R"]
+    places = [(row[f"r{ball}x"], row[f"r{ball}y"]) for ball in (1, 2)]
+    before = (row["v1x"], row["v1y"])
+    start = [p - 7 * R * v / math.hypot(*before) for p, v in zip(places[0], before)]
+
+    def motion(ball):
+        """The velocities at once and when the ball rolls, its place at any time, how long it slides, how long it is drawn."""
+        v, rolling = ([after[f"{name}{ball}{axis}"] for axis in "xy"] for name in ("v", "roll"))
+        mu = row[f"u_s{ball}"] * GRAVITY
+        sliding = math.dist(v, rolling) / mu if mu else 0.0
+        speed = max(math.hypot(*v), math.hypot(*rolling))
+
+        def at(time):
+            # It slows down evenly from one velocity to the other.
+            t, rest = min(time, sliding), max(time - sliding, 0.0)
+            share = 0.5 * t / sliding if sliding else 0.0
+            return [p + t * ((1 - share) * a + share * b) + rest * b for p, a, b in zip(places[ball - 1], v, rolling)]
+
+        return v, at, sliding, min(sliding + 6 * R / speed, 24 * R / speed) if speed else 0.0
+
+    motions = [motion(ball) for ball in (1, 2)]
+    seen = [(start, 1), (places[0], 4), (places[1], 4)]
+    seen += [(at(drawn * k / 24), 1.5) for _, at, _, drawn in motions for k in range(25)]
+    low, high = ([f(p[k] + sign * R * room for p, room in seen) for k in (0, 1)] for f, sign in ((min, -1), (max, 1)))
+    scale = min(840 / (high[0] - low[0]), 700 / (high[1] - low[1]))
+    px = lambda r: (30 + scale * (r[0] - low[0]), 30 + scale * (high[1] - r[1]))
+    height = 60 + scale * (high[1] - low[1])
+    report.near("size", map(float, page.get("viewBox").split()), [0, 0, 900, height + 20 * (len(words) + 1)], 0.5)
+    circles, paths = elements(page, "circle"), elements(page, "path")
+    for circle, place in zip(circles, (start, *places), strict=True):
+        report.near("ball", numbers(circle, "cx", "cy", "r"), [*px(place), scale * R])
+    # The line of centres and the tangent line through the contact, the way there; of each ball the way at once and its path.
+    n = [(b - a) / (2 * R) for a, b in zip(*places)]
+    middle = [(a + b) / 2 for a, b in zip(*places)]
+    along = lambda far, e: px([p + far * R * c for p, c in zip(middle, e)])
+    lines = [[along(-5, n), along(5, n)], [along(-4, (-n[1], n[0])), along(4, (-n[1], n[0]))], [px(start), px(places[0])]]
+    for path, points in zip(paths, lines):
+        report.path("line", vertices(path), points)
+    rest = paths[3:]
+    for (v, at, sliding, drawn), place in zip(motions, places):
+        speed = math.hypot(*v)
+        if speed > 0:
+            first = [p + 5 * R * x / speed for p, x in zip(place, v)]
+            report.path("at once", vertices(rest.pop(0), relative=True), [px(place), px(first)], 2 * NEAR)
+        slides = min(sliding, drawn)
+        report.path("slides", vertices(rest.pop(0)), [px(at(slides * k / 24)) for k in range(25)])
+        report.path("rolls", vertices(rest.pop(0)), [px(at(slides)), px(at(drawn))])
+    report.same("more paths", len(rest), 0)
+    texts = [text.text for text in elements(page, "text")]
+    report.same("words", texts[-len(words) :], words)
+    return report.found
