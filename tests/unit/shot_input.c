@@ -1,4 +1,5 @@
-/* Bad input of every field of a shot: each its own status and place, and nothing else written. Bounds, too. */
+/* Bad input of every field of a shot: each its own status and place, and nothing else written. Bounds and the built-in
+ * tables, too. */
 #include "carom_shot.h"
 #include "support.h"
 
@@ -244,6 +245,107 @@ START_TEST(lost_ball) {
 }
 END_TEST
 
+/* ---- The built-in tables */
+
+typedef struct opening {
+  double mouth, angle, jaw; /* m, degrees between rail and facing, m */
+  double radius, centre;    /* m: of the pocket; of its centre outside the playing area */
+} opening;
+
+static const struct {
+  carom_table_kind kind;
+  double width, length, height; /* of the noses */
+  opening corner, side;
+} measured[] = {
+    {CAROM_TABLE_POOL_7FT,
+     0.9906,
+     1.9812,
+     0.036576,
+     {0.118, 39.7, 0.02095, 0.062, 0.0417},
+     {0.137, 82.86, 0.00795, 0.0645, 0.0685}},
+    {CAROM_TABLE_POOL_8FT,
+     1.1176,
+     2.2352,
+     0.036576,
+     {0.118, 39.7, 0.02095, 0.062, 0.0417},
+     {0.137, 82.86, 0.00795, 0.0645, 0.0685}},
+    {CAROM_TABLE_POOL_9FT,
+     1.27,
+     2.54,
+     0.036576,
+     {0.118, 39.7, 0.02095, 0.062, 0.0417},
+     {0.137, 82.86, 0.00795, 0.0645, 0.0685}},
+    {CAROM_TABLE_SNOOKER, 1.778, 3.569, 0.03667125, {0.0865, 45.0, 0.07, 0.055, 0.0417}, {0.0865, 90.0, 0.04, 0.05, 0.0585}},
+};
+
+/* Whether a jaw touches the end of a rail or of a facing: the end is on the jaw's circle, and the rail is tangent to it. */
+static bool touches(const carom_jaw *jaw, const carom_rail *rail, const double end[2]) {
+  const double d_x = end[0] - jaw->centre[0], d_y = end[1] - jaw->centre[1];
+  const double e_x = rail->q[0] - rail->p[0], e_y = rail->q[1] - rail->p[1];
+  return fabs(hypot(d_x, d_y) - jaw->radius) < 1e-9 && fabs(d_x * e_x + d_y * e_y) < 1e-5 * hypot(e_x, e_y);
+}
+
+/* How far x is outside [0, length]; negative inside. */
+static double outside(double x, double length) {
+  return fmax(-x, x - length);
+}
+
+/* The measures that a player would take, from the parts of the tables. The mouth of a pocket lies between the points where its
+ * rails would meet its facings. The facings of pooltool's side pockets are 0.064 degrees off the given angle. */
+START_TEST(measures) {
+  for (size_t n = 0; n < sizeof measured / sizeof measured[0]; n++) {
+    const double w = measured[n].width, l = measured[n].length;
+    ck_assert_int_eq(carom_table_make(measured[n].kind, &table), CAROM_OK);
+    ck_assert(table.width == w && table.length == l && table.rails == 18 && table.jaws == 12 && table.pockets == 6);
+    for (int k = 0; k < 18; k++)
+      ck_assert_double_eq_tol(table.rail[k].height, measured[n].height, 1e-12);
+    /* each jaw leads from one of the six cushions to one of the twelve facings */
+    int corners = 0;
+    for (int k = 0; k < 12; k++) {
+      const carom_jaw *jaw = &table.jaw[k];
+      const carom_rail *rail = NULL, *facing = NULL;
+      for (int m = 0; m < 6; m++)
+        if (touches(jaw, &table.rail[m], table.rail[m].p) || touches(jaw, &table.rail[m], table.rail[m].q))
+          rail = &table.rail[m];
+      for (int m = 6; m < 18; m++)
+        if (touches(jaw, &table.rail[m], table.rail[m].q))
+          facing = &table.rail[m];
+      ck_assert_msg(rail != NULL && facing != NULL, "table %zu, jaw %d: no rail, or no facing", n, k);
+      /* where their lines meet, by Cramer's rule */
+      const double *a = rail->line, *b = facing->line, D = a[0] * b[1] - a[1] * b[0];
+      const double x = (a[1] * b[2] - a[2] * b[1]) / D, y = (a[2] * b[0] - a[0] * b[2]) / D;
+      const bool corner = fabs(y - l / 2.0) > l / 4.0;
+      const opening *o = corner ? &measured[n].corner : &measured[n].side;
+      const double half = corner ? (fmin(x, w - x) + fmin(y, l - y)) * sqrt(0.5) : fabs(y - l / 2.0);
+      corners += corner;
+      ck_assert_double_eq_tol(half, o->mouth / 2.0, 1e-5);
+      ck_assert_double_eq_tol(jaw->radius, o->jaw, 1e-12);
+      ck_assert_double_eq_tol(jaw->height, measured[n].height, 1e-12);
+      const double angle = acos(fabs(a[0] * b[0] + a[1] * b[1]) / (hypot(a[0], a[1]) * hypot(b[0], b[1])));
+      ck_assert_double_eq_tol(angle * 180.0 / 3.14159265358979323846, o->angle, corner ? 1e-9 : 0.07);
+      /* the facing goes back to the depth of the cushion */
+      ck_assert_double_eq_tol(fmax(outside(facing->p[0], w), outside(facing->p[1], l)), 0.0508, 1e-12);
+    }
+    ck_assert_int_eq(corners, 8);
+    /* pockets at the corners lie on the bisectors */
+    for (int k = 0; k < 6; k++) {
+      const double *c = table.pocket[k].centre, x = outside(c[0], w), y = outside(c[1], l);
+      const bool corner = fabs(c[1] - l / 2.0) > l / 4.0;
+      const opening *o = corner ? &measured[n].corner : &measured[n].side;
+      ck_assert_double_eq_tol(corner ? hypot(x, y) : x, o->centre, 1e-12);
+      ck_assert_double_eq_tol(corner ? y : c[1], corner ? x : l / 2.0, 1e-12);
+      ck_assert_double_eq_tol(table.pocket[k].radius, o->radius, 1e-12);
+      corners += corner;
+    }
+    ck_assert_int_eq(corners, 12);
+  }
+  carom_table_make(CAROM_TABLE_THREECUSHION, &table);
+  ck_assert(table.width == 1.42 && table.length == 2.84 && table.rails == 4 && table.jaws == 0 && table.pockets == 0);
+  for (int k = 0; k < 4; k++)
+    ck_assert_double_eq(table.rail[k].height, 0.037);
+}
+END_TEST
+
 /* ---- Where a ball may stand */
 
 /* How far a ball is from a cushion: 0 where it touches. */
@@ -381,5 +483,6 @@ START_TEST(wild_shots) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, bounds, lost_ball, places, wild_shots);
+  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, bounds, lost_ball, measures, places,
+                   wild_shots);
 }
