@@ -108,6 +108,10 @@ START_TEST(touching) {
   ck_assert_double_eq_tol(carom_first_touch(g, 1e-12, 9.0), 2.0, 1e-15);
   ck_assert(isinf(carom_first_touch(parting, 1e-12, 9.0)));
   ck_assert_double_eq(carom_first_touch(closing, 1e-12, 9.0), 0.0);
+  /* a gap of exactly the slack is a contact now; a speed of exactly CAROM_NO_SPEED closes nothing */
+  const double on_slack[3] = {1e-12, -1.0, 0.0}, no_speed[3] = {0.0, -CAROM_NO_SPEED, 0.0};
+  ck_assert_double_eq(carom_first_touch(on_slack, 1e-12, 9.0), 0.0);
+  ck_assert(isinf(carom_first_touch(no_speed, 1e-12, 9.0)));
 }
 END_TEST
 
