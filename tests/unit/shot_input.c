@@ -252,29 +252,18 @@ typedef struct opening {
   double radius, centre;    /* m: of the pocket; of its centre outside the playing area */
 } opening;
 
+#define POOL_MEASURES                                \
+  0.036576, {0.118, 39.7, 0.02095, 0.062, 0.0417}, { \
+    0.137, 82.86, 0.00795, 0.0645, 0.0685            \
+  }
 static const struct {
   carom_table_kind kind;
   double width, length, height; /* of the noses */
   opening corner, side;
 } measured[] = {
-    {CAROM_TABLE_POOL_7FT,
-     0.9906,
-     1.9812,
-     0.036576,
-     {0.118, 39.7, 0.02095, 0.062, 0.0417},
-     {0.137, 82.86, 0.00795, 0.0645, 0.0685}},
-    {CAROM_TABLE_POOL_8FT,
-     1.1176,
-     2.2352,
-     0.036576,
-     {0.118, 39.7, 0.02095, 0.062, 0.0417},
-     {0.137, 82.86, 0.00795, 0.0645, 0.0685}},
-    {CAROM_TABLE_POOL_9FT,
-     1.27,
-     2.54,
-     0.036576,
-     {0.118, 39.7, 0.02095, 0.062, 0.0417},
-     {0.137, 82.86, 0.00795, 0.0645, 0.0685}},
+    {CAROM_TABLE_POOL_7FT, 0.9906, 1.9812, POOL_MEASURES},
+    {CAROM_TABLE_POOL_8FT, 1.1176, 2.2352, POOL_MEASURES},
+    {CAROM_TABLE_POOL_9FT, 1.27, 2.54, POOL_MEASURES},
     {CAROM_TABLE_SNOOKER, 1.778, 3.569, 0.03667125, {0.0865, 45.0, 0.07, 0.055, 0.0417}, {0.0865, 90.0, 0.04, 0.05, 0.0585}},
 };
 
