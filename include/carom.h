@@ -156,7 +156,7 @@ typedef enum carom_status {
   CAROM_ERROR_BALLS = -44,           /* the number of balls is not 1 to CAROM_BALLS_MOST. */
   CAROM_ERROR_LABEL = -45,           /* the label of a ball is not one that a layout may have. */
   CAROM_ERROR_OVERLAP = -46,         /* two balls overlap by more than 1e-6 m. */
-  CAROM_ERROR_OFF_TABLE = -47,       /* a ball is not on the table: beyond its cushions, or not at the height of its radius. */
+  CAROM_ERROR_OFF_TABLE = -47,       /* a ball is in or behind a cushion, in a pocket, or not at the height of its radius. */
   CAROM_ERROR_MU_MOTION = -48,       /* a friction of sliding, rolling or spinning is not above 0 and at most 1. */
   CAROM_ERROR_GRAVITY = -49,         /* gravity is not positive and finite. */
   CAROM_ERROR_CUE = -50,             /* a field of the cue is out of its range. */
@@ -164,6 +164,7 @@ typedef enum carom_status {
   CAROM_ERROR_TABLE = -52,           /* the table has too many parts, or a part that is not finite or has no length. */
   CAROM_ERROR_RACK = -53,            /* no such rack, a gap that is not between 0 and R, or too little room. */
   CAROM_ERROR_EVENTS_LOST = -54,     /* carom_shot_at(): the shot had more events than there was room for. */
+  CAROM_ERROR_TIME = -55,            /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */
 } carom_status;
 
 /* The short name of a status ("separating"), as it stands in the command's output. "unknown" for a value not listed. Arrays of

@@ -34,7 +34,10 @@ typedef struct carom_cushion_impact {
                          this counts only for Stronge's model with the convention of pooltool. */
 } carom_cushion_impact;
 
-/* How the impact is computed. */
+/* How the impact is computed. STRONGE and HAN work along the inclined normal of the nose and drop the vertical velocity, so
+ * they can leave a ball that still moves into the cushion, with CAROM_OK: without friction where e < tan^2 theta, sin(theta) =
+ * (height - radius) / radius, which is 0.085 at a pool table's nose; with friction and much spin at larger e too. In a whole
+ * shot of the world carom such a ball parts from the cushion in the same event, as after a slow contact (docs/shots.md). */
 typedef enum carom_cushion_model {
   CAROM_CUSHION_MATHAVAN = 0, /* rigid cushion, friction at nose and cloth, energetic restitution: S. Mathavan, M. R. Jackson,
                                  R. M. Parkin, Proc. IMechE C 224 (2010) 1863-1873, as the exact limit of small impulses. */
@@ -305,7 +308,7 @@ typedef struct carom_shot_options {
   int32_t events_most;   /* events of a shot; 0: 10000. */
   int32_t threads;       /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
   int32_t unused;        /* must be 0. */
-  double time_most;      /* of the clock of a shot, s; 0: 1000. */
+  double time_most;      /* of the clock of a shot, s; 0: 1000. The shot ends at the last event before that. */
   uint64_t reserved[5];  /* must be 0. */
 } carom_shot_options;
 
@@ -336,7 +339,8 @@ typedef struct carom_shot {
   int64_t room;
   int64_t count;           /* events that happened, also beyond room. */
   carom_ball_state *final; /* the states at the end, one for each ball; may be NULL. */
-  double time;             /* when the last event happened, s. */
+  double time;             /* s: when the last event happened, or a ball left the table. carom_shot_at() knows no later state of
+                              a shot that ended while balls moved. */
   uint64_t reserved[4];    /* not read or written yet. */
 } carom_shot;
 
@@ -348,21 +352,28 @@ CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ba
                                    const carom_shot_options *opt, carom_shot *shot);
 
 /* The states of all balls at a time, by evaluation of the motion after each ball's last event. Before 0: as at 0; after the
- * last event: as at that one. CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_EVENTS_LOST where shot->room was too small to know. */
+ * end: as at the end, where nothing moves any more. CAROM_OK, or an error with nothing written: CAROM_ERROR_NULL;
+ * CAROM_ERROR_BALLS; CAROM_ERROR_EVENTS_LOST where shot->room was too small to know; CAROM_ERROR_TIME for a time that is not a
+ * number, and for one after shot->time where balls still move then, since a bound or an error ended the shot. */
 CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
                                      carom_ball_state *states);
 
 /* Plays n shots. Shot k is of balls[k * count ...] and cues[k]; where one_layout or one_cue is not 0, all are of the first.
  * `shots` takes n results, whose events, room and final are set by the caller; `status` n statuses, may be NULL. Threads are
- * those of the options. Each shot has the bits of carom_shoot(), and a bad one costs itself. Returns CAROM_OK or the status of
- * the first shot in error; if the call itself cannot be served (NULL, bad table or options), that error, with nothing written.
+ * those of the options. Each shot has the bits and the status of carom_shoot(), and a bad one costs itself: each layout is
+ * checked with its own radius, which may differ from layout to layout, and balls too small or too large for the noses of the
+ * table cost their own shot only. Returns CAROM_OK or the status of the first shot in error; if the call itself cannot be
+ * served (NULL, a bad option, a bad count, a part of the table that is bad for every radius), that error, with nothing written.
  */
 CAROM_API carom_status carom_shoot_batch(const carom_table *table, const carom_shot_ball *balls, int count, int one_layout,
                                          const carom_cue *cues, int one_cue, size_t n, const carom_shot_options *opt,
                                          carom_shot *shots, int8_t *status);
 
 /* Checks the arguments of carom_shoot() and plays nothing. *where becomes the index of the ball, rail, jaw or pocket at fault,
- * or -1; it may be NULL. */
+ * or -1; it may be NULL. CAROM_ERROR_OFF_TABLE: a ball is in a cushion by more than 1e-6 m; or its centre is behind one,
+ * outside the ring of rails, jaws and pockets; or its centre is in a pocket and its label is not CAROM_BALL_POCKETED. Outside
+ * is where no played side of a rail is seen in any of 16 directions, but the back of one or a pocket is; on tables whose ring
+ * has gaps a place outside may pass. */
 CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                                         const carom_shot_options *opt, int *where);
 

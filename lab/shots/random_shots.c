@@ -1,5 +1,7 @@
 /* Random shots: breaks, layouts, racks of other games, and what simulators trip over: frozen racks, lines and clusters of
- * touching balls, balls frozen to rails and in corners, much spin, unlike balls, extreme restitution. */
+ * touching balls, balls frozen to rails and in corners, much spin, unlike balls, extreme restitution, up to 32 balls that their
+ * spin presses together, and what random numbers never do: events at exactly one instant, gaps of exactly 0, the exact ends of
+ * rails. */
 #include "random_shots.h"
 
 #include <math.h>
@@ -221,6 +223,78 @@ static void near_pocket(random_shot *s, shot_random *r) {
                shot_uniform(r, -3.0, 3.0);
 }
 
+/* Up to 32 touching balls, in a line or a triangle, in the open or against a rail, whose spin presses them together. */
+static void pressed(random_shot *s, shot_random *r) {
+  carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
+  const int which = whole(r, 0, 2), count = whole(r, 2, which == 1 ? CAROM_BALLS_MOST / 2 : CAROM_BALLS_MOST),
+            shape = whole(r, 0, 2);
+  const double R = carom_ball_kind_of(CAROM_GAME_BILLIARD).radius, spin = shot_uniform(r, 20.0, 300.0);
+  for (int k = 0, row = 0, place = 0; k < count; k++, place++) {
+    if (place > row) {
+      row++;
+      place = 0;
+    }
+    if (shape == 2)
+      add(s, CAROM_GAME_BILLIARD, 0.5 * s->table.width + (2.0 * place - row) * R, 0.5 + row * sqrt(3.0) * R);
+    else
+      add(s, CAROM_GAME_BILLIARD, 0.5, (shape == 0 ? R : 0.5) + 2.0 * R * k);
+  }
+  /* the first along the line, both ends against each other, or all at random; rolling along +y has w_x < 0 */
+  for (int k = 0; k < count; k++) {
+    double *w = s->ball[k].state.w;
+    if (which == 2) {
+      w[0] = shot_uniform(r, -spin, spin);
+      w[1] = shot_uniform(r, -spin, spin) * whole(r, 0, 1);
+    } else if (k == 0) {
+      w[0] = -spin;
+    } else if (which == 1 && k == count - 1) {
+      w[0] = spin;
+    }
+  }
+}
+
+/* Balls on a lattice of their diameter, on a table whose sides are multiples of it, with velocities along an axis or a
+ * diagonal: in doubles without rounding. Neighbours touch, balls at the sides touch the rails, many meet at one instant, and
+ * rails end where balls meet them. */
+static void coincident(random_shot *s, shot_random *r) {
+  const double R = 0.03125, height = 0.0375;
+  s->table = (carom_table){.width = 1.0, .length = 2.0};
+  const double corner[5][2] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 2.0}, {0.0, 2.0}, {0.0, 0.0}};
+  const int parts = whole(r, 0, 1) ? 1 : 4; /* ends of rails at the places of balls */
+  for (int k = 0; k < 4 * parts; k++) {
+    const double *p = corner[k / parts], *q = corner[k / parts + 1], from = (double)(k % parts) / parts, step = 1.0 / parts;
+    carom_rail *rail = &s->table.rail[s->table.rails++];
+    *rail = (carom_rail){.height = height, .side = 1};
+    for (int axis = 0; axis < 2; axis++) {
+      rail->p[axis] = p[axis] + from * (q[axis] - p[axis]);
+      rail->q[axis] = p[axis] + (from + step) * (q[axis] - p[axis]);
+    }
+  }
+  if (whole(r, 0, 1)) /* a post, met at its exact side */
+    s->table.jaw[s->table.jaws++] = (carom_jaw){{0.5, 1.0}, 0.03125, height};
+  /* places k + 1/2 diameters from the sides; where rails end and a post stands, whole ones */
+  const double shift = whole(r, 0, 1) ? R : 2.0 * R;
+  const int count = whole(r, 1, 12), lines = whole(r, 1, 3);
+  const double e = 0.25 * whole(r, 0, 4);
+  for (int trial = 0; trial < 100 && s->count < count; trial++) {
+    const double x = shift + 2.0 * R * whole(r, 0, 14), y = shift + 2.0 * R * (whole(r, 0, 1) ? 15 : whole(r, 0, 30) / lines);
+    if (!is_free(s, x, y, 2.0 * R) || (s->table.jaws > 0 && hypot(x - 0.5, y - 1.0) < 2.0 * R))
+      continue;
+    add(s, CAROM_GAME_POOL, x, y);
+    carom_shot_ball *b = &s->ball[s->count - 1];
+    b->kind.radius = b->state.r[2] = R;
+    b->kind.restitution = b->kind.restitution_cushion = e;
+    static const double speeds[] = {0.0, 0.0, 1.0, -1.0, 2.0, -0.5};
+    const int way = whole(r, 0, 2), roll = whole(r, 0, 3);
+    b->state.v[0] = way == 1 ? 0.0 : speeds[whole(r, 0, 5)];
+    b->state.v[1] = way == 0 ? 0.0 : speeds[whole(r, 0, 5)];
+    if (roll < 2) { /* rolling, or as much the other way */
+      b->state.w[0] = (roll == 0 ? -32.0 : 32.0) * b->state.v[1];
+      b->state.w[1] = (roll == 0 ? 32.0 : -32.0) * b->state.v[0];
+    }
+  }
+}
+
 static const struct {
   const char *name;
   void (*make)(random_shot *shot, shot_random *r);
@@ -238,6 +312,8 @@ static const struct {
     {"cluster", cluster},
     {"unlike", unlike},
     {"near_pocket", near_pocket},
+    {"pressed", pressed},
+    {"coincident", coincident},
 };
 
 int random_shot_kinds(void) {

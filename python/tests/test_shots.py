@@ -153,6 +153,19 @@ def test_a_bad_shot_costs_itself():
     assert shots.final[2].tobytes() == carom.simulate(table, rack, cues[2], cushion_model="han").final.tobytes()
 
 
+def test_each_layout_has_its_own_radius():
+    table = carom.tables.threecushion()
+    kind = carom.balls([[0.7, 0.5]], game="billiard")
+    layouts = np.stack([kind, kind, kind])
+    for layout, radius in zip(layouts, [0.02, 0.06, 0.015]):
+        layout["kind"]["radius"], layout["state"]["r"][:, 2] = radius, radius
+        layout["state"]["v"][:, 1], layout["state"]["w"][:, 0] = -0.2992, 0.2992 / radius
+    shots = carom.simulate_batch(table, layouts, room=50)
+    assert shots.status.tolist() == [0, 0, carom.Status.ERROR_NOSE_HEIGHT]
+    for k in range(2):
+        assert shots.final[k].tobytes() == carom.simulate(table, layouts[k]).final.tobytes()
+
+
 def test_states_between_events():
     """A ball alone, sliding, in closed form."""
     table = carom.tables.pool_9ft()
@@ -192,7 +205,11 @@ def test_other_errors():
     with pytest.raises(carom.CaromError) as caught:
         carom.simulate(table, rack, carom.cue(speed=8.0), events_most=20)
     assert caught.value.status is carom.Status.ERROR_TOO_MANY_EVENTS
-    assert caught.value.shot is not None and caught.value.shot.count == 20
+    stopped = caught.value.shot
+    assert stopped is not None and stopped.count == 20 and stopped.states(stopped.time).tobytes() == stopped.final.tobytes()
+    with pytest.raises(carom.CaromError) as caught:
+        stopped.states([0.0, stopped.time + 1.0])
+    assert caught.value.status is carom.Status.ERROR_TIME
     with pytest.raises(TypeError, match=r"carom\.balls\(\)"):
         carom.simulate(table, np.zeros((2, 20)))
     with pytest.raises(ValueError, match="cushion_model: must be one of"):

@@ -1,5 +1,5 @@
 /* The one place where the arguments of a shot are checked, by the conditions of the comments in carom_shot.h: what is common to
- * a batch once, what belongs to a layout and its cue for each. */
+ * a batch once; a layout, its cue, and whether the table suits the radius of its balls, for each. */
 #include "shot/sim.h"
 
 #include <math.h>
@@ -41,27 +41,39 @@ static bool good_circle(const double centre[2], double radius, double least) {
   return isfinite(centre[0]) && isfinite(centre[1]) && radius >= least && radius < INFINITY;
 }
 
-static carom_status check_table(const carom_table *t, double R, int *where) {
+static carom_status check_table(const carom_table *t, int *where) {
   *where = -1;
   if (t->rails < 0 || t->rails > CAROM_RAILS_MOST || t->jaws < 0 || t->jaws > CAROM_JAWS_MOST || t->pockets < 0 ||
       t->pockets > CAROM_POCKETS_MOST || t->rails + t->jaws < 1)
     return CAROM_ERROR_TABLE;
-  for (*where = 0; *where < t->rails; ++*where) {
+  for (*where = 0; *where < t->rails; ++*where)
     if (!good_rail(&t->rail[*where]))
       return CAROM_ERROR_TABLE;
-    if (!(t->rail[*where].height > 0.0 && t->rail[*where].height < 2.0 * R))
-      return CAROM_ERROR_NOSE_HEIGHT;
-  }
-  for (*where = 0; *where < t->jaws; ++*where) {
+  for (*where = 0; *where < t->jaws; ++*where)
     if (!good_circle(t->jaw[*where].centre, t->jaw[*where].radius, 0.0))
       return CAROM_ERROR_TABLE;
-    if (!(t->jaw[*where].height > 0.0 && t->jaw[*where].height < 2.0 * R))
-      return CAROM_ERROR_NOSE_HEIGHT;
-  }
   for (*where = 0; *where < t->pockets; ++*where)
     if (!good_circle(t->pocket[*where].centre, t->pocket[*where].radius, 1e-9) || !isfinite(t->pocket[*where].depth))
       return CAROM_ERROR_TABLE;
   *where = -1;
+  return CAROM_OK;
+}
+
+/* Prepares the table for balls of radius R, unless that has been done. */
+static carom_status prepare(const carom_table *t, double R, carom_features *features, int *where) {
+  *where = 0;
+  if (features->radius == R)
+    return CAROM_OK;
+  if (!positive(R))
+    return CAROM_ERROR_RADIUS;
+  /* every nose is above the cloth and below the top of a ball */
+  for (*where = 0; *where < t->rails; ++*where)
+    if (!(t->rail[*where].height > 0.0 && t->rail[*where].height < 2.0 * R))
+      return CAROM_ERROR_NOSE_HEIGHT;
+  for (*where = 0; *where < t->jaws; ++*where)
+    if (!(t->jaw[*where].height > 0.0 && t->jaw[*where].height < 2.0 * R))
+      return CAROM_ERROR_NOSE_HEIGHT;
+  carom_features_of(t, R, features);
   return CAROM_OK;
 }
 
@@ -101,24 +113,78 @@ static carom_status check_state(const carom_ball_state *s, double R) {
   return fabs(s->r[2] - R) <= most_overlap ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
 }
 
-/* Whether the ball stands within the cushions. */
-static bool on_table(const carom_table *table, const carom_features *f, const double r[3], double R) {
-  bool good = r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
-  const float x = (float)r[0], y = (float)r[1];
-  for (int k = 0; k < f->rails + f->jaws; k++) {
-    if (x < f->low_x[k] || x > f->high_x[k] || y < f->low_y[k] || y > f->high_y[k])
-      continue;
-    if (k < f->rails) {
-      const double gap = f->line[k][0] * r[0] + f->line[k][1] * r[1] + f->line[k][2] - R;
-      const double place = f->along[k][0] * r[0] + f->along[k][1] * r[1] + f->along[k][2];
-      good &= !(gap < -most_overlap && gap > -2.0 * R && place >= 0.0 && place <= 1.0);
-    } else {
-      const carom_jaw *jaw = &table->jaw[k - f->rails];
-      const double d_x = r[0] - jaw->centre[0], d_y = r[1] - jaw->centre[1], reach = jaw->radius + R - most_overlap;
-      good &= d_x * d_x + d_y * d_y >= reach * reach;
+/* When a ray from r along u enters a circle, in units of u; infinite if it does not, or begins inside. */
+static double enters_circle(const double r[2], const double u[2], const double centre[2], double radius) {
+  const double d_x = centre[0] - r[0], d_y = centre[1] - r[1], a = u[0] * u[0] + u[1] * u[1], b = d_x * u[0] + d_y * u[1];
+  const double D = b * b - a * (d_x * d_x + d_y * d_y - radius * radius), t = D >= 0.0 ? (b - sqrt(D)) / a : INFINITY;
+  return t > 0.0 ? t : INFINITY;
+}
+
+/* What a ray from r along u meets first: 1 for the played side of a rail, -1 for the back of one or a pocket, 0 for a jaw or
+ * nothing. */
+static int first_met(const carom_table *table, const carom_features *f, const double r[2], const double u[2]) {
+  double first = INFINITY;
+  int what = 0;
+  for (int k = 0; k < f->rails; k++) {
+    const double *n = f->line[k], *along = f->along[k];
+    const double distance = n[0] * r[0] + n[1] * r[1] + n[2], t = -distance / (n[0] * u[0] + n[1] * u[1]);
+    const double place = along[0] * (r[0] + t * u[0]) + along[1] * (r[1] + t * u[1]) + along[2];
+    if (t >= 0.0 && t < first && place >= 0.0 && place <= 1.0) {
+      first = t;
+      what = distance > 0.0 ? 1 : -1;
     }
   }
-  return good;
+  for (int k = 0; k < f->jaws + f->pockets; k++) {
+    const int pocket = k - f->jaws;
+    const double t = pocket < 0 ? enters_circle(r, u, table->jaw[k].centre, table->jaw[k].radius)
+                                : enters_circle(r, u, table->pocket[pocket].centre, table->pocket[pocket].radius);
+    if (t < first) {
+      first = t;
+      what = pocket < 0 ? 0 : -1;
+    }
+  }
+  return what;
+}
+
+/* Whether a place is outside the ring of cushions and pockets: in some of 16 directions it sees the back of a rail or a pocket
+ * first, and in none the played side of a rail. */
+static bool is_outside(const carom_table *table, const carom_features *f, const double r[2]) {
+  static const double quarter[4][2] = {{5, 1}, {3, 2}, {2, 3}, {1, 5}}; /* few rails have these directions */
+  bool outside = false;
+  for (int k = 0; k < 16; k++) {
+    const double *q = quarter[k % 4], turned[2] = {k & 4 ? -q[1] : q[0], k & 4 ? q[0] : q[1]};
+    const double u[2] = {k & 8 ? -turned[0] : turned[0], k & 8 ? -turned[1] : turned[1]};
+    const int met = first_met(table, f, r, u);
+    if (met > 0)
+      return false;
+    outside |= met < 0;
+  }
+  return outside;
+}
+
+/* Whether the ball stands within the cushions, in no pocket. */
+static bool on_table(const carom_table *table, const carom_features *f, const double r[3], double R) {
+  bool good = r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
+  /* only behind a rail, or beyond the ends of all rails, can it be outside */
+  bool behind = f->rails > 0 && (r[0] < f->ends[0] || r[0] > f->ends[1] || r[1] < f->ends[2] || r[1] > f->ends[3]);
+  for (int k = 0; k < f->rails; k++) {
+    const double distance = f->line[k][0] * r[0] + f->line[k][1] * r[1] + f->line[k][2];
+    const double place = f->along[k][0] * r[0] + f->along[k][1] * r[1] + f->along[k][2];
+    const bool beside = place >= 0.0 && place <= 1.0;
+    good &= !(beside && distance < R - most_overlap && distance > -R);
+    behind |= beside && distance < 0.0;
+  }
+  for (int k = 0; k < f->jaws; k++) {
+    const carom_jaw *jaw = &table->jaw[k];
+    const double d_x = r[0] - jaw->centre[0], d_y = r[1] - jaw->centre[1], reach = jaw->radius + R - most_overlap;
+    good &= d_x * d_x + d_y * d_y >= reach * reach;
+  }
+  for (int k = 0; k < f->pockets; k++) {
+    const carom_pocket *pocket = &table->pocket[k];
+    const double d_x = r[0] - pocket->centre[0], d_y = r[1] - pocket->centre[1];
+    good &= d_x * d_x + d_y * d_y >= pocket->radius * pocket->radius;
+  }
+  return good && !(behind && is_outside(table, f, r));
 }
 
 static carom_status check_cue(const carom_shot_ball *balls, int count, const carom_cue *cue) {
@@ -129,13 +195,24 @@ static carom_status check_cue(const carom_shot_ball *balls, int count, const car
   return carom_check_cue(cue);
 }
 
-carom_status carom_check_layout(const carom_table *table, const carom_features *features, const carom_shot_ball *balls,
-                                int count, const carom_cue *cue, const carom_shot_options *opt, int *where) {
+carom_status carom_check_common(const carom_table *table, int count, const carom_shot_options *opt, int *where) {
+  *where = -1;
+  const carom_status bad = check_options(opt);
+  if (bad != CAROM_OK)
+    return bad;
+  return count < 1 || count > CAROM_BALLS_MOST ? CAROM_ERROR_BALLS : check_table(table, where);
+}
+
+carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
+                                const carom_cue *cue, const carom_shot_options *opt, int *where) {
   const double R = balls[0].kind.radius;
   const bool one_mass = opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
+  carom_status bad = prepare(table, R, features, where);
+  if (bad != CAROM_OK)
+    return bad;
   for (*where = 0; *where < count; ++*where) {
     const carom_shot_ball *ball = &balls[*where];
-    carom_status bad = check_kind(&ball->kind);
+    bad = check_kind(&ball->kind);
     if (bad == CAROM_OK && ball->kind.radius != R)
       bad = CAROM_ERROR_RADII_DIFFER;
     if (bad == CAROM_OK && one_mass && ball->kind.mass != balls[0].kind.mass)
@@ -159,29 +236,6 @@ carom_status carom_check_layout(const carom_table *table, const carom_features *
   return check_cue(balls, count, cue);
 }
 
-static carom_status check_all(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot_options *opt,
-                              carom_features *features, int *where) {
-  *where = -1;
-  carom_status bad = check_options(opt);
-  if (bad == CAROM_OK && (count < 1 || count > CAROM_BALLS_MOST))
-    bad = CAROM_ERROR_BALLS;
-  if (bad == CAROM_OK && !positive(balls[0].kind.radius)) {
-    *where = 0;
-    return CAROM_ERROR_RADIUS;
-  }
-  if (bad == CAROM_OK)
-    bad = check_table(table, balls[0].kind.radius, where);
-  if (bad == CAROM_OK)
-    carom_features_of(table, balls[0].kind.radius, features);
-  return bad;
-}
-
-carom_status carom_check_shot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot_options *opt,
-                              carom_features *features) {
-  int where;
-  return check_all(table, balls, count, opt, features, &where);
-}
-
 carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                               const carom_shot_options *opt, int *where) {
   static const carom_shot_options no_options = {0};
@@ -191,7 +245,8 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
   if (table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
+  const carom_status bad = carom_check_common(table, count, opt, where);
   carom_features features;
-  const carom_status bad = check_all(table, balls, count, opt, &features, where);
+  features.radius = 0.0;
   return bad != CAROM_OK ? bad : carom_check_layout(table, &features, balls, count, cue, opt, where);
 }

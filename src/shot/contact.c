@@ -11,7 +11,13 @@
  * c4 or c3 to differ from 0.
  *
  * An event is where the gap is <= 0 and closing: M. N. Bannerman, S. Strobl, A. Formella, T. Poeschel, Stable algorithm for
- * event detection in event-driven particle dynamics, Comp. Part. Mech. 1 (2014) 191-198. */
+ * event detection in event-driven particle dynamics, Comp. Part. Mech. 1 (2014) 191-198.
+ *
+ * PRESSED. Things that touch, do not close and are accelerated into each other are in contact once their gap is 0 and by
+ * `slack` less than at its greatest, not at once. They close at sqrt(2 slack acceleration) or more there, some 2e-6 m/s for a
+ * sliding ball. At once they would close at 0, part at 0 where they have no spin, and be found again at the same instant
+ * without end. Where only rounding presses them, as where a ball slides along a rail that it touches, their paths end before
+ * the gap has fallen by so much, and there is no contact. */
 #include "shot/contact.h"
 #include "shot/path.h"
 
@@ -80,7 +86,7 @@ static double zero_from_left(const quartic *f, double t, double T, double small)
   return t; /* not reached in practice: f has come as near to 0 as rounding lets it */
 }
 
-/* The first zero of the slope of f after t, where it is not negative, up to T: the end of a rise. */
+/* The first time from t on, up to T, when f begins to fall: t itself where it does so at once, the end of a rise otherwise. */
 static double end_of_rise(const quartic *f, double t, double T) {
   for (int k = 0; k < MOST_STEPS; k++) {
     /* g = f' >= g(t) + g'(t) s + n s^2, n the least g''/2 = 3 c3 + 12 c4 t on [t, T] */
@@ -88,9 +94,10 @@ static double end_of_rise(const quartic *f, double t, double T) {
     const double n = 3.0 * f->c[3] + 12.0 * f->c[4] * (f->c[4] > 0.0 ? t : T), D = y1 * y1 - 4.0 * n * y;
     if (y <= 0.0 && (y1 < 0.0 || k > 0))
       return t;
-    /* where it begins at 0 or, by rounding, below, and rises, the bound is back at 0 later */
+    /* where it begins at 0 or, by rounding, below, and rises, the bound is back at 0 later; where it does not rise either, the
+       third derivative decides, 6 n: s = 0 if f falls by that */
     const double s = y <= 0.0 ? (n < 0.0 ? -y1 / n : INFINITY) : D >= 0.0 ? 2.0 * y / (-y1 + sqrt(D)) : INFINITY;
-    if (!(s > 0.0) || t + s > T)
+    if (!(s >= 0.0) || t + s > T)
       return INFINITY;
     if (s <= 1e-15 * (t + s))
       return t + s;
@@ -107,16 +114,17 @@ static quartic squared(const carom_separation *d, double reach) {
 }
 
 double carom_first_contact(const carom_separation *d, double reach, double slack, double horizon) {
-  const quartic f = squared(d, reach);
+  quartic f = squared(d, reach);
   const double small = 1e-12 * reach * reach;
   if (f.c[0] > 2.0 * reach * slack)
     return zero_from_left(&f, 0.0, horizon, small);
   if (f.c[1] < -2.0 * reach * CAROM_NO_SPEED)
     return 0.0;
-  /* touching and parting: the next contact is where it closes again, if the gap is <= 0 there, or behind that */
+  /* touching and not closing: the next contact is behind the turn, where it closes again; see PRESSED */
   const double turn = end_of_rise(&f, 0.0, horizon);
-  if (!(turn <= horizon) || value(&f, turn) <= 0.0)
-    return turn <= horizon ? turn : INFINITY;
+  if (!(turn <= horizon))
+    return INFINITY;
+  f.c[0] += carom_greater(2.0 * reach * slack - value(&f, turn), 0.0);
   return zero_from_left(&f, turn, horizon, small);
 }
 
@@ -139,13 +147,13 @@ double carom_first_touch(const double g[3], double slack, double horizon) {
     t = D >= 0.0 ? 2.0 * g[0] / (-g[1] + sqrt(D)) : INFINITY;
     return t >= 0.0 && t <= horizon ? t : INFINITY;
   }
-  if (g[1] < -CAROM_NO_SPEED || (g[1] <= 0.0 && g[2] < 0.0))
+  if (g[1] < -CAROM_NO_SPEED)
     return 0.0;
   if (!(g[2] < 0.0))
     return INFINITY;
-  /* touching and parting: where it falls to 0 again, or begins to fall if it never rises above 0 */
-  const double D = g[1] * g[1] - 4.0 * g[2] * g[0];
-  t = D > 0.0 ? (-g[1] - sqrt(D)) / (2.0 * g[2]) : -g[1] / (2.0 * g[2]);
+  /* touching and not closing: where it falls to 0 again; see PRESSED */
+  const double highest = g[1] > 0.0 ? g[0] - 0.25 * g[1] * g[1] / g[2] : g[0], end = carom_lesser(highest - slack, 0.0);
+  t = (-g[1] - sqrt(carom_greater(g[1] * g[1] - 4.0 * g[2] * (g[0] - end), 0.0))) / (2.0 * g[2]);
   return t <= horizon ? t : INFINITY;
 }
 

@@ -20,7 +20,7 @@ typedef struct carom_separation {
 double carom_first_crossing(const carom_separation *d, double reach, double horizon);
 
 /* The first time in [0, horizon] when |d(t)| <= reach and falling, or infinity. `slack`, m: a start with a gap up to that,
- * closing, is a contact now. */
+ * closing, is a contact now; one that does not close is in contact where the gap has fallen by that from its greatest. */
 double carom_first_contact(const carom_separation *d, double reach, double slack, double horizon);
 
 /* The same for a gap of g[0] + g[1] t + g[2] t^2: the first time when it is <= 0 and falling. */

@@ -99,7 +99,7 @@ static double meet_pocket(const carom_sim *sim, int k, const motion *m, double T
   if (stays_away(&d, pocket->radius, T))
     return INFINITY;
   if (!sim->pooltool && d.d0[0] * d.d0[0] + d.d0[1] * d.d0[1] <= pocket->radius * pocket->radius)
-    return 0.0; /* it begins in there */
+    return 0.0; /* by rounding, at an event on the circle: a layout has no ball in there */
   return carom_first_crossing(&d, pocket->radius, T);
 }
 

@@ -1,5 +1,5 @@
-/* What a ball can meet on a table, prepared once for a shot: lines with unit normals, boxes for rejection, and the hull outside
- * of which no centre has a place. */
+/* What balls of one radius can meet on a table, prepared once for all shots that share both: lines with unit normals, boxes for
+ * rejection, and the hull outside of which no centre has a place. */
 #include "shot/sim.h"
 
 #include <math.h>
@@ -39,6 +39,7 @@ static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
 }
 
 void carom_features_of(const carom_table *table, double radius, carom_features *f) {
+  f->radius = radius;
   f->rails = (int)table->rails;
   f->jaws = (int)table->jaws;
   f->pockets = (int)table->pockets;
@@ -51,6 +52,7 @@ void carom_features_of(const carom_table *table, double radius, carom_features *
     prepare_rail(&table->rail[k], k, f);
     enclose(f, at, table->rail[k].p, table->rail[k].q, 0.0, radius);
   }
+  memcpy(f->ends, f->hull, sizeof f->ends);
   for (int k = 0; k < f->jaws; k++, at++)
     enclose(f, at, table->jaw[k].centre, table->jaw[k].centre, table->jaw[k].radius, radius);
   for (int k = 0; k < f->pockets; k++, at++)

@@ -1,4 +1,6 @@
 /* Collisions of balls with each other and with cushions, by the model that the options ask for. */
+#include "ball_ball/arguments.h"
+#include "ball_ball/euler.h"
 #include "platform/elementary.h"
 #include "shot/sim.h"
 
@@ -69,6 +71,17 @@ static void take_motion(const carom_motion *motion, carom_ball_state *s) {
   s->v[2] = 0.0;
 }
 
+/* What pooltool does with balls that part, as balls may that its spacers push into each other in a rack: it takes its steps
+ * nevertheless. The first ends the compression, the second the restitution, so the balls part faster by 2 (1 + e) / N of their
+ * speed. Balls that neither part nor close stay as they are; its loop has no end there. */
+static void part_by_steps(const carom_impact *in, const carom_options *options, carom_result *out) {
+  const carom_frame frame = carom_frame_of(in);
+  carom_local local = carom_to_frame(&frame, in, options->slip);
+  carom_euler_run run;
+  if (local.v_jy > local.v_iy && carom_euler(&local, carom_steps(options), INT64_MAX, &run) == CAROM_OK)
+    carom_from_frame(&frame, &local, out);
+}
+
 static int ball_model(const carom_sim *sim) {
   if (sim->opt->ball_model != CAROM_BALL_MODEL_DEFAULT)
     return sim->opt->ball_model;
@@ -99,6 +112,8 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
                                  .steps = sim->opt->steps};
   carom_result out;
   const carom_status status = carom_collide(&in, &options, &out);
+  if (status == CAROM_SEPARATING && sim->pooltool && model == CAROM_BALL_MODEL_EULER)
+    part_by_steps(&in, &options, &out);
   if (status >= 0) {
     take_motion(&out.a, a);
     take_motion(&out.b, b);

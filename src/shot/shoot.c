@@ -159,7 +159,8 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   sim.pooltool = opt->world == CAROM_WORLD_POOLTOOL;
   sim.now = 0.0;
   sim.round = 0;
-  sim.slow_contacts = 0;
+  sim.slow_instants = 0;
+  sim.slow_last = -1.0;
   shot->count = 0;
   shot->time = 0.0;
   begin(&sim);
@@ -169,8 +170,9 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   return status;
 }
 
-static carom_status shoot_checked(const carom_table *table, const carom_features *features, const carom_shot_ball *balls,
-                                  int count, const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
+/* *features are prepared for the radius of these balls, unless they are so already. */
+static carom_status shoot_checked(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
+                                  const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
   int where;
   shot->count = 0;
   shot->time = 0.0;
@@ -189,8 +191,10 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
   opt = opt != NULL ? opt : &no_options;
   shot->count = 0;
   shot->time = 0.0;
+  int where;
+  const carom_status bad = carom_check_common(table, count, opt, &where);
   carom_features features;
-  const carom_status bad = carom_check_shot(table, balls, count, opt, &features);
+  features.radius = 0.0;
   return bad != CAROM_OK ? bad : shoot_checked(table, &features, balls, count, cue, opt, shot);
 }
 
@@ -198,7 +202,6 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
 
 typedef struct batch {
   const carom_table *table;
-  const carom_features *features;
   const carom_shot_ball *balls;
   int count, one_layout, one_cue;
   const carom_cue *cues;
@@ -207,19 +210,21 @@ typedef struct batch {
   int8_t *status;
 } batch;
 
-static carom_status shoot_row(const batch *b, size_t k) {
+static carom_status shoot_row(const batch *b, size_t k, carom_features *features) {
   const carom_shot_ball *balls = b->balls + (b->one_layout ? 0 : k * (size_t)b->count);
   const carom_cue *cue = b->cues == NULL ? NULL : b->cues + (b->one_cue ? 0 : k);
   if (!room_is_there(&b->shots[k]))
     return CAROM_ERROR_NULL;
-  return shoot_checked(b->table, b->features, balls, b->count, cue, b->opt, &b->shots[k]);
+  return shoot_checked(b->table, features, balls, b->count, cue, b->opt, &b->shots[k]);
 }
 
 static size_t shoot_rows(const void *context, size_t first, size_t end) {
   const batch *b = context;
   size_t first_bad = end;
+  carom_features features; /* shared by rows with one radius */
+  features.radius = 0.0;
   for (size_t k = first; k < end; k++) {
-    const carom_status status = shoot_row(b, k);
+    const carom_status status = shoot_row(b, k, &features);
     if (b->status != NULL)
       b->status[k] = (int8_t)status;
     if (status < 0 && first_bad == end)
@@ -236,18 +241,19 @@ carom_status carom_shoot_batch(const carom_table *table, const carom_shot_ball *
   if (table == NULL || balls == NULL || shots == NULL)
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
-  /* what is one for all is checked with the first layout whose radius is one: a bad layout costs itself */
-  carom_features features = {0};
-  size_t sound = 0;
-  carom_status bad = carom_check_shot(table, balls, count, opt, &features);
-  while (bad == CAROM_ERROR_RADIUS && !one_layout && ++sound < n)
-    bad = carom_check_shot(table, balls + sound * (size_t)count, count, opt, &features);
-  if (bad != CAROM_OK && (bad != CAROM_ERROR_RADIUS || one_layout))
+  int where;
+  const carom_status bad = carom_check_common(table, count, opt, &where);
+  if (bad != CAROM_OK)
     return bad;
-  const batch work = {table, &features, balls, count, one_layout, one_cue, cues, opt, shots, status};
+  const batch work = {table, balls, count, one_layout, one_cue, cues, opt, shots, status};
   enum { LEAST = 4 }; /* shots worth a thread */
   const size_t first_bad = carom_in_threads(shoot_rows, &work, n, opt->threads, LEAST);
-  return first_bad == n ? CAROM_OK : shoot_row(&work, first_bad); /* only its index came back through the threads */
+  if (first_bad == n)
+    return CAROM_OK;
+  /* Only its index came back through the threads; playing the shot again tells its status. */
+  carom_features features;
+  features.radius = 0.0;
+  return shoot_row(&work, first_bad, &features);
 }
 
 /* ---- Later */
@@ -258,8 +264,10 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
     return CAROM_ERROR_NULL;
   if (count < 1 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
-  time = time > 0.0 ? carom_lesser(time, shot->time) : 0.0;
-  if (shot->count > shot->room && (shot->room == 0 || time > shot->events[shot->room - 1].time))
+  if (isnan(time))
+    return CAROM_ERROR_TIME;
+  const double at = carom_greater(carom_lesser(time, shot->time), 0.0);
+  if (shot->count > shot->room && (shot->room == 0 || at > shot->events[shot->room - 1].time))
     return CAROM_ERROR_EVENTS_LOST;
   carom_path path[CAROM_BALLS_MOST];
   for (int i = 0; i < count; i++) {
@@ -270,7 +278,7 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
   }
   /* the last event of each ball until then */
   const int64_t known = shot->count < shot->room ? shot->count : shot->room;
-  for (int64_t k = 0; k < known && shot->events[k].time <= time; k++) {
+  for (int64_t k = 0; k < known && shot->events[k].time <= at; k++) {
     const carom_event *event = &shot->events[k];
     const int ball[2] = {event->a, event->type == CAROM_EVENT_BALL_BALL ? event->b : -1};
     for (int side = 0; side < 2; side++)
@@ -279,10 +287,14 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
         path[ball[side]].start = event->time;
       }
   }
+  /* what moves at the end goes on nobody knows how */
+  for (int i = 0; i < count; i++)
+    if (time > shot->time && path[i].from.label != CAROM_BALL_STATIONARY && path[i].from.label != CAROM_BALL_POCKETED)
+      return CAROM_ERROR_TIME;
   for (int i = 0; i < count; i++) {
     const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
     carom_path_begin(&path[i], &rates, path[i].start);
-    carom_path_at(&path[i], &rates, time, &states[i]);
+    carom_path_at(&path[i], &rates, at, &states[i]);
   }
   return CAROM_OK;
 }

@@ -9,12 +9,14 @@ enum { MOST_FEATURES = CAROM_RAILS_MOST + CAROM_JAWS_MOST + CAROM_POCKETS_MOST }
 
 /* What a ball can meet on the table. In the order of rails, jaws, pockets. */
 typedef struct carom_features {
+  double radius; /* of the balls for which the rest was prepared; 0: nothing yet */
   int rails, jaws, pockets, count;
   double line[CAROM_RAILS_MOST][3];  /* unit normal towards the played side, and offset: distance = line . (x, y, 1) */
   double along[CAROM_RAILS_MOST][3]; /* place along the rail, 0 at p and 1 at q: along . (x, y, 1) */
   /* boxes around the things, in single precision, rounded outward */
   float low_x[MOST_FEATURES], high_x[MOST_FEATURES], low_y[MOST_FEATURES], high_y[MOST_FEATURES];
   double hull[4]; /* low x, high x, low y, high y: centres stay inside */
+  double ends[4]; /* the same around the ends of the rails alone */
 } carom_features;
 
 /* What will happen to a ball by itself or on the table. */
@@ -33,7 +35,8 @@ typedef struct carom_sim {
   int count;
   bool pooltool;
   double now;
-  int64_t slow_contacts; /* so far: see resolve.c */
+  int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */
+  double slow_last;      /* s: the last of them */
   int64_t round;         /* events so far: tells when an entry below was computed */
   carom_ball_rates rates[CAROM_BALLS_MOST];
   carom_path path[CAROM_BALLS_MOST];
@@ -85,10 +88,10 @@ carom_status carom_model_cushion(const carom_sim *sim, int i, const double norma
 /* strike.c: the numbers of a cue, apart from its ball. */
 carom_status carom_check_cue(const carom_cue *cue);
 
-/* check.c: what a batch has in common, which also prepares the table; and one layout with its cue. */
-carom_status carom_check_shot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot_options *opt,
-                              carom_features *features);
-carom_status carom_check_layout(const carom_table *table, const carom_features *features, const carom_shot_ball *balls,
-                                int count, const carom_cue *cue, const carom_shot_options *opt, int *where);
+/* check.c: what a batch has in common. */
+carom_status carom_check_common(const carom_table *table, int count, const carom_shot_options *opt, int *where);
+/* One layout with its cue. Prepares the table for the radius of the balls, where *features are for another. */
+carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
+                                const carom_cue *cue, const carom_shot_options *opt, int *where);
 
 #endif

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SHOTS = 60, ROOM = 1500 };
+enum { SHOTS = 150, ROOM = 1000 }; /* threads take 64 shots at a time */
 
 static carom_table table;
 static carom_shot_ball balls[SHOTS * 16];
@@ -114,6 +114,50 @@ START_TEST(bad_layouts) {
 }
 END_TEST
 
+/* Each layout is checked and played with its own radius, whatever the radius of the others: too large for the nose, too small
+ * for it, in the cushion with this radius and not with that. */
+START_TEST(radii) {
+  enum { LAYOUTS = 144, BALLS = 2 };
+  static const double factor[] = {1.0, 1.0, 1.1, 0.7, 1.0, 1.95, 0.4, 1.1, 0.0};
+  const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN};
+  static const int threads[] = {0, 3, CAROM_ALL_THREADS};
+  carom_table_make(CAROM_TABLE_THREECUSHION, &table);
+  int played = 0, refused = 0;
+  for (int from = 0; from < 9; from++) { /* each may be the first */
+    results *single = make_results();
+    for (int k = 0; k < LAYOUTS; k++) {
+      for (int i = 0; i < BALLS; i++) {
+        carom_shot_ball *b = &balls[BALLS * k + i];
+        *b = (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD)};
+        b->kind.radius *= factor[(from + k) % 9];
+        b->state = (carom_ball_state){.r = {0.055 + 0.3 * i, 0.5 + 0.005 * k, b->kind.radius}};
+      }
+      cues[k] = carom_cue_of(CAROM_GAME_BILLIARD);
+      cues[k].phi = 37.0 + 10.0 * k;
+      single->status[k] = (int8_t)carom_shoot(&table, balls + BALLS * k, BALLS, &cues[k], &options, &single->shot[k]);
+      played += single->status[k] == CAROM_OK;
+      refused += single->status[k] == CAROM_ERROR_NOSE_HEIGHT || single->status[k] == CAROM_ERROR_OFF_TABLE;
+    }
+    for (size_t t = 0; t < sizeof threads / sizeof threads[0]; t++) {
+      carom_shot_options threaded = options;
+      threaded.threads = threads[t];
+      results *batch = make_results();
+      const carom_status first =
+          carom_shoot_batch(&table, balls, BALLS, 0, cues, 0, LAYOUTS, &threaded, batch->shot, batch->status);
+      same_results(single, batch);
+      int bad = 0;
+      while (batch->status[bad] >= 0)
+        bad++;
+      ck_assert_int_eq(first, batch->status[bad]);
+      free_results(batch);
+    }
+    free_results(single);
+  }
+  ck_assert_int_eq(played, 9 * 96);
+  ck_assert_int_eq(refused, 9 * 32);
+}
+END_TEST
+
 /* One layout for all cues, one cue for all layouts. */
 START_TEST(one_for_all) {
   make_breaks();
@@ -155,5 +199,5 @@ START_TEST(instruction_sets) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("shots", batch_is_singles, bad_layouts, one_for_all, instruction_sets);
+  return RUN_TESTS("shots", batch_is_singles, bad_layouts, radii, one_for_all, instruction_sets);
 }

@@ -1,5 +1,5 @@
 # Whole shots agree with pooltool's, event by event; a record that is changed disagrees. Figures that depend on rounding are cut.
-for file in shots-pooltool shots-mathavan; do
+for file in shots-pooltool shots-mathavan shots-racks; do
   code=0
   lab parity "$DATA/$file.jsonl" > table || code=$?
   cut -c1-37 table
@@ -13,4 +13,4 @@ echo "--- timing"
 lab bench --shots "$DATA/shots-mathavan.jsonl" --csv | grep -v '^#' | cut -d, -f1-3
 lab bench --shots "$DATA/shots-pooltool.jsonl" --models pooltool | cut -c1-30
 echo "--- invariants"
-lab stress --shots 130 --cushion-model han | cut -c1-34
+lab stress --shots 150 --cushion-model han | cut -c1-34

@@ -220,6 +220,15 @@ START_TEST(null_pointers) {
   int8_t status;
   ck_assert_int_eq(carom_collide(NULL, NULL, &out), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_collide(&in, NULL, NULL), CAROM_ERROR_NULL);
+  carom_impact_f32 single;
+  carom_result_f32 out_single;
+  for (size_t k = 0; k < sizeof single / sizeof(float); k++)
+    ((float *)&single)[k] = (float)((const double *)&in)[k];
+  ck_assert_int_eq(carom_collide_f32(NULL, NULL, &out_single), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_collide_f32(&single, NULL, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_collide_f32(&single, NULL, &out_single), CAROM_OK);
+  ck_assert_int_eq(carom_collide_batch_f32(NULL, 1, NULL, &out_single, &status), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_collide_batch_f32(&single, 1, NULL, NULL, &status), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_collide_detail(&in, NULL, NULL, &detail), CAROM_ERROR_NULL);
   ck_assert_int_eq(detail.steps, 0);
   ck_assert_int_eq(carom_check(NULL, NULL, NULL), CAROM_ERROR_NULL);

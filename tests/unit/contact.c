@@ -65,6 +65,33 @@ START_TEST(grazing) {
 }
 END_TEST
 
+/* Coming from inside the circle, as by pooltool's rules: when it goes out. */
+START_TEST(from_inside) {
+  random_source r = {test_seed()};
+  const double reach = 0.062;
+  int found = 0;
+  for (int n = 0; n < 4000; n++) {
+    const double far = reach * sqrt(random_between(&r, 0.0, 0.999)), way = random_between(&r, 0.0, 6.283185307);
+    const double speed = pow(10.0, random_between(&r, -2.5, 0.5)), to = random_between(&r, 0.0, 6.283185307),
+                 push = random_between(&r, 0.0, 1.0);
+    const carom_separation d = {
+        {far * cos(way), far * sin(way)}, {speed * cos(to), speed * sin(to)}, {-push * cos(to), -push * sin(to)}};
+    const double horizon = random_between(&r, 0.05, 1.0), t = carom_first_crossing(&d, reach, horizon);
+    const double until = t < horizon ? t : horizon;
+    for (int s = 0; s < 300; s++)
+      ck_assert_msg(gap(&d, until * s / 300.0) < reach + 1e-12L, "path %d leaves the circle before %g", n, t);
+    if (t <= horizon) {
+      found++;
+      ck_assert_msg(fabsl(gap(&d, t) - reach) < 1e-13L, "path %d is at %Lg at %g", n, gap(&d, t), t);
+    }
+  }
+  ck_assert_int_gt(found, 1000);
+  ck_assert_int_lt(found, 3900);
+  const carom_separation on = {{reach, 0.0}, {-1.0, 0.0}, {0.0, 0.0}};
+  ck_assert_double_eq(carom_first_crossing(&on, reach, 1.0), 0.0);
+}
+END_TEST
+
 /* Touching at first: now if closing; never if parting for good; where it closes again if not. */
 START_TEST(touching) {
   const double reach = 0.05;
@@ -77,13 +104,54 @@ START_TEST(touching) {
   ck_assert(isinf(carom_first_contact(&d, reach, 1e-12, 1.9)));
   d.d0[0] -= 1e-14; /* and with a trace of an overlap */
   ck_assert_double_eq_tol(carom_first_contact(&d, reach, 1e-12, 9.0), 2.0, 1e-12);
-  const double g[3] = {0.0, 1.0, -0.5}, pressed[3] = {0.0, 0.0, -1.0}, parting[3] = {-1e-15, 1.0, 0.1};
+  const double g[3] = {0.0, 1.0, -0.5}, parting[3] = {-1e-15, 1.0, 0.1}, closing[3] = {1e-13, -1e-9, 0.0};
   ck_assert_double_eq_tol(carom_first_touch(g, 1e-12, 9.0), 2.0, 1e-15);
-  ck_assert_double_eq(carom_first_touch(pressed, 1e-12, 9.0), 0.0);
   ck_assert(isinf(carom_first_touch(parting, 1e-12, 9.0)));
+  ck_assert_double_eq(carom_first_touch(closing, 1e-12, 9.0), 0.0);
+  /* a gap of exactly the slack is a contact now; a speed of exactly CAROM_NO_SPEED closes nothing */
+  const double on_slack[3] = {1e-12, -1.0, 0.0}, no_speed[3] = {0.0, -CAROM_NO_SPEED, 0.0};
+  ck_assert_double_eq(carom_first_touch(on_slack, 1e-12, 9.0), 0.0);
+  ck_assert(isinf(carom_first_touch(no_speed, 1e-12, 9.0)));
+}
+END_TEST
+
+/* Touching and pressed: where the gap has fallen by the slack from its greatest, so that it closes there. */
+START_TEST(pressed) {
+  const double reach = 0.05, slack = 1e-12;
+  static const double gaps[] = {0.0, 1e-13, -1e-13, 1e-12, -1e-9};
+  for (int k = 0; k < 5; k++)
+    for (int rise = 0; rise < 2; rise++) {
+      /* at rest, or on a hop of 1e-13 m */
+      const double g[3] = {gaps[k], rise ? sqrt(4e-13) : 0.0, -1.0}, top = gaps[k] + (rise ? 1e-13 : 0.0);
+      const double deep = top - slack < 0.0 ? top - slack : 0.0, t = (g[1] + sqrt(g[1] * g[1] + 4.0 * (g[0] - deep))) / 2.0;
+      ck_assert_double_eq_tol(carom_first_touch(g, slack, 1.0), t, 1e-9 * t);
+      ck_assert(isinf(carom_first_touch(g, slack, 0.99 * t)));
+      const carom_separation d = {{reach + gaps[k], 0.0}, {g[1], 0.0}, {-1.0, 0.0}};
+      /* a gap of some 1e-12 m is known to the rounding of `reach` */
+      ck_assert_double_eq_tol(carom_first_contact(&d, reach, slack, 1.0), t, 1e-3 * t);
+    }
+  /* by rounding alone: not before the path ends */
+  const double rounding[3] = {0.0, 0.0, -1e-17};
+  ck_assert(isinf(carom_first_touch(rounding, slack, 10.0)));
+  const carom_separation tangential = {{reach, 0.0}, {0.0, 1e-9}, {-1e-17, -1.0}};
+  ck_assert(isinf(carom_first_contact(&tangential, reach, slack, 5e-10)));
+}
+END_TEST
+
+/* Touching, with slope and curvature exactly 0: |d|^2 - 1 = -2 t^3 + 5/4 t^4 falls by its third derivative, and the same with
+ * the other sign rises. */
+START_TEST(third_derivative) {
+  const carom_separation falls = {{1.0, 0.0}, {0.0, 1.0}, {-0.5, -1.0}}, rises = {{1.0, 0.0}, {0.0, 1.0}, {-0.5, 1.0}};
+  const double t = carom_first_contact(&falls, 1.0, 1e-12, 0.8);
+  ck_assert_double_eq_tol(t, 1e-4, 1e-6); /* where it has fallen by twice the slack */
+  ck_assert(isinf(carom_first_contact(&rises, 1.0, 1e-12, 0.8)));
+  /* coming from outside to a zero of order 3: (1 - t)^3 + O((1 - t)^4) */
+  const carom_separation comes = {{0.5, -2.0}, {1.0, 3.0}, {-0.5, -1.0}};
+  ck_assert_double_eq_tol(carom_first_crossing(&comes, 1.0, 3.0), 1.0, 1e-4);
+  ck_assert_double_eq_tol(carom_first_contact(&comes, 1.0, 1e-12, 3.0), 1.0, 1e-4);
 }
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("contact", pairs, grazing, touching);
+  return RUN_TESTS("contact", pairs, grazing, from_inside, touching, pressed, third_derivative);
 }

@@ -86,7 +86,7 @@ class Shot:
         Parameters
         ----------
         times : array_like, shape (...)
-            s. Before 0: as at 0; after the last event: as at that one.
+            s. Before 0: as at 0; after the end: as at the end, where nothing moves any more.
 
         Returns
         -------
@@ -95,7 +95,8 @@ class Shot:
         Raises
         ------
         CaromError
-            Not all events were kept (`simulate_batch` with too little room).
+            Not all events were kept (`simulate_batch` with too little room), or a time is after the end of a shot that a bound
+            or an error stopped while balls moved.
         ValueError
             A time is nan.
         """

@@ -60,6 +60,7 @@ class Status(enum.IntEnum):
     ERROR_TABLE = -52
     ERROR_RACK = -53
     ERROR_EVENTS_LOST = -54
+    ERROR_TIME = -55
 
     @property
     def text(self) -> str:
