@@ -37,7 +37,8 @@ typedef struct carom_cushion_impact {
 /* How the impact is computed. STRONGE and HAN work along the inclined normal of the nose and drop the vertical velocity, so
  * they can leave a ball that still moves into the cushion, with CAROM_OK: without friction where e < tan^2 theta, sin(theta) =
  * (height - radius) / radius, which is 0.085 at a pool table's nose; with friction and much spin at larger e too. In a whole
- * shot of the world carom such a ball parts from the cushion in the same event, as after a slow contact (docs/shots.md). */
+ * shot of the world carom such a ball parts from the cushion in the same event, as after a slow contact (docs/using/shots.md).
+ */
 typedef enum carom_cushion_model {
   CAROM_CUSHION_MATHAVAN = 0, /* rigid cushion, friction at nose and cloth, energetic restitution: S. Mathavan, M. R. Jackson,
                                  R. M. Parkin, Proc. IMechE C 224 (2010) 1863-1873, as the exact limit of small impulses. */
