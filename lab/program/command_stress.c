@@ -10,7 +10,7 @@
 #include "message.h"
 #include "number.h"
 #include "options.h"
-#include "oracle.h"
+#include "reference.h"
 #include "output.h"
 #include "stress_shots.h"
 #include "subcommands.h"
@@ -148,7 +148,7 @@ static void count_double(shift *w, carom_slip slip, uint64_t k, const carom_impa
   }
   worst_row row = {.error = distance(out, exact, in->a.radius), .fallback_error = NAN, .slip = slip, .k = k};
   carom_result oracle;
-  if ((row.error > ORACLE_FROM || k % 1000 == 0) && oracle_collide(in, s, &oracle, NULL) == 0) {
+  if ((row.error > ORACLE_FROM || k % 1000 == 0) && reference_collide(in, slip, &oracle, NULL) == REFERENCE_OK) {
     row.error = distance(out, &oracle, in->a.radius);
     row.fallback_error = distance(exact, &oracle, in->a.radius);
     w->asked++;

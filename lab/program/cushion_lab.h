@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Compares `draws` random impacts of each kind with the judge (lab/stress/cushion_oracle.h), and the recorded impacts in
+/* Compares `draws` random impacts of each kind with the judge (lab/stress/reference.h), and the recorded impacts in
  * `folder` with pooltool's. Prints a table, or CSV; `*pass` becomes false if a bound is not met. False after a complaint. */
 bool cushion_verify(FILE *out, const char *folder, int draws, bool csv, bool *pass);
 

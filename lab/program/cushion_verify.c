@@ -2,7 +2,7 @@
  */
 #include "command.h"
 #include "cushion_lab.h"
-#include "cushion_oracle.h"
+#include "draws.h"
 #include "memory.h"
 #include "message.h"
 #include "number.h"
@@ -10,6 +10,7 @@
 #include "output.h"
 #include "place.h"
 #include "records.h"
+#include "reference.h"
 
 #include "carom_shot.h"
 
@@ -63,7 +64,7 @@ static bool judge(FILE *out, bool csv, cushion_draw kind, int draws, double done
     const carom_status status = carom_cushion(&in, NULL, &own);
     progress_show("impacts", done + k, total);
     c.unresolved += status != CAROM_OK;
-    if (status != CAROM_OK || cushion_oracle(&in, &exact) != CAROM_OK)
+    if (status != CAROM_OK || reference_cushion(&in, &exact, NULL) != REFERENCE_OK)
       c.left_out++;
     else
       c.error[c.count++] = cushion_distance(&in, &own, &exact);

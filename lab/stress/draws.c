@@ -116,3 +116,50 @@ carom_impact draw_collision(draw_kind kind, carom_slip slip, uint64_t seed, uint
     return extreme(s, &r);
   }
 }
+
+carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k) {
+  regimes_rng state = {seed * 0x2545f4914f6cdd1du + k * 0x9e3779b97f4a7c15u};
+  const bool any = kind == CUSHION_ANY;
+  const double degree = 3.14159265358979323846 / 180, speed = regimes_uniform(&state, 0.05, 5),
+               turn = regimes_uniform(&state, -180, 180) * degree;
+  /* from square to grazing, on both sides */
+  const double angle = regimes_uniform(&state, -89.5, 89.5) * degree, spin = any ? 300 : 100;
+  carom_cushion_impact in = {.normal = {cos(turn), sin(turn)},
+                             .v = {speed * cos(turn + angle), speed * sin(turn + angle)},
+                             .radius = regimes_uniform(&state, 0.025, 0.031),
+                             .mass = regimes_uniform(&state, 0.13, 0.21),
+                             .mu_cloth = any ? regimes_uniform(&state, 0, 1) : regimes_uniform(&state, 0.1, 0.4),
+                             .mu_cushion = any ? regimes_uniform(&state, 0, 1) : regimes_uniform(&state, 0.1, 0.4),
+                             .restitution = any ? regimes_uniform(&state, 0, 1) : regimes_uniform(&state, 0.6, 1),
+                             .jaw_radius = regimes_uniform(&state, 0, 1) < 0.5 ? 0 : regimes_uniform(&state, 0.005, 0.03)};
+  in.height = in.radius * (any ? regimes_uniform(&state, 0.9, 1.6) : regimes_uniform(&state, 1.2, 1.45));
+  for (int c = 0; c < 3; c++)
+    in.w[c] = regimes_uniform(&state, -spin, spin);
+  const double what = regimes_uniform(&state, 0, 1);
+  if (what < 0.3) { /* a rolling ball, with side */
+    in.w[0] = -in.v[1] / in.radius;
+    in.w[1] = in.v[0] / in.radius;
+  } else if (what < 0.4) { /* a perpendicular one, with top or draw but no side */
+    const double top = regimes_uniform(&state, -1, 1) * spin;
+    in = (carom_cushion_impact){.v = {0, speed, 0},
+                                .w = {what < 0.35 ? top : -speed / in.radius, 0, 0},
+                                .normal = {0, 1},
+                                .height = in.height,
+                                .radius = in.radius,
+                                .mass = in.mass,
+                                .mu_cloth = in.mu_cloth,
+                                .mu_cushion = in.mu_cushion,
+                                .restitution = in.restitution};
+  } else if (what < 0.5) /* a ball that slides without spin */
+    in.w[0] = in.w[1] = in.w[2] = 0;
+  return in;
+}
+
+double cushion_distance(const carom_cushion_impact *in, const carom_motion *a, const carom_motion *b) {
+  double most = 0, scale = 0;
+  for (int c = 0; c < 3; c++) {
+    most = fmax(most, fmax(fabs(a->v[c] - b->v[c]), in->radius * fabs(a->w[c] - b->w[c])));
+    scale = fmax(scale, fmax(fabs(in->v[c]), in->radius * fabs(in->w[c])));
+  }
+  return most / scale;
+}

@@ -2,7 +2,7 @@
  * and draws in which they could come back. Rows are in findings/, as `carom resolve` reads them.
  */
 #include "cases.h"
-#include "oracle.h"
+#include "reference.h"
 #include "regimes.h"
 #include "support.h"
 
@@ -38,8 +38,8 @@ static carom_status solve_precisely(const carom_impact *in, carom_slip slip, car
   return status;
 }
 
-/* Solved within `bound` of the oracle, or said to be unresolved; alone and in a batch, with every instruction set; within the
- * bound on evaluations. Returns whether it was solved. */
+/* Solved within `bound` of the reference, or said to be unresolved; alone and in a batch, with every instruction set; within
+ * the bound on evaluations. Returns whether it was solved. */
 static bool expect_solved(const carom_impact *in, carom_slip slip, double bound, const char *what) {
   const carom_options options = options_for(slip);
   carom_result exact, out, many[FILL];
@@ -47,7 +47,7 @@ static bool expect_solved(const carom_impact *in, carom_slip slip, double bound,
   bool solved = false;
   for (int k = 0; k < FILL; k++)
     rows[k] = *in;
-  const bool known = oracle_collide(in, carom_spin_sign(slip), &exact, NULL) == 0;
+  const bool known = reference_collide(in, slip, &exact, NULL) == REFERENCE_OK;
   FOR_EACH_ISA(isa) {
     carom_detail detail;
     const carom_status status = carom_collide_detail(in, &options, &out, &detail);
@@ -102,7 +102,7 @@ START_TEST(single_precision_that_lost_restitution) {
         ((double *)&wide)[c] = ((const float *)&in[0])[c];
       for (int row = 1; row < FILL; row++)
         in[row] = in[0];
-      if (oracle_collide(&wide, carom_spin_sign((carom_slip)slip), &exact, NULL) != 0)
+      if (reference_collide(&wide, (carom_slip)slip, &exact, NULL) != REFERENCE_OK)
         continue;
       FOR_EACH_ISA(isa) {
         if (carom_collide_batch_f32(in, FILL, &options, out, NULL) != CAROM_OK)
