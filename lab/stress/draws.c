@@ -16,7 +16,7 @@ static double log_uniform(regimes_rng *r, double low, double high) {
   return exp(U(log(low), log(high)));
 }
 
-static carom_impact turned(const carom_local *c, double angle) {
+carom_impact draw_turned(const carom_local *c, double angle) {
   const double y[2] = {sin(angle), cos(angle)}, x[2] = {y[1], -y[0]};
   carom_impact in = {.a = {.w = {0, 0, c->w_iz}, .radius = c->R, .mass = c->M_i, .mu_cloth = c->mu_i},
                      .b = {.w = {0, 0, c->w_jz}, .radius = c->R, .mass = c->M_j, .mu_cloth = c->mu_j},
@@ -79,7 +79,7 @@ static carom_impact realistic(double s, regimes_rng *r) {
   make_approach(&c);
   if (chance(r, 0.5))
     c = exchanged(&c);
-  return turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
+  return draw_turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
 }
 
 /* A share that is often 0 or 1, or near to it. */
@@ -99,7 +99,7 @@ static carom_impact extreme(double s, regimes_rng *r) {
   for (int j = 0; j < 2; j++)
     set_ball(&c, j, any(r, v), any(r, v), chance(r, 0.3) ? 1 : any(r, 1), any(r, v));
   make_approach(&c);
-  return turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
+  return draw_turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
 }
 
 carom_impact draw_collision(draw_kind kind, carom_slip slip, uint64_t seed, uint64_t k) {

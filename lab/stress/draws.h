@@ -4,6 +4,7 @@
 
 #include "regimes.h"
 
+#include "ball_ball/frame.h"
 #include "carom_shot.h"
 
 #include <stdbool.h>
@@ -26,5 +27,8 @@ carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k);
 
 /* Largest difference of v and R w, over the largest of them before the impact. */
 double cushion_distance(const carom_cushion_impact *in, const carom_motion *a, const carom_motion *b);
+
+/* A collision of the frame of ball_ball/frame.h, its line of centres turned from the y axis by an angle, rad. */
+carom_impact draw_turned(const carom_local *c, double angle);
 
 #endif
