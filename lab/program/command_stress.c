@@ -12,14 +12,15 @@
 #include "number.h"
 #include "options.h"
 #include "output.h"
+#include "precisely.h"
 #include "reference.h"
 #include "stress_impacts.h"
 #include "stress_shots.h"
 #include "stress_tally.h"
 #include "subcommands.h"
 
+#include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
-#include "ball_ball/precise.h"
 #include "enumerations.h"
 
 #include <math.h>
@@ -73,20 +74,6 @@ static void keep_worst(shift *w, worst_row row) {
     w->worst[least] = row;
 }
 
-static carom_status by_fallback(const carom_impact *in, carom_slip slip, carom_result *out) {
-  const carom_frame frame = carom_frame_of(in);
-  carom_local local = carom_to_frame(&frame, in, slip);
-  if (local.v_jy >= local.v_iy)
-    return CAROM_SEPARATING;
-  const carom_reduced c = carom_reduce(&local);
-  carom_trajectory path;
-  const carom_status status = carom_precise(&c, 1e-3, &path);
-  const carom_integrals all = carom_precise_integrals(&c, &path);
-  carom_restore(&c, &all, &local);
-  carom_from_frame(&frame, &local, out);
-  return status;
-}
-
 static double distance(const carom_result *a, const carom_result *b, double radius) {
   return accuracy_of(a, b, radius).pair;
 }
@@ -108,7 +95,7 @@ static void count_double(shift *w, carom_slip slip, uint64_t k, const carom_impa
   t->by_fallback += carom_kernels_in_force()->single[CAROM_DOUBLE](in, carom_spin_sign(slip), &unused, NULL) <= 0;
   if (is_error(t, status))
     return;
-  const bool known = by_fallback(in, slip, exact) == CAROM_OK;
+  const bool known = collide_precisely(in, slip, PRECISELY, exact) == CAROM_OK;
   worst_row row = {.error = known ? distance(out, exact, in->a.radius) : INFINITY, .fallback_error = NAN, .slip = slip, .k = k};
   if (row.error > REFERENCE_FROM || k % 1000 == 0) {
     carom_result reference;
@@ -143,7 +130,7 @@ static void count_single(shift *w, carom_slip slip, const carom_impact_f32 *in, 
   t->by_fallback += carom_kernels_in_force()->single[CAROM_SINGLE](in, carom_spin_sign(slip), &unused, NULL) == 0;
   if (is_error(t, status))
     return;
-  if (by_fallback(&wide, slip, &exact) == CAROM_OK)
+  if (collide_precisely(&wide, slip, PRECISELY, &exact) == CAROM_OK)
     stress_count(t, distance(&result, &exact, wide.a.radius), false, 0);
   else
     t->unjudged++;
@@ -250,8 +237,7 @@ OPTION(stress_job, option_cushions, "cushion", cushions, 0, "N", set_count, 1,
        "draw so many impacts on a cushion of each kind instead, of play and any");
 OPTION(stress_job, option_coincidences, "coincidences", coincidences, 0, "N", set_count, 1,
        "draw instead so many impacts of each kind of coincidence, of two balls and on a cushion: numbers that\n"
-       "are exactly equal, zero or at the edge of a cone, planar motion, slips of rounding errors, grazing;\n"
-       "the reference judges each (some 15 ms)");
+       "are exactly equal, zero or at the edge of a cone, planar motion, slips of rounding errors, grazing");
 OPTION(stress_job, option_shots, "shots", shots, 0, "N", set_count, 1,
        "play so many random whole shots instead, and check the invariants that they keep");
 OPTION(stress_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,

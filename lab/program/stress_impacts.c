@@ -1,7 +1,7 @@
 /* `carom-lab stress --cushion` and `--coincidences`: single impacts by single calls, a table with a line for each kind.
  *
- * Impacts on cushions are judged by the precise solver with the tolerance of two balls, and where that differs by more than
- * REFERENCE_FROM, and in 1 row of 1000, by the reference of lab/stress. Coincidences are all judged by the reference. */
+ * Calls are judged by the precise solver with the tolerance of two balls; and where that refuses or differs by more than
+ * REFERENCE_FROM, and in 1 row of 1000 (of coincidences: 20), by the reference of lab/stress. */
 #include "stress_impacts.h"
 
 #include "accuracy.h"
@@ -9,12 +9,9 @@
 #include "draws.h"
 #include "memory.h"
 #include "number.h"
+#include "precisely.h"
 #include "reference.h"
 #include "stress_tally.h"
-
-#include "ball_ball/precise.h"
-#include "cushion/frame.h"
-#include "cushion/mathavan.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -53,21 +50,6 @@ static carom_status call(const coincidence *c, outcome *out) {
   return c->cushion ? carom_cushion(&c->rail, NULL, &out->rail) : carom_collide(&c->balls, &options, &out->balls);
 }
 
-/* An impact on a cushion by the precise solver with a tight tolerance. */
-static bool precisely(const carom_cushion_impact *in, carom_motion *out) {
-  const carom_cushion_options options = {0};
-  const carom_cushion_frame frame = carom_cushion_frame_of(in);
-  carom_contact contact = carom_to_cushion(&frame, in, &options);
-  carom_trajectory path;
-  carom_mathavan_begin(&contact, CAROM_PRECISE_TOLERANCE, &path);
-  if (carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS) != CAROM_OK)
-    return false;
-  const carom_impulse all = carom_mathavan_impulse(&contact, &path);
-  carom_push(&contact, &all);
-  carom_from_cushion(&frame, &contact, in->radius, out);
-  return true;
-}
-
 static void judge(shift *w, int kind, uint64_t k) {
   stress_tally *t = &w->tally[kind];
   const coincidence c = draw(w, kind, k);
@@ -77,9 +59,10 @@ static void judge(shift *w, int kind, uint64_t k) {
   t->refused += status < 0 && status != CAROM_ERROR_UNRESOLVED;
   if (status != CAROM_OK)
     return;
-  const bool known = !w->coincidences && precisely(&c.rail, &precise.rail);
+  const bool known = CAROM_OK == (c.cushion ? cushion_precisely(&c.rail, PRECISELY, &precise.rail)
+                                            : collide_precisely(&c.balls, c.slip, PRECISELY, &precise.balls));
   double error = known ? apart(&c, &own, &precise) : INFINITY;
-  if (error > REFERENCE_FROM || k % 1000 == 0) {
+  if (error > REFERENCE_FROM || k % (w->coincidences ? 20 : 1000) == 0) {
     const reference_status judged =
         c.cushion ? reference_cushion(&c.rail, &exact.rail, NULL) : reference_collide(&c.balls, c.slip, &exact.balls, NULL);
     if (judged != REFERENCE_OK) {
@@ -153,11 +136,10 @@ bool stress_impacts(FILE *out, bool coincidences, int draws, uint64_t seed, int 
                  &all->tally[kind]);
     good &= stress_holds(&all->tally[kind]);
   }
-  if (!coincidences)
-    fprintf(out,
-            "\nprecise solver against the reference, where calls differ from it by more than %g, and 1 row in 1000: %ld rows, "
-            "largest error %.1e, %ld above 1e-8\n",
-            REFERENCE_FROM, all->asked, all->precise_largest, all->precise_wrong);
+  fprintf(out,
+          "\nprecise solver against the reference, where calls differ from it by more than %g, and 1 row in %d: %ld rows, "
+          "largest error %.1e, %ld above 1e-8\n",
+          REFERENCE_FROM, coincidences ? 20 : 1000, all->asked, all->precise_largest, all->precise_wrong);
   fputs("\nlargest errors:\n", out);
   for (int kind = 0; kind < all->kinds; kind++)
     if (all->tally[kind].rows > 0)

@@ -77,6 +77,18 @@ static void planar_turn(carom_local *c, regimes_rng *r) {
     c->w_ix = -c->w_ix;
 }
 
+/* The slip of the balls vanishes at the end of a phase, or nearly: all rates are constant. The pressed ball is the second,
+ * which rests, or the first, whose slip on the cloth is large. */
+static void planar_stick(carom_local *c, regimes_rng *r) {
+  const bool second = below(r, 2) == 0;
+  const double kappa = 1 + (second ? c->M_j / c->M_i : c->M_i / c->M_j), t = second ? -1 : 1;
+  const double F = -t * (second ? c->mu_j : c->mu_i) * c->mu_b;
+  const double p = (1 + (below(r, 2) == 0 ? c->e : 0)) / (kappa - F), u = (2.5 * kappa * c->mu_b - 2.5 * F) * p * (1 + tiny(r));
+  c->w_ix = t * c->v_iy * u / c->R;
+  if (below(r, 4) == 0)
+    c->v_ix = tiny(r) * c->v_iy;
+}
+
 static void roll(carom_local *c, regimes_rng *r) {
   c->v_ix = few(r) * c->v_iy;
   c->v_jx = few(r) * c->v_iy;
@@ -239,14 +251,23 @@ static const struct {
   const char *name;
   change_balls *balls;
   change_rail *rail;
-} kinds[] = {{"planar", planar, NULL},      {"planar turn", planar_turn, NULL},
-             {"rolling", roll, NULL},       {"rounding", rounding, NULL},
-             {"equal", equal, NULL},        {"corners", NULL, NULL},
-             {"no drive", no_drive, NULL},  {"grazing", grazing, NULL},
-             {"planar", NULL, planar_rail}, {"planar turn", NULL, planar_turn_rail},
-             {"rolling", NULL, roll_rail},  {"rounding", NULL, rounding_rail},
-             {"equal", NULL, equal_rail},   {"centre", NULL, centre_rail},
-             {"cones", NULL, cone_rail},    {"grazing", NULL, grazing_rail}};
+} kinds[] = {{"planar", planar, NULL},
+             {"planar turn", planar_turn, NULL},
+             {"planar stick", planar_stick, NULL},
+             {"rolling", roll, NULL},
+             {"rounding", rounding, NULL},
+             {"equal", equal, NULL},
+             {"corners", NULL, NULL},
+             {"no drive", no_drive, NULL},
+             {"grazing", grazing, NULL},
+             {"planar", NULL, planar_rail},
+             {"planar turn", NULL, planar_turn_rail},
+             {"rolling", NULL, roll_rail},
+             {"rounding", NULL, rounding_rail},
+             {"equal", NULL, equal_rail},
+             {"centre", NULL, centre_rail},
+             {"cones", NULL, cone_rail},
+             {"grazing", NULL, grazing_rail}};
 
 int coincidence_kinds(void) {
   return (int)COUNT(kinds);

@@ -6,12 +6,13 @@
  */
 #include "accuracy.h"
 #include "cases.h"
+#include "precisely.h"
 #include "reference.h"
 #include "regimes.h"
 #include "support.h"
 
+#include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
-#include "ball_ball/precise.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -131,18 +132,6 @@ START_TEST(reference_in_every_regime) {
 }
 END_TEST
 
-static carom_status by_fallback(const carom_impact *in, carom_slip slip, carom_result *out) {
-  const carom_frame frame = carom_frame_of(in);
-  carom_local local = carom_to_frame(&frame, in, slip);
-  const carom_reduced c = carom_reduce(&local);
-  carom_trajectory path;
-  const carom_status status = carom_precise(&c, 1e-3, &path);
-  const carom_integrals all = carom_precise_integrals(&c, &path);
-  carom_restore(&c, &all, &local);
-  carom_from_frame(&frame, &local, out);
-  return status;
-}
-
 /* Collocation and the fallback share no arithmetic, and together are what carom_collide() does. Here each is asked by itself:
  * they agree, and collocation takes what it is made for. */
 START_TEST(collocation_and_fallback_agree) {
@@ -154,7 +143,7 @@ START_TEST(collocation_and_fallback_agree) {
       const carom_slip slip = k % 2 ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER;
       const carom_impact in = regimes_draw(regime, carom_spin_sign(slip), &rng);
       carom_result exact, out;
-      if (carom_check(&in, NULL, NULL) != CAROM_OK || by_fallback(&in, slip, &exact) != CAROM_OK)
+      if (carom_check(&in, NULL, NULL) != CAROM_OK || collide_precisely(&in, slip, PRECISELY, &exact) != CAROM_OK)
         continue;
       drawn++;
       FOR_EACH_ISA(isa) {
@@ -250,7 +239,7 @@ START_TEST(hard_cases) {
     carom_result out, exact, alone, outs[FILL];
     for (int lane = 0; lane < FILL; lane++)
       many[lane] = in;
-    ck_assert_int_eq(by_fallback(&in, options.slip, &alone), CAROM_OK);
+    ck_assert_int_eq(collide_precisely(&in, options.slip, PRECISELY, &alone), CAROM_OK);
     ck_assert_int_eq(carom_collide(&in, &options, &out), CAROM_OK);
     ck_assert_int_eq(carom_collide_batch(many, FILL, &options, outs, NULL), CAROM_OK);
     ck_assert_int_eq(reference_collide(&in, options.slip, &exact, NULL), REFERENCE_OK);

@@ -2,11 +2,13 @@
  * and draws in which they could come back. Rows are in findings/, as `carom resolve` reads them.
  */
 #include "cases.h"
+#include "precisely.h"
 #include "reference.h"
 #include "regimes.h"
 #include "support.h"
 
-#include "ball_ball/precise.h"
+#include "ball_ball/frame.h"
+#include "impact/impact.h"
 
 #include <float.h>
 #include <math.h>
@@ -24,18 +26,6 @@ static carom_options options_for(carom_slip slip) {
   carom_options options = {0};
   options.slip = slip;
   return options;
-}
-
-static carom_status solve_precisely(const carom_impact *in, carom_slip slip, carom_result *out) {
-  const carom_frame frame = carom_frame_of(in);
-  carom_local local = carom_to_frame(&frame, in, slip);
-  const carom_reduced c = carom_reduce(&local);
-  carom_trajectory path;
-  const carom_status status = carom_precise(&c, 1e-3, &path);
-  const carom_integrals all = carom_precise_integrals(&c, &path);
-  carom_restore(&c, &all, &local);
-  carom_from_frame(&frame, &local, out);
-  return status;
 }
 
 /* Solved within `bound` of the reference, or said to be unresolved; alone and in a batch, with every instruction set; within
@@ -62,7 +52,7 @@ static bool expect_solved(const carom_impact *in, carom_slip slip, double bound,
       ck_assert_msg(error <= bound, "%s: %g off with %s", what, error, carom_isa_name((carom_isa)isa));
     }
   }
-  if (solved && known && solve_precisely(in, slip, &out) == CAROM_OK) {
+  if (solved && known && collide_precisely(in, slip, PRECISELY, &out) == CAROM_OK) {
     const double error = result_distance(&out, &exact, in->a.radius);
     ck_assert_msg(error <= precisely, "%s: the precise solver is %g off", what, error);
   }
