@@ -1,7 +1,8 @@
 /* `carom-lab stress`: the exact solver on random collisions, in every way it can be called, against the integrator behind it.
  *
  * Each collision is solved by a single call and in a batch, in double and in single precision, and by the fallback alone, whose
- * own error is about 1e-9 at most: where it and a single call differ by more than ORACLE_FROM, the oracle says who is right.
+ * own error is about 1e-9 at most: where it and a single call differ by more than REFERENCE_FROM, and for 1 row in
+ * 1000, the reference of lab/stress decides.
  * Rows of batches are compared with single calls bit by bit. */
 #include "accuracy.h"
 #include "command.h"
@@ -10,42 +11,32 @@
 #include "message.h"
 #include "number.h"
 #include "options.h"
-#include "oracle.h"
 #include "output.h"
+#include "precisely.h"
+#include "reference.h"
+#include "stress_impacts.h"
 #include "stress_shots.h"
+#include "stress_tally.h"
 #include "subcommands.h"
 
+#include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
 #include "ball_ball/precise.h"
 #include "enumerations.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum {
   BLOCK = 1000, /* collisions that a thread draws and solves at a time */
-  MOST_THREADS = 64,
-  /* errors are counted in a histogram of their logarithms */
-  DECADES = 20,
-  PER_DECADE = 50,
-  WORST = 20, /* rows that are kept */
+  WORST = 20,   /* rows that are kept */
 };
-static const double LEAST_ERROR = 1e-18, ORACLE_FROM = 1e-7;
-
-/* Errors of one way to call, for one slip. */
-typedef struct tally {
-  long rows, over_1e6, over_1e5, over_2e5; /* compared; larger than 1e-6, 1e-5, 2e-5 */
-  long by_fallback, unresolved;            /* left to it by collocation; without a result */
-  double largest;
-  long histogram[DECADES * PER_DECADE];
-} tally;
+static const double REFERENCE_FROM = 1e-7;
 
 typedef struct worst_row {
-  double error, fallback_error; /* against the oracle where that was asked, else against the fallback; NAN */
+  double error, fallback_error; /* against the reference where that was asked, else against the fallback; NAN */
   carom_slip slip;
   uint64_t k;
 } worst_row;
@@ -56,15 +47,16 @@ typedef struct stress_job {
   shared_options shared;
   int draws, seed, kind;
   int shots, models, cushion; /* whole shots instead */
+  int cushions, coincidences; /* or these impacts */
   bool worst_rows;
 } stress_job;
 
 typedef struct shift {
   const stress_job *job;
-  tally tally[CAROM_SLIP_COUNT][WAYS];
+  stress_tally tally[CAROM_SLIP_COUNT][WAYS];
   long other_bits; /* rows of batches that differ from single calls */
   long asked, fallback_wrong;
-  double fallback_largest; /* error against the oracle */
+  double fallback_largest; /* error against the reference */
   worst_row worst[WORST];
   /* a block */
   carom_impact in[BLOCK];
@@ -73,37 +65,6 @@ typedef struct shift {
   carom_result_f32 out32[BLOCK];
   int8_t status[BLOCK], status32[BLOCK];
 } shift;
-
-static pthread_mutex_t next_block_lock = PTHREAD_MUTEX_INITIALIZER;
-static uint64_t next_block;
-
-static uint64_t take_block(const stress_job *job) {
-  pthread_mutex_lock(&next_block_lock);
-  const uint64_t block = next_block++;
-  if ((double)block * BLOCK < 2.0 * job->draws)
-    progress_show("collisions", (double)block * BLOCK, 2.0 * job->draws);
-  pthread_mutex_unlock(&next_block_lock);
-  return block;
-}
-
-static void count(tally *t, double error) {
-  t->rows++;
-  t->over_1e6 += error > 1e-6;
-  t->over_1e5 += error > 1e-5;
-  t->over_2e5 += error > 2e-5;
-  t->largest = fmax(t->largest, error);
-  const double place = PER_DECADE * log10(fmax(error, LEAST_ERROR) / LEAST_ERROR);
-  t->histogram[place < DECADES * PER_DECADE - 1 ? (int)place : DECADES * PER_DECADE - 1]++;
-}
-
-/* The error that so large a share of the rows do not exceed. */
-static double quantile(const tally *t, double share) {
-  long below = 0;
-  for (int k = 0; k < DECADES * PER_DECADE; k++)
-    if ((double)(below += t->histogram[k]) >= share * (double)t->rows)
-      return fmin(LEAST_ERROR * pow(10, (k + 1.0) / PER_DECADE), t->largest);
-  return t->largest;
-}
 
 static void keep_worst(shift *w, worst_row row) {
   int least = 0;
@@ -114,55 +75,50 @@ static void keep_worst(shift *w, worst_row row) {
     w->worst[least] = row;
 }
 
-static carom_status by_fallback(const carom_impact *in, carom_slip slip, carom_result *out) {
-  const carom_frame frame = carom_frame_of(in);
-  carom_local local = carom_to_frame(&frame, in, slip);
-  if (local.v_jy >= local.v_iy)
-    return CAROM_SEPARATING;
-  const carom_reduced c = carom_reduce(&local);
-  carom_trajectory path;
-  const carom_status status = carom_precise(&c, 1e-3, &path);
-  const carom_integrals all = carom_precise_integrals(&c, &path);
-  carom_restore(&c, &all, &local);
-  carom_from_frame(&frame, &local, out);
-  return status;
-}
-
 static double distance(const carom_result *a, const carom_result *b, double radius) {
   return accuracy_of(a, b, radius).pair;
+}
+
+/* Whether a result is not there to be judged, which is counted. */
+static bool is_error(stress_tally *t, carom_status status) {
+  t->unresolved += status == CAROM_ERROR_UNRESOLVED;
+  t->refused += status < 0 && status != CAROM_ERROR_UNRESOLVED;
+  return status != CAROM_OK;
 }
 
 /* One collision in double precision; its exact result becomes *exact. */
 static void count_double(shift *w, carom_slip slip, uint64_t k, const carom_impact *in, const carom_result *out,
                          carom_status status, carom_result *exact) {
-  tally *t = &w->tally[slip][WAY_DOUBLE];
-  const double s = carom_spin_sign(slip);
+  stress_tally *t = &w->tally[slip][WAY_DOUBLE];
   carom_result unused;
   if (status == CAROM_SEPARATING)
     return;
-  const bool collocated = carom_kernels_in_force()->single[CAROM_DOUBLE](in, s, &unused, NULL) > 0;
-  t->by_fallback += !collocated;
-  if (status != CAROM_OK || by_fallback(in, slip, exact) != CAROM_OK) {
-    t->unresolved += status != CAROM_OK;
+  t->by_fallback += carom_kernels_in_force()->single[CAROM_DOUBLE](in, carom_spin_sign(slip), &unused, NULL) <= 0;
+  if (is_error(t, status))
     return;
+  const bool known = collide_precisely(in, slip, PRECISELY, exact) == CAROM_OK;
+  worst_row row = {.error = known ? distance(out, exact, in->a.radius) : INFINITY, .fallback_error = NAN, .slip = slip, .k = k};
+  if (row.error > REFERENCE_FROM || k % 1000 == 0) {
+    carom_result reference;
+    if (reference_collide(in, slip, &reference, NULL) == REFERENCE_OK) {
+      row.error = distance(out, &reference, in->a.radius);
+      row.fallback_error = known ? distance(exact, &reference, in->a.radius) : INFINITY;
+      w->asked++;
+      w->fallback_wrong += known && row.fallback_error > 1e-9;
+      w->fallback_largest = fmax(w->fallback_largest, known ? row.fallback_error : 0);
+    } else if (row.error > REFERENCE_FROM) {
+      t->unjudged++;
+      return;
+    }
   }
-  worst_row row = {.error = distance(out, exact, in->a.radius), .fallback_error = NAN, .slip = slip, .k = k};
-  carom_result oracle;
-  if ((row.error > ORACLE_FROM || k % 1000 == 0) && oracle_collide(in, s, &oracle, NULL) == 0) {
-    row.error = distance(out, &oracle, in->a.radius);
-    row.fallback_error = distance(exact, &oracle, in->a.radius);
-    w->asked++;
-    w->fallback_wrong += row.fallback_error > 1e-9;
-    w->fallback_largest = fmax(w->fallback_largest, row.fallback_error);
-  }
-  count(t, row.error);
+  stress_count(t, row.error, w->job->kind == DRAW_REALISTIC, k);
   keep_worst(w, row);
 }
 
 /* The same row in single precision, against the exact result for the rounded numbers. */
 static void count_single(shift *w, carom_slip slip, const carom_impact_f32 *in, const carom_result_f32 *out,
                          carom_status status) {
-  tally *t = &w->tally[slip][WAY_SINGLE];
+  stress_tally *t = &w->tally[slip][WAY_SINGLE];
   carom_impact wide;
   carom_result result, exact;
   carom_result_f32 unused;
@@ -173,13 +129,16 @@ static void count_single(shift *w, carom_slip slip, const carom_impact_f32 *in, 
   for (int k = 0; k < 12; k++)
     ((double *)&result)[k] = ((const float *)out)[k];
   t->by_fallback += carom_kernels_in_force()->single[CAROM_SINGLE](in, carom_spin_sign(slip), &unused, NULL) == 0;
-  if (status != CAROM_OK)
-    t->unresolved++;
-  else if (by_fallback(&wide, slip, &exact) == CAROM_OK)
-    count(t, distance(&result, &exact, wide.a.radius));
+  if (is_error(t, status))
+    return;
+  if (collide_precisely(&wide, slip, PRECISELY, &exact) == CAROM_OK)
+    stress_count(t, distance(&result, &exact, wide.a.radius), false, 0);
+  else
+    t->unjudged++;
 }
 
-static void run_block(shift *w, uint64_t block) {
+static void run_block(void *of, uint64_t block) {
+  shift *w = of;
   const stress_job *job = w->job;
   const carom_slip slip = (carom_slip)(block % CAROM_SLIP_COUNT);
   const uint64_t first = block / CAROM_SLIP_COUNT * BLOCK;
@@ -206,29 +165,10 @@ static void run_block(shift *w, uint64_t block) {
   }
 }
 
-static void *run_shift(void *argument) {
-  shift *w = argument;
-  const uint64_t blocks = (uint64_t)CAROM_SLIP_COUNT * (((uint64_t)w->job->draws + BLOCK - 1) / BLOCK);
-  for (uint64_t block; (block = take_block(w->job)) < blocks;)
-    run_block(w, block);
-  return NULL;
-}
-
 static void add(shift *to, const shift *from) {
   for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)
-    for (int way = 0; way < WAYS; way++) {
-      tally *t = &to->tally[slip][way];
-      const tally *f = &from->tally[slip][way];
-      t->rows += f->rows;
-      t->over_1e6 += f->over_1e6;
-      t->over_1e5 += f->over_1e5;
-      t->over_2e5 += f->over_2e5;
-      t->by_fallback += f->by_fallback;
-      t->unresolved += f->unresolved;
-      t->largest = fmax(t->largest, f->largest);
-      for (int k = 0; k < DECADES * PER_DECADE; k++)
-        t->histogram[k] += f->histogram[k];
-    }
+    for (int way = 0; way < WAYS; way++)
+      stress_add(&to->tally[slip][way], &from->tally[slip][way]);
   to->other_bits += from->other_bits;
   to->asked += from->asked;
   to->fallback_wrong += from->fallback_wrong;
@@ -263,32 +203,23 @@ static void print_table(const stress_job *job, const shift *w, FILE *out) {
   static const char *const ways[] = {"double", "single"}, *const kinds[] = {"realistic", "regimes", "extreme"};
   fprintf(out, "%s collisions, %d drawn for each slip with seed %d, instruction set %s\n\n", kinds[job->kind], job->draws,
           job->seed, carom_isa_name(carom_isa_in_force()));
-  fprintf(
-      out,
-      "precision slip           rows   median      99 %%    99.9 %%   99.99 %%   largest   > 1e-6   > 1e-5   > 2e-5  fallback  "
-      "unresolved\n");
+  stress_print_head(out, "precision", "slip");
   for (int way = 0; way < WAYS; way++)
-    for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
-      const tally *t = &w->tally[slip][way];
-      fprintf(out, "%-9s %-9s %9ld  %7.1e   %7.1e   %7.1e   %7.1e   %7.1e  %7ld  %7ld  %7ld  %7.3f %%  %ld\n", ways[way],
-              carom_slip_name((carom_slip)slip), t->rows, quantile(t, 0.5), quantile(t, 0.99), quantile(t, 0.999),
-              quantile(t, 0.9999), t->largest, t->over_1e6, t->over_1e5, t->over_2e5,
-              100.0 * (double)t->by_fallback / fmax(1, (double)(t->rows + t->unresolved)), t->unresolved);
-    }
+    for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)
+      stress_print(out, ways[way], carom_slip_name((carom_slip)slip), &w->tally[slip][way]);
   fprintf(out, "\nrows of batches whose bits or status differ from single calls: %ld\n", w->other_bits);
-  fprintf(
-      out,
-      "fallback against the oracle, where single calls differ from it by more than %g, and 1 row in 1000: %ld rows, largest "
-      "error %.1e, %ld above 1e-9\n",
-      ORACLE_FROM, w->asked, w->fallback_largest, w->fallback_wrong);
+  fprintf(out,
+          "fallback against the reference, where single calls differ from it by more than %g, and 1 row in 1000: %ld rows, "
+          "largest error %.1e, %ld above 1e-9\n",
+          REFERENCE_FROM, w->asked, w->fallback_largest, w->fallback_wrong);
 }
 
 /* The contract of carom.h. */
 static bool holds(const stress_job *job, const shift *w) {
   bool good = w->other_bits == 0;
   for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
-    const tally *t = &w->tally[slip][WAY_DOUBLE];
-    good &= job->kind == DRAW_REALISTIC ? t->over_1e6 == 0 && quantile(t, 0.5) <= 3e-9 : t->over_1e5 == 0;
+    const stress_tally *t = &w->tally[slip][WAY_DOUBLE];
+    good &= stress_holds(t) && (job->kind != DRAW_REALISTIC || stress_quantile(t, 0.5) <= 3e-9);
     good &= w->tally[slip][WAY_SINGLE].over_2e5 == 0 || job->kind != DRAW_REALISTIC;
   }
   return good;
@@ -303,6 +234,11 @@ OPTION(stress_job, option_worst, "worst", worst_rows, 0, NULL, set_flag, 0,
        "print, instead of the table, the 20 collisions with the largest errors in double precision,\n"
        "as rows that `carom resolve` reads");
 
+OPTION(stress_job, option_cushions, "cushion", cushions, 0, "N", set_count, 1,
+       "draw so many impacts on a cushion of each kind instead, of play and any");
+OPTION(stress_job, option_coincidences, "coincidences", coincidences, 0, "N", set_count, 1,
+       "draw instead so many impacts of each kind of coincidence, of two balls and on a cushion: numbers that\n"
+       "are exactly equal, zero or at the edge of a cone, planar motion, slips of rounding errors, grazing");
 OPTION(stress_job, option_shots, "shots", shots, 0, "N", set_count, 1,
        "play so many random whole shots instead, and check the invariants that they keep");
 OPTION(stress_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
@@ -315,9 +251,10 @@ static const command_form form = {
     .usage = "[OPTIONS]",
     .about =
         "Draws random collisions and compares the exact solver's results, by single calls and in batches, in double and in\n"
-        "single precision, with an adaptive integrator, and where they differ with the tests' oracle.\n",
-    .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_worst, &option_shots,
-                                           &option_models, &option_cushion_model, &option_threads, &option_output, NULL},
+        "single precision, with the precise solver, and where they differ with a reference in extended precision.\n",
+    .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_worst, &option_cushions,
+                                           &option_coincidences, &option_shots, &option_models, &option_cushion_model,
+                                           &option_threads, &option_output, NULL},
     .details = "exit code: 0; 1 if an error is larger than carom.h promises, or bits of a batch differ from a single call's;\n"
                "           2 for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
@@ -333,23 +270,19 @@ int command_stress(int argc, char **argv) {
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
-  const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-  const int wanted = job.shared.options.threads > 0 ? job.shared.options.threads : (int)processors;
-  const int threads = wanted < 1 ? 1 : wanted < MOST_THREADS ? wanted : MOST_THREADS;
-  shift *shifts = allocate((size_t)threads, sizeof *shifts);
-  pthread_t id[MOST_THREADS];
-  bool started[MOST_THREADS] = {false};
-  for (int t = 0; t < threads; t++) {
-    shifts[t].job = &job;
-    started[t] = t > 0 && pthread_create(&id[t], NULL, run_shift, &shifts[t]) == 0;
+  const int threads = stress_threads(job.shared.options.threads);
+  if (job.cushions > 0 || job.coincidences > 0) {
+    const bool held = stress_impacts(out, job.coincidences > 0, job.coincidences > 0 ? job.coincidences : job.cushions,
+                                     (uint64_t)job.seed, threads);
+    return !output_commit() ? EXIT_USAGE : held ? EXIT_GOOD : EXIT_SOME;
   }
-  run_shift(&shifts[0]);
+  shift *shifts = allocate((size_t)threads, sizeof *shifts);
+  for (int t = 0; t < threads; t++)
+    shifts[t].job = &job;
+  stress_in_threads(threads, shifts, sizeof *shifts, (uint64_t)CAROM_SLIP_COUNT * (((uint64_t)job.draws + BLOCK - 1) / BLOCK),
+                    run_block, "blocks of collisions");
   for (int t = 1; t < threads; t++)
-    if (started[t]) {
-      pthread_join(id[t], NULL);
-      add(&shifts[0], &shifts[t]);
-    }
-  progress_clear();
+    add(&shifts[0], &shifts[t]);
   if (job.worst_rows)
     print_worst(&job, &shifts[0], out);
   else

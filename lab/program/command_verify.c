@@ -26,7 +26,7 @@ typedef struct ladder_summary {
 enum { SINGLE_CALLS = -1 };
 
 /* Random impacts on cushions of each kind; `verify --cushion` takes more. */
-enum { CUSHION_DRAWS_HERE = 100 };
+enum { CUSHION_DRAWS_HERE = 40 };
 
 typedef struct verification {
   shared_options shared;
@@ -209,7 +209,7 @@ static bool verify_all(verification *v) {
     fprintf(v->out, "\n%s", v->parity);
   if (v->only == NULL && !v->csv && !v->brief) {
     fputc('\n', v->out);
-    return cushion_verify(v->out, v->folder, CUSHION_DRAWS_HERE, false, &v->all_pass);
+    return cushion_verify(v->out, v->folder, CUSHION_DRAWS_HERE, 1, false, &v->all_pass);
   }
   return true;
 }

@@ -1,13 +1,14 @@
 /* `carom-lab bench --cushion`: the models of the cushion timed on impacts of play, Euler's 1000 steps being the yardstick. */
 #include "command.h"
 #include "cushion_lab.h"
-#include "cushion_oracle.h"
+#include "draws.h"
 #include "machine.h"
 #include "memory.h"
 #include "message.h"
 #include "options.h"
 #include "output.h"
 #include "pinning.h"
+#include "reference.h"
 #include "rounds.h"
 
 #include "carom_shot.h"
@@ -48,7 +49,7 @@ static double verify(const work *w) {
     if (w->status[k] != CAROM_OK)
       return INFINITY;
     if ((w->options.model == CAROM_CUSHION_MATHAVAN || w->options.model == CAROM_CUSHION_EULER) && k % 8 == 0 &&
-        cushion_oracle(&w->in[k], &exact) == CAROM_OK)
+        reference_cushion(&w->in[k], &exact, NULL) == REFERENCE_OK)
       worst = fmax(worst, cushion_distance(&w->in[k], &w->out[k], &exact));
   }
   const bool compared = w->options.model == CAROM_CUSHION_MATHAVAN || w->options.model == CAROM_CUSHION_EULER;

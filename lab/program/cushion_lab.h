@@ -3,11 +3,12 @@
 #define CAROM_LAB_CUSHION_LAB_H
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
-/* Compares `draws` random impacts of each kind with the judge (lab/stress/cushion_oracle.h), and the recorded impacts in
+/* Compares `draws` random impacts of each kind with the reference (lab/stress/reference.h), and the recorded impacts in
  * `folder` with pooltool's. Prints a table, or CSV; `*pass` becomes false if a bound is not met. False after a complaint. */
-bool cushion_verify(FILE *out, const char *folder, int draws, bool csv, bool *pass);
+bool cushion_verify(FILE *out, const char *folder, int draws, uint64_t seed, bool csv, bool *pass);
 
 /* `carom-lab verify --cushion` and `carom-lab bench --cushion`, without that argument; return exit codes. */
 int cushion_verify_command(int argc, char **argv);

@@ -16,7 +16,7 @@ static double log_uniform(regimes_rng *r, double low, double high) {
   return exp(U(log(low), log(high)));
 }
 
-static carom_impact turned(const carom_local *c, double angle) {
+carom_impact draw_turned(const carom_local *c, double angle) {
   const double y[2] = {sin(angle), cos(angle)}, x[2] = {y[1], -y[0]};
   carom_impact in = {.a = {.w = {0, 0, c->w_iz}, .radius = c->R, .mass = c->M_i, .mu_cloth = c->mu_i},
                      .b = {.w = {0, 0, c->w_jz}, .radius = c->R, .mass = c->M_j, .mu_cloth = c->mu_j},
@@ -79,7 +79,7 @@ static carom_impact realistic(double s, regimes_rng *r) {
   make_approach(&c);
   if (chance(r, 0.5))
     c = exchanged(&c);
-  return turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
+  return draw_turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
 }
 
 /* A share that is often 0 or 1, or near to it. */
@@ -99,7 +99,7 @@ static carom_impact extreme(double s, regimes_rng *r) {
   for (int j = 0; j < 2; j++)
     set_ball(&c, j, any(r, v), any(r, v), chance(r, 0.3) ? 1 : any(r, 1), any(r, v));
   make_approach(&c);
-  return turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
+  return draw_turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
 }
 
 carom_impact draw_collision(draw_kind kind, carom_slip slip, uint64_t seed, uint64_t k) {
@@ -115,4 +115,51 @@ carom_impact draw_collision(draw_kind kind, carom_slip slip, uint64_t seed, uint
   default:
     return extreme(s, &r);
   }
+}
+
+carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k) {
+  regimes_rng state = {seed * 0x2545f4914f6cdd1du + k * 0x9e3779b97f4a7c15u};
+  const bool any = kind == CUSHION_ANY;
+  const double degree = 3.14159265358979323846 / 180, speed = regimes_uniform(&state, 0.05, 5),
+               turn = regimes_uniform(&state, -180, 180) * degree;
+  /* from square to grazing, on both sides */
+  const double angle = regimes_uniform(&state, -89.5, 89.5) * degree, spin = any ? 300 : 100;
+  carom_cushion_impact in = {.normal = {cos(turn), sin(turn)},
+                             .v = {speed * cos(turn + angle), speed * sin(turn + angle)},
+                             .radius = regimes_uniform(&state, 0.025, 0.031),
+                             .mass = regimes_uniform(&state, 0.13, 0.21),
+                             .mu_cloth = any ? regimes_uniform(&state, 0, 1) : regimes_uniform(&state, 0.1, 0.4),
+                             .mu_cushion = any ? regimes_uniform(&state, 0, 1) : regimes_uniform(&state, 0.1, 0.4),
+                             .restitution = any ? regimes_uniform(&state, 0, 1) : regimes_uniform(&state, 0.6, 1),
+                             .jaw_radius = regimes_uniform(&state, 0, 1) < 0.5 ? 0 : regimes_uniform(&state, 0.005, 0.03)};
+  in.height = in.radius * (any ? regimes_uniform(&state, 0.9, 1.6) : regimes_uniform(&state, 1.2, 1.45));
+  for (int c = 0; c < 3; c++)
+    in.w[c] = regimes_uniform(&state, -spin, spin);
+  const double what = regimes_uniform(&state, 0, 1);
+  if (what < 0.3) { /* a rolling ball, with side */
+    in.w[0] = -in.v[1] / in.radius;
+    in.w[1] = in.v[0] / in.radius;
+  } else if (what < 0.4) { /* a perpendicular one, with top or draw but no side */
+    const double top = regimes_uniform(&state, -1, 1) * spin;
+    in = (carom_cushion_impact){.v = {0, speed, 0},
+                                .w = {what < 0.35 ? top : -speed / in.radius, 0, 0},
+                                .normal = {0, 1},
+                                .height = in.height,
+                                .radius = in.radius,
+                                .mass = in.mass,
+                                .mu_cloth = in.mu_cloth,
+                                .mu_cushion = in.mu_cushion,
+                                .restitution = in.restitution};
+  } else if (what < 0.5) /* a ball that slides without spin */
+    in.w[0] = in.w[1] = in.w[2] = 0;
+  return in;
+}
+
+double cushion_distance(const carom_cushion_impact *in, const carom_motion *a, const carom_motion *b) {
+  double most = 0, scale = 0;
+  for (int c = 0; c < 3; c++) {
+    most = fmax(most, fmax(fabs(a->v[c] - b->v[c]), in->radius * fabs(a->w[c] - b->w[c])));
+    scale = fmax(scale, fmax(fabs(in->v[c]), in->radius * fabs(in->w[c])));
+  }
+  return most / scale;
 }

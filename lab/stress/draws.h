@@ -4,6 +4,9 @@
 
 #include "regimes.h"
 
+#include "ball_ball/frame.h"
+#include "carom_shot.h"
+
 #include <stdbool.h>
 
 /* Kinds of collisions: those of play, with any speed, spin and cut that it has, mu_b <= 0.2, mu <= 0.5, e >= 0.5, masses within
@@ -13,5 +16,19 @@ typedef enum draw_kind { DRAW_REALISTIC, DRAW_REGIMES, DRAW_EXTREME, DRAW_KINDS 
 
 /* Collision number `k` of a kind, for a slip. Nearly all approach. */
 carom_impact draw_collision(draw_kind kind, carom_slip slip, uint64_t seed, uint64_t k);
+
+/* Kinds of random impacts: those of play (nose 1.2 to 1.45 R, friction 0.1 to 0.4, e 0.6 to 1, spins to 100 rad/s), and any
+ * (nose 0.9 to 1.6 R, friction and e 0 to 1, spins to 300 rad/s), with every angle, rolling and perpendicular ones among them.
+ */
+typedef enum cushion_draw { CUSHION_PLAY, CUSHION_ANY, CUSHION_DRAWS } cushion_draw;
+
+/* Impact number `k` of a kind, the same for the same seed. All approach. */
+carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k);
+
+/* Largest difference of v and R w, over the largest of them before the impact. */
+double cushion_distance(const carom_cushion_impact *in, const carom_motion *a, const carom_motion *b);
+
+/* A collision of the frame of ball_ball/frame.h, its line of centres turned from the y axis by an angle, rad. */
+carom_impact draw_turned(const carom_local *c, double angle);
 
 #endif

@@ -2,11 +2,13 @@
  * and draws in which they could come back. Rows are in findings/, as `carom resolve` reads them.
  */
 #include "cases.h"
-#include "oracle.h"
+#include "precisely.h"
+#include "reference.h"
 #include "regimes.h"
 #include "support.h"
 
-#include "ball_ball/precise.h"
+#include "ball_ball/frame.h"
+#include "impact/impact.h"
 
 #include <float.h>
 #include <math.h>
@@ -26,20 +28,8 @@ static carom_options options_for(carom_slip slip) {
   return options;
 }
 
-static carom_status solve_precisely(const carom_impact *in, carom_slip slip, carom_result *out) {
-  const carom_frame frame = carom_frame_of(in);
-  carom_local local = carom_to_frame(&frame, in, slip);
-  const carom_reduced c = carom_reduce(&local);
-  carom_trajectory path;
-  const carom_status status = carom_precise(&c, 1e-3, &path);
-  const carom_integrals all = carom_precise_integrals(&c, &path);
-  carom_restore(&c, &all, &local);
-  carom_from_frame(&frame, &local, out);
-  return status;
-}
-
-/* Solved within `bound` of the oracle, or said to be unresolved; alone and in a batch, with every instruction set; within the
- * bound on evaluations. Returns whether it was solved. */
+/* Solved within `bound` of the reference, or said to be unresolved; alone and in a batch, with every instruction set; within
+ * the bound on evaluations. Returns whether it was solved. */
 static bool expect_solved(const carom_impact *in, carom_slip slip, double bound, const char *what) {
   const carom_options options = options_for(slip);
   carom_result exact, out, many[FILL];
@@ -47,7 +37,7 @@ static bool expect_solved(const carom_impact *in, carom_slip slip, double bound,
   bool solved = false;
   for (int k = 0; k < FILL; k++)
     rows[k] = *in;
-  const bool known = oracle_collide(in, carom_spin_sign(slip), &exact, NULL) == 0;
+  const bool known = reference_collide(in, slip, &exact, NULL) == REFERENCE_OK;
   FOR_EACH_ISA(isa) {
     carom_detail detail;
     const carom_status status = carom_collide_detail(in, &options, &out, &detail);
@@ -62,7 +52,7 @@ static bool expect_solved(const carom_impact *in, carom_slip slip, double bound,
       ck_assert_msg(error <= bound, "%s: %g off with %s", what, error, carom_isa_name((carom_isa)isa));
     }
   }
-  if (solved && known && solve_precisely(in, slip, &out) == CAROM_OK) {
+  if (solved && known && collide_precisely(in, slip, PRECISELY, &out) == CAROM_OK) {
     const double error = result_distance(&out, &exact, in->a.radius);
     ck_assert_msg(error <= precisely, "%s: the precise solver is %g off", what, error);
   }
@@ -102,7 +92,7 @@ START_TEST(single_precision_that_lost_restitution) {
         ((double *)&wide)[c] = ((const float *)&in[0])[c];
       for (int row = 1; row < FILL; row++)
         in[row] = in[0];
-      if (oracle_collide(&wide, carom_spin_sign((carom_slip)slip), &exact, NULL) != 0)
+      if (reference_collide(&wide, (carom_slip)slip, &exact, NULL) != REFERENCE_OK)
         continue;
       FOR_EACH_ISA(isa) {
         if (carom_collide_batch_f32(in, FILL, &options, out, NULL) != CAROM_OK)

@@ -1,5 +1,5 @@
 /* Invariants of the impact on a cushion: energy, mirror and rotation, closed forms, smooth sweeps, batches, traces. */
-#include "cushion_oracle.h"
+#include "draws.h"
 #include "support.h"
 
 #include <math.h>

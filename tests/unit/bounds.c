@@ -1,0 +1,178 @@
+/* No call takes more than its stated number of iterations of the precise solver, each of which computes the rates at eight
+ * nodes: CAROM_IMPACT_ITERATIONS for an impact, and as many for each sample of a trace, besides the rest of the step in which
+ * that is reached. The linker puts the counter below between the solver's entry and its loop; no time is measured. */
+#include "coincidences.h"
+#include "draws.h"
+#include "support.h"
+
+#include "cushion/frame.h"
+#include "cushion/models.h"
+#include "impact/advance.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum {
+  STEP = 12, /* iterations of one step, MOST_ITERATIONS of impact/step.h */
+  IMPACT = CAROM_IMPACT_ITERATIONS + STEP,
+  FAST = 1000, /* evaluations that collocation may have spent before */
+  DRAWS = 1500,
+  POINTS = 9
+};
+
+static int spent, most_spent;
+
+carom_status __real_carom_impact_advance_plain(carom_trajectory *path, double to, int most);
+carom_status __wrap_carom_impact_advance_plain(carom_trajectory *path, double to, int most);
+carom_status __wrap_carom_impact_advance_plain(carom_trajectory *path, double to, int most) {
+  const int before = path->iterations;
+  const carom_status status = __real_carom_impact_advance_plain(path, to, most);
+  spent += path->iterations - before;
+  return status;
+}
+
+/* Looks at what has been spent since the last time. */
+static void expect_spent(int most, const char *what) {
+  ck_assert_msg(spent <= most, "%s: %d iterations", what, spent);
+  if (most <= IMPACT && spent > most_spent)
+    most_spent = spent;
+  spent = 0;
+}
+
+static void expect_bounded_cushion(const carom_cushion_impact *in, const char *what) {
+  carom_motion out[3];
+  carom_cushion_point points[POINTS];
+  const carom_cushion_impact rows[3] = {*in, *in, *in};
+  for (int law = CAROM_CUSHION_LAW_CONSTANT; law <= CAROM_CUSHION_LAW_HAN; law++) {
+    const carom_cushion_options options = {.law = (carom_cushion_law)law};
+    const carom_status status = carom_cushion(in, &options, &out[0]);
+    expect_spent(IMPACT, what);
+    carom_cushion_batch(rows, 3, &options, out, NULL);
+    expect_spent(3 * IMPACT + IMPACT, what); /* the first row in error is solved again, for its status */
+    for (int n = 2; n <= POINTS; n += POINTS - 2) {
+      /* the call, the way to the end, and the samples */
+      const carom_status traced = carom_cushion_trace(in, &options, (size_t)n, points);
+      expect_spent((n + 2) * IMPACT, what);
+      if (status != CAROM_OK)
+        ck_assert_int_eq(traced, status);
+    }
+  }
+}
+
+static void expect_bounded_balls(const carom_impact *in, carom_slip slip, const char *what) {
+  const carom_options options = {.slip = slip};
+  carom_result out[3];
+  carom_detail detail;
+  carom_trace_point points[POINTS];
+  const carom_impact rows[3] = {*in, *in, *in};
+  carom_collide(in, &options, &out[0]);
+  expect_spent(IMPACT, what);
+  if (carom_collide_detail(in, &options, &out[0], &detail) == CAROM_OK)
+    ck_assert_msg(detail.evaluations <= 8 * IMPACT + FAST, "%s: %lld evaluations", what, (long long)detail.evaluations);
+  expect_spent(IMPACT, what);
+  carom_collide_batch(rows, 3, &options, out, NULL);
+  expect_spent(3 * IMPACT + IMPACT, what);
+  for (int n = 2; n <= POINTS; n += POINTS - 2) {
+    carom_trace(in, &options, (size_t)n, points);
+    expect_spent((n + 1) * IMPACT, what);
+  }
+}
+
+/* v, w, normal, height, radius, mass, mu_cloth, mu_cushion, restitution, jaw: traces of these took up to 64 s. */
+static const carom_cushion_impact found[] = {
+    {{0, 1, 0}, {0}, {1, 8.6e-6}, 0.028575 * (1 + 1.94e-9), 0.028575, 0.17, 0, 0.0925, 0.39, 0},
+    {{0, 1, 0}, {0}, {1, 8.6e-6}, 0.028575, 0.028575, 0.17, 0.2, 0.0925, 0.39, 0},
+    {{0, 1, 0}, {0}, {1, 8.6e-6}, 0.0365, 0.028575, 0.17, 0.2, 0.0925, 0.39, 0},
+    {{0, 1, 0}, {0}, {1, 1e-4}, 0.0365, 0.028575, 0.17, 0.2, 0.2, 0.85, 0},
+    {{0, 1, 0}, {0}, {1, 3e-5}, 0.0365, 0.028575, 0.17, 0.2, 0.2, 0.85, 0},
+    {{1, 3e-5, 0}, {0}, {0, 1}, 0.0365, 0.028575, 0.17, 0.2, 0.2, 0.85, 0},
+    {{1, 1e-9, 0}, {0}, {0, 1}, 0.0365, 0.028575, 0.17, 0.2, 0.2, 0.85, 0},
+    {{-1.7540932055044138, -1.7786453671343132, 0},
+     {-43.380836063317105, 24.537838577154645, -40.353408657758592},
+     {-0.10491475906268877, 0.10345954784428317},
+     0.0289107243746126,
+     0.025954938432107773,
+     0.11096816627216578,
+     0.36657122128857067,
+     1,
+     0.033157282050875647,
+     0},
+    {{-3.6815134920072037, 20.623196625156162, 0},
+     {24.945243230845751, 16.415280566218946, -18.354654011588298},
+     {0.83535655154386834, 0.5497084971080004},
+     1.0510489826456098,
+     1.0510489826456098,
+     0.14344923993504211,
+     0.74910559650907449,
+     0.15990382034678507,
+     1,
+     0}};
+
+START_TEST(found_ones) {
+  carom_isa_limit(CAROM_ISA_PLAIN);
+  for (size_t k = 0; k < sizeof found / sizeof found[0]; k++) {
+    char what[40];
+    snprintf(what, sizeof what, "found %zu", k);
+    expect_bounded_cushion(&found[k], what);
+  }
+}
+END_TEST
+
+START_TEST(coincidences) {
+  carom_isa_limit(CAROM_ISA_PLAIN);
+  for (int kind = 0; kind < coincidence_kinds(); kind++)
+    for (uint64_t k = 0; k < DRAWS; k++) {
+      const coincidence c = coincidence_draw(kind, test_seed(), k);
+      char what[60];
+      snprintf(what, sizeof what, "%s, draw %d", coincidence_name(kind), (int)k);
+      if (c.cushion)
+        expect_bounded_cushion(&c.rail, what);
+      else
+        expect_bounded_balls(&c.balls, c.slip, what);
+    }
+  printf("coincidences: %d iterations at most\n", most_spent);
+}
+END_TEST
+
+START_TEST(everything_that_is_accepted) {
+  carom_isa_limit(CAROM_ISA_PLAIN);
+  for (uint64_t k = 0; k < 4 * DRAWS; k++) {
+    char what[40];
+    snprintf(what, sizeof what, "draw %d", (int)k);
+    for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)
+      for (int kind = DRAW_REGIMES; kind < DRAW_KINDS; kind++) {
+        const carom_impact in = draw_collision((draw_kind)kind, (carom_slip)slip, test_seed(), k);
+        expect_bounded_balls(&in, (carom_slip)slip, what);
+      }
+    carom_cushion_impact wall = draw_cushion(CUSHION_ANY, test_seed(), k);
+    expect_bounded_cushion(&wall, what);
+    for (int c = 0; c < 3; c++)
+      wall.w[c] *= 1e4; /* slips far above the approach */
+    expect_bounded_cushion(&wall, what);
+  }
+  printf("everything: %d iterations at most\n", most_spent);
+  ck_assert_int_gt(most_spent, 0);
+}
+END_TEST
+
+/* Euler's steps: at most ten times N in each phase, and the halved ones between. */
+START_TEST(steps_of_a_cushion) {
+  enum { N = 50 };
+  const carom_cushion_options options = {.model = CAROM_CUSHION_EULER, .steps = N};
+  carom_cushion_point points[POINTS];
+  for (uint64_t k = 0; k < DRAWS; k++) {
+    const carom_cushion_impact in = draw_cushion(CUSHION_ANY, test_seed(), k);
+    const carom_cushion_frame frame = carom_cushion_frame_of(&in);
+    carom_contact c = carom_to_cushion(&frame, &in, &options);
+    carom_cushion_run run;
+    carom_cushion_euler(&c, N, 0, k % 2 == 0, INT64_MAX, &run);
+    ck_assert_int_le(run.steps, 2 * (10 * N + 1) + 8);
+    carom_cushion_trace(&in, &options, POINTS, points);
+    expect_spent(0, "Euler's steps");
+  }
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("bounds", found_ones, coincidences, everything_that_is_accepted, steps_of_a_cushion);
+}
