@@ -15,8 +15,8 @@
 #include "stress_shots.h"
 #include "subcommands.h"
 
-#include "ball_ball/precise.h"
 #include "ball_ball/kernels.h"
+#include "ball_ball/precise.h"
 #include "enumerations.h"
 
 #include <math.h>

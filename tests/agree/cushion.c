@@ -25,7 +25,8 @@ START_TEST(exact_against_the_judge) {
       if (cushion_oracle(&in, &exact) != CAROM_OK)
         continue;
       error[count] = cushion_distance(&in, &out, &exact);
-      ck_assert_msg(error[count] <= (kind == CUSHION_PLAY ? 1e-6 : 1e-5), "kind %d, impact %d: %.3g", (int)kind, (int)k, error[count]);
+      ck_assert_msg(error[count] <= (kind == CUSHION_PLAY ? 1e-6 : 1e-5), "kind %d, impact %d: %.3g", (int)kind, (int)k,
+                    error[count]);
       count++;
     }
     ck_assert_int_ge(count, DRAWN * 95 / 100);

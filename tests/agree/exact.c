@@ -10,8 +10,8 @@
 #include "regimes.h"
 #include "support.h"
 
-#include "ball_ball/precise.h"
 #include "ball_ball/kernels.h"
+#include "ball_ball/precise.h"
 
 #include <math.h>
 #include <stdio.h>
