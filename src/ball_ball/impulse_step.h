@@ -9,6 +9,8 @@
 
 /* How far the Taylor series is trusted, over the length of the step before it. */
 static const float MOST_BEYOND = 0.03f, MOST_BEYOND_TURN = 0.1f;
+/* The share of |u| that may be lost on the way of that series. After a step with four nodes, much more of |u| is left. */
+static const float MOST_FALL = 0.5f;
 
 /* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and those of c and sigma against
  * their values at first; K at v = 0 stays what it is. */
@@ -162,7 +164,10 @@ always vreal end_step(int n, enum nodes nodes, stretch *p, vmask last, state *ne
   } else
     left_out = way * (way * way) * v_fma(a->mu_b, at_end.bend_u, a->pull * at_end.bend_d);
   error = error + v_select(last, left_out, v_splat(0));
-  const vmask in_reach = v_less(way, (nodes == TURNED ? MOST_BEYOND_TURN : MOST_BEYOND) * l.length);
+  vmask in_reach = v_less(way, (nodes == TURNED ? MOST_BEYOND_TURN : MOST_BEYOND) * l.length);
+  /* The balls must not stick before the end. In planar motion u does not turn, so bend_u is 0 up to there. */
+  if (n > 4)
+    in_reach = in_reach & v_less(way * at_end.fall, v_splat(MOST_FALL));
   return v_select(in_reach | v_not(last), error, v_splat(HUGE_VALF));
 }
 

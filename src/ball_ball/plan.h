@@ -39,10 +39,10 @@ static const float STICK_Q = 1.05f; /* q from which the balls will stick */
 static const float TURN_Q = 0.5f;   /* q of a TURN step */
 static const float LEFT_Q = 0.5f;   /* q that a PART would leave; */
 static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f; /* its share of |u|, and of q */
-static const float LEAST_WIDTH = 1e-5f;                                      /* distance delta of a turn */
-static const float WIDEST_RANGE = 4.5f;                                      /* of xi of a TURN step */
-static const float TURN_SHARE = 350;                                         /* its error over (mu mu_b sigma)^2 L rho^-16 */
-static const float LEAST_SHARE = 0.1f;                                       /* of its usual length */
+static const float LEAST_WIDTH = 1e-5f, LEAST_WIDTH_SENSITIVE = 1e-3f; /* distance delta of a turn; of sensitive collisions */
+static const float WIDEST_RANGE = 4.5f;                                /* of xi of a TURN step */
+static const float TURN_SHARE = 350;                                   /* its error over (mu mu_b sigma)^2 L rho^-16 */
+static const float LEAST_SHARE = 0.1f;                                 /* of its usual length */
 
 /* After refusals of steps from a state. */
 typedef struct progress {
@@ -130,8 +130,10 @@ always turn_plan plan_turn(const problem *a, const state *s, const prediction *g
   const vmask whole = v_less_equal(range, widest);
   p.length = v_select(whole, reach, v_min(bound, reach));
   *last = whole & v_less(q, v_splat(TURN_Q)) & v_less_equal(one, so_far->share);
-  *refused = v_less(so_far->share, v_splat(LEAST_SHARE)) |
-             (v_less(width, v_splat(LEAST_WIDTH)) & v_not(rests) & v_less(v_splat(0), at) & v_less(at, reach));
+  /* the turn is too sharp, and lies on the step or, in a sensitive collision, shortly before it */
+  const vreal least = v_select(a->sensitive, v_splat(LEAST_WIDTH_SENSITIVE), v_splat(LEAST_WIDTH));
+  const vmask on_step = v_less(v_select(a->sensitive, -least, v_splat(0)), at) & v_less(at, reach);
+  *refused = v_less(so_far->share, v_splat(LEAST_SHARE)) | (v_less(width, least) & v_not(rests) & on_step);
   /* the mean of t_y on the straight way, and with it of f */
   const vreal along = root(v_fma(a_1, a_1, one)) - root(v_fma(a_0, a_0, one)),
               across = v_select(v_less(side, v_splat(0)), v_x, -v_x) * range;
