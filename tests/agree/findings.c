@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILL = 40 }; /* more than the lanes of any instruction set */
+enum { FILL = 96 }; /* rows of a batch that every instruction set solves in lanes */
 /* Right-hand sides of one call: those of the precise solver, whose last step may exceed its budget, and what collocation spent.
  */
 enum { MOST_EVALUATIONS = 8 * (CAROM_IMPACT_ITERATIONS + 12) + 1000 };
@@ -267,16 +267,15 @@ static carom_impact planar_impact(random_source *source, double s, bool play, bo
 /* Bits of batches and calls are equal; errors against the precise solver, and where that differs, or is unresolved, against the
  * oracle. Returns the number of collisions that were solved. */
 static int expect_planar(random_source *source, carom_slip slip, bool play, bool stick, bool pass) {
-  enum { ROWS = 50 };
   const carom_options options = options_for(slip);
   const double s = carom_spin_sign(slip);
-  carom_impact rows[ROWS], wide[ROWS];
-  carom_impact_f32 narrow[ROWS];
-  carom_result right[2][ROWS], alone, many[ROWS];
-  carom_result_f32 alone_f32, many_f32[ROWS];
-  int8_t status[ROWS], status_f32[ROWS];
+  carom_impact rows[FILL], wide[FILL];
+  carom_impact_f32 narrow[FILL];
+  carom_result right[2][FILL], alone, many[FILL];
+  carom_result_f32 alone_f32, many_f32[FILL];
+  int8_t status[FILL], status_f32[FILL];
   int solved = 0;
-  for (int k = 0; k < ROWS; k++) {
+  for (int k = 0; k < FILL; k++) {
     rows[k] = planar_impact(source, s, play, stick, pass);
     for (int c = 0; c < 26; c++) {
       ((float *)&narrow[k])[c] = (float)((const double *)&rows[k])[c];
@@ -288,9 +287,9 @@ static int expect_planar(random_source *source, carom_slip slip, bool play, bool
       right[1][k].a.v[0] = NAN;
   }
   FOR_EACH_ISA(isa) {
-    carom_collide_batch(rows, ROWS, &options, many, status);
-    carom_collide_batch_f32(narrow, ROWS, &options, many_f32, status_f32);
-    for (int k = 0; k < ROWS; k++) {
+    carom_collide_batch(rows, FILL, &options, many, status);
+    carom_collide_batch_f32(narrow, FILL, &options, many_f32, status_f32);
+    for (int k = 0; k < FILL; k++) {
       ck_assert_int_eq(carom_collide(&rows[k], &options, &alone), status[k]);
       ck_assert_int_eq(carom_collide_f32(&narrow[k], &options, &alone_f32), status_f32[k]);
       ck_assert_mem_eq(&alone, &many[k], sizeof alone);
@@ -323,9 +322,9 @@ START_TEST(planar_collisions) {
     const bool play = kind & 1, stick = kind & 2, pass = kind & 4;
     const carom_slip slip = kind & 8 ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER;
     int solved = 0;
-    for (int k = 0; k < 20; k++)
+    for (int k = 0; k < 10; k++)
       solved += expect_planar(&source, slip, play, stick, pass);
-    ck_assert_int_gt(solved, play ? 700 : 300);
+    ck_assert_int_gt(solved, play ? 670 : 290);
   }
 }
 END_TEST
