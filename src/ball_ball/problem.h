@@ -39,6 +39,13 @@ typedef struct state {
   vmask restitution; /* v = 0 has been passed */
 } state;
 
+always state choose_state(vmask m, const state *yes, const state *no) {
+  state s;
+  lanes_unrolled for (int c = 0; c < STATE_COLUMNS; c++) s.column[c] = v_select(m, yes->column[c], no->column[c]);
+  s.restitution = (m & yes->restitution) | (v_not(m) & no->restitution);
+  return s;
+}
+
 /* What comes of it: those integrals over the whole collision, p beyond 1 + e, p where the balls stuck (-1: they did not), K_c.
  */
 typedef struct solution {
