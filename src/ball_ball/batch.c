@@ -9,7 +9,8 @@
  *     one by one  what collocation refuses, and rows that are not good: carom_collide_one(), which goes the same way again, and
  *             then on to the fallback
  *
- * A list is worked off when it fills a register, and all of them at the end. */
+ * A list is worked off when it fills a register, and all of them at the end. Batches of few rows would leave most lanes empty:
+ * they are solved one by one. */
 #include "ball_ball/batch.h"
 
 #include "ball_ball/frame.h"
@@ -181,16 +182,24 @@ static bool work_off(work *w, int least) {
 
 static size_t solve(carom_precision precision, const void *in, size_t in_size, size_t n, const carom_options *opt, void *out,
                     size_t out_size, int8_t *status) {
-  work w = {.with = carom_kernels_in_force(),
-            .precision = precision,
-            .in = in,
-            .out = out,
-            .in_size = in_size,
-            .out_size = out_size,
-            .opt = opt,
-            .s = carom_spin_sign(opt->slip),
-            .status = status,
-            .first_bad = n};
+  work w; /* its lists are not cleared: that would take longer than a few rows do */
+  w.with = carom_kernels_in_force();
+  w.precision = precision;
+  w.in = in;
+  w.out = out;
+  w.in_size = in_size;
+  w.out_size = out_size;
+  w.opt = opt;
+  w.s = carom_spin_sign(opt->slip);
+  w.status = status;
+  w.first_bad = n;
+  if (n < w.with->fewest[precision]) {
+    for (uint32_t row = 0; row < n; row++)
+      one_by_one(&w, row);
+    return w.first_bad;
+  }
+  for (int kind = 0; kind < STEP_KINDS; kind++)
+    w.fresh[kind].count = w.moving[kind].count = 0;
   if (status != NULL)
     memset(status, CAROM_OK, n * sizeof *status); /* what is not solved by a step, has its own */
   const size_t lanes = (size_t)w.with->lanes, register_size = lanes * in_size, size = n * in_size;

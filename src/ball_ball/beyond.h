@@ -5,9 +5,9 @@
 #include "ball_ball/problem.h"
 
 /* The directions c, sigma and s = sigma t at a state, and their slopes in p, by the equations. bend_u, bend_d: a sixth of the
- * second derivatives of the direction of u, about, and of s, at most. */
+ * second derivatives of the direction of u, about, and of s, at most. fall: share of |u| that is lost per p. */
 typedef struct arrival {
-  vreal c, z, x, y, dc, dz, dx, dy, bend_u, bend_d;
+  vreal c, z, x, y, dc, dz, dx, dy, bend_u, bend_d, fall;
 } arrival;
 
 always arrival arrive(const problem *a, const state *s) {
@@ -18,8 +18,9 @@ always arrival arrive(const problem *a, const state *s) {
   const vreal turn_u = -a->mu_b * (z * turn_x - c * turn_z) * i_u;
   const vreal d_x = a->mu_b * c, d_y = v_fma(a->spin * a->mu_b, z, v_splat(-1)); /* d', without the cloth's own pull */
   const vreal turn_d = (t_x * d_y + t_y * d_x) * i_d;
-  const vreal fall = 3.5f * a->kappa * a->mu_b * i_u, turning = v_abs(turn_u);
-  end.bend_u = (1 / 6.0f) * turning * v_fma(v_splat(2), fall, turning);
+  const vreal most_fall = 3.5f * a->kappa * a->mu_b * i_u, turning = v_abs(turn_u);
+  end.bend_u = (1 / 6.0f) * turning * v_fma(v_splat(2), most_fall, turning);
+  end.fall = a->mu_b * v_fma(c, turn_x, z * turn_z) * i_u;
   end.bend_d = v_select(is_at_rest(a, s), v_splat(0), 0.5f * z * v_fma(d_x, d_x, d_y * d_y) * (i_d * i_d));
   end.dc = z * turn_u;
   end.dz = -c * turn_u;

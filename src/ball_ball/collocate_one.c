@@ -3,58 +3,28 @@
 #include "ball_ball/kernels.h"
 #include "ball_ball/plan.h"
 
-/* From *s, predicted *g, with `to_end` and `inverse` rho ahead, to the end. Returns the number of right-hand sides evaluated, 0
- * if it did not get there. */
-apart int take_steps(const problem *a, state s, prediction g, vreal to_end, vreal inverse, progress so_far, solution *out) {
+/* Right-hand sides of a step of a kind, at most. */
+static const int evaluations_of[STEP_KINDS] = {
+    [EASY] = EASY_NODES * (EASY_MOST + 1),          [FULL] = FULL_NODES * (FULL_MOST + 1),
+    [FULL_GRADED] = MOST_NODES * (GRADED_MOST + 1), [STICK] = STICK_NODES * (STICK_MOST + 1),
+    [PART] = MOST_NODES * (GRADED_MOST + 1),        [TURN] = MOST_NODES * (TURN_MOST + 1)};
+
+/* From a state that is not easy at first, to the end. Returns the number of right-hand sides evaluated, 0 if it did not get
+ * there. */
+always int take_steps(const problem *a, course c, vreal inverse, solution *out) {
   int evaluations = 0;
   for (int attempt = 1; attempt <= MOST_ATTEMPTS; attempt++) {
-    state next;
-    float error;
-    int last = 1;
-    enum step_kind kind = TURN;
-    if (so_far.caution < 1 && attempt > 1 && is_easy(a, &g, to_end, inverse)) {
-      error = take_easy_step(a, &g, to_end, &s, out);
-      evaluations += EASY_NODES * (EASY_MOST + 1);
-      kind = EASY;
-    } else {
-      const prediction ahead = look_ahead(a, &s, &g, to_end);
-      const choice c = choose(a, &s, &ahead, to_end, inverse, &so_far);
-      int iterations = TURN_MOST, nodes = MOST_NODES;
-      if (c.full) {
-        kind = c.graded ? FULL_GRADED : FULL;
-        iterations = c.graded ? FULL_GRADED_MOST : FULL_MOST;
-        nodes = c.graded ? MOST_NODES : FULL_NODES;
-        error = (c.graded ? take_graded_step : take_full_step)(a, &ahead, to_end, &s, out);
-      } else if (c.stick) {
-        kind = STICK;
-        iterations = STICK_MOST;
-        nodes = STICK_NODES;
-        error = take_stick_step(a, &ahead, &s, out);
-      } else if (c.part) {
-        kind = PART;
-        iterations = PART_MOST;
-        error = take_part(a, part_length(&ahead, to_end), &s, &next);
-        last = 0;
-      } else {
-        vmask refused;
-        const turn_plan p = plan_turn(a, &s, &ahead, to_end, &so_far, &last, &refused);
-        if (refused)
-          return 0;
-        error = take_turn_step(a, &p, last, &s, &next, out);
-      }
-      evaluations += nodes * (iterations + 1);
-    }
-    if (!(error < a->tolerance))
-      so_far = after_refusal(&so_far, kind);
-    else if (last)
+    prediction ahead;
+    const enum step_kind kind =
+        (enum step_kind)next_kind(a, &c.s, &c.g, c.to_end, inverse, c.so_far.careful, attempt == 1, &ahead);
+    vmask last, impossible;
+    const vmask accepted = take(kind, a, &ahead, &c, &last, &impossible, out);
+    if (impossible)
+      return 0;
+    evaluations += evaluations_of[kind];
+    if (accepted & last)
       return evaluations;
-    else {
-      s = next;
-      to_end = way_to_end(a, &s);
-      g = predict(a, &s, to_end);
-      inverse = inverse_rho_ahead(a, &s, &g, to_end);
-      so_far = (progress){.share = 1};
-    }
+    inverse = inverse_rho_ahead(a, &c.s, &c.g, c.to_end);
   }
   return 0;
 }
@@ -65,17 +35,15 @@ int KERNEL(carom_collocate)(const float in[IN_COLUMNS], float spin, float tolera
   const vreal to_end = 1 + a.e;
   const prediction g = predict(&a, &s, to_end);
   const vreal inverse = inverse_rho_ahead(&a, &s, &g, to_end);
-  progress so_far = {.share = 1};
+  const vmask easy = is_easy(&a, &g, to_end, inverse);
   solution answer;
-  if (is_easy(&a, &g, to_end, inverse)) {
-    if (take_step(EASY_NODES, EASY_MOST, EVEN, &a, &g, &s, length_to_end(&a, &g, to_end), NULL, 1, NULL, &answer) <
-        a.tolerance) {
-      put_solution(&answer, out);
-      return EASY_NODES * (EASY_MOST + 1);
-    }
-    so_far.caution = 1;
+  if (easy &&
+      take_step(EASY_NODES, EASY_MOST, &a, &g, &s, length_to_end(&a, &g, to_end), NULL, v_all(), NULL, &answer) < a.tolerance) {
+    put_solution(&answer, out);
+    return evaluations_of[EASY];
   }
-  const int evaluations = take_steps(&a, s, g, to_end, inverse, so_far, &answer);
+  const course c = {.s = s, .to_end = to_end, .g = g, .so_far = {.share = 1, .careful = easy}};
+  const int evaluations = take_steps(&a, c, inverse, &answer);
   put_solution(&answer, out);
   return evaluations;
 }

@@ -23,8 +23,8 @@
 /* What an iteration leaves of what it moved, at least; by mu mu_b, for the cloth; by q^2, for u. */
 static const float CONTRACTION = 0.02f, CONTRACTION_CLOTH = 1.2f, CONTRACTION_Q = 0.1f;
 /* What that is multiplied by: it is too little on turns, and too much over the few nodes of what is smooth. */
-always float estimate_scale(int n, enum nodes nodes) {
-  return nodes == TURNED ? 4 : n == 4 ? 0.33f : n == 6 ? 0.4f : 1;
+always float estimate_scale(int n, bool turned) {
+  return turned ? 4 : n == 4 ? 0.33f : n == 6 ? 0.4f : 1;
 }
 
 /* Coefficients of the equations, times L; and q, the share of |u| that the stretch loses at its first rate. */
@@ -88,15 +88,15 @@ always turning predict_turning(bool turn, const problem *a, const prediction *g,
   return w;
 }
 
-/* The directions at the nodes, before any iteration. nodes: TURNED where d turns on the way and has no direction half way. */
-always void predict_directions(int n, enum nodes nodes, stretch *p) {
+/* The directions at the nodes, before any iteration. turned: d turns on the way and has no direction half way. */
+always void predict_directions(int n, bool turned, stretch *p) {
   const prediction *const g = p->g;
   const state *const s = p->s;
   const step_law *const l = &p->l;
   directions *const f = &p->f;
-  const turning turns = predict_turning(nodes == TURNED, p->a, g, s, l->mu_b * g->inverse_u);
+  const turning turns = predict_turning(turned, p->a, g, s, l->mu_b * g->inverse_u);
   /* the cloth's own pull on d, along its direction half way */
-  const vreal own = nodes == TURNED ? v_splat(0) : l->on_d * g->z, own_x = own * g->t_x, own_y = l->length - own * g->t_y;
+  const vreal own = turned ? v_splat(0) : l->on_d * g->z, own_x = own * g->t_x, own_y = l->length - own * g->t_y;
   const vreal half_b = 0.5f * l->mu_b, half_y = 0.5f * l->on_y;
   EACH_REG(k, n) {
     /* sums begin with what is known first */
@@ -115,12 +115,12 @@ always void predict_directions(int n, enum nodes nodes, stretch *p) {
 }
 
 /* Times the weight of node k. */
-always reg weighed(enum nodes nodes, const mesh *m, int k, reg x) {
-  return nodes != EVEN ? m->weight[k] * x : x;
+always reg weighed(int n, const mesh *m, int k, reg x) {
+  return is_mapped(n) ? m->weight[k] * x : x;
 }
 
 /* One iteration, in the lanes where it goes on. */
-always void iterate(int n, enum nodes nodes, const gauss_rule *r, stretch *p) {
+always void iterate(int n, bool turned, const gauss_rule *r, stretch *p) {
   const problem *const a = p->a;
   const state *const s = p->s;
   const step_law *const l = &p->l;
@@ -130,10 +130,10 @@ always void iterate(int n, enum nodes nodes, const gauss_rule *r, stretch *p) {
   const vreal no_x = -l->pull, no_b = -l->mu_b, mu_b_kappa = l->mu_b * a->kappa;
   reg w_c[MOST_REGS], w_z[MOST_REGS], C[MOST_REGS], Z[MOST_REGS], S_x[MOST_REGS], S_y[MOST_REGS];
   EACH_REG(k, n) {
-    w_c[k] = weighed(nodes, m, k, f->c[k]);
-    w_z[k] = weighed(nodes, m, k, f->z[k]);
-    f->w_x[k] = weighed(nodes, m, k, f->s_x[k]);
-    f->w_y[k] = weighed(nodes, m, k, f->s_y[k]);
+    w_c[k] = weighed(n, m, k, f->c[k]);
+    w_z[k] = weighed(n, m, k, f->z[k]);
+    f->w_x[k] = weighed(n, m, k, f->s_x[k]);
+    f->w_y[k] = weighed(n, m, k, f->s_y[k]);
   }
   apply(r->sum, w_c, C, n);
   apply(r->sum, w_z, Z, n);
@@ -153,7 +153,7 @@ always void iterate(int n, enum nodes nodes, const gauss_rule *r, stretch *p) {
     t_y[k] = d_y * i_d;
     const reg rho = MADD(f->c[k], u_z[k], -(f->z[k] * u_c[k]));
     const reg D = (mu_b_kappa * i_u) * MADD(f->z[k], f->z[k], 2.5f);
-    rate[k] = weighed(nodes, m, k, D * rho);
+    rate[k] = weighed(n, m, k, D * rho);
     REG_MOVE(going, &f->S_y[k], S_y[k]);
     REG_MOVE(going, &f->dx[k], du_x);
     REG_MOVE(going, &f->dz[k], du_z);
@@ -169,7 +169,7 @@ always void iterate(int n, enum nodes nodes, const gauss_rule *r, stretch *p) {
     REG_MOVE(going, &f->s_x[k], x);
     REG_MOVE(going, &f->s_y[k], y);
   }
-  const vreal per_moved = estimate_scale(n, nodes) * l->mu_b *
+  const vreal per_moved = estimate_scale(n, turned) * l->mu_b *
                           v_fma(v_splat(CONTRACTION_CLOTH), a->pull, v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));
   const vreal error = per_moved * largest(moved, n);
   f->error = v_select(going, error, f->error);
@@ -179,7 +179,7 @@ always void iterate(int n, enum nodes nodes, const gauss_rule *r, stretch *p) {
 /* After the last: the means over the stretch of c and sigma, against their values at first, from the sine of the angle by which
  * u has turned and 1 - its cosine; and w_x, w_y. From the change of u, not from its direction: what is small keeps its digits.
  */
-always void end_iterations(int n, enum nodes nodes, const gauss_rule *r, stretch *p, vreal *dc, vreal *dz) {
+always void end_iterations(int n, const gauss_rule *r, stretch *p, vreal *dc, vreal *dz) {
   const prediction *const g = p->g;
   const state *const s = p->s;
   directions *const f = &p->f;
@@ -189,10 +189,10 @@ always void end_iterations(int n, enum nodes nodes, const gauss_rule *r, stretch
     const reg sine = MADD(g->c, f->dz[k], -g->z * f->dx[k]) * f->per_u[k], e_c = MADD(u_x_k, f->per_u[k], -g->c),
               e_z = MADD(u_z_k, f->per_u[k], -g->z);
     const reg drop = 0.5f * MADD(e_c, e_c, e_z * e_z);
-    turned[k] = weighed(nodes, &p->m, k, MADD(-f->back[k], 1 - drop, sine));
-    lost[k] = weighed(nodes, &p->m, k, MADD(-f->back[k], sine, drop));
-    f->w_x[k] = weighed(nodes, &p->m, k, f->s_x[k]);
-    f->w_y[k] = weighed(nodes, &p->m, k, f->s_y[k]);
+    turned[k] = weighed(n, &p->m, k, MADD(-f->back[k], 1 - drop, sine));
+    lost[k] = weighed(n, &p->m, k, MADD(-f->back[k], sine, drop));
+    f->w_x[k] = weighed(n, &p->m, k, f->s_x[k]);
+    f->w_y[k] = weighed(n, &p->m, k, f->s_y[k]);
   }
   const vreal sine = dot(r->all, turned, n), drop = dot(r->all, lost, n);
   *dc = v_fma(-g->z, sine, -g->c * drop);

@@ -12,7 +12,7 @@ enum { IN_U_X, IN_U_Z, IN_D_X, IN_D_Y, IN_KAPPA, IN_MU, IN_MU_B, IN_E, IN_COLUMN
 enum { OUT_J_C, OUT_J_Z, OUT_I_X, OUT_I_Y, OUT_EXTRA, OUT_STICK, OUT_K_C, OUT_COLUMNS };
 /* A collision between two steps: the columns of its state (problem.h), whether v = 0 has been passed (1 or 0), and what has
  * been tried (plan.h). */
-enum { MOVING_STATE, MOVING_RESTITUTION = 13, MOVING_SHARE, MOVING_CAUTION, MOVING_ATTEMPTS, MOVING_COLUMNS };
+enum { MOVING_STATE, MOVING_RESTITUTION = 13, MOVING_SHARE, MOVING_CAREFUL, MOVING_ATTEMPTS, MOVING_COLUMNS };
 
 enum { MOST_LANES = 16 }; /* of floats in a vector */
 typedef float carom_in[IN_COLUMNS][MOST_LANES];

@@ -9,6 +9,8 @@
 
 /* How far the Taylor series is trusted, over the length of the step before it. */
 static const float MOST_BEYOND = 0.03f, MOST_BEYOND_TURN = 0.1f;
+/* The share of |u| that may be lost on the way of that series. After a step with four nodes, much more of |u| is left. */
+static const float MOST_FALL = 0.5f;
 
 /* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and those of c and sigma against
  * their values at first; K at v = 0 stays what it is. */
@@ -47,19 +49,19 @@ always vreal K_at_v_0(const gauss_rule *r, int n, const step_law *l, const state
 
 /* Over others: S is a polynomial in x, that point one of Newton's steps from there, and the integral of S over X is taken by
  * Gauss's rule up to it. */
-always vreal K_at_v_0_mapped(enum nodes nodes, const gauss_rule *r, int n, const node_map *map, const step_law *l,
-                             const state *s, vreal f, const reg *w_y) {
+always vreal K_at_v_0_mapped(bool turned, const gauss_rule *r, int n, const node_map *map, const step_law *l, const state *s,
+                             vreal f, const reg *w_y) {
   const vreal per = v_reciprocal((1 - f) * l->length), zero = v_splat(0), one = v_splat(1);
   vreal S_power[MOST_NODES], X = v_min(v_max(-s->v * per, zero), one), x, S, v;
   sum_polynomials(r->powers, n, w_y, S_power);
   lanes_rolled for (int i = 0; i < 2; i++) {
-    x = x_at(nodes, map, X);
+    x = x_at(turned, map, X);
     S = x * polynomial(S_power, n, 2 * x - 1);
     v = v_fma(l->length, X, v_fma(l->pull_y, S, s->v));
     X = i == 0 ? v_min(v_max(X - v * per, zero), one) : X;
   }
   mesh up_to;
-  lay_nodes(nodes, r, n, map, x, &up_to);
+  lay_nodes(turned, r, n, map, x, &up_to);
   reg slope[MOST_REGS];
   EACH_REG(k, n) {
     const reg xi = x * AT(r->node, k);
@@ -85,26 +87,26 @@ always const gauss_rule *rule_of(int n) {
   return n == 8 ? &gauss_8 : n == 6 ? &gauss_6 : &gauss_4;
 }
 
-/* `turn`: the plan of TURNED nodes. */
-always void begin_step(int n, enum nodes nodes, const problem *a, const prediction *g, const state *s, vreal length,
-                       const turn_plan *turn, stretch *p) {
+/* `turn`: the plan of turned nodes, else NULL. */
+always void begin_step(int n, const problem *a, const prediction *g, const state *s, vreal length, const turn_plan *turn,
+                       stretch *p) {
   p->a = a;
   p->g = g;
   p->s = s;
   p->l = law_of(a, g, length);
-  if (nodes == EVEN)
+  if (!is_mapped(n))
     EACH_REG(k, n) p->m.X[k] = SPREAD(AT(rule_of(n)->node, k));
   else {
-    p->map = nodes == TURNED ? turned_map(turn, length) : graded_map(p->l.q);
-    lay_nodes(nodes, rule_of(n), n, &p->map, v_splat(1), &p->m);
+    p->map = turn != NULL ? turned_map(turn, length) : graded_map(p->l.q);
+    lay_nodes(turn != NULL, rule_of(n), n, &p->map, v_splat(1), &p->m);
   }
-  predict_directions(n, nodes, p);
+  predict_directions(n, turn != NULL, p);
   p->f.going = v_all();
 }
 
 /* *next becomes the state behind the step; in the lanes of `last` that is near the end of the collision, and *out becomes the
  * solution. Returns an estimate of the error, in p; infinite if the end is not near. */
-always vreal end_step(int n, enum nodes nodes, stretch *p, vmask last, state *next, solution *out) {
+always vreal end_step(int n, bool turned, stretch *p, vmask last, state *next, solution *out) {
   const gauss_rule *r = rule_of(n);
   const problem *const a = p->a;
   const prediction *const g = p->g;
@@ -112,7 +114,7 @@ always vreal end_step(int n, enum nodes nodes, stretch *p, vmask last, state *ne
   const step_law l = p->l;
   directions *const f = &p->f;
   vreal dC, dZ;
-  end_iterations(n, nodes, r, p, &dC, &dZ);
+  end_iterations(n, r, p, &dC, &dZ);
 
   /* the whole step */
   reg work[MOST_REGS];
@@ -124,11 +126,11 @@ always vreal end_step(int n, enum nodes nodes, stretch *p, vmask last, state *ne
   vmask passes = v_not(s->restitution) & v_less(v_splat(0), end.v);
   if (out != NULL)
     passes = passes | (v_not(s->restitution) & last);
-  if (nodes == EVEN || v_any(passes)) {
+  if (!is_mapped(n) || v_any(passes)) {
     const vreal f_mean =
-        -a->pull_y * (nodes == EVEN ? g->z * g->t_y : Y); /* that of the prediction is known before the nodes */
+        -a->pull_y * (!is_mapped(n) ? g->z * g->t_y : Y); /* that of the prediction is known before the nodes */
     const vreal K_c =
-        nodes == EVEN ? K_at_v_0(r, n, &l, s, f_mean, f->w_y) : K_at_v_0_mapped(nodes, r, n, &p->map, &l, s, f_mean, f->w_y);
+        !is_mapped(n) ? K_at_v_0(r, n, &l, s, f_mean, f->w_y) : K_at_v_0_mapped(turned, r, n, &p->map, &l, s, f_mean, f->w_y);
     end.K_c = v_select(passes, K_c, s->K_c);
   }
   end.restitution = s->restitution | passes;
@@ -148,7 +150,7 @@ always vreal end_step(int n, enum nodes nodes, stretch *p, vmask last, state *ne
 
   /* to the end of the collision */
   vreal third_x = v_splat(0), third_y = third_x;
-  if (nodes == EVEN) {
+  if (!is_mapped(n)) {
     third_x = per_length * per_length * dot(r->third, f->s_x, n);
     third_y = per_length * per_length * dot(r->third, f->s_y, n);
   }
@@ -162,18 +164,21 @@ always vreal end_step(int n, enum nodes nodes, stretch *p, vmask last, state *ne
   } else
     left_out = way * (way * way) * v_fma(a->mu_b, at_end.bend_u, a->pull * at_end.bend_d);
   error = error + v_select(last, left_out, v_splat(0));
-  const vmask in_reach = v_less(way, (nodes == TURNED ? MOST_BEYOND_TURN : MOST_BEYOND) * l.length);
+  vmask in_reach = v_less(way, (turned ? MOST_BEYOND_TURN : MOST_BEYOND) * l.length);
+  /* The balls must not stick before the end. In planar motion u does not turn, so bend_u is 0 up to there. */
+  if (n > 4)
+    in_reach = in_reach & v_less(way * at_end.fall, v_splat(MOST_FALL));
   return v_select(in_reach | v_not(last), error, v_splat(HUGE_VALF));
 }
 
 /* All of it, with so many iterations at most. */
-always vreal take_step(int n, int most, enum nodes nodes, const problem *a, const prediction *g, const state *s, vreal length,
+always vreal take_step(int n, int most, const problem *a, const prediction *g, const state *s, vreal length,
                        const turn_plan *turn, vmask last, state *next, solution *out) {
   stretch p;
-  begin_step(n, nodes, a, g, s, length, turn, &p);
+  begin_step(n, a, g, s, length, turn, &p);
   for (int i = 0; i < most && v_any(p.f.going); i++)
-    iterate(n, nodes, rule_of(n), &p);
-  return end_step(n, nodes, &p, last, next, out);
+    iterate(n, turn != NULL, rule_of(n), &p);
+  return end_step(n, turn != NULL, &p, last, next, out);
 }
 
 /* The length of a step to the end, of which `to_end` is the way that would be left without work on friction. */

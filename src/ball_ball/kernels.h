@@ -43,6 +43,8 @@ typedef size_t carom_batch_solver(const void *in, size_t n, const carom_options 
 
 typedef struct carom_kernels {
   int lanes; /* floats in a vector */
+  /* Fewest rows of a batch for which steps in lanes take no longer than calls, in collisions of play. */
+  uint32_t fewest[CAROM_PRECISIONS];
   carom_rows_in *rows_in[CAROM_PRECISIONS];
   carom_rows_out *rows_out[CAROM_PRECISIONS];
   carom_first_step *first_step;

@@ -1,8 +1,8 @@
-/* Where the nodes of a step lie: X, the share of its length, over the variable x of the rule.
+/* Where the nodes of a step lie: X, the share of its length, over the variable x of the rule. In steps of four and six nodes X
+ * is x. Those of eight nodes have one of two maps:
  *
- *     EVEN      X = x
- *     GRADED    drawn together towards where |u| would reach zero: 1 - q X = (1 - h x)^4
- *     TURNED    drawn together where the cloth slip turns. There it passes zero at a distance delta (in p), at p_t, and its
+ *     graded    drawn together towards where |u| would reach zero: 1 - q X = (1 - h x)^4
+ *     turned    drawn together where the cloth slip turns. There it passes zero at a distance delta (in p), at p_t, and its
  *               direction t turns within a few delta. With p - p_t = delta sinh(xi), t dp/dxi is nearly a polynomial in xi,
  *               which runs evenly with x. */
 #ifndef CAROM_SRC_BALL_BALL_MESH_H
@@ -10,7 +10,11 @@
 
 #include "ball_ball/problem.h"
 
-enum nodes { EVEN, GRADED, TURNED };
+#include <stdbool.h>
+
+always bool is_mapped(int n) {
+  return n == MOST_NODES;
+}
 
 /* X at the nodes, and dX/dx where it is not 1. */
 typedef struct mesh {
@@ -23,11 +27,15 @@ typedef struct turn_plan {
   vreal at, width, length, mean_f;
 } turn_plan;
 
-/* GRADED: q, h, and X / x at x = 1 without the factors that depend on x.
- * TURNED: sinh(xi) at x = 0, xi there, its range, delta / (2 L). */
-typedef struct node_map {
-  vreal q, h, per;
-  vreal from, low, range, half;
+/* Graded: q, h, and X / x at x = 1 without the factors that depend on x.
+ * Turned: sinh(xi) at x = 0, xi there, its range, delta / (2 L). */
+typedef union node_map {
+  struct {
+    vreal q, h, per, unused;
+  };
+  struct {
+    vreal from, low, range, half;
+  };
 } node_map;
 
 static const float MOST_GRADING = 0.995f; /* q */
@@ -38,6 +46,7 @@ always node_map graded_map(vreal q) {
   const vreal y = root(root(1 - m.q));
   m.h = 1 - y;
   m.per = v_reciprocal((1 + y) * v_fma(y, y, v_splat(1)));
+  m.unused = v_splat(0);
   return m;
 }
 
@@ -52,8 +61,8 @@ always node_map turned_map(const turn_plan *p, vreal length) {
 }
 
 /* X and its slope at the nodes of a rule from 0 to a share of x. */
-always void lay_nodes(enum nodes nodes, const gauss_rule *r, int n, const node_map *m, vreal share, mesh *to) {
-  if (nodes == GRADED) {
+always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m, vreal share, mesh *to) {
+  if (!turned) {
     const vreal h = share * m->h, to_X = share * m->per;
     EACH_REG(k, n) {
       const reg x = SPREAD(AT(r->node, k)), y = MADD(-h, x, 1.0f), y2 = y * y;
@@ -71,8 +80,8 @@ always void lay_nodes(enum nodes nodes, const gauss_rule *r, int n, const node_m
 }
 
 /* x at which X has a value. */
-always vreal x_at(enum nodes nodes, const node_map *m, vreal X) {
-  if (nodes == GRADED) {
+always vreal x_at(bool turned, const node_map *m, vreal X) {
+  if (!turned) {
     const vreal y = root(root(v_fma(-m->q, X, v_splat(1))));
     return X * v_reciprocal(m->per * (1 + y) * v_fma(y, y, v_splat(1)));
   }

@@ -10,8 +10,8 @@
  * that passes through the zeros of |d|^2; with rho the sum of its half axes over the half length of the step, n Gauss nodes
  * leave out about rho^-2n. For a TURN step, whose map takes the zeros to xi = +- i pi / 2, the same holds with the range of xi.
  *
- * A step is accepted if its error estimate is below the tolerance. If it is not, a more careful kind is tried, and TURN steps
- * at half the length. After MOST_ATTEMPTS steps, or if they get too short, collocation refuses the collision, which then is for
+ * A step is accepted if its error estimate is below the tolerance. If it is not, a TURN step is tried, and then TURN steps of
+ * half the length. After MOST_ATTEMPTS steps, or if they get too short, collocation refuses the collision, which then is for
  * the fallback (fallback.c).
  *
  * The limits below were found with `carom-lab stress`, which finds them again: it prints the largest errors of what was
@@ -25,7 +25,7 @@
 
 enum { EASY_NODES = 4, FULL_NODES = 6 }; /* of STICK: stick_step.h; of all others: MOST_NODES */
 /* Iterations at most. */
-enum { EASY_MOST = 3, FULL_MOST = 4, FULL_GRADED_MOST = 5, PART_MOST = 5, TURN_MOST = 6 };
+enum { EASY_MOST = 3, FULL_MOST = 4, GRADED_MOST = 5, TURN_MOST = 6 };
 enum { MOST_ATTEMPTS = 14 };
 
 static const float EASY_SHARE = 6;         /* error of an EASY step over mu_b rho^-8 with rho for u, */
@@ -39,16 +39,22 @@ static const float STICK_Q = 1.05f; /* q from which the balls will stick */
 static const float TURN_Q = 0.5f;   /* q of a TURN step */
 static const float LEFT_Q = 0.5f;   /* q that a PART would leave; */
 static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f; /* its share of |u|, and of q */
-static const float LEAST_WIDTH = 1e-5f;                                      /* distance delta of a turn */
-static const float WIDEST_RANGE = 4.5f;                                      /* of xi of a TURN step */
-static const float TURN_SHARE = 350;                                         /* its error over (mu mu_b sigma)^2 L rho^-16 */
-static const float LEAST_SHARE = 0.1f;                                       /* of its usual length */
+static const float LEAST_WIDTH = 1e-5f, LEAST_WIDTH_SENSITIVE = 1e-3f; /* distance delta of a turn; of sensitive collisions */
+static const float WIDEST_RANGE = 4.5f;                                /* of xi of a TURN step */
+static const float TURN_SHARE = 350;                                   /* its error over (mu mu_b sigma)^2 L rho^-16 */
+static const float LEAST_SHARE = 0.1f;                                 /* of its usual length */
 
 /* After refusals of steps from a state. */
 typedef struct progress {
   vreal share;   /* of the usual length that a TURN step may have */
-  vreal caution; /* 1: not EASY, and not to stick; 2: over graded nodes; 3: not to the end but by TURN; 4: TURN */
+  vmask careful; /* a step was refused: only TURN steps now */
 } progress;
+
+#define apart static __attribute__((noinline)) /* the inlined text of a step is long */
+
+always vreal mark(vmask m, enum step_kind kind, vreal otherwise) {
+  return v_select(m, v_splat((float)kind), otherwise);
+}
 
 always vreal power_4(vreal x) {
   return (x * x) * (x * x);
@@ -130,8 +136,10 @@ always turn_plan plan_turn(const problem *a, const state *s, const prediction *g
   const vmask whole = v_less_equal(range, widest);
   p.length = v_select(whole, reach, v_min(bound, reach));
   *last = whole & v_less(q, v_splat(TURN_Q)) & v_less_equal(one, so_far->share);
-  *refused = v_less(so_far->share, v_splat(LEAST_SHARE)) |
-             (v_less(width, v_splat(LEAST_WIDTH)) & v_not(rests) & v_less(v_splat(0), at) & v_less(at, reach));
+  /* the turn is too sharp, and lies on the step or, in a sensitive collision, shortly before it */
+  const vreal least = v_select(a->sensitive, v_splat(LEAST_WIDTH_SENSITIVE), v_splat(LEAST_WIDTH));
+  const vmask on_step = v_less(v_select(a->sensitive, -least, v_splat(0)), at) & v_less(at, reach);
+  *refused = v_less(so_far->share, v_splat(LEAST_SHARE)) | (v_less(width, least) & v_not(rests) & on_step);
   /* the mean of t_y on the straight way, and with it of f */
   const vreal along = root(v_fma(a_1, a_1, one)) - root(v_fma(a_0, a_0, one)),
               across = v_select(v_less(side, v_splat(0)), v_x, -v_x) * range;
@@ -157,59 +165,99 @@ always vreal part_length(const prediction *g, vreal to_end) {
   return part_share(g->rate * to_end) * v_reciprocal(g->rate);
 }
 
-/* The kind of step for a state that is not easy: FULL, over graded nodes where `graded`; to STICK; a PART; or else TURN. *g:
- * the way ahead. */
-typedef struct choice {
-  vmask full, stick, part, graded;
-} choice;
-
-always choice choose(const problem *a, const state *s, const prediction *g, vreal to_end, vreal inverse,
-                     const progress *so_far) {
-  const vreal q = g->rate * to_end, to_stick = v_reciprocal(g->rate), u = v_reciprocal(g->inverse_u);
-  choice c;
-  c.full = v_less(so_far->caution, v_splat(3)) & v_less(q, v_splat(FULL_GRADED_Q)) & is_smooth(8, a, g, to_end, inverse);
-  c.graded = c.full & (v_less(v_splat(FULL_Q), q) | v_less(v_splat(1), so_far->caution) |
-                       v_not(is_smooth(FULL_NODES, a, g, to_end, inverse)));
-  c.stick = v_less(so_far->caution, v_splat(1)) & v_less(v_splat(STICK_Q), q) &
-            v_less(u * stick_error(a, s, g, inverse), a->tolerance);
-  c.part = v_less(so_far->caution, v_splat(4)) & v_less_equal(v_splat(TURN_Q), q) & v_not(c.stick | c.full);
-  if (v_any(c.part)) {
-    const vreal length = part_share(q) * to_stick;
-    c.part = c.part & is_smooth(8, a, g, length, inverse_rho(a, s, g, length));
+/* The kind of the next step, a step_kind as a number. *g: the way to the end, with `inverse` rho ahead. `fresh`: the state is
+ * that at the start, which is not easy. */
+always vreal next_kind(const problem *a, const state *s, const prediction *g, vreal to_end, vreal inverse, vmask careful,
+                       bool fresh, prediction *ahead) {
+  *ahead = look_ahead(a, s, g, to_end);
+  const vreal q = ahead->rate * to_end, u = v_reciprocal(ahead->inverse_u);
+  /* to the end, over even nodes if six are enough; or to stick */
+  const vmask full = v_less(q, v_splat(FULL_GRADED_Q)) & is_smooth(MOST_NODES, a, ahead, to_end, inverse);
+  const vmask even = full & v_less_equal(q, v_splat(FULL_Q)) & is_smooth(FULL_NODES, a, ahead, to_end, inverse);
+  const vmask stick = v_less(v_splat(STICK_Q), q) & v_less(u * stick_error(a, s, ahead, inverse), a->tolerance);
+  vmask part = v_less_equal(v_splat(TURN_Q), q) & v_not(stick | full | careful);
+  if (v_any(part)) {
+    const vreal length = part_length(ahead, to_end);
+    part = part & is_smooth(MOST_NODES, a, ahead, length, inverse_rho(a, s, ahead, length));
   }
-  return c;
-}
-
-/* After a step of a kind that was refused. */
-always progress after_refusal(const progress *so_far, enum step_kind kind) {
-  const float caution = kind == EASY || kind == STICK ? 1 : kind == FULL ? 2 : kind == FULL_GRADED ? 3 : 4;
-  return (progress){.share = kind == TURN ? 0.5f * so_far->share : so_far->share, .caution = v_splat(caution)};
+  /* the first of these that is possible */
+  vreal kind = mark(part, PART, v_splat((float)TURN));
+  kind = mark(stick, STICK, kind);
+  kind = mark(full, FULL_GRADED, kind);
+  kind = mark(even, FULL, kind);
+  if (!fresh)
+    kind = mark(is_easy(a, g, to_end, inverse), EASY, kind);
+  return mark(careful, TURN, kind);
 }
 
 /* ---- The kinds of steps ------------------------------------------------------------------------------------------------ */
 
-#define apart static __attribute__((noinline)) /* the inlined text of a step is long */
-
 apart vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return take_step(EASY_NODES, EASY_MOST, EVEN, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
+  return take_step(EASY_NODES, EASY_MOST, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
 }
 apart vreal take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return take_step(FULL_NODES, FULL_MOST, EVEN, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
+  return take_step(FULL_NODES, FULL_MOST, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
 }
-apart vreal take_graded_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return take_step(MOST_NODES, FULL_GRADED_MOST, GRADED, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
-}
-apart vreal take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
-  return stick_step(a, g, s, out);
-}
-apart vreal take_part(const problem *a, vreal length, const state *s, state *next) {
-  const prediction g = predict(a, s, length);
-  return take_step(MOST_NODES, PART_MOST, GRADED, a, &g, s, length, NULL, v_not(v_all()), next, NULL);
+apart vreal take_graded_step(const problem *a, const prediction *g, vreal length, vmask last, const state *s, state *next,
+                             solution *out) {
+  return take_step(MOST_NODES, GRADED_MOST, a, g, s, length, NULL, last, next, out);
 }
 apart vreal take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
   const prediction g = predict(a, s, p->length);
   const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
-  return take_step(MOST_NODES, TURN_MOST, TURNED, a, &g, s, length, p, last, next, out);
+  return take_step(MOST_NODES, TURN_MOST, a, &g, s, length, p, last, next, out);
+}
+apart vreal take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
+  return stick_step(a, g, s, out);
+}
+
+/* A collision between two steps, and what it becomes. */
+typedef struct course {
+  state s;
+  vreal to_end;
+  prediction g; /* for the way to the end */
+  progress so_far;
+} course;
+
+/* Takes a step of a kind. Returns the lanes in which it was accepted. last: the lanes in which it ends the collision, with the
+ * solution in *out if it is accepted; in the others, *c goes on behind it. Where it is refused, *c is told to be more careful.
+ * impossible: the lanes that collocation cannot solve. */
+always vmask take(enum step_kind kind, const problem *a, const prediction *ahead, course *c, vmask *last, vmask *impossible,
+                  solution *out) {
+  const state *const s = &c->s;
+  const vreal to_end = c->to_end;
+  state next;
+  vreal error;
+  *last = v_all();
+  *impossible = v_not(v_all());
+  if (kind == EASY)
+    error = take_easy_step(a, &c->g, to_end, s, out);
+  else if (kind == FULL)
+    error = take_full_step(a, ahead, to_end, s, out);
+  else if (kind == STICK)
+    error = take_stick_step(a, ahead, s, out);
+  else if (kind == FULL_GRADED)
+    error = take_graded_step(a, ahead, length_to_end(a, ahead, to_end), *last, s, &next, out);
+  else if (kind == PART) {
+    const vreal length = part_length(ahead, to_end);
+    const prediction g = predict(a, s, length);
+    *last = v_not(v_all());
+    error = take_graded_step(a, &g, length, *last, s, &next, out);
+  } else {
+    const turn_plan p = plan_turn(a, s, ahead, to_end, &c->so_far, last, impossible);
+    error = take_turn_step(a, &p, *last, s, &next, out);
+  }
+  const vmask accepted = v_less(error, a->tolerance) & v_not(*impossible);
+  if (kind == PART || kind == TURN) {
+    const vmask moved_on = accepted & v_not(*last);
+    c->s = choose_state(moved_on, &next, s);
+    c->to_end = way_to_end(a, &c->s);
+    c->g = predict(a, &c->s, c->to_end);
+    c->so_far.share = v_select(moved_on, v_splat(1), kind == TURN ? 0.5f * c->so_far.share : c->so_far.share);
+    c->so_far.careful = v_not(moved_on);
+  } else
+    c->so_far.careful = v_all();
+  return accepted;
 }
 
 #endif

@@ -20,6 +20,8 @@ typedef struct problem {
   vreal pull, pull_y; /* mu mu_b; mu mu_b / kappa */
   float spin;         /* 5/2 s */
   vreal tolerance;    /* of a step's error estimate, in p */
+  vreal rest;         /* square of the mu mu_b |d| below which the cloth slip does not matter */
+  vmask sensitive;    /* see is_sensitive() */
 } problem;
 
 /* What moves, number by number or as columns. */
@@ -36,6 +38,13 @@ typedef struct state {
   };
   vmask restitution; /* v = 0 has been passed */
 } state;
+
+always state choose_state(vmask m, const state *yes, const state *no) {
+  state s;
+  lanes_unrolled for (int c = 0; c < STATE_COLUMNS; c++) s.column[c] = v_select(m, yes->column[c], no->column[c]);
+  s.restitution = (m & yes->restitution) | (v_not(m) & no->restitution);
+  return s;
+}
 
 /* What comes of it: those integrals over the whole collision, p beyond 1 + e, p where the balls stuck (-1: they did not), K_c.
  */
@@ -55,12 +64,22 @@ always vreal inverse_length(vreal x, vreal y) {
   return v_reciprocal_sqrt(v_fma(x, x, v_fma(y, y, v_splat(TINY))));
 }
 
-static const float AT_REST =
-    0.03f; /* mu mu_b |d|, over the tolerance, of a ball that slips so little that it does not matter */
+/* A pressed ball is at rest on the cloth if mu mu_b |d| is below this share of the tolerance; in sensitive collisions, if its
+ * square is below this number, which holds of a ball that lies still. */
+static const float AT_REST = 0.03f, AT_REST_SENSITIVE = 1e-26f;
 
 always vmask is_at_rest(const problem *a, const state *s) {
-  const vreal limit = AT_REST * a->tolerance;
-  return v_less(a->pull * a->pull * v_fma(s->d_x, s->d_x, s->d_y * s->d_y), limit * limit);
+  return v_less(a->pull * a->pull * v_fma(s->d_x, s->d_x, s->d_y * s->d_y), a->rest);
+}
+
+/* Is the result sensitive to the direction t of the cloth slip where |d| is small? With pooltool's slip, friction of the cloth
+ * drives d along t, by own = (5/2 s - 1) mu mu_b per p, and friction of the balls drives it in one direction, by
+ * 1 - 5/2 s mu_b or more. While |d| grows at the rate drift, the difference of the two, an error of t decreases only like
+ * |d|^(own / drift - 1), and an error of d made at |d| = w reaches the result multiplied by w^(-own / drift). */
+static const float SENSITIVE = 0.12f; /* own / drift; at twice this, errors of 1e-6 occur in collisions of play */
+always vmask is_sensitive(const problem *a) {
+  const vreal own = (a->spin - 1) * a->pull, drift = v_fma(v_splat(-a->spin), a->mu_b, 1 - own);
+  return v_less(SENSITIVE * drift, own);
 }
 
 always prediction predict(const problem *a, const state *s, vreal length) {
@@ -115,6 +134,9 @@ always problem problem_of(in_column *columns, float spin, float tolerance) {
   a.per_kappa = v_reciprocal(a.kappa);
   a.pull = a.mu * a.mu_b;
   a.pull_y = a.pull * a.per_kappa;
+  a.sensitive = is_sensitive(&a);
+  a.tolerance = v_select(a.sensitive, 0.5f * a.tolerance, a.tolerance);
+  a.rest = v_select(a.sensitive, v_splat(AT_REST_SENSITIVE), (AT_REST * a.tolerance) * (AT_REST * a.tolerance));
   return a;
 }
 

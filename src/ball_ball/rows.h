@@ -74,12 +74,12 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
   out[IN_E] = e;
 
   const vreal fastest = v_max(v_max(v_abs(out[IN_U_X]), out[IN_U_Z]), v_max(v_abs(out[IN_D_X]), v_abs(out[IN_D_Y])));
-  /* how much faster the collision takes the slip on the cloth along than friction does, which else would choose its direction
-   */
+  /* The rate at which the collision drives the slip on the cloth, less that at which its own friction does. It must be well
+   * above 0, else friction would choose the direction of the slip, and twice that friction: see is_sensitive(). */
   const vreal drift = s < 0 ? v_splat(1) : 1 - mu_b * ((real)2.5 + (real)1.5 * mu);
-  const vmask in_range = v_less(v_splat(LEAST_DRIFT), drift) & v_less(v_splat(LEAST_APPROACH), r->approach) &
-                         v_less(r->approach, v_splat(MOST_APPROACH)) & v_less(fastest, v_splat(MOST_SLIP)) &
-                         v_less(v_splat(LEAST_E), e) & v_less(mu_b, v_splat(MOST_MU_B)) &
+  const vmask in_range = v_less(v_splat(LEAST_DRIFT), drift) & v_less(3 * mu * mu_b, drift) &
+                         v_less(v_splat(LEAST_APPROACH), r->approach) & v_less(r->approach, v_splat(MOST_APPROACH)) &
+                         v_less(fastest, v_splat(MOST_SLIP)) & v_less(v_splat(LEAST_E), e) & v_less(mu_b, v_splat(MOST_MU_B)) &
                          v_less(mu * mu_b, v_splat(MOST_PULL)) & v_less(v_splat(LEAST_MARGIN), kappa - mu) &
                          v_less(v_splat(LEAST_RATIO), ratio) & v_less(ratio, v_splat(MOST_RATIO));
   lanes_unrolled for (int k = 0; k < 2; k++) {

@@ -2,9 +2,9 @@
  * Only Euler's method in single precision is computed otherwise in lanes than alone: there each row has the bits of a batch of
  * one.
  *
- * All sizes from 0 to beyond three vectors, rows in error and rows of junk between good ones, all regimes side by side, batches
- * cut at random places, in random order, over any number of threads. Arrays end where memory ends, so that reading or writing
- * past them is seen, and begin at odd places. */
+ * All sizes from 0 to a vector more than what is solved by calls, rows in error and rows of junk between good ones, all regimes
+ * side by side, batches cut at random places, in random order, over any number of threads. Arrays end where memory ends, so
+ * that reading or writing past them is seen, and begin at odd places. */
 #include "cases.h"
 #include "regimes.h"
 #include "support.h"
@@ -16,7 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDEST = 16, MOST = 3 * WIDEST + 1, MANY = 29000 };
+/* FEWEST: rows from which on every batch is solved in lanes; kernels.c has the numbers of each instruction set. */
+enum { WIDEST = 16, FEWEST = 80, MOST = FEWEST + WIDEST + 1, MANY = 29000 };
 
 /* ---- Both precisions by the same calls */
 

@@ -70,7 +70,7 @@ static int draws_per_regime(void) {
   return draws > 0 ? draws : 1;
 }
 
-enum { FILL = 64 }; /* more than the lanes of any instruction set */
+enum { FILL = 96 }; /* rows of a batch that every instruction set solves in lanes */
 
 typedef struct tally {
   int count, above_1e6;
