@@ -79,7 +79,7 @@ static void expect_in_single(const carom_impact *in, carom_slip slip, const char
   }
   for (int row = 1; row < FILL; row++)
     rows[row] = rows[0];
-  const bool known = of_play(&wide) && oracle_collide(&wide, carom_spin_sign(slip), &exact, NULL) == 0;
+  const bool known = of_play(&wide) && reference_collide(&wide, slip, &exact, NULL) == REFERENCE_OK;
   FOR_EACH_ISA(isa) {
     const carom_status status = carom_collide_f32(&rows[0], &options, &out);
     ck_assert_int_eq(carom_collide_batch_f32(rows, FILL, &options, many, NULL), status);
@@ -255,7 +255,7 @@ static carom_impact planar_impact(random_source *source, double s, bool play, bo
 }
 
 /* Bits of batches and calls are equal; errors against the precise solver, and where that differs, or is unresolved, against the
- * oracle. Returns the number of collisions that were solved. */
+ * reference. Returns the number of collisions that were solved. */
 static int expect_planar(random_source *source, carom_slip slip, bool play, bool stick, bool pass) {
   const carom_options options = options_for(slip);
   const double s = carom_spin_sign(slip);
@@ -271,9 +271,9 @@ static int expect_planar(random_source *source, carom_slip slip, bool play, bool
       ((float *)&narrow[k])[c] = (float)((const double *)&rows[k])[c];
       ((double *)&wide[k])[c] = ((const float *)&narrow[k])[c];
     }
-    if (solve_precisely(&rows[k], slip, &right[0][k]) != CAROM_OK)
+    if (collide_precisely(&rows[k], slip, PRECISELY, &right[0][k]) != CAROM_OK)
       right[0][k].a.v[0] = NAN;
-    if (solve_precisely(&wide[k], slip, &right[1][k]) != CAROM_OK)
+    if (collide_precisely(&wide[k], slip, PRECISELY, &right[1][k]) != CAROM_OK)
       right[1][k].a.v[0] = NAN;
   }
   FOR_EACH_ISA(isa) {
@@ -293,7 +293,7 @@ static int expect_planar(random_source *source, carom_slip slip, bool play, bool
         for (int c = 0; single && c < 12; c++)
           ((double *)&alone)[c] = ((const float *)&alone_f32)[c];
         double error = result_distance(&alone, &right[single][k], in->a.radius);
-        if (!(error <= bound) && oracle_collide(in, s, &right[single][k], NULL) == 0)
+        if (!(error <= bound) && reference_collide(in, slip, &right[single][k], NULL) == REFERENCE_OK)
           error = result_distance(&alone, &right[single][k], in->a.radius);
         ck_assert_msg(error <= bound, "slip %d, stick %d, pass %d%s: %g off with %s, mu_b %.17g mu %.17g e %.17g", slip, stick,
                       pass, single ? ", in single precision" : "", error, carom_isa_name((carom_isa)isa), in->mu_ball,
