@@ -132,7 +132,7 @@ carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k) 
                              .mu_cushion = any ? regimes_uniform(&state, 0, 1) : regimes_uniform(&state, 0.1, 0.4),
                              .restitution = any ? regimes_uniform(&state, 0, 1) : regimes_uniform(&state, 0.6, 1),
                              .jaw_radius = regimes_uniform(&state, 0, 1) < 0.5 ? 0 : regimes_uniform(&state, 0.005, 0.03)};
-  in.height = in.radius * (any ? regimes_uniform(&state, 0.9, 1.6) : regimes_uniform(&state, 1.2, 1.45));
+  in.height = in.radius * (any ? regimes_uniform(&state, 0.05, 1.95) : regimes_uniform(&state, 1.2, 1.45));
   for (int c = 0; c < 3; c++)
     in.w[c] = regimes_uniform(&state, -spin, spin);
   const double what = regimes_uniform(&state, 0, 1);

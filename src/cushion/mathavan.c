@@ -6,8 +6,7 @@
  *     c_x' = (1 - 5/2 sin) f_x + 7/2 F_x            c_y' = -cos + (5/2 - sin) f_t + 7/2 F_y
  *     v_y' = -cos - sin f_t + F_y
  *
- * and vertical forces balance at the cloth: its load is sin - cos f_t. Unlike the paper's, the cloth is not loaded by the
- * ball's weight, and never pulls. */
+ * and vertical forces balance at the cloth: its load is sin - cos f_t, but never below 0: the cloth does not pull. */
 #include "cushion/mathavan.h"
 
 #include "cushion/models.h"

@@ -32,6 +32,7 @@ static const double SLOW = 0.5;          /* rate of a slip over that by friction
 static const double CAREFUL_SHARE = 0.6; /* of the way to a slip of zero, for a careful step */
 static const double AT_ONCE = 1e-9;      /* share of a step at which an event happens where the step begins */
 static const double MOST_GROWTH = 6.9;   /* carom_point.growth: log of 1000 */
+static const double AGAIN = 1e-6;        /* v in restitution of a ball that approaches again: a second compression */
 enum {
   MOST_REFUSALS = 6,         /* in a row, before steps become careful; */
   MOST_CAREFUL_REFUSALS = 30 /* and before careful ones give up */
@@ -88,23 +89,30 @@ static void begin_step(const carom_trajectory *path, double to, beginning *s) {
   /* the rates */
   s->w = (k->w_0 + k->w_u * s->u_y) / (1 - k->w_t * s->t_y);
   const double x = s->w * s->t_x, y = s->w * s->t_y;
-  s->a_x = k->S_x * s->u_x - k->C_x * x;
-  s->a_y = k->A_0 + k->S_y * s->u_y - k->C_y * y;
-  s->b_x = k->R_x * s->u_x - k->H_x * x;
-  s->b_y = k->B_0 + k->R_y * s->u_y - k->H_y * y;
-  s->v = k->V_0 + k->V_u * s->u_y - k->V_w * y;
-  s->line_x = s->b_x + 0.5 * k->H_x * x;
-  s->line_y = s->b_y + 0.5 * k->H_y * y;
-  /* the end of the phase if v' were constant; or what comes before it */
+  s->da_x = k->S_x * s->u_x - k->C_x * x;
+  s->da_y = k->A_0 + k->S_y * s->u_y - k->C_y * y;
+  s->db_x = k->R_x * s->u_x - k->H_x * x;
+  s->db_y = k->B_0 + k->R_y * s->u_y - k->H_y * y;
+  s->dv = k->V_0 + k->V_u * s->u_y - k->V_w * y;
+  s->line_x = s->db_x + 0.5 * k->H_x * x;
+  s->line_y = s->db_y + 0.5 * k->H_y * y;
+  /* the end of the phase if v' were constant; or what comes before it. Friction of a steep nose may push the ball on, v' > 0,
+   * until slip has changed: then no end is in sight, and a step may go as far as slip lasts */
   if (path->restitution) {
     s->goal = AT_WORK;
     s->target = work_end(path);
-    const double missing = s->target - at->W;
-    s->to_goal = 2 * missing / (at->v - sqrt(most_of(at->v * at->v + 2 * s->v * missing, 0)));
+    const double missing = s->target - at->W, square = at->v * at->v + 2 * s->dv * missing;
+    s->to_goal = square > 0 || s->dv < 0 ? 2 * missing / (at->v - sqrt(most_of(square, 0))) : INFINITY;
   } else {
     s->goal = AT_END_OF_APPROACH;
     s->target = 0;
-    s->to_goal = -at->v / s->v;
+    s->to_goal = s->dv < 0 ? -at->v / s->dv : INFINITY;
+  }
+  if (s->to_goal == INFINITY) {
+    s->goal = AT_LENGTH;
+    s->to_goal = most_of(s->r / (fabs(s->da_x) + fabs(s->da_y)), s->q / (fabs(s->db_x) + fabs(s->db_y)));
+    if (!(s->to_goal > 0 && s->to_goal < 1))
+      s->to_goal = 1;
   }
   if (to - at->p < s->to_goal) {
     s->goal = AT_P;
@@ -122,7 +130,7 @@ static void begin_step(const carom_trajectory *path, double to, beginning *s) {
 
 /* Directions to begin with: both slips along straight lines. */
 static void aim_u(plan *n, const carom_point *at, const beginning *s) {
-  aim(&n->s, at->a_x, at->a_y, s->a_x, s->a_y, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
+  aim(&n->s, at->a_x, at->a_y, s->da_x, s->da_y, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
 }
 
 static void aim_t(plan *n, const carom_point *at, const beginning *s) {
@@ -141,9 +149,9 @@ static void plan_carefully(const carom_trajectory *path, const beginning *s, pla
   double length = s->to_goal;
   n->s.goal = s->goal;
   if (slips(path) && s->r > 0)
-    limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->a_x) + fabs(s->a_y) + DBL_MIN));
+    limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->da_x) + fabs(s->da_y) + DBL_MIN));
   if (path->regime.loaded && s->q > 0)
-    limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->b_x) + fabs(s->b_y) + DBL_MIN));
+    limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->db_x) + fabs(s->db_y) + DBL_MIN));
   even_map(&n->s, length);
   n->kind = !slips(path) ? held_exact : path->regime.loaded ? exact_in_both : exact_unloaded;
   aim_u(n, &path->at, s);
@@ -156,13 +164,13 @@ static bool cloth_is_stiff(const carom_trajectory *path, const beginning *s) {
   if (!path->regime.loaded || friction * s->to_goal < STIFF * s->q)
     return false;
   if (s->q == 0)
-    return fabs(s->b_x) + fabs(s->b_y) < SLOW * friction || path->regime.held;
-  const double along = s->t_x * s->b_x + s->t_y * s->b_y, across = s->t_x * s->b_y - s->t_y * s->b_x;
+    return fabs(s->db_x) + fabs(s->db_y) < SLOW * friction || path->regime.held;
+  const double along = s->t_x * s->db_x + s->t_y * s->db_y, across = s->t_x * s->db_y - s->t_y * s->db_x;
   return fabs(across) < ALIGNED * friction && fabs(along) < SLOW * friction;
 }
 
 static void plan_stiff_cloth(const carom_trajectory *path, const beginning *s, plan *n) {
-  const double along = s->t_x * s->b_x + s->t_y * s->b_y;
+  const double along = s->t_x * s->db_x + s->t_y * s->db_y;
   double length = s->to_goal;
   n->s.goal = s->goal;
   if (s->q > 0 && along < 0 && length > -0.95 * s->q / along) {
@@ -170,7 +178,7 @@ static void plan_stiff_cloth(const carom_trajectory *path, const beginning *s, p
     n->s.goal = AT_CLOTH_STICK;
   }
   if (slips(path) && s->r > 0)
-    limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->a_x) + fabs(s->a_y) + DBL_MIN));
+    limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->da_x) + fabs(s->da_y) + DBL_MIN));
   even_map(&n->s, length);
   n->kind = slips(path) ? exact_in_both : held_exact;
   aim_u(n, &path->at, s);
@@ -190,7 +198,7 @@ static void plan_held(const carom_trajectory *path, const beginning *s, plan *n)
 
 /* a is quasi-steady, or begins. */
 static void plan_stiff(const carom_trajectory *path, const beginning *s, const closed_form *c, plan *n) {
-  const double along = s->u_x * s->a_x + s->u_y * s->a_y;
+  const double along = s->u_x * s->da_x + s->u_y * s->da_y;
   double length = s->to_goal;
   n->s.goal = s->goal;
   if (fabs(c->sine) * s->r > NEGLIGIBLE)
@@ -200,7 +208,7 @@ static void plan_stiff(const carom_trajectory *path, const beginning *s, const c
     n->s.goal = AT_STICK;
   }
   if (path->regime.loaded && passage_of_b(&path->at, &path->terms, s, length).near)
-    limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->b_x) + fabs(s->b_y)));
+    limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->db_x) + fabs(s->db_y)));
   even_map(&n->s, length);
   n->kind = path->regime.loaded ? exact_in_a : exact_unloaded;
   aim(&n->s, 0, 0, 0, 0, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
@@ -215,14 +223,14 @@ static void plan_sliding(const carom_trajectory *path, const beginning *s, plan 
   }
   n->kind = path->regime.loaded ? sliding : sliding_unloaded;
   n->s.goal = s->goal;
-  const double along = s->u_x * s->a_x + s->u_y * s->a_y;
+  const double along = s->u_x * s->da_x + s->u_y * s->da_y;
   passage g = {.near = false};
   if (path->regime.loaded)
     g = passage_of_b(&path->at, &path->terms, s, s->to_goal);
   if (g.near) {
     /* a changes little in the step */
     double length = s->to_goal;
-    limit(&length, &n->s.goal, 0.7 * s->r / (fabs(s->a_x) + fabs(s->a_y)));
+    limit(&length, &n->s.goal, 0.7 * s->r / (fabs(s->da_x) + fabs(s->da_y)));
     if (!sinh_map(&n->s, &g, length))
       n->s.goal = AT_LENGTH;
     aim_u(n, &path->at, s);
@@ -261,16 +269,14 @@ static bool tidy(carom_trajectory *path, const carom_point *before) {
 /* All rates are constant: on to the goal, or to where a slip is zero. Returns whether that is the goal. */
 static bool go_straight(carom_trajectory *path, const beginning *s) {
   carom_point *at = &path->at;
-  const double to_a = slips(path) && at->a_y * s->a_y < 0 ? -at->a_y / s->a_y : INFINITY;
-  const double to_b = path->regime.loaded && at->b_y * s->b_y < 0 ? -at->b_y / s->b_y : INFINITY;
+  const double to_a = slips(path) && at->a_y * s->da_y < 0 ? -at->a_y / s->da_y : INFINITY;
+  const double to_b = path->regime.loaded && at->b_y * s->db_y < 0 ? -at->b_y / s->db_y : INFINITY;
   const double length = least(s->to_goal, least(to_a, to_b));
-  at->W += length * (at->v + 0.5 * s->v * length);
-  at->v += s->v * length;
+  at->W += length * (at->v + 0.5 * s->dv * length);
+  at->v += s->dv * length;
   at->p += length;
-  at->a_x += s->a_x * length;
-  at->a_y = length == to_a ? 0 : at->a_y + s->a_y * length;
-  at->b_x += s->b_x * length;
-  at->b_y = length == to_b ? 0 : at->b_y + s->b_y * length;
+  at->a_y = length == to_a ? 0 : at->a_y + s->da_y * length;
+  at->b_y = length == to_b ? 0 : at->b_y + s->db_y * length;
   path->iterations++;
   return length == s->to_goal;
 }
@@ -294,7 +300,7 @@ static bool next_step(carom_trajectory *path, double to) {
   const carom_point before = path->at;
   const bool planar = before.a_x == 0 && before.b_x == 0 && s.u_x == 0 && s.t_x == 0;
   if (planar || (!slips(path) && !path->regime.loaded)) {
-    if (go_straight(path, &s) && s.goal != AT_P)
+    if (go_straight(path, &s) && (s.goal == AT_END_OF_APPROACH || s.goal == AT_WORK))
       end_phase(path);
     return !tidy(path, &before) || carom_impact_regime(path, false);
   }
@@ -316,20 +322,16 @@ static bool next_step(carom_trajectory *path, double to) {
   if (r == TAKEN) {
     path->longest = INFINITY;
     path->refusals = 0;
-    if (n.s.goal == AT_STICK || n.s.goal == AT_CLOTH_STICK || n.s.goal == AT_EVENT) {
-      path->event_at = INFINITY;
+    if (n.s.goal == AT_STICK || n.s.goal == AT_CLOTH_STICK || n.s.goal == AT_EVENT)
       return carom_impact_regime(path, n.s.goal == AT_EVENT);
-    }
     if (n.s.goal == AT_END_OF_APPROACH || n.s.goal == AT_WORK)
       end_phase(path);
     return !tidy(path, &before) || carom_impact_regime(path, false);
   }
   if (r == EVENT_WITHIN) {
     path->event_at = path->at.p + advice;
-    if (advice < AT_ONCE * s.to_goal) {
-      path->event_at = INFINITY;
+    if (advice < AT_ONCE * s.to_goal)
       return carom_impact_regime(path, true);
-    }
   } else /* the error is of order 16 in the length */
     path->longest = n.s.length * (r == INACCURATE && advice < 1e12 ? most_of(0.3, 0.9 / sqrt(sqrt(sqrt(sqrt(advice))))) : 0.5);
   path->refusals++;
@@ -343,7 +345,8 @@ static bool next_step(carom_trajectory *path, double to) {
 
 carom_status CAROM_IMPACT_ADVANCE(carom_trajectory *path, double to, int most) {
   while (!path->ended && path->at.p < to) {
-    if (path->iterations >= most || !next_step(path, to) || !(path->at.growth <= MOST_GROWTH))
+    if (path->iterations >= most || !next_step(path, to) || !(path->at.growth <= MOST_GROWTH) ||
+        (path->restitution && path->at.v > AGAIN))
       return CAROM_ERROR_UNRESOLVED;
     if (path->regime.held && isnan(path->p_stick))
       path->p_stick = path->at.p;

@@ -16,8 +16,9 @@
  * all is symmetric about the y axis, and so are the directions.
  *
  * UNSTABLE. Where H < 0 friction drives the slip on the cloth. Let it begin at b = 0 with the rate d without friction, and let
- * friction alone have the rate h. A slip that is not zero but an error e goes on in its own direction if h > d, and grows to
- * e^(1 - h/d) if not: where h is more than MOST_AMPLIFIED times d - h, rounding errors would decide, and there is no result.
+ * friction alone have the rate h. A slip that is not zero but an error e goes on in its own direction if h > d. If not, its
+ * component across d grows like |b|^(h / (d + h)), to e^(d / (d + h)). At h = MOST_DRIVEN d a rounding error of 1e-16 becomes
+ * 2.5e-10; beyond that there is no result.
  *
  * A frictionless contact has no direction and no cone. */
 #include "impact/impact.h"
@@ -26,7 +27,7 @@
 
 static const double EDGE = 1e-9;          /* share of the cone that is not used */
 static const double BACKWARDS = 1e-6;     /* rate of a slip that begins at the edge of the cone */
-static const double MOST_AMPLIFIED = 2;   /* exponent of an error: see the head */
+static const double MOST_DRIVEN = 2. / 3; /* h / d: see the head */
 static const double NEARLY_JAMMED = 5e-8; /* v and both slips together, of a ball that is about to be jammed */
 enum { DIRECTIONS = 64, BISECTIONS = 50 };
 static const double STEP_COSINE = 0x1.fd88da3d12526p-1, STEP_SINE = 0x1.917a6bc29b42cp-4; /* of 360 / DIRECTIONS degrees */
@@ -80,7 +81,7 @@ static bool within(pair f, double mu) {
   return size(f) <= (1 - EDGE) * mu;
 }
 
-/* u x a'(u), and u . a'(u), with the slip on the cloth along t. */
+/* a'(u) x u, and u . a'(u), with the slip on the cloth along t. */
 static double across(const carom_law *l, pair u, pair t, double *along) {
   const pair f = {-l->mu * u.x, -l->mu * u.y}, rate = driving_rate(l, f, cloth_friction(l, f, t));
   *along = u.x * rate.x + u.y * rate.y;
@@ -88,7 +89,7 @@ static double across(const carom_law *l, pair u, pair t, double *along) {
 }
 
 /* The direction in which a slip begins at the driving contact, which the friction `hold` cannot hold: of those to which
- * friction rotates u, where u x a' falls through zero clockwise, the one in which the slip grows fastest. */
+ * friction rotates u, where a' x u falls through zero clockwise, the one in which the slip grows fastest. */
 static pair leaves(const carom_law *l, pair t, pair hold) {
   /* mirrored, so that t.x >= 0: mirrored impacts have mirrored results */
   const double side = t.x < 0 ? -1 : 1;
@@ -190,7 +191,7 @@ static bool choose(const carom_law *l, const carom_point *at, bool event, carom_
     r->loaded = !r->cloth_held;
     const pair drive = cloth_drive(l, f), lead = direction(drive, (pair){0, -1});
     const double driven = -l->H * l->mu_c * load(l, f.y);
-    if (r->loaded && driven > MOST_AMPLIFIED * (size(drive) - driven))
+    if (r->loaded && driven > MOST_DRIVEN * size(drive))
       return false;
     r->t_x = lead.x;
     r->t_y = lead.y;
@@ -274,5 +275,6 @@ bool carom_impact_regime(carom_trajectory *way, bool event) {
   if (!choose(&way->law, &way->at, event, &way->regime))
     return false;
   way->terms = terms_of(&way->law, &way->regime);
+  way->event_at = INFINITY;
   return true;
 }

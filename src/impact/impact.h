@@ -73,7 +73,8 @@ enum { CAROM_IMPACT_ITERATIONS = 400 };
 /* The impulses so far. */
 carom_impulses carom_impact_impulses(const carom_trajectory *path);
 
-/* int |v| dp so far: the work of the normal force, over the mass and the square of the speed of approach. */
+/* int |v| dp so far: the work of the normal force over the mass and the square of the speed of approach; for a cushion, over
+ * the cosine of the nose's angle too. */
 double carom_impact_work(const carom_trajectory *path);
 
 /* The regime that begins at path->at, into path->regime and path->terms. event: that of the last regime has ended it. False if

@@ -25,12 +25,12 @@ static const double SINH_LENGTH = 3;                          /* length of a ste
 
 /* What a step begins with. */
 typedef struct beginning {
-  double r, q;                     /* |a|, |b| */
-  double u_x, u_y, t_x, t_y;       /* their directions */
-  double w, a_x, a_y, b_x, b_y, v; /* w, a', b', v' */
-  double line_x, line_y;           /* b' without half of the cloth's own friction: its mean where b passes zero */
-  double to_goal;                  /* p to the goal, */
-  enum goal goal;                  /* which is the end of the phase, or closer */
+  double r, q;                          /* |a|, |b| */
+  double u_x, u_y, t_x, t_y;            /* their directions */
+  double w, da_x, da_y, db_x, db_y, dv; /* w, a', b', v' */
+  double line_x, line_y;                /* b' without half of the cloth's own friction: its mean where b passes zero */
+  double to_goal;                       /* p to the goal, */
+  enum goal goal;                       /* which is the end of the phase, or closer */
   double target;
 } beginning;
 
@@ -60,17 +60,17 @@ static passage nearest(const carom_point *at, double rate_x, double rate_y, doub
 
 /* How b passes zero. It goes at its present rate, or if that does not lead near zero, at the mean rate beyond. */
 static passage passage_of_b(const carom_point *at, const carom_terms *k, const beginning *s, double length) {
-  const double rate = fabs(s->b_x) + fabs(s->b_y) + (k->H_x < 0 ? fabs(s->line_x) + fabs(s->line_y) : 0);
+  const double rate = fabs(s->db_x) + fabs(s->db_y) + (k->H_x < 0 ? fabs(s->line_x) + fabs(s->line_y) : 0);
   passage g = {.near = false};
   if (s->q == 0 || s->q > 2 * length * rate)
     return g;
   /* friction that drives the slip slows b on its way to zero: then the mean rate comes first */
   if (k->H_x > 0)
-    g = nearest(at, s->b_x, s->b_y, length);
+    g = nearest(at, s->db_x, s->db_y, length);
   if (!g.near)
     g = nearest(at, s->line_x, s->line_y, length);
   if (!g.near && k->H_x < 0)
-    g = nearest(at, s->b_x, s->b_y, length);
+    g = nearest(at, s->db_x, s->db_y, length);
   /* a slip that friction drives stays near zero for long: there the map has to resolve more */
   const double least = (k->H_x > 0 ? LEAST_D : LEAST_D_UNSTABLE) * s->q / rate;
   g.d = g.d > least ? g.d : least;
@@ -117,8 +117,8 @@ typedef struct closed_form {
 } closed_form;
 
 static closed_form closed_form_of(const carom_terms *k, const beginning *s) {
-  const double across = s->u_x * s->a_y - s->u_y * s->a_x, along = s->u_x * s->a_x + s->u_y * s->a_y;
-  /* the component across u of da'/dphi */
+  const double across = s->u_x * s->da_y - s->u_y * s->da_x, along = s->u_x * s->da_x + s->u_y * s->da_y;
+  /* the derivative by phi of the component of a' across u */
   const double turned = -along + k->S_x * s->u_y * s->u_y + k->S_y * s->u_x * s->u_x -
                         k->w_u * s->u_x * (s->u_x * k->C_y * s->t_y - s->u_y * k->C_x * s->t_x);
   closed_form c = {.D = sqrt(across * across + turned * turned) + 1e-12, .m = -turned - along};
@@ -151,7 +151,7 @@ static void stretched_map(step *s, const closed_form *c, const beginning *from, 
   const double q_2 = c->q_0 * c->q_0, turns = c->sine != 0; /* a slip along D keeps its direction, not only nearly */
   EACH {
     const part x = tau * PART(NODE, i), d = exponential(-c->D * x), e = exponential(-c->m * x), q = c->q_0 * d;
-    /* (1 + i q_0) (1 - i q) has half the angle by which u has turned */
+    /* (1 - i q_0) (1 + i q) has half the angle by which u has turned */
     const part across = q - c->q_0, along = 1 + c->q_0 * q, per = 1 / madd(across, across, along * along);
     const part cosine = (along * along - across * across) * per, sine = turns * 2 * across * along * per;
     s->E[i] = e;

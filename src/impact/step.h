@@ -20,8 +20,8 @@
  *     d = r - (1/|a|) M(z k d),     k = -(component of da'/dphi across u)
  *
  * An integrating factor E with E' = -z k E / |a| solves this: d = r - (E/|a|) M(z k r / E). The map comes with an estimate of
- * E. A step that is stiff solves the linear equations for d instead (`exact`). For t, 1/(1 + M(z k) / |b|) takes the place of
- * 1/E.
+ * E. A step that is stiff solves the linear equations for d instead (`exact`). For t, the kernel
+ * E(X) / E(X') of the integral is replaced by 1/(1 + M(z k)(X') / |b|).
  *
  * END. The step ends at a given p or at one of the events of `enum goal`. Then its length is unknown, and each iteration
  * corrects it by Newton's method from the rates at the last node.
@@ -140,7 +140,7 @@ always void normalise(part *x, part *y, bool near, part *inverse) {
 }
 
 /* One step of Newton's method for the directions u of the slip a, by an integrating factor. zk: z times k of the head of this
- * file; before: 1/E; after: E. a becomes a unit vector. correction: by which angles, with r for d where that is smaller. */
+ * file; before: 1/E; after: E. a becomes a unit vector. correction: by which angles. */
 always void rotate(part *a_x, part *a_y, const part *zk, const part *before, const part *after, bool near, part *inverse,
                    part *u_x, part *u_y, part *correction) {
   nodes across, f, angle;

@@ -21,6 +21,7 @@ static double energy(const double v[3], const double w[3], double R) {
 }
 
 START_TEST(energy_never_rises) {
+  int unresolved = 0;
   for (uint64_t k = 0; k < DRAWN; k++)
     for (int m = 0; m < MODELS; m++) {
       const carom_cushion_impact in = draw_cushion(CUSHION_ANY, test_seed(), k);
@@ -29,11 +30,16 @@ START_TEST(energy_never_rises) {
       const carom_status status = carom_cushion(&in, &options, &out);
       if (models[m] == CAROM_CUSHION_EULER && status == CAROM_ERROR_TOO_SLOW) /* a wedged ball is never done */
         continue;
+      if (models[m] == CAROM_CUSHION_MATHAVAN && status == CAROM_ERROR_UNRESOLVED) {
+        unresolved++; /* one of 10,000 */
+        continue;
+      }
       ck_assert_int_eq(status, CAROM_OK);
       const double before = energy(in.v, in.w, in.radius), after = energy(out.v, out.w, in.radius);
       const double slack = models[m] == CAROM_CUSHION_EULER ? 1e-2 : 1e-9;
       ck_assert_msg(after <= before * (1 + slack), "model %d, impact %d: %.17g becomes %.17g", m, (int)k, before, after);
     }
+  ck_assert_int_le(unresolved, 4);
 }
 END_TEST
 
