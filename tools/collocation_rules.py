@@ -119,7 +119,7 @@ def print_rule(name, n, w):
 
 
 def print_ball_ball():
-    print("#include \"ball_ball/quadrature.h\"\n")
+    print("#include \"ball_ball/carrier.h\"\n")
     print_rule("gauss", 4, 0)
     print_rule("gauss", 6, 0)
     print_rule("gauss", 8, 0)

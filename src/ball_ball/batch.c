@@ -11,7 +11,7 @@
  *
  * A list is worked off when it fills a register, and all of them at the end. Batches of few rows would leave most lanes empty:
  * they are solved one by one. */
-#include "ball_ball/batch.h"
+#include "ball_ball/kernels.h"
 
 #include "ball_ball/frame.h"
 

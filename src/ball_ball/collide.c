@@ -4,7 +4,6 @@
 #include "platform/arithmetic.h"
 
 #include "ball_ball/arguments.h"
-#include "ball_ball/batch.h"
 #include "ball_ball/detail.h"
 #include "ball_ball/euler.h"
 #include "ball_ball/frame.h"

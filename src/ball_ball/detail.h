@@ -3,8 +3,8 @@
 #define CAROM_SRC_BALL_BALL_DETAIL_H
 
 #include "ball_ball/euler.h"
-#include "ball_ball/exchange.h"
 #include "ball_ball/frame.h"
+#include "ball_ball/kernels.h"
 #include "ball_ball/precise.h"
 
 carom_detail carom_detail_of_nothing(void);

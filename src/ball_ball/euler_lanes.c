@@ -10,9 +10,9 @@
  * the quotients by products with corrected reciprocals was slower (docs/study/tried.md).
  */
 #include "ball_ball/arguments.h"
-#include "ball_ball/batch.h"
 #include "ball_ball/block.h"
 #include "ball_ball/euler.h"
+#include "ball_ball/kernels.h"
 
 #ifdef CAROM_LANES_SINGLE
 static const real no_slip = 1e-16f;

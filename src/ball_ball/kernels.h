@@ -5,8 +5,41 @@
 
 #include "carom.h"
 
-#include "ball_ball/exchange.h"
 #include "platform/isa.h"
+
+#include <stdint.h>
+
+/* ---- What the kernels hand to each other: rows.h, in the caller's precision, reduces collisions to eight numbers each and
+ * turns their solutions into velocities; between them collocation (plan.h) computes in single precision. */
+
+/* Reduced collisions, a column for each quantity of reduced.h in units of |v_n0| / kappa. */
+enum { IN_U_X, IN_U_Z, IN_D_X, IN_D_Y, IN_KAPPA, IN_MU, IN_MU_B, IN_E, IN_COLUMNS };
+/* Solutions: those of problem.h. */
+enum { OUT_J_C, OUT_J_Z, OUT_I_X, OUT_I_Y, OUT_EXTRA, OUT_STICK, OUT_K_C, OUT_COLUMNS };
+/* A collision between two steps: the columns of its state (problem.h), whether v = 0 has been passed (1 or 0), and what has
+ * been tried (plan.h). */
+enum { MOVING_STATE, MOVING_RESTITUTION = 13, MOVING_SHARE, MOVING_CAREFUL, MOVING_ATTEMPTS, MOVING_COLUMNS };
+
+enum { MOST_LANES = 16 }; /* of floats in a vector */
+typedef float carom_in[IN_COLUMNS][MOST_LANES];
+typedef float carom_out[OUT_COLUMNS][MOST_LANES];
+typedef float carom_moving[MOVING_COLUMNS][MOST_LANES];
+
+/* Kinds of steps (plan.h), FULL over even or over graded nodes; and what else may come next: a collision is solved, or
+ * collocation refuses it. */
+enum step_kind { EASY, FULL, FULL_GRADED, STICK, PART, TURN, STEP_KINDS, SOLVED = STEP_KINDS, REFUSED, STEP_ENDS };
+/* For each, the lanes for which it comes next, a bit for each. */
+typedef uint32_t carom_next[STEP_ENDS];
+
+/* A ball that u_z presses less, in units of |v_n0| / kappa, is not pressed; friction between the balls that is less counts as
+ * this, so that what is divided by it is finite. */
+static const double LEAST_PRESS = 1e-10, LEAST_MU_B = 1e-9;
+
+/* Error in p, in units of |v_n0| / kappa, that a step may add by its estimate, for results in double and in single precision.
+ */
+static const float carom_tolerances[2] = {2.5e-7f, 5e-6f};
+
+/* ---- The kernels */
 
 typedef enum carom_precision { CAROM_DOUBLE, CAROM_SINGLE, CAROM_PRECISIONS } carom_precision;
 
@@ -81,5 +114,12 @@ CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 
 /* Those for the instruction set in force. */
 const carom_kernels *carom_kernels_in_force(void);
+
+/* Batches by the exact limit; see batch.c. */
+carom_batch_solver carom_exact_batch_double, carom_exact_batch_single;
+
+/* One pair by a single call, with the checks and the status of carom_collide(): what lanes leave to it is a row that is not
+ * plainly good. `in` and `out` are of the precision. */
+carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt, void *out);
 
 #endif

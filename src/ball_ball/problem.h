@@ -8,8 +8,8 @@
 #ifndef CAROM_SRC_BALL_BALL_PROBLEM_H
 #define CAROM_SRC_BALL_BALL_PROBLEM_H
 
-#include "ball_ball/exchange.h"
-#include "ball_ball/quadrature.h"
+#include "ball_ball/carrier.h"
+#include "ball_ball/kernels.h"
 
 static const float TINY = 1e-36f; /* keeps 0 / 0 away */
 static const float ENOUGH = 0.5f; /* of what a step may err, what its iteration may leave */
@@ -111,7 +111,7 @@ always vreal way_to_end(const problem *a, const state *s) {
   return v_sqrt(v_max(square, v_splat(0))) - s->v;
 }
 
-/* Columns of exchange.h, in a register each. */
+/* Columns of kernels.h, in a register each. */
 #ifdef CAROM_LANES_ONE
 typedef float column;
 typedef const float in_column;

@@ -1,6 +1,32 @@
-/* Rows of memory in and out for collocation in lanes: as many as a vector has floats, in one register of rows or two. */
+/* Rows of memory in and out for collocation: one row from end to end (CAROM_LANES_ONE), or in lanes as many as a vector has
+ * floats, in one register of rows or two. */
 #include "ball_ball/rows.h"
 #include "ball_ball/kernels.h"
+
+#ifdef CAROM_LANES_ONE
+
+/* One row, with the bits that a lane of a batch has. */
+int PRECISE_KERNEL(carom_single)(const void *in, double s, void *out, float report[OUT_COLUMNS]) {
+  const real *const from[1] = {in};
+  real *const to[1] = {out};
+  row_lanes r;
+  real reduced[IN_COLUMNS], solution[OUT_COLUMNS];
+  float columns[IN_COLUMNS], own[OUT_COLUMNS];
+  float *const answer = report == NULL ? own : report;
+  if (!reduce_rows(from, (real)s, &r, reduced))
+    return 0;
+  for (int c = 0; c < IN_COLUMNS; c++)
+    columns[c] = (float)reduced[c];
+  const int evaluations = KERNEL(carom_collocate)(columns, (float)(2.5 * s), carom_tolerances[KERNEL_PRECISION], answer);
+  if (evaluations == 0)
+    return 0;
+  for (int c = 0; c < OUT_COLUMNS; c++)
+    solution[c] = (real)answer[c];
+  const row_impulses q = impulses_of(&r, solution);
+  return restore_rows(&r, &q, to) ? evaluations : 0;
+}
+
+#else
 
 enum { REGISTERS = sizeof(real) / sizeof(float) };
 _Static_assert(REGISTERS * sizeof(row_lanes) <= sizeof(carom_context), "a context has room for the rows");
@@ -40,3 +66,5 @@ uint32_t PRECISE_KERNEL(carom_rows_out)(const carom_context *context, const caro
   }
   return finite;
 }
+
+#endif

@@ -15,7 +15,7 @@
 #define CAROM_SRC_BALL_BALL_ROWS_H
 
 #include "ball_ball/columns.h"
-#include "ball_ball/exchange.h"
+#include "ball_ball/kernels.h"
 
 /* What the way back needs. */
 typedef struct row_lanes {

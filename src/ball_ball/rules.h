@@ -2,7 +2,7 @@
 #ifndef CAROM_SRC_BALL_BALL_RULES_H
 #define CAROM_SRC_BALL_BALL_RULES_H
 
-#include "ball_ball/quadrature.h"
+#include "ball_ball/carrier.h"
 
 static const gauss_rule gauss_4 = {
     .node = {0.0694318442f, 0.3300094782f, 0.6699905218f, 0.9305681558f},

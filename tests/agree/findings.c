@@ -218,7 +218,8 @@ static double near_zero(random_source *source) {
  * `stick`, and the cloth slip passes zero on the way if `pass`; else it begins or ends near zero. Units: those of reduced.h
  * over |v_n| / kappa. */
 static carom_impact planar_impact(random_source *source, double s, bool play, bool stick, bool pass) {
-  const double R = 0.03, corner = random_between(source, 0, 1) < 0.4;
+  const double R = 0.03;
+  const bool corner = random_between(source, 0, 1) < 0.4;
   const double ratio = random_between(source, 0, 1) < 0.5 ? 1 : exp2(random_between(source, play ? -1 : -4, play ? 1 : 4));
   const double mu_b = play && corner ? 0.2 : random_between(source, 0.01, play ? 0.2 : 0.5);
   const double mu = play && corner ? 0.5 : random_between(source, 0, play ? 0.5 : 1);
