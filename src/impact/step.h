@@ -36,14 +36,15 @@
 
 /* Found by trial with `carom-lab stress --cushion`; see docs/study/tried.md. Angles are in radians, lengths in units of p. */
 static const double CONVERGED = 4e-8;       /* error that the iteration may leave in directions */
-static const double TOLERANCE = 1e-6;       /* square of the error estimate, over the length of the step, */
+static const double TOLERANCE = 4e-7;       /* square of the error estimate, over the length of the step, */
 static const double TOLERANCE_EXACT = 1e-9; /* and where the step is exact */
 static const double SETTLED = 1e-6;         /* last correction of the length, as a share of it */
 static const double EVENT_TOLERANCE = 1e-8; /* event function that does not yet end a regime, */
 static const double LATE = 1e-5;            /* and within a step that ends at its event */
 static const double AT_REST = 1e-8;         /* v that counts as 0 where the cloth's slip has come to rest */
-static const double NEAR = 3e-3;            /* correction after which Newton's method updates inverse lengths, */
-static const double FRESH = 0.02;           /* and that after which an exact step keeps its matrix */
+static const double NEAR =
+    3e-3; /* correction, of directions and of the length, after which Newton's method updates inverse lengths, */
+static const double FRESH = 0.02; /* and that after which an exact step keeps its matrix */
 enum { MOST_ITERATIONS = 12 };
 
 /* Where a step ends. */
@@ -290,7 +291,7 @@ always enum refusal take_step(const carom_terms *terms, const step *s, const boo
     to_end[i] = PART(WEIGHT, i) * s->z[i] * (s->length - s->p[i]);
   }
   double scale = 1, last = 1, last_rate = 0.3;
-  bool converged = false, forward = true;
+  bool converged = false, forward = true, near = false;
   for (int n = 0; n < MOST_ITERATIONS && !converged; n++) {
     forward = true;
     ++*iterations;
@@ -309,7 +310,7 @@ always enum refusal take_step(const carom_terms *terms, const step *s, const boo
       if (exact)
         forward = rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_u, c.u_x, c.u_y, correction);
       else
-        rotate(slip_x, slip_y, zk, per_E, s->E, last < NEAR, inverse_a, c.u_x, c.u_y, correction);
+        rotate(slip_x, slip_y, zk, per_E, s->E, near, inverse_a, c.u_x, c.u_y, correction);
     }
     if (loaded) {
       integrate_slip(at->b_x, at->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
@@ -327,7 +328,7 @@ always enum refusal take_step(const carom_terms *terms, const step *s, const boo
       if (exact == FOR_BOTH)
         forward &= rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_t, c.t_x, c.t_y, correction_t);
       else {
-        rotate(slip_x, slip_y, zk, ease, one, last < NEAR, inverse_b, c.t_x, c.t_y, correction_t);
+        rotate(slip_x, slip_y, zk, ease, one, near, inverse_b, c.t_x, c.t_y, correction_t);
         if (n < 2) {
           integrate(zk, f);
           EACH ease[i] = 1 / (1 + f[i] * inverse_b[i]);
@@ -343,6 +344,7 @@ always enum refusal take_step(const carom_terms *terms, const step *s, const boo
     const double share = scale * s->length < 1 ? scale * s->length : 1;
     converged = now * (worst < 1 ? worst : 1) * share < CONVERGED * s->tolerance && now < 1e-3 && fabs(change) < SETTLED;
     scale *= 1 + (change > 0.5 ? 0.5 : change > -0.4 ? change : -0.4);
+    near = now < NEAR && fabs(change) < NEAR;
     last = now;
     last_rate = rate;
   }
