@@ -118,24 +118,22 @@ static OPTION_SET(set_side) {
   return false;
 }
 
-OPTION(
-    hit, option_speed, "speed", speeds, 0, "V", set_speeds, 0,
-    "speed of the cue ball at contact, m/s (default 1.5). Several with commas: several\ncollisions, each spin at each speed");
+OPTION(hit, option_speed, "speed", speeds, 0, "V", set_speeds, 0,
+       "speed of the cue ball at contact, m/s (default 1.5). Several with commas: several collisions, each spin at each speed");
 OPTION(hit, option_cut, "cut", cut, 0, "DEGREES", set_number, 0,
-       "angle from its way to the line of centres, -90 to 90; above 0 the object ball\ngoes to the left (default 30)");
+       "angle from its way to the line of centres, -90 to 90; above 0 the object ball goes to the left (default 30)");
 OPTION(hit, option_spin, "spin", spins, 0, "SPIN", set_spins, 0,
-       "stun: none (default); follow or roll: it rolls; draw: as fast backwards; or a number,\n"
+       "stun: none (default); follow or roll: it rolls; draw: as fast backwards; or a number, "
        "rad/s, above 0 for follow. Several with commas: several collisions");
 OPTION(hit, option_side, "side", side, 0, "RAD/S", set_side, 0,
-       "side spin, rad/s, above 0 for right english (counterclockwise from above), or gearing:\n"
+       "side spin, rad/s, above 0 for right english (counterclockwise from above), or gearing: "
        "as much as lets the balls roll on each other without slip (default 0)");
 OPTION(hit, option_radius, "radius", radius, 0, "R", set_number, 0, "of the balls, m (default 0.028575, a pool ball)");
 OPTION(hit, option_mass, "mass", mass, 0, "M", set_number, 0, "of the balls, kg (default 0.170097)");
 OPTION(hit, option_cloth, "cloth", cloth, 0, "MU", set_number, 0, "friction with the cloth (default 0.2)");
 OPTION(hit, option_restitution, "restitution", restitution, 0, "E", set_number, 0, "of the balls (default 0.95)");
-OPTION(
-    hit, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-    "write the collision as `carom resolve` reads it; its id is the spin, with several\nspeeds spin-speed, such as draw-1.5");
+OPTION(hit, option_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "write the collision as `carom resolve` reads it; its id is the spin, with several speeds spin-speed, such as draw-1.5");
 OPTION(hit, option_plot, "plot", picture, 0, "OUT.svg", set_svg, 0, "draw the balls and their paths from above");
 
 /* False after a complaint. */
@@ -204,7 +202,7 @@ static void tell_spin(report *r, const char *verb, const double w[3]) {
 
 static void tell_hit(const hit *h, const one_hit *one, const carom_impact *in, const carom_result *out, report *r) {
   const derived d = derive(in, out);
-  const double energy = energy_of(&in->a, in->a.v, in->a.w), scale = one->speed;
+  const double energy = energy_of(in->a.mass, in->a.radius, in->a.v, in->a.w), scale = one->speed;
   char text[64];
   tell(r, "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s (%.4g rad/s), side spin %.4g rad/s.",
        one->speed, h->cut, one->spin, in->a.w[1], in->a.w[2]);
@@ -251,9 +249,9 @@ static bool resolve_all(const hit *h, carom_impact *in, carom_result *out) {
                carom_status_string(status), carom_status_name(status));
       return false;
     }
-    strange |= doubts_about(&found, &in[k], true) != NULL;
+    strange |= doubts_about(&found, &ball_kind, (const double *)&in[k]) != NULL;
   }
-  doubts_report(&found, "hit");
+  doubts_report(&found, &ball_kind, "hit");
   return !(h->asked.strict && strange);
 }
 
@@ -281,8 +279,7 @@ static const command_form form = {
     .name = "hit",
     .usage = "[OPTIONS]",
     .about = "Hits a ball at rest with the cue ball and tells in words what becomes of both: throw, deflection, spin, speeds "
-             "at once "
-             "and\nonce they roll. Angles are from the way that the cue ball came, as seen from above.\n",
+             "at once and once they roll. Angles are from the way that the cue ball came, as seen from above.\n",
     .options = (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side, &option_friction,
                                            &option_restitution, &option_cloth, &option_radius, &option_mass, &option_solver,
                                            &option_slip, &option_steps, &option_csv, &option_plot, &option_strict,

@@ -39,9 +39,9 @@ typedef struct block {
 OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
        "whose rules of contact and models (default carom)");
 OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "MODEL", set_ball_model, 0,
-       "the collision of two balls: exact, euler, inelastic or mirror (default: exact; by\npooltool's models inelastic)");
-OPTION(shoot_job, option_cushion, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
-       "the impact on a cushion: mathavan (the exact limit), stronge, han, mirror or euler (default:\nmathavan; by pooltool's "
+       "the collision of two balls: exact, euler, inelastic or mirror (default: exact; by pooltool's models inelastic)");
+OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
+       "the impact on a cushion: mathavan (the exact limit), stronge, han, mirror or euler (default: mathavan; by pooltool's "
        "models stronge)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
        "what is told of events: nothing, time, type and ids, or states too (default full)");
@@ -237,14 +237,14 @@ static const command_form form = {
     .name = "shoot",
     .usage = "[OPTIONS] IN.jsonl",
     .about = "Plays whole shots, from the strike of the cue until nothing moves. Reads tables and shots as JSON Lines "
-             "(docs/using/shots.md has the\n"
+             "(docs/using/shots.md has the "
              "format; recorded results in them are ignored) and writes each table and each shot with its events and final "
              "states. IN may be -.\n",
-    .options = (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion, &option_events, &option_steps,
-                                           &option_events_most, &option_time_most, &option_threads, &option_plot,
+    .options = (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion_model, &option_events,
+                                           &option_steps, &option_events_most, &option_time_most, &option_threads, &option_plot,
                                            &option_shot_id, &option_output, NULL},
     .details =
-        "exit code: 0 if all shots came to rest, 1 if some are in error (they have a status and an error; the others are\n"
+        "exit code: 0 if all shots came to rest, 1 if some are in error (they have a status and an error; the others are "
         "played), 2 for bad usage or unreadable input\n",
     .example = "carom shoot --plot break.svg -o played.jsonl shots.jsonl",
     .files = ONE_FILE,

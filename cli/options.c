@@ -11,9 +11,67 @@
 #include <string.h>
 
 enum { MOST_ROWS = 32, MANUAL_CODE = UCHAR_MAX + 1, FIRST_CODE };
+enum { HELP_WIDTH = 80, OPTION_WIDTH = 23, TABLE_MOST = 32 }; /* columns of the help */
 
 static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};
 static const option_row manual_row = {.name = "man", .help = ""}; /* for the build, and not in the help */
+
+/* ---- Help and manual */
+
+/* Prints a character as it is. */
+static void put_plain(char c) {
+  putchar(c);
+}
+
+/* Prints a character for roff: what its lines would take for requests and escapes is put right. */
+static void put_roff(char c) {
+  static char last = '\n';
+  if (last == '\n' && (c == '.' || c == '\''))
+    fputs("\\&", stdout);
+  if (c == '\\')
+    fputs("\\e", stdout);
+  else
+    printf(c == '-' ? "\\-" : "%c", c);
+  last = c;
+}
+
+static void put_text(const char *text, void (*put)(char)) {
+  while (*text != '\0')
+    put(*text++);
+}
+
+/* Where the further lines of a paragraph begin: below the text behind its first word where blanks make a table of it. */
+static int hanging_indent(const char *line, size_t size) {
+  const int own = (int)strspn(line, " ");
+  int indent = own;
+  for (int k = own; k < TABLE_MOST && (size_t)k + 2 < size && own > 0; k++)
+    if (line[k] == ' ' && line[k + 1] == ' ')
+      indent = k + 2;
+  return indent;
+}
+
+/* Prints lines, each broken between words where it is longer than a terminal is wide. */
+static void print_wrapped(const char *text, void (*put)(char)) {
+  while (*text != '\0') {
+    const size_t size = strcspn(text, "\n");
+    const int indent = hanging_indent(text, size);
+    int column = 0;
+    for (size_t k = 0; k < size;) {
+      /* A word with the blanks before it. */
+      const size_t blanks = strspn(text + k, " "), word = blanks + strcspn(text + k + blanks, " \n");
+      const bool breaks = column > indent && column + (int)word > HELP_WIDTH;
+      if (breaks)
+        put('\n');
+      for (column = breaks ? 0 : column; breaks && column < indent; column++)
+        put(' ');
+      for (size_t c = breaks ? blanks : 0; c < word; c++, column++)
+        put(text[k + c]);
+      k += word;
+    }
+    put('\n');
+    text += size + (text[size] == '\n');
+  }
+}
 
 /* "  -o, --output OUT" */
 static int write_head(const option_row *row, char text[80]) {
@@ -22,28 +80,47 @@ static int write_head(const option_row *row, char text[80]) {
                   row->argument != NULL ? row->argument : "");
 }
 
-/* The first line of the help beside the head, the others below it. */
-static void print_row(const option_row *row, int width) {
-  char head[80];
-  printf("%*s", -width, (write_head(row, head), head));
-  for (const char *at = row->help; *at != '\0'; at++)
-    printf(*at == '\n' ? "\n%*s" : "%c", *at == '\n' ? width : *at, "");
-  putchar('\n');
+/* The help beside the head, or below it where that is long. */
+static void print_row(const option_row *row) {
+  char head[80], text[1024];
+  const int width = write_head(row, head);
+  if (width + 2 > OPTION_WIDTH)
+    puts(head);
+  snprintf(text, sizeof text, "%-*s%s", OPTION_WIDTH, width + 2 > OPTION_WIDTH ? " " : head, row->help);
+  print_wrapped(text, put_plain);
 }
 
-/* Text for roff: what its lines would take for requests and escapes is put right. */
-static void print_roff(const char *text) {
-  for (bool first = true; *text != '\0'; first = *text == '\n', text++) {
-    if (first && (*text == '.' || *text == '\''))
-      fputs("\\&", stdout);
-    if (*text == '\\')
-      fputs("\\e", stdout);
-    else if (*text == '-')
-      fputs("\\-", stdout);
-    else
-      putchar(*text);
+/* Prints the options that are for one kind of rows, or all. */
+enum { EVERY_ROW = -1 };
+static void print_options(const command_form *form, int only) {
+  for (size_t k = 0; form->options[k] != NULL; k++)
+    if (only == EVERY_ROW || form->options[k]->only == only)
+      print_row(form->options[k]);
+}
+
+/* Whether the subcommand works on both kinds of rows. */
+static bool has_kinds(const command_form *form) {
+  size_t k = 0;
+  while (form->options[k] != NULL && form->options[k]->only != CUSHION_ONLY)
+    k++;
+  return form->options[k] != NULL;
+}
+
+static void print_help(const command_form *form) {
+  printf("usage: %s %s%s%s\n\n", program_name, form->name, form->usage[0] != '\0' ? " " : "", form->usage);
+  print_wrapped(form->about, put_plain);
+  puts("\noptions:");
+  print_options(form, has_kinds(form) ? ANY_KIND : EVERY_ROW);
+  print_row(&help_row);
+  if (has_kinds(form)) {
+    puts("\noptions for collisions of two balls:");
+    print_options(form, BALLS_ONLY);
+    puts("\noptions for impacts on a cushion, with --cushion:");
+    print_options(form, CUSHION_ONLY);
   }
   putchar('\n');
+  print_wrapped(form->details, put_plain);
+  printf("\nexample:\n  %s\n", form->example);
 }
 
 /* The page carom-NAME(1) of the manual, from the same table. */
@@ -52,36 +129,24 @@ static void print_manual(const command_form *form) {
   printf(".TH %s\\-%s 1 \"\" \"carom %s\"\n.SH NAME\n%s\\-%s \\- part of %s(1)\n.SH SYNOPSIS\n", program_name, form->name,
          carom_version(), program_name, form->name, program_name);
   printf(".B %s %s\n", program_name, form->name);
-  print_roff(form->usage);
+  put_text(form->usage, put_roff);
+  put_text("\n", put_roff);
   puts(".SH DESCRIPTION");
-  print_roff(form->about);
+  put_text(form->about, put_roff);
   puts(".SH OPTIONS");
   for (size_t k = 0; form->options[k] != NULL; k++) {
     write_head(form->options[k], head);
     puts(".TP");
-    print_roff(head + 2);
-    print_roff(form->options[k]->help);
+    put_text(head + 2, put_roff);
+    put_text("\n", put_roff);
+    put_text(form->options[k]->help, put_roff);
+    put_text("\n", put_roff);
   }
   puts(".SH DETAILS\n.nf");
-  print_roff(form->details);
+  print_wrapped(form->details, put_roff);
   puts(".fi\n.SH EXAMPLE\n.nf");
-  print_roff(form->example);
-  puts(".fi");
-}
-
-static void print_help(const command_form *form) {
-  int width = 0;
-  char head[80];
-  for (size_t k = 0; form->options[k] != NULL; k++) {
-    const int used = write_head(form->options[k], head) + 2;
-    width = used > width ? used : width;
-  }
-  printf("usage: %s %s%s%s\n\n%s\noptions:\n", program_name, form->name, form->usage[0] != '\0' ? " " : "", form->usage,
-         form->about);
-  for (size_t k = 0; form->options[k] != NULL; k++)
-    print_row(form->options[k], width);
-  print_row(&help_row, width);
-  printf("\n%s\nexample:\n  %s\n", form->details, form->example);
+  put_text(form->example, put_roff);
+  puts("\n.fi");
 }
 
 int usage_hint(const command_form *form) {
@@ -152,10 +217,23 @@ static int refuse(const command_form *form, char **argv, int found, const struct
   return usage_hint(form);
 }
 
+/* Whether the options that were given are for the kind of rows that is asked for; complains where one is not. */
+static bool are_for_kind(const command_form *form, const bool given[MOST_ROWS], const void *job) {
+  for (int k = 0; form->options[k] != NULL; k++) {
+    const option_row *row = form->options[k];
+    if (!given[k] || row->only == ANY_KIND || (row->only == CUSHION_ONLY) == ((const shared_options *)job)->cushion)
+      continue;
+    complain("%s: option '--%s' goes %s --cushion", form->name, row->name, row->only == CUSHION_ONLY ? "with" : "without");
+    return false;
+  }
+  return true;
+}
+
 /* Sets the fields; -1, or an exit code. */
 static int parse_options(const command_form *form, int argc, char **argv, void *job) {
   struct option longs[MOST_ROWS] = {0};
   char shorts[2 * MOST_ROWS] = ":h"; /* the colon: a missing argument is told apart */
+  bool given[MOST_ROWS] = {false};
   int option;
   opterr = 0;
   list_options(form, longs, shorts);
@@ -169,8 +247,10 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
     }
     if (!row->set(row, optarg, (char *)job + row->field))
       return EXIT_USAGE;
+    for (int k = 0; k < MOST_ROWS && form->options[k] != NULL; k++)
+      given[k] |= form->options[k] == row;
   }
-  return -1;
+  return are_for_kind(form, given, job) ? -1 : usage_hint(form);
 }
 
 int parse_arguments(const command_form *form, int argc, char **argv, void *job, const char **file) {

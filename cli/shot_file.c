@@ -1,8 +1,8 @@
 /* Tables and shots from JSON Lines. What is missing takes pooltool's defaults; what is wrong is told by its key. */
 #include "shot_file.h"
 
+#include "formats.h"
 #include "json_values.h"
-#include "kinds.h"
 #include "memory.h"
 #include "message.h"
 #include "shot_table.h"
