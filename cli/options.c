@@ -11,7 +11,7 @@
 #include <string.h>
 
 enum { MOST_ROWS = 32, MANUAL_CODE = UCHAR_MAX + 1, FIRST_CODE };
-enum { HELP_WIDTH = 80, OPTION_WIDTH = 23, TABLE_MOST = 32 }; /* columns of the help */
+enum { HELP_WIDTH = 80, OPTION_WIDTH = 23, TABLE_LEAST = 10, TABLE_MOST = 32 }; /* columns of the help */
 
 static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};
 static const option_row manual_row = {.name = "man", .help = ""}; /* for the build, and not in the help */
@@ -40,33 +40,50 @@ static void put_text(const char *text, void (*put)(char)) {
     put(*text++);
 }
 
+/* The size of a paragraph: of a line and those that go on with it, far to the right or, as the line, without blanks before it.
+ */
+static size_t paragraph_size(const char *text) {
+  const size_t own = strspn(text, " ");
+  size_t size = strcspn(text, "\n");
+  while (size > 0 && text[size] != '\0' && text[size + 1] != '\0' && text[size + 1] != '\n') {
+    const size_t next = strspn(text + size + 1, " ");
+    if (next < TABLE_LEAST && (next > 0 || own > 0))
+      break;
+    size += 1 + strcspn(text + size + 1, "\n");
+  }
+  return size;
+}
+
 /* Where the further lines of a paragraph begin: below the text behind its first word where blanks make a table of it. */
 static int hanging_indent(const char *line, size_t size) {
   const int own = (int)strspn(line, " ");
   int indent = own;
-  for (int k = own; k < TABLE_MOST && (size_t)k + 2 < size && own > 0; k++)
+  for (int k = own; k < TABLE_MOST && (size_t)k + 2 < size && own > 0 && line[k] != '\n'; k++)
     if (line[k] == ' ' && line[k + 1] == ' ')
       indent = k + 2;
   return indent;
 }
 
-/* Prints lines, each broken between words where it is longer than a terminal is wide. */
+/* Prints paragraphs, each broken between words where it is longer than a terminal is wide. */
 static void print_wrapped(const char *text, void (*put)(char)) {
   while (*text != '\0') {
-    const size_t size = strcspn(text, "\n");
+    const size_t size = paragraph_size(text);
     const int indent = hanging_indent(text, size);
     int column = 0;
     for (size_t k = 0; k < size;) {
-      /* A word with the blanks before it. */
-      const size_t blanks = strspn(text + k, " "), word = blanks + strcspn(text + k + blanks, " \n");
-      const bool breaks = column > indent && column + (int)word > HELP_WIDTH;
+      /* A word with the blanks before it; the end of a line is one blank. */
+      const size_t blanks = strspn(text + k, " \n"), word = strcspn(text + k + blanks, " \n");
+      const bool joins = memchr(text + k, '\n', blanks) != NULL;
+      const int before = joins ? 1 : (int)blanks;
+      const bool breaks = column > indent && column + before + (int)word > HELP_WIDTH;
       if (breaks)
         put('\n');
-      for (column = breaks ? 0 : column; breaks && column < indent; column++)
+      for (int c = 0; c < (breaks ? indent : before); c++)
         put(' ');
-      for (size_t c = breaks ? blanks : 0; c < word; c++, column++)
-        put(text[k + c]);
-      k += word;
+      for (size_t c = 0; c < word; c++)
+        put(text[k + blanks + c]);
+      column = (breaks ? indent : column + before) + (int)word;
+      k += blanks + word;
     }
     put('\n');
     text += size + (text[size] == '\n');
@@ -87,6 +104,8 @@ static void print_row(const option_row *row) {
   if (width + 2 > OPTION_WIDTH)
     puts(head);
   snprintf(text, sizeof text, "%-*s%s", OPTION_WIDTH, width + 2 > OPTION_WIDTH ? " " : head, row->help);
+  for (char *end = text; (end = strchr(end, '\n')) != NULL;)
+    *end = ' ';
   print_wrapped(text, put_plain);
 }
 
