@@ -50,7 +50,7 @@ OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_co
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
        "a shot is stopped after so much time of its clock (default 1000)");
 OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT.svg", set_svg, 0,
-       "draw the table and the ball's paths, of the first shot that is good");
+       "draw the table and the balls' paths, of the first shot without an error");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
 
 static carom_shot_options options_of(const shoot_job *job) {
@@ -227,7 +227,8 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
   free(b);
   progress_clear();
   if (job->plot != NULL && picture->text == NULL) {
-    complain("nothing to draw: there is no good shot%s%s", job->id != NULL ? " " : "", job->id != NULL ? job->id : "");
+    complain("nothing to draw: there is no shot without an error%s%s", job->id != NULL ? " " : "",
+             job->id != NULL ? job->id : "");
     good = false;
   }
   return what == SHOT_FAILED ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;

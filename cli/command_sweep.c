@@ -210,7 +210,7 @@ static const command_form form = {
         "after from the normal, degrees; a mirror without loss keeps it.\n"
         "\n"
         "exit code: 0; 1 if some values make an error; 2 for bad usage or unreadable input\n",
-    .example = "carom sweep --id pooltool-135 --over w1z --from -60 --to 60 --brief -o sweep.csv",
+    .example = "carom sweep --id pooltool-135 --over w1z --from -60 --to 60 -o sweep.csv",
     .files = FILE_OR_NONE,
 };
 

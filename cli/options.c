@@ -18,28 +18,6 @@ static const option_row manual_row = {.name = "man", .help = ""}; /* for the bui
 
 /* ---- Help and manual */
 
-/* Prints a character as it is. */
-static void put_plain(char c) {
-  putchar(c);
-}
-
-/* Prints a character for roff: what its lines would take for requests and escapes is put right. */
-static void put_roff(char c) {
-  static char last = '\n';
-  if (last == '\n' && (c == '.' || c == '\''))
-    fputs("\\&", stdout);
-  if (c == '\\')
-    fputs("\\e", stdout);
-  else
-    printf(c == '-' ? "\\-" : "%c", c);
-  last = c;
-}
-
-static void put_text(const char *text, void (*put)(char)) {
-  while (*text != '\0')
-    put(*text++);
-}
-
 /* The size of a paragraph: of a line and those that go on with it, far to the right or, as the line, without blanks before it.
  */
 static size_t paragraph_size(const char *text) {
@@ -65,7 +43,7 @@ static int hanging_indent(const char *line, size_t size) {
 }
 
 /* Prints paragraphs, each broken between words where it is longer than a terminal is wide. */
-static void print_wrapped(const char *text, void (*put)(char)) {
+static void print_wrapped(FILE *out, const char *text) {
   while (*text != '\0') {
     const size_t size = paragraph_size(text);
     const int indent = hanging_indent(text, size);
@@ -76,16 +54,11 @@ static void print_wrapped(const char *text, void (*put)(char)) {
       const bool joins = memchr(text + k, '\n', blanks) != NULL;
       const int before = joins ? 1 : (int)blanks;
       const bool breaks = column > indent && column + before + (int)word > HELP_WIDTH;
-      if (breaks)
-        put('\n');
-      for (int c = 0; c < (breaks ? indent : before); c++)
-        put(' ');
-      for (size_t c = 0; c < word; c++)
-        put(text[k + blanks + c]);
+      fprintf(out, "%s%*s%.*s", breaks ? "\n" : "", breaks ? indent : before, "", (int)word, text + k + blanks);
       column = (breaks ? indent : column + before) + (int)word;
       k += blanks + word;
     }
-    put('\n');
+    putc('\n', out);
     text += size + (text[size] == '\n');
   }
 }
@@ -98,23 +71,23 @@ static int write_head(const option_row *row, char text[80]) {
 }
 
 /* The help beside the head, or below it where that is long. */
-static void print_row(const option_row *row) {
+static void print_row(FILE *out, const option_row *row) {
   char head[80], text[1024];
   const int width = write_head(row, head);
   if (width + 2 > OPTION_WIDTH)
-    puts(head);
+    fprintf(out, "%s\n", head);
   snprintf(text, sizeof text, "%-*s%s", OPTION_WIDTH, width + 2 > OPTION_WIDTH ? " " : head, row->help);
   for (char *end = text; (end = strchr(end, '\n')) != NULL;)
     *end = ' ';
-  print_wrapped(text, put_plain);
+  print_wrapped(out, text);
 }
 
 /* Prints the options that are for one kind of rows, or all. */
 enum { EVERY_ROW = -1 };
-static void print_options(const command_form *form, int only) {
+static void print_options(FILE *out, const command_form *form, int only) {
   for (size_t k = 0; form->options[k] != NULL; k++)
     if (only == EVERY_ROW || form->options[k]->only == only)
-      print_row(form->options[k]);
+      print_row(out, form->options[k]);
 }
 
 /* Whether the subcommand works on both kinds of rows. */
@@ -125,47 +98,22 @@ static bool has_kinds(const command_form *form) {
   return form->options[k] != NULL;
 }
 
-static void print_help(const command_form *form) {
-  printf("usage: %s %s%s%s\n\n", program_name, form->name, form->usage[0] != '\0' ? " " : "", form->usage);
-  print_wrapped(form->about, put_plain);
-  puts("\noptions:");
-  print_options(form, has_kinds(form) ? ANY_KIND : EVERY_ROW);
-  print_row(&help_row);
+static void print_help(FILE *out, const void *of) {
+  const command_form *form = of;
+  fprintf(out, "usage: %s %s%s%s\n\n", program_name, form->name, form->usage[0] != '\0' ? " " : "", form->usage);
+  print_wrapped(out, form->about);
+  fputs("\noptions:\n", out);
+  print_options(out, form, has_kinds(form) ? ANY_KIND : EVERY_ROW);
+  print_row(out, &help_row);
   if (has_kinds(form)) {
-    puts("\noptions for collisions of two balls:");
-    print_options(form, BALLS_ONLY);
-    puts("\noptions for impacts on a cushion, with --cushion:");
-    print_options(form, CUSHION_ONLY);
+    fputs("\noptions for collisions of two balls:\n", out);
+    print_options(out, form, BALLS_ONLY);
+    fputs("\noptions for impacts on a cushion, with --cushion:\n", out);
+    print_options(out, form, CUSHION_ONLY);
   }
-  putchar('\n');
-  print_wrapped(form->details, put_plain);
-  printf("\nexample:\n  %s\n", form->example);
-}
-
-/* The page carom-NAME(1) of the manual, from the same table. */
-static void print_manual(const command_form *form) {
-  char head[80];
-  printf(".TH %s\\-%s 1 \"\" \"carom %s\"\n.SH NAME\n%s\\-%s \\- part of %s(1)\n.SH SYNOPSIS\n", program_name, form->name,
-         carom_version(), program_name, form->name, program_name);
-  printf(".B %s %s\n", program_name, form->name);
-  put_text(form->usage, put_roff);
-  put_text("\n", put_roff);
-  puts(".SH DESCRIPTION");
-  put_text(form->about, put_roff);
-  puts(".SH OPTIONS");
-  for (size_t k = 0; form->options[k] != NULL; k++) {
-    write_head(form->options[k], head);
-    puts(".TP");
-    put_text(head + 2, put_roff);
-    put_text("\n", put_roff);
-    put_text(form->options[k]->help, put_roff);
-    put_text("\n", put_roff);
-  }
-  puts(".SH DETAILS\n.nf");
-  print_wrapped(form->details, put_roff);
-  puts(".fi\n.SH EXAMPLE\n.nf");
-  put_text(form->example, put_roff);
-  puts("\n.fi");
+  putc('\n', out);
+  print_wrapped(out, form->details);
+  fprintf(out, "\nexample:\n  %s\n", form->example);
 }
 
 int usage_hint(const command_form *form) {
@@ -261,7 +209,12 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
     if (row == NULL)
       return refuse(form, argv, option, longs);
     if (row == &help_row || row == &manual_row) {
-      (row == &help_row ? print_help : print_manual)(form);
+      char name[64];
+      snprintf(name, sizeof name, "%s-%s", program_name, form->name);
+      if (row == &help_row)
+        print_help(stdout, form);
+      else
+        print_manual(name, form->about, print_help, form);
       return EXIT_GOOD;
     }
     if (!row->set(row, optarg, (char *)job + row->field))
