@@ -191,13 +191,13 @@ static const char *velocity_text(const double v[2], double scale, char text[64])
   return text;
 }
 
-static void tell_spin(report *r, const char *verb, const double w[3]) {
+static void tell_spin(report *r, const double w[3]) {
   const double level = hypot(w[0], w[1]), upright = fabs(w[2]) < 0.005 ? 0.0 : w[2]; /* not -0.00 */
   tell(r,
        fmax(fabs(w[2]), level) < 1e9
-           ? "              %s spin:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis"
-           : "              %s spin:  %.4g rad/s about the vertical, %.4g rad/s about a horizontal axis",
-       verb, upright, level);
+           ? "              spin after:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis"
+           : "              spin after:  %.4g rad/s about the vertical, %.4g rad/s about a horizontal axis",
+       upright, level);
 }
 
 static void tell_hit(const hit *h, const one_hit *one, const carom_impact *in, const carom_result *out, report *r) {
@@ -215,10 +215,10 @@ static void tell_hit(const hit *h, const one_hit *one, const carom_impact *in, c
   else
     tell(r, "              throw:       %.2f degrees to the %s of the line of centres", fabs(d.throw_deg),
          side_of(d.throw_deg));
-  tell_spin(r, "takes", out->b.w);
+  tell_spin(r, out->b.w);
   tell(r, "cue ball      at once:     %s", velocity_text(out->a.v, scale, text));
   tell(r, "              rolling:     %s", velocity_text(d.rolling_1, scale, text));
-  tell_spin(r, "keeps", out->a.w);
+  tell_spin(r, out->a.w);
   if (isfinite(d.energy_lost))
     tell(r, "energy        lost:        %.2f %% of %.4g J", 100.0 * d.energy_lost, energy);
   else

@@ -129,7 +129,7 @@ static void draw(drawing *picture, const shot_line *line, const carom_shot *shot
   FILE *out = open_memstream(&picture->text, &picture->size);
   if (out == NULL)
     out_of_memory();
-  shot_draw(out, line, shot);
+  shot_draw(out, line, shot, NULL);
   if (fclose(out) != 0)
     out_of_memory();
 }

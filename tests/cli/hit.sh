@@ -87,10 +87,10 @@ def said(row, after, spin, cut):
         "object ball   at once:     " + velocity(b["v2x"], b["v2y"], v),
         "              rolling:     " + velocity(b["roll2x"], b["roll2y"], v),
         "              throw:       " + ("none: it leaves along the line of centres" if abs(throw) < 0.005 else f"{abs(throw):.2f} degrees to the {side} of the line of centres"),
-        "              takes spin:  " + spins(2),
+        "              spin after:  " + spins(2),
         "cue ball      at once:     " + velocity(b["v1x"], b["v1y"], v),
         "              rolling:     " + velocity(b["roll1x"], b["roll1y"], v),
-        "              keeps spin:  " + spins(1),
+        "              spin after:  " + spins(1),
         f"energy        lost:        {100 * lost:.2f} % of {at_first:.4g} J",
     ]
 
