@@ -272,6 +272,8 @@ static bool write_hits(const hit *h, const carom_impact *in, const carom_result 
     if (k == 0)
       tell_hit(h, &h->hits[k], &in[k], &result[k], &first);
   }
+  if (h->picture != NULL && h->count > 1)
+    complain("%s shows the first of the %d collisions, '%s'", h->picture, h->count, h->hits[0].id);
   return output_commit() && (h->picture == NULL || hit_draw(h->picture, in, result, first.lines));
 }
 

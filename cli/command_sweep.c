@@ -169,6 +169,26 @@ static bool can_vary(const sweep *s) {
   return true;
 }
 
+/* Says so where the friction of a row is that of the usual law at its own slip, which changes with what is varied, and yet
+ * stays. */
+static void warn_of_constant(const sweep *s) {
+  shared_options by_law = s->asked;
+  by_law.friction = (friction_law){.given = true, .law = carom_alciatore()};
+  if (s->asked.friction.given || s->kind->prepare == NULL ||
+      place_among("M M1 M2 u_s u_s1 u_s2 u_b e_b", s->over, strlen(s->over)) >= 0)
+    return;
+  for (int k = 0; k < s->id_count; k++) {
+    double row[MOST_NUMBERS];
+    memcpy(row, s->rows[k], sizeof row);
+    s->kind->prepare(&by_law, row);
+    for (int number = 0; number < s->kind->numbers; number++)
+      if (row[number] != s->rows[k][number])
+        return;
+  }
+  complain("u_b follows alciatore's law in these rows, but stays constant here; --friction alciatore applies the law to every "
+           "value");
+}
+
 OPTION(sweep, option_over, "over", over, 0, "INPUT", set_text, 0,
        "what to vary: a column, such as w1z, u_b or e_b; cut, to turn the line of centres by so many degrees, with --cushion "
        "angle, to turn the cushion; or speed, to multiply all velocities and spins");
@@ -210,7 +230,7 @@ static const command_form form = {
         "after from the normal, degrees; a mirror without loss keeps it.\n"
         "\n"
         "exit code: 0; 1 if some values make an error; 2 for bad usage or unreadable input\n",
-    .example = "carom sweep --id pooltool-135 --over w1z --from -60 --to 60 -o sweep.csv",
+    .example = "carom sweep --id pooltool-135 --over u_b --from 0 --to 0.2 -o sweep.csv",
     .files = FILE_OR_NONE,
 };
 
@@ -227,6 +247,7 @@ int command_sweep(int argc, char **argv) {
   s.kind = kind_of(&s.asked);
   if (!can_vary(&s) || !pick_rows(&s.asked, file, s.id, (size_t)s.id_count, s.rows))
     return EXIT_USAGE;
+  warn_of_constant(&s);
   int errors = 0;
   if (s.picture == NULL || s.asked.output != NULL) {
     FILE *out = output_open(s.asked.output != NULL ? s.asked.output : "-");
