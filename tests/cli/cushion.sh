@@ -61,7 +61,7 @@ text = np.array([[float(x) for x in row[1:7]] for row in list(csv.reader(open("a
 print(out.dtype, out.shape, "same as CSV" if out.tobytes() == text.tobytes() else "differs", np.isnan(out).all(axis=1))
 print(rounded.dtype, np.array_equal(rounded, single, equal_nan=True), wide.dtype, np.array_equal(single, wide.astype("f4"), equal_nan=True))
 PYTHON
-carom trace --cushion --id 1 --points 2 y.npy | tail -n 1 | cut -d, -f1-4
+carom trace --cushion --id 1 --points 2 y.npy | tail -n 1 | awk -F, '{ printf "%s %.9f %.9f %s\n", $1, $2, $3, $4 }'
 echo "--- pooltool's records, largest difference"
 for name in stronge mathavan2010; do
   model=stronge; [ $name = stronge ] || model=euler
@@ -111,7 +111,7 @@ for model in mathavan euler; do
 done
 try carom sweep --cushion --id side --over e --from 0.9 --to 1.1 --points 3 -o errors.csv impacts.csv
 grep -v '^#' errors.csv | cut -d, -f2,10
-carom sweep --cushion --id side,away --over angle --from -10 --to 10 --points 3 --brief impacts.csv | cut -d, -f1,2,4-
+carom sweep --cushion --id side,away --over angle --from -10 --to 10 --points 3 --brief impacts.csv | awk -F, '/^[^m]/ || /^model/ { print; next } { printf "%s %s %s %.9f %s\n", $1, $2, $4, $5, $6 }'
 # Turning the cushion by an angle is turning the ball the other way.
 carom sweep --cushion --id side --over angle --from 30 --to 60 --points 2 impacts.csv | awk -F, '/^mathavan/ { print $2, $11 }' > turned
 awk -F, -v OFS=, -v CONVFMT=%.17g '$1 == "side" || NR == 1 { if (NR > 1) { a = -atan2(0, -1) / 6; x = $2 * cos(a) - $3 * sin(a); $3 = $2 * sin(a) + $3 * cos(a); $2 = x } print }' impacts.csv > other.csv
