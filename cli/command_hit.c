@@ -7,6 +7,7 @@
 #include "derived.h"
 #include "doubts.h"
 #include "hit_picture.h"
+#include "memory.h"
 #include "message.h"
 #include "number.h"
 #include "output.h"
@@ -14,11 +15,11 @@
 #include "subcommands.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { MOST_HITS = 16, NAME = 32, MOST_LINES = 24, LINE = 120 };
+enum { MOST_HITS = 16, NAME = 32 };
 
 /* Spins or speeds as they were given. */
 typedef struct name_list {
@@ -43,22 +44,6 @@ typedef struct hit {
   bool csv;
   const char *picture;
 } hit;
-
-/* What is told, line by line. */
-typedef struct report {
-  char line[MOST_LINES][LINE];
-  const char *lines[MOST_LINES + 1];
-  int count;
-} report;
-
-__attribute__((format(printf, 2, 3))) static void tell(report *r, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(r->line[r->count], LINE, format, arguments);
-  va_end(arguments);
-  r->lines[r->count] = r->line[r->count];
-  r->lines[++r->count] = NULL;
-}
 
 /* The spin about the horizontal axis across the way, rad/s: above 0 for follow. NaN if the text is none. */
 static double spin_of(const char *text, double rolling) {
@@ -191,38 +176,40 @@ static const char *velocity_text(const double v[2], double scale, char text[64])
   return text;
 }
 
-static void tell_spin(report *r, const double w[3]) {
+static void tell_spin(FILE *out, const double w[3]) {
   const double level = hypot(w[0], w[1]), upright = fabs(w[2]) < 0.005 ? 0.0 : w[2]; /* not -0.00 */
-  tell(r,
-       fmax(fabs(w[2]), level) < 1e9
-           ? "              spin after:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis"
-           : "              spin after:  %.4g rad/s about the vertical, %.4g rad/s about a horizontal axis",
-       upright, level);
+  fprintf(out,
+          fmax(fabs(w[2]), level) < 1e9
+              ? "              spin after:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis\n"
+              : "              spin after:  %.4g rad/s about the vertical, %.4g rad/s about a horizontal axis\n",
+          upright, level);
 }
 
-static void tell_hit(const hit *h, const one_hit *one, const carom_impact *in, const carom_result *out, report *r) {
-  const derived d = derive(in, out);
+/* Says in words what came of a collision. */
+static void tell_hit(FILE *out, const hit *h, const one_hit *one, const carom_impact *in, const carom_result *after) {
+  const derived d = derive(in, after);
   const double energy = energy_of(in->a.mass, in->a.radius, in->a.v, in->a.w), scale = one->speed;
   char text[64];
-  tell(r, "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s (%.4g rad/s), side spin %.4g rad/s.",
-       one->speed, h->cut, one->spin, in->a.w[1], in->a.w[2]);
-  tell(r, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.", in->mu_ball, in->a.mu_cloth,
-       in->restitution);
-  tell(r, "object ball   at once:     %s", velocity_text(out->b.v, scale, text));
-  tell(r, "              rolling:     %s", velocity_text(d.rolling_2, scale, text));
+  fprintf(out, "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s (%.4g rad/s), side spin %.4g rad/s.\n",
+          one->speed, h->cut, one->spin, in->a.w[1], in->a.w[2]);
+  fprintf(out, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.\n", in->mu_ball, in->a.mu_cloth,
+          in->restitution);
+  /* The object ball, the cue ball, both together. */
+  fprintf(out, "object ball   at once:     %s\n", velocity_text(after->b.v, scale, text));
+  fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_2, scale, text));
   if (fabs(d.throw_deg) < 0.005)
-    tell(r, "              throw:       none: it leaves along the line of centres");
+    fputs("              throw:       none: it leaves along the line of centres\n", out);
   else
-    tell(r, "              throw:       %.2f degrees to the %s of the line of centres", fabs(d.throw_deg),
-         side_of(d.throw_deg));
-  tell_spin(r, out->b.w);
-  tell(r, "cue ball      at once:     %s", velocity_text(out->a.v, scale, text));
-  tell(r, "              rolling:     %s", velocity_text(d.rolling_1, scale, text));
-  tell_spin(r, out->a.w);
+    fprintf(out, "              throw:       %.2f degrees to the %s of the line of centres\n", fabs(d.throw_deg),
+            side_of(d.throw_deg));
+  tell_spin(out, after->b.w);
+  fprintf(out, "cue ball      at once:     %s\n", velocity_text(after->a.v, scale, text));
+  fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_1, scale, text));
+  tell_spin(out, after->a.w);
   if (isfinite(d.energy_lost))
-    tell(r, "energy        lost:        %.2f %% of %.4g J", 100.0 * d.energy_lost, energy);
+    fprintf(out, "energy        lost:        %.2f %% of %.4g J\n", 100.0 * d.energy_lost, energy);
   else
-    tell(r, "energy        lost:        cannot be told: the energies are beyond the range of numbers");
+    fputs("energy        lost:        cannot be told: the energies are beyond the range of numbers\n", out);
 }
 
 static void write_row(FILE *out, const char *id, const carom_impact *in) {
@@ -255,26 +242,37 @@ static bool resolve_all(const hit *h, carom_impact *in, carom_result *out) {
   return !(h->asked.strict && strange);
 }
 
+/* Draws the first of the hits, with what is told of it. */
+static bool draw_first(const hit *h, const carom_impact *in, const carom_result *result) {
+  char *text;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  if (out == NULL)
+    out_of_memory();
+  if (h->count > 1)
+    complain("%s shows the first of the %d collisions, '%s'", h->picture, h->count, h->hits[0].id);
+  tell_hit(out, h, &h->hits[0], in, result);
+  fclose(out);
+  const bool good = hit_draw(h->picture, in, result, text);
+  free(text);
+  return good;
+}
+
 static bool write_hits(const hit *h, const carom_impact *in, const carom_result *result) {
   FILE *out = output_open(h->asked.output);
-  report first = {0};
   if (out == NULL)
     return false;
   if (h->csv)
     fputs("id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R,M,u_s1,u_s2,u_b,e_b\n", out);
   for (int k = 0; k < h->count; k++) {
-    report r = {0};
-    tell_hit(h, &h->hits[k], &in[k], &result[k], &r);
     if (h->csv)
       write_row(out, h->hits[k].id, &in[k]);
-    for (int line = 0; line < r.count && !h->csv; line++)
-      fprintf(out, "%s%s\n", k > 0 && line == 0 ? "\n" : "", r.line[line]);
-    if (k == 0)
-      tell_hit(h, &h->hits[k], &in[k], &result[k], &first);
+    else {
+      fputs(k > 0 ? "\n" : "", out);
+      tell_hit(out, h, &h->hits[k], &in[k], &result[k]);
+    }
   }
-  if (h->picture != NULL && h->count > 1)
-    complain("%s shows the first of the %d collisions, '%s'", h->picture, h->count, h->hits[0].id);
-  return output_commit() && (h->picture == NULL || hit_draw(h->picture, in, result, first.lines));
+  return output_commit() && (h->picture == NULL || draw_first(h, in, result));
 }
 
 static const command_form form = {

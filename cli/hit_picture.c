@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BALLS = 2, MOST_EVENTS = 64, SAMPLES = 8, MOST_LINES = 32, MOST_MARKS = 7 };
+enum { BALLS = 2, MOST_EVENTS = 64, SAMPLES = 8, MOST_TEXT = 4096, MOST_MARKS = 7 };
 static const double reach = 24.0, away = 1000.0; /* of the faster ball on the picture; of the cushions: in radii */
 static const double least_friction = 1e-6;       /* the library's motion needs some; balls slide straight on by so little */
 
@@ -75,7 +75,7 @@ static double time_shown(const carom_impact *in, const carom_result *out) {
   return reach * in->a.radius / fastest;
 }
 
-bool hit_draw(const char *path, const carom_impact *in, const carom_result *out, const char *const *text) {
+bool hit_draw(const char *path, const carom_impact *in, const carom_result *out, const char *text) {
   const double R = in->a.radius, back = 7.0 * R / hypot(in->a.v[0], in->a.v[1]);
   const double start[2] = {in->a.r[0] - back * in->a.v[0], in->a.r[1] - back * in->a.v[1]};
   const named_table table = {.table = wide_table(R)};
@@ -95,11 +95,10 @@ bool hit_draw(const char *path, const carom_impact *in, const carom_result *out,
     return false;
   }
   shot_mark marks[MOST_MARKS];
-  const char *lines[MOST_LINES] = {
-      "Thin dashed lines from the balls: direction just after contact. Dots: the ball rolls from here."};
+  char lines[MOST_TEXT];
+  snprintf(lines, sizeof lines,
+           "Thin dashed lines from the balls: direction just after contact. Dots: the ball rolls from here.\n%s", text);
   shot_extra x = {.low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}, .mark = marks, .text = lines};
-  for (int k = 0; text[k] != NULL && k + 2 < MOST_LINES; k++)
-    lines[k + 1] = text[k];
   /* What is to be seen: both balls, the last of the way there, both paths. */
   include(&x, start, R);
   include(&x, in->a.r, 4.0 * R);

@@ -102,7 +102,7 @@ static view draw_part(FILE *out, const shot_extra *x) {
   const double wide = x->high[0] - x->low[0], high = x->high[1] - x->low[1];
   view v = {.out = out, .scale = fmin(part_width / wide, part_height / high)};
   int lines = 0;
-  while (x->text[lines] != NULL)
+  for (const char *end = x->text; (end = strchr(end, '\n')) != NULL; end++)
     lines++;
   memcpy(v.low, x->low, sizeof v.low);
   memcpy(v.high, x->high, sizeof v.high);
@@ -122,10 +122,11 @@ static view draw_part(FILE *out, const shot_extra *x) {
     if (m->label != NULL)
       write_text(out, ends[2] + 4.0, ends[3] + 12.0, "font-size=\"13\" fill=\"#123\"", m->label, SIZE_MAX);
   }
-  for (int k = 0; k < lines; k++)
+  const char *text = x->text;
+  for (int k = 0; k < lines; k++, text += strcspn(text, "\n") + 1)
     write_text(out, part_margin, bottom + line_height * (k + 1),
-               "xml:space=\"preserve\" font-size=\"12.5\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"",
-               x->text[k], SIZE_MAX);
+               "xml:space=\"preserve\" font-size=\"12.5\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", text,
+               strcspn(text, "\n"));
   return v;
 }
 

@@ -17,12 +17,12 @@ typedef struct shot_mark {
   const char *label;
 } shot_mark;
 
-/* A part of the cloth to be drawn instead of the table, with marks, and lines of text below it, the last of which is NULL. */
+/* A part of the cloth to be drawn instead of the table, with marks, and lines of text below it, each with its end. */
 typedef struct shot_extra {
   double low[2], high[2]; /* m */
   const shot_mark *mark;
   int marks;
-  const char *const *text;
+  const char *text;
 } shot_extra;
 
 /* Draws it as SVG, up to shot->time, when the balls are as in shot->final. `extra` may be NULL. */
