@@ -47,18 +47,20 @@ import csv, numpy as np
 names = "vx vy vz wx wy wz nx ny h R M mu_s mu_w e rho".split()
 rows = list(csv.DictReader(open("impacts.csv")))
 a = np.array([[float(row.get(name, {"ny": 1}.get(name, 0))) for name in names] for row in rows if row["id"] != "word"])
-np.save("y.npy", a), np.save("y4.npy", a.astype("f4")), np.save("narrow.npy", a[:, :14])
+np.save("y.npy", a), np.save("y4.npy", a.astype("f4")), np.save("narrow.npy", a[:, :14]), np.save("many.npy", np.tile(a.astype("f4"), (700, 1)))
 PYTHON
 try carom resolve --cushion -o out.npy y.npy
 try carom resolve --cushion -o single.npy y4.npy 2> /dev/null
 try carom resolve --cushion --precision single -o rounded.npy y.npy 2> /dev/null
 try carom resolve --cushion --precision double -o wide.npy y4.npy 2> /dev/null
 try carom resolve --cushion -o out.npy narrow.npy
+carom resolve --cushion -o many_out.npy many.npy 2> /dev/null || echo "exit $?"
 python - <<'PYTHON'
 import csv, numpy as np
 out, single, rounded, wide = (np.load(name + ".npy") for name in ("out", "single", "rounded", "wide"))
 text = np.array([[float(x) for x in row[1:7]] for row in list(csv.reader(open("after.csv")))[1:] if row[0] != "word"])
 print(out.dtype, out.shape, "same as CSV" if out.tobytes() == text.tobytes() else "differs", np.isnan(out).all(axis=1))
+print("each of many as alone:", np.array_equal(np.load("many_out.npy"), np.tile(single, (700, 1)), equal_nan=True))
 print(rounded.dtype, np.array_equal(rounded, single, equal_nan=True), wide.dtype, np.array_equal(single, wide.astype("f4"), equal_nan=True))
 PYTHON
 carom trace --cushion --id 1 --points 2 y.npy | tail -n 1 | awk -F, '{ printf "%s %.9f %.9f %s\n", $1, $2, $3, $4 }'
