@@ -100,7 +100,7 @@ static void print_outcome(FILE *out, const curve *c, const outcome *o, double ju
 static int print_curve(FILE *out, const curve *c, double done, double total) {
   const sweep *s = c->s;
   int errors = 0;
-  outcome first = {0}, at[4] = {0}; /* k - 1 to k + 2, where they exist */
+  outcome first = {0}, at[4] = {0}; /* k - 1 to k + 2, where they exist: a jump needs both neighbours */
   for (int k = -2; k < s->points; k++) {
     memmove(at, at + 1, 3 * sizeof at[0]);
     if (k + 2 < s->points)
@@ -125,6 +125,7 @@ static int print_sweep(FILE *out, sweep *s) {
   const double total = (double)s->points * s->id_count * variants;
   int errors = 0;
   double done = 0.0;
+  /* The notes are of the first row. */
   s->asked.id = s->id[0];
   s->kind->describe(out, &s->asked, s->rows[0]);
   fprintf(out, "# over: %s\n%s,value,%sjump,%s%sstatus,%s,id\n", s->over, s->kind->which, s->kind->lead_columns,
@@ -248,6 +249,7 @@ int command_sweep(int argc, char **argv) {
   if (!can_vary(&s) || !pick_rows(&s.asked, file, s.id, (size_t)s.id_count, s.rows))
     return EXIT_USAGE;
   warn_of_constant(&s);
+  /* The CSV, unless only the picture is asked for. */
   int errors = 0;
   if (s.picture == NULL || s.asked.output != NULL) {
     FILE *out = output_open(s.asked.output != NULL ? s.asked.output : "-");

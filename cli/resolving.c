@@ -136,6 +136,7 @@ int resolve_file(const resolving *job, const char *file) {
   r.converted = allocate(NPY_BLOCK, (size_t)r.kind->numbers * sizeof(double));
   r.result = allocate(NPY_BLOCK, (size_t)r.kind->results * sizeof(double));
   r.status = allocate(NPY_BLOCK, 1);
+  /* Nothing is written before the input has been opened; what stands there appears when all is written. */
   r.out = sink_open(&job->shared, r.single);
   if (r.out != NULL && sink_close(r.out, resolve_all(&r)))
     code = r.errors > 0 ? EXIT_SOME : EXIT_GOOD;

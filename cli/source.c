@@ -49,6 +49,7 @@ static bool find_column(row_source *s, const record *header, int number) {
   if (!find_once(header, s->name, c->name, &at_own) || !find_once(header, s->name, c->both, &at_both) ||
       !find_once(header, s->name, others, &at_others))
     return false;
+  /* One of them is enough. */
   if (at_own != SIZE_MAX && at_both != SIZE_MAX) {
     complain("%s:%lld: columns '%s' and '%s' say the same; give one of them", s->name, header->line, c->both, c->name);
     return false;
@@ -158,11 +159,13 @@ static const char *fill(const row_source *s, const record *in, row_note *note, d
     snprintf(note->message, sizeof note->message, "the row is longer than a mebibyte; is a quote left open?");
     return "malformed_row";
   }
+  /* Empty fields behind the last column are no harm. */
   for (size_t k = s->width; k < in->count; k++)
     if (in->field[k][0] != '\0') {
       snprintf(note->message, sizeof note->message, "%zu fields, but the header has %zu", in->count, s->width);
       return "too_many_fields";
     }
+  /* Each number from its column. */
   for (int k = 0; k < s->kind->numbers; k++) {
     const char *name = s->column[k], *text = s->at[k] < in->count ? in->field[s->at[k]] : "";
     if (s->at[k] == SIZE_MAX) /* it may be missing */
@@ -193,6 +196,7 @@ static read_result read_csv(row_source *s, source_block *block) {
     double *numbers = (double *)block->numbers + block->count * (size_t)s->kind->numbers;
     if ((result = record_next(s->records, &in)) != READ_ONE)
       break;
+    /* What is known of the row, and its numbers: the defaults, and over them what it says. */
     note->line = in.line;
     set_id(s, &in, s->next + block->count + 1, note);
     memcpy(numbers, s->kind->defaults, row_size);
