@@ -138,7 +138,7 @@ static bool list_hits(hit *h) {
 }
 
 static carom_impact impact_of(const hit *h, const one_hit *one) {
-  const double angle = h->cut * (3.14159265358979323846 / 180.0), rolling = one->speed / h->radius;
+  const double angle = h->cut * degree, rolling = one->speed / h->radius;
   carom_impact in = {.restitution = h->restitution};
   double side;
   if (!parse_number(h->side, &side)) /* gearing: the surfaces move alike along the tangent line */

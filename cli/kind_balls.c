@@ -130,11 +130,9 @@ static carom_status look(const shared_options *asked, int variant, const double 
   carom_result result;
   carom_detail detail;
   const carom_status status = carom_collide_detail(&impact, &options, &result, &detail);
-  const double along[2] = {impact.b.r[0] - impact.a.r[0], impact.b.r[1] - impact.a.r[1]};
-  const double change[2] = {result.b.v[0] - impact.b.v[0], result.b.v[1] - impact.b.v[1]};
   /* Throw, the share of the impulse after which the balls stick, and the friction that was in force. */
   memcpy(out, &result, sizeof result);
-  lead[0] = angle_between(along, change);
+  lead[0] = derive(&impact, &result).throw_deg;
   lead[1] = detail.stick_normal / detail.normal;
   *tail = impact.mu_ball;
   return status;
