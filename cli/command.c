@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include "carom.h"
+#include "memory.h"
 #include "message.h"
 #include "output.h"
 #include "suggest.h"
@@ -13,21 +14,38 @@
 #include <string.h>
 #include <unistd.h>
 
-static void print_help(const program *p, FILE *to) {
+static void print_help(FILE *to, const void *of) {
+  const program *p = of;
   fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n\ncommands:\n", p->name, p->about);
   for (size_t k = 0; k < p->count; k++)
     fprintf(to, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
-  fprintf(to, "\n`%s COMMAND --help` tells the arguments of each; `%s --version` the version.\n\nexample:\n  %s\n", p->name,
+  fprintf(to, "\n`%s COMMAND --help` tells the arguments of each,\n`%s --version` the version.\n\nexample:\n  %s\n", p->name,
           p->name, p->example);
 }
 
-/* The page NAME(1) of the manual, from the same table. */
-static void print_manual(const program *p) {
-  printf(".TH %s 1 \"\" \"carom %s\"\n.SH NAME\n%s \\- %s\n.SH SYNOPSIS\n.B %s\nCOMMAND [ARGUMENTS]\n.SH COMMANDS\n", p->name,
-         carom_version(), p->name, p->about, p->name);
-  for (size_t k = 0; k < p->count; k++)
-    printf(".TP\n.BR %s\\-%s (1)\n%s\n", p->name, p->commands[k].name, p->commands[k].text);
-  printf(".SH EXAMPLE\n.nf\n%s\n.fi\n", p->example);
+/* Text for roff: what its lines would take for requests and escapes is put right. */
+static void print_roff(const char *text) {
+  for (bool first = true; *text != '\0'; first = *text == '\n', text++) {
+    if (first && (*text == '.' || *text == '\''))
+      fputs("\\&", stdout);
+    fputs(*text == '\\' ? "\\e" : *text == '-' ? "\\-" : (const char[]){*text, '\0'}, stdout);
+  }
+}
+
+void print_manual(const char *name, const char *about, void (*print)(FILE *out, const void *of), const void *of) {
+  char *help;
+  size_t size;
+  FILE *out = open_memstream(&help, &size);
+  if (out == NULL)
+    out_of_memory();
+  print(out, of);
+  fclose(out);
+  printf(".TH %s 1 \"\" \"carom %s\"\n.SH NAME\n", name, carom_version());
+  print_roff(name);
+  printf(" \\- %.*s\n.SH DESCRIPTION\n.nf\n", (int)strcspn(about, ".\n"), about);
+  print_roff(help);
+  puts(".fi");
+  free(help);
 }
 
 /* What could not be written was not said, so the run was not good. */
@@ -67,7 +85,7 @@ int program_run(const program *p, int argc, char **argv) {
   hold_standard_places();
   atexit(output_abandon); /* a program that ends early leaves no half-written output */
   if (argc < 2) {
-    print_help(p, stderr);
+    print_help(stderr, p);
     return EXIT_USAGE;
   }
   const char *name = argv[1];
@@ -79,11 +97,11 @@ int program_run(const program *p, int argc, char **argv) {
     argv = for_help;
   }
   if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
-    print_help(p, stdout);
+    print_help(stdout, p);
     return finish(EXIT_GOOD);
   }
   if (strcmp(name, "--man") == 0) {
-    print_manual(p);
+    print_manual(p->name, p->about, print_help, p);
     return finish(EXIT_GOOD);
   }
   if (strcmp(name, "--version") == 0) {

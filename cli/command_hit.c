@@ -7,6 +7,7 @@
 #include "derived.h"
 #include "doubts.h"
 #include "hit_picture.h"
+#include "memory.h"
 #include "message.h"
 #include "number.h"
 #include "output.h"
@@ -14,11 +15,11 @@
 #include "subcommands.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { MOST_HITS = 16, NAME = 32, MOST_LINES = 24, LINE = 120 };
+enum { MOST_HITS = 16, NAME = 32 };
 
 /* Spins or speeds as they were given. */
 typedef struct name_list {
@@ -43,22 +44,6 @@ typedef struct hit {
   bool csv;
   const char *picture;
 } hit;
-
-/* What is told, line by line. */
-typedef struct report {
-  char line[MOST_LINES][LINE];
-  const char *lines[MOST_LINES + 1];
-  int count;
-} report;
-
-__attribute__((format(printf, 2, 3))) static void tell(report *r, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(r->line[r->count], LINE, format, arguments);
-  va_end(arguments);
-  r->lines[r->count] = r->line[r->count];
-  r->lines[++r->count] = NULL;
-}
 
 /* The spin about the horizontal axis across the way, rad/s: above 0 for follow. NaN if the text is none. */
 static double spin_of(const char *text, double rolling) {
@@ -118,24 +103,22 @@ static OPTION_SET(set_side) {
   return false;
 }
 
-OPTION(
-    hit, option_speed, "speed", speeds, 0, "V", set_speeds, 0,
-    "speed of the cue ball at contact, m/s (default 1.5). Several with commas: several\ncollisions, each spin at each speed");
+OPTION(hit, option_speed, "speed", speeds, 0, "V", set_speeds, 0,
+       "speed of the cue ball at contact, m/s (default 1.5). Several with commas: several collisions, each spin at each speed");
 OPTION(hit, option_cut, "cut", cut, 0, "DEGREES", set_number, 0,
-       "angle from its way to the line of centres, -90 to 90; above 0 the object ball\ngoes to the left (default 30)");
+       "angle from its way to the line of centres, -90 to 90; above 0 the object ball goes to the left (default 30)");
 OPTION(hit, option_spin, "spin", spins, 0, "SPIN", set_spins, 0,
-       "stun: none (default); follow or roll: it rolls; draw: as fast backwards; or a number,\n"
+       "stun: none (default); follow or roll: it rolls; draw: as fast backwards; or a number, "
        "rad/s, above 0 for follow. Several with commas: several collisions");
 OPTION(hit, option_side, "side", side, 0, "RAD/S", set_side, 0,
-       "side spin, rad/s, above 0 for right english (counterclockwise from above), or gearing:\n"
+       "side spin, rad/s, above 0 for right english (counterclockwise from above), or gearing: "
        "as much as lets the balls roll on each other without slip (default 0)");
 OPTION(hit, option_radius, "radius", radius, 0, "R", set_number, 0, "of the balls, m (default 0.028575, a pool ball)");
 OPTION(hit, option_mass, "mass", mass, 0, "M", set_number, 0, "of the balls, kg (default 0.170097)");
 OPTION(hit, option_cloth, "cloth", cloth, 0, "MU", set_number, 0, "friction with the cloth (default 0.2)");
 OPTION(hit, option_restitution, "restitution", restitution, 0, "E", set_number, 0, "of the balls (default 0.95)");
-OPTION(
-    hit, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-    "write the collision as `carom resolve` reads it; its id is the spin, with several\nspeeds spin-speed, such as draw-1.5");
+OPTION(hit, option_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "write the collision as `carom resolve` reads it; its id is the spin, with several speeds spin-speed, such as draw-1.5");
 OPTION(hit, option_plot, "plot", picture, 0, "OUT.svg", set_svg, 0, "draw the balls and their paths from above");
 
 /* False after a complaint. */
@@ -155,7 +138,7 @@ static bool list_hits(hit *h) {
 }
 
 static carom_impact impact_of(const hit *h, const one_hit *one) {
-  const double angle = h->cut * (3.14159265358979323846 / 180.0), rolling = one->speed / h->radius;
+  const double angle = h->cut * degree, rolling = one->speed / h->radius;
   carom_impact in = {.restitution = h->restitution};
   double side;
   if (!parse_number(h->side, &side)) /* gearing: the surfaces move alike along the tangent line */
@@ -193,38 +176,40 @@ static const char *velocity_text(const double v[2], double scale, char text[64])
   return text;
 }
 
-static void tell_spin(report *r, const char *verb, const double w[3]) {
+static void tell_spin(FILE *out, const double w[3]) {
   const double level = hypot(w[0], w[1]), upright = fabs(w[2]) < 0.005 ? 0.0 : w[2]; /* not -0.00 */
-  tell(r,
-       fmax(fabs(w[2]), level) < 1e9
-           ? "              %s spin:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis"
-           : "              %s spin:  %.4g rad/s about the vertical, %.4g rad/s about a horizontal axis",
-       verb, upright, level);
+  fprintf(out,
+          fmax(fabs(w[2]), level) < 1e9
+              ? "              spin after:  %.2f rad/s about the vertical, %.2f rad/s about a horizontal axis\n"
+              : "              spin after:  %.4g rad/s about the vertical, %.4g rad/s about a horizontal axis\n",
+          upright, level);
 }
 
-static void tell_hit(const hit *h, const one_hit *one, const carom_impact *in, const carom_result *out, report *r) {
-  const derived d = derive(in, out);
-  const double energy = energy_of(&in->a, in->a.v, in->a.w), scale = one->speed;
+/* Says in words what came of a collision. */
+static void tell_hit(FILE *out, const hit *h, const one_hit *one, const carom_impact *in, const carom_result *after) {
+  const derived d = derive(in, after);
+  const double energy = energy_of(in->a.mass, in->a.radius, in->a.v, in->a.w), scale = one->speed;
   char text[64];
-  tell(r, "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s (%.4g rad/s), side spin %.4g rad/s.",
-       one->speed, h->cut, one->spin, in->a.w[1], in->a.w[2]);
-  tell(r, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.", in->mu_ball, in->a.mu_cloth,
-       in->restitution);
-  tell(r, "object ball   at once:     %s", velocity_text(out->b.v, scale, text));
-  tell(r, "              rolling:     %s", velocity_text(d.rolling_2, scale, text));
+  fprintf(out, "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s (%.4g rad/s), side spin %.4g rad/s.\n",
+          one->speed, h->cut, one->spin, in->a.w[1], in->a.w[2]);
+  fprintf(out, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.\n", in->mu_ball, in->a.mu_cloth,
+          in->restitution);
+  /* The object ball, the cue ball, both together. */
+  fprintf(out, "object ball   at once:     %s\n", velocity_text(after->b.v, scale, text));
+  fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_2, scale, text));
   if (fabs(d.throw_deg) < 0.005)
-    tell(r, "              throw:       none: it leaves along the line of centres");
+    fputs("              throw:       none: it leaves along the line of centres\n", out);
   else
-    tell(r, "              throw:       %.2f degrees to the %s of the line of centres", fabs(d.throw_deg),
-         side_of(d.throw_deg));
-  tell_spin(r, "takes", out->b.w);
-  tell(r, "cue ball      at once:     %s", velocity_text(out->a.v, scale, text));
-  tell(r, "              rolling:     %s", velocity_text(d.rolling_1, scale, text));
-  tell_spin(r, "keeps", out->a.w);
+    fprintf(out, "              throw:       %.2f degrees to the %s of the line of centres\n", fabs(d.throw_deg),
+            side_of(d.throw_deg));
+  tell_spin(out, after->b.w);
+  fprintf(out, "cue ball      at once:     %s\n", velocity_text(after->a.v, scale, text));
+  fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_1, scale, text));
+  tell_spin(out, after->a.w);
   if (isfinite(d.energy_lost))
-    tell(r, "energy        lost:        %.2f %% of %.4g J", 100.0 * d.energy_lost, energy);
+    fprintf(out, "energy        lost:        %.2f %% of %.4g J\n", 100.0 * d.energy_lost, energy);
   else
-    tell(r, "energy        lost:        cannot be told: the energies are beyond the range of numbers");
+    fputs("energy        lost:        cannot be told: the energies are beyond the range of numbers\n", out);
 }
 
 static void write_row(FILE *out, const char *id, const carom_impact *in) {
@@ -251,38 +236,50 @@ static bool resolve_all(const hit *h, carom_impact *in, carom_result *out) {
                carom_status_string(status), carom_status_name(status));
       return false;
     }
-    strange |= doubts_about(&found, &in[k], true) != NULL;
+    strange |= doubts_about(&found, &ball_kind, (const double *)&in[k]) != NULL;
   }
-  doubts_report(&found, "hit");
+  doubts_report(&found, &ball_kind, "hit");
   return !(h->asked.strict && strange);
+}
+
+/* Draws the first of the hits, with what is told of it. */
+static bool draw_first(const hit *h, const carom_impact *in, const carom_result *result) {
+  char *text;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  if (out == NULL)
+    out_of_memory();
+  if (h->count > 1)
+    complain("%s shows the first of the %d collisions, '%s'", h->picture, h->count, h->hits[0].id);
+  tell_hit(out, h, &h->hits[0], in, result);
+  fclose(out);
+  const bool good = hit_draw(h->picture, in, result, text);
+  free(text);
+  return good;
 }
 
 static bool write_hits(const hit *h, const carom_impact *in, const carom_result *result) {
   FILE *out = output_open(h->asked.output);
-  report first = {0};
   if (out == NULL)
     return false;
   if (h->csv)
     fputs("id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R,M,u_s1,u_s2,u_b,e_b\n", out);
   for (int k = 0; k < h->count; k++) {
-    report r = {0};
-    tell_hit(h, &h->hits[k], &in[k], &result[k], &r);
     if (h->csv)
       write_row(out, h->hits[k].id, &in[k]);
-    for (int line = 0; line < r.count && !h->csv; line++)
-      fprintf(out, "%s%s\n", k > 0 && line == 0 ? "\n" : "", r.line[line]);
-    if (k == 0)
-      tell_hit(h, &h->hits[k], &in[k], &result[k], &first);
+    else {
+      fputs(k > 0 ? "\n" : "", out);
+      tell_hit(out, h, &h->hits[k], &in[k], &result[k]);
+    }
   }
-  return output_commit() && (h->picture == NULL || hit_draw(h->picture, in, result, first.lines));
+  return output_commit() && (h->picture == NULL || draw_first(h, in, result));
 }
 
 static const command_form form = {
     .name = "hit",
     .usage = "[OPTIONS]",
     .about = "Hits a ball at rest with the cue ball and tells in words what becomes of both: throw, deflection, spin, speeds "
-             "at once "
-             "and\nonce they roll. Angles are from the way that the cue ball came, as seen from above.\n",
+             "at once and once they roll. Angles are from the way that the cue ball came, as seen from above.\n",
     .options = (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side, &option_friction,
                                            &option_restitution, &option_cloth, &option_radius, &option_mass, &option_solver,
                                            &option_slip, &option_steps, &option_csv, &option_plot, &option_strict,

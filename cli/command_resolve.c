@@ -1,37 +1,41 @@
-/* `carom resolve`: collisions from a file, by the library's solvers. */
-#include "cushion_rows.h"
+/* `carom resolve`: rows from a file, by the library's solvers. */
+#include "help.h"
 #include "resolving.h"
 #include "subcommands.h"
-
-static void by_library(const void *context, const carom_options *options, bool single, const void *in, size_t n, void *out,
-                       int8_t *status) {
-  (void)context;
-  if (single)
-    carom_collide_batch_f32(in, n, options, out, status);
-  else
-    carom_collide_batch(in, n, options, out, status);
-}
 
 static const command_form form = {
     .name = "resolve",
     .usage = "[OPTIONS] IN",
-    .about = resolve_about,
-    .options = (const option_row *const[]){&option_solver, &option_slip, &option_steps, &option_friction, &option_precision,
-                                           &option_threads, &option_cushion, &option_derived, &option_strict, &option_output,
-                                           &option_summary, NULL},
-    .details = resolve_details,
+    .about = RESOLVE_ABOUT "With --cushion the rows are impacts of a ball on a cushion.\n",
+    .options =
+        (const option_row *const[]){&option_cushion, &option_precision, &option_threads, &option_steps, &option_derived,
+                                    &option_strict, &option_summary, &option_output, &option_solver, &option_slip,
+                                    &option_friction, &option_model, &option_convention, &option_law, &option_least_step, NULL},
+    .details = COLLISION_COLUMNS_HELP
+    "\n" RESULTS_HELP "\n"
+    "with --derived also, nan unless the status is ok:\n"
+    "  throw_deg            angle of ball 2's change of velocity from the line of centres, degrees, to the left from above\n"
+    "  deflection_deg       angle by which ball 1 is turned at once, and deflection_rolling_deg once it rolls\n"
+    "  roll1x roll1y        velocity of ball 1 once it rolls, m/s, and roll2x roll2y of ball 2\n"
+    "  spin_transfer        ball 2's change of w2z over ball 1's w1z before; nan where that is 0\n"
+    "  energy_lost          share of the kinetic energy that is lost, that of spins included\n"
+    "\n" IMPACT_COLUMNS_HELP "\n"
+    "columns written with --cushion: id,vx,vy,vz,wx,wy,wz,status\n"
+    "\n"
+    "with --cushion --derived also:\n"
+    "  angle_in_deg         angle of the velocity before from the normal, degrees, to the left from above\n"
+    "  angle_out_deg        angle of the velocity after from the normal; a mirror without loss keeps it\n"
+    "  angle_rolling_deg    the same once the ball rolls\n"
+    "  rollx rolly          velocity once the ball rolls, m/s\n"
+    "  energy_lost          share of the kinetic energy that is lost, that of spin included\n"
+    "\n" RESOLVE_EXIT_HELP,
     .example = "carom resolve --solver euler --slip pooltool -o after.csv before.csv",
     .files = ONE_FILE,
 };
 
 int command_resolve(int argc, char **argv) {
-  if (cushion_asked(&argc, argv))
-    return cushion_resolve(argc, argv);
-  resolving job = {.shared = {.options = COMMAND_OPTIONS, .precision = ANY_PRECISION}, .solve = by_library};
+  resolving job = {.shared = {.options = COMMAND_OPTIONS, .precision = ANY_PRECISION}};
   const char *file;
   const int code = parse_arguments(&form, argc, argv, &job, &file);
-  if (code >= 0)
-    return code;
-  job.solver = carom_solver_name(job.shared.options.solver);
-  return resolve_file(&job, file);
+  return code >= 0 ? code : resolve_file(&job, file);
 }

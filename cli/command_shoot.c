@@ -39,9 +39,9 @@ typedef struct block {
 OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
        "whose rules of contact and models (default carom)");
 OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "MODEL", set_ball_model, 0,
-       "the collision of two balls: exact, euler, inelastic or mirror (default: exact; by\npooltool's models inelastic)");
-OPTION(shoot_job, option_cushion, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
-       "the impact on a cushion: mathavan (the exact limit), stronge, han, mirror or euler (default:\nmathavan; by pooltool's "
+       "the collision of two balls: exact, euler, inelastic or mirror (default: exact; by pooltool's models inelastic)");
+OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
+       "the impact on a cushion: mathavan (the exact limit), stronge, han, mirror or euler (default: mathavan; by pooltool's "
        "models stronge)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
        "what is told of events: nothing, time, type and ids, or states too (default full)");
@@ -50,7 +50,7 @@ OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_co
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
        "a shot is stopped after so much time of its clock (default 1000)");
 OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT.svg", set_svg, 0,
-       "draw the table and the ball's paths, of the first shot that is good");
+       "draw the table and the balls' paths, of the first shot without an error");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
 
 static carom_shot_options options_of(const shoot_job *job) {
@@ -129,7 +129,7 @@ static void draw(drawing *picture, const shot_line *line, const carom_shot *shot
   FILE *out = open_memstream(&picture->text, &picture->size);
   if (out == NULL)
     out_of_memory();
-  shot_draw(out, line, shot);
+  shot_draw(out, line, shot, NULL);
   if (fclose(out) != 0)
     out_of_memory();
 }
@@ -227,7 +227,8 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
   free(b);
   progress_clear();
   if (job->plot != NULL && picture->text == NULL) {
-    complain("nothing to draw: there is no good shot%s%s", job->id != NULL ? " " : "", job->id != NULL ? job->id : "");
+    complain("nothing to draw: there is no shot without an error%s%s", job->id != NULL ? " " : "",
+             job->id != NULL ? job->id : "");
     good = false;
   }
   return what == SHOT_FAILED ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;
@@ -237,14 +238,14 @@ static const command_form form = {
     .name = "shoot",
     .usage = "[OPTIONS] IN.jsonl",
     .about = "Plays whole shots, from the strike of the cue until nothing moves. Reads tables and shots as JSON Lines "
-             "(docs/using/shots.md has the\n"
+             "(docs/using/shots.md has the "
              "format; recorded results in them are ignored) and writes each table and each shot with its events and final "
              "states. IN may be -.\n",
-    .options = (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion, &option_events, &option_steps,
-                                           &option_events_most, &option_time_most, &option_threads, &option_plot,
+    .options = (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion_model, &option_events,
+                                           &option_steps, &option_events_most, &option_time_most, &option_threads, &option_plot,
                                            &option_shot_id, &option_output, NULL},
     .details =
-        "exit code: 0 if all shots came to rest, 1 if some are in error (they have a status and an error; the others are\n"
+        "exit code: 0 if all shots came to rest, 1 if some are in error (they have a status and an error; the others are "
         "played), 2 for bad usage or unreadable input\n",
     .example = "carom shoot --plot break.svg -o played.jsonl shots.jsonl",
     .files = ONE_FILE,

@@ -1,7 +1,5 @@
-/* `carom sweep`: one collision over and over, one of its inputs varied in fine steps. */
+/* `carom sweep`: some rows over and over, one of their inputs varied in fine steps. */
 #include "command.h"
-#include "cushion_rows.h"
-#include "impacts.h"
 #include "message.h"
 #include "number.h"
 #include "output.h"
@@ -14,19 +12,15 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { RESULTS = sizeof(carom_result) / sizeof(double), MOST_IDS = 16, PLOTTED = 361 };
-static const double degree = 3.14159265358979323846 / 180.0;
-
-/* What can be varied: columns of a collision, u_s for u_s1 and u_s2, and two that change more than their numbers. */
-static const char inputs[] = "cut speed v1x v1y w1x w1y w1z v2x v2y w2x w2y w2z R M M1 M2 u_s u_s1 u_s2 u_b e_b";
+enum { MOST_IDS = 16, PLOTTED = 361, MOST_LEAD = 2 };
 
 typedef struct sweep {
   shared_options asked;
+  const row_kind *kind;
   char *ids; /* as they were given, then each with its NUL */
   const char *id[MOST_IDS];
-  carom_impact impacts[MOST_IDS];
+  double rows[MOST_IDS][MOST_NUMBERS];
   int id_count;
-  carom_impact impact; /* the one that is swept now */
   const char *over;
   double from, to;
   int points;
@@ -34,64 +28,52 @@ typedef struct sweep {
   const char *picture;
 } sweep;
 
+/* A curve: one row by one solver or model. */
+typedef struct curve {
+  const sweep *s;
+  int row, variant;
+} curve;
+
 typedef struct outcome {
-  carom_result result;
+  double result[MOST_RESULTS], lead[MOST_LEAD], tail, value, scale;
   carom_status status;
-  double value, mu_ball, throw_deg, stick_share, scale;
-  double speed[RESULTS]; /* the results, spins times radius */
+  double speed[MOST_RESULTS]; /* the results, spins times radius */
 } outcome;
 
-static void turn_line_of_centres(carom_impact *in, double degrees) {
-  const double angle = degrees * degree;
-  const double x = in->b.r[0] - in->a.r[0], y = in->b.r[1] - in->a.r[1];
-  in->b.r[0] = in->a.r[0] + x * cos(angle) - y * sin(angle);
-  in->b.r[1] = in->a.r[1] + x * sin(angle) + y * cos(angle);
+/* Puts the value into the row: into the number of that column, or into all that the word stands for. */
+static void vary(const sweep *s, double *row, double value) {
+  const row_kind *kind = s->kind;
+  for (int k = 0; k < kind->numbers; k++)
+    if (kind_fills(kind, k, s->over))
+      row[k] = value;
+  if (strcmp(s->over, kind->turning) == 0)
+    kind->turn(row, value);
+  /* All velocities, and the spins behind them. */
+  for (int ball = 0; ball < 2 && strcmp(s->over, "speed") == 0 && kind->motion[ball] >= 0; ball++)
+    for (int k = 0; k < 6; k++)
+      row[kind->motion[ball] + k] *= value;
+  if (kind->prepare != NULL)
+    kind->prepare(&s->asked, row);
 }
 
-static carom_impact vary(const sweep *s, double value) {
-  carom_impact in = s->impact;
-  double *number = (double *)&in;
-  const bool both_cloths = strcmp(s->over, "u_s") == 0;
-  const unsigned fields = both_cloths ? impact_fields("u_s1") | impact_fields("u_s2") : impact_fields(s->over);
-  for (int k = 0; k < IMPACT_FIELDS; k++)
-    if ((fields >> k & 1u) != 0)
-      number[k] = value;
-  if (strcmp(s->over, "cut") == 0)
-    turn_line_of_centres(&in, value);
-  for (int k = 0; k < 3 && strcmp(s->over, "speed") == 0; k++) {
-    in.a.v[k] *= value;
-    in.a.w[k] *= value;
-    in.b.v[k] *= value;
-    in.b.w[k] *= value;
-  }
-  if (s->asked.friction.given) /* it depends on the slip, and so on what is varied */
-    in.mu_ball = carom_mu_ball(&in, s->asked.friction.law);
-  return in;
-}
-
-static outcome resolve(const sweep *s, carom_solver solver, int k) {
-  outcome o = {.value = s->from + (s->to - s->from) * ((double)k / (s->points - 1))};
-  const carom_impact in = vary(s, o.value);
-  carom_options options = s->asked.options;
-  carom_detail detail;
-  options.solver = solver;
-  o.status = carom_collide_detail(&in, &options, &o.result, &detail);
-  o.mu_ball = in.mu_ball;
-  o.stick_share = detail.stick_normal / detail.normal;
-  const double along[2] = {in.b.r[0] - in.a.r[0], in.b.r[1] - in.a.r[1]};
-  const double change[2] = {o.result.b.v[0] - in.b.v[0], o.result.b.v[1] - in.b.v[1]};
-  o.throw_deg = atan2(along[0] * change[1] - along[1] * change[0], along[0] * change[0] + along[1] * change[1]) / degree;
-  for (int c = 0; c < RESULTS; c++) {
-    o.speed[c] = ((const double *)&o.result)[c] * (c / 3 % 2 == 1 ? in.a.radius : 1.0);
-    o.scale = fmax(o.scale, fabs(o.speed[c]));
+static outcome resolve(const curve *c, int point) {
+  const sweep *s = c->s;
+  outcome o = {.value = s->from + (s->to - s->from) * ((double)point / (s->points - 1))};
+  double row[MOST_NUMBERS];
+  memcpy(row, s->rows[c->row], sizeof row);
+  vary(s, row, o.value);
+  o.status = s->kind->look(&s->asked, c->variant, row, o.result, o.lead, &o.tail);
+  for (int k = 0; k < s->kind->results; k++) {
+    o.speed[k] = o.result[k] * (k / 3 % 2 == 1 ? row[s->kind->radius] : 1.0);
+    o.scale = fmax(o.scale, fabs(o.speed[k]));
   }
   return o;
 }
 
 /* How far the step from at[1] to at[2] lies outside what the steps before and after it span. */
-static double jump_of(const outcome at[4]) {
+static double jump_of(const outcome at[4], int results) {
   double most = 0.0;
-  for (int c = 0; c < RESULTS; c++) {
+  for (int c = 0; c < results; c++) {
     double step[3];
     for (int k = 0; k < 3; k++)
       step[k] = at[k + 1].speed[c] - at[k].speed[c];
@@ -100,29 +82,33 @@ static double jump_of(const outcome at[4]) {
   return most / at[1].scale;
 }
 
-static void print_outcome(FILE *out, const sweep *s, const char *id, const outcome *o, carom_solver solver, double jump) {
-  fputs(carom_solver_name(solver), out);
-  write_numbers(out, (const double[]){o->value, o->throw_deg, o->stick_share, jump}, 4);
-  write_numbers(out, (const double *)&o->result, s->brief ? 0 : RESULTS);
+static void print_outcome(FILE *out, const curve *c, const outcome *o, double jump) {
+  const sweep *s = c->s;
+  fputs(s->kind->name(&s->asked, c->variant), out);
+  write_numbers(out, &o->value, 1);
+  write_numbers(out, o->lead, (size_t)s->kind->lead);
+  write_numbers(out, &jump, 1);
+  write_numbers(out, o->result, s->brief ? 0 : (size_t)s->kind->results);
   fprintf(out, ",%s", carom_status_name(o->status));
-  write_numbers(out, &o->mu_ball, 1);
+  write_numbers(out, &o->tail, 1);
   fputc(',', out);
-  write_id(out, id);
+  write_id(out, s->id[c->row]);
   fputc('\n', out);
 }
 
-/* One collision by one solver; returns how many values made an error. */
-static int print_curve(FILE *out, const sweep *s, const char *id, carom_solver solver, double done, double total) {
+/* Returns how many values made an error. */
+static int print_curve(FILE *out, const curve *c, double done, double total) {
+  const sweep *s = c->s;
   int errors = 0;
-  outcome first = {0}, at[4] = {0}; /* k - 1 to k + 2, where they exist */
+  outcome first = {0}, at[4] = {0}; /* k - 1 to k + 2, where they exist: a jump needs both neighbours */
   for (int k = -2; k < s->points; k++) {
     memmove(at, at + 1, 3 * sizeof at[0]);
     if (k + 2 < s->points)
-      at[3] = resolve(s, solver, k + 2);
+      at[3] = resolve(c, k + 2);
     if (k < 0)
       continue;
     progress_show("values", done + k, total);
-    print_outcome(out, s, id, &at[1], solver, k == 0 || k + 2 >= s->points ? NAN : jump_of(at));
+    print_outcome(out, c, &at[1], k == 0 || k + 2 >= s->points ? (double)NAN : jump_of(at, s->kind->results));
     if (at[1].status < 0 && errors++ == 0)
       first = at[1];
   }
@@ -135,18 +121,18 @@ static int print_curve(FILE *out, const sweep *s, const char *id, carom_solver s
 
 /* Returns how many values made an error. */
 static int print_sweep(FILE *out, sweep *s) {
+  const int variants = variants_of(&s->asked);
+  const double total = (double)s->points * s->id_count * variants;
   int errors = 0;
   double done = 0.0;
-  const double total = (double)s->points * s->id_count * s->asked.solvers.count;
+  /* The notes are of the first row. */
   s->asked.id = s->id[0];
-  pick_describe(out, &s->asked, &s->impacts[0]);
-  fprintf(out, "# over: %s\nsolver,value,throw_deg,stick_share,jump,%sstatus,mu_ball,id\n", s->over,
-          s->brief ? "" : RESULT_COLUMNS ",");
-  for (int which = 0; which < s->id_count; which++)
-    for (int k = 0; k < s->asked.solvers.count; k++, done += s->points) {
-      s->impact = s->impacts[which];
-      errors += print_curve(out, s, s->id[which], s->asked.solvers.solver[k], done, total);
-    }
+  s->kind->describe(out, &s->asked, s->rows[0]);
+  fprintf(out, "# over: %s\n%s,value,%sjump,%s%sstatus,%s,id\n", s->over, s->kind->which, s->kind->lead_columns,
+          s->brief ? "" : s->kind->result_columns, s->brief ? "" : ",", s->kind->tail_columns);
+  for (int row = 0; row < s->id_count; row++)
+    for (int variant = 0; variant < variants; variant++, done += s->points)
+      errors += print_curve(out, &(curve){s, row, variant}, done, total);
   return errors;
 }
 
@@ -163,7 +149,7 @@ static bool split_ids(sweep *s) {
   char *rest;
   for (char *id = strtok_r(s->ids, ",", &rest); id != NULL; id = strtok_r(NULL, ",", &rest)) {
     if (s->id_count == MOST_IDS) {
-      complain("--id takes up to %d collisions", MOST_IDS);
+      complain("--id takes up to %d rows", MOST_IDS);
       return false;
     }
     s->id[s->id_count++] = id;
@@ -171,63 +157,86 @@ static bool split_ids(sweep *s) {
   return s->id_count > 0;
 }
 
-static OPTION_SET(set_over) {
-  *(const char **)field = text;
-  if (place_among(inputs, text, strlen(text)) >= 0)
-    return true;
-  complain("--%s is one of %s, not '%s'", row->name, inputs, text);
-  return false;
+/* False after a complaint. */
+static bool can_vary(const sweep *s) {
+  if (place_among(s->kind->inputs, s->over, strlen(s->over)) < 0) {
+    complain("--over is one of %s, not '%s'", s->kind->inputs, s->over);
+    return false;
+  }
+  if (s->asked.friction.given && strcmp(s->over, "u_b") == 0) {
+    complain("--over u_b has no effect with --friction, which says what u_b is");
+    return false;
+  }
+  return true;
 }
 
-OPTION(sweep, option_over, "over", over, 0, "INPUT", set_over, 0,
-       "what to vary: a column, such as w1z, u_b or e_b; cut, to turn the line of centres by\n"
-       "so many degrees; or speed, to multiply all velocities and spins");
+/* Says so where the friction of a row is that of the usual law at its own slip, which changes with what is varied, and yet
+ * stays. */
+static void warn_of_constant(const sweep *s) {
+  shared_options by_law = s->asked;
+  by_law.friction = (friction_law){.given = true, .law = carom_alciatore()};
+  if (s->asked.friction.given || s->kind->prepare == NULL ||
+      place_among("M M1 M2 u_s u_s1 u_s2 u_b e_b", s->over, strlen(s->over)) >= 0)
+    return;
+  for (int k = 0; k < s->id_count; k++) {
+    double row[MOST_NUMBERS];
+    memcpy(row, s->rows[k], sizeof row);
+    s->kind->prepare(&by_law, row);
+    for (int number = 0; number < s->kind->numbers; number++)
+      if (row[number] != s->rows[k][number])
+        return;
+  }
+  complain("u_b follows alciatore's law in these rows, but stays constant here; --friction alciatore applies the law to every "
+           "value");
+}
+
+OPTION(sweep, option_over, "over", over, 0, "INPUT", set_text, 0,
+       "what to vary: a column, such as w1z, u_b or e_b; cut, to turn the line of centres by so many degrees, with --cushion "
+       "angle, to turn the cushion; or speed, to multiply all velocities and spins");
 OPTION(sweep, option_from, "from", from, 0, "A", set_number, 0, "its first value");
 OPTION(sweep, option_to, "to", to, 0, "B", set_number, 0, "its last value");
 OPTION(sweep, option_points, "points", points, 0, "N", set_count, 2, "how many, 2 or more (default 10001)");
 OPTION(sweep, option_ids, "id", ids, 0, "X", set_text, 0,
-       "which collision: its column id, or the number of its row if there is none; several with\n"
-       "commas are swept one after the other");
+       "which row: its column id, or its number if there is no such column; several with commas are swept one after the other");
 OPTION(sweep, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-       "draw the throw with gnuplot, a curve for each collision and solver: OUT.svg or OUT.png;\n"
-       "the CSV is then written only with -o");
-OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0, "without the columns v1x to w2z");
-
-static const char about[] =
-    "Resolves one collision many times, INPUT taking equally spaced values from A to B. FILE is a CSV file with the columns\n"
-    "that `carom resolve --help` lists, - for standard input; default: the 204 reference collisions.\n";
-
-static const char details[] =
-    "columns written:\n"
-    "  solver, value           of the input\n"
-    "  throw_deg               angle of ball 2's change of velocity from the line of centres, to the left from above\n"
-    "  stick_share             share of the normal impulse after which the balls no longer slip on each other; nan if they do\n"
-    "                          to the end, and by Euler's method\n"
-    "  jump                    how far the twelve results (radius times spin), over the largest of them, leave a smooth curve\n"
-    "                          between this value and the next: the distance of their step from both neighbouring steps\n"
-    "                          and all between. A corner is no jump; nan at the ends\n"
-    "  v1x ... w2z, status     as `carom resolve` writes them; v1x to w2z not with --brief\n"
-    "  mu_ball                 friction between the balls; with --friction that of the law at this value\n"
-    "  id                      of the collision\n\n"
-    "exit code: 0; 1 if some values make an error; 2 for bad usage or unreadable input\n";
+       "draw the throw, with --cushion the angle of rebound, with gnuplot, a curve for each row and solver: OUT.svg or "
+       "OUT.png; the CSV is then written only with -o");
+OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0, "without the columns v1x to w2z, or vx to wz");
 
 static const command_form form = {
     .name = "sweep",
     .usage = "--id X --over INPUT --from A --to B [OPTIONS] [FILE]",
-    .about = about,
-    .options = (const option_row *const[]){&option_ids, &option_over, &option_from, &option_to, &option_points, &option_solvers,
-                                           &option_slip, &option_steps, &option_friction, &option_brief, &option_plot,
-                                           &option_data, &option_cushion, &option_strict, &option_output, NULL},
-    .details = details,
-    .example = "carom sweep --id pooltool-135 --over w1z --from -60 --to 60 --brief -o sweep.csv",
+    .about =
+        "Resolves one collision many times, with --cushion one impact on a cushion, INPUT taking equally spaced values from "
+        "A to B. FILE is what `carom resolve` reads, - for CSV on standard input; default: the 204 reference "
+        "collisions.\n",
+    .options =
+        (const option_row *const[]){&option_ids,    &option_over,       &option_from,  &option_to,         &option_cushion,
+                                    &option_points, &option_steps,      &option_brief, &option_plot,       &option_strict,
+                                    &option_output, &option_solvers,    &option_slip,  &option_friction,   &option_data,
+                                    &option_model,  &option_convention, &option_law,   &option_least_step, NULL},
+    .details =
+        "columns written:\n"
+        "  solver, value        of the input; with --cushion model, value\n"
+        "  throw_deg            angle of ball 2's change of velocity from the line of centres, to the left from above\n"
+        "  stick_share          share of the normal impulse after which the balls no longer slip on each other; nan if they do "
+        "to the end, and by Euler's method\n"
+        "  jump                 how far the results (radius times spin), over the largest of them, leave a smooth curve "
+        "between this value and the next: the distance of their step from both neighbouring steps and all between. A corner "
+        "is no jump; nan at the ends\n"
+        "  v1x ... w2z, status  as `carom resolve` writes them; v1x to w2z not with --brief\n"
+        "  mu_ball              friction between the balls; with --friction that of the law at this value\n"
+        "  id                   of the row\n"
+        "With --cushion throw_deg and stick_share are not there, and rebound_deg stands for mu_ball: the angle of the velocity "
+        "after from the normal, degrees; a mirror without loss keeps it.\n"
+        "\n"
+        "exit code: 0; 1 if some values make an error; 2 for bad usage or unreadable input\n",
+    .example = "carom sweep --id pooltool-135 --over u_b --from 0 --to 0.2 -o sweep.csv",
     .files = FILE_OR_NONE,
 };
 
 int command_sweep(int argc, char **argv) {
-  if (cushion_asked(&argc, argv))
-    return cushion_sweep(argc, argv);
-  sweep s = {
-      .asked = {.options = COMMAND_OPTIONS, .solvers = {{CAROM_SOLVER_EXACT}, 1}}, .points = 10001, .from = NAN, .to = NAN};
+  sweep s = {.asked = {.options = COMMAND_OPTIONS}, .points = 10001, .from = (double)NAN, .to = (double)NAN};
   const char *file;
   const int code = parse_arguments(&form, argc, argv, &s, &file);
   if (code >= 0)
@@ -236,12 +245,11 @@ int command_sweep(int argc, char **argv) {
     complain("sweep needs --id, --over, --from and --to");
     return usage_hint(&form);
   }
-  if (s.asked.friction.given && strcmp(s.over, "u_b") == 0) {
-    complain("--over u_b has no effect with --friction, which says what u_b is");
+  s.kind = kind_of(&s.asked);
+  if (!can_vary(&s) || !pick_rows(&s.asked, file, s.id, (size_t)s.id_count, s.rows))
     return EXIT_USAGE;
-  }
-  if (!pick_impacts(&s.asked, file, s.id, (size_t)s.id_count, s.impacts))
-    return EXIT_USAGE;
+  warn_of_constant(&s);
+  /* The CSV, unless only the picture is asked for. */
   int errors = 0;
   if (s.picture == NULL || s.asked.output != NULL) {
     FILE *out = output_open(s.asked.output != NULL ? s.asked.output : "-");
@@ -251,6 +259,6 @@ int command_sweep(int argc, char **argv) {
     if (!output_commit())
       return EXIT_USAGE;
   }
-  const bool drawn = s.picture == NULL || picture_draw(s.picture, "sweep", "Throw of the object ball", print_plotted, &s);
+  const bool drawn = s.picture == NULL || picture_draw(s.picture, "sweep", s.kind->title, print_plotted, &s);
   return errors > 0 || !drawn ? EXIT_SOME : EXIT_GOOD;
 }

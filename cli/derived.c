@@ -3,19 +3,17 @@
 
 #include <math.h>
 
-static const double degree = 3.14159265358979323846 / 180.0;
-
 double angle_between(const double a[2], const double b[2]) {
   return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]) / degree;
 }
 
-double energy_of(const carom_ball *ball, const double v[3], const double w[3]) {
+double energy_of(double mass, double radius, const double v[3], const double w[3]) {
   double speeds = 0.0, spins = 0.0;
   for (int k = 0; k < 3; k++) {
     speeds += v[k] * v[k];
     spins += w[k] * w[k];
   }
-  return 0.5 * ball->mass * (speeds + 0.4 * ball->radius * ball->radius * spins);
+  return 0.5 * mass * (speeds + 0.4 * radius * radius * spins);
 }
 
 static double length(const double a[2]) {
@@ -39,7 +37,9 @@ derived derive(const carom_impact *in, const carom_result *out) {
   d.deflection_deg = length(out->a.v) > least ? angle_between(in->a.v, out->a.v) : (double)NAN;
   d.deflection_rolls = length(d.rolling_1) > least ? angle_between(in->a.v, d.rolling_1) : (double)NAN;
   d.spin_transfer = in->a.w[2] != 0.0 ? (out->b.w[2] - in->b.w[2]) / in->a.w[2] : (double)NAN;
-  const double before = energy_of(&in->a, in->a.v, in->a.w) + energy_of(&in->b, in->b.v, in->b.w);
-  d.energy_lost = 1.0 - (energy_of(&in->a, out->a.v, out->a.w) + energy_of(&in->b, out->b.v, out->b.w)) / before;
+  const carom_ball *a = &in->a, *b = &in->b;
+  const double before = energy_of(a->mass, a->radius, a->v, a->w) + energy_of(b->mass, b->radius, b->v, b->w);
+  const double after = energy_of(a->mass, a->radius, out->a.v, out->a.w) + energy_of(b->mass, b->radius, out->b.v, out->b.w);
+  d.energy_lost = 1.0 - after / before;
   return d;
 }

@@ -4,6 +4,9 @@
 
 #include "carom.h"
 
+/* One degree in radians. */
+static const double degree = 3.14159265358979323846 / 180.0;
+
 /* Its numbers stand in the order of DERIVED_COLUMNS. Angles in degrees, to the left as seen from above. */
 typedef struct derived {
   double throw_deg;                  /* of ball 2's change of velocity from the line of centres */
@@ -22,7 +25,7 @@ derived derive(const carom_impact *in, const carom_result *out);
 /* The angle from a to b, degrees, -180 to 180, to the left as seen from above. */
 double angle_between(const double a[2], const double b[2]);
 
-/* Kinetic energy of a ball in motion, J. */
-double energy_of(const carom_ball *ball, const double v[3], const double w[3]);
+/* Kinetic energy of a solid ball in motion, J. */
+double energy_of(double mass, double radius, const double v[3], const double w[3]);
 
 #endif

@@ -1,39 +1,51 @@
-/* Collisions that can be resolved but hardly were meant. */
+/* Rows that can be resolved but hardly were meant. */
 #include "doubts.h"
 
 #include "message.h"
 
 #include <math.h>
 
-/* Balls in contact are R1 + R2 apart; simulators leave them some 1e-4 of it apart. No break is faster than 20 m/s. */
-static const double looseness = 0.01, fastest = 50.0, spinning_most = 2000.0;
+/* Balls in contact are R1 + R2 apart; simulators leave them some 1e-4 of it apart. */
+static const double looseness = 0.01;
+
+/* No break is faster than 20 m/s, no ball larger than a bowling ball. */
+static const struct {
+  const char *name, *has, *unit, *guess;
+  double most;
+} bounds[DOUBTS] = {
+    [DOUBT_APART] = {.name = "not_touching"},
+    [DOUBT_SPEED] = {"implausible_speed", "a ball has", "m/s", "are speeds in m/s?", 50.0},
+    [DOUBT_SPIN] = {"implausible_spin", "a ball has", "rad/s", "are spins in rad/s?", 2000.0},
+    [DOUBT_RADIUS] = {"implausible_radius", "the radius is", "m", "is R in mm or cm?", 0.5},
+    [DOUBT_MASS] = {"implausible_mass", "the mass is", "kg", "is M in g?", 10.0},
+};
 
 static double length(const double x[3]) {
   return hypot(hypot(x[0], x[1]), x[2]);
 }
 
-static void count(long long *rows, double *first, double value) {
-  if (++*rows == 1)
-    *first = value;
+/* The distance of the centres over R1 + R2. */
+static double share_of(const double *in) {
+  const carom_impact *impact = (const carom_impact *)(const void *)in;
+  const carom_ball *a = &impact->a, *b = &impact->b;
+  const double between[3] = {b->r[0] - a->r[0], b->r[1] - a->r[1], b->r[2] - a->r[2]};
+  return length(between) / (a->radius + b->radius);
 }
 
-const char *doubts_about(doubts *d, const carom_impact *in, bool distance) {
-  const double between[3] = {in->b.r[0] - in->a.r[0], in->b.r[1] - in->a.r[1], in->b.r[2] - in->a.r[2]};
-  const double share = length(between) / (in->a.radius + in->b.radius);
-  const double speed = fmax(length(in->a.v), length(in->b.v)), spin = fmax(length(in->a.w), length(in->b.w));
+const char *doubts_about(doubts *d, const row_kind *kind, const double *in) {
+  double is[DOUBTS] = {kind == &ball_kind ? share_of(in) : 1.0, 0.0, 0.0, in[kind->radius], in[kind->radius + 1]};
   d->rows++;
-  if (distance && !(fabs(share - 1.0) <= looseness)) {
-    count(&d->apart, &d->share, share);
-    return "not_touching";
+  /* The fastest of the balls. */
+  for (int k = 0; k < 2 && kind->motion[k] >= 0; k++) {
+    is[DOUBT_SPEED] = fmax(is[DOUBT_SPEED], length(in + kind->motion[k]));
+    is[DOUBT_SPIN] = fmax(is[DOUBT_SPIN], length(in + kind->motion[k] + 3));
   }
-  if (speed > fastest) {
-    count(&d->fast, &d->speed, speed);
-    return "implausible_speed";
-  }
-  if (spin > spinning_most) {
-    count(&d->spinning, &d->spin, spin);
-    return "implausible_spin";
-  }
+  for (int k = 0; k < DOUBTS; k++)
+    if (k == DOUBT_APART ? !(fabs(is[k] - 1.0) <= looseness) : is[k] > bounds[k].most) {
+      if (++d->count[k] == 1)
+        d->first[k] = is[k];
+      return bounds[k].name;
+    }
   return NULL;
 }
 
@@ -51,14 +63,12 @@ static const char *guess(double share) {
                                : "; the balls do not touch";
 }
 
-void doubts_report(const doubts *d, const char *file) {
-  if (d->apart > 0)
+void doubts_report(const doubts *d, const row_kind *kind, const char *file) {
+  if (d->count[DOUBT_APART] > 0)
     complain("%s: in %lld of %lld collisions the centres are not R1 + R2 apart, in the first of them %.4g times as far%s", file,
-             d->apart, d->rows, d->share, guess(d->share));
-  if (d->fast > 0)
-    complain("%s: in %lld of %lld collisions a ball has more than %g m/s, in the first of them %.4g; are speeds in m/s?", file,
-             d->fast, d->rows, fastest, d->speed);
-  if (d->spinning > 0)
-    complain("%s: in %lld of %lld collisions a ball has more than %g rad/s, in the first of them %.4g; are spins in rad/s?",
-             file, d->spinning, d->rows, spinning_most, d->spin);
+             d->count[DOUBT_APART], d->rows, d->first[DOUBT_APART], guess(d->first[DOUBT_APART]));
+  for (int k = DOUBT_SPEED; k < DOUBTS; k++)
+    if (d->count[k] > 0)
+      complain("%s: in %lld of %lld %ss %s more than %g %s, in the first of them %.4g; %s", file, d->count[k], d->rows,
+               kind->noun, bounds[k].has, bounds[k].most, bounds[k].unit, d->first[k], bounds[k].guess);
 }

@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-/* Draws it as SVG; the texts stand below each other in its corner. Complains and returns false if that fails. */
-bool hit_draw(const char *path, const carom_impact *in, const carom_result *out, const char *const *text);
+/* Draws it as SVG, with the lines of the text below it. Complains and returns false if that fails. */
+bool hit_draw(const char *path, const carom_impact *in, const carom_result *out, const char *text);
 
 #endif

@@ -39,11 +39,6 @@ bool json_get_numbers(const json_t *array, const char *where, size_t count, doub
   return true;
 }
 
-char *copy_text(const char *text) {
-  char *copy = allocate(strlen(text) + 1, 1);
-  return strcpy(copy, text);
-}
-
 /* An id: a text or a whole number. */
 bool json_get_id(const json_t *object, const char *where, char **id, json_fault *f) {
   const json_t *v = json_object_get(object, "id");

@@ -24,7 +24,4 @@ bool json_get_id(const json_t *object, const char *where, char **id, json_fault 
 /* The array object[key] with at most `most` elements, or NULL where there is none. */
 bool json_get_list(const json_t *object, const char *key, size_t most, const json_t **list, json_fault *f);
 
-/* A new text. */
-char *copy_text(const char *text);
-
 #endif

@@ -12,7 +12,7 @@ int main(int argc, char **argv) {
   };
   static const program carom = {
       .name = "carom",
-      .about = "Billiards, computed: collisions of balls and of a ball with a cushion, and whole shots.",
+      .about = "Computes billiards: collisions of balls, impacts on cushions, and whole shots.",
       .example = "carom resolve -o after.csv before.csv",
       .commands = commands,
       .count = sizeof commands / sizeof commands[0],

@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 void out_of_memory(void) {
   complain("out of memory");
@@ -20,6 +21,10 @@ static void *checked(void *block) {
 
 void *allocate(size_t count, size_t size) {
   return checked(calloc(count > 0 ? count : 1, size));
+}
+
+char *copy_text(const char *text) {
+  return strcpy(allocate(strlen(text) + 1, 1), text);
 }
 
 void *grow(void *block, size_t *room, size_t needed, size_t size) {

@@ -10,6 +10,9 @@ __attribute__((noreturn)) void out_of_memory(void);
 /* `count` elements of `size` bytes, all zero; to be freed. */
 void *allocate(size_t count, size_t size);
 
+/* A new text, to be freed. */
+char *copy_text(const char *text);
+
 /* An array of `*room` elements, made larger where it holds fewer than `needed`: to twice its size at least, so that growing one
  * by one costs the same for each. Gives the block, which may have moved; a new one begins as NULL with `*room` 0. */
 void *grow(void *block, size_t *room, size_t needed, size_t size);

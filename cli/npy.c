@@ -48,7 +48,7 @@ static bool parse_header(const char *path, const char *header, size_t columns, n
   char close;
   if (strcspn(shape, "-") < strcspn(shape, ")") || sscanf(shape, "(%llu , %llu %c", &rows, &width, &close) != 3 ||
       width != columns || close != ')') {
-    complain("%s: shape %.*s; (n, %zu) is needed, a row the numbers of carom_impact in their order", path,
+    complain("%s: shape %.*s; (n, %zu) is needed; `carom resolve --help` has the numbers of a row", path,
              (int)strcspn(shape, ")") + 1, shape, columns);
     return false;
   }

@@ -1,4 +1,4 @@
-/* Doubles as text: the shortest that reads back to the same double. */
+/* Doubles as text that reads back to the same double. */
 #ifndef CAROM_CLI_NUMBER_H
 #define CAROM_CLI_NUMBER_H
 
@@ -8,8 +8,7 @@
 /* Room for any number and its NUL. */
 enum { NUMBER_TEXT = 32 };
 
-/* Writes x with as few significant digits as strtod() needs to read the same double again, in the notation of printf's %g:
- * "0.1",
+/* Writes x by printf's %g with the fewest of 15, 16 and 17 significant digits that strtod() reads as the same double: "0.1",
  * "-29.073183936672191", "1e+22", "-0", "nan", "inf". Returns `text`. */
 const char *number_text(double x, char text[NUMBER_TEXT]);
 

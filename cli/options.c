@@ -11,9 +11,57 @@
 #include <string.h>
 
 enum { MOST_ROWS = 32, MANUAL_CODE = UCHAR_MAX + 1, FIRST_CODE };
+enum { HELP_WIDTH = 80, OPTION_WIDTH = 23, TABLE_LEAST = 10, TABLE_MOST = 32 }; /* columns of the help */
 
 static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};
 static const option_row manual_row = {.name = "man", .help = ""}; /* for the build, and not in the help */
+
+/* ---- Help and manual */
+
+/* The size of a paragraph: of a line and those that go on with it, far to the right or, as the line, without blanks before it.
+ */
+static size_t paragraph_size(const char *text) {
+  const size_t own = strspn(text, " ");
+  size_t size = strcspn(text, "\n");
+  while (size > 0 && text[size] != '\0' && text[size + 1] != '\0' && text[size + 1] != '\n') {
+    const size_t next = strspn(text + size + 1, " ");
+    if (next < TABLE_LEAST && (next > 0 || own > 0))
+      break;
+    size += 1 + strcspn(text + size + 1, "\n");
+  }
+  return size;
+}
+
+/* Where the further lines of a paragraph begin: below the text behind its first word where blanks make a table of it. */
+static int hanging_indent(const char *line, size_t size) {
+  const int own = (int)strspn(line, " ");
+  int indent = own;
+  for (int k = own; k < TABLE_MOST && (size_t)k + 2 < size && own > 0 && line[k] != '\n'; k++)
+    if (line[k] == ' ' && line[k + 1] == ' ')
+      indent = k + 2;
+  return indent;
+}
+
+/* Prints paragraphs, each broken between words where it is longer than a terminal is wide. */
+static void print_wrapped(FILE *out, const char *text) {
+  while (*text != '\0') {
+    const size_t size = paragraph_size(text);
+    const int indent = hanging_indent(text, size);
+    int column = 0;
+    for (size_t k = 0; k < size;) {
+      /* A word with the blanks before it; the end of a line is one blank. */
+      const size_t blanks = strspn(text + k, " \n"), word = strcspn(text + k + blanks, " \n");
+      const bool joins = memchr(text + k, '\n', blanks) != NULL;
+      const int before = joins ? 1 : (int)blanks;
+      const bool breaks = column > indent && column + before + (int)word > HELP_WIDTH;
+      fprintf(out, "%s%*s%.*s", breaks ? "\n" : "", breaks ? indent : before, "", (int)word, text + k + blanks);
+      column = (breaks ? indent : column + before) + (int)word;
+      k += blanks + word;
+    }
+    putc('\n', out);
+    text += size + (text[size] == '\n');
+  }
+}
 
 /* "  -o, --output OUT" */
 static int write_head(const option_row *row, char text[80]) {
@@ -22,66 +70,50 @@ static int write_head(const option_row *row, char text[80]) {
                   row->argument != NULL ? row->argument : "");
 }
 
-/* The first line of the help beside the head, the others below it. */
-static void print_row(const option_row *row, int width) {
-  char head[80];
-  printf("%*s", -width, (write_head(row, head), head));
-  for (const char *at = row->help; *at != '\0'; at++)
-    printf(*at == '\n' ? "\n%*s" : "%c", *at == '\n' ? width : *at, "");
-  putchar('\n');
+/* The help beside the head, or below it where that is long. */
+static void print_row(FILE *out, const option_row *row) {
+  char head[80], text[1024];
+  const int width = write_head(row, head);
+  if (width + 2 > OPTION_WIDTH)
+    fprintf(out, "%s\n", head);
+  snprintf(text, sizeof text, "%-*s%s", OPTION_WIDTH, width + 2 > OPTION_WIDTH ? " " : head, row->help);
+  for (char *end = text; (end = strchr(end, '\n')) != NULL;)
+    *end = ' ';
+  print_wrapped(out, text);
 }
 
-/* Text for roff: what its lines would take for requests and escapes is put right. */
-static void print_roff(const char *text) {
-  for (bool first = true; *text != '\0'; first = *text == '\n', text++) {
-    if (first && (*text == '.' || *text == '\''))
-      fputs("\\&", stdout);
-    if (*text == '\\')
-      fputs("\\e", stdout);
-    else if (*text == '-')
-      fputs("\\-", stdout);
-    else
-      putchar(*text);
-  }
-  putchar('\n');
-}
-
-/* The page carom-NAME(1) of the manual, from the same table. */
-static void print_manual(const command_form *form) {
-  char head[80];
-  printf(".TH %s\\-%s 1 \"\" \"carom %s\"\n.SH NAME\n%s\\-%s \\- part of %s(1)\n.SH SYNOPSIS\n", program_name, form->name,
-         carom_version(), program_name, form->name, program_name);
-  printf(".B %s %s\n", program_name, form->name);
-  print_roff(form->usage);
-  puts(".SH DESCRIPTION");
-  print_roff(form->about);
-  puts(".SH OPTIONS");
-  for (size_t k = 0; form->options[k] != NULL; k++) {
-    write_head(form->options[k], head);
-    puts(".TP");
-    print_roff(head + 2);
-    print_roff(form->options[k]->help);
-  }
-  puts(".SH DETAILS\n.nf");
-  print_roff(form->details);
-  puts(".fi\n.SH EXAMPLE\n.nf");
-  print_roff(form->example);
-  puts(".fi");
-}
-
-static void print_help(const command_form *form) {
-  int width = 0;
-  char head[80];
-  for (size_t k = 0; form->options[k] != NULL; k++) {
-    const int used = write_head(form->options[k], head) + 2;
-    width = used > width ? used : width;
-  }
-  printf("usage: %s %s%s%s\n\n%s\noptions:\n", program_name, form->name, form->usage[0] != '\0' ? " " : "", form->usage,
-         form->about);
+/* Prints the options that are for one kind of rows, or all. */
+enum { EVERY_ROW = -1 };
+static void print_options(FILE *out, const command_form *form, int only) {
   for (size_t k = 0; form->options[k] != NULL; k++)
-    print_row(form->options[k], width);
-  print_row(&help_row, width);
-  printf("\n%s\nexample:\n  %s\n", form->details, form->example);
+    if (only == EVERY_ROW || form->options[k]->only == only)
+      print_row(out, form->options[k]);
+}
+
+/* Whether the subcommand works on both kinds of rows. */
+static bool has_kinds(const command_form *form) {
+  size_t k = 0;
+  while (form->options[k] != NULL && form->options[k]->only != CUSHION_ONLY)
+    k++;
+  return form->options[k] != NULL;
+}
+
+static void print_help(FILE *out, const void *of) {
+  const command_form *form = of;
+  fprintf(out, "usage: %s %s%s%s\n\n", program_name, form->name, form->usage[0] != '\0' ? " " : "", form->usage);
+  print_wrapped(out, form->about);
+  fputs("\noptions:\n", out);
+  print_options(out, form, has_kinds(form) ? ANY_KIND : EVERY_ROW);
+  print_row(out, &help_row);
+  if (has_kinds(form)) {
+    fputs("\noptions for collisions of two balls:\n", out);
+    print_options(out, form, BALLS_ONLY);
+    fputs("\noptions for impacts on a cushion, with --cushion:\n", out);
+    print_options(out, form, CUSHION_ONLY);
+  }
+  putc('\n', out);
+  print_wrapped(out, form->details);
+  fprintf(out, "\nexample:\n  %s\n", form->example);
 }
 
 int usage_hint(const command_form *form) {
@@ -152,10 +184,23 @@ static int refuse(const command_form *form, char **argv, int found, const struct
   return usage_hint(form);
 }
 
+/* Whether the options that were given are for the kind of rows that is asked for; complains where one is not. */
+static bool are_for_kind(const command_form *form, const bool given[MOST_ROWS], const void *job) {
+  for (int k = 0; form->options[k] != NULL; k++) {
+    const option_row *row = form->options[k];
+    if (!given[k] || row->only == ANY_KIND || (row->only == CUSHION_ONLY) == ((const shared_options *)job)->cushion)
+      continue;
+    complain("%s: option '--%s' goes %s --cushion", form->name, row->name, row->only == CUSHION_ONLY ? "with" : "without");
+    return false;
+  }
+  return true;
+}
+
 /* Sets the fields; -1, or an exit code. */
 static int parse_options(const command_form *form, int argc, char **argv, void *job) {
   struct option longs[MOST_ROWS] = {0};
   char shorts[2 * MOST_ROWS] = ":h"; /* the colon: a missing argument is told apart */
+  bool given[MOST_ROWS] = {false};
   int option;
   opterr = 0;
   list_options(form, longs, shorts);
@@ -164,13 +209,20 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
     if (row == NULL)
       return refuse(form, argv, option, longs);
     if (row == &help_row || row == &manual_row) {
-      (row == &help_row ? print_help : print_manual)(form);
+      char name[64];
+      snprintf(name, sizeof name, "%s-%s", program_name, form->name);
+      if (row == &help_row)
+        print_help(stdout, form);
+      else
+        print_manual(name, form->about, print_help, form);
       return EXIT_GOOD;
     }
     if (!row->set(row, optarg, (char *)job + row->field))
       return EXIT_USAGE;
+    for (int k = 0; k < MOST_ROWS && form->options[k] != NULL; k++)
+      given[k] |= form->options[k] == row;
   }
-  return -1;
+  return are_for_kind(form, given, job) ? -1 : usage_hint(form);
 }
 
 int parse_arguments(const command_form *form, int argc, char **argv, void *job, const char **file) {

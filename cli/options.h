@@ -6,7 +6,7 @@
 #ifndef CAROM_CLI_OPTIONS_H
 #define CAROM_CLI_OPTIONS_H
 
-#include "carom.h"
+#include "carom_shot.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -15,19 +15,23 @@ typedef struct option_row {
   const char *name;     /* without its dashes */
   char letter;          /* the short form, or 0 */
   const char *argument; /* what the help calls it; NULL for a flag, which has none */
-  const char *help;     /* lines, with '\n' between them */
+  const char *help;     /* of any length: it is wrapped */
   /* Reads `text` into the field; complains and returns false where it is none of its values. May change the text. */
   bool (*set)(const struct option_row *row, char *text, void *field);
   size_t field; /* offsetof(the job, field) */
   int least;    /* for set_count */
+  int only;     /* ANY_KIND, or the kind of rows that the option is for */
 } option_row;
+
+/* Kinds of rows that an option is for: all, collisions of two balls, or impacts on a cushion, which --cushion asks for. */
+enum { ANY_KIND, BALLS_ONLY, CUSHION_ONLY };
 
 enum { NO_FILES, FILE_OR_NONE, ONE_FILE };
 
 typedef struct command_form {
   const char *name;                 /* "resolve" */
   const char *usage;                /* what stands behind it: "[OPTIONS] IN" */
-  const char *about;                /* what it does */
+  const char *about;                /* what it does, a paragraph a line */
   const option_row *const *options; /* ends with NULL */
   const char *details;              /* columns, exit codes: what stands behind the options */
   const char *example;              /* a line that begins with the program's name */
@@ -46,7 +50,8 @@ OPTION_SET(set_flag);   /* bool */
 OPTION_SET(set_text);   /* const char * */
 OPTION_SET(set_count);  /* int: a whole number from row->least */
 OPTION_SET(set_number); /* double, finite */
-OPTION_SET(set_choice); /* int, or an enumeration of two: the place of the text in row->argument, "this|that" */
+OPTION_SET(set_amount); /* double, finite, 0 or more */
+OPTION_SET(set_choice); /* int, or an enumeration from 0: the place of the text in row->argument, "this|that" */
 
 OPTION_SET(set_ball_model);    /* int: carom_shot_options.ball_model */
 OPTION_SET(set_cushion_model); /* int: carom_shot_options.cushion_model */
@@ -60,7 +65,7 @@ typedef struct friction_law {
   carom_speed_law law;
 } friction_law;
 
-/* Solvers of the library, one or both. */
+/* Solvers of the library, one or both; none stands for options.solver. */
 typedef struct solver_list {
   carom_solver solver[2];
   int count;
@@ -69,8 +74,10 @@ typedef struct solver_list {
 enum precision { ANY_PRECISION = -1, DOUBLE_PRECISION, SINGLE_PRECISION };
 
 typedef struct shared_options {
-  carom_options options; /* --solver of one, --slip, --steps, --threads */
-  solver_list solvers;   /* --solver of several */
+  bool cushion;               /* --cushion: impacts of a ball on a cushion, instead of collisions of two balls */
+  carom_cushion_options rail; /* --model, --convention, --law, --least-step */
+  carom_options options;      /* --solver of one, --slip, --steps, --threads */
+  solver_list solvers;        /* --solver of several */
   friction_law friction;
   int precision;                    /* enum precision */
   const char *id, *folder, *output; /* --id, --data, --output */
@@ -82,10 +89,11 @@ typedef struct shared_options {
   { .steps = CAROM_DEFAULT_STEPS, .threads = CAROM_ALL_THREADS }
 
 extern const option_row option_solver, option_solvers, option_slip, option_steps, option_threads, option_friction,
-    option_precision, option_id, option_data, option_output, option_summary, option_strict, option_derived;
+    option_precision, option_id, option_data, option_output, option_summary, option_strict, option_derived, option_cushion,
+    option_model, option_convention, option_law, option_least_step;
 
 /* A row of one table alone: OPTION(job, option_NAME, field, letter, argument, set, least, help). */
 #define OPTION(job, row, name, member, letter, argument, set, least, help) \
-  static const option_row row = {name, letter, argument, help, set, offsetof(job, member), least}
+  static const option_row row = {name, letter, argument, help, set, offsetof(job, member), least, ANY_KIND}
 
 #endif

@@ -1,4 +1,4 @@
-/* One collision out of a file. */
+/* Some rows out of a file. */
 #include "pick.h"
 
 #include "doubts.h"
@@ -37,25 +37,25 @@ typedef struct search {
   const shared_options *asked;
   const char *const *id;
   size_t count, found;
-  carom_impact *impact;
+  double (*row)[MOST_NUMBERS];
   bool *there, good;
   char (*meant)[64]; /* for each, an id that may have been meant, or "" */
 } search;
 
 /* Row k of the block is number `which` of those asked for. */
 static void take(search *s, row_source *source, const source_block *block, size_t k, size_t which) {
-  carom_impact *impact = &s->impact[which];
-  *impact = source_impact(source, block, k);
-  if (s->asked->friction.given)
-    impact->mu_ball = carom_mu_ball(impact, s->asked->friction.law);
-  const carom_status status = carom_check(impact, NULL, NULL);
-  bool good = status == CAROM_OK && (block->row == NULL || block->row[k].error == NULL);
+  const row_kind *kind = kind_of(s->asked);
+  double *row = s->row[which];
+  source_row(source, block, k, row);
+  const carom_status status = kind->check(row, s->asked, NULL);
+  bool good = status == CAROM_OK && (block->note == NULL || block->note[k].error == NULL);
+  /* What hardly was meant is warned of, or refused. */
   doubts found = {0};
-  const char *doubt = good ? doubts_about(&found, impact, true) : NULL;
-  doubts_report(&found, source_name(source));
+  const char *doubt = good ? doubts_about(&found, kind, row) : NULL;
+  doubts_report(&found, kind, source_name(source));
   good &= !(s->asked->strict && doubt != NULL);
   if (!good)
-    source_report(source, block, k, NULL, status, doubt);
+    source_report(source, block, k, status, doubt);
   s->there[which] = true;
   s->found++;
   s->good &= good;
@@ -63,13 +63,14 @@ static void take(search *s, row_source *source, const source_block *block, size_
 
 /* False after a complaint, which names the ids that are there. */
 static bool find_rows(search *s, row_source *source, source_block *block) {
+  const char *noun = kind_of(s->asked)->noun;
   char there[400] = "", more[40] = "", number[24];
   long long left_out = 0;
   read_result result = READ_ONE;
   while (s->found < s->count && (result = source_read(source, block)) == READ_ONE)
     for (size_t k = 0; k < block->count && s->found < s->count; k++) {
       snprintf(number, sizeof number, "%zu", block->first + k + 1);
-      const char *own = block->row != NULL ? block->row[k].id : number;
+      const char *own = block->note != NULL ? block->note[k].id : number;
       for (size_t which = 0; which < s->count; which++)
         if (!s->there[which] && strcmp(own, s->id[which]) == 0)
           take(s, source, block, k, which);
@@ -82,24 +83,29 @@ static bool find_rows(search *s, row_source *source, source_block *block) {
   for (size_t which = 0; which < s->count && result == READ_END; which++)
     if (!s->there[which]) {
       if (s->meant[which][0] != '\0')
-        complain("%s has no collision '%s'; is '%s' meant?", source_name(source), s->id[which], s->meant[which]);
+        complain("%s has no %s '%s'; is '%s' meant?", source_name(source), noun, s->id[which], s->meant[which]);
       else
-        complain("%s has no collision '%s'; it has %s%s", source_name(source), s->id[which],
+        complain("%s has no %s '%s'; it has %s%s", source_name(source), noun, s->id[which],
                  there[0] != '\0' ? there : "none at all", more);
       break;
     }
   return s->found == s->count && s->good;
 }
 
-bool pick_impacts(const shared_options *asked, const char *file, const char *const *id, size_t count, carom_impact *impact) {
+bool pick_rows(const shared_options *asked, const char *file, const char *const *id, size_t count,
+               double (*row)[MOST_NUMBERS]) {
   char path[PATH_MAX];
+  if (file == NULL && asked->cushion) {
+    complain("--cushion needs the name of a file: the reference cases are collisions of two balls");
+    return false;
+  }
   if (file == NULL) {
     snprintf(path, sizeof path, "%s/collisions-204.csv", data_folder(asked->folder));
     file = path;
   }
-  row_source *source = source_open(file, !asked->friction.given);
+  row_source *source = source_open(file, asked);
   source_block block = {0};
-  search s = {.asked = asked, .id = id, .count = count, .impact = impact, .good = true};
+  search s = {.asked = asked, .id = id, .count = count, .row = row, .good = true};
   s.there = allocate(count, sizeof *s.there);
   s.meant = allocate(count, sizeof *s.meant);
   const bool good = source != NULL && find_rows(&s, source, &block);
@@ -108,15 +114,4 @@ bool pick_impacts(const shared_options *asked, const char *file, const char *con
   source_free_block(&block);
   source_close(source);
   return good;
-}
-
-bool pick_impact(const shared_options *asked, const char *file, carom_impact *impact) {
-  return pick_impacts(asked, file, &asked->id, 1, impact);
-}
-
-void pick_describe(FILE *out, const shared_options *asked, const carom_impact *impact) {
-  const carom_options *options = &asked->options;
-  fprintf(out, "# collision: %s\n# slip: %s\n# steps: %d\n", asked->id, carom_slip_name(options->slip), options->steps);
-  fprintf(out, "# friction between the balls: %.3g\n# friction of the cloth: %.3g and %.3g\n# restitution: %.3g\n",
-          impact->mu_ball, impact->a.mu_cloth, impact->b.mu_cloth, impact->restitution);
 }

@@ -5,7 +5,7 @@
  */
 #include "records.h"
 
-#include "kinds.h"
+#include "formats.h"
 #include "memory.h"
 #include "message.h"
 #include "number.h"

@@ -3,9 +3,9 @@
  * Understood: fields quoted or not, quoted commas, quotes and line ends, LF, CRLF and CR, a UTF-8 byte-order mark, a last line
  * without its end; fields between semicolons or tabs where the first record has no comma. Passed over: blank lines, records of
  * which every field is empty, and lines that begin with # before the first record, which carom itself writes. Other kinds of
- * files that are given for CSV (JSON and those of kinds.h) are refused by their name. A record of more than a mebibyte, such as
- * an unclosed quote makes, is malformed: it costs that record, and reading goes on at the next line. A NUL in a field is read
- * as '?'.
+ * files that are given for CSV (JSON and those of formats.h) are refused by their name. A record of more than a mebibyte, such
+ * as an unclosed quote makes, is malformed: it costs that record, and reading goes on at the next line. A NUL in a field is
+ * read as '?'.
  */
 #ifndef CAROM_CLI_RECORDS_H
 #define CAROM_CLI_RECORDS_H

@@ -1,4 +1,4 @@
-/* Collisions from a file, resolved, to a file.
+/* Rows from a file, resolved, to a file.
  *
  * While one block of rows is solved and written, in the order of the file, another thread reads the next.
  */
@@ -18,34 +18,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char resolve_about[] =
-    "Reads one collision a row and writes the state after it. IN is a CSV file, - for CSV on standard input, or a NumPy array\n"
-    "IN.npy: float64 or float32, shape (n, 26), each row the numbers of carom_impact in their order. OUT is likewise CSV, or "
-    "an\n"
-    "array of shape (n, 12) in the precision if its name ends in .npy, with NaN for rows in error.\n";
-
-const char resolve_details[] =
-    "columns of IN.csv, by name in any order (others are ignored), SI units:\n"
-    "  id                      optional; the number of the row if absent\n"
-    "  r1x r1y r1z             centre of ball 1, m                       likewise r2x ... for ball 2\n"
-    "  v1x v1y v1z             velocity, m/s; v1z must be 0\n"
-    "  w1x w1y w1z             angular velocity, rad/s\n"
-    "  R M                     radius, m, and mass, kg (or R1 and R2, which must be equal, and M1 and M2)\n"
-    "  u_s1 u_s2               friction of each ball with the cloth, 0 to 1\n"
-    "  u_b e_b                 friction between the balls, and restitution, 0 to 1\n\n"
-    "columns written: id," RESULT_COLUMNS ",status\n"
-    "  status is ok, separating (the balls do not approach; their state is unchanged) or the name of an error, with nan for "
-    "the\n"
-    "  numbers. Each number is the shortest text that reads back to the same double.\n\n"
-    "with --derived also, nan unless the status is ok:\n"
-    "  throw_deg               angle of ball 2's change of velocity from the line of centres, degrees, to the left from above\n"
-    "  deflection_deg          angle by which ball 1 is turned at once, and deflection_rolling_deg once it rolls\n"
-    "  roll1x roll1y           velocity of ball 1 once it rolls, m/s, and roll2x roll2y of ball 2\n"
-    "  spin_transfer           ball 2's change of w2z over ball 1's w1z before; nan where that is 0\n"
-    "  energy_lost             share of the kinetic energy that is lost, that of spins included\n\n"
-    "exit code: 0 if every row is ok or separating, 1 if some rows are in error (each of the first thousand is named on\n"
-    "standard error, the others are resolved), 2 for bad usage or unreadable input\n";
-
 enum { MOST_NAMED = 1000 };             /* rows in error that are named */
 static const double least_timed = 10e6; /* ns; less is mostly cold caches, and no time is told */
 
@@ -58,14 +30,15 @@ typedef struct reading {
 
 typedef struct run {
   const resolving *job;
+  const shared_options *asked;
+  const row_kind *kind;
   bool single; /* numbers are float from here on */
   row_source *in;
   result_sink *out;
   long long ok, separating, errors;
   double solving; /* ns */
   doubts doubts;
-  /* What the solver works on, in the precision of the run. */
-  void *impact, *result;
+  void *converted, *result; /* rows in the precision of the run where they were read in the other, and what comes of them */
   int8_t *status;
 } run;
 
@@ -75,48 +48,49 @@ static void *read_block(void *argument) {
   return NULL;
 }
 
-/* The numbers of a block as the run wants them: in its precision, and with its friction. */
-static void prepare(const run *r, const source_block *block) {
-  const size_t numbers = block->count * IMPACT_FIELDS;
-  const bool from_single = source_is_single(r->in);
-  if (from_single == r->single)
-    memcpy(r->impact, block->impact, numbers * (r->single ? sizeof(float) : sizeof(double)));
-  else
-    (r->single ? to_single : to_double)(block->impact, r->impact, numbers);
-  for (size_t k = 0; k < block->count && r->job->shared.friction.given; k++) {
-    const carom_impact impact = source_impact(r->in, block, k);
-    const double mu = carom_mu_ball(&impact, r->job->shared.friction.law);
-    if (r->single)
-      ((carom_impact_f32 *)r->impact)[k].mu_ball = (float)mu;
-    else
-      ((carom_impact *)r->impact)[k].mu_ball = mu;
+/* The rows of a block in the precision of the run. */
+static const void *rows_of(const run *r, const source_block *block) {
+  const size_t numbers = block->count * (size_t)r->kind->numbers;
+  if (source_is_single(r->in) == r->single)
+    return block->numbers;
+  (r->single ? to_single : to_double)(block->numbers, r->converted, numbers);
+  return r->converted;
+}
+
+/* Writes row k of a block that has been solved, counts it, and says what is wrong with it. */
+static void write_row(run *r, const source_block *block, size_t k) {
+  const row_note *note = block->note != NULL ? &block->note[k] : NULL;
+  const carom_status status = r->status[k];
+  const size_t size = (size_t)r->kind->results * (r->single ? sizeof(float) : sizeof(double));
+  char *result = (char *)r->result + k * size;
+  double row[MOST_NUMBERS];
+  source_row(r->in, block, k, row);
+  /* What --strict refuses has no results. */
+  const char *error = note != NULL ? note->error : NULL;
+  const char *doubt = error == NULL && status >= 0 ? doubts_about(&r->doubts, r->kind, row) : NULL;
+  if (r->asked->strict && doubt != NULL) {
+    error = doubt;
+    memset(result, 0xff, size); /* NaN throughout */
   }
+  const bool bad = error != NULL || status < 0;
+  if (bad && r->errors < MOST_NAMED)
+    source_report(r->in, block, k, status, doubt);
+  sink_write(r->out, note != NULL ? note->id : NULL, row, result, status, error);
+  r->ok += !bad && status == CAROM_OK;
+  r->separating += !bad && status == CAROM_SEPARATING;
+  r->errors += bad;
 }
 
 static void solve_and_write(run *r, const source_block *block) {
-  prepare(r, block);
+  const void *rows = rows_of(r, block);
   const double before = clock_ns();
-  r->job->solve(r->job->context, &r->job->shared.options, r->single, r->impact, block->count, r->result, r->status);
+  if (r->job->solve != NULL)
+    r->job->solve(r->job->context, &r->asked->options, r->single, rows, block->count, r->result, r->status);
+  else
+    r->kind->solve(r->asked, r->single, rows, block->count, r->result, r->status);
   r->solving += clock_ns() - before;
-  const size_t size = r->single ? sizeof(carom_result_f32) : sizeof(carom_result);
-  for (size_t k = 0; k < block->count; k++) {
-    const impact_row *row = block->row != NULL ? &block->row[k] : NULL;
-    const char *error = row != NULL ? row->error : NULL;
-    const carom_status status = r->status[k];
-    const carom_impact impact = source_impact(r->in, block, k);
-    const char *doubt = error == NULL && status >= 0 ? doubts_about(&r->doubts, &impact, true) : NULL;
-    if (r->job->shared.strict && doubt != NULL) {
-      error = doubt;
-      memset((char *)r->result + k * size, 0xff, size); /* NaN throughout */
-    }
-    const bool bad = error != NULL || status < 0;
-    if (bad && r->errors < MOST_NAMED)
-      source_report(r->in, block, k, &r->job->shared.options, status, doubt);
-    sink_write(r->out, row != NULL ? row->id : NULL, &impact, (const char *)r->result + k * size, status, error);
-    r->ok += !bad && status == CAROM_OK;
-    r->separating += !bad && status == CAROM_SEPARATING;
-    r->errors += bad;
-  }
+  for (size_t k = 0; k < block->count; k++)
+    write_row(r, block, k);
 }
 
 /* Two readings take turns: one is solved and written while the other is filled. False after a complaint. */
@@ -137,7 +111,7 @@ static bool resolve_all(run *r) {
   progress_clear();
   if (r->errors > MOST_NAMED)
     complain("%lld more rows are in error; the column status says of each why", r->errors - MOST_NAMED);
-  doubts_report(&r->doubts, source_name(r->in));
+  doubts_report(&r->doubts, r->kind, source_name(r->in));
   source_free_block(&now->block);
   source_free_block(&next->block);
   return now->result == READ_END;
@@ -147,24 +121,26 @@ static void print_summary(const run *r) {
   fprintf(stderr, "%lld rows: %lld ok, %lld separating, %lld in error", r->ok + r->separating + r->errors, r->ok, r->separating,
           r->errors);
   if (r->solving >= least_timed)
-    fprintf(stderr, "; %s took %.3g s, %.3g us per collision", r->job->solver, 1e-9 * r->solving,
-            1e-3 * r->solving / (double)(r->ok > 0 ? r->ok : 1));
+    fprintf(stderr, "; %s took %.3g s, %.3g us per %s", r->job->solve != NULL ? r->job->solver : r->kind->name(r->asked, 0),
+            1e-9 * r->solving, 1e-3 * r->solving / (double)(r->ok > 0 ? r->ok : 1), r->kind->noun);
   fputc('\n', stderr);
 }
 
 int resolve_file(const resolving *job, const char *file) {
-  run r = {.job = job, .in = source_open(file, !job->shared.friction.given)};
+  run r = {.job = job, .asked = &job->shared, .kind = kind_of(&job->shared), .in = source_open(file, &job->shared)};
   int code = EXIT_USAGE;
   if (r.in == NULL)
     return code;
-  r.single = job->shared.precision == ANY_PRECISION ? source_is_single(r.in) : job->shared.precision == SINGLE_PRECISION;
-  r.impact = allocate(NPY_BLOCK, sizeof(carom_impact));
-  r.result = allocate(NPY_BLOCK, sizeof(carom_result));
+  const int precision = job->shared.precision;
+  r.single = precision == ANY_PRECISION ? source_is_single(r.in) : precision == SINGLE_PRECISION;
+  r.converted = allocate(NPY_BLOCK, (size_t)r.kind->numbers * sizeof(double));
+  r.result = allocate(NPY_BLOCK, (size_t)r.kind->results * sizeof(double));
   r.status = allocate(NPY_BLOCK, 1);
-  r.out = sink_open(job->shared.output != NULL ? job->shared.output : "-", r.single, job->shared.derived);
+  /* Nothing is written before the input has been opened; what stands there appears when all is written. */
+  r.out = sink_open(&job->shared, r.single);
   if (r.out != NULL && sink_close(r.out, resolve_all(&r)))
     code = r.errors > 0 ? EXIT_SOME : EXIT_GOOD;
-  free(r.impact);
+  free(r.converted);
   free(r.result);
   free(r.status);
   source_close(r.in);

@@ -1,8 +1,8 @@
 /* Tables and shots from JSON Lines. What is missing takes pooltool's defaults; what is wrong is told by its key. */
 #include "shot_file.h"
 
+#include "formats.h"
 #include "json_values.h"
-#include "kinds.h"
 #include "memory.h"
 #include "message.h"
 #include "shot_table.h"
@@ -132,6 +132,11 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
 
 /* ---- The file */
 
+/* Jansson's memory: so none of its values is ever missing for want of it. */
+static void *json_memory(size_t size) {
+  return allocate(size, 1);
+}
+
 shot_file *shot_file_open(const char *path) {
   FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
   if (in == NULL) {
@@ -139,6 +144,7 @@ shot_file *shot_file_open(const char *path) {
     return NULL;
   }
   shot_file *file = allocate(1, sizeof *file);
+  json_set_alloc_funcs(json_memory, free);
   file->in = in;
   file->path = in == stdin ? "standard input" : path;
   return file;

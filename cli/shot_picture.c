@@ -5,6 +5,7 @@
 #include "message.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,7 +28,8 @@ bool shot_has_id(const shot_line *line, const char *id) {
          (strlen(line->id) == size + 2 && line->id[0] == '"' && strncmp(line->id + 1, id, size) == 0);
 }
 
-static const double scale = 400.0, margin = 0.11; /* pixels a metre; m */
+static const double table_scale = 400.0, table_margin = 0.11;                                        /* pixels a metre; m */
+static const double part_width = 840.0, part_height = 700.0, part_margin = 30.0, line_height = 20.0; /* pixels */
 
 /* The usual colours of pool balls by number; the first is for the cue ball and others. */
 static const char *const colours[] = {"#ffffff", "#f2c230", "#1d4fd8", "#e02d24", "#5b2a9d", "#ee7a22", "#0b5d2e", "#8c1d3a",
@@ -54,19 +56,28 @@ static bool is_striped(const char *name) {
 /* The table's axes on the picture. */
 typedef struct view {
   FILE *out;
-  double low[2], high[2];
+  double low[2], high[2], scale, margin; /* m, but for the scale */
   bool turned;
 } view;
 
 static double across(const view *v, const double r[2]) {
-  return scale * ((v->turned ? r[1] - v->low[1] : r[0] - v->low[0]) + margin);
+  return v->scale * ((v->turned ? r[1] - v->low[1] : r[0] - v->low[0]) + v->margin);
 }
 static double down(const view *v, const double r[2]) {
-  return scale * ((v->turned ? r[0] - v->low[0] : v->high[1] - r[1]) + margin);
+  return v->scale * ((v->turned ? r[0] - v->low[0] : v->high[1] - r[1]) + v->margin);
+}
+
+/* A text in the page's coordinates, with what XML would take for its own put right. */
+static void write_text(FILE *out, double x, double y, const char *style, const char *text, size_t most) {
+  fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, style);
+  for (const char *c = text; *c != '\0' && (size_t)(c - text) < most; c++)
+    *c == '<' ? fputs("&lt;", out) : *c == '&' ? fputs("&amp;", out) : putc(*c, out);
+  fputs("</text>\n", out);
 }
 
 static view view_of(FILE *out, const carom_table *t) {
-  view v = {.out = out, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
+  view v = {
+      .out = out, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}, .scale = table_scale, .margin = table_margin};
   for (int k = 0; k < t->rails; k++)
     for (int end = 0; end < 2; end++)
       for (int axis = 0; axis < 2; axis++) {
@@ -78,15 +89,54 @@ static view view_of(FILE *out, const carom_table *t) {
   return v;
 }
 
-static void draw_table(const view *v, const carom_table *t) {
-  FILE *out = v->out;
-  const double width = scale * ((v->turned ? v->high[1] - v->low[1] : v->high[0] - v->low[0]) + 2.0 * margin);
-  const double height = scale * ((v->turned ? v->high[0] - v->low[0] : v->high[1] - v->low[1]) + 2.0 * margin);
+/* The head of the picture, and what is behind all. */
+static void begin_page(FILE *out, double width, double height, const char *background) {
   fprintf(out,
           "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "
-          "font-family=\"sans-serif\">\n<rect width=\"100%%\" height=\"100%%\" rx=\"18\" fill=\"#5b3a21\"/>\n",
-          width, height, width, height);
-  const double inset = scale * 0.5 * margin;
+          "font-family=\"sans-serif\">\n<rect width=\"100%%\" height=\"100%%\" %s/>\n",
+          width, height, width, height, background);
+}
+
+/* A part of the cloth, with the marks and the text below it. */
+static view draw_part(FILE *out, const shot_extra *x) {
+  const double wide = x->high[0] - x->low[0], high = x->high[1] - x->low[1];
+  view v = {.out = out, .scale = fmin(part_width / wide, part_height / high)};
+  int lines = 0;
+  for (const char *end = x->text; (end = strchr(end, '\n')) != NULL; end++)
+    lines++;
+  memcpy(v.low, x->low, sizeof v.low);
+  memcpy(v.high, x->high, sizeof v.high);
+  v.margin = part_margin / v.scale;
+  /* The page and the cloth on it. */
+  const double bottom = v.scale * high + 2.0 * part_margin;
+  begin_page(out, part_width + 2.0 * part_margin, bottom + line_height * (lines + 1), "fill=\"#fff\"");
+  fprintf(out, "<rect width=\"100%%\" height=\"%.1f\" fill=\"#3f9d80\"/>\n", bottom);
+  for (int k = 0; k < x->marks; k++) {
+    const shot_mark *m = &x->mark[k];
+    const double ends[4] = {across(&v, m->from), down(&v, m->from), across(&v, m->to), down(&v, m->to)};
+    if (memcmp(m->from, m->to, sizeof m->from) == 0)
+      fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#123\"/>\n", ends[0], ends[1]);
+    else
+      fprintf(out, "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#123\" stroke-dasharray=\"3 4\"/>\n", ends[0], ends[1], ends[2],
+              ends[3]);
+    if (m->label != NULL)
+      write_text(out, ends[2] + 4.0, ends[3] + 12.0, "font-size=\"13\" fill=\"#123\"", m->label, SIZE_MAX);
+  }
+  const char *text = x->text;
+  for (int k = 0; k < lines; k++, text += strcspn(text, "\n") + 1)
+    write_text(out, part_margin, bottom + line_height * (k + 1),
+               "xml:space=\"preserve\" font-size=\"12.5\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", text,
+               strcspn(text, "\n"));
+  return v;
+}
+
+static void draw_table(const view *v, const carom_table *t) {
+  FILE *out = v->out;
+  const double scale = v->scale;
+  const double width = scale * ((v->turned ? v->high[1] - v->low[1] : v->high[0] - v->low[0]) + 2.0 * v->margin);
+  const double height = scale * ((v->turned ? v->high[0] - v->low[0] : v->high[1] - v->low[1]) + 2.0 * v->margin);
+  begin_page(out, width, height, "rx=\"18\" fill=\"#5b3a21\"");
+  const double inset = scale * 0.5 * v->margin;
   fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"10\" fill=\"#3f9d80\"/>\n", inset, inset,
           width - 2.0 * inset, height - 2.0 * inset);
   for (int k = 0; k < t->pockets; k++)
@@ -100,33 +150,44 @@ static void draw_table(const view *v, const carom_table *t) {
             across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q), down(v, t->rail[k].q));
 }
 
-/* The path of one ball: straight pieces where it rolls, short ones where it slides. */
+/* Goes on with a path to a place and time: straight, or in short pieces where the ball slides. */
+static void draw_piece(const view *v, const shot_line *line, const carom_shot *shot, int ball, double from, double to,
+                       const double end[2], bool curved) {
+  carom_ball_state states[CAROM_BALLS_MOST];
+  for (int n = 1; curved && n < 8; n++) {
+    carom_shot_at(line->ball, line->count, shot, from + (to - from) * n / 8.0, states);
+    fprintf(v->out, "L%.1f %.1f", across(v, states[ball].r), down(v, states[ball].r));
+  }
+  fprintf(v->out, "L%.1f %.1f", across(v, end), down(v, end));
+}
+
+/* The path of one ball, from event to event that it is in. */
 static void draw_path(const view *v, const shot_line *line, const carom_shot *shot, int ball) {
   carom_ball_state states[CAROM_BALLS_MOST];
-  const char *colour = colour_of(line->name[ball], ball);
   double last = 0.0;
   bool moved = false;
-  for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
-    const carom_event *e = &shot->events[k];
-    const int side = e->a == ball ? 0 : e->type == CAROM_EVENT_BALL_BALL && e->b == ball ? 1 : -1;
+  for (int64_t k = 0; last < shot->time; k++) {
+    /* The next event, or the end of the picture. */
+    const bool is_event = k < shot->count && k < shot->room && shot->events[k].time <= shot->time;
+    const carom_event *e = is_event ? &shot->events[k] : NULL;
+    const int side = e == NULL || e->a == ball ? 0 : e->type == CAROM_EVENT_BALL_BALL && e->b == ball ? 1 : -1;
     if (side < 0)
       continue;
-    const bool curved = e->before[side].label == CAROM_BALL_SLIDING;
-    const double *to = e->before[side].r;
-    if (moved || e->time > last) {
+    const double time = e != NULL ? e->time : shot->time;
+    carom_shot_at(line->ball, line->count, shot, 0.5 * (last + time), states);
+    const int64_t label = e != NULL ? e->before[side].label : states[ball].label;
+    const bool moves = label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING;
+    if (e != NULL ? moved || time > last : moves) {
       if (!moved) {
         carom_shot_at(line->ball, line->count, shot, last, states);
         fprintf(v->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"M%.1f %.1f",
-                colour, across(v, states[ball].r), down(v, states[ball].r));
+                colour_of(line->name[ball], ball), across(v, states[ball].r), down(v, states[ball].r));
         moved = true;
       }
-      for (int n = 1; curved && n < 8; n++) {
-        carom_shot_at(line->ball, line->count, shot, last + (e->time - last) * n / 8.0, states);
-        fprintf(v->out, "L%.1f %.1f", across(v, states[ball].r), down(v, states[ball].r));
-      }
-      fprintf(v->out, "L%.1f %.1f", across(v, to), down(v, to));
+      draw_piece(v, line, shot, ball, last, time, e != NULL ? e->before[side].r : shot->final[ball].r,
+                 label == CAROM_BALL_SLIDING);
     }
-    last = e->time;
+    last = time;
   }
   if (moved)
     fputs("\"/>\n", v->out);
@@ -134,7 +195,7 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
 
 static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball, bool final) {
   const char *colour = colour_of(line->name[ball], ball), *name = line->name[ball];
-  const double x = across(v, s->r), y = down(v, s->r), r = scale * line->ball[ball].kind.radius;
+  const double x = across(v, s->r), y = down(v, s->r), r = v->scale * line->ball[ball].kind.radius;
   if (!final) {
     fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"/>\n", x, y,
             r, colour);
@@ -146,16 +207,10 @@ static void draw_ball(const view *v, const shot_line *line, const carom_ball_sta
   if (is_striped(name))
     fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\"/>\n", x, y,
             r - 1.8);
-  fprintf(v->out,
-          "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.1f\" fill=\"%s\" text-anchor=\"middle\" dominant-baseline=\"central\">", x,
-          y, strlen(name) > 2 ? 7.0 : 11.0, dark ? "#fff" : "#111");
-  for (const char *c = name; *c != '\0' && c < name + 5; c++) {
-    if (*c == '<' || *c == '&')
-      fputs(*c == '<' ? "&lt;" : "&amp;", v->out);
-    else
-      putc(*c, v->out);
-  }
-  fputs("</text>\n", v->out);
+  char style[120];
+  snprintf(style, sizeof style, "font-size=\"%.1f\" fill=\"%s\" text-anchor=\"middle\" dominant-baseline=\"central\"",
+           strlen(name) > 2 ? 7.0 : 11.0, dark ? "#fff" : "#111");
+  write_text(v->out, x, y, style, name, 5);
 }
 
 /* Balls that fell lie beside each other in the pocket's place. */
@@ -170,11 +225,12 @@ static void spread_pocketed(const shot_line *line, carom_ball_state *final) {
   }
 }
 
-void shot_draw(FILE *out, const shot_line *line, const carom_shot *shot) {
-  const view v = view_of(out, &line->table->table);
+void shot_draw(FILE *out, const shot_line *line, const carom_shot *shot, const shot_extra *extra) {
+  const view v = extra != NULL ? draw_part(out, extra) : view_of(out, &line->table->table);
   carom_ball_state final[CAROM_BALLS_MOST];
   memcpy(final, shot->final, (size_t)line->count * sizeof *final);
-  draw_table(&v, &line->table->table);
+  if (extra == NULL)
+    draw_table(&v, &line->table->table);
   for (int k = 0; k < line->count; k++)
     draw_ball(&v, line, &line->ball[k].state, k, false);
   for (int k = line->count - 1; k >= 0; k--)

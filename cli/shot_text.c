@@ -1,6 +1,7 @@
 /* Shots with their results as JSON Lines; numbers read back to the same doubles. */
-#include "number.h"
 #include "shot_file.h"
+
+#include <math.h>
 
 const char *shot_event_name(int type) {
   static const char *const names[] = {
@@ -23,122 +24,113 @@ const char *shot_part_name(const named_table *table, const carom_event *event) {
                                           : table->pocket[event->b];
 }
 
-/* A text with its quotes. */
-static void write_text(FILE *out, const char *text) {
-  putc('"', out);
-  for (; *text != '\0'; text++) {
-    const unsigned char c = (unsigned char)*text;
-    if (c < 0x20)
-      fprintf(out, "\\u%04x", c);
-    else
-      fprintf(out, c == '"' || c == '\\' ? "\\%c" : "%c", c);
-  }
-  putc('"', out);
+/* ---- Parts of a line. Non-finite numbers, which JSON has not, become null. */
+
+static void append_numbers(json_t *array, const double *x, int count) {
+  for (int k = 0; k < count; k++)
+    json_array_append_new(array, isfinite(x[k]) ? json_real(x[k]) : json_null());
 }
 
-static void write_state(FILE *out, const carom_ball_state *s) {
-  fprintf(out, "[%d", (int)s->label);
-  write_numbers(out, s->r, 3);
-  write_numbers(out, s->v, 3);
-  write_numbers(out, s->w, 3);
-  putc(']', out);
+/* [label, r, v, w] */
+static json_t *state_of(const carom_ball_state *s) {
+  json_t *state = json_pack("[i]", (int)s->label);
+  append_numbers(state, s->r, 3);
+  append_numbers(state, s->v, 3);
+  append_numbers(state, s->w, 3);
+  return state;
 }
 
-static void write_event(FILE *out, const shot_line *line, const carom_event *e, int detail) {
-  char text[NUMBER_TEXT];
+/* [time, type, ids], and in full the states before and after. */
+static json_t *event_of(const shot_line *line, const carom_event *e, int detail) {
   const bool pair = e->type == CAROM_EVENT_BALL_BALL;
-  fprintf(out, ", [%s, \"%s\", [", number_text(e->time, text), shot_event_name(e->type));
+  json_t *ids = json_array();
+  /* What took part. */
   if (e->type == CAROM_EVENT_STRIKE)
-    fputs("\"cue_stick\", ", out);
-  write_text(out, line->name[e->a]);
-  if (pair || (e->type >= CAROM_EVENT_RAIL && e->type <= CAROM_EVENT_POCKET)) {
-    fputs(", ", out);
-    write_text(out, pair ? line->name[e->b] : shot_part_name(line->table, e));
-  }
-  putc(']', out);
+    json_array_append_new(ids, json_string("cue_stick"));
+  json_array_append_new(ids, json_string(line->name[e->a]));
+  if (pair || (e->type >= CAROM_EVENT_RAIL && e->type <= CAROM_EVENT_POCKET))
+    json_array_append_new(ids, json_string(pair ? line->name[e->b] : shot_part_name(line->table, e)));
+  json_t *event = json_pack("[f, s, o]", e->time, shot_event_name(e->type), ids);
+  /* How it moved. */
   for (int side = 0; side < 2 && detail == EVENTS_FULL; side++) {
     const carom_ball_state *states = side == 0 ? e->before : e->after;
-    fputs(", [", out);
-    write_state(out, &states[0]);
-    if (pair) {
-      fputs(", ", out);
-      write_state(out, &states[1]);
-    }
-    putc(']', out);
+    json_t *both = json_pack("[o]", state_of(&states[0]));
+    if (pair)
+      json_array_append_new(both, state_of(&states[1]));
+    json_array_append_new(event, both);
   }
-  putc(']', out);
+  return event;
+}
+
+/* pooltool's lists of events have one of nothing at either end. */
+static json_t *nothing_at(double time, int detail) {
+  return detail == EVENTS_FULL ? json_pack("[f, s, [], [], []]", time, "none") : json_pack("[f, s, []]", time, "none");
 }
 
 /* Which balls fell where: by the final states, which lie at the pockets' centres. */
-static void write_pockets(FILE *out, const shot_line *line, const carom_ball_state *final) {
+static json_t *pockets_of(const shot_line *line, const carom_ball_state *final) {
   const named_table *t = line->table;
-  fputs(", \"pockets\": {", out);
+  json_t *pockets = json_object();
   for (int p = 0; p < t->table.pockets; p++) {
-    fputs(p > 0 ? ", " : "", out);
-    write_text(out, t->pocket[p]);
-    fputs(": [", out);
-    int in = 0;
+    const double *centre = t->table.pocket[p].centre;
+    json_t *in = json_array();
     for (int k = 0; k < line->count; k++)
-      if (final[k].label == CAROM_BALL_POCKETED && final[k].r[0] == t->table.pocket[p].centre[0] &&
-          final[k].r[1] == t->table.pocket[p].centre[1]) {
-        fputs(in++ > 0 ? ", " : "", out);
-        write_text(out, line->name[k]);
-      }
-    putc(']', out);
+      if (final[k].label == CAROM_BALL_POCKETED && final[k].r[0] == centre[0] && final[k].r[1] == centre[1])
+        json_array_append_new(in, json_string(line->name[k]));
+    json_object_set_new(pockets, t->pocket[p], in);
   }
-  putc('}', out);
+  return pockets;
 }
 
-static void write_head(FILE *out, const shot_line *line) {
-  fprintf(out, "{\"kind\": \"shot\", \"id\": %s, ", line->id != NULL ? line->id : "null");
+/* ---- Lines */
+
+static json_t *head_of(const shot_line *line) {
+  json_t *id = json_object_get(line->json, "id");
+  return json_pack("{s: s, s: O}", "kind", "shot", "id", id != NULL ? id : json_null());
 }
 
 /* What was read, as it was read. */
-static void write_given(FILE *out, const shot_line *line, const char *key) {
-  char *text = json_dumps(json_object_get(line->json, key), JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
-  if (text != NULL)
-    fprintf(out, "\"%s\": %s, ", key, text);
-  free(text);
+static void set_given(json_t *to, const shot_line *line, const char *key) {
+  json_t *given = json_object_get(line->json, key);
+  if (given != NULL)
+    json_object_set(to, key, given);
+}
+
+static void write_line(FILE *out, json_t *line) {
+  json_dumpf(line, out, JSON_REAL_PRECISION(17));
+  putc('\n', out);
+  json_decref(line);
 }
 
 void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status, int events) {
-  char text[NUMBER_TEXT];
-  write_head(out, line);
-  write_given(out, line, "family");
-  fputs("\"table\": ", out);
-  write_text(out, line->table->id);
-  fputs(", ", out);
-  write_given(out, line, "cue");
-  write_given(out, line, "balls");
-  /* pooltool's list has an event of nothing at either end */
-  fprintf(out, "\"n_events\": %lld, ", (long long)shot->count + 2);
+  json_t *all = head_of(line), *balls = json_object();
+  set_given(all, line, "family");
+  json_object_set_new(all, "table", json_string(line->table->id));
+  set_given(all, line, "cue");
+  set_given(all, line, "balls");
+  /* What happened. */
+  json_object_set_new(all, "n_events", json_integer(shot->count + 2));
   if (events != EVENTS_NONE) {
-    const char *nothing = events == EVENTS_FULL ? ", [], []" : "";
-    fprintf(out, "\"events\": [[0, \"none\", []%s]", nothing);
+    json_t *list = json_pack("[o]", nothing_at(0.0, events));
     for (int64_t k = 0; k < shot->count && k < shot->room; k++)
-      write_event(out, line, &shot->events[k], events);
-    fprintf(out, ", [%s, \"none\", []%s]], ", number_text(shot->time, text), nothing);
+      json_array_append_new(list, event_of(line, &shot->events[k], events));
+    json_array_append_new(list, nothing_at(shot->time, events));
+    json_object_set_new(all, "events", list);
   }
-  fprintf(out, "\"final\": {\"t\": %s, \"balls\": {", number_text(shot->time, text));
-  for (int k = 0; k < line->count; k++) {
-    fputs(k > 0 ? ", " : "", out);
-    write_text(out, line->name[k]);
-    fputs(": ", out);
-    write_state(out, &shot->final[k]);
-  }
-  putc('}', out);
-  write_pockets(out, line, shot->final);
-  fprintf(out, "}, \"status\": \"%s\"", carom_status_name(status));
-  if (status < 0) {
-    fputs(", \"error\": ", out);
-    write_text(out, carom_status_string(status));
-  }
-  fputs("}\n", out);
+  /* How it ended. */
+  for (int k = 0; k < line->count; k++)
+    json_object_set_new(balls, line->name[k], state_of(&shot->final[k]));
+  json_object_set_new(
+      all, "final", json_pack("{s: f, s: o, s: o}", "t", shot->time, "balls", balls, "pockets", pockets_of(line, shot->final)));
+  json_object_set_new(all, "status", json_string(carom_status_name(status)));
+  if (status < 0)
+    json_object_set_new(all, "error", json_string(carom_status_string(status)));
+  write_line(out, all);
 }
 
 void shot_write_error(FILE *out, const shot_line *line, const char *status, const char *error) {
-  write_head(out, line);
-  fprintf(out, "\"status\": \"%s\", \"error\": ", status);
-  write_text(out, error);
-  fputs("}\n", out);
+  json_t *all = head_of(line);
+  json_object_set_new(all, "status", json_string(status));
+  json_object_set_new(all, "error", json_string(error));
+  write_line(out, all);
 }

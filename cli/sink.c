@@ -1,7 +1,6 @@
 /* Where results go. */
 #include "sink.h"
 
-#include "derived.h"
 #include "memory.h"
 #include "message.h"
 #include "npy.h"
@@ -15,16 +14,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBERS = 12 };
-
 struct result_sink {
   FILE *file;
+  const row_kind *kind;
   bool array, single, derived;
   size_t rows;
 };
 
-result_sink *sink_open(const char *path, bool single, bool more) {
-  if (more && npy_is_name(path)) {
+/* The header of an array; it is written again when the rows have been counted. */
+static void write_header(const result_sink *s) {
+  npy_write_header(s->file, s->single ? "<f4" : "<f8", s->rows, (size_t)s->kind->results);
+}
+
+result_sink *sink_open(const shared_options *asked, bool single) {
+  const char *path = asked->output != NULL ? asked->output : "-";
+  if (asked->derived && npy_is_name(path)) {
     complain("--derived adds columns to CSV, which an array has not: %s", path);
     return NULL;
   }
@@ -32,11 +36,13 @@ result_sink *sink_open(const char *path, bool single, bool more) {
   if (file == NULL)
     return NULL;
   result_sink *s = allocate(1, sizeof *s);
-  *s = (result_sink){.file = file, .array = npy_is_name(path), .single = single, .derived = more};
+  *s = (result_sink){
+      .file = file, .kind = kind_of(asked), .array = npy_is_name(path), .single = single, .derived = asked->derived};
   if (s->array)
-    npy_write_header(s->file, single ? "<f4" : "<f8", 0, NUMBERS);
+    write_header(s);
   else
-    fprintf(s->file, "id,%s,status%s\n", RESULT_COLUMNS, more ? "," DERIVED_COLUMNS : "");
+    fprintf(file, "id,%s,status%s%s\n", s->kind->result_columns, s->derived ? "," : "",
+            s->derived ? s->kind->derived_columns : "");
   return s;
 }
 
@@ -47,38 +53,34 @@ void write_id(FILE *out, const char *id) {
     fputs(id, out);
 }
 
-static void write_csv(result_sink *s, const char *id, const carom_impact *impact, const void *result, const char *status,
-                      bool good) {
-  double wide[NUMBERS];
+static void write_csv(result_sink *s, const char *id, const double *in, const void *result, const char *status, bool good) {
+  const size_t results = (size_t)s->kind->results;
+  double wide[MOST_RESULTS], derived[MOST_DERIVED];
   if (s->single)
-    to_double(result, wide, NUMBERS);
+    to_double(result, wide, results);
+  else
+    memcpy(wide, result, results * sizeof *wide);
   if (id == NULL)
     fprintf(s->file, "%zu", s->rows);
   else
     write_id(s->file, id);
-  write_numbers(s->file, s->single ? wide : result, NUMBERS);
+  write_numbers(s->file, wide, results);
   fprintf(s->file, ",%s", status);
-  if (s->derived) {
-    double numbers[DERIVED_NUMBERS];
-    for (int k = 0; k < DERIVED_NUMBERS; k++)
-      numbers[k] = (double)NAN;
-    carom_result after;
-    memcpy(&after, s->single ? wide : result, sizeof after);
-    const struct derived d = derive(impact, &after);
-    if (good)
-      memcpy(numbers, &d, sizeof d);
-    write_numbers(s->file, numbers, DERIVED_NUMBERS);
-  }
+  /* Nothing derives from a row that was not resolved. */
+  if (s->derived && good)
+    s->kind->derive(in, wide, derived);
+  for (int k = 0; s->derived && !good && k < s->kind->derived; k++)
+    derived[k] = (double)NAN;
+  write_numbers(s->file, derived, s->derived ? (size_t)s->kind->derived : 0);
   fputc('\n', s->file);
 }
 
-void sink_write(result_sink *s, const char *id, const carom_impact *impact, const void *result, carom_status status,
-                const char *error) {
+void sink_write(result_sink *s, const char *id, const double *in, const void *result, carom_status status, const char *error) {
   s->rows++;
   if (s->array)
-    fwrite(result, s->single ? sizeof(float) : sizeof(double), NUMBERS, s->file);
+    fwrite(result, s->single ? sizeof(float) : sizeof(double), (size_t)s->kind->results, s->file);
   else
-    write_csv(s, id, impact, result, error != NULL ? error : carom_status_name(status), error == NULL && status == CAROM_OK);
+    write_csv(s, id, in, result, error != NULL ? error : carom_status_name(status), error == NULL && status == CAROM_OK);
 }
 
 bool sink_close(result_sink *s, bool good) {
@@ -89,8 +91,8 @@ bool sink_close(result_sink *s, bool good) {
       complain("cannot write the .npy file: %s", strerror(errno));
     good = false;
   }
-  if (good && s->array) /* now that the rows have been counted */
-    npy_write_header(s->file, s->single ? "<f4" : "<f8", s->rows, NUMBERS);
+  if (good && s->array)
+    write_header(s);
   if (!good)
     output_abandon();
   free(s);

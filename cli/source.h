@@ -1,24 +1,37 @@
-/* Where collisions come from: a CSV file, or a .npy array mapped into memory; given out in blocks. */
+/* Where rows come from: a CSV file, or a .npy array; given out in blocks.
+ *
+ * Columns of CSV are found by name, in any order; unknown ones are ignored. kind.h has those of each kind. Optional for every
+ * kind is id; without it the number of the row is the id.
+ */
 #ifndef CAROM_CLI_SOURCE_H
 #define CAROM_CLI_SOURCE_H
 
-#include "carom.h"
-#include "impacts.h"
+#include "kind.h"
+#include "records.h"
 
 typedef struct row_source row_source;
 
 /* The most rows of a block: small for CSV, whose rows are large in memory and slow to read anyway. */
 enum { CSV_BLOCK = 1024, NPY_BLOCK = 65536 };
 
+/* What is known of a row besides its numbers. */
+typedef struct row_note {
+  char *id; /* with room to be used again */
+  size_t id_room;
+  long long line;
+  const char *error; /* NULL, or the name of what kept the row from being read, */
+  char message[160]; /* and a sentence about it */
+} row_note;
+
 typedef struct source_block {
   size_t first, count;
-  void *impact;    /* count of carom_impact, or of carom_impact_f32 where the source is single */
-  impact_row *row; /* what else is known of each, or NULL: nothing, and the number of the row is the id */
+  void *numbers;  /* those of `count` rows, as doubles, or as floats where the source is single; 0 where one is in error */
+  row_note *note; /* one for each, or NULL: then the number of the row is its id */
 } source_block;
 
-/* Opens a file by its name: .npy, or CSV, or "-" for CSV on stdin; the column u_b may be missing if it is not `needed`.
- * Complains and returns NULL if that fails. */
-row_source *source_open(const char *path, bool mu_ball_needed);
+/* Opens a file of rows of the kind that is asked for by its name: .npy, or CSV, or "-" for CSV on stdin. Complains and returns
+ * NULL if it or a column is missing. `asked` is read until the source is closed. */
+row_source *source_open(const char *path, const shared_options *asked);
 
 /* Whether the numbers are float. */
 bool source_is_single(const row_source *source);
@@ -27,13 +40,12 @@ bool source_is_single(const row_source *source);
 read_result source_read(row_source *source, source_block *block);
 void source_free_block(source_block *block);
 
-/* Row k of a block in double precision; 0 throughout if it could not be read. */
-carom_impact source_impact(const row_source *source, const source_block *block, size_t k);
+/* The numbers of row k of a block in double precision. */
+void source_row(const row_source *source, const source_block *block, size_t k, double *numbers);
 
 /* Complains about row k of a block: what, where and what would be right. `status` is the library's, CAROM_OK where the row
  * could not be read; `doubt` is NULL, or what --strict refuses the row for. */
-void source_report(const row_source *source, const source_block *block, size_t k, const carom_options *options,
-                   carom_status status, const char *doubt);
+void source_report(const row_source *source, const source_block *block, size_t k, carom_status status, const char *doubt);
 
 /* The name of the input for messages. */
 const char *source_name(const row_source *source);

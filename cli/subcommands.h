@@ -8,9 +8,4 @@ int command_shoot(int argc, char **argv);
 int command_trace(int argc, char **argv);
 int command_sweep(int argc, char **argv);
 
-/* The same with --cushion, which is no longer among the arguments: cushion_NAME.c. */
-int cushion_resolve(int argc, char **argv);
-int cushion_trace(int argc, char **argv);
-int cushion_sweep(int argc, char **argv);
-
 #endif

@@ -19,12 +19,9 @@ def numbers(element, *names):
     return [float(element.get(name)) for name in names]
 
 
-def vertices(path, relative=False):
-    """The points of a path of straight pieces, "M0 1L2 3 ..."; or of "M0 1l2 3", whose second is given from the first."""
-    pairs = [tuple(map(float, pair.split())) for pair in path.get("d")[1:].replace("l", "L").split("L")]
-    if relative:
-        pairs[1] = (pairs[0][0] + pairs[1][0], pairs[0][1] + pairs[1][1])
-    return pairs
+def vertices(path):
+    """The points of a path of straight pieces, "M0 1L2 3 ..."."""
+    return [tuple(map(float, pair.split())) for pair in path.get("d")[1:].split("L")]
 
 
 class Report:
@@ -149,48 +146,55 @@ def check_hit(picture, row, after, words):
     start = [p - 7 * R * v / math.hypot(*before) for p, v in zip(places[0], before)]
 
     def motion(ball):
-        """The velocities at once and when the ball rolls, its place at any time, how long it slides, how long it is drawn."""
+        """Velocities at once and when the ball rolls, when that is, and its place at any time."""
         v, rolling = ([after[f"{name}{ball}{axis}"] for axis in "xy"] for name in ("v", "roll"))
-        mu = row[f"u_s{ball}"] * GRAVITY
-        sliding = math.dist(v, rolling) / mu if mu else 0.0
-        speed = max(math.hypot(*v), math.hypot(*rolling))
+        # A pool ball, but for what the row says of it; the cloth is never quite smooth.
+        params, place = {"R": R, "u_s": max(row[f"u_s{ball}"], 1e-6)}, places[ball - 1]
+        slip = math.hypot(v[0] - R * after[f"w{ball}y"], v[1] + R * after[f"w{ball}x"])
+        sliding = 2 * slip / (7 * params["u_s"] * GRAVITY)
+        state = [2, *place, R, *v, 0, *(after[f"w{ball}{axis}"] for axis in "xyz")]
 
         def at(time):
-            # It slows down evenly from one velocity to the other.
-            t, rest = min(time, sliding), max(time - sliding, 0.0)
-            share = 0.5 * t / sliding if sliding else 0.0
-            return [p + t * ((1 - share) * a + share * b) + rest * b for p, a, b in zip(places[ball - 1], v, rolling)]
+            x, y = slid(state, params, min(time, sliding)) if slip else place
+            speed = math.hypot(*rolling)
+            rolls = min(max(time - sliding, 0.0), speed / (0.01 * GRAVITY))
+            far = rolls - 0.5 * 0.01 * GRAVITY * rolls * rolls / speed if speed else 0.0
+            return x + far * rolling[0], y + far * rolling[1]
 
-        return v, at, sliding, min(sliding + 6 * R / speed, 24 * R / speed) if speed else 0.0
+        return v, rolling, sliding, at
 
     motions = [motion(ball) for ball in (1, 2)]
-    seen = [(start, 1), (places[0], 4), (places[1], 4)]
-    seen += [(at(drawn * k / 24), 1.5) for _, at, _, drawn in motions for k in range(25)]
+    end = 24 * R / max(math.hypot(*v) for m in motions for v in m[:2])
+    seen = [(start, 1), (places[0], 4), (places[1], 4)] + [(m[3](end * k / 8), 1.5) for m in motions for k in range(1, 9)]
     low, high = ([f(p[k] + sign * R * room for p, room in seen) for k in (0, 1)] for f, sign in ((min, -1), (max, 1)))
     scale = min(840 / (high[0] - low[0]), 700 / (high[1] - low[1]))
     px = lambda r: (30 + scale * (r[0] - low[0]), 30 + scale * (high[1] - r[1]))
     height = 60 + scale * (high[1] - low[1])
-    report.near("size", map(float, page.get("viewBox").split()), [0, 0, 900, height + 20 * (len(words) + 1)], 0.5)
-    circles, paths = elements(page, "circle"), elements(page, "path")
-    for circle, place in zip(circles, (start, *places), strict=True):
-        report.near("ball", numbers(circle, "cx", "cy", "r"), [*px(place), scale * R])
-    # The line of centres and the tangent line through the contact, the way there; of each ball the way at once and its path.
+    report.near("size", map(float, page.get("viewBox").split()), [0, 0, 900, height + 20 * (len(words) + 2)], 0.5)
+    # Dots where a ball rolls from, in their order; both balls at contact, and at the end.
+    rolls = sorted((m[2], m[3](m[2])) for m in motions if 0 < m[2] <= end)
+    expected = [(px(place), 4) for _, place in rolls] + [(px(p), scale * R) for p in places] + [(px(m[3](end)), scale * R) for m in motions]
+    for circle, (place, radius) in zip(elements(page, "circle"), expected, strict=True):
+        report.near("ball", numbers(circle, "cx", "cy", "r"), [*place, radius])
+    # The line of centres and the tangent line through the contact, the way there, the directions at once.
     n = [(b - a) / (2 * R) for a, b in zip(*places)]
     middle = [(a + b) / 2 for a, b in zip(*places)]
     along = lambda far, e: px([p + far * R * c for p, c in zip(middle, e)])
-    lines = [[along(-5, n), along(5, n)], [along(-4, (-n[1], n[0])), along(4, (-n[1], n[0]))], [px(start), px(places[0])]]
+    lines = [[along(5, n), along(-5, n)], [along(-4, (-n[1], n[0])), along(4, (-n[1], n[0]))], [px(start), px(places[0])]]
+    for (v, *_), place in zip(motions, places):
+        if math.hypot(*v) > 0:
+            lines.append([px(place), px([p + 6 * R * x / math.hypot(*v) for p, x in zip(place, v)])])
+    # The paths, the object ball's first: pieces where it slides, straight where it rolls.
+    for (v, rolling, sliding, at), place in reversed(list(zip(motions, places))):
+        slides = [at(min(sliding, end) * k / 8) for k in range(1, 9)] if sliding else []
+        points = [place, *slides] + ([at(end)] if sliding < end and math.hypot(*rolling) else [])
+        if len(points) > 1:
+            lines.append([px(point) for point in points])
+    paths = elements(page, "path")
+    report.same("paths", len(paths), len(lines))
     for path, points in zip(paths, lines):
         report.path("line", vertices(path), points)
-    rest = paths[3:]
-    for (v, at, sliding, drawn), place in zip(motions, places):
-        speed = math.hypot(*v)
-        if speed > 0:
-            first = [p + 5 * R * x / speed for p, x in zip(place, v)]
-            report.path("at once", vertices(rest.pop(0), relative=True), [px(place), px(first)], 2 * NEAR)
-        slides = min(sliding, drawn)
-        report.path("slides", vertices(rest.pop(0)), [px(at(slides * k / 24)) for k in range(25)])
-        report.path("rolls", vertices(rest.pop(0)), [px(at(slides)), px(at(drawn))])
-    report.same("more paths", len(rest), 0)
     texts = [text.text for text in elements(page, "text")]
-    report.same("words", texts[-len(words) :], words)
+    report.same("labels", texts[:2] + texts[-2:], ["line of centres", "tangent line", "cue", "1"])
+    report.same("words", texts[3:-2], words)
     return report.found

@@ -1,11 +1,10 @@
 /* The reference collisions in data/. */
 #include "cases.h"
 
-#include "impacts.h"
 #include "memory.h"
 #include "message.h"
 #include "number.h"
-#include "sink.h"
+#include "source.h"
 
 #include <limits.h>
 #include <stdint.h>
@@ -17,27 +16,29 @@ bool cases_load(const char *folder, const char *name, case_set *out) {
   char path[PATH_MAX];
   snprintf(path, sizeof path, "%s/%s", folder, name);
   *out = (case_set){0};
-  impact_reader *reader = impact_open(path, true);
-  if (reader == NULL)
+  const shared_options plain = {0};
+  row_source *source = source_open(path, &plain);
+  if (source == NULL)
     return false;
   size_t ids_room = 0, impacts_room = 0;
+  source_block block = {0};
   read_result result;
-  for (;; out->count++) {
-    impact_row row = {0};
-    out->id = grow(out->id, &ids_room, out->count + 1, sizeof *out->id);
-    out->impact = grow(out->impact, &impacts_room, out->count + 1, sizeof *out->impact);
-    result = impact_next(reader, &row, &out->impact[out->count]);
-    out->id[out->count] = row.id;
-    if (result != READ_ONE)
-      break;
-    if (row.error != NULL) {
-      complain("%s:%lld: %s", path, row.line, row.message);
+  while ((result = source_read(source, &block)) == READ_ONE) {
+    out->id = grow(out->id, &ids_room, out->count + block.count, sizeof *out->id);
+    out->impact = grow(out->impact, &impacts_room, out->count + block.count, sizeof *out->impact);
+    size_t k = 0;
+    for (; k < block.count && block.note[k].error == NULL; k++, out->count++) {
+      out->id[out->count] = copy_text(block.note[k].id);
+      source_row(source, &block, k, (double *)&out->impact[out->count]);
+    }
+    if (k < block.count) {
+      complain("%s:%lld: %s", path, block.note[k].line, block.note[k].message);
       result = READ_FAILED;
-      out->count++; /* which has an id to be freed */
       break;
     }
   }
-  impact_close(reader);
+  source_free_block(&block);
+  source_close(source);
   if (result == READ_END && out->count == 0)
     complain("%s: no cases", path);
   return result == READ_END && out->count > 0;

@@ -3,7 +3,6 @@
 #include "bench_shots.h"
 #include "command.h"
 #include "cushion_lab.h"
-#include "cushion_rows.h"
 #include "machine.h"
 #include "memory.h"
 #include "message.h"

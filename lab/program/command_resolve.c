@@ -1,5 +1,6 @@
 /* `carom-lab resolve`: collisions from a file, by any kernel: a solver of the library, or a rung of the ladder in any build. */
 #include "command.h"
+#include "help.h"
 #include "kernel.h"
 #include "message.h"
 #include "resolving.h"
@@ -28,10 +29,10 @@ OPTION(resolve_job, option_config, "config", config, 0, "NAME", set_text, 0,
 static const command_form form = {
     .name = "resolve",
     .usage = "[OPTIONS] IN",
-    .about = resolve_about,
+    .about = RESOLVE_ABOUT,
     .options = (const option_row *const[]){&option_kernel, &option_config, &option_slip, &option_steps, &option_friction,
                                            &option_precision, &option_threads, &option_output, &option_summary, NULL},
-    .details = resolve_details,
+    .details = COLLISION_COLUMNS_HELP "\n" RESULTS_HELP "\n" RESOLVE_EXIT_HELP,
     .example = "carom-lab resolve --kernel base --config o3 --slip pooltool -o after.csv before.csv",
     .files = ONE_FILE,
 };

@@ -3,7 +3,6 @@
 #include "cases.h"
 #include "command.h"
 #include "cushion_lab.h"
-#include "cushion_rows.h"
 #include "kernel.h"
 #include "memory.h"
 #include "message.h"

@@ -10,6 +10,9 @@
  * `folder` with pooltool's. Prints a table, or CSV; `*pass` becomes false if a bound is not met. False after a complaint. */
 bool cushion_verify(FILE *out, const char *folder, int draws, uint64_t seed, bool csv, bool *pass);
 
+/* Whether "--cushion" is among the arguments of a subcommand, and is taken out. */
+bool cushion_asked(int *argc, char **argv);
+
 /* `carom-lab verify --cushion` and `carom-lab bench --cushion`, without that argument; return exit codes. */
 int cushion_verify_command(int argc, char **argv);
 int cushion_bench_command(int argc, char **argv);

@@ -178,3 +178,13 @@ int cushion_verify_command(int argc, char **argv) {
   }
   return output_commit() ? (pass ? EXIT_GOOD : EXIT_SOME) : EXIT_USAGE;
 }
+
+bool cushion_asked(int *argc, char **argv) {
+  for (int k = 1; k < *argc; k++)
+    if (strcmp(argv[k], "--cushion") == 0) {
+      memmove(argv + k, argv + k + 1, (size_t)(*argc - k) * sizeof *argv); /* with the NULL behind them */
+      --*argc;
+      return true;
+    }
+  return false;
+}

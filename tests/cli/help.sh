@@ -5,6 +5,14 @@ for command in resolve trace sweep; do
   echo "--- $command"
   try carom "$command" --help
 done
+echo "--- lines of more than 80 columns"
+for command in "" resolve hit shoot trace sweep; do carom $command --help | awk -v command="$command" 'length > 80 { print command ": " $0 }'; done
+echo "--- a page of the manual is the help"
+for command in "" resolve; do
+  carom $command --man | sed '1,/^\.nf/d; $d; s/\\-/-/g; s/^\\&//; s/\\e/\\/g' > page
+  carom $command --help | cmp - page && echo "the same: $command"
+done
+rm page
 echo "--- the examples do what they show"
 cp "$DATA/collisions-204.csv" before.csv
 for command in "" resolve trace sweep; do

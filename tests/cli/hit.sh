@@ -87,10 +87,10 @@ def said(row, after, spin, cut):
         "object ball   at once:     " + velocity(b["v2x"], b["v2y"], v),
         "              rolling:     " + velocity(b["roll2x"], b["roll2y"], v),
         "              throw:       " + ("none: it leaves along the line of centres" if abs(throw) < 0.005 else f"{abs(throw):.2f} degrees to the {side} of the line of centres"),
-        "              takes spin:  " + spins(2),
+        "              spin after:  " + spins(2),
         "cue ball      at once:     " + velocity(b["v1x"], b["v1y"], v),
         "              rolling:     " + velocity(b["roll1x"], b["roll1y"], v),
-        "              keeps spin:  " + spins(1),
+        "              spin after:  " + spins(1),
         f"energy        lost:        {100 * lost:.2f} % of {at_first:.4g} J",
     ]
 
@@ -174,6 +174,15 @@ for spin, speed in (("stun", "2"), ("draw", "4.5")):
     rows = {line.split(",")[0]: line.split(",", 1)[1] for line in open("six.csv")}
     print(rows[f"{spin}-{speed}"] == one.splitlines(True)[1].split(",", 1)[1])
 PYTHON
+echo "friction that stays is told of, and so is a picture of one hit of several:"
+carom hit --cut 0 --csv > straight.csv
+for more in "" "--friction alciatore"; do
+  # shellcheck disable=SC2086
+  carom sweep --id stun --over cut --from 0 --to 30 --points 2 --brief $more straight.csv | tail -n 1 | awk -F, '{ printf "%.2f\n", $3 }'
+done
+carom hit --cut 0 --csv --friction 0.05 | carom sweep --id stun --over cut --from 0 --to 30 --points 2 --brief -o /dev/null -
+carom sweep --id stun --over e_b --from 0.5 --to 1 --points 2 --brief -o /dev/null straight.csv
+carom hit --spin stun,draw --plot first.svg -o /dev/null && grep -c "</svg>" first.svg
 echo "refused:"
 for words in "--speed 1,,x" "--speed ," "--speed 1,2,3,4 --spin 1,2,3,4,5" "--spin spinny" "--spin nan" "--spin ,"  "--side much" "--cut 90" "--speed 0" "--speed -1" "--radius 0" "--cloth 2" "--friction 2" "--restitution -1" "--plot hit.png" "extra" "--strict --speed 60"; do
   # shellcheck disable=SC2086

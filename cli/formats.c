@@ -1,5 +1,5 @@
 /* What files are that were given for something else, by their first bytes. */
-#include "kinds.h"
+#include "formats.h"
 
 #include <string.h>
 

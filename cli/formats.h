@@ -1,6 +1,6 @@
 /* What files are that were given for something else. */
-#ifndef CAROM_CLI_KINDS_H
-#define CAROM_CLI_KINDS_H
+#ifndef CAROM_CLI_FORMATS_H
+#define CAROM_CLI_FORMATS_H
 
 #include <stddef.h>
 
