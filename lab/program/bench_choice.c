@@ -74,6 +74,9 @@ static bool add_rung(bench_job *job, const kernel *one) {
 /* Where nothing is named, what cannot run here is left out; where it is named, it is an error. */
 static bool add_all_calls(bench_job *job) {
   const kernel *one;
+  const ladder_module *unused;
+  if (job->configs.count > 0 && ladder_module_name(0) == NULL)
+    return kernel_module(kernel_find(ladder_rung_at(0)->name), NULL, &unused);
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
     const bool named = names(&job->kernels, one->name);
     if ((job->kernels.count > 0 && !named) || !wants_precision(job, strcmp(one->precision, "single") == 0))
