@@ -1,4 +1,4 @@
-/* The cushion in the study's program: its models verified and timed. */
+/* The cushion in the study's program: its models verified. */
 #ifndef CAROM_LAB_CUSHION_LAB_H
 #define CAROM_LAB_CUSHION_LAB_H
 
@@ -9,8 +9,7 @@
  * `folder` with pooltool's. Prints a table, or CSV; `*pass` becomes false if a bound is not met. False after a complaint. */
 bool cushion_verify(FILE *out, const char *folder, int draws, bool csv, bool *pass);
 
-/* `carom-lab verify --cushion` and `carom-lab bench --cushion`, without that argument; return exit codes. */
+/* `carom-lab verify --cushion`, without that argument; returns an exit code. */
 int cushion_verify_command(int argc, char **argv);
-int cushion_bench_command(int argc, char **argv);
 
 #endif
