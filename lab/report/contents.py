@@ -98,7 +98,8 @@ FIGURES_OF_THE_PAGE = [
         "accuracy",
         ("steps", "ns_median", "error_exact_max", "error_exact_median"),
         "Error against time",
-        "What a collision costs and what it is worth: the largest error over the 204 cases against the exact solution, N → ∞. "
+        "The time of a collision, and its largest error over the 204 cases against the exact solution, N → ∞. A dotted line drops from "
+        "the largest error to the median; the digits at batches are numbers of threads. "
         "Towards the lower left is better. Euler's error falls as 1/N and its time grows as N; single precision buys "
         "time at the same error until its rounding, or the step that it can no longer resolve, ends it. The exact solver takes no "
         "steps: it is a point for single calls, and for batches one for each number of threads.",
