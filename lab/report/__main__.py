@@ -50,6 +50,7 @@ def arguments(words):
         parser.error("the name of the folder is empty")
     options.folder = Path(options.folder).resolve()
     options.build = options.build.resolve()
+    options.data = Path(options.data).resolve() if options.data else None
     if options.source is not None:
         options.source = Path(options.source).resolve()
         if not options.source.is_dir():

@@ -14,7 +14,7 @@ from .sheet import Missing, Sheet
 
 
 def run(words, options, target=None):
-    """Runs a program of the build, or a module of Python, from the tree's root; None if it wrote nothing, else what it said."""
+    """Runs a program of the build, or a module of Python, in the tree's root; False if it wrote nothing."""
     command = [options.build / words[0]] if not words[0].startswith("lab.") else [sys.executable, "-m", words[0], "--build", options.build]
     done = subprocess.run([*command, *words[1:]], cwd=ROOT)
     return done.returncode in (0, 1) and (target is None or target.is_file())
