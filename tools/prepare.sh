@@ -133,22 +133,33 @@ keep_saying() {
   while sleep 60 > /dev/null 2>&1 && kill -0 $$ 2> /dev/null; do say "still $1: $(tail -n 1 "$2" | cut -c 1-90)"; done &
 }
 
-# build PRESET [CMAKE-OPTIONS]: configures and builds; quiet but for a line a minute, unless it fails.
-build() {
-  preset=$1
+# stage WHAT COMMAND...: runs the command and prints one line about it, with its time; quiet but for a line a minute. What it said is in
+# $log, for the caller to show and to remove. Returns the command's exit code.
+stage() {
+  what=$1
   shift
   log=$(mktemp)
-  say "building ($preset) ..."
-  keep_saying "building ($preset)" "$log"
-  saying=$!
-  built=0
-  { cmake --preset "$preset" "$@" && cmake --build --preset "$preset"; } > "$log" 2>&1 || built=$?
+  printf '%s ... ' "$what" >&2
+  keep_saying "$what" "$log"
+  saying=$! begun=$(date +%s) ended=0
+  "$@" > "$log" 2>&1 || ended=$?
   kill "$saying" 2> /dev/null
   wait "$saying" 2> /dev/null || true
-  if [ "$built" != 0 ]; then
+  printf '%s s' $(($(date +%s) - begun)) >&2
+  return $ended
+}
+
+# build PRESET [CMAKE-OPTIONS]: configures and builds, a line for both.
+build() {
+  if stage "building ($1)" configure_and_build "$@"; then
+    say
+  else
+    say ", failed"
     tail -n 60 "$log" >&2
     rm -f "$log"
-    fail "the build ($preset) failed"
+    fail "the build ($1) failed"
   fi
   rm -f "$log"
 }
+
+configure_and_build() { cmake --preset "$@" && cmake --build --preset "$1"; }

@@ -21,7 +21,9 @@ typedef struct bench_subject {
   const char *kernel, *config, *isa, *precision; /* labels, as in the CSV */
   int threads;                                   /* more than one: timed on all cores */
   int steps;                                     /* 0 where the kernel takes none */
+  const char *paper;                             /* the speedup that the seed paper gives, as text; NULL: none */
   size_t pairs;                                  /* collisions in the workload */
+  size_t in_a_call;                              /* and in a call of a batch; 0 for single calls */
   void (*resolve)(void *context);                /* resolves the workload once */
   void (*empty)(void *context);                  /* the same calls of a kernel that does nothing; NULL: nothing to subtract */
   uint64_t (*fingerprint)(const void *context);  /* of the results */

@@ -28,12 +28,9 @@ class Operation:
 
 
 def read_latencies(path=LATENCIES):
-    """{machine: {row: cycles}}"""
+    """Zen 2's: {row: cycles}"""
     lines = [line.split("#")[0].split() for line in Path(path).read_text().splitlines()]
-    head = re.search(r"^# row +(.+)$", Path(path).read_text(), re.M)[1].split()
-    return {
-        machine: {line[0]: float(line[1 + column]) for line in lines if line} for column, machine in enumerate(head)
-    }
+    return {line[0]: float(line[1]) for line in lines if line}
 
 
 def chain(operations, iterations=64):
@@ -78,8 +75,6 @@ def chain(operations, iterations=64):
         steps.append((operations[executed % len(operations)].label, finish[executed] - (finish[source] if source is not None else 0)))
     return pace, steps
 
-
-# ---- From machine code --------------------------------------------------------------------------------------------------
 
 WIDE = {"a": "ax", "b": "bx", "c": "cx", "d": "dx"}
 
@@ -151,22 +146,3 @@ def operation(instruction, classifier, latencies):
 
 def operations_of(path, classifier, latencies):
     return [o for o in (operation(i, classifier, latencies) for i in path) if o]
-
-
-# ---- From a model that can be read --------------------------------------------------------------------------------------
-
-
-def read_model(text, latencies):
-    """Operations of a model: lines `NAME = ROW SOURCE SOURCE ...`; see models/base.txt."""
-    result = []
-    for number, line in enumerate(text.splitlines(), 1):
-        line = line.split("#")[0].strip()
-        if not line:
-            continue
-        try:
-            name, right = (part.strip() for part in line.split("=", 1))
-            row, *sources = right.split()
-            result.append(Operation(line, tuple(sources), (name,), latencies[row]))
-        except (ValueError, KeyError):
-            raise ValueError(f"model, line {number}: '{line}' is not NAME = OPERATION SOURCE ... with a row of latencies.txt")
-    return result

@@ -1,53 +1,54 @@
-/* driver: runs one rung on the cases of standard input, so that callgrind can count its instructions.
+/* driver: runs one kernel of one module of the ladder, so that callgrind can count what was timed.
  *
- *     driver STEPS < cases          one case a line: the 26 numbers of carom_impact in the order of the struct
+ *     driver MODULE.so                        what the module is: compiler, version, flags, as `carom-lab bench` notes it
+ *     driver MODULE.so KERNEL STEPS < cases   one case a line: the 26 numbers of carom_impact in the order of the struct
  *
- * The rung is chosen when this file is compiled, -DCHOSEN_RUNG=carom_rung_base, so that a program holds one rung and its
- * disassembly is short. The way into the collision frame and out of it stands in two functions of its own, frame_in and
- * frame_out: they are counted too, as a row of their own. The sum of the results is printed, so that nothing is optimised away.
+ * The sum of the results is printed, so that two runs can be compared.
  */
-#include "rung.h"
+#include "module.h"
 
+#include <dlfcn.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-carom_local frame_in(const carom_impact *in, carom_frame *frame);
-void frame_out(const carom_frame *frame, const carom_local *state, carom_result *out);
-
-__attribute__((noinline)) carom_local frame_in(const carom_impact *in, carom_frame *frame) {
-  *frame = carom_frame_of(in);
-  return carom_to_frame(frame, in, CAROM_SLIP_POOLTOOL);
-}
-
-__attribute__((noinline)) void frame_out(const carom_frame *frame, const carom_local *state, carom_result *out) {
-  carom_from_frame(frame, state, out);
-}
-
-static int read_ball(carom_ball *ball) {
+static bool read_ball(carom_ball *ball) {
   double *field[] = {&ball->r[0], &ball->r[1], &ball->r[2], &ball->v[0],   &ball->v[1], &ball->v[2],
                      &ball->w[0], &ball->w[1], &ball->w[2], &ball->radius, &ball->mass, &ball->mu_cloth};
   for (size_t k = 0; k < sizeof field / sizeof *field; k++)
     if (scanf("%lf", field[k]) != 1)
-      return 0;
-  return 1;
+      return false;
+  return true;
 }
 
-int main(int argc, char **argv) {
-  const int steps = argc > 1 ? atoi(argv[1]) : 0;
-  if (steps < 1) {
-    fprintf(stderr, "driver: usage: driver STEPS < cases, with STEPS at least 1\n");
-    return 2;
-  }
+static double run_all(carom_rung *run, int steps) {
   carom_impact in;
   double sum = 0.0;
   while (read_ball(&in.a) && read_ball(&in.b) && scanf("%lf %lf", &in.mu_ball, &in.restitution) == 2) {
-    carom_frame frame;
-    carom_result out;
-    carom_local state = frame_in(&in, &frame);
-    CHOSEN_RUNG(&state, steps);
-    frame_out(&frame, &state, &out);
-    sum += out.a.v[0] + out.b.v[1] + out.a.w[2];
+    const carom_frame frame = carom_frame_of(&in);
+    carom_local state = carom_to_frame(&frame, &in, CAROM_SLIP_POOLTOOL);
+    run(&state, steps);
+    sum += state.v_ix + state.v_jy + state.w_iz;
   }
-  printf("%.17g\n", sum);
+  return sum;
+}
+
+int main(int argc, char **argv) {
+  void *module = argc > 1 ? dlopen(argv[1], RTLD_NOW) : NULL;
+  ladder_contents_of *contents_of = NULL;
+  if (module != NULL)
+    *(void **)&contents_of = dlsym(module, LADDER_SYMBOL);
+  if (contents_of == NULL || (argc != 2 && argc != 4)) {
+    fprintf(stderr, "driver: %s\n",
+            argc > 1 && contents_of == NULL ? dlerror() : "usage: driver MODULE.so [KERNEL STEPS < cases]");
+    return 2;
+  }
+  const ladder_contents *contents = contents_of();
+  if (argc == 2)
+    printf("%s-%s: %s, %s, %s\n", contents->compiler, contents->config, contents->compiler, contents->version, contents->flags);
+  for (size_t k = 0; argc == 4 && k < contents->count; k++)
+    if (strcmp(contents->rung[k].name, argv[2]) == 0)
+      printf("%.17g\n", run_all(contents->rung[k].run, atoi(argv[3])));
   return 0;
 }

@@ -1,11 +1,12 @@
 /* latency: the latencies of this processor, measured in core cycles without any counter.
  *
- * A chain of dependent integer additions advances by one core cycle an addition on every processor of interest, so its time is
- * the length of a cycle, at whatever clock the core runs just now. Chains of other instructions are timed in turn with it, and
- * the least time of many rounds is divided by the cycle. Operands have full significands where a division or a square root
- * might otherwise end early. Where a chain needs a helper (a square root alone runs to 1), the helper's latency is subtracted.
+ * A chain of dependent integer additions advances by one core cycle an addition on every processor of interest (of registers:
+ * some add constants while they rename, several in a cycle), so its time is the length of a cycle, at whatever clock the core
+ * runs just now. Chains of other instructions are timed in turn with it, and the least time of many rounds is divided by the
+ * cycle. Operands have full significands where a division or a square root might otherwise end early. Where a chain needs a
+ * helper (a square root alone runs to 1), the helper's latency is subtracted.
  *
- * Output: CSV, `row,cycles,ns` with the rows of latencies.txt; a second word says which instruction. `cycle` is the integer
+ * Output: CSV, `row,cycles,ns`; the rows are those of latencies.txt and some of interest besides. `cycle` is the integer
  * addition: its ns is one core cycle. `add_mul` is an addition and a multiplication in turn: less than add + mul where a result
  * is forwarded early.
  */
@@ -18,7 +19,7 @@
  * in xmm0 or rax and begins with 1.618...; 2.718... is in xmm2, 0 in xmm3, 1 in xmm4, scratch memory is at -512(rsp): as
  * compilers address it, and below what the function may use itself. */
 #define CHAINS(X)                                                                                               \
-  X(cycle, "cycle", "add $1, %%rax\n\t", cycle, 1)                                                              \
+  X(cycle, "cycle", "add %%rax, %%rax\n\t", cycle, 1)                                                           \
   X(add, "add", "vaddsd %%xmm4, %%xmm0, %%xmm0\n\t", add, 1)                                                    \
   X(mul, "mul", "vmulsd %%xmm4, %%xmm0, %%xmm0\n\t", mul, 1)                                                    \
   X(fma, "fma", "vfmadd213sd %%xmm3, %%xmm4, %%xmm0\n\t", fma, 1)                                               \

@@ -1,6 +1,6 @@
 # Error against time: a line for each kernel that was swept over N, marks for those that take no steps: one for single calls, and
-# for batches one for each number of threads. Marks stand at the largest error of the cases; dotted is the way down to the median,
-# for the library's kernels.
+# for batches one for each number of threads. Marks stand at the largest error of the cases; a dotted line drops from the largest
+# error to the median, for the library's kernels. Digits are numbers of threads.
 width = 1000; height = 640; tall = 900
 call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3 ARG4
 
@@ -25,6 +25,9 @@ set yrange [*:1]
 set xlabel "time of a collision"
 set ylabel "pair error against the exact solution" offset -0.5,0
 set xtics ("1 ns" 0.001, "10 ns" 0.01, "100 ns" 0.1, "1 µs" 1, "10 µs" 10, "100 µs" 100, "1 ms" 1000, "10 ms" 10000)
+do for [decade=-3:4] { do for [digit=2:9] { set xtics add ("" digit * 10.0**decade 1) } }
+set ytics 10
+set mytics 10
 set format y "10^{%T}"
 set lmargin at screen (narrow ? 0.185 : 0.10); set rmargin at screen (narrow ? 0.95 : 0.745)
 set bmargin at screen (narrow ? px(420) : 0.19)
@@ -48,4 +51,5 @@ plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_ex
        title part(word(lanes, k), 1).", ".part(word(lanes, k), 3).", ".part(word(lanes, k), 2), \
      for [k=1:words(lanes)] data using (in(word(lanes, k), us(0))):"error_exact_max":(sprintf("%d", column("threads"))) \
        with labels center offset -0.9,0.8 font ",12" textcolor rgb grey notitle, \
-     for [k=1:words(lanes) > 0] keyentry with lines lw 0.1 lc rgb "white" title "digits: threads"
+     keyentry with lines lc rgb grey lw 2 dt (1,4) title "down to the median", \
+     for [k=1:words(lanes) > 0] keyentry with lines lw 0.1 lc rgb "white" title "1, 2 ...: threads"

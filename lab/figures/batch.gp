@@ -49,14 +49,13 @@ plot data using (with_threads("single", 1)):(rate(0)) with linespoints lc rgb ve
 unset label 1; unset label 1001; unset label 1002; unset logscale
 set tmargin at screen (narrow ? upper(2, 2, 45, 115, 75) : 0.88)
 set bmargin at screen (narrow ? lower(2, 2, 45, 115, 75) : 0.225)
-set lmargin at screen (narrow ? 0.17 : 0.70); set rmargin at screen (narrow ? 0.94 : 0.975)
+set lmargin at screen (narrow ? 0.17 : 0.72); set rmargin at screen (narrow ? 0.94 : 0.98)
 set xrange [0.5:threads+0.7]
 set yrange [0:*]
 set xtics autofreq 1
 set ytics autofreq
 if (threads > 8) set xtics autofreq ceil(threads / 8.0)
 set xlabel sprintf("threads, %.0f,%03.0f pairs", floor(size / 1000), size - 1000 * floor(size / 1000))
-unset ylabel
 set key top left Left reverse
 gain(p, ns) = sprintf("%.2f ×", ns / column("ns_median"))
 plot 1000 * x / alone_single with lines lc rgb vermilion lw 1 dt (1,4) notitle, \
@@ -64,7 +63,7 @@ plot 1000 * x / alone_single with lines lc rgb vermilion lw 1 dt (1,4) notitle, 
      data using (of_size("single")):(rate(0)) with linespoints lc rgb vermilion lw 2 dt (12,4) pt 9 ps 1.2 title "single", \
      data using (of_size("double")):(rate(0)) with linespoints lc rgb blue lw 2 dt 1 pt 7 ps 1.1 title "double", \
      data using (column("threads") > 1 ? of_size("single") : NaN):(rate(0)):(gain("single", alone_single)) \
-       with labels offset 0,-1.3 font ",12" textcolor rgb ink notitle, \
+       with labels left offset 0.6,-0.9 font ",12" textcolor rgb ink notitle, \
      data using (column("threads") > 1 ? of_size("double") : NaN):(rate(0)):(gain("double", alone_double)) \
-       with labels offset 0,-1.3 font ",12" textcolor rgb ink notitle
+       with labels left offset 0.6,-0.9 font ",12" textcolor rgb ink notitle
 unset multiplot

@@ -84,6 +84,6 @@ const ladder_module *ladder_module_find(const char *name, char why[LADDER_WHY_SI
     if (length < LADDER_WHY_SIZE)
       length += (size_t)snprintf(why + length, LADDER_WHY_SIZE - length, " %s", one->name);
   if (slots[0].name == NULL)
-    snprintf(why, LADDER_WHY_SIZE, "the ladder has not been built here: it needs an x86-64 processor, and clang or gcc");
+    snprintf(why, LADDER_WHY_SIZE, "this build has no kernels of the ladder: " LADDER_ABSENT);
   return NULL;
 }

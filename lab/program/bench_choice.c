@@ -1,7 +1,9 @@
-/* What a run of `carom-lab bench` times: kernels x configurations x steps, one call each; solvers x instruction sets x
+/* `carom-lab bench` of collisions: kernels x configurations x steps, one call each; solvers x instruction sets x
  * precisions x threads x sizes, in batches; the copies beside those; and what all are compared with. */
 #include "bench_job.h"
 #include "caches.h"
+#include "command.h"
+#include "machine.h"
 #include "memory.h"
 #include "message.h"
 
@@ -74,6 +76,9 @@ static bool add_rung(bench_job *job, const kernel *one) {
 /* Where nothing is named, what cannot run here is left out; where it is named, it is an error. */
 static bool add_all_calls(bench_job *job) {
   const kernel *one;
+  const ladder_module *unused;
+  if (job->configs.count > 0 && ladder_module_name(0) == NULL)
+    return kernel_module(kernel_find(ladder_rung_at(0)->name), NULL, &unused);
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
     const bool named = names(&job->kernels, one->name);
     if ((job->kernels.count > 0 && !named) || !wants_precision(job, strcmp(one->precision, "single") == 0))
@@ -222,7 +227,7 @@ static bool add_yardsticks(bench_job *job) {
   return true;
 }
 
-bool bench_choose(bench_job *job) {
+static bool choose_work(bench_job *job) {
   if (!job->batch && (job->isas.count == 0 || names(&job->isas, "scalar")) && !add_all_calls(job))
     return false;
   choose_batches(job);
@@ -234,7 +239,28 @@ bool bench_choose(bench_job *job) {
   return add_yardsticks(job);
 }
 
-size_t bench_yardstick(const bench_job *job, const workload *of) {
+/* ---- The table of work */
+
+static bool verify_all(bench_job *job) {
+  job->subject = allocate(job->work_count, sizeof *job->subject);
+  for (size_t k = 0; k < job->work_count; k++) {
+    workload *w = &job->work[k];
+    char message[WORKLOAD_MESSAGE];
+    if (!workload_verify(w, job->folder, message) || (job->errors && !workload_compare_exact(w, job->folder)))
+      return false;
+    progress_show("kernels verified", (double)(k + 1), (double)job->work_count);
+    if (message[0] != '\0') {
+      complain("%s", message);
+      job->code = EXIT_SOME;
+      continue;
+    }
+    job->subject[job->subject_count++] = workload_subject(w);
+  }
+  return true;
+}
+
+/* The subject that `of` is compared with, or SIZE_MAX. */
+static size_t yardstick_of(const bench_job *job, const workload *of) {
   for (size_t k = 0; k < job->subject_count; k++) {
     const workload *w = job->subject[k].context;
     if (is_yardstick(job, w) && w->options.steps == yardstick_steps(of))
@@ -242,3 +268,63 @@ size_t bench_yardstick(const bench_job *job, const workload *of) {
   }
   return SIZE_MAX;
 }
+
+static bool choose(bench_job *job) {
+  job->show_pairs = job->pairs.count > 0;
+  if (job->steps.count == 0)
+    add_count(&job->steps, CAROM_DEFAULT_STEPS);
+  if (job->budget == 0.0)
+    job->budget = 20.0;
+  if (!cases_load(job->folder, "collisions-204.csv", &job->cases) || !choose_work(job) || !verify_all(job))
+    return false;
+  for (size_t k = 0; k < job->subject_count; k++)
+    job->subject[k].yardstick = yardstick_of(job, job->subject[k].context);
+  return true;
+}
+
+static void release(bench_job *job) {
+  for (size_t k = 0; k < job->work_count; k++)
+    workload_free(&job->work[k]);
+  free(job->work);
+  cases_free(&job->cases);
+  case_tiles_free(&job->tiles);
+}
+
+/* For batches: how large they are, and what the copy is. */
+static void print_batch_notes(const bench_job *job, FILE *out) {
+  bool any = false;
+  for (size_t k = 0; k < job->work_count; k++)
+    any |= job->work[k].batch.size > 0;
+  if (!any)
+    return;
+  if (job->show_pairs)
+    machine_note(out, "batches", "the cases over and over, so many pairs in a call as the column says");
+  else
+    machine_note(out, "batches", "the cases over and over, %d pairs in a call", job->pairs.value[0]);
+  machine_note(out, "bytes", "a pair is %zu bytes in and %zu out in double precision, half of that in single",
+               sizeof(carom_impact), sizeof(carom_result));
+  machine_note(out, "copy", "reads and writes as many bytes and computes nothing; its config is the cache that holds them");
+}
+
+static void note(const bench_job *job, FILE *out) {
+  machine_note(out, "workload", "%zu reference cases, one call each, mean over the cases", job->cases.count);
+  print_batch_notes(job, out);
+  const workload *yardstick = &job->work[0];
+  machine_note(out, "yardstick", "%s, %s, with as many steps", workload_name(yardstick), workload_config(yardstick));
+  const char *name;
+  for (size_t k = 0; (name = ladder_module_name(k)) != NULL; k++)
+    for (size_t w = 0; w < job->work_count; w++)
+      if (job->work[w].module != NULL && job->work[w].module->name == name) {
+        const ladder_module *module = job->work[w].module;
+        machine_note(out, module->name, "%s, %s, %s", module->compiler, module->version, module->flags);
+        break;
+      }
+  for (size_t w = 0; w < job->work_count; w++)
+    if (job->work[w].left_out > 0)
+      machine_note(out, "left out",
+                   "%s, %s, %d steps: %zu of %zu cases, whose approach its precision does not resolve in as many steps",
+                   job->work[w].kernel->name, workload_config(&job->work[w]), job->work[w].options.steps, job->work[w].left_out,
+                   job->cases.count);
+}
+
+const bench_table bench_of_collisions = {.choose = choose, .note = note, .print = bench_print, .release = release};

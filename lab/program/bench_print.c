@@ -1,9 +1,10 @@
-/* The figures of `carom-lab bench`, as a table or as CSV. */
+/* The figures of `carom-lab bench`, a row a subject, as a table or as CSV. */
 #include "bench_job.h"
 #include "machine.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const workload *work_of(const bench_subject *subject) {
   return subject->context;
@@ -17,22 +18,6 @@ static void print_number(FILE *out, const char *before, const char *format, doub
     fprintf(out, format, x);
 }
 
-/* For batches: how large they are, and what the copy is. */
-static void print_batch_notes(const bench_job *job, FILE *out) {
-  bool any = false;
-  for (size_t k = 0; k < job->work_count; k++)
-    any |= job->work[k].batch.size > 0;
-  if (!any)
-    return;
-  if (job->show_pairs)
-    machine_note(out, "batches", "the cases over and over, so many pairs in a call as the column says");
-  else
-    machine_note(out, "batches", "the cases over and over, %d pairs in a call", job->pairs.value[0]);
-  machine_note(out, "bytes", "a pair is %zu bytes in and %zu out in double precision, half of that in single",
-               sizeof(carom_impact), sizeof(carom_result));
-  machine_note(out, "copy", "reads and writes as many bytes and computes nothing; its config is the cache that holds them");
-}
-
 static void print_notes(const bench_job *job, FILE *out) {
   fputs(job->machine, out);
   machine_note(out, "pinning", "%s", job->pinning);
@@ -40,24 +25,7 @@ static void print_notes(const bench_job *job, FILE *out) {
   for (int k = 0; k < COUNTER_COUNT && job->counters; k++)
     machine_note(out, counter_column(k), "%s%s%s", counter_text(k), counter_reason(k) != NULL ? ": NA, " : "",
                  counter_reason(k) != NULL ? counter_reason(k) : "");
-  machine_note(out, "workload", "%zu reference cases, one call each, mean over the cases", job->cases.count);
-  print_batch_notes(job, out);
-  const workload *yardstick = &job->work[0];
-  machine_note(out, "yardstick", "%s, %s, with as many steps", workload_name(yardstick), workload_config(yardstick));
-  const char *name;
-  for (size_t k = 0; (name = ladder_module_name(k)) != NULL; k++)
-    for (size_t w = 0; w < job->work_count; w++)
-      if (job->work[w].module != NULL && job->work[w].module->name == name) {
-        const ladder_module *module = job->work[w].module;
-        machine_note(out, module->name, "%s, %s, %s", module->compiler, module->version, module->flags);
-        break;
-      }
-  for (size_t w = 0; w < job->work_count; w++)
-    if (job->work[w].left_out > 0)
-      machine_note(out, "left out",
-                   "%s, %s, %d steps: %zu of %zu cases, whose approach its precision does not resolve in as many steps",
-                   job->work[w].kernel->name, workload_config(&job->work[w]), job->work[w].options.steps, job->work[w].left_out,
-                   job->cases.count);
+  job->table->note(job, out);
   machine_note(out, "rounds", "%zu; an empty call, subtracted, takes %.2f ns", job->figure[0].ns.count,
                job->figure[0].empty_ns);
 }
@@ -88,7 +56,7 @@ static void print_csv_row(const bench_job *job, FILE *out, size_t k) {
       print_number(out, ",", "%.6g", job->count[k][c]);
   }
   if (job->show_pairs)
-    fprintf(out, ",%zu", work_of(s)->batch.size > 0 ? work_of(s)->batch.size : s->pairs);
+    fprintf(out, ",%zu", s->in_a_call > 0 ? s->in_a_call : s->pairs);
   fputc('\n', out);
 }
 
@@ -119,7 +87,7 @@ static void print_ratio(FILE *out, const char *before, double x) {
 
 static void print_table(const bench_job *job, FILE *out) {
   print_notes(job, out);
-  fprintf(out, "\n%-15s %-17s %-7s %-9s %7s %6s ", "kernel", "config", "isa", "precision", "threads", "steps");
+  fprintf(out, "\n%-16s %-16s %-7s %-9s %7s %6s ", "kernel", "config", "isa", "precision", "threads", "steps");
   if (job->show_pairs)
     fprintf(out, "%8s ", "pairs");
   fprintf(out, "%12s %8s %8s %8s %9s  %s\n", "ns median", "spread", "speedup", "spread", "error", "paper");
@@ -128,9 +96,9 @@ static void print_table(const bench_job *job, FILE *out) {
     const bench_figure *f = &job->figure[k];
     if (!f->unchanged)
       continue;
-    fprintf(out, "%-15s %-17s %-7s %-9s %7d %6d ", s->kernel, s->config, s->isa, s->precision, s->threads, s->steps);
+    fprintf(out, "%-16s %-16s %-7s %-9s %7d %6d ", s->kernel, s->config, s->isa, s->precision, s->threads, s->steps);
     if (job->show_pairs)
-      fprintf(out, "%8zu ", work_of(s)->batch.size > 0 ? work_of(s)->batch.size : s->pairs);
+      fprintf(out, "%8zu ", s->in_a_call > 0 ? s->in_a_call : s->pairs);
     fprintf(out, f->ns.median < 100.0 ? "%12.3f" : "%12.1f", f->ns.median);
     fprintf(out, " %6.2f %% ", 100.0 * f->ns.spread / f->ns.median);
     print_ratio(out, "", f->speedup.median);
@@ -139,8 +107,7 @@ static void print_table(const bench_job *job, FILE *out) {
       fprintf(out, "%10s", "NA");
     else
       fprintf(out, " %9.2g", s->pair_error_max);
-    const bool as_in_paper = work_of(s)->module == job->work[0].module;
-    fprintf(out, "  %s\n", as_in_paper ? workload_paper(work_of(s)) : "-");
+    fprintf(out, "  %s\n", s->paper != NULL && strcmp(s->config, job->subject[0].config) == 0 ? s->paper : "-");
   }
 }
 

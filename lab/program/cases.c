@@ -44,87 +44,52 @@ bool cases_load(const char *folder, const char *name, case_set *out) {
   return result == READ_END && out->count > 0;
 }
 
-bool read_columns(record_reader *reader, record_columns *out) {
+bool header_begins(record_reader *reader, const char *columns, size_t *count) {
   record header;
   if (record_next(reader, &header) != READ_ONE)
     return false;
-  size_t room = 0;
-  for (; out->count < header.count; out->count++) {
-    out->name = grow(out->name, &room, out->count + 1, sizeof *out->name);
-    out->name[out->count] = allocate(strlen(header.field[out->count]) + 1, 1);
-    strcpy(out->name[out->count], header.field[out->count]);
+  for (size_t k = 0; k < header.count && *columns != '\0'; k++) {
+    const size_t length = strlen(header.field[k]);
+    if (strncmp(columns, header.field[k], length) != 0 || (columns[length] != ',' && columns[length] != '\0'))
+      return false;
+    columns += length + (columns[length] == ',');
   }
-  return true;
+  *count = header.count;
+  return *columns == '\0';
 }
 
-size_t column_named(const record_columns *columns, const char *name) {
-  for (size_t k = 0; k < columns->count; k++)
-    if (strcmp(columns->name[k], name) == 0)
-      return k;
-  return SIZE_MAX;
-}
-
-void free_columns(record_columns *columns) {
-  for (size_t k = 0; k < columns->count; k++)
-    free(columns->name[k]);
-  free(columns->name);
+bool numbers_of(const record *row, size_t n, double number[]) {
+  bool good = !row->malformed && row->count > n;
+  for (size_t k = 0; good && k < n; k++)
+    good = parse_number(row->field[k + 1], &number[k]);
+  return good;
 }
 
 enum { RESULT_NUMBERS = sizeof(carom_result) / sizeof(double) };
 
-typedef struct reference_layout {
-  size_t id, number[RESULT_NUMBERS], steps;
-} reference_layout;
-
-static bool find_layout(const record_columns *columns, reference_layout *layout) {
-  char names[] = RESULT_COLUMNS, *rest = names;
-  layout->id = column_named(columns, "id");
-  layout->steps = column_named(columns, "steps");
-  bool complete = layout->id != SIZE_MAX;
-  for (int k = 0; k < RESULT_NUMBERS; k++) {
-    layout->number[k] = column_named(columns, strtok_r(rest, ",", &rest));
-    complete &= layout->number[k] != SIZE_MAX;
-  }
-  return complete;
-}
-
-static bool number_at(const record *in, size_t at, double *number) {
-  return at < in->count && parse_number(in->field[at], number);
-}
-
-static bool read_result_row(const record *in, const reference_layout *layout, const char *id, carom_result *result,
-                            int64_t *steps) {
-  double count = 0.0;
-  bool good = !in->malformed && layout->id < in->count && strcmp(in->field[layout->id], id) == 0;
-  for (int k = 0; k < RESULT_NUMBERS && good; k++)
-    good = number_at(in, layout->number[k], (double *)result + k);
-  if (good && steps != NULL) {
-    good = number_at(in, layout->steps, &count);
-    *steps = (int64_t)count;
-  }
-  return good;
-}
-
+/* The results and, where there is one more column, the step counts. */
 static bool read_references(record_reader *reader, const case_set *cases, reference_set *out) {
   const char *file = record_file_name(reader);
-  record_columns columns = {0};
-  reference_layout layout = {0};
-  record in;
-  const bool complete = read_columns(reader, &columns) && find_layout(&columns, &layout);
-  free_columns(&columns);
-  if (!complete) {
-    complain("%s: needs the columns id, v1x ... w2z", file);
+  size_t columns;
+  if (!header_begins(reader, "id," RESULT_COLUMNS, &columns)) {
+    complain("%s: needs the columns id, v1x ... w2z, in this order", file);
     return false;
   }
+  const bool steps = columns == RESULT_NUMBERS + 2;
   out->result = allocate(cases->count, sizeof *out->result);
-  out->steps = layout.steps != SIZE_MAX ? allocate(cases->count, sizeof *out->steps) : NULL;
+  out->steps = steps ? allocate(cases->count, sizeof *out->steps) : NULL;
   for (; out->count < cases->count; out->count++) {
     const size_t k = out->count;
-    if (record_next(reader, &in) != READ_ONE ||
-        !read_result_row(&in, &layout, cases->id[k], &out->result[k], out->steps != NULL ? &out->steps[k] : NULL)) {
+    record row;
+    double number[RESULT_NUMBERS + 1];
+    if (record_next(reader, &row) != READ_ONE || !numbers_of(&row, RESULT_NUMBERS + steps, number) ||
+        strcmp(row.field[0], cases->id[k]) != 0) {
       complain("%s: row %zu should hold the result for '%s'", file, k + 1, cases->id[k]);
       return false;
     }
+    memcpy(&out->result[k], number, sizeof out->result[k]);
+    if (steps)
+      out->steps[k] = (int64_t)number[RESULT_NUMBERS];
   }
   return true;
 }

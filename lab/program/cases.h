@@ -26,18 +26,11 @@ bool cases_load(const char *folder, const char *name, case_set *out);
 /* Loads results for exactly the ids of `cases`, in that order. */
 bool reference_load(const char *folder, const char *name, const case_set *cases, reference_set *out);
 
-/* The names of a file's columns, which outlive the reader's next record. */
-typedef struct record_columns {
-  size_t count;
-  char **name;
-} record_columns;
+/* Reads the header: does it begin with these columns, "id,v1x,...", in this order? Sets the number of all columns. */
+bool header_begins(record_reader *reader, const char *columns, size_t *count);
 
-/* Reads the header; false if there is none. */
-bool read_columns(record_reader *reader, record_columns *out);
-
-/* The place of the column of that name, or SIZE_MAX. */
-size_t column_named(const record_columns *columns, const char *name);
-void free_columns(record_columns *columns);
+/* The n numbers of a row behind its id; false if there are fewer. */
+bool numbers_of(const record *row, size_t n, double number[]);
 
 void cases_free(case_set *cases);
 void reference_free(reference_set *reference);

@@ -1,8 +1,6 @@
 /* `carom-lab bench`: times every kernel on the reference cases, once it is verified. */
 #include "bench_job.h"
-#include "bench_shots.h"
 #include "command.h"
-#include "cushion_lab.h"
 #include "machine.h"
 #include "memory.h"
 #include "message.h"
@@ -16,33 +14,13 @@
 #include <string.h>
 #include <unistd.h>
 
-static bool verify_all(bench_job *job) {
-  job->subject = allocate(job->work_count, sizeof *job->subject);
-  job->figure = allocate(job->work_count, sizeof *job->figure);
-  job->count = allocate(job->work_count, sizeof *job->count);
-  for (size_t k = 0; k < job->work_count; k++) {
-    workload *w = &job->work[k];
-    char message[WORKLOAD_MESSAGE];
-    if (!workload_verify(w, job->folder, message) || (job->errors && !workload_compare_exact(w, job->folder)))
-      return false;
-    progress_show("kernels verified", (double)(k + 1), (double)job->work_count);
-    if (message[0] != '\0') {
-      complain("%s", message);
-      job->code = EXIT_SOME;
-      continue;
-    }
-    job->subject[job->subject_count++] = workload_subject(w);
-  }
-  return true;
-}
-
 static void show_samples(double done, double total) {
   progress_show("samples", done, total);
 }
 
 static bool time_all(bench_job *job) {
-  for (size_t k = 0; k < job->subject_count; k++)
-    job->subject[k].yardstick = bench_yardstick(job, job->subject[k].context);
+  job->figure = allocate(job->subject_count, sizeof *job->figure);
+  job->count = allocate(job->subject_count, sizeof *job->count);
   FILE *machine = open_memstream(&job->machine, &(size_t){0});
   if (machine == NULL) {
     complain("out of memory");
@@ -52,15 +30,16 @@ static bool time_all(bench_job *job) {
   fclose(machine);
   job->counters_text = counters_begin();
   job->pinning = pinning_begin();
-  const bench_settings settings = {.budget = job->budget, .progress = show_samples};
+  const bench_settings settings = {.budget = job->budget, .now = job->now, .progress = show_samples};
   const bool good = bench_rounds(job->subject, job->subject_count, &settings, job->figure);
   for (size_t k = 0; k < job->subject_count && job->counters && good; k++) {
     const bench_subject *s = &job->subject[k];
     double nothing[COUNTER_COUNT];
     counters_measure(s->resolve, s->context, job->count[k]);
-    counters_measure(s->empty, s->context, nothing);
+    if (s->empty != NULL)
+      counters_measure(s->empty, s->context, nothing);
     for (int c = 0; c < COUNTER_COUNT; c++)
-      job->count[k][c] = (job->count[k][c] - nothing[c]) / (double)s->pairs;
+      job->count[k][c] = (job->count[k][c] - (s->empty != NULL ? nothing[c] : 0.0)) / (double)s->pairs;
   }
   pinning_end();
   progress_clear();
@@ -80,7 +59,7 @@ static void check_unchanged(bench_job *job) {
 
 /* The output is opened before the long part, so that a bad name costs nothing. */
 static bool bench_all(bench_job *job) {
-  if (!cases_load(job->folder, "collisions-204.csv", &job->cases) || !bench_choose(job) || !verify_all(job))
+  if (!job->table->choose(job))
     return false;
   if (job->subject_count == 0)
     return true;
@@ -92,31 +71,18 @@ static bool bench_all(bench_job *job) {
     return false;
   }
   check_unchanged(job);
-  bench_print(job, out);
+  job->table->print(job, out);
   return output_commit();
-}
-
-static void free_arguments(bench_job *job) {
-  free(job->kernels.name);
-  free(job->configs.name);
-  free(job->isas.name);
-  free(job->steps.value);
-  free(job->pairs.value);
-  free(job->threads.value);
 }
 
 static void bench_free(bench_job *job) {
   carom_isa_limit(job->isa);
   counters_end();
-  for (size_t k = 0; k < job->work_count; k++)
-    workload_free(&job->work[k]);
-  free(job->work);
+  job->table->release(job);
   free(job->subject);
   free(job->figure);
   free(job->count);
   free(job->machine);
-  cases_free(&job->cases);
-  case_tiles_free(&job->tiles);
 }
 
 /* ---- Arguments */
@@ -185,7 +151,8 @@ OPTION(bench_job, option_thread_counts, "threads", threads, 0, "N,...", set_thre
        "threads of a batch, or all: 1, 2, 4, ... up to the processor's (default 1,2; 1 on a\nsingle core)");
 OPTION(bench_job, option_pairs, "pairs", pairs, 0, "N,...", set_counts, 1,
        "pairs in a batch (default 65536, rounded up to whole turns of the cases); adds the\ncolumn pairs");
-OPTION(bench_job, option_budget, "budget", budget, 0, "SECONDS", set_budget, 0, "how long to measure (default 20)");
+OPTION(bench_job, option_budget, "budget", budget, 0, "SECONDS", set_budget, 0,
+       "how long to measure (default 20; cushions 5; shots 0.06 each)");
 OPTION(bench_job, option_csv, "csv", csv, 0, NULL, set_flag, 0, "as CSV, with lines about the machine that begin with #");
 OPTION(bench_job, option_spread, "spread", spread, 0, NULL, set_flag, 0,
        "more columns in the CSV: spread of the time; least, greatest and spread of the speedup");
@@ -194,6 +161,8 @@ OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
 OPTION(bench_job, option_counters, "counters", counters, 0, NULL, set_flag, 0,
        "more columns in the CSV: reference cycles and hardware counters per collision, NA where\nthere are none");
 
+OPTION(bench_job, option_cushion, "cushion", cushion, 0, NULL, set_flag, 0,
+       "time the models of the cushion on 512 random impacts of play instead; speedup is that over\nEuler's 1000 steps");
 OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
        "time the whole shots of this file instead, beside pooltool's recorded times");
 OPTION(bench_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
@@ -218,40 +187,52 @@ static const command_form form = {
     .name = "bench",
     .usage = "[OPTIONS]",
     .about = about,
-    .options =
-        (const option_row *const[]){&option_kernel,   &option_config,        &option_counts,        &option_batch,
-                                    &option_isa,      &option_one_precision, &option_thread_counts, &option_pairs,
-                                    &option_budget,   &option_csv,           &option_spread,        &option_errors,
-                                    &option_counters, &option_shots,         &option_models,        &option_cushion_model,
-                                    &option_data,     &option_cushion,       &option_output,        NULL},
+    .options = (const option_row *const[]){&option_kernel,        &option_config,        &option_counts,        &option_batch,
+                                           &option_isa,           &option_one_precision, &option_thread_counts, &option_pairs,
+                                           &option_budget,        &option_csv,           &option_spread,        &option_errors,
+                                           &option_counters,      &option_cushion,       &option_shots,         &option_models,
+                                           &option_cushion_model, &option_data,          &option_output,        NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };
 
+/* Options that choose collisions mean nothing for the other tables. */
+static bool is_plain(const bench_job *job) {
+  return job->kernels.count + job->configs.count + job->isas.count + job->steps.count + job->pairs.count == 0 && !job->batch &&
+         !job->errors && job->shared.precision == ANY_PRECISION;
+}
+
 static int bench(bench_job *job) {
-  if (job->shots != NULL)
-    return bench_shots(job);
-  if ((job->spread || job->errors || job->counters) && !job->csv) {
+  const bool others = job->cushion || job->shots != NULL;
+  if ((job->spread || job->errors || job->counters) && !job->csv)
     complain("--spread, --errors and --counters add columns to the CSV: give --csv too");
-    return usage_hint(&form);
+  else if (others && !is_plain(job))
+    complain("--kernel, --config, --steps, --batch, --isa, --precision, --pairs and --errors are for collisions of two balls");
+  else if (job->cushion && job->threads.count > 0)
+    complain("--threads is for batches of collisions and for --shots; --cushion times single calls");
+  else if (job->cushion && job->shots != NULL)
+    complain("--cushion and --shots are two things to time; give one of them");
+  else {
+    job->table = job->cushion ? &bench_of_cushions : job->shots != NULL ? &bench_of_shots : &bench_of_collisions;
+    job->folder = data_folder(job->shared.folder);
+    job->isa = carom_isa_in_force();
+    const int code = bench_all(job) ? job->code : EXIT_USAGE;
+    bench_free(job);
+    return code;
   }
-  job->show_pairs = job->pairs.count > 0;
-  if (job->steps.count == 0)
-    add_count(&job->steps, CAROM_DEFAULT_STEPS);
-  job->folder = data_folder(job->shared.folder);
-  job->isa = carom_isa_in_force();
-  const int code = bench_all(job) ? job->code : EXIT_USAGE;
-  bench_free(job);
-  return code;
+  return usage_hint(&form);
 }
 
 int command_bench(int argc, char **argv) {
-  if (cushion_asked(&argc, argv))
-    return cushion_bench_command(argc, argv);
-  bench_job job = {.shared = {.precision = ANY_PRECISION, .output = "-"}, .budget = 20.0, .code = EXIT_GOOD};
+  bench_job job = {.shared = {.precision = ANY_PRECISION, .output = "-"}, .code = EXIT_GOOD};
   int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code < 0)
     code = bench(&job);
-  free_arguments(&job);
+  free(job.kernels.name);
+  free(job.configs.name);
+  free(job.isas.name);
+  free(job.steps.value);
+  free(job.pairs.value);
+  free(job.threads.value);
   return code;
 }

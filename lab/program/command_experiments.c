@@ -4,7 +4,6 @@
 #include "kernel.h"
 #include "memory.h"
 #include "message.h"
-#include "number.h"
 #include "output.h"
 #include "place.h"
 #include "records.h"
@@ -30,43 +29,41 @@ typedef struct shot {
   double measured[OUTCOMES], predicted[OUTCOMES];
 } shot;
 
-enum { MOST_SHOTS = 32 };
+enum { MOST_SHOTS = 32, SHOT_NUMBERS = 3 + 2 * OUTCOMES };
+static const char shot_columns[] =
+    "id,V0,omega_T,theta_deg,measured_v_cue,measured_v_object,predicted_v_cue,predicted_v_object,"
+    "measured_angle_cue_deg,measured_angle_object_deg,predicted_angle_cue_deg,"
+    "predicted_angle_object_deg";
 
-static bool column(const record_columns *columns, const record *row, const char *name, double *number) {
-  const size_t at = column_named(columns, name);
-  return at < row->count && parse_number(row->field[at], number);
-}
-
-static bool read_shot(const record_columns *columns, const record *row, shot *s) {
-  double theta_deg;
-  snprintf(s->id, sizeof s->id, "%s", row->count > 0 ? row->field[0] : "");
-  bool good = column(columns, row, "V0", &s->V0) && column(columns, row, "omega_T", &s->omega_T) &&
-              column(columns, row, "theta_deg", &theta_deg);
-  for (int k = 0; k < OUTCOMES; k++) {
-    char name[64];
-    snprintf(name, sizeof name, "measured_%s", outcome_names[k]);
-    good = good && column(columns, row, name, &s->measured[k]);
-    snprintf(name, sizeof name, "predicted_%s", outcome_names[k]);
-    good = good && column(columns, row, name, &s->predicted[k]);
-  }
-  s->theta = theta_deg * degree;
-  return good;
+static shot shot_of(const char *id, const double x[SHOT_NUMBERS]) {
+  shot s = {.V0 = x[0],
+            .omega_T = x[1],
+            .theta = x[2] * degree,
+            .measured = {x[3], x[4], x[7], x[8]},
+            .predicted = {x[5], x[6], x[9], x[10]}};
+  snprintf(s.id, sizeof s.id, "%s", id);
+  return s;
 }
 
 static size_t read_shots(const char *folder, shot shots[MOST_SHOTS]) {
   char path[PATH_MAX];
   snprintf(path, sizeof path, "%s/experiments.csv", folder);
   record_reader *reader = record_open(path);
-  record_columns columns = {0};
+  if (reader == NULL)
+    return 0;
   record row;
-  size_t count = 0;
-  bool good = reader != NULL && read_columns(reader, &columns);
+  size_t count = 0, columns;
+  bool good = header_begins(reader, shot_columns, &columns);
+  if (!good)
+    complain("%s: needs the columns %s", path, shot_columns);
   while (good && count < MOST_SHOTS && record_next(reader, &row) == READ_ONE) {
-    good = read_shot(&columns, &row, &shots[count++]);
-    if (!good)
+    double number[SHOT_NUMBERS];
+    good = numbers_of(&row, SHOT_NUMBERS, number);
+    if (good)
+      shots[count++] = shot_of(row.field[0], number);
+    else
       complain("%s:%lld: not an experiment", path, row.line);
   }
-  free_columns(&columns);
   record_close(reader);
   return good ? count : 0;
 }

@@ -54,7 +54,10 @@ static void print_table(FILE *out) {
   const char *module;
   for (size_t k = 0; (module = ladder_module_name(k)) != NULL; k++)
     fprintf(out, " %s", module);
-  fputs(ladder_module_name(0) == NULL ? " none here\n" : "\n", out);
+  char why[LADDER_WHY_SIZE] = "";
+  if (ladder_module_name(0) == NULL)
+    ladder_module_find("default", why);
+  fprintf(out, "%s%s\n", why[0] != '\0' ? " none; " : "", why);
 }
 
 int command_kernels(int argc, char **argv) {

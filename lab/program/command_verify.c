@@ -253,8 +253,10 @@ int command_verify(int argc, char **argv) {
     complain("--csv and --brief are two ways to print; give one of them");
     return usage_hint(&form);
   }
+  /* A build that is not there, or a kernel of the ladder where no build is, would leave nothing to verify. */
   const ladder_module *unused;
-  if (v.config != NULL && !kernel_module(v.only != NULL ? v.only : kernel_find(ladder_rung_at(0)->name), v.config, &unused))
+  const bool wants_rung = v.config != NULL || (v.only != NULL && v.only->is_rung && ladder_module_name(0) == NULL);
+  if (wants_rung && !kernel_module(v.only != NULL ? v.only : kernel_find(ladder_rung_at(0)->name), v.config, &unused))
     return EXIT_USAGE;
   v.folder = data_folder(v.shared.folder);
   code = EXIT_USAGE;

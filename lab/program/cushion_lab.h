@@ -1,4 +1,4 @@
-/* The cushion in the study's program: its models verified and timed. */
+/* The cushion in the study's program: its models verified. */
 #ifndef CAROM_LAB_CUSHION_LAB_H
 #define CAROM_LAB_CUSHION_LAB_H
 
@@ -13,8 +13,7 @@ bool cushion_verify(FILE *out, const char *folder, int draws, uint64_t seed, boo
 /* Whether "--cushion" is among the arguments of a subcommand, and is taken out. */
 bool cushion_asked(int *argc, char **argv);
 
-/* `carom-lab verify --cushion` and `carom-lab bench --cushion`, without that argument; return exit codes. */
+/* `carom-lab verify --cushion`, without that argument; returns an exit code. */
 int cushion_verify_command(int argc, char **argv);
-int cushion_bench_command(int argc, char **argv);
 
 #endif

@@ -226,7 +226,9 @@ bench_subject workload_subject(workload *w) {
       .precision = workload_precision(w),
       .threads = w->batch.size > 0 ? w->options.threads : 1,
       .steps = workload_steps(w),
+      .paper = w->rung != NULL ? w->rung->paper : NULL,
       .pairs = w->pairs,
+      .in_a_call = w->batch.size,
       .resolve = w->resolve,
       .empty = w->empty,
       .fingerprint = fingerprint,
@@ -248,8 +250,4 @@ const char *workload_config(const workload *w) {
 
 const char *workload_precision(const workload *w) {
   return w->batch.size == 0 ? w->kernel->precision : w->batch.single ? "single" : "double";
-}
-
-const char *workload_paper(const workload *w) {
-  return w->rung != NULL ? w->rung->paper : "-";
 }

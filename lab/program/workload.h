@@ -111,7 +111,4 @@ const char *workload_config(const workload *w);
 
 const char *workload_precision(const workload *w);
 
-/* The speedup that the seed paper gives, as text; "-" for what is not in it. */
-const char *workload_paper(const workload *w);
-
 #endif

@@ -5,11 +5,10 @@ import sys
 from pathlib import Path
 
 from .collect import collect
-from .contents import FIGURES_OF_THE_PAGE, ROOT
-from .figures import NO_GNUPLOT, draw
-from .page import write_page
+from .contents import BREAK, FIGURES_OF_THE_PAGE, ROOT
+from .page import summary, write_page
+from .pictures import NO_GNUPLOT, draw, draw_break
 from .sheet import Missing
-from .summary import lines
 
 ABOUT = """Verifies and times the kernels, and writes to DIR (made if it is not there): the CSV files, the figures as SVG, and
 index.html, one page with the figures and tables and the seed paper's values beside ours. Figures are drawn by gnuplot; without
@@ -51,6 +50,7 @@ def arguments(words):
         parser.error("the name of the folder is empty")
     options.folder = Path(options.folder).resolve()
     options.build = options.build.resolve()
+    options.data = Path(options.data).resolve() if options.data else None
     if options.source is not None:
         options.source = Path(options.source).resolve()
         if not options.source.is_dir():
@@ -64,6 +64,11 @@ def arguments(words):
 def draw_all(options, data):
     """{name of a figure: why it could not be drawn}"""
     missing = {}
+    try:
+        draw_break(options)
+    except Missing as why:
+        missing[BREAK.name] = str(why)
+        complain(str(why))
     for figure in FIGURES_OF_THE_PAGE:
         try:
             draw(figure, data[figure.csv], options.folder, options.png)
@@ -86,7 +91,7 @@ def main(words):
         for problem in problems:
             complain(problem)
         missing = draw_all(options, data)
-        for line in ["", *lines(data), ""]:
+        for line in ["", *summary(data), ""]:
             print(line)
         print(f"report: {write_page(options.folder, data, missing, problems)}")
     except OSError as error:

@@ -6,42 +6,37 @@ What cannot be had leaves an empty sheet, which says why.
 import shlex
 import shutil
 import subprocess
+import sys
 
-from .contents import DATA, Derived, Measured
+from .contents import DATA, ROOT, Derived
 from .derive import FUNCTIONS
 from .sheet import Missing, Sheet
 
 
-def words_of(command, kernels):
-    """The command's words; {solvers} becomes the kernels that are no rung of the ladder."""
-    solvers = ",".join(row["kernel"] for row in kernels.rows if not row["parent"]) or "exact,euler"
-    return shlex.split(command.replace("{solvers}", solvers))
+def run(words, options, target=None):
+    """Runs a program of the build, or a module of Python, in the tree's root; False if it wrote nothing."""
+    command = [options.build / words[0]] if not words[0].startswith("lab.") else [sys.executable, "-m", words[0], "--build", options.build]
+    done = subprocess.run([*command, *words[1:]], cwd=ROOT)
+    return done.returncode in (0, 1) and (target is None or target.is_file())
 
 
 def measure(row, options, target, kernels):
-    """Runs the command; False if it wrote nothing."""
-    program, *words = words_of(row.command, kernels)
+    """False if the command wrote nothing. {solvers} becomes the kernels that are not of the ladder."""
+    solvers = ",".join(one["kernel"] for one in kernels.rows if not one["parent"]) or "exact,euler"
+    words = shlex.split(row.command.replace("{solvers}", solvers))
     if row.share:
         words += ["--budget", f"{options.budget * row.share / 100.0:.4g}"]
-    print(f"{row.name}.csv: {program} {' '.join(words)}", flush=True)
+    print(f"{row.name}.csv: {' '.join(words)}", flush=True)
     if options.data and row.on_data:
         words += ["--data", options.data]
-    return subprocess.run([options.build / program, *words, "--output", target]).returncode in (0, 1)
+    return run([*words, "--output", target], options, target)
 
 
 def copy(source, target):
     """False if there is nothing to copy."""
-    if not source.is_file():
-        return False
-    if not (target.exists() and target.samefile(source)):
+    if source.is_file() and not (target.exists() and target.samefile(source)):
         shutil.copyfile(source, target)
-    return True
-
-
-def derive(row, target, data):
-    """Writes the lines; Missing where they cannot be made."""
-    lines = list(FUNCTIONS[row.name](data))
-    target.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return source.is_file()
 
 
 def obtain(row, options, data):
@@ -50,9 +45,9 @@ def obtain(row, options, data):
     target = options.folder / name
     try:
         if isinstance(row, Derived):
-            derive(row, target, data)
-        elif options.source is not None or not isinstance(row, Measured):
-            if not copy(options.source / name if options.source else row.path, target):
+            target.write_text("\n".join(list(FUNCTIONS[row.name](data))) + "\n", encoding="utf-8")
+        elif options.source is not None:
+            if not copy(options.source / name, target):
                 raise Missing(f"there is no {name}")
         elif not measure(row, options, target, kernels):
             raise Missing(f"{name} could not be measured")

@@ -3,8 +3,8 @@
 Measured  a command that writes NAME.csv; the report adds `-o`, and `--budget` with its share (in per cent) of the report's
           budget unless the share is 0, and its own `--data` if the command works `on_data`. {solvers} stands for all of the
           library's kernels, as kernels.csv names them.
-Stored    a CSV that is kept in the tree: what takes tools that a user of the report may not have
 Derived   made by that function of derive.py from those above
+Drawn     a picture that a command draws by itself
 Figure    drawn from a CSV by `gnuplot -c SCRIPT DATA.csv PICTURE TITLE`; `number` is that of the figure in the seed paper, or of
           the section it belongs to, `needs` the columns without whose numbers there is nothing to draw
 """
@@ -26,14 +26,17 @@ class Measured:
 
 
 @dataclass(frozen=True)
-class Stored:
+class Derived:
     name: str
-    path: Path
 
 
 @dataclass(frozen=True)
-class Derived:
+class Drawn:
     name: str
+    command: str
+    title: str
+    sentence: str
+    number: str = ""
 
 
 @dataclass(frozen=True)
@@ -77,13 +80,69 @@ DATA = [
         "carom-lab bench --kernel exact --isa scalar,best --threads all "
         "--pairs 1,2,4,8,16,32,64,256,1024,4096,16384,65536,262144 --csv --spread",
     ),
-    Stored("bounds", ROOT / "lab" / "bound" / "results" / "bounds.csv"),
-    Stored("latency", ROOT / "lab" / "bound" / "results" / "latency.csv"),
+    Measured("bounds", 0, "lab.bound"),
     Derived("speedup"),
     Derived("performance"),
 ]
 
+BREAK = Drawn(
+    "break",
+    "carom shoot --plot {picture} -o /dev/null data/break-nineball.jsonl",
+    "A nine-ball break",
+    "Every ball's path, from the break until all balls are at rest, computed from the positions in data/break-nineball.jsonl.",
+)
+
 FIGURES_OF_THE_PAGE = [
+    Figure(
+        "accuracy",
+        "accuracy",
+        ("steps", "ns_median", "error_exact_max", "error_exact_median"),
+        "Error against time",
+        "The time of a collision, and its largest error over the 204 cases against the exact solution, N → ∞. A dotted line drops from "
+        "the largest error to the median; the digits at batches are numbers of threads. "
+        "Towards the lower left is better. Euler's error falls as 1/N and its time grows as N; single precision buys "
+        "time at the same error until its rounding, or the step that it can no longer resolve, ends it. The exact solver takes no "
+        "steps: it is a point for single calls, and for batches one for each number of threads.",
+    ),
+    Figure(
+        "speedup",
+        "speedup",
+        ("speedup", "paper"),
+        "Cumulative speedup of the scalar kernels",
+        "Each kernel is the one to its left with one more idea. The paper gives no number for cse and sepwhile, only that they "
+        "gain a little.",
+        number="figure 3",
+    ),
+    Figure(
+        "runtime",
+        "steps",
+        ("steps", "ns_median"),
+        "Run time over the number of steps",
+        "Time grows in proportion to N, as it does in the paper: every step does the same work on the same few numbers, all of it "
+        "in registers and the first cache. The second half divides by N, so that the kernels come apart: what is left at small N is "
+        "the cost of everything around the loop.",
+        number="figure 2",
+    ),
+    Figure(
+        "configs",
+        "configs",
+        ("speedup",),
+        "Compilers and configurations",
+        "Speedup over base in the first configuration, for every kernel in every build; framed is the best of all. zen2 is not among the "
+        "paper's configurations: it is the default for the paper's processor by name, the code whose operations are counted.",
+        number="section 4.4",
+    ),
+    Figure(
+        "performance",
+        "performance",
+        ("steps", "flops_per_cycle"),
+        "Floating point operations per cycle",
+        "Operations are counted exactly, as AMD's counter counts them (a fused multiply-add is two), by running the same code for "
+        "Zen 2 under callgrind. The dashed lines are the bounds: the operations of a step over the length of its longest chain of "
+        "dependent operations, in a collision where friction acts in every step; where it rests in some, as in a few of the cases, a "
+        "kernel can come out a little above. Kernels do different amounts of work, so a higher line is not a faster kernel.",
+        number="figure 4",
+    ),
     Figure(
         "experiments",
         "experiments",
@@ -115,16 +174,6 @@ FIGURES_OF_THE_PAGE = [
         "takes a step more or less. The exact solution leaves a smooth curve by less than a millionth of the largest speed.",
     ),
     Figure(
-        "accuracy",
-        "accuracy",
-        ("steps", "ns_median", "error_exact_max", "error_exact_median"),
-        "Error against time",
-        "What a collision costs and what it is worth: the largest error over the 204 cases against the exact solution, N → ∞. "
-        "Towards the lower left is better. Euler's error falls as 1/N and its time grows as N; single precision buys "
-        "time at the same error until its rounding, or the step that it can no longer resolve, ends it. The exact solver takes no "
-        "steps: it is a point for single calls, and for batches one for each number of threads.",
-    ),
-    Figure(
         "isas",
         "isas",
         ("steps", "ns_median", "speedup", "pairs"),
@@ -150,44 +199,5 @@ FIGURES_OF_THE_PAGE = [
         "time of a copy that moves the same bytes and computes nothing: no solver can be faster. Dashed lines are the sizes of the "
         "caches. Where the band between them, shaded for double precision, is narrow, memory is the limit; where it is wide, "
         "arithmetic is.",
-    ),
-    Figure(
-        "runtime",
-        "steps",
-        ("steps", "ns_median"),
-        "Run time over the number of steps",
-        "Time grows in proportion to N, as it does in the paper: every step does the same work on the same few numbers, all of it "
-        "in registers and the first cache. The second half divides by N, so that the kernels come apart: what is left at small N is "
-        "the cost of everything around the loop.",
-        number="figure 2",
-    ),
-    Figure(
-        "speedup",
-        "speedup",
-        ("speedup", "paper"),
-        "Cumulative speedup of the scalar kernels",
-        "Each kernel is the one to its left with one more idea. The paper gives no number for cse and sepwhile, only that they "
-        "gain a little.",
-        number="figure 3",
-    ),
-    Figure(
-        "performance",
-        "performance",
-        ("steps", "flops_per_cycle"),
-        "Floating point operations per cycle",
-        "Operations are counted exactly, as AMD's counter counts them (a fused multiply-add is two), by running the same code for "
-        "Zen 2 under callgrind. The dashed lines are the bounds: the operations of a step over the length of its longest chain of "
-        "dependent operations, in a collision where friction acts in every step; where it rests in some, as in a few of the cases, a "
-        "kernel can come out a little above. Kernels do different amounts of work, so a higher line is not a faster kernel.",
-        number="figure 4",
-    ),
-    Figure(
-        "configs",
-        "configs",
-        ("speedup",),
-        "Compilers and configurations",
-        "Speedup over base in the first configuration, for every kernel in every build; framed is the best of all. zen2 is not among the "
-        "paper's configurations: it is the default for the paper's processor by name, the code whose operations are counted.",
-        number="section 4.4",
     ),
 ]

@@ -73,6 +73,11 @@ try lab bench --steps 10,many
 try lab bench --budget never
 try lab bench --budget 0
 try lab bench --counters
+try lab bench --cushion --kernel exact
+try lab bench --cushion --threads 2
+try lab bench --cushion --shots "$DATA/shots-mathavan.jsonl"
+try lab bench --shots "$DATA/shots-mathavan.jsonl" --pairs 8
+try lab bench --shots nowhere.jsonl
 try lab bench --data nowhere
 try lab bench --kernel base --config o4 2>&1 | sed 's/there are .*/there are .../'
 try lab bench --kernel euler --budget 0.1 -o nowhere/out.csv

@@ -9,6 +9,5 @@ try lab verify --data nowhere
 try lab resolve
 try lab resolve --kernel fast x.csv
 try lab resolve --solver exact x.csv
-try lab resolve --kernel base --precision single x.csv
 lab kernels > /dev/full || echo "exit $?"
 for budget in x 0 -1 nan 1x ""; do try lab bench --budget "$budget"; done

@@ -16,8 +16,7 @@ echo "--- as CSV"
 lab verify --kernel euler --csv -o table.csv
 grep -v ',library-' table.csv | cut -d, -f1-7,12,17
 echo "--- in sentences"
-lab verify --brief | grep -e '^euler' -e '^ladder' | sed '/^ladder/s/[0-9][0-9.]*\(e-[0-9]*\)\{0,1\}/N/g'
+lab verify --brief | grep '^euler'
 sed '2s/,-0.008/,-0.009/' "$DATA/reference-pooltool-n1000.csv" > data/reference-pooltool-n1000.csv
 try lab verify --brief --kernel euler --data data
-lab verify --brief --kernel double --config o3 --data data | sed 's/ in [a-z]*-o3/ in .../; s/mean [^;]*, max/mean ..., max/' | tail -n 2
 try lab verify --brief --csv

@@ -65,6 +65,7 @@ def copy_of_stored(folder):
     folder.mkdir()
     for name in NAMES:
         shutil.copy(STORED / f"{name}.csv", folder)
+    shutil.copy(STORED / "break.svg", folder)
     return folder
 
 
@@ -76,9 +77,9 @@ def test_every_file_damaged_alone(kind, make, tmp_path):
         (source / f"{name}.csv").write_bytes(damaged(name, kind))
         made = make(f"of_{name}", "--from", source, PATH="/nowhere")
         assert made.code == 1 and "Traceback" not in made.complaints, made.complaints
-        assert len(made.ids("figure")) == len(FIGURES_OF_THE_PAGE)
+        assert len(made.ids("figure")) == len(FIGURES_OF_THE_PAGE) + 1
         if kind in ("empty", "no header", "open quotes"):
-            assert f"{name}.csv" in made.page[: made.page.index('<h2 id="physics"')]
+            assert f"{name}.csv" in made.page[made.page.index('<h2 id="missing"') :]
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -90,10 +91,10 @@ def test_all_files_damaged_and_drawn(kind, make, tmp_path):
         (source / f"{name}.csv").write_bytes(damaged(name, kind))
     made = make("made", "--from", source)
     assert "Traceback" not in made.complaints, made.complaints
-    assert len(made.ids("figure")) == len(FIGURES_OF_THE_PAGE)
+    assert len(made.ids("figure")) == len(FIGURES_OF_THE_PAGE) + 1
     if kind in ("empty", "no header", "header alone", "other columns", "words for numbers", "empty fields", "open quotes", "noise"):
         assert made.code == 1
-        assert len([text for text in made.missing() if "could not be drawn" in text]) == len(FIGURES_OF_THE_PAGE)
+        assert len([text for text in made.missing() if "could not be drawn" in text]) == len(FIGURES_OF_THE_PAGE) + 1
 
 
 def test_a_bad_row_costs_that_row(make, tmp_path):
@@ -171,24 +172,18 @@ def test_a_sheet_is_read_as_it_stands(tmp_path):
         sheet.needs("n", "absent")
 
 
-@pytest.mark.parametrize(
-    "was, now",
-    [
-        ("clang, Debian Clang 19.1.7 (3~deb12u1), -O3 -march=znver2", "clang, Debian Clang 22.1.0 (1~deb12u1), -O3 -march=znver2"),
-        ("3~deb12u1), -O3 -march=znver2", "3~deb12u1), -O2 -march=znver2"),
-    ],
-)
+@pytest.mark.parametrize("was, now", [("Clang 19.1.7", "Clang 22.1.0"), ("-O3 -march=znver2", "-O2 -march=znver2")])
 def test_times_of_other_code_than_was_counted(make, tmp_path, was, now):
     """Operations that clang 19 emits over the time of what another clang or other flags made would be no figure of either."""
     part = tmp_path / "part"
     part.mkdir()
-    for name in ("cycles", "bounds", "latency", "kernels"):
+    for name in ("cycles", "bounds", "kernels"):
         shutil.copy(STORED / f"{name}.csv", part)
-    cycles = part / "cycles.csv"
-    text = cycles.read_text(encoding="utf-8")
+    bounds = part / "bounds.csv"
+    text = bounds.read_text(encoding="utf-8")
     assert was in text
-    cycles.write_text(text.replace(was, now), encoding="utf-8")
+    bounds.write_text(text.replace(was, now), encoding="utf-8")
     made = make("other", "--from", part)
-    assert "performance.csv cannot be made: clang-zen2 was timed as built by version" in made.complaints
+    assert "performance.csv cannot be made: clang-zen2 was timed as built by 'clang, Debian Clang 19.1.7" in made.complaints
     assert not (made.folder / "performance.csv").exists() and not (made.folder / "performance.svg").exists()
     assert all("%" not in row[13] for row in made.table("operations")[1:])

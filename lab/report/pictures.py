@@ -1,5 +1,5 @@
-"""The figures: gnuplot draws each from its CSV by its script; what makes the SVG depend on more than the data, or keeps it from
-standing beside others in one page, is put right here.
+"""The pictures: gnuplot draws each figure from its CSV by its script; `carom` draws the break. What makes an SVG depend on more than
+the data, or keeps it from standing beside others in one page, is put right here.
 
 gnuplot works in a temporary folder, on the rows that the sheet has taken; a picture appears in the report's folder whole or not
 at all. What it says on stderr is shown only if it fails: it also warns of every part of a plot that a CSV has no rows for, and
@@ -7,12 +7,15 @@ those are optional.
 """
 
 import re
+import shlex
 import shutil
 import subprocess
 import tempfile
 from html import escape
 from pathlib import Path
 
+from .collect import copy, run
+from .contents import BREAK
 from .sheet import Missing
 
 NO_GNUPLOT = "gnuplot is not installed (Debian: gnuplot-nox)"
@@ -57,16 +60,28 @@ def draw_one(figure, sheet, target, narrow):
 def draw(figure, sheet, folder, png):
     """Draws FOLDER/NAME.svg and NAME-narrow.svg, and NAME.png if that is wanted; raises Missing, and leaves none of them, where one
     cannot be drawn."""
-    wide, narrow, bitmap = (folder / f"{figure.name}{ending}" for ending in (".svg", "-narrow.svg", ".png"))
-    for target in (wide, narrow, bitmap):
+    targets = [folder / f"{figure.name}{ending}" for ending in (".svg", "-narrow.svg", ".png")]
+    for target in targets:
         target.unlink(missing_ok=True)
     sheet.needs_numbers(*figure.needs)
     if not shutil.which("gnuplot"):
         raise Missing(NO_GNUPLOT)
     try:
-        for target in [wide, narrow, bitmap] if png else [wide, narrow]:
-            draw_one(figure, sheet, target, target == narrow)
+        for target in targets[: 3 if png else 2]:
+            draw_one(figure, sheet, target, target.stem.endswith("-narrow"))
     except Missing:
-        wide.unlink(missing_ok=True)
-        narrow.unlink(missing_ok=True)
+        for target in targets:
+            target.unlink(missing_ok=True)
         raise
+
+
+def draw_break(options):
+    """FOLDER/break.svg, by `carom` or from an earlier report."""
+    target = options.folder / f"{BREAK.name}.svg"
+    if options.source is not None:
+        there = copy(options.source / target.name, target)
+    else:
+        there = run(shlex.split(BREAK.command.replace("{picture}", shlex.quote(str(target)))), options, target)
+    if not there:
+        target.unlink(missing_ok=True)
+        raise Missing(f"there is no {target.name}")

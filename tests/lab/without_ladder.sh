@@ -1,0 +1,15 @@
+# A build without CAROM_LADDER: what needs a kernel of the ladder says so; the library's own are verified and timed all the same.
+try lab resolve --kernel base "$DATA/collisions-204.csv"
+try lab verify --kernel float
+try lab verify --config o3
+try lab bench --kernel base
+try lab bench --config all
+lab kernels | tail -n 1
+lab verify --brief --kernel exact | cut -d: -f1
+echo "--- times: Euler's method of the library is the yardstick"
+rows() { grep -v '^#' "$1"; }
+lab bench --kernel exact --steps 10,50 --isa scalar --budget 0.2 --csv --spread --errors --counters -o calls.csv
+rows calls.csv | cut -d, -f1-6
+sed -n 's/^# yardstick: //p' calls.csv
+lab bench --batch --kernel exact,euler --isa plain --threads 2 --pairs 64 --steps 20 --budget 0.2 --csv -o batches.csv
+rows batches.csv | cut -d, -f1-6,12
