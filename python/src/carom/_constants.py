@@ -7,13 +7,14 @@ that the library's kind of ball gains are constants without a change here. Frict
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
 from carom import dtypes
 from carom._rows import Array
 from carom.layouts import Table, balls
-from carom.shots import ShotCushion
+from carom.shots import ShotCushion, shot_options
 
 Constants = dict[str, float]
 
@@ -71,3 +72,8 @@ def layout(centres: dtypes.Doubles, radius: float, constants: Mapping[str, float
         if name != "nose_height":
             made["kind"][name] = value
     return made
+
+
+def options(cushion_model: ShotCushion) -> Any:
+    """The options of C that recorded shots are played with."""
+    return shot_options("carom", "default", cushion_model, "constant", 0, 0, 0.0, 0)
