@@ -105,10 +105,10 @@ static bool play(const carom_python_tracks *tracks, int32_t shot, const double *
 }
 
 /* The place at a time; *at is the piece of the last call, for times that increase. */
-static void place(const way *way, double time, int *at, double r[2]) {
-  while (*at + 1 < way->pieces && way->piece[*at + 1].start <= time)
+static void place(const way *w, double time, int *at, double r[2]) {
+  while (*at + 1 < w->pieces && w->piece[*at + 1].start <= time)
     ++*at;
-  const piece *p = &way->piece[*at];
+  const piece *p = &w->piece[*at];
   const double s = time > p->start ? time - p->start : 0.0;
   for (int k = 0; k < 2; k++)
     r[k] = p->c[0][k] + s * (p->c[1][k] + s * (p->c[2][k] + s * p->c[3][k]));
@@ -167,7 +167,7 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
     double start[PLAYS] = {strikes[5]};
     if (!play(tracks, of[k], strikes, until[k] - start[0], events, ways)) {
       memset(sums, 0, SUMS * sizeof *sums);
-      sums[0] = sums[1] = INFINITY;
+      sums[0] = sums[1] = HUGE_VAL;
       continue;
     }
     add_up(tracks, of[k], ways, start, 1, until[k], step, sums);

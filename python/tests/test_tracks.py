@@ -91,3 +91,69 @@ def test_a_recording_without_motion_has_no_strike():
         _ = tracks.Recording(7, (1,), (still,)).cue
     with pytest.raises(ValueError, match="there is no constant 'mu'; known are"):
         tracks.synthetic(1, constants={"mu": 0.2})
+
+
+@pytest.fixture(scope="module")
+def seen(made):
+    return tracks.events(made.recordings, TABLE, RADIUS)
+
+
+def test_pieces_tell_the_friction_of_the_cloth(made, seen):
+    gravity = 9.81
+    slide, error = seen.slide
+    assert abs(slide - made.constants["mu_slide"] * gravity) < 0.03 and error < 0.03
+    (a, a_error), (b, b_error) = seen.roll
+    assert abs(a - made.constants["mu_roll"] * gravity) < max(3 * a_error, 1e-3) and a_error < 2e-3
+    assert abs(b) < max(3 * b_error, 2e-3) and b_error < 3e-3
+    pieces = seen.pieces
+    assert not (pieces["sliding"] & pieces["rolling"]).any() and pieces["sliding"].sum() > 20 and pieces["rolling"].sum() > 60
+    # the misfit is the noise of both coordinates, where a piece is long
+    long = pieces["samples"] >= 20
+    assert np.median(pieces["rms"][long]) == pytest.approx(tracks.NOISE * np.sqrt(2), rel=0.1)
+    # velocities are those of the play, at the middle of the pieces
+    for piece in pieces[long][::7]:
+        at = piece["time"] - made.strikes[piece["shot"], 5]
+        state = made.shots[piece["shot"]].states(at)[piece["ball"]]
+        assert np.hypot(*(state["v"][:2] - piece["v"])) < 0.05
+
+
+def test_impacts_have_the_numbers_of_the_play(made, seen):
+    truth, errors, missed = [], [], 0
+    for k, shot in enumerate(made.shots):
+        rails = shot.events[(shot.events["type"] == 3) & (np.hypot(*shot.events["before"][:, 0]["v"][:, :2].T) > 0.5)]
+        truth.append(len(rails))
+        for event in rails:
+            # rails of the play: y = 0, x = W, y = L, x = 0
+            own = seen.impacts
+            own = own[(own["shot"] == k) & (own["ball"] == event["a"]) & (own["rail"] == (2, 1, 3, 0)[event["b"]])]
+            late = np.abs(own["time"] - event["time"] - made.strikes[k, 5])
+            own = own[np.argsort(late)][: (late < 0.03).sum()]
+            if len(own) == 0 or own["chi2"][0] > 2.5 or own["w_error"][0] > 0.05 or own["v_error"][0] > 0.05:
+                missed += 1
+                continue
+            found = own[0]
+            n = np.array([[-1, 0], [1, 0], [0, -1], [0, 1]])[found["rail"]]
+            t = np.array([n[1], -n[0]])
+            before, after = event["before"][0]["v"][:2], event["after"][0]["v"][:2]
+            size = np.hypot(*before)
+            parts = [before @ n - found["v_n"], before @ t - found["v_t"], after @ n - found["w_n"], after @ t - found["w_t"]]
+            errors.append(np.abs(parts) / size)
+    # half of the fast impacts are well known, and their velocities right to a per cent
+    assert missed < 0.5 * sum(truth)
+    assert np.median(errors, axis=0).max() < 0.01
+
+
+def test_hits_have_the_restitution_of_the_play(made, seen):
+    good = seen.hits[(seen.hits["chi2"] < 3) & (seen.hits["v_n"] > 0.5) & (seen.hits["w_error"] < 0.1)]
+    assert len(good) >= 5
+    e = (good["z_n"] - good["w_n"]) / good["v_n"]
+    assert np.median(e) == pytest.approx(made.constants["restitution"], abs=0.02)
+    # with equal masses and the other ball at rest, the velocities along the line of centres add up
+    assert np.median(np.abs(good["w_n"] + good["z_n"] - good["v_n"]) / good["v_n"]) < 0.02
+
+
+def test_no_motion_has_no_events():
+    still = np.array([[0.0, 1.0, 0.5], [2.0, 1.001, 0.5]])
+    none = tracks.events([tracks.Recording(7, (1,), (still,))], TABLE, RADIUS)
+    assert len(none.pieces) == len(none.impacts) == len(none.hits) == 0 and np.isnan(none.slide[0]) and np.isnan(none.roll[1][0])
+    assert len(tracks.events([], TABLE, RADIUS).pieces) == 0

@@ -9,7 +9,8 @@ so a ball's centre stays a radius inside. What a camera's software writes has fo
 - places may be clamped to the cushions: a coordinate that is exactly R or W - R tells little;
 - the strike happened at some time before the first row of the moving ball, and not at time 0.
 
-`read` reads files, `synthetic` plays shots with known strikes and records them with the traps and the noise of real ones.
+`read` reads files; `events` finds pieces of rolling and sliding, impacts on cushions and hits, each with its numbers and errors, as
+structured arrays of the dtypes `piece`, `impact` and `hit`; `synthetic` plays shots with known strikes and records them with the traps and the noise of real ones.
 """
 
 from __future__ import annotations
@@ -28,10 +29,14 @@ from typing import Any, cast
 import numpy as np
 
 from carom import _constants
+from carom._events import Events, events, hit, impact, piece
 from carom.dtypes import Doubles
+from carom.results import Shot
 from carom.shots import ShotCushion, simulate
 
-__all__ = ["MOVED", "NOISE", "Recording", "Synthetic", "TrackError", "read", "synthetic"]
+__all__ = [
+    "MOVED", "NOISE", "Events", "Recording", "Synthetic", "TrackError", "events", "hit", "impact", "piece", "read", "synthetic",
+]  # fmt: skip
 
 NOISE = 0.35e-3
 """m: standard deviation of a coordinate that a good camera gives for a slow ball, as found on real tracks."""
@@ -118,7 +123,7 @@ _Rows = Iterable[tuple[str, str, str, float, float, float]]
 
 def _numbers(values: Iterable[Any], where: str) -> tuple[float, float, float]:
     """t, x and y of a sample."""
-    found = []
+    found: list[float] = []
     for name, value in zip("txy", values, strict=True):
         try:
             number = math.nan if isinstance(value, bool) else float(value)
@@ -238,12 +243,15 @@ class Synthetic:
     Attributes
     ----------
     recordings : list of Recording
+    shots : list of Shot
+        As played; their clocks begin at the strikes.
     strikes : ndarray, shape (shots, 6)
         v_x, v_y (m/s); R w_x, R w_y, R w_z (m/s); start (s).
     constants : dict
     """
 
     recordings: list[Recording]
+    shots: list[Shot]
     strikes: Doubles
     constants: dict[str, float]
 
@@ -254,7 +262,7 @@ def _record(positions: Callable[[Doubles], Doubles], end: float, rate: float, th
     times = np.arange(0.0, end + 1.0 / rate, 1.0 / rate)
     seen = positions(times)
     seen = np.clip(seen + random.normal(0.0, noise, seen.shape), low, high)
-    tracks = []
+    tracks: list[Doubles] = []
     for ball in range(seen.shape[1]):
         # a row once the ball is far enough from the last one, and the last of all
         kept = [0]
@@ -309,7 +317,9 @@ def synthetic(
     values = _constants.complete(constants or {}, cushion_model)
     world = _constants.rectangle(table, values["nose_height"])
     low, high = radius, np.array(table) - radius
-    recordings, strikes = [], []
+    recordings: list[Recording] = []
+    shots_played: list[Shot] = []
+    strikes: list[Doubles] = []
     for number in range(shots):
         # places that are apart from each other and from the cushions
         while True:
@@ -334,5 +344,6 @@ def synthetic(
             start + shot.time + 0.5, rate, thin, low, high, noise, random,
         )  # fmt: skip
         recordings.append(Recording(number + 1, (1, 2, 3), tracks))
+        shots_played.append(shot)
         strikes.append(strike)
-    return Synthetic(recordings, np.array(strikes).reshape(-1, 6), values)
+    return Synthetic(recordings, shots_played, np.array(strikes).reshape(-1, 6), values)
