@@ -77,8 +77,8 @@ def test_rows_that_are_not_better_have_no_derivatives_and_threads_change_no_bit(
 
 
 def test_known_constants_give_the_strikes_back(made):
-    found = fit.fit(made.recordings, TABLE, RADIUS, constants=made.constants)
-    again = fit.fit(made.recordings, TABLE, RADIUS, constants=made.constants, threads=2)
+    found = fit.fit(made.recordings, TABLE, RADIUS, constants=made.constants, free="none")
+    again = fit.fit(made.recordings, TABLE, RADIUS, constants=made.constants, free="none", threads=2)
     assert np.array_equal(found.strikes, again.strikes)
     assert found.status == ["ok"] * 12
     # the noise of 0.35 mm in x and y, and what an unlucky strike adds
@@ -92,12 +92,44 @@ def test_known_constants_give_the_strikes_back(made):
     assert found.plot(3).svg.count("<circle") > sum(map(len, made.recordings[3].tracks))
 
 
+TRUTH = {
+    "mu_slide": 0.21, "mu_roll": 0.006, "mu_spin": 0.006, "mu_cushion": 0.21, "restitution_cushion": 0.89, "mu_ball": 0.065,
+    "restitution": 0.94, "nose_height": 0.0362,
+}  # fmt: skip
+
+
+def test_unknown_constants_are_found_within_their_spread():
+    made = tracks.synthetic(40, constants=TRUTH, seed=4)
+    told = []
+    found = fit.fit(made.recordings, TABLE, RADIUS, seed=1, threads=-1, progress=lambda what, part: told.append((what, part)))
+    off = {name: (found.constants[name] - value) / found.spread[name] for name, value in TRUTH.items()}
+    # eight constants, of which two may be beyond one and a half standard deviations; none is far from the truth
+    assert sum(abs(z) > 1.5 for z in off.values()) <= 2 and max(map(abs, off.values())) < 3, off
+    assert max(abs(found.constants[name] / value - 1) for name, value in TRUTH.items()) < 0.05
+    # the spreads are no excuse
+    assert all(found.spread[name] < 0.1 * value for name, value in TRUTH.items())
+    # shots are off by less than a tenth of what the usual constants leave
+    usual = fit.fit(made.recordings, TABLE, RADIUS, free="none")
+    assert found.median_rmse < 3e-3 and found.median_rmse < 0.3 * usual.median_rmse
+    assert {what for what, _ in told} == {"events", "strikes", "constants"} and all(0 <= part <= 1 for _, part in told)
+
+
+def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given(made):
+    few = fit.fit(made.recordings[:2], TABLE, RADIUS, cushion_model="mirror", constants={"mu_slide": 0.19, "mu_ball": 0.05})
+    assert "restitution" not in few.spread and few.constants["restitution"] == 0.951
+    assert few.constants["mu_slide"] != 0.19 and "mu_cushion" not in few.spread
+    with pytest.raises(ValueError, match="free: must be"):
+        fit.fit(made.recordings, TABLE, RADIUS, free="all")
+    with pytest.raises(ValueError, match="cushion_model: must be"):
+        fit.fit(made.recordings, TABLE, RADIUS, cushion_model="euler")
+
+
 def test_shots_that_are_no_shots_have_a_status(made):
     still = tuple(track[[0, 0]] + [[0, 0, 0], [1, 0, 0]] for track in made.recordings[0].tracks)
     moving = np.array([[0, 0.5, 0.5], [0.02, 0.54, 0.5], [0.04, 0.58, 0.5], [0.06, 0.62, 0.5], [2, 1, 0.5]])
     both = (moving, moving + [0, 1, 0.3], np.array([[0, 2.5, 0.2], [2, 2.5, 0.2]]))
     shots = [tracks.Recording(1, (1, 2, 3), still), tracks.Recording(2, (1, 2, 3), both), made.recordings[2]]
-    found = fit.fit(shots, TABLE, RADIUS, constants=made.constants)
+    found = fit.fit(shots, TABLE, RADIUS, constants=made.constants, free="none")
     assert found.status[0] == "no ball moves" and np.isnan(found.rmse[0])
     assert found.status[1].startswith("begins after the strike: balls")
     assert found.status[2] == "ok" and found.median_rmse == found.rmse[2]

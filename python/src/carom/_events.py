@@ -10,7 +10,7 @@ to the samples around it, by least squares: before, a path of constant decelerat
     r(t) = r_c + w t - (mu_s g/2) u/|u| t^2      until t_s = 2|u|/(7 mu_s g), then rolling with w - (2/7) u.
 
 A ball leaves a cushion some milliseconds after it came, so the normal part of the way begins late: the delay is fitted with a prior of
-6 +- 4 ms. Standard errors are those of the least squares.
+3 +- 6 ms, as 50 pictures a second hardly tell it. Standard errors are those of the least squares.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _NOISE, _JITTER = 0.45e-3, 0.25e-3  # s_0 (m) and s_t (s)
 _PENALTY = 18.0
 _LONGEST = 150  # samples of a piece
 _SLIDES, _ROLLS = 1.0, 0.5  # m/s^2: a piece slides above, rolls below
-_DELAY, _DELAY_ERROR = 0.006, 0.004  # s
+_DELAY, _DELAY_ERROR = 0.003, 0.006  # s
 _TOUCH = 0.02  # m: at a cut a ball is this close to what it met
 _TURN = 0.03  # m/s: least change of velocity in a hit
 _BEFORE, _AFTER = 0.6, 0.9  # s: samples of an impact, at most
