@@ -1,5 +1,10 @@
 #include "loops.h"
 
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
 void carom_python_mu_ball(const carom_impact *in, size_t n, carom_speed_law law, double *mu) {
   for (size_t k = 0; k < n; k++)
     mu[k] = carom_mu_ball(&in[k], law);
@@ -11,4 +16,175 @@ carom_status carom_python_shot_at(const carom_shot_ball *balls, int count, const
   for (size_t k = 0; k < n && status == CAROM_OK; k++)
     status = carom_shot_at(balls, count, shot, times[k], &states[k * (size_t)count]);
   return status;
+}
+
+/* ---- Misfit ------------------------------------------------------------------------------------------------------------
+ *
+ * Between two events of a ball its way is taken as the cubic through the states at both ends: r(s) = c0 + s (c1 + s (c2 + s
+ * c3)), s the time since the first. With constant friction the motion is quadratic and the cubic exact. A friction that grows
+ * with the speed leaves an error of |d^4 r/dt^4| T^4 / 384, micrometres. A sample then costs a few multiplications;
+ * carom_shot_at() would search the events for every sample. */
+
+enum { EVENTS_MOST = 400, STRIKE = 6, PLAYS = 1 + STRIKE, SUMS = 3 + STRIKE + STRIKE * (STRIKE + 1) / 2 };
+
+typedef struct piece {
+  double start, c[4][2];
+} piece;
+
+/* The way of one ball: pieces in the order of time, each up to the next. */
+typedef struct way {
+  int pieces;
+  piece piece[EVENTS_MOST + 1];
+} way;
+
+/* The cubic from one state to another. */
+static piece piece_of(double start, const carom_ball_state *a, double end, const carom_ball_state *b) {
+  piece p = {.start = start};
+  const double T = end - start;
+  for (int k = 0; k < 2; k++) {
+    p.c[0][k] = a->r[k];
+    p.c[1][k] = a->v[k];
+    if (T > 1e-9) {
+      const double slope = (b->r[k] - a->r[k]) / T;
+      p.c[2][k] = (3.0 * slope - 2.0 * a->v[k] - b->v[k]) / T;
+      p.c[3][k] = (a->v[k] + b->v[k] - 2.0 * slope) / (T * T);
+    }
+  }
+  return p;
+}
+
+/* Plays a shot by a strike until a time on the play's own clock, and finds the ways of its balls. False: it ended in an error.
+ */
+static bool play(const carom_python_tracks *tracks, int32_t shot, const double *strike, double end, carom_event *events,
+                 way *ways) {
+  const int count = tracks->count;
+  carom_shot_ball balls[CAROM_BALLS_MOST];
+  memcpy(balls, &tracks->balls[(size_t)shot * (size_t)count], (size_t)count * sizeof *balls);
+
+  /* The struck ball moves as it does just after the strike. */
+  carom_shot_ball *struck = &balls[tracks->struck[shot]];
+  for (int k = 0; k < 2; k++)
+    struck->state.v[k] = strike[k];
+  for (int k = 0; k < 3; k++)
+    struck->state.w[k] = strike[2 + k] / struck->kind.radius;
+
+  carom_shot_options options = *tracks->options;
+  options.events_most = EVENTS_MOST;
+  options.time_most = end > 1e-3 ? end : 1e-3;
+  carom_shot played = {.events = events, .room = EVENTS_MOST};
+  const carom_status status = carom_shoot(tracks->table, balls, count, NULL, &options, &played);
+  if (status < 0 && status != CAROM_ERROR_TOO_LONG)
+    return false;
+
+  /* The pieces between the events of each ball: from the state after one to the state before the next. */
+  double since[CAROM_BALLS_MOST] = {0};
+  carom_ball_state from[CAROM_BALLS_MOST];
+  for (int i = 0; i < count; i++) {
+    ways[i].pieces = 0;
+    from[i] = balls[i].state;
+  }
+  for (int e = 0; e < (int)played.count; e++)
+    for (int side = 0; side < (events[e].type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++) {
+      const int i = side == 0 ? events[e].a : events[e].b;
+      ways[i].piece[ways[i].pieces++] = piece_of(since[i], &from[i], events[e].time, &events[e].before[side]);
+      since[i] = events[e].time;
+      from[i] = events[e].after[side];
+    }
+
+  /* The piece after a ball's last event goes to the end of the time. */
+  for (int i = 0; i < count; i++) {
+    carom_shot_ball alone = balls[i];
+    alone.state = from[i];
+    const double left = options.time_most - since[i];
+    carom_ball_state to;
+    if (carom_shot_at(&alone, 1, &(carom_shot){.time = left}, left, &to) < 0)
+      return false;
+    ways[i].piece[ways[i].pieces++] = piece_of(since[i], &from[i], options.time_most, &to);
+  }
+  return true;
+}
+
+/* The place at a time; *at is the piece of the last call, for times that increase. */
+static void place(const way *w, double time, int *at, double r[2]) {
+  while (*at + 1 < w->pieces && w->piece[*at + 1].start <= time)
+    ++*at;
+  const piece *p = &w->piece[*at];
+  const double s = time > p->start ? time - p->start : 0.0;
+  for (int k = 0; k < 2; k++)
+    r[k] = p->c[0][k] + s * (p->c[1][k] + s * (p->c[2][k] + s * p->c[3][k]));
+}
+
+/* Adds up the sums of a play. ways[0 ... count - 1] are those of the play itself, with start[0] the strike's time; with `plays`
+ * above 1, the next `count` are those with the first number of the strike changed by `step`, and so on. */
+static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *ways, const double *start, int plays,
+                   double until, double step, double *sums) {
+  const int count = tracks->count;
+  const double c2 = tracks->huber * tracks->huber;
+  memset(sums, 0, SUMS * sizeof *sums);
+  for (int i = 0; i < count; i++) {
+    const int64_t *first = &tracks->first[(size_t)shot * (size_t)count + (size_t)i];
+    int at[PLAYS] = {0};
+    for (int64_t m = first[0]; m < first[1]; m += tracks->stride) {
+      const double *sample = &tracks->samples[3 * m];
+      if (sample[0] > until)
+        break;
+
+      /* The distance and its cost; 1 / root is its weight. */
+      double d[2], r[2], J[STRIKE][2];
+      place(&ways[i], sample[0] - start[0], &at[0], r);
+      for (int k = 0; k < 2; k++)
+        d[k] = r[k] - sample[1 + k];
+      const double size = d[0] * d[0] + d[1] * d[1];
+      const double root = c2 > 0.0 ? sqrt(1.0 + size / c2) : 1.0;
+      sums[0] += c2 > 0.0 ? 2.0 * c2 * (root - 1.0) : size;
+      sums[1] += size;
+      sums[2] += 1.0;
+
+      /* The derivatives, and what they add to J^T W d and J^T W J. */
+      for (int a = 0; a + 1 < plays; a++) {
+        double moved[2];
+        place(&ways[(a + 1) * count + i], sample[0] - start[a + 1], &at[a + 1], moved);
+        for (int k = 0; k < 2; k++)
+          J[a][k] = (moved[k] - r[k]) / step;
+      }
+      double *gradient = &sums[3], *square = &sums[3 + STRIKE];
+      for (int a = 0; a + 1 < plays; a++) {
+        gradient[a] += (J[a][0] * d[0] + J[a][1] * d[1]) / root;
+        for (int b = 0; b <= a; b++)
+          *square++ += (J[a][0] * J[b][0] + J[a][1] * J[b][1]) / root;
+      }
+    }
+  }
+}
+
+carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *of, const double *strikes,
+                                 const double *until, const double *most, double step, double *sums) {
+  carom_event *events = malloc(EVENTS_MOST * sizeof *events);
+  way *ways = malloc(PLAYS * (size_t)tracks->count * sizeof *ways);
+  const bool room = events != NULL && ways != NULL;
+  for (size_t k = 0; k < n && room; k++, strikes += STRIKE, sums += SUMS) {
+    /* The play itself, */
+    double start[PLAYS] = {strikes[5]};
+    if (!play(tracks, of[k], strikes, until[k] - start[0], events, ways)) {
+      memset(sums, 0, SUMS * sizeof *sums);
+      sums[0] = sums[1] = HUGE_VAL;
+      continue;
+    }
+    add_up(tracks, of[k], ways, start, 1, until[k], step, sums);
+
+    /* and, where it is good enough, those beside it. */
+    bool good = sums[0] < most[k];
+    for (int d = 1; d < PLAYS && good; d++) {
+      double strike[STRIKE];
+      memcpy(strike, strikes, sizeof strike);
+      strike[d - 1] += step;
+      start[d] = strike[5];
+      good = play(tracks, of[k], strike, until[k] - start[d], events, &ways[d * tracks->count]);
+    }
+    if (good)
+      add_up(tracks, of[k], ways, start, PLAYS, until[k], step, sums);
+  }
+  free(events);
+  free(ways);
+  return room ? CAROM_OK : CAROM_ERROR_NULL;
 }

@@ -161,7 +161,7 @@ OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
 OPTION(bench_job, option_counters, "counters", counters, 0, NULL, set_flag, 0,
        "more columns in the CSV: reference cycles and hardware counters per collision, NA where\nthere are none");
 
-OPTION(bench_job, option_cushion, "cushion", cushion, 0, NULL, set_flag, 0,
+OPTION(bench_job, option_cushions, "cushion", cushion, 0, NULL, set_flag, 0,
        "time the models of the cushion on 512 random impacts of play instead; speedup is that over\nEuler's 1000 steps");
 OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
        "time the whole shots of this file instead, beside pooltool's recorded times");
@@ -190,7 +190,7 @@ static const command_form form = {
     .options = (const option_row *const[]){&option_kernel,        &option_config,        &option_counts,        &option_batch,
                                            &option_isa,           &option_one_precision, &option_thread_counts, &option_pairs,
                                            &option_budget,        &option_csv,           &option_spread,        &option_errors,
-                                           &option_counters,      &option_cushion,       &option_shots,         &option_models,
+                                           &option_counters,      &option_cushions,      &option_shots,         &option_models,
                                            &option_cushion_model, &option_data,          &option_output,        NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -21,6 +22,7 @@ _COLOURS = (
     "#ffffff #f2c200 #1f4fd8 #d32f2f #6a1b9a #ef6c00 #2e9b3a #7b1c1c #222222 #f7dc6f #7fa3f5 #ef8a8a #b58ad4 #f7b27a #8fd19a #c58a8a"
 ).split()
 _PATH_POINTS = 400
+_DOT = 0.005  # m: radius of a place seen
 _FRAMES_A_SECOND = 25
 _FRAMES_MOST = 1500
 
@@ -38,6 +40,16 @@ class Animation:
 def _number(x: float) -> str:
     """A length in pixels, to a hundredth."""
     return f"{x:.2f}".rstrip("0").rstrip(".")
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture: `svg` is its text."""
+
+    svg: str
+
+    def _repr_svg_(self) -> str:
+        return self.svg
 
 
 class _Canvas:
@@ -87,8 +99,11 @@ def colour(ball: int) -> str:
     return _COLOURS[ball] if ball < len(_COLOURS) else _COLOURS[1 + (ball - 1) % (len(_COLOURS) - 1)]
 
 
-def picture(table: Table, shot: Shot | None = None) -> str:
-    """A table, and a shot's paths with the balls where they begin (faint) and end, as the text of an SVG."""
+def picture(table: Table, shot: Shot | None = None, seen: Sequence[dtypes.Doubles] = ()) -> str:
+    """A table, and a shot's paths with the balls where they begin (faint) and end, as the text of an SVG.
+
+    `seen` are places of each ball, shapes (..., 2), that are drawn as dots.
+    """
     canvas = _Canvas(table)
     parts = _table(canvas, table)
     if shot is not None:
@@ -104,6 +119,8 @@ def picture(table: Table, shot: Shot | None = None) -> str:
             for ball, state in enumerate(states):
                 style = f'fill="{colour(ball)}" fill-opacity="{opacity}" stroke="#000" stroke-width="0.5"'
                 parts.append(canvas.circle(state["r"], float(shot.balls["kind"]["radius"][ball]), style))
+    for ball, places in enumerate(seen):
+        parts += [canvas.circle(r, _DOT, f'fill="{colour(ball)}" stroke="#000" stroke-width="0.3"') for r in places]
     return canvas.document(parts)
 
 

@@ -26,7 +26,7 @@ _FIRST_ROOM = 512
 
 
 @functools.lru_cache(maxsize=256)
-def _options(
+def shot_options(
     world: str,
     ball_model: str,
     cushion_model: str,
@@ -118,7 +118,7 @@ def simulate(
         if cues.size != 1:
             raise ValueError(f"cue: one is needed, not {cues.size}; simulate_batch plays many")
         strike = pointer("carom_cue[]", cues)
-    options = _options(world, ball_model, cushion_model, friction, steps, events_most, time_most, 0)
+    options = shot_options(world, ball_model, cushion_model, friction, steps, events_most, time_most, 0)
     final: Array = np.zeros(layout.shape, dtypes.ball_state)
     arguments = (pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), strike, options)
     if lib.carom_shot_check(*arguments, ffi.NULL) < 0:
@@ -217,7 +217,7 @@ def simulate_batch(
     numbers = np.arange(n, dtype=np.uintp)
     flat["events"] = 0 if room == 0 else shots.events.ctypes.data + numbers * np.uintp(room * dtypes.event.itemsize)
     flat["final"] = shots.final.ctypes.data + numbers * np.uintp(count * dtypes.ball_state.itemsize)
-    options = _options(world, ball_model, cushion_model, friction, steps, events_most, time_most, threads)
+    options = shot_options(world, ball_model, cushion_model, friction, steps, events_most, time_most, threads)
     shots.status[...] = Status.OK
     balls, results, flags = pointer("carom_shot_ball[]", all_balls), pointer("carom_shot[]", record), pointer("int8_t[]", shots.status)
     strikes = ffi.NULL if cues is None else pointer("carom_cue[]", all_cues)

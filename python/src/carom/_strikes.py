@@ -1,0 +1,284 @@
+"""Finding the strikes of recorded shots, the constants being known: least squares from many starts.
+
+Unknown of a shot are six numbers p: v_x, v_y and R w_x, R w_y, R w_z of the struck ball just after the strike (m/s), and the time of
+the strike (s). The cost is the sum over all samples of all balls of the pseudo-Huber loss 2 c^2 (sqrt(1 + d^2/c^2) - 1) of the
+distance d between recorded and played place, c = 1 cm: a quadratic for small distances, linear for large ones, which are those after
+an event that the play misses. Levenberg and Marquardt's step is dp = -(J^T W J + l diag(J^T W J))^-1 J^T W d.
+
+The cost has many minima, as a small change makes a ball miss another. So each shot starts from many spins (and directions and speeds,
+where the first samples do not tell them), at first with the samples of the first second alone; the best go on with more and more of
+them. The plays of all starts of all shots are one batch, in C.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import _constants
+from carom._carom import ffi, lib
+from carom._rows import pointer, workers
+from carom.dtypes import Doubles
+from carom.shots import ShotCushion
+from carom.status import CaromError
+from carom.tracks import Recording
+
+Integers = npt.NDArray[np.int32]
+
+HUBER = 0.01  # c, m
+STEP = 1e-5  # of the forward differences, m/s and s: small against what moves an event, large against rounding
+EARLIEST, LATEST = -0.03, 0.08  # of a strike on the clock of the recording, s
+_SPIN_MOST = 2.0  # greatest |R w| of a strike over |v|: a tip that does not slip gives 1.3
+_NUMBERS, _SUMS = 6, 30
+_LOWER = np.tril_indices(_NUMBERS)
+
+# The stages of the search: samples up to a time (s), how many starts of a shot go on after it, and most iterations.
+_STAGES = ((0.9, 14, 4), (2.0, 7, 6), (4.5, 4, 8), (8.0, 2, 10), (np.inf, 1, 25))
+
+
+class Plays:
+    """Recorded shots, ready to be played with given constants.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        Of the same number of balls.
+    table : (float, float)
+        Extents of x and y, m.
+    radius : float
+        m.
+    constants : mapping
+        All of them, for all shots.
+    cushion_model : str
+    threads : int
+        As in `carom.simulate_batch`.
+    """
+
+    def __init__(
+        self,
+        recordings: Sequence[Recording],
+        table: tuple[float, float],
+        radius: float,
+        constants: Mapping[str, float],
+        cushion_model: ShotCushion,
+        threads: int = 0,
+    ) -> None:
+        self.recordings = recordings
+        self.radius = radius
+        self.workers = workers(threads) if threads else 1
+        tracks = [track for shot in recordings for track in shot.tracks]
+        self.centres = np.array([apart(shot.rest, table, radius) for shot in recordings])
+        self.struck = np.array([shot.cue for shot in recordings], np.int32)
+        self.ends = np.array([shot.end for shot in recordings])
+        self.samples = np.ascontiguousarray(np.concatenate(tracks))
+        self.first = np.cumsum([0, *map(len, tracks)]).astype(np.int64)
+        self.cushion_model: ShotCushion = cushion_model
+        self.table_size = table
+        self.set(constants)
+
+    def set(self, constants: Mapping[str, float]) -> None:
+        """Takes other constants."""
+        self.table = _constants.rectangle(self.table_size, constants["nose_height"])
+        self.layouts = _constants.layout(self.centres, self.radius, constants)
+
+    def misfit(
+        self, of: Integers, strikes: Doubles, until: Doubles, most: Doubles, *, huber: float = HUBER, stride: int = 1
+    ) -> Doubles:
+        """Costs, and normal equations where the cost is below `most`, of n plays: see loops.h.
+
+        Parameters
+        ----------
+        of : (n,) which recording each play is of
+        strikes : (n, 6)
+        until : (n,) the time of the last sample that counts, s
+        most : (n,)
+
+        Returns
+        -------
+        (n, 30)
+        """
+        sums = np.empty((len(of), _SUMS))
+        of, strikes = np.ascontiguousarray(of, np.int32), np.ascontiguousarray(strikes)
+        tracks = ffi.new(
+            "carom_python_tracks *",
+            {
+                "table": pointer("carom_table[]", self.table.record),
+                "options": _constants.options(self.cushion_model),
+                "balls": pointer("carom_shot_ball[]", self.layouts),
+                "struck": pointer("int32_t[]", self.struck),
+                "samples": pointer("double[]", self.samples),
+                "first": pointer("int64_t[]", self.first),
+                "count": self.layouts.shape[1],
+                "stride": stride,
+                "huber": huber,
+            },
+        )
+
+        def part(rows: slice) -> int:
+            # at most some milliseconds of C at a time, so that Ctrl-C is heard
+            code = lib.CAROM_OK
+            for begin in range(rows.start, rows.stop, 256):
+                end = min(begin + 256, rows.stop)
+                code = code or lib.carom_python_misfit(
+                    tracks, end - begin,
+                    pointer("int32_t[]", of[begin:end]), pointer("double[]", strikes[begin:end]),
+                    pointer("double[]", np.ascontiguousarray(until[begin:end])),
+                    pointer("double[]", np.ascontiguousarray(most[begin:end])), STEP, pointer("double[]", sums[begin:end]),
+                )  # fmt: skip
+            return int(code)
+
+        cuts = np.linspace(0, len(of), self.workers + 1).astype(int)
+        parts = [slice(int(a), int(b)) for a, b in zip(cuts[:-1], cuts[1:])]
+        if len(parts) == 1:
+            codes = [part(parts[0])]
+        else:
+            with ThreadPoolExecutor(self.workers) as pool:
+                codes = list(pool.map(part, parts))
+        if any(codes):
+            raise CaromError(next(code for code in codes if code))
+        return sums
+
+    def rmse(self, strikes: Doubles) -> Doubles:
+        """Root of the mean squared distance over all samples of each shot, m, shape (shots,); inf where the play is in error."""
+        count = len(strikes)
+        sums = self.misfit(np.arange(count, dtype=np.int32), strikes, self.ends, np.full(count, -np.inf))
+        return np.sqrt(sums[:, 1] / np.maximum(sums[:, 2], 1.0))
+
+
+def apart(rest: Doubles, table: tuple[float, float], radius: float) -> Doubles:
+    """Places of rest that balls can have: within the cushions and not overlapping. What a camera sees is off by a millimetre."""
+    low, high = radius + 1e-9, np.array(table) - radius - 1e-9
+    centres = np.clip(rest, low, high)
+    for _ in range(20):
+        moved = False
+        for i in range(len(centres)):
+            for j in range(i):
+                gap = centres[j] - centres[i]
+                distance = float(np.hypot(gap[0], gap[1]))
+                if distance < 2.0 * radius + 1e-9:
+                    # half of the overlap each, or along x where the centres coincide
+                    way = gap / distance if distance > 0.0 else np.array([1.0, 0.0])
+                    shift = (0.5 * (2.0 * radius - distance) + 1e-8) * way
+                    centres[i], centres[j], moved = centres[i] - shift, centres[j] + shift, True
+        if not moved:
+            break
+        centres = np.clip(centres, low, high)
+    return centres
+
+
+def starts(shot: Recording) -> Doubles:
+    """Strikes to start from, (n, 6)."""
+    cue = shot.cue
+    track = shot.tracks[cue]
+    still = int(np.searchsorted(track[:, 0], shot.moves[cue]))
+    other = min((time for ball, time in enumerate(shot.moves) if ball != cue), default=np.inf)
+    # up to five samples under way before another ball moves: velocity by two of them, the strike's time by the way back to rest
+    known = 1
+    while known < 5 and still + known < len(track) and track[still + known, 0] <= other - 0.021:
+        known += 1
+    last = track[still + known - 1]
+    early = track[still + 1] if known >= 4 else track[still] if known >= 2 else np.array([last[0] - 0.02, *shot.rest[cue]])
+    velocity = (last[1:] - early[1:]) / (last[0] - early[0])
+    speed, angle = float(np.hypot(*velocity)), float(np.arctan2(velocity[1], velocity[0]))
+    begin = early[0] - float(np.hypot(*(early[1:] - shot.rest[cue]))) / max(speed, 0.1) if known > 1 else last[0] - 0.01
+    begin = float(np.clip(begin, EARLIEST, LATEST))
+    # few samples before the first hit tell the direction roughly, and one does not tell the speed
+    turns = np.linspace(-0.108, 0.108, 13) if known <= 2 else np.linspace(-0.016, 0.016, 5) if known == 3 else np.zeros(1)
+    faster = np.array([1.0, 1.5, 2.2]) if known == 1 else np.ones(1)
+    sides, follows = (np.linspace(-1.3, 1.3, 5), np.linspace(-0.9, 1.0, 4)) if known <= 3 else (
+        np.linspace(-1.3, 1.3, 9), np.linspace(-0.9, 1.0, 6))  # fmt: skip
+    turn, fast, side, follow = (grid.ravel() for grid in np.meshgrid(turns, faster, sides, follows, indexing="ij"))
+    v, x, y = speed * fast, np.cos(angle + turn), np.sin(angle + turn)
+    return np.stack([v * x, v * y, -y * follow * v, x * follow * v, side * v, np.full_like(v, begin)], axis=-1)
+
+
+def _allowed(strikes: Doubles) -> Doubles:
+    """Strikes within their bounds."""
+    strikes = strikes.copy()
+    most = _SPIN_MOST * np.hypot(strikes[:, :1], strikes[:, 1:2]) + 0.2
+    strikes[:, 2:5] = np.clip(strikes[:, 2:5], -most, most)
+    strikes[:, 5] = np.clip(strikes[:, 5], EARLIEST, LATEST)
+    return strikes
+
+
+def descend(
+    plays: Plays, of: Integers, strikes: Doubles, until: Doubles, iterations: int, *, huber: float = HUBER, stride: int = 1
+) -> tuple[Doubles, Doubles]:
+    """Levenberg and Marquardt's method from each strike: the strikes found, (n, 6), and their costs, (n,).
+
+    An iteration is one play of each start that is not done; where the cost falls, six more for the next step.
+    """
+    strikes = _allowed(strikes)
+    n = len(strikes)
+    sums = plays.misfit(of, strikes, until, np.full(n, np.inf), huber=huber, stride=stride)
+    damping, failed = np.full(n, 1e-2), np.zeros(n, int)
+    active = np.isfinite(sums[:, 0])
+    diagonal = np.arange(_NUMBERS)
+    for _ in range(iterations):
+        rows = np.flatnonzero(active)
+        if len(rows) == 0:
+            break
+        # the step; what no sample depends on stays where it is
+        square = np.zeros((len(rows), _NUMBERS, _NUMBERS))
+        square[:, _LOWER[0], _LOWER[1]] = sums[rows, 9:]
+        square[:, _LOWER[1], _LOWER[0]] = sums[rows, 9:]
+        scale = square[:, diagonal, diagonal]
+        square[:, diagonal, diagonal] += damping[rows, None] * scale + 1e-12 * (1.0 + scale.sum(axis=1, keepdims=True))
+        step = np.linalg.solve(square, -sums[rows, 3:9, None])[..., 0]
+        tried = _allowed(strikes[rows] + step)
+        # taken where the cost falls; else a shorter one next time, up to six times
+        new = plays.misfit(of[rows], tried, until[rows], sums[rows, 0], huber=huber, stride=stride)
+        better = new[:, 0] < sums[rows, 0]
+        drop = 1.0 - new[:, 0] / sums[rows, 0]
+        strikes[rows[better]], sums[rows[better]] = tried[better], new[better]
+        damping[rows] = np.where(better, np.maximum(0.2 * damping[rows], 1e-9), 6.0 * damping[rows])
+        failed[rows] = np.where(better, 0, failed[rows] + 1)
+        active[rows] = np.where(better, drop > 1e-5, failed[rows] < 6)
+    return strikes, sums[:, 0]
+
+
+def _best(of: Integers, strikes: Doubles, costs: Doubles, keep: int) -> npt.NDArray[np.intp]:
+    """The rows of the `keep` best starts of each shot, without those that came to the same place as a better one."""
+    kept: list[int] = []
+    count: dict[int, list[int]] = {}
+    for row in np.argsort(costs, kind="stable"):
+        others = count.setdefault(int(of[row]), [])
+        if len(others) >= keep or not np.isfinite(costs[row]):
+            continue
+        near = [other for other in others if abs(costs[other] - costs[row]) < 1e-3 * costs[row]]
+        if any(np.abs(strikes[other, :5] - strikes[row, :5]).max() < 1e-2 for other in near):
+            continue
+        others.append(int(row))
+        kept.append(int(row))
+    return np.array(sorted(kept), np.intp)
+
+
+def polish(plays: Plays, strikes: Doubles) -> Doubles:
+    """Descends by the plain squares, whose mean the RMSE is, from strikes of all shots, (shots, 6)."""
+    of = np.arange(len(strikes), dtype=np.int32)
+    better, _ = descend(plays, of, strikes, plays.ends, 25, huber=0.0)
+    return np.where((plays.rmse(better) < plays.rmse(strikes))[:, None], better, strikes)
+
+
+def find(plays: Plays, progress: Callable[[str, float], None] | None = None) -> tuple[Doubles, Doubles]:
+    """The strikes of all shots, (shots, 6), and their costs, (shots,): infinite where no start could be played."""
+    first = [starts(shot) for shot in plays.recordings]
+    of = np.repeat(np.arange(len(first)), [len(rows) for rows in first]).astype(np.int32)
+    strikes = np.concatenate(first)
+    costs = np.full(len(strikes), np.inf)
+    for number, (until, keep, iterations) in enumerate(_STAGES):
+        if progress:
+            progress("strikes", number / len(_STAGES))
+        strikes, costs = descend(plays, of, strikes, np.minimum(until, plays.ends)[of], iterations)
+        many = np.bincount(of, minlength=len(first))[of] > 100
+        rows = np.concatenate([
+            part[_best(of[part], strikes[part], costs[part], size)]
+            for part, size in ((np.flatnonzero(~many), keep), (np.flatnonzero(many), 3 * keep if until < 4.0 else keep))
+        ])  # fmt: skip
+        of, strikes, costs = of[rows], strikes[rows], costs[rows]
+    found, cost = np.full((len(first), _NUMBERS), np.nan), np.full(len(first), np.inf)
+    found[of], cost[of] = strikes, costs
+    return found, cost
