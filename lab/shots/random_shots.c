@@ -271,7 +271,7 @@ static void coincident(random_shot *s, shot_random *r) {
     }
   }
   if (whole(r, 0, 1)) /* a post, met at its exact side */
-    s->table.jaw[s->table.jaws++] = (carom_jaw){{0.5, 1.0}, 0.03125, height};
+    s->table.jaw[s->table.jaws++] = (carom_jaw){.centre = {0.5, 1.0}, .radius = 0.03125, .height = height};
   /* places k + 1/2 diameters from the sides; where rails end and a post stands, whole ones */
   const double shift = whole(r, 0, 1) ? R : 2.0 * R;
   const int count = whole(r, 1, 12), lines = whole(r, 1, 3);
