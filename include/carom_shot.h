@@ -201,10 +201,18 @@ typedef struct carom_shot_ball {
   carom_ball_state state;
 } carom_shot_ball;
 
-/* Games whose balls and cues are in common use. */
-typedef enum carom_game { CAROM_GAME_POOL = 0, CAROM_GAME_SNOOKER = 1, CAROM_GAME_BILLIARD = 2 } carom_game;
+/* Games, for their balls and cues. docs/understanding/constants.md has the source of each number. */
+typedef enum carom_game {
+  CAROM_GAME_POOL = 0,             /* typical numbers, each within the range that is published; no table was measured */
+  CAROM_GAME_SNOOKER = 1,          /* measured by Mathavan and others, 2009 to 2014, on one table */
+  CAROM_GAME_BILLIARD = 2,         /* three-cushion: measured on one table, from 182 recorded shots, with drag and loss of roll;
+                                      mu_cushion and restitution_cushion are for CAROM_CUSHION_MATHAVAN */
+  CAROM_GAME_POOLTOOL_POOL = 3,    /* the figures of pooltool's balls, for parity with it: pool, */
+  CAROM_GAME_POOLTOOL_SNOOKER = 4, /* snooker, */
+  CAROM_GAME_POOLTOOL_BILLIARD = 5 /* and carom */
+} carom_game;
 
-/* The balls of a game, with the figures of pooltool; those of pool for a value not listed. */
+/* The balls of a game; those of pool for a value not listed. Racks have those of the first three. */
 CAROM_API carom_ball_kind carom_ball_kind_of(carom_game game);
 
 /* ---- Tables ----------------------------------------------------------------------------------------------------------- */

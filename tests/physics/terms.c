@@ -328,7 +328,59 @@ START_TEST(bounds_with_drag) {
 }
 END_TEST
 
+/* ---- The games */
+
+/* Field `name` of a kind; the fields are doubles without gaps. */
+static double *field_of(carom_ball_kind *kind, const char *name) {
+  static const char *const names[] = {
+      "mass",    "radius", "mu_slide",  "mu_roll", "mu_spin", "mu_ball", "restitution", "mu_cushion", "restitution_cushion",
+      "gravity", "drag",   "roll_loss", "law_a",   "law_b",   "law_c",   "nose_height", "omega_ratio"};
+  ck_assert_uint_eq(sizeof names / sizeof names[0] * sizeof(double), sizeof *kind);
+  for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
+    if (strcmp(names[k], name) == 0)
+      return (double *)kind + k;
+  ck_abort_msg("there is no field %s", name);
+}
+
+/* Every number of every game stands, with its source, in the tables of docs/understanding/constants.md, and is that number;
+ * what does not stand there is 0. */
+START_TEST(constants) {
+  static const char *const games[] = {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"};
+  FILE *file = fopen(CAROM_TEST_DATA "/../docs/understanding/constants.md", "r");
+  ck_assert_ptr_nonnull(file);
+  char line[500], game[40], field[40], kind[40];
+  carom_ball_kind told[6] = {{0}};
+  int lines = 0;
+  while (fgets(line, sizeof line, file) != NULL) {
+    double number, over = 1.0;
+    if (sscanf(line, "| %39[a-z_] | %39[a-z_] | %lf / %lf | %39[a-z] |", game, field, &number, &over, kind) != 5 &&
+        (over = 1.0, sscanf(line, "| %39[a-z_] | %39[a-z_] | %lf | %39[a-z] |", game, field, &number, kind) != 4))
+      continue;
+    ck_assert_msg(strcmp(kind, "measured") == 0 || strcmp(kind, "range") == 0 || strcmp(kind, "rules") == 0 ||
+                      strcmp(kind, "convention") == 0,
+                  "%s", line);
+    int g = 0;
+    while (g < 6 && strcmp(games[g], game) != 0)
+      g++;
+    ck_assert_msg(g < 6, "%s", line);
+    double *place = field_of(&told[g], field);
+    ck_assert_msg(*place == 0.0, "told twice: %s", line);
+    *place = number / over;
+    lines++;
+  }
+  fclose(file);
+  ck_assert_int_eq(lines, 5 * 10 + 13);
+  for (int g = 0; g < 6; g++) {
+    const carom_ball_kind there = carom_ball_kind_of((carom_game)g);
+    for (size_t k = 0; k < sizeof there / sizeof(double); k++) {
+      const double is = ((const double *)&there)[k], says = ((const double *)&told[g])[k];
+      ck_assert_msg(fabs(is - says) <= 1e-15, "number %zu of %s is %.17g, not %.17g", k, games[g], is, says);
+    }
+  }
+}
+END_TEST
+
 int main(void) {
   return RUN_TESTS("terms", drag_of_a_ball_alone, invariants_with_all_terms, loss_of_roll, law_of_friction, noses,
-                   bounds_with_drag);
+                   bounds_with_drag, constants);
 }
