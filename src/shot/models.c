@@ -19,7 +19,7 @@ static contact_slip slip_of(const double n[2], double R, const carom_ball_state 
 }
 
 /* Alciatore's law, or the mean of the balls'. */
-static carom_speed_law law_of(const carom_ball_kind *a, const carom_ball_kind *b) {
+static inline carom_speed_law law_of(const carom_ball_kind *a, const carom_ball_kind *b) {
   const carom_speed_law usual = carom_alciatore();
   const bool own_a = a->law_a + a->law_b + a->law_c > 0.0, own_b = b->law_a + b->law_b + b->law_c > 0.0;
   if (!own_a && !own_b)
@@ -95,7 +95,8 @@ static void part_by_steps(const carom_impact *in, const carom_options *options, 
 
 /* Takes kind->roll_loss of the speed v_t along a cushion, before the impact, from the roll along it. Along t = (n_y, -n_x) a
  * ball rolls at R w . n. The roll does not change sign, so the energy falls. */
-static void lose_roll(const carom_ball_kind *kind, const double n[2], const double v[3], carom_ball_state *s) {
+__attribute__((noinline, cold)) static void lose_roll(const carom_ball_kind *kind, const double n[2], const double v[3],
+                                                      carom_ball_state *s) {
   const double v_t = v[0] * n[1] - v[1] * n[0], roll = kind->radius * (s->w[0] * n[0] + s->w[1] * n[1]);
   const double loss = copysign(carom_lesser(kind->roll_loss * fabs(v_t), fabs(roll)), roll);
   if (v_t * roll > 0.0)

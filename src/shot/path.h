@@ -50,13 +50,13 @@ carom_ball_rates carom_rates_of(const carom_ball_kind *kind);
 
 typedef struct carom_path {
   double start, end;     /* of the phase, on the clock; end is infinite where nothing changes */
+  double a[2];           /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2 */
+  double e[2];           /* direction of the friction: of the slip, or of v */
+  carom_ball_state from; /* at the start; its label is that of the phase */
   bool goes_on;          /* at the end another piece of the same phase begins: carom_path_go_on() */
   bool ends_pair;        /* the piece is the second of its pair */
   bool last_pair;        /* which ends at rest */
   double second[2];      /* deceleration, m/s^2, and duration, s, of the second piece of the pair */
-  double a[2];           /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2 */
-  double e[2];           /* direction of the friction: of the slip, or of v */
-  carom_ball_state from; /* at the start; its label is that of the phase */
 } carom_path;
 
 /* Whether the centre moves in the phase. */
