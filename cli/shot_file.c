@@ -37,6 +37,21 @@ static void keep_table(shot_file *file, named_table *t) {
 
 /* ---- Shots */
 
+/* The kind of the balls of a game, by its name; pooltool's pool balls where there is none. */
+static bool read_game(const json_t *params, const char *where, carom_ball_kind *kind, json_fault *f) {
+  static const char *const names[] = {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"};
+  const json_t *game = json_object_get(params, "game");
+  *kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
+  if (game == NULL)
+    return true;
+  for (int k = 0; k <= CAROM_GAME_POOLTOOL_BILLIARD; k++)
+    if (json_is_string(game) && strcmp(names[k], json_string_value(game)) == 0) {
+      *kind = carom_ball_kind_of((carom_game)k);
+      return true;
+    }
+  return json_wrong(f, "%sgame must be pool, snooker, billiard, pooltool_pool, pooltool_snooker or pooltool_billiard", where);
+}
+
 static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
   char where[64], key[80];
   snprintf(where, sizeof where, "balls[%d].", k);
@@ -46,20 +61,28 @@ static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
     if (strcmp(line->name[other], line->name[k]) == 0)
       return json_wrong(f, "%sid '%s' is that of another ball", where, line->name[k]);
   carom_ball_kind *kind = &line->ball[k].kind;
-  *kind = carom_ball_kind_of(CAROM_GAME_POOL);
   const json_t *params = json_object_get(v, "params");
   if (params != NULL && !json_is_object(params))
     return json_wrong(f, "%sparams must be an object", where);
   snprintf(key, sizeof key, "%sparams.", where);
   double spin = NAN;
-  if (!json_get_number(params, key, "m", &kind->mass, f) || !json_get_number(params, key, "R", &kind->radius, f) ||
-      !json_get_number(params, key, "u_s", &kind->mu_slide, f) || !json_get_number(params, key, "u_r", &kind->mu_roll, f) ||
-      !json_get_number(params, key, "u_sp", &spin, f) || !json_get_number(params, key, "u_b", &kind->mu_ball, f) ||
-      !json_get_number(params, key, "e_b", &kind->restitution, f) ||
+  if (!read_game(params, key, kind, f) || !json_get_number(params, key, "m", &kind->mass, f) ||
+      !json_get_number(params, key, "R", &kind->radius, f) || !json_get_number(params, key, "u_s", &kind->mu_slide, f) ||
+      !json_get_number(params, key, "u_r", &kind->mu_roll, f) || !json_get_number(params, key, "u_sp", &spin, f) ||
+      !json_get_number(params, key, "u_b", &kind->mu_ball, f) || !json_get_number(params, key, "e_b", &kind->restitution, f) ||
       !json_get_number(params, key, "e_c", &kind->restitution_cushion, f) ||
-      !json_get_number(params, key, "f_c", &kind->mu_cushion, f) || !json_get_number(params, key, "g", &kind->gravity, f))
+      !json_get_number(params, key, "f_c", &kind->mu_cushion, f) || !json_get_number(params, key, "g", &kind->gravity, f) ||
+      !json_get_number(params, key, "drag", &kind->drag, f) ||
+      !json_get_number(params, key, "roll_loss", &kind->roll_loss, f) ||
+      !json_get_number(params, key, "law_a", &kind->law_a, f) || !json_get_number(params, key, "law_b", &kind->law_b, f) ||
+      !json_get_number(params, key, "law_c", &kind->law_c, f) ||
+      !json_get_number(params, key, "nose_height", &kind->nose_height, f) ||
+      !json_get_number(params, key, "omega_ratio", &kind->omega_ratio, f))
     return false;
-  kind->mu_spin = isnan(spin) ? 10.0 * 2.0 / 5.0 / 9.0 * kind->radius : spin;
+  if (!isnan(spin))
+    kind->mu_spin = spin;
+  else if (json_object_get(params, "game") == NULL)
+    kind->mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind->radius;
   double state[10];
   snprintf(key, sizeof key, "%sstate", where);
   if (!json_get_numbers(json_object_get(v, "state"), key, 10, state, f))
@@ -77,7 +100,7 @@ static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
 static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
   const json_t *v = json_object_get(json, "cue");
   carom_cue *cue = &line->cue;
-  *cue = carom_cue_of(CAROM_GAME_POOL);
+  *cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
   cue->phi = 0.0;
   if (v == NULL)
     return true;

@@ -30,7 +30,8 @@ static bool read_rail(const json_t *v, const char *where, carom_rail *rail, char
     return false;
   *rail = (carom_rail){.p = {p[0], p[1]}, .q = {q[0], q[1]}, .height = p[2]};
   if (!json_get_number(v, where, "lx", &rail->line[0], f) || !json_get_number(v, where, "ly", &rail->line[1], f) ||
-      !json_get_number(v, where, "l0", &rail->line[2], f) || !json_get_number(v, where, "direction", &side, f))
+      !json_get_number(v, where, "l0", &rail->line[2], f) || !json_get_number(v, where, "direction", &side, f) ||
+      !json_get_number(v, where, "f_c", &rail->mu_cushion, f) || !json_get_number(v, where, "e_c", &rail->restitution, f))
     return false;
   if (side != 0.0 && side != 1.0)
     return json_wrong(f, "%sdirection must be 0 or 1", where);
@@ -74,7 +75,8 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
   json_array_foreach((json_t *)list, k, v) {
     carom_jaw *jaw = &table->jaw[k];
     snprintf(where, sizeof where, "circular[%zu].", k);
-    if (!read_circle(v, where, jaw->centre, &jaw->height, &jaw->radius, &t->jaw[k], f))
+    if (!read_circle(v, where, jaw->centre, &jaw->height, &jaw->radius, &t->jaw[k], f) ||
+        !json_get_number(v, where, "f_c", &jaw->mu_cushion, f) || !json_get_number(v, where, "e_c", &jaw->restitution, f))
       return false;
     table->jaws++;
   }

@@ -161,10 +161,12 @@ typedef enum carom_status {
   CAROM_ERROR_GRAVITY = -49,         /* gravity is not positive and finite. */
   CAROM_ERROR_CUE = -50,             /* a field of the cue is out of its range. */
   CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below 1. */
-  CAROM_ERROR_TABLE = -52,           /* the table has too many parts, or a part that is not finite or has no length. */
-  CAROM_ERROR_RACK = -53,            /* no such rack, a gap that is not between 0 and R, or too little room. */
-  CAROM_ERROR_EVENTS_LOST = -54,     /* carom_shot_at(): the shot had more events than there was room for. */
-  CAROM_ERROR_TIME = -55,            /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */
+  CAROM_ERROR_TABLE = -52, /* the table has too many parts, or a part that is not finite, has no length, or a bad mu or e. */
+  CAROM_ERROR_RACK = -53,  /* no such rack, a gap that is not between 0 and R, or too little room. */
+  CAROM_ERROR_EVENTS_LOST = -54,  /* carom_shot_at(): the shot had more events than there was room for. */
+  CAROM_ERROR_TIME = -55,         /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */
+  CAROM_ERROR_DRAG = -56,         /* the drag of a rolling ball is not in [0, 1] 1/m. */
+  CAROM_ERROR_BALL_CUSHION = -57, /* a ball's roll_loss, nose_height or omega_ratio is out of its range. */
 } carom_status;
 
 /* The short name of a status ("separating"), as it stands in the command's output. "unknown" for a value not listed. Arrays of

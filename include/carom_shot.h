@@ -178,6 +178,14 @@ typedef struct carom_ball_kind {
   double mu_cushion;          /* ball and cushion, 0 to 1. Pool 0.2. */
   double restitution_cushion; /* ball and cushion, 0 to 1. Pool 0.85. */
   double gravity;             /* g, m/s^2, > 0. */
+  double drag;                /* k, 1/m, 0 to 1: a rolling ball slows by mu_roll g + k v^2, m/s^2. 0: by mu_roll g alone. */
+  double roll_loss; /* 0 to 1: an impact on a cushion takes this part of the ball's speed along the cushion from its roll
+                       along it: from R w_n, w_n the spin about the normal, which does not fall below 0 by it. */
+  double law_a, law_b, law_c; /* friction with another ball at a slip of u, m/s: law_a + law_b exp(-law_c u). Each >= 0, law_a +
+                                 law_b <= 1; a pair has the mean of each. All 0: carom_alciatore(). Not read with
+                                 CAROM_FRICTION_CONSTANT. */
+  double nose_height; /* of every cushion that the ball meets, above the cloth, m, below 2 R; 0: that of the rail or jaw. */
+  double omega_ratio; /* of Stronge's cushions, as in carom_cushion_options: 1 to 2 without the ends; 0: 1.8. */
 } carom_ball_kind;
 
 /* Where a ball is and how it moves. */
@@ -193,10 +201,18 @@ typedef struct carom_shot_ball {
   carom_ball_state state;
 } carom_shot_ball;
 
-/* Games whose balls and cues are in common use. */
-typedef enum carom_game { CAROM_GAME_POOL = 0, CAROM_GAME_SNOOKER = 1, CAROM_GAME_BILLIARD = 2 } carom_game;
+/* Games, for their balls and cues. docs/understanding/constants.md has the source of each number. */
+typedef enum carom_game {
+  CAROM_GAME_POOL = 0,             /* typical numbers, each within the range that is published; no table was measured */
+  CAROM_GAME_SNOOKER = 1,          /* measured by Mathavan and others, 2009 to 2014, on one table */
+  CAROM_GAME_BILLIARD = 2,         /* three-cushion: measured on one table, from 182 recorded shots, with drag and loss of roll;
+                                      mu_cushion and restitution_cushion are for CAROM_CUSHION_MATHAVAN */
+  CAROM_GAME_POOLTOOL_POOL = 3,    /* the figures of pooltool's balls, for parity with it: pool, */
+  CAROM_GAME_POOLTOOL_SNOOKER = 4, /* snooker, */
+  CAROM_GAME_POOLTOOL_BILLIARD = 5 /* and carom */
+} carom_game;
 
-/* The balls of a game, with the figures of pooltool; those of pool for a value not listed. */
+/* The balls of a game; those of pool for a value not listed. Racks have those of the first three. */
 CAROM_API carom_ball_kind carom_ball_kind_of(carom_game game);
 
 /* ---- Tables ----------------------------------------------------------------------------------------------------------- */
@@ -210,11 +226,13 @@ typedef struct carom_rail {
   double p[2], q[2], height; /* m; height of the nose above the cloth, between 0 and 2 R. */
   double line[3];
   int64_t side;
+  double mu_cushion, restitution; /* of this rail, 0 to 1; 0: those of the ball. */
 } carom_rail;
 
 /* A rounded end of a cushion: a vertical cylinder, of which balls touch the outside. radius >= 0, m. */
 typedef struct carom_jaw {
   double centre[2], radius, height;
+  double mu_cushion, restitution; /* as of a rail. */
 } carom_jaw;
 
 /* A pocket takes a ball when the ball's centre crosses the circle inward. */
@@ -296,7 +314,7 @@ typedef enum carom_ball_model {
   CAROM_BALL_MODEL_MIRROR = 4     /* no friction: normal velocities by the restitution alone */
 } carom_ball_model;
 
-/* Friction between two balls: by Alciatore's law from their speed of slip, or mu_ball of the balls. */
+/* Friction between two balls: from their speed of slip, by Alciatore's law or the one of the balls; or mu_ball of the balls. */
 typedef enum carom_ball_friction { CAROM_FRICTION_ALCIATORE = 0, CAROM_FRICTION_CONSTANT = 1 } carom_ball_friction;
 
 /* All zero means the defaults. */
@@ -340,9 +358,10 @@ typedef struct carom_shot {
   int64_t room;
   int64_t count;           /* events that happened, also beyond room. */
   carom_ball_state *final; /* the states at the end, one for each ball; may be NULL. */
-  double time;             /* s: when the last event happened, or a ball left the table. carom_shot_at() knows no later state of
-                              a shot that ended while balls moved. */
-  uint64_t reserved[4];    /* not read or written yet. */
+  double time;          /* s: when the last event happened, or a ball left the table; where a bound ended the shot while balls
+                           with drag rolled, up to when they were followed. carom_shot_at() knows no later state of a shot that
+                           ended while balls moved. */
+  uint64_t reserved[4]; /* not read or written yet. */
 } carom_shot;
 
 /* Plays a shot until nothing moves. 1 to CAROM_BALLS_MOST balls. If a ball moves already, or cue is NULL or its speed 0, there

@@ -59,10 +59,14 @@
   X(ERROR_CUE, -50, "bad_cue",                                                                                                 \
     "the cue must have a speed of 0 to 1000 m/s, a direction, an elevation of 0 to 90 degrees, positive masses, and a ball")   \
   X(ERROR_MISCUE, -51, "miscue", "the tip misses the ball: a^2 + b^2 must be below 1")                                         \
-  X(ERROR_TABLE, -52, "bad_table", "the table has too many parts, or a part that is not finite or has no length")              \
+  X(ERROR_TABLE, -52, "bad_table",                                                                                             \
+    "the table has too many parts, or a part that is not finite, has no length, or friction or restitution outside 0 to 1")    \
   X(ERROR_RACK, -53, "bad_rack", "no such rack, or its gap is not between 0 and R, or there is too little room")               \
   X(ERROR_EVENTS_LOST, -54, "events_lost", "the shot had more events than there was room for, so the state then is not known") \
-  X(ERROR_TIME, -55, "bad_time", "the time is not a number, or after the end of a shot that was stopped while balls moved")
+  X(ERROR_TIME, -55, "bad_time", "the time is not a number, or after the end of a shot that was stopped while balls moved")    \
+  X(ERROR_DRAG, -56, "bad_drag", "the drag of a rolling ball must be 0 to 1 per metre")                                        \
+  X(ERROR_BALL_CUSHION, -57, "bad_ball_cushion",                                                                               \
+    "a ball's roll_loss must be 0 to 1, its nose_height 0 to below 2 R, its omega_ratio 0 or between 1 and 2")
 
 #define AGREES(NAME, value, name, text) _Static_assert(CAROM_##NAME == (value), "values are never renumbered");
 STATUS_LIST(AGREES)

@@ -37,4 +37,20 @@ static inline carom_shot_ball ball_at(double x, double y) {
   return b;
 }
 
+/* Gives each ball of a layout the terms of measured tables, drawn for each by itself; a third of the balls have none. */
+static inline void give_terms(carom_shot_ball *balls, int count, random_source *random) {
+  for (int k = 0; k < count; k++) {
+    carom_ball_kind *kind = &balls[k].kind;
+    if (random_between(random, 0.0, 3.0) < 1.0)
+      continue;
+    kind->drag = random_between(random, 0.0, 2.0) < 1.0 ? 0.0129 : random_between(random, 0.0, 1.0);
+    kind->roll_loss = random_between(random, 0.0, 2.0) < 1.0 ? 0.087 : random_between(random, 0.0, 1.0);
+    kind->law_a = random_between(random, 0.0, 0.06);
+    kind->law_b = random_between(random, 0.0, 0.06);
+    kind->law_c = random_between(random, 0.0, 3.0);
+    kind->nose_height = random_between(random, 1.0, 1.4) * kind->radius;
+    kind->omega_ratio = random_between(random, 1.3, 1.95);
+  }
+}
+
 #endif

@@ -56,7 +56,7 @@ static void add_anywhere(random_shot *s, shot_random *r, carom_game game) {
 }
 
 static void any_cue(random_shot *s, shot_random *r, double slow, double fast) {
-  s->cue = carom_cue_of(CAROM_GAME_POOL);
+  s->cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
   s->cue.speed = shot_uniform(r, slow, fast);
   s->cue.phi = shot_uniform(r, 0.0, 360.0);
   const double off = 0.7 * sqrt(shot_uniform(r, 0.0, 1.0)), way = shot_uniform(r, 0.0, 6.283185307179586);
@@ -100,13 +100,15 @@ static void frozen_rack(random_shot *s, shot_random *r) {
 static void snooker(random_shot *s, shot_random *r) {
   break_of(s, r, CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, whole(r, 0, 1) ? 0.0 : 1e-4);
   s->cue.phi = shot_uniform(r, 0.0, 360.0);
+  for (int k = 0; k < s->count; k++)
+    s->ball[k].kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_SNOOKER);
 }
 
 static void layout(random_shot *s, shot_random *r) {
   carom_table_make(any_pool_table(r), &s->table);
   const int count = whole(r, 1, 15);
   for (int k = 0; k < count; k++)
-    add_anywhere(s, r, CAROM_GAME_POOL);
+    add_anywhere(s, r, CAROM_GAME_POOLTOOL_POOL);
   any_cue(s, r, 0.1, 8.0);
   aim(s, r, 10.0);
 }
@@ -114,7 +116,7 @@ static void layout(random_shot *s, shot_random *r) {
 static void threecushion(random_shot *s, shot_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
   for (int k = 0; k < 3; k++)
-    add_anywhere(s, r, CAROM_GAME_BILLIARD);
+    add_anywhere(s, r, CAROM_GAME_POOLTOOL_BILLIARD);
   any_cue(s, r, 0.5, 8.0);
   aim(s, r, 3.0);
 }
@@ -136,13 +138,14 @@ static void moving(random_shot *s, shot_random *r) {
 /* A line of touching balls, hit straight or nearly, along an axis or not. */
 static void cradle(random_shot *s, shot_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
-  const double R = carom_ball_kind_of(CAROM_GAME_BILLIARD).radius, phi = whole(r, 0, 1) ? 0.0 : shot_uniform(r, 0.0, 30.0);
+  const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius,
+               phi = whole(r, 0, 1) ? 0.0 : shot_uniform(r, 0.0, 30.0);
   const double c = cos(phi / 57.29577951308232), n = sin(phi / 57.29577951308232), x = 0.2, y = 1.0;
   const int count = whole(r, 2, 7);
-  add(s, CAROM_GAME_BILLIARD, x, y);
+  add(s, CAROM_GAME_POOLTOOL_BILLIARD, x, y);
   for (int k = 0; k < count; k++) {
     const double at = 0.3 + 2.0 * R * k;
-    add(s, CAROM_GAME_BILLIARD, x + at * c, y + at * n);
+    add(s, CAROM_GAME_POOLTOOL_BILLIARD, x + at * c, y + at * n);
   }
   any_cue(s, r, 0.3, 6.0);
   s->cue.phi = phi;
@@ -155,15 +158,15 @@ static void cradle(random_shot *s, shot_random *r) {
 /* A ball in contact with a rail or in a corner, with another in contact with it, hit or spinning against it. */
 static void frozen_to_rail(random_shot *s, shot_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
-  const double R = carom_ball_kind_of(CAROM_GAME_BILLIARD).radius, w = s->table.width;
+  const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius, w = s->table.width;
   const double y = whole(r, 0, 3) == 0 ? R : shot_uniform(r, 0.5, 2.0);
-  add(s, CAROM_GAME_BILLIARD, w - R, y);
+  add(s, CAROM_GAME_POOLTOOL_BILLIARD, w - R, y);
   if (whole(r, 0, 1))
-    add(s, CAROM_GAME_BILLIARD, w - 3.0 * R, y);
+    add(s, CAROM_GAME_POOLTOOL_BILLIARD, w - 3.0 * R, y);
   if (whole(r, 0, 1))
-    add(s, CAROM_GAME_BILLIARD, w - R, y + 2.0 * R);
+    add(s, CAROM_GAME_POOLTOOL_BILLIARD, w - R, y + 2.0 * R);
   if (whole(r, 0, 1))
-    add_anywhere(s, r, CAROM_GAME_BILLIARD);
+    add_anywhere(s, r, CAROM_GAME_POOLTOOL_BILLIARD);
   any_cue(s, r, 0.2, 5.0);
   s->cue.ball = whole(r, 0, s->count - 1);
   if (whole(r, 0, 1)) {
@@ -178,9 +181,9 @@ static void frozen_to_rail(random_shot *s, shot_random *r) {
 /* Touching balls in a random cluster. */
 static void cluster(random_shot *s, shot_random *r) {
   carom_table_make(any_pool_table(r), &s->table);
-  const double R = carom_ball_kind_of(CAROM_GAME_POOL).radius;
-  add(s, CAROM_GAME_POOL, 0.5 * s->table.width, 0.3 * s->table.length);
-  add(s, CAROM_GAME_POOL, 0.5 * s->table.width, 0.6 * s->table.length);
+  const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL).radius;
+  add(s, CAROM_GAME_POOLTOOL_POOL, 0.5 * s->table.width, 0.3 * s->table.length);
+  add(s, CAROM_GAME_POOLTOOL_POOL, 0.5 * s->table.width, 0.6 * s->table.length);
   const int count = whole(r, 3, 12);
   for (int trial = 0; trial < 200 && s->count < count; trial++) {
     const carom_ball_state *to = &s->ball[whole(r, 1, s->count - 1)].state;
@@ -188,7 +191,7 @@ static void cluster(random_shot *s, shot_random *r) {
     const double x = to->r[0] + 2.0 * R * cos(way), y = to->r[1] + 2.0 * R * sin(way);
     if (is_free(s, x, y, 2.0 * R - 1e-12) && x > 2.0 * R && x < s->table.width - 2.0 * R && y < 0.9 * s->table.length &&
         y > 0.4)
-      add(s, CAROM_GAME_POOL, x, y);
+      add(s, CAROM_GAME_POOLTOOL_POOL, x, y);
   }
   any_cue(s, r, 0.5, 8.0);
   aim(s, r, 6.0);
@@ -216,7 +219,7 @@ static void unlike(random_shot *s, shot_random *r) {
 static void near_pocket(random_shot *s, shot_random *r) {
   carom_table_make(any_pool_table(r), &s->table);
   for (int k = 0; k < 3; k++)
-    add_anywhere(s, r, CAROM_GAME_POOL);
+    add_anywhere(s, r, CAROM_GAME_POOLTOOL_POOL);
   const carom_pocket *p = &s->table.pocket[whole(r, 0, (int)s->table.pockets - 1)];
   any_cue(s, r, 0.2, 3.0);
   s->cue.phi = 57.29577951308232 * atan2(p->centre[1] - s->ball[0].state.r[1], p->centre[0] - s->ball[0].state.r[0]) +
@@ -228,16 +231,16 @@ static void pressed(random_shot *s, shot_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
   const int which = whole(r, 0, 2), count = whole(r, 2, which == 1 ? CAROM_BALLS_MOST / 2 : CAROM_BALLS_MOST),
             shape = whole(r, 0, 2);
-  const double R = carom_ball_kind_of(CAROM_GAME_BILLIARD).radius, spin = shot_uniform(r, 20.0, 300.0);
+  const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius, spin = shot_uniform(r, 20.0, 300.0);
   for (int k = 0, row = 0, place = 0; k < count; k++, place++) {
     if (place > row) {
       row++;
       place = 0;
     }
     if (shape == 2)
-      add(s, CAROM_GAME_BILLIARD, 0.5 * s->table.width + (2.0 * place - row) * R, 0.5 + row * sqrt(3.0) * R);
+      add(s, CAROM_GAME_POOLTOOL_BILLIARD, 0.5 * s->table.width + (2.0 * place - row) * R, 0.5 + row * sqrt(3.0) * R);
     else
-      add(s, CAROM_GAME_BILLIARD, 0.5, (shape == 0 ? R : 0.5) + 2.0 * R * k);
+      add(s, CAROM_GAME_POOLTOOL_BILLIARD, 0.5, (shape == 0 ? R : 0.5) + 2.0 * R * k);
   }
   /* the first along the line, both ends against each other, or all at random; rolling along +y has w_x < 0 */
   for (int k = 0; k < count; k++) {
@@ -271,7 +274,7 @@ static void coincident(random_shot *s, shot_random *r) {
     }
   }
   if (whole(r, 0, 1)) /* a post, met at its exact side */
-    s->table.jaw[s->table.jaws++] = (carom_jaw){{0.5, 1.0}, 0.03125, height};
+    s->table.jaw[s->table.jaws++] = (carom_jaw){.centre = {0.5, 1.0}, .radius = 0.03125, .height = height};
   /* places k + 1/2 diameters from the sides; where rails end and a post stands, whole ones */
   const double shift = whole(r, 0, 1) ? R : 2.0 * R;
   const int count = whole(r, 1, 12), lines = whole(r, 1, 3);
@@ -280,7 +283,7 @@ static void coincident(random_shot *s, shot_random *r) {
     const double x = shift + 2.0 * R * whole(r, 0, 14), y = shift + 2.0 * R * (whole(r, 0, 1) ? 15 : whole(r, 0, 30) / lines);
     if (!is_free(s, x, y, 2.0 * R) || (s->table.jaws > 0 && hypot(x - 0.5, y - 1.0) < 2.0 * R))
       continue;
-    add(s, CAROM_GAME_POOL, x, y);
+    add(s, CAROM_GAME_POOLTOOL_POOL, x, y);
     carom_shot_ball *b = &s->ball[s->count - 1];
     b->kind.radius = b->state.r[2] = R;
     b->kind.restitution = b->kind.restitution_cushion = e;

@@ -166,6 +166,35 @@ def test_each_layout_has_its_own_radius():
         assert shots.final[k].tobytes() == carom.simulate(table, layouts[k]).final.tobytes()
 
 
+def test_games_and_terms():
+    """The measured balls of billiard, the terms by themselves, each shot of a batch with its own; pooltool's figures."""
+    table = carom.tables.threecushion()
+    r, v = [[0.7, 1.0]], [0.6, 1.2, 0.0]
+    measured = carom.balls(r, v=v, game="billiard")
+    kind = measured["kind"][0]
+    assert kind["drag"] == 0.0129 and kind["roll_loss"] == 0.087 and kind["law_a"] == kind["mu_ball"] == 0.08
+    terms = ("drag", "roll_loss", "law_a", "law_b", "law_c", "nose_height", "omega_ratio")
+    for game in ("pool", "snooker", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"):
+        assert not any(carom.balls(r, game=game)["kind"][name].any() for name in terms)
+    plain = carom.balls(r, v=v, game="billiard", drag=0.0, roll_loss=0.0)
+    shots = carom.simulate_batch(table, np.stack([measured, plain]), cushion_model="han")
+    assert shots.record["time"][0] < shots.record["time"][1]
+    for k, layout in enumerate((measured, plain)):
+        assert shots.final[k].tobytes() == carom.simulate(table, layout, cushion_model="han").final.tobytes()
+    # Rails of their own are balls of their own.
+    own = carom.Table.from_record(table.record)
+    own.rails["mu_cushion"], own.rails["restitution"] = 0.3, 0.7
+    other = carom.balls(r, v=v, game="billiard", mu_cushion=0.3, restitution_cushion=0.7)
+    assert carom.simulate(own, measured).final.tobytes() == carom.simulate(table, other).final.tobytes()
+    higher = carom.Table.from_record(table.record)
+    higher.rails["height"] = 0.036
+    lower = carom.balls(r, v=v, game="billiard", nose_height=0.036)
+    assert carom.simulate(higher, measured).final.tobytes() == carom.simulate(table, lower).final.tobytes()
+    for name, value in [("drag", 2.0), ("roll_loss", -0.1), ("law_b", 1.5), ("law_c", np.inf), ("nose_height", 0.07), ("omega_ratio", 2.0)]:
+        with pytest.raises(carom.CaromError, match=rf"balls\[0\]\.kind\.{name}"):
+            carom.simulate(table, carom.balls(r, v=v, game="billiard", **{name: value}))
+
+
 def test_states_between_events():
     """A ball alone, sliding, in closed form."""
     table = carom.tables.pool_9ft()

@@ -35,7 +35,8 @@ static carom_status check_options(const carom_shot_options *o) {
 static bool good_rail(const carom_rail *r) {
   const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1];
   return isfinite(r->p[0]) && isfinite(r->p[1]) && positive(x * x + y * y) && isfinite(r->line[0]) && isfinite(r->line[1]) &&
-         isfinite(r->line[2]) && (r->side == 0 || r->side == 1);
+         isfinite(r->line[2]) && (r->side == 0 || r->side == 1) && unit_interval(r->mu_cushion) &&
+         unit_interval(r->restitution);
 }
 static bool good_circle(const double centre[2], double radius, double least) {
   return isfinite(centre[0]) && isfinite(centre[1]) && radius >= least && radius < INFINITY;
@@ -50,7 +51,8 @@ static carom_status check_table(const carom_table *t, int *where) {
     if (!good_rail(&t->rail[*where]))
       return CAROM_ERROR_TABLE;
   for (*where = 0; *where < t->jaws; ++*where)
-    if (!good_circle(t->jaw[*where].centre, t->jaw[*where].radius, 0.0))
+    if (!good_circle(t->jaw[*where].centre, t->jaw[*where].radius, 0.0) || !unit_interval(t->jaw[*where].mu_cushion) ||
+        !unit_interval(t->jaw[*where].restitution))
       return CAROM_ERROR_TABLE;
   for (*where = 0; *where < t->pockets; ++*where)
     if (!good_circle(t->pocket[*where].centre, t->pocket[*where].radius, 1e-9) || !isfinite(t->pocket[*where].depth))
@@ -84,12 +86,18 @@ static carom_status check_kind(const carom_ball_kind *k) {
     return CAROM_ERROR_RADIUS;
   if (!friction(k->mu_slide) || !friction(k->mu_roll) || !friction(k->mu_spin))
     return CAROM_ERROR_MU_MOTION;
-  if (!unit_interval(k->mu_ball))
+  if (!unit_interval(k->drag))
+    return CAROM_ERROR_DRAG;
+  if (!unit_interval(k->mu_ball) || !(k->law_a >= 0.0 && k->law_b >= 0.0 && k->law_a + k->law_b <= 1.0) ||
+      !(k->law_c >= 0.0 && k->law_c < INFINITY))
     return CAROM_ERROR_MU_BALL;
   if (!unit_interval(k->restitution) || !unit_interval(k->restitution_cushion))
     return CAROM_ERROR_RESTITUTION;
   if (!unit_interval(k->mu_cushion))
     return CAROM_ERROR_MU_CUSHION;
+  const bool ratio = k->omega_ratio == 0.0 || (k->omega_ratio > 1.0 && k->omega_ratio < 2.0);
+  if (!unit_interval(k->roll_loss) || !(k->nose_height >= 0.0 && k->nose_height < 2.0 * k->radius) || !ratio)
+    return CAROM_ERROR_BALL_CUSHION;
   return positive(k->gravity) ? CAROM_OK : CAROM_ERROR_GRAVITY;
 }
 

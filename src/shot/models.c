@@ -18,10 +18,21 @@ static contact_slip slip_of(const double n[2], double R, const carom_ball_state 
   return s;
 }
 
+/* Alciatore's law, or the mean of the balls'. */
+static inline carom_speed_law law_of(const carom_ball_kind *a, const carom_ball_kind *b) {
+  const carom_speed_law usual = carom_alciatore();
+  const bool own_a = a->law_a + a->law_b + a->law_c > 0.0, own_b = b->law_a + b->law_b + b->law_c > 0.0;
+  if (!own_a && !own_b)
+    return usual;
+  const carom_speed_law p = own_a ? (carom_speed_law){a->law_a, a->law_b, a->law_c} : usual,
+                        q = own_b ? (carom_speed_law){b->law_a, b->law_b, b->law_c} : usual;
+  return (carom_speed_law){0.5 * (p.a + q.a), 0.5 * (p.b + q.b), 0.5 * (p.c + q.c)};
+}
+
 static double friction_of(const carom_sim *sim, int i, int j, const contact_slip *s) {
   if (sim->opt->friction == CAROM_FRICTION_CONSTANT)
     return 0.5 * (sim->ball[i].kind.mu_ball + sim->ball[j].kind.mu_ball);
-  const carom_speed_law law = carom_alciatore();
+  const carom_speed_law law = law_of(&sim->ball[i].kind, &sim->ball[j].kind);
   return law.a + law.b * carom_exp(-law.c * sqrt(s->along * s->along + s->up * s->up));
 }
 
@@ -82,6 +93,17 @@ static void part_by_steps(const carom_impact *in, const carom_options *options, 
     carom_from_frame(&frame, &local, out);
 }
 
+/* Takes kind->roll_loss of the speed v_t along a cushion, before the impact, from the roll along it. Along t = (n_y, -n_x) a
+ * ball rolls at R w . n. The roll does not change sign, so the energy falls. */
+__attribute__((noinline, cold)) static void lose_roll(const carom_ball_kind *kind, const double n[2], const double v[3],
+                                                      carom_ball_state *s) {
+  const double v_t = v[0] * n[1] - v[1] * n[0], roll = kind->radius * (s->w[0] * n[0] + s->w[1] * n[1]);
+  const double loss = copysign(carom_lesser(kind->roll_loss * fabs(v_t), fabs(roll)), roll);
+  if (v_t * roll > 0.0)
+    for (int k = 0; k < 2; k++)
+      s->w[k] -= loss / kind->radius * n[k];
+}
+
 static int ball_model(const carom_sim *sim) {
   if (sim->opt->ball_model != CAROM_BALL_MODEL_DEFAULT)
     return sim->opt->ball_model;
@@ -121,21 +143,30 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
   return status;
 }
 
-carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], double height, double jaw,
+carom_nose carom_nose_of(const carom_table *table, const carom_due *due) {
+  if (due->type == CAROM_EVENT_RAIL) {
+    const carom_rail *rail = &table->rail[due->b];
+    return (carom_nose){rail->height, 0.0, rail->mu_cushion, rail->restitution};
+  }
+  const carom_jaw *jaw = &table->jaw[due->b];
+  return (carom_nose){jaw->height, jaw->radius, jaw->mu_cushion, jaw->restitution};
+}
+
+carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], const carom_nose *nose,
                                  carom_ball_state *state) {
   const carom_ball_kind *kind = &sim->ball[i].kind;
   const carom_cushion_impact in = {.v = {state->v[0], state->v[1], 0.0},
                                    .w = {state->w[0], state->w[1], state->w[2]},
                                    .normal = {normal[0], normal[1]},
-                                   .height = height,
+                                   .height = kind->nose_height > 0.0 ? kind->nose_height : nose->height,
                                    .radius = kind->radius,
                                    .mass = kind->mass,
                                    .mu_cloth = kind->mu_slide,
-                                   .mu_cushion = kind->mu_cushion,
-                                   .restitution = kind->restitution_cushion,
-                                   .jaw_radius = jaw};
+                                   .mu_cushion = nose->mu_cushion > 0.0 ? nose->mu_cushion : kind->mu_cushion,
+                                   .restitution = nose->restitution > 0.0 ? nose->restitution : kind->restitution_cushion,
+                                   .jaw_radius = nose->jaw_radius};
   const int asked = sim->opt->cushion_model;
-  carom_cushion_options options = {.steps = sim->opt->steps};
+  carom_cushion_options options = {.steps = sim->opt->steps, .omega_ratio = kind->omega_ratio};
   options.model = asked > 0 ? (carom_cushion_model)(asked - 1) : sim->pooltool ? CAROM_CUSHION_STRONGE : CAROM_CUSHION_MATHAVAN;
   if (sim->pooltool) {
     options.convention = CAROM_CONVENTION_POOLTOOL;
@@ -151,5 +182,7 @@ carom_status carom_model_cushion(const carom_sim *sim, int i, const double norma
   }
   if (status >= 0)
     take_motion(&out, state);
+  if (status >= 0 && kind->roll_loss > 0.0)
+    lose_roll(kind, normal, in.v, state);
   return status;
 }

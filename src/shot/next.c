@@ -21,6 +21,8 @@ static int type_of_end(const carom_sim *sim, int i) {
     return CAROM_EVENT_SLIDING_ROLLING;
   if (path->from.label == CAROM_BALL_SPINNING)
     return CAROM_EVENT_SPINNING_STATIONARY;
+  if (path->goes_on)
+    return CAROM_DUE_PIECE;
   carom_ball_state end;
   carom_path_end(path, &sim->rates[i], &end);
   return end.label == CAROM_BALL_SPINNING ? CAROM_EVENT_ROLLING_SPINNING : CAROM_EVENT_ROLLING_STATIONARY;

@@ -96,11 +96,11 @@ carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state 
 
 carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *s) {
   const carom_ball_kind *kind = &sim->ball[i].kind;
-  double n[2], height, jaw_radius = 0.0;
+  const carom_nose nose = carom_nose_of(sim->table, due);
+  double n[2];
   if (due->type == CAROM_EVENT_RAIL) {
     n[0] = -sim->features->line[due->b][0];
     n[1] = -sim->features->line[due->b][1];
-    height = sim->table->rail[due->b].height;
   } else {
     const carom_jaw *jaw = &sim->table->jaw[due->b];
     n[0] = jaw->centre[0] - s->r[0];
@@ -108,15 +108,13 @@ carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, 
     const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
     n[0] /= size;
     n[1] /= size;
-    height = jaw->height;
-    jaw_radius = jaw->radius;
   }
   double closing = s->v[0] * n[0] + s->v[1] * n[1];
   const double slow = slow_speed(sim);
   const bool fast = closing >= slow;
   carom_status status = CAROM_OK;
   if (fast) {
-    status = carom_model_cushion(sim, i, n, height, jaw_radius, s);
+    status = carom_model_cushion(sim, i, n, &nose, s);
     closing = s->v[0] * n[0] + s->v[1] * n[1];
   }
   /* slow, or left moving into the cushion by the model, as the file's head says */

@@ -115,18 +115,14 @@ static bool kiss_jaw(const carom_jaw *jaw, double R, double n[2], carom_ball_sta
 
 carom_status carom_pooltool_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *s) {
   const double R = sim->rates[i].radius;
+  const carom_nose nose = carom_nose_of(sim->table, due);
   double n[2];
-  carom_status status;
   if (due->type == CAROM_EVENT_RAIL) {
-    const carom_rail *rail = &sim->table->rail[due->b];
-    kiss_rail(rail, sim->features->line[due->b], R, n, s);
-    status = carom_model_cushion(sim, i, n, rail->height, 0.0, s);
-  } else {
-    const carom_jaw *jaw = &sim->table->jaw[due->b];
-    if (!kiss_jaw(jaw, R, n, s))
-      return CAROM_ERROR_UNRESOLVED;
-    status = carom_model_cushion(sim, i, n, jaw->height, jaw->radius, s);
+    kiss_rail(&sim->table->rail[due->b], sim->features->line[due->b], R, n, s);
+  } else if (!kiss_jaw(&sim->table->jaw[due->b], R, n, s)) {
+    return CAROM_ERROR_UNRESOLVED;
   }
+  const carom_status status = carom_model_cushion(sim, i, n, &nose, s);
   s->label = CAROM_BALL_SLIDING;
   return status < 0 ? status : CAROM_OK;
 }

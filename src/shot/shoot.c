@@ -132,6 +132,13 @@ static carom_status play(carom_sim *sim) {
       break;
     if (due.time > time_most)
       return CAROM_ERROR_TOO_LONG;
+    if (due.type == CAROM_DUE_PIECE) {
+      sim->shot->time = sim->now = carom_greater(sim->now, due.time);
+      sim->round++;
+      carom_path_go_on(&sim->path[due.a], &sim->rates[due.a]);
+      carom_detect(sim, due.a, -1);
+      continue;
+    }
     if (sim->shot->count >= events_most)
       return CAROM_ERROR_TOO_MANY_EVENTS;
     if (due.type == 0) {
@@ -294,6 +301,8 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
   for (int i = 0; i < count; i++) {
     const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
     carom_path_begin(&path[i], &rates, path[i].start);
+    while (path[i].goes_on && path[i].end < at)
+      carom_path_go_on(&path[i], &rates);
     carom_path_at(&path[i], &rates, at, &states[i]);
   }
   return CAROM_OK;

@@ -54,8 +54,12 @@ typedef struct carom_sim {
 /* An event that is due. */
 typedef struct carom_due {
   double time;
-  int type, a, b; /* type 0: ball a leaves the table; -1: nothing will happen any more */
+  int type, a, b; /* type 0: ball a leaves the table; -1: nothing will happen any more; or CAROM_DUE_PIECE */
 } carom_due;
+
+/* Beside the types of events: another piece of ball a's path begins, and nobody is told. In the order of simultaneous events it
+ * counts as an end of a phase. */
+enum { CAROM_DUE_PIECE = CAROM_EVENT_SPINNING_STATIONARY + 1 };
 
 /* table_pooltool.c */
 extern const carom_table carom_table_pooltool;
@@ -78,12 +82,18 @@ carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, 
 carom_status carom_pooltool_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
 carom_status carom_pooltool_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
 
-/* models.c: v and w after a collision by the model asked for. normal: unit vector from a to b; for a cushion, into it. `jaw`:
- * the radius of a jaw, 0 for a rail. */
+/* What a ball meets of a rail or a jaw, of which it has the unit vector into it besides. */
+typedef struct carom_nose {
+  double height, jaw_radius;      /* jaw_radius: 0 of a rail */
+  double mu_cushion, restitution; /* 0: those of the ball */
+} carom_nose;
+
+/* models.c: v and w after a collision by the model asked for. normal: unit vector from a to b; for a cushion, into it. */
 carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double normal[2], carom_ball_state *a,
                                carom_ball_state *b);
-carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], double height, double jaw,
+carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], const carom_nose *nose,
                                  carom_ball_state *state);
+carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
 
 /* strike.c: the numbers of a cue, apart from its ball. */
 carom_status carom_check_cue(const carom_cue *cue);

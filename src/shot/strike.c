@@ -45,7 +45,7 @@ carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, car
 }
 
 carom_cue carom_cue_of(carom_game game) {
-  const bool snooker = game == CAROM_GAME_SNOOKER;
+  const bool snooker = game == CAROM_GAME_SNOOKER || game == CAROM_GAME_POOLTOOL_SNOOKER;
   return (carom_cue){.speed = 2.0,
                      .phi = 90.0,
                      .b = 0.25,
@@ -55,6 +55,7 @@ carom_cue carom_cue_of(carom_game game) {
 }
 
 carom_ball_kind carom_ball_kind_of(carom_game game) {
+  /* pool, by pooltool too */
   carom_ball_kind kind = {.mass = 0.170097,
                           .radius = 0.028575,
                           .mu_slide = 0.2,
@@ -64,15 +65,33 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
                           .mu_cushion = 0.2,
                           .restitution_cushion = 0.85,
                           .gravity = 9.81};
-  if (game == CAROM_GAME_SNOOKER) {
+  if (game == CAROM_GAME_SNOOKER || game == CAROM_GAME_POOLTOOL_SNOOKER) {
     kind.mass = 0.140;
     kind.radius = 0.02619375;
     kind.mu_slide = kind.mu_cushion = 0.5;
-  } else if (game == CAROM_GAME_BILLIARD) {
+  } else if (game == CAROM_GAME_BILLIARD || game == CAROM_GAME_POOLTOOL_BILLIARD) {
     kind.mass = 0.210;
     kind.radius = 0.03075;
     kind.mu_cushion = 0.15;
   }
   kind.mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind.radius;
+  /* what was measured: m/s^2 over g, or the coefficient itself */
+  if (game == CAROM_GAME_SNOOKER) {
+    kind.mu_slide = 2.075 / 9.81;
+    kind.mu_roll = 0.125 / 9.81;
+    kind.restitution = 0.89;
+    kind.mu_cushion = 0.14;
+    kind.restitution_cushion = 0.98;
+  } else if (game == CAROM_GAME_BILLIARD) {
+    kind.mu_slide = 2.02 / 9.81;
+    kind.mu_roll = 0.0418 / 9.81;
+    kind.drag = 0.0129;
+    kind.mu_spin = 0.004;
+    kind.restitution = 0.951;
+    kind.mu_ball = kind.law_a = 0.08;
+    kind.mu_cushion = 0.22;
+    kind.restitution_cushion = 0.898;
+    kind.roll_loss = 0.087;
+  }
   return kind;
 }

@@ -34,7 +34,7 @@ static void add_rail(carom_table *t, double height, int side, double p_x, double
 }
 
 static void add_jaw(carom_table *t, double height, double radius, double x, double y) {
-  t->jaw[t->jaws++] = (carom_jaw){{x, y}, radius, height};
+  t->jaw[t->jaws++] = (carom_jaw){.centre = {x, y}, .radius = radius, .height = height};
 }
 
 static void add_pocket(carom_table *t, double radius, double x, double y) {

@@ -109,3 +109,23 @@ try carom shoot
 try carom shoot nosuch.jsonl
 try carom shoot --models other "$DATA/break-nineball.jsonl"
 try carom shoot --plot break.txt "$DATA/break-nineball.jsonl"
+echo "--- balls of a game, and what cushions and balls have of their own"
+state='"state": [3, 0.7, 1.0, 0.03075, 0.6, 1.2, 0, -39.024390243902438, 19.512195121951219, 0]'
+final() { carom shoot --cushion han --events none - | grep -o '"status".*\|"final": {"t": [0-9.]*'; }
+shot() { printf '{"kind": "shot", "id": 1, "table": "%s", "balls": [{"id": "1", "params": {%s}, %s}]}\n' "$1" "$2" "$state"; }
+shot threecushion '"game": "billiard"' | final
+shot threecushion '"game": "billiard", "drag": 0, "roll_loss": 0' | final
+shot threecushion '"game": "pooltool_billiard"' | final
+shot threecushion '"game": "pooltool_billiard", "drag": 0.0129, "roll_loss": 0.087, "u_sp": 0.004, "law_a": 0.08, "e_c": 0.898, "f_c": 0.22, "u_s": 0.20591233435270132, "u_r": 0.0042609582059123337' | final
+shot threecushion '"game": "chess"' | final || true
+shot threecushion '"game": 7' | final || true
+shot threecushion '"game": "billiard", "drag": 2' | final || true
+shot threecushion '"game": "billiard", "nose_height": 0.07' | final || true
+shot threecushion '"game": "billiard", "law_b": "x"' | final || true
+own() { printf '{"kind": "table", "id": "own", "w": 1.42, "l": 2.84, "linear": ['
+  printf '{"id": "%s", "p1": [%s, 0.037], "p2": [%s, 0.037], "direction": 1%s}%s' 3 '1.42, 0' '1.42, 2.84' "$1" ', ' 12 '1.42, 2.84' '0, 2.84' "$1" ', ' \
+    9 '0, 2.84' '0, 0' "$1" ', ' 18 '0, 0' '1.42, 0' "$1" ']}'
+  echo; }
+{ own ''; shot own '"game": "billiard", "f_c": 0.3, "e_c": 0.7'; } | final
+{ own ', "f_c": 0.3, "e_c": 0.7'; shot own '"game": "billiard"'; } | final
+{ own ', "f_c": 0.3, "e_c": 7'; shot own '"game": "billiard"'; } | final || true

@@ -41,6 +41,13 @@ static void print_shot_types(void) {
   FIELD(carom_ball_kind, mu_cushion);
   FIELD(carom_ball_kind, restitution_cushion);
   FIELD(carom_ball_kind, gravity);
+  FIELD(carom_ball_kind, drag);
+  FIELD(carom_ball_kind, roll_loss);
+  FIELD(carom_ball_kind, law_a);
+  FIELD(carom_ball_kind, law_b);
+  FIELD(carom_ball_kind, law_c);
+  FIELD(carom_ball_kind, nose_height);
+  FIELD(carom_ball_kind, omega_ratio);
   TYPE(carom_ball_state);
   FIELD(carom_ball_state, r);
   FIELD(carom_ball_state, v);
@@ -55,10 +62,14 @@ static void print_shot_types(void) {
   FIELD(carom_rail, height);
   FIELD(carom_rail, line);
   FIELD(carom_rail, side);
+  FIELD(carom_rail, mu_cushion);
+  FIELD(carom_rail, restitution);
   TYPE(carom_jaw);
   FIELD(carom_jaw, centre);
   FIELD(carom_jaw, radius);
   FIELD(carom_jaw, height);
+  FIELD(carom_jaw, mu_cushion);
+  FIELD(carom_jaw, restitution);
   TYPE(carom_pocket);
   FIELD(carom_pocket, centre);
   FIELD(carom_pocket, radius);

@@ -78,7 +78,7 @@ END_TEST
 START_TEST(starts_at_a_rail) {
   carom_table t;
   carom_table_make(CAROM_TABLE_THREECUSHION, &t);
-  carom_shot_ball b = {.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD)};
+  carom_shot_ball b = {.kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD)};
   const double R = b.kind.radius;
   for (int n = 0; n < 4; n++) {
     const double inside[] = {0.0, 1e-15, -1e-9, 9e-7};

@@ -105,6 +105,8 @@ START_TEST(mirror) {
         s.ball[0].state.v[1] = random_between(&random, 2.0, 6.0);
         s.ball[0].state.w[2] = random_between(&random, -50.0, 50.0);
       }
+      if (n % 2 == 1)
+        give_terms(s.ball, s.count, &random);
       m = s;
       mirror_table(&m.table);
       for (int k = 0; k < m.count; k++)

@@ -74,6 +74,13 @@ START_TEST(kinds) {
     REFUSED(balls[9].kind.restitution, outside[k], CAROM_ERROR_RESTITUTION, 9);
     REFUSED(balls[9].kind.restitution_cushion, outside[k], CAROM_ERROR_RESTITUTION, 9);
     REFUSED(balls[9].kind.mu_cushion, outside[k], CAROM_ERROR_MU_CUSHION, 9);
+    REFUSED(balls[9].kind.drag, outside[k], CAROM_ERROR_DRAG, 9);
+    REFUSED(balls[9].kind.roll_loss, outside[k], CAROM_ERROR_BALL_CUSHION, 9);
+    REFUSED(balls[9].kind.nose_height, outside[k], CAROM_ERROR_BALL_CUSHION, 9);
+    REFUSED(balls[9].kind.omega_ratio, k == 2 ? 2.0 : outside[k], CAROM_ERROR_BALL_CUSHION, 9);
+    REFUSED(balls[9].kind.law_a, outside[k], CAROM_ERROR_MU_BALL, 9);
+    REFUSED(balls[9].kind.law_b, outside[k], CAROM_ERROR_MU_BALL, 9);
+    REFUSED(balls[9].kind.law_c, k == 2 ? INFINITY : outside[k], CAROM_ERROR_MU_BALL, 9);
   }
   REFUSED(balls[3].kind.radius, 0.03, CAROM_ERROR_RADII_DIFFER, 3);
   set_up();
@@ -125,6 +132,10 @@ START_TEST(tables) {
   REFUSED(table.pockets, 9, CAROM_ERROR_TABLE, -1);
   REFUSED(table.rail[4].p[0], NAN, CAROM_ERROR_TABLE, 4);
   REFUSED(table.rail[4].side, 2, CAROM_ERROR_TABLE, 4);
+  REFUSED(table.rail[4].mu_cushion, NAN, CAROM_ERROR_TABLE, 4);
+  REFUSED(table.rail[4].restitution, 1.1, CAROM_ERROR_TABLE, 4);
+  REFUSED(table.jaw[5].mu_cushion, -0.1, CAROM_ERROR_TABLE, 5);
+  REFUSED(table.jaw[5].restitution, NAN, CAROM_ERROR_TABLE, 5);
   REFUSED(table.rail[4].height, 0.1, CAROM_ERROR_NOSE_HEIGHT, 4);
   REFUSED(table.jaw[5].radius, -1.0, CAROM_ERROR_TABLE, 5);
   REFUSED(table.jaw[5].height, 0.0, CAROM_ERROR_NOSE_HEIGHT, 5);
@@ -140,7 +151,8 @@ START_TEST(tables) {
     table.pocket[table.pockets++] = table.pocket[0];
   expect(CAROM_OK, -1);
   /* posts alone, and a pocket between them */
-  table = (carom_table){.jaws = 2, .pockets = 1, .jaw = {{{-5.0, -5.0}, 0.1, 0.036}, {{5.0, 5.0}, 0.1, 0.036}}};
+  table = (carom_table){.jaws = 2, .pockets = 1, .jaw = {{.centre = {-5.0, -5.0}, .radius = 0.1, .height = 0.036}}};
+  table.jaw[1] = (carom_jaw){.centre = {5.0, 5.0}, .radius = 0.1, .height = 0.036};
   table.pocket[0] = (carom_pocket){{3.0, -2.0}, 1.0, 0.08};
   ck_assert_int_eq(carom_shot_check(&table, balls, 10, NULL, NULL, NULL), CAROM_OK);
   ck_assert_int_eq(carom_table_make((carom_table_kind)99, &table), CAROM_ERROR_TABLE);
@@ -431,6 +443,15 @@ START_TEST(wild_shots) {
       b->restitution_cushion = wild(&r, 0.0, 1.0);
       b->mu_cushion = wild(&r, 0.0, 1.0);
       b->gravity = wild(&r, 1.0, 100.0);
+      if (n % 2 == 1) {
+        b->drag = wild(&r, 0.0, 1.0);
+        b->roll_loss = wild(&r, 0.0, 1.0);
+        b->law_a = wild(&r, 0.0, 0.5);
+        b->law_b = wild(&r, 0.0, 0.5);
+        b->law_c = wild(&r, 0.0, 100.0);
+        b->nose_height = wild(&r, 0.0, 2.0 * b->radius);
+        b->omega_ratio = wild(&r, 1.01, 1.99);
+      }
       carom_ball_state *s = &balls[k].state;
       s->r[0] = random_between(&r, 0.03, table.width - 0.03);
       s->r[1] = random_between(&r, 0.03, table.length - 0.03);

@@ -12,8 +12,8 @@ from carom._carom import ffi, lib
 from carom._rows import Array, as_array, choice, fill
 from carom.status import CaromError
 
-Game = Literal["pool", "snooker", "billiard"]
-_GAMES = {"pool": 0, "snooker": 1, "billiard": 2}
+Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"]
+_GAMES = {"pool": 0, "snooker": 1, "billiard": 2, "pooltool_pool": 3, "pooltool_snooker": 4, "pooltool_billiard": 5}
 
 
 class Table:
@@ -24,9 +24,10 @@ class Table:
     width, length : float
         m, for drawing and racks. The built-in tables have their surface at 0 <= x <= width, 0 <= y <= length.
     rails : ndarray of `carom.dtypes.rail`, shape (up to 32,)
-        Straight pieces of cushion: p, q and height (m), side, and line, all 0 to have it derived.
+        Straight pieces of cushion: p, q and height (m), side, and line, all 0 to have it derived; mu_cushion and restitution of its
+        own, 0 for those of the ball.
     jaws : ndarray of `carom.dtypes.jaw`, shape (up to 32,)
-        Rounded ends: centre, radius, height (m).
+        Rounded ends: centre, radius, height (m); mu_cushion and restitution, as of rails.
     pockets : ndarray of `carom.dtypes.pocket`, shape (up to 8,)
         centre, radius, depth (m).
     """
@@ -114,6 +115,13 @@ def balls(
     mu_cushion: npt.ArrayLike | None = None,
     restitution_cushion: npt.ArrayLike | None = None,
     gravity: npt.ArrayLike | None = None,
+    drag: npt.ArrayLike | None = None,
+    roll_loss: npt.ArrayLike | None = None,
+    law_a: npt.ArrayLike | None = None,
+    law_b: npt.ArrayLike | None = None,
+    law_c: npt.ArrayLike | None = None,
+    nose_height: npt.ArrayLike | None = None,
+    omega_ratio: npt.ArrayLike | None = None,
 ) -> dtypes.Records:
     """Balls on a table, from fields that are broadcast against each other.
 
@@ -123,8 +131,9 @@ def balls(
         Centres, m; without a z they lie on the cloth.
     v, w : array_like, shape (..., 3)
         Velocities, m/s, and angular velocities, rad/s.
-    game : {"pool", "snooker", "billiard"}
-        Whose balls they are, for all that follows.
+    game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
+        Whose balls they are, for all that follows. docs/understanding/constants.md has the source of each number: those of billiard are
+        measured, with drag and loss of roll; pooltool_... are pooltool's figures.
     mass, radius, gravity : array_like, shape (...)
         kg, m, m/s^2. All balls of a layout have the same radius.
     mu_slide, mu_roll, mu_spin : array_like, shape (...)
@@ -133,6 +142,16 @@ def balls(
         Ball and ball, 0 to 1; a pair has the mean. mu_ball counts with friction="constant" only.
     mu_cushion, restitution_cushion : array_like, shape (...)
         Ball and cushion, 0 to 1.
+    drag : array_like, shape (...)
+        1/m, 0 to 1: a rolling ball slows by mu_roll gravity + drag v^2.
+    roll_loss : array_like, shape (...)
+        0 to 1: the part of the speed along a cushion that an impact takes from the roll along it.
+    law_a, law_b, law_c : array_like, shape (...)
+        Friction with another ball at a slip of u, m/s: law_a + law_b exp(-law_c u). All 0: Alciatore's law.
+    nose_height : array_like, shape (...)
+        Of every cushion that the ball meets, m; 0: that of the table.
+    omega_ratio : array_like, shape (...)
+        Of Stronge's cushions; 0: 1.8.
 
     Returns
     -------
@@ -150,6 +169,13 @@ def balls(
         "mu_cushion": mu_cushion,
         "restitution_cushion": restitution_cushion,
         "gravity": gravity,
+        "drag": drag,
+        "roll_loss": roll_loss,
+        "law_a": law_a,
+        "law_b": law_b,
+        "law_c": law_c,
+        "nose_height": nose_height,
+        "omega_ratio": omega_ratio,
     }
     fields: dict[str, npt.ArrayLike] = {
         f"kind.{name}": float(getattr(kind, name)) if value is None else value for name, value in given.items()
@@ -190,7 +216,7 @@ def cue(
         Where the tip touches, in units of the ball's radius: a > 0 left, b > 0 above the centre; a^2 + b^2 < 1.
     ball : array_like of int, shape (...)
         Index of the ball that is struck.
-    game : {"pool", "snooker", "billiard"}
+    game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
         Whose cue it is, for what follows.
     mass, end_mass, tip_radius : array_like, shape (...)
         kg, kg, m.

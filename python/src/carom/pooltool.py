@@ -72,9 +72,9 @@ def table_of(table: Any) -> Table:
         if segment.direction not in (0, 1):
             raise UnsupportedError(f"cushion {segment.id!r} has balls on both sides: carom takes direction 0 or 1")
     rails: Array = np.array(
-        [(c.p1[:2], c.p2[:2], c.height, (c.lx, c.ly, c.l0), c.direction) for c in linear], dtype=dtypes.rail
+        [(c.p1[:2], c.p2[:2], c.height, (c.lx, c.ly, c.l0), c.direction, 0.0, 0.0) for c in linear], dtype=dtypes.rail
     )
-    jaws: Array = np.array([(c.center[:2], c.radius, c.height) for c in circular], dtype=dtypes.jaw)
+    jaws: Array = np.array([(c.center[:2], c.radius, c.height, 0.0, 0.0) for c in circular], dtype=dtypes.jaw)
     pockets: Array = np.array([(p.center[:2], p.radius, p.depth) for p in holes], dtype=dtypes.pocket)
     # Width and length are for pictures; a table that is not made of pooltool's own parts may have none.
     ends = np.concatenate([rails["p"], rails["q"]])
@@ -85,9 +85,10 @@ def table_of(table: Any) -> Table:
 def balls_of(system: Any) -> dtypes.Records:
     """The balls of a System, in its order, for `carom.simulate`."""
     numbers: list[Any] = []
+    own = (0.0,) * 7  # drag and what follows it, which pooltool has not
     for ball in system.balls.values():
         p, rvw = ball.params, ball.state.rvw
-        kind = (p.m, p.R, p.u_s, p.u_r, p.u_sp, p.u_b, p.e_b, p.f_c, p.e_c, p.g)
+        kind = (p.m, p.R, p.u_s, p.u_r, p.u_sp, p.u_b, p.e_b, p.f_c, p.e_c, p.g, *own)
         numbers.append((kind, (rvw[0], rvw[1], rvw[2], ball.state.s)))
     return np.array(numbers, dtype=dtypes.shot_ball)
 

@@ -251,9 +251,9 @@ _BALL_FIELDS = {
     Status.ERROR_RADII_DIFFER: "kind.radius",
     Status.ERROR_MASS: "kind.mass",
     Status.ERROR_MASSES_DIFFER: "kind.mass",
-    Status.ERROR_MU_BALL: "kind.mu_ball",
     Status.ERROR_MU_CUSHION: "kind.mu_cushion",
     Status.ERROR_GRAVITY: "kind.gravity",
+    Status.ERROR_DRAG: "kind.drag",
 }
 
 
@@ -275,6 +275,18 @@ def _argument_error(arguments: tuple[Any, ...], layout: Array, cue: Array | None
     if status is Status.ERROR_RESTITUTION:
         restitutions = ("restitution", "restitution_cushion")
         field = next((f"kind.{name}" for name in restitutions if not 0 <= kind[name] <= 1), None)
+    if status is Status.ERROR_MU_BALL:
+        laws = ("law_a", "law_b", "law_c")
+        bad = (name for name in laws if not 0 <= kind[name] < np.inf or (name != "law_c" and kind[name] > 1))
+        field = "kind.mu_ball" if not 0 <= kind["mu_ball"] <= 1 else next((f"kind.{name}" for name in bad), None)
+    if status is Status.ERROR_BALL_CUSHION:
+        field = (
+            "kind.roll_loss"
+            if not 0 <= kind["roll_loss"] <= 1
+            else "kind.nose_height"
+            if not 0 <= kind["nose_height"] < 2 * kind["radius"]
+            else "kind.omega_ratio"
+        )
     ball = f"balls[{where[0]}]"
     if field is None:
         return CaromError(status, ball)

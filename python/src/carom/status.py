@@ -61,6 +61,8 @@ class Status(enum.IntEnum):
     ERROR_RACK = -53
     ERROR_EVENTS_LOST = -54
     ERROR_TIME = -55
+    ERROR_DRAG = -56
+    ERROR_BALL_CUSHION = -57
 
     @property
     def text(self) -> str:

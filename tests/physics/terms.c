@@ -1,0 +1,386 @@
+/* The terms that measured tables want, of a ball's kind and of rails: drag of a rolling ball, loss of roll along a cushion, a
+ * law of friction of one's own, noses and cushions of one's own. */
+#include "random_shots.h"
+#include "shot_support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- Drag */
+
+static carom_shot_ball rolling(double x, double y, double speed, double way) {
+  carom_shot_ball b = ball_at(x, y);
+  b.state.v[0] = speed * cos(way);
+  b.state.v[1] = speed * sin(way);
+  b.state.w[0] = -b.state.v[1] / b.kind.radius;
+  b.state.w[1] = b.state.v[0] / b.kind.radius;
+  return b;
+}
+
+/* dv/dt = -(A + k v^2) by Runge and Kutta's classic method in long double, from *v at place *s, for a time t. */
+static void roll_on(long double A, long double k, long double t, int steps, long double *v, long double *s) {
+  const long double h = t / steps;
+  for (int n = 0; n < steps; n++) {
+    const long double v1 = *v, a1 = -(A + k * v1 * v1), v2 = *v + 0.5L * h * a1, a2 = -(A + k * v2 * v2),
+                      v3 = *v + 0.5L * h * a2, a3 = -(A + k * v3 * v3), v4 = *v + h * a3, a4 = -(A + k * v4 * v4);
+    *s += h * (v1 + 2.0L * v2 + 2.0L * v3 + v4) / 6.0L;
+    *v += h * (a1 + 2.0L * a2 + 2.0L * a3 + a4) / 6.0L;
+  }
+}
+
+/* Its exact solution, from the time t that is left of `end`, when the ball stops: the speed, and the way that is left. */
+static void exact_roll(long double A, long double k, long double left, long double *v, long double *way) {
+  const long double w = sqrtl(A * k) * left;
+  *v = sqrtl(A / k) * tanl(w);
+  *way = -log1pl(-sinl(w) * sinl(w)) / (2.0L * k);
+}
+
+/* A ball that rolls alone is where the exact solution has it, within the 1e-6 m of the header, as long as it rolls, and comes
+ * to rest at the time and the place of that. A fine integration agrees with the exact solution. */
+START_TEST(drag_of_a_ball_alone) {
+  enum { BALLS = 400, LOOKS = 200 };
+  random_source random = {test_seed()};
+  const carom_table table = empty_table(4e4);
+  double worst = 0.0, worst_speed = 0.0;
+  for (int n = 0; n < BALLS; n++) {
+    const double speed = n % 4 == 0 ? pow(10.0, random_between(&random, -6.0, 3.0)) : random_between(&random, 0.01, 12.0);
+    carom_shot_ball ball = rolling(2e4, 2e4, speed, random_between(&random, 0.0, 6.28));
+    /* that of a real cloth, and far more and less */
+    ball.kind.drag = n % 3 == 0 ? 0.0129 : pow(10.0, random_between(&random, n % 3 == 1 ? -2.5 : -9.0, 0.0));
+    ball.kind.mu_roll = n % 3 == 0 ? 0.0043 : random_between(&random, 0.001, 0.02);
+    if (speed > 12.0)
+      ball.kind.drag = fmax(ball.kind.drag, 1e-3);
+    const long double A = (long double)(ball.kind.mu_roll * ball.kind.gravity), k = ball.kind.drag;
+    const carom_shot_options options = {.time_most = 1e6};
+    const carom_shot shot = play(&table, &ball, 1, NULL, &options, CAROM_OK);
+    ck_assert_int_eq(shot.count, 1);
+    const long double end = atanl(sqrtl(k / A) * (long double)speed) / sqrtl(A * k);
+    ck_assert_msg(fabsl((long double)shot.time - end) < 1e-11L * end, "rolls for %.17g s, not %.17Lg", shot.time, end);
+    const long double way = 0.5L * log1pl(k / A * (long double)speed * (long double)speed) / k;
+    const double gone = hypot(final[0].r[0] - 2e4, final[0].r[1] - 2e4);
+    ck_assert_msg(fabsl((long double)gone - way) < 2e-10L + 1e-12L * way, "rolls %.17g m, not %.17Lg", gone, way);
+    long double v = speed, s = 0.0L, exact_v, left;
+    double before = speed;
+    for (int look = 1; look < LOOKS; look++) {
+      const double t = shot.time * look / LOOKS;
+      exact_roll(A, k, end - (long double)t, &exact_v, &left);
+      if (speed <= 12.0) {
+        roll_on(A, k, (long double)(shot.time / LOOKS), 100, &v, &s);
+        ck_assert_msg(fabsl(v - exact_v) < 1e-8L && fabsl(s + left - way) < 1e-8L, "an integration differs by %Lg m, %Lg m/s",
+                      s + left - way, v - exact_v);
+      }
+      carom_ball_state at;
+      ck_assert_int_eq(carom_shot_at(&ball, 1, &shot, t, &at), CAROM_OK);
+      ck_assert_int_eq(at.label, CAROM_BALL_ROLLING);
+      const double now = hypot(at.v[0], at.v[1]);
+      worst = fmax(worst, fabs(hypot(at.r[0] - 2e4, at.r[1] - 2e4) - (double)(way - left)));
+      worst_speed = fmax(worst_speed, fabs(now / (double)exact_v - 1.0));
+      ck_assert_msg(now < before, "%g m/s and later %g", before, now);
+      before = now;
+    }
+  }
+  printf("drag: places within %.3g m of the exact solution, speeds within %.3g of them\n", worst, worst_speed);
+  ck_assert_msg(worst < 1e-6, "%g m from the exact solution", worst);
+}
+END_TEST
+
+/* ---- All terms */
+
+static double energy_of(const carom_shot_ball *balls, const carom_ball_state *s, int count) {
+  double sum = 0.0;
+  for (int i = 0; i < count; i++) {
+    const carom_ball_kind *k = &balls[i].kind;
+    const double *v = s[i].v, *w = s[i].w;
+    sum += 0.5 * k->mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) +
+           0.2 * k->mass * k->radius * k->radius * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+  }
+  return sum;
+}
+
+/* The deepest overlap of two balls. */
+static double overlap_of(const carom_ball_state *s, int count, double R) {
+  double deepest = 0.0;
+  for (int i = 0; i < count; i++)
+    for (int j = 0; j < i; j++)
+      if (s[i].label != CAROM_BALL_POCKETED && s[j].label != CAROM_BALL_POCKETED)
+        deepest = fmax(deepest, 2.0 * R - hypot(s[i].r[0] - s[j].r[0], s[i].r[1] - s[j].r[1]));
+  return deepest;
+}
+
+/* How far a rail of the plain table is entered. */
+static double intrusion_of(const carom_table *table, const carom_ball_state *s, int count, double R) {
+  double deepest = 0.0;
+  for (int i = 0; i < count && table->pockets == 0 && table->jaws == 0; i++)
+    deepest = fmax(deepest,
+                   fmax(fmax(R - s[i].r[0], s[i].r[0] - table->width + R), fmax(R - s[i].r[1], s[i].r[1] - table->length + R)));
+  return deepest;
+}
+
+static double apart(const carom_ball_state *a, const carom_ball_state *b, double R) {
+  double worst = 0.0;
+  for (int k = 0; k < 3; k++)
+    worst = fmax(worst, fmax(fabs(a->r[k] - b->r[k]), fmax(fabs(a->v[k] - b->v[k]), R * fabs(a->w[k] - b->w[k]))));
+  return worst;
+}
+
+/* The shot up to before its event k, as far as that goes. */
+static carom_shot until(const carom_shot *shot, int64_t k, double time) {
+  return (carom_shot){.events = shot->events, .room = k, .count = k, .time = time};
+}
+
+/* Random shots of every kind with all terms: they end; between and at events no energy rises and nothing overlaps, as
+ * carom_shot_at() has the motion, which leads to the states that the engine found at events; the end is that of the events. */
+START_TEST(invariants_with_all_terms) {
+  enum { EACH = 12, LOOKS = 3 };
+  static random_shot s;
+  static const int models[] = {CAROM_CUSHION_HAN, CAROM_CUSHION_STRONGE, CAROM_CUSHION_MATHAVAN};
+  random_source random = {test_seed()};
+  int64_t shots = 0, events_seen = 0;
+  for (int kind = 0; kind < random_shot_kinds(); kind++)
+    for (int n = 0; n < EACH; n++) {
+      random_shot_make(kind, test_seed() + 5, (uint64_t)n, &s);
+      give_terms(s.ball, s.count, &random);
+      const carom_shot_options options = {.cushion_model = 1 + models[n % 12 == 11 ? 2 : n % 2]};
+      carom_shot shot = {.events = events, .room = ROOM, .final = final};
+      const carom_status status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &shot);
+      ck_assert_msg(status == CAROM_OK, "%s %d: %s", s.kind, n, carom_status_name(status));
+      const double R = s.ball[0].kind.radius;
+      carom_ball_state at[CAROM_BALLS_MOST];
+      double energy = INFINITY, most = 0.0, now = 0.0;
+      for (int64_t k = 0; k < shot.count && k < 400; k++) {
+        const carom_event *e = &shot.events[k];
+        const carom_shot before = until(&shot, k, e->time);
+        for (int look = 1; look <= LOOKS; look++) {
+          const double time = look == LOOKS ? e->time : now + (e->time - now) * look / LOOKS;
+          ck_assert_int_eq(carom_shot_at(s.ball, s.count, &before, time, at), CAROM_OK);
+          const double there = energy_of(s.ball, at, s.count);
+          most = fmax(most, there);
+          ck_assert_msg(there - energy <= 1e-12 * most, "%s %d: energy rises by %g of %g before event %d", s.kind, n,
+                        there - energy, most, (int)k);
+          energy = there;
+          ck_assert_msg(overlap_of(at, s.count, R) <= 1e-9 && intrusion_of(&s.table, at, s.count, R) <= 1e-9,
+                        "%s %d: an overlap of %g m, or %g m in a rail, before event %d", s.kind, n, overlap_of(at, s.count, R),
+                        intrusion_of(&s.table, at, s.count, R), (int)k);
+        }
+        const int sides = e->type == CAROM_EVENT_BALL_BALL ? 2 : 1;
+        for (int side = 0; side < sides; side++) {
+          const int i = side == 0 ? e->a : e->b;
+          ck_assert_msg(apart(&at[i], &e->before[side], R) <= 1e-9, "%s %d: event %d begins %g from the motion before", s.kind,
+                        n, (int)k, apart(&at[i], &e->before[side], R));
+        }
+        now = e->time;
+        energy = e->type == CAROM_EVENT_STRIKE ? INFINITY : energy;
+      }
+      ck_assert_int_eq(carom_shot_at(s.ball, s.count, &shot, 2.0 * shot.time + 1.0, at), CAROM_OK);
+      for (int k = 0; k < s.count; k++)
+        ck_assert_int_eq(memcmp(&at[k], &final[k], sizeof at[k]), 0);
+      shots++;
+      events_seen += shot.count;
+    }
+  printf("all terms: %lld shots, %lld events\n", (long long)shots, (long long)events_seen);
+}
+END_TEST
+
+/* ---- Each by itself */
+
+/* The first event of a type in the last shot that was played. */
+static const carom_event *first_of(const carom_shot *shot, int type) {
+  for (int64_t k = 0; k < shot->count; k++)
+    if (shot->events[k].type == type)
+      return &shot->events[k];
+  ck_abort_msg("there is no event of type %d", type);
+}
+
+static carom_event rail_event(const carom_table *table, const carom_shot_ball *ball, int cushion_model) {
+  const carom_shot_options options = {.cushion_model = 1 + cushion_model, .events_most = 50};
+  carom_shot shot = {.events = events, .room = ROOM};
+  carom_shoot(table, ball, 1, NULL, &options, &shot);
+  return *first_of(&shot, CAROM_EVENT_RAIL);
+}
+
+/* A cushion takes its part of the speed along it from the roll, whatever the model; not more than there is, and nothing where
+ * the ball does not roll forward along the cushion. */
+START_TEST(loss_of_roll) {
+  const carom_table table = empty_table(2.0);
+  for (int model = CAROM_CUSHION_MATHAVAN; model <= CAROM_CUSHION_MIRROR; model++)
+    for (int spin = -1; spin <= 1; spin++)
+      for (int side = -1; side <= 1; side += 2) {
+        carom_shot_ball ball = rolling(1.0, 0.1, 1.5, 1.5707963267948966 + 0.7 * side + 3.141592653589793);
+        ball.state.w[2] = 20.0 * spin;
+        const carom_event without = rail_event(&table, &ball, model);
+        ball.kind.roll_loss = 0.087;
+        const carom_event with = rail_event(&table, &ball, model);
+        /* the rail is along x, so the roll along it is R w_y */
+        const double R = ball.kind.radius, v_t = without.before[0].v[0];
+        const double lost = R * (without.after[0].w[1] - with.after[0].w[1]);
+        ck_assert_msg(fabs(lost - 0.087 * v_t) < 1e-12, "%g of %g m/s are lost", lost, v_t);
+        ck_assert_double_eq(with.after[0].w[0], without.after[0].w[0]);
+        ck_assert_double_eq(with.after[0].w[2], without.after[0].w[2]);
+        ck_assert_int_eq(memcmp(with.after[0].v, without.after[0].v, sizeof with.after[0].v), 0);
+        /* all of it */
+        ball.kind.roll_loss = 1.0;
+        ball.state.w[1] = 0.2 * ball.state.v[0] / R;
+        ck_assert_double_eq(rail_event(&table, &ball, CAROM_CUSHION_MIRROR).after[0].w[1], 0.0);
+        /* turning backwards along the rail */
+        ball.state.w[1] = -ball.state.v[0] / R;
+        const carom_event back = rail_event(&table, &ball, CAROM_CUSHION_MIRROR);
+        ck_assert_double_eq(back.after[0].w[1], back.before[0].w[1]);
+      }
+}
+END_TEST
+
+/* A ball that hits another at an angle. */
+static carom_event hit(double speed, const carom_ball_kind *a, const carom_ball_kind *b, int friction) {
+  carom_shot_ball balls[2] = {rolling(0.5, 0.5, speed, 0.0), ball_at(0.8, 0.53)};
+  const carom_table table = empty_table(2.0);
+  const carom_shot_options options = {.friction = friction, .cushion_model = 1 + CAROM_CUSHION_HAN};
+  balls[0].kind = *a;
+  balls[1].kind = *b;
+  const carom_shot shot = play(&table, balls, 2, NULL, &options, CAROM_OK);
+  return *first_of(&shot, CAROM_EVENT_BALL_BALL);
+}
+
+static void same_event(const carom_event *a, const carom_event *b) {
+  ck_assert_int_eq(memcmp(a->before, b->before, sizeof a->before), 0);
+  ck_assert_int_eq(memcmp(a->after, b->after, sizeof a->after), 0);
+}
+
+/* The law of friction of the balls: its numbers are Alciatore's where all are 0; a pair has the mean; constant with law_b = 0.
+ */
+START_TEST(law_of_friction) {
+  const carom_ball_kind usual = carom_ball_kind_of(CAROM_GAME_POOL);
+  const carom_speed_law law = carom_alciatore();
+  for (double speed = 0.5; speed < 6.0; speed += 1.5) {
+    carom_ball_kind own = usual, less = usual, mean = usual, fixed = usual;
+    own.law_a = law.a;
+    own.law_b = law.b;
+    own.law_c = law.c;
+    less.law_a = 0.05;
+    mean.law_a = 0.5 * (0.05 + law.a);
+    mean.law_b = 0.5 * law.b;
+    mean.law_c = 0.5 * law.c;
+    fixed.mu_ball = 0.05;
+    const carom_event a = hit(speed, &usual, &usual, 0), b = hit(speed, &own, &own, 0);
+    same_event(&a, &b);
+    const carom_event c = hit(speed, &usual, &less, 0), d = hit(speed, &mean, &mean, 0);
+    same_event(&c, &d);
+    ck_assert_int_ne(memcmp(c.after, a.after, sizeof a.after), 0);
+    const carom_event e = hit(speed, &less, &less, 0), f = hit(speed, &fixed, &fixed, CAROM_FRICTION_CONSTANT);
+    same_event(&e, &f);
+    ck_assert_int_ne(memcmp(e.after, c.after, sizeof c.after), 0);
+  }
+}
+END_TEST
+
+/* Height, friction and restitution of a rail, and the balls' own height and ratio of frequencies, are those of carom_cushion().
+ */
+START_TEST(noses) {
+  carom_table table = empty_table(2.0);
+  for (int n = 0; n < 16; n++) {
+    carom_shot_ball ball = rolling(1.0, 0.1, 1.5, -1.0);
+    for (int k = 0; k < 4; k++) {
+      table.rail[k].mu_cushion = n & 1 ? 0.31 : 0.0;
+      table.rail[k].restitution = n & 2 ? 0.71 : 0.0;
+    }
+    ball.kind.nose_height = n & 4 ? 0.034 : 0.0;
+    ball.kind.omega_ratio = n & 8 ? 1.6 : 0.0;
+    const carom_event e = rail_event(&table, &ball, CAROM_CUSHION_STRONGE);
+    carom_cushion_impact in = {.normal = {0.0, -1.0},
+                               .height = n & 4 ? 0.034 : 0.036576,
+                               .radius = ball.kind.radius,
+                               .mass = ball.kind.mass,
+                               .mu_cloth = ball.kind.mu_slide,
+                               .mu_cushion = n & 1 ? 0.31 : ball.kind.mu_cushion,
+                               .restitution = n & 2 ? 0.71 : ball.kind.restitution_cushion};
+    memcpy(in.v, e.before[0].v, sizeof in.v);
+    memcpy(in.w, e.before[0].w, sizeof in.w);
+    const carom_cushion_options options = {.model = CAROM_CUSHION_STRONGE, .omega_ratio = n & 8 ? 1.6 : 0.0};
+    carom_motion out;
+    ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_OK);
+    for (int k = 0; k < 2; k++)
+      ck_assert_double_eq_tol(e.after[0].v[k], out.v[k], 1e-14);
+    for (int k = 0; k < 3; k++)
+      ck_assert_double_eq_tol(e.after[0].w[k], out.w[k], 1e-12);
+  }
+}
+END_TEST
+
+/* A bound ends a shot while balls with drag roll: the states at the end are those of carom_shot_at(). */
+START_TEST(bounds_with_drag) {
+  static random_shot s;
+  for (int n = 0; n < 40; n++) {
+    random_shot_make(n % random_shot_kinds(), test_seed(), (uint64_t)n, &s);
+    for (int k = 0; k < s.count; k++)
+      s.ball[k].kind.drag = 0.0129;
+    const carom_shot_options bounds[2] = {{.cushion_model = 1 + CAROM_CUSHION_HAN, .time_most = 0.1 + 0.3 * n},
+                                          {.cushion_model = 1 + CAROM_CUSHION_HAN, .events_most = 1 + n}};
+    for (int k = 0; k < 2; k++) {
+      carom_shot shot = {.events = events, .room = ROOM, .final = final};
+      carom_shoot(&s.table, s.ball, s.count, &s.cue, &bounds[k], &shot);
+      ck_assert(k == 1 || shot.time <= bounds[0].time_most);
+      carom_ball_state at[CAROM_BALLS_MOST];
+      ck_assert_int_eq(carom_shot_at(s.ball, s.count, &shot, shot.time, at), CAROM_OK);
+      for (int i = 0; i < s.count; i++)
+        ck_assert_int_eq(memcmp(&at[i], &final[i], sizeof at[i]), 0);
+    }
+  }
+}
+END_TEST
+
+/* ---- The games */
+
+/* Field `name` of a kind; the fields are doubles without gaps. */
+static double *field_of(carom_ball_kind *kind, const char *name) {
+  static const char *const names[] = {
+      "mass",    "radius", "mu_slide",  "mu_roll", "mu_spin", "mu_ball", "restitution", "mu_cushion", "restitution_cushion",
+      "gravity", "drag",   "roll_loss", "law_a",   "law_b",   "law_c",   "nose_height", "omega_ratio"};
+  ck_assert_uint_eq(sizeof names / sizeof names[0] * sizeof(double), sizeof *kind);
+  for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
+    if (strcmp(names[k], name) == 0)
+      return (double *)kind + k;
+  ck_abort_msg("there is no field %s", name);
+}
+
+/* Every number of every game stands, with its source, in the tables of docs/understanding/constants.md, and is that number;
+ * what does not stand there is 0. */
+START_TEST(constants) {
+  static const char *const games[] = {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"};
+  FILE *file = fopen(CAROM_TEST_DATA "/../docs/understanding/constants.md", "r");
+  ck_assert_ptr_nonnull(file);
+  char line[500], game[40], field[40], kind[40];
+  carom_ball_kind told[6] = {{0}};
+  int lines = 0;
+  while (fgets(line, sizeof line, file) != NULL) {
+    double number, over = 1.0;
+    if (sscanf(line, "| %39[a-z_] | %39[a-z_] | %lf / %lf | %39[a-z] |", game, field, &number, &over, kind) != 5 &&
+        (over = 1.0, sscanf(line, "| %39[a-z_] | %39[a-z_] | %lf | %39[a-z] |", game, field, &number, kind) != 4))
+      continue;
+    ck_assert_msg(strcmp(kind, "measured") == 0 || strcmp(kind, "range") == 0 || strcmp(kind, "rules") == 0 ||
+                      strcmp(kind, "convention") == 0,
+                  "%s", line);
+    int g = 0;
+    while (g < 6 && strcmp(games[g], game) != 0)
+      g++;
+    ck_assert_msg(g < 6, "%s", line);
+    double *place = field_of(&told[g], field);
+    ck_assert_msg(*place == 0.0, "told twice: %s", line);
+    *place = number / over;
+    lines++;
+  }
+  fclose(file);
+  ck_assert_int_eq(lines, 5 * 10 + 13);
+  for (int g = 0; g < 6; g++) {
+    const carom_ball_kind there = carom_ball_kind_of((carom_game)g);
+    for (size_t k = 0; k < sizeof there / sizeof(double); k++) {
+      const double is = ((const double *)&there)[k], says = ((const double *)&told[g])[k];
+      ck_assert_msg(fabs(is - says) <= 1e-15, "number %zu of %s is %.17g, not %.17g", k, games[g], is, says);
+    }
+  }
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("terms", drag_of_a_ball_alone, invariants_with_all_terms, loss_of_roll, law_of_friction, noses,
+                   bounds_with_drag, constants);
+}
