@@ -94,18 +94,19 @@ def least_squares(
 
     `residuals` takes many sets of numbers at once, (k, p) to (k, m). Differences are 1e-5 of the scale.
     """
-    x, damping = start.copy(), 1e-3
+    x: Doubles = start.copy()
+    damping = 1e-3
     steps = np.vstack([np.zeros_like(scale), np.diag(1e-5 * scale)])
     values = residuals(x + steps)
     for _ in range(iterations):
-        J = ((values[1:] - values[0]) / 1e-5).T
-        square, gradient = J.T @ J, J.T @ values[0]
+        slopes = ((values[1:] - values[0]) / 1e-5).T
+        square, gradient = slopes.T @ slopes, slopes.T @ values[0]
         cost = float(values[0] @ values[0])
         drop = 0.0
         # shorter and shorter steps until the cost falls
         for _ in range(8):
             damped = square + np.diag(damping * square.diagonal() + 1e-12 * (1.0 + square.trace()))
-            tried = x - scale * np.linalg.solve(damped, gradient)
+            tried: Doubles = x - scale * np.linalg.solve(damped, gradient)
             new = residuals(tried + steps)
             drop = 1.0 - float(new[0] @ new[0]) / max(cost, 1e-300)
             if drop > 0.0:
@@ -114,8 +115,9 @@ def least_squares(
             damping *= 6.0
         if drop < 1e-6:
             break
-    J = ((values[1:] - values[0]) / 1e-5).T
-    errors = scale * np.sqrt(np.abs(np.linalg.pinv(J.T @ J).diagonal()))
+    slopes = ((values[1:] - values[0]) / 1e-5).T
+    covariance: Doubles = np.linalg.pinv(slopes.T @ slopes)
+    errors: Doubles = scale * np.sqrt(np.abs(np.diagonal(covariance)))
     return x, float(values[0] @ values[0]), errors
 
 
@@ -173,7 +175,9 @@ def _pieces(shot: int, ball: int, rows: Doubles) -> list[Any]:
     """The pieces of the rows of a track."""
     if len(rows) < 8:
         return []
-    speed = np.hypot(*np.gradient(rows[:, 1:], rows[:, 0], axis=0).T)
+    time: Doubles = rows[:, 0]
+    velocity = np.gradient(rows[:, 1], time), np.gradient(rows[:, 2], time)
+    speed: Doubles = np.hypot(velocity[0], velocity[1])
     sigma = _sigma(speed)
     found: list[Any] = []
     for begin, end in _cuts(rows, 1.0 / sigma**2):
@@ -219,7 +223,7 @@ def _cloth(pieces: Records) -> tuple[tuple[float, float], tuple[tuple[float, flo
     slowing = -(rolls["a"] * rolls["v"]).sum(axis=1) / speed
     A = np.stack([np.ones(len(rolls)), speed**2], axis=1)
     weight, law, covariance = 1.0 / np.maximum(rolls["a_error"], 0.005) ** 2, np.zeros(2), np.eye(2)
-    robust = np.ones(len(rolls))
+    robust, spread = np.ones(len(rolls)), 1.0
     for _ in range(20):
         covariance = np.linalg.inv(A.T @ (A * (weight * robust)[:, None]))
         law = covariance @ A.T @ (weight * robust * slowing)
@@ -381,7 +385,7 @@ def _cuts_of(shot: Recording, pieces: Records, ball: int, radius: float, table: 
     found: list[_Cut] = []
     for before, after in zip(pieces[:-1], pieces[1:]):
         # where the two quadratics come closest
-        times = np.linspace(before["end"] - 0.02, after["begin"] + 0.02, 121)
+        times: Doubles = np.linspace(before["end"] - 0.02, after["begin"] + 0.02, 121)
         (r_0, v_0), (r_1, v_1) = _state(before, times), _state(after, times)
         k = int(np.argmin(np.hypot(*(r_0 - r_1).T)))
         r, turn = 0.5 * (r_0[k] + r_1[k]), float(np.hypot(*(v_1[k] - v_0[k])))

@@ -108,7 +108,7 @@ def _fit_cushion(impacts: Records, radius: float, model: ShotCushion, start: Dou
     free = 1 if model == "mirror" else 3
 
     def residuals(sets: Doubles) -> Doubles:
-        rows = []
+        rows: list[Doubles] = []
         for given in sets:
             e, mu, height = np.clip([*given, *start[free:]], [0.05, 0.0, 1.0], [1.0, 1.0, 1.7])
             chi2 = predicted(impacts, radius, model, e, mu, height * radius)[:, 4]
@@ -132,7 +132,7 @@ def _cushion(
     start = np.array([first["restitution_cushion"], first["mu_cushion"], first["nose_height"] / radius])
     found = _fit_cushion(good, radius, model, start)
     # halves: the difference of two is twice the error of the whole
-    apart = []
+    apart: list[Doubles] = []
     for _ in range(_SPLITS):
         order = random.permutation(len(good))
         half = len(good) // 2

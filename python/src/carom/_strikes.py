@@ -68,7 +68,7 @@ class Plays:
     ) -> None:
         self.recordings = recordings
         self.radius = radius
-        self.workers = workers(threads) if threads else 1
+        self.threads, self.workers = threads, workers(threads) if threads else 1
         tracks = [track for shot in recordings for track in shot.tracks]
         self.centres = np.array([apart(shot.rest, table, radius) for shot in recordings])
         self.struck = np.array([shot.cue for shot in recordings], np.int32)
@@ -83,6 +83,12 @@ class Plays:
         """Takes other constants."""
         self.table = _constants.rectangle(self.table_size, constants["nose_height"])
         self.layouts = _constants.layout(self.centres, self.radius, constants)
+
+    def some(self, rows: Integers) -> Plays:
+        """Some of the shots, with the usual constants."""
+        shots = [self.recordings[row] for row in rows]
+        usual = _constants.usual(self.cushion_model)
+        return Plays(shots, self.table_size, self.radius, usual, self.cushion_model, self.threads)
 
     def misfit(
         self, of: Integers, strikes: Doubles, until: Doubles, most: Doubles, *, huber: float = HUBER, stride: int = 1

@@ -15,7 +15,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -28,10 +28,11 @@ from carom.tracks import Recording, TrackError, events, read
 
 __all__ = ["Fit", "fit", "main"]
 
-Free = Literal["none", "default"]
+Free = Literal["none", "default", "joint"]
 Progress = Callable[[str, float], None]
 # What a constant that is found by whole shots is off by for synthetic recordings, where the other constants are a little wrong.
 _BY_SHOTS = {"mu_spin": 3e-4, "mu_ball": 2e-3}
+_GENERATIONS, _OF_HALVES = 90, 30  # of the joint search, by all shots and by each half of them
 _FASTEST = 8.0  # m/s: no ball is faster
 
 
@@ -112,7 +113,7 @@ class Fit:
 
     def to_dict(self) -> dict[str, Any]:
         """What the command writes, of numbers that JSON has."""
-        shots = []
+        shots: list[dict[str, Any]] = []
         for recording, strike, status, rmse in zip(self.recordings, self.strikes, self.status, self.rmse):
             found = bool(np.isfinite(strike).all())
             v_x, v_y, w_x, w_y, w_z, start = strike.tolist()
@@ -164,6 +165,22 @@ def _by_shots(
     return found, {name: math.hypot(0.5 * (halves[0][name] - halves[1][name]), method) for name, method in _BY_SHOTS.items()}
 
 
+def _together(
+    plays: _strikes.Plays, strikes: Doubles, values: dict[str, float], rows: list[int], seed: int, progress: Progress | None
+) -> tuple[dict[str, float], dict[str, float]]:
+    """All constants, fitted together, and their errors: half the difference of halves."""
+
+    def search(some: list[int], generations: int, told: Progress | None = None) -> dict[str, float]:
+        return _joint.together(_joint.Objective(plays, strikes, values, some), generations, seed, told)
+
+    found = search(rows, _GENERATIONS, progress)
+    if len(rows) < 8:
+        return found, {}
+    order = np.random.default_rng(seed).permutation(rows)
+    halves = [search(sorted(half.tolist()), _OF_HALVES) for half in np.array_split(order, 2)]
+    return found, {name: 0.5 * abs(halves[0][name] - halves[1][name]) for name in _joint.DEVIATIONS if name in found}
+
+
 def fit(
     recordings: Sequence[Recording],
     table: tuple[float, float],
@@ -189,9 +206,10 @@ def fit(
     cushion_model : {"mathavan", "stronge", "han", "mirror"}
     constants : mapping, optional
         What is known; the usual ones for what is not given.
-    free : {"none", "default"}
+    free : {"none", "default", "joint"}
         What is fitted: "none", each shot's strike alone; "default", also the constants that single events tell (mu_slide, mu_roll,
-        restitution, those of the cushion), and mu_spin and mu_ball by whole shots. What too few events tell stays as given.
+        restitution, those of the cushion), and mu_spin and mu_ball by whole shots. What too few events tell stays as given. "joint": from there, all constants together by
+        whole shots, which fits better as constants absorb what the models leave out; needs the package cma.
     seed : int
         Of what is drawn: the same seed, the same bits.
     threads : int
@@ -220,8 +238,8 @@ def fit(
         )
     if not (min(table) > 4.0 * radius > 0.0):
         raise ValueError(f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, and those above 0")
-    if free not in ("none", "default"):
-        raise ValueError(f"free: must be 'none' or 'default', not {free!r}")
+    if free not in ("none", "default", "joint"):
+        raise ValueError(f"free: must be 'none', 'default' or 'joint', not {free!r}")
     values = _constants.complete(constants or {}, cushion_model)
     spread: dict[str, float] = {}
     status = [_status(shot, radius) for shot in recordings]
@@ -229,19 +247,23 @@ def fit(
     strikes, rmse = np.full((len(recordings), 6), np.nan), np.full(len(recordings), np.nan)
     if played:
         shots = [recordings[k] for k in played]
-        if free == "default":
+        if free != "none":
             if progress:
                 progress("events", 0.0)
             measured, spread = _from_events.measured(events(shots, table, radius), radius, cushion_model, seed)
             values = {**values, **measured}
         plays = _strikes.Plays(shots, table, radius, values, cushion_model, threads)
         found, _ = _strikes.find(plays, progress)
-        if free == "default":
+        if free != "none":
             counted = [row for row, k in enumerate(played) if status[k] == "ok"]
             values, by_shots = _by_shots(plays, found, values, counted, np.random.default_rng(seed), progress)
             spread = {**spread, **by_shots}
             plays.set(values)
             found, _ = _strikes.find(plays, progress)
+            if free == "joint":
+                values, spread = _together(plays, found, values, counted, seed, progress)
+                plays.set(values)
+                found, _ = _strikes.find(plays, progress)
         strikes[played] = _strikes.polish(plays, found)
         rmse[played] = plays.rmse(strikes[played])
     for k in played:
@@ -261,14 +283,14 @@ def _extents(text: str) -> tuple[float, float]:
 def _read_constants(path: Path) -> dict[str, float]:
     """Constants of a JSON file: an object of them, or what this command wrote."""
     try:
-        given = json.loads(path.read_text(encoding="utf-8"))
+        given: Any = json.loads(path.read_text(encoding="utf-8"))
     except ValueError as error:
         raise TrackError(f"{path}: no JSON ({error})") from None
     if isinstance(given, dict) and isinstance(given.get("constants"), dict):
         given = given["constants"]
     if not isinstance(given, dict):
         raise TrackError(f'{path}: an object of constants is needed, such as {{"mu_slide": 0.2}}')
-    return given
+    return cast(dict[str, float], given)
 
 
 def _show(what: str, part: float) -> None:
@@ -283,7 +305,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
     parser.add_argument("--cushion-model", default="han", choices=["mathavan", "stronge", "han", "mirror"])
     parser.add_argument("--constants", type=Path, metavar="IN.json", help="known constants; the usual ones otherwise")
-    parser.add_argument("--free", default="default", choices=["none", "default"], help="what is fitted besides the strikes")
+    parser.add_argument("--free", default="default", choices=["none", "default", "joint"], help="what is fitted besides the strikes")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--threads", type=int, default=0, help="0: one; -1: all processors")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT.json")
