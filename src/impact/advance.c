@@ -35,6 +35,7 @@ static const double MOST_GROWTH = 6.9;   /* carom_point.growth: log of 1000 */
 static const double AGAIN = 1e-6;        /* v in restitution of a ball that approaches again: a second compression */
 enum {
   MOST_REFUSALS = 6,         /* in a row, before steps become careful; */
+  MOST_MISSED = 3,           /* steps to stick that diverged, as a only passes near zero, before the same; */
   MOST_CAREFUL_REFUSALS = 30 /* and before careful ones give up */
 };
 
@@ -335,7 +336,8 @@ static bool next_step(carom_trajectory *path, double to) {
   } else /* the error is of order 16 in the length */
     path->longest = n.s.length * (r == INACCURATE && advice < 1e12 ? most_of(0.3, 0.9 / sqrt(sqrt(sqrt(sqrt(advice))))) : 0.5);
   path->refusals++;
-  if (path->refusals == MOST_REFUSALS && !path->careful) {
+  path->sticks_missed += r == DIVERGED && n.s.goal == AT_STICK;
+  if ((path->refusals == MOST_REFUSALS || path->sticks_missed == MOST_MISSED) && !path->careful) {
     path->careful = true;
     path->refusals = 0;
     path->longest = INFINITY;
