@@ -333,7 +333,8 @@ typedef struct carom_detail {
 } carom_detail;
 
 /* carom_collide that also tells how it went. `*detail` is filled whatever the status, with 0 and NaN where nothing was solved.
- * `detail` may be NULL. */
+ * `detail` may be NULL. Works overflow to infinity
+ * above 1e150 m/s. */
 CAROM_API carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt, carom_result *out,
                                             carom_detail *detail);
 

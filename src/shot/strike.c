@@ -30,6 +30,10 @@ carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, car
   const carom_status bad = carom_check_cue(cue);
   if (bad != CAROM_OK)
     return bad;
+  if (!positive(kind->mass))
+    return CAROM_ERROR_MASS;
+  if (!positive(kind->radius))
+    return CAROM_ERROR_RADIUS;
   const double a = cue->a, b = cue->b, inside = 1.0 - a * a;
   double sin_phi, cos_phi, sin_theta, cos_theta;
   carom_sincos_degrees(cue->phi, &sin_phi, &cos_phi);
@@ -38,7 +42,10 @@ carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, car
   /* squirt as a turn of v, by its sine and cosine */
   const double aside = -2.5 * a * sqrt(inside), ahead = 1.0 + kind->mass / cue->end_mass + 2.5 * inside;
   const double size = sqrt(aside * aside + ahead * ahead), s = aside / size, c = ahead / size;
-  const double turn = 2.5 * V / kind->radius, x = turn * b, y = turn * a * sin_theta;
+  const double turn = 2.5 * V / kind->radius;
+  if (!(size < INFINITY && fabs(turn) < INFINITY))
+    return CAROM_ERROR_OVERFLOW;
+  const double x = turn * b, y = turn * a * sin_theta;
   *out = (carom_motion){.v = {V * cos_theta * (cos_phi * c - sin_phi * s), V * cos_theta * (sin_phi * c + cos_phi * s), 0.0},
                         .w = {-x * sin_phi - y * cos_phi, x * cos_phi - y * sin_phi, -turn * a * cos_theta}};
   return CAROM_OK;

@@ -203,6 +203,24 @@ static void ends_there(const carom_shot *shot, int count) {
   }
 }
 
+/* A strike of a ball that cannot be, or whose spin overflows. */
+START_TEST(strikes_of_bad_balls) {
+  const carom_cue usual = carom_cue_of(CAROM_GAME_POOL);
+  carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
+  carom_motion out = {.v = {7}};
+  kind.radius = 0;
+  ck_assert_int_eq(carom_strike(&usual, &kind, &out), CAROM_ERROR_RADIUS);
+  kind.radius = 1e-309;
+  ck_assert_int_eq(carom_strike(&usual, &kind, &out), CAROM_ERROR_OVERFLOW);
+  kind.radius = 0.03;
+  kind.mass = NAN;
+  ck_assert_int_eq(carom_strike(&usual, &kind, &out), CAROM_ERROR_MASS);
+  kind.mass = 1.7e308;
+  ck_assert_int_eq(carom_strike(&usual, &kind, &out), CAROM_ERROR_OVERFLOW);
+  ck_assert(out.v[0] == 7);
+}
+END_TEST
+
 /* A bound ends a shot with its status and a valid state; a shot without a strike is none. */
 START_TEST(bounds) {
   set_up();
@@ -493,6 +511,6 @@ START_TEST(wild_shots) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, bounds, lost_ball, measures, places,
-                   wild_shots);
+  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, strikes_of_bad_balls, bounds, lost_ball,
+                   measures, places, wild_shots);
 }

@@ -66,8 +66,8 @@ def rectangle(size: tuple[float, float], nose_height: float) -> Table:
 
 
 def layout(centres: dtypes.Doubles, radius: float, constants: Mapping[str, float]) -> dtypes.Records:
-    """Balls at rest at centres of shape (..., balls, 2), of shape (..., balls)."""
-    made = balls(centres, game="billiard", radius=radius)
+    """Balls at rest at centres of shape (..., balls, 2), of shape (..., balls). What is no constant, such as drag, is 0."""
+    made = balls(centres, game="pooltool_billiard", radius=radius)
     for name, value in constants.items():
         if name != "nose_height":
             made["kind"][name] = value

@@ -168,7 +168,8 @@ def _free(track: Doubles, moves: float, low: float, high: Doubles) -> Doubles:
     """The rows of a track that tell of the motion: since it moves, before the last one, and not clamped to a cushion."""
     rows = track[track[:, 0] >= moves][:-1]
     clamped = (np.abs(rows[:, 1:] - low) < 1e-5) | (np.abs(rows[:, 1:] - high) < 1e-5)
-    return rows[~clamped.any(axis=1)]
+    kept: Doubles = rows[~clamped.any(axis=1)]
+    return kept
 
 
 def _pieces(shot: int, ball: int, rows: Doubles) -> list[Any]:

@@ -151,7 +151,9 @@ class Plays:
         """Root of the mean squared distance over all samples of each shot, m, shape (shots,); inf where the play is in error."""
         count = len(strikes)
         sums = self.misfit(np.arange(count, dtype=np.int32), strikes, self.ends, np.full(count, -np.inf))
-        return np.sqrt(sums[:, 1] / np.maximum(sums[:, 2], 1.0))
+        mean: Doubles = sums[:, 1] / np.maximum(sums[:, 2], 1.0)
+        root: Doubles = np.sqrt(mean)
+        return root
 
 
 def apart(rest: Doubles, table: tuple[float, float], radius: float) -> Doubles:

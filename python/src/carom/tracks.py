@@ -259,7 +259,7 @@ class Synthetic:
 def _record(positions: Callable[[Doubles], Doubles], end: float, rate: float, thin: float, low: float, high: Doubles,
             noise: float, random: np.random.Generator) -> tuple[Doubles, ...]:  # fmt: skip
     """The tracks that a camera gives of balls at positions(times), with the traps."""
-    times = np.arange(0.0, end + 1.0 / rate, 1.0 / rate)
+    times: Doubles = np.arange(0.0, end + 1.0 / rate, 1.0 / rate, dtype=np.float64)
     seen = positions(times)
     seen = np.clip(seen + random.normal(0.0, noise, seen.shape), low, high)
     tracks: list[Doubles] = []
