@@ -31,7 +31,7 @@ strange() { "$@" 2>&1 > /dev/null | LC_ALL=C sed 's/[^ -~]/<a byte>/g'; }
 bad="0,0,0.03,0,1,0,0,0,0,0,0.06,0.03,0,0,0,0,0,0,0.03,0,0.2,0.2,0.05,0.95"
 {
   echo "$header"
-  for size in 60 61 63 64 65 68 69 300; do printf "%${size}s,%s\n" "$size" "$bad" | tr ' ' x; done
+  for size in 60 61 63 64 65 68 69 300; do printf "%${size}s,%s\n" "$size" "$bad" | tr ' ' _; done
   printf '\033[2J\007\tid \302\233\302\240\177,%s\nw,\033[31m%s\n' "$bad" "$bad"
 } > ids.csv
 strange carom resolve ids.csv

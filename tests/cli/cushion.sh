@@ -17,7 +17,7 @@ row=",1,1,0,0,0,0,0.028,-1,0.036,0.2,0.2,0.9"
 {
   head -n 1 impacts.csv
   printf '\033[2J\302\233id%s\n' "$row"
-  printf "%60s$row\n%61s$row\n%300s$row\n" . . . | tr ' ' x
+  printf "%60s$row\n%61s$row\n%300s$row\n" . . . | tr ' ' _
 } > ids.csv
 carom resolve --cushion ids.csv 2>&1 > ids.out | LC_ALL=C sed 's/[^ -~]/<a byte>/g'
 cut -d, -f1 ids.csv > ids
