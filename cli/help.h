@@ -4,28 +4,28 @@
 
 #include "kind.h"
 
-#define COLLISION_COLUMNS_HELP                                                                                       \
-  "columns of CSV for collisions of two balls, by name in any order (others are ignored), SI units:\n"               \
-  "  id                   optional; the number of the row if absent\n"                                               \
-  "  r1x r1y r1z          centre of ball 1, m; likewise r2x ... for ball 2\n"                                        \
-  "  v1x v1y v1z          velocity, m/s; v1z must be 0\n"                                                            \
-  "  w1x w1y w1z          angular velocity, rad/s\n"                                                                 \
-  "  R M                  radius, m, and mass, kg (or R1 and R2, which must be equal, and M1 and M2)\n"              \
-  "  u_s1 u_s2            friction of each ball with the cloth, 0 to 1 (or u_s for both)\n"                          \
-  "  u_b e_b              friction between the balls, and restitution, 0 to 1\n"                                     \
-  "A row of an array IN.npy, shape (n, 26), holds the numbers of carom_impact: r1, v1, w1, R, M, u_s1, the same of " \
-  "ball 2, u_b, e_b.\n"
-
-#define IMPACT_COLUMNS_HELP                                                                                                 \
-  "columns of CSV for impacts on a cushion, with --cushion:\n"                                                              \
+#define COLLISION_COLUMNS_HELP                                                                                              \
+  "columns of CSV for collisions of two balls, by name in any order (others are ignored), SI units:\n"                      \
   "  id                   optional; the number of the row if absent\n"                                                      \
-  "  vx vy vz wx wy wz    velocity, m/s (vz must be 0), and angular velocity, rad/s\n"                                      \
-  "  nx ny                horizontal direction into the cushion, of any length; default: 0 1\n"                             \
-  "  R M h                radius, m, mass, kg, and height of the nose above the cloth, m\n"                                 \
-  "  mu_s mu_w e          friction with the cloth and with the cushion, and restitution, 0 to 1\n"                          \
-  "  rho                  radius of a jaw, m; default: 0, a straight rail\n"                                                \
-  "A row of an array IN.npy, shape (n, 15), holds the numbers of carom_cushion_impact: v, w, nx, ny, h, R, M, mu_s, mu_w, " \
-  "e, rho.\n"
+  "  r1x r1y r1z          centre of ball 1, m; likewise r2x ... for ball 2\n"                                               \
+  "  v1x v1y v1z          velocity, m/s; v1z must be 0\n"                                                                   \
+  "  w1x w1y w1z          angular velocity, rad/s\n"                                                                        \
+  "  R M                  radius, m, and mass, kg (or R1 and R2, which must be equal, and M1 and M2)\n"                     \
+  "  u_s1 u_s2            friction of each ball with the cloth, 0 to 1 (or u_s for both)\n"                                 \
+  "  u_b e_b              friction between the balls, and restitution, 0 to 1\n"                                            \
+  "An array IN.npy has the shape (n, 26). A row holds the numbers of carom_impact in their order: r1, v1, w1, R, M, u_s1, " \
+  "the same of ball 2, u_b, e_b.\n"
+
+#define IMPACT_COLUMNS_HELP                                                                                                  \
+  "columns of CSV for impacts on a cushion, with --cushion:\n"                                                               \
+  "  id                   optional; the number of the row if absent\n"                                                       \
+  "  vx vy vz wx wy wz    velocity, m/s (vz must be 0), and angular velocity, rad/s\n"                                       \
+  "  nx ny                horizontal direction into the cushion, of any length; default: 0 1\n"                              \
+  "  R M h                radius, m, mass, kg, and height of the nose above the cloth, m\n"                                  \
+  "  mu_s mu_w e          friction with the cloth and with the cushion, and restitution, 0 to 1\n"                           \
+  "  rho                  radius of a jaw, m; default: 0, a straight rail\n"                                                 \
+  "An array IN.npy has the shape (n, 15). A row holds the numbers of carom_cushion_impact in their order: v, w, nx, ny, h, " \
+  "R, M, mu_s, mu_w, e, rho.\n"
 
 #define RESOLVE_ABOUT                                                                                                         \
   "Reads one collision a row and writes the state after it. IN is a CSV file, - for CSV on standard input, or a NumPy "       \
@@ -37,8 +37,8 @@
   "  status is ok, separating (the balls do not approach; their state is unchanged) or the name of an error, with nan for " \
   "the numbers. Each number reads back to the same double.\n"
 
-#define RESOLVE_EXIT_HELP                                                                                               \
-  "exit code: 0 if every row is ok or separating, 1 if some rows are in error (each of the first thousand is named on " \
-  "standard error, the others are resolved), 2 for bad usage or unreadable input\n"
+#define RESOLVE_EXIT_HELP                                                                                             \
+  "exit code: 0 if every row is ok or separating, 1 if some rows are in error, 2 for bad usage or unreadable input. " \
+  "Rows in error are named on standard error, at most a thousand of them; the other rows are resolved.\n"
 
 #endif

@@ -11,7 +11,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-enum { MOST_NUMBERS = 26, MOST_RESULTS = 12, MOST_DERIVED = 9, MOST_POINT = 23, NO_PARTNER = -1 };
+enum { MOST_NUMBERS = 26, MOST_RESULTS = 12, MOST_DERIVED = 9, MOST_POINT = 23, NO_NUMBER = -1 };
 
 /* The numbers of a carom_result by the names of their columns. */
 #define RESULT_COLUMNS "v1x,v1y,v1z,w1x,w1y,w1z,v2x,v2y,v2z,w2x,w2y,w2z"
@@ -19,7 +19,7 @@ enum { MOST_NUMBERS = 26, MOST_RESULTS = 12, MOST_DERIVED = 9, MOST_POINT = 23, 
 /* The columns of CSV that fill one number. */
 typedef struct column {
   const char *name, *both; /* its own; one that fills the numbers of both balls, or NULL */
-  int partner;             /* the other number that `both` fills, or without which this one is missing; or NO_PARTNER */
+  int partner;             /* the other number that `both` fills, or without which this one is missing; or NO_NUMBER */
   bool optional;           /* may be missing: the number is then the kind's default */
 } column;
 
@@ -37,7 +37,7 @@ typedef struct row_kind {
   int numbers, results;          /* doubles of a row, and of its results: a velocity and a spin for each ball */
   const column *columns;         /* of the numbers */
   const double *defaults;        /* what optional numbers are where they are missing */
-  int radius, height, motion[2]; /* places of R, of the nose or NO_PARTNER, and of each ball's velocity with its spin behind */
+  int radius, height, motion[2]; /* places of R, of the nose or NO_NUMBER, and of each ball's velocity with its spin behind */
   const char *result_columns;    /* separated by commas */
   bool has_single;               /* the library solves it in single precision; else results are rounded */
 

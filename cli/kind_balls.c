@@ -11,15 +11,14 @@ enum { NUMBERS = sizeof(carom_impact) / sizeof(double), RESULTS = sizeof(carom_r
 enum { RADIUS = 9, MASS = 10, CLOTH = 11, SECOND = 12, POINT = 23 };
 
 #define OF_BALL(n, other)                                                                                                     \
-  {"r" n "x", 0, NO_PARTNER, 0}, {"r" n "y", 0, NO_PARTNER, 0}, {"r" n "z", 0, NO_PARTNER, 0}, {"v" n "x", 0, NO_PARTNER, 0}, \
-      {"v" n "y", 0, NO_PARTNER, 0}, {"v" n "z", 0, NO_PARTNER, 0}, {"w" n "x", 0, NO_PARTNER, 0},                            \
-      {"w" n "y", 0, NO_PARTNER, 0}, {"w" n "z", 0, NO_PARTNER, 0}, {"R" n, "R", (other) + RADIUS, 0},                        \
-      {"M" n, "M", (other) + MASS, 0}, {                                                                                      \
+  {"r" n "x", 0, NO_NUMBER, 0}, {"r" n "y", 0, NO_NUMBER, 0}, {"r" n "z", 0, NO_NUMBER, 0}, {"v" n "x", 0, NO_NUMBER, 0},     \
+      {"v" n "y", 0, NO_NUMBER, 0}, {"v" n "z", 0, NO_NUMBER, 0}, {"w" n "x", 0, NO_NUMBER, 0}, {"w" n "y", 0, NO_NUMBER, 0}, \
+      {"w" n "z", 0, NO_NUMBER, 0}, {"R" n, "R", (other) + RADIUS, 0}, {"M" n, "M", (other) + MASS, 0}, {                     \
     "u_s" n, "u_s", (other) + CLOTH, 0                                                                                        \
   }
 
 static const column columns[NUMBERS] = {
-    OF_BALL("1", SECOND), OF_BALL("2", 0), {"u_b", 0, NO_PARTNER, 0}, {"e_b", 0, NO_PARTNER, 0}};
+    OF_BALL("1", SECOND), OF_BALL("2", 0), {"u_b", 0, NO_NUMBER, 0}, {"e_b", 0, NO_NUMBER, 0}};
 static const double defaults[NUMBERS] = {0};
 
 /* The options of the library for one of the solvers asked for. */
@@ -148,7 +147,7 @@ const row_kind ball_kind = {
     .columns = columns,
     .defaults = defaults,
     .radius = RADIUS,
-    .height = NO_PARTNER,
+    .height = NO_NUMBER,
     .motion = {3, SECOND + 3},
     .result_columns = RESULT_COLUMNS,
     .has_single = true,

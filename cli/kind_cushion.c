@@ -12,7 +12,7 @@ enum { NUMBERS = sizeof(carom_cushion_impact) / sizeof(double), RESULTS = sizeof
 enum { DERIVED = 6, POINT = 13, NORMAL = 6, HEIGHT = 8, RADIUS = 9, MASS = 10, AT_ONCE = 512 };
 
 #define PLAIN(name) \
-  { name, NULL, NO_PARTNER, false }
+  { name, NULL, NO_NUMBER, false }
 static const column columns[NUMBERS] = {PLAIN("vx"),
                                         PLAIN("vy"),
                                         PLAIN("vz"),
@@ -27,7 +27,7 @@ static const column columns[NUMBERS] = {PLAIN("vx"),
                                         PLAIN("mu_s"),
                                         PLAIN("mu_w"),
                                         PLAIN("e"),
-                                        {"rho", NULL, NO_PARTNER, true}};
+                                        {"rho", NULL, NO_NUMBER, true}};
 static const double defaults[NUMBERS] = {[NORMAL + 1] = 1.0};
 
 static const char *name(const shared_options *asked, int variant) {
@@ -159,7 +159,7 @@ const row_kind cushion_kind = {
     .defaults = defaults,
     .radius = RADIUS,
     .height = HEIGHT,
-    .motion = {0, NO_PARTNER},
+    .motion = {0, NO_NUMBER},
     .result_columns = "vx,vy,vz,wx,wy,wz",
     .name = name,
     .check = check,

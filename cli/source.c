@@ -77,7 +77,7 @@ static const char *meant_by(const row_kind *kind, const record *header, const ch
 static bool is_missing(const row_source *s, int number) {
   const column *c = &s->kind->columns[number];
   const bool named = c->both != NULL && c->partner < number && strcmp(s->column[number], s->column[c->partner]) == 0;
-  const bool half = c->optional && c->partner != NO_PARTNER && s->at[c->partner] != SIZE_MAX;
+  const bool half = c->optional && c->partner != NO_NUMBER && s->at[c->partner] != SIZE_MAX;
   const bool by_option = s->asked->friction.given && strcmp(c->name, "u_b") == 0;
   return s->at[number] == SIZE_MAX && (half || !c->optional) && !named && !by_option;
 }

@@ -30,7 +30,7 @@ static const double SETTLING = 10;       /* D p / r of a quasi-steady step whose
 static const double NEGLIGIBLE = 1e-7;   /* r sin(psi) that need not settle first */
 static const double SLOW = 0.5;          /* rate of a slip over that by friction alone, below which it is quasi-steady */
 static const double CAREFUL_SHARE = 0.6; /* of the way to a slip of zero, for a careful step */
-static const double AT_ONCE = 1e-9;      /* share of a step at which an event happens where the step begins */
+static const double IMMEDIATE = 1e-9;    /* share of a step at which an event happens where the step begins */
 static const double MOST_GROWTH = 6.9;   /* carom_point.growth: log of 1000 */
 static const double AGAIN = 1e-6;        /* v in restitution of a ball that approaches again: a second compression */
 enum {
@@ -40,9 +40,9 @@ enum {
 };
 
 /* The kinds of steps, compiled one by one so that each leaves out what it does not need. */
-typedef enum refusal step_kind(const carom_terms *, const step *, carom_point *, int *, double *);
+typedef enum outcome step_kind(const carom_terms *, const step *, carom_point *, int *, double *);
 #define KIND(name, slips, loaded, exact)                                                                                    \
-  static __attribute__((noinline)) enum refusal name(const carom_terms *k, const step *s, carom_point *at, int *iterations, \
+  static __attribute__((noinline)) enum outcome name(const carom_terms *k, const step *s, carom_point *at, int *iterations, \
                                                      double *advice) {                                                      \
     return take_step(k, s, slips, loaded, exact, at, iterations, advice);                                                   \
   }
@@ -319,7 +319,7 @@ static bool next_step(carom_trajectory *path, double to) {
   else
     plan_held(path, &s, &n);
   double advice = 1;
-  const enum refusal r = n.kind(&path->terms, &n.s, &path->at, &path->iterations, &advice);
+  const enum outcome r = n.kind(&path->terms, &n.s, &path->at, &path->iterations, &advice);
   if (r == TAKEN) {
     path->longest = INFINITY;
     path->refusals = 0;
@@ -331,7 +331,7 @@ static bool next_step(carom_trajectory *path, double to) {
   }
   if (r == EVENT_WITHIN) {
     path->event_at = path->at.p + advice;
-    if (advice < AT_ONCE * s.to_goal)
+    if (advice < IMMEDIATE * s.to_goal)
       return carom_impact_regime(path, true);
   } else /* the error is of order 16 in the length */
     path->longest = n.s.length * (r == INACCURATE && advice < 1e12 ? most_of(0.3, 0.9 / sqrt(sqrt(sqrt(sqrt(advice))))) : 0.5);

@@ -266,15 +266,15 @@ static carom_terms terms_of(const carom_law *l, const carom_regime *r) {
   return k;
 }
 
-bool carom_impact_jams(const carom_trajectory *way) {
-  const carom_point *at = &way->at;
-  return fabs(at->v) + fabs(at->a_x) + fabs(at->a_y) + fabs(at->b_x) + fabs(at->b_y) < NEARLY_JAMMED && both_hold(&way->law);
+bool carom_impact_jams(const carom_trajectory *path) {
+  const carom_point *at = &path->at;
+  return fabs(at->v) + fabs(at->a_x) + fabs(at->a_y) + fabs(at->b_x) + fabs(at->b_y) < NEARLY_JAMMED && both_hold(&path->law);
 }
 
-bool carom_impact_regime(carom_trajectory *way, bool event) {
-  if (!choose(&way->law, &way->at, event, &way->regime))
+bool carom_impact_regime(carom_trajectory *path, bool event) {
+  if (!choose(&path->law, &path->at, event, &path->regime))
     return false;
-  way->terms = terms_of(&way->law, &way->regime);
-  way->event_at = INFINITY;
+  path->terms = terms_of(&path->law, &path->regime);
+  path->event_at = INFINITY;
   return true;
 }

@@ -41,7 +41,7 @@ static const double TOLERANCE_EXACT = 1e-9; /* and where the step is exact */
 static const double SETTLED = 1e-6;         /* last correction of the length, as a share of it */
 static const double EVENT_TOLERANCE = 1e-8; /* event function that does not yet end a regime, */
 static const double LATE = 1e-5;            /* and within a step that ends at its event */
-static const double AT_REST = 1e-8;         /* v that counts as 0 where the cloth's slip has come to rest */
+static const double NEARLY_STOPPED = 1e-8;  /* v that counts as 0 where the cloth's slip has come to rest */
 static const double NEAR =
     3e-3; /* correction, of directions and of the length, after which Newton's method updates inverse lengths, */
 static const double FRESH = 0.02; /* and that after which an exact step keeps its matrix */
@@ -58,7 +58,7 @@ enum goal {
   AT_EVENT            /* where the regime ends: carom_terms.event */
 };
 
-enum refusal { TAKEN, DIVERGED, INACCURATE, EVENT_WITHIN, BEYOND_PHASE /* of compression or restitution */ };
+enum outcome { TAKEN, DIVERGED, INACCURATE, EVENT_WITHIN, BEYOND_PHASE /* of compression or restitution */ };
 
 /* For which directions the iteration solves Newton's equations exactly. */
 enum exact { FOR_NONE, FOR_U, FOR_BOTH };
@@ -274,7 +274,7 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
 /* Takes a step from *at. slips: the driving contact slips; loaded: the cloth bears a load, and slips. A refused step leaves *at
  * as it is; then *advice is, for INACCURATE, the squared error estimate over the tolerance, and for EVENT_WITHIN the p from
  * here to the event. */
-always enum refusal take_step(const carom_terms *terms, const step *s, const bool slips, const bool loaded,
+always enum outcome take_step(const carom_terms *terms, const step *s, const bool slips, const bool loaded,
                               const enum exact exact, carom_point *at, int *iterations, double *advice) {
   const carom_terms k = *terms;
   iterate c;
@@ -320,9 +320,9 @@ always enum refusal take_step(const carom_terms *terms, const step *s, const boo
       else
         EACH {
           const part zw = (scale * s->z[i]) * c.w[i];
-          const part w_t = slips ? splat(0) : zw * k.w_t * c.t_x[i] / (1 - k.w_t * c.t_y[i]);
-          D_x[i] = k.H_x * (zw * c.t_y[i] - w_t * c.t_x[i]);
-          D_y[i] = -k.H_y * (zw * c.t_x[i] + w_t * c.t_y[i]);
+          const part zw_t = slips ? splat(0) : zw * k.w_t * c.t_x[i] / (1 - k.w_t * c.t_y[i]);
+          D_x[i] = k.H_x * (zw * c.t_y[i] - zw_t * c.t_x[i]);
+          D_y[i] = -k.H_y * (zw * c.t_x[i] + zw_t * c.t_y[i]);
           zk[i] = c.t_y[i] * D_x[i] - c.t_x[i] * D_y[i];
         }
       if (exact == FOR_BOTH)
@@ -391,7 +391,7 @@ always enum refusal take_step(const carom_terms *terms, const step *s, const boo
     to.a_x = to.a_y = 0;
   if (s->goal == AT_CLOTH_STICK)
     to.b_x = to.b_y = 0;
-  if (s->goal == AT_END_OF_APPROACH || (s->goal == AT_CLOTH_STICK && fabs(to.v) < AT_REST))
+  if (s->goal == AT_END_OF_APPROACH || (s->goal == AT_CLOTH_STICK && fabs(to.v) < NEARLY_STOPPED))
     to.v = 0;
   else if (s->goal != AT_WORK && (s->restitution ? to.W < s->least_work : to.v < 0))
     return BEYOND_PHASE;
