@@ -6,7 +6,6 @@
 #include "npy.h"
 #include "number.h"
 #include "precision.h"
-#include "suggest.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -61,18 +60,6 @@ static bool find_column(row_source *s, const record *header, int number) {
   return true;
 }
 
-/* A column that may have been meant by a missing one, or NULL. */
-static const char *meant_by(const row_kind *kind, const record *header, const char *missing) {
-  for (size_t k = 0; k < header->count; k++) {
-    bool known = strcmp(header->field[k], "id") == 0;
-    for (int number = 0; number < kind->numbers && !known; number++)
-      known = kind_fills(kind, number, header->field[k]);
-    if (!known && resembles(header->field[k], missing))
-      return header->field[k];
-  }
-  return NULL;
-}
-
 /* Whether the number must have a column but has none. */
 static bool is_missing(const row_source *s, int number) {
   const column *c = &s->kind->columns[number];
@@ -83,7 +70,7 @@ static bool is_missing(const row_source *s, int number) {
 }
 
 static bool find_columns(row_source *s, const record *header) {
-  char missing[256] = " ", meant[160] = "";
+  char missing[256] = " ";
   size_t unused;
   if (record_is_numbers(header)) {
     complain("%s:%lld: no header: the first row holds numbers; the names of the columns come first (`%s resolve --help` lists "
@@ -97,19 +84,15 @@ static bool find_columns(row_source *s, const record *header) {
   for (int number = 0; number < s->kind->numbers; number++)
     if (!find_column(s, header, number))
       return false;
-  /* Every column that is missing is named, and what may have been meant by the first. */
+  /* Every column that is missing is named. */
   for (int number = 0; number < s->kind->numbers; number++)
-    if (is_missing(s, number)) {
-      const char *name = s->column[number], *other = meant_by(s->kind, header, name);
-      if (other != NULL && meant[0] == '\0')
-        snprintf(meant, sizeof meant, "is '%.60s' meant to be %s? ", other, name);
-      strcat(strcat(missing, name), " ");
-    }
+    if (is_missing(s, number))
+      strcat(strcat(missing, s->column[number]), " ");
   if (missing[1] == '\0')
     return true;
-  if (!find_once(header, s->name, s->kind->clue, &unused) || unused != SIZE_MAX)
-    snprintf(meant, sizeof meant, "%s", s->kind->meant);
-  complain("%s:%lld: missing columns:%s(%s%s; `%s resolve --help` lists them)", s->name, header->line, missing, meant,
+  const bool other = !find_once(header, s->name, s->kind->clue, &unused) || unused != SIZE_MAX;
+  complain("%s:%lld: missing columns:%s(%s%s; `%s resolve --help` lists them)", s->name, header->line, missing,
+           other ? s->kind->meant : "",
            header->count > 1 ? "names are case-sensitive" : "the header is a single field, without commas", program_name);
   return false;
 }
