@@ -40,7 +40,7 @@ typedef struct row_kind {
   const double *defaults;        /* what optional numbers are where they are missing */
   int radius, height, motion[2]; /* places of R, of the nose or NO_NUMBER, and of each ball's velocity with its spin behind */
   const char *result_columns;    /* separated by commas */
-  bool has_single;               /* the library solves it in single precision; else results are rounded */
+  bool has_single;               /* it can be solved in single precision; else results are rounded */
 
   /* How it is resolved: for the column `which`, where `variant` counts those asked for. */
   const char *(*name)(const shared_options *asked, int variant);
@@ -48,7 +48,7 @@ typedef struct row_kind {
   carom_status (*check)(const void *in, const shared_options *asked, int *field);
   /* Sets the numbers that options say instead of columns; may be NULL. */
   void (*prepare)(const shared_options *asked, void *in);
-  /* Resolves n rows, of floats where `single` is set. */
+  /* Resolves n rows, of floats where `single` is set, as it is only with `has_single`. */
   void (*solve)(const shared_options *asked, bool single, const void *in, size_t n, void *out, int8_t *status);
 
   /* --derived: names, how many, and the numbers. */

@@ -2,14 +2,13 @@
 #include "derived.h"
 #include "kind.h"
 #include "memory.h"
-#include "precision.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { NUMBERS = sizeof(carom_cushion_impact) / sizeof(double), RESULTS = sizeof(carom_motion) / sizeof(double) };
-enum { DERIVED = 6, POINT = 13, NORMAL = 6, HEIGHT = 8, RADIUS = 9, AT_ONCE = 512 };
+enum { DERIVED = 6, POINT = 13, NORMAL = 6, HEIGHT = 8, RADIUS = 9 };
 
 #define PLAIN(name) \
   { name, NULL, NO_NUMBER, false }
@@ -48,21 +47,10 @@ static carom_status check(const void *in, const shared_options *asked, int *fiel
   return carom_cushion_check(in, &options, field);
 }
 
-/* The library solves in double precision; rows of floats are converted, some at once. */
 static void solve(const shared_options *asked, bool single, const void *in, size_t n, void *out, int8_t *status) {
   const carom_cushion_options options = options_of(asked);
-  if (!single) {
-    carom_cushion_batch(in, n, &options, out, status);
-    return;
-  }
-  carom_cushion_impact wide[AT_ONCE];
-  carom_motion motion[AT_ONCE];
-  for (size_t k = 0, count; k < n; k += count) {
-    count = n - k < AT_ONCE ? n - k : AT_ONCE;
-    to_double((const float *)in + k * NUMBERS, wide, count * NUMBERS);
-    carom_cushion_batch(wide, count, &options, motion, status + k);
-    to_single(motion, (float *)out + k * RESULTS, count * RESULTS);
-  }
+  (void)single;
+  carom_cushion_batch(in, n, &options, out, status);
 }
 
 /* The angle of a velocity that leaves the cushion from its normal; a mirror keeps that of the velocity that came. */

@@ -33,7 +33,7 @@ typedef struct search {
 static void take(search *s, row_source *source, const source_block *block, size_t k, size_t which) {
   const row_kind *kind = kind_of(s->asked);
   double *row = s->row[which];
-  source_row(source, block, k, row);
+  memcpy(row, source_row(source, block, k), (size_t)kind->numbers * sizeof *row);
   const carom_status status = kind->check(row, s->asked, NULL);
   bool good = status == CAROM_OK && (block->note == NULL || block->note[k].error == NULL);
   /* What hardly was meant is warned of, or refused. */

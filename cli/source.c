@@ -5,7 +5,6 @@
 #include "message.h"
 #include "npy.h"
 #include "number.h"
-#include "precision.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -176,7 +175,7 @@ static read_result read_csv(row_source *s, source_block *block) {
   }
   for (block->count = 0; block->count < CSV_BLOCK; block->count++) {
     row_note *note = &block->note[block->count];
-    double *numbers = (double *)block->numbers + block->count * (size_t)s->kind->numbers;
+    double *numbers = source_row(s, block, block->count);
     if ((result = record_next(s->records, &in)) != READ_ONE)
       break;
     /* What is known of the row, and its numbers: the defaults, and over them what it says. */
@@ -193,31 +192,17 @@ static read_result read_csv(row_source *s, source_block *block) {
 static read_result read_array(row_source *s, source_block *block) {
   const size_t left = s->array.rows - s->next;
   if (block->numbers == NULL)
-    block->numbers = allocate(NPY_BLOCK, s->array.row_size);
+    block->numbers = allocate(NPY_BLOCK, (size_t)s->kind->numbers * sizeof(double));
   block->count = left < NPY_BLOCK ? left : NPY_BLOCK;
   return npy_read(&s->array, block->count, block->numbers) ? READ_ONE : READ_FAILED;
-}
-
-/* Sets what options say instead of columns. */
-static void prepare(const row_source *s, const source_block *block) {
-  const size_t width = (size_t)s->kind->numbers;
-  double row[MOST_NUMBERS];
-  for (size_t k = 0; k < block->count; k++) {
-    source_row(s, block, k, row);
-    s->kind->prepare(s->asked, row);
-    if (source_is_single(s))
-      to_single(row, (float *)block->numbers + k * width, width);
-    else
-      memcpy((double *)block->numbers + k * width, row, width * sizeof *row);
-  }
 }
 
 read_result source_read(row_source *s, source_block *block) {
   block->first = s->next;
   const read_result result = s->records != NULL ? read_csv(s, block) : read_array(s, block);
   s->next += block->count;
-  if (s->kind->prepare != NULL && s->asked->friction.given)
-    prepare(s, block);
+  for (size_t k = 0; s->kind->prepare != NULL && k < block->count; k++) /* what options say instead of columns */
+    s->kind->prepare(s->asked, source_row(s, block, k));
   if (result == READ_ONE && block->count == 0)
     return READ_END;
   return result == READ_END && block->count > 0 ? READ_ONE : result;
@@ -231,22 +216,17 @@ void source_free_block(source_block *block) {
   *block = (source_block){0};
 }
 
-void source_row(const row_source *s, const source_block *block, size_t k, double *numbers) {
-  const size_t width = (size_t)s->kind->numbers;
-  if (source_is_single(s))
-    to_double((const float *)block->numbers + k * width, numbers, width);
-  else
-    memcpy(numbers, (const double *)block->numbers + k * width, width * sizeof *numbers);
+double *source_row(const row_source *s, const source_block *block, size_t k) {
+  return block->numbers + k * (size_t)s->kind->numbers;
 }
 
 /* ---- Messages */
 
 void source_report(const row_source *s, const source_block *block, size_t k, carom_status status, const char *doubt) {
   const row_note *note = block->note != NULL ? &block->note[k] : NULL;
-  double row[MOST_NUMBERS];
+  const double *row = source_row(s, block, k);
   int field = -1;
   char where[256], what[64] = "", id[ID_TEXT], text[NUMBER_TEXT];
-  source_row(s, block, k, row);
   s->kind->check(row, s->asked, &field);
   /* Where it is, and which of its numbers is to blame. */
   if (note != NULL)
