@@ -8,10 +8,13 @@
 
 static const carom_shot_options no_options = {0};
 
-/* The next place for an event, or a spare one where there is no more room. */
+/* The next place for an event, or a spare one where there is no room for it. */
 static carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
   carom_shot *shot = sim->shot;
-  carom_event *event = shot->count < shot->room ? &shot->events[shot->count] : spare;
+  const bool room = shot->count < shot->room;
+  if (room && shot->brief != NULL)
+    shot->brief[shot->count] = (carom_brief_event){sim->now, due->type, due->a, due->b, 0};
+  carom_event *event = room && shot->events != NULL ? &shot->events[shot->count] : spare;
   shot->count++;
   shot->time = sim->now;
   event->time = sim->now;
@@ -188,7 +191,7 @@ static carom_status shoot_checked(const carom_table *table, carom_features *feat
 }
 
 static bool room_is_there(const carom_shot *shot) {
-  return shot->room == 0 || (shot->room > 0 && shot->events != NULL);
+  return shot->room == 0 || (shot->room > 0 && (shot->events != NULL || shot->brief != NULL));
 }
 
 carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
@@ -207,60 +210,53 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
 
 /* ---- Many */
 
-typedef struct batch {
-  const carom_table *table;
-  const carom_shot_ball *balls;
-  int count, one_layout, one_cue;
-  const carom_cue *cues;
-  const carom_shot_options *opt;
-  carom_shot *shots;
-  int8_t *status;
-} batch;
-
-static carom_status shoot_row(const batch *b, size_t k, carom_features *features) {
-  const carom_shot_ball *balls = b->balls + (b->one_layout ? 0 : k * (size_t)b->count);
-  const carom_cue *cue = b->cues == NULL ? NULL : b->cues + (b->one_cue ? 0 : k);
-  if (!room_is_there(&b->shots[k]))
+static carom_status shoot_row(const carom_shot_job *job, size_t k, carom_features *features) {
+  const carom_shot_ball *balls = job->balls + k * job->ball_stride;
+  const carom_cue *cue = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
+  const carom_shot_options *opt = job->options != NULL ? job->options : &no_options;
+  if (!room_is_there(&job->shots[k]))
     return CAROM_ERROR_NULL;
-  return shoot_checked(b->table, features, balls, b->count, cue, b->opt, &b->shots[k]);
+  return shoot_checked(job->table, features, balls, (int)job->count, cue, opt, &job->shots[k]);
 }
 
 static size_t shoot_rows(const void *context, size_t first, size_t end) {
-  const batch *b = context;
+  const carom_shot_job *job = context;
   size_t first_bad = end;
   carom_features features; /* shared by rows with one radius */
   features.radius = 0.0;
   for (size_t k = first; k < end; k++) {
-    const carom_status status = shoot_row(b, k, &features);
-    if (b->status != NULL)
-      b->status[k] = (int8_t)status;
+    const carom_status status = shoot_row(job, k, &features);
+    if (job->status != NULL)
+      job->status[k] = (int8_t)status;
     if (status < 0 && first_bad == end)
       first_bad = k;
   }
   return first_bad;
 }
 
-carom_status carom_shoot_batch(const carom_table *table, const carom_shot_ball *balls, int count, int one_layout,
-                               const carom_cue *cues, int one_cue, size_t n, const carom_shot_options *opt, carom_shot *shots,
-                               int8_t *status) {
-  if (n == 0)
-    return CAROM_OK;
-  if (table == NULL || balls == NULL || shots == NULL)
+carom_status carom_shoot_batch(const carom_shot_job *job) {
+  if (job == NULL)
     return CAROM_ERROR_NULL;
-  opt = opt != NULL ? opt : &no_options;
+  if (job->n == 0)
+    return CAROM_OK;
+  if (job->table == NULL || job->balls == NULL || job->shots == NULL)
+    return CAROM_ERROR_NULL;
+  for (size_t k = 0; k < sizeof job->reserved / sizeof job->reserved[0]; k++)
+    if (job->reserved[k] != 0)
+      return CAROM_ERROR_SHOT_OPTIONS;
+  const carom_shot_options *opt = job->options != NULL ? job->options : &no_options;
   int where;
-  const carom_status bad = carom_check_common(table, count, opt, &where);
+  const carom_status bad = carom_check_common(job->table, job->count, opt, &where);
   if (bad != CAROM_OK)
     return bad;
-  const batch work = {table, balls, count, one_layout, one_cue, cues, opt, shots, status};
   enum { LEAST = 4 }; /* shots worth a thread */
-  const size_t first_bad = carom_in_threads(shoot_rows, &work, n, opt->threads, LEAST);
-  if (first_bad == n)
+  const size_t first_bad = carom_in_threads(shoot_rows, job, (size_t)job->n, opt->threads, LEAST);
+  if (first_bad == job->n)
     return CAROM_OK;
   /* Only its index came back through the threads; playing the shot again tells its status. */
   carom_features features;
   features.radius = 0.0;
-  return shoot_row(&work, first_bad, &features);
+  return shoot_row(job, first_bad, &features);
 }
 
 /* ---- Later */
@@ -274,7 +270,8 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
   if (isnan(time))
     return CAROM_ERROR_TIME;
   const double at = carom_greater(carom_lesser(time, shot->time), 0.0);
-  if (shot->count > shot->room && (shot->room == 0 || at > shot->events[shot->room - 1].time))
+  const int64_t room = shot->events != NULL ? shot->room : 0; /* brief events have no states */
+  if (shot->count > room && (room == 0 || at > shot->events[room - 1].time))
     return CAROM_ERROR_EVENTS_LOST;
   carom_path path[CAROM_BALLS_MOST];
   for (int i = 0; i < count; i++) {
@@ -284,7 +281,7 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
       carom_label_of(&path[i].from, balls[i].kind.radius);
   }
   /* the last event of each ball until then */
-  const int64_t known = shot->count < shot->room ? shot->count : shot->room;
+  const int64_t known = shot->count < room ? shot->count : room;
   for (int64_t k = 0; k < known && shot->events[k].time <= at; k++) {
     const carom_event *event = &shot->events[k];
     const int ball[2] = {event->a, event->type == CAROM_EVENT_BALL_BALL ? event->b : -1};

@@ -99,7 +99,7 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
 carom_status carom_check_cue(const carom_cue *cue);
 
 /* check.c: what a batch has in common. */
-carom_status carom_check_common(const carom_table *table, int count, const carom_shot_options *opt, int *where);
+carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where);
 /* One layout with its cue. Prepares the table for the radius of the balls, where *features are for another. */
 carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                 const carom_cue *cue, const carom_shot_options *opt, int *where);

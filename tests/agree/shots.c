@@ -41,6 +41,22 @@ static results *make_results(void) {
   return r;
 }
 
+/* Plays the layouts with balls[] and the cues with cues[], each for all shots or for its own. */
+static carom_status play_batch(int count, bool one_layout, bool one_cue, int from, int n, const carom_shot_options *options,
+                               results *r) {
+  const carom_shot_job job = {.table = &table,
+                              .balls = balls + (one_layout ? 0 : count * from),
+                              .cues = cues + (one_cue ? 0 : from),
+                              .count = count,
+                              .ball_stride = one_layout ? 0 : (uint64_t)count,
+                              .cue_stride = one_cue ? 0 : 1,
+                              .n = (uint64_t)n,
+                              .options = options,
+                              .shots = r->shot + from,
+                              .status = r->status + from};
+  return carom_shoot_batch(&job);
+}
+
 static void same_results(const results *a, const results *b) {
   for (int k = 0; k < SHOTS; k++) {
     ck_assert_int_eq(a->status[k], b->status[k]);
@@ -59,7 +75,7 @@ static void free_results(results *r) {
 START_TEST(batch_is_singles) {
   make_breaks();
   for (int world = 0; world < 2; world++) {
-    carom_shot_options options = {.world = world, .cushion_model = 1 + CAROM_CUSHION_HAN};
+    carom_shot_options options = {.world = world, .cushion_model = CAROM_SHOT_CUSHION_HAN};
     results *single = make_results();
     for (int k = 0; k < SHOTS; k++)
       single->status[k] = (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
@@ -69,8 +85,7 @@ START_TEST(batch_is_singles) {
     for (size_t t = 0; t < sizeof threads / sizeof threads[0]; t++) {
       results *batch = make_results();
       options.threads = threads[t];
-      ck_assert_int_eq(carom_shoot_batch(&table, balls, 16, 0, cues, 0, SHOTS, &options, batch->shot, batch->status),
-                       CAROM_ERROR_MISCUE);
+      ck_assert_int_eq(play_batch(16, false, false, 0, SHOTS, &options, batch), CAROM_ERROR_MISCUE);
       same_results(single, batch);
       free_results(batch);
     }
@@ -80,8 +95,7 @@ START_TEST(batch_is_singles) {
     for (int from = 0, size; from < SHOTS; from += size) {
       size = (int)shot_uniform(&r, 1.0, 9.0);
       size = from + size <= SHOTS ? size : SHOTS - from;
-      carom_shoot_batch(&table, balls + 16 * from, 16, 0, cues + from, 0, (size_t)size, &options, cut->shot + from,
-                        cut->status + from);
+      play_batch(16, false, false, from, size, &options, cut);
     }
     same_results(single, cut);
     free_results(cut);
@@ -93,7 +107,7 @@ END_TEST
 /* A bad layout costs itself, wherever it stands, and whatever is wrong with its first ball. */
 START_TEST(bad_layouts) {
   static const double radii[] = {0.0, -1.0, NAN, INFINITY};
-  const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN};
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
   for (int bad = 0; bad <= SHOTS; bad++) { /* the first ones; all of them */
     make_breaks();
     cues[4].a = 0.0;
@@ -102,8 +116,7 @@ START_TEST(bad_layouts) {
     results *single = make_results(), *batch = make_results();
     for (int k = 0; k < SHOTS; k++)
       single->status[k] = (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
-    ck_assert_int_eq(carom_shoot_batch(&table, balls, 16, 0, cues, 0, SHOTS, &options, batch->shot, batch->status),
-                     bad > 0 ? CAROM_ERROR_RADIUS : CAROM_OK);
+    ck_assert_int_eq(play_batch(16, false, false, 0, SHOTS, &options, batch), bad > 0 ? CAROM_ERROR_RADIUS : CAROM_OK);
     for (int k = 0; k < SHOTS; k++)
       ck_assert_int_eq(single->status[k], k < bad ? CAROM_ERROR_RADIUS : CAROM_OK);
     same_results(single, batch);
@@ -119,7 +132,7 @@ END_TEST
 START_TEST(radii) {
   enum { LAYOUTS = 144, BALLS = 2 };
   static const double factor[] = {1.0, 1.0, 1.1, 0.7, 1.0, 1.95, 0.4, 1.1, 0.0};
-  const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN};
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
   static const int threads[] = {0, 3, CAROM_ALL_THREADS};
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
   int played = 0, refused = 0;
@@ -142,8 +155,7 @@ START_TEST(radii) {
       carom_shot_options threaded = options;
       threaded.threads = threads[t];
       results *batch = make_results();
-      const carom_status first =
-          carom_shoot_batch(&table, balls, BALLS, 0, cues, 0, LAYOUTS, &threaded, batch->shot, batch->status);
+      const carom_status first = play_batch(BALLS, false, false, 0, LAYOUTS, &threaded, batch);
       same_results(single, batch);
       int bad = 0;
       while (batch->status[bad] >= 0)
@@ -162,19 +174,47 @@ END_TEST
 START_TEST(one_for_all) {
   make_breaks();
   cues[4].a = 0.0;
-  const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN};
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
   for (int which = 0; which < 2; which++) {
     results *single = make_results(), *batch = make_results();
     for (int k = 0; k < SHOTS; k++)
       single->status[k] = (int8_t)carom_shoot(&table, balls + (which == 0 ? 0 : 16 * k), 16, &cues[which == 0 ? k : 0],
                                               &options, &single->shot[k]);
-    ck_assert_int_eq(
-        carom_shoot_batch(&table, balls, 16, which == 0, cues, which == 1, SHOTS, &options, batch->shot, batch->status),
-        CAROM_OK);
+    ck_assert_int_eq(play_batch(16, which == 0, which == 1, 0, SHOTS, &options, batch), CAROM_OK);
     same_results(single, batch);
     free_results(single);
     free_results(batch);
   }
+}
+END_TEST
+
+/* Brief events tell what full ones do, in place of them and beside them, and no more of them than there is room for. */
+START_TEST(brief_events) {
+  enum { FEW = 7 };
+  static carom_brief_event in_place[ROOM], beside[ROOM];
+  static carom_event full[ROOM], others[ROOM];
+  make_breaks();
+  carom_shot a = {.events = full, .room = ROOM}, b = {.brief = in_place, .room = ROOM};
+  carom_shot c = {.events = others, .brief = beside, .room = FEW};
+  memset(beside, 0x55, sizeof beside);
+  memset(others, 0x55, sizeof others);
+  carom_shot *const each[] = {&a, &b, &c};
+  for (int k = 0; k < 3; k++)
+    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], NULL, each[k]), CAROM_OK);
+  ck_assert(a.count > FEW && a.count <= ROOM && a.count == b.count && a.count == c.count);
+  for (int64_t k = 0; k < a.count; k++) {
+    const carom_brief_event told = {full[k].time, full[k].type, full[k].a, full[k].b, 0};
+    ck_assert_int_eq(memcmp(&in_place[k], &told, sizeof told), 0);
+    if (k < FEW)
+      ck_assert(memcmp(&beside[k], &told, sizeof told) == 0 && memcmp(&others[k], &full[k], sizeof full[k]) == 0);
+  }
+  for (const unsigned char *p = (const void *)&beside[FEW]; p < (const unsigned char *)(beside + ROOM); p++)
+    ck_assert_int_eq(*p, 0x55);
+  for (const unsigned char *p = (const void *)&others[FEW]; p < (const unsigned char *)(others + ROOM); p++)
+    ck_assert_int_eq(*p, 0x55);
+  /* states at a time need the full ones */
+  carom_ball_state states[16];
+  ck_assert_int_eq(carom_shot_at(balls, 16, &b, 0.5, states), CAROM_ERROR_EVENTS_LOST);
 }
 END_TEST
 
@@ -199,5 +239,5 @@ START_TEST(instruction_sets) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("shots", batch_is_singles, bad_layouts, radii, one_for_all, instruction_sets);
+  return RUN_TESTS("shots", batch_is_singles, bad_layouts, radii, one_for_all, brief_events, instruction_sets);
 }

@@ -290,7 +290,16 @@ static void shots(void) {
   int8_t statuses[SHOTS] = {1, 1, 1};
   for (int k = 0; k < SHOTS; k++)
     many[k] = (carom_shot){.events = events[k], .room = EVENTS, .final = final[k]};
-  carom_shoot_batch(&table, balls, count, 1, cues, choice(2), SHOTS, &o, many, statuses);
+  const carom_shot_job job = {.table = &table,
+                              .balls = balls,
+                              .cues = cues,
+                              .count = count,
+                              .cue_stride = (uint64_t)choice(2),
+                              .n = SHOTS,
+                              .options = &o,
+                              .shots = many,
+                              .status = statuses};
+  carom_shoot_batch(&job);
   if (played && (statuses[0] != (int8_t)status || many[0].count != one.count ||
                  (one.room > 0 && one.count > 0 && memcmp(&first, &events[0][0], sizeof first) != 0)))
     fail("a batch of shots differs from a shot");
