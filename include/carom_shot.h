@@ -338,12 +338,15 @@ typedef struct carom_shot_options {
   carom_ball_model ball_model;
   carom_shot_cushion cushion_model;
   carom_ball_friction friction;
-  int32_t steps;        /* of Euler's models; 0: 1000. */
-  int32_t events_most;  /* events of a shot; 0: 10000. */
-  int32_t threads;      /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
-  int32_t unused;       /* must be 0. */
-  double time_most;     /* of the clock of a shot, s; 0: 1000. The shot ends at the last event before that. */
-  uint64_t reserved[5]; /* must be 0. */
+  int32_t steps;       /* of Euler's models; 0: 1000. */
+  int32_t events_most; /* events of a shot; 0: 10000. */
+  int32_t threads;     /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
+  int32_t unused;      /* must be 0. */
+  double time_most;    /* s: the shot is stopped at exactly this time of its clock, after the events of that instant, with
+                          CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s with CAROM_ERROR_TOO_LONG. */
+  uint64_t stop_at;    /* the shot is stopped right after an event of this set, with CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)
+                          of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
+  uint64_t reserved[4]; /* must be 0. */
 } carom_shot_options;
 
 /* ---- What happened ---------------------------------------------------------------------------------------------------- */
@@ -373,6 +376,17 @@ typedef struct carom_brief_event {
   int32_t type, a, b, reserved;
 } carom_brief_event;
 
+/* For options.stop_at: events of a type; */
+#define CAROM_STOP_AT(type) (UINT64_C(1) << (type))
+/* and a contact of the cue ball, which is that of the cue, or ball 0 without a cue, with another ball. */
+#define CAROM_STOP_AT_CONTACT UINT64_C(1)
+
+/* All that a stopped shot needs to go on; see carom_shot_continue(). Its bytes may be copied, kept in a file and read by the
+ * same build of the library; they are not checked beyond whether they can be such. */
+typedef struct carom_shot_state {
+  uint64_t opaque[4096];
+} carom_shot_state;
+
 /* What a shot gives. All zero is a shot of which only count and time are wanted; the caller sets what else is. */
 typedef struct carom_shot {
   carom_event *events;      /* in the order in which they happened; the first `room` of them are kept. May be NULL, */
@@ -380,18 +394,41 @@ typedef struct carom_shot {
   int64_t room;             /* elements of events[], of brief[], or of each of both. 0 if both are NULL. */
   int64_t count;            /* events that happened, also beyond room. */
   carom_ball_state *final;  /* the states at the end, one for each ball; may be NULL. */
-  double time;          /* s: when the last event happened, or a ball left the table; where a bound ended the shot while balls
-                           with drag rolled, up to when they were followed. carom_shot_at() knows no later state of a shot that
-                           ended while balls moved. */
-  uint64_t reserved[4]; /* not read or written yet. */
+  double time; /* s: up to when the shot was followed: time_most, where the shot was stopped there; else when the last
+                  event happened, or a ball left the table; where events_most ended the shot while balls with drag
+                  rolled, up to when they were followed. carom_shot_at() knows no later state of a shot that ended
+                  while balls moved. */
+  carom_shot_state *state; /* where the shot leaves what carom_shot_continue() needs; may be NULL. */
+  uint64_t reserved[4];    /* not read or written yet. */
 } carom_shot;
 
 /* Plays a shot until nothing moves. 1 to CAROM_BALLS_MOST balls. If a ball moves already, or cue is NULL or its speed 0, there
- * is no strike. `opt` may be NULL for the defaults. Returns CAROM_OK; CAROM_ERROR_TOO_MANY_EVENTS or CAROM_ERROR_TOO_LONG where
- * a bound ended it (the states are those at the last event); an error of a field, with count 0 and nothing else written
- * (carom_shot_check() tells the field); or CAROM_ERROR_LEFT_TABLE, or one of a collision, with everything up to that event. */
+ * is no strike. `opt` may be NULL for the defaults. Returns CAROM_OK; CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT where
+ * the options ask for that; CAROM_ERROR_TOO_MANY_EVENTS or CAROM_ERROR_TOO_LONG where a bound ended it; an error of a field,
+ * with count 0 and nothing else written (carom_shot_check() tells the field); or CAROM_ERROR_LEFT_TABLE, or one of a collision,
+ * with everything up to that event. The final states are those at shot->time. */
 CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                                    const carom_shot_options *opt, carom_shot *shot);
+
+/* Goes on with a shot that was stopped, by its options or by a bound, as if it had not been: every event and state has the bits
+ * of the unbroken shot, however often it is stopped. Table, balls and `shot`, with its events so far, are those of the call
+ * that stopped, for which shot->state was set; the options say when to stop again, and keep the models. shot->events and ->room
+ * may have been replaced by a copy with more room. A shot that has come to rest stays as it is, with CAROM_OK.
+ *
+ *     carom_shot_state state;
+ *     carom_shot shot = {.events = events, .room = 256, .final = states, .state = &state};
+ *     carom_shot_options options = {.time_most = 1.0 / 60.0};
+ *     carom_status status = carom_shoot(&table, balls, 10, &cue, &options, &shot);
+ *     for (int frame = 2; status == CAROM_STOPPED_AT_TIME; frame++) {    // states[] are those of the frame before
+ *       options.time_most = frame / 60.0;
+ *       status = carom_shot_continue(&table, balls, 10, &options, &shot);
+ *     }
+ *
+ * Returns what carom_shoot() does. CAROM_ERROR_STATE, with nothing written: shot->state is not that of a shot in this world, of
+ * so many balls of these kinds, or the shot ended in an error other than a bound. CAROM_ERROR_TIME, likewise: time_most is
+ * before the time at which the shot stopped. */
+CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
+                                           const carom_shot_options *opt, carom_shot *shot);
 
 /* The states of all balls at a time, by evaluation of the motion after each ball's last event. Before 0: as at 0; after the
  * end: as at the end, where nothing moves any more. CAROM_OK, or an error with nothing written: CAROM_ERROR_NULL;

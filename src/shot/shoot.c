@@ -123,18 +123,26 @@ static void begin(carom_sim *sim) {
   }
 }
 
-static carom_status play(carom_sim *sim) {
+/* Whether the shot is to stop after an event of this kind. */
+static bool stops_at(const carom_sim *sim, int type, int a, int b) {
+  const bool contact = type == CAROM_EVENT_BALL_BALL && (a == sim->struck || b == sim->struck);
+  return ((contact ? CAROM_STOP_AT_CONTACT : 0) | CAROM_STOP_AT(type)) & sim->opt->stop_at;
+}
+
+/* From event to event, until nothing moves or the shot is to stop. Nothing is changed by stopping, so the loop goes on later as
+ * if it had not. */
+static carom_status go_on(carom_sim *sim) {
   const int64_t events_most = sim->opt->events_most > 0 ? sim->opt->events_most : 10000;
   const double time_most = sim->opt->time_most > 0.0 ? sim->opt->time_most : 1000.0;
-  carom_status status = strike(sim);
-  if (status == CAROM_OK)
-    carom_detect_all(sim);
+  carom_status status = CAROM_OK;
   while (status == CAROM_OK) {
     const carom_due due = carom_next(sim);
     if (due.type < 0)
       break;
-    if (due.time > time_most)
-      return CAROM_ERROR_TOO_LONG;
+    if (due.time > time_most) {
+      sim->shot->time = time_most;
+      return sim->opt->time_most > 0.0 ? CAROM_STOPPED_AT_TIME : CAROM_ERROR_TOO_LONG;
+    }
     if (due.type == CAROM_DUE_PIECE) {
       sim->shot->time = sim->now = carom_greater(sim->now, due.time);
       sim->round++;
@@ -151,6 +159,39 @@ static carom_status play(carom_sim *sim) {
     sim->now = carom_greater(sim->now, due.time); /* of simultaneous events one may have been found a trace earlier */
     sim->round++;
     status = step(sim, &due);
+    if (status == CAROM_OK && stops_at(sim, due.type, due.a, due.b))
+      return CAROM_STOPPED_AT_EVENT;
+  }
+  return status;
+}
+
+static carom_status play(carom_sim *sim) {
+  const carom_status status = strike(sim);
+  if (status != CAROM_OK)
+    return status;
+  carom_detect_all(sim);
+  return sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1) ? CAROM_STOPPED_AT_EVENT : go_on(sim);
+}
+
+/* What a state begins with that carom_shot_continue() takes: another version, or another layout, is not. */
+static const uint64_t resumable = (uint64_t)CAROM_VERSION_NUMBER << 32 | sizeof(carom_sim);
+_Static_assert(sizeof(carom_sim) <= sizeof(carom_shot_state), "a shot on its way fits what callers keep of it");
+
+/* The states at the end; and all of the shot, where the caller keeps it. */
+static carom_status finish(carom_sim *sim, carom_status status) {
+  carom_shot *shot = sim->shot;
+  for (int i = 0; shot->final != NULL && i < sim->count; i++)
+    carom_path_at(&sim->path[i], &sim->rates[i], shot->time, &shot->final[i]);
+  if (shot->state != NULL) {
+    const bool goes_on = status >= 0 || status == CAROM_ERROR_TOO_LONG || status == CAROM_ERROR_TOO_MANY_EVENTS;
+    sim->can_go_on = goes_on ? resumable : 0;
+    sim->table = NULL; /* what is the caller's comes with the next call */
+    sim->features = NULL;
+    sim->ball = NULL;
+    sim->opt = NULL;
+    sim->cue = NULL;
+    sim->shot = NULL;
+    memcpy(shot->state, sim, sizeof *sim);
   }
   return status;
 }
@@ -166,26 +207,29 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   sim.cue = cue;
   sim.shot = shot;
   sim.count = count;
+  sim.struck = cue != NULL ? (int)cue->ball : 0;
   sim.pooltool = opt->world == CAROM_WORLD_POOLTOOL;
   sim.now = 0.0;
   sim.round = 0;
   sim.slow_instants = 0;
   sim.slow_last = -1.0;
+  begin(&sim);
+  return finish(&sim, play(&sim));
+}
+
+/* As a result begins: nothing happened, and there is nothing to go on with. */
+static void clear(carom_shot *shot) {
   shot->count = 0;
   shot->time = 0.0;
-  begin(&sim);
-  const carom_status status = play(&sim);
-  for (int i = 0; shot->final != NULL && i < count; i++)
-    carom_path_at(&sim.path[i], &sim.rates[i], sim.now, &shot->final[i]);
-  return status;
+  if (shot->state != NULL)
+    shot->state->opaque[0] = 0;
 }
 
 /* *features are prepared for the radius of these balls, unless they are so already. */
 static carom_status shoot_checked(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                   const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
   int where;
-  shot->count = 0;
-  shot->time = 0.0;
+  clear(shot);
   const carom_status bad = carom_check_layout(table, features, balls, count, cue, opt, &where);
   return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot);
 }
@@ -199,13 +243,49 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
   if (table == NULL || balls == NULL || shot == NULL || !room_is_there(shot))
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
-  shot->count = 0;
-  shot->time = 0.0;
+  clear(shot);
   int where;
   const carom_status bad = carom_check_common(table, count, opt, &where);
   carom_features features;
   features.radius = 0.0;
   return bad != CAROM_OK ? bad : shoot_checked(table, &features, balls, count, cue, opt, shot);
+}
+
+/* Whether a state is that of a shot of these balls in this world. */
+static bool is_of(const carom_sim *sim, const carom_shot_ball *balls, int count, const carom_shot_options *opt) {
+  bool same = sim->can_go_on == resumable && sim->count == count && sim->pooltool == (opt->world == CAROM_WORLD_POOLTOOL);
+  for (int i = 0; same && i < count; i++) {
+    const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
+    same = memcmp(&rates, &sim->rates[i], sizeof rates) == 0;
+  }
+  return same;
+}
+
+carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
+                                 const carom_shot_options *opt, carom_shot *shot) {
+  if (table == NULL || balls == NULL || shot == NULL || shot->state == NULL || !room_is_there(shot))
+    return CAROM_ERROR_NULL;
+  opt = opt != NULL ? opt : &no_options;
+  int where;
+  carom_features features;
+  features.radius = 0.0;
+  carom_status bad = carom_check_common(table, count, opt, &where);
+  if (bad == CAROM_OK)
+    bad = carom_check_layout(table, &features, balls, count, NULL, opt, &where);
+  if (bad != CAROM_OK)
+    return bad;
+  carom_sim sim;
+  memcpy(&sim, shot->state, sizeof sim);
+  if (!is_of(&sim, balls, count, opt))
+    return CAROM_ERROR_STATE;
+  if (opt->time_most > 0.0 && opt->time_most < shot->time)
+    return CAROM_ERROR_TIME;
+  sim.table = table;
+  sim.features = &features;
+  sim.ball = balls;
+  sim.opt = opt;
+  sim.shot = shot;
+  return finish(&sim, go_on(&sim));
 }
 
 /* ---- Many */

@@ -26,13 +26,14 @@ typedef struct carom_meeting {
 } carom_meeting;
 
 typedef struct carom_sim {
+  uint64_t can_go_on; /* of a state that is kept: resumable, or 0 */
   const carom_table *table;
   const carom_features *features;
   const carom_shot_ball *ball;
   const carom_shot_options *opt;
   const carom_cue *cue;
   carom_shot *shot;
-  int count;
+  int count, struck; /* struck: the cue ball */
   bool pooltool;
   double now;
   int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */

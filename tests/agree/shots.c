@@ -2,6 +2,7 @@
 #include "random_shots.h"
 #include "support.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -218,6 +219,178 @@ START_TEST(brief_events) {
 }
 END_TEST
 
+/* ---- Stopping and going on */
+
+/* A shot, unbroken and in parts. */
+typedef struct broken {
+  carom_event events[ROOM];
+  carom_ball_state final[CAROM_BALLS_MOST];
+  carom_shot_state state;
+  carom_shot shot;
+  carom_status status;
+} broken;
+
+static broken *make_broken(void) {
+  broken *b = calloc(1, sizeof *b);
+  b->shot = (carom_shot){.events = b->events, .room = ROOM, .final = b->final, .state = &b->state};
+  return b;
+}
+
+static void same_shot(const broken *whole, const broken *parts, int count) {
+  ck_assert_int_eq(whole->status, parts->status);
+  ck_assert_int_eq(whole->shot.count, parts->shot.count);
+  ck_assert_int_eq(memcmp(&whole->shot.time, &parts->shot.time, sizeof whole->shot.time), 0);
+  ck_assert_int_eq(memcmp(whole->events, parts->events, sizeof whole->events), 0);
+  ck_assert_int_eq(memcmp(whole->final, parts->final, (size_t)count * sizeof *whole->final), 0);
+}
+
+/* Where the shot stops next: by frames, after each event of each type or some, at any time, at a bound, or any of these. */
+static carom_shot_options next_stop(const carom_shot_options *options, int way, const carom_shot *shot, random_source *r) {
+  carom_shot_options o = *options;
+  switch (way) {
+  case 0:
+    o.time_most = (floor(shot->time * 60.0 + 1e-6) + 1.0) / 60.0;
+    break;
+  case 1:
+    o.stop_at = 2 * (CAROM_STOP_AT(CAROM_EVENT_SPINNING_STATIONARY) - 1);
+    break;
+  case 2:
+    o.stop_at = CAROM_STOP_AT_CONTACT | CAROM_STOP_AT(CAROM_EVENT_STRIKE) | CAROM_STOP_AT(CAROM_EVENT_RAIL);
+    break;
+  case 3:
+    o.events_most = (int)shot->count + 1 + (int)random_between(r, 0.0, 9.0);
+    break;
+  default:
+    o.time_most = shot->time + random_between(r, 0.0, 1.0);
+    o.stop_at = CAROM_STOP_AT(CAROM_EVENT_ROLLING_STATIONARY);
+  }
+  return o;
+}
+
+/* However often a shot is stopped, it has the bits of the unbroken one; and where it stops, it has the states of that time. */
+START_TEST(stopped_and_continued) {
+  static random_shot s;
+  random_source r = {test_seed()};
+  long stops = 0;
+  for (int n = 0; n < 40; n++) {
+    random_shot_make(n % random_shot_kinds(), test_seed() + 7, (uint64_t)n, &s);
+    for (int k = 0; k < s.count && n % 3 == 1; k++)
+      s.ball[k].kind.drag = 0.0129;
+    const carom_shot_options options = {.world = n % 4 == 3 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM,
+                                        .cushion_model = n % 5 == 0 ? CAROM_SHOT_CUSHION_DEFAULT : CAROM_SHOT_CUSHION_HAN};
+    broken *whole = make_broken();
+    whole->status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &whole->shot);
+    if (whole->shot.count > ROOM || whole->status < 0) { /* by pooltool's rules, as a rule */
+      free(whole);
+      continue;
+    }
+    for (int way = 0; way < 5; way++) {
+      broken *parts = make_broken();
+      carom_shot_options o = next_stop(&options, way, &parts->shot, &r);
+      parts->status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &o, &parts->shot);
+      while (parts->status != CAROM_OK) {
+        ck_assert_int_eq(parts->status, way == 3                                               ? CAROM_ERROR_TOO_MANY_EVENTS
+                                        : o.time_most > 0.0 && parts->shot.time >= o.time_most ? CAROM_STOPPED_AT_TIME
+                                                                                               : CAROM_STOPPED_AT_EVENT);
+        const carom_event *last = &parts->events[parts->shot.count - 1];
+        if (parts->status == CAROM_STOPPED_AT_TIME) {
+          ck_assert_double_eq(parts->shot.time, o.time_most);
+          /* as the unbroken shot was then, and nothing is known of later */
+          carom_ball_state then[CAROM_BALLS_MOST];
+          ck_assert_int_eq(carom_shot_at(s.ball, s.count, &whole->shot, o.time_most, then), CAROM_OK);
+          ck_assert_int_eq(memcmp(then, parts->final, (size_t)s.count * sizeof *then), 0);
+          ck_assert_int_eq(carom_shot_at(s.ball, s.count, &parts->shot, o.time_most + 1e-9, then), CAROM_ERROR_TIME);
+        } else if (parts->status == CAROM_STOPPED_AT_EVENT) {
+          ck_assert_double_eq(parts->shot.time, last->time);
+          const bool contact = last->type == CAROM_EVENT_BALL_BALL && (last->a == s.cue.ball || last->b == s.cue.ball);
+          ck_assert((o.stop_at & CAROM_STOP_AT(last->type)) || ((o.stop_at & CAROM_STOP_AT_CONTACT) && contact));
+          for (int k = 0; k < s.count; k++)
+            if (k == last->a)
+              ck_assert_int_eq(memcmp(&parts->final[k], &last->after[0], sizeof *parts->final), 0);
+        }
+        o = next_stop(&options, way, &parts->shot, &r);
+        parts->status = carom_shot_continue(&s.table, s.ball, s.count, &o, &parts->shot);
+        stops++;
+      }
+      same_shot(whole, parts, s.count);
+      /* at rest it stays as it is */
+      parts->status = carom_shot_continue(&s.table, s.ball, s.count, &options, &parts->shot);
+      same_shot(whole, parts, s.count);
+      free(parts);
+    }
+    free(whole);
+  }
+  ck_assert_int_gt(stops, 2000);
+}
+END_TEST
+
+/* The first contact of the cue ball is that of the whole shot; in a batch too, and each shot of a batch can go on. */
+START_TEST(first_contact) {
+  enum { FEW = 20 };
+  static carom_shot_state state[FEW];
+  make_breaks();
+  cues[4].a = 0.0;
+  carom_shot_options options = {.stop_at = CAROM_STOP_AT_CONTACT, .cushion_model = CAROM_SHOT_CUSHION_HAN};
+  results *single = make_results(), *batch = make_results();
+  for (int k = 0; k < FEW; k++)
+    batch->shot[k].state = &state[k];
+  ck_assert_int_eq(play_batch(16, false, false, 0, FEW, &options, batch), CAROM_OK);
+  for (int k = 0; k < FEW; k++) {
+    ck_assert_int_eq(batch->status[k], CAROM_STOPPED_AT_EVENT);
+    const carom_event *last = &batch->shot[k].events[batch->shot[k].count - 1];
+    ck_assert(last->type == CAROM_EVENT_BALL_BALL && last->a == 0);
+    for (int64_t e = 0; e < batch->shot[k].count - 1; e++)
+      ck_assert_int_ne(batch->shot[k].events[e].type, CAROM_EVENT_BALL_BALL);
+    options.stop_at = 0;
+    batch->status[k] = (int8_t)carom_shot_continue(&table, balls + 16 * k, 16, &options, &batch->shot[k]);
+    single->status[k] = (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
+    ck_assert_int_eq(batch->status[k], single->status[k]);
+    ck_assert_int_eq(batch->shot[k].count, single->shot[k].count);
+    ck_assert_int_eq(memcmp(batch->final[k], single->final[k], sizeof batch->final[k]), 0);
+  }
+  ck_assert_int_eq(memcmp(batch->events, single->events, (size_t)FEW * ROOM * sizeof *batch->events), 0);
+  free_results(single);
+  free_results(batch);
+}
+END_TEST
+
+/* What cannot go on is refused, and nothing is written. */
+START_TEST(bad_states) {
+  make_breaks();
+  broken *b = make_broken();
+  carom_shot_options options = {.time_most = 0.2};
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
+  b->status = carom_shoot(&table, balls, 16, &cues[0], &options, &b->shot);
+  ck_assert_int_eq(b->status, CAROM_STOPPED_AT_TIME);
+  broken *before = malloc(sizeof *before);
+  memcpy(before, b, sizeof *before);
+  options.time_most = 0.1;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_TIME);
+  options.time_most = 0.3;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 15, &options, &b->shot), CAROM_ERROR_STATE);
+  options.world = CAROM_WORLD_POOLTOOL;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
+  options.world = CAROM_WORLD_CAROM;
+  balls[7].kind.mu_roll *= 2.0;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
+  balls[7].kind.mu_roll /= 2.0;
+  options.stop_at = UINT64_C(1) << 63;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_SHOT_OPTIONS);
+  ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &(carom_shot){0}), CAROM_ERROR_SHOT_OPTIONS);
+  options.stop_at = 0;
+  b->shot.state = NULL;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_NULL);
+  b->shot.state = &b->state;
+  ck_assert_int_eq(memcmp(b, before, sizeof *b), 0);
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_STOPPED_AT_TIME);
+  /* a shot that is refused leaves no state to go on with, nor does one that ended in an error */
+  ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[4], &options, &b->shot), CAROM_ERROR_MISCUE);
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
+  free(before);
+  free(b);
+}
+END_TEST
+
 /* On every instruction set a shot ends well, and the first events, which nothing has amplified yet, are the same but for
  * rounding. */
 START_TEST(instruction_sets) {
@@ -239,5 +412,6 @@ START_TEST(instruction_sets) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("shots", batch_is_singles, bad_layouts, radii, one_for_all, brief_events, instruction_sets);
+  return RUN_TESTS("shots", batch_is_singles, bad_layouts, radii, one_for_all, brief_events, stopped_and_continued,
+                   first_contact, bad_states, instruction_sets);
 }

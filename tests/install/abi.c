@@ -103,6 +103,7 @@ static void print_shot_types(void) {
   FIELD(carom_shot_options, threads);
   FIELD(carom_shot_options, unused);
   FIELD(carom_shot_options, time_most);
+  FIELD(carom_shot_options, stop_at);
   FIELD(carom_shot_options, reserved);
   TYPE(carom_event);
   FIELD(carom_event, time);
@@ -118,6 +119,8 @@ static void print_shot_types(void) {
   FIELD(carom_brief_event, a);
   FIELD(carom_brief_event, b);
   FIELD(carom_brief_event, reserved);
+  TYPE(carom_shot_state);
+  FIELD(carom_shot_state, opaque);
   TYPE(carom_shot_job);
   FIELD(carom_shot_job, table);
   FIELD(carom_shot_job, balls);
@@ -137,6 +140,7 @@ static void print_shot_types(void) {
   FIELD(carom_shot, count);
   FIELD(carom_shot, final);
   FIELD(carom_shot, time);
+  FIELD(carom_shot, state);
   FIELD(carom_shot, reserved);
 }
 

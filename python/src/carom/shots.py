@@ -215,7 +215,7 @@ def simulate_batch(
     flat = record.reshape(n)
     flat["time"], flat["count"], flat["room"] = 0.0, 0, room
     numbers = np.arange(n, dtype=np.uintp)
-    flat["brief"] = 0
+    flat["brief"], flat["state"] = 0, 0
     flat["events"] = 0 if room == 0 else shots.events.ctypes.data + numbers * np.uintp(room * dtypes.event.itemsize)
     flat["final"] = shots.final.ctypes.data + numbers * np.uintp(count * dtypes.ball_state.itemsize)
     options = shot_options(world, ball_model, cushion_model, friction, steps, events_most, time_most, threads)
