@@ -159,18 +159,10 @@ static carom_status go_on(carom_sim *sim) {
     sim->now = carom_greater(sim->now, due.time); /* of simultaneous events one may have been found a trace earlier */
     sim->round++;
     status = step(sim, &due);
-    if (status == CAROM_OK && stops_at(sim, due.type, due.a, due.b))
+    if (sim->opt->stop_at != 0 && status == CAROM_OK && stops_at(sim, due.type, due.a, due.b))
       return CAROM_STOPPED_AT_EVENT;
   }
   return status;
-}
-
-static carom_status play(carom_sim *sim) {
-  const carom_status status = strike(sim);
-  if (status != CAROM_OK)
-    return status;
-  carom_detect_all(sim);
-  return sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1) ? CAROM_STOPPED_AT_EVENT : go_on(sim);
 }
 
 /* What a state begins with that carom_shot_continue() takes: another version, or another layout, is not. */
@@ -196,25 +188,52 @@ static carom_status finish(carom_sim *sim, carom_status status) {
   return status;
 }
 
-/* With arguments that have been checked. */
+/* Whether a state is that of a shot of these balls in this world. */
+static bool is_of(const carom_sim *sim, const carom_shot_ball *balls, int count, const carom_shot_options *opt) {
+  bool same = sim->can_go_on == resumable && sim->count == count && sim->pooltool == (opt->world == CAROM_WORLD_POOLTOOL);
+  for (int i = 0; same && i < count; i++) {
+    const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
+    same = memcmp(&rates, &sim->rates[i], sizeof rates) == 0;
+  }
+  return same;
+}
+
+/* The strike, and whether the shot is to go on after it. */
+static carom_status start(carom_sim *sim) {
+  const carom_status status = strike(sim);
+  if (status != CAROM_OK)
+    return status;
+  carom_detect_all(sim);
+  return sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1) ? CAROM_STOPPED_AT_EVENT : CAROM_OK;
+}
+
+/* With arguments that have been checked: a shot from its strike, or on from shot->state. */
 static carom_status shoot(const carom_table *table, const carom_features *features, const carom_shot_ball *balls, int count,
-                          const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
+                          const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot, bool anew) {
   carom_sim sim;
+  if (!anew)
+    memcpy(&sim, shot->state, sizeof sim);
   sim.table = table;
   sim.features = features;
   sim.ball = balls;
   sim.opt = opt;
   sim.cue = cue;
   sim.shot = shot;
-  sim.count = count;
-  sim.struck = cue != NULL ? (int)cue->ball : 0;
-  sim.pooltool = opt->world == CAROM_WORLD_POOLTOOL;
-  sim.now = 0.0;
-  sim.round = 0;
-  sim.slow_instants = 0;
-  sim.slow_last = -1.0;
-  begin(&sim);
-  return finish(&sim, play(&sim));
+  carom_status status = CAROM_OK;
+  if (anew) {
+    sim.count = count;
+    sim.struck = cue != NULL ? (int)cue->ball : 0;
+    sim.pooltool = opt->world == CAROM_WORLD_POOLTOOL;
+    sim.now = 0.0;
+    sim.round = 0;
+    sim.slow_instants = 0;
+    sim.slow_last = -1.0;
+    begin(&sim);
+    status = start(&sim);
+  } else if (!is_of(&sim, balls, count, opt)) {
+    return CAROM_ERROR_STATE;
+  }
+  return finish(&sim, status == CAROM_OK ? go_on(&sim) : status);
 }
 
 /* As a result begins: nothing happened, and there is nothing to go on with. */
@@ -231,7 +250,7 @@ static carom_status shoot_checked(const carom_table *table, carom_features *feat
   int where;
   clear(shot);
   const carom_status bad = carom_check_layout(table, features, balls, count, cue, opt, &where);
-  return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot);
+  return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot, true);
 }
 
 static bool room_is_there(const carom_shot *shot) {
@@ -251,16 +270,6 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
   return bad != CAROM_OK ? bad : shoot_checked(table, &features, balls, count, cue, opt, shot);
 }
 
-/* Whether a state is that of a shot of these balls in this world. */
-static bool is_of(const carom_sim *sim, const carom_shot_ball *balls, int count, const carom_shot_options *opt) {
-  bool same = sim->can_go_on == resumable && sim->count == count && sim->pooltool == (opt->world == CAROM_WORLD_POOLTOOL);
-  for (int i = 0; same && i < count; i++) {
-    const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
-    same = memcmp(&rates, &sim->rates[i], sizeof rates) == 0;
-  }
-  return same;
-}
-
 carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
                                  const carom_shot_options *opt, carom_shot *shot) {
   if (table == NULL || balls == NULL || shot == NULL || shot->state == NULL || !room_is_there(shot))
@@ -274,18 +283,9 @@ carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball
     bad = carom_check_layout(table, &features, balls, count, NULL, opt, &where);
   if (bad != CAROM_OK)
     return bad;
-  carom_sim sim;
-  memcpy(&sim, shot->state, sizeof sim);
-  if (!is_of(&sim, balls, count, opt))
-    return CAROM_ERROR_STATE;
   if (opt->time_most > 0.0 && opt->time_most < shot->time)
     return CAROM_ERROR_TIME;
-  sim.table = table;
-  sim.features = &features;
-  sim.ball = balls;
-  sim.opt = opt;
-  sim.shot = shot;
-  return finish(&sim, go_on(&sim));
+  return shoot(table, &features, balls, count, NULL, opt, shot, false);
 }
 
 /* ---- Many */
