@@ -116,10 +116,12 @@ typedef struct carom_result {
 /* ---- How a call ended ------------------------------------------------------------------------------------------------ */
 
 /* 0 is success, a positive value a valid outcome worth a remark, a negative value an error. Values are never renumbered or used
- * again. -30 to -39 are reserved for cushions, -40 to -59 for shots. What each means is told by carom_status_string(). */
+ * again. -30 to -39 are reserved for cushions, -40 to -79 for shots. What each means is told by carom_status_string(). */
 typedef enum carom_status {
   CAROM_OK = 0,                     /* resolved. */
   CAROM_SEPARATING = 1,             /* the balls do not approach each other; their state is returned unchanged. */
+  CAROM_STOPPED_AT_TIME = 2,        /* a shot was stopped at options.time_most, as asked; balls still move. */
+  CAROM_STOPPED_AT_EVENT = 3,       /* a shot was stopped after an event of options.stop_at, as asked. */
   CAROM_ERROR_NULL = -1,            /* a required pointer is NULL. */
   CAROM_ERROR_SOLVER = -2,          /* options.solver is not one of carom_solver. */
   CAROM_ERROR_SLIP = -3,            /* options.slip is not one of carom_slip. */
@@ -150,7 +152,7 @@ typedef enum carom_status {
   CAROM_ERROR_MU_CUSHION = -34,      /* the friction of ball and cushion is not in [0, 1]. */
   CAROM_ERROR_JAW_RADIUS = -35,      /* the radius of a jaw is not finite, or negative. */
   CAROM_ERROR_TOO_MANY_EVENTS = -40, /* a shot has more than options.events_most events. */
-  CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than options.time_most. */
+  CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than 1000 s, and options.time_most is 0. */
   CAROM_ERROR_LEFT_TABLE = -42,      /* a ball left the table. */
   CAROM_ERROR_SHOT_OPTIONS = -43,    /* an option of the shot is out of its range, or a reserved one is not 0. */
   CAROM_ERROR_BALLS = -44,           /* the number of balls is not 1 to CAROM_BALLS_MOST. */
@@ -167,6 +169,7 @@ typedef enum carom_status {
   CAROM_ERROR_TIME = -55,         /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */
   CAROM_ERROR_DRAG = -56,         /* the drag of a rolling ball is not in [0, 1] 1/m. */
   CAROM_ERROR_BALL_CUSHION = -57, /* a ball's roll_loss, nose_height or omega_ratio is out of its range. */
+  CAROM_ERROR_STATE = -60,        /* carom_shot_continue(): shot.state is not that of a shot of these balls that can go on. */
 } carom_status;
 
 /* The short name of a status ("separating"), as it stands in the command's output. "unknown" for a value not listed. Arrays of

@@ -73,7 +73,7 @@ static bool play(const carom_python_tracks *tracks, int32_t shot, const double *
   options.time_most = end > 1e-3 ? end : 1e-3;
   carom_shot played = {.events = events, .room = EVENTS_MOST};
   const carom_status status = carom_shoot(tracks->table, balls, count, NULL, &options, &played);
-  if (status < 0 && status != CAROM_ERROR_TOO_LONG)
+  if (status < 0)
     return false;
 
   /* The pieces between the events of each ball: from the state after one to the state before the next. */
