@@ -26,11 +26,11 @@ typedef struct fresh_list {
   uint32_t row[ROOM];
 } fresh_list;
 
-typedef struct moving_list {
+typedef struct waiting_list {
   int count;
   uint32_t row[ROOM];
-  float state[MOVING_COLUMNS][ROOM];
-} moving_list;
+  float state[LANE_COLUMNS][ROOM];
+} waiting_list;
 
 /* A stretch of rows; few enough for 32 bits. */
 typedef struct work {
@@ -44,7 +44,7 @@ typedef struct work {
   int8_t *status;
   size_t first_bad;
   fresh_list fresh[STEP_KINDS];
-  moving_list moving[STEP_KINDS];
+  waiting_list waiting[STEP_KINDS];
 } work;
 
 enum { MOST_ROWS = 1 << 30, CACHE_LINE = 64 };
@@ -66,30 +66,30 @@ static void add_fresh(work *w, enum step_kind kind, uint32_t row) {
     list->row[list->count++] = row;
 }
 
-static void add_moving(work *w, enum step_kind kind, uint32_t row, carom_moving moving, int lane) {
-  moving_list *list = &w->moving[kind];
+static void add_waiting(work *w, enum step_kind kind, uint32_t row, lane_state at, int lane) {
+  waiting_list *list = &w->waiting[kind];
   if (list->count == ROOM) {
     one_by_one(w, row);
     return;
   }
-  for (int c = 0; c < MOVING_COLUMNS; c++)
-    list->state[c][list->count] = moving[c][lane];
+  for (int c = 0; c < LANE_COLUMNS; c++)
+    list->state[c][list->count] = at[c][lane];
   list->row[list->count++] = row;
 }
 
 /* Rows that share a register: `count` of them, the rest of the lanes repeating the last. */
-typedef struct team {
+typedef struct lane_group {
   int count;
   uint32_t row[MOST_LANES];
-} team;
+} lane_group;
 
 /* What steps and rows hand to each other on the way. */
-typedef struct handed {
-  carom_context context;
-  carom_in in;
-  carom_out out;
-  carom_next next;
-} handed;
+typedef struct step_io {
+  row_context context;
+  step_inputs in;
+  step_outputs out;
+  lanes_by_step next;
+} step_io;
 
 /* Lanes, from the lowest on. */
 #define EACH_LANE(lane, bits) \
@@ -100,41 +100,41 @@ static inline uint32_t lowest(uint32_t bits) {
 
 /* After a step: writes the rows that are solved, and puts the others where they belong; `fresh`: they have not moved. Rows that
  * are not solved yet may be written too, for now. */
-static void sort(work *w, const team *t, uint32_t good, const handed *h, carom_moving moving, bool fresh) {
+static void sort(work *w, const lane_group *t, uint32_t good, const step_io *h, lane_state at, bool fresh) {
   const uint32_t there = (uint32_t)((UINT64_C(1) << t->count) - 1), right = there & good;
   uint32_t done = right & h->next[SOLVED];
   if (done != 0)
     done &= w->with->rows_out[w->precision](&h->context, h->out, w->out, t->row);
   for (int kind = 0; kind < STEP_KINDS; kind++) {
-    const uint32_t waiting = right & h->next[kind];
-    done |= waiting;
-    EACH_LANE(lane, waiting) {
+    const uint32_t lanes = right & h->next[kind];
+    done |= lanes;
+    EACH_LANE(lane, lanes) {
       if (fresh)
         add_fresh(w, (enum step_kind)kind, t->row[lane]);
       else
-        add_moving(w, (enum step_kind)kind, t->row[lane], moving, (int)lane);
+        add_waiting(w, (enum step_kind)kind, t->row[lane], at, (int)lane);
     }
   }
   EACH_LANE(lane, there & ~done) one_by_one(w, t->row[lane]);
 }
 
 /* Not inlined, nor are next_steps(): only one of their frames is on the stack at a time. */
-__attribute__((noinline)) static void first_steps(work *w, const team *t) {
-  handed h;
+__attribute__((noinline)) static void first_steps(work *w, const lane_group *t) {
+  step_io h;
   const uint32_t good = w->with->rows_in[w->precision](w->in, t->row, w->s, &h.context, h.in);
   w->with->first_step(h.in, good, (float)(2.5 * w->s), carom_tolerances[w->precision], h.out, h.next);
   sort(w, t, good, &h, NULL, true);
 }
 
-__attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, bool fresh, const team *t, carom_moving moving) {
-  handed h;
+__attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, bool fresh, const lane_group *t, lane_state at) {
+  step_io h;
   const uint32_t good = w->with->rows_in[w->precision](w->in, t->row, w->s, &h.context, h.in);
-  w->with->next_step(kind, fresh, h.in, (float)(2.5 * w->s), carom_tolerances[w->precision], moving, h.out, h.next);
-  sort(w, t, good, &h, moving, false);
+  w->with->next_step(kind, fresh, h.in, (float)(2.5 * w->s), carom_tolerances[w->precision], at, h.out, h.next);
+  sort(w, t, good, &h, at, false);
 }
 
 /* Takes up to a register's worth of rows off the end of a list. */
-static void take(const work *w, uint32_t *row, int *count, team *t) {
+static void take_rows(const work *w, uint32_t *row, int *count, lane_group *t) {
   const int lanes = w->with->lanes;
   t->count = *count < lanes ? *count : lanes;
   *count -= t->count;
@@ -144,24 +144,24 @@ static void take(const work *w, uint32_t *row, int *count, team *t) {
 
 static void work_off_fresh(work *w, enum step_kind kind) {
   fresh_list *list = &w->fresh[kind];
-  carom_moving moving;
-  team t;
-  take(w, list->row, &list->count, &t);
-  next_steps(w, kind, true, &t, moving);
+  lane_state at;
+  lane_group t;
+  take_rows(w, list->row, &list->count, &t);
+  next_steps(w, kind, true, &t, at);
 }
 
-static void work_off_moving(work *w, enum step_kind kind) {
-  moving_list *list = &w->moving[kind];
-  carom_moving moving;
-  team t;
-  take(w, list->row, &list->count, &t);
-  for (int c = 0; c < MOVING_COLUMNS; c++)
+static void work_off_waiting(work *w, enum step_kind kind) {
+  waiting_list *list = &w->waiting[kind];
+  lane_state at;
+  lane_group t;
+  take_rows(w, list->row, &list->count, &t);
+  for (int c = 0; c < LANE_COLUMNS; c++)
     if (t.count == w->with->lanes)
-      memcpy(moving[c], list->state[c] + list->count, (size_t)t.count * sizeof(float));
+      memcpy(at[c], list->state[c] + list->count, (size_t)t.count * sizeof(float));
     else
       for (int lane = 0; lane < w->with->lanes; lane++)
-        moving[c][lane] = list->state[c][list->count + (lane < t.count ? lane : t.count - 1)];
-  next_steps(w, kind, false, &t, moving);
+        at[c][lane] = list->state[c][list->count + (lane < t.count ? lane : t.count - 1)];
+  next_steps(w, kind, false, &t, at);
 }
 
 /* Works off every list that holds at least so many rows. Returns whether there was one. */
@@ -172,16 +172,16 @@ static bool work_off(work *w, int least) {
       work_off_fresh(w, (enum step_kind)kind);
       any = true;
     }
-    while (w->moving[kind].count >= least) {
-      work_off_moving(w, (enum step_kind)kind);
+    while (w->waiting[kind].count >= least) {
+      work_off_waiting(w, (enum step_kind)kind);
       any = true;
     }
   }
   return any;
 }
 
-static size_t solve(carom_precision precision, const void *in, size_t in_size, size_t n, const carom_options *opt, void *out,
-                    size_t out_size, int8_t *status) {
+static size_t solve_rows_in_lanes(carom_precision precision, const void *in, size_t in_size, size_t n, const carom_options *opt,
+                                  void *out, size_t out_size, int8_t *status) {
   work w; /* its lists are not cleared: that would take longer than a few rows do */
   w.with = carom_kernels_in_force();
   w.precision = precision;
@@ -199,7 +199,7 @@ static size_t solve(carom_precision precision, const void *in, size_t in_size, s
     return w.first_bad;
   }
   for (int kind = 0; kind < STEP_KINDS; kind++)
-    w.fresh[kind].count = w.moving[kind].count = 0;
+    w.fresh[kind].count = w.waiting[kind].count = 0;
   if (status != NULL)
     memset(status, CAROM_OK, n * sizeof *status); /* what is not solved by a step, has its own */
   const size_t lanes = (size_t)w.with->lanes, register_size = lanes * in_size, size = n * in_size;
@@ -208,7 +208,7 @@ static size_t solve(carom_precision precision, const void *in, size_t in_size, s
     const size_t ahead = (first + 2 * lanes) * in_size, end = ahead + register_size < size ? ahead + register_size : size;
     for (size_t at = ahead; at < end; at += CACHE_LINE)
       __builtin_prefetch(w.in + at);
-    team t;
+    lane_group t;
     t.count = n - first < lanes ? (int)(n - first) : (int)lanes;
     for (uint32_t lane = 0; lane < MOST_LANES; lane++)
       t.row[lane] = (uint32_t)first + (lane < (uint32_t)t.count ? lane : (uint32_t)t.count - 1);
@@ -220,23 +220,23 @@ static size_t solve(carom_precision precision, const void *in, size_t in_size, s
   return w.first_bad;
 }
 
-static size_t solve_all(carom_precision precision, const char *in, size_t in_size, size_t n, const carom_options *opt,
-                        char *out, size_t out_size, int8_t *status) {
+static size_t solve_in_parts(carom_precision precision, const char *in, size_t in_size, size_t n, const carom_options *opt,
+                             char *out, size_t out_size, int8_t *status) {
   size_t first_bad = n;
   for (size_t from = 0; from < n; from += MOST_ROWS) {
     const size_t rows = n - from < MOST_ROWS ? n - from : MOST_ROWS;
-    const size_t bad = solve(precision, in + from * in_size, in_size, rows, opt, out + from * out_size, out_size,
-                             status != NULL ? status + from : NULL);
+    const size_t bad = solve_rows_in_lanes(precision, in + from * in_size, in_size, rows, opt, out + from * out_size, out_size,
+                                           status != NULL ? status + from : NULL);
     if (bad < rows && first_bad == n)
       first_bad = from + bad;
   }
   return first_bad;
 }
 
-size_t carom_exact_batch_double(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
-  return solve_all(CAROM_DOUBLE, in, sizeof(carom_impact), n, opt, out, sizeof(carom_result), status);
+size_t carom_exact_batch_f64(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
+  return solve_in_parts(CAROM_F64, in, sizeof(carom_impact), n, opt, out, sizeof(carom_result), status);
 }
 
-size_t carom_exact_batch_single(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
-  return solve_all(CAROM_SINGLE, in, sizeof(carom_impact_f32), n, opt, out, sizeof(carom_result_f32), status);
+size_t carom_exact_batch_f32(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
+  return solve_in_parts(CAROM_F32, in, sizeof(carom_impact_f32), n, opt, out, sizeof(carom_result_f32), status);
 }

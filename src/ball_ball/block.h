@@ -14,20 +14,20 @@
 #include "ball_ball/columns.h"
 
 /* carom_local of src/frame.h, in lanes, with what the way back needs. */
-typedef struct block {
+typedef struct euler_rows {
   vreal v_ix, v_iy, w_ix, w_iy, w_iz;
   vreal v_jx, v_jy, w_jx, w_jy, w_jz;
   vreal M_i, M_j, R;
   vreal mu_i, mu_j, mu_b, e;
   vreal y_x, y_y, y_z; /* line of centres */
   vmask good;
-} block;
+} euler_rows;
 
-static inline block block_load(const real *const row[LANES]) {
+static inline euler_rows load_frame(const real *const row[LANES]) {
   vreal x[IN_NUMBERS];
   load_rows(row, x);
   const vreal *r_a = x, *v_a = x + 3, *w_a = x + 6, *r_b = x + 12, *v_b = x + 15, *w_b = x + 18;
-  block b;
+  euler_rows b;
   b.R = x[9];
   b.M_i = x[10];
   b.mu_i = x[11];
@@ -59,7 +59,7 @@ static inline block block_load(const real *const row[LANES]) {
 }
 
 /* Writes the results and returns the lanes in which every number is finite. */
-static inline vmask block_store(const block *b, real *const row[LANES]) {
+static inline vmask store_frame(const euler_rows *b, real *const row[LANES]) {
   const vreal zero = v_splat(0), x_x = b->y_y, x_y = -b->y_x;
   const vreal x[OUT_NUMBERS] = {
       x_x * b->v_ix + b->y_x * b->v_iy,

@@ -18,7 +18,7 @@
 static bool collocate(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
   float solution[OUT_COLUMNS];
   const int evaluations =
-      carom_kernels_in_force()->single[CAROM_DOUBLE](in, carom_spin_sign(opt->slip), out, detail == NULL ? NULL : solution);
+      carom_kernels_in_force()->call[CAROM_F64](in, carom_spin_sign(opt->slip), out, detail == NULL ? NULL : solution);
   if (evaluations > 0 && detail != NULL) {
     const carom_frame frame = carom_frame_of(in);
     const carom_local before = carom_to_frame(&frame, in, opt->slip);
@@ -47,7 +47,8 @@ static carom_status solve_euler(const carom_frame *frame, carom_local *local, in
   return status;
 }
 
-static carom_status solve(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+static carom_status collide_one_pair(const carom_impact *in, const carom_options *opt, carom_result *out,
+                                     carom_detail *detail) {
   if (opt->solver == CAROM_SOLVER_EXACT && collocate(in, opt, out, detail))
     return CAROM_OK;
   int field;
@@ -82,7 +83,7 @@ carom_status carom_collide_detail(const carom_impact *in, const carom_options *o
     opt = &defaults;
   carom_status status = carom_check_options(opt);
   if (status == CAROM_OK)
-    status = solve(in, opt, out, detail);
+    status = collide_one_pair(in, opt, out, detail);
   if (status < 0)
     carom_fill_nan(out);
   return status;
@@ -121,7 +122,7 @@ carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *
   if (opt == NULL)
     opt = &defaults;
   if (opt->solver == CAROM_SOLVER_EXACT && carom_check_options(opt) == CAROM_OK &&
-      carom_kernels_in_force()->single[CAROM_SINGLE](in, carom_spin_sign(opt->slip), out, NULL) > 0)
+      carom_kernels_in_force()->call[CAROM_F32](in, carom_spin_sign(opt->slip), out, NULL) > 0)
     return CAROM_OK;
   carom_impact wide;
   carom_result result;
@@ -130,7 +131,7 @@ carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *
 }
 
 carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt, void *out) {
-  return precision == CAROM_DOUBLE ? carom_collide(in, opt, out) : carom_collide_f32(in, opt, out);
+  return precision == CAROM_F64 ? carom_collide(in, opt, out) : carom_collide_f32(in, opt, out);
 }
 
 /* A batch as threads see it. */
@@ -167,13 +168,13 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
     bad = CAROM_ERROR_NULL;
   if (bad != CAROM_OK || n == 0)
     return bad;
-  carom_batch_solver *const exact = precision == CAROM_DOUBLE ? carom_exact_batch_double : carom_exact_batch_single;
+  carom_batch_solver *const exact = precision == CAROM_F64 ? carom_exact_batch_f64 : carom_exact_batch_f32;
   const batch job = {.solver = opt->solver == CAROM_SOLVER_EXACT ? exact : carom_kernels_in_force()->euler[precision],
                      .in = in,
                      .out = out,
                      .status = status,
-                     .in_size = precision == CAROM_DOUBLE ? sizeof(carom_impact) : sizeof(carom_impact_f32),
-                     .out_size = precision == CAROM_DOUBLE ? sizeof(carom_result) : sizeof(carom_result_f32),
+                     .in_size = precision == CAROM_F64 ? sizeof(carom_impact) : sizeof(carom_impact_f32),
+                     .out_size = precision == CAROM_F64 ? sizeof(carom_result) : sizeof(carom_result_f32),
                      .opt = opt};
   const size_t first_bad = carom_in_threads(solve_part, &job, n, opt->threads, least_part(opt));
   if (first_bad == n)
@@ -185,10 +186,10 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
 
 carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
                                  int8_t *status) {
-  return collide_batch(CAROM_DOUBLE, in, n, opt, out, status);
+  return collide_batch(CAROM_F64, in, n, opt, out, status);
 }
 
 carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt, carom_result_f32 *out,
                                      int8_t *status) {
-  return collide_batch(CAROM_SINGLE, in, n, opt, out, status);
+  return collide_batch(CAROM_F32, in, n, opt, out, status);
 }

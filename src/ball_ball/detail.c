@@ -43,11 +43,11 @@ carom_detail carom_detail_of_solution(const carom_frame *frame, const carom_loca
   /* as in rows.h */
   c.mu = c.u_z <= LEAST_PRESS * unit ? 0 : c.mu;
   c.mu_b = fmax(c.mu_b, LEAST_MU_B);
-  const double pull = c.mu * c.mu_b * unit;
+  const double mu_mu_b = c.mu * c.mu_b * unit;
   const bool stick = solution[OUT_STICK] >= 0;
-  carom_integrals g = {.p = unit * (1 + c.e + (double)solution[OUT_EXTRA]),
-                       .F_x = -pull * (double)solution[OUT_I_X],
-                       .F_y = -pull * (double)solution[OUT_I_Y]};
+  carom_integrals g = {.p = unit * (1 + c.e + (double)solution[OUT_OVERSHOOT]),
+                       .F_x = -mu_mu_b * (double)solution[OUT_I_X],
+                       .F_y = -mu_mu_b * (double)solution[OUT_I_Y]};
   if (stick) {
     g.Q_1 = (c.u_x + g.F_x) / (3.5 * c.kappa);
     g.Q_2 = (c.u_z + 2.5 * g.F_y) / (2.5 * c.kappa);

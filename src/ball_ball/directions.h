@@ -37,24 +37,24 @@ always bool is_mapped(int n) {
 }
 
 /* X at the nodes, and dX/dx where it is not 1. */
-typedef struct mesh {
+typedef struct mapped_nodes {
   reg X[MOST_REGS], weight[MOST_REGS];
-} mesh;
+} mapped_nodes;
 
 /* A turn, as seen from a state: p_t and delta; the length of the step; what f will be on it, in the mean, were the way
  * straight. */
-typedef struct turn_plan {
-  vreal at, width, length, mean_f;
-} turn_plan;
+typedef struct turn_step {
+  vreal p_t, delta, length, mean_f;
+} turn_step;
 
 /* Graded: q, h, and X / x at x = 1 without the factors that depend on x.
  * Turned: sinh(xi) at x = 0, xi there, its range, delta / (2 L). */
 typedef union node_map {
   struct {
-    vreal q, h, per, unused;
+    vreal q, h, X_per_x, unused;
   };
   struct {
-    vreal from, low, range, half;
+    vreal sinh_0, xi_0, xi_range, half_width;
   };
 } node_map;
 
@@ -65,35 +65,35 @@ always node_map graded_map(vreal q) {
   m.q = v_min(q, v_splat(MOST_GRADING));
   const vreal y = root(root(1 - m.q));
   m.h = 1 - y;
-  m.per = v_reciprocal((1 + y) * v_fma(y, y, v_splat(1)));
+  m.X_per_x = v_reciprocal((1 + y) * v_fma(y, y, v_splat(1)));
   m.unused = v_splat(0);
   return m;
 }
 
-always node_map turned_map(const turn_plan *p, vreal length) {
-  const vreal per_delta = v_reciprocal(p->width);
+always node_map turned_map(const turn_step *p, vreal length) {
+  const vreal per_delta = v_reciprocal(p->delta);
   node_map m;
-  m.from = -p->at * per_delta;
-  m.half = 0.5f * p->width * v_reciprocal(length);
-  m.low = inverse_sinh(m.from);
-  m.range = inverse_sinh((length - p->at) * per_delta) - m.low;
+  m.sinh_0 = -p->p_t * per_delta;
+  m.half_width = 0.5f * p->delta * v_reciprocal(length);
+  m.xi_0 = inverse_sinh(m.sinh_0);
+  m.xi_range = inverse_sinh((length - p->p_t) * per_delta) - m.xi_0;
   return m;
 }
 
 /* X and its slope at the nodes of a rule from 0 to a share of x. */
-always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m, vreal share, mesh *to) {
+always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m, vreal share, mapped_nodes *to) {
   if (!turned) {
-    const vreal h = share * m->h, to_X = share * m->per;
+    const vreal h = share * m->h, to_X = share * m->X_per_x;
     EACH_REG(k, n) {
       const reg x = SPREAD(AT(r->node, k)), y = MADD(-h, x, 1.0f), y2 = y * y;
       to->X[k] = (to_X * x) * ((1 + y) * (1 + y2));
       to->weight[k] = (4 * to_X) * (y2 * y);
     }
   } else {
-    const vreal range = share * m->range, slope = range * m->half, start = 2 * m->from * m->half;
+    const vreal range = share * m->xi_range, slope = range * m->half_width, start = 2 * m->sinh_0 * m->half_width;
     EACH_REG(k, n) {
-      const reg e = exponential(MADD(range, AT(r->node, k), m->low)), i = reg_reciprocal(e);
-      to->X[k] = MADD(m->half, e - i, -start);
+      const reg e = exponential(MADD(range, AT(r->node, k), m->xi_0)), i = reg_reciprocal(e);
+      to->X[k] = MADD(m->half_width, e - i, -start);
       to->weight[k] = slope * (e + i);
     }
   }
@@ -103,9 +103,9 @@ always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m
 always vreal x_at(bool turned, const node_map *m, vreal X) {
   if (!turned) {
     const vreal y = root(root(v_fma(-m->q, X, v_splat(1))));
-    return X * v_reciprocal(m->per * (1 + y) * v_fma(y, y, v_splat(1)));
+    return X * v_reciprocal(m->X_per_x * (1 + y) * v_fma(y, y, v_splat(1)));
   }
-  return (inverse_sinh(v_fma(X, v_reciprocal(2 * m->half), m->from)) - m->low) * v_reciprocal(m->range);
+  return (inverse_sinh(v_fma(X, v_reciprocal(2 * m->half_width), m->sinh_0)) - m->xi_0) * v_reciprocal(m->xi_range);
 }
 
 /* ---- The directions --------------------------------------------------------------------------------------------------- */
@@ -118,17 +118,18 @@ always float estimate_scale(int n, bool turned) {
 }
 
 /* Coefficients of the equations, times L; and q, the share of |u| that the stretch loses at its first rate. */
-typedef struct step_law {
-  vreal length, mu_b, pull, pull_y, on_d, on_y, k_x, k_z, k_y, q;
-} step_law;
+typedef struct coefficients {
+  vreal length, mu_b, mu_mu_b, mu_mu_b_y, S_in_d, Z_in_d_y, C_in_u_x, Z_in_u_z, S_in_u_z, q;
+} coefficients;
 
-always step_law law_of(const problem *a, const prediction *g, vreal length) {
-  step_law l = {.length = length, .mu_b = a->mu_b * length, .pull = a->pull * length, .pull_y = a->pull_y * length};
-  l.on_d = (a->spin - 1) * l.pull;
-  l.on_y = a->spin * l.mu_b;
-  l.k_x = -3.5f * (a->kappa * l.mu_b);
-  l.k_z = -2.5f * (a->kappa * l.mu_b);
-  l.k_y = -2.5f * l.pull;
+always coefficients coefficients_of(const problem *a, const prediction *g, vreal length) {
+  coefficients l = {
+      .length = length, .mu_b = a->mu_b * length, .mu_mu_b = a->mu_mu_b * length, .mu_mu_b_y = a->mu_mu_b_y * length};
+  l.S_in_d = (a->spin - 1) * l.mu_mu_b;
+  l.Z_in_d_y = a->spin * l.mu_b;
+  l.C_in_u_x = -3.5f * (a->kappa * l.mu_b);
+  l.Z_in_u_z = -2.5f * (a->kappa * l.mu_b);
+  l.S_in_u_z = -2.5f * l.mu_mu_b;
   l.q = g->rate * length;
   return l;
 }
@@ -143,15 +144,15 @@ typedef struct directions {
 } directions;
 
 /* A stretch of the collision from *s on, for which *g has been predicted. map: of nodes that are not even. */
-typedef struct stretch {
+typedef struct impulse_step {
   const problem *a;
   const prediction *g;
   const state *s;
-  step_law l;
+  coefficients l;
   node_map map;
-  mesh m;
+  mapped_nodes nodes;
   directions f;
-} stretch;
+} impulse_step;
 
 /* The angle w by which u turns on the way to X: x w_1 (1 + x (second + x third)) with x = X / (1 - alpha X), which has its
  * logarithm built in, and what a turning t adds. */
@@ -173,24 +174,24 @@ always turning predict_turning(bool turn, const problem *a, const prediction *g,
   if (!turn) {
     const vreal i_d = v_rough_reciprocal_sqrt(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, v_splat(1e-12f))));
     const vreal half_x = v_fma(-s->d_x, i_d, g->t_x), half_y = v_fma(-s->d_y, i_d, g->t_y);
-    w.by_t = v_select(is_at_rest(a, s), w.by_t, b * g->z * a->mu * v_fma(2.5f * half_y, g->c, -half_x * g->z));
+    w.by_t = v_select(has_no_slip(a, s), w.by_t, b * g->z * a->mu * v_fma(2.5f * half_y, g->c, -half_x * g->z));
   }
   return w;
 }
 
 /* The directions at the nodes, before any iteration. turned: d turns on the way and has no direction half way. */
-always void predict_directions(int n, bool turned, stretch *p) {
+always void predict_directions(int n, bool turned, impulse_step *p) {
   const prediction *const g = p->g;
   const state *const s = p->s;
-  const step_law *const l = &p->l;
+  const coefficients *const l = &p->l;
   directions *const f = &p->f;
   const turning turns = predict_turning(turned, p->a, g, s, l->mu_b * g->inverse_u);
   /* the cloth's own pull on d, along its direction half way */
-  const vreal own = turned ? v_splat(0) : l->on_d * g->z, own_x = own * g->t_x, own_y = l->length - own * g->t_y;
-  const vreal half_b = 0.5f * l->mu_b, half_y = 0.5f * l->on_y;
+  const vreal own = turned ? v_splat(0) : l->S_in_d * g->z, own_x = own * g->t_x, own_y = l->length - own * g->t_y;
+  const vreal half_b = 0.5f * l->mu_b, half_y = 0.5f * l->Z_in_d_y;
   EACH_REG(k, n) {
     /* sums begin with what is known first */
-    const reg X = p->m.X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, 1.0f));
+    const reg X = p->nodes.X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, 1.0f));
     const reg w = MADD(turns.w_1 * x, MADD(x * x, turns.third, MADD(x, turns.second, 1.0f)), turns.by_t * (X * (X - 1)));
     f->c[k] = MADD(w, MADD(-0.5f * g->c, w, g->z), g->c);
     f->z[k] = MADD(w, MADD(-0.5f * g->z, w, -g->c), g->z);
@@ -205,25 +206,25 @@ always void predict_directions(int n, bool turned, stretch *p) {
 }
 
 /* Times the weight of node k. */
-always reg weighed(int n, const mesh *m, int k, reg x) {
-  return is_mapped(n) ? m->weight[k] * x : x;
+always reg weighed(int n, const mapped_nodes *nodes, int k, reg x) {
+  return is_mapped(n) ? nodes->weight[k] * x : x;
 }
 
 /* One iteration, in the lanes where it goes on. */
-always void iterate(int n, bool turned, const gauss_rule *r, stretch *p) {
+always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_step *p) {
   const problem *const a = p->a;
   const state *const s = p->s;
-  const step_law *const l = &p->l;
-  const mesh *const m = &p->m;
+  const coefficients *const l = &p->l;
+  const mapped_nodes *const nodes = &p->nodes;
   directions *const f = &p->f;
   const vmask going = f->going;
-  const vreal no_x = -l->pull, no_b = -l->mu_b, mu_b_kappa = l->mu_b * a->kappa;
+  const vreal no_x = -l->mu_mu_b, no_b = -l->mu_b, mu_b_kappa = l->mu_b * a->kappa;
   reg w_c[MOST_REGS], w_z[MOST_REGS], C[MOST_REGS], Z[MOST_REGS], S_x[MOST_REGS], S_y[MOST_REGS];
   EACH_REG(k, n) {
-    w_c[k] = weighed(n, m, k, f->c[k]);
-    w_z[k] = weighed(n, m, k, f->z[k]);
-    f->w_x[k] = weighed(n, m, k, f->s_x[k]);
-    f->w_y[k] = weighed(n, m, k, f->s_y[k]);
+    w_c[k] = weighed(n, nodes, k, f->c[k]);
+    w_z[k] = weighed(n, nodes, k, f->z[k]);
+    f->w_x[k] = weighed(n, nodes, k, f->s_x[k]);
+    f->w_y[k] = weighed(n, nodes, k, f->s_y[k]);
   }
   apply(r->sum, w_c, C, n);
   apply(r->sum, w_z, Z, n);
@@ -231,10 +232,10 @@ always void iterate(int n, bool turned, const gauss_rule *r, stretch *p) {
   apply(r->sum, f->w_y, S_y, n);
   reg u_c[MOST_REGS], u_z[MOST_REGS], t_x[MOST_REGS], t_y[MOST_REGS], rate[MOST_REGS], back[MOST_REGS], moved[MOST_REGS];
   EACH_REG(k, n) {
-    const reg du_x = MADD(l->k_x, C[k], no_x * S_x[k]), du_z = MADD(l->k_z, Z[k], l->k_y * S_y[k]);
+    const reg du_x = MADD(l->C_in_u_x, C[k], no_x * S_x[k]), du_z = MADD(l->Z_in_u_z, Z[k], l->S_in_u_z * S_y[k]);
     const reg u_x_k = s->u_x + du_x, u_z_k = s->u_z + du_z;
-    const reg d_x = MADD(l->on_d, S_x[k], MADD(no_b, C[k], s->d_x)),
-              d_y = MADD(l->on_d, S_y[k], MADD(l->on_y, Z[k], MADD(-l->length, m->X[k], s->d_y)));
+    const reg d_x = MADD(l->S_in_d, S_x[k], MADD(no_b, C[k], s->d_x)),
+              d_y = MADD(l->S_in_d, S_y[k], MADD(l->Z_in_d_y, Z[k], MADD(-l->length, nodes->X[k], s->d_y)));
     const reg i_u = reg_reciprocal_sqrt(MADD(u_x_k, u_x_k, MADD(u_z_k, u_z_k, TINY)));
     const reg i_d = reg_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
     u_c[k] = u_x_k * i_u;
@@ -243,7 +244,7 @@ always void iterate(int n, bool turned, const gauss_rule *r, stretch *p) {
     t_y[k] = d_y * i_d;
     const reg rho = MADD(f->c[k], u_z[k], -(f->z[k] * u_c[k]));
     const reg D = (mu_b_kappa * i_u) * MADD(f->z[k], f->z[k], 2.5f);
-    rate[k] = weighed(n, m, k, D * rho);
+    rate[k] = weighed(n, nodes, k, D * rho);
     REG_MOVE(going, &f->S_y[k], S_y[k]);
     REG_MOVE(going, &f->dx[k], du_x);
     REG_MOVE(going, &f->dz[k], du_z);
@@ -259,17 +260,18 @@ always void iterate(int n, bool turned, const gauss_rule *r, stretch *p) {
     REG_MOVE(going, &f->s_x[k], x);
     REG_MOVE(going, &f->s_y[k], y);
   }
-  const vreal per_moved = estimate_scale(n, turned) * l->mu_b *
-                          v_fma(v_splat(CONTRACTION_CLOTH), a->pull, v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));
+  const vreal per_moved =
+      estimate_scale(n, turned) * l->mu_b *
+      v_fma(v_splat(CONTRACTION_CLOTH), a->mu_mu_b, v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));
   const vreal error = per_moved * largest(moved, n);
   f->error = v_select(going, error, f->error);
-  f->going = going & v_not(v_less(error, ENOUGH * a->tolerance));
+  f->going = going & v_not(v_less(error, ITERATION_SHARE * a->tolerance));
 }
 
 /* After the last: the means over the stretch of c and sigma, against their values at first, from the sine of the angle by which
  * u has turned and 1 - its cosine; and w_x, w_y. From the change of u, not from its direction: what is small keeps its digits.
  */
-always void end_iterations(int n, const gauss_rule *r, stretch *p, vreal *dc, vreal *dz) {
+always void end_iterations(int n, const gauss_rule *r, impulse_step *p, vreal *dc, vreal *dz) {
   const prediction *const g = p->g;
   const state *const s = p->s;
   directions *const f = &p->f;
@@ -279,10 +281,10 @@ always void end_iterations(int n, const gauss_rule *r, stretch *p, vreal *dc, vr
     const reg sine = MADD(g->c, f->dz[k], -g->z * f->dx[k]) * f->per_u[k], e_c = MADD(u_x_k, f->per_u[k], -g->c),
               e_z = MADD(u_z_k, f->per_u[k], -g->z);
     const reg drop = 0.5f * MADD(e_c, e_c, e_z * e_z);
-    turned[k] = weighed(n, &p->m, k, MADD(-f->back[k], 1 - drop, sine));
-    lost[k] = weighed(n, &p->m, k, MADD(-f->back[k], sine, drop));
-    f->w_x[k] = weighed(n, &p->m, k, f->s_x[k]);
-    f->w_y[k] = weighed(n, &p->m, k, f->s_y[k]);
+    turned[k] = weighed(n, &p->nodes, k, MADD(-f->back[k], 1 - drop, sine));
+    lost[k] = weighed(n, &p->nodes, k, MADD(-f->back[k], sine, drop));
+    f->w_x[k] = weighed(n, &p->nodes, k, f->s_x[k]);
+    f->w_y[k] = weighed(n, &p->nodes, k, f->s_y[k]);
   }
   const vreal sine = dot(r->all, turned, n), drop = dot(r->all, lost, n);
   *dc = v_fma(-g->z, sine, -g->c * drop);

@@ -28,11 +28,11 @@ enum { EASY_NODES = 4, FULL_NODES = 6 }; /* of STICK: stick_step.h; of all other
 enum { EASY_MOST = 3, FULL_MOST = 4, GRADED_MOST = 5, TURN_MOST = 6 };
 enum { MOST_ATTEMPTS = 14 };
 
-static const float EASY_SHARE = 6;         /* error of an EASY step over mu_b rho^-8 with rho for u, */
-static const float MOST_EASY_Q = 0.62f;    /* its q */
-static const float MOST_EASY_PULL = 5e-3f; /* and its mu mu_b q^2 */
-static const float FULL_Q = 0.66f;         /* q of a FULL step over even nodes, */
-static const float FULL_GRADED_Q = 0.96f;  /* and over graded ones */
+static const float EASY_SHARE = 6;            /* error of an EASY step over mu_b rho^-8 with rho for u, */
+static const float MOST_EASY_Q = 0.62f;       /* its q */
+static const float MOST_EASY_MU_MU_B = 5e-3f; /* and its mu mu_b q^2 */
+static const float FULL_Q = 0.66f;            /* q of a FULL step over even nodes, */
+static const float FULL_GRADED_Q = 0.96f;     /* and over graded ones */
 static const float BEND_4 = 20,
                    BEND_8 = 30;     /* by q^2: what a way that is not straight adds to the error, with 4 nodes and with more */
 static const float STICK_Q = 1.05f; /* q from which the balls will stick */
@@ -45,14 +45,14 @@ static const float TURN_SHARE = 350;                                   /* its er
 static const float LEAST_SHARE = 0.1f;                                 /* of its usual length */
 
 /* After refusals of steps from a state. */
-typedef struct progress {
+typedef struct retries {
   vreal share;   /* of the usual length that a TURN step may have */
   vmask careful; /* a step was refused: only TURN steps now */
-} progress;
+} retries;
 
-#define apart static __attribute__((noinline)) /* the inlined text of a step is long */
+#define separate static __attribute__((noinline)) /* the inlined text of a step is long */
 
-always vreal mark(vmask m, enum step_kind kind, vreal otherwise) {
+always vreal choose_kind(vmask m, enum step_kind kind, vreal otherwise) {
   return v_select(m, v_splat((float)kind), otherwise);
 }
 
@@ -68,9 +68,9 @@ always vreal inverse_rho(const problem *a, const state *s, const prediction *g, 
   const vreal d_x = s->d_x - g_x, d_y = s->d_y - g_y;
   const vreal d_0 = root(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, tiny))),
               d_1 = root(v_fma(d_x, d_x, v_fma(d_y, d_y, tiny)));
-  const vreal taken = own * a->pull * g->z * length;
+  const vreal taken = own * a->mu_mu_b * g->z * length;
   const vreal sum = v_max((d_0 + d_1 - taken) * inverse_length(g_x, g_y), v_splat(1));
-  return v_select(is_at_rest(a, s), v_splat(0), v_reciprocal(2 * sum - v_reciprocal(sum)));
+  return v_select(has_no_slip(a, s), v_splat(0), v_reciprocal(2 * sum - v_reciprocal(sum)));
 }
 
 /* The same on the way ahead, to the end or to stick. */
@@ -81,7 +81,8 @@ always vreal inverse_rho_ahead(const problem *a, const state *s, const predictio
 /* Is the direction of the cloth slip smooth enough for n nodes? The more of |u| is lost, the less straight the way. */
 always vmask is_smooth(int n, const problem *a, const prediction *g, vreal length, vreal inverse) {
   const vreal inverse_4 = power_4(inverse), inverse_8 = inverse_4 * inverse_4, q = g->rate * length;
-  const vreal left_out = a->pull * g->z * length * (n == 4 ? 4 * inverse_8 : (n == 6 ? 6.0f : 2.0f) * (inverse_8 * inverse_8));
+  const vreal left_out =
+      a->mu_mu_b * g->z * length * (n == 4 ? 4 * inverse_8 : (n == 6 ? 6.0f : 2.0f) * (inverse_8 * inverse_8));
   return v_less(left_out * v_fma((n == 4 ? BEND_4 : BEND_8) * q, q, v_splat(1)), a->tolerance);
 }
 
@@ -91,7 +92,7 @@ always vmask is_easy(const problem *a, const prediction *g, vreal to_end, vreal 
   const vreal q = g->rate * to_end, root_left = v_sqrt(v_max(1 - q, v_splat(0)));
   const vreal inverse_4 = power_4((1 - root_left) * v_rough_reciprocal(1 + root_left));
   return v_less(EASY_SHARE * a->mu_b * (inverse_4 * inverse_4), a->tolerance) & v_less(q, v_splat(MOST_EASY_Q)) &
-         v_less(a->pull * q * q, v_splat(MOST_EASY_PULL)) & is_smooth(4, a, g, to_end, inverse);
+         v_less(a->mu_mu_b * q * q, v_splat(MOST_EASY_MU_MU_B)) & is_smooth(4, a, g, to_end, inverse);
 }
 
 /* The error of a step to stick, over |u|, by how smooth tau and W are in lambda. */
@@ -101,15 +102,15 @@ always vreal stick_error(const problem *a, const state *s, const prediction *g, 
   const vreal share = mu * v_reciprocal(a->kappa - mu), from_rest = 2.6e-4f * (share * share * share) * (g->z * g->z);
   const vreal by_b =
       1e-4f * v_max(v_fma(-12 * mu, g->t_y, -5 * a->kappa), v_splat(0)); /* W falls with a high power of lambda */
-  return mu * (v_select(is_at_rest(a, s), from_rest, by_turn) + by_b + 1e-6f);
+  return mu * (v_select(has_no_slip(a, s), from_rest, by_turn) + by_b + 1e-6f);
 }
 
 /* A TURN step. `last`: it ends the collision; `refused`: it would be too short, or the turn is too sharp. */
-always turn_plan plan_turn(const problem *a, const state *s, const prediction *g, vreal to_end, const progress *so_far,
-                           vmask *last, vmask *refused) {
-  turn_plan p;
+always turn_step select_turn_step(const problem *a, const state *s, const prediction *g, vreal to_end, const retries *tried,
+                                  vmask *last, vmask *refused) {
+  turn_step p;
   /* the velocity of d, with the cloth's own pull along d, and its curvature as u turns */
-  const vreal own = (a->spin - 1) * a->pull * g->z * inverse_length(s->d_x, s->d_y);
+  const vreal own = (a->spin - 1) * a->mu_mu_b * g->z * inverse_length(s->d_x, s->d_y);
   const vreal g_x = own * s->d_x - a->mu_b * g->c, g_y = own * s->d_y + (a->spin * a->mu_b * g->z - 1);
   const vreal angular = -a->mu_b * g->inverse_u * g->z * g->c * a->kappa;
   const vreal c_x = -a->mu_b * g->z * angular, c_y = -a->spin * a->mu_b * g->c * angular;
@@ -120,36 +121,36 @@ always turn_plan plan_turn(const problem *a, const state *s, const prediction *g
   const vreal side = (d_x * v_y - d_y * v_x) * per_v2, at = straight - (d_x * v_x + d_y * v_y) * per_v2, width = v_abs(side);
 
   /* the range of xi that the tolerance allows: rho = y + sqrt(y^2 + 1) with y = pi / range */
-  const vreal one = v_splat(1), q = g->rate * to_end, reach = so_far->share * v_min(to_end, TURN_Q * v_reciprocal(g->rate));
-  const vreal cloth = a->pull * g->z,
+  const vreal one = v_splat(1), q = g->rate * to_end, reach = tried->share * v_min(to_end, TURN_Q * v_reciprocal(g->rate));
+  const vreal cloth = a->mu_mu_b * g->z,
               needed = v_max((TURN_SHARE * v_reciprocal(a->tolerance)) * cloth * cloth * reach, v_splat(1.0001f));
   const vreal rho = root(root(root(root(needed))));
   const vreal widest = v_min(6.2831853f * v_reciprocal(rho - v_reciprocal(rho)), v_splat(WIDEST_RANGE));
   /* a turn far away is as good as one nearer by and wider */
-  const vmask rests = is_at_rest(a, s);
-  p.at = v_select(rests, 2 * reach, v_min(v_max(at, -reach), 2 * reach));
-  const vreal moved = v_select(rests, reach, v_abs(at - p.at));
-  p.width = v_min(v_max(v_max(width, v_splat(LEAST_WIDTH)), moved), 2 * reach);
-  const vreal per_width = v_reciprocal(p.width), a_0 = -p.at * per_width, a_1 = (reach - p.at) * per_width;
+  const vmask rests = has_no_slip(a, s);
+  p.p_t = v_select(rests, 2 * reach, v_min(v_max(at, -reach), 2 * reach));
+  const vreal moved = v_select(rests, reach, v_abs(at - p.p_t));
+  p.delta = v_min(v_max(v_max(width, v_splat(LEAST_WIDTH)), moved), 2 * reach);
+  const vreal per_width = v_reciprocal(p.delta), a_0 = -p.p_t * per_width, a_1 = (reach - p.p_t) * per_width;
   const vreal from = inverse_sinh(a_0), range = inverse_sinh(a_1) - from;
-  const vreal e = ONE_OF(exponential(SPREAD(from + widest))), bound = p.at + 0.5f * p.width * (e - v_reciprocal(e));
+  const vreal e = ONE_OF(exponential(SPREAD(from + widest))), bound = p.p_t + 0.5f * p.delta * (e - v_reciprocal(e));
   const vmask whole = v_less_equal(range, widest);
   p.length = v_select(whole, reach, v_min(bound, reach));
-  *last = whole & v_less(q, v_splat(TURN_Q)) & v_less_equal(one, so_far->share);
+  *last = whole & v_less(q, v_splat(TURN_Q)) & v_less_equal(one, tried->share);
   /* the turn is too sharp, and lies on the step or, in a sensitive collision, shortly before it */
   const vreal least = v_select(a->sensitive, v_splat(LEAST_WIDTH_SENSITIVE), v_splat(LEAST_WIDTH));
   const vmask on_step = v_less(v_select(a->sensitive, -least, v_splat(0)), at) & v_less(at, reach);
-  *refused = v_less(so_far->share, v_splat(LEAST_SHARE)) | (v_less(width, least) & v_not(rests) & on_step);
+  *refused = v_less(tried->share, v_splat(LEAST_SHARE)) | (v_less(width, least) & v_not(rests) & on_step);
   /* the mean of t_y on the straight way, and with it of f */
   const vreal along = root(v_fma(a_1, a_1, one)) - root(v_fma(a_0, a_0, one)),
               across = v_select(v_less(side, v_splat(0)), v_x, -v_x) * range;
-  const vreal mean_y = p.width * per_v * v_reciprocal(reach) * v_fma(v_y, along, across);
-  p.mean_f = -a->pull_y * g->z * v_select(v_less(moved, v_splat(TINY)), mean_y, g->t_y);
+  const vreal mean_y = p.delta * per_v * v_reciprocal(reach) * v_fma(v_y, along, across);
+  p.mean_f = -a->mu_mu_b_y * g->z * v_select(v_less(moved, v_splat(TINY)), mean_y, g->t_y);
   return p;
 }
 
 /* The way ahead of a state that is not easy, to the end or to stick; *first: predicted for the way to the end. */
-always prediction look_ahead(const problem *a, const state *s, const prediction *first, vreal to_end) {
+always prediction predict_ahead(const problem *a, const state *s, const prediction *first, vreal to_end) {
   const vmask is_short = v_less(first->rate * to_end, v_splat(FULL_GRADED_Q));
   if (!v_any(v_not(is_short)))
     return *first;
@@ -169,7 +170,7 @@ always vreal part_length(const prediction *g, vreal to_end) {
  * that at the start, which is not easy. */
 always vreal next_kind(const problem *a, const state *s, const prediction *g, vreal to_end, vreal inverse, vmask careful,
                        bool fresh, prediction *ahead) {
-  *ahead = look_ahead(a, s, g, to_end);
+  *ahead = predict_ahead(a, s, g, to_end);
   const vreal q = ahead->rate * to_end, u = v_reciprocal(ahead->inverse_u);
   /* to the end, over even nodes if six are enough; or to stick */
   const vmask full = v_less(q, v_splat(FULL_GRADED_Q)) & is_smooth(MOST_NODES, a, ahead, to_end, inverse);
@@ -181,49 +182,49 @@ always vreal next_kind(const problem *a, const state *s, const prediction *g, vr
     part = part & is_smooth(MOST_NODES, a, ahead, length, inverse_rho(a, s, ahead, length));
   }
   /* the first of these that is possible */
-  vreal kind = mark(part, PART, v_splat((float)TURN));
-  kind = mark(stick, STICK, kind);
-  kind = mark(full, FULL_GRADED, kind);
-  kind = mark(even, FULL, kind);
+  vreal kind = choose_kind(part, PART, v_splat((float)TURN));
+  kind = choose_kind(stick, STICK, kind);
+  kind = choose_kind(full, FULL_GRADED, kind);
+  kind = choose_kind(even, FULL, kind);
   if (!fresh)
-    kind = mark(is_easy(a, g, to_end, inverse), EASY, kind);
-  return mark(careful, TURN, kind);
+    kind = choose_kind(is_easy(a, g, to_end, inverse), EASY, kind);
+  return choose_kind(careful, TURN, kind);
 }
 
 /* ---- The kinds of steps ------------------------------------------------------------------------------------------------ */
 
-apart vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return take_step(EASY_NODES, EASY_MOST, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
+separate vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return take_impulse_step(EASY_NODES, EASY_MOST, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
 }
-apart vreal take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return take_step(FULL_NODES, FULL_MOST, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
+separate vreal take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
+  return take_impulse_step(FULL_NODES, FULL_MOST, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
 }
-apart vreal take_graded_step(const problem *a, const prediction *g, vreal length, vmask last, const state *s, state *next,
-                             solution *out) {
-  return take_step(MOST_NODES, GRADED_MOST, a, g, s, length, NULL, last, next, out);
+separate vreal take_graded_step(const problem *a, const prediction *g, vreal length, vmask last, const state *s, state *next,
+                                solution *out) {
+  return take_impulse_step(MOST_NODES, GRADED_MOST, a, g, s, length, NULL, last, next, out);
 }
-apart vreal take_turn_step(const problem *a, const turn_plan *p, vmask last, const state *s, state *next, solution *out) {
+separate vreal take_turn_step(const problem *a, const turn_step *p, vmask last, const state *s, state *next, solution *out) {
   const prediction g = predict(a, s, p->length);
   const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
-  return take_step(MOST_NODES, TURN_MOST, a, &g, s, length, p, last, next, out);
+  return take_impulse_step(MOST_NODES, TURN_MOST, a, &g, s, length, p, last, next, out);
 }
-apart vreal take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
+separate vreal take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
   return stick_step(a, g, s, out);
 }
 
 /* A collision between two steps, and what it becomes. */
-typedef struct course {
+typedef struct collision {
   state s;
   vreal to_end;
   prediction g; /* for the way to the end */
-  progress so_far;
-} course;
+  retries tried;
+} collision;
 
 /* Takes a step of a kind. Returns the lanes in which it was accepted. last: the lanes in which it ends the collision, with the
  * solution in *out if it is accepted; in the others, *c goes on behind it. Where it is refused, *c is told to be more careful.
  * impossible: the lanes that collocation cannot solve. */
-always vmask take(enum step_kind kind, const problem *a, const prediction *ahead, course *c, vmask *last, vmask *impossible,
-                  solution *out) {
+always vmask take_step(enum step_kind kind, const problem *a, const prediction *ahead, collision *c, vmask *last,
+                       vmask *impossible, solution *out) {
   const state *const s = &c->s;
   const vreal to_end = c->to_end;
   state next;
@@ -244,19 +245,19 @@ always vmask take(enum step_kind kind, const problem *a, const prediction *ahead
     *last = v_not(v_all());
     error = take_graded_step(a, &g, length, *last, s, &next, out);
   } else {
-    const turn_plan p = plan_turn(a, s, ahead, to_end, &c->so_far, last, impossible);
+    const turn_step p = select_turn_step(a, s, ahead, to_end, &c->tried, last, impossible);
     error = take_turn_step(a, &p, *last, s, &next, out);
   }
   const vmask accepted = v_less(error, a->tolerance) & v_not(*impossible);
   if (kind == PART || kind == TURN) {
     const vmask moved_on = accepted & v_not(*last);
     c->s = choose_state(moved_on, &next, s);
-    c->to_end = way_to_end(a, &c->s);
+    c->to_end = impulse_to_end(a, &c->s);
     c->g = predict(a, &c->s, c->to_end);
-    c->so_far.share = v_select(moved_on, v_splat(1), kind == TURN ? 0.5f * c->so_far.share : c->so_far.share);
-    c->so_far.careful = v_not(moved_on);
+    c->tried.share = v_select(moved_on, v_splat(1), kind == TURN ? 0.5f * c->tried.share : c->tried.share);
+    c->tried.careful = v_not(moved_on);
   } else
-    c->so_far.careful = v_all();
+    c->tried.careful = v_all();
   return accepted;
 }
 

@@ -6,7 +6,7 @@
 #ifdef CAROM_LANES_ONE
 
 /* One row, with the bits that a lane of a batch has. */
-int PRECISE_KERNEL(carom_single)(const void *in, double s, void *out, float report[OUT_COLUMNS]) {
+int PRECISE_KERNEL(carom_call)(const void *in, double s, void *out, float report[OUT_COLUMNS]) {
   const real *const from[1] = {in};
   real *const to[1] = {out};
   row_lanes r;
@@ -29,13 +29,13 @@ int PRECISE_KERNEL(carom_single)(const void *in, double s, void *out, float repo
 #else
 
 enum { REGISTERS = sizeof(real) / sizeof(float) };
-_Static_assert(REGISTERS * sizeof(row_lanes) <= sizeof(carom_context), "a context has room for the rows");
+_Static_assert(REGISTERS * sizeof(row_lanes) <= sizeof(row_context), "a context has room for the rows");
 
 typedef float float_lanes __attribute__((vector_size(LANES * sizeof(float))));
 typedef float float_lanes_unaligned __attribute__((vector_size(LANES * sizeof(float)), aligned(4), may_alias));
 
-uint32_t PRECISE_KERNEL(carom_rows_in)(const void *in, const uint32_t row[MOST_LANES], double s, carom_context *context,
-                                       carom_in to) {
+uint32_t PRECISE_KERNEL(carom_rows_in)(const void *in, const uint32_t row[MOST_LANES], double s, row_context *context,
+                                       step_inputs to) {
   uint32_t good = 0;
   lanes_unrolled for (int k = 0; k < REGISTERS; k++) {
     const real *rows[LANES];
@@ -50,7 +50,7 @@ uint32_t PRECISE_KERNEL(carom_rows_in)(const void *in, const uint32_t row[MOST_L
   return good;
 }
 
-uint32_t PRECISE_KERNEL(carom_rows_out)(const carom_context *context, const carom_out solution, void *out,
+uint32_t PRECISE_KERNEL(carom_rows_out)(const row_context *context, const step_outputs solution, void *out,
                                         const uint32_t row[MOST_LANES]) {
   uint32_t finite = 0;
   lanes_unrolled for (int k = 0; k < REGISTERS; k++) {

@@ -28,7 +28,7 @@ typedef struct row_lanes {
 } row_lanes;
 
 /* What collocation can be tried on: beyond these limits the fallback is needed anyway, or nothing is known of it. */
-static const real LEAST_E = (real)0.05, MOST_MU_B = (real)0.5, MOST_PULL = (real)0.25, LEAST_RATIO = (real)0.05;
+static const real LEAST_E = (real)0.05, MOST_MU_B = (real)0.5, MOST_MU_MU_B = (real)0.25, LEAST_RATIO = (real)0.05;
 static const real MOST_RATIO = 20, LEAST_MARGIN = (real)0.5, LEAST_DRIFT = (real)0.25, MOST_SLIP = (real)1e6,
                   LEAST_APPROACH = (real)1e-30;
 static const real MOST_APPROACH = (real)1e30;
@@ -80,7 +80,7 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
   const vmask in_range = v_less(v_splat(LEAST_DRIFT), drift) & v_less(3 * mu * mu_b, drift) &
                          v_less(v_splat(LEAST_APPROACH), r->approach) & v_less(r->approach, v_splat(MOST_APPROACH)) &
                          v_less(fastest, v_splat(MOST_SLIP)) & v_less(v_splat(LEAST_E), e) & v_less(mu_b, v_splat(MOST_MU_B)) &
-                         v_less(mu * mu_b, v_splat(MOST_PULL)) & v_less(v_splat(LEAST_MARGIN), kappa - mu) &
+                         v_less(mu * mu_b, v_splat(MOST_MU_MU_B)) & v_less(v_splat(LEAST_MARGIN), kappa - mu) &
                          v_less(v_splat(LEAST_RATIO), ratio) & v_less(ratio, v_splat(MOST_RATIO));
   lanes_unrolled for (int k = 0; k < 2; k++) {
     r->a_v[k] = a[3 + k];
@@ -105,8 +105,8 @@ typedef struct row_impulses {
 } row_impulses;
 
 static inline row_impulses impulses_of(const row_lanes *r, const vreal in[OUT_COLUMNS]) {
-  const vreal mu_b = r->mu_b, pull = r->mu * mu_b;
-  row_impulses q = {.p = (1 + r->e) + in[OUT_EXTRA], .F_x = -pull * in[OUT_I_X], .F_y = -pull * in[OUT_I_Y]};
+  const vreal mu_b = r->mu_b, mu_mu_b = r->mu * mu_b;
+  row_impulses q = {.p = (1 + r->e) + in[OUT_OVERSHOOT], .F_x = -mu_mu_b * in[OUT_I_X], .F_y = -mu_mu_b * in[OUT_I_Y]};
   /* if the balls slip to the end, from the direction of u at the start; if they stick, from u = 0 */
   const vmask sticks = v_less_equal(v_splat(0), in[OUT_STICK]);
   const vreal i_u = v_reciprocal_sqrt(r->u_x * r->u_x + r->u_z * r->u_z + (real)1e-36), per_kappa = r->per_kappa;

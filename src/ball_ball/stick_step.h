@@ -136,7 +136,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
       continue;
     const vreal left = v_max(v_splat(CONTRACTION_STICK), CONTRACTION_STICK_MU * mu) * largest(moved, n);
     error = v_select(going, left, error);
-    going = going & v_not(v_less(left, ENOUGH * a->tolerance));
+    going = going & v_not(v_less(left, ITERATION_SHARE * a->tolerance));
     if (!v_any(going))
       break;
   }
@@ -169,8 +169,8 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   out->I_x = v_fma(weight, X_sum, s->I_x);
   out->I_y = v_fma(weight, Y_sum, s->I_y);
   out->K_c = K_c;
-  out->extra = returned * v_reciprocal(v_end + a->e) - a->pull_y * out->I_y;
-  out->stick = v_max(1 + v - a->pull_y * out->I_y, zero);
+  out->overshoot = returned * v_reciprocal(v_end + a->e) - a->mu_mu_b_y * out->I_y;
+  out->stick = v_max(1 + v - a->mu_mu_b_y * out->I_y, zero);
   return v_select(in_reach, error, v_splat(HUGE_VALF));
 }
 

@@ -41,10 +41,10 @@ enum {
 
 /* The kinds of steps, compiled one by one so that each leaves out what it does not need. */
 typedef enum outcome step_kind(const carom_terms *, const step *, carom_point *, int *, double *);
-#define KIND(name, slips, loaded, exact)                                                                                    \
+#define KIND(name, driving_slips, loaded, exact)                                                                            \
   static __attribute__((noinline)) enum outcome name(const carom_terms *k, const step *s, carom_point *at, int *iterations, \
                                                      double *advice) {                                                      \
-    return take_step(k, s, slips, loaded, exact, at, iterations, advice);                                                   \
+    return collocate(k, s, driving_slips, loaded, exact, at, iterations, advice);                                           \
   }
 KIND(sliding, true, true, FOR_NONE)
 KIND(sliding_unloaded, true, false, FOR_NONE)
@@ -68,7 +68,7 @@ static double most_of(double x, double y) {
   return x > y ? x : y;
 }
 
-static bool slips(const carom_trajectory *path) {
+static bool driving_slips(const carom_trajectory *path) {
   return !path->regime.held && path->law.mu > 0;
 }
 
@@ -77,7 +77,7 @@ static double work_end(const carom_trajectory *path) {
   return -path->law.e * path->law.e * path->W_c;
 }
 
-static void begin_step(const carom_trajectory *path, double to, beginning *s) {
+static void start_at(const carom_trajectory *path, double to, step_start *s) {
   const carom_point *at = &path->at;
   const carom_terms *k = &path->terms;
   s->r = sqrt(at->a_x * at->a_x + at->a_y * at->a_y);
@@ -130,11 +130,11 @@ static void begin_step(const carom_trajectory *path, double to, beginning *s) {
 }
 
 /* Directions to begin with: both slips along straight lines. */
-static void aim_u(plan *n, const carom_point *at, const beginning *s) {
+static void aim_u(plan *n, const carom_point *at, const step_start *s) {
   aim(&n->s, at->a_x, at->a_y, s->da_x, s->da_y, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
 }
 
-static void aim_t(plan *n, const carom_point *at, const beginning *s) {
+static void aim_t(plan *n, const carom_point *at, const step_start *s) {
   aim(&n->s, at->b_x, at->b_y, s->line_x, s->line_y, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
 }
 
@@ -146,21 +146,21 @@ static void limit(double *length, enum goal *goal, double most) {
   }
 }
 
-static void plan_carefully(const carom_trajectory *path, const beginning *s, plan *n) {
+static void plan_carefully(const carom_trajectory *path, const step_start *s, plan *n) {
   double length = s->to_goal;
   n->s.goal = s->goal;
-  if (slips(path) && s->r > 0)
+  if (driving_slips(path) && s->r > 0)
     limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->da_x) + fabs(s->da_y) + DBL_MIN));
   if (path->regime.loaded && s->q > 0)
     limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->db_x) + fabs(s->db_y) + DBL_MIN));
   even_map(&n->s, length);
-  n->kind = !slips(path) ? held_exact : path->regime.loaded ? exact_in_both : exact_unloaded;
+  n->kind = !driving_slips(path) ? held_exact : path->regime.loaded ? exact_in_both : exact_unloaded;
   aim_u(n, &path->at, s);
   aim_t(n, &path->at, s);
 }
 
 /* Whether the slip on the cloth begins, or is quasi-steady. */
-static bool cloth_is_stiff(const carom_trajectory *path, const beginning *s) {
+static bool cloth_is_stiff(const carom_trajectory *path, const step_start *s) {
   const double friction = path->terms.H_y * s->w;
   if (!path->regime.loaded || friction * s->to_goal < STIFF * s->q)
     return false;
@@ -170,7 +170,7 @@ static bool cloth_is_stiff(const carom_trajectory *path, const beginning *s) {
   return fabs(across) < ALIGNED * friction && fabs(along) < SLOW * friction;
 }
 
-static void plan_stiff_cloth(const carom_trajectory *path, const beginning *s, plan *n) {
+static void plan_stiff_cloth(const carom_trajectory *path, const step_start *s, plan *n) {
   const double along = s->t_x * s->db_x + s->t_y * s->db_y;
   double length = s->to_goal;
   n->s.goal = s->goal;
@@ -178,15 +178,15 @@ static void plan_stiff_cloth(const carom_trajectory *path, const beginning *s, p
     length = -0.95 * s->q / along;
     n->s.goal = AT_CLOTH_STICK;
   }
-  if (slips(path) && s->r > 0)
+  if (driving_slips(path) && s->r > 0)
     limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->da_x) + fabs(s->da_y) + DBL_MIN));
   even_map(&n->s, length);
-  n->kind = slips(path) ? exact_in_both : held_exact;
+  n->kind = driving_slips(path) ? exact_in_both : held_exact;
   aim_u(n, &path->at, s);
   aim(&n->s, 0, 0, 0, 0, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
 }
 
-static void plan_held(const carom_trajectory *path, const beginning *s, plan *n) {
+static void plan_held(const carom_trajectory *path, const step_start *s, plan *n) {
   const passage g = passage_of_b(&path->at, &path->terms, s, s->to_goal);
   n->kind = held;
   n->s.goal = s->goal;
@@ -198,7 +198,7 @@ static void plan_held(const carom_trajectory *path, const beginning *s, plan *n)
 }
 
 /* a is quasi-steady, or begins. */
-static void plan_stiff(const carom_trajectory *path, const beginning *s, const closed_form *c, plan *n) {
+static void plan_stiff(const carom_trajectory *path, const step_start *s, const closed_form *c, plan *n) {
   const double along = s->u_x * s->da_x + s->u_y * s->da_y;
   double length = s->to_goal;
   n->s.goal = s->goal;
@@ -216,7 +216,7 @@ static void plan_stiff(const carom_trajectory *path, const beginning *s, const c
   aim_t(n, &path->at, s);
 }
 
-static void plan_sliding(const carom_trajectory *path, const beginning *s, plan *n) {
+static void plan_sliding(const carom_trajectory *path, const step_start *s, plan *n) {
   const closed_form c = closed_form_of(&path->terms, s);
   if (s->r == 0 || (c.cosine > 0.9 && fabs(c.sine) < ALIGNED && s->to_goal * c.D > STIFF * s->r)) {
     plan_stiff(path, s, &c, n);
@@ -253,13 +253,13 @@ static void plan_sliding(const carom_trajectory *path, const beginning *s, plan 
 
 /* Sets to zero a slip that has become negligible, and the motion along x of an impact that has become planar. Returns whether
  * the regime has ended. before: where the step began. */
-static bool tidy(carom_trajectory *path, const carom_point *before) {
+static bool snap_to_zero(carom_trajectory *path, const carom_point *before) {
   carom_point *at = &path->at;
-  if (fabs(at->a_x) <= path->rest && fabs(at->b_x) <= path->rest)
+  if (fabs(at->a_x) <= path->no_slip && fabs(at->b_x) <= path->no_slip)
     at->a_x = at->b_x = 0;
   const double a = fabs(at->a_x) + fabs(at->a_y), b = fabs(at->b_x) + fabs(at->b_y);
-  const bool a_ends = slips(path) && a <= path->rest && a < fabs(before->a_x) + fabs(before->a_y);
-  const bool b_ends = path->regime.loaded && b <= path->rest && b < fabs(before->b_x) + fabs(before->b_y);
+  const bool a_ends = driving_slips(path) && a <= path->no_slip && a < fabs(before->a_x) + fabs(before->a_y);
+  const bool b_ends = path->regime.loaded && b <= path->no_slip && b < fabs(before->b_x) + fabs(before->b_y);
   if (a_ends)
     at->a_x = at->a_y = 0;
   if (b_ends)
@@ -268,9 +268,9 @@ static bool tidy(carom_trajectory *path, const carom_point *before) {
 }
 
 /* All rates are constant: on to the goal, or to where a slip is zero. Returns whether that is the goal. */
-static bool go_straight(carom_trajectory *path, const beginning *s) {
+static bool go_straight(carom_trajectory *path, const step_start *s) {
   carom_point *at = &path->at;
-  const double to_a = slips(path) && at->a_y * s->da_y < 0 ? -at->a_y / s->da_y : INFINITY;
+  const double to_a = driving_slips(path) && at->a_y * s->da_y < 0 ? -at->a_y / s->da_y : INFINITY;
   const double to_b = path->regime.loaded && at->b_y * s->db_y < 0 ? -at->b_y / s->db_y : INFINITY;
   const double length = least(s->to_goal, least(to_a, to_b));
   at->W += length * (at->v + 0.5 * s->dv * length);
@@ -296,14 +296,14 @@ static void end_phase(carom_trajectory *path) {
 
 /* Plans a step and takes it, or draws the consequences of its refusal. Returns false if there is no way on. */
 static bool next_step(carom_trajectory *path, double to) {
-  beginning s;
-  begin_step(path, to, &s);
+  step_start s;
+  start_at(path, to, &s);
   const carom_point before = path->at;
   const bool planar = before.a_x == 0 && before.b_x == 0 && s.u_x == 0 && s.t_x == 0;
-  if (planar || (!slips(path) && !path->regime.loaded)) {
+  if (planar || (!driving_slips(path) && !path->regime.loaded)) {
     if (go_straight(path, &s) && (s.goal == AT_END_OF_APPROACH || s.goal == AT_WORK))
       end_phase(path);
-    return !tidy(path, &before) || carom_impact_regime(path, false);
+    return !snap_to_zero(path, &before) || carom_impact_regime(path, false);
   }
   plan n;
   n.s.target = s.target;
@@ -314,7 +314,7 @@ static bool next_step(carom_trajectory *path, double to) {
     plan_carefully(path, &s, &n);
   else if (cloth_is_stiff(path, &s))
     plan_stiff_cloth(path, &s, &n);
-  else if (slips(path))
+  else if (driving_slips(path))
     plan_sliding(path, &s, &n);
   else
     plan_held(path, &s, &n);
@@ -327,7 +327,7 @@ static bool next_step(carom_trajectory *path, double to) {
       return carom_impact_regime(path, n.s.goal == AT_EVENT);
     if (n.s.goal == AT_END_OF_APPROACH || n.s.goal == AT_WORK)
       end_phase(path);
-    return !tidy(path, &before) || carom_impact_regime(path, false);
+    return !snap_to_zero(path, &before) || carom_impact_regime(path, false);
   }
   if (r == EVENT_WITHIN) {
     path->event_at = path->at.p + advice;

@@ -44,7 +44,7 @@ typedef struct carom_trajectory {
   carom_status status;     /* not CAROM_OK if there is no way on */
   /* of advance.c: */
   double tolerance;  /* of a step, in units of that of step.h */
-  double rest;       /* a slip that counts as zero */
+  double no_slip;    /* a slip that counts as zero */
   double longest;    /* length that the next step may have */
   int refusals;      /* in a row */
   int sticks_missed; /* steps to stick that diverged */

@@ -24,7 +24,7 @@ static const double LEAST_D = 1e-3, LEAST_D_UNSTABLE = 1e-14; /* least d, as a s
 static const double SINH_LENGTH = 3;                          /* length of a step in x */
 
 /* What a step begins with. */
-typedef struct beginning {
+typedef struct step_start {
   double r, q;                          /* |a|, |b| */
   double u_x, u_y, t_x, t_y;            /* their directions */
   double w, da_x, da_y, db_x, db_y, dv; /* w, a', b', v' */
@@ -32,7 +32,7 @@ typedef struct beginning {
   double to_goal;                       /* p to the goal, */
   enum goal goal;                       /* which is the end of the phase, or closer */
   double target;
-} beginning;
+} step_start;
 
 static void even_map(step *s, double length) {
   EACH {
@@ -59,7 +59,7 @@ static passage nearest(const carom_point *at, double rate_x, double rate_y, doub
 }
 
 /* How b passes zero. It goes at its present rate, or if that does not lead near zero, at the mean rate beyond. */
-static passage passage_of_b(const carom_point *at, const carom_terms *k, const beginning *s, double length) {
+static passage passage_of_b(const carom_point *at, const carom_terms *k, const step_start *s, double length) {
   const double rate = fabs(s->db_x) + fabs(s->db_y) + (k->H_x < 0 ? fabs(s->line_x) + fabs(s->line_y) : 0);
   passage g = {.near = false};
   if (s->q == 0 || s->q > 2 * length * rate)
@@ -116,7 +116,7 @@ typedef struct closed_form {
   double D, m, q_0, A, B, cosine, sine; /* of psi_0 */
 } closed_form;
 
-static closed_form closed_form_of(const carom_terms *k, const beginning *s) {
+static closed_form closed_form_of(const carom_terms *k, const step_start *s) {
   const double across = s->u_x * s->da_y - s->u_y * s->da_x, along = s->u_x * s->da_x + s->u_y * s->da_y;
   /* the derivative by phi of the component of a' across u */
   const double turned = -along + k->S_x * s->u_y * s->u_y + k->S_y * s->u_x * s->u_x -
@@ -147,7 +147,7 @@ static double tau_at(const closed_form *c, double length, double first, double m
 }
 
 /* To tau, with the directions of u that belong to it. */
-static void stretched_map(step *s, const closed_form *c, const beginning *from, double tau) {
+static void stretched_map(step *s, const closed_form *c, const step_start *from, double tau) {
   const double q_2 = c->q_0 * c->q_0, turns = c->sine != 0; /* a slip along D keeps its direction, not only nearly */
   EACH {
     const part x = tau * PART(NODE, i), d = exponential(-c->D * x), e = exponential(-c->m * x), q = c->q_0 * d;

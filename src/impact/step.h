@@ -42,7 +42,7 @@ static const double SETTLED = 1e-6;         /* last correction of the length, as
 static const double EVENT_TOLERANCE = 1e-8; /* event function that does not yet end a regime, */
 static const double LATE = 1e-5;            /* and within a step that ends at its event */
 static const double NEARLY_STOPPED = 1e-8;  /* v that counts as 0 where the cloth's slip has come to rest */
-static const double NEAR =
+static const double NEARLY_CONVERGED =
     3e-3; /* correction, of directions and of the length, after which Newton's method updates inverse lengths, */
 static const double FRESH = 0.02; /* and that after which an exact step keeps its matrix */
 enum { MOST_ITERATIONS = 12 };
@@ -83,12 +83,12 @@ typedef struct iterate {
 } iterate;
 
 /* The rates from the directions. scale: of z. */
-always void rates(const carom_terms *k, const part *z, double scale, const bool slips, const bool loaded, iterate *c) {
+always void rates(const carom_terms *k, const part *z, double scale, const bool driving_slips, const bool loaded, iterate *c) {
   EACH {
     const part zs = scale * z[i];
     part a_x = splat(0), a_y = splat(k->A_0), b_x = splat(0), b_y = splat(k->B_0), v = splat(k->V_0);
     /* friction of the driving contact */
-    if (slips) {
+    if (driving_slips) {
       a_x = k->S_x * c->u_x[i];
       a_y = madd(c->u_y[i], splat(k->S_y), a_y);
       b_x = k->R_x * c->u_x[i];
@@ -97,7 +97,7 @@ always void rates(const carom_terms *k, const part *z, double scale, const bool 
     }
     /* friction of the cloth */
     if (loaded) {
-      if (slips)
+      if (driving_slips)
         c->w[i] = madd(c->u_y[i], splat(k->w_u), splat(k->w_0));
       else
         c->w[i] = k->w_0 / (1 - k->w_t * c->t_y[i]);
@@ -196,27 +196,27 @@ always double event_of(const carom_terms *k, double x, double y) {
 }
 
 /* The same at the nodes. */
-always void events(const carom_terms *k, const iterate *c, const bool slips, part *event) {
+always void events(const carom_terms *k, const iterate *c, const bool driving_slips, part *event) {
   EACH {
-    const part x = slips ? c->u_x[i] : c->w[i] * c->t_x[i], y = slips ? c->u_y[i] : c->w[i] * c->t_y[i];
+    const part x = driving_slips ? c->u_x[i] : c->w[i] * c->t_x[i], y = driving_slips ? c->u_y[i] : c->w[i] * c->t_y[i];
     event[i] = madd(y, madd(y, splat(k->event[3]), splat(k->event[1])), madd(x * x, splat(k->event[2]), splat(k->event[0])));
   }
 }
 
 /* The event function at a point; 0 where the slip has no direction. */
-static double event_at(const carom_terms *k, const carom_point *at, const bool slips) {
-  const double x = slips ? at->a_x : at->b_x, y = slips ? at->a_y : at->b_y, size = sqrt(x * x + y * y);
+static double event_at(const carom_terms *k, const carom_point *at, const bool driving_slips) {
+  const double x = driving_slips ? at->a_x : at->b_x, y = driving_slips ? at->a_y : at->b_y, size = sqrt(x * x + y * y);
   if (!(size > 0))
     return 0;
-  const double w = slips ? 1 : k->w_0 / (1 - k->w_t * y / size);
+  const double w = driving_slips ? 1 : k->w_0 / (1 - k->w_t * y / size);
   return event_of(k, w * x / size, w * y / size);
 }
 
 /* p from the beginning of the step to where the event function, at the nodes *f, first becomes positive, by linear
  * interpolation between nodes. scale: of z. */
 static double first_event(const carom_terms *k, const carom_point *at, const step *s, double scale, const part *f,
-                          const bool slips) {
-  double p = 0, value = event_at(k, at, slips);
+                          const bool driving_slips) {
+  double p = 0, value = event_at(k, at, driving_slips);
   for (int n = 0; n <= NODES; n++) {
     const double next_p = scale * (n < NODES ? AT(s->p, n) : s->length), next = n < NODES ? AT(f, n) : 1;
     if (next > 0)
@@ -234,7 +234,7 @@ always double work(const carom_point *at, double length, double scale, const dou
 
 /* By how much p has to grow for the step to end at its goal: a step of Newton's method. */
 always double to_goal(const carom_terms *k, const carom_point *from, const step *s, const iterate *c, double scale,
-                      const part *to_end, const bool slips) {
+                      const part *to_end, const bool driving_slips) {
   const double length = scale * s->length;
   if (s->goal == AT_P)
     return s->target - length;
@@ -247,7 +247,7 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
     return v < 0 ? (s->target - from->W - work(from, length, scale, (const double *)to_end, c)) / v : 0.3 * length;
   }
   /* the slip at the end, and its rate there */
-  const bool driving = s->goal == AT_STICK || (s->goal == AT_EVENT && slips);
+  const bool driving = s->goal == AT_STICK || (s->goal == AT_EVENT && driving_slips);
   const part *zx = driving ? c->za_x : c->zb_x, *zy = driving ? c->za_y : c->zb_y;
   const double last = 1 / (scale * LAST(s->z)), dx = LAST(zx) * last, dy = LAST(zy) * last;
   double x = (driving ? from->a_x : from->b_x) + dot(WEIGHT, zx), y = (driving ? from->a_y : from->b_y) + dot(WEIGHT, zy);
@@ -260,7 +260,7 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
   double w = 1, growth = 0;
   x *= inverse;
   y *= inverse;
-  if (!slips) {
+  if (!driving_slips) {
     w = k->w_0 / (1 - k->w_t * y);
     growth = w * k->w_t * x * turning / (1 - k->w_t * y);
   }
@@ -274,7 +274,7 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
 /* Takes a step from *at. slips: the driving contact slips; loaded: the cloth bears a load, and slips. A refused step leaves *at
  * as it is; then *advice is, for INACCURATE, the squared error estimate over the tolerance, and for EVENT_WITHIN the p from
  * here to the event. */
-always enum outcome take_step(const carom_terms *terms, const step *s, const bool slips, const bool loaded,
+always enum outcome collocate(const carom_terms *terms, const step *s, const bool driving_slips, const bool loaded,
                               const enum exact exact, carom_point *at, int *iterations, double *advice) {
   const carom_terms k = *terms;
   iterate c;
@@ -287,7 +287,7 @@ always enum outcome take_step(const carom_terms *terms, const step *s, const boo
     c.t_y[i] = s->t_y[i];
     one[i] = splat(1);
     ease[i] = inverse_a[i] = inverse_b[i] = splat(0);
-    per_E[i] = slips && exact == FOR_NONE ? 1 / s->E[i] : splat(1);
+    per_E[i] = driving_slips && exact == FOR_NONE ? 1 / s->E[i] : splat(1);
     to_end[i] = PART(WEIGHT, i) * s->z[i] * (s->length - s->p[i]);
   }
   double scale = 1, last = 1, last_rate = 0.3;
@@ -295,10 +295,10 @@ always enum outcome take_step(const carom_terms *terms, const step *s, const boo
   for (int n = 0; n < MOST_ITERATIONS && !converged; n++) {
     forward = true;
     ++*iterations;
-    rates(&k, s->z, scale, slips, loaded, &c);
-    const double change = s->goal == AT_LENGTH ? 0 : to_goal(&k, at, s, &c, scale, to_end, slips) / (scale * s->length);
+    rates(&k, s->z, scale, driving_slips, loaded, &c);
+    const double change = s->goal == AT_LENGTH ? 0 : to_goal(&k, at, s, &c, scale, to_end, driving_slips) / (scale * s->length);
     EACH correction[i] = splat(0);
-    if (slips) {
+    if (driving_slips) {
       integrate_slip(at->a_x, at->a_y, c.za_x, c.za_y, slip_x, slip_y);
       /* z da'/dphi, of which u has a part in the load too */
       EACH {
@@ -315,12 +315,12 @@ always enum outcome take_step(const carom_terms *terms, const step *s, const boo
     if (loaded) {
       integrate_slip(at->b_x, at->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
       /* z db'/dphi, of which t has a part in the load where the driving contact holds */
-      if (slips && exact != FOR_BOTH)
+      if (driving_slips && exact != FOR_BOTH)
         EACH zk[i] = (scale * s->z[i]) * (k.H_x * c.w[i]);
       else
         EACH {
           const part zw = (scale * s->z[i]) * c.w[i];
-          const part zw_t = slips ? splat(0) : zw * k.w_t * c.t_x[i] / (1 - k.w_t * c.t_y[i]);
+          const part zw_t = driving_slips ? splat(0) : zw * k.w_t * c.t_x[i] / (1 - k.w_t * c.t_y[i]);
           D_x[i] = k.H_x * (zw * c.t_y[i] - zw_t * c.t_x[i]);
           D_y[i] = -k.H_y * (zw * c.t_x[i] + zw_t * c.t_y[i]);
           zk[i] = c.t_y[i] * D_x[i] - c.t_x[i] * D_y[i];
@@ -344,14 +344,14 @@ always enum outcome take_step(const carom_terms *terms, const step *s, const boo
     const double share = scale * s->length < 1 ? scale * s->length : 1;
     converged = now * (worst < 1 ? worst : 1) * share < CONVERGED * s->tolerance && now < 1e-3 && fabs(change) < SETTLED;
     scale *= 1 + (change > 0.5 ? 0.5 : change > -0.4 ? change : -0.4);
-    near = now < NEAR && fabs(change) < NEAR;
+    near = now < NEARLY_CONVERGED && fabs(change) < NEARLY_CONVERGED;
     last = now;
     last_rate = rate;
   }
   if (!converged || !forward)
     return DIVERGED;
   /* the point at the end */
-  rates(&k, s->z, scale, slips, loaded, &c);
+  rates(&k, s->z, scale, driving_slips, loaded, &c);
   const double length = scale * s->length;
   EACH f[i] = s->z[i] * c.v[i];
   carom_point to = {.a_x = at->a_x + dot(WEIGHT, c.za_x),
@@ -364,7 +364,7 @@ always enum outcome take_step(const carom_terms *terms, const step *s, const boo
                     .growth = at->growth};
   /* the estimate of its error */
   double error = 0;
-  if (slips)
+  if (driving_slips)
     error += fabs(dot(HIGHEST, c.za_x)) + fabs(dot(HIGHEST, c.za_y));
   if (loaded)
     error += fabs(dot(HIGHEST, c.zb_x)) + fabs(dot(HIGHEST, c.zb_y));
@@ -372,11 +372,11 @@ always enum outcome take_step(const carom_terms *terms, const step *s, const boo
   if (!(*advice < 1))
     return INACCURATE;
   /* whether the regime has lasted to the end */
-  events(&k, &c, slips, f);
-  const double event = largest(f), end = event_at(&k, &to, slips);
+  events(&k, &c, driving_slips, f);
+  const double event = largest(f), end = event_at(&k, &to, driving_slips);
   const bool sticks = s->goal == AT_STICK || s->goal == AT_CLOTH_STICK;
   if (s->goal == AT_EVENT ? event > LATE : event > EVENT_TOLERANCE || (end > EVENT_TOLERANCE && !sticks)) {
-    *advice = first_event(&k, at, s, scale, f, slips);
+    *advice = first_event(&k, at, s, scale, f, driving_slips);
     return EVENT_WITHIN;
   }
   /* where friction drives the slip on the cloth, an error of its direction grows by exp(int |H| w / |b| dp) */
