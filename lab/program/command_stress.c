@@ -21,7 +21,7 @@
 
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
-#include "ball_ball/precise.h"
+#include "ball_ball/reduced.h"
 #include "enumerations.h"
 
 #include <math.h>

@@ -1,10 +1,296 @@
-/* The step in the normal impulse, over Gauss nodes that lie as directions.h says. It leaves a part of the way, or comes near
- * the end of the collision, and from there by a Taylor series to the end. */
+/* Collocation in the normal impulse: the directions of both slips at the nodes of a stretch of the collision.
+ *
+ * THE EQUATIONS are those of reduced.h. With X from 0 to 1 along the stretch, L its length in p, c = u_x / |u|,
+ * sigma = u_z / |u| and s = sigma t, the slips are linear in the integrals C, Z, S_x, S_y of c, sigma, s_x, s_y over X:
+ *
+ *     u_x = u_x0 - 7/2 kappa mu_b L C - mu mu_b L S_x        u_z = u_z0 - 5/2 kappa mu_b L Z - 5/2 mu mu_b L S_y
+ *     d_x = d_x0 - mu_b L C - (1 - 5/2 s) mu mu_b L S_x      d_y = d_y0 - L X + 5/2 s mu_b L Z - (1 - 5/2 s) mu mu_b L S_y
+ *
+ * THE PREDICTOR turns u by a series to third order, for a t that turns evenly, and lets d run with the means of the directions
+ * so far.
+ *
+ * THE ITERATION takes the directions at the nodes through the integration matrix to the slips there, and these to new
+ * directions. What the cloth does converges by itself, since mu mu_b is small. An angle rho by which u has moved would turn
+ * friction the wrong way, and u back: rho less the integral of D rho, where D = mu_b L kappa (5/2 + sigma^2) / |u|, is nearly
+ * what Newton's method would leave of it, since |u| falls at about the rate D |u|.
+ *
+ * A collision's iteration ends when what it has left is small enough, whatever the other lanes do. */
 #ifndef CAROM_SRC_BALL_BALL_IMPULSE_STEP_H
 #define CAROM_SRC_BALL_BALL_IMPULSE_STEP_H
 
-#include "ball_ball/directions.h"
+#include "ball_ball/problem.h"
 #include "ball_ball/rules.h"
+
+#include <stdbool.h>
+
+/* ---- The nodes -------------------------------------------------------------------------------------------------------- */
+
+/* Where the nodes of a step lie: X, the share of its length, over the variable x of the rule. In steps of four and six nodes X
+ * is x. Those of eight nodes have one of two maps:
+ *
+ *     graded    drawn together towards where |u| would reach zero: 1 - q X = (1 - h x)^4
+ *     turned    drawn together where the cloth slip turns. There it passes zero at a distance delta (in p), at p_t, and its
+ *               direction t turns within a few delta. With p - p_t = delta sinh(xi), t dp/dxi is nearly a polynomial in xi,
+ *               which runs evenly with x. */
+
+always bool is_mapped(int n) {
+  return n == MOST_NODES;
+}
+
+/* X at the nodes, and dX/dx where it is not 1. */
+typedef struct mapped_nodes {
+  reg X[MOST_REGS], weight[MOST_REGS];
+} mapped_nodes;
+
+/* A turn, as seen from a state: p_t and delta; the length of the step; what f will be on it, in the mean, were the way
+ * straight. */
+typedef struct turn_step {
+  vreal p_t, delta, length, mean_f;
+} turn_step;
+
+/* Graded: q, h, and X / x at x = 1 without the factors that depend on x.
+ * Turned: sinh(xi) at x = 0, xi there, its range, delta / (2 L). */
+typedef union node_map {
+  struct {
+    vreal q, h, X_per_x, unused;
+  };
+  struct {
+    vreal sinh_0, xi_0, xi_range, half_width;
+  };
+} node_map;
+
+static const float MOST_GRADING = 0.995f; /* q */
+
+always node_map graded_map(vreal q) {
+  node_map m;
+  m.q = v_min(q, v_splat(MOST_GRADING));
+  const vreal y = root(root(1 - m.q));
+  m.h = 1 - y;
+  m.X_per_x = v_reciprocal((1 + y) * v_fma(y, y, v_splat(1)));
+  m.unused = v_splat(0);
+  return m;
+}
+
+always node_map turned_map(const turn_step *p, vreal length) {
+  const vreal per_delta = v_reciprocal(p->delta);
+  node_map m;
+  m.sinh_0 = -p->p_t * per_delta;
+  m.half_width = 0.5f * p->delta * v_reciprocal(length);
+  m.xi_0 = inverse_sinh(m.sinh_0);
+  m.xi_range = inverse_sinh((length - p->p_t) * per_delta) - m.xi_0;
+  return m;
+}
+
+/* X and its slope at the nodes of a rule from 0 to a share of x. */
+always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m, vreal share, mapped_nodes *to) {
+  if (!turned) {
+    const vreal h = share * m->h, to_X = share * m->X_per_x;
+    EACH_REG(k, n) {
+      const reg x = SPREAD(AT(r->node, k)), y = MADD(-h, x, 1.0f), y2 = y * y;
+      to->X[k] = (to_X * x) * ((1 + y) * (1 + y2));
+      to->weight[k] = (4 * to_X) * (y2 * y);
+    }
+  } else {
+    const vreal range = share * m->xi_range, slope = range * m->half_width, start = 2 * m->sinh_0 * m->half_width;
+    EACH_REG(k, n) {
+      const reg e = exponential(MADD(range, AT(r->node, k), m->xi_0)), i = reg_reciprocal(e);
+      to->X[k] = MADD(m->half_width, e - i, -start);
+      to->weight[k] = slope * (e + i);
+    }
+  }
+}
+
+/* x at which X has a value. */
+always vreal x_at(bool turned, const node_map *m, vreal X) {
+  if (!turned) {
+    const vreal y = root(root(v_fma(-m->q, X, v_splat(1))));
+    return X * v_reciprocal(m->X_per_x * (1 + y) * v_fma(y, y, v_splat(1)));
+  }
+  return (inverse_sinh(v_fma(X, v_reciprocal(2 * m->half_width), m->sinh_0)) - m->xi_0) * v_reciprocal(m->xi_range);
+}
+
+/* ---- The directions --------------------------------------------------------------------------------------------------- */
+
+/* What an iteration leaves of what it moved, at least; by mu mu_b, for the cloth; by q^2, for u. */
+static const float CONTRACTION = 0.02f, CONTRACTION_CLOTH = 1.2f, CONTRACTION_Q = 0.1f;
+/* What that is multiplied by: it is too little on turns, and too much over the few nodes of what is smooth. */
+always float estimate_scale(int n, bool turned) {
+  return turned ? 4 : n == 4 ? 0.33f : n == 6 ? 0.4f : 1;
+}
+
+/* Coefficients of the equations, times L; and q, the share of |u| that the stretch loses at its first rate. */
+typedef struct coefficients {
+  vreal length, mu_b, mu_mu_b, mu_mu_b_y, S_in_d, Z_in_d_y, C_in_u_x, Z_in_u_z, S_in_u_z, q;
+} coefficients;
+
+always coefficients coefficients_of(const problem *a, const prediction *g, vreal length) {
+  coefficients l = {
+      .length = length, .mu_b = a->mu_b * length, .mu_mu_b = a->mu_mu_b * length, .mu_mu_b_y = a->mu_mu_b_y * length};
+  l.S_in_d = (a->spin - 1) * l.mu_mu_b;
+  l.Z_in_d_y = a->spin * l.mu_b;
+  l.C_in_u_x = -3.5f * (a->kappa * l.mu_b);
+  l.Z_in_u_z = -2.5f * (a->kappa * l.mu_b);
+  l.S_in_u_z = -2.5f * l.mu_mu_b;
+  l.q = g->rate * length;
+  return l;
+}
+
+/* At the nodes: the directions; s times the weight of the node; the integral of s_y up to there. And of the last iteration: the
+ * change of u, 1 / |u|, the angle by which u was turned back. */
+typedef struct directions {
+  reg c[MOST_REGS], z[MOST_REGS], s_x[MOST_REGS], s_y[MOST_REGS], w_x[MOST_REGS], w_y[MOST_REGS], S_y[MOST_REGS];
+  reg dx[MOST_REGS], dz[MOST_REGS], per_u[MOST_REGS], back[MOST_REGS];
+  vmask going; /* iterations are still to come */
+  vreal error; /* what they have left, in p */
+} directions;
+
+/* A stretch of the collision from *s on, for which *g has been predicted. map: of nodes that are not even. */
+typedef struct impulse_step {
+  const problem *a;
+  const prediction *g;
+  const state *s;
+  coefficients l;
+  node_map map;
+  mapped_nodes nodes;
+  directions f;
+} impulse_step;
+
+/* The angle w by which u turns on the way to X: x w_1 (1 + x (second + x third)) with x = X / (1 - alpha X), which has its
+ * logarithm built in, and what a turning t adds. */
+typedef struct turning {
+  vreal alpha, w_1, second, third, by_t;
+} turning;
+
+always turning predict_turning(bool turn, const problem *a, const prediction *g, const state *s, vreal b) {
+  const vreal A = 3.5f * a->kappa, B = 2.5f * v_fma(a->mu, g->t_y, a->kappa), E = a->mu * g->t_x;
+  const vreal c2 = g->c * g->c, z2 = g->z * g->z, cs = g->c * g->z, D = A - B;
+  /* the derivative of the angle and its derivatives, over -b */
+  const vreal f_0 = g->z * v_fma(D, g->c, E * g->z), f_1 = v_fma(D, c2 - z2, 2 * E * cs),
+              f_2 = v_fma(3 * E, c2 - z2, -6 * cs * D);
+  const vreal h = v_fma(A, c2, v_fma(E, cs, B * z2)), both = f_1 + h; /* h: |u|', over -mu_b */
+  turning w = {.alpha = b * a->kappa * v_fma(v_splat(0.5f), c2, v_splat(1.25f)), .w_1 = -b * f_0, .by_t = v_splat(0)};
+  const vreal b_both = b * both;
+  w.second = v_fma(v_splat(0.5f), b_both, -w.alpha);
+  w.third = v_fma((1 / 6.0f) * b, b * v_fma(both, v_fma(v_splat(2), h, f_1), f_0 * f_2), w.alpha * (w.alpha - b_both));
+  if (!turn) {
+    const vreal i_d = v_rough_reciprocal_sqrt(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, v_splat(1e-12f))));
+    const vreal half_x = v_fma(-s->d_x, i_d, g->t_x), half_y = v_fma(-s->d_y, i_d, g->t_y);
+    w.by_t = v_select(has_no_slip(a, s), w.by_t, b * g->z * a->mu * v_fma(2.5f * half_y, g->c, -half_x * g->z));
+  }
+  return w;
+}
+
+/* The directions at the nodes, before any iteration. turned: d turns on the way and has no direction half way. */
+always void predict_directions(int n, bool turned, impulse_step *p) {
+  const prediction *const g = p->g;
+  const state *const s = p->s;
+  const coefficients *const l = &p->l;
+  directions *const f = &p->f;
+  const turning turns = predict_turning(turned, p->a, g, s, l->mu_b * g->inverse_u);
+  /* the cloth's own pull on d, along its direction half way */
+  const vreal own = turned ? v_splat(0) : l->S_in_d * g->z, own_x = own * g->t_x, own_y = l->length - own * g->t_y;
+  const vreal half_b = 0.5f * l->mu_b, half_y = 0.5f * l->Z_in_d_y;
+  EACH_REG(k, n) {
+    /* sums begin with what is known first */
+    const reg X = p->nodes.X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, 1.0f));
+    const reg w = MADD(turns.w_1 * x, MADD(x * x, turns.third, MADD(x, turns.second, 1.0f)), turns.by_t * (X * (X - 1)));
+    f->c[k] = MADD(w, MADD(-0.5f * g->c, w, g->z), g->c);
+    f->z[k] = MADD(w, MADD(-0.5f * g->z, w, -g->c), g->z);
+    const reg d_x = MADD(-half_b * X, f->c[k], MADD(-X, half_b * g->c - own_x, s->d_x));
+    const reg d_y = MADD(half_y * X, f->z[k], MADD(-X, own_y - half_y * g->z, s->d_y));
+    const reg sigma_d = f->z[k] * reg_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
+    f->s_x[k] = sigma_d * d_x;
+    f->s_y[k] = sigma_d * d_y;
+    f->dx[k] = f->dz[k] = f->per_u[k] = f->back[k] = f->S_y[k] = SPREAD(0.0f);
+  }
+  f->error = v_splat(0);
+}
+
+/* Times the weight of node k. */
+always reg weighed(int n, const mapped_nodes *nodes, int k, reg x) {
+  return is_mapped(n) ? nodes->weight[k] * x : x;
+}
+
+/* One iteration, in the lanes where it goes on. */
+always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_step *p) {
+  const problem *const a = p->a;
+  const state *const s = p->s;
+  const coefficients *const l = &p->l;
+  const mapped_nodes *const nodes = &p->nodes;
+  directions *const f = &p->f;
+  const vmask going = f->going;
+  const vreal no_x = -l->mu_mu_b, no_b = -l->mu_b, mu_b_kappa = l->mu_b * a->kappa;
+  reg w_c[MOST_REGS], w_z[MOST_REGS], C[MOST_REGS], Z[MOST_REGS], S_x[MOST_REGS], S_y[MOST_REGS];
+  EACH_REG(k, n) {
+    w_c[k] = weighed(n, nodes, k, f->c[k]);
+    w_z[k] = weighed(n, nodes, k, f->z[k]);
+    f->w_x[k] = weighed(n, nodes, k, f->s_x[k]);
+    f->w_y[k] = weighed(n, nodes, k, f->s_y[k]);
+  }
+  apply(r->sum, w_c, C, n);
+  apply(r->sum, w_z, Z, n);
+  apply(r->sum, f->w_x, S_x, n);
+  apply(r->sum, f->w_y, S_y, n);
+  reg u_c[MOST_REGS], u_z[MOST_REGS], t_x[MOST_REGS], t_y[MOST_REGS], rate[MOST_REGS], back[MOST_REGS], moved[MOST_REGS];
+  EACH_REG(k, n) {
+    const reg du_x = MADD(l->C_in_u_x, C[k], no_x * S_x[k]), du_z = MADD(l->Z_in_u_z, Z[k], l->S_in_u_z * S_y[k]);
+    const reg u_x_k = s->u_x + du_x, u_z_k = s->u_z + du_z;
+    const reg d_x = MADD(l->S_in_d, S_x[k], MADD(no_b, C[k], s->d_x)),
+              d_y = MADD(l->S_in_d, S_y[k], MADD(l->Z_in_d_y, Z[k], MADD(-l->length, nodes->X[k], s->d_y)));
+    const reg i_u = reg_reciprocal_sqrt(MADD(u_x_k, u_x_k, MADD(u_z_k, u_z_k, TINY)));
+    const reg i_d = reg_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
+    u_c[k] = u_x_k * i_u;
+    u_z[k] = u_z_k * i_u;
+    t_x[k] = d_x * i_d;
+    t_y[k] = d_y * i_d;
+    const reg rho = MADD(f->c[k], u_z[k], -(f->z[k] * u_c[k]));
+    const reg D = (mu_b_kappa * i_u) * MADD(f->z[k], f->z[k], 2.5f);
+    rate[k] = weighed(n, nodes, k, D * rho);
+    REG_MOVE(going, &f->S_y[k], S_y[k]);
+    REG_MOVE(going, &f->dx[k], du_x);
+    REG_MOVE(going, &f->dz[k], du_z);
+    REG_MOVE(going, &f->per_u[k], i_u);
+  }
+  apply(r->sum, rate, back, n);
+  EACH_REG(k, n) {
+    const reg c = MADD(u_z[k], back[k], u_c[k]), z = MADD(-u_c[k], back[k], u_z[k]), x = z * t_x[k], y = z * t_y[k];
+    moved[k] = MADD(a->mu, reg_abs(x - f->s_x[k]) + reg_abs(y - f->s_y[k]), reg_abs(c - f->c[k]) + reg_abs(z - f->z[k]));
+    REG_MOVE(going, &f->back[k], back[k]);
+    REG_MOVE(going, &f->c[k], c);
+    REG_MOVE(going, &f->z[k], z);
+    REG_MOVE(going, &f->s_x[k], x);
+    REG_MOVE(going, &f->s_y[k], y);
+  }
+  const vreal per_moved =
+      estimate_scale(n, turned) * l->mu_b *
+      v_fma(v_splat(CONTRACTION_CLOTH), a->mu_mu_b, v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));
+  const vreal error = per_moved * largest(moved, n);
+  f->error = v_select(going, error, f->error);
+  f->going = going & v_not(v_less(error, ITERATION_SHARE * a->tolerance));
+}
+
+/* After the last: the means over the stretch of c and sigma, against their values at first, from the sine of the angle by which
+ * u has turned and 1 - its cosine; and w_x, w_y. From the change of u, not from its direction: what is small keeps its digits.
+ */
+always void end_iterations(int n, const gauss_rule *r, impulse_step *p, vreal *dc, vreal *dz) {
+  const prediction *const g = p->g;
+  const state *const s = p->s;
+  directions *const f = &p->f;
+  reg turned[MOST_REGS], lost[MOST_REGS];
+  EACH_REG(k, n) {
+    const reg u_x_k = s->u_x + f->dx[k], u_z_k = s->u_z + f->dz[k];
+    const reg sine = MADD(g->c, f->dz[k], -g->z * f->dx[k]) * f->per_u[k], e_c = MADD(u_x_k, f->per_u[k], -g->c),
+              e_z = MADD(u_z_k, f->per_u[k], -g->z);
+    const reg drop = 0.5f * MADD(e_c, e_c, e_z * e_z);
+    turned[k] = weighed(n, &p->nodes, k, MADD(-f->back[k], 1 - drop, sine));
+    lost[k] = weighed(n, &p->nodes, k, MADD(-f->back[k], sine, drop));
+    f->w_x[k] = weighed(n, &p->nodes, k, f->s_x[k]);
+    f->w_y[k] = weighed(n, &p->nodes, k, f->s_y[k]);
+  }
+  const vreal sine = dot(r->all, turned, n), drop = dot(r->all, lost, n);
+  *dc = v_fma(-g->z, sine, -g->c * drop);
+  *dz = v_fma(g->c, sine, -g->z * drop);
+}
 
 /* ---- From a state near the end of the collision to the end: a Taylor series, with slopes by the equations ---- */
 

@@ -1,6 +1,4 @@
 /* The public entry points: check, go to the frame of the cushion, solve, come back. */
-#include "cushion/arguments.h"
-#include "cushion/frame.h"
 #include "cushion/models.h"
 #include "platform/threads.h"
 

@@ -1,8 +1,5 @@
 /* carom_cushion_trace(): an impact on its way, sampled at equal steps of normal impulse. The precise solver follows the
  * exact limit from sample to sample; Euler's method is stopped on its way, once for each sample. */
-#include "cushion/arguments.h"
-#include "cushion/frame.h"
-#include "cushion/mathavan.h"
 #include "cushion/models.h"
 
 #include <stdbool.h>

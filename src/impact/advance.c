@@ -15,7 +15,6 @@
  * SAFETY. A step that is refused is tried again with a shorter length. After MOST_REFUSALS in a row the rest of the impact goes
  * by careful steps: exact ones over even maps, each only a share of the way to where a slip could vanish. The caller bounds the
  * number of iterations of all steps together. */
-#include "impact/advance.h"
 #include "impact/map.h"
 
 #include <float.h>

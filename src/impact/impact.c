@@ -8,7 +8,6 @@
  * The balance of momentum is therefore exact, whatever the error of the solver. */
 #include "impact/impact.h"
 
-#include "impact/advance.h"
 #include "platform/isa.h"
 
 #include <math.h>

@@ -85,4 +85,14 @@ bool carom_impact_regime(carom_trajectory *path, bool event);
 /* Whether friction is about to hold both contacts, so that the ball is jammed. */
 bool carom_impact_jams(const carom_trajectory *path);
 
+/* carom_impact_advance() as advance.c is compiled to: with vectors of two numbers, and with four for AVX2. */
+carom_status carom_impact_advance_plain(carom_trajectory *path, double to, int most);
+carom_status carom_impact_advance_avx2(carom_trajectory *path, double to, int most);
+
+#ifdef CAROM_LANES_AVX2
+#define CAROM_IMPACT_ADVANCE carom_impact_advance_avx2
+#else
+#define CAROM_IMPACT_ADVANCE carom_impact_advance_plain
+#endif
+
 #endif

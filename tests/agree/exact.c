@@ -13,7 +13,7 @@
 
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
-#include "ball_ball/precise.h"
+#include "ball_ball/reduced.h"
 
 #include <math.h>
 #include <stdio.h>
