@@ -57,11 +57,11 @@ typedef uint32_t carom_rows_in(const void *in, const uint32_t row[MOST_LANES], d
 typedef uint32_t carom_rows_out(const row_context *context, const step_outputs solution, void *out,
                                 const uint32_t row[MOST_LANES]);
 
-/* The first step, where it is an easy one, in the lanes of `good`. next: what comes next; *out of those that are SOLVED. A lane
- * for which the others would have to wait is put off: its next step is EASY again. spin: 5/2 s. */
+/* The first step, where it is an easy one, in the lanes of `good`. next: what comes next; *out: of those that are SOLVED. A
+ * lane for which the others would have to wait is put off: its next step is EASY again. spin: 5/2 s. */
 typedef void carom_first_step(step_inputs in, uint32_t good, float spin, float tolerance, step_outputs out, lanes_by_step next);
-/* A step of a kind, for collisions that are `fresh`, or stand at *moving, which becomes where they stand after it. */
-typedef void carom_next_step(enum step_kind kind, int fresh, step_inputs in, float spin, float tolerance, lane_state at,
+/* A step of a kind, for collisions that are at their start, or stand at *at, which becomes where they stand after it. */
+typedef void carom_next_step(enum step_kind kind, int at_start, step_inputs in, float spin, float tolerance, lane_state at,
                              step_outputs out, lanes_by_step next);
 
 /* One reduced collision, by all steps that it takes. Returns the number of right-hand sides

@@ -41,6 +41,10 @@ static inline unsigned v_bits(vmask m) {
 static inline bool v_any(vmask m) {
   return m != 0;
 }
+/* Does it hold in more than so many lanes? */
+static inline bool v_more(vmask m, int count) {
+  return m > count;
+}
 static inline vreal v_abs(vreal x) {
   return LANE(fabs)(x);
 }
