@@ -281,6 +281,7 @@ always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_
     REG_MOVE(going, &f->s_x[k], x);
     REG_MOVE(going, &f->s_y[k], y);
   }
+  /* the error that is left, and the lanes where it is too large */
   const vreal per_moved =
       estimate_scale(n, turned) * l->mu_b *
       v_fma(v_splat(CONTRACTION_CLOTH), a->mu_mu_b, v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));

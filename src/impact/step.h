@@ -34,7 +34,8 @@
 #include "impact/impact.h"
 #include "impact/nodes.h"
 
-/* Found by trial with `carom-lab stress --cushion`; see docs/study/tried.md. Angles are in radians, lengths in units of p. */
+/* Found by trial with `carom-lab stress --cushion 20000` and `carom-lab bench --cushion`; see docs/study/tried.md. Angles are
+ * in radians, lengths in units of p. */
 static const double CONVERGED = 4e-8;       /* error that the iteration may leave in directions */
 static const double TOLERANCE = 4e-7;       /* square of the error estimate, over the length of the step, */
 static const double TOLERANCE_EXACT = 1e-9; /* and where the step is exact */
@@ -145,8 +146,10 @@ always void normalise(part *x, part *y, bool near, part *inverse) {
 always void rotate(part *a_x, part *a_y, const part *zk, const part *before, const part *after, bool near, part *inverse,
                    part *u_x, part *u_y, part *correction) {
   nodes across, f, angle;
+  /* the sine of the angle from u to a, once a has length 1 */
   EACH across[i] = madd(u_x[i], a_y[i], -(u_y[i] * a_x[i]));
   normalise(a_x, a_y, near, inverse);
+  /* (E / |a|) M(z k r / E): by this angle a is turned back, which gives the new u */
   EACH f[i] = zk[i] * before[i] * across[i] * inverse[i];
   integrate(f, angle);
   EACH {
@@ -166,10 +169,12 @@ always void rotate(part *a_x, part *a_y, const part *zk, const part *before, con
 always bool rotate_exactly(const part *a_x, const part *a_y, const part *D_x, const part *D_y, bool anew,
                            double (*solved)[NODES], part *u_x, part *u_y, part *correction) {
   nodes across, along, angle;
+  /* u x a and u . a */
   EACH {
     across[i] = u_x[i] * a_y[i] - u_y[i] * a_x[i];
     along[i] = u_x[i] * a_x[i] + u_y[i] * a_y[i];
   }
+  /* the matrix by columns, (u . a) on the diagonal less u x M(D), and its inverse */
   if (anew) {
     for (int j = 0; j < NODES; j++) {
       EACH((part_of_row *)solved[j])
@@ -178,6 +183,7 @@ always bool rotate_exactly(const part *a_x, const part *a_y, const part *D_x, co
     }
     invert(solved);
   }
+  /* the angles d, limited; u turned by d to first order, and made a unit vector again */
   apply((const double(*)[NODES])solved, across, angle);
   EACH {
     const part x = u_x[i], s = within(angle[i], 0.6);
@@ -235,6 +241,7 @@ always double work(const carom_point *at, double length, double scale, const dou
 /* By how much p has to grow for the step to end at its goal: a step of Newton's method. */
 always double to_goal(const carom_terms *k, const carom_point *from, const step *s, const iterate *c, double scale,
                       const part *to_end, const bool driving_slips) {
+  /* a given p, or v = 0 or W = target: Newton's method with v at the end and v' there */
   const double length = scale * s->length;
   if (s->goal == AT_P)
     return s->target - length;
@@ -251,6 +258,7 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
   const part *zx = driving ? c->za_x : c->zb_x, *zy = driving ? c->za_y : c->zb_y;
   const double last = 1 / (scale * LAST(s->z)), dx = LAST(zx) * last, dy = LAST(zy) * last;
   double x = (driving ? from->a_x : from->b_x) + dot(WEIGHT, zx), y = (driving ? from->a_y : from->b_y) + dot(WEIGHT, zy);
+  /* stick: the slip along its direction over its rate */
   if (s->goal != AT_EVENT) {
     const double u_x = driving ? LAST(c->u_x) : LAST(c->t_x), u_y = driving ? LAST(c->u_y) : LAST(c->t_y);
     return -(x * u_x + y * u_y) / (dx * u_x + dy * u_y);
@@ -280,6 +288,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
   iterate c;
   nodes per_E, ease, one, to_end, inverse_a, inverse_b, slip_x, slip_y, D_x, D_y, zk, f, correction, correction_t;
   double for_u[NODES][NODES] __attribute__((aligned(PART_BYTES))), for_t[NODES][NODES] __attribute__((aligned(PART_BYTES)));
+  /* the planned directions; 1/E; `ease`, which stands for E(X)/E(X') of t; the weights of the work */
   EACH {
     c.u_x[i] = s->u_x[i];
     c.u_y[i] = s->u_y[i];
@@ -294,10 +303,12 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
   bool converged = false, forward = true, near = false;
   for (int n = 0; n < MOST_ITERATIONS && !converged; n++) {
     forward = true;
+    /* the rates at the nodes, and the correction of the length */
     ++*iterations;
     rates(&k, s->z, scale, driving_slips, loaded, &c);
     const double change = s->goal == AT_LENGTH ? 0 : to_goal(&k, at, s, &c, scale, to_end, driving_slips) / (scale * s->length);
     EACH correction[i] = splat(0);
+    /* u from the slip at the driving contact */
     if (driving_slips) {
       integrate_slip(at->a_x, at->a_y, c.za_x, c.za_y, slip_x, slip_y);
       /* z da'/dphi, of which u has a part in the load too */
@@ -312,6 +323,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
       else
         rotate(slip_x, slip_y, zk, per_E, s->E, near, inverse_a, c.u_x, c.u_y, correction);
     }
+    /* t from the slip on the cloth */
     if (loaded) {
       integrate_slip(at->b_x, at->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
       /* z db'/dphi, of which t has a part in the load where the driving contact holds */
@@ -343,6 +355,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
       return DIVERGED;
     const double share = scale * s->length < 1 ? scale * s->length : 1;
     converged = now * (worst < 1 ? worst : 1) * share < CONVERGED * s->tolerance && now < 1e-3 && fabs(change) < SETTLED;
+    /* the new length, within limits */
     scale *= 1 + (change > 0.5 ? 0.5 : change > -0.4 ? change : -0.4);
     near = now < NEARLY_CONVERGED && fabs(change) < NEARLY_CONVERGED;
     last = now;
