@@ -345,8 +345,8 @@ static bool add_all_calls(bench_job *job) {
     return kernel_module(kernel_find(ladder_rung_at(0)->name), NULL, &unused);
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
     const bool named = names(&job->kernels, one->name), listed = named || job->kernels.count == 0;
-    const bool runs = one->is_rung ? ladder_module_name(0) != NULL && ladder_rung_runs(ladder_rung_find(one->name))
-                                   : job->configs.count == 0;
+    const bool runs =
+        one->is_rung ? ladder_module_name(0) != NULL && ladder_rung_runs(ladder_rung_find(one->name)) : job->configs.count == 0;
     if (!listed || !(named || runs) || !wants_precision(job, strcmp(one->precision, "single") == 0))
       continue;
     if (one->is_rung ? !add_configs(job, one) : !add_config(job, one, NULL))

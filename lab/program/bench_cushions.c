@@ -1,4 +1,5 @@
-/* `carom-lab bench --cushion`: the models of the cushion on impacts of play, Euler's 1000 steps being what the others are compared with. */
+/* `carom-lab bench --cushion`: the models of the cushion on impacts of play, Euler's 1000 steps being what the others are
+ * compared with. */
 #include "bench_job.h"
 #include "command.h"
 #include "draws.h"
