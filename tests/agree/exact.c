@@ -91,7 +91,7 @@ START_TEST(reference_in_every_regime) {
   const int draws = draws_per_regime();
   for (int regime = 0; regime < regimes_count(); regime++) {
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
-      regimes_rng rng = {test_seed() + 1000003u * (uint64_t)(2 * regime + slip)};
+      lab_random rng = {test_seed() + 1000003u * (uint64_t)(2 * regime + slip)};
       carom_options options = {0};
       options.slip = (carom_slip)slip;
       for (int k = 0; k < draws; k++) {
@@ -139,7 +139,7 @@ START_TEST(collocation_and_fallback_agree) {
   int drawn = 0, taken = 0, apart = 0, sets = 0;
   FOR_EACH_ISA(isa) sets++;
   for (int regime = 0; regime < regimes_count(); regime++) {
-    regimes_rng rng = {test_seed() + 7000u + (uint64_t)regime};
+    lab_random rng = {test_seed() + 7000u + (uint64_t)regime};
     for (int k = 0; k < 400; k++) {
       const carom_slip slip = k % 2 ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER;
       const carom_impact in = regimes_draw(regime, carom_spin_sign(slip), &rng);
@@ -259,7 +259,7 @@ END_TEST
 START_TEST(details) {
   int stuck[3] = {0};
   for (int regime = 0; regime < regimes_count(); regime++) {
-    regimes_rng rng = {test_seed() + (uint64_t)regime};
+    lab_random rng = {test_seed() + (uint64_t)regime};
     for (int k = 0; k < 20; k++) {
       const carom_impact in = regimes_draw(regime, -1.0, &rng);
       carom_result out;

@@ -15,14 +15,14 @@ static carom_cue cues[SHOTS];
 
 /* Eight-ball breaks, each with its own rack and cue; the fifth has a cue that misses. */
 static void make_breaks(void) {
-  shot_random r = {test_seed()};
+  lab_random r = {test_seed()};
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
   for (int k = 0; k < SHOTS; k++) {
     carom_rack(CAROM_RACK_EIGHTBALL, &table, 1e-4, (uint64_t)k, balls + 16 * k, 16);
     cues[k] = carom_cue_of(CAROM_GAME_POOL);
-    cues[k].speed = shot_uniform(&r, 3.0, 10.0);
-    cues[k].phi = shot_uniform(&r, 88.0, 92.0);
-    cues[k].a = shot_uniform(&r, -0.3, 0.3);
+    cues[k].speed = lab_uniform(&r, 3.0, 10.0);
+    cues[k].phi = lab_uniform(&r, 88.0, 92.0);
+    cues[k].a = lab_uniform(&r, -0.3, 0.3);
   }
   cues[4].a = 2.0;
 }
@@ -91,10 +91,10 @@ START_TEST(batch_is_singles) {
       free_results(batch);
     }
     /* any cut */
-    shot_random r = {test_seed()};
+    lab_random r = {test_seed()};
     results *cut = make_results();
     for (int from = 0, size; from < SHOTS; from += size) {
-      size = (int)shot_uniform(&r, 1.0, 9.0);
+      size = (int)lab_uniform(&r, 1.0, 9.0);
       size = from + size <= SHOTS ? size : SHOTS - from;
       play_batch(16, false, false, from, size, &options, cut);
     }

@@ -138,7 +138,7 @@ static const struct {
 
 static void make_rows(void) {
   random_source source = {test_seed()};
-  regimes_rng rng = {test_seed()};
+  lab_random rng = {test_seed()};
   count = (size_t)regimes_count() * EACH;
   rows = malloc(count * sizeof *rows);
   rows_f32 = malloc(count * sizeof *rows_f32);
