@@ -1,4 +1,4 @@
-/* carom_shot.h - balls on a table: what they meet there besides each other.
+/* carom_shot.h: balls on a table. The impact of a ball on a cushion, and whole shots from the strike to rest.
  *
  *     carom_cushion_impact in = {.v = {0.5, 1.2, 0}, .normal = {0, 1}, .height = 0.0365, .radius = 0.028575, .mass = 0.17,
  *                                .mu_cloth = 0.2, .mu_cushion = 0.2, .restitution = 0.85};
@@ -48,10 +48,10 @@ typedef enum carom_cushion_model {
   CAROM_CUSHION_EULER = 4,    /* the model of MATHAVAN in N steps of impulse, as pooltool takes them. */
 } carom_cushion_model;
 
-/* Whose conventions hold where the simulator pooltool departs from the papers: for parity with it, not for truth. */
+/* Which conventions are used where the simulator pooltool differs from the papers. POOLTOOL is for parity with it only. */
 typedef enum carom_cushion_convention {
-  CAROM_CONVENTION_PAPER = 0, /* the nose is touched at its height: sin(theta) = (h - R) / R; a cloth cannot pull; no slip, no
-                                 friction. */
+  CAROM_CONVENTION_PAPER = 0,    /* the nose is touched at its height: sin(theta) = (h - R) / R. The cloth cannot pull. Without
+                                    slip there is no friction. */
   CAROM_CONVENTION_POOLTOOL = 1, /* STRONGE: tan(theta) = (h - R) / (R + jaw_radius + 1e-6 m). EULER: the cloth may pull, and a
                                     slip of 0 has the direction of +x. Nothing changes for the other models. */
 } carom_cushion_convention;
@@ -97,21 +97,21 @@ CAROM_API carom_status carom_cushion(const carom_cushion_impact *in, const carom
 /* Resolves `n` impacts, in[0..n-1] to out[0..n-1], each as carom_cushion() does, bit for bit: a bad row gets NaN and its own
  * status and changes nothing for the others. `status` takes the n statuses, each the value of a carom_status; it may be NULL.
  * `in`, `out` and `status` may not overlap; with n = 0 they may be NULL. Returns CAROM_OK if no row is in error, else the
- * status of the first that is; if the call itself cannot be served (NULL, bad options), that error, with nothing written. */
+ * status of the first row in error. NULL or bad options are an error of the call, and then nothing is written. */
 CAROM_API carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n, const carom_cushion_options *opt,
                                            carom_motion *out, int8_t *status);
 
 /* Checks the arguments and solves nothing. Returns CAROM_OK or an error. If `field` is not NULL, `*field` becomes the index of
- * the offending number among the 15 doubles of `*in`, or -1 where none is to blame. `opt` may be NULL. */
+ * the bad number among the 15 doubles of `*in`, or -1 if the error is in no single number. `opt` may be NULL. */
 CAROM_API carom_status carom_cushion_check(const carom_cushion_impact *in, const carom_cushion_options *opt, int *field);
 
 /* The C name of number `field` of a carom_cushion_impact, 0 to 14: "v[0]" ... "jaw_radius". NULL outside that range. */
 CAROM_API const char *carom_cushion_field_name(int field);
 
-/* An impact on its way. Slips are in the frame of the cushion: x along it, y into it, z up. A slip is the velocity, m/s, of the
- * surface of the ball over what it touches. */
+/* One point of an impact. Slips are in the frame of the cushion: x along it, y into it, z up. A slip is the velocity, m/s, of
+ * the surface of the ball over what it touches. */
 typedef struct carom_cushion_point {
-  double normal;      /* normal impulse so far, N s: the measure of how far the impact has come. */
+  double normal;      /* normal impulse so far, N s. It grows during the whole impact. */
   double work;        /* work of the normal force so far, J: the sum of |v_n| dP. */
   carom_phase phase;  /* CAROM_PHASE_COMPRESSION up to v_n = 0. */
   int nose_sticks;    /* 1 where the ball does not slip on the nose, */
@@ -121,12 +121,12 @@ typedef struct carom_cushion_point {
   double s_x, s_t;    /* slip on the nose, along the cushion and upwards across it; exactly 0 where it sticks. */
   double c_x, c_y;    /* slip on the cloth; exactly 0 where it sticks. */
   carom_motion state; /* along the axes of the table. */
-  double reserved[4]; /* 0; room for what may be told later. */
+  double reserved[4]; /* 0; room for future fields. */
 } carom_cushion_point;
 
 /* Follows one impact, by the model MATHAVAN or EULER, through `n` >= 2 points at equal steps of normal impulse (EULER: the
- * nearest whole steps) from 0 at points[0] to the end, which is the result of carom_cushion(). `opt` may be NULL. Made for
- * looking, not for speed: MATHAVAN may take 400 iterations for each point, EULER takes n/2 times an impact. Returns what
+ * nearest whole steps) from 0 at points[0] to the end, which is the result of carom_cushion(). `opt` may be NULL. It is not
+ * made for speed: MATHAVAN may take 400 iterations for each point, EULER takes n/2 times an impact. Returns what
  * carom_cushion() does, or CAROM_ERROR_CUSHION_MODEL for a model in closed form. CAROM_SEPARATING: every point is the motion
  * before, with impulse 0. An error: every number is NaN (but nothing is written when a pointer is NULL or n < 2). */
 CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cushion_options *opt, size_t n,
@@ -134,8 +134,7 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
 
 /* ==== Whole shots ========================================================================================================
  *
- * From the strike of a cue to rest, event by event: between events every ball moves in closed form, and no contact is stepped
- * over.
+ * From the strike of a cue to rest, event by event. Between events every ball moves by a closed form, and no contact is missed.
  *
  *     carom_table table;
  *     carom_table_make(CAROM_TABLE_POOL_9FT, &table);
@@ -149,7 +148,7 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
  *     carom_shot_at(balls, 10, &shot, 1.5, moved);                              // the state after 1.5 s goes to moved[10]
  *
  * The playing surface is 0 <= x <= width, 0 <= y <= length for the built-in tables, with z up and the cloth at z = 0: a ball on
- * it has its centre at z = R. docs/using/shots.md tells the models, the rules and the bounds.
+ * it has its centre at z = R. docs/using/shots.md describes the models, the rules and the bounds.
  *
  * Bits: those of a batch are those of single calls, for any number of threads and any cut; with CAROM_ISA=plain they are the
  * same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with closed-form cushions, so 3 us for
@@ -168,7 +167,7 @@ typedef enum carom_label {
   CAROM_BALL_AIRBORNE = 5    /* kept for later versions; an error today */
 } carom_label;
 
-/* What a ball is made of and runs on. All doubles, without gaps. */
+/* The constants of a ball and of its cloth. All doubles, without gaps. */
 typedef struct carom_ball_kind {
   double mass;                /* kg, > 0. May differ from ball to ball in the world carom. */
   double radius;              /* R, m, > 0. The same for all balls of a layout. */
@@ -257,7 +256,7 @@ typedef enum carom_table_kind {
   CAROM_TABLE_POOL_9FT = 2,     /* 1.27 x 2.54 m */
   CAROM_TABLE_SNOOKER = 3,      /* 12 ft, 1.778 x 3.569 m */
   CAROM_TABLE_THREECUSHION = 4, /* 10 ft, 1.42 x 2.84 m, no pockets */
-  CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood": that of CAROM_TABLE_POOL_7FT, under this name for ever */
+  CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood": that of CAROM_TABLE_POOL_7FT, under a name that stays */
 } carom_table_kind;
 
 /* Fills *table. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_TABLE where there is no such kind. */
@@ -305,7 +304,7 @@ CAROM_API carom_status carom_strike(const carom_cue *cue, const carom_ball_kind 
 
 /* The rules of contact. CAROM_WORLD_CAROM: an event is where the gap is <= 0 and closing; nothing moves but by its motion.
  * CAROM_WORLD_POOLTOOL: pooltool's, with its spacers of 1 um, its order of simultaneous events, and its exchange between balls
- * that touch for long; for the same histories as pooltool's, not for truth. */
+ * that touch for long; for the same histories as pooltool's. */
 typedef enum carom_world { CAROM_WORLD_CAROM = 0, CAROM_WORLD_POOLTOOL = 1 } carom_world;
 
 /* The collision of two balls. DEFAULT is EXACT in the world carom, INELASTIC in pooltool. */
@@ -387,7 +386,7 @@ typedef struct carom_shot_state {
   uint64_t opaque[4096];
 } carom_shot_state;
 
-/* What a shot gives. All zero is a shot of which only count and time are wanted; the caller sets what else is. */
+/* The result of a shot. All zero is a shot of which only count and time are wanted; the caller sets what else is. */
 typedef struct carom_shot {
   carom_event *events;      /* in the order in which they happened; the first `room` of them are kept. May be NULL, */
   carom_brief_event *brief; /* and so may these: the same events without states. */
@@ -405,8 +404,8 @@ typedef struct carom_shot {
 /* Plays a shot until nothing moves. 1 to CAROM_BALLS_MOST balls. If a ball moves already, or cue is NULL or its speed 0, there
  * is no strike. `opt` may be NULL for the defaults. Returns CAROM_OK; CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT where
  * the options ask for that; CAROM_ERROR_TOO_MANY_EVENTS or CAROM_ERROR_TOO_LONG where a bound ended it; an error of a field,
- * with count 0 and nothing else written (carom_shot_check() tells the field); or CAROM_ERROR_LEFT_TABLE, or one of a collision,
- * with everything up to that event. The final states are those at shot->time. */
+ * with count 0 and nothing else written (carom_shot_check() returns the field); or CAROM_ERROR_LEFT_TABLE, or one of a
+ * collision, with everything up to that event. The final states are those at shot->time. */
 CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                                    const carom_shot_options *opt, carom_shot *shot);
 

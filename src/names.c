@@ -33,11 +33,11 @@
   X(ERROR_TOO_SLOW, -17, "too_slow",                                                                                \
     "Euler's method is too slow here: its steps are lost in rounding, or more than 16 N of them are needed")        \
   X(ERROR_OVERFLOW, -18, "overflow", "the collision overflows the range of double")                                 \
-  X(ERROR_MASSES_DIFFER, -19, "masses_differ", "this kernel is for balls of equal mass only")                       \
+  X(ERROR_MASSES_DIFFER, -19, "masses_differ", "this model is for balls of equal mass only")                        \
   X(ERROR_THREADS, -20, "bad_threads", "options.threads must be CAROM_ALL_THREADS, or 0 or more")                   \
   X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                             \
   X(ERROR_UNRESOLVED, -22, "unresolved",                                                                            \
-    "the collision is too extreme: its result hangs on rounding errors, or takes more work than a call may cost")   \
+    "the collision is too extreme: its result depends on rounding errors, or takes more work than a call may cost") \
   X(ERROR_OPTIONS, -23, "bad_options", "the reserved fields of the options must be 0")                              \
   X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model", "options.model is not one of carom_cushion_model")               \
   X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options", "an option of the cushion is out of its range")              \
