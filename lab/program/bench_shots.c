@@ -98,7 +98,14 @@ static double processor_ns(void) {
 static void play(void *context) {
   const timed_shot *t = context;
   const shot_line *line = &t->line;
-  carom_shoot_batch(&line->table->table, line->ball, line->count, 1, &line->cue, 1, t->copies, &t->options, t->room, NULL);
+  const carom_shot_job job = {.table = &line->table->table,
+                              .balls = line->ball,
+                              .cues = &line->cue,
+                              .count = line->count,
+                              .n = t->copies,
+                              .options = &t->options,
+                              .shots = t->room};
+  carom_shoot_batch(&job);
   BENCH_CONSUME(t->room);
 }
 

@@ -9,10 +9,12 @@ import importlib
 import os
 import pickle
 import shutil
+import subprocess
 import sys
 import tempfile
 import types
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -416,3 +418,14 @@ def test_strategies_in_pooltools_engine():
     for ours, event in list(zip(mine.events, theirs.events))[:8]:
         assert (ours.event_type, ours.ids) == (event.event_type, event.ids)
         assert abs(ours.time - event.time) < 1e-4
+
+
+def test_speed():
+    """The table of ratios: every object looked at, also with continuous histories."""
+    script = Path(__file__).parents[1] / "examples" / "pooltool_speed.py"
+    ran = subprocess.run([sys.executable, str(script), "10"], capture_output=True, text=True, env={**os.environ, "HOME": home})
+    assert ran.returncode == 0, ran.stderr
+    print(ran.stdout)
+    ratios = {line[:32].strip(): float(line.split()[-1]) for line in ran.stdout.splitlines()[2:]}
+    assert len(ratios) == 6
+    assert ratios["drop-in, all objects looked at"] >= 60 and ratios["continuous=True, all objects"] >= 20, ran.stdout

@@ -1,4 +1,5 @@
-/* The benchmark's engine: statistics on made-up samples, turns and figures under a clock that the test turns by hand. Nothing here asserts a real time. */
+/* The benchmark's engine: statistics on made-up samples, turns and figures under a clock that the test turns by hand. Nothing
+ * here asserts a real time. */
 #include "caches.h"
 #include "clock.h"
 #include "pinning.h"

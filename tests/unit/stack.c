@@ -89,7 +89,14 @@ static void *shots(void *argument) {
       cue.speed = 7.0;
       const carom_shot_options own = {.world = world, .threads = world};
       carom_shoot(&table, balls, carom_rack_size((carom_rack_kind)rack), &cue, &own, &shot[0]);
-      carom_shoot_batch(&table, balls, carom_rack_size((carom_rack_kind)rack), 1, &cue, 1, 8, &own, shot, NULL);
+      const carom_shot_job job = {.table = &table,
+                                  .balls = balls,
+                                  .cues = &cue,
+                                  .count = carom_rack_size((carom_rack_kind)rack),
+                                  .n = 8,
+                                  .options = &own,
+                                  .shots = shot};
+      carom_shoot_batch(&job);
     }
   return argument;
 }

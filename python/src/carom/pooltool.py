@@ -67,7 +67,22 @@ class FallbackWarning(UserWarning):
 def table_of(table: Any) -> Table:
     """The table of a System, for `carom.simulate`."""
     segments = table.cushion_segments
-    linear, circular, holes = segments.linear.values(), segments.circular.values(), table.pockets.values()
+    linear, circular = tuple(segments.linear.values()), tuple(segments.circular.values())
+    pockets = tuple((*map(float, p.center[:2]), p.radius, p.depth) for p in table.pockets.values())
+    # Segments never change, and tables share them with their copies. A cached table keeps them, so an id stays theirs.
+    key = (*map(id, linear), None, *map(id, circular), *pockets)
+    cached = _tables.get(key)
+    if cached is None:
+        if len(_tables) >= 16:
+            _tables.clear()
+        cached = _tables[key] = (_table_of(linear, circular, pockets), (linear, circular))
+    return Table.from_record(cached[0].record)
+
+
+_tables: dict[tuple[Any, ...], tuple[Table, Any]] = {}
+
+
+def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[Any, ...]) -> Table:
     for segment in linear:
         if segment.direction not in (0, 1):
             raise UnsupportedError(f"cushion {segment.id!r} has balls on both sides: carom takes direction 0 or 1")
@@ -75,7 +90,7 @@ def table_of(table: Any) -> Table:
         [(c.p1[:2], c.p2[:2], c.height, (c.lx, c.ly, c.l0), c.direction, 0.0, 0.0) for c in linear], dtype=dtypes.rail
     )
     jaws: Array = np.array([(c.center[:2], c.radius, c.height, 0.0, 0.0) for c in circular], dtype=dtypes.jaw)
-    pockets: Array = np.array([(p.center[:2], p.radius, p.depth) for p in holes], dtype=dtypes.pocket)
+    pockets: Array = np.array([((x, y), radius, depth) for x, y, radius, depth in holes], dtype=dtypes.pocket)
     # Width and length are for pictures; a table that is not made of pooltool's own parts may have none.
     ends = np.concatenate([rails["p"], rails["q"]])
     low, high = (ends.min(axis=0), ends.max(axis=0)) if len(ends) else (np.zeros(2), np.ones(2))
@@ -214,9 +229,7 @@ def simulate(
     if 0 < max_events < kept - 1:
         # pooltool looks after the event, and counts from 0.
         kept, stopped = max_events + 2, True
-    fill(system, played, kept, stopped)
-    if continuous:
-        _pt.continuize(system, dt=0.01 if dt is None else dt, inplace=True)
+    fill(system, played, kept, stopped, (0.01 if dt is None else dt) if continuous else None)
     return system
 
 
