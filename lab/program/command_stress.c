@@ -342,9 +342,9 @@ static void print_table(const stress *s, FILE *out) {
     fprintf(out, "rows of batches whose bits or status differ from single calls: %ld\n", s->other_bits);
   fprintf(out,
           "precise solver against the reference, where calls differ from it by more than %g, and 1 row in %d: %ld rows, "
-          "largest error %.1e, %ld above %g\n",
+          "largest error %.1e, %ld above %s\n",
           REFERENCE_FROM, job->coincidences > 0 ? 20 : 1000, s->asked, s->precise_largest, s->precise_wrong,
-          s->balls ? 1e-9 : 1e-8);
+          s->balls ? "1e-9" : "1e-8");
   if (s->balls)
     return;
   fputs("\nlargest errors:\n", out);
