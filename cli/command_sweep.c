@@ -1,5 +1,6 @@
 /* `carom sweep`: some rows over and over, one of their inputs varied in fine steps. */
 #include "command.h"
+#include "derived.h"
 #include "message.h"
 #include "number.h"
 #include "output.h"
@@ -40,6 +41,13 @@ typedef struct outcome {
   double speed[MOST_RESULTS]; /* the results, spins times radius */
 } outcome;
 
+/* Turns a point about the vertical through another. */
+static void turn(double *r, const double *centre, double degrees) {
+  const double angle = degrees * degree, x = r[0] - centre[0], y = r[1] - centre[1];
+  r[0] = centre[0] + x * cos(angle) - y * sin(angle);
+  r[1] = centre[1] + x * sin(angle) + y * cos(angle);
+}
+
 /* Puts the value into the row: into the number of that column, or into all that the word stands for. */
 static void vary(const sweep *s, double *row, double value) {
   const row_kind *kind = s->kind;
@@ -47,7 +55,7 @@ static void vary(const sweep *s, double *row, double value) {
     if (kind_fills(kind, k, s->over))
       row[k] = value;
   if (strcmp(s->over, kind->turning) == 0)
-    kind->turn(row, value);
+    turn(row + kind->direction[1], kind->direction[0] >= 0 ? row + kind->direction[0] : (const double[2]){0.0}, value);
   /* All velocities, and the spins behind them. */
   for (int ball = 0; ball < 2 && strcmp(s->over, "speed") == 0 && kind->motion[ball] >= 0; ball++)
     for (int k = 0; k < 6; k++)
@@ -170,24 +178,12 @@ static bool can_vary(const sweep *s) {
   return true;
 }
 
-/* Says so where the friction of a row is that of the usual law at its own slip, which changes with what is varied, and yet
- * stays. */
+/* Friction that depends on the slip, which changes with what is varied, is a number here unless a law is given. */
 static void warn_of_constant(const sweep *s) {
-  shared_options by_law = s->asked;
-  by_law.friction = (friction_law){.given = true, .law = carom_alciatore()};
-  if (s->asked.friction.given || s->kind->prepare == NULL ||
-      place_among("M M1 M2 u_s u_s1 u_s2 u_b e_b", s->over, strlen(s->over)) >= 0)
-    return;
-  for (int k = 0; k < s->id_count; k++) {
-    double row[MOST_NUMBERS];
-    memcpy(row, s->rows[k], sizeof row);
-    s->kind->prepare(&by_law, row);
-    for (int number = 0; number < s->kind->numbers; number++)
-      if (row[number] != s->rows[k][number])
-        return;
-  }
-  complain("u_b follows alciatore's law in these rows, but stays constant here; --friction alciatore applies the law to every "
-           "value");
+  if (s->kind->prepare != NULL && !s->asked.friction.given &&
+      place_among("cut speed v1x v1y w1x w1y w1z v2x v2y w2x w2y w2z", s->over, strlen(s->over)) >= 0)
+    complain("u_b stays constant; that of real balls depends on their slip: --friction alciatore applies such a law to every "
+             "value");
 }
 
 OPTION(sweep, option_over, "over", over, 0, "INPUT", set_text, 0,

@@ -119,7 +119,7 @@ static carom_shot_options options_of(const char *engine) {
   if (engine[0] != 0 && strcmp(engine, "default") != 0)
     options.ball_model = CAROM_BALL_MODEL_EULER;
   if (strcmp(engine, "mathavan_all") == 0)
-    options.cushion_model = 1 + CAROM_CUSHION_EULER;
+    options.cushion_model = CAROM_SHOT_CUSHION_EULER;
   return options;
 }
 

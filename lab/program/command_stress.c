@@ -21,7 +21,7 @@
 
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
-#include "ball_ball/precise.h"
+#include "ball_ball/reduced.h"
 #include "enumerations.h"
 
 #include <math.h>
@@ -93,7 +93,7 @@ static void count_double(shift *w, carom_slip slip, uint64_t k, const carom_impa
   carom_result unused;
   if (status == CAROM_SEPARATING)
     return;
-  t->by_fallback += carom_kernels_in_force()->single[CAROM_DOUBLE](in, carom_spin_sign(slip), &unused, NULL) <= 0;
+  t->by_fallback += carom_kernels_in_force()->call[CAROM_F64](in, carom_spin_sign(slip), &unused, NULL) <= 0;
   if (is_error(t, status))
     return;
   const bool known = collide_precisely(in, slip, PRECISELY, exact) == CAROM_OK;
@@ -128,7 +128,7 @@ static void count_single(shift *w, carom_slip slip, const carom_impact_f32 *in, 
     ((double *)&wide)[k] = ((const float *)in)[k];
   for (int k = 0; k < 12; k++)
     ((double *)&result)[k] = ((const float *)out)[k];
-  t->by_fallback += carom_kernels_in_force()->single[CAROM_SINGLE](in, carom_spin_sign(slip), &unused, NULL) == 0;
+  t->by_fallback += carom_kernels_in_force()->call[CAROM_F32](in, carom_spin_sign(slip), &unused, NULL) == 0;
   if (is_error(t, status))
     return;
   if (collide_precisely(&wide, slip, PRECISELY, &exact) == CAROM_OK)

@@ -2,12 +2,11 @@
 #ifndef CAROM_LAB_DRAWS_H
 #define CAROM_LAB_DRAWS_H
 
-#include "regimes.h"
-
 #include "ball_ball/frame.h"
 #include "carom_shot.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 /* Kinds of collisions: those of play, with any speed, spin and cut that it has, mu_b <= 0.2, mu <= 0.5, e >= 0.5, masses within
  * 1 : 2; those of regimes.h, in turn; and everything that is accepted at all. */
@@ -30,5 +29,12 @@ double cushion_distance(const carom_cushion_impact *in, const carom_motion *a, c
 
 /* A collision of the frame of ball_ball/frame.h, its line of centres turned from the y axis by an angle, rad. */
 carom_impact draw_turned(const carom_local *c, double angle);
+
+/* The same collision seen from the other side, the second ball named first. */
+carom_local draw_exchanged(const carom_local *c);
+
+/* Gives a ball the velocity (v_x, v_y), the share `roll` of the spin of rolling (1 rolls, 0 slides, -1 spins backward) and the
+ * surface speed `side` of side spin. */
+void draw_ball(carom_local *c, bool second, double v_x, double v_y, double roll, double side);
 
 #endif

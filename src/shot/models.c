@@ -153,6 +153,11 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due) {
   return (carom_nose){jaw->height, jaw->radius, jaw->mu_cushion, jaw->restitution};
 }
 
+_Static_assert(CAROM_SHOT_CUSHION_MATHAVAN == 1 + CAROM_CUSHION_MATHAVAN &&
+                   CAROM_SHOT_CUSHION_STRONGE == 1 + CAROM_CUSHION_STRONGE && CAROM_SHOT_CUSHION_HAN == 1 + CAROM_CUSHION_HAN &&
+                   CAROM_SHOT_CUSHION_MIRROR == 1 + CAROM_CUSHION_MIRROR && CAROM_SHOT_CUSHION_EULER == 1 + CAROM_CUSHION_EULER,
+               "the models of a shot are those of an impact, behind the default");
+
 carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], const carom_nose *nose,
                                  carom_ball_state *state) {
   const carom_ball_kind *kind = &sim->ball[i].kind;
@@ -166,9 +171,11 @@ carom_status carom_model_cushion(const carom_sim *sim, int i, const double norma
                                    .mu_cushion = nose->mu_cushion > 0.0 ? nose->mu_cushion : kind->mu_cushion,
                                    .restitution = nose->restitution > 0.0 ? nose->restitution : kind->restitution_cushion,
                                    .jaw_radius = nose->jaw_radius};
-  const int asked = sim->opt->cushion_model;
+  const carom_shot_cushion asked = sim->opt->cushion_model;
   carom_cushion_options options = {.steps = sim->opt->steps, .omega_ratio = kind->omega_ratio};
-  options.model = asked > 0 ? (carom_cushion_model)(asked - 1) : sim->pooltool ? CAROM_CUSHION_STRONGE : CAROM_CUSHION_MATHAVAN;
+  options.model = asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1)
+                  : sim->pooltool                     ? CAROM_CUSHION_STRONGE
+                                                      : CAROM_CUSHION_MATHAVAN;
   if (sim->pooltool) {
     options.convention = CAROM_CONVENTION_POOLTOOL;
     options.least_step = 0.001;

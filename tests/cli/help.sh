@@ -9,7 +9,7 @@ echo "--- lines of more than 80 columns"
 for command in "" resolve hit shoot trace sweep; do carom $command --help | awk -v command="$command" 'length > 80 { print command ": " $0 }'; done
 echo "--- a page of the manual is the help"
 for command in "" resolve; do
-  carom $command --man | sed '1,/^\.nf/d; $d; s/\\-/-/g; s/^\\&//; s/\\e/\\/g' > page
+  sed '1,/^\.nf/d; $d; s/\\-/-/g; s/^\\&//' "$(dirname "$CAROM")/man/carom${command:+-$command}.1" > page
   carom $command --help | cmp - page && echo "the same: $command"
 done
 rm page
