@@ -129,12 +129,13 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
   /* the first ball at the origin: only the direction counts */
   in.b.r[0] = n[0];
   in.b.r[1] = n[1];
-  const carom_options options = {.solver = model == CAROM_BALL_MODEL_EULER ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
-                                 .slip = sim->pooltool ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER,
+  const bool euler = model == CAROM_BALL_MODEL_EULER;
+  const carom_options options = {.solver = euler ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
+                                 .slip = euler && sim->pooltool ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER,
                                  .steps = sim->opt->steps};
   carom_result out;
   const carom_status status = carom_collide(&in, &options, &out);
-  if (status == CAROM_SEPARATING && sim->pooltool && model == CAROM_BALL_MODEL_EULER)
+  if (status == CAROM_SEPARATING && sim->pooltool && euler)
     part_by_steps(&in, &options, &out);
   if (status >= 0) {
     take_motion(&out.a, a);

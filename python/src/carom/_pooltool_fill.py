@@ -57,6 +57,7 @@ class _LaterHistory(_BallHistory):  # type: ignore[misc]
     """A BallHistory whose states are made when they are first looked at, by the function in their place; without one it is empty."""
 
     __slots__ = ()
+    __qualname__ = "BallHistory"  # for repr()
 
     @property
     def states(self) -> Any:
@@ -92,6 +93,7 @@ class _LaterAgent(_Agent):  # type: ignore[misc]
     """
 
     __slots__ = ()
+    __qualname__ = "Agent"  # for repr()
 
     def _settle(self) -> None:
         """Becomes an Agent."""
