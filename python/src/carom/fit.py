@@ -15,7 +15,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, cast
+from typing import Any, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -28,11 +28,7 @@ from carom.tracks import Recording, TrackError, events, read
 
 __all__ = ["Fit", "fit", "main"]
 
-Free = Literal["none", "default", "joint"]
 Progress = Callable[[str, float], None]
-# What a constant that is found by whole shots is off by for synthetic recordings, where the other constants are a little wrong.
-_BY_SHOTS = {"mu_spin": 3e-4, "mu_ball": 2e-3}
-_GENERATIONS, _OF_HALVES = 90, 30  # of the joint search, by all shots and by each half of them
 _FASTEST = 8.0  # m/s: no ball is faster
 
 
@@ -99,7 +95,7 @@ class Fit:
         balls["state"]["v"][recording.cue, :2] = strike[:2]
         balls["state"]["w"][recording.cue] = strike[2:5] / self.radius
         table = _constants.rectangle(self.table, self.constants["nose_height"])
-        return simulate(table, balls, cushion_model=self.cushion_model, friction="constant")
+        return simulate(table, balls, cushion_model=self.cushion_model)
 
     def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
         """The centres of shot i's balls as played at times of the recording's clock, m, shape (..., balls, 2)."""
@@ -148,37 +144,20 @@ def _status(shot: Recording, radius: float) -> str:
     return "ok"
 
 
-def _by_shots(
-    plays: _strikes.Plays, strikes: Doubles, values: dict[str, float], rows: list[int], random: np.random.Generator,
-    progress: Progress | None,
-) -> tuple[dict[str, float], dict[str, float]]:  # fmt: skip
-    """All constants, mu_spin and mu_ball searched by the shots of `rows`; and the errors of these two, from halves of the shots."""
-
-    def search(some: list[int], told: Progress | None = None) -> dict[str, float]:
-        return _joint.one_by_one(_joint.Objective(plays, strikes, values, some), told)
-
-    found = search(rows, progress)
-    if len(rows) < 8:
-        return found, {}
-    order = random.permutation(rows)
-    halves = [search(sorted(half.tolist())) for half in np.array_split(order, 2)]
-    return found, {name: math.hypot(0.5 * (halves[0][name] - halves[1][name]), method) for name, method in _BY_SHOTS.items()}
-
-
-def _together(
-    plays: _strikes.Plays, strikes: Doubles, values: dict[str, float], rows: list[int], seed: int, progress: Progress | None
-) -> tuple[dict[str, float], dict[str, float]]:
-    """All constants, fitted together, and their errors: half the difference of halves."""
-
-    def search(some: list[int], generations: int, told: Progress | None = None) -> dict[str, float]:
-        return _joint.together(_joint.Objective(plays, strikes, values, some), generations, seed, told)
-
-    found = search(rows, _GENERATIONS, progress)
-    if len(rows) < 8:
-        return found, {}
-    order = np.random.default_rng(seed).permutation(rows)
-    halves = [search(sorted(half.tolist()), _OF_HALVES) for half in np.array_split(order, 2)]
-    return found, {name: 0.5 * abs(halves[0][name] - halves[1][name]) for name in _joint.DEVIATIONS if name in found}
+def _priors(
+    free: Sequence[str], priors: Mapping[str, tuple[float, float]], values: Mapping[str, float], cushion_model: ShotCushion
+) -> dict[str, tuple[float, float]]:
+    """Mean and deviation of each constant that whole shots are to tell."""
+    names = [name for name in _joint.PRIORS if cushion_model != "mirror" or name not in ("mu_cushion", "roll_loss", "nose_height")]
+    if list(free) != ["default"]:
+        names = list(free)
+    unknown = [name for name in [*names, *priors] if name not in _joint.PRIORS]
+    if unknown:
+        raise ValueError(f"free, priors: there is no constant {unknown[0]!r} to fit; known are {', '.join(_joint.PRIORS)}")
+    for name, (mean, deviation) in priors.items():
+        if not (math.isfinite(mean) and math.isfinite(deviation) and deviation > 0.0):
+            raise ValueError(f"priors: {name} must have a finite mean and a deviation above 0, not {mean!r}, {deviation!r}")
+    return {name: priors.get(name, (values[name], _joint.PRIORS[name][0])) for name in names}
 
 
 def fit(
@@ -188,7 +167,9 @@ def fit(
     *,
     cushion_model: ShotCushion = "han",
     constants: Mapping[str, float] | None = None,
-    free: Free = "default",
+    free: str | Sequence[str] = "default",
+    priors: Mapping[str, tuple[float, float]] | None = None,
+    train: Sequence[int] | None = None,
     seed: int = 0,
     threads: int = 0,
     progress: Progress | None = None,
@@ -206,10 +187,15 @@ def fit(
     cushion_model : {"mathavan", "stronge", "han", "mirror"}
     constants : mapping, optional
         What is known; the usual ones for what is not given.
-    free : {"none", "default", "joint"}
-        What is fitted: "none", each shot's strike alone; "default", also the constants that single events tell (mu_slide, mu_roll,
-        restitution, those of the cushion), and mu_spin and mu_ball by whole shots. What too few events tell stays as given. "joint": from there, all constants together by
-        whole shots, which fits better as constants absorb what the models leave out; needs the package cma.
+    free : "none", "events", "default", or names of constants
+        What is fitted besides each shot's strike. "none": nothing. "events": the constants that single events tell: mu_slide, mu_roll,
+        drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all of
+        `_joint.PRIORS` together, by whole shots. Names: these constants alone, by whole shots.
+    priors : mapping, optional
+        Mean and deviation of constants that are fitted by whole shots. Without: about the value before, as wide as the constants of
+        different tables are.
+    train : sequence of int, optional
+        The shots, from 0, that constants are fitted to; all without. The others then tell how well the constants predict.
     seed : int
         Of what is drawn: the same seed, the same bits.
     threads : int
@@ -238,33 +224,31 @@ def fit(
         )
     if not (min(table) > 4.0 * radius > 0.0):
         raise ValueError(f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, and those above 0")
-    if free not in ("none", "default", "joint"):
-        raise ValueError(f"free: must be 'none', 'default' or 'joint', not {free!r}")
+    free = [free] if isinstance(free, str) else list(free)
     values = _constants.complete(constants or {}, cushion_model)
+    _priors([] if free[0] in ("none", "events") else free, priors or {}, values, cushion_model)
     spread: dict[str, float] = {}
     status = [_status(shot, radius) for shot in recordings]
     played = [k for k, text in enumerate(status) if text != "no ball moves"]
+    fitted = [k for k in played if status[k] == "ok" and (train is None or k in set(train))]
     strikes, rmse = np.full((len(recordings), 6), np.nan), np.full(len(recordings), np.nan)
     if played:
-        shots = [recordings[k] for k in played]
-        if free != "none":
+        if free[0] in ("events", "default"):
             if progress:
                 progress("events", 0.0)
-            measured, spread = _from_events.measured(events(shots, table, radius), radius, cushion_model, seed)
+            measured, spread = _from_events.measured(events([recordings[k] for k in fitted], table, radius), radius, cushion_model, seed)
             values = {**values, **measured}
-        plays = _strikes.Plays(shots, table, radius, values, cushion_model, threads)
-        found, _ = _strikes.find(plays, progress)
-        if free != "none":
-            counted = [row for row, k in enumerate(played) if status[k] == "ok"]
-            values, by_shots = _by_shots(plays, found, values, counted, np.random.default_rng(seed), progress)
-            spread = {**spread, **by_shots}
-            plays.set(values)
-            found, _ = _strikes.find(plays, progress)
-            if free == "joint":
-                values, spread = _together(plays, found, values, counted, seed, progress)
-                plays.set(values)
-                found, _ = _strikes.find(plays, progress)
-        strikes[played] = _strikes.polish(plays, found)
+        if free[0] not in ("none", "events") and fitted:
+            plays = _strikes.Plays([recordings[k] for k in fitted], table, radius, values, cushion_model, threads)
+            search = _joint.Search(plays, _strikes.find(plays, seed, progress)[0], range(len(fitted)),
+                                   _priors(free, priors or {}, values, cushion_model))  # fmt: skip
+            for stage in search.run(seed):
+                if progress:
+                    progress("constants", (stage + 1) / search.stages)
+            values = search.plays.constants
+            spread = {**spread, **_joint.spread(search, seed)}
+        plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
+        strikes[played] = _strikes.polish(plays, _strikes.find(plays, seed, progress)[0])
         rmse[played] = plays.rmse(strikes[played])
     for k in played:
         if not np.isfinite(rmse[k]):
@@ -305,7 +289,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
     parser.add_argument("--cushion-model", default="han", choices=["mathavan", "stronge", "han", "mirror"])
     parser.add_argument("--constants", type=Path, metavar="IN.json", help="known constants; the usual ones otherwise")
-    parser.add_argument("--free", default="default", choices=["none", "default", "joint"], help="what is fitted besides the strikes")
+    parser.add_argument("--free", default="default", type=lambda text: text.split(","), metavar="none|events|default|NAME,...",
+                        help="constants that are fitted besides the strikes")  # fmt: skip
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--threads", type=int, default=0, help="0: one; -1: all processors")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT.json")
