@@ -14,7 +14,8 @@ shot's cost jumps where events appear and vanish, all strikes are searched anew 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -117,25 +118,26 @@ class Search:
         better = costs < now
         self.strikes[better] = found[better]
 
-    def run(self, seed: int, begin: int = 0) -> Iterator[int]:
-        """Searches, from stage `begin` on; yields the number of each stage that is done."""
-        for number in range(begin, len(_HORIZONS)):
-            if number:
-                self.anew(seed + number)
-            self.until = np.minimum(_HORIZONS[number], self.plays.ends[self.rows])
-            cost, self.strikes = self.cost(self.values, self.strikes, 4)
-            damping = 1e-2
-            for _ in range(_STEPS):
-                before = cost
-                cost, damping = self.step(damping, cost)
-                if cost > before * (1.0 - 1e-3):
-                    break
-            self.plays.set(self.constants(self.values))
-            yield number
+    def stage(self, number: int, seed: int) -> list[Any]:
+        """One of STAGES searches: the constants and the strikes, as `resume` takes them."""
+        if number:
+            self.anew(seed + number)
+        self.until = np.minimum(_HORIZONS[number], self.plays.ends[self.rows])
+        cost, self.strikes = self.cost(self.values, self.strikes, 4)
+        damping = 1e-2
+        for _ in range(_STEPS):
+            before = cost
+            cost, damping = self.step(damping, cost)
+            if cost > before * (1.0 - 1e-3):
+                break
+        return [self.values.tolist(), self.strikes.tolist()]
 
-    @property
-    def stages(self) -> int:
-        return len(_HORIZONS)
+    def resume(self, found: Sequence[Any]) -> None:
+        """Goes on from what a stage found."""
+        self.values, self.strikes = np.array(found[0]), np.array(found[1])
+
+
+STAGES = len(_HORIZONS)
 
 
 def spread(search: Search, seed: int) -> dict[str, float]:
@@ -154,8 +156,8 @@ def spread(search: Search, seed: int) -> dict[str, float]:
             priors = dict(zip(search.names, zip(search.first.tolist(), search.scale.tolist())))
             part = Search(search.plays.some(rows), strikes[rows], range(len(rows)), priors)
             part.values = search.start.copy()
-            for _ in part.run(seed):
-                pass
+            for number in range(STAGES):
+                part.stage(number, seed)
             found.append(part.values)
         apart.append(0.5 * (found[0] - found[1]))
     method = np.array([_METHOD[name] for name in search.names])
