@@ -38,7 +38,8 @@ def usual(cushion_model: ShotCushion) -> Constants:
     kind = balls(np.zeros((1, 2)), game="billiard")["kind"][0]
     e, mu, height = _CUSHION[cushion_model]
     cushion = {"restitution_cushion": e, "mu_cushion": mu, "nose_height": height}
-    return {**{name: float(kind[name]) for name in KINDS if name != "mu_ball"}, **_LAW, **cushion}
+    loss = 0.0 if cushion_model == "mirror" else float(kind["roll_loss"])
+    return {**{name: float(kind[name]) for name in KINDS if name != "mu_ball"}, **_LAW, **cushion, "roll_loss": loss}
 
 
 def complete(given: Mapping[str, float], cushion_model: ShotCushion, where: str = "constants") -> Constants:

@@ -1,4 +1,4 @@
-"""Constants from whole shots: those that single events do not tell, or all of them together.
+"""Constants from whole shots, all of them together.
 
 The cost of a set of constants is the sum over shots of the least cost that a strike gives (`_strikes`), each at most a bound, so that
 shots whose events are missed do not decide; and the constants' priors, ((c - c_0)/s)^2 each. With J_c and J_p the derivatives of the
@@ -14,7 +14,8 @@ shot's cost jumps where events appear and vanish, all strikes are searched anew 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -29,9 +30,15 @@ PRIORS = {
     "law_a": (0.03, 0.0, 0.4), "law_b": (0.2, 0.0, 0.6), "restitution": (0.03, 0.3, 1.0), "restitution_cushion": (0.03, 0.2, 1.0),
     "mu_cushion": (0.06, 0.0, 1.0), "roll_loss": (0.06, 0.0, 0.5), "nose_height": (1.8e-3, 0.0, np.inf),
 }  # fmt: skip
-BY_SHOTS = ("mu_spin", "law_a", "law_b")
+# What the search leaves on synthetic recordings, whose truth is known.
+_METHOD = {
+    "mu_slide": 1e-3, "mu_roll": 2e-5, "drag": 3e-4, "mu_spin": 1e-4, "law_a": 3e-3, "law_b": 0.025, "restitution": 1.5e-3,
+    "restitution_cushion": 1.2e-3, "mu_cushion": 1.2e-3, "roll_loss": 4e-3, "nose_height": 1e-4,
+}  # fmt: skip
 _STEP = 1e-3  # of the differences, in deviations
-_HORIZONS = (3.0, 6.0, np.inf, np.inf)
+_HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
+_STEPS = 12  # at most, of each
+_SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
 
 
 class Search:
@@ -43,15 +50,17 @@ class Search:
     strikes : (shots, 6)
     rows : sequence of int
         The shots that count.
-    names : sequence of str
-        The constants to find.
+    priors : mapping
+        Mean and deviation of each constant to find.
     """
 
-    def __init__(self, plays: Plays, strikes: Doubles, rows: Sequence[int], names: Sequence[str]) -> None:
+    def __init__(self, plays: Plays, strikes: Doubles, rows: Sequence[int], priors: Mapping[str, tuple[float, float]]) -> None:
         self.rows = np.array([row for row in rows if np.isfinite(strikes[row]).all()], np.int32)
-        self.plays, self.names = plays, list(names)
-        self.first = self.values = np.array([plays.constants[name] for name in names])
-        self.scale, self.low, self.high = np.array([PRIORS[name] for name in names]).T
+        self.plays, self.names = plays, list(priors)
+        self.values = np.array([plays.constants[name] for name in priors])
+        self.start = self.values.copy()
+        self.first, self.scale = np.array(list(priors.values())).T
+        self.low, self.high = np.array([PRIORS[name][1:] for name in priors]).T
         self.strikes, self.until = strikes[self.rows], plays.ends[self.rows]
         self.most = _MOST * plays.counts[self.rows]
 
@@ -70,10 +79,11 @@ class Search:
         self.plays.set(self.constants(self.values), dict(zip(self.names, _STEP * self.scale)))
         sums = self.plays.misfit(self.rows, self.strikes, self.until, self.most)
         counted = sums[:, 0] < self.most
-        # in deviations of the constants, the strikes put in
+        # in deviations of the constants
         square, gradient = normal(sums)
         size = np.concatenate([np.ones(6), self.scale])
         square, gradient = square * np.outer(size, size), gradient * size
+        # the strikes put in; what no sample depends on stays where it is
         P, X, C = square[:, :6, :6].copy(), square[:, :6, 6:], square[:, 6:, 6:]
         diagonal = np.arange(6)
         P[:, diagonal, diagonal] *= 1.0 + 1e-3
@@ -108,21 +118,48 @@ class Search:
         better = costs < now
         self.strikes[better] = found[better]
 
-    def run(self, seed: int, horizons: Sequence[float] = _HORIZONS, progress: Callable[[str, float], None] | None = None,
-            verbose: bool = False) -> Mapping[str, float]:
-        for number, horizon in enumerate(horizons):
-            if progress:
-                progress("constants", number / len(horizons))
-            if number:
-                self.anew(seed + number)
-            self.until = np.minimum(horizon, self.plays.ends[self.rows])
-            cost, self.strikes = self.cost(self.values, self.strikes, 4)
-            damping = 1e-2
-            for it in range(12):
-                before = cost
-                cost, damping = self.step(damping, cost)
-                if verbose: print(horizon, it, cost, damping, dict(zip(self.names, self.values.round(5).tolist())), flush=True)
-                if cost > before * (1.0 - 1e-3):
-                    break
-        self.plays.set(self.constants(self.values))
-        return self.plays.constants
+    def stage(self, number: int, seed: int) -> list[Any]:
+        """One of STAGES searches: the constants and the strikes, as `resume` takes them."""
+        if number:
+            self.anew(seed + number)
+        self.until = np.minimum(_HORIZONS[number], self.plays.ends[self.rows])
+        cost, self.strikes = self.cost(self.values, self.strikes, 4)
+        damping = 1e-2
+        for _ in range(_STEPS):
+            before = cost
+            cost, damping = self.step(damping, cost)
+            if cost > before * (1.0 - 1e-3):
+                break
+        return [self.values.tolist(), self.strikes.tolist()]
+
+    def resume(self, found: Sequence[Any]) -> None:
+        """Goes on from what a stage found."""
+        self.values, self.strikes = np.array(found[0]), np.array(found[1])
+
+
+STAGES = len(_HORIZONS)
+
+
+def spread(search: Search, seed: int) -> dict[str, float]:
+    """The errors of the constants of a search that is done: from halves of its shots, whose difference is twice the error of the whole."""
+    random, apart = np.random.default_rng(seed), []
+    every = np.arange(len(search.rows))
+    if len(every) < 2 * _HALF_LEAST:
+        return {}
+    strikes = np.full((len(search.plays.recordings), 6), np.nan)
+    strikes[search.rows] = search.strikes
+    for _ in range(_SPLITS):
+        order = random.permutation(every)
+        found: list[Doubles] = []
+        for half in np.array_split(order, 2):
+            rows = search.rows[np.sort(half)]
+            priors = dict(zip(search.names, zip(search.first.tolist(), search.scale.tolist())))
+            part = Search(search.plays.some(rows), strikes[rows], range(len(rows)), priors)
+            part.values = search.start.copy()
+            for number in range(STAGES):
+                part.stage(number, seed)
+            found.append(part.values)
+        apart.append(0.5 * (found[0] - found[1]))
+    method = np.array([_METHOD[name] for name in search.names])
+    error = np.hypot(np.sqrt((np.array(apart) ** 2).mean(axis=0)), method)
+    return dict(zip(search.names, error.tolist()))

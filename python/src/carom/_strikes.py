@@ -35,10 +35,12 @@ STEP = 1e-5  # of the forward differences, m/s and s: small against what moves a
 EARLIEST, LATEST = -0.03, 0.08  # of a strike on the clock of the recording, s
 _SPIN_MOST = 2.0  # greatest |R w| of a strike over |v|: a tip that does not slip gives 1.3
 _NUMBERS = 6
-_FIRST, _FIRST_KEPT, _FIRST_ITERATIONS = 0.9, 24, 4  # the stage of the starts: samples up to a time (s), starts that descend
-# The stages that follow: samples up to a time (s), offspring of each strike, how many of all descend, iterations, how many go on.
-_STAGES = ((1.6, 12, 5, 4, 4), (2.5, 12, 5, 4, 4), (4.0, 12, 5, 4, 4), (6.0, 12, 5, 4, 4), (9.0, 12, 5, 4, 4), (np.inf, 12, 5, 4, 4))
+# The first stage: samples up to a time (s), how many starts descend, and iterations.
+_FIRST, _FIRST_KEPT, _FIRST_ITERATIONS = 0.9, 16, 4
+# The others: samples up to a time (s), offspring of each strike, how many of all descend, iterations, how many go on.
+_STAGES = tuple((until, 30, 3, 4, 3) for until in (2.0, 4.0, 8.0, np.inf))
 _WIDER = 10.0  # standard deviations of the widest offspring
+_LAST, _SQUARES = 10, 10  # iterations at the end, by the cost and by plain squares
 
 
 class Plays:
@@ -294,7 +296,7 @@ def _offspring(of: Integers, strikes: Doubles, sums: Doubles, each: int, random:
 def polish(plays: Plays, strikes: Doubles) -> Doubles:
     """Descends by the plain squares, whose mean the RMSE is, from strikes of all shots, (shots, 6)."""
     of = np.arange(len(strikes), dtype=np.int32)
-    better, _ = descend(plays, of, strikes, plays.ends, 25, huber=0.0)
+    better, _ = descend(plays, of, strikes, plays.ends, _SQUARES, huber=0.0)
     return np.where((plays.rmse(better) < plays.rmse(strikes))[:, None], better, strikes)
 
 
@@ -322,7 +324,7 @@ def find(plays: Plays, seed: int = 0, progress: Callable[[str, float], None] | N
         strikes, sums = descend(plays, of, strikes[rows], until[of], iterations)
         rows = _best(of, strikes, sums[:, 0], keep if number + 1 < len(_STAGES) else 1)
     of = of[rows]
-    strikes, sums = descend(plays, of, strikes[rows], plays.ends[of], 25)
+    strikes, sums = descend(plays, of, strikes[rows], plays.ends[of], _LAST)
     found, cost = np.full((len(first), _NUMBERS), np.nan), np.full(len(first), np.inf)
     found[of], cost[of] = strikes, sums[:, 0]
     return found, cost
