@@ -32,6 +32,8 @@ set format y "10^{%T}"
 set lmargin at screen 0.10; set rmargin at screen 0.745
 set bmargin at screen 0.19
 set key at screen 0.76, graph 1 left top vertical maxrows 20 noenhanced Left reverse samplen 2.5
+set label 1003 "Marks: the largest error.\nDotted: down to the median.\nDigits: threads of a batch.\nN: steps of Euler's method." \
+  at screen 0.768, screen 0.6 font ",11" textcolor rgb grey
 mark(k) = 7 + 2 * ((k - 1) / 2) % 8 + (k % 2 ? 2 : 1)
 plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_exact_max" \
        with linespoints lt line_of(word(kernels, k), k) title word(kernels, k), \
@@ -49,7 +51,4 @@ plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_ex
        with linespoints lc rgb colour(part(word(lanes, k), 1)) lw 2 dt 1 pt mark(k) ps 1.3 \
        title part(word(lanes, k), 1).", ".part(word(lanes, k), 3).", ".part(word(lanes, k), 2), \
      for [k=1:words(lanes)] data using (in(word(lanes, k), us(0))):"error_exact_max":(sprintf("%d", column("threads"))) \
-       with labels center offset -0.9,0.8 font ",12" textcolor rgb grey notitle, \
-     keyentry with lines lc rgb grey lw 2 dt (1,4) title "dotted line: down to the median", \
-     for [k=1:words(lanes) > 0] keyentry with lines lw 0.1 lc rgb "white" title "digit at a mark: number of threads", \
-     keyentry with lines lw 0.1 lc rgb "white" title "marks: the largest error of all cases"
+       with labels center offset -0.9,0.8 font ",12" textcolor rgb grey notitle
