@@ -116,7 +116,7 @@ def test_unknown_constants_are_found_within_their_spread():
     assert sum(abs(z) < 2 for z in off) >= 0.9 * len(off) and max(map(abs, off)) < 5, off
     usual = fit.fit(made.recordings, TABLE, RADIUS, free="none")
     assert found.median_rmse < 0.3 * usual.median_rmse
-    assert {what for what, _ in told} == {"events", "strikes", "constants"} and all(0 <= part <= 1 for _, part in told)
+    assert {what for what, _ in told} == {"events", "strikes", "constants", "spread"} and all(0 <= part <= 1 for _, part in told)
 
 
 def test_named_constants_follow_their_priors_and_threads_change_no_bit():
