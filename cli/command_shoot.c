@@ -54,9 +54,9 @@ OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT.svg", set_svg, 0,
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
 
 static carom_shot_options options_of(const shoot_job *job) {
-  return (carom_shot_options){.world = job->world,
-                              .ball_model = job->ball_model,
-                              .cushion_model = job->cushion,
+  return (carom_shot_options){.world = (carom_world)job->world,
+                              .ball_model = (carom_ball_model)job->ball_model,
+                              .cushion_model = (carom_shot_cushion)job->cushion,
                               .steps = job->shared.options.steps,
                               .events_most = job->events_most,
                               .threads = job->shared.options.threads,

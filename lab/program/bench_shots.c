@@ -62,7 +62,7 @@ static bool read_shots(bench_job *job) {
   if ((all->file = shot_file_open(job->shots)) == NULL)
     return false;
   const char *text;
-  timed_shot t = {.options = {.world = job->models, .cushion_model = job->cushion_model}};
+  timed_shot t = {.options = {.world = (carom_world)job->models, .cushion_model = (carom_shot_cushion)job->cushion_model}};
   t.options.threads = job->threads.count > 0 ? job->threads.value[0] : 1;
   shot_read what;
   while ((what = shot_file_next(all->file, &t.line, &text)) == SHOT_SHOT || what == SHOT_TABLE) {

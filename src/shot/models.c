@@ -104,7 +104,7 @@ __attribute__((noinline, cold)) static void lose_roll(const carom_ball_kind *kin
       s->w[k] -= loss / kind->radius * n[k];
 }
 
-static int ball_model(const carom_sim *sim) {
+static carom_ball_model ball_model(const carom_sim *sim) {
   if (sim->opt->ball_model != CAROM_BALL_MODEL_DEFAULT)
     return sim->opt->ball_model;
   return sim->pooltool ? CAROM_BALL_MODEL_INELASTIC : CAROM_BALL_MODEL_EXACT;
@@ -115,7 +115,7 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
   const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
   const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
   const contact_slip s = slip_of(n, R, a, b);
-  const int model = ball_model(sim);
+  const carom_ball_model model = ball_model(sim);
   if (model == CAROM_BALL_MODEL_MIRROR) {
     exchange(e, kind_a->mass, kind_b->mass, n, a, b);
     return CAROM_OK;
