@@ -9,7 +9,7 @@
  *
  *     CAROM_LANES_AVX512, CAROM_LANES_AVX2 (with FMA), CAROM_LANES_SSE2, CAROM_LANES_NEON, CAROM_LANES_PLAIN
  *
- * and CAROM_LANES_SINGLE for float. PLAIN uses nothing but the extensions and runs anywhere. With CAROM_LANES_ONE a vreal is
+ * and CAROM_LANES_F32 for float. PLAIN uses nothing but the extensions and runs anywhere. With CAROM_LANES_ONE a vreal is
  * one number: the same text then serves a single collision, with the same bits, since every function here does the same
  * operations on a lane whatever the width.
  */

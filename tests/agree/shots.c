@@ -76,7 +76,7 @@ static void free_results(results *r) {
 START_TEST(batch_is_singles) {
   make_breaks();
   for (int world = 0; world < 2; world++) {
-    carom_shot_options options = {.world = world, .cushion_model = CAROM_SHOT_CUSHION_HAN};
+    carom_shot_options options = {.world = (carom_world)world, .cushion_model = CAROM_SHOT_CUSHION_HAN};
     results *single = make_results();
     for (int k = 0; k < SHOTS; k++)
       single->status[k] = (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);

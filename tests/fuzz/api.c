@@ -28,6 +28,11 @@ static int choice(int n) {
   return (int)(byte() % (unsigned)n);
 }
 
+/* Mostly n, sometimes a number that names nothing. */
+static int mostly(int n) {
+  return choice(20) == 0 ? choice(256) - 128 : n;
+}
+
 static void arbitrary(void *to, size_t size) {
   for (size_t k = 0; k < size; k++)
     ((unsigned char *)to)[k] = (unsigned char)byte();
@@ -258,14 +263,10 @@ static void shots(void) {
     cues[k].b = number(-0.6, 0.6);
     cues[k].ball = choice(10) == 0 ? choice(256) - 128 : 0;
   }
-  carom_shot_options o = {.world = choice(20) == 0 ? choice(256) - 128 : choice(3) == 0,
-                          .ball_model = choice(20) == 0  ? choice(256) - 128
-                                        : choice(2) == 0 ? choice(5)
-                                                         : 0,
-                          .cushion_model = choice(20) == 0  ? choice(256) - 128
-                                           : choice(2) == 0 ? choice(6)
-                                                            : 0,
-                          .friction = choice(2),
+  carom_shot_options o = {.world = (carom_world)mostly(choice(3) == 0),
+                          .ball_model = (carom_ball_model)mostly(choice(2) * choice(5)),
+                          .cushion_model = (carom_shot_cushion)mostly(choice(2) * choice(6)),
+                          .friction = (carom_ball_friction)choice(2),
                           .steps = 1 + choice(100),
                           .events_most = 1 + choice(120),
                           .time_most = choice(3) == 0 ? number(0, 10) : 0};

@@ -208,9 +208,9 @@ START_TEST(loss_of_roll) {
       for (int side = -1; side <= 1; side += 2) {
         carom_shot_ball ball = rolling(1.0, 0.1, 1.5, 1.5707963267948966 + 0.7 * side + 3.141592653589793);
         ball.state.w[2] = 20.0 * spin;
-        const carom_event without = rail_event(&table, &ball, model);
+        const carom_event without = rail_event(&table, &ball, (carom_shot_cushion)model);
         ball.kind.roll_loss = 0.087;
-        const carom_event with = rail_event(&table, &ball, model);
+        const carom_event with = rail_event(&table, &ball, (carom_shot_cushion)model);
         /* the rail is along x, so the roll along it is R w_y */
         const double R = ball.kind.radius, v_t = without.before[0].v[0];
         const double lost = R * (without.after[0].w[1] - with.after[0].w[1]);
@@ -234,7 +234,7 @@ END_TEST
 static carom_event hit(double speed, const carom_ball_kind *a, const carom_ball_kind *b, int friction) {
   carom_shot_ball balls[2] = {rolling(0.5, 0.5, speed, 0.0), ball_at(0.8, 0.53)};
   const carom_table table = empty_table(2.0);
-  const carom_shot_options options = {.friction = friction, .cushion_model = CAROM_SHOT_CUSHION_HAN};
+  const carom_shot_options options = {.friction = (carom_ball_friction)friction, .cushion_model = CAROM_SHOT_CUSHION_HAN};
   balls[0].kind = *a;
   balls[1].kind = *b;
   const carom_shot shot = play(&table, balls, 2, NULL, &options, CAROM_OK);

@@ -518,7 +518,7 @@ START_TEST(wild_shots) {
     cue.phi = wild(&r, 0.0, 1e9);
     cue.theta = wild(&r, 0.0, 90.0);
     cue.a = wild(&r, -1.0, 1.0);
-    options.world = n % 2;
+    options.world = n % 2 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM;
     options.events_most = 2000;
     options.cushion_model = n % 3 == 0 ? 0 : CAROM_SHOT_CUSHION_HAN;
     carom_ball_state final[10];

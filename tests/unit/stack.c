@@ -87,7 +87,7 @@ static void *shots(void *argument) {
       carom_rack((carom_rack_kind)rack, &table, 1e-4, 1, balls, CAROM_BALLS_MOST);
       carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
       cue.speed = 7.0;
-      const carom_shot_options own = {.world = world, .threads = world};
+      const carom_shot_options own = {.world = (carom_world)world, .threads = world};
       carom_shoot(&table, balls, carom_rack_size((carom_rack_kind)rack), &cue, &own, &shot[0]);
       const carom_shot_job job = {.table = &table,
                                   .balls = balls,
