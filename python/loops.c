@@ -18,6 +18,56 @@ carom_status carom_python_shot_at(const carom_shot_ball *balls, int count, const
   return status;
 }
 
+/* ---- Pieces of a track -------------------------------------------------------------------------------------------------
+ *
+ * Dynamic programming. For each end j the beginning i goes back from it, and sums over the samples of u^k w, and of u^k w d for
+ * both coordinates, grow by one sample; u and d are from the last sample, which keeps digits. chi^2 is what is left of the sum
+ * of w d^2 after the projections on 1, u and u^2, made orthogonal one after another. */
+
+void carom_python_cuts(const double *samples, const double *weight, int n, int longest, double penalty, double *best,
+                       int32_t *back) {
+  best[0] = 0.0;
+  for (int j = 1; j <= n; j++) {
+    const double *last = &samples[3 * (j - 1)];
+    double s[5] = {0}, q[2][3] = {{0}}, square[2] = {0};
+    best[j] = HUGE_VAL;
+    for (int i = j - 1; i >= 0 && j - i <= longest; i--) {
+      /* one more sample */
+      const double u = samples[3 * i] - last[0];
+      double power = weight[i];
+      for (int k = 0; k < 5; k++, power *= u) {
+        s[k] += power;
+        for (int x = 0; x < 2 && k < 3; x++)
+          q[x][k] += power * (samples[3 * i + 1 + x] - last[1 + x]);
+      }
+
+      /* chi^2 of the quadratic through samples i ... j - 1 */
+      const int count = j - i;
+      const double p11 = s[2] - s[1] * s[1] / s[0], p12 = s[3] - s[1] * s[2] / s[0];
+      const double p22 = count > 2 ? s[4] - s[2] * s[2] / s[0] - p12 * p12 / p11 : 0.0;
+      double chi2 = 0.0;
+      for (int x = 0; x < 2; x++) {
+        const double d = samples[3 * i + 1 + x] - last[1 + x];
+        square[x] += weight[i] * d * d;
+        double left = square[x] - q[x][0] * q[x][0] / s[0];
+        const double q1 = q[x][1] - s[1] * q[x][0] / s[0];
+        if (count > 1)
+          left -= q1 * q1 / p11;
+        const double q2 = p22 > 0.0 ? q[x][2] - s[2] * q[x][0] / s[0] - p12 * q1 / p11 : 0.0;
+        if (p22 > 0.0)
+          left -= q2 * q2 / p22;
+        chi2 += left > 0.0 ? left : 0.0;
+      }
+
+      const double total = best[i] + chi2 + penalty + (count < 3 ? 4.0 * (3 - count) : 0.0);
+      if (total < best[j]) {
+        best[j] = total;
+        back[j] = i;
+      }
+    }
+  }
+}
+
 /* ---- Misfit ------------------------------------------------------------------------------------------------------------
  *
  * Between two events of a ball its way is taken as the cubic through the states at both ends: r(s) = c0 + s (c1 + s (c2 + s

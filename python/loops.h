@@ -12,6 +12,12 @@ void carom_python_mu_ball(const carom_impact *in, size_t n, carom_speed_law law,
 carom_status carom_python_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, size_t n,
                                   const double *times, carom_ball_state *states);
 
+/* Cuts a track of n samples t, x, y (s, m), weights 1/s^2, into pieces of at most `longest` samples that are quadratic in time:
+ * the cuts minimise the sum over pieces of chi^2 of the quadratic, of `penalty`, and of 4 for each sample less than 3. back[j],
+ * j = 1 ... n, becomes the beginning of the last piece of the best cut of the first j samples. `best` has room for n + 1. */
+void carom_python_cuts(const double *samples, const double *weight, int n, int longest, double penalty, double *best,
+                       int32_t *back);
+
 /* Recorded shots, and how they are played: for carom_python_misfit(). Shot s has `count` balls at rest, balls[s * count ...],
  * of which struck[s] is struck; the samples of its ball i are samples[first[s * count + i]] up to, without it, samples[first[s
  * * count + i + 1]], each t, x, y (s, m), in the order of time. Constants are fields of the balls: `balls` has the `shots`
