@@ -203,10 +203,10 @@ def test_pictures(gymnasium):
     seen, _ = envs.reset(seed=4)
     still = envs.render()[1]
     table = envs.unwrapped.rules.table
-    assert still.dtype == np.uint8 and still.ndim == 3 and abs(still.shape[0] / still.shape[1] - 2.78 / 1.51) < 0.01
+    assert still.dtype == np.uint8 and still.ndim == 3 and abs(still.shape[1] / still.shape[0] - 2.78 / 1.51) < 0.01
 
     def colour_at(image, x, y):
-        column, row = (x + 0.12) * 200, (table.length + 0.12 - y) * 200
+        column, row = (y + 0.12) * 200, (x + 0.12) * 200
         return tuple(int(part) for part in image[int(row), int(column)])
 
     for ball, colour in enumerate(("#ffffff", "#f2c200", "#1f4fd8")):

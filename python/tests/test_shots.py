@@ -289,9 +289,15 @@ def test_pictures():
     lines = [line for line in still.iter(name + "polyline") if line.get("stroke") not in ("#1b5e42",)]
     assert len(lines) >= moved > 3
     assert len(list(still.iter(name + "circle"))) == len(table.pockets) + len(table.jaws) + 20
-    # The cue ball of the moving picture ends where the shot ends.
-    moving = ElementTree.fromstring(shot.animate().svg)
-    values = [a.get("values").split(";") for a in moving.iter(name + "animate") if a.get("attributeName") == "cx"]
-    ends = {c.get("cx") for c in list(still.iter(name + "circle"))[-10:]}
-    assert all(v[-1] in ends for v in values)
+    # A long table lies on its side, and every ball but the cue ball has its number.
+    assert float(still.get("width")) > float(still.get("height"))
+    balls = [part for part in still.iter(name + "g")]
+    assert [[text.text for text in ball.iter(name + "text")] for ball in balls] == 2 * [[], *([str(k)] for k in range(1, 10))]
+    # The balls of the moving picture go from where they lie in the still one to where they end there.
+    animation = shot.animate()
+    moving = list(ElementTree.fromstring(animation.svg).iter(name + "g"))
+    for k, ball in enumerate(moving):
+        ways = [part.get("values").split(";") for part in ball.iter(name + "animateTransform")] or [[ball.get("transform")[10:-1]]]
+        assert [f"translate({ways[0][0]})", f"translate({ways[0][-1]})"] == [balls[k].get("transform"), balls[k + 10].get("transform")]
+    assert len(moving) == 10 and len(repr(animation)) < 80
     assert len(list(ElementTree.fromstring(table._repr_svg_()).iter(name + "circle"))) == len(table.pockets) + len(table.jaws)
