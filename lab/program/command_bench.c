@@ -251,10 +251,10 @@ OPTION(bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODE
        "stronge)");
 
 static const char about[] =
-    "Times kernels on the 204 reference cases, each case one call, in turns: A B C A B C ... What is timed has been verified\n"
-    "just before; a kernel that is over its bound is refused. Figures are nanoseconds per collision, the mean over the cases;\n"
-    "median and spread are over the rounds. Speedup is that over the ladder's first kernel in the default configuration\n"
-    "with as many steps (1000 for kernels that take none), round by round. The solver without steps is timed in batches too,\n"
+    "Times kernels on the 204 reference cases, each case one call, in turns: A B C A B C ... What is timed has been verified "
+    "just before; a kernel that is over its bound is refused. Figures are nanoseconds per collision, the mean over the cases; "
+    "median and spread are over the rounds. Speedup is that over the ladder's first kernel in the default configuration "
+    "with as many steps (1000 for kernels that take none), round by round. The solver without steps is timed in batches too, "
     "with every instruction set; the copy beside them moves a batch's bytes and computes nothing.\n";
 
 static const char details[] =

@@ -3,7 +3,6 @@
  * balls lie along the y axis, where zeros stay zero; so do all impacts on cushions but one in four. */
 #include "coincidences.h"
 
-#include "draws.h"
 #include "regimes.h"
 
 #include <string.h>

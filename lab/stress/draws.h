@@ -2,7 +2,6 @@
 #ifndef CAROM_LAB_DRAWS_H
 #define CAROM_LAB_DRAWS_H
 
-#include "ball_ball/frame.h"
 #include "carom_shot.h"
 
 #include <stdbool.h>
@@ -26,15 +25,5 @@ carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k);
 
 /* Largest difference of v and R w, over the largest of them before the impact. */
 double cushion_distance(const carom_cushion_impact *in, const carom_motion *a, const carom_motion *b);
-
-/* A collision of the frame of ball_ball/frame.h, its line of centres turned from the y axis by an angle, rad. */
-carom_impact draw_turned(const carom_local *c, double angle);
-
-/* The same collision seen from the other side, the second ball named first. */
-carom_local draw_exchanged(const carom_local *c);
-
-/* Gives a ball the velocity (v_x, v_y), the share `roll` of the spin of rolling (1 rolls, 0 slides, -1 spins backward) and the
- * surface speed `side` of side spin. */
-void draw_ball(carom_local *c, bool second, double v_x, double v_y, double roll, double side);
 
 #endif

@@ -2,8 +2,6 @@
  * (in half of the draws by none, so that zeros stay exactly zero). */
 #include "regimes.h"
 
-#include "draws.h"
-
 /* clang-format off */
 #define REGIMES(X)                                                                                                 \
   X(real_shot) X(slow) X(fast) X(grazing) X(head_on) X(draw) X(follow) X(stun) X(sidespin) X(both_moving)          \
@@ -39,6 +37,38 @@ static int one_in(lab_random *r, unsigned n) {
 }
 static double sign(lab_random *r) {
   return one_in(r, 2) ? 1 : -1;
+}
+
+carom_impact draw_turned(const carom_local *c, double angle) {
+  const double y[2] = {sin(angle), cos(angle)}, x[2] = {y[1], -y[0]};
+  carom_impact in = {.a = {.w = {0, 0, c->w_iz}, .radius = c->R, .mass = c->M_i, .mu_cloth = c->mu_i},
+                     .b = {.w = {0, 0, c->w_jz}, .radius = c->R, .mass = c->M_j, .mu_cloth = c->mu_j},
+                     .mu_ball = c->mu_b,
+                     .restitution = c->e};
+  for (int k = 0; k < 2; k++) {
+    in.b.r[k] = 2 * c->R * y[k];
+    in.a.v[k] = x[k] * c->v_ix + y[k] * c->v_iy;
+    in.b.v[k] = x[k] * c->v_jx + y[k] * c->v_jy;
+    in.a.w[k] = x[k] * c->w_ix + y[k] * c->w_iy;
+    in.b.w[k] = x[k] * c->w_jx + y[k] * c->w_jy;
+  }
+  return in;
+}
+
+carom_local draw_exchanged(const carom_local *c) {
+  carom_local o = *c;
+  o.v_ix = -c->v_jx, o.v_iy = -c->v_jy, o.w_ix = -c->w_jx, o.w_iy = -c->w_jy, o.w_iz = c->w_jz;
+  o.v_jx = -c->v_ix, o.v_jy = -c->v_iy, o.w_jx = -c->w_ix, o.w_jy = -c->w_iy, o.w_jz = c->w_iz;
+  o.M_i = c->M_j, o.M_j = c->M_i, o.mu_i = c->mu_j, o.mu_j = c->mu_i;
+  return o;
+}
+
+void draw_ball(carom_local *c, bool second, double v_x, double v_y, double roll, double side) {
+  *(second ? &c->v_jx : &c->v_ix) = v_x;
+  *(second ? &c->v_jy : &c->v_iy) = v_y;
+  *(second ? &c->w_jx : &c->w_ix) = -v_y * roll / c->R;
+  *(second ? &c->w_jy : &c->w_iy) = v_x * roll / c->R;
+  *(second ? &c->w_jz : &c->w_iz) = side / c->R;
 }
 
 /* A ball of speed v at angle phi to y. */

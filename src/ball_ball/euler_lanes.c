@@ -14,7 +14,9 @@
 #include "ball_ball/kernels.h"
 #include "ball_ball/rows.h"
 
-/* carom_local of src/frame.h, in lanes, with what the way back needs. */
+/* carom_local of frame.h, in lanes, with the line of centres and the lanes that are `good`: their rows pass every check of
+ * arguments.c and approach. Others hold junk, and the caller solves them by single calls. Motion that is not finite leaves
+ * numbers in the result that are not finite. */
 typedef struct euler_rows {
   vreal v_ix, v_iy, w_ix, w_iy, w_iz;
   vreal v_jx, v_jy, w_jx, w_jy, w_jz;

@@ -10,14 +10,14 @@
 #include <stdint.h>
 
 /* ---- What the kernels hand to each other: rows.h, in the caller's precision, reduces collisions to eight numbers each and
- * turns their solutions into velocities; between them collocation (plan.h) computes in single precision. */
+ * turns their solutions into velocities; between them collocation (collocate.c) computes in single precision. */
 
 /* Reduced collisions, a column for each quantity of reduced.h in units of |v_n0| / kappa. */
 enum { IN_U_X, IN_U_Z, IN_D_X, IN_D_Y, IN_KAPPA, IN_MU, IN_MU_B, IN_E, IN_COLUMNS };
 /* Solutions: those of problem.h. */
 enum { OUT_J_C, OUT_J_Z, OUT_I_X, OUT_I_Y, OUT_OVERSHOOT, OUT_STICK, OUT_K_C, OUT_COLUMNS };
 /* A collision between two steps: the columns of its state (problem.h), whether v = 0 has been passed (1 or 0), and what has
- * been tried (plan.h). */
+ * been tried (collocate.c). */
 enum { LANE_STATE, LANE_RESTITUTION = 13, LANE_SHARE, LANE_CAREFUL, LANE_ATTEMPTS, LANE_COLUMNS };
 
 enum { MOST_LANES = 16 }; /* of floats in a vector */
@@ -25,7 +25,7 @@ typedef float step_inputs[IN_COLUMNS][MOST_LANES];
 typedef float step_outputs[OUT_COLUMNS][MOST_LANES];
 typedef float lane_state[LANE_COLUMNS][MOST_LANES];
 
-/* Kinds of steps (plan.h), FULL over even or over graded nodes; and what else may come next: a collision is solved, or
+/* Kinds of steps (collocate.c), FULL over even or over graded nodes; and what else may come next: a collision is solved, or
  * collocation refuses it. */
 enum step_kind { EASY, FULL, FULL_GRADED, STICK, PART, TURN, STEP_KINDS, SOLVED = STEP_KINDS, REFUSED, STEP_ENDS };
 /* For each, the lanes for which it comes next, a bit for each. */

@@ -11,8 +11,10 @@
 #include "ball_ball/carrier.h"
 #include "ball_ball/kernels.h"
 
-static const float TINY = 1e-36f;          /* keeps 0 / 0 away */
-static const float ITERATION_SHARE = 0.5f; /* of a step's tolerance, for what its iteration leaves */
+static const float TINY = 1e-36f; /* keeps 0 / 0 away */
+/* Of a step's tolerance, for what its iteration leaves. By `carom-lab stress --draws 60000` errors reach 8.2e-7 with twice of
+ * it instead of 3.5e-7, and with half no time is lost beyond the 4 % that times vary. */
+static const float ITERATION_SHARE = 0.5f;
 
 /* What stays the same during a collision. */
 typedef struct problem {

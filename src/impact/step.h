@@ -35,7 +35,8 @@
 #include "impact/nodes.h"
 
 /* Found by trial with `carom-lab stress --cushion 20000` and `carom-lab bench --cushion`; see docs/study/tried.md. Angles are
- * in radians, lengths in units of p. */
+ * in radians, lengths in units of p. With half of CONVERGED play takes 5 % longer, and twice changes nothing. With half of
+ * TOLERANCE_EXACT the largest error falls from 1.5e-6 to 8.2e-7. TOLERANCE and NEARLY_CONVERGED matter little. */
 static const double CONVERGED = 4e-8;       /* error that the iteration may leave in directions */
 static const double TOLERANCE = 4e-7;       /* square of the error estimate, over the length of the step, */
 static const double TOLERANCE_EXACT = 1e-9; /* and where the step is exact */
