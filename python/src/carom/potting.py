@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, layouts, tables
-from carom._draws import Draws, Games
+from carom._draws import Draws as Draws
+from carom._draws import Games
 from carom.layouts import Game, Table
 from carom.results import Label, Shot
 from carom.shots import ShotCushion, simulate, simulate_batch
