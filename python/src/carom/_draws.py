@@ -26,6 +26,10 @@ class Draws:
         """Begins some games anew."""
         self._at[games] = np.asarray(keys, np.uint64)
 
+    def copy(self) -> Draws:
+        """The same numbers once more."""
+        return Draws(self._at)
+
     def uniform(self, games: Games, *shape: int) -> dtypes.Doubles:
         """Numbers from 0 to 1, without 1, of shape (len(games), *shape)."""
         z = self._at[games][:, np.newaxis] + _STEP * np.arange(1, math.prod(shape) + 1, dtype=np.uint64)
