@@ -72,8 +72,17 @@ static void play(block *b, int from, int end, const carom_shot_options *options)
     memcpy(b->ball + k * count, b->line[from + k].ball, (size_t)count * sizeof *b->ball);
     b->cue[k] = b->line[from + k].cue;
   }
-  carom_status bad = carom_shoot_batch(&first->table->table, b->ball, count, 0, b->cue, 0, (size_t)n, options, b->shot + from,
-                                       b->batch_status);
+  const carom_shot_job job = {.table = &first->table->table,
+                              .balls = b->ball,
+                              .cues = b->cue,
+                              .count = count,
+                              .ball_stride = (uint64_t)count,
+                              .cue_stride = 1,
+                              .n = (uint64_t)n,
+                              .options = options,
+                              .shots = b->shot + from,
+                              .status = b->batch_status};
+  const carom_status bad = carom_shoot_batch(&job);
   for (int k = 0; k < n; k++) {
     carom_shot *shot = &b->shot[from + k];
     carom_status *status = &b->status[from + k];

@@ -21,10 +21,11 @@ static carom_status check_options(const carom_shot_options *o) {
   bool reserved = false;
   for (size_t k = 0; k < sizeof o->reserved / sizeof o->reserved[0]; k++)
     reserved |= o->reserved[k] != 0;
-  const bool good = o->world >= 0 && o->world <= CAROM_WORLD_POOLTOOL && o->ball_model >= 0 &&
-                    o->ball_model <= CAROM_BALL_MODEL_MIRROR && o->cushion_model >= 0 &&
-                    o->cushion_model <= 1 + CAROM_CUSHION_EULER && o->friction >= 0 && o->friction <= CAROM_FRICTION_CONSTANT &&
-                    o->events_most >= 0 && o->unused == 0 && !reserved && o->time_most >= 0.0 && o->time_most < INFINITY;
+  /* enumerations may be signed or not; a number below 0 is a large one here */
+  const bool good = (uint32_t)o->world <= CAROM_WORLD_POOLTOOL && (uint32_t)o->ball_model <= CAROM_BALL_MODEL_MIRROR &&
+                    (uint32_t)o->cushion_model <= CAROM_SHOT_CUSHION_EULER &&
+                    (uint32_t)o->friction <= CAROM_FRICTION_CONSTANT && o->events_most >= 0 && o->unused == 0 && !reserved &&
+                    o->time_most >= 0.0 && o->time_most < INFINITY && o->stop_at >> CAROM_DUE_PIECE == 0;
   if (!good)
     return CAROM_ERROR_SHOT_OPTIONS;
   if (o->steps < 0)
@@ -203,7 +204,7 @@ static carom_status check_cue(const carom_shot_ball *balls, int count, const car
   return carom_check_cue(cue);
 }
 
-carom_status carom_check_common(const carom_table *table, int count, const carom_shot_options *opt, int *where) {
+carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where) {
   *where = -1;
   const carom_status bad = check_options(opt);
   if (bad != CAROM_OK)

@@ -129,12 +129,13 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
   /* the first ball at the origin: only the direction counts */
   in.b.r[0] = n[0];
   in.b.r[1] = n[1];
-  const carom_options options = {.solver = model == CAROM_BALL_MODEL_EULER ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
-                                 .slip = sim->pooltool ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER,
+  const bool euler = model == CAROM_BALL_MODEL_EULER;
+  const carom_options options = {.solver = euler ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
+                                 .slip = euler && sim->pooltool ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER,
                                  .steps = sim->opt->steps};
   carom_result out;
   const carom_status status = carom_collide(&in, &options, &out);
-  if (status == CAROM_SEPARATING && sim->pooltool && model == CAROM_BALL_MODEL_EULER)
+  if (status == CAROM_SEPARATING && sim->pooltool && euler)
     part_by_steps(&in, &options, &out);
   if (status >= 0) {
     take_motion(&out.a, a);
@@ -152,6 +153,11 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due) {
   return (carom_nose){jaw->height, jaw->radius, jaw->mu_cushion, jaw->restitution};
 }
 
+_Static_assert(CAROM_SHOT_CUSHION_MATHAVAN == 1 + CAROM_CUSHION_MATHAVAN &&
+                   CAROM_SHOT_CUSHION_STRONGE == 1 + CAROM_CUSHION_STRONGE && CAROM_SHOT_CUSHION_HAN == 1 + CAROM_CUSHION_HAN &&
+                   CAROM_SHOT_CUSHION_MIRROR == 1 + CAROM_CUSHION_MIRROR && CAROM_SHOT_CUSHION_EULER == 1 + CAROM_CUSHION_EULER,
+               "the models of a shot are those of an impact, behind the default");
+
 carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], const carom_nose *nose,
                                  carom_ball_state *state) {
   const carom_ball_kind *kind = &sim->ball[i].kind;
@@ -165,9 +171,11 @@ carom_status carom_model_cushion(const carom_sim *sim, int i, const double norma
                                    .mu_cushion = nose->mu_cushion > 0.0 ? nose->mu_cushion : kind->mu_cushion,
                                    .restitution = nose->restitution > 0.0 ? nose->restitution : kind->restitution_cushion,
                                    .jaw_radius = nose->jaw_radius};
-  const int asked = sim->opt->cushion_model;
+  const carom_shot_cushion asked = sim->opt->cushion_model;
   carom_cushion_options options = {.steps = sim->opt->steps, .omega_ratio = kind->omega_ratio};
-  options.model = asked > 0 ? (carom_cushion_model)(asked - 1) : sim->pooltool ? CAROM_CUSHION_STRONGE : CAROM_CUSHION_MATHAVAN;
+  options.model = asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1)
+                  : sim->pooltool                     ? CAROM_CUSHION_STRONGE
+                                                      : CAROM_CUSHION_MATHAVAN;
   if (sim->pooltool) {
     options.convention = CAROM_CONVENTION_POOLTOOL;
     options.least_step = 0.001;

@@ -26,13 +26,14 @@ typedef struct carom_meeting {
 } carom_meeting;
 
 typedef struct carom_sim {
+  uint64_t can_go_on; /* of a state that is kept: resumable, or 0 */
   const carom_table *table;
   const carom_features *features;
   const carom_shot_ball *ball;
   const carom_shot_options *opt;
   const carom_cue *cue;
   carom_shot *shot;
-  int count;
+  int count, struck; /* struck: the cue ball */
   bool pooltool;
   double now;
   int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */
@@ -99,7 +100,7 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
 carom_status carom_check_cue(const carom_cue *cue);
 
 /* check.c: what a batch has in common. */
-carom_status carom_check_common(const carom_table *table, int count, const carom_shot_options *opt, int *where);
+carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where);
 /* One layout with its cue. Prepares the table for the radius of the balls, where *features are for another. */
 carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                 const carom_cue *cue, const carom_shot_options *opt, int *where);

@@ -304,10 +304,10 @@ static void shots(void) {
     const char *name;
     carom_shot_options options;
   } models[] = {{"default", {0}},
-                {"stronge", {.cushion_model = 1 + CAROM_CUSHION_STRONGE}},
-                {"han", {.cushion_model = 1 + CAROM_CUSHION_HAN, .friction = CAROM_FRICTION_CONSTANT}},
-                {"mirror", {.cushion_model = 1 + CAROM_CUSHION_MIRROR, .ball_model = CAROM_BALL_MODEL_INELASTIC}},
-                {"euler", {.cushion_model = 1 + CAROM_CUSHION_EULER, .ball_model = CAROM_BALL_MODEL_EULER, .steps = 100}},
+                {"stronge", {.cushion_model = CAROM_SHOT_CUSHION_STRONGE}},
+                {"han", {.cushion_model = CAROM_SHOT_CUSHION_HAN, .friction = CAROM_FRICTION_CONSTANT}},
+                {"mirror", {.cushion_model = CAROM_SHOT_CUSHION_MIRROR, .ball_model = CAROM_BALL_MODEL_INELASTIC}},
+                {"euler", {.cushion_model = CAROM_SHOT_CUSHION_EULER, .ball_model = CAROM_BALL_MODEL_EULER, .steps = 100}},
                 {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}}};
   static carom_event events[ROOM];
   static carom_shot_ball balls[CAROM_BALLS_MOST];

@@ -215,6 +215,7 @@ def simulate_batch(
     flat = record.reshape(n)
     flat["time"], flat["count"], flat["room"] = 0.0, 0, room
     numbers = np.arange(n, dtype=np.uintp)
+    flat["brief"], flat["state"] = 0, 0
     flat["events"] = 0 if room == 0 else shots.events.ctypes.data + numbers * np.uintp(room * dtypes.event.itemsize)
     flat["final"] = shots.final.ctypes.data + numbers * np.uintp(count * dtypes.ball_state.itemsize)
     options = shot_options(world, ball_model, cushion_model, friction, steps, events_most, time_most, threads)
@@ -224,13 +225,22 @@ def simulate_batch(
     of_table = pointer("carom_table[]", table.record)
 
     def play(begin: int, many: int) -> int:
-        first = balls if one_layout else balls + begin * count
-        strike = strikes if one_cue else strikes + begin
-        return int(
-            lib.carom_shoot_batch(
-                of_table, first, count, int(one_layout), strike, int(one_cue), many, options, results + begin, flags + begin
-            )
+        job = ffi.new(
+            "carom_shot_job *",
+            {
+                "table": of_table,
+                "balls": balls if one_layout else balls + begin * count,
+                "cues": strikes if one_cue else strikes + begin,
+                "count": count,
+                "ball_stride": 0 if one_layout else count,
+                "cue_stride": 0 if one_cue else 1,
+                "n": many,
+                "options": options,
+                "shots": results + begin,
+                "status": flags + begin,
+            },
         )
+        return int(lib.carom_shoot_batch(job))
 
     code = in_chunks(n, 5e-5, threads, play)
     if code < 0 and not (shots.status < 0).any():

@@ -1,14 +1,14 @@
 /* The vocabulary of lanes.h for a single collision: a vreal is one number, a vmask is 0 or 1. Every function does to it what
  * its namesake there does to each lane, with the same bits; the estimates are those of the same instructions on one number. */
-#ifndef CAROM_SRC_BALL_BALL_LANE_H
-#define CAROM_SRC_BALL_BALL_LANE_H
+#ifndef CAROM_SRC_BALL_BALL_SCALAR_H
+#define CAROM_SRC_BALL_BALL_SCALAR_H
 
 #define LANES 1
 #define CHUNK 1
 typedef real vreal;
 typedef int vmask;
 
-#ifdef CAROM_LANES_SINGLE
+#ifdef CAROM_LANES_F32
 #define LANE(name) name##f
 #else
 #define LANE(name) name
@@ -41,6 +41,10 @@ static inline unsigned v_bits(vmask m) {
 static inline bool v_any(vmask m) {
   return m != 0;
 }
+/* Does it hold in more than so many lanes? */
+static inline bool v_more(vmask m, int count) {
+  return m > count;
+}
 static inline vreal v_abs(vreal x) {
   return LANE(fabs)(x);
 }
@@ -68,7 +72,7 @@ static inline vreal v_fnma(vreal a, vreal b, vreal c) {
 #if V_ESTIMATES
 static inline vreal v_estimate_reciprocal(vreal x) {
   vreal y;
-#if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_SINGLE)
+#if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_F32)
   __asm__("vrcp14ss %1, %1, %0" : "=v"(y) : "v"(x));
 #elif defined(CAROM_LANES_AVX512)
   __asm__("vrcp14sd %1, %1, %0" : "=v"(y) : "v"(x));
@@ -81,7 +85,7 @@ static inline vreal v_estimate_reciprocal(vreal x) {
 }
 static inline vreal v_estimate_reciprocal_sqrt(vreal x) {
   vreal y;
-#if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_SINGLE)
+#if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_F32)
   __asm__("vrsqrt14ss %1, %1, %0" : "=v"(y) : "v"(x));
 #elif defined(CAROM_LANES_AVX512)
   __asm__("vrsqrt14sd %1, %1, %0" : "=v"(y) : "v"(x));
