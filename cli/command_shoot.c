@@ -4,6 +4,7 @@
 #include "message.h"
 #include "options.h"
 #include "output.h"
+#include "picture.h"
 #include "shot_file.h"
 #include "shot_picture.h"
 #include "subcommands.h"
@@ -49,7 +50,7 @@ OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_co
        "a shot is stopped after so many events (default 10000)");
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
        "a shot is stopped after so much time of its clock (default 1000)");
-OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT.svg", set_svg, 0,
+OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
        "draw the table and the balls' paths, of the first shot without an error");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
 
@@ -135,21 +136,15 @@ typedef struct drawing {
 } drawing;
 
 static void draw(drawing *picture, const shot_line *line, const carom_shot *shot) {
-  FILE *out = open_memstream(&picture->text, &picture->size);
-  if (out == NULL)
-    out_of_memory();
-  shot_draw(out, line, shot, NULL);
+  FILE *out = open_text(&picture->text, &picture->size);
+  shot_draw(out, line, shot);
   if (fclose(out) != 0)
     out_of_memory();
 }
 
-/* False after a complaint. */
-static bool put_picture(const char *path, const drawing *picture) {
-  FILE *out = output_open(path);
-  if (out == NULL)
-    return false;
+static void write_drawing(FILE *out, const void *data) {
+  const drawing *picture = data;
   fwrite(picture->text, 1, picture->size, out);
-  return output_commit();
 }
 
 /* Plays what has been read and writes it; returns whether all was good. */
@@ -281,7 +276,7 @@ int command_shoot(int argc, char **argv) {
     output_abandon();
   else if (out != NULL && !output_commit())
     code = EXIT_USAGE;
-  else if (picture.text != NULL && !put_picture(job.plot, &picture))
+  else if (picture.text != NULL && !svg_draw(job.plot, write_drawing, &picture))
     code = EXIT_SOME;
   free(picture.text);
   return code;

@@ -71,7 +71,7 @@ static void print_options(FILE *out, const command_form *form, int only) {
 /* Whether the subcommand works on both kinds of rows. */
 static bool has_kinds(const command_form *form) {
   size_t k = 0;
-  while (form->options[k] != NULL && form->options[k]->only != CUSHION_ONLY)
+  while (form->options[k] != NULL && form->options[k] != &option_cushion)
     k++;
   return form->options[k] != NULL;
 }
