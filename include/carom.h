@@ -170,6 +170,9 @@ typedef enum carom_status {
   CAROM_ERROR_DRAG = -56,         /* the drag of a rolling ball is not in [0, 1] 1/m. */
   CAROM_ERROR_BALL_CUSHION = -57, /* a ball's roll_loss, nose_height or omega_ratio is out of its range. */
   CAROM_ERROR_STATE = -60,        /* carom_shot_continue(): shot.state is not that of a shot of these balls that can go on. */
+  CAROM_ERROR_TABLE_OPEN = -61,   /* carom_table_check(): a ball can leave the table, or has no place on it. */
+  CAROM_ERROR_RAIL_SIDE = -62,    /* carom_table_check(): the played side of a rail is turned away from the table. */
+  CAROM_ERROR_RAIL_LINE = -63,    /* carom_table_check(): the line of a rail does not pass through both of its ends. */
 } carom_status;
 
 /* The short name of a status ("separating"), as it stands in the command's output. "unknown" for a value not listed. Arrays of
@@ -383,6 +386,11 @@ CAROM_API const char *carom_field_name(int field);
 /* The version of the library that runs, as "major.minor.patch" and as a number. */
 CAROM_API const char *carom_version(void);
 CAROM_API int carom_version_number(void);
+
+/* A number that is another one whenever results have other bits, of any call of this library or by any of its models, than
+ * those of an earlier one: for recordings, which play back as they were only with the same number, and for players in lockstep.
+ */
+CAROM_API int carom_physics_revision(void);
 
 /* Whether this library serves a caller compiled with the header of that version, 1 or 0: carom_serves(CAROM_VERSION_NUMBER).
  * Before 1.0 it must be the same minor version, from then on the same major version and a minor one not above the library's. */
