@@ -177,6 +177,9 @@ typedef enum carom_status {
   CAROM_ERROR_DRAG = -56,         /* the drag of a rolling ball is not in [0, 1] 1/m. */
   CAROM_ERROR_BALL_CUSHION = -57, /* a ball's roll_loss, nose_height or omega_ratio is out of its range. */
   CAROM_ERROR_STATE = -60,        /* carom_shot_continue(): shot.state is not that of a shot of these balls that can go on. */
+  CAROM_ERROR_TABLE_OPEN = -61,   /* carom_table_check(): a ball can leave the table, or has no place on it. */
+  CAROM_ERROR_RAIL_SIDE = -62,    /* carom_table_check(): the played side of a rail is turned away from the table. */
+  CAROM_ERROR_RAIL_LINE = -63,    /* carom_table_check(): the line of a rail does not pass through both of its ends. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value not listed. Arrays of
@@ -389,6 +392,10 @@ CAROM_API const char *carom_field_name(int field);
 /* The version of the library that runs, as "major.minor.patch" and as a number. */
 CAROM_API const char *carom_version(void);
 CAROM_API int carom_version_number(void);
+
+/* The revision of the physics: a number that changes whenever a result of any call or model has other bits than before. Recordings
+ * play back bit for bit, and players in lockstep agree, only with the same number. */
+CAROM_API int carom_physics_revision(void);
 
 /* Whether a caller compiled with the header of that version can use this library, 1 or 0: carom_serves(CAROM_VERSION_NUMBER).
  * Before 1.0 the minor version must be equal. From then on the major version must be equal, and the minor one not above the

@@ -167,6 +167,9 @@ typedef enum carom_label {
   CAROM_BALL_AIRBORNE = 5    /* kept for later versions; an error today */
 } carom_label;
 
+/* Its name ("sliding"), or NULL for a value not listed. */
+CAROM_API const char *carom_label_name(carom_label label);
+
 /* The constants of a ball and of its cloth. All doubles, without gaps. */
 typedef struct carom_ball_kind {
   double mass;                /* kg, > 0. May differ from ball to ball in the world carom. */
@@ -259,8 +262,43 @@ typedef enum carom_table_kind {
   CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood": that of CAROM_TABLE_POOL_7FT, under a name that stays */
 } carom_table_kind;
 
+/* Its name ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value not listed. */
+CAROM_API const char *carom_table_name(carom_table_kind kind);
+
 /* Fills *table. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_TABLE where there is no such kind. */
 CAROM_API carom_status carom_table_make(carom_table_kind kind, carom_table *table);
+
+/* A part of a table, or a ball. */
+typedef enum carom_part_kind {
+  CAROM_PART_NONE = 0,
+  CAROM_PART_RAIL = 1,
+  CAROM_PART_JAW = 2,
+  CAROM_PART_POCKET = 3,
+  CAROM_PART_BALL = 4
+} carom_part_kind;
+
+typedef struct carom_part {
+  carom_part_kind kind;
+  int32_t index; /* in its array; 0 of CAROM_PART_NONE. */
+} carom_part;
+
+/* What is wrong with a table, and where. */
+typedef struct carom_table_fault {
+  carom_part part, other; /* the part at fault; of a hole, the parts on both of its sides. */
+  double place[2];        /* m: the middle of the hole or of the rail; 0 where a number of the part is bad. */
+  double gap;             /* m: width of the hole, from surface to surface; else 0. */
+} carom_table_fault;
+
+/* Checks a table of one's own for balls of a radius; it is made for the workshop, not for each shot (some milliseconds). In
+ * this order: each part by itself, as carom_shoot() does; that lines of rails pass through their ends, within 1e-6 m; that the
+ * ring of rails, jaws and pockets around the middle (width/2, length/2) is closed, so that no ball can leave the table but into
+ * a pocket; that the played side of each rail is the one where balls are, where a ball has a place beside it; and that a jaw,
+ * of radius 0 if need be, stands where a ball could come in between the ends of two rails, at which there is nothing to be hit
+ * (gap then is how far apart the centres of balls that touch the two rails are). The first fault is told in *fault, which may
+ * be NULL. CAROM_OK, CAROM_ERROR_NULL, CAROM_ERROR_RADIUS, CAROM_ERROR_TABLE, CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE,
+ * CAROM_ERROR_TABLE_OPEN (of all holes the one that has to be closed last is told; CAROM_PART_NONE where there is no ring, or
+ * no place for a ball in its middle), CAROM_ERROR_RAIL_SIDE. */
+CAROM_API carom_status carom_table_check(const carom_table *table, double radius, carom_table_fault *fault);
 
 /* Racks, with the cue ball first. */
 typedef enum carom_rack_kind {
@@ -270,6 +308,9 @@ typedef enum carom_rack_kind {
   CAROM_RACK_SNOOKER = 3,     /* 22 balls: white, 15 reds, yellow, green, brown, blue, pink, black. */
   CAROM_RACK_THREECUSHION = 4 /* 3 balls: white, yellow, red, as for the opening. */
 } carom_rack_kind;
+
+/* Its name ("eightball"), or NULL for a value not listed. */
+CAROM_API const char *carom_rack_name(carom_rack_kind kind);
 
 /* The number of balls of a rack; 0 if there is no such kind. */
 CAROM_API int carom_rack_size(carom_rack_kind kind);
@@ -361,6 +402,9 @@ typedef enum carom_event_type {
   CAROM_EVENT_ROLLING_STATIONARY = 8,
   CAROM_EVENT_SPINNING_STATIONARY = 9
 } carom_event_type;
+
+/* Its name ("ball_linear_cushion" for a rail), as in files of `carom shoot`, or NULL for a value not listed. */
+CAROM_API const char *carom_event_name(carom_event_type type);
 
 /* One event. before[1] and after[1] are those of ball b of a CAROM_EVENT_BALL_BALL, else all zero. */
 typedef struct carom_event {
@@ -469,6 +513,23 @@ CAROM_API carom_status carom_shoot_batch(const carom_shot_job *job);
  * has gaps a place outside may pass. */
 CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                                         const carom_shot_options *opt, int *where);
+
+/* Ball in hand: puts balls[ball] at rest at (x, y), if that place is free of the other balls, which need not be at rest, of
+ * cushions and pockets, within the bounds of carom_shot_check(). Its kind is kept; it may have been pocketed. CAROM_OK;
+ * CAROM_ERROR_OVERLAP for a place that another ball takes, CAROM_ERROR_OFF_TABLE for one in a cushion or a pocket, or outside
+ * the ring: *in_the_way then is that ball or part (CAROM_PART_NONE: outside), and nothing is moved. Or an error of the table,
+ * of the ball's radius, CAROM_ERROR_POSITION, CAROM_ERROR_BALLS for a count or an index that cannot be. `in_the_way` may be
+ * NULL. */
+CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball, double x,
+                                        double y, carom_part *in_the_way);
+
+/* How each ball has turned since the start of the shot, for drawing it: unit quaternions (w, x, y, z), which take what is
+ * painted on a ball at the start to where it is at the time. They follow from the events alone, whatever was asked before.
+ * Exact but for rounding while the axis of the spin keeps its direction (on the spot, rolling without side spin, in straight
+ * slides), else within 1e-7 rad for each phase of the ball. `turned` takes `count` of them. Returns what carom_shot_at() does.
+ * A call costs some 0.1 us for each radian that balls with side spin have turned. */
+CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
+                                              double (*turned)[4]);
 
 #ifdef __cplusplus
 }

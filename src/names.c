@@ -1,6 +1,6 @@
 /* Names and texts of the public enumerations. The lists are private; carom.h spells the enumerators out, and the compiler says
  * where the two differ. */
-#include "carom.h"
+#include "carom_shot.h"
 #include "platform/arithmetic.h"
 
 #include "enumerations.h"
@@ -69,6 +69,10 @@
   X(ERROR_DRAG, -56, "bad_drag", "the drag of a rolling ball must be 0 to 1 per metre")                                        \
   X(ERROR_BALL_CUSHION, -57, "bad_ball_cushion",                                                                               \
     "a ball's roll_loss must be 0 to 1, its nose_height 0 to below 2 R, its omega_ratio 0 or between 1 and 2")                 \
+  X(ERROR_TABLE_OPEN, -61, "table_open",                                                                                       \
+    "a ball can leave the table between two of its parts, or there is no place for a ball")                                    \
+  X(ERROR_RAIL_SIDE, -62, "bad_rail_side", "the played side of a rail is turned away from the table")                          \
+  X(ERROR_RAIL_LINE, -63, "bad_rail_line", "the line of a rail does not pass through both of its ends")                        \
   X(ERROR_STATE, -60, "bad_state", "shot.state is not that of a shot of these balls that can go on")
 
 #define AGREES(NAME, value, name, text) _Static_assert(CAROM_##NAME == (value), "values are never renumbered");
@@ -82,6 +86,11 @@ const char *carom_version(void) {
 
 int carom_version_number(void) {
   return CAROM_VERSION_NUMBER;
+}
+
+/* Raised by the commit that changes the bits of any result; tests/platforms/revision says when that is. */
+int carom_physics_revision(void) {
+  return 1;
 }
 
 int carom_serves(int header) {
@@ -150,6 +159,82 @@ const char *carom_isa_name(carom_isa isa) {
     return "avx512";
   case CAROM_ISA_ANY:
     break;
+  }
+  return NULL;
+}
+
+const char *carom_event_name(carom_event_type type) {
+  switch (type) {
+  case CAROM_EVENT_STRIKE:
+    return "stick_ball";
+  case CAROM_EVENT_BALL_BALL:
+    return "ball_ball";
+  case CAROM_EVENT_RAIL:
+    return "ball_linear_cushion";
+  case CAROM_EVENT_JAW:
+    return "ball_circular_cushion";
+  case CAROM_EVENT_POCKET:
+    return "ball_pocket";
+  case CAROM_EVENT_SLIDING_ROLLING:
+    return "sliding_rolling";
+  case CAROM_EVENT_ROLLING_SPINNING:
+    return "rolling_spinning";
+  case CAROM_EVENT_ROLLING_STATIONARY:
+    return "rolling_stationary";
+  case CAROM_EVENT_SPINNING_STATIONARY:
+    return "spinning_stationary";
+  }
+  return NULL;
+}
+
+const char *carom_label_name(carom_label label) {
+  switch (label) {
+  case CAROM_BALL_STATIONARY:
+    return "stationary";
+  case CAROM_BALL_SPINNING:
+    return "spinning";
+  case CAROM_BALL_SLIDING:
+    return "sliding";
+  case CAROM_BALL_ROLLING:
+    return "rolling";
+  case CAROM_BALL_POCKETED:
+    return "pocketed";
+  case CAROM_BALL_AIRBORNE:
+    return "airborne";
+  }
+  return NULL;
+}
+
+const char *carom_table_name(carom_table_kind kind) {
+  switch (kind) {
+  case CAROM_TABLE_POOL_7FT:
+    return "7ft";
+  case CAROM_TABLE_POOL_8FT:
+    return "8ft";
+  case CAROM_TABLE_POOL_9FT:
+    return "9ft";
+  case CAROM_TABLE_SNOOKER:
+    return "snooker";
+  case CAROM_TABLE_THREECUSHION:
+    return "threecushion";
+  case CAROM_TABLE_POOLTOOL:
+    return "pooltool";
+  }
+  return NULL;
+}
+
+const char *carom_rack_name(carom_rack_kind kind) {
+  switch (kind) {
+  case CAROM_RACK_NINEBALL:
+    return "nineball";
+  case CAROM_RACK_EIGHTBALL:
+    return "eightball";
+  case CAROM_RACK_TENBALL:
+    return "tenball";
+  case CAROM_RACK_SNOOKER:
+    return "snooker";
+  case CAROM_RACK_THREECUSHION:
+    return "threecushion";
   }
   return NULL;
 }

@@ -43,6 +43,14 @@ static bool good_circle(const double centre[2], double radius, double least) {
   return isfinite(centre[0]) && isfinite(centre[1]) && radius >= least && radius < INFINITY;
 }
 
+static bool good_jaw(const carom_jaw *j) {
+  return good_circle(j->centre, j->radius, 0.0) && unit_interval(j->mu_cushion) && unit_interval(j->restitution);
+}
+/* Every nose is above the cloth and below the top of a ball. */
+static bool good_height(double height, double R) {
+  return height > 0.0 && height < 2.0 * R;
+}
+
 static carom_status check_table(const carom_table *t, int *where) {
   *where = -1;
   if (t->rails < 0 || t->rails > CAROM_RAILS_MOST || t->jaws < 0 || t->jaws > CAROM_JAWS_MOST || t->pockets < 0 ||
@@ -52,8 +60,7 @@ static carom_status check_table(const carom_table *t, int *where) {
     if (!good_rail(&t->rail[*where]))
       return CAROM_ERROR_TABLE;
   for (*where = 0; *where < t->jaws; ++*where)
-    if (!good_circle(t->jaw[*where].centre, t->jaw[*where].radius, 0.0) || !unit_interval(t->jaw[*where].mu_cushion) ||
-        !unit_interval(t->jaw[*where].restitution))
+    if (!good_jaw(&t->jaw[*where]))
       return CAROM_ERROR_TABLE;
   for (*where = 0; *where < t->pockets; ++*where)
     if (!good_circle(t->pocket[*where].centre, t->pocket[*where].radius, 1e-9) || !isfinite(t->pocket[*where].depth))
@@ -69,12 +76,11 @@ static carom_status prepare(const carom_table *t, double R, carom_features *feat
     return CAROM_OK;
   if (!positive(R))
     return CAROM_ERROR_RADIUS;
-  /* every nose is above the cloth and below the top of a ball */
   for (*where = 0; *where < t->rails; ++*where)
-    if (!(t->rail[*where].height > 0.0 && t->rail[*where].height < 2.0 * R))
+    if (!good_height(t->rail[*where].height, R))
       return CAROM_ERROR_NOSE_HEIGHT;
   for (*where = 0; *where < t->jaws; ++*where)
-    if (!(t->jaw[*where].height > 0.0 && t->jaw[*where].height < 2.0 * R))
+    if (!good_height(t->jaw[*where].height, R))
       return CAROM_ERROR_NOSE_HEIGHT;
   carom_features_of(t, R, features);
   return CAROM_OK;
@@ -171,28 +177,33 @@ static bool is_outside(const carom_table *table, const carom_features *f, const 
   return outside;
 }
 
+/* Whether a ball is in a rail; in a jaw; with its centre in a pocket. */
+static inline bool in_rail(const carom_features *f, int k, const double r[3], double R, bool *behind) {
+  const double distance = f->line[k][0] * r[0] + f->line[k][1] * r[1] + f->line[k][2];
+  const double place = f->along[k][0] * r[0] + f->along[k][1] * r[1] + f->along[k][2];
+  const bool beside = place >= 0.0 && place <= 1.0;
+  *behind |= beside && distance < 0.0;
+  return beside && distance < R - most_overlap && distance > -R;
+}
+static inline bool in_circle(const double centre[2], double reach, const double r[3]) {
+  const double d_x = r[0] - centre[0], d_y = r[1] - centre[1];
+  return d_x * d_x + d_y * d_y < reach * reach;
+}
+static inline bool in_jaw(const carom_jaw *jaw, const double r[3], double R) {
+  return in_circle(jaw->centre, jaw->radius + R - most_overlap, r);
+}
+
 /* Whether the ball stands within the cushions, in no pocket. */
 static bool on_table(const carom_table *table, const carom_features *f, const double r[3], double R) {
   bool good = r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
   /* only behind a rail, or beyond the ends of all rails, can it be outside */
   bool behind = f->rails > 0 && (r[0] < f->ends[0] || r[0] > f->ends[1] || r[1] < f->ends[2] || r[1] > f->ends[3]);
-  for (int k = 0; k < f->rails; k++) {
-    const double distance = f->line[k][0] * r[0] + f->line[k][1] * r[1] + f->line[k][2];
-    const double place = f->along[k][0] * r[0] + f->along[k][1] * r[1] + f->along[k][2];
-    const bool beside = place >= 0.0 && place <= 1.0;
-    good &= !(beside && distance < R - most_overlap && distance > -R);
-    behind |= beside && distance < 0.0;
-  }
-  for (int k = 0; k < f->jaws; k++) {
-    const carom_jaw *jaw = &table->jaw[k];
-    const double d_x = r[0] - jaw->centre[0], d_y = r[1] - jaw->centre[1], reach = jaw->radius + R - most_overlap;
-    good &= d_x * d_x + d_y * d_y >= reach * reach;
-  }
-  for (int k = 0; k < f->pockets; k++) {
-    const carom_pocket *pocket = &table->pocket[k];
-    const double d_x = r[0] - pocket->centre[0], d_y = r[1] - pocket->centre[1];
-    good &= d_x * d_x + d_y * d_y >= pocket->radius * pocket->radius;
-  }
+  for (int k = 0; k < f->rails; k++)
+    good &= !in_rail(f, k, r, R, &behind);
+  for (int k = 0; k < f->jaws; k++)
+    good &= !in_jaw(&table->jaw[k], r, R);
+  for (int k = 0; k < f->pockets; k++)
+    good &= !in_circle(table->pocket[k].centre, table->pocket[k].radius, r);
   return good && !(behind && is_outside(table, f, r));
 }
 
@@ -258,4 +269,69 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
   carom_features features;
   features.radius = 0.0;
   return bad != CAROM_OK ? bad : carom_check_layout(table, &features, balls, count, cue, opt, where);
+}
+
+/* The part that a ball which does not stand on the table is in; CAROM_PART_NONE for one that is outside the ring. */
+static carom_part part_there(const carom_table *table, const carom_features *f, const double r[3], double R) {
+  bool behind;
+  for (int k = 0; k < f->pockets; k++)
+    if (in_circle(table->pocket[k].centre, table->pocket[k].radius, r))
+      return (carom_part){CAROM_PART_POCKET, k};
+  for (int k = 0; k < f->rails; k++)
+    if (in_rail(f, k, r, R, &behind))
+      return (carom_part){CAROM_PART_RAIL, k};
+  for (int k = 0; k < f->jaws; k++)
+    if (in_jaw(&table->jaw[k], r, R))
+      return (carom_part){CAROM_PART_JAW, k};
+  return (carom_part){CAROM_PART_NONE, 0};
+}
+
+carom_status carom_check_parts(const carom_table *table, double radius, carom_features *features, carom_part *part) {
+  int where;
+  carom_status bad = check_table(table, &where);
+  if (bad == CAROM_OK) {
+    features->radius = NAN; /* of nothing yet */
+    bad = prepare(table, radius, features, &where);
+  }
+  *part = (carom_part){CAROM_PART_NONE, 0};
+  /* the checks tell an index alone: they go through rails, jaws and pockets in this order */
+  if ((bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT) && where >= 0) {
+    const carom_rail *rail = &table->rail[where];
+    const bool of_rail =
+        where < table->rails && (bad == CAROM_ERROR_TABLE ? !good_rail(rail) : !good_height(rail->height, radius));
+    const bool of_jaw = where < table->jaws && (bad == CAROM_ERROR_TABLE ? !good_jaw(&table->jaw[where])
+                                                                         : !good_height(table->jaw[where].height, radius));
+    *part = (carom_part){of_rail ? CAROM_PART_RAIL : of_jaw ? CAROM_PART_JAW : CAROM_PART_POCKET, where};
+  }
+  return bad;
+}
+
+carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball, double x, double y,
+                              carom_part *in_the_way) {
+  carom_part unused;
+  in_the_way = in_the_way != NULL ? in_the_way : &unused;
+  *in_the_way = (carom_part){CAROM_PART_NONE, 0};
+  if (table == NULL || balls == NULL)
+    return CAROM_ERROR_NULL;
+  if (count < 1 || count > CAROM_BALLS_MOST || ball < 0 || ball >= count)
+    return CAROM_ERROR_BALLS;
+  carom_features features;
+  const double R = balls[ball].kind.radius, r[3] = {x, y, R};
+  const carom_status bad = carom_check_parts(table, R, &features, in_the_way);
+  if (bad != CAROM_OK)
+    return bad;
+  if (!bounded(r, 1e6))
+    return CAROM_ERROR_POSITION;
+  if (!on_table(table, &features, r, R)) {
+    *in_the_way = part_there(table, &features, r, R);
+    return CAROM_ERROR_OFF_TABLE;
+  }
+  for (int k = 0; k < count; k++)
+    if (k != ball && balls[k].state.label != CAROM_BALL_POCKETED &&
+        in_circle(balls[k].state.r, R + balls[k].kind.radius - most_overlap, r)) {
+      *in_the_way = (carom_part){CAROM_PART_BALL, k};
+      return CAROM_ERROR_OVERLAP;
+    }
+  balls[ball].state = (carom_ball_state){.r = {x, y, R}, .label = CAROM_BALL_STATIONARY};
+  return CAROM_OK;
 }

@@ -9,7 +9,7 @@
 static const carom_shot_options no_options = {0};
 
 /* The next place for an event, or a spare one where there is no room for it. */
-static carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
+static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
   carom_shot *shot = sim->shot;
   const bool room = shot->count < shot->room;
   if (room && shot->brief != NULL)

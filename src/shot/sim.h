@@ -104,5 +104,7 @@ carom_status carom_check_common(const carom_table *table, int64_t count, const c
 /* One layout with its cue. Prepares the table for the radius of the balls, where *features are for another. */
 carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                 const carom_cue *cue, const carom_shot_options *opt, int *where);
+/* The parts of a table, each by itself, for balls of a radius, for which it prepares the table. */
+carom_status carom_check_parts(const carom_table *table, double radius, carom_features *features, carom_part *part);
 
 #endif

@@ -83,6 +83,14 @@ static void print_shot_types(void) {
   FIELD(carom_table, rail);
   FIELD(carom_table, jaw);
   FIELD(carom_table, pocket);
+  TYPE(carom_part);
+  FIELD(carom_part, kind);
+  FIELD(carom_part, index);
+  TYPE(carom_table_fault);
+  FIELD(carom_table_fault, part);
+  FIELD(carom_table_fault, other);
+  FIELD(carom_table_fault, place);
+  FIELD(carom_table_fault, gap);
   TYPE(carom_cue);
   FIELD(carom_cue, speed);
   FIELD(carom_cue, phi);

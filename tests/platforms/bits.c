@@ -344,6 +344,8 @@ static void shots(void) {
 }
 
 int main(int argc, char **argv) {
+  if (argc > 1 && strcmp(argv[1], "revision") == 0)
+    return printf("%d\n", carom_physics_revision()) < 0;
   const int numbers = argc > 1 && strcmp(argv[1], "numbers") == 0;
   if (argc == 1)
     carom_isa_limit(CAROM_ISA_PLAIN);

@@ -66,6 +66,9 @@ class Status(enum.IntEnum):
     ERROR_DRAG = -56
     ERROR_BALL_CUSHION = -57
     ERROR_STATE = -60
+    ERROR_TABLE_OPEN = -61
+    ERROR_RAIL_SIDE = -62
+    ERROR_RAIL_LINE = -63
 
     @property
     def text(self) -> str:
