@@ -481,7 +481,7 @@ export class Carom {
       this.#call.carom_shot_check(at.table, at.balls, balls.length, cueAt, opt, at.number);
       throw this.#error(code, this.#where(code, this.#memory.i32[at.number / 4]!));
     }
-    const shot = this.#played(table, structuredClone(balls) as ShotBall[], code, at.shot, at.final, this.#events);
+    const shot = this.#played(table, balls.map(({ kind, state }) => ({ kind: { ...kind }, state: { ...state } })), code, at.shot, at.final, this.#events);
     this.#resident = shot;
     if (code < 0) throw this.#error(code, undefined, shot);
     return shot;

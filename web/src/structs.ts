@@ -16,19 +16,27 @@ export function value(prefix: string, name: string, option: string): number {
   throw new TypeError(`${option}: it must be one of ${names.join(", ")}, not ${JSON.stringify(name)}`);
 }
 
+/** Where the doubles of each struct are: for each field its offset and how many numbers it has. */
+const FIELDS = Object.fromEntries(
+  Object.entries(layout).map(([struct, { offset, bytes }]) => [
+    struct,
+    new Map(Object.entries(offset).map(([key, begin]) => [key, { begin, size: (bytes as Record<string, number>)[key]! / 8 }])),
+  ]),
+) as Record<StructName, Map<string, { begin: number; size: number }>>;
+
 /** A struct of doubles and of arrays of them, from an object whose keys are the fields; what is missing stays. */
 export function writeDoubles(memory: Memory, at: Pointer, struct: StructName, from: object): void {
-  const { offset, bytes } = layout[struct] as { offset: Record<string, number>; bytes: Record<string, number> };
+  const fields = FIELDS[struct];
   const f64 = memory.f64;
-  for (const [key, given] of Object.entries(from)) {
-    const begin = offset[key];
-    if (begin === undefined) throw new TypeError(`${key}: no such field; these are: ${Object.keys(offset).join(", ")}`);
-    if (given === undefined) continue;
-    const size = bytes[key]! / 8;
-    const index = (at + begin) / 8;
-    if (typeof given === "number" && size === 1) f64[index] = given;
-    else if (typeof given === "object" && given !== null && "length" in given && given.length === size) f64.set(given as number[], index);
-    else throw new TypeError(`${key}: it must be ${size === 1 ? "a number" : `${size} numbers`}`);
+  for (const key in from) {
+    const given = (from as Record<string, unknown>)[key];
+    const field = fields.get(key);
+    if (field === undefined) throw new TypeError(`${key}: no such field; these are: ${[...fields.keys()].join(", ")}`);
+    const index = (at + field.begin) / 8;
+    if (typeof given === "number" && field.size === 1) f64[index] = given;
+    else if (typeof given === "object" && (given as number[] | null)?.length === field.size)
+      for (let k = 0; k < field.size; k++) f64[index + k] = (given as number[])[k]!;
+    else if (given !== undefined) throw new TypeError(`${key}: it must be ${field.size === 1 ? "a number" : `${field.size} numbers`}`);
   }
 }
 

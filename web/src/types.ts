@@ -298,7 +298,7 @@ export interface ShotEvent {
   type: string;
   /** Index of the ball. */
   a: number;
-  /** Index of the other ball, rail, jaw or pocket; 0 where there is none. */
+  /** Index of the other ball, rail, jaw or pocket; -1 where there is none. */
   b: number;
   /** States before, of ball a and, for two balls, of ball b. */
   before: BallState[];
