@@ -1,7 +1,7 @@
 // The view Collision: the cue ball meets a ball at rest.
 import type { Carom, CollideOptions, Impact, Motion, Vec3 } from "carom";
 import uPlot from "uplot";
-import { arrow, check, color, el, fit, keep, parameters, slider, type Slider } from "./ui.js";
+import { arrow, check, color, eachFrame, el, fit, keep, parameters, slider, type Slider } from "./ui.js";
 
 declare const MEASURED: string;
 
@@ -85,7 +85,7 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
       "div",
       { class: "columns" },
       el("section", { class: "panel first", "aria-label": "Settings" }, el("h2", {}, "Two balls meet"), ...["speed", "cut", "side", "tip"].map((k) => sliders[k]!.root), law.root, ...["mu", "cloth", "e"].map((k) => sliders[k]!.root)),
-      el("section", { class: "panel scene-panel", "aria-label": "Seen from above" }, canvas, el("p", { class: "note" }, "Drag the white ball around the other one, or use the arrow keys, to set the cut. Solid arrows: just after the contact. Dashed: once the ball rolls.")),
+      el("section", { class: "panel scene-panel", "aria-label": "Seen from above" }, canvas, el("p", { class: "note" }, "Drag the white ball around the other one, or use the arrow keys, to set the cut. Solid arrows: just after the contact. Dashed: once the ball rolls. Red arcs: side spin.")),
       el("section", { class: "panel", "aria-label": "Numbers" }, table),
     ),
     plots,
@@ -128,6 +128,7 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
         {
           width: Math.max(place.clientWidth, 240),
           height: 230,
+          legend: { live: false },
           cursor: { drag: { x: false, y: false } },
           scales: { x: { time: false, ...(x[2] > x[1] ? { range: [x[1], x[2]] } : {}) } },
           axes: [{ ...axis, label: x[0], labelSize: 20 }, { ...axis, label: y, labelSize: 20, size: 48 }],
@@ -139,7 +140,6 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
               width: one.points ? 0 : 2,
               dash: one.dash,
               points: { show: one.points === true, size: 8, fill: color(one.color) },
-              value: (_: uPlot, v: number | null) => (v === null || v === undefined ? "–" : v.toPrecision(4)),
             })),
           ],
           hooks: {
@@ -205,7 +205,7 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
     return [all, line, points(at, all)];
   };
 
-  const throwByCut = plot("plot-throw-cut", "Throw against cut angle", "Orange: this collision. Squares of a kind: throw at 45° of stun shots as reported by D. Alciatore for balls cleaned with Aramith, used, cleaned with alcohol, and chalked at the contact.", ["cut angle, °", -85, 85], "throw, ° (+ left)", [
+  const throwByCut = plot("plot-throw-cut", "Throw against cut angle", "Orange: this collision. Grey: throw at 45° without spin, as D. Alciatore reports it for balls cleaned with Aramith (3.6°), used (4.9°), cleaned with alcohol (11°) and chalked at the contact (11.6°).", ["cut angle, °", -85, 85], "throw, ° (+ left)", [
     { label: "throw", color: "accent" },
     { label: "reported at 45°", color: "quiet", points: true },
   ]);
@@ -227,11 +227,11 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
   let scale = 1;
   let origin: [number, number] = [0, 0];
   function draw(s: Setting, a: Motion, b: Motion): void {
-    const { g, width, height } = fit(canvas, 0.72);
+    const { g, width, height } = fit(canvas, 0.66);
     g.fillStyle = color("cloth");
     g.fillRect(0, 0, width, height);
     // The object ball is in the middle; the cue ball comes from the left.
-    const radius = Math.min(width, height) / 8.5;
+    const radius = Math.min(width, height) / 7;
     scale = radius;
     origin = [width * 0.5, height * 0.5];
     const angle = s.cut / DEGREES;
@@ -268,7 +268,7 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
     // Side spin: an arc around the ball, in the sense in which it turns.
     for (const [x, y, w] of [[cx, cy, a.w[2]], [ox, oy, b.w[2]]] as const) {
       const size = Math.min(Math.abs(w) / 40, 1) * Math.PI * 1.5;
-      if (size < 0.05) continue;
+      if (size < 0.2) continue;
       g.strokeStyle = "#b3261e";
       g.lineWidth = 3;
       g.beginPath();
@@ -289,17 +289,14 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
     const thrown = turn(direction(b.v) - s.cut);
     const gearing = -Math.sin(s.cut / DEGREES) / 2.5;
     const rows: [string, string, string][] = [
-      ["throw", "Throw of the object ball", sided(thrown)],
-      ["object", "Object ball goes", sided(direction(b.v))],
-      ["object-speed", "Object ball, speed", `${norm(b.v).toFixed(3)} m/s`],
-      ["object-rolling", "once it rolls", `${norm(rollsB).toFixed(3)} m/s`],
-      ["deflection", "Cue ball goes", norm(a.v) < 1e-9 ? "stops" : sided(direction(a.v))],
-      ["cue-speed", "Cue ball, speed", `${norm(a.v).toFixed(3)} m/s`],
-      ["rolling", "once it rolls", norm(rollsA) < 1e-9 ? "stops" : sided(direction(rollsA))],
-      ["rolling-speed", "", `${norm(rollsA).toFixed(3)} m/s`],
+      ["throw", "Throw", sided(thrown)],
+      ["object", "Object ball", `${sided(direction(b.v))}, ${norm(b.v).toFixed(3)} m/s`],
+      ["object-rolling", "once it rolls", `${sided(direction(rollsB))}, ${norm(rollsB).toFixed(3)} m/s`],
+      ["deflection", "Cue ball", norm(a.v) < 1e-9 ? "stops" : `${sided(direction(a.v))}, ${norm(a.v).toFixed(3)} m/s`],
+      ["rolling", "once it rolls", norm(rollsA) < 1e-9 ? "stops" : `${sided(direction(rollsA))}, ${norm(rollsA).toFixed(3)} m/s`],
       ["spin", "Side spin transferred", `${b.w[2].toFixed(2)} rad/s`],
       ["vertical", "Roll transferred", `${norm([b.w[0], b.w[1]]).toFixed(2)} rad/s`],
-      ["gearing", "No throw at a tip to the left of", Math.abs(gearing) > 0.7 ? "beyond 0.7 R" : `${gearing.toFixed(3)} R`],
+      ["gearing", "No throw with the tip at", Math.abs(gearing) > 0.7 ? "beyond 0.7 R" : `${Math.abs(gearing).toFixed(3)} R ${gearing > 0 ? "left" : "right"}`],
       ["energy", "Energy lost", `${(1000 * lost).toFixed(1)} mJ, ${((100 * lost) / before).toFixed(1)} %`],
       ["impulse", "Normal impulse", `${detail.normal.toFixed(4)} N s`],
       ["friction", "Impulse of friction", `${norm(detail.friction).toFixed(4)} N s`],
@@ -319,7 +316,7 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
     inside.set([trace.map((p) => p.normal), trace.map((p) => Math.hypot(p.uX, p.uZ)), trace.map((p) => norm(p.d)), trace.map((p) => norm(p.b)), trace.map((p) => p.vN)], []);
 
     const kept: Record<string, string> = { view: "collision" };
-    for (const [key, one] of Object.entries(sliders)) if (key !== "mu" || !law.input.checked) if (one.value !== defaults[key]) kept[key] = String(+one.value.toFixed(4));
+    for (const [key, one] of Object.entries(sliders)) if (key !== "mu" || !law.input.checked) if (one.value !== defaults[key]) kept[key] = String(one.value);
     if (!law.input.checked) kept.law = "0";
     if (solver() === "euler") kept.solver = "euler";
     keep(kept);
@@ -327,12 +324,13 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
 
   // ---- Dragging ------------------------------------------------------------------------------------------------------------
 
+  const soon = eachFrame(update);
   const aim = (event: PointerEvent): void => {
     const box = canvas.getBoundingClientRect();
     const [x, y] = [event.clientX - box.left - origin[0], event.clientY - box.top - origin[1]];
     if (Math.hypot(x, y) < scale / 2) return;
     sliders.cut!.value = Math.max(-85, Math.min(85, Math.round(2 * Math.atan2(y, -x) * DEGREES) / 2));
-    update();
+    soon();
   };
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
@@ -345,7 +343,7 @@ export function collisionView(carom: Carom, solver: () => "exact" | "euler", mai
     const step = { ArrowLeft: -0.5, ArrowRight: 0.5, ArrowUp: 5, ArrowDown: -5 }[event.key];
     if (step === undefined) return;
     event.preventDefault();
-    sliders.cut!.value += step;
+    sliders.cut!.value = Math.max(-85, Math.min(85, sliders.cut!.value + step));
     update();
   });
 

@@ -1,6 +1,6 @@
 // The view Shot: a table to aim on, the whole shot while one aims, its film, its events, and a fan of shots with a player's error.
 import { type BallState, type Carom, CaromError, type Cue, fromLine, type Game, type RackName, type Shot, type ShotBall, type ShotOptions, type Table, type TableName, toLine } from "carom";
-import { button, check, choice, color, el, fit, keep, parameters, slider, type Slider } from "./ui.js";
+import { button, check, choice, color, eachFrame, el, fit, keep, parameters, slider, type Slider } from "./ui.js";
 
 interface GameOf {
   text: string;
@@ -179,7 +179,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     const kept: Record<string, string> = { view: "shot" };
     if (gameName !== "nineball") kept.game = gameName;
     if (seed !== 1) kept.seed = String(seed);
-    for (const [key, s] of Object.entries(sliders)) if (s.value !== defaults[key]) kept[key] = String(+s.value.toFixed(4));
+    for (const [key, s] of Object.entries(sliders)) if (s.value !== defaults[key]) kept[key] = String(s.value);
     if (cushion.select.value !== "mathavan") kept.cushion = cushion.select.value;
     if (fanned.input.checked) kept.fan = "1";
     if (solver() === "euler") kept.solver = "euler";
@@ -192,10 +192,10 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     xyz: Float64Array;
   }
   let paths: Path[] = [];
-  /** The path of each ball that moves: at every event, and every 1/60 s between. */
-  function sample(shot: Shot): Path[] {
+  /** The path of each ball that moves: at every event, and so often a second between. */
+  function sample(shot: Shot, often = 60, most = 900): Path[] {
     const times = shot.events.map((event) => event.time);
-    const count = Math.min(Math.ceil(shot.time * 60), 900);
+    const count = Math.min(Math.ceil(shot.time * often), most);
     for (let k = 0; k <= count; k++) times.push((shot.time * k) / Math.max(count, 1));
     times.sort((a, b) => a - b);
     const moving = new Set(shot.events.flatMap((event) => (event.type === "ball_ball" ? [event.a, event.b] : [event.a])));
@@ -326,15 +326,13 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
         if (shots.status[k]! < 0 || shots.events(k) > FAN_ROOM) continue;
         const one = shots.shot(k);
         // Paths of the cue ball, and where every ball comes to rest.
-        const at = new Float64Array(3 * balls.length);
-        const many = Math.min(Math.ceil(one.time * 25), 250);
         g.strokeStyle = "#ffffff";
         g.globalAlpha = 0.045;
         g.lineWidth = 1.4;
         g.beginPath();
-        for (let t = 0; t <= many; t++) {
-          one.positions((one.time * t) / Math.max(many, 1), at);
-          g[t === 0 ? "moveTo" : "lineTo"](...place(at[0]!, at[1]!));
+        for (const { ball, xyz } of sample(one, 20, 200)) {
+          if (ball !== 0) continue;
+          for (let t = 0; t < xyz.length && xyz[t + 2]! > 0; t += 3) g[t === 0 ? "moveTo" : "lineTo"](...place(xyz[t]!, xyz[t + 1]!));
         }
         g.stroke();
         g.globalAlpha = 0.25;
@@ -395,9 +393,17 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       g.lineTo(...place(rail.q[0], rail.q[1]));
       g.stroke();
     }
-    for (const jaw of table.jaws) {
+    // Of a jaw the part between the ends of the rails that it joins.
+    for (const { centre, radius } of table.jaws) {
+      const ends = table.rails.flatMap(({ p, q }) => [p, q]).filter(([x, y]) => Math.abs(Math.hypot(x - centre[0], y - centre[1]) - radius) < 1e-3);
+      if (ends.length !== 2) continue;
+      const [from, to] = ends.map(([x, y]) => Math.atan2(y - centre[1], x - centre[0])) as [number, number];
+      const turned = Math.atan2(Math.sin(to - from), Math.cos(to - from));
       g.beginPath();
-      g.arc(...place(jaw.centre[0], jaw.centre[1]), Math.max(jaw.radius * scale, 1), 0, 7);
+      for (let k = 0; k <= 8; k++) {
+        const angle = from + (turned * k) / 8;
+        g[k === 0 ? "moveTo" : "lineTo"](...place(centre[0] + radius * Math.cos(angle), centre[1] + radius * Math.sin(angle)));
+      }
       g.stroke();
     }
     if (fanLayer) g.drawImage(fanLayer, 0, 0, width, height);
@@ -529,7 +535,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     names = read.names;
     imported = read.cue;
     moved = true;
-    for (const key of ["speed", "phi", "a", "b", "theta"] as const) sliders[key]!.value = key === "phi" ? ((read.cue.phi % 360) + 360) % 360 : read.cue[key];
+    for (const key of ["speed", "phi", "a", "b", "theta"] as const) sliders[key]!.value = read.cue[key];
     games.select.value = gameName;
     table = read.table;
     aimed();
@@ -537,6 +543,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
 
   // ---- Pointer and keys ----------------------------------------------------------------------------------------------------
 
+  const soon = eachFrame(aimed);
   let held: "aim" | "ball" | undefined;
   const position = (event: PointerEvent): [number, number] => {
     const box = canvas.getBoundingClientRect();
@@ -547,8 +554,8 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     const { r } = balls[0]!.state;
     if (held === "aim") {
       const angle = (Math.atan2(y - r[1], x - r[0]) * 180) / Math.PI;
-      sliders.phi!.value = (angle + 360) % 360;
-      return aimed();
+      sliders.phi!.value = Math.round(((angle + 360) % 360) * 100) / 100;
+      return soon();
     }
     // Ball in hand: within the cushions, and not in another ball.
     const R = balls[0]!.kind.radius;
@@ -557,7 +564,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     if (balls.some(({ state }, k) => k > 0 && state.label !== "pocketed" && Math.hypot(state.r[0] - bx, state.r[1] - by) < 2 * R + 1e-5)) return;
     balls = balls.map((ball, k) => (k === 0 ? { kind: ball.kind, state: { ...ball.state, r: [bx, by, R] } } : ball));
     moved = true;
-    aimed();
+    soon();
   }
   canvas.addEventListener("pointerdown", (event) => {
     const [x, y] = position(event);
@@ -571,10 +578,12 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   });
   canvas.addEventListener("keydown", (event) => {
     const by = event.shiftKey ? 1 : 0.1;
-    if (event.key === "ArrowLeft") sliders.phi!.value = (sliders.phi!.value + by) % 360;
-    else if (event.key === "ArrowRight") sliders.phi!.value = (sliders.phi!.value - by + 360) % 360;
-    else if (event.key === "ArrowUp") sliders.speed!.value += 0.1;
-    else if (event.key === "ArrowDown") sliders.speed!.value -= 0.1;
+    const turn = (degrees: number): void => void (sliders.phi!.value = Math.round(((sliders.phi!.value + degrees + 360) % 360) * 1e6) / 1e6);
+    const hasten = (more: number): void => void (sliders.speed!.value = Math.round(Math.min(Math.max(sliders.speed!.value + more, 0.1), 10) * 1e6) / 1e6);
+    if (event.key === "ArrowLeft") turn(by);
+    else if (event.key === "ArrowRight") turn(-by);
+    else if (event.key === "ArrowUp") hasten(0.1);
+    else if (event.key === "ArrowDown") hasten(-0.1);
     else if (event.key === " ") play.click();
     else return;
     event.preventDefault();

@@ -20,11 +20,14 @@ export interface Slider {
 export function slider(id: string, text: string, min: number, max: number, step: number, unit: string, onInput: () => void, show = (x: number) => String(x)): Slider {
   const input = el("input", { type: "range", id, min: String(min), max: String(max), step: String(step) });
   const output = el("output", { for: id, id: `${id}-value` });
+  // A value that was set is kept as it is; the slider itself rounds to its steps.
+  let exact: number | undefined;
   const tell = (): void => {
-    output.textContent = `${show(input.valueAsNumber)}${unit}`;
+    output.textContent = `${show(exact ?? input.valueAsNumber)}${unit}`;
     input.setAttribute("aria-valuetext", output.textContent);
   };
   input.addEventListener("input", () => {
+    exact = undefined;
     tell();
     onInput();
   });
@@ -32,9 +35,10 @@ export function slider(id: string, text: string, min: number, max: number, step:
     root: el("div", { class: "field" }, el("label", { for: id }, text), output, input),
     input,
     get value() {
-      return input.valueAsNumber;
+      return exact ?? input.valueAsNumber;
     },
     set value(x: number) {
+      exact = x;
       input.value = String(x);
       tell();
     },
@@ -57,6 +61,19 @@ export function check(id: string, text: string, onChange: () => void): { root: H
   const input = el("input", { type: "checkbox", id });
   input.addEventListener("change", onChange);
   return { root: el("label", { class: "check" }, input, text), input };
+}
+
+/** Calls `draw` once before the next frame, however often it is asked for. */
+export function eachFrame(draw: () => void): () => void {
+  let asked = false;
+  return () => {
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => {
+      asked = false;
+      draw();
+    });
+  };
 }
 
 /** A color of the page's theme. */
