@@ -1,7 +1,7 @@
 // npm run bench: the package beside the native library and beside a plain JavaScript port of the ladder's `base`. Ratios within one run are
-// what counts; each figure is the median of interleaved rounds. CAROM names the native command, ../build/carom by default.
+// what counts; each figure is the median of interleaved rounds, with the least. Native figures need ../build/libcarom.a and cc.
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { fileURLToPath } from "node:url";
 import { load } from "../dist/index.js";
@@ -41,37 +41,23 @@ for (const build of ["simd", "plain"]) {
     tasks.push({ what: `WebAssembly ${build}: nine-ball break, ${cushionModel}`, count: 100, go: () => carom.simulateBatch(shots, { cushionModel }) });
 }
 
-// Native: the command by `plain`, a long file less a short one, so that its start does not count.
-const command = process.env.CAROM ?? `${root}build/carom`;
+// Native: native.c with the library of ../build, by `plain`.
 const folder = mkdtempSync(`${tmpdir()}/carom-bench-`);
-if (existsSync(command)) {
-  const write = (name, count) => {
-    const text = [head];
-    for (let k = 0; k < count; k++) text.push(...lines);
-    writeFileSync(`${folder}/${name}.csv`, text.join("\n"));
-  };
-  const time = (args) => {
-    const begun = performance.now();
-    execFileSync(command, [...args, "-o", `${folder}/out`], { env: { ...process.env, CAROM_ISA: "plain" } });
-    return performance.now() - begun;
-  };
-  write("rows", 20);
-  for (const [what, solver] of [["native plain: 1000 Euler steps", "euler"]]) {
-    const args = ["resolve", "--threads", "1", "--solver", solver, "--steps", "1000", `${folder}/rows.csv`];
-    const less = ["resolve", "--threads", "1", "--solver", solver, "--steps", "1", `${folder}/rows.csv`];
-    tasks.push({ what, count: 20 * N, measure: () => time(args) - time(less) });
-  }
+const native = {};
+const library = `${root}build/libcarom.a`;
+if (existsSync(library)) {
+  execFileSync("cc", ["-std=c17", "-O2", `-I${root}include`, `${root}web/bench/native.c`, library, "-lm", "-pthread", "-o", `${folder}/native`]);
+  for (const name of ["batch", "calls", "euler", "han", "mathavan"]) tasks.push({ what: `native plain: ${name}`, times: (native[name] = []) });
 } else {
-  console.log(`# without native figures: there is no ${command}`);
+  console.log(`# without native figures: there is no ${library}`);
 }
+const all = new Float64Array(TIMES * one.length);
+for (let k = 0; k < TIMES; k++) all.set(one, k * one.length);
 
-for (const task of tasks) task.times = [];
-for (let round = 0; round < 9; round++)
+for (const task of tasks) task.times ??= [];
+for (let round = 0; round < 9; round++) {
   for (const task of tasks) {
-    if (task.measure) {
-      task.times.push(task.measure() / task.count);
-      continue;
-    }
+    if (!task.go) continue;
     const begun = performance.now();
     let turns = 0;
     do {
@@ -80,6 +66,12 @@ for (let round = 0; round < 9; round++)
     } while (performance.now() - begun < 30);
     task.times.push((performance.now() - begun) / turns / task.count);
   }
+  if (existsSync(`${folder}/native`))
+    for (const line of execFileSync(`${folder}/native`, [String(N)], { input: Buffer.from(all.buffer), encoding: "utf8" }).trim().split("\n")) {
+      const [name, ns] = line.split(" ");
+      native[name].push(Number(ns) / 1e6);
+    }
+}
 rmSync(folder, { recursive: true });
 console.log(`# Node ${process.version}, ${process.arch}; 204 reference collisions; ns each, median of 9 rounds (least)`);
 for (const { what, times } of tasks) {

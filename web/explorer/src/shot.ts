@@ -193,7 +193,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   }
   let paths: Path[] = [];
   /** The path of each ball that moves: at every event, and so often a second between. */
-  function sample(shot: Shot, often = 60, most = 900): Path[] {
+  function sample(shot: Shot, often = 25, most = 500): Path[] {
     const times = shot.events.map((event) => event.time);
     const count = Math.min(Math.ceil(shot.time * often), most);
     for (let k = 0; k <= count; k++) times.push((shot.time * k) / Math.max(count, 1));
@@ -206,6 +206,19 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       for (const path of found) for (let c = 0; c < 3; c++) path.xyz[3 * k + c] = at[3 * path.ball + c]!;
     });
     return found;
+  }
+
+  let listing: number | undefined;
+  function tellEvents(): void {
+    list.replaceChildren(
+      ...(shot?.events ?? []).map((event) => {
+        const what = event.type === "ball_ball" ? `${names[event.a]} hits ${names[event.b]}` : event.type === "stick_ball" ? "the cue strikes" : `${names[event.a]}: ${EVENTS[event.type] ?? event.type}`;
+        const made = button("", () => go(event.time));
+        made.append(el("span", {}, `${event.time.toFixed(3)} s`), el("span", {}, what));
+        return el("li", {}, made);
+      }),
+    );
+    markEvent();
   }
 
   function tell(): void {
@@ -221,19 +234,10 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       rows.push(["cue-ball", "Cue ball at the end", shot.final[0]!.label === "pocketed" ? "in a pocket" : `${r[0].toFixed(4)}, ${r[1].toFixed(4)} m`]);
     }
     summary.replaceChildren(...rows.map(([id, name, text]) => el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `s-${id}` }, text))));
-    list.replaceChildren(
-      ...(shot?.events ?? []).map((event) =>
-        el(
-          "li",
-          {},
-          button("", () => go(event.time)),
-        ),
-      ),
-    );
-    shot?.events.forEach((event, k) => {
-      const what = event.type === "ball_ball" ? `${names[event.a]} hits ${names[event.b]}` : event.type === "stick_ball" ? "the cue strikes" : `${names[event.a]}: ${EVENTS[event.type] ?? event.type}`;
-      list.children[k]!.firstElementChild!.append(el("span", {}, `${event.time.toFixed(3)} s`), el("span", {}, what));
-    });
+    // The list waits until nothing has changed for a moment: it costs more than the shot.
+    window.clearTimeout(listing);
+    list.replaceChildren();
+    listing = window.setTimeout(tellEvents, 100);
     const contact = shot?.firstContact;
     canvas.setAttribute("aria-label", `${game.text} table from above. The shot lasts ${shot?.time.toFixed(1) ?? 0} seconds; ${contact ? `ball ${names[contact.ball]} is hit first` : "no ball is hit"}.`);
     const high = paths.some(({ xyz, ball }) => {

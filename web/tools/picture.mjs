@@ -1,0 +1,16 @@
+// picture.mjs OUT.png: the picture of the page that README shows; after `npm run page`.
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
+const page = await browser.newPage({ viewport: { width: 1240, height: 640 } });
+await page.goto(`file://${fileURLToPath(new URL("../explorer/dist/index.html", import.meta.url))}#view=shot&phi=89.4&a=0.15&speed=8.5`);
+await page.waitForSelector("main[aria-busy=false]");
+await page.waitForSelector(".events li");
+await page.locator("#time").evaluate((input) => {
+  input.value = "0.62";
+  input.dispatchEvent(new Event("input"));
+});
+await page.waitForTimeout(300);
+await page.screenshot({ path: process.argv[2] });
+await browser.close();
