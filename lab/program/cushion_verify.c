@@ -6,9 +6,6 @@
 #include "memory.h"
 #include "message.h"
 #include "number.h"
-#include "options.h"
-#include "output.h"
-#include "place.h"
 #include "records.h"
 #include "reference.h"
 
@@ -135,56 +132,4 @@ bool cushion_verify(FILE *out, const char *folder, int draws, uint64_t seed, boo
   *pass &= against_reference(out, csv, CUSHION_ANY, draws, seed, draws, 2 * draws);
   return recorded(out, csv, folder, "cushion-stronge.csv", CAROM_CUSHION_STRONGE, pass) &&
          recorded(out, csv, folder, "cushion-mathavan2010.csv", CAROM_CUSHION_EULER, pass);
-}
-
-typedef struct verify_job {
-  shared_options shared;
-  int draws, seed;
-  bool csv;
-} verify_job;
-
-OPTION(verify_job, option_draws, "draws", draws, 0, "N", set_count, 1,
-       "random impacts of each kind (default 500: about twenty seconds)");
-OPTION(verify_job, option_seed, "seed", seed, 0, "S", set_count, 0, "of the random impacts (default: 1)");
-OPTION(verify_job, option_csv, "csv", csv, 0, NULL, set_flag, 0, "as CSV");
-
-static const command_form form = {
-    .name = "verify --cushion",
-    .usage = "[OPTIONS]",
-    .about = "Compares the exact limit of an impact on a cushion with a reference, an integration in extended precision that\n"
-             "shares nothing with it; Stronge's closed form and Euler's steps with what the simulator pooltool has recorded.\n",
-    .options = (const option_row *const[]){&option_draws, &option_seed, &option_csv, &option_data, &option_output, NULL},
-    .details =
-        "Errors are the largest deviation of v and R w over the largest of them before the impact. Left out are recorded "
-        "balls\n"
-        "that roll, whose slip on the cloth is pooltool's rounding. No random impact may be left out by the reference, or be\n"
-        "unresolved.\n\n"
-        "exit code: 0 if all is within its bounds, 1 if something is not, 2 for bad usage or unreadable data\n",
-    .example = "carom-lab verify --cushion --draws 10000",
-};
-
-int cushion_verify_command(int argc, char **argv) {
-  verify_job job = {.shared = {.output = "-"}, .draws = 500, .seed = 1};
-  int code = parse_arguments(&form, argc, argv, &job, NULL);
-  if (code >= 0)
-    return code;
-  FILE *out = output_open(job.shared.output);
-  bool pass = true;
-  if (out == NULL)
-    return EXIT_USAGE;
-  if (!cushion_verify(out, data_folder(job.shared.folder), job.draws, (uint64_t)job.seed, job.csv, &pass)) {
-    output_abandon();
-    return EXIT_USAGE;
-  }
-  return output_commit() ? (pass ? EXIT_GOOD : EXIT_SOME) : EXIT_USAGE;
-}
-
-bool cushion_asked(int *argc, char **argv) {
-  for (int k = 1; k < *argc; k++)
-    if (strcmp(argv[k], "--cushion") == 0) {
-      memmove(argv + k, argv + k + 1, (size_t)(*argc - k) * sizeof *argv); /* with the NULL behind them */
-      --*argc;
-      return true;
-    }
-  return false;
 }
