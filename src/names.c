@@ -3,7 +3,7 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
-#include "enumerations.h"
+#include "platform/enumerations.h"
 
 #define TEXT_OF(x) #x
 #define TEXT(x) TEXT_OF(x)

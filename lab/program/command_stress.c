@@ -22,7 +22,7 @@
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
 #include "ball_ball/reduced.h"
-#include "enumerations.h"
+#include "platform/enumerations.h"
 #include "platform/threads.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
  */
 #include "ball_ball/arguments.h"
 
-#include "enumerations.h"
+#include "platform/enumerations.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* The tables of kernels.h. */
 #include "ball_ball/kernels.h"
 
-#include "enumerations.h"
+#include "platform/enumerations.h"
 
 #define LANES_OF_PLAIN 4
 #define LANES_OF_SSE2 4
