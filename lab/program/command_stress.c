@@ -388,38 +388,37 @@ static bool holds(const stress *s) {
   return good;
 }
 
-OPTION(stress_job, option_draws, "draws", draws, 'n', "N", set_count, 1, "collisions to draw, for each slip (default: 100000)");
-OPTION(stress_job, option_seed, "seed", seed, 0, "S", set_count, 0, "of the draws (default: 1)");
-OPTION(stress_job, option_kind, "kind", kind, 0, DRAW_KIND_NAMES, set_choice, 0,
-       "what to draw: collisions of play; the regimes of the tests, corners of all sorts; or "
-       "everything that is accepted (default: realistic)");
+OPTION(stress_job, option_draws, "draws", draws, 'n', "N", set_count, 1,
+       "number of collisions for each slip (default: 100000)");
+OPTION(stress_job, option_seed, "seed", seed, 0, "S", set_count, 0, "seed of the random numbers (default: 1)");
+OPTION(
+    stress_job, option_kind, "kind", kind, 0, DRAW_KIND_NAMES, set_choice, 0,
+    "realistic: collisions of play (default); regimes: the special cases of the tests; extreme: everything that carom accepts");
 OPTION(stress_job, option_worst, "worst", worst_rows, 0, NULL, set_flag, 0,
        "print, instead of the table, the 20 collisions with the largest errors in double precision, "
        "as rows that `carom resolve` reads");
 
 OPTION(stress_job, option_cushions, "cushion", cushions, 0, "N", set_count, 1,
-       "draw so many impacts on a cushion of each kind instead, of play and any");
+       "draw so many impacts on a cushion of each kind instead: of play, and any");
 OPTION(stress_job, option_coincidences, "coincidences", coincidences, 0, "N", set_count, 1,
-       "draw instead so many impacts of each kind of coincidence, of two balls and on a cushion: numbers that "
-       "are exactly equal, zero or at the edge of a cone, planar motion, slips of rounding errors, grazing");
+       "draw so many impacts of each kind of coincidence instead, of two balls and on a cushion: numbers that are exactly "
+       "equal, zero or at the edge of a friction cone; planar motion; slips that are rounding errors; grazing impacts");
 OPTION(stress_job, option_shots, "shots", shots, 0, "N", set_count, 1,
-       "play so many random whole shots instead, and check the invariants that they keep");
-OPTION(stress_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
-       "whose rules and models the shots follow");
+       "play so many random whole shots instead, and check their invariants");
+OPTION(stress_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0, "the rules and models of the shots");
 OPTION(stress_job, option_cushion_model, "cushion-model", cushion, 0, "MODEL", set_cushion_model, 0,
        "impacts on cushions in the shots: mathavan, stronge, han, mirror or euler");
 
 static const command_form form = {
     .name = "stress",
     .usage = "[OPTIONS]",
-    .about =
-        "Draws random collisions and compares the exact solver's results, by single calls and in batches, in double and in "
-        "single precision, with the precise solver, and where they differ with a reference in extended precision.\n",
+    .about = "Draws random collisions and solves them by single calls and in batches, in double and in single precision. The "
+             "results are compared with the precise solver; where they differ, with a reference in extended precision.\n",
     .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_worst, &option_cushions,
                                            &option_coincidences, &option_shots, &option_models, &option_cushion_model,
                                            &option_threads, &option_output, NULL},
-    .details = "exit code: 0; 1 if an error is larger than carom.h promises, or bits of a batch differ from a single call's; "
-               "2 for bad usage\n",
+    .details = "exit code: 0; 1 if an error is larger than carom.h promises, or if a batch has other bits than single calls; 2 "
+               "for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
 };
 
