@@ -166,7 +166,8 @@ static int compare_all(const parity_job *job, shot_file *file, families *all) {
 static const command_form form = {
     .name = "parity",
     .usage = "[OPTIONS] IN.jsonl",
-    .about = "Plays recorded shots by pooltool's rules and models, and compares every event with pooltool's record, up to the first event that rounding errors can change, as the recording says.\n",
+    .about = "Plays recorded shots by pooltool's rules and models, and compares every event with pooltool's record, up to the "
+             "first event that rounding errors can change, as the recording says.\n",
     .options = (const option_row *const[]){&option_verbose, NULL},
     .details =
         "columns: shots; events compared; shots that agree; shots that agree to their end, where the recording has no chaos; "

@@ -1,5 +1,6 @@
 /* `carom-lab verify --cushion`: the exact limit against a reference, closed forms and Euler's steps against pooltool's records.
  */
+#include "accuracy.h"
 #include "command.h"
 #include "cushion_lab.h"
 #include "draws.h"
@@ -22,31 +23,24 @@ static const double play_worst = 1e-6, any_worst = 1e-5, exact_median = 3e-9, re
 /* The errors of one comparison. */
 typedef struct comparison {
   const char *model, *reference;
-  double *error;
+  pair_accuracy *error;
   size_t count, left_out; /* compared; without a result of the reference, or whose result depends on pooltool's rounding */
   size_t unresolved;
   bool complete; /* none may be left out */
   double worst_bound, median_bound;
 } comparison;
 
-static int compare(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static bool print(FILE *out, bool csv, comparison *c) {
-  qsort(c->error, c->count, sizeof *c->error, compare);
-  const double median = c->count > 0 ? c->error[c->count / 2] : (double)NAN,
-               worst = c->count > 0 ? c->error[c->count - 1] : (double)NAN;
-  const double p99 = c->count > 0 ? c->error[c->count * 99 / 100] : (double)NAN;
-  const bool pass = c->count > 0 && worst <= c->worst_bound && median <= c->median_bound && c->unresolved == 0 &&
-                    !(c->complete && c->left_out > 0);
+  const accuracy_summary a =
+      c->count > 0 ? accuracy_summarise(c->error, c->count) : (accuracy_summary){.median = NAN, .p99 = NAN, .max = NAN};
+  const bool pass =
+      a.max <= c->worst_bound && a.median <= c->median_bound && c->unresolved == 0 && !(c->complete && c->left_out > 0);
   if (csv)
     fprintf(out, "%s,%s,%zu,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%s\n", c->model, c->reference, c->count, c->left_out, c->unresolved,
-            median, p99, worst, c->worst_bound, pass ? "pass" : "fail");
+            a.median, a.p99, a.max, c->worst_bound, pass ? "pass" : "fail");
   else
     fprintf(out, "%-9s %-27s %8zu %8zu %10zu %9.2g %9.2g %9.2g %7.1g  %s\n", c->model, c->reference, c->count, c->left_out,
-            c->unresolved, median, p99, worst, c->worst_bound, pass ? "pass" : "FAIL");
+            c->unresolved, a.median, a.p99, a.max, c->worst_bound, pass ? "pass" : "FAIL");
   return pass;
 }
 
@@ -68,7 +62,7 @@ static bool against_reference(FILE *out, bool csv, cushion_draw kind, int draws,
     else if (reference_cushion(&in, &exact, NULL) != REFERENCE_OK)
       c.left_out++;
     else
-      c.error[c.count++] = cushion_distance(&in, &own, &exact);
+      c.error[c.count++].pair = cushion_distance(&in, &own, &exact);
   }
   progress_clear();
   const bool pass = print(out, csv, &c);
@@ -113,7 +107,7 @@ static bool recorded(FILE *out, bool csv, const char *folder, const char *name, 
       continue;
     }
     c.unresolved += carom_cushion(&in, &options, &own) != CAROM_OK;
-    c.error[c.count++] = cushion_distance(&in, &own, &after);
+    c.error[c.count++].pair = cushion_distance(&in, &own, &after);
   }
   if (result != READ_FAILED)
     *pass &= print(out, csv, &c);
