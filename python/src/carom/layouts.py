@@ -213,20 +213,20 @@ def cue(
     end_mass: npt.ArrayLike | None = None,
     tip_radius: npt.ArrayLike | None = None,
 ) -> dtypes.Records:
-    """A cue and its strike, or many, from fields that are broadcast against each other.
+    """Build a cue with its strike, or many. The fields are broadcast against each other.
 
     Parameters
     ----------
     speed : array_like, shape (...)
-        Of the cue before the strike, m/s; 0: no strike.
+        Speed of the cue before the strike, m/s; 0: no strike.
     phi, theta : array_like, shape (...)
         Direction in the plane from +x towards +y, and elevation of the butt, degrees.
     a, b : array_like, shape (...)
-        Where the tip touches, in units of the ball's radius: a > 0 left, b > 0 above the centre; a^2 + b^2 < 1.
+        Where the tip touches the ball, in units of its radius: a > 0 left, b > 0 above the centre; a^2 + b^2 < 1.
     ball : array_like of int, shape (...)
         Index of the ball that is struck.
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
-        Whose cue it is, for what follows.
+        The game whose cue gives the defaults of the later arguments.
     mass, end_mass, tip_radius : array_like, shape (...)
         kg, kg, m.
 

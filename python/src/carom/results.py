@@ -53,9 +53,9 @@ class Shot:
         The layout before the strike.
     status : Status
     time : float
-        When the last event happened, s.
+        Time of the last event, s.
     count : int
-        Events that happened, also beyond what was kept.
+        Number of events, including those that were not kept.
     events : ndarray of `carom.dtypes.event`, shape (kept,)
         In the order in which they happened.
     final : ndarray of `carom.dtypes.ball_state`, shape (balls,)
@@ -188,7 +188,7 @@ class Shots:
     status : ndarray of int8, shape (...)
         As `Status`; a shot in error costs itself alone.
     time : ndarray of float64, shape (...)
-        When the last event happened, s.
+        Time of the last event, s.
     count : ndarray of int64, shape (...)
         Events that happened, also beyond the room.
     final : ndarray of `carom.dtypes.ball_state`, shape (..., balls)
@@ -239,7 +239,7 @@ class Shots:
         return Shot(self.table, balls, int(status), float(self.time[index]), count, kept, self.final[index])
 
     def failures(self) -> list[tuple[tuple[int, ...], str]]:
-        """The index of each shot in error, and what is wrong with it."""
+        """The index of each shot that ended in an error, and the error."""
         return [(index, self._why(index)) for index in (tuple(int(k) for k in row) for row in np.argwhere(self.status < 0))]
 
     def _why(self, index: tuple[int, ...]) -> str:

@@ -84,17 +84,17 @@ def simulate(
     Parameters
     ----------
     table : Table
-        `carom.tables` has the usual ones.
+        `carom.tables` has the standard ones.
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
         1 to 32 of them, from `carom.racks` or `carom.balls`. Not changed.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
-        From `carom.cue`. There is no strike without it, at speed 0, or if a ball moves already.
+        From `carom.cue`. Without it, with speed 0, or if a ball moves already, there is no strike.
     world : {"carom", "pooltool"}
-        The rules of contact: those of carom, or pooltool's, for the same histories as pooltool's.
+        The rules of contact: carom's, or pooltool's, which give the histories of pooltool.
     ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
-        The collision of two balls; by default exact in the world carom, inelastic in pooltool.
+        Model of the collision of two balls. Default: exact in the world carom, inelastic in pooltool.
     cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
-        The impact on a cushion; by default mathavan in the world carom, stronge in pooltool. mathavan takes most of the time.
+        Model of the impact on a cushion. Default: mathavan in the world carom, where it takes most of the time; stronge in pooltool.
     friction : {"alciatore", "constant"}
         Between balls: by the speed of slip, or the balls' mu_ball.
     steps : int
