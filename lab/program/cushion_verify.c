@@ -1,13 +1,12 @@
 /* `carom-lab verify --cushion`: the exact limit against a reference, closed forms and Euler's steps against pooltool's records.
  */
 #include "accuracy.h"
+#include "cases.h"
 #include "command.h"
 #include "cushion_lab.h"
 #include "draws.h"
 #include "memory.h"
 #include "message.h"
-#include "number.h"
-#include "records.h"
 #include "reference.h"
 
 #include "carom_shot.h"
@@ -17,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_RECORDED = 4096, FIRST_NUMBER = 1, NUMBERS = 21, IN_NUMBERS = 15 };
+enum { MOST_RECORDED = 4096, NUMBERS = 21, IN_NUMBERS = 15 };
 static const double play_worst = 1e-6, any_worst = 1e-5, exact_median = 3e-9, record_worst = 1e-9, euler_worst = 1e-5;
 
 /* The errors of one comparison. */
@@ -90,10 +89,7 @@ static bool recorded(FILE *out, bool csv, const char *folder, const char *name, 
   read_result result = records != NULL ? record_next(records, &row) : READ_FAILED; /* the header */
   while (result == READ_ONE && (result = record_next(records, &row)) == READ_ONE && c.count < MOST_RECORDED) {
     double number[NUMBERS];
-    bool good = row.count == FIRST_NUMBER + NUMBERS;
-    for (int k = 0; k < NUMBERS && good; k++)
-      good = parse_number(row.field[FIRST_NUMBER + k], &number[k]);
-    if (!good) {
+    if (!numbers_of(&row, NUMBERS, number)) {
       complain("%s:%lld: not a recorded impact of %d numbers", path, row.line, NUMBERS);
       result = READ_FAILED;
       break;
