@@ -1,6 +1,7 @@
-/* Gives the command `carom` files made of the bytes of a fuzzer: CSV, .npy and JSON Lines, of collisions, impacts on cushions and shots. The
- * first byte chooses the command. Aborts if an exit code is none of the command's, if the output depends on the number of threads, or if a
- * file is refused and yet something is written. Crashes, hangs and undefined behaviour are for the fuzzer and the sanitizers to see. */
+/* Gives the command `carom` files made of the bytes of a fuzzer: CSV, .npy and JSON Lines, of collisions, impacts on cushions
+ * and shots. The first byte chooses the command. Aborts if an exit code is none of the command's, if the output depends on the
+ * number of threads, or if a file is refused and yet something is written. Crashes, hangs and undefined behaviour are for the
+ * fuzzer and the sanitizers to see. */
 #include "command.h"
 #include "subcommands.h"
 
