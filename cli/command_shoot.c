@@ -139,8 +139,7 @@ typedef struct drawing {
 static void draw(drawing *picture, const shot_line *line, const carom_shot *shot) {
   FILE *out = open_text(&picture->text, &picture->size);
   shot_draw(out, line, shot);
-  if (fclose(out) != 0)
-    out_of_memory();
+  close_text(out, &picture->text);
 }
 
 static void write_drawing(FILE *out, const void *data) {
