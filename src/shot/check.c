@@ -16,6 +16,12 @@ static bool unit_interval(double x) {
 static bool friction(double x) {
   return x > 0.0 && x <= 1.0;
 }
+static bool zero_or_positive(double x) {
+  return x >= 0.0 && x < INFINITY;
+}
+static bool is_flat(const carom_shot_options *o) {
+  return o->world == CAROM_WORLD_POOLTOOL || o->space == CAROM_SPACE_FLAT;
+}
 
 static carom_status check_options(const carom_shot_options *o) {
   bool reserved = false;
@@ -24,7 +30,8 @@ static carom_status check_options(const carom_shot_options *o) {
   const bool good = o->world >= 0 && o->world <= CAROM_WORLD_POOLTOOL && o->ball_model >= 0 &&
                     o->ball_model <= CAROM_BALL_MODEL_MIRROR && o->cushion_model >= 0 &&
                     o->cushion_model <= 1 + CAROM_CUSHION_EULER && o->friction >= 0 && o->friction <= CAROM_FRICTION_CONSTANT &&
-                    o->events_most >= 0 && o->unused == 0 && !reserved && o->time_most >= 0.0 && o->time_most < INFINITY;
+                    o->space >= 0 && o->space <= CAROM_SPACE_FLAT && o->events_most >= 0 && !reserved && o->time_most >= 0.0 &&
+                    o->time_most < INFINITY;
   if (!good)
     return CAROM_ERROR_SHOT_OPTIONS;
   if (o->steps < 0)
@@ -47,6 +54,8 @@ static carom_status check_table(const carom_table *t, int *where) {
   if (t->rails < 0 || t->rails > CAROM_RAILS_MOST || t->jaws < 0 || t->jaws > CAROM_JAWS_MOST || t->pockets < 0 ||
       t->pockets > CAROM_POCKETS_MOST || t->rails + t->jaws < 1)
     return CAROM_ERROR_TABLE;
+  if (!zero_or_positive(t->ball_radius) || !zero_or_positive(t->rail_width) || !zero_or_positive(t->pocket_back))
+    return CAROM_ERROR_TABLE;
   for (*where = 0; *where < t->rails; ++*where)
     if (!good_rail(&t->rail[*where]))
       return CAROM_ERROR_TABLE;
@@ -61,21 +70,31 @@ static carom_status check_table(const carom_table *t, int *where) {
   return CAROM_OK;
 }
 
-/* Prepares the table for balls of radius R, unless that has been done. */
-static carom_status prepare(const carom_table *t, double R, carom_features *features, int *where) {
+/* Prepares the table for the radii of the balls, unless that has been done. In flat play that is the radius of the first. */
+static carom_status prepare(const carom_table *t, const carom_shot_ball *balls, int count, bool flat, carom_features *features,
+                            int *where) {
+  double least = balls[0].kind.radius, greatest = least;
+  for (*where = 0; *where < (flat ? 1 : count); ++*where) {
+    const double R = balls[*where].kind.radius;
+    if (!positive(R))
+      return CAROM_ERROR_RADIUS;
+    least = carom_lesser(least, R);
+    greatest = carom_greater(greatest, R);
+  }
+  const double reference = flat ? least : t->ball_radius > 0.0 ? t->ball_radius : balls[count - 1].kind.radius;
   *where = 0;
-  if (features->radius == R)
+  if (features->radius == greatest && features->least == least && features->reference == reference)
     return CAROM_OK;
-  if (!positive(R))
-    return CAROM_ERROR_RADIUS;
-  /* every nose is above the cloth and below the top of a ball */
+  /* every nose is above the cloth and below the top of every ball */
+  const double lowest = carom_lesser(least, reference);
   for (*where = 0; *where < t->rails; ++*where)
-    if (!(t->rail[*where].height > 0.0 && t->rail[*where].height < 2.0 * R))
+    if (!(t->rail[*where].height > 0.0 && t->rail[*where].height < 2.0 * lowest))
       return CAROM_ERROR_NOSE_HEIGHT;
   for (*where = 0; *where < t->jaws; ++*where)
-    if (!(t->jaw[*where].height > 0.0 && t->jaw[*where].height < 2.0 * R))
+    if (!(t->jaw[*where].height > 0.0 && t->jaw[*where].height < 2.0 * lowest))
       return CAROM_ERROR_NOSE_HEIGHT;
-  carom_features_of(t, R, features);
+  carom_features_of(t, greatest, reference, features);
+  features->least = least;
   return CAROM_OK;
 }
 
@@ -91,7 +110,8 @@ static carom_status check_kind(const carom_ball_kind *k) {
   if (!unit_interval(k->mu_ball) || !(k->law_a >= 0.0 && k->law_b >= 0.0 && k->law_a + k->law_b <= 1.0) ||
       !(k->law_c >= 0.0 && k->law_c < INFINITY))
     return CAROM_ERROR_MU_BALL;
-  if (!unit_interval(k->restitution) || !unit_interval(k->restitution_cushion))
+  const bool slate = k->restitution_table == -1.0 || (k->restitution_table >= 0.0 && k->restitution_table <= 0.98);
+  if (!unit_interval(k->restitution) || !unit_interval(k->restitution_cushion) || !slate)
     return CAROM_ERROR_RESTITUTION;
   if (!unit_interval(k->mu_cushion))
     return CAROM_ERROR_MU_CUSHION;
@@ -105,8 +125,8 @@ static bool bounded(const double x[3], double most) {
   return fabs(x[0]) <= most && fabs(x[1]) <= most && fabs(x[2]) <= most;
 }
 
-static carom_status check_state(const carom_ball_state *s, double R) {
-  if (s->label < CAROM_BALL_STATIONARY || s->label > CAROM_BALL_POCKETED)
+static carom_status check_state(const carom_ball_state *s, double R, bool flat) {
+  if (s->label < CAROM_BALL_STATIONARY || s->label > (flat ? CAROM_BALL_POCKETED : CAROM_BALL_OFF))
     return CAROM_ERROR_LABEL;
   if (!bounded(s->r, 1e6))
     return CAROM_ERROR_POSITION;
@@ -114,8 +134,10 @@ static carom_status check_state(const carom_ball_state *s, double R) {
     return CAROM_ERROR_VELOCITY;
   if (!bounded(s->w, 1e6))
     return CAROM_ERROR_SPIN;
-  if (s->label == CAROM_BALL_POCKETED)
+  if (carom_is_out(s->label))
     return CAROM_OK;
+  if (!flat)
+    return s->r[2] - R >= -most_overlap ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
   if (s->v[2] != 0.0)
     return CAROM_ERROR_VERTICAL;
   return fabs(s->r[2] - R) <= most_overlap ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
@@ -170,21 +192,47 @@ static bool is_outside(const carom_table *table, const carom_features *f, const 
   return outside;
 }
 
-/* Whether the ball stands within the cushions, in no pocket. */
-static bool on_table(const carom_table *table, const carom_features *f, const double r[3], double R) {
-  bool good = r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
+static double distance_to(const carom_features *f, int rail, const double r[2]) {
+  return f->line[rail][0] * r[0] + f->line[rail][1] * r[1] + f->line[rail][2];
+}
+static bool is_beside(const carom_features *f, int rail, const double r[2]) {
+  const double place = f->along[rail][0] * r[0] + f->along[rail][1] * r[1] + f->along[rail][2];
+  return place >= 0.0 && place <= 1.0;
+}
+
+static bool is_in_hull(const carom_features *f, const double r[2]) {
+  return r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
+}
+static bool beyond_ends(const carom_features *f, const double r[2]) {
+  return f->rails > 0 && (r[0] < f->ends[0] || r[0] > f->ends[1] || r[1] < f->ends[2] || r[1] > f->ends[3]);
+}
+
+bool carom_place_is_outside(const carom_table *table, const carom_features *f, const double r[2]) {
+  if (!is_in_hull(f, r))
+    return true;
   /* only behind a rail, or beyond the ends of all rails, can it be outside */
-  bool behind = f->rails > 0 && (r[0] < f->ends[0] || r[0] > f->ends[1] || r[1] < f->ends[2] || r[1] > f->ends[3]);
+  bool behind = beyond_ends(f, r);
+  for (int k = 0; k < f->rails; k++)
+    behind |= is_beside(f, k, r) && distance_to(f, k, r) < 0.0;
+  return behind && is_outside(table, f, r);
+}
+
+/* Whether the ball, on the cloth, stands within the cushions, in no pocket. */
+static bool on_table(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
+  bool good = is_in_hull(f, r), behind = beyond_ends(f, r);
+  const double R = kind->radius;
+  const bool usual = R == f->reference;
   for (int k = 0; k < f->rails; k++) {
-    const double distance = f->line[k][0] * r[0] + f->line[k][1] * r[1] + f->line[k][2];
-    const double place = f->along[k][0] * r[0] + f->along[k][1] * r[1] + f->along[k][2];
-    const bool beside = place >= 0.0 && place <= 1.0;
-    good &= !(beside && distance < R - most_overlap && distance > -R);
+    const bool beside = is_beside(f, k, r);
+    const double distance = distance_to(f, k, r),
+                 reach = usual ? R : carom_reach_on_cloth(kind, table->rail[k].height, f->reference);
+    good &= !(beside && distance < reach - most_overlap && distance > -reach);
     behind |= beside && distance < 0.0;
   }
   for (int k = 0; k < f->jaws; k++) {
     const carom_jaw *jaw = &table->jaw[k];
-    const double d_x = r[0] - jaw->centre[0], d_y = r[1] - jaw->centre[1], reach = jaw->radius + R - most_overlap;
+    const double d_x = r[0] - jaw->centre[0], d_y = r[1] - jaw->centre[1];
+    const double reach = jaw->radius + (usual ? R : carom_reach_on_cloth(kind, jaw->height, f->reference)) - most_overlap;
     good &= d_x * d_x + d_y * d_y >= reach * reach;
   }
   for (int k = 0; k < f->pockets; k++) {
@@ -195,10 +243,47 @@ static bool on_table(const carom_table *table, const carom_features *f, const do
   return good && !(behind && is_outside(table, f, r));
 }
 
+/* Whether an airborne ball is clear of a nose that is `across` in front of it and `down` below its centre, or on its top. */
+static bool clear_of_nose(double across, double down, double R) {
+  const double reach = R - most_overlap;
+  return across >= 0.0 ? across * across + down * down >= reach * reach : down >= reach;
+}
+
+/* Whether an airborne ball is above the table or its rails, and in no cushion. Below the tops it must be within the cushions.
+ */
+static bool above_table(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
+  bool good =
+      r[2] >= carom_nose_height(kind, f->nose_low) + kind->radius - most_overlap || !carom_place_is_outside(table, f, r);
+  for (int axis = 0; axis < 2; axis++)
+    good &= r[axis] >= f->hull[2 * axis] - f->width && r[axis] <= f->hull[2 * axis + 1] + f->width;
+  for (int k = 0; k < f->rails; k++) {
+    const double h = carom_nose_height(kind, table->rail[k].height), across = distance_to(f, k, r);
+    if (is_beside(f, k, r) && across >= -f->width)
+      good &= clear_of_nose(across - carom_nose_shift(h, f->reference), r[2] - h, kind->radius);
+  }
+  for (int k = 0; k < f->jaws; k++) {
+    const carom_jaw *jaw = &table->jaw[k];
+    const double h = carom_nose_height(kind, jaw->height), d_x = r[0] - jaw->centre[0], d_y = r[1] - jaw->centre[1];
+    const double across = sqrt(d_x * d_x + d_y * d_y) - jaw->radius - carom_nose_shift(h, f->reference);
+    good &= clear_of_nose(across, r[2] - h, kind->radius);
+  }
+  return good;
+}
+
+/* Whether two balls overlap. What lies on the cloth is at z = R. */
+static bool overlap(const carom_shot_ball *a, const carom_ball_state *at_a, const carom_shot_ball *b,
+                    const carom_ball_state *at_b) {
+  const double z_a = at_a->label == CAROM_BALL_AIRBORNE ? at_a->r[2] : a->kind.radius,
+               z_b = at_b->label == CAROM_BALL_AIRBORNE ? at_b->r[2] : b->kind.radius;
+  const double x = at_a->r[0] - at_b->r[0], y = at_a->r[1] - at_b->r[1], z = z_a - z_b;
+  const double reach = a->kind.radius + b->kind.radius - most_overlap;
+  return x * x + y * y + z * z < reach * reach;
+}
+
 static carom_status check_cue(const carom_shot_ball *balls, int count, const carom_cue *cue) {
   if (cue == NULL || cue->speed == 0.0)
     return CAROM_OK;
-  if (cue->ball < 0 || cue->ball >= count || balls[cue->ball].state.label == CAROM_BALL_POCKETED)
+  if (cue->ball < 0 || cue->ball >= count || carom_is_out(balls[cue->ball].state.label))
     return CAROM_ERROR_CUE;
   return carom_check_cue(cue);
 }
@@ -213,32 +298,35 @@ carom_status carom_check_common(const carom_table *table, int count, const carom
 
 carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                 const carom_cue *cue, const carom_shot_options *opt, int *where) {
-  const double R = balls[0].kind.radius;
   const bool one_mass = opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
-  carom_status bad = prepare(table, R, features, where);
+  const bool flat = is_flat(opt);
+  carom_status bad = prepare(table, balls, count, flat, features, where);
   if (bad != CAROM_OK)
     return bad;
+  carom_ball_state state[CAROM_BALLS_MOST]; /* with the labels that they will have */
   for (*where = 0; *where < count; ++*where) {
     const carom_shot_ball *ball = &balls[*where];
     bad = check_kind(&ball->kind);
-    if (bad == CAROM_OK && ball->kind.radius != R)
+    if (bad == CAROM_OK && flat && ball->kind.radius != balls[0].kind.radius)
       bad = CAROM_ERROR_RADII_DIFFER;
+    if (bad == CAROM_OK && ball->kind.nose_height >= 2.0 * features->reference)
+      bad = CAROM_ERROR_BALL_CUSHION;
     if (bad == CAROM_OK && one_mass && ball->kind.mass != balls[0].kind.mass)
       bad = CAROM_ERROR_MASSES_DIFFER;
     if (bad == CAROM_OK)
-      bad = check_state(&ball->state, R);
+      bad = check_state(&ball->state, ball->kind.radius, flat);
     if (bad != CAROM_OK)
       return bad;
-    if (ball->state.label == CAROM_BALL_POCKETED)
+    carom_ball_state *s = &state[*where];
+    *s = ball->state;
+    if (carom_is_out(carom_label_of_layout(s, ball->kind.radius)))
       continue;
-    if (!on_table(table, features, ball->state.r, R))
+    if (s->label == CAROM_BALL_AIRBORNE ? !above_table(table, features, &ball->kind, s->r)
+                                        : !on_table(table, features, &ball->kind, s->r))
       return CAROM_ERROR_OFF_TABLE;
-    const double reach = 2.0 * R - most_overlap;
-    for (int k = 0; k < *where; k++) {
-      const double x = balls[k].state.r[0] - ball->state.r[0], y = balls[k].state.r[1] - ball->state.r[1];
-      if (x * x + y * y < reach * reach && balls[k].state.label != CAROM_BALL_POCKETED)
+    for (int k = 0; k < *where; k++)
+      if (!carom_is_out(state[k].label) && overlap(ball, s, &balls[k], &state[k]))
         return CAROM_ERROR_OVERLAP;
-    }
   }
   *where = -1;
   return check_cue(balls, count, cue);

@@ -113,8 +113,18 @@ static quartic squared(const carom_separation *d, double reach) {
                     a[0] * a[0] + a[1] * a[1]}};
 }
 
-double carom_first_contact(const carom_separation *d, double reach, double slack, double horizon) {
-  quartic f = squared(d, reach);
+/* What the third coordinate adds. */
+static void add_height(const carom_separation *d, quartic *f) {
+  const double p = d->d0[2], v = d->d1[2], a = d->d2[2];
+  f->c[0] += p * p;
+  f->c[1] += 2.0 * p * v;
+  f->c[2] += v * v + 2.0 * p * a;
+  f->c[3] += 2.0 * v * a;
+  f->c[4] += a * a;
+}
+
+/* The first contact of things whose squared distance is f + reach^2. */
+static inline double first_contact(quartic f, double reach, double slack, double horizon) {
   const double small = 1e-12 * reach * reach;
   if (f.c[0] > 2.0 * reach * slack)
     return zero_from_left(&f, 0.0, horizon, small);
@@ -126,6 +136,16 @@ double carom_first_contact(const carom_separation *d, double reach, double slack
     return INFINITY;
   f.c[0] += carom_greater(2.0 * reach * slack - value(&f, turn), 0.0);
   return zero_from_left(&f, turn, horizon, small);
+}
+
+double carom_first_contact(const carom_separation *d, double reach, double slack, double horizon) {
+  return first_contact(squared(d, reach), reach, slack, horizon);
+}
+
+double carom_first_contact_in_space(const carom_separation *d, double reach, double slack, double horizon) {
+  quartic f = squared(d, reach);
+  add_height(d, &f);
+  return first_contact(f, reach, slack, horizon);
 }
 
 double carom_first_crossing(const carom_separation *d, double reach, double horizon) {

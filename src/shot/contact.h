@@ -10,9 +10,9 @@
 /* Touching things that close at less than this, m/s, do so by rounding. */
 #define CAROM_NO_SPEED 1e-11
 
-/* d(t) = d0 + d1 t + d2 t^2: from one centre to the other. */
+/* d(t) = d0 + d1 t + d2 t^2: from one centre to the other. The third coordinate is read only where a function says so. */
 typedef struct carom_separation {
-  double d0[2], d1[2], d2[2];
+  double d0[3], d1[3], d2[3];
 } carom_separation;
 
 /* The first time in [0, horizon] when |d(t)| = reach, or infinity: coming from outside, or, if the start is inside, going out.
@@ -22,6 +22,9 @@ double carom_first_crossing(const carom_separation *d, double reach, double hori
 /* The first time in [0, horizon] when |d(t)| <= reach and falling, or infinity. `slack`, m: a start with a gap up to that,
  * closing, is a contact now; one that does not close is in contact where the gap has fallen by that from its greatest. */
 double carom_first_contact(const carom_separation *d, double reach, double slack, double horizon);
+
+/* The same in space, with the third coordinate. */
+double carom_first_contact_in_space(const carom_separation *d, double reach, double slack, double horizon);
 
 /* The same for a gap of g[0] + g[1] t + g[2] t^2: the first time when it is <= 0 and falling. */
 double carom_first_touch(const double g[3], double slack, double horizon);

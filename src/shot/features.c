@@ -1,5 +1,5 @@
-/* What balls of one radius can meet on a table, prepared once for all shots that share both: lines with unit normals, boxes for
- * rejection, and the hull outside of which no centre has a place. */
+/* What balls up to a radius can meet on a table, prepared once for all shots that share both: lines with unit normals, boxes
+ * for rejection, and the hull outside of which no centre has a place. */
 #include "shot/sim.h"
 
 #include <math.h>
@@ -38,15 +38,31 @@ static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
   f->along[k][2] = -(e_x * p[0] + e_y * p[1]) / size2;
 }
 
-void carom_features_of(const carom_table *table, double radius, carom_features *f) {
+/* The noses' heights, and what the table leaves to defaults. */
+static void prepare_heights(const carom_table *table, carom_features *f) {
+  double high = 0.0;
+  f->nose_low = INFINITY;
+  for (int k = 0; k < f->rails + f->jaws; k++) {
+    const double h = k < f->rails ? table->rail[k].height : table->jaw[k - f->rails].height;
+    f->nose_low = carom_lesser(f->nose_low, h);
+    high = carom_greater(high, h);
+  }
+  f->width = table->rail_width > 0.0 ? table->rail_width : 0.12;
+  f->pocket_back = table->pocket_back > 0.0 ? table->pocket_back : high;
+}
+
+void carom_features_of(const carom_table *table, double radius, double reference, carom_features *f) {
   f->radius = radius;
+  f->reference = reference;
   f->rails = (int)table->rails;
   f->jaws = (int)table->jaws;
   f->pockets = (int)table->pockets;
   f->count = f->rails + f->jaws + f->pockets;
   f->hull[0] = f->hull[2] = INFINITY;
   f->hull[1] = f->hull[3] = -INFINITY;
-  /* what is met by a ball's surface reaches as far as its radius */
+  prepare_heights(table, f);
+  /* what is met by a ball's surface reaches as far as its radius, and the radius of the table's balls where that is greater */
+  radius = carom_greater(radius, reference);
   int at = 0;
   for (int k = 0; k < f->rails; k++, at++) {
     prepare_rail(&table->rail[k], k, f);
