@@ -77,7 +77,8 @@ static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
       !json_get_number(params, key, "law_a", &kind->law_a, f) || !json_get_number(params, key, "law_b", &kind->law_b, f) ||
       !json_get_number(params, key, "law_c", &kind->law_c, f) ||
       !json_get_number(params, key, "nose_height", &kind->nose_height, f) ||
-      !json_get_number(params, key, "omega_ratio", &kind->omega_ratio, f))
+      !json_get_number(params, key, "omega_ratio", &kind->omega_ratio, f) ||
+      !json_get_number(params, key, "e_t", &kind->restitution_table, f))
     return false;
   if (!isnan(spin))
     kind->mu_spin = spin;
@@ -88,7 +89,7 @@ static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
   if (!json_get_numbers(json_object_get(v, "state"), key, 10, state, f))
     return false;
   if (!(state[0] >= 0.0 && state[0] <= 9.0))
-    return json_wrong(f, "%s[0] must be a label, 0 to 4", key);
+    return json_wrong(f, "%s[0] must be a label, 0 to 6", key);
   carom_ball_state *s = &line->ball[k].state;
   *s = (carom_ball_state){.r = {state[1], state[2], state[3]},
                           .v = {state[4], state[5], state[6]},
@@ -110,7 +111,7 @@ static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
       !json_get_number(v, "cue.", "theta", &cue->theta, f) || !json_get_number(v, "cue.", "a", &cue->a, f) ||
       !json_get_number(v, "cue.", "b", &cue->b, f) || !json_get_number(v, "cue.", "M", &cue->mass, f) ||
       !json_get_number(v, "cue.", "end_mass", &cue->end_mass, f) ||
-      !json_get_number(v, "cue.", "tip_radius", &cue->tip_radius, f))
+      !json_get_number(v, "cue.", "tip_radius", &cue->tip_radius, f) || !json_get_number(v, "cue.", "miscue", &cue->miscue, f))
     return false;
   const json_t *ball = json_object_get(v, "ball");
   if (ball == NULL)

@@ -62,7 +62,10 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
   char where[64];
   carom_table *table = &t->table;
   if (!json_get_id(json, "", &t->id, f) || !json_get_number(json, "", "w", &table->width, f) ||
-      !json_get_number(json, "", "l", &table->length, f) || !json_get_list(json, "linear", CAROM_RAILS_MOST, &list, f))
+      !json_get_number(json, "", "l", &table->length, f) || !json_get_number(json, "", "ball_radius", &table->ball_radius, f) ||
+      !json_get_number(json, "", "rail_width", &table->rail_width, f) ||
+      !json_get_number(json, "", "pocket_back", &table->pocket_back, f) ||
+      !json_get_list(json, "linear", CAROM_RAILS_MOST, &list, f))
     return false;
   json_array_foreach((json_t *)list, k, v) {
     snprintf(where, sizeof where, "linear[%zu].", k);
