@@ -142,15 +142,31 @@ static bool beside(const double along[3], const flight *f, double t) {
   return place >= 0.0 && place <= 1.0;
 }
 
+/* The part of [0, T] in which the ball is between the ends of a rail: place is linear in t. False where there is none. */
+static bool while_beside(const double along[3], const flight *f, double T, double window[2]) {
+  const double place = across(along, f, 0.0), speed = along[0] * f->v[0] + along[1] * f->v[1];
+  window[0] = 0.0;
+  window[1] = T;
+  if (speed == 0.0)
+    return place >= 0.0 && place <= 1.0;
+  const double at_p = -place / speed, at_q = (1.0 - place) / speed;
+  window[0] = carom_greater(0.0, carom_lesser(at_p, at_q));
+  window[1] = carom_lesser(T, carom_greater(at_p, at_q));
+  return window[0] <= window[1];
+}
+
 static double meet_rail(const carom_features *features, int k, double height, double shift, const flight *f, double T) {
-  const double *line = features->line[k], z = f->r[2] - height;
-  const carom_separation d = {
-      {across(line, f, 0.0) - shift, z, 0.0}, {line[0] * f->v[0] + line[1] * f->v[1], f->v[2], 0.0}, {0.0, -0.5 * f->g, 0.0}};
+  double window[2];
+  if (!while_beside(features->along[k], f, T, window))
+    return INFINITY;
+  const double *line = features->line[k], from = window[0], z = height_at(f, from) - height;
+  const carom_separation d = {{across(line, f, from) - shift, z, 0.0},
+                              {line[0] * f->v[0] + line[1] * f->v[1], f->v[2] - f->g * from, 0.0},
+                              {0.0, -0.5 * f->g, 0.0}};
   const double reach = f->radius - behind;
   if (d.d0[0] * d.d0[0] + z * z < reach * reach)
     return INFINITY;
-  const double t = carom_first_contact(&d, f->radius, slack, T);
-  return t <= T && beside(features->along[k], f, t) ? t : INFINITY;
+  return from + carom_first_contact(&d, f->radius, slack, window[1] - from);
 }
 
 /* When the ball falls on a plane; *lies becomes whether it lies on it now. */
@@ -177,12 +193,12 @@ static bool near(const carom_features *f, int k, const float box[4]) {
   return f->low_x[k] <= box[1] && f->high_x[k] >= box[0] && f->low_y[k] <= box[3] && f->high_y[k] >= box[2];
 }
 
-/* The box of the track from above, in single precision, which those of the features allow for. */
-static void box_of(const flight *f, double T, float box[4]) {
+/* The box of the track from above and `more` around it, in single precision, which those of the features allow for. */
+static void box_of(const flight *f, double T, double more, float box[4]) {
   for (int k = 0; k < 2; k++) {
     const double end = f->r[k] + T * f->v[k];
-    box[2 * k] = (float)carom_lesser(f->r[k], end);
-    box[2 * k + 1] = (float)carom_greater(f->r[k], end);
+    box[2 * k] = (float)(carom_lesser(f->r[k], end) - more);
+    box[2 * k + 1] = (float)(carom_greater(f->r[k], end) + more);
   }
 }
 
@@ -215,7 +231,7 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
   const double low = carom_nose_height(kind, features->nose_low), rise = f->v[2] > 0.0 ? 0.5 * f->v[2] * f->v[2] / f->g : 0.0;
   const bool above = f->r[2] + rise >= low + f->radius - on_top; /* it is or comes to be higher than a rail */
   float box[4];
-  box_of(f, *T, box);
+  box_of(f, *T, features->reference, box); /* noses are inside their walls, by less than that */
   for (int k = 0; k < features->rails + features->jaws; k++) {
     const bool is_near = near(features, k, box);
     if (!above && !is_near)
@@ -242,7 +258,7 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
 static void meet_pockets(const carom_sim *sim, const flight *f, double landing, carom_meeting *first, double *T) {
   const carom_features *features = sim->features;
   float box[4];
-  box_of(f, *T, box);
+  box_of(f, *T, 0.0, box);
   for (int k = 0; k < features->pockets; k++) {
     const carom_pocket *pocket = &sim->table->pocket[k];
     double over[2];
