@@ -61,8 +61,9 @@ void carom_features_of(const carom_table *table, double radius, double reference
   f->hull[0] = f->hull[2] = INFINITY;
   f->hull[1] = f->hull[3] = -INFINITY;
   prepare_heights(table, f);
-  /* what is met by a ball's surface reaches as far as its radius, and the radius of the table's balls where that is greater */
-  radius = carom_greater(radius, reference);
+  /* what is met by a ball's surface reaches as far as its radius; of a ball larger than those of the table farther (nose.c) */
+  if (radius != reference)
+    radius += reference;
   int at = 0;
   for (int k = 0; k < f->rails; k++, at++) {
     prepare_rail(&table->rail[k], k, f);
