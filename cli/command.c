@@ -2,10 +2,8 @@
 #include "command.h"
 
 #include "carom.h"
-#include "memory.h"
 #include "message.h"
 #include "output.h"
-#include "suggest.h"
 
 #include <fcntl.h>
 #include <stdbool.h>
@@ -14,38 +12,12 @@
 #include <string.h>
 #include <unistd.h>
 
-static void print_help(FILE *to, const void *of) {
-  const program *p = of;
+static void print_help(FILE *to, const program *p) {
   fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n\ncommands:\n", p->name, p->about);
   for (size_t k = 0; k < p->count; k++)
     fprintf(to, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
   fprintf(to, "\n`%s COMMAND --help` tells the arguments of each,\n`%s --version` the version.\n\nexample:\n  %s\n", p->name,
           p->name, p->example);
-}
-
-/* Text for roff: what its lines would take for requests and escapes is put right. */
-static void print_roff(const char *text) {
-  for (bool first = true; *text != '\0'; first = *text == '\n', text++) {
-    if (first && (*text == '.' || *text == '\''))
-      fputs("\\&", stdout);
-    fputs(*text == '\\' ? "\\e" : *text == '-' ? "\\-" : (const char[]){*text, '\0'}, stdout);
-  }
-}
-
-void print_manual(const char *name, const char *about, void (*print)(FILE *out, const void *of), const void *of) {
-  char *help;
-  size_t size;
-  FILE *out = open_memstream(&help, &size);
-  if (out == NULL)
-    out_of_memory();
-  print(out, of);
-  fclose(out);
-  printf(".TH %s 1 \"\" \"carom %s\"\n.SH NAME\n", name, carom_version());
-  print_roff(name);
-  printf(" \\- %.*s\n.SH DESCRIPTION\n.nf\n", (int)strcspn(about, ".\n"), about);
-  print_roff(help);
-  puts(".fi");
-  free(help);
 }
 
 /* What could not be written was not said, so the run was not good. */
@@ -100,10 +72,6 @@ int program_run(const program *p, int argc, char **argv) {
     print_help(stdout, p);
     return finish(EXIT_GOOD);
   }
-  if (strcmp(name, "--man") == 0) {
-    print_manual(p->name, p->about, print_help, p);
-    return finish(EXIT_GOOD);
-  }
   if (strcmp(name, "--version") == 0) {
     printf("%s %s\n", p->name, carom_version());
     return finish(EXIT_GOOD);
@@ -113,17 +81,6 @@ int program_run(const program *p, int argc, char **argv) {
   for (size_t k = 0; k < p->count; k++)
     if (strcmp(name, p->commands[k].name) == 0)
       return finish(p->commands[k].run(argc - 1, argv + 1));
-  for (size_t k = 0; k < p->count; k++)
-    if (resembles(name, p->commands[k].name)) {
-      complain("no command '%s'; is '%s' meant?", name, p->commands[k].name);
-      return EXIT_USAGE;
-    }
-  static const char *const own[] = {"--help", "--version"};
-  for (size_t k = 0; k < sizeof own / sizeof own[0]; k++)
-    if (resembles(name, own[k])) {
-      complain("no command '%s'; is '%s' meant?", name, own[k]);
-      return EXIT_USAGE;
-    }
   complain("no command '%s'; `%s --help` lists them", name, p->name);
   return EXIT_USAGE;
 }

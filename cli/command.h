@@ -3,7 +3,6 @@
 #define CAROM_CLI_COMMAND_H
 
 #include <stddef.h>
-#include <stdio.h>
 
 enum {
   EXIT_GOOD = 0,  /* all went well */
@@ -25,9 +24,5 @@ typedef struct program {
 /* Finds the subcommand and hands over: the program's main(). The locale is never set, so numbers are read and written with a
  * point whatever the environment says. */
 int program_run(const program *p, int argc, char **argv);
-
-/* Prints the page NAME(1) of the manual, which is the help that `print` writes of what it is given; the first sentence of
- * `about` stands behind the name. */
-void print_manual(const char *name, const char *about, void (*print)(FILE *out, const void *of), const void *of);
 
 #endif

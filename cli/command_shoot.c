@@ -4,6 +4,7 @@
 #include "message.h"
 #include "options.h"
 #include "output.h"
+#include "picture.h"
 #include "shot_file.h"
 #include "shot_picture.h"
 #include "subcommands.h"
@@ -51,15 +52,15 @@ OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_co
        "a shot is stopped after so many events (default 10000)");
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
        "a shot is stopped after so much time of its clock (default 1000)");
-OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT.svg", set_svg, 0,
+OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
        "draw the table and the balls' paths, of the first shot without an error; from the side too where a ball flies");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
 
 static carom_shot_options options_of(const shoot_job *job) {
-  return (carom_shot_options){.world = job->world,
-                              .ball_model = job->ball_model,
-                              .cushion_model = job->cushion,
-                              .space = job->space,
+  return (carom_shot_options){.world = (carom_world)job->world,
+                              .ball_model = (carom_ball_model)job->ball_model,
+                              .cushion_model = (carom_shot_cushion)job->cushion,
+                              .space = (carom_space)job->space,
                               .steps = job->shared.options.steps,
                               .events_most = job->events_most,
                               .threads = job->shared.options.threads,
@@ -74,8 +75,17 @@ static void play(block *b, int from, int end, const carom_shot_options *options)
     memcpy(b->ball + k * count, b->line[from + k].ball, (size_t)count * sizeof *b->ball);
     b->cue[k] = b->line[from + k].cue;
   }
-  carom_status bad = carom_shoot_batch(&first->table->table, b->ball, count, 0, b->cue, 0, (size_t)n, options, b->shot + from,
-                                       b->batch_status);
+  const carom_shot_job job = {.table = &first->table->table,
+                              .balls = b->ball,
+                              .cues = b->cue,
+                              .count = count,
+                              .ball_stride = (uint64_t)count,
+                              .cue_stride = 1,
+                              .n = (uint64_t)n,
+                              .options = options,
+                              .shots = b->shot + from,
+                              .status = b->batch_status};
+  const carom_status bad = carom_shoot_batch(&job);
   for (int k = 0; k < n; k++) {
     carom_shot *shot = &b->shot[from + k];
     carom_status *status = &b->status[from + k];
@@ -129,21 +139,15 @@ typedef struct drawing {
 } drawing;
 
 static void draw(drawing *picture, const shot_line *line, const carom_shot *shot) {
-  FILE *out = open_memstream(&picture->text, &picture->size);
-  if (out == NULL)
-    out_of_memory();
-  shot_draw(out, line, shot, NULL);
+  FILE *out = open_text(&picture->text, &picture->size);
+  shot_draw(out, line, shot);
   if (fclose(out) != 0)
     out_of_memory();
 }
 
-/* False after a complaint. */
-static bool put_picture(const char *path, const drawing *picture) {
-  FILE *out = output_open(path);
-  if (out == NULL)
-    return false;
+static void write_drawing(FILE *out, const void *data) {
+  const drawing *picture = data;
   fwrite(picture->text, 1, picture->size, out);
-  return output_commit();
 }
 
 /* Plays what has been read and writes it; returns whether all was good. */
@@ -275,7 +279,7 @@ int command_shoot(int argc, char **argv) {
     output_abandon();
   else if (out != NULL && !output_commit())
     code = EXIT_USAGE;
-  else if (picture.text != NULL && !put_picture(job.plot, &picture))
+  else if (picture.text != NULL && !svg_draw(job.plot, write_drawing, &picture))
     code = EXIT_SOME;
   free(picture.text);
   return code;

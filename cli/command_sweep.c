@@ -1,5 +1,6 @@
 /* `carom sweep`: some rows over and over, one of their inputs varied in fine steps. */
 #include "command.h"
+#include "derived.h"
 #include "message.h"
 #include "number.h"
 #include "output.h"
@@ -24,7 +25,7 @@ typedef struct sweep {
   const char *over;
   double from, to;
   int points;
-  bool brief;
+  bool brief, only_rows;
   const char *picture;
 } sweep;
 
@@ -40,6 +41,13 @@ typedef struct outcome {
   double speed[MOST_RESULTS]; /* the results, spins times radius */
 } outcome;
 
+/* Turns a point about the vertical through another. */
+static void turn(double *r, const double *centre, double degrees) {
+  const double angle = degrees * degree, x = r[0] - centre[0], y = r[1] - centre[1];
+  r[0] = centre[0] + x * cos(angle) - y * sin(angle);
+  r[1] = centre[1] + x * sin(angle) + y * cos(angle);
+}
+
 /* Puts the value into the row: into the number of that column, or into all that the word stands for. */
 static void vary(const sweep *s, double *row, double value) {
   const row_kind *kind = s->kind;
@@ -47,21 +55,29 @@ static void vary(const sweep *s, double *row, double value) {
     if (kind_fills(kind, k, s->over))
       row[k] = value;
   if (strcmp(s->over, kind->turning) == 0)
-    kind->turn(row, value);
-  /* All velocities, and the spins behind them. */
+    turn(row + kind->direction[1], kind->direction[0] >= 0 ? row + kind->direction[0] : (const double[2]){0.0}, value);
+  /* All velocities, and the spins behind them, as those of the first ball. */
+  const double *v = row + kind->motion[0], share = value / hypot(v[0], v[1]);
   for (int ball = 0; ball < 2 && strcmp(s->over, "speed") == 0 && kind->motion[ball] >= 0; ball++)
     for (int k = 0; k < 6; k++)
-      row[kind->motion[ball] + k] *= value;
+      row[kind->motion[ball] + k] *= share;
   if (kind->prepare != NULL)
     kind->prepare(&s->asked, row);
 }
 
+/* Makes the row of a point; returns the value that is varied. */
+static double make_row(const curve *c, int point, double row[MOST_NUMBERS]) {
+  const sweep *s = c->s;
+  const double value = s->from + (s->to - s->from) * ((double)point / (s->points - 1));
+  memcpy(row, s->rows[c->row], MOST_NUMBERS * sizeof *row);
+  vary(s, row, value);
+  return value;
+}
+
 static outcome resolve(const curve *c, int point) {
   const sweep *s = c->s;
-  outcome o = {.value = s->from + (s->to - s->from) * ((double)point / (s->points - 1))};
   double row[MOST_NUMBERS];
-  memcpy(row, s->rows[c->row], sizeof row);
-  vary(s, row, o.value);
+  outcome o = {.value = make_row(c, point, row)};
   o.status = s->kind->look(&s->asked, c->variant, row, o.result, o.lead, &o.tail);
   for (int k = 0; k < s->kind->results; k++) {
     o.speed[k] = o.result[k] * (k / 3 % 2 == 1 ? row[s->kind->radius] : 1.0);
@@ -119,6 +135,30 @@ static int print_curve(FILE *out, const curve *c, double done, double total) {
   return errors;
 }
 
+/* The rows themselves, as `carom resolve` reads them; the id of each with the value. */
+static void print_rows(FILE *out, const sweep *s) {
+  write_row_header(out, s->kind);
+  for (int k = 0; k < s->id_count * s->points; k++) {
+    double row[MOST_NUMBERS];
+    char id[256], number[NUMBER_TEXT];
+    const double value = make_row(&(curve){s, k / s->points, 0}, k % s->points, row);
+    snprintf(id, sizeof id, "%.200s:%s", s->id[k / s->points], number_text(value, number));
+    write_row(out, s->kind, id, row);
+  }
+}
+
+/* What is swept, on an axis. */
+static const char *axis_of(const sweep *s) {
+  static const char *const axes[][2] = {{"cut", "line of centres turned by (degrees)"},
+                                        {"angle", "cushion turned by (degrees)"},
+                                        {"speed", "speed (m/s)"},
+                                        {"w1z", "side spin of ball 1 (rad/s)"}};
+  for (size_t k = 0; k < sizeof axes / sizeof axes[0]; k++)
+    if (strcmp(s->over, axes[k][0]) == 0)
+      return axes[k][1];
+  return s->over;
+}
+
 /* Returns how many values made an error. */
 static int print_sweep(FILE *out, sweep *s) {
   const int variants = variants_of(&s->asked);
@@ -127,8 +167,11 @@ static int print_sweep(FILE *out, sweep *s) {
   double done = 0.0;
   /* The notes are of the first row. */
   s->asked.id = s->id[0];
-  s->kind->describe(out, &s->asked, s->rows[0]);
-  fprintf(out, "# over: %s\n%s,value,%sjump,%s%sstatus,%s,id\n", s->over, s->kind->which, s->kind->lead_columns,
+  if (!s->asked.bare) {
+    s->kind->describe(out, &s->asked, s->rows[0]);
+    fprintf(out, "# over: %s\n", s->over);
+  }
+  fprintf(out, "%s,value,%sjump,%s%sstatus,%s,id\n", s->kind->which, s->kind->lead_columns,
           s->brief ? "" : s->kind->result_columns, s->brief ? "" : ",", s->kind->tail_columns);
   for (int row = 0; row < s->id_count; row++)
     for (int variant = 0; variant < variants; variant++, done += s->points)
@@ -136,12 +179,21 @@ static int print_sweep(FILE *out, sweep *s) {
   return errors;
 }
 
-/* For the picture: of these points an SVG can show all. */
+/* The data of figures/curves.gp: of these points an SVG can show all. */
 static void print_plotted(FILE *out, const void *data) {
   sweep s = *(const sweep *)data;
+  const int variants = variants_of(&s.asked);
   s.points = s.points < PLOTTED ? s.points : PLOTTED;
-  s.brief = true;
-  print_sweep(out, &s);
+  fprintf(out, "# x: %s\n# y: %s\n", axis_of(&s), s.kind->axis);
+  for (int k = 0; k < s.id_count * variants; k++)
+    fprintf(out, "# curve %d: %s%s%s\n", k + 1, s.id[k / variants], variants > 1 ? ", " : "",
+            variants > 1 ? s.kind->name(&s.asked, k % variants) : "");
+  fputs("curve,x,y\n", out);
+  for (int k = 0; k < s.id_count * variants; k++)
+    for (int point = 0; point < s.points; point++) {
+      const outcome o = resolve(&(curve){&s, k / variants, k % variants}, point);
+      fprintf(out, "%d,%.9g,%.9g\n", k + 1, o.value, s.kind->lead > 0 ? o.lead[0] : o.tail);
+    }
 }
 
 /* Cuts the ids apart; false after a complaint. */
@@ -163,6 +215,11 @@ static bool can_vary(const sweep *s) {
     complain("--over is one of %s, not '%s'", s->kind->inputs, s->over);
     return false;
   }
+  for (int k = 0; k < s->id_count; k++)
+    if (strcmp(s->over, "speed") == 0 && hypot(s->rows[k][s->kind->motion[0]], s->rows[k][s->kind->motion[0] + 1]) == 0.0) {
+      complain("--over speed needs a ball that moves: in row '%s' the first one is at rest", s->id[k]);
+      return false;
+    }
   if (s->asked.friction.given && strcmp(s->over, "u_b") == 0) {
     complain("--over u_b has no effect with --friction, which says what u_b is");
     return false;
@@ -170,29 +227,17 @@ static bool can_vary(const sweep *s) {
   return true;
 }
 
-/* Says so where the friction of a row is that of the usual law at its own slip, which changes with what is varied, and yet
- * stays. */
+/* Friction that depends on the slip, which changes with what is varied, is a number here unless a law is given. */
 static void warn_of_constant(const sweep *s) {
-  shared_options by_law = s->asked;
-  by_law.friction = (friction_law){.given = true, .law = carom_alciatore()};
-  if (s->asked.friction.given || s->kind->prepare == NULL ||
-      place_among("M M1 M2 u_s u_s1 u_s2 u_b e_b", s->over, strlen(s->over)) >= 0)
-    return;
-  for (int k = 0; k < s->id_count; k++) {
-    double row[MOST_NUMBERS];
-    memcpy(row, s->rows[k], sizeof row);
-    s->kind->prepare(&by_law, row);
-    for (int number = 0; number < s->kind->numbers; number++)
-      if (row[number] != s->rows[k][number])
-        return;
-  }
-  complain("u_b follows alciatore's law in these rows, but stays constant here; --friction alciatore applies the law to every "
-           "value");
+  if (s->kind->prepare != NULL && !s->asked.friction.given &&
+      place_among("cut speed v1x v1y w1x w1y w1z v2x v2y w2x w2y w2z", s->over, strlen(s->over)) >= 0)
+    complain("u_b stays constant; that of real balls depends on their slip: --friction alciatore applies such a law to every "
+             "value");
 }
 
 OPTION(sweep, option_over, "over", over, 0, "INPUT", set_text, 0,
        "what to vary: a column, such as w1z, u_b or e_b; cut, to turn the line of centres by so many degrees, with --cushion "
-       "angle, to turn the cushion; or speed, to multiply all velocities and spins");
+       "angle, to turn the cushion; or speed, m/s, of the first ball, with which all velocities and spins change");
 OPTION(sweep, option_from, "from", from, 0, "A", set_number, 0, "its first value");
 OPTION(sweep, option_to, "to", to, 0, "B", set_number, 0, "its last value");
 OPTION(sweep, option_points, "points", points, 0, "N", set_count, 2, "how many, 2 or more (default 10001)");
@@ -203,6 +248,9 @@ OPTION(sweep, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
        "OUT.png; the CSV is then written only with -o");
 OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0, "without the columns v1x to w2z, or vx to wz");
 
+OPTION(sweep, option_rows, "rows", only_rows, 0, NULL, set_flag, 0,
+       "write the rows swept, as `carom resolve` reads them, instead of what comes of them");
+
 static const command_form form = {
     .name = "sweep",
     .usage = "--id X --over INPUT --from A --to B [OPTIONS] [FILE]",
@@ -210,11 +258,17 @@ static const command_form form = {
         "Resolves one collision many times, with --cushion one impact on a cushion, INPUT taking equally spaced values from "
         "A to B. FILE is what `carom resolve` reads, - for CSV on standard input; default: the 204 reference "
         "collisions.\n",
-    .options =
-        (const option_row *const[]){&option_ids,    &option_over,       &option_from,  &option_to,         &option_cushion,
-                                    &option_points, &option_steps,      &option_brief, &option_plot,       &option_strict,
-                                    &option_output, &option_solvers,    &option_slip,  &option_friction,   &option_data,
-                                    &option_model,  &option_convention, &option_law,   &option_least_step, NULL},
+    .options = (const option_row *const[]){&option_ids,        &option_over,
+                                           &option_from,       &option_to,
+                                           &option_cushion,    &option_points,
+                                           &option_steps,      &option_brief,
+                                           &option_rows,       &option_bare,
+                                           &option_plot,       &option_strict,
+                                           &option_output,     &option_solvers,
+                                           &option_slip,       &option_friction,
+                                           &option_data,       &option_model,
+                                           &option_convention, &option_law,
+                                           &option_least_step, NULL},
     .details =
         "columns written:\n"
         "  solver, value        of the input; with --cushion model, value\n"
@@ -246,7 +300,7 @@ int command_sweep(int argc, char **argv) {
     return usage_hint(&form);
   }
   s.kind = kind_of(&s.asked);
-  if (!can_vary(&s) || !pick_rows(&s.asked, file, s.id, (size_t)s.id_count, s.rows))
+  if (!output_possible(s.picture) || !pick_rows(&s.asked, file, s.id, (size_t)s.id_count, s.rows) || !can_vary(&s))
     return EXIT_USAGE;
   warn_of_constant(&s);
   /* The CSV, unless only the picture is asked for. */
@@ -255,10 +309,13 @@ int command_sweep(int argc, char **argv) {
     FILE *out = output_open(s.asked.output != NULL ? s.asked.output : "-");
     if (out == NULL)
       return EXIT_USAGE;
-    errors = print_sweep(out, &s);
+    if (s.only_rows)
+      print_rows(out, &s);
+    else
+      errors = print_sweep(out, &s);
     if (!output_commit())
       return EXIT_USAGE;
   }
-  const bool drawn = s.picture == NULL || picture_draw(s.picture, "sweep", s.kind->title, print_plotted, &s);
+  const bool drawn = s.picture == NULL || picture_draw(s.picture, "curves", s.kind->title, print_plotted, &s);
   return errors > 0 || !drawn ? EXIT_SOME : EXIT_GOOD;
 }

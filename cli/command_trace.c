@@ -43,15 +43,20 @@ static double end_of_compression(const trace *t) {
   return (double)NAN;
 }
 
-static void print_trace(FILE *out, const void *data) {
-  const trace *t = data;
+/* What it is, as notes before the header. */
+static void print_notes(FILE *out, const trace *t) {
   double stuck[2];
-  /* What it is, as notes before the header. */
   t->kind->describe(out, &t->asked, t->row);
   t->kind->stuck(&t->asked, t->row, t->points, t->point, stuck);
   fprintf(out, "# compression ends: %.6g\n", end_of_compression(t));
   for (int k = 0; k < 2 && t->kind->contacts[k] != NULL; k++)
     fprintf(out, "# %s: %.6g\n", t->kind->contacts[k], stuck[k]);
+}
+
+static void print_trace(FILE *out, const void *data) {
+  const trace *t = data;
+  if (!t->asked.bare)
+    print_notes(out, t);
   /* The points of each variant. */
   fprintf(out, "%s,impulse_N_s,work_J,phase,%s,%s\n", t->kind->which, t->kind->trace_columns, t->kind->result_columns);
   for (int variant = 0; variant < variants_of(&t->asked); variant++)
@@ -96,9 +101,11 @@ static int write_trace(const trace *t) {
     complain("cannot draw %s: there is no %s to draw", t->picture, t->kind->noun);
     return EXIT_SOME;
   }
+  trace noted = *t;
+  noted.asked.bare = false; /* the picture is drawn by them */
   char title[256];
   snprintf(title, sizeof title, "%s %.200s", t->asked.cushion ? "Impact" : "Collision", t->asked.id);
-  return picture_draw(t->picture, "trace", title, print_trace, t) ? EXIT_GOOD : EXIT_SOME;
+  return picture_draw(t->picture, "trace", title, print_trace, &noted) ? EXIT_GOOD : EXIT_SOME;
 }
 
 OPTION(trace, option_points, "points", points, 0, "N", set_count, 2, "points, 2 or more (default 201)");
@@ -112,9 +119,9 @@ static const command_form form = {
              "cushion, by the model mathavan or euler. FILE is what `carom resolve` reads, - for CSV on standard input; "
              "default: the 204 reference collisions.\n",
     .options =
-        (const option_row *const[]){&option_id, &option_cushion, &option_points, &option_steps, &option_plot, &option_strict,
-                                    &option_output, &option_solvers, &option_slip, &option_friction, &option_data,
-                                    &option_model, &option_convention, &option_law, &option_least_step, NULL},
+        (const option_row *const[]){&option_id, &option_cushion, &option_points, &option_steps, &option_plot, &option_bare,
+                                    &option_strict, &option_output, &option_solvers, &option_slip, &option_friction,
+                                    &option_data, &option_model, &option_convention, &option_law, &option_least_step, NULL},
     .details = "columns written:\n"
                "  solver, impulse_N_s  which one; normal impulse so far\n"
                "  work_J               work of the normal force so far, the sum of |v_n| dP\n"
@@ -151,7 +158,8 @@ int command_trace(int argc, char **argv) {
     return usage_hint(&form);
   }
   t.kind = kind_of(&t.asked);
-  code = pick_rows(&t.asked, file, &t.asked.id, 1, &t.row) && compute(&t) ? write_trace(&t) : EXIT_USAGE;
+  code = output_possible(t.picture) && pick_rows(&t.asked, file, &t.asked.id, 1, &t.row) && compute(&t) ? write_trace(&t)
+                                                                                                        : EXIT_USAGE;
   free(t.point);
   return code;
 }

@@ -162,6 +162,7 @@ ROW(option_derived, "derived", derived, 0, NULL, set_flag, 0, ANY_KIND,
 ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0, ANY_KIND,
     "refuse rows that are only warned of otherwise: centres of two balls that are not R1 + R2 apart (to 1 %), more than 50 "
     "m/s or 2,000 rad/s, a radius above 0.5 m or a mass above 10 kg");
+ROW(option_bare, "no-comments", bare, 0, NULL, set_flag, 0, ANY_KIND, "without the lines that begin with #");
 ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND, "counts and time on standard error at the end");
 ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
     "impacts of a ball on a cushion, instead of collisions of two balls");

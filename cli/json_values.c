@@ -15,18 +15,18 @@ bool json_wrong(json_fault *f, const char *format, ...) {
   return false;
 }
 
-/* The number object[key], or *value as it is where there is none. */
-bool json_get_number(const json_t *object, const char *where, const char *key, double *value, json_fault *f) {
-  const json_t *v = json_object_get(object, key);
-  if (v == NULL)
-    return true;
-  if (!json_is_number(v))
-    return json_wrong(f, "%s%s must be a number", where, key);
-  *value = json_number_value(v);
+bool json_get_doubles(const json_t *object, const char *where, const char *keys, double *to, json_fault *f) {
+  char key[32];
+  for (int read; sscanf(keys, "%31s%n", key, &read) == 1; keys += read, to++) {
+    const json_t *v = json_object_get(object, key);
+    if (v != NULL && !json_is_number(v))
+      return json_wrong(f, "%s%s must be a number", where, key);
+    if (v != NULL)
+      *to = json_number_value(v);
+  }
   return true;
 }
 
-/* `count` numbers of an array. */
 bool json_get_numbers(const json_t *array, const char *where, size_t count, double *value, json_fault *f) {
   if (!json_is_array(array) || json_array_size(array) < count)
     return json_wrong(f, "%s must be an array of %zu numbers", where, count);
@@ -39,7 +39,6 @@ bool json_get_numbers(const json_t *array, const char *where, size_t count, doub
   return true;
 }
 
-/* An id: a text or a whole number. */
 bool json_get_id(const json_t *object, const char *where, char **id, json_fault *f) {
   const json_t *v = json_object_get(object, "id");
   char digits[32];
@@ -54,7 +53,6 @@ bool json_get_id(const json_t *object, const char *where, char **id, json_fault 
   return true;
 }
 
-/* The array object[key] with at most `most` elements; missing is empty. */
 bool json_get_list(const json_t *object, const char *key, size_t most, const json_t **list, json_fault *f) {
   *list = json_object_get(object, key);
   if (*list != NULL && !json_is_array(*list))

@@ -12,8 +12,9 @@ typedef struct json_fault {
 /* Says what is wrong; returns false. */
 __attribute__((format(printf, 2, 3))) bool json_wrong(json_fault *f, const char *format, ...);
 
-/* The number object[key], or *value as it is where there is none. `where` stands before the key in what is said. */
-bool json_get_number(const json_t *object, const char *where, const char *key, double *value, json_fault *f);
+/* The numbers of an object by their keys, with a blank between them, into doubles in the same order, which stay as they are
+ * where there is no such key. `where` stands before the key in what is said. */
+bool json_get_doubles(const json_t *object, const char *where, const char *keys, double *to, json_fault *f);
 
 /* The first `count` numbers of an array. */
 bool json_get_numbers(const json_t *array, const char *where, size_t count, double *value, json_fault *f);

@@ -10,6 +10,7 @@
 
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { MOST_NUMBERS = 26, MOST_RESULTS = 12, MOST_DERIVED = 9, MOST_POINT = 23, NO_NUMBER = -1 };
 
@@ -39,38 +40,37 @@ typedef struct row_kind {
   const double *defaults;        /* what optional numbers are where they are missing */
   int radius, height, motion[2]; /* places of R, of the nose or NO_NUMBER, and of each ball's velocity with its spin behind */
   const char *result_columns;    /* separated by commas */
-  bool has_single;               /* the library solves it in single precision; else results are rounded */
+  bool has_single;               /* it can be solved in single precision; else results are rounded */
 
   /* How it is resolved: for the column `which`, where `variant` counts those asked for. */
   const char *(*name)(const shared_options *asked, int variant);
   /* Checks a row as carom_check() does. */
-  carom_status (*check)(const double *in, const shared_options *asked, int *field);
+  carom_status (*check)(const void *in, const shared_options *asked, int *field);
   /* Sets the numbers that options say instead of columns; may be NULL. */
-  void (*prepare)(const shared_options *asked, double *in);
-  /* Resolves n rows, of floats where `single` is set. */
+  void (*prepare)(const shared_options *asked, void *in);
+  /* Resolves n rows, of floats where `single` is set, as it is only with `has_single`. */
   void (*solve)(const shared_options *asked, bool single, const void *in, size_t n, void *out, int8_t *status);
 
   /* --derived: names, how many, and the numbers. */
   const char *derived_columns;
   int derived;
-  void (*derive)(const double *in, const double *out, double *numbers);
+  void (*derive)(const void *in, const void *out, double *numbers);
 
   /* Says what the row is as lines "# what: text". */
-  void (*describe)(FILE *out, const shared_options *asked, const double *in);
+  void (*describe)(FILE *out, const shared_options *asked, const void *in);
 
   /* trace: the columns from "sticks" on and how many numbers there are behind them; the notes on where each contact sticks;
    * n points of equal steps; the impulses from which on the contacts stick, or NaN. */
   const char *trace_columns, *contacts[2];
   int trace_numbers;
-  carom_status (*trace)(const shared_options *asked, int variant, const double *in, int n, trace_point *points);
-  void (*stuck)(const shared_options *asked, const double *in, int n, const trace_point *points, double at[2]);
+  carom_status (*trace)(const shared_options *asked, int variant, const void *in, int n, trace_point *points);
+  void (*stuck)(const shared_options *asked, const void *in, int n, const trace_point *points, double at[2]);
 
-  /* sweep: words that --over takes; the one that turns the contact, and how; columns before "jump" and behind "status", and
-   * what draws them: a row resolved, with those numbers. */
-  const char *inputs, *turning, *lead_columns, *tail_columns, *title;
-  int lead;
-  void (*turn)(double *in, double degrees);
-  carom_status (*look)(const shared_options *asked, int variant, const double *in, double *out, double lead[2], double *tail);
+  /* sweep: words that --over takes; the one that turns the contact, and the places of the direction that it turns, from the
+   * first, unless that is NO_NUMBER, to the second; columns before "jump" and behind "status"; a row resolved, with those. */
+  const char *inputs, *turning, *lead_columns, *tail_columns, *title, *axis;
+  int direction[2], lead;
+  carom_status (*look)(const shared_options *asked, int variant, const void *in, void *out, double lead[2], double *tail);
 } row_kind;
 
 extern const row_kind ball_kind, cushion_kind;
@@ -86,6 +86,9 @@ static inline int variants_of(const shared_options *asked) {
 }
 
 /* Whether a column of that name, its own or one for both balls, fills the number. */
-bool kind_fills(const row_kind *k, int number, const char *name);
+static inline bool kind_fills(const row_kind *k, int number, const char *name) {
+  const column *c = &k->columns[number];
+  return strcmp(c->name, name) == 0 || (c->both != NULL && strcmp(c->both, name) == 0);
+}
 
 #endif

@@ -3,7 +3,6 @@
 #include "kind.h"
 #include "memory.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,22 +32,15 @@ static const char *name(const shared_options *asked, int variant) {
   return carom_solver_name(options_of(asked, variant).solver);
 }
 
-static carom_impact impact_of(const double *in) {
-  carom_impact impact;
-  memcpy(&impact, in, sizeof impact);
-  return impact;
-}
-
-static carom_status check(const double *in, const shared_options *asked, int *field) {
-  const carom_impact impact = impact_of(in);
-  return carom_check(&impact, &asked->options, field);
+static carom_status check(const void *in, const shared_options *asked, int *field) {
+  return carom_check(in, &asked->options, field);
 }
 
 /* A law of friction depends on the slip, and so on the row. */
-static void prepare(const shared_options *asked, double *in) {
-  const carom_impact impact = impact_of(in);
+static void prepare(const shared_options *asked, void *in) {
+  carom_impact *impact = in;
   if (asked->friction.given)
-    in[offsetof(carom_impact, mu_ball) / sizeof(double)] = carom_mu_ball(&impact, asked->friction.law);
+    impact->mu_ball = carom_mu_ball(impact, asked->friction.law);
 }
 
 static void solve(const shared_options *asked, bool single, const void *in, size_t n, void *out, int8_t *status) {
@@ -59,34 +51,25 @@ static void solve(const shared_options *asked, bool single, const void *in, size
     carom_collide_batch(in, n, &options, out, status);
 }
 
-static void derive_row(const double *in, const double *out, double *numbers) {
-  const carom_impact impact = impact_of(in);
-  carom_result after;
-  memcpy(&after, out, sizeof after);
-  const derived d = derive(&impact, &after);
+static void derive_row(const void *in, const void *out, double *numbers) {
+  const derived d = derive(in, out);
   memcpy(numbers, &d, sizeof d);
 }
 
-static void describe(FILE *out, const shared_options *asked, const double *in) {
-  const carom_impact impact = impact_of(in);
+static void describe(FILE *out, const shared_options *asked, const void *in) {
+  const carom_impact *impact = in;
   const carom_options *options = &asked->options;
   fprintf(out, "# collision: %s\n# slip: %s\n# steps: %d\n", asked->id, carom_slip_name(options->slip), options->steps);
   fprintf(out, "# friction between the balls: %.3g\n# friction of the cloth: %.3g and %.3g\n# restitution: %.3g\n",
-          impact.mu_ball, impact.a.mu_cloth, impact.b.mu_cloth, impact.restitution);
+          impact->mu_ball, impact->a.mu_cloth, impact->b.mu_cloth, impact->restitution);
 }
 
-/* Velocities in the collision frame: y along the line of centres, x to its right. */
-static void into_frame(const carom_impact *in, const double v[3], double to[2]) {
-  const double x = in->b.r[0] - in->a.r[0], y = in->b.r[1] - in->a.r[1], distance = hypot(x, y);
-  to[0] = (v[0] * y - v[1] * x) / distance;
-  to[1] = (v[0] * x + v[1] * y) / distance;
-}
-
-static carom_status trace(const shared_options *asked, int variant, const double *in, int n, trace_point *points) {
-  const carom_impact impact = impact_of(in);
+static carom_status trace(const shared_options *asked, int variant, const void *in, int n, trace_point *points) {
+  const carom_impact *impact = in;
   const carom_options options = options_of(asked, variant);
+  const double along[2] = {impact->b.r[0] - impact->a.r[0], impact->b.r[1] - impact->a.r[1]};
   carom_trace_point *own = allocate((size_t)n, sizeof *own);
-  const carom_status status = carom_trace(&impact, &options, (size_t)n, own);
+  const carom_status status = carom_trace(impact, &options, (size_t)n, own);
   for (int k = 0; k < n; k++) {
     const carom_trace_point *p = &own[k];
     points[k] = (trace_point){.impulse = p->normal,
@@ -94,8 +77,8 @@ static carom_status trace(const shared_options *asked, int variant, const double
                               .restitution = p->phase == CAROM_PHASE_RESTITUTION,
                               .sticks = {p->sticks != 0},
                               .number = {p->v_n, p->u_x, p->u_z, p->d_x, p->d_y, p->b_x, p->b_y}};
-    into_frame(&impact, p->state.a.v, points[k].number + 7);
-    into_frame(&impact, p->state.b.v, points[k].number + 9);
+    into_frame(along, p->state.a.v, points[k].number + 7);
+    into_frame(along, p->state.b.v, points[k].number + 9);
     memcpy(points[k].number + 11, &p->state, sizeof p->state);
   }
   free(own);
@@ -103,37 +86,25 @@ static carom_status trace(const shared_options *asked, int variant, const double
 }
 
 /* The exact solver says where the balls stick; Euler's method does not see it. */
-static void stuck(const shared_options *asked, const double *in, int n, const trace_point *points, double at[2]) {
-  const carom_impact impact = impact_of(in);
+static void stuck(const shared_options *asked, const void *in, int n, const trace_point *points, double at[2]) {
   carom_options options = asked->options;
   carom_result unused;
   carom_detail detail;
   (void)n;
   (void)points;
   options.solver = CAROM_SOLVER_EXACT;
-  carom_collide_detail(&impact, &options, &unused, &detail);
+  carom_collide_detail(in, &options, &unused, &detail);
   at[0] = detail.stick_normal;
 }
 
-/* Turns the line of centres about the vertical through ball 1. */
-static void turn(double *in, double degrees) {
-  const double angle = degrees * degree, x = in[SECOND] - in[0], y = in[SECOND + 1] - in[1];
-  in[SECOND] = in[0] + x * cos(angle) - y * sin(angle);
-  in[SECOND + 1] = in[1] + x * sin(angle) + y * cos(angle);
-}
-
-static carom_status look(const shared_options *asked, int variant, const double *in, double *out, double lead[2],
-                         double *tail) {
-  const carom_impact impact = impact_of(in);
+/* Throw, the share of the impulse after which the balls stick, and the friction that was in force. */
+static carom_status look(const shared_options *asked, int variant, const void *in, void *out, double lead[2], double *tail) {
   const carom_options options = options_of(asked, variant);
-  carom_result result;
   carom_detail detail;
-  const carom_status status = carom_collide_detail(&impact, &options, &result, &detail);
-  /* Throw, the share of the impulse after which the balls stick, and the friction that was in force. */
-  memcpy(out, &result, sizeof result);
-  lead[0] = derive(&impact, &result).throw_deg;
+  const carom_status status = carom_collide_detail(in, &options, out, &detail);
+  lead[0] = derive(in, out).throw_deg;
   lead[1] = detail.stick_normal / detail.normal;
-  *tail = impact.mu_ball;
+  *tail = ((const carom_impact *)in)->mu_ball;
   return status;
 }
 
@@ -170,6 +141,7 @@ const row_kind ball_kind = {
     .lead = 2,
     .tail_columns = "mu_ball",
     .title = "Throw of the object ball",
-    .turn = turn,
+    .axis = "throw of ball 2 (degrees, to the left)",
+    .direction = {0, SECOND},
     .look = look,
 };

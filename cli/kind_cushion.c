@@ -2,14 +2,13 @@
 #include "derived.h"
 #include "kind.h"
 #include "memory.h"
-#include "precision.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { NUMBERS = sizeof(carom_cushion_impact) / sizeof(double), RESULTS = sizeof(carom_motion) / sizeof(double) };
-enum { DERIVED = 6, POINT = 13, NORMAL = 6, HEIGHT = 8, RADIUS = 9, MASS = 10, AT_ONCE = 512 };
+enum { DERIVED = 6, POINT = 13, NORMAL = 6, HEIGHT = 8, RADIUS = 9 };
 
 #define PLAIN(name) \
   { name, NULL, NO_NUMBER, false }
@@ -43,73 +42,58 @@ static carom_cushion_options options_of(const shared_options *asked) {
   return options;
 }
 
-static carom_cushion_impact impact_of(const double *in) {
-  carom_cushion_impact impact;
-  memcpy(&impact, in, sizeof impact);
-  return impact;
-}
-
-static carom_status check(const double *in, const shared_options *asked, int *field) {
-  const carom_cushion_impact impact = impact_of(in);
+static carom_status check(const void *in, const shared_options *asked, int *field) {
   const carom_cushion_options options = options_of(asked);
-  return carom_cushion_check(&impact, &options, field);
+  return carom_cushion_check(in, &options, field);
 }
 
-/* The library solves in double precision; rows of floats are converted, some at once. */
 static void solve(const shared_options *asked, bool single, const void *in, size_t n, void *out, int8_t *status) {
   const carom_cushion_options options = options_of(asked);
-  if (!single) {
-    carom_cushion_batch(in, n, &options, out, status);
-    return;
-  }
-  carom_cushion_impact wide[AT_ONCE];
-  carom_motion motion[AT_ONCE];
-  for (size_t k = 0, count; k < n; k += count) {
-    count = n - k < AT_ONCE ? n - k : AT_ONCE;
-    to_double((const float *)in + k * NUMBERS, wide, count * NUMBERS);
-    carom_cushion_batch(wide, count, &options, motion, status + k);
-    to_single(motion, (float *)out + k * RESULTS, count * RESULTS);
-  }
+  (void)single;
+  carom_cushion_batch(in, n, &options, out, status);
 }
 
 /* The angle of a velocity that leaves the cushion from its normal; a mirror keeps that of the velocity that came. */
-static double rebound(const double *in, const double v[2]) {
-  return hypot(v[0], v[1]) > 0.0 ? angle_between(v, (const double[]){-in[NORMAL], -in[NORMAL + 1]}) : (double)NAN;
+static double rebound(const carom_cushion_impact *in, const double v[2]) {
+  return hypot(v[0], v[1]) > 0.0 ? angle_between(v, (const double[]){-in->normal[0], -in->normal[1]}) : (double)NAN;
 }
 
-static void derive_row(const double *in, const double *out, double *numbers) {
+static void derive_row(const void *in, const void *out, double *numbers) {
+  const carom_cushion_impact *impact = in;
+  const carom_motion *after = out;
+  const double m = impact->mass, R = impact->radius;
   double rolling[3];
-  carom_rolling_velocity(out, out + 3, in[RADIUS], rolling);
-  const double before = energy_of(in[MASS], in[RADIUS], in, in + 3), after = energy_of(in[MASS], in[RADIUS], out, out + 3);
-  const double all[DERIVED] = {
-      angle_between(in + NORMAL, in), rebound(in, out), rebound(in, rolling), rolling[0], rolling[1], 1.0 - after / before};
+  carom_rolling_velocity(after->v, after->w, R, rolling);
+  const double all[DERIVED] = {angle_between(impact->normal, impact->v),
+                               rebound(impact, after->v),
+                               rebound(impact, rolling),
+                               rolling[0],
+                               rolling[1],
+                               1.0 - energy_of(m, R, after->v, after->w) / energy_of(m, R, impact->v, impact->w)};
   memcpy(numbers, all, sizeof all);
 }
 
-static void describe(FILE *out, const shared_options *asked, const double *in) {
-  const carom_cushion_impact impact = impact_of(in);
+static void describe(FILE *out, const shared_options *asked, const void *in) {
+  const carom_cushion_impact *impact = in;
   fprintf(out, "# impact: %s\n# model: %s\n# steps: %d\n", asked->id, name(asked, 0), asked->options.steps);
-  fprintf(out, "# friction of the cushion: %.3g\n# friction of the cloth: %.3g\n# restitution: %.3g\n", impact.mu_cushion,
-          impact.mu_cloth, impact.restitution);
+  fprintf(out, "# friction of the cushion: %.3g\n# friction of the cloth: %.3g\n# restitution: %.3g\n", impact->mu_cushion,
+          impact->mu_cloth, impact->restitution);
 }
 
-static carom_status trace(const shared_options *asked, int variant, const double *in, int n, trace_point *points) {
-  const carom_cushion_impact impact = impact_of(in);
+static carom_status trace(const shared_options *asked, int variant, const void *in, int n, trace_point *points) {
+  const carom_cushion_impact *impact = in;
   const carom_cushion_options options = options_of(asked);
-  const double *normal = impact.normal, size = hypot(normal[0], normal[1]);
   carom_cushion_point *own = allocate((size_t)n, sizeof *own);
   (void)variant;
-  const carom_status status = carom_cushion_trace(&impact, &options, (size_t)n, own);
+  const carom_status status = carom_cushion_trace(impact, &options, (size_t)n, own);
   for (int k = 0; k < n; k++) {
     const carom_cushion_point *p = &own[k];
-    const double *v = p->state.v;
-    /* Velocities along the cushion and into it. */
     points[k] = (trace_point){.impulse = p->normal,
                               .work = p->work,
                               .restitution = p->phase == CAROM_PHASE_RESTITUTION,
                               .sticks = {p->nose_sticks != 0, p->cloth_sticks != 0},
-                              .number = {p->v_n, p->s_x, p->s_t, p->c_x, p->c_y, (v[0] * normal[1] - v[1] * normal[0]) / size,
-                                         (v[0] * normal[0] + v[1] * normal[1]) / size}};
+                              .number = {p->v_n, p->s_x, p->s_t, p->c_x, p->c_y}};
+    into_frame(impact->normal, p->state.v, points[k].number + 5);
     memcpy(points[k].number + 7, &p->state, sizeof p->state);
   }
   free(own);
@@ -117,7 +101,7 @@ static carom_status trace(const shared_options *asked, int variant, const double
 }
 
 /* The first point from which the ball sticks to the end, for the nose and for the cloth. */
-static void stuck(const shared_options *asked, const double *in, int n, const trace_point *points, double at[2]) {
+static void stuck(const shared_options *asked, const void *in, int n, const trace_point *points, double at[2]) {
   (void)asked;
   (void)in;
   for (int contact = 0; contact < 2; contact++) {
@@ -128,22 +112,11 @@ static void stuck(const shared_options *asked, const double *in, int n, const tr
   }
 }
 
-/* Turns the cushion about the vertical. */
-static void turn(double *in, double degrees) {
-  const double angle = degrees * degree, x = in[NORMAL], y = in[NORMAL + 1];
-  in[NORMAL] = x * cos(angle) - y * sin(angle);
-  in[NORMAL + 1] = x * sin(angle) + y * cos(angle);
-}
-
-static carom_status look(const shared_options *asked, int variant, const double *in, double *out, double lead[2],
-                         double *tail) {
-  const carom_cushion_impact impact = impact_of(in);
+static carom_status look(const shared_options *asked, int variant, const void *in, void *out, double lead[2], double *tail) {
   const carom_cushion_options options = options_of(asked);
-  carom_motion motion;
   (void)variant;
   (void)lead;
-  const carom_status status = carom_cushion(&impact, &options, &motion);
-  memcpy(out, &motion, sizeof motion);
+  const carom_status status = carom_cushion(in, &options, out);
   *tail = rebound(in, out);
   return status;
 }
@@ -178,6 +151,7 @@ const row_kind cushion_kind = {
     .lead_columns = "",
     .tail_columns = "rebound_deg",
     .title = "Rebound from the cushion",
-    .turn = turn,
+    .axis = "angle after from the normal (degrees)",
+    .direction = {NO_NUMBER, NORMAL},
     .look = look,
 };

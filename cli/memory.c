@@ -27,6 +27,10 @@ char *copy_text(const char *text) {
   return strcpy(allocate(strlen(text) + 1, 1), text);
 }
 
+FILE *open_text(char **text, size_t *size) {
+  return checked(open_memstream(text, size));
+}
+
 void *grow(void *block, size_t *room, size_t needed, size_t size) {
   if (needed <= *room)
     return block;

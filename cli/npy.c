@@ -94,8 +94,17 @@ bool npy_open(const char *path, size_t columns, npy_array *array) {
   return good;
 }
 
-bool npy_read(npy_array *array, size_t rows, void *to) {
-  if (fread(to, array->row_size, rows, array->file) == rows)
+bool npy_read(npy_array *array, size_t rows, double *to) {
+  const size_t numbers = rows * array->row_size / (array->single ? sizeof(float) : sizeof(double));
+  /* Floats are read behind the room that they leave, and made double from the first on. */
+  float *narrow = (float *)(void *)to + numbers;
+  const bool good = fread(array->single ? (void *)narrow : to, array->row_size, rows, array->file) == rows;
+  for (size_t k = 0; good && array->single && k < numbers; k++) {
+    float x;
+    memcpy(&x, narrow + k, sizeof x);
+    to[k] = (double)x;
+  }
+  if (good)
     return true;
   complain("cannot read %s: %s", array->name, ferror(array->file) ? strerror(errno) : "it is cut off");
   return false;

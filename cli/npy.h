@@ -23,8 +23,8 @@ bool npy_is_name(const char *path);
 /* Opens `path`, which must have `columns` columns. Complains and returns false if it cannot. */
 bool npy_open(const char *path, size_t columns, npy_array *array);
 
-/* Reads the next rows, of which there must be so many left; false after a complaint. */
-bool npy_read(npy_array *array, size_t rows, void *to);
+/* Reads the next rows as doubles, of which there must be so many left; false after a complaint. */
+bool npy_read(npy_array *array, size_t rows, double *to);
 void npy_close(npy_array *array);
 
 /* Writes the header of an array of type `descr` ("<f8", "<f4") and shape (rows, columns). It has the same length for every

@@ -8,13 +8,22 @@
 #include <string.h>
 
 const char *number_text(double x, char text[NUMBER_TEXT]) {
-  int digits = DBL_DIG - 1;
+  char shorter[NUMBER_TEXT];
   if (isnan(x))
     return strcpy(text, "nan"); /* without a sign */
-  /* DBL_DIG digits keep what was a decimal of so many, and two more keep any double. */
-  do
-    snprintf(text, NUMBER_TEXT, "%.*g", ++digits, x);
-  while (digits < DBL_DIG + 2 && strtod(text, NULL) != x);
+  /* 16 digits are enough for half of all doubles, 17 for all. */
+  int exponent;
+  snprintf(text, NUMBER_TEXT, "%.*g", DBL_DIG + 1, x);
+  const bool enough = strtod(text, NULL) == x;
+  if (!enough)
+    snprintf(text, NUMBER_TEXT, "%.*g", DBL_DIG + 2, x);
+  /* 15 may be where %g left out no zero at the end of 16, as of 9.3, 9.300000000000001; or at a power of two, whose neighbours
+   * are not at the same distance. */
+  if ((enough && strlen(text) > DBL_DIG) || frexp(fabs(x), &exponent) == 0.5) {
+    snprintf(shorter, sizeof shorter, "%.*g", DBL_DIG, x);
+    if (strtod(shorter, NULL) == x)
+      strcpy(text, shorter);
+  }
   return text;
 }
 

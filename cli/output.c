@@ -65,22 +65,16 @@ static void hold_signals(bool hold) {
     sigprocmask(SIG_SETMASK, &before, NULL);
 }
 
-/* Writes into `place` where a path leads in the end, through symbolic links even to what is not there yet. False with errno. */
+/* Writes into `place` where a path leads in the end, through symbolic links even to what is not there yet: the system makes
+ * that for a moment. False with errno. */
 static bool follow_links(const char *path) {
-  char link[PATH_MAX], folder[PATH_MAX];
-  struct stat status;
   if (realpath(path, place) != NULL)
     return true;
-  bool good = snprintf(place, PATH_MAX, "%s", path) < PATH_MAX;
-  for (int k = 0; good && k < 40 && lstat(place, &status) == 0 && S_ISLNK(status.st_mode); k++) {
-    const ssize_t size = readlink(place, link, PATH_MAX - 1);
-    good = size > 0;
-    link[good ? size : 0] = '\0';
-    strcpy(folder, place);
-    good = good && (link[0] == '/' ? snprintf(place, PATH_MAX, "%s", link)
-                                   : snprintf(place, PATH_MAX, "%s/%s", dirname(folder), link)) < PATH_MAX;
-  }
-  errno = ENAMETOOLONG;
+  hold_signals(true);
+  const int made = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  bool good = made >= 0 && close(made) == 0 && realpath(path, place) != NULL;
+  good = good && unlink(place) == 0;
+  hold_signals(false);
   return good;
 }
 
@@ -157,6 +151,15 @@ FILE *output_open(const char *path) {
     return NULL;
   }
   return file;
+}
+
+bool output_possible(const char *path) {
+  struct stat status;
+  if (path == NULL || strcmp(path, "-") == 0 || (stat(path, &status) == 0 && !S_ISREG(status.st_mode)))
+    return true; /* what is no file is opened once */
+  const bool good = output_open(path) != NULL;
+  output_abandon();
+  return good;
 }
 
 size_t output_copy(FILE *from, FILE *to) {

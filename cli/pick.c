@@ -6,7 +6,6 @@
 #include "message.h"
 #include "place.h"
 #include "source.h"
-#include "suggest.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -21,17 +20,6 @@ static void list_id(char *text, size_t room, const char *id, long long *left_out
     snprintf(text + used, room - used, "%s%s", used > 0 ? ", " : "", id);
 }
 
-/* Whether two ids have the same digits, so that mistyping one made the other. */
-static bool same_digits(const char *a, const char *b) {
-  static const char digits[] = "0123456789";
-  for (;; a++, b++) {
-    a += strcspn(a, digits);
-    b += strcspn(b, digits);
-    if (*a != *b || *a == '\0')
-      return *a == *b;
-  }
-}
-
 /* Those asked for, and which of them have been met. */
 typedef struct search {
   const shared_options *asked;
@@ -39,14 +27,13 @@ typedef struct search {
   size_t count, found;
   double (*row)[MOST_NUMBERS];
   bool *there, good;
-  char (*meant)[64]; /* for each, an id that may have been meant, or "" */
 } search;
 
 /* Row k of the block is number `which` of those asked for. */
 static void take(search *s, row_source *source, const source_block *block, size_t k, size_t which) {
   const row_kind *kind = kind_of(s->asked);
   double *row = s->row[which];
-  source_row(source, block, k, row);
+  memcpy(row, source_row(source, block, k), (size_t)kind->numbers * sizeof *row);
   const carom_status status = kind->check(row, s->asked, NULL);
   bool good = status == CAROM_OK && (block->note == NULL || block->note[k].error == NULL);
   /* What hardly was meant is warned of, or refused. */
@@ -74,19 +61,14 @@ static bool find_rows(search *s, row_source *source, source_block *block) {
       for (size_t which = 0; which < s->count; which++)
         if (!s->there[which] && strcmp(own, s->id[which]) == 0)
           take(s, source, block, k, which);
-        else if (s->meant[which][0] == '\0' && resembles(s->id[which], own) && same_digits(s->id[which], own))
-          snprintf(s->meant[which], sizeof s->meant[which], "%s", own);
       list_id(there, sizeof there, own, &left_out);
     }
   if (left_out > 0)
     snprintf(more, sizeof more, " and %lld more", left_out);
   for (size_t which = 0; which < s->count && result == READ_END; which++)
     if (!s->there[which]) {
-      if (s->meant[which][0] != '\0')
-        complain("%s has no %s '%s'; is '%s' meant?", source_name(source), noun, s->id[which], s->meant[which]);
-      else
-        complain("%s has no %s '%s'; it has %s%s", source_name(source), noun, s->id[which],
-                 there[0] != '\0' ? there : "none at all", more);
+      complain("%s has no %s '%s'; it has %s%s", source_name(source), noun, s->id[which],
+               there[0] != '\0' ? there : "none at all", more);
       break;
     }
   return s->found == s->count && s->good;
@@ -107,10 +89,8 @@ bool pick_rows(const shared_options *asked, const char *file, const char *const 
   source_block block = {0};
   search s = {.asked = asked, .id = id, .count = count, .row = row, .good = true};
   s.there = allocate(count, sizeof *s.there);
-  s.meant = allocate(count, sizeof *s.meant);
   const bool good = source != NULL && find_rows(&s, source, &block);
   free(s.there);
-  free(s.meant);
   source_free_block(&block);
   source_close(source);
   return good;

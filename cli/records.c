@@ -5,7 +5,6 @@
  */
 #include "records.h"
 
-#include "formats.h"
 #include "memory.h"
 #include "message.h"
 #include "number.h"
@@ -92,11 +91,19 @@ static bool read_line(record_reader *r) {
   return to > r->line;
 }
 
-/* The kind of a file that is no CSV, by its first line; NULL if it may be. */
+bool is_text(const char *bytes, size_t size) {
+  for (size_t k = 0; k < size; k++)
+    if ((unsigned char)bytes[k] < ' ' && memchr("\t\r\n\f", bytes[k], 4) == NULL)
+      return false;
+  return true;
+}
+
+/* What a file is, by its first line, that is no CSV; NULL if it may be. */
 static const char *kind_of(const record_reader *r) {
   const char *first = r->line + strspn(r->line, " \t");
-  return r->line_size > 1 && *first == '{' ? "JSON; whole shots in it are played by `carom shoot`"
-                                           : other_kind(r->line, r->line_size);
+  return !is_text(r->line, r->line_size)     ? NOT_TEXT
+         : r->line_size > 1 && *first == '{' ? "JSON; whole shots in it are played by `carom shoot`"
+                                             : NULL;
 }
 
 /* The first record says what stands between fields. */

@@ -3,7 +3,7 @@
  * Understood: fields quoted or not, quoted commas, quotes and line ends, LF, CRLF and CR, a UTF-8 byte-order mark, a last line
  * without its end; fields between semicolons or tabs where the first record has no comma. Passed over: blank lines, records of
  * which every field is empty, and lines that begin with # before the first record, which carom itself writes. Other kinds of
- * files that are given for CSV (JSON and those of formats.h) are refused by their name. A record of more than a mebibyte, such
+ * files that are given for CSV, such as JSON and archives, are refused. A record of more than a mebibyte, such
  * as an unclosed quote makes, is malformed: it costs that record, and reading goes on at the next line. A NUL in a field is
  * read as '?'.
  */
@@ -40,5 +40,9 @@ bool record_is_numbers(const record *r);
 const char *record_file_name(const record_reader *reader);
 
 void record_close(record_reader *reader);
+
+/* Whether bytes may be text: there are no control characters but blanks. What else they are, for messages. */
+bool is_text(const char *bytes, size_t size);
+#define NOT_TEXT "binary data: unpack what is compressed or an archive, save UTF-16 as UTF-8, name an array of NumPy .npy"
 
 #endif

@@ -32,13 +32,14 @@ typedef struct run {
   const resolving *job;
   const shared_options *asked;
   const row_kind *kind;
-  bool single; /* numbers are float from here on */
+  bool single;
   row_source *in;
   result_sink *out;
   long long ok, separating, errors;
   double solving; /* ns */
   doubts doubts;
-  void *converted, *result; /* rows in the precision of the run where they were read in the other, and what comes of them */
+  double *result;
+  float *narrow, *narrow_result; /* rows and results in single precision */
   int8_t *status;
 } run;
 
@@ -48,29 +49,19 @@ static void *read_block(void *argument) {
   return NULL;
 }
 
-/* The rows of a block in the precision of the run. */
-static const void *rows_of(const run *r, const source_block *block) {
-  const size_t numbers = block->count * (size_t)r->kind->numbers;
-  if (source_is_single(r->in) == r->single)
-    return block->numbers;
-  (r->single ? to_single : to_double)(block->numbers, r->converted, numbers);
-  return r->converted;
-}
-
 /* Writes row k of a block that has been solved, counts it, and says what is wrong with it. */
-static void write_row(run *r, const source_block *block, size_t k) {
+static void finish_row(run *r, const source_block *block, size_t k) {
   const row_note *note = block->note != NULL ? &block->note[k] : NULL;
   const carom_status status = r->status[k];
-  const size_t size = (size_t)r->kind->results * (r->single ? sizeof(float) : sizeof(double));
-  char *result = (char *)r->result + k * size;
-  double row[MOST_NUMBERS];
-  source_row(r->in, block, k, row);
+  const size_t results = (size_t)r->kind->results;
+  const double *row = source_row(r->in, block, k);
+  double *result = r->result + k * results;
   /* What --strict refuses has no results. */
   const char *error = note != NULL ? note->error : NULL;
   const char *doubt = error == NULL && status >= 0 ? doubts_about(&r->doubts, r->kind, row) : NULL;
   if (r->asked->strict && doubt != NULL) {
     error = doubt;
-    memset(result, 0xff, size); /* NaN throughout */
+    memset(result, 0xff, results * sizeof *result); /* NaN throughout */
   }
   const bool bad = error != NULL || status < 0;
   if (bad && r->errors < MOST_NAMED)
@@ -82,15 +73,27 @@ static void write_row(run *r, const source_block *block, size_t k) {
 }
 
 static void solve_and_write(run *r, const source_block *block) {
-  const void *rows = rows_of(r, block);
+  const size_t count = block->count, numbers = count * (size_t)r->kind->numbers, results = count * (size_t)r->kind->results;
+  const bool narrow = r->single && r->kind->has_single;
+  const void *in = narrow ? (void *)r->narrow : block->numbers;
+  void *out = narrow ? (void *)r->narrow_result : r->result;
+  /* Single precision: rows and results are rounded to it, whoever solves. */
+  if (r->single)
+    to_single(block->numbers, r->narrow, numbers);
+  if (r->single && !narrow)
+    to_double(r->narrow, block->numbers, numbers);
   const double before = clock_ns();
   if (r->job->solve != NULL)
-    r->job->solve(r->job->context, &r->asked->options, r->single, rows, block->count, r->result, r->status);
+    r->job->solve(r->job->context, &r->asked->options, narrow, in, count, out, r->status);
   else
-    r->kind->solve(r->asked, r->single, rows, block->count, r->result, r->status);
+    r->kind->solve(r->asked, narrow, in, count, out, r->status);
   r->solving += clock_ns() - before;
+  if (r->single && !narrow)
+    to_single(r->result, r->narrow_result, results);
+  if (r->single)
+    to_double(r->narrow_result, r->result, results);
   for (size_t k = 0; k < block->count; k++)
-    write_row(r, block, k);
+    finish_row(r, block, k);
 }
 
 /* Two readings take turns: one is solved and written while the other is filled. False after a complaint. */
@@ -133,14 +136,16 @@ int resolve_file(const resolving *job, const char *file) {
     return code;
   const int precision = job->shared.precision;
   r.single = precision == ANY_PRECISION ? source_is_single(r.in) : precision == SINGLE_PRECISION;
-  r.converted = allocate(NPY_BLOCK, (size_t)r.kind->numbers * sizeof(double));
-  r.result = allocate(NPY_BLOCK, (size_t)r.kind->results * sizeof(double));
+  r.result = allocate(NPY_BLOCK, (size_t)r.kind->results * sizeof *r.result);
+  r.narrow = allocate(NPY_BLOCK, (size_t)r.kind->numbers * sizeof *r.narrow);
+  r.narrow_result = allocate(NPY_BLOCK, (size_t)r.kind->results * sizeof *r.narrow_result);
   r.status = allocate(NPY_BLOCK, 1);
   /* Nothing is written before the input has been opened; what stands there appears when all is written. */
   r.out = sink_open(&job->shared, r.single);
   if (r.out != NULL && sink_close(r.out, resolve_all(&r)))
     code = r.errors > 0 ? EXIT_SOME : EXIT_GOOD;
-  free(r.converted);
+  free(r.narrow);
+  free(r.narrow_result);
   free(r.result);
   free(r.status);
   source_close(r.in);

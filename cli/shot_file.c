@@ -1,10 +1,10 @@
 /* Tables and shots from JSON Lines. What is missing takes pooltool's defaults; what is wrong is told by its key. */
 #include "shot_file.h"
 
-#include "formats.h"
 #include "json_values.h"
 #include "memory.h"
 #include "message.h"
+#include "records.h"
 #include "shot_table.h"
 
 #include <errno.h>
@@ -37,6 +37,12 @@ static void keep_table(shot_file *file, named_table *t) {
 
 /* ---- Shots */
 
+/* The keys of the doubles of carom_ball_kind and of carom_cue, in their order there. */
+#define KIND_KEYS "m R u_s u_r u_sp u_b e_b f_c e_c g drag roll_loss law_a law_b law_c nose_height omega_ratio e_t"
+#define CUE_KEYS "V0 phi theta a b M end_mass tip_radius"
+_Static_assert(sizeof(carom_ball_kind) == 18 * sizeof(double) && offsetof(carom_cue, ball) == 8 * sizeof(double),
+               "a key for each double");
+
 /* The kind of the balls of a game, by its name; pooltool's pool balls where there is none. */
 static bool read_game(const json_t *params, const char *where, carom_ball_kind *kind, json_fault *f) {
   static const char *const names[] = {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"};
@@ -65,24 +71,9 @@ static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
   if (params != NULL && !json_is_object(params))
     return json_wrong(f, "%sparams must be an object", where);
   snprintf(key, sizeof key, "%sparams.", where);
-  double spin = NAN;
-  if (!read_game(params, key, kind, f) || !json_get_number(params, key, "m", &kind->mass, f) ||
-      !json_get_number(params, key, "R", &kind->radius, f) || !json_get_number(params, key, "u_s", &kind->mu_slide, f) ||
-      !json_get_number(params, key, "u_r", &kind->mu_roll, f) || !json_get_number(params, key, "u_sp", &spin, f) ||
-      !json_get_number(params, key, "u_b", &kind->mu_ball, f) || !json_get_number(params, key, "e_b", &kind->restitution, f) ||
-      !json_get_number(params, key, "e_c", &kind->restitution_cushion, f) ||
-      !json_get_number(params, key, "f_c", &kind->mu_cushion, f) || !json_get_number(params, key, "g", &kind->gravity, f) ||
-      !json_get_number(params, key, "drag", &kind->drag, f) ||
-      !json_get_number(params, key, "roll_loss", &kind->roll_loss, f) ||
-      !json_get_number(params, key, "law_a", &kind->law_a, f) || !json_get_number(params, key, "law_b", &kind->law_b, f) ||
-      !json_get_number(params, key, "law_c", &kind->law_c, f) ||
-      !json_get_number(params, key, "nose_height", &kind->nose_height, f) ||
-      !json_get_number(params, key, "omega_ratio", &kind->omega_ratio, f) ||
-      !json_get_number(params, key, "e_t", &kind->restitution_table, f))
+  if (!read_game(params, key, kind, f) || !json_get_doubles(params, key, KIND_KEYS, &kind->mass, f))
     return false;
-  if (!isnan(spin))
-    kind->mu_spin = spin;
-  else if (json_object_get(params, "game") == NULL)
+  if (json_object_get(params, "u_sp") == NULL && json_object_get(params, "game") == NULL)
     kind->mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind->radius;
   double state[10];
   snprintf(key, sizeof key, "%sstate", where);
@@ -107,11 +98,7 @@ static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
     return true;
   if (!json_is_object(v))
     return json_wrong(f, "cue must be an object");
-  if (!json_get_number(v, "cue.", "V0", &cue->speed, f) || !json_get_number(v, "cue.", "phi", &cue->phi, f) ||
-      !json_get_number(v, "cue.", "theta", &cue->theta, f) || !json_get_number(v, "cue.", "a", &cue->a, f) ||
-      !json_get_number(v, "cue.", "b", &cue->b, f) || !json_get_number(v, "cue.", "M", &cue->mass, f) ||
-      !json_get_number(v, "cue.", "end_mass", &cue->end_mass, f) ||
-      !json_get_number(v, "cue.", "tip_radius", &cue->tip_radius, f) || !json_get_number(v, "cue.", "miscue", &cue->miscue, f))
+  if (!json_get_doubles(v, "cue.", CUE_KEYS, &cue->speed, f) || !json_get_doubles(v, "cue.", "miscue", &cue->miscue, f))
     return false;
   const json_t *ball = json_object_get(v, "ball");
   if (ball == NULL)
@@ -185,7 +172,7 @@ static shot_read bad_line(shot_line *line, const char *text) {
 
 /* Whether the file is of another kind, by its first line, which is `json` or cannot be read as such: says what it is. */
 static bool is_other_kind(const shot_file *file, size_t size, const json_t *json) {
-  const char *first = file->text + strspn(file->text, " \t"), *kind = other_kind(file->text, size);
+  const char *first = file->text + strspn(file->text, " \t"), *kind = is_text(file->text, size) ? NULL : NOT_TEXT;
   if (kind == NULL && *first == '[')
     kind = "one array of JSON; each shot is a line (`jq -c '.[]'` makes lines of it)";
   else if (kind == NULL && json == NULL && *first == '{' && strpbrk(first, ":,}") == NULL)

@@ -2,21 +2,12 @@
  * side: y of the table runs to the right. */
 #include "shot_picture.h"
 
-#include "message.h"
+#include "picture.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-OPTION_SET(set_svg) {
-  const size_t size = strlen(text);
-  *(const char **)field = text;
-  if (size > 4 && strcmp(text + size - 4, ".svg") == 0)
-    return true;
-  complain("--%s draws a picture whose name ends in .svg, not '%s'", row->name, text);
-  return false;
-}
 
 bool shot_has_id(const shot_line *line, const char *id) {
   if (id == NULL)
@@ -28,8 +19,7 @@ bool shot_has_id(const shot_line *line, const char *id) {
          (strlen(line->id) == size + 2 && line->id[0] == '"' && strncmp(line->id + 1, id, size) == 0);
 }
 
-static const double table_scale = 400.0, table_margin = 0.11;                                        /* pixels a metre; m */
-static const double part_width = 840.0, part_height = 700.0, part_margin = 30.0, line_height = 20.0; /* pixels */
+static const double table_scale = 400.0, table_margin = 0.11, side_margin = 30.0; /* pixels a metre; m; pixels */
 
 /* The usual colours of pool balls by number; the first is for the cue ball and others. */
 static const char *const colours[] = {"#ffffff", "#f2c230", "#1d4fd8", "#e02d24", "#5b2a9d", "#ee7a22", "#0b5d2e", "#8c1d3a",
@@ -67,14 +57,6 @@ static double down(const view *v, const double r[2]) {
   return v->scale * ((v->turned ? r[0] - v->low[0] : v->high[1] - r[1]) + v->margin);
 }
 
-/* A text in the page's coordinates, with what XML would take for its own put right. */
-static void write_text(FILE *out, double x, double y, const char *style, const char *text, size_t most) {
-  fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, style);
-  for (const char *c = text; *c != '\0' && (size_t)(c - text) < most; c++)
-    *c == '<' ? fputs("&lt;", out) : *c == '&' ? fputs("&amp;", out) : putc(*c, out);
-  fputs("</text>\n", out);
-}
-
 static view view_of(FILE *out, const carom_table *t) {
   view v = {
       .out = out, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}, .scale = table_scale, .margin = table_margin};
@@ -89,54 +71,13 @@ static view view_of(FILE *out, const carom_table *t) {
   return v;
 }
 
-/* The head of the picture, and what is behind all. */
-static void begin_page(FILE *out, double width, double height, const char *background) {
-  fprintf(out,
-          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "
-          "font-family=\"sans-serif\">\n<rect width=\"100%%\" height=\"100%%\" %s/>\n",
-          width, height, width, height, background);
-}
-
-/* A part of the cloth, with the marks and the text below it. */
-static view draw_part(FILE *out, const shot_extra *x) {
-  const double wide = x->high[0] - x->low[0], high = x->high[1] - x->low[1];
-  view v = {.out = out, .scale = fmin(part_width / wide, part_height / high)};
-  int lines = 0;
-  for (const char *end = x->text; (end = strchr(end, '\n')) != NULL; end++)
-    lines++;
-  memcpy(v.low, x->low, sizeof v.low);
-  memcpy(v.high, x->high, sizeof v.high);
-  v.margin = part_margin / v.scale;
-  /* The page and the cloth on it. */
-  const double bottom = v.scale * high + 2.0 * part_margin;
-  begin_page(out, part_width + 2.0 * part_margin, bottom + line_height * (lines + 1), "fill=\"#fff\"");
-  fprintf(out, "<rect width=\"100%%\" height=\"%.1f\" fill=\"#3f9d80\"/>\n", bottom);
-  for (int k = 0; k < x->marks; k++) {
-    const shot_mark *m = &x->mark[k];
-    const double ends[4] = {across(&v, m->from), down(&v, m->from), across(&v, m->to), down(&v, m->to)};
-    if (memcmp(m->from, m->to, sizeof m->from) == 0)
-      fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#123\"/>\n", ends[0], ends[1]);
-    else
-      fprintf(out, "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#123\" stroke-dasharray=\"3 4\"/>\n", ends[0], ends[1], ends[2],
-              ends[3]);
-    if (m->label != NULL)
-      write_text(out, ends[2] + 4.0, ends[3] + 12.0, "font-size=\"13\" fill=\"#123\"", m->label, SIZE_MAX);
-  }
-  const char *text = x->text;
-  for (int k = 0; k < lines; k++, text += strcspn(text, "\n") + 1)
-    write_text(out, part_margin, bottom + line_height * (k + 1),
-               "xml:space=\"preserve\" font-size=\"12.5\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", text,
-               strcspn(text, "\n"));
-  return v;
-}
-
 /* With `below` pixels free under the table. */
 static void draw_table(const view *v, const carom_table *t, double below) {
   FILE *out = v->out;
   const double scale = v->scale;
   const double width = scale * ((v->turned ? v->high[1] - v->low[1] : v->high[0] - v->low[0]) + 2.0 * v->margin);
   const double height = scale * ((v->turned ? v->high[0] - v->low[0] : v->high[1] - v->low[1]) + 2.0 * v->margin);
-  begin_page(out, width, height + below, "rx=\"18\" fill=\"#5b3a21\"");
+  svg_begin(out, width, height + below, "rx=\"18\" fill=\"#5b3a21\"");
   const double inset = scale * 0.5 * v->margin;
   fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"10\" fill=\"#3f9d80\"/>\n", inset, inset,
           width - 2.0 * inset, height - 2.0 * inset);
@@ -211,7 +152,7 @@ static void draw_ball(const view *v, const shot_line *line, const carom_ball_sta
   char style[120];
   snprintf(style, sizeof style, "font-size=\"%.1f\" fill=\"%s\" text-anchor=\"middle\" dominant-baseline=\"central\"",
            strlen(name) > 2 ? 7.0 : 11.0, dark ? "#fff" : "#111");
-  write_text(v->out, x, y, style, name, 5);
+  svg_text(v->out, x, y, style, name, 5);
 }
 
 /* Balls that fell lie beside each other in the pocket's place. */
@@ -286,20 +227,19 @@ static void draw_side(const view *v, const shot_line *line, const carom_shot *sh
   }
 }
 
-void shot_draw(FILE *out, const shot_line *line, const carom_shot *shot, const shot_extra *extra) {
-  const view v = extra != NULL ? draw_part(out, extra) : view_of(out, &line->table->table);
+void shot_draw(FILE *out, const shot_line *line, const carom_shot *shot) {
+  const view v = view_of(out, &line->table->table);
   carom_ball_state final[CAROM_BALLS_MOST];
   memcpy(final, shot->final, (size_t)line->count * sizeof *final);
   double rise = 0.0;
-  for (int k = 0; k < line->count && extra == NULL; k++)
+  for (int k = 0; k < line->count; k++)
     rise = fmax(rise, rise_of(line, shot, k));
   const double width = v.scale * ((v.turned ? v.high[1] - v.low[1] : v.high[0] - v.low[0]) + 2.0 * v.margin);
   const double above = v.scale * ((v.turned ? v.high[0] - v.low[0] : v.high[1] - v.low[1]) + 2.0 * v.margin);
-  const double side = rise > 1e-3 ? v.scale * (rise + 2.0 * line->ball[0].kind.radius) + part_margin : 0.0;
-  if (extra == NULL)
-    draw_table(&v, &line->table->table, side > 0.0 ? side + part_margin : 0.0);
+  const double side = rise > 1e-3 ? v.scale * (rise + 2.0 * line->ball[0].kind.radius) + side_margin : 0.0;
+  draw_table(&v, &line->table->table, side > 0.0 ? side + side_margin : 0.0);
   if (side > 0.0) {
-    fprintf(out, "<rect y=\"%.1f\" width=\"100%%\" height=\"%.1f\" fill=\"#86a398\"/>\n", above, side + part_margin + 20.0);
+    fprintf(out, "<rect y=\"%.1f\" width=\"100%%\" height=\"%.1f\" fill=\"#86a398\"/>\n", above, side + side_margin + 20.0);
     draw_side(&v, line, shot, above + side, width);
   }
   for (int k = 0; k < line->count; k++)

@@ -29,9 +29,8 @@ static bool read_rail(const json_t *v, const char *where, carom_rail *rail, char
   if (!json_get_numbers(json_object_get(v, "p2"), key, 3, q, f))
     return false;
   *rail = (carom_rail){.p = {p[0], p[1]}, .q = {q[0], q[1]}, .height = p[2]};
-  if (!json_get_number(v, where, "lx", &rail->line[0], f) || !json_get_number(v, where, "ly", &rail->line[1], f) ||
-      !json_get_number(v, where, "l0", &rail->line[2], f) || !json_get_number(v, where, "direction", &side, f) ||
-      !json_get_number(v, where, "f_c", &rail->mu_cushion, f) || !json_get_number(v, where, "e_c", &rail->restitution, f))
+  if (!json_get_doubles(v, where, "lx ly l0", rail->line, f) || !json_get_doubles(v, where, "direction", &side, f) ||
+      !json_get_doubles(v, where, "f_c e_c", &rail->mu_cushion, f))
     return false;
   if (side != 0.0 && side != 1.0)
     return json_wrong(f, "%sdirection must be 0 or 1", where);
@@ -51,7 +50,7 @@ static bool read_circle(const json_t *v, const char *where, double centre[2], do
   centre[1] = c[1];
   *third = c[2];
   *radius = NAN;
-  if (!json_get_number(v, where, "radius", radius, f))
+  if (!json_get_doubles(v, where, "radius", radius, f))
     return false;
   return isnan(*radius) ? json_wrong(f, "%sradius is missing", where) : json_get_id(v, where, id, f);
 }
@@ -61,10 +60,8 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
   size_t k;
   char where[64];
   carom_table *table = &t->table;
-  if (!json_get_id(json, "", &t->id, f) || !json_get_number(json, "", "w", &table->width, f) ||
-      !json_get_number(json, "", "l", &table->length, f) || !json_get_number(json, "", "ball_radius", &table->ball_radius, f) ||
-      !json_get_number(json, "", "rail_width", &table->rail_width, f) ||
-      !json_get_number(json, "", "pocket_back", &table->pocket_back, f) ||
+  if (!json_get_id(json, "", &t->id, f) || !json_get_doubles(json, "", "w l", &table->width, f) ||
+      !json_get_doubles(json, "", "ball_radius rail_width pocket_back", &table->ball_radius, f) ||
       !json_get_list(json, "linear", CAROM_RAILS_MOST, &list, f))
     return false;
   json_array_foreach((json_t *)list, k, v) {
@@ -79,7 +76,7 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
     carom_jaw *jaw = &table->jaw[k];
     snprintf(where, sizeof where, "circular[%zu].", k);
     if (!read_circle(v, where, jaw->centre, &jaw->height, &jaw->radius, &t->jaw[k], f) ||
-        !json_get_number(v, where, "f_c", &jaw->mu_cushion, f) || !json_get_number(v, where, "e_c", &jaw->restitution, f))
+        !json_get_doubles(v, where, "f_c e_c", &jaw->mu_cushion, f))
       return false;
     table->jaws++;
   }
@@ -91,7 +88,7 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
     snprintf(where, sizeof where, "pockets[%zu].", k);
     pocket->depth = 0.08;
     if (!read_circle(v, where, pocket->centre, &unused, &pocket->radius, &t->pocket[k], f) ||
-        !json_get_number(v, where, "depth", &pocket->depth, f))
+        !json_get_doubles(v, where, "depth", &pocket->depth, f))
       return false;
     table->pockets++;
   }
@@ -100,14 +97,13 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
 
 /* Tables that need no line, by the name of carom_table_make()'s kinds. */
 named_table *built_in_table(const char *id) {
-  static const char *const names[] = {"7ft", "8ft", "9ft", "snooker", "threecushion"};
   static const char *const rails[] = {"3",  "6", "15", "12", "18", "9",  "5",  "4",  "13",
                                       "14", "1", "2",  "8",  "7",  "11", "10", "16", "17"};
   static const char *const plain[] = {"3", "12", "9", "18"};
   static const char *const jaws[] = {"1t", "2t", "4t", "5t", "7t", "8t", "10t", "11t", "13t", "14t", "16t", "17t"};
   static const char *const pockets[] = {"lb", "lc", "lt", "rb", "rc", "rt"};
   for (int kind = 0; kind <= CAROM_TABLE_THREECUSHION; kind++) {
-    if (strcmp(id, names[kind]) != 0)
+    if (strcmp(id, carom_table_name((carom_table_kind)kind)) != 0)
       continue;
     named_table *t = allocate(1, sizeof *t);
     carom_table_make((carom_table_kind)kind, &t->table);

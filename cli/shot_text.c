@@ -4,21 +4,7 @@
 #include <math.h>
 
 const char *shot_event_name(int type) {
-  static const char *const names[] = {
-      [CAROM_EVENT_STRIKE] = "stick_ball",
-      [CAROM_EVENT_BALL_BALL] = "ball_ball",
-      [CAROM_EVENT_RAIL] = "ball_linear_cushion",
-      [CAROM_EVENT_JAW] = "ball_circular_cushion",
-      [CAROM_EVENT_POCKET] = "ball_pocket",
-      [CAROM_EVENT_SLIDING_ROLLING] = "sliding_rolling",
-      [CAROM_EVENT_ROLLING_SPINNING] = "rolling_spinning",
-      [CAROM_EVENT_ROLLING_STATIONARY] = "rolling_stationary",
-      [CAROM_EVENT_SPINNING_STATIONARY] = "spinning_stationary",
-      [CAROM_EVENT_SLATE] = "slate",
-      [CAROM_EVENT_RAIL_TOP] = "rail_top",
-      [CAROM_EVENT_LEFT_TABLE] = "left_table",
-  };
-  return type >= 0 && type < (int)(sizeof names / sizeof names[0]) ? names[type] : NULL;
+  return carom_event_name((carom_event_type)type);
 }
 
 const char *shot_part_name(const named_table *table, const carom_event *event) {

@@ -53,32 +53,45 @@ void write_id(FILE *out, const char *id) {
     fputs(id, out);
 }
 
-static void write_csv(result_sink *s, const char *id, const double *in, const void *result, const char *status, bool good) {
-  const size_t results = (size_t)s->kind->results;
-  double wide[MOST_RESULTS], derived[MOST_DERIVED];
-  if (s->single)
-    to_double(result, wide, results);
-  else
-    memcpy(wide, result, results * sizeof *wide);
+void write_row_header(FILE *out, const row_kind *kind) {
+  fputs("id", out);
+  for (int k = 0; k < kind->numbers; k++)
+    fprintf(out, ",%s", kind->columns[k].name);
+  fputc('\n', out);
+}
+
+void write_row(FILE *out, const row_kind *kind, const char *id, const double *row) {
+  write_id(out, id);
+  write_numbers(out, row, (size_t)kind->numbers);
+  fputc('\n', out);
+}
+
+static void write_csv(result_sink *s, const char *id, const double *in, const double *result, const char *status, bool good) {
+  double derived[MOST_DERIVED];
   if (id == NULL)
     fprintf(s->file, "%zu", s->rows);
   else
     write_id(s->file, id);
-  write_numbers(s->file, wide, results);
+  write_numbers(s->file, result, (size_t)s->kind->results);
   fprintf(s->file, ",%s", status);
   /* Nothing derives from a row that was not resolved. */
   if (s->derived && good)
-    s->kind->derive(in, wide, derived);
+    s->kind->derive(in, result, derived);
   for (int k = 0; s->derived && !good && k < s->kind->derived; k++)
     derived[k] = (double)NAN;
   write_numbers(s->file, derived, s->derived ? (size_t)s->kind->derived : 0);
   fputc('\n', s->file);
 }
 
-void sink_write(result_sink *s, const char *id, const double *in, const void *result, carom_status status, const char *error) {
+void sink_write(result_sink *s, const char *id, const double *in, const double *result, carom_status status,
+                const char *error) {
+  const size_t results = (size_t)s->kind->results;
+  float narrow[MOST_RESULTS];
   s->rows++;
+  if (s->single)
+    to_single(result, narrow, results);
   if (s->array)
-    fwrite(result, s->single ? sizeof(float) : sizeof(double), (size_t)s->kind->results, s->file);
+    fwrite(s->single ? (const void *)narrow : result, s->single ? sizeof(float) : sizeof(double), results, s->file);
   else
     write_csv(s, id, in, result, error != NULL ? error : carom_status_name(status), error == NULL && status == CAROM_OK);
 }

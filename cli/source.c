@@ -5,8 +5,6 @@
 #include "message.h"
 #include "npy.h"
 #include "number.h"
-#include "precision.h"
-#include "suggest.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -61,18 +59,6 @@ static bool find_column(row_source *s, const record *header, int number) {
   return true;
 }
 
-/* A column that may have been meant by a missing one, or NULL. */
-static const char *meant_by(const row_kind *kind, const record *header, const char *missing) {
-  for (size_t k = 0; k < header->count; k++) {
-    bool known = strcmp(header->field[k], "id") == 0;
-    for (int number = 0; number < kind->numbers && !known; number++)
-      known = kind_fills(kind, number, header->field[k]);
-    if (!known && resembles(header->field[k], missing))
-      return header->field[k];
-  }
-  return NULL;
-}
-
 /* Whether the number must have a column but has none. */
 static bool is_missing(const row_source *s, int number) {
   const column *c = &s->kind->columns[number];
@@ -83,7 +69,7 @@ static bool is_missing(const row_source *s, int number) {
 }
 
 static bool find_columns(row_source *s, const record *header) {
-  char missing[256] = " ", meant[160] = "";
+  char missing[256] = " ";
   size_t unused;
   if (record_is_numbers(header)) {
     complain("%s:%lld: no header: the first row holds numbers; the names of the columns come first (`%s resolve --help` lists "
@@ -97,19 +83,15 @@ static bool find_columns(row_source *s, const record *header) {
   for (int number = 0; number < s->kind->numbers; number++)
     if (!find_column(s, header, number))
       return false;
-  /* Every column that is missing is named, and what may have been meant by the first. */
+  /* Every column that is missing is named. */
   for (int number = 0; number < s->kind->numbers; number++)
-    if (is_missing(s, number)) {
-      const char *name = s->column[number], *other = meant_by(s->kind, header, name);
-      if (other != NULL && meant[0] == '\0')
-        snprintf(meant, sizeof meant, "is '%.60s' meant to be %s? ", other, name);
-      strcat(strcat(missing, name), " ");
-    }
+    if (is_missing(s, number))
+      strcat(strcat(missing, s->column[number]), " ");
   if (missing[1] == '\0')
     return true;
-  if (!find_once(header, s->name, s->kind->clue, &unused) || unused != SIZE_MAX)
-    snprintf(meant, sizeof meant, "%s", s->kind->meant);
-  complain("%s:%lld: missing columns:%s(%s%s; `%s resolve --help` lists them)", s->name, header->line, missing, meant,
+  const bool other = !find_once(header, s->name, s->kind->clue, &unused) || unused != SIZE_MAX;
+  complain("%s:%lld: missing columns:%s(%s%s; `%s resolve --help` lists them)", s->name, header->line, missing,
+           other ? s->kind->meant : "",
            header->count > 1 ? "names are case-sensitive" : "the header is a single field, without commas", program_name);
   return false;
 }
@@ -193,7 +175,7 @@ static read_result read_csv(row_source *s, source_block *block) {
   }
   for (block->count = 0; block->count < CSV_BLOCK; block->count++) {
     row_note *note = &block->note[block->count];
-    double *numbers = (double *)block->numbers + block->count * (size_t)s->kind->numbers;
+    double *numbers = source_row(s, block, block->count);
     if ((result = record_next(s->records, &in)) != READ_ONE)
       break;
     /* What is known of the row, and its numbers: the defaults, and over them what it says. */
@@ -210,31 +192,17 @@ static read_result read_csv(row_source *s, source_block *block) {
 static read_result read_array(row_source *s, source_block *block) {
   const size_t left = s->array.rows - s->next;
   if (block->numbers == NULL)
-    block->numbers = allocate(NPY_BLOCK, s->array.row_size);
+    block->numbers = allocate(NPY_BLOCK, (size_t)s->kind->numbers * sizeof(double));
   block->count = left < NPY_BLOCK ? left : NPY_BLOCK;
   return npy_read(&s->array, block->count, block->numbers) ? READ_ONE : READ_FAILED;
-}
-
-/* Sets what options say instead of columns. */
-static void prepare(const row_source *s, const source_block *block) {
-  const size_t width = (size_t)s->kind->numbers;
-  double row[MOST_NUMBERS];
-  for (size_t k = 0; k < block->count; k++) {
-    source_row(s, block, k, row);
-    s->kind->prepare(s->asked, row);
-    if (source_is_single(s))
-      to_single(row, (float *)block->numbers + k * width, width);
-    else
-      memcpy((double *)block->numbers + k * width, row, width * sizeof *row);
-  }
 }
 
 read_result source_read(row_source *s, source_block *block) {
   block->first = s->next;
   const read_result result = s->records != NULL ? read_csv(s, block) : read_array(s, block);
   s->next += block->count;
-  if (s->kind->prepare != NULL && s->asked->friction.given)
-    prepare(s, block);
+  for (size_t k = 0; s->kind->prepare != NULL && k < block->count; k++) /* what options say instead of columns */
+    s->kind->prepare(s->asked, source_row(s, block, k));
   if (result == READ_ONE && block->count == 0)
     return READ_END;
   return result == READ_END && block->count > 0 ? READ_ONE : result;
@@ -248,22 +216,17 @@ void source_free_block(source_block *block) {
   *block = (source_block){0};
 }
 
-void source_row(const row_source *s, const source_block *block, size_t k, double *numbers) {
-  const size_t width = (size_t)s->kind->numbers;
-  if (source_is_single(s))
-    to_double((const float *)block->numbers + k * width, numbers, width);
-  else
-    memcpy(numbers, (const double *)block->numbers + k * width, width * sizeof *numbers);
+double *source_row(const row_source *s, const source_block *block, size_t k) {
+  return block->numbers + k * (size_t)s->kind->numbers;
 }
 
 /* ---- Messages */
 
 void source_report(const row_source *s, const source_block *block, size_t k, carom_status status, const char *doubt) {
   const row_note *note = block->note != NULL ? &block->note[k] : NULL;
-  double row[MOST_NUMBERS];
+  const double *row = source_row(s, block, k);
   int field = -1;
   char where[256], what[64] = "", id[ID_TEXT], text[NUMBER_TEXT];
-  source_row(s, block, k, row);
   s->kind->check(row, s->asked, &field);
   /* Where it is, and which of its numbers is to blame. */
   if (note != NULL)

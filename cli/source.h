@@ -25,23 +25,23 @@ typedef struct row_note {
 
 typedef struct source_block {
   size_t first, count;
-  void *numbers;  /* those of `count` rows, as doubles, or as floats where the source is single; 0 where one is in error */
-  row_note *note; /* one for each, or NULL: then the number of the row is its id */
+  double *numbers; /* those of `count` rows; 0 where one is in error */
+  row_note *note;  /* one for each, or NULL: then the number of the row is its id */
 } source_block;
 
 /* Opens a file of rows of the kind that is asked for by its name: .npy, or CSV, or "-" for CSV on stdin. Complains and returns
  * NULL if it or a column is missing. `asked` is read until the source is closed. */
 row_source *source_open(const char *path, const shared_options *asked);
 
-/* Whether the numbers are float. */
+/* Whether the numbers were float in the file. */
 bool source_is_single(const row_source *source);
 
 /* Fills a block, which begins as all zero and may be used again. READ_END: no more rows; READ_FAILED: after a complaint. */
 read_result source_read(row_source *source, source_block *block);
 void source_free_block(source_block *block);
 
-/* The numbers of row k of a block in double precision. */
-void source_row(const row_source *source, const source_block *block, size_t k, double *numbers);
+/* The numbers of row k of a block. */
+double *source_row(const row_source *source, const source_block *block, size_t k);
 
 /* Complains about row k of a block: what, where and what would be right. `status` is the library's, CAROM_OK where the row
  * could not be read; `doubt` is NULL, or what --strict refuses the row for. */

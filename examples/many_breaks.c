@@ -42,8 +42,16 @@ int main(void) {
   }
 
   /* one layout for all cues */
-  const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN, .threads = CAROM_ALL_THREADS};
-  carom_status status = carom_shoot_batch(&table, balls, BALLS, 1, cues, 0, BREAKS, &options, shots, NULL);
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN, .threads = CAROM_ALL_THREADS};
+  const carom_shot_job job = {.table = &table,
+                              .balls = balls,
+                              .cues = cues,
+                              .count = BALLS,
+                              .cue_stride = 1,
+                              .n = BREAKS,
+                              .options = &options,
+                              .shots = shots};
+  carom_status status = carom_shoot_batch(&job);
   if (status != CAROM_OK) {
     fprintf(stderr, "a break failed: %s\n", carom_status_string(status));
     return 1;

@@ -1,61 +1,68 @@
 /* carom: collisions of two billiard balls on a table.
  *
- * This header is the manual: read it from top to bottom and stop where you have what you need.
+ * This header is the manual of collisions, from simple to advanced. Cushions and whole shots are in carom_shot.h.
  *
  *     carom_impact in = { ... };                    // two touching balls, before the collision
  *     carom_result out;
  *     carom_status status = carom_collide(&in, NULL, &out);
  *     if (status < 0) fprintf(stderr, "%s\n", carom_status_string(status));
  *
- * Units are SI. The table's normal is +z, its surface is the plane x, y, and all vectors are right-handed. The model is that of
+ * Units are SI. The table is the plane x, y, its normal is +z, and all vectors are right-handed. The model is that of
  * S. Mathavan, M. R. Jackson, R. M. Parkin, "Numerical simulations of the frictional collisions of solid balls on a rough
- * surface", Sports Engineering 17 (2014) 227-237: both balls stay on the cloth; friction acts between the balls, and between
+ * surface", Sports Engineering 17 (2014) 227-237. Both balls stay on the cloth. Friction acts between the balls, and between
  * the cloth and the ball that is pressed into it.
  *
- * Scope. One collision of two balls of the same radius at the same height, of any masses. Not here: finding the contact, balls
- * that jump, three balls that touch at once, cushions, the motion between collisions.
+ * Scope. One collision of two balls of the same radius at the same height, of any masses. The caller finds the contact. Three
+ * balls that touch at once and balls that jump are not included.
  *
- * Calls. Every function is reentrant and may be called from many threads at once. None prints, aborts or allocates memory. Only
- * a batch that is asked to (options.threads) starts threads; they take no signals of the process, and end with the call. The
- * one global state is the instruction set in force.
+ * Calls. Every function is reentrant and may be called from many threads at once. None prints, aborts or allocates memory. A
+ * batch starts threads only if options.threads asks for them. They receive no signals of the process and end with the call.
+ * The only global state is the instruction set in use.
  *
- * Accuracy of the exact solver, which is the default. Errors are those of the fastest of the twelve numbers (times the radius
- * for spins), against the limit of Mathavan's equations. In double precision: collisions of play (mu_ball up to 0.2, mu_cloth
- * up to 0.5, e from 0.5, masses within 1 : 2, any speeds and spins) median 2e-9, every one of 20 million drawn within 1e-6;
- * anything else that is accepted within 1e-5, or its status is CAROM_ERROR_UNRESOLVED. In single precision: median 1e-7,
- * collisions of play within 2e-5. docs/understanding/accuracy.md has the figures and the command that prints them again. How
- * near the model is to real balls is another matter: docs/understanding/physics.md.
+ * Accuracy of the exact solver, the default. Errors are against the limit of Mathavan's equations, over the fastest of the
+ * twelve numbers (spins times the radius).
+ *   - Double precision, collisions of play (mu_ball up to 0.2, mu_cloth up to 0.5, e from 0.5, masses within 1 : 2, any speeds
+ *     and spins): within 1e-6, median 2e-9.
+ *   - Double precision, anything else that is accepted: within 1e-5, or the status is CAROM_ERROR_UNRESOLVED.
+ *   - Single precision, collisions of play: within 2e-5, median 1e-7.
+ * docs/understanding/accuracy.md has the figures and the commands that print them. docs/understanding/physics.md describes the
+ * model and its limits.
  *
- * Cost of the exact solver, a collision, on one core of an Intel Xeon of 2 GHz with AVX-512: a call 0.2 us where the cloth slip
- * is smooth and 0.3 to 3 us where it turns or the balls stick, 0.4 us in the mean of play; a row of a batch 0.16 us. Strong
- * friction, hardly any restitution or very unequal masses go to the precise solver, which takes some microseconds. No input
- * takes more than 200: the precise solver ends after 400 iterations with CAROM_ERROR_UNRESOLVED, and evaluates the equations at
- * most 3,300 times (carom_detail.evaluations). A sample of a trace may take as many again. With SSE2 or in plain C a call takes
- * a quarter longer. Euler's method: about 20 ns a step.
+ * Cost of the exact solver for one collision, on one core of an Intel Xeon of 2 GHz with AVX-512:
+ *   - A call takes 0.4 us in the mean of play: 0.2 us if the slip on the cloth is smooth, 0.3 to 3 us if it turns or the balls
+ *     stick. A row of a batch takes 0.16 us. With SSE2 or in plain C a call takes a quarter longer.
+ *   - Strong friction, very small restitution or very unequal masses take some microseconds.
+ *   - No input takes more than 200 us: the solver ends after 400 iterations with CAROM_ERROR_UNRESOLVED, and evaluates the
+ *     equations at most 3,300 times (carom_detail.evaluations). Each point of a trace may take as many again.
+ * Euler's method takes about 20 ns a step.
  *
- * Stack. In a build that optimises, every call fits a thread with 64 KiB of stack, of which the C library takes some. On x86-64
- * a single call takes at most 7 KiB, a trace 10, a batch 46, and one over threads 55 in the calling thread (measured by
- * tests/unit/stack.c).
+ * Stack. In an optimised build every call fits a thread with 64 KiB of stack, part of which the C library uses. On x86-64 a
+ * single call takes at most 7 KiB, a trace 10, a batch 46, and a batch with threads 55 in the calling thread
+ * (tests/unit/stack.c measures them).
  *
- * Determinism. What gives equal bits:
- *   - A batch and as many single calls: each row has the bits that it has alone, whoever its neighbours are, wherever the batch
- *     is cut, and for any number of threads. (But for Euler's method in single precision: see carom_collide_batch_f32().)
+ * Determinism. Equal bits have:
+ *   - Each row of a batch and a single call on that row, for any batch size, split, neighbours and thread count. The exception
+ *     is Euler's method in single precision: see carom_collide_batch_f32().
  *   - Two runs on one processor with one instruction set.
  *   - All machines and compilers with the environment variable CAROM_ISA=plain, or after carom_isa_limit(CAROM_ISA_PLAIN): for
- *     lockstep, replays and tests. This holds for every function, traces and details included, and under flags such as -mfma,
- *     -march=native and LTO. tests/platforms/bits.expected has hashes, which gcc and clang agree on, and Linux on x86-64 and
- *     arm64, Windows and WebAssembly.
+ *     lockstep, replays and tests. This holds for every function, also under flags such as -mfma, -march=native and LTO.
+ *     tests/platforms/bits.expected has hashes on which gcc and clang, Linux on x86-64 and arm64, Windows and WebAssembly
+ *     agree.
  *   - All instruction sets, by Euler's method in double precision.
  *
- * Otherwise the exact solver's bits differ between instruction sets, and with sse2 and avx2 between makes of processors, whose
- * estimates of reciprocals differ; results then differ within the solver's errors. The bits of a NaN have no promise.
+ * Otherwise the exact solver's bits differ between instruction sets. With sse2 and avx2 they also differ between makes of
+ * processors, whose estimates of reciprocals differ. Results then differ within the solver's errors. The bits of a NaN are not
+ * specified.
  *
- * Floating-point environment. The rounding mode must be to nearest; with another, ordinary collisions come out some 1e-6 less
- * accurate, with other bits. Exceptions must be masked, as in every C program at its start: the lanes of a batch compute on
- * rows that are in error or not there, so invalid operations, overflow and division by zero are raised and thrown away.
- * Flags may be left raised; nothing else is changed. Flushing subnormal numbers to zero makes no difference to collisions on a
- * table. Threads of a batch have the environment of the calling thread, but on Windows that of any new thread. The library
- * refuses to be compiled with flags that change results, such as -ffast-math or -fno-signed-zeros: see docs/using/building.md.
+ * Floating-point environment.
+ *   - The rounding mode must be to nearest. With another mode, ordinary collisions are some 1e-6 less accurate and have other
+ *     bits.
+ *   - Exceptions must be masked, as in every C program at its start. Lanes of a batch compute on bad or missing rows too, so
+ *     invalid operations, overflow and division by zero occur and are ignored. Flags may be left raised; nothing else changes.
+ *   - Flushing subnormal numbers to zero makes no difference to collisions on a table.
+ *   - Threads of a batch have the environment of the calling thread; on Windows that of any new thread.
+ * The library refuses to be compiled with flags that change results, such as -ffast-math or -fno-signed-zeros
+ * (docs/using/building.md).
  */
 #ifndef CAROM_H
 #define CAROM_H
@@ -115,34 +122,36 @@ typedef struct carom_result {
 
 /* ---- How a call ended ------------------------------------------------------------------------------------------------ */
 
-/* 0 is success, a positive value a valid outcome worth a remark, a negative value an error. Values are never renumbered or used
- * again. -30 to -39 are reserved for cushions, -40 to -59 for shots. What each means is told by carom_status_string(). */
+/* 0 is success, a positive value a valid outcome of another kind, a negative value an error. Values are never renumbered or
+ * used again. -30 to -39 are reserved for cushions, -40 to -79 for shots. carom_status_string() describes each. */
 typedef enum carom_status {
-  CAROM_OK = 0,                     /* resolved. */
-  CAROM_SEPARATING = 1,             /* the balls do not approach each other; their state is returned unchanged. */
-  CAROM_ERROR_NULL = -1,            /* a required pointer is NULL. */
-  CAROM_ERROR_SOLVER = -2,          /* options.solver is not one of carom_solver. */
-  CAROM_ERROR_SLIP = -3,            /* options.slip is not one of carom_slip. */
-  CAROM_ERROR_STEPS = -4,           /* options.steps is negative. */
-  CAROM_ERROR_POSITION = -5,        /* a position is not finite. */
-  CAROM_ERROR_VELOCITY = -6,        /* a velocity is not finite. */
-  CAROM_ERROR_SPIN = -7,            /* an angular velocity is not finite. */
-  CAROM_ERROR_RADIUS = -8,          /* a radius is not positive and finite. */
-  CAROM_ERROR_MASS = -9,            /* a mass is not positive and finite. */
-  CAROM_ERROR_MU_CLOTH = -10,       /* the friction of ball and cloth is not in [0, 1]. */
-  CAROM_ERROR_MU_BALL = -11,        /* the friction of ball and ball is not in [0, 1]. */
-  CAROM_ERROR_RESTITUTION = -12,    /* the restitution is not in [0, 1]. */
-  CAROM_ERROR_RADII_DIFFER = -13,   /* the balls have different radii, by more than 1e-9 of them. */
-  CAROM_ERROR_HEIGHTS_DIFFER = -14, /* the centres are at different heights. */
-  CAROM_ERROR_VERTICAL = -15,       /* a vertical velocity is not 0: both balls stay on the table. */
-  CAROM_ERROR_COINCIDENT = -16,     /* the centres coincide, so there is no line of centres. */
-  CAROM_ERROR_TOO_SLOW = -17,       /* Euler's steps are lost in rounding, or more than 16 N of them are needed. */
-  CAROM_ERROR_OVERFLOW = -18,       /* the collision overflows the range of double, or of float for single precision. */
-  CAROM_ERROR_MASSES_DIFFER = -19,  /* the masses differ, for the kernels of the study that take equal ones only. */
-  CAROM_ERROR_THREADS = -20,        /* options.threads is neither CAROM_ALL_THREADS nor 0 or more. */
-  CAROM_ERROR_POINTS = -21,         /* a trace needs at least 2 points. */
-  CAROM_ERROR_UNRESOLVED = -22, /* too extreme: the result hangs on rounding errors, or takes more work than a call may cost. */
-  CAROM_ERROR_OPTIONS = -23,    /* a reserved field of the options is not 0. */
+  CAROM_OK = 0,                      /* resolved. */
+  CAROM_SEPARATING = 1,              /* the balls do not approach each other; their state is returned unchanged. */
+  CAROM_STOPPED_AT_TIME = 2,         /* a shot was stopped at options.time_most, as asked; balls still move. */
+  CAROM_STOPPED_AT_EVENT = 3,        /* a shot was stopped after an event of options.stop_at, as asked. */
+  CAROM_ERROR_NULL = -1,             /* a required pointer is NULL. */
+  CAROM_ERROR_SOLVER = -2,           /* options.solver is not one of carom_solver. */
+  CAROM_ERROR_SLIP = -3,             /* options.slip is not one of carom_slip. */
+  CAROM_ERROR_STEPS = -4,            /* options.steps is negative. */
+  CAROM_ERROR_POSITION = -5,         /* a position is not finite. */
+  CAROM_ERROR_VELOCITY = -6,         /* a velocity is not finite. */
+  CAROM_ERROR_SPIN = -7,             /* an angular velocity is not finite. */
+  CAROM_ERROR_RADIUS = -8,           /* a radius is not positive and finite. */
+  CAROM_ERROR_MASS = -9,             /* a mass is not positive and finite. */
+  CAROM_ERROR_MU_CLOTH = -10,        /* the friction of ball and cloth is not in [0, 1]. */
+  CAROM_ERROR_MU_BALL = -11,         /* the friction of ball and ball is not in [0, 1]. */
+  CAROM_ERROR_RESTITUTION = -12,     /* the restitution is not in [0, 1]. */
+  CAROM_ERROR_RADII_DIFFER = -13,    /* the balls have different radii, by more than 1e-9 of them. */
+  CAROM_ERROR_HEIGHTS_DIFFER = -14,  /* the centres are at different heights. */
+  CAROM_ERROR_VERTICAL = -15,        /* a vertical velocity is not 0: both balls stay on the table. */
+  CAROM_ERROR_COINCIDENT = -16,      /* the centres coincide, so there is no line of centres. */
+  CAROM_ERROR_TOO_SLOW = -17,        /* Euler's steps are lost in rounding, or more than 16 N of them are needed. */
+  CAROM_ERROR_OVERFLOW = -18,        /* the collision overflows the range of double, or of float for single precision. */
+  CAROM_ERROR_MASSES_DIFFER = -19,   /* the masses differ, in a shot by pooltool's rules or models, or a kernel of the study. */
+  CAROM_ERROR_THREADS = -20,         /* options.threads is neither CAROM_ALL_THREADS nor 0 or more. */
+  CAROM_ERROR_POINTS = -21,          /* a trace needs at least 2 points. */
+  CAROM_ERROR_UNRESOLVED = -22,      /* the result depends on rounding errors, or takes more work than a call may cost. */
+  CAROM_ERROR_OPTIONS = -23,         /* a reserved field of the options is not 0. */
   CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model of carom_shot.h is not one of carom_cushion_model. */
   CAROM_ERROR_CUSHION_OPTIONS = -31, /* an option of a cushion is out of its range. */
   CAROM_ERROR_NORMAL = -32,          /* the direction into a cushion is not finite, or 0. */
@@ -150,7 +159,7 @@ typedef enum carom_status {
   CAROM_ERROR_MU_CUSHION = -34,      /* the friction of ball and cushion is not in [0, 1]. */
   CAROM_ERROR_JAW_RADIUS = -35,      /* the radius of a jaw is not finite, or negative. */
   CAROM_ERROR_TOO_MANY_EVENTS = -40, /* a shot has more than options.events_most events. */
-  CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than options.time_most. */
+  CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than 1000 s, and options.time_most is 0. */
   CAROM_ERROR_LEFT_TABLE = -42,      /* a ball on the cloth left the table. */
   CAROM_ERROR_SHOT_OPTIONS = -43,    /* an option of the shot is out of its range, or a reserved one is not 0. */
   CAROM_ERROR_BALLS = -44,           /* the number of balls is not 1 to CAROM_BALLS_MOST. */
@@ -167,29 +176,33 @@ typedef enum carom_status {
   CAROM_ERROR_TIME = -55,         /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */
   CAROM_ERROR_DRAG = -56,         /* the drag of a rolling ball is not in [0, 1] 1/m. */
   CAROM_ERROR_BALL_CUSHION = -57, /* a ball's roll_loss, nose_height or omega_ratio is out of its range. */
+  CAROM_ERROR_STATE = -60,        /* carom_shot_continue(): shot.state is not that of a shot of these balls that can go on. */
+  CAROM_ERROR_TABLE_OPEN = -61,   /* carom_table_check(): a ball can leave the table, or has no place on it. */
+  CAROM_ERROR_RAIL_SIDE = -62,    /* carom_table_check(): the played side of a rail is turned away from the table. */
+  CAROM_ERROR_RAIL_LINE = -63,    /* carom_table_check(): the line of a rail does not pass through both of its ends. */
 } carom_status;
 
-/* The short name of a status ("separating"), as it stands in the command's output. "unknown" for a value not listed. Arrays of
+/* The short name of a status ("separating"), as in the command's output. "unknown" for a value not listed. Arrays of
  * statuses are of int8_t, each with the value of a carom_status. */
 CAROM_API const char *carom_status_name(carom_status status);
 
-/* What the status means, in one sentence without a full stop, fit for a message. Never NULL. */
+/* The meaning of the status, in one sentence without a full stop, for use in messages. Never NULL. */
 CAROM_API const char *carom_status_string(carom_status status);
 
 /* ---- Resolving ------------------------------------------------------------------------------------------------------- */
 
 /* How the collision is computed. */
 typedef enum carom_solver {
-  CAROM_SOLVER_EXACT = 0, /* the limit of infinitely many steps, by collocation: the physics of the model itself. */
-  CAROM_SOLVER_EULER = 1, /* Mathavan's N steps of equal normal impulse; with the slip of pooltool, pooltool's result to the
-                             last bit. */
+  CAROM_SOLVER_EXACT = 0, /* the limit of infinitely many steps, by collocation: the solution of the model. */
+  CAROM_SOLVER_EULER = 1, /* Mathavan's N steps of equal normal impulse. With the slip of pooltool the result has
+                             pooltool's bits. */
 } carom_solver;
 
-/* Which velocity slips over the cloth. */
+/* How the slip on the cloth is computed. */
 typedef enum carom_slip {
-  CAROM_SLIP_PAPER = 0,    /* v_x - R w_y, v_y + R w_x: the 2014 paper's. A ball that rolls does not slip. */
-  CAROM_SLIP_POOLTOOL = 1, /* v_x + R w_y, v_y - R w_x: what the simulator pooltool computes, with the opposite sign of the
-                              spin: for parity with it, not for truth. */
+  CAROM_SLIP_PAPER = 0,    /* v_x - R w_y, v_y + R w_x: the 2014 paper's. A rolling ball does not slip. */
+  CAROM_SLIP_POOLTOOL = 1, /* v_x + R w_y, v_y - R w_x: that of the simulator pooltool, with the opposite sign of the spin. For
+                              parity with pooltool only. */
 } carom_slip;
 
 /* The names above as text ("euler", "paper"), or NULL for a value not listed. */
@@ -206,12 +219,12 @@ enum {
 typedef struct carom_options {
   carom_solver solver;  /* default CAROM_SOLVER_EXACT. */
   carom_slip slip;      /* default CAROM_SLIP_PAPER. */
-  int steps;            /* Euler's N: about so many steps are taken; the error falls as 1/N. 0: CAROM_DEFAULT_STEPS. */
+  int steps;            /* Euler's N, the approximate number of steps; the error falls like 1/N. 0: CAROM_DEFAULT_STEPS. */
   int threads;          /* most threads that a batch may use, the calling one among them. 0, the default: that one alone.
                            CAROM_ALL_THREADS: one for each processor that the process may use, by its affinity and the limit of
-                           its control group. Results do not depend on it. Small batches and single calls start none, nor
-                           does a library that was built without threads. */
-  uint64_t reserved[6]; /* must be 0: room for options to come, which 0 will leave at their defaults. */
+                           its control group. Results do not depend on it. Small batches, single calls, and libraries built
+                           without threads start none. */
+  uint64_t reserved[6]; /* must be 0. Room for future options, for which 0 will mean the default. */
 } carom_options;
 
 /* Resolves one collision. `opt` may be NULL for the defaults; `out` may not overlap `in`.
@@ -221,9 +234,9 @@ CAROM_API carom_status carom_collide(const carom_impact *in, const carom_options
 
 /* Resolves `n` collisions, in[0..n-1] to out[0..n-1], each as carom_collide() does, bit for bit: a bad pair gets NaN and its
  * own status and changes nothing for the others. `status` takes the n statuses; it may be NULL. `in`, `out` and `status` may
- * not overlap; with n = 0 they may be NULL. A caller with threads of its own may cut a batch as it likes. Returns CAROM_OK if
- * no pair is in error, else the status of the first that is; if the call itself cannot be served (NULL, bad options), that
- * error, with nothing written. */
+ * not overlap; with n = 0 they may be NULL. A caller with its own threads may split a batch in any way. Returns CAROM_OK if
+ * no pair is in error, else the status of the first pair in error. A NULL pointer or bad options are an error of the call, and
+ * then nothing is written. */
 CAROM_API carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
                                            int8_t *status);
 
@@ -245,14 +258,14 @@ CAROM_API double carom_mu_ball(const carom_impact *in, carom_speed_law law);
 /* ---- After the collision --------------------------------------------------------------------------------------------- */
 
 /* The velocity, m/s, at which a ball of the given velocity, angular velocity and radius stops sliding and begins to roll:
- * (5/7) v + (2/7) R (w_y, -w_x, 0). The cloth's friction does not matter, only the time that it takes. `rolling` may be `v` or
- * `w`. */
+ * (5/7) v + (2/7) R (w_y, -w_x, 0). It does not depend on the cloth's friction, which only determines when this happens.
+ * `rolling` may be `v` or `w`. */
 CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], double radius, double rolling[3]);
 
 /* ---- Single precision ------------------------------------------------------------------------------------------------ */
 
-/* The same in single precision, with the suffix _f32: half the memory, twice the lanes. By the exact solver collisions of play
- * are within 2e-5 of the result for the rounded numbers. */
+/* The same in single precision, with the suffix _f32: half the memory, twice the lanes. Results of the exact solver for
+ * collisions of play are within 2e-5 of the exact result for the rounded numbers. */
 typedef struct carom_ball_f32 {
   float r[3], v[3], w[3];
   float radius, mass, mu_cloth;
@@ -274,16 +287,16 @@ typedef struct carom_result_f32 {
 /* carom_collide() in single precision. Euler's method is computed in double precision and rounded. */
 CAROM_API carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt, carom_result_f32 *out);
 
-/* carom_collide_batch() in single precision: by the exact solver each row as carom_collide_f32() does, bit for bit. Euler's
- * method is computed in single precision here, so its rows differ from single calls by their rounding, though not with the
- * number of threads, nor with the other rows. */
+/* carom_collide_batch() in single precision. By the exact solver each row is bit-identical to carom_collide_f32(). Euler's
+ * method is computed in single precision here, so its rows differ from single calls by rounding. They do not depend on the
+ * number of threads or on other rows. */
 CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt,
                                                carom_result_f32 *out, int8_t *status);
 
 /* ---- Instruction sets ------------------------------------------------------------------------------------------------ */
 
-/* What batches and single calls of the exact limit compute with, from low to high. They take the highest that the processor
- * has; results differ within the solver's errors from one to another. The environment variable CAROM_ISA, set to one of the
+/* Instruction sets of batches and of single calls of the exact solver, from low to high. The highest that the processor has is
+ * used. Results differ within the solver's errors from one to another. The environment variable CAROM_ISA, set to one of the
  * names ("plain", "sse2", "neon", "avx2", "avx512") before the first call, limits it for the whole process; other values are
  * ignored. */
 typedef enum carom_isa {
@@ -301,23 +314,23 @@ CAROM_API const char *carom_isa_name(carom_isa isa);
 /* Whether this build and this processor have it: 1 or 0. */
 CAROM_API int carom_isa_available(carom_isa isa);
 
-/* The one that is used. */
+/* The instruction set in use. */
 CAROM_API carom_isa carom_isa_in_force(void);
 
-/* From now on the whole process uses no higher one than `isa`; CAROM_ISA_ANY lifts the limit, but for CAROM_ISA. Returns the
- * one then in force. Call it while no batch runs. */
+/* Limits the whole process to `isa` and lower ones. CAROM_ISA_ANY lifts this limit, but not that of the environment variable.
+ * Returns the instruction set then in use. Call it while no batch runs. */
 CAROM_API carom_isa carom_isa_limit(carom_isa isa);
 
-/* ---- Looking closer -------------------------------------------------------------------------------------------------- */
+/* ---- Details and traces ---------------------------------------------------------------------------------------------- */
 
-/* When the surfaces of the balls ceased to slip on each other, if they did. */
+/* When the balls stopped slipping on each other. */
 typedef enum carom_stick {
   CAROM_STICK_NEVER = 0,          /* they slipped to the end */
   CAROM_STICK_IN_COMPRESSION = 1, /* while the balls still approached each other */
   CAROM_STICK_IN_RESTITUTION = 2, /* while they were parting */
 } carom_stick;
 
-/* What else is known of a collision. Impulses in N s, as vectors along the axes of the table where they have a direction. */
+/* More about a collision. Impulses are in N s, as vectors along the axes of the table where they have a direction. */
 typedef struct carom_detail {
   int64_t steps;           /* steps that Euler's method took; 0 for other solvers. */
   int64_t evaluations;     /* how often the exact solver evaluated the equations; 0 for other solvers. */
@@ -326,25 +339,24 @@ typedef struct carom_detail {
   double cloth_a[3];       /* impulse of the cloth's friction on the first ball, */
   double cloth_b[3];       /* and on the second: only one of them is pressed into the cloth by the other's friction. */
   double work_compression; /* work of the normal force until the balls no longer approach, J. */
-  double work;             /* the same over the whole collision: (1 + e^2) of it, for Euler's method a whole step more. */
-  carom_stick stick;       /* CAROM_STICK_NEVER from Euler's method, which chatters instead. */
+  double work;             /* the same over the whole collision: (1 + e^2) of it; by Euler's method up to a step more. */
+  carom_stick stick;       /* always CAROM_STICK_NEVER by Euler's method, whose slip alternates in sign instead. */
   double stick_normal;     /* the normal impulse so far when they stuck; NaN if they never did. */
-  double reserved[4];      /* 0; room for what may be told later. */
+  double reserved[4];      /* 0; room for future fields. */
 } carom_detail;
 
-/* carom_collide that also tells how it went. `*detail` is filled whatever the status, with 0 and NaN where nothing was solved.
- * `detail` may be NULL. Works overflow to infinity
- * above 1e150 m/s. */
+/* carom_collide() with details. `*detail` is filled for every status, with 0 and NaN where nothing was solved. `detail` may be
+ * NULL. Works overflow to infinity above 1e150 m/s. */
 CAROM_API carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt, carom_result *out,
                                             carom_detail *detail);
 
 /* Compression lasts while the balls approach each other; in restitution they part. */
 typedef enum carom_phase { CAROM_PHASE_COMPRESSION = 0, CAROM_PHASE_RESTITUTION = 1 } carom_phase;
 
-/* A collision on its way. Slips are in the collision frame: y is the line of centres from the first ball to the second, z
+/* One point of a collision. Slips are in the collision frame: y is the line of centres from the first ball to the second, z
  * points up, x = y x z. A slip is the velocity, m/s, of one surface over the other where they touch. */
 typedef struct carom_trace_point {
-  double normal;      /* normal impulse so far, N s: the measure of how far the collision has come. */
+  double normal;      /* normal impulse so far, N s. It grows during the whole collision. */
   double work;        /* work of the normal force so far, J: the sum of |v_n| dP. */
   carom_phase phase;  /* CAROM_PHASE_COMPRESSION up to v_n = 0. */
   int sticks;         /* 1 from where the balls no longer slip on each other, else 0; always 0 by Euler's method. */
@@ -353,20 +365,20 @@ typedef struct carom_trace_point {
   double d_x, d_y;    /* slip of the first ball over the cloth, with the sign of options.slip, */
   double b_x, b_y;    /* and of the second ball. */
   carom_result state; /* both balls, along the axes of the table. */
-  double reserved[4]; /* 0; room for what may be told later. */
+  double reserved[4]; /* 0; room for future fields. */
 } carom_trace_point;
 
 /* Follows one collision through `n` >= 2 points at equal steps of normal impulse, from 0 at points[0] to the end, which is the
- * result of carom_collide() (by the exact solver to about 1e-6, as it is computed another way). Euler's method gives the
- * nearest whole steps. `opt` may be NULL; `points` may not overlap `in`. It is made for looking, not for speed: about a
- * millisecond for the exact limit, n/2 times a collision for Euler's method. Returns what carom_collide() does.
+ * result of carom_collide() (by the exact solver within about 1e-6, because the precise solver computes it). Euler's method
+ * gives the nearest whole steps. `opt` may be NULL; `points` may not overlap `in`. It is not made for speed: it takes about a
+ * millisecond by the exact solver, n/2 times a collision by Euler's method. Returns what carom_collide() does.
  * CAROM_SEPARATING: every point is the state before, with impulse 0. An error: every number is NaN (but nothing is written when
  * a pointer is NULL or n < 2). */
 CAROM_API carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_t n, carom_trace_point *points);
 
 /* Checks the arguments of a collision and solves nothing. Returns CAROM_OK or an error that depends on single fields
  * (CAROM_SEPARATING, TOO_SLOW and OVERFLOW come only from solving). If `field` is not NULL, `*field` becomes the index of the
- * offending number among the 26 doubles of `*in`, or -1 where none is to blame. */
+ * bad number among the 26 doubles of `*in`, or -1 if the error is in no single number. */
 CAROM_API carom_status carom_check(const carom_impact *in, const carom_options *opt, int *field);
 
 /* The C name of number `field` of a carom_impact, 0 to 25: "a.r[0]" ... "restitution". NULL outside that range. */
@@ -381,8 +393,13 @@ CAROM_API const char *carom_field_name(int field);
 CAROM_API const char *carom_version(void);
 CAROM_API int carom_version_number(void);
 
-/* Whether this library serves a caller compiled with the header of that version, 1 or 0: carom_serves(CAROM_VERSION_NUMBER).
- * Before 1.0 it must be the same minor version, from then on the same major version and a minor one not above the library's. */
+/* The revision of the physics: a number that changes whenever a result of any call or model has other bits than before. Recordings
+ * play back bit for bit, and players in lockstep agree, only with the same number. */
+CAROM_API int carom_physics_revision(void);
+
+/* Whether a caller compiled with the header of that version can use this library, 1 or 0: carom_serves(CAROM_VERSION_NUMBER).
+ * Before 1.0 the minor version must be equal. From then on the major version must be equal, and the minor one not above the
+ * library's. */
 CAROM_API int carom_serves(int header_version_number);
 
 #ifdef __cplusplus

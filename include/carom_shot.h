@@ -1,4 +1,4 @@
-/* carom_shot.h - balls on a table: what they meet there besides each other.
+/* carom_shot.h: balls on a table. The impact of a ball on a cushion, and whole shots from the strike to rest.
  *
  *     carom_cushion_impact in = {.v = {0.5, 1.2, 0}, .normal = {0, 1}, .height = 0.0365, .radius = 0.028575, .mass = 0.17,
  *                                .mu_cloth = 0.2, .mu_cushion = 0.2, .restitution = 0.85};
@@ -48,10 +48,10 @@ typedef enum carom_cushion_model {
   CAROM_CUSHION_EULER = 4,    /* the model of MATHAVAN in N steps of impulse, as pooltool takes them. */
 } carom_cushion_model;
 
-/* Whose conventions hold where the simulator pooltool departs from the papers: for parity with it, not for truth. */
+/* Which conventions are used where the simulator pooltool differs from the papers. POOLTOOL is for parity with it only. */
 typedef enum carom_cushion_convention {
-  CAROM_CONVENTION_PAPER = 0, /* the nose is touched at its height: sin(theta) = (h - R) / R; a cloth cannot pull; no slip, no
-                                 friction. */
+  CAROM_CONVENTION_PAPER = 0,    /* the nose is touched at its height: sin(theta) = (h - R) / R. The cloth cannot pull. Without
+                                    slip there is no friction. */
   CAROM_CONVENTION_POOLTOOL = 1, /* STRONGE: tan(theta) = (h - R) / (R + jaw_radius + 1e-6 m). EULER: the cloth may pull, and a
                                     slip of 0 has the direction of +x. Nothing changes for the other models. */
 } carom_cushion_convention;
@@ -97,21 +97,21 @@ CAROM_API carom_status carom_cushion(const carom_cushion_impact *in, const carom
 /* Resolves `n` impacts, in[0..n-1] to out[0..n-1], each as carom_cushion() does, bit for bit: a bad row gets NaN and its own
  * status and changes nothing for the others. `status` takes the n statuses, each the value of a carom_status; it may be NULL.
  * `in`, `out` and `status` may not overlap; with n = 0 they may be NULL. Returns CAROM_OK if no row is in error, else the
- * status of the first that is; if the call itself cannot be served (NULL, bad options), that error, with nothing written. */
+ * status of the first row in error. NULL or bad options are an error of the call, and then nothing is written. */
 CAROM_API carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n, const carom_cushion_options *opt,
                                            carom_motion *out, int8_t *status);
 
 /* Checks the arguments and solves nothing. Returns CAROM_OK or an error. If `field` is not NULL, `*field` becomes the index of
- * the offending number among the 15 doubles of `*in`, or -1 where none is to blame. `opt` may be NULL. */
+ * the bad number among the 15 doubles of `*in`, or -1 if the error is in no single number. `opt` may be NULL. */
 CAROM_API carom_status carom_cushion_check(const carom_cushion_impact *in, const carom_cushion_options *opt, int *field);
 
 /* The C name of number `field` of a carom_cushion_impact, 0 to 14: "v[0]" ... "jaw_radius". NULL outside that range. */
 CAROM_API const char *carom_cushion_field_name(int field);
 
-/* An impact on its way. Slips are in the frame of the cushion: x along it, y into it, z up. A slip is the velocity, m/s, of the
- * surface of the ball over what it touches. */
+/* One point of an impact. Slips are in the frame of the cushion: x along it, y into it, z up. A slip is the velocity, m/s, of
+ * the surface of the ball over what it touches. */
 typedef struct carom_cushion_point {
-  double normal;      /* normal impulse so far, N s: the measure of how far the impact has come. */
+  double normal;      /* normal impulse so far, N s. It grows during the whole impact. */
   double work;        /* work of the normal force so far, J: the sum of |v_n| dP. */
   carom_phase phase;  /* CAROM_PHASE_COMPRESSION up to v_n = 0. */
   int nose_sticks;    /* 1 where the ball does not slip on the nose, */
@@ -121,12 +121,12 @@ typedef struct carom_cushion_point {
   double s_x, s_t;    /* slip on the nose, along the cushion and upwards across it; exactly 0 where it sticks. */
   double c_x, c_y;    /* slip on the cloth; exactly 0 where it sticks. */
   carom_motion state; /* along the axes of the table. */
-  double reserved[4]; /* 0; room for what may be told later. */
+  double reserved[4]; /* 0; room for future fields. */
 } carom_cushion_point;
 
 /* Follows one impact, by the model MATHAVAN or EULER, through `n` >= 2 points at equal steps of normal impulse (EULER: the
- * nearest whole steps) from 0 at points[0] to the end, which is the result of carom_cushion(). `opt` may be NULL. Made for
- * looking, not for speed: MATHAVAN may take 400 iterations for each point, EULER takes n/2 times an impact. Returns what
+ * nearest whole steps) from 0 at points[0] to the end, which is the result of carom_cushion(). `opt` may be NULL. It is not
+ * made for speed: MATHAVAN may take 400 iterations for each point, EULER takes n/2 times an impact. Returns what
  * carom_cushion() does, or CAROM_ERROR_CUSHION_MODEL for a model in closed form. CAROM_SEPARATING: every point is the motion
  * before, with impulse 0. An error: every number is NaN (but nothing is written when a pointer is NULL or n < 2). */
 CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cushion_options *opt, size_t n,
@@ -134,8 +134,7 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
 
 /* ==== Whole shots ========================================================================================================
  *
- * From the strike of a cue to rest, event by event: between events every ball moves in closed form, and no contact is stepped
- * over.
+ * From the strike of a cue to rest, event by event. Between events every ball moves by a closed form, and no contact is missed.
  *
  *     carom_table table;
  *     carom_table_make(CAROM_TABLE_POOL_9FT, &table);
@@ -149,7 +148,7 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
  *     carom_shot_at(balls, 10, &shot, 1.5, moved);                              // the state after 1.5 s goes to moved[10]
  *
  * The playing surface is 0 <= x <= width, 0 <= y <= length for the built-in tables, with z up and the cloth at z = 0: a ball on
- * it has its centre at z = R. docs/using/shots.md tells the models, the rules and the bounds.
+ * it has its centre at z = R. docs/using/shots.md describes the models, the rules and the bounds.
  *
  * Bits: those of a batch are those of single calls, for any number of threads and any cut; with CAROM_ISA=plain they are the
  * same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with closed-form cushions, so 3 us for
@@ -169,7 +168,10 @@ typedef enum carom_label {
   CAROM_BALL_OFF = 6         /* off the table, out of play; its place is where it left */
 } carom_label;
 
-/* What a ball is made of and runs on. All doubles, without gaps. */
+/* Its name ("sliding"), or NULL for a value not listed. */
+CAROM_API const char *carom_label_name(carom_label label);
+
+/* The constants of a ball and of its cloth. All doubles, without gaps. */
 typedef struct carom_ball_kind {
   double mass;                /* kg, > 0. May differ from ball to ball in the world carom. */
   double radius;              /* R, m, > 0. The same for all balls of a layout with CAROM_SPACE_FLAT. */
@@ -266,11 +268,46 @@ typedef enum carom_table_kind {
   CAROM_TABLE_POOL_9FT = 2,     /* 1.27 x 2.54 m */
   CAROM_TABLE_SNOOKER = 3,      /* 12 ft, 1.778 x 3.569 m */
   CAROM_TABLE_THREECUSHION = 4, /* 10 ft, 1.42 x 2.84 m, no pockets */
-  CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood": that of CAROM_TABLE_POOL_7FT, under this name for ever */
+  CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood": that of CAROM_TABLE_POOL_7FT, under a name that stays */
 } carom_table_kind;
+
+/* Its name ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value not listed. */
+CAROM_API const char *carom_table_name(carom_table_kind kind);
 
 /* Fills *table. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_TABLE where there is no such kind. */
 CAROM_API carom_status carom_table_make(carom_table_kind kind, carom_table *table);
+
+/* A part of a table, or a ball. */
+typedef enum carom_part_kind {
+  CAROM_PART_NONE = 0,
+  CAROM_PART_RAIL = 1,
+  CAROM_PART_JAW = 2,
+  CAROM_PART_POCKET = 3,
+  CAROM_PART_BALL = 4
+} carom_part_kind;
+
+typedef struct carom_part {
+  carom_part_kind kind;
+  int32_t index; /* in its array; 0 of CAROM_PART_NONE. */
+} carom_part;
+
+/* What is wrong with a table, and where. */
+typedef struct carom_table_fault {
+  carom_part part, other; /* the part at fault; of a hole, the parts on both of its sides. */
+  double place[2];        /* m: the middle of the hole or of the rail; 0 where a number of the part is bad. */
+  double gap;             /* m: width of the hole, from surface to surface; else 0. */
+} carom_table_fault;
+
+/* Checks a table of one's own for balls of a radius; it is made for the workshop, not for each shot (some milliseconds). In
+ * this order: each part by itself, as carom_shoot() does; that lines of rails pass through their ends, within 1e-6 m; that the
+ * ring of rails, jaws and pockets around the middle (width/2, length/2) is closed, so that no ball can leave the table but into
+ * a pocket; that the played side of each rail is the one where balls are, where a ball has a place beside it; and that a jaw,
+ * of radius 0 if need be, stands where a ball could come in between the ends of two rails, at which there is nothing to be hit
+ * (gap then is how far apart the centres of balls that touch the two rails are). The first fault is told in *fault, which may
+ * be NULL. CAROM_OK, CAROM_ERROR_NULL, CAROM_ERROR_RADIUS, CAROM_ERROR_TABLE, CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE,
+ * CAROM_ERROR_TABLE_OPEN (of all holes the one that has to be closed last is told; CAROM_PART_NONE where there is no ring, or
+ * no place for a ball in its middle), CAROM_ERROR_RAIL_SIDE. */
+CAROM_API carom_status carom_table_check(const carom_table *table, double radius, carom_table_fault *fault);
 
 /* Racks, with the cue ball first. */
 typedef enum carom_rack_kind {
@@ -280,6 +317,9 @@ typedef enum carom_rack_kind {
   CAROM_RACK_SNOOKER = 3,     /* 22 balls: white, 15 reds, yellow, green, brown, blue, pink, black. */
   CAROM_RACK_THREECUSHION = 4 /* 3 balls: white, yellow, red, as for the opening. */
 } carom_rack_kind;
+
+/* Its name ("eightball"), or NULL for a value not listed. */
+CAROM_API const char *carom_rack_name(carom_rack_kind kind);
 
 /* The number of balls of a rack; 0 if there is no such kind. */
 CAROM_API int carom_rack_size(carom_rack_kind kind);
@@ -317,7 +357,7 @@ CAROM_API carom_status carom_strike(const carom_cue *cue, const carom_ball_kind 
 
 /* The rules of contact. CAROM_WORLD_CAROM: an event is where the gap is <= 0 and closing; nothing moves but by its motion.
  * CAROM_WORLD_POOLTOOL: pooltool's, with its spacers of 1 um, its order of simultaneous events, and its exchange between balls
- * that touch for long; for the same histories as pooltool's, not for truth. */
+ * that touch for long; for the same histories as pooltool's. */
 typedef enum carom_world { CAROM_WORLD_CAROM = 0, CAROM_WORLD_POOLTOOL = 1 } carom_world;
 
 /* The collision of two balls. DEFAULT is EXACT in the world carom, INELASTIC in pooltool. */
@@ -341,18 +381,33 @@ typedef enum carom_space {
   CAROM_SPACE_FLAT = 1 /* balls stay on the cloth, whatever pushes them up or down */
 } carom_space;
 
+/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is MATHAVAN in the world carom, STRONGE in
+ * pooltool. These values are not those of carom_cushion_model, in which 0 is a model: compilers warn where the two are mixed
+ * (-Wenum-conversion, which -Wextra of gcc turns on). */
+typedef enum carom_shot_cushion {
+  CAROM_SHOT_CUSHION_DEFAULT = 0,
+  CAROM_SHOT_CUSHION_MATHAVAN = 1,
+  CAROM_SHOT_CUSHION_STRONGE = 2,
+  CAROM_SHOT_CUSHION_HAN = 3,
+  CAROM_SHOT_CUSHION_MIRROR = 4,
+  CAROM_SHOT_CUSHION_EULER = 5
+} carom_shot_cushion;
+
 /* All zero means the defaults. */
 typedef struct carom_shot_options {
-  int32_t world;         /* carom_world */
-  int32_t ball_model;    /* carom_ball_model */
-  int32_t cushion_model; /* 0: mathavan in the world carom, stronge in pooltool; else 1 + a carom_cushion_model. */
-  int32_t friction;      /* carom_ball_friction */
-  int32_t steps;         /* of Euler's models; 0: 1000. */
-  int32_t events_most;   /* events of a shot; 0: 10000. */
-  int32_t threads;       /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
-  int32_t space;         /* carom_space */
-  double time_most;      /* of the clock of a shot, s; 0: 1000. The shot ends at the last event before that. */
-  uint64_t reserved[5];  /* must be 0. */
+  carom_world world;
+  carom_ball_model ball_model;
+  carom_shot_cushion cushion_model;
+  carom_ball_friction friction;
+  int32_t steps;       /* of Euler's models; 0: 1000. */
+  int32_t events_most; /* events of a shot; 0: 10000. */
+  int32_t threads;     /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
+  carom_space space;
+  double time_most;    /* s: the shot is stopped at exactly this time of its clock, after the events of that instant, with
+                          CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s with CAROM_ERROR_TOO_LONG. */
+  uint64_t stop_at;    /* the shot is stopped right after an event of this set, with CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)
+                          of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
+  uint64_t reserved[4]; /* must be 0. */
 } carom_shot_options;
 
 /* ---- What happened ---------------------------------------------------------------------------------------------------- */
@@ -373,6 +428,9 @@ typedef enum carom_event_type {
                                  shot goes on. */
 } carom_event_type;
 
+/* Its name ("ball_linear_cushion" for a rail), as in files of `carom shoot`, or NULL for a value not listed. */
+CAROM_API const char *carom_event_name(carom_event_type type);
+
 /* One event. before[1] and after[1] are those of ball b of a CAROM_EVENT_BALL_BALL, else all zero. */
 typedef struct carom_event {
   double time; /* s */
@@ -380,16 +438,36 @@ typedef struct carom_event {
   carom_ball_state before[2], after[2];
 } carom_event;
 
-/* What a shot gives. The caller sets events and room (NULL and 0 if they are not wanted), and may set final. */
+/* An event without states, as long as three doubles. */
+typedef struct carom_brief_event {
+  double time; /* s */
+  int32_t type, a, b, reserved;
+} carom_brief_event;
+
+/* For options.stop_at: events of a type; */
+#define CAROM_STOP_AT(type) (UINT64_C(1) << (type))
+/* and a contact of the cue ball, which is that of the cue, or ball 0 without a cue, with another ball. */
+#define CAROM_STOP_AT_CONTACT UINT64_C(1)
+
+/* All that a stopped shot needs to go on; see carom_shot_continue(). Its bytes may be copied, kept in a file and read by the
+ * same build of the library; they are not checked beyond whether they can be such. */
+typedef struct carom_shot_state {
+  uint64_t opaque[4096];
+} carom_shot_state;
+
+/* The result of a shot. All zero is a shot of which only count and time are wanted; the caller sets what else is. */
 typedef struct carom_shot {
-  carom_event *events; /* in the order in which they happened; the first `room` of them are kept. */
-  int64_t room;
-  int64_t count;           /* events that happened, also beyond room. */
-  carom_ball_state *final; /* the states at the end, one for each ball; may be NULL. */
-  double time;          /* s: when the last event happened, or a ball left the table; where a bound ended the shot while balls
-                           with drag rolled, up to when they were followed. carom_shot_at() knows no later state of a shot that
-                           ended while balls moved. */
-  uint64_t reserved[4]; /* not read or written yet. */
+  carom_event *events;      /* in the order in which they happened; the first `room` of them are kept. May be NULL, */
+  carom_brief_event *brief; /* and so may these: the same events without states. */
+  int64_t room;             /* elements of events[], of brief[], or of each of both. 0 if both are NULL. */
+  int64_t count;            /* events that happened, also beyond room. */
+  carom_ball_state *final;  /* the states at the end, one for each ball; may be NULL. */
+  double time; /* s: up to when the shot was followed: time_most, where the shot was stopped there; else when the last
+                  event happened, or a ball left the table; where events_most ended the shot while balls with drag
+                  rolled, up to when they were followed. carom_shot_at() knows no later state of a shot that ended
+                  while balls moved. */
+  carom_shot_state *state; /* where the shot leaves what carom_shot_continue() needs; may be NULL. */
+  uint64_t reserved[4];    /* not read or written yet. */
 } carom_shot;
 
 /* The collision of two spheres in space along any line of centres: one impulse in closed form, of any radii and masses, with
@@ -399,12 +477,33 @@ typedef struct carom_shot {
 CAROM_API carom_status carom_impact3(const carom_impact *in, carom_result *out);
 
 /* Plays a shot until nothing moves. 1 to CAROM_BALLS_MOST balls. If a ball moves already, or cue is NULL or its speed 0, there
- * is no strike. `opt` may be NULL for the defaults. Returns CAROM_OK; CAROM_ERROR_TOO_MANY_EVENTS or CAROM_ERROR_TOO_LONG where
- * a bound ended it (the states are those at the last event); an error of a field, with count 0 and nothing else written
- * (carom_shot_check() tells the field); or CAROM_ERROR_LEFT_TABLE, where a ball on the cloth found a hole between the cushions,
- * or one of a collision, with everything up to that event. */
+ * is no strike. `opt` may be NULL for the defaults. Returns CAROM_OK; CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT where
+ * the options ask for that; CAROM_ERROR_TOO_MANY_EVENTS or CAROM_ERROR_TOO_LONG where a bound ended it; an error of a field,
+ * with count 0 and nothing else written (carom_shot_check() returns the field); or CAROM_ERROR_LEFT_TABLE, where a ball on the
+ * cloth found a hole between the cushions, or one of a collision, with everything up to that event. The final states are those
+ * at shot->time. */
 CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                                    const carom_shot_options *opt, carom_shot *shot);
+
+/* Goes on with a shot that was stopped, by its options or by a bound, as if it had not been: every event and state has the bits
+ * of the unbroken shot, however often it is stopped. Table, balls and `shot`, with its events so far, are those of the call
+ * that stopped, for which shot->state was set; the options say when to stop again, and keep the models. shot->events and ->room
+ * may have been replaced by a copy with more room. A shot that has come to rest stays as it is, with CAROM_OK.
+ *
+ *     carom_shot_state state;
+ *     carom_shot shot = {.events = events, .room = 256, .final = states, .state = &state};
+ *     carom_shot_options options = {.time_most = 1.0 / 60.0};
+ *     carom_status status = carom_shoot(&table, balls, 10, &cue, &options, &shot);
+ *     for (int frame = 2; status == CAROM_STOPPED_AT_TIME; frame++) {    // states[] are those of the frame before
+ *       options.time_most = frame / 60.0;
+ *       status = carom_shot_continue(&table, balls, 10, &options, &shot);
+ *     }
+ *
+ * Returns what carom_shoot() does. CAROM_ERROR_STATE, with nothing written: shot->state is not that of a shot in this world, of
+ * so many balls of these kinds, or the shot ended in an error other than a bound. CAROM_ERROR_TIME, likewise: time_most is
+ * before the time at which the shot stopped. */
+CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
+                                           const carom_shot_options *opt, carom_shot *shot);
 
 /* The states of all balls at a time, by evaluation of the motion after each ball's last event. Before 0: as at 0; after the
  * end: as at the end, where nothing moves any more. CAROM_OK, or an error with nothing written: CAROM_ERROR_NULL;
@@ -413,16 +512,31 @@ CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ba
 CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
                                      carom_ball_state *states);
 
-/* Plays n shots. Shot k is of balls[k * count ...] and cues[k]; where one_layout or one_cue is not 0, all are of the first.
- * `shots` takes n results, whose events, room and final are set by the caller; `status` n statuses, may be NULL. Threads are
- * those of the options. Each shot has the bits and the status of carom_shoot(), and a bad one costs itself: each layout is
- * checked with its own radius, which may differ from layout to layout, and balls too small or too large for the noses of the
- * table cost their own shot only. Returns CAROM_OK or the status of the first shot in error; if the call itself cannot be
- * served (NULL, a bad option, a bad count, a part of the table that is bad for every radius), that error, with nothing written.
- */
-CAROM_API carom_status carom_shoot_batch(const carom_table *table, const carom_shot_ball *balls, int count, int one_layout,
-                                         const carom_cue *cues, int one_cue, size_t n, const carom_shot_options *opt,
-                                         carom_shot *shots, int8_t *status);
+/* Many shots on one table. Shot k is of the `count` balls from balls[k * ball_stride] on, and of cues[k * cue_stride].
+ *
+ *     carom_shot_job job = {.table = &table, .balls = balls, .count = 10,                    // one layout for all,
+ *                           .cues = cues, .cue_stride = 1, .n = 1000, .shots = shots};       // a cue for each
+ *     carom_status status = carom_shoot_batch(&job); */
+typedef struct carom_shot_job {
+  const carom_table *table;
+  const carom_shot_ball *balls;
+  const carom_cue *cues;             /* NULL: no strikes. */
+  int64_t count;                     /* balls of a shot. */
+  uint64_t ball_stride;              /* from the layout of a shot to that of the next, in balls, as a rule `count`; */
+  uint64_t cue_stride;               /* and from cue to cue, as a rule 1. 0: all shots have the first. */
+  uint64_t n;                        /* shots. */
+  const carom_shot_options *options; /* NULL: the defaults. `threads` is read here only. */
+  carom_shot *shots;                 /* n results, in which the caller has set what is wanted, as for carom_shoot(). */
+  int8_t *status;                    /* n statuses; may be NULL. */
+  uint64_t reserved[4];              /* must be 0. */
+} carom_shot_job;
+
+/* Plays all shots of a job. Each has the bits and the status of carom_shoot(), and a bad one costs itself: each layout has
+ * balls and a radius of its own and is checked with them, and balls too small or too large for the noses of the table cost
+ * their own shot only. Returns CAROM_OK or the status of the first shot in error; if the call itself cannot be served (NULL, a
+ * bad option, a bad count, a part of the table that is bad for every radius), that error, with nothing written. With n = 0
+ * nothing else is read. */
+CAROM_API carom_status carom_shoot_batch(const carom_shot_job *job);
 
 /* Checks the arguments of carom_shoot() and plays nothing. *where becomes the index of the ball, rail, jaw or pocket at fault,
  * or -1; it may be NULL. CAROM_ERROR_OFF_TABLE: a ball is in a cushion by more than 1e-6 m; or its centre is behind one,
@@ -431,6 +545,23 @@ CAROM_API carom_status carom_shoot_batch(const carom_table *table, const carom_s
  * has gaps a place outside may pass. */
 CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                                         const carom_shot_options *opt, int *where);
+
+/* Ball in hand: puts balls[ball] at rest at (x, y), if that place is free of the other balls, which need not be at rest, of
+ * cushions and pockets, within the bounds of carom_shot_check(). Its kind is kept; it may have been pocketed. CAROM_OK;
+ * CAROM_ERROR_OVERLAP for a place that another ball takes, CAROM_ERROR_OFF_TABLE for one in a cushion or a pocket, or outside
+ * the ring: *in_the_way then is that ball or part (CAROM_PART_NONE: outside), and nothing is moved. Or an error of the table,
+ * of the ball's radius, CAROM_ERROR_POSITION, CAROM_ERROR_BALLS for a count or an index that cannot be. `in_the_way` may be
+ * NULL. */
+CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball, double x,
+                                        double y, carom_part *in_the_way);
+
+/* How each ball has turned since the start of the shot, for drawing it: unit quaternions (w, x, y, z), which take what is
+ * painted on a ball at the start to where it is at the time. They follow from the events alone, whatever was asked before.
+ * Exact but for rounding while the axis of the spin keeps its direction (on the spot, rolling without side spin, in straight
+ * slides), else within 1e-7 rad for each phase of the ball. `turned` takes `count` of them. Returns what carom_shot_at() does.
+ * A call costs some 0.1 us for each radian that balls with side spin have turned. */
+CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
+                                              double (*turned)[4]);
 
 #ifdef __cplusplus
 }

@@ -18,14 +18,66 @@ carom_status carom_python_shot_at(const carom_shot_ball *balls, int count, const
   return status;
 }
 
+/* ---- Pieces of a track -------------------------------------------------------------------------------------------------
+ *
+ * Dynamic programming. For each end j the beginning i goes back from it, and sums over the samples of u^k w, and of u^k w d for
+ * both coordinates, grow by one sample; u and d are from the last sample, which keeps digits. chi^2 is what is left of the sum
+ * of w d^2 after the projections on 1, u and u^2, made orthogonal one after another. */
+
+void carom_python_cuts(const double *samples, const double *weight, int n, int longest, double penalty, double *best,
+                       int32_t *back) {
+  best[0] = 0.0;
+  for (int j = 1; j <= n; j++) {
+    const double *last = &samples[3 * (j - 1)];
+    double s[5] = {0}, q[2][3] = {{0}}, square[2] = {0};
+    best[j] = HUGE_VAL;
+    for (int i = j - 1; i >= 0 && j - i <= longest; i--) {
+      /* one more sample */
+      const double u = samples[3 * i] - last[0];
+      double power = weight[i];
+      for (int k = 0; k < 5; k++, power *= u) {
+        s[k] += power;
+        for (int x = 0; x < 2 && k < 3; x++)
+          q[x][k] += power * (samples[3 * i + 1 + x] - last[1 + x]);
+      }
+
+      /* chi^2 of the quadratic through samples i ... j - 1 */
+      const int count = j - i;
+      const double p11 = s[2] - s[1] * s[1] / s[0], p12 = s[3] - s[1] * s[2] / s[0];
+      const double p22 = count > 2 ? s[4] - s[2] * s[2] / s[0] - p12 * p12 / p11 : 0.0;
+      double chi2 = 0.0;
+      for (int x = 0; x < 2; x++) {
+        const double d = samples[3 * i + 1 + x] - last[1 + x];
+        square[x] += weight[i] * d * d;
+        double left = square[x] - q[x][0] * q[x][0] / s[0];
+        const double q1 = q[x][1] - s[1] * q[x][0] / s[0];
+        if (count > 1)
+          left -= q1 * q1 / p11;
+        const double q2 = p22 > 0.0 ? q[x][2] - s[2] * q[x][0] / s[0] - p12 * q1 / p11 : 0.0;
+        if (p22 > 0.0)
+          left -= q2 * q2 / p22;
+        chi2 += left > 0.0 ? left : 0.0;
+      }
+
+      const double total = best[i] + chi2 + penalty + (count < 3 ? 4.0 * (3 - count) : 0.0);
+      if (total < best[j]) {
+        best[j] = total;
+        back[j] = i;
+      }
+    }
+  }
+}
+
 /* ---- Misfit ------------------------------------------------------------------------------------------------------------
  *
  * Between two events of a ball its way is taken as the cubic through the states at both ends: r(s) = c0 + s (c1 + s (c2 + s
- * c3)), s the time since the first. With constant friction the motion is quadratic and the cubic exact. A friction that grows
- * with the speed leaves an error of |d^4 r/dt^4| T^4 / 384, micrometres. A sample then costs a few multiplications;
- * carom_shot_at() would search the events for every sample. */
+ * c3)), s the time since the first. A sample then costs a few multiplications; carom_shot_at() would search the events for
+ * every sample. With constant friction the motion is quadratic and the cubic exact. A ball that rolls against drag, whose
+ * deceleration is A + k v^2, is off by |d^4 r/dt^4| T^4 / 384 = 2 k (A + 3 k v^2)(A + k v^2) T^4 / 384 at most. Its pieces last
+ * at most 1 s, so that is 1.2e-6 m at 2 m/s with the k and A of docs/understanding/constants.md, and 2e-5 m at 5 m/s. */
 
-enum { EVENTS_MOST = 400, STRIKE = 6, PLAYS = 1 + STRIKE, SUMS = 3 + STRIKE + STRIKE * (STRIKE + 1) / 2 };
+enum { EVENTS_MOST = 400, PIECES_MOST = 800, STRIKE = 6, CONSTANTS_MOST = 24, PLAYS_MOST = 1 + STRIKE + CONSTANTS_MOST };
+static const double piece_most = 1.0; /* s */
 
 typedef struct piece {
   double start, c[4][2];
@@ -34,7 +86,7 @@ typedef struct piece {
 /* The way of one ball: pieces in the order of time, each up to the next. */
 typedef struct way {
   int pieces;
-  piece piece[EVENTS_MOST + 1];
+  piece piece[PIECES_MOST];
 } way;
 
 /* The cubic from one state to another. */
@@ -53,13 +105,35 @@ static piece piece_of(double start, const carom_ball_state *a, double end, const
   return p;
 }
 
-/* Plays a shot by a strike until a time on the play's own clock, and finds the ways of its balls. False: it ended in an error.
- */
-static bool play(const carom_python_tracks *tracks, int32_t shot, const double *strike, double end, carom_event *events,
-                 way *ways) {
+/* Appends the way from a state to an end, whose state may be NULL: then it follows from the motion. */
+static bool go(way *w, const carom_shot_ball *ball, double start, double end, const carom_ball_state *to) {
+  carom_ball_state from = ball->state, there;
+  const bool cuts = ball->kind.drag > 0.0 && from.v[0] * from.v[0] + from.v[1] * from.v[1] > 0.0;
+  const int parts = cuts && end - start > piece_most ? (int)fmin(ceil((end - start) / piece_most), 64.0) : 1;
+  for (int k = 1; k <= parts; k++) {
+    const double since = (end - start) * k / parts;
+    if (k < parts || to == NULL) {
+      if (carom_shot_at(ball, 1, &(carom_shot){.time = since}, since, &there) < 0)
+        return false;
+    } else {
+      there = *to;
+    }
+    if (w->pieces == PIECES_MOST)
+      return false;
+    w->piece[w->pieces++] = piece_of(start + (end - start) * (k - 1) / parts, &from, start + since, &there);
+    from = there;
+  }
+  return true;
+}
+
+/* Plays a shot by a strike until a time on the play's own clock, and finds the ways of its balls, whose layout is that of a
+ * variant: 0, or 1 + the constant that is changed. False: it ended in an error. */
+static bool play(const carom_python_tracks *tracks, int32_t shot, int variant, const double *strike, double end,
+                 carom_event *events, way *ways) {
   const int count = tracks->count;
   carom_shot_ball balls[CAROM_BALLS_MOST];
-  memcpy(balls, &tracks->balls[(size_t)shot * (size_t)count], (size_t)count * sizeof *balls);
+  const size_t layout = (size_t)variant * (size_t)tracks->shots + (size_t)shot;
+  memcpy(balls, &tracks->balls[layout * (size_t)count], (size_t)count * sizeof *balls);
 
   /* The struck ball moves as it does just after the strike. */
   carom_shot_ball *struck = &balls[tracks->struck[shot]];
@@ -73,35 +147,26 @@ static bool play(const carom_python_tracks *tracks, int32_t shot, const double *
   options.time_most = end > 1e-3 ? end : 1e-3;
   carom_shot played = {.events = events, .room = EVENTS_MOST};
   const carom_status status = carom_shoot(tracks->table, balls, count, NULL, &options, &played);
-  if (status < 0 && status != CAROM_ERROR_TOO_LONG)
+  if (status < 0)
     return false;
 
-  /* The pieces between the events of each ball: from the state after one to the state before the next. */
+  /* The ways between the events of each ball: from the state after one to the state before the next. */
   double since[CAROM_BALLS_MOST] = {0};
-  carom_ball_state from[CAROM_BALLS_MOST];
-  for (int i = 0; i < count; i++) {
+  bool good = true;
+  for (int i = 0; i < count; i++)
     ways[i].pieces = 0;
-    from[i] = balls[i].state;
-  }
   for (int e = 0; e < (int)played.count; e++)
     for (int side = 0; side < (events[e].type == CAROM_EVENT_BALL_BALL ? 2 : 1); side++) {
       const int i = side == 0 ? events[e].a : events[e].b;
-      ways[i].piece[ways[i].pieces++] = piece_of(since[i], &from[i], events[e].time, &events[e].before[side]);
+      good = good && go(&ways[i], &balls[i], since[i], events[e].time, &events[e].before[side]);
       since[i] = events[e].time;
-      from[i] = events[e].after[side];
+      balls[i].state = events[e].after[side];
     }
 
-  /* The piece after a ball's last event goes to the end of the time. */
-  for (int i = 0; i < count; i++) {
-    carom_shot_ball alone = balls[i];
-    alone.state = from[i];
-    const double left = options.time_most - since[i];
-    carom_ball_state to;
-    if (carom_shot_at(&alone, 1, &(carom_shot){.time = left}, left, &to) < 0)
-      return false;
-    ways[i].piece[ways[i].pieces++] = piece_of(since[i], &from[i], options.time_most, &to);
-  }
-  return true;
+  /* What follows a ball's last event goes to the end of the time. */
+  for (int i = 0; i < count; i++)
+    good = good && go(&ways[i], &balls[i], since[i], options.time_most, NULL);
+  return good;
 }
 
 /* The place at a time; *at is the piece of the last call, for times that increase. */
@@ -115,22 +180,23 @@ static void place(const way *w, double time, int *at, double r[2]) {
 }
 
 /* Adds up the sums of a play. ways[0 ... count - 1] are those of the play itself, with start[0] the strike's time; with `plays`
- * above 1, the next `count` are those with the first number of the strike changed by `step`, and so on. */
+ * above 1, the next `count` are those with the first number changed by step[0], and so on. */
 static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *ways, const double *start, int plays,
-                   double until, double step, double *sums) {
+                   const double *step, double until, double *sums) {
   const int count = tracks->count;
   const double c2 = tracks->huber * tracks->huber;
-  memset(sums, 0, SUMS * sizeof *sums);
+  double *gradient = &sums[3], *square = &gradient[plays - 1];
+  memset(sums, 0, (size_t)(3 + (plays - 1) + (plays - 1) * plays / 2) * sizeof *sums);
   for (int i = 0; i < count; i++) {
     const int64_t *first = &tracks->first[(size_t)shot * (size_t)count + (size_t)i];
-    int at[PLAYS] = {0};
+    int at[PLAYS_MOST] = {0};
     for (int64_t m = first[0]; m < first[1]; m += tracks->stride) {
       const double *sample = &tracks->samples[3 * m];
       if (sample[0] > until)
         break;
 
       /* The distance and its cost; 1 / root is its weight. */
-      double d[2], r[2], J[STRIKE][2];
+      double d[2], r[2], J[PLAYS_MOST][2];
       place(&ways[i], sample[0] - start[0], &at[0], r);
       for (int k = 0; k < 2; k++)
         d[k] = r[k] - sample[1 + k];
@@ -145,44 +211,51 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
         double moved[2];
         place(&ways[(a + 1) * count + i], sample[0] - start[a + 1], &at[a + 1], moved);
         for (int k = 0; k < 2; k++)
-          J[a][k] = (moved[k] - r[k]) / step;
+          J[a][k] = (moved[k] - r[k]) / step[a];
       }
-      double *gradient = &sums[3], *square = &sums[3 + STRIKE];
+      double *entry = square;
       for (int a = 0; a + 1 < plays; a++) {
         gradient[a] += (J[a][0] * d[0] + J[a][1] * d[1]) / root;
         for (int b = 0; b <= a; b++)
-          *square++ += (J[a][0] * J[b][0] + J[a][1] * J[b][1]) / root;
+          *entry++ += (J[a][0] * J[b][0] + J[a][1] * J[b][1]) / root;
       }
     }
   }
 }
 
 carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *of, const double *strikes,
-                                 const double *until, const double *most, double step, double *sums) {
+                                 const double *until, const double *most, double *sums) {
+  const int numbers = STRIKE + tracks->constants, size = 3 + numbers + numbers * (numbers + 1) / 2;
+  if (tracks->constants > CONSTANTS_MOST)
+    return CAROM_ERROR_NULL;
   carom_event *events = malloc(EVENTS_MOST * sizeof *events);
-  way *ways = malloc(PLAYS * (size_t)tracks->count * sizeof *ways);
+  way *ways = malloc((1 + (size_t)numbers) * (size_t)tracks->count * sizeof *ways);
   const bool room = events != NULL && ways != NULL;
-  for (size_t k = 0; k < n && room; k++, strikes += STRIKE, sums += SUMS) {
+  for (size_t k = 0; k < n && room; k++, strikes += STRIKE, sums += size) {
     /* The play itself, */
-    double start[PLAYS] = {strikes[5]};
-    if (!play(tracks, of[k], strikes, until[k] - start[0], events, ways)) {
-      memset(sums, 0, SUMS * sizeof *sums);
+    double start[PLAYS_MOST], step[PLAYS_MOST];
+    start[0] = strikes[5];
+    memset(sums, 0, (size_t)size * sizeof *sums);
+    if (!play(tracks, of[k], 0, strikes, until[k] - start[0], events, ways)) {
       sums[0] = sums[1] = HUGE_VAL;
       continue;
     }
-    add_up(tracks, of[k], ways, start, 1, until[k], step, sums);
+    add_up(tracks, of[k], ways, start, 1, step, until[k], sums);
 
     /* and, where it is good enough, those beside it. */
     bool good = sums[0] < most[k];
-    for (int d = 1; d < PLAYS && good; d++) {
+    for (int d = 0; d < numbers && good; d++) {
       double strike[STRIKE];
       memcpy(strike, strikes, sizeof strike);
-      strike[d - 1] += step;
-      start[d] = strike[5];
-      good = play(tracks, of[k], strike, until[k] - start[d], events, &ways[d * tracks->count]);
+      step[d] = d < STRIKE ? tracks->step : tracks->steps[d - STRIKE];
+      if (d < STRIKE)
+        strike[d] += step[d];
+      start[d + 1] = strike[5];
+      good = play(tracks, of[k], d < STRIKE ? 0 : 1 + d - STRIKE, strike, until[k] - start[d + 1], events,
+                  &ways[(d + 1) * tracks->count]);
     }
     if (good)
-      add_up(tracks, of[k], ways, start, PLAYS, until[k], step, sums);
+      add_up(tracks, of[k], ways, start, 1 + numbers, step, until[k], sums);
   }
   free(events);
   free(ways);

@@ -12,9 +12,16 @@ void carom_python_mu_ball(const carom_impact *in, size_t n, carom_speed_law law,
 carom_status carom_python_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, size_t n,
                                   const double *times, carom_ball_state *states);
 
+/* Cuts a track of n samples t, x, y (s, m), weights 1/s^2, into pieces of at most `longest` samples that are quadratic in time:
+ * the cuts minimise the sum over pieces of chi^2 of the quadratic, of `penalty`, and of 4 for each sample less than 3. back[j],
+ * j = 1 ... n, becomes the beginning of the last piece of the best cut of the first j samples. `best` has room for n + 1. */
+void carom_python_cuts(const double *samples, const double *weight, int n, int longest, double penalty, double *best,
+                       int32_t *back);
+
 /* Recorded shots, and how they are played: for carom_python_misfit(). Shot s has `count` balls at rest, balls[s * count ...],
  * of which struck[s] is struck; the samples of its ball i are samples[first[s * count + i]] up to, without it, samples[first[s
- * * count + i + 1]], each t, x, y (s, m), in the order of time. */
+ * * count + i + 1]], each t, x, y (s, m), in the order of time. Constants are fields of the balls: `balls` has the `shots`
+ * layouts, and after them, for each of `constants` constants, the same layouts with that constant changed by steps[]. */
 typedef struct carom_python_tracks {
   const carom_table *table;
   const carom_shot_options *options; /* time_most and events_most are not read */
@@ -22,19 +29,21 @@ typedef struct carom_python_tracks {
   const int32_t *struck;
   const double *samples;
   const int64_t *first;
-  int32_t count;
+  const double *steps; /* of the constants */
+  int32_t count, shots, constants;
   int32_t stride; /* one of so many samples of a ball is compared, the first among them */
+  double step;    /* of the differences by the strike, m/s and s */
   double huber;   /* c of the cost, the sum of 2 c^2 (sqrt(1 + d^2/c^2) - 1) over the distances d, m; 0: the sum of d^2 */
 } carom_python_tracks;
 
 /* How far n plays are from what was recorded. Play k is of shot of[k] by the strike strikes[6 k ...]: v_x, v_y, R w_x, R w_y, R
  * w_z (m/s) of the struck ball just after the strike, and the strike's time (s); samples up to the time until[k] count.
  *
- * sums[30 k ...] becomes: the cost; the sum of d^2; the number of samples; and, where the cost is below most[k], J^T W d (6)
- * and J^T W J (21, the lower triangle by rows): W are the weights that make the cost a weighted sum of squares nearby, J is by
- * forward differences of `step`. A play that ends in an error has infinite cost. Returns CAROM_OK, or CAROM_ERROR_NULL without
- * memory. */
+ * With m = 6 + constants, sums[(3 + m + m (m + 1)/2) k ...] becomes: the cost; the sum of d^2; the number of samples; and,
+ * where the cost is below most[k], J^T W d (m) and J^T W J (the lower triangle by rows): W are the weights that make the cost a
+ * weighted sum of squares nearby, J is by forward differences, of the strike and then of the constants. A play that ends in an
+ * error has infinite cost. Returns CAROM_OK, or CAROM_ERROR_NULL without memory. */
 carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *of, const double *strikes,
-                                 const double *until, const double *most, double step, double *sums);
+                                 const double *until, const double *most, double *sums);
 
 #endif

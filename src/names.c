@@ -1,6 +1,6 @@
 /* Names and texts of the public enumerations. The lists are private; carom.h spells the enumerators out, and the compiler says
  * where the two differ. */
-#include "carom.h"
+#include "carom_shot.h"
 #include "platform/arithmetic.h"
 
 #include "enumerations.h"
@@ -9,45 +9,47 @@
 #define TEXT(x) TEXT_OF(x)
 
 /* X(NAME, value, name, text) */
-#define STATUS_LIST(X)                                                                                            \
-  X(OK, 0, "ok", "resolved")                                                                                      \
-  X(SEPARATING, 1, "separating", "the balls do not approach each other; their state is returned unchanged")       \
-  X(ERROR_NULL, -1, "null_pointer", "a required pointer is NULL")                                                 \
-  X(ERROR_SOLVER, -2, "bad_solver", "options.solver is not one of carom_solver")                                  \
-  X(ERROR_SLIP, -3, "bad_slip", "options.slip is not one of carom_slip")                                          \
-  X(ERROR_STEPS, -4, "bad_steps", "options.steps must not be negative (0 is the default)")                        \
-  X(ERROR_POSITION, -5, "bad_position", "a position must be finite")                                              \
-  X(ERROR_VELOCITY, -6, "bad_velocity", "a velocity must be finite")                                              \
-  X(ERROR_SPIN, -7, "bad_spin", "an angular velocity must be finite")                                             \
-  X(ERROR_RADIUS, -8, "bad_radius", "a radius must be positive and finite")                                       \
-  X(ERROR_MASS, -9, "bad_mass", "a mass must be positive and finite")                                             \
-  X(ERROR_MU_CLOTH, -10, "bad_mu_cloth", "the friction of ball and cloth must be in [0, 1]")                      \
-  X(ERROR_MU_BALL, -11, "bad_mu_ball", "the friction of ball and ball must be in [0, 1]")                         \
-  X(ERROR_RESTITUTION, -12, "bad_restitution", "the restitution must be in [0, 1]")                               \
-  X(ERROR_RADII_DIFFER, -13, "radii_differ", "both balls must have the same radius")                              \
-  X(ERROR_HEIGHTS_DIFFER, -14, "heights_differ", "both centres must be at the same height")                       \
-  X(ERROR_VERTICAL, -15, "vertical_velocity", "the vertical velocity must be 0: both balls stay on the table")    \
-  X(ERROR_COINCIDENT, -16, "centres_coincide", "the centres coincide, so there is no line of centres")            \
-  X(ERROR_TOO_SLOW, -17, "too_slow",                                                                              \
-    "Euler's method is too slow here: its steps are lost in rounding, or more than 16 N of them are needed")      \
-  X(ERROR_OVERFLOW, -18, "overflow", "the collision overflows the range of double")                               \
-  X(ERROR_MASSES_DIFFER, -19, "masses_differ", "this kernel is for balls of equal mass only")                     \
-  X(ERROR_THREADS, -20, "bad_threads", "options.threads must be CAROM_ALL_THREADS, or 0 or more")                 \
-  X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                           \
-  X(ERROR_UNRESOLVED, -22, "unresolved",                                                                          \
-    "the collision is too extreme: its result hangs on rounding errors, or takes more work than a call may cost") \
-  X(ERROR_OPTIONS, -23, "bad_options", "the reserved fields of the options must be 0")                            \
-  X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model", "options.model is not one of carom_cushion_model")             \
-  X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options", "an option of the cushion is out of its range")            \
-  X(ERROR_NORMAL, -32, "bad_normal", "the direction into the cushion must be finite and not 0")                   \
-  X(ERROR_NOSE_HEIGHT, -33, "bad_nose_height", "the nose must be between the cloth and the top of the ball")      \
-  X(ERROR_MU_CUSHION, -34, "bad_mu_cushion", "the friction of ball and cushion must be in [0, 1]")                \
+#define STATUS_LIST(X)                                                                                              \
+  X(OK, 0, "ok", "resolved")                                                                                        \
+  X(SEPARATING, 1, "separating", "the balls do not approach each other; their state is returned unchanged")         \
+  X(STOPPED_AT_TIME, 2, "stopped_at_time", "the shot was stopped at options.time_most, as asked; balls still move") \
+  X(STOPPED_AT_EVENT, 3, "stopped_at_event", "the shot was stopped after an event of options.stop_at, as asked")    \
+  X(ERROR_NULL, -1, "null_pointer", "a required pointer is NULL")                                                   \
+  X(ERROR_SOLVER, -2, "bad_solver", "options.solver is not one of carom_solver")                                    \
+  X(ERROR_SLIP, -3, "bad_slip", "options.slip is not one of carom_slip")                                            \
+  X(ERROR_STEPS, -4, "bad_steps", "options.steps must not be negative (0 is the default)")                          \
+  X(ERROR_POSITION, -5, "bad_position", "a position must be finite")                                                \
+  X(ERROR_VELOCITY, -6, "bad_velocity", "a velocity must be finite")                                                \
+  X(ERROR_SPIN, -7, "bad_spin", "an angular velocity must be finite")                                               \
+  X(ERROR_RADIUS, -8, "bad_radius", "a radius must be positive and finite")                                         \
+  X(ERROR_MASS, -9, "bad_mass", "a mass must be positive and finite")                                               \
+  X(ERROR_MU_CLOTH, -10, "bad_mu_cloth", "the friction of ball and cloth must be in [0, 1]")                        \
+  X(ERROR_MU_BALL, -11, "bad_mu_ball", "the friction of ball and ball must be in [0, 1]")                           \
+  X(ERROR_RESTITUTION, -12, "bad_restitution", "the restitution must be in [0, 1]")                                 \
+  X(ERROR_RADII_DIFFER, -13, "radii_differ", "both balls must have the same radius")                                \
+  X(ERROR_HEIGHTS_DIFFER, -14, "heights_differ", "both centres must be at the same height")                         \
+  X(ERROR_VERTICAL, -15, "vertical_velocity", "the vertical velocity must be 0: both balls stay on the table")      \
+  X(ERROR_COINCIDENT, -16, "centres_coincide", "the centres coincide, so there is no line of centres")              \
+  X(ERROR_TOO_SLOW, -17, "too_slow",                                                                                \
+    "Euler's method is too slow here: its steps are lost in rounding, or more than 16 N of them are needed")        \
+  X(ERROR_OVERFLOW, -18, "overflow", "the collision overflows the range of double")                                 \
+  X(ERROR_MASSES_DIFFER, -19, "masses_differ", "this model is for balls of equal mass only")                        \
+  X(ERROR_THREADS, -20, "bad_threads", "options.threads must be CAROM_ALL_THREADS, or 0 or more")                   \
+  X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                             \
+  X(ERROR_UNRESOLVED, -22, "unresolved",                                                                            \
+    "the collision is too extreme: its result depends on rounding errors, or takes more work than a call may cost") \
+  X(ERROR_OPTIONS, -23, "bad_options", "the reserved fields of the options must be 0")                              \
+  X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model", "options.model is not one of carom_cushion_model")               \
+  X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options", "an option of the cushion is out of its range")              \
+  X(ERROR_NORMAL, -32, "bad_normal", "the direction into the cushion must be finite and not 0")                     \
+  X(ERROR_NOSE_HEIGHT, -33, "bad_nose_height", "the nose must be between the cloth and the top of the ball")        \
+  X(ERROR_MU_CUSHION, -34, "bad_mu_cushion", "the friction of ball and cushion must be in [0, 1]")                  \
   X(ERROR_JAW_RADIUS, -35, "bad_jaw_radius", "the radius of a jaw must be finite and not negative")
 
 /* Those of whole shots. */
 #define SHOT_STATUS_LIST(X)                                                                                                    \
   X(ERROR_TOO_MANY_EVENTS, -40, "too_many_events", "the shot was stopped: it has more events than options.events_most")        \
-  X(ERROR_TOO_LONG, -41, "too_long", "the shot was stopped: it lasts longer than options.time_most")                           \
+  X(ERROR_TOO_LONG, -41, "too_long", "the shot was stopped: it lasts longer than 1000 s, and options.time_most is 0")          \
   X(ERROR_LEFT_TABLE, -42, "left_table", "a ball on the cloth left the table, through a gap between its cushions")             \
   X(ERROR_SHOT_OPTIONS, -43, "bad_shot_options", "an option of the shot is out of its range, or a reserved one is not 0")      \
   X(ERROR_BALLS, -44, "bad_balls", "a shot has 1 to 32 balls")                                                                 \
@@ -66,7 +68,12 @@
   X(ERROR_TIME, -55, "bad_time", "the time is not a number, or after the end of a shot that was stopped while balls moved")    \
   X(ERROR_DRAG, -56, "bad_drag", "the drag of a rolling ball must be 0 to 1 per metre")                                        \
   X(ERROR_BALL_CUSHION, -57, "bad_ball_cushion",                                                                               \
-    "a ball's roll_loss must be 0 to 1, its nose_height 0 to below 2 R, its omega_ratio 0 or between 1 and 2")
+    "a ball's roll_loss must be 0 to 1, its nose_height 0 to below 2 R, its omega_ratio 0 or between 1 and 2")                 \
+  X(ERROR_TABLE_OPEN, -61, "table_open",                                                                                       \
+    "a ball can leave the table between two of its parts, or there is no place for a ball")                                    \
+  X(ERROR_RAIL_SIDE, -62, "bad_rail_side", "the played side of a rail is turned away from the table")                          \
+  X(ERROR_RAIL_LINE, -63, "bad_rail_line", "the line of a rail does not pass through both of its ends")                        \
+  X(ERROR_STATE, -60, "bad_state", "shot.state is not that of a shot of these balls that can go on")
 
 #define AGREES(NAME, value, name, text) _Static_assert(CAROM_##NAME == (value), "values are never renumbered");
 STATUS_LIST(AGREES)
@@ -79,6 +86,11 @@ const char *carom_version(void) {
 
 int carom_version_number(void) {
   return CAROM_VERSION_NUMBER;
+}
+
+/* Raised by the commit that changes the bits of any result; tests/platforms/revision says when that is. */
+int carom_physics_revision(void) {
+  return 1;
 }
 
 int carom_serves(int header) {
@@ -147,6 +159,90 @@ const char *carom_isa_name(carom_isa isa) {
     return "avx512";
   case CAROM_ISA_ANY:
     break;
+  }
+  return NULL;
+}
+
+const char *carom_event_name(carom_event_type type) {
+  switch (type) {
+  case CAROM_EVENT_STRIKE:
+    return "stick_ball";
+  case CAROM_EVENT_BALL_BALL:
+    return "ball_ball";
+  case CAROM_EVENT_RAIL:
+    return "ball_linear_cushion";
+  case CAROM_EVENT_JAW:
+    return "ball_circular_cushion";
+  case CAROM_EVENT_POCKET:
+    return "ball_pocket";
+  case CAROM_EVENT_SLIDING_ROLLING:
+    return "sliding_rolling";
+  case CAROM_EVENT_ROLLING_SPINNING:
+    return "rolling_spinning";
+  case CAROM_EVENT_ROLLING_STATIONARY:
+    return "rolling_stationary";
+  case CAROM_EVENT_SPINNING_STATIONARY:
+    return "spinning_stationary";
+  case CAROM_EVENT_SLATE:
+    return "slate";
+  case CAROM_EVENT_RAIL_TOP:
+    return "rail_top";
+  case CAROM_EVENT_LEFT_TABLE:
+    return "left_table";
+  }
+  return NULL;
+}
+
+const char *carom_label_name(carom_label label) {
+  switch (label) {
+  case CAROM_BALL_STATIONARY:
+    return "stationary";
+  case CAROM_BALL_SPINNING:
+    return "spinning";
+  case CAROM_BALL_SLIDING:
+    return "sliding";
+  case CAROM_BALL_ROLLING:
+    return "rolling";
+  case CAROM_BALL_POCKETED:
+    return "pocketed";
+  case CAROM_BALL_AIRBORNE:
+    return "airborne";
+  case CAROM_BALL_OFF:
+    return "off";
+  }
+  return NULL;
+}
+
+const char *carom_table_name(carom_table_kind kind) {
+  switch (kind) {
+  case CAROM_TABLE_POOL_7FT:
+    return "7ft";
+  case CAROM_TABLE_POOL_8FT:
+    return "8ft";
+  case CAROM_TABLE_POOL_9FT:
+    return "9ft";
+  case CAROM_TABLE_SNOOKER:
+    return "snooker";
+  case CAROM_TABLE_THREECUSHION:
+    return "threecushion";
+  case CAROM_TABLE_POOLTOOL:
+    return "pooltool";
+  }
+  return NULL;
+}
+
+const char *carom_rack_name(carom_rack_kind kind) {
+  switch (kind) {
+  case CAROM_RACK_NINEBALL:
+    return "nineball";
+  case CAROM_RACK_EIGHTBALL:
+    return "eightball";
+  case CAROM_RACK_TENBALL:
+    return "tenball";
+  case CAROM_RACK_SNOOKER:
+    return "snooker";
+  case CAROM_RACK_THREECUSHION:
+    return "threecushion";
   }
   return NULL;
 }

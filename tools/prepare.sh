@@ -125,7 +125,6 @@ need_to_build() {
   need '/usr/include/csv.h' libcsv-dev "CSV reading in the programs"
   need '/usr/include/jansson.h' libjansson-dev "JSON reading in the programs"
   want '/usr/bin/clang-1[5-9] /usr/bin/clang-[2-9][0-9]' clang-newest "a second compiler for the seed paper's kernels, and its first choice"
-  want '/usr/include/papi.h' libpapi-dev "hardware counters in carom-lab bench, where the machine has some"
 }
 
 # keep_saying WHAT LOG: says each minute, in the background, that WHAT goes on, with the last line of its log; to be killed, by $!.

@@ -74,10 +74,8 @@ static void describe_processor(FILE *to) {
                threads == NULL             ? "NA (not visible)"
                : strcmp(threads, "0") == 0 ? "no"
                                            : "yes");
-  if (clock_has_ticks())
-    machine_note(to, "reference cycles", "%s, %.4f per ns", clock_ticks_text(), clock_ticks_per_ns());
-  else
-    machine_note(to, "reference cycles", "%s", clock_ticks_text());
+  if (clock_core_cycle() > 0)
+    machine_note(to, "core cycle", "%.4f ns", clock_core_cycle());
 }
 
 void machine_describe(FILE *to) {

@@ -4,7 +4,7 @@
  * than a millisecond would time caches and branch predictors that are still full of the subject before. */
 #include "rounds.h"
 
-#include "clock.h"
+#include "monotonic.h"
 #include "pinning.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static const double long_sample = 20e6, short_sample = 1e6; /* ns */
 typedef struct lane {
   double pass; /* estimated ns for one pass over the workload */
   size_t loops;
-  double *ns, *ticks, *empty; /* by round, per pair */
+  double *ns, *empty; /* by round, per pair */
 } lane;
 
 typedef struct engine {
@@ -29,24 +29,18 @@ typedef struct engine {
   double start, *scratch;
 } engine;
 
-typedef struct reading {
-  double ns, ticks;
-} reading;
-
-static reading sample(const engine *e, void (*work)(void *), void *context, size_t loops) {
+static double sample(const engine *e, void (*work)(void *), void *context, size_t loops) {
   const double start = e->settings.now();
-  const uint64_t ticks = clock_ticks();
   for (size_t k = 0; k < loops; k++)
     work(context);
-  const uint64_t ticks_end = clock_ticks();
-  return (reading){.ns = e->settings.now() - start, .ticks = (double)(ticks_end - ticks)};
+  return e->settings.now() - start;
 }
 
 /* Warm-up, and what one pass costs: the fastest of ever more loops until they take a millisecond. */
 static double estimate(const engine *e, const bench_subject *s) {
   double pass = INFINITY, elapsed = 0.0;
   for (size_t loops = 1; elapsed < short_sample && loops < SIZE_MAX / 2; loops *= 2) {
-    elapsed = sample(e, s->resolve, s->context, loops).ns;
+    elapsed = sample(e, s->resolve, s->context, loops);
     pass = fmin(pass, elapsed / (double)loops);
   }
   return pass;
@@ -94,13 +88,12 @@ static void take_sample(engine *e, size_t k, size_t round) {
   if (l->loops > 1)
     s->resolve(s->context);
   const double collisions = (double)l->loops * (double)s->pairs;
-  const reading full = sample(e, s->resolve, s->context, l->loops);
-  l->ns[round] = full.ns / collisions;
-  l->ticks[round] = clock_has_ticks() ? full.ticks / collisions : NAN;
-  l->empty[round] = s->empty != NULL ? sample(e, s->empty, s->context, 8).ns / (8.0 * (double)s->pairs) : 0.0;
+  const double full = sample(e, s->resolve, s->context, l->loops);
+  l->ns[round] = full / collisions;
+  l->empty[round] = s->empty != NULL ? sample(e, s->empty, s->context, 8) / (8.0 * (double)s->pairs) : 0.0;
   if (s->threads > 1)
     pinning_resume();
-  pinning_breathe(full.ns);
+  pinning_breathe(full);
 }
 
 static void take_rounds(engine *e) {
@@ -119,28 +112,24 @@ static void take_rounds(engine *e) {
 
 /* The empty call's cost is the median over the rounds: it is small, and single samples of it are all noise. */
 static void subtract_empty(engine *e, bench_figure *figure) {
-  const double per_ns = clock_ticks_per_ns();
   for (size_t k = 0; k < e->n; k++) {
     lane *l = &e->lane[k];
     memcpy(e->scratch, l->empty, e->rounds * sizeof(double));
     figure[k].empty_ns = summarise(e->scratch, e->rounds).median;
-    for (size_t round = 0; round < e->rounds; round++) {
+    for (size_t round = 0; round < e->rounds; round++)
       l->ns[round] -= figure[k].empty_ns;
-      l->ticks[round] -= figure[k].empty_ns * per_ns;
-    }
   }
 }
 
 static void evaluate(engine *e, bench_figure *figure) {
   subtract_empty(e, figure);
   for (size_t k = 0; k < e->n; k++) {
-    const size_t yardstick = e->subject[k].yardstick;
-    figure[k].speedup = yardstick < e->n ? summarise_ratios(e->lane[yardstick].ns, e->lane[k].ns, e->rounds, e->scratch)
+    const size_t reference = e->subject[k].reference;
+    figure[k].speedup = reference < e->n ? summarise_ratios(e->lane[reference].ns, e->lane[k].ns, e->rounds, e->scratch)
                                          : summarise(e->scratch, 0);
   }
   for (size_t k = 0; k < e->n; k++) {
     figure[k].ns = summarise(e->lane[k].ns, e->rounds);
-    figure[k].ticks = summarise(e->lane[k].ticks, e->rounds);
     figure[k].loops = e->lane[k].loops;
     figure[k].unchanged = e->subject[k].fingerprint(e->subject[k].context) == e->subject[k].verified;
   }
@@ -157,14 +146,13 @@ bool bench_rounds(const bench_subject *subject, size_t n, const bench_settings *
     for (size_t k = 0; k < n; k++)
       e.lane[k].pass = estimate(&e, &subject[k]);
     plan(&e);
-    block = calloc((3 * n + 1) * e.rounds, sizeof *block);
+    block = calloc((2 * n + 1) * e.rounds, sizeof *block);
   }
   if (block != NULL) {
-    e.scratch = block + 3 * n * e.rounds;
+    e.scratch = block + 2 * n * e.rounds;
     for (size_t k = 0; k < n; k++) {
-      e.lane[k].ns = block + (3 * k) * e.rounds;
-      e.lane[k].ticks = block + (3 * k + 1) * e.rounds;
-      e.lane[k].empty = block + (3 * k + 2) * e.rounds;
+      e.lane[k].ns = block + 2 * k * e.rounds;
+      e.lane[k].empty = block + (2 * k + 1) * e.rounds;
     }
     take_rounds(&e);
     evaluate(&e, figure);

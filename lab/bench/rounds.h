@@ -1,9 +1,8 @@
 /* The engine: subjects timed in turns, A B C A B C ..., so that what drifts (frequency, neighbours, heat) meets all alike.
  *
- *     sample   one subject resolves its whole workload `loops` times; the figure is ns per pair, less the cost of the empty
- * call round    one sample of every subject result   median, extremes and spread over the rounds; speedup is the median of the
- * ratios within each round
- */
+ *     sample   one subject resolves its whole workload `loops` times; the figure is ns per pair, less the cost of empty calls
+ *     round    one sample of every subject
+ *     result   median, extremes and spread over the rounds; speedup is the median of the ratios within each round */
 #ifndef CAROM_BENCH_ROUNDS_H
 #define CAROM_BENCH_ROUNDS_H
 
@@ -30,7 +29,9 @@ typedef struct bench_subject {
   void *context;
   uint64_t verified;     /* the fingerprint of the verified results */
   double pair_error_max; /* of the verified results */
-  size_t yardstick;      /* index of the subject that speedup is relative to; SIZE_MAX for none: NAN */
+  const char *slip;      /* of the CSV's further columns, with the errors against the exact limit */
+  double error_exact_median, error_exact_max;
+  size_t reference; /* index of the subject that speedup is relative to; SIZE_MAX for none: NAN */
 } bench_subject;
 
 typedef struct bench_settings {
@@ -41,8 +42,7 @@ typedef struct bench_settings {
 
 typedef struct bench_figure {
   sample_summary ns;      /* per pair */
-  sample_summary ticks;   /* reference cycles per pair, from the same samples; NAN where there is no counter */
-  sample_summary speedup; /* the yardstick's time over this one's */
+  sample_summary speedup; /* the reference's time over this one's */
   double empty_ns;        /* what has been subtracted, per pair */
   size_t loops;           /* workloads in a sample */
   bool unchanged;         /* the results after the last round are the verified ones */

@@ -1,6 +1,14 @@
-"""bound: operation counts of the ladder's kernels and lower bounds on their cycles, as CSV. README.md explains the columns.
+"""bound: operation counts of the ladder's kernels and lower bounds on their cycles, as CSV.
 
-The module that `carom-lab bench --config zen2` times is run under callgrind on the reference collisions.
+The module that `carom-lab bench --config zen2` times is run under callgrind on the reference collisions; valgrind does not execute
+AVX-512, hence Zen 2. `valgrind --tool=callgrind --dump-instr=yes` says how often the instruction at each address was executed, and its
+`jcnd=` lines how often a conditional jump was taken. Joined with the module's disassembly these are operations by kind, and the path
+through the loop that one collision takes in almost every step.
+
+Columns: flops_*, rsqrt, rcp, conversions, compares, minmax are executed operations per collision at N, the mean of all cases;
+flops_total is add + mul + div + sqrt + fma, flops_amd counts an fma twice, as AMD's counter does; shuffles and instructions are
+instructions. per_step_flops_amd is the difference between N and N/4, divided by the steps between. steps_total and chain_cycles_*
+belong to one case and are cycles per collision at N, with the latencies of Zen 2 and with those of this processor.
 """
 
 import argparse
@@ -10,23 +18,22 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from . import dataflow, machine_code
-from .counting import COUNTED, OTHERS, measure, output_of
+from . import machine_code
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 BALL = "r{0}x r{0}y r{0}z v{0}x v{0}y v{0}z w{0}x w{0}y w{0}z R M u_s{0}"
 FIELDS = (BALL.format(1) + " " + BALL.format(2) + " u_b e_b").split()  # carom_impact, as data/README.md names its numbers
-
-COLUMNS = (
-    ["kernel", "config"]
-    + [f"flops_{kind}" for kind in COUNTED]
-    + [*OTHERS.values(), "flops_total", "flops_amd", "shuffles", "instructions", "steps_total"]
-    + [f"per_step_{name}" for name in [*COUNTED, *OTHERS.values(), "flops", "flops_amd", "instructions"]]
-    + ["chain_cycles_zen2", "chain_cycles_native"]
-)
+CASE = "pooltool-002"  # friction at the cloth in every step: the case whose path through the loop is bounded
+COUNTED = ["add", "mul", "div", "sqrt", "fma"]
+OTHERS = {"rsqrt": "rsqrt", "rcp": "rcp", "convert": "conversions", "compare": "compares", "minmax": "minmax"}
+COLUMNS = [f"flops_{kind}" for kind in COUNTED] + [*OTHERS.values(), "flops_total", "flops_amd", "shuffles", "instructions"] + [
+    "per_step_flops_amd", "steps_total", "chain_cycles_zen2", "chain_cycles_native"
+]  # fmt: skip
 
 
 def say(message):
@@ -36,6 +43,118 @@ def say(message):
 def fail(message):
     say(message)
     sys.exit(2)
+
+
+def output_of(command, **more):
+    done = subprocess.run(command, capture_output=True, text=True, **more)
+    if done.returncode:
+        lines = [line for line in (done.stderr + done.stdout).splitlines() if re.search("error|nrecogni[sz]ed|unhandled", line)]
+        raise RuntimeError(f"'{Path(command[0]).name}' failed: {(lines or [done.stderr.strip()])[0]}")
+    return done.stdout
+
+
+# ---- Counting
+
+
+def code_of(module, kernel):
+    """The instructions of a kernel: {address: Instruction}."""
+    blocks = re.split(r"^[0-9a-f]+ <([^>]+)>:$", output_of(["objdump", "-d", "--no-show-raw-insn", module]), flags=re.M)
+    return machine_code.parse_disassembly(dict(zip(blocks[1::2], blocks[2::2])).get(f"carom_rung_{kernel}", ""))
+
+
+def parse_callgrind(text):
+    """(counts, taken): executions by address, and how often the conditional jump at an address was taken. The line after `calls=`
+    is the cost of what was called, and not counted here."""
+    counts, taken = Counter(), Counter()
+    skip, jump = False, None
+    if "positions: instr" not in text:
+        raise ValueError("no instruction addresses in the callgrind file: run it with --dump-instr=yes")
+    for line in text.splitlines():
+        if line.startswith("calls="):
+            skip = True
+        elif line.startswith(("jcnd=", "jump=")):
+            jump = int(line[5:].split("/")[0]) if line.startswith("jcnd=") else 0
+        elif line.startswith("0x"):
+            words = line.split()
+            address = int(words[0], 16)
+            if jump is not None:
+                taken[address] += jump
+                jump = None
+            elif skip:
+                skip = False
+            elif len(words) > 2:
+                counts[address] += int(words[2])
+    return counts, taken
+
+
+def execute(driver, module, kernel, steps, cases):
+    """(counts, taken) of a run under callgrind."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "callgrind.out"
+        words = ["--tool=callgrind", "--dump-instr=yes", "--collect-jumps=yes", "--compress-pos=no", "--compress-strings=no"]
+        output_of(["valgrind", *words, f"--callgrind-out-file={out}", driver, module, kernel, str(steps)], input=cases)
+        return parse_callgrind(out.read_text())
+
+
+def join(code, counts):
+    """Operations and instructions by kind: {kind: executed operations} with '<kind>_instructions' beside each."""
+    total = Counter()
+    for address, instruction in code.items():
+        executed = counts.get(address, 0)
+        for name, operations in machine_code.operations(instruction).items() if executed else ():
+            total[name] += executed * operations
+        if executed:
+            total[machine_code.kind(instruction) + "_instructions"] += executed
+            total["instructions"] += executed
+    return total
+
+
+def flops(total, fma=1):
+    """Add, mul, div, sqrt and fma, as the seed paper counts; AMD's counter counts a fused multiply-add as fma=2."""
+    return sum(total[kind] for kind in ("add", "mul", "div", "sqrt")) + fma * total["fma"]
+
+
+def hot_loops(code, counts, taken, threshold):
+    """[(executions, [Instruction, ...])], most executed first: the instructions of one iteration on the path that is taken most.
+
+    Beginning with the instruction executed most often, the path follows every jump in the direction taken more often until it comes
+    back; then the same for the next instruction not yet seen, while it runs `threshold` times at least."""
+    addresses = sorted(code)
+    following = dict(zip(addresses, addresses[1:]))
+    loops, seen = [], set()
+    for start in sorted((a for a in addresses if counts[a] >= threshold), key=lambda a: (-counts[a], a)):
+        path, here = {}, start
+        while start not in seen and here in code and here not in path and counts[here] > 0:
+            path[here] = instruction = code[here]
+            jumps = instruction.mnemonic == "jmp" or instruction.target is not None and 2 * taken[here] > counts[here]
+            here = instruction.target if jumps else following.get(here)
+        seen.update(path)
+        if path and here == start:
+            first = list(path).index(min(path))
+            loops.append((counts[start], list(path.values())[first:] + list(path.values())[:first]))
+    return loops
+
+
+def measure(driver, module, kernel, steps, cases, case, latencies):
+    """{column: value}: operations as the mean over `cases`, texts of a line each, and bounds of the one `case`, the sum over its hot
+    loops of executions times cycles per iteration."""
+    code, totals = code_of(module, kernel), []
+    for n in (steps // 4, steps):
+        counts, _ = execute(driver, module, kernel, n, "".join(cases))
+        totals.append(Counter({kind: count / len(cases) for kind, count in join(code, counts).items()}))
+    few, many = totals
+    row = {f"flops_{kind}": many[kind] for kind in COUNTED} | {name: many[kind] for kind, name in OTHERS.items()}
+    row |= {"flops_total": flops(many), "flops_amd": flops(many, fma=2), "shuffles": many["shuffle_instructions"]}
+    row |= {"instructions": many["instructions"], "per_step_flops_amd": (flops(many, 2) - flops(few, 2)) / (steps - steps // 4)}
+    row |= {"steps_total": 0} | {f"chain_cycles_{machine}": 0 for machine in latencies}
+    for executions, path in hot_loops(code, *execute(driver, module, kernel, steps, case), steps / 10):
+        row["steps_total"] += executions
+        for machine, cycles_of in latencies.items():
+            row[f"chain_cycles_{machine}"] += executions * machine_code.chain(machine_code.steps_of(path, cycles_of))
+    return row
+
+
+# ---- The command
 
 
 def module_of(options):
@@ -52,84 +171,64 @@ def kernels_of(wanted):
     """The kernels to count, in the order of kernels.def: {name: what it needs of the processor}."""
     text = (ROOT / "lab" / "ladder" / "kernels.def").read_text()
     found = dict(re.findall(r"^RUNG\((\w+),\s*\w+,\s*\w+,\s*(\w+),", text, re.M))
-    for name in wanted or []:
-        if name not in found:
-            fail(f"no kernel '{name}' in kernels.def; there are {', '.join(found)}")
-    return {name: needs for name, needs in found.items() if not wanted or name in wanted}
+    if wanted and wanted not in found:
+        fail(f"no kernel '{wanted}' in kernels.def; there are {', '.join(found)}")
+    return {wanted: found[wanted]} if wanted else found
 
 
-def read_cases(path):
+def read_cases():
     """{id: the numbers of a case as a line}"""
-    with open(path, newline="") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    try:
+    with open(ROOT / "data" / "collisions-204.csv", newline="") as file:
+        rows = csv.DictReader(line for line in file if not line.startswith("#"))
         return {row["id"]: " ".join(row[field] for field in FIELDS) + "\n" for row in rows}
-    except (KeyError, TypeError) as error:
-        fail(f"{path} has no column {error}")
-
-
-def measured_latencies(build):
-    """(latencies of this processor by row, ns of a core cycle); ({}, None) where they cannot be measured."""
-    done = subprocess.run([build / "lab" / "bound" / "bound_latency"], capture_output=True, text=True)
-    rows = list(csv.DictReader(done.stdout.splitlines())) if done.returncode == 0 else []
-    if not rows:
-        say(f"the latencies of this processor are unknown, and so is its bound: {done.stderr.strip()}")
-        return {}, None
-    return {row["row"]: float(row["cycles"]) for row in rows}, float(rows[0]["ns"])
 
 
 def table(options, out):
     module, config = module_of(options)
-    kernels, cases = kernels_of(options.kernel), read_cases(options.data / "collisions-204.csv")
-    if options.case not in cases:
-        fail(f"no case '{options.case}' in {options.data / 'collisions-204.csv'}")
+    kernels, cases = kernels_of(options.kernel), read_cases()
     for tool in ("valgrind", "objdump"):
         if not shutil.which(tool):
             fail(f"{tool} is not installed (Debian: {'binutils' if tool == 'objdump' else tool}); it counts the operations")
     driver = options.build / "lab" / "bound" / "bound_driver"
-    zen2 = dataflow.read_latencies()
-    native, cycle = measured_latencies(options.build)
-    latencies = {"zen2": zen2} | ({"native": zen2 | native} if native else {})
+    latencies = {"zen2": machine_code.read_latencies()}
+    measured = subprocess.run([options.build / "lab" / "bound" / "bound_latency"], capture_output=True, text=True)
+    native = {row["row"]: float(row["cycles"]) for row in csv.DictReader(measured.stdout.splitlines())}
+    if native:
+        latencies["native"] = latencies["zen2"] | native
+    else:
+        say(f"the latencies of this processor are unknown, and so is its bound: {measured.stderr.strip()}")
     print(f"# date: {datetime.date.today().isoformat()}", file=out)
     print(f"# {output_of([driver, module]).strip()}", file=out)
     print(f"# counts: {output_of(['valgrind', '--version']).strip()}", file=out)
-    print(f"# cycle: {cycle:.4f} ns" if cycle else "# cycle: NA", file=out)
-    print(f"# cases: {len(cases)}, N = {options.steps}; bounds: case {options.case}, cycles per collision", file=out)
+    print(f"# cases: {len(cases)}, N = {options.steps}; bounds: case {CASE}, cycles per collision", file=out)
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(COLUMNS)
+    writer.writerow(["kernel", "config", *COLUMNS])
 
     def count(kernel):
-        told = [kernel] if options.chain else None
-        describe = told.append if options.chain else lambda line: None
         if kernels[kernel] == "AVX512":
-            return {}, "needs AVX-512, which valgrind does not execute", told
+            return {}, "needs AVX-512, which valgrind does not execute"
         try:
-            return measure(driver, module, kernel, options.steps, list(cases.values()), cases[options.case], latencies, describe), "", told
+            return measure(driver, module, kernel, options.steps, list(cases.values()), cases[CASE], latencies), ""
         except (RuntimeError, ValueError, machine_code.UnknownInstruction) as error:
-            return {}, str(error), told
+            return {}, str(error)
 
     code = 0
     with ThreadPoolExecutor() as pool:
-        for kernel, (row, why, told) in zip(kernels, pool.map(count, kernels)):
+        for kernel, (row, why) in zip(kernels, pool.map(count, kernels)):
             if why:
                 say(f"no counts of {kernel}: {why}")
                 code |= kernels[kernel] != "AVX512"
-            for line in told or []:
-                print(line, file=sys.stderr)
-            writer.writerow([kernel, config] + [f"{row[name]:.10g}" if name in row else "NA" for name in COLUMNS[2:]])
+            writer.writerow([kernel, config] + [f"{row[name]:.10g}" if name in row else "NA" for name in COLUMNS])
             out.flush()
     return code
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="lab.bound", description="operation counts and lower bounds of the ladder's kernels")
-    parser.add_argument("--kernel", action="append", help="this kernel only (may be repeated; default all)")
+    parser = argparse.ArgumentParser(prog="lab.bound", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--kernel", help="this kernel only (default all)")
     parser.add_argument("--config", help="the build of it, default clang-zen2, or gcc-zen2 where there is no clang")
     parser.add_argument("--build", type=Path, default=ROOT / "build", help="folder of the modules, default build")
-    parser.add_argument("--data", type=Path, default=ROOT / "data", help="folder of the cases, default data")
-    parser.add_argument("--case", default="pooltool-002", help="the case whose path through the loop is bounded")
     parser.add_argument("--steps", type=int, default=1000, help="N, default %(default)s; counts also run with N/4")
-    parser.add_argument("--chain", action="store_true", help="print the longest dependency chains on stderr")
     parser.add_argument("-o", "--output", help="write the table there, default stdout")
     options = parser.parse_args()
     if options.steps < 10:

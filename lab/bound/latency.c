@@ -6,9 +6,8 @@
  * cycle. Operands have full significands where a division or a square root might otherwise end early. Where a chain needs a
  * helper (a square root alone runs to 1), the helper's latency is subtracted.
  *
- * Output: CSV, `row,cycles,ns`; the rows are those of latencies.txt and some of interest besides. `cycle` is the integer
- * addition: its ns is one core cycle. `add_mul` is an addition and a multiplication in turn: less than add + mul where a result
- * is forwarded early.
+ * Output: CSV, `row,cycles,ns`; the rows are those of latencies.csv, and `cycle`, the integer addition: its ns is one core
+ * cycle.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "monotonic.h"
@@ -23,7 +22,6 @@
   X(add, "add", "vaddsd %%xmm4, %%xmm0, %%xmm0\n\t", add, 1)                                                    \
   X(mul, "mul", "vmulsd %%xmm4, %%xmm0, %%xmm0\n\t", mul, 1)                                                    \
   X(fma, "fma", "vfmadd213sd %%xmm3, %%xmm4, %%xmm0\n\t", fma, 1)                                               \
-  X(add_mul, "add_mul", "vaddsd %%xmm3, %%xmm0, %%xmm0\n\tvmulsd %%xmm4, %%xmm0, %%xmm0\n\t", add_mul, 1)       \
   X(div_d, "div.d", "vdivsd %%xmm0, %%xmm2, %%xmm0\n\t", div_d, 1)                                              \
   X(div_s, "div.s", "vdivss %%xmm0, %%xmm2, %%xmm0\n\t", div_s, 1)                                              \
   X(sqrt_d, "sqrt.d", "vsqrtsd %%xmm0, %%xmm0, %%xmm0\n\tvmulsd %%xmm2, %%xmm0, %%xmm0\n\t", mul, 1)            \
@@ -34,7 +32,6 @@
   X(logic, "logic", "vandpd %%xmm0, %%xmm2, %%xmm0\n\t", logic, 1)                                              \
   X(shuffle, "shuffle", "vshufpd $1, %%xmm0, %%xmm0, %%xmm0\n\t", shuffle, 1)                                   \
   X(cross, "cross", "vperm2f128 $1, %%ymm0, %%ymm0, %%ymm0\n\t", cross, 1)                                      \
-  X(permpd, "cross permpd", "vpermpd $0x1b, %%ymm0, %%ymm0\n\t", permpd, 1)                                     \
   X(extract, "extract", "vextractf128 $1, %%ymm0, %%xmm0\n\t", extract, 1)                                      \
   X(broadcast, "broadcast", "vbroadcastsd %%xmm0, %%ymm0\n\t", broadcast, 1)                                    \
   X(hadd, "hadd", "vhaddpd %%xmm3, %%xmm0, %%xmm0\n\t", hadd, 1)                                                \

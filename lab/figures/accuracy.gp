@@ -1,8 +1,8 @@
 # Error against time: a line for each kernel that was swept over N, marks for those that take no steps: one for single calls, and
 # for batches one for each number of threads. Marks stand at the largest error of the cases; a dotted line drops from the largest
 # error to the median, for the library's kernels. Digits are numbers of threads.
-width = 1000; height = 640; tall = 900
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3 ARG4
+width = 1000; height = 640
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
 
 # Names: 1 kernel, 2 config, 3 isa, 4 precision, 6 steps.
 select(what, condition) = system("awk -F, '/^#/ { next } n++ && (".condition.") && !seen[".what."]++ { printf \"%s \", ".what." }' '".data."'")
@@ -29,10 +29,11 @@ do for [decade=-3:4] { do for [digit=2:9] { set xtics add ("" digit * 10.0**deca
 set ytics 10
 set mytics 10
 set format y "10^{%T}"
-set lmargin at screen (narrow ? 0.185 : 0.10); set rmargin at screen (narrow ? 0.95 : 0.745)
-set bmargin at screen (narrow ? px(420) : 0.19)
+set lmargin at screen 0.10; set rmargin at screen 0.745
+set bmargin at screen 0.19
 set key at screen 0.76, graph 1 left top vertical maxrows 20 noenhanced Left reverse samplen 2.5
-if (narrow) set key at screen 0.03, screen px(355) left top
+set label 1003 "Marks: the largest error.\nDotted: down to the median.\nDigits: threads of a batch.\nN: steps of Euler's method." \
+  at screen 0.768, screen 0.5 font ",11" textcolor rgb grey
 mark(k) = 7 + 2 * ((k - 1) / 2) % 8 + (k % 2 ? 2 : 1)
 plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_exact_max" \
        with linespoints lt line_of(word(kernels, k), k) title word(kernels, k), \
@@ -50,6 +51,4 @@ plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_ex
        with linespoints lc rgb colour(part(word(lanes, k), 1)) lw 2 dt 1 pt mark(k) ps 1.3 \
        title part(word(lanes, k), 1).", ".part(word(lanes, k), 3).", ".part(word(lanes, k), 2), \
      for [k=1:words(lanes)] data using (in(word(lanes, k), us(0))):"error_exact_max":(sprintf("%d", column("threads"))) \
-       with labels center offset -0.9,0.8 font ",12" textcolor rgb grey notitle, \
-     keyentry with lines lc rgb grey lw 2 dt (1,4) title "down to the median", \
-     for [k=1:words(lanes) > 0] keyentry with lines lw 0.1 lc rgb "white" title "1, 2 ...: threads"
+       with labels center offset -0.9,0.8 font ",12" textcolor rgb grey notitle

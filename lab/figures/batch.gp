@@ -1,6 +1,6 @@
 # Throughput over batch size, and over threads.
-width = 1000; height = 520; tall = 900
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3 ARG4
+width = 1000; height = 520
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
 unset title
 
 number(program) = real(system("awk -F, '/^#/ { next } !at { for (k = 1; k <= NF; k++) if ($k == \"pairs\") at = k; next } ".program."' '".data."'"))
@@ -18,25 +18,23 @@ of_size(p) = is(p) && column("pairs") == size ? column("threads") : NaN
 rate(dummy) = 1000 / column("ns_median")
 
 set multiplot
-if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen (narrow ? 1 - px(16) : 0.945) center font large textcolor rgb ink
-set tmargin at screen (narrow ? upper(1, 2, 45, 115, 75) : 0.88)
-set bmargin at screen (narrow ? lower(1, 2, 45, 115, 75) : 0.225)
-set lmargin at screen (narrow ? 0.17 : 0.085); set rmargin at screen (narrow ? 0.94 : 0.60)
+if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen 0.945 center font large textcolor rgb ink
+set tmargin at screen 0.88
+set bmargin at screen 0.225
+set lmargin at screen 0.085; set rmargin at screen 0.60
 set logscale xy
 set xrange [0.8:4e5]
 set format x "%.0f"
-if (narrow) set xtics (1, "" 2, "" 4, 8, "" 16, "" 32, "64" 64, "" 128, "" 256, "" 512, "" 1024, "" 2048, "4,096" 4096, "" 8192, "" 16384, "" 32768, "" 65536, "" 131072, "262,144" 262144)
-if (!narrow) set xtics (1, "" 2, "" 4, 8, "" 16, "" 32, 64, "" 128, "" 256, 512, "" 1024, "" 2048, "4,096" 4096, "" 8192, "" 16384, "32,768" 32768, "" 65536, "" 131072, "262,144" 262144)
+set xtics (1, "" 2, "" 4, 8, "" 16, "" 32, 64, "" 128, "" 256, 512, "" 1024, "" 2048, "4,096" 4096, "" 8192, "" 16384, "32,768" 32768, "" 65536, "" 131072, "262,144" 262144)
 set format y "%g"
 set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000)
 set xlabel "pairs in a batch"
 set ylabel "million collisions in a second" offset 0.5,0
 set key bottom right Left reverse noenhanced
 stats data using (strcol("kernel") ne "copy" && column("steps") == 0 ? rate(0) : NaN) name "r" nooutput
-# The key stands below the line of single calls, in a narrow figure below all lines.
+# The key stands below the line of single calls.
 top = 1.5 * r_max
-room = narrow ? 10**((log10(0.9 * r_min) - 0.45 * log10(top)) / 0.55) : \
-  single > 0 ? 10**((log10(1000 / single) - 0.45 * log10(top)) / 0.55) : r_min
+room = single > 0 ? 10**((log10(1000 / single) - 0.45 * log10(top)) / 0.55) : r_min
 set yrange [0.6 * r_min < room ? 0.6 * r_min : room:top]
 plot data using (with_threads("single", 1)):(rate(0)) with linespoints lc rgb vermilion lw 2 dt (12,4) pt 9 ps 1 title isa.", single", \
      data using (with_threads("double", 1)):(rate(0)) with linespoints lc rgb blue lw 2 dt 1 pt 7 ps 0.9 title isa.", double", \
@@ -47,9 +45,9 @@ plot data using (with_threads("single", 1)):(rate(0)) with linespoints lc rgb ve
      for [k=1:single>0] 1000 / single with lines lc rgb ink lw 2 dt (8,5) title "single calls, double"
 
 unset label 1; unset label 1001; unset label 1002; unset logscale
-set tmargin at screen (narrow ? upper(2, 2, 45, 115, 75) : 0.88)
-set bmargin at screen (narrow ? lower(2, 2, 45, 115, 75) : 0.225)
-set lmargin at screen (narrow ? 0.17 : 0.72); set rmargin at screen (narrow ? 0.94 : 0.98)
+set tmargin at screen 0.88
+set bmargin at screen 0.225
+set lmargin at screen 0.72; set rmargin at screen 0.98
 set xrange [0.5:threads+0.7]
 set yrange [0:*]
 set xtics autofreq 1

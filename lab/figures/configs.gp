@@ -1,6 +1,6 @@
 # Speedup of every kernel in every build: the darker, the faster.
-width = 1000; height = 620; tall = 640
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3 ARG4
+width = 1000; height = 620
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
 
 kernels = words_of("kernel")
 builds = words_of("config")
@@ -24,9 +24,8 @@ set label 1002 versions
 
 unset border; unset grid; unset key
 set tics scale 0
-set lmargin at screen (narrow ? 0.25 : 0.14); set rmargin at screen (narrow ? 0.985 : 0.88)
-set tmargin at screen (narrow ? 1 - px(120) : 0.825); set bmargin at screen (narrow ? px(70) : 0.11)
-if (narrow) unset colorbox
+set lmargin at screen 0.14; set rmargin at screen 0.88
+set tmargin at screen 0.825; set bmargin at screen 0.11
 set xrange [0.5:words(builds)+0.5]
 set yrange [words(kernels)+0.5:0.5] noreverse
 set x2range [0.5:words(builds)+0.5]
@@ -36,12 +35,10 @@ set ytics () noenhanced
 do for [k=1:words(builds)] { set x2tics add (cut(word(builds, k)) k) }
 do for [k=1:words(kernels)] { set ytics add (word(kernels, k) k) }
 set title offset 0,1.6
-if (narrow) { unset title; set label 1 heading at screen 0.5, screen 1 - px(16) center font large textcolor rgb ink }
-if (narrow) { set x2tics rotate by 90 left font ",11"; set ytics font ",11" }
-cell = !narrow ? ",14" : words(builds) > 6 ? ",9" : ",12"
+cell = ",14"
 number(from, to) = column("speedup") >= from && column("speedup") < to ? sprintf("%.2f", column("speedup")) : ""
 plot data using (x(0)):(y(0)):(0.48):(0.47):"speedup" with boxxyerror fs solid 1 noborder lc palette, \
      data using (x(0)):(y(0)):(number(0, middle)) with labels font cell textcolor rgb ink, \
      data using (x(0)):(y(0)):(number(middle, s_max)) with labels font cell textcolor rgb "white", \
-     data using (x(0)):(y(0)):(number(s_max, 1e9)) with labels font (narrow ? cell.":Bold" : ",15:Bold") textcolor rgb "white", \
+     data using (x(0)):(y(0)):(number(s_max, 1e9)) with labels font ",15:Bold" textcolor rgb "white", \
      data using (column("speedup") == s_max ? x(0) : NaN):(y(0)):(0.48):(0.47) with boxxyerror lc rgb orange lw 3 dt 1 fs empty

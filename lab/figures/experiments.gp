@@ -1,6 +1,6 @@
 # The 2014 paper's shots: speeds and angles, measured, predicted, and by each solver.
-width = 1000; height = 680; tall = 1120
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3 ARG4
+width = 1000; height = 680
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
 unset title
 
 shots = words_of("shot")
@@ -21,7 +21,7 @@ do for [k=1:words(solvers)] {
 unset label 1001
 set label 1002 said
 set multiplot
-if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen (narrow ? 1 - px(16) : 0.966) center font large textcolor rgb ink
+if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen 0.966 center font large textcolor rgb ink
 set xrange [0.5:words(shots)+0.5]
 set xtics () scale 0 noenhanced
 do for [k=1:words(shots)] { set xtics add (word(shots, k)[strstrt(word(shots, k), "-")+1:] k) }
@@ -33,13 +33,13 @@ set offsets 0, 0, graph 0.09, graph 0.09
 columns = "v_cue v_object angle_cue_deg angle_object_deg"
 title(k) = k == 1 ? "cue ball, m/s" : k == 2 ? "object ball, m/s" : k == 3 ? "cue ball, degrees" : "object ball, degrees"
 do for [k=1:4] {
-  left = narrow ? 0.11 : k % 2 ? 0.065 : 0.555
-  top = narrow ? upper(k, 4, 105, 90, 55) : k < 3 ? 0.83 : 0.435
-  set lmargin at screen left; set rmargin at screen left + (narrow ? 0.86 : 0.42)
-  set tmargin at screen top; set bmargin at screen top - (narrow ? px(panel(4, 105, 90, 55)) : 0.295)
+  left = k % 2 ? 0.065 : 0.555
+  top = k < 3 ? 0.83 : 0.435
+  set lmargin at screen left; set rmargin at screen left + 0.42
+  set tmargin at screen top; set bmargin at screen top - 0.295
   set label 2 title(k) at graph 0, graph 1.07 left font ",14" textcolor rgb ink
-  if (narrow ? k > 3 : k > 2) { set xlabel "shot" offset 0,0.3 } else { unset xlabel }
-  if (k == 1) { set key at screen 0.5, screen (narrow ? 1 - px(52) : 0.91) center horizontal maxrows (narrow ? 2 : 1) Left reverse noenhanced samplen 1 width 4 } else { unset key }
+  if (k > 2) { set xlabel "shot" offset 0,0.3 } else { unset xlabel }
+  if (k == 1) { set key at screen 0.5, screen 0.91 center horizontal maxrows 1 Left reverse noenhanced samplen 1 width 4 } else { unset key }
   plot for [s=1:n] data using (x(word(sources, s))):(column(word(columns, k))) \
     with points pt mark(s) ps 1.2 lw 2 lc rgb colour(s) title word(sources, s)
   unset label 1; unset label 1002

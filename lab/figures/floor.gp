@@ -1,6 +1,6 @@
 # Time of a pair over the bytes of a batch, the solver's and below it that of a copy; the caches' sizes.
-width = 1000; height = 560; tall = 640
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3 ARG4
+width = 1000; height = 560
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
 
 # From 32 pairs on: below, calls and empty lanes hide what is to be seen.
 least = 32
@@ -20,12 +20,10 @@ set logscale x 2
 set logscale y
 set format y "%g"
 set xtics ("1 KiB" 2**10, "4 KiB" 2**12, "16 KiB" 2**14, "64 KiB" 2**16, "256 KiB" 2**18, "1 MiB" 2**20, "4 MiB" 2**22, "16 MiB" 2**24, "64 MiB" 2**26, "256 MiB" 2**28)
-if (narrow) set xtics ("1 KiB" 2**10, "16 KiB" 2**14, "256 KiB" 2**18, "4 MiB" 2**22, "64 MiB" 2**26)
 set xlabel "bytes read and written by a batch"
 set ylabel "time of a pair (ns)" offset 0.5,0
-set lmargin at screen (narrow ? 0.18 : 0.085); set rmargin at screen (narrow ? 0.95 : 0.765)
+set lmargin at screen 0.085; set rmargin at screen 0.765
 set key at screen 0.785, graph 1 left top Left reverse noenhanced samplen 3
-if (narrow) { set bmargin at screen px(228); set key at screen 0.03, screen px(152) left top }
 stats data using (at("solver", "single")) name "x" nooutput
 set xrange [0.8 * x_min:2**28]
 caches = note("caches")
@@ -42,5 +40,5 @@ plot band("double") using "bytes":"solver":"copy" with filledcurves fs transpare
      data using (at("solver", "single")):"ns_median" with linespoints lc rgb vermilion lw 2 dt (12,4) pt 9 ps 1.1 title "exact, single, ".isa, \
      data using (at("copy", "double")):"ns_median" with linespoints lc rgb blue lw 2 dt 1 pt 6 ps 1 title "copy, double", \
      data using (at("copy", "single")):"ns_median" with linespoints lc rgb vermilion lw 2 dt (12,4) pt 8 ps 1.1 title "copy, single", \
-     for [p in "double single"] last(p) using "bytes":"solver":(sprintf((column("solver") < 10 * column("copy") ? "%.1f ×" : "%.0f ×").(narrow ? "" : " the copy"), column("solver") / column("copy"))) \
+     for [p in "double single"] last(p) using "bytes":"solver":(sprintf((column("solver") < 10 * column("copy") ? "%.1f ×" : "%.0f ×")." the copy", column("solver") / column("copy"))) \
        with labels left offset 0.9,0 font ",12" textcolor rgb ink notitle

@@ -1,6 +1,6 @@
 # Bars: speedup of the solvers in lanes by instruction set and precision, a panel for each solver.
-width = 1000; height = 520; tall = 900
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3 ARG4
+width = 1000; height = 520
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
 unset title
 
 select(what, condition) = system("awk -F, '/^#/ { next } n++ && (".condition.") && !seen[".what."]++ { printf \"%s \", ".what." }' '".data."'")
@@ -17,8 +17,8 @@ took(ns) = sprintf(ns < 9.95 ? "%.1f" : "%.0f", ns)
 pairs = system("awk -F, '/^#/ { next } !at { for (k = 1; k <= NF; k++) if ($k == \"pairs\") at = k; next } $1 != \"copy\" && $3 != \"scalar\" { print $at; exit }' '".data."'")
 
 set multiplot
-if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen (narrow ? 1 - px(16) : 0.945) center font large textcolor rgb ink
-set label 1003 sprintf("%s pairs in a batch, one thread; in grey: nanoseconds for a collision", pairs) at screen 0.012, screen (narrow ? px(52) : 0.088) font ",10" textcolor rgb grey noenhanced
+if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen 0.945 center font large textcolor rgb ink
+set label 1003 sprintf("%s pairs in a batch, one thread; in grey: nanoseconds for a collision", pairs) at screen 0.012, screen 0.088 font ",10" textcolor rgb grey noenhanced
 set xrange [0.45:words(isas)+0.55]
 set xtics () scale 0 noenhanced
 do for [k=1:words(isas)] { set xtics add (word(isas, k) k) }
@@ -27,10 +27,10 @@ set grid ytics lc rgb faint lt 1 lw 1 dt 1
 n = words(solvers)
 do for [k=1:n] {
   name = word(solvers, k)
-  left = narrow ? 0.15 : 0.085 + (k - 1) * 0.93 / n
-  set lmargin at screen left; set rmargin at screen (narrow ? 0.97 : left + 0.93 / n - 0.075)
-  set tmargin at screen (narrow ? upper(k, n, 65, 105, 75) : 0.80)
-  set bmargin at screen (narrow ? lower(k, n, 65, 105, 75) : 0.205)
+  left = 0.085 + (k - 1) * 0.93 / n
+  set lmargin at screen left; set rmargin at screen (left + 0.93 / n - 0.075)
+  set tmargin at screen 0.80
+  set bmargin at screen 0.205
   set label 2 (steps(name) eq "0" ? name : name.", N = ".steps(name)) at graph 0.5, graph 1.06 center font ",15:Bold" textcolor rgb ink noenhanced
   set yrange [0:1.19 * height_of(name)]
   if (k == 1) { set ylabel "speedup over base" offset 0.5,0; set key top left Left reverse samplen 1.5 invert } else { unset ylabel; unset key }

@@ -1,27 +1,21 @@
 # Operations per cycle over N, and for each kernel the bound by its longest chain.
-width = 1000; height = 560; tall = 680
+width = 1000; height = 560
 build = system("awk -F, '/^#/ { next } n++ { print $2; exit }' '".ARG1."'")
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3 ARG4
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
 
 kernels = words_of("kernel")
 of(name, x) = strcol("kernel") eq name ? x : NaN
-cycle = note("cycle")
-rate = real(note("ticks per ns"))
-
 set logscale x
 set format x "%.0f"
 set xlabel "steps N"
 set yrange [0:*]
-set ylabel (narrow ? "" : "floating point ")."operations per ".(cycle eq "core cycles" ? "core cycle" : "reference cycle") offset 0.5,0
-set lmargin at screen (narrow ? 0.19 : 0.085); set rmargin at screen (narrow ? 0.94 : 0.715)
-set bmargin at screen (narrow ? px(300) : 0.24)
+set ylabel "floating point operations per core cycle" offset 0.5,0
+set lmargin at screen 0.085; set rmargin at screen 0.715
+set bmargin at screen 0.24
 set key at screen 0.735, graph 1 left top vertical maxrows 12 noenhanced Left reverse
-if (narrow) set key at screen 0.03, screen px(235) left top
-set label 1003 (cycle eq "core cycles" ? "operations and cycles counted; see the text" : \
-  sprintf("no hardware counters here: operations counted under callgrind;".(narrow ? "\n" : " ")."cycles are those of the time stamp counter, %.2f per ns", rate)) \
-  at screen 0.012, screen (narrow ? px(23) : 0.022) font ",10" textcolor rgb grey
-set label 1002 at screen 0.012, screen (narrow ? px(51) : 0.050)
-set label 1001 at screen 0.012, screen (narrow ? px(65) : 0.078)
+set label 1003 "operations counted under callgrind; a core cycle: ".note("core cycle") at screen 0.012, screen 0.022 font ",10" textcolor rgb grey
+set label 1002 at screen 0.012, screen 0.050
+set label 1001 at screen 0.012, screen 0.078
 share(name) = system("awk -F, '/^#/ { next } $1 == \"".name."\" { s = $8 } END { print s }' '".data."'")
 entry(name) = share(name) eq "NA" ? name : sprintf("%s, %.0f %% of bound", name, 100 * real(share(name)))
 bounded = system("awk -F, '/^#/ { next } n++ && $7 != \"NA\" { print $7 }' '".data."' | wc -l") > 0

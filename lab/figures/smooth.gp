@@ -1,14 +1,14 @@
 # A fine sweep of one input: the curve, a small stretch of it enlarged, and how far neighbouring results leave a smooth curve. From
 # the CSV of `carom sweep --solver exact,euler`.
-width = 1080; height = 760; tall = 1080
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../cli/figures/style.gp" ARG1 ARG2 ARG3 ARG4
+width = 1080; height = 760
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../cli/figures/style.gp" ARG1 ARG2 ARG3
 unset title
 
 over = note("over")
 swept = over eq "w1z" ? "side spin of ball 1 (rad/s)" : over eq "cut" ? "turn of the line of centres (degrees)" : over
 set label 1001 note("collision").": friction ".note("friction between the balls")." between the balls,".\
-  (narrow ? "\n" : " ").note("friction of the cloth")." with the cloth; restitution ".note("restitution")."; slip: ".note("slip").\
-  ".".(narrow ? "\n" : "  ")."Euler's method: N = ".note("steps")."." at screen 0.012, screen (narrow ? px(44) : 0.022) font ",11" textcolor rgb grey noenhanced
+  " ".note("friction of the cloth")." with the cloth; restitution ".note("restitution")."; slip: ".note("slip").\
+  ".  Euler's method: N = ".note("steps")."." at screen 0.012, screen 0.022 font ",11" textcolor rgb grey noenhanced
 solvers = words_of("solver")
 colour(name) = name eq "exact" ? sky : vermilion
 full(name) = name eq "exact" ? "exact" : "Euler, N = ".note("steps")
@@ -31,11 +31,11 @@ off_chord(x, y) = 1000*(y - real(word(chord, 2)) - real(word(chord, 3))*(x - rea
 of(name, x) = strcol("solver") eq name ? x : NaN
 
 set multiplot
-if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen (narrow ? 1 - px(16) : 0.967) center font large textcolor rgb ink noenhanced
-high(p) = narrow ? upper(p, 3, 65, 115, 88) : p < 3 ? 0.9 : 0.415
-low(p) = narrow ? lower(p, 3, 65, 115, 88) : p < 3 ? 0.55 : 0.14
-left(p) = narrow ? 0.19 : p == 2 ? 0.6 : 0.085
-right(p) = narrow ? 0.96 : p == 1 ? 0.5 : 0.975
+if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen 0.967 center font large textcolor rgb ink noenhanced
+high(p) = p < 3 ? 0.9 : 0.415
+low(p) = p < 3 ? 0.55 : 0.14
+left(p) = p == 2 ? 0.6 : 0.085
+right(p) = p == 1 ? 0.5 : 0.975
 place = "set lmargin at screen left(p); set rmargin at screen right(p); set tmargin at screen high(p); set bmargin at screen low(p)"
 set key top left Left reverse samplen 2
 
@@ -70,7 +70,7 @@ set ytics 1e-12, 100; set ytics add ("1" 1)
 set ylabel "jump, over the scale" offset 1,0
 if (sticks) set object 1 rectangle from first real(word(stuck, 1)), graph 0 to first real(word(stuck, 2)), graph 1 behind \
   fillcolor rgb "#f3edf4" fillstyle solid noborder
-set label 2 "largest jump of any of the twelve results".(narrow ? "" : " between neighbouring values") at graph 0.5, graph 1.05 center font ",11" \
+set label 2 "largest jump of any of the twelve results between neighbouring values" at graph 0.5, graph 1.05 center font ",11" \
   textcolor rgb grey
 set arrow 3 from graph 0, first 1e-6 to graph 1, first 1e-6 nohead lc rgb grey lw 1.2 dt (6,4)
 set label 3 "10^{-6}" at graph 0.995, first 2.2e-6 right font ",11" textcolor rgb grey

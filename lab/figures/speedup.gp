@@ -1,6 +1,6 @@
 # Bars: the speedup of the scalar kernels, and the paper's beside it where it gives a number.
-width = 920; height = 520; tall = 520
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3 ARG4
+width = 920; height = 520
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/study.gp" ARG1 ARG2 ARG3
 
 scalar(x) = strcol("needs") eq "scalar" ? x : NaN
 kernels = system("awk -F, '!/^#/ && $3 == \"scalar\" { printf \"%s \", $1 }' '".data."'")
@@ -16,10 +16,9 @@ set xtics () scale 0 noenhanced
 do for [k=1:words(kernels)] { set xtics add (word(kernels, k) k) }
 unset grid
 set grid ytics lc rgb faint lt 1 lw 1 dt 1
-set lmargin at screen (narrow ? 0.15 : 0.085); set rmargin at screen 0.98
-set bmargin at screen (narrow ? px(120) : 0.165)
-if (narrow) set xtics rotate by 40 right
-small = narrow ? ",9" : ",13"
+set lmargin at screen 0.085; set rmargin at screen 0.98
+set bmargin at screen 0.165
+small = ",13"
 set key top left horizontal Left reverse noenhanced samplen 1.5
 plot data using (scalar(at(0)) - 0.2):"speedup":(0.36) with boxes fs solid 1 lc rgb blue dt 1 title "here", \
      data using (scalar(at(0)) + 0.2):(paper(0)):(0.36) with boxes fs pattern 4 lc rgb vermilion dt 1 title "seed paper (Zen 2)", \

@@ -1,21 +1,19 @@
 # What the study's figures share beyond the style of all: the machine at the foot, and how a kernel looks.
-call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../cli/figures/style.gp" ARG1 ARG2 ARG3 ARG4
+call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/../../cli/figures/style.gp" ARG1 ARG2 ARG3
 
 # Where and with what the data were measured: two lines at the foot, which need a bottom margin of about 105 points.
 # The compiler named is that of what is drawn: the ladder's, by its configuration such as clang-default, the library's, or both, as
-# where the yardstick is of the ladder.
+# where speedup is over a kernel of the ladder.
 configs = system("awk -F, '/^#/ { next } !at { for (k = 1; k <= NF; k++) if ($k == \"config\") at = k; if (!at) at = NF + 1; next } \
   $at != \"\" && !seen[$at]++ { print $at }' '".data."' | tr '\\n' ' '")
 drawn = ""; do for [name in configs] { if (strstrt(name, "-") > 0 && strlen(drawn) == 0) { drawn = name } }
 if (!exists("build")) build = drawn
-compiler = strlen(build) > 0 ? build.": ".note(build) : "compiler: ".note("compiler").", ".note("flags")
+compiler = strlen(build) > 0 ? build.": ".note(build) : "compiler: ".note("compiler").(strlen(note("flags")) > 0 ? ", ".note("flags") : "")
 if (strlen(build) > 0 && place_in(configs, "library") > 0) compiler = "library: ".note("compiler")."; ".compiler
 date = note("date")
-machine = note("processor").", family ".note("processor family")
-flags_at = strstrt(compiler, ", -")
-if (narrow && flags_at > 0) compiler = compiler[1:flags_at]."\n".compiler[flags_at+2:]
-set label 1001 machine."; ".date[1:10] at screen 0.012, screen (narrow ? px(37) : 0.055) font ",10" textcolor rgb grey noenhanced
-set label 1002 compiler at screen 0.012, screen (narrow ? px(23) : 0.022) font ",10" textcolor rgb grey noenhanced
+machine = note("processor").(strlen(note("processor family")) > 0 ? ", family ".note("processor family") : "")
+set label 1001 machine."; ".date[1:10]."; carom at commit ".note("commit") at screen 0.012, screen 0.055 font ",10" textcolor rgb grey noenhanced
+set label 1002 compiler at screen 0.012, screen 0.022 font ",10" textcolor rgb grey noenhanced
 
 # A kernel looks the same in every figure: these have their line types, others take what is left.
 known = "base double float double_vec float_vec euler exact"

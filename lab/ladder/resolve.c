@@ -20,7 +20,7 @@
 #include "ladder.h"
 
 #include "ball_ball/arguments.h"
-#include "ball_ball/result.h"
+#include "ball_ball/frame.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,4 +1,5 @@
-/* `carom-lab bench --cushion`: the models of the cushion on impacts of play, Euler's 1000 steps being the yardstick. */
+/* `carom-lab bench --cushion`: the models of the cushion on impacts of play, Euler's 1000 steps being what the others are
+ * compared with. */
 #include "bench_job.h"
 #include "command.h"
 #include "draws.h"
@@ -13,18 +14,18 @@
 #include <stdlib.h>
 
 enum { IMPACTS = 512, SEED = 1, MODELS = 5 };
-/* Euler's method first: it is what the others are compared with. */
+/* Euler's method first: speedup is that over it. */
 static const carom_cushion_model models[MODELS] = {CAROM_CUSHION_EULER, CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_STRONGE,
                                                    CAROM_CUSHION_HAN, CAROM_CUSHION_MIRROR};
 static const double euler_bound = 0.05, exact_bound = 1e-8; /* of the verified error; the second is that of `verify` */
 
-struct cushion_work {
+typedef struct cushion_work {
   char name[32];
   carom_cushion_options options;
   carom_cushion_impact in[IMPACTS];
   carom_motion out[IMPACTS];
   int8_t status[IMPACTS];
-};
+} cushion_work;
 
 static void resolve(void *context) {
   cushion_work *w = context;
@@ -38,18 +39,17 @@ static uint64_t fingerprint(const void *context) {
   return bench_fingerprint(w->out, sizeof w->out);
 }
 
-/* The largest error against the judge; NAN for models of other physics. Infinity if an impact is not resolved. */
+/* The largest error against the reference; NAN for models of other physics. Infinity if an impact is not resolved. */
 static double verify(const cushion_work *w) {
+  const bool compared = w->options.model == CAROM_CUSHION_MATHAVAN || w->options.model == CAROM_CUSHION_EULER;
   double worst = 0;
   for (size_t k = 0; k < IMPACTS; k++) {
     carom_motion exact;
     if (w->status[k] != CAROM_OK)
       return INFINITY;
-    if ((w->options.model == CAROM_CUSHION_MATHAVAN || w->options.model == CAROM_CUSHION_EULER) && k % 8 == 0 &&
-        reference_cushion(&w->in[k], &exact, NULL) == REFERENCE_OK)
+    if (compared && k % 8 == 0 && reference_cushion(&w->in[k], &exact, NULL) == REFERENCE_OK)
       worst = fmax(worst, cushion_distance(&w->in[k], &w->out[k], &exact));
   }
-  const bool compared = w->options.model == CAROM_CUSHION_MATHAVAN || w->options.model == CAROM_CUSHION_EULER;
   return compared ? worst : (double)NAN;
 }
 
@@ -84,7 +84,7 @@ static bool choose(bench_job *job) {
                                                          .pair_error_max = error};
   }
   for (size_t k = 0; k < job->subject_count; k++)
-    job->subject[k].yardstick = job->subject[0].steps > 0 ? 0 : SIZE_MAX;
+    job->subject[k].reference = job->subject[0].steps > 0 ? 0 : SIZE_MAX;
   if (job->budget == 0.0)
     job->budget = 5.0;
   return true;

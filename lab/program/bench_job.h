@@ -1,19 +1,15 @@
-/* One run of `carom-lab bench`, and the parts of the command that work on it.
- *
- * The benchmark is one: what is timed is verified, then timed in turns by the engine, then printed. There are three tables of
- * work: collisions of two balls (bench_choice.c), impacts on cushions (bench_cushions.c), whole shots (bench_shots.c). */
+/* One run of `carom-lab bench`: what is timed is verified, then timed in turns by the engine, then printed. There are three
+ * tables of work: collisions of two balls, impacts on cushions, whole shots. */
 #ifndef CAROM_LAB_BENCH_JOB_H
 #define CAROM_LAB_BENCH_JOB_H
 
-#include "counters.h"
+#include "cases.h"
 #include "lists.h"
-#include "workload.h"
+#include "rounds.h"
 
 #include <stdio.h>
 
 typedef struct bench_job bench_job;
-typedef struct timed_shot timed_shot;
-typedef struct cushion_work cushion_work;
 
 /* A table of work. `choose` makes and verifies job->subject, and sets the default budget; false after a complaint. */
 typedef struct bench_table {
@@ -32,33 +28,23 @@ struct bench_job {
   count_list pairs;   /* in a batch; none: the default */
   count_list threads; /* of a batch; none: the default */
   double budget;      /* 0: the table's own */
-  bool csv, spread, errors, counters, show_pairs;
+  bool csv, spread, errors, show_pairs;
   bool cushion;      /* time impacts on cushions instead */
   const char *shots; /* or a file of shots */
   int models;        /* carom_world of theirs */
   int cushion_model; /* and the model of their cushions, as in carom_shot_options */
   const bench_table *table;
   double (*now)(void); /* the clock; NULL: the engine's */
-  cushion_work *cushions;
-  struct shot_file *shot_file; /* open as long as its tables are needed */
-  timed_shot *shot;
-  size_t shot_count;
   const char *folder;
-  case_set cases;
-  case_tiles tiles;
-  struct {
-    const kernel *kernel;
-    const ladder_module *module;
-  } yardstick;
-  workload *work; /* the yardsticks, then all that is asked for */
-  size_t work_count, work_space;
+  struct collisions *collisions; /* each table's own part */
+  struct cushion_work *cushions;
+  struct timed_shots *timed_shots;
   bench_subject *subject; /* those that passed */
   bench_figure *figure;
-  double (*count)[COUNTER_COUNT]; /* per collision */
   size_t subject_count;
   int code;
   char *machine; /* lines about it, from before the run */
-  const char *pinning, *counters_text;
+  const char *pinning;
   carom_isa isa; /* in force before the run */
 };
 

@@ -19,13 +19,20 @@
 
 static const double sample_ns = 2e6, seconds_a_shot = 0.06;
 
-struct timed_shot {
+typedef struct timed_shot {
   shot_line line;
   const char *family;
   double events, recorded_us;
   carom_shot_options options;
   size_t copies; /* in a pass */
   carom_shot *room;
+} timed_shot;
+
+/* The table's own part of a job. */
+struct timed_shots {
+  shot_file *file; /* open as long as its tables are needed */
+  timed_shot *shot;
+  size_t count, space;
 };
 
 /* ---- Reading and verifying */
@@ -51,15 +58,14 @@ static bool verified(timed_shot *t) {
 }
 
 static bool read_shots(bench_job *job) {
-  shot_file *file = job->shot_file = shot_file_open(job->shots);
-  if (file == NULL)
+  struct timed_shots *all = job->timed_shots = allocate(1, sizeof *all);
+  if ((all->file = shot_file_open(job->shots)) == NULL)
     return false;
   const char *text;
-  timed_shot t = {.options = {.world = job->models, .cushion_model = job->cushion_model}};
+  timed_shot t = {.options = {.world = (carom_world)job->models, .cushion_model = (carom_shot_cushion)job->cushion_model}};
   t.options.threads = job->threads.count > 0 ? job->threads.value[0] : 1;
-  size_t room = 0;
   shot_read what;
-  while ((what = shot_file_next(file, &t.line, &text)) == SHOT_SHOT || what == SHOT_TABLE) {
+  while ((what = shot_file_next(all->file, &t.line, &text)) == SHOT_SHOT || what == SHOT_TABLE) {
     if (what == SHOT_TABLE)
       continue;
     if (t.line.error != NULL)
@@ -73,12 +79,12 @@ static bool read_shots(bench_job *job) {
     const json_t *recorded = json_object_get(t.line.json, "cpu_ms");
     t.family = family != NULL ? family : "-";
     t.recorded_us = json_is_number(recorded) ? 1e3 * json_number_value(recorded) : NAN;
-    job->shot = grow(job->shot, &room, job->shot_count + 1, sizeof *job->shot);
-    job->shot[job->shot_count++] = t;
+    all->shot = grow(all->shot, &all->space, all->count + 1, sizeof *all->shot);
+    all->shot[all->count++] = t;
   }
-  if (what == SHOT_END && job->shot_count == 0)
+  if (what == SHOT_END && all->count == 0)
     complain("%s has no shots that can be timed", job->shots);
-  return what == SHOT_END && job->shot_count > 0;
+  return what == SHOT_END && all->count > 0;
 }
 
 /* ---- Timing */
@@ -92,7 +98,14 @@ static double processor_ns(void) {
 static void play(void *context) {
   const timed_shot *t = context;
   const shot_line *line = &t->line;
-  carom_shoot_batch(&line->table->table, line->ball, line->count, 1, &line->cue, 1, t->copies, &t->options, t->room, NULL);
+  const carom_shot_job job = {.table = &line->table->table,
+                              .balls = line->ball,
+                              .cues = &line->cue,
+                              .count = line->count,
+                              .n = t->copies,
+                              .options = &t->options,
+                              .shots = t->room};
+  carom_shoot_batch(&job);
   BENCH_CONSUME(t->room);
 }
 
@@ -124,9 +137,9 @@ static void make_room(timed_shot *t) {
 static bool choose(bench_job *job) {
   if (!read_shots(job))
     return false;
-  job->subject = allocate(job->shot_count, sizeof *job->subject);
-  for (size_t k = 0; k < job->shot_count; k++) {
-    timed_shot *t = &job->shot[k];
+  job->subject = allocate(job->timed_shots->count, sizeof *job->subject);
+  for (size_t k = 0; k < job->timed_shots->count; k++) {
+    timed_shot *t = &job->timed_shots->shot[k];
     make_room(t);
     play(t);
     job->subject[job->subject_count++] = (bench_subject){.kernel = t->family,
@@ -137,12 +150,12 @@ static bool choose(bench_job *job) {
                                                          .fingerprint = fingerprint,
                                                          .context = t,
                                                          .verified = fingerprint(t),
-                                                         .yardstick = SIZE_MAX};
+                                                         .reference = SIZE_MAX};
   }
-  if (job->shot[0].options.threads == 1)
+  if (job->timed_shots->shot[0].options.threads == 1)
     job->now = processor_ns;
   if (job->budget == 0.0)
-    job->budget = seconds_a_shot * (double)job->shot_count;
+    job->budget = seconds_a_shot * (double)job->timed_shots->count;
   return true;
 }
 
@@ -152,8 +165,8 @@ static bool choose(bench_job *job) {
 static void print_row(const bench_job *job, FILE *out, const char *family, double *scratch) {
   double balls = 0.0, events = 0.0, us = 0.0, recorded = 0.0, slowest = INFINITY;
   size_t n = 0;
-  for (size_t k = 0; k < job->shot_count; k++) {
-    const timed_shot *t = &job->shot[k];
+  for (size_t k = 0; k < job->timed_shots->count; k++) {
+    const timed_shot *t = &job->timed_shots->shot[k];
     const double one = job->figure[k].ns.median / 1e3;
     if ((family != NULL && strcmp(family, t->family) != 0) || !job->figure[k].unchanged)
       continue;
@@ -175,8 +188,8 @@ static void print_row(const bench_job *job, FILE *out, const char *family, doubl
 }
 
 static void print(const bench_job *job, FILE *out) {
-  double *scratch = allocate(job->shot_count, sizeof *scratch);
-  const carom_shot_options *options = &job->shot[0].options;
+  double *scratch = allocate(job->timed_shots->count, sizeof *scratch);
+  const carom_shot_options *options = &job->timed_shots->shot[0].options;
   if (job->csv) {
     fputs(job->machine, out);
     machine_note(out, "pinning", "%s", job->pinning);
@@ -188,25 +201,26 @@ static void print(const bench_job *job, FILE *out) {
     fprintf(out, "%-16s %6s %6s %8s %10s %10s %12s %8s %8s\n", "family", "balls", "shots", "events", "us_median", "shots_per_s",
             "recorded_us", "speedup", "least");
   }
-  for (size_t k = 0; k < job->shot_count; k++) {
+  for (size_t k = 0; k < job->timed_shots->count; k++) {
     bool seen = false;
     for (size_t before = 0; before < k; before++)
-      seen |= strcmp(job->shot[before].family, job->shot[k].family) == 0;
+      seen |= strcmp(job->timed_shots->shot[before].family, job->timed_shots->shot[k].family) == 0;
     if (!seen)
-      print_row(job, out, job->shot[k].family, scratch);
+      print_row(job, out, job->timed_shots->shot[k].family, scratch);
   }
   print_row(job, out, NULL, scratch);
   free(scratch);
 }
 
 static void release(bench_job *job) {
-  for (size_t k = 0; k < job->shot_count; k++) {
-    shot_line_free(&job->shot[k].line);
-    free(job->shot[k].room);
+  for (size_t k = 0; k < job->timed_shots->count; k++) {
+    shot_line_free(&job->timed_shots->shot[k].line);
+    free(job->timed_shots->shot[k].room);
   }
-  free(job->shot);
-  if (job->shot_file != NULL)
-    shot_file_close(job->shot_file);
+  free(job->timed_shots->shot);
+  if (job->timed_shots->file != NULL)
+    shot_file_close(job->timed_shots->file);
+  free(job->timed_shots);
 }
 
 const bench_table bench_of_shots = {.choose = choose, .print = print, .release = release};

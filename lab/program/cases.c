@@ -29,7 +29,7 @@ bool cases_load(const char *folder, const char *name, case_set *out) {
     size_t k = 0;
     for (; k < block.count && block.note[k].error == NULL; k++, out->count++) {
       out->id[out->count] = copy_text(block.note[k].id);
-      source_row(source, &block, k, (double *)&out->impact[out->count]);
+      memcpy(&out->impact[out->count], source_row(source, &block, k), sizeof *out->impact);
     }
     if (k < block.count) {
       complain("%s:%lld: %s", path, block.note[k].line, block.note[k].message);

@@ -1,6 +1,7 @@
 /* `carom-lab bench`: times every kernel on the reference cases, once it is verified. */
 #include "bench_job.h"
 #include "command.h"
+#include "kernel.h"
 #include "machine.h"
 #include "memory.h"
 #include "message.h"
@@ -9,6 +10,7 @@
 #include "place.h"
 #include "subcommands.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +22,6 @@ static void show_samples(double done, double total) {
 
 static bool time_all(bench_job *job) {
   job->figure = allocate(job->subject_count, sizeof *job->figure);
-  job->count = allocate(job->subject_count, sizeof *job->count);
   FILE *machine = open_memstream(&job->machine, &(size_t){0});
   if (machine == NULL) {
     complain("out of memory");
@@ -28,19 +29,9 @@ static bool time_all(bench_job *job) {
   }
   machine_describe(machine);
   fclose(machine);
-  job->counters_text = counters_begin();
   job->pinning = pinning_begin();
   const bench_settings settings = {.budget = job->budget, .now = job->now, .progress = show_samples};
   const bool good = bench_rounds(job->subject, job->subject_count, &settings, job->figure);
-  for (size_t k = 0; k < job->subject_count && job->counters && good; k++) {
-    const bench_subject *s = &job->subject[k];
-    double nothing[COUNTER_COUNT];
-    counters_measure(s->resolve, s->context, job->count[k]);
-    if (s->empty != NULL)
-      counters_measure(s->empty, s->context, nothing);
-    for (int c = 0; c < COUNTER_COUNT; c++)
-      job->count[k][c] = (job->count[k][c] - (s->empty != NULL ? nothing[c] : 0.0)) / (double)s->pairs;
-  }
   pinning_end();
   progress_clear();
   if (!good)
@@ -77,12 +68,103 @@ static bool bench_all(bench_job *job) {
 
 static void bench_free(bench_job *job) {
   carom_isa_limit(job->isa);
-  counters_end();
   job->table->release(job);
   free(job->subject);
   free(job->figure);
-  free(job->count);
   free(job->machine);
+}
+
+/* ---- Printing */
+
+static void print_number(FILE *out, const char *before, const char *format, double x) {
+  fputs(before, out);
+  if (isnan(x))
+    fputs("NA", out);
+  else
+    fprintf(out, format, x);
+}
+
+static void print_notes(const bench_job *job, FILE *out) {
+  fputs(job->machine, out);
+  machine_note(out, "pinning", "%s", job->pinning);
+  job->table->note(job, out);
+  machine_note(out, "rounds", "%zu; an empty call, subtracted, takes %.2f ns", job->figure[0].ns.count,
+               job->figure[0].empty_ns);
+}
+
+static void print_csv_row(const bench_job *job, FILE *out, size_t k) {
+  const bench_subject *s = &job->subject[k];
+  const bench_figure *f = &job->figure[k];
+  fprintf(out, "%s,%s,%s,%s,%d,%d", s->kernel, s->config, s->isa, s->precision, s->threads, s->steps);
+  print_number(out, ",", "%.6g", f->ns.median);
+  print_number(out, ",", "%.6g", f->ns.min);
+  print_number(out, ",", "%.6g", f->ns.max);
+  print_number(out, ",", "%.5g", f->speedup.median);
+  print_number(out, ",", "%.3g", s->pair_error_max);
+  if (job->spread) {
+    print_number(out, ",", "%.3g", f->ns.spread);
+    print_number(out, ",", "%.5g", f->speedup.min);
+    print_number(out, ",", "%.5g", f->speedup.max);
+    print_number(out, ",", "%.3g", f->speedup.spread);
+  }
+  if (job->errors) {
+    fprintf(out, ",%s", s->slip);
+    print_number(out, ",", "%.3g", s->error_exact_median);
+    print_number(out, ",", "%.3g", s->error_exact_max);
+  }
+  if (job->show_pairs)
+    fprintf(out, ",%zu", s->in_a_call > 0 ? s->in_a_call : s->pairs);
+  fputc('\n', out);
+}
+
+static void print_csv(const bench_job *job, FILE *out) {
+  print_notes(job, out);
+  fputs("kernel,config,isa,precision,threads,steps,ns_median,ns_min,ns_max,speedup,pair_error_max", out);
+  if (job->spread)
+    fputs(",ns_spread,speedup_min,speedup_max,speedup_spread", out);
+  if (job->errors)
+    fputs(",slip,error_exact_median,error_exact_max", out);
+  if (job->show_pairs)
+    fputs(",pairs", out);
+  fputc('\n', out);
+  for (size_t k = 0; k < job->subject_count; k++)
+    if (job->figure[k].unchanged)
+      print_csv_row(job, out, k);
+}
+
+/* Three decimals or, from a hundred, four digits. */
+static void print_ratio(FILE *out, const char *before, double x) {
+  print_number(out, before, x < 100.0 ? "%8.3f" : x < 1000.0 ? "%8.1f" : "%8.0f", x);
+}
+
+static void print_table(const bench_job *job, FILE *out) {
+  print_notes(job, out);
+  fprintf(out, "\n%-16s %-16s %-7s %-9s %7s %6s ", "kernel", "config", "isa", "precision", "threads", "steps");
+  if (job->show_pairs)
+    fprintf(out, "%8s ", "pairs");
+  fprintf(out, "%12s %8s %8s %8s %9s  %s\n", "ns median", "spread", "speedup", "spread", "error", "paper");
+  for (size_t k = 0; k < job->subject_count; k++) {
+    const bench_subject *s = &job->subject[k];
+    const bench_figure *f = &job->figure[k];
+    if (!f->unchanged)
+      continue;
+    fprintf(out, "%-16s %-16s %-7s %-9s %7d %6d ", s->kernel, s->config, s->isa, s->precision, s->threads, s->steps);
+    if (job->show_pairs)
+      fprintf(out, "%8zu ", s->in_a_call > 0 ? s->in_a_call : s->pairs);
+    fprintf(out, f->ns.median < 100.0 ? "%12.3f" : "%12.1f", f->ns.median);
+    fprintf(out, " %6.2f %% ", 100.0 * f->ns.spread / f->ns.median);
+    print_ratio(out, "", f->speedup.median);
+    print_ratio(out, " ", f->speedup.spread);
+    if (isnan(s->pair_error_max))
+      fprintf(out, "%10s", "NA");
+    else
+      fprintf(out, " %9.2g", s->pair_error_max);
+    fprintf(out, "  %s\n", s->paper != NULL && strcmp(s->config, job->subject[0].config) == 0 ? s->paper : "-");
+  }
+}
+
+void bench_print(const bench_job *job, FILE *out) {
+  (job->csv ? print_csv : print_table)(job, out);
 }
 
 /* ---- Arguments */
@@ -158,9 +240,6 @@ OPTION(bench_job, option_spread, "spread", spread, 0, NULL, set_flag, 0,
        "more columns in the CSV: spread of the time; least, greatest and spread of the speedup");
 OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
        "more columns in the CSV: slip, and the pair error against the exact reference, median\nand largest");
-OPTION(bench_job, option_counters, "counters", counters, 0, NULL, set_flag, 0,
-       "more columns in the CSV: reference cycles and hardware counters per collision, NA where\nthere are none");
-
 OPTION(bench_job, option_cushions, "cushion", cushion, 0, NULL, set_flag, 0,
        "time the models of the cushion on 512 random impacts of play instead; speedup is that over\nEuler's 1000 steps");
 OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
@@ -172,10 +251,10 @@ OPTION(bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODE
        "stronge)");
 
 static const char about[] =
-    "Times kernels on the 204 reference cases, each case one call, in turns: A B C A B C ... What is timed has been verified\n"
-    "just before; a kernel that is over its bound is refused. Figures are nanoseconds per collision, the mean over the cases;\n"
-    "median and spread are over the rounds. Speedup is that over the ladder's first kernel in the default configuration\n"
-    "with as many steps (1000 for kernels that take none), round by round. The solver without steps is timed in batches too,\n"
+    "Times kernels on the 204 reference cases, each case one call, in turns: A B C A B C ... What is timed has been verified "
+    "just before; a kernel that is over its bound is refused. Figures are nanoseconds per collision, the mean over the cases; "
+    "median and spread are over the rounds. Speedup is that over the ladder's first kernel in the default configuration "
+    "with as many steps (1000 for kernels that take none), round by round. The solver without steps is timed in batches too, "
     "with every instruction set; the copy beside them moves a batch's bytes and computes nothing.\n";
 
 static const char details[] =
@@ -187,11 +266,10 @@ static const command_form form = {
     .name = "bench",
     .usage = "[OPTIONS]",
     .about = about,
-    .options = (const option_row *const[]){&option_kernel,        &option_config,        &option_counts,        &option_batch,
-                                           &option_isa,           &option_one_precision, &option_thread_counts, &option_pairs,
-                                           &option_budget,        &option_csv,           &option_spread,        &option_errors,
-                                           &option_counters,      &option_cushions,      &option_shots,         &option_models,
-                                           &option_cushion_model, &option_data,          &option_output,        NULL},
+    .options = (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch, &option_isa,
+                                           &option_one_precision, &option_thread_counts, &option_pairs, &option_budget,
+                                           &option_csv, &option_spread, &option_errors, &option_cushions, &option_shots,
+                                           &option_models, &option_cushion_model, &option_data, &option_output, NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };
@@ -204,8 +282,8 @@ static bool is_plain(const bench_job *job) {
 
 static int bench(bench_job *job) {
   const bool others = job->cushion || job->shots != NULL;
-  if ((job->spread || job->errors || job->counters) && !job->csv)
-    complain("--spread, --errors and --counters add columns to the CSV: give --csv too");
+  if ((job->spread || job->errors) && !job->csv)
+    complain("--spread and --errors add columns to the CSV: give --csv too");
   else if (others && !is_plain(job))
     complain("--kernel, --config, --steps, --batch, --isa, --precision, --pairs and --errors are for collisions of two balls");
   else if (job->cushion && job->threads.count > 0)

@@ -14,8 +14,8 @@ typedef struct kernels_job {
 } kernels_job;
 
 OPTION(kernels_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "as CSV: kernel,precision,parent,needs,paper,idea, the last of which may be quoted. A\n"
-       "solver has no parent; what a kernel of the ladder needs is scalar, avx2 or avx512;\n"
+       "as CSV: kernel,precision,parent,needs,paper,idea, the last of which may be quoted. A "
+       "solver has no parent; what a kernel of the ladder needs is scalar, avx2 or avx512; "
        "paper is the speedup that the seed paper gives, a number or words");
 
 static const command_form form = {
@@ -23,7 +23,7 @@ static const command_form form = {
     .usage = "[OPTIONS]",
     .about =
         "Lists the kernels that `resolve --kernel` takes and `verify` checks; the first is the default. Those of the ladder, "
-        "the\n"
+        "the "
         "seed paper's kernels, exist once per compiler and configuration: --config names both (gcc-o3) or the configuration\n"
         "alone (o3: the first compiler listed).\n",
     .options = (const option_row *const[]){&option_csv, &option_output, NULL},

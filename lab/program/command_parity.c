@@ -119,7 +119,7 @@ static carom_shot_options options_of(const char *engine) {
   if (engine[0] != 0 && strcmp(engine, "default") != 0)
     options.ball_model = CAROM_BALL_MODEL_EULER;
   if (strcmp(engine, "mathavan_all") == 0)
-    options.cushion_model = 1 + CAROM_CUSHION_EULER;
+    options.cushion_model = CAROM_SHOT_CUSHION_EULER;
   return options;
 }
 
@@ -166,11 +166,11 @@ static const command_form form = {
     .name = "parity",
     .usage = "[OPTIONS] IN.jsonl",
     .about =
-        "Plays recorded shots by pooltool's rules and models and compares every event with what pooltool recorded, as far as\n"
+        "Plays recorded shots by pooltool's rules and models and compares every event with what pooltool recorded, as far as "
         "the recorded sensitivity makes sense of it.\n",
     .options = (const option_row *const[]){&option_verbose, NULL},
     .details =
-        "columns: shots; events compared; shots that agree; shots that agree to their end, where the recording has no chaos;\n"
+        "columns: shots; events compared; shots that agree; shots that agree to their end, where the recording has no chaos; "
         "largest difference of times, and of states, over the allowed 1e-12 + 5e-13 times the amplification\n\n"
         "exit code: 0 if all agree, 1 if one does not, 2 for bad usage or unreadable input\n",
     .example = "carom-lab parity data/shots-pooltool.jsonl",

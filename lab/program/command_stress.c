@@ -1,10 +1,11 @@
-/* `carom-lab stress`: the exact solver on random collisions, in every way it can be called, against the integrator behind it.
+/* `carom-lab stress`: the exact solver on random impacts, in every way it can be called.
  *
- * Each collision is solved by a single call and in a batch, in double and in single precision, and by the fallback alone, whose
- * own error is about 1e-9 at most: where it and a single call differ by more than REFERENCE_FROM, and for 1 row in
- * 1000, the reference of lab/stress decides.
- * Rows of batches are compared with single calls bit by bit. */
+ * Collisions of two balls are solved by a single call and in a batch, in double and in single precision; rows of batches are
+ * compared with single calls bit by bit. Impacts on cushions, and coincidences of both, are solved by single calls. The precise
+ * solver behind the calls, whose own error is about 1e-9 at most, is what they are compared with; where it and a call differ by
+ * more than REFERENCE_FROM, and for 1 row in 1000 (of coincidences: 20), the reference of lab/stress decides. */
 #include "accuracy.h"
+#include "coincidences.h"
 #include "command.h"
 #include "draws.h"
 #include "memory.h"
@@ -13,35 +14,31 @@
 #include "options.h"
 #include "output.h"
 #include "precisely.h"
+#include "precision.h"
 #include "reference.h"
-#include "stress_impacts.h"
 #include "stress_shots.h"
-#include "stress_tally.h"
 #include "subcommands.h"
 
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
-#include "ball_ball/precise.h"
+#include "ball_ball/reduced.h"
 #include "enumerations.h"
+#include "platform/threads.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
-  BLOCK = 1000, /* collisions that a thread draws and solves at a time */
+  BLOCK = 1000, /* impacts that a thread draws and solves at a time */
   WORST = 20,   /* rows that are kept */
+  KINDS = 32,   /* room for so many kinds of draws */
+  DECADES = 20, /* errors are counted in a histogram of their logarithms */
+  PER_DECADE = 50,
 };
-static const double REFERENCE_FROM = 1e-7;
-
-typedef struct worst_row {
-  double error, fallback_error; /* against the reference where that was asked, else against the fallback; NAN */
-  carom_slip slip;
-  uint64_t k;
-} worst_row;
-
-enum { WAY_DOUBLE, WAY_SINGLE, WAYS };
+static const double REFERENCE_FROM = 1e-7, LEAST_ERROR = 1e-18, MOST_OF_PLAY = 1e-6, MOST = 1e-5;
 
 typedef struct stress_job {
   shared_options shared;
@@ -51,130 +48,314 @@ typedef struct stress_job {
   bool worst_rows;
 } stress_job;
 
-typedef struct shift {
-  const stress_job *job;
-  stress_tally tally[CAROM_SLIP_COUNT][WAYS];
-  long other_bits; /* rows of batches that differ from single calls */
-  long asked, fallback_wrong;
-  double fallback_largest; /* error against the reference */
-  worst_row worst[WORST];
-  /* a block */
-  carom_impact in[BLOCK];
-  carom_impact_f32 in32[BLOCK];
-  carom_result out[BLOCK], exact[BLOCK];
-  carom_result_f32 out32[BLOCK];
-  int8_t status[BLOCK], status32[BLOCK];
-} shift;
+/* Rows of one kind, solved in one way. Errors are those of rows with status ok that could be compared. */
+typedef struct tally {
+  long rows, over_1e6, over_1e5, over_2e5;  /* compared; with an error larger than 1e-6, 1e-5, 2e-5 */
+  long unresolved, refused, left_out, slow; /* by status; without a reference; left to the precise solver */
+  double largest, largest_of_play;
+  uint64_t worst; /* number of the draw that has the largest error, over the bound that it may have */
+  double worst_share;
+  long histogram[DECADES * PER_DECADE];
+} tally;
 
-static void keep_worst(shift *w, worst_row row) {
+typedef struct worst_row {
+  double error, precise_error; /* against the reference where that was asked, else against the precise solver; NAN */
+  int kind;
+  uint64_t k;
+} worst_row;
+
+/* One run, or a thread's part of it. For two balls a kind is a slip, and single precision has tallies of its own. */
+typedef struct stress {
+  const stress_job *job;
+  bool balls;
+  int kinds;
+  uint64_t draws;
+  tally tally[KINDS], in_single[CAROM_SLIP_COUNT];
+  long other_bits; /* rows of batches that differ from single calls */
+  long asked, precise_wrong;
+  double precise_largest; /* error against the reference */
+  worst_row worst[WORST];
+} stress;
+
+/* A motion of one ball or of two. */
+typedef union outcome {
+  carom_motion rail;
+  carom_result balls;
+} outcome;
+
+/* ---- Counting */
+
+static void count(tally *t, double error, bool of_play, uint64_t k) {
+  const double share = error / (of_play ? MOST_OF_PLAY : MOST);
+  t->rows++;
+  t->over_1e6 += error > 1e-6;
+  t->over_1e5 += error > 1e-5;
+  t->over_2e5 += error > 2e-5;
+  t->largest = fmax(t->largest, error);
+  if (of_play)
+    t->largest_of_play = fmax(t->largest_of_play, error);
+  if (share > t->worst_share) {
+    t->worst_share = share;
+    t->worst = k;
+  }
+  const double place = PER_DECADE * log10(fmax(error, LEAST_ERROR) / LEAST_ERROR);
+  const int last = DECADES * PER_DECADE - 1;
+  t->histogram[place < last ? (int)place : last]++;
+}
+
+/* The error that so large a share of the rows do not exceed. */
+static double quantile(const tally *t, double share) {
+  long below = 0;
+  for (int k = 0; k < DECADES * PER_DECADE; k++)
+    if ((double)(below += t->histogram[k]) >= share * (double)t->rows)
+      return fmin(LEAST_ERROR * pow(10, (k + 1.0) / PER_DECADE), t->largest);
+  return t->largest;
+}
+
+static void add_tally(tally *to, const tally *from) {
+  to->rows += from->rows;
+  to->over_1e6 += from->over_1e6;
+  to->over_1e5 += from->over_1e5;
+  to->over_2e5 += from->over_2e5;
+  to->unresolved += from->unresolved;
+  to->refused += from->refused;
+  to->left_out += from->left_out;
+  to->slow += from->slow;
+  to->largest = fmax(to->largest, from->largest);
+  to->largest_of_play = fmax(to->largest_of_play, from->largest_of_play);
+  if (from->worst_share > to->worst_share) {
+    to->worst_share = from->worst_share;
+    to->worst = from->worst;
+  }
+  for (int k = 0; k < DECADES * PER_DECADE; k++)
+    to->histogram[k] += from->histogram[k];
+}
+
+static void keep_worst(stress *s, worst_row row) {
   int least = 0;
   for (int k = 1; k < WORST; k++)
-    if (w->worst[k].error < w->worst[least].error)
+    if (s->worst[k].error < s->worst[least].error)
       least = k;
-  if (row.error > w->worst[least].error)
-    w->worst[least] = row;
+  if (row.error > s->worst[least].error)
+    s->worst[least] = row;
 }
 
-static double distance(const carom_result *a, const carom_result *b, double radius) {
-  return accuracy_of(a, b, radius).pair;
+static void add(stress *to, const stress *from) {
+  for (int kind = 0; kind < from->kinds; kind++)
+    add_tally(&to->tally[kind], &from->tally[kind]);
+  for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)
+    add_tally(&to->in_single[slip], &from->in_single[slip]);
+  to->other_bits += from->other_bits;
+  to->asked += from->asked;
+  to->precise_wrong += from->precise_wrong;
+  to->precise_largest = fmax(to->precise_largest, from->precise_largest);
+  for (int k = 0; k < WORST; k++)
+    keep_worst(to, from->worst[k]);
 }
 
-/* Whether a result is not there to be judged, which is counted. */
-static bool is_error(stress_tally *t, carom_status status) {
+/* ---- One impact */
+
+static coincidence draw(const stress *s, int kind, uint64_t k) {
+  const stress_job *job = s->job;
+  const uint64_t seed = (uint64_t)job->seed;
+  if (job->coincidences > 0)
+    return coincidence_draw(kind, seed, k);
+  if (!s->balls)
+    return (coincidence){.cushion = true, .of_play = kind == CUSHION_PLAY, .rail = draw_cushion((cushion_draw)kind, seed, k)};
+  return (coincidence){.of_play = job->kind == DRAW_REALISTIC,
+                       .slip = (carom_slip)kind,
+                       .balls = draw_collision((draw_kind)job->kind, (carom_slip)kind, seed, k)};
+}
+
+static double apart(const coincidence *c, const outcome *a, const outcome *b) {
+  return c->cushion ? cushion_distance(&c->rail, &a->rail, &b->rail)
+                    : accuracy_of(&a->balls, &b->balls, c->balls.a.radius).pair;
+}
+
+static carom_status call(const coincidence *c, outcome *out) {
+  const carom_options options = {.slip = c->slip};
+  return c->cushion ? carom_cushion(&c->rail, NULL, &out->rail) : carom_collide(&c->balls, &options, &out->balls);
+}
+
+static bool precisely(const coincidence *c, outcome *out) {
+  return CAROM_OK == (c->cushion ? cushion_precisely(&c->rail, PRECISELY, &out->rail)
+                                 : collide_precisely(&c->balls, c->slip, PRECISELY, &out->balls));
+}
+
+/* Whether a result is not there to be compared, which is counted. */
+static bool is_error(tally *t, carom_status status) {
   t->unresolved += status == CAROM_ERROR_UNRESOLVED;
   t->refused += status < 0 && status != CAROM_ERROR_UNRESOLVED;
   return status != CAROM_OK;
 }
 
-/* One collision in double precision; its exact result becomes *exact. */
-static void count_double(shift *w, carom_slip slip, uint64_t k, const carom_impact *in, const carom_result *out,
-                         carom_status status, carom_result *exact) {
-  stress_tally *t = &w->tally[slip][WAY_DOUBLE];
-  carom_result unused;
-  if (status == CAROM_SEPARATING)
-    return;
-  t->by_fallback += carom_kernels_in_force()->single[CAROM_DOUBLE](in, carom_spin_sign(slip), &unused, NULL) <= 0;
+static void compare(stress *s, int kind, uint64_t k, const coincidence *c, const outcome *own, carom_status status) {
+  tally *t = &s->tally[kind];
+  outcome precise, exact;
+  if (s->balls && status != CAROM_SEPARATING)
+    t->slow += carom_kernels_in_force()->call[CAROM_F64](&c->balls, carom_spin_sign(c->slip), &exact, NULL) <= 0;
   if (is_error(t, status))
     return;
-  const bool known = collide_precisely(in, slip, PRECISELY, exact) == CAROM_OK;
-  worst_row row = {.error = known ? distance(out, exact, in->a.radius) : INFINITY, .fallback_error = NAN, .slip = slip, .k = k};
-  if (row.error > REFERENCE_FROM || k % 1000 == 0) {
-    carom_result reference;
-    if (reference_collide(in, slip, &reference, NULL) == REFERENCE_OK) {
-      row.error = distance(out, &reference, in->a.radius);
-      row.fallback_error = known ? distance(exact, &reference, in->a.radius) : INFINITY;
-      w->asked++;
-      w->fallback_wrong += known && row.fallback_error > 1e-9;
-      w->fallback_largest = fmax(w->fallback_largest, known ? row.fallback_error : 0);
+  const bool known = precisely(c, &precise);
+  worst_row row = {.error = known ? apart(c, own, &precise) : INFINITY, .precise_error = NAN, .kind = kind, .k = k};
+  if (row.error > REFERENCE_FROM || k % (s->job->coincidences > 0 ? 20 : 1000) == 0) {
+    if (REFERENCE_OK == (c->cushion ? reference_cushion(&c->rail, &exact.rail, NULL)
+                                    : reference_collide(&c->balls, c->slip, &exact.balls, NULL))) {
+      row.error = apart(c, own, &exact);
+      row.precise_error = known ? apart(c, &precise, &exact) : INFINITY;
+      s->asked++;
+      s->precise_wrong += known && row.precise_error > (s->balls ? 1e-9 : 1e-8);
+      s->precise_largest = fmax(s->precise_largest, known ? row.precise_error : 0);
     } else if (row.error > REFERENCE_FROM) {
-      t->unjudged++;
+      t->left_out++;
       return;
     }
   }
-  stress_count(t, row.error, w->job->kind == DRAW_REALISTIC, k);
-  keep_worst(w, row);
+  count(t, row.error, c->of_play, k);
+  keep_worst(s, row);
 }
 
-/* The same row in single precision, against the exact result for the rounded numbers. */
-static void count_single(shift *w, carom_slip slip, const carom_impact_f32 *in, const carom_result_f32 *out,
-                         carom_status status) {
-  stress_tally *t = &w->tally[slip][WAY_SINGLE];
-  carom_impact wide;
-  carom_result result, exact;
+/* The same collision in single precision, against the exact result for the rounded numbers. */
+static void compare_single(stress *s, carom_slip slip, const carom_impact_f32 *in, const carom_result_f32 *out,
+                           carom_status status) {
+  tally *t = &s->in_single[slip];
+  coincidence wide = {.slip = slip};
+  outcome result, exact;
   carom_result_f32 unused;
   if (status == CAROM_SEPARATING)
     return;
-  for (int k = 0; k < 26; k++)
-    ((double *)&wide)[k] = ((const float *)in)[k];
-  for (int k = 0; k < 12; k++)
-    ((double *)&result)[k] = ((const float *)out)[k];
-  t->by_fallback += carom_kernels_in_force()->single[CAROM_SINGLE](in, carom_spin_sign(slip), &unused, NULL) == 0;
+  to_double(in, &wide.balls, 26);
+  to_double(out, &result.balls, 12);
+  t->slow += carom_kernels_in_force()->call[CAROM_F32](in, carom_spin_sign(slip), &unused, NULL) == 0;
   if (is_error(t, status))
     return;
-  if (collide_precisely(&wide, slip, PRECISELY, &exact) == CAROM_OK)
-    stress_count(t, distance(&result, &exact, wide.a.radius), false, 0);
+  if (precisely(&wide, &exact))
+    count(t, apart(&wide, &result, &exact), false, 0);
   else
-    t->unjudged++;
+    t->left_out++;
 }
 
-static void run_block(void *of, uint64_t block) {
-  shift *w = of;
-  const stress_job *job = w->job;
-  const carom_slip slip = (carom_slip)(block % CAROM_SLIP_COUNT);
-  const uint64_t first = block / CAROM_SLIP_COUNT * BLOCK;
-  carom_options options = {0};
-  options.slip = slip;
-  options.threads = 1;
-  size_t n = 0;
-  for (; n < BLOCK && first + n < (uint64_t)job->draws; n++) {
-    w->in[n] = draw_collision((draw_kind)job->kind, slip, (uint64_t)job->seed, first + n);
-    for (int k = 0; k < 26; k++)
-      ((float *)&w->in32[n])[k] = (float)((const double *)&w->in[n])[k];
-  }
-  carom_collide_batch(w->in, n, &options, w->out, w->status);
-  carom_collide_batch_f32(w->in32, n, &options, w->out32, w->status32);
+/* ---- Blocks of impacts, in threads */
+
+/* The batch of a block of collisions, beside single calls. */
+static void run_batch(stress *s, carom_slip slip, uint64_t first, size_t n) {
+  const carom_options options = {.slip = slip, .threads = 1};
+  carom_impact *in = allocate(n, sizeof *in);
+  carom_impact_f32 *in32 = allocate(n, sizeof *in32);
+  carom_result *out = allocate(n, sizeof *out), alone;
+  carom_result_f32 *out32 = allocate(n, sizeof *out32), alone32;
+  int8_t *status = allocate(2 * n, 1);
+  for (size_t k = 0; k < n; k++)
+    in[k] = draw(s, (int)slip, first + k).balls;
+  to_single(in, in32, 26 * n);
+  carom_collide_batch(in, n, &options, out, status);
+  carom_collide_batch_f32(in32, n, &options, out32, status + n);
   for (size_t k = 0; k < n; k++) {
-    carom_result alone;
-    carom_result_f32 alone32;
-    const carom_status status = carom_collide(&w->in[k], &options, &alone);
-    const carom_status status32 = carom_collide_f32(&w->in32[k], &options, &alone32);
-    w->other_bits += status != w->status[k] || memcmp(&alone, &w->out[k], sizeof alone) != 0;
-    w->other_bits += status32 != w->status32[k] || memcmp(&alone32, &w->out32[k], sizeof alone32) != 0;
-    count_double(w, slip, first + k, &w->in[k], &alone, status, &w->exact[k]);
-    count_single(w, slip, &w->in32[k], &alone32, status32);
+    const carom_status one = carom_collide(&in[k], &options, &alone), one32 = carom_collide_f32(&in32[k], &options, &alone32);
+    s->other_bits += one != status[k] || memcmp(&alone, &out[k], sizeof alone) != 0;
+    s->other_bits += one32 != status[n + k] || memcmp(&alone32, &out32[k], sizeof alone32) != 0;
+    compare_single(s, slip, &in32[k], &alone32, one32);
   }
+  free(in);
+  free(in32);
+  free(out);
+  free(out32);
+  free(status);
 }
 
-static void add(shift *to, const shift *from) {
-  for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)
-    for (int way = 0; way < WAYS; way++)
-      stress_add(&to->tally[slip][way], &from->tally[slip][way]);
-  to->other_bits += from->other_bits;
-  to->asked += from->asked;
-  to->fallback_wrong += from->fallback_wrong;
-  to->fallback_largest = fmax(to->fallback_largest, from->fallback_largest);
-  for (int k = 0; k < WORST; k++)
-    keep_worst(to, from->worst[k]);
+static size_t run_blocks(const void *of, size_t from, size_t end) {
+  static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+  static size_t done;
+  stress *const all = *(stress *const *)of, *part = allocate(1, sizeof *part);
+  const size_t kinds = (size_t)all->kinds;
+  *part = (stress){.job = all->job, .balls = all->balls, .kinds = all->kinds, .draws = all->draws};
+  for (size_t block = from; block < end; block++) {
+    const int kind = (int)(block % kinds);
+    const uint64_t first = block / kinds * BLOCK, n = all->draws - first < BLOCK ? all->draws - first : BLOCK;
+    for (uint64_t k = first; k < first + n; k++) {
+      const coincidence c = draw(part, kind, k);
+      outcome own;
+      const carom_status status = call(&c, &own);
+      compare(part, kind, k, &c, &own, status);
+    }
+    if (all->balls)
+      run_batch(part, (carom_slip)kind, first, (size_t)n);
+    pthread_mutex_lock(&lock);
+    progress_show("blocks of impacts", (double)++done, (double)kinds * ceil((double)all->draws / BLOCK));
+    pthread_mutex_unlock(&lock);
+  }
+  pthread_mutex_lock(&lock);
+  add(all, part);
+  pthread_mutex_unlock(&lock);
+  free(part);
+  return end;
+}
+
+/* ---- Tables */
+
+static const char *kind_name(const stress *s, int kind) {
+  return s->balls                   ? carom_slip_name((carom_slip)kind)
+         : s->job->coincidences > 0 ? coincidence_name(kind)
+         : kind == CUSHION_PLAY     ? "play"
+                                    : "any";
+}
+
+static bool of_cushion(const stress *s, int kind) {
+  return !s->balls && (s->job->coincidences == 0 || coincidence_of_cushion(kind));
+}
+
+static void print_row(FILE *out, const char *first, const char *second, const tally *t) {
+  fprintf(out, "%-9s %-15s %9ld  %7.1e   %7.1e   %7.1e   %7.1e  %7.1e  %7.1e  %7ld  %7ld  %7ld  %6.2f %%  %10ld  %7ld  %8ld\n",
+          first, second, t->rows, quantile(t, 0.5), quantile(t, 0.99), quantile(t, 0.999), quantile(t, 0.9999), t->largest,
+          t->largest_of_play, t->over_1e6, t->over_1e5, t->over_2e5,
+          100.0 * (double)t->slow / fmax(1, (double)(t->rows + t->unresolved + t->left_out)), t->unresolved, t->refused,
+          t->left_out);
+}
+
+/* The numbers of an impact, in the order of its struct. */
+static void print_numbers(FILE *out, const coincidence *c) {
+  const double *const number = c->cushion ? (const double *)&c->rail : (const double *)&c->balls;
+  char text[NUMBER_TEXT];
+  for (int k = 0; k < (c->cushion ? 15 : 26); k++)
+    fprintf(out, "%s%s", k > 0 ? "," : "", number_text(number[k], text));
+}
+
+static void print_table(const stress *s, FILE *out) {
+  static const char *const kinds[] = {"realistic", "regimes", "extreme"};
+  const stress_job *job = s->job;
+  fprintf(out, "%s%s, %llu drawn %s with seed %d, instruction set %s\n\n", s->balls ? kinds[job->kind] : "",
+          s->balls                ? " collisions"
+          : job->coincidences > 0 ? "coincidences"
+                                  : "impacts on a cushion",
+          (unsigned long long)s->draws, s->balls ? "for each slip" : "of each kind", job->seed,
+          carom_isa_name(carom_isa_in_force()));
+  fprintf(out,
+          "%-9s %-15s %9s   median      99 %%    99.9 %%   99.99 %%  largest  of play   > 1e-6   > 1e-5   > 2e-5  fallback  "
+          "unresolved  refused  left out\n",
+          s->balls ? "precision" : "impact", s->balls ? "slip" : "kind", "rows");
+  for (int kind = 0; kind < s->kinds; kind++)
+    print_row(out, s->balls ? "double" : of_cushion(s, kind) ? "cushion" : "balls", kind_name(s, kind), &s->tally[kind]);
+  for (int slip = 0; slip < CAROM_SLIP_COUNT && s->balls; slip++)
+    print_row(out, "single", kind_name(s, slip), &s->in_single[slip]);
+  fputc('\n', out);
+  if (s->balls)
+    fprintf(out, "rows of batches whose bits or status differ from single calls: %ld\n", s->other_bits);
+  fprintf(out,
+          "precise solver against the reference, where calls differ from it by more than %g, and 1 row in %d: %ld rows, "
+          "largest error %.1e, %ld above %s\n",
+          REFERENCE_FROM, job->coincidences > 0 ? 20 : 1000, s->asked, s->precise_largest, s->precise_wrong,
+          s->balls ? "1e-9" : "1e-8");
+  if (s->balls)
+    return;
+  fputs("\nlargest errors:\n", out);
+  for (int kind = 0; kind < s->kinds; kind++)
+    if (s->tally[kind].rows > 0) {
+      const coincidence c = draw(s, kind, s->tally[kind].worst);
+      fprintf(out, "%s, %s %llu, %.2g of its bound: ", c.cushion ? "cushion" : carom_slip_name(c.slip), kind_name(s, kind),
+              (unsigned long long)s->tally[kind].worst, s->tally[kind].worst_share);
+      print_numbers(out, &c);
+      fputc('\n', out);
+    }
 }
 
 static int descending(const void *a, const void *b) {
@@ -183,44 +364,26 @@ static int descending(const void *a, const void *b) {
 }
 
 /* Rows that `carom resolve` reads. */
-static void print_worst(const stress_job *job, shift *w, FILE *out) {
+static void print_worst(stress *s, FILE *out) {
   fputs("id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,R1,M1,u_s1,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R2,M2,u_s2,u_b,e_b,slip,error,"
         "fallback_error\n",
         out);
-  qsort(w->worst, WORST, sizeof w->worst[0], descending);
-  for (int k = 0; k < WORST && w->worst[k].error > 0; k++) {
-    const worst_row *row = &w->worst[k];
-    const carom_impact in = draw_collision((draw_kind)job->kind, row->slip, (uint64_t)job->seed, row->k);
-    char text[NUMBER_TEXT];
-    fprintf(out, "%s-%llu", carom_slip_name(row->slip), (unsigned long long)row->k);
-    for (int c = 0; c < 26; c++)
-      fprintf(out, ",%s", number_text(((const double *)&in)[c], text));
-    fprintf(out, ",%s,%.3g,%.3g\n", carom_slip_name(row->slip), row->error, row->fallback_error);
+  qsort(s->worst, WORST, sizeof s->worst[0], descending);
+  for (const worst_row *row = s->worst; row < s->worst + WORST && row->error > 0; row++) {
+    const coincidence c = draw(s, row->kind, row->k);
+    fprintf(out, "%s-%llu,", kind_name(s, row->kind), (unsigned long long)row->k);
+    print_numbers(out, &c);
+    fprintf(out, ",%s,%.3g,%.3g\n", kind_name(s, row->kind), row->error, row->precise_error);
   }
 }
 
-static void print_table(const stress_job *job, const shift *w, FILE *out) {
-  static const char *const ways[] = {"double", "single"}, *const kinds[] = {"realistic", "regimes", "extreme"};
-  fprintf(out, "%s collisions, %d drawn for each slip with seed %d, instruction set %s\n\n", kinds[job->kind], job->draws,
-          job->seed, carom_isa_name(carom_isa_in_force()));
-  stress_print_head(out, "precision", "slip");
-  for (int way = 0; way < WAYS; way++)
-    for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)
-      stress_print(out, ways[way], carom_slip_name((carom_slip)slip), &w->tally[slip][way]);
-  fprintf(out, "\nrows of batches whose bits or status differ from single calls: %ld\n", w->other_bits);
-  fprintf(out,
-          "fallback against the reference, where single calls differ from it by more than %g, and 1 row in 1000: %ld rows, "
-          "largest error %.1e, %ld above 1e-9\n",
-          REFERENCE_FROM, w->asked, w->fallback_largest, w->fallback_wrong);
-}
-
-/* The contract of carom.h. */
-static bool holds(const stress_job *job, const shift *w) {
-  bool good = w->other_bits == 0;
-  for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
-    const stress_tally *t = &w->tally[slip][WAY_DOUBLE];
-    good &= stress_holds(t) && (job->kind != DRAW_REALISTIC || stress_quantile(t, 0.5) <= 3e-9);
-    good &= w->tally[slip][WAY_SINGLE].over_2e5 == 0 || job->kind != DRAW_REALISTIC;
+/* The contract of carom.h for double precision: rows of play within 1e-6, all within 1e-5; and more for collisions of play. */
+static bool holds(const stress *s) {
+  bool good = s->other_bits == 0;
+  for (int kind = 0; kind < s->kinds; kind++) {
+    const tally *t = &s->tally[kind];
+    good &= t->largest_of_play <= MOST_OF_PLAY && t->largest <= MOST;
+    good &= !s->balls || s->job->kind != DRAW_REALISTIC || (quantile(t, 0.5) <= 3e-9 && s->in_single[kind].over_2e5 == 0);
   }
   return good;
 }
@@ -228,16 +391,16 @@ static bool holds(const stress_job *job, const shift *w) {
 OPTION(stress_job, option_draws, "draws", draws, 'n', "N", set_count, 1, "collisions to draw, for each slip (default: 100000)");
 OPTION(stress_job, option_seed, "seed", seed, 0, "S", set_count, 0, "of the draws (default: 1)");
 OPTION(stress_job, option_kind, "kind", kind, 0, DRAW_KIND_NAMES, set_choice, 0,
-       "what to draw: collisions of play; the regimes of the tests, corners of all sorts; or\n"
+       "what to draw: collisions of play; the regimes of the tests, corners of all sorts; or "
        "everything that is accepted (default: realistic)");
 OPTION(stress_job, option_worst, "worst", worst_rows, 0, NULL, set_flag, 0,
-       "print, instead of the table, the 20 collisions with the largest errors in double precision,\n"
+       "print, instead of the table, the 20 collisions with the largest errors in double precision, "
        "as rows that `carom resolve` reads");
 
 OPTION(stress_job, option_cushions, "cushion", cushions, 0, "N", set_count, 1,
        "draw so many impacts on a cushion of each kind instead, of play and any");
 OPTION(stress_job, option_coincidences, "coincidences", coincidences, 0, "N", set_count, 1,
-       "draw instead so many impacts of each kind of coincidence, of two balls and on a cushion: numbers that\n"
+       "draw instead so many impacts of each kind of coincidence, of two balls and on a cushion: numbers that "
        "are exactly equal, zero or at the edge of a cone, planar motion, slips of rounding errors, grazing");
 OPTION(stress_job, option_shots, "shots", shots, 0, "N", set_count, 1,
        "play so many random whole shots instead, and check the invariants that they keep");
@@ -250,13 +413,13 @@ static const command_form form = {
     .name = "stress",
     .usage = "[OPTIONS]",
     .about =
-        "Draws random collisions and compares the exact solver's results, by single calls and in batches, in double and in\n"
+        "Draws random collisions and compares the exact solver's results, by single calls and in batches, in double and in "
         "single precision, with the precise solver, and where they differ with a reference in extended precision.\n",
     .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_worst, &option_cushions,
                                            &option_coincidences, &option_shots, &option_models, &option_cushion_model,
                                            &option_threads, &option_output, NULL},
-    .details = "exit code: 0; 1 if an error is larger than carom.h promises, or bits of a batch differ from a single call's;\n"
-               "           2 for bad usage\n",
+    .details = "exit code: 0; 1 if an error is larger than carom.h promises, or bits of a batch differ from a single call's; "
+               "2 for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
 };
 
@@ -270,24 +433,18 @@ int command_stress(int argc, char **argv) {
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
-  const int threads = stress_threads(job.shared.options.threads);
-  if (job.cushions > 0 || job.coincidences > 0) {
-    const bool held = stress_impacts(out, job.coincidences > 0, job.coincidences > 0 ? job.coincidences : job.cushions,
-                                     (uint64_t)job.seed, threads);
-    return !output_commit() ? EXIT_USAGE : held ? EXIT_GOOD : EXIT_SOME;
-  }
-  shift *shifts = allocate((size_t)threads, sizeof *shifts);
-  for (int t = 0; t < threads; t++)
-    shifts[t].job = &job;
-  stress_in_threads(threads, shifts, sizeof *shifts, (uint64_t)CAROM_SLIP_COUNT * (((uint64_t)job.draws + BLOCK - 1) / BLOCK),
-                    run_block, "blocks of collisions");
-  for (int t = 1; t < threads; t++)
-    add(&shifts[0], &shifts[t]);
-  if (job.worst_rows)
-    print_worst(&job, &shifts[0], out);
+  stress *all = allocate(1, sizeof *all);
+  all->job = &job;
+  all->balls = job.cushions == 0 && job.coincidences == 0;
+  all->kinds = all->balls ? CAROM_SLIP_COUNT : job.coincidences > 0 ? coincidence_kinds() : CUSHION_DRAWS;
+  all->draws = (uint64_t)(all->balls ? job.draws : job.coincidences > 0 ? job.coincidences : job.cushions);
+  carom_in_threads(run_blocks, &all, (size_t)all->kinds * ((all->draws + BLOCK - 1) / BLOCK), job.shared.options.threads, 1);
+  progress_clear();
+  if (job.worst_rows && all->balls)
+    print_worst(all, out);
   else
-    print_table(&job, &shifts[0], out);
-  const bool good = holds(&job, &shifts[0]);
-  free(shifts);
+    print_table(all, out);
+  const bool good = holds(all);
+  free(all);
   return !output_commit() ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;
 }

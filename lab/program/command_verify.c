@@ -222,12 +222,12 @@ OPTION(verification, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "as CSV, the paper's counts in columns of their own, NA where it gives none");
 
 static const char about[] =
-    "Resolves the reference cases with every kernel and compares with the references; a kernel of the ladder in every\n"
+    "Resolves the reference cases with every kernel and compares with the references; a kernel of the ladder in every "
     "configuration of every compiler, the others by single calls and in the lanes of every instruction set here.\n";
 
 static const char details[] =
-    "Pair error: the largest deviation of a velocity or R times an angular velocity, over the largest such value of the\n"
-    "pair. Component errors compare each number with itself; the columns count the cases in which one is above 0.1 % or 1 %,\n"
+    "Pair error: the largest deviation of a velocity or R times an angular velocity, over the largest such value of the "
+    "pair. Component errors compare each number with itself; the columns count the cases in which one is above 0.1 % or 1 %, "
     "with the seed paper's own count in brackets where it gives one.\n"
     "A bound of 0 asks for the same bits in every component.\n\n"
     "exit code: 0 if every kernel is within its bounds, 1 if one is not, 2 for bad usage or unreadable data\n";

@@ -26,7 +26,7 @@ static const double play_worst = 1e-6, any_worst = 1e-5, exact_median = 3e-9, re
 typedef struct comparison {
   const char *model, *reference;
   double *error;
-  size_t count, left_out; /* compared; that the reference cannot judge, or whose result depends on pooltool's rounding */
+  size_t count, left_out; /* compared; without a result of the reference, or whose result depends on pooltool's rounding */
   size_t unresolved;
   bool complete; /* none may be left out */
   double worst_bound, median_bound;
@@ -54,7 +54,7 @@ static bool print(FILE *out, bool csv, comparison *c) {
 }
 
 /* Against the reference of lab/stress. */
-static bool judge(FILE *out, bool csv, cushion_draw kind, int draws, uint64_t seed, double done, double total) {
+static bool against_reference(FILE *out, bool csv, cushion_draw kind, int draws, uint64_t seed, double done, double total) {
   comparison c = {.model = "mathavan",
                   .reference = kind == CUSHION_PLAY ? "reference: impacts of play" : "reference: any impacts",
                   .error = allocate((size_t)draws, sizeof *c.error),
@@ -131,8 +131,8 @@ bool cushion_verify(FILE *out, const char *folder, int draws, uint64_t seed, boo
   else
     fprintf(out, "%-9s %-27s %8s %8s %10s %9s %9s %9s %7s\n", "cushion", "reference", "cases", "left out", "unresolved",
             "median", "p99", "max", "bound");
-  *pass &= judge(out, csv, CUSHION_PLAY, draws, seed, 0, 2 * draws);
-  *pass &= judge(out, csv, CUSHION_ANY, draws, seed, draws, 2 * draws);
+  *pass &= against_reference(out, csv, CUSHION_PLAY, draws, seed, 0, 2 * draws);
+  *pass &= against_reference(out, csv, CUSHION_ANY, draws, seed, draws, 2 * draws);
   return recorded(out, csv, folder, "cushion-stronge.csv", CAROM_CUSHION_STRONGE, pass) &&
          recorded(out, csv, folder, "cushion-mathavan2010.csv", CAROM_CUSHION_EULER, pass);
 }

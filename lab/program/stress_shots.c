@@ -61,7 +61,7 @@ static void print(const char *name, const kind_tally *t) {
 }
 
 int stress_shots(int shots, uint64_t seed, int world, int cushion_model) {
-  const carom_shot_options options = {.world = world, .cushion_model = cushion_model};
+  const carom_shot_options options = {.world = (carom_world)world, .cushion_model = (carom_shot_cushion)cushion_model};
   const int kinds = world == CAROM_WORLD_CAROM ? random_shot_kinds_in_space() : random_shot_kinds();
   kind_tally tally[MOST_KINDS] = {{0}}, all = {0};
   carom_shot shot = {.room = 1024};

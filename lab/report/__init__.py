@@ -1,1 +1,1 @@
-"""The report: measures by the programs of the build, derives, draws, and writes one page. docs/study/report.md says more."""
+"""The report: CSV files measured by the programs of the build, a figure of each by gnuplot, and one page."""

@@ -1,103 +1,403 @@
-"""The command: `tools/python -m lab.report DIR`, from the root of the tree."""
+"""The report: `tools/python -m lab.report DIR` measures to CSV files, draws a figure of each by gnuplot, and writes one page.
+
+A file that cannot be had leaves its figures and tables out; the page says so in their place, and the exit code is 1.
+"""
 
 import argparse
+import csv
+import hashlib
+import math
+import os
+import re
+import shlex
+import shutil
+import subprocess
 import sys
+from html import escape
 from pathlib import Path
 
-from .collect import collect
-from .contents import BREAK, FIGURES_OF_THE_PAGE, ROOT
-from .page import summary, write_page
-from .pictures import NO_GNUPLOT, draw, draw_break
-from .sheet import Missing
+import jinja2
+import markupsafe
 
-ABOUT = """Verifies and times the kernels, and writes to DIR (made if it is not there): the CSV files, the figures as SVG, and
-index.html, one page with the figures and tables and the seed paper's values beside ours. Figures are drawn by gnuplot; without
-it the CSV files and the tables come all the same. docs/study/report.md says which command makes which file, and how to add a figure."""
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+STEPS = "10,20,50,100,200,500,1000,2000,5000,10000"
+FIVE = "base,double,float,double_vec,float_vec"
+SIZES = "1,2,4,8,16,32,64,256,1024,4096,16384,65536,262144"
 
-AFTER = """exit code: 0 if all is there, 1 if data or figures are missing (the page says which), 2 for bad usage or if DIR cannot be
-written
-
-example:
-  tools/python -m lab.report --budget 55 build/results/report"""
+# NAME.csv: its share of the budget in per cent, 0 for what is computed; the command, to which `-o NAME.csv` is added.
+DATA = {
+    "kernels": (0, "carom-lab kernels --csv"),
+    "experiments": (0, "carom-lab experiments --csv"),
+    "trace": (0, "carom trace --id pooltool-135 --solver exact,euler"),
+    "sweep": (0, "carom sweep --id pooltool-135 --over w1z --from -60 --to 60 --solver exact,euler --brief"),
+    "verify": (0, "carom-lab verify --csv"),
+    "ladder": (20, "carom-lab bench --csv --spread"),
+    "steps": (17, f"carom-lab bench --kernel {FIVE} --steps {STEPS} --csv --spread"),
+    "accuracy": (17, f"carom-lab bench --kernel exact,euler,double,float --isa scalar,best --steps {STEPS},20000,50000 --csv --errors"),
+    "configs": (18, "carom-lab bench --config all --csv --spread"),
+    "cycles": (11, f"carom-lab bench --kernel {FIVE} --config zen2 --steps {STEPS} --csv --spread"),
+    "isas": (9, "carom-lab bench --batch --threads 1 --pairs 4080 --csv --spread"),
+    "batch": (8, f"carom-lab bench --kernel exact --isa scalar,best --threads all --pairs {SIZES} --csv --spread"),
+    "bounds": (0, "lab.bound"),
+}
+# NAME.svg: its CSV and its title. Captions are in page.html.
+FIGURES = {
+    "accuracy": ("accuracy", "Error against time"),
+    "speedup": ("speedup", "Cumulative speedup of the scalar kernels"),
+    "runtime": ("steps", "Run time over the number of steps"),
+    "configs": ("configs", "Compilers and configurations"),
+    "performance": ("performance", "Floating point operations per cycle"),
+    "experiments": ("experiments", "The 2014 paper's experiments"),
+    "trace": ("trace", "The course of one collision"),
+    "smooth": ("sweep", "A fine sweep of the side spin"),
+    "isas": ("isas", "Batches by instruction set and precision"),
+    "batch": ("batch", "Throughput of the exact solver over batch size and threads"),
+    "floor": ("batch", "Batches beside a copy of their bytes"),
+    "cushion": ("cushion", "A ball and a cushion: rebound, a fine sweep, jumps"),
+}
+# Pictures that `carom` draws by itself.
+DRAWN = {
+    "break": "carom shoot --plot {} -o /dev/null data/break-nineball.jsonl",
+    "hit": "carom hit --speed 1.5 --cut 30 --spin follow --plot {}",
+}
+# What the docs show, in docs/figures, with the CSV files beside them in docs/figures/data.
+OF_DOCS = ("accuracy", "runtime", "isas", "batch", "cushion")
+MACHINE = ("processor", "cores", "system", "core cycle", "pinning", "load before", "commit", "compiler", "flags", "date")
+# What must not depend on the machine is computed with instructions that all have.
+PLAIN = {**os.environ, "CAROM_ISA": "plain"}
+# The seed paper's section 4.3, at N = 1000: operations, the bound in cycles, cycles as measured.
+PAPER_BOUNDS = {"base": (77796, 77000, 85300), "double": (43829, 44000, 50200)}
 
 
 def complain(message):
-    print(f"report: {message}", file=sys.stderr)
+    print(f"report: {message}", file=sys.stderr, flush=True)
 
 
-def seconds(text):
+class Sheet:
+    """A measured CSV: notes {what: text} of its lines "# what: text", and rows, a dictionary each."""
+
+    def __init__(self, path):
+        lines = path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
+        notes = [line[1:].strip().partition(": ") for line in lines if line.startswith("#")]
+        self.notes = {what: text for what, _, text in reversed(notes)}
+        self.rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+    def first(self, **wanted):
+        return next((row for row in self.rows if all(row.get(name) == value for name, value in wanted.items())), {})
+
+
+def number(text):
     try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value <= 86400.0:
-        raise argparse.ArgumentTypeError(f"is a number of seconds above 0, up to 86400, not '{text}'")
-    return value
+        return float(text)
+    except (TypeError, ValueError):
+        return math.nan
+
+
+def shown(text, digits=4):
+    """A number with so many digits, from 1000 on whole and grouped; nothing for NA; other text as it is."""
+    x = number(text)
+    return ("" if text in (None, "NA") or x != x and isinstance(text, float) else str(text) if x != x
+            else f"{x:,.0f}" if abs(x) >= 1000 else f"{x:.{digits}g}")  # fmt: skip
+
+
+# ---- Data
+
+
+def run(command, options, *more, environment=None):
+    """Runs a program of the build, or a module of the lab."""
+    program, *words = shlex.split(command)
+    start = [sys.executable, "-m", program, "--build", options.build] if program.startswith("lab.") else [options.build / program]
+    return subprocess.run([*start, *words, *more], cwd=ROOT, stdout=subprocess.DEVNULL, env=environment).returncode in (0, 1)
+
+
+def measure(options, names):
+    whole = sum(DATA[name][0] for name in names)
+    for name in names:
+        share, command = DATA[name]
+        target = options.folder / f"{name}.csv"
+        budget = ["--budget", f"{options.budget * share / whole:.4g}"] if share else []
+        print(f"{target.name}: {command}", flush=True)
+        if not run(command, options, *budget, "--output", target):
+            target.unlink(missing_ok=True)
+
+
+def write(options, name, notes, header, rows):
+    if rows:
+        with open(options.folder / f"{name}.csv", "w", encoding="utf-8", newline="") as out:
+            out.writelines(f"# {what}: {text}\n" for what, text in notes.items())
+            csv.writer(out, lineterminator="\n").writerows([header, *rows])
+
+
+def default_config(ladder):
+    """bench notes "reference kernel: base, clang-default, with as many steps"."""
+    return ladder.notes.get("reference kernel", ",?").split(",")[1].strip()
+
+
+def derive_speedup(options, data):
+    """The ladder's kernels in the default configuration. `paper` has the paper's number or NA, `paper_text` what it says."""
+    ladder, names = data["ladder"], ["ns_median", "ns_spread", "speedup", "speedup_spread"]
+    rows = []
+    for kernel in data["kernels"].rows:
+        timed = ladder.first(kernel=kernel["kernel"], config=default_config(ladder)) if kernel["parent"] else {}
+        if timed:
+            paper = kernel["paper"] if number(kernel["paper"]) == number(kernel["paper"]) else "NA"
+            rows.append([kernel["kernel"], kernel["parent"], kernel["needs"], *(timed[name] for name in names)]
+                        + [paper, kernel["paper"], timed["config"]])  # fmt: skip
+    header = ["kernel", "parent", "needs", "ns", *names[1:], "paper", "paper_text", "config"]
+    write(options, "speedup", ladder.notes, header, rows)
+
+
+def derive_performance(options, data):
+    """Operations at N are those at N = 1000 and, for every step more or less, those of a step; the bound is a step's operations
+    over the cycles of its longest chain. Times and counts must be of the same code; a cycle is a core cycle as bench measures it."""
+    cycles, bounds, rows = data["cycles"], data["bounds"], []
+    config = bounds.rows[0]["config"] if bounds.rows else ""
+    if cycles.notes.get(config) != bounds.notes.get(config):
+        complain(f"{config} was timed as another build than its operations were counted in")
+        return
+    cycle = number(cycles.notes.get("core cycle", "").split(" ")[0])
+    for row in cycles.rows:
+        count = bounds.first(kernel=row["kernel"], config=row["config"])
+        if number(count.get("flops_amd")) != number(count.get("flops_amd")) or not cycle > 0:
+            continue
+        steps, a_step = number(row["steps"]), number(count["per_step_flops_amd"])
+        flops, taken = number(count["flops_amd"]) + (steps - 1000) * a_step, number(row["ns_median"]) / cycle
+        bound = 1000 * a_step / number(count["chain_cycles_native"])
+        rows.append([row["kernel"], row["config"], row["steps"]]
+                    + [f"{x:.5g}" for x in (flops, taken, flops / taken, bound, flops / taken / bound)])  # fmt: skip
+    header = ["kernel", "config", "steps", "flops", "cycles", "flops_per_cycle", "bound_flops_per_cycle", "share_of_bound"]
+    write(options, "performance", cycles.notes, header, rows)
+
+
+def derive_cushion(options, measured):
+    """Rolling balls straight into a cushion, the ball and the fitted numbers of the 2010 paper; and fine sweeps of the side spin of
+    one impact on a pool table's cushion, in the limit and by pooltool's steps. Rows: what, x, y."""
+    head = "id,vx,vy,vz,wx,wy,wz,R,M,h,mu_s,mu_w,e\n"
+    speeds = [0.28 + 0.02 * k for k in range(162)]
+    work = options.folder / "cushion-in.csv"
+
+    def rows_of(command, text):
+        work.write_text(head + text, encoding="utf-8")
+        done = subprocess.run([options.build / "carom", *command.split(), work], cwd=ROOT, stdout=subprocess.PIPE, text=True, env=PLAIN, check=True)
+        return list(csv.DictReader(line for line in done.stdout.splitlines() if not line.startswith("#")))
+
+    rolling = "".join(f"{v:.2f},0,{v:.2f},0,{-v / 0.02625:.9g},0,0,0.02625,0.1406,0.03675,0.212,0.14,0.98\n" for v in speeds)
+    rows = [["rebound", row["id"], f"{-float(row['vy']):.6g}"] for row in rows_of("resolve --cushion", rolling)]
+    one, euler = "one,0.5,1.2,0,0,0,30,0.028575,0.17,0.036576,0.2,0.2,0.85\n", "--model euler --convention pooltool --least-step 0.001"
+    for low, high, column, what in ((46, 50, "vy", "fine"), (-60, 60, "jump", "jump")):
+        for model, words in (("exact", ""), ("euler", euler)):
+            for row in rows_of(f"sweep --cushion --id one --over wz --from {low} --to {high} --points 801 {words}", one):
+                y = -float(row[column]) if column == "vy" else max(number(row[column]), 1e-12)
+                if y == y:
+                    rows.append([f"{what}-{model}", row["value"], f"{y:.6g}"])
+    work.unlink()
+    notes = {what: measured[what] for what in ("processor", "compiler", "commit", "date") if what in measured}
+    write(options, "cushion", {**notes, "solver": solver_bits(options)}, ["what", "x", "y"], rows)
+
+
+def solver_bits(options):
+    """A fingerprint of what the solver computes, the same on every machine: the reference collisions with plain instructions."""
+    text = b""
+    for words in (["data/collisions-204.csv"], ["--cushion", "data/cushion-stronge.csv"]):
+        command = [options.build / "carom", "resolve", *words]
+        text += subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, env=PLAIN, check=True).stdout
+    return hashlib.sha256(text).hexdigest()[:16]
+
+
+# ---- Figures
+
+
+def draw(name, options, data):
+    """NAME.svg, with ids of its own, so that many can stand in one page."""
+    source, title = FIGURES[name]
+    target = options.folder / f"{name}.svg"
+    target.unlink(missing_ok=True)
+    if not data[source].rows:
+        return
+    script = HERE.parent / "figures" / f"{name}.gp"
+    script = script if script.is_file() else ROOT / "cli" / "figures" / f"{name}.gp"
+    done = subprocess.run(["gnuplot", "-c", script, f"{source}.csv", target.name, title], cwd=options.folder, capture_output=True, text=True)
+    svg = target.read_text(encoding="utf-8") if target.is_file() else ""
+    if done.returncode or "</svg>" not in svg:
+        complain(f"gnuplot could not draw {name}: {done.stderr.strip()}")
+        target.unlink(missing_ok=True)
+        return
+    svg = re.sub(r"""( id=['"]|url\(#|href=['"]#)""", rf"\1{name}-", svg)
+    svg = re.sub(r"<title>Gnuplot</title>\s*<desc>.*?</desc>", lambda _: f"<title>{escape(title)}</title>", svg, count=1, flags=re.S)
+    target.write_text(svg, encoding="utf-8")
+
+
+# ---- The page
+
+
+def table(rows, *columns):
+    """Of columns (head, name of a column or function of a row)."""
+    if not rows:
+        return None
+    cells = [[shown(what(row) if callable(what) else row.get(what)) for _, what in columns] for row in rows]
+    return {"heads": [head for head, _ in columns], "rows": cells}
+
+
+def crossed(sheet, down, across, value):
+    """A row for each value of one column, a column for each of another."""
+    heads = list(dict.fromkeys(row[across] for row in sheet.rows))
+    rows = [{"": name} for name in dict.fromkeys(row[down] for row in sheet.rows)]
+    columns = [(head, lambda row, head=head: sheet.first(**{down: row[""], across: head}).get(value)) for head in heads]
+    return table(rows, (down, ""), *columns)
+
+
+def worst_of_builds(verify):
+    rows = {}
+    for row in verify.rows:
+        group = rows.setdefault((row["kernel"], row["reference"]), {**row, "builds": 0})
+        group["builds"] += 1
+        group["identical"] = min(group["identical"], row["identical"], key=number)
+        for name in ("max", "over_1e3", "over_1e2"):
+            group[name] = max(group[name], row[name], key=number)
+        group["verdict"] = min(group["verdict"], row["verdict"])  # fail before pass
+    return list(rows.values())
+
+
+def ratio(above, below, factor=1.0):
+    return factor * number(above) / number(below) if number(below) else math.nan
+
+
+def tables(data):
+    ladder, kernels, performance = data["ladder"], data["kernels"], data["performance"]
+    library = [row for row in ladder.rows if row["config"] == "library" and row["isa"] == "scalar"]
+    batches = [row for row in ladder.rows + data["isas"].rows if row["isa"] not in ("scalar", "memcpy")]
+
+    def over_copy(row):
+        size = {"pairs": row["pairs"]} if "pairs" in row else {}
+        sheet = data["isas"] if size else ladder
+        return ratio(row["ns_median"], sheet.first(kernel="copy", precision=row["precision"], threads=row["threads"], **size).get("ns_median"))
+
+    def paper(place):
+        return lambda row: PAPER_BOUNDS.get(row["kernel"], ("NA",) * 3)[place]
+
+    def share(row):
+        return ratio(performance.first(kernel=row["kernel"], steps="1000").get("share_of_bound"), 1, 100)
+
+    def paper_share(row):
+        return ratio(paper(1)(row), paper(2)(row), 100)
+
+    return {
+        "speedups": table(
+            data["speedup"].rows + library, ("kernel", "kernel"), ("idea", lambda row: kernels.first(kernel=row["kernel"]).get("idea")),
+            ("ns", lambda row: row.get("ns") or row["ns_median"]), ("±", "ns_spread"), ("speedup", "speedup"), ("±", "speedup_spread"),
+            ("paper", "paper_text"), ("ours / paper", lambda row: ratio(row["speedup"], row.get("paper"))),
+        ),
+        "errors": table(
+            worst_of_builds(data["verify"]), ("kernel", "kernel"), ("reference", "reference"), ("builds", "builds"),
+            ("identical", lambda row: f"{row['identical']} of {row['cases']}"), ("largest error", "max"), ("bound", "bound"),
+            ("> 0.1 %", "over_1e3"), ("paper", "paper_1e3"), ("> 1 %", "over_1e2"), ("paper", "paper_1e2"), ("", "verdict"),
+        ),
+        "configurations": crossed(data["configs"], "kernel", "config", "speedup"),
+        "operations": table(
+            [row for row in data["bounds"].rows if row["flops_amd"] != "NA"], ("kernel", "kernel"),
+            *((kind, f"flops_{kind}") for kind in ("add", "mul", "div", "sqrt", "fma")), ("estimates", "rsqrt"),
+            ("conversions", "conversions"), ("sum", "flops_amd"), ("paper", paper(0)), ("bound, Zen 2 (cycles)", "chain_cycles_zen2"),
+            ("paper", paper(1)), ("bound, here (cycles)", "chain_cycles_native"), ("share, %", share), ("paper, %", paper_share),
+        ),
+        **{f"experiments_{name}": crossed(data["experiments"], "shot", "source", name)
+           for name in ("v_cue", "v_object", "angle_cue_deg", "angle_object_deg")},
+        "batches": table(
+            batches, *((name, name) for name in ("kernel", "isa", "precision", "threads")), ("pairs", lambda row: row.get("pairs", "65,688")),
+            ("ns", "ns_median"), ("±", "ns_spread"), ("speedup", "speedup"), ("largest error", "pair_error_max"), ("times the copy", over_copy),
+        ),
+    }  # fmt: skip
+
+
+def write_page(options, data):
+    pictures = {}
+    for name in (*FIGURES, "break"):
+        svg = options.folder / f"{name}.svg"
+        if svg.is_file():
+            text = svg.read_text(encoding="utf-8")
+            pictures[name] = markupsafe.Markup(text[text.index("<svg") :])
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined,
+                                     trim_blocks=True, lstrip_blocks=True)  # fmt: skip
+    notes, made = data["ladder"].notes, tables(data)
+    page = environment.get_template("page.html").render(
+        pictures=pictures, tables=made, titles={name: title for name, (_, title) in FIGURES.items()}, notes=notes,
+        machine=[(what, notes[what]) for what in MACHINE if what in notes],
+        commands=[(f"{name}.csv", command) for name, (_, command) in DATA.items()],
+    )  # fmt: skip
+    (options.folder / "index.html").write_text(page, encoding="utf-8")
+    return [name for name in (*FIGURES, "break") if name not in pictures] + [name for name, one in made.items() if not one]
+
+
+def print_speedups(data):
+    ladder = data["ladder"]
+    print(f"\nspeedup over base, {default_config(ladder)}, N = 1000, {ladder.notes.get('processor', 'processor unknown')}")
+    print(f"{'kernel':<17} {'ns':>9} {'speedup':>9}  paper")
+    for row in data["speedup"].rows:
+        print(f"{row['kernel']:<17} {number(row['ns']):>9.0f} {number(row['speedup']):>9.2f}  {row['paper_text']}")
+    batches = [row for row in ladder.rows if row["isa"] not in ("scalar", "memcpy")]
+    for row in ladder.rows:
+        if row["config"] == "library" and (row["isa"] == "scalar" or row["isa"] == batches[-1]["isa"]):
+            how = "single calls" if row["isa"] == "scalar" else f"batches, {row['isa']}, {row['precision']}, {row['threads']} thread(s)"
+            print(f"{row['kernel']:<17} {number(row['ns_median']):>9.1f} {number(row['speedup']):>9.2f}  the library, {how}")
+
+
+# ---- The command
 
 
 def arguments(words):
-    parser = argparse.ArgumentParser(
-        prog="report", description=ABOUT, epilog=AFTER, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("folder", metavar="DIR", help="where the report goes")
-    parser.add_argument("--budget", type=seconds, default=110.0, metavar="SECONDS", help="how long to measure in all (default 110)")
-    parser.add_argument("--from", dest="source", metavar="DIR2", help="measure nothing: take an earlier report's CSV files from DIR2")
-    parser.add_argument("--png", action="store_true", help="the figures as PNG too")
-    parser.add_argument("--data", metavar="DIR3", help="folder of the cases and references (default: the programs' own)")
-    parser.add_argument("--build", default=ROOT / "build", metavar="DIR4", type=Path, help="folder of the programs (default build)")
+    parser = argparse.ArgumentParser(prog="report", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="DIR", type=Path, help="where the report goes; made if it is not there")
+    parser.add_argument("--budget", type=float, default=110.0, metavar="SECONDS", help="how long to measure in all (default 110)")
+    parser.add_argument("--from", dest="source", type=Path, metavar="DIR2", help="measure nothing: take the CSV files of DIR2")
+    parser.add_argument("--build", default=ROOT / "build", metavar="DIR3", type=Path, help="folder of the programs (default build)")
+    parser.add_argument("--docs", type=Path, metavar="DIR4", help="make the figures of the docs alone, into DIR4 and DIR4/data")
     options = parser.parse_args(words)
-    if not options.folder:
-        parser.error("the name of the folder is empty")
-    options.folder = Path(options.folder).resolve()
-    options.build = options.build.resolve()
-    options.data = Path(options.data).resolve() if options.data else None
-    if options.source is not None:
-        options.source = Path(options.source).resolve()
-        if not options.source.is_dir():
-            parser.error(f"--from: there is no folder {options.source}")
+    options.folder, options.build = options.folder.resolve(), options.build.resolve()
+    if not 0.0 < options.budget <= 86400.0:
+        parser.error(f"--budget is a number of seconds above 0, up to 86400, not {options.budget:g}")
+    if options.source and not options.source.is_dir():
+        parser.error(f"--from: there is no folder {options.source}")
     for program in ("carom", "carom-lab"):
-        if options.source is None and not (options.build / program).is_file():
+        if not options.source and not (options.build / program).is_file():
             parser.error(f"there is no program {options.build / program}; build it, or say with --build where it is")
+    if not shutil.which("gnuplot"):
+        parser.error("gnuplot is not installed (Debian: gnuplot-nox)")
     return options
-
-
-def draw_all(options, data):
-    """{name of a figure: why it could not be drawn}"""
-    missing = {}
-    try:
-        draw_break(options)
-    except Missing as why:
-        missing[BREAK.name] = str(why)
-        complain(str(why))
-    for figure in FIGURES_OF_THE_PAGE:
-        try:
-            draw(figure, data[figure.csv], options.folder, options.png)
-            print(f"{figure.name}: {figure.title}", flush=True)
-        except Missing as why:
-            missing[figure.name] = str(why)
-            if str(why) != NO_GNUPLOT:
-                complain(f"no figure {figure.name}: {why}")
-    if NO_GNUPLOT in missing.values():
-        complain(f"no figures: {NO_GNUPLOT}; the CSV files and the page's tables come all the same")
-    return missing
 
 
 def main(words):
     options = arguments(words)
-    try:
-        options.folder.mkdir(parents=True, exist_ok=True)
-        data = collect(options)
-        problems = [problem for sheet in data.values() for problem in sheet.problems]
-        for problem in problems:
-            complain(problem)
-        missing = draw_all(options, data)
-        for line in ["", *summary(data), ""]:
-            print(line)
-        print(f"report: {write_page(options.folder, data, missing, problems)}")
-    except OSError as error:
-        complain(f"cannot write the report: {error}")
-        return 2
-    return 1 if missing or problems else 0
+    options.folder.mkdir(parents=True, exist_ok=True)
+    wanted = [name for name in FIGURES if not options.docs or name in OF_DOCS]
+    sources = [name for name in DATA if not options.docs or name in {FIGURES[figure][0] for figure in OF_DOCS}]
+    if options.source:
+        for path in [*options.source.glob("*.csv"), *options.source.glob("break.svg")]:
+            if path.resolve().parent != options.folder:
+                shutil.copy(path, options.folder)
+    else:
+        measure(options, sources)
+        derive_cushion(options, Sheet(options.folder / "accuracy.csv").notes)
+        for name, command in DRAWN.items():
+            run(command.format(shlex.quote(str(options.folder / f"{name}.svg"))), options, environment=PLAIN)
+    data = {name: Sheet(options.folder / f"{name}.csv") for name in (*DATA, "cushion")}
+    for name, derive in (("speedup", derive_speedup), ("performance", derive_performance)):
+        derive(options, data)
+        data[name] = Sheet(options.folder / f"{name}.csv")
+    for name in wanted:
+        draw(name, options, data)
+    if options.docs:
+        (options.docs / "data").mkdir(exist_ok=True)
+        for name in (*OF_DOCS, *DRAWN):
+            shutil.copy(options.folder / f"{name}.svg", options.docs)
+        for name in OF_DOCS:
+            shutil.copy(options.folder / f"{FIGURES[name][0]}.csv", options.docs / "data")
+        return 0
+    missing = write_page(options, data)
+    print_speedups(data)
+    print(f"\nreport: {options.folder / 'index.html'}")
+    if missing:
+        complain(f"not there: {', '.join(missing)}")
+    return 1 if missing else 0
 
 
 if __name__ == "__main__":

@@ -4,22 +4,11 @@
  * rails. And in space: elevated cues, balls that fall on each other, unlike radii. */
 #include "random_shots.h"
 
-#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
-static uint64_t bits(shot_random *r) {
-  uint64_t z = r->state += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
-double shot_uniform(shot_random *r, double low, double high) {
-  return low + (high - low) * (double)(bits(r) >> 11) * 0x1p-53;
-}
-static int whole(shot_random *r, int low, int high) {
-  return low + (int)(bits(r) % (uint64_t)(high - low + 1));
+static int whole(lab_random *r, int low, int high) {
+  return low + (int)(lab_bits(r) % (uint64_t)(high - low + 1));
 }
 
 static bool is_free(const random_shot *s, double x, double y, double distance) {
@@ -38,11 +27,11 @@ static void add(random_shot *s, carom_game game, double x, double y) {
 }
 
 /* A ball anywhere clear of rails and others. */
-static void add_anywhere(random_shot *s, shot_random *r, carom_game game) {
+static void add_anywhere(random_shot *s, lab_random *r, carom_game game) {
   const double R = carom_ball_kind_of(game).radius, room = 2.0 * R + 1e-4;
   for (int trial = 0; trial < 1000; trial++) {
-    const double x = shot_uniform(r, R + 1e-4, s->table.width - R - 1e-4),
-                 y = shot_uniform(r, R + 1e-4, s->table.length - R - 1e-4);
+    const double x = lab_uniform(r, R + 1e-4, s->table.width - R - 1e-4),
+                 y = lab_uniform(r, R + 1e-4, s->table.length - R - 1e-4);
     bool good = is_free(s, x, y, room);
     for (int k = 0; k < s->table.pockets; k++)
       good &= hypot(s->table.pocket[k].centre[0] - x, s->table.pocket[k].centre[1] - y) > s->table.pocket[k].radius + R;
@@ -55,56 +44,56 @@ static void add_anywhere(random_shot *s, shot_random *r, carom_game game) {
   }
 }
 
-static void any_cue(random_shot *s, shot_random *r, double slow, double fast) {
+static void any_cue(random_shot *s, lab_random *r, double slow, double fast) {
   s->cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
-  s->cue.speed = shot_uniform(r, slow, fast);
-  s->cue.phi = shot_uniform(r, 0.0, 360.0);
-  const double off = 0.7 * sqrt(shot_uniform(r, 0.0, 1.0)), way = shot_uniform(r, 0.0, 6.283185307179586);
+  s->cue.speed = lab_uniform(r, slow, fast);
+  s->cue.phi = lab_uniform(r, 0.0, 360.0);
+  const double off = 0.7 * sqrt(lab_uniform(r, 0.0, 1.0)), way = lab_uniform(r, 0.0, 6.283185307179586);
   s->cue.a = off * cos(way);
   s->cue.b = off * sin(way);
-  s->cue.theta = shot_uniform(r, 0.0, 1.0) < 0.3 ? shot_uniform(r, 0.0, 70.0) : 0.0;
+  s->cue.theta = lab_uniform(r, 0.0, 1.0) < 0.3 ? lab_uniform(r, 0.0, 70.0) : 0.0;
 }
 
 /* At ball 1, give or take some degrees. */
-static void aim(random_shot *s, shot_random *r, double off) {
+static void aim(random_shot *s, lab_random *r, double off) {
   if (s->count > 1)
     s->cue.phi = 57.29577951308232 *
                      atan2(s->ball[1].state.r[1] - s->ball[0].state.r[1], s->ball[1].state.r[0] - s->ball[0].state.r[0]) +
-                 shot_uniform(r, -off, off);
+                 lab_uniform(r, -off, off);
 }
 
-static void break_of(random_shot *s, shot_random *r, carom_rack_kind rack, carom_table_kind table, double gap) {
+static void break_of(random_shot *s, lab_random *r, carom_rack_kind rack, carom_table_kind table, double gap) {
   carom_table_make(table, &s->table);
-  carom_rack(rack, &s->table, gap, bits(r), s->ball, CAROM_BALLS_MOST);
+  carom_rack(rack, &s->table, gap, lab_bits(r), s->ball, CAROM_BALLS_MOST);
   s->count = carom_rack_size(rack);
   any_cue(s, r, 2.0, 12.0);
   aim(s, r, 4.0);
 }
 
-static carom_table_kind any_pool_table(shot_random *r) {
+static carom_table_kind any_pool_table(lab_random *r) {
   return (carom_table_kind)whole(r, CAROM_TABLE_POOL_7FT, CAROM_TABLE_POOL_9FT);
 }
 
-static void nineball(random_shot *s, shot_random *r) {
-  break_of(s, r, CAROM_RACK_NINEBALL, any_pool_table(r), pow(10.0, shot_uniform(r, -6.0, -3.5)));
+static void nineball(random_shot *s, lab_random *r) {
+  break_of(s, r, CAROM_RACK_NINEBALL, any_pool_table(r), pow(10.0, lab_uniform(r, -6.0, -3.5)));
 }
-static void eightball(random_shot *s, shot_random *r) {
-  break_of(s, r, CAROM_RACK_EIGHTBALL, any_pool_table(r), pow(10.0, shot_uniform(r, -6.0, -3.5)));
+static void eightball(random_shot *s, lab_random *r) {
+  break_of(s, r, CAROM_RACK_EIGHTBALL, any_pool_table(r), pow(10.0, lab_uniform(r, -6.0, -3.5)));
 }
-static void tenball(random_shot *s, shot_random *r) {
-  break_of(s, r, CAROM_RACK_TENBALL, any_pool_table(r), pow(10.0, shot_uniform(r, -6.0, -3.5)));
+static void tenball(random_shot *s, lab_random *r) {
+  break_of(s, r, CAROM_RACK_TENBALL, any_pool_table(r), pow(10.0, lab_uniform(r, -6.0, -3.5)));
 }
-static void frozen_rack(random_shot *s, shot_random *r) {
+static void frozen_rack(random_shot *s, lab_random *r) {
   break_of(s, r, (carom_rack_kind)whole(r, CAROM_RACK_NINEBALL, CAROM_RACK_TENBALL), any_pool_table(r), 0.0);
 }
-static void snooker(random_shot *s, shot_random *r) {
+static void snooker(random_shot *s, lab_random *r) {
   break_of(s, r, CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, whole(r, 0, 1) ? 0.0 : 1e-4);
-  s->cue.phi = shot_uniform(r, 0.0, 360.0);
+  s->cue.phi = lab_uniform(r, 0.0, 360.0);
   for (int k = 0; k < s->count; k++)
     s->ball[k].kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_SNOOKER);
 }
 
-static void layout(random_shot *s, shot_random *r) {
+static void layout(random_shot *s, lab_random *r) {
   carom_table_make(any_pool_table(r), &s->table);
   const int count = whole(r, 1, 15);
   for (int k = 0; k < count; k++)
@@ -113,7 +102,7 @@ static void layout(random_shot *s, shot_random *r) {
   aim(s, r, 10.0);
 }
 
-static void threecushion(random_shot *s, shot_random *r) {
+static void threecushion(random_shot *s, lab_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
   for (int k = 0; k < 3; k++)
     add_anywhere(s, r, CAROM_GAME_POOLTOOL_BILLIARD);
@@ -122,24 +111,24 @@ static void threecushion(random_shot *s, shot_random *r) {
 }
 
 /* Balls that already roll, slide and spin. */
-static void moving(random_shot *s, shot_random *r) {
+static void moving(random_shot *s, lab_random *r) {
   layout(s, r);
   s->cue.speed = 0.0;
   for (int k = 0; k < s->count; k++) {
-    const double speed = whole(r, 0, 3) == 0 ? 0.0 : shot_uniform(r, 0.0, 3.0), way = shot_uniform(r, 0.0, 6.283185307179586);
+    const double speed = whole(r, 0, 3) == 0 ? 0.0 : lab_uniform(r, 0.0, 3.0), way = lab_uniform(r, 0.0, 6.283185307179586);
     carom_ball_state *b = &s->ball[k].state;
     b->v[0] = speed * cos(way);
     b->v[1] = speed * sin(way);
     for (int axis = 0; axis < 3; axis++)
-      b->w[axis] = shot_uniform(r, -300.0, 300.0) * (whole(r, 0, 2) == 0);
+      b->w[axis] = lab_uniform(r, -300.0, 300.0) * (whole(r, 0, 2) == 0);
   }
 }
 
 /* A line of touching balls, hit straight or nearly, along an axis or not. */
-static void cradle(random_shot *s, shot_random *r) {
+static void cradle(random_shot *s, lab_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
   const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius,
-               phi = whole(r, 0, 1) ? 0.0 : shot_uniform(r, 0.0, 30.0);
+               phi = whole(r, 0, 1) ? 0.0 : lab_uniform(r, 0.0, 30.0);
   const double c = cos(phi / 57.29577951308232), n = sin(phi / 57.29577951308232), x = 0.2, y = 1.0;
   const int count = whole(r, 2, 7);
   add(s, CAROM_GAME_POOLTOOL_BILLIARD, x, y);
@@ -156,10 +145,10 @@ static void cradle(random_shot *s, shot_random *r) {
 }
 
 /* A ball in contact with a rail or in a corner, with another in contact with it, hit or spinning against it. */
-static void frozen_to_rail(random_shot *s, shot_random *r) {
+static void frozen_to_rail(random_shot *s, lab_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
   const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius, w = s->table.width;
-  const double y = whole(r, 0, 3) == 0 ? R : shot_uniform(r, 0.5, 2.0);
+  const double y = whole(r, 0, 3) == 0 ? R : lab_uniform(r, 0.5, 2.0);
   add(s, CAROM_GAME_POOLTOOL_BILLIARD, w - R, y);
   if (whole(r, 0, 1))
     add(s, CAROM_GAME_POOLTOOL_BILLIARD, w - 3.0 * R, y);
@@ -172,14 +161,14 @@ static void frozen_to_rail(random_shot *s, shot_random *r) {
   if (whole(r, 0, 1)) {
     s->cue.speed = 0.0;
     for (int k = 0; k < s->count; k++) {
-      s->ball[k].state.w[0] = shot_uniform(r, -200.0, 200.0);
-      s->ball[k].state.w[1] = shot_uniform(r, -200.0, 200.0);
+      s->ball[k].state.w[0] = lab_uniform(r, -200.0, 200.0);
+      s->ball[k].state.w[1] = lab_uniform(r, -200.0, 200.0);
     }
   }
 }
 
 /* Touching balls in a random cluster. */
-static void cluster(random_shot *s, shot_random *r) {
+static void cluster(random_shot *s, lab_random *r) {
   carom_table_make(any_pool_table(r), &s->table);
   const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL).radius;
   add(s, CAROM_GAME_POOLTOOL_POOL, 0.5 * s->table.width, 0.3 * s->table.length);
@@ -187,7 +176,7 @@ static void cluster(random_shot *s, shot_random *r) {
   const int count = whole(r, 3, 12);
   for (int trial = 0; trial < 200 && s->count < count; trial++) {
     const carom_ball_state *to = &s->ball[whole(r, 1, s->count - 1)].state;
-    const double way = shot_uniform(r, 0.0, 6.283185307179586);
+    const double way = lab_uniform(r, 0.0, 6.283185307179586);
     const double x = to->r[0] + 2.0 * R * cos(way), y = to->r[1] + 2.0 * R * sin(way);
     if (is_free(s, x, y, 2.0 * R - 1e-12) && x > 2.0 * R && x < s->table.width - 2.0 * R && y < 0.9 * s->table.length &&
         y > 0.4)
@@ -198,40 +187,40 @@ static void cluster(random_shot *s, shot_random *r) {
 }
 
 /* Balls that differ in mass and in all frictions and restitutions, in a layout or a cluster. */
-static void unlike(random_shot *s, shot_random *r) {
+static void unlike(random_shot *s, lab_random *r) {
   if (whole(r, 0, 1))
     layout(s, r);
   else
     cluster(s, r);
   for (int k = 0; k < s->count; k++) {
     carom_ball_kind *b = &s->ball[k].kind;
-    b->mass *= shot_uniform(r, 0.6, 1.6);
-    b->mu_slide = shot_uniform(r, 0.05, 0.5);
-    b->mu_roll = shot_uniform(r, 0.003, 0.03);
-    b->mu_spin = shot_uniform(r, 0.003, 0.03);
-    b->restitution = whole(r, 0, 4) == 0 ? 0.0 : whole(r, 0, 4) == 0 ? 1.0 : shot_uniform(r, 0.0, 1.0);
-    b->restitution_cushion = whole(r, 0, 4) == 0 ? 0.0 : shot_uniform(r, 0.0, 1.0);
-    b->mu_cushion = shot_uniform(r, 0.0, 0.6);
+    b->mass *= lab_uniform(r, 0.6, 1.6);
+    b->mu_slide = lab_uniform(r, 0.05, 0.5);
+    b->mu_roll = lab_uniform(r, 0.003, 0.03);
+    b->mu_spin = lab_uniform(r, 0.003, 0.03);
+    b->restitution = whole(r, 0, 4) == 0 ? 0.0 : whole(r, 0, 4) == 0 ? 1.0 : lab_uniform(r, 0.0, 1.0);
+    b->restitution_cushion = whole(r, 0, 4) == 0 ? 0.0 : lab_uniform(r, 0.0, 1.0);
+    b->mu_cushion = lab_uniform(r, 0.0, 0.6);
   }
 }
 
 /* Slow balls close to pockets and jaws. */
-static void near_pocket(random_shot *s, shot_random *r) {
+static void near_pocket(random_shot *s, lab_random *r) {
   carom_table_make(any_pool_table(r), &s->table);
   for (int k = 0; k < 3; k++)
     add_anywhere(s, r, CAROM_GAME_POOLTOOL_POOL);
   const carom_pocket *p = &s->table.pocket[whole(r, 0, (int)s->table.pockets - 1)];
   any_cue(s, r, 0.2, 3.0);
   s->cue.phi = 57.29577951308232 * atan2(p->centre[1] - s->ball[0].state.r[1], p->centre[0] - s->ball[0].state.r[0]) +
-               shot_uniform(r, -3.0, 3.0);
+               lab_uniform(r, -3.0, 3.0);
 }
 
 /* Up to 32 touching balls, in a line or a triangle, in the open or against a rail, whose spin presses them together. */
-static void pressed(random_shot *s, shot_random *r) {
+static void pressed(random_shot *s, lab_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
   const int which = whole(r, 0, 2), count = whole(r, 2, which == 1 ? CAROM_BALLS_MOST / 2 : CAROM_BALLS_MOST),
             shape = whole(r, 0, 2);
-  const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius, spin = shot_uniform(r, 20.0, 300.0);
+  const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius, spin = lab_uniform(r, 20.0, 300.0);
   for (int k = 0, row = 0, place = 0; k < count; k++, place++) {
     if (place > row) {
       row++;
@@ -246,8 +235,8 @@ static void pressed(random_shot *s, shot_random *r) {
   for (int k = 0; k < count; k++) {
     double *w = s->ball[k].state.w;
     if (which == 2) {
-      w[0] = shot_uniform(r, -spin, spin);
-      w[1] = shot_uniform(r, -spin, spin) * whole(r, 0, 1);
+      w[0] = lab_uniform(r, -spin, spin);
+      w[1] = lab_uniform(r, -spin, spin) * whole(r, 0, 1);
     } else if (k == 0) {
       w[0] = -spin;
     } else if (which == 1 && k == count - 1) {
@@ -259,7 +248,7 @@ static void pressed(random_shot *s, shot_random *r) {
 /* Balls on a lattice of their diameter, on a table whose sides are multiples of it, with velocities along an axis or a
  * diagonal: in doubles without rounding. Neighbours touch, balls at the sides touch the rails, many meet at one instant, and
  * rails end where balls meet them. */
-static void coincident(random_shot *s, shot_random *r) {
+static void coincident(random_shot *s, lab_random *r) {
   const double R = 0.03125, height = 0.0375;
   s->table = (carom_table){.width = 1.0, .length = 2.0};
   const double corner[5][2] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 2.0}, {0.0, 2.0}, {0.0, 0.0}};
@@ -299,16 +288,16 @@ static void coincident(random_shot *s, shot_random *r) {
 }
 
 /* A layout, and a cue that makes the ball jump; every third time at the next ball, from near. */
-static void jump(random_shot *s, shot_random *r) {
+static void jump(random_shot *s, lab_random *r) {
   layout(s, r);
   any_cue(s, r, 0.5, 6.0);
   aim(s, r, 10.0);
-  s->cue.theta = shot_uniform(r, 2.0, 80.0);
-  const double off = 0.5 * sqrt(shot_uniform(r, 0.0, 1.0)), way = shot_uniform(r, 0.0, 6.283185307179586);
+  s->cue.theta = lab_uniform(r, 2.0, 80.0);
+  const double off = 0.5 * sqrt(lab_uniform(r, 0.0, 1.0)), way = lab_uniform(r, 0.0, 6.283185307179586);
   s->cue.a = off * cos(way);
   s->cue.b = off * sin(way);
   for (int k = 0; k < s->count; k++)
-    s->ball[k].kind.restitution_table = whole(r, 0, 2) == 0 ? shot_uniform(r, 0.1, 0.98) : 0.0;
+    s->ball[k].kind.restitution_table = whole(r, 0, 2) == 0 ? lab_uniform(r, 0.1, 0.98) : 0.0;
 }
 
 /* Whether a ball of radius R at a place is clear of all others, in space. */
@@ -323,39 +312,39 @@ static bool is_free_in_space(const random_shot *s, const double at[3], double R)
 
 /* Balls above each other that fall, on the cloth, on rails and into pockets; some lie below. Alike, or unlike in radius and
  * mass. */
-static void falling(random_shot *s, shot_random *r) {
+static void falling(random_shot *s, lab_random *r) {
   carom_table_make(any_pool_table(r), &s->table);
   const int count = whole(r, 2, 12), alike = whole(r, 0, 1);
-  const double wide = shot_uniform(r, 0.05, 0.5), width = s->table.width, length = s->table.length;
-  const double x = shot_uniform(r, wide, width - wide), y = shot_uniform(r, wide, length - wide);
+  const double wide = lab_uniform(r, 0.05, 0.5), width = s->table.width, length = s->table.length;
+  const double x = lab_uniform(r, wide, width - wide), y = lab_uniform(r, wide, length - wide);
   for (int trial = 0; trial < 400 && s->count < count; trial++) {
     carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
-    kind.radius *= alike ? 1.0 : shot_uniform(r, 0.9, 1.1);
-    kind.mass *= alike ? 1.0 : shot_uniform(r, 0.7, 1.4);
-    kind.restitution_table = whole(r, 0, 2) == 0 ? shot_uniform(r, 0.1, 0.98) : 0.0;
+    kind.radius *= alike ? 1.0 : lab_uniform(r, 0.9, 1.1);
+    kind.mass *= alike ? 1.0 : lab_uniform(r, 0.7, 1.4);
+    kind.restitution_table = whole(r, 0, 2) == 0 ? lab_uniform(r, 0.1, 0.98) : 0.0;
     const double R = kind.radius;
     const bool lies = whole(r, 0, 1);
-    const double at[3] = {x + shot_uniform(r, -wide, wide), y + shot_uniform(r, -wide, wide),
-                          lies ? R : R + shot_uniform(r, 0.0, 0.4)};
+    const double at[3] = {x + lab_uniform(r, -wide, wide), y + lab_uniform(r, -wide, wide),
+                          lies ? R : R + lab_uniform(r, 0.0, 0.4)};
     if (at[0] < 0.1 || at[0] > width - 0.1 || at[1] < 0.1 || at[1] > length - 0.1 || !is_free_in_space(s, at, R))
       continue;
     carom_shot_ball *b = &s->ball[s->count++];
     *b = (carom_shot_ball){.kind = kind};
     memcpy(b->state.r, at, sizeof at);
     for (int axis = 0; axis < 3; axis++) {
-      b->state.v[axis] = axis < 2 ? shot_uniform(r, -2.0, 2.0) : lies ? 0.0 : shot_uniform(r, -3.0, 2.0);
-      b->state.w[axis] = whole(r, 0, 1) * shot_uniform(r, -150.0, 150.0);
+      b->state.v[axis] = axis < 2 ? lab_uniform(r, -2.0, 2.0) : lies ? 0.0 : lab_uniform(r, -3.0, 2.0);
+      b->state.w[axis] = whole(r, 0, 1) * lab_uniform(r, -150.0, 150.0);
     }
   }
 }
 
 /* Balls of unlike radii and masses on the cloth, one of them struck, with the butt raised or not. */
-static void unlike_radii(random_shot *s, shot_random *r) {
+static void unlike_radii(random_shot *s, lab_random *r) {
   layout(s, r);
   for (int k = 0; k < s->count; k++) {
     carom_shot_ball *b = &s->ball[k];
-    b->kind.radius *= shot_uniform(r, 0.9, 1.0);
-    b->kind.mass *= shot_uniform(r, 0.7, 1.4);
+    b->kind.radius *= lab_uniform(r, 0.9, 1.0);
+    b->kind.mass *= lab_uniform(r, 0.7, 1.4);
     b->state.r[2] = b->kind.radius;
   }
   s->table.ball_radius = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL).radius;
@@ -364,7 +353,7 @@ static void unlike_radii(random_shot *s, shot_random *r) {
 
 static const struct {
   const char *name;
-  void (*make)(random_shot *shot, shot_random *r);
+  void (*make)(random_shot *shot, lab_random *r);
 } kinds[] = {
     {"nineball", nineball},
     {"eightball", eightball},
@@ -398,8 +387,8 @@ const char *random_shot_kind(int kind) {
 }
 
 void random_shot_make(int kind, uint64_t seed, uint64_t index, random_shot *shot) {
-  shot_random r = {seed ^ (index * 0xd1342543de82ef95u + (uint64_t)kind)};
-  bits(&r);
+  lab_random r = {seed ^ (index * 0xd1342543de82ef95u + (uint64_t)kind)};
+  lab_bits(&r);
   memset(shot, 0, sizeof *shot);
   shot->kind = kinds[kind].name;
   kinds[kind].make(shot, &r);

@@ -3,13 +3,7 @@
 #define CAROM_LAB_RANDOM_SHOTS_H
 
 #include "carom_shot.h"
-
-/* splitmix64 */
-typedef struct shot_random {
-  uint64_t state;
-} shot_random;
-
-double shot_uniform(shot_random *r, double low, double high);
+#include "random.h"
 
 typedef struct random_shot {
   const char *kind;

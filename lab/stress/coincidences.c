@@ -3,57 +3,50 @@
  * balls lie along the y axis, where zeros stay zero; so do all impacts on cushions but one in four. */
 #include "coincidences.h"
 
-#include "draws.h"
+#include "regimes.h"
 
-#include "ball_ball/frame.h"
-
-#include <math.h>
 #include <string.h>
 
-#define U(low, high) regimes_uniform(r, low, high)
+#define U(low, high) lab_uniform(r, low, high)
 #define COUNT(list) (sizeof(list) / sizeof(list)[0])
 
-static int below(regimes_rng *r, int n) {
+static int below(lab_random *r, int n) {
   return (int)U(0, n);
 }
 
-static double sign(regimes_rng *r) {
+static double sign(lab_random *r) {
   return below(r, 2) == 0 ? 1 : -1;
 }
 
-static double log_uniform(regimes_rng *r, double low, double high) {
-  return exp(U(log(low), log(high)));
-}
-
 /* 0, or an amount from far below rounding to 1e-3. */
-static double tiny(regimes_rng *r) {
-  return below(r, 3) == 0 ? 0 : sign(r) * log_uniform(r, 1e-18, 1e-3);
+static double tiny(lab_random *r) {
+  return below(r, 3) == 0 ? 0 : sign(r) * lab_log_uniform(r, 1e-18, 1e-3);
 }
 
-static double share(regimes_rng *r) {
+static double share(lab_random *r) {
   static const double list[] = {0, 0.05, 0.1, 0.2, 0.25, 2 / 7.0, 0.4, 0.5, 1};
   return list[below(r, COUNT(list))];
 }
 
-static double friction(regimes_rng *r) {
+static double friction(lab_random *r) {
   return below(r, 2) == 0 ? share(r) : U(0, 0.5);
 }
 
-static double restitution(regimes_rng *r) {
+static double restitution(lab_random *r) {
   return below(r, 3) == 0 ? share(r) : U(0.5, 1);
 }
 
-static double few(regimes_rng *r) {
+static double few(lab_random *r) {
   static const double list[] = {-2, -1, -0.5, 0, 0, 0.5, 1, 2};
   return list[below(r, COUNT(list))];
 }
 
 /* ---- Two balls: in the frame of ball_ball/frame.h ---- */
 
-static carom_local two_balls(regimes_rng *r, carom_slip slip) {
+static carom_local two_balls(lab_random *r, carom_slip slip) {
   carom_local c = {
-      .R = 0.028575, .M_i = 0.17, .v_iy = below(r, 2) == 0 ? 1 : log_uniform(r, 0.05, 8), .s = carom_spin_sign(slip)};
-  c.M_j = c.M_i * (below(r, 2) == 0 ? 1 : log_uniform(r, 0.5, 2));
+      .R = 0.028575, .M_i = 0.17, .v_iy = below(r, 2) == 0 ? 1 : lab_log_uniform(r, 0.05, 8), .s = carom_spin_sign(slip)};
+  c.M_j = c.M_i * (below(r, 2) == 0 ? 1 : lab_log_uniform(r, 0.5, 2));
   c.mu_b = below(r, 2) == 0 ? share(r) : U(0, 0.2);
   c.mu_i = friction(r);
   c.mu_j = below(r, 2) == 0 ? c.mu_i : friction(r);
@@ -61,7 +54,7 @@ static carom_local two_balls(regimes_rng *r, carom_slip slip) {
   return c;
 }
 
-static void planar(carom_local *c, regimes_rng *r) {
+static void planar(carom_local *c, lab_random *r) {
   static const double others[] = {0, 0, -1, 0.5};
   c->v_jy = c->v_iy * others[below(r, COUNT(others))];
   const double rolling = -c->v_iy / c->R, spins[] = {0, rolling, -rolling, rolling * U(-3, 3)};
@@ -70,7 +63,7 @@ static void planar(carom_local *c, regimes_rng *r) {
 }
 
 /* The slip on the cloth passes zero, or nearly. */
-static void planar_turn(carom_local *c, regimes_rng *r) {
+static void planar_turn(carom_local *c, lab_random *r) {
   c->w_ix = -U(0.3, 2) * c->v_iy / c->R;
   c->v_ix = tiny(r) * c->v_iy;
   if (below(r, 2) == 0)
@@ -79,7 +72,7 @@ static void planar_turn(carom_local *c, regimes_rng *r) {
 
 /* The slip of the balls vanishes at the end of a phase, or nearly: all rates are constant. The pressed ball is the second,
  * which rests, or the first, whose slip on the cloth is large. */
-static void planar_stick(carom_local *c, regimes_rng *r) {
+static void planar_stick(carom_local *c, lab_random *r) {
   const bool second = below(r, 2) == 0;
   const double kappa = 1 + (second ? c->M_j / c->M_i : c->M_i / c->M_j), t = second ? -1 : 1;
   const double F = -t * (second ? c->mu_j : c->mu_i) * c->mu_b;
@@ -89,7 +82,7 @@ static void planar_stick(carom_local *c, regimes_rng *r) {
     c->v_ix = tiny(r) * c->v_iy;
 }
 
-static void roll(carom_local *c, regimes_rng *r) {
+static void roll(carom_local *c, lab_random *r) {
   c->v_ix = few(r) * c->v_iy;
   c->v_jx = few(r) * c->v_iy;
   c->v_jy = below(r, 2) == 0 ? 0 : -fabs(few(r)) * c->v_iy;
@@ -98,7 +91,7 @@ static void roll(carom_local *c, regimes_rng *r) {
   c->w_iz = few(r) * c->v_iy / c->R;
 }
 
-static void rounding(carom_local *c, regimes_rng *r) {
+static void rounding(carom_local *c, lab_random *r) {
   const double v = c->v_iy;
   c->v_ix = few(r) * v;
   c->w_jz = below(r, 2) == 0 ? 0 : few(r) * v / c->R;
@@ -108,7 +101,7 @@ static void rounding(carom_local *c, regimes_rng *r) {
   c->w_jx = tiny(r) * v / c->R - (below(r, 2) == 0 ? c->w_ix : 0);
 }
 
-static void equal(carom_local *c, regimes_rng *r) {
+static void equal(carom_local *c, lab_random *r) {
   const double mu = share(r), w = c->v_iy / c->R;
   c->mu_b = c->mu_i = c->mu_j = mu;
   if (below(r, 2) == 0)
@@ -119,7 +112,7 @@ static void equal(carom_local *c, regimes_rng *r) {
 }
 
 /* Without slip along x and with the slip of pooltool nothing drives the slip on the cloth at mu_b = 2/5. */
-static void no_drive(carom_local *c, regimes_rng *r) {
+static void no_drive(carom_local *c, lab_random *r) {
   const double v = c->v_iy;
   c->mu_b = 0.4 * (1 + tiny(r));
   c->v_ix = c->v_jx = (below(r, 2) == 0 ? 0 : tiny(r)) * v;
@@ -129,10 +122,10 @@ static void no_drive(carom_local *c, regimes_rng *r) {
   c->w_jx = below(r, 2) == 0 ? 0 : U(-2, 2) * v / c->R;
 }
 
-static void grazing(carom_local *c, regimes_rng *r) {
-  const double v = log_uniform(r, 0.05, 8);
+static void grazing(carom_local *c, lab_random *r) {
+  const double v = lab_log_uniform(r, 0.05, 8);
   c->v_ix = sign(r) * v;
-  c->v_iy = v * log_uniform(r, 1e-9, 1e-3);
+  c->v_iy = v * lab_log_uniform(r, 1e-9, 1e-3);
   if (below(r, 3) == 0)
     c->w_ix = c->s * c->v_iy / c->R, c->w_iy = -c->s * c->v_ix / c->R;
   else if (below(r, 2) == 0)
@@ -142,7 +135,7 @@ static void grazing(carom_local *c, regimes_rng *r) {
 }
 
 /* Stick exactly at the end of a phase, or exact zeros: those regimes of regimes.c. */
-static carom_impact corner(regimes_rng *r, carom_slip slip) {
+static carom_impact corner(lab_random *r, carom_slip slip) {
   static const char *const exact[] = {"stick_at_v0", "stick_at_end", "turn_exact", "u_z_zero",
                                       "u_x_zero",    "u_zero",       "u_z_tiny"};
   const char *const name = exact[below(r, COUNT(exact))];
@@ -158,9 +151,9 @@ typedef struct local {
   double v_x, v_y, w_x, w_y, w_z, R, sine, mu_c, mu_w, e;
 } local;
 
-static local at_rail(regimes_rng *r) {
+static local at_rail(lab_random *r) {
   static const double noses[] = {0.2, 0.25, 0.27, 0.4, 0.5, 0, -0.1};
-  return (local){.v_y = below(r, 2) == 0 ? 1 : log_uniform(r, 0.05, 8),
+  return (local){.v_y = below(r, 2) == 0 ? 1 : lab_log_uniform(r, 0.05, 8),
                  .R = 0.028575,
                  .sine = below(r, 2) == 0 ? noses[below(r, COUNT(noses))] : U(0.2, 0.45),
                  .mu_c = friction(r),
@@ -168,25 +161,25 @@ static local at_rail(regimes_rng *r) {
                  .e = restitution(r)};
 }
 
-static void planar_rail(local *c, regimes_rng *r) {
+static void planar_rail(local *c, lab_random *r) {
   const double rolling = -c->v_y / c->R, spins[] = {0, rolling, -rolling, c->sine * c->v_y / c->R, rolling * U(-3, 3)};
   c->w_x = spins[below(r, COUNT(spins))];
 }
 
 /* The slip at the nose or on the cloth passes zero, or nearly. */
-static void planar_turn_rail(local *c, regimes_rng *r) {
+static void planar_turn_rail(local *c, lab_random *r) {
   c->w_x = U(-2, 2) * c->v_y / c->R;
   c->v_x = tiny(r) * c->v_y;
   c->w_y = below(r, 2) == 0 ? 0 : tiny(r) * c->v_y / c->R;
 }
 
-static void roll_rail(local *c, regimes_rng *r) {
+static void roll_rail(local *c, lab_random *r) {
   c->v_x = few(r) * c->v_y;
   c->w_x = -c->v_y / c->R, c->w_y = c->v_x / c->R;
   c->w_z = few(r) * c->v_y / c->R;
 }
 
-static void rounding_rail(local *c, regimes_rng *r) {
+static void rounding_rail(local *c, lab_random *r) {
   const double v = c->v_y, cosine = sqrt(1 - c->sine * c->sine);
   c->v_x = few(r) * v;
   c->w_y = (c->v_x - tiny(r) * v) / c->R;
@@ -194,7 +187,7 @@ static void rounding_rail(local *c, regimes_rng *r) {
   c->w_z = below(r, 2) == 0 ? few(r) * v / c->R : (c->v_x / c->R + c->w_y * c->sine + tiny(r) * v / c->R) / cosine;
 }
 
-static void equal_rail(local *c, regimes_rng *r) {
+static void equal_rail(local *c, lab_random *r) {
   const double w = c->v_y / c->R;
   c->mu_c = c->mu_w = share(r);
   if (below(r, 2) == 0)
@@ -206,7 +199,7 @@ static void equal_rail(local *c, regimes_rng *r) {
 }
 
 /* The nose at the height of the centre, or nearly. */
-static void centre_rail(local *c, regimes_rng *r) {
+static void centre_rail(local *c, lab_random *r) {
   equal_rail(c, r);
   c->mu_c = friction(r), c->mu_w = friction(r);
   c->sine = below(r, 2) == 0 ? 0 : tiny(r);
@@ -216,7 +209,7 @@ static void centre_rail(local *c, regimes_rng *r) {
 
 /* The friction of the nose is exactly what unloads the cloth, or holds the nose while the cloth slips to either side or bears
  * nothing, or what holds both; or that of the cloth is what holds both. The formulas: impact/law.h and contact.c. */
-static void cone_rail(local *c, regimes_rng *r) {
+static void cone_rail(local *c, lab_random *r) {
   if (below(r, 2) == 0)
     planar_turn_rail(c, r);
   else
@@ -232,10 +225,10 @@ static void cone_rail(local *c, regimes_rng *r) {
     c->mu_w = fmin(1, fabs(edges[edge]) * (1 + tiny(r)));
 }
 
-static void grazing_rail(local *c, regimes_rng *r) {
-  const double v = log_uniform(r, 0.05, 8);
+static void grazing_rail(local *c, lab_random *r) {
+  const double v = lab_log_uniform(r, 0.05, 8);
   c->v_x = sign(r) * v;
-  c->v_y = v * log_uniform(r, 1e-9, 1e-3);
+  c->v_y = v * lab_log_uniform(r, 1e-9, 1e-3);
   if (below(r, 3) == 0)
     c->w_x = -c->v_y / c->R, c->w_y = c->v_x / c->R;
   else if (below(r, 2) == 0)
@@ -244,8 +237,8 @@ static void grazing_rail(local *c, regimes_rng *r) {
 
 /* ---- All kinds ---- */
 
-typedef void change_balls(carom_local *c, regimes_rng *r);
-typedef void change_rail(local *c, regimes_rng *r);
+typedef void change_balls(carom_local *c, lab_random *r);
+typedef void change_rail(local *c, lab_random *r);
 
 static const struct {
   const char *name;
@@ -282,8 +275,8 @@ bool coincidence_of_cushion(int kind) {
 }
 
 coincidence coincidence_draw(int kind, uint64_t seed, uint64_t k) {
-  regimes_rng state = {(seed * 0x9E3779B97F4A7C15u) ^ (k * 0xD1B54A32D192ED03u + (uint64_t)kind * 0x2545f4914f6cdd1du)},
-              *r = &state;
+  lab_random state = {(seed * 0x9E3779B97F4A7C15u) ^ (k * 0xD1B54A32D192ED03u + (uint64_t)kind * 0x2545f4914f6cdd1du)},
+             *r = &state;
   coincidence d = {.cushion = kinds[kind].rail != NULL, .slip = k % 2 == 0 ? CAROM_SLIP_PAPER : CAROM_SLIP_POOLTOOL};
   U(0, 1);
   if (d.cushion) {

@@ -2,52 +2,12 @@
  * by none, so that zeros stay zero. A number of its own seeds every draw: any of them can be made again alone. */
 #include "draws.h"
 
-#include "ball_ball/frame.h"
+#include "regimes.h"
 
-#include <math.h>
-#include <string.h>
+#define U(low, high) lab_uniform(r, low, high)
 
-#define U(low, high) regimes_uniform(r, low, high)
-
-static bool chance(regimes_rng *r, double p) {
+static bool chance(lab_random *r, double p) {
   return U(0, 1) < p;
-}
-static double log_uniform(regimes_rng *r, double low, double high) {
-  return exp(U(log(low), log(high)));
-}
-
-carom_impact draw_turned(const carom_local *c, double angle) {
-  const double y[2] = {sin(angle), cos(angle)}, x[2] = {y[1], -y[0]};
-  carom_impact in = {.a = {.w = {0, 0, c->w_iz}, .radius = c->R, .mass = c->M_i, .mu_cloth = c->mu_i},
-                     .b = {.w = {0, 0, c->w_jz}, .radius = c->R, .mass = c->M_j, .mu_cloth = c->mu_j},
-                     .mu_ball = c->mu_b,
-                     .restitution = c->e};
-  for (int k = 0; k < 2; k++) {
-    in.b.r[k] = 2 * c->R * y[k];
-    in.a.v[k] = x[k] * c->v_ix + y[k] * c->v_iy;
-    in.b.v[k] = x[k] * c->v_jx + y[k] * c->v_jy;
-    in.a.w[k] = x[k] * c->w_ix + y[k] * c->w_iy;
-    in.b.w[k] = x[k] * c->w_jx + y[k] * c->w_jy;
-  }
-  return in;
-}
-
-/* The same collision seen from the other side, the second ball named first. */
-static carom_local exchanged(const carom_local *c) {
-  carom_local o = *c;
-  o.v_ix = -c->v_jx, o.v_iy = -c->v_jy, o.w_ix = -c->w_jx, o.w_iy = -c->w_jy, o.w_iz = c->w_jz;
-  o.v_jx = -c->v_ix, o.v_jy = -c->v_iy, o.w_jx = -c->w_ix, o.w_jy = -c->w_iy, o.w_jz = c->w_iz;
-  o.M_i = c->M_j, o.M_j = c->M_i, o.mu_i = c->mu_j, o.mu_j = c->mu_i;
-  return o;
-}
-
-/* A ball of velocity (v_x, v_y) with the share `roll` of the spin of rolling and surface speed `side` of sidespin. */
-static void set_ball(carom_local *c, bool second, double v_x, double v_y, double roll, double side) {
-  *(second ? &c->v_jx : &c->v_ix) = v_x;
-  *(second ? &c->v_jy : &c->v_iy) = v_y;
-  *(second ? &c->w_jx : &c->w_ix) = -v_y * roll / c->R;
-  *(second ? &c->w_jy : &c->w_iy) = v_x * roll / c->R;
-  *(second ? &c->w_jz : &c->w_iz) = side / c->R;
 }
 
 /* Balls meet: one that would not has its velocity along the line of centres reversed. */
@@ -56,21 +16,21 @@ static void make_approach(carom_local *c) {
     c->v_jy -= 2 * (c->v_jy - c->v_iy) + 0.01;
 }
 
-static carom_impact realistic(double s, regimes_rng *r) {
+static carom_impact realistic(double s, lab_random *r) {
   carom_local c = {.R = chance(r, 0.5) ? 0.028575 : 0.02625, .M_i = U(0.1, 0.25), .s = s};
-  c.M_j = c.M_i * (chance(r, 0.5) ? 1 : log_uniform(r, 0.5, 2));
+  c.M_j = c.M_i * (chance(r, 0.5) ? 1 : lab_log_uniform(r, 0.5, 2));
   if (chance(r, 0.5)) {
     c.mu_b = U(0, 0.2), c.mu_i = U(0, 0.5), c.e = U(0.5, 1);
     c.mu_j = chance(r, 0.5) ? c.mu_i : U(0, 0.5);
   } else
     c.mu_b = U(0.02, 0.12), c.mu_i = c.mu_j = U(0.1, 0.4), c.e = U(0.85, 0.99);
-  const double v = log_uniform(r, 0.05, 10);
+  const double v = lab_log_uniform(r, 0.05, 10);
   for (int j = 0; j < 2; j++) {
     /* the second rests in half of the draws, and else goes any way but with the first */
     const double speed = j == 0 ? v : chance(r, 0.5) ? 0 : v * U(0, 1), angle = j == 0 ? U(-1.5, 1.5) : U(1.6, 4.6);
     const double roll = chance(r, 0.3) ? 1 : chance(r, 0.15) ? 0 : U(-2, 1.5);
     const double side = speed == 0 && chance(r, 0.7) ? 0 : U(-1, 1) * (chance(r, 0.2) ? 4 : 1) * v;
-    set_ball(&c, j, speed * sin(angle), speed * cos(angle), roll, side);
+    draw_ball(&c, j, speed * sin(angle), speed * cos(angle), roll, side);
     if (speed > 0 && chance(r, 0.15)) {
       *(j ? &c.w_jx : &c.w_ix) += U(-1, 1) * v / c.R;
       *(j ? &c.w_jy : &c.w_iy) += U(-1, 1) * v / c.R;
@@ -78,34 +38,34 @@ static carom_impact realistic(double s, regimes_rng *r) {
   }
   make_approach(&c);
   if (chance(r, 0.5))
-    c = exchanged(&c);
+    c = draw_exchanged(&c);
   return draw_turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
 }
 
 /* A share that is often 0 or 1, or near to it. */
-static double corner(regimes_rng *r) {
-  return chance(r, 0.1) ? 0 : chance(r, 0.1) ? 1 : chance(r, 0.3) ? log_uniform(r, 1e-9, 1) : U(0, 1);
+static double corner(lab_random *r) {
+  return chance(r, 0.1) ? 0 : chance(r, 0.1) ? 1 : chance(r, 0.3) ? lab_log_uniform(r, 1e-9, 1) : U(0, 1);
 }
-static double any(regimes_rng *r, double scale) {
-  return chance(r, 0.15) ? 0 : (chance(r, 0.5) ? 1 : -1) * scale * (chance(r, 0.5) ? log_uniform(r, 1e-6, 1e3) : U(0, 2));
+static double any(lab_random *r, double scale) {
+  return chance(r, 0.15) ? 0 : (chance(r, 0.5) ? 1 : -1) * scale * (chance(r, 0.5) ? lab_log_uniform(r, 1e-6, 1e3) : U(0, 2));
 }
 
-static carom_impact extreme(double s, regimes_rng *r) {
-  carom_local c = {.R = log_uniform(r, 1e-3, 1), .M_i = log_uniform(r, 1e-2, 10), .s = s};
-  c.M_j = c.M_i * (chance(r, 0.3) ? 1 : log_uniform(r, 1e-3, 1e3));
+static carom_impact extreme(double s, lab_random *r) {
+  carom_local c = {.R = lab_log_uniform(r, 1e-3, 1), .M_i = lab_log_uniform(r, 1e-2, 10), .s = s};
+  c.M_j = c.M_i * (chance(r, 0.3) ? 1 : lab_log_uniform(r, 1e-3, 1e3));
   c.mu_b = corner(r), c.mu_i = corner(r), c.e = corner(r);
   c.mu_j = chance(r, 0.5) ? c.mu_i : corner(r);
-  const double v = log_uniform(r, 1e-6, 1e4);
+  const double v = lab_log_uniform(r, 1e-6, 1e4);
   for (int j = 0; j < 2; j++)
-    set_ball(&c, j, any(r, v), any(r, v), chance(r, 0.3) ? 1 : any(r, 1), any(r, v));
+    draw_ball(&c, j, any(r, v), any(r, v), chance(r, 0.3) ? 1 : any(r, 1), any(r, v));
   make_approach(&c);
   return draw_turned(&c, chance(r, 0.5) ? 0 : U(-3.2, 3.2));
 }
 
 carom_impact draw_collision(draw_kind kind, carom_slip slip, uint64_t seed, uint64_t k) {
   /* states of neighbouring draws are far apart in the generator's sequence */
-  regimes_rng r = {(seed * 0x9E3779B97F4A7C15u) ^ (k * 0xD1B54A32D192ED03u + (uint64_t)slip)};
-  regimes_uniform(&r, 0, 1);
+  lab_random r = {(seed * 0x9E3779B97F4A7C15u) ^ (k * 0xD1B54A32D192ED03u + (uint64_t)slip)};
+  lab_uniform(&r, 0, 1);
   const double s = carom_spin_sign(slip);
   switch (kind) {
   case DRAW_REALISTIC:
@@ -118,29 +78,29 @@ carom_impact draw_collision(draw_kind kind, carom_slip slip, uint64_t seed, uint
 }
 
 carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k) {
-  regimes_rng state = {seed * 0x2545f4914f6cdd1du + k * 0x9e3779b97f4a7c15u};
+  lab_random state = {seed * 0x2545f4914f6cdd1du + k * 0x9e3779b97f4a7c15u};
   const bool any = kind == CUSHION_ANY;
-  const double degree = 3.14159265358979323846 / 180, speed = regimes_uniform(&state, 0.05, 5),
-               turn = regimes_uniform(&state, -180, 180) * degree;
+  const double degree = 3.14159265358979323846 / 180, speed = lab_uniform(&state, 0.05, 5),
+               turn = lab_uniform(&state, -180, 180) * degree;
   /* from square to grazing, on both sides */
-  const double angle = regimes_uniform(&state, -89.5, 89.5) * degree, spin = any ? 300 : 100;
+  const double angle = lab_uniform(&state, -89.5, 89.5) * degree, spin = any ? 300 : 100;
   carom_cushion_impact in = {.normal = {cos(turn), sin(turn)},
                              .v = {speed * cos(turn + angle), speed * sin(turn + angle)},
-                             .radius = regimes_uniform(&state, 0.025, 0.031),
-                             .mass = regimes_uniform(&state, 0.13, 0.21),
-                             .mu_cloth = any ? regimes_uniform(&state, 0, 1) : regimes_uniform(&state, 0.1, 0.4),
-                             .mu_cushion = any ? regimes_uniform(&state, 0, 1) : regimes_uniform(&state, 0.1, 0.4),
-                             .restitution = any ? regimes_uniform(&state, 0, 1) : regimes_uniform(&state, 0.6, 1),
-                             .jaw_radius = regimes_uniform(&state, 0, 1) < 0.5 ? 0 : regimes_uniform(&state, 0.005, 0.03)};
-  in.height = in.radius * (any ? regimes_uniform(&state, 0.05, 1.95) : regimes_uniform(&state, 1.2, 1.45));
+                             .radius = lab_uniform(&state, 0.025, 0.031),
+                             .mass = lab_uniform(&state, 0.13, 0.21),
+                             .mu_cloth = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.1, 0.4),
+                             .mu_cushion = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.1, 0.4),
+                             .restitution = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.6, 1),
+                             .jaw_radius = lab_uniform(&state, 0, 1) < 0.5 ? 0 : lab_uniform(&state, 0.005, 0.03)};
+  in.height = in.radius * (any ? lab_uniform(&state, 0.05, 1.95) : lab_uniform(&state, 1.2, 1.45));
   for (int c = 0; c < 3; c++)
-    in.w[c] = regimes_uniform(&state, -spin, spin);
-  const double what = regimes_uniform(&state, 0, 1);
+    in.w[c] = lab_uniform(&state, -spin, spin);
+  const double what = lab_uniform(&state, 0, 1);
   if (what < 0.3) { /* a rolling ball, with side */
     in.w[0] = -in.v[1] / in.radius;
     in.w[1] = in.v[0] / in.radius;
   } else if (what < 0.4) { /* a perpendicular one, with top or draw but no side */
-    const double top = regimes_uniform(&state, -1, 1) * spin;
+    const double top = lab_uniform(&state, -1, 1) * spin;
     in = (carom_cushion_impact){.v = {0, speed, 0},
                                 .w = {what < 0.35 ? top : -speed / in.radius, 0, 0},
                                 .normal = {0, 1},

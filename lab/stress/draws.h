@@ -2,12 +2,10 @@
 #ifndef CAROM_LAB_DRAWS_H
 #define CAROM_LAB_DRAWS_H
 
-#include "regimes.h"
-
-#include "ball_ball/frame.h"
 #include "carom_shot.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 /* Kinds of collisions: those of play, with any speed, spin and cut that it has, mu_b <= 0.2, mu <= 0.5, e >= 0.5, masses within
  * 1 : 2; those of regimes.h, in turn; and everything that is accepted at all. */
@@ -27,8 +25,5 @@ carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k);
 
 /* Largest difference of v and R w, over the largest of them before the impact. */
 double cushion_distance(const carom_cushion_impact *in, const carom_motion *a, const carom_motion *b);
-
-/* A collision of the frame of ball_ball/frame.h, its line of centres turned from the y axis by an angle, rad. */
-carom_impact draw_turned(const carom_local *c, double angle);
 
 #endif

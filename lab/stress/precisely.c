@@ -1,8 +1,7 @@
 #include "precisely.h"
 
-#include "ball_ball/precise.h"
-#include "cushion/frame.h"
-#include "cushion/mathavan.h"
+#include "ball_ball/reduced.h"
+#include "cushion/models.h"
 
 #include <math.h>
 

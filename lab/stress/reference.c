@@ -19,7 +19,7 @@
  * are located by repeating a step with other lengths: the end of compression, v = 0; the end of the impact, where e^2 of the
  * work of compression is given back; and a load that passes zero.
  *
- * JUDGEMENT. Each impact is integrated with tolerances and eps that tighten until two solutions in a row agree, and again with
+ * CHECKS. Each impact is integrated with tolerances and eps that tighten until two solutions in a row agree, and again with
  * initial slips and approach changed by about one rounding error of the input. */
 #include "reference.h"
 
@@ -487,7 +487,7 @@ static bool integrate(const rule *r, const equations *q, const tolerances *t, im
   return false;
 }
 
-/* ---- Judgement ---- */
+/* ---- Checks ---- */
 
 /* The largest velocity or spin, and the largest difference of two meetings. */
 static real fastest(const meeting *a) {
@@ -530,7 +530,7 @@ static double nudged(double x, int n, int c) {
 /* Variant n of an impact: its meeting and parameters; false if it does not approach. */
 typedef bool set_up(const void *in, int slip, int n, meeting *k, equations *q);
 
-static reference_status judge(set_up *prepare, const void *in, int slip, meeting *out, reference_story *story) {
+static reference_status solve_checked(set_up *prepare, const void *in, int slip, meeting *out, reference_story *story) {
   enum { VARIANTS = 3 };
   const rule r = make_rule();
   meeting start;
@@ -638,7 +638,7 @@ reference_status reference_collide(const carom_impact *in, carom_slip slip, caro
   const real R = in->a.radius, unit = 1 / (1 / (real)in->a.mass + 1 / (real)in->b.mass);
   meeting end;
   direction(in->b.r[0] - in->a.r[0], in->b.r[1] - in->a.r[1], pair.y);
-  const reference_status status = judge(set_up_balls, &pair, (int)slip, &end, story);
+  const reference_status status = solve_checked(set_up_balls, &pair, (int)slip, &end, story);
   *out = (carom_result){as_seen(&end.ball[0], R, pair.y), as_seen(&end.ball[1], R, pair.y)};
   if (story != NULL) {
     story->P *= (double)unit;
@@ -651,7 +651,7 @@ reference_status reference_cushion(const carom_cushion_impact *in, carom_motion 
   meeting end;
   real y[2];
   direction(in->normal[0], in->normal[1], y);
-  const reference_status status = judge(set_up_cushion, in, 0, &end, story);
+  const reference_status status = solve_checked(set_up_cushion, in, 0, &end, story);
   *out = as_seen(&end.ball[0], in->radius, y);
   if (story != NULL) {
     story->P *= in->mass;

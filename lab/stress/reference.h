@@ -10,7 +10,7 @@
 typedef enum reference_status {
   REFERENCE_OK,
   REFERENCE_SEPARATING, /* nothing approaches; the motion is that before */
-  REFERENCE_ROUNDING,   /* the result depends on rounding errors of the input: it is given, and no judge */
+  REFERENCE_ROUNDING,   /* the result depends on rounding errors of the input: it is given, but not to be relied on */
   REFERENCE_FAILED,     /* the integration did not end, or its tolerances disagree */
 } reference_status;
 

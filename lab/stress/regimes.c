@@ -2,11 +2,6 @@
  * (in half of the draws by none, so that zeros stay exactly zero). */
 #include "regimes.h"
 
-#include "ball_ball/frame.h"
-
-#include <math.h>
-#include <string.h>
-
 /* clang-format off */
 #define REGIMES(X)                                                                                                 \
   X(real_shot) X(slow) X(fast) X(grazing) X(head_on) X(draw) X(follow) X(stun) X(sidespin) X(both_moving)          \
@@ -36,44 +31,49 @@ const char *regimes_name(int regime) {
   return names[regime];
 }
 
-static uint64_t next(regimes_rng *r) /* splitmix64 */
-{
-  uint64_t z = (r->state += 0x9E3779B97F4A7C15u);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
+#define U(low, high) lab_uniform(r, low, high)
+static int one_in(lab_random *r, unsigned n) {
+  return lab_bits(r) % n == 0;
 }
-double regimes_uniform(regimes_rng *r, double low, double high) {
-  return low + (high - low) * ((double)(next(r) >> 11) * 0x1p-53);
-}
-#define U(low, high) regimes_uniform(r, low, high)
-static double log_uniform(regimes_rng *r, double low, double high) {
-  return exp(U(log(low), log(high)));
-}
-static int one_in(regimes_rng *r, unsigned n) {
-  return next(r) % n == 0;
-}
-static double sign(regimes_rng *r) {
+static double sign(lab_random *r) {
   return one_in(r, 2) ? 1 : -1;
 }
 
-/* A ball of speed v at angle phi to y, rolling with share `roll` (1 rolls, 0 slides, -1 spins backward), side spin R w_z =
- * side. */
-static void move(carom_local *c, int j, double v, double phi, double roll, double side) {
-  const double v_x = v * sin(phi), v_y = v * cos(phi), w_x = -v_y * roll / c->R, w_y = v_x * roll / c->R;
-  if (j) {
-    c->v_jx = v_x;
-    c->v_jy = v_y;
-    c->w_jx = w_x;
-    c->w_jy = w_y;
-    c->w_jz = side / c->R;
-  } else {
-    c->v_ix = v_x;
-    c->v_iy = v_y;
-    c->w_ix = w_x;
-    c->w_iy = w_y;
-    c->w_iz = side / c->R;
+carom_impact draw_turned(const carom_local *c, double angle) {
+  const double y[2] = {sin(angle), cos(angle)}, x[2] = {y[1], -y[0]};
+  carom_impact in = {.a = {.w = {0, 0, c->w_iz}, .radius = c->R, .mass = c->M_i, .mu_cloth = c->mu_i},
+                     .b = {.w = {0, 0, c->w_jz}, .radius = c->R, .mass = c->M_j, .mu_cloth = c->mu_j},
+                     .mu_ball = c->mu_b,
+                     .restitution = c->e};
+  for (int k = 0; k < 2; k++) {
+    in.b.r[k] = 2 * c->R * y[k];
+    in.a.v[k] = x[k] * c->v_ix + y[k] * c->v_iy;
+    in.b.v[k] = x[k] * c->v_jx + y[k] * c->v_jy;
+    in.a.w[k] = x[k] * c->w_ix + y[k] * c->w_iy;
+    in.b.w[k] = x[k] * c->w_jx + y[k] * c->w_jy;
   }
+  return in;
+}
+
+carom_local draw_exchanged(const carom_local *c) {
+  carom_local o = *c;
+  o.v_ix = -c->v_jx, o.v_iy = -c->v_jy, o.w_ix = -c->w_jx, o.w_iy = -c->w_jy, o.w_iz = c->w_jz;
+  o.v_jx = -c->v_ix, o.v_jy = -c->v_iy, o.w_jx = -c->w_ix, o.w_jy = -c->w_iy, o.w_jz = c->w_iz;
+  o.M_i = c->M_j, o.M_j = c->M_i, o.mu_i = c->mu_j, o.mu_j = c->mu_i;
+  return o;
+}
+
+void draw_ball(carom_local *c, bool second, double v_x, double v_y, double roll, double side) {
+  *(second ? &c->v_jx : &c->v_ix) = v_x;
+  *(second ? &c->v_jy : &c->v_iy) = v_y;
+  *(second ? &c->w_jx : &c->w_ix) = -v_y * roll / c->R;
+  *(second ? &c->w_jy : &c->w_iy) = v_x * roll / c->R;
+  *(second ? &c->w_jz : &c->w_iz) = side / c->R;
+}
+
+/* A ball of speed v at angle phi to y. */
+static void move(carom_local *c, int j, double v, double phi, double roll, double side) {
+  draw_ball(c, j != 0, v * sin(phi), v * cos(phi), roll, side);
 }
 
 /* Sets u_x and u_z exactly as far as rounding lets, by the side spin of i and the spin of j (keeping its cloth slip free). */
@@ -96,7 +96,7 @@ static void set_cloth_slip(carom_local *c, double d_x, double d_y) {
   }
 }
 
-carom_impact regimes_draw(int regime, double s, regimes_rng *r) {
+carom_impact regimes_draw(int regime, double s, lab_random *r) {
   carom_local c = {0};
   c.R = one_in(r, 2) ? 0.028575 : 0.02619375;
   c.M_i = c.M_j = U(0.1, 0.25);
@@ -105,7 +105,7 @@ carom_impact regimes_draw(int regime, double s, regimes_rng *r) {
   c.mu_j = one_in(r, 2) ? c.mu_i : U(0.1, 0.5);
   c.e = U(0.85, 0.98);
   c.s = s;
-  const double v = log_uniform(r, 0.05, 8);
+  const double v = lab_log_uniform(r, 0.05, 8);
   const double cut = U(-1.4, 1.4), roll = U(-1.5, 1.2), side = U(-1.2, 1.2) * v;
   move(&c, 0, v, cut, roll, side);
   const double v_y = c.v_iy; /* approach speed so far */
@@ -114,13 +114,13 @@ carom_impact regimes_draw(int regime, double s, regimes_rng *r) {
   case R_real_shot:
     break;
   case R_slow:
-    move(&c, 0, log_uniform(r, 1e-4, 0.05), cut, roll, 0.01 * side);
+    move(&c, 0, lab_log_uniform(r, 1e-4, 0.05), cut, roll, 0.01 * side);
     break;
   case R_fast:
     move(&c, 0, U(8, 30), cut, roll, U(-40, 40));
     break;
   case R_grazing:
-    move(&c, 0, v, sign(r) * (1.5707963267948966 - log_uniform(r, 1e-6, 0.15)), roll, side);
+    move(&c, 0, v, sign(r) * (1.5707963267948966 - lab_log_uniform(r, 1e-6, 0.15)), roll, side);
     break;
   case R_head_on:
     move(&c, 0, v, one_in(r, 2) ? 0 : U(-0.02, 0.02), roll, one_in(r, 2) ? 0 : U(-0.1, 0.1) * v);
@@ -163,7 +163,7 @@ carom_impact regimes_draw(int regime, double s, regimes_rng *r) {
   }
   case R_stick_at_v0:
   case R_stick_at_end: { /* exact without cloth friction for pure x or z */
-    const double p = (regime == R_stick_at_v0 ? p_c : p_f) * (one_in(r, 3) ? 1 : 1 + sign(r) * log_uniform(r, 1e-15, 1e-3));
+    const double p = (regime == R_stick_at_v0 ? p_c : p_f) * (one_in(r, 3) ? 1 : 1 + sign(r) * lab_log_uniform(r, 1e-15, 1e-3));
     const int z = one_in(r, 2);
     if (z && one_in(r, 2))
       c.mu_i = c.mu_j = 0;
@@ -181,7 +181,7 @@ carom_impact regimes_draw(int regime, double s, regimes_rng *r) {
   case R_turn:
   case R_turn_exact:
   case R_turn_stick: {
-    const double along = U(0.02, 1) * p_f, aside = regime == R_turn_exact ? 0 : sign(r) * p_f * log_uniform(r, 1e-12, 1e-1),
+    const double along = U(0.02, 1) * p_f, aside = regime == R_turn_exact ? 0 : sign(r) * p_f * lab_log_uniform(r, 1e-12, 1e-1),
                  on_i = sign(r);
     if (regime == R_turn_stick) {
       const double a = U(0, 6.3), u = U(4, 8) * c.mu_b * p_f * U(0.3, 1);
@@ -200,7 +200,7 @@ carom_impact regimes_draw(int regime, double s, regimes_rng *r) {
     break;
   }
   case R_near_rest: {
-    const double a = U(0, 6.3), d = p_f * log_uniform(r, 1e-12, 0.3);
+    const double a = U(0, 6.3), d = p_f * lab_log_uniform(r, 1e-12, 0.3);
     set_cloth_slip(&c, d * cos(a), d * sin(a));
     break;
   }
@@ -219,7 +219,7 @@ carom_impact regimes_draw(int regime, double s, regimes_rng *r) {
       move(&c, 1, U(0, 1) * v, U(1.6, 4.6), U(-1.5, 1.2), U(-1, 1) * v);
     break;
   case R_restitution_corners:
-    c.e = one_in(r, 3) ? 0 : one_in(r, 2) ? 1 : one_in(r, 2) ? log_uniform(r, 1e-9, 0.1) : U(0, 1);
+    c.e = one_in(r, 3) ? 0 : one_in(r, 2) ? 1 : one_in(r, 2) ? lab_log_uniform(r, 1e-9, 0.1) : U(0, 1);
     break;
   case R_u_z_zero:
     set_slip(&c, one_in(r, 2) ? U(-1, 1) * v : U(-1, 1) * 14 * c.mu_b * p_f, 0);
@@ -236,22 +236,22 @@ carom_impact regimes_draw(int regime, double s, regimes_rng *r) {
     c.w_jx = -c.w_ix;
     break;
   case R_u_z_tiny:
-    set_slip(&c, U(-1, 1) * v, sign(r) * v * log_uniform(r, 1e-16, 1e-2));
+    set_slip(&c, U(-1, 1) * v, sign(r) * v * lab_log_uniform(r, 1e-16, 1e-2));
     break;
   case R_tiny_approach: {
     c.v_jx = c.v_ix * U(0.9, 1.1);
-    c.v_jy = c.v_iy * (1 - log_uniform(r, 1e-12, 1e-2));
+    c.v_jy = c.v_iy * (1 - lab_log_uniform(r, 1e-12, 1e-2));
     if (one_in(r, 2))
       c.w_jx = -c.v_jy / c.R;
     break;
   }
   case R_unequal:
-    c.M_j = c.M_i * log_uniform(r, 0.1, 10);
+    c.M_j = c.M_i * lab_log_uniform(r, 0.1, 10);
     if (one_in(r, 2))
       move(&c, 1, U(0, 1) * v, U(1.6, 4.6), U(-1.5, 1.2), U(-1, 1) * v);
     break;
   case R_very_unequal:
-    c.M_j = c.M_i * log_uniform(r, 1e-3, 1e3);
+    c.M_j = c.M_i * lab_log_uniform(r, 1e-3, 1e3);
     if (one_in(r, 2)) {
       c.mu_b = U(0, 1);
       c.mu_i = U(0, 1);
@@ -264,7 +264,7 @@ carom_impact regimes_draw(int regime, double s, regimes_rng *r) {
     c.mu_i = U(0, 1);
     c.mu_j = U(0, 1);
     c.e = U(0, 1);
-    c.M_j = c.M_i * log_uniform(r, 0.3, 3);
+    c.M_j = c.M_i * lab_log_uniform(r, 0.3, 3);
     move(&c, 0, v, U(-1.5, 1.5), U(-3, 3), U(-3, 3) * v);
     move(&c, 1, U(0, 1) * v, U(1.6, 4.6), U(-3, 3), U(-3, 3) * v);
     break;
@@ -272,41 +272,7 @@ carom_impact regimes_draw(int regime, double s, regimes_rng *r) {
   if (!(c.v_jy < c.v_iy)) {
     c.v_jy = c.v_iy - U(0.01, 1) * (fabs(c.v_iy) + 0.01);
   }
-  if (one_in(r, 2)) { /* let the first ball be the one that is struck */
-    carom_local k = c;
-    c.v_ix = -k.v_jx;
-    c.v_iy = -k.v_jy;
-    c.w_ix = -k.w_jx;
-    c.w_iy = -k.w_jy;
-    c.w_iz = k.w_jz;
-    c.v_jx = -k.v_ix;
-    c.v_jy = -k.v_iy;
-    c.w_jx = -k.w_ix;
-    c.w_jy = -k.w_iy;
-    c.w_jz = k.w_iz;
-    c.M_i = k.M_j;
-    c.M_j = k.M_i;
-    c.mu_i = k.mu_j;
-    c.mu_j = k.mu_i;
-  }
-  carom_impact in;
-  memset(&in, 0, sizeof in);
-  const double turn = one_in(r, 2) ? 0 : U(-3.2, 3.2), y[2] = {sin(turn), cos(turn)}, x[2] = {y[1], -y[0]};
-  for (int k = 0; k < 2; k++) {
-    in.b.r[k] = 2 * c.R * y[k];
-    in.a.v[k] = x[k] * c.v_ix + y[k] * c.v_iy;
-    in.b.v[k] = x[k] * c.v_jx + y[k] * c.v_jy;
-    in.a.w[k] = x[k] * c.w_ix + y[k] * c.w_iy;
-    in.b.w[k] = x[k] * c.w_jx + y[k] * c.w_jy;
-  }
-  in.a.w[2] = c.w_iz;
-  in.b.w[2] = c.w_jz;
-  in.a.radius = in.b.radius = c.R;
-  in.a.mass = c.M_i;
-  in.b.mass = c.M_j;
-  in.a.mu_cloth = c.mu_i;
-  in.b.mu_cloth = c.mu_j;
-  in.mu_ball = c.mu_b;
-  in.restitution = c.e;
-  return in;
+  if (one_in(r, 2)) /* let the first ball be the one that is struck */
+    c = draw_exchanged(&c);
+  return draw_turned(&c, one_in(r, 2) ? 0 : U(-3.2, 3.2));
 }

@@ -19,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
 
 import best_of_many  # noqa: E402
 import fit_cloth  # noqa: E402
+import learn_potting  # noqa: E402
 import smoothness  # noqa: E402
 import ten_million  # noqa: E402
 import throw  # noqa: E402
@@ -173,3 +174,11 @@ def test_ten_million(tmp_path, capsys):
     assert density[18:22, 63:67].sum() > 1.3 * smooth[18:22, 63:67].sum()
     ten_million.main(["--draws", "120000", "--seed", str(SEED), "--threads", "2", "--out", str(tmp_path / "density.png")])
     assert picture(tmp_path / "density.png") and "120,000 collisions" in capsys.readouterr().out
+
+
+def test_learning(tmp_path, capsys):
+    """The policy learns: from every seed it pots at least twice as much, less fouls, on layouts that it has not learnt from."""
+    policy, curve = learn_potting.main(["--generations", "20", "--seed", str(SEED), "--out", str(tmp_path / "learning.svg")])
+    assert curve[0] < 0.25 and curve[-1] > 0.42 and curve[-5:].min() > 2 * curve[0]
+    assert (policy[:2] > 0).all() and policy[3] > 0  # cuts, ways and balls in the way cost something
+    assert picture(tmp_path / "learning.svg") and "at the end" in capsys.readouterr().out

@@ -1,14 +1,16 @@
 """Fits: the sums of C against plays in Python, strikes found again in synthetic recordings, the command and its errors."""
 
+import importlib
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
 from test_tracks import RADIUS, TABLE, csv_of
 
-from carom import _strikes, fit, tracks
+from carom import _constants, _joint, _strikes, fit, tracks
 
-HAN = {"mu_slide": 0.21, "mu_roll": 0.006, "mu_spin": 0.005, "mu_cushion": 0.22, "restitution_cushion": 0.88, "mu_ball": 0.07}
+HAN = {"mu_slide": 0.21, "mu_roll": 0.005, "mu_spin": 0.005, "mu_cushion": 0.22, "restitution_cushion": 0.88, "law_a": 0.05}
 
 
 @pytest.fixture(scope="module")
@@ -21,12 +23,12 @@ def plays(made):
     return _strikes.Plays(made.recordings, TABLE, RADIUS, made.constants, "han")
 
 
-def distances(made, plays, k, strike, until, stride=1):
+def distances(made, constants, k, strike, until, stride=1):
     """Recorded less played places of shot k up to a time, by single calls of simulate."""
     shot = made.recordings[k]
     strikes = np.zeros((len(made.recordings), 6))
     strikes[k] = strike
-    found = fit.Fit(made.recordings, TABLE, RADIUS, "han", made.constants, {}, strikes, ["ok"] * len(strikes), strikes[:, 0])
+    found = fit.Fit(made.recordings, TABLE, RADIUS, "han", constants, {}, strikes, ["ok"] * len(strikes), strikes[:, 0])
     apart = []
     for ball, track in enumerate(shot.tracks):
         rows = track[::stride]
@@ -35,32 +37,36 @@ def distances(made, plays, k, strike, until, stride=1):
     return np.concatenate(apart)
 
 
-@pytest.mark.parametrize(("until", "stride"), [(1.3, 1), (np.inf, 1), (3.0, 3)])
-def test_sums_are_those_of_plays_in_python(made, plays, until, stride):
+@pytest.mark.parametrize(("until", "stride", "drag"), [(1.3, 1, 0.0), (np.inf, 1, 0.0), (3.0, 3, 0.0), (np.inf, 1, 0.013)])
+def test_sums_are_those_of_plays_in_python(made, until, stride, drag):
+    # with drag the ways are cubics that are right to some micrometres, and carom_shoot's to one
+    near, nearer, shape = (1e-3, 1e-3, 1e-2) if drag else (1e-9, 1e-7, 1e-5)
+    constants = {**made.constants, "drag": drag}
+    plays = _strikes.Plays(made.recordings, TABLE, RADIUS, constants, "han")
     n = len(made.strikes)
     strikes = made.strikes + np.random.default_rng(1).normal(0, 3e-3, made.strikes.shape)
     of, ends, most = np.arange(n, dtype=np.int32), np.minimum(until, plays.ends), np.full(n, np.inf)
     sums = plays.misfit(of, strikes, ends, most, stride=stride)
     for k in range(n):
-        d = distances(made, plays, k, strikes[k], ends[k], stride)
+        d = distances(made, constants, k, strikes[k], ends[k], stride)
         square = (d**2).sum(axis=1)
         root = np.sqrt(1 + square / _strikes.HUBER**2)
         assert sums[k, 2] == len(d)
-        assert sums[k, 1] == pytest.approx(square.sum(), rel=1e-9)
-        assert sums[k, 0] == pytest.approx(2 * _strikes.HUBER**2 * (root - 1).sum(), rel=1e-7)
+        assert sums[k, 1] == pytest.approx(square.sum(), rel=near)
+        assert sums[k, 0] == pytest.approx(2 * _strikes.HUBER**2 * (root - 1).sum(), rel=nearer)
         # J by the same differences, in Python
         J = []
         for a in range(6):
             moved = strikes[k].copy()
             moved[a] += _strikes.STEP
-            J.append((distances(made, plays, k, moved, ends[k], stride) - d) / _strikes.STEP)
+            J.append((distances(made, constants, k, moved, ends[k], stride) - d) / _strikes.STEP)
         J = np.array(J)
         square = np.einsum("anx,bnx,n->ab", J, J, 1 / root)
         scale = np.sqrt(np.outer(square.diagonal(), square.diagonal())) + 1e-12
         lower = np.tril_indices(6)
-        assert (np.abs(sums[k, 9:] - square[lower]) <= 1e-5 * scale[lower]).all()
+        assert (np.abs(sums[k, 9:] - square[lower]) <= shape * scale[lower]).all()
         gradient = np.einsum("anx,nx,n->a", J, d, 1 / root)
-        assert np.allclose(sums[k, 3:9], gradient, rtol=1e-5, atol=1e-5 * np.sqrt(square.diagonal() * (d**2).sum()))
+        assert np.allclose(sums[k, 3:9], gradient, rtol=shape, atol=shape * np.sqrt(square.diagonal() * (d**2).sum()))
 
 
 def test_rows_that_are_not_better_have_no_derivatives_and_threads_change_no_bit(made, plays):
@@ -88,51 +94,64 @@ def test_known_constants_give_the_strikes_back(made):
     assert np.median(error, axis=0)[:5].max() < 0.02 and np.median(error[:, 5]) < 1e-3
     # rmse is that of the positions
     places = [found.positions(3, track[:, 0])[:, ball] - track[:, 1:] for ball, track in enumerate(made.recordings[3].tracks)]
-    assert found.rmse[3] == pytest.approx(np.sqrt((np.concatenate(places) ** 2).sum(axis=1).mean()), rel=1e-6)
+    assert found.rmse[3] == pytest.approx(np.sqrt((np.concatenate(places) ** 2).sum(axis=1).mean()), rel=1e-4)
     assert found.plot(3).svg.count("<circle") > sum(map(len, made.recordings[3].tracks))
 
 
 TRUTH = {
-    "mu_slide": 0.21, "mu_roll": 0.006, "mu_spin": 0.006, "mu_cushion": 0.21, "restitution_cushion": 0.89, "mu_ball": 0.065,
-    "restitution": 0.94, "nose_height": 0.0362,
+    "mu_slide": 0.21, "mu_roll": 0.0046, "drag": 0.011, "mu_spin": 0.006, "mu_cushion": 0.21, "restitution_cushion": 0.89, "law_a": 0.04,
+    "law_b": 0.4, "restitution": 0.94, "nose_height": 0.0362, "roll_loss": 0.06,
 }  # fmt: skip
 
 
 def test_unknown_constants_are_found_within_their_spread():
-    made = tracks.synthetic(40, constants=TRUTH, seed=4)
-    told = []
-    found = fit.fit(made.recordings, TABLE, RADIUS, seed=1, threads=-1, progress=lambda what, part: told.append((what, part)))
-    off = {name: (found.constants[name] - value) / found.spread[name] for name, value in TRUTH.items()}
-    # eight constants, of which two may be beyond one and a half standard deviations; none is far from the truth
-    assert sum(abs(z) > 1.5 for z in off.values()) <= 2 and max(map(abs, off.values())) < 3, off
-    assert max(abs(found.constants[name] / value - 1) for name, value in TRUTH.items()) < 0.05
-    # the spreads are no excuse
-    assert all(found.spread[name] < 0.1 * value for name, value in TRUTH.items())
-    # shots are off by less than a tenth of what the usual constants leave
+    off = []
+    for seed in (4, 5):
+        made = tracks.synthetic(24, constants=TRUTH, seed=seed)
+        told = []
+        found = fit.fit(made.recordings, TABLE, RADIUS, seed=1, threads=-1, progress=lambda what, part: told.append((what, part)))
+        off += [(found.constants[name] - value) / found.spread[name] for name, value in TRUTH.items()]
+        # the spreads are no excuse, and shots are off by hardly more than the noise
+        assert all(found.spread[name] < 0.15 * value for name, value in TRUTH.items()), found.spread
+        assert found.median_rmse < 3e-3
+    # 9 in 10 within two standard deviations
+    assert sum(abs(z) < 2 for z in off) >= 0.9 * len(off) and max(map(abs, off)) < 5, off
     usual = fit.fit(made.recordings, TABLE, RADIUS, free="none")
-    assert found.median_rmse < 3e-3 and found.median_rmse < 0.3 * usual.median_rmse
-    assert {what for what, _ in told} == {"events", "strikes", "constants"} and all(0 <= part <= 1 for _, part in told)
+    assert found.median_rmse < 0.3 * usual.median_rmse
+    assert {what for what, _ in told} == {"events", "strikes", "constants", "spread"} and all(0 <= part <= 1 for _, part in told)
 
 
-def test_all_constants_together_are_reproducible_and_fit_no_worse(monkeypatch):
-    pytest.importorskip("cma")
-    monkeypatch.setattr(fit, "_GENERATIONS", 16)
-    monkeypatch.setattr(fit, "_OF_HALVES", 3)
-    made = tracks.synthetic(16, constants=TRUTH, seed=8)
-    default = fit.fit(made.recordings, TABLE, RADIUS, seed=3)
-    joint = fit.fit(made.recordings, TABLE, RADIUS, free="joint", seed=3)
-    again = fit.fit(made.recordings, TABLE, RADIUS, free="joint", seed=3, threads=2)
-    assert again.constants == joint.constants and np.array_equal(again.strikes, joint.strikes)
-    # better by the cost, so hardly worse by the median
-    assert joint.median_rmse < 1.3 * default.median_rmse and set(joint.spread) == set(TRUTH)
-    assert max(abs(joint.constants[name] / value - 1) for name, value in TRUTH.items()) < 0.25
+def test_named_constants_follow_their_priors_and_threads_change_no_bit():
+    made = tracks.synthetic(8, constants=TRUTH, seed=8)
+    start = {**TRUTH, "mu_spin": 0.0045}
+    first, again = (
+        fit.fit(made.recordings, TABLE, RADIUS, constants=start, free=["mu_spin"], seed=3, threads=threads) for threads in (0, 2)
+    )
+    assert again.constants == first.constants and np.array_equal(again.strikes, first.strikes)
+    assert first.constants["mu_spin"] == pytest.approx(0.006, rel=0.05)
+    assert {name: value for name, value in first.constants.items() if name in TRUTH and name != "mu_spin"} == {
+        name: value for name, value in TRUTH.items() if name != "mu_spin"
+    }
+    held = fit.fit(made.recordings, TABLE, RADIUS, constants=start, free=["mu_spin"], priors={"mu_spin": (0.0045, 1e-6)}, seed=3)
+    assert held.constants["mu_spin"] == pytest.approx(0.0045, rel=1e-2)
+    # constants come from the shots of `train` alone
+    part = fit.fit(made.recordings, TABLE, RADIUS, constants=start, free=["mu_spin"], train=range(5), seed=3)
+    alone = fit.fit(made.recordings[:5], TABLE, RADIUS, constants=start, free=["mu_spin"], seed=3)
+    assert part.constants == alone.constants and len(part.rmse) == 8
+
+
+def test_one_number_of_friction_between_balls_is_a_law_without_slip():
+    values = _constants.complete({"mu_ball": 0.07}, "han")
+    assert (values["law_a"], values["law_b"], values["law_c"]) == (0.07, 0.0, 0.0) and "mu_ball" not in values
+    both = _constants.complete({"mu_ball": 0.07, "law_a": 0.05}, "han")
+    assert both["law_a"] == 0.05 and both["law_b"] > 0
 
 
 def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given(made):
-    few = fit.fit(made.recordings[:2], TABLE, RADIUS, cushion_model="mirror", constants={"mu_slide": 0.19, "mu_ball": 0.05})
+    few = fit.fit(made.recordings[:2], TABLE, RADIUS, cushion_model="mirror", constants={"mu_slide": 0.19, "mu_ball": 0.05}, free="events")
     assert "restitution" not in few.spread and few.constants["restitution"] == 0.951
     assert few.constants["mu_slide"] != 0.19 and "mu_cushion" not in few.spread
-    with pytest.raises(ValueError, match="free: must be"):
+    with pytest.raises(ValueError, match="no constant 'all' to fit"):
         fit.fit(made.recordings, TABLE, RADIUS, free="all")
     with pytest.raises(ValueError, match="cushion_model: must be"):
         fit.fit(made.recordings, TABLE, RADIUS, cushion_model="euler")
@@ -170,6 +189,60 @@ def test_the_command_writes_what_it_promises(made, tmp_path, capsys):
     assert "RMSE median" in capsys.readouterr().out
 
 
+def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, monkeypatch):
+    (tmp_path / "tracks.csv").write_text(csv_of(made.recordings[:8]))
+    (tmp_path / "in.json").write_text(json.dumps({**made.constants, "mu_spin": 0.0045}))
+    (tmp_path / "priors.json").write_text(json.dumps({"mu_spin": [0.0045, 0.002]}))
+    out, again, page = (tmp_path / name for name in ("out.json", "again.json", "page.html"))
+    usual = [
+        str(tmp_path / "tracks.csv"), "--table", "2.84,1.42", "--radius", "0.03075", "--constants", str(tmp_path / "in.json"),
+        "--free", "mu_spin", "--priors", str(tmp_path / "priors.json"), "--split",
+    ]  # fmt: skip
+    assert fit.main([*usual, "--summary", str(page), "-o", str(out)]) == 0
+    written = json.loads(out.read_text())
+    assert [shot["train"] for shot in written["shots"]] == [True, False] * 4
+    assert written["constants"]["mu_spin"] == pytest.approx(0.005, rel=0.05)
+    told = capsys.readouterr().out
+    assert "fitted, 4 of 8 shots" in told and "predicted, 4 of 8 shots" in told
+    # one file, with the pictures in it
+    text = page.read_text()
+    assert text.count("<svg") == 8 and "http" not in text.replace("http://www.w3.org/2000/svg", "") and "mu_spin" in text
+    # interrupted in the second of the searches, the same command goes on with the third, and has the same bits
+    stages, done = _joint.Search.stage, []
+
+    def interrupted(self, number, seed):
+        done.append(number)
+        if len(done) == 2:
+            raise KeyboardInterrupt
+        return stages(self, number, seed)
+
+    monkeypatch.setattr(_joint.Search, "stage", interrupted)
+    assert fit.main([*usual, "-o", str(again)]) == 130
+    assert "the same command goes on" in capsys.readouterr().err and not again.exists()
+    assert fit.main([*usual, "-o", str(again)]) == 0
+    assert done[:4] == [0, 1, 1, 2] and again.read_text() == out.read_text()
+    assert not list(tmp_path.glob("*.state*"))
+
+
+def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatch):
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[1] / "examples"))
+    reality = importlib.import_module("reality")
+    made = tracks.synthetic(16, seed=5)
+    (tmp_path / "tracks.csv").write_text(csv_of(made.recordings))
+    reality.main([
+        str(tmp_path / "tracks.csv"), "--table", "2.84,1.42", "--radius", "0.03075", "--models", "han", "--pictures", str(tmp_path / "p"),
+    ])  # fmt: skip
+    told = capsys.readouterr().out
+    rows = {line.split("|")[2].strip(): line.split("|") for line in told.splitlines() if line.startswith("| han")}
+    # constants of single events predict synthetic shots to some millimetres, and those of whole shots better
+    assert max(map(float, rows["single events"][3].split("and"))) < 3.0
+    assert max(map(float, rows["single events, then whole shots"][3].split("and"))) < 1.0
+    assert f"({made.constants['mu_roll'] * 9.81:.3f}"[:5] in told and "m/s² |" in told
+    names = sorted(path.name for path in (tmp_path / "p").iterdir())
+    assert names == [f"reality-{name}.svg" for name in ("cushion", "hits", "rmse", "rolling", "sliding")]
+    assert all((tmp_path / "p" / name).read_text().startswith("<svg") for name in names)
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -180,6 +253,7 @@ def test_the_command_writes_what_it_promises(made, tmp_path, capsys):
         ({"--constants": '{"mu_roll": "a"}'}, "mu_roll must be a finite number"),
         ({"--constants": "[]"}, "an object of constants is needed"),
         ({"--constants": "{"}, "no JSON"),
+        ({"--free": "mu_rol"}, "there is no constant 'mu_rol' to fit; known are"),
     ],
 )
 def test_the_command_tells_what_is_wrong(made, tmp_path, capsys, change, message):

@@ -9,10 +9,12 @@ import importlib
 import os
 import pickle
 import shutil
+import subprocess
 import sys
 import tempfile
 import types
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -126,17 +128,17 @@ def flat(rvw):
     return np.concatenate([rvw[..., 0, :], rvw[..., 1, :], 0.03 * rvw[..., 2, :]], axis=-1)
 
 
-def amplification(system):
+def amplification(system, engine):
     """For each event: by how much a change of 1e-13 moves its time and states, over that change; as far as events are the same."""
     table, balls, cue = bridge.table_of(system.table), bridge.balls_of(system), bridge.cue_of(system)
-    one = carom.simulate(table, balls, cue, world="pooltool")
+    one = bridge._play_by(engine, table, balls, cue)
     same, change = one.count, np.ones(one.count)
     for k in range(4):
         moved, struck = balls.copy(), cue.copy()
         moved["state"]["r"][..., :2] += np.random.default_rng(k).uniform(-1e-13, 1e-13, (len(balls), 2))
         struck["speed"] *= 1 + 1e-13
         struck["phi"] += 1e-13
-        other = carom.simulate(table, moved, struck, world="pooltool")
+        other = bridge._play_by(engine, table, moved, struck)
         count = min(same, other.count)
         mine, theirs = one.events[:count], other.events[:count]
         differ = (mine["type"] != theirs["type"]) | (mine["a"] != theirs["a"]) | (mine["b"] != theirs["b"])
@@ -156,13 +158,26 @@ def same_ball(mine, theirs, allowed):
     assert np.abs(flat(mine.state.rvw) - flat(theirs.state.rvw)).max() <= allowed
 
 
-def compare(system, played=bridge.simulate):
-    """How many events were compared, of how many."""
+def apart(ours, event):
+    """The largest difference of the states that an event leaves."""
+    agents = [(a.final, b.final) for a, b in zip(ours.agents, event.agents) if a.agent_type == b.agent_type == "ball"]
+    return max((np.abs(flat(a.state.rvw) - flat(b.state.rvw)).max() for a, b in agents), default=0.0)
+
+
+def compare(system, engine=bridge._simulate.DEFAULT_ENGINE, jump=0.0):
+    """How many events were compared, of how many.
+
+    A model of so many steps may take one step more or less by rounding: the first difference up to `jump` ends the comparison.
+    """
     before = system.copy()
-    theirs = pt.simulate(system)
-    mine = played(system)
+    try:
+        theirs = pt.simulate(system, engine)
+    except ValueError as error:  # the head of pooltool's repository has no answer for two balls that slow down alike
+        assert "Leading coefficient" in str(error)
+        return 0, 0
+    mine = bridge.simulate(system, engine)
     assert mine is not system and not system.simulated and system.balls == before.balls
-    same, change = amplification(system)
+    same, change = amplification(system, engine)
     whole = same == len(theirs.events) - 2
     if whole:
         assert len(mine.events) == len(theirs.events)
@@ -171,6 +186,8 @@ def compare(system, played=bridge.simulate):
         allowed = 1e-12 + 5e-12 * (change[k - 1] if k else 1)
         assert (ours.event_type, ours.ids) == (event.event_type, event.ids)
         assert abs(ours.time - event.time) <= allowed
+        if allowed < apart(ours, event) < jump:
+            return k, len(theirs.events) - 1
         for one, other in zip(ours.agents, event.agents, strict=True):
             assert one.agent_type == other.agent_type
             for state in ("initial", "final"):
@@ -203,6 +220,48 @@ def test_random_shots(family):
     assert compared[0] >= 0.9 * compared[1], compared
 
 
+def engine(ball_ball=None, **cushions):
+    """The default engine with other models."""
+    made = new_engine()
+    made.resolver.ball_ball = ball_ball or made.resolver.ball_ball
+    for part in ("linear", "circular"):
+        if part in cushions:
+            setattr(made.resolver, f"ball_{part}_cushion", cushions[part])
+    return made
+
+
+new_engine = getattr(pt.evolution, "SimulationEngine", None) or pt.physics.PhysicsEngine  # the second in pooltool 0.6
+of_friction = importlib.import_module("pooltool.physics.resolve.ball_ball.friction")
+inelastic = importlib.import_module("pooltool.physics.resolve.ball_ball.frictional_inelastic").FrictionalInelastic
+mathavan = importlib.import_module("pooltool.physics.resolve.ball_ball.frictional_mathavan").FrictionalMathavan
+frictionless = importlib.import_module("pooltool.physics.resolve.ball_ball.frictionless_elastic").FrictionlessElastic
+stronge = importlib.import_module("pooltool.physics.resolve.ball_cushion.stronge_compliant.model")
+han = importlib.import_module("pooltool.physics.resolve.ball_cushion.han_2005.model")
+steps = importlib.import_module("pooltool.physics.resolve.ball_cushion.mathavan_2010.model")
+mirror = importlib.import_module("pooltool.physics.resolve.ball_cushion.unrealistic")
+ENGINES = {
+    "frictionless": lambda: engine(frictionless(), linear=mirror.UnrealisticLinear(), circular=mirror.UnrealisticCircular(True)),
+    "average friction": lambda: engine(inelastic(friction=of_friction.AverageBallBallFriction())),
+    "own law": lambda: engine(inelastic(friction=of_friction.AlciatoreBallBallFriction(0.02, 0.2, 0.5))),
+    "no friction": lambda: engine(inelastic(friction=of_friction.AlciatoreBallBallFriction(0.0, 0.0, 0.0))),
+    "own ratio": lambda: engine(linear=stronge.StrongeCompliantLinear(1.5), circular=stronge.StrongeCompliantCircular(1.5)),
+    "han": lambda: engine(linear=han.Han2005Linear(), circular=han.Han2005Circular()),
+    "steps": lambda: engine(mathavan(num_iterations=400), linear=steps.Mathavan2010Linear(400), circular=steps.Mathavan2010Circular(400)),
+    "exact": lambda: engine(bridge.ExactBallBall(), linear=bridge.ExactLinearCushion(), circular=bridge.ExactCircularCushion()),
+}
+
+
+@pytest.mark.parametrize("name", ENGINES)
+def test_engines(name):
+    """Every model that carom knows, also carom's own strategies in pooltool's engine."""
+    print(f"CAROM_TEST_SEED={SEED}")
+    rng = np.random.default_rng([SEED, 100 + list(ENGINES).index(name)])
+    jump = 1e-3 if name == "steps" else 0.0
+    played = [compare(family(rng), ENGINES[name](), jump) for family in (layout, bank, pot, nineball_break) for _ in range(3)]
+    compared = np.array(played).sum(axis=0)
+    assert compared[0] >= (0.2 if jump else 0.5) * compared[1], played
+
+
 def test_recorded_shots():
     """The recorded starts, as Systems of the pooltool that is installed."""
     tables = {kind: pt.Table.default(kind) for kind in (pt.TableType.POCKET, pt.TableType.BILLIARD)}
@@ -220,7 +279,8 @@ def test_recorded_shots():
             ball.state = pt.objects.BallState(np.array(state[1:]).reshape(3, 3), state[0])
             balls[given["id"]] = ball
         given = line["cue"]
-        specs = pt.objects.CueSpecs(M=given["M"], end_mass=given["end_mass"], tip_radius=given["tip_radius"])
+        numbers = {key: given[key] for key in ("M", "end_mass", "tip_radius")}
+        specs = attrs.evolve(pt.objects.CueSpecs.default(), **numbers)
         cue = pt.Cue(specs=specs, cue_ball_id=given["ball"], **{key: given[key] for key in ("V0", "phi", "theta", "a", "b")})
         compared += compare(pt.System(cue=cue, table=tables[kind].copy(), balls=balls))[0]
     assert compared > 1000
@@ -273,6 +333,9 @@ def test_objects_made_when_first_looked_at_are_pooltools():
         return looked
 
     expected = plain()
+    fresh = bridge.simulate(system)
+    assert repr(fresh.balls["1"]) == repr(expected.balls["1"])
+    assert repr(fresh.events[1].agents[1]) == repr(expected.events[1].agents[1])
     assert {type(agent) for event in expected.events for agent in event.agents} == {pt.events.Agent}
     assert {type(ball.history) for ball in expected.balls.values()} == {pt.objects.BallHistory}
     for look in (lambda s: s, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s)), lambda s: s.copy()):
@@ -310,10 +373,18 @@ def test_carom_models():
 
 def test_what_it_refuses_and_the_fallback():
     system = pt.System.example()
-    engine = pt.physics.PhysicsEngine()
+    engine = new_engine()
+    for part, number, value in (
+        ("ball_linear_cushion", "omega_ratio", 1.5),
+        ("stick_ball", "english_throttle", 0.5),
+        ("ball_ball", "friction", object()),
+    ):
+        usual = getattr(getattr(engine.resolver, part), number)
+        setattr(getattr(engine.resolver, part), number, value)
+        with pytest.raises(bridge.UnsupportedError, match=f"{number.partition('_')[2]}|builtins.object"):
+            bridge.simulate(system, engine=engine)
+        setattr(getattr(engine.resolver, part), number, usual)
     engine.resolver.ball_linear_cushion.omega_ratio = 1.5
-    with pytest.raises(bridge.UnsupportedError, match="omega_ratio"):
-        bridge.simulate(system, engine=engine)
     with pytest.warns(bridge.FallbackWarning, match="omega_ratio"):
         theirs, mine = pt.simulate(system, engine), bridge.simulate(system, engine=engine, fallback=True)
     assert [e.time for e in theirs.events] == [e.time for e in mine.events]
@@ -380,9 +451,9 @@ def test_installed_wherever_it_was_imported(played, monkeypatch):
 
 def test_what_pooltool_plays_is_told_once(installed, played):
     """Each reason once, at the line that asked; and anew after install()."""
-    exact = pt.physics.PhysicsEngine()
-    exact.resolver.ball_ball = bridge.ExactBallBall()
-    other = pt.physics.PhysicsEngine()
+    throttled = new_engine()
+    throttled.resolver.stick_ball.english_throttle = 0.5
+    other = new_engine()
     other.resolver.ball_linear_cushion.omega_ratio = 1.5
     without = set(importlib.import_module("pooltool.evolution.event_based.config").INCLUDED_EVENTS) - {pt.EventType.BALL_POCKET}
     overlapping = pt.System.example()
@@ -391,7 +462,7 @@ def test_what_pooltool_plays_is_told_once(installed, played):
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             for _ in range(2):
-                assert pt.simulate(pt.System.example(), exact).simulated
+                assert pt.simulate(pt.System.example(), throttled).simulated
                 assert pt.simulate(pt.System.example(), other).simulated
                 assert pt.simulate(pt.System.example(), include=without, max_events=1).simulated
                 pt.simulate(overlapping, max_events=1)
@@ -399,7 +470,7 @@ def test_what_pooltool_plays_is_told_once(installed, played):
         texts = [str(warning.message) for warning in told]
         assert all(warning.category is bridge.FallbackWarning and warning.filename == __file__ for warning in told)
         assert all(text.startswith("pooltool plays this system instead of carom: ") for text in texts)
-        parts = ("ExactBallBall", "omega_ratio", "include", "overlap")
+        parts = ("throttles", "omega_ratio", "include", "overlap")
         assert [sum(part in text for text in texts) for part in parts] == [1, 1, 1, 1] and len(texts) == 4, texts
         bridge.install()
     assert len(played) == 8  # the overlapping ones are refused by carom, the last ones played
@@ -407,7 +478,7 @@ def test_what_pooltool_plays_is_told_once(installed, played):
 
 def test_strategies_in_pooltools_engine():
     """The exact models in pooltool's own engine: close to the shot by carom's models, before chaos."""
-    engine = pt.physics.PhysicsEngine()
+    engine = new_engine()
     engine.resolver.ball_ball = bridge.ExactBallBall()
     engine.resolver.ball_linear_cushion = bridge.ExactLinearCushion()
     engine.resolver.ball_circular_cushion = bridge.ExactCircularCushion()
@@ -416,3 +487,14 @@ def test_strategies_in_pooltools_engine():
     for ours, event in list(zip(mine.events, theirs.events))[:8]:
         assert (ours.event_type, ours.ids) == (event.event_type, event.ids)
         assert abs(ours.time - event.time) < 1e-4
+
+
+def test_speed():
+    """The table of ratios: every object looked at, also with continuous histories."""
+    script = Path(__file__).parents[1] / "examples" / "pooltool_speed.py"
+    ran = subprocess.run([sys.executable, str(script), "10"], capture_output=True, text=True, env={**os.environ, "HOME": home})
+    assert ran.returncode == 0, ran.stderr
+    print(ran.stdout)
+    ratios = {line[:32].strip(): float(line.split()[-1]) for line in ran.stdout.splitlines()[2:]}
+    assert len(ratios) == 6
+    assert ratios["drop-in, all objects looked at"] >= 60 and ratios["continuous=True, all objects"] >= 20, ran.stdout

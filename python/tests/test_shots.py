@@ -149,7 +149,7 @@ def test_a_bad_shot_costs_itself():
     cues = carom.cue(speed=5.0, a=[0.0, 0.9, 0.1], b=0.5)
     shots = carom.simulate_batch(table, rack, cues, cushion_model="han")
     assert shots.status.tolist() == [0, carom.Status.ERROR_MISCUE, 0]
-    assert shots.failures() == [((1,), carom.Status.ERROR_MISCUE.text)]
+    assert shots.failures() == [((1,), f"cue: {carom.Status.ERROR_MISCUE.text}")]
     assert shots.final[2].tobytes() == carom.simulate(table, rack, cues[2], cushion_model="han").final.tobytes()
 
 
@@ -245,7 +245,7 @@ def test_other_errors():
         carom.simulate(table, rack, carom.cue(), cushion_model="rubber")
     with pytest.raises(carom.CaromError, match="rack|gap"):
         carom.racks.nineball(table, gap=-1.0)
-    with pytest.raises(carom.CaromError):
+    with pytest.raises(ValueError, match="steps"):
         carom.simulate_batch(table, rack, carom.cue(), steps=-3)
 
 
@@ -289,11 +289,17 @@ def test_pictures():
     lines = [line for line in still.iter(name + "polyline") if line.get("stroke") not in ("#1b5e42",)]
     assert len(lines) >= moved > 3
     assert len(list(still.iter(name + "circle"))) == len(table.pockets) + len(table.jaws) + 20
-    # The cue ball of the moving picture ends where the shot ends.
-    moving = ElementTree.fromstring(shot.animate().svg)
-    values = [a.get("values").split(";") for a in moving.iter(name + "animate") if a.get("attributeName") == "cx"]
-    ends = {c.get("cx") for c in list(still.iter(name + "circle"))[-10:]}
-    assert all(v[-1] in ends for v in values)
+    # A long table lies on its side, and every ball but the cue ball has its number.
+    assert float(still.get("width")) > float(still.get("height"))
+    balls = [part for part in still.iter(name + "g")]
+    assert [[text.text for text in ball.iter(name + "text")] for ball in balls] == 2 * [[], *([str(k)] for k in range(1, 10))]
+    # The balls of the moving picture go from where they lie in the still one to where they end there.
+    animation = shot.animate()
+    moving = list(ElementTree.fromstring(animation.svg).iter(name + "g"))
+    for k, ball in enumerate(moving):
+        ways = [part.get("values").split(";") for part in ball.iter(name + "animateTransform")] or [[ball.get("transform")[10:-1]]]
+        assert [f"translate({ways[0][0]})", f"translate({ways[0][-1]})"] == [balls[k].get("transform"), balls[k + 10].get("transform")]
+    assert len(moving) == 10 and len(repr(animation)) < 80
     assert len(list(ElementTree.fromstring(table._repr_svg_()).iter(name + "circle"))) == len(table.pockets) + len(table.jaws)
 
 
@@ -326,3 +332,55 @@ def test_balls_that_fly():
     unlike = carom.balls([[0.4, 0.5], [0.7, 0.5]], radius=[0.0302, 0.028575], v=[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
     hit = carom.simulate(table, unlike, cushion_model="han")
     assert carom.EventType.SLATE in hit.events["type"].tolist()
+
+
+def test_each_bad_argument_has_its_message():
+    """In Python's words, with the argument's name and what would be right."""
+    table = carom.tables.pool_9ft()
+    rack, cue = carom.racks.nineball(table), carom.cue()
+    pocketed = rack.copy()
+    pocketed["state"]["label"][0] = carom.Label.POCKETED
+    for message, call in (
+        ("seed: it must be a whole number", lambda: carom.racks.nineball(table, seed=-1)),
+        ("seed: it must be a whole number", lambda: carom.racks.nineball(table, seed=1.5)),
+        ("gap = -1: it must be 0 m to the radius", lambda: carom.racks.nineball(table, gap=-1)),
+        ("width: it must be positive", lambda: carom.Table(0.0, 1.0, rails=table.rails)),
+        ("table: a carom.Table is needed", lambda: carom.simulate("pool", rack, cue)),
+        ("steps: it must be a whole number", lambda: carom.simulate(table, rack, cue, steps=1.5)),
+        ("events_most: it must be a whole number", lambda: carom.simulate(table, rack, cue, events_most=-1)),
+        ("time_most: it must be 0 s", lambda: carom.simulate(table, rack, cue, time_most=np.nan)),
+        ("threads: it must be a whole number from -1", lambda: carom.simulate_batch(table, rack, cue, threads=-7)),
+        ("room: it must be a whole number", lambda: carom.simulate_batch(table, rack, cue, room=-1)),
+        ("cue.speed = nan: it must be 0 to 1000 m/s", lambda: carom.simulate(table, rack, carom.cue(speed=np.nan))),
+        ("cue.ball = 99: it must be the index", lambda: carom.simulate(table, rack, carom.cue(ball=99))),
+        ("cue.ball = 0: this ball is out of play", lambda: carom.simulate(table, pocketed, cue)),
+    ):
+        with pytest.raises((ValueError, TypeError), match=f"^{message}"):
+            call()
+    shots = carom.simulate_batch(table, rack, carom.cue(speed=[1.0, np.nan], ball=[99, 0]))
+    assert [(index, text.partition(":")[0]) for index, text in shots.failures()] == [((0,), "cue.ball = 99"), ((1,), "cue.speed = nan")]
+
+
+def test_tables_are_equal_by_their_numbers():
+    assert carom.tables.pool_9ft() == carom.tables.pool_9ft() != carom.tables.pool_8ft()
+    other = carom.tables.pool_9ft()
+    other.rails["restitution"][3] = 0.5
+    assert other != carom.tables.pool_9ft() and other != "table"
+
+
+def test_columns_and_frames():
+    """Every number of the records is in a column of its name."""
+    table = carom.tables.pool_9ft()
+    shot = carom.simulate(table, carom.racks.nineball(table), carom.cue(speed=8.0), cushion_model="han")
+    columns = carom.dtypes.columns(shot.events)
+    assert all(column.shape == (shot.count,) for column in columns.values())
+    np.testing.assert_array_equal(columns["after_b_w_z"], shot.events["after"]["w"][:, 1, 2])
+    np.testing.assert_array_equal(columns["time"], shot.events["time"])
+    assert set(carom.dtypes.columns(table.rails)) >= {"p_x", "q_y", "height", "line_z"}
+    assert "state_label" in carom.dtypes.columns(shot.balls) and "kind_mass" in carom.dtypes.columns(shot.balls)
+    with pytest.raises(TypeError, match="records"):
+        carom.dtypes.columns(np.zeros(3))
+    pytest.importorskip("pandas")
+    frame = shot.to_dataframe()
+    assert list(frame) == list(columns) and frame["type"][0] == "strike"
+    assert (frame["type"] == "ball_ball").sum() == (shot.events["type"] == carom.EventType.BALL_BALL).sum()

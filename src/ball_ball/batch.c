@@ -1,13 +1,13 @@
 /* A batch by the exact limit: collisions sorted by the collocation step that they need next.
  *
- * Every row is n calls of carom_collide, bit for bit: its steps are decided by its own numbers, and computed lane by lane. What
- * the lists below decide is only which rows share a register.
+ * Every row has the bits of carom_collide: its steps are decided by its own numbers, and computed lane by lane. The lists only
+ * decide which rows share a register.
  *
- *     first   all rows in order, a register at a time: reduced, and solved if an easy step does; most are
- *     fresh   rows that need another kind of step at first, by kind: their numbers only, as the rows are in the cache
- *     moving  rows on their way, with where they stand
- *     one by one  what collocation refuses, and rows that are not good: carom_collide_one(), which goes the same way again, and
- *             then on to the fallback
+ *     first       all rows in order, a register at a time: reduced, and solved if an easy step does, which is most of them
+ *     lists       rows that need another step, by its kind: from their start, where their numbers are enough, as the rows are
+ *                 in the cache; or from where they stand
+ *     one by one  rows that collocation refuses or that are not good: carom_collide_one(), which tries collocation again, and
+ *                 then the precise solver
  *
  * A list is worked off when it fills a register, and all of them at the end. Batches of few rows would leave most lanes empty:
  * they are solved one by one. */
@@ -21,18 +21,15 @@
 /* Rows wait for a register of their kind, so a list rarely holds two. More room would take stack. */
 enum { ROOM = 2 * MOST_LANES };
 
-typedef struct fresh_list {
+/* Where the rows of a list are. */
+enum { AT_START, ON_THEIR_WAY, PLACES };
+
+typedef struct row_list {
   int count;
   uint32_t row[ROOM];
-} fresh_list;
+} row_list;
 
-typedef struct moving_list {
-  int count;
-  uint32_t row[ROOM];
-  float state[MOVING_COLUMNS][ROOM];
-} moving_list;
-
-/* A stretch of rows; few enough for 32 bits. */
+/* Rows, few enough for 32 bits. */
 typedef struct work {
   const carom_kernels *with;
   carom_precision precision;
@@ -43,8 +40,8 @@ typedef struct work {
   double s;
   int8_t *status;
   size_t first_bad;
-  fresh_list fresh[STEP_KINDS];
-  moving_list moving[STEP_KINDS];
+  row_list list[STEP_KINDS][PLACES];
+  float state[STEP_KINDS][LANE_COLUMNS][ROOM]; /* of rows on their way, as in their list */
 } work;
 
 enum { MOST_ROWS = 1 << 30, CACHE_LINE = 64 };
@@ -58,38 +55,31 @@ static void one_by_one(work *w, uint32_t row) {
 }
 
 /* A list that has no room, which should not happen, is no reason to fail: a single call has the same bits. */
-static void add_fresh(work *w, enum step_kind kind, uint32_t row) {
-  fresh_list *list = &w->fresh[kind];
-  if (list->count == ROOM)
-    one_by_one(w, row);
-  else
-    list->row[list->count++] = row;
-}
-
-static void add_moving(work *w, enum step_kind kind, uint32_t row, carom_moving moving, int lane) {
-  moving_list *list = &w->moving[kind];
+static void add_row(work *w, enum step_kind kind, int place, uint32_t row, lane_state at, int lane) {
+  row_list *list = &w->list[kind][place];
   if (list->count == ROOM) {
     one_by_one(w, row);
     return;
   }
-  for (int c = 0; c < MOVING_COLUMNS; c++)
-    list->state[c][list->count] = moving[c][lane];
+  if (place == ON_THEIR_WAY)
+    for (int c = 0; c < LANE_COLUMNS; c++)
+      w->state[kind][c][list->count] = at[c][lane];
   list->row[list->count++] = row;
 }
 
-/* Rows that share a register: `count` of them, the rest of the lanes repeating the last. */
-typedef struct team {
+/* Rows that share a register: `count` of them; the other lanes repeat the last. */
+typedef struct lane_group {
   int count;
   uint32_t row[MOST_LANES];
-} team;
+} lane_group;
 
 /* What steps and rows hand to each other on the way. */
-typedef struct handed {
-  carom_context context;
-  carom_in in;
-  carom_out out;
-  carom_next next;
-} handed;
+typedef struct step_io {
+  row_context context;
+  step_inputs in;
+  step_outputs out;
+  lanes_by_step next;
+} step_io;
 
 /* Lanes, from the lowest on. */
 #define EACH_LANE(lane, bits) \
@@ -98,90 +88,66 @@ static inline uint32_t lowest(uint32_t bits) {
   return (uint32_t)__builtin_ctz(bits);
 }
 
-/* After a step: writes the rows that are solved, and puts the others where they belong; `fresh`: they have not moved. Rows that
- * are not solved yet may be written too, for now. */
-static void sort(work *w, const team *t, uint32_t good, const handed *h, carom_moving moving, bool fresh) {
+/* After a step: writes the rows that are solved, and puts the others on the lists of their next steps. Rows that are not solved
+ * yet may be written too, for now. */
+static void sort(work *w, const lane_group *t, uint32_t good, const step_io *h, int place, lane_state at) {
   const uint32_t there = (uint32_t)((UINT64_C(1) << t->count) - 1), right = there & good;
   uint32_t done = right & h->next[SOLVED];
   if (done != 0)
     done &= w->with->rows_out[w->precision](&h->context, h->out, w->out, t->row);
   for (int kind = 0; kind < STEP_KINDS; kind++) {
-    const uint32_t waiting = right & h->next[kind];
-    done |= waiting;
-    EACH_LANE(lane, waiting) {
-      if (fresh)
-        add_fresh(w, (enum step_kind)kind, t->row[lane]);
-      else
-        add_moving(w, (enum step_kind)kind, t->row[lane], moving, (int)lane);
-    }
+    const uint32_t lanes = right & h->next[kind];
+    done |= lanes;
+    EACH_LANE(lane, lanes) add_row(w, (enum step_kind)kind, place, t->row[lane], at, (int)lane);
   }
   EACH_LANE(lane, there & ~done) one_by_one(w, t->row[lane]);
 }
 
-/* Not inlined, nor are next_steps(): only one of their frames is on the stack at a time. */
-__attribute__((noinline)) static void first_steps(work *w, const team *t) {
-  handed h;
+/* Not inlined, nor is next_steps(): only one of their frames is on the stack at a time. */
+__attribute__((noinline)) static void first_steps(work *w, const lane_group *t) {
+  step_io h;
   const uint32_t good = w->with->rows_in[w->precision](w->in, t->row, w->s, &h.context, h.in);
   w->with->first_step(h.in, good, (float)(2.5 * w->s), carom_tolerances[w->precision], h.out, h.next);
-  sort(w, t, good, &h, NULL, true);
+  sort(w, t, good, &h, AT_START, NULL);
 }
 
-__attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, bool fresh, const team *t, carom_moving moving) {
-  handed h;
+__attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, int place, const lane_group *t, lane_state at) {
+  step_io h;
   const uint32_t good = w->with->rows_in[w->precision](w->in, t->row, w->s, &h.context, h.in);
-  w->with->next_step(kind, fresh, h.in, (float)(2.5 * w->s), carom_tolerances[w->precision], moving, h.out, h.next);
-  sort(w, t, good, &h, moving, false);
+  w->with->next_step(kind, place == AT_START, h.in, (float)(2.5 * w->s), carom_tolerances[w->precision], at, h.out, h.next);
+  sort(w, t, good, &h, ON_THEIR_WAY, at);
 }
 
-/* Takes up to a register's worth of rows off the end of a list. */
-static void take(const work *w, uint32_t *row, int *count, team *t) {
+/* Takes up to a register's worth of rows off the end of a list, and their steps. */
+static void work_off(work *w, enum step_kind kind, int place) {
+  row_list *list = &w->list[kind][place];
   const int lanes = w->with->lanes;
-  t->count = *count < lanes ? *count : lanes;
-  *count -= t->count;
+  lane_state at;
+  lane_group t = {.count = list->count < lanes ? list->count : lanes};
+  list->count -= t.count;
   for (int lane = 0; lane < lanes; lane++)
-    t->row[lane] = row[*count + (lane < t->count ? lane : t->count - 1)];
-}
-
-static void work_off_fresh(work *w, enum step_kind kind) {
-  fresh_list *list = &w->fresh[kind];
-  carom_moving moving;
-  team t;
-  take(w, list->row, &list->count, &t);
-  next_steps(w, kind, true, &t, moving);
-}
-
-static void work_off_moving(work *w, enum step_kind kind) {
-  moving_list *list = &w->moving[kind];
-  carom_moving moving;
-  team t;
-  take(w, list->row, &list->count, &t);
-  for (int c = 0; c < MOVING_COLUMNS; c++)
-    if (t.count == w->with->lanes)
-      memcpy(moving[c], list->state[c] + list->count, (size_t)t.count * sizeof(float));
+    t.row[lane] = list->row[list->count + (lane < t.count ? lane : t.count - 1)];
+  for (int c = 0; c < LANE_COLUMNS && place == ON_THEIR_WAY; c++)
+    if (t.count == lanes)
+      memcpy(at[c], w->state[kind][c] + list->count, (size_t)lanes * sizeof(float));
     else
-      for (int lane = 0; lane < w->with->lanes; lane++)
-        moving[c][lane] = list->state[c][list->count + (lane < t.count ? lane : t.count - 1)];
-  next_steps(w, kind, false, &t, moving);
+      for (int lane = 0; lane < lanes; lane++)
+        at[c][lane] = w->state[kind][c][list->count + (lane < t.count ? lane : t.count - 1)];
+  next_steps(w, kind, place, &t, at);
 }
 
 /* Works off every list that holds at least so many rows. Returns whether there was one. */
-static bool work_off(work *w, int least) {
+static bool work_off_lists(work *w, int least) {
   bool any = false;
-  for (int kind = 0; kind < STEP_KINDS; kind++) {
-    while (w->fresh[kind].count >= least) {
-      work_off_fresh(w, (enum step_kind)kind);
-      any = true;
-    }
-    while (w->moving[kind].count >= least) {
-      work_off_moving(w, (enum step_kind)kind);
-      any = true;
-    }
-  }
+  for (int kind = 0; kind < STEP_KINDS; kind++)
+    for (int place = 0; place < PLACES; place++)
+      for (; w->list[kind][place].count >= least; any = true)
+        work_off(w, (enum step_kind)kind, place);
   return any;
 }
 
-static size_t solve(carom_precision precision, const void *in, size_t in_size, size_t n, const carom_options *opt, void *out,
-                    size_t out_size, int8_t *status) {
+static size_t solve_rows_in_lanes(carom_precision precision, const void *in, size_t in_size, size_t n, const carom_options *opt,
+                                  void *out, size_t out_size, int8_t *status) {
   work w; /* its lists are not cleared: that would take longer than a few rows do */
   w.with = carom_kernels_in_force();
   w.precision = precision;
@@ -199,7 +165,7 @@ static size_t solve(carom_precision precision, const void *in, size_t in_size, s
     return w.first_bad;
   }
   for (int kind = 0; kind < STEP_KINDS; kind++)
-    w.fresh[kind].count = w.moving[kind].count = 0;
+    w.list[kind][AT_START].count = w.list[kind][ON_THEIR_WAY].count = 0;
   if (status != NULL)
     memset(status, CAROM_OK, n * sizeof *status); /* what is not solved by a step, has its own */
   const size_t lanes = (size_t)w.with->lanes, register_size = lanes * in_size, size = n * in_size;
@@ -208,35 +174,35 @@ static size_t solve(carom_precision precision, const void *in, size_t in_size, s
     const size_t ahead = (first + 2 * lanes) * in_size, end = ahead + register_size < size ? ahead + register_size : size;
     for (size_t at = ahead; at < end; at += CACHE_LINE)
       __builtin_prefetch(w.in + at);
-    team t;
+    lane_group t;
     t.count = n - first < lanes ? (int)(n - first) : (int)lanes;
     for (uint32_t lane = 0; lane < MOST_LANES; lane++)
       t.row[lane] = (uint32_t)first + (lane < (uint32_t)t.count ? lane : (uint32_t)t.count - 1);
     first_steps(&w, &t);
-    work_off(&w, (int)lanes);
+    work_off_lists(&w, (int)lanes);
   }
-  while (work_off(&w, 1)) {
+  while (work_off_lists(&w, 1)) {
   }
   return w.first_bad;
 }
 
-static size_t solve_all(carom_precision precision, const char *in, size_t in_size, size_t n, const carom_options *opt,
-                        char *out, size_t out_size, int8_t *status) {
+static size_t solve_in_parts(carom_precision precision, const char *in, size_t in_size, size_t n, const carom_options *opt,
+                             char *out, size_t out_size, int8_t *status) {
   size_t first_bad = n;
   for (size_t from = 0; from < n; from += MOST_ROWS) {
     const size_t rows = n - from < MOST_ROWS ? n - from : MOST_ROWS;
-    const size_t bad = solve(precision, in + from * in_size, in_size, rows, opt, out + from * out_size, out_size,
-                             status != NULL ? status + from : NULL);
+    const size_t bad = solve_rows_in_lanes(precision, in + from * in_size, in_size, rows, opt, out + from * out_size, out_size,
+                                           status != NULL ? status + from : NULL);
     if (bad < rows && first_bad == n)
       first_bad = from + bad;
   }
   return first_bad;
 }
 
-size_t carom_exact_batch_double(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
-  return solve_all(CAROM_DOUBLE, in, sizeof(carom_impact), n, opt, out, sizeof(carom_result), status);
+size_t carom_exact_batch_f64(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
+  return solve_in_parts(CAROM_F64, in, sizeof(carom_impact), n, opt, out, sizeof(carom_result), status);
 }
 
-size_t carom_exact_batch_single(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
-  return solve_all(CAROM_SINGLE, in, sizeof(carom_impact_f32), n, opt, out, sizeof(carom_result_f32), status);
+size_t carom_exact_batch_f32(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
+  return solve_in_parts(CAROM_F32, in, sizeof(carom_impact_f32), n, opt, out, sizeof(carom_result_f32), status);
 }

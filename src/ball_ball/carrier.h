@@ -1,6 +1,6 @@
 /* The carrier of the collocation text: what a register holds, and the operations that this decides.
  *
- * The text (plan.h and what it includes) is written once, over two types:
+ * The text (collocate.c and what it includes) is written once, over two types:
  *
  *     vreal    a number of a collision                      lanes.h has its operations
  *     reg      a number at the nodes of a step; n nodes take REGS(n) of them

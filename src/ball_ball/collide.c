@@ -4,25 +4,117 @@
 #include "platform/arithmetic.h"
 
 #include "ball_ball/arguments.h"
-#include "ball_ball/detail.h"
 #include "ball_ball/euler.h"
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
-#include "ball_ball/precise.h"
-#include "ball_ball/result.h"
+#include "ball_ball/reduced.h"
+#include "platform/elementary.h"
 #include "platform/threads.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-static bool collocate(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+/* ---- carom_detail ---------------------------------------- */
+
+/* The impulses over a whole collision follow from what it changed. With Δ the change, C = 5/(2 M R) of each ball, P the normal
+ * impulse, P1 and P2 those of friction along x and z on ball i, and those of the cloth on i and on j:
+ *
+ *     P1 = -Δw_iz/C_i                                  P_ix = -Δw_iy/C_i             P_jx = -Δw_jy/C_j
+ *     P_iy - P_jy = Δw_ix/C_i - Δw_jx/C_j              P_iy + P_jy = M_i Δv_iy + M_j Δv_jy
+ *     P = M_j Δv_jy - P_jy                             P2 = Δw_ix/C_i - P_iy
+ */
+static void along(const carom_frame *frame, double x, double y, double z, double vector[3]) {
+  for (int k = 0; k < 3; k++)
+    vector[k] = frame->x[k] * x + frame->y[k] * y + frame->z[k] * z;
+}
+
+static carom_detail empty_report(void) {
+  return (carom_detail){.stick = CAROM_STICK_NEVER, .stick_normal = NAN};
+}
+
+/* From the integrals of reduced.h. `compression`: int v_n dp up to v_n = 0; p_stick is NaN for balls that do not stick. */
+static carom_detail report_of_integrals(const carom_frame *frame, const carom_reduced *c, const carom_local *before,
+                                        const carom_integrals *g, double compression, double p_stick, bool in_compression) {
+  const double M = c->j_pressed ? before->M_j : before->M_i, sign = c->j_pressed ? -1 : 1;
+  carom_detail d = {.normal = M * g->p,
+                    .work_compression = -M * compression,
+                    .work = -M * (1 + c->e * c->e) * compression,
+                    .stick = isnan(p_stick)   ? CAROM_STICK_NEVER
+                             : in_compression ? CAROM_STICK_IN_COMPRESSION
+                                              : CAROM_STICK_IN_RESTITUTION,
+                    .stick_normal = M * p_stick};
+  along(frame, -M * g->Q_1, 0.0, -sign * M * g->Q_2, d.friction);
+  along(frame, sign * M * g->F_x, sign * M * g->F_y, 0.0, c->j_pressed ? d.cloth_b : d.cloth_a);
+  return d;
+}
+
+static carom_detail report_of_solution(const carom_frame *frame, const carom_local *before, const float solution[OUT_COLUMNS],
+                                       int evaluations) {
+  carom_reduced c = carom_reduce(before);
+  const double unit = -c.v_n / c.kappa, u = sqrt(c.u_x * c.u_x + c.u_z * c.u_z);
+  /* as in rows.h */
+  c.mu = c.u_z <= LEAST_PRESS * unit ? 0 : c.mu;
+  c.mu_b = fmax(c.mu_b, LEAST_MU_B);
+  const double mu_mu_b = c.mu * c.mu_b * unit;
+  const bool stick = solution[OUT_STICK] >= 0;
+  carom_integrals g = {.p = unit * (1 + c.e + (double)solution[OUT_OVERSHOOT]),
+                       .F_x = -mu_mu_b * (double)solution[OUT_I_X],
+                       .F_y = -mu_mu_b * (double)solution[OUT_I_Y]};
+  if (stick) {
+    g.Q_1 = (c.u_x + g.F_x) / (3.5 * c.kappa);
+    g.Q_2 = (c.u_z + 2.5 * g.F_y) / (2.5 * c.kappa);
+  } else if (u > 0) {
+    g.Q_1 = c.mu_b * (c.u_x / u * g.p + unit * (double)solution[OUT_J_C]);
+    g.Q_2 = c.mu_b * (c.u_z / u * g.p + unit * (double)solution[OUT_J_Z]);
+  }
+  /* v = v_n / kappa in units of `unit`, with the slope 1 - f: see problem.h */
+  const double compression = c.kappa * unit * unit * ((double)solution[OUT_K_C] - 0.5),
+               p_stick = unit * (double)solution[OUT_STICK];
+  carom_detail d =
+      report_of_integrals(frame, &c, before, &g, compression, stick ? p_stick : NAN, c.v_n + c.kappa * p_stick - g.F_y < 0);
+  d.evaluations = evaluations;
+  return d;
+}
+
+static carom_detail report_of_trajectory(const carom_frame *frame, const carom_local *before, const carom_trajectory *path) {
+  const carom_reduced c = carom_reduce(before);
+  const carom_integrals all = carom_precise_integrals(&c, path);
+  const double p_stick = -c.v_n * path->p_stick;
+  carom_detail d = report_of_integrals(frame, &c, before, &all, -(c.v_n * c.v_n) * path->W_c, p_stick,
+                                       c.v_n + c.kappa * p_stick - all.F_y < 0);
+  d.evaluations = 8 * path->iterations;
+  return d;
+}
+
+static carom_detail report_of_euler(const carom_frame *frame, const carom_local *before, const carom_local *after,
+                                    const carom_euler_run *run) {
+  const double C_i = 5.0 / (2.0 * before->M_i * before->R), C_j = 5.0 / (2.0 * before->M_j * before->R);
+  const double turned_i = (after->w_ix - before->w_ix) / C_i, turned_j = (after->w_jx - before->w_jx) / C_j;
+  const double pushed_j = before->M_j * (after->v_jy - before->v_jy);
+  const double both = before->M_i * (after->v_iy - before->v_iy) + pushed_j;
+  const double P_iy = 0.5 * (both + turned_i - turned_j), P_jy = 0.5 * (both - turned_i + turned_j);
+  carom_detail d = {.steps = run->steps,
+                    .normal = pushed_j - P_jy,
+                    .work_compression = run->work_compression,
+                    .work = run->work,
+                    .stick = CAROM_STICK_NEVER,
+                    .stick_normal = NAN};
+  along(frame, -(after->w_iz - before->w_iz) / C_i, 0.0, turned_i - P_iy, d.friction);
+  along(frame, -(after->w_iy - before->w_iy) / C_i, P_iy, 0.0, d.cloth_a);
+  along(frame, -(after->w_jy - before->w_jy) / C_j, P_jy, 0.0, d.cloth_b);
+  return d;
+}
+
+/* ---- One collision ---- */
+
+static bool solve_by_collocation(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
   float solution[OUT_COLUMNS];
   const int evaluations =
-      carom_kernels_in_force()->single[CAROM_DOUBLE](in, carom_spin_sign(opt->slip), out, detail == NULL ? NULL : solution);
+      carom_kernels_in_force()->call[CAROM_F64](in, carom_spin_sign(opt->slip), out, detail == NULL ? NULL : solution);
   if (evaluations > 0 && detail != NULL) {
     const carom_frame frame = carom_frame_of(in);
     const carom_local before = carom_to_frame(&frame, in, opt->slip);
-    *detail = carom_detail_of_solution(&frame, &before, solution, evaluations);
+    *detail = report_of_solution(&frame, &before, solution, evaluations);
   }
   return evaluations > 0;
 }
@@ -33,7 +125,7 @@ static carom_status solve_exact(const carom_frame *frame, carom_local *local, ca
   const carom_status status = carom_precise(&c, CAROM_PRECISE_TOLERANCE, &path);
   const carom_integrals all = carom_precise_integrals(&c, &path);
   if (status == CAROM_OK && detail != NULL)
-    *detail = carom_detail_of_path(frame, local, &path);
+    *detail = report_of_trajectory(frame, local, &path);
   carom_restore(&c, &all, local);
   return status;
 }
@@ -43,12 +135,13 @@ static carom_status solve_euler(const carom_frame *frame, carom_local *local, in
   carom_euler_run run;
   const carom_status status = carom_euler(local, steps, INT64_MAX, &run);
   if (status == CAROM_OK && detail != NULL)
-    *detail = carom_detail_of_euler(frame, &before, local, &run);
+    *detail = report_of_euler(frame, &before, local, &run);
   return status;
 }
 
-static carom_status solve(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
-  if (opt->solver == CAROM_SOLVER_EXACT && collocate(in, opt, out, detail))
+static carom_status collide_one_pair(const carom_impact *in, const carom_options *opt, carom_result *out,
+                                     carom_detail *detail) {
+  if (opt->solver == CAROM_SOLVER_EXACT && solve_by_collocation(in, opt, out, detail))
     return CAROM_OK;
   int field;
   const carom_status bad = carom_check_impact(in, &field);
@@ -74,7 +167,7 @@ static carom_status solve(const carom_impact *in, const carom_options *opt, caro
 
 carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
   if (detail != NULL)
-    *detail = carom_detail_of_nothing();
+    *detail = empty_report();
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
   const carom_options defaults = {0};
@@ -82,7 +175,7 @@ carom_status carom_collide_detail(const carom_impact *in, const carom_options *o
     opt = &defaults;
   carom_status status = carom_check_options(opt);
   if (status == CAROM_OK)
-    status = solve(in, opt, out, detail);
+    status = collide_one_pair(in, opt, out, detail);
   if (status < 0)
     carom_fill_nan(out);
   return status;
@@ -121,7 +214,7 @@ carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *
   if (opt == NULL)
     opt = &defaults;
   if (opt->solver == CAROM_SOLVER_EXACT && carom_check_options(opt) == CAROM_OK &&
-      carom_kernels_in_force()->single[CAROM_SINGLE](in, carom_spin_sign(opt->slip), out, NULL) > 0)
+      carom_kernels_in_force()->call[CAROM_F32](in, carom_spin_sign(opt->slip), out, NULL) > 0)
     return CAROM_OK;
   carom_impact wide;
   carom_result result;
@@ -130,7 +223,7 @@ carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *
 }
 
 carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt, void *out) {
-  return precision == CAROM_DOUBLE ? carom_collide(in, opt, out) : carom_collide_f32(in, opt, out);
+  return precision == CAROM_F64 ? carom_collide(in, opt, out) : carom_collide_f32(in, opt, out);
 }
 
 /* A batch as threads see it. */
@@ -167,13 +260,13 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
     bad = CAROM_ERROR_NULL;
   if (bad != CAROM_OK || n == 0)
     return bad;
-  carom_batch_solver *const exact = precision == CAROM_DOUBLE ? carom_exact_batch_double : carom_exact_batch_single;
+  carom_batch_solver *const exact = precision == CAROM_F64 ? carom_exact_batch_f64 : carom_exact_batch_f32;
   const batch job = {.solver = opt->solver == CAROM_SOLVER_EXACT ? exact : carom_kernels_in_force()->euler[precision],
                      .in = in,
                      .out = out,
                      .status = status,
-                     .in_size = precision == CAROM_DOUBLE ? sizeof(carom_impact) : sizeof(carom_impact_f32),
-                     .out_size = precision == CAROM_DOUBLE ? sizeof(carom_result) : sizeof(carom_result_f32),
+                     .in_size = precision == CAROM_F64 ? sizeof(carom_impact) : sizeof(carom_impact_f32),
+                     .out_size = precision == CAROM_F64 ? sizeof(carom_result) : sizeof(carom_result_f32),
                      .opt = opt};
   const size_t first_bad = carom_in_threads(solve_part, &job, n, opt->threads, least_part(opt));
   if (first_bad == n)
@@ -185,10 +278,34 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
 
 carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
                                  int8_t *status) {
-  return collide_batch(CAROM_DOUBLE, in, n, opt, out, status);
+  return collide_batch(CAROM_F64, in, n, opt, out, status);
 }
 
 carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt, carom_result_f32 *out,
                                      int8_t *status) {
-  return collide_batch(CAROM_SINGLE, in, n, opt, out, status);
+  return collide_batch(CAROM_F32, in, n, opt, out, status);
+}
+
+/* ---- Friction around the collision: between the balls, by the speed of their slip; and what the cloth makes of a ball later
+ * ---- */
+
+carom_speed_law carom_alciatore(void) {
+  return (carom_speed_law){.a = 0.009951, .b = 0.108, .c = 1.088};
+}
+
+double carom_mu_ball(const carom_impact *in, carom_speed_law law) {
+  if (in == NULL)
+    return NAN;
+  const carom_frame frame = carom_frame_of(in);
+  const carom_local c = carom_to_frame(&frame, in, CAROM_SLIP_PAPER);
+  const double u_x = c.v_ix - c.v_jx - c.R * (c.w_iz + c.w_jz);
+  const double u_z = c.R * (c.w_ix + c.w_jx);
+  return law.a + law.b * carom_exp(-law.c * sqrt(u_x * u_x + u_z * u_z));
+}
+
+void carom_rolling_velocity(const double v[3], const double w[3], double radius, double rolling[3]) {
+  const double x = (5.0 * v[0] + 2.0 * radius * w[1]) / 7.0; /* first both: `rolling` may be v or w */
+  rolling[1] = (5.0 * v[1] - 2.0 * radius * w[0]) / 7.0;
+  rolling[0] = x;
+  rolling[2] = 0.0;
 }

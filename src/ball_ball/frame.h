@@ -7,12 +7,14 @@
  * The order of the operations is part of the contract: it is pooltool's, so that results agree to the last bit in IEEE double
  * (sums from left to right, no fused multiply-add).
  */
-#ifndef CAROM_SRC_FRAME_H
-#define CAROM_SRC_FRAME_H
+#ifndef CAROM_SRC_BALL_BALL_FRAME_H
+#define CAROM_SRC_BALL_BALL_FRAME_H
 
 #include "carom.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <string.h>
 
 typedef struct carom_frame {
   double x[3], y[3], z[3];
@@ -82,6 +84,29 @@ static inline void carom_from_frame(const carom_frame *f, const carom_local *c, 
     out->a.w[k] = f->x[k] * c->w_ix + f->y[k] * c->w_iy + f->z[k] * c->w_iz;
     out->b.w[k] = f->x[k] * c->w_jx + f->y[k] * c->w_jy + f->z[k] * c->w_jz;
   }
+}
+
+/* ---- Results: what they are when nothing was solved, and whether they are any ---- */
+
+/* After an error. */
+static inline void carom_fill_nan(carom_result *out) {
+  for (int k = 0; k < 3; k++)
+    out->a.v[k] = out->a.w[k] = out->b.v[k] = out->b.w[k] = NAN;
+}
+
+/* For balls that do not collide. */
+static inline void carom_copy_state(const carom_impact *in, carom_result *out) {
+  memcpy(out->a.v, in->a.v, sizeof out->a.v);
+  memcpy(out->a.w, in->a.w, sizeof out->a.w);
+  memcpy(out->b.v, in->b.v, sizeof out->b.v);
+  memcpy(out->b.w, in->b.w, sizeof out->b.w);
+}
+
+static inline bool carom_result_is_finite(const carom_result *out) {
+  double sum = 0.0; /* stays 0 unless a term is infinite or NaN */
+  for (int k = 0; k < 3; k++)
+    sum += out->a.v[k] * 0.0 + out->a.w[k] * 0.0 + out->b.v[k] * 0.0 + out->b.w[k] * 0.0;
+  return sum == 0.0;
 }
 
 #endif

@@ -19,16 +19,16 @@
 #define FEWEST_OF_AVX512 29, 18
 
 static const carom_kernels kernels[CAROM_ISA_COUNT] = {
-#define ROW(NAME, suffix)                                                                  \
-  [CAROM_ISA_##NAME] = {                                                                   \
-      .lanes = LANES_OF_##NAME,                                                            \
-      .fewest = {FEWEST_OF_##NAME},                                                        \
-      .rows_in = {carom_rows_in_##suffix##_double, carom_rows_in_##suffix##_single},       \
-      .rows_out = {carom_rows_out_##suffix##_double, carom_rows_out_##suffix##_single},    \
-      .first_step = carom_first_step_##suffix,                                             \
-      .next_step = carom_next_step_##suffix,                                               \
-      .single = {carom_single_##suffix##_double, carom_single_##suffix##_single},          \
-      .euler = {carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single}, \
+#define ROW(NAME, suffix)                                                            \
+  [CAROM_ISA_##NAME] = {                                                             \
+      .lanes = LANES_OF_##NAME,                                                      \
+      .fewest = {FEWEST_OF_##NAME},                                                  \
+      .rows_in = {carom_rows_in_##suffix##_f64, carom_rows_in_##suffix##_f32},       \
+      .rows_out = {carom_rows_out_##suffix##_f64, carom_rows_out_##suffix##_f32},    \
+      .first_step = carom_first_step_##suffix,                                       \
+      .next_step = carom_next_step_##suffix,                                         \
+      .call = {carom_call_##suffix##_f64, carom_call_##suffix##_f32},                \
+      .euler = {carom_euler_lanes_##suffix##_f64, carom_euler_lanes_##suffix##_f32}, \
   },
     CAROM_BUILT_ISAS(ROW)
 #undef ROW

@@ -10,26 +10,26 @@
 #include <stdint.h>
 
 /* ---- What the kernels hand to each other: rows.h, in the caller's precision, reduces collisions to eight numbers each and
- * turns their solutions into velocities; between them collocation (plan.h) computes in single precision. */
+ * turns their solutions into velocities; between them collocation (collocate.c) computes in single precision. */
 
 /* Reduced collisions, a column for each quantity of reduced.h in units of |v_n0| / kappa. */
 enum { IN_U_X, IN_U_Z, IN_D_X, IN_D_Y, IN_KAPPA, IN_MU, IN_MU_B, IN_E, IN_COLUMNS };
 /* Solutions: those of problem.h. */
-enum { OUT_J_C, OUT_J_Z, OUT_I_X, OUT_I_Y, OUT_EXTRA, OUT_STICK, OUT_K_C, OUT_COLUMNS };
+enum { OUT_J_C, OUT_J_Z, OUT_I_X, OUT_I_Y, OUT_OVERSHOOT, OUT_STICK, OUT_K_C, OUT_COLUMNS };
 /* A collision between two steps: the columns of its state (problem.h), whether v = 0 has been passed (1 or 0), and what has
- * been tried (plan.h). */
-enum { MOVING_STATE, MOVING_RESTITUTION = 13, MOVING_SHARE, MOVING_CAREFUL, MOVING_ATTEMPTS, MOVING_COLUMNS };
+ * been tried (collocate.c). */
+enum { LANE_STATE, LANE_RESTITUTION = 13, LANE_SHARE, LANE_CAREFUL, LANE_ATTEMPTS, LANE_COLUMNS };
 
 enum { MOST_LANES = 16 }; /* of floats in a vector */
-typedef float carom_in[IN_COLUMNS][MOST_LANES];
-typedef float carom_out[OUT_COLUMNS][MOST_LANES];
-typedef float carom_moving[MOVING_COLUMNS][MOST_LANES];
+typedef float step_inputs[IN_COLUMNS][MOST_LANES];
+typedef float step_outputs[OUT_COLUMNS][MOST_LANES];
+typedef float lane_state[LANE_COLUMNS][MOST_LANES];
 
-/* Kinds of steps (plan.h), FULL over even or over graded nodes; and what else may come next: a collision is solved, or
+/* Kinds of steps (collocate.c), FULL over even or over graded nodes; and what else may come next: a collision is solved, or
  * collocation refuses it. */
 enum step_kind { EASY, FULL, FULL_GRADED, STICK, PART, TURN, STEP_KINDS, SOLVED = STEP_KINDS, REFUSED, STEP_ENDS };
 /* For each, the lanes for which it comes next, a bit for each. */
-typedef uint32_t carom_next[STEP_ENDS];
+typedef uint32_t lanes_by_step[STEP_ENDS];
 
 /* A ball that u_z presses less, in units of |v_n0| / kappa, is not pressed; friction between the balls that is less counts as
  * this, so that what is divided by it is finite. */
@@ -41,34 +41,34 @@ static const float carom_tolerances[2] = {2.5e-7f, 5e-6f};
 
 /* ---- The kernels */
 
-typedef enum carom_precision { CAROM_DOUBLE, CAROM_SINGLE, CAROM_PRECISIONS } carom_precision;
+typedef enum carom_precision { CAROM_F64, CAROM_F32, CAROM_PRECISIONS } carom_precision;
 
 /* What rows.h keeps of a register of rows, from reduction to restoration. */
-typedef struct carom_context {
+typedef struct row_context {
   _Alignas(64) unsigned char bytes[3200];
-} carom_context;
+} row_context;
 
 /* Reduces as many rows as a vector has floats, given by their numbers in an array of carom_impact or its twin. Returns a bit
  * for each row that passes every check, approaches, and is within what collocation is tried on; the columns of others hold
  * junk. s: see frame.h. */
-typedef uint32_t carom_rows_in(const void *in, const uint32_t row[MOST_LANES], double s, carom_context *context,
-                               carom_in columns);
+typedef uint32_t carom_rows_in(const void *in, const uint32_t row[MOST_LANES], double s, row_context *context,
+                               step_inputs columns);
 /* Writes the velocities, to an array of carom_result or its twin. Returns a bit for each row whose numbers are all finite. */
-typedef uint32_t carom_rows_out(const carom_context *context, const carom_out solution, void *out,
+typedef uint32_t carom_rows_out(const row_context *context, const step_outputs solution, void *out,
                                 const uint32_t row[MOST_LANES]);
 
-/* The first step, where it is an easy one, in the lanes of `good`. next: what comes next; *out of those that are SOLVED. A lane
- * for which the others would have to wait is put off: its next step is EASY again. spin: 5/2 s. */
-typedef void carom_first_step(carom_in in, uint32_t good, float spin, float tolerance, carom_out out, carom_next next);
-/* A step of a kind, for collisions that are `fresh`, or stand at *moving, which becomes where they stand after it. */
-typedef void carom_next_step(enum step_kind kind, int fresh, carom_in in, float spin, float tolerance, carom_moving moving,
-                             carom_out out, carom_next next);
+/* The first step, where it is an easy one, in the lanes of `good`. next: what comes next; *out: of those that are SOLVED. A
+ * lane for which the others would have to wait is put off: its next step is EASY again. spin: 5/2 s. */
+typedef void carom_first_step(step_inputs in, uint32_t good, float spin, float tolerance, step_outputs out, lanes_by_step next);
+/* A step of a kind, for collisions that are at their start, or stand at *at, which becomes where they stand after it. */
+typedef void carom_next_step(enum step_kind kind, int at_start, step_inputs in, float spin, float tolerance, lane_state at,
+                             step_outputs out, lanes_by_step next);
 
 /* One reduced collision, by all steps that it takes. Returns the number of right-hand sides
  * evaluated, or 0 if no step within the tolerance leads on. */
 typedef int carom_collocate(const float in[IN_COLUMNS], float spin, float tolerance, float out[OUT_COLUMNS]);
 /* One row from end to end. Returns the same number, 0 also for a row that is not good; *solution may be NULL. */
-typedef int carom_single(const void *in, double s, void *out, float solution[OUT_COLUMNS]);
+typedef int carom_call(const void *in, double s, void *out, float solution[OUT_COLUMNS]);
 
 /* Resolves n pairs of one precision with checked options; in, out and status as in carom_collide_batch(), status may be NULL.
  * Returns the index of the first pair in error, or n. */
@@ -82,29 +82,29 @@ typedef struct carom_kernels {
   carom_rows_out *rows_out[CAROM_PRECISIONS];
   carom_first_step *first_step;
   carom_next_step *next_step;
-  carom_single *single[CAROM_PRECISIONS];
+  carom_call *call[CAROM_PRECISIONS];
   carom_batch_solver *euler[CAROM_PRECISIONS];
 } carom_kernels;
 
-#define CAROM_KERNEL_PROTOTYPES(NAME, suffix)                                        \
-  carom_rows_in carom_rows_in_##suffix##_double, carom_rows_in_##suffix##_single;    \
-  carom_rows_out carom_rows_out_##suffix##_double, carom_rows_out_##suffix##_single; \
-  carom_first_step carom_first_step_##suffix;                                        \
-  carom_next_step carom_next_step_##suffix;                                          \
-  carom_collocate carom_collocate_##suffix;                                          \
-  carom_single carom_single_##suffix##_double, carom_single_##suffix##_single;       \
-  carom_batch_solver carom_euler_lanes_##suffix##_double, carom_euler_lanes_##suffix##_single;
+#define CAROM_KERNEL_PROTOTYPES(NAME, suffix)                                  \
+  carom_rows_in carom_rows_in_##suffix##_f64, carom_rows_in_##suffix##_f32;    \
+  carom_rows_out carom_rows_out_##suffix##_f64, carom_rows_out_##suffix##_f32; \
+  carom_first_step carom_first_step_##suffix;                                  \
+  carom_next_step carom_next_step_##suffix;                                    \
+  carom_collocate carom_collocate_##suffix;                                    \
+  carom_call carom_call_##suffix##_f64, carom_call_##suffix##_f32;             \
+  carom_batch_solver carom_euler_lanes_##suffix##_f64, carom_euler_lanes_##suffix##_f32;
 CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 #undef CAROM_KERNEL_PROTOTYPES
 
 /* In a source of kernels: the name of one, of the build's instruction set or of its precision too; and what that is. */
 #ifdef CAROM_LANES_SUFFIX
-#ifdef CAROM_LANES_SINGLE
-#define KERNEL_SUFFIX single
-#define KERNEL_PRECISION CAROM_SINGLE
+#ifdef CAROM_LANES_F32
+#define KERNEL_SUFFIX f32
+#define KERNEL_PRECISION CAROM_F32
 #else
-#define KERNEL_SUFFIX double
-#define KERNEL_PRECISION CAROM_DOUBLE
+#define KERNEL_SUFFIX f64
+#define KERNEL_PRECISION CAROM_F64
 #endif
 #define KERNEL_PASTE(a, b) a##_##b
 #define KERNEL_PASTE_EXPANDED(a, b) KERNEL_PASTE(a, b)
@@ -116,7 +116,7 @@ CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 const carom_kernels *carom_kernels_in_force(void);
 
 /* Batches by the exact limit; see batch.c. */
-carom_batch_solver carom_exact_batch_double, carom_exact_batch_single;
+carom_batch_solver carom_exact_batch_f64, carom_exact_batch_f32;
 
 /* One pair by a single call, with the checks and the status of carom_collide(): what lanes leave to it is a row that is not
  * plainly good. `in` and `out` are of the precision. */

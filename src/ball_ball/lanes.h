@@ -9,7 +9,7 @@
  *
  *     CAROM_LANES_AVX512, CAROM_LANES_AVX2 (with FMA), CAROM_LANES_SSE2, CAROM_LANES_NEON, CAROM_LANES_PLAIN
  *
- * and CAROM_LANES_SINGLE for float. PLAIN uses nothing but the extensions and runs anywhere. With CAROM_LANES_ONE a vreal is
+ * and CAROM_LANES_F32 for float. PLAIN uses nothing but the extensions and runs anywhere. With CAROM_LANES_ONE a vreal is
  * one number: the same text then serves a single collision, with the same bits, since every function here does the same
  * operations on a lane whatever the width.
  */
@@ -34,7 +34,7 @@
 #endif
 #endif
 
-#ifdef CAROM_LANES_SINGLE
+#ifdef CAROM_LANES_F32
 typedef float real;
 typedef int32_t lane_int;
 #define REAL_BYTES 4
@@ -63,14 +63,14 @@ typedef int64_t lane_int;
 #else
 #define V_FUSES 0
 #endif
-#if defined(CAROM_LANES_AVX512) || (LANES_X86 && defined(CAROM_LANES_SINGLE))
+#if defined(CAROM_LANES_AVX512) || (LANES_X86 && defined(CAROM_LANES_F32))
 #define V_ESTIMATES 1
 #else
 #define V_ESTIMATES 0
 #endif
 
 #ifdef CAROM_LANES_ONE
-#include "ball_ball/lane.h"
+#include "ball_ball/scalar.h"
 #else
 
 #if defined(CAROM_LANES_AVX512)
@@ -96,7 +96,7 @@ typedef real vreal_unaligned __attribute__((vector_size(VECTOR_BYTES), aligned(s
 #else
 #define SIMD_PREFIX _mm_
 #endif
-#ifdef CAROM_LANES_SINGLE
+#ifdef CAROM_LANES_F32
 #define SIMD(name) LANES_PASTE(SIMD_PREFIX, name, _ps)
 #else
 #define SIMD(name) LANES_PASTE(SIMD_PREFIX, name, _pd)
@@ -123,7 +123,7 @@ static inline void v_store(real *to, vreal x) {
 
 #ifdef CAROM_LANES_AVX512
 
-#ifdef CAROM_LANES_SINGLE
+#ifdef CAROM_LANES_F32
 typedef __mmask16 vmask;
 #define SIMD_COMPARE(a, b, how) _mm512_cmp_ps_mask(a, b, how)
 #else
@@ -233,11 +233,11 @@ static inline vreal v_min(vreal a, vreal b) {
 static inline vreal v_sqrt(vreal x) {
 #if LANES_X86
   return SIMD(sqrt)(x);
-#elif defined(CAROM_LANES_NEON) && defined(CAROM_LANES_SINGLE)
+#elif defined(CAROM_LANES_NEON) && defined(CAROM_LANES_F32)
   return (vreal)vsqrtq_f32((float32x4_t)x);
 #elif defined(CAROM_LANES_NEON)
   return (vreal)vsqrtq_f64((float64x2_t)x);
-#elif defined(CAROM_LANES_SINGLE)
+#elif defined(CAROM_LANES_F32)
   for (int k = 0; k < LANES; k++)
     x[k] = sqrtf(x[k]);
   return x;
@@ -252,7 +252,7 @@ static inline vreal v_sqrt(vreal x) {
 static inline vreal v_fma(vreal a, vreal b, vreal c) {
 #if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2)
   return SIMD(fmadd)(a, b, c);
-#elif defined(CAROM_LANES_NEON) && defined(CAROM_LANES_SINGLE)
+#elif defined(CAROM_LANES_NEON) && defined(CAROM_LANES_F32)
   return (vreal)vfmaq_f32((float32x4_t)c, (float32x4_t)a, (float32x4_t)b);
 #elif defined(CAROM_LANES_NEON)
   return (vreal)vfmaq_f64((float64x2_t)c, (float64x2_t)a, (float64x2_t)b);
@@ -295,7 +295,7 @@ typedef real chunk_unaligned __attribute__((vector_size(16), aligned(sizeof(real
 /* Chunk k of the vector is read from row[k * CHUNK] + at. */
 static inline vreal v_load_chunks(const real *const row[], int at) {
 #define CHUNK_OF(k) ((chunk) * (const chunk_unaligned *)(row[(k)*CHUNK] + at))
-#if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_SINGLE)
+#if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_F32)
   __m512 x = _mm512_castps128_ps512((__m128)CHUNK_OF(0));
   x = _mm512_mask_broadcast_f32x4(x, 0x00f0, (__m128)CHUNK_OF(1));
   x = _mm512_mask_broadcast_f32x4(x, 0x0f00, (__m128)CHUNK_OF(2));
@@ -305,7 +305,7 @@ static inline vreal v_load_chunks(const real *const row[], int at) {
   x = _mm512_mask_broadcast_f64x2(x, 0x0c, (__m128d)CHUNK_OF(1));
   x = _mm512_mask_broadcast_f64x2(x, 0x30, (__m128d)CHUNK_OF(2));
   return (vreal)_mm512_mask_broadcast_f64x2(x, 0xc0, (__m128d)CHUNK_OF(3));
-#elif defined(CAROM_LANES_AVX2) && defined(CAROM_LANES_SINGLE)
+#elif defined(CAROM_LANES_AVX2) && defined(CAROM_LANES_F32)
   return (vreal)_mm256_insertf128_ps(_mm256_castps128_ps256((__m128)CHUNK_OF(0)), (__m128)CHUNK_OF(1), 1);
 #elif defined(CAROM_LANES_AVX2)
   return (vreal)_mm256_insertf128_pd(_mm256_castpd128_pd256((__m128d)CHUNK_OF(0)), (__m128d)CHUNK_OF(1), 1);
@@ -318,7 +318,7 @@ static inline vreal v_load_chunks(const real *const row[], int at) {
 /* The reverse. */
 static inline void v_store_chunks(real *const row[], int at, vreal x) {
 #define CHUNK_TO(k) *(chunk_unaligned *)(row[(k)*CHUNK] + at)
-#if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_SINGLE)
+#if defined(CAROM_LANES_AVX512) && defined(CAROM_LANES_F32)
   CHUNK_TO(0) = (chunk_unaligned)_mm512_castps512_ps128(x);
   CHUNK_TO(1) = (chunk_unaligned)_mm512_extractf32x4_ps(x, 1);
   CHUNK_TO(2) = (chunk_unaligned)_mm512_extractf32x4_ps(x, 2);
@@ -328,7 +328,7 @@ static inline void v_store_chunks(real *const row[], int at, vreal x) {
   CHUNK_TO(1) = (chunk_unaligned)_mm512_extractf64x2_pd(x, 1);
   CHUNK_TO(2) = (chunk_unaligned)_mm512_extractf64x2_pd(x, 2);
   CHUNK_TO(3) = (chunk_unaligned)_mm512_extractf64x2_pd(x, 3);
-#elif defined(CAROM_LANES_AVX2) && defined(CAROM_LANES_SINGLE)
+#elif defined(CAROM_LANES_AVX2) && defined(CAROM_LANES_F32)
   CHUNK_TO(0) = (chunk_unaligned)_mm256_castps256_ps128(x);
   CHUNK_TO(1) = (chunk_unaligned)_mm256_extractf128_ps(x, 1);
 #elif defined(CAROM_LANES_AVX2)
@@ -344,13 +344,13 @@ static inline void v_store_chunks(real *const row[], int at, vreal x) {
 #if LANES == 2
 #define LANES_LOW 0, 2
 #define LANES_HIGH 1, 3
-#elif LANES == 4 && defined(CAROM_LANES_SINGLE)
+#elif LANES == 4 && defined(CAROM_LANES_F32)
 #define LANES_LOW 0, 4, 1, 5
 #define LANES_HIGH 2, 6, 3, 7
 #elif LANES == 4
 #define LANES_LOW 0, 4, 2, 6
 #define LANES_HIGH 1, 5, 3, 7
-#elif LANES == 8 && defined(CAROM_LANES_SINGLE)
+#elif LANES == 8 && defined(CAROM_LANES_F32)
 #define LANES_LOW 0, 8, 1, 9, 4, 12, 5, 13
 #define LANES_HIGH 2, 10, 3, 11, 6, 14, 7, 15
 #elif LANES == 8
@@ -363,7 +363,7 @@ static inline void v_store_chunks(real *const row[], int at, vreal x) {
 
 /* Transposes the squares of CHUNK x CHUNK that the chunks of CHUNK vectors make. */
 static inline void v_transpose_chunks(vreal m[]) {
-#ifdef CAROM_LANES_SINGLE
+#ifdef CAROM_LANES_F32
   const vreal a = __builtin_shufflevector(m[0], m[2], LANES_LOW), b = __builtin_shufflevector(m[0], m[2], LANES_HIGH);
   const vreal c = __builtin_shufflevector(m[1], m[3], LANES_LOW), d = __builtin_shufflevector(m[1], m[3], LANES_HIGH);
   m[0] = __builtin_shufflevector(a, c, LANES_LOW);
@@ -397,7 +397,7 @@ static inline void v_store_columns(real *const row[LANES], int at, const vreal c
 static inline vreal v_reciprocal(vreal x) {
 #if V_ESTIMATES
   const vreal y = v_estimate_reciprocal(x), error = v_fnma(x, y, v_splat(1));
-#ifdef CAROM_LANES_SINGLE
+#ifdef CAROM_LANES_F32
   return v_fma(y, error, y);
 #else
   return v_fma(y * error, v_fma(error, error, 1 + error), y);
@@ -426,7 +426,7 @@ static inline vreal v_rough_reciprocal_sqrt(vreal x) {
 static inline vreal v_reciprocal_sqrt(vreal x) {
 #if V_ESTIMATES
   const vreal y = v_estimate_reciprocal_sqrt(x), error = v_fnma(x * y, y, v_splat(1));
-#ifdef CAROM_LANES_SINGLE
+#ifdef CAROM_LANES_F32
   return v_fma((real)0.5 * y, error, y);
 #else
   return v_fma(y * error, v_fma(error, v_fma(v_splat((real)0.3125), error, v_splat((real)0.375)), v_splat((real)0.5)), y);

@@ -28,6 +28,7 @@
 #define CAROM_SRC_BALL_BALL_REDUCED_H
 
 #include "ball_ball/frame.h"
+#include "impact/impact.h"
 #include "platform/arithmetic.h"
 
 typedef struct carom_reduced {
@@ -74,5 +75,44 @@ static inline void carom_restore(const carom_reduced *r, const carom_integrals *
   c->w_iz += r->j_pressed ? o_wz : p_wz;
   c->w_jz += r->j_pressed ? p_wz : o_wz;
 }
+
+/* ---- In the terms of impact/law.h, for the precise solver: it solves what the fast steps refuse, and follows traces ---- */
+
+/* Puts a collision at its start; tolerance: see impact.h. */
+static inline void carom_precise_begin(const carom_reduced *c, double tolerance, carom_trajectory *path) {
+  const double per = -1 / c->v_n;
+  const carom_law law = {.K_x = 3.5 * c->kappa,
+                         .K_y = 2.5 * c->kappa,
+                         .C_x = 1,
+                         .C_y = 2.5,
+                         .B_0 = -1,
+                         .L_x = 1,
+                         .L_y = -2.5 * c->s,
+                         .H = 1 - 2.5 * c->s,
+                         .g_1 = -1,
+                         .V_0 = -c->kappa,
+                         .V_F = 1,
+                         .mu = c->mu_b,
+                         .mu_c = c->u_z > 0 ? c->mu : 0, /* no ball is pressed into the cloth */
+                         .e = c->e};
+  carom_impact_begin(&law, tolerance, per * c->u_x, per * c->u_z, per * c->d_x, per * c->d_y, path);
+}
+
+/* The integrals of reduced.h so far. */
+static inline carom_integrals carom_precise_integrals(const carom_reduced *c, const carom_trajectory *path) {
+  const carom_impulses q = carom_impact_impulses(path);
+  const double unit = -c->v_n;
+  return (carom_integrals){
+      .p = unit * q.p, .Q_1 = -unit * q.f_x, .Q_2 = -unit * q.f_y, .F_x = unit * q.F_x, .F_y = unit * q.F_y};
+}
+
+/* The whole collision, at the cost that a call may have. */
+static inline carom_status carom_precise(const carom_reduced *c, double tolerance, carom_trajectory *path) {
+  carom_precise_begin(c, tolerance, path);
+  return carom_impact_advance(path, INFINITY, CAROM_IMPACT_ITERATIONS);
+}
+
+/* The tolerance of calls: errors of two balls are well below what carom.h promises. */
+static const double CAROM_PRECISE_TOLERANCE = 1e-3;
 
 #endif

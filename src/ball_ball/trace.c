@@ -3,8 +3,7 @@
 #include "ball_ball/arguments.h"
 #include "ball_ball/euler.h"
 #include "ball_ball/frame.h"
-#include "ball_ball/precise.h"
-#include "ball_ball/result.h"
+#include "ball_ball/reduced.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 /* The one place where the arguments of an impact on a cushion are checked, by the conditions of the comments in carom_shot.h.
  */
-#include "cushion/arguments.h"
+#include "cushion/models.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,6 +1,4 @@
 /* The public entry points: check, go to the frame of the cushion, solve, come back. */
-#include "cushion/arguments.h"
-#include "cushion/frame.h"
 #include "cushion/models.h"
 #include "platform/threads.h"
 
@@ -32,7 +30,7 @@ static bool is_finite(const carom_motion *m) {
 }
 
 /* One impact, with options that have been checked. */
-static carom_status solve(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out) {
+static carom_status solve_impact(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out) {
   int field;
   carom_status status = carom_cushion_check_impact(in, &field);
   if (status == CAROM_OK) {
@@ -63,7 +61,7 @@ carom_status carom_cushion(const carom_cushion_impact *in, const carom_cushion_o
     opt = &defaults;
   const carom_status status = carom_cushion_check_options(opt);
   if (status == CAROM_OK)
-    return solve(in, opt, out);
+    return solve_impact(in, opt, out);
   *out = (carom_motion){{NAN, NAN, NAN}, {NAN, NAN, NAN}};
   return status;
 }
@@ -80,7 +78,7 @@ static size_t solve_rows(const void *context, size_t first, size_t end) {
   const batch *b = context;
   size_t first_bad = end;
   for (size_t k = first; k < end; k++) {
-    const carom_status status = solve(&b->in[k], b->opt, &b->out[k]);
+    const carom_status status = solve_impact(&b->in[k], b->opt, &b->out[k]);
     if (b->status != NULL)
       b->status[k] = (int8_t)status;
     if (status < 0 && first_bad == end)
@@ -116,5 +114,5 @@ carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n, const
     return CAROM_OK;
   /* Only its index came back through the threads; doing the row again tells its status. */
   carom_motion unused;
-  return solve(&in[first_bad], opt, &unused);
+  return solve_impact(&in[first_bad], opt, &unused);
 }

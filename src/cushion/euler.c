@@ -16,16 +16,16 @@
 enum { HALVINGS = 8, MOST_TURNS = 10 };
 
 /* A direction: the slip over its size. Without one there is no friction; but with pooltool it is that of x. */
-static void direction(double x, double y, bool pooltool, double *to_x, double *to_y) {
+static void slip_direction(double x, double y, bool pooltool, double *to_x, double *to_y) {
   const double size = sqrt(x * x + y * y);
   *to_x = size > 0 ? x / size : pooltool ? 1 : 0;
   *to_y = size > 0 ? y / size : 0;
 }
 
-static void step(carom_contact *c, double P, bool pooltool) {
+static void euler_step(carom_contact *c, double P, bool pooltool) {
   double at_x, at_t, over_x, over_y;
-  direction(carom_slip_x(c), carom_slip_t(c), pooltool, &at_x, &at_t);
-  direction(carom_cloth_x(c), carom_cloth_y(c), pooltool, &over_x, &over_y);
+  slip_direction(carom_slip_x(c), carom_slip_t(c), pooltool, &at_x, &at_t);
+  slip_direction(carom_cloth_x(c), carom_cloth_y(c), pooltool, &over_x, &over_y);
   /* what the cloth bears for each unit of P */
   const double load = c->sine + c->mu_w * at_t * c->cosine, g = pooltool || load > 0 ? load : 0;
   const carom_impulse q = {.P = P,
@@ -37,8 +37,8 @@ static void step(carom_contact *c, double P, bool pooltool) {
 }
 
 /* A step that counts. */
-static void take(carom_contact *c, double P, bool pooltool, carom_cushion_run *run) {
-  step(c, P, pooltool);
+static void take_euler_step(carom_contact *c, double P, bool pooltool, carom_cushion_run *run) {
+  euler_step(c, P, pooltool);
   run->impulse += P;
   run->work += P * fabs(c->v_y) * c->cosine;
   run->steps++;
@@ -55,17 +55,17 @@ carom_status carom_cushion_euler(carom_contact *c, int N, double least, int pool
     if (k > (int64_t)MOST_TURNS * N)
       return CAROM_ERROR_TOO_SLOW;
     carom_contact next = *c;
-    step(&next, P, pooltool);
+    euler_step(&next, P, pooltool);
     if (next.v_y > 0) {
-      take(c, P, pooltool, run);
+      take_euler_step(c, P, pooltool, run);
       continue;
     }
     for (int halving = 0; halving < HALVINGS && run->steps < most; halving++) {
       P /= 2;
       next = *c;
-      step(&next, P, pooltool);
+      euler_step(&next, P, pooltool);
       if (next.v_y > 0)
-        take(c, P, pooltool, run);
+        take_euler_step(c, P, pooltool, run);
     }
     break;
   }
@@ -77,10 +77,10 @@ carom_status carom_cushion_euler(carom_contact *c, int N, double least, int pool
       return CAROM_ERROR_TOO_SLOW;
     const double left = target - (run->work - work_c), speed = fabs(c->v_y) * c->cosine;
     if (speed * P > left) {
-      take(c, left / speed, pooltool, run);
+      take_euler_step(c, left / speed, pooltool, run);
       break;
     }
-    take(c, P, pooltool, run);
+    take_euler_step(c, P, pooltool, run);
   }
   return CAROM_OK;
 }

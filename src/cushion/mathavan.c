@@ -7,7 +7,6 @@
  *     v_y' = -cos - sin f_t + F_y
  *
  * and vertical forces balance at the cloth: its load is sin - cos f_t, but never below 0: the cloth does not pull. */
-#include "cushion/mathavan.h"
 
 #include "cushion/models.h"
 

@@ -4,6 +4,7 @@
 #define CAROM_SRC_CUSHION_MODELS_H
 
 #include "cushion/contact.h"
+#include "impact/impact.h"
 
 #include <stdint.h>
 
@@ -33,5 +34,26 @@ typedef struct carom_cushion_run {
 /* N steps of impulse, of which none is below `least` (N s over the mass, m/s); no more than `most` are taken. See euler.c. */
 carom_status carom_cushion_euler(carom_contact *contact, int steps, double least, int pooltool, int64_t most,
                                  carom_cushion_run *run);
+
+/* The exact limit for the precise solver of src/impact. See mathavan.c. */
+
+/* Puts an impact at its start; tolerance: see impact.h. */
+void carom_mathavan_begin(const carom_contact *contact, double tolerance, carom_trajectory *path);
+
+/* Impulses so far, over the mass. */
+carom_impulse carom_mathavan_impulse(const carom_contact *contact, const carom_trajectory *path);
+
+/* ---- Checks of arguments: options once per call, impacts once per row. See arguments.c. ---- */
+
+/* CAROM_OK, or the error of the first option at fault. */
+carom_status carom_cushion_check_options(const carom_cushion_options *opt);
+
+/* CAROM_OK, or the error of the first field at fault; `*field` is its index. */
+carom_status carom_cushion_check_impact(const carom_cushion_impact *in, int *field);
+
+/* Euler's N of options that have been checked. */
+static inline int carom_cushion_steps(const carom_cushion_options *opt) {
+  return opt->steps > 0 ? opt->steps : CAROM_DEFAULT_STEPS;
+}
 
 #endif

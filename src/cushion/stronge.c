@@ -31,7 +31,7 @@
 
 static const double BETA = 3.5, HALF_PI = 1.57079632679489661923;
 static const double ROOT_WIDTH = 1e-10;
-static const double SMALL = 1e-8, NEAR = 1e-5; /* how pooltool tells that rho is at a limit */
+static const double LIMIT_ABSOLUTE = 1e-8, LIMIT_RELATIVE = 1e-5; /* how pooltool tells that rho is at a limit */
 enum { MOST_TRIALS = 60, MOST_HALVINGS = 20 };
 
 typedef struct spring {
@@ -102,9 +102,9 @@ static double slip_after(double rho, double mu, double e, double ratio, bool poo
   if (rho >= at_once)
     stick(&s, rho);
   double tau_s;
-  if (fabs(rho - at_once) <= SMALL + NEAR * at_once)
+  if (fabs(rho - at_once) <= LIMIT_ABSOLUTE + LIMIT_RELATIVE * at_once)
     tau_s = HALF_PI;
-  else if (rho <= SMALL || (e > 0 && fabs(rho - to_the_end) <= SMALL + NEAR * to_the_end))
+  else if (rho <= LIMIT_ABSOLUTE || (e > 0 && fabs(rho - to_the_end) <= LIMIT_ABSOLUTE + LIMIT_RELATIVE * to_the_end))
     tau_s = s.end;
   else
     tau_s = slips_again(&s);

@@ -1,8 +1,5 @@
 /* carom_cushion_trace(): an impact on its way, sampled at equal steps of normal impulse. The precise solver follows the
  * exact limit from sample to sample; Euler's method is stopped on its way, once for each sample. */
-#include "cushion/arguments.h"
-#include "cushion/frame.h"
-#include "cushion/mathavan.h"
 #include "cushion/models.h"
 
 #include <stdbool.h>
@@ -16,7 +13,8 @@ typedef struct subject {
   carom_contact start;
 } subject;
 
-static void put(const subject *s, const carom_contact *c, double P, double work, bool parting, carom_cushion_point *point) {
+static void put_point(const subject *s, const carom_contact *c, double P, double work, bool parting,
+                      carom_cushion_point *point) {
   *point = (carom_cushion_point){.normal = P * s->in->mass,
                                  .work = work * s->in->mass,
                                  .phase = parting ? CAROM_PHASE_RESTITUTION : CAROM_PHASE_COMPRESSION,
@@ -41,7 +39,7 @@ static carom_status trace_exact(const subject *s, size_t n, carom_cushion_point 
     carom_contact c = s->start;
     const carom_impulse so_far = carom_mathavan_impulse(&s->start, &path);
     carom_push(&c, &so_far);
-    put(s, &c, so_far.P, energy * carom_impact_work(&path), path.restitution, &points[k]);
+    put_point(s, &c, so_far.P, energy * carom_impact_work(&path), path.restitution, &points[k]);
     points[k].nose_sticks = path.regime.held;
     points[k].cloth_sticks = path.regime.cloth_held;
     if (path.regime.held)
@@ -65,7 +63,7 @@ static carom_status trace_euler(const subject *s, const carom_cushion_options *o
       return status;
     if (k + 1 == n)
       total = run.steps;
-    put(s, &c, run.impulse, run.work, !isnan(run.work_compression), &points[k]);
+    put_point(s, &c, run.impulse, run.work, !isnan(run.work_compression), &points[k]);
   }
   return CAROM_OK;
 }
@@ -101,7 +99,7 @@ carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cus
       carom_apply_han(&s.start);
     if (status == CAROM_SEPARATING)
       for (size_t k = 0; k < n; k++) {
-        put(&s, &s.start, 0, 0, true, &points[k]);
+        put_point(&s, &s.start, 0, 0, true, &points[k]);
         points[k].state = end;
       }
     else if (opt->model == CAROM_CUSHION_MATHAVAN)

@@ -15,12 +15,19 @@
  * SAFETY. A step that is refused is tried again with a shorter length. After MOST_REFUSALS in a row the rest of the impact goes
  * by careful steps: exact ones over even maps, each only a share of the way to where a slip could vanish. The caller bounds the
  * number of iterations of all steps together. */
-#include "impact/advance.h"
 #include "impact/map.h"
 
 #include <float.h>
 
-/* Found by trial with `carom-lab stress --cushion` and `carom-lab bench --shots`; see docs/study/tried.md. */
+/* Found by trial with `carom-lab stress --cushion 20000`, whose largest error is 1.1e-7 in play and 1.5e-6 anywhere, and
+ * `carom-lab bench --cushion`; see docs/study/tried.md. Times vary by about 3 %. At twice and at half:
+ *
+ *     MOST_TURN                twice: nothing changes; half: play takes 4 % longer
+ *     MOST_FALL                twice: play takes 58 % longer; half: 8 %
+ *     BOLDER                   twice: play takes 5 % longer, 3 impacts of 20,000 are unresolved instead of 2; half: nothing
+ *     ALIGNED                  twice: errors to 2.1e-6; half: nothing changes
+ *     CAREFUL_SHARE            twice: nothing changes; half: all takes 3 to 4 % longer
+ *     STIFF, SETTLING          nothing changes for the worse at either */
 static const double MOST_TURN = 2.3;     /* D tau of a stretched step, */
 static const double MOST_FALL = 2.6;     /* and the logarithm by which r falls in it: */
 static const double BOLDER = 0.15;       /* both plus this times -log(r), since small slips matter less */
@@ -41,10 +48,10 @@ enum {
 
 /* The kinds of steps, compiled one by one so that each leaves out what it does not need. */
 typedef enum outcome step_kind(const carom_terms *, const step *, carom_point *, int *, double *);
-#define KIND(name, slips, loaded, exact)                                                                                    \
+#define KIND(name, driving_slips, loaded, exact)                                                                            \
   static __attribute__((noinline)) enum outcome name(const carom_terms *k, const step *s, carom_point *at, int *iterations, \
                                                      double *advice) {                                                      \
-    return take_step(k, s, slips, loaded, exact, at, iterations, advice);                                                   \
+    return collocate(k, s, driving_slips, loaded, exact, at, iterations, advice);                                           \
   }
 KIND(sliding, true, true, FOR_NONE)
 KIND(sliding_unloaded, true, false, FOR_NONE)
@@ -68,7 +75,7 @@ static double most_of(double x, double y) {
   return x > y ? x : y;
 }
 
-static bool slips(const carom_trajectory *path) {
+static bool driving_slips(const carom_trajectory *path) {
   return !path->regime.held && path->law.mu > 0;
 }
 
@@ -77,9 +84,11 @@ static double work_end(const carom_trajectory *path) {
   return -path->law.e * path->law.e * path->W_c;
 }
 
-static void begin_step(const carom_trajectory *path, double to, beginning *s) {
+/* Where a step starts: slips, directions and rates, and how far it may go. */
+static void start_at(const carom_trajectory *path, double to, step_start *s) {
   const carom_point *at = &path->at;
   const carom_terms *k = &path->terms;
+  /* the slips: sizes, and directions or, of a slip that begins, those of the regime */
   s->r = sqrt(at->a_x * at->a_x + at->a_y * at->a_y);
   s->q = sqrt(at->b_x * at->b_x + at->b_y * at->b_y);
   const double per_r = 1 / s->r, per_q = 1 / s->q;
@@ -95,11 +104,13 @@ static void begin_step(const carom_trajectory *path, double to, beginning *s) {
   s->db_x = k->R_x * s->u_x - k->H_x * x;
   s->db_y = k->B_0 + k->R_y * s->u_y - k->H_y * y;
   s->dv = k->V_0 + k->V_u * s->u_y - k->V_w * y;
+  /* the mean of b' if b passes zero, where the cloth's own friction changes its sign */
   s->line_x = s->db_x + 0.5 * k->H_x * x;
   s->line_y = s->db_y + 0.5 * k->H_y * y;
   /* the end of the phase if v' were constant; or what comes before it. Friction of a steep nose may push the ball on, v' > 0,
    * until slip has changed: then no end is in sight, and a step may go as far as slip lasts */
   if (path->restitution) {
+    /* p where W = target, by the quadratic equation for a constant v' */
     s->goal = AT_WORK;
     s->target = work_end(path);
     const double missing = s->target - at->W, square = at->v * at->v + 2 * s->dv * missing;
@@ -109,12 +120,14 @@ static void begin_step(const carom_trajectory *path, double to, beginning *s) {
     s->target = 0;
     s->to_goal = s->dv < 0 ? -at->v / s->dv : INFINITY;
   }
+  /* no end in sight: as far as the larger of the slips lasts, but no more than 1 */
   if (s->to_goal == INFINITY) {
     s->goal = AT_LENGTH;
     s->to_goal = most_of(s->r / (fabs(s->da_x) + fabs(s->da_y)), s->q / (fabs(s->db_x) + fabs(s->db_y)));
     if (!(s->to_goal > 0 && s->to_goal < 1))
       s->to_goal = 1;
   }
+  /* what comes before it: p asked for, the event of the regime, the length left by a refusal */
   if (to - at->p < s->to_goal) {
     s->goal = AT_P;
     s->target = s->to_goal = to - at->p;
@@ -130,11 +143,11 @@ static void begin_step(const carom_trajectory *path, double to, beginning *s) {
 }
 
 /* Directions to begin with: both slips along straight lines. */
-static void aim_u(plan *n, const carom_point *at, const beginning *s) {
+static void aim_u(plan *n, const carom_point *at, const step_start *s) {
   aim(&n->s, at->a_x, at->a_y, s->da_x, s->da_y, s->u_x, s->u_y, n->s.u_x, n->s.u_y);
 }
 
-static void aim_t(plan *n, const carom_point *at, const beginning *s) {
+static void aim_t(plan *n, const carom_point *at, const step_start *s) {
   aim(&n->s, at->b_x, at->b_y, s->line_x, s->line_y, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
 }
 
@@ -146,47 +159,56 @@ static void limit(double *length, enum goal *goal, double most) {
   }
 }
 
-static void plan_carefully(const carom_trajectory *path, const beginning *s, plan *n) {
+/* A careful step: exact, over an even map, at most a share of the way to where a slip could vanish. */
+static void plan_carefully(const carom_trajectory *path, const step_start *s, plan *n) {
   double length = s->to_goal;
   n->s.goal = s->goal;
-  if (slips(path) && s->r > 0)
+  /* |a| and |b| over their rates: sums of components are upper bounds */
+  if (driving_slips(path) && s->r > 0)
     limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->da_x) + fabs(s->da_y) + DBL_MIN));
   if (path->regime.loaded && s->q > 0)
     limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->db_x) + fabs(s->db_y) + DBL_MIN));
   even_map(&n->s, length);
-  n->kind = !slips(path) ? held_exact : path->regime.loaded ? exact_in_both : exact_unloaded;
+  n->kind = !driving_slips(path) ? held_exact : path->regime.loaded ? exact_in_both : exact_unloaded;
   aim_u(n, &path->at, s);
   aim_t(n, &path->at, s);
 }
 
-/* Whether the slip on the cloth begins, or is quasi-steady. */
-static bool cloth_is_stiff(const carom_trajectory *path, const beginning *s) {
+/* Whether the equations for b are stiff: b is quasi-steady, so that friction nearly balances what drives it, or begins from
+ * zero while friction is strong. */
+static bool cloth_is_stiff(const carom_trajectory *path, const step_start *s) {
+  /* |b|' by friction alone; it must be able to stop b several times before the goal */
   const double friction = path->terms.H_y * s->w;
   if (!path->regime.loaded || friction * s->to_goal < STIFF * s->q)
     return false;
   if (s->q == 0)
     return fabs(s->db_x) + fabs(s->db_y) < SLOW * friction || path->regime.held;
+  /* b hardly turns, and its size changes slowly, against friction alone */
   const double along = s->t_x * s->db_x + s->t_y * s->db_y, across = s->t_x * s->db_y - s->t_y * s->db_x;
   return fabs(across) < ALIGNED * friction && fabs(along) < SLOW * friction;
 }
 
-static void plan_stiff_cloth(const carom_trajectory *path, const beginning *s, plan *n) {
+/* The step for a stiff b: exact, over an even map, with a constant first direction of b. */
+static void plan_stiff_cloth(const carom_trajectory *path, const step_start *s, plan *n) {
   const double along = s->t_x * s->db_x + s->t_y * s->db_y;
   double length = s->to_goal;
   n->s.goal = s->goal;
+  /* up to where b becomes zero, if a straight line takes it there; the iteration finds the length */
   if (s->q > 0 && along < 0 && length > -0.95 * s->q / along) {
     length = -0.95 * s->q / along;
     n->s.goal = AT_CLOTH_STICK;
   }
-  if (slips(path) && s->r > 0)
+  /* a is not stiff, and must not vanish within the step */
+  if (driving_slips(path) && s->r > 0)
     limit(&length, &n->s.goal, CAREFUL_SHARE * s->r / (fabs(s->da_x) + fabs(s->da_y) + DBL_MIN));
   even_map(&n->s, length);
-  n->kind = slips(path) ? exact_in_both : held_exact;
+  n->kind = driving_slips(path) ? exact_in_both : held_exact;
   aim_u(n, &path->at, s);
   aim(&n->s, 0, 0, 0, 0, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
 }
 
-static void plan_held(const carom_trajectory *path, const beginning *s, plan *n) {
+/* The step while friction holds the driving contact: a sinh map if b passes near zero, else an even one. */
+static void plan_held(const carom_trajectory *path, const step_start *s, plan *n) {
   const passage g = passage_of_b(&path->at, &path->terms, s, s->to_goal);
   n->kind = held;
   n->s.goal = s->goal;
@@ -197,17 +219,21 @@ static void plan_held(const carom_trajectory *path, const beginning *s, plan *n)
   aim_t(n, &path->at, s);
 }
 
-/* a is quasi-steady, or begins. */
-static void plan_stiff(const carom_trajectory *path, const beginning *s, const closed_form *c, plan *n) {
+/* The step for a stiff a, which is quasi-steady or begins from zero: exact, over an even map, with a constant first direction.
+ */
+static void plan_stiff(const carom_trajectory *path, const step_start *s, const closed_form *c, plan *n) {
   const double along = s->u_x * s->da_x + s->u_y * s->da_y;
   double length = s->to_goal;
   n->s.goal = s->goal;
+  /* a short step while the direction still settles */
   if (fabs(c->sine) * s->r > NEGLIGIBLE)
     limit(&length, &n->s.goal, SETTLING * s->r / c->D);
+  /* up to where a becomes zero, if a straight line takes it there; the iteration finds the length */
   if (s->r > 0 && along < 0 && length > -0.97 * s->r / along) {
     length = -0.95 * s->r / along;
     n->s.goal = AT_STICK;
   }
+  /* an even map resolves no b that passes near zero: stop before */
   if (path->regime.loaded && passage_of_b(&path->at, &path->terms, s, length).near)
     limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->db_x) + fabs(s->db_y)));
   even_map(&n->s, length);
@@ -216,7 +242,9 @@ static void plan_stiff(const carom_trajectory *path, const beginning *s, const c
   aim_t(n, &path->at, s);
 }
 
-static void plan_sliding(const carom_trajectory *path, const beginning *s, plan *n) {
+/* The step while a slides: a stretched map, or a sinh map if b passes near zero; but that of plan_stiff() for a stiff a. */
+static void plan_sliding(const carom_trajectory *path, const step_start *s, plan *n) {
+  /* stiff: u points along the drive D, and friction could stop a several times before the goal */
   const closed_form c = closed_form_of(&path->terms, s);
   if (s->r == 0 || (c.cosine > 0.9 && fabs(c.sine) < ALIGNED && s->to_goal * c.D > STIFF * s->r)) {
     plan_stiff(path, s, &c, n);
@@ -229,7 +257,7 @@ static void plan_sliding(const carom_trajectory *path, const beginning *s, plan 
   if (path->regime.loaded)
     g = passage_of_b(&path->at, &path->terms, s, s->to_goal);
   if (g.near) {
-    /* a changes little in the step */
+    /* a changes little in the step: its E belongs to |a| along a straight line */
     double length = s->to_goal;
     limit(&length, &n->s.goal, 0.7 * s->r / (fabs(s->da_x) + fabs(s->da_y)));
     if (!sinh_map(&n->s, &g, length))
@@ -253,13 +281,13 @@ static void plan_sliding(const carom_trajectory *path, const beginning *s, plan 
 
 /* Sets to zero a slip that has become negligible, and the motion along x of an impact that has become planar. Returns whether
  * the regime has ended. before: where the step began. */
-static bool tidy(carom_trajectory *path, const carom_point *before) {
+static bool snap_to_zero(carom_trajectory *path, const carom_point *before) {
   carom_point *at = &path->at;
-  if (fabs(at->a_x) <= path->rest && fabs(at->b_x) <= path->rest)
+  if (fabs(at->a_x) <= path->no_slip && fabs(at->b_x) <= path->no_slip)
     at->a_x = at->b_x = 0;
   const double a = fabs(at->a_x) + fabs(at->a_y), b = fabs(at->b_x) + fabs(at->b_y);
-  const bool a_ends = slips(path) && a <= path->rest && a < fabs(before->a_x) + fabs(before->a_y);
-  const bool b_ends = path->regime.loaded && b <= path->rest && b < fabs(before->b_x) + fabs(before->b_y);
+  const bool a_ends = driving_slips(path) && a <= path->no_slip && a < fabs(before->a_x) + fabs(before->a_y);
+  const bool b_ends = path->regime.loaded && b <= path->no_slip && b < fabs(before->b_x) + fabs(before->b_y);
   if (a_ends)
     at->a_x = at->a_y = 0;
   if (b_ends)
@@ -267,12 +295,14 @@ static bool tidy(carom_trajectory *path, const carom_point *before) {
   return a_ends || b_ends;
 }
 
-/* All rates are constant: on to the goal, or to where a slip is zero. Returns whether that is the goal. */
-static bool go_straight(carom_trajectory *path, const beginning *s) {
+/* On along a straight line, where all rates are constant: to the goal, or to where a slip is zero. Returns whether that is the
+ * goal. In planar motion only the y components change. */
+static bool go_straight(carom_trajectory *path, const step_start *s) {
   carom_point *at = &path->at;
-  const double to_a = slips(path) && at->a_y * s->da_y < 0 ? -at->a_y / s->da_y : INFINITY;
+  const double to_a = driving_slips(path) && at->a_y * s->da_y < 0 ? -at->a_y / s->da_y : INFINITY;
   const double to_b = path->regime.loaded && at->b_y * s->db_y < 0 ? -at->b_y / s->db_y : INFINITY;
   const double length = least(s->to_goal, least(to_a, to_b));
+  /* W before v, since it is the integral of the old v */
   at->W += length * (at->v + 0.5 * s->dv * length);
   at->v += s->dv * length;
   at->p += length;
@@ -296,15 +326,17 @@ static void end_phase(carom_trajectory *path) {
 
 /* Plans a step and takes it, or draws the consequences of its refusal. Returns false if there is no way on. */
 static bool next_step(carom_trajectory *path, double to) {
-  beginning s;
-  begin_step(path, to, &s);
+  /* planar motion, and motion without any friction that changes, is a straight line */
+  step_start s;
+  start_at(path, to, &s);
   const carom_point before = path->at;
   const bool planar = before.a_x == 0 && before.b_x == 0 && s.u_x == 0 && s.t_x == 0;
-  if (planar || (!slips(path) && !path->regime.loaded)) {
+  if (planar || (!driving_slips(path) && !path->regime.loaded)) {
     if (go_straight(path, &s) && (s.goal == AT_END_OF_APPROACH || s.goal == AT_WORK))
       end_phase(path);
-    return !tidy(path, &before) || carom_impact_regime(path, false);
+    return !snap_to_zero(path, &before) || carom_impact_regime(path, false);
   }
+  /* the plan: the first that applies */
   plan n;
   n.s.target = s.target;
   n.s.restitution = path->restitution;
@@ -314,10 +346,11 @@ static bool next_step(carom_trajectory *path, double to) {
     plan_carefully(path, &s, &n);
   else if (cloth_is_stiff(path, &s))
     plan_stiff_cloth(path, &s, &n);
-  else if (slips(path))
+  else if (driving_slips(path))
     plan_sliding(path, &s, &n);
   else
     plan_held(path, &s, &n);
+  /* the step. Behind it a regime may begin, a phase may end, or a slip may be negligible */
   double advice = 1;
   const enum outcome r = n.kind(&path->terms, &n.s, &path->at, &path->iterations, &advice);
   if (r == TAKEN) {
@@ -327,14 +360,16 @@ static bool next_step(carom_trajectory *path, double to) {
       return carom_impact_regime(path, n.s.goal == AT_EVENT);
     if (n.s.goal == AT_END_OF_APPROACH || n.s.goal == AT_WORK)
       end_phase(path);
-    return !tidy(path, &before) || carom_impact_regime(path, false);
+    return !snap_to_zero(path, &before) || carom_impact_regime(path, false);
   }
+  /* refused: up to the event; or a shorter step, by the error estimate */
   if (r == EVENT_WITHIN) {
     path->event_at = path->at.p + advice;
     if (advice < IMMEDIATE * s.to_goal)
       return carom_impact_regime(path, true);
   } else /* the error is of order 16 in the length */
     path->longest = n.s.length * (r == INACCURATE && advice < 1e12 ? most_of(0.3, 0.9 / sqrt(sqrt(sqrt(sqrt(advice))))) : 0.5);
+  /* after too many refusals, careful steps; after too many of those, no way on */
   path->refusals++;
   path->sticks_missed += r == DIVERGED && n.s.goal == AT_STICK;
   if ((path->refusals == MOST_REFUSALS || path->sticks_missed == MOST_MISSED) && !path->careful) {
@@ -350,6 +385,7 @@ carom_status CAROM_IMPACT_ADVANCE(carom_trajectory *path, double to, int most) {
     if (path->iterations >= most || !next_step(path, to) || !(path->at.growth <= MOST_GROWTH) ||
         (path->restitution && path->at.v > AGAIN))
       return CAROM_ERROR_UNRESOLVED;
+    /* the first stick; and what holds both contacts ends the impact */
     if (path->regime.held && isnan(path->p_stick))
       path->p_stick = path->at.p;
     if ((path->regime.held && path->regime.cloth_held) || carom_impact_jams(path))

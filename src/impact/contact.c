@@ -95,6 +95,7 @@ static pair leaves(const carom_law *l, pair t, pair hold) {
   const double side = t.x < 0 ? -1 : 1;
   const pair there = {side * t.x, t.y};
   /* at the edge of the cone it begins against the friction that held */
+  /* around the circle: between two directions where across() changes from positive to negative lies a stable zero */
   pair best = direction((pair){-hold.x, -hold.y}, (pair){0, 1});
   double most = BACKWARDS, along;
   pair u = {0, -1};
@@ -103,11 +104,13 @@ static pair leaves(const carom_law *l, pair t, pair hold) {
     const pair next = {u.x * STEP_COSINE + u.y * STEP_SINE, u.y * STEP_COSINE - u.x * STEP_SINE};
     const double now = across(l, next, there, &along);
     if (last >= 0 && now < 0) {
+      /* by bisection */
       pair low = u, high = next;
       for (int n = 0; n < BISECTIONS; n++) {
         const pair middle = direction((pair){low.x + high.x, low.y + high.y}, low);
         *(across(l, middle, there, &along) >= 0 ? &low : &high) = middle;
       }
+      /* the slip grows fastest there so far */
       if (along > most) {
         most = along;
         best = (pair){side * low.x, low.y};
@@ -126,7 +129,8 @@ static bool both_hold(const carom_law *l) {
   return l->H > 0 && within(f, l->mu) && load(l, f.y) > 0 && size(F) <= l->mu_c * load(l, f.y);
 }
 
-/* Where both slips are zero. False if no regime is consistent. */
+/* The regime where both slips are zero: the first of these that is consistent with its own rates. Everything lies along y.
+ * False if none is. */
 static bool from_rest(const carom_law *l, carom_regime *r) {
   const double mu = l->mu;
   if (both_hold(l)) {
@@ -137,6 +141,7 @@ static bool from_rest(const carom_law *l, carom_regime *r) {
     /* the driving contact holds, the cloth's slip begins */
     const pair t = {0, side}, h = holding(l, t);
     if (within(h, mu)) {
+      /* b' must point along t; a cloth without load is dragged along t = y */
       const pair drive = cloth_drive(l, h), w = cloth_friction(l, h, t);
       if (side * (drive.y + l->H * w.y) > 0 || (load(l, h.y) <= 0 && side > 0)) {
         *r = (carom_regime){.held = true, .loaded = load(l, h.y) > 0, .t_y = side};
@@ -152,6 +157,7 @@ static bool from_rest(const carom_law *l, carom_regime *r) {
     pair w = cloth_friction(l, s, t);
     if (stays)
       w = (pair){0, -drive.y / l->H};
+    /* a' must point along u */
     const pair rate = driving_rate(l, s, w);
     if (side * rate.y > 0) {
       *r = (carom_regime){
@@ -162,12 +168,14 @@ static bool from_rest(const carom_law *l, carom_regime *r) {
   return false;
 }
 
+/* The regime that begins at a point, after *r. event: that of *r has ended it. False if no regime is consistent. */
 static bool choose(const carom_law *l, const carom_point *at, bool event, carom_regime *r) {
   const bool a_rests = l->mu > 0 && at->a_x == 0 && at->a_y == 0, b_rests = l->mu_c > 0 && at->b_x == 0 && at->b_y == 0;
   if (a_rests && b_rests)
     return from_rest(l, r);
   const carom_regime last = *r;
   *r = (carom_regime){.held = false};
+  /* the driving contact: friction f holds it, or its slip begins, or it slips */
   pair u, f;
   if (a_rests) {
     const pair t = direction((pair){at->b_x, at->b_y}, (pair){0, -1});
@@ -183,9 +191,11 @@ static bool choose(const carom_law *l, const carom_point *at, bool event, carom_
     u = direction((pair){at->a_x, at->a_y}, (pair){0, 0});
     f = (pair){-l->mu * u.x, -l->mu * u.y};
   }
+  /* the load of the cloth; an event of two slipping contacts was its beginning or end */
   r->loaded = l->mu_c > 0 && load(l, f.y) > 0;
-  if (event && !last.held && !last.cloth_held) /* that was the load */
+  if (event && !last.held && !last.cloth_held)
     r->loaded = !last.loaded;
+  /* the cloth: friction holds it, or its slip begins */
   if (b_rests && r->loaded) {
     r->cloth_held = cloth_holds(l, f) && !(event && last.cloth_held);
     r->loaded = !r->cloth_held;

@@ -8,37 +8,36 @@
  * The balance of momentum is therefore exact, whatever the error of the solver. */
 #include "impact/impact.h"
 
-#include "impact/advance.h"
 #include "platform/isa.h"
 
 #include <math.h>
 
-static const double REST = 1e-9;       /* a slip that counts as zero; */
+static const double NO_SLIP = 1e-9;    /* a slip that counts as zero; */
 static const double ROUNDING = 1e-15;  /* at least this share of all slips; where H < 0, which would amplify it, no more */
 static const double MOST_SLIP = 1e100; /* squares of more would overflow */
 
 void carom_impact_begin(const carom_law *law, double tolerance, double a_x, double a_y, double b_x, double b_y,
                         carom_trajectory *path) {
-  const double slips = fabs(a_x) + fabs(a_y) + fabs(b_x) + fabs(b_y);
+  const double driving_slips = fabs(a_x) + fabs(a_y) + fabs(b_x) + fabs(b_y);
   *path = (carom_trajectory){.law = *law,
                              .start = {.a_x = a_x, .a_y = a_y, .b_x = b_x, .b_y = b_y, .v = 1},
                              .p_stick = NAN,
                              .tolerance = tolerance,
-                             .rest = fmax(law->H < 0 ? ROUNDING : REST, ROUNDING * slips),
+                             .no_slip = fmax(law->H < 0 ? ROUNDING : NO_SLIP, ROUNDING * driving_slips),
                              .longest = INFINITY,
                              .event_at = INFINITY};
   path->at = path->start;
-  if (!(slips < MOST_SLIP)) {
+  if (!(driving_slips < MOST_SLIP)) {
     path->status = CAROM_ERROR_OVERFLOW;
     return;
   }
   /* slips that count as zero, and motion along x of which there is none */
   carom_point *at = &path->at;
-  if (fabs(a_x) <= path->rest && fabs(b_x) <= path->rest)
+  if (fabs(a_x) <= path->no_slip && fabs(b_x) <= path->no_slip)
     at->a_x = at->b_x = 0;
-  if (fabs(a_x) + fabs(a_y) <= path->rest)
+  if (fabs(a_x) + fabs(a_y) <= path->no_slip)
     at->a_x = at->a_y = 0;
-  if (fabs(b_x) + fabs(b_y) <= path->rest)
+  if (fabs(b_x) + fabs(b_y) <= path->no_slip)
     at->b_x = at->b_y = 0;
   if (!carom_impact_regime(path, false))
     path->status = CAROM_ERROR_UNRESOLVED;

@@ -44,7 +44,7 @@ typedef struct carom_trajectory {
   carom_status status;     /* not CAROM_OK if there is no way on */
   /* of advance.c: */
   double tolerance;  /* of a step, in units of that of step.h */
-  double rest;       /* a slip that counts as zero */
+  double no_slip;    /* a slip that counts as zero */
   double longest;    /* length that the next step may have */
   int refusals;      /* in a row */
   int sticks_missed; /* steps to stick that diverged */
@@ -84,5 +84,15 @@ bool carom_impact_regime(carom_trajectory *path, bool event);
 
 /* Whether friction is about to hold both contacts, so that the ball is jammed. */
 bool carom_impact_jams(const carom_trajectory *path);
+
+/* carom_impact_advance() as advance.c is compiled to: with vectors of two numbers, and with four for AVX2. */
+carom_status carom_impact_advance_plain(carom_trajectory *path, double to, int most);
+carom_status carom_impact_advance_avx2(carom_trajectory *path, double to, int most);
+
+#ifdef CAROM_LANES_AVX2
+#define CAROM_IMPACT_ADVANCE carom_impact_advance_avx2
+#else
+#define CAROM_IMPACT_ADVANCE carom_impact_advance_plain
+#endif
 
 #endif

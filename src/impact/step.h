@@ -34,7 +34,9 @@
 #include "impact/impact.h"
 #include "impact/nodes.h"
 
-/* Found by trial with `carom-lab stress --cushion`; see docs/study/tried.md. Angles are in radians, lengths in units of p. */
+/* Found by trial with `carom-lab stress --cushion 20000` and `carom-lab bench --cushion`; see docs/study/tried.md. Angles are
+ * in radians, lengths in units of p. With half of CONVERGED play takes 5 % longer, and twice changes nothing. With half of
+ * TOLERANCE_EXACT the largest error falls from 1.5e-6 to 8.2e-7. TOLERANCE and NEARLY_CONVERGED matter little. */
 static const double CONVERGED = 4e-8;       /* error that the iteration may leave in directions */
 static const double TOLERANCE = 4e-7;       /* square of the error estimate, over the length of the step, */
 static const double TOLERANCE_EXACT = 1e-9; /* and where the step is exact */
@@ -42,7 +44,7 @@ static const double SETTLED = 1e-6;         /* last correction of the length, as
 static const double EVENT_TOLERANCE = 1e-8; /* event function that does not yet end a regime, */
 static const double LATE = 1e-5;            /* and within a step that ends at its event */
 static const double NEARLY_STOPPED = 1e-8;  /* v that counts as 0 where the cloth's slip has come to rest */
-static const double NEAR =
+static const double NEARLY_CONVERGED =
     3e-3; /* correction, of directions and of the length, after which Newton's method updates inverse lengths, */
 static const double FRESH = 0.02; /* and that after which an exact step keeps its matrix */
 enum { MOST_ITERATIONS = 12 };
@@ -83,12 +85,12 @@ typedef struct iterate {
 } iterate;
 
 /* The rates from the directions. scale: of z. */
-always void rates(const carom_terms *k, const part *z, double scale, const bool slips, const bool loaded, iterate *c) {
+always void rates(const carom_terms *k, const part *z, double scale, const bool driving_slips, const bool loaded, iterate *c) {
   EACH {
     const part zs = scale * z[i];
     part a_x = splat(0), a_y = splat(k->A_0), b_x = splat(0), b_y = splat(k->B_0), v = splat(k->V_0);
     /* friction of the driving contact */
-    if (slips) {
+    if (driving_slips) {
       a_x = k->S_x * c->u_x[i];
       a_y = madd(c->u_y[i], splat(k->S_y), a_y);
       b_x = k->R_x * c->u_x[i];
@@ -97,7 +99,7 @@ always void rates(const carom_terms *k, const part *z, double scale, const bool 
     }
     /* friction of the cloth */
     if (loaded) {
-      if (slips)
+      if (driving_slips)
         c->w[i] = madd(c->u_y[i], splat(k->w_u), splat(k->w_0));
       else
         c->w[i] = k->w_0 / (1 - k->w_t * c->t_y[i]);
@@ -145,8 +147,10 @@ always void normalise(part *x, part *y, bool near, part *inverse) {
 always void rotate(part *a_x, part *a_y, const part *zk, const part *before, const part *after, bool near, part *inverse,
                    part *u_x, part *u_y, part *correction) {
   nodes across, f, angle;
+  /* the sine of the angle from u to a, once a has length 1 */
   EACH across[i] = madd(u_x[i], a_y[i], -(u_y[i] * a_x[i]));
   normalise(a_x, a_y, near, inverse);
+  /* (E / |a|) M(z k r / E): by this angle a is turned back, which gives the new u */
   EACH f[i] = zk[i] * before[i] * across[i] * inverse[i];
   integrate(f, angle);
   EACH {
@@ -166,10 +170,12 @@ always void rotate(part *a_x, part *a_y, const part *zk, const part *before, con
 always bool rotate_exactly(const part *a_x, const part *a_y, const part *D_x, const part *D_y, bool anew,
                            double (*solved)[NODES], part *u_x, part *u_y, part *correction) {
   nodes across, along, angle;
+  /* u x a and u . a */
   EACH {
     across[i] = u_x[i] * a_y[i] - u_y[i] * a_x[i];
     along[i] = u_x[i] * a_x[i] + u_y[i] * a_y[i];
   }
+  /* the matrix by columns, (u . a) on the diagonal less u x M(D), and its inverse */
   if (anew) {
     for (int j = 0; j < NODES; j++) {
       EACH((part_of_row *)solved[j])
@@ -178,6 +184,7 @@ always bool rotate_exactly(const part *a_x, const part *a_y, const part *D_x, co
     }
     invert(solved);
   }
+  /* the angles d, limited; u turned by d to first order, and made a unit vector again */
   apply((const double(*)[NODES])solved, across, angle);
   EACH {
     const part x = u_x[i], s = within(angle[i], 0.6);
@@ -196,27 +203,27 @@ always double event_of(const carom_terms *k, double x, double y) {
 }
 
 /* The same at the nodes. */
-always void events(const carom_terms *k, const iterate *c, const bool slips, part *event) {
+always void events(const carom_terms *k, const iterate *c, const bool driving_slips, part *event) {
   EACH {
-    const part x = slips ? c->u_x[i] : c->w[i] * c->t_x[i], y = slips ? c->u_y[i] : c->w[i] * c->t_y[i];
+    const part x = driving_slips ? c->u_x[i] : c->w[i] * c->t_x[i], y = driving_slips ? c->u_y[i] : c->w[i] * c->t_y[i];
     event[i] = madd(y, madd(y, splat(k->event[3]), splat(k->event[1])), madd(x * x, splat(k->event[2]), splat(k->event[0])));
   }
 }
 
 /* The event function at a point; 0 where the slip has no direction. */
-static double event_at(const carom_terms *k, const carom_point *at, const bool slips) {
-  const double x = slips ? at->a_x : at->b_x, y = slips ? at->a_y : at->b_y, size = sqrt(x * x + y * y);
+static double event_at(const carom_terms *k, const carom_point *at, const bool driving_slips) {
+  const double x = driving_slips ? at->a_x : at->b_x, y = driving_slips ? at->a_y : at->b_y, size = sqrt(x * x + y * y);
   if (!(size > 0))
     return 0;
-  const double w = slips ? 1 : k->w_0 / (1 - k->w_t * y / size);
+  const double w = driving_slips ? 1 : k->w_0 / (1 - k->w_t * y / size);
   return event_of(k, w * x / size, w * y / size);
 }
 
 /* p from the beginning of the step to where the event function, at the nodes *f, first becomes positive, by linear
  * interpolation between nodes. scale: of z. */
 static double first_event(const carom_terms *k, const carom_point *at, const step *s, double scale, const part *f,
-                          const bool slips) {
-  double p = 0, value = event_at(k, at, slips);
+                          const bool driving_slips) {
+  double p = 0, value = event_at(k, at, driving_slips);
   for (int n = 0; n <= NODES; n++) {
     const double next_p = scale * (n < NODES ? AT(s->p, n) : s->length), next = n < NODES ? AT(f, n) : 1;
     if (next > 0)
@@ -234,7 +241,8 @@ always double work(const carom_point *at, double length, double scale, const dou
 
 /* By how much p has to grow for the step to end at its goal: a step of Newton's method. */
 always double to_goal(const carom_terms *k, const carom_point *from, const step *s, const iterate *c, double scale,
-                      const part *to_end, const bool slips) {
+                      const part *to_end, const bool driving_slips) {
+  /* a given p, or v = 0 or W = target: Newton's method with v at the end and v' there */
   const double length = scale * s->length;
   if (s->goal == AT_P)
     return s->target - length;
@@ -247,10 +255,11 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
     return v < 0 ? (s->target - from->W - work(from, length, scale, (const double *)to_end, c)) / v : 0.3 * length;
   }
   /* the slip at the end, and its rate there */
-  const bool driving = s->goal == AT_STICK || (s->goal == AT_EVENT && slips);
+  const bool driving = s->goal == AT_STICK || (s->goal == AT_EVENT && driving_slips);
   const part *zx = driving ? c->za_x : c->zb_x, *zy = driving ? c->za_y : c->zb_y;
   const double last = 1 / (scale * LAST(s->z)), dx = LAST(zx) * last, dy = LAST(zy) * last;
   double x = (driving ? from->a_x : from->b_x) + dot(WEIGHT, zx), y = (driving ? from->a_y : from->b_y) + dot(WEIGHT, zy);
+  /* stick: the slip along its direction over its rate */
   if (s->goal != AT_EVENT) {
     const double u_x = driving ? LAST(c->u_x) : LAST(c->t_x), u_y = driving ? LAST(c->u_y) : LAST(c->t_y);
     return -(x * u_x + y * u_y) / (dx * u_x + dy * u_y);
@@ -260,7 +269,7 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
   double w = 1, growth = 0;
   x *= inverse;
   y *= inverse;
-  if (!slips) {
+  if (!driving_slips) {
     w = k->w_0 / (1 - k->w_t * y);
     growth = w * k->w_t * x * turning / (1 - k->w_t * y);
   }
@@ -274,12 +283,13 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
 /* Takes a step from *at. slips: the driving contact slips; loaded: the cloth bears a load, and slips. A refused step leaves *at
  * as it is; then *advice is, for INACCURATE, the squared error estimate over the tolerance, and for EVENT_WITHIN the p from
  * here to the event. */
-always enum outcome take_step(const carom_terms *terms, const step *s, const bool slips, const bool loaded,
+always enum outcome collocate(const carom_terms *terms, const step *s, const bool driving_slips, const bool loaded,
                               const enum exact exact, carom_point *at, int *iterations, double *advice) {
   const carom_terms k = *terms;
   iterate c;
   nodes per_E, ease, one, to_end, inverse_a, inverse_b, slip_x, slip_y, D_x, D_y, zk, f, correction, correction_t;
   double for_u[NODES][NODES] __attribute__((aligned(PART_BYTES))), for_t[NODES][NODES] __attribute__((aligned(PART_BYTES)));
+  /* the planned directions; 1/E; `ease`, which stands for E(X)/E(X') of t; the weights of the work */
   EACH {
     c.u_x[i] = s->u_x[i];
     c.u_y[i] = s->u_y[i];
@@ -287,18 +297,20 @@ always enum outcome take_step(const carom_terms *terms, const step *s, const boo
     c.t_y[i] = s->t_y[i];
     one[i] = splat(1);
     ease[i] = inverse_a[i] = inverse_b[i] = splat(0);
-    per_E[i] = slips && exact == FOR_NONE ? 1 / s->E[i] : splat(1);
+    per_E[i] = driving_slips && exact == FOR_NONE ? 1 / s->E[i] : splat(1);
     to_end[i] = PART(WEIGHT, i) * s->z[i] * (s->length - s->p[i]);
   }
   double scale = 1, last = 1, last_rate = 0.3;
   bool converged = false, forward = true, near = false;
   for (int n = 0; n < MOST_ITERATIONS && !converged; n++) {
     forward = true;
+    /* the rates at the nodes, and the correction of the length */
     ++*iterations;
-    rates(&k, s->z, scale, slips, loaded, &c);
-    const double change = s->goal == AT_LENGTH ? 0 : to_goal(&k, at, s, &c, scale, to_end, slips) / (scale * s->length);
+    rates(&k, s->z, scale, driving_slips, loaded, &c);
+    const double change = s->goal == AT_LENGTH ? 0 : to_goal(&k, at, s, &c, scale, to_end, driving_slips) / (scale * s->length);
     EACH correction[i] = splat(0);
-    if (slips) {
+    /* u from the slip at the driving contact */
+    if (driving_slips) {
       integrate_slip(at->a_x, at->a_y, c.za_x, c.za_y, slip_x, slip_y);
       /* z da'/dphi, of which u has a part in the load too */
       EACH {
@@ -312,15 +324,16 @@ always enum outcome take_step(const carom_terms *terms, const step *s, const boo
       else
         rotate(slip_x, slip_y, zk, per_E, s->E, near, inverse_a, c.u_x, c.u_y, correction);
     }
+    /* t from the slip on the cloth */
     if (loaded) {
       integrate_slip(at->b_x, at->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
       /* z db'/dphi, of which t has a part in the load where the driving contact holds */
-      if (slips && exact != FOR_BOTH)
+      if (driving_slips && exact != FOR_BOTH)
         EACH zk[i] = (scale * s->z[i]) * (k.H_x * c.w[i]);
       else
         EACH {
           const part zw = (scale * s->z[i]) * c.w[i];
-          const part zw_t = slips ? splat(0) : zw * k.w_t * c.t_x[i] / (1 - k.w_t * c.t_y[i]);
+          const part zw_t = driving_slips ? splat(0) : zw * k.w_t * c.t_x[i] / (1 - k.w_t * c.t_y[i]);
           D_x[i] = k.H_x * (zw * c.t_y[i] - zw_t * c.t_x[i]);
           D_y[i] = -k.H_y * (zw * c.t_x[i] + zw_t * c.t_y[i]);
           zk[i] = c.t_y[i] * D_x[i] - c.t_x[i] * D_y[i];
@@ -343,15 +356,16 @@ always enum outcome take_step(const carom_terms *terms, const step *s, const boo
       return DIVERGED;
     const double share = scale * s->length < 1 ? scale * s->length : 1;
     converged = now * (worst < 1 ? worst : 1) * share < CONVERGED * s->tolerance && now < 1e-3 && fabs(change) < SETTLED;
+    /* the new length, within limits */
     scale *= 1 + (change > 0.5 ? 0.5 : change > -0.4 ? change : -0.4);
-    near = now < NEAR && fabs(change) < NEAR;
+    near = now < NEARLY_CONVERGED && fabs(change) < NEARLY_CONVERGED;
     last = now;
     last_rate = rate;
   }
   if (!converged || !forward)
     return DIVERGED;
   /* the point at the end */
-  rates(&k, s->z, scale, slips, loaded, &c);
+  rates(&k, s->z, scale, driving_slips, loaded, &c);
   const double length = scale * s->length;
   EACH f[i] = s->z[i] * c.v[i];
   carom_point to = {.a_x = at->a_x + dot(WEIGHT, c.za_x),
@@ -364,7 +378,7 @@ always enum outcome take_step(const carom_terms *terms, const step *s, const boo
                     .growth = at->growth};
   /* the estimate of its error */
   double error = 0;
-  if (slips)
+  if (driving_slips)
     error += fabs(dot(HIGHEST, c.za_x)) + fabs(dot(HIGHEST, c.za_y));
   if (loaded)
     error += fabs(dot(HIGHEST, c.zb_x)) + fabs(dot(HIGHEST, c.zb_y));
@@ -372,11 +386,11 @@ always enum outcome take_step(const carom_terms *terms, const step *s, const boo
   if (!(*advice < 1))
     return INACCURATE;
   /* whether the regime has lasted to the end */
-  events(&k, &c, slips, f);
-  const double event = largest(f), end = event_at(&k, &to, slips);
+  events(&k, &c, driving_slips, f);
+  const double event = largest(f), end = event_at(&k, &to, driving_slips);
   const bool sticks = s->goal == AT_STICK || s->goal == AT_CLOTH_STICK;
   if (s->goal == AT_EVENT ? event > LATE : event > EVENT_TOLERANCE || (end > EVENT_TOLERANCE && !sticks)) {
-    *advice = first_event(&k, at, s, scale, f, slips);
+    *advice = first_event(&k, at, s, scale, f, driving_slips);
     return EVENT_WITHIN;
   }
   /* where friction drives the slip on the cloth, an error of its direction grows by exp(int |H| w / |b| dp) */

@@ -36,13 +36,13 @@ typedef pthread_t thread_handle;
 
 enum {
   MOST_THREADS = 256,
-  UNIT = 64, /* parts are multiples of this, so that only the last has lanes to spare */
+  UNIT = 64, /* parts are multiples of this, so that only the last has lanes to spare; or of the least worth a thread */
 };
 
 typedef struct cut {
   carom_part_worker *worker;
   const void *job;
-  size_t n, count;
+  size_t n, count, unit;
 } cut;
 
 /* Short, as all of them are on the stack of the caller. */
@@ -54,7 +54,7 @@ typedef struct part {
 
 /* Where a part begins; that of one beyond the last is n. */
 static size_t start_of(const cut *of, size_t number) {
-  const size_t units = (of->n + UNIT - 1) / UNIT, start = units * number / of->count * UNIT;
+  const size_t units = (of->n + of->unit - 1) / of->unit, start = units * number / of->count * of->unit;
   return start < of->n ? start : of->n;
 }
 
@@ -117,7 +117,7 @@ size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, in
   if (count <= 1)
     return worker(job, 0, n);
 
-  const cut of = {worker, job, n, count};
+  const cut of = {worker, job, n, count, least < UNIT ? least : UNIT};
   part parts[MOST_THREADS];
   bool started[MOST_THREADS] = {false};
   for (size_t t = 0; t < count; t++)

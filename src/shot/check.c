@@ -27,11 +27,12 @@ static carom_status check_options(const carom_shot_options *o) {
   bool reserved = false;
   for (size_t k = 0; k < sizeof o->reserved / sizeof o->reserved[0]; k++)
     reserved |= o->reserved[k] != 0;
-  const bool good = o->world >= 0 && o->world <= CAROM_WORLD_POOLTOOL && o->ball_model >= 0 &&
-                    o->ball_model <= CAROM_BALL_MODEL_MIRROR && o->cushion_model >= 0 &&
-                    o->cushion_model <= 1 + CAROM_CUSHION_EULER && o->friction >= 0 && o->friction <= CAROM_FRICTION_CONSTANT &&
-                    o->space >= 0 && o->space <= CAROM_SPACE_FLAT && o->events_most >= 0 && !reserved && o->time_most >= 0.0 &&
-                    o->time_most < INFINITY;
+  /* enumerations may be signed or not; a number below 0 is a large one here */
+  const bool good = (uint32_t)o->world <= CAROM_WORLD_POOLTOOL && (uint32_t)o->ball_model <= CAROM_BALL_MODEL_MIRROR &&
+                    (uint32_t)o->cushion_model <= CAROM_SHOT_CUSHION_EULER &&
+                    (uint32_t)o->friction <= CAROM_FRICTION_CONSTANT && (uint32_t)o->space <= CAROM_SPACE_FLAT &&
+                    o->events_most >= 0 && !reserved && o->time_most >= 0.0 && o->time_most < INFINITY &&
+                    o->stop_at >> CAROM_DUE_PIECE == 0;
   if (!good)
     return CAROM_ERROR_SHOT_OPTIONS;
   if (o->steps < 0)
@@ -49,6 +50,14 @@ static bool good_circle(const double centre[2], double radius, double least) {
   return isfinite(centre[0]) && isfinite(centre[1]) && radius >= least && radius < INFINITY;
 }
 
+static bool good_jaw(const carom_jaw *j) {
+  return good_circle(j->centre, j->radius, 0.0) && unit_interval(j->mu_cushion) && unit_interval(j->restitution);
+}
+/* Every nose is above the cloth and below the top of a ball. */
+static bool good_height(double height, double R) {
+  return height > 0.0 && height < 2.0 * R;
+}
+
 static carom_status check_table(const carom_table *t, int *where) {
   *where = -1;
   if (t->rails < 0 || t->rails > CAROM_RAILS_MOST || t->jaws < 0 || t->jaws > CAROM_JAWS_MOST || t->pockets < 0 ||
@@ -60,8 +69,7 @@ static carom_status check_table(const carom_table *t, int *where) {
     if (!good_rail(&t->rail[*where]))
       return CAROM_ERROR_TABLE;
   for (*where = 0; *where < t->jaws; ++*where)
-    if (!good_circle(t->jaw[*where].centre, t->jaw[*where].radius, 0.0) || !unit_interval(t->jaw[*where].mu_cushion) ||
-        !unit_interval(t->jaw[*where].restitution))
+    if (!good_jaw(&t->jaw[*where]))
       return CAROM_ERROR_TABLE;
   for (*where = 0; *where < t->pockets; ++*where)
     if (!good_circle(t->pocket[*where].centre, t->pocket[*where].radius, 1e-9) || !isfinite(t->pocket[*where].depth))
@@ -70,9 +78,32 @@ static carom_status check_table(const carom_table *t, int *where) {
   return CAROM_OK;
 }
 
-/* Prepares the table for the radii of the balls, unless that has been done. In flat play that is the radius of the first. */
-static carom_status prepare(const carom_table *t, const carom_shot_ball *balls, int count, bool flat, carom_features *features,
+/* Prepares the table, which is meant for balls of the radius `reference`, for those from a least to a greatest radius, unless
+ * that has been done. */
+static carom_status prepare(const carom_table *t, double least, double greatest, double reference, carom_features *features,
                             int *where) {
+  *where = 0;
+  if (features->radius == greatest && features->least == least && features->reference == reference)
+    return CAROM_OK;
+  const double lowest = carom_lesser(least, reference);
+  for (*where = 0; *where < t->rails; ++*where)
+    if (!good_height(t->rail[*where].height, lowest))
+      return CAROM_ERROR_NOSE_HEIGHT;
+  for (*where = 0; *where < t->jaws; ++*where)
+    if (!good_height(t->jaw[*where].height, lowest))
+      return CAROM_ERROR_NOSE_HEIGHT;
+  carom_features_of(t, greatest, reference, features);
+  features->least = least;
+  return CAROM_OK;
+}
+
+static double reference_of(const carom_table *t, double usual) {
+  return t->ball_radius > 0.0 ? t->ball_radius : usual;
+}
+
+/* The same for the balls of a layout. In flat play all radii are to be that of the first. */
+static carom_status prepare_for(const carom_table *t, const carom_shot_ball *balls, int count, bool flat,
+                                carom_features *features, int *where) {
   double least = balls[0].kind.radius, greatest = least;
   for (*where = 0; *where < (flat ? 1 : count); ++*where) {
     const double R = balls[*where].kind.radius;
@@ -81,21 +112,8 @@ static carom_status prepare(const carom_table *t, const carom_shot_ball *balls, 
     least = carom_lesser(least, R);
     greatest = carom_greater(greatest, R);
   }
-  const double reference = flat ? least : t->ball_radius > 0.0 ? t->ball_radius : balls[count - 1].kind.radius;
-  *where = 0;
-  if (features->radius == greatest && features->least == least && features->reference == reference)
-    return CAROM_OK;
-  /* every nose is above the cloth and below the top of every ball */
-  const double lowest = carom_lesser(least, reference);
-  for (*where = 0; *where < t->rails; ++*where)
-    if (!(t->rail[*where].height > 0.0 && t->rail[*where].height < 2.0 * lowest))
-      return CAROM_ERROR_NOSE_HEIGHT;
-  for (*where = 0; *where < t->jaws; ++*where)
-    if (!(t->jaw[*where].height > 0.0 && t->jaw[*where].height < 2.0 * lowest))
-      return CAROM_ERROR_NOSE_HEIGHT;
-  carom_features_of(t, greatest, reference, features);
-  features->least = least;
-  return CAROM_OK;
+  const double reference = flat ? least : reference_of(t, balls[count - 1].kind.radius);
+  return prepare(t, least, greatest, reference, features, where);
 }
 
 static carom_status check_kind(const carom_ball_kind *k) {
@@ -217,29 +235,31 @@ bool carom_place_is_outside(const carom_table *table, const carom_features *f, c
   return behind && is_outside(table, f, r);
 }
 
+/* Whether a ball on the cloth is in a rail; in a jaw; with its centre in a pocket. */
+static inline bool in_rail(const carom_table *table, const carom_features *f, int k, const carom_ball_kind *kind,
+                           const double r[3], bool *behind) {
+  const double distance = distance_to(f, k, r), reach = carom_reach_on_cloth(kind, table->rail[k].height, f->reference);
+  const bool beside = is_beside(f, k, r);
+  *behind |= beside && distance < 0.0;
+  return beside && distance < reach - most_overlap && distance > -reach;
+}
+static inline bool in_circle(const double centre[2], double reach, const double r[3]) {
+  const double d_x = r[0] - centre[0], d_y = r[1] - centre[1];
+  return d_x * d_x + d_y * d_y < reach * reach;
+}
+static inline bool in_jaw(const carom_jaw *jaw, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
+  return in_circle(jaw->centre, jaw->radius + carom_reach_on_cloth(kind, jaw->height, f->reference) - most_overlap, r);
+}
+
 /* Whether the ball, on the cloth, stands within the cushions, in no pocket. */
 static bool on_table(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
   bool good = is_in_hull(f, r), behind = beyond_ends(f, r);
-  const double R = kind->radius;
-  const bool usual = R == f->reference;
-  for (int k = 0; k < f->rails; k++) {
-    const bool beside = is_beside(f, k, r);
-    const double distance = distance_to(f, k, r),
-                 reach = usual ? R : carom_reach_on_cloth(kind, table->rail[k].height, f->reference);
-    good &= !(beside && distance < reach - most_overlap && distance > -reach);
-    behind |= beside && distance < 0.0;
-  }
-  for (int k = 0; k < f->jaws; k++) {
-    const carom_jaw *jaw = &table->jaw[k];
-    const double d_x = r[0] - jaw->centre[0], d_y = r[1] - jaw->centre[1];
-    const double reach = jaw->radius + (usual ? R : carom_reach_on_cloth(kind, jaw->height, f->reference)) - most_overlap;
-    good &= d_x * d_x + d_y * d_y >= reach * reach;
-  }
-  for (int k = 0; k < f->pockets; k++) {
-    const carom_pocket *pocket = &table->pocket[k];
-    const double d_x = r[0] - pocket->centre[0], d_y = r[1] - pocket->centre[1];
-    good &= d_x * d_x + d_y * d_y >= pocket->radius * pocket->radius;
-  }
+  for (int k = 0; k < f->rails; k++)
+    good &= !in_rail(table, f, k, kind, r, &behind);
+  for (int k = 0; k < f->jaws; k++)
+    good &= !in_jaw(&table->jaw[k], f, kind, r);
+  for (int k = 0; k < f->pockets; k++)
+    good &= !in_circle(table->pocket[k].centre, table->pocket[k].radius, r);
   return good && !(behind && is_outside(table, f, r));
 }
 
@@ -288,7 +308,7 @@ static carom_status check_cue(const carom_shot_ball *balls, int count, const car
   return carom_check_cue(cue);
 }
 
-carom_status carom_check_common(const carom_table *table, int count, const carom_shot_options *opt, int *where) {
+carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where) {
   *where = -1;
   const carom_status bad = check_options(opt);
   if (bad != CAROM_OK)
@@ -300,7 +320,7 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
                                 const carom_cue *cue, const carom_shot_options *opt, int *where) {
   const bool one_mass = opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
   const bool flat = is_flat(opt);
-  carom_status bad = prepare(table, balls, count, flat, features, where);
+  carom_status bad = prepare_for(table, balls, count, flat, features, where);
   if (bad != CAROM_OK)
     return bad;
   carom_ball_state state[CAROM_BALLS_MOST]; /* with the labels that they will have */
@@ -345,4 +365,78 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
   carom_features features;
   features.radius = 0.0;
   return bad != CAROM_OK ? bad : carom_check_layout(table, &features, balls, count, cue, opt, where);
+}
+
+/* The part that a ball which does not stand on the table is in; CAROM_PART_NONE for one that is outside the ring. */
+static carom_part part_there(const carom_table *table, const carom_features *f, const carom_ball_kind *kind,
+                             const double r[3]) {
+  bool behind;
+  for (int k = 0; k < f->pockets; k++)
+    if (in_circle(table->pocket[k].centre, table->pocket[k].radius, r))
+      return (carom_part){CAROM_PART_POCKET, k};
+  for (int k = 0; k < f->rails; k++)
+    if (in_rail(table, f, k, kind, r, &behind))
+      return (carom_part){CAROM_PART_RAIL, k};
+  for (int k = 0; k < f->jaws; k++)
+    if (in_jaw(&table->jaw[k], f, kind, r))
+      return (carom_part){CAROM_PART_JAW, k};
+  return (carom_part){CAROM_PART_NONE, 0};
+}
+
+carom_status carom_check_parts(const carom_table *table, double radius, double usual, carom_features *features,
+                               carom_part *part) {
+  int where;
+  carom_status bad = check_table(table, &where);
+  if (bad == CAROM_OK && !(positive(radius) && positive(usual)))
+    bad = CAROM_ERROR_RADIUS;
+  if (bad == CAROM_OK) {
+    features->radius = NAN; /* of nothing yet */
+    bad = prepare(table, radius, radius, reference_of(table, usual), features, &where);
+  }
+  *part = (carom_part){CAROM_PART_NONE, 0};
+  /* the checks tell an index alone: they go through rails, jaws and pockets in this order */
+  if ((bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT) && where >= 0) {
+    const carom_rail *rail = &table->rail[where];
+    const double lowest = carom_lesser(radius, reference_of(table, usual));
+    const bool of_rail =
+        where < table->rails && (bad == CAROM_ERROR_TABLE ? !good_rail(rail) : !good_height(rail->height, lowest));
+    const bool of_jaw = where < table->jaws && (bad == CAROM_ERROR_TABLE ? !good_jaw(&table->jaw[where])
+                                                                         : !good_height(table->jaw[where].height, lowest));
+    *part = (carom_part){of_rail ? CAROM_PART_RAIL : of_jaw ? CAROM_PART_JAW : CAROM_PART_POCKET, where};
+  }
+  return bad;
+}
+
+carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball, double x, double y,
+                              carom_part *in_the_way) {
+  carom_part unused;
+  in_the_way = in_the_way != NULL ? in_the_way : &unused;
+  *in_the_way = (carom_part){CAROM_PART_NONE, 0};
+  if (table == NULL || balls == NULL)
+    return CAROM_ERROR_NULL;
+  if (count < 1 || count > CAROM_BALLS_MOST || ball < 0 || ball >= count)
+    return CAROM_ERROR_BALLS;
+  carom_features features;
+  carom_shot_ball placed = balls[ball];
+  const double R = placed.kind.radius, r[3] = {x, y, R};
+  const carom_status bad = carom_check_parts(table, R, balls[count - 1].kind.radius, &features, in_the_way);
+  if (bad != CAROM_OK)
+    return bad;
+  if (!bounded(r, 1e6))
+    return CAROM_ERROR_POSITION;
+  if (!on_table(table, &features, &placed.kind, r)) {
+    *in_the_way = part_there(table, &features, &placed.kind, r);
+    return CAROM_ERROR_OFF_TABLE;
+  }
+  placed.state = (carom_ball_state){.r = {x, y, R}, .label = CAROM_BALL_STATIONARY};
+  for (int k = 0; k < count; k++) {
+    carom_ball_state other = balls[k].state; /* with the label that it will have */
+    if (k != ball && !carom_is_out(carom_label_of_layout(&other, balls[k].kind.radius)) &&
+        overlap(&placed, &placed.state, &balls[k], &other)) {
+      *in_the_way = (carom_part){CAROM_PART_BALL, k};
+      return CAROM_ERROR_OVERLAP;
+    }
+  }
+  balls[ball].state = placed.state;
+  return CAROM_OK;
 }

@@ -109,7 +109,7 @@ __attribute__((noinline, cold)) static void lose_roll(const carom_ball_kind *kin
       s->w[k] -= loss / kind->radius * n[k];
 }
 
-static int ball_model(const carom_sim *sim) {
+static carom_ball_model ball_model(const carom_sim *sim) {
   if (sim->opt->ball_model != CAROM_BALL_MODEL_DEFAULT)
     return sim->opt->ball_model;
   return sim->pooltool ? CAROM_BALL_MODEL_INELASTIC : CAROM_BALL_MODEL_EXACT;
@@ -120,7 +120,7 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
   const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
   const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
   const contact_slip s = slip_of(n, R, a, b);
-  const int model = ball_model(sim);
+  const carom_ball_model model = ball_model(sim);
   if (model == CAROM_BALL_MODEL_MIRROR) {
     exchange(e, kind_a->mass, kind_b->mass, n, a, b);
     return CAROM_OK;
@@ -134,12 +134,13 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
   /* the first ball at the origin: only the direction counts */
   in.b.r[0] = n[0];
   in.b.r[1] = n[1];
-  const carom_options options = {.solver = model == CAROM_BALL_MODEL_EULER ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
-                                 .slip = sim->pooltool ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER,
+  const bool euler = model == CAROM_BALL_MODEL_EULER;
+  const carom_options options = {.solver = euler ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
+                                 .slip = euler && sim->pooltool ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER,
                                  .steps = sim->opt->steps};
   carom_result out;
   const carom_status status = carom_collide(&in, &options, &out);
-  if (status == CAROM_SEPARATING && sim->pooltool && model == CAROM_BALL_MODEL_EULER)
+  if (status == CAROM_SEPARATING && sim->pooltool && euler)
     part_by_steps(&in, &options, &out);
   if (status >= 0) {
     take_motion(&out.a, a);
@@ -174,9 +175,16 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due) {
   return (carom_nose){jaw->height, jaw->radius, jaw->mu_cushion, jaw->restitution};
 }
 
+_Static_assert(CAROM_SHOT_CUSHION_MATHAVAN == 1 + CAROM_CUSHION_MATHAVAN &&
+                   CAROM_SHOT_CUSHION_STRONGE == 1 + CAROM_CUSHION_STRONGE && CAROM_SHOT_CUSHION_HAN == 1 + CAROM_CUSHION_HAN &&
+                   CAROM_SHOT_CUSHION_MIRROR == 1 + CAROM_CUSHION_MIRROR && CAROM_SHOT_CUSHION_EULER == 1 + CAROM_CUSHION_EULER,
+               "the models of a shot are those of an impact, behind the default");
+
 static carom_cushion_model cushion_model(const carom_sim *sim) {
-  const int asked = sim->opt->cushion_model;
-  return asked > 0 ? (carom_cushion_model)(asked - 1) : sim->pooltool ? CAROM_CUSHION_STRONGE : CAROM_CUSHION_MATHAVAN;
+  const carom_shot_cushion asked = sim->opt->cushion_model;
+  return asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1)
+         : sim->pooltool                     ? CAROM_CUSHION_STRONGE
+                                             : CAROM_CUSHION_MATHAVAN;
 }
 
 /* Of a rail or jaw, or of the ball where that has none. */

@@ -9,10 +9,13 @@
 
 static const carom_shot_options no_options = {0};
 
-/* The next place for an event, or a spare one where there is no more room. */
-static carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
+/* The next place for an event, or a spare one where there is no room for it. */
+static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
   carom_shot *shot = sim->shot;
-  carom_event *event = shot->count < shot->room ? &shot->events[shot->count] : spare;
+  const bool room = shot->count < shot->room;
+  if (room && shot->brief != NULL)
+    shot->brief[shot->count] = (carom_brief_event){sim->now, due->type, due->a, due->b, 0};
+  carom_event *event = room && shot->events != NULL ? &shot->events[shot->count] : spare;
   shot->count++;
   shot->time = sim->now;
   event->time = sim->now;
@@ -142,18 +145,26 @@ static void begin(carom_sim *sim) {
   }
 }
 
-static carom_status play(carom_sim *sim) {
+/* Whether the shot is to stop after an event of this kind. */
+static bool stops_at(const carom_sim *sim, int type, int a, int b) {
+  const bool contact = type == CAROM_EVENT_BALL_BALL && (a == sim->struck || b == sim->struck);
+  return ((contact ? CAROM_STOP_AT_CONTACT : 0) | CAROM_STOP_AT(type)) & sim->opt->stop_at;
+}
+
+/* From event to event, until nothing moves or the shot is to stop. Nothing is changed by stopping, so the loop goes on later as
+ * if it had not. */
+static carom_status go_on(carom_sim *sim) {
   const int64_t events_most = sim->opt->events_most > 0 ? sim->opt->events_most : 10000;
   const double time_most = sim->opt->time_most > 0.0 ? sim->opt->time_most : 1000.0;
-  carom_status status = strike(sim);
-  if (status == CAROM_OK)
-    carom_detect_all(sim);
+  carom_status status = CAROM_OK;
   while (status == CAROM_OK) {
     const carom_due due = carom_next(sim);
     if (due.type < 0)
       break;
-    if (due.time > time_most)
-      return CAROM_ERROR_TOO_LONG;
+    if (due.time > time_most) {
+      sim->shot->time = time_most;
+      return sim->opt->time_most > 0.0 ? CAROM_STOPPED_AT_TIME : CAROM_ERROR_TOO_LONG;
+    }
     if (due.type == CAROM_DUE_PIECE) {
       sim->shot->time = sim->now = carom_greater(sim->now, due.time);
       sim->round++;
@@ -170,47 +181,102 @@ static carom_status play(carom_sim *sim) {
     sim->now = carom_greater(sim->now, due.time); /* of simultaneous events one may have been found a trace earlier */
     sim->round++;
     status = step(sim, &due);
+    if (sim->opt->stop_at != 0 && status == CAROM_OK && stops_at(sim, due.type, due.a, due.b))
+      return CAROM_STOPPED_AT_EVENT;
   }
   return status;
 }
 
-/* With arguments that have been checked. */
+/* What a state begins with that carom_shot_continue() takes: another version, or another layout, is not. */
+static const uint64_t resumable = (uint64_t)CAROM_VERSION_NUMBER << 32 | sizeof(carom_sim);
+_Static_assert(sizeof(carom_sim) <= sizeof(carom_shot_state), "a shot on its way fits what callers keep of it");
+
+/* The states at the end; and all of the shot, where the caller keeps it. */
+static carom_status finish(carom_sim *sim, carom_status status) {
+  carom_shot *shot = sim->shot;
+  for (int i = 0; shot->final != NULL && i < sim->count; i++)
+    carom_path_at(&sim->path[i], &sim->rates[i], shot->time, &shot->final[i]);
+  if (shot->state != NULL) {
+    const bool goes_on = status >= 0 || status == CAROM_ERROR_TOO_LONG || status == CAROM_ERROR_TOO_MANY_EVENTS;
+    sim->can_go_on = goes_on ? resumable : 0;
+    sim->table = NULL; /* what is the caller's comes with the next call */
+    sim->features = NULL;
+    sim->ball = NULL;
+    sim->opt = NULL;
+    sim->cue = NULL;
+    sim->shot = NULL;
+    memcpy(shot->state, sim, sizeof *sim);
+  }
+  return status;
+}
+
+/* Whether a state is that of a shot of these balls in this world. */
+static bool is_of(const carom_sim *sim, const carom_shot_ball *balls, int count, const carom_shot_options *opt) {
+  bool same = sim->can_go_on == resumable && sim->count == count && sim->pooltool == (opt->world == CAROM_WORLD_POOLTOOL);
+  for (int i = 0; same && i < count; i++) {
+    const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
+    same = memcmp(&rates, &sim->rates[i], sizeof rates) == 0;
+  }
+  return same;
+}
+
+/* The strike, and whether the shot is to go on after it. */
+static carom_status start(carom_sim *sim) {
+  const carom_status status = strike(sim);
+  if (status != CAROM_OK)
+    return status;
+  carom_detect_all(sim);
+  return sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1) ? CAROM_STOPPED_AT_EVENT : CAROM_OK;
+}
+
+/* With arguments that have been checked: a shot from its strike, or on from shot->state. */
 static carom_status shoot(const carom_table *table, const carom_features *features, const carom_shot_ball *balls, int count,
-                          const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
+                          const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot, bool anew) {
   carom_sim sim;
+  if (!anew)
+    memcpy(&sim, shot->state, sizeof sim);
   sim.table = table;
   sim.features = features;
   sim.ball = balls;
   sim.opt = opt;
   sim.cue = cue;
   sim.shot = shot;
-  sim.count = count;
-  sim.pooltool = opt->world == CAROM_WORLD_POOLTOOL;
-  sim.now = 0.0;
-  sim.round = 0;
-  sim.slow_instants = 0;
-  sim.slow_last = -1.0;
+  carom_status status = CAROM_OK;
+  if (anew) {
+    sim.count = count;
+    sim.struck = cue != NULL ? (int)cue->ball : 0;
+    sim.pooltool = opt->world == CAROM_WORLD_POOLTOOL;
+    sim.now = 0.0;
+    sim.round = 0;
+    sim.slow_instants = 0;
+    sim.slow_last = -1.0;
+    begin(&sim);
+    status = start(&sim);
+  } else if (!is_of(&sim, balls, count, opt)) {
+    return CAROM_ERROR_STATE;
+  }
+  return finish(&sim, status == CAROM_OK ? go_on(&sim) : status);
+}
+
+/* As a result begins: nothing happened, and there is nothing to go on with. */
+static void clear(carom_shot *shot) {
   shot->count = 0;
   shot->time = 0.0;
-  begin(&sim);
-  const carom_status status = play(&sim);
-  for (int i = 0; shot->final != NULL && i < count; i++)
-    carom_path_at(&sim.path[i], &sim.rates[i], sim.now, &shot->final[i]);
-  return status;
+  if (shot->state != NULL)
+    shot->state->opaque[0] = 0;
 }
 
 /* *features are prepared for the radius of these balls, unless they are so already. */
 static carom_status shoot_checked(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                   const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
   int where;
-  shot->count = 0;
-  shot->time = 0.0;
+  clear(shot);
   const carom_status bad = carom_check_layout(table, features, balls, count, cue, opt, &where);
-  return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot);
+  return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot, true);
 }
 
 static bool room_is_there(const carom_shot *shot) {
-  return shot->room == 0 || (shot->room > 0 && shot->events != NULL);
+  return shot->room == 0 || (shot->room > 0 && (shot->events != NULL || shot->brief != NULL));
 }
 
 carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
@@ -218,8 +284,7 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
   if (table == NULL || balls == NULL || shot == NULL || !room_is_there(shot))
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
-  shot->count = 0;
-  shot->time = 0.0;
+  clear(shot);
   int where;
   const carom_status bad = carom_check_common(table, count, opt, &where);
   carom_features features;
@@ -227,62 +292,73 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
   return bad != CAROM_OK ? bad : shoot_checked(table, &features, balls, count, cue, opt, shot);
 }
 
+carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
+                                 const carom_shot_options *opt, carom_shot *shot) {
+  if (table == NULL || balls == NULL || shot == NULL || shot->state == NULL || !room_is_there(shot))
+    return CAROM_ERROR_NULL;
+  opt = opt != NULL ? opt : &no_options;
+  int where;
+  carom_features features;
+  features.radius = 0.0;
+  carom_status bad = carom_check_common(table, count, opt, &where);
+  if (bad == CAROM_OK)
+    bad = carom_check_layout(table, &features, balls, count, NULL, opt, &where);
+  if (bad != CAROM_OK)
+    return bad;
+  if (opt->time_most > 0.0 && opt->time_most < shot->time)
+    return CAROM_ERROR_TIME;
+  return shoot(table, &features, balls, count, NULL, opt, shot, false);
+}
+
 /* ---- Many */
 
-typedef struct batch {
-  const carom_table *table;
-  const carom_shot_ball *balls;
-  int count, one_layout, one_cue;
-  const carom_cue *cues;
-  const carom_shot_options *opt;
-  carom_shot *shots;
-  int8_t *status;
-} batch;
-
-static carom_status shoot_row(const batch *b, size_t k, carom_features *features) {
-  const carom_shot_ball *balls = b->balls + (b->one_layout ? 0 : k * (size_t)b->count);
-  const carom_cue *cue = b->cues == NULL ? NULL : b->cues + (b->one_cue ? 0 : k);
-  if (!room_is_there(&b->shots[k]))
+static carom_status shoot_row(const carom_shot_job *job, size_t k, carom_features *features) {
+  const carom_shot_ball *balls = job->balls + k * job->ball_stride;
+  const carom_cue *cue = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
+  const carom_shot_options *opt = job->options != NULL ? job->options : &no_options;
+  if (!room_is_there(&job->shots[k]))
     return CAROM_ERROR_NULL;
-  return shoot_checked(b->table, features, balls, b->count, cue, b->opt, &b->shots[k]);
+  return shoot_checked(job->table, features, balls, (int)job->count, cue, opt, &job->shots[k]);
 }
 
 static size_t shoot_rows(const void *context, size_t first, size_t end) {
-  const batch *b = context;
+  const carom_shot_job *job = context;
   size_t first_bad = end;
   carom_features features; /* shared by rows with one radius */
   features.radius = 0.0;
   for (size_t k = first; k < end; k++) {
-    const carom_status status = shoot_row(b, k, &features);
-    if (b->status != NULL)
-      b->status[k] = (int8_t)status;
+    const carom_status status = shoot_row(job, k, &features);
+    if (job->status != NULL)
+      job->status[k] = (int8_t)status;
     if (status < 0 && first_bad == end)
       first_bad = k;
   }
   return first_bad;
 }
 
-carom_status carom_shoot_batch(const carom_table *table, const carom_shot_ball *balls, int count, int one_layout,
-                               const carom_cue *cues, int one_cue, size_t n, const carom_shot_options *opt, carom_shot *shots,
-                               int8_t *status) {
-  if (n == 0)
-    return CAROM_OK;
-  if (table == NULL || balls == NULL || shots == NULL)
+carom_status carom_shoot_batch(const carom_shot_job *job) {
+  if (job == NULL)
     return CAROM_ERROR_NULL;
-  opt = opt != NULL ? opt : &no_options;
+  if (job->n == 0)
+    return CAROM_OK;
+  if (job->table == NULL || job->balls == NULL || job->shots == NULL)
+    return CAROM_ERROR_NULL;
+  for (size_t k = 0; k < sizeof job->reserved / sizeof job->reserved[0]; k++)
+    if (job->reserved[k] != 0)
+      return CAROM_ERROR_SHOT_OPTIONS;
+  const carom_shot_options *opt = job->options != NULL ? job->options : &no_options;
   int where;
-  const carom_status bad = carom_check_common(table, count, opt, &where);
+  const carom_status bad = carom_check_common(job->table, job->count, opt, &where);
   if (bad != CAROM_OK)
     return bad;
-  const batch work = {table, balls, count, one_layout, one_cue, cues, opt, shots, status};
   enum { LEAST = 4 }; /* shots worth a thread */
-  const size_t first_bad = carom_in_threads(shoot_rows, &work, n, opt->threads, LEAST);
-  if (first_bad == n)
+  const size_t first_bad = carom_in_threads(shoot_rows, job, (size_t)job->n, opt->threads, LEAST);
+  if (first_bad == job->n)
     return CAROM_OK;
   /* Only its index came back through the threads; playing the shot again tells its status. */
   carom_features features;
   features.radius = 0.0;
-  return shoot_row(&work, first_bad, &features);
+  return shoot_row(job, first_bad, &features);
 }
 
 /* ---- Later */
@@ -296,7 +372,8 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
   if (isnan(time))
     return CAROM_ERROR_TIME;
   const double at = carom_greater(carom_lesser(time, shot->time), 0.0);
-  if (shot->count > shot->room && (shot->room == 0 || at > shot->events[shot->room - 1].time))
+  const int64_t room = shot->events != NULL ? shot->room : 0; /* brief events have no states */
+  if (shot->count > room && (room == 0 || at > shot->events[room - 1].time))
     return CAROM_ERROR_EVENTS_LOST;
   carom_path path[CAROM_BALLS_MOST];
   for (int i = 0; i < count; i++) {
@@ -305,7 +382,7 @@ carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_
     carom_label_of_layout(&path[i].from, balls[i].kind.radius);
   }
   /* the last event of each ball until then */
-  const int64_t known = shot->count < shot->room ? shot->count : shot->room;
+  const int64_t known = shot->count < room ? shot->count : room;
   for (int64_t k = 0; k < known && shot->events[k].time <= at; k++) {
     const carom_event *event = &shot->events[k];
     const int ball[2] = {event->a, event->type == CAROM_EVENT_BALL_BALL ? event->b : -1};

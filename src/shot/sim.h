@@ -30,13 +30,14 @@ typedef struct carom_meeting {
 } carom_meeting;
 
 typedef struct carom_sim {
+  uint64_t can_go_on; /* of a state that is kept: resumable, or 0 */
   const carom_table *table;
   const carom_features *features;
   const carom_shot_ball *ball;
   const carom_shot_options *opt;
   const carom_cue *cue;
   carom_shot *shot;
-  int count;
+  int count, struck; /* struck: the cue ball */
   bool pooltool;
   bool unlike; /* radii differ from each other or from the table's reference: contacts are those of spheres in space */
   int flying;  /* airborne balls */
@@ -66,7 +67,7 @@ typedef struct carom_due {
 
 /* Beside the types of events: another piece of ball a's path begins, and nobody is told. In the order of simultaneous events it
  * counts as an end of a phase. */
-enum { CAROM_DUE_PIECE = 100 };
+enum { CAROM_DUE_PIECE = CAROM_EVENT_LEFT_TABLE + 1 };
 
 /* Whether contacts are looked for in space, and not on the cloth alone. */
 static inline bool carom_in_space(const carom_sim *sim) {
@@ -134,9 +135,13 @@ carom_status carom_strike_in_space(const carom_cue *cue, const carom_ball_kind *
 /* check.c: whether a place is outside the ring of cushions and pockets. */
 bool carom_place_is_outside(const carom_table *table, const carom_features *features, const double r[2]);
 /* What a batch has in common. */
-carom_status carom_check_common(const carom_table *table, int count, const carom_shot_options *opt, int *where);
+carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where);
 /* One layout with its cue. Prepares the table for the radii of the balls, where *features are for others. */
 carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                 const carom_cue *cue, const carom_shot_options *opt, int *where);
+/* The parts of a table, each by itself, for balls of a radius, for which it prepares the table; `usual`: the radius that the
+ * table is meant for, where it names none. */
+carom_status carom_check_parts(const carom_table *table, double radius, double usual, carom_features *features,
+                               carom_part *part);
 
 #endif

@@ -220,7 +220,7 @@ START_TEST(all_regimes_side_by_side) {
   FOR_EACH_ISA(isa)
   FOR_EACH_WAY(solver, slip, precision) {
     const carom_options options = options_for(solver, slip);
-    regimes_rng rng = {test_seed()};
+    lab_random rng = {test_seed()};
     for (size_t k = 0; k < t.n; k++) {
       const carom_impact in = regimes_draw((int)k % regimes_count(), slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0, &rng);
       put_row(precision, t.in, k, &in);

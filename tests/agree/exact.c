@@ -13,7 +13,7 @@
 
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
-#include "ball_ball/precise.h"
+#include "ball_ball/reduced.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -91,7 +91,7 @@ START_TEST(reference_in_every_regime) {
   const int draws = draws_per_regime();
   for (int regime = 0; regime < regimes_count(); regime++) {
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
-      regimes_rng rng = {test_seed() + 1000003u * (uint64_t)(2 * regime + slip)};
+      lab_random rng = {test_seed() + 1000003u * (uint64_t)(2 * regime + slip)};
       carom_options options = {0};
       options.slip = (carom_slip)slip;
       for (int k = 0; k < draws; k++) {
@@ -139,7 +139,7 @@ START_TEST(collocation_and_fallback_agree) {
   int drawn = 0, taken = 0, apart = 0, sets = 0;
   FOR_EACH_ISA(isa) sets++;
   for (int regime = 0; regime < regimes_count(); regime++) {
-    regimes_rng rng = {test_seed() + 7000u + (uint64_t)regime};
+    lab_random rng = {test_seed() + 7000u + (uint64_t)regime};
     for (int k = 0; k < 400; k++) {
       const carom_slip slip = k % 2 ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER;
       const carom_impact in = regimes_draw(regime, carom_spin_sign(slip), &rng);
@@ -148,7 +148,7 @@ START_TEST(collocation_and_fallback_agree) {
         continue;
       drawn++;
       FOR_EACH_ISA(isa) {
-        if (carom_kernels_in_force()->single[CAROM_DOUBLE](&in, carom_spin_sign(slip), &out, NULL) == 0)
+        if (carom_kernels_in_force()->call[CAROM_F64](&in, carom_spin_sign(slip), &out, NULL) == 0)
           continue;
         const double distance = result_distance(&out, &exact, in.a.radius);
         ck_assert_msg(distance <= 1e-5, "%s, draw %d: %g apart with %s", regimes_name(regime), k, distance,
@@ -170,7 +170,7 @@ START_TEST(collocation_takes_the_references) {
   FOR_EACH_ISA(isa) for (int sign = -1; sign <= 1; sign += 2) {
     carom_result out;
     for (size_t k = 0; k < cases.count; k++)
-      ck_assert_int_gt(carom_kernels_in_force()->single[CAROM_DOUBLE](&cases.impact[k], sign, &out, NULL), 0);
+      ck_assert_int_gt(carom_kernels_in_force()->call[CAROM_F64](&cases.impact[k], sign, &out, NULL), 0);
   }
   cases_free(&cases);
 }
@@ -259,7 +259,7 @@ END_TEST
 START_TEST(details) {
   int stuck[3] = {0};
   for (int regime = 0; regime < regimes_count(); regime++) {
-    regimes_rng rng = {test_seed() + (uint64_t)regime};
+    lab_random rng = {test_seed() + (uint64_t)regime};
     for (int k = 0; k < 20; k++) {
       const carom_impact in = regimes_draw(regime, -1.0, &rng);
       carom_result out;

@@ -2,6 +2,7 @@
 #include "random_shots.h"
 #include "support.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,14 +15,14 @@ static carom_cue cues[SHOTS];
 
 /* Eight-ball breaks, each with its own rack and cue; the fifth has a cue that misses. */
 static void make_breaks(void) {
-  shot_random r = {test_seed()};
+  lab_random r = {test_seed()};
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
   for (int k = 0; k < SHOTS; k++) {
     carom_rack(CAROM_RACK_EIGHTBALL, &table, 1e-4, (uint64_t)k, balls + 16 * k, 16);
     cues[k] = carom_cue_of(CAROM_GAME_POOL);
-    cues[k].speed = shot_uniform(&r, 3.0, 10.0);
-    cues[k].phi = shot_uniform(&r, 88.0, 92.0);
-    cues[k].a = shot_uniform(&r, -0.3, 0.3);
+    cues[k].speed = lab_uniform(&r, 3.0, 10.0);
+    cues[k].phi = lab_uniform(&r, 88.0, 92.0);
+    cues[k].a = lab_uniform(&r, -0.3, 0.3);
   }
   cues[4].a = 2.0;
 }
@@ -39,6 +40,22 @@ static results *make_results(void) {
   for (int k = 0; k < SHOTS; k++)
     r->shot[k] = (carom_shot){.events = r->events + (size_t)k * ROOM, .room = ROOM, .final = r->final[k]};
   return r;
+}
+
+/* Plays the layouts with balls[] and the cues with cues[], each for all shots or for its own. */
+static carom_status play_batch(int count, bool one_layout, bool one_cue, int from, int n, const carom_shot_options *options,
+                               results *r) {
+  const carom_shot_job job = {.table = &table,
+                              .balls = balls + (one_layout ? 0 : count * from),
+                              .cues = cues + (one_cue ? 0 : from),
+                              .count = count,
+                              .ball_stride = one_layout ? 0 : (uint64_t)count,
+                              .cue_stride = one_cue ? 0 : 1,
+                              .n = (uint64_t)n,
+                              .options = options,
+                              .shots = r->shot + from,
+                              .status = r->status + from};
+  return carom_shoot_batch(&job);
 }
 
 static void same_results(const results *a, const results *b) {
@@ -59,7 +76,7 @@ static void free_results(results *r) {
 START_TEST(batch_is_singles) {
   make_breaks();
   for (int world = 0; world < 2; world++) {
-    carom_shot_options options = {.world = world, .cushion_model = 1 + CAROM_CUSHION_HAN};
+    carom_shot_options options = {.world = (carom_world)world, .cushion_model = CAROM_SHOT_CUSHION_HAN};
     results *single = make_results();
     for (int k = 0; k < SHOTS; k++)
       single->status[k] = (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
@@ -69,19 +86,17 @@ START_TEST(batch_is_singles) {
     for (size_t t = 0; t < sizeof threads / sizeof threads[0]; t++) {
       results *batch = make_results();
       options.threads = threads[t];
-      ck_assert_int_eq(carom_shoot_batch(&table, balls, 16, 0, cues, 0, SHOTS, &options, batch->shot, batch->status),
-                       CAROM_ERROR_MISCUE);
+      ck_assert_int_eq(play_batch(16, false, false, 0, SHOTS, &options, batch), CAROM_ERROR_MISCUE);
       same_results(single, batch);
       free_results(batch);
     }
     /* any cut */
-    shot_random r = {test_seed()};
+    lab_random r = {test_seed()};
     results *cut = make_results();
     for (int from = 0, size; from < SHOTS; from += size) {
-      size = (int)shot_uniform(&r, 1.0, 9.0);
+      size = (int)lab_uniform(&r, 1.0, 9.0);
       size = from + size <= SHOTS ? size : SHOTS - from;
-      carom_shoot_batch(&table, balls + 16 * from, 16, 0, cues + from, 0, (size_t)size, &options, cut->shot + from,
-                        cut->status + from);
+      play_batch(16, false, false, from, size, &options, cut);
     }
     same_results(single, cut);
     free_results(cut);
@@ -93,7 +108,7 @@ END_TEST
 /* A bad layout costs itself, wherever it stands, and whatever is wrong with its first ball. */
 START_TEST(bad_layouts) {
   static const double radii[] = {0.0, -1.0, NAN, INFINITY};
-  const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN};
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
   for (int bad = 0; bad <= SHOTS; bad++) { /* the first ones; all of them */
     make_breaks();
     cues[4].a = 0.0;
@@ -102,8 +117,7 @@ START_TEST(bad_layouts) {
     results *single = make_results(), *batch = make_results();
     for (int k = 0; k < SHOTS; k++)
       single->status[k] = (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
-    ck_assert_int_eq(carom_shoot_batch(&table, balls, 16, 0, cues, 0, SHOTS, &options, batch->shot, batch->status),
-                     bad > 0 ? CAROM_ERROR_RADIUS : CAROM_OK);
+    ck_assert_int_eq(play_batch(16, false, false, 0, SHOTS, &options, batch), bad > 0 ? CAROM_ERROR_RADIUS : CAROM_OK);
     for (int k = 0; k < SHOTS; k++)
       ck_assert_int_eq(single->status[k], k < bad ? CAROM_ERROR_RADIUS : CAROM_OK);
     same_results(single, batch);
@@ -119,7 +133,7 @@ END_TEST
 START_TEST(radii) {
   enum { LAYOUTS = 144, BALLS = 2 };
   static const double factor[] = {1.0, 1.0, 1.1, 0.7, 1.0, 1.95, 0.4, 1.1, 0.0};
-  const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN};
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
   static const int threads[] = {0, 3, CAROM_ALL_THREADS};
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
   int played = 0, refused = 0;
@@ -142,8 +156,7 @@ START_TEST(radii) {
       carom_shot_options threaded = options;
       threaded.threads = threads[t];
       results *batch = make_results();
-      const carom_status first =
-          carom_shoot_batch(&table, balls, BALLS, 0, cues, 0, LAYOUTS, &threaded, batch->shot, batch->status);
+      const carom_status first = play_batch(BALLS, false, false, 0, LAYOUTS, &threaded, batch);
       same_results(single, batch);
       int bad = 0;
       while (batch->status[bad] >= 0)
@@ -162,19 +175,219 @@ END_TEST
 START_TEST(one_for_all) {
   make_breaks();
   cues[4].a = 0.0;
-  const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN};
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
   for (int which = 0; which < 2; which++) {
     results *single = make_results(), *batch = make_results();
     for (int k = 0; k < SHOTS; k++)
       single->status[k] = (int8_t)carom_shoot(&table, balls + (which == 0 ? 0 : 16 * k), 16, &cues[which == 0 ? k : 0],
                                               &options, &single->shot[k]);
-    ck_assert_int_eq(
-        carom_shoot_batch(&table, balls, 16, which == 0, cues, which == 1, SHOTS, &options, batch->shot, batch->status),
-        CAROM_OK);
+    ck_assert_int_eq(play_batch(16, which == 0, which == 1, 0, SHOTS, &options, batch), CAROM_OK);
     same_results(single, batch);
     free_results(single);
     free_results(batch);
   }
+}
+END_TEST
+
+/* Brief events tell what full ones do, in place of them and beside them, and no more of them than there is room for. */
+START_TEST(brief_events) {
+  enum { FEW = 7 };
+  static carom_brief_event in_place[ROOM], beside[ROOM];
+  static carom_event full[ROOM], others[ROOM];
+  make_breaks();
+  carom_shot a = {.events = full, .room = ROOM}, b = {.brief = in_place, .room = ROOM};
+  carom_shot c = {.events = others, .brief = beside, .room = FEW};
+  memset(beside, 0x55, sizeof beside);
+  memset(others, 0x55, sizeof others);
+  carom_shot *const each[] = {&a, &b, &c};
+  for (int k = 0; k < 3; k++)
+    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], NULL, each[k]), CAROM_OK);
+  ck_assert(a.count > FEW && a.count <= ROOM && a.count == b.count && a.count == c.count);
+  for (int64_t k = 0; k < a.count; k++) {
+    const carom_brief_event told = {full[k].time, full[k].type, full[k].a, full[k].b, 0};
+    ck_assert_int_eq(memcmp(&in_place[k], &told, sizeof told), 0);
+    if (k < FEW)
+      ck_assert(memcmp(&beside[k], &told, sizeof told) == 0 && memcmp(&others[k], &full[k], sizeof full[k]) == 0);
+  }
+  for (const unsigned char *p = (const void *)&beside[FEW]; p < (const unsigned char *)(beside + ROOM); p++)
+    ck_assert_int_eq(*p, 0x55);
+  for (const unsigned char *p = (const void *)&others[FEW]; p < (const unsigned char *)(others + ROOM); p++)
+    ck_assert_int_eq(*p, 0x55);
+  /* states at a time need the full ones */
+  carom_ball_state states[16];
+  ck_assert_int_eq(carom_shot_at(balls, 16, &b, 0.5, states), CAROM_ERROR_EVENTS_LOST);
+}
+END_TEST
+
+/* ---- Stopping and going on */
+
+/* A shot, unbroken and in parts. */
+typedef struct broken {
+  carom_event events[ROOM];
+  carom_ball_state final[CAROM_BALLS_MOST];
+  carom_shot_state state;
+  carom_shot shot;
+  carom_status status;
+} broken;
+
+static broken *make_broken(void) {
+  broken *b = calloc(1, sizeof *b);
+  b->shot = (carom_shot){.events = b->events, .room = ROOM, .final = b->final, .state = &b->state};
+  return b;
+}
+
+static void same_shot(const broken *whole, const broken *parts, int count) {
+  ck_assert_int_eq(whole->status, parts->status);
+  ck_assert_int_eq(whole->shot.count, parts->shot.count);
+  ck_assert_int_eq(memcmp(&whole->shot.time, &parts->shot.time, sizeof whole->shot.time), 0);
+  ck_assert_int_eq(memcmp(whole->events, parts->events, sizeof whole->events), 0);
+  ck_assert_int_eq(memcmp(whole->final, parts->final, (size_t)count * sizeof *whole->final), 0);
+}
+
+/* Where the shot stops next: by frames, after each event of each type or some, at any time, at a bound, or any of these. */
+static carom_shot_options next_stop(const carom_shot_options *options, int way, const carom_shot *shot, random_source *r) {
+  carom_shot_options o = *options;
+  switch (way) {
+  case 0:
+    o.time_most = (floor(shot->time * 60.0 + 1e-6) + 1.0) / 60.0;
+    break;
+  case 1:
+    o.stop_at = 2 * (CAROM_STOP_AT(CAROM_EVENT_SPINNING_STATIONARY) - 1);
+    break;
+  case 2:
+    o.stop_at = CAROM_STOP_AT_CONTACT | CAROM_STOP_AT(CAROM_EVENT_STRIKE) | CAROM_STOP_AT(CAROM_EVENT_RAIL);
+    break;
+  case 3:
+    o.events_most = (int)shot->count + 1 + (int)random_between(r, 0.0, 9.0);
+    break;
+  default:
+    o.time_most = shot->time + random_between(r, 0.0, 1.0);
+    o.stop_at = CAROM_STOP_AT(CAROM_EVENT_ROLLING_STATIONARY);
+  }
+  return o;
+}
+
+/* However often a shot is stopped, it has the bits of the unbroken one; and where it stops, it has the states of that time. */
+START_TEST(stopped_and_continued) {
+  static random_shot s;
+  random_source r = {test_seed()};
+  long stops = 0;
+  for (int n = 0; n < 40; n++) {
+    random_shot_make(n % random_shot_kinds(), test_seed() + 7, (uint64_t)n, &s);
+    for (int k = 0; k < s.count && n % 3 == 1; k++)
+      s.ball[k].kind.drag = 0.0129;
+    const carom_shot_options options = {.world = n % 4 == 3 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM,
+                                        .cushion_model = n % 5 == 0 ? CAROM_SHOT_CUSHION_DEFAULT : CAROM_SHOT_CUSHION_HAN};
+    broken *whole = make_broken();
+    whole->status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &whole->shot);
+    if (whole->shot.count > ROOM || whole->status < 0) { /* by pooltool's rules, as a rule */
+      free(whole);
+      continue;
+    }
+    for (int way = 0; way < 5; way++) {
+      broken *parts = make_broken();
+      carom_shot_options o = next_stop(&options, way, &parts->shot, &r);
+      parts->status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &o, &parts->shot);
+      while (parts->status != CAROM_OK) {
+        ck_assert_int_eq(parts->status, way == 3                                               ? CAROM_ERROR_TOO_MANY_EVENTS
+                                        : o.time_most > 0.0 && parts->shot.time >= o.time_most ? CAROM_STOPPED_AT_TIME
+                                                                                               : CAROM_STOPPED_AT_EVENT);
+        const carom_event *last = &parts->events[parts->shot.count - 1];
+        if (parts->status == CAROM_STOPPED_AT_TIME) {
+          ck_assert_double_eq(parts->shot.time, o.time_most);
+          /* as the unbroken shot was then, and nothing is known of later */
+          carom_ball_state then[CAROM_BALLS_MOST];
+          ck_assert_int_eq(carom_shot_at(s.ball, s.count, &whole->shot, o.time_most, then), CAROM_OK);
+          ck_assert_int_eq(memcmp(then, parts->final, (size_t)s.count * sizeof *then), 0);
+          ck_assert_int_eq(carom_shot_at(s.ball, s.count, &parts->shot, o.time_most + 1e-9, then), CAROM_ERROR_TIME);
+        } else if (parts->status == CAROM_STOPPED_AT_EVENT) {
+          ck_assert_double_eq(parts->shot.time, last->time);
+          const bool contact = last->type == CAROM_EVENT_BALL_BALL && (last->a == s.cue.ball || last->b == s.cue.ball);
+          ck_assert((o.stop_at & CAROM_STOP_AT(last->type)) || ((o.stop_at & CAROM_STOP_AT_CONTACT) && contact));
+          for (int k = 0; k < s.count; k++)
+            if (k == last->a)
+              ck_assert_int_eq(memcmp(&parts->final[k], &last->after[0], sizeof *parts->final), 0);
+        }
+        o = next_stop(&options, way, &parts->shot, &r);
+        parts->status = carom_shot_continue(&s.table, s.ball, s.count, &o, &parts->shot);
+        stops++;
+      }
+      same_shot(whole, parts, s.count);
+      /* at rest it stays as it is */
+      parts->status = carom_shot_continue(&s.table, s.ball, s.count, &options, &parts->shot);
+      same_shot(whole, parts, s.count);
+      free(parts);
+    }
+    free(whole);
+  }
+  ck_assert_int_gt(stops, 2000);
+}
+END_TEST
+
+/* The first contact of the cue ball is that of the whole shot; in a batch too, and each shot of a batch can go on. */
+START_TEST(first_contact) {
+  enum { FEW = 20 };
+  static carom_shot_state state[FEW];
+  make_breaks();
+  cues[4].a = 0.0;
+  carom_shot_options options = {.stop_at = CAROM_STOP_AT_CONTACT, .cushion_model = CAROM_SHOT_CUSHION_HAN};
+  results *single = make_results(), *batch = make_results();
+  for (int k = 0; k < FEW; k++)
+    batch->shot[k].state = &state[k];
+  ck_assert_int_eq(play_batch(16, false, false, 0, FEW, &options, batch), CAROM_OK);
+  for (int k = 0; k < FEW; k++) {
+    ck_assert_int_eq(batch->status[k], CAROM_STOPPED_AT_EVENT);
+    const carom_event *last = &batch->shot[k].events[batch->shot[k].count - 1];
+    ck_assert(last->type == CAROM_EVENT_BALL_BALL && last->a == 0);
+    for (int64_t e = 0; e < batch->shot[k].count - 1; e++)
+      ck_assert_int_ne(batch->shot[k].events[e].type, CAROM_EVENT_BALL_BALL);
+    options.stop_at = 0;
+    batch->status[k] = (int8_t)carom_shot_continue(&table, balls + 16 * k, 16, &options, &batch->shot[k]);
+    single->status[k] = (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
+    ck_assert_int_eq(batch->status[k], single->status[k]);
+    ck_assert_int_eq(batch->shot[k].count, single->shot[k].count);
+    ck_assert_int_eq(memcmp(batch->final[k], single->final[k], sizeof batch->final[k]), 0);
+  }
+  ck_assert_int_eq(memcmp(batch->events, single->events, (size_t)FEW * ROOM * sizeof *batch->events), 0);
+  free_results(single);
+  free_results(batch);
+}
+END_TEST
+
+/* What cannot go on is refused, and nothing is written. */
+START_TEST(bad_states) {
+  make_breaks();
+  broken *b = make_broken();
+  carom_shot_options options = {.time_most = 0.2};
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
+  b->status = carom_shoot(&table, balls, 16, &cues[0], &options, &b->shot);
+  ck_assert_int_eq(b->status, CAROM_STOPPED_AT_TIME);
+  broken *before = malloc(sizeof *before);
+  memcpy(before, b, sizeof *before);
+  options.time_most = 0.1;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_TIME);
+  options.time_most = 0.3;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 15, &options, &b->shot), CAROM_ERROR_STATE);
+  options.world = CAROM_WORLD_POOLTOOL;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
+  options.world = CAROM_WORLD_CAROM;
+  balls[7].kind.mu_roll *= 2.0;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
+  balls[7].kind.mu_roll /= 2.0;
+  options.stop_at = UINT64_C(1) << 63;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_SHOT_OPTIONS);
+  ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &(carom_shot){0}), CAROM_ERROR_SHOT_OPTIONS);
+  options.stop_at = 0;
+  b->shot.state = NULL;
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_NULL);
+  b->shot.state = &b->state;
+  ck_assert_int_eq(memcmp(b, before, sizeof *b), 0);
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_STOPPED_AT_TIME);
+  /* a shot that is refused leaves no state to go on with, nor does one that ended in an error */
+  ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[4], &options, &b->shot), CAROM_ERROR_MISCUE);
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
+  free(before);
+  free(b);
 }
 END_TEST
 
@@ -199,5 +412,6 @@ START_TEST(instruction_sets) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("shots", batch_is_singles, bad_layouts, radii, one_for_all, instruction_sets);
+  return RUN_TESTS("shots", batch_is_singles, bad_layouts, radii, one_for_all, brief_events, stopped_and_continued,
+                   first_contact, bad_states, instruction_sets);
 }

@@ -1,4 +1,4 @@
-# Files as other programs write them: read, or named for what they are; and what is mistyped is named with what was meant.
+# Files as other programs write them: read, or named for what they are; and what is mistyped is named.
 head -n 3 "$DATA/collisions-204.csv" | cut -d, -f1,3- > plain.csv
 carom resolve plain.csv > plain.out
 same() { carom resolve "$1" | cmp - plain.out && echo "same: $1"; }
@@ -43,15 +43,13 @@ try carom shoot array.json
 try carom shoot pretty.json
 head -c 400 "$DATA/break-nineball.jsonl" > cut.jsonl; try carom shoot -o cut.out cut.jsonl
 try carom shoot .
-echo "what was meant:"
+echo "what is mistyped:"
 try carom trace --id pooltool002 "$DATA/collisions-204.csv" 2>&1 | sed 's/^.*\/coll/coll/'
 try carom trace --id a plain.csv
 sed '1s/v1y/V1Y/' plain.csv > case.csv; try carom resolve case.csv
 sed '1s/u_b/mu_b/; 1s/e_b/eb/' plain.csv > near.csv; try carom resolve near.csv
 sed '1s/u_b/friction/' plain.csv > far.csv; try carom resolve far.csv
 try carom resolv plain.csv
-try carom sweeep
-try carom Trace
 try carom re
 echo "messages have a limit:"
 { head -n 1 plain.csv; yes "x,1,2" | head -n 1500; } > bad.csv

@@ -28,6 +28,11 @@ static int choice(int n) {
   return (int)(byte() % (unsigned)n);
 }
 
+/* Mostly n, sometimes a number that names nothing. */
+static int mostly(int n) {
+  return choice(20) == 0 ? choice(256) - 128 : n;
+}
+
 static void arbitrary(void *to, size_t size) {
   for (size_t k = 0; k < size; k++)
     ((unsigned char *)to)[k] = (unsigned char)byte();
@@ -258,21 +263,19 @@ static void shots(void) {
     cues[k].b = number(-0.6, 0.6);
     cues[k].ball = choice(10) == 0 ? choice(256) - 128 : 0;
   }
-  carom_shot_options o = {.world = choice(20) == 0 ? choice(256) - 128 : choice(3) == 0,
-                          .ball_model = choice(20) == 0  ? choice(256) - 128
-                                        : choice(2) == 0 ? choice(5)
-                                                         : 0,
-                          .cushion_model = choice(20) == 0  ? choice(256) - 128
-                                           : choice(2) == 0 ? choice(6)
-                                                            : 0,
-                          .friction = choice(2),
+  carom_shot_options o = {.world = (carom_world)mostly(choice(3) == 0),
+                          .ball_model = (carom_ball_model)mostly(choice(2) * choice(5)),
+                          .cushion_model = (carom_shot_cushion)mostly(choice(2) * choice(6)),
+                          .friction = (carom_ball_friction)choice(2),
                           .steps = 1 + choice(100),
                           .events_most = 1 + choice(120),
                           .time_most = choice(3) == 0 ? number(0, 10) : 0};
-  reserve(&o.reserved[choice(5)]);
+  if (choice(3) == 0)
+    o.stop_at = choice(4) == 0 ? (uint64_t)choice(256) << choice(64) : CAROM_STOP_AT(choice(CAROM_EVENT_POCKET + 1));
+  reserve(&o.reserved[choice(4)]);
   carom_shot one = {.events = events[0], .room = choice(EVENTS + 1), .final = final[0]};
   const carom_status status = carom_shoot(&table, balls, count, &cues[0], &o, &one);
-  const bool played = status == CAROM_OK || status == CAROM_ERROR_TOO_MANY_EVENTS || status == CAROM_ERROR_TOO_LONG;
+  const bool played = status >= 0 || status == CAROM_ERROR_TOO_MANY_EVENTS || status == CAROM_ERROR_TOO_LONG;
   for (int k = 0; k < count && played; k++)
     for (int c = 0; c < 9; c++)
       if (!isfinite(c < 3 ? final[0][k].r[c] : c < 6 ? final[0][k].v[c - 3] : final[0][k].w[c - 6]))
@@ -290,7 +293,16 @@ static void shots(void) {
   int8_t statuses[SHOTS] = {1, 1, 1};
   for (int k = 0; k < SHOTS; k++)
     many[k] = (carom_shot){.events = events[k], .room = EVENTS, .final = final[k]};
-  carom_shoot_batch(&table, balls, count, 1, cues, choice(2), SHOTS, &o, many, statuses);
+  const carom_shot_job job = {.table = &table,
+                              .balls = balls,
+                              .cues = cues,
+                              .count = count,
+                              .cue_stride = (uint64_t)choice(2),
+                              .n = SHOTS,
+                              .options = &o,
+                              .shots = many,
+                              .status = statuses};
+  carom_shoot_batch(&job);
   if (played && (statuses[0] != (int8_t)status || many[0].count != one.count ||
                  (one.room > 0 && one.count > 0 && memcmp(&first, &events[0][0], sizeof first) != 0)))
     fail("a batch of shots differs from a shot");

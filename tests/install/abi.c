@@ -87,6 +87,14 @@ static void print_shot_types(void) {
   FIELD(carom_table, ball_radius);
   FIELD(carom_table, rail_width);
   FIELD(carom_table, pocket_back);
+  TYPE(carom_part);
+  FIELD(carom_part, kind);
+  FIELD(carom_part, index);
+  TYPE(carom_table_fault);
+  FIELD(carom_table_fault, part);
+  FIELD(carom_table_fault, other);
+  FIELD(carom_table_fault, place);
+  FIELD(carom_table_fault, gap);
   TYPE(carom_cue);
   FIELD(carom_cue, speed);
   FIELD(carom_cue, phi);
@@ -108,6 +116,7 @@ static void print_shot_types(void) {
   FIELD(carom_shot_options, threads);
   FIELD(carom_shot_options, space);
   FIELD(carom_shot_options, time_most);
+  FIELD(carom_shot_options, stop_at);
   FIELD(carom_shot_options, reserved);
   TYPE(carom_event);
   FIELD(carom_event, time);
@@ -117,12 +126,34 @@ static void print_shot_types(void) {
   FIELD(carom_event, reserved);
   FIELD(carom_event, before);
   FIELD(carom_event, after);
+  TYPE(carom_brief_event);
+  FIELD(carom_brief_event, time);
+  FIELD(carom_brief_event, type);
+  FIELD(carom_brief_event, a);
+  FIELD(carom_brief_event, b);
+  FIELD(carom_brief_event, reserved);
+  TYPE(carom_shot_state);
+  FIELD(carom_shot_state, opaque);
+  TYPE(carom_shot_job);
+  FIELD(carom_shot_job, table);
+  FIELD(carom_shot_job, balls);
+  FIELD(carom_shot_job, cues);
+  FIELD(carom_shot_job, count);
+  FIELD(carom_shot_job, ball_stride);
+  FIELD(carom_shot_job, cue_stride);
+  FIELD(carom_shot_job, n);
+  FIELD(carom_shot_job, options);
+  FIELD(carom_shot_job, shots);
+  FIELD(carom_shot_job, status);
+  FIELD(carom_shot_job, reserved);
   TYPE(carom_shot);
   FIELD(carom_shot, events);
+  FIELD(carom_shot, brief);
   FIELD(carom_shot, room);
   FIELD(carom_shot, count);
   FIELD(carom_shot, final);
   FIELD(carom_shot, time);
+  FIELD(carom_shot, state);
   FIELD(carom_shot, reserved);
 }
 

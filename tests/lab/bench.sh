@@ -8,15 +8,14 @@ rows two.csv | head -n 1
 labels two.csv
 rows two.csv | awk -F, 'NR > 1 && !($8 > 0 && $8 <= $7 && $7 <= $9 && $10 > 0 && $11 < 1e-6) { print "not as it should be: " $0 }'
 echo "--- what stands before the figures"
-sed -n 's/^# \([a-z ]*\): .*/\1/p' two.csv | grep -x -e processor -e pinning -e counters -e compiler -e flags -e commit -e date -e rounds | sort
-grep -c -e '^# counters: NA: .' -e '^# counters: .*available' two.csv
+sed -n 's/^# \([a-z ]*\): .*/\1/p' two.csv | grep -x -e processor -e pinning -e compiler -e flags -e commit -e date -e rounds | sort
 echo "--- steps"
 lab bench --kernel euler --steps 10,50 --steps 100 --budget 0.3 --csv -o steps.csv
 labels steps.csv
 echo "--- more columns"
-lab bench --kernel euler --budget 0.3 --csv --spread --errors --counters -o more.csv
+lab bench --kernel euler --budget 0.3 --csv --spread --errors -o more.csv
 rows more.csv | head -n 1
-rows more.csv | awk -F, 'NR > 1 { for (k = 1; k <= NF; k++) if ($k == "" || $k == "0" && k > 19) print "column " k " is bare"; print NF, $16 }'
+rows more.csv | awk -F, 'NR > 1 { for (k = 1; k <= NF; k++) if ($k == "") print "column " k " is bare"; print NF, $16 }'
 echo "--- a kernel without steps: once, beside base with its default, however many are asked for"
 lab bench --kernel exact --steps 10,50 --isa scalar --budget 0.2 --csv -o exact.csv
 labels exact.csv
@@ -72,7 +71,7 @@ try lab bench --steps 0
 try lab bench --steps 10,many
 try lab bench --budget never
 try lab bench --budget 0
-try lab bench --counters
+try lab bench --spread
 try lab bench --cushion --kernel exact
 try lab bench --cushion --threads 2
 try lab bench --cushion --shots "$DATA/shots-mathavan.jsonl"

@@ -6,7 +6,7 @@ try lab bench --kernel base
 try lab bench --config all
 lab kernels | tail -n 1
 lab verify --brief --kernel exact | cut -d: -f1
-echo "--- times: Euler's method of the library is the yardstick"
+echo "--- times: Euler's method of the library is the reference"
 rows() { grep -v '^#' "$1"; }
 lab bench --kernel exact --steps 10,50 --isa scalar --budget 0.2 --csv --spread --errors --counters -o calls.csv
 rows calls.csv | cut -d, -f1-6

@@ -235,7 +235,7 @@ START_TEST(level_shots_are_flat_shots) {
     random_shot s;
     random_shot_make(n % random_shot_kinds(), test_seed(), (uint64_t)n, &s);
     s.cue.theta = 0.0;
-    static const int32_t models[] = {1 + CAROM_CUSHION_HAN, 1 + CAROM_CUSHION_STRONGE, 0};
+    static const carom_shot_cushion models[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE, CAROM_SHOT_CUSHION_DEFAULT};
     carom_shot_options options = {.cushion_model = models[n % 3], .space = CAROM_SPACE_FLAT};
     carom_shot flat = {.events = kept, .room = ROOM}, space = {.events = events, .room = ROOM};
     const carom_status status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &flat);

@@ -63,7 +63,7 @@ START_TEST(nose_from_above) {
   for (int model = CAROM_CUSHION_MATHAVAN; model <= CAROM_CUSHION_EULER; model++) {
     ball = flying(20.0, 40.0 - shift() - R * sqrt(0.75), h + 0.5 * R, 0.0, 3.0, 0.0);
     ball.kind.mu_cushion = 0.0;
-    const carom_shot_options options = {.cushion_model = 1 + model};
+    const carom_shot_options options = {.cushion_model = (carom_shot_cushion)(1 + model)};
     play(&table, &ball, 1, NULL, &options, CAROM_OK);
     ck_assert_double_lt(events[0].time, 1e-9);
     NEAR(events[0].after[0].v[1], -1.1625, 1e-8);
@@ -80,7 +80,7 @@ START_TEST(near_the_cloth) {
   random_source random = {test_seed()};
   double worst = -1.0;
   for (int n = 0; n < 10000; n++) {
-    const carom_shot_options options = {.cushion_model = 1 + models[n % 4]};
+    const carom_shot_options options = {.cushion_model = (carom_shot_cushion)(1 + models[n % 4])};
     const double z = n % 3 == 0 ? R : R + random_between(&random, 0.0, 1.2e-3), up = h - z;
     carom_shot_ball ball = flying(2.0, 4.0 - shift() - sqrt(R * R - up * up), z, random_between(&random, -3.0, 3.0),
                                   random_between(&random, 0.2, 4.0), n % 3 == 0 ? 0.0 : random_between(&random, -0.5, 0.5));
@@ -338,19 +338,20 @@ END_TEST
 /* ---- What every shot keeps */
 
 /* Shots with elevated cues and falling balls: the invariants of lab/shots, which follow the motion by other code; what the
- * library evaluates at events is what it found; batches have the bits of single shots; and the mirrored table has the mirrored
- * history. */
+ * library evaluates at events is what it found; batches, and shots that are stopped and go on, have the bits of single shots. */
 START_TEST(random_flights) {
   enum { EACH = 25 };
   static random_shot s;
-  static carom_event mirrored[ROOM];
-  int64_t shots = 0, flights = 0, many = 0;
+  static carom_event again[ROOM];
+  static carom_brief_event brief[ROOM];
+  carom_ball_state again_final[CAROM_BALLS_MOST];
+  int64_t shots = 0, flights = 0, many = 0, stops = 0;
   for (int kind = 0; kind < random_shot_kinds_in_space(); kind++)
     for (int n = 0; n < EACH; n++) {
       random_shot_make(kind, test_seed() + 9, (uint64_t)n, &s);
       if (kind < random_shot_kinds() && s.cue.speed > 0.0 && strcmp(s.kind, "coincident") != 0)
         s.cue.theta = 2.0 + 58.0 * n / EACH;
-      carom_shot_options options = {.cushion_model = 1 + (n % 2 ? CAROM_CUSHION_HAN : CAROM_CUSHION_STRONGE)};
+      carom_shot_options options = {.cushion_model = n % 2 ? CAROM_SHOT_CUSHION_HAN : CAROM_SHOT_CUSHION_STRONGE};
       carom_shot shot = {.events = events, .room = ROOM, .final = final};
       const carom_status status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &shot);
       many += status == CAROM_ERROR_TOO_MANY_EVENTS;
@@ -372,15 +373,45 @@ START_TEST(random_flights) {
           NEAR(at[events[k].a].r[axis], events[k].before[0].r[axis], 1e-12);
       }
       /* a batch of it */
-      carom_shot row = {.events = mirrored, .room = ROOM};
+      carom_shot row = {.events = again, .room = ROOM};
       int8_t row_status;
-      carom_shoot_batch(&s.table, s.ball, s.count, 0, &s.cue, 0, 1, &options, &row, &row_status);
+      const carom_shot_job job = {.table = &s.table,
+                                  .balls = s.ball,
+                                  .cues = &s.cue,
+                                  .count = s.count,
+                                  .n = 1,
+                                  .options = &options,
+                                  .shots = &row,
+                                  .status = &row_status};
+      carom_shoot_batch(&job);
       ck_assert_int_eq(row_status, status);
-      ck_assert_int_eq(memcmp(mirrored, events, (size_t)shot.count * sizeof *events), 0);
+      ck_assert_int_eq(memcmp(again, events, (size_t)shot.count * sizeof *events), 0);
+      /* in pieces: stopped at times, in flight too, and at landings; brief events beside the others */
+      static carom_shot_state state;
+      carom_shot piece = {.events = again, .brief = brief, .room = ROOM, .final = again_final, .state = &state};
+      memset(again, 0, sizeof again);
+      options.stop_at = CAROM_STOP_AT(CAROM_EVENT_SLATE) | CAROM_STOP_AT_CONTACT;
+      options.time_most = shot.time > 0.0 ? 0.03 : 0.0;
+      carom_status now = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &piece);
+      for (int k = 0; now > 0 && k < 20000; k++) {
+        stops += now == CAROM_STOPPED_AT_TIME;
+        if (now == CAROM_STOPPED_AT_TIME)
+          options.time_most = piece.time + fmax(0.03, shot.time / 100.0);
+        now = carom_shot_continue(&s.table, s.ball, s.count, &options, &piece);
+      }
+      ck_assert_msg(now == status && piece.count == shot.count && piece.time == shot.time, "%s %d: %s after %lld events", s.kind,
+                    n, carom_status_name(now), (long long)piece.count);
+      ck_assert_int_eq(memcmp(again, events, (size_t)shot.count * sizeof *events), 0);
+      ck_assert_int_eq(memcmp(again_final, final, (size_t)s.count * sizeof *final), 0);
+      for (int64_t k = 0; k < shot.count; k++)
+        ck_assert(brief[k].time == events[k].time && brief[k].type == events[k].type && brief[k].a == events[k].a &&
+                  brief[k].b == events[k].b);
       shots++;
     }
-  printf("random flights: %d shots, %d landings, %d with too many events\n", (int)shots, (int)flights, (int)many);
+  printf("random flights: %d shots, %d landings, %d stops at times, %d with too many events\n", (int)shots, (int)flights,
+         (int)stops, (int)many);
   ck_assert_int_gt(flights, 1000);
+  ck_assert_int_gt(stops, 1000);
   ck_assert_int_le(many, 2);
 }
 END_TEST
@@ -417,7 +448,7 @@ START_TEST(mirrored) {
       ball[1][k] = b;
     }
     carom_shot shot[2];
-    const carom_shot_options options = {.cushion_model = 1 + (n % 2 ? CAROM_CUSHION_HAN : CAROM_CUSHION_STRONGE)};
+    const carom_shot_options options = {.cushion_model = n % 2 ? CAROM_SHOT_CUSHION_HAN : CAROM_SHOT_CUSHION_STRONGE};
     for (int side = 0; side < 2; side++) {
       shot[side] = (carom_shot){.events = kept[side], .room = ROOM};
       const carom_status status = carom_shoot(&table[side], ball[side], 6, NULL, &options, &shot[side]);

@@ -130,7 +130,7 @@ START_TEST(order_of_balls) {
   static carom_ball_state other[CAROM_BALLS_MOST];
   for (int n = 0; n < 40; n++) {
     random_shot_make(5, test_seed(), (uint64_t)n, &s); /* layouts: no two contacts at one instant */
-    const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN};
+    const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
     const carom_shot shot = play(&s.table, s.ball, s.count, &s.cue, &options, CAROM_OK);
     memcpy(other, final, sizeof other);
     random_shot turned = s;

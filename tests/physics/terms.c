@@ -140,14 +140,14 @@ static carom_shot until(const carom_shot *shot, int64_t k, double time) {
 START_TEST(invariants_with_all_terms) {
   enum { EACH = 12, LOOKS = 3 };
   static random_shot s;
-  static const int models[] = {CAROM_CUSHION_HAN, CAROM_CUSHION_STRONGE, CAROM_CUSHION_MATHAVAN};
+  static const carom_shot_cushion models[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE, CAROM_SHOT_CUSHION_MATHAVAN};
   random_source random = {test_seed()};
   int64_t shots = 0, events_seen = 0;
   for (int kind = 0; kind < random_shot_kinds(); kind++)
     for (int n = 0; n < EACH; n++) {
       random_shot_make(kind, test_seed() + 5, (uint64_t)n, &s);
       give_terms(s.ball, s.count, &random);
-      const carom_shot_options options = {.cushion_model = 1 + models[n % 12 == 11 ? 2 : n % 2]};
+      const carom_shot_options options = {.cushion_model = models[n % 12 == 11 ? 2 : n % 2]};
       carom_shot shot = {.events = events, .room = ROOM, .final = final};
       const carom_status status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &shot);
       ck_assert_msg(status == CAROM_OK, "%s %d: %s", s.kind, n, carom_status_name(status));
@@ -198,8 +198,8 @@ static const carom_event *first_of(const carom_shot *shot, int type) {
   ck_abort_msg("there is no event of type %d", type);
 }
 
-static carom_event rail_event(const carom_table *table, const carom_shot_ball *ball, int cushion_model) {
-  const carom_shot_options options = {.cushion_model = 1 + cushion_model, .events_most = 50};
+static carom_event rail_event(const carom_table *table, const carom_shot_ball *ball, carom_shot_cushion cushion_model) {
+  const carom_shot_options options = {.cushion_model = cushion_model, .events_most = 50};
   carom_shot shot = {.events = events, .room = ROOM};
   carom_shoot(table, ball, 1, NULL, &options, &shot);
   return *first_of(&shot, CAROM_EVENT_RAIL);
@@ -214,9 +214,9 @@ START_TEST(loss_of_roll) {
       for (int side = -1; side <= 1; side += 2) {
         carom_shot_ball ball = rolling(1.0, 0.1, 1.5, 1.5707963267948966 + 0.7 * side + 3.141592653589793);
         ball.state.w[2] = 20.0 * spin;
-        const carom_event without = rail_event(&table, &ball, model);
+        const carom_event without = rail_event(&table, &ball, (carom_shot_cushion)model);
         ball.kind.roll_loss = 0.087;
-        const carom_event with = rail_event(&table, &ball, model);
+        const carom_event with = rail_event(&table, &ball, (carom_shot_cushion)model);
         /* the rail is along x, so the roll along it is R w_y */
         const double R = ball.kind.radius, v_t = without.before[0].v[0];
         const double lost = R * (without.after[0].w[1] - with.after[0].w[1]);
@@ -227,10 +227,10 @@ START_TEST(loss_of_roll) {
         /* all of it */
         ball.kind.roll_loss = 1.0;
         ball.state.w[1] = 0.2 * ball.state.v[0] / R;
-        ck_assert_double_eq(rail_event(&table, &ball, CAROM_CUSHION_MIRROR).after[0].w[1], 0.0);
+        ck_assert_double_eq(rail_event(&table, &ball, CAROM_SHOT_CUSHION_MIRROR).after[0].w[1], 0.0);
         /* turning backwards along the rail */
         ball.state.w[1] = -ball.state.v[0] / R;
-        const carom_event back = rail_event(&table, &ball, CAROM_CUSHION_MIRROR);
+        const carom_event back = rail_event(&table, &ball, CAROM_SHOT_CUSHION_MIRROR);
         ck_assert_double_eq(back.after[0].w[1], back.before[0].w[1]);
       }
 }
@@ -240,7 +240,7 @@ END_TEST
 static carom_event hit(double speed, const carom_ball_kind *a, const carom_ball_kind *b, int friction) {
   carom_shot_ball balls[2] = {rolling(0.5, 0.5, speed, 0.0), ball_at(0.8, 0.53)};
   const carom_table table = empty_table(2.0);
-  const carom_shot_options options = {.friction = friction, .cushion_model = 1 + CAROM_CUSHION_HAN};
+  const carom_shot_options options = {.friction = (carom_ball_friction)friction, .cushion_model = CAROM_SHOT_CUSHION_HAN};
   balls[0].kind = *a;
   balls[1].kind = *b;
   const carom_shot shot = play(&table, balls, 2, NULL, &options, CAROM_OK);
@@ -291,7 +291,7 @@ START_TEST(noses) {
     }
     ball.kind.nose_height = n & 4 ? 0.034 : 0.0;
     ball.kind.omega_ratio = n & 8 ? 1.6 : 0.0;
-    const carom_event e = rail_event(&table, &ball, CAROM_CUSHION_STRONGE);
+    const carom_event e = rail_event(&table, &ball, CAROM_SHOT_CUSHION_STRONGE);
     carom_cushion_impact in = {.normal = {0.0, -1.0},
                                .height = n & 4 ? 0.034 : 0.036576,
                                .radius = ball.kind.radius,
@@ -319,8 +319,8 @@ START_TEST(bounds_with_drag) {
     random_shot_make(n % random_shot_kinds(), test_seed(), (uint64_t)n, &s);
     for (int k = 0; k < s.count; k++)
       s.ball[k].kind.drag = 0.0129;
-    const carom_shot_options bounds[2] = {{.cushion_model = 1 + CAROM_CUSHION_HAN, .time_most = 0.1 + 0.3 * n},
-                                          {.cushion_model = 1 + CAROM_CUSHION_HAN, .events_most = 1 + n}};
+    const carom_shot_options bounds[2] = {{.cushion_model = CAROM_SHOT_CUSHION_HAN, .time_most = 0.1 + 0.3 * n},
+                                          {.cushion_model = CAROM_SHOT_CUSHION_HAN, .events_most = 1 + n}};
     for (int k = 0; k < 2; k++) {
       carom_shot shot = {.events = events, .room = ROOM, .final = final};
       carom_shoot(&s.table, s.ball, s.count, &s.cue, &bounds[k], &shot);

@@ -78,7 +78,7 @@ END_TEST
 
 /* The same on hard collisions of every regime, where a few results of the exact solver are off by up to 1e-5. */
 START_TEST(ends_at_the_result_everywhere) {
-  regimes_rng rng = {test_seed()};
+  lab_random rng = {test_seed()};
   double worst = 0.0;
   int at = 0;
   for (int regime = 0; regime < regimes_count(); regime++) {

@@ -12,7 +12,7 @@
 
 /* ---- Invariants */
 
-static void keep_invariants(int cushion_model, int each) {
+static void keep_invariants(carom_shot_cushion cushion_model, int each) {
   static random_shot s;
   const carom_shot_options options = {.cushion_model = cushion_model};
   for (int kind = 0; kind < random_shot_kinds(); kind++)
@@ -34,7 +34,7 @@ static void keep_invariants(int cushion_model, int each) {
 }
 
 START_TEST(invariants) {
-  keep_invariants(1 + CAROM_CUSHION_HAN, 60);
+  keep_invariants(CAROM_SHOT_CUSHION_HAN, 60);
 }
 END_TEST
 
@@ -111,7 +111,7 @@ START_TEST(mirror) {
       mirror_table(&m.table);
       for (int k = 0; k < m.count; k++)
         m.ball[k].state = mirrored(s.ball[k].state);
-      const carom_shot_options options = {.cushion_model = n % 4 == 0 ? 0 : 1 + CAROM_CUSHION_HAN};
+      const carom_shot_options options = {.cushion_model = n % 4 == 0 ? 0 : CAROM_SHOT_CUSHION_HAN};
       carom_shot a = {.events = events, .room = ROOM}, b = {.events = other, .room = ROOM};
       const carom_status status = carom_shoot(&s.table, s.ball, s.count, NULL, &options, &a);
       ck_assert_int_eq(carom_shoot(&m.table, m.ball, m.count, NULL, &options, &b), status);
@@ -133,7 +133,7 @@ END_TEST
 /* ---- Balls that press on each other */
 
 static void ends_well(const carom_table *t, const carom_shot_ball *b, int count, int most_events) {
-  const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN};
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
   const carom_shot shot = play(t, b, count, NULL, &options, CAROM_OK);
   const shot_measures m = shot_measure(t, b, count, &shot, CAROM_OK, 3);
   ck_assert_msg(shot.count <= most_events && m.overlap <= 1e-9 && m.intrusion <= 1e-9 && m.gain <= 1e-12 && m.momentum <= 1.0 &&
@@ -188,7 +188,7 @@ START_TEST(wedged) {
   for (int k = 0; k < 5; k++)
     b[k] = ball_at(R + 2.0 * k * R, 3.0 * R);
   b[0].state.w[1] = 100.0;
-  const carom_shot_options options = {.cushion_model = 1 + CAROM_CUSHION_HAN, .events_most = 3000};
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN, .events_most = 3000};
   play(&t, b, 5, NULL, &options, CAROM_ERROR_TOO_MANY_EVENTS);
   for (int k = 0; k < 5; k++)
     ck_assert_double_eq_tol(final[k].r[0], b[k].state.r[0], 1e-9);
@@ -242,7 +242,7 @@ START_TEST(left_moving_into_the_cushion) {
     b.state.v[1] = -speed;
     for (int axis = 0; axis < 3; axis++)
       b.state.w[axis] = random_between(&r, -2.0, 2.0) * speed / R;
-    const carom_shot_options options = {.cushion_model = 1 + (n % 2 == 0 ? CAROM_CUSHION_HAN : CAROM_CUSHION_STRONGE)};
+    const carom_shot_options options = {.cushion_model = n % 2 == 0 ? CAROM_SHOT_CUSHION_HAN : CAROM_SHOT_CUSHION_STRONGE};
     const carom_shot shot = play(&t, &b, 1, NULL, &options, CAROM_OK);
     const shot_measures m = shot_measure(&t, &b, 1, &shot, CAROM_OK, 3);
     ck_assert_msg(shot.count <= 3000 && m.intrusion <= 1e-9 && m.gain <= 1e-12 && m.restless == 0,

@@ -305,10 +305,10 @@ static void shots(void) {
     const char *name;
     carom_shot_options options;
   } models[] = {{"default", {0}},
-                {"stronge", {.cushion_model = 1 + CAROM_CUSHION_STRONGE}},
-                {"han", {.cushion_model = 1 + CAROM_CUSHION_HAN, .friction = CAROM_FRICTION_CONSTANT}},
-                {"mirror", {.cushion_model = 1 + CAROM_CUSHION_MIRROR, .ball_model = CAROM_BALL_MODEL_INELASTIC}},
-                {"euler", {.cushion_model = 1 + CAROM_CUSHION_EULER, .ball_model = CAROM_BALL_MODEL_EULER, .steps = 100}},
+                {"stronge", {.cushion_model = CAROM_SHOT_CUSHION_STRONGE}},
+                {"han", {.cushion_model = CAROM_SHOT_CUSHION_HAN, .friction = CAROM_FRICTION_CONSTANT}},
+                {"mirror", {.cushion_model = CAROM_SHOT_CUSHION_MIRROR, .ball_model = CAROM_BALL_MODEL_INELASTIC}},
+                {"euler", {.cushion_model = CAROM_SHOT_CUSHION_EULER, .ball_model = CAROM_BALL_MODEL_EULER, .steps = 100}},
                 {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}}};
   static carom_event events[ROOM];
   static carom_shot_ball balls[CAROM_BALLS_MOST];
@@ -348,6 +348,8 @@ static void shots(void) {
 }
 
 int main(int argc, char **argv) {
+  if (argc > 1 && strcmp(argv[1], "revision") == 0)
+    return printf("%d\n", carom_physics_revision()) < 0;
   const int numbers = argc > 1 && strcmp(argv[1], "numbers") == 0;
   if (argc == 1)
     carom_isa_limit(CAROM_ISA_PLAIN);

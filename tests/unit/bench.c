@@ -1,8 +1,7 @@
-/* The benchmark's engine: statistics on made-up samples, turns and figures under a clock that the test turns by hand, and
- * counters with and without hardware. Nothing here asserts a real time. */
+/* The benchmark's engine: statistics on made-up samples, turns and figures under a clock that the test turns by hand. Nothing
+ * here asserts a real time. */
 #include "caches.h"
 #include "clock.h"
-#include "counters.h"
 #include "pinning.h"
 #include "rounds.h"
 #include "statistics.h"
@@ -35,12 +34,12 @@ START_TEST(summaries) {
 END_TEST
 
 START_TEST(ratios_cancel_what_slows_both) {
-  const double yardstick[] = {20.0, 40.0, 20.0, 60.0}, other[] = {10.0, 20.0, 10.0, 30.0};
+  const double reference[] = {20.0, 40.0, 20.0, 60.0}, other[] = {10.0, 20.0, 10.0, 30.0};
   double scratch[4];
-  const sample_summary s = summarise_ratios(yardstick, other, 4, scratch);
+  const sample_summary s = summarise_ratios(reference, other, 4, scratch);
   ck_assert_double_eq(s.median, 2.0);
   ck_assert_double_eq(s.spread, 0.0);
-  ck_assert_double_eq(yardstick[1], 40.0);
+  ck_assert_double_eq(reference[1], 40.0);
 }
 END_TEST
 
@@ -74,7 +73,7 @@ static uint64_t fingerprint_made_up(const void *context) {
   return ((const made_up *)context)->result;
 }
 
-static bench_subject subject_of(made_up *m, size_t yardstick) {
+static bench_subject subject_of(made_up *m, size_t reference) {
   return (bench_subject){.threads = 1,
                          .pairs = 10,
                          .resolve = work_made_up,
@@ -82,7 +81,7 @@ static bench_subject subject_of(made_up *m, size_t yardstick) {
                          .fingerprint = fingerprint_made_up,
                          .context = m,
                          .verified = 42,
-                         .yardstick = yardstick};
+                         .reference = reference};
 }
 
 START_TEST(turns_and_figures) {
@@ -105,7 +104,7 @@ START_TEST(turns_and_figures) {
   ck_assert(strncmp(order, "ABABABAB", 8) == 0);
   ck_assert_double_le(made_up_now, 1.1e9);
   ck_assert(bench_rounds(subjects, 3, &settings, figure));
-  ck_assert(isnan(figure[2].speedup.median)); /* without a yardstick */
+  ck_assert(isnan(figure[2].speedup.median)); /* without a reference */
 }
 END_TEST
 
@@ -130,17 +129,13 @@ START_TEST(fingerprints) {
 END_TEST
 
 START_TEST(clocks_go_forward) {
-  const double before = clock_ns();
-  const uint64_t ticks = clock_ticks();
-  ck_assert_double_ge(clock_ns(), before);
-  if (clock_has_ticks()) {
-    ck_assert_uint_ge(clock_ticks(), ticks);
-    ck_assert(clock_ticks_per_ns() > 0.0);
-  } else {
-    ck_assert_uint_eq(ticks, 0);
-    ck_assert(isnan(clock_ticks_per_ns()));
-  }
-  ck_assert(strlen(clock_ticks_text()) > 0);
+  const double before = clock_ns(), cycle = clock_core_cycle();
+  ck_assert_double_gt(clock_ns(), before);
+#if defined(__x86_64__) || defined(__aarch64__)
+  ck_assert(cycle > 0.1 && cycle < 20.0); /* from 10 GHz down to an emulator's */
+#else
+  ck_assert(isnan(cycle));
+#endif
 }
 END_TEST
 
@@ -164,28 +159,7 @@ START_TEST(pinning_says_what_it_reached) {
 }
 END_TEST
 
-static int counted;
-
-static void count_work(void *context) {
-  (void)context;
-  counted++;
-}
-
-START_TEST(counters_are_numbers_or_reasons) {
-  double value[COUNTER_COUNT];
-  ck_assert(strncmp(counters_begin(), "NA: ", 4) == 0 || strstr(counters_begin(), "available") != NULL);
-  counters_measure(count_work, NULL, value);
-  for (int k = 0; k < COUNTER_COUNT; k++) {
-    ck_assert(isnan(value[k]) == (counter_reason(k) != NULL));
-    ck_assert(counter_reason(k) == NULL || strlen(counter_reason(k)) > 0);
-    ck_assert(strlen(counter_column(k)) > 0 && strlen(counter_text(k)) > 0);
-  }
-  counters_end();
-}
-END_TEST
-
 int main(void) {
   return RUN_TESTS("bench", summaries, ratios_cancel_what_slows_both, turns_and_figures, budget_too_small_for_one_round,
-                   fingerprints, clocks_go_forward, caches_hold_what_fits, pinning_says_what_it_reached,
-                   counters_are_numbers_or_reasons);
+                   fingerprints, clocks_go_forward, caches_hold_what_fits, pinning_says_what_it_reached);
 }

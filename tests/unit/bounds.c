@@ -5,9 +5,8 @@
 #include "draws.h"
 #include "support.h"
 
-#include "cushion/frame.h"
 #include "cushion/models.h"
-#include "impact/advance.h"
+#include "impact/impact.h"
 
 #include <math.h>
 #include <stdio.h>

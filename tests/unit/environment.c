@@ -20,7 +20,7 @@ static carom_impact ordinary[ROWS], regimes[ROWS];
 
 static void make_rows(void) {
   random_source source = {test_seed()};
-  regimes_rng rng = {test_seed()};
+  lab_random rng = {test_seed()};
   for (int k = 0; k < ROWS; k++) {
     ordinary[k] = random_impact(&source);
     regimes[k] = regimes_draw(k % regimes_count(), -1.0, &rng);

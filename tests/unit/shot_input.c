@@ -39,7 +39,17 @@ static void expect(carom_status status, int where) {
   int8_t statuses[2] = {99, 99};
   memcpy(two + 10, balls, sizeof balls);
   carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, two, 10);
-  const carom_status first = carom_shoot_batch(&table, two, 10, 0, cues, 0, 2, &options, shots, statuses);
+  const carom_shot_job job = {.table = &table,
+                              .balls = two,
+                              .cues = cues,
+                              .count = 10,
+                              .ball_stride = 10,
+                              .cue_stride = 1,
+                              .n = 2,
+                              .options = &options,
+                              .shots = shots,
+                              .status = statuses};
+  const carom_status first = carom_shoot_batch(&job);
   ck_assert_int_eq(first, status);
   if (statuses[0] != 99) { /* what is wrong does not belong to all, but that both layouts have balls too low for a nose */
     const bool both = status == CAROM_ERROR_NOSE_HEIGHT;
@@ -226,12 +236,16 @@ END_TEST
 START_TEST(options_and_calls) {
   REFUSED(options.world, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.ball_model, 5, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.cushion_model, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.world, (carom_world)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.ball_model, (carom_ball_model)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.cushion_model, (carom_shot_cushion)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.cushion_model, (carom_shot_cushion)6, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.friction, (carom_ball_friction)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.friction, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.events_most, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.space, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.space, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.reserved[4], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.space, (carom_space)2, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.space, (carom_space)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.reserved[3], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.time_most, NAN, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.steps, -1, CAROM_ERROR_STEPS, -1);
   REFUSED(options.threads, -2, CAROM_ERROR_THREADS, -1);
@@ -244,7 +258,29 @@ START_TEST(options_and_calls) {
   ck_assert_int_eq(carom_shoot(&table, balls, 33, &cue, NULL, &shot), CAROM_ERROR_BALLS);
   shot.room = 5;
   ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_shoot_batch(&table, balls, 10, 1, &cue, 1, 0, NULL, NULL, NULL), CAROM_OK);
+  /* a job that cannot be served is refused whole, without a word to any shot */
+  int8_t told = 99;
+  const carom_shot_job good = {
+      .table = &table, .balls = balls, .cues = &cue, .count = 10, .n = 1, .shots = &shot, .status = &told};
+  carom_shot_job job = good;
+  shot = (carom_shot){.count = 77};
+#define JOB_REFUSED(field, value, code)                \
+  do {                                                 \
+    job = good;                                        \
+    job.field = (value);                               \
+    ck_assert_int_eq(carom_shoot_batch(&job), (code)); \
+    ck_assert(told == 99 && shot.count == 77);         \
+  } while (0)
+  ck_assert_int_eq(carom_shoot_batch(NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_shoot_batch(&(carom_shot_job){0}), CAROM_OK);
+  JOB_REFUSED(table, NULL, CAROM_ERROR_NULL);
+  JOB_REFUSED(balls, NULL, CAROM_ERROR_NULL);
+  JOB_REFUSED(shots, NULL, CAROM_ERROR_NULL);
+  JOB_REFUSED(count, 0, CAROM_ERROR_BALLS);
+  JOB_REFUSED(count, INT64_C(1) << 32 | 10, CAROM_ERROR_BALLS);
+  JOB_REFUSED(reserved[3], 1, CAROM_ERROR_SHOT_OPTIONS);
+  ck_assert_int_eq(carom_shoot_batch(&good), CAROM_OK);
+  ck_assert(told == CAROM_OK && shot.count != 77);
   ck_assert_int_eq(carom_rack(CAROM_RACK_NINEBALL, &table, -1.0, 1, balls, 10), CAROM_ERROR_RACK);
   ck_assert_int_eq(carom_rack(CAROM_RACK_NINEBALL, &table, 0.0, 1, balls, 9), CAROM_ERROR_RACK);
   ck_assert_int_eq(carom_rack((carom_rack_kind)-1, &table, 0.0, 1, balls, 9), CAROM_ERROR_RACK);
@@ -298,8 +334,8 @@ START_TEST(bounds) {
   ck_assert_double_eq(shot.time, events[29].time);
   ends_there(&shot, 10);
   options = (carom_shot_options){.time_most = 0.15};
-  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &options, &shot), CAROM_ERROR_TOO_LONG);
-  ck_assert_double_le(shot.time, 0.15);
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &options, &shot), CAROM_STOPPED_AT_TIME);
+  ck_assert_double_eq(shot.time, 0.15);
   ends_there(&shot, 10);
   /* a shot that came to rest is known for ever, but not at no time */
   carom_shot rest = {.events = rested, .room = 1000, .final = final};
@@ -546,9 +582,9 @@ START_TEST(wild_shots) {
     cue.phi = wild(&r, 0.0, 1e9);
     cue.theta = wild(&r, 0.0, 90.0);
     cue.a = wild(&r, -1.0, 1.0);
-    options.world = n % 2;
+    options.world = n % 2 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM;
     options.events_most = 2000;
-    options.cushion_model = n % 3 == 0 ? 0 : 1 + CAROM_CUSHION_HAN;
+    options.cushion_model = n % 3 == 0 ? 0 : CAROM_SHOT_CUSHION_HAN;
     carom_ball_state final[10];
     carom_shot shot = {.events = events, .room = 2000, .final = final};
     const carom_status status = carom_shoot(&table, balls, count, &cue, &options, &shot);

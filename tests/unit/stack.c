@@ -87,9 +87,16 @@ static void *shots(void *argument) {
       carom_rack((carom_rack_kind)rack, &table, 1e-4, 1, balls, CAROM_BALLS_MOST);
       carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
       cue.speed = 7.0;
-      const carom_shot_options own = {.world = world, .threads = world};
+      const carom_shot_options own = {.world = (carom_world)world, .threads = world};
       carom_shoot(&table, balls, carom_rack_size((carom_rack_kind)rack), &cue, &own, &shot[0]);
-      carom_shoot_batch(&table, balls, carom_rack_size((carom_rack_kind)rack), 1, &cue, 1, 8, &own, shot, NULL);
+      const carom_shot_job job = {.table = &table,
+                                  .balls = balls,
+                                  .cues = &cue,
+                                  .count = carom_rack_size((carom_rack_kind)rack),
+                                  .n = 8,
+                                  .options = &own,
+                                  .shots = shot};
+      carom_shoot_batch(&job);
     }
   return argument;
 }
@@ -131,7 +138,7 @@ static const struct {
 
 static void make_rows(void) {
   random_source source = {test_seed()};
-  regimes_rng rng = {test_seed()};
+  lab_random rng = {test_seed()};
   count = (size_t)regimes_count() * EACH;
   rows = malloc(count * sizeof *rows);
   rows_f32 = malloc(count * sizeof *rows_f32);

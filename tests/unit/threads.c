@@ -55,6 +55,28 @@ START_TEST(each_row_once) {
 }
 END_TEST
 
+/* The most rows of a part so far. */
+static size_t note_size(const void *job, size_t from, size_t end) {
+  atomic_size_t *most = *(atomic_size_t *const *)job;
+  size_t before = atomic_load(most);
+  while (end - from > before && !atomic_compare_exchange_weak(most, &before, end - from))
+    continue;
+  return end;
+}
+
+/* A few dozen rows that are worth a thread, such as shots, are shared too. */
+START_TEST(few_rows_are_shared) {
+  atomic_size_t most, *const job = &most;
+  for (size_t n = 8; n <= 64; n++)
+    for (int threads = 2; threads <= 4; threads++) {
+      atomic_store(&most, 0);
+      ck_assert_uint_eq(carom_in_threads(note_size, &job, n, threads, 4), n);
+      const size_t parts = n / 4 < (size_t)threads ? n / 4 : (size_t)threads;
+      ck_assert_msg(atomic_load(&most) <= n / parts + 4, "%zu of %zu rows on one of %zu threads", atomic_load(&most), n, parts);
+    }
+}
+END_TEST
+
 static pthread_t caller;
 static atomic_int handled, elsewhere;
 static atomic_bool done;
@@ -112,5 +134,5 @@ START_TEST(signals_stay_with_the_caller) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("threads", each_row_once, signals_stay_with_the_caller);
+  return RUN_TESTS("threads", each_row_once, few_rows_are_shared, signals_stay_with_the_caller);
 }

@@ -1,7 +1,7 @@
 """What recorded shots are played with: named constants, and the table, balls and options that follow from them.
 
-A constant is a field of `carom.dtypes.ball_kind`, but for the radius, or `nose_height` (m, of all cushions above the cloth). Fields
-that the library's kind of ball gains are constants without a change here. Friction between balls is the constant mu_ball.
+A constant is a field of `carom.dtypes.ball_kind`, but for the radius. Friction between balls is the law of law_a, law_b and law_c; mu_ball
+stands for a law that does not depend on the slip.
 """
 
 from __future__ import annotations
@@ -18,41 +18,43 @@ from carom.shots import ShotCushion, shot_options
 
 Constants = dict[str, float]
 
-# Measured on one carom table (docs/using/tracks.md): these stand in for what a recording does not tell. Restitution and friction of
-# the cushion belong to a model: they come from single impacts, fitted with that model.
-_CLOTH_AND_BALLS = {
-    "mu_slide": 0.206,
-    "mu_roll": 0.0055,
-    "mu_spin": 0.0045,
-    "mu_ball": 0.08,
-    "restitution": 0.951,
-}
+# Restitution and friction of the cushion, height of the nose: these belong to a model. Fitted to single impacts, by that model, on the
+# table of CAROM_GAME_BILLIARD (docs/understanding/constants.md), whose other constants stand in for what a recording does not tell.
 _CUSHION = {
     "mathavan": (0.898, 0.22, 0.037),
     "stronge": (0.874, 0.22, 0.0365),
     "han": (0.874, 0.231, 0.03545),
     "mirror": (0.875, 0.0, 0.037),
 }
-KINDS = tuple(name for name in dtypes.ball_kind.names or () if name not in ("radius", "mass", "gravity"))
-NAMES = (*KINDS, "mass", "gravity", "nose_height")
+# Friction between balls over their slip: Alciatore's law, 4.5 times.
+_LAW = {"law_a": 0.0448, "law_b": 0.486, "law_c": 1.088}
+KINDS = tuple(name for name in dtypes.ball_kind.names or () if name != "radius")
 
 
 def usual(cushion_model: ShotCushion) -> Constants:
     """The constants to begin with, for a model of the cushion."""
     if cushion_model not in _CUSHION:
         raise ValueError(f"cushion_model: must be one of {', '.join(map(repr, _CUSHION))}, not {cushion_model!r}")
+    kind = balls(np.zeros((1, 2)), game="billiard")["kind"][0]
     e, mu, height = _CUSHION[cushion_model]
-    return {**_CLOTH_AND_BALLS, "restitution_cushion": e, "mu_cushion": mu, "nose_height": height}
+    cushion = {"restitution_cushion": e, "mu_cushion": mu, "nose_height": height}
+    loss = 0.0 if cushion_model == "mirror" else float(kind["roll_loss"])
+    return {**{name: float(kind[name]) for name in KINDS if name != "mu_ball"}, **_LAW, **cushion, "roll_loss": loss}
 
 
 def complete(given: Mapping[str, float], cushion_model: ShotCushion, where: str = "constants") -> Constants:
     """The given constants, and the usual ones for those that are not given."""
     for name, value in given.items():
-        if name not in NAMES:
-            raise ValueError(f"{where}: there is no constant {name!r}; known are {', '.join(NAMES)}")
+        if name not in KINDS:
+            raise ValueError(f"{where}: there is no constant {name!r}; known are {', '.join(KINDS)}")
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value):
             raise ValueError(f"{where}: {name} must be a finite number, not {value!r}")
-    return {**usual(cushion_model), **{name: float(value) for name, value in given.items()}}
+    values = {**usual(cushion_model), **{name: float(value) for name, value in given.items()}}
+    # friction between balls as one number is a law that does not depend on the slip
+    number = values.pop("mu_ball", None)
+    if number is not None and not any(name in given for name in _LAW):
+        values.update(law_a=number, law_b=0.0, law_c=0.0)
+    return values
 
 
 def rectangle(size: tuple[float, float], nose_height: float) -> Table:
@@ -66,14 +68,13 @@ def rectangle(size: tuple[float, float], nose_height: float) -> Table:
 
 
 def layout(centres: dtypes.Doubles, radius: float, constants: Mapping[str, float]) -> dtypes.Records:
-    """Balls at rest at centres of shape (..., balls, 2), of shape (..., balls). What is no constant, such as drag, is 0."""
-    made = balls(centres, game="pooltool_billiard", radius=radius)
+    """Balls at rest at centres of shape (..., balls, 2), of shape (..., balls)."""
+    made = balls(centres, game="billiard", radius=radius)
     for name, value in constants.items():
-        if name != "nose_height":
-            made["kind"][name] = value
+        made["kind"][name] = value
     return made
 
 
 def options(cushion_model: ShotCushion) -> Any:
     """The options of C that recorded shots are played with."""
-    return shot_options("carom", "default", cushion_model, "constant", 0, 0, 0.0, 0)
+    return shot_options("carom", "default", cushion_model, "alciatore", 0, 0, 0.0, 0)

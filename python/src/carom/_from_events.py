@@ -39,23 +39,14 @@ def measured(events: Events, radius: float, cushion_model: ShotCushion, seed: in
     """The constants that the events tell, and their errors. What too few events tell is left out."""
     found: dict[str, tuple[float, float]] = {
         "mu_slide": (events.slide[0] / _GRAVITY, events.slide[1] / _GRAVITY),
-        "mu_roll": _rolling(events),
+        "mu_roll": (events.roll[0][0] / _GRAVITY, events.roll[0][1] / _GRAVITY),
+        "drag": (max(events.roll[1][0], 0.0), events.roll[1][1]),
         "restitution": _hits(events.hits),
         **_cushion(events.impacts, radius, cushion_model, np.random.default_rng(seed)),
     }
     found = {name: pair for name, pair in found.items() if math.isfinite(pair[0])}
     errors = {name: math.hypot(error, _METHOD.get(name, 0.0)) for name, (_, error) in found.items()}
     return {name: value for name, (value, _) in found.items()}, errors
-
-
-def _rolling(events: Events) -> tuple[float, float]:
-    """mu_roll: a + b v^2 over g, in the mean over the time of the pieces of rolling."""
-    (a, a_error), (b, b_error) = events.roll
-    rolls = events.pieces[events.pieces["rolling"]]
-    if math.isnan(a) or len(rolls) == 0:
-        return math.nan, math.nan
-    square = float(np.average((rolls["v"] ** 2).sum(axis=1), weights=rolls["end"] - rolls["begin"]))
-    return (a + b * square) / _GRAVITY, math.hypot(a_error, b_error * square) / _GRAVITY
 
 
 def _hits(hits: Records) -> tuple[float, float]:
@@ -74,7 +65,9 @@ def chosen(impacts: Records) -> Records:
     return picked
 
 
-def predicted(impacts: Records, radius: float, model: ShotCushion, e: float, mu: float, height: float) -> Doubles:
+def predicted(
+    impacts: Records, radius: float, model: ShotCushion, e: float, mu: float, height: float, roll_loss: float = 0.0
+) -> Doubles:
     """w_t, w_n, u_t and u_n after each impact of a rolling ball, by the model, with its best side spin, and the misfit, (n, 5).
 
     The misfit is chi^2 of the four, whose errors are those of the events and 1.2 % of v for w, 3 % for u, and the prior's.
@@ -91,7 +84,10 @@ def predicted(impacts: Records, radius: float, model: ShotCushion, e: float, mu:
         balls[name] = value
     motion = cushion(balls, model="mathavan" if model == "default" else model)[0]
     w_x, w_y = motion["v"][..., 0], motion["v"][..., 1]
-    after = np.stack([w_x, w_y, w_x - radius * motion["w"][..., 1], w_y + radius * motion["w"][..., 0]], axis=-1)
+    # the loss of roll along the cushion, as carom_shoot() takes it
+    v_t, roll = impacts["v_t"][:, None], radius * motion["w"][..., 1]
+    roll = np.where(v_t * roll > 0.0, np.sign(roll) * np.maximum(np.abs(roll) - roll_loss * np.abs(v_t), 0.0), roll)
+    after = np.stack([w_x, w_y, w_x - roll, w_y + radius * motion["w"][..., 0]], axis=-1)
     seen = np.stack([impacts["w_t"], impacts["w_n"], impacts["u_t"], impacts["u_n"]], axis=-1)
     # the best spin of each
     w_error, u_error = np.hypot(impacts["w_error"], 0.012 * v), np.hypot(impacts["u_error"], 0.03 * v)
@@ -103,33 +99,37 @@ def predicted(impacts: Records, radius: float, model: ShotCushion, e: float, mu:
     return np.concatenate([after[rows, best], chi2[rows, best, None]], axis=1)
 
 
+_CUSHION = ("restitution_cushion", "mu_cushion", "roll_loss", "nose_height")
+_LEAST, _MOST = np.array([0.05, 0.0, 0.0, 1.0]), np.array([1.0, 1.0, 0.5, 1.7])  # of the last: over the radius
+
+
 def _fit_cushion(impacts: Records, radius: float, model: ShotCushion, start: Doubles) -> Doubles:
-    """e, mu and the height of the nose over the radius, of these impacts."""
-    free = 1 if model == "mirror" else 3
+    """The constants of _CUSHION, the last over the radius, of these impacts."""
+    free = 1 if model == "mirror" else len(_CUSHION)
 
     def residuals(sets: Doubles) -> Doubles:
         rows: list[Doubles] = []
         for given in sets:
-            e, mu, height = np.clip([*given, *start[free:]], [0.05, 0.0, 1.0], [1.0, 1.0, 1.7])
-            chi2 = predicted(impacts, radius, model, e, mu, height * radius)[:, 4]
+            e, mu, loss, height = bounded = np.clip([*given, *start[free:]], _LEAST, _MOST)
+            chi2 = predicted(impacts, radius, model, e, mu, height * radius, loss)[:, 4]
             # the square root of the pseudo-Huber cost, so that squares add up to it, and what leads back from beyond the bounds
-            outside = 100.0 * (np.array(given) - np.array([e, mu, height])[:free])
+            outside = 100.0 * (np.array(given) - bounded[:free])
             rows.append(np.concatenate([np.sqrt(2.0 * _OUTLIER**2 * (np.sqrt(1.0 + chi2 / _OUTLIER**2) - 1.0)), outside]))
         return np.array(rows)
 
-    found = _events.least_squares(residuals, start[:free], np.array([0.1, 0.1, 0.1])[:free], 25)[0]
-    return np.asarray(np.clip([*found, *start[free:]], [0.05, 0.0, 1.0], [1.0, 1.0, 1.7]))
+    found = _events.least_squares(residuals, start[:free], np.full(free, 0.1), 25)[0]
+    return np.asarray(np.clip([*found, *start[free:]], _LEAST, _MOST))
 
 
 def _cushion(
     impacts: Records, radius: float, model: ShotCushion, random: np.random.Generator
 ) -> dict[str, tuple[float, float]]:
-    """restitution_cushion, mu_cushion and nose_height."""
+    """The constants of _CUSHION."""
     good = chosen(impacts)
     if len(good) < 20:
         return {}
-    first = usual(model)
-    start = np.array([first["restitution_cushion"], first["mu_cushion"], first["nose_height"] / radius])
+    first, size = usual(model), np.array([1.0, 1.0, 1.0, radius])
+    start = np.array([first[name] for name in _CUSHION]) / size
     found = _fit_cushion(good, radius, model, start)
     # halves: the difference of two is twice the error of the whole
     apart: list[Doubles] = []
@@ -138,6 +138,5 @@ def _cushion(
         half = len(good) // 2
         apart.append(_fit_cushion(good[order[:half]], radius, model, found) - _fit_cushion(good[order[half:]], radius, model, found))
     error = 0.5 * np.sqrt((np.array(apart) ** 2).mean(axis=0))
-    names = ("restitution_cushion", "mu_cushion", "nose_height")[: 1 if model == "mirror" else 3]
-    size = np.array([1.0, 1.0, radius])
+    names = _CUSHION[: 1 if model == "mirror" else None]
     return {name: (float(value), float(spread)) for name, value, spread in zip(names, found * size, error * size)}

@@ -1,146 +1,165 @@
-"""Constants from whole shots: those that single events do not tell, searched one after another; or all of them together.
+"""Constants from whole shots, all of them together.
 
-For given constants each shot's strike descends a few steps from where it was, by `_strikes.descend`. The cost of the constants is the
-sum over shots of the shots' costs, each at most a bound, so that shots whose events are missed do not decide. The first seconds come
-first: later samples follow from earlier events, and small errors of the constants have grown there beyond what a descent brings back.
+The cost of a set of constants is the sum over shots of the least cost that a strike gives (`_strikes`), each at most a bound, so that
+shots whose events are missed do not decide; and the constants' priors, ((c - c_0)/s)^2 each. With J_c and J_p the derivatives of the
+distances by the constants and by one shot's strike, the strike follows a step dc of the constants by -(J_p^T W J_p)^-1 J_p^T W J_c dc,
+which is put into the normal equations of dc and leaves (variable projection)
 
-Together, the constants are found by the covariance matrix adaptation evolution strategy of the package `cma` (N. Hansen), in units of the
-deviations of their priors: the cost jumps where events appear and vanish, so slopes mislead. Constants then also absorb what the
-engine's models leave out.
+    sum over shots of (J_c^T W J_c - J_c^T W J_p (J_p^T W J_p)^-1 J_p^T W J_c) dc = - sum of (J_c^T W d - J_c^T W J_p (...)^-1 J_p^T W d).
+
+A step of Levenberg and Marquardt's method is taken where the cost falls after every strike has descended. The first seconds come first:
+later samples follow from earlier events, and small errors of the constants have grown there beyond what a descent brings back. As a
+shot's cost jumps where events appear and vanish, all strikes are searched anew now and then.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from carom._strikes import Plays, descend, find
+from carom._strikes import Plays, descend, find, normal
 from carom.dtypes import Doubles
 
 _MOST = 1.4e-3  # m^2: where a shot's cost a sample stops counting; that of samples that are 8 cm off
-_ITERATIONS = 10  # of each strike, for each set of constants: with 4 the search ends where it began, as strikes lag behind
-_GOLDEN = 0.5 * (5.0**0.5 - 1.0)
-# Samples up to a time (s), and how far each constant is searched from where it is. On synthetic recordings with all samples from the
-# beginning, mu_ball stays a tenth off.
-STAGES: tuple[tuple[float, dict[str, float]], ...] = (
-    (3.0, {"mu_ball": 0.05, "mu_spin": 0.003}),
-    (3.0, {"mu_ball": 0.02, "mu_spin": 0.002}),
-    (6.0, {"mu_spin": 0.002, "mu_ball": 0.01}),
-)
-# Deviations of the priors about the constants that single events gave; a constant that is not known to the library is passed over.
-DEVIATIONS = {
-    "mu_slide": 0.02, "mu_roll": 5e-4, "mu_spin": 3e-3, "mu_ball": 0.03, "restitution": 0.03, "restitution_cushion": 0.03,
-    "mu_cushion": 0.06, "nose_height": 1.8e-3,
-}  # fmt: skip
 _PRIOR = 0.1  # m^2: what one deviation costs
-_MOST_OF = {"mu_ball": 1.0, "restitution": 1.0, "restitution_cushion": 1.0, "mu_cushion": 1.0}
-_ANEW = 12  # generations after which shots that are far off are searched anew
-_STEPS = 8  # of a golden-section search: the last interval is 0.618^8, a fiftieth, of the first
+# Of each constant: the deviation of its prior, about the value that single events gave, and its bounds.
+PRIORS = {
+    "mu_slide": (0.02, 0.01, 1.0), "mu_roll": (5e-4, 1e-4, 0.1), "drag": (4e-3, 0.0, 0.2), "mu_spin": (3e-3, 1e-4, 0.5),
+    "law_a": (0.03, 0.0, 0.4), "law_b": (0.2, 0.0, 0.6), "restitution": (0.03, 0.3, 1.0), "restitution_cushion": (0.03, 0.2, 1.0),
+    "mu_cushion": (0.06, 0.0, 1.0), "roll_loss": (0.06, 0.0, 0.5), "nose_height": (1.8e-3, 0.0, np.inf),
+}  # fmt: skip
+# What the search leaves on synthetic recordings, whose truth is known.
+_METHOD = {
+    "mu_slide": 1e-3, "mu_roll": 2e-5, "drag": 3e-4, "mu_spin": 1e-4, "law_a": 3e-3, "law_b": 0.025, "restitution": 1.5e-3,
+    "restitution_cushion": 1.2e-3, "mu_cushion": 1.2e-3, "roll_loss": 4e-3, "nose_height": 1e-4,
+}  # fmt: skip
+_STEP = 1e-3  # of the differences, in deviations
+_HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
+_STEPS = 12  # at most, of each
+_SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
 
 
-class Objective:
-    """The cost of constants, with the strikes that were best so far.
+class Search:
+    """The search for constants by some shots.
 
     Parameters
     ----------
     plays : Plays
-        Its constants are changed.
     strikes : (shots, 6)
-        To start from.
-    constants : mapping
-        All of them.
     rows : sequence of int
         The shots that count.
+    priors : mapping
+        Mean and deviation of each constant to find.
     """
 
-    def __init__(self, plays: Plays, strikes: Doubles, constants: Mapping[str, float], rows: Sequence[int]) -> None:
-        self.plays, self.constants = plays, dict(constants)
+    def __init__(self, plays: Plays, strikes: Doubles, rows: Sequence[int], priors: Mapping[str, tuple[float, float]]) -> None:
         self.rows = np.array([row for row in rows if np.isfinite(strikes[row]).all()], np.int32)
-        self.strikes, self.until = strikes[self.rows], np.inf
-        self.most = _MOST * np.array([sum(map(len, plays.recordings[row].tracks)) for row in self.rows])
+        self.plays, self.names = plays, list(priors)
+        self.values = np.array([plays.constants[name] for name in priors])
+        self.start = self.values.copy()
+        self.first, self.scale = np.array(list(priors.values())).T
+        self.low, self.high = np.array([PRIORS[name][1:] for name in priors]).T
+        self.strikes, self.until = strikes[self.rows], plays.ends[self.rows]
+        self.most = _MOST * plays.counts[self.rows]
 
-    def of(self, given: Mapping[str, float], iterations: int = _ITERATIONS) -> tuple[float, Doubles, Doubles]:
-        """The cost of some constants, the others as they are; the strikes, (rows, 6), and the shots' costs, (rows,)."""
-        self.plays.set({**self.constants, **given})
-        until = np.minimum(self.until, self.plays.ends[self.rows])
-        strikes, costs = descend(self.plays, self.rows, self.strikes, until, iterations)
-        costs = np.minimum(costs, self.most)
-        return float(costs.sum()), strikes, costs
+    def constants(self, values: Doubles) -> dict[str, float]:
+        return {**self.plays.constants, **dict(zip(self.names, values.tolist()))}
 
-    def anew(self, constants: Mapping[str, float]) -> float:
-        """The cost of all constants, with strikes that are searched from the beginning."""
-        plays = self.plays.some(self.rows)
-        plays.set(constants)
-        return float(np.minimum(find(plays)[1], self.most).sum())
+    def cost(self, values: Doubles, strikes: Doubles, iterations: int) -> tuple[float, Doubles]:
+        """Of constants, after the strikes have descended; and these."""
+        self.plays.set(self.constants(values))
+        strikes, sums = descend(self.plays, self.rows, strikes, self.until, iterations)
+        prior = _PRIOR * float((((values - self.first) / self.scale) ** 2).sum())
+        return float(np.minimum(sums[:, 0], self.most).sum()) + prior, strikes
 
+    def step(self, damping: float, cost: float) -> tuple[float, float]:
+        """A step; the cost after it, which is that before where none was found, and the damping for the next."""
+        self.plays.set(self.constants(self.values), dict(zip(self.names, _STEP * self.scale)))
+        sums = self.plays.misfit(self.rows, self.strikes, self.until, self.most)
+        counted = sums[:, 0] < self.most
+        # in deviations of the constants
+        square, gradient = normal(sums)
+        size = np.concatenate([np.ones(6), self.scale])
+        square, gradient = square * np.outer(size, size), gradient * size
+        # the strikes put in; what no sample depends on stays where it is
+        P, X, C = square[:, :6, :6].copy(), square[:, :6, 6:], square[:, 6:, 6:]
+        diagonal = np.arange(6)
+        P[:, diagonal, diagonal] *= 1.0 + 1e-3
+        P[:, diagonal, diagonal] += 1e-9
+        follow = np.linalg.solve(P, np.concatenate([X, gradient[:, :6, None]], axis=2))
+        whole = (C - np.swapaxes(X, 1, 2) @ follow[..., :-1])[counted].sum(axis=0)
+        slope = (gradient[:, 6:] - (np.swapaxes(X, 1, 2) @ follow[..., -1:])[..., 0])[counted].sum(axis=0)
+        whole[np.diag_indices(len(whole))] += _PRIOR
+        slope = slope + _PRIOR * (self.values - self.first) / self.scale
+        for _ in range(6):
+            damped = whole + damping * np.diag(whole.diagonal())
+            values = np.clip(self.values - self.scale * np.linalg.solve(damped, slope), self.low, self.high)
+            moved = (values - self.values) / self.scale
+            strikes = self.strikes - np.where(counted[:, None], follow[..., :-1] @ moved + follow[..., -1], 0.0)
+            # a strike follows, or stays where that is better
+            self.plays.set(self.constants(values))
+            both = np.stack([strikes, self.strikes])
+            costs = [self.plays.misfit(self.rows, of, self.until, -np.inf)[:, 0] for of in both]
+            best = np.where((costs[0] < costs[1])[:, None], both[0], both[1])
+            new, best = self.cost(values, best, 4)
+            if new < cost:
+                self.values, self.strikes = values, best
+                return new, max(0.2 * damping, 1e-4)
+            damping *= 6.0
+        return cost, damping
 
-def one_by_one(objective: Objective, progress: Callable[[str, float], None] | None = None) -> dict[str, float]:
-    """Golden-section search of one constant after another, by STAGES. Returns all constants."""
-    searches = [(until, name, reach) for until, reaches in STAGES for name, reach in reaches.items()]
-    for number, (until, name, reach) in enumerate(searches):
-        if progress:
-            progress("constants", number / len(searches))
-        objective.until = until
-        middle = objective.constants[name]
-        low, high = max(middle - reach, 0.1 * middle), middle + reach
-        # the two inner points divide the interval, and each step keeps one of them
-        left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-        at_left, at_right = objective.of({name: left}), objective.of({name: right})
+    def anew(self, seed: int) -> None:
+        """Searches all strikes anew, and takes those that are better."""
+        self.plays.set(self.constants(self.values))
+        now = self.plays.misfit(self.rows, self.strikes, self.plays.ends[self.rows], -np.inf)[:, 0]
+        found, costs = find(self.plays.some(self.rows), seed)
+        better = costs < now
+        self.strikes[better] = found[better]
+
+    def stage(self, number: int, seed: int) -> list[Any]:
+        """One of STAGES searches: the constants and the strikes, as `resume` takes them."""
+        if number:
+            self.anew(seed + number)
+        self.until = np.minimum(_HORIZONS[number], self.plays.ends[self.rows])
+        cost, self.strikes = self.cost(self.values, self.strikes, 4)
+        damping = 1e-2
         for _ in range(_STEPS):
-            if at_left[0] < at_right[0]:
-                high, right, at_right = right, left, at_left
-                left = high - _GOLDEN * (high - low)
-                at_left = objective.of({name: left})
-            else:
-                low, left, at_left = left, right, at_right
-                right = low + _GOLDEN * (high - low)
-                at_right = objective.of({name: right})
-        value, (_, strikes, _) = (left, at_left) if at_left[0] < at_right[0] else (right, at_right)
-        objective.constants[name], objective.strikes = value, strikes
-    return objective.constants
+            before = cost
+            cost, damping = self.step(damping, cost)
+            if cost > before * (1.0 - 1e-3):
+                break
+        return [self.values.tolist(), self.strikes.tolist()]
+
+    def resume(self, found: Sequence[Any]) -> None:
+        """Goes on from what a stage found."""
+        self.values, self.strikes = np.array(found[0]), np.array(found[1])
 
 
-def together(
-    objective: Objective, generations: int, seed: int, progress: Callable[[str, float], None] | None = None
-) -> dict[str, float]:
-    """All constants that DEVIATIONS has, found together. Returns all constants."""
-    try:
-        import cma  # pyright: ignore[reportMissingTypeStubs]
-    except ImportError as error:
-        raise ValueError("free: 'joint' needs the package cma: pip install cma") from error
-    first = dict(objective.constants)
-    names = [name for name in DEVIATIONS if name in first]
+STAGES = len(_HORIZONS)
 
-    def constants(x: Doubles) -> dict[str, float]:
-        values = {name: first[name] + DEVIATIONS[name] * float(z) for name, z in zip(names, x)}
-        return {name: min(max(value, 0.1 * first[name]), _MOST_OF.get(name, np.inf)) for name, value in values.items()}
 
-    search: Any = cma.CMAEvolutionStrategy([0.0] * len(names), 0.3, {"seed": seed + 1, "verbose": -9, "maxiter": generations})
-    for generation in range(generations):
-        if progress:
-            progress("all constants", generation / generations)
-        tried: list[Doubles] = search.ask()
-        found = [objective.of(constants(x), 3) for x in tried]
-        costs = [cost + _PRIOR * float(np.sum(np.square(x))) for (cost, _, _), x in zip(found, tried)]
-        search.tell(tried, costs)
-        # each shot goes on from its best strike among the better half of the sets
-        half = np.argsort(costs)[: len(costs) // 2]
-        best = np.argmin([found[k][2] for k in half], axis=0)
-        objective.strikes = np.array([found[half[k]][1][row] for row, k in enumerate(best)])
-        # shots that are far off are searched anew
-        if generation % _ANEW == _ANEW - 1:
-            objective.constants.update(constants(search.mean))
-            _, objective.strikes, now = objective.of({})
-            far = np.flatnonzero(now > 0.3 * objective.most)
-            if len(far):
-                plays = objective.plays.some(objective.rows[far])
-                plays.set(objective.constants)
-                strikes, new = find(plays)
-                better = new < now[far]
-                objective.strikes[far[better]] = strikes[better]
-    # the search may end where it is worse than where it began, with few generations or many missed events
-    ends = ({**objective.constants, **first}, {**objective.constants, **constants(search.mean)})
-    costs = [objective.anew(end) for end in ends]
-    return ends[int(np.argmin(costs))]
+def spread(search: Search, seed: int) -> dict[str, float]:
+    """The errors of the constants of a search that is done: from halves of its shots, whose difference is twice the error of the whole."""
+    random, apart = np.random.default_rng(seed), []
+    every = np.arange(len(search.rows))
+    if len(every) < 2 * _HALF_LEAST:
+        return {}
+    strikes = np.full((len(search.plays.recordings), 6), np.nan)
+    strikes[search.rows] = search.strikes
+    for _ in range(_SPLITS):
+        order = random.permutation(every)
+        found: list[Doubles] = []
+        for half in np.array_split(order, 2):
+            rows = search.rows[np.sort(half)]
+            priors = dict(zip(search.names, zip(search.first.tolist(), search.scale.tolist())))
+            part = Search(search.plays.some(rows), strikes[rows], range(len(rows)), priors)
+            part.values = search.start.copy()
+            for number in range(STAGES):
+                part.stage(number, seed)
+            found.append(part.values)
+        apart.append(0.5 * (found[0] - found[1]))
+    method = np.array([_METHOD[name] for name in search.names])
+    error = np.hypot(np.sqrt((np.array(apart) ** 2).mean(axis=0)), method)
+    return dict(zip(search.names, error.tolist()))

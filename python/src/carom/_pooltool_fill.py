@@ -1,8 +1,9 @@
 """Writes a shot into a System of pooltool's: events with their agents, states, histories, pockets.
 
 Most of the time would go into objects that nobody looks at: for a nine-ball break some 1,000 states of histories and 250 balls of
-agents. So histories and the balls of agents are made when they are first looked at. Until then they are of a subclass without
-fields of its own, whose one field holds what makes them; then they become what pooltool's are, class and all.
+agents, and ten times as many states of continuous histories. So they are made when they are first looked at: the states of a
+history at once, and the balls of all agents at once, in C (`carom._objects`). Until then histories and agents are of a subclass
+without fields of its own, whose one field holds what makes them; then they become what pooltool's are, class and all.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from carom import dtypes
+from carom._objects import make, turn
 from carom.results import EventType, Shot
 
 _events: Any = importlib.import_module("pooltool.events")
@@ -24,10 +26,14 @@ _BallHistory: Any = _balls.BallHistory
 _Agent: Any = _events.Agent
 _BALL: Any = _events.AgentType.BALL
 _CUE: Any = _events.AgentType.CUE
-_POCKET: Any = _events.AgentType.POCKET
+_POCKET_AGENT: Any = _events.AgentType.POCKET
 _LINEAR: Any = _events.AgentType.LINEAR_CUSHION_SEGMENT
 _CIRCULAR: Any = _events.AgentType.CIRCULAR_CUSHION_SEGMENT
+_OWN_FIELDS = ("id", "params", "ballset", "initial_orientation")  # of a ball: the same in every state
 
+# As plain numbers, which compare ten times as fast.
+_STRIKE, _BALL_BALL = int(EventType.STRIKE), int(EventType.BALL_BALL)
+_RAIL, _JAW, _POCKET = int(EventType.RAIL), int(EventType.JAW), int(EventType.POCKET)
 _TYPES: dict[int, Any] = {
     EventType.STRIKE: _PoolType.STICK_BALL,
     EventType.BALL_BALL: _PoolType.BALL_BALL,
@@ -48,15 +54,19 @@ _id_of, _type_of, _initial_of, _final_of = (_Agent.__dict__[name] for name in ("
 
 
 class _LaterHistory(_BallHistory):  # type: ignore[misc]
-    """A BallHistory whose states are made when they are first looked at, from the function in their place."""
+    """A BallHistory whose states are made when they are first looked at, by the function in their place; without one it is empty."""
 
     __slots__ = ()
+    __qualname__ = "BallHistory"  # for repr()
 
     @property
     def states(self) -> Any:
         """The states; from now on this is a BallHistory."""
-        make: Callable[[], list[Any]] = _states_of.__get__(self)
-        made = make()
+        try:
+            states: Callable[[], list[Any]] = _states_of.__get__(self)
+        except AttributeError:
+            states = list
+        made = states()
         self.states = made
         return made
 
@@ -77,22 +87,22 @@ class _LaterHistory(_BallHistory):  # type: ignore[misc]
 
 
 class _LaterAgent(_Agent):  # type: ignore[misc]
-    """An Agent whose ball is made when it is first looked at, from the function in the place of its initial state."""
+    """An Agent whose balls are made when they are first looked at, by the function in the place of its initial state.
+
+    That function makes the balls of all agents of the shot, which become Agents.
+    """
 
     __slots__ = ()
+    __qualname__ = "Agent"  # for repr()
 
     def _settle(self) -> None:
         """Becomes an Agent."""
-        make: Callable[[], list[Any]] | None = None
         try:
-            make = _initial_of.__get__(self)
+            settle: Callable[[], None] = _initial_of.__get__(self)
         except AttributeError:
-            pass  # a copy on its way, whose fields come next
-        self.__class__ = _Agent
-        if make is not None:
-            initial, final = make()
-            _initial_of.__set__(self, initial)
-            _final_of.__set__(self, final)
+            self.__class__ = _Agent  # a copy on its way, whose fields come next
+        else:
+            settle()
 
     @property
     def initial(self) -> Any:
@@ -127,9 +137,9 @@ class _LaterAgent(_Agent):  # type: ignore[misc]
     __hash__ = None  # type: ignore[assignment]
 
 
-def _later_history(make: Callable[[], list[Any]]) -> Any:
+def _later_history(states: Callable[[], list[Any]]) -> Any:
     history = _LaterHistory.__new__(_LaterHistory)
-    _states_of.__set__(history, make)
+    _states_of.__set__(history, states)
     return history
 
 
@@ -139,18 +149,16 @@ def _later_history(make: Callable[[], list[Any]]) -> Any:
 def after_each_event(shot: Shot) -> dtypes.Records:
     """The states of all balls just after each event, (events, balls)."""
     events = shot.events
-    times = events["time"]
+    times, pair = events["time"], events["type"] == _BALL_BALL
     states = shot.states(times)
-    # A state at a time is that after everything of the time: events at the same instant are taken apart here.
-    for k in range(len(events) - 1, -1, -1):
-        event = events[k]
-        for side in range(2 if event["type"] == EventType.BALL_BALL else 1):
-            ball = event["b"] if side else event["a"]
-            states[k, ball] = event["after"][side]
-            earlier = k - 1
-            while earlier >= 0 and times[earlier] == times[k]:
-                states[earlier, ball] = event["before"][side]
-                earlier -= 1
+    each = np.arange(len(events))
+    states[each, events["a"]] = events["after"][:, 0]
+    states[each[pair], events["b"][pair]] = events["after"][pair, 1]
+    # A state at a time is that after everything of the time. Events at the same instant are taken apart here, the last first.
+    for k in np.flatnonzero(times[1:] == times[:-1])[::-1]:
+        states[k] = states[k + 1]
+        for side in range(1 + int(pair[k + 1])):
+            states[k, events[k + 1][("a", "b")[side]]] = events[k + 1]["before"][side]
     return states
 
 
@@ -159,23 +167,27 @@ def _rvw(states: dtypes.Records) -> dtypes.Doubles:
     return np.stack([states["r"], states["v"], states["w"]], axis=-2)
 
 
-class _Histories:
-    """The states of all balls after each event that is kept, computed once for all balls."""
+def _states(rvws: dtypes.Doubles, labels: list[int], times: list[float]) -> list[Any]:
+    """States of pooltool's, of (n, 3, 3) numbers."""
+    return make(_balls.BallState, len(labels), ("rvw", "s", "t"), (list(rvws), labels, times))
 
-    def __init__(self, shot: Shot, kept: int) -> None:
-        self.shot = shot
-        self.kept = kept
+
+class _Histories:
+    """What the histories of all balls are made of, computed once for all balls: states at times, between the first and the last."""
+
+    def __init__(self, look: Callable[[], tuple[dtypes.Records, dtypes.Doubles]]) -> None:
+        self.look = look
 
     @functools.cached_property
     def _all(self) -> tuple[dtypes.Doubles, list[list[int]], list[float]]:
-        states = after_each_event(self.shot)[: self.kept]
-        return _rvw(states), states["label"].tolist(), self.shot.events["time"][: self.kept].tolist()
+        states, times = self.look()
+        of_ball = np.swapaxes(states, 0, 1)
+        return _rvw(of_ball), of_ball["label"].tolist(), times.tolist()
 
-    def of(self, index: int, first: Any, last: Any) -> list[Any]:
-        """The history of one ball: before the shot, after each event, and the last state once more for the end."""
+    def of(self, index: int, first: list[Any], last: list[Any]) -> list[Any]:
+        """The states of one ball."""
         rvws, labels, times = self._all
-        between = [_balls.BallState(rvws[k, index], labels[k][index], times[k]) for k in range(self.kept - 1)]
-        return [first, *between, *([last] if self.kept else []), last]
+        return [*first, *_states(rvws[index], labels[index], times), *last]
 
 
 # ---- Events ------------------------------------------------------------------------------------------------------------
@@ -188,75 +200,86 @@ class _Filler:
         self.system = system
         self.events = events
         self.balls = list(system.balls.values())
-        self.kinds = [(ball.id, ball.params, ball.ballset, ball.initial_orientation) for ball in self.balls]
         self.linear = list(system.table.cushion_segments.linear.values())
         self.circular = list(system.table.cushion_segments.circular.values())
         self.pockets = list(system.table.pockets.values())
+        # The balls of agents: the first of each event, then the second where there is one. Event k has rows 2 k and 2 k + 1.
+        first = 2 * np.arange(len(events))
+        self.rows = np.concatenate([first, first[events["type"] == _BALL_BALL] + 1])
+        self.numbers = np.stack([events["a"], events["b"]], axis=-1).ravel()[self.rows].tolist()
+        ids = [self.balls[number].id for number in self.numbers]
+        self.agents = make(_Agent, len(ids), ("id", "agent_type", "initial"), (ids, _BALL, self.settle))
+        turn(self.agents, _LaterAgent, (), ())
 
-    @functools.cached_property
-    def _states(self) -> list[tuple[dtypes.Doubles, list[list[int]]]]:
-        """r, v, w and labels before and after each event, of both its balls."""
-        return [(_rvw(self.events[when]), self.events[when]["label"].tolist()) for when in ("before", "after")]
+    def settle(self) -> None:
+        """Gives all agents their balls, before and after, each without a history."""
+        n, when = len(self.agents), self.events["time"][self.rows // 2].tolist()
+        owners = [self.balls[number] for number in self.numbers]
+        own = [[getattr(ball, field) for ball in owners] for field in _OWN_FIELDS]
+        columns = []
+        for side in ("before", "after"):
+            states = self.events[side]
+            rvws, labels = _rvw(states).reshape(-1, 3, 3)[self.rows], states["label"].ravel()[self.rows].tolist()
+            empty, empty_cts = (make(_LaterHistory, n, (), ()) for _ in range(2))
+            made = (*own, _states(rvws, labels, when), empty, empty_cts)
+            columns.append(make(_balls.Ball, n, (*_OWN_FIELDS, "state", "history", "history_cts"), made))
+        turn(self.agents, _Agent, ("initial", "final"), tuple(columns))
 
-    def before_and_after(self, index: int, k: int, side: int, time: float) -> list[Any]:
-        """The ball before and after event k, in which it is the first or the second, without a history."""
-        name, params, ballset, orientation = self.kinds[index]
-        return [
-            _balls.Ball(name, _balls.BallState(rvws[k, side], labels[k][side], time), params, ballset, orientation)
-            for rvws, labels in self._states
-        ]
-
-    def _ball_agent(self, index: int, k: int, side: int, time: float) -> Any:
-        agent = _LaterAgent.__new__(_LaterAgent)
-        _id_of.__set__(agent, self.balls[index].id)
-        _type_of.__set__(agent, _BALL)
-        _initial_of.__set__(agent, functools.partial(self.before_and_after, index, k, side, time))
-        return agent
-
-    def event(self, k: int, time: float, kind: int, a: int, b: int) -> Any:
-        """Event k with its agents; pockets take their balls."""
-        if kind == EventType.BALL_BALL:
-            # A pair is named in the order of the System, as pooltool names it.
-            pair = (self._ball_agent(a, k, 0, time), self._ball_agent(b, k, 1, time))
-            return _events.Event(_TYPES[kind], pair if a < b else pair[::-1], time)
-        ball = self._ball_agent(a, k, 0, time)
-        agents: tuple[Any, ...]
-        if kind == EventType.STRIKE:
-            cue = self.system.cue
-            agents = (_Agent(cue.id, _CUE, cue.copy()), ball)
-        elif kind == EventType.RAIL:
-            agents = (ball, _Agent(self.linear[b].id, _LINEAR, self.linear[b].copy()))
-        elif kind == EventType.JAW:
-            agents = (ball, _Agent(self.circular[b].id, _CIRCULAR, self.circular[b].copy()))
-        elif kind == EventType.POCKET:
-            pocket = self.pockets[b]
-            empty = pocket.copy()
-            pocket.add(self.balls[a].id)
-            agents = (ball, _Agent(pocket.id, _POCKET, empty, pocket.copy()))
-        else:
-            agents = (ball,)
-        return _events.Event(_TYPES[kind], agents, time)
+    def happened(self) -> list[Any]:
+        """The events with their agents; pockets take their balls."""
+        events, seconds = self.events, iter(self.agents[len(self.events) :])
+        types, others = events["type"].tolist(), events["b"].tolist()
+        who: list[tuple[Any, ...]] = []
+        for kind, a, b, ball in zip(types, self.numbers, others, self.agents, strict=False):
+            if kind == _BALL_BALL:
+                # A pair is named in the order of the System, as pooltool names it.
+                second = next(seconds)
+                who.append((ball, second) if a < b else (second, ball))
+            elif kind == _STRIKE:
+                cue = self.system.cue
+                who.append((_Agent(cue.id, _CUE, cue.copy()), ball))
+            elif kind == _RAIL:
+                who.append((ball, _Agent(self.linear[b].id, _LINEAR, self.linear[b].copy())))
+            elif kind == _JAW:
+                who.append((ball, _Agent(self.circular[b].id, _CIRCULAR, self.circular[b].copy())))
+            elif kind == _POCKET:
+                pocket = self.pockets[b]
+                empty = pocket.copy()
+                pocket.add(self.balls[a].id)
+                who.append((ball, _Agent(pocket.id, _POCKET_AGENT, empty, pocket.copy())))
+            else:
+                who.append((ball,))
+        columns = ([_TYPES[kind] for kind in types], who, events["time"].tolist())
+        return make(_events.Event, len(who), ("event_type", "agents", "time"), columns)
 
 
-def fill(system: Any, shot: Shot, kept: int, stopped: bool) -> None:
-    """Writes the first `kept` events of a shot into the System; `stopped`: its balls are then stopped, as max_events does."""
+def fill(system: Any, shot: Shot, kept: int, stopped: bool, dt: float | None) -> None:
+    """Writes the first `kept` events of a shot into the System.
+
+    `stopped`: its balls are then stopped, as max_events does. With a `dt` it gets the continuous histories that pooltool's
+    `continuize` gives, a state each dt.
+    """
     events = shot.events[:kept]
     system.reset_history()
     filler = _Filler(system, events)
-    numbers = (events["time"].tolist(), events["type"].tolist(), events["a"].tolist(), events["b"].tolist())
-    happened = [filler.event(k, *of_event) for k, of_event in enumerate(zip(*numbers, strict=True))]
+    happened = filler.happened()
     end: float = happened[-1].time if happened else 0.0
     system.events = [_events.null_event(time=0), *happened, _events.null_event(time=end)]
     system.t = end
     final = shot.final if kept == shot.count else after_each_event(shot)[kept - 1]
-    rvws, labels = _rvw(final), final["label"].tolist()
-    histories = _Histories(shot, kept)
+    lasts = _states(_rvw(final), final["label"].tolist(), [end] * len(final)) if kept else [b.state for b in filler.balls]
+    histories = _Histories(lambda: (after_each_event(shot)[: kept - 1], events["time"][: kept - 1]))
+    continuous = None
+    if dt is not None:
+        # pooltool adds up its steps.
+        times = np.add.accumulate(np.full(int(end // dt), dt))
+        continuous = _Histories(lambda: (shot.states(times), times))
     for index, ball in enumerate(filler.balls):
         # The last state is the ball's own, and stands twice: after the last event and at the end.
-        first = last = ball.state
-        if kept:
-            last = _balls.BallState(rvws[index].copy(), labels[index], end)
-        ball.history = _later_history(functools.partial(histories.of, index, first, last))
+        first, last = ball.state, lasts[index]
+        ball.history = _later_history(functools.partial(histories.of, index, [first], [last, last] if kept else [last]))
+        if continuous is not None:
+            ball.history_cts = _later_history(functools.partial(continuous.of, index, [first], [last]))
         ball.state = last
     if stopped:
         system.stop_balls()

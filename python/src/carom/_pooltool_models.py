@@ -11,7 +11,6 @@ from carom._rows import Array
 from carom.collisions import collide
 from carom.cushions import cushion as resolve_cushion
 from carom.results import Label
-from carom.status import Status
 
 _balls: Any = importlib.import_module("pooltool.objects.ball.datatypes")
 _friction: Any = importlib.import_module("pooltool.physics.resolve.ball_ball.friction")
@@ -65,9 +64,8 @@ def _resolve_cushion(ball: Any, cushion: Any, jaw_radius: float) -> None:
         normal = -normal
     p = ball.params
     numbers = (*ball.state.rvw[1], *ball.state.rvw[2], *normal, cushion.height, p.R, p.m, p.u_s, p.f_c, p.e_c, jaw_radius)
-    motion, status = resolve_cushion(np.array(numbers))
-    if int(status) != Status.SEPARATING:
-        _set_motion(ball, motion)
+    motion, _ = resolve_cushion(np.array(numbers))
+    _set_motion(ball, motion)
 
 
 class ExactLinearCushion(_ball_cushion_core.CoreBallLCushionCollision):  # type: ignore[misc]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import operator
 import os
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
@@ -100,6 +101,13 @@ def in_chunks(n: int, seconds: float, threads: int, call: Callable[[int, int], i
 
 pointer: Any = ffi.from_buffer
 """pointer(ctype, array): the array's memory as a C array, which keeps the array alive."""
+
+
+def whole(value: object, name: str, least: int = 0, most: int = 2**31 - 1) -> int:
+    """A whole number between bounds; anything else is refused by its name."""
+    if isinstance(value, SupportsIndex) and least <= operator.index(value) <= most:
+        return operator.index(value)
+    raise ValueError(f"{name}: it must be a whole number from {least} to {most}, not {value!r}")
 
 
 def choice(names: dict[str, int], value: str, option: str) -> int:

@@ -6,12 +6,14 @@ distance d between recorded and played place, c = 1 cm: a quadratic for small di
 an event that the play misses. Levenberg and Marquardt's step is dp = -(J^T W J + l diag(J^T W J))^-1 J^T W d.
 
 The cost has many minima, as a small change makes a ball miss another. So each shot starts from many spins (and directions and speeds,
-where the first samples do not tell them), at first with the samples of the first second alone; the best go on with more and more of
-them. The plays of all starts of all shots are one batch, in C.
+where the first samples do not tell them), at first with the samples of the first second alone. The best go on with more and more of
+them. What the samples so far leave open, later samples decide: so before each stage every strike that goes on has offspring, drawn
+from the normal distribution that the normal equations give, and wider. The plays of all starts of all shots are one batch, in C.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
@@ -32,11 +34,13 @@ HUBER = 0.01  # c, m
 STEP = 1e-5  # of the forward differences, m/s and s: small against what moves an event, large against rounding
 EARLIEST, LATEST = -0.03, 0.08  # of a strike on the clock of the recording, s
 _SPIN_MOST = 2.0  # greatest |R w| of a strike over |v|: a tip that does not slip gives 1.3
-_NUMBERS, _SUMS = 6, 30
-_LOWER = np.tril_indices(_NUMBERS)
-
-# The stages of the search: samples up to a time (s), how many starts of a shot go on after it, and most iterations.
-_STAGES = ((0.9, 14, 4), (2.0, 7, 6), (4.5, 4, 8), (8.0, 2, 10), (np.inf, 1, 25))
+_NUMBERS = 6
+# The first stage: samples up to a time (s), how many starts descend, and iterations.
+_FIRST, _FIRST_KEPT, _FIRST_ITERATIONS = 0.9, 16, 4
+# The others: samples up to a time (s), offspring of each strike, how many of all descend, iterations, how many go on.
+_STAGES = tuple((until, 30, 3, 4, 3) for until in (2.0, 4.0, 8.0, np.inf))
+_WIDER = 10.0  # standard deviations of the widest offspring
+_LAST, _SQUARES = 10, 10  # iterations at the end, by the cost and by plain squares
 
 
 class Plays:
@@ -73,25 +77,29 @@ class Plays:
         self.centres = np.array([apart(shot.rest, table, radius) for shot in recordings])
         self.struck = np.array([shot.cue for shot in recordings], np.int32)
         self.ends = np.array([shot.end for shot in recordings])
+        self.counts = np.array([sum(map(len, shot.tracks)) for shot in recordings])
         self.samples = np.ascontiguousarray(np.concatenate(tracks))
         self.first = np.cumsum([0, *map(len, tracks)]).astype(np.int64)
         self.cushion_model: ShotCushion = cushion_model
         self.table_size = table
         self.set(constants)
 
-    def set(self, constants: Mapping[str, float]) -> None:
-        """Takes other constants."""
+    def set(self, constants: Mapping[str, float], steps: Mapping[str, float] | None = None) -> None:
+        """Takes other constants, and steps of the differences by those that `misfit` is to have derivatives of."""
+        steps = steps or {}
+        self.constants = dict(constants)
+        self.steps = np.array(list(steps.values()), np.float64)
         self.table = _constants.rectangle(self.table_size, constants["nose_height"])
-        self.layouts = _constants.layout(self.centres, self.radius, constants)
+        changed = [self.constants, *({**self.constants, name: constants[name] + step} for name, step in steps.items())]
+        self.layouts = np.array([_constants.layout(self.centres, self.radius, given) for given in changed])
 
-    def some(self, rows: Integers) -> Plays:
-        """Some of the shots, with the usual constants."""
-        shots = [self.recordings[row] for row in rows]
-        usual = _constants.usual(self.cushion_model)
-        return Plays(shots, self.table_size, self.radius, usual, self.cushion_model, self.threads)
+    def some(self, rows: npt.ArrayLike) -> Plays:
+        """Some of the shots."""
+        shots = [self.recordings[row] for row in np.asarray(rows)]
+        return Plays(shots, self.table_size, self.radius, self.constants, self.cushion_model, self.threads)
 
     def misfit(
-        self, of: Integers, strikes: Doubles, until: Doubles, most: Doubles, *, huber: float = HUBER, stride: int = 1
+        self, of: Integers, strikes: Doubles, until: Doubles, most: Doubles | float, *, huber: float = HUBER, stride: int = 1
     ) -> Doubles:
         """Costs, and normal equations where the cost is below `most`, of n plays: see loops.h.
 
@@ -104,10 +112,12 @@ class Plays:
 
         Returns
         -------
-        (n, 30)
+        (n, 3 + m + m (m + 1)/2), m = 6 and the number of steps
         """
-        sums = np.empty((len(of), _SUMS))
-        of, strikes = np.ascontiguousarray(of, np.int32), np.ascontiguousarray(strikes)
+        numbers = _NUMBERS + len(self.steps)
+        sums = np.empty((len(of), 3 + numbers + numbers * (numbers + 1) // 2))
+        of, strikes, until = np.ascontiguousarray(of, np.int32), np.ascontiguousarray(strikes), np.ascontiguousarray(until)
+        most = np.ascontiguousarray(np.broadcast_to(most, len(of)), np.float64)
         tracks = ffi.new(
             "carom_python_tracks *",
             {
@@ -117,8 +127,12 @@ class Plays:
                 "struck": pointer("int32_t[]", self.struck),
                 "samples": pointer("double[]", self.samples),
                 "first": pointer("int64_t[]", self.first),
-                "count": self.layouts.shape[1],
+                "steps": pointer("double[]", self.steps),
+                "count": self.layouts.shape[2],
+                "shots": self.layouts.shape[1],
+                "constants": len(self.steps),
                 "stride": stride,
+                "step": STEP,
                 "huber": huber,
             },
         )
@@ -127,12 +141,10 @@ class Plays:
             # at most some milliseconds of C at a time, so that Ctrl-C is heard
             code = lib.CAROM_OK
             for begin in range(rows.start, rows.stop, 256):
-                end = min(begin + 256, rows.stop)
+                cut = slice(begin, min(begin + 256, rows.stop))
                 code = code or lib.carom_python_misfit(
-                    tracks, end - begin,
-                    pointer("int32_t[]", of[begin:end]), pointer("double[]", strikes[begin:end]),
-                    pointer("double[]", np.ascontiguousarray(until[begin:end])),
-                    pointer("double[]", np.ascontiguousarray(most[begin:end])), STEP, pointer("double[]", sums[begin:end]),
+                    tracks, cut.stop - begin, pointer("int32_t[]", of[cut]), pointer("double[]", strikes[cut]),
+                    pointer("double[]", until[cut]), pointer("double[]", most[cut]), pointer("double[]", sums[cut]),
                 )  # fmt: skip
             return int(code)
 
@@ -150,7 +162,7 @@ class Plays:
     def rmse(self, strikes: Doubles) -> Doubles:
         """Root of the mean squared distance over all samples of each shot, m, shape (shots,); inf where the play is in error."""
         count = len(strikes)
-        sums = self.misfit(np.arange(count, dtype=np.int32), strikes, self.ends, np.full(count, -np.inf))
+        sums = self.misfit(np.arange(count, dtype=np.int32), strikes, self.ends, -np.inf)
         mean: Doubles = sums[:, 1] / np.maximum(sums[:, 2], 1.0)
         root: Doubles = np.sqrt(mean)
         return root
@@ -212,16 +224,25 @@ def _allowed(strikes: Doubles) -> Doubles:
     return strikes
 
 
+def normal(sums: Doubles) -> tuple[Doubles, Doubles]:
+    """J^T W J, (n, m, m), and J^T W d, (n, m), of the sums of n plays."""
+    m = (int(math.isqrt(9 + 8 * (sums.shape[1] - 3))) - 3) // 2
+    lower = np.tril_indices(m)
+    square = np.zeros((len(sums), m, m))
+    square[:, lower[0], lower[1]] = square[:, lower[1], lower[0]] = sums[:, 3 + m :]
+    return square, sums[:, 3 : 3 + m]
+
+
 def descend(
     plays: Plays, of: Integers, strikes: Doubles, until: Doubles, iterations: int, *, huber: float = HUBER, stride: int = 1
 ) -> tuple[Doubles, Doubles]:
-    """Levenberg and Marquardt's method from each strike: the strikes found, (n, 6), and their costs, (n,).
+    """Levenberg and Marquardt's method from each strike: the strikes found, (n, 6), and the sums of `misfit` there.
 
     An iteration is one play of each start that is not done; where the cost falls, six more for the next step.
     """
     strikes = _allowed(strikes)
     n = len(strikes)
-    sums = plays.misfit(of, strikes, until, np.full(n, np.inf), huber=huber, stride=stride)
+    sums = plays.misfit(of, strikes, until, np.inf, huber=huber, stride=stride)
     damping, failed = np.full(n, 1e-2), np.zeros(n, int)
     active = np.isfinite(sums[:, 0])
     diagonal = np.arange(_NUMBERS)
@@ -230,12 +251,10 @@ def descend(
         if len(rows) == 0:
             break
         # the step; what no sample depends on stays where it is
-        square = np.zeros((len(rows), _NUMBERS, _NUMBERS))
-        square[:, _LOWER[0], _LOWER[1]] = sums[rows, 9:]
-        square[:, _LOWER[1], _LOWER[0]] = sums[rows, 9:]
+        square, gradient = normal(sums[rows])
         scale = square[:, diagonal, diagonal]
         square[:, diagonal, diagonal] += damping[rows, None] * scale + 1e-12 * (1.0 + scale.sum(axis=1, keepdims=True))
-        step = np.linalg.solve(square, -sums[rows, 3:9, None])[..., 0]
+        step = np.linalg.solve(square, -gradient[..., None])[..., 0]
         tried = _allowed(strikes[rows] + step)
         # taken where the cost falls; else a shorter one next time, up to six times
         new = plays.misfit(of[rows], tried, until[rows], sums[rows, 0], huber=huber, stride=stride)
@@ -245,48 +264,67 @@ def descend(
         damping[rows] = np.where(better, np.maximum(0.2 * damping[rows], 1e-9), 6.0 * damping[rows])
         failed[rows] = np.where(better, 0, failed[rows] + 1)
         active[rows] = np.where(better, drop > 1e-5, failed[rows] < 6)
-    return strikes, sums[:, 0]
+    return strikes, sums
 
 
 def _best(of: Integers, strikes: Doubles, costs: Doubles, keep: int) -> npt.NDArray[np.intp]:
-    """The rows of the `keep` best starts of each shot, without those that came to the same place as a better one."""
+    """The rows of the `keep` best strikes of each shot, without those that are near a better one."""
     kept: list[int] = []
-    count: dict[int, list[int]] = {}
-    for row in np.argsort(costs, kind="stable"):
-        others = count.setdefault(int(of[row]), [])
-        if len(others) >= keep or not np.isfinite(costs[row]):
-            continue
-        near = [other for other in others if abs(costs[other] - costs[row]) < 1e-3 * costs[row]]
-        if any(np.abs(strikes[other, :5] - strikes[row, :5]).max() < 1e-2 for other in near):
-            continue
-        others.append(int(row))
-        kept.append(int(row))
+    of_shot: dict[int, list[int]] = {}
+    for row in np.argsort(costs, kind="stable").tolist():
+        others = of_shot.setdefault(int(of[row]), [])
+        if len(others) < keep and np.isfinite(costs[row]):
+            if all(np.abs(strikes[other, :5] - strikes[row, :5]).max() > 1e-2 for other in others):
+                others.append(row)
+                kept.append(row)
     return np.array(sorted(kept), np.intp)
+
+
+def _offspring(of: Integers, strikes: Doubles, sums: Doubles, each: int, random: np.random.Generator) -> tuple[Integers, Doubles]:
+    """Strikes drawn about each strike, from the normal distribution that its misfit gives, from one to _WIDER deviations wide."""
+    square, _ = normal(sums)
+    values, axes = np.linalg.eigh(square)
+    most = 0.5 * np.maximum(np.hypot(strikes[:, :1], strikes[:, 1:2]), 0.3)
+    variance = sums[:, :1] / np.maximum(sums[:, 2:3], 1.0)
+    deviation = np.minimum(np.sqrt(variance / np.maximum(values, 1e-12)), most)
+    drawn = random.normal(size=(len(of), each, _NUMBERS)) * np.geomspace(1.0, _WIDER, each)[:, None]
+    moved = np.einsum("nij,nmj->nmi", axes * deviation[:, None, :], drawn)
+    tried = strikes[:, None] + np.clip(moved, -most[..., None], most[..., None])
+    return np.repeat(of, each), _allowed(tried.reshape(-1, _NUMBERS))
 
 
 def polish(plays: Plays, strikes: Doubles) -> Doubles:
     """Descends by the plain squares, whose mean the RMSE is, from strikes of all shots, (shots, 6)."""
     of = np.arange(len(strikes), dtype=np.int32)
-    better, _ = descend(plays, of, strikes, plays.ends, 25, huber=0.0)
+    better, _ = descend(plays, of, strikes, plays.ends, _SQUARES, huber=0.0)
     return np.where((plays.rmse(better) < plays.rmse(strikes))[:, None], better, strikes)
 
 
-def find(plays: Plays, progress: Callable[[str, float], None] | None = None) -> tuple[Doubles, Doubles]:
+def find(plays: Plays, seed: int = 0, progress: Callable[[str, float], None] | None = None) -> tuple[Doubles, Doubles]:
     """The strikes of all shots, (shots, 6), and their costs, (shots,): infinite where no start could be played."""
+    random = np.random.default_rng(seed)
     first = [starts(shot) for shot in plays.recordings]
-    of = np.repeat(np.arange(len(first)), [len(rows) for rows in first]).astype(np.int32)
-    strikes = np.concatenate(first)
-    costs = np.full(len(strikes), np.inf)
-    for number, (until, keep, iterations) in enumerate(_STAGES):
+    of = np.repeat(np.arange(len(first), dtype=np.int32), [len(rows) for rows in first])
+    strikes = _allowed(np.concatenate(first))
+    # the best of the starts descend
+    until = np.minimum(_FIRST, plays.ends)
+    rows = _best(of, strikes, plays.misfit(of, strikes, until[of], -np.inf)[:, 0], _FIRST_KEPT)
+    of = of[rows]
+    strikes, sums = descend(plays, of, strikes[rows], until[of], _FIRST_ITERATIONS)
+    rows = _best(of, strikes, sums[:, 0], 8)
+    for number, (time, each, descending, iterations, keep) in enumerate(_STAGES):
         if progress:
             progress("strikes", number / len(_STAGES))
-        strikes, costs = descend(plays, of, strikes, np.minimum(until, plays.ends)[of], iterations)
-        many = np.bincount(of, minlength=len(first))[of] > 100
-        rows = np.concatenate([
-            part[_best(of[part], strikes[part], costs[part], size)]
-            for part, size in ((np.flatnonzero(~many), keep), (np.flatnonzero(many), 3 * keep if until < 4.0 else keep))
-        ])  # fmt: skip
-        of, strikes, costs = of[rows], strikes[rows], costs[rows]
+        of, strikes, sums = of[rows], strikes[rows], sums[rows]
+        drawn_of, drawn = _offspring(of, strikes, sums, each, random)
+        of, strikes = np.concatenate([of, drawn_of]), np.concatenate([strikes, drawn])
+        until = np.minimum(time, plays.ends)
+        rows = _best(of, strikes, plays.misfit(of, strikes, until[of], -np.inf)[:, 0], descending)
+        of = of[rows]
+        strikes, sums = descend(plays, of, strikes[rows], until[of], iterations)
+        rows = _best(of, strikes, sums[:, 0], keep if number + 1 < len(_STAGES) else 1)
+    of = of[rows]
+    strikes, sums = descend(plays, of, strikes[rows], plays.ends[of], _LAST)
     found, cost = np.full((len(first), _NUMBERS), np.nan), np.full(len(first), np.inf)
-    found[of], cost[of] = strikes, costs
+    found[of], cost[of] = strikes, sums[:, 0]
     return found, cost

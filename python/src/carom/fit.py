@@ -9,18 +9,21 @@ what the numbers mean.
 from __future__ import annotations
 
 import argparse
+import contextlib
+import functools
+import hashlib
 import json
 import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, cast
+from typing import Any, cast
 
 import numpy as np
 import numpy.typing as npt
 
-from carom import _constants, _from_events, _joint, _strikes, pictures
+from carom import _constants, _from_events, _joint, _strikes, _summary, pictures
 from carom.dtypes import Doubles
 from carom.results import Shot
 from carom.shots import ShotCushion, simulate
@@ -28,11 +31,7 @@ from carom.tracks import Recording, TrackError, events, read
 
 __all__ = ["Fit", "fit", "main"]
 
-Free = Literal["none", "default", "joint"]
 Progress = Callable[[str, float], None]
-# What a constant that is found by whole shots is off by for synthetic recordings, where the other constants are a little wrong.
-_BY_SHOTS = {"mu_spin": 3e-4, "mu_ball": 2e-3}
-_GENERATIONS, _OF_HALVES = 90, 30  # of the joint search, by all shots and by each half of them
 _FASTEST = 8.0  # m/s: no ball is faster
 
 
@@ -58,6 +57,8 @@ class Fit:
         "ok", or why the shot does not count.
     rmse : ndarray, shape (shots,)
         Root of the mean squared distance between recorded and played places over all samples of all balls, m; NaN without a play.
+    train : list of bool, optional
+        Which shots the constants were fitted to, if not all.
     """
 
     recordings: list[Recording]
@@ -69,19 +70,22 @@ class Fit:
     strikes: Doubles
     status: list[str]
     rmse: Doubles
+    train: list[bool] | None = None
 
-    def _counted(self) -> Doubles:
-        return self.rmse[[status == "ok" for status in self.status]]
+    def counted(self, train: bool | None = None) -> Doubles:
+        """The RMSE of the shots that are ok, m: of all, of those that constants were fitted to, or of the others."""
+        part = [train is None or self.train is None or one == train for one in self.train or [True] * len(self.status)]
+        return self.rmse[[status == "ok" and counts for status, counts in zip(self.status, part)]]
 
     @property
     def median_rmse(self) -> float:
         """m, over the shots that are ok."""
-        return float(np.median(self._counted())) if len(self._counted()) else float("nan")
+        return float(np.median(self.counted())) if len(self.counted()) else float("nan")
 
     @property
     def p90_rmse(self) -> float:
         """m: 9 in 10 of the shots that are ok are better."""
-        return float(np.percentile(self._counted(), 90)) if len(self._counted()) else float("nan")
+        return float(np.percentile(self.counted(), 90)) if len(self.counted()) else float("nan")
 
     def shot(self, i: int) -> Shot:
         """Shot i played; its clock begins at the strike, `strikes[i, 5]`.
@@ -99,7 +103,7 @@ class Fit:
         balls["state"]["v"][recording.cue, :2] = strike[:2]
         balls["state"]["w"][recording.cue] = strike[2:5] / self.radius
         table = _constants.rectangle(self.table, self.constants["nose_height"])
-        return simulate(table, balls, cushion_model=self.cushion_model, friction="constant")
+        return simulate(table, balls, cushion_model=self.cushion_model)
 
     def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
         """The centres of shot i's balls as played at times of the recording's clock, m, shape (..., balls, 2)."""
@@ -121,7 +125,8 @@ class Fit:
                 "ball": recording.balls[recording.cue], "v_x": v_x, "v_y": v_y,
                 "w_x": w_x / self.radius, "w_y": w_y / self.radius, "w_z": w_z / self.radius, "start": start,
             } if found else None  # fmt: skip
-            shots.append({"id": recording.id, "status": status, "rmse": float(rmse) if found else None, "cue": cue})
+            part = {} if self.train is None else {"train": self.train[len(shots)]}
+            shots.append({**part, "id": recording.id, "status": status, "rmse": float(rmse) if found else None, "cue": cue})
         return {
             "constants": self.constants,
             "spread": self.spread,
@@ -129,8 +134,8 @@ class Fit:
             "table": list(self.table),
             "radius": self.radius,
             "shots": shots,
-            "median_rmse": self.median_rmse if len(self._counted()) else None,
-            "p90_rmse": self.p90_rmse if len(self._counted()) else None,
+            "median_rmse": self.median_rmse if len(self.counted()) else None,
+            "p90_rmse": self.p90_rmse if len(self.counted()) else None,
         }
 
 
@@ -148,37 +153,47 @@ def _status(shot: Recording, radius: float) -> str:
     return "ok"
 
 
-def _by_shots(
-    plays: _strikes.Plays, strikes: Doubles, values: dict[str, float], rows: list[int], random: np.random.Generator,
-    progress: Progress | None,
-) -> tuple[dict[str, float], dict[str, float]]:  # fmt: skip
-    """All constants, mu_spin and mu_ball searched by the shots of `rows`; and the errors of these two, from halves of the shots."""
+def _priors(
+    free: Sequence[str], priors: Mapping[str, tuple[float, float]], values: Mapping[str, float], cushion_model: ShotCushion
+) -> dict[str, tuple[float, float]]:
+    """Mean and deviation of each constant that whole shots are to tell."""
+    names = [name for name in _joint.PRIORS if cushion_model != "mirror" or name not in ("mu_cushion", "roll_loss", "nose_height")]
+    if list(free) != ["default"]:
+        names = list(free)
+    unknown = [name for name in [*names, *priors] if name not in _joint.PRIORS]
+    if unknown:
+        raise ValueError(f"free, priors: there is no constant {unknown[0]!r} to fit; known are {', '.join(_joint.PRIORS)}")
+    for name, (mean, deviation) in priors.items():
+        if not (math.isfinite(mean) and math.isfinite(deviation) and deviation > 0.0):
+            raise ValueError(f"priors: {name} must have a finite mean and a deviation above 0, not {mean!r}, {deviation!r}")
+    return {name: priors.get(name, (values[name], _joint.PRIORS[name][0])) for name in names}
 
-    def search(some: list[int], told: Progress | None = None) -> dict[str, float]:
-        return _joint.one_by_one(_joint.Objective(plays, strikes, values, some), told)
 
-    found = search(rows, progress)
-    if len(rows) < 8:
-        return found, {}
-    order = random.permutation(rows)
-    halves = [search(sorted(half.tolist())) for half in np.array_split(order, 2)]
-    return found, {name: math.hypot(0.5 * (halves[0][name] - halves[1][name]), method) for name, method in _BY_SHOTS.items()}
+class _Saved:
+    """The parts of a fit that are done, as JSON, kept in a file while the fit runs."""
 
+    def __init__(self, path: Path | None, arguments: Sequence[Any]) -> None:
+        shots, *others = arguments
+        text = repr([(shot.id, shot.balls, [track.tolist() for track in shot.tracks]) for shot in shots]) + repr(others)
+        self.path, self.parts, self.key = path, dict[str, Any](), hashlib.sha256(text.encode()).hexdigest()
+        if path is not None and path.exists():
+            with contextlib.suppress(ValueError, TypeError, KeyError):  # another file: begin anew
+                given = json.loads(path.read_text(encoding="utf-8"))
+                self.parts = given["parts"] if given["key"] == self.key else {}
 
-def _together(
-    plays: _strikes.Plays, strikes: Doubles, values: dict[str, float], rows: list[int], seed: int, progress: Progress | None
-) -> tuple[dict[str, float], dict[str, float]]:
-    """All constants, fitted together, and their errors: half the difference of halves."""
+    def get(self, name: str, compute: Callable[[], Any]) -> Any:
+        """A part, which is computed if it is not there."""
+        if name not in self.parts:
+            self.parts[name] = compute()
+            if self.path is not None:
+                new = self.path.with_name(self.path.name + ".new")
+                new.write_text(json.dumps({"key": self.key, "parts": self.parts}), encoding="utf-8")
+                new.replace(self.path)
+        return self.parts[name]
 
-    def search(some: list[int], generations: int, told: Progress | None = None) -> dict[str, float]:
-        return _joint.together(_joint.Objective(plays, strikes, values, some), generations, seed, told)
-
-    found = search(rows, _GENERATIONS, progress)
-    if len(rows) < 8:
-        return found, {}
-    order = np.random.default_rng(seed).permutation(rows)
-    halves = [search(sorted(half.tolist()), _OF_HALVES) for half in np.array_split(order, 2)]
-    return found, {name: 0.5 * abs(halves[0][name] - halves[1][name]) for name in _joint.DEVIATIONS if name in found}
+    def done(self) -> None:
+        if self.path is not None:
+            self.path.unlink(missing_ok=True)
 
 
 def fit(
@@ -188,10 +203,13 @@ def fit(
     *,
     cushion_model: ShotCushion = "han",
     constants: Mapping[str, float] | None = None,
-    free: Free = "default",
+    free: str | Sequence[str] = "default",
+    priors: Mapping[str, tuple[float, float]] | None = None,
+    train: Sequence[int] | None = None,
     seed: int = 0,
     threads: int = 0,
     progress: Progress | None = None,
+    state: Path | None = None,
 ) -> Fit:
     """Fit recorded shots.
 
@@ -206,16 +224,24 @@ def fit(
     cushion_model : {"mathavan", "stronge", "han", "mirror"}
     constants : mapping, optional
         What is known; the usual ones for what is not given.
-    free : {"none", "default", "joint"}
-        What is fitted: "none", each shot's strike alone; "default", also the constants that single events tell (mu_slide, mu_roll,
-        restitution, those of the cushion), and mu_spin and mu_ball by whole shots. What too few events tell stays as given. "joint": from there, all constants together by
-        whole shots, which fits better as constants absorb what the models leave out; needs the package cma.
+    free : "none", "events", "default", or names of constants
+        What is fitted besides each shot's strike. "none": nothing. "events": the constants that single events tell: mu_slide, mu_roll,
+        drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all of
+        `_joint.PRIORS` together, by whole shots. Names: these constants alone, by whole shots.
+    priors : mapping, optional
+        Mean and deviation of constants that are fitted by whole shots. Without: about the value before, as wide as the constants of
+        different tables are.
+    train : sequence of int, optional
+        The shots, from 0, that constants are fitted to; all without. The others then tell how well the constants predict.
     seed : int
         Of what is drawn: the same seed, the same bits.
     threads : int
         Most threads; 0 is the calling one alone, -1 all processors. No bit depends on it.
     progress : callable(what, part), optional
         Is told what is being done, and the part of it that is done, 0 to 1.
+    state : path, optional
+        A file that keeps what is done so far. A fit that was interrupted goes on from there when it is called again with the same
+        arguments, and has the same bits; the file is removed at the end.
 
     Returns
     -------
@@ -238,38 +264,45 @@ def fit(
         )
     if not (min(table) > 4.0 * radius > 0.0):
         raise ValueError(f"table, radius: the extents {table} m must be above four radii, {4.0 * radius:g} m, and those above 0")
-    if free not in ("none", "default", "joint"):
-        raise ValueError(f"free: must be 'none', 'default' or 'joint', not {free!r}")
+    free = [free] if isinstance(free, str) else list(free)
     values = _constants.complete(constants or {}, cushion_model)
+    _priors([] if free[0] in ("none", "events") else free, priors or {}, values, cushion_model)
     spread: dict[str, float] = {}
     status = [_status(shot, radius) for shot in recordings]
     played = [k for k, text in enumerate(status) if text != "no ball moves"]
+    fitted = [k for k in played if status[k] == "ok" and (train is None or k in set(train))]
     strikes, rmse = np.full((len(recordings), 6), np.nan), np.full(len(recordings), np.nan)
     if played:
-        shots = [recordings[k] for k in played]
-        if free != "none":
+        saved = _Saved(state, [recordings, table, radius, cushion_model, values, free, priors, fitted, seed])
+        if free[0] in ("events", "default"):
             if progress:
                 progress("events", 0.0)
-            measured, spread = _from_events.measured(events(shots, table, radius), radius, cushion_model, seed)
+            shots = [recordings[k] for k in fitted]
+            measured, spread = saved.get(
+                "events", lambda: _from_events.measured(events(shots, table, radius), radius, cushion_model, seed)
+            )
             values = {**values, **measured}
-        plays = _strikes.Plays(shots, table, radius, values, cushion_model, threads)
-        found, _ = _strikes.find(plays, progress)
-        if free != "none":
-            counted = [row for row, k in enumerate(played) if status[k] == "ok"]
-            values, by_shots = _by_shots(plays, found, values, counted, np.random.default_rng(seed), progress)
-            spread = {**spread, **by_shots}
-            plays.set(values)
-            found, _ = _strikes.find(plays, progress)
-            if free == "joint":
-                values, spread = _together(plays, found, values, counted, seed, progress)
-                plays.set(values)
-                found, _ = _strikes.find(plays, progress)
-        strikes[played] = _strikes.polish(plays, found)
+        if free[0] not in ("none", "events") and fitted:
+            plays = _strikes.Plays([recordings[k] for k in fitted], table, radius, values, cushion_model, threads)
+            found = saved.get("strikes", lambda: _strikes.find(plays, seed, progress)[0].tolist())
+            search = _joint.Search(plays, np.array(found), range(len(fitted)), _priors(free, priors or {}, values, cushion_model))
+            for number in range(_joint.STAGES):
+                if progress:
+                    progress("constants", number / (_joint.STAGES + 2))
+                search.resume(saved.get(f"constants {number}", functools.partial(search.stage, number, seed)))
+            values = search.constants(search.values)
+            if progress:
+                progress("spread", _joint.STAGES / (_joint.STAGES + 2))
+            spread = {**spread, **saved.get("spread", lambda: _joint.spread(search, seed))}
+        plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
+        strikes[played] = _strikes.polish(plays, _strikes.find(plays, seed, progress)[0])
         rmse[played] = plays.rmse(strikes[played])
+        saved.done()
+    part = None if train is None else [k in set(train) for k in range(len(recordings))]
     for k in played:
         if not np.isfinite(rmse[k]):
             status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
-    return Fit(recordings, table, radius, cushion_model, values, spread, strikes, status, rmse)
+    return Fit(recordings, table, radius, cushion_model, values, spread, strikes, status, rmse, part)
 
 
 def _extents(text: str) -> tuple[float, float]:
@@ -280,8 +313,8 @@ def _extents(text: str) -> tuple[float, float]:
     return width, length
 
 
-def _read_constants(path: Path) -> dict[str, float]:
-    """Constants of a JSON file: an object of them, or what this command wrote."""
+def _read_object(path: Path, such: str) -> dict[str, Any]:
+    """An object of a JSON file: the constants of it, where it is what this command wrote."""
     try:
         given: Any = json.loads(path.read_text(encoding="utf-8"))
     except ValueError as error:
@@ -289,8 +322,8 @@ def _read_constants(path: Path) -> dict[str, float]:
     if isinstance(given, dict) and isinstance(given.get("constants"), dict):
         given = given["constants"]
     if not isinstance(given, dict):
-        raise TrackError(f'{path}: an object of constants is needed, such as {{"mu_slide": 0.2}}')
-    return cast(dict[str, float], given)
+        raise TrackError(f"{path}: an object of constants is needed, such as {such}")
+    return cast(dict[str, Any], given)
 
 
 def _show(what: str, part: float) -> None:
@@ -298,32 +331,47 @@ def _show(what: str, part: float) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command; its exit status is 0, or 2 for bad usage or unreadable input, when nothing is written."""
+    """The command; its exit status is 0, 2 for bad usage or unreadable input, or 130 if it was interrupted; then nothing is written."""
     parser = argparse.ArgumentParser(prog="python -m carom.fit", description="Fits recorded shots: each strike, and constants.")
     parser.add_argument("tracks", type=Path, help="recorded tracks: a CSV with shot,ball,t,x,y, or JSON Lines; .xz and .gz too")
     parser.add_argument("--table", type=_extents, required=True, metavar="W,L", help="extents of x and y, m")
     parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
     parser.add_argument("--cushion-model", default="han", choices=["mathavan", "stronge", "han", "mirror"])
     parser.add_argument("--constants", type=Path, metavar="IN.json", help="known constants; the usual ones otherwise")
-    parser.add_argument("--free", default="default", choices=["none", "default", "joint"], help="what is fitted besides the strikes")
+    parser.add_argument("--free", default="default", type=lambda text: text.split(","), metavar="none|events|default|NAME,...",
+                        help="constants that are fitted besides the strikes")  # fmt: skip
+    parser.add_argument("--priors", type=Path, metavar="PRIORS.json", help='{"mu_spin": [mean, deviation], ...}')
+    parser.add_argument("--split", action="store_true", help="fit constants to every second shot, and tell how they predict the others")
+    parser.add_argument("--summary", type=Path, metavar="OUT.html", help="write a page with pictures")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--threads", type=int, default=0, help="0: one; -1: all processors")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="OUT.json")
     given = parser.parse_args(arguments)
     try:
-        constants = _read_constants(given.constants) if given.constants else {}
+        constants = _read_object(given.constants, '{"mu_slide": 0.2}') if given.constants else {}
         _constants.complete(constants, given.cushion_model, str(given.constants))
         recordings = read(given.tracks, table=given.table, radius=given.radius)
         found = fit(
             recordings, given.table, given.radius, cushion_model=given.cushion_model, constants=constants, free=given.free,
+            priors=_read_object(given.priors, '{"mu_spin": [0.004, 0.001]}') if given.priors else None,
+            train=range(0, len(recordings), 2) if given.split else None,
             seed=given.seed, threads=given.threads, progress=_show if sys.stderr.isatty() else None,
+            state=given.output.with_name(given.output.name + ".state"),
         )  # fmt: skip
+        if given.summary:
+            given.summary.write_text(_summary.page(found, given.tracks.name), encoding="utf-8")
         given.output.write_text(json.dumps(found.to_dict(), indent=1) + "\n", encoding="utf-8")
     except (OSError, ValueError) as error:
         print(f"carom.fit: {error}", file=sys.stderr)
         return 2
-    counted = sum(status == "ok" for status in found.status)
-    print(f"{counted} of {len(recordings)} shots: RMSE median {100 * found.median_rmse:.2f} cm, p90 {100 * found.p90_rmse:.2f} cm")
+    except KeyboardInterrupt:
+        print("\ncarom.fit: interrupted; the same command goes on from here", file=sys.stderr)
+        return 130
+    parts = [("", None)] if found.train is None else [("fitted, ", True), ("predicted, ", False)]
+    for what, part in parts:
+        rmse = 100.0 * found.counted(part)
+        if len(rmse):
+            print(f"{what}{len(rmse)} of {len(recordings)} shots: RMSE median {np.median(rmse):.2f} cm, p90 {np.percentile(rmse, 90):.2f} cm")
     return 0
 
 

@@ -47,6 +47,9 @@ class Table:
         rail_width: float = 0.0,
         pocket_back: float = 0.0,
     ) -> None:
+        for name, size in (("width", width), ("length", length)):
+            if not 0.0 < size < np.inf:
+                raise ValueError(f"{name}: it must be positive and finite, in m, not {size}")
         record: Array = np.zeros((), dtypes.table)
         record["width"], record["length"] = width, length
         record["ball_radius"], record["rail_width"], record["pocket_back"] = ball_radius, rail_width, pocket_back
@@ -95,6 +98,12 @@ class Table:
     def _parts(self, part: str, count: str) -> dtypes.Records:
         parts: dtypes.Records = self.record[part]
         return parts[: int(self.record[count])]
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all numbers are the same."""
+        return isinstance(other, Table) and bool(np.array_equal(self.record, other.record))
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         sizes = f"{len(self.rails)} rails, {len(self.jaws)} jaws, {len(self.pockets)} pockets"

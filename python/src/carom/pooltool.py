@@ -4,7 +4,7 @@
     import carom.pooltool
     system = carom.pooltool.simulate(pt.System.example())      # or carom.pooltool.install(), and pt.simulate as before
 
-Needs pooltool 0.6 (pooltool-billiards). Its objects have no types here, so that carom can be checked without it.
+Needs pooltool 0.6 (pooltool-billiards), or the head of its repository. Its objects have no types here, so that carom can be checked without it.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import importlib
 import sys
 import types
 import warnings
+from collections.abc import Collection
 from typing import Any, Literal
 
 import numpy as np
@@ -23,6 +24,7 @@ from carom._pooltool_fill import fill
 from carom._pooltool_models import ExactBallBall, ExactCircularCushion, ExactLinearCushion
 from carom.collisions import alciatore
 from carom.layouts import Table
+from carom.results import Shot
 from carom.shots import BallModel, Friction, ShotCushion
 from carom.shots import simulate as _play
 from carom.status import CaromError
@@ -48,9 +50,26 @@ _simulate: Any = importlib.import_module("pooltool.evolution.event_based.simulat
 
 _pooltools_simulate: Any = _simulate.simulate
 
-# The models of the default engine of pooltool.
-_ENGINE = {"stick_ball": "InstantaneousPoint", "ball_pocket": "CanonicalBallPocket", "transition": "CanonicalTransition"}
-_CUSHIONS: dict[str, ShotCushion] = {"StrongeCompliant": "stronge", "Han2005": "han"}
+# What carom plays of pooltool's engines, and of its own strategies in them: repository HEAD has InstantaneousPoint2D.
+_FIXED = {
+    "stick_ball": ("InstantaneousPoint", "InstantaneousPoint2D"),
+    "ball_pocket": ("CanonicalBallPocket",),
+    "transition": ("CanonicalTransition",),
+}
+_PAIRS: dict[str, BallModel] = {
+    "FrictionalInelastic": "inelastic",
+    "FrictionalMathavan": "euler",
+    "FrictionlessElastic": "mirror",
+    "ExactBallBall": "exact",
+}
+_CUSHIONS: dict[str, ShotCushion] = {
+    "StrongeCompliant": "stronge",
+    "Han2005": "han",
+    "Mathavan2010": "euler",
+    "Unrealistic": "mirror",
+    "ExactCushion": "mathavan",
+}
+_FRICTIONS: dict[str, Friction] = {"AlciatoreBallBallFriction": "alciatore", "AverageBallBallFriction": "constant"}
 
 
 class UnsupportedError(ValueError):
@@ -67,7 +86,22 @@ class FallbackWarning(UserWarning):
 def table_of(table: Any) -> Table:
     """The table of a System, for `carom.simulate`."""
     segments = table.cushion_segments
-    linear, circular, holes = segments.linear.values(), segments.circular.values(), table.pockets.values()
+    linear, circular = tuple(segments.linear.values()), tuple(segments.circular.values())
+    pockets = tuple((*map(float, p.center[:2]), p.radius, p.depth) for p in table.pockets.values())
+    # Segments never change, and tables share them with their copies. A cached table keeps them, so an id stays theirs.
+    key = (*map(id, linear), None, *map(id, circular), *pockets)
+    cached = _tables.get(key)
+    if cached is None:
+        if len(_tables) >= 16:
+            _tables.clear()
+        cached = _tables[key] = (_table_of(linear, circular, pockets), (linear, circular))
+    return Table.from_record(cached[0].record)
+
+
+_tables: dict[tuple[Any, ...], tuple[Table, Any]] = {}
+
+
+def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[Any, ...]) -> Table:
     for segment in linear:
         if segment.direction not in (0, 1):
             raise UnsupportedError(f"cushion {segment.id!r} has balls on both sides: carom takes direction 0 or 1")
@@ -75,7 +109,7 @@ def table_of(table: Any) -> Table:
         [(c.p1[:2], c.p2[:2], c.height, (c.lx, c.ly, c.l0), c.direction, 0.0, 0.0) for c in linear], dtype=dtypes.rail
     )
     jaws: Array = np.array([(c.center[:2], c.radius, c.height, 0.0, 0.0) for c in circular], dtype=dtypes.jaw)
-    pockets: Array = np.array([(p.center[:2], p.radius, p.depth) for p in holes], dtype=dtypes.pocket)
+    pockets: Array = np.array([((x, y), radius, depth) for x, y, radius, depth in holes], dtype=dtypes.pocket)
     # Width and length are for pictures; a table that is not made of pooltool's own parts may have none.
     ends = np.concatenate([rails["p"], rails["q"]])
     low, high = (ends.min(axis=0), ends.max(axis=0)) if len(ends) else (np.zeros(2), np.ones(2))
@@ -101,34 +135,78 @@ def cue_of(system: Any) -> dtypes.Records:
     return np.array(numbers, dtype=dtypes.cue)
 
 
-def _models_of(resolver: Any) -> tuple[BallModel, ShotCushion, Friction, int]:
-    """The models of carom that are those of an engine of pooltool's, or an error that says which is not."""
-    for part, name in _ENGINE.items():
-        if type(getattr(resolver, part)).__name__ != name:
-            raise UnsupportedError(f"engine: carom knows {name} alone for {part}, not {type(getattr(resolver, part)).__name__}")
+def _name(part: Any) -> str:
+    """The class of a part of an engine: its name alone, where it is pooltool's or carom's."""
+    kind = type(part)
+    ours = kind.__module__.partition(".")[0] in ("pooltool", "carom")
+    return kind.__name__ if ours else f"{kind.__module__}.{kind.__qualname__}"
+
+
+def _one_of(known: Collection[str], name: str, part: str) -> None:
+    if name not in known:
+        raise UnsupportedError(f"engine: carom knows {', '.join(known)} for {part}, not {name}")
+
+
+def _play_by(engine: Any, table: Table, balls: dtypes.Records, cue: dtypes.Records) -> Shot:
+    """Plays a shot by the models of an engine of pooltool's, or says in an error what of it carom does not know.
+
+    Numbers that pooltool has in its models carom has in the balls, rails and jaws, which are changed.
+    """
+    resolver, kinds = engine.resolver, balls["kind"]
+    if getattr(engine, "is_3d", False):
+        raise UnsupportedError("engine: carom knows is_3d=False alone, balls that stay on the cloth")
+    for part, known in _FIXED.items():
+        _one_of(known, _name(getattr(resolver, part)), part)
     if (resolver.stick_ball.english_throttle, resolver.stick_ball.squirt_throttle) != (1.0, 1.0):
         raise UnsupportedError("engine: carom knows a stick_ball with throttles of 1 alone")
-    pair = resolver.ball_ball
-    models: dict[str, BallModel] = {"FrictionalInelastic": "inelastic", "FrictionalMathavan": "euler"}
-    ball_model = models.get(type(pair).__name__)
-    if ball_model is None:
-        raise UnsupportedError(f"engine: carom knows {', '.join(models)} for ball_ball, not {type(pair).__name__}")
+
+    pair, steps = resolver.ball_ball, set()
+    _one_of(_PAIRS, _name(pair), "ball_ball")
+    ball_model = _PAIRS[_name(pair)]
     friction: Friction = "constant"
-    if type(pair.friction).__name__ == "AlciatoreBallBallFriction":
-        friction = "alciatore"
-        if (pair.friction.a, pair.friction.b, pair.friction.c) != alciatore():
-            raise UnsupportedError(f"engine: carom knows Alciatore's friction with a, b, c = {alciatore()} alone")
-    elif type(pair.friction).__name__ != "AverageBallBallFriction":
-        raise UnsupportedError(f"engine: carom does not know the friction {type(pair.friction).__name__}")
+    if ball_model == "mirror":
+        kinds["restitution"] = 1.0
+    else:
+        _one_of(_FRICTIONS, _name(pair.friction), "friction")
+        friction = _FRICTIONS[_name(pair.friction)]
+    if ball_model == "euler":
+        steps.add(int(pair.num_iterations))
+    if friction == "alciatore" and (law := (pair.friction.a, pair.friction.b, pair.friction.c)) != alciatore():
+        kinds["law_a"], kinds["law_b"], kinds["law_c"] = law
+        if not any(law):  # which would be the usual law
+            friction, kinds["mu_ball"] = "constant", 0.0
+
     linear, circular = resolver.ball_linear_cushion, resolver.ball_circular_cushion
-    name = type(linear).__name__.removesuffix("Linear")
-    cushion_model = _CUSHIONS.get(name)
-    if cushion_model is None or type(circular).__name__ != f"{name}Circular":
-        known = ", ".join(_CUSHIONS)
-        raise UnsupportedError(f"engine: carom knows {known}, the same for linear and circular cushions, not {name}")
-    if cushion_model == "stronge" and (linear.omega_ratio, circular.omega_ratio) != (1.8, 1.8):
-        raise UnsupportedError("engine: carom knows an omega_ratio of 1.8 alone in whole shots")
-    return ball_model, cushion_model, friction, int(getattr(pair, "num_iterations", 0))
+    name = _name(linear).replace("Linear", "")
+    if _name(circular).replace("Circular", "") != name:
+        raise UnsupportedError(f"engine: carom knows the same model for both kinds of cushions, not {name} and {_name(circular)}")
+    _one_of(_CUSHIONS, name, "cushions")
+    cushion_model = _CUSHIONS[name]
+    numbers = {"stronge": ("omega_ratio",), "euler": ("max_steps", "delta_p")}.get(cushion_model, ())
+    for number in numbers:
+        if getattr(linear, number) != getattr(circular, number):
+            raise UnsupportedError(f"engine: carom knows the same {number} for both kinds of cushions")
+    if cushion_model == "stronge":
+        kinds["omega_ratio"] = linear.omega_ratio
+    elif cushion_model == "mirror":
+        table.rails["restitution"] = 0.0 if linear.restitution else 1.0
+        table.jaws["restitution"] = 0.0 if circular.restitution else 1.0
+    elif cushion_model == "euler":
+        steps.add(int(linear.max_steps))
+        if linear.delta_p != 0.001:
+            raise UnsupportedError("engine: carom knows a delta_p of 0.001 N s alone for Mathavan2010")
+    if len(steps) > 1:
+        raise UnsupportedError("engine: carom knows the same number of steps for FrictionalMathavan and Mathavan2010")
+    return _play(
+        table,
+        balls,
+        cue,
+        world="pooltool",
+        ball_model=ball_model,
+        cushion_model=cushion_model,
+        friction=friction,
+        steps=next(iter(steps), 0),
+    )
 
 
 def simulate(
@@ -152,7 +230,8 @@ def simulate(
     shot : pooltool.System
         Simulated as a copy, unless `inplace`.
     engine : pooltool.physics.PhysicsEngine, optional
-        None: pooltool's default. Ball and ball FrictionalInelastic or FrictionalMathavan, cushions StrongeCompliant or Han2005.
+        None: pooltool's default. Ball and ball FrictionalInelastic, FrictionalMathavan, FrictionlessElastic or `ExactBallBall`;
+        cushions StrongeCompliant, Han2005, Mathavan2010, Unrealistic or `ExactLinearCushion` and `ExactCircularCushion`.
     inplace, continuous, dt, t_final, max_events
         As for pooltool's.
     include : set of pooltool.EventType
@@ -185,18 +264,7 @@ def simulate(
             raise UnsupportedError("include: carom resolves all types of events")
         table, balls, cue = table_of(shot.table), balls_of(shot), cue_of(shot)
         if models == "pooltool":
-            resolver = (engine or _simulate.DEFAULT_ENGINE).resolver
-            ball_model, of_cushion, friction, steps = _models_of(resolver)
-            played = _play(
-                table,
-                balls,
-                cue,
-                world="pooltool",
-                ball_model=ball_model,
-                cushion_model=of_cushion,
-                friction=friction,
-                steps=steps,
-            )
+            played = _play_by(engine or _simulate.DEFAULT_ENGINE, table, balls, cue)
         else:
             if engine is not None:
                 raise UnsupportedError("engine: with models='carom' the models are carom's")
@@ -214,9 +282,7 @@ def simulate(
     if 0 < max_events < kept - 1:
         # pooltool looks after the event, and counts from 0.
         kept, stopped = max_events + 2, True
-    fill(system, played, kept, stopped)
-    if continuous:
-        _pt.continuize(system, dt=0.01 if dt is None else dt, inplace=True)
+    fill(system, played, kept, stopped, (0.01 if dt is None else dt) if continuous else None)
     return system
 
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +11,7 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import INT8, Array, as_array, in_chunks, pointer
-from carom.layouts import Table
+from carom.layouts import Table, cue_error
 from carom.status import CaromError, Status
 
 if TYPE_CHECKING:
@@ -144,6 +143,18 @@ class Shot:
         """
         return np.asarray(self.states(times)["r"], dtype=np.float64)
 
+    def to_dataframe(self) -> Any:
+        """The events as a pandas DataFrame, a row an event: time, type (by name), a, b, before_a_r_x and so on.
+
+        Needs pandas. `carom.dtypes.columns` makes columns of any records.
+        """
+        import pandas
+
+        names = {kind.value: kind.name.lower() for kind in EventType}
+        frame = pandas.DataFrame(dtypes.columns(self.events))
+        frame["type"] = pandas.Categorical([names[kind] for kind in self.events["type"].tolist()], list(names.values()))
+        return frame
+
     def __repr__(self) -> str:
         return f"<carom.Shot: {len(self.balls)} balls, {self.count} events, {self.time:.4g} s, {self.status.text}>"
 
@@ -177,6 +188,7 @@ class Shots:
     ----------
     table : Table
     layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls) or (1, balls)
+    cues : ndarray of `carom.dtypes.cue`, shape (...) or one, or None
     status : ndarray of int8, shape (...)
         As `Status`; a shot in error costs itself alone.
     time : ndarray of float64, shape (...)
@@ -195,6 +207,7 @@ class Shots:
         balls = layouts.shape[-1]
         self.table = table
         self.layouts = layouts
+        self.cues: dtypes.Records | None = None
         self.status: npt.NDArray[np.int8] = np.zeros(shape, INT8)
         self.final: dtypes.Records = np.zeros((*shape, balls), dtypes.ball_state)
         self.events: dtypes.Records = np.zeros((*shape, room), dtypes.event)
@@ -231,8 +244,14 @@ class Shots:
 
     def failures(self) -> list[tuple[tuple[int, ...], str]]:
         """The index of each shot in error, and what is wrong with it."""
-        indices: Iterator[tuple[int, ...]] = (tuple(int(k) for k in row) for row in np.argwhere(self.status < 0))
-        return [(index, Status(int(self.status[index])).text) for index in indices]
+        return [(index, self._why(index)) for index in (tuple(int(k) for k in row) for row in np.argwhere(self.status < 0))]
+
+    def _why(self, index: tuple[int, ...]) -> str:
+        status = Status(int(self.status[index]))
+        if self.cues is None or status not in (Status.ERROR_CUE, Status.ERROR_MISCUE):
+            return status.text
+        layout = np.broadcast_to(self.layouts, self.final.shape)[index]
+        return str(cue_error(status, np.broadcast_to(self.cues, self.shape)[index], layout))
 
     def __repr__(self) -> str:
         return f"<carom.Shots: {self.shape}, {int((self.status < 0).sum())} in error>"

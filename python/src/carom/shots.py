@@ -9,7 +9,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, apart, as_array, choice, in_chunks, output, pointer
+from carom._rows import INT8, Array, apart, as_array, choice, in_chunks, output, pointer, whole
 from carom.layouts import Table, cue_error
 from carom.results import Shot, Shots
 from carom.status import CaromError, Status
@@ -40,6 +40,8 @@ def shot_options(
     space: str = "3d",
 ) -> Any:
     """The options of C; they are never written to."""
+    if not 0.0 <= time_most < np.inf:
+        raise ValueError(f"time_most: it must be 0 s (the default) or more, and finite, not {time_most}")
     return ffi.new(
         "carom_shot_options *",
         {
@@ -47,10 +49,10 @@ def shot_options(
             "ball_model": choice(_BALL_MODELS, ball_model, "ball_model"),
             "cushion_model": choice(_CUSHIONS, cushion_model, "cushion_model"),
             "friction": choice(_FRICTIONS, friction, "friction"),
-            "steps": steps,
-            "events_most": events_most,
+            "steps": whole(steps, "steps"),
+            "events_most": whole(events_most, "events_most"),
             "time_most": time_most,
-            "threads": threads,
+            "threads": whole(threads, "threads", least=-1),
             "space": choice(_SPACES, space, "space"),
         },
     )
@@ -61,6 +63,11 @@ def _records(values: dtypes.Records, record: dtypes.Record, name: str, builder: 
     if array.dtype != record:
         raise TypeError(f"{name}: an array of the dtype of carom.{builder} is needed, not of {array.dtype}")
     return np.asarray(array, order="C")
+
+
+def _table(table: object) -> None:
+    if not isinstance(table, Table):
+        raise TypeError(f"table: a carom.Table is needed, such as carom.tables.pool_9ft() gives, not {type(table).__name__}")
 
 
 def simulate(
@@ -118,6 +125,7 @@ def simulate(
     if layout.ndim != 1:
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}; simulate_batch plays many layouts")
     layout = layout.copy()
+    _table(table)
     if cue is None:
         strike: Any = ffi.NULL
     else:
@@ -201,6 +209,8 @@ def simulate_batch(
     all_cues = np.zeros((), dtypes.cue) if cues is None else _records(cues, dtypes.cue, "cues", "cue()")
     if all_balls.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")
+    _table(table)
+    whole(room, "room")
     count = all_balls.shape[-1]
     shape = np.broadcast_shapes(all_balls.shape[:-1], all_cues.shape)
     # One layout or one cue for all is not copied; what else is broadcast is.
@@ -217,12 +227,13 @@ def simulate_batch(
     if out is not None:
         written = (("out.status", out.status), ("out.final", out.final), ("out.events", out.events), ("out.record", out.record))
         apart((("layouts", all_balls), ("cues", all_cues), ("table", table.record)), written)
-    shots.table, shots.layouts = table, all_balls
+    shots.table, shots.layouts, shots.cues = table, all_balls, None if cues is None else all_cues
     n = shots.status.size
     record = shots.record
     flat = record.reshape(n)
     flat["time"], flat["count"], flat["room"] = 0.0, 0, room
     numbers = np.arange(n, dtype=np.uintp)
+    flat["brief"], flat["state"] = 0, 0
     flat["events"] = 0 if room == 0 else shots.events.ctypes.data + numbers * np.uintp(room * dtypes.event.itemsize)
     flat["final"] = shots.final.ctypes.data + numbers * np.uintp(count * dtypes.ball_state.itemsize)
     options = shot_options(world, ball_model, cushion_model, friction, steps, events_most, time_most, threads, space)
@@ -232,13 +243,22 @@ def simulate_batch(
     of_table = pointer("carom_table[]", table.record)
 
     def play(begin: int, many: int) -> int:
-        first = balls if one_layout else balls + begin * count
-        strike = strikes if one_cue else strikes + begin
-        return int(
-            lib.carom_shoot_batch(
-                of_table, first, count, int(one_layout), strike, int(one_cue), many, options, results + begin, flags + begin
-            )
+        job = ffi.new(
+            "carom_shot_job *",
+            {
+                "table": of_table,
+                "balls": balls if one_layout else balls + begin * count,
+                "cues": strikes if one_cue else strikes + begin,
+                "count": count,
+                "ball_stride": 0 if one_layout else count,
+                "cue_stride": 0 if one_cue else 1,
+                "n": many,
+                "options": options,
+                "shots": results + begin,
+                "status": flags + begin,
+            },
         )
+        return int(lib.carom_shoot_batch(job))
 
     code = in_chunks(n, 5e-5, threads, play)
     if code < 0 and not (shots.status < 0).any():

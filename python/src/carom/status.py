@@ -16,6 +16,8 @@ class Status(enum.IntEnum):
 
     OK = 0
     SEPARATING = 1
+    STOPPED_AT_TIME = 2
+    STOPPED_AT_EVENT = 3
     ERROR_NULL = -1
     ERROR_SOLVER = -2
     ERROR_SLIP = -3
@@ -63,6 +65,10 @@ class Status(enum.IntEnum):
     ERROR_TIME = -55
     ERROR_DRAG = -56
     ERROR_BALL_CUSHION = -57
+    ERROR_STATE = -60
+    ERROR_TABLE_OPEN = -61
+    ERROR_RAIL_SIDE = -62
+    ERROR_RAIL_LINE = -63
 
     @property
     def text(self) -> str:

@@ -338,7 +338,7 @@ def synthetic(
         # the shot, its clock beginning at the strike
         balls = _constants.layout(centres, radius, values)
         balls["state"]["v"][0, :2], balls["state"]["w"][0] = strike[:2], strike[2:5] / radius
-        shot = simulate(world, balls, cushion_model=cushion_model, friction="constant")
+        shot = simulate(world, balls, cushion_model=cushion_model)
         tracks = _record(
             lambda times, shot=shot, start=start: shot.positions(times - start)[..., :2],  # type: ignore[misc]
             start + shot.time + 0.5, rate, thin, low, high, noise, random,

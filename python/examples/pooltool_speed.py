@@ -1,0 +1,103 @@
+"""How many times as fast as pooltool: one nine-ball break, by pooltool and by carom in one process.
+
+    python pooltool_speed.py [REPEATS]
+
+Both play the same System, and it is checked first that their events and histories agree. Every time is processor time, the least
+of REPEATS (default 30; pooltool: a fifth as many) after both are warm. Needs pooltool 0.6.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pooltool
+
+import carom
+import carom.pooltool
+
+BATCH = 200
+
+
+def nineball_break() -> Any:
+    """A System: the rack of pooltool's nine-ball, struck hard at the ball in front."""
+    np.random.seed(1)
+    table = pooltool.Table.from_game_type(pooltool.GameType.NINEBALL)
+    balls = pooltool.get_rack(pooltool.GameType.NINEBALL, table, spacing_factor=1e-3)
+    system = pooltool.System(cue=pooltool.Cue(cue_ball_id="cue"), table=table, balls=balls)
+    way = balls["1"].xyz - balls["cue"].xyz
+    system.strike(V0=8.0, phi=float(np.degrees(np.arctan2(way[1], way[0]))), b=0.1)
+    return system
+
+
+def look(system: Any) -> int:
+    """Looks at every object of a simulated System: agents before and after, histories. The number of states."""
+    states = [agent.initial for event in system.events for agent in event.agents]
+    states += [agent.final for event in system.events for agent in event.agents]
+    for ball in system.balls.values():
+        states += ball.history.states
+        states += ball.history_cts.states
+    return len(states)
+
+
+def check(mine: Any, theirs: Any) -> None:
+    """Stops where the events differ, or the histories by more than rounding amplified by a break."""
+    assert [(e.event_type, e.ids) for e in mine.events] == [(e.event_type, e.ids) for e in theirs.events]
+    for name, ball in theirs.balls.items():
+        for of in ("history", "history_cts"):
+            ours, expected = getattr(mine.balls[name], of).vectorize(), getattr(ball, of).vectorize()
+            for got, right in zip(ours, expected, strict=True):
+                np.testing.assert_allclose(got, right, atol=1e-5)
+
+
+def least(repeats: int, system: Any, play: Callable[[Any], object]) -> float:
+    """The least processor time of a play, ms; each of a copy of the System, the copying left out."""
+    times = []
+    for _ in range(repeats):
+        copy = system.copy()
+        begin = time.process_time()
+        play(copy)
+        times.append(time.process_time() - begin)
+    return 1e3 * min(times)
+
+
+def main() -> None:
+    repeats = int(sys.argv[1]) if len(sys.argv) > 1 else 30
+    few = max(repeats // 5, 1)
+    system = nineball_break()
+    theirs, ours = pooltool.simulate, carom.pooltool.simulate
+    mine, right = ours(system, continuous=True), theirs(system, continuous=True)
+    check(mine, right)
+    table, balls, cue = carom.pooltool.table_of(system.table), carom.pooltool.balls_of(system), carom.pooltool.cue_of(system)
+    cues = np.broadcast_to(cue, (BATCH,)).copy()
+
+    alone = least(few, system, lambda s: theirs(s, inplace=True))
+    continuous = least(few, system, lambda s: theirs(s, inplace=True, continuous=True))
+    rows = (
+        ("drop-in", alone, least(repeats, system, lambda s: ours(s, inplace=True))),
+        ("drop-in, all objects looked at", alone, least(repeats, system, lambda s: look(ours(s, inplace=True)))),
+        ("continuous=True", continuous, least(repeats, system, lambda s: ours(s, inplace=True, continuous=True))),
+        (
+            "continuous=True, all objects",
+            continuous,
+            least(repeats, system, lambda s: look(ours(s, inplace=True, continuous=True))),
+        ),
+        ("carom.simulate", alone, least(repeats, system, lambda _: carom.simulate(table, balls, cue, world="pooltool"))),
+        (
+            f"carom.simulate_batch, one of {BATCH}",
+            alone,
+            least(few, system, lambda _: carom.simulate_batch(table, balls, cues, room=256, world="pooltool")) / BATCH,
+        ),
+    )
+    states = look(mine)
+    print(f"{len(right.events) - 2} events, {len(system.balls)} balls, {right.t:.2f} s, {states} states with the continuous ones")
+    print(f"{'':32} {'pooltool':>9} {'carom':>9} {'ratio':>6}    (ms)")
+    for name, slow, fast in rows:
+        print(f"{name:32} {slow:9.2f} {fast:9.3f} {slow / fast:6.0f}")
+
+
+if __name__ == "__main__":
+    main()

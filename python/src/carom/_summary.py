@@ -1,0 +1,146 @@
+"""The page of a fit: one HTML file with its pictures in it."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from carom._events import events
+from carom.dtypes import Doubles
+
+if TYPE_CHECKING:
+    from carom.fit import Fit
+
+_WIDTH, _HEIGHT, _LEFT, _BELOW, _ABOVE = 460.0, 300.0, 60.0, 45.0, 12.0  # of a chart, pixels
+_INK, _MARK, _LINE = "#333333", "#1f5fae", "#c0392b"
+_STYLE = (
+    "body{font:16px/1.4 sans-serif;max-width:1000px;margin:2em auto;padding:0 1em;color:#222}table{border-collapse:collapse}"
+    "td,th{padding:.15em .8em;border-bottom:1px solid #ccc;text-align:right}td:first-child,th:first-child{text-align:left}"
+    "figure{display:inline-block;margin:.5em;vertical-align:top}figcaption{font-size:14px;max-width:460px}svg{max-width:100%;height:auto}"
+)
+
+
+def _ticks(low: float, high: float) -> list[float]:
+    """Round numbers between two."""
+    size = (high - low) / 4.0
+    unit = 10.0 ** math.floor(math.log10(size))
+    step = next(unit * k for k in (1.0, 2.0, 2.5, 5.0, 10.0) if unit * k >= size)
+    return [step * k for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+
+
+class _Chart:
+    """A chart with axes, as SVG."""
+
+    def __init__(self, x: tuple[float, float], y: tuple[float, float], x_name: str, y_name: str) -> None:
+        self.ends = x, y
+        bottom, right = _HEIGHT - _BELOW, _WIDTH - 10.0
+        self.parts = [f'<path d="M{_LEFT},{_ABOVE}V{bottom}H{right}" stroke="{_INK}" fill="none"/>']
+        self._text(0.5 * (_LEFT + right), _HEIGHT - 8.0, x_name)
+        self._text(14.0, 0.5 * (_ABOVE + bottom), y_name, f' transform="rotate(-90 14 {0.5 * (_ABOVE + bottom):.1f})"')
+        for value in _ticks(*x):
+            self._text(self._at(value, y[0])[0], bottom + 16.0, f"{value:g}")
+        for value in _ticks(*y):
+            self._text(_LEFT - 6.0, self._at(x[0], value)[1] + 4.0, f"{value:g}", ' style="text-anchor:end"')
+
+    def _text(self, x: float, y: float, text: str, rest: str = "") -> None:
+        self.parts.append(f'<text x="{x:.1f}" y="{y:.1f}"{rest}>{html.escape(text)}</text>')
+
+    def _at(self, x: float, y: float) -> tuple[float, float]:
+        (x_0, x_1), (y_0, y_1) = self.ends
+        return (
+            _LEFT + (x - x_0) / (x_1 - x_0) * (_WIDTH - 10.0 - _LEFT),
+            _HEIGHT - _BELOW - (y - y_0) / (y_1 - y_0) * (_HEIGHT - _BELOW - _ABOVE),
+        )
+
+    def dots(self, x: Doubles, y: Doubles) -> None:
+        (x_0, x_1), (y_0, y_1) = self.ends
+        for a, b in zip(x.tolist(), y.tolist()):
+            if x_0 <= a <= x_1 and y_0 <= b <= y_1:
+                at = self._at(a, b)
+                self.parts.append(f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="2" fill="{_MARK}" fill-opacity="0.45"/>')
+
+    def line(self, x: Doubles, y: Doubles) -> None:
+        points = " ".join("{:.1f},{:.1f}".format(*self._at(a, b)) for a, b in zip(x.tolist(), y.tolist()))
+        self.parts.append(f'<polyline points="{points}" stroke="{_LINE}" stroke-width="2" fill="none"/>')
+
+    def bars(self, edges: Doubles, heights: Sequence[int]) -> None:
+        for left, right, height in zip(edges[:-1].tolist(), edges[1:].tolist(), heights):
+            (x, y), (end, bottom) = self._at(left, height), self._at(right, 0.0)
+            size = f'width="{max(end - x - 1.0, 0.5):.1f}" height="{bottom - y:.1f}"'
+            self.parts.append(f'<rect x="{x:.1f}" y="{y:.1f}" {size} fill="{_MARK}"/>')
+
+    def svg(self) -> str:
+        head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="{_WIDTH:g}" height="{_HEIGHT:g}"'
+        return head + ' font-family="sans-serif" font-size="12" text-anchor="middle">' + "".join(self.parts) + "</svg>"
+
+
+def histogram(fit: Fit) -> str:
+    """How many shots have which RMSE."""
+    rmse = 100.0 * fit.counted()
+    end = float(_ticks(0.0, 1.05 * float(rmse.max()))[-1] or 1.0) if len(rmse) else 1.0
+    end = max(end, float(rmse.max(initial=0.0)) * 1.001)
+    edges: Doubles = np.linspace(0.0, end, 31)
+    heights = np.histogram(rmse, edges)[0].tolist()
+    chart = _Chart((0.0, end), (0.0, max([*heights, 1]) * 1.05), "RMSE of a shot, cm", "shots")
+    chart.bars(edges, heights)
+    return chart.svg()
+
+
+def laws(fit: Fit) -> list[tuple[str, str]]:
+    """Pictures of what single events say, over what the fit plays with; each with its text."""
+    seen, constants = events(fit.recordings, fit.table, fit.radius), fit.constants
+    gravity = constants["gravity"]
+    rolls = seen.pieces[seen.pieces["rolling"] & (seen.pieces["a_error"] < 0.03)]
+    speed = np.hypot(*rolls["v"].T)
+    chart = _Chart((0.0, 3.0), (0.0, 0.2), "speed, m/s", "deceleration of rolling, m/s²")
+    chart.dots(speed, -(rolls["a"] * rolls["v"]).sum(axis=1) / np.maximum(speed, 1e-9))
+    x: Doubles = np.linspace(0.0, 3.0, 61)
+    chart.line(x, constants["mu_roll"] * gravity + constants["drag"] * x**2)
+    found = [("Rolling: one dot for each piece of a track. Line: mu_roll g + drag v² of the fit.", chart.svg())]
+
+    slides = seen.pieces[seen.pieces["sliding"] & (seen.pieces["a_error"] < 0.15)]
+    chart = _Chart((0.0, 6.0), (0.0, 4.0), "speed, m/s", "deceleration of sliding, m/s²")
+    chart.dots(np.hypot(*slides["v"].T), np.hypot(*slides["a"].T))
+    chart.line(np.array([0.0, 6.0]), np.full(2, constants["mu_slide"] * gravity))
+    found.append(("Sliding: one dot for each piece. Line: mu_slide g of the fit.", chart.svg()))
+
+    good = seen.impacts[(seen.impacts["chi2"] < 3) & (seen.impacts["w_error"] < 0.05) & (seen.impacts["v_error"] < 0.05)]
+    chart = _Chart((0.0, 4.0), (0.5, 1.1), "speed into the cushion, m/s", "speed out / speed in")
+    chart.dots(good["v_n"], -good["w_n"] / np.maximum(good["v_n"], 1e-9))
+    found.append(("Cushions: the speed across the cushion after an impact over that before.", chart.svg()))
+
+    hits = seen.hits[(seen.hits["chi2"] < 3) & (seen.hits["w_error"] < 0.1) & (seen.hits["z_error"] < 0.1)]
+    chart = _Chart((0.0, 5.0), (0.7, 1.1), "closing speed, m/s", "restitution")
+    chart.dots(hits["v_n"], (hits["z_n"] - hits["w_n"]) / np.maximum(hits["v_n"], 1e-9))
+    chart.line(np.array([0.0, 5.0]), np.full(2, constants["restitution"]))
+    found.append(("Hits on a ball at rest: speed of parting over closing speed. Line: restitution of the fit.", chart.svg()))
+    return found
+
+
+def page(fit: Fit, name: str) -> str:
+    """The page, of tracks of that name."""
+    ok = [k for k, status in enumerate(fit.status) if status == "ok"]
+    order = sorted(ok, key=lambda k: float(fit.rmse[k]))
+    parts = [f"<h1>{html.escape(name)}</h1>"]
+    if order:
+        parts.append(
+            f"<p>{len(ok)} of {len(fit.status)} shots, cushion model {fit.cushion_model}: RMSE median {100 * fit.median_rmse:.2f} cm, "
+            f"9 in 10 below {100 * fit.p90_rmse:.2f} cm.</p>"
+        )
+    figures = [("RMSE over all samples of all balls of a shot.", histogram(fit))] if order else []
+    for what, k in [("best", order[0]), ("median", order[len(order) // 2]), ("worst", order[-1])] if order else []:
+        text = f"The {what} shot, {fit.recordings[k].id}: {100 * fit.rmse[k]:.2f} cm. Lines as played, dots as recorded."
+        figures.append((text, fit.plot(k).svg))
+    figures += laws(fit)
+    rows = [
+        f"<tr><td>{constant}</td><td>{value:.5g}</td><td>{f'{fit.spread[constant]:.2g}' if constant in fit.spread else 'given'}</td></tr>"
+        for constant, value in fit.constants.items()
+    ]
+    parts += [f"<figure>{svg}<figcaption>{html.escape(text)}</figcaption></figure>" for text, svg in figures]
+    parts.append(f"<table><tr><th>constant</th><th>value</th><th>spread</th></tr>{''.join(rows)}</table>")
+    head = f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(name)}</title><style>{_STYLE}</style></head>'
+    return f"{head}<body>{''.join(parts)}</body></html>\n"

@@ -1,0 +1,47 @@
+"""links.py SOURCE: every link in a page of the tree leads to a file of the tree, and to a heading if it names one.
+
+Checked are the Markdown files, links and pictures alike, and the paths of pages (docs/.../page.md) that sources and tests name. Links
+to other sites are not followed.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+SOURCE = Path(sys.argv[1])
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+PAGE = re.compile(r"(?<![\w/.-])docs/[\w/.-]+\.md\b")
+TEXT = {".c", ".h", ".py", ".pyi", ".md", ".txt", ".cmake", ".sh", ".toml", ".def", ".in", ""}
+
+
+def anchors(page):
+    """The names by which the headings of a page can be linked to."""
+    text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in re.findall(r"^#+ (.*)$", text, flags=re.M)}
+
+
+skipped = {"build", ".git", "__pycache__", "node_modules"}
+files = [path for path in sorted(SOURCE.rglob("*")) if path.is_file() and not any(part in skipped or part.startswith("build-")
+                                                                                for part in path.relative_to(SOURCE).parts)]
+wrong, links = [], 0
+for file in files:
+    name = file.relative_to(SOURCE)
+    if file.suffix == ".md":
+        for link in LINK.findall(file.read_text(encoding="utf-8")):
+            if re.match(r"[a-z]+:", link):
+                continue
+            links += 1
+            path, _, anchor = link.partition("#")
+            to = (file.parent / path).resolve() if path else file
+            if not to.exists():
+                wrong.append(f"{name}: no file {link}")
+            elif anchor and anchor not in anchors(to):
+                wrong.append(f"{name}: {path or name} has no heading #{anchor}")
+    if file.suffix in TEXT and name.name not in ("links.py", "CHANGELOG.md"):
+        for page in PAGE.findall(file.read_text(encoding="utf-8", errors="replace")):
+            if not (SOURCE / page).exists():
+                wrong.append(f"{name}: no page {page}")
+if wrong:
+    sys.exit("\n".join(wrong))
+assert links >= 50, links
+print(f"{links} links in {len(files)} files")
