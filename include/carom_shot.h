@@ -403,10 +403,10 @@ typedef struct carom_shot_options {
   int32_t events_most; /* events of a shot; 0: 10000. */
   int32_t threads;     /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
   carom_space space;
-  double time_most;    /* s: the shot is stopped at exactly this time of its clock, after the events of that instant, with
-                          CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s with CAROM_ERROR_TOO_LONG. */
-  uint64_t stop_at;    /* the shot is stopped right after an event of this set, with CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)
-                          of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
+  double time_most; /* s: the shot is stopped at exactly this time of its clock, after the events of that instant, with
+                       CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s with CAROM_ERROR_TOO_LONG. */
+  uint64_t stop_at; /* the shot is stopped right after an event of this set, with CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)
+                       of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
   uint64_t reserved[4]; /* must be 0. */
 } carom_shot_options;
 

@@ -60,7 +60,7 @@ static void print(const char *name, const kind_tally *t) {
          t->worst.momentum, t->worst.jump, t->worst.restless);
 }
 
-int stress_shots(int shots, uint64_t seed, int world, int cushion_model) {
+int stress_shots(int shots, uint64_t seed, int world, int cushion_model, bool elevated) {
   const carom_shot_options options = {.world = (carom_world)world, .cushion_model = (carom_shot_cushion)cushion_model};
   const int kinds = world == CAROM_WORLD_CAROM ? random_shot_kinds_in_space() : random_shot_kinds();
   kind_tally tally[MOST_KINDS] = {{0}}, all = {0};
@@ -71,6 +71,10 @@ int stress_shots(int shots, uint64_t seed, int world, int cushion_model) {
   for (int n = 0; n < shots; n++) {
     const int kind = n % kinds;
     random_shot_make(kind, seed, (uint64_t)(n / kinds), &s);
+    if (elevated) {
+      lab_random r = {seed + (uint64_t)n};
+      s.cue.theta = lab_uniform(&r, 2.0, 80.0);
+    }
     const carom_status status = play(&s, &options, &shot);
     const shot_measures m = shot_measure(&s.table, s.ball, s.count, &shot, status, SAMPLES);
     kind_tally *t = &tally[kind];
@@ -91,7 +95,8 @@ int stress_shots(int shots, uint64_t seed, int world, int cushion_model) {
   }
   progress_clear();
   free(shot.events);
-  printf("%d random shots, seed %llu, %d places sampled between events\n\n", shots, (unsigned long long)seed, SAMPLES);
+  printf("%d random shots, seed %llu, %d places sampled between events%s\n\n", shots, (unsigned long long)seed, SAMPLES,
+         elevated ? ", all cues elevated" : "");
   printf("%-16s %8s %7s %8s %8s %7s %9s %9s %9s %9s %9s %6s\n", "kind", "shots", "failed", "too_many", "events", "most",
          "overlap", "intrusion", "gain", "momentum", "jump", "moving");
   for (int k = 0; k < kinds && tally[k].shots > 0; k++) {

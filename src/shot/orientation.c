@@ -2,9 +2,9 @@
  *
  * With w the angular velocity in the axes of the table, the rotation Q of a ball from its start obeys Q' = [w] Q. In a phase,
  * or a piece of one, w is linear in time, w = a + s b with s from the middle of an interval of length h; where the side spin
- * ends before the phase does, the phase is cut there. In flight w is constant. Where a and b are parallel the axis keeps its direction, and Q is exactly
- * the turn by h a. Elsewhere the interval is cut into parts in which a ball turns by half a radian at most, each of which has
- * the turn by the Magnus expansion of order 6,
+ * ends before the phase does, the phase is cut there. In flight w is constant. Where a and b are parallel the axis keeps its
+ * direction, and Q is exactly the turn by h a. Elsewhere the interval is cut into parts in which a ball turns by half a radian
+ * at most, each of which has the turn by the Magnus expansion of order 6,
  *
  *   Omega = A + (1/240) (-20 A + C) x (B + D),   A = h a, B = h^2 b, C = A x B, D = -(1/60) A x C.
  *

@@ -338,7 +338,8 @@ END_TEST
 /* ---- What every shot keeps */
 
 /* Shots with elevated cues and falling balls: the invariants of lab/shots, which follow the motion by other code; what the
- * library evaluates at events is what it found; batches, and shots that are stopped and go on, have the bits of single shots. */
+ * library evaluates at events is what it found; batches, and shots that are stopped and go on, have the bits of single shots.
+ */
 START_TEST(random_flights) {
   enum { EACH = 25 };
   static random_shot s;
@@ -399,8 +400,8 @@ START_TEST(random_flights) {
           options.time_most = piece.time + fmax(0.03, shot.time / 100.0);
         now = carom_shot_continue(&s.table, s.ball, s.count, &options, &piece);
       }
-      ck_assert_msg(now == status && piece.count == shot.count && piece.time == shot.time, "%s %d: %s after %lld events", s.kind,
-                    n, carom_status_name(now), (long long)piece.count);
+      ck_assert_msg(now == status && piece.count == shot.count && piece.time == shot.time, "%s %d: %s after %lld events",
+                    s.kind, n, carom_status_name(now), (long long)piece.count);
       ck_assert_int_eq(memcmp(again, events, (size_t)shot.count * sizeof *events), 0);
       ck_assert_int_eq(memcmp(again_final, final, (size_t)s.count * sizeof *final), 0);
       for (int64_t k = 0; k < shot.count; k++)
