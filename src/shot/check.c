@@ -235,10 +235,13 @@ bool carom_place_is_outside(const carom_table *table, const carom_features *f, c
   return behind && is_outside(table, f, r);
 }
 
+/* How far from the wall of a cushion the centre is when a ball on the cloth touches its nose. */
+static inline double reach_of(const carom_features *f, const carom_ball_kind *kind, double height, bool usual) {
+  return usual ? kind->radius : carom_reach_on_cloth(kind, height, f->reference);
+}
 /* Whether a ball on the cloth is in a rail; in a jaw; with its centre in a pocket. */
-static inline bool in_rail(const carom_table *table, const carom_features *f, int k, const carom_ball_kind *kind,
-                           const double r[3], bool *behind) {
-  const double distance = distance_to(f, k, r), reach = carom_reach_on_cloth(kind, table->rail[k].height, f->reference);
+static inline bool in_rail(const carom_features *f, int k, const double r[3], double reach, bool *behind) {
+  const double distance = distance_to(f, k, r);
   const bool beside = is_beside(f, k, r);
   *behind |= beside && distance < 0.0;
   return beside && distance < reach - most_overlap && distance > -reach;
@@ -247,20 +250,25 @@ static inline bool in_circle(const double centre[2], double reach, const double 
   const double d_x = r[0] - centre[0], d_y = r[1] - centre[1];
   return d_x * d_x + d_y * d_y < reach * reach;
 }
-static inline bool in_jaw(const carom_jaw *jaw, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
-  return in_circle(jaw->centre, jaw->radius + carom_reach_on_cloth(kind, jaw->height, f->reference) - most_overlap, r);
+static inline bool in_jaw(const carom_jaw *jaw, const double r[3], double reach) {
+  return in_circle(jaw->centre, jaw->radius + reach - most_overlap, r);
 }
 
-/* Whether the ball, on the cloth, stands within the cushions, in no pocket. */
-static bool on_table(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
+/* Whether the ball, on the cloth, stands within the cushions, in no pocket. Inlined twice, so that the loops for balls of the
+ * usual radius, `usual`, have no calls in them. */
+static inline bool stands_on_table(const carom_table *table, const carom_features *f, const carom_ball_kind *kind,
+                                   const double r[3], bool usual) {
   bool good = is_in_hull(f, r), behind = beyond_ends(f, r);
   for (int k = 0; k < f->rails; k++)
-    good &= !in_rail(table, f, k, kind, r, &behind);
+    good &= !in_rail(f, k, r, reach_of(f, kind, table->rail[k].height, usual), &behind);
   for (int k = 0; k < f->jaws; k++)
-    good &= !in_jaw(&table->jaw[k], f, kind, r);
+    good &= !in_jaw(&table->jaw[k], r, reach_of(f, kind, table->jaw[k].height, usual));
   for (int k = 0; k < f->pockets; k++)
     good &= !in_circle(table->pocket[k].centre, table->pocket[k].radius, r);
   return good && !(behind && is_outside(table, f, r));
+}
+static bool on_table(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
+  return kind->radius == f->reference ? stands_on_table(table, f, kind, r, true) : stands_on_table(table, f, kind, r, false);
 }
 
 /* Whether an airborne ball is clear of a nose that is `across` in front of it and `down` below its centre, or on its top. */
@@ -290,12 +298,14 @@ static bool above_table(const carom_table *table, const carom_features *f, const
   return good;
 }
 
-/* Whether two balls overlap. What lies on the cloth is at z = R. */
-static bool overlap(const carom_shot_ball *a, const carom_ball_state *at_a, const carom_shot_ball *b,
-                    const carom_ball_state *at_b) {
-  const double z_a = at_a->label == CAROM_BALL_AIRBORNE ? at_a->r[2] : a->kind.radius,
-               z_b = at_b->label == CAROM_BALL_AIRBORNE ? at_b->r[2] : b->kind.radius;
-  const double x = at_a->r[0] - at_b->r[0], y = at_a->r[1] - at_b->r[1], z = z_a - z_b;
+/* The height of a ball's centre above the cloth as the shot takes it: what lies on the cloth is at z = R. */
+static inline double height_of(const carom_shot_ball *ball) {
+  return carom_flies_in_layout(&ball->state, ball->kind.radius) ? ball->state.r[2] : ball->kind.radius;
+}
+
+/* Whether two balls overlap that are at these heights. */
+static inline bool overlap(const carom_shot_ball *a, double z_a, const carom_shot_ball *b, double z_b) {
+  const double x = a->state.r[0] - b->state.r[0], y = a->state.r[1] - b->state.r[1], z = z_a - z_b;
   const double reach = a->kind.radius + b->kind.radius - most_overlap;
   return x * x + y * y + z * z < reach * reach;
 }
@@ -323,7 +333,7 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
   carom_status bad = prepare_for(table, balls, count, flat, features, where);
   if (bad != CAROM_OK)
     return bad;
-  carom_ball_state state[CAROM_BALLS_MOST]; /* with the labels that they will have */
+  double height[CAROM_BALLS_MOST];
   for (*where = 0; *where < count; ++*where) {
     const carom_shot_ball *ball = &balls[*where];
     bad = check_kind(&ball->kind);
@@ -337,15 +347,14 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
       bad = check_state(&ball->state, ball->kind.radius, flat);
     if (bad != CAROM_OK)
       return bad;
-    carom_ball_state *s = &state[*where];
-    *s = ball->state;
-    if (carom_is_out(carom_label_of_layout(s, ball->kind.radius)))
+    if (carom_is_out(ball->state.label))
       continue;
-    if (s->label == CAROM_BALL_AIRBORNE ? !above_table(table, features, &ball->kind, s->r)
-                                        : !on_table(table, features, &ball->kind, s->r))
+    const double z = height[*where] = height_of(ball);
+    if (!(carom_flies_in_layout(&ball->state, ball->kind.radius) ? above_table : on_table)(table, features, &ball->kind,
+                                                                                           ball->state.r))
       return CAROM_ERROR_OFF_TABLE;
     for (int k = 0; k < *where; k++)
-      if (!carom_is_out(state[k].label) && overlap(ball, s, &balls[k], &state[k]))
+      if (!carom_is_out(balls[k].state.label) && overlap(ball, z, &balls[k], height[k]))
         return CAROM_ERROR_OVERLAP;
   }
   *where = -1;
@@ -375,10 +384,10 @@ static carom_part part_there(const carom_table *table, const carom_features *f, 
     if (in_circle(table->pocket[k].centre, table->pocket[k].radius, r))
       return (carom_part){CAROM_PART_POCKET, k};
   for (int k = 0; k < f->rails; k++)
-    if (in_rail(table, f, k, kind, r, &behind))
+    if (in_rail(f, k, r, reach_of(f, kind, table->rail[k].height, false), &behind))
       return (carom_part){CAROM_PART_RAIL, k};
   for (int k = 0; k < f->jaws; k++)
-    if (in_jaw(&table->jaw[k], f, kind, r))
+    if (in_jaw(&table->jaw[k], r, reach_of(f, kind, table->jaw[k].height, false)))
       return (carom_part){CAROM_PART_JAW, k};
   return (carom_part){CAROM_PART_NONE, 0};
 }
@@ -430,9 +439,7 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
   }
   placed.state = (carom_ball_state){.r = {x, y, R}, .label = CAROM_BALL_STATIONARY};
   for (int k = 0; k < count; k++) {
-    carom_ball_state other = balls[k].state; /* with the label that it will have */
-    if (k != ball && !carom_is_out(carom_label_of_layout(&other, balls[k].kind.radius)) &&
-        overlap(&placed, &placed.state, &balls[k], &other)) {
+    if (k != ball && !carom_is_out(balls[k].state.label) && overlap(&placed, R, &balls[k], height_of(&balls[k]))) {
       *in_the_way = (carom_part){CAROM_PART_BALL, k};
       return CAROM_ERROR_OVERLAP;
     }

@@ -114,7 +114,9 @@ static double leave_hull(const carom_features *f, const motion *m, double T) {
   return first;
 }
 
-static carom_meeting meet_table(const carom_sim *sim, int i, const motion *m, double T) {
+/* `unlike`, a constant: whether noses and jaws are reached at distances of their own, nose.c. */
+static inline __attribute__((always_inline)) carom_meeting meet_table_as(const carom_sim *sim, int i, const motion *m, double T,
+                                                                         const bool unlike) {
   const carom_features *f = sim->features;
   carom_meeting first = {INFINITY, 0, 0};
   /* the box of the path; a path that leads out of the hull ends there */
@@ -131,8 +133,6 @@ static carom_meeting meet_table(const carom_sim *sim, int i, const motion *m, do
   uint8_t near[MOST_FEATURES];
   for (int k = 0; k < f->count; k++)
     near[k] = (f->low_x[k] <= hx) & (f->high_x[k] >= lx) & (f->low_y[k] <= hy) & (f->high_y[k] >= ly);
-  /* how far from the line of a rail, or beyond the circle of a jaw, the ball touches it */
-  const carom_ball_kind *kind = sim->unlike ? &sim->ball[i].kind : NULL;
   const double radius = sim->rates[i].radius;
   /* each narrows the horizon of those behind it; a pocket goes first where it comes at the same time */
   for (int k = 0; k < f->count; k++) {
@@ -140,9 +140,11 @@ static carom_meeting meet_table(const carom_sim *sim, int i, const motion *m, do
       continue;
     const int jaw = k - f->rails, pocket = jaw - f->jaws;
     const int type = jaw < 0 ? CAROM_EVENT_RAIL : pocket < 0 ? CAROM_EVENT_JAW : CAROM_EVENT_POCKET;
+    /* how far from the line of a rail, or beyond the circle of a jaw, the ball touches it */
     double reach = radius;
-    if (kind != NULL && pocket < 0)
-      reach = carom_reach_on_cloth(kind, jaw < 0 ? sim->table->rail[k].height : sim->table->jaw[jaw].height, f->reference);
+    if (unlike && pocket < 0)
+      reach = carom_reach_on_cloth(&sim->ball[i].kind, jaw < 0 ? sim->table->rail[k].height : sim->table->jaw[jaw].height,
+                                   f->reference);
     const double t = jaw < 0      ? meet_rail(sim, k, reach, m, T)
                      : pocket < 0 ? meet_jaw(sim, jaw, reach, m, T)
                                   : meet_pocket(sim, pocket, m, T);
@@ -152,6 +154,13 @@ static carom_meeting meet_table(const carom_sim *sim, int i, const motion *m, do
     }
   }
   return first;
+}
+
+__attribute__((noinline, cold)) static carom_meeting meet_table_unlike(const carom_sim *sim, int i, const motion *m, double T) {
+  return meet_table_as(sim, i, m, T, true);
+}
+static carom_meeting meet_table(const carom_sim *sim, int i, const motion *m, double T) {
+  return sim->unlike ? meet_table_unlike(sim, i, m, T) : meet_table_as(sim, i, m, T, false);
 }
 
 /* When balls i and j meet; their separation is d from now on. */

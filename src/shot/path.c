@@ -175,10 +175,9 @@ int64_t carom_label_in_space(carom_ball_state *s, double radius) {
 }
 
 int64_t carom_label_of_layout(carom_ball_state *s, double radius) {
-  static const double on_cloth = 1e-6; /* m */
-  if (carom_is_out(s->label) || s->label == CAROM_BALL_AIRBORNE)
+  if (carom_is_out(s->label))
     return s->label;
-  return s->v[2] != 0.0 || s->r[2] - radius > on_cloth ? (s->label = CAROM_BALL_AIRBORNE) : carom_label_of(s, radius);
+  return carom_flies_in_layout(s, radius) ? (s->label = CAROM_BALL_AIRBORNE) : carom_label_of(s, radius);
 }
 
 void carom_path_land(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state) {

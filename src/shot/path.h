@@ -94,8 +94,14 @@ int64_t carom_label_of(carom_ball_state *state, double radius);
  * rounding on the cloth, less than 1e-9 m/s, lies on it. */
 int64_t carom_label_in_space(carom_ball_state *state, double radius);
 
-/* The phase of a ball of a layout. One that is out of play or airborne by its label stays so; one that moves up or down or is
- * more than 1e-6 m above the cloth is airborne. */
+/* Whether a ball of a layout is airborne, unless it is out of play: by its label, or as it moves up or down or is more than
+ * 1e-6 m above the cloth. */
+static inline bool carom_flies_in_layout(const carom_ball_state *s, double radius) {
+  static const double on_cloth = 1e-6; /* m */
+  return s->label == CAROM_BALL_AIRBORNE || s->v[2] != 0.0 || s->r[2] - radius > on_cloth;
+}
+
+/* The phase of a ball of a layout. One that is out of play stays so. */
 int64_t carom_label_of_layout(carom_ball_state *state, double radius);
 
 /* The state of an airborne ball as it reaches the cloth. */
