@@ -279,7 +279,8 @@ static bool clear_of_nose(double across, double down, double R) {
 
 /* Whether an airborne ball is above the table or its rails, and in no cushion. Below the tops it must be within the cushions.
  */
-static bool above_table(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
+__attribute__((noinline, cold)) static bool above_table(const carom_table *table, const carom_features *f,
+                                                        const carom_ball_kind *kind, const double r[3]) {
   bool good =
       r[2] >= carom_nose_height(kind, f->nose_low) + kind->radius - most_overlap || !carom_place_is_outside(table, f, r);
   for (int axis = 0; axis < 2; axis++)
@@ -349,10 +350,11 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
       return bad;
     if (carom_is_out(ball->state.label))
       continue;
-    const double z = height[*where] = height_of(ball);
-    if (!(carom_flies_in_layout(&ball->state, ball->kind.radius) ? above_table : on_table)(table, features, &ball->kind,
-                                                                                           ball->state.r))
+    const bool flies = carom_flies_in_layout(&ball->state, ball->kind.radius);
+    if (flies ? !above_table(table, features, &ball->kind, ball->state.r)
+              : !on_table(table, features, &ball->kind, ball->state.r))
       return CAROM_ERROR_OFF_TABLE;
+    const double z = height[*where] = height_of(ball);
     for (int k = 0; k < *where; k++)
       if (!carom_is_out(balls[k].state.label) && overlap(ball, z, &balls[k], height[k]))
         return CAROM_ERROR_OVERLAP;
