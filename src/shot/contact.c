@@ -64,8 +64,7 @@ static double zero_from_left(const quartic *f, double t, double T, double small)
         return last <= T ? carom_greater(last, 0.0) : INFINITY;
       }
     }
-    const double m = least_half_curvature(f, t, ahead), D = y1 * y1 - 4.0 * m * y;
-    const double s = D >= 0.0 ? 2.0 * y / (-y1 + sqrt(D)) : INFINITY;
+    const double s = carom_first_fall(y, y1, least_half_curvature(f, t, ahead));
     if (!(s > 0.0) || t + s > ahead) {
       /* nothing up to `ahead` */
       if (ahead >= T)
@@ -91,12 +90,12 @@ static double end_of_rise(const quartic *f, double t, double T) {
   for (int k = 0; k < MOST_STEPS; k++) {
     /* g = f' >= g(t) + g'(t) s + n s^2, n the least g''/2 = 3 c3 + 12 c4 t on [t, T] */
     const double y = slope(f, t), y1 = 2.0 * half_curvature(f, t);
-    const double n = 3.0 * f->c[3] + 12.0 * f->c[4] * (f->c[4] > 0.0 ? t : T), D = y1 * y1 - 4.0 * n * y;
+    const double n = 3.0 * f->c[3] + 12.0 * f->c[4] * (f->c[4] > 0.0 ? t : T);
     if (y <= 0.0 && (y1 < 0.0 || k > 0))
       return t;
     /* where it begins at 0 or, by rounding, below, and rises, the bound is back at 0 later; where it does not rise either, the
        third derivative decides, 6 n: s = 0 if f falls by that */
-    const double s = y <= 0.0 ? (n < 0.0 ? -y1 / n : INFINITY) : D >= 0.0 ? 2.0 * y / (-y1 + sqrt(D)) : INFINITY;
+    const double s = y <= 0.0 ? (n < 0.0 ? -y1 / n : INFINITY) : carom_first_fall(y, y1, n);
     if (!(s >= 0.0) || t + s > T)
       return INFINITY;
     if (s <= 1e-15 * (t + s))

@@ -77,8 +77,7 @@ static double zero_from_left(const flight *f, const circle *c, double raise, dou
     const double y = here.F + raise;
     if (y <= 0.0 && here.slope < 0.0)
       return t;
-    const double m = least_half_curvature(f, c, t, ahead), D = here.slope * here.slope - 4.0 * m * y;
-    const double s = D >= 0.0 ? 2.0 * y / (-here.slope + sqrt(D)) : INFINITY;
+    const double s = carom_first_fall(y, here.slope, least_half_curvature(f, c, t, ahead));
     if (!(s >= 0.0) || t + s > ahead) {
       if (ahead >= T)
         return INFINITY;
