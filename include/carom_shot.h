@@ -542,12 +542,13 @@ CAROM_API carom_status carom_shoot_batch(const carom_shot_job *job);
  * or -1; it may be NULL. CAROM_ERROR_OFF_TABLE: a ball is in a cushion by more than 1e-6 m; or its centre is behind one,
  * outside the ring of rails, jaws and pockets; or its centre is in a pocket and its label is not CAROM_BALL_POCKETED. Outside
  * is where no played side of a rail is seen in any of 16 directions, but the back of one or a pocket is; on tables whose ring
- * has gaps a place outside may pass. */
+ * has gaps a place outside may pass. An airborne ball may be over a pocket or over the top of a rail; it must not be in a nose
+ * or below a top, nor lower than the cloth. */
 CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                                         const carom_shot_options *opt, int *where);
 
 /* Ball in hand: puts balls[ball] at rest at (x, y), if that place is free of the other balls, which need not be at rest, of
- * cushions and pockets, within the bounds of carom_shot_check(). Its kind is kept; it may have been pocketed. CAROM_OK;
+ * cushions and pockets, within the bounds of carom_shot_check(). Its kind is kept; it may have been out of play. CAROM_OK;
  * CAROM_ERROR_OVERLAP for a place that another ball takes, CAROM_ERROR_OFF_TABLE for one in a cushion or a pocket, or outside
  * the ring: *in_the_way then is that ball or part (CAROM_PART_NONE: outside), and nothing is moved. Or an error of the table,
  * of the ball's radius, CAROM_ERROR_POSITION, CAROM_ERROR_BALLS for a count or an index that cannot be. `in_the_way` may be
@@ -557,9 +558,9 @@ CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_bal
 
 /* How each ball has turned since the start of the shot, for drawing it: unit quaternions (w, x, y, z), which take what is
  * painted on a ball at the start to where it is at the time. They follow from the events alone, whatever was asked before.
- * Exact but for rounding while the axis of the spin keeps its direction (on the spot, rolling without side spin, in straight
- * slides), else within 1e-7 rad for each phase of the ball. `turned` takes `count` of them. Returns what carom_shot_at() does.
- * A call costs some 0.1 us for each radian that balls with side spin have turned. */
+ * Exact but for rounding while the axis of the spin keeps its direction (in flight, on the spot, rolling without side spin, in
+ * straight slides), else within 1e-7 rad for each phase of the ball. `turned` takes `count` of them. Returns what
+ * carom_shot_at() does. A call costs some 0.1 us for each radian that balls with side spin have turned. */
 CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
                                               double (*turned)[4]);
 
