@@ -78,6 +78,10 @@ carom shoot --plot break.svg --id nosuch "$DATA/break-nineball.jsonl" > /dev/nul
 echo "--- balls that fly"
 carom shoot --events brief -o jumps.out --plot jump.svg "$DATA/shots-jumps.jsonl"
 carom shoot --events brief --space flat -o flat.out --plot flat.svg "$DATA/shots-jumps.jsonl"
+for id in jump off draw; do # the pictures of the docs
+  carom shoot --events none --plot figure.svg --id $id -o figure.out "$DATA/shots-jumps.jsonl"
+  cmp figure.svg "$DATA/../docs/figures/shot-$id.svg" && echo "as in the docs: $id"
+done
 python - <<'PYTHON'
 import json
 for name in ("jumps.out", "flat.out"):
