@@ -47,7 +47,7 @@ void shot_file_close(shot_file *file);
 
 /* The name of an event's type as it stands in the files ("ball_ball"), or NULL. */
 const char *shot_event_name(int type);
-/* The id of what ball a met in an event of rail, jaw or pocket. */
+/* The id of the rail, jaw or pocket that ball a met, or NULL where the event is of no such thing. */
 const char *shot_part_name(const named_table *table, const carom_event *event);
 
 enum { EVENTS_NONE, EVENTS_BRIEF, EVENTS_FULL };

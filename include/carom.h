@@ -160,7 +160,7 @@ typedef enum carom_status {
   CAROM_ERROR_JAW_RADIUS = -35,      /* the radius of a jaw is not finite, or negative. */
   CAROM_ERROR_TOO_MANY_EVENTS = -40, /* a shot has more than options.events_most events. */
   CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than 1000 s, and options.time_most is 0. */
-  CAROM_ERROR_LEFT_TABLE = -42,      /* a ball left the table. */
+  CAROM_ERROR_LEFT_TABLE = -42,      /* a ball on the cloth left the table. */
   CAROM_ERROR_SHOT_OPTIONS = -43,    /* an option of the shot is out of its range, or a reserved one is not 0. */
   CAROM_ERROR_BALLS = -44,           /* the number of balls is not 1 to CAROM_BALLS_MOST. */
   CAROM_ERROR_LABEL = -45,           /* the label of a ball is not one that a layout may have. */
@@ -169,7 +169,7 @@ typedef enum carom_status {
   CAROM_ERROR_MU_MOTION = -48,       /* a friction of sliding, rolling or spinning is not above 0 and at most 1. */
   CAROM_ERROR_GRAVITY = -49,         /* gravity is not positive and finite. */
   CAROM_ERROR_CUE = -50,             /* a field of the cue is out of its range. */
-  CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below 1. */
+  CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below miscue^2. */
   CAROM_ERROR_TABLE = -52, /* the table has too many parts, or a part that is not finite, has no length, or a bad mu or e. */
   CAROM_ERROR_RACK = -53,  /* no such rack, a gap that is not between 0 and R, or too little room. */
   CAROM_ERROR_EVENTS_LOST = -54,  /* carom_shot_at(): the shot had more events than there was room for. */

@@ -44,6 +44,7 @@ typedef struct stress_job {
   int draws, seed, kind;
   int shots, models, cushion; /* whole shots instead */
   int cushions, coincidences; /* or these impacts */
+  bool elevated;
 } stress_job;
 
 /* Rows of one kind, solved in one way. Errors are those of rows with status ok that could be compared. */
@@ -365,6 +366,8 @@ OPTION(stress_job, option_shots, "shots", shots, 0, "N", set_count, 1,
 OPTION(stress_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0, "the rules and models of the shots");
 OPTION(stress_job, option_cushion_model, "cushion-model", cushion, 0, "MODEL", set_cushion_model, 0,
        "impacts on cushions in the shots: mathavan, stronge, han, mirror or euler");
+OPTION(stress_job, option_elevated, "elevated", elevated, 0, NULL, set_flag, 0,
+       "in the shots raise the butt of every cue, by 2 to 80 degrees, so that balls fly");
 
 static const command_form form = {
     .name = "stress",
@@ -373,7 +376,7 @@ static const command_form form = {
              "results are compared with the precise solver; where they differ, with a reference in extended precision.\n",
     .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_cushions, &option_coincidences,
                                            &option_shots, &option_models, &option_cushion_model, &option_threads,
-                                           &option_output, NULL},
+                                           &option_elevated, &option_output, NULL},
     .details = "exit code: 0; 1 if an error is larger than carom.h promises, or if a batch has other bits than single calls; 2 "
                "for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
@@ -385,7 +388,7 @@ int command_stress(int argc, char **argv) {
   if (code >= 0)
     return code;
   if (job.shots > 0)
-    return stress_shots(job.shots, (uint64_t)job.seed, job.models, job.cushion);
+    return stress_shots(job.shots, (uint64_t)job.seed, job.models, job.cushion, job.elevated);
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;

@@ -14,6 +14,9 @@ carom_status carom_mathavan(carom_contact *contact);
 /* Compliant impact; `ratio` is options.omega_ratio. See stronge.c. */
 carom_status carom_stronge(carom_contact *contact, double ratio, int pooltool);
 
+/* Its friction impulse over the mass, against a slip, m/s, for a ball that meets a nose at v_n, from any side. */
+double carom_stronge_friction(double v_n, double slip, double mu, double e, double ratio, int pooltool);
+
 /* Puts Han's fits for restitution and friction into a contact. See closed.c. */
 void carom_apply_han(carom_contact *contact);
 

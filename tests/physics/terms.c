@@ -93,9 +93,14 @@ static double energy_of(const carom_shot_ball *balls, const carom_ball_state *s,
     const carom_ball_kind *k = &balls[i].kind;
     const double *v = s[i].v, *w = s[i].w;
     sum += 0.5 * k->mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) +
-           0.2 * k->mass * k->radius * k->radius * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+           0.2 * k->mass * k->radius * k->radius * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) +
+           (s[i].label == CAROM_BALL_AIRBORNE ? k->mass * k->gravity * (s[i].r[2] - k->radius) : 0.0);
   }
   return sum;
+}
+
+static bool is_out(const carom_ball_state *s) {
+  return s->label == CAROM_BALL_POCKETED || s->label == CAROM_BALL_OFF;
 }
 
 /* The deepest overlap of two balls. */
@@ -103,17 +108,18 @@ static double overlap_of(const carom_ball_state *s, int count, double R) {
   double deepest = 0.0;
   for (int i = 0; i < count; i++)
     for (int j = 0; j < i; j++)
-      if (s[i].label != CAROM_BALL_POCKETED && s[j].label != CAROM_BALL_POCKETED)
-        deepest = fmax(deepest, 2.0 * R - hypot(s[i].r[0] - s[j].r[0], s[i].r[1] - s[j].r[1]));
+      if (!is_out(&s[i]) && !is_out(&s[j]))
+        deepest = fmax(deepest, 2.0 * R - hypot(hypot(s[i].r[0] - s[j].r[0], s[i].r[1] - s[j].r[1]), s[i].r[2] - s[j].r[2]));
   return deepest;
 }
 
-/* How far a rail of the plain table is entered. */
+/* How far a rail of the plain table is entered by balls on the cloth. */
 static double intrusion_of(const carom_table *table, const carom_ball_state *s, int count, double R) {
   double deepest = 0.0;
   for (int i = 0; i < count && table->pockets == 0 && table->jaws == 0; i++)
-    deepest = fmax(deepest,
-                   fmax(fmax(R - s[i].r[0], s[i].r[0] - table->width + R), fmax(R - s[i].r[1], s[i].r[1] - table->length + R)));
+    if (!is_out(&s[i]) && s[i].label != CAROM_BALL_AIRBORNE)
+      deepest = fmax(
+          deepest, fmax(fmax(R - s[i].r[0], s[i].r[0] - table->width + R), fmax(R - s[i].r[1], s[i].r[1] - table->length + R)));
   return deepest;
 }
 
@@ -333,8 +339,8 @@ END_TEST
 /* Field `name` of a kind; the fields are doubles without gaps. */
 static double *field_of(carom_ball_kind *kind, const char *name) {
   static const char *const names[] = {
-      "mass",    "radius", "mu_slide",  "mu_roll", "mu_spin", "mu_ball", "restitution", "mu_cushion", "restitution_cushion",
-      "gravity", "drag",   "roll_loss", "law_a",   "law_b",   "law_c",   "nose_height", "omega_ratio"};
+      "mass",    "radius", "mu_slide",  "mu_roll", "mu_spin", "mu_ball", "restitution", "mu_cushion",  "restitution_cushion",
+      "gravity", "drag",   "roll_loss", "law_a",   "law_b",   "law_c",   "nose_height", "omega_ratio", "restitution_table"};
   ck_assert_uint_eq(sizeof names / sizeof names[0] * sizeof(double), sizeof *kind);
   for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
     if (strcmp(names[k], name) == 0)

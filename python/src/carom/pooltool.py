@@ -268,7 +268,7 @@ def simulate(
         else:
             if engine is not None:
                 raise UnsupportedError("engine: with models='carom' the models are carom's")
-            played = _play(table, balls, cue, cushion_model=cushion_model)
+            played = _play(table, balls, cue, cushion_model=cushion_model, space="flat")  # as pooltool's 2D engine
     except (UnsupportedError, CaromError) as reason:
         if not fallback:
             raise

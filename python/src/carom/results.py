@@ -27,6 +27,7 @@ class Label(enum.IntEnum):
     ROLLING = 3
     POCKETED = 4
     AIRBORNE = 5
+    OFF = 6
 
 
 class EventType(enum.IntEnum):
@@ -41,6 +42,9 @@ class EventType(enum.IntEnum):
     ROLLING_SPINNING = 7
     ROLLING_STATIONARY = 8
     SPINNING_STATIONARY = 9
+    SLATE = 10
+    RAIL_TOP = 11
+    LEFT_TABLE = 12
 
 
 class Shot:

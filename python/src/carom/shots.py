@@ -18,10 +18,12 @@ World = Literal["carom", "pooltool"]
 BallModel = Literal["default", "exact", "euler", "inelastic", "mirror"]
 ShotCushion = Literal["default", "mathavan", "stronge", "han", "mirror", "euler"]
 Friction = Literal["alciatore", "constant"]
+Space = Literal["3d", "flat"]
 _WORLDS = {"carom": 0, "pooltool": 1}
 _BALL_MODELS = {"default": 0, "exact": 1, "euler": 2, "inelastic": 3, "mirror": 4}
 _CUSHIONS = {"default": 0, "mathavan": 1, "stronge": 2, "han": 3, "mirror": 4, "euler": 5}
 _FRICTIONS = {"alciatore": 0, "constant": 1}
+_SPACES = {"3d": 0, "flat": 1}
 _FIRST_ROOM = 512
 
 
@@ -35,6 +37,7 @@ def shot_options(
     events_most: int,
     time_most: float,
     threads: int,
+    space: str = "3d",
 ) -> Any:
     """The options of C; they are never written to."""
     if not 0.0 <= time_most < np.inf:
@@ -50,6 +53,7 @@ def shot_options(
             "events_most": whole(events_most, "events_most"),
             "time_most": time_most,
             "threads": whole(threads, "threads", least=-1),
+            "space": choice(_SPACES, space, "space"),
         },
     )
 
@@ -75,6 +79,7 @@ def simulate(
     ball_model: BallModel = "default",
     cushion_model: ShotCushion = "default",
     friction: Friction = "alciatore",
+    space: Space = "3d",
     steps: int = 0,
     events_most: int = 0,
     time_most: float = 0.0,
@@ -97,6 +102,8 @@ def simulate(
         Model of the impact on a cushion. Default: mathavan in the world carom, where it takes most of the time; stronge in pooltool.
     friction : {"alciatore", "constant"}
         Between balls: by the speed of slip, or the balls' mu_ball.
+    space : {"3d", "flat"}
+        Whether balls can leave the cloth, as by an elevated cue. The world pooltool is flat.
     steps : int
         Of Euler's models; 0 is 1000.
     events_most : int
@@ -126,7 +133,7 @@ def simulate(
         if cues.size != 1:
             raise ValueError(f"cue: one is needed, not {cues.size}; simulate_batch plays many")
         strike = pointer("carom_cue[]", cues)
-    options = shot_options(world, ball_model, cushion_model, friction, steps, events_most, time_most, 0)
+    options = shot_options(world, ball_model, cushion_model, friction, steps, events_most, time_most, 0, space)
     final: Array = np.zeros(layout.shape, dtypes.ball_state)
     arguments = (pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), strike, options)
     if lib.carom_shot_check(*arguments, ffi.NULL) < 0:
@@ -163,6 +170,7 @@ def simulate_batch(
     ball_model: BallModel = "default",
     cushion_model: ShotCushion = "default",
     friction: Friction = "alciatore",
+    space: Space = "3d",
     steps: int = 0,
     events_most: int = 0,
     time_most: float = 0.0,
@@ -180,7 +188,7 @@ def simulate_batch(
         None: no strikes. Broadcast against the leading dimensions of the layouts: one layout and many cues, or the reverse.
     room : int
         How many events of each shot are kept; 0: final states only. `shots[k].positions()` needs all of them.
-    world, ball_model, cushion_model, friction, steps, events_most, time_most
+    world, ball_model, cushion_model, friction, space, steps, events_most, time_most
         As for `simulate`.
     threads : int
         Most threads to use; 0 is the calling one alone, -1 all processors. No bit depends on it.
@@ -228,7 +236,7 @@ def simulate_batch(
     flat["brief"], flat["state"] = 0, 0
     flat["events"] = 0 if room == 0 else shots.events.ctypes.data + numbers * np.uintp(room * dtypes.event.itemsize)
     flat["final"] = shots.final.ctypes.data + numbers * np.uintp(count * dtypes.ball_state.itemsize)
-    options = shot_options(world, ball_model, cushion_model, friction, steps, events_most, time_most, threads)
+    options = shot_options(world, ball_model, cushion_model, friction, steps, events_most, time_most, threads, space)
     shots.status[...] = Status.OK
     balls, results, flags = pointer("carom_shot_ball[]", all_balls), pointer("carom_shot[]", record), pointer("int8_t[]", shots.status)
     strikes = ffi.NULL if cues is None else pointer("carom_cue[]", all_cues)
@@ -294,7 +302,7 @@ def _argument_error(arguments: tuple[Any, ...], layout: Array, cue: Array | None
         field = next((f"kind.{name}" for name in motions if not 0 < kind[name] <= 1), None)
     if status is Status.ERROR_RESTITUTION:
         restitutions = ("restitution", "restitution_cushion")
-        field = next((f"kind.{name}" for name in restitutions if not 0 <= kind[name] <= 1), None)
+        field = next((f"kind.{name}" for name in restitutions if not 0 <= kind[name] <= 1), "kind.restitution_table")
     if status is Status.ERROR_MU_BALL:
         laws = ("law_a", "law_b", "law_c")
         bad = (name for name in laws if not 0 <= kind[name] < np.inf or (name != "law_c" and kind[name] > 1))
