@@ -406,6 +406,18 @@ START_TEST(instruction_sets) {
       ck_assert_int_eq(others[k].type, events[k].type);
       ck_assert_double_eq_tol(others[k].time, events[k].time, 1e-6);
     }
+    const bool same = shot.count == plain.count && memcmp(events, others, (size_t)plain.count * sizeof *events) == 0;
+    ck_assert_int_eq(same, isa == CAROM_ISA_PLAIN);
+    /* with options.plain the shot has the bits of plain, in parts too, though nothing limits the process */
+    static carom_shot_state state;
+    carom_shot_options options = {.plain = 1, .time_most = 0.7};
+    shot.state = &state;
+    memset(others, 0, sizeof others);
+    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot), CAROM_STOPPED_AT_TIME);
+    options.time_most = 0.0;
+    ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &shot), CAROM_OK);
+    ck_assert_int_eq(shot.count, plain.count);
+    ck_assert_int_eq(memcmp(events, others, (size_t)plain.count * sizeof *events), 0);
   }
   carom_isa_limit(CAROM_ISA_ANY);
 }

@@ -180,7 +180,7 @@ START_TEST(options_and_calls) {
   REFUSED(options.friction, (carom_ball_friction)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.friction, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.events_most, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.unused, 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.plain, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.reserved[3], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.time_most, NAN, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.steps, -1, CAROM_ERROR_STEPS, -1);
