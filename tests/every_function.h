@@ -41,8 +41,9 @@ typedef struct every_room {
   carom_shot_ball balls[EVERY_BALLS];
 } every_room;
 
-static inline void every_input_make(every_input *in, int threads) {
-  random_source r = {test_seed()};
+/* number: whose input it is; others have other numbers. */
+static inline void every_input_make(every_input *in, int number, int threads) {
+  random_source r = {test_seed() + (uint64_t)number};
   memset(in, 0, sizeof *in);
   in->threads = threads;
   for (int k = 0; k < EVERY_ROWS; k++) {
@@ -61,10 +62,10 @@ static inline void every_input_make(every_input *in, int threads) {
       in->cushion[k].w[c] = random_between(&r, -99.0, 99.0);
   }
   carom_table_make(CAROM_TABLE_POOL_9FT, &in->table);
-  carom_rack(CAROM_RACK_EIGHTBALL, &in->table, 1e-4, 1, in->balls, EVERY_BALLS);
+  carom_rack(CAROM_RACK_EIGHTBALL, &in->table, 1e-4, (uint64_t)number, in->balls, EVERY_BALLS);
   for (int k = 0; k < EVERY_SHOTS; k++) {
     in->cue[k] = carom_cue_of(CAROM_GAME_POOL);
-    in->cue[k].speed = 5.0;
+    in->cue[k].speed = 5.0 + 0.1 * number;
     in->cue[k].phi = 89.0 + 0.3 * k;
     in->cue[k].a = 0.1;
   }

@@ -154,17 +154,18 @@ enum { CHILD_THREADS = 0 };
 enum { CHILD_THREADS = 3 };
 #endif
 
-enum { CALLERS = 16, ROUNDS = 4, FORKS = 12 };
-static every_input shared;
-static uint64_t alone[EVERY_COUNT];
+enum { CALLERS = 16, ROUNDS = 4, FORKS = 12, INPUTS = 4 };
+static every_input shared[INPUTS];
+static uint64_t alone[INPUTS][EVERY_COUNT];
 static atomic_int others[EVERY_COUNT], calling;
 
 static void *call_all(void *argument) {
-  random_source r = *(const random_source *)argument;
+  const int number = *(const int *)argument, with = number % INPUTS;
+  random_source r = {test_seed() + (uint64_t)number};
   every_room *room = calloc(1, sizeof *room);
   for (int n = 0; n < ROUNDS * EVERY_COUNT; n++) {
     const int k = (int)random_between(&r, 0.0, EVERY_COUNT);
-    if (every_functions[k].body(&shared, room) != alone[k])
+    if (every_functions[k].body(&shared[with], room) != alone[with][k])
       atomic_fetch_add(&others[k], 1);
   }
   free(room);
@@ -180,7 +181,7 @@ static int in_a_child(every_room *room, every_input *copy) {
     int bad = 0;
     copy->threads = CHILD_THREADS;
     for (int k = 0; k < EVERY_COUNT; k++)
-      bad += every_functions[k].body(copy, room) != alone[k];
+      bad += every_functions[k].body(copy, room) != alone[0][k];
     _exit(bad);
   }
   int status;
@@ -194,17 +195,19 @@ START_TEST(every_function_at_once) {
   every_function_is_there();
   every_room *room = calloc(1, sizeof *room);
   every_input *copy = malloc(sizeof *copy);
-  every_input_make(&shared, 0);
-  for (int k = 0; k < EVERY_COUNT; k++)
-    alone[k] = every_functions[k].body(&shared, room);
-  shared.threads = 3;
-  memcpy(copy, &shared, sizeof shared);
+  for (int with = 0; with < INPUTS; with++) {
+    every_input_make(&shared[with], with, 0);
+    for (int k = 0; k < EVERY_COUNT; k++)
+      alone[with][k] = every_functions[k].body(&shared[with], room);
+    shared[with].threads = 3;
+  }
+  memcpy(copy, &shared[0], sizeof *copy);
   pthread_t thread[CALLERS];
-  random_source source[CALLERS];
+  int number[CALLERS];
   atomic_store(&calling, CALLERS);
   for (int k = 0; k < CALLERS; k++) {
-    source[k] = (random_source){test_seed() + (uint64_t)k};
-    ck_assert_int_eq(pthread_create(&thread[k], NULL, call_all, &source[k]), 0);
+    number[k] = k;
+    ck_assert_int_eq(pthread_create(&thread[k], NULL, call_all, &number[k]), 0);
   }
   int children = 0;
   for (; children < FORKS && atomic_load(&calling) > 0; children++)
