@@ -72,7 +72,7 @@ typedef struct carom_cushion_options {
   int steps;            /* Euler's N: compression and restitution take about so many steps each; 0: CAROM_DEFAULT_STEPS. */
   int threads;          /* most threads that a batch may use, the calling one among them. 0, the default: that one alone;
                            CAROM_ALL_THREADS: one for each processor. Results do not depend on it. */
-  int unused;           /* must be 0. */
+  int plain;            /* 1: with CAROM_ISA_PLAIN, as in carom_options. Default 0. */
   double least_step;    /* N s, >= 0: EULER takes no step of less impulse, but for the last ones. Default 0; pooltool: 0.001. */
   double omega_ratio;   /* STRONGE: frequency of the nose along its surface over that across it, 1 to 2 without the ends. 0:
                            1.8, which is that of pooltool. */
@@ -150,10 +150,11 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
  * The playing surface is 0 <= x <= width, 0 <= y <= length for the built-in tables, with z up and the cloth at z = 0: a ball on
  * it has its centre at z = R. docs/using/shots.md describes the models, the rules and the bounds.
  *
- * Bits: those of a batch are those of single calls, for any number of threads and any cut; with CAROM_ISA=plain they are the
- * same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with closed-form cushions, so 3 us for
- * a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion, the default, costs some 7 to 10 us an
- * impact besides. Stack: 30 KiB. Nothing is allocated, but for the threads of a batch. */
+ * Bits: those of a batch are those of single calls, for any number of threads and any cut; with options.plain or
+ * CAROM_ISA=plain they are the same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with
+ * closed-form cushions, so 3 us for a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion, the
+ * default, costs some 7 to 10 us an impact besides. Stack: 32 KiB; a batch 35, with threads 42. Nothing is allocated, but for
+ * the threads of a batch. */
 
 /* ---- Balls ------------------------------------------------------------------------------------------------------------ */
 
@@ -407,7 +408,10 @@ typedef struct carom_shot_options {
                        CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s with CAROM_ERROR_TOO_LONG. */
   uint64_t stop_at; /* the shot is stopped right after an event of this set, with CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)
                        of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
-  uint64_t reserved[4]; /* must be 0. */
+  int32_t plain;    /* 1: with CAROM_ISA_PLAIN, as in carom_options: a shot with the bits that all machines share. 0: with
+                       the instruction set in use. */
+  int32_t unused;   /* must be 0. */
+  uint64_t reserved[3]; /* must be 0. */
 } carom_shot_options;
 
 /* ---- What happened ---------------------------------------------------------------------------------------------------- */

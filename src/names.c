@@ -38,7 +38,7 @@
   X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                             \
   X(ERROR_UNRESOLVED, -22, "unresolved",                                                                            \
     "the collision is too extreme: its result depends on rounding errors, or takes more work than a call may cost") \
-  X(ERROR_OPTIONS, -23, "bad_options", "the reserved fields of the options must be 0")                              \
+  X(ERROR_OPTIONS, -23, "bad_options", "plain must be 0 or 1, and the reserved fields of the options 0")            \
   X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model", "options.model is not one of carom_cushion_model")               \
   X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options", "an option of the cushion is out of its range")              \
   X(ERROR_NORMAL, -32, "bad_normal", "the direction into the cushion must be finite and not 0")                     \

@@ -174,7 +174,7 @@ static void compare(stress *s, int kind, uint64_t k, const coincidence *c, const
   tally *t = &s->tally[kind];
   outcome precise, exact;
   if (s->balls && status != CAROM_SEPARATING)
-    t->slow += carom_kernels_in_force()->call[CAROM_F64](&c->balls, carom_spin_sign(c->slip), &exact, NULL) <= 0;
+    t->slow += carom_kernels_of_call(0)->call[CAROM_F64](&c->balls, carom_spin_sign(c->slip), &exact, NULL) <= 0;
   if (is_error(t, status))
     return;
   const bool known = precisely(c, &precise);
@@ -206,7 +206,7 @@ static void compare_single(stress *s, carom_slip slip, const carom_impact_f32 *i
     return;
   to_double(in, &wide.balls, 26);
   to_double(out, &result.balls, 12);
-  t->slow += carom_kernels_in_force()->call[CAROM_F32](in, carom_spin_sign(slip), &unused, NULL) == 0;
+  t->slow += carom_kernels_of_call(0)->call[CAROM_F32](in, carom_spin_sign(slip), &unused, NULL) == 0;
   if (is_error(t, status))
     return;
   if (precisely(&wide, &exact))

@@ -245,7 +245,9 @@ START_TEST(options_and_calls) {
   REFUSED(options.events_most, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.space, (carom_space)2, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.space, (carom_space)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.reserved[3], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.plain, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.unused, 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.reserved[2], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.time_most, NAN, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.steps, -1, CAROM_ERROR_STEPS, -1);
   REFUSED(options.threads, -2, CAROM_ERROR_THREADS, -1);
