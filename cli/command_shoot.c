@@ -42,8 +42,8 @@ OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choic
 OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "MODEL", set_ball_model, 0,
        "the collision of two balls: exact, euler, inelastic or mirror (default: exact; by pooltool's models inelastic)");
 OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
-       "the impact on a cushion: mathavan (the exact limit), stronge, han, mirror or euler (default: mathavan; by pooltool's "
-       "models stronge)");
+       "the impact on a cushion: han, mathavan (the exact limit), stronge, mirror or euler (default: han; by pooltool's models "
+       "stronge)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
        "what is told of events: nothing, time, type and ids, or states too (default full)");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,

@@ -175,7 +175,7 @@ carom_status carom_model_cushion(const carom_sim *sim, int i, const double norma
   carom_cushion_options options = {.steps = sim->opt->steps, .omega_ratio = kind->omega_ratio};
   options.model = asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1)
                   : sim->pooltool                     ? CAROM_CUSHION_STRONGE
-                                                      : CAROM_CUSHION_MATHAVAN;
+                                                      : CAROM_CUSHION_HAN;
   if (sim->pooltool) {
     options.convention = CAROM_CONVENTION_POOLTOOL;
     options.least_step = 0.001;

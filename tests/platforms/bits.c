@@ -308,14 +308,15 @@ static void shots(void) {
                 {"han", {.cushion_model = CAROM_SHOT_CUSHION_HAN, .friction = CAROM_FRICTION_CONSTANT}},
                 {"mirror", {.cushion_model = CAROM_SHOT_CUSHION_MIRROR, .ball_model = CAROM_BALL_MODEL_INELASTIC}},
                 {"euler", {.cushion_model = CAROM_SHOT_CUSHION_EULER, .ball_model = CAROM_BALL_MODEL_EULER, .steps = 100}},
-                {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}}};
+                {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}},
+                {"mathavan", {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN}}};
   static carom_event events[ROOM];
   static carom_shot_ball balls[CAROM_BALLS_MOST];
   static carom_ball_state final[CAROM_BALLS_MOST], later[CAROM_BALLS_MOST];
   static carom_table table;
   state = 4;
-  for (int n = 0; n < 36; n++) { /* the measured ones behind the others, whose draws they leave as they are */
-    const int m = n < 24 ? n / 4 : n / 2 - 12, g = n < 24 ? n % 4 : 4 + n % 2;
+  for (int n = 0; n < 42; n++) { /* the measured ones, then mathavan, behind the others, whose draws they leave as they are */
+    const int m = n < 24 ? n / 4 : n < 36 ? n / 2 - 12 : 6, g = n < 24 ? n % 4 : n < 36 ? 4 + n % 2 : n - 36;
     uint64_t hash = START;
     carom_table_make(games[g].table, &table);
     for (int k = 0; k < SHOTS; k++) {

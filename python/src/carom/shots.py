@@ -94,7 +94,7 @@ def simulate(
     ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
         The collision of two balls; by default exact in the world carom, inelastic in pooltool.
     cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
-        The impact on a cushion; by default mathavan in the world carom, stronge in pooltool. mathavan takes most of the time.
+        The impact on a cushion; by default han in the world carom, stronge in pooltool. mathavan is the exact limit, and takes most of the time.
     friction : {"alciatore", "constant"}
         Between balls: by the speed of slip, or the balls' mu_ball.
     steps : int
