@@ -43,7 +43,7 @@ OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "MODEL", set_bal
        "model of the collision of two balls: exact, euler, inelastic or mirror (default: exact; with --models pooltool "
        "inelastic)");
 OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
-       "model of the impact on a cushion: mathavan (the exact limit), stronge, han, mirror or euler (default: mathavan; with "
+       "model of the impact on a cushion: han, mathavan (the exact limit), stronge, mirror or euler (default: han; with "
        "--models pooltool stronge)");
 OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
        "whether balls can leave the cloth (default 3d; flat with --models pooltool)");

@@ -151,10 +151,10 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
  * it has its centre at z = R. docs/using/shots.md describes the models, the rules and the bounds.
  *
  * Bits: those of a batch are those of single calls, for any number of threads and any cut; with options.plain or
- * CAROM_ISA=plain they are the same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with
- * closed-form cushions, so 3 us for a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion, the
- * default, costs some 7 to 10 us an impact besides. Stack: 32 KiB; a batch 35, with threads 42. Nothing is allocated, but for
- * the threads of a batch. */
+ * CAROM_ISA=plain they are the same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with Han's
+ * cushions, the default, so 3 us for a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion costs
+ * some 7 to 10 us an impact besides. Stack: 32 KiB; a batch 35, with threads 42. Nothing is allocated, but for the threads of a
+ * batch. */
 
 /* ---- Balls ------------------------------------------------------------------------------------------------------------ */
 
@@ -209,12 +209,13 @@ typedef struct carom_shot_ball {
   carom_ball_state state;
 } carom_shot_ball;
 
-/* Games, for their balls and cues. docs/understanding/constants.md has the source of each number. */
+/* Games, for their balls and cues. docs/understanding/constants.md has the source of each number. The numbers of the cushion
+ * are those of Han's model, the default of the world carom; that page has those of the exact model. */
 typedef enum carom_game {
   CAROM_GAME_POOL = 0,             /* typical numbers, each within the range that is published; no table was measured */
   CAROM_GAME_SNOOKER = 1,          /* measured by Mathavan and others, 2009 to 2014, on one table */
   CAROM_GAME_BILLIARD = 2,         /* three-cushion: measured on one table, from 182 recorded shots, with drag and loss of roll;
-                                      mu_cushion and restitution_cushion are for CAROM_CUSHION_MATHAVAN */
+                                      mu_cushion, restitution_cushion and nose_height are for CAROM_CUSHION_HAN */
   CAROM_GAME_POOLTOOL_POOL = 3,    /* the figures of pooltool's balls, for parity with it: pool, */
   CAROM_GAME_POOLTOOL_SNOOKER = 4, /* snooker, */
   CAROM_GAME_POOLTOOL_BILLIARD = 5 /* and carom */
@@ -382,9 +383,10 @@ typedef enum carom_space {
   CAROM_SPACE_FLAT = 1 /* balls stay on the cloth, whatever pushes them up or down */
 } carom_space;
 
-/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is MATHAVAN in the world carom, STRONGE in
- * pooltool. These values are not those of carom_cushion_model, in which 0 is a model: compilers warn where the two are mixed
- * (-Wenum-conversion, which -Wextra of gcc turns on). */
+/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is HAN in the world carom, STRONGE in
+ * pooltool. HAN predicts recorded shots as well as MATHAVAN, the exact limit, for a tenth of the cost or less
+ * (docs/understanding/reality.md). These values are not those of carom_cushion_model, in which 0 is a model: compilers warn
+ * where the two are mixed (-Wenum-conversion, which -Wextra of gcc turns on). */
 typedef enum carom_shot_cushion {
   CAROM_SHOT_CUSHION_DEFAULT = 0,
   CAROM_SHOT_CUSHION_MATHAVAN = 1,

@@ -246,9 +246,9 @@ OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
        "time the whole shots of this file instead, beside pooltool's recorded times");
 OPTION(bench_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
        "whose rules and models the shots are played by (default carom)");
-OPTION(bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODEL", set_cushion_model, 0,
-       "impacts on cushions in the shots: mathavan, stronge, han, mirror or euler (default:\nmathavan; by pooltool's models "
-       "stronge)");
+OPTION(
+    bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODEL", set_cushion_model, 0,
+    "impacts on cushions in the shots: han, mathavan, stronge, mirror or euler (default:\nhan; by pooltool's models stronge)");
 
 static const char about[] =
     "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each kernel is verified first; "

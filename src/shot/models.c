@@ -185,7 +185,7 @@ static carom_cushion_model cushion_model(const carom_sim *sim) {
   const carom_shot_cushion asked = sim->opt->cushion_model;
   return asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1)
          : sim->pooltool                     ? CAROM_CUSHION_STRONGE
-                                             : CAROM_CUSHION_MATHAVAN;
+                                             : CAROM_CUSHION_HAN;
 }
 
 /* Of a rail or jaw, or of the ball where that has none. */

@@ -99,7 +99,8 @@ def simulate(
     ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
         Model of the collision of two balls. Default: exact in the world carom, inelastic in pooltool.
     cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
-        Model of the impact on a cushion. Default: mathavan in the world carom, where it takes most of the time; stronge in pooltool.
+        Model of the impact on a cushion. Default: han in the world carom, stronge in pooltool. mathavan is the exact limit, and takes most of
+        the time.
     friction : {"alciatore", "constant"}
         Between balls: by the speed of slip, or the balls' mu_ball.
     space : {"3d", "flat"}
