@@ -12,8 +12,8 @@ from carom._carom import lib as _lib
 from carom.collisions import ALL_THREADS, Outcome, alciatore, collide, impacts, mu_ball, trace
 from carom.cushions import cushion, cushion_impacts, cushion_trace
 from carom.layouts import Table, balls, cue, struck
-from carom.results import EventType, Label, Shot, Shots
-from carom.shots import simulate, simulate_batch
+from carom.results import EventType, Features, Label, Shot, Shots
+from carom.shots import resume, simulate, simulate_batch
 from carom.status import CaromError, Status
 
 __version__: str = _ffi.string(_lib.carom_version()).decode()
@@ -22,6 +22,7 @@ __all__ = [
     "ALL_THREADS",
     "CaromError",
     "EventType",
+    "Features",
     "Label",
     "Outcome",
     "Shot",
@@ -40,6 +41,7 @@ __all__ = [
     "isa_in_force",
     "mu_ball",
     "racks",
+    "resume",
     "simulate",
     "simulate_batch",
     "struck",
