@@ -5,6 +5,7 @@ import os
 import pickle
 import subprocess
 import time
+import warnings
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -538,6 +539,44 @@ def test_each_bad_argument_has_its_message():
             call()
     shots = carom.simulate_batch(table, rack, carom.cue(speed=[1.0, np.nan], ball=[99, 0]))
     assert [(index, text.partition(":")[0]) for index, text in shots.failures()] == [((0,), "cue.ball = 99"), ((1,), "cue.speed = nan")]
+
+
+def test_radians_are_doubted():
+    for angles in ({"phi": np.pi / 2}, {"phi": np.linspace(0.0, 2.0 * np.pi, 100)}, {"phi": -np.pi / 3}, {"phi": 0.0, "theta": np.pi / 12}):
+        with pytest.warns(UserWarning, match="degrees are taken, but .* looks like radians") as caught:
+            carom.cue(**angles)
+        assert caught[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for phi in (0.0, 90.0, 1.5, np.linspace(0.0, 360.0, 100), np.zeros(0), np.nan, np.inf, 360.0 * np.pi):
+            carom.cue(phi=phi)
+
+
+def test_tables_are_checked():
+    for table in (carom.tables.pool_9ft(), carom.tables.snooker(), carom.tables.threecushion()):
+        table.check(0.026 if len(table.pockets) == 6 and table.length > 3 else 0.028575)
+    holed = carom.tables.threecushion()
+    holed.rails["q"][1] = (holed.rails["p"][1] + holed.rails["q"][1]) / 2.0
+    with pytest.raises(carom.CaromError, match=r"table\.rails\[\d\]: .* \(at x = .* m wide, beside table\.rails\[\d\]\)") as caught:
+        holed.check(0.0307)
+    assert caught.value.status is carom.Status.ERROR_TABLE_OPEN
+
+
+def test_ball_in_hand():
+    table = carom.tables.pool_9ft()
+    rack = carom.racks.nineball(table)
+    rack["state"]["label"][0] = carom.Label.POCKETED
+    kept = rack.copy()
+    placed = carom.place_ball(table, rack, 0, 0.4, 0.5)
+    assert placed["state"]["r"][0].tolist() == [0.4, 0.5, 0.028575] and placed["state"]["label"][0] == carom.Label.STATIONARY
+    assert rack.tobytes() == kept.tobytes() and placed[1:].tobytes() == rack[1:].tobytes()
+    one = rack["state"]["r"][1]
+    for place, field in (((one[0], one[1] - 0.04), "balls[1]"), ((0.01, 0.7), "table.rails"), ((0.0, 0.0), "table.pockets"), ((-1.0, 1.0), "table")):
+        with pytest.raises(carom.CaromError, match="is in the way of ball 0") as caught:
+            carom.place_ball(table, rack, 0, *place)
+        assert caught.value.field is not None and caught.value.field.startswith(field)
+    with pytest.raises(ValueError, match="ball: it must be a whole number from 0 to 9"):
+        carom.place_ball(table, rack, 10, 0.4, 0.5)
 
 
 def test_tables_are_equal_by_their_numbers():

@@ -2,7 +2,7 @@
 
 `collide` and `cushion` resolve arrays of impacts, which `impacts` and `cushion_impacts` build; `mu_ball` is the friction between
 balls by their speed of slip; `trace` and `cushion_trace` look closer. `simulate` plays a shot, `simulate_batch` many, on `tables`,
-from `racks` or `balls`, struck by a `cue`. Units are SI, vectors right-handed, z up. `dtypes` has the
+from `racks` or `balls`, struck by a `cue`; `resume` goes on with one that was stopped, `place_ball` is ball in hand. Units are SI, vectors right-handed, z up. `dtypes` has the
 structured dtypes. Every call that computes releases the GIL.
 """
 
@@ -11,7 +11,7 @@ from carom._carom import ffi as _ffi
 from carom._carom import lib as _lib
 from carom.collisions import ALL_THREADS, Outcome, alciatore, collide, impacts, mu_ball, trace
 from carom.cushions import cushion, cushion_impacts, cushion_trace
-from carom.layouts import Table, balls, cue, struck
+from carom.layouts import Table, balls, cue, place_ball, struck
 from carom.results import EventType, Features, Label, Shot, Shots
 from carom.shots import resume, simulate, simulate_batch
 from carom.status import CaromError, Status
@@ -40,6 +40,7 @@ __all__ = [
     "impacts",
     "isa_in_force",
     "mu_ball",
+    "place_ball",
     "racks",
     "resume",
     "simulate",
