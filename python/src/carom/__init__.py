@@ -40,6 +40,7 @@ __all__ = [
     "impacts",
     "isa_in_force",
     "mu_ball",
+    "physics_revision",
     "place_ball",
     "racks",
     "resume",
@@ -54,3 +55,8 @@ __all__ = [
 def isa_in_force() -> str:
     """The instruction set that is computed with: "plain", "sse2", "neon", "avx2" or "avx512"; CAROM_ISA limits it."""
     return str(_ffi.string(_lib.carom_isa_name(_lib.carom_isa_in_force())).decode())
+
+
+def physics_revision() -> int:
+    """A number that changes whenever a result of any call has other bits than before: recordings play back alike with the same one."""
+    return int(_lib.carom_physics_revision())
