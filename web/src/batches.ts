@@ -93,12 +93,15 @@ export class Collisions extends Owner {
   }
 }
 
-/** Where the fields of a cue are among its 9 numbers. The ball's index is set by `setCue`. */
+/** Where the fields of a cue are among its numbers, `cueSize` for each. The ball's index is set by `setCue`. */
 export const cueFields = Object.fromEntries(
   Object.entries(CUE.offset)
     .filter(([key]) => key !== "ball")
     .map(([key, offset]) => [key, offset / 8]),
 ) as Readonly<Record<Exclude<keyof Cue, "ball">, number>>;
+
+/** How many numbers a cue has in `Shots.cues`. */
+export const cueSize = CUE.size / 8;
 
 /** Many shots on one table for `simulateBatch`. `cues`, `final` and `status` are views of WebAssembly memory, as in `Collisions`. */
 export class Shots extends Owner {
@@ -136,7 +139,7 @@ export class Shots extends Owner {
     writeTable(library.memory, this.at(0), table);
     layouts.forEach((balls, k) => writeBalls(library.memory, this.at(1) + k * count * layout.carom_shot_ball.size, balls));
   }
-  /** 9 numbers for each shot, those of carom_cue; `cueFields` says where each is. */
+  /** `cueSize` numbers for each shot, those of carom_cue; `cueFields` says where each is. */
   get cues(): Float64Array {
     return new Float64Array(this.library.memory.buffer, this.at(2), (this.n * CUE.size) / 8);
   }

@@ -136,6 +136,24 @@ export class Carom {
           for (let c = 0; c < 3; c++) into[3 * k + c] = f64[at + c]!;
         }
       },
+      positionsAt: (shot, times) => {
+        this.#reside(shot);
+        const n = times.length;
+        const count = shot.balls.length;
+        const size = layout.carom_ball_state.size;
+        const at = this.#memory.allocate(8 * n + n * count * size);
+        try {
+          this.#memory.f64.set(times, at / 8);
+          const states = at + 8 * n;
+          this.#refuse(this.#call.carom_shot_at_times(this.#at.balls, count, this.#at.shot, at, n, states), "times");
+          const f64 = this.#memory.f64;
+          const into = new Float64Array(3 * n * count);
+          for (let k = 0; k < n * count; k++) into.set(f64.subarray((states + k * size) / 8, (states + k * size) / 8 + 3), 3 * k);
+          return into;
+        } finally {
+          this.#memory.free(at);
+        }
+      },
       orientations: (shot, time, into) => {
         this.#reside(shot);
         const { balls, shot: at, motion } = this.#at;
@@ -426,6 +444,7 @@ export class Carom {
     i32[(at + o.world) / 4] = value("CAROM_WORLD_", options.world ?? "carom", "world");
     i32[(at + o.ballModel) / 4] = value("CAROM_BALL_MODEL_", options.ballModel ?? "default", "ballModel");
     i32[(at + o.cushionModel) / 4] = value("CAROM_SHOT_CUSHION_", options.cushionModel ?? "default", "cushionModel");
+    i32[(at + o.space) / 4] = value("CAROM_SPACE_", options.space ?? "3d", "space");
     i32[(at + o.friction) / 4] = value("CAROM_FRICTION_", options.friction ?? "alciatore", "friction");
     i32[(at + o.steps) / 4] = whole(options.steps, "steps");
     i32[(at + o.eventsMost) / 4] = whole(options.eventsMost, "eventsMost");

@@ -13,7 +13,7 @@
 import { Carom } from "./carom.js";
 import { type Build, simdAvailable, start } from "./memory.js";
 
-export { Collisions, cueFields, Shots } from "./batches.js";
+export { Collisions, cueFields, cueSize, Shots } from "./batches.js";
 export type { Carom } from "./carom.js";
 export { CaromError } from "./error.js";
 export { fromLine, toLine, type Line } from "./lines.js";

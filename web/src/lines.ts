@@ -33,6 +33,7 @@ const PARAMS: readonly (readonly [string, keyof BallKind])[] = [
   ["law_c", "lawC"],
   ["nose_height", "noseHeight"],
   ["omega_ratio", "omegaRatio"],
+  ["e_t", "restitutionTable"],
 ];
 const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
   ["V0", "speed"],
@@ -43,6 +44,7 @@ const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
   ["M", "mass"],
   ["end_mass", "endMass"],
   ["tip_radius", "tipRadius"],
+  ["miscue", "miscue"],
 ];
 
 /** The line of a shot, without a line break. `carom shoot` plays it with the same bits under CAROM_ISA=plain. */
@@ -101,7 +103,7 @@ export function fromLine(carom: Carom, text: string): Line {
     return {
       kind,
       state: {
-        label: LABELS[label] ?? refuse(`balls[${k}].state`, "the label, its first number, must be 0 to 4"),
+        label: LABELS[label] ?? refuse(`balls[${k}].state`, "the label, its first number, must be 0 to 6"),
         r: [x, y, z],
         v: [motion[0]!, motion[1]!, motion[2]!],
         w: [motion[3]!, motion[4]!, motion[5]!],

@@ -6,6 +6,7 @@ export interface Reader {
   events(shot: Shot): ShotEvent[];
   states(shot: Shot, time: number): BallState[];
   positions(shot: Shot, time: number, into: Float64Array): void;
+  positionsAt(shot: Shot, times: ArrayLike<number>): Float64Array;
   orientations(shot: Shot, time: number, into: Float64Array): void;
 }
 
@@ -65,6 +66,11 @@ export class Shot {
   positions(time: number, into = new Float64Array(3 * this.balls.length)): Float64Array {
     this.#reader.positions(this, time, into);
     return into;
+  }
+
+  /** x, y, z of every ball at many times (s), m: 3 numbers for each ball, time after time. Ascending times cost least. */
+  positionsAt(times: ArrayLike<number>): Float64Array {
+    return this.#reader.positionsAt(this, times);
   }
 
   /** The states of all balls at a time, s. */

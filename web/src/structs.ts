@@ -56,7 +56,7 @@ export function readKind(f64: Float64Array, at: Pointer): BallKind {
 }
 
 /** The labels, by number. */
-export const LABELS: readonly Label[] = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne"];
+export const LABELS: readonly Label[] = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne", "off"];
 
 const STATE = layout.carom_ball_state.offset;
 
@@ -88,6 +88,7 @@ export function readBalls(memory: Memory, at: Pointer, count: number): ShotBall[
 }
 
 const TABLE = layout.carom_table.offset;
+const TABLE_NUMBERS = ["width", "length", "ballRadius", "railWidth", "pocketBack"] as const;
 const PARTS = [
   ["rails", TABLE.rails, "carom_rail", TABLE.rail, values.CAROM_RAILS_MOST],
   ["jaws", TABLE.jaws, "carom_jaw", TABLE.jaw, values.CAROM_JAWS_MOST],
@@ -96,8 +97,7 @@ const PARTS = [
 
 export function writeTable(memory: Memory, at: Pointer, table: Table): void {
   memory.u8.fill(0, at, at + layout.carom_table.size);
-  memory.f64[(at + TABLE.width) / 8] = table.width;
-  memory.f64[(at + TABLE.length) / 8] = table.length;
+  for (const key of TABLE_NUMBERS) memory.f64[(at + TABLE[key]) / 8] = table[key] ?? 0;
   for (const [name, count, struct, first, most] of PARTS) {
     const parts = table[name];
     if (parts.length > most) throw new RangeError(`table.${name}: at most ${most}, not ${parts.length}`);
@@ -125,7 +125,8 @@ export function readTable(memory: Memory, at: Pointer): Table {
       );
     return [name, Array.from({ length: Number(memory.i64[(at + count) / 8]) }, (_, k) => read(at + first + k * size))];
   });
-  return { width: f64[(at + TABLE.width) / 8]!, length: f64[(at + TABLE.length) / 8]!, ...Object.fromEntries(parts) } as Table;
+  const numbers = TABLE_NUMBERS.map((key) => [key, f64[(at + TABLE[key]) / 8]!]);
+  return { ...Object.fromEntries(numbers), ...Object.fromEntries(parts) } as Table;
 }
 
 export function writeCue(memory: Memory, at: Pointer, cue: Cue): void {

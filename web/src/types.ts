@@ -182,10 +182,12 @@ export interface BallKind {
   noseHeight: number;
   /** Of Stronge's cushions, 1 to 2; 0: 1.8. */
   omegaRatio: number;
+  /** Restitution of ball and slate, at most 0.98; 0: 0.5, which is a convention; -1: none. */
+  restitutionTable: number;
 }
 
 /** How a ball moves. */
-export type Label = "stationary" | "spinning" | "sliding" | "rolling" | "pocketed" | "airborne";
+export type Label = "stationary" | "spinning" | "sliding" | "rolling" | "pocketed" | "airborne" | "off";
 
 /** Where a ball is and how it moves. */
 export interface BallState {
@@ -243,6 +245,12 @@ export interface Pocket {
 export interface Table {
   width: number;
   length: number;
+  /** For shots in space, m: the radius of the balls that the table is meant for; 0 (the default): that of the last ball. */
+  ballRadius?: number;
+  /** For shots in space, m: of the tops of the rails, behind the noses; 0 (the default): 0.12, a convention. */
+  railWidth?: number;
+  /** For shots in space, m: how high a ball may fly into the back of a pocket; 0 (the default): the greatest height of a nose. */
+  pocketBack?: number;
   rails: Rail[];
   jaws: Jaw[];
   pockets: Pocket[];
@@ -254,9 +262,9 @@ export interface Cue {
   speed: number;
   /** Direction in the plane, degrees from +x towards +y. */
   phi: number;
-  /** Elevation of the butt, degrees, 0 to 90. */
+  /** Elevation of the butt, degrees, 0 to 90. The ball is struck down onto the slate and hops. */
   theta: number;
-  /** Where the tip touches, in radii: a > 0 left; a^2 + b^2 < 1. */
+  /** Where the tip touches, in radii: a > 0 left; a^2 + b^2 < miscue^2. */
   a: number;
   /** Where the tip touches, in radii: b > 0 above the centre. */
   b: number;
@@ -268,6 +276,8 @@ export interface Cue {
   tipRadius: number;
   /** Index of the ball that is struck. */
   ball: number;
+  /** 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. */
+  miscue: number;
 }
 
 /** Options of shots. */
@@ -276,8 +286,10 @@ export interface ShotOptions {
   world?: "carom" | "pooltool";
   /** The collision of two balls; default exact in the world carom. */
   ballModel?: "default" | "exact" | "euler" | "inelastic" | "mirror";
-  /** The impact on a cushion; default mathavan in the world carom. "han" costs a fraction of it. */
+  /** The impact on a cushion; default han in the world carom. "mathavan", the exact limit, takes more than ten times as long. */
   cushionModel?: "default" | CushionModel;
+  /** "3d" (default): balls hop, jump and leave the table. "flat": they stay on the cloth. */
+  space?: "3d" | "flat";
   /** Between balls: by their speed of slip (default), or muBall. */
   friction?: "alciatore" | "constant";
   /** Of Euler's models; default 1000. */

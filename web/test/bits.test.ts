@@ -4,7 +4,7 @@ import type { BallState, Carom, Game, RackName, ShotOptions, TableName } from ".
 import { builds, Draws, golden, Hash } from "./support.js";
 
 const ROWS = 4000;
-const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne"];
+const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne", "off"];
 
 /** draw_collision() of bits.c, in the order of its draws. */
 function drawCollision(draws: Draws, k: number): number[] {
@@ -82,7 +82,7 @@ function shots(carom: Carom, wanted: string[]): Map<string, string> {
         const theta = k === 3 ? draws.between(0, 60) : 2;
         const a = draws.between(-0.4, 0.4);
         const b = draws.between(-0.4, 0.4);
-        const shot = carom.simulate(table, balls, carom.cue({ speed, phi, theta, a, b }, game), options);
+        const shot = carom.simulate(table, balls, carom.cue({ speed, phi, theta, a, b }, game), { ...options, space: "flat" });
         hash.whole(0).whole(shot.count);
         for (const event of shot.events) {
           const type = [...TYPES, ...LATER].indexOf(event.type) + 1;

@@ -4,7 +4,7 @@ import { describe, expect, test } from "vitest";
 import { type BallState, type Carom, CaromError, fromLine, type Shot, toLine } from "../dist/index.js";
 import { builds, root, run, thereIsACommand } from "./support.js";
 
-const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne"];
+const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne", "off"];
 const flat = (s: BallState): number[] => [LABELS.indexOf(s.label), ...s.r, ...s.v, ...s.w];
 const break9 = readFileSync(`${root}data/break-nineball.jsonl`, "utf8").trim();
 const layouts = readFileSync(`${root}data/shots-layouts.jsonl`, "utf8").trim().split("\n");
@@ -61,6 +61,21 @@ describe.each(builds)("shots by $name", ({ carom }) => {
     expect(toLine(read)).toBe(line);
   });
 
+  test.runIf(thereIsACommand)("a jump over a ball, with the command's doubles", () => {
+    const table = carom.table("9ft");
+    const balls = [carom.ball(0.635, 0.635), carom.ball(0.635, 0.94)];
+    const cue = carom.cue({ speed: 3, theta: 45, phi: 90, b: 0 });
+    const shot = carom.simulate(table, balls, cue);
+    expect(shot.events.map((event) => event.type)).toContain("slate");
+    expect(Math.max(...[...Array(50).keys()].map((k) => shot.positions(k / 50)[2]!))).toBeGreaterThan(0.08);
+    // It flies over the ball, and meets it on its way back from the cushion only.
+    expect(shot.firstContact!.time).toBeGreaterThan(shot.events.find((event) => event.type === "ball_linear_cushion")!.time);
+    const recorded = JSON.parse(run(["shoot", "--events", "none", "-"], toLine({ tableName: "9ft", balls, cue }))) as Recorded;
+    expectFinal(shot, ["cue", "1"], recorded);
+    const flat = carom.simulate(table, balls, cue, { space: "flat" });
+    expect(flat.firstContact?.ball).toBe(1);
+  });
+
   test("a batch has the bits of single shots", () => {
     const table = carom.table("9ft");
     const balls = carom.rack("nineball", table);
@@ -97,6 +112,8 @@ describe.each(builds)("shots by $name", ({ carom }) => {
     expect(other.positions(0.3)).toHaveLength(3 * other.balls.length);
     const early = shot.states(shot.events[5]!.time - 1e-9);
     expect(early[shot.events[5]!.a]!.r[0]).toBeCloseTo(shot.events[5]!.before[0]!.r[0], 6);
+    const times = [0, 0.3, 1.5];
+    expect([...shot.positionsAt(times)]).toEqual(times.flatMap((time) => [...shot.positions(time)]));
     const turned = shot.orientations(2);
     for (let k = 0; k < shot.balls.length; k++) expect(Math.hypot(...turned.subarray(4 * k, 4 * k + 4))).toBeCloseTo(1, 12);
     expect([...shot.orientations(0).subarray(0, 4)]).toEqual([1, 0, 0, 0]);

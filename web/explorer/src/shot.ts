@@ -31,6 +31,9 @@ const EVENTS: Record<string, string> = {
   rolling_spinning: "spins on the spot",
   rolling_stationary: "stops",
   spinning_stationary: "stops spinning",
+  slate: "lands",
+  rail_top: "falls on a rail",
+  left_table: "leaves the table",
 };
 const FAN = 500;
 const FAN_CHUNK = 20;
@@ -76,9 +79,9 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     Object.assign(sliders.phi!, { value: gameName === "threecushion" ? 62 : 90 });
     setUp();
   });
-  const cushion = choice("cushion", "Cushions", [["mathavan", "Mathavan, exact"], ["han", "Han"], ["stronge", "Stronge"], ["mirror", "mirror"]], aimed);
-  cushion.select.value = given.get("cushion") ?? "mathavan";
-  if (cushion.select.value === "") cushion.select.value = "mathavan";
+  const cushion = choice("cushion", "Cushions", [["han", "Han"], ["mathavan", "Mathavan, exact"], ["stronge", "Stronge"], ["mirror", "mirror"]], aimed);
+  cushion.select.value = given.get("cushion") ?? "han";
+  if (cushion.select.value === "") cushion.select.value = "han";
   const fanned = check("fan", `Fan: ${FAN} shots with a player's error`, aimed);
   fanned.input.checked = given.get("fan") === "1";
   const rate = choice("rate", "Speed", [["1", "real time"], ["0.25", "1/4"], ["0.1", "1/10"]], () => undefined);
@@ -180,7 +183,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     if (gameName !== "nineball") kept.game = gameName;
     if (seed !== 1) kept.seed = String(seed);
     for (const [key, s] of Object.entries(sliders)) if (s.value !== defaults[key]) kept[key] = String(s.value);
-    if (cushion.select.value !== "mathavan") kept.cushion = cushion.select.value;
+    if (cushion.select.value !== "han") kept.cushion = cushion.select.value;
     if (fanned.input.checked) kept.fan = "1";
     if (solver() === "euler") kept.solver = "euler";
     if (moved) kept.line = toLine({ tableName: game.table, balls, cue: cue(), names });
@@ -200,10 +203,9 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     times.sort((a, b) => a - b);
     const moving = new Set(shot.events.flatMap((event) => (event.type === "ball_ball" ? [event.a, event.b] : [event.a])));
     const found = [...moving].map((ball) => ({ ball, xyz: new Float64Array(3 * times.length) }));
-    const at = new Float64Array(3 * shot.balls.length);
-    times.forEach((t, k) => {
-      shot.positions(Math.min(t, shot.time), at);
-      for (const path of found) for (let c = 0; c < 3; c++) path.xyz[3 * k + c] = at[3 * path.ball + c]!;
+    const all = shot.positionsAt(times.map((t) => Math.min(t, shot.time)));
+    times.forEach((_, k) => {
+      for (const path of found) for (let c = 0; c < 3; c++) path.xyz[3 * k + c] = all[3 * (k * shot.balls.length + path.ball) + c]!;
     });
     return found;
   }
@@ -429,7 +431,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     const states: readonly BallState[] = shot ? shot.states(Math.min(time, shot.time)) : balls.map((ball) => ball.state);
     const turned = shot?.orientations(Math.min(time, shot.time));
     states.forEach((state, k) => {
-      if (state.label !== "pocketed") drawBall(g, k, state, turned?.subarray(4 * k, 4 * k + 4));
+      if (state.label !== "pocketed" && state.label !== "off") drawBall(g, k, state, turned?.subarray(4 * k, 4 * k + 4));
     });
     if (time === 0 && states[0]) drawCue(g, states[0]);
     if (!sidePanel.hidden) drawSide(states);
@@ -506,7 +508,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       g.stroke();
     }
     states.forEach((state, k) => {
-      if (state.label === "pocketed") return;
+      if (state.label === "pocketed" || state.label === "off") return;
       g.beginPath();
       g.ellipse(...at(state.r[1], state.r[2]), balls[k]!.kind.radius * across, balls[k]!.kind.radius * up, 0, 0, 7);
       g.fillStyle = game.colors(k);
