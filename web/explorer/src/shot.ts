@@ -94,7 +94,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   }, two);
   const canvas = el("canvas", { class: "scene", id: "table-scene", role: "img", tabindex: "0" });
   const side = el("canvas", { class: "scene", id: "side-scene", role: "img", "aria-label": "The table from the side: heights of the balls" });
-  const sidePanel = el("div", { id: "side-view", hidden: "" }, el("p", { class: "note" }, "From the side; heights are drawn three times as large."), side);
+  const sidePanel = el("div", { id: "side-view", hidden: "" }, el("p", { class: "note" }, "From the side; heights are enlarged."), side);
   const list = el("ol");
   const summary = el("tbody");
   const message = el("p", { class: "error", role: "status", id: "message" });
@@ -168,7 +168,8 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       message.textContent = error instanceof Error ? error.message : String(error);
     }
     const computed = performance.now() - begun;
-    paths = shot ? sample(shot) : [];
+    // Flights are short: their paths need more points.
+    paths = shot ? sample(shot, shot.events.some((event) => event.type === "slate") ? 150 : 25, 900) : [];
     time = 0;
     const last = shot?.time ?? 1;
     clock.input.max = String(Math.max(last, 0.001));
@@ -491,7 +492,9 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   function drawSide(states: readonly BallState[]): void {
     const { g, width, height } = fit(side, 0.18);
     const across = width / (table.length + 0.2);
-    const up = 3 * across;
+    let highest = 0;
+    for (const { xyz, ball } of paths) for (let k = 2; k < xyz.length; k += 3) highest = Math.max(highest, xyz[k]! + balls[ball]!.kind.radius);
+    const up = Math.min(3 * across, (height - 14) / highest);
     const at = (y: number, z: number): [number, number] => [(y + 0.1) * across, height - 8 - z * up];
     g.fillStyle = color("back");
     g.fillRect(0, 0, width, height);
