@@ -9,6 +9,7 @@ carom_ball_rates carom_rates_of(const carom_ball_kind *kind) {
   return (carom_ball_rates){.radius = kind->radius,
                             .slide = kind->mu_slide * kind->gravity,
                             .roll = kind->mu_roll * kind->gravity,
+                            .gravity = kind->gravity,
                             .drag = kind->drag,
                             .spin = 5.0 * kind->mu_spin * kind->gravity / (2.0 * kind->radius)};
 }
@@ -72,7 +73,7 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
   path->start = now;
   path->end = INFINITY;
   path->goes_on = path->ends_pair = false;
-  path->a[0] = path->a[1] = path->e[0] = path->e[1] = 0.0;
+  path->a[0] = path->a[1] = path->a[2] = path->e[0] = path->e[1] = 0.0;
   switch (s->label) {
   case CAROM_BALL_SPINNING:
     path->end = now + fabs(s->w[2]) / rates->spin;
@@ -98,9 +99,21 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
     path->end = now + (slides ? 2.0 * size / (7.0 * friction) : path->goes_on ? path->second[1] : size / friction);
     break;
   }
+  case CAROM_BALL_AIRBORNE:
+    path->a[2] = -0.5 * rates->gravity;
+    path->end = now + carom_fall_time(carom_greater(s->r[2] - rates->radius, 0.0), s->v[2], rates->gravity);
+    break;
   default:
     break;
   }
+}
+
+/* Of the two times at which it is at the height of the plane the later one, in the form that does not cancel. */
+double carom_fall_time(double height, double v_z, double gravity) {
+  const double square = v_z * v_z + 2.0 * gravity * height, q = square > 0.0 ? sqrt(square) : 0.0;
+  if (square < 0.0 || (height < 0.0 && v_z <= 0.0))
+    return INFINITY;
+  return v_z >= 0.0 ? (v_z + q) / gravity : 2.0 * height / (q - v_z);
 }
 
 /* |w_z| after its friction has acted for a while. */
@@ -111,8 +124,16 @@ static double spun_down(double w, double fall) {
 void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time, carom_ball_state *state) {
   *state = path->from;
   const double tau = time - path->start;
-  if (state->label == CAROM_BALL_STATIONARY || state->label == CAROM_BALL_POCKETED || !(tau > 0.0))
+  if (state->label == CAROM_BALL_STATIONARY || carom_is_out(state->label) || !(tau > 0.0))
     return;
+  if (state->label == CAROM_BALL_AIRBORNE) {
+    for (int k = 0; k < 3; k++) {
+      state->r[k] += tau * (state->v[k] + tau * path->a[k]);
+      state->v[k] += 2.0 * tau * path->a[k];
+    }
+    state->r[2] = carom_greater(state->r[2], rates->radius); /* not into the cloth by rounding */
+    return;
+  }
   state->w[2] = spun_down(state->w[2], rates->spin * tau);
   if (state->label == CAROM_BALL_SPINNING)
     return;
@@ -147,6 +168,27 @@ int64_t carom_label_of(carom_ball_state *s, double radius) {
   else
     stop(s);
   return s->label;
+}
+
+int64_t carom_label_in_space(carom_ball_state *s, double radius) {
+  static const double nothing = 1e-9; /* m/s */
+  if (s->r[2] <= radius && fabs(s->v[2]) < nothing)
+    s->v[2] = 0.0;
+  return s->r[2] > radius || s->v[2] != 0.0 ? (s->label = CAROM_BALL_AIRBORNE) : carom_label_of(s, radius);
+}
+
+int64_t carom_label_of_layout(carom_ball_state *s, double radius) {
+  if (carom_is_out(s->label))
+    return s->label;
+  return carom_flies_in_layout(s, radius) ? (s->label = CAROM_BALL_AIRBORNE) : carom_label_of(s, radius);
+}
+
+void carom_path_land(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state) {
+  const carom_ball_state *from = &path->from;
+  const double height = carom_greater(from->r[2] - rates->radius, 0.0);
+  carom_path_at(path, rates, path->end, state);
+  state->r[2] = rates->radius;
+  state->v[2] = -sqrt(from->v[2] * from->v[2] + 2.0 * rates->gravity * height);
 }
 
 void carom_path_end(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state) {
