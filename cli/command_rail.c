@@ -38,11 +38,11 @@ OPTION(series, option_speed, "speed", in[SPEED], 0, "V", set_values, MEASURE_SPE
        "speed of the ball, m/s, or with a unit: mph, km/h (default 1.5)");
 OPTION(series, option_angle, "angle", in[ANGLE], 0, "DEGREES", set_values, MEASURE_ANGLE,
        "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to the right (default 45)");
-OPTION(series, option_spin, "spin", in[SPIN], 0, "SPIN", set_values, MEASURE_SPIN,
+OPTION(series, option_spin, "spin", in[SPIN], 0, "roll|stun|draw|SPIN", set_values, MEASURE_SPIN,
        "roll or follow: the ball rolls (default); stun: none; draw: as fast backwards; or a number with a unit: rad/s, % of "
        "rolling, "
        "tip");
-OPTION(series, option_side, "side", in[SIDE], 0, "SPIN", set_values, MEASURE_SIDE,
+OPTION(series, option_side, "side", in[SIDE], 0, "right|left|gearing|none|SPIN", set_values, MEASURE_SIDE,
        "side spin, above 0 for right english: running where the ball moves to the right, left english being reverse. A number "
        "with a "
        "unit, rad/s, % of english (100%: 1.25 V/R) or tip; right, left: 100%; gearing: the ball rolls along the cushion; none "

@@ -11,6 +11,7 @@
 #include "shot_words.h"
 #include "subcommands.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,11 +43,10 @@ typedef struct block {
 
 OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
        "whose rules of contact and models (default carom)");
-OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "MODEL", set_ball_model, 0,
-       "the collision of two balls: exact, euler, inelastic or mirror (default: exact; by pooltool's models inelastic)");
-OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
-       "the impact on a cushion: mathavan (the exact limit), stronge, han, mirror or euler (default: mathavan; by pooltool's "
-       "models stronge)");
+OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "exact|euler|inelastic|mirror", set_ball_model, 0,
+       "the collision of two balls (default: exact; by pooltool's models inelastic)");
+OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "mathavan|stronge|han|mirror|euler", set_cushion_model, 0,
+       "the impact on a cushion; mathavan is the exact limit (default: mathavan; by pooltool's models stronge)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
        "what is told of events: nothing, time, type and ids, or states too (default full)");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
@@ -124,7 +124,16 @@ static bool argument_error(const shot_line *line, const carom_shot_options *opti
     snprintf(text, 300, "table '%s': %s", line->table->id, carom_status_string(bad));
   else if (bad == CAROM_ERROR_CUE || bad == CAROM_ERROR_MISCUE)
     snprintf(text, 300, "cue: %s", carom_status_string(bad));
-  else if (where >= 0)
+  else if (bad == CAROM_ERROR_OFF_TABLE && where >= 0) {
+    const carom_shot_ball *ball = &line->ball[where];
+    const double *r = ball->state.r, R = ball->kind.radius;
+    const int size = snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where], carom_status_string(bad));
+    if (fabs(r[2] - R) > 1e-6)
+      snprintf(text + size, (size_t)(300 - size), ": its centre must lie at z = R = %.6g m, not at z = %.6g", R, r[2]);
+    else
+      snprintf(text + size, (size_t)(300 - size), ": x = %.6g, y = %.6g m is in a cushion or a pocket, or outside%s", r[0],
+               r[1], fmax(r[0], r[1]) > 10.0 ? "; are places in m?" : "");
+  } else if (where >= 0)
     snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where], carom_status_string(bad));
   else
     snprintf(text, 300, "%s", carom_status_string(bad));

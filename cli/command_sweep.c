@@ -235,7 +235,7 @@ static void warn_of_constant(const sweep *s) {
              "value");
 }
 
-OPTION(sweep, option_over, "over", over, 0, "INPUT", set_text, 0,
+OPTION(sweep, option_over, "over", over, 0, "cut|angle|speed|INPUT", set_text, 0,
        "what to vary: a column, such as w1z, u_b or e_b; cut, to turn the line of centres by so many degrees, with --cushion "
        "angle, to turn the cushion; or speed, m/s, of the first ball, with which all velocities and spins change");
 OPTION(sweep, option_from, "from", from, 0, "A", set_number, 0, "its first value");

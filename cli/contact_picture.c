@@ -10,10 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_EVENTS = 64, SAMPLES = 64, MOST_CHARACTERS = 200 };
+enum { MOST_EVENTS = 64, SAMPLES = 64, ARC_PIECES = 8, MOST_CHARACTERS = 200 };
 static const double away = 1e5, reach = 14.0; /* of the cushions, and of the faster ball at least: in radii */
 static const double least_friction = 1e-6;    /* the library's motion needs some; balls slide straight on by so little */
-static const double margin = 26.0, most_height = 620.0, line_height = 19.0; /* pixels */
+static const double margin = 26.0, most_height = 620.0, line_height = 21.0; /* pixels */
 static const char *const colours[2] = {"#ffffff", "#f2c230"};
 
 /* A part of the cloth, and its labels. */
@@ -43,6 +43,18 @@ static void dash(sketch *s, const double from[2], const double to[2]) {
   fprintf(s->out, "<path d=\"M%.1f %.1fL%.1f %.1f\" fill=\"none\" stroke=\"#0b2a22\" stroke-dasharray=\"5 4\"/>\n", a[0], a[1],
           b[0], b[1]);
   keep_line(&s->labels, a[0], a[1], b[0], b[1]);
+}
+
+/* Keeps an arc free of labels. */
+static void keep_arc(sketch *s, const contact_arc *a, double radius) {
+  double last[2] = {0};
+  for (int k = 0; k <= ARC_PIECES; k++) {
+    const double angle = (a->from + (a->to - a->from) * k / ARC_PIECES) * degree;
+    const double now[2] = {across(s, a->centre) + radius * cos(angle), down(s, a->centre) - radius * sin(angle)};
+    if (k > 0)
+      keep_line(&s->labels, last[0], last[1], now[0], now[1]);
+    memcpy(last, now, sizeof last);
+  }
 }
 
 /* An arc of so many pixels about a place, and its angle beside its middle. */
@@ -169,7 +181,7 @@ static sketch sketch_of(FILE *out, const contact_picture *p, const motion *m) {
   const double wide = s.high[0] - s.low[0], high = s.high[1] - s.low[1];
   s.scale = fmin((CONTACT_WIDTH - 2.0 * margin) / wide, most_height / high);
   s.bottom = s.scale * high + 2.0 * margin;
-  s.labels = (labels){.out = out, .width = CONTACT_WIDTH, .height = s.bottom, .size = 13.0};
+  s.labels = (labels){.out = out, .width = CONTACT_WIDTH, .height = s.bottom, .size = 16.0};
   s.low[0] -= 0.5 * ((CONTACT_WIDTH - 2.0 * margin) / s.scale - wide);
   return s;
 }
@@ -197,6 +209,8 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
   }
   for (int k = 0; k < p->lines; k++)
     dash(&s, p->line[k].from, p->line[k].to);
+  for (int k = 0; k < p->arcs; k++)
+    keep_arc(&s, &p->arc[k], fmax(46.0, s.scale * R * 1.3) + 34.0 * k);
   for (int k = 0; k < p->balls; k++)
     draw_path(&s, p, &m, k);
   for (int k = 0; k < p->arcs; k++)
@@ -207,7 +221,7 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
   const char *text = p->words;
   for (int k = 0; k < lines; k++, text += strcspn(text, "\n") + 1)
     svg_text(out, margin, s.bottom + line_height * (k + 1),
-             "xml:space=\"preserve\" font-size=\"12.5\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", text,
+             "xml:space=\"preserve\" font-size=\"14\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", text,
              (int)strcspn(text, "\n"));
   fputs("</svg>\n", out);
   return height;

@@ -61,15 +61,15 @@ ROW(option_table, "table", table, "7ft|8ft|9ft|snooker|threecushion", set_text, 
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_LENGTH,
     "place of the cue ball, m, or with a unit: 2,3ft (default: the middle of the table's first quarter, or the place in the "
     "rack)");
-ROW(option_balls, "balls", balls, "X,Y:...", set_places, MEASURE_LENGTH,
+ROW(option_balls, "balls", balls, "nineball|eightball|tenball|snooker|threecushion|X,Y:...", set_places, MEASURE_LENGTH,
     "places of the other balls, with colons between them: 0.6,1.5:0.9,2. They are named 1, 2, ..., or as 8=0.6,1.5 says. Or a "
-    "rack: nineball, eightball, tenball, snooker, threecushion");
+    "rack");
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
     "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin turns the ball off it by "
     "squirt");
 ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
     "aim at this ball instead, so that the cue ball meets it at --cut; squirt and swerve are allowed for");
-ROW(option_shot_cut, "cut", cut, "DEGREES", set_values, MEASURE_CUT,
+ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|DEGREES", set_values, MEASURE_CUT,
     "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
 ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,
     "speed of the cue ball just after the strike, m/s, or with a unit: mph, km/h (default 2)");

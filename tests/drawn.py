@@ -206,7 +206,7 @@ def check_hit(picture, row, after, words):
     # All is on the picture, and no label covers another.
     width, height = map(float, page.get("viewBox").split()[2:])
     texts = elements(page, "text")
-    boxes = [(x, y - 13, x + 7.6 * len(text.text), y + 3) for text in texts if text.get("stroke") for x, y in [numbers(text, "x", "y")]]
+    boxes = [(x, y - s, x + 7.6 / 13 * s * len(text.text), y + 0.2 * s) for text in texts if text.get("stroke") for x, y, s in [numbers(text, "x", "y", "font-size")]]
     inside = all(a >= 0 and c <= width and b >= 0 and d <= height for a, b, c, d in boxes)
     apart = all(a[2] < b[0] or b[2] < a[0] or a[3] < b[1] or b[3] < a[1] for k, a in enumerate(boxes) for b in boxes[:k])
     report.same("labels inside and apart", (inside, apart), (True, True))
