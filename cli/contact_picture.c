@@ -13,7 +13,7 @@
 enum { MOST_EVENTS = 64, SAMPLES = 64, ARC_PIECES = 8, MOST_CHARACTERS = 200 };
 static const double away = 1e5, reach = 14.0; /* of the cushions, and of the faster ball at least: in radii */
 static const double least_friction = 1e-6;    /* the library's motion needs some; balls slide straight on by so little */
-static const double margin = 26.0, most_height = 620.0, line_height = 21.0; /* pixels */
+static const double margin = 26.0, most_height = 620.0, line_height = 19.0; /* pixels */
 static const char *const colours[2] = {"#ffffff", "#f2c230"};
 
 /* A part of the cloth, and its labels. */
@@ -221,7 +221,7 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
   const char *text = p->words;
   for (int k = 0; k < lines; k++, text += strcspn(text, "\n") + 1)
     svg_text(out, margin, s.bottom + line_height * (k + 1),
-             "xml:space=\"preserve\" font-size=\"14\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", text,
+             "xml:space=\"preserve\" font-size=\"12.5\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", text,
              (int)strcspn(text, "\n"));
   fputs("</svg>\n", out);
   return height;

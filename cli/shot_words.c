@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-static const double same_contact = 0.1; /* s */
+enum { MOST_LEGS = 6 };
+static const double same_contact = 0.1, least_leg = 0.01; /* s, m */
 
 static bool has_ball(const carom_event *e, int ball) {
   return e->a == ball || (e->type == CAROM_EVENT_BALL_BALL && e->b == ball);
@@ -48,6 +49,25 @@ static void tell_contact(FILE *out, const shot_line *line, const carom_event *e,
     fprintf(out, " at a cut of %.1f degrees", fabs(angle_between(own->v, along)));
 }
 
+/* The directions of the straight lines from contact to contact. */
+static void tell_legs(FILE *out, const shot_line *line, const carom_shot *shot, int ball) {
+  const double *from = line->ball[ball].state.r;
+  int told = 0;
+  for (int64_t k = 0; k <= shot->count && k <= shot->room && told < MOST_LEGS; k++) {
+    const bool ends = k == shot->count || k == shot->room;
+    const carom_event *e = &shot->events[k];
+    if (!ends && !counts_as_rail(line, shot, k, ball) && !(e->type == CAROM_EVENT_BALL_BALL && has_ball(e, ball)))
+      continue;
+    const double *to = ends ? shot->final[ball].r : e->before[e->a == ball ? 0 : 1].r;
+    if (hypot(to[0] - from[0], to[1] - from[1]) < least_leg)
+      continue;
+    const double angle = atan2(to[1] - from[1], to[0] - from[0]) / degree;
+    fprintf(out, "%s%.1f", told++ > 0 ? ", " : "legs at ", angle < 0.0 ? angle + 360.0 : angle);
+    from = to;
+  }
+  fputs(" degrees\n       ", out);
+}
+
 static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, int ball) {
   const carom_ball_state *final = &shot->final[ball];
   int rails = 0;
@@ -62,7 +82,7 @@ static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, 
   }
   if (first != NULL && ball == line->cue.ball) {
     tell_contact(out, line, first, ball);
-    fputs("; ", out);
+    fputs("\n       ", out);
   }
   /* The cushions, with the times of the first of them. */
   fprintf(out, rails == 1 ? "%d rail" : "%d rails", rails);
@@ -70,6 +90,8 @@ static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, 
     if (counts_as_rail(line, shot, k, ball))
       fprintf(out, "%s%.2f", told++ > 0 ? ", " : " after ", shot->events[k].time);
   fputs(rails > 5 ? ", ... s; " : rails > 0 ? " s; " : "; ", out);
+  if (rails > 0 && ball == line->cue.ball)
+    tell_legs(out, line, shot, ball);
   if (final->label == CAROM_BALL_POCKETED) {
     const named_table *t = line->table;
     int in = 0;
