@@ -292,7 +292,6 @@ START_TEST(stopped_and_continued) {
         ck_assert_int_eq(parts->status, way == 3                                               ? CAROM_ERROR_TOO_MANY_EVENTS
                                         : o.time_most > 0.0 && parts->shot.time >= o.time_most ? CAROM_STOPPED_AT_TIME
                                                                                                : CAROM_STOPPED_AT_EVENT);
-        const carom_event *last = &parts->events[parts->shot.count - 1];
         if (parts->status == CAROM_STOPPED_AT_TIME) {
           ck_assert_double_eq(parts->shot.time, o.time_most);
           /* as the unbroken shot was then, and nothing is known of later */
@@ -301,6 +300,7 @@ START_TEST(stopped_and_continued) {
           ck_assert_int_eq(memcmp(then, parts->final, (size_t)s.count * sizeof *then), 0);
           ck_assert_int_eq(carom_shot_at(s.ball, s.count, &parts->shot, o.time_most + 1e-9, then), CAROM_ERROR_TIME);
         } else if (parts->status == CAROM_STOPPED_AT_EVENT) {
+          const carom_event *last = &parts->events[parts->shot.count - 1];
           ck_assert_double_eq(parts->shot.time, last->time);
           const bool contact = last->type == CAROM_EVENT_BALL_BALL && (last->a == s.cue.ball || last->b == s.cue.ball);
           ck_assert((o.stop_at & CAROM_STOP_AT(last->type)) || ((o.stop_at & CAROM_STOP_AT_CONTACT) && contact));
