@@ -244,8 +244,8 @@ OPTION(sweep, option_points, "points", points, 0, "N", set_count, 2, "how many, 
 OPTION(sweep, option_ids, "id", ids, 0, "X", set_text, 0,
        "which row: its column id, or its number if there is no such column; several with commas are swept one after the other");
 OPTION(sweep, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-       "draw the throw, with --cushion the angle of rebound, with gnuplot, a curve for each row and solver: OUT.svg or "
-       "OUT.png; the CSV is then written only with -o");
+       "draw the throw, with --cushion the angle of rebound, with gnuplot, a curve for each row and solver: OUT.svg, "
+       "OUT.png or OUT.pdf; the CSV is then written only with -o");
 OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0, "without the columns v1x to w2z, or vx to wz");
 
 OPTION(sweep, option_rows, "rows", only_rows, 0, NULL, set_flag, 0,
