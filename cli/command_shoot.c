@@ -19,7 +19,7 @@ enum { BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 }; /* lines in error that
 
 typedef struct shoot_job {
   shoot_flags from; /* --threads, --steps, --output; and a shot from words */
-  int world, ball_model, cushion, events;
+  int world, ball_model, cushion, space, events;
   int events_most;
   double time_most;
   const char *plot, *animation, *id;
@@ -42,21 +42,25 @@ typedef struct block {
 } block;
 
 OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
-       "whose rules of contact and models (default carom)");
+       "the rules of contact and the default models (default carom)");
 OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "exact|euler|inelastic|mirror", set_ball_model, 0,
-       "the collision of two balls (default: exact; by pooltool's models inelastic)");
+       "model of the collision of two balls (default: exact; with --models pooltool "
+       "inelastic)");
 OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "mathavan|stronge|han|mirror|euler", set_cushion_model, 0,
-       "the impact on a cushion; mathavan is the exact limit (default: mathavan; by pooltool's models stronge)");
+       "model of the impact on a cushion; mathavan is the exact limit (default: han; with "
+       "--models pooltool stronge)");
+OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
+       "whether balls can leave the cloth (default 3d; flat with --models pooltool)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
-       "what is told of events: nothing, time, type and ids, or states too (default full)");
+       "what to write of events: nothing; time, type and ids; or the states before and after too (default full)");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
-       "a shot is stopped after so many events (default 10000)");
+       "largest number of events of a shot (default 10000)");
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
-       "a shot is stopped after so much time of its clock (default 1000)");
+       "largest time of a shot, on its own clock (default 1000)");
 OPTION(
     shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
-    "draw the table and the balls' paths, of the first shot without an error, or of all that flags make: OUT.svg, OUT.png or "
-    "OUT.pdf");
+    "draw the table and the paths of the balls in the first shot without an error, or in all that options describe; from the "
+    "side too where a ball flies");
 OPTION(shoot_job, option_animate, "animate", animation, 0, "OUT.html", set_animation, 0,
        "write a page that plays what --plot draws; it is one file and needs nothing else");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
@@ -65,6 +69,7 @@ static carom_shot_options options_of(const shoot_job *job) {
   return (carom_shot_options){.world = (carom_world)job->world,
                               .ball_model = (carom_ball_model)job->ball_model,
                               .cushion_model = (carom_shot_cushion)job->cushion,
+                              .space = (carom_space)job->space,
                               .steps = job->from.shared.options.steps,
                               .events_most = job->events_most,
                               .threads = job->from.shared.options.threads,
@@ -298,32 +303,14 @@ static const command_form form = {
              "format; recorded results in them are ignored) and writes each table and each shot with its events and final "
              "states. IN may be -. Or plays a shot that options describe, and tells it in words; several values with commas "
              "give several shots, drawn over each other.\n",
-    .options = (const option_row *const[]){&option_table,
-                                           &option_cue,
-                                           &option_balls,
-                                           &option_aim,
-                                           &option_at_ball,
-                                           &option_shot_cut,
-                                           &option_shot_speed,
-                                           &option_tip,
-                                           &option_elevation,
-                                           &option_json,
-                                           &option_models,
-                                           &option_ball_ball,
-                                           &option_cushion_model,
-                                           &option_events,
-                                           &option_steps,
-                                           &option_events_most,
-                                           &option_time_most,
-                                           &option_threads,
-                                           &option_plot,
-                                           &option_animate,
-                                           &option_shot_id,
-                                           &option_output,
-                                           NULL},
-    .details =
-        "exit code: 0 if all shots came to rest, 1 if some are in error (they have a status and an error; the others are "
-        "played), 2 for bad usage or unreadable input\n",
+    .options = (const option_row *const[]){&option_table,         &option_cue,       &option_balls,      &option_aim,
+                                           &option_at_ball,       &option_shot_cut,  &option_shot_speed, &option_tip,
+                                           &option_elevation,     &option_json,      &option_models,     &option_ball_ball,
+                                           &option_cushion_model, &option_space,     &option_events,     &option_steps,
+                                           &option_events_most,   &option_time_most, &option_threads,    &option_plot,
+                                           &option_animate,       &option_shot_id,   &option_output,     NULL},
+    .details = "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and the error; the others "
+               "are played); 2 for bad usage or unreadable input\n",
     .example = "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3 --plot shot.svg",
     .files = FILE_OR_NONE,
 };

@@ -221,7 +221,11 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l, int ind
     complain("no such strike: %s", carom_status_string(bad));
     return false;
   }
-  const double ratio = hypot(after.v[0], after.v[1]);
+  /* In space a raised cue drives the ball otherwise than on the plane: the shot itself tells. */
+  carom_event strike = {0};
+  carom_shot shot = {.events = &strike, .room = 1};
+  carom_shoot(&l->table, l->ball, l->count, &cue, &(carom_shot_options){.events_most = 1}, &shot);
+  const double *v = shot.count > 0 ? strike.after[0].v : after.v, ratio = hypot(v[0], v[1]);
   if (!(ratio > 1e-6) || !(f->speed.at[speed].x > 0.0)) {
     complain("the ball has no speed on the cloth: --speed is above 0, --elevation below 90");
     return false;
