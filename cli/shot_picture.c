@@ -385,8 +385,8 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   for (int shot = 0; shot < count; shot++)
     draw_rails(&v, &l, shots[shot].line, shots[shot].shot);
   for (int k = 0; k < lines; k++, footer += strcspn(footer, "\n") + 1)
-    svg_text(out, 24.0, high + below + line_height * (k + 0.6), "xml:space=\"preserve\" font-size=\"18\" fill=\"#fff\"", footer,
-             (int)strcspn(footer, "\n"));
+    svg_text(out, 24.0, high + below + line_height * (k + (below > 0.0 ? 1.0 : 0.6)),
+             "xml:space=\"preserve\" font-size=\"18\" fill=\"#fff\"", footer, (int)strcspn(footer, "\n"));
   fputs("</svg>\n", out);
 }
 
