@@ -120,6 +120,9 @@ static bool argument_error(const shot_line *line, const carom_shot_options *opti
     snprintf(text, 300, "table '%s': %s", line->table->id, carom_status_string(bad));
   else if (bad == CAROM_ERROR_CUE || bad == CAROM_ERROR_MISCUE)
     snprintf(text, 300, "cue: %s", carom_status_string(bad));
+  else if (bad == CAROM_ERROR_RESTITUTION)
+    snprintf(text, 300, "balls[%d] ('%s'): e_b and e_c must be in [0, 1], and e_t at most 0.98 and not below 0, or -1 for none",
+             where, line->name[where]);
   else if (where >= 0)
     snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where], carom_status_string(bad));
   else
