@@ -232,7 +232,7 @@ shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
       snprintf(file->engine, sizeof file->engine, "%s", engine);
     json_decref(json);
   }
-  if (ferror(file->in)) {
+  if (!feof(file->in)) {
     complain("cannot read %s: %s", file->path, strerror(errno));
     return SHOT_FAILED;
   }

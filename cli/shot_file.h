@@ -2,19 +2,14 @@
 #ifndef CAROM_CLI_SHOT_FILE_H
 #define CAROM_CLI_SHOT_FILE_H
 
+#include "shot_table.h"
+
 #include "carom_shot.h"
 
 #include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
-
-/* A table by its id, with the ids of its parts. */
-typedef struct named_table {
-  char *id;
-  carom_table table;
-  char *rail[CAROM_RAILS_MOST], *jaw[CAROM_JAWS_MOST], *pocket[CAROM_POCKETS_MOST];
-} named_table;
 
 /* A shot as it was read. */
 typedef struct shot_line {

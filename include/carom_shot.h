@@ -72,7 +72,7 @@ typedef struct carom_cushion_options {
   int steps;            /* Euler's N: compression and restitution take about so many steps each; 0: CAROM_DEFAULT_STEPS. */
   int threads;          /* most threads that a batch may use, the calling one among them. 0, the default: that one alone;
                            CAROM_ALL_THREADS: one for each processor. Results do not depend on it. */
-  int unused;           /* must be 0. */
+  int plain;            /* 1: with CAROM_ISA_PLAIN, as in carom_options. Default 0. */
   double least_step;    /* N s, >= 0: EULER takes no step of less impulse, but for the last ones. Default 0; pooltool: 0.001. */
   double omega_ratio;   /* STRONGE: frequency of the nose along its surface over that across it, 1 to 2 without the ends. 0:
                            1.8, which is that of pooltool. */
@@ -150,10 +150,11 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
  * The playing surface is 0 <= x <= width, 0 <= y <= length for the built-in tables, with z up and the cloth at z = 0: a ball on
  * it has its centre at z = R. docs/using/shots.md describes the models, the rules and the bounds.
  *
- * Bits: those of a batch are those of single calls, for any number of threads and any cut; with CAROM_ISA=plain they are the
- * same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with closed-form cushions, so 3 us for
- * a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion, the default, costs some 7 to 10 us an
- * impact besides. Stack: 30 KiB. Nothing is allocated, but for the threads of a batch. */
+ * Bits: those of a batch are those of single calls, for any number of threads and any cut; with options.plain or
+ * CAROM_ISA=plain they are the same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with Han's
+ * cushions, the default, so 3 us for a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion costs
+ * some 7 to 10 us an impact besides. Stack: 32 KiB; a batch 35, with threads 42. Nothing is allocated, but for the threads of a
+ * batch. */
 
 /* ---- Balls ------------------------------------------------------------------------------------------------------------ */
 
@@ -208,12 +209,13 @@ typedef struct carom_shot_ball {
   carom_ball_state state;
 } carom_shot_ball;
 
-/* Games, for their balls and cues. docs/understanding/constants.md has the source of each number. */
+/* Games, for their balls and cues. docs/understanding/constants.md has the source of each number. The numbers of the cushion
+ * are those of Han's model, the default of the world carom; that page has those of the exact model. */
 typedef enum carom_game {
   CAROM_GAME_POOL = 0,             /* typical numbers, each within the range that is published; no table was measured */
   CAROM_GAME_SNOOKER = 1,          /* measured by Mathavan and others, 2009 to 2014, on one table */
   CAROM_GAME_BILLIARD = 2,         /* three-cushion: measured on one table, from 182 recorded shots, with drag and loss of roll;
-                                      mu_cushion and restitution_cushion are for CAROM_CUSHION_MATHAVAN */
+                                      mu_cushion, restitution_cushion and nose_height are for CAROM_CUSHION_HAN */
   CAROM_GAME_POOLTOOL_POOL = 3,    /* the figures of pooltool's balls, for parity with it: pool, */
   CAROM_GAME_POOLTOOL_SNOOKER = 4, /* snooker, */
   CAROM_GAME_POOLTOOL_BILLIARD = 5 /* and carom */
@@ -381,9 +383,10 @@ typedef enum carom_space {
   CAROM_SPACE_FLAT = 1 /* balls stay on the cloth, whatever pushes them up or down */
 } carom_space;
 
-/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is MATHAVAN in the world carom, STRONGE in
- * pooltool. These values are not those of carom_cushion_model, in which 0 is a model: compilers warn where the two are mixed
- * (-Wenum-conversion, which -Wextra of gcc turns on). */
+/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is HAN in the world carom, STRONGE in
+ * pooltool. HAN predicts recorded shots as well as MATHAVAN, the exact limit, for a tenth of the cost or less
+ * (docs/understanding/reality.md). These values are not those of carom_cushion_model, in which 0 is a model: compilers warn
+ * where the two are mixed (-Wenum-conversion, which -Wextra of gcc turns on). */
 typedef enum carom_shot_cushion {
   CAROM_SHOT_CUSHION_DEFAULT = 0,
   CAROM_SHOT_CUSHION_MATHAVAN = 1,
@@ -407,7 +410,10 @@ typedef struct carom_shot_options {
                        CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s with CAROM_ERROR_TOO_LONG. */
   uint64_t stop_at; /* the shot is stopped right after an event of this set, with CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)
                        of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
-  uint64_t reserved[4]; /* must be 0. */
+  int32_t plain;    /* 1: with CAROM_ISA_PLAIN, as in carom_options: a shot with the bits that all machines share. 0: with
+                       the instruction set in use. */
+  int32_t unused;   /* must be 0. */
+  uint64_t reserved[3]; /* must be 0. */
 } carom_shot_options;
 
 /* ---- What happened ---------------------------------------------------------------------------------------------------- */
@@ -511,6 +517,12 @@ CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom
  * number, and for one after shot->time where balls still move then, since a bound or an error ended the shot. */
 CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
                                      carom_ball_state *states);
+
+/* The states at `n` times: those of times[k] go to states[k * count ...], each with the bits of carom_shot_at(). Times in
+ * ascending order cost some 20 ns a ball; every one before the last begins anew with the first event. Returns what
+ * carom_shot_at() does, for the first time in error; the states of the times before it have been written. */
+CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const carom_shot *shot, const double *times,
+                                           size_t n, carom_ball_state *states);
 
 /* Many shots on one table. Shot k is of the `count` balls from balls[k * ball_stride] on, and of cues[k * cue_stride].
  *

@@ -3,7 +3,7 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
-#include "enumerations.h"
+#include "platform/enumerations.h"
 
 #define TEXT_OF(x) #x
 #define TEXT(x) TEXT_OF(x)
@@ -38,7 +38,7 @@
   X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                             \
   X(ERROR_UNRESOLVED, -22, "unresolved",                                                                            \
     "the collision is too extreme: its result depends on rounding errors, or takes more work than a call may cost") \
-  X(ERROR_OPTIONS, -23, "bad_options", "the reserved fields of the options must be 0")                              \
+  X(ERROR_OPTIONS, -23, "bad_options", "plain must be 0 or 1, and the reserved fields of the options 0")            \
   X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model", "options.model is not one of carom_cushion_model")               \
   X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options", "an option of the cushion is out of its range")              \
   X(ERROR_NORMAL, -32, "bad_normal", "the direction into the cushion must be finite and not 0")                     \
@@ -90,7 +90,7 @@ int carom_version_number(void) {
 
 /* Raised by the commit that changes the bits of any result; tests/platforms/revision says when that is. */
 int carom_physics_revision(void) {
-  return 1;
+  return 2;
 }
 
 int carom_serves(int header) {

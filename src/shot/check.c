@@ -31,8 +31,8 @@ static carom_status check_options(const carom_shot_options *o) {
   const bool good = (uint32_t)o->world <= CAROM_WORLD_POOLTOOL && (uint32_t)o->ball_model <= CAROM_BALL_MODEL_MIRROR &&
                     (uint32_t)o->cushion_model <= CAROM_SHOT_CUSHION_EULER &&
                     (uint32_t)o->friction <= CAROM_FRICTION_CONSTANT && (uint32_t)o->space <= CAROM_SPACE_FLAT &&
-                    o->events_most >= 0 && !reserved && o->time_most >= 0.0 && o->time_most < INFINITY &&
-                    o->stop_at >> CAROM_DUE_PIECE == 0;
+                    o->events_most >= 0 && (o->plain & ~1) == 0 && o->unused == 0 && !reserved && o->time_most >= 0.0 &&
+                    o->time_most < INFINITY && o->stop_at >> CAROM_DUE_PIECE == 0;
   if (!good)
     return CAROM_ERROR_SHOT_OPTIONS;
   if (o->steps < 0)

@@ -137,7 +137,8 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
   const bool euler = model == CAROM_BALL_MODEL_EULER;
   const carom_options options = {.solver = euler ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
                                  .slip = euler && sim->pooltool ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER,
-                                 .steps = sim->opt->steps};
+                                 .steps = sim->opt->steps,
+                                 .plain = sim->opt->plain};
   carom_result out;
   const carom_status status = carom_collide(&in, &options, &out);
   if (status == CAROM_SEPARATING && sim->pooltool && euler)
@@ -184,7 +185,7 @@ static carom_cushion_model cushion_model(const carom_sim *sim) {
   const carom_shot_cushion asked = sim->opt->cushion_model;
   return asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1)
          : sim->pooltool                     ? CAROM_CUSHION_STRONGE
-                                             : CAROM_CUSHION_MATHAVAN;
+                                             : CAROM_CUSHION_HAN;
 }
 
 /* Of a rail or jaw, or of the ball where that has none. */
@@ -241,7 +242,8 @@ carom_status carom_model_cushion(const carom_sim *sim, int i, const double norma
                                    .mu_cushion = own_or(nose->mu_cushion, kind->mu_cushion),
                                    .restitution = own_or(nose->restitution, kind->restitution_cushion),
                                    .jaw_radius = nose->jaw_radius};
-  carom_cushion_options options = {.model = cushion_model(sim), .steps = sim->opt->steps, .omega_ratio = kind->omega_ratio};
+  carom_cushion_options options = {
+      .model = cushion_model(sim), .steps = sim->opt->steps, .plain = sim->opt->plain, .omega_ratio = kind->omega_ratio};
   if (sim->pooltool) {
     options.convention = CAROM_CONVENTION_POOLTOOL;
     options.least_step = 0.001;

@@ -30,17 +30,20 @@ static double rough_cube_root(double x) {
 /* The first piece of a pair, of a ball that rolls at v against drag: its deceleration. DRAG in path.h has the equations. Apart
  * and cold, so that balls without drag do not pay for it: inlined, it costs their shots 1 to 2 % (carom-lab bench --shots). */
 __attribute__((noinline, cold)) static double begin_pair(carom_path *path, const carom_ball_rates *rates, double v) {
-  /* 324 J0 T^3 = 1e-6 m with T = fall / (A + k v^2), and 0.8 of it, since T is somewhat longer than that */
-  static const double most = 324.0 * 1e-6 / 2.0 * 0.8;
+  /* J0 T^3 / 324 = 1e-5 m with T = fall / (A + k v^2), and 0.6 of it, since T is longer than that */
+  static const double most = 324.0 * 1e-5 / 2.0 * 0.6;
   const double A = rates->roll, k = rates->drag, slows = A + k * v * v;
   const double fall = rough_cube_root(most * slows * slows / (k * v));
   path->last_pair = !(fall < v);
   const double least = path->last_pair ? 0.0 : v - fall, by = v - least;
-  /* series of atan(x)/x and atanh(y)/y; x^2 and y are below 0.02 and 0.06 where k <= 1/m */
+  /* series of atan(x)/x and atanh(y)/y; x^2 and y are below 0.06 and 0.12 where k <= 1/m */
   const double x = by / (A + k * v * least), x2 = A * k * x * x;
-  const double T = x * (1.0 - x2 * (1.0 / 3.0 - x2 * (1.0 / 5.0 - x2 * (1.0 / 7.0 - x2 * (1.0 / 9.0 - x2 / 11.0)))));
+  const double T =
+      x *
+      (1.0 - x2 * (1.0 / 3.0 -
+                   x2 * (1.0 / 5.0 - x2 * (1.0 / 7.0 - x2 * (1.0 / 9.0 - x2 * (1.0 / 11.0 - x2 * (1.0 / 13.0 - x2 / 15.0)))))));
   const double y = by * (v + least) / (2.0 * A + k * (v * v + least * least)), y2 = k * k * y * y;
-  const double S = y * (1.0 + y2 * (1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 / 9.0))));
+  const double S = y * (1.0 + y2 * (1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 * (1.0 / 9.0 + y2 / 11.0)))));
   const double mean = by / T, first = 4.0 * (v * T - S) / (T * T) - mean;
   path->second[0] = 2.0 * mean - first;
   path->second[1] = 0.5 * T;

@@ -109,8 +109,10 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
     kind.mu_slide = 2.075 / 9.81;
     kind.mu_roll = 0.125 / 9.81;
     kind.restitution = 0.89;
-    kind.mu_cushion = 0.14;
-    kind.restitution_cushion = 0.98;
+    /* of Han's closed form: what the exact cushion does with 0.14, 0.98 and the nose at 7/5 R (physics/terms) */
+    kind.mu_cushion = 0.2;
+    kind.restitution_cushion = 0.936;
+    kind.nose_height = 0.03074;
   } else if (game == CAROM_GAME_BILLIARD) {
     kind.mu_slide = 2.02 / 9.81;
     kind.mu_roll = 0.0418 / 9.81;
@@ -118,8 +120,10 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
     kind.mu_spin = 0.004;
     kind.restitution = 0.951;
     kind.mu_ball = kind.law_a = 0.08;
-    kind.mu_cushion = 0.22;
-    kind.restitution_cushion = 0.898;
+    /* of Han's closed form, with its nose: the cushion of the world carom by default */
+    kind.mu_cushion = 0.231;
+    kind.restitution_cushion = 0.874;
+    kind.nose_height = 0.03545;
     kind.roll_loss = 0.087;
   }
   return kind;

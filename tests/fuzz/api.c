@@ -119,8 +119,9 @@ static void two_balls(void) {
   carom_options o = {.solver = (carom_solver)(choice(16) == 0 ? choice(256) - 128 : choice(8) == 0),
                      .slip = (carom_slip)(choice(16) == 0 ? choice(256) - 128 : choice(2)),
                      .steps = choice(16) == 0 ? -choice(3) : 1 + choice(200),
-                     .threads = choice(32) == 0 ? choice(5) - 2 : 0};
-  reserve(&o.reserved[choice(6)]);
+                     .threads = choice(32) == 0 ? choice(5) - 2 : 0,
+                     .plain = choice(16) == 0 ? choice(5) - 2 : choice(2)};
+  reserve(&o.reserved[choice(5)]);
   carom_isa_limit((carom_isa)choice(CAROM_ISA_AVX512 + 1));
   carom_result out, many[ROWS];
   int8_t statuses[ROWS];
@@ -137,8 +138,8 @@ static void two_balls(void) {
       rows[k].a.v[k % 2] += 0.01 * k;
   }
   if (carom_collide_batch(rows, (size_t)n, &o, many, statuses) != CAROM_ERROR_THREADS && o.steps >= 0 && o.threads >= -1) {
-    bool bad_options = false;
-    for (int k = 0; k < 6; k++)
+    bool bad_options = (o.plain & ~1) != 0;
+    for (int k = 0; k < 5; k++)
       bad_options |= o.reserved[k] != 0;
     if (!bad_options && (unsigned)o.solver <= 1 && (unsigned)o.slip <= 1 &&
         (statuses[at] != status || (status >= 0 && memcmp(&many[at], &out, sizeof out) != 0)))
@@ -200,7 +201,8 @@ static void cushion(void) {
                              .law = (carom_cushion_law)choice(2),
                              .steps = choice(16) == 0 ? -choice(3) : 1 + choice(200),
                              .least_step = choice(8) == 0 ? number(0, 0.001) : 0,
-                             .omega_ratio = choice(8) == 0 ? number(1, 2) : 0};
+                             .omega_ratio = choice(8) == 0 ? number(1, 2) : 0,
+                             .plain = choice(2)};
   reserve(&o.reserved[choice(4)]);
   carom_motion out, many[3];
   int8_t statuses[3] = {1, 1, 1};
@@ -285,10 +287,11 @@ static void shots(void) {
                           .space = (carom_space)mostly(choice(4) == 0),
                           .steps = 1 + choice(100),
                           .events_most = 1 + choice(120),
-                          .time_most = choice(3) == 0 ? number(0, 10) : 0};
+                          .time_most = choice(3) == 0 ? number(0, 10) : 0,
+                          .plain = choice(2)};
   if (choice(3) == 0)
     o.stop_at = choice(4) == 0 ? (uint64_t)choice(256) << choice(64) : CAROM_STOP_AT(choice(CAROM_EVENT_LEFT_TABLE + 1));
-  reserve(&o.reserved[choice(4)]);
+  reserve(&o.reserved[choice(3)]);
   static carom_shot_state state;
   carom_shot one = {.events = events[0], .room = choice(EVENTS + 1), .final = final[0], .state = &state};
   const carom_status status = carom_shoot(&table, balls, count, &cues[0], &o, &one);

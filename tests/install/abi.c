@@ -26,7 +26,7 @@ static void print_shot_types(void) {
   FIELD(carom_cushion_options, law);
   FIELD(carom_cushion_options, steps);
   FIELD(carom_cushion_options, threads);
-  FIELD(carom_cushion_options, unused);
+  FIELD(carom_cushion_options, plain);
   FIELD(carom_cushion_options, least_step);
   FIELD(carom_cushion_options, omega_ratio);
   FIELD(carom_cushion_options, reserved);
@@ -117,6 +117,8 @@ static void print_shot_types(void) {
   FIELD(carom_shot_options, space);
   FIELD(carom_shot_options, time_most);
   FIELD(carom_shot_options, stop_at);
+  FIELD(carom_shot_options, plain);
+  FIELD(carom_shot_options, unused);
   FIELD(carom_shot_options, reserved);
   TYPE(carom_event);
   FIELD(carom_event, time);
@@ -199,6 +201,8 @@ static void print_types(void) {
   FIELD(carom_options, slip);
   FIELD(carom_options, steps);
   FIELD(carom_options, threads);
+  FIELD(carom_options, plain);
+  FIELD(carom_options, unused);
   FIELD(carom_options, reserved);
   TYPE(carom_speed_law);
   FIELD(carom_speed_law, a);

@@ -309,15 +309,24 @@ static void shots(void) {
                 {"han", {.cushion_model = CAROM_SHOT_CUSHION_HAN, .friction = CAROM_FRICTION_CONSTANT}},
                 {"mirror", {.cushion_model = CAROM_SHOT_CUSHION_MIRROR, .ball_model = CAROM_BALL_MODEL_INELASTIC}},
                 {"euler", {.cushion_model = CAROM_SHOT_CUSHION_EULER, .ball_model = CAROM_BALL_MODEL_EULER, .steps = 100}},
-                {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}}};
+                {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}},
+                {"mathavan", {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN}}};
   static carom_event events[ROOM];
   static carom_shot_ball balls[CAROM_BALLS_MOST];
   static carom_ball_state final[CAROM_BALLS_MOST], later[CAROM_BALLS_MOST];
   static carom_table table;
   state = 4;
-  for (int n = 0; n < 66; n++) { /* the measured ones behind the others, whose draws they leave as they are; then in space */
-    const bool space = n >= 36;
-    const int m = space ? (n - 36) / 6 : n < 24 ? n / 4 : n / 2 - 12, g = space ? (n - 36) % 6 : n < 24 ? n % 4 : 4 + n % 2;
+  for (int n = 0; n < 72;
+       n++) { /* the measured ones, then mathavan, behind the others, whose draws they leave as they are; then in space */
+    const bool space = n >= 42;
+    const int m = space    ? (n - 42) / 6
+                  : n < 24 ? n / 4
+                  : n < 36 ? n / 2 - 12
+                           : 6,
+              g = space    ? (n - 42) % 6
+                  : n < 24 ? n % 4
+                  : n < 36 ? 4 + n % 2
+                           : n - 36;
     carom_shot_options options = models[m].options;
     options.space = space ? CAROM_SPACE_3D : CAROM_SPACE_FLAT;
     uint64_t hash = START;

@@ -245,7 +245,9 @@ START_TEST(options_and_calls) {
   REFUSED(options.events_most, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.space, (carom_space)2, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.space, (carom_space)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.reserved[3], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.plain, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.unused, 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.reserved[2], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.time_most, NAN, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.steps, -1, CAROM_ERROR_STEPS, -1);
   REFUSED(options.threads, -2, CAROM_ERROR_THREADS, -1);
@@ -354,6 +356,45 @@ START_TEST(bounds) {
   ck_assert_int_eq(shot.count, 0);
   ck_assert_int_eq(carom_shoot(&table, balls, 10, NULL, NULL, &shot), CAROM_OK);
   ck_assert_int_eq(shot.count, 0);
+}
+END_TEST
+
+/* Many times have the bits of one after another, in any order, with drag too; an error leaves the times before it written. */
+START_TEST(many_times) {
+  enum { TIMES = 400 };
+  static carom_event events[2000];
+  static carom_ball_state together[TIMES][10], alone[10];
+  double times[TIMES];
+  for (int drag = 0; drag < 2; drag++) {
+    set_up();
+    for (int i = 0; i < 10; i++)
+      balls[i].kind.drag = 0.02 * drag;
+    carom_shot shot = {.events = events, .room = 2000};
+    ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_OK);
+    ck_assert(shot.count > 20 && shot.count < 2000);
+    for (int order = 0; order < 3; order++) { /* forwards with every event among them, backwards, to and fro */
+      for (int k = 0; k < TIMES; k++) {
+        const double even = (k / (TIMES - 2.0)) * 1.1 * shot.time - 0.01;
+        times[order == 1 ? TIMES - 1 - k : k] = order == 2 && k % 3 == 0 ? shot.time - even : even;
+      }
+      for (int k = 0; order == 0 && k < 20; k++)
+        times[10 * k] = events[k].time;
+      ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, times, TIMES, together[0]), CAROM_OK);
+      for (int k = 0; k < TIMES; k++) {
+        ck_assert_int_eq(carom_shot_at(balls, 10, &shot, times[k], alone), CAROM_OK);
+        ck_assert_mem_eq(alone, together[k], sizeof alone);
+      }
+    }
+    times[0] = 0.5;
+    times[1] = NAN;
+    memset(together, 0, sizeof together);
+    ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, times, 2, together[0]), CAROM_ERROR_TIME);
+    ck_assert_int_eq(carom_shot_at(balls, 10, &shot, 0.5, alone), CAROM_OK);
+    ck_assert_mem_eq(alone, together[0], sizeof alone);
+    ck_assert_double_eq(together[1][0].r[2], 0.0);
+    ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, NULL, 0, NULL), CAROM_OK);
+    ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, NULL, 1, alone), CAROM_ERROR_NULL);
+  }
 }
 END_TEST
 
@@ -611,6 +652,6 @@ START_TEST(wild_shots) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, strikes_of_bad_balls, bounds, lost_ball,
-                   measures, places, wild_shots);
+  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, strikes_of_bad_balls, bounds, many_times,
+                   lost_ball, measures, places, wild_shots);
 }
