@@ -46,7 +46,7 @@ OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "MODEL", set_cush
        "model of the impact on a cushion: han, mathavan (the exact limit), stronge, mirror or euler (default: han; with "
        "--models pooltool stronge)");
 OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
-       "whether balls can leave the cloth (default 3d; flat with --models pooltool)");
+       "whether balls can leave the cloth (default: 3d; by pooltool's rules always flat)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
        "what to write of events: nothing; time, type and ids; or the states before and after too (default full)");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
