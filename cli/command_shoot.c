@@ -50,7 +50,7 @@ OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "mathavan|stronge
        "model of the impact on a cushion; mathavan is the exact limit (default: han; with "
        "--models pooltool stronge)");
 OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
-       "whether balls can leave the cloth (default 3d; flat with --models pooltool)");
+       "whether balls can leave the cloth (default: 3d; by pooltool's rules always flat)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
        "what to write of events: nothing; time, type and ids; or the states before and after too (default full)");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
@@ -129,6 +129,9 @@ static bool argument_error(const shot_line *line, const carom_shot_options *opti
     snprintf(text, 300, "table '%s': %s", line->table->id, carom_status_string(bad));
   else if (bad == CAROM_ERROR_CUE || bad == CAROM_ERROR_MISCUE)
     snprintf(text, 300, "cue: %s", carom_status_string(bad));
+  else if (bad == CAROM_ERROR_RESTITUTION)
+    snprintf(text, 300, "balls[%d] ('%s'): e_b and e_c must be in [0, 1], and e_t at most 0.98 and not below 0, or -1 for none",
+             where, line->name[where]);
   else if (bad == CAROM_ERROR_OFF_TABLE && where >= 0) {
     const carom_shot_ball *ball = &line->ball[where];
     const double *r = ball->state.r, R = ball->kind.radius;

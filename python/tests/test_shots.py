@@ -535,7 +535,7 @@ def test_balls_that_fly():
         carom.simulate(table, balls, carom.cue(a=0.3, b=0.4, miscue=0.5))
     with pytest.raises(ValueError, match="space"):
         carom.simulate(table, balls, cue, space="2d")
-    with pytest.raises(carom.CaromError, match="restitution_table"):
+    with pytest.raises(carom.CaromError, match="restitution_table = 0.99: it must be 0 to 0.98"):
         carom.simulate(table, carom.balls([[0.5, 0.5]], restitution_table=0.99))
     # a large ball rolls into a small one: spheres in space
     unlike = carom.balls([[0.4, 0.5], [0.7, 0.5]], radius=[0.0302, 0.028575], v=[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
