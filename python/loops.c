@@ -267,14 +267,29 @@ static piece piece_of(double start, const carom_ball_state *a, double end, const
   return p;
 }
 
+/* The place and velocity of a ball that has rolled against drag for a time t, exactly: dv/dt = -(A + k v^2) takes v0, with q =
+ * tan(sqrt(A k) t) / sqrt(A k), to v = (v0 - A q) / (1 + k v0 q) and log(cos(sqrt(A k) t) (1 + k v0 q)) / k further. */
+static void roll(const carom_ball_kind *kind, double t, carom_ball_state *s) {
+  const double A = kind->mu_roll * kind->gravity, k = kind->drag, turn = sqrt(A * k);
+  const double v = hypot(s->v[0], s->v[1]), q = turn > 0.0 ? tan(turn * t) / turn : t;
+  const double way = log(cos(turn * t) * (1.0 + k * v * q)) / k, later = (v - A * q) / (1.0 + k * v * q);
+  for (int axis = 0; axis < 2; axis++) {
+    s->r[axis] += way * s->v[axis] / v;
+    s->v[axis] *= later / v;
+  }
+}
+
 /* Appends the way from a state to an end, whose state may be NULL: then it follows from the motion. */
 static bool go(way *w, const carom_shot_ball *ball, double start, double end, const carom_ball_state *to) {
   carom_ball_state from = ball->state, there;
-  const bool cuts = ball->kind.drag > 0.0 && from.v[0] * from.v[0] + from.v[1] * from.v[1] > 0.0;
+  const bool cuts = ball->kind.drag > 0.0 && from.label == CAROM_BALL_ROLLING;
   const int parts = cuts && end - start > piece_most ? (int)fmin(ceil((end - start) / piece_most), 64.0) : 1;
   for (int k = 1; k <= parts; k++) {
     const double since = (end - start) * k / parts;
-    if (k < parts || to == NULL) {
+    if (k < parts) {
+      there = from;
+      roll(&ball->kind, (end - start) / parts, &there);
+    } else if (to == NULL) {
       if (carom_shot_at(ball, 1, &(carom_shot){.time = since}, since, &there) < 0)
         return false;
     } else {
@@ -329,6 +344,11 @@ static bool play(const carom_python_tracks *tracks, int32_t shot, int variant, c
   for (int i = 0; i < count; i++)
     good = good && go(&ways[i], &balls[i], since[i], options.time_most, NULL);
   return good;
+}
+
+static void copy(way *to, const way *from) {
+  to->pieces = from->pieces;
+  memcpy(to->piece, from->piece, (size_t)from->pieces * sizeof *from->piece);
 }
 
 /* The place at a time; *at is the piece of the last call, for times that increase. */
@@ -413,6 +433,12 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
       if (d < STRIKE)
         strike[d] += step[d];
       start[d + 1] = strike[5];
+      if (d == STRIKE - 1) {
+        /* struck later, the balls go the same way */
+        for (int i = 0; i < tracks->count; i++)
+          copy(&ways[(d + 1) * tracks->count + i], &ways[i]);
+        continue;
+      }
       good = play(tracks, of[k], d < STRIKE ? 0 : 1 + d - STRIKE, strike, until[k] - start[d + 1], events,
                   &ways[(d + 1) * tracks->count]);
     }

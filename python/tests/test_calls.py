@@ -83,7 +83,7 @@ def test_messages_name_what_is_wrong_with_a_cue():
         ({"end_mass": np.inf}, "cue.end_mass", "positive and finite"),
         ({"ball": 99}, "cue.ball", r"cue\.ball = 99: .* index of one of the balls, 0 to 9"),
         ({"ball": -1}, "cue.ball", "0 to 9"),
-        ({"ball": 3}, "cue.ball", r"cue\.ball = 3: this ball is pocketed"),
+        ({"ball": 3}, "cue.ball", r"cue\.ball = 3: this ball is out of play"),
         ({"a": 0.8, "b": 0.8}, "cue", "the tip misses the ball"),
     ):
         with pytest.raises(carom.CaromError, match=message) as caught:

@@ -510,6 +510,37 @@ def test_pictures():
     assert len(list(ElementTree.fromstring(table._repr_svg_()).iter(name + "circle"))) == len(table.pockets) + len(table.jaws)
 
 
+def test_balls_that_fly():
+    table = carom.tables.pool_9ft()
+    balls = carom.balls([[0.5, 0.6], [0.5, 0.905]])
+    cue = carom.cue(speed=3.0, theta=45.0, b=0.0)
+    over = carom.simulate(table, balls, cue, cushion_model="han")
+    kinds = over.events["type"].tolist()
+    assert kinds[:2] == [carom.EventType.STRIKE, carom.EventType.SLATE] and kinds.count(carom.EventType.SLATE) > 3
+    top = over.positions(np.linspace(0.0, 0.3, 31))[:, 0, 2].max()
+    assert abs(top - 0.028575 - 0.135695) < 1e-4
+    flat = carom.simulate(table, balls, cue, cushion_model="han", space="flat")
+    assert flat.events["type"][1] == carom.EventType.BALL_BALL and (flat.events["after"]["v"][..., 2] == 0).all()
+    # off the table, which is no error; the batch takes the same option
+    balls = carom.balls([[0.4, 2.14], [0.8, 1.8]])
+    cue = carom.cue(speed=3.0, theta=45.0, b=0.0, miscue=0.5)
+    gone = carom.simulate(table, balls, cue, cushion_model="han")
+    assert gone.events["type"][-1] == carom.EventType.LEFT_TABLE and gone.final["label"].tolist() == [carom.Label.OFF, 0]
+    for space in ("3d", "flat"):
+        shots = carom.simulate_batch(table, balls, cue, cushion_model="han", space=space)
+        assert shots.final[0]["label"] == (carom.Label.OFF if space == "3d" else carom.Label.STATIONARY)
+    with pytest.raises(carom.CaromError, match="miscue"):
+        carom.simulate(table, balls, carom.cue(a=0.3, b=0.4, miscue=0.5))
+    with pytest.raises(ValueError, match="space"):
+        carom.simulate(table, balls, cue, space="2d")
+    with pytest.raises(carom.CaromError, match="restitution_table"):
+        carom.simulate(table, carom.balls([[0.5, 0.5]], restitution_table=0.99))
+    # a large ball rolls into a small one: spheres in space
+    unlike = carom.balls([[0.4, 0.5], [0.7, 0.5]], radius=[0.0302, 0.028575], v=[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    hit = carom.simulate(table, unlike, cushion_model="han")
+    assert carom.EventType.SLATE in hit.events["type"].tolist()
+
+
 def test_each_bad_argument_has_its_message():
     """In Python's words, with the argument's name and what would be right."""
     table = carom.tables.pool_9ft()
@@ -533,7 +564,7 @@ def test_each_bad_argument_has_its_message():
         ("room: it must be a whole number", lambda: carom.simulate_batch(table, rack, cue, room=-1)),
         ("cue.speed = nan: it must be 0 to 1000 m/s", lambda: carom.simulate(table, rack, carom.cue(speed=np.nan))),
         ("cue.ball = 99: it must be the index", lambda: carom.simulate(table, rack, carom.cue(ball=99))),
-        ("cue.ball = 0: this ball is pocketed", lambda: carom.simulate(table, pocketed, cue)),
+        ("cue.ball = 0: this ball is out of play", lambda: carom.simulate(table, pocketed, cue)),
     ):
         with pytest.raises((ValueError, TypeError), match=f"^{message}"):
             call()

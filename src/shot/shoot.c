@@ -1,5 +1,6 @@
 /* The loop of a shot: find the next event, bring the balls in it there, resolve it, look again what they will meet. */
 #include "platform/threads.h"
+#include "shot/fixed.h"
 #include "shot/sim.h"
 
 #include <math.h>
@@ -45,6 +46,16 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
     *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth}, .label = CAROM_BALL_POCKETED};
     return CAROM_OK;
   }
+  case CAROM_EVENT_SLATE:
+  case CAROM_EVENT_RAIL_TOP:
+    *state = event->before[0];
+    carom_hit_slate(&sim->ball[i].kind, state);
+    carom_label_in_space(state, sim->rates[i].radius);
+    return CAROM_OK;
+  case CAROM_EVENT_LEFT_TABLE:
+    *state = (carom_ball_state){.label = CAROM_BALL_OFF};
+    memcpy(state->r, event->before[0].r, sizeof state->r);
+    return CAROM_OK;
   default: {
     carom_ball_state end;
     carom_path_end(&sim->path[i], &sim->rates[i], &end);
@@ -59,6 +70,10 @@ static carom_status step(carom_sim *sim, const carom_due *due) {
   carom_event spare, *event = note(sim, &spare, due);
   const int i = due->a, j = due->type == CAROM_EVENT_BALL_BALL ? due->b : -1;
   carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
+  if (due->type == CAROM_EVENT_SLATE)
+    carom_path_land(&sim->path[i], &sim->rates[i], &event->before[0]);
+  else if (due->type == CAROM_EVENT_RAIL_TOP) /* exactly on it */
+    event->before[0].r[2] = carom_height_on_top(sim, i, due->b);
   if (j >= 0)
     carom_path_at(&sim->path[j], &sim->rates[j], sim->now, &event->before[1]);
   const carom_status status = resolve(sim, due, event);
@@ -89,12 +104,13 @@ static carom_status strike(carom_sim *sim) {
     return CAROM_OK;
   for (int i = 0; i < sim->count; i++) {
     const int64_t label = sim->path[i].from.label;
-    if (label != CAROM_BALL_STATIONARY && label != CAROM_BALL_POCKETED)
+    if (label != CAROM_BALL_STATIONARY && !carom_is_out(label))
       return CAROM_OK;
   }
   const int i = (int)cue->ball;
   carom_motion motion;
-  const carom_status status = carom_strike(cue, &sim->ball[i].kind, &motion);
+  const bool flat = sim->pooltool || sim->opt->space == CAROM_SPACE_FLAT;
+  const carom_status status = (flat ? carom_strike : carom_strike_in_space)(cue, &sim->ball[i].kind, &motion);
   if (status < 0)
     return status;
   const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
@@ -103,7 +119,12 @@ static carom_status strike(carom_sim *sim) {
   event->before[0] = *state;
   memcpy(state->v, motion.v, sizeof state->v);
   memcpy(state->w, motion.w, sizeof state->w);
-  carom_label_of(state, sim->rates[i].radius);
+  if (state->v[2] != 0.0) { /* it lands at once, from the cloth exactly */
+    state->r[2] = sim->rates[i].radius;
+    carom_label_in_space(state, sim->rates[i].radius);
+  } else {
+    carom_label_of(state, sim->rates[i].radius);
+  }
   if (sim->pooltool)
     state->label = CAROM_BALL_SLIDING;
   event->after[0] = *state;
@@ -113,12 +134,13 @@ static carom_status strike(carom_sim *sim) {
 }
 
 static void begin(carom_sim *sim) {
+  sim->unlike = false;
   for (int i = 0; i < sim->count; i++) {
     sim->rates[i] = carom_rates_of(&sim->ball[i].kind);
     carom_ball_state *from = &sim->path[i].from;
     *from = sim->ball[i].state;
-    if (from->label != CAROM_BALL_POCKETED)
-      carom_label_of(from, sim->rates[i].radius);
+    carom_label_of_layout(from, sim->rates[i].radius);
+    sim->unlike |= sim->ball[i].kind.radius != sim->features->reference;
     carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
   }
 }
@@ -357,8 +379,7 @@ static void replay_begin(replay *at) {
     at->path[i].from = at->balls[i].state;
     at->path[i].start = 0.0;
     at->begun[i] = false;
-    if (at->path[i].from.label != CAROM_BALL_POCKETED)
-      carom_label_of(&at->path[i].from, at->balls[i].kind.radius);
+    carom_label_of_layout(&at->path[i].from, at->balls[i].kind.radius);
   }
 }
 
@@ -417,7 +438,7 @@ carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const 
     last = time;
     /* what moves at the end goes on nobody knows how */
     for (int i = 0; i < count && times[k] > shot->time; i++)
-      if (at.path[i].from.label != CAROM_BALL_STATIONARY && at.path[i].from.label != CAROM_BALL_POCKETED)
+      if (at.path[i].from.label != CAROM_BALL_STATIONARY && !carom_is_out(at.path[i].from.label))
         return CAROM_ERROR_TIME;
     replay_states(&at, time, &states[k * (size_t)count]);
   }

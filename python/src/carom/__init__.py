@@ -1,9 +1,9 @@
 """Billiards, computed: collisions of balls and cushions, whole shots, and millions of any of them.
 
-`collide` and `cushion` resolve arrays of impacts, which `impacts` and `cushion_impacts` build; `mu_ball` is the friction between
-balls by their speed of slip; `trace` and `cushion_trace` look closer. `simulate` plays a shot, `simulate_batch` many, on `tables`,
-from `racks` or `balls`, struck by a `cue`; `resume` goes on with one that was stopped, `place_ball` is ball in hand. Units are SI, vectors right-handed, z up. `dtypes` has the
-structured dtypes. Every call that computes releases the GIL.
+`impacts` and `cushion_impacts` build arrays of impacts; `collide` and `cushion` solve them. `mu_ball` computes the friction between
+balls from their slip speed. `trace` and `cushion_trace` follow one impact. `simulate` plays a shot and `simulate_batch` many: on
+`tables`, from `racks` or `balls`, with a `cue`. `resume` goes on with a shot that was stopped; `place_ball` is ball in hand. Units are SI;
+vectors are right-handed with z up. `dtypes` has the structured dtypes. Every call that computes releases the GIL.
 """
 
 from carom import dtypes, racks, tables
@@ -53,7 +53,7 @@ __all__ = [
 
 
 def isa_in_force() -> str:
-    """The instruction set that is computed with: "plain", "sse2", "neon", "avx2" or "avx512"; CAROM_ISA limits it."""
+    """The instruction set in use: "plain", "sse2", "neon", "avx2" or "avx512". The variable CAROM_ISA limits it."""
     return str(_ffi.string(_lib.carom_isa_name(_lib.carom_isa_in_force())).decode())
 
 

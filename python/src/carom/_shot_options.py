@@ -15,6 +15,7 @@ World = Literal["carom", "pooltool"]
 BallModel = Literal["default", "exact", "euler", "inelastic", "mirror"]
 ShotCushion = Literal["default", "mathavan", "stronge", "han", "mirror", "euler"]
 Friction = Literal["alciatore", "constant"]
+Space = Literal["3d", "flat"]
 StopAt = Literal[
     "contact",
     "strike",
@@ -26,11 +27,15 @@ StopAt = Literal[
     "rolling_spinning",
     "rolling_stationary",
     "spinning_stationary",
+    "slate",
+    "rail_top",
+    "left_table",
 ]
 _WORLDS = {"carom": 0, "pooltool": 1}
 _BALL_MODELS = {"default": 0, "exact": 1, "euler": 2, "inelastic": 3, "mirror": 4}
 _CUSHIONS = {"default": 0, "mathavan": 1, "stronge": 2, "han": 3, "mirror": 4, "euler": 5}
 _FRICTIONS = {"alciatore": 0, "constant": 1}
+_SPACES = {"3d": 0, "flat": 1}
 # CAROM_STOP_AT_CONTACT, and CAROM_STOP_AT() of the values of carom_event_type.
 _STOPS: dict[str, int] = {name: k for k, name in enumerate(StopAt.__args__)}  # type: ignore[attr-defined]
 
@@ -41,6 +46,7 @@ def shot_options(
     ball_model: str,
     cushion_model: str,
     friction: str,
+    space: str,
     steps: int,
     events_most: int,
     t_final: float | None,
@@ -58,6 +64,7 @@ def shot_options(
             "ball_model": choice(_BALL_MODELS, ball_model, "ball_model"),
             "cushion_model": choice(_CUSHIONS, cushion_model, "cushion_model"),
             "friction": choice(_FRICTIONS, friction, "friction"),
+            "space": choice(_SPACES, space, "space"),
             "steps": whole(steps, "steps"),
             "events_most": whole(events_most, "events_most"),
             "time_most": 0.0 if t_final is None else t_final,

@@ -31,6 +31,9 @@ class Table:
         Rounded ends: centre, radius, height (m); mu_cushion and restitution, as of rails.
     pockets : ndarray of `carom.dtypes.pocket`, shape (up to 8,)
         centre, radius, depth (m).
+    ball_radius, rail_width, pocket_back : float
+        m; 0: as carom_shot.h says. The radius of the balls that the rails are meant for, the width of the tops of the rails, and the
+        height of the pockets' backs. They count for balls that fly, and for balls of other radii.
     """
 
     def __init__(
@@ -41,12 +44,16 @@ class Table:
         rails: dtypes.Records,
         jaws: dtypes.Records | None = None,
         pockets: dtypes.Records | None = None,
+        ball_radius: float = 0.0,
+        rail_width: float = 0.0,
+        pocket_back: float = 0.0,
     ) -> None:
         for name, size in (("width", width), ("length", length)):
             if not 0.0 < size < np.inf:
                 raise ValueError(f"{name}: it must be positive and finite, in m, not {size}")
         record: Array = np.zeros((), dtypes.table)
         record["width"], record["length"] = width, length
+        record["ball_radius"], record["rail_width"], record["pocket_back"] = ball_radius, rail_width, pocket_back
         for name, part, values in (("rails", "rail", rails), ("jaws", "jaw", jaws), ("pockets", "pocket", pockets)):
             if values is None:
                 continue
@@ -186,6 +193,7 @@ def balls(
     law_c: npt.ArrayLike | None = None,
     nose_height: npt.ArrayLike | None = None,
     omega_ratio: npt.ArrayLike | None = None,
+    restitution_table: npt.ArrayLike | None = None,
 ) -> dtypes.Records:
     """Balls on a table, from fields that are broadcast against each other.
 
@@ -199,7 +207,7 @@ def balls(
         Whose balls they are, for all that follows. docs/understanding/constants.md has the source of each number: those of billiard are
         measured, with drag and loss of roll; pooltool_... are pooltool's figures.
     mass, radius, gravity : array_like, shape (...)
-        kg, m, m/s^2. All balls of a layout have the same radius.
+        kg, m, m/s^2. With space="flat" all balls of a layout have the same radius.
     mu_slide, mu_roll, mu_spin : array_like, shape (...)
         Friction of sliding, rolling and turning on the spot, above 0, at most 1.
     mu_ball, restitution : array_like, shape (...)
@@ -216,6 +224,8 @@ def balls(
         Of every cushion that the ball meets, m; 0: that of the table.
     omega_ratio : array_like, shape (...)
         Of Stronge's cushions; 0: 1.8.
+    restitution_table : array_like, shape (...)
+        Ball and slate, at most 0.98; 0: 0.5; -1: none.
 
     Returns
     -------
@@ -240,6 +250,7 @@ def balls(
         "law_c": law_c,
         "nose_height": nose_height,
         "omega_ratio": omega_ratio,
+        "restitution_table": restitution_table,
     }
     fields: dict[str, npt.ArrayLike] = {
         f"kind.{name}": float(getattr(kind, name)) if value is None else value for name, value in given.items()
@@ -267,23 +278,26 @@ def cue(
     mass: npt.ArrayLike | None = None,
     end_mass: npt.ArrayLike | None = None,
     tip_radius: npt.ArrayLike | None = None,
+    miscue: npt.ArrayLike = 0.0,
 ) -> dtypes.Records:
-    """A cue and its strike, or many, from fields that are broadcast against each other.
+    """Build a cue with its strike, or many. The fields are broadcast against each other.
 
     Parameters
     ----------
     speed : array_like, shape (...)
-        Of the cue before the strike, m/s; 0: no strike.
+        Speed of the cue before the strike, m/s; 0: no strike.
     phi, theta : array_like, shape (...)
         Direction in the plane from +x towards +y, and elevation of the butt, degrees.
     a, b : array_like, shape (...)
-        Where the tip touches, in units of the ball's radius: a > 0 left, b > 0 above the centre; a^2 + b^2 < 1.
+        Where the tip touches the ball, in units of its radius: a > 0 left, b > 0 above the centre; a^2 + b^2 < miscue^2.
     ball : array_like of int, shape (...)
         Index of the ball that is struck.
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
-        Whose cue it is, for what follows.
+        The game whose cue gives the defaults of the later arguments.
     mass, end_mass, tip_radius : array_like, shape (...)
         kg, kg, m.
+    miscue : array_like, shape (...)
+        0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. Chalked tips reach 0.5.
 
     Returns
     -------
@@ -305,6 +319,7 @@ def cue(
             "mass": usual.mass if mass is None else mass,
             "end_mass": usual.end_mass if end_mass is None else end_mass,
             "tip_radius": usual.tip_radius if tip_radius is None else tip_radius,
+            "miscue": miscue,
         },
     )
 
@@ -329,12 +344,13 @@ def cue_error(status: int, cue: dtypes.Records, balls: dtypes.Records | None = N
     number = int(cue["ball"])
     if balls is not None and not 0 <= number < len(balls):
         return CaromError(status, "cue.ball", number, text=f"it must be the index of one of the balls, 0 to {len(balls) - 1}")
-    if balls is not None and balls["state"]["label"][number] == lib.CAROM_BALL_POCKETED:
-        return CaromError(status, "cue.ball", number, text="this ball is pocketed; a ball on the table must be struck")
+    if balls is not None and balls["state"]["label"][number] in (lib.CAROM_BALL_POCKETED, lib.CAROM_BALL_OFF):
+        return CaromError(status, "cue.ball", number, text="this ball is out of play; a ball on the table must be struck")
     for field, low, high, text in (
         ("speed", 0.0, 1e3, "it must be 0 to 1000 m/s"),
         ("phi", -1e9, 1e9, "it must be a direction in degrees"),
         ("theta", 0.0, 90.0, "it must be 0 to 90 degrees"),
+        ("miscue", 0.0, 1.0, "it must be 0 to 1"),
         ("mass", 5e-324, 1.7976931348623157e308, "it must be positive and finite"),
         ("end_mass", 5e-324, 1.7976931348623157e308, "it must be positive and finite"),
     ):

@@ -30,6 +30,7 @@ class Label(enum.IntEnum):
     ROLLING = 3
     POCKETED = 4
     AIRBORNE = 5
+    OFF = 6
 
 
 class EventType(enum.IntEnum):
@@ -44,6 +45,9 @@ class EventType(enum.IntEnum):
     ROLLING_SPINNING = 7
     ROLLING_STATIONARY = 8
     SPINNING_STATIONARY = 9
+    SLATE = 10
+    RAIL_TOP = 11
+    LEFT_TABLE = 12
 
 
 def _moments(times: npt.ArrayLike) -> dtypes.Doubles:
@@ -63,9 +67,9 @@ class Shot:
         The layout before the strike.
     status : Status
     time : float
-        When the last event happened, or the shot was stopped, s.
+        Time of the last event, or when the shot was stopped, s.
     count : int
-        Events that happened, also beyond what was kept.
+        Number of events, including those that were not kept.
     events : ndarray of `carom.dtypes.event`, shape (kept,)
         In the order in which they happened. Of a batch with records="brief": `carom.dtypes.brief_event`.
     final : ndarray of `carom.dtypes.ball_state`, shape (balls,)
@@ -343,7 +347,7 @@ class Shots:
     status : ndarray of int8, shape (...)
         As `Status`; a shot in error costs itself alone.
     time : ndarray of float64, shape (...)
-        When the last event happened, or the shot was stopped, s.
+        Time of the last event, or when the shot was stopped, s.
     count : ndarray of int64, shape (...)
         Events that happened, also beyond the room.
     final : ndarray of `carom.dtypes.ball_state`, shape (..., balls)
@@ -539,7 +543,7 @@ class Shots:
         return job
 
     def failures(self) -> list[tuple[tuple[int, ...], str]]:
-        """The index of each shot in error, and what is wrong with it."""
+        """The index of each shot that ended in an error, and the error."""
         return [(index, self._why(index)) for index in (tuple(int(k) for k in row) for row in np.argwhere(self.status < 0))]
 
     def _why(self, index: tuple[int, ...]) -> str:

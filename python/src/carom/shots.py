@@ -13,6 +13,7 @@ from carom._rows import INT8, Array, apart, as_array, in_chunks, output, pointer
 from carom._shot_options import BallModel as BallModel
 from carom._shot_options import Friction as Friction
 from carom._shot_options import ShotCushion as ShotCushion
+from carom._shot_options import Space as Space
 from carom._shot_options import StopAt as StopAt
 from carom._shot_options import World as World
 from carom._shot_options import hashable, shot_options
@@ -44,6 +45,7 @@ def simulate(
     ball_model: BallModel = "default",
     cushion_model: ShotCushion = "default",
     friction: Friction = "alciatore",
+    space: Space = "3d",
     steps: int = 0,
     events_most: int = 0,
     t_final: float | None = None,
@@ -54,19 +56,22 @@ def simulate(
     Parameters
     ----------
     table : Table
-        `carom.tables` has the usual ones.
+        `carom.tables` has the standard ones.
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
         1 to 32 of them, from `carom.racks` or `carom.balls`. Not changed.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
-        From `carom.cue`. There is no strike without it, at speed 0, or if a ball moves already.
+        From `carom.cue`. Without it, with speed 0, or if a ball moves already, there is no strike.
     world : {"carom", "pooltool"}
-        The rules of contact: those of carom, or pooltool's, for the same histories as pooltool's.
+        The rules of contact: carom's, or pooltool's, which give the histories of pooltool.
     ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
-        The collision of two balls; by default exact in the world carom, inelastic in pooltool.
+        Model of the collision of two balls. Default: exact in the world carom, inelastic in pooltool.
     cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
-        The impact on a cushion; by default mathavan in the world carom, stronge in pooltool. mathavan takes most of the time.
+        Model of the impact on a cushion. Default: han in the world carom, stronge in pooltool. mathavan is the exact limit, and takes most of
+        the time.
     friction : {"alciatore", "constant"}
         Between balls: by the speed of slip, or the balls' mu_ball.
+    space : {"3d", "flat"}
+        Whether balls can leave the cloth, as by an elevated cue. The world pooltool is flat.
     steps : int
         Of Euler's models; 0 is 1000.
     events_most : int
@@ -100,7 +105,7 @@ def simulate(
         if cues.size != 1:
             raise ValueError(f"cue: one is needed, not {cues.size}; simulate_batch plays many")
         strike = pointer("carom_cue[]", cues)
-    chosen = (world, ball_model, cushion_model, friction, steps, events_most)
+    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most)
     options = shot_options(*chosen, t_final, hashable(stop_at), 0)
     state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if t_final is not None or stop_at else None
     arguments = (pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), strike, options)
@@ -185,6 +190,7 @@ def simulate_batch(
     ball_model: BallModel = "default",
     cushion_model: ShotCushion = "default",
     friction: Friction = "alciatore",
+    space: Space = "3d",
     steps: int = 0,
     events_most: int = 0,
     t_final: float | None = None,
@@ -207,7 +213,7 @@ def simulate_batch(
         What is kept of an event: all (`carom.dtypes.event`, 344 bytes), or time, type and who (`carom.dtypes.brief_event`, 24 bytes).
     features : bool
         Whether `shots.features` tells first contacts, cushions and pockets.
-    world, ball_model, cushion_model, friction, steps, events_most, t_final, stop_at
+    world, ball_model, cushion_model, friction, space, steps, events_most, t_final, stop_at
         As for `simulate`.
     threads : int
         Most threads to use; 0 is the calling one alone, -1 all processors. No bit depends on it.
@@ -240,7 +246,7 @@ def simulate_batch(
     if records not in ("full", "brief"):
         raise ValueError(f"records: must be 'full' or 'brief', not {records!r}")
     record = dtypes.event if records == "full" else dtypes.brief_event
-    chosen = (world, ball_model, cushion_model, friction, steps, events_most, t_final, hashable(stop_at))
+    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most, t_final, hashable(stop_at))
     options = shot_options(*chosen, threads)
     shots = Shots(table, all_balls, shape, room, record) if out is None else out
     output(shots.status, shape, INT8, "out.status")
@@ -301,7 +307,7 @@ def _argument_error(arguments: tuple[Any, ...], layout: Array, cue: Array | None
         field = next((f"kind.{name}" for name in motions if not 0 < kind[name] <= 1), None)
     if status is Status.ERROR_RESTITUTION:
         restitutions = ("restitution", "restitution_cushion")
-        field = next((f"kind.{name}" for name in restitutions if not 0 <= kind[name] <= 1), None)
+        field = next((f"kind.{name}" for name in restitutions if not 0 <= kind[name] <= 1), "kind.restitution_table")
     if status is Status.ERROR_MU_BALL:
         laws = ("law_a", "law_b", "law_c")
         bad = (name for name in laws if not 0 <= kind[name] < np.inf or (name != "law_c" and kind[name] > 1))
