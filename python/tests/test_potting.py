@@ -55,6 +55,21 @@ def test_a_pot_and_a_scratch_by_hand():
     np.testing.assert_array_equal(back[1], foul.layouts[1])
 
 
+def test_a_ball_that_leaves_the_table_is_a_foul_and_taken_back(monkeypatch):
+    import carom.potting
+
+    def off(*arguments, **options):
+        shots = carom.simulate_batch(*arguments, **options)
+        shots.final["label"][1, 2] = carom.Label.OFF
+        return shots
+
+    monkeypatch.setattr(carom.potting, "simulate_batch", off)
+    rules = Potting(balls=3)
+    layout = rules.deal(Draws([3]), np.arange(1))[0]
+    strokes = rules.play(layout, np.tile(rules.actions(10.0, 3.0), (2, 1)))
+    assert strokes.rewards[1] == -1.0 and strokes.layouts[1].tobytes() == layout.tobytes() != strokes.layouts[0].tobytes()
+
+
 def test_strokes_are_those_of_simulate():
     rules = Potting(balls=5)
     layout = rules.deal(Draws([3]), np.arange(1))[0]

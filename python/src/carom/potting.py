@@ -38,7 +38,7 @@ class Strokes:
     scratch : ndarray of bool, shape (...)
         Whether the cue ball was potted, a foul.
     status : ndarray of int8, shape (...)
-        As `carom.Status`. After an error (a ball left the table, for example) the stroke is a foul, and the balls stay where they were.
+        As `carom.Status`. After an error, or where a ball left the table, the stroke is a foul, and the balls stay where they were.
     time : ndarray of float64, shape (...)
         How long the balls moved, s.
     """
@@ -275,7 +275,7 @@ class Potting:
         """
         shots = simulate_batch(self.table, balls, self.cues(actions), cushion_model=self.cushion_model, threads=self.threads)
         before = np.broadcast_to(balls, shots.final.shape)
-        played = shots.status >= 0
+        played = (shots.status >= 0) & (shots.final["label"] != Label.OFF).all(axis=-1)
         after = before.copy()
         after["state"] = shots.final
         if not played.all():
