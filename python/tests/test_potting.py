@@ -223,9 +223,10 @@ def test_many_games_are_single_games(gymnasium, threads):
     assert envs.reset(seed=seeds)[0].tobytes() == singles.reset(seed=seeds)[0].tobytes()
 
 
-def test_many_games_are_as_fast_as_their_batch(gymnasium):
-    """A step of many games takes at most a quarter longer than simulate_batch of its strokes: processor time."""
-    envs = gymnasium.make_vec("carom/Potting-v0", num_envs=256, strokes=5)
+@pytest.mark.parametrize(("model", "least"), [("mathavan", 0.8), ("han", 0.6)])
+def test_many_games_are_as_fast_as_their_batch(gymnasium, model, least):
+    """The share of simulate_batch in the processor time of a step of many games, resets included."""
+    envs = gymnasium.make_vec("carom/Potting-v0", num_envs=256, strokes=5, cushion_model=model)
     rules, generator = envs.unwrapped.rules, np.random.default_rng(1)
     envs.reset(seed=1)
     shares = []
@@ -238,11 +239,11 @@ def test_many_games_are_as_fast_as_their_batch(gymnasium):
             envs.step(actions)
             spent += time.process_time() - begun
             begun = time.process_time()
-            carom.simulate_batch(rules.table, before[playing], rules.cues(actions[playing]))
+            carom.simulate_batch(rules.table, before[playing], rules.cues(actions[playing]), cushion_model=model)
             batch += time.process_time() - begun
         shares.append(batch / spent)
     print(shares)
-    assert max(shares) >= 0.8, shares
+    assert max(shares) >= least, shares
 
 
 def test_reset_options(gymnasium):
