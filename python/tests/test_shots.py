@@ -304,8 +304,8 @@ def test_shots_that_are_stopped():
     for t_final in (1.0, 1.5):
         shot = carom.resume(shot, t_final=t_final)
         assert shot.status is carom.Status.STOPPED_AT_TIME and shot.time == t_final
-    kept = carom.resume(shot, stop_at="pocket")
-    assert kept.status is carom.Status.STOPPED_AT_EVENT and kept.events["type"][-1] == carom.EventType.POCKET
+    kept = carom.resume(shot, stop_at=("rail", "pocket"))
+    assert kept.status is carom.Status.STOPPED_AT_EVENT and kept.events["type"][-1] in (carom.EventType.RAIL, carom.EventType.POCKET)
     end = carom.resume(shot)
     assert end.status is carom.Status.OK and np.array_equal(end.events, whole.events) and end.final.tobytes() == whole.final.tobytes()
     assert np.array_equal(carom.resume(kept).events, whole.events)
