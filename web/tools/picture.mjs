@@ -13,6 +13,7 @@ await page.locator("#time").evaluate((input) => {
   input.value = "0.62";
   input.dispatchEvent(new Event("input"));
 });
+await page.evaluate(() => document.activeElement?.blur());
 await page.waitForTimeout(300);
 await page.screenshot({ path: process.argv[2] });
 await browser.close();
