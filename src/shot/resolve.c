@@ -34,8 +34,8 @@ static const double slow_first = 1e-3, slow_most = 0.2; /* m/s */
 static const double slow_instants = 1500.0;
 
 /* s, above. */
-static double slow_speed(const carom_sim *sim) {
-  const double left = 1.0 - (double)sim->slow_instants / slow_instants;
+double carom_slow_speed(int64_t instants) {
+  const double left = 1.0 - (double)instants / slow_instants;
   return left * left * slow_most > slow_first && left > 0.0 ? slow_first / (left * left) : slow_most;
 }
 
@@ -76,7 +76,7 @@ carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state 
   n[0] /= size;
   n[1] /= size;
   const double closing = (a->v[0] - b->v[0]) * n[0] + (a->v[1] - b->v[1]) * n[1];
-  const double slow = slow_speed(sim);
+  const double slow = carom_slow_speed(sim->slow_instants);
   carom_status status = CAROM_OK;
   if (closing >= slow) {
     status = carom_model_balls(sim, i, j, n, a, b);
@@ -110,7 +110,7 @@ carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, 
     n[1] /= size;
   }
   double closing = s->v[0] * n[0] + s->v[1] * n[1];
-  const double slow = slow_speed(sim);
+  const double slow = carom_slow_speed(sim->slow_instants);
   const bool fast = closing >= slow;
   carom_status status = CAROM_OK;
   if (fast) {

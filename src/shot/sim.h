@@ -65,7 +65,9 @@ enum { CAROM_DUE_PIECE = CAROM_EVENT_SPINNING_STATIONARY + 1 };
 /* table_pooltool.c */
 extern const carom_table carom_table_pooltool;
 
-/* features.c: what follows from a table for balls of one radius. */
+/* features.c: the unit normal of a rail towards its played side, and its offset: distance = line . (x, y, 1). */
+void carom_rail_line(const carom_rail *rail, double line[3]);
+/* What follows from a table for balls of one radius. */
 void carom_features_of(const carom_table *table, double radius, carom_features *features);
 
 /* detect.c: looks again for all that balls i and j can meet, from now on; j may be -1. */
@@ -80,6 +82,8 @@ carom_due carom_next(const carom_sim *sim);
  * too. */
 carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
 carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
+/* The speed below which contacts are slow, after so many instants that had one. */
+double carom_slow_speed(int64_t instants);
 carom_status carom_pooltool_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
 carom_status carom_pooltool_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
 
