@@ -395,8 +395,8 @@ CAROM_API const char *carom_field_name(int field);
 CAROM_API const char *carom_version(void);
 CAROM_API int carom_version_number(void);
 
-/* The revision of the physics: a number that changes whenever a result of any call or model has other bits than before. Recordings
- * play back bit for bit, and players in lockstep agree, only with the same number. */
+/* The revision of the physics: a number that changes whenever a result of any call or model has other bits than before.
+ * Recordings play back bit for bit, and players in lockstep agree, only with the same number. */
 CAROM_API int carom_physics_revision(void);
 
 /* Whether a caller compiled with the header of that version can use this library, 1 or 0: carom_serves(CAROM_VERSION_NUMBER).

@@ -26,8 +26,8 @@
 extern "C" {
 #endif
 
-/* Directions of a call; and how many numbers a cue (speed, phi, theta, a, b, mass, end_mass), a state (x, y, v_x, v_y, w_x, w_y,
- * w_z), the cushions of a table (height of the noses, mu_cushion, restitution) and a carom_ball_kind (its fields) have. */
+/* Directions of a call; and how many numbers a cue (speed, phi, theta, a, b, mass, end_mass), a state (x, y, v_x, v_y, w_x,
+ * w_y, w_z), the cushions of a table (height of the noses, mu_cushion, restitution) and a carom_ball_kind (its fields) have. */
 enum { CAROM_DIRECTIONS_MOST = 64, CAROM_CUE_NUMBERS = 7, CAROM_STATE_NUMBERS = 7, CAROM_CUSHION_NUMBERS = 3 };
 #define CAROM_KIND_NUMBERS ((int)(sizeof(carom_ball_kind) / sizeof(double)))
 
@@ -56,20 +56,20 @@ typedef struct carom_tangent_seeds {
 
 /* Results, per unit of the seeds. `final` is needed; each of the others may be NULL. */
 typedef struct carom_tangent {
-  double *final;         /* [balls][7][m]: of the states at the end of the shot. 0 of a pocketed ball. */
-  double *time;          /* [events][m], s: of the times of the events. */
-  double *before;        /* [events][2][7][m]: of the states of its balls just before each event, whose time changes too; */
-  double *after;         /* and just after it. 0 where an event has one ball. */
-  double *at;            /* [times][balls][7][m]: of the states at fixed times. */
-  const double *times;   /* [times], s: ascending, for `at`. */
-  int64_t times_count;   /* how many. */
-  int32_t *flags;        /* [events]: sums of carom_tangent_flag. */
-  double *reach;         /* [m], in the unit of the direction: the least change at which, to first order, a ball meets something
-                            else or in another order: a hit becomes a miss, a miss a hit, two events of a ball swap. Infinite
-                            where nothing does. A tangent holds for changes well below it. Needs `time`. */
-  double error;          /* written: the largest relative error of the derivatives that were found by differences. */
-  int64_t all_flags;     /* written: the flags of all events together. */
-  uint64_t reserved[4];  /* not read or written yet. */
+  double *final;        /* [balls][7][m]: of the states at the end of the shot. 0 of a pocketed ball. */
+  double *time;         /* [events][m], s: of the times of the events. */
+  double *before;       /* [events][2][7][m]: of the states of its balls just before each event, whose time changes too; */
+  double *after;        /* and just after it. 0 where an event has one ball. */
+  double *at;           /* [times][balls][7][m]: of the states at fixed times. */
+  const double *times;  /* [times], s: ascending, for `at`. */
+  int64_t times_count;  /* how many. */
+  int32_t *flags;       /* [events]: sums of carom_tangent_flag. */
+  double *reach;        /* [m], in the unit of the direction: the least change at which, to first order, a ball meets something
+                           else or in another order: a hit becomes a miss, a miss a hit, two events of a ball swap. Infinite
+                           where nothing does. A tangent holds for changes well below it. Needs `time`. */
+  double error;         /* written: the largest relative error of the derivatives that were found by differences. */
+  int64_t all_flags;    /* written: the flags of all events together. */
+  uint64_t reserved[4]; /* not read or written yet. */
 } carom_tangent;
 
 /* Derivatives of a shot that carom_shoot() has played: table, balls, cue and options are those of that call, and shot->events
@@ -78,10 +78,11 @@ typedef struct carom_tangent {
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS; CAROM_ERROR_DIRECTIONS for other than 1
  * to 64; CAROM_ERROR_EVENTS_LOST where shot->room was too small or events is NULL; CAROM_ERROR_STATE where an event cannot be
- * one of this shot; CAROM_ERROR_TIME for times that are not finite or not ascending; CAROM_ERROR_SHOT_OPTIONS for a reserved field; or an error of the table or of an option.
- * CAROM_ERROR_TANGENT where derivatives are not known: in CAROM_WORLD_POOLTOOL, whose spacers are not differentiable; by
- * CAROM_BALL_MODEL_EULER; and where a ball leaves the cloth. Or CAROM_ERROR_TIME for a time after the end of a shot that ended while
- * balls moved, or an error of a collision. Then every number of `final` is NaN, and others may have been written. */
+ * one of this shot; CAROM_ERROR_TIME for times that are not finite or not ascending; CAROM_ERROR_SHOT_OPTIONS for a reserved
+ * field; or an error of the table or of an option. CAROM_ERROR_TANGENT where derivatives are not known: in
+ * CAROM_WORLD_POOLTOOL, whose spacers are not differentiable; by CAROM_BALL_MODEL_EULER; and where a ball leaves the cloth. Or
+ * CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved, or an error of a collision. Then every
+ * number of `final` is NaN, and others may have been written. */
 CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls, int count,
                                           const carom_cue *cue, const carom_shot_options *opt, const carom_shot *shot,
                                           const carom_tangent_seeds *seeds, carom_tangent *tangent);

@@ -4,10 +4,10 @@
  * times functions of the slips over |v_n|, whose derivatives src/impact has. All else is linear.
  *
  * INELASTIC, MIRROR and slow contacts are closed forms (shot/models.c, shot/resolve.c), differentiated line by line. */
+#include "shot/tangent.h"
 #include "ball_ball/frame.h"
 #include "ball_ball/reduced.h"
 #include "impact/variation.h"
-#include "shot/tangent.h"
 
 #include <math.h>
 #include <string.h>
@@ -44,7 +44,8 @@ carom_status carom_exact_balls_tangent(const double in[CAROM_BALLS_INS], int m, 
   for (int j = 0; j < m; j++) {
     d_V[j] = din[OF_V_Y][j] - din[CAROM_BALL_INS + OF_V_Y][j];
     const double d_up = (din[OF_C_Y][j] - din[OF_V_Y][j]) + (din[CAROM_BALL_INS + OF_C_Y][j] - din[CAROM_BALL_INS + OF_V_Y][j]);
-    const double d_slips[4] = {din[OF_V_X][j] - din[CAROM_BALL_INS + OF_V_X][j] - din[OF_W_Z][j] - din[CAROM_BALL_INS + OF_W_Z][j],
+    const double d_slips[4] = {din[OF_V_X][j] - din[CAROM_BALL_INS + OF_V_X][j] - din[OF_W_Z][j] -
+                                   din[CAROM_BALL_INS + OF_W_Z][j],
                                sign * d_up, sign * din[pressed + OF_C_X][j], sign * din[pressed + OF_C_Y][j]};
     for (int k = 0; k < 4; k++) /* a slip of exactly 0 stays 0 where nothing changes it */
       by[k][j] = (d_slips[k] - slips[k] * d_V[j]) / V;
@@ -161,7 +162,8 @@ void carom_inelastic_balls_tangent(const double in[CAROM_BALLS_INS], int m, caro
   to_spins(m, db, ob);
   for (int j = 0; j < m; j++) {
     const double d_closing = da[OF_V_Y][j] - db[OF_V_Y][j];
-    const double d_along = (da[OF_V_X][j] - db[OF_V_X][j]) - (da[OF_W_Z][j] + db[OF_W_Z][j]), d_up = oa[OF_W_X][j] + ob[OF_W_X][j];
+    const double d_along = (da[OF_V_X][j] - db[OF_V_X][j]) - (da[OF_W_Z][j] + db[OF_W_Z][j]),
+                 d_up = oa[OF_W_X][j] + ob[OF_W_X][j];
     double d_share = 0;
     if (!sticks) {
       const double d_most = din[BALLS_MU][j] * e * closing + mu * (din[BALLS_E][j] * closing + e * d_closing);

@@ -7,10 +7,10 @@
  * slip at the nose to v_n S(rho, mu, e, ratio), rho = |slip|/v_n: the four derivatives of S are central differences of order 4
  * of the closed form, whose error is about 1e-11. EULER's steps are differentiated by central differences of the whole impact.
  */
+#include "shot/tangent.h"
 #include "cushion/models.h"
 #include "impact/variation.h"
 #include "platform/elementary.h"
-#include "shot/tangent.h"
 
 #include <math.h>
 #include <string.h>
@@ -208,7 +208,8 @@ static double d_slip_after(const double x[4], int k, double *error) {
       there[k] += steps[s] * h;
       f[s] = slip_after(there);
     }
-    const double near = (f[2] - f[1]) / (2 * h), far = (f[3] - f[0]) / (4 * h), apart = fabs(near - far) / (3 * fmax(1, fabs(near)));
+    const double near = (f[2] - f[1]) / (2 * h), far = (f[3] - f[0]) / (4 * h),
+                 apart = fabs(near - far) / (3 * fmax(1, fabs(near)));
     if (apart < best) {
       best = apart;
       found = (4 * near - far) / 3;
@@ -240,9 +241,8 @@ static void stronge(const double in[CAROM_NOSE_INS], int m, carom_row din[CAROM_
       const double d_S = by[0] * d_rho + by[1] * d.mu_w + by[2] * d.e + by[3] * din[NOSE_RATIO][j];
       d_share = -(d_S - S / rho * d_rho) / (rho * 3.5);
     }
-    const carom_impulse dq = {.P = d.e * v_n + (1 + c.e) * d_v_n,
-                              .f_x = -d_share * s_x - share * d.s_x,
-                              .f_t = -d_share * s_t - share * d.s_t};
+    const carom_impulse dq = {
+        .P = d.e * v_n + (1 + c.e) * d_v_n, .f_x = -d_share * s_x - share * d.s_x, .f_t = -d_share * s_t - share * d.s_t};
     push(&c, &d, &q, &dq, j, dout);
   }
   carom_push(&c, &q);
@@ -260,8 +260,9 @@ static carom_status euler_at(const double in[CAROM_NOSE_INS], const carom_cushio
 }
 
 /* Central differences of order 2 by each number with a seed. */
-static carom_status euler(const double in[CAROM_NOSE_INS], const carom_cushion_options *opt, int m, carom_row din[CAROM_NOSE_INS],
-                          carom_row dout[CAROM_BALL_INS], double out[CAROM_BALL_INS], carom_tangent_note *note) {
+static carom_status euler(const double in[CAROM_NOSE_INS], const carom_cushion_options *opt, int m,
+                          carom_row din[CAROM_NOSE_INS], carom_row dout[CAROM_BALL_INS], double out[CAROM_BALL_INS],
+                          carom_tangent_note *note) {
   carom_status status = euler_at(in, opt, out);
   for (int r = 0; r < CAROM_BALL_INS; r++)
     memset(dout[r], 0, sizeof(double) * (size_t)m);

@@ -339,7 +339,7 @@ static bool next_step(carom_trajectory *path, double to) {
       end_phase(path);
     const bool goes_on = !snap_to_zero(path, &before) || carom_impact_regime(path, false);
     if (path->variation != NULL)
-      carom_variation_follow(path, &before, there, false);
+      carom_variation_follow(path, &before, there);
     return goes_on;
   }
   /* the plan: the first that applies */
@@ -386,7 +386,7 @@ static bool next_step(carom_trajectory *path, double to) {
       goes_on = !snap_to_zero(path, &before) || carom_impact_regime(path, false);
     }
     if (path->variation != NULL)
-      carom_variation_follow(path, &before, there, n.s.goal != AT_STICK && n.s.goal != AT_CLOTH_STICK);
+      carom_variation_follow(path, &before, there);
     return goes_on;
   }
   /* refused: up to the event; or a shorter step, by the error estimate */

@@ -45,13 +45,13 @@ typedef struct carom_trajectory {
   int iterations;          /* of all steps so far; each computes the rates at eight nodes */
   carom_status status;     /* not CAROM_OK if there is no way on */
   /* of advance.c: */
-  double tolerance;  /* of a step, in units of that of step.h */
-  double no_slip;    /* a slip that counts as zero */
-  double longest;    /* length that the next step may have */
-  int refusals;      /* in a row */
-  int sticks_missed; /* steps to stick that diverged */
-  bool careful;      /* steps are planned for safety */
-  double event_at;   /* p where the regime ends, as far as is known */
+  double tolerance;                  /* of a step, in units of that of step.h */
+  double no_slip;                    /* a slip that counts as zero */
+  double longest;                    /* length that the next step may have */
+  int refusals;                      /* in a row */
+  int sticks_missed;                 /* steps to stick that diverged */
+  bool careful;                      /* steps are planned for safety */
+  double event_at;                   /* p where the regime ends, as far as is known */
   struct carom_variation *variation; /* derivatives that follow the impact: tangent.h. Usually NULL */
 } carom_trajectory;
 

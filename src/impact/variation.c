@@ -19,16 +19,16 @@
  *
  * Rates are continuous where a load begins or ends and where friction leaves its cone. The impact ends where W = -e^2 W_c.
  *
- * Where these equations do not say how an impact goes on, its derivatives are central differences of order 4: motion in a plane,
- * whose perturbations leave it; balls that jam; a slip that passes through zero. */
+ * Where these equations do not say how an impact goes on, its derivatives are central differences of order 4: motion in a
+ * plane, whose perturbations leave it; balls that jam; a slip that passes through zero. */
 #include "impact/variation.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-static const double TOLERANCE = 1e-3;   /* of the solver: see impact.h */
-static const double ESTIMATE = 1e-9;    /* square of the error estimate of a step, relative */
+static const double TOLERANCE = 0.1;    /* of the solver: see impact.h */
+static const double ESTIMATE = 1e-6;    /* square of the error estimate of a step, relative */
 static const double SHORTEST = 1e-8;    /* length of a step that is taken in any case */
 static const double COEFFICIENT = 1e-5; /* share of a variable by which coefficients are differentiated */
 
@@ -189,6 +189,9 @@ double carom_variation_step(carom_trajectory *path, const carom_point *before, b
   /* the equations: rows and columns of dphi first, then of dpsi */
   double e[UNKNOWNS][WIDTH];
   const int of_t = driving_slips ? NODES : 0, unknowns = of_t + (loaded ? NODES : 0), width = unknowns + g->columns;
+  int from_parameters = 0; /* columns of the slips at the start come first, and no rate depends on those */
+  while (from_parameters < g->columns && g->column[from_parameters] < BY_MU)
+    from_parameters++;
   const double start[4] = {before->a_x, before->a_y, before->b_x, before->b_y};
   for (int row = 0; row < unknowns; row++) {
     const bool of_b = row >= of_t;
@@ -205,7 +208,7 @@ double carom_variation_step(carom_trajectory *path, const carom_point *before, b
         e[row][j] = m_y * at[j].by_u[first] - m_x * at[j].by_u[first + 1];
       if (loaded)
         e[row][of_t + j] = m_y * at[j].by_t[first] - m_x * at[j].by_t[first + 1];
-      for (int n = 0; n < g->columns; n++) {
+      for (int n = from_parameters; n < g->columns; n++) {
         const double *by = at[j].by[g->column[n]];
         right[n] += m_x * by[first + 1] - m_y * by[first];
       }
@@ -314,7 +317,7 @@ static void end_phase(carom_trajectory *path) {
   }
 }
 
-void carom_variation_follow(carom_trajectory *path, const carom_point *before, bool phase_ended, bool snapped) {
+void carom_variation_follow(carom_trajectory *path, const carom_point *before, bool phase_ended) {
   carom_variation *g = path->variation;
   const carom_point *at = &path->at;
   if (phase_ended)
@@ -333,14 +336,12 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
   const int first = a_ends ? OF_A_X : OF_B_X;
   const double u_x = g->lead[a_ends ? 0 : 2], u_y = g->lead[a_ends ? 1 : 3];
   const double falls = u_x * g->rate[first] + u_y * g->rate[first + 1];
-  /* negligible, but on its way to zero its direction still turns */
-  if (snapped && fabs(u_x * g->rate[first + 1] - u_y * g->rate[first]) > 1e-6 * fabs(falls))
-    g->lost = true;
   const double begins[4] = {path->regime.u_x, path->regime.u_y, path->regime.t_x, path->regime.t_y};
   double lead[4], after[CAROM_VARIED];
   leads(at, begins, lead);
   rates_at(&path->terms, lead, at->v, after);
-  /* it ends a little earlier or later; rates change there */
+  /* it ends a little earlier or later; rates change there. By the rates at its end and not by the direction of the slip alone:
+   * that of a slip which is negligible, but not zero, still turns, and what is left of da across the motion falls with |a| */
   for (int c = 0; c < CAROM_VARIABLES; c++) {
     const double d_p = falls < 0 ? -(u_x * g->d[first][c] + u_y * g->d[first + 1][c]) / falls : 0;
     for (int r = 0; r < CAROM_VARIED; r++)
@@ -392,7 +393,8 @@ _Static_assert(sizeof(carom_law) == 17 * sizeof(double) && offsetof(carom_law, m
                "14 coefficients, then frictions and restitution");
 
 /* Central differences of order 4 by one variable, with smaller steps where two orders differ. */
-static void differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int by, carom_impact_tangent *out) {
+static void differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int by,
+                          carom_impact_tangent *out) {
   const double size = fmax(fmax(fabs(slips[0]), fabs(slips[1])), fmax(fabs(slips[2]), fabs(slips[3])));
   double h = by <= BY_B_Y ? 2e-3 * fmax(1, 0.01 * size) : by == BY_E ? 1e-3 : 1e-4, best = INFINITY;
   if (by == BY_MU || by == BY_MU_C)

@@ -1,5 +1,5 @@
-/* How far tangents reach: the change, in the unit of a direction, at which to first order a ball's own sequence of events changes.
- * The least of
+/* How far tangents reach: the change, in the unit of a direction, at which to first order a ball's own sequence of events
+ * changes. The least of
  *
  *     order     two successive events of a ball swap: (T2 - T1) / |dT2 - dT1|
  *     miss      a hit on a ball, a jaw or a pocket becomes a miss: (r - |s|) / |ds|, s = d x v / |v| the distance at which the
@@ -7,7 +7,8 @@
  *     hit       a miss becomes a hit: the least distance of the surfaces on the way over its derivative n . (d_b - d_a), also
  *               where a ball comes to rest short of something
  *
- * The reach that was found by trial is 1.4 times this one in the median and 0.13 times at 5 % (docs/understanding/gradients.md).
+ * The reach that was found by trial is 1.4 times this one in the median and 0.13 times at 5 %
+ * (docs/understanding/gradients.md).
  */
 #include "shot/reach.h"
 #include "shot/sim.h"
@@ -15,7 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double NEAR = 0.2;     /* m: gaps beyond are not asked for; */
+static const double NEAR = 0.2;      /* m: gaps beyond are not asked for; */
 static const double TOUCHING = 2e-4; /* nor those of balls that have just parted */
 enum { PARTS_OF_WAY = 6, BISECTIONS = 30 };
 
@@ -52,8 +53,8 @@ static double opens_at(const separation *s, double t) {
 }
 
 /* What the gap at a time is worth in each direction. other: the ball that is missed, or NULL. */
-__attribute__((noinline)) static void take_gap(carom_reach *reach, const carom_tangent_ball *ball, const carom_tangent_ball *other,
-                                               double time, const double n[2], double gap) {
+__attribute__((noinline)) static void take_gap(carom_reach *reach, const carom_tangent_ball *ball,
+                                               const carom_tangent_ball *other, double time, const double n[2], double gap) {
   carom_row d[CAROM_STATE_NUMBERS];
   carom_row along;
   double rate[CAROM_STATE_NUMBERS];

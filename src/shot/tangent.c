@@ -20,8 +20,8 @@
 #include <stddef.h>
 #include <string.h>
 
-static const double GRAZING = 0.01;       /* closing over relative speed */
-static const double SIMULTANEOUS = 1e-9;  /* s */
+static const double GRAZING = 0.01;      /* closing over relative speed */
+static const double SIMULTANEOUS = 1e-9; /* s */
 
 /* What an event is worked on with. */
 typedef struct work {
@@ -53,18 +53,21 @@ static void strike(work *w, int i) {
   const int m = w->m;
   const carom_cue *cue = w->cue;
   const carom_tangent_ball *ball = &w->ball[i];
-  const double *q = w->seeds->cue, R = ball->kind->radius, mass = ball->kind->mass, a = cue->a, b = cue->b, inside = 1.0 - a * a;
+  const double *q = w->seeds->cue, R = ball->kind->radius, mass = ball->kind->mass, a = cue->a, b = cue->b,
+               inside = 1.0 - a * a;
   double sin_phi, cos_phi, sin_theta, cos_theta;
   carom_sincos_degrees(cue->phi, &sin_phi, &cos_phi);
   carom_sincos_degrees(cue->theta, &sin_theta, &cos_theta);
-  const double degree = 0.017453292519943295, heavy = 1.0 + mass / cue->mass + 2.5 * (a * a + b * b), V = 2.0 * cue->speed / heavy;
+  const double degree = 0.017453292519943295, heavy = 1.0 + mass / cue->mass + 2.5 * (a * a + b * b),
+               V = 2.0 * cue->speed / heavy;
   const double root = sqrt(inside), aside = -2.5 * a * root, ahead = 1.0 + mass / cue->end_mass + 2.5 * inside;
   const double size = sqrt(aside * aside + ahead * ahead), s = aside / size, c = ahead / size, turn = 2.5 * V / R;
   const double x = turn * b, y = turn * a * sin_theta, v_x = cos_phi * c - sin_phi * s, v_y = sin_phi * c + cos_phi * s;
   for (int j = 0; j < m; j++) {
     const double d_mass = carom_d_kind(ball, CAROM_KIND_ROW(mass), m, j), dR = carom_d_kind(ball, CAROM_KIND_ROW(radius), m, j);
     const double d_speed = at(q, j), d_phi = degree * at(row_of(q, 1, m), j), d_theta = degree * at(row_of(q, 2, m), j);
-    const double da = at(row_of(q, 3, m), j), db = at(row_of(q, 4, m), j), dM = at(row_of(q, 5, m), j), d_end = at(row_of(q, 6, m), j);
+    const double da = at(row_of(q, 3, m), j), db = at(row_of(q, 4, m), j), dM = at(row_of(q, 5, m), j),
+                 d_end = at(row_of(q, 6, m), j);
     /* the speed along the cue, and squirt */
     const double d_heavy = d_mass / cue->mass - mass / (cue->mass * cue->mass) * dM + 5.0 * (a * da + b * db);
     const double dV = (2.0 * d_speed - V * d_heavy) / heavy;
@@ -113,7 +116,8 @@ static void friction(const work *w, int i, int j, double in[CAROM_BALLS_INS], ca
   }
   /* the law of each ball, or the usual one, whose numbers do not change */
   const carom_speed_law usual = carom_alciatore();
-  const bool own_a = kind_a->law_a + kind_a->law_b + kind_a->law_c > 0.0, own_b = kind_b->law_a + kind_b->law_b + kind_b->law_c > 0.0;
+  const bool own_a = kind_a->law_a + kind_a->law_b + kind_a->law_c > 0.0,
+             own_b = kind_b->law_a + kind_b->law_b + kind_b->law_c > 0.0;
   const double l[3] = {0.5 * ((own_a ? kind_a->law_a : usual.a) + (own_b ? kind_b->law_a : usual.a)),
                        0.5 * ((own_a ? kind_a->law_b : usual.b) + (own_b ? kind_b->law_b : usual.b)),
                        0.5 * ((own_a ? kind_a->law_c : usual.c) + (own_b ? kind_b->law_c : usual.c))};
@@ -229,7 +233,8 @@ static carom_status cushion(work *w, const carom_event *event) {
   const double c = y_y, s = -y_x, closing = before->v[0] * y_x + before->v[1] * y_y;
   carom_row turn;
   for (int j = 0; j < m; j++)
-    w->d_time[j] = -(y_x * w->d[0][S_X][j] + y_y * w->d[0][S_Y][j] + carom_d_kind(ball, CAROM_KIND_ROW(radius), m, j)) / closing;
+    w->d_time[j] =
+        -(y_x * w->d[0][S_X][j] + y_y * w->d[0][S_Y][j] + carom_d_kind(ball, CAROM_KIND_ROW(radius), m, j)) / closing;
   total(w, 0);
   for (int j = 0; j < m; j++)
     turn[j] = (c * w->d[0][S_X][j] + s * w->d[0][S_Y][j]) / distance;
@@ -252,7 +257,8 @@ static carom_status cushion(work *w, const carom_event *event) {
   for (int j = 0; j < m; j++) {
     const double d_height = own_height ? carom_d_kind(ball, CAROM_KIND_ROW(nose_height), m, j) : at(of_table, j);
     din[NOSE_MU_S][j] = carom_d_kind(ball, CAROM_KIND_ROW(mu_slide), m, j);
-    din[NOSE_MU_W][j] = nose.mu_cushion > 0.0 ? at(row_of(of_table, 1, m), j) : carom_d_kind(ball, CAROM_KIND_ROW(mu_cushion), m, j);
+    din[NOSE_MU_W][j] =
+        nose.mu_cushion > 0.0 ? at(row_of(of_table, 1, m), j) : carom_d_kind(ball, CAROM_KIND_ROW(mu_cushion), m, j);
     din[NOSE_E][j] =
         nose.restitution > 0.0 ? at(row_of(of_table, 2, m), j) : carom_d_kind(ball, CAROM_KIND_ROW(restitution_cushion), m, j);
     din[NOSE_SINE][j] = d_height / R - height / (R * R) * at(dR, j);
@@ -380,14 +386,15 @@ static bool on_the_cloth(const carom_ball_state *s) {
 }
 
 /* Whether an event can be one of the shot, and one whose derivatives are known. */
-static carom_status check_event(const carom_table *table, int count, const carom_cue *cue, const carom_event *event, double since) {
+static carom_status check_event(const carom_table *table, int count, const carom_cue *cue, const carom_event *event,
+                                double since) {
   const int type = event->type;
   if (type < CAROM_EVENT_STRIKE || event->a < 0 || event->a >= count || !(event->time >= since && event->time < INFINITY))
     return CAROM_ERROR_STATE;
   if (type > CAROM_EVENT_SPINNING_STATIONARY)
     return CAROM_ERROR_TANGENT;
   const bool two = type == CAROM_EVENT_BALL_BALL;
-  const int64_t parts = two                           ? count
+  const int64_t parts = two                          ? count
                         : type == CAROM_EVENT_RAIL   ? table->rails
                         : type == CAROM_EVENT_JAW    ? table->jaws
                         : type == CAROM_EVENT_POCKET ? table->pockets
@@ -431,8 +438,7 @@ static carom_status check(const carom_table *table, const carom_shot_ball *balls
     if (!on_the_cloth(&balls[i].state))
       return CAROM_ERROR_TANGENT;
   for (int64_t k = 0; k < shot->count; k++) {
-    const carom_status status =
-        check_event(table, count, cue, &shot->events[k], k > 0 ? shot->events[k - 1].time : 0.0);
+    const carom_status status = check_event(table, count, cue, &shot->events[k], k > 0 ? shot->events[k - 1].time : 0.0);
     if (status != CAROM_OK)
       return status;
   }
@@ -556,13 +562,8 @@ carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball 
     return status;
   tangent->error = 0.0;
   tangent->all_flags = 0;
-  work w = {.table = table,
-            .cue = cue,
-            .opt = opt,
-            .seeds = seeds,
-            .count = count,
-            .m = (int)seeds->directions,
-            .slow_last = -1.0};
+  work w = {
+      .table = table, .cue = cue, .opt = opt, .seeds = seeds, .count = count, .m = (int)seeds->directions, .slow_last = -1.0};
   if (status == CAROM_OK)
     status = differentiate(&w, balls, shot, tangent);
   for (int64_t k = 0; status != CAROM_OK && k < (int64_t)count * CAROM_STATE_NUMBERS * seeds->directions; k++)

@@ -1,13 +1,13 @@
 /* Derivatives of contacts in the frame of the contact, for the tangents of single contacts and of whole shots.
  *
- * Frame: y from the first ball to the second, or into the cushion; z up; x = y x z. The numbers of a ball are speeds, m/s, with W
- * = R w:
+ * Frame: y from the first ball to the second, or into the cushion; z up; x = y x z. The numbers of a ball are speeds, m/s, with
+ * W = R w:
  *
  *     before     v_x   v_y   c_x = v_x - W_y   c_y = v_y + W_x   W_z          (c: the slip on the cloth)
  *     after      v_x   v_y   W_x               W_y               W_z
  *
- * The slip takes the place of W_x and W_y since exact models have no derivative by the slip of a ball that rolls and is pressed;
- * but a ball that rolls stays one, so its slip does not change and the derivative is not asked for.
+ * The slip takes the place of W_x and W_y since exact models have no derivative by the slip of a ball that rolls and is
+ * pressed; but a ball that rolls stays one, so its slip does not change and the derivative is not asked for.
  *
  * Tangents stand in rows of directions: din[number][direction]. */
 #ifndef CAROM_SRC_SHOT_TANGENT_H
