@@ -27,9 +27,10 @@
 #include <stddef.h>
 #include <string.h>
 
-static const double TOLERANCE = 0.1;    /* of the solver: see impact.h */
+static const double TOLERANCE = 1e-2;   /* of the solver: see impact.h */
 static const double ESTIMATE = 1e-6;    /* square of the error estimate of a step, relative */
 static const double SHORTEST = 1e-8;    /* length of a step that is taken in any case */
+static const double UNRESOLVED = 1e-5;  /* of a slip's derivative, that is left where the slip ends */
 static const double COEFFICIENT = 1e-5; /* share of a variable by which coefficients are differentiated */
 
 /* The rates at one place, from directions. */
@@ -344,6 +345,10 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
    * that of a slip which is negligible, but not zero, still turns, and what is left of da across the motion falls with |a| */
   for (int c = 0; c < CAROM_VARIABLES; c++) {
     const double d_p = falls < 0 ? -(u_x * g->d[first][c] + u_y * g->d[first + 1][c]) / falls : 0;
+    /* what is left of da, which has to be 0, tells how well the end of the slip was resolved */
+    const double x = g->d[first][c] + g->rate[first] * d_p, y = g->d[first + 1][c] + g->rate[first + 1] * d_p;
+    if ((g->asked >> c & 1) && fabs(x) + fabs(y) > UNRESOLVED * fmax(fabs(g->d[first][c]) + fabs(g->d[first + 1][c]), 1))
+      g->lost = true;
     for (int r = 0; r < CAROM_VARIED; r++)
       g->d[r][c] += (g->rate[r] - after[r]) * d_p;
     g->d[first][c] = g->d[first + 1][c] = 0;

@@ -1,7 +1,7 @@
 /* Every function runs on a thread with the smallest usual stack, 64 KiB, of which the C library takes its share too. The stack
  * is painted before, with a page that may not be touched below it; what lost its paint was used. */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
-#include "carom_shot.h"
+#include "carom_tangent.h"
 #include "regimes.h"
 #include "support.h"
 
@@ -101,6 +101,31 @@ static void *shots(void *argument) {
   return argument;
 }
 
+/* Derivatives of contacts and of a break in as many directions as there may be, with all that can be asked for. */
+static void *tangents(void *argument) {
+  enum { M = CAROM_DIRECTIONS_MOST, BALLS = 16, ROWS = 26, ROOM = 2000 };
+  static carom_shot_ball balls[BALLS];
+  static carom_table table;
+  static carom_event events[ROOM];
+  static double seeds[ROWS * M], cue_seeds[CAROM_CUE_NUMBERS * M], out_tangent[12 * M], ends[BALLS * CAROM_STATE_NUMBERS * M],
+      times[ROOM * M], before[ROOM * 2 * CAROM_STATE_NUMBERS * M], reach[M];
+  for (int k = 0; k < ROWS * M; k++)
+    seeds[k] = 1.0 + 0.01 * (k % 7);
+  memcpy(cue_seeds, seeds, sizeof cue_seeds);
+  for (size_t k = 0; k < count; k++)
+    carom_collide_tangent(&rows[k], NULL, M, seeds, out_tangent, NULL);
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  carom_rack(CAROM_RACK_EIGHTBALL, &table, 1e-3, 1, balls, BALLS);
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  cue.speed = 7.0;
+  carom_shot shot = {.events = events, .room = ROOM};
+  carom_shoot(&table, balls, BALLS, &cue, NULL, &shot);
+  const carom_tangent_seeds all = {.directions = M, .cue = cue_seeds};
+  carom_tangent tangent = {.final = ends, .time = times, .before = before, .reach = reach};
+  ck_assert_int_eq(carom_shot_tangent(&table, balls, BALLS, &cue, NULL, &shot, &all, &tangent), CAROM_OK);
+  return argument;
+}
+
 /* Bytes of a thread's stack that `body` takes. */
 static size_t stack_used(void *(*body)(void *)) {
   const size_t page = (size_t)sysconf(_SC_PAGESIZE);
@@ -134,6 +159,7 @@ static const struct {
     {"the same in threads", batch_in_threads},
     {"carom_trace", trace},
     {"carom_shoot", shots},
+    {"carom_shot_tangent", tangents},
 };
 
 static void make_rows(void) {
