@@ -39,19 +39,16 @@ static const char *const quantity[] = {"throw of the object ball (degrees)",
 
 OPTION(series, option_speed, "speed", in[SPEED], 0, "V", set_values, MEASURE_SPEED,
        "speed of the cue ball at contact, m/s, or with a unit: mph, km/h (default 1.5)");
-OPTION(
-    series, option_cut, "cut", in[CUT], 0, "DEGREES", set_values, MEASURE_CUT,
-    "angle from its direction to the line of centres, -90 to 90; above 0 the object ball goes to the left (default 30). Or the "
-    "part of the ball that is hit: full, three-quarter, half, quarter, 0.4ball");
+OPTION(series, option_cut, "cut", in[CUT], 0, "DEGREES", set_values, MEASURE_CUT,
+       "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object ball goes to the left "
+       "(default 30). Or the fullness of the hit: full, three-quarter, half, quarter, 0.4ball");
 OPTION(series, option_spin, "spin", in[SPIN], 0, "SPIN", set_values, MEASURE_SPIN,
-       "stun: none (default); follow or roll: the ball rolls; draw: as fast backwards; or a number with a unit, above 0 for "
-       "follow: "
-       "rad/s, % of rolling, tip (the height of the cue's tip above the centre; 1 tip is 13 mm)");
-OPTION(
-    series, option_side, "side", in[SIDE], 0, "SPIN", set_values, MEASURE_SIDE,
-    "side spin, above 0 for right english (counterclockwise from above): a number with a unit, rad/s, % of english (100%: the "
-    "tip half a radius off centre, 1.25 V/R) or tip; right, left: 100%; gearing: as much as lets the balls roll on each other "
-    "without slip; none (default)");
+       "stun: no spin (default); follow or roll: the ball rolls; draw: the same spin backwards. Or a number with a unit, above "
+       "0 for follow: rad/s, % of rolling, tip (height of the cue's tip above the centre; 1 tip is 13 mm)");
+OPTION(series, option_side, "side", in[SIDE], 0, "SPIN", set_values, MEASURE_SIDE,
+       "side spin, above 0 for right english (counterclockwise seen from above). A number with a unit: rad/s, % of english "
+       "(100%: the tip half a radius off centre, 1.25 V/R) or tip; right, left: 100%; gearing: the balls roll on each other "
+       "without slip; none (default)");
 OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
        "of the balls, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
@@ -60,13 +57,12 @@ OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NU
 OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values, MEASURE_NUMBER,
        "of the balls (default 0.95)");
 OPTION(series, option_quantity, "quantity", quantity, 0, QUANTITIES, set_choice, 0,
-       "what curves and tables show (default: throw for curves, all for tables)");
-OPTION(
-    series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-    "write the collisions as `carom resolve` reads them; their id is the spin, with what else is a list, such as draw-1.5m/s. "
-    "With --quantity: a table of it");
+       "the quantity that curves and tables show (default: throw for curves, all for tables)");
+OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "write the collisions as rows for `carom resolve`. An id is the spin and the values of other lists, such as "
+       "draw-1.5m/s. With --quantity: write a table of it");
 OPTION(series, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-       "draw the balls and their paths from above, of every collision; with a range, curves (by gnuplot). OUT.svg, OUT.png or "
+       "draw the balls and their paths of every collision from above; or curves over a range, by gnuplot. OUT.svg, OUT.png or "
        "OUT.pdf");
 
 static void make(const series *s, one_case *c) {
@@ -192,28 +188,28 @@ static const char *law(const series *s, char text[80]) {
 static const command_form form = {
     .name = "hit",
     .usage = "[OPTIONS]",
-    .about = "Hits a ball at rest with the cue ball and tells in words what becomes of both: throw, deflection, spin, speeds "
-             "at once and once they roll. Angles are from the direction in which the cue ball came, as seen from above.\n",
+    .about = "Computes the collision of the cue ball with a ball at rest, and describes it in words: throw, deflection, spin, "
+             "and the speeds just after the collision and once the balls roll. Angles are measured from the cue ball's path "
+             "before, seen from above.\n",
     .options = (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side, &option_friction,
                                            &option_restitution, &option_cloth, &option_radius, &option_mass, &option_solver,
                                            &option_slip, &option_steps, &option_quantity, &option_csv, &option_plot,
                                            &option_strict, &option_output, NULL},
-    .details =
-        "every number may be a list with commas, and one of them a range A:B or A:B:STEP; a unit behind the last number is "
-        "that of "
-        "all: --speed 1,3,7mph, --side 0:100%. A list gives several collisions, a range a table, and with --plot curves.\n\n"
-        "quantities:\n"
-        "  throw                angle of the object ball's velocity from the line of centres, degrees; above 0 as a cut "
-        "throws, or, "
-        "without a cut, as right english throws\n"
-        "  deflection           angle by which the cue ball is turned at once, degrees; above 0 away from the object ball\n"
-        "  rolling-deflection   the same once it rolls\n"
-        "  angle-between        angle between the directions of both balls once they roll, degrees\n"
-        "  object-speed         of the object ball at once, m/s\n"
-        "  spin-transfer        side spin of the object ball over that of the cue ball before, %\n"
-        "  energy               share of the kinetic energy that is lost, %\n\n"
-        "friction between the balls follows --friction; default: alciatore.\n\n"
-        "exit code: 0; 2 for bad usage or a collision that cannot be\n",
+    .details = "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A unit after the last "
+               "number holds for all: --speed 1,3,7mph, --side 0:100%. Each value of a list is a collision. A range gives a "
+               "table, with --plot curves.\n\n"
+               "quantities:\n"
+               "  throw                angle of the object ball's velocity from the line of centres, degrees; above 0 in the "
+               "direction in which a cut throws; for a full hit, in that of right english\n"
+               "  deflection           angle between the cue ball's paths before and just after, degrees; above 0 away from "
+               "the object ball\n"
+               "  rolling-deflection   the same once it rolls\n"
+               "  angle-between        angle between the directions of both balls once they roll, degrees\n"
+               "  object-speed         speed of the object ball just after, m/s\n"
+               "  spin-transfer        side spin of the object ball over that of the cue ball before, %\n"
+               "  energy               share of the kinetic energy that is lost, %\n\n"
+               "The default of --friction is alciatore.\n\n"
+               "exit code: 0; 2 for bad usage or an impossible collision\n",
     .example = "carom hit --speed 1.5 --cut 30 --spin draw --plot hit.svg",
     .files = NO_FILES,
 };

@@ -39,14 +39,11 @@ OPTION(series, option_speed, "speed", in[SPEED], 0, "V", set_values, MEASURE_SPE
 OPTION(series, option_angle, "angle", in[ANGLE], 0, "DEGREES", set_values, MEASURE_ANGLE,
        "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to the right (default 45)");
 OPTION(series, option_spin, "spin", in[SPIN], 0, "SPIN", set_values, MEASURE_SPIN,
-       "roll or follow: the ball rolls (default); stun: none; draw: as fast backwards; or a number with a unit: rad/s, % of "
-       "rolling, "
-       "tip");
+       "roll or follow: the ball rolls (default); stun: no spin; draw: the same spin backwards. Or a number with a unit: "
+       "rad/s, % of rolling, tip");
 OPTION(series, option_side, "side", in[SIDE], 0, "SPIN", set_values, MEASURE_SIDE,
-       "side spin, above 0 for right english: running where the ball moves to the right, left english being reverse. A number "
-       "with a "
-       "unit, rad/s, % of english (100%: 1.25 V/R) or tip; right, left: 100%; gearing: the ball rolls along the cushion; none "
-       "(default)");
+       "side spin, above 0 for right english, which is running english here; left is reverse. A number with a unit: rad/s, % "
+       "of english (100%: 1.25 V/R) or tip; right, left: 100%; gearing: the ball rolls along the cushion; none (default)");
 OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,
        "of the nose above the cloth, m, or with a unit: mm, in (default 0.036576, that of a pool table)");
 OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values, MEASURE_NUMBER,
@@ -59,12 +56,12 @@ OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
        "of the ball, kg, or with a unit: g, oz (default 0.170097, 6 oz)");
 OPTION(series, option_quantity, "quantity", quantity, 0, QUANTITIES, set_choice, 0,
-       "what curves and tables show (default: rolling-rebound for curves, all for tables)");
+       "the quantity that curves and tables show (default: rolling-rebound for curves, all for tables)");
 OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "write the impacts as `carom resolve --cushion` reads them. With --quantity: a table of it");
+       "write the impacts as rows for `carom resolve --cushion`. With --quantity: write a table of it");
 OPTION(
     series, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-    "draw the ball and its path from above, of every impact; with a range, curves (by gnuplot). OUT.svg, OUT.png or OUT.pdf");
+    "draw the ball and its path of every impact from above; or curves over a range, by gnuplot. OUT.svg, OUT.png or OUT.pdf");
 
 static void make(const series *s, one_case *c) {
   const value *const *v = c->given;
@@ -186,26 +183,25 @@ static const char *law(const series *s, char text[80]) {
 static const command_form form = {
     .name = "rail",
     .usage = "[OPTIONS]",
-    .about =
-        "Plays a ball against a cushion and tells in words how it leaves: rebound angle at once and once it rolls, speeds, "
-        "spin, and what stuck or slipped. The ball moves to the right along the cushion, so right english is running "
-        "english.\n",
+    .about = "Computes the impact of a ball on a cushion, and describes it in words: the rebound angle just after and once the "
+             "ball rolls, speeds, spin, and which contacts stuck or slipped. The ball moves to the right along the cushion, so "
+             "right english is running english.\n",
     .options = (const option_row *const[]){&option_speed,  &option_angle,       &option_spin,          &option_side,
                                            &option_height, &option_restitution, &option_friction_rail, &option_cloth,
                                            &option_radius, &option_mass,        &option_model,         &option_convention,
                                            &option_law,    &option_steps,       &option_quantity,      &option_csv,
                                            &option_plot,   &option_strict,      &option_output,        NULL},
     .details =
-        "every number may be a list with commas, and one of them a range A:B or A:B:STEP; a unit behind the last number is "
-        "that of "
-        "all: --speed 1,3,7mph, --side -100:100%. A list gives several impacts, a range a table, and with --plot curves.\n\n"
+        "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A unit after the last number "
+        "holds for all: --speed 1,3,7mph, --side -100:100%. Each value of a list is an impact. A range gives a table, with "
+        "--plot curves.\n\n"
         "quantities:\n"
         "  rolling-rebound      angle from the normal once the ball rolls, degrees; a mirror keeps the angle of incidence\n"
-        "  rebound              the same at once\n"
-        "  speed                at once, m/s\n"
-        "  side                 side spin after, rad/s, right is positive\n"
+        "  rebound              the same just after the impact\n"
+        "  speed                just after, m/s\n"
+        "  side                 side spin after, rad/s; above 0 for right\n"
         "  energy               share of the kinetic energy that is lost, %\n\n"
-        "exit code: 0; 2 for bad usage or an impact that cannot be\n",
+        "exit code: 0; 2 for bad usage or an impossible impact\n",
     .example = "carom rail --angle 0:75 --side -50,0,50% --plot rail.svg",
     .files = NO_FILES,
 };

@@ -16,7 +16,7 @@ enum { BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 }; /* lines in error that
 
 typedef struct shoot_job {
   shared_options shared; /* --threads, --steps, --output */
-  int world, ball_model, cushion, events;
+  int world, ball_model, cushion, space, events;
   int events_most;
   double time_most;
   const char *plot, *id;
@@ -38,26 +38,30 @@ typedef struct block {
 } block;
 
 OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
-       "whose rules of contact and models (default carom)");
+       "the rules of contact and the default models (default carom)");
 OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "MODEL", set_ball_model, 0,
-       "the collision of two balls: exact, euler, inelastic or mirror (default: exact; by pooltool's models inelastic)");
+       "model of the collision of two balls: exact, euler, inelastic or mirror (default: exact; with --models pooltool "
+       "inelastic)");
 OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
-       "the impact on a cushion: mathavan (the exact limit), stronge, han, mirror or euler (default: mathavan; by pooltool's "
-       "models stronge)");
+       "model of the impact on a cushion: han, mathavan (the exact limit), stronge, mirror or euler (default: han; with "
+       "--models pooltool stronge)");
+OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
+       "whether balls can leave the cloth (default 3d; flat with --models pooltool)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
-       "what is told of events: nothing, time, type and ids, or states too (default full)");
+       "what to write of events: nothing; time, type and ids; or the states before and after too (default full)");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
-       "a shot is stopped after so many events (default 10000)");
+       "largest number of events of a shot (default 10000)");
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
-       "a shot is stopped after so much time of its clock (default 1000)");
+       "largest time of a shot, on its own clock (default 1000)");
 OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
-       "draw the table and the balls' paths, of the first shot without an error");
+       "draw the table and the paths of the balls in the first shot without an error; from the side too where a ball flies");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
 
 static carom_shot_options options_of(const shoot_job *job) {
   return (carom_shot_options){.world = (carom_world)job->world,
                               .ball_model = (carom_ball_model)job->ball_model,
                               .cushion_model = (carom_shot_cushion)job->cushion,
+                              .space = (carom_space)job->space,
                               .steps = job->shared.options.steps,
                               .events_most = job->events_most,
                               .threads = job->shared.options.threads,
@@ -138,8 +142,7 @@ typedef struct drawing {
 static void draw(drawing *picture, const shot_line *line, const carom_shot *shot) {
   FILE *out = open_text(&picture->text, &picture->size);
   shot_draw(out, line, shot);
-  if (fclose(out) != 0)
-    out_of_memory();
+  close_text(out, &picture->text);
 }
 
 static void write_drawing(FILE *out, const void *data) {
@@ -245,12 +248,11 @@ static const command_form form = {
              "(docs/using/shots.md has the "
              "format; recorded results in them are ignored) and writes each table and each shot with its events and final "
              "states. IN may be -.\n",
-    .options = (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion_model, &option_events,
-                                           &option_steps, &option_events_most, &option_time_most, &option_threads, &option_plot,
-                                           &option_shot_id, &option_output, NULL},
-    .details =
-        "exit code: 0 if all shots came to rest, 1 if some are in error (they have a status and an error; the others are "
-        "played), 2 for bad usage or unreadable input\n",
+    .options = (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion_model, &option_space,
+                                           &option_events, &option_steps, &option_events_most, &option_time_most,
+                                           &option_threads, &option_plot, &option_shot_id, &option_output, NULL},
+    .details = "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and the error; the others "
+               "are played); 2 for bad usage or unreadable input\n",
     .example = "carom shoot --plot break.svg -o played.jsonl shots.jsonl",
     .files = ONE_FILE,
 };

@@ -236,28 +236,28 @@ static void warn_of_constant(const sweep *s) {
 }
 
 OPTION(sweep, option_over, "over", over, 0, "INPUT", set_text, 0,
-       "what to vary: a column, such as w1z, u_b or e_b; cut, to turn the line of centres by so many degrees, with --cushion "
-       "angle, to turn the cushion; or speed, m/s, of the first ball, with which all velocities and spins change");
-OPTION(sweep, option_from, "from", from, 0, "A", set_number, 0, "its first value");
-OPTION(sweep, option_to, "to", to, 0, "B", set_number, 0, "its last value");
-OPTION(sweep, option_points, "points", points, 0, "N", set_count, 2, "how many, 2 or more (default 10001)");
+       "what to vary: a column, such as w1z, u_b or e_b; cut: turns the line of centres by so many degrees; angle: turns the "
+       "cushion; speed: that of the first ball, m/s, and all other velocities and spins in proportion");
+OPTION(sweep, option_from, "from", from, 0, "A", set_number, 0, "first value of INPUT");
+OPTION(sweep, option_to, "to", to, 0, "B", set_number, 0, "last value of INPUT");
+OPTION(sweep, option_points, "points", points, 0, "N", set_count, 2, "number of values, 2 or more (default 10001)");
 OPTION(sweep, option_ids, "id", ids, 0, "X", set_text, 0,
-       "which row: its column id, or its number if there is no such column; several with commas are swept one after the other");
+       "the row with this id; its number, from 1, if there is no column id. Several ids, separated by commas, are swept one "
+       "after the other");
 OPTION(sweep, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-       "draw the throw, with --cushion the angle of rebound, with gnuplot, a curve for each row and solver: OUT.svg or "
-       "OUT.png; the CSV is then written only with -o");
-OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0, "without the columns v1x to w2z, or vx to wz");
+       "draw the throw, with --cushion the rebound angle, by gnuplot, a curve for each row and solver: OUT.svg or OUT.png. The "
+       "CSV is then written only with -o");
+OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0, "leave out the columns v1x to w2z, or vx to wz");
 
 OPTION(sweep, option_rows, "rows", only_rows, 0, NULL, set_flag, 0,
-       "write the rows swept, as `carom resolve` reads them, instead of what comes of them");
+       "write the rows for `carom resolve`, instead of their results");
 
 static const command_form form = {
     .name = "sweep",
     .usage = "--id X --over INPUT --from A --to B [OPTIONS] [FILE]",
     .about =
-        "Resolves one collision many times, with --cushion one impact on a cushion, INPUT taking equally spaced values from "
-        "A to B. FILE is what `carom resolve` reads, - for CSV on standard input; default: the 204 reference "
-        "collisions.\n",
+        "Resolves one collision, with --cushion one impact on a cushion, for equally spaced values of INPUT from A to B. FILE "
+        "has the format that `carom resolve` reads; - is CSV on standard input; without FILE, the 204 reference collisions.\n",
     .options = (const option_row *const[]){&option_ids,        &option_over,
                                            &option_from,       &option_to,
                                            &option_cushion,    &option_points,
@@ -271,20 +271,20 @@ static const command_form form = {
                                            &option_least_step, NULL},
     .details =
         "columns written:\n"
-        "  solver, value        of the input; with --cushion model, value\n"
+        "  solver, value        the solver, with --cushion the model; the value of INPUT\n"
         "  throw_deg            angle of ball 2's change of velocity from the line of centres, to the left from above\n"
-        "  stick_share          share of the normal impulse after which the balls no longer slip on each other; nan if they do "
-        "to the end, and by Euler's method\n"
+        "  stick_share          share of the normal impulse after which the balls no longer slip on each other; nan if they "
+        "slip to the end, and with Euler's method\n"
         "  jump                 how far the results (radius times spin), over the largest of them, leave a smooth curve "
         "between this value and the next: the distance of their step from both neighbouring steps and all between. A corner "
         "is no jump; nan at the ends\n"
         "  v1x ... w2z, status  as `carom resolve` writes them; v1x to w2z not with --brief\n"
-        "  mu_ball              friction between the balls; with --friction that of the law at this value\n"
-        "  id                   of the row\n"
-        "With --cushion throw_deg and stick_share are not there, and rebound_deg stands for mu_ball: the angle of the velocity "
-        "after from the normal, degrees; a mirror without loss keeps it.\n"
+        "  mu_ball              friction between the balls; with --friction alciatore, that of the law at this value\n"
+        "  id                   the id of the row\n"
+        "With --cushion there is no throw_deg, stick_share or mu_ball, but rebound_deg: the angle of the velocity after from "
+        "the normal, degrees; a mirror without loss keeps it.\n"
         "\n"
-        "exit code: 0; 1 if some values make an error; 2 for bad usage or unreadable input\n",
+        "exit code: 0; 1 if some values give an error; 2 for bad usage or unreadable input\n",
     .example = "carom sweep --id pooltool-135 --over u_b --from 0 --to 0.2 -o sweep.csv",
     .files = FILE_OR_NONE,
 };

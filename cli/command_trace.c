@@ -110,39 +110,42 @@ static int write_trace(const trace *t) {
 
 OPTION(trace, option_points, "points", points, 0, "N", set_count, 2, "points, 2 or more (default 201)");
 OPTION(trace, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-       "draw it with gnuplot: OUT.svg or OUT.png; the CSV is then written only with -o");
+       "draw the quantities, by gnuplot: OUT.svg or OUT.png. The CSV is then written only with -o");
 
 static const command_form form = {
     .name = "trace",
     .usage = "--id X [OPTIONS] [FILE]",
-    .about = "Follows one collision from contact to parting, in equal steps of normal impulse; with --cushion one impact on a "
-             "cushion, by the model mathavan or euler. FILE is what `carom resolve` reads, - for CSV on standard input; "
-             "default: the 204 reference collisions.\n",
+    .about = "Writes the state during one collision, from contact to separation, in equal steps of normal impulse; with "
+             "--cushion that during one impact on a cushion, by the model mathavan or euler. FILE has the format that `carom "
+             "resolve` reads; - is CSV on standard input; without FILE, the 204 reference collisions.\n",
     .options =
         (const option_row *const[]){&option_id, &option_cushion, &option_points, &option_steps, &option_plot, &option_bare,
                                     &option_strict, &option_output, &option_solvers, &option_slip, &option_friction,
                                     &option_data, &option_model, &option_convention, &option_law, &option_least_step, NULL},
-    .details = "columns written:\n"
-               "  solver, impulse_N_s  which one; normal impulse so far\n"
-               "  work_J               work of the normal force so far, the sum of |v_n| dP\n"
-               "  phase                compression while the balls approach each other, then restitution\n"
-               "  sticks               1 from where they no longer slip on each other, else 0; always 0 by Euler's method\n"
-               "  v_n_m_s              speed at which they part along the line of centres; negative while they approach\n"
-               "  u_x_m_s u_z_m_s      slip of ball 1 on ball 2; y is the line of centres from 1 to 2, z points up, x = y x z\n"
-               "  d_x_m_s d_y_m_s      slip of ball 1 over the cloth, and b_x_m_s b_y_m_s of ball 2, in the same axes\n"
-               "  v1_x_m_s v1_y_m_s    velocity of ball 1, and v2_x_m_s v2_y_m_s of ball 2, in the same axes\n"
-               "  v1x ... w2z          the state as `carom resolve` writes it, m/s and rad/s, along the axes of the table\n"
-               "\n"
-               "columns written with --cushion:\n"
-               "  model, impulse_N_s, work_J, phase  as above; compression while the ball moves into the cushion\n"
-               "  nose_sticks cloth_sticks  1 where the ball does not slip there, else 0; always 0 by Euler's method\n"
-               "  v_n_m_s              speed into the nose, along its normal; negative while they part\n"
-               "  s_x_m_s s_t_m_s      slip on the nose, along the cushion and upwards across it\n"
-               "  c_x_m_s c_y_m_s      slip on the cloth; y points into the cushion, x along it, z up\n"
-               "  v_x_m_s v_y_m_s      velocity in the same axes\n"
-               "  vx ... wz            the motion, m/s and rad/s, along the axes of the table\n"
-               "\n"
-               "exit code: 0; 1 if the picture could not be drawn; 2 for bad usage, unreadable input or a row in error\n",
+    .details =
+        "columns written:\n"
+        "  solver, impulse_N_s  the solver; the normal impulse so far\n"
+        "  work_J               work of the normal force so far, the sum of |v_n| dP\n"
+        "  phase                compression while the balls approach each other, then restitution\n"
+        "  sticks               1 as soon as the balls no longer slip on each other, else 0; always 0 with Euler's method\n"
+        "  v_n_m_s              speed of separation along the line of centres; negative while the balls approach\n"
+        "  u_x_m_s u_z_m_s      slip of ball 1 on ball 2; y is the line of centres from 1 to 2, z points up, x = y x z\n"
+        "  d_x_m_s d_y_m_s      slip of ball 1 over the cloth, and b_x_m_s b_y_m_s of ball 2, in the same axes\n"
+        "  v1_x_m_s v1_y_m_s    velocity of ball 1, and v2_x_m_s v2_y_m_s of ball 2, in the same axes\n"
+        "  v1x ... w2z          the state as `carom resolve` writes it, m/s and rad/s, along the axes of the table\n"
+        "\n"
+        "columns written with --cushion:\n"
+        "  model, impulse_N_s   the model; the normal impulse so far\n"
+        "  work_J, phase        as above; compression while the ball moves into the cushion\n"
+        "  nose_sticks          1 while the ball does not slip on the nose, else 0, and cloth_sticks on the cloth; always 0 "
+        "with Euler's method\n"
+        "  v_n_m_s              speed into the nose, along its normal; negative while ball and cushion separate\n"
+        "  s_x_m_s s_t_m_s      slip on the nose, along the cushion and upwards across it\n"
+        "  c_x_m_s c_y_m_s      slip on the cloth; y points into the cushion, x along it, z up\n"
+        "  v_x_m_s v_y_m_s      velocity in the same axes\n"
+        "  vx ... wz            the motion, m/s and rad/s, along the axes of the table\n"
+        "\n"
+        "exit code: 0; 1 if the picture could not be drawn; 2 for bad usage, unreadable input or a row with an error\n",
     .example = "carom trace --id pooltool-135 --solver exact,euler --plot trace.svg",
     .files = FILE_OR_NONE,
 };

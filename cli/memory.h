@@ -14,8 +14,9 @@ void *allocate(size_t count, size_t size);
 /* A new text, to be freed. */
 char *copy_text(const char *text);
 
-/* A stream into a new text, to be freed once it is closed. */
+/* A stream into a new text, and its end, after which the text is there and is to be freed. */
 FILE *open_text(char **text, size_t *size);
+void close_text(FILE *stream, char *const *text);
 
 /* An array of `*room` elements, made larger where it holds fewer than `needed`: to twice its size at least, so that growing one
  * by one costs the same for each. Gives the block, which may have moved; a new one begins as NULL with `*room` 0. */

@@ -43,11 +43,14 @@ static void print_wrapped(FILE *out, const char *text) {
   }
 }
 
-/* "  -o, --output OUT" */
+/* "  -o, --output OUT"; choices that do not fit into a line are listed in the details. */
 static int write_head(const option_row *row, char text[80]) {
   const char letter[] = {'-', row->letter, ',', ' ', '\0'};
-  return snprintf(text, 80, "  %s--%s%s%s", row->letter != 0 ? letter : "", row->name, row->argument != NULL ? " " : "",
-                  row->argument != NULL ? row->argument : "");
+  const char *argument = row->argument == NULL                               ? ""
+                         : strlen(row->argument) > HELP_WIDTH - OPTION_WIDTH ? "NAME"
+                                                                             : row->argument;
+  return snprintf(text, 80, "  %s--%s%s%s", row->letter != 0 ? letter : "", row->name, argument[0] != '\0' ? " " : "",
+                  argument);
 }
 
 /* The help beside the head, or below it where that is long. */

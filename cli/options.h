@@ -92,8 +92,10 @@ extern const option_row option_solver, option_solvers, option_slip, option_steps
     option_precision, option_id, option_data, option_output, option_summary, option_bare, option_strict, option_derived,
     option_cushion, option_model, option_convention, option_law, option_least_step;
 
-/* A row of one table alone: OPTION(job, option_NAME, field, letter, argument, set, least, help). */
+/* A row of one table alone: OPTION(job, option_NAME, name, field, letter, argument, set, least, help). */
 #define OPTION(job, row, name, member, letter, argument, set, least, help) \
-  static const option_row row = {name, letter, argument, help, set, offsetof(job, member), least, ANY_KIND}
+  OPTION_FOR(ANY_KIND, job, row, name, member, letter, argument, set, least, help)
+#define OPTION_FOR(only, job, row, name, member, letter, argument, set, least, help) \
+  static const option_row row = {name, letter, argument, help, set, offsetof(job, member), least, only}
 
 #endif

@@ -189,11 +189,11 @@ static void write_pictures(FILE *out, const void *data) {
     FILE *said = open_text(&words, &words_size);
     resolve_case(s, k, &c);
     s->scene->tell(said, s, &c);
-    fclose(said);
+    close_text(said, &words);
     top += s->scene->draw(part, top, s, &c, words);
     free(words);
   }
-  fclose(part);
+  close_text(part, &body);
   svg_begin(out, CONTACT_WIDTH, top, "fill=\"#fff\"");
   fwrite(body, 1, body_size, out);
   fputs("</svg>\n", out);

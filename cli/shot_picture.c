@@ -19,7 +19,7 @@ bool shot_has_id(const shot_line *line, const char *id) {
          (strlen(line->id) == size + 2 && line->id[0] == '"' && strncmp(line->id + 1, id, size) == 0);
 }
 
-static const double table_scale = 400.0, table_margin = 0.11; /* pixels a metre; m */
+static const double table_scale = 400.0, table_margin = 0.11, side_margin = 30.0; /* pixels a metre; m; pixels */
 
 /* The usual colours of pool balls by number; the first is for the cue ball and others. */
 static const char *const colours[] = {"#ffffff", "#f2c230", "#1d4fd8", "#e02d24", "#5b2a9d", "#ee7a22", "#0b5d2e", "#8c1d3a",
@@ -71,12 +71,13 @@ static view view_of(FILE *out, const carom_table *t) {
   return v;
 }
 
-static void draw_table(const view *v, const carom_table *t) {
+/* With `below` pixels free under the table. */
+static void draw_table(const view *v, const carom_table *t, double below) {
   FILE *out = v->out;
   const double scale = v->scale;
   const double width = scale * ((v->turned ? v->high[1] - v->low[1] : v->high[0] - v->low[0]) + 2.0 * v->margin);
   const double height = scale * ((v->turned ? v->high[0] - v->low[0] : v->high[1] - v->low[1]) + 2.0 * v->margin);
-  svg_begin(out, width, height, "rx=\"18\" fill=\"#5b3a21\"");
+  svg_begin(out, width, height + below, "rx=\"18\" fill=\"#5b3a21\"");
   const double inset = scale * 0.5 * v->margin;
   fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"10\" fill=\"#3f9d80\"/>\n", inset, inset,
           width - 2.0 * inset, height - 2.0 * inset);
@@ -117,7 +118,7 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
     const double time = e != NULL ? e->time : shot->time;
     carom_shot_at(line->ball, line->count, shot, 0.5 * (last + time), states);
     const int64_t label = e != NULL ? e->before[side].label : states[ball].label;
-    const bool moves = label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING;
+    const bool moves = label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING || label == CAROM_BALL_AIRBORNE;
     if (e != NULL ? moved || time > last : moves) {
       if (!moved) {
         carom_shot_at(line->ball, line->count, shot, last, states);
@@ -166,11 +167,81 @@ static void spread_pocketed(const shot_line *line, carom_ball_state *final) {
   }
 }
 
+/* ---- From the side: places along the picture's width, as in the view from above, and heights at the same scale */
+
+/* How high a ball's centre comes above the cloth that it would lie on, m, at events and between. */
+static double rise_of(const shot_line *line, const carom_shot *shot, int ball) {
+  const double R = line->ball[ball].kind.radius, g = line->ball[ball].kind.gravity;
+  const carom_ball_state *start = &line->ball[ball].state;
+  const bool flies = start->label == CAROM_BALL_AIRBORNE || start->v[2] != 0.0 || start->r[2] > R + 1e-6;
+  double most = flies ? start->r[2] - R + 0.5 * start->v[2] * fabs(start->v[2]) / g : 0.0;
+  for (int64_t k = 0; k < shot->count && k < shot->room; k++)
+    for (int side = 0; side < 2; side++) {
+      const carom_event *e = &shot->events[k];
+      const carom_ball_state *s = &e->after[side];
+      if ((side == 0 ? e->a : e->b) == ball && (side == 0 || e->type == CAROM_EVENT_BALL_BALL) &&
+          s->label == CAROM_BALL_AIRBORNE)
+        most = fmax(most, s->r[2] - R + (s->v[2] > 0.0 ? 0.5 * s->v[2] * s->v[2] / g : 0.0));
+    }
+  return most;
+}
+
+/* The side view of the balls that rise by more than a millimetre, above a line for the cloth at y = `cloth`, pixels. */
+static void draw_side(const view *v, const shot_line *line, const carom_shot *shot, double cloth, double width) {
+  const carom_table *t = &line->table->table;
+  fprintf(v->out, "<path d=\"M0 %.1fL%.1f %.1f\" stroke=\"#3f9d80\" stroke-width=\"3\"/>\n", cloth, width, cloth);
+  for (int k = 0; k < t->rails; k++) /* noses, as posts at their ends */
+    for (int end = 0; end < 2; end++) {
+      const double x = across(v, end == 0 ? t->rail[k].p : t->rail[k].q);
+      fprintf(v->out, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#1d4a3c\" stroke-width=\"2\"/>\n", x, cloth,
+              cloth - v->scale * t->rail[k].height);
+    }
+  carom_ball_state states[CAROM_BALLS_MOST];
+  for (int ball = line->count - 1; ball >= 0; ball--) {
+    const double r = v->scale * line->ball[ball].kind.radius;
+    const carom_ball_state *from = &line->ball[ball].state;
+    const char *colour = colour_of(line->name[ball], ball);
+    if (rise_of(line, shot, ball) > 1e-3) {
+      /* up to the last time that it is on the table */
+      fprintf(v->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"", colour);
+      double last = 0.0;
+      for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
+        const carom_event *e = &shot->events[k];
+        const bool in = e->a == ball || (e->type == CAROM_EVENT_BALL_BALL && e->b == ball);
+        const int pieces = in && e->time > last ? 24 : 0;
+        for (int n = 0; n <= pieces && in; n++) {
+          const double time = pieces > 0 ? last + (e->time - last) * n / pieces : e->time;
+          const carom_ball_state *s = e->a == ball ? &e->before[0] : &e->before[1];
+          if (n < pieces) {
+            carom_shot_at(line->ball, line->count, shot, time, states);
+            s = &states[ball];
+          }
+          fprintf(v->out, "%c%.1f %.1f", last == 0.0 && n == 0 ? 'M' : 'L', across(v, s->r), cloth - v->scale * s->r[2]);
+        }
+        last = in ? e->time : last;
+      }
+      fputs("\"/>\n", v->out);
+    }
+    fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"/>\n",
+            across(v, from->r), cloth - v->scale * from->r[2], r, colour);
+  }
+}
+
 void shot_draw(FILE *out, const shot_line *line, const carom_shot *shot) {
   const view v = view_of(out, &line->table->table);
   carom_ball_state final[CAROM_BALLS_MOST];
   memcpy(final, shot->final, (size_t)line->count * sizeof *final);
-  draw_table(&v, &line->table->table);
+  double rise = 0.0;
+  for (int k = 0; k < line->count; k++)
+    rise = fmax(rise, rise_of(line, shot, k));
+  const double width = v.scale * ((v.turned ? v.high[1] - v.low[1] : v.high[0] - v.low[0]) + 2.0 * v.margin);
+  const double above = v.scale * ((v.turned ? v.high[0] - v.low[0] : v.high[1] - v.low[1]) + 2.0 * v.margin);
+  const double side = rise > 1e-3 ? v.scale * (rise + 2.0 * line->ball[0].kind.radius) + side_margin : 0.0;
+  draw_table(&v, &line->table->table, side > 0.0 ? side + side_margin : 0.0);
+  if (side > 0.0) {
+    fprintf(out, "<rect y=\"%.1f\" width=\"100%%\" height=\"%.1f\" fill=\"#86a398\"/>\n", above, side + side_margin + 20.0);
+    draw_side(&v, line, shot, above + side, width);
+  }
   for (int k = 0; k < line->count; k++)
     draw_ball(&v, line, &line->ball[k].state, k, false);
   for (int k = line->count - 1; k >= 0; k--)

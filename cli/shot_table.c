@@ -61,6 +61,7 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
   char where[64];
   carom_table *table = &t->table;
   if (!json_get_id(json, "", &t->id, f) || !json_get_doubles(json, "", "w l", &table->width, f) ||
+      !json_get_doubles(json, "", "ball_radius rail_width pocket_back", &table->ball_radius, f) ||
       !json_get_list(json, "linear", CAROM_RAILS_MOST, &list, f))
     return false;
   json_array_foreach((json_t *)list, k, v) {

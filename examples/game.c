@@ -1,9 +1,9 @@
 /* A game of eight-ball between two programs, and the same game once more from its record.
  *
  * The core of a game, without pictures: the state between shots, the rules, a player that tries shots, and the record. A record
- * is the seed of the rack and a few doubles a shot: where the cue ball was put, and the cue. Played again with carom_isa_limit(
- * CAROM_ISA_PLAIN) it gives the same bits on every machine that has the same carom_physics_revision(). So two machines that
- * send each other these doubles play in lockstep; it is the doubles that count, not what is printed of them.
+ * is the seed of the rack and a few doubles a shot: where the cue ball was put, and the cue. Played again with options.plain it
+ * gives the same bits on every machine that has the same carom_physics_revision(). So two machines that send each other these
+ * doubles play in lockstep; it is the doubles that count, not what is printed of them.
  *
  * The player plays all its candidates in one batch, with brief events and final states only, and takes the best outcome. It
  * aims as people do, at the ghost ball: where the cue ball is when it touches the object ball on the line to the pocket.
@@ -94,7 +94,8 @@ static outcome judge(const game *g, const carom_shot *shot, const carom_brief_ev
   return o;
 }
 
-static const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN, .threads = CAROM_ALL_THREADS};
+/* plain: the same bits on every machine. */
+static const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN, .threads = CAROM_ALL_THREADS, .plain = 1};
 
 /* Plays a move and applies the rules. False where the move cannot be played. */
 static bool play(game *g, const move *m) {
@@ -217,7 +218,6 @@ int main(void) {
   static game first, again;
   static move record[MOST_SHOTS];
   const uint64_t seed = 7;
-  carom_isa_limit(CAROM_ISA_PLAIN); /* the same bits on every machine */
   begin(&first, seed);
   int count = 0;
   for (; first.winner < 0 && count < MOST_SHOTS; count++) {

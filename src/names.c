@@ -3,7 +3,7 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
-#include "enumerations.h"
+#include "platform/enumerations.h"
 
 #define TEXT_OF(x) #x
 #define TEXT(x) TEXT_OF(x)
@@ -38,7 +38,7 @@
   X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                             \
   X(ERROR_UNRESOLVED, -22, "unresolved",                                                                            \
     "the collision is too extreme: its result depends on rounding errors, or takes more work than a call may cost") \
-  X(ERROR_OPTIONS, -23, "bad_options", "the reserved fields of the options must be 0")                              \
+  X(ERROR_OPTIONS, -23, "bad_options", "plain must be 0 or 1, and the reserved fields of the options 0")            \
   X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model", "options.model is not one of carom_cushion_model")               \
   X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options", "an option of the cushion is out of its range")              \
   X(ERROR_NORMAL, -32, "bad_normal", "the direction into the cushion must be finite and not 0")                     \
@@ -50,17 +50,17 @@
 #define SHOT_STATUS_LIST(X)                                                                                                    \
   X(ERROR_TOO_MANY_EVENTS, -40, "too_many_events", "the shot was stopped: it has more events than options.events_most")        \
   X(ERROR_TOO_LONG, -41, "too_long", "the shot was stopped: it lasts longer than 1000 s, and options.time_most is 0")          \
-  X(ERROR_LEFT_TABLE, -42, "left_table", "a ball left the table")                                                              \
+  X(ERROR_LEFT_TABLE, -42, "left_table", "a ball on the cloth left the table, through a gap between its cushions")             \
   X(ERROR_SHOT_OPTIONS, -43, "bad_shot_options", "an option of the shot is out of its range, or a reserved one is not 0")      \
   X(ERROR_BALLS, -44, "bad_balls", "a shot has 1 to 32 balls")                                                                 \
-  X(ERROR_LABEL, -45, "bad_label", "a ball must be on the table or pocketed")                                                  \
+  X(ERROR_LABEL, -45, "bad_label", "the label of a ball is none that a layout may have: 0 to 4, and in space 5 and 6")         \
   X(ERROR_OVERLAP, -46, "overlap", "two balls overlap")                                                                        \
   X(ERROR_OFF_TABLE, -47, "off_table", "a ball is not on the table")                                                           \
   X(ERROR_MU_MOTION, -48, "bad_mu_motion", "frictions of sliding, rolling and spinning must be above 0 and at most 1")         \
   X(ERROR_GRAVITY, -49, "bad_gravity", "gravity must be positive and finite")                                                  \
   X(ERROR_CUE, -50, "bad_cue",                                                                                                 \
     "the cue must have a speed of 0 to 1000 m/s, a direction, an elevation of 0 to 90 degrees, positive masses, and a ball")   \
-  X(ERROR_MISCUE, -51, "miscue", "the tip misses the ball: a^2 + b^2 must be below 1")                                         \
+  X(ERROR_MISCUE, -51, "miscue", "the tip misses the ball: a^2 + b^2 must be below miscue^2, which is 1 by default")           \
   X(ERROR_TABLE, -52, "bad_table",                                                                                             \
     "the table has too many parts, or a part that is not finite, has no length, or friction or restitution outside 0 to 1")    \
   X(ERROR_RACK, -53, "bad_rack", "no such rack, or its gap is not between 0 and R, or there is too little room")               \
@@ -93,7 +93,7 @@ int carom_version_number(void) {
 
 /* Raised by the commit that changes the bits of any result; tests/platforms/revision says when that is. */
 int carom_physics_revision(void) {
-  return 1;
+  return 2;
 }
 
 int carom_serves(int header) {
@@ -186,6 +186,12 @@ const char *carom_event_name(carom_event_type type) {
     return "rolling_stationary";
   case CAROM_EVENT_SPINNING_STATIONARY:
     return "spinning_stationary";
+  case CAROM_EVENT_SLATE:
+    return "slate";
+  case CAROM_EVENT_RAIL_TOP:
+    return "rail_top";
+  case CAROM_EVENT_LEFT_TABLE:
+    return "left_table";
   }
   return NULL;
 }
@@ -204,6 +210,8 @@ const char *carom_label_name(carom_label label) {
     return "pocketed";
   case CAROM_BALL_AIRBORNE:
     return "airborne";
+  case CAROM_BALL_OFF:
+    return "off";
   }
   return NULL;
 }

@@ -31,6 +31,38 @@ def law(values, by, edges):
     return rows
 
 
+def patch(a, mu, e, v_t, v_n):
+    """What a round patch of contact of the greatest radius a R takes from the roll along a cushion: docs/understanding/reality.md."""
+    # while it sticks its shear turns the spin about the normal by (5/3) (a/R)^2 of the square of the rate of the normal impact
+    sticks = (1.0 - np.cos(np.pi * a * np.sqrt(5.0 / 3.0 * 2.0 / np.pi))) * v_t
+    # friction, with the pressure of Hertz, bears no more than this; a^2 and the force rise and fall like a half wave of the sine
+    bears = 2.5 * 3.0 * np.pi / 16.0 * 0.874 * mu * a * (1.0 + e) * v_n
+    return np.minimum(sticks, bears)
+
+
+def explanations(lost, impacts, mu, e):
+    """How well laws of the loss of roll along a cushion agree with it: each with its best numbers."""
+    v_t, v_n = np.abs(impacts["v_t"]), impacts["v_n"]
+    seen, v = np.sign(impacts["v_t"]) * lost, np.hypot(impacts["v_t"], impacts["v_n"])
+    part = v_t > 0.1
+    seen, v, v_t, v_n = seen[part], v[part], v_t[part], v_n[part]
+    error = np.hypot(impacts["u_error"][part], 0.03 * v)
+    grid = np.linspace(0.0, 0.3, 61)
+    laws = {
+        "none": [((), 0.0 * v_t)],
+        "c v_t": [((c,), c * v_t) for c in grid],
+        "d v_n": [((d,), d * v_n) for d in grid],
+        "least of c v_t and d v_n": [((c, d), np.minimum(c * v_t, d * v_n)) for c in grid for d in grid],
+        "patch of radius a R": [((a,), patch(a, mu, e, v_t, v_n)) for a in np.linspace(0.0, 0.3, 121)],
+    }
+    print("\n| loss of roll along the cushion | best numbers | chi² | median left, % of v |\n|---|---|--:|--:|")
+    for name, sets in laws.items():
+        # outliers beyond three deviations count linearly
+        misfits = [(18.0 * (np.sqrt(1.0 + ((seen - given) / error) ** 2 / 9.0) - 1.0).sum(), numbers, given) for numbers, given in sets]
+        chi2, numbers, given = min(misfits, key=lambda one: one[0])
+        print(f"| {name} | {', '.join(f'{x:.3f}' for x in numbers)} | {chi2:.0f} | {100 * np.median(np.abs(seen - given) / v):.1f} |")
+
+
 def single_events(recordings, table, radius):
     seen = carom.tracks.events(recordings, table, radius)
     (a, a_error), (b, b_error) = seen.roll
@@ -45,16 +77,21 @@ def single_events(recordings, table, radius):
     print("\n| speed into the cushion, m/s | speed out over speed in, rolling balls | impacts |\n|---|---|---|")
     print("\n".join(law(-good["w_n"] / good["v_n"], good["v_n"], [0.45, 0.8, 1.2, 1.8, 4.0])))
 
-    # what the roll along a cushion falls by, beyond the model of Han
-    values, _ = _from_events.measured(seen, radius, "han", 0)
-    if "mu_cushion" in values:
+    # what the roll along a cushion falls by, beyond the models of Han and of Mathavan
+    for model in ("han", "mathavan"):
+        values, _ = _from_events.measured(seen, radius, model, 0)
+        if "mu_cushion" not in values:
+            continue
         names = ("restitution_cushion", "mu_cushion", "nose_height")
-        made = _from_events.predicted(good, radius, "han", *(values[name] for name in names))
+        made = _from_events.predicted(good, radius, model, *(values[name] for name in names))
         loss = (made[:, 0] - made[:, 2] - good["w_t"] + good["u_t"]) / good["v_t"]
         angle = np.degrees(np.arctan2(np.abs(good["v_t"]), good["v_n"]))
         fast = np.abs(good["v_t"]) > 0.3
-        print("\n| angle from the normal, degrees | loss of roll along the cushion, over v_t | impacts |\n|---|---|---|")
+        print(f"\nBeyond {model}:\n\n| angle from the normal, degrees | loss of roll along the cushion, over v_t | impacts |\n|---|---|---|")
         print("\n".join(law(loss[fast], angle[fast], [15, 30, 45, 60, 80])))
+        print("\n| speed into the cushion, m/s | loss of roll along the cushion, over v_t | impacts |\n|---|---|---|")
+        print("\n".join(law(loss[fast], good["v_n"][fast], [0.45, 0.8, 1.2, 1.8, 4.0])))
+        explanations(loss * good["v_t"], good, values["mu_cushion"], values["restitution_cushion"])
 
 
 def held_out(recordings, table, radius, models, seed):

@@ -3,9 +3,13 @@
 Randomness comes from CAROM_TEST_SEED; bounds hold for any.
 """
 
+import ast
 import itertools
+import json
 import os
+import re
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +19,8 @@ import carom
 
 pytest.importorskip("matplotlib", reason="matplotlib is not installed")
 pytest.importorskip("tqdm", reason="tqdm is not installed")
-sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
+EXAMPLES = Path(__file__).parents[1] / "examples"
+sys.path.insert(0, str(EXAMPLES))
 
 import best_of_many  # noqa: E402
 import fit_cloth  # noqa: E402
@@ -182,3 +187,35 @@ def test_learning(tmp_path, capsys):
     assert curve[0] < 0.25 and curve[-1] > 0.42 and curve[-5:].min() > 2 * curve[0]
     assert (policy[:2] > 0).all() and policy[3] > 0  # cuts, ways and balls in the way cost something
     assert picture(tmp_path / "learning.svg") and "at the end" in capsys.readouterr().out
+
+
+def test_the_notebook(capsys):
+    """Every cell runs, prints what is stored with it (numbers within 2 %, as instruction sets differ by rounding) and gives its pictures."""
+    from matplotlib import pyplot
+
+    pyplot.switch_backend("agg")
+    book = json.loads((EXAMPLES / "first_look.ipynb").read_text(encoding="utf-8"))
+    cells = [cell for cell in book["cells"] if cell["cell_type"] == "code"]
+    assert [cell["execution_count"] for cell in cells] == list(range(1, len(cells) + 1)) and len(cells) >= 8
+    number = re.compile(r"\d+(?:\.\d+)?")
+    names: dict = {}
+    kinds = set()
+    for cell in cells:
+        tree = ast.parse("".join(cell["source"]))
+        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, "first_look.ipynb", "exec"), names)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # that nothing is shown
+            shown = None if last is None else eval(compile(ast.Expression(last.value), "first_look.ipynb", "eval"), names)
+        stored = {name for output in cell["outputs"] if "data" in output for name in output["data"]} - {"text/plain"}
+        found = {"image/png"} if pyplot.get_fignums() else {"image/svg+xml"} if hasattr(shown, "_repr_svg_") else set()
+        pyplot.close("all")
+        assert stored == found
+        kinds |= found
+        if "image/svg+xml" in found:
+            assert shown._repr_svg_().startswith("<svg")
+        expected = "".join(text for output in cell["outputs"] if output["output_type"] == "stream" for text in output["text"])
+        printed = capsys.readouterr().out
+        assert number.sub("#", printed) == number.sub("#", expected)
+        np.testing.assert_allclose([*map(float, number.findall(printed))], [*map(float, number.findall(expected))], rtol=0.02)
+    assert kinds == {"image/png", "image/svg+xml"}

@@ -238,6 +238,10 @@ def test_the_page_about_reality_is_made_from_tracks(tmp_path, capsys, monkeypatc
     assert max(map(float, rows["single events"][3].split("and"))) < 3.0
     assert max(map(float, rows["single events, then whole shots"][3].split("and"))) < 1.0
     assert f"({made.constants['mu_roll'] * 9.81:.3f}"[:5] in told and "m/s² |" in told
+    # the loss of roll is found as it was put in, a part of the speed along the cushion, and explains most of the misfit
+    losses = {line.split("|")[1].strip(): line.split("|") for line in told[: told.index("Beyond mathavan")].splitlines() if "|" in line}
+    assert float(losses["c v_t"][2]) == pytest.approx(made.constants["roll_loss"], abs=0.03)
+    assert float(losses["c v_t"][3]) < 0.7 * float(losses["none"][3]) and float(losses["patch of radius a R"][2]) > 0.0
     names = sorted(path.name for path in (tmp_path / "p").iterdir())
     assert names == [f"reality-{name}.svg" for name in ("cushion", "hits", "rmse", "rolling", "sliding")]
     assert all((tmp_path / "p" / name).read_text().startswith("<svg") for name in names)

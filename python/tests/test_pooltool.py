@@ -495,6 +495,7 @@ def test_speed():
     ran = subprocess.run([sys.executable, str(script), "10"], capture_output=True, text=True, env={**os.environ, "HOME": home})
     assert ran.returncode == 0, ran.stderr
     print(ran.stdout)
-    ratios = {line[:32].strip(): float(line.split()[-1]) for line in ran.stdout.splitlines()[2:]}
-    assert len(ratios) == 6
+    ratios = {line[:32].strip(): float(line.split()[-1]) for line in ran.stdout.splitlines()[3:]}
+    assert len(ratios) == 7
     assert ratios["drop-in, all objects looked at"] >= 60 and ratios["continuous=True, all objects"] >= 20, ran.stdout
+    assert ratios["trajectories, one of 200"] >= 150, ran.stdout

@@ -348,7 +348,7 @@ int KERNEL(carom_collocate)(const float in[IN_COLUMNS], float spin, float tolera
     put_solution(&answer, out);
     return evaluations_of[EASY];
   }
-  for (int evaluations = 0; kind < STEP_KINDS;) {
+  for (int evaluations = 0; kind < (float)STEP_KINDS;) {
     evaluations += evaluations_of[(int)kind];
     if (take_step((enum step_kind)kind, &a, &ahead, &c, &answer, &kind)) {
       put_solution(&answer, out);

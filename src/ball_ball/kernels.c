@@ -1,7 +1,7 @@
 /* The tables of kernels.h. */
 #include "ball_ball/kernels.h"
 
-#include "enumerations.h"
+#include "platform/enumerations.h"
 
 #define LANES_OF_PLAIN 4
 #define LANES_OF_SSE2 4
@@ -34,6 +34,6 @@ static const carom_kernels kernels[CAROM_ISA_COUNT] = {
 #undef ROW
 };
 
-const carom_kernels *carom_kernels_in_force(void) {
-  return &kernels[carom_isa_in_force()];
+const carom_kernels *carom_kernels_of_call(int plain) {
+  return &kernels[carom_isa_of_call(plain)];
 }

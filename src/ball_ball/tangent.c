@@ -15,7 +15,7 @@
 /* A motion that counts as none beside the approach, for kinks at which a sign changes. */
 static const double NOTHING = 1e-9;
 
-carom_status carom_exact_balls_tangent(const double in[CAROM_BALLS_INS], int m, carom_row din[CAROM_BALLS_INS],
+carom_status carom_exact_balls_tangent(const double in[CAROM_BALLS_INS], int plain, int m, carom_row din[CAROM_BALLS_INS],
                                        carom_row dout[CAROM_BALLS_OUTS], carom_tangent_note *note) {
   const double *a = in, *b = in + CAROM_BALL_INS;
   /* the reduced collision; `p`: of the pressed ball */
@@ -76,7 +76,7 @@ carom_status carom_exact_balls_tangent(const double in[CAROM_BALLS_INS], int m, 
                          .e = r.e};
   const carom_law d_law = {.K_x = 3.5, .K_y = 2.5, .V_0 = -1};
   carom_impact_tangent t;
-  const carom_status status = carom_impact_differentiate(&law, &d_law, slips, asked, &t);
+  const carom_status status = carom_impact_differentiate(&law, &d_law, slips, plain, asked, &t);
   if (status != CAROM_OK)
     return status;
   note->flags |= (t.kink ? CAROM_TANGENT_KINK : 0) | (t.differences ? CAROM_TANGENT_DIFFERENCES : 0);
@@ -236,8 +236,9 @@ static void take_rows(const double *seeds, int64_t m, int64_t first, int width, 
 }
 
 /* One part of the directions. */
-static carom_status differentiate(const carom_impact *in, const carom_frame *frame, const carom_result *out, int64_t m,
-                                  int64_t first, int width, const double *seeds, double *tangent, carom_tangent_note *note) {
+static carom_status differentiate(const carom_impact *in, const carom_frame *frame, const carom_result *out, int plain,
+                                  int64_t m, int64_t first, int width, const double *seeds, double *tangent,
+                                  carom_tangent_note *note) {
   carom_row din[CAROM_BALLS_INS], dout[CAROM_BALLS_OUTS], dv[5], turn, dR;
   double number[CAROM_BALLS_INS];
   const double R = in->a.radius, c = frame->x[0], s = frame->x[1];
@@ -264,7 +265,7 @@ static carom_status differentiate(const carom_impact *in, const carom_frame *fra
     carom_tangent_to_frame(ball->v, ball->w, R, c, s, rolls, width, turn, dR, dv, number + k * CAROM_BALL_INS,
                            din + k * CAROM_BALL_INS);
   }
-  const carom_status status = carom_exact_balls_tangent(number, width, din, dout, note);
+  const carom_status status = carom_exact_balls_tangent(number, plain, width, din, dout, note);
   for (int k = 0; k < 2 && status == CAROM_OK; k++) {
     const carom_motion *motion = k == 0 ? &out->a : &out->b;
     carom_tangent_from_frame(motion->v, motion->w, R, c, s, width, turn, dR, dout + k * CAROM_BALL_INS, dv);
@@ -294,7 +295,8 @@ carom_status carom_collide_tangent(const carom_impact *in, const carom_options *
     for (int k = 0; k < 12; k++)
       memcpy(tangent + (size_t)k * m, seeds + (size_t)from[k] * m, m * sizeof *tangent);
   } else if (status == CAROM_OK) {
-    status = differentiate(in, &frame, &out, directions, 0, (int)directions, seeds, tangent, &note);
+    status =
+        differentiate(in, &frame, &out, opt != NULL ? opt->plain : 0, directions, 0, (int)directions, seeds, tangent, &note);
   }
   if (flags != NULL)
     *flags = note.flags;

@@ -71,7 +71,7 @@ static void motion_of(const carom_contact *c, double out[CAROM_BALL_INS]) {
   out[OF_W_Z] = c->W_z;
 }
 
-static carom_status mathavan(const double in[CAROM_NOSE_INS], int m, carom_row din[CAROM_NOSE_INS],
+static carom_status mathavan(const double in[CAROM_NOSE_INS], int plain, int m, carom_row din[CAROM_NOSE_INS],
                              carom_row dout[CAROM_BALL_INS], double out[CAROM_BALL_INS], carom_tangent_note *note) {
   carom_contact c = contact_of(in);
   const double sine = c.sine, cosine = c.cosine, V = c.v_y;
@@ -122,7 +122,7 @@ static carom_status mathavan(const double in[CAROM_NOSE_INS], int m, carom_row d
       asked |= (unsigned)(by[k][j] != 0) << k;
   }
   carom_impact_tangent t;
-  const carom_status status = carom_impact_differentiate(&law, &d_law, slips, asked, &t);
+  const carom_status status = carom_impact_differentiate(&law, &d_law, slips, plain, asked, &t);
   if (status != CAROM_OK)
     return status;
   note->flags |= (t.kink ? CAROM_TANGENT_KINK : 0) | (t.differences ? CAROM_TANGENT_DIFFERENCES : 0);
@@ -294,7 +294,7 @@ carom_status carom_nose_tangent(const double in[CAROM_NOSE_INS], const carom_cus
   carom_status status = CAROM_OK;
   switch (opt->model) {
   case CAROM_CUSHION_MATHAVAN:
-    return mathavan(in, m, din, dout, out, note);
+    return mathavan(in, opt->plain, m, din, dout, out, note);
   case CAROM_CUSHION_STRONGE:
     stronge(in, m, din, dout, out, note);
     break;

@@ -45,6 +45,7 @@ typedef struct carom_trajectory {
   int iterations;          /* of all steps so far; each computes the rates at eight nodes */
   carom_status status;     /* not CAROM_OK if there is no way on */
   /* of advance.c: */
+  int plain;                         /* options.plain of the call */
   double tolerance;                  /* of a step, in units of that of step.h */
   double no_slip;                    /* a slip that counts as zero */
   double longest;                    /* length that the next step may have */
@@ -52,7 +53,7 @@ typedef struct carom_trajectory {
   int sticks_missed;                 /* steps to stick that diverged */
   bool careful;                      /* steps are planned for safety */
   double event_at;                   /* p where the regime ends, as far as is known */
-  struct carom_variation *variation; /* derivatives that follow the impact: tangent.h. Usually NULL */
+  struct carom_variation *variation; /* derivatives that follow the impact: variation.h. Usually NULL */
 } carom_trajectory;
 
 /* Impulses over the mass of the ball and the speed of approach: normal impulse, friction at the driving contact, friction of
@@ -62,8 +63,8 @@ typedef struct carom_impulses {
 } carom_impulses;
 
 /* Puts an impact at its start. a, b: the slips over the speed of approach. tolerance: 1 for errors of about 1e-9 in the mean
- * and 1e-7 at most, of the largest speed; errors are about proportional to it. */
-void carom_impact_begin(const carom_law *law, double tolerance, double a_x, double a_y, double b_x, double b_y,
+ * and 1e-7 at most, of the largest speed; errors are about proportional to it. plain: that of the options. */
+void carom_impact_begin(const carom_law *law, double tolerance, int plain, double a_x, double a_y, double b_x, double b_y,
                         carom_trajectory *path);
 
 /* On to p = `to`, or to the end if that comes first. Errors: CAROM_ERROR_OVERFLOW; and CAROM_ERROR_UNRESOLVED if that takes

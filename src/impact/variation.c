@@ -357,14 +357,14 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
 
 /* ---- From the start to the end ---- */
 
-static void begin(const carom_law *law, const double slips[4], carom_trajectory *path) {
-  carom_impact_begin(law, TOLERANCE, slips[0], slips[1], slips[2], slips[3], path);
+static void begin(const carom_law *law, const double slips[4], int plain, carom_trajectory *path) {
+  carom_impact_begin(law, TOLERANCE, plain, slips[0], slips[1], slips[2], slips[3], path);
 }
 
 /* The impulses, without derivatives. */
-static carom_status impulses_of(const carom_law *law, const double slips[4], double q[5]) {
+static carom_status impulses_of(const carom_law *law, const double slips[4], int plain, double q[5]) {
   carom_trajectory path;
-  begin(law, slips, &path);
+  begin(law, slips, plain, &path);
   const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
   const carom_impulses i = carom_impact_impulses(&path);
   memcpy(q, (const double[5]){i.p, i.f_x, i.f_y, i.F_x, i.F_y}, 5 * sizeof *q);
@@ -398,7 +398,7 @@ _Static_assert(sizeof(carom_law) == 17 * sizeof(double) && offsetof(carom_law, m
                "14 coefficients, then frictions and restitution");
 
 /* Central differences of order 4 by one variable, with smaller steps where two orders differ. */
-static void differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int by,
+static void differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain, int by,
                           carom_impact_tangent *out) {
   const double size = fmax(fmax(fabs(slips[0]), fabs(slips[1])), fmax(fabs(slips[2]), fabs(slips[3])));
   double h = by <= BY_B_Y ? 2e-3 * fmax(1, 0.01 * size) : by == BY_E ? 1e-3 : 1e-4, best = INFINITY;
@@ -414,7 +414,7 @@ static void differentiate(const carom_law *law, const carom_law *d_law, const do
       carom_law l = *law;
       double x[4] = {slips[0], slips[1], slips[2], slips[3]};
       change(&l, d_law, x, by, steps[s] * h);
-      fine = impulses_of(&l, x, f[s]) == CAROM_OK;
+      fine = impulses_of(&l, x, plain, f[s]) == CAROM_OK;
     }
     for (int r = 0; r < 5 && fine; r++) {
       const double near = (f[2][r] - f[1][r]) / (2 * h), far = (f[3][r] - f[0][r]) / (4 * h);
@@ -432,11 +432,11 @@ static void differentiate(const carom_law *law, const carom_law *d_law, const do
   out->kink |= !(best < 1e-4);
 }
 
-carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], unsigned asked,
-                                        carom_impact_tangent *out) {
+carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain,
+                                        unsigned asked, carom_impact_tangent *out) {
   carom_trajectory path;
   carom_variation g;
-  begin(law, slips, &path);
+  begin(law, slips, plain, &path);
   memset(&g, 0, sizeof g);
   memset(out, 0, sizeof *out);
   g.d_law = d_law;
@@ -458,7 +458,7 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
     if (!(asked >> c & 1))
       continue;
     if (g.lost) {
-      differentiate(law, d_law, slips, c, out);
+      differentiate(law, d_law, slips, plain, c, out);
       continue;
     }
     /* impulses are linear in the motion at both ends, with coefficients of the law */

@@ -41,10 +41,11 @@ typedef struct carom_impact_tangent {
 } carom_impact_tangent;
 
 /* The impulses of an impact that begins with these slips over the speed of approach, and their derivatives by the variables in
- * `asked` (bit k: variable k); the others are 0. d_law: the derivative of the law by lambda. Errors: those of
+ * `asked` (bit k: variable k); the others are 0. d_law: the derivative of the law by lambda; plain:
+ * options.plain of the call. Errors: those of
  * carom_impact_advance(). */
-carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], unsigned asked,
-                                        carom_impact_tangent *out);
+carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain,
+                                        unsigned asked, carom_impact_tangent *out);
 
 /* Called by advance.c: after a step by collocation from `before`, while path->regime is still that of the step. Gives the
  * squared error estimate over the tolerance; above 1 the step is too long, and nothing is changed. vanishes: which slip the

@@ -2,9 +2,9 @@
  *
  * With w the angular velocity in the axes of the table, the rotation Q of a ball from its start obeys Q' = [w] Q. In a phase,
  * or a piece of one, w is linear in time, w = a + s b with s from the middle of an interval of length h; where the side spin
- * ends before the phase does, the phase is cut there. Where a and b are parallel the axis keeps its direction, and Q is exactly
- * the turn by h a. Elsewhere the interval is cut into parts in which a ball turns by half a radian at most, each of which has
- * the turn by the Magnus expansion of order 6,
+ * ends before the phase does, the phase is cut there. In flight w is constant. Where a and b are parallel the axis keeps its
+ * direction, and Q is exactly the turn by h a. Elsewhere the interval is cut into parts in which a ball turns by half a radian
+ * at most, each of which has the turn by the Magnus expansion of order 6,
  *
  *   Omega = A + (1/240) (-20 A + C) x (B + D),   A = h a, B = h^2 b, C = A x B, D = -(1/60) A x C.
  *
@@ -90,11 +90,11 @@ static void turn_until(double q[4], carom_path *path, const carom_ball_rates *ra
   for (bool more = true; more;) {
     more = path->goes_on && path->end < until;
     const double end = more ? path->end : until;
-    /* the side spin ends at the kink */
+    /* the side spin ends at the kink; in flight it is constant, as all spin is */
     const double kink = path->start + fabs(path->from.w[2]) / rates->spin;
     double from = path->start;
     carom_ball_state a = path->from, b;
-    if (kink > from && kink < end) {
+    if (kink > from && kink < end && path->from.label != CAROM_BALL_AIRBORNE) {
       carom_path_at(path, rates, kink, &b);
       turn_interval(q, a.w, b.w, kink - from);
       a = b;
@@ -126,8 +126,7 @@ carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, con
     q[1] = q[2] = q[3] = 0.0;
     carom_path path;
     path.from = balls[i].state;
-    if (path.from.label != CAROM_BALL_POCKETED)
-      carom_label_of(&path.from, rates.radius);
+    carom_label_of_layout(&path.from, rates.radius);
     carom_path_begin(&path, &rates, 0.0);
     /* from event to event of this ball; the state at the time says whether it moves at all */
     for (int64_t k = 0; k < shot->count && k < shot->room && shot->events[k].time <= at; k++) {

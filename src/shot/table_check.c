@@ -36,19 +36,25 @@ static void add_shape(ring *g, const double p[2], const double q[2], double radi
   g->shape[g->count++] = (shape){{p[0], p[1]}, {q[0], q[1]}, radius + grown, radius, part};
 }
 
+/* How far from the wall of a cushion the centre is when a ball touches the nose. */
+static double reach_of(const carom_features *f, double height) {
+  const carom_ball_kind kind = {.radius = f->radius};
+  return carom_reach_on_cloth(&kind, height, f->reference);
+}
+
 /* The parts; rails with round ends, or without. */
 static void shapes_of(const carom_table *t, const carom_features *f, bool round, ring *g) {
-  const double R = f->radius;
   g->count = 0;
   for (int k = 0; k < t->rails; k++) {
     const carom_rail *rail = &t->rail[k];
-    const double off = round ? 0.0 : R, *n = f->line[k];
+    const double reach = reach_of(f, rail->height), off = round ? 0.0 : reach, *n = f->line[k];
     const double p[2] = {rail->p[0] + off * n[0], rail->p[1] + off * n[1]},
                  q[2] = {rail->q[0] + off * n[0], rail->q[1] + off * n[1]};
-    add_shape(g, p, q, 0.0, round ? R : 0.0, (carom_part){CAROM_PART_RAIL, k});
+    add_shape(g, p, q, 0.0, round ? reach : 0.0, (carom_part){CAROM_PART_RAIL, k});
   }
   for (int k = 0; k < t->jaws; k++)
-    add_shape(g, t->jaw[k].centre, t->jaw[k].centre, t->jaw[k].radius, R, (carom_part){CAROM_PART_JAW, k});
+    add_shape(g, t->jaw[k].centre, t->jaw[k].centre, t->jaw[k].radius, reach_of(f, t->jaw[k].height),
+              (carom_part){CAROM_PART_JAW, k});
   for (int k = 0; k < t->pockets; k++)
     add_shape(g, t->pocket[k].centre, t->pocket[k].centre, t->pocket[k].radius, 0.0, (carom_part){CAROM_PART_POCKET, k});
 }
@@ -241,7 +247,7 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
   if (table == NULL)
     return CAROM_ERROR_NULL;
   carom_features features;
-  const carom_status bad = carom_check_parts(table, radius, &features, &fault->part);
+  const carom_status bad = carom_check_parts(table, radius, radius, &features, &fault->part);
   if (bad != CAROM_OK)
     return bad;
   /* lines of rails, as they were given */
@@ -262,7 +268,7 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
   if (!find_place(&g, table, P) || !is_closed(&g, P, fault))
     return CAROM_ERROR_TABLE_OPEN;
   for (int k = 0; k < table->rails; k++)
-    if (wrong_side(&g, &table->rail[k], features.line[k], radius, P)) {
+    if (wrong_side(&g, &table->rail[k], features.line[k], reach_of(&features, table->rail[k].height), P)) {
       fault->part = (carom_part){CAROM_PART_RAIL, k};
       for (int c = 0; c < 2; c++)
         fault->place[c] = 0.5 * (table->rail[k].p[c] + table->rail[k].q[c]);

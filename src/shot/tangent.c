@@ -187,7 +187,7 @@ static carom_status two_balls(work *w, const carom_event *event) {
     if (w->opt->ball_model == CAROM_BALL_MODEL_INELASTIC)
       carom_inelastic_balls_tangent(in, m, din, dout, &w->note);
     else
-      status = carom_exact_balls_tangent(in, m, din, dout, &w->note);
+      status = carom_exact_balls_tangent(in, w->opt->plain, m, din, dout, &w->note);
   }
   for (int k = 0; k < 2; k++)
     carom_tangent_from_frame(event->after[k].v, event->after[k].w, R, c, s, m, turn,
@@ -268,9 +268,9 @@ static carom_status cushion(work *w, const carom_event *event) {
   const double slow = carom_slow_speed(w->slow_instants);
   carom_status status = CAROM_OK;
   if (closing >= slow) {
-    carom_cushion_options options = {.steps = w->opt->steps, .omega_ratio = in[NOSE_RATIO]};
+    carom_cushion_options options = {.steps = w->opt->steps, .plain = w->opt->plain, .omega_ratio = in[NOSE_RATIO]};
     const carom_shot_cushion asked = w->opt->cushion_model;
-    options.model = asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1) : CAROM_CUSHION_MATHAVAN;
+    options.model = asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1) : CAROM_CUSHION_HAN;
     status = carom_nose_tangent(in, &options, m, din, dout, out, &w->note);
     if (status == CAROM_ERROR_UNRESOLVED && options.model == CAROM_CUSHION_MATHAVAN) {
       options.model = CAROM_CUSHION_EULER;
@@ -434,8 +434,12 @@ static carom_status check(const carom_table *table, const carom_shot_ball *balls
       return CAROM_ERROR_TIME;
   if (opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_EULER)
     return CAROM_ERROR_TANGENT;
+  /* balls that fly; and radii that differ, as does the height at which those balls meet */
+  const double R = balls[0].kind.radius;
+  if (opt->space != CAROM_SPACE_FLAT && table->ball_radius != 0.0 && table->ball_radius != R)
+    return CAROM_ERROR_TANGENT;
   for (int i = 0; i < count; i++)
-    if (!on_the_cloth(&balls[i].state))
+    if (balls[i].kind.radius != R || (!carom_is_out(balls[i].state.label) && carom_flies_in_layout(&balls[i].state, R)))
       return CAROM_ERROR_TANGENT;
   for (int64_t k = 0; k < shot->count; k++) {
     const carom_status status = check_event(table, count, cue, &shot->events[k], k > 0 ? shot->events[k - 1].time : 0.0);
@@ -455,13 +459,12 @@ static void begin(work *w, const carom_shot_ball *balls, double *final) {
     if (w->seeds->kind != NULL)
       ball->d_kind = w->seeds->kind + i * CAROM_KIND_NUMBERS * m;
     ball->path.from = balls[i].state;
-    if (ball->path.from.label != CAROM_BALL_POCKETED)
-      carom_label_of(&ball->path.from, rates.radius);
+    carom_label_of_layout(&ball->path.from, rates.radius);
     carom_path_begin(&ball->path, &rates, 0.0);
     for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
       for (int j = 0; j < m; j++)
         w->d[0][k][j] = w->seeds->state != NULL ? w->seeds->state[i * numbers + k * m + j] : 0.0;
-    if (ball->path.from.label == CAROM_BALL_POCKETED)
+    if (carom_is_out(ball->path.from.label))
       memset(w->d[0], 0, sizeof w->d[0]);
     carom_tangent_settle(&ball->path.from, ball, m, w->d[0]);
     put(ball->d, w->d[0], m);
@@ -539,7 +542,7 @@ static carom_status differentiate(work *w, const carom_shot_ball *balls, const c
   /* the end of the shot, where balls may still move, but nobody knows how they go on */
   for (int i = 0; i < w->count && tangent->times_count > 0; i++) {
     const int64_t label = w->ball[i].path.from.label;
-    if (tangent->times[tangent->times_count - 1] > shot->time && label != CAROM_BALL_STATIONARY && label != CAROM_BALL_POCKETED)
+    if (tangent->times[tangent->times_count - 1] > shot->time && label != CAROM_BALL_STATIONARY && !carom_is_out(label))
       return CAROM_ERROR_TIME;
   }
   for (int i = 0; i < w->count; i++) {

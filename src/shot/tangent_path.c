@@ -69,7 +69,7 @@ void carom_tangent_flow(const carom_tangent_ball *ball, double time, int m, doub
   memset(rate, 0, CAROM_STATE_NUMBERS * sizeof *rate);
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
     memcpy(d[k], ball->d + k * m, sizeof(double) * (size_t)m);
-  if (from->label == CAROM_BALL_STATIONARY || from->label == CAROM_BALL_POCKETED)
+  if (from->label == CAROM_BALL_STATIONARY || carom_is_out(from->label))
     return;
   /* the spin about the vertical, which may have come to an end on the way; the end of a phase is not yet one */
   const double fall = 2.5 * kind->mu_spin * g / R, sign = from->w[2] > 0.0 ? 1.0 : -1.0;

@@ -175,7 +175,7 @@ static const struct {
     {"mirror + Stronge", {.ball_model = CAROM_BALL_MODEL_MIRROR, .cushion_model = CAROM_SHOT_CUSHION_STRONGE}, false},
     {"inelastic + Han, terms", {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN}, true},
     {"exact + Han", {.cushion_model = CAROM_SHOT_CUSHION_HAN}, false},
-    {"exact + exact cushions", {.cushion_model = CAROM_SHOT_CUSHION_DEFAULT}, false},
+    {"exact + exact cushions", {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN}, false},
 };
 
 START_TEST(shots_agree_with_differences) {

@@ -26,7 +26,7 @@ static void print_shot_types(void) {
   FIELD(carom_cushion_options, law);
   FIELD(carom_cushion_options, steps);
   FIELD(carom_cushion_options, threads);
-  FIELD(carom_cushion_options, unused);
+  FIELD(carom_cushion_options, plain);
   FIELD(carom_cushion_options, least_step);
   FIELD(carom_cushion_options, omega_ratio);
   FIELD(carom_cushion_options, reserved);
@@ -48,6 +48,7 @@ static void print_shot_types(void) {
   FIELD(carom_ball_kind, law_c);
   FIELD(carom_ball_kind, nose_height);
   FIELD(carom_ball_kind, omega_ratio);
+  FIELD(carom_ball_kind, restitution_table);
   TYPE(carom_ball_state);
   FIELD(carom_ball_state, r);
   FIELD(carom_ball_state, v);
@@ -83,6 +84,9 @@ static void print_shot_types(void) {
   FIELD(carom_table, rail);
   FIELD(carom_table, jaw);
   FIELD(carom_table, pocket);
+  FIELD(carom_table, ball_radius);
+  FIELD(carom_table, rail_width);
+  FIELD(carom_table, pocket_back);
   TYPE(carom_part);
   FIELD(carom_part, kind);
   FIELD(carom_part, index);
@@ -101,6 +105,7 @@ static void print_shot_types(void) {
   FIELD(carom_cue, end_mass);
   FIELD(carom_cue, tip_radius);
   FIELD(carom_cue, ball);
+  FIELD(carom_cue, miscue);
   TYPE(carom_shot_options);
   FIELD(carom_shot_options, world);
   FIELD(carom_shot_options, ball_model);
@@ -109,9 +114,11 @@ static void print_shot_types(void) {
   FIELD(carom_shot_options, steps);
   FIELD(carom_shot_options, events_most);
   FIELD(carom_shot_options, threads);
-  FIELD(carom_shot_options, unused);
+  FIELD(carom_shot_options, space);
   FIELD(carom_shot_options, time_most);
   FIELD(carom_shot_options, stop_at);
+  FIELD(carom_shot_options, plain);
+  FIELD(carom_shot_options, unused);
   FIELD(carom_shot_options, reserved);
   TYPE(carom_event);
   FIELD(carom_event, time);
@@ -194,6 +201,8 @@ static void print_types(void) {
   FIELD(carom_options, slip);
   FIELD(carom_options, steps);
   FIELD(carom_options, threads);
+  FIELD(carom_options, plain);
+  FIELD(carom_options, unused);
   FIELD(carom_options, reserved);
   TYPE(carom_speed_law);
   FIELD(carom_speed_law, a);

@@ -236,6 +236,46 @@ START_TEST(places) {
 }
 END_TEST
 
+/* Under a ball that flies, where one has left the table, and beside balls and cushions of other sizes. */
+START_TEST(places_in_space) {
+  carom_table t;
+  carom_part part;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOL)}, {.kind = carom_ball_kind_of(CAROM_GAME_POOL)}};
+  const double R = balls[0].kind.radius;
+  for (int k = 0; k < 2; k++) {
+    balls[1].state = (carom_ball_state){.r = {0.5, 0.5, (k == 0 ? 3.001 : 2.999) * R}};
+    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5, 0.5, &part), k == 0 ? CAROM_OK : CAROM_ERROR_OVERLAP);
+    ck_assert_int_eq(part.kind, k == 0 ? CAROM_PART_NONE : CAROM_PART_BALL);
+  }
+  balls[1].state = (carom_ball_state){.r = {0.5, 0.5, R}, .label = CAROM_BALL_OFF};
+  ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5, 0.5, &part), CAROM_OK);
+  /* a large ball, on a table for small ones: as near to the nose and to the ball as carom_shot_check() lets it */
+  balls[0].kind.radius = 0.0302;
+  balls[1].state = (carom_ball_state){.r = {0.5, 0.5, R}};
+  const double h = t.rail[0].height, shift = R - sqrt(h * (2.0 * R - h)), beside = 2.0 * sqrt(R * 0.0302),
+               nose = shift + sqrt(h * (2.0 * 0.0302 - h));
+  for (int k = -1; k <= 1; k += 2) {
+    const carom_status expected = k < 0 ? CAROM_ERROR_OVERLAP : CAROM_OK;
+    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5 + beside + 2e-6 * k, 0.5, &part), expected);
+    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, nose + 2e-6 * k, 0.7, &part), k < 0 ? CAROM_ERROR_OFF_TABLE : CAROM_OK);
+    ck_assert_int_eq(part.kind, k < 0 ? CAROM_PART_RAIL : CAROM_PART_NONE);
+  }
+  ck_assert_int_eq(carom_shot_check(&t, balls, 2, NULL, NULL, NULL), CAROM_OK);
+  /* such tables are sound for such balls too, and bad numbers of a table's space are told */
+  t.ball_radius = R;
+  ck_assert_int_eq(carom_table_check(&t, 0.0302, NULL), CAROM_OK);
+  ck_assert_int_eq(carom_table_check(&t, 0.0262, NULL), CAROM_OK);
+  for (int k = 0; k < 3; k++) {
+    carom_table bad = t;
+    (&bad.ball_radius)[k] = -0.01;
+    carom_table_fault fault;
+    ck_assert_int_eq(carom_table_check(&bad, R, &fault), CAROM_ERROR_TABLE);
+    ck_assert_int_eq(fault.part.kind, CAROM_PART_NONE);
+  }
+}
+END_TEST
+
 /* ---- How balls have turned */
 
 /* The rotation by plain steps of Q' = [w] Q / 2, of order 4, with w from carom_shot_at(): what the library does in closed form.
@@ -288,6 +328,7 @@ START_TEST(turns_agree_with_steps) {
       ball.state.v[k] = random_between(&r, -2.0, 2.0);
     for (int k = 0; k < 3; k++)
       ball.state.w[k] = random_between(&r, -100.0, 100.0);
+    ball.state.v[2] = n % 2 * random_between(&r, -2.0, 2.0); /* half of them fly, with a constant spin */
     carom_shot shot = {.events = events, .room = 200};
     ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
     ck_assert_int_le(shot.count, 200);
@@ -341,6 +382,15 @@ START_TEST(turns_in_closed_form) {
     const double expected[4] = {cos(half), 0, 0, sin(half)};
     ck_assert_double_lt(angle_between(q[0], expected), 1e-12);
   }
+  /* in flight about the axis of the spin, as long as it flies */
+  ball.state = (carom_ball_state){.r = {0.6, 0.6, R + 0.3}, .w = {30.0, 40.0, 120.0}};
+  ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
+  for (double time = 0.0; time < 0.24; time += 0.017) {
+    carom_shot_orientation(&ball, 1, &shot, time, q);
+    const double half = 65.0 * time, share = sin(half) / 13.0,
+                 expected[4] = {cos(half), 3.0 * share, 4.0 * share, 12.0 * share};
+    ck_assert_double_lt(angle_between(q[0], expected), 1e-12);
+  }
   /* what carom_shot_at() refuses is refused */
   ck_assert_int_eq(carom_shot_orientation(&ball, 1, &shot, NAN, q), CAROM_ERROR_TIME);
   ck_assert_int_eq(carom_shot_orientation(&ball, 1, &shot, 0.0, NULL), CAROM_ERROR_NULL);
@@ -351,13 +401,16 @@ END_TEST
 /* ---- Names */
 
 START_TEST(names) {
-  for (int k = CAROM_EVENT_STRIKE; k <= CAROM_EVENT_SPINNING_STATIONARY; k++)
+  for (int k = CAROM_EVENT_STRIKE; k <= CAROM_EVENT_LEFT_TABLE; k++)
     for (int j = CAROM_EVENT_STRIKE; j < k; j++)
       ck_assert_str_ne(carom_event_name((carom_event_type)j), carom_event_name((carom_event_type)k));
   ck_assert_ptr_null(carom_event_name((carom_event_type)0));
   ck_assert_ptr_null(carom_event_name((carom_event_type)99));
   ck_assert_str_eq(carom_event_name(CAROM_EVENT_POCKET), "ball_pocket");
+  ck_assert_str_eq(carom_event_name(CAROM_EVENT_RAIL_TOP), "rail_top");
   ck_assert_str_eq(carom_label_name(CAROM_BALL_ROLLING), "rolling");
+  ck_assert_str_eq(carom_label_name(CAROM_BALL_AIRBORNE), "airborne");
+  ck_assert_str_eq(carom_label_name(CAROM_BALL_OFF), "off");
   ck_assert_ptr_null(carom_label_name((carom_label)99));
   ck_assert_str_eq(carom_table_name(CAROM_TABLE_POOL_9FT), "9ft");
   ck_assert_ptr_null(carom_table_name((carom_table_kind)TABLES));
@@ -369,5 +422,6 @@ START_TEST(names) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("games", tables_are_checked, other_tables, places, turns_agree_with_steps, turns_in_closed_form, names);
+  return RUN_TESTS("games", tables_are_checked, other_tables, places, places_in_space, turns_agree_with_steps,
+                   turns_in_closed_form, names);
 }

@@ -1,7 +1,7 @@
 /* Every function runs on a thread with the smallest usual stack, 64 KiB, of which the C library takes its share too. The stack
  * is painted before, with a page that may not be touched below it; what lost its paint was used. */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
-#include "carom_tangent.h"
+#include "every_function.h"
 #include "regimes.h"
 #include "support.h"
 
@@ -101,28 +101,13 @@ static void *shots(void *argument) {
   return argument;
 }
 
-/* Derivatives of contacts and of a break in as many directions as there may be, with all that can be asked for. */
-static void *tangents(void *argument) {
-  enum { M = CAROM_DIRECTIONS_MOST, BALLS = 16, ROWS = 26, ROOM = 2000 };
-  static carom_shot_ball balls[BALLS];
-  static carom_table table;
-  static carom_event events[ROOM];
-  static double seeds[ROWS * M], cue_seeds[CAROM_CUE_NUMBERS * M], out_tangent[12 * M], ends[BALLS * CAROM_STATE_NUMBERS * M],
-      times[ROOM * M], before[ROOM * 2 * CAROM_STATE_NUMBERS * M], reach[M];
-  for (int k = 0; k < ROWS * M; k++)
-    seeds[k] = 1.0 + 0.01 * (k % 7);
-  memcpy(cue_seeds, seeds, sizeof cue_seeds);
-  for (size_t k = 0; k < count; k++)
-    carom_collide_tangent(&rows[k], NULL, M, seeds, out_tangent, NULL);
-  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
-  carom_rack(CAROM_RACK_EIGHTBALL, &table, 1e-3, 1, balls, BALLS);
-  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
-  cue.speed = 7.0;
-  carom_shot shot = {.events = events, .room = ROOM};
-  carom_shoot(&table, balls, BALLS, &cue, NULL, &shot);
-  const carom_tangent_seeds all = {.directions = M, .cue = cue_seeds};
-  carom_tangent tangent = {.final = ends, .time = times, .before = before, .reach = reach};
-  ck_assert_int_eq(carom_shot_tangent(&table, balls, BALLS, &cue, NULL, &shot, &all, &tangent), CAROM_OK);
+/* One of every_function.h. */
+static every_input all_input;
+static every_room *all_room;
+static const struct every_function *one;
+
+static void *any_function(void *argument) {
+  one->body(&all_input, all_room);
   return argument;
 }
 
@@ -159,7 +144,6 @@ static const struct {
     {"the same in threads", batch_in_threads},
     {"carom_trace", trace},
     {"carom_shoot", shots},
-    {"carom_shot_tangent", tangents},
 };
 
 static void make_rows(void) {
@@ -199,6 +183,33 @@ START_TEST(each_function_fits_64_KiB) {
 }
 END_TEST
 
+/* Every function that the library exports, with threads where it starts any. */
+START_TEST(every_function_fits_64_KiB) {
+  every_function_is_there();
+  every_input_make(&all_input, 0, 3);
+  all_room = calloc(1, sizeof *all_room);
+  const size_t own = stack_used(nothing);
+  FOR_EACH_ISA(isa) {
+    size_t most = 0;
+    const char *of = "";
+    for (int k = 0; k < EVERY_COUNT; k++) {
+      one = &every_functions[k];
+      carom_isa_limit((carom_isa)isa); /* which one of the functions lifts */
+      const size_t used = stack_used(any_function);
+      ck_assert_msg(used < STACK, "%s", one->name);
+      if (used > most) {
+        most = used;
+        of = one->name;
+      }
+      if (isa == CAROM_ISA_PLAIN && used - own >= 4096)
+        printf("  %-24s %zu\n", one->name, used - own);
+    }
+    printf("  of all with %s %s takes most, %zu\n", carom_isa_name((carom_isa)isa), of, most - own);
+  }
+  free(all_room);
+}
+END_TEST
+
 int main(void) {
-  return RUN_TESTS("stack", each_function_fits_64_KiB);
+  return RUN_TESTS("stack", each_function_fits_64_KiB, every_function_fits_64_KiB);
 }

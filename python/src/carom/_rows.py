@@ -6,6 +6,7 @@ import operator
 import os
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, SupportsIndex
 
 import numpy as np
@@ -97,6 +98,36 @@ def in_chunks(n: int, seconds: float, threads: int, call: Callable[[int, int], i
         begin += count
         count = max(least, min(8 * count, int(count * wanted / max(spent, 1e-9))))
     return status
+
+
+def spread(threads: int, call: Callable[[int, int], int]) -> Callable[[int, int], int]:
+    """The same call, its rows shared among threads, for C that has none of its own: a call of C lets other threads run."""
+    hands = workers(threads) if threads else 1
+    if hands == 1:
+        return call
+
+    def shared(begin: int, many: int) -> int:
+        ends = [begin + many * hand // hands for hand in range(hands + 1)]
+        with ThreadPoolExecutor(hands) as pool:
+            return min(pool.map(lambda hand: call(ends[hand], ends[hand + 1] - ends[hand]), range(hands)))
+
+    return shared
+
+
+def addresses(array: Array, leading: int) -> npt.NDArray[np.uintp]:
+    """Where each row of an array begins, of shape (rows,): what its first `leading` indices choose, in C order."""
+    offsets = np.zeros((), np.intp)
+    for size, stride in zip(array.shape[:leading], array.strides[:leading], strict=True):
+        offsets = offsets[..., np.newaxis] + np.arange(size) * stride
+    return (array.ctypes.data + offsets.reshape(-1)).astype(np.uintp)
+
+
+def one_or_all(array: Array, shape: tuple[int, ...], leading: int) -> tuple[Array, bool]:
+    """The rows of an array that is broadcast to a shape: the one row that all are, and True; or all of them, in C order."""
+    wide = np.broadcast_to(array, shape)
+    if all(stride == 0 or size == 1 for size, stride in zip(wide.shape[:leading], wide.strides[:leading], strict=True)):
+        return np.ascontiguousarray(wide[(slice(0, 1),) * leading]), True
+    return np.ascontiguousarray(wide), False
 
 
 pointer: Any = ffi.from_buffer

@@ -76,6 +76,8 @@ table: Record = _record("carom_table")
 """A table: any geometry."""
 event: Record = _record("carom_event")
 """An event of a shot: time (s), type (`carom.EventType`), a, b, before and after (two ball states each)."""
+brief_event: Record = _record("carom_brief_event")
+"""An event without states, 24 bytes: time (s), type (`carom.EventType`), a, b."""
 shot: Record = _record("carom_shot")
 """What a shot gives, with the addresses of its arrays: for the calls of C."""
 

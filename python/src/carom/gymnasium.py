@@ -143,8 +143,8 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
     Notes
     -----
     `info` after a stroke: potted (int), scratch (bool), status (int, as `carom.Status`), time (s). Options of `reset`: layout, the
-    centres (m) of shape (balls + 1, 2), the cue ball first; strokes, at most those of the environment. There is no truncation: how
-    many strokes are left is a part of what is observed.
+    centres (m) of shape (balls + 1, 2), the cue ball first; strokes, at most those of the environment. There is no truncation:
+    the observation contains the number of strokes left.
     """
 
     metadata: dict[str, Any] = {"render_modes": list(_RENDER_MODES), "render_fps": 1}

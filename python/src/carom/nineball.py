@@ -12,17 +12,18 @@ off the table is a foul that is taken back, where the rules would take the ball 
 from __future__ import annotations
 
 import enum
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, racks
 from carom._draws import Draws
+from carom.layouts import Table
 from carom.potting import Potting
 from carom.results import EventType, Label, Shot
-from carom.shots import simulate
+from carom.shots import ShotCushion, simulate
 from carom.status import CaromError
 
 _ONE = np.zeros(1, np.int64)
@@ -99,12 +100,22 @@ class NineBall:
 
     Parameters
     ----------
-    **options
-        table, ball_set, noise, parameters, speeds, cushion_model of `Potting`. `speeds` are 0.5 to 9 m/s by default.
+    table, noise, parameters, cushion_model
+        As for `Potting`. The balls are those of pool.
+    speeds : tuple of two floats
+        The least and the most speed of the cue, m/s.
     """
 
-    def __init__(self, **options: Any) -> None:
-        self.base = Potting(9, 1, **{"speeds": (0.5, 9.0), **options})
+    def __init__(
+        self,
+        *,
+        table: Table | None = None,
+        noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        parameters: Mapping[str, tuple[float, float]] | None = None,
+        speeds: tuple[float, float] = (0.5, 9.0),
+        cushion_model: ShotCushion = "default",
+    ) -> None:
+        self.base = Potting(9, 1, table=table, noise=noise, parameters=parameters, speeds=speeds, cushion_model=cushion_model)
         self.table = self.base.table
 
     def begin(self, seed: int) -> Position:

@@ -96,6 +96,6 @@ def pixels(table: Table, balls: dtypes.Records, shot: Shot | None = None, scale:
             if np.ptp(paths[:, ball, :2], axis=0).any():
                 canvas.dots(paths[:, ball], colour(ball))
     for ball, (state, kind) in enumerate(zip(balls["state"], balls["kind"], strict=True)):
-        if state["label"] != Label.POCKETED:
+        if state["label"] not in (Label.POCKETED, Label.OFF):
             canvas.stroke(state["r"], state["r"], float(kind["radius"]), colour(ball))
     return np.round(canvas.image).astype(np.uint8)

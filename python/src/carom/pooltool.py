@@ -73,11 +73,11 @@ _FRICTIONS: dict[str, Friction] = {"AlciatoreBallBallFriction": "alciatore", "Av
 
 
 class UnsupportedError(ValueError):
-    """What is asked for is pooltool's alone; `simulate(..., fallback=True)` lets pooltool do it."""
+    """Only pooltool can do this; `simulate(..., fallback=True)` lets pooltool do it."""
 
 
 class FallbackWarning(UserWarning):
-    """pooltool plays a system, at its own speed, because carom cannot. Each reason is told once."""
+    """pooltool plays a system, at the speed of pooltool, because carom cannot. Each reason is reported once."""
 
 
 # ---- What goes in -------------------------------------------------------------------------------------------------------
@@ -268,7 +268,7 @@ def simulate(
         else:
             if engine is not None:
                 raise UnsupportedError("engine: with models='carom' the models are carom's")
-            played = _play(table, balls, cue, cushion_model=cushion_model)
+            played = _play(table, balls, cue, cushion_model=cushion_model, space="flat")  # as pooltool's 2D engine
     except (UnsupportedError, CaromError) as reason:
         if not fallback:
             raise

@@ -1,7 +1,7 @@
 """A game for agents: pot as many balls of a random layout as you can within a number of strokes. `carom.gymnasium` plays it.
 
-Nothing here needs gymnasium. `Potting` holds the rules, as functions of arrays over many games at once: an agent that plans has them
-too, and plays a thousand strokes of its own from what it observes before it chooses one.
+This module does not need gymnasium. `Potting` has the rules, as functions of arrays over many games. An agent that plans can use them:
+it plays a thousand strokes from its observation, and then chooses one.
 """
 
 from __future__ import annotations
@@ -25,20 +25,20 @@ _TRIES = 10_000
 
 @dataclass(frozen=True)
 class Strokes:
-    """What strokes gave, each an array over the games.
+    """Results of strokes; each is an array over the games.
 
     Attributes
     ----------
     layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls + 1)
         The balls at rest after the stroke. A cue ball that was potted is still down.
     rewards : ndarray of float64, shape (...)
-        Balls that were potted, less 1 for a foul; or what the `reward` of the rules gives.
+        Balls that were potted, less 1 for a foul; or the result of `reward` of the rules.
     potted : ndarray of int64, shape (...)
         Balls that were potted, without the cue ball.
     scratch : ndarray of bool, shape (...)
         Whether the cue ball was potted, a foul.
     status : ndarray of int8, shape (...)
-        As `carom.Status`. In error (a ball left the table, for example) the stroke is a foul and the balls are where they were.
+        As `carom.Status`. After an error (a ball left the table, for example) the stroke is a foul, and the balls stay where they were.
     time : ndarray of float64, shape (...)
         How long the balls moved, s.
     """

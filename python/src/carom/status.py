@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Status(enum.IntEnum):
-    """How a call ended: 0 is success, positive a valid outcome worth a remark, negative an error. `text` tells what it means."""
+    """The outcome of a call: 0 is success, positive a valid result with a remark, negative an error. `text` explains it."""
 
     OK = 0
     SEPARATING = 1
