@@ -36,7 +36,7 @@ typedef struct every_room {
   carom_brief_event brief[EVERY_SHOTS][EVERY_EVENTS];
   carom_shot shot[EVERY_SHOTS];
   carom_shot_state state;
-  carom_ball_state final[EVERY_BALLS];
+  carom_ball_state final[EVERY_BALLS], later[3 * EVERY_BALLS];
   double turned[EVERY_BALLS][4];
   carom_table table;
   carom_shot_ball balls[EVERY_BALLS];
@@ -377,6 +377,20 @@ EVERY_BODY(shot_at) {
   }
   return h;
 }
+EVERY_BODY(shot_at_times) {
+  static const double times[] = {0.4, 0.1, 0.2};
+  uint64_t h = 1;
+  every_break(in, room, 0, 0.5);
+  STATUS(carom_shot_at_times(in->balls, EVERY_BALLS, &room->shot[0], times, 3, room->later));
+  HASH(room->later);
+  return h;
+}
+EVERY_BODY(impact3) {
+  uint64_t h = 1;
+  for (int k = 0; k < EVERY_FEW; k++)
+    STATUS(carom_impact3(&in->impact[k], &room->result[k]));
+  return every_hash(h, room->result, EVERY_FEW * sizeof room->result[0]);
+}
 EVERY_BODY(shot_orientation) {
   uint64_t h = 1;
   every_break(in, room, 0, 0.5);
@@ -481,6 +495,7 @@ static const struct every_function {
     ROW(cushion_trace),
     ROW(event_name),
     ROW(field_name),
+    ROW(impact3),
     ROW(isa_available),
     ROW(isa_in_force),
     ROW(isa_limit),
@@ -497,6 +512,7 @@ static const struct every_function {
     ROW(shoot),
     ROW(shoot_batch),
     ROW(shot_at),
+    ROW(shot_at_times),
     ROW(shot_check),
     ROW(shot_continue),
     ROW(shot_orientation),
