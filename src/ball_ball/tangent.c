@@ -4,7 +4,7 @@
  * times functions of the slips over |v_n|, whose derivatives src/impact has. All else is linear.
  *
  * INELASTIC, MIRROR and slow contacts are closed forms (shot/models.c, shot/resolve.c), differentiated line by line. */
-#include "shot/tangent.h"
+#include "ball_ball/tangent.h"
 #include "ball_ball/frame.h"
 #include "ball_ball/reduced.h"
 #include "impact/variation.h"

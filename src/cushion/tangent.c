@@ -7,7 +7,7 @@
  * slip at the nose to v_n S(rho, mu, e, ratio), rho = |slip|/v_n: the four derivatives of S are central differences of order 4
  * of the closed form, whose error is about 1e-11. EULER's steps are differentiated by central differences of the whole impact.
  */
-#include "shot/tangent.h"
+#include "cushion/tangent.h"
 #include "cushion/models.h"
 #include "impact/variation.h"
 #include "platform/elementary.h"

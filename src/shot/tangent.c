@@ -9,7 +9,7 @@
  *
  * J is that of the contact, in its frame, which turns by dturn (tangent.h). Tangents live in tangent->final, so nothing is kept
  * but the paths. docs/understanding/gradients.md derives this. */
-#include "shot/tangent.h"
+#include "cushion/tangent.h"
 #include "platform/elementary.h"
 #include "platform/threads.h"
 #include "shot/reach.h"

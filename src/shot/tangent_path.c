@@ -19,11 +19,15 @@
  * event at the time T with total tangents dx+ leaves d = dx+ - x' dT. */
 #include "shot/tangent_path.h"
 
-#include "impact/rules.h"
-
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
+
+/* Gauss's nodes and weights on [0, 1]. */
+enum { NODES = 5 };
+static const double NODE[NODES] = {0.046910077030668004, 0.23076534494715845, 0.5, 0.7692346550528415, 0.953089922969332};
+static const double WEIGHT[NODES] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
+                                     0.11846344252809454};
 
 /* The exact speed of a rolling ball with drag after tau. */
 static double speed_at(double v0, double A, double k, double tau) {

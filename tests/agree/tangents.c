@@ -215,9 +215,8 @@ START_TEST(shots_agree_with_differences) {
   printf("%-24s %4d pairs (%d without a plateau): error median %.1e, 90 %% %.1e, 99 %% %.1e, largest %.1e\n", models[_i].name,
          pairs, without, errors[pairs / 2], errors[pairs * 9 / 10], errors[pairs * 99 / 100], errors[pairs - 1]);
   ck_assert_int_gt(pairs, 1000);
-  ck_assert_int_le(wrong, models[_i].options.cushion_model == CAROM_SHOT_CUSHION_DEFAULT
-                              ? 2
-                              : 0); /* of exact cushions: docs/understanding/gradients.md */
+  /* two of exact cushions, without a flag: docs/understanding/gradients.md */
+  ck_assert_int_le(wrong, models[_i].options.cushion_model == CAROM_SHOT_CUSHION_MATHAVAN ? 2 : 0);
   ck_assert_double_lt(errors[pairs / 2], 1e-8);
 }
 END_TEST

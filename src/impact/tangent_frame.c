@@ -1,7 +1,7 @@
 /* Tangents of a ball's motion from the axes of the table to the frame of a contact, and back: tangent.h.
  *
  * x = (c, s) and y = (-s, c), which turn by dturn: d(v . x) = x . dv + dturn v_y, d(v . y) = y . dv - dturn v_x. */
-#include "shot/tangent.h"
+#include "impact/tangent.h"
 
 void carom_tangent_to_frame(const double v[3], const double w[3], double R, double c, double s, bool rolls, int m,
                             const double *dturn, const double *dR, carom_row dv[5], double number[CAROM_BALL_INS],
