@@ -136,7 +136,7 @@ def _seeds(wrt: Sequence[str], balls: int) -> tuple[tuple[str, ...], tuple[str, 
 
 
 def _differentiate(
-    table: Table, balls: Array, cue: Array | None, events: Array, time: float, options: object, seeds: dict[str, dtypes.Doubles], times: Array, to: Tangents, where: tuple[int, ...]
+    table: Table, balls: Array, cue: Array | None, events: Array, time: float, options: Any, seeds: dict[str, dtypes.Doubles], times: Array, to: Tangents, where: tuple[int, ...]
 ) -> None:
     """The tangents of one shot into `to`, in parts of as many directions as C takes."""
     m, n = len(to.names), len(balls)
@@ -164,11 +164,11 @@ def _differentiate(
         to.status[where] = code
         if code < 0:
             return
-        to.states[(*where, ..., part)] = final
-        to.states_at[(*where, ..., part)] = states
-        to.time[(*where, slice(0, len(events)), part)] = moments
-        to.reach[(*where, part)] = reach
-        to.flags[(*where, slice(0, len(events)))] = flags
+        to.states[where][..., part] = final
+        to.states_at[where][..., part] = states
+        to.time[where][: len(events), part] = moments
+        to.reach[where][part] = reach
+        to.flags[where][: len(events)] = flags
         to.error[where] = max(to.error[where], tangent.error)
 
 
