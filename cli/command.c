@@ -72,6 +72,11 @@ int program_run(const program *p, int argc, char **argv) {
     print_help(stdout, p);
     return finish(EXIT_GOOD);
   }
+  if (strcmp(name, "--complete") == 0) { /* for the shells: completion.* */
+    for (size_t k = 0; k < p->count; k++)
+      puts(p->commands[k].name);
+    return finish(EXIT_GOOD);
+  }
   if (strcmp(name, "--version") == 0) {
     printf("%s %s\n", p->name, carom_version());
     return finish(EXIT_GOOD);

@@ -38,10 +38,10 @@ OPTION(series, option_speed, "speed", in[SPEED], 0, "V", set_values, MEASURE_SPE
        "speed of the ball, m/s, or with a unit: mph, km/h (default 1.5)");
 OPTION(series, option_angle, "angle", in[ANGLE], 0, "DEGREES", set_values, MEASURE_ANGLE,
        "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to the right (default 45)");
-OPTION(series, option_spin, "spin", in[SPIN], 0, "SPIN", set_values, MEASURE_SPIN,
+OPTION(series, option_spin, "spin", in[SPIN], 0, "roll|stun|draw|SPIN", set_values, MEASURE_SPIN,
        "roll or follow: the ball rolls (default); stun: no spin; draw: the same spin backwards. Or a number with a unit: "
        "rad/s, % of rolling, tip");
-OPTION(series, option_side, "side", in[SIDE], 0, "SPIN", set_values, MEASURE_SIDE,
+OPTION(series, option_side, "side", in[SIDE], 0, "right|left|gearing|none|SPIN", set_values, MEASURE_SIDE,
        "side spin, above 0 for right english, which is running english here; left is reverse. A number with a unit: rad/s, % "
        "of english (100%: 1.25 V/R) or tip; right, left: 100%; gearing: the ball rolls along the cushion; none (default)");
 OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,

@@ -235,7 +235,7 @@ static void warn_of_constant(const sweep *s) {
              "value");
 }
 
-OPTION(sweep, option_over, "over", over, 0, "INPUT", set_text, 0,
+OPTION(sweep, option_over, "over", over, 0, "cut|angle|speed|INPUT", set_text, 0,
        "what to vary: a column, such as w1z, u_b or e_b; cut: turns the line of centres by so many degrees; angle: turns the "
        "cushion; speed: that of the first ball, m/s, and all other velocities and spins in proportion");
 OPTION(sweep, option_from, "from", from, 0, "A", set_number, 0, "first value of INPUT");
@@ -245,7 +245,8 @@ OPTION(sweep, option_ids, "id", ids, 0, "X", set_text, 0,
        "the row with this id; its number, from 1, if there is no column id. Several ids, separated by commas, are swept one "
        "after the other");
 OPTION(sweep, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-       "draw the throw, with --cushion the rebound angle, by gnuplot, a curve for each row and solver: OUT.svg or OUT.png. The "
+       "draw the throw, with --cushion the rebound angle, by gnuplot, a curve for each row and solver: OUT.svg, OUT.png or "
+       "OUT.pdf. The "
        "CSV is then written only with -o");
 OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0, "leave out the columns v1x to w2z, or vx to wz");
 

@@ -110,7 +110,7 @@ static int write_trace(const trace *t) {
 
 OPTION(trace, option_points, "points", points, 0, "N", set_count, 2, "points, 2 or more (default 201)");
 OPTION(trace, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-       "draw the quantities, by gnuplot: OUT.svg or OUT.png. The CSV is then written only with -o");
+       "draw the quantities, by gnuplot: OUT.svg, OUT.png or OUT.pdf. The CSV is then written only with -o");
 
 static const command_form form = {
     .name = "trace",

@@ -4,22 +4,23 @@
 
 #include "carom_shot.h"
 #include "derived.h"
+#include "labels.h"
 #include "picture.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MOST_EVENTS = 64, SAMPLES = 64, MOST_BOXES = 256, LINE_BOXES = 16, MOST_CHARACTERS = 200 };
+enum { MOST_EVENTS = 64, SAMPLES = 64, ARC_PIECES = 8, MOST_CHARACTERS = 200 };
 static const double away = 1e5, reach = 14.0; /* of the cushions, and of the faster ball at least: in radii */
 static const double least_friction = 1e-6;    /* the library's motion needs some; balls slide straight on by so little */
-static const double margin = 26.0, most_height = 620.0, line_height = 19.0, letter = 7.6; /* pixels */
+static const double margin = 26.0, most_height = 620.0, line_height = 19.0; /* pixels */
 static const char *const colours[2] = {"#ffffff", "#f2c230"};
 
-/* A part of the cloth, and the boxes that labels must not cover. */
+/* A part of the cloth, and its labels. */
 typedef struct sketch {
   FILE *out;
-  double low[2], high[2], scale, bottom, box[MOST_BOXES][4];
-  int boxes;
+  double low[2], high[2], scale, bottom;
+  labels labels;
 } sketch;
 
 static double across(const sketch *s, const double r[2]) {
@@ -36,45 +37,23 @@ static void include(sketch *s, const double r[2], double around) {
   }
 }
 
-/* Keeps a box, left, top, right and bottom, free of labels. */
-static void keep(sketch *s, double left, double top, double right, double bottom) {
-  if (s->boxes < MOST_BOXES)
-    memcpy(s->box[s->boxes++], (double[4]){left, top, right, bottom}, sizeof s->box[0]);
-}
-
-static bool is_free(const sketch *s, const double box[4]) {
-  bool good = box[0] > 2.0 && box[2] < CONTACT_WIDTH - 2.0 && box[1] > 2.0 && box[3] < s->bottom - 2.0;
-  for (int k = 0; k < s->boxes; k++)
-    good &= box[2] < s->box[k][0] || box[0] > s->box[k][2] || box[3] < s->box[k][1] || box[1] > s->box[k][3];
-  return good;
-}
-
-/* A label as near to a place as it finds room. */
-static void label(sketch *s, double x, double y, const char *text) {
-  const double width = letter * (double)strlen(text), height = 16.0;
-  double box[4] = {0};
-  bool found = false;
-  for (double far = 4.0; far < 200.0 && !found; far += 8.0)
-    for (int turn = 0; turn < 8 && !found; turn++) {
-      const double angle = 45.0 * turn * degree, left = x + far * cos(angle) - (turn > 2 && turn < 6 ? width : 0.0);
-      const double middle = turn % 4 == 2 ? left - 0.5 * width : left, base = y + far * sin(angle) + 0.5 * height;
-      memcpy(box, (double[4]){middle, base - height, middle + width, base}, sizeof box);
-      found = is_free(s, box);
-    }
-  keep(s, box[0], box[1], box[2], box[3]);
-  svg_text(s->out, box[0], box[3] - 4.0,
-           "font-size=\"13\" fill=\"#0b2a22\" stroke=\"#6fc0a6\" stroke-width=\"3\" paint-order=\"stroke\"", text,
-           MOST_CHARACTERS);
-}
-
 /* A dashed line; labels are not put on it. */
 static void dash(sketch *s, const double from[2], const double to[2]) {
   const double a[2] = {across(s, from), down(s, from)}, b[2] = {across(s, to), down(s, to)};
   fprintf(s->out, "<path d=\"M%.1f %.1fL%.1f %.1f\" fill=\"none\" stroke=\"#0b2a22\" stroke-dasharray=\"5 4\"/>\n", a[0], a[1],
           b[0], b[1]);
-  for (int k = 0; k < LINE_BOXES; k++) {
-    const double x = a[0] + (b[0] - a[0]) * k / LINE_BOXES, y = a[1] + (b[1] - a[1]) * k / LINE_BOXES;
-    keep(s, x - 3.0, y - 3.0, x + 3.0, y + 3.0);
+  keep_line(&s->labels, a[0], a[1], b[0], b[1]);
+}
+
+/* Keeps an arc free of labels. */
+static void keep_arc(sketch *s, const contact_arc *a, double radius) {
+  double last[2] = {0};
+  for (int k = 0; k <= ARC_PIECES; k++) {
+    const double angle = (a->from + (a->to - a->from) * k / ARC_PIECES) * degree;
+    const double now[2] = {across(s, a->centre) + radius * cos(angle), down(s, a->centre) - radius * sin(angle)};
+    if (k > 0)
+      keep_line(&s->labels, last[0], last[1], now[0], now[1]);
+    memcpy(last, now, sizeof last);
   }
 }
 
@@ -89,7 +68,7 @@ static void draw_arc(sketch *s, const contact_arc *a, double radius) {
           x + radius * cos(a->from * degree), y - radius * sin(a->from * degree), radius, radius, angle > 180.0,
           a->to < a->from, x + radius * cos(a->to * degree), y - radius * sin(a->to * degree));
   snprintf(text, sizeof text, "%s %.1f\u00b0", a->label, angle);
-  label(s, x + radius * cos(middle), y - radius * sin(middle), text);
+  put_label(&s->labels, x + radius * cos(middle), y - radius * sin(middle), text);
 }
 
 /* The shot that begins after the impact: its states at any time, and from when on each ball rolls. */
@@ -147,7 +126,7 @@ static void draw_path(sketch *s, const contact_picture *p, const motion *m, int 
     memcpy(now, at[ball].r, sizeof now);
     sum += k > 0 ? hypot(now[0] - last[0], now[1] - last[1]) : 0.0;
     fprintf(s->out, "%c%.1f %.1f", k > 0 ? 'L' : 'M', across(s, now), down(s, now));
-    keep(s, across(s, now) - 4.0, down(s, now) - 4.0, across(s, now) + 4.0, down(s, now) + 4.0);
+    keep_free(&s->labels, across(s, now) - 4.0, down(s, now) - 4.0, across(s, now) + 4.0, down(s, now) + 4.0);
   }
   fputs("\"/>\n", s->out);
   if (s->scale * sum < 4.0)
@@ -158,13 +137,14 @@ static void draw_path(sketch *s, const contact_picture *p, const motion *m, int 
   for (int side = -1; side < 2; side += 2)
     fprintf(s->out, "L%.1f %.1f", x + 5.0 * cos(angle + 90.0 * side * degree), y - 5.0 * sin(angle + 90.0 * side * degree));
   fputs("Z\"/>\n", s->out);
-  keep(s, x - 6.0, y - 6.0, x + 6.0, y + 6.0);
-  keep(s, x + 13.0 * cos(angle) - 4.0, y - 13.0 * sin(angle) - 4.0, x + 13.0 * cos(angle) + 4.0, y - 13.0 * sin(angle) + 4.0);
+  keep_free(&s->labels, x - 6.0, y - 6.0, x + 6.0, y + 6.0);
+  keep_free(&s->labels, x + 13.0 * cos(angle) - 4.0, y - 13.0 * sin(angle) - 4.0, x + 13.0 * cos(angle) + 4.0,
+            y - 13.0 * sin(angle) + 4.0);
   if (m->rolls[ball] > 0.0 && m->rolls[ball] < m->end) {
     carom_shot_at(m->ball, p->balls, &m->shot, m->rolls[ball], at);
     fprintf(s->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#0b2a22\"/>\n", across(s, at[ball].r), down(s, at[ball].r));
   }
-  label(s, x + 14.0 * cos(angle), y - 14.0 * sin(angle), p->way[ball]);
+  put_label(&s->labels, x + 14.0 * cos(angle), y - 14.0 * sin(angle), p->way[ball]);
 }
 
 /* A bar of a round length, about a sixth of the width. */
@@ -177,7 +157,7 @@ static void draw_scale(sketch *s) {
           x - s->scale * length, s->bottom - 16.0, s->scale * length);
   svg_text(s->out, x - 0.5 * s->scale * length, s->bottom - 16.0, "font-size=\"12\" fill=\"#0b2a22\" text-anchor=\"middle\"",
            text, MOST_CHARACTERS);
-  keep(s, x - s->scale * length, s->bottom - 32.0, x, s->bottom);
+  keep_free(&s->labels, x - s->scale * length, s->bottom - 32.0, x, s->bottom);
 }
 
 /* What is to be seen: balls, lines, paths. */
@@ -201,6 +181,7 @@ static sketch sketch_of(FILE *out, const contact_picture *p, const motion *m) {
   const double wide = s.high[0] - s.low[0], high = s.high[1] - s.low[1];
   s.scale = fmin((CONTACT_WIDTH - 2.0 * margin) / wide, most_height / high);
   s.bottom = s.scale * high + 2.0 * margin;
+  s.labels = (labels){.out = out, .width = CONTACT_WIDTH, .height = s.bottom, .size = 16.0};
   s.low[0] -= 0.5 * ((CONTACT_WIDTH - 2.0 * margin) / s.scale - wide);
   return s;
 }
@@ -224,17 +205,19 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
     const double x = across(&s, p->ball[k]->r), y = down(&s, p->ball[k]->r), r = fmax(s.scale * R, 3.0);
     fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" fill-opacity=\"0.85\" stroke=\"#111\"/>\n", x, y, r,
             colours[k]);
-    keep(&s, x - r, y - r, x + r, y + r);
+    keep_free(&s.labels, x - r, y - r, x + r, y + r);
   }
   for (int k = 0; k < p->lines; k++)
     dash(&s, p->line[k].from, p->line[k].to);
+  for (int k = 0; k < p->arcs; k++)
+    keep_arc(&s, &p->arc[k], fmax(46.0, s.scale * R * 1.3) + 34.0 * k);
   for (int k = 0; k < p->balls; k++)
     draw_path(&s, p, &m, k);
   for (int k = 0; k < p->arcs; k++)
     draw_arc(&s, &p->arc[k], fmax(46.0, s.scale * R * 1.3) + 34.0 * k);
   for (int k = 0; k < p->lines; k++)
     if (p->line[k].label != NULL)
-      label(&s, across(&s, p->line[k].to), down(&s, p->line[k].to), p->line[k].label);
+      put_label(&s.labels, across(&s, p->line[k].to), down(&s, p->line[k].to), p->line[k].label);
   const char *text = p->words;
   for (int k = 0; k < lines; k++, text += strcspn(text, "\n") + 1)
     svg_text(out, margin, s.bottom + line_height * (k + 1),

@@ -139,10 +139,11 @@ _Static_assert(CAROM_SOLVER_EULER == 1 && CAROM_SLIP_POOLTOOL == 1 && CAROM_CUSH
 
 ROW(option_solver, "solver", options.solver, 0, "exact|euler", set_choice, 0, BALLS_ONLY,
     "exact: the limit of infinitely many steps (default); euler: N steps of equal impulse, as in the 2014 paper");
-ROW(option_solvers, "solver", solvers, 0, "LIST", set_solvers, 0, BALLS_ONLY, "exact (default), euler, or exact,euler");
+ROW(option_solvers, "solver", solvers, 0, "exact|euler|exact,euler", set_solvers, 0, BALLS_ONLY,
+    "exact (default), euler, or exact,euler");
 ROW(option_slip, "slip", options.slip, 0, "paper|pooltool", set_choice, 0, BALLS_ONLY,
     "sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's");
-ROW(option_friction, "friction", friction, 0, "LAW", set_law, 0, BALLS_ONLY,
+ROW(option_friction, "friction", friction, 0, "alciatore|LAW", set_law, 0, BALLS_ONLY,
     "friction between the balls, instead of the column u_b: a number; or alciatore, which falls with the slip speed u as mu = "
     "a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants");
 ROW(option_data, "data", folder, 0, "DIR", set_text, 0, BALLS_ONLY,

@@ -104,6 +104,13 @@ bool svg_draw(const char *path, void (*write)(FILE *out, const void *data), cons
   return make(path, is_svg ? NULL : words, "librsvg2-bin", in_memory("data"), write, data);
 }
 
+bool file_draw(const char *path, void (*write)(FILE *out, const void *data), const void *data) {
+  FILE *out = output_open(path);
+  if (out != NULL)
+    write(out, data);
+  return out != NULL && output_commit();
+}
+
 void svg_begin(FILE *out, double width, double height, const char *background) {
   fprintf(out,
           "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "

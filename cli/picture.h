@@ -17,6 +17,9 @@ bool picture_draw(const char *path, const char *name, const char *title, void (*
 /* Draws `path` from what `write` writes as SVG; rsvg-convert makes PNG and PDF of it. */
 bool svg_draw(const char *path, void (*write)(FILE *out, const void *data), const void *data);
 
+/* Writes `path` as `write` does. */
+bool file_draw(const char *path, void (*write)(FILE *out, const void *data), const void *data);
+
 /* The head of an SVG, and what is behind all, as attributes: "fill=\"#fff\"". */
 void svg_begin(FILE *out, double width, double height, const char *background);
 

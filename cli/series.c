@@ -112,7 +112,7 @@ static void write_table(FILE *out, const series *s, int count) {
   one_case c;
   for (int k = 0; k < inputs_of(s); k++)
     if (s->in[k].count > 1)
-      fprintf(out, "%s (%s),", s->scene->inputs[k], s->in[k].unit);
+      fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k], s->in[k].unit);
   for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY); q++)
     fprintf(out, "%s%s", q > first ? "," : "", word);
   fputc('\n', out);

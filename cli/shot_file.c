@@ -98,8 +98,12 @@ static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
     return true;
   if (!json_is_object(v))
     return json_wrong(f, "cue must be an object");
-  if (!json_get_doubles(v, "cue.", CUE_KEYS, &cue->speed, f) || !json_get_doubles(v, "cue.", "miscue", &cue->miscue, f))
+  if (!json_get_doubles(v, "cue.", CUE_KEYS, &cue->speed, f) || !json_get_doubles(v, "cue.", "miscue", &cue->miscue, f) ||
+      !json_only(v, "cue.", CUE_KEYS " miscue ball", f))
     return false;
+  /* A strike says how high it is: the cue's usual b is not the centre. */
+  if (json_object_get(v, "b") == NULL && json_object_size(v) > (json_object_get(v, "ball") != NULL))
+    return json_wrong(f, "cue.b is missing: how far above the centre the tip touches, in radii of the ball; 0 is the centre");
   const json_t *ball = json_object_get(v, "ball");
   if (ball == NULL)
     return true;
@@ -154,10 +158,14 @@ shot_file *shot_file_open(const char *path) {
     complain("cannot read %s: %s", path, strerror(errno));
     return NULL;
   }
+  return shot_file_of(in, in == stdin ? "standard input" : path);
+}
+
+shot_file *shot_file_of(FILE *in, const char *name) {
   shot_file *file = allocate(1, sizeof *file);
   json_set_alloc_funcs(json_memory, free);
   file->in = in;
-  file->path = in == stdin ? "standard input" : path;
+  file->path = name;
   return file;
 }
 

@@ -29,6 +29,9 @@ typedef struct shot_file shot_file;
 /* Opens a file, "-" for stdin. Complains and returns NULL if that fails. */
 shot_file *shot_file_open(const char *path);
 
+/* The same of a stream, which it closes; `name` is for messages. */
+shot_file *shot_file_of(FILE *in, const char *name);
+
 /* The name of the file for messages. */
 const char *shot_file_name(const shot_file *file);
 

@@ -1,14 +1,27 @@
-/* A shot as a picture: the table, each ball's path, where the balls began and ended. */
+/* Shots as a picture: the table, each ball's path, where the balls began and ended. */
 #ifndef CAROM_CLI_SHOT_PICTURE_H
 #define CAROM_CLI_SHOT_PICTURE_H
 
 #include "options.h"
 #include "shot_file.h"
 
+/* A shot and its result. */
+typedef struct played {
+  const shot_line *line;
+  const carom_shot *shot;
+} played;
+
 /* Whether the shot has this id; any has NULL. */
 bool shot_has_id(const shot_line *line, const char *id);
 
-/* Draws it as SVG, up to shot->time, when the balls are as in shot->final. */
-void shot_draw(FILE *out, const shot_line *line, const carom_shot *shot);
+/* Draws shots of one table and layout over each other as SVG, each up to shot->time, when the balls are as in shot->final.
+ * `footer` has lines to stand below. Each ball at its end is a group of class "ball", with that place in data-x and data-y. */
+void shots_draw(FILE *out, const played *shots, int count, const char *footer);
+
+/* Whether it has a group for that ball of shot number `index`: those that do not move are drawn once. */
+bool shot_shows(const played *p, int index, int ball);
+
+/* Where a place of the table is on the picture, pixels. */
+void shot_place(const carom_table *t, const double r[2], double at[2]);
 
 #endif

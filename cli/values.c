@@ -41,6 +41,8 @@ static const struct {
     {MEASURE_MASS, "kg", "kg", 1.0, FIXED},
     {MEASURE_MASS, "g", "g", 1e-3, FIXED},
     {MEASURE_MASS, "oz", "ounces", 0.028349523125, FIXED},
+    {MEASURE_TIP, "R", "R", 1.0, FIXED},
+    {MEASURE_TIP, "tip", "tips", tip_width, OFFSET},
     {MEASURE_SPIN, "rad/s", "rad/s", 1.0, FIXED},
     {MEASURE_SPIN, "%", "% of rolling", 0.01, ROLLING},
     {MEASURE_SPIN, "tip", "tips above the centre", strike *tip_width, OFFSET},

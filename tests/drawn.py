@@ -74,6 +74,18 @@ def way(shot, ball):
     return points
 
 
+def cushions(shot, table):
+    """What stands at the cushions that the ball of the cue meets: not at cuts of pockets, nor where it hops on at the same one."""
+    length = {rail["id"]: math.dist(rail["p1"], rail["p2"]) for rail in table["linear"]}
+    found, last = [], {}
+    for time, kind, names, *_ in shot["events"]:
+        if kind == "ball_linear_cushion" and names[0] == shot["cue"].get("ball") and length[names[1]] > 0.2 * max(length.values()):
+            if time - last.get(names[1], -1) >= 0.1:
+                found.append(f"{len(found) + 1} ({time:.2f} s)")
+            last[names[1]] = time
+    return found[:9]
+
+
 def check_shot(picture, shot, table):
     """A picture of `carom shoot --plot` beside the line of the shot, with its events in full, and the table's."""
     report, page = Report(), tree.parse(picture).getroot()
@@ -89,7 +101,8 @@ def check_shot(picture, shot, table):
 
     report.near("size", map(float, page.get("viewBox").split()), [0, 0, *size], 0.5)
     report.near("cloth", numbers(elements(page, "rect")[1], "x", "y", "width", "height"), [22, 22, size[0] - 44, size[1] - 44])
-    circles, paths, texts = (elements(page, name) for name in ("circle", "path", "text"))
+    circles, paths, texts = ([one for one in elements(page, name) if one.get("class") != "axis"] for name in ("circle", "path", "text"))
+    marks, texts = [text.text for text in texts if text.get("stroke")], [text for text in texts if not text.get("stroke")]
     # Holes, jaws, balls at first; paths between; balls at the end, striped ones with a ring.
     expected = [(f"{kind} {part['id']}", part["center"], part["radius"], None) for kind in ("pockets", "circular") for part in table[kind]]
     radius = [ball.get("params", {}).get("R", 0.028575) for ball in shot["balls"]]
@@ -111,6 +124,10 @@ def check_shot(picture, shot, table):
     report.same("texts", [text.text for text in texts], [name[:5] for name in final])
     for text, (name, place) in zip(texts, final.items()):
         report.near(f"text of {name}", numbers(text, "x", "y"), place)
+    report.same("cushions of the cue ball", marks, cushions(shot, table))
+    # Diamonds: three on each short side, seven on each long one, six where a pocket is.
+    diamonds = [path for path in paths if path.get("fill") == "#e8dcc0"]
+    report.same("diamonds", len(diamonds), 2 * (3 + (6 if table["pockets"] else 7)))
     rails = [path for path in paths if path.get("stroke-linecap")]
     report.same("rails", len(rails), len(table["linear"]))
     for path, rail in zip(rails, table["linear"]):
@@ -189,7 +206,7 @@ def check_hit(picture, row, after, words):
     # All is on the picture, and no label covers another.
     width, height = map(float, page.get("viewBox").split()[2:])
     texts = elements(page, "text")
-    boxes = [(x, y - 13, x + 7.6 * len(text.text), y + 3) for text in texts if text.get("stroke") for x, y in [numbers(text, "x", "y")]]
+    boxes = [(x, y - s, x + 7.6 / 13 * s * len(text.text), y + 0.2 * s) for text in texts if text.get("stroke") for x, y, s in [numbers(text, "x", "y", "font-size")]]
     inside = all(a >= 0 and c <= width and b >= 0 and d <= height for a, b, c, d in boxes)
     apart = all(a[2] < b[0] or b[2] < a[0] or a[3] < b[1] or b[3] < a[1] for k, a in enumerate(boxes) for b in boxes[:k])
     report.same("labels inside and apart", (inside, apart), (True, True))

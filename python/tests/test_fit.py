@@ -92,9 +92,9 @@ def test_known_constants_give_the_strikes_back(made):
     good = found.rmse < 2e-3
     error = np.abs(found.strikes - made.strikes)[good]
     assert np.median(error, axis=0)[:5].max() < 0.02 and np.median(error[:, 5]) < 1e-3
-    # rmse is that of the positions
+    # rmse is that of the positions, whose rolling against drag is within 1e-5 m
     places = [found.positions(3, track[:, 0])[:, ball] - track[:, 1:] for ball, track in enumerate(made.recordings[3].tracks)]
-    assert found.rmse[3] == pytest.approx(np.sqrt((np.concatenate(places) ** 2).sum(axis=1).mean()), rel=1e-4)
+    assert found.rmse[3] == pytest.approx(np.sqrt((np.concatenate(places) ** 2).sum(axis=1).mean()), abs=5e-6)
     assert found.plot(3).svg.count("<circle") > sum(map(len, made.recordings[3].tracks))
 
 

@@ -76,6 +76,21 @@ def test_fouls():
     assert lost.winner == 1
 
 
+def test_a_ball_that_leaves_the_table_is_a_foul_and_taken_back(monkeypatch):
+    import carom.nineball
+
+    def off(*arguments, **options):
+        shot = carom.simulate(*arguments, **options)
+        shot.final["label"][3] = carom.Label.OFF
+        return shot
+
+    monkeypatch.setattr(carom.nineball, "simulate", off)
+    before = position_of({0: CUE, 3: NEAR, 9: (0.6, 2.0)})
+    after, turn = RULES.play(before, action(AT_POCKET))
+    assert turn.foul == "a ball left the table" and (after.player, after.hand) == (1, Hand.ANYWHERE)
+    np.testing.assert_array_equal(after.balls["state"]["r"], before.balls["state"]["r"])
+
+
 def test_the_break():
     begun = RULES.begin(5)
     assert begun.hand is Hand.BEHIND and begun.player == 0 and len(begun.balls) == 10

@@ -55,6 +55,21 @@ def test_a_pot_and_a_scratch_by_hand():
     np.testing.assert_array_equal(back[1], foul.layouts[1])
 
 
+def test_a_ball_that_leaves_the_table_is_a_foul_and_taken_back(monkeypatch):
+    import carom.potting
+
+    def off(*arguments, **options):
+        shots = carom.simulate_batch(*arguments, **options)
+        shots.final["label"][1, 2] = carom.Label.OFF
+        return shots
+
+    monkeypatch.setattr(carom.potting, "simulate_batch", off)
+    rules = Potting(balls=3)
+    layout = rules.deal(Draws([3]), np.arange(1))[0]
+    strokes = rules.play(layout, np.tile(rules.actions(10.0, 3.0), (2, 1)))
+    assert strokes.rewards[1] == -1.0 and strokes.layouts[1].tobytes() == layout.tobytes() != strokes.layouts[0].tobytes()
+
+
 def test_strokes_are_those_of_simulate():
     rules = Potting(balls=5)
     layout = rules.deal(Draws([3]), np.arange(1))[0]
@@ -208,9 +223,10 @@ def test_many_games_are_single_games(gymnasium, threads):
     assert envs.reset(seed=seeds)[0].tobytes() == singles.reset(seed=seeds)[0].tobytes()
 
 
-def test_many_games_are_as_fast_as_their_batch(gymnasium):
-    """A step of many games takes at most a quarter longer than simulate_batch of its strokes: processor time."""
-    envs = gymnasium.make_vec("carom/Potting-v0", num_envs=256, strokes=5)
+@pytest.mark.parametrize(("model", "least"), [("mathavan", 0.8), ("han", 0.6)])
+def test_many_games_are_as_fast_as_their_batch(gymnasium, model, least):
+    """The share of simulate_batch in the processor time of a step of many games, resets included."""
+    envs = gymnasium.make_vec("carom/Potting-v0", num_envs=256, strokes=5, cushion_model=model)
     rules, generator = envs.unwrapped.rules, np.random.default_rng(1)
     envs.reset(seed=1)
     shares = []
@@ -223,11 +239,11 @@ def test_many_games_are_as_fast_as_their_batch(gymnasium):
             envs.step(actions)
             spent += time.process_time() - begun
             begun = time.process_time()
-            carom.simulate_batch(rules.table, before[playing], rules.cues(actions[playing]))
+            carom.simulate_batch(rules.table, before[playing], rules.cues(actions[playing]), cushion_model=model)
             batch += time.process_time() - begun
         shares.append(batch / spent)
     print(shares)
-    assert max(shares) >= 0.8, shares
+    assert max(shares) >= least, shares
 
 
 def test_reset_options(gymnasium):

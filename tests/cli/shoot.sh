@@ -52,7 +52,7 @@ PYTHON
 echo "--- a picture"
 carom shoot --events none --plot break.svg "$DATA/break-nineball.jsonl" > none.jsonl
 grep -c events none.jsonl
-grep -c '<path fill' break.svg
+grep -c '<path fill="none"' break.svg
 tail -n 1 break.svg
 # Its parts are where the numbers say: of the break, and on a table that lies along x away from the origin, whose balls have odd names.
 rail() { printf '{"id": "%s", "p1": [%s, 0.036], "p2": [%s, 0.036], "direction": %s}' "$@"; }
@@ -101,12 +101,14 @@ grep '"shot"' numbers.out | sed 's/.*"n_events"/.../; s/"final".*"pockets": {}}/
 echo "--- bad lines"
 ball='{"id": "cue", "state": [0, 0.3, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}'
 {
-  echo "{\"kind\": \"shot\", \"id\": \"good\", \"cue\": {\"ball\": \"cue\", \"V0\": 1}, \"balls\": [$ball]}"
+  echo "{\"kind\": \"shot\", \"id\": \"good\", \"cue\": {\"ball\": \"cue\", \"V0\": 1, \"b\": 0.25}, \"balls\": [$ball]}"
   echo 'no JSON'
   echo '{"id": 1}'
   echo '{"kind": "shot", "id": "no balls"}'
-  echo '{"kind": "shot", "id": "text for a number", "cue": {"V0": "fast"}, "balls": ['"$ball"']}'
+  echo '{"kind": "shot", "id": "text for a number", "cue": {"V0": "fast", "b": 0}, "balls": ['"$ball"']}'
   echo '{"kind": "shot", "id": "no such ball", "cue": {"ball": "8"}, "balls": ['"$ball"']}'
+  echo '{"kind": "shot", "id": "no b", "cue": {"V0": 1}, "balls": ['"$ball"']}'
+  echo '{"kind": "shot", "id": "unknown key", "cue": {"V0": 1, "b": 0, "speed": 2}, "balls": ['"$ball"']}'
   echo '{"kind": "shot", "id": "no such table", "table": "attic", "balls": ['"$ball"']}'
   echo '{"kind": "shot", "id": "short state", "balls": [{"id": "cue", "state": [0, 1]}]}'
   echo '{"kind": "shot", "id": "twins", "balls": ['"$ball, $ball"']}'

@@ -53,3 +53,13 @@ carom sweep --id stun --over speed --from 1 --to 2 --points 2 --brief hit.csv -o
 sed 's/,1.5,/,0,/' hit.csv > rests.csv
 try carom sweep --id stun --over speed --from 1 --to 2 rests.csv
 carom trace --id stun --points 2 --no-comments hit.csv | head -n 1 | cut -d, -f1
+# What it writes is no table of rows, unless by --rows.
+carom sweep --id stun --over cut --from 0 --to 10 --points 3 --friction alciatore hit.csv > swept.csv
+try carom resolve swept.csv
+carom sweep --rows --id stun --over cut --from 0 --to 10 --points 3 --friction alciatore hit.csv | carom resolve --derived - > derived.csv
+python - <<'PYTHON'
+import csv
+swept = list(csv.DictReader(line for line in open("swept.csv") if line[0] != "#"))
+derived = list(csv.DictReader(open("derived.csv")))
+print([abs(float(a["throw_deg"]) - float(b["throw_deg"])) < 1e-9 for a, b in zip(swept, derived, strict=True)])
+PYTHON

@@ -108,15 +108,16 @@ def spread(threads: int, call: Callable[[int, int], int]) -> Callable[[int, int]
 
     def shared(begin: int, many: int) -> int:
         ends = [begin + many * hand // hands for hand in range(hands + 1)]
+        sizes = [after - before for before, after in zip(ends, ends[1:])]
         with ThreadPoolExecutor(hands) as pool:
-            return min(pool.map(lambda hand: call(ends[hand], ends[hand + 1] - ends[hand]), range(hands)))
+            return min(pool.map(call, ends[:-1], sizes))
 
     return shared
 
 
 def addresses(array: Array, leading: int) -> npt.NDArray[np.uintp]:
     """Where each row of an array begins, of shape (rows,): what its first `leading` indices choose, in C order."""
-    offsets = np.zeros((), np.intp)
+    offsets: Array = np.zeros((), np.intp)
     for size, stride in zip(array.shape[:leading], array.strides[:leading], strict=True):
         offsets = offsets[..., np.newaxis] + np.arange(size) * stride
     return (array.ctypes.data + offsets.reshape(-1)).astype(np.uintp)

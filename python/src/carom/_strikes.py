@@ -36,7 +36,7 @@ EARLIEST, LATEST = -0.03, 0.08  # of a strike on the clock of the recording, s
 _SPIN_MOST = 2.0  # greatest |R w| of a strike over |v|: a tip that does not slip gives 1.3
 _NUMBERS = 6
 # The first stage: samples up to a time (s), how many starts descend, and iterations.
-_FIRST, _FIRST_KEPT, _FIRST_ITERATIONS = 0.9, 16, 4
+_FIRST, _FIRST_KEPT, _FIRST_ITERATIONS = 0.9, 8, 4
 # The others: samples up to a time (s), offspring of each strike, how many of all descend, iterations, how many go on.
 _STAGES = tuple((until, 30, 3, 4, 3) for until in (2.0, 4.0, 8.0, np.inf))
 _WIDER = 10.0  # standard deviations of the widest offspring

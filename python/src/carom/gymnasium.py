@@ -79,14 +79,19 @@ class _Games:
 
     def play(self, games: Games, actions: dtypes.Doubles) -> Strokes:
         """One stroke of each of some games."""
-        before = _raw(self.balls)[games].view(dtypes.shot_ball)
+        # Where all games play, nothing is copied but by the stroke itself.
+        everyone = len(games) == len(self.balls)
+        before = self.balls if everyone else _raw(self.balls)[games].view(dtypes.shot_ball)
         done = self.rules.disturbed(actions, self.draws, games)
         strokes = self.rules.play(before, done)
         self.left[games] -= 1
         self.ended[games] = self.rules.ended(strokes.layouts, self.left[games])
-        _raw(self.balls)[games] = _raw(strokes.layouts)
         if self.drawn:
             _raw(self.before)[games] = _raw(before)
+        if everyone:
+            self.balls = strokes.layouts
+        else:
+            _raw(self.balls)[games] = _raw(strokes.layouts)
         self.actions[games], self.struck[games] = done, True
         back = games[strokes.scratch]
         if len(back):

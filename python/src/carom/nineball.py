@@ -173,17 +173,19 @@ class NineBall:
         if position.hand:
             self._put(balls, position.hand, given[4:], draws)
         done = self.base.disturbed(given[np.newaxis, :4], draws, _ONE)[0]
-        failed = False
+        failed = ""
         try:
             shot = simulate(self.table, balls, self.base.cues(done), cushion_model=self.base.cushion_model)
         except CaromError as error:
             if error.shot is None:
                 raise
-            shot, failed = error.shot, True
+            shot, failed = error.shot, f"the stroke ended in an error: {error.shot.status.text}"
+        if not failed and (shot.final["label"] == Label.OFF).any():
+            failed = "a ball left the table"
         turn = self._judge(position, balls, shot, failed)
         return self._after(position, balls, turn, failed, draws), turn
 
-    def _judge(self, position: Position, balls: dtypes.Records, shot: Shot, failed: bool) -> Turn:
+    def _judge(self, position: Position, balls: dtypes.Records, shot: Shot, failed: str) -> Turn:
         events = shot.events
         types, a, b = events["type"], events["a"], events["b"]
         lowest = 1 + int(np.argmax(balls["state"]["label"][1:] != Label.POCKETED))
@@ -194,7 +196,7 @@ class NineBall:
         driven = (types == EventType.RAIL) | (types == EventType.JAW)
         foul = ""
         if failed:
-            foul = f"the stroke ended in an error: {shot.status.text}"
+            foul = failed
         elif 0 in down:
             foul = "the cue ball was potted"
         elif first is None:
@@ -207,7 +209,7 @@ class NineBall:
             foul = f"the break potted no ball, and drove fewer than {_DRIVEN_LEAST} to a cushion"
         return Turn(foul, first, potted, shot)
 
-    def _after(self, position: Position, before: dtypes.Records, turn: Turn, failed: bool, draws: Draws) -> Position:
+    def _after(self, position: Position, before: dtypes.Records, turn: Turn, failed: str, draws: Draws) -> Position:
         balls, player, other = before.copy(), position.player, 1 - position.player
         if not failed:
             balls["state"] = turn.shot.final

@@ -119,7 +119,7 @@ def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[A
 def balls_of(system: Any) -> dtypes.Records:
     """The balls of a System, in its order, for `carom.simulate`."""
     numbers: list[Any] = []
-    own = (0.0,) * 7  # drag and what follows it, which pooltool has not
+    own = (0.0,) * (len(dtypes.ball_kind.names or ()) - 10)  # drag and what follows it, which pooltool has not
     for ball in system.balls.values():
         p, rvw = ball.params, ball.state.rvw
         kind = (p.m, p.R, p.u_s, p.u_r, p.u_sp, p.u_b, p.e_b, p.f_c, p.e_c, p.g, *own)
@@ -131,7 +131,7 @@ def cue_of(system: Any) -> dtypes.Records:
     """The cue of a System, for `carom.simulate`."""
     cue, specs = system.cue, system.cue.specs
     ball = list(system.balls).index(cue.cue_ball_id)
-    numbers = (cue.V0, cue.phi, cue.theta, cue.a, cue.b, specs.M, specs.end_mass, specs.tip_radius, ball)
+    numbers = (cue.V0, cue.phi, cue.theta, cue.a, cue.b, specs.M, specs.end_mass, specs.tip_radius, ball, 0.0)
     return np.array(numbers, dtype=dtypes.cue)
 
 

@@ -38,7 +38,7 @@ class Strokes:
     scratch : ndarray of bool, shape (...)
         Whether the cue ball was potted, a foul.
     status : ndarray of int8, shape (...)
-        As `carom.Status`. After an error (a ball left the table, for example) the stroke is a foul, and the balls stay where they were.
+        As `carom.Status`. After an error, or where a ball left the table, the stroke is a foul, and the balls stay where they were.
     time : ndarray of float64, shape (...)
         How long the balls moved, s.
     """
@@ -243,11 +243,14 @@ class Potting:
 
     def free(self, places: dtypes.Doubles, taken: dtypes.Doubles) -> npt.NDArray[np.bool_]:
         """Whether places of balls, (..., n, 2), are clear of each other, of pockets and jaws, and of balls, (..., m, 2)."""
-        balls = np.concatenate([places, taken], axis=-2)
-        apart = ((places[..., np.newaxis, :] - balls[..., np.newaxis, :, :]) ** 2).sum(axis=-1)
-        own = np.arange(places.shape[-2])
-        apart[..., own, own] = np.inf
-        fixed = ((places[..., np.newaxis, :] - self._fixed) ** 2).sum(axis=-1)
+        x, y = places[..., 0, np.newaxis], places[..., 1, np.newaxis]
+        apart = (x - taken[..., np.newaxis, :, 0]) ** 2 + (y - taken[..., np.newaxis, :, 1]) ** 2
+        if places.shape[-2] > 1:
+            each = (x - places[..., np.newaxis, :, 0]) ** 2 + (y - places[..., np.newaxis, :, 1]) ** 2
+            own = np.arange(places.shape[-2])
+            each[..., own, own] = np.inf
+            apart = np.concatenate([each, apart], axis=-1)
+        fixed = (x - self._fixed[:, 0]) ** 2 + (y - self._fixed[:, 1]) ** 2
         clear = (apart > (2.0 * self.radius + _GAP) ** 2).all(axis=(-2, -1)) & (fixed > self._clear**2).all(axis=(-2, -1))
         return np.asarray(clear)
 
@@ -275,7 +278,7 @@ class Potting:
         """
         shots = simulate_batch(self.table, balls, self.cues(actions), cushion_model=self.cushion_model, threads=self.threads)
         before = np.broadcast_to(balls, shots.final.shape)
-        played = shots.status >= 0
+        played = (shots.status >= 0) & (shots.final["label"] != Label.OFF).all(axis=-1)
         after = before.copy()
         after["state"] = shots.final
         if not played.all():

@@ -238,7 +238,7 @@ class _OfBatch(Shot):
 
     def __init__(self, batch: Shots, index: Any) -> None:
         self.batch = batch
-        self.index = index
+        self.index: Any = index
 
     if not TYPE_CHECKING:
 
@@ -261,7 +261,7 @@ class _OfBatch(Shot):
         return self._seen(times, np.dtype(np.float64), (3,))
 
     def _seen(self, times: npt.ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...]) -> Array:
-        index = self.index if isinstance(self.index, tuple) else (self.index,)
+        index: tuple[Any, ...] = self.index if isinstance(self.index, tuple) else (self.index,)
         seen, codes = self.batch[(*index, ...)].look_at(times, dtype, numbers, 0)
         if codes[0] < 0:
             raise CaromError(int(self.status) if self.status < 0 and self.time == 0.0 else int(codes[0]))
@@ -482,7 +482,7 @@ class Shots:
         n, count = self.status.size, self.final.shape[-1]
         sizes = {"contact": 2, "contact_time": 2, "cushions_before": 2, "cushions_after": 1, "pocket": count, "pocket_time": count}
         sizes["cushions"] = count
-        made = {name: np.empty((n, size), np.float64 if name.endswith("time") else np.int32) for name, size in sizes.items()}
+        made: dict[str, Any] = {name: np.empty((n, size), np.float64 if name.endswith("time") else np.int32) for name, size in sizes.items()}
         starts = {name: pointer("double[]" if name.endswith("time") else "int32_t[]", array) for name, array in made.items()}
 
         def look(job: Any, codes: Any, begin: int) -> int:

@@ -307,7 +307,10 @@ def _argument_error(arguments: tuple[Any, ...], layout: Array, cue: Array | None
         field = next((f"kind.{name}" for name in motions if not 0 < kind[name] <= 1), None)
     if status is Status.ERROR_RESTITUTION:
         restitutions = ("restitution", "restitution_cushion")
-        field = next((f"kind.{name}" for name in restitutions if not 0 <= kind[name] <= 1), "kind.restitution_table")
+        field = next((f"kind.{name}" for name in restitutions if not 0 <= kind[name] <= 1), None)
+        if field is None:
+            text = "it must be 0 to 0.98, or -1 for none"
+            return CaromError(status, f"balls[{where[0]}].kind.restitution_table", kind["restitution_table"], text=text)
     if status is Status.ERROR_MU_BALL:
         laws = ("law_a", "law_b", "law_c")
         bad = (name for name in laws if not 0 <= kind[name] < np.inf or (name != "law_c" and kind[name] > 1))
