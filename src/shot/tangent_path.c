@@ -19,6 +19,8 @@
  * event at the time T with total tangents dx+ leaves d = dx+ - x' dT. */
 #include "shot/tangent_path.h"
 
+#include "platform/elementary.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -34,7 +36,9 @@ static double speed_at(double v0, double A, double k, double tau) {
   const double x = sqrt(A * k);
   if (x * tau < 1e-9) /* no drag worth the name */
     return fmax(v0 - A * tau, 0.0);
-  const double t = tan(x * tau), ratio = sqrt(k / A);
+  double sine, cosine;
+  carom_sincos(x * tau, &sine, &cosine);
+  const double t = sine / cosine, ratio = sqrt(k / A);
   return fmax((v0 - t / ratio) / (1.0 + v0 * ratio * t), 0.0);
 }
 
