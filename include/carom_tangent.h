@@ -39,8 +39,10 @@ typedef enum carom_tangent_flag {
                                      their order, so the derivative holds to one side at most. */
   CAROM_TANGENT_KINK = 8,         /* the model has no derivative here, or it was not found to 1e-4. */
   CAROM_TANGENT_EULER = 16,       /* the cushion was resolved in steps: the derivative is that of the steps, by differences. */
-  CAROM_TANGENT_DIFFERENCES = 32  /* the derivative of this contact is by central differences of the one contact: of
-                                     CAROM_CUSHION_STRONGE, and of exact models where the motion is planar or a ball jams. */
+  CAROM_TANGENT_DIFFERENCES = 32, /* the derivative of this contact is by central differences of the one contact: of
+                                    CAROM_CUSHION_STRONGE, and of exact models where the motion is planar or a ball jams. */
+  CAROM_TANGENT_DRAG = 64 /* a ball rolled there with drag: the derivative is that of its exact motion, which shots follow in
+                              pieces; differences of shots see the pieces. */
 } carom_tangent_flag;
 
 /* What changes in each of `directions` m, 1 to 64. NULL stands for zeros. Numbers for what a shot does not read are not read:

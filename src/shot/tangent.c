@@ -350,6 +350,9 @@ static carom_status follow(work *w, const carom_event *event) {
   carom_tangent_flow(a, event->time, w->m, w->rate[0], w->d[0]);
   if (two)
     carom_tangent_flow(b, event->time, w->m, w->rate[1], w->d[1]);
+  if ((a->path.from.label == CAROM_BALL_ROLLING && a->kind->drag > 0.0) ||
+      (two && b->path.from.label == CAROM_BALL_ROLLING && b->kind->drag > 0.0))
+    w->note.flags |= CAROM_TANGENT_DRAG;
   /* contacts so close that a small change reverses their order */
   if (event->type <= CAROM_EVENT_JAW) {
     if (event->time - (two ? fmax(a->last_contact, b->last_contact) : a->last_contact) < SIMULTANEOUS)

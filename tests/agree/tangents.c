@@ -447,6 +447,11 @@ START_TEST(edges_are_flagged) {
   cue.phi = 80.0;
   shot = play(table_of_pool(), two, 1, &cue, &stronge, CAROM_OK);
   ck_assert_int_ne(by_aim(two, 1, &cue, &stronge, &shot, reach).all_flags & CAROM_TANGENT_DIFFERENCES, 0);
+  /* a ball that rolls with drag */
+  carom_shot_ball drags[1] = {ball_at(0.4, 0.6)};
+  drags[0].kind.drag = 0.0129;
+  shot = play(table_of_pool(), drags, 1, &cue, &closed, CAROM_OK);
+  ck_assert_int_ne(by_aim(drags, 1, &cue, &closed, &shot, reach).all_flags & CAROM_TANGENT_DRAG, 0);
   /* and Euler's steps that they are steps */
   const carom_shot_options euler = {.cushion_model = CAROM_SHOT_CUSHION_EULER};
   shot = play(table_of_pool(), two, 1, &cue, &euler, CAROM_OK);

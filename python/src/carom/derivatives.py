@@ -41,6 +41,7 @@ class Flag(enum.IntFlag):
     KINK = 8
     EULER = 16
     DIFFERENCES = 32
+    DRAG = 64
 
 
 class Tangents:
