@@ -381,7 +381,7 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
 /* The part that a ball which does not stand on the table is in; CAROM_PART_NONE for one that is outside the ring. */
 static carom_part part_there(const carom_table *table, const carom_features *f, const carom_ball_kind *kind,
                              const double r[3]) {
-  bool behind;
+  bool behind = false;
   for (int k = 0; k < f->pockets; k++)
     if (in_circle(table->pocket[k].centre, table->pocket[k].radius, r))
       return (carom_part){CAROM_PART_POCKET, k};
