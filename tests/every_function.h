@@ -3,7 +3,7 @@
 #ifndef CAROM_TESTS_EVERY_FUNCTION_H
 #define CAROM_TESTS_EVERY_FUNCTION_H
 
-#include "carom_shot.h"
+#include "carom_tangent.h"
 #include "support.h"
 
 #include <stdio.h>
@@ -19,7 +19,8 @@ typedef struct every_input {
   carom_table table;
   carom_shot_ball balls[EVERY_BALLS];
   carom_cue cue[EVERY_SHOTS];
-  int threads; /* of batches */
+  double seeds[26 * CAROM_DIRECTIONS_MOST]; /* of any derivatives: all numbers change in all directions */
+  int threads;                              /* of batches */
 } every_input;
 
 /* Where a caller has its results, so that its stack has only what the library puts there. */
@@ -39,6 +40,10 @@ typedef struct every_room {
   double turned[EVERY_BALLS][4];
   carom_table table;
   carom_shot_ball balls[EVERY_BALLS];
+  double contact[12 * CAROM_DIRECTIONS_MOST], ends[EVERY_SHOTS][EVERY_BALLS * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST],
+      times[EVERY_EVENTS * CAROM_DIRECTIONS_MOST], before[EVERY_EVENTS * 2 * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST],
+      reach[CAROM_DIRECTIONS_MOST];
+  carom_tangent tangent[EVERY_SHOTS];
 } every_room;
 
 /* number: whose input it is; others have other numbers. */
@@ -46,6 +51,8 @@ static inline void every_input_make(every_input *in, int number, int threads) {
   random_source r = {test_seed() + (uint64_t)number};
   memset(in, 0, sizeof *in);
   in->threads = threads;
+  for (int k = 0; k < 26 * CAROM_DIRECTIONS_MOST; k++)
+    in->seeds[k] = random_between(&r, -1.0, 1.0);
   for (int k = 0; k < EVERY_ROWS; k++) {
     in->impact[k] = random_impact(&r);
     for (int c = 0; c < 26; c++)
@@ -411,6 +418,56 @@ EVERY_BODY(shoot_batch) {
   return h;
 }
 
+EVERY_BODY(collide_tangent) {
+  uint64_t h = 1;
+  for (int k = 0; k < EVERY_FEW; k++) {
+    STATUS(carom_collide_tangent(&in->impact[k], NULL, CAROM_DIRECTIONS_MOST, in->seeds, room->contact, NULL));
+    HASH(room->contact);
+  }
+  return h;
+}
+EVERY_BODY(cushion_tangent) {
+  uint64_t h = 1;
+  for (int k = 0; k < EVERY_FEW; k++) {
+    STATUS(carom_cushion_tangent(&in->cushion[k], NULL, CAROM_DIRECTIONS_MOST, in->seeds, room->contact, NULL));
+    h = every_hash(h, room->contact, sizeof room->contact / 2);
+  }
+  return h;
+}
+/* With all that can be asked for. */
+EVERY_BODY(shot_tangent) {
+  uint64_t h = 1;
+  const carom_tangent_seeds seeds = {.directions = CAROM_DIRECTIONS_MOST, .cue = in->seeds};
+  every_break(in, room, 0, 0.0);
+  room->tangent[0] = (carom_tangent){.final = room->ends[0], .time = room->times, .before = room->before, .reach = room->reach};
+  STATUS(carom_shot_tangent(&in->table, in->balls, EVERY_BALLS, &in->cue[0], NULL, &room->shot[0], &seeds, &room->tangent[0]));
+  HASH(room->ends[0]);
+  HASH(room->reach);
+  return h;
+}
+EVERY_BODY(shot_tangent_batch) {
+  uint64_t h = 1;
+  const carom_tangent_seeds seeds = {.directions = 3, .cue = in->seeds};
+  const carom_shot_options options = {.threads = in->threads};
+  every_break(in, room, 0, 0.0);
+  for (int k = 0; k < EVERY_SHOTS; k++) {
+    room->shot[k] = room->shot[0];
+    room->tangent[k] = (carom_tangent){.final = room->ends[k]};
+  }
+  const carom_shot_job job = {.table = &in->table,
+                              .balls = in->balls,
+                              .count = EVERY_BALLS,
+                              .cues = in->cue,
+                              .n = EVERY_SHOTS,
+                              .options = &options,
+                              .shots = room->shot};
+  const carom_tangent_job own = {.played = &job, .seeds = &seeds, .tangents = room->tangent};
+  STATUS(carom_shot_tangent_batch(&own));
+  for (int k = 0; k < EVERY_SHOTS; k++)
+    h = every_hash(h, room->ends[k], sizeof(double) * EVERY_BALLS * CAROM_STATE_NUMBERS * 3);
+  return h;
+}
+
 /* ---- All of them */
 
 static const struct every_function {
@@ -427,12 +484,14 @@ static const struct every_function {
     ROW(collide_batch_f32),
     ROW(collide_detail),
     ROW(collide_f32),
+    ROW(collide_tangent),
     ROW(cue_of),
     ROW(cushion),
     ROW(cushion_batch),
     ROW(cushion_check),
     ROW(cushion_field_name),
     ROW(cushion_model_name),
+    ROW(cushion_tangent),
     ROW(cushion_trace),
     ROW(event_name),
     ROW(field_name),
@@ -457,6 +516,8 @@ static const struct every_function {
     ROW(shot_check),
     ROW(shot_continue),
     ROW(shot_orientation),
+    ROW(shot_tangent),
+    ROW(shot_tangent_batch),
     ROW(slip_name),
     ROW(solver_name),
     ROW(status_name),

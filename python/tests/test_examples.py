@@ -25,6 +25,7 @@ sys.path.insert(0, str(EXAMPLES))
 import best_of_many  # noqa: E402
 import fit_cloth  # noqa: E402
 import learn_potting  # noqa: E402
+import refine_aim  # noqa: E402
 import smoothness  # noqa: E402
 import ten_million  # noqa: E402
 import throw  # noqa: E402
@@ -219,3 +220,14 @@ def test_the_notebook(capsys):
         assert number.sub("#", printed) == number.sub("#", expected)
         np.testing.assert_allclose([*map(float, number.findall(printed))], [*map(float, number.findall(expected))], rtol=0.02)
     assert kinds == {"image/png", "image/svg+xml"}
+
+
+def test_refine_aim(tmp_path, monkeypatch):
+    runs = [refine_aim.refine(start, balls, goal)[1] for balls, _, goal, start in refine_aim.tasks(20, SEED)]
+    # each step helps, and where the reach lets it the search ends at the goal
+    assert all(later < sooner for misses in runs for sooner, later in itertools.pairwise(misses))
+    assert sum(misses[-1] < 1e-3 for misses in runs) >= 3
+    out = tmp_path / "refine_aim.svg"
+    monkeypatch.setattr("sys.argv", ["refine_aim.py", "--draws", "4", "--out", str(out)])
+    refine_aim.main()
+    assert picture(out)

@@ -31,6 +31,8 @@ typedef struct carom_regime {
   double t_x, t_y;         /* and on the cloth */
 } carom_regime;
 
+struct carom_variation;
+
 /* An impact on its way. */
 typedef struct carom_trajectory {
   carom_law law;
@@ -43,14 +45,15 @@ typedef struct carom_trajectory {
   int iterations;          /* of all steps so far; each computes the rates at eight nodes */
   carom_status status;     /* not CAROM_OK if there is no way on */
   /* of advance.c: */
-  int plain;         /* options.plain of the call */
-  double tolerance;  /* of a step, in units of that of step.h */
-  double no_slip;    /* a slip that counts as zero */
-  double longest;    /* length that the next step may have */
-  int refusals;      /* in a row */
-  int sticks_missed; /* steps to stick that diverged */
-  bool careful;      /* steps are planned for safety */
-  double event_at;   /* p where the regime ends, as far as is known */
+  int plain;                         /* options.plain of the call */
+  double tolerance;                  /* of a step, in units of that of step.h */
+  double no_slip;                    /* a slip that counts as zero */
+  double longest;                    /* length that the next step may have */
+  int refusals;                      /* in a row */
+  int sticks_missed;                 /* steps to stick that diverged */
+  bool careful;                      /* steps are planned for safety */
+  double event_at;                   /* p where the regime ends, as far as is known */
+  struct carom_variation *variation; /* derivatives that follow the impact: variation.h. Usually NULL */
 } carom_trajectory;
 
 /* Impulses over the mass of the ball and the speed of approach: normal impulse, friction at the driving contact, friction of
@@ -82,6 +85,9 @@ double carom_impact_work(const carom_trajectory *path);
 /* The regime that begins at path->at, into path->regime and path->terms. event: that of the last regime has ended it. False if
  * no regime is consistent. See contact.c. */
 bool carom_impact_regime(carom_trajectory *path, bool event);
+
+/* The coefficients of a regime. */
+carom_terms carom_impact_terms(const carom_law *law, const carom_regime *regime);
 
 /* Whether friction is about to hold both contacts, so that the ball is jammed. */
 bool carom_impact_jams(const carom_trajectory *path);

@@ -21,8 +21,8 @@ static void enclose(carom_features *f, int k, const double p[2], const double q[
   f->hull[3] = carom_greater(f->hull[3], high_y);
 }
 
-static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
-  const double *p = rail->p, *q = rail->q, e_x = q[0] - p[0], e_y = q[1] - p[1], size2 = e_x * e_x + e_y * e_y;
+void carom_rail_line(const carom_rail *rail, double line[3]) {
+  const double *p = rail->p, *q = rail->q, e_x = q[0] - p[0], e_y = q[1] - p[1];
   double l_x = rail->line[0], l_y = rail->line[1], l_0 = rail->line[2];
   if (l_x == 0.0 && l_y == 0.0) { /* the left of p -> q is positive */
     l_x = -e_y;
@@ -30,9 +30,14 @@ static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
     l_0 = e_y * p[0] - e_x * p[1];
   }
   const double size = sqrt(l_x * l_x + l_y * l_y), turn = (rail->side == 0 ? -1.0 : 1.0) / size;
-  f->line[k][0] = l_x * turn;
-  f->line[k][1] = l_y * turn;
-  f->line[k][2] = l_0 * turn;
+  line[0] = l_x * turn;
+  line[1] = l_y * turn;
+  line[2] = l_0 * turn;
+}
+
+static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
+  const double *p = rail->p, *q = rail->q, e_x = q[0] - p[0], e_y = q[1] - p[1], size2 = e_x * e_x + e_y * e_y;
+  carom_rail_line(rail, f->line[k]);
   f->along[k][0] = e_x / size2;
   f->along[k][1] = e_y / size2;
   f->along[k][2] = -(e_x * p[0] + e_y * p[1]) / size2;

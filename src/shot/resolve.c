@@ -45,8 +45,8 @@ static const double slow_first = 1e-3, slow_most = 0.2; /* m/s */
 static const double slow_instants = 1500.0;
 
 /* s, above. */
-static double slow_speed(const carom_sim *sim) {
-  const double left = 1.0 - (double)sim->slow_instants / slow_instants;
+double carom_slow_speed(int64_t instants) {
+  const double left = 1.0 - (double)instants / slow_instants;
   return left * left * slow_most > slow_first && left > 0.0 ? slow_first / (left * left) : slow_most;
 }
 
@@ -112,7 +112,7 @@ carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state 
   carom_line_of_centres(kind_a, a, kind_b, b, n);
   for (int k = 0; k < 3; k++)
     closing += (a->v[k] - b->v[k]) * n[k];
-  const double slow = slow_speed(sim);
+  const double slow = carom_slow_speed(sim->slow_instants);
   carom_status status = CAROM_OK;
   if (closing >= slow && in_space) {
     carom_model_spheres(sim, i, j, n, a, b);
@@ -151,7 +151,7 @@ carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, 
     n[1] /= size;
   }
   double closing = s->v[0] * n[0] + s->v[1] * n[1] + s->v[2] * n[2];
-  const double slow = slow_speed(sim);
+  const double slow = carom_slow_speed(sim->slow_instants);
   const bool fast = closing >= slow;
   carom_status status = CAROM_OK;
   if (fast) {

@@ -77,7 +77,9 @@ static inline bool carom_in_space(const carom_sim *sim) {
 /* table_pooltool.c */
 extern const carom_table carom_table_pooltool;
 
-/* features.c: what follows from a table for balls of a greatest radius, and from the radius that it is meant for. */
+/* features.c: the unit normal of a rail towards its played side, and its offset: distance = line . (x, y, 1). */
+void carom_rail_line(const carom_rail *rail, double line[3]);
+/* What follows from a table for balls of a greatest radius, and from the radius that it is meant for. */
 void carom_features_of(const carom_table *table, double radius, double reference, carom_features *features);
 
 /* nose.c: the height of a nose for a ball, how far it is inside the wall that stands for it, and the distance from the wall at
@@ -106,6 +108,8 @@ carom_due carom_next(const carom_sim *sim);
  * too. */
 carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
 carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
+/* The speed below which contacts are slow, after so many instants that had one. */
+double carom_slow_speed(int64_t instants);
 carom_status carom_pooltool_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
 carom_status carom_pooltool_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
 

@@ -1,6 +1,6 @@
 /* Prints the binary interface as the compiler sees it: sizes, alignments, offsets of every field, values of every enumerator.
  * The script `abi` compares it with abi.expected. */
-#include "carom_shot.h"
+#include "carom_tangent.h"
 
 #include <stdio.h>
 
@@ -242,9 +242,41 @@ static void print_types(void) {
   TYPE(carom_phase);
 }
 
+static void print_tangent_types(void) {
+  TYPE(carom_tangent_seeds);
+  FIELD(carom_tangent_seeds, directions);
+  FIELD(carom_tangent_seeds, cue);
+  FIELD(carom_tangent_seeds, kind);
+  FIELD(carom_tangent_seeds, state);
+  FIELD(carom_tangent_seeds, table);
+  FIELD(carom_tangent_seeds, reserved);
+  TYPE(carom_tangent);
+  FIELD(carom_tangent, final);
+  FIELD(carom_tangent, time);
+  FIELD(carom_tangent, before);
+  FIELD(carom_tangent, after);
+  FIELD(carom_tangent, at);
+  FIELD(carom_tangent, times);
+  FIELD(carom_tangent, times_count);
+  FIELD(carom_tangent, flags);
+  FIELD(carom_tangent, reach);
+  FIELD(carom_tangent, error);
+  FIELD(carom_tangent, all_flags);
+  FIELD(carom_tangent, reserved);
+  TYPE(carom_tangent_job);
+  FIELD(carom_tangent_job, played);
+  FIELD(carom_tangent_job, seeds);
+  FIELD(carom_tangent_job, seeds_stride);
+  FIELD(carom_tangent_job, tangents);
+  FIELD(carom_tangent_job, status);
+  FIELD(carom_tangent_job, reserved);
+  TYPE(carom_tangent_flag);
+}
+
 int main(void) {
   print_types();
   print_shot_types();
+  print_tangent_types();
 /* enumerators.h is made by the script: a line VALUE(NAME); for every enumerator that is spelt out in the header. */
 #include "enumerators.h"
   return 0;

@@ -11,6 +11,7 @@ from carom._carom import ffi as _ffi
 from carom._carom import lib as _lib
 from carom.collisions import ALL_THREADS, Outcome, alciatore, collide, impacts, mu_ball, trace
 from carom.cushions import cushion, cushion_impacts, cushion_trace
+from carom.derivatives import Flag, Tangents, jacobian, tangents
 from carom.layouts import Table, balls, cue, place_ball, struck
 from carom.results import EventType, Features, Label, Shot, Shots
 from carom.shots import resume, simulate, simulate_batch
@@ -23,12 +24,14 @@ __all__ = [
     "CaromError",
     "EventType",
     "Features",
+    "Flag",
     "Label",
     "Outcome",
     "Shot",
     "Shots",
     "Status",
     "Table",
+    "Tangents",
     "alciatore",
     "balls",
     "collide",
@@ -39,6 +42,7 @@ __all__ = [
     "dtypes",
     "impacts",
     "isa_in_force",
+    "jacobian",
     "mu_ball",
     "physics_revision",
     "place_ball",
@@ -48,6 +52,7 @@ __all__ = [
     "simulate_batch",
     "struck",
     "tables",
+    "tangents",
     "trace",
 ]
 

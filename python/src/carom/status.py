@@ -69,6 +69,8 @@ class Status(enum.IntEnum):
     ERROR_TABLE_OPEN = -61
     ERROR_RAIL_SIDE = -62
     ERROR_RAIL_LINE = -63
+    ERROR_TANGENT = -70
+    ERROR_DIRECTIONS = -71
 
     @property
     def text(self) -> str:
