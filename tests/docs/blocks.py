@@ -6,7 +6,7 @@
     console       commands and what they print: run and compared by shown.py
     sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the test python/package, cmake by every
                   build, the scripts of python/examples by the test of that name; a cluster of many machines by who has one
-    c, c shot     README's: built by readme.py
+    c             README's: built by readme.py
     c game        docs/using/games.md's: one program, whose main() they are, compiled and run by pages.py
     cmake fetch, cmake package    docs/using/building.md's: built by readme.py
     cmake windows    docs/using/building.md's: built and run by the test platforms/windows
@@ -17,7 +17,7 @@
 import re
 from pathlib import Path
 
-KINDS = {"sh", "sh install", "sh started", "console", "sh elsewhere", "c", "c shot", "c game", "cmake fetch", "cmake package", "cmake windows", "js", "python"}
+KINDS = {"sh", "sh install", "sh started", "console", "sh elsewhere", "c", "c game", "cmake fetch", "cmake package", "cmake windows", "js", "python"}
 KINDS |= {f"python {need}" for need in ("pooltool", "numba", "gymnasium", "pettingzoo", "scale", "elsewhere")}
 
 # Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.
