@@ -6,9 +6,6 @@
  *               straight line along the relative velocity would pass the centre, r the sum of the radii
  *     hit       a miss becomes a hit: the least distance of the surfaces on the way over its derivative n . (d_b - d_a), also
  *               where a ball comes to rest short of something
- *
- * The reach that was found by trial is 1.4 times this one in the median and 0.13 times at 5 %
- * (docs/understanding/gradients.md).
  */
 #include "shot/reach.h"
 #include "shot/sim.h"
