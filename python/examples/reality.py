@@ -10,16 +10,22 @@ strike, six numbers, is fitted. Markdown on standard output; the pictures are SV
 import argparse
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 import carom.fit
 import carom.tracks
 from carom import _from_events, _summary
 
+Doubles = npt.NDArray[np.float64]
+Recordings = list[carom.tracks.Recording]
 
-def law(values, by, edges):
+
+def law(values: Doubles, by: Doubles, edges: Sequence[float]) -> list[str]:
     """Medians of values over ranges of another number, with their errors and how many."""
     rows = []
     for low, high in zip(edges[:-1], edges[1:]):
@@ -31,16 +37,17 @@ def law(values, by, edges):
     return rows
 
 
-def patch(a, mu, e, v_t, v_n):
+def patch(a: float, mu: float, e: float, v_t: Doubles, v_n: Doubles) -> Doubles:
     """What a round patch of contact of the greatest radius a R takes from the roll along a cushion: docs/understanding/reality.md."""
     # while it sticks its shear turns the spin about the normal by (5/3) (a/R)^2 of the square of the rate of the normal impact
     sticks = (1.0 - np.cos(np.pi * a * np.sqrt(5.0 / 3.0 * 2.0 / np.pi))) * v_t
     # friction, with the pressure of Hertz, bears no more than this; a^2 and the force rise and fall like a half wave of the sine
     bears = 2.5 * 3.0 * np.pi / 16.0 * 0.874 * mu * a * (1.0 + e) * v_n
-    return np.minimum(sticks, bears)
+    least: Doubles = np.minimum(sticks, bears)
+    return least
 
 
-def explanations(lost, impacts, mu, e):
+def explanations(lost: Doubles, impacts: Any, mu: float, e: float) -> None:
     """How well laws of the loss of roll along a cushion agree with it: each with its best numbers."""
     v_t, v_n = np.abs(impacts["v_t"]), impacts["v_n"]
     seen, v = np.sign(impacts["v_t"]) * lost, np.hypot(impacts["v_t"], impacts["v_n"])
@@ -48,7 +55,7 @@ def explanations(lost, impacts, mu, e):
     seen, v, v_t, v_n = seen[part], v[part], v_t[part], v_n[part]
     error = np.hypot(impacts["u_error"][part], 0.03 * v)
     grid = np.linspace(0.0, 0.3, 61)
-    laws = {
+    laws: dict[str, list[tuple[tuple[float, ...], Doubles]]] = {
         "none": [((), 0.0 * v_t)],
         "c v_t": [((c,), c * v_t) for c in grid],
         "d v_n": [((d,), d * v_n) for d in grid],
@@ -63,7 +70,7 @@ def explanations(lost, impacts, mu, e):
         print(f"| {name} | {', '.join(f'{x:.3f}' for x in numbers)} | {chi2:.0f} | {100 * np.median(np.abs(seen - given) / v):.1f} |")
 
 
-def single_events(recordings, table, radius):
+def single_events(recordings: Recordings, table: tuple[float, float], radius: float) -> None:
     seen = carom.tracks.events(recordings, table, radius)
     (a, a_error), (b, b_error) = seen.roll
     print("| law | measured |\n|---|---|")
@@ -94,9 +101,9 @@ def single_events(recordings, table, radius):
         explanations(loss * good["v_t"], good, values["mu_cushion"], values["restitution_cushion"])
 
 
-def held_out(recordings, table, radius, models, seed):
+def held_out(recordings: Recordings, table: tuple[float, float], radius: float, models: Sequence[Any], seed: int) -> carom.fit.Fit:
     print("\n| cushion | constants | RMSE, median, cm | 9 in 10 below, cm | mean, cm | processor time, ms a shot |\n|---|---|--:|--:|--:|--:|")
-    best = None
+    best: tuple[float, carom.fit.Fit] | None = None
     for model in models:
         for free in ("events", "default"):
             rmse, spent = [], 0.0
@@ -117,10 +124,11 @@ def held_out(recordings, table, radius, models, seed):
             middle = float(np.median(np.concatenate(rmse)))
             if best is None or middle < best[0]:
                 best = middle, found
+    assert best is not None
     return best[1]
 
 
-def main(arguments=None):
+def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("tracks", type=Path)
     parser.add_argument("--table", type=carom.fit._extents, required=True, metavar="W,L")

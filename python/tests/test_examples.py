@@ -106,7 +106,7 @@ def test_best_of_many(tmp_path):
     i, j, k = best_of_many.widest(best_of_many.margins(outcomes == best_of_many.POTTED, grid))
     best = (float(grid.aim[i]), float(grid.speed[j]), float(grid.height[k]))
     # Alone, event by event: ball 1 into that pocket, and no other ball into any.
-    shot = carom.simulate(best_of_many.table, best_of_many.layout, best_of_many.cue(*best))
+    shot = carom.simulate(best_of_many.table, best_of_many.layout, best_of_many.cue(*best), cushion_model=best_of_many.CUSHION)
     potted = shot.events[shot.events["type"] == carom.EventType.POCKET]
     assert [(event["a"], event["b"]) for event in potted] == [(1, best_of_many.POCKET)]
     # The neighbours are within the margin; and a player pots it more often than by geometry, and than others that went in.
@@ -195,6 +195,7 @@ def test_the_notebook(capsys):
     from matplotlib import pyplot
 
     pyplot.switch_backend("agg")
+    pyplot.close("all")
     book = json.loads((EXAMPLES / "first_look.ipynb").read_text(encoding="utf-8"))
     cells = [cell for cell in book["cells"] if cell["cell_type"] == "code"]
     assert [cell["execution_count"] for cell in cells] == list(range(1, len(cells) + 1)) and len(cells) >= 8

@@ -76,7 +76,7 @@ static void search(carom_reach *reach, const carom_tangent_ball *ball, const car
     return;
   double before = opens_at(s, 0.0);
   for (int k = 1; k <= PARTS_OF_WAY; k++) {
-    double low = T * (k - 1) / PARTS_OF_WAY, high = T * k / PARTS_OF_WAY;
+    double low = T * (k - 1) / (double)PARTS_OF_WAY, high = T * k / (double)PARTS_OF_WAY;
     const double now = opens_at(s, high);
     const bool least = before < 0.0 && now >= 0.0, end = stops && k == PARTS_OF_WAY && before < 0.0 && !least;
     before = now;

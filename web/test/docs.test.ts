@@ -12,7 +12,7 @@ test.each(["README.md", "docs/using/web.md", "web/README.md"])("JavaScript of %s
   const printed: string[] = [];
   const spy = vi.spyOn(console, "log").mockImplementation((...all: unknown[]) => void printed.push(all.join(" ")));
   const session = text.replaceAll('from "carom"', `from ${JSON.stringify(`file://${root}web/dist/index.js`)}`);
-  await import(/* @vite-ignore */ `data:text/javascript,${encodeURIComponent(session)}`);
+  await import(/* @vite-ignore */ `data:text/javascript,${encodeURIComponent(`${session}// ${page}`)}`);
   spy.mockRestore();
   expect(printed).toEqual(expected);
 });
