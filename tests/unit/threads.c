@@ -139,16 +139,16 @@ END_TEST
 
 /* ---- Every public function at once */
 
-/* gcc and clang tell otherwise that the thread sanitizer is in; it lets no threads start in a child of a process with threads.
- */
-#if defined(__SANITIZE_THREAD__)
-#define THREAD_SANITIZER 1
+/* gcc and clang tell otherwise that a sanitizer is in. That of threads lets none start in a child of a process with threads;
+ * that of addresses may wait there for ever for a lock that another thread held at the fork. */
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#define SANITIZER 1
 #elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define THREAD_SANITIZER 1
+#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
+#define SANITIZER 1
 #endif
 #endif
-#ifdef THREAD_SANITIZER
+#ifdef SANITIZER
 enum { CHILD_THREADS = 0 };
 #else
 enum { CHILD_THREADS = 3 };
