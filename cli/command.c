@@ -16,8 +16,8 @@ static void print_help(FILE *to, const program *p) {
   fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n\ncommands:\n", p->name, p->about);
   for (size_t k = 0; k < p->count; k++)
     fprintf(to, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
-  fprintf(to, "\n`%s COMMAND --help` tells the arguments of each,\n`%s --version` the version.\n\nexample:\n  %s\n", p->name,
-          p->name, p->example);
+  fprintf(to, "\n`%s COMMAND --help` lists its arguments,\n`%s --version` the version.\n\nexample:\n  %s\n", p->name, p->name,
+          p->example);
 }
 
 /* What could not be written was not said, so the run was not good. */
@@ -70,6 +70,11 @@ int program_run(const program *p, int argc, char **argv) {
   }
   if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
     print_help(stdout, p);
+    return finish(EXIT_GOOD);
+  }
+  if (strcmp(name, "--complete") == 0) { /* for the shells: completion.* */
+    for (size_t k = 0; k < p->count; k++)
+      puts(p->commands[k].name);
     return finish(EXIT_GOOD);
   }
   if (strcmp(name, "--version") == 0) {

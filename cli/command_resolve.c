@@ -15,7 +15,7 @@ static const command_form form = {
     "\n" RESULTS_HELP "\n"
     "with --derived also, nan unless the status is ok:\n"
     "  throw_deg            angle of ball 2's change of velocity from the line of centres, degrees, to the left from above\n"
-    "  deflection_deg       angle by which ball 1 is turned at once, and deflection_rolling_deg once it rolls\n"
+    "  deflection_deg       angle between the paths of ball 1 before and just after, and deflection_rolling_deg once it rolls\n"
     "  roll1x roll1y        velocity of ball 1 once it rolls, m/s, and roll2x roll2y of ball 2\n"
     "  spin_transfer        ball 2's change of w2z over ball 1's w1z before; nan where that is 0\n"
     "  energy_lost          share of the kinetic energy that is lost, that of spins included\n"

@@ -1,24 +1,29 @@
-/* `carom shoot`: whole shots from a file, from the strike to rest. */
+/* `carom shoot`: whole shots from a file or from words, from the strike to rest. */
+#include "animate.h"
 #include "command.h"
 #include "memory.h"
 #include "message.h"
 #include "options.h"
 #include "output.h"
+#include "picture.h"
+#include "shoot_flags.h"
 #include "shot_file.h"
-#include "shot_picture.h"
+#include "shot_words.h"
 #include "subcommands.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 }; /* lines in error that are named */
 
 typedef struct shoot_job {
-  shared_options shared; /* --threads, --steps, --output */
-  int world, ball_model, cushion, events;
+  shoot_flags from; /* --threads, --steps, --output; and a shot from words */
+  int world, ball_model, cushion, space, events;
   int events_most;
   double time_most;
-  const char *plot, *id;
+  const char *plot, *animation, *id;
+  bool words; /* the shots came from words, and are told so */
 } shoot_job;
 
 /* What is read at once, and its results. */
@@ -37,29 +42,37 @@ typedef struct block {
 } block;
 
 OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
-       "whose rules of contact and models (default carom)");
-OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "MODEL", set_ball_model, 0,
-       "the collision of two balls: exact, euler, inelastic or mirror (default: exact; by pooltool's models inelastic)");
-OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "MODEL", set_cushion_model, 0,
-       "the impact on a cushion: mathavan (the exact limit), stronge, han, mirror or euler (default: mathavan; by pooltool's "
-       "models stronge)");
+       "the rules of contact and the default models (default carom)");
+OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "exact|euler|inelastic|mirror", set_ball_model, 0,
+       "model of the collision of two balls (default: exact; with --models pooltool "
+       "inelastic)");
+OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "mathavan|stronge|han|mirror|euler", set_cushion_model, 0,
+       "model of the impact on a cushion; mathavan is the exact limit (default: han; with "
+       "--models pooltool stronge)");
+OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
+       "whether balls can leave the cloth (default: 3d; by pooltool's rules always flat)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
-       "what is told of events: nothing, time, type and ids, or states too (default full)");
+       "what to write of events: nothing; time, type and ids; or the states before and after too (default full)");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
-       "a shot is stopped after so many events (default 10000)");
+       "largest number of events of a shot (default 10000)");
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
-       "a shot is stopped after so much time of its clock (default 1000)");
-OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT.svg", set_svg, 0,
-       "draw the table and the balls' paths, of the first shot without an error");
+       "largest time of a shot, on its own clock (default 1000)");
+OPTION(
+    shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
+    "draw the table and the paths of the balls in the first shot without an error, or in all that options describe; from the "
+    "side too where a ball flies");
+OPTION(shoot_job, option_animate, "animate", animation, 0, "OUT.html", set_animation, 0,
+       "write a page that plays what --plot draws; it is one file and needs nothing else");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
 
 static carom_shot_options options_of(const shoot_job *job) {
   return (carom_shot_options){.world = (carom_world)job->world,
                               .ball_model = (carom_ball_model)job->ball_model,
                               .cushion_model = (carom_shot_cushion)job->cushion,
-                              .steps = job->shared.options.steps,
+                              .space = (carom_space)job->space,
+                              .steps = job->from.shared.options.steps,
                               .events_most = job->events_most,
-                              .threads = job->shared.options.threads,
+                              .threads = job->from.shared.options.threads,
                               .time_most = job->time_most};
 }
 
@@ -116,7 +129,19 @@ static bool argument_error(const shot_line *line, const carom_shot_options *opti
     snprintf(text, 300, "table '%s': %s", line->table->id, carom_status_string(bad));
   else if (bad == CAROM_ERROR_CUE || bad == CAROM_ERROR_MISCUE)
     snprintf(text, 300, "cue: %s", carom_status_string(bad));
-  else if (where >= 0)
+  else if (bad == CAROM_ERROR_RESTITUTION)
+    snprintf(text, 300, "balls[%d] ('%s'): e_b and e_c must be in [0, 1], and e_t at most 0.98 and not below 0, or -1 for none",
+             where, line->name[where]);
+  else if (bad == CAROM_ERROR_OFF_TABLE && where >= 0) {
+    const carom_shot_ball *ball = &line->ball[where];
+    const double *r = ball->state.r, R = ball->kind.radius;
+    const int size = snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where], carom_status_string(bad));
+    if (fabs(r[2] - R) > 1e-6)
+      snprintf(text + size, (size_t)(300 - size), ": its centre must lie at z = R = %.6g m, not at z = %.6g", R, r[2]);
+    else
+      snprintf(text + size, (size_t)(300 - size), ": x = %.6g, y = %.6g m is in a cushion or a pocket, or outside%s", r[0],
+               r[1], fmax(r[0], r[1]) > 10.0 ? "; are places in m?" : "");
+  } else if (where >= 0)
     snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where], carom_status_string(bad));
   else
     snprintf(text, 300, "%s", carom_status_string(bad));
@@ -134,26 +159,45 @@ typedef struct drawing {
   size_t size;
 } drawing;
 
-static void draw(drawing *picture, const shot_line *line, const carom_shot *shot) {
-  FILE *out = open_memstream(&picture->text, &picture->size);
-  if (out == NULL)
-    out_of_memory();
-  shot_draw(out, line, shot, NULL);
-  if (fclose(out) != 0)
-    out_of_memory();
+enum { PICTURE, ANIMATION, DRAWINGS };
+
+static void draw(const shoot_job *job, drawing to[DRAWINGS], const played *shots, int count, const char *footer) {
+  for (int k = 0; k < DRAWINGS; k++) {
+    if (to[k].text != NULL || (k == PICTURE ? job->plot : job->animation) == NULL)
+      continue;
+    FILE *out = open_text(&to[k].text, &to[k].size);
+    (k == PICTURE ? shots_draw : shots_animate)(out, shots, count, footer);
+    if (fclose(out) != 0)
+      out_of_memory();
+  }
 }
 
-/* False after a complaint. */
-static bool put_picture(const char *path, const drawing *picture) {
-  FILE *out = output_open(path);
-  if (out == NULL)
-    return false;
+/* Tells the shots of a block in words, and draws them over each other. */
+static void tell_block(const shoot_job *job, FILE *out, drawing to[DRAWINGS], const played *shots, int count) {
+  char *words;
+  size_t size;
+  FILE *said = open_text(&words, &size);
+  for (int k = 0; k < count; k++) {
+    if (count > 1)
+      fprintf(said, "%d: ", k + 1);
+    shot_tell(said, shots[k].line, shots[k].shot);
+  }
+  fclose(said);
+  fputs(words, out);
+  if (count > 0)
+    draw(job, to, shots, count, words);
+  free(words);
+}
+
+static void write_drawing(FILE *out, const void *data) {
+  const drawing *picture = data;
   fwrite(picture->text, 1, picture->size, out);
-  return output_commit();
 }
 
 /* Plays what has been read and writes it; returns whether all was good. */
 static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *picture) {
+  played good_ones[BLOCK];
+  int goods = 0;
   const carom_shot_options options = options_of(job);
   for (int from = 0, end; from < b->count; from = end) {
     end = from + 1;
@@ -170,23 +214,34 @@ static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *pic
     if (line->error != NULL) {
       if (is_named(b))
         complain("%s:%zu: %s", b->file, line->number, line->error);
-      shot_write_error(out, line, "bad_line", line->error);
+      if (!job->words)
+        shot_write_error(out, line, "bad_line", line->error);
       good = false;
     } else if (b->status[k] < 0 && argument_error(line, &options, text)) {
       if (is_named(b))
         complain("%s:%zu: %s", b->file, line->number, text);
-      shot_write_error(out, line, carom_status_name(b->status[k]), text);
+      if (!job->words)
+        shot_write_error(out, line, carom_status_name(b->status[k]), text);
       good = false;
     } else {
       if (b->status[k] < 0 && is_named(b))
         complain("%s:%zu: after %g s: %s", b->file, line->number, b->shot[k].time, carom_status_string(b->status[k]));
       good &= b->status[k] >= 0;
-      shot_write(out, line, &b->shot[k], b->status[k], job->events);
-      if (job->plot != NULL && picture->text == NULL && shot_has_id(line, job->id))
-        draw(picture, line, &b->shot[k]);
+      good_ones[goods] = (played){line, &b->shot[k]};
+      if (!job->words)
+        shot_write(out, line, &b->shot[k], b->status[k], job->events);
+      if (!job->words && shot_has_id(line, job->id))
+        draw(job, picture, &good_ones[goods], 1, "");
+      goods++;
     }
   }
+  if (job->words)
+    tell_block(job, out, picture, good_ones, goods);
   return good;
+}
+
+static bool draws(const shoot_job *job) {
+  return job->plot != NULL || job->animation != NULL;
 }
 
 static void begin_shot(block *b, bool events) {
@@ -222,7 +277,7 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
       fputs(text, out);
       continue;
     }
-    begin_shot(b, job->events != EVENTS_NONE || job->plot != NULL);
+    begin_shot(b, job->events != EVENTS_NONE || job->words || draws(job));
     if (++b->count == BLOCK) {
       good &= finish_block(b, job, out, picture);
       clear_block(b);
@@ -235,7 +290,7 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
     complain("%s: %lld more lines in error", b->file, b->unnamed);
   free(b);
   progress_clear();
-  if (job->plot != NULL && picture->text == NULL) {
+  if (draws(job) && picture[PICTURE].text == NULL && picture[ANIMATION].text == NULL) {
     complain("nothing to draw: there is no shot without an error%s%s", job->id != NULL ? " " : "",
              job->id != NULL ? job->id : "");
     good = false;
@@ -245,44 +300,74 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
 
 static const command_form form = {
     .name = "shoot",
-    .usage = "[OPTIONS] IN.jsonl",
+    .usage = "[OPTIONS] IN.jsonl | --cue X,Y --aim DEGREES [OPTIONS]",
     .about = "Plays whole shots, from the strike of the cue until nothing moves. Reads tables and shots as JSON Lines "
              "(docs/using/shots.md has the "
              "format; recorded results in them are ignored) and writes each table and each shot with its events and final "
-             "states. IN may be -.\n",
-    .options = (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion_model, &option_events,
-                                           &option_steps, &option_events_most, &option_time_most, &option_threads, &option_plot,
-                                           &option_shot_id, &option_output, NULL},
-    .details =
-        "exit code: 0 if all shots came to rest, 1 if some are in error (they have a status and an error; the others are "
-        "played), 2 for bad usage or unreadable input\n",
-    .example = "carom shoot --plot break.svg -o played.jsonl shots.jsonl",
-    .files = ONE_FILE,
+             "states. IN may be -. Or plays a shot that options describe, and tells it in words; several values with commas "
+             "give several shots, drawn over each other.\n",
+    .options = (const option_row *const[]){&option_table,         &option_cue,       &option_balls,      &option_aim,
+                                           &option_at_ball,       &option_shot_cut,  &option_shot_speed, &option_tip,
+                                           &option_elevation,     &option_json,      &option_models,     &option_ball_ball,
+                                           &option_cushion_model, &option_space,     &option_events,     &option_steps,
+                                           &option_events_most,   &option_time_most, &option_threads,    &option_plot,
+                                           &option_animate,       &option_shot_id,   &option_output,     NULL},
+    .details = "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and the error; the others "
+               "are played); 2 for bad usage or unreadable input\n",
+    .example = "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3 --plot shot.svg",
+    .files = FILE_OR_NONE,
 };
 
+/* The shots that options describe, written as lines; NULL after a complaint. *text is to be freed when they have been read. */
+static shot_file *shots_of(shoot_flags *from, char **text) {
+  size_t size;
+  FILE *lines = open_text(text, &size);
+  const bool good = flags_write(lines, from);
+  if (fclose(lines) != 0)
+    out_of_memory();
+  return good ? shot_file_of(fmemopen(*text, size, "r"), "the shot given") : NULL;
+}
+
 int command_shoot(int argc, char **argv) {
-  shoot_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .events = EVENTS_FULL};
+  static shoot_job job;
   const char *path;
+  char *lines = NULL;
+  job = (shoot_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}}, .events = EVENTS_FULL};
   int code = parse_arguments(&form, argc, argv, &job, &path);
   if (code >= 0)
     return code;
+  job.words = has_flags(&job.from);
+  if (job.words == (path != NULL)) {
+    complain(job.words ? "a file has its own shots: give it, or the shot by --cue, --aim and the like"
+                       : "shoot needs the name of a file, or a shot by options: --cue 0.6,0.8 --aim 35 --speed 2");
+    return usage_hint(&form);
+  }
   if (job.time_most < 0.0) {
     complain("--time-most is a number of seconds above 0");
     return EXIT_USAGE;
   }
-  shot_file *file = shot_file_open(path);
-  if (file == NULL)
+  if (!output_possible(job.plot) || !output_possible(job.animation))
     return EXIT_USAGE;
-  FILE *out = output_open(job.shared.output);
-  drawing picture = {0};
-  code = out != NULL ? shoot_all(&job, file, out, &picture) : EXIT_USAGE;
-  shot_file_close(file);
+  shot_file *file = job.words ? shots_of(&job.from, &lines) : shot_file_open(path);
+  FILE *out = file != NULL ? output_open(job.from.shared.output) : NULL;
+  drawing picture[DRAWINGS] = {0};
+  code = EXIT_USAGE;
+  if (out != NULL && job.from.json) {
+    fputs(lines, out);
+    code = EXIT_GOOD;
+  } else if (out != NULL)
+    code = shoot_all(&job, file, out, picture);
+  if (file != NULL)
+    shot_file_close(file);
   if (out != NULL && code == EXIT_USAGE)
     output_abandon();
   else if (out != NULL && !output_commit())
     code = EXIT_USAGE;
-  else if (picture.text != NULL && !put_picture(job.plot, &picture))
+  else if ((picture[PICTURE].text != NULL && !svg_draw(job.plot, write_drawing, &picture[PICTURE])) ||
+           (picture[ANIMATION].text != NULL && !file_draw(job.animation, write_drawing, &picture[ANIMATION])))
     code = EXIT_SOME;
-  free(picture.text);
+  free(picture[PICTURE].text);
+  free(picture[ANIMATION].text);
+  free(lines);
   return code;
 }

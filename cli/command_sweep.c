@@ -25,7 +25,7 @@ typedef struct sweep {
   const char *over;
   double from, to;
   int points;
-  bool brief;
+  bool brief, only_rows;
   const char *picture;
 } sweep;
 
@@ -56,20 +56,28 @@ static void vary(const sweep *s, double *row, double value) {
       row[k] = value;
   if (strcmp(s->over, kind->turning) == 0)
     turn(row + kind->direction[1], kind->direction[0] >= 0 ? row + kind->direction[0] : (const double[2]){0.0}, value);
-  /* All velocities, and the spins behind them. */
+  /* All velocities, and the spins behind them, as those of the first ball. */
+  const double *v = row + kind->motion[0], share = value / hypot(v[0], v[1]);
   for (int ball = 0; ball < 2 && strcmp(s->over, "speed") == 0 && kind->motion[ball] >= 0; ball++)
     for (int k = 0; k < 6; k++)
-      row[kind->motion[ball] + k] *= value;
+      row[kind->motion[ball] + k] *= share;
   if (kind->prepare != NULL)
     kind->prepare(&s->asked, row);
 }
 
+/* Makes the row of a point; returns the value that is varied. */
+static double make_row(const curve *c, int point, double row[MOST_NUMBERS]) {
+  const sweep *s = c->s;
+  const double value = s->from + (s->to - s->from) * ((double)point / (s->points - 1));
+  memcpy(row, s->rows[c->row], MOST_NUMBERS * sizeof *row);
+  vary(s, row, value);
+  return value;
+}
+
 static outcome resolve(const curve *c, int point) {
   const sweep *s = c->s;
-  outcome o = {.value = s->from + (s->to - s->from) * ((double)point / (s->points - 1))};
   double row[MOST_NUMBERS];
-  memcpy(row, s->rows[c->row], sizeof row);
-  vary(s, row, o.value);
+  outcome o = {.value = make_row(c, point, row)};
   o.status = s->kind->look(&s->asked, c->variant, row, o.result, o.lead, &o.tail);
   for (int k = 0; k < s->kind->results; k++) {
     o.speed[k] = o.result[k] * (k / 3 % 2 == 1 ? row[s->kind->radius] : 1.0);
@@ -127,6 +135,30 @@ static int print_curve(FILE *out, const curve *c, double done, double total) {
   return errors;
 }
 
+/* The rows themselves, as `carom resolve` reads them; the id of each with the value. */
+static void print_rows(FILE *out, const sweep *s) {
+  write_row_header(out, s->kind);
+  for (int k = 0; k < s->id_count * s->points; k++) {
+    double row[MOST_NUMBERS];
+    char id[256], number[NUMBER_TEXT];
+    const double value = make_row(&(curve){s, k / s->points, 0}, k % s->points, row);
+    snprintf(id, sizeof id, "%.200s:%s", s->id[k / s->points], number_text(value, number));
+    write_row(out, s->kind, id, row);
+  }
+}
+
+/* What is swept, on an axis. */
+static const char *axis_of(const sweep *s) {
+  static const char *const axes[][2] = {{"cut", "line of centres turned by (degrees)"},
+                                        {"angle", "cushion turned by (degrees)"},
+                                        {"speed", "speed (m/s)"},
+                                        {"w1z", "side spin of ball 1 (rad/s)"}};
+  for (size_t k = 0; k < sizeof axes / sizeof axes[0]; k++)
+    if (strcmp(s->over, axes[k][0]) == 0)
+      return axes[k][1];
+  return s->over;
+}
+
 /* Returns how many values made an error. */
 static int print_sweep(FILE *out, sweep *s) {
   const int variants = variants_of(&s->asked);
@@ -135,8 +167,11 @@ static int print_sweep(FILE *out, sweep *s) {
   double done = 0.0;
   /* The notes are of the first row. */
   s->asked.id = s->id[0];
-  s->kind->describe(out, &s->asked, s->rows[0]);
-  fprintf(out, "# over: %s\n%s,value,%sjump,%s%sstatus,%s,id\n", s->over, s->kind->which, s->kind->lead_columns,
+  if (!s->asked.bare) {
+    s->kind->describe(out, &s->asked, s->rows[0]);
+    fprintf(out, "# over: %s\n", s->over);
+  }
+  fprintf(out, "%s,value,%sjump,%s%sstatus,%s,id\n", s->kind->which, s->kind->lead_columns,
           s->brief ? "" : s->kind->result_columns, s->brief ? "" : ",", s->kind->tail_columns);
   for (int row = 0; row < s->id_count; row++)
     for (int variant = 0; variant < variants; variant++, done += s->points)
@@ -144,12 +179,21 @@ static int print_sweep(FILE *out, sweep *s) {
   return errors;
 }
 
-/* For the picture: of these points an SVG can show all. */
+/* The data of figures/curves.gp: of these points an SVG can show all. */
 static void print_plotted(FILE *out, const void *data) {
   sweep s = *(const sweep *)data;
+  const int variants = variants_of(&s.asked);
   s.points = s.points < PLOTTED ? s.points : PLOTTED;
-  s.brief = true;
-  print_sweep(out, &s);
+  fprintf(out, "# x: %s\n# y: %s\n", axis_of(&s), s.kind->axis);
+  for (int k = 0; k < s.id_count * variants; k++)
+    fprintf(out, "# curve %d: %s%s%s\n", k + 1, s.id[k / variants], variants > 1 ? ", " : "",
+            variants > 1 ? s.kind->name(&s.asked, k % variants) : "");
+  fputs("curve,x,y\n", out);
+  for (int k = 0; k < s.id_count * variants; k++)
+    for (int point = 0; point < s.points; point++) {
+      const outcome o = resolve(&(curve){&s, k / variants, k % variants}, point);
+      fprintf(out, "%d,%.9g,%.9g\n", k + 1, o.value, s.kind->lead > 0 ? o.lead[0] : o.tail);
+    }
 }
 
 /* Cuts the ids apart; false after a complaint. */
@@ -171,6 +215,11 @@ static bool can_vary(const sweep *s) {
     complain("--over is one of %s, not '%s'", s->kind->inputs, s->over);
     return false;
   }
+  for (int k = 0; k < s->id_count; k++)
+    if (strcmp(s->over, "speed") == 0 && hypot(s->rows[k][s->kind->motion[0]], s->rows[k][s->kind->motion[0] + 1]) == 0.0) {
+      complain("--over speed needs a ball that moves: in row '%s' the first one is at rest", s->id[k]);
+      return false;
+    }
   if (s->asked.friction.given && strcmp(s->over, "u_b") == 0) {
     complain("--over u_b has no effect with --friction, which says what u_b is");
     return false;
@@ -186,47 +235,57 @@ static void warn_of_constant(const sweep *s) {
              "value");
 }
 
-OPTION(sweep, option_over, "over", over, 0, "INPUT", set_text, 0,
-       "what to vary: a column, such as w1z, u_b or e_b; cut, to turn the line of centres by so many degrees, with --cushion "
-       "angle, to turn the cushion; or speed, to multiply all velocities and spins");
-OPTION(sweep, option_from, "from", from, 0, "A", set_number, 0, "its first value");
-OPTION(sweep, option_to, "to", to, 0, "B", set_number, 0, "its last value");
-OPTION(sweep, option_points, "points", points, 0, "N", set_count, 2, "how many, 2 or more (default 10001)");
+OPTION(sweep, option_over, "over", over, 0, "cut|angle|speed|INPUT", set_text, 0,
+       "what to vary: a column, such as w1z, u_b or e_b; cut: turns the line of centres by so many degrees; angle: turns the "
+       "cushion; speed: that of the first ball, m/s, and all other velocities and spins in proportion");
+OPTION(sweep, option_from, "from", from, 0, "A", set_number, 0, "first value of INPUT");
+OPTION(sweep, option_to, "to", to, 0, "B", set_number, 0, "last value of INPUT");
+OPTION(sweep, option_points, "points", points, 0, "N", set_count, 2, "number of values, 2 or more (default 10001)");
 OPTION(sweep, option_ids, "id", ids, 0, "X", set_text, 0,
-       "which row: its column id, or its number if there is no such column; several with commas are swept one after the other");
+       "the row with this id; its number, from 1, if there is no column id. Several ids, separated by commas, are swept one "
+       "after the other");
 OPTION(sweep, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-       "draw the throw, with --cushion the angle of rebound, with gnuplot, a curve for each row and solver: OUT.svg or "
-       "OUT.png; the CSV is then written only with -o");
-OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0, "without the columns v1x to w2z, or vx to wz");
+       "draw the throw, with --cushion the rebound angle, by gnuplot, a curve for each row and solver: OUT.svg, OUT.png or "
+       "OUT.pdf. The "
+       "CSV is then written only with -o");
+OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0, "leave out the columns v1x to w2z, or vx to wz");
+
+OPTION(sweep, option_rows, "rows", only_rows, 0, NULL, set_flag, 0,
+       "write the rows for `carom resolve`, instead of their results");
 
 static const command_form form = {
     .name = "sweep",
     .usage = "--id X --over INPUT --from A --to B [OPTIONS] [FILE]",
     .about =
-        "Resolves one collision many times, with --cushion one impact on a cushion, INPUT taking equally spaced values from "
-        "A to B. FILE is what `carom resolve` reads, - for CSV on standard input; default: the 204 reference "
-        "collisions.\n",
-    .options =
-        (const option_row *const[]){&option_ids,    &option_over,       &option_from,  &option_to,         &option_cushion,
-                                    &option_points, &option_steps,      &option_brief, &option_plot,       &option_strict,
-                                    &option_output, &option_solvers,    &option_slip,  &option_friction,   &option_data,
-                                    &option_model,  &option_convention, &option_law,   &option_least_step, NULL},
+        "Resolves one collision, with --cushion one impact on a cushion, for equally spaced values of INPUT from A to B. FILE "
+        "has the format that `carom resolve` reads; - is CSV on standard input; without FILE, the 204 reference collisions.\n",
+    .options = (const option_row *const[]){&option_ids,        &option_over,
+                                           &option_from,       &option_to,
+                                           &option_cushion,    &option_points,
+                                           &option_steps,      &option_brief,
+                                           &option_rows,       &option_bare,
+                                           &option_plot,       &option_strict,
+                                           &option_output,     &option_solvers,
+                                           &option_slip,       &option_friction,
+                                           &option_data,       &option_model,
+                                           &option_convention, &option_law,
+                                           &option_least_step, NULL},
     .details =
         "columns written:\n"
-        "  solver, value        of the input; with --cushion model, value\n"
+        "  solver, value        the solver, with --cushion the model; the value of INPUT\n"
         "  throw_deg            angle of ball 2's change of velocity from the line of centres, to the left from above\n"
-        "  stick_share          share of the normal impulse after which the balls no longer slip on each other; nan if they do "
-        "to the end, and by Euler's method\n"
+        "  stick_share          share of the normal impulse after which the balls no longer slip on each other; nan if they "
+        "slip to the end, and with Euler's method\n"
         "  jump                 how far the results (radius times spin), over the largest of them, leave a smooth curve "
         "between this value and the next: the distance of their step from both neighbouring steps and all between. A corner "
         "is no jump; nan at the ends\n"
         "  v1x ... w2z, status  as `carom resolve` writes them; v1x to w2z not with --brief\n"
-        "  mu_ball              friction between the balls; with --friction that of the law at this value\n"
-        "  id                   of the row\n"
-        "With --cushion throw_deg and stick_share are not there, and rebound_deg stands for mu_ball: the angle of the velocity "
-        "after from the normal, degrees; a mirror without loss keeps it.\n"
+        "  mu_ball              friction between the balls; with --friction alciatore, that of the law at this value\n"
+        "  id                   the id of the row\n"
+        "With --cushion there is no throw_deg, stick_share or mu_ball, but rebound_deg: the angle of the velocity after from "
+        "the normal, degrees; a mirror without loss keeps it.\n"
         "\n"
-        "exit code: 0; 1 if some values make an error; 2 for bad usage or unreadable input\n",
+        "exit code: 0; 1 if some values give an error; 2 for bad usage or unreadable input\n",
     .example = "carom sweep --id pooltool-135 --over u_b --from 0 --to 0.2 -o sweep.csv",
     .files = FILE_OR_NONE,
 };
@@ -242,7 +301,7 @@ int command_sweep(int argc, char **argv) {
     return usage_hint(&form);
   }
   s.kind = kind_of(&s.asked);
-  if (!can_vary(&s) || !pick_rows(&s.asked, file, s.id, (size_t)s.id_count, s.rows))
+  if (!output_possible(s.picture) || !pick_rows(&s.asked, file, s.id, (size_t)s.id_count, s.rows) || !can_vary(&s))
     return EXIT_USAGE;
   warn_of_constant(&s);
   /* The CSV, unless only the picture is asked for. */
@@ -251,10 +310,13 @@ int command_sweep(int argc, char **argv) {
     FILE *out = output_open(s.asked.output != NULL ? s.asked.output : "-");
     if (out == NULL)
       return EXIT_USAGE;
-    errors = print_sweep(out, &s);
+    if (s.only_rows)
+      print_rows(out, &s);
+    else
+      errors = print_sweep(out, &s);
     if (!output_commit())
       return EXIT_USAGE;
   }
-  const bool drawn = s.picture == NULL || picture_draw(s.picture, "sweep", s.kind->title, print_plotted, &s);
+  const bool drawn = s.picture == NULL || picture_draw(s.picture, "curves", s.kind->title, print_plotted, &s);
   return errors > 0 || !drawn ? EXIT_SOME : EXIT_GOOD;
 }

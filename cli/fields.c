@@ -138,39 +138,41 @@ _Static_assert(CAROM_SOLVER_EULER == 1 && CAROM_SLIP_POOLTOOL == 1 && CAROM_CUSH
   const option_row row = {name, letter, argument, help, set, offsetof(shared_options, member), least, only}
 
 ROW(option_solver, "solver", options.solver, 0, "exact|euler", set_choice, 0, BALLS_ONLY,
-    "the limit of infinitely many steps (default), or the 2014 paper's steps of equal impulse");
-ROW(option_solvers, "solver", solvers, 0, "LIST", set_solvers, 0, BALLS_ONLY, "exact (default), euler, or exact,euler");
+    "exact: the limit of infinitely many steps (default); euler: N steps of equal impulse, as in the 2014 paper");
+ROW(option_solvers, "solver", solvers, 0, "exact|euler|exact,euler", set_solvers, 0, BALLS_ONLY,
+    "exact (default), euler, or exact,euler");
 ROW(option_slip, "slip", options.slip, 0, "paper|pooltool", set_choice, 0, BALLS_ONLY,
     "sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's");
-ROW(option_friction, "friction", friction, 0, "LAW", set_law, 0, BALLS_ONLY,
-    "friction between the balls by their slip speed instead of the column u_b: alciatore, which is mu = a + b exp(-c |u|) "
-    "with the usual fit, alciatore=a,b,c, or a number");
+ROW(option_friction, "friction", friction, 0, "alciatore|LAW", set_law, 0, BALLS_ONLY,
+    "friction between the balls, instead of the column u_b: a number; or alciatore, which falls with the slip speed u as mu = "
+    "a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants");
 ROW(option_data, "data", folder, 0, "DIR", set_text, 0, BALLS_ONLY,
     "folder of the reference collisions (default: $CAROM_DATA, else what came with carom)");
 ROW(option_steps, "steps", options.steps, 0, "N", set_count, 1, ANY_KIND, "steps of Euler's method, 1 or more (default 1000)");
 ROW(option_threads, "threads", options.threads, 0, "N", set_threads, 0, ANY_KIND,
-    "most threads for solving; 0, the default: one for each processor");
+    "largest number of threads; 0: one for each processor (default)");
 ROW(option_precision, "precision", precision, 0, "double|single", set_choice, 0, ANY_KIND,
-    "of the results, and of the solver for two balls (default: single for a float32 array, else double)");
-ROW(option_id, "id", id, 0, "X", set_text, 0, ANY_KIND, "which row: its column id, or its number if there is no such column");
+    "precision of the results, and of the solver for two balls (default: single for a float32 array, else double)");
+ROW(option_id, "id", id, 0, "X", set_text, 0, ANY_KIND, "the row with this id; its number, from 1, if there is no column id");
 ROW(option_output, "output", output, 'o', "OUT", set_text, 0, ANY_KIND,
-    "file to write, - for standard output (default). It appears whole or not at all: it is renamed to OUT when it is "
-    "complete. Where no file can be made beside OUT, such as in a folder that may not be written, OUT is overwritten at the "
-    "end instead; until then it stays");
+    "file to write; - is standard output (default). OUT is never incomplete: carom writes a file beside it, and renames it at "
+    "the end. If the folder cannot be written, carom overwrites OUT at the end");
 ROW(option_derived, "derived", derived, 0, NULL, set_flag, 0, ANY_KIND,
-    "more columns, behind the status: angles, rolling velocities, energy");
+    "more columns after the status: angles, rolling velocities, energy");
 ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0, ANY_KIND,
-    "refuse rows that are only warned of otherwise: centres of two balls that are not R1 + R2 apart (to 1 %), more than 50 "
-    "m/s or 2,000 rad/s, a radius above 0.5 m or a mass above 10 kg");
-ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND, "counts and time on standard error at the end");
+    "treat warnings as errors: centres whose distance is not R1 + R2 to 1 %, more than 50 m/s or 2,000 rad/s, a radius above "
+    "0.5 m, a mass above 10 kg");
+ROW(option_bare, "no-comments", bare, 0, NULL, set_flag, 0, ANY_KIND, "leave out the lines that begin with #");
+ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
+    "print counts and the time on standard error at the end");
 ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
     "impacts of a ball on a cushion, instead of collisions of two balls");
 ROW(option_model, "model", rail.model, 0, "mathavan|stronge|han|mirror|euler", set_choice, 0, CUSHION_ONLY,
-    "how the impact is computed: the exact limit of Mathavan's model (default), Stronge's or Han's closed form, a mirror, or "
-    "Mathavan's model in N steps");
+    "mathavan: the exact limit of Mathavan's model (default); stronge, han: closed forms; mirror: the velocity into the "
+    "cushion is reversed and multiplied by e; euler: Mathavan's model in N steps");
 ROW(option_convention, "convention", rail.convention, 0, "paper|pooltool", set_choice, 0, CUSHION_ONLY,
-    "whose conventions hold where pooltool departs from the papers (default: paper)");
+    "the conventions to follow where pooltool differs from the papers (default: paper)");
 ROW(option_law, "law", rail.law, 0, "constant|han", set_choice, 0, CUSHION_ONLY,
-    "restitution and friction of the cushion: the columns (default), or Han's fits by speed and angle");
+    "restitution and friction of the cushion: from the columns (default), or by Han's fits over speed and angle");
 ROW(option_least_step, "least-step", rail.least_step, 0, "P", set_amount, 0, CUSHION_ONLY,
-    "euler takes no smaller step, N s (default 0; pooltool: 0.001)");
+    "smallest step of euler, N s (default 0; pooltool: 0.001)");

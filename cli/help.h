@@ -5,7 +5,7 @@
 #include "kind.h"
 
 #define COLLISION_COLUMNS_HELP                                                                                              \
-  "columns of CSV for collisions of two balls, by name in any order (others are ignored), SI units:\n"                      \
+  "columns of CSV for collisions of two balls, in SI units and any order (others are ignored):\n"                           \
   "  id                   optional; the number of the row if absent\n"                                                      \
   "  r1x r1y r1z          centre of ball 1, m; likewise r2x ... for ball 2\n"                                               \
   "  v1x v1y v1z          velocity, m/s; v1z must be 0\n"                                                                   \
@@ -27,18 +27,18 @@
   "An array IN.npy has the shape (n, 15). A row holds the numbers of carom_cushion_impact in their order: v, w, nx, ny, h, " \
   "R, M, mu_s, mu_w, e, rho.\n"
 
-#define RESOLVE_ABOUT                                                                                                         \
-  "Reads one collision a row and writes the state after it. IN is a CSV file, - for CSV on standard input, or a NumPy "       \
-  "array IN.npy of float64 or float32. OUT is likewise CSV, or an array in the precision if its name ends in .npy, with NaN " \
-  "for rows in error.\n"
+#define RESOLVE_ABOUT                                                                                                          \
+  "Reads a collision from each row and writes the motion after it. IN is a CSV file, - for CSV on standard input, or a NumPy " \
+  "array IN.npy of float64 or float32. OUT is CSV; or an array in the chosen precision if its name ends in .npy, with NaN in " \
+  "rows with errors.\n"
 
 #define RESULTS_HELP                                                                                                        \
   "columns written: id," RESULT_COLUMNS ",status\n"                                                                         \
   "  status is ok, separating (the balls do not approach; their state is unchanged) or the name of an error, with nan for " \
   "the numbers. Each number reads back to the same double.\n"
 
-#define RESOLVE_EXIT_HELP                                                                                             \
-  "exit code: 0 if every row is ok or separating, 1 if some rows are in error, 2 for bad usage or unreadable input. " \
-  "Rows in error are named on standard error, at most a thousand of them; the other rows are resolved.\n"
+#define RESOLVE_EXIT_HELP                                                                                                     \
+  "exit code: 0 if every row is ok or separating; 1 if some rows have errors; 2 for bad usage or unreadable input. Standard " \
+  "error names at most a thousand rows with errors; the other rows are resolved.\n"
 
 #endif

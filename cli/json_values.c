@@ -2,6 +2,7 @@
 #include "json_values.h"
 
 #include "memory.h"
+#include "options.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -23,6 +24,16 @@ bool json_get_doubles(const json_t *object, const char *where, const char *keys,
       return json_wrong(f, "%s%s must be a number", where, key);
     if (v != NULL)
       *to = json_number_value(v);
+  }
+  return true;
+}
+
+bool json_only(const json_t *object, const char *where, const char *keys, json_fault *f) {
+  const char *key;
+  json_t *v;
+  json_object_foreach((json_t *)object, key, v) {
+    if (place_among(keys, key, strlen(key)) < 0)
+      return json_wrong(f, "%s%.40s is no key; there are %s", where, key, keys);
   }
   return true;
 }

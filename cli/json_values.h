@@ -16,6 +16,9 @@ __attribute__((format(printf, 2, 3))) bool json_wrong(json_fault *f, const char 
  * where there is no such key. `where` stands before the key in what is said. */
 bool json_get_doubles(const json_t *object, const char *where, const char *keys, double *to, json_fault *f);
 
+/* Whether an object has no key but these. */
+bool json_only(const json_t *object, const char *where, const char *keys, json_fault *f);
+
 /* The first `count` numbers of an array. */
 bool json_get_numbers(const json_t *array, const char *where, size_t count, double *value, json_fault *f);
 

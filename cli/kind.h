@@ -68,7 +68,7 @@ typedef struct row_kind {
 
   /* sweep: words that --over takes; the one that turns the contact, and the places of the direction that it turns, from the
    * first, unless that is NO_NUMBER, to the second; columns before "jump" and behind "status"; a row resolved, with those. */
-  const char *inputs, *turning, *lead_columns, *tail_columns, *title;
+  const char *inputs, *turning, *lead_columns, *tail_columns, *title, *axis;
   int direction[2], lead;
   carom_status (*look)(const shared_options *asked, int variant, const void *in, void *out, double lead[2], double *tail);
 } row_kind;

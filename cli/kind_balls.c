@@ -141,6 +141,7 @@ const row_kind ball_kind = {
     .lead = 2,
     .tail_columns = "mu_ball",
     .title = "Throw of the object ball",
+    .axis = "throw of ball 2 (degrees, to the left)",
     .direction = {0, SECOND},
     .look = look,
 };

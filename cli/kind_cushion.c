@@ -151,6 +151,7 @@ const row_kind cushion_kind = {
     .lead_columns = "",
     .tail_columns = "rebound_deg",
     .title = "Rebound from the cushion",
+    .axis = "angle after from the normal (degrees)",
     .direction = {NO_NUMBER, NORMAL},
     .look = look,
 };

@@ -5,10 +5,11 @@
 int main(int argc, char **argv) {
   static const command commands[] = {
       {"resolve", "resolve the collisions of a CSV file", command_resolve},
-      {"hit", "one collision from speed, cut and spin: in words and as a picture", command_hit},
+      {"hit", "one collision from speed, cut and spin: words, picture, curves", command_hit},
+      {"rail", "one impact on a cushion, in the same ways", command_rail},
       {"shoot", "play whole shots, from the cue to rest", command_shoot},
-      {"trace", "follow one collision on its way", command_trace},
-      {"sweep", "resolve one collision, one input varied finely", command_sweep},
+      {"trace", "write the slips and velocities during one collision", command_trace},
+      {"sweep", "resolve one row of a file, with one input varied in small steps", command_sweep},
   };
   static const program carom = {
       .name = "carom",

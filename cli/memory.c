@@ -4,6 +4,7 @@
 #include "command.h"
 #include "message.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +26,16 @@ void *allocate(size_t count, size_t size) {
 
 char *copy_text(const char *text) {
   return strcpy(allocate(strlen(text) + 1, 1), text);
+}
+
+FILE *open_text(char **text, size_t *size) {
+  return checked(open_memstream(text, size));
+}
+
+void close_text(FILE *stream, char *const *text) {
+  const bool failed = ferror(stream) != 0;
+  if (fclose(stream) != 0 || failed || *text == NULL)
+    out_of_memory();
 }
 
 void *grow(void *block, size_t *room, size_t needed, size_t size) {

@@ -43,11 +43,14 @@ static void print_wrapped(FILE *out, const char *text) {
   }
 }
 
-/* "  -o, --output OUT" */
+/* "  -o, --output OUT"; choices that do not fit into a line are listed in the details. */
 static int write_head(const option_row *row, char text[80]) {
   const char letter[] = {'-', row->letter, ',', ' ', '\0'};
-  return snprintf(text, 80, "  %s--%s%s%s", row->letter != 0 ? letter : "", row->name, row->argument != NULL ? " " : "",
-                  row->argument != NULL ? row->argument : "");
+  const char *argument = row->argument == NULL                               ? ""
+                         : strlen(row->argument) > HELP_WIDTH - OPTION_WIDTH ? "NAME"
+                                                                             : row->argument;
+  return snprintf(text, 80, "  %s--%s%s%s", row->letter != 0 ? letter : "", row->name, argument[0] != '\0' ? " " : "",
+                  argument);
 }
 
 /* The help beside the head, or below it where that is long. */
@@ -71,7 +74,7 @@ static void print_options(FILE *out, const command_form *form, int only) {
 /* Whether the subcommand works on both kinds of rows. */
 static bool has_kinds(const command_form *form) {
   size_t k = 0;
-  while (form->options[k] != NULL && form->options[k]->only != CUSHION_ONLY)
+  while (form->options[k] != NULL && form->options[k] != &option_cushion)
     k++;
   return form->options[k] != NULL;
 }
@@ -129,6 +132,24 @@ static bool are_for_kind(const command_form *form, const bool given[MOST_ROWS], 
   return true;
 }
 
+/* Prints what may stand where `word` is being typed, a line each: values of the option before it, or options. Upper-case words
+ * of an argument, such as OUT, are no values. */
+static void complete(const command_form *form, const char *before, const char *word) {
+  for (int k = 0; form->options[k] != NULL; k++) {
+    const char *value = form->options[k]->argument;
+    if (value == NULL || strncmp(before, "--", 2) != 0 || strcmp(before + 2, form->options[k]->name) != 0)
+      continue;
+    for (size_t size; *value != '\0'; value += size + (value[size] == '|')) {
+      size = strcspn(value, "|");
+      if (*value < 'A' || *value > 'Z')
+        printf("%.*s\n", (int)size, value);
+    }
+    return;
+  }
+  for (int k = 0; form->options[k] != NULL && (word[0] == '-' || form->files == NO_FILES); k++)
+    printf("--%s\n", form->options[k]->name);
+}
+
 /* Sets the fields; -1, or an exit code. */
 static int parse_options(const command_form *form, int argc, char **argv, void *job) {
   struct option longs[MOST_ROWS] = {0};
@@ -138,6 +159,10 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
   /* getopt complains in the name of the subcommand. */
   snprintf(name, sizeof name, "%s %s", program_name, form->name);
   argv[0] = name;
+  if (argc == 4 && strcmp(argv[1], "--complete") == 0) {
+    complete(form, argv[2], argv[3]);
+    return EXIT_GOOD;
+  }
   list_options(form, longs, shorts);
   while ((option = getopt_long(argc, argv, shorts, longs, NULL)) != -1) {
     const option_row *row = row_of(form, option);

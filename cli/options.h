@@ -79,9 +79,9 @@ typedef struct shared_options {
   carom_options options;      /* --solver of one, --slip, --steps, --threads */
   solver_list solvers;        /* --solver of several */
   friction_law friction;
-  int precision;                    /* enum precision */
-  const char *id, *folder, *output; /* --id, --data, --output */
-  bool summary, strict, derived;
+  int precision;                       /* enum precision */
+  const char *id, *folder, *output;    /* --id, --data, --output */
+  bool summary, strict, derived, bare; /* bare: --no-comments */
 } shared_options;
 
 /* What the options are where none is given: as the library's, but on all processors, and with the steps to be shown. */
@@ -89,11 +89,13 @@ typedef struct shared_options {
   { .steps = CAROM_DEFAULT_STEPS, .threads = CAROM_ALL_THREADS }
 
 extern const option_row option_solver, option_solvers, option_slip, option_steps, option_threads, option_friction,
-    option_precision, option_id, option_data, option_output, option_summary, option_strict, option_derived, option_cushion,
-    option_model, option_convention, option_law, option_least_step;
+    option_precision, option_id, option_data, option_output, option_summary, option_bare, option_strict, option_derived,
+    option_cushion, option_model, option_convention, option_law, option_least_step;
 
-/* A row of one table alone: OPTION(job, option_NAME, field, letter, argument, set, least, help). */
+/* A row of one table alone: OPTION(job, option_NAME, name, field, letter, argument, set, least, help). */
 #define OPTION(job, row, name, member, letter, argument, set, least, help) \
-  static const option_row row = {name, letter, argument, help, set, offsetof(job, member), least, ANY_KIND}
+  OPTION_FOR(ANY_KIND, job, row, name, member, letter, argument, set, least, help)
+#define OPTION_FOR(only, job, row, name, member, letter, argument, set, least, help) \
+  static const option_row row = {name, letter, argument, help, set, offsetof(job, member), least, only}
 
 #endif

@@ -153,6 +153,15 @@ FILE *output_open(const char *path) {
   return file;
 }
 
+bool output_possible(const char *path) {
+  struct stat status;
+  if (path == NULL || strcmp(path, "-") == 0 || (stat(path, &status) == 0 && !S_ISREG(status.st_mode)))
+    return true; /* what is no file is opened once */
+  const bool good = output_open(path) != NULL;
+  output_abandon();
+  return good;
+}
+
 size_t output_copy(FILE *from, FILE *to) {
   char block[65536];
   size_t all = 0;

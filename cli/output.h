@@ -17,6 +17,9 @@
 /* Opens the output for writing. Complains and returns NULL if that fails. One at a time. */
 FILE *output_open(const char *path);
 
+/* Whether output_open() would open the path, which may be NULL; complains where it would not. */
+bool output_possible(const char *path);
+
 /* Puts the file in its place. Complains and returns false if anything could not be written. */
 bool output_commit(void);
 

@@ -1,4 +1,4 @@
-/* Pictures that gnuplot draws. It reads the CSV and writes the picture in memory, so that no temporary file can stay behind; a
+/* Pictures. A program that draws reads its data and writes the picture in memory, so that no temporary file can stay behind; a
  * picture that is whole then goes to its place. */
 #include "picture.h"
 
@@ -12,21 +12,21 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { NO_GNUPLOT = 127 };
+enum { NOT_INSTALLED = 127 };
 
-OPTION_SET(set_picture) {
-  const size_t size = strlen(text);
-  *(const char **)field = text;
-  if (size > 4 && (strcmp(text + size - 4, ".svg") == 0 || strcmp(text + size - 4, ".png") == 0))
-    return true;
-  complain("--%s draws a picture whose name ends in .svg or .png, not '%s'", row->name, text);
-  return false;
+static const char *ending_of(const char *path) {
+  const size_t size = strlen(path);
+  return size > 4 ? path + size - 4 : "";
 }
 
-/* Files in memory: nothing has to be removed, however this process or gnuplot ends. */
-typedef struct work {
-  FILE *csv, *noise, *picture;
-} work;
+OPTION_SET(set_picture) {
+  const char *ending = ending_of(text);
+  *(const char **)field = text;
+  if (strcmp(ending, ".svg") == 0 || strcmp(ending, ".png") == 0 || strcmp(ending, ".pdf") == 0)
+    return true;
+  complain("--%s draws a picture whose name ends in .svg, .png or .pdf, not '%s'", row->name, text);
+  return false;
+}
 
 /* A file in memory, which the child inherits. Complains and returns NULL if there can be none. */
 static FILE *in_memory(const char *name) {
@@ -37,54 +37,90 @@ static FILE *in_memory(const char *name) {
   return file;
 }
 
-static void forget(const work *w) {
-  FILE *const files[] = {w->csv, w->noise, w->picture};
-  for (size_t k = 0; k < sizeof files / sizeof files[0]; k++)
-    if (files[k] != NULL)
-      fclose(files[k]);
-}
-
-/* What gnuplot says is shown only if it fails: it also warns of every part of a plot that a CSV has no rows for, and those are
- * optional. False after a complaint. */
-static bool run_gnuplot(const work *w, const char *path, const char *name, const char *title) {
-  char scripts[PATH_MAX], script[PATH_MAX + 64], data[32];
+/* Runs a program from one file in memory to another. What it says is shown only if it fails: gnuplot also warns of every part
+ * of a plot that a CSV has no rows for, and those are optional. False after a complaint. */
+static bool run(const char *path, char *const words[], const char *package, FILE *from, FILE *to, FILE *noise) {
   int status;
-  snprintf(script, sizeof script, "%s/%s.gp", place_find("figures", scripts), name);
-  snprintf(data, sizeof data, "/dev/fd/%d", fileno(w->csv));
   fflush(NULL);
+  rewind(from);
   const pid_t child = fork();
   if (child == 0) {
-    if (dup2(fileno(w->picture), STDOUT_FILENO) >= 0 && dup2(fileno(w->noise), STDERR_FILENO) >= 0)
-      execlp("gnuplot", "gnuplot", "-c", script, data, path + strlen(path) - 4, title, (char *)NULL);
-    _exit(NO_GNUPLOT);
+    if (dup2(fileno(from), STDIN_FILENO) >= 0 && dup2(fileno(to), STDOUT_FILENO) >= 0 &&
+        dup2(fileno(noise), STDERR_FILENO) >= 0)
+      execvp(words[0], words);
+    _exit(NOT_INSTALLED);
   }
   if (child < 0 || waitpid(child, &status, 0) != child)
     status = -1;
   if (status == 0)
     return true;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == NO_GNUPLOT)
-    complain("cannot draw %s: gnuplot is not installed (Debian: gnuplot-nox)", path);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == NOT_INSTALLED)
+    complain("cannot draw %s: %s is not installed (Debian: %s)", path, words[0], package);
   else {
-    output_copy(w->noise, stderr);
-    complain("cannot draw %s: gnuplot failed on %s", path, script);
+    output_copy(noise, stderr);
+    complain("cannot draw %s: %s failed", path, words[0]);
   }
   return false;
 }
 
+/* What `write` writes, put to its place by a program with these words; without one as it is. */
+static bool make(const char *path, char *const words[], const char *package, FILE *from, void (*write)(FILE *, const void *),
+                 const void *data) {
+  FILE *noise = in_memory("noise"), *drawn = in_memory("picture"), *out = NULL;
+  bool good = from != NULL && noise != NULL && drawn != NULL;
+  if (good) {
+    write(words != NULL ? from : drawn, data);
+    good = (words == NULL || run(path, words, package, from, drawn, noise)) && (out = output_open(path)) != NULL;
+  }
+  if (good && output_copy(drawn, out) == 0) {
+    complain("cannot draw %s: %s drew nothing", path, words != NULL ? words[0] : "carom");
+    output_abandon();
+    good = false;
+  }
+  for (int k = 0; k < 3; k++)
+    if ((FILE *[]){from, noise, drawn}[k] != NULL)
+      fclose((FILE *[]){from, noise, drawn}[k]);
+  return good && output_commit();
+}
+
 bool picture_draw(const char *path, const char *name, const char *title, void (*write)(FILE *out, const void *data),
                   const void *data) {
-  const work w = {in_memory("data"), in_memory("noise"), in_memory("picture")};
-  FILE *out = NULL;
-  if (w.csv != NULL && w.noise != NULL && w.picture != NULL) {
-    write(w.csv, data);
-    out = run_gnuplot(&w, path, name, title) ? output_open(path) : NULL;
-  }
-  bool good = out != NULL && output_copy(w.picture, out) > 0;
-  if (out != NULL && !good) {
-    complain("cannot draw %s: gnuplot drew nothing", path);
-    output_abandon();
-  }
-  good = good && output_commit();
-  forget(&w);
-  return good;
+  char scripts[PATH_MAX], script[PATH_MAX + 64], input[32], heading[256];
+  FILE *csv = in_memory("data");
+  snprintf(script, sizeof script, "%s/%s.gp", place_find("figures", scripts), name);
+  snprintf(input, sizeof input, "/dev/fd/%d", csv != NULL ? fileno(csv) : 0);
+  snprintf(heading, sizeof heading, "%s", title);
+  char ending[8];
+  snprintf(ending, sizeof ending, "%s", ending_of(path));
+  char *const words[] = {(char[]){"gnuplot"}, (char[]){"-c"}, script, input, ending, heading, NULL};
+  return make(path, words, "gnuplot-nox", csv, write, data);
+}
+
+bool svg_draw(const char *path, void (*write)(FILE *out, const void *data), const void *data) {
+  char format[8];
+  snprintf(format, sizeof format, "%s", ending_of(path) + 1);
+  char *const words[] = {(char[]){"rsvg-convert"}, (char[]){"--format"}, format, (char[]){"--zoom=2"}, NULL};
+  const bool is_svg = strcmp(format, "svg") == 0;
+  return make(path, is_svg ? NULL : words, "librsvg2-bin", in_memory("data"), write, data);
+}
+
+bool file_draw(const char *path, void (*write)(FILE *out, const void *data), const void *data) {
+  FILE *out = output_open(path);
+  if (out != NULL)
+    write(out, data);
+  return out != NULL && output_commit();
+}
+
+void svg_begin(FILE *out, double width, double height, const char *background) {
+  fprintf(out,
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "
+          "font-family=\"DejaVu Sans, sans-serif\">\n<rect width=\"100%%\" height=\"100%%\" %s/>\n",
+          width, height, width, height, background);
+}
+
+void svg_text(FILE *out, double x, double y, const char *style, const char *text, int most) {
+  fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, style);
+  for (int k = 0; k < most && text[k] != '\0'; k++)
+    text[k] == '<' ? fputs("&lt;", out) : text[k] == '&' ? fputs("&amp;", out) : putc(text[k], out);
+  fputs("</text>\n", out);
 }

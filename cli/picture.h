@@ -1,4 +1,5 @@
-/* Pictures that gnuplot draws from a CSV by a script of cli/figures. */
+/* Pictures: those that gnuplot draws from a CSV by a script of cli/figures, and those that carom draws itself as SVG. Either is
+ * written as SVG, PNG or PDF by its name, whole or not at all. */
 #ifndef CAROM_CLI_PICTURE_H
 #define CAROM_CLI_PICTURE_H
 
@@ -6,12 +7,23 @@
 
 #include <stdio.h>
 
-/* For a `const char *`: a name that ends as a picture's must, in .svg or .png. */
+/* For a `const char *`: a name that ends as a picture's must, in .svg, .png or .pdf. */
 OPTION_SET(set_picture);
 
-/* Draws `path` by NAME.gp from what `write` puts into a CSV. The picture appears whole or not at all. Complains and returns
- * false if it cannot be drawn. */
+/* Draws `path` by NAME.gp from what `write` puts into a CSV. Complains and returns false if it cannot be drawn. */
 bool picture_draw(const char *path, const char *name, const char *title, void (*write)(FILE *out, const void *data),
                   const void *data);
+
+/* Draws `path` from what `write` writes as SVG; rsvg-convert makes PNG and PDF of it. */
+bool svg_draw(const char *path, void (*write)(FILE *out, const void *data), const void *data);
+
+/* Writes `path` as `write` does. */
+bool file_draw(const char *path, void (*write)(FILE *out, const void *data), const void *data);
+
+/* The head of an SVG, and what is behind all, as attributes: "fill=\"#fff\"". */
+void svg_begin(FILE *out, double width, double height, const char *background);
+
+/* A text at a place, of `most` characters at most, with what XML would take for its own put right. */
+void svg_text(FILE *out, double x, double y, const char *style, const char *text, int most);
 
 #endif

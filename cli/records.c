@@ -149,7 +149,7 @@ static bool feed_record(record_reader *r, record *out) {
       return false;
     }
   }
-  if (!r->complete)
+  if (!r->complete && feof(r->file))
     csv_fini(&r->parser, on_field, on_record, r);
   return true;
 }
@@ -169,7 +169,8 @@ read_result record_next(record_reader *r, record *out) {
   } while (!out->malformed && is_empty(r));
   if (r->refused)
     return READ_FAILED;
-  if (ferror(r->file)) {
+  /* what ends before the end of the file, without an error of its own, found no memory for its buffer */
+  if (ferror(r->file) || !(r->complete || out->malformed || feof(r->file))) {
     complain("cannot read %s: %s", r->name, strerror(errno));
     return READ_FAILED;
   }

@@ -50,7 +50,7 @@ static void *read_block(void *argument) {
 }
 
 /* Writes row k of a block that has been solved, counts it, and says what is wrong with it. */
-static void write_row(run *r, const source_block *block, size_t k) {
+static void finish_row(run *r, const source_block *block, size_t k) {
   const row_note *note = block->note != NULL ? &block->note[k] : NULL;
   const carom_status status = r->status[k];
   const size_t results = (size_t)r->kind->results;
@@ -93,7 +93,7 @@ static void solve_and_write(run *r, const source_block *block) {
   if (r->single)
     to_double(r->narrow_result, r->result, results);
   for (size_t k = 0; k < block->count; k++)
-    write_row(r, block, k);
+    finish_row(r, block, k);
 }
 
 /* Two readings take turns: one is solved and written while the other is filled. False after a complaint. */

@@ -38,9 +38,9 @@ static void keep_table(shot_file *file, named_table *t) {
 /* ---- Shots */
 
 /* The keys of the doubles of carom_ball_kind and of carom_cue, in their order there. */
-#define KIND_KEYS "m R u_s u_r u_sp u_b e_b f_c e_c g drag roll_loss law_a law_b law_c nose_height omega_ratio"
+#define KIND_KEYS "m R u_s u_r u_sp u_b e_b f_c e_c g drag roll_loss law_a law_b law_c nose_height omega_ratio e_t"
 #define CUE_KEYS "V0 phi theta a b M end_mass tip_radius"
-_Static_assert(sizeof(carom_ball_kind) == 17 * sizeof(double) && offsetof(carom_cue, ball) == 8 * sizeof(double),
+_Static_assert(sizeof(carom_ball_kind) == 18 * sizeof(double) && offsetof(carom_cue, ball) == 8 * sizeof(double),
                "a key for each double");
 
 /* The kind of the balls of a game, by its name; pooltool's pool balls where there is none. */
@@ -80,7 +80,7 @@ static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
   if (!json_get_numbers(json_object_get(v, "state"), key, 10, state, f))
     return false;
   if (!(state[0] >= 0.0 && state[0] <= 9.0))
-    return json_wrong(f, "%s[0] must be a label, 0 to 4", key);
+    return json_wrong(f, "%s[0] must be a label, 0 to 6", key);
   carom_ball_state *s = &line->ball[k].state;
   *s = (carom_ball_state){.r = {state[1], state[2], state[3]},
                           .v = {state[4], state[5], state[6]},
@@ -98,8 +98,12 @@ static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
     return true;
   if (!json_is_object(v))
     return json_wrong(f, "cue must be an object");
-  if (!json_get_doubles(v, "cue.", CUE_KEYS, &cue->speed, f))
+  if (!json_get_doubles(v, "cue.", CUE_KEYS, &cue->speed, f) || !json_get_doubles(v, "cue.", "miscue", &cue->miscue, f) ||
+      !json_only(v, "cue.", CUE_KEYS " miscue ball", f))
     return false;
+  /* A strike says how high it is: the cue's usual b is not the centre. */
+  if (json_object_get(v, "b") == NULL && json_object_size(v) > (json_object_get(v, "ball") != NULL))
+    return json_wrong(f, "cue.b is missing: how far above the centre the tip touches, in radii of the ball; 0 is the centre");
   const json_t *ball = json_object_get(v, "ball");
   if (ball == NULL)
     return true;
@@ -154,10 +158,14 @@ shot_file *shot_file_open(const char *path) {
     complain("cannot read %s: %s", path, strerror(errno));
     return NULL;
   }
+  return shot_file_of(in, in == stdin ? "standard input" : path);
+}
+
+shot_file *shot_file_of(FILE *in, const char *name) {
   shot_file *file = allocate(1, sizeof *file);
   json_set_alloc_funcs(json_memory, free);
   file->in = in;
-  file->path = in == stdin ? "standard input" : path;
+  file->path = name;
   return file;
 }
 
@@ -232,7 +240,7 @@ shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
       snprintf(file->engine, sizeof file->engine, "%s", engine);
     json_decref(json);
   }
-  if (ferror(file->in)) {
+  if (!feof(file->in)) {
     complain("cannot read %s: %s", file->path, strerror(errno));
     return SHOT_FAILED;
   }

@@ -2,19 +2,14 @@
 #ifndef CAROM_CLI_SHOT_FILE_H
 #define CAROM_CLI_SHOT_FILE_H
 
+#include "shot_table.h"
+
 #include "carom_shot.h"
 
 #include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
-
-/* A table by its id, with the ids of its parts. */
-typedef struct named_table {
-  char *id;
-  carom_table table;
-  char *rail[CAROM_RAILS_MOST], *jaw[CAROM_JAWS_MOST], *pocket[CAROM_POCKETS_MOST];
-} named_table;
 
 /* A shot as it was read. */
 typedef struct shot_line {
@@ -34,6 +29,9 @@ typedef struct shot_file shot_file;
 /* Opens a file, "-" for stdin. Complains and returns NULL if that fails. */
 shot_file *shot_file_open(const char *path);
 
+/* The same of a stream, which it closes; `name` is for messages. */
+shot_file *shot_file_of(FILE *in, const char *name);
+
 /* The name of the file for messages. */
 const char *shot_file_name(const shot_file *file);
 
@@ -52,7 +50,7 @@ void shot_file_close(shot_file *file);
 
 /* The name of an event's type as it stands in the files ("ball_ball"), or NULL. */
 const char *shot_event_name(int type);
-/* The id of what ball a met in an event of rail, jaw or pocket. */
+/* The id of the rail, jaw or pocket that ball a met, or NULL where the event is of no such thing. */
 const char *shot_part_name(const named_table *table, const carom_event *event);
 
 enum { EVENTS_NONE, EVENTS_BRIEF, EVENTS_FULL };

@@ -2,21 +2,18 @@
  * side: y of the table runs to the right. */
 #include "shot_picture.h"
 
-#include "message.h"
+#include "derived.h"
+#include "labels.h"
+#include "memory.h"
+#include "picture.h"
+#include "shot_words.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-OPTION_SET(set_svg) {
-  const size_t size = strlen(text);
-  *(const char **)field = text;
-  if (size > 4 && strcmp(text + size - 4, ".svg") == 0)
-    return true;
-  complain("--%s draws a picture whose name ends in .svg, not '%s'", row->name, text);
-  return false;
-}
+enum { MOST_MARKED = 9 }; /* cushions of a shot */
 
 bool shot_has_id(const shot_line *line, const char *id) {
   if (id == NULL)
@@ -28,17 +25,20 @@ bool shot_has_id(const shot_line *line, const char *id) {
          (strlen(line->id) == size + 2 && line->id[0] == '"' && strncmp(line->id + 1, id, size) == 0);
 }
 
-static const double table_scale = 400.0, table_margin = 0.11;                                        /* pixels a metre; m */
-static const double part_width = 840.0, part_height = 700.0, part_margin = 30.0, line_height = 20.0; /* pixels */
+static const double table_scale = 400.0, table_margin = 0.11, side_margin = 30.0; /* pixels a metre; m; pixels */
+static const double line_height = 23.0, least_arrow = 40.0;                       /* pixels */
 
-/* The usual colours of pool balls by number; the first is for the cue ball and others. */
-static const char *const colours[] = {"#ffffff", "#f2c230", "#1d4fd8", "#e02d24", "#5b2a9d", "#ee7a22", "#0b5d2e", "#8c1d3a",
-                                      "#222222", "#f2c230", "#1d4fd8", "#e02d24", "#5b2a9d", "#ee7a22", "#0b5d2e", "#8c1d3a"};
+/* Colours of pool balls by number, as bright as a path on green has to be; the first is for the cue ball and others. */
+static const char *const colours[] = {"#ffffff", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd",
+                                      "#111111", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd"};
 
 static const char *colour_of(const char *name, int index) {
   static const struct {
     const char *name, *colour;
-  } named[] = {{"cue", "#ffffff"}, {"white", "#ffffff"}, {"yellow", "#f2c230"}, {"red", "#e02d24"}, {"black", "#222222"}};
+  } named[] = {{"cue", "#ffffff"},   {"white", "#ffffff"}, {"yellow", "#ffd84a"}, {"red", "#ff8d80"},  {"green", "#b6f09c"},
+               {"brown", "#c9a27a"}, {"blue", "#8fc1ff"},  {"pink", "#f2a0bd"},   {"black", "#111111"}};
+  if (strncmp(name, "red", 3) == 0)
+    return "#ff8d80";
   for (size_t k = 0; k < sizeof named / sizeof named[0]; k++)
     if (strcmp(name, named[k].name) == 0)
       return named[k].colour;
@@ -58,6 +58,7 @@ typedef struct view {
   FILE *out;
   double low[2], high[2], scale, margin; /* m, but for the scale */
   bool turned;
+  labels *labels;
 } view;
 
 static double across(const view *v, const double r[2]) {
@@ -65,14 +66,6 @@ static double across(const view *v, const double r[2]) {
 }
 static double down(const view *v, const double r[2]) {
   return v->scale * ((v->turned ? r[0] - v->low[0] : v->high[1] - r[1]) + v->margin);
-}
-
-/* A text in the page's coordinates, with what XML would take for its own put right. */
-static void write_text(FILE *out, double x, double y, const char *style, const char *text, size_t most) {
-  fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, style);
-  for (const char *c = text; *c != '\0' && (size_t)(c - text) < most; c++)
-    *c == '<' ? fputs("&lt;", out) : *c == '&' ? fputs("&amp;", out) : putc(*c, out);
-  fputs("</text>\n", out);
 }
 
 static view view_of(FILE *out, const carom_table *t) {
@@ -89,53 +82,67 @@ static view view_of(FILE *out, const carom_table *t) {
   return v;
 }
 
-/* The head of the picture, and what is behind all. */
-static void begin_page(FILE *out, double width, double height, const char *background) {
-  fprintf(out,
-          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "
-          "font-family=\"sans-serif\">\n<rect width=\"100%%\" height=\"100%%\" %s/>\n",
-          width, height, width, height, background);
-}
-
-/* A part of the cloth, with the marks and the text below it. */
-static view draw_part(FILE *out, const shot_extra *x) {
-  const double wide = x->high[0] - x->low[0], high = x->high[1] - x->low[1];
-  view v = {.out = out, .scale = fmin(part_width / wide, part_height / high)};
-  int lines = 0;
-  for (const char *end = x->text; (end = strchr(end, '\n')) != NULL; end++)
-    lines++;
-  memcpy(v.low, x->low, sizeof v.low);
-  memcpy(v.high, x->high, sizeof v.high);
-  v.margin = part_margin / v.scale;
-  /* The page and the cloth on it. */
-  const double bottom = v.scale * high + 2.0 * part_margin;
-  begin_page(out, part_width + 2.0 * part_margin, bottom + line_height * (lines + 1), "fill=\"#fff\"");
-  fprintf(out, "<rect width=\"100%%\" height=\"%.1f\" fill=\"#3f9d80\"/>\n", bottom);
-  for (int k = 0; k < x->marks; k++) {
-    const shot_mark *m = &x->mark[k];
-    const double ends[4] = {across(&v, m->from), down(&v, m->from), across(&v, m->to), down(&v, m->to)};
-    if (memcmp(m->from, m->to, sizeof m->from) == 0)
-      fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#123\"/>\n", ends[0], ends[1]);
-    else
-      fprintf(out, "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#123\" stroke-dasharray=\"3 4\"/>\n", ends[0], ends[1], ends[2],
-              ends[3]);
-    if (m->label != NULL)
-      write_text(out, ends[2] + 4.0, ends[3] + 12.0, "font-size=\"13\" fill=\"#123\"", m->label, SIZE_MAX);
+/* The rectangle of the noses. */
+static void noses_of(const carom_table *t, double low[2], double high[2]) {
+  for (int axis = 0; axis < 2; axis++) {
+    low[axis] = INFINITY;
+    high[axis] = -INFINITY;
+    for (int k = 0; k < t->rails; k++)
+      if (is_cushion(t, k)) {
+        low[axis] = fmin(low[axis], fmin(t->rail[k].p[axis], t->rail[k].q[axis]));
+        high[axis] = fmax(high[axis], fmax(t->rail[k].p[axis], t->rail[k].q[axis]));
+      }
   }
-  const char *text = x->text;
-  for (int k = 0; k < lines; k++, text += strcspn(text, "\n") + 1)
-    write_text(out, part_margin, bottom + line_height * (k + 1),
-               "xml:space=\"preserve\" font-size=\"12.5\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", text,
-               strcspn(text, "\n"));
-  return v;
 }
 
-static void draw_table(const view *v, const carom_table *t) {
+/* Diamonds on the wood: the long cushions in eight parts, the short ones in four. None where a pocket is. */
+static void draw_diamonds(const view *v, const carom_table *t) {
+  double low[2], high[2];
+  noses_of(t, low, high);
+  const int along = high[1] - low[1] > high[0] - low[0]; /* the axis of the long ones */
+  for (int axis = 0; axis < 2; axis++)
+    for (int k = 1; k < (axis == along ? 8 : 4); k++)
+      for (int side = 0; side < 2 && (axis != along || k != 4 || t->pockets == 0); side++) {
+        double r[2];
+        r[axis] = low[axis] + (high[axis] - low[axis]) * k / (axis == along ? 8 : 4);
+        r[1 - axis] = side == 0 ? v->low[1 - axis] - 0.75 * v->margin : v->high[1 - axis] + 0.75 * v->margin;
+        fprintf(v->out, "<path d=\"M%.1f %.1fl3 4l-3 4l-3 -4Z\" fill=\"#e8dcc0\"/>\n", across(v, r), down(v, r) - 4.0);
+      }
+}
+
+/* Axes on the wood beside the corner of the origin, from which aims are counted. */
+static void draw_axes(const view *v) {
+  static const char *const names[] = {"x, aim 0\u00b0", "y, aim 90\u00b0"};
+  const double far = 0.25, out = 0.6 * v->margin;
+  for (int axis = 0; axis < 2; axis++) {
+    double from[2] = {v->low[0], v->low[1]}, to[2];
+    char style[120];
+    from[1 - axis] -= out;
+    memcpy(to, from, sizeof to);
+    to[axis] += far;
+    const double left = across(v, from), top = down(v, from), x = across(v, to) - left, y = down(v, to) - top;
+    const double ux = x / hypot(x, y), uy = y / hypot(x, y);
+    fprintf(
+        v->out,
+        "<path class=\"axis\" d=\"M%.1f %.1fl%.1f %.1fm%.1f %.1fl%.1f %.1fl%.1f %.1f\" stroke=\"#e8dcc0\" fill=\"none\"/>\n",
+        left, top, x, y, -7.0 * ux - 4.0 * uy, -7.0 * uy + 4.0 * ux, 7.0 * ux + 4.0 * uy, 7.0 * uy - 4.0 * ux,
+        -7.0 * ux + 4.0 * uy, -7.0 * uy - 4.0 * ux);
+    snprintf(style, sizeof style, "class=\"axis\" font-size=\"14\" fill=\"#e8dcc0\" transform=\"rotate(%d %.1f %.1f)\"",
+             x > 1.0   ? 0
+             : y > 0.0 ? 90
+                       : -90,
+             left, top);
+    svg_text(v->out, left + 4.0, top - 3.0, style, names[axis], 20);
+  }
+}
+
+/* With `below` pixels free under the table. */
+static void draw_table(const view *v, const carom_table *t, double below) {
   FILE *out = v->out;
   const double scale = v->scale;
   const double width = scale * ((v->turned ? v->high[1] - v->low[1] : v->high[0] - v->low[0]) + 2.0 * v->margin);
   const double height = scale * ((v->turned ? v->high[0] - v->low[0] : v->high[1] - v->low[1]) + 2.0 * v->margin);
-  begin_page(out, width, height, "rx=\"18\" fill=\"#5b3a21\"");
+  svg_begin(out, width, height + below, "rx=\"18\" fill=\"#5b3a21\"");
   const double inset = scale * 0.5 * v->margin;
   fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"10\" fill=\"#3f9d80\"/>\n", inset, inset,
           width - 2.0 * inset, height - 2.0 * inset);
@@ -148,22 +155,43 @@ static void draw_table(const view *v, const carom_table *t) {
   for (int k = 0; k < t->rails; k++)
     fprintf(out, "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#1d4a3c\" stroke-width=\"4\" stroke-linecap=\"round\"/>\n",
             across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q), down(v, t->rail[k].q));
+  draw_diamonds(v, t);
+  draw_axes(v);
 }
 
-/* Goes on with a path to a place and time: straight, or in short pieces where the ball slides. */
+/* Goes on with a path from a place to another and a time: straight, or in short pieces where the ball slides. */
 static void draw_piece(const view *v, const shot_line *line, const carom_shot *shot, int ball, double from, double to,
-                       const double end[2], bool curved) {
+                       const double start[2], const double end[2], bool curved) {
   carom_ball_state states[CAROM_BALLS_MOST];
-  for (int n = 1; curved && n < 8; n++) {
+  double x = across(v, start), y = down(v, start);
+  for (int n = curved ? 1 : 8; n <= 8; n++) {
+    const double last[2] = {x, y};
     carom_shot_at(line->ball, line->count, shot, from + (to - from) * n / 8.0, states);
-    fprintf(v->out, "L%.1f %.1f", across(v, states[ball].r), down(v, states[ball].r));
+    x = across(v, n < 8 ? states[ball].r : end);
+    y = down(v, n < 8 ? states[ball].r : end);
+    fprintf(v->out, "L%.1f %.1f", x, y);
+    keep_line(v->labels, last[0], last[1], x, y);
   }
-  fprintf(v->out, "L%.1f %.1f", across(v, end), down(v, end));
+}
+
+/* An arrow's head on a long piece of a path. */
+static void draw_arrow(const view *v, FILE *out, const char *colour, const carom_ball_state *from, const double to[2],
+                       const carom_ball_state *middle) {
+  const double ux = across(v, (double[]){v->low[0] + middle->v[0], v->low[1] + middle->v[1]}) - across(v, v->low);
+  const double uy = down(v, (double[]){v->low[0] + middle->v[0], v->low[1] + middle->v[1]}) - down(v, v->low);
+  const double x = ux / hypot(ux, uy), y = uy / hypot(ux, uy);
+  if (hypot(across(v, to) - across(v, from->r), down(v, to) - down(v, from->r)) > least_arrow)
+    fprintf(out, "<path fill=\"%s\" stroke=\"#0b2a22\" stroke-width=\"0.5\" d=\"M%.1f %.1fl%.1f %.1fl%.1f %.1fZ\"/>\n", colour,
+            across(v, middle->r) + 6.0 * x, down(v, middle->r) + 6.0 * y, -11.0 * x - 4.5 * y, -11.0 * y + 4.5 * x, 9.0 * y,
+            -9.0 * x);
 }
 
 /* The path of one ball, from event to event that it is in. */
 static void draw_path(const view *v, const shot_line *line, const carom_shot *shot, int ball) {
-  carom_ball_state states[CAROM_BALLS_MOST];
+  char *heads;
+  size_t heads_size;
+  FILE *head = open_text(&heads, &heads_size);
+  carom_ball_state states[CAROM_BALLS_MOST], middle;
   double last = 0.0;
   bool moved = false;
   for (int64_t k = 0; last < shot->time; k++) {
@@ -175,8 +203,9 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
       continue;
     const double time = e != NULL ? e->time : shot->time;
     carom_shot_at(line->ball, line->count, shot, 0.5 * (last + time), states);
-    const int64_t label = e != NULL ? e->before[side].label : states[ball].label;
-    const bool moves = label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING;
+    middle = states[ball];
+    const int64_t label = e != NULL ? e->before[side].label : middle.label;
+    const bool moves = label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING || label == CAROM_BALL_AIRBORNE;
     if (e != NULL ? moved || time > last : moves) {
       if (!moved) {
         carom_shot_at(line->ball, line->count, shot, last, states);
@@ -184,33 +213,38 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
                 colour_of(line->name[ball], ball), across(v, states[ball].r), down(v, states[ball].r));
         moved = true;
       }
-      draw_piece(v, line, shot, ball, last, time, e != NULL ? e->before[side].r : shot->final[ball].r,
-                 label == CAROM_BALL_SLIDING);
+      const double *to = e != NULL ? e->before[side].r : shot->final[ball].r;
+      carom_shot_at(line->ball, line->count, shot, last, states);
+      draw_piece(v, line, shot, ball, last, time, states[ball].r, to, label == CAROM_BALL_SLIDING);
+      draw_arrow(v, head, colour_of(line->name[ball], ball), &states[ball], to, &middle);
     }
     last = time;
   }
   if (moved)
     fputs("\"/>\n", v->out);
+  fclose(head);
+  fputs(heads, v->out);
+  free(heads);
 }
 
-static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball, bool final) {
-  const char *colour = colour_of(line->name[ball], ball), *name = line->name[ball];
+static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball, bool final, const char *name) {
+  const char *colour = colour_of(line->name[ball], ball);
   const double x = across(v, s->r), y = down(v, s->r), r = v->scale * line->ball[ball].kind.radius;
   if (!final) {
     fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"/>\n", x, y,
             r, colour);
     return;
   }
-  const bool dark = strcmp(colour, "#ffffff") != 0 && strcmp(colour, "#f2c230") != 0;
+  const bool dark = strcmp(colour, "#111111") == 0;
   fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" stroke=\"#111\" stroke-width=\"0.8\"/>\n", x, y, r,
           colour);
-  if (is_striped(name))
+  if (is_striped(line->name[ball]))
     fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\"/>\n", x, y,
             r - 1.8);
   char style[120];
   snprintf(style, sizeof style, "font-size=\"%.1f\" fill=\"%s\" text-anchor=\"middle\" dominant-baseline=\"central\"",
            strlen(name) > 2 ? 7.0 : 11.0, dark ? "#fff" : "#111");
-  write_text(v->out, x, y, style, name, 5);
+  svg_text(v->out, x, y, style, name, 5);
 }
 
 /* Balls that fell lie beside each other in the pocket's place. */
@@ -225,18 +259,137 @@ static void spread_pocketed(const shot_line *line, carom_ball_state *final) {
   }
 }
 
-void shot_draw(FILE *out, const shot_line *line, const carom_shot *shot, const shot_extra *extra) {
-  const view v = extra != NULL ? draw_part(out, extra) : view_of(out, &line->table->table);
-  carom_ball_state final[CAROM_BALLS_MOST];
-  memcpy(final, shot->final, (size_t)line->count * sizeof *final);
-  if (extra == NULL)
-    draw_table(&v, &line->table->table);
-  for (int k = 0; k < line->count; k++)
-    draw_ball(&v, line, &line->ball[k].state, k, false);
-  for (int k = line->count - 1; k >= 0; k--)
-    draw_path(&v, line, shot, k);
-  spread_pocketed(line, final);
-  for (int k = 0; k < line->count; k++)
-    draw_ball(&v, line, &final[k], k, true);
+/* ---- From the side: places along the picture's width, as in the view from above, and heights at the same scale */
+
+/* How high a ball's centre comes above the cloth that it would lie on, m, at events and between. */
+static double rise_of(const shot_line *line, const carom_shot *shot, int ball) {
+  const double R = line->ball[ball].kind.radius, g = line->ball[ball].kind.gravity;
+  const carom_ball_state *start = &line->ball[ball].state;
+  const bool flies = start->label == CAROM_BALL_AIRBORNE || start->v[2] != 0.0 || start->r[2] > R + 1e-6;
+  double most = flies ? start->r[2] - R + 0.5 * start->v[2] * fabs(start->v[2]) / g : 0.0;
+  for (int64_t k = 0; k < shot->count && k < shot->room; k++)
+    for (int side = 0; side < 2; side++) {
+      const carom_event *e = &shot->events[k];
+      const carom_ball_state *s = &e->after[side];
+      if ((side == 0 ? e->a : e->b) == ball && (side == 0 || e->type == CAROM_EVENT_BALL_BALL) &&
+          s->label == CAROM_BALL_AIRBORNE)
+        most = fmax(most, s->r[2] - R + (s->v[2] > 0.0 ? 0.5 * s->v[2] * s->v[2] / g : 0.0));
+    }
+  return most;
+}
+
+/* The side view of the balls that rise by more than a millimetre, above a line for the cloth at y = `cloth`, pixels. */
+static void draw_side(const view *v, const shot_line *line, const carom_shot *shot, double cloth, double width) {
+  const carom_table *t = &line->table->table;
+  fprintf(v->out, "<path d=\"M0 %.1fL%.1f %.1f\" stroke=\"#3f9d80\" stroke-width=\"3\"/>\n", cloth, width, cloth);
+  for (int k = 0; k < t->rails; k++) /* noses, as posts at their ends */
+    for (int end = 0; end < 2; end++) {
+      const double x = across(v, end == 0 ? t->rail[k].p : t->rail[k].q);
+      fprintf(v->out, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#1d4a3c\" stroke-width=\"2\"/>\n", x, cloth,
+              cloth - v->scale * t->rail[k].height);
+    }
+  carom_ball_state states[CAROM_BALLS_MOST];
+  for (int ball = line->count - 1; ball >= 0; ball--) {
+    const double r = v->scale * line->ball[ball].kind.radius;
+    const carom_ball_state *from = &line->ball[ball].state;
+    const char *colour = colour_of(line->name[ball], ball);
+    if (rise_of(line, shot, ball) > 1e-3) {
+      /* up to the last time that it is on the table */
+      fprintf(v->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"", colour);
+      double last = 0.0;
+      for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
+        const carom_event *e = &shot->events[k];
+        const bool in = e->a == ball || (e->type == CAROM_EVENT_BALL_BALL && e->b == ball);
+        const int pieces = in && e->time > last ? 24 : 0;
+        for (int n = 0; n <= pieces && in; n++) {
+          const double time = pieces > 0 ? last + (e->time - last) * n / pieces : e->time;
+          const carom_ball_state *s = e->a == ball ? &e->before[0] : &e->before[1];
+          if (n < pieces) {
+            carom_shot_at(line->ball, line->count, shot, time, states);
+            s = &states[ball];
+          }
+          fprintf(v->out, "%c%.1f %.1f", last == 0.0 && n == 0 ? 'M' : 'L', across(v, s->r), cloth - v->scale * s->r[2]);
+        }
+        last = in ? e->time : last;
+      }
+      fputs("\"/>\n", v->out);
+    }
+    fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"/>\n",
+            across(v, from->r), cloth - v->scale * from->r[2], r, colour);
+  }
+}
+
+/* The cushions that the ball of the cue meets, numbered, with their times. */
+static void draw_rails(const view *v, labels *l, const shot_line *line, const carom_shot *shot) {
+  const int ball = (int)line->cue.ball;
+  char text[40];
+  for (int64_t k = 0, rails = 0; k < shot->count && k < shot->room && rails < MOST_MARKED; k++)
+    if (counts_as_rail(line, shot, k, ball)) {
+      snprintf(text, sizeof text, "%d (%.2f s)", (int)++rails, shot->events[k].time);
+      put_label(l, across(v, shot->events[k].before[0].r), down(v, shot->events[k].before[0].r), text);
+    }
+}
+
+void shot_place(const carom_table *t, const double r[2], double at[2]) {
+  const view v = view_of(NULL, t);
+  at[0] = across(&v, r);
+  at[1] = down(&v, r);
+}
+
+void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
+  const carom_table *t = &shots[0].line->table->table;
+  view v = view_of(out, t);
+  static labels l;
+  int lines = 0;
+  for (const char *end = footer; (end = strchr(end, '\n')) != NULL; end++)
+    lines++;
+  const double wide = v.scale * (fmax(v.high[0] - v.low[0], v.high[1] - v.low[1]) + 2.0 * v.margin);
+  const double high = v.scale * (fmin(v.high[0] - v.low[0], v.high[1] - v.low[1]) + 2.0 * v.margin);
+  v.labels = &l;
+  l = (labels){.out = out, .width = wide, .height = high, .size = 20.0};
+  double rise = 0.0;
+  for (int shot = 0; shot < count; shot++)
+    for (int k = 0; k < shots[shot].line->count; k++)
+      rise = fmax(rise, rise_of(shots[shot].line, shots[shot].shot, k));
+  const double side = rise > 1e-3 ? v.scale * (rise + 2.0 * shots[0].line->ball[0].kind.radius) + side_margin : 0.0;
+  const double below = side > 0.0 ? side + side_margin : 0.0;
+  draw_table(&v, t, below + (lines > 0 ? line_height * (lines + 1) : 0.0));
+  if (side > 0.0)
+    fprintf(out, "<rect y=\"%.1f\" width=\"100%%\" height=\"%.1f\" fill=\"#86a398\"/>\n", high,
+            below + (lines > 0 ? 0.0 : 20.0));
+  for (int shot = 0; shot < count && side > 0.0; shot++)
+    draw_side(&v, shots[shot].line, shots[shot].shot, high + side, wide);
+  for (int k = 0; k < shots[0].line->count; k++)
+    draw_ball(&v, shots[0].line, &shots[0].line->ball[k].state, k, false, NULL);
+  for (int shot = count - 1; shot >= 0; shot--)
+    for (int k = shots[shot].line->count - 1; k >= 0; k--)
+      draw_path(&v, shots[shot].line, shots[shot].shot, k);
+  /* Where they end; what does not move, once. */
+  for (int shot = 0; shot < count; shot++) {
+    const shot_line *line = shots[shot].line;
+    carom_ball_state final[CAROM_BALLS_MOST];
+    memcpy(final, shots[shot].shot->final, (size_t)line->count * sizeof *final);
+    spread_pocketed(line, final);
+    for (int k = 0; k < line->count; k++) {
+      char number[12];
+      if (!shot_shows(&shots[shot], shot, k))
+        continue;
+      snprintf(number, sizeof number, "%d", shot + 1);
+      fprintf(out, "<g class=\"ball\" data-x=\"%.1f\" data-y=\"%.1f\">\n", across(&v, final[k].r), down(&v, final[k].r));
+      draw_ball(&v, line, &final[k], k, true, count > 1 && k == line->cue.ball ? number : line->name[k]);
+      fputs("</g>\n", out);
+      const double r = v.scale * line->ball[k].kind.radius, x = across(&v, final[k].r), y = down(&v, final[k].r);
+      keep_free(&l, x - r, y - r, x + r, y + r);
+    }
+  }
+  for (int shot = 0; shot < count; shot++)
+    draw_rails(&v, &l, shots[shot].line, shots[shot].shot);
+  for (int k = 0; k < lines; k++, footer += strcspn(footer, "\n") + 1)
+    svg_text(out, 24.0, high + below + line_height * (k + (below > 0.0 ? 1.0 : 0.6)),
+             "xml:space=\"preserve\" font-size=\"18\" fill=\"#fff\"", footer, (int)strcspn(footer, "\n"));
   fputs("</svg>\n", out);
+}
+
+bool shot_shows(const played *p, int index, int ball) {
+  return index == 0 || ball_moved(p->shot, ball);
 }

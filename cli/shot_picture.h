@@ -1,31 +1,27 @@
-/* A shot as a picture: the table, each ball's path, where the balls began and ended. */
+/* Shots as a picture: the table, each ball's path, where the balls began and ended. */
 #ifndef CAROM_CLI_SHOT_PICTURE_H
 #define CAROM_CLI_SHOT_PICTURE_H
 
 #include "options.h"
 #include "shot_file.h"
 
-/* For a `const char *`: a name that ends in .svg. */
-OPTION_SET(set_svg);
+/* A shot and its result. */
+typedef struct played {
+  const shot_line *line;
+  const carom_shot *shot;
+} played;
 
 /* Whether the shot has this id; any has NULL. */
 bool shot_has_id(const shot_line *line, const char *id);
 
-/* A line to be marked, dashed, with a label at its end or NULL; a dot where it has no length. Places on the table, m. */
-typedef struct shot_mark {
-  double from[2], to[2];
-  const char *label;
-} shot_mark;
+/* Draws shots of one table and layout over each other as SVG, each up to shot->time, when the balls are as in shot->final.
+ * `footer` has lines to stand below. Each ball at its end is a group of class "ball", with that place in data-x and data-y. */
+void shots_draw(FILE *out, const played *shots, int count, const char *footer);
 
-/* A part of the cloth to be drawn instead of the table, with marks, and lines of text below it, each with its end. */
-typedef struct shot_extra {
-  double low[2], high[2]; /* m */
-  const shot_mark *mark;
-  int marks;
-  const char *text;
-} shot_extra;
+/* Whether it has a group for that ball of shot number `index`: those that do not move are drawn once. */
+bool shot_shows(const played *p, int index, int ball);
 
-/* Draws it as SVG, up to shot->time, when the balls are as in shot->final. `extra` may be NULL. */
-void shot_draw(FILE *out, const shot_line *line, const carom_shot *shot, const shot_extra *extra);
+/* Where a place of the table is on the picture, pixels. */
+void shot_place(const carom_table *t, const double r[2], double at[2]);
 
 #endif

@@ -61,6 +61,7 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
   char where[64];
   carom_table *table = &t->table;
   if (!json_get_id(json, "", &t->id, f) || !json_get_doubles(json, "", "w l", &table->width, f) ||
+      !json_get_doubles(json, "", "ball_radius rail_width pocket_back", &table->ball_radius, f) ||
       !json_get_list(json, "linear", CAROM_RAILS_MOST, &list, f))
     return false;
   json_array_foreach((json_t *)list, k, v) {
@@ -96,14 +97,13 @@ bool read_table(const json_t *json, named_table *t, json_fault *f) {
 
 /* Tables that need no line, by the name of carom_table_make()'s kinds. */
 named_table *built_in_table(const char *id) {
-  static const char *const names[] = {"7ft", "8ft", "9ft", "snooker", "threecushion"};
   static const char *const rails[] = {"3",  "6", "15", "12", "18", "9",  "5",  "4",  "13",
                                       "14", "1", "2",  "8",  "7",  "11", "10", "16", "17"};
   static const char *const plain[] = {"3", "12", "9", "18"};
   static const char *const jaws[] = {"1t", "2t", "4t", "5t", "7t", "8t", "10t", "11t", "13t", "14t", "16t", "17t"};
   static const char *const pockets[] = {"lb", "lc", "lt", "rb", "rc", "rt"};
   for (int kind = 0; kind <= CAROM_TABLE_THREECUSHION; kind++) {
-    if (strcmp(id, names[kind]) != 0)
+    if (strcmp(id, carom_table_name((carom_table_kind)kind)) != 0)
       continue;
     named_table *t = allocate(1, sizeof *t);
     carom_table_make((carom_table_kind)kind, &t->table);

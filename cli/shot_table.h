@@ -3,7 +3,17 @@
 #define CAROM_CLI_SHOT_TABLE_H
 
 #include "json_values.h"
-#include "shot_file.h"
+
+#include "carom_shot.h"
+
+#include <stdbool.h>
+
+/* A table by its id, with the ids of its parts. */
+typedef struct named_table {
+  char *id;
+  carom_table table;
+  char *rail[CAROM_RAILS_MOST], *jaw[CAROM_JAWS_MOST], *pocket[CAROM_POCKETS_MOST];
+} named_table;
 
 /* Reads a line of kind table into *t, which is all zero. False where it is wrong; *t is to be freed either way. */
 bool read_table(const json_t *json, named_table *t, json_fault *f);

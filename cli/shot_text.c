@@ -4,24 +4,23 @@
 #include <math.h>
 
 const char *shot_event_name(int type) {
-  static const char *const names[] = {
-      [CAROM_EVENT_STRIKE] = "stick_ball",
-      [CAROM_EVENT_BALL_BALL] = "ball_ball",
-      [CAROM_EVENT_RAIL] = "ball_linear_cushion",
-      [CAROM_EVENT_JAW] = "ball_circular_cushion",
-      [CAROM_EVENT_POCKET] = "ball_pocket",
-      [CAROM_EVENT_SLIDING_ROLLING] = "sliding_rolling",
-      [CAROM_EVENT_ROLLING_SPINNING] = "rolling_spinning",
-      [CAROM_EVENT_ROLLING_STATIONARY] = "rolling_stationary",
-      [CAROM_EVENT_SPINNING_STATIONARY] = "spinning_stationary",
-  };
-  return type >= 0 && type < (int)(sizeof names / sizeof names[0]) ? names[type] : NULL;
+  return carom_event_name((carom_event_type)type);
 }
 
 const char *shot_part_name(const named_table *table, const carom_event *event) {
-  return event->type == CAROM_EVENT_RAIL  ? table->rail[event->b]
-         : event->type == CAROM_EVENT_JAW ? table->jaw[event->b]
-                                          : table->pocket[event->b];
+  const int64_t rails = table->table.rails;
+  switch (event->type) {
+  case CAROM_EVENT_RAIL:
+    return table->rail[event->b];
+  case CAROM_EVENT_JAW:
+    return table->jaw[event->b];
+  case CAROM_EVENT_POCKET:
+    return table->pocket[event->b];
+  case CAROM_EVENT_RAIL_TOP:
+    return event->b < rails ? table->rail[event->b] : table->jaw[event->b - rails];
+  default:
+    return NULL;
+  }
 }
 
 /* ---- Parts of a line. Non-finite numbers, which JSON has not, become null. */
@@ -43,13 +42,14 @@ static json_t *state_of(const carom_ball_state *s) {
 /* [time, type, ids], and in full the states before and after. */
 static json_t *event_of(const shot_line *line, const carom_event *e, int detail) {
   const bool pair = e->type == CAROM_EVENT_BALL_BALL;
+  const char *part = shot_part_name(line->table, e);
   json_t *ids = json_array();
   /* What took part. */
   if (e->type == CAROM_EVENT_STRIKE)
     json_array_append_new(ids, json_string("cue_stick"));
   json_array_append_new(ids, json_string(line->name[e->a]));
-  if (pair || (e->type >= CAROM_EVENT_RAIL && e->type <= CAROM_EVENT_POCKET))
-    json_array_append_new(ids, json_string(pair ? line->name[e->b] : shot_part_name(line->table, e)));
+  if (pair || part != NULL)
+    json_array_append_new(ids, json_string(pair ? line->name[e->b] : part));
   json_t *event = json_pack("[f, s, o]", e->time, shot_event_name(e->type), ids);
   /* How it moved. */
   for (int side = 0; side < 2 && detail == EVENTS_FULL; side++) {

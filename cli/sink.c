@@ -53,6 +53,19 @@ void write_id(FILE *out, const char *id) {
     fputs(id, out);
 }
 
+void write_row_header(FILE *out, const row_kind *kind) {
+  fputs("id", out);
+  for (int k = 0; k < kind->numbers; k++)
+    fprintf(out, ",%s", kind->columns[k].name);
+  fputc('\n', out);
+}
+
+void write_row(FILE *out, const row_kind *kind, const char *id, const double *row) {
+  write_id(out, id);
+  write_numbers(out, row, (size_t)kind->numbers);
+  fputc('\n', out);
+}
+
 static void write_csv(result_sink *s, const char *id, const double *in, const double *result, const char *status, bool good) {
   double derived[MOST_DERIVED];
   if (id == NULL)

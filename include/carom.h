@@ -44,8 +44,9 @@
  *   - Each row of a batch and a single call on that row, for any batch size, split, neighbours and thread count. The exception
  *     is Euler's method in single precision: see carom_collide_batch_f32().
  *   - Two runs on one processor with one instruction set.
- *   - All machines and compilers with the environment variable CAROM_ISA=plain, or after carom_isa_limit(CAROM_ISA_PLAIN): for
- *     lockstep, replays and tests. This holds for every function, also under flags such as -mfma, -march=native and LTO.
+ *   - All machines and compilers with options.plain = 1, with the environment variable CAROM_ISA=plain, or after
+ *     carom_isa_limit(CAROM_ISA_PLAIN): for lockstep, replays and tests. This holds for every function, also under flags such
+ *     as -mfma, -march=native and LTO.
  *     tests/platforms/bits.expected has hashes on which gcc and clang, Linux on x86-64 and arm64, Windows and WebAssembly
  *     agree.
  *   - All instruction sets, by Euler's method in double precision.
@@ -151,7 +152,7 @@ typedef enum carom_status {
   CAROM_ERROR_THREADS = -20,         /* options.threads is neither CAROM_ALL_THREADS nor 0 or more. */
   CAROM_ERROR_POINTS = -21,          /* a trace needs at least 2 points. */
   CAROM_ERROR_UNRESOLVED = -22,      /* the result depends on rounding errors, or takes more work than a call may cost. */
-  CAROM_ERROR_OPTIONS = -23,         /* a reserved field of the options is not 0. */
+  CAROM_ERROR_OPTIONS = -23,         /* options.plain is neither 0 nor 1, or a reserved field of the options is not 0. */
   CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model of carom_shot.h is not one of carom_cushion_model. */
   CAROM_ERROR_CUSHION_OPTIONS = -31, /* an option of a cushion is out of its range. */
   CAROM_ERROR_NORMAL = -32,          /* the direction into a cushion is not finite, or 0. */
@@ -160,7 +161,7 @@ typedef enum carom_status {
   CAROM_ERROR_JAW_RADIUS = -35,      /* the radius of a jaw is not finite, or negative. */
   CAROM_ERROR_TOO_MANY_EVENTS = -40, /* a shot has more than options.events_most events. */
   CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than 1000 s, and options.time_most is 0. */
-  CAROM_ERROR_LEFT_TABLE = -42,      /* a ball left the table. */
+  CAROM_ERROR_LEFT_TABLE = -42,      /* a ball on the cloth left the table. */
   CAROM_ERROR_SHOT_OPTIONS = -43,    /* an option of the shot is out of its range, or a reserved one is not 0. */
   CAROM_ERROR_BALLS = -44,           /* the number of balls is not 1 to CAROM_BALLS_MOST. */
   CAROM_ERROR_LABEL = -45,           /* the label of a ball is not one that a layout may have. */
@@ -169,7 +170,7 @@ typedef enum carom_status {
   CAROM_ERROR_MU_MOTION = -48,       /* a friction of sliding, rolling or spinning is not above 0 and at most 1. */
   CAROM_ERROR_GRAVITY = -49,         /* gravity is not positive and finite. */
   CAROM_ERROR_CUE = -50,             /* a field of the cue is out of its range. */
-  CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below 1. */
+  CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below miscue^2. */
   CAROM_ERROR_TABLE = -52, /* the table has too many parts, or a part that is not finite, has no length, or a bad mu or e. */
   CAROM_ERROR_RACK = -53,  /* no such rack, a gap that is not between 0 and R, or too little room. */
   CAROM_ERROR_EVENTS_LOST = -54,  /* carom_shot_at(): the shot had more events than there was room for. */
@@ -177,6 +178,11 @@ typedef enum carom_status {
   CAROM_ERROR_DRAG = -56,         /* the drag of a rolling ball is not in [0, 1] 1/m. */
   CAROM_ERROR_BALL_CUSHION = -57, /* a ball's roll_loss, nose_height or omega_ratio is out of its range. */
   CAROM_ERROR_STATE = -60,        /* carom_shot_continue(): shot.state is not that of a shot of these balls that can go on. */
+  CAROM_ERROR_TABLE_OPEN = -61,   /* carom_table_check(): a ball can leave the table, or has no place on it. */
+  CAROM_ERROR_RAIL_SIDE = -62,    /* carom_table_check(): the played side of a rail is turned away from the table. */
+  CAROM_ERROR_RAIL_LINE = -63,    /* carom_table_check(): the line of a rail does not pass through both of its ends. */
+  CAROM_ERROR_TANGENT = -70,      /* carom_tangent.h: derivatives are not known for this world, model or motion. */
+  CAROM_ERROR_DIRECTIONS = -71,   /* carom_tangent.h: the number of directions is not 1 to CAROM_DIRECTIONS_MOST. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value not listed. Arrays of
@@ -221,7 +227,10 @@ typedef struct carom_options {
                            CAROM_ALL_THREADS: one for each processor that the process may use, by its affinity and the limit of
                            its control group. Results do not depend on it. Small batches, single calls, and libraries built
                            without threads start none. */
-  uint64_t reserved[6]; /* must be 0. Room for future options, for which 0 will mean the default. */
+  int plain;            /* 1: this call computes with CAROM_ISA_PLAIN, whatever instruction set is in use, and so has the bits
+                           that all machines share. 0, the default: with the one in use. */
+  int unused;           /* must be 0. */
+  uint64_t reserved[5]; /* must be 0. Room for future options, for which 0 will mean the default. */
 } carom_options;
 
 /* Resolves one collision. `opt` may be NULL for the defaults; `out` may not overlap `in`.
@@ -295,7 +304,7 @@ CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_
 /* Instruction sets of batches and of single calls of the exact solver, from low to high. The highest that the processor has is
  * used. Results differ within the solver's errors from one to another. The environment variable CAROM_ISA, set to one of the
  * names ("plain", "sse2", "neon", "avx2", "avx512") before the first call, limits it for the whole process; other values are
- * ignored. */
+ * ignored. A single call computes with plain where options.plain is 1. */
 typedef enum carom_isa {
   CAROM_ISA_ANY = -1, /* no limit: for carom_isa_limit(). */
   CAROM_ISA_PLAIN = 0,
@@ -389,6 +398,10 @@ CAROM_API const char *carom_field_name(int field);
 /* The version of the library that runs, as "major.minor.patch" and as a number. */
 CAROM_API const char *carom_version(void);
 CAROM_API int carom_version_number(void);
+
+/* The revision of the physics: a number that changes whenever a result of any call or model has other bits than before.
+ * Recordings play back bit for bit, and players in lockstep agree, only with the same number. */
+CAROM_API int carom_physics_revision(void);
 
 /* Whether a caller compiled with the header of that version can use this library, 1 or 0: carom_serves(CAROM_VERSION_NUMBER).
  * Before 1.0 the minor version must be equal. From then on the major version must be equal, and the minor one not above the

@@ -72,7 +72,7 @@ typedef struct carom_cushion_options {
   int steps;            /* Euler's N: compression and restitution take about so many steps each; 0: CAROM_DEFAULT_STEPS. */
   int threads;          /* most threads that a batch may use, the calling one among them. 0, the default: that one alone;
                            CAROM_ALL_THREADS: one for each processor. Results do not depend on it. */
-  int unused;           /* must be 0. */
+  int plain;            /* 1: with CAROM_ISA_PLAIN, as in carom_options. Default 0. */
   double least_step;    /* N s, >= 0: EULER takes no step of less impulse, but for the last ones. Default 0; pooltool: 0.001. */
   double omega_ratio;   /* STRONGE: frequency of the nose along its surface over that across it, 1 to 2 without the ends. 0:
                            1.8, which is that of pooltool. */
@@ -150,10 +150,11 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
  * The playing surface is 0 <= x <= width, 0 <= y <= length for the built-in tables, with z up and the cloth at z = 0: a ball on
  * it has its centre at z = R. docs/using/shots.md describes the models, the rules and the bounds.
  *
- * Bits: those of a batch are those of single calls, for any number of threads and any cut; with CAROM_ISA=plain they are the
- * same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with closed-form cushions, so 3 us for
- * a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion, the default, costs some 7 to 10 us an
- * impact besides. Stack: 30 KiB. Nothing is allocated, but for the threads of a batch. */
+ * Bits: those of a batch are those of single calls, for any number of threads and any cut; with options.plain or
+ * CAROM_ISA=plain they are the same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with Han's
+ * cushions, the default, so 3 us for a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion costs
+ * some 7 to 10 us an impact besides. Stack: 32 KiB; a batch 35, with threads 42. Nothing is allocated, but for the threads of a
+ * batch. */
 
 /* ---- Balls ------------------------------------------------------------------------------------------------------------ */
 
@@ -164,13 +165,17 @@ typedef enum carom_label {
   CAROM_BALL_SLIDING = 2,    /* u is not 0; sliding friction acts against u */
   CAROM_BALL_ROLLING = 3,    /* u = 0; rolling resistance acts against v */
   CAROM_BALL_POCKETED = 4,   /* in a pocket, out of play */
-  CAROM_BALL_AIRBORNE = 5    /* kept for later versions; an error today */
+  CAROM_BALL_AIRBORNE = 5,   /* above the cloth, or about to leave it or to land: it flies freely, and its spin is constant */
+  CAROM_BALL_OFF = 6         /* off the table, out of play; its place is where it left */
 } carom_label;
+
+/* Its name ("sliding"), or NULL for a value not listed. */
+CAROM_API const char *carom_label_name(carom_label label);
 
 /* The constants of a ball and of its cloth. All doubles, without gaps. */
 typedef struct carom_ball_kind {
   double mass;                /* kg, > 0. May differ from ball to ball in the world carom. */
-  double radius;              /* R, m, > 0. The same for all balls of a layout. */
+  double radius;              /* R, m, > 0. The same for all balls of a layout with CAROM_SPACE_FLAT. */
   double mu_slide;            /* sliding friction of ball and cloth, > 0, at most 1. Pool 0.2. */
   double mu_roll;             /* rolling resistance, > 0, at most 1. Pool 0.01. */
   double mu_spin;             /* friction of the ball turning on the spot, > 0, at most 1: w_z falls at 5 mu_spin g / (2 R). */
@@ -187,14 +192,16 @@ typedef struct carom_ball_kind {
                                  CAROM_FRICTION_CONSTANT. */
   double nose_height; /* of every cushion that the ball meets, above the cloth, m, below 2 R; 0: that of the rail or jaw. */
   double omega_ratio; /* of Stronge's cushions, as in carom_cushion_options: 1 to 2 without the ends; 0: 1.8. */
+  double restitution_table; /* ball and slate, at most 0.98; 0: 0.5, which is a convention; -1: none. */
 } carom_ball_kind;
 
 /* Where a ball is and how it moves. */
 typedef struct carom_ball_state {
-  double r[3];   /* centre, m; r[2] = R on the table. */
-  double v[3];   /* velocity, m/s; v[2] = 0. */
+  double r[3];   /* centre, m; r[2] = R on the cloth. */
+  double v[3];   /* velocity, m/s; v[2] = 0 on the cloth. */
   double w[3];   /* angular velocity, rad/s. */
-  int64_t label; /* a carom_label. In a layout it is derived from v and w, but for CAROM_BALL_POCKETED, which is kept. */
+  int64_t label; /* a carom_label. In a layout POCKETED, AIRBORNE and OFF are kept and the others derived: AIRBORNE where v[2]
+                    is not 0 or the ball is more than 1e-6 m above the cloth, else from v and w. */
 } carom_ball_state;
 
 typedef struct carom_shot_ball {
@@ -202,12 +209,13 @@ typedef struct carom_shot_ball {
   carom_ball_state state;
 } carom_shot_ball;
 
-/* Games, for their balls and cues. docs/understanding/constants.md has the source of each number. */
+/* Games, for their balls and cues. docs/understanding/constants.md has the source of each number. The numbers of the cushion
+ * are those of Han's model, the default of the world carom; that page has those of the exact model. */
 typedef enum carom_game {
   CAROM_GAME_POOL = 0,             /* typical numbers, each within the range that is published; no table was measured */
   CAROM_GAME_SNOOKER = 1,          /* measured by Mathavan and others, 2009 to 2014, on one table */
   CAROM_GAME_BILLIARD = 2,         /* three-cushion: measured on one table, from 182 recorded shots, with drag and loss of roll;
-                                      mu_cushion and restitution_cushion are for CAROM_CUSHION_MATHAVAN */
+                                      mu_cushion, restitution_cushion and nose_height are for CAROM_CUSHION_HAN */
   CAROM_GAME_POOLTOOL_POOL = 3,    /* the figures of pooltool's balls, for parity with it: pool, */
   CAROM_GAME_POOLTOOL_SNOOKER = 4, /* snooker, */
   CAROM_GAME_POOLTOOL_BILLIARD = 5 /* and carom */
@@ -248,6 +256,12 @@ typedef struct carom_table {
   carom_rail rail[CAROM_RAILS_MOST];
   carom_jaw jaw[CAROM_JAWS_MOST];
   carom_pocket pocket[CAROM_POCKETS_MOST];
+  /* Read with CAROM_SPACE_3D only. All >= 0, m; 0 means the default. */
+  double ball_radius; /* of the balls that touch a rail on the cloth when their centre is their radius from its line, which
+                         places the nose; 0: that of the last ball of the layout. */
+  double rail_width;  /* of the tops of the rails, behind the noses, which balls may fall on; 0: 0.12 m, a convention. */
+  double pocket_back; /* an airborne ball over a pocket falls into it if its centre is not higher than this above the cloth
+                         where it leaves the circle; 0: the greatest height of a nose. */
 } carom_table;
 
 typedef enum carom_table_kind {
@@ -259,8 +273,43 @@ typedef enum carom_table_kind {
   CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood": that of CAROM_TABLE_POOL_7FT, under a name that stays */
 } carom_table_kind;
 
+/* Its name ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value not listed. */
+CAROM_API const char *carom_table_name(carom_table_kind kind);
+
 /* Fills *table. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_TABLE where there is no such kind. */
 CAROM_API carom_status carom_table_make(carom_table_kind kind, carom_table *table);
+
+/* A part of a table, or a ball. */
+typedef enum carom_part_kind {
+  CAROM_PART_NONE = 0,
+  CAROM_PART_RAIL = 1,
+  CAROM_PART_JAW = 2,
+  CAROM_PART_POCKET = 3,
+  CAROM_PART_BALL = 4
+} carom_part_kind;
+
+typedef struct carom_part {
+  carom_part_kind kind;
+  int32_t index; /* in its array; 0 of CAROM_PART_NONE. */
+} carom_part;
+
+/* What is wrong with a table, and where. */
+typedef struct carom_table_fault {
+  carom_part part, other; /* the part at fault; of a hole, the parts on both of its sides. */
+  double place[2];        /* m: the middle of the hole or of the rail; 0 where a number of the part is bad. */
+  double gap;             /* m: width of the hole, from surface to surface; else 0. */
+} carom_table_fault;
+
+/* Checks a table of one's own for balls of a radius; it is made for the workshop, not for each shot (some milliseconds). In
+ * this order: each part by itself, as carom_shoot() does; that lines of rails pass through their ends, within 1e-6 m; that the
+ * ring of rails, jaws and pockets around the middle (width/2, length/2) is closed, so that no ball can leave the table but into
+ * a pocket; that the played side of each rail is the one where balls are, where a ball has a place beside it; and that a jaw,
+ * of radius 0 if need be, stands where a ball could come in between the ends of two rails, at which there is nothing to be hit
+ * (gap then is how far apart the centres of balls that touch the two rails are). The first fault is told in *fault, which may
+ * be NULL. CAROM_OK, CAROM_ERROR_NULL, CAROM_ERROR_RADIUS, CAROM_ERROR_TABLE, CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE,
+ * CAROM_ERROR_TABLE_OPEN (of all holes the one that has to be closed last is told; CAROM_PART_NONE where there is no ring, or
+ * no place for a ball in its middle), CAROM_ERROR_RAIL_SIDE. */
+CAROM_API carom_status carom_table_check(const carom_table *table, double radius, carom_table_fault *fault);
 
 /* Racks, with the cue ball first. */
 typedef enum carom_rack_kind {
@@ -270,6 +319,9 @@ typedef enum carom_rack_kind {
   CAROM_RACK_SNOOKER = 3,     /* 22 balls: white, 15 reds, yellow, green, brown, blue, pink, black. */
   CAROM_RACK_THREECUSHION = 4 /* 3 balls: white, yellow, red, as for the opening. */
 } carom_rack_kind;
+
+/* Its name ("eightball"), or NULL for a value not listed. */
+CAROM_API const char *carom_rack_name(carom_rack_kind kind);
 
 /* The number of balls of a rack; 0 if there is no such kind. */
 CAROM_API int carom_rack_size(carom_rack_kind kind);
@@ -285,19 +337,22 @@ CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table
 typedef struct carom_cue {
   double speed;      /* V0 of the cue before the strike, m/s, >= 0. 0: no strike. */
   double phi;        /* direction in the plane, degrees from +x towards +y. */
-  double theta;      /* elevation of the butt, degrees, 0 to 90. */
-  double a, b;       /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre. a^2 + b^2 < 1. */
+  double theta;      /* elevation of the butt, degrees, 0 to 90. The ball is struck down onto the slate and hops; with
+                        CAROM_SPACE_FLAT the part of the blow that goes down is lost. */
+  double a, b;       /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre. a^2 + b^2 < miscue^2. */
   double mass;       /* M, kg, > 0. */
   double end_mass;   /* effective mass of the tip's end, which makes squirt, kg, > 0. */
   double tip_radius; /* m; not used by the strike, kept with the cue. */
   int64_t ball;      /* index of the ball that is struck. */
+  double miscue;     /* 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. Chalked tips reach 0.5. */
 } carom_cue;
 
 /* The usual cue: speed 2, phi 90 (along the table), b = 0.25, ball 0. */
 CAROM_API carom_cue carom_cue_of(carom_game game);
 
-/* The motion of a ball at rest after a strike, into out->v and out->w. CAROM_OK; an error of a field of the cue, or of the mass
- * or radius of the ball, whose other fields are not read; or CAROM_ERROR_OVERFLOW. With an error *out is untouched. */
+/* The motion of a ball at rest after a strike, into out->v and out->w, as with CAROM_SPACE_FLAT: v[2] = 0. CAROM_OK; an error
+ * of a field of the cue, or of the mass or radius of the ball, whose other fields are not read; or CAROM_ERROR_OVERFLOW. With
+ * an error *out is untouched. */
 CAROM_API carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out);
 
 /* ---- Options ---------------------------------------------------------------------------------------------------------- */
@@ -319,9 +374,19 @@ typedef enum carom_ball_model {
 /* Friction between two balls: from their speed of slip, by Alciatore's law or the one of the balls; or mu_ball of the balls. */
 typedef enum carom_ball_friction { CAROM_FRICTION_ALCIATORE = 0, CAROM_FRICTION_CONSTANT = 1 } carom_ball_friction;
 
-/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is MATHAVAN in the world carom, STRONGE in
- * pooltool. These values are not those of carom_cushion_model, in which 0 is a model: compilers warn where the two are mixed
- * (-Wenum-conversion, which -Wextra of gcc turns on). */
+/* Whether balls can leave the cloth. In 3D a shot in which no ball does so has the bits that it has with FLAT, and its speed:
+ * two balls on the cloth collide by the 2014 model, and a ball on the cloth and a cushion by the flat model. Where a ball
+ * flies, or two radii differ, contacts are those of spheres in space (carom_impact3()). The world pooltool is flat whatever
+ * this says. */
+typedef enum carom_space {
+  CAROM_SPACE_3D = 0,  /* elevated cues make balls hop; balls jump, fall on each other and on rails, and leave the table */
+  CAROM_SPACE_FLAT = 1 /* balls stay on the cloth, whatever pushes them up or down */
+} carom_space;
+
+/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is HAN in the world carom, STRONGE in
+ * pooltool. HAN predicts recorded shots as well as MATHAVAN, the exact limit, for a tenth of the cost or less
+ * (docs/understanding/reality.md). These values are not those of carom_cushion_model, in which 0 is a model: compilers warn
+ * where the two are mixed (-Wenum-conversion, which -Wextra of gcc turns on). */
 typedef enum carom_shot_cushion {
   CAROM_SHOT_CUSHION_DEFAULT = 0,
   CAROM_SHOT_CUSHION_MATHAVAN = 1,
@@ -340,12 +405,15 @@ typedef struct carom_shot_options {
   int32_t steps;       /* of Euler's models; 0: 1000. */
   int32_t events_most; /* events of a shot; 0: 10000. */
   int32_t threads;     /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
-  int32_t unused;      /* must be 0. */
-  double time_most;    /* s: the shot is stopped at exactly this time of its clock, after the events of that instant, with
-                          CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s with CAROM_ERROR_TOO_LONG. */
-  uint64_t stop_at;    /* the shot is stopped right after an event of this set, with CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)
-                          of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
-  uint64_t reserved[4]; /* must be 0. */
+  carom_space space;
+  double time_most; /* s: the shot is stopped at exactly this time of its clock, after the events of that instant, with
+                       CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s with CAROM_ERROR_TOO_LONG. */
+  uint64_t stop_at; /* the shot is stopped right after an event of this set, with CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)
+                       of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
+  int32_t plain;    /* 1: with CAROM_ISA_PLAIN, as in carom_options: a shot with the bits that all machines share. 0: with
+                       the instruction set in use. */
+  int32_t unused;   /* must be 0. */
+  uint64_t reserved[3]; /* must be 0. */
 } carom_shot_options;
 
 /* ---- What happened ---------------------------------------------------------------------------------------------------- */
@@ -359,8 +427,15 @@ typedef enum carom_event_type {
   CAROM_EVENT_SLIDING_ROLLING = 6, /* ball a, as the rest */
   CAROM_EVENT_ROLLING_SPINNING = 7,
   CAROM_EVENT_ROLLING_STATIONARY = 8,
-  CAROM_EVENT_SPINNING_STATIONARY = 9
+  CAROM_EVENT_SPINNING_STATIONARY = 9,
+  CAROM_EVENT_SLATE = 10,     /* airborne ball a lands on the slate */
+  CAROM_EVENT_RAIL_TOP = 11,  /* airborne ball a falls on the top of rail b, or of jaw b - the table's rails */
+  CAROM_EVENT_LEFT_TABLE = 12 /* airborne ball a leaves the table: it falls or flies beyond it, or comes to lie on a rail. The
+                                 shot goes on. */
 } carom_event_type;
+
+/* Its name ("ball_linear_cushion" for a rail), as in files of `carom shoot`, or NULL for a value not listed. */
+CAROM_API const char *carom_event_name(carom_event_type type);
 
 /* One event. before[1] and after[1] are those of ball b of a CAROM_EVENT_BALL_BALL, else all zero. */
 typedef struct carom_event {
@@ -401,11 +476,18 @@ typedef struct carom_shot {
   uint64_t reserved[4];    /* not read or written yet. */
 } carom_shot;
 
+/* The collision of two spheres in space along any line of centres: one impulse in closed form, of any radii and masses, with
+ * restitution e and Coulomb's friction mu_ball, which stops the slip or slips to the end. The cloth takes no part: mu_cloth is
+ * not read. Only the direction of b.r - a.r counts. CAROM_OK; CAROM_SEPARATING where the balls do not close, with the motion
+ * before; or an error of a field, with *out all NaN (untouched when a pointer is NULL). */
+CAROM_API carom_status carom_impact3(const carom_impact *in, carom_result *out);
+
 /* Plays a shot until nothing moves. 1 to CAROM_BALLS_MOST balls. If a ball moves already, or cue is NULL or its speed 0, there
  * is no strike. `opt` may be NULL for the defaults. Returns CAROM_OK; CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT where
  * the options ask for that; CAROM_ERROR_TOO_MANY_EVENTS or CAROM_ERROR_TOO_LONG where a bound ended it; an error of a field,
- * with count 0 and nothing else written (carom_shot_check() returns the field); or CAROM_ERROR_LEFT_TABLE, or one of a
- * collision, with everything up to that event. The final states are those at shot->time. */
+ * with count 0 and nothing else written (carom_shot_check() returns the field); or CAROM_ERROR_LEFT_TABLE, where a ball on the
+ * cloth found a hole between the cushions, or one of a collision, with everything up to that event. The final states are those
+ * at shot->time. */
 CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                                    const carom_shot_options *opt, carom_shot *shot);
 
@@ -435,6 +517,12 @@ CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom
  * number, and for one after shot->time where balls still move then, since a bound or an error ended the shot. */
 CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
                                      carom_ball_state *states);
+
+/* The states at `n` times: those of times[k] go to states[k * count ...], each with the bits of carom_shot_at(). Times in
+ * ascending order cost some 20 ns a ball; every one before the last begins anew with the first event. Returns what
+ * carom_shot_at() does, for the first time in error; the states of the times before it have been written. */
+CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const carom_shot *shot, const double *times,
+                                           size_t n, carom_ball_state *states);
 
 /* Many shots on one table. Shot k is of the `count` balls from balls[k * ball_stride] on, and of cues[k * cue_stride].
  *
@@ -466,9 +554,27 @@ CAROM_API carom_status carom_shoot_batch(const carom_shot_job *job);
  * or -1; it may be NULL. CAROM_ERROR_OFF_TABLE: a ball is in a cushion by more than 1e-6 m; or its centre is behind one,
  * outside the ring of rails, jaws and pockets; or its centre is in a pocket and its label is not CAROM_BALL_POCKETED. Outside
  * is where no played side of a rail is seen in any of 16 directions, but the back of one or a pocket is; on tables whose ring
- * has gaps a place outside may pass. */
+ * has gaps a place outside may pass. An airborne ball may be over a pocket or over the top of a rail; it must not be in a nose
+ * or below a top, nor lower than the cloth. */
 CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                                         const carom_shot_options *opt, int *where);
+
+/* Ball in hand: puts balls[ball] at rest at (x, y), if that place is free of the other balls, which need not be at rest, of
+ * cushions and pockets, within the bounds of carom_shot_check(). Its kind is kept; it may have been out of play. CAROM_OK;
+ * CAROM_ERROR_OVERLAP for a place that another ball takes, CAROM_ERROR_OFF_TABLE for one in a cushion or a pocket, or outside
+ * the ring: *in_the_way then is that ball or part (CAROM_PART_NONE: outside), and nothing is moved. Or an error of the table,
+ * of the ball's radius, CAROM_ERROR_POSITION, CAROM_ERROR_BALLS for a count or an index that cannot be. `in_the_way` may be
+ * NULL. */
+CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball, double x,
+                                        double y, carom_part *in_the_way);
+
+/* How each ball has turned since the start of the shot, for drawing it: unit quaternions (w, x, y, z), which take what is
+ * painted on a ball at the start to where it is at the time. They follow from the events alone, whatever was asked before.
+ * Exact but for rounding while the axis of the spin keeps its direction (in flight, on the spot, rolling without side spin, in
+ * straight slides), else within 1e-7 rad for each phase of the ball. `turned` takes `count` of them. Returns what
+ * carom_shot_at() does. A call costs some 0.1 us for each radian that balls with side spin have turned. */
+CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
+                                              double (*turned)[4]);
 
 #ifdef __cplusplus
 }

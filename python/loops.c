@@ -10,12 +10,224 @@ void carom_python_mu_ball(const carom_impact *in, size_t n, carom_speed_law law,
     mu[k] = carom_mu_ball(&in[k], law);
 }
 
-carom_status carom_python_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, size_t n,
-                                  const double *times, carom_ball_state *states) {
+carom_status carom_python_orientations(const carom_shot_ball *balls, int count, const carom_shot *shot, const double *times,
+                                       size_t n, double *turned) {
   carom_status status = CAROM_OK;
   for (size_t k = 0; k < n && status == CAROM_OK; k++)
-    status = carom_shot_at(balls, count, shot, times[k], &states[k * (size_t)count]);
+    status = carom_shot_orientation(balls, count, shot, times[k], (double(*)[4]) & turned[4 * k * (size_t)count]);
   return status;
+}
+
+/* ---- A look at many shots ---------------------------------------------------------------------------------------------- */
+
+/* What one thread needs for shots that are played again, and the job. */
+typedef struct looking {
+  const carom_shot_job *job;
+  bool full; /* whether states are needed, or events without them will do */
+  int64_t room;
+  carom_event *events;
+  carom_brief_event *brief;
+  carom_ball_state *final, *states; /* at the end of a shot played again, and at all times */
+} looking;
+
+/* Room for so many events. */
+static bool make_room(looking *with, int64_t room) {
+  with->room = room;
+  if (with->full) {
+    free(with->events);
+    with->events = malloc((size_t)room * sizeof *with->events);
+    return with->events != NULL;
+  }
+  free(with->brief);
+  with->brief = malloc((size_t)room * sizeof *with->brief);
+  return with->brief != NULL;
+}
+
+/* Plays shot k with room for all of its events. A shot of more than there is room for is played again, with enough. */
+static bool play_whole(looking *with, size_t k, carom_shot *shot, carom_status *status) {
+  const carom_shot_job *job = with->job;
+  const carom_cue *cue = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
+  do {
+    if (shot->count > with->room && !make_room(with, shot->count))
+      return false;
+    shot->events = with->full ? with->events : NULL;
+    shot->brief = with->full ? NULL : with->brief;
+    shot->room = with->room;
+    *status = carom_shoot(job->table, job->balls + k * job->ball_stride, (int)job->count, cue, job->options, shot);
+  } while (shot->count > with->room);
+  return true;
+}
+
+/* The states at the times, and what of them is unknown. */
+static carom_status look_at_times(const looking *with, size_t k, const carom_shot *shot, const double *times, size_t m,
+                                  carom_ball_state *states) {
+  const size_t count = (size_t)with->job->count;
+  const carom_shot_ball *balls = with->job->balls + k * with->job->ball_stride;
+  const carom_ball_state unknown = {.r = {NAN, NAN, NAN}, .v = {NAN, NAN, NAN}, .w = {NAN, NAN, NAN}, .label = -1};
+  for (size_t i = 0; i < m * count; i++)
+    states[i] = unknown;
+  return shot == NULL ? CAROM_ERROR_TIME : carom_shot_at_times(balls, (int)count, shot, times, m, states);
+}
+
+/* Counts and first times from the events, full ones or brief ones. */
+static void look_at_events(const looking *with, size_t k, const carom_shot *shot, const carom_python_features *f) {
+  const size_t count = (size_t)with->job->count;
+  int32_t *contact = &f->contact[2 * k], *before = &f->cushions_before[2 * k], *after = &f->cushions_after[k];
+  int32_t *pocket = &f->pocket[k * count], *cushions = &f->cushions[k * count];
+  double *contact_time = &f->contact_time[2 * k], *pocket_time = &f->pocket_time[k * count];
+  for (int n = 0; n < 2; n++) {
+    contact[n] = -1;
+    before[n] = 0;
+    contact_time[n] = HUGE_VAL;
+  }
+  for (size_t i = 0; i < count; i++) {
+    pocket[i] = -1;
+    cushions[i] = 0;
+    pocket_time[i] = HUGE_VAL;
+  }
+  *after = 0;
+
+  const int cue = with->job->cues == NULL ? 0 : (int)(with->job->cues + k * with->job->cue_stride)->ball;
+  for (int64_t e = 0; shot != NULL && e < shot->count; e++) {
+    const int type = shot->events != NULL ? shot->events[e].type : shot->brief[e].type;
+    const int a = shot->events != NULL ? shot->events[e].a : shot->brief[e].a;
+    const int b = shot->events != NULL ? shot->events[e].b : shot->brief[e].b;
+    const double time = shot->events != NULL ? shot->events[e].time : shot->brief[e].time;
+    if (type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW) {
+      cushions[a]++;
+      *after += contact[0] >= 0;
+    } else if (type == CAROM_EVENT_POCKET) {
+      pocket[a] = b;
+      pocket_time[a] = time;
+    } else if (type == CAROM_EVENT_BALL_BALL && (a == cue || b == cue)) {
+      /* the cue ball meets a ball that it has not met, the first or the second */
+      const int other = a == cue ? b : a, n = contact[0] >= 0;
+      if (contact[n] < 0 && other != contact[0]) {
+        contact[n] = other;
+        contact_time[n] = time;
+        before[n] = cushions[cue];
+      }
+    }
+  }
+}
+
+/* One shot. False: there is no memory. */
+static bool look_at_shot(looking *with, size_t k, bool play, const double *times, size_t m, carom_ball_state *states,
+                         double *positions, const carom_python_features *features, int8_t *status) {
+  const carom_shot_job *job = with->job;
+  const size_t count = (size_t)job->count;
+  carom_shot *given = &job->shots[k], shot = *given;
+  carom_status played = (carom_status)job->status[k], look = CAROM_OK;
+
+  /* The shot with all of its events; none of one whose arguments were refused. Played here where events are kept, they go
+   * there. */
+  if (play && given->room > 0) {
+    const carom_cue *cue = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
+    played = carom_shoot(job->table, job->balls + k * job->ball_stride, (int)job->count, cue, job->options, given);
+    shot = *given;
+  }
+  const bool kept = given->count <= given->room && (given->events != NULL || (!with->full && given->brief != NULL));
+  bool known = true;
+  if (play && given->room == 0) {
+    if (!play_whole(with, k, &shot, &played))
+      return false;
+    given->count = shot.count;
+    given->time = shot.time;
+  } else if (given->count == 0 && played < 0 && !(given->time > 0.0)) {
+    known = false;
+  } else if (!kept) {
+    carom_status again;
+    shot.final = with->final;
+    if (!play_whole(with, k, &shot, &again))
+      return false;
+    known = again == played && shot.count == given->count && shot.time == given->time &&
+            memcmp(with->final, given->final, count * sizeof *with->final) == 0;
+    look = known ? CAROM_OK : CAROM_ERROR_STATE;
+  }
+
+  job->status[k] = (int8_t)played;
+
+  carom_ball_state *at = states != NULL ? &states[k * m * count] : with->states;
+  if (at != NULL) {
+    const carom_status late = look_at_times(with, k, known ? &shot : NULL, times, m, at);
+    look = look == CAROM_OK ? late : look;
+  }
+  for (size_t i = 0; positions != NULL && i < m * count; i++)
+    memcpy(&positions[3 * (k * m * count + i)], at[i].r, sizeof at[i].r);
+  if (features != NULL)
+    look_at_events(with, k, known ? &shot : NULL, features);
+  status[k] = (int8_t)look;
+  return true;
+}
+
+carom_status carom_python_look(const carom_shot_job *job, int play, const double *times, size_t m, carom_ball_state *states,
+                               double *positions, const carom_python_features *features, int8_t *status) {
+  const size_t count = (size_t)job->count;
+  looking with = {.job = job, .full = states != NULL || positions != NULL};
+  bool room = make_room(&with, 512);
+  with.final = malloc(count * sizeof *with.final);
+  room = room && with.final != NULL;
+  if (positions != NULL && states == NULL && m > 0) {
+    with.states = malloc(m * count * sizeof *with.states);
+    room = room && with.states != NULL;
+  }
+  for (size_t k = 0; k < job->n && room; k++)
+    room = look_at_shot(&with, k, play != 0, times, m, states, positions, features, status);
+  free(with.events);
+  free(with.brief);
+  free(with.final);
+  free(with.states);
+  return room ? CAROM_OK : CAROM_ERROR_NULL;
+}
+
+/* ---- Pieces of a track -------------------------------------------------------------------------------------------------
+ *
+ * Dynamic programming. For each end j the beginning i goes back from it, and sums over the samples of u^k w, and of u^k w d for
+ * both coordinates, grow by one sample; u and d are from the last sample, which keeps digits. chi^2 is what is left of the sum
+ * of w d^2 after the projections on 1, u and u^2, made orthogonal one after another. */
+
+void carom_python_cuts(const double *samples, const double *weight, int n, int longest, double penalty, double *best,
+                       int32_t *back) {
+  best[0] = 0.0;
+  for (int j = 1; j <= n; j++) {
+    const double *last = &samples[3 * (j - 1)];
+    double s[5] = {0}, q[2][3] = {{0}}, square[2] = {0};
+    best[j] = HUGE_VAL;
+    for (int i = j - 1; i >= 0 && j - i <= longest; i--) {
+      /* one more sample */
+      const double u = samples[3 * i] - last[0];
+      double power = weight[i];
+      for (int k = 0; k < 5; k++, power *= u) {
+        s[k] += power;
+        for (int x = 0; x < 2 && k < 3; x++)
+          q[x][k] += power * (samples[3 * i + 1 + x] - last[1 + x]);
+      }
+
+      /* chi^2 of the quadratic through samples i ... j - 1 */
+      const int count = j - i;
+      const double p11 = s[2] - s[1] * s[1] / s[0], p12 = s[3] - s[1] * s[2] / s[0];
+      const double p22 = count > 2 ? s[4] - s[2] * s[2] / s[0] - p12 * p12 / p11 : 0.0;
+      double chi2 = 0.0;
+      for (int x = 0; x < 2; x++) {
+        const double d = samples[3 * i + 1 + x] - last[1 + x];
+        square[x] += weight[i] * d * d;
+        double left = square[x] - q[x][0] * q[x][0] / s[0];
+        const double q1 = q[x][1] - s[1] * q[x][0] / s[0];
+        if (count > 1)
+          left -= q1 * q1 / p11;
+        const double q2 = p22 > 0.0 ? q[x][2] - s[2] * q[x][0] / s[0] - p12 * q1 / p11 : 0.0;
+        if (p22 > 0.0)
+          left -= q2 * q2 / p22;
+        chi2 += left > 0.0 ? left : 0.0;
+      }
+
+      const double total = best[i] + chi2 + penalty + (count < 3 ? 4.0 * (3 - count) : 0.0);
+      if (total < best[j]) {
+        best[j] = total;
+        back[j] = i;
+      }
+    }
+  }
 }
 
 /* ---- Misfit ------------------------------------------------------------------------------------------------------------
@@ -55,14 +267,29 @@ static piece piece_of(double start, const carom_ball_state *a, double end, const
   return p;
 }
 
+/* The place and velocity of a ball that has rolled against drag for a time t, exactly: dv/dt = -(A + k v^2) takes v0, with q =
+ * tan(sqrt(A k) t) / sqrt(A k), to v = (v0 - A q) / (1 + k v0 q) and log(cos(sqrt(A k) t) (1 + k v0 q)) / k further. */
+static void roll(const carom_ball_kind *kind, double t, carom_ball_state *s) {
+  const double A = kind->mu_roll * kind->gravity, k = kind->drag, turn = sqrt(A * k);
+  const double v = hypot(s->v[0], s->v[1]), q = turn > 0.0 ? tan(turn * t) / turn : t;
+  const double way = log(cos(turn * t) * (1.0 + k * v * q)) / k, later = (v - A * q) / (1.0 + k * v * q);
+  for (int axis = 0; axis < 2; axis++) {
+    s->r[axis] += way * s->v[axis] / v;
+    s->v[axis] *= later / v;
+  }
+}
+
 /* Appends the way from a state to an end, whose state may be NULL: then it follows from the motion. */
 static bool go(way *w, const carom_shot_ball *ball, double start, double end, const carom_ball_state *to) {
   carom_ball_state from = ball->state, there;
-  const bool cuts = ball->kind.drag > 0.0 && from.v[0] * from.v[0] + from.v[1] * from.v[1] > 0.0;
+  const bool cuts = ball->kind.drag > 0.0 && from.label == CAROM_BALL_ROLLING;
   const int parts = cuts && end - start > piece_most ? (int)fmin(ceil((end - start) / piece_most), 64.0) : 1;
   for (int k = 1; k <= parts; k++) {
     const double since = (end - start) * k / parts;
-    if (k < parts || to == NULL) {
+    if (k < parts) {
+      there = from;
+      roll(&ball->kind, (end - start) / parts, &there);
+    } else if (to == NULL) {
       if (carom_shot_at(ball, 1, &(carom_shot){.time = since}, since, &there) < 0)
         return false;
     } else {
@@ -117,6 +344,11 @@ static bool play(const carom_python_tracks *tracks, int32_t shot, int variant, c
   for (int i = 0; i < count; i++)
     good = good && go(&ways[i], &balls[i], since[i], options.time_most, NULL);
   return good;
+}
+
+static void copy(way *to, const way *from) {
+  to->pieces = from->pieces;
+  memcpy(to->piece, from->piece, (size_t)from->pieces * sizeof *from->piece);
 }
 
 /* The place at a time; *at is the piece of the last call, for times that increase. */
@@ -201,6 +433,12 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
       if (d < STRIKE)
         strike[d] += step[d];
       start[d + 1] = strike[5];
+      if (d == STRIKE - 1) {
+        /* struck later, the balls go the same way */
+        for (int i = 0; i < tracks->count; i++)
+          copy(&ways[(d + 1) * tracks->count + i], &ways[i]);
+        continue;
+      }
       good = play(tracks, of[k], d < STRIKE ? 0 : 1 + d - STRIKE, strike, until[k] - start[d + 1], events,
                   &ways[(d + 1) * tracks->count]);
     }

@@ -7,10 +7,37 @@
 /* mu[k] = carom_mu_ball(&in[k], law), k = 0 ... n - 1. */
 void carom_python_mu_ball(const carom_impact *in, size_t n, carom_speed_law law, double *mu);
 
-/* The states of all balls at n times: those of time k go to states[k * count ...]. Returns what carom_shot_at() does; stops at
- * the first error. */
-carom_status carom_python_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, size_t n,
-                                  const double *times, carom_ball_state *states);
+/* How all balls have turned at n times: carom_shot_orientation(), those of time k to turned[4 k count ...]. Returns what it
+ * does; stops at the first error. */
+carom_status carom_python_orientations(const carom_shot_ball *balls, int count, const carom_shot *shot, const double *times,
+                                       size_t n, double *turned);
+
+/* What planners want of shots, in arrays over n shots. Indices are -1 and times infinite where there is none. The cue ball is
+ * the ball struck, or ball 0 without a cue. A cushion is a rail or a jaw. */
+typedef struct carom_python_features {
+  int32_t *contact,
+      *cushions_before;       /* (n, 2): the first two different balls that the cue ball met, the cushions before that, */
+  double *contact_time;       /* and when, s. */
+  int32_t *cushions_after;    /* (n,): impacts on cushions, of all balls, after the first contact. */
+  int32_t *pocket, *cushions; /* (n, count): the pocket that took each ball, its impacts on cushions, */
+  double *pocket_time;        /* and when it was pocketed, s. */
+} carom_python_features;
+
+/* Looks at the shots of a job, each of which has been played, or with `play` is played first: then job->shots and job->status
+ * become what carom_shoot_batch() makes them. Where not all events were kept, or not in full but states are wanted, the shot is
+ * played again, which has the same bits. Each of the following may be NULL: `states`, (n, times, count), and `positions`, (n,
+ * times, count, 3), at `times`, ascending times; and `features`. What is not known (all of a shot whose arguments are in error,
+ * and what comes after a shot was stopped while balls moved) is NaN, its labels -1. status[k] becomes the error of shot k:
+ * CAROM_OK, CAROM_ERROR_TIME where states are unknown, CAROM_ERROR_STATE where a shot played again is not as it was, as its
+ * layout or cue has been changed meanwhile. Returns CAROM_OK, or CAROM_ERROR_NULL without memory. */
+carom_status carom_python_look(const carom_shot_job *job, int play, const double *times, size_t m, carom_ball_state *states,
+                               double *positions, const carom_python_features *features, int8_t *status);
+
+/* Cuts a track of n samples t, x, y (s, m), weights 1/s^2, into pieces of at most `longest` samples that are quadratic in time:
+ * the cuts minimise the sum over pieces of chi^2 of the quadratic, of `penalty`, and of 4 for each sample less than 3. back[j],
+ * j = 1 ... n, becomes the beginning of the last piece of the best cut of the first j samples. `best` has room for n + 1. */
+void carom_python_cuts(const double *samples, const double *weight, int n, int longest, double penalty, double *best,
+                       int32_t *back);
 
 /* Recorded shots, and how they are played: for carom_python_misfit(). Shot s has `count` balls at rest, balls[s * count ...],
  * of which struck[s] is struck; the samples of its ball i are samples[first[s * count + i]] up to, without it, samples[first[s

@@ -1,9 +1,9 @@
 /* Names and texts of the public enumerations. The lists are private; carom.h spells the enumerators out, and the compiler says
  * where the two differ. */
-#include "carom.h"
+#include "carom_shot.h"
 #include "platform/arithmetic.h"
 
-#include "enumerations.h"
+#include "platform/enumerations.h"
 
 #define TEXT_OF(x) #x
 #define TEXT(x) TEXT_OF(x)
@@ -38,7 +38,7 @@
   X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                             \
   X(ERROR_UNRESOLVED, -22, "unresolved",                                                                            \
     "the collision is too extreme: its result depends on rounding errors, or takes more work than a call may cost") \
-  X(ERROR_OPTIONS, -23, "bad_options", "the reserved fields of the options must be 0")                              \
+  X(ERROR_OPTIONS, -23, "bad_options", "plain must be 0 or 1, and the reserved fields of the options 0")            \
   X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model", "options.model is not one of carom_cushion_model")               \
   X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options", "an option of the cushion is out of its range")              \
   X(ERROR_NORMAL, -32, "bad_normal", "the direction into the cushion must be finite and not 0")                     \
@@ -50,17 +50,17 @@
 #define SHOT_STATUS_LIST(X)                                                                                                    \
   X(ERROR_TOO_MANY_EVENTS, -40, "too_many_events", "the shot was stopped: it has more events than options.events_most")        \
   X(ERROR_TOO_LONG, -41, "too_long", "the shot was stopped: it lasts longer than 1000 s, and options.time_most is 0")          \
-  X(ERROR_LEFT_TABLE, -42, "left_table", "a ball left the table")                                                              \
+  X(ERROR_LEFT_TABLE, -42, "left_table", "a ball on the cloth left the table, through a gap between its cushions")             \
   X(ERROR_SHOT_OPTIONS, -43, "bad_shot_options", "an option of the shot is out of its range, or a reserved one is not 0")      \
   X(ERROR_BALLS, -44, "bad_balls", "a shot has 1 to 32 balls")                                                                 \
-  X(ERROR_LABEL, -45, "bad_label", "a ball must be on the table or pocketed")                                                  \
+  X(ERROR_LABEL, -45, "bad_label", "the label of a ball is none that a layout may have: 0 to 4, and in space 5 and 6")         \
   X(ERROR_OVERLAP, -46, "overlap", "two balls overlap")                                                                        \
   X(ERROR_OFF_TABLE, -47, "off_table", "a ball is not on the table")                                                           \
   X(ERROR_MU_MOTION, -48, "bad_mu_motion", "frictions of sliding, rolling and spinning must be above 0 and at most 1")         \
   X(ERROR_GRAVITY, -49, "bad_gravity", "gravity must be positive and finite")                                                  \
   X(ERROR_CUE, -50, "bad_cue",                                                                                                 \
     "the cue must have a speed of 0 to 1000 m/s, a direction, an elevation of 0 to 90 degrees, positive masses, and a ball")   \
-  X(ERROR_MISCUE, -51, "miscue", "the tip misses the ball: a^2 + b^2 must be below 1")                                         \
+  X(ERROR_MISCUE, -51, "miscue", "the tip misses the ball: a^2 + b^2 must be below miscue^2, which is 1 by default")           \
   X(ERROR_TABLE, -52, "bad_table",                                                                                             \
     "the table has too many parts, or a part that is not finite, has no length, or friction or restitution outside 0 to 1")    \
   X(ERROR_RACK, -53, "bad_rack", "no such rack, or its gap is not between 0 and R, or there is too little room")               \
@@ -69,6 +69,13 @@
   X(ERROR_DRAG, -56, "bad_drag", "the drag of a rolling ball must be 0 to 1 per metre")                                        \
   X(ERROR_BALL_CUSHION, -57, "bad_ball_cushion",                                                                               \
     "a ball's roll_loss must be 0 to 1, its nose_height 0 to below 2 R, its omega_ratio 0 or between 1 and 2")                 \
+  X(ERROR_TABLE_OPEN, -61, "table_open",                                                                                       \
+    "a ball can leave the table between two of its parts, or there is no place for a ball")                                    \
+  X(ERROR_RAIL_SIDE, -62, "bad_rail_side", "the played side of a rail is turned away from the table")                          \
+  X(ERROR_RAIL_LINE, -63, "bad_rail_line", "the line of a rail does not pass through both of its ends")                        \
+  X(ERROR_TANGENT, -70, "no_tangent",                                                                                          \
+    "derivatives are not known in the world pooltool, by Euler's model of balls, or where a ball leaves the cloth")            \
+  X(ERROR_DIRECTIONS, -71, "bad_directions", "derivatives are in 1 to 64 directions at once")                                  \
   X(ERROR_STATE, -60, "bad_state", "shot.state is not that of a shot of these balls that can go on")
 
 #define AGREES(NAME, value, name, text) _Static_assert(CAROM_##NAME == (value), "values are never renumbered");
@@ -82,6 +89,11 @@ const char *carom_version(void) {
 
 int carom_version_number(void) {
   return CAROM_VERSION_NUMBER;
+}
+
+/* Raised by the commit that changes the bits of any result; tests/platforms/revision says when that is. */
+int carom_physics_revision(void) {
+  return 2;
 }
 
 int carom_serves(int header) {
@@ -150,6 +162,90 @@ const char *carom_isa_name(carom_isa isa) {
     return "avx512";
   case CAROM_ISA_ANY:
     break;
+  }
+  return NULL;
+}
+
+const char *carom_event_name(carom_event_type type) {
+  switch (type) {
+  case CAROM_EVENT_STRIKE:
+    return "stick_ball";
+  case CAROM_EVENT_BALL_BALL:
+    return "ball_ball";
+  case CAROM_EVENT_RAIL:
+    return "ball_linear_cushion";
+  case CAROM_EVENT_JAW:
+    return "ball_circular_cushion";
+  case CAROM_EVENT_POCKET:
+    return "ball_pocket";
+  case CAROM_EVENT_SLIDING_ROLLING:
+    return "sliding_rolling";
+  case CAROM_EVENT_ROLLING_SPINNING:
+    return "rolling_spinning";
+  case CAROM_EVENT_ROLLING_STATIONARY:
+    return "rolling_stationary";
+  case CAROM_EVENT_SPINNING_STATIONARY:
+    return "spinning_stationary";
+  case CAROM_EVENT_SLATE:
+    return "slate";
+  case CAROM_EVENT_RAIL_TOP:
+    return "rail_top";
+  case CAROM_EVENT_LEFT_TABLE:
+    return "left_table";
+  }
+  return NULL;
+}
+
+const char *carom_label_name(carom_label label) {
+  switch (label) {
+  case CAROM_BALL_STATIONARY:
+    return "stationary";
+  case CAROM_BALL_SPINNING:
+    return "spinning";
+  case CAROM_BALL_SLIDING:
+    return "sliding";
+  case CAROM_BALL_ROLLING:
+    return "rolling";
+  case CAROM_BALL_POCKETED:
+    return "pocketed";
+  case CAROM_BALL_AIRBORNE:
+    return "airborne";
+  case CAROM_BALL_OFF:
+    return "off";
+  }
+  return NULL;
+}
+
+const char *carom_table_name(carom_table_kind kind) {
+  switch (kind) {
+  case CAROM_TABLE_POOL_7FT:
+    return "7ft";
+  case CAROM_TABLE_POOL_8FT:
+    return "8ft";
+  case CAROM_TABLE_POOL_9FT:
+    return "9ft";
+  case CAROM_TABLE_SNOOKER:
+    return "snooker";
+  case CAROM_TABLE_THREECUSHION:
+    return "threecushion";
+  case CAROM_TABLE_POOLTOOL:
+    return "pooltool";
+  }
+  return NULL;
+}
+
+const char *carom_rack_name(carom_rack_kind kind) {
+  switch (kind) {
+  case CAROM_RACK_NINEBALL:
+    return "nineball";
+  case CAROM_RACK_EIGHTBALL:
+    return "eightball";
+  case CAROM_RACK_TENBALL:
+    return "tenball";
+  case CAROM_RACK_SNOOKER:
+    return "snooker";
+  case CAROM_RACK_THREECUSHION:
+    return "threecushion";
   }
   return NULL;
 }

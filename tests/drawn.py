@@ -74,6 +74,18 @@ def way(shot, ball):
     return points
 
 
+def cushions(shot, table):
+    """What stands at the cushions that the ball of the cue meets: not at cuts of pockets, nor where it hops on at the same one."""
+    length = {rail["id"]: math.dist(rail["p1"], rail["p2"]) for rail in table["linear"]}
+    found, last = [], {}
+    for time, kind, names, *_ in shot["events"]:
+        if kind == "ball_linear_cushion" and names[0] == shot["cue"].get("ball") and length[names[1]] > 0.2 * max(length.values()):
+            if time - last.get(names[1], -1) >= 0.1:
+                found.append(f"{len(found) + 1} ({time:.2f} s)")
+            last[names[1]] = time
+    return found[:9]
+
+
 def check_shot(picture, shot, table):
     """A picture of `carom shoot --plot` beside the line of the shot, with its events in full, and the table's."""
     report, page = Report(), tree.parse(picture).getroot()
@@ -89,7 +101,8 @@ def check_shot(picture, shot, table):
 
     report.near("size", map(float, page.get("viewBox").split()), [0, 0, *size], 0.5)
     report.near("cloth", numbers(elements(page, "rect")[1], "x", "y", "width", "height"), [22, 22, size[0] - 44, size[1] - 44])
-    circles, paths, texts = (elements(page, name) for name in ("circle", "path", "text"))
+    circles, paths, texts = ([one for one in elements(page, name) if one.get("class") != "axis"] for name in ("circle", "path", "text"))
+    marks, texts = [text.text for text in texts if text.get("stroke")], [text for text in texts if not text.get("stroke")]
     # Holes, jaws, balls at first; paths between; balls at the end, striped ones with a ring.
     expected = [(f"{kind} {part['id']}", part["center"], part["radius"], None) for kind in ("pockets", "circular") for part in table[kind]]
     radius = [ball.get("params", {}).get("R", 0.028575) for ball in shot["balls"]]
@@ -111,6 +124,10 @@ def check_shot(picture, shot, table):
     report.same("texts", [text.text for text in texts], [name[:5] for name in final])
     for text, (name, place) in zip(texts, final.items()):
         report.near(f"text of {name}", numbers(text, "x", "y"), place)
+    report.same("cushions of the cue ball", marks, cushions(shot, table))
+    # Diamonds: three on each short side, seven on each long one, six where a pocket is.
+    diamonds = [path for path in paths if path.get("fill") == "#e8dcc0"]
+    report.same("diamonds", len(diamonds), 2 * (3 + (6 if table["pockets"] else 7)))
     rails = [path for path in paths if path.get("stroke-linecap")]
     report.same("rails", len(rails), len(table["linear"]))
     for path, rail in zip(rails, table["linear"]):
@@ -140,11 +157,8 @@ def check_hit(picture, row, after, words):
     """A picture of `carom hit --plot` beside the row of `--csv`, that of `carom resolve --derived`, and the words of the report."""
     report, page = Report(), tree.parse(picture).getroot()
     row, after = ({name: float(x) for name, x in one.items() if name not in ("id", "status")} for one in (row, after))
-    R = row["R"]
+    R = row["R1"]
     places = [(row[f"r{ball}x"], row[f"r{ball}y"]) for ball in (1, 2)]
-    before = (row["v1x"], row["v1y"])
-    start = [p - 7 * R * v / math.hypot(*before) for p, v in zip(places[0], before)]
-
     def motion(ball):
         """Velocities at once and when the ball rolls, when that is, and its place at any time."""
         v, rolling = ([after[f"{name}{ball}{axis}"] for axis in "xy"] for name in ("v", "roll"))
@@ -164,37 +178,37 @@ def check_hit(picture, row, after, words):
         return v, rolling, sliding, at
 
     motions = [motion(ball) for ball in (1, 2)]
-    end = 24 * R / max(math.hypot(*v) for m in motions for v in m[:2])
-    seen = [(start, 1), (places[0], 4), (places[1], 4)] + [(m[3](end * k / 8), 1.5) for m in motions for k in range(1, 9)]
-    low, high = ([f(p[k] + sign * R * room for p, room in seen) for k in (0, 1)] for f, sign in ((min, -1), (max, 1)))
-    scale = min(840 / (high[0] - low[0]), 700 / (high[1] - low[1]))
-    px = lambda r: (30 + scale * (r[0] - low[0]), 30 + scale * (high[1] - r[1]))
-    height = 60 + scale * (high[1] - low[1])
-    report.near("size", map(float, page.get("viewBox").split()), [0, 0, 900, height + 20 * (len(words) + 2)], 0.5)
-    # Dots where a ball rolls from, in their order; both balls at contact, and at the end.
-    rolls = sorted((m[2], m[3](m[2])) for m in motions if 0 < m[2] <= end)
-    expected = [(px(place), 4) for _, place in rolls] + [(px(p), scale * R) for p in places] + [(px(m[3](end)), scale * R) for m in motions]
-    for circle, (place, radius) in zip(elements(page, "circle"), expected, strict=True):
-        report.near("ball", numbers(circle, "cx", "cy", "r"), [*place, radius])
-    # The line of centres and the tangent line through the contact, the way there, the directions at once.
+    # To where both balls roll, and some way more.
+    end = max([14 * R / max(math.hypot(*v) for m in motions for v in m[:2])] + [1.25 * m[2] for ball, m in enumerate(motions, 1) if row[f"u_s{ball}"] > 1e-6 and m[2] > 0])
     n = [(b - a) / (2 * R) for a, b in zip(*places)]
-    middle = [(a + b) / 2 for a, b in zip(*places)]
-    along = lambda far, e: px([p + far * R * c for p, c in zip(middle, e)])
-    lines = [[along(5, n), along(-5, n)], [along(-4, (-n[1], n[0])), along(4, (-n[1], n[0]))], [px(start), px(places[0])]]
-    for (v, *_), place in zip(motions, places):
-        if math.hypot(*v) > 0:
-            lines.append([px(place), px([p + 6 * R * x / math.hypot(*v) for p, x in zip(place, v)])])
-    # The paths, the object ball's first: pieces where it slides, straight where it rolls.
-    for (v, rolling, sliding, at), place in reversed(list(zip(motions, places))):
-        slides = [at(min(sliding, end) * k / 8) for k in range(1, 9)] if sliding else []
-        points = [place, *slides] + ([at(end)] if sliding < end and math.hypot(*rolling) else [])
-        if len(points) > 1:
-            lines.append([px(point) for point in points])
+    along = lambda far, e: [p + far * R * c for p, c in zip(places[0], e)]
+    # The way there and on, the line of centres, and the tangent line through the centre of the cue ball.
+    lines = [(along(-6, (1, 0)), along(0, n)), (along(0, n), along(5, (1, 0))), (along(-2.5, n), along(6, n)), (along(5, (-n[1], n[0])), along(-5, (-n[1], n[0])))]
+    ways = [[m[3](end * k / 64) for k in range(65)] for m in motions]
+    seen = [(p, 1.5) for p in places] + [(p, 0.5) for line in lines for p in line] + [(p, 1.5) for way in ways for p in way[1:]]
+    low, high = ([f(p[k] + sign * R * room for p, room in seen) for k in (0, 1)] for f, sign in ((min, -1), (max, 1)))
+    scale = min(848 / (high[0] - low[0]), 620 / (high[1] - low[1]))
+    left = 450 - scale * (low[0] + high[0]) / 2
+    px = lambda r: (left + scale * r[0], 26 + scale * (high[1] - r[1]))
+    for circle, place in zip(elements(page, "circle"), places):
+        report.near("ball", numbers(circle, "cx", "cy", "r"), [*px(place), max(scale * R, 3)])
+    dots = [(px(m[3](m[2])), 4) for m in motions if 0 < m[2] < end and math.dist(px(m[3](end)), px(m[3](0))) >= 4]
+    for circle, (place, size) in zip(elements(page, "circle")[2:], dots, strict=True):
+        report.near("dot", numbers(circle, "cx", "cy", "r"), [*place, size])
     paths = elements(page, "path")
-    report.same("paths", len(paths), len(lines))
-    for path, points in zip(paths, lines):
-        report.path("line", vertices(path), points)
-    texts = [text.text for text in elements(page, "text")]
-    report.same("labels", texts[:2] + texts[-2:], ["line of centres", "tangent line", "cue", "1"])
-    report.same("words", texts[3:-2], words)
+    dashed = [path for path in paths if path.get("stroke-dasharray")]
+    for path, points in zip(dashed, lines, strict=True):
+        report.path("line", vertices(path), [px(p) for p in points])
+    # The paths of both balls, the cue ball's first.
+    drawn = [path for path in paths if path.get("stroke-width") == "2.2"]
+    for path, way in zip(drawn, ways, strict=True):
+        report.path("path", vertices(path), [px(p) for p in way])
+    # All is on the picture, and no label covers another.
+    width, height = map(float, page.get("viewBox").split()[2:])
+    texts = elements(page, "text")
+    boxes = [(x, y - s, x + 7.6 / 13 * s * len(text.text), y + 0.2 * s) for text in texts if text.get("stroke") for x, y, s in [numbers(text, "x", "y", "font-size")]]
+    inside = all(a >= 0 and c <= width and b >= 0 and d <= height for a, b, c, d in boxes)
+    apart = all(a[2] < b[0] or b[2] < a[0] or a[3] < b[1] or b[3] < a[1] for k, a in enumerate(boxes) for b in boxes[:k])
+    report.same("labels inside and apart", (inside, apart), (True, True))
+    report.same("words", [text.text for text in texts][-len(words) :], words)
     return report.found

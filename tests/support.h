@@ -2,7 +2,7 @@
 #ifndef CAROM_TESTS_SUPPORT_H
 #define CAROM_TESTS_SUPPORT_H
 
-#include "enumerations.h"
+#include "platform/enumerations.h"
 
 #include <check.h>
 #include <stdbool.h>

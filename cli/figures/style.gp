@@ -18,10 +18,13 @@ panel(n, above, below, gap) = (height - above - below - (n - 1) * gap) / (1.0 * 
 upper(k, n, above, below, gap) = 1 - px(above + (k - 1) * (panel(n, above, below, gap) + gap))
 lower(k, n, above, below, gap) = upper(k, n, above, below, gap) - px(panel(n, above, below, gap))
 
-if (picture[strlen(picture)-3:] eq ".png") {
+if (picture[strlen(picture)-3:] eq ".pdf") {
+  set terminal pdfcairo size width/90.0, height/90.0 font "DejaVu Sans,10" linewidth 1 background "white"
+} else { if (picture[strlen(picture)-3:] eq ".png") {
   set terminal pngcairo size 2*width, 2*height font "DejaVu Sans,12" fontscale 1.7 linewidth 2 pointscale 2 background "white"
 } else {
   set terminal svg size width, height fixed font "Helvetica, Arial, DejaVu Sans, sans-serif,14" linewidth 1 background "white"
+}
 }
 if (strlen(picture) > 4) set output picture
 set encoding utf8

@@ -33,7 +33,7 @@ set lmargin at screen 0.10; set rmargin at screen 0.745
 set bmargin at screen 0.19
 set key at screen 0.76, graph 1 left top vertical maxrows 20 noenhanced Left reverse samplen 2.5
 set label 1003 "Marks: the largest error.\nDotted: down to the median.\nDigits: threads of a batch.\nN: steps of Euler's method." \
-  at screen 0.768, screen 0.6 font ",11" textcolor rgb grey
+  at screen 0.768, screen 0.5 font ",11" textcolor rgb grey
 mark(k) = 7 + 2 * ((k - 1) / 2) % 8 + (k % 2 ? 2 : 1)
 plot for [k=1:words(kernels)] data using (of(word(kernels, k), us(0))):"error_exact_max" \
        with linespoints lt line_of(word(kernels, k), k) title word(kernels, k), \

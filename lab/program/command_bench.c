@@ -220,47 +220,47 @@ static OPTION_SET(set_budget) {
 OPTION(bench_job, option_kernel, "kernel", kernels, 0, "NAME,...", set_kernels, 0,
        "only these kernels (see `carom-lab kernels`); may be repeated");
 OPTION(bench_job, option_config, "config", configs, 0, "NAME,...", set_names, 0,
-       "these builds of the ladder's kernels, or all (default: default); without --kernel, only\nthe ladder");
+       "these builds of the ladder's kernels, or all (default: default); without --kernel, only the ladder");
 OPTION(bench_job, option_counts, "steps", steps, 0, "N,...", set_counts, 1,
        "steps of Euler's method (default 1000); several make a sweep");
 OPTION(bench_job, option_batch, "batch", batch, 0, NULL, set_flag, 0,
        "batches only, of all of the library's solvers (with euler about a minute)");
 OPTION(bench_job, option_isa, "isa", isas, 0, "NAME,...", set_isas, 0,
-       "only these instruction sets: scalar (single calls), plain, sse2, avx2, avx512, neon, or\nbest");
+       "only these instruction sets: scalar (single calls), plain, sse2, avx2, avx512, neon, or best");
 OPTION(bench_job, option_one_precision, "precision", shared.precision, 0, "double|single", set_choice, 0,
        "only this precision (default: both)");
 OPTION(bench_job, option_thread_counts, "threads", threads, 0, "N,...", set_threads, 1,
-       "threads of a batch, or all: 1, 2, 4, ... up to the processor's (default 1,2; 1 on a\nsingle core)");
+       "threads of a batch, or all: 1, 2, 4, ... up to the processor's (default 1,2; 1 on a single core)");
 OPTION(bench_job, option_pairs, "pairs", pairs, 0, "N,...", set_counts, 1,
-       "pairs in a batch (default 65536, rounded up to whole turns of the cases); adds the\ncolumn pairs");
+       "pairs in a batch (default 65536, rounded up to whole turns of the cases); adds the column pairs");
 OPTION(bench_job, option_budget, "budget", budget, 0, "SECONDS", set_budget, 0,
        "how long to measure (default 20; cushions 5; shots 0.06 each)");
 OPTION(bench_job, option_csv, "csv", csv, 0, NULL, set_flag, 0, "as CSV, with lines about the machine that begin with #");
 OPTION(bench_job, option_spread, "spread", spread, 0, NULL, set_flag, 0,
        "more columns in the CSV: spread of the time; least, greatest and spread of the speedup");
 OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
-       "more columns in the CSV: slip, and the pair error against the exact reference, median\nand largest");
+       "more columns in the CSV: slip, and the pair error against the exact reference, median and largest");
 OPTION(bench_job, option_cushions, "cushion", cushion, 0, NULL, set_flag, 0,
        "time the models of the cushion on 512 random impacts of play instead; speedup is that over\nEuler's 1000 steps");
 OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
        "time the whole shots of this file instead, beside pooltool's recorded times");
 OPTION(bench_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
        "whose rules and models the shots are played by (default carom)");
-OPTION(bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODEL", set_cushion_model, 0,
-       "impacts on cushions in the shots: mathavan, stronge, han, mirror or euler (default:\nmathavan; by pooltool's models "
-       "stronge)");
+OPTION(
+    bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODEL", set_cushion_model, 0,
+    "impacts on cushions in the shots: han, mathavan, stronge, mirror or euler (default:\nhan; by pooltool's models stronge)");
 
 static const char about[] =
-    "Times kernels on the 204 reference cases, each case one call, in turns: A B C A B C ... What is timed has been verified "
-    "just before; a kernel that is over its bound is refused. Figures are nanoseconds per collision, the mean over the cases; "
-    "median and spread are over the rounds. Speedup is that over the ladder's first kernel in the default configuration "
-    "with as many steps (1000 for kernels that take none), round by round. The solver without steps is timed in batches too, "
-    "with every instruction set; the copy beside them moves a batch's bytes and computes nothing.\n";
+    "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each kernel is verified first; "
+    "one whose error is above its bound is not timed. Times are nanoseconds per collision, the mean over the collisions; "
+    "median and spread are over the rounds. The speedup of a round is relative to the ladder's first kernel in the default "
+    "configuration with the same number of steps (1000 for kernels without steps). The exact solver is also timed in batches, "
+    "with every instruction set; the row copy moves the bytes of a batch and computes nothing.\n";
 
 static const char details[] =
-    "Spread is the median absolute deviation: half of the rounds lie within it. docs/study/measuring.md tells what to make of "
-    "it.\n\n"
-    "exit code: 0 if all was timed, 1 if a kernel was refused (the others are timed), 2 for bad usage or unreadable data\n";
+    "Spread is the median absolute deviation: half of the rounds lie within it. docs/study/measuring.md explains how to read "
+    "the figures.\n\n"
+    "exit code: 0 if all was timed; 1 if a kernel was refused (the others are timed); 2 for bad usage or unreadable data\n";
 
 static const command_form form = {
     .name = "bench",

@@ -21,11 +21,11 @@ OPTION(kernels_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
 static const command_form form = {
     .name = "kernels",
     .usage = "[OPTIONS]",
-    .about =
-        "Lists the kernels that `resolve --kernel` takes and `verify` checks; the first is the default. Those of the ladder, "
-        "the "
-        "seed paper's kernels, exist once per compiler and configuration: --config names both (gcc-o3) or the configuration\n"
-        "alone (o3: the first compiler listed).\n",
+    .about = "Lists the kernels that `resolve --kernel` takes and `verify` checks; the first is the default. The ladder has "
+             "the seed "
+             "paper's kernels, built by every compiler in every configuration: --config names both, such as gcc-o3, or the "
+             "configuration "
+             "alone, then of the first compiler listed.\n",
     .options = (const option_row *const[]){&option_csv, &option_output, NULL},
     .details = "exit code: 0, or 2 for bad usage\n",
     .example = "carom-lab kernels",

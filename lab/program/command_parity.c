@@ -19,7 +19,8 @@ typedef struct parity_job {
   bool all; /* every shot that disagrees is told */
 } parity_job;
 
-OPTION(parity_job, option_verbose, "verbose", all, 'v', NULL, set_flag, 0, "tell where each shot that disagrees does so");
+OPTION(parity_job, option_verbose, "verbose", all, 'v', NULL, set_flag, 0,
+       "print the first difference of each shot that disagrees");
 
 typedef struct family {
   char *name;
@@ -165,9 +166,8 @@ static int compare_all(const parity_job *job, shot_file *file, families *all) {
 static const command_form form = {
     .name = "parity",
     .usage = "[OPTIONS] IN.jsonl",
-    .about =
-        "Plays recorded shots by pooltool's rules and models and compares every event with what pooltool recorded, as far as "
-        "the recorded sensitivity makes sense of it.\n",
+    .about = "Plays recorded shots by pooltool's rules and models, and compares every event with pooltool's record, up to the "
+             "first event that rounding errors can change, as the recording says.\n",
     .options = (const option_row *const[]){&option_verbose, NULL},
     .details =
         "columns: shots; events compared; shots that agree; shots that agree to their end, where the recording has no chaos; "

@@ -22,7 +22,7 @@
 #include "ball_ball/frame.h"
 #include "ball_ball/kernels.h"
 #include "ball_ball/reduced.h"
-#include "enumerations.h"
+#include "platform/enumerations.h"
 #include "platform/threads.h"
 
 #include <math.h>
@@ -33,7 +33,6 @@
 
 enum {
   BLOCK = 1000, /* impacts that a thread draws and solves at a time */
-  WORST = 20,   /* rows that are kept */
   KINDS = 32,   /* room for so many kinds of draws */
   DECADES = 20, /* errors are counted in a histogram of their logarithms */
   PER_DECADE = 50,
@@ -45,7 +44,7 @@ typedef struct stress_job {
   int draws, seed, kind;
   int shots, models, cushion; /* whole shots instead */
   int cushions, coincidences; /* or these impacts */
-  bool worst_rows;
+  bool elevated;
 } stress_job;
 
 /* Rows of one kind, solved in one way. Errors are those of rows with status ok that could be compared. */
@@ -58,12 +57,6 @@ typedef struct tally {
   long histogram[DECADES * PER_DECADE];
 } tally;
 
-typedef struct worst_row {
-  double error, precise_error; /* against the reference where that was asked, else against the precise solver; NAN */
-  int kind;
-  uint64_t k;
-} worst_row;
-
 /* One run, or a thread's part of it. For two balls a kind is a slip, and single precision has tallies of its own. */
 typedef struct stress {
   const stress_job *job;
@@ -74,7 +67,6 @@ typedef struct stress {
   long other_bits; /* rows of batches that differ from single calls */
   long asked, precise_wrong;
   double precise_largest; /* error against the reference */
-  worst_row worst[WORST];
 } stress;
 
 /* A motion of one ball or of two. */
@@ -131,15 +123,6 @@ static void add_tally(tally *to, const tally *from) {
     to->histogram[k] += from->histogram[k];
 }
 
-static void keep_worst(stress *s, worst_row row) {
-  int least = 0;
-  for (int k = 1; k < WORST; k++)
-    if (s->worst[k].error < s->worst[least].error)
-      least = k;
-  if (row.error > s->worst[least].error)
-    s->worst[least] = row;
-}
-
 static void add(stress *to, const stress *from) {
   for (int kind = 0; kind < from->kinds; kind++)
     add_tally(&to->tally[kind], &from->tally[kind]);
@@ -149,8 +132,6 @@ static void add(stress *to, const stress *from) {
   to->asked += from->asked;
   to->precise_wrong += from->precise_wrong;
   to->precise_largest = fmax(to->precise_largest, from->precise_largest);
-  for (int k = 0; k < WORST; k++)
-    keep_worst(to, from->worst[k]);
 }
 
 /* ---- One impact */
@@ -193,26 +174,25 @@ static void compare(stress *s, int kind, uint64_t k, const coincidence *c, const
   tally *t = &s->tally[kind];
   outcome precise, exact;
   if (s->balls && status != CAROM_SEPARATING)
-    t->slow += carom_kernels_in_force()->call[CAROM_F64](&c->balls, carom_spin_sign(c->slip), &exact, NULL) <= 0;
+    t->slow += carom_kernels_of_call(0)->call[CAROM_F64](&c->balls, carom_spin_sign(c->slip), &exact, NULL) <= 0;
   if (is_error(t, status))
     return;
   const bool known = precisely(c, &precise);
-  worst_row row = {.error = known ? apart(c, own, &precise) : INFINITY, .precise_error = NAN, .kind = kind, .k = k};
-  if (row.error > REFERENCE_FROM || k % (s->job->coincidences > 0 ? 20 : 1000) == 0) {
+  double error = known ? apart(c, own, &precise) : INFINITY;
+  if (error > REFERENCE_FROM || k % (s->job->coincidences > 0 ? 20 : 1000) == 0) {
     if (REFERENCE_OK == (c->cushion ? reference_cushion(&c->rail, &exact.rail, NULL)
                                     : reference_collide(&c->balls, c->slip, &exact.balls, NULL))) {
-      row.error = apart(c, own, &exact);
-      row.precise_error = known ? apart(c, &precise, &exact) : INFINITY;
+      const double precise_error = known ? apart(c, &precise, &exact) : 0;
+      error = apart(c, own, &exact);
       s->asked++;
-      s->precise_wrong += known && row.precise_error > (s->balls ? 1e-9 : 1e-8);
-      s->precise_largest = fmax(s->precise_largest, known ? row.precise_error : 0);
-    } else if (row.error > REFERENCE_FROM) {
+      s->precise_wrong += precise_error > (s->balls ? 1e-9 : 1e-8);
+      s->precise_largest = fmax(s->precise_largest, precise_error);
+    } else if (error > REFERENCE_FROM) {
       t->left_out++;
       return;
     }
   }
-  count(t, row.error, c->of_play, k);
-  keep_worst(s, row);
+  count(t, error, c->of_play, k);
 }
 
 /* The same collision in single precision, against the exact result for the rounded numbers. */
@@ -226,7 +206,7 @@ static void compare_single(stress *s, carom_slip slip, const carom_impact_f32 *i
     return;
   to_double(in, &wide.balls, 26);
   to_double(out, &result.balls, 12);
-  t->slow += carom_kernels_in_force()->call[CAROM_F32](in, carom_spin_sign(slip), &unused, NULL) == 0;
+  t->slow += carom_kernels_of_call(0)->call[CAROM_F32](in, carom_spin_sign(slip), &unused, NULL) == 0;
   if (is_error(t, status))
     return;
   if (precisely(&wide, &exact))
@@ -345,36 +325,18 @@ static void print_table(const stress *s, FILE *out) {
           "largest error %.1e, %ld above %s\n",
           REFERENCE_FROM, job->coincidences > 0 ? 20 : 1000, s->asked, s->precise_largest, s->precise_wrong,
           s->balls ? "1e-9" : "1e-8");
-  if (s->balls)
-    return;
   fputs("\nlargest errors:\n", out);
   for (int kind = 0; kind < s->kinds; kind++)
     if (s->tally[kind].rows > 0) {
       const coincidence c = draw(s, kind, s->tally[kind].worst);
-      fprintf(out, "%s, %s %llu, %.2g of its bound: ", c.cushion ? "cushion" : carom_slip_name(c.slip), kind_name(s, kind),
-              (unsigned long long)s->tally[kind].worst, s->tally[kind].worst_share);
+      fprintf(out, "%s, %s %llu, %.2g of its bound: ",
+              s->balls    ? "balls"
+              : c.cushion ? "cushion"
+                          : carom_slip_name(c.slip),
+              kind_name(s, kind), (unsigned long long)s->tally[kind].worst, s->tally[kind].worst_share);
       print_numbers(out, &c);
       fputc('\n', out);
     }
-}
-
-static int descending(const void *a, const void *b) {
-  const double x = ((const worst_row *)a)->error, y = ((const worst_row *)b)->error;
-  return (x < y) - (x > y);
-}
-
-/* Rows that `carom resolve` reads. */
-static void print_worst(stress *s, FILE *out) {
-  fputs("id,r1x,r1y,r1z,v1x,v1y,v1z,w1x,w1y,w1z,R1,M1,u_s1,r2x,r2y,r2z,v2x,v2y,v2z,w2x,w2y,w2z,R2,M2,u_s2,u_b,e_b,slip,error,"
-        "fallback_error\n",
-        out);
-  qsort(s->worst, WORST, sizeof s->worst[0], descending);
-  for (const worst_row *row = s->worst; row < s->worst + WORST && row->error > 0; row++) {
-    const coincidence c = draw(s, row->kind, row->k);
-    fprintf(out, "%s-%llu,", kind_name(s, row->kind), (unsigned long long)row->k);
-    print_numbers(out, &c);
-    fprintf(out, ",%s,%.3g,%.3g\n", kind_name(s, row->kind), row->error, row->precise_error);
-  }
 }
 
 /* The contract of carom.h for double precision: rows of play within 1e-6, all within 1e-5; and more for collisions of play. */
@@ -388,38 +350,35 @@ static bool holds(const stress *s) {
   return good;
 }
 
-OPTION(stress_job, option_draws, "draws", draws, 'n', "N", set_count, 1, "collisions to draw, for each slip (default: 100000)");
-OPTION(stress_job, option_seed, "seed", seed, 0, "S", set_count, 0, "of the draws (default: 1)");
-OPTION(stress_job, option_kind, "kind", kind, 0, DRAW_KIND_NAMES, set_choice, 0,
-       "what to draw: collisions of play; the regimes of the tests, corners of all sorts; or "
-       "everything that is accepted (default: realistic)");
-OPTION(stress_job, option_worst, "worst", worst_rows, 0, NULL, set_flag, 0,
-       "print, instead of the table, the 20 collisions with the largest errors in double precision, "
-       "as rows that `carom resolve` reads");
-
+OPTION(stress_job, option_draws, "draws", draws, 'n', "N", set_count, 1,
+       "number of collisions for each slip (default: 100000)");
+OPTION(stress_job, option_seed, "seed", seed, 0, "S", set_count, 0, "seed of the random numbers (default: 1)");
+OPTION(
+    stress_job, option_kind, "kind", kind, 0, DRAW_KIND_NAMES, set_choice, 0,
+    "realistic: collisions of play (default); regimes: the special cases of the tests; extreme: everything that carom accepts");
 OPTION(stress_job, option_cushions, "cushion", cushions, 0, "N", set_count, 1,
-       "draw so many impacts on a cushion of each kind instead, of play and any");
+       "draw so many impacts on a cushion of each kind instead: of play, and any");
 OPTION(stress_job, option_coincidences, "coincidences", coincidences, 0, "N", set_count, 1,
-       "draw instead so many impacts of each kind of coincidence, of two balls and on a cushion: numbers that "
-       "are exactly equal, zero or at the edge of a cone, planar motion, slips of rounding errors, grazing");
+       "draw so many impacts of each kind of coincidence instead, of two balls and on a cushion: numbers that are exactly "
+       "equal, zero or at the edge of a friction cone; planar motion; slips that are rounding errors; grazing impacts");
 OPTION(stress_job, option_shots, "shots", shots, 0, "N", set_count, 1,
-       "play so many random whole shots instead, and check the invariants that they keep");
-OPTION(stress_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
-       "whose rules and models the shots follow");
+       "play so many random whole shots instead, and check their invariants");
+OPTION(stress_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0, "the rules and models of the shots");
 OPTION(stress_job, option_cushion_model, "cushion-model", cushion, 0, "MODEL", set_cushion_model, 0,
        "impacts on cushions in the shots: mathavan, stronge, han, mirror or euler");
+OPTION(stress_job, option_elevated, "elevated", elevated, 0, NULL, set_flag, 0,
+       "in the shots raise the butt of every cue, by 2 to 80 degrees, so that balls fly");
 
 static const command_form form = {
     .name = "stress",
     .usage = "[OPTIONS]",
-    .about =
-        "Draws random collisions and compares the exact solver's results, by single calls and in batches, in double and in "
-        "single precision, with the precise solver, and where they differ with a reference in extended precision.\n",
-    .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_worst, &option_cushions,
-                                           &option_coincidences, &option_shots, &option_models, &option_cushion_model,
-                                           &option_threads, &option_output, NULL},
-    .details = "exit code: 0; 1 if an error is larger than carom.h promises, or bits of a batch differ from a single call's; "
-               "2 for bad usage\n",
+    .about = "Draws random collisions and solves them by single calls and in batches, in double and in single precision. The "
+             "results are compared with the precise solver; where they differ, with a reference in extended precision.\n",
+    .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_cushions, &option_coincidences,
+                                           &option_shots, &option_models, &option_cushion_model, &option_threads,
+                                           &option_elevated, &option_output, NULL},
+    .details = "exit code: 0; 1 if an error is larger than carom.h promises, or if a batch has other bits than single calls; 2 "
+               "for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
 };
 
@@ -429,7 +388,7 @@ int command_stress(int argc, char **argv) {
   if (code >= 0)
     return code;
   if (job.shots > 0)
-    return stress_shots(job.shots, (uint64_t)job.seed, job.models, job.cushion);
+    return stress_shots(job.shots, (uint64_t)job.seed, job.models, job.cushion, job.elevated);
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
@@ -440,10 +399,7 @@ int command_stress(int argc, char **argv) {
   all->draws = (uint64_t)(all->balls ? job.draws : job.coincidences > 0 ? job.coincidences : job.cushions);
   carom_in_threads(run_blocks, &all, (size_t)all->kinds * ((all->draws + BLOCK - 1) / BLOCK), job.shared.options.threads, 1);
   progress_clear();
-  if (job.worst_rows && all->balls)
-    print_worst(all, out);
-  else
-    print_table(all, out);
+  print_table(all, out);
   const bool good = holds(all);
   free(all);
   return !output_commit() ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;

@@ -1,15 +1,12 @@
 /* `carom-lab verify --cushion`: the exact limit against a reference, closed forms and Euler's steps against pooltool's records.
  */
+#include "accuracy.h"
+#include "cases.h"
 #include "command.h"
 #include "cushion_lab.h"
 #include "draws.h"
 #include "memory.h"
 #include "message.h"
-#include "number.h"
-#include "options.h"
-#include "output.h"
-#include "place.h"
-#include "records.h"
 #include "reference.h"
 
 #include "carom_shot.h"
@@ -19,37 +16,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_RECORDED = 4096, FIRST_NUMBER = 1, NUMBERS = 21, IN_NUMBERS = 15 };
+enum { MOST_RECORDED = 4096, NUMBERS = 21, IN_NUMBERS = 15 };
 static const double play_worst = 1e-6, any_worst = 1e-5, exact_median = 3e-9, record_worst = 1e-9, euler_worst = 1e-5;
 
 /* The errors of one comparison. */
 typedef struct comparison {
   const char *model, *reference;
-  double *error;
+  pair_accuracy *error;
   size_t count, left_out; /* compared; without a result of the reference, or whose result depends on pooltool's rounding */
   size_t unresolved;
   bool complete; /* none may be left out */
   double worst_bound, median_bound;
 } comparison;
 
-static int compare(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static bool print(FILE *out, bool csv, comparison *c) {
-  qsort(c->error, c->count, sizeof *c->error, compare);
-  const double median = c->count > 0 ? c->error[c->count / 2] : (double)NAN,
-               worst = c->count > 0 ? c->error[c->count - 1] : (double)NAN;
-  const double p99 = c->count > 0 ? c->error[c->count * 99 / 100] : (double)NAN;
-  const bool pass = c->count > 0 && worst <= c->worst_bound && median <= c->median_bound && c->unresolved == 0 &&
-                    !(c->complete && c->left_out > 0);
+  const accuracy_summary a =
+      c->count > 0 ? accuracy_summarise(c->error, c->count) : (accuracy_summary){.median = NAN, .p99 = NAN, .max = NAN};
+  const bool pass =
+      a.max <= c->worst_bound && a.median <= c->median_bound && c->unresolved == 0 && !(c->complete && c->left_out > 0);
   if (csv)
     fprintf(out, "%s,%s,%zu,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%s\n", c->model, c->reference, c->count, c->left_out, c->unresolved,
-            median, p99, worst, c->worst_bound, pass ? "pass" : "fail");
+            a.median, a.p99, a.max, c->worst_bound, pass ? "pass" : "fail");
   else
     fprintf(out, "%-9s %-27s %8zu %8zu %10zu %9.2g %9.2g %9.2g %7.1g  %s\n", c->model, c->reference, c->count, c->left_out,
-            c->unresolved, median, p99, worst, c->worst_bound, pass ? "pass" : "FAIL");
+            c->unresolved, a.median, a.p99, a.max, c->worst_bound, pass ? "pass" : "FAIL");
   return pass;
 }
 
@@ -71,7 +61,7 @@ static bool against_reference(FILE *out, bool csv, cushion_draw kind, int draws,
     else if (reference_cushion(&in, &exact, NULL) != REFERENCE_OK)
       c.left_out++;
     else
-      c.error[c.count++] = cushion_distance(&in, &own, &exact);
+      c.error[c.count++].pair = cushion_distance(&in, &own, &exact);
   }
   progress_clear();
   const bool pass = print(out, csv, &c);
@@ -99,10 +89,7 @@ static bool recorded(FILE *out, bool csv, const char *folder, const char *name, 
   read_result result = records != NULL ? record_next(records, &row) : READ_FAILED; /* the header */
   while (result == READ_ONE && (result = record_next(records, &row)) == READ_ONE && c.count < MOST_RECORDED) {
     double number[NUMBERS];
-    bool good = row.count == FIRST_NUMBER + NUMBERS;
-    for (int k = 0; k < NUMBERS && good; k++)
-      good = parse_number(row.field[FIRST_NUMBER + k], &number[k]);
-    if (!good) {
+    if (!numbers_of(&row, NUMBERS, number)) {
       complain("%s:%lld: not a recorded impact of %d numbers", path, row.line, NUMBERS);
       result = READ_FAILED;
       break;
@@ -116,7 +103,7 @@ static bool recorded(FILE *out, bool csv, const char *folder, const char *name, 
       continue;
     }
     c.unresolved += carom_cushion(&in, &options, &own) != CAROM_OK;
-    c.error[c.count++] = cushion_distance(&in, &own, &after);
+    c.error[c.count++].pair = cushion_distance(&in, &own, &after);
   }
   if (result != READ_FAILED)
     *pass &= print(out, csv, &c);
@@ -135,56 +122,4 @@ bool cushion_verify(FILE *out, const char *folder, int draws, uint64_t seed, boo
   *pass &= against_reference(out, csv, CUSHION_ANY, draws, seed, draws, 2 * draws);
   return recorded(out, csv, folder, "cushion-stronge.csv", CAROM_CUSHION_STRONGE, pass) &&
          recorded(out, csv, folder, "cushion-mathavan2010.csv", CAROM_CUSHION_EULER, pass);
-}
-
-typedef struct verify_job {
-  shared_options shared;
-  int draws, seed;
-  bool csv;
-} verify_job;
-
-OPTION(verify_job, option_draws, "draws", draws, 0, "N", set_count, 1,
-       "random impacts of each kind (default 500: about twenty seconds)");
-OPTION(verify_job, option_seed, "seed", seed, 0, "S", set_count, 0, "of the random impacts (default: 1)");
-OPTION(verify_job, option_csv, "csv", csv, 0, NULL, set_flag, 0, "as CSV");
-
-static const command_form form = {
-    .name = "verify --cushion",
-    .usage = "[OPTIONS]",
-    .about = "Compares the exact limit of an impact on a cushion with a reference, an integration in extended precision that\n"
-             "shares nothing with it; Stronge's closed form and Euler's steps with what the simulator pooltool has recorded.\n",
-    .options = (const option_row *const[]){&option_draws, &option_seed, &option_csv, &option_data, &option_output, NULL},
-    .details =
-        "Errors are the largest deviation of v and R w over the largest of them before the impact. Left out are recorded "
-        "balls\n"
-        "that roll, whose slip on the cloth is pooltool's rounding. No random impact may be left out by the reference, or be\n"
-        "unresolved.\n\n"
-        "exit code: 0 if all is within its bounds, 1 if something is not, 2 for bad usage or unreadable data\n",
-    .example = "carom-lab verify --cushion --draws 10000",
-};
-
-int cushion_verify_command(int argc, char **argv) {
-  verify_job job = {.shared = {.output = "-"}, .draws = 500, .seed = 1};
-  int code = parse_arguments(&form, argc, argv, &job, NULL);
-  if (code >= 0)
-    return code;
-  FILE *out = output_open(job.shared.output);
-  bool pass = true;
-  if (out == NULL)
-    return EXIT_USAGE;
-  if (!cushion_verify(out, data_folder(job.shared.folder), job.draws, (uint64_t)job.seed, job.csv, &pass)) {
-    output_abandon();
-    return EXIT_USAGE;
-  }
-  return output_commit() ? (pass ? EXIT_GOOD : EXIT_SOME) : EXIT_USAGE;
-}
-
-bool cushion_asked(int *argc, char **argv) {
-  for (int k = 1; k < *argc; k++)
-    if (strcmp(argv[k], "--cushion") == 0) {
-      memmove(argv + k, argv + k + 1, (size_t)(*argc - k) * sizeof *argv); /* with the NULL behind them */
-      --*argc;
-      return true;
-    }
-  return false;
 }

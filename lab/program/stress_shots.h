@@ -2,10 +2,11 @@
 #ifndef CAROM_LAB_STRESS_SHOTS_H
 #define CAROM_LAB_STRESS_SHOTS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
-/* Plays `shots` random shots, the kinds in turn, and prints what invariants they keep. `world` and `ball_model` and
- * `cushion_model` as in carom_shot_options. An exit code. */
-int stress_shots(int shots, uint64_t seed, int world, int cushion_model);
+/* Plays `shots` random shots, the kinds in turn, and prints what invariants they keep. `world` and `cushion_model` as in
+ * carom_shot_options; `elevated`: every cue comes from above. An exit code. */
+int stress_shots(int shots, uint64_t seed, int world, int cushion_model, bool elevated);
 
 #endif

@@ -9,11 +9,25 @@ static double length2(double x, double y) {
   return sqrt(x * x + y * y);
 }
 
+static int is_out(const carom_ball_state *s) {
+  return s->label == CAROM_BALL_POCKETED || s->label == CAROM_BALL_OFF;
+}
+static int flies(const carom_ball_state *s) {
+  return s->label == CAROM_BALL_AIRBORNE;
+}
+
 /* The state of a ball some time after it was *s. */
 static void move(const carom_ball_kind *k, const carom_ball_state *s, double t, carom_ball_state *out) {
   *out = *s;
-  if (s->label == CAROM_BALL_STATIONARY || s->label == CAROM_BALL_POCKETED)
+  if (s->label == CAROM_BALL_STATIONARY || is_out(s))
     return;
+  if (s->label == CAROM_BALL_AIRBORNE) {
+    for (int axis = 0; axis < 3; axis++)
+      out->r[axis] += s->v[axis] * t;
+    out->r[2] -= 0.5 * k->gravity * t * t;
+    out->v[2] -= k->gravity * t;
+    return;
+  }
   const double fall = 2.5 * k->mu_spin * k->gravity / k->radius * t;
   out->w[2] = fabs(s->w[2]) > fall ? s->w[2] - copysign(fall, s->w[2]) : 0.0;
   if (s->label == CAROM_BALL_SPINNING)
@@ -41,7 +55,13 @@ static double energy_of(const carom_ball_kind *k, const carom_ball_state *s) {
     v2 += s->v[axis] * s->v[axis];
     w2 += s->w[axis] * s->w[axis];
   }
-  return 0.5 * k->mass * v2 + 0.2 * k->mass * k->radius * k->radius * w2;
+  const double height = flies(s) ? s->r[2] - k->radius : 0.0;
+  return 0.5 * k->mass * v2 + 0.2 * k->mass * k->radius * k->radius * w2 + k->mass * k->gravity * height;
+}
+
+/* Whether an event is a contact of spheres in space. */
+static int in_space(const carom_shot_ball *balls, const carom_event *e) {
+  return flies(&e->before[0]) || flies(&e->before[1]) || balls[e->a].kind.radius != balls[e->b].kind.radius;
 }
 
 typedef struct follower {
@@ -71,20 +91,44 @@ static void measure_energy(follower *f) {
 }
 
 static const char *type_name(int type) {
-  static const char *const names[] = {"begin",  "strike", "ball_ball", "rail",  "jaw",
-                                      "pocket", "rolls",  "spins",     "stops", "stops"};
+  static const char *const names[] = {"begin", "strike", "ball_ball", "rail",  "jaw",      "pocket",    "rolls",
+                                      "spins", "stops",  "stops",     "slate", "rail_top", "left_table"};
   return names[type];
+}
+
+/* The distance of two centres; what lies on the cloth is at z = R. */
+static double distance(const follower *f, int i, int j) {
+  const carom_ball_state *a = &f->at[i], *b = &f->at[j];
+  const double z_a = flies(a) ? a->r[2] : f->balls[i].kind.radius, z_b = flies(b) ? b->r[2] : f->balls[j].kind.radius;
+  return hypot(length2(a->r[0] - b->r[0], a->r[1] - b->r[1]), z_a - z_b);
+}
+
+/* Noses are inside the walls that stand for them, so that balls of the table's radius touch those on the cloth. */
+static double nose_shift(const follower *f, double h) {
+  const double reference = f->table->ball_radius > 0.0 ? f->table->ball_radius : f->balls[f->count - 1].kind.radius;
+  return reference - sqrt(h * (2.0 * reference - h));
+}
+static double reach_on_cloth(const follower *f, double h, double R) {
+  const double reference = f->table->ball_radius > 0.0 ? f->table->ball_radius : f->balls[f->count - 1].kind.radius;
+  return R == reference ? R : nose_shift(f, h) + sqrt(h * (2.0 * R - h));
+}
+/* How deep a nose is in a flying ball that is in front of it; what is behind it or over it is left to the library. */
+static double nose_intrusion(const follower *f, double left, double h, double R, double z) {
+  const double across = left - nose_shift(f, h);
+  return across >= 0.0 ? R - hypot(across, z - h) : -INFINITY;
 }
 
 static void measure_places(follower *f) {
   for (int i = 0; i < f->count; i++) {
-    if (f->at[i].label == CAROM_BALL_POCKETED)
+    if (is_out(&f->at[i]))
       continue;
     const double *r = f->at[i].r, R = f->balls[i].kind.radius;
+    if (flies(&f->at[i]))
+      f->m.depth = fmax(f->m.depth, R - r[2]);
     for (int j = 0; j < i; j++) {
-      if (f->at[j].label == CAROM_BALL_POCKETED)
+      if (is_out(&f->at[j]))
         continue;
-      const double overlap = 2.0 * R - length2(r[0] - f->at[j].r[0], r[1] - f->at[j].r[1]);
+      const double overlap = R + f->balls[j].kind.radius - distance(f, i, j);
       if (overlap > f->m.overlap) {
         f->m.overlap = overlap;
         f->m.worst_at = type_name(f->last_type);
@@ -97,7 +141,15 @@ static void measure_places(follower *f) {
       double left = (e_x * y - e_y * x) / size;                       /* distance on the left of p -> q */
       const double line = rail->line[0] * -e_y + rail->line[1] * e_x; /* whether the given line counts that as positive */
       left = (rail->side == 1) == (line >= 0.0) ? left : -left;
-      const double intrusion = R - left;
+      if (flies(&f->at[i])) {
+        const double deep = nose_intrusion(f, left, rail->height, R, r[2]);
+        if (place >= 0.0 && place <= 1.0 && deep > f->m.intrusion) {
+          f->m.intrusion = deep;
+          f->m.worst_at = type_name(f->last_type);
+        }
+        continue;
+      }
+      const double intrusion = reach_on_cloth(f, rail->height, R) - left;
       if (place >= 0.0 && place <= 1.0 && left > -R && intrusion > f->m.intrusion) {
         f->m.intrusion = intrusion;
         f->m.worst_at = type_name(f->last_type);
@@ -105,7 +157,9 @@ static void measure_places(follower *f) {
     }
     for (int k = 0; k < f->table->jaws; k++) {
       const carom_jaw *jaw = &f->table->jaw[k];
-      const double intrusion = R + jaw->radius - length2(r[0] - jaw->centre[0], r[1] - jaw->centre[1]);
+      const double left = length2(r[0] - jaw->centre[0], r[1] - jaw->centre[1]) - jaw->radius;
+      const double intrusion =
+          flies(&f->at[i]) ? nose_intrusion(f, left, jaw->height, R, r[2]) : reach_on_cloth(f, jaw->height, R) - left;
       if (intrusion > f->m.intrusion) {
         f->m.intrusion = intrusion;
         f->m.worst_at = type_name(f->last_type);
@@ -132,6 +186,10 @@ static double momentum_change(const follower *f, const carom_event *e) {
                  p_b = b->mass * (e->after[1].v[axis] - e->before[1].v[axis]);
     change[axis] = p_a + p_b;
     normal[axis] = p_b;
+  }
+  if (in_space(f->balls, e)) { /* the cloth takes no part, and heights count */
+    const double p_a = a->mass * (e->after[0].v[2] - e->before[0].v[2]), p_b = b->mass * (e->after[1].v[2] - e->before[1].v[2]);
+    return hypot(length2(change[0], change[1]), p_a + p_b) / (1e-13 + 1e-9 * (a->mass + b->mass));
   }
   const double allowed = fmax(a->mu_slide, b->mu_slide) * 0.12 * 1.01 * length2(normal[0], normal[1]) / (1.0 - 0.12) + 1e-13;
   return length2(change[0], change[1]) / allowed;
@@ -174,6 +232,6 @@ shot_measures shot_measure(const carom_table *table, const carom_shot_ball *ball
     measure_places(&f);
   }
   for (int i = 0; i < count && status == CAROM_OK; i++)
-    f.m.restless += f.from[i].label != CAROM_BALL_STATIONARY && f.from[i].label != CAROM_BALL_POCKETED;
+    f.m.restless += f.from[i].label != CAROM_BALL_STATIONARY && !is_out(&f.from[i]);
   return f.m;
 }

@@ -7,9 +7,10 @@
 typedef struct shot_measures {
   double overlap;   /* deepest of two balls, m */
   double intrusion; /* deepest of a ball into a rail or a jaw, m */
+  double depth;     /* deepest of a flying ball into the cloth, m */
   double gain;      /* greatest rise of energy, over the greatest energy of the shot */
-  double momentum; /* greatest change of the momentum of two balls in their collision, over what the cloth may take away; > 1 is
-                      wrong */
+  double momentum;  /* greatest change of the momentum of two balls in their collision, over what the cloth may take away, or,
+                       where  one flies or their radii differ, over 1e-13 N s + 1e-9 m/s of both masses; > 1 is wrong */
   double jump;  /* greatest difference of a state before an event from that which motion since the ball's last event gives: m,
                    m/s, and R times rad/s */
   int restless; /* balls that are neither at rest nor pocketed at the end of a shot with status CAROM_OK */

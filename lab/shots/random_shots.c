@@ -1,7 +1,7 @@
 /* Random shots: breaks, layouts, racks of other games, and what simulators trip over: frozen racks, lines and clusters of
  * touching balls, balls frozen to rails and in corners, much spin, unlike balls, extreme restitution, up to 32 balls that their
  * spin presses together, and what random numbers never do: events at exactly one instant, gaps of exactly 0, the exact ends of
- * rails. */
+ * rails. And in space: elevated cues, balls that fall on each other, unlike radii. */
 #include "random_shots.h"
 
 #include <stdbool.h>
@@ -287,6 +287,70 @@ static void coincident(random_shot *s, lab_random *r) {
   }
 }
 
+/* A layout, and a cue that makes the ball jump; every third time at the next ball, from near. */
+static void jump(random_shot *s, lab_random *r) {
+  layout(s, r);
+  any_cue(s, r, 0.5, 6.0);
+  aim(s, r, 10.0);
+  s->cue.theta = lab_uniform(r, 2.0, 80.0);
+  const double off = 0.5 * sqrt(lab_uniform(r, 0.0, 1.0)), way = lab_uniform(r, 0.0, 6.283185307179586);
+  s->cue.a = off * cos(way);
+  s->cue.b = off * sin(way);
+  for (int k = 0; k < s->count; k++)
+    s->ball[k].kind.restitution_table = whole(r, 0, 2) == 0 ? lab_uniform(r, 0.1, 0.98) : 0.0;
+}
+
+/* Whether a ball of radius R at a place is clear of all others, in space. */
+static bool is_free_in_space(const random_shot *s, const double at[3], double R) {
+  for (int k = 0; k < s->count; k++) {
+    const double *p = s->ball[k].state.r;
+    if (hypot(hypot(p[0] - at[0], p[1] - at[1]), p[2] - at[2]) < R + s->ball[k].kind.radius + 1e-9)
+      return false;
+  }
+  return true;
+}
+
+/* Balls above each other that fall, on the cloth, on rails and into pockets; some lie below. Alike, or unlike in radius and
+ * mass. */
+static void falling(random_shot *s, lab_random *r) {
+  carom_table_make(any_pool_table(r), &s->table);
+  const int count = whole(r, 2, 12), alike = whole(r, 0, 1);
+  const double wide = lab_uniform(r, 0.05, 0.5), width = s->table.width, length = s->table.length;
+  const double x = lab_uniform(r, wide, width - wide), y = lab_uniform(r, wide, length - wide);
+  for (int trial = 0; trial < 400 && s->count < count; trial++) {
+    carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
+    kind.radius *= alike ? 1.0 : lab_uniform(r, 0.9, 1.1);
+    kind.mass *= alike ? 1.0 : lab_uniform(r, 0.7, 1.4);
+    kind.restitution_table = whole(r, 0, 2) == 0 ? lab_uniform(r, 0.1, 0.98) : 0.0;
+    const double R = kind.radius;
+    const bool lies = whole(r, 0, 1);
+    const double at[3] = {x + lab_uniform(r, -wide, wide), y + lab_uniform(r, -wide, wide),
+                          lies ? R : R + lab_uniform(r, 0.0, 0.4)};
+    if (at[0] < 0.1 || at[0] > width - 0.1 || at[1] < 0.1 || at[1] > length - 0.1 || !is_free_in_space(s, at, R))
+      continue;
+    carom_shot_ball *b = &s->ball[s->count++];
+    *b = (carom_shot_ball){.kind = kind};
+    memcpy(b->state.r, at, sizeof at);
+    for (int axis = 0; axis < 3; axis++) {
+      b->state.v[axis] = axis < 2 ? lab_uniform(r, -2.0, 2.0) : lies ? 0.0 : lab_uniform(r, -3.0, 2.0);
+      b->state.w[axis] = whole(r, 0, 1) * lab_uniform(r, -150.0, 150.0);
+    }
+  }
+}
+
+/* Balls of unlike radii and masses on the cloth, one of them struck, with the butt raised or not. */
+static void unlike_radii(random_shot *s, lab_random *r) {
+  layout(s, r);
+  for (int k = 0; k < s->count; k++) {
+    carom_shot_ball *b = &s->ball[k];
+    b->kind.radius *= lab_uniform(r, 0.9, 1.0);
+    b->kind.mass *= lab_uniform(r, 0.7, 1.4);
+    b->state.r[2] = b->kind.radius;
+  }
+  s->table.ball_radius = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL).radius;
+  s->cue.theta *= whole(r, 0, 1);
+}
+
 static const struct {
   const char *name;
   void (*make)(random_shot *shot, lab_random *r);
@@ -306,9 +370,16 @@ static const struct {
     {"near_pocket", near_pocket},
     {"pressed", pressed},
     {"coincident", coincident},
+    {"jump", jump},
+    {"falling", falling},
+    {"unlike_radii", unlike_radii},
 };
+enum { IN_SPACE_ONLY = 3 };
 
 int random_shot_kinds(void) {
+  return random_shot_kinds_in_space() - IN_SPACE_ONLY;
+}
+int random_shot_kinds_in_space(void) {
   return sizeof kinds / sizeof kinds[0];
 }
 const char *random_shot_kind(int kind) {

@@ -12,7 +12,7 @@ carom_status collide_precisely(const carom_impact *in, carom_slip slip, double t
     return CAROM_SEPARATING;
   const carom_reduced c = carom_reduce(&local);
   carom_trajectory path;
-  const carom_status status = carom_precise(&c, tolerance, &path);
+  const carom_status status = carom_precise(&c, tolerance, 0, &path);
   const carom_integrals all = carom_precise_integrals(&c, &path);
   carom_restore(&c, &all, &local);
   carom_from_frame(&frame, &local, out);
@@ -26,7 +26,7 @@ carom_status cushion_precisely(const carom_cushion_impact *in, double tolerance,
   if (contact.v_y <= 0)
     return CAROM_SEPARATING;
   carom_trajectory path;
-  carom_mathavan_begin(&contact, tolerance, &path);
+  carom_mathavan_begin(&contact, tolerance, 0, &path);
   const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
   const carom_impulse all = carom_mathavan_impulse(&contact, &path);
   carom_push(&contact, &all);

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import argparse
 import time
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -32,6 +32,7 @@ POCKET = 5  # of the table's: the corner at the far right
 # A player's errors, standard deviations: aim (degrees), speed (relative), height of the tip (radii).
 ERRORS = {"aim": 0.15, "speed": 0.05, "height": 0.05}
 MISSED, SCRATCHED, POTTED = 0, 1, 2
+CUSHION: Literal["mathavan"] = "mathavan"
 CHUNK = 4096  # shots between two signs of progress
 
 table = carom.tables.pool_9ft()
@@ -85,7 +86,7 @@ def play(cues: carom.dtypes.Records) -> npt.NDArray[np.int8]:
     with tqdm(total=flat.size, desc="playing", unit=" shots", unit_scale=True, disable=None) as progress:
         for at in range(0, flat.size, CHUNK):
             chunk = flat[at : at + CHUNK]
-            shots = carom.simulate_batch(table, layout, chunk, threads=carom.ALL_THREADS)
+            shots = carom.simulate_batch(table, layout, chunk, cushion_model=CUSHION, threads=carom.ALL_THREADS)
             assert (shots.status >= 0).all(), shots.failures()
             results[at : at + CHUNK] = outcome(shots)
             progress.update(chunk.size)
@@ -122,9 +123,9 @@ def executions(best: tuple[float, float, float], count: int, seed: int) -> carom
 def draw_shot(axes: Axes, best: tuple[float, float, float], shares: dict[str, float], seed: int) -> None:
     """The table with the best shot, and faintly what a player makes of it."""
     picture.draw_table(axes, table)
-    played = carom.simulate_batch(table, layout, executions(best, 40, seed), room=256)
+    played = carom.simulate_batch(table, layout, executions(best, 40, seed), cushion_model=CUSHION, room=256)
     faint = [(played[k], 0.16, 1.0) for k in range(len(played))]
-    for shot, alpha, width in [*faint, (carom.simulate(table, layout, cue(*best)), 1.0, 2.0)]:
+    for shot, alpha, width in [*faint, (carom.simulate(table, layout, cue(*best), cushion_model=CUSHION), 1.0, 2.0)]:
         way = shot.positions(np.linspace(0, shot.time, 1200))
         for ball, hue in enumerate((picture.BLUE, picture.RED)):
             axes.plot(way[:, ball, 1], -way[:, ball, 0], color=hue, lw=width, alpha=alpha, zorder=2, solid_capstyle="round")

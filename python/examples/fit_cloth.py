@@ -61,9 +61,7 @@ def paths(x: Doubles) -> Doubles:
         mu_roll=flat[:, None, 1],
     )
     shots = carom.simulate_batch(table, balls, room=64, cushion_model="han", threads=carom.ALL_THREADS)
-    at = np.full((len(flat), len(TIMES), 2), np.nan)
-    for k in np.flatnonzero(shots.status >= 0):
-        at[k] = shots[int(k)].positions(TIMES)[:, 0, :2]
+    at = shots.positions(TIMES, threads=carom.ALL_THREADS)[:, :, 0, :2]
     return at.reshape((*x.shape[:-1], len(TIMES), 2))
 
 

@@ -74,6 +74,15 @@ def main() -> None:
     table, balls, cue = carom.pooltool.table_of(system.table), carom.pooltool.balls_of(system), carom.pooltool.cue_of(system)
     cues = np.broadcast_to(cue, (BATCH,)).copy()
 
+    times = right.balls["cue"].history_cts.vectorize()[2]
+
+    def trajectories(_: Any) -> object:
+        return carom.simulate_batch(table, balls, cues, world="pooltool").positions(times)
+
+    # The batch's trajectories are those of pooltool's continuous histories.
+    paths = np.stack([right.balls[name].history_cts.vectorize()[0][:, 0] for name in system.balls], axis=1)
+    np.testing.assert_allclose(carom.simulate_batch(table, balls, cues[:1], world="pooltool").positions(times)[0], paths, atol=1e-5)
+
     alone = least(few, system, lambda s: theirs(s, inplace=True))
     continuous = least(few, system, lambda s: theirs(s, inplace=True, continuous=True))
     rows = (
@@ -91,9 +100,11 @@ def main() -> None:
             alone,
             least(few, system, lambda _: carom.simulate_batch(table, balls, cues, room=256, world="pooltool")) / BATCH,
         ),
+        (f"trajectories, one of {BATCH}", continuous, least(few, system, trajectories) / BATCH),
     )
     states = look(mine)
-    print(f"{len(right.events) - 2} events, {len(system.balls)} balls, {right.t:.2f} s, {states} states with the continuous ones")
+    print(f"{len(right.events) - 2} events, {len(system.balls)} balls, {right.t:.2f} s, {states} states with the continuous ones,")
+    print(f"trajectories at {len(times)} times, pooltool {pooltool.__version__}")
     print(f"{'':32} {'pooltool':>9} {'carom':>9} {'ratio':>6}    (ms)")
     for name, slow, fast in rows:
         print(f"{name:32} {slow:9.2f} {fast:9.3f} {slow / fast:6.0f}")

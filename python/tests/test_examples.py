@@ -3,9 +3,13 @@
 Randomness comes from CAROM_TEST_SEED; bounds hold for any.
 """
 
+import ast
 import itertools
+import json
 import os
+import re
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -15,10 +19,13 @@ import carom
 
 pytest.importorskip("matplotlib", reason="matplotlib is not installed")
 pytest.importorskip("tqdm", reason="tqdm is not installed")
-sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
+EXAMPLES = Path(__file__).parents[1] / "examples"
+sys.path.insert(0, str(EXAMPLES))
 
 import best_of_many  # noqa: E402
 import fit_cloth  # noqa: E402
+import learn_potting  # noqa: E402
+import refine_aim  # noqa: E402
 import smoothness  # noqa: E402
 import ten_million  # noqa: E402
 import throw  # noqa: E402
@@ -99,7 +106,7 @@ def test_best_of_many(tmp_path):
     i, j, k = best_of_many.widest(best_of_many.margins(outcomes == best_of_many.POTTED, grid))
     best = (float(grid.aim[i]), float(grid.speed[j]), float(grid.height[k]))
     # Alone, event by event: ball 1 into that pocket, and no other ball into any.
-    shot = carom.simulate(best_of_many.table, best_of_many.layout, best_of_many.cue(*best))
+    shot = carom.simulate(best_of_many.table, best_of_many.layout, best_of_many.cue(*best), cushion_model=best_of_many.CUSHION)
     potted = shot.events[shot.events["type"] == carom.EventType.POCKET]
     assert [(event["a"], event["b"]) for event in potted] == [(1, best_of_many.POCKET)]
     # The neighbours are within the margin; and a player pots it more often than by geometry, and than others that went in.
@@ -173,3 +180,55 @@ def test_ten_million(tmp_path, capsys):
     assert density[18:22, 63:67].sum() > 1.3 * smooth[18:22, 63:67].sum()
     ten_million.main(["--draws", "120000", "--seed", str(SEED), "--threads", "2", "--out", str(tmp_path / "density.png")])
     assert picture(tmp_path / "density.png") and "120,000 collisions" in capsys.readouterr().out
+
+
+def test_learning(tmp_path, capsys):
+    """The policy learns: from every seed it pots at least twice as much, less fouls, on layouts that it has not learnt from."""
+    policy, curve = learn_potting.main(["--generations", "20", "--seed", str(SEED), "--out", str(tmp_path / "learning.svg")])
+    assert curve[0] < 0.25 and curve[-1] > 0.42 and curve[-5:].min() > 2 * curve[0]
+    assert (policy[:2] > 0).all() and policy[3] > 0  # cuts, ways and balls in the way cost something
+    assert picture(tmp_path / "learning.svg") and "at the end" in capsys.readouterr().out
+
+
+def test_the_notebook(capsys):
+    """Every cell runs, prints what is stored with it (numbers within 2 %, as instruction sets differ by rounding) and gives its pictures."""
+    from matplotlib import pyplot
+
+    pyplot.switch_backend("agg")
+    pyplot.close("all")
+    book = json.loads((EXAMPLES / "first_look.ipynb").read_text(encoding="utf-8"))
+    cells = [cell for cell in book["cells"] if cell["cell_type"] == "code"]
+    assert [cell["execution_count"] for cell in cells] == list(range(1, len(cells) + 1)) and len(cells) >= 8
+    number = re.compile(r"\d+(?:\.\d+)?")
+    names: dict = {}
+    kinds = set()
+    for cell in cells:
+        tree = ast.parse("".join(cell["source"]))
+        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, "first_look.ipynb", "exec"), names)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # that nothing is shown
+            shown = None if last is None else eval(compile(ast.Expression(last.value), "first_look.ipynb", "eval"), names)
+        stored = {name for output in cell["outputs"] if "data" in output for name in output["data"]} - {"text/plain"}
+        found = {"image/png"} if pyplot.get_fignums() else {"image/svg+xml"} if hasattr(shown, "_repr_svg_") else set()
+        pyplot.close("all")
+        assert stored == found
+        kinds |= found
+        if "image/svg+xml" in found:
+            assert shown._repr_svg_().startswith("<svg")
+        expected = "".join(text for output in cell["outputs"] if output["output_type"] == "stream" for text in output["text"])
+        printed = capsys.readouterr().out
+        assert number.sub("#", printed) == number.sub("#", expected)
+        np.testing.assert_allclose([*map(float, number.findall(printed))], [*map(float, number.findall(expected))], rtol=0.02)
+    assert kinds == {"image/png", "image/svg+xml"}
+
+
+def test_refine_aim(tmp_path, monkeypatch):
+    runs = [refine_aim.refine(start, balls, goal)[1] for balls, _, goal, start in refine_aim.tasks(20, SEED)]
+    # each step helps, and where the reach lets it the search ends at the goal
+    assert all(later < sooner for misses in runs for sooner, later in itertools.pairwise(misses))
+    assert sum(misses[-1] < 1e-3 for misses in runs) >= 3
+    out = tmp_path / "refine_aim.svg"
+    monkeypatch.setattr("sys.argv", ["refine_aim.py", "--draws", "4", "--out", str(out)])
+    refine_aim.main()
+    assert picture(out)

@@ -483,7 +483,7 @@ def test_strategies_in_pooltools_engine():
     engine.resolver.ball_linear_cushion = bridge.ExactLinearCushion()
     engine.resolver.ball_circular_cushion = bridge.ExactCircularCushion()
     system = pt.System.example()
-    theirs, mine = pt.simulate(system, engine), bridge.simulate(system, models="carom")
+    theirs, mine = pt.simulate(system, engine), bridge.simulate(system, models="carom", cushion_model="mathavan")
     for ours, event in list(zip(mine.events, theirs.events))[:8]:
         assert (ours.event_type, ours.ids) == (event.event_type, event.ids)
         assert abs(ours.time - event.time) < 1e-4
@@ -495,6 +495,7 @@ def test_speed():
     ran = subprocess.run([sys.executable, str(script), "10"], capture_output=True, text=True, env={**os.environ, "HOME": home})
     assert ran.returncode == 0, ran.stderr
     print(ran.stdout)
-    ratios = {line[:32].strip(): float(line.split()[-1]) for line in ran.stdout.splitlines()[2:]}
-    assert len(ratios) == 6
+    ratios = {line[:32].strip(): float(line.split()[-1]) for line in ran.stdout.splitlines()[3:]}
+    assert len(ratios) == 7
     assert ratios["drop-in, all objects looked at"] >= 60 and ratios["continuous=True, all objects"] >= 20, ran.stdout
+    assert ratios["trajectories, one of 200"] >= 150, ran.stdout

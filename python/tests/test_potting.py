@@ -3,6 +3,7 @@
 import importlib.util
 import subprocess
 import sys
+import time
 import warnings
 from pathlib import Path
 from xml.etree import ElementTree
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 import carom
+from carom._draws import Draws
 from carom.potting import Potting
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "potting_agents.py"
@@ -39,23 +41,38 @@ def lined_up(rules, distance=0.3):
 def test_a_pot_and_a_scratch_by_hand():
     rules = Potting(balls=1, strokes=3)
     centres, phi = lined_up(rules)
-    layout = rules.deal(np.random.default_rng(1), centres)
+    layout = rules.layout(centres)
     stroke = rules.play(layout, rules.actions(phi, 2.0, b=-0.2))
     assert (stroke.potted, stroke.scratch, stroke.rewards, stroke.status) == (1, False, 1.0, 0)
     assert rules.ended(stroke.layouts, 2) and not rules.ended(layout, 2) and rules.ended(layout, 0)
     # Without the other ball in its way the cue ball goes down instead; put back, it lies on the table, clear of the other.
-    moved = rules.deal(np.random.default_rng(1), [centres[0], [0.6, 2.0]])
+    moved = rules.layout([centres[0], [0.6, 2.0]])
     foul = rules.play(moved, rules.actions(phi, 2.0))
     assert (foul.potted, foul.scratch, foul.rewards) == (0, True, -1.0)
     back = foul.layouts.copy()
-    rules.put_back(back, np.random.default_rng(2))
+    rules.put_back(back[np.newaxis], Draws([2]), np.arange(1))
     assert rules.play(back, rules.actions(0.0, 0.5)).status == 0
     np.testing.assert_array_equal(back[1], foul.layouts[1])
 
 
+def test_a_ball_that_leaves_the_table_is_a_foul_and_taken_back(monkeypatch):
+    import carom.potting
+
+    def off(*arguments, **options):
+        shots = carom.simulate_batch(*arguments, **options)
+        shots.final["label"][1, 2] = carom.Label.OFF
+        return shots
+
+    monkeypatch.setattr(carom.potting, "simulate_batch", off)
+    rules = Potting(balls=3)
+    layout = rules.deal(Draws([3]), np.arange(1))[0]
+    strokes = rules.play(layout, np.tile(rules.actions(10.0, 3.0), (2, 1)))
+    assert strokes.rewards[1] == -1.0 and strokes.layouts[1].tobytes() == layout.tobytes() != strokes.layouts[0].tobytes()
+
+
 def test_strokes_are_those_of_simulate():
     rules = Potting(balls=5)
-    layout = rules.deal(np.random.default_rng(3))
+    layout = rules.deal(Draws([3]), np.arange(1))[0]
     actions = rules.actions([10.0, 170.0, -60.0], [1.0, 3.0, 6.0], a=[0.3, 0.0, -0.1], b=0.2)
     strokes = rules.play(layout, actions)
     for k, action in enumerate(actions):
@@ -73,7 +90,7 @@ def test_a_stroke_in_error_is_taken_back():
     there = (table.rails["p"][:, 0] > 0.1) | (table.rails["q"][:, 0] > 0.1)
     opened = carom.Table(table.width, table.length, rails=table.rails[there], jaws=table.jaws, pockets=table.pockets)
     rules = Potting(balls=1, table=opened)
-    layout = rules.deal(np.random.default_rng(1), [[0.4, 0.9], [1.0, 2.0]])
+    layout = rules.layout([[0.4, 0.9], [1.0, 2.0]])
     stroke = rules.play(layout, rules.actions(180.0, 4.0))
     assert stroke.status < 0 and stroke.rewards == -1.0 and not stroke.scratch
     assert stroke.layouts.tobytes() == layout.tobytes()
@@ -85,7 +102,8 @@ def test_any_game_keeps_the_rules():
     generator = np.random.default_rng(seed)
     rules = Potting(balls=4, strokes=30, cushion_model="han")
     low, high = rules.bounds()
-    layouts = np.stack([rules.deal(generator) for _ in range(300)])
+    draws = Draws(generator.integers(2**63, size=300))
+    layouts = rules.deal(draws, np.arange(300))
     assert np.unique(layouts["state"]["r"], axis=0).shape[0] == 300
     down = np.zeros((300, 4), bool)
     for left in range(29, 9, -1):
@@ -97,8 +115,10 @@ def test_any_game_keeps_the_rules():
         np.testing.assert_array_equal(stroke.potted, (now & ~down).sum(axis=1))
         np.testing.assert_array_equal(stroke.rewards, stroke.potted - stroke.scratch)
         down, layouts = now, stroke.layouts
-        for game in np.flatnonzero(stroke.scratch):
-            rules.put_back(layouts[game], generator)
+        back = np.flatnonzero(stroke.scratch)
+        again = layouts[back]
+        rules.put_back(again, draws, back)
+        layouts[back] = again
         seen = rules.observe(layouts, left)
         assert ((seen >= low) & (seen <= high)).all()
         again = rules.layouts(seen)
@@ -119,11 +139,44 @@ def test_what_the_rules_refuse():
             Potting(**arguments)
     rules = Potting(balls=1)
     with pytest.raises(ValueError, match=r"layout: the shape must be \(2, 2\)"):
-        rules.deal(np.random.default_rng(1), [[0.5, 0.5]])
+        rules.layout([[0.5, 0.5]])
     with pytest.raises(carom.CaromError, match="overlap"):
-        rules.deal(np.random.default_rng(1), [[0.5, 0.5], [0.5, 0.51]])
+        rules.layout([[0.5, 0.5], [0.5, 0.51]])
     with pytest.raises(ValueError, match="actions: finite numbers"):
         rules.cues([0.0, np.nan, 0.0, 0.0])
+
+
+def test_noise_of_execution():
+    """Its standard deviations, in degrees, m/s and radii; and `play` has none."""
+    rules = Potting(noise=(2.0, 0.3, 0.05))
+    wanted = np.tile(rules.actions(179.0, 2.0, a=0.1), (4000, 1))
+    games = np.arange(4000)
+    done = rules.cues(rules.disturbed(wanted, Draws(games), games))
+    turn = (done["phi"] - 179.0 + 180.0) % 360.0 - 180.0
+    for deviation, values in ((2.0, turn), (0.3, done["speed"] - 2.0), (0.05, done["a"] - 0.1), (0.05, done["b"])):
+        assert abs(values.mean()) < 4 * deviation / 63 and abs(values.std() / deviation - 1) < 0.05
+    exact = Potting()
+    np.testing.assert_array_equal(exact.disturbed(wanted, Draws(games), games), wanted)
+    with pytest.raises(ValueError, match="noise: must be three standard deviations"):
+        Potting(noise=(1.0, -1.0, 0.0))
+
+
+def test_random_parameters_ball_sets_and_rewards():
+    rules = Potting(balls=2, parameters={"mu_slide": (0.1, 0.3), "restitution_cushion": (0.7, 0.9)})
+    layouts = rules.deal(Draws(np.arange(500)), np.arange(500))
+    for name, low, high in (("mu_slide", 0.1, 0.3), ("restitution_cushion", 0.7, 0.9)):
+        drawn = layouts["kind"][name]
+        assert (drawn == drawn[:, :1]).all() and low <= drawn.min() < low + 0.02 and high - 0.02 < drawn.max() < high
+    strokes = rules.play(layouts[:, :], rules.actions(30.0, 3.0))
+    assert len(np.unique(strokes.time)) == 500 and strokes.layouts["kind"].tobytes() == layouts["kind"].tobytes()
+    for bounds, words in (({"mu": (0, 1)}, "parameters: must give"), ({"mass": (2, 1)}, "'mass'"), ({"mu_slide": (-1, 1)}, "mu_slide")):
+        with pytest.raises(ValueError, match=words):
+            Potting(parameters=bounds)
+    snooker = Potting(ball_set="snooker")
+    assert snooker.radius == carom.racks.snooker(carom.tables.snooker())["kind"]["radius"][0] and snooker.table == carom.tables.snooker()
+    near = Potting(balls=1, reward=lambda balls, strokes: -np.linalg.norm(strokes.layouts["state"]["r"][..., 0, :2], axis=-1))
+    played = near.play(near.layout([[0.5, 0.5], [0.9, 1.5]]), near.actions([0.0, 90.0], 1.0))
+    np.testing.assert_allclose(played.rewards, -np.hypot(*played.layouts["state"]["r"][:, 0, :2].T))
 
 
 # ---- The environments -----------------------------------------------------------------------------------------------------
@@ -144,7 +197,7 @@ def test_many_games_are_single_games(gymnasium, threads):
     """Against gymnasium's own vector of single environments: observations, rewards, ends and infos to the bit, over many games."""
     seed = int(np.random.SeedSequence().generate_state(1)[0] // 2)
     print(f"seed {seed}")
-    arguments = {"balls": 3, "strokes": 4, "cushion_model": "han"}
+    arguments = {"balls": 3, "strokes": 4, "cushion_model": "han", "noise": (0.5, 0.1, 0.02), "parameters": {"mu_roll": (0.005, 0.015)}}
     envs = gymnasium.make_vec("carom/Potting-v0", num_envs=7, threads=threads, **arguments)
     singles = gymnasium.make_vec("carom/Potting-v0", num_envs=7, vectorization_mode="sync", **arguments)
     assert type(envs.unwrapped).__name__ == "PottingVectorEnv" and type(singles).__name__ == "SyncVectorEnv"
@@ -168,6 +221,29 @@ def test_many_games_are_single_games(gymnasium, threads):
     assert ended > 40
     seeds = [5, None, 7, None, None, 5, 1]
     assert envs.reset(seed=seeds)[0].tobytes() == singles.reset(seed=seeds)[0].tobytes()
+
+
+@pytest.mark.parametrize(("model", "least"), [("mathavan", 0.8), ("han", 0.6)])
+def test_many_games_are_as_fast_as_their_batch(gymnasium, model, least):
+    """The share of simulate_batch in the processor time of a step of many games, resets included."""
+    envs = gymnasium.make_vec("carom/Potting-v0", num_envs=256, strokes=5, cushion_model=model)
+    rules, generator = envs.unwrapped.rules, np.random.default_rng(1)
+    envs.reset(seed=1)
+    shares = []
+    for _ in range(6):
+        spent, batch = 0.0, 0.0
+        for _ in range(6):  # a game and its reset
+            before, playing = envs.unwrapped._games.balls.copy(), ~envs.unwrapped._games.ended
+            actions = generator.uniform(-1.0, 1.0, (256, 4))
+            begun = time.process_time()
+            envs.step(actions)
+            spent += time.process_time() - begun
+            begun = time.process_time()
+            carom.simulate_batch(rules.table, before[playing], rules.cues(actions[playing]), cushion_model=model)
+            batch += time.process_time() - begun
+        shares.append(batch / spent)
+    print(shares)
+    assert max(shares) >= least, shares
 
 
 def test_reset_options(gymnasium):
@@ -203,10 +279,10 @@ def test_pictures(gymnasium):
     seen, _ = envs.reset(seed=4)
     still = envs.render()[1]
     table = envs.unwrapped.rules.table
-    assert still.dtype == np.uint8 and still.ndim == 3 and abs(still.shape[0] / still.shape[1] - 2.78 / 1.51) < 0.01
+    assert still.dtype == np.uint8 and still.ndim == 3 and abs(still.shape[1] / still.shape[0] - 2.78 / 1.51) < 0.01
 
     def colour_at(image, x, y):
-        column, row = (x + 0.12) * 200, (table.length + 0.12 - y) * 200
+        column, row = (y + 0.12) * 200, (x + 0.12) * 200
         return tuple(int(part) for part in image[int(row), int(column)])
 
     for ball, colour in enumerate(("#ffffff", "#f2c200", "#1f4fd8")):

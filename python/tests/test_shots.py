@@ -2,7 +2,10 @@
 
 import json
 import os
+import pickle
 import subprocess
+import time
+import warnings
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -123,8 +126,212 @@ def test_a_batch_has_the_bits_of_single_shots():
         np.testing.assert_array_equal(shots[index].positions([0.3, 1.0]), one.positions([0.3, 1.0]))
     finals = carom.simulate_batch(table, rack, cues, **options)
     assert finals.final.tobytes() == shots.final.tobytes()
-    with pytest.raises(carom.CaromError, match="more events"):
-        finals[0, 0].positions(1.0)
+    # Where events were not kept, the shot is played again.
+    np.testing.assert_array_equal(finals[1, 2].positions([0.3, 1.0]), shots[1, 2].positions([0.3, 1.0]))
+
+
+@pytest.fixture(scope="module")
+def breaks():
+    """Breaks of which every 3rd is in error: the batch, and each shot alone, None in place of those."""
+    table = carom.tables.pool_9ft()
+    rack = carom.racks.nineball(table)
+    cues = carom.cue(speed=8.0, phi=np.linspace(85.0, 95.0, 12), a=np.where(np.arange(12) % 3 == 2, 1.0, 0.0), b=0.1)
+    alone = [carom.simulate(table, rack, cue, cushion_model="han") if k % 3 != 2 else None for k, cue in enumerate(cues)]
+    return lambda **options: carom.simulate_batch(table, rack, cues, cushion_model="han", **options), alone
+
+
+@pytest.mark.parametrize("options", [{}, {"room": 1000}, {"room": 40}, {"room": 1000, "records": "brief"}])
+def test_trajectories_of_a_batch(breaks, options):
+    """Those of single shots, bit for bit, whatever was kept, in any order of times, on any number of threads."""
+    play, alone = breaks
+    shots = play(**options)
+    times = np.array([[0.0, 0.7, 0.31], [99.0, 0.31, -1.0]])
+    positions = shots.positions(times, threads=3)
+    states = shots.states(times)
+    assert positions.shape == (12, 2, 3, 10, 3) and states.shape == (12, 2, 3, 10)
+    for k, one in enumerate(alone):
+        if one is None:
+            assert np.isnan(positions[k]).all() and np.isnan(states["w"][k]).all() and (states["label"][k] == -1).all()
+            with pytest.raises(carom.CaromError, match="miscue|a\\^2"):
+                shots[k].states(0.5)
+        else:
+            assert states[k].tobytes() == one.states(times).tobytes()
+            np.testing.assert_array_equal(positions[k], one.positions(times))
+            assert shots[k].states(times).tobytes() == states[k].tobytes()
+    np.testing.assert_array_equal(shots[3:9:2].positions(times), positions[3:9:2])
+    np.testing.assert_array_equal(shots[[7, 1]].positions(0.5), shots.positions(0.5)[[7, 1]])
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(shots)).positions(times), positions)
+    assert shots.positions(np.zeros(0)).shape == (12, 0, 10, 3) and shots[:0].positions(1.0).shape == (0, 10, 3)
+    for bad in (np.nan, np.inf):
+        with pytest.raises(ValueError, match=f"times: .* not {bad}"):
+            shots.positions([0.1, bad])
+
+
+def test_shots_that_were_changed_are_not_played_again():
+    table = carom.tables.pool_9ft()
+    cues = carom.cue(speed=[8.0, 8.0], phi=[89.0, 90.0])
+    shots = carom.simulate_batch(table, carom.racks.nineball(table), cues, cushion_model="han")
+    cues["speed"][0] = 7.0
+    with pytest.raises(ValueError, match="layouts, cues: they were changed"):
+        shots.positions(1.0)
+    assert np.isfinite(shots[1:2].positions(1.0)).all()
+
+
+def test_slices_and_iteration(breaks):
+    play, alone = breaks
+    shots = play(room=300, features=True)
+    assert [shot.count for shot in shots] == shots.count.tolist() and len(list(shots)) == len(shots) == 12
+    part = shots[1:8:3]
+    assert isinstance(part, carom.Shots) and part.shape == (3,) and part.time.tolist() == shots.time[1:8:3].tolist()
+    assert np.array_equal(part[1].events, alone[4].events) and np.array_equal(shots[4].events, alone[4].events)
+    assert part.features.pocket.tolist() == shots.features.pocket[1:8:3].tolist()
+    assert [index for index, _ in shots[shots.status < 0].failures()] == [(0,), (1,), (2,), (3,)]
+    one = shots[-2]
+    assert one.count == alone[10].count and one.balls.tobytes() == alone[10].balls.tobytes() and one.status is carom.Status.OK
+    again = pickle.loads(pickle.dumps(one))
+    assert np.array_equal(again.events, one.events) and repr(again) == repr(one)
+    assert not hasattr(one, "colour")
+    with pytest.raises(IndexError):
+        shots[12]
+    table = carom.tables.pool_9ft()
+    grid = carom.simulate_batch(table, carom.racks.nineball(table), carom.cue(speed=[[5.0], [6.0]], phi=[89.0, 90.0, 91.0]), cushion_model="han")
+    assert grid[1, :].shape == (3,) and grid[:, 2].time.tolist() == grid.time[:, 2].tolist()
+    np.testing.assert_array_equal(grid[:, 1:].positions(0.4), grid.positions(0.4)[:, 1:])
+    assert [shot.time for shot in grid] == grid.time.reshape(-1).tolist()
+    with pytest.raises(IndexError, match="2 indices"):
+        grid[0]
+    single = carom.simulate_batch(table, carom.racks.nineball(table), carom.cue(speed=5.0), features=True)
+    assert single.shape == () and single.features.contact[0] == 1 and single.positions([0.1, 0.2]).shape == (2, 10, 3) and single.time > 1.0
+
+
+def test_a_shot_of_a_batch_costs_less_than_to_play_it():
+    """The processor time of shots[k] against that of two balls' shots."""
+    table = carom.tables.pool_9ft()
+    cues = carom.cue(speed=3.0, phi=np.linspace(60.0, 120.0, 5000))
+    layout = carom.balls([[0.5, 0.6], [0.7, 1.5]])
+
+    def seconds(call):
+        begin = time.process_time()
+        call()
+        return time.process_time() - begin
+
+    shots = carom.simulate_batch(table, layout, cues, cushion_model="han")
+    played = min(seconds(lambda: carom.simulate_batch(table, layout, cues, cushion_model="han")) for _ in range(5))
+    assert min(seconds(lambda: [shots[k] for k in range(5000)]) for _ in range(5)) < played
+
+
+def test_light_records(breaks):
+    """24 bytes an event, with the numbers of the full ones."""
+    play, alone = breaks
+    shots = play(room=300, records="brief")
+    assert carom.dtypes.brief_event.itemsize == 24 and shots.events.dtype == carom.dtypes.brief_event
+    for one, shot in zip(alone, shots):
+        if one is None:
+            assert shot.count == 0
+            continue
+        assert shot.count == one.count and all(np.array_equal(shot.events[name], one.events[name]) for name in ("time", "type", "a", "b"))
+    assert list(carom.dtypes.columns(shots[0].events)) == ["time", "type", "a", "b"]
+    again = play(room=300, records="brief", out=shots)
+    assert again is shots
+    with pytest.raises(ValueError, match=r"out\.events"):
+        play(room=300, out=shots)
+
+
+def features_of(shot, cue):
+    """By a plain walk over the events of one shot."""
+    count = len(shot.balls)
+    found = {"contact": [-1, -1], "contact_time": [np.inf, np.inf], "cushions_before": [0, 0], "cushions_after": 0}
+    found |= {"pocket": [-1] * count, "pocket_time": [np.inf] * count, "cushions": [0] * count}
+    met = []
+    for event in shot.events:
+        kind, a, b = carom.EventType(event["type"]).name, int(event["a"]), int(event["b"])
+        if kind in ("RAIL", "JAW"):
+            found["cushions"][a] += 1
+            found["cushions_after"] += len(met) > 0
+        elif kind == "POCKET":
+            found["pocket"][a], found["pocket_time"][a] = b, event["time"]
+        elif kind == "BALL_BALL" and cue in (a, b) and len(met) < 2 and a + b - cue not in met:
+            k = len(met)
+            met.append(a + b - cue)
+            found["contact"][k], found["contact_time"][k], found["cushions_before"][k] = a + b - cue, event["time"], found["cushions"][cue]
+    return found
+
+
+@pytest.mark.parametrize("options", [{}, {"room": 500, "threads": 3}, {"room": 20}, {"room": 500, "records": "brief"}])
+def test_features(breaks, options):
+    play, alone = breaks
+    shots = play(features=True, **options)
+    plain = play(**{**options, "features": False})
+    assert shots.final.tobytes() == plain.final.tobytes() and shots.status.tobytes() == plain.status.tobytes()
+    assert shots.record[["time", "count"]].tolist() == plain.record[["time", "count"]].tolist() and plain.features is None
+    seen = []
+    for k, one in enumerate(alone):
+        if one is None:
+            assert (shots.features.contact[k] == -1).all() and not shots.features.cushions[k].any()
+            continue
+        if options.get("room") == 500:
+            assert np.array_equal(shots[k].events, plain[k].events)
+        for name, value in features_of(one, 0).items():
+            assert getattr(shots.features, name)[k].tolist() == value, name
+        seen.append(features_of(one, 0))
+    assert sum(max(found["pocket"]) >= 0 for found in seen) > 2 and any(found["contact"][1] > 0 for found in seen)
+
+
+def test_features_of_three_cushions():
+    """Cushions before the second ball, of another cue ball than the first of the layout."""
+    table = carom.tables.threecushion()
+    cues = carom.cue(speed=5.0, phi=np.linspace(0.0, 360.0, 90), a=0.3, ball=1, game="billiard")
+    shots = carom.simulate_batch(table, carom.racks.threecushion(table), cues, cushion_model="han", features=True)
+    scored = (shots.features.contact[:, 1] >= 0) & (shots.features.cushions_before[:, 1] >= 3)
+    assert 0 < scored.sum() < 45
+    for k in range(90):
+        one = carom.simulate(table, carom.racks.threecushion(table), cues[k], cushion_model="han")
+        for name, value in features_of(one, 1).items():
+            assert getattr(shots.features, name)[k].tolist() == value, name
+
+
+def test_shots_that_are_stopped():
+    """At a time, at an event; both are outcomes. What goes on has the bits of the unbroken shot."""
+    table = carom.tables.pool_9ft()
+    rack, cue = carom.racks.nineball(table), carom.cue(speed=8.0)
+    whole = carom.simulate(table, rack, cue)
+    shot = carom.simulate(table, rack, cue, t_final=0.9)
+    assert shot.status is carom.Status.STOPPED_AT_TIME and shot.time == 0.9 and (shot.events["time"] <= 0.9).all()
+    assert shot.final["r"].tobytes() == whole.states(0.9)["r"].tobytes()
+    with pytest.raises(carom.CaromError) as caught:
+        shot.states([0.5, 1.0])
+    assert caught.value.status is carom.Status.ERROR_TIME
+    for t_final in (1.0, 1.5):
+        shot = carom.resume(shot, t_final=t_final)
+        assert shot.status is carom.Status.STOPPED_AT_TIME and shot.time == t_final
+    kept = carom.resume(shot, stop_at=("rail", "pocket"))
+    assert kept.status is carom.Status.STOPPED_AT_EVENT and kept.events["type"][-1] in (carom.EventType.RAIL, carom.EventType.POCKET)
+    end = carom.resume(shot)
+    assert end.status is carom.Status.OK and np.array_equal(end.events, whole.events) and end.final.tobytes() == whole.final.tobytes()
+    assert np.array_equal(carom.resume(kept).events, whole.events)
+    with pytest.raises(ValueError, match="t_final: it must not be before 1.5 s"):
+        carom.resume(shot, t_final=1.0)
+    # A shot that ends before t_final is no other than without it.
+    assert carom.simulate(table, rack, cue, t_final=900.0).status is carom.Status.OK
+    assert carom.simulate(table, rack, cue, stop_at=["jaw", "contact"]).events["type"][-1] == carom.EventType.BALL_BALL
+    shots = carom.simulate_batch(table, rack, carom.cue(speed=[0.05, 8.0, 9.0]), t_final=0.9, cushion_model="han")
+    assert shots.status.tolist() == [0, 2, 2] and not shots.failures() and shots.time[1:].tolist() == [0.9, 0.9]
+    seen = shots.positions([0.9, 1.0])
+    assert np.isfinite(seen[:, 0]).all() and np.isfinite(seen[0]).all() and np.isnan(seen[1:, 1]).all()
+
+
+def test_orientations():
+    """A ball that rolls in a straight line turns by its way over its radius, about the axis across."""
+    table = carom.tables.pool_9ft()
+    balls = carom.balls([[0.3, 0.3], [0.9, 2.0]], v=[[0.0, 0.5, 0.0], [0.0, 0.0, 0.0]], w=[[-0.5 / 0.028575, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    shot = carom.simulate(table, balls)
+    times = np.array([[0.0, 0.1], [0.2, 0.4]])
+    turned = shot.orientations(times)
+    way = shot.positions(times)[..., 0, 1] - 0.3
+    assert turned.shape == (2, 2, 2, 4) and way[1, 1] > 0.15
+    np.testing.assert_allclose(turned[..., 0, 0], np.cos(way / 0.028575 / 2), atol=1e-12)
+    np.testing.assert_allclose(turned[..., 0, 1], -np.sin(way / 0.028575 / 2), atol=1e-12)
+    assert (turned[..., 1, :] == [1, 0, 0, 0]).all()
 
 
 def test_broadcasting_and_out():
@@ -149,7 +356,7 @@ def test_a_bad_shot_costs_itself():
     cues = carom.cue(speed=5.0, a=[0.0, 0.9, 0.1], b=0.5)
     shots = carom.simulate_batch(table, rack, cues, cushion_model="han")
     assert shots.status.tolist() == [0, carom.Status.ERROR_MISCUE, 0]
-    assert shots.failures() == [((1,), carom.Status.ERROR_MISCUE.text)]
+    assert shots.failures() == [((1,), f"cue: {carom.Status.ERROR_MISCUE.text}")]
     assert shots.final[2].tobytes() == carom.simulate(table, rack, cues[2], cushion_model="han").final.tobytes()
 
 
@@ -175,7 +382,8 @@ def test_games_and_terms():
     assert kind["drag"] == 0.0129 and kind["roll_loss"] == 0.087 and kind["law_a"] == kind["mu_ball"] == 0.08
     terms = ("drag", "roll_loss", "law_a", "law_b", "law_c", "nose_height", "omega_ratio")
     for game in ("pool", "snooker", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"):
-        assert not any(carom.balls(r, game=game)["kind"][name].any() for name in terms)
+        given = [name for name in terms if carom.balls(r, game=game)["kind"][name].any()]
+        assert given == (["nose_height"] if game == "snooker" else [])
     plain = carom.balls(r, v=v, game="billiard", drag=0.0, roll_loss=0.0)
     shots = carom.simulate_batch(table, np.stack([measured, plain]), cushion_model="han")
     assert shots.record["time"][0] < shots.record["time"][1]
@@ -189,7 +397,8 @@ def test_games_and_terms():
     higher = carom.Table.from_record(table.record)
     higher.rails["height"] = 0.036
     lower = carom.balls(r, v=v, game="billiard", nose_height=0.036)
-    assert carom.simulate(higher, measured).final.tobytes() == carom.simulate(table, lower).final.tobytes()
+    tables = carom.balls(r, v=v, game="billiard", nose_height=0.0)
+    assert carom.simulate(higher, tables).final.tobytes() == carom.simulate(table, lower).final.tobytes()
     for name, value in [("drag", 2.0), ("roll_loss", -0.1), ("law_b", 1.5), ("law_c", np.inf), ("nose_height", 0.07), ("omega_ratio", 2.0)]:
         with pytest.raises(carom.CaromError, match=rf"balls\[0\]\.kind\.{name}"):
             carom.simulate(table, carom.balls(r, v=v, game="billiard", **{name: value}))
@@ -245,7 +454,7 @@ def test_other_errors():
         carom.simulate(table, rack, carom.cue(), cushion_model="rubber")
     with pytest.raises(carom.CaromError, match="rack|gap"):
         carom.racks.nineball(table, gap=-1.0)
-    with pytest.raises(carom.CaromError):
+    with pytest.raises(ValueError, match="steps"):
         carom.simulate_batch(table, rack, carom.cue(), steps=-3)
 
 
@@ -289,9 +498,140 @@ def test_pictures():
     lines = [line for line in still.iter(name + "polyline") if line.get("stroke") not in ("#1b5e42",)]
     assert len(lines) >= moved > 3
     assert len(list(still.iter(name + "circle"))) == len(table.pockets) + len(table.jaws) + 20
-    # The cue ball of the moving picture ends where the shot ends.
-    moving = ElementTree.fromstring(shot.animate().svg)
-    values = [a.get("values").split(";") for a in moving.iter(name + "animate") if a.get("attributeName") == "cx"]
-    ends = {c.get("cx") for c in list(still.iter(name + "circle"))[-10:]}
-    assert all(v[-1] in ends for v in values)
+    # A long table lies on its side, and every ball but the cue ball has its number.
+    assert float(still.get("width")) > float(still.get("height"))
+    balls = [part for part in still.iter(name + "g")]
+    assert [[text.text for text in ball.iter(name + "text")] for ball in balls] == 2 * [[], *([str(k)] for k in range(1, 10))]
+    # The balls of the moving picture go from where they lie in the still one to where they end there.
+    animation = shot.animate()
+    moving = list(ElementTree.fromstring(animation.svg).iter(name + "g"))
+    for k, ball in enumerate(moving):
+        ways = [part.get("values").split(";") for part in ball.iter(name + "animateTransform")] or [[ball.get("transform")[10:-1]]]
+        assert [f"translate({ways[0][0]})", f"translate({ways[0][-1]})"] == [balls[k].get("transform"), balls[k + 10].get("transform")]
+    assert len(moving) == 10 and len(repr(animation)) < 80
     assert len(list(ElementTree.fromstring(table._repr_svg_()).iter(name + "circle"))) == len(table.pockets) + len(table.jaws)
+
+
+def test_balls_that_fly():
+    table = carom.tables.pool_9ft()
+    balls = carom.balls([[0.5, 0.6], [0.5, 0.905]])
+    cue = carom.cue(speed=3.0, theta=45.0, b=0.0)
+    over = carom.simulate(table, balls, cue, cushion_model="han")
+    kinds = over.events["type"].tolist()
+    assert kinds[:2] == [carom.EventType.STRIKE, carom.EventType.SLATE] and kinds.count(carom.EventType.SLATE) > 3
+    top = over.positions(np.linspace(0.0, 0.3, 31))[:, 0, 2].max()
+    assert abs(top - 0.028575 - 0.135695) < 1e-4
+    flat = carom.simulate(table, balls, cue, cushion_model="han", space="flat")
+    assert flat.events["type"][1] == carom.EventType.BALL_BALL and (flat.events["after"]["v"][..., 2] == 0).all()
+    # off the table, which is no error; the batch takes the same option
+    balls = carom.balls([[0.4, 2.14], [0.8, 1.8]])
+    cue = carom.cue(speed=3.0, theta=45.0, b=0.0, miscue=0.5)
+    gone = carom.simulate(table, balls, cue, cushion_model="han")
+    assert gone.events["type"][-1] == carom.EventType.LEFT_TABLE and gone.final["label"].tolist() == [carom.Label.OFF, 0]
+    for space in ("3d", "flat"):
+        shots = carom.simulate_batch(table, balls, cue, cushion_model="han", space=space)
+        assert shots.final[0]["label"] == (carom.Label.OFF if space == "3d" else carom.Label.STATIONARY)
+    with pytest.raises(carom.CaromError, match="miscue"):
+        carom.simulate(table, balls, carom.cue(a=0.3, b=0.4, miscue=0.5))
+    with pytest.raises(ValueError, match="space"):
+        carom.simulate(table, balls, cue, space="2d")
+    with pytest.raises(carom.CaromError, match="restitution_table = 0.99: it must be 0 to 0.98"):
+        carom.simulate(table, carom.balls([[0.5, 0.5]], restitution_table=0.99))
+    # a large ball rolls into a small one: spheres in space
+    unlike = carom.balls([[0.4, 0.5], [0.7, 0.5]], radius=[0.0302, 0.028575], v=[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    hit = carom.simulate(table, unlike, cushion_model="han")
+    assert carom.EventType.SLATE in hit.events["type"].tolist()
+
+
+def test_each_bad_argument_has_its_message():
+    """In Python's words, with the argument's name and what would be right."""
+    table = carom.tables.pool_9ft()
+    rack, cue = carom.racks.nineball(table), carom.cue()
+    pocketed = rack.copy()
+    pocketed["state"]["label"][0] = carom.Label.POCKETED
+    for message, call in (
+        ("seed: it must be a whole number", lambda: carom.racks.nineball(table, seed=-1)),
+        ("seed: it must be a whole number", lambda: carom.racks.nineball(table, seed=1.5)),
+        ("gap = -1: it must be 0 m to the radius", lambda: carom.racks.nineball(table, gap=-1)),
+        ("width: it must be positive", lambda: carom.Table(0.0, 1.0, rails=table.rails)),
+        ("table: a carom.Table is needed", lambda: carom.simulate("pool", rack, cue)),
+        ("steps: it must be a whole number", lambda: carom.simulate(table, rack, cue, steps=1.5)),
+        ("events_most: it must be a whole number", lambda: carom.simulate(table, rack, cue, events_most=-1)),
+        ("t_final: it must be positive and finite", lambda: carom.simulate(table, rack, cue, t_final=np.nan)),
+        ("t_final: it must be positive and finite", lambda: carom.simulate_batch(table, rack, cue, t_final=0.0)),
+        ("stop_at: must be one of 'contact', 'strike'", lambda: carom.simulate(table, rack, cue, stop_at="goal")),
+        ("records: must be 'full' or 'brief'", lambda: carom.simulate_batch(table, rack, cue, records="some")),
+        ("shot: only what simulate", lambda: carom.resume(carom.simulate(table, rack, cue))),
+        ("threads: it must be a whole number from -1", lambda: carom.simulate_batch(table, rack, cue, threads=-7)),
+        ("room: it must be a whole number", lambda: carom.simulate_batch(table, rack, cue, room=-1)),
+        ("cue.speed = nan: it must be 0 to 1000 m/s", lambda: carom.simulate(table, rack, carom.cue(speed=np.nan))),
+        ("cue.ball = 99: it must be the index", lambda: carom.simulate(table, rack, carom.cue(ball=99))),
+        ("cue.ball = 0: this ball is out of play", lambda: carom.simulate(table, pocketed, cue)),
+    ):
+        with pytest.raises((ValueError, TypeError), match=f"^{message}"):
+            call()
+    shots = carom.simulate_batch(table, rack, carom.cue(speed=[1.0, np.nan], ball=[99, 0]))
+    assert [(index, text.partition(":")[0]) for index, text in shots.failures()] == [((0,), "cue.ball = 99"), ((1,), "cue.speed = nan")]
+
+
+def test_radians_are_doubted():
+    for angles in ({"phi": np.pi / 2}, {"phi": np.linspace(0.0, 2.0 * np.pi, 100)}, {"phi": -np.pi / 3}, {"phi": 0.0, "theta": np.pi / 12}):
+        with pytest.warns(UserWarning, match="degrees are taken, but .* looks like radians") as caught:
+            carom.cue(**angles)
+        assert caught[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for phi in (0.0, 90.0, 1.5, np.linspace(0.0, 360.0, 100), np.zeros(0), np.nan, np.inf, 360.0 * np.pi):
+            carom.cue(phi=phi)
+
+
+def test_tables_are_checked():
+    for table in (carom.tables.pool_9ft(), carom.tables.snooker(), carom.tables.threecushion()):
+        table.check(0.026 if len(table.pockets) == 6 and table.length > 3 else 0.028575)
+    holed = carom.tables.threecushion()
+    holed.rails["q"][1] = (holed.rails["p"][1] + holed.rails["q"][1]) / 2.0
+    with pytest.raises(carom.CaromError, match=r"table\.rails\[\d\]: .* \(at x = .* m wide, beside table\.rails\[\d\]\)") as caught:
+        holed.check(0.0307)
+    assert caught.value.status is carom.Status.ERROR_TABLE_OPEN
+
+
+def test_ball_in_hand():
+    table = carom.tables.pool_9ft()
+    rack = carom.racks.nineball(table)
+    rack["state"]["label"][0] = carom.Label.POCKETED
+    kept = rack.copy()
+    placed = carom.place_ball(table, rack, 0, 0.4, 0.5)
+    assert placed["state"]["r"][0].tolist() == [0.4, 0.5, 0.028575] and placed["state"]["label"][0] == carom.Label.STATIONARY
+    assert rack.tobytes() == kept.tobytes() and placed[1:].tobytes() == rack[1:].tobytes()
+    one = rack["state"]["r"][1]
+    for place, field in (((one[0], one[1] - 0.04), "balls[1]"), ((0.01, 0.7), "table.rails"), ((0.0, 0.0), "table.pockets"), ((-1.0, 1.0), "table")):
+        with pytest.raises(carom.CaromError, match="is in the way of ball 0") as caught:
+            carom.place_ball(table, rack, 0, *place)
+        assert caught.value.field is not None and caught.value.field.startswith(field)
+    with pytest.raises(ValueError, match="ball: it must be a whole number from 0 to 9"):
+        carom.place_ball(table, rack, 10, 0.4, 0.5)
+
+
+def test_tables_are_equal_by_their_numbers():
+    assert carom.tables.pool_9ft() == carom.tables.pool_9ft() != carom.tables.pool_8ft()
+    other = carom.tables.pool_9ft()
+    other.rails["restitution"][3] = 0.5
+    assert other != carom.tables.pool_9ft() and other != "table"
+
+
+def test_columns_and_frames():
+    """Every number of the records is in a column of its name."""
+    table = carom.tables.pool_9ft()
+    shot = carom.simulate(table, carom.racks.nineball(table), carom.cue(speed=8.0), cushion_model="han")
+    columns = carom.dtypes.columns(shot.events)
+    assert all(column.shape == (shot.count,) for column in columns.values())
+    np.testing.assert_array_equal(columns["after_b_w_z"], shot.events["after"]["w"][:, 1, 2])
+    np.testing.assert_array_equal(columns["time"], shot.events["time"])
+    assert set(carom.dtypes.columns(table.rails)) >= {"p_x", "q_y", "height", "line_z"}
+    assert "state_label" in carom.dtypes.columns(shot.balls) and "kind_mass" in carom.dtypes.columns(shot.balls)
+    with pytest.raises(TypeError, match="records"):
+        carom.dtypes.columns(np.zeros(3))
+    pytest.importorskip("pandas")
+    frame = shot.to_dataframe()
+    assert list(frame) == list(columns) and frame["type"][0] == "strike"
+    assert (frame["type"] == "ball_ball").sum() == (shot.events["type"] == carom.EventType.BALL_BALL).sum()

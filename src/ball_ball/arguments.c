@@ -5,7 +5,7 @@
  */
 #include "ball_ball/arguments.h"
 
-#include "enumerations.h"
+#include "platform/enumerations.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -26,7 +26,7 @@ static int field_at(size_t offset) {
 #define FIELD(member) field_at(offsetof(carom_impact, member))
 
 carom_status carom_check_options(const carom_options *opt) {
-  uint64_t reserved = 0;
+  uint64_t reserved = (uint64_t)opt->unused | (uint64_t)(opt->plain & ~1);
   for (size_t k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++)
     reserved |= opt->reserved[k];
   if ((int)opt->solver < 0 || opt->solver >= CAROM_SOLVER_COUNT)

@@ -149,7 +149,7 @@ static bool work_off_lists(work *w, int least) {
 static size_t solve_rows_in_lanes(carom_precision precision, const void *in, size_t in_size, size_t n, const carom_options *opt,
                                   void *out, size_t out_size, int8_t *status) {
   work w; /* its lists are not cleared: that would take longer than a few rows do */
-  w.with = carom_kernels_in_force();
+  w.with = carom_kernels_of_call(opt->plain);
   w.precision = precision;
   w.in = in;
   w.out = out;

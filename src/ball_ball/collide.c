@@ -110,7 +110,7 @@ static carom_detail report_of_euler(const carom_frame *frame, const carom_local 
 static bool solve_by_collocation(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
   float solution[OUT_COLUMNS];
   const int evaluations =
-      carom_kernels_in_force()->call[CAROM_F64](in, carom_spin_sign(opt->slip), out, detail == NULL ? NULL : solution);
+      carom_kernels_of_call(opt->plain)->call[CAROM_F64](in, carom_spin_sign(opt->slip), out, detail == NULL ? NULL : solution);
   if (evaluations > 0 && detail != NULL) {
     const carom_frame frame = carom_frame_of(in);
     const carom_local before = carom_to_frame(&frame, in, opt->slip);
@@ -119,10 +119,10 @@ static bool solve_by_collocation(const carom_impact *in, const carom_options *op
   return evaluations > 0;
 }
 
-static carom_status solve_exact(const carom_frame *frame, carom_local *local, carom_detail *detail) {
+static carom_status solve_exact(const carom_frame *frame, carom_local *local, int plain, carom_detail *detail) {
   const carom_reduced c = carom_reduce(local);
   carom_trajectory path;
-  const carom_status status = carom_precise(&c, CAROM_PRECISE_TOLERANCE, &path);
+  const carom_status status = carom_precise(&c, CAROM_PRECISE_TOLERANCE, plain, &path);
   const carom_integrals all = carom_precise_integrals(&c, &path);
   if (status == CAROM_OK && detail != NULL)
     *detail = report_of_trajectory(frame, local, &path);
@@ -157,7 +157,7 @@ static carom_status collide_one_pair(const carom_impact *in, const carom_options
     carom_copy_state(in, out);
     return CAROM_SEPARATING;
   }
-  const carom_status status = opt->solver == CAROM_SOLVER_EXACT ? solve_exact(&frame, &local, detail)
+  const carom_status status = opt->solver == CAROM_SOLVER_EXACT ? solve_exact(&frame, &local, opt->plain, detail)
                                                                 : solve_euler(&frame, &local, carom_steps(opt), detail);
   if (status != CAROM_OK)
     return status;
@@ -214,7 +214,7 @@ carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *
   if (opt == NULL)
     opt = &defaults;
   if (opt->solver == CAROM_SOLVER_EXACT && carom_check_options(opt) == CAROM_OK &&
-      carom_kernels_in_force()->call[CAROM_F32](in, carom_spin_sign(opt->slip), out, NULL) > 0)
+      carom_kernels_of_call(opt->plain)->call[CAROM_F32](in, carom_spin_sign(opt->slip), out, NULL) > 0)
     return CAROM_OK;
   carom_impact wide;
   carom_result result;
@@ -261,7 +261,7 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
   if (bad != CAROM_OK || n == 0)
     return bad;
   carom_batch_solver *const exact = precision == CAROM_F64 ? carom_exact_batch_f64 : carom_exact_batch_f32;
-  const batch job = {.solver = opt->solver == CAROM_SOLVER_EXACT ? exact : carom_kernels_in_force()->euler[precision],
+  const batch job = {.solver = opt->solver == CAROM_SOLVER_EXACT ? exact : carom_kernels_of_call(opt->plain)->euler[precision],
                      .in = in,
                      .out = out,
                      .status = status,

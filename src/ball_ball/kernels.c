@@ -1,7 +1,7 @@
 /* The tables of kernels.h. */
 #include "ball_ball/kernels.h"
 
-#include "enumerations.h"
+#include "platform/enumerations.h"
 
 #define LANES_OF_PLAIN 4
 #define LANES_OF_SSE2 4
@@ -18,15 +18,22 @@
 #define FEWEST_OF_AVX2 20, 13
 #define FEWEST_OF_AVX512 29, 18
 
+/* CAROM_WITHOUT_LANES leaves the exact solver's steps in lanes out: every batch is then solved by calls, which have the same
+ * bits. That is for targets without vectors, such as WebAssembly without SIMD128, on which lanes are long scalar code. */
+#ifdef CAROM_WITHOUT_LANES
+#define EXACT_LANES(NAME, suffix) .fewest = {UINT32_MAX, UINT32_MAX}
+#else
+#define EXACT_LANES(NAME, suffix)                                                                                      \
+  .fewest = {FEWEST_OF_##NAME}, .rows_in = {carom_rows_in_##suffix##_f64, carom_rows_in_##suffix##_f32},               \
+  .rows_out = {carom_rows_out_##suffix##_f64, carom_rows_out_##suffix##_f32}, .first_step = carom_first_step_##suffix, \
+  .next_step = carom_next_step_##suffix
+#endif
+
 static const carom_kernels kernels[CAROM_ISA_COUNT] = {
 #define ROW(NAME, suffix)                                                            \
   [CAROM_ISA_##NAME] = {                                                             \
       .lanes = LANES_OF_##NAME,                                                      \
-      .fewest = {FEWEST_OF_##NAME},                                                  \
-      .rows_in = {carom_rows_in_##suffix##_f64, carom_rows_in_##suffix##_f32},       \
-      .rows_out = {carom_rows_out_##suffix##_f64, carom_rows_out_##suffix##_f32},    \
-      .first_step = carom_first_step_##suffix,                                       \
-      .next_step = carom_next_step_##suffix,                                         \
+      EXACT_LANES(NAME, suffix),                                                     \
       .call = {carom_call_##suffix##_f64, carom_call_##suffix##_f32},                \
       .euler = {carom_euler_lanes_##suffix##_f64, carom_euler_lanes_##suffix##_f32}, \
   },
@@ -34,6 +41,6 @@ static const carom_kernels kernels[CAROM_ISA_COUNT] = {
 #undef ROW
 };
 
-const carom_kernels *carom_kernels_in_force(void) {
-  return &kernels[carom_isa_in_force()];
+const carom_kernels *carom_kernels_of_call(int plain) {
+  return &kernels[carom_isa_of_call(plain)];
 }

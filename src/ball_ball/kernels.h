@@ -112,8 +112,8 @@ CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 #define PRECISE_KERNEL(name) KERNEL_PASTE_EXPANDED(KERNEL(name), KERNEL_SUFFIX)
 #endif
 
-/* Those for the instruction set in force. */
-const carom_kernels *carom_kernels_in_force(void);
+/* Those of a call with options.plain, 0 or 1. */
+const carom_kernels *carom_kernels_of_call(int plain);
 
 /* Batches by the exact limit; see batch.c. */
 carom_batch_solver carom_exact_batch_f64, carom_exact_batch_f32;

@@ -34,6 +34,15 @@
 #endif
 #endif
 
+/* WebAssembly's vectors are no instruction set of its own: PLAIN has instructions there for what the extensions lack, with the
+ * same bits. */
+#if defined(CAROM_LANES_PLAIN) && defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#define LANES_WASM 1
+#else
+#define LANES_WASM 0
+#endif
+
 #ifdef CAROM_LANES_F32
 typedef float real;
 typedef int32_t lane_int;
@@ -173,6 +182,8 @@ static inline vmask v_not(vmask m) {
 static inline vreal v_select(vmask m, vreal yes, vreal no) {
 #ifdef CAROM_LANES_AVX2
   return SIMD(blendv)(no, yes, (vreal)m);
+#elif LANES_WASM
+  return (vreal)wasm_v128_bitselect((v128_t)yes, (v128_t)no, (v128_t)m);
 #else
   return (vreal)((m & (vint)yes) | (~m & (vint)no));
 #endif
@@ -180,6 +191,10 @@ static inline vreal v_select(vmask m, vreal yes, vreal no) {
 static inline unsigned v_bits(vmask m) {
 #if defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_SSE2)
   return (unsigned)SIMD(movemask)((vreal)m);
+#elif LANES_WASM && defined(CAROM_LANES_F32)
+  return wasm_i32x4_bitmask((v128_t)m);
+#elif LANES_WASM
+  return wasm_i64x2_bitmask((v128_t)m);
 #else
   unsigned bits = 0;
   lanes_unrolled for (int k = 0; k < LANES; k++) bits |= (unsigned)(m[k] & 1) << k;
@@ -237,6 +252,10 @@ static inline vreal v_sqrt(vreal x) {
   return (vreal)vsqrtq_f32((float32x4_t)x);
 #elif defined(CAROM_LANES_NEON)
   return (vreal)vsqrtq_f64((float64x2_t)x);
+#elif LANES_WASM && defined(CAROM_LANES_F32)
+  return (vreal)wasm_f32x4_sqrt((v128_t)x);
+#elif LANES_WASM
+  return (vreal)wasm_f64x2_sqrt((v128_t)x);
 #elif defined(CAROM_LANES_F32)
   for (int k = 0; k < LANES; k++)
     x[k] = sqrtf(x[k]);

@@ -78,8 +78,8 @@ static inline void carom_restore(const carom_reduced *r, const carom_integrals *
 
 /* ---- In the terms of impact/law.h, for the precise solver: it solves what the fast steps refuse, and follows traces ---- */
 
-/* Puts a collision at its start; tolerance: see impact.h. */
-static inline void carom_precise_begin(const carom_reduced *c, double tolerance, carom_trajectory *path) {
+/* Puts a collision at its start; tolerance, plain: see impact.h. */
+static inline void carom_precise_begin(const carom_reduced *c, double tolerance, int plain, carom_trajectory *path) {
   const double per = -1 / c->v_n;
   const carom_law law = {.K_x = 3.5 * c->kappa,
                          .K_y = 2.5 * c->kappa,
@@ -95,7 +95,7 @@ static inline void carom_precise_begin(const carom_reduced *c, double tolerance,
                          .mu = c->mu_b,
                          .mu_c = c->u_z > 0 ? c->mu : 0, /* no ball is pressed into the cloth */
                          .e = c->e};
-  carom_impact_begin(&law, tolerance, per * c->u_x, per * c->u_z, per * c->d_x, per * c->d_y, path);
+  carom_impact_begin(&law, tolerance, plain, per * c->u_x, per * c->u_z, per * c->d_x, per * c->d_y, path);
 }
 
 /* The integrals of reduced.h so far. */
@@ -107,8 +107,8 @@ static inline carom_integrals carom_precise_integrals(const carom_reduced *c, co
 }
 
 /* The whole collision, at the cost that a call may have. */
-static inline carom_status carom_precise(const carom_reduced *c, double tolerance, carom_trajectory *path) {
-  carom_precise_begin(c, tolerance, path);
+static inline carom_status carom_precise(const carom_reduced *c, double tolerance, int plain, carom_trajectory *path) {
+  carom_precise_begin(c, tolerance, plain, path);
   return carom_impact_advance(path, INFINITY, CAROM_IMPACT_ITERATIONS);
 }
 

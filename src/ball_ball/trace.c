@@ -28,12 +28,12 @@ static void put_point(const carom_frame *frame, const carom_local *c, double P, 
 }
 
 /* P: normal impulse at the end. */
-static carom_status trace_exact(const carom_frame *frame, const carom_local *start, double P, size_t n,
+static carom_status trace_exact(const carom_frame *frame, const carom_local *start, double P, int plain, size_t n,
                                 carom_trace_point *points) {
   const carom_reduced c = carom_reduce(start);
   const double M = c.j_pressed ? start->M_j : start->M_i;
   carom_trajectory path;
-  carom_precise_begin(&c, CAROM_PRECISE_TOLERANCE, &path);
+  carom_precise_begin(&c, CAROM_PRECISE_TOLERANCE, plain, &path);
   for (size_t k = 0; k < n; k++) {
     const double p = k + 1 < n ? P / (M * -c.v_n) * ((double)k / (double)(n - 1)) : INFINITY;
     const carom_status status = carom_impact_advance(&path, p, path.iterations + CAROM_IMPACT_ITERATIONS);
@@ -109,7 +109,7 @@ carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_
     else if (opt->solver == CAROM_SOLVER_EULER)
       status = trace_euler(&frame, &start, carom_steps(opt), detail.steps, n, points);
     else
-      status = trace_exact(&frame, &start, detail.normal, n, points);
+      status = trace_exact(&frame, &start, detail.normal, opt->plain, n, points);
   }
   if (status < 0)
     fill_nan(n, points);

@@ -16,7 +16,7 @@ _Static_assert(sizeof(carom_motion) == 6 * sizeof(double), "a motion is 6 double
 #define FIELD(member) ((int)(offsetof(carom_cushion_impact, member) / sizeof(double)))
 
 carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
-  bool reserved = opt->unused != 0;
+  bool reserved = (opt->plain & ~1) != 0;
   for (size_t k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++)
     reserved |= opt->reserved[k] != 0;
   if (carom_cushion_model_name(opt->model) == NULL)

@@ -12,7 +12,7 @@ static carom_status by_model(carom_contact *c, const carom_cushion_options *opt,
   carom_cushion_run run;
   switch (opt->model) {
   case CAROM_CUSHION_MATHAVAN:
-    return carom_mathavan(c);
+    return carom_mathavan(c, opt->plain);
   case CAROM_CUSHION_STRONGE:
     return carom_stronge(c, opt->omega_ratio > 0 ? opt->omega_ratio : 1.8, pooltool);
   case CAROM_CUSHION_HAN:

@@ -10,7 +10,7 @@
 
 #include "cushion/models.h"
 
-void carom_mathavan_begin(const carom_contact *c, double tolerance, carom_trajectory *path) {
+void carom_mathavan_begin(const carom_contact *c, double tolerance, int plain, carom_trajectory *path) {
   const double per = 1 / c->v_y, sine = c->sine, cosine = c->cosine;
   const carom_law law = {.A_0 = sine * cosine,
                          .K_x = 3.5,
@@ -29,7 +29,7 @@ void carom_mathavan_begin(const carom_contact *c, double tolerance, carom_trajec
                          .mu = c->mu_w,
                          .mu_c = c->mu_s,
                          .e = c->e};
-  carom_impact_begin(&law, tolerance, per * carom_slip_x(c), per * carom_slip_t(c), per * carom_cloth_x(c),
+  carom_impact_begin(&law, tolerance, plain, per * carom_slip_x(c), per * carom_slip_t(c), per * carom_cloth_x(c),
                      per * carom_cloth_y(c), path);
 }
 
@@ -39,9 +39,9 @@ carom_impulse carom_mathavan_impulse(const carom_contact *c, const carom_traject
   return (carom_impulse){.P = v * q.p, .f_x = v * q.f_x, .f_t = v * q.f_y, .F_x = v * q.F_x, .F_y = v * q.F_y};
 }
 
-carom_status carom_mathavan(carom_contact *c) {
+carom_status carom_mathavan(carom_contact *c, int plain) {
   carom_trajectory path;
-  carom_mathavan_begin(c, 1, &path);
+  carom_mathavan_begin(c, 1, plain, &path);
   const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
   if (status == CAROM_OK) {
     const carom_impulse all = carom_mathavan_impulse(c, &path);

@@ -9,10 +9,13 @@
 #include <stdint.h>
 
 /* The exact limit. See mathavan.c. */
-carom_status carom_mathavan(carom_contact *contact);
+carom_status carom_mathavan(carom_contact *contact, int plain);
 
 /* Compliant impact; `ratio` is options.omega_ratio. See stronge.c. */
 carom_status carom_stronge(carom_contact *contact, double ratio, int pooltool);
+
+/* Its friction impulse over the mass, against a slip, m/s, for a ball that meets a nose at v_n, from any side. */
+double carom_stronge_friction(double v_n, double slip, double mu, double e, double ratio, int pooltool);
 
 /* Puts Han's fits for restitution and friction into a contact. See closed.c. */
 void carom_apply_han(carom_contact *contact);
@@ -35,7 +38,7 @@ carom_status carom_cushion_euler(carom_contact *contact, int steps, double least
 /* The exact limit for the precise solver of src/impact. See mathavan.c. */
 
 /* Puts an impact at its start; tolerance: see impact.h. */
-void carom_mathavan_begin(const carom_contact *contact, double tolerance, carom_trajectory *path);
+void carom_mathavan_begin(const carom_contact *contact, double tolerance, int plain, carom_trajectory *path);
 
 /* Impulses so far, over the mass. */
 carom_impulse carom_mathavan_impulse(const carom_contact *contact, const carom_trajectory *path);

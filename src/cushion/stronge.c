@@ -114,9 +114,19 @@ static double slip_after(double rho, double mu, double e, double ratio, bool poo
   return ratio * s.U * sine + s.V * cosine + mu * BETA * e * (1 + cosine_phase);
 }
 
+/* What share of the slip friction takes over the mass. */
+static double friction_share(double v_n, double slip, double mu, double e, double ratio, bool pooltool) {
+  const double rho = slip / v_n;
+  return slip > 0 ? (1 - slip_after(rho, mu, e, ratio, pooltool) / rho) / BETA : 0;
+}
+
+double carom_stronge_friction(double v_n, double slip, double mu, double e, double ratio, int pooltool) {
+  return friction_share(v_n, slip, mu, e, ratio, pooltool) * slip;
+}
+
 carom_status carom_stronge(carom_contact *c, double ratio, int pooltool) {
   const double s_x = carom_slip_x(c), s_t = carom_slip_t(c), slip = sqrt(s_x * s_x + s_t * s_t), v_n = c->v_y * c->cosine;
-  const double rho = slip / v_n, share = slip > 0 ? (1 - slip_after(rho, c->mu_w, c->e, ratio, pooltool) / rho) / BETA : 0;
+  const double share = friction_share(v_n, slip, c->mu_w, c->e, ratio, pooltool);
   carom_push(c, &(carom_impulse){.P = (1 + c->e) * v_n, .f_x = -share * s_x, .f_t = -share * s_t});
   return CAROM_OK;
 }

@@ -26,13 +26,13 @@ static void put_point(const subject *s, const carom_contact *c, double P, double
   carom_from_cushion(&s->frame, c, s->in->radius, &point->state);
 }
 
-static carom_status trace_exact(const subject *s, size_t n, carom_cushion_point *points) {
+static carom_status trace_exact(const subject *s, int plain, size_t n, carom_cushion_point *points) {
   /* first to the end, for the impulse of the whole impact; then to each sample */
   carom_trajectory path;
-  carom_mathavan_begin(&s->start, TOLERANCE, &path);
+  carom_mathavan_begin(&s->start, TOLERANCE, plain, &path);
   carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
   const double p = path.at.p, energy = s->start.v_y * s->start.v_y * s->start.cosine;
-  carom_mathavan_begin(&s->start, TOLERANCE, &path);
+  carom_mathavan_begin(&s->start, TOLERANCE, plain, &path);
   for (size_t k = 0; k < n && status == CAROM_OK; k++) {
     status = carom_impact_advance(&path, k + 1 < n ? p * ((double)k / (double)(n - 1)) : INFINITY,
                                   path.iterations + CAROM_IMPACT_ITERATIONS);
@@ -103,7 +103,7 @@ carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cus
         points[k].state = end;
       }
     else if (opt->model == CAROM_CUSHION_MATHAVAN)
-      status = trace_exact(&s, n, points);
+      status = trace_exact(&s, opt->plain, n, points);
     else
       status = opt->model == CAROM_CUSHION_EULER ? trace_euler(&s, opt, n, points) : CAROM_ERROR_CUSHION_MODEL;
   }

@@ -332,9 +332,15 @@ static bool next_step(carom_trajectory *path, double to) {
   const carom_point before = path->at;
   const bool planar = before.a_x == 0 && before.b_x == 0 && s.u_x == 0 && s.t_x == 0;
   if (planar || (!driving_slips(path) && !path->regime.loaded)) {
-    if (go_straight(path, &s) && (s.goal == AT_END_OF_APPROACH || s.goal == AT_WORK))
+    const bool there = go_straight(path, &s) && (s.goal == AT_END_OF_APPROACH || s.goal == AT_WORK);
+    if (path->variation != NULL)
+      carom_variation_straight(path, &before, planar);
+    if (there)
       end_phase(path);
-    return !snap_to_zero(path, &before) || carom_impact_regime(path, false);
+    const bool goes_on = !snap_to_zero(path, &before) || carom_impact_regime(path, false);
+    if (path->variation != NULL)
+      carom_variation_follow(path, &before, there);
+    return goes_on;
   }
   /* the plan: the first that applies */
   plan n;
@@ -342,6 +348,7 @@ static bool next_step(carom_trajectory *path, double to) {
   n.s.restitution = path->restitution;
   n.s.least_work = work_end(path);
   n.s.tolerance = path->tolerance;
+  n.s.kept = path->variation != NULL ? &path->variation->kept : NULL;
   if (path->careful)
     plan_carefully(path, &s, &n);
   else if (cloth_is_stiff(path, &s))
@@ -353,14 +360,34 @@ static bool next_step(carom_trajectory *path, double to) {
   /* the step. Behind it a regime may begin, a phase may end, or a slip may be negligible */
   double advice = 1;
   const enum outcome r = n.kind(&path->terms, &n.s, &path->at, &path->iterations, &advice);
+  if (r == TAKEN && path->variation != NULL) {
+    /* derivatives may need a shorter step */
+    const double length = path->at.p - before.p;
+    advice = carom_variation_step(path, &before, driving_slips(path),
+                                  n.s.goal == AT_STICK         ? (int)OF_A_X
+                                  : n.s.goal == AT_CLOTH_STICK ? (int)OF_B_X
+                                                               : -1);
+    if (advice > 1) {
+      path->at = before;
+      path->longest = length * most_of(0.2, 0.9 / sqrt(sqrt(sqrt(sqrt(least(advice, 1e12))))));
+      return true;
+    }
+  }
   if (r == TAKEN) {
     path->longest = INFINITY;
     path->refusals = 0;
-    if (n.s.goal == AT_STICK || n.s.goal == AT_CLOTH_STICK || n.s.goal == AT_EVENT)
-      return carom_impact_regime(path, n.s.goal == AT_EVENT);
-    if (n.s.goal == AT_END_OF_APPROACH || n.s.goal == AT_WORK)
-      end_phase(path);
-    return !snap_to_zero(path, &before) || carom_impact_regime(path, false);
+    const bool there = n.s.goal == AT_END_OF_APPROACH || n.s.goal == AT_WORK;
+    bool goes_on;
+    if (n.s.goal == AT_STICK || n.s.goal == AT_CLOTH_STICK || n.s.goal == AT_EVENT) {
+      goes_on = carom_impact_regime(path, n.s.goal == AT_EVENT);
+    } else {
+      if (there)
+        end_phase(path);
+      goes_on = !snap_to_zero(path, &before) || carom_impact_regime(path, false);
+    }
+    if (path->variation != NULL)
+      carom_variation_follow(path, &before, there);
+    return goes_on;
   }
   /* refused: up to the event; or a shorter step, by the error estimate */
   if (r == EVENT_WITHIN) {

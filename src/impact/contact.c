@@ -209,8 +209,7 @@ static bool choose(const carom_law *l, const carom_point *at, bool event, carom_
   return true;
 }
 
-/* The coefficients of a regime. */
-static carom_terms terms_of(const carom_law *l, const carom_regime *r) {
+carom_terms carom_impact_terms(const carom_law *l, const carom_regime *r) {
   const double mu = l->mu;
   carom_terms k = {.A_0 = l->A_0,
                    .C_x = l->C_x,
@@ -284,7 +283,7 @@ bool carom_impact_jams(const carom_trajectory *path) {
 bool carom_impact_regime(carom_trajectory *path, bool event) {
   if (!choose(&path->law, &path->at, event, &path->regime))
     return false;
-  path->terms = terms_of(&path->law, &path->regime);
+  path->terms = carom_impact_terms(&path->law, &path->regime);
   path->event_at = INFINITY;
   return true;
 }

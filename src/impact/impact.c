@@ -16,12 +16,13 @@ static const double NO_SLIP = 1e-9;    /* a slip that counts as zero; */
 static const double ROUNDING = 1e-15;  /* at least this share of all slips; where H < 0, which would amplify it, no more */
 static const double MOST_SLIP = 1e100; /* squares of more would overflow */
 
-void carom_impact_begin(const carom_law *law, double tolerance, double a_x, double a_y, double b_x, double b_y,
+void carom_impact_begin(const carom_law *law, double tolerance, int plain, double a_x, double a_y, double b_x, double b_y,
                         carom_trajectory *path) {
   const double driving_slips = fabs(a_x) + fabs(a_y) + fabs(b_x) + fabs(b_y);
   *path = (carom_trajectory){.law = *law,
                              .start = {.a_x = a_x, .a_y = a_y, .b_x = b_x, .b_y = b_y, .v = 1},
                              .p_stick = NAN,
+                             .plain = plain,
                              .tolerance = tolerance,
                              .no_slip = fmax(law->H < 0 ? ROUNDING : NO_SLIP, ROUNDING * driving_slips),
                              .longest = INFINITY,
@@ -45,7 +46,7 @@ void carom_impact_begin(const carom_law *law, double tolerance, double a_x, doub
 
 carom_status carom_impact_advance(carom_trajectory *path, double to, int most) {
   if (path->status == CAROM_OK) {
-    switch (carom_isa_in_force()) {
+    switch (carom_isa_of_call(path->plain)) {
 #if defined(__x86_64__) && !defined(CAROM_WITHOUT_AVX2)
     case CAROM_ISA_AVX2:
     case CAROM_ISA_AVX512: /* eight numbers in a vector of AVX-512 are not faster: a step is bound by latency */

@@ -31,6 +31,8 @@ typedef struct carom_regime {
   double t_x, t_y;         /* and on the cloth */
 } carom_regime;
 
+struct carom_variation;
+
 /* An impact on its way. */
 typedef struct carom_trajectory {
   carom_law law;
@@ -43,13 +45,15 @@ typedef struct carom_trajectory {
   int iterations;          /* of all steps so far; each computes the rates at eight nodes */
   carom_status status;     /* not CAROM_OK if there is no way on */
   /* of advance.c: */
-  double tolerance;  /* of a step, in units of that of step.h */
-  double no_slip;    /* a slip that counts as zero */
-  double longest;    /* length that the next step may have */
-  int refusals;      /* in a row */
-  int sticks_missed; /* steps to stick that diverged */
-  bool careful;      /* steps are planned for safety */
-  double event_at;   /* p where the regime ends, as far as is known */
+  int plain;                         /* options.plain of the call */
+  double tolerance;                  /* of a step, in units of that of step.h */
+  double no_slip;                    /* a slip that counts as zero */
+  double longest;                    /* length that the next step may have */
+  int refusals;                      /* in a row */
+  int sticks_missed;                 /* steps to stick that diverged */
+  bool careful;                      /* steps are planned for safety */
+  double event_at;                   /* p where the regime ends, as far as is known */
+  struct carom_variation *variation; /* derivatives that follow the impact: variation.h. Usually NULL */
 } carom_trajectory;
 
 /* Impulses over the mass of the ball and the speed of approach: normal impulse, friction at the driving contact, friction of
@@ -59,8 +63,8 @@ typedef struct carom_impulses {
 } carom_impulses;
 
 /* Puts an impact at its start. a, b: the slips over the speed of approach. tolerance: 1 for errors of about 1e-9 in the mean
- * and 1e-7 at most, of the largest speed; errors are about proportional to it. */
-void carom_impact_begin(const carom_law *law, double tolerance, double a_x, double a_y, double b_x, double b_y,
+ * and 1e-7 at most, of the largest speed; errors are about proportional to it. plain: that of the options. */
+void carom_impact_begin(const carom_law *law, double tolerance, int plain, double a_x, double a_y, double b_x, double b_y,
                         carom_trajectory *path);
 
 /* On to p = `to`, or to the end if that comes first. Errors: CAROM_ERROR_OVERFLOW; and CAROM_ERROR_UNRESOLVED if that takes
@@ -81,6 +85,9 @@ double carom_impact_work(const carom_trajectory *path);
 /* The regime that begins at path->at, into path->regime and path->terms. event: that of the last regime has ended it. False if
  * no regime is consistent. See contact.c. */
 bool carom_impact_regime(carom_trajectory *path, bool event);
+
+/* The coefficients of a regime. */
+carom_terms carom_impact_terms(const carom_law *law, const carom_regime *regime);
 
 /* Whether friction is about to hold both contacts, so that the ball is jammed. */
 bool carom_impact_jams(const carom_trajectory *path);

@@ -33,6 +33,7 @@
 
 #include "impact/impact.h"
 #include "impact/nodes.h"
+#include "impact/variation.h"
 
 /* Found by trial with `carom-lab stress --cushion 20000` and `carom-lab bench --cushion`; see docs/study/tried.md. Angles are
  * in radians, lengths in units of p. With half of CONVERGED play takes 5 % longer, and twice changes nothing. With half of
@@ -74,7 +75,8 @@ typedef struct step {
   double target;
   bool restitution; /* v <= 0, and W >= least_work */
   double least_work;
-  double tolerance; /* scales CONVERGED and TOLERANCE */
+  double tolerance;      /* scales CONVERGED and TOLERANCE */
+  carom_kept_step *kept; /* where the step is kept for derivatives, or NULL */
 } step;
 
 /* What the iteration has at the nodes. */
@@ -409,6 +411,16 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     to.v = 0;
   else if (s->goal != AT_WORK && (s->restitution ? to.W < s->least_work : to.v < 0))
     return BEYOND_PHASE;
+  if (s->kept != NULL)
+    EACH {
+      const int n = NODES / PARTS * i;
+      *(part_of_row *)&s->kept->z[n] = (part_of_row)(scale * s->z[i]);
+      *(part_of_row *)&s->kept->p[n] = (part_of_row)(scale * s->p[i]);
+      *(part_of_row *)&s->kept->u_x[n] = (part_of_row)c.u_x[i];
+      *(part_of_row *)&s->kept->u_y[n] = (part_of_row)c.u_y[i];
+      *(part_of_row *)&s->kept->t_x[n] = (part_of_row)c.t_x[i];
+      *(part_of_row *)&s->kept->t_y[n] = (part_of_row)c.t_y[i];
+    }
   *at = to;
   return TAKEN;
 }

@@ -9,7 +9,7 @@
 #endif
 #include "platform/isa.h"
 
-#include "enumerations.h"
+#include "platform/enumerations.h"
 
 #include <math.h>
 #include <stdatomic.h>

@@ -4,6 +4,8 @@
 
 #include "platform/arithmetic.h"
 
+#include "carom.h"
+
 /* What CAROM_ISAS of CMakeLists.txt leaves out is defined as CAROM_WITHOUT_NAME. */
 #ifdef CAROM_WITHOUT_SSE2
 #define CAROM_IF_SSE2(X)
@@ -34,5 +36,10 @@
 #else
 #define CAROM_BUILT_ISAS(X) X(PLAIN, plain)
 #endif
+
+/* The instruction set of a call with options.plain, 0 or 1. */
+static inline carom_isa carom_isa_of_call(int plain) {
+  return plain ? CAROM_ISA_PLAIN : carom_isa_in_force();
+}
 
 #endif

@@ -16,6 +16,12 @@ static bool unit_interval(double x) {
 static bool friction(double x) {
   return x > 0.0 && x <= 1.0;
 }
+static bool zero_or_positive(double x) {
+  return x >= 0.0 && x < INFINITY;
+}
+static bool is_flat(const carom_shot_options *o) {
+  return o->world == CAROM_WORLD_POOLTOOL || o->space == CAROM_SPACE_FLAT;
+}
 
 static carom_status check_options(const carom_shot_options *o) {
   bool reserved = false;
@@ -24,8 +30,9 @@ static carom_status check_options(const carom_shot_options *o) {
   /* enumerations may be signed or not; a number below 0 is a large one here */
   const bool good = (uint32_t)o->world <= CAROM_WORLD_POOLTOOL && (uint32_t)o->ball_model <= CAROM_BALL_MODEL_MIRROR &&
                     (uint32_t)o->cushion_model <= CAROM_SHOT_CUSHION_EULER &&
-                    (uint32_t)o->friction <= CAROM_FRICTION_CONSTANT && o->events_most >= 0 && o->unused == 0 && !reserved &&
-                    o->time_most >= 0.0 && o->time_most < INFINITY && o->stop_at >> CAROM_DUE_PIECE == 0;
+                    (uint32_t)o->friction <= CAROM_FRICTION_CONSTANT && (uint32_t)o->space <= CAROM_SPACE_FLAT &&
+                    o->events_most >= 0 && (o->plain & ~1) == 0 && o->unused == 0 && !reserved && o->time_most >= 0.0 &&
+                    o->time_most < INFINITY && o->stop_at >> CAROM_DUE_PIECE == 0;
   if (!good)
     return CAROM_ERROR_SHOT_OPTIONS;
   if (o->steps < 0)
@@ -43,17 +50,26 @@ static bool good_circle(const double centre[2], double radius, double least) {
   return isfinite(centre[0]) && isfinite(centre[1]) && radius >= least && radius < INFINITY;
 }
 
+static bool good_jaw(const carom_jaw *j) {
+  return good_circle(j->centre, j->radius, 0.0) && unit_interval(j->mu_cushion) && unit_interval(j->restitution);
+}
+/* Every nose is above the cloth and below the top of a ball. */
+static bool good_height(double height, double R) {
+  return height > 0.0 && height < 2.0 * R;
+}
+
 static carom_status check_table(const carom_table *t, int *where) {
   *where = -1;
   if (t->rails < 0 || t->rails > CAROM_RAILS_MOST || t->jaws < 0 || t->jaws > CAROM_JAWS_MOST || t->pockets < 0 ||
       t->pockets > CAROM_POCKETS_MOST || t->rails + t->jaws < 1)
     return CAROM_ERROR_TABLE;
+  if (!zero_or_positive(t->ball_radius) || !zero_or_positive(t->rail_width) || !zero_or_positive(t->pocket_back))
+    return CAROM_ERROR_TABLE;
   for (*where = 0; *where < t->rails; ++*where)
     if (!good_rail(&t->rail[*where]))
       return CAROM_ERROR_TABLE;
   for (*where = 0; *where < t->jaws; ++*where)
-    if (!good_circle(t->jaw[*where].centre, t->jaw[*where].radius, 0.0) || !unit_interval(t->jaw[*where].mu_cushion) ||
-        !unit_interval(t->jaw[*where].restitution))
+    if (!good_jaw(&t->jaw[*where]))
       return CAROM_ERROR_TABLE;
   for (*where = 0; *where < t->pockets; ++*where)
     if (!good_circle(t->pocket[*where].centre, t->pocket[*where].radius, 1e-9) || !isfinite(t->pocket[*where].depth))
@@ -62,22 +78,42 @@ static carom_status check_table(const carom_table *t, int *where) {
   return CAROM_OK;
 }
 
-/* Prepares the table for balls of radius R, unless that has been done. */
-static carom_status prepare(const carom_table *t, double R, carom_features *features, int *where) {
+/* Prepares the table, which is meant for balls of the radius `reference`, for those from a least to a greatest radius, unless
+ * that has been done. */
+static carom_status prepare(const carom_table *t, double least, double greatest, double reference, carom_features *features,
+                            int *where) {
   *where = 0;
-  if (features->radius == R)
+  if (features->radius == greatest && features->least == least && features->reference == reference)
     return CAROM_OK;
-  if (!positive(R))
-    return CAROM_ERROR_RADIUS;
-  /* every nose is above the cloth and below the top of a ball */
+  const double lowest = carom_lesser(least, reference);
   for (*where = 0; *where < t->rails; ++*where)
-    if (!(t->rail[*where].height > 0.0 && t->rail[*where].height < 2.0 * R))
+    if (!good_height(t->rail[*where].height, lowest))
       return CAROM_ERROR_NOSE_HEIGHT;
   for (*where = 0; *where < t->jaws; ++*where)
-    if (!(t->jaw[*where].height > 0.0 && t->jaw[*where].height < 2.0 * R))
+    if (!good_height(t->jaw[*where].height, lowest))
       return CAROM_ERROR_NOSE_HEIGHT;
-  carom_features_of(t, R, features);
+  carom_features_of(t, greatest, reference, features);
+  features->least = least;
   return CAROM_OK;
+}
+
+static double reference_of(const carom_table *t, double usual) {
+  return t->ball_radius > 0.0 ? t->ball_radius : usual;
+}
+
+/* The same for the balls of a layout. In flat play all radii are to be that of the first. */
+static carom_status prepare_for(const carom_table *t, const carom_shot_ball *balls, int count, bool flat,
+                                carom_features *features, int *where) {
+  double least = balls[0].kind.radius, greatest = least;
+  for (*where = 0; *where < (flat ? 1 : count); ++*where) {
+    const double R = balls[*where].kind.radius;
+    if (!positive(R))
+      return CAROM_ERROR_RADIUS;
+    least = carom_lesser(least, R);
+    greatest = carom_greater(greatest, R);
+  }
+  const double reference = flat ? least : reference_of(t, balls[count - 1].kind.radius);
+  return prepare(t, least, greatest, reference, features, where);
 }
 
 static carom_status check_kind(const carom_ball_kind *k) {
@@ -92,7 +128,8 @@ static carom_status check_kind(const carom_ball_kind *k) {
   if (!unit_interval(k->mu_ball) || !(k->law_a >= 0.0 && k->law_b >= 0.0 && k->law_a + k->law_b <= 1.0) ||
       !(k->law_c >= 0.0 && k->law_c < INFINITY))
     return CAROM_ERROR_MU_BALL;
-  if (!unit_interval(k->restitution) || !unit_interval(k->restitution_cushion))
+  const bool slate = k->restitution_table == -1.0 || (k->restitution_table >= 0.0 && k->restitution_table <= 0.98);
+  if (!unit_interval(k->restitution) || !unit_interval(k->restitution_cushion) || !slate)
     return CAROM_ERROR_RESTITUTION;
   if (!unit_interval(k->mu_cushion))
     return CAROM_ERROR_MU_CUSHION;
@@ -106,8 +143,8 @@ static bool bounded(const double x[3], double most) {
   return fabs(x[0]) <= most && fabs(x[1]) <= most && fabs(x[2]) <= most;
 }
 
-static carom_status check_state(const carom_ball_state *s, double R) {
-  if (s->label < CAROM_BALL_STATIONARY || s->label > CAROM_BALL_POCKETED)
+static carom_status check_state(const carom_ball_state *s, double R, bool flat) {
+  if (s->label < CAROM_BALL_STATIONARY || s->label > (flat ? CAROM_BALL_POCKETED : CAROM_BALL_OFF))
     return CAROM_ERROR_LABEL;
   if (!bounded(s->r, 1e6))
     return CAROM_ERROR_POSITION;
@@ -115,8 +152,10 @@ static carom_status check_state(const carom_ball_state *s, double R) {
     return CAROM_ERROR_VELOCITY;
   if (!bounded(s->w, 1e6))
     return CAROM_ERROR_SPIN;
-  if (s->label == CAROM_BALL_POCKETED)
+  if (carom_is_out(s->label))
     return CAROM_OK;
+  if (!flat)
+    return s->r[2] - R >= -most_overlap ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
   if (s->v[2] != 0.0)
     return CAROM_ERROR_VERTICAL;
   return fabs(s->r[2] - R) <= most_overlap ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
@@ -171,35 +210,111 @@ static bool is_outside(const carom_table *table, const carom_features *f, const 
   return outside;
 }
 
-/* Whether the ball stands within the cushions, in no pocket. */
-static bool on_table(const carom_table *table, const carom_features *f, const double r[3], double R) {
-  bool good = r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
+static double distance_to(const carom_features *f, int rail, const double r[2]) {
+  return f->line[rail][0] * r[0] + f->line[rail][1] * r[1] + f->line[rail][2];
+}
+static bool is_beside(const carom_features *f, int rail, const double r[2]) {
+  const double place = f->along[rail][0] * r[0] + f->along[rail][1] * r[1] + f->along[rail][2];
+  return place >= 0.0 && place <= 1.0;
+}
+
+static bool is_in_hull(const carom_features *f, const double r[2]) {
+  return r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
+}
+static bool beyond_ends(const carom_features *f, const double r[2]) {
+  return f->rails > 0 && (r[0] < f->ends[0] || r[0] > f->ends[1] || r[1] < f->ends[2] || r[1] > f->ends[3]);
+}
+
+bool carom_place_is_outside(const carom_table *table, const carom_features *f, const double r[2]) {
+  if (!is_in_hull(f, r))
+    return true;
   /* only behind a rail, or beyond the ends of all rails, can it be outside */
-  bool behind = f->rails > 0 && (r[0] < f->ends[0] || r[0] > f->ends[1] || r[1] < f->ends[2] || r[1] > f->ends[3]);
+  bool behind = beyond_ends(f, r);
+  for (int k = 0; k < f->rails; k++)
+    behind |= is_beside(f, k, r) && distance_to(f, k, r) < 0.0;
+  return behind && is_outside(table, f, r);
+}
+
+/* How far from the wall of a cushion the centre is when a ball on the cloth touches its nose. */
+static inline double reach_of(const carom_features *f, const carom_ball_kind *kind, double height, bool usual) {
+  return usual ? kind->radius : carom_reach_on_cloth(kind, height, f->reference);
+}
+/* Whether a ball on the cloth is in a rail; in a jaw; with its centre in a pocket. */
+static inline bool in_rail(const carom_features *f, int k, const double r[3], double reach, bool *behind) {
+  const double distance = distance_to(f, k, r);
+  const bool beside = is_beside(f, k, r);
+  *behind |= beside && distance < 0.0;
+  return beside && distance < reach - most_overlap && distance > -reach;
+}
+static inline bool in_circle(const double centre[2], double reach, const double r[3]) {
+  const double d_x = r[0] - centre[0], d_y = r[1] - centre[1];
+  return d_x * d_x + d_y * d_y < reach * reach;
+}
+static inline bool in_jaw(const carom_jaw *jaw, const double r[3], double reach) {
+  return in_circle(jaw->centre, jaw->radius + reach - most_overlap, r);
+}
+
+/* Whether the ball, on the cloth, stands within the cushions, in no pocket. Inlined twice, so that the loops for balls of the
+ * usual radius, `usual`, have no calls in them. */
+static inline bool stands_on_table(const carom_table *table, const carom_features *f, const carom_ball_kind *kind,
+                                   const double r[3], bool usual) {
+  bool good = is_in_hull(f, r), behind = beyond_ends(f, r);
+  for (int k = 0; k < f->rails; k++)
+    good &= !in_rail(f, k, r, reach_of(f, kind, table->rail[k].height, usual), &behind);
+  for (int k = 0; k < f->jaws; k++)
+    good &= !in_jaw(&table->jaw[k], r, reach_of(f, kind, table->jaw[k].height, usual));
+  for (int k = 0; k < f->pockets; k++)
+    good &= !in_circle(table->pocket[k].centre, table->pocket[k].radius, r);
+  return good && !(behind && is_outside(table, f, r));
+}
+static bool on_table(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
+  return kind->radius == f->reference ? stands_on_table(table, f, kind, r, true) : stands_on_table(table, f, kind, r, false);
+}
+
+/* Whether an airborne ball is clear of a nose that is `across` in front of it and `down` below its centre, or on its top. */
+static bool clear_of_nose(double across, double down, double R) {
+  const double reach = R - most_overlap;
+  return across >= 0.0 ? across * across + down * down >= reach * reach : down >= reach;
+}
+
+/* Whether an airborne ball is above the table or its rails, and in no cushion. Below the tops it must be within the cushions.
+ */
+__attribute__((noinline, cold)) static bool above_table(const carom_table *table, const carom_features *f,
+                                                        const carom_ball_kind *kind, const double r[3]) {
+  bool good =
+      r[2] >= carom_nose_height(kind, f->nose_low) + kind->radius - most_overlap || !carom_place_is_outside(table, f, r);
+  for (int axis = 0; axis < 2; axis++)
+    good &= r[axis] >= f->hull[2 * axis] - f->width && r[axis] <= f->hull[2 * axis + 1] + f->width;
   for (int k = 0; k < f->rails; k++) {
-    const double distance = f->line[k][0] * r[0] + f->line[k][1] * r[1] + f->line[k][2];
-    const double place = f->along[k][0] * r[0] + f->along[k][1] * r[1] + f->along[k][2];
-    const bool beside = place >= 0.0 && place <= 1.0;
-    good &= !(beside && distance < R - most_overlap && distance > -R);
-    behind |= beside && distance < 0.0;
+    const double h = carom_nose_height(kind, table->rail[k].height), across = distance_to(f, k, r);
+    if (is_beside(f, k, r) && across >= -f->width)
+      good &= clear_of_nose(across - carom_nose_shift(h, f->reference), r[2] - h, kind->radius);
   }
   for (int k = 0; k < f->jaws; k++) {
     const carom_jaw *jaw = &table->jaw[k];
-    const double d_x = r[0] - jaw->centre[0], d_y = r[1] - jaw->centre[1], reach = jaw->radius + R - most_overlap;
-    good &= d_x * d_x + d_y * d_y >= reach * reach;
+    const double h = carom_nose_height(kind, jaw->height), d_x = r[0] - jaw->centre[0], d_y = r[1] - jaw->centre[1];
+    const double across = sqrt(d_x * d_x + d_y * d_y) - jaw->radius - carom_nose_shift(h, f->reference);
+    good &= clear_of_nose(across, r[2] - h, kind->radius);
   }
-  for (int k = 0; k < f->pockets; k++) {
-    const carom_pocket *pocket = &table->pocket[k];
-    const double d_x = r[0] - pocket->centre[0], d_y = r[1] - pocket->centre[1];
-    good &= d_x * d_x + d_y * d_y >= pocket->radius * pocket->radius;
-  }
-  return good && !(behind && is_outside(table, f, r));
+  return good;
+}
+
+/* The height of a ball's centre above the cloth as the shot takes it: what lies on the cloth is at z = R. */
+static inline double height_of(const carom_shot_ball *ball) {
+  return carom_flies_in_layout(&ball->state, ball->kind.radius) ? ball->state.r[2] : ball->kind.radius;
+}
+
+/* Whether two balls overlap that are at these heights. */
+static inline bool overlap(const carom_shot_ball *a, double z_a, const carom_shot_ball *b, double z_b) {
+  const double x = a->state.r[0] - b->state.r[0], y = a->state.r[1] - b->state.r[1], z = z_a - z_b;
+  const double reach = a->kind.radius + b->kind.radius - most_overlap;
+  return x * x + y * y + z * z < reach * reach;
 }
 
 static carom_status check_cue(const carom_shot_ball *balls, int count, const carom_cue *cue) {
   if (cue == NULL || cue->speed == 0.0)
     return CAROM_OK;
-  if (cue->ball < 0 || cue->ball >= count || balls[cue->ball].state.label == CAROM_BALL_POCKETED)
+  if (cue->ball < 0 || cue->ball >= count || carom_is_out(balls[cue->ball].state.label))
     return CAROM_ERROR_CUE;
   return carom_check_cue(cue);
 }
@@ -214,32 +329,35 @@ carom_status carom_check_common(const carom_table *table, int64_t count, const c
 
 carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                 const carom_cue *cue, const carom_shot_options *opt, int *where) {
-  const double R = balls[0].kind.radius;
   const bool one_mass = opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
-  carom_status bad = prepare(table, R, features, where);
+  const bool flat = is_flat(opt);
+  carom_status bad = prepare_for(table, balls, count, flat, features, where);
   if (bad != CAROM_OK)
     return bad;
+  double height[CAROM_BALLS_MOST];
   for (*where = 0; *where < count; ++*where) {
     const carom_shot_ball *ball = &balls[*where];
     bad = check_kind(&ball->kind);
-    if (bad == CAROM_OK && ball->kind.radius != R)
+    if (bad == CAROM_OK && flat && ball->kind.radius != balls[0].kind.radius)
       bad = CAROM_ERROR_RADII_DIFFER;
+    if (bad == CAROM_OK && ball->kind.nose_height >= 2.0 * features->reference)
+      bad = CAROM_ERROR_BALL_CUSHION;
     if (bad == CAROM_OK && one_mass && ball->kind.mass != balls[0].kind.mass)
       bad = CAROM_ERROR_MASSES_DIFFER;
     if (bad == CAROM_OK)
-      bad = check_state(&ball->state, R);
+      bad = check_state(&ball->state, ball->kind.radius, flat);
     if (bad != CAROM_OK)
       return bad;
-    if (ball->state.label == CAROM_BALL_POCKETED)
+    if (carom_is_out(ball->state.label))
       continue;
-    if (!on_table(table, features, ball->state.r, R))
+    const bool flies = carom_flies_in_layout(&ball->state, ball->kind.radius);
+    if (flies ? !above_table(table, features, &ball->kind, ball->state.r)
+              : !on_table(table, features, &ball->kind, ball->state.r))
       return CAROM_ERROR_OFF_TABLE;
-    const double reach = 2.0 * R - most_overlap;
-    for (int k = 0; k < *where; k++) {
-      const double x = balls[k].state.r[0] - ball->state.r[0], y = balls[k].state.r[1] - ball->state.r[1];
-      if (x * x + y * y < reach * reach && balls[k].state.label != CAROM_BALL_POCKETED)
+    const double z = height[*where] = height_of(ball);
+    for (int k = 0; k < *where; k++)
+      if (!carom_is_out(balls[k].state.label) && overlap(ball, z, &balls[k], height[k]))
         return CAROM_ERROR_OVERLAP;
-    }
   }
   *where = -1;
   return check_cue(balls, count, cue);
@@ -258,4 +376,76 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
   carom_features features;
   features.radius = 0.0;
   return bad != CAROM_OK ? bad : carom_check_layout(table, &features, balls, count, cue, opt, where);
+}
+
+/* The part that a ball which does not stand on the table is in; CAROM_PART_NONE for one that is outside the ring. */
+static carom_part part_there(const carom_table *table, const carom_features *f, const carom_ball_kind *kind,
+                             const double r[3]) {
+  bool behind = false;
+  for (int k = 0; k < f->pockets; k++)
+    if (in_circle(table->pocket[k].centre, table->pocket[k].radius, r))
+      return (carom_part){CAROM_PART_POCKET, k};
+  for (int k = 0; k < f->rails; k++)
+    if (in_rail(f, k, r, reach_of(f, kind, table->rail[k].height, false), &behind))
+      return (carom_part){CAROM_PART_RAIL, k};
+  for (int k = 0; k < f->jaws; k++)
+    if (in_jaw(&table->jaw[k], r, reach_of(f, kind, table->jaw[k].height, false)))
+      return (carom_part){CAROM_PART_JAW, k};
+  return (carom_part){CAROM_PART_NONE, 0};
+}
+
+carom_status carom_check_parts(const carom_table *table, double radius, double usual, carom_features *features,
+                               carom_part *part) {
+  int where;
+  carom_status bad = check_table(table, &where);
+  if (bad == CAROM_OK && !(positive(radius) && positive(usual)))
+    bad = CAROM_ERROR_RADIUS;
+  if (bad == CAROM_OK) {
+    features->radius = NAN; /* of nothing yet */
+    bad = prepare(table, radius, radius, reference_of(table, usual), features, &where);
+  }
+  *part = (carom_part){CAROM_PART_NONE, 0};
+  /* the checks tell an index alone: they go through rails, jaws and pockets in this order */
+  if ((bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT) && where >= 0) {
+    const carom_rail *rail = &table->rail[where];
+    const double lowest = carom_lesser(radius, reference_of(table, usual));
+    const bool of_rail =
+        where < table->rails && (bad == CAROM_ERROR_TABLE ? !good_rail(rail) : !good_height(rail->height, lowest));
+    const bool of_jaw = where < table->jaws && (bad == CAROM_ERROR_TABLE ? !good_jaw(&table->jaw[where])
+                                                                         : !good_height(table->jaw[where].height, lowest));
+    *part = (carom_part){of_rail ? CAROM_PART_RAIL : of_jaw ? CAROM_PART_JAW : CAROM_PART_POCKET, where};
+  }
+  return bad;
+}
+
+carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball, double x, double y,
+                              carom_part *in_the_way) {
+  carom_part unused;
+  in_the_way = in_the_way != NULL ? in_the_way : &unused;
+  *in_the_way = (carom_part){CAROM_PART_NONE, 0};
+  if (table == NULL || balls == NULL)
+    return CAROM_ERROR_NULL;
+  if (count < 1 || count > CAROM_BALLS_MOST || ball < 0 || ball >= count)
+    return CAROM_ERROR_BALLS;
+  carom_features features;
+  carom_shot_ball placed = balls[ball];
+  const double R = placed.kind.radius, r[3] = {x, y, R};
+  const carom_status bad = carom_check_parts(table, R, balls[count - 1].kind.radius, &features, in_the_way);
+  if (bad != CAROM_OK)
+    return bad;
+  if (!bounded(r, 1e6))
+    return CAROM_ERROR_POSITION;
+  if (!on_table(table, &features, &placed.kind, r)) {
+    *in_the_way = part_there(table, &features, &placed.kind, r);
+    return CAROM_ERROR_OFF_TABLE;
+  }
+  placed.state = (carom_ball_state){.r = {x, y, R}, .label = CAROM_BALL_STATIONARY};
+  for (int k = 0; k < count; k++) {
+    if (k != ball && !carom_is_out(balls[k].state.label) && overlap(&placed, R, &balls[k], height_of(&balls[k]))) {
+      *in_the_way = (carom_part){CAROM_PART_BALL, k};
+      return CAROM_ERROR_OVERLAP;
+    }
+  }
+  balls[ball].state = placed.state;
+  return CAROM_OK;
 }

@@ -64,8 +64,7 @@ static double zero_from_left(const quartic *f, double t, double T, double small)
         return last <= T ? carom_greater(last, 0.0) : INFINITY;
       }
     }
-    const double m = least_half_curvature(f, t, ahead), D = y1 * y1 - 4.0 * m * y;
-    const double s = D >= 0.0 ? 2.0 * y / (-y1 + sqrt(D)) : INFINITY;
+    const double s = carom_first_fall(y, y1, least_half_curvature(f, t, ahead));
     if (!(s > 0.0) || t + s > ahead) {
       /* nothing up to `ahead` */
       if (ahead >= T)
@@ -91,12 +90,12 @@ static double end_of_rise(const quartic *f, double t, double T) {
   for (int k = 0; k < MOST_STEPS; k++) {
     /* g = f' >= g(t) + g'(t) s + n s^2, n the least g''/2 = 3 c3 + 12 c4 t on [t, T] */
     const double y = slope(f, t), y1 = 2.0 * half_curvature(f, t);
-    const double n = 3.0 * f->c[3] + 12.0 * f->c[4] * (f->c[4] > 0.0 ? t : T), D = y1 * y1 - 4.0 * n * y;
+    const double n = 3.0 * f->c[3] + 12.0 * f->c[4] * (f->c[4] > 0.0 ? t : T);
     if (y <= 0.0 && (y1 < 0.0 || k > 0))
       return t;
     /* where it begins at 0 or, by rounding, below, and rises, the bound is back at 0 later; where it does not rise either, the
        third derivative decides, 6 n: s = 0 if f falls by that */
-    const double s = y <= 0.0 ? (n < 0.0 ? -y1 / n : INFINITY) : D >= 0.0 ? 2.0 * y / (-y1 + sqrt(D)) : INFINITY;
+    const double s = y <= 0.0 ? (n < 0.0 ? -y1 / n : INFINITY) : carom_first_fall(y, y1, n);
     if (!(s >= 0.0) || t + s > T)
       return INFINITY;
     if (s <= 1e-15 * (t + s))
@@ -113,8 +112,18 @@ static quartic squared(const carom_separation *d, double reach) {
                     a[0] * a[0] + a[1] * a[1]}};
 }
 
-double carom_first_contact(const carom_separation *d, double reach, double slack, double horizon) {
-  quartic f = squared(d, reach);
+/* What the third coordinate adds. */
+static void add_height(const carom_separation *d, quartic *f) {
+  const double p = d->d0[2], v = d->d1[2], a = d->d2[2];
+  f->c[0] += p * p;
+  f->c[1] += 2.0 * p * v;
+  f->c[2] += v * v + 2.0 * p * a;
+  f->c[3] += 2.0 * v * a;
+  f->c[4] += a * a;
+}
+
+/* The first contact of things whose squared distance is f + reach^2. */
+static inline double first_contact(quartic f, double reach, double slack, double horizon) {
   const double small = 1e-12 * reach * reach;
   if (f.c[0] > 2.0 * reach * slack)
     return zero_from_left(&f, 0.0, horizon, small);
@@ -126,6 +135,16 @@ double carom_first_contact(const carom_separation *d, double reach, double slack
     return INFINITY;
   f.c[0] += carom_greater(2.0 * reach * slack - value(&f, turn), 0.0);
   return zero_from_left(&f, turn, horizon, small);
+}
+
+double carom_first_contact(const carom_separation *d, double reach, double slack, double horizon) {
+  return first_contact(squared(d, reach), reach, slack, horizon);
+}
+
+double carom_first_contact_in_space(const carom_separation *d, double reach, double slack, double horizon) {
+  quartic f = squared(d, reach);
+  add_height(d, &f);
+  return first_contact(f, reach, slack, horizon);
 }
 
 double carom_first_crossing(const carom_separation *d, double reach, double horizon) {

@@ -3,6 +3,8 @@
 #ifndef CAROM_SRC_SHOT_CONTACT_H
 #define CAROM_SRC_SHOT_CONTACT_H
 
+#include <math.h>
+
 #include "platform/arithmetic.h"
 
 #include <stdbool.h>
@@ -10,9 +12,9 @@
 /* Touching things that close at less than this, m/s, do so by rounding. */
 #define CAROM_NO_SPEED 1e-11
 
-/* d(t) = d0 + d1 t + d2 t^2: from one centre to the other. */
+/* d(t) = d0 + d1 t + d2 t^2: from one centre to the other. The third coordinate is read only where a function says so. */
 typedef struct carom_separation {
-  double d0[2], d1[2], d2[2];
+  double d0[3], d1[3], d2[3];
 } carom_separation;
 
 /* The first time in [0, horizon] when |d(t)| = reach, or infinity: coming from outside, or, if the start is inside, going out.
@@ -23,10 +25,24 @@ double carom_first_crossing(const carom_separation *d, double reach, double hori
  * closing, is a contact now; one that does not close is in contact where the gap has fallen by that from its greatest. */
 double carom_first_contact(const carom_separation *d, double reach, double slack, double horizon);
 
+/* The same in space, with the third coordinate. */
+double carom_first_contact_in_space(const carom_separation *d, double reach, double slack, double horizon);
+
 /* The same for a gap of g[0] + g[1] t + g[2] t^2: the first time when it is <= 0 and falling. */
 double carom_first_touch(const double g[3], double slack, double horizon);
 
 /* Both real zeros of a polynomial of degree 2 or less, the earlier first; the number of them. */
 int carom_quadratic_zeros(double a, double b, double c, double zero[2]);
+
+/* The first s >= 0 at which y + y1 s + m s^2 is 0, for y > 0; infinite where it is not. Where the usual form of the zero would
+ * lose half of its digits, or all of them, it has the other. */
+static inline double carom_first_fall(double y, double y1, double m) {
+  const double D = y1 * y1 - 4.0 * m * y;
+  if (!(D >= 0.0))
+    return INFINITY;
+  if (!(y1 > 0.0 && D < y1 * y1 * (1.0 + 1e-8)))
+    return 2.0 * y / (-y1 + sqrt(D));
+  return m < 0.0 ? (y1 + sqrt(D)) / (-2.0 * m) : INFINITY;
+}
 
 #endif

@@ -1,5 +1,5 @@
-/* What balls of one radius can meet on a table, prepared once for all shots that share both: lines with unit normals, boxes for
- * rejection, and the hull outside of which no centre has a place. */
+/* What balls up to a radius can meet on a table, prepared once for all shots that share both: lines with unit normals, boxes
+ * for rejection, and the hull outside of which no centre has a place. */
 #include "shot/sim.h"
 
 #include <math.h>
@@ -21,8 +21,8 @@ static void enclose(carom_features *f, int k, const double p[2], const double q[
   f->hull[3] = carom_greater(f->hull[3], high_y);
 }
 
-static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
-  const double *p = rail->p, *q = rail->q, e_x = q[0] - p[0], e_y = q[1] - p[1], size2 = e_x * e_x + e_y * e_y;
+void carom_rail_line(const carom_rail *rail, double line[3]) {
+  const double *p = rail->p, *q = rail->q, e_x = q[0] - p[0], e_y = q[1] - p[1];
   double l_x = rail->line[0], l_y = rail->line[1], l_0 = rail->line[2];
   if (l_x == 0.0 && l_y == 0.0) { /* the left of p -> q is positive */
     l_x = -e_y;
@@ -30,31 +30,49 @@ static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
     l_0 = e_y * p[0] - e_x * p[1];
   }
   const double size = sqrt(l_x * l_x + l_y * l_y), turn = (rail->side == 0 ? -1.0 : 1.0) / size;
-  f->line[k][0] = l_x * turn;
-  f->line[k][1] = l_y * turn;
-  f->line[k][2] = l_0 * turn;
+  line[0] = l_x * turn;
+  line[1] = l_y * turn;
+  line[2] = l_0 * turn;
+}
+
+static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
+  const double *p = rail->p, *q = rail->q, e_x = q[0] - p[0], e_y = q[1] - p[1], size2 = e_x * e_x + e_y * e_y;
+  carom_rail_line(rail, f->line[k]);
   f->along[k][0] = e_x / size2;
   f->along[k][1] = e_y / size2;
   f->along[k][2] = -(e_x * p[0] + e_y * p[1]) / size2;
 }
 
-void carom_features_of(const carom_table *table, double radius, carom_features *f) {
+void carom_features_of(const carom_table *table, double radius, double reference, carom_features *f) {
   f->radius = radius;
+  f->reference = reference;
   f->rails = (int)table->rails;
   f->jaws = (int)table->jaws;
   f->pockets = (int)table->pockets;
   f->count = f->rails + f->jaws + f->pockets;
   f->hull[0] = f->hull[2] = INFINITY;
   f->hull[1] = f->hull[3] = -INFINITY;
-  /* what is met by a ball's surface reaches as far as its radius */
+  double low = INFINITY, high = 0.0; /* of the noses */
+  /* what is met by a ball's surface reaches as far as its radius; of a ball larger than those of the table farther (nose.c) */
+  if (radius != reference)
+    radius += reference;
   int at = 0;
   for (int k = 0; k < f->rails; k++, at++) {
     prepare_rail(&table->rail[k], k, f);
+    low = carom_lesser(low, table->rail[k].height);
+    high = carom_greater(high, table->rail[k].height);
     enclose(f, at, table->rail[k].p, table->rail[k].q, 0.0, radius);
   }
   memcpy(f->ends, f->hull, sizeof f->ends);
-  for (int k = 0; k < f->jaws; k++, at++)
+  for (int k = 0; k < f->jaws; k++, at++) {
     enclose(f, at, table->jaw[k].centre, table->jaw[k].centre, table->jaw[k].radius, radius);
+    low = carom_lesser(low, table->jaw[k].height);
+    high = carom_greater(high, table->jaw[k].height);
+  }
   for (int k = 0; k < f->pockets; k++, at++)
     enclose(f, at, table->pocket[k].centre, table->pocket[k].centre, table->pocket[k].radius, 0.0);
+  /* what the table leaves to defaults */
+  f->nose_low = low;
+  f->width = table->rail_width > 0.0 ? table->rail_width : 0.12;
+  f->pocket_back = table->pocket_back > 0.0 ? table->pocket_back : high;
 }

@@ -1,10 +1,14 @@
 /* Collisions of balls with each other and with cushions, by the model that the options ask for. */
+#include "cushion/models.h"
 #include "ball_ball/arguments.h"
 #include "ball_ball/euler.h"
 #include "platform/elementary.h"
+#include "shot/fixed.h"
 #include "shot/sim.h"
+#include "shot/spheres.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Across the line of centres: along t = n x z, and up; the slip of the first ball's surface on the second's. */
 typedef struct contact_slip {
@@ -29,11 +33,12 @@ static inline carom_speed_law law_of(const carom_ball_kind *a, const carom_ball_
   return (carom_speed_law){0.5 * (p.a + q.a), 0.5 * (p.b + q.b), 0.5 * (p.c + q.c)};
 }
 
-static double friction_of(const carom_sim *sim, int i, int j, const contact_slip *s) {
+/* At a slip, m/s. */
+static double friction_of(const carom_sim *sim, int i, int j, double slip) {
   if (sim->opt->friction == CAROM_FRICTION_CONSTANT)
     return 0.5 * (sim->ball[i].kind.mu_ball + sim->ball[j].kind.mu_ball);
   const carom_speed_law law = law_of(&sim->ball[i].kind, &sim->ball[j].kind);
-  return law.a + law.b * carom_exp(-law.c * sqrt(s->along * s->along + s->up * s->up));
+  return law.a + law.b * carom_exp(-law.c * slip);
 }
 
 /* Normal velocities by the restitution: w, the same for each unit of mass. */
@@ -120,7 +125,7 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
     exchange(e, kind_a->mass, kind_b->mass, n, a, b);
     return CAROM_OK;
   }
-  const double mu = friction_of(sim, i, j, &s);
+  const double mu = friction_of(sim, i, j, sqrt(s.along * s.along + s.up * s.up));
   if (model == CAROM_BALL_MODEL_INELASTIC) {
     inelastic(n, R, e, mu, &s, a, b);
     return CAROM_OK;
@@ -132,7 +137,8 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
   const bool euler = model == CAROM_BALL_MODEL_EULER;
   const carom_options options = {.solver = euler ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
                                  .slip = euler && sim->pooltool ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER,
-                                 .steps = sim->opt->steps};
+                                 .steps = sim->opt->steps,
+                                 .plain = sim->opt->plain};
   carom_result out;
   const carom_status status = carom_collide(&in, &options, &out);
   if (status == CAROM_SEPARATING && sim->pooltool && euler)
@@ -142,6 +148,23 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
     take_motion(&out.b, b);
   }
   return status;
+}
+
+void carom_model_spheres(const carom_sim *sim, int i, int j, const double n[3], carom_ball_state *a, carom_ball_state *b) {
+  const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
+  carom_impact in = {.a = impact_ball(kind_a, a),
+                     .b = impact_ball(kind_b, b),
+                     .restitution = 0.5 * (kind_a->restitution + kind_b->restitution)};
+  in.a.v[2] = a->v[2];
+  in.b.v[2] = b->v[2];
+  if (ball_model(sim) != CAROM_BALL_MODEL_MIRROR)
+    in.mu_ball = friction_of(sim, i, j, carom_spheres_slip(&in, n));
+  carom_result out;
+  carom_spheres_collide(&in, n, &out);
+  memcpy(a->v, out.a.v, sizeof a->v);
+  memcpy(a->w, out.a.w, sizeof a->w);
+  memcpy(b->v, out.b.v, sizeof b->v);
+  memcpy(b->w, out.b.w, sizeof b->w);
 }
 
 carom_nose carom_nose_of(const carom_table *table, const carom_due *due) {
@@ -158,24 +181,69 @@ _Static_assert(CAROM_SHOT_CUSHION_MATHAVAN == 1 + CAROM_CUSHION_MATHAVAN &&
                    CAROM_SHOT_CUSHION_MIRROR == 1 + CAROM_CUSHION_MIRROR && CAROM_SHOT_CUSHION_EULER == 1 + CAROM_CUSHION_EULER,
                "the models of a shot are those of an impact, behind the default");
 
+static carom_cushion_model cushion_model(const carom_sim *sim) {
+  const carom_shot_cushion asked = sim->opt->cushion_model;
+  return asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1)
+         : sim->pooltool                     ? CAROM_CUSHION_STRONGE
+                                             : CAROM_CUSHION_HAN;
+}
+
+/* Of a rail or jaw, or of the ball where that has none. */
+static double own_or(double own, double of_ball) {
+  return own > 0.0 ? own : of_ball;
+}
+
+/* A ball in flight, by the model without the cloth. Mathavan's equations have a constant direction of slip then, as Han's do,
+ * so the impact of fixed.c is their exact limit; Stronge's model is planar in N and the direction of slip already. */
+static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const double N[3], const carom_nose *nose,
+                        carom_ball_state *s) {
+  const carom_touch touch = carom_touch_of(N, kind->radius, s);
+  const double mu = own_or(nose->mu_cushion, kind->mu_cushion), e = own_or(nose->restitution, kind->restitution_cushion);
+  const double J = (1.0 + e) * touch.closing;
+  double J_t = 0.0;
+  if (cushion_model(sim) == CAROM_CUSHION_STRONGE)
+    J_t = carom_stronge_friction(touch.closing, touch.slip, mu, e, own_or(kind->omega_ratio, 1.8), false);
+  else if (cushion_model(sim) != CAROM_CUSHION_MIRROR)
+    J_t = carom_coulomb(&touch, mu, J);
+  carom_take_impulse(&touch, kind->radius, J, J_t, s);
+}
+
+/* NEAR THE CLOTH, resolve.c. */
+carom_status carom_model_nose(const carom_sim *sim, int i, const double N[3], const carom_nose *nose, carom_ball_state *s) {
+  static const double near = 1e-3; /* m */
+  const carom_ball_kind *kind = &sim->ball[i].kind;
+  const double chi = carom_greater((s->r[2] - kind->radius) / near, 0.0);
+  const carom_ball_state before = *s;
+  free_impact(sim, kind, N, nose, s);
+  if (chi >= 1.0)
+    return CAROM_OK;
+  /* the flat model, along the horizontal part of N; a ball that does not move into the cushion stays as it is */
+  const double size = sqrt(N[0] * N[0] + N[1] * N[1]), normal[2] = {N[0] / size, N[1] / size};
+  carom_ball_state flat = before;
+  const carom_status status = carom_model_cushion(sim, i, normal, nose, &flat);
+  flat.v[2] = carom_lesser(before.v[2], 0.0);
+  for (int k = 0; k < 3; k++) {
+    s->v[k] = (1.0 - chi) * flat.v[k] + chi * s->v[k];
+    s->w[k] = (1.0 - chi) * flat.w[k] + chi * s->w[k];
+  }
+  return status;
+}
+
 carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], const carom_nose *nose,
                                  carom_ball_state *state) {
   const carom_ball_kind *kind = &sim->ball[i].kind;
   const carom_cushion_impact in = {.v = {state->v[0], state->v[1], 0.0},
                                    .w = {state->w[0], state->w[1], state->w[2]},
                                    .normal = {normal[0], normal[1]},
-                                   .height = kind->nose_height > 0.0 ? kind->nose_height : nose->height,
+                                   .height = carom_nose_height(kind, nose->height),
                                    .radius = kind->radius,
                                    .mass = kind->mass,
                                    .mu_cloth = kind->mu_slide,
-                                   .mu_cushion = nose->mu_cushion > 0.0 ? nose->mu_cushion : kind->mu_cushion,
-                                   .restitution = nose->restitution > 0.0 ? nose->restitution : kind->restitution_cushion,
+                                   .mu_cushion = own_or(nose->mu_cushion, kind->mu_cushion),
+                                   .restitution = own_or(nose->restitution, kind->restitution_cushion),
                                    .jaw_radius = nose->jaw_radius};
-  const carom_shot_cushion asked = sim->opt->cushion_model;
-  carom_cushion_options options = {.steps = sim->opt->steps, .omega_ratio = kind->omega_ratio};
-  options.model = asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1)
-                  : sim->pooltool                     ? CAROM_CUSHION_STRONGE
-                                                      : CAROM_CUSHION_MATHAVAN;
+  carom_cushion_options options = {
+      .model = cushion_model(sim), .steps = sim->opt->steps, .plain = sim->opt->plain, .omega_ratio = kind->omega_ratio};
   if (sim->pooltool) {
     options.convention = CAROM_CONVENTION_POOLTOOL;
     options.least_step = 0.001;

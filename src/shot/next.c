@@ -1,8 +1,10 @@
 /* The next event: the earliest of the times that detect.c keeps, by a plain scan; and the order of events at one instant.
  *
  * World carom: events within 1e-12 s of the earliest count as simultaneous, since rounding decides between them. Of those,
- * balls that fall come first, then ends of phases, then contacts, the one that closes fastest first; where that too is equal to
- * a part in 1e9, the pair with the lower index. So a symmetrical layout is resolved in an order that rounding does not change.
+ * balls that fall into pockets come first, then ends of phases on the cloth and balls that leave the table, then contacts,
+ * landings among them, the one that closes fastest first; where that too is equal to a part in 1e9, the one of the lower index,
+ * and of one ball its landing, then cushions, then balls. So a symmetrical layout is resolved in an order that rounding does
+ * not change.
  *
  * World pooltool: only times that are equal as doubles are simultaneous. Of each kind the entry that was computed first leads
  * (in one round: by index), then lower tiers, then higher energies, then the order of kinds: ends of phases, rails, jaws,
@@ -21,6 +23,8 @@ static int type_of_end(const carom_sim *sim, int i) {
     return CAROM_EVENT_SLIDING_ROLLING;
   if (path->from.label == CAROM_BALL_SPINNING)
     return CAROM_EVENT_SPINNING_STATIONARY;
+  if (path->from.label == CAROM_BALL_AIRBORNE)
+    return CAROM_EVENT_SLATE;
   if (path->goes_on)
     return CAROM_DUE_PIECE;
   carom_ball_state end;
@@ -55,11 +59,31 @@ static int list_due(const carom_sim *sim, double limit, carom_due due[MOST_DUE])
 
 /* ---- World carom */
 
+/* How fast a contact of a ball that flies, or of unlike balls, closes. */
+static double closing_in_space(const carom_sim *sim, const carom_due *due, const carom_ball_state *a) {
+  if (due->type == CAROM_EVENT_SLATE || due->type == CAROM_EVENT_RAIL_TOP)
+    return -a->v[2];
+  carom_ball_state b = {.v = {0.0}};
+  double n[3], closing = 0.0;
+  if (due->type == CAROM_EVENT_BALL_BALL) {
+    carom_path_at(&sim->path[due->b], &sim->rates[due->b], due->time, &b);
+    carom_line_of_centres(&sim->ball[due->a].kind, a, &sim->ball[due->b].kind, &b, n);
+  } else {
+    carom_into_nose(sim, &sim->ball[due->a].kind, due->type, due->b, a->r, n);
+  }
+  for (int k = 0; k < 3; k++)
+    closing += (a->v[k] - b.v[k]) * n[k];
+  return closing;
+}
+
 /* How fast the contact closes, m/s. */
 static double closing_speed(const carom_sim *sim, const carom_due *due) {
   carom_ball_state a, b = {.v = {0.0}};
   double n[2];
   carom_path_at(&sim->path[due->a], &sim->rates[due->a], due->time, &a);
+  const int64_t other = due->type == CAROM_EVENT_BALL_BALL ? sim->path[due->b].from.label : CAROM_BALL_STATIONARY;
+  if (a.label == CAROM_BALL_AIRBORNE || other == CAROM_BALL_AIRBORNE || (sim->unlike && due->type == CAROM_EVENT_BALL_BALL))
+    return closing_in_space(sim, due, &a);
   if (due->type == CAROM_EVENT_RAIL) {
     n[0] = -sim->features->line[due->b][0];
     n[1] = -sim->features->line[due->b][1];
@@ -77,7 +101,18 @@ static double closing_speed(const carom_sim *sim, const carom_due *due) {
 }
 
 static int rank(int type) {
-  return type == CAROM_EVENT_POCKET ? 0 : type >= CAROM_EVENT_SLIDING_ROLLING || type == 0 ? 1 : 2;
+  switch (type) {
+  case CAROM_EVENT_POCKET:
+    return 0;
+  case CAROM_EVENT_BALL_BALL:
+  case CAROM_EVENT_RAIL:
+  case CAROM_EVENT_JAW:
+  case CAROM_EVENT_SLATE:
+  case CAROM_EVENT_RAIL_TOP:
+    return 2;
+  default:
+    return 1;
+  }
 }
 
 static carom_due choose_carom(const carom_sim *sim, const carom_due *due, int count) {

@@ -9,6 +9,7 @@ carom_ball_rates carom_rates_of(const carom_ball_kind *kind) {
   return (carom_ball_rates){.radius = kind->radius,
                             .slide = kind->mu_slide * kind->gravity,
                             .roll = kind->mu_roll * kind->gravity,
+                            .gravity = kind->gravity,
                             .drag = kind->drag,
                             .spin = 5.0 * kind->mu_spin * kind->gravity / (2.0 * kind->radius)};
 }
@@ -29,17 +30,20 @@ static double rough_cube_root(double x) {
 /* The first piece of a pair, of a ball that rolls at v against drag: its deceleration. DRAG in path.h has the equations. Apart
  * and cold, so that balls without drag do not pay for it: inlined, it costs their shots 1 to 2 % (carom-lab bench --shots). */
 __attribute__((noinline, cold)) static double begin_pair(carom_path *path, const carom_ball_rates *rates, double v) {
-  /* 324 J0 T^3 = 1e-6 m with T = fall / (A + k v^2), and 0.8 of it, since T is somewhat longer than that */
-  static const double most = 324.0 * 1e-6 / 2.0 * 0.8;
+  /* J0 T^3 / 324 = 1e-5 m with T = fall / (A + k v^2), and 0.6 of it, since T is longer than that */
+  static const double most = 324.0 * 1e-5 / 2.0 * 0.6;
   const double A = rates->roll, k = rates->drag, slows = A + k * v * v;
   const double fall = rough_cube_root(most * slows * slows / (k * v));
   path->last_pair = !(fall < v);
   const double least = path->last_pair ? 0.0 : v - fall, by = v - least;
-  /* series of atan(x)/x and atanh(y)/y; x^2 and y are below 0.02 and 0.06 where k <= 1/m */
+  /* series of atan(x)/x and atanh(y)/y; x^2 and y are below 0.06 and 0.12 where k <= 1/m */
   const double x = by / (A + k * v * least), x2 = A * k * x * x;
-  const double T = x * (1.0 - x2 * (1.0 / 3.0 - x2 * (1.0 / 5.0 - x2 * (1.0 / 7.0 - x2 * (1.0 / 9.0 - x2 / 11.0)))));
+  const double T =
+      x *
+      (1.0 - x2 * (1.0 / 3.0 -
+                   x2 * (1.0 / 5.0 - x2 * (1.0 / 7.0 - x2 * (1.0 / 9.0 - x2 * (1.0 / 11.0 - x2 * (1.0 / 13.0 - x2 / 15.0)))))));
   const double y = by * (v + least) / (2.0 * A + k * (v * v + least * least)), y2 = k * k * y * y;
-  const double S = y * (1.0 + y2 * (1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 / 9.0))));
+  const double S = y * (1.0 + y2 * (1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 * (1.0 / 9.0 + y2 / 11.0)))));
   const double mean = by / T, first = 4.0 * (v * T - S) / (T * T) - mean;
   path->second[0] = 2.0 * mean - first;
   path->second[1] = 0.5 * T;
@@ -69,7 +73,7 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
   path->start = now;
   path->end = INFINITY;
   path->goes_on = path->ends_pair = false;
-  path->a[0] = path->a[1] = path->e[0] = path->e[1] = 0.0;
+  path->a[0] = path->a[1] = path->a[2] = path->e[0] = path->e[1] = 0.0;
   switch (s->label) {
   case CAROM_BALL_SPINNING:
     path->end = now + fabs(s->w[2]) / rates->spin;
@@ -95,9 +99,21 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
     path->end = now + (slides ? 2.0 * size / (7.0 * friction) : path->goes_on ? path->second[1] : size / friction);
     break;
   }
+  case CAROM_BALL_AIRBORNE:
+    path->a[2] = -0.5 * rates->gravity;
+    path->end = now + carom_fall_time(carom_greater(s->r[2] - rates->radius, 0.0), s->v[2], rates->gravity);
+    break;
   default:
     break;
   }
+}
+
+/* Of the two times at which it is at the height of the plane the later one, in the form that does not cancel. */
+double carom_fall_time(double height, double v_z, double gravity) {
+  const double square = v_z * v_z + 2.0 * gravity * height, q = square > 0.0 ? sqrt(square) : 0.0;
+  if (square < 0.0 || (height < 0.0 && v_z <= 0.0))
+    return INFINITY;
+  return v_z >= 0.0 ? (v_z + q) / gravity : 2.0 * height / (q - v_z);
 }
 
 /* |w_z| after its friction has acted for a while. */
@@ -108,8 +124,16 @@ static double spun_down(double w, double fall) {
 void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time, carom_ball_state *state) {
   *state = path->from;
   const double tau = time - path->start;
-  if (state->label == CAROM_BALL_STATIONARY || state->label == CAROM_BALL_POCKETED || !(tau > 0.0))
+  if (state->label == CAROM_BALL_STATIONARY || carom_is_out(state->label) || !(tau > 0.0))
     return;
+  if (state->label == CAROM_BALL_AIRBORNE) {
+    for (int k = 0; k < 3; k++) {
+      state->r[k] += tau * (state->v[k] + tau * path->a[k]);
+      state->v[k] += 2.0 * tau * path->a[k];
+    }
+    state->r[2] = carom_greater(state->r[2], rates->radius); /* not into the cloth by rounding */
+    return;
+  }
   state->w[2] = spun_down(state->w[2], rates->spin * tau);
   if (state->label == CAROM_BALL_SPINNING)
     return;
@@ -144,6 +168,27 @@ int64_t carom_label_of(carom_ball_state *s, double radius) {
   else
     stop(s);
   return s->label;
+}
+
+int64_t carom_label_in_space(carom_ball_state *s, double radius) {
+  static const double nothing = 1e-9; /* m/s */
+  if (s->r[2] <= radius && fabs(s->v[2]) < nothing)
+    s->v[2] = 0.0;
+  return s->r[2] > radius || s->v[2] != 0.0 ? (s->label = CAROM_BALL_AIRBORNE) : carom_label_of(s, radius);
+}
+
+int64_t carom_label_of_layout(carom_ball_state *s, double radius) {
+  if (carom_is_out(s->label))
+    return s->label;
+  return carom_flies_in_layout(s, radius) ? (s->label = CAROM_BALL_AIRBORNE) : carom_label_of(s, radius);
+}
+
+void carom_path_land(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state) {
+  const carom_ball_state *from = &path->from;
+  const double height = carom_greater(from->r[2] - rates->radius, 0.0);
+  carom_path_at(path, rates, path->end, state);
+  state->r[2] = rates->radius;
+  state->v[2] = -sqrt(from->v[2] * from->v[2] + 2.0 * rates->gravity * height);
 }
 
 void carom_path_end(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state) {

@@ -6,7 +6,11 @@
  *              until tau = 2|u|/(7 mu_s g), when u = 0 (e does not turn on the way)
  *   rolling    r = r0 + v0 tau - mu_r g/2 v0/|v0| tau^2   and so on, (w_x, w_y) = (-v_y, v_x)/R, until tau = |v0|/(mu_r g)
  *   drag       a rolling ball slows by mu_r g + k v^2: in pieces of constant deceleration, below
- *   always     |w_z| falls at 5 mu_sp g/(2R) down to 0
+ *   on the cloth |w_z| falls at 5 mu_sp g/(2R) down to 0
+ *   airborne   r = r0 + v0 tau - g/2 tau^2 z, v = v0 - g tau z, w constant, no drag of the air, until the ball lands:
+ *              with d = z - R >= 0 and q = sqrt(v_z^2 + 2 g d), tau = (v_z + q)/g, or 2 d/(q - v_z) where v_z < 0
+ *
+ * A landing is the end of a phase: it needs no detection. The ball is there at z = R exactly, with v_z = -q.
  *
  * Source: W. C. Marlow, The Physics of Pocket Billiards (1994); D. Alciatore, TP A-4.
  *
@@ -22,7 +26,7 @@
  *
  * Errors do not accumulate from pair to pair. Within one, where J is v'' (J = 2 k v (A + k v^2), largest at the start, and
  * nearly constant), the place differs from the exact one by J T^3 / 324 at most, at T/3 and 2T/3, and by nothing at T/2. The
- * speed v0 - v1 that a pair takes is chosen for an error of 1e-6 m. Where that is v0 the pair ends at rest. */
+ * speed v0 - v1 that a pair takes is chosen for an error of 1e-5 m. Where that is v0 the pair ends at rest. */
 #ifndef CAROM_SRC_SHOT_PATH_H
 #define CAROM_SRC_SHOT_PATH_H
 
@@ -42,6 +46,7 @@ static inline double carom_greater(double a, double b) {
 /* What follows from a ball's kind, once for a shot. */
 typedef struct carom_ball_rates {
   double radius, slide, roll; /* R; mu_s g and mu_r g, m/s^2 */
+  double gravity;             /* g */
   double drag;                /* k, 1/m */
   double spin;                /* 5 mu_sp g/(2R), rad/s^2 */
 } carom_ball_rates;
@@ -50,7 +55,7 @@ carom_ball_rates carom_rates_of(const carom_ball_kind *kind);
 
 typedef struct carom_path {
   double start, end;     /* of the phase, on the clock; end is infinite where nothing changes */
-  double a[2];           /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2 */
+  double a[3];           /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2; a[2] is 0 but for an airborne ball */
   double e[2];           /* direction of the friction: of the slip, or of v */
   carom_ball_state from; /* at the start; its label is that of the phase */
   bool goes_on;          /* at the end another piece of the same phase begins: carom_path_go_on() */
@@ -61,8 +66,17 @@ typedef struct carom_path {
 
 /* Whether the centre moves in the phase. */
 static inline bool carom_translates(int64_t label) {
-  return label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING;
+  return label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING || label == CAROM_BALL_AIRBORNE;
 }
+
+/* Whether the ball is pocketed or has left the table: it meets nothing any more. */
+static inline bool carom_is_out(int64_t label) {
+  return label == CAROM_BALL_POCKETED || label == CAROM_BALL_OFF;
+}
+
+/* The time after which a thing that is `height` above a plane and rises at v_z falls onto it; infinite where it is below and
+ * does not come up to it. */
+double carom_fall_time(double height, double v_z, double gravity);
 
 /* Starts a path at a time from path->from, whose label says the phase. */
 void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double now);
@@ -75,6 +89,23 @@ void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double
 
 /* The phase that v and w of a state amount to: not one that would end at once but for rounding. Tidies v and w. */
 int64_t carom_label_of(carom_ball_state *state, double radius);
+
+/* The same where the ball may have left the cloth: airborne with v_z other than 0 or above the cloth. What moves down or up by
+ * rounding on the cloth, less than 1e-9 m/s, lies on it. */
+int64_t carom_label_in_space(carom_ball_state *state, double radius);
+
+/* Whether a ball of a layout is airborne, unless it is out of play: by its label, or as it moves up or down or is more than
+ * 1e-6 m above the cloth. */
+static inline bool carom_flies_in_layout(const carom_ball_state *s, double radius) {
+  static const double on_cloth = 1e-6; /* m */
+  return s->label == CAROM_BALL_AIRBORNE || s->v[2] != 0.0 || s->r[2] - radius > on_cloth;
+}
+
+/* The phase of a ball of a layout. One that is out of play stays so. */
+int64_t carom_label_of_layout(carom_ball_state *state, double radius);
+
+/* The state of an airborne ball as it reaches the cloth. */
+void carom_path_land(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state);
 
 /* The phase that follows the path's own at its end, and the state there, with what has come to an end exactly 0. */
 void carom_path_end(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state);

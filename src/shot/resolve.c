@@ -25,7 +25,18 @@
  * CUSHIONS. The formulas of Han and Stronge take what they know of the impact along the inclined normal of the nose, and drop
  * the vertical velocity. Where the restitution is small, below some tan^2 of the inclination, or the nose far from the height
  * of the centre, or the ball spins much for its speed, a ball is left that moves into the cushion. It would hit again at the
- * same instant, a thousand times where the nose is near the cloth. The same event lets it part as a slow contact does. */
+ * same instant, a thousand times where the nose is near the cloth. The same event lets it part as a slow contact does.
+ *
+ * IN SPACE. Where a ball flies, or two radii differ, the line of centres and the normal of a nose have a third component, and
+ * the models are those of spheres; the rules above are the same. A ball on the cloth may leave it then: pushed down it is
+ * airborne with v_z < 0 and lands at the same instant, as an event of its own, since two balls part long before ball and cloth
+ * do.
+ *
+ * NEAR THE CLOTH. The cloth holds a ball that a cushion presses down, which takes longer than the contact with the cloth; nose
+ * and slate one after the other would let it hop by centimetres. A ball on the cloth has the flat model, a flying one that of a
+ * free sphere; and with chi = (z - R) / 1 mm < 1 it has (1 - chi) of the flat result and chi of the free one, in v and w, the
+ * flat one's v_z being min(v_z, 0). This is continuous at both ends and safe: kinetic energy is convex and neither end has more
+ * than before, and both ends part. 1 mm is a convention. */
 #include "shot/sim.h"
 
 #include <math.h>
@@ -34,8 +45,8 @@ static const double slow_first = 1e-3, slow_most = 0.2; /* m/s */
 static const double slow_instants = 1500.0;
 
 /* s, above. */
-static double slow_speed(const carom_sim *sim) {
-  const double left = 1.0 - (double)sim->slow_instants / slow_instants;
+double carom_slow_speed(int64_t instants) {
+  const double left = 1.0 - (double)instants / slow_instants;
   return left * left * slow_most > slow_first && left > 0.0 ? slow_first / (left * left) : slow_most;
 }
 
@@ -69,36 +80,66 @@ static double part_slowly(double s, double m, double closing, const carom_ball_k
   return sqrt(closing * closing + 2.0 * taken / m);
 }
 
+static bool flies(const carom_ball_state *s) {
+  return s->label == CAROM_BALL_AIRBORNE;
+}
+
+void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a, const carom_ball_kind *kind_b,
+                           const carom_ball_state *b, double n[3]) {
+  n[0] = b->r[0] - a->r[0];
+  n[1] = b->r[1] - a->r[1];
+  n[2] = (flies(b) ? b->r[2] : kind_b->radius) - (flies(a) ? a->r[2] : kind_a->radius);
+  const double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  for (int k = 0; k < 3; k++)
+    n[k] /= size;
+}
+
+/* The phase after a contact, which may have lifted the ball or pushed it down if it was `in_space`. */
+static void label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *s) {
+  if (!in_space) {
+    carom_label_of(s, kind->radius);
+    return;
+  }
+  if (!flies(s))
+    s->r[2] = kind->radius;
+  carom_label_in_space(s, kind->radius);
+}
+
 carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b) {
   const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
-  double n[2] = {b->r[0] - a->r[0], b->r[1] - a->r[1]};
-  const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
-  n[0] /= size;
-  n[1] /= size;
-  const double closing = (a->v[0] - b->v[0]) * n[0] + (a->v[1] - b->v[1]) * n[1];
-  const double slow = slow_speed(sim);
+  const bool in_space = flies(a) || flies(b) || kind_a->radius != kind_b->radius;
+  double n[3], closing = 0.0;
+  carom_line_of_centres(kind_a, a, kind_b, b, n);
+  for (int k = 0; k < 3; k++)
+    closing += (a->v[k] - b->v[k]) * n[k];
+  const double slow = carom_slow_speed(sim->slow_instants);
   carom_status status = CAROM_OK;
-  if (closing >= slow) {
+  if (closing >= slow && in_space) {
+    carom_model_spheres(sim, i, j, n, a, b);
+  } else if (closing >= slow) {
     status = carom_model_balls(sim, i, j, n, a, b);
   } else {
     count_slow(sim);
     const double m = kind_a->mass * kind_b->mass / (kind_a->mass + kind_b->mass);
     const double P = m * (closing + part_slowly(slow, m, closing, kind_a, a, kind_b, b));
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 3; k++) {
       a->v[k] -= P / kind_a->mass * n[k];
       b->v[k] += P / kind_b->mass * n[k];
     }
   }
-  carom_label_of(a, kind_a->radius);
-  carom_label_of(b, kind_b->radius);
+  label_after(in_space, kind_a, a);
+  label_after(in_space, kind_b, b);
   return status < 0 ? status : CAROM_OK;
 }
 
 carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *s) {
   const carom_ball_kind *kind = &sim->ball[i].kind;
   const carom_nose nose = carom_nose_of(sim->table, due);
-  double n[2];
-  if (due->type == CAROM_EVENT_RAIL) {
+  const bool in_space = flies(s);
+  double n[3] = {0.0};
+  if (in_space) {
+    carom_into_nose(sim, kind, due->type, due->b, s->r, n);
+  } else if (due->type == CAROM_EVENT_RAIL) {
     n[0] = -sim->features->line[due->b][0];
     n[1] = -sim->features->line[due->b][1];
   } else {
@@ -109,21 +150,21 @@ carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, 
     n[0] /= size;
     n[1] /= size;
   }
-  double closing = s->v[0] * n[0] + s->v[1] * n[1];
-  const double slow = slow_speed(sim);
+  double closing = s->v[0] * n[0] + s->v[1] * n[1] + s->v[2] * n[2];
+  const double slow = carom_slow_speed(sim->slow_instants);
   const bool fast = closing >= slow;
   carom_status status = CAROM_OK;
   if (fast) {
-    status = carom_model_cushion(sim, i, n, &nose, s);
-    closing = s->v[0] * n[0] + s->v[1] * n[1];
+    status = in_space ? carom_model_nose(sim, i, n, &nose, s) : carom_model_cushion(sim, i, n, &nose, s);
+    closing = s->v[0] * n[0] + s->v[1] * n[1] + s->v[2] * n[2];
   }
   /* slow, or left moving into the cushion by the model, as the file's head says */
   if (!fast || closing > 0.0) {
     count_slow(sim);
     const double part = closing < slow ? part_slowly(slow, kind->mass, closing, kind, s, NULL, NULL) : slow;
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < 3; k++)
       s->v[k] -= (closing + part) * n[k];
   }
-  carom_label_of(s, kind->radius);
+  label_after(in_space, kind, s);
   return status < 0 ? status : CAROM_OK;
 }

@@ -1,5 +1,6 @@
 /* The loop of a shot: find the next event, bring the balls in it there, resolve it, look again what they will meet. */
 #include "platform/threads.h"
+#include "shot/fixed.h"
 #include "shot/sim.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@
 static const carom_shot_options no_options = {0};
 
 /* The next place for an event, or a spare one where there is no room for it. */
-static carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
+static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
   carom_shot *shot = sim->shot;
   const bool room = shot->count < shot->room;
   if (room && shot->brief != NULL)
@@ -45,6 +46,16 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
     *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth}, .label = CAROM_BALL_POCKETED};
     return CAROM_OK;
   }
+  case CAROM_EVENT_SLATE:
+  case CAROM_EVENT_RAIL_TOP:
+    *state = event->before[0];
+    carom_hit_slate(&sim->ball[i].kind, state);
+    carom_label_in_space(state, sim->rates[i].radius);
+    return CAROM_OK;
+  case CAROM_EVENT_LEFT_TABLE:
+    *state = (carom_ball_state){.label = CAROM_BALL_OFF};
+    memcpy(state->r, event->before[0].r, sizeof state->r);
+    return CAROM_OK;
   default: {
     carom_ball_state end;
     carom_path_end(&sim->path[i], &sim->rates[i], &end);
@@ -59,6 +70,10 @@ static carom_status step(carom_sim *sim, const carom_due *due) {
   carom_event spare, *event = note(sim, &spare, due);
   const int i = due->a, j = due->type == CAROM_EVENT_BALL_BALL ? due->b : -1;
   carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
+  if (due->type == CAROM_EVENT_SLATE)
+    carom_path_land(&sim->path[i], &sim->rates[i], &event->before[0]);
+  else if (due->type == CAROM_EVENT_RAIL_TOP) /* exactly on it */
+    event->before[0].r[2] = carom_height_on_top(sim, i, due->b);
   if (j >= 0)
     carom_path_at(&sim->path[j], &sim->rates[j], sim->now, &event->before[1]);
   const carom_status status = resolve(sim, due, event);
@@ -89,12 +104,13 @@ static carom_status strike(carom_sim *sim) {
     return CAROM_OK;
   for (int i = 0; i < sim->count; i++) {
     const int64_t label = sim->path[i].from.label;
-    if (label != CAROM_BALL_STATIONARY && label != CAROM_BALL_POCKETED)
+    if (label != CAROM_BALL_STATIONARY && !carom_is_out(label))
       return CAROM_OK;
   }
   const int i = (int)cue->ball;
   carom_motion motion;
-  const carom_status status = carom_strike(cue, &sim->ball[i].kind, &motion);
+  const bool flat = sim->pooltool || sim->opt->space == CAROM_SPACE_FLAT;
+  const carom_status status = (flat ? carom_strike : carom_strike_in_space)(cue, &sim->ball[i].kind, &motion);
   if (status < 0)
     return status;
   const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
@@ -103,7 +119,12 @@ static carom_status strike(carom_sim *sim) {
   event->before[0] = *state;
   memcpy(state->v, motion.v, sizeof state->v);
   memcpy(state->w, motion.w, sizeof state->w);
-  carom_label_of(state, sim->rates[i].radius);
+  if (state->v[2] != 0.0) { /* it lands at once, from the cloth exactly */
+    state->r[2] = sim->rates[i].radius;
+    carom_label_in_space(state, sim->rates[i].radius);
+  } else {
+    carom_label_of(state, sim->rates[i].radius);
+  }
   if (sim->pooltool)
     state->label = CAROM_BALL_SLIDING;
   event->after[0] = *state;
@@ -113,12 +134,13 @@ static carom_status strike(carom_sim *sim) {
 }
 
 static void begin(carom_sim *sim) {
+  sim->unlike = false;
   for (int i = 0; i < sim->count; i++) {
     sim->rates[i] = carom_rates_of(&sim->ball[i].kind);
     carom_ball_state *from = &sim->path[i].from;
     *from = sim->ball[i].state;
-    if (from->label != CAROM_BALL_POCKETED)
-      carom_label_of(from, sim->rates[i].radius);
+    carom_label_of_layout(from, sim->rates[i].radius);
+    sim->unlike |= sim->ball[i].kind.radius != sim->features->reference;
     carom_path_begin(&sim->path[i], &sim->rates[i], 0.0);
   }
 }
@@ -341,46 +363,89 @@ carom_status carom_shoot_batch(const carom_shot_job *job) {
 
 /* ---- Later */
 
-carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
-                           carom_ball_state *states) {
-  if (balls == NULL || shot == NULL || states == NULL || !room_is_there(shot))
+/* What is known of a shot at a time: the way of each ball after its last event until then. */
+typedef struct replay {
+  const carom_shot_ball *balls;
+  const carom_shot *shot;
+  int count;
+  int64_t known, next; /* events that were kept, and the first of them that is later */
+  carom_path path[CAROM_BALLS_MOST];
+  bool begun[CAROM_BALLS_MOST]; /* whether path[i] has more than its start and the state there */
+} replay;
+
+static void replay_begin(replay *at) {
+  at->next = 0;
+  for (int i = 0; i < at->count; i++) {
+    at->path[i].from = at->balls[i].state;
+    at->path[i].start = 0.0;
+    at->begun[i] = false;
+    carom_label_of_layout(&at->path[i].from, at->balls[i].kind.radius);
+  }
+}
+
+/* Goes forward to a time: the last event of each ball until then. */
+static void replay_go(replay *at, double time) {
+  const carom_event *events = at->shot->events;
+  for (; at->next < at->known && events[at->next].time <= time; at->next++) {
+    const carom_event *event = &events[at->next];
+    const int ball[2] = {event->a, event->type == CAROM_EVENT_BALL_BALL ? event->b : -1};
+    for (int side = 0; side < 2; side++)
+      if (ball[side] >= 0 && ball[side] < at->count) {
+        at->path[ball[side]].from = event->after[side];
+        at->path[ball[side]].start = event->time;
+        at->begun[ball[side]] = false;
+      }
+  }
+}
+
+/* The states at a time to which the replay has gone. */
+static void replay_states(replay *at, double time, carom_ball_state *states) {
+  for (int i = 0; i < at->count; i++) {
+    carom_path *path = &at->path[i];
+    const carom_ball_rates rates = carom_rates_of(&at->balls[i].kind);
+    if (!at->begun[i])
+      carom_path_begin(path, &rates, path->start);
+    at->begun[i] = true;
+    while (path->goes_on && path->end < time)
+      carom_path_go_on(path, &rates);
+    carom_path_at(path, &rates, time, &states[i]);
+  }
+}
+
+carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const carom_shot *shot, const double *times, size_t n,
+                                 carom_ball_state *states) {
+  if (balls == NULL || shot == NULL || (n > 0 && (times == NULL || states == NULL)) || !room_is_there(shot))
     return CAROM_ERROR_NULL;
   if (count < 1 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
-  if (isnan(time))
-    return CAROM_ERROR_TIME;
-  const double at = carom_greater(carom_lesser(time, shot->time), 0.0);
   const int64_t room = shot->events != NULL ? shot->room : 0; /* brief events have no states */
-  if (shot->count > room && (room == 0 || at > shot->events[room - 1].time))
-    return CAROM_ERROR_EVENTS_LOST;
-  carom_path path[CAROM_BALLS_MOST];
-  for (int i = 0; i < count; i++) {
-    path[i].from = balls[i].state;
-    path[i].start = 0.0;
-    if (path[i].from.label != CAROM_BALL_POCKETED)
-      carom_label_of(&path[i].from, balls[i].kind.radius);
-  }
-  /* the last event of each ball until then */
-  const int64_t known = shot->count < room ? shot->count : room;
-  for (int64_t k = 0; k < known && shot->events[k].time <= at; k++) {
-    const carom_event *event = &shot->events[k];
-    const int ball[2] = {event->a, event->type == CAROM_EVENT_BALL_BALL ? event->b : -1};
-    for (int side = 0; side < 2; side++)
-      if (ball[side] >= 0 && ball[side] < count) {
-        path[ball[side]].from = event->after[side];
-        path[ball[side]].start = event->time;
-      }
-  }
-  /* what moves at the end goes on nobody knows how */
-  for (int i = 0; i < count; i++)
-    if (time > shot->time && path[i].from.label != CAROM_BALL_STATIONARY && path[i].from.label != CAROM_BALL_POCKETED)
+  replay at;
+  at.balls = balls;
+  at.shot = shot;
+  at.count = count;
+  at.known = shot->count < room ? shot->count : room;
+  double last = 0.0;
+  for (size_t k = 0; k < n; k++) {
+    if (isnan(times[k]))
       return CAROM_ERROR_TIME;
-  for (int i = 0; i < count; i++) {
-    const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
-    carom_path_begin(&path[i], &rates, path[i].start);
-    while (path[i].goes_on && path[i].end < at)
-      carom_path_go_on(&path[i], &rates);
-    carom_path_at(&path[i], &rates, at, &states[i]);
+    const double time = carom_greater(carom_lesser(times[k], shot->time), 0.0);
+    if (shot->count > room && (room == 0 || time > shot->events[room - 1].time))
+      return CAROM_ERROR_EVENTS_LOST;
+    /* an earlier time than the last begins anew */
+    if (k == 0 || time < last)
+      replay_begin(&at);
+    replay_go(&at, time);
+    last = time;
+    /* what moves at the end goes on nobody knows how */
+    for (int i = 0; i < count && times[k] > shot->time; i++)
+      if (at.path[i].from.label != CAROM_BALL_STATIONARY && !carom_is_out(at.path[i].from.label))
+        return CAROM_ERROR_TIME;
+    replay_states(&at, time, &states[k * (size_t)count]);
   }
   return CAROM_OK;
+}
+
+carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
+                           carom_ball_state *states) {
+  return carom_shot_at_times(balls, count, shot, &time, 1, states);
 }

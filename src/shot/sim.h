@@ -9,20 +9,24 @@ enum { MOST_FEATURES = CAROM_RAILS_MOST + CAROM_JAWS_MOST + CAROM_POCKETS_MOST }
 
 /* What a ball can meet on the table. In the order of rails, jaws, pockets. */
 typedef struct carom_features {
-  double radius; /* of the balls for which the rest was prepared; 0: nothing yet */
+  double radius; /* the greatest of the balls for which the rest was prepared; 0: nothing yet */
   int rails, jaws, pockets, count;
   double line[CAROM_RAILS_MOST][3];  /* unit normal towards the played side, and offset: distance = line . (x, y, 1) */
   double along[CAROM_RAILS_MOST][3]; /* place along the rail, 0 at p and 1 at q: along . (x, y, 1) */
   /* boxes around the things, in single precision, rounded outward */
   float low_x[MOST_FEATURES], high_x[MOST_FEATURES], low_y[MOST_FEATURES], high_y[MOST_FEATURES];
-  double hull[4]; /* low x, high x, low y, high y: centres stay inside */
-  double ends[4]; /* the same around the ends of the rails alone */
+  double least;              /* the least radius of those balls */
+  double reference;          /* radius of the balls that the table is meant for, nose.c */
+  double nose_low;           /* least height of a nose */
+  double width, pocket_back; /* of the tops of rails; height of the pockets' backs: see carom_table */
+  double hull[4];            /* low x, high x, low y, high y: centres stay inside */
+  double ends[4];            /* the same around the ends of the rails alone */
 } carom_features;
 
 /* What will happen to a ball by itself or on the table. */
 typedef struct carom_meeting {
   double time;
-  int type, what; /* a carom_event_type, or 0 where it leaves the table; the index of rail, jaw or pocket */
+  int type, what; /* a carom_event_type, or 0 where it leaves the table on the cloth; the index of rail, jaw or pocket */
 } carom_meeting;
 
 typedef struct carom_sim {
@@ -35,6 +39,8 @@ typedef struct carom_sim {
   carom_shot *shot;
   int count, struck; /* struck: the cue ball */
   bool pooltool;
+  bool unlike; /* radii differ from each other or from the table's reference: contacts are those of spheres in space */
+  int flying;  /* airborne balls */
   double now;
   int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */
   double slow_last;      /* s: the last of them */
@@ -44,7 +50,8 @@ typedef struct carom_sim {
   /* the paths once more, in columns: those of pairs are searched many at a time */
   double x[CAROM_BALLS_MOST], y[CAROM_BALLS_MOST], v_x[CAROM_BALLS_MOST], v_y[CAROM_BALLS_MOST], a_x[CAROM_BALLS_MOST],
       a_y[CAROM_BALLS_MOST], start[CAROM_BALLS_MOST], horizon[CAROM_BALLS_MOST];
-  carom_meeting meeting[CAROM_BALLS_MOST];         /* with the table */
+  double z[CAROM_BALLS_MOST], v_z[CAROM_BALLS_MOST], a_z[CAROM_BALLS_MOST]; /* R, 0 and 0 but for airborne balls */
+  carom_meeting meeting[CAROM_BALLS_MOST];                                  /* with the table */
   double pair[CAROM_BALLS_MOST][CAROM_BALLS_MOST]; /* when i < j meet; infinite where not before a path ends */
   int32_t pair_round[CAROM_BALLS_MOST][CAROM_BALLS_MOST], meeting_round[CAROM_BALLS_MOST];
   double own[CAROM_BALLS_MOST];   /* the end of the ball's phase or its meeting, whichever is earlier */
@@ -60,13 +67,34 @@ typedef struct carom_due {
 
 /* Beside the types of events: another piece of ball a's path begins, and nobody is told. In the order of simultaneous events it
  * counts as an end of a phase. */
-enum { CAROM_DUE_PIECE = CAROM_EVENT_SPINNING_STATIONARY + 1 };
+enum { CAROM_DUE_PIECE = CAROM_EVENT_LEFT_TABLE + 1 };
+
+/* Whether contacts are looked for in space, and not on the cloth alone. */
+static inline bool carom_in_space(const carom_sim *sim) {
+  return sim->flying > 0 || sim->unlike;
+}
 
 /* table_pooltool.c */
 extern const carom_table carom_table_pooltool;
 
-/* features.c: what follows from a table for balls of one radius. */
-void carom_features_of(const carom_table *table, double radius, carom_features *features);
+/* features.c: the unit normal of a rail towards its played side, and its offset: distance = line . (x, y, 1). */
+void carom_rail_line(const carom_rail *rail, double line[3]);
+/* What follows from a table for balls of a greatest radius, and from the radius that it is meant for. */
+void carom_features_of(const carom_table *table, double radius, double reference, carom_features *features);
+
+/* nose.c: the height of a nose for a ball, how far it is inside the wall that stands for it, and the distance from the wall at
+ * which a ball on the cloth touches it. */
+double carom_nose_height(const carom_ball_kind *kind, double height);
+double carom_nose_shift(double height, double reference);
+double carom_reach_on_cloth(const carom_ball_kind *kind, double height, double reference);
+/* The height of ball i's centre on the top of rail `what`, or of jaw `what` less the rails. */
+double carom_height_on_top(const carom_sim *sim, int i, int what);
+/* The unit vector from the centre r of a ball into the nose of rail or jaw `what`. */
+void carom_into_nose(const carom_sim *sim, const carom_ball_kind *kind, int type, int what, const double r[3], double N[3]);
+
+/* flight.c: what airborne ball i meets first on the table, from r with v now, and when from now on; landing: the time until it
+ * would land. */
+carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3], const double v[3], double landing);
 
 /* detect.c: looks again for all that balls i and j can meet, from now on; j may be -1. */
 void carom_detect(carom_sim *sim, int i, int j);
@@ -80,6 +108,8 @@ carom_due carom_next(const carom_sim *sim);
  * too. */
 carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
 carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
+/* The speed below which contacts are slow, after so many instants that had one. */
+double carom_slow_speed(int64_t instants);
 carom_status carom_pooltool_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
 carom_status carom_pooltool_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
 
@@ -94,15 +124,28 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
                                carom_ball_state *b);
 carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], const carom_nose *nose,
                                  carom_ball_state *state);
+/* The same in space: for spheres along any line of centres; for an airborne ball and a nose into which N points. */
+void carom_model_spheres(const carom_sim *sim, int i, int j, const double normal[3], carom_ball_state *a, carom_ball_state *b);
+carom_status carom_model_nose(const carom_sim *sim, int i, const double N[3], const carom_nose *nose, carom_ball_state *state);
+/* resolve.c: the unit vector from ball a to ball b, in space. What lies on the cloth is at z = R exactly. */
+void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a, const carom_ball_kind *kind_b,
+                           const carom_ball_state *b, double n[3]);
 carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
 
-/* strike.c: the numbers of a cue, apart from its ball. */
+/* strike.c: the numbers of a cue, apart from its ball; and carom_strike() with the part of the blow that goes down. */
 carom_status carom_check_cue(const carom_cue *cue);
+carom_status carom_strike_in_space(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out);
 
-/* check.c: what a batch has in common. */
+/* check.c: whether a place is outside the ring of cushions and pockets. */
+bool carom_place_is_outside(const carom_table *table, const carom_features *features, const double r[2]);
+/* What a batch has in common. */
 carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where);
-/* One layout with its cue. Prepares the table for the radius of the balls, where *features are for another. */
+/* One layout with its cue. Prepares the table for the radii of the balls, where *features are for others. */
 carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                 const carom_cue *cue, const carom_shot_options *opt, int *where);
+/* The parts of a table, each by itself, for balls of a radius, for which it prepares the table; `usual`: the radius that the
+ * table is meant for, where it names none. */
+carom_status carom_check_parts(const carom_table *table, double radius, double usual, carom_features *features,
+                               carom_part *part);
 
 #endif

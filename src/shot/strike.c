@@ -6,7 +6,13 @@
  *   v = V cos(theta) in the direction phi + alpha     tan(alpha) = -(5/2) a sqrt(1 - a^2) / (1 + m/m_e + 5/2 (1 - a^2))
  *   w = 5 V/(2R) (b, a sin(theta), -a cos(theta))     turned about z by phi + 90 degrees
  *
- * The part of the blow that goes down into the table is lost. Sources: D. Alciatore, TP A-30 and TP A-31; pooltool's. */
+ * In flat play the part of the blow that goes down into the table is lost. In space, with d the horizontal direction of phi and
+ * l the horizontal to its left,
+ *
+ *   v = V (cos(alpha) (cos(theta) d - sin(theta) z) + sin(alpha) l)
+ *
+ * so that a ball on the cloth is airborne with v_z < 0 and lands at once: most of that happens after the tip has left. With
+ * theta = 0 both are the same, to the last bit. Sources: D. Alciatore, TP A-30 and TP A-31; pooltool's. */
 #include "platform/elementary.h"
 #include "shot/sim.h"
 
@@ -21,10 +27,13 @@ carom_status carom_check_cue(const carom_cue *cue) {
   if (!(cue->speed >= 0.0 && cue->speed <= 1e3) || !(fabs(cue->phi) <= 1e9) || !(cue->theta >= 0.0 && cue->theta <= 90.0) ||
       !positive(cue->mass) || !positive(cue->end_mass))
     return CAROM_ERROR_CUE;
-  return cue->a * cue->a + cue->b * cue->b < 1.0 ? CAROM_OK : CAROM_ERROR_MISCUE;
+  if (!(cue->miscue >= 0.0 && cue->miscue <= 1.0))
+    return CAROM_ERROR_CUE;
+  const double limit = cue->miscue > 0.0 ? cue->miscue : 1.0;
+  return cue->a * cue->a + cue->b * cue->b < limit * limit ? CAROM_OK : CAROM_ERROR_MISCUE;
 }
 
-carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out) {
+static carom_status strike(const carom_cue *cue, const carom_ball_kind *kind, bool in_space, carom_motion *out) {
   if (cue == NULL || kind == NULL || out == NULL)
     return CAROM_ERROR_NULL;
   const carom_status bad = carom_check_cue(cue);
@@ -48,7 +57,20 @@ carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, car
   const double x = turn * b, y = turn * a * sin_theta;
   *out = (carom_motion){.v = {V * cos_theta * (cos_phi * c - sin_phi * s), V * cos_theta * (sin_phi * c + cos_phi * s), 0.0},
                         .w = {-x * sin_phi - y * cos_phi, x * cos_phi - y * sin_phi, -turn * a * cos_theta}};
+  if (in_space && sin_theta > 0.0) {
+    out->v[0] = V * (c * cos_theta * cos_phi - s * sin_phi);
+    out->v[1] = V * (c * cos_theta * sin_phi + s * cos_phi);
+    out->v[2] = -V * c * sin_theta;
+  }
   return CAROM_OK;
+}
+
+carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out) {
+  return strike(cue, kind, false, out);
+}
+
+carom_status carom_strike_in_space(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out) {
+  return strike(cue, kind, true, out);
 }
 
 carom_cue carom_cue_of(carom_game game) {
@@ -87,8 +109,10 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
     kind.mu_slide = 2.075 / 9.81;
     kind.mu_roll = 0.125 / 9.81;
     kind.restitution = 0.89;
-    kind.mu_cushion = 0.14;
-    kind.restitution_cushion = 0.98;
+    /* of Han's closed form: what the exact cushion does with 0.14, 0.98 and the nose at 7/5 R (physics/terms) */
+    kind.mu_cushion = 0.2;
+    kind.restitution_cushion = 0.936;
+    kind.nose_height = 0.03074;
   } else if (game == CAROM_GAME_BILLIARD) {
     kind.mu_slide = 2.02 / 9.81;
     kind.mu_roll = 0.0418 / 9.81;
@@ -96,8 +120,10 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
     kind.mu_spin = 0.004;
     kind.restitution = 0.951;
     kind.mu_ball = kind.law_a = 0.08;
-    kind.mu_cushion = 0.22;
-    kind.restitution_cushion = 0.898;
+    /* of Han's closed form, with its nose: the cushion of the world carom by default */
+    kind.mu_cushion = 0.231;
+    kind.restitution_cushion = 0.874;
+    kind.nose_height = 0.03545;
     kind.roll_loss = 0.087;
   }
   return kind;

@@ -5,6 +5,7 @@
  * All sizes from 0 to a vector more than what is solved by calls, rows in error and rows of junk between good ones, all regimes
  * side by side, batches cut at random places, in random order, over any number of threads. Arrays end where memory ends, so
  * that reading or writing past them is seen, and begin at odd places. */
+#include "carom_shot.h"
 #include "cases.h"
 #include "regimes.h"
 #include "support.h"
@@ -347,6 +348,71 @@ START_TEST(many_callers_at_once) {
 }
 END_TEST
 
+/* All that a call may compute of some rows, by both precisions; cushions too. */
+typedef struct everything {
+  carom_result one[MOST], batch[MOST];
+  carom_result_f32 one_f32[MOST], batch_f32[MOST];
+  carom_detail detail[MOST];
+  carom_trace_point trace[MOST][4];
+  carom_motion cushion[MOST], cushions[MOST];
+  carom_cushion_point followed[MOST][4];
+} everything;
+
+/* options.plain of a call is what the whole process may be limited to: the same bits, and nothing else is changed by it. */
+START_TEST(plain_for_one_call) {
+  static carom_impact in[MOST];
+  static carom_impact_f32 in_f32[MOST];
+  static carom_cushion_impact on[MOST];
+  static everything seen[3];
+  random_source source = {test_seed()};
+  for (int k = 0; k < MOST; k++) {
+    in[k] = good_row(&source, (size_t)k);
+    for (int c = 0; c < 26; c++)
+      ((float *)&in_f32[k])[c] = (float)((const double *)&in[k])[c];
+    on[k] = (carom_cushion_impact){
+        .v = {random_between(&source, -3.0, 3.0), random_between(&source, 0.1, 3.0)},
+        .w = {random_between(&source, -99.0, 99.0), random_between(&source, -99.0, 99.0), random_between(&source, -99.0, 99.0)},
+        .normal = {0.0, 1.0},
+        .height = 0.0365,
+        .radius = 0.028575,
+        .mass = 0.17,
+        .mu_cloth = 0.2,
+        .mu_cushion = 0.2,
+        .restitution = 0.85};
+  }
+  /* by the process; by the call; and by neither */
+  const carom_isa best = carom_isa_limit(CAROM_ISA_ANY);
+  for (int way = 0; way < 3; way++) {
+    carom_isa_limit(way == 0 ? CAROM_ISA_PLAIN : CAROM_ISA_ANY);
+    const carom_options options = {.plain = way == 1};
+    const carom_cushion_options cushion_options = {.plain = way == 1};
+    everything *e = &seen[way];
+    for (int k = 0; k < MOST; k++) {
+      carom_collide_detail(&in[k], &options, &e->one[k], &e->detail[k]);
+      carom_collide_f32(&in_f32[k], &options, &e->one_f32[k]);
+      carom_trace(&in[k], &options, 4, e->trace[k]);
+      carom_cushion(&on[k], &cushion_options, &e->cushion[k]);
+      carom_cushion_trace(&on[k], &cushion_options, 4, e->followed[k]);
+    }
+    carom_collide_batch(in, MOST, &options, e->batch, NULL);
+    carom_collide_batch_f32(in_f32, MOST, &options, e->batch_f32, NULL);
+    carom_cushion_batch(on, MOST, &cushion_options, e->cushions, NULL);
+    ck_assert_int_eq(carom_isa_in_force(), way == 0 ? CAROM_ISA_PLAIN : best);
+  }
+#define SAME(field) (memcmp(seen[way].field, seen[0].field, sizeof seen[0].field) == 0)
+  for (int way = 1; way < 3; way++) {
+    const bool plain = way == 1 || best == CAROM_ISA_PLAIN;
+    ck_assert_msg(SAME(one) == plain && SAME(one_f32) == plain && SAME(detail) == plain, "calls, %d", way);
+    ck_assert_msg(SAME(batch) == plain && SAME(batch_f32) == plain, "batches, %d", way);
+    /* the precise solver has two kinds of vectors, of which one is plain */
+    const bool precise = way == 1 || best < CAROM_ISA_AVX2;
+    ck_assert_msg(SAME(trace) == precise && SAME(cushion) == precise && SAME(followed) == precise, "traces, %d", way);
+    ck_assert_msg(SAME(cushions) == precise, "cushions, %d", way);
+  }
+#undef SAME
+}
+END_TEST
+
 START_TEST(lower_sets_can_be_asked_for) {
   const carom_isa best = carom_isa_limit(CAROM_ISA_ANY);
   ck_assert(carom_isa_available(best));
@@ -364,5 +430,5 @@ END_TEST
 int main(void) {
   return RUN_TESTS("batch", good_rows_at_every_size, mixed_rows_at_every_size, rows_of_zeros_at_every_size, the_204_cases,
                    all_regimes_side_by_side, cut_anywhere_in_any_order, single_precision_is_near, many_callers_at_once,
-                   lower_sets_can_be_asked_for);
+                   plain_for_one_call, lower_sets_can_be_asked_for);
 }

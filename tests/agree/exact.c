@@ -148,7 +148,7 @@ START_TEST(collocation_and_fallback_agree) {
         continue;
       drawn++;
       FOR_EACH_ISA(isa) {
-        if (carom_kernels_in_force()->call[CAROM_F64](&in, carom_spin_sign(slip), &out, NULL) == 0)
+        if (carom_kernels_of_call(0)->call[CAROM_F64](&in, carom_spin_sign(slip), &out, NULL) == 0)
           continue;
         const double distance = result_distance(&out, &exact, in.a.radius);
         ck_assert_msg(distance <= 1e-5, "%s, draw %d: %g apart with %s", regimes_name(regime), k, distance,
@@ -170,7 +170,7 @@ START_TEST(collocation_takes_the_references) {
   FOR_EACH_ISA(isa) for (int sign = -1; sign <= 1; sign += 2) {
     carom_result out;
     for (size_t k = 0; k < cases.count; k++)
-      ck_assert_int_gt(carom_kernels_in_force()->call[CAROM_F64](&cases.impact[k], sign, &out, NULL), 0);
+      ck_assert_int_gt(carom_kernels_of_call(0)->call[CAROM_F64](&cases.impact[k], sign, &out, NULL), 0);
   }
   cases_free(&cases);
 }

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 enum { SHOTS = 150, ROOM = 1000 }; /* threads take 64 shots at a time */
 
@@ -68,6 +69,11 @@ static void same_results(const results *a, const results *b) {
   ck_assert_int_eq(memcmp(a->events, b->events, (size_t)SHOTS * ROOM * sizeof *a->events), 0);
 }
 
+static int ascending(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
 static void free_results(results *r) {
   free(r->events);
   free(r);
@@ -128,8 +134,8 @@ START_TEST(bad_layouts) {
 }
 END_TEST
 
-/* Each layout is checked and played with its own radius, whatever the radius of the others: too large for the nose, too small
- * for it, in the cushion with this radius and not with that. */
+/* Each layout is checked and played with its own radius and its own kinds of balls, whatever the radius of the others: too
+ * large for the nose, too small for it, in the cushion with this radius and not with that. */
 START_TEST(radii) {
   enum { LAYOUTS = 144, BALLS = 2 };
   static const double factor[] = {1.0, 1.0, 1.1, 0.7, 1.0, 1.95, 0.4, 1.1, 0.0};
@@ -144,6 +150,9 @@ START_TEST(radii) {
         carom_shot_ball *b = &balls[BALLS * k + i];
         *b = (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD)};
         b->kind.radius *= factor[(from + k) % 9];
+        b->kind.mass *= 1.0 + 0.3 * i + 0.01 * k; /* every other constant is the ball's own too */
+        b->kind.mu_roll *= 1.0 + 0.02 * k;
+        b->kind.restitution_cushion -= 0.001 * k;
         b->state = (carom_ball_state){.r = {0.055 + 0.3 * i, 0.5 + 0.005 * k, b->kind.radius}};
       }
       cues[k] = carom_cue_of(CAROM_GAME_BILLIARD);
@@ -171,7 +180,7 @@ START_TEST(radii) {
 }
 END_TEST
 
-/* One layout for all cues, one cue for all layouts. */
+/* One layout for all cues, one cue for all layouts; layouts and cues further apart than they are long. */
 START_TEST(one_for_all) {
   make_breaks();
   cues[4].a = 0.0;
@@ -185,6 +194,84 @@ START_TEST(one_for_all) {
     same_results(single, batch);
     free_results(single);
     free_results(batch);
+  }
+  enum { EVERY = 3, FEW = SHOTS / EVERY };
+  results *single = make_results(), *batch = make_results();
+  const carom_shot_job job = {.table = &table,
+                              .balls = balls,
+                              .cues = cues,
+                              .count = 11,
+                              .ball_stride = (uint64_t)EVERY * 16,
+                              .cue_stride = EVERY - 1,
+                              .n = FEW,
+                              .options = &options,
+                              .shots = batch->shot,
+                              .status = batch->status};
+  ck_assert_int_eq(carom_shoot_batch(&job), CAROM_OK);
+  for (int k = 0; k < FEW; k++)
+    single->status[k] =
+        (int8_t)carom_shoot(&table, balls + EVERY * 16 * k, 11, &cues[(EVERY - 1) * k], &options, &single->shot[k]);
+  same_results(single, batch);
+  free_results(single);
+  free_results(batch);
+}
+END_TEST
+
+/* What a game waits for costs what it must: the cue ball's first contact and a frame far less than the shot that they are of.
+ * The medians are over interleaved rounds. */
+START_TEST(costs_of_a_game) {
+  enum { ROUNDS = 25, MODELS = 2, FIGURES = 5 };
+  static const carom_shot_cushion models[MODELS] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_MATHAVAN};
+  static const char *const what[FIGURES] = {"the break", "to the first contact", "a frame by carom_shot_continue()",
+                                            "carom_shot_at()", "carom_shot_orientation()"};
+  static carom_shot_state state;
+  static double us[FIGURES][ROUNDS];
+  static carom_ball_state states[16];
+  static double turned[16][4];
+  make_breaks();
+  for (int m = 0; m < MODELS; m++) {
+    for (int n = 0; n < ROUNDS; n++)
+      for (int f = 0; f < FIGURES; f++) {
+        carom_shot_options options = {.cushion_model = models[m]};
+        static carom_event events[ROOM];
+        carom_shot shot = {.events = events, .room = ROOM};
+        struct timespec begin, end;
+        int calls = 1;
+        if (f == 3 || f == 4)
+          carom_shoot(&table, balls, 16, &cues[0], &options, &shot);
+        clock_gettime(CLOCK_MONOTONIC, &begin);
+        if (f == 0) {
+          ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot), CAROM_OK);
+        } else if (f == 1) {
+          options.stop_at = CAROM_STOP_AT_CONTACT;
+          ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot), CAROM_STOPPED_AT_EVENT);
+        } else if (f == 2) {
+          shot.state = &state;
+          options.time_most = 1.0 / 60.0;
+          carom_status status = carom_shoot(&table, balls, 16, &cues[0], &options, &shot);
+          for (; status == CAROM_STOPPED_AT_TIME; calls++) {
+            options.time_most = (calls + 1) / 60.0;
+            status = carom_shot_continue(&table, balls, 16, &options, &shot);
+          }
+          ck_assert_int_eq(status, CAROM_OK);
+        } else
+          for (calls = 0; calls <= 60.0 * shot.time; calls++)
+            if (f == 3)
+              carom_shot_at(balls, 16, &shot, calls / 60.0, states);
+            else
+              carom_shot_orientation(balls, 16, &shot, calls / 60.0, turned);
+        clock_gettime(CLOCK_MONOTONIC, &end);
+        us[f][n] = (1e6 * (double)(end.tv_sec - begin.tv_sec) + 1e-3 * (double)(end.tv_nsec - begin.tv_nsec)) / calls;
+      }
+    printf("cushions by %s:", carom_cushion_model_name((carom_cushion_model)(models[m] - 1)));
+    for (int f = 0; f < FIGURES; f++) {
+      qsort(us[f], ROUNDS, sizeof us[f][0], ascending);
+      printf("%s %s %.3g us", f > 0 ? "," : "", what[f], us[f][ROUNDS / 2]);
+    }
+    printf("\n");
+    ck_assert_double_lt(us[1][ROUNDS / 2], 0.25 * us[0][ROUNDS / 2]);
+    ck_assert_double_lt(us[2][ROUNDS / 2], 0.25 * us[0][ROUNDS / 2]);
+    ck_assert_double_lt(us[3][ROUNDS / 2], 0.25 * us[0][ROUNDS / 2]);
   }
 }
 END_TEST
@@ -406,12 +493,24 @@ START_TEST(instruction_sets) {
       ck_assert_int_eq(others[k].type, events[k].type);
       ck_assert_double_eq_tol(others[k].time, events[k].time, 1e-6);
     }
+    const bool same = shot.count == plain.count && memcmp(events, others, (size_t)plain.count * sizeof *events) == 0;
+    ck_assert_int_eq(same, isa == CAROM_ISA_PLAIN);
+    /* with options.plain the shot has the bits of plain, in parts too, though nothing limits the process */
+    static carom_shot_state state;
+    carom_shot_options options = {.plain = 1, .time_most = 0.7};
+    shot.state = &state;
+    memset(others, 0, sizeof others);
+    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot), CAROM_STOPPED_AT_TIME);
+    options.time_most = 0.0;
+    ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &shot), CAROM_OK);
+    ck_assert_int_eq(shot.count, plain.count);
+    ck_assert_int_eq(memcmp(events, others, (size_t)plain.count * sizeof *events), 0);
   }
   carom_isa_limit(CAROM_ISA_ANY);
 }
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("shots", batch_is_singles, bad_layouts, radii, one_for_all, brief_events, stopped_and_continued,
-                   first_contact, bad_states, instruction_sets);
+  return RUN_TESTS("shots", batch_is_singles, bad_layouts, radii, one_for_all, costs_of_a_game, brief_events,
+                   stopped_and_continued, first_contact, bad_states, instruction_sets);
 }

@@ -1,6 +1,6 @@
 # hit: one collision from speed, cut and spin, in words, as a row, as a picture; and what textbooks say of such collisions.
 try carom hit
-try carom hit --spin draw,20 --cut -40 --side gearing --speed 3 --friction 0.05
+try carom hit --spin draw,20rad/s --cut -40 --side gearing --speed 3 --friction 0.05
 try carom hit --cut 0 --spin stun --restitution 1 --friction 0
 echo "--derived, of recorded collisions:"
 carom resolve --derived -o derived.csv "$DATA/collisions-204.csv"
@@ -36,7 +36,7 @@ for before, after in zip(*rows, strict=True):
 print(len(rows[0]), {name: value < 1e-9 for name, value in worst.items()}, undefined)
 PYTHON
 echo "the row is what resolve reads:"
-carom hit --spin stun,follow,roll,draw,-7.5 --csv > rows.csv
+carom hit --spin stun,follow,roll,draw,-7.5rad/s --csv > rows.csv
 carom resolve --derived rows.csv > out.csv
 python - <<'PYTHON'
 import csv
@@ -74,7 +74,7 @@ def said(row, after, spin, cut):
     """The report in the words of `carom hit`."""
     f = {name: float(x) for name, x in row.items() if name != "id"} | {name: float(x) for name, x in after.items() if name not in row and name != "status"}
     b = {name: float(after[name]) for name in after if name not in ("id", "status")}
-    v, energy = f["v1x"], lambda m, *parts: 0.5 * f["M"] * sum(m[p] ** 2 * (1 if p[0] == "v" else 0.4 * f["R"] ** 2) for p in parts)
+    v, energy = f["v1x"], lambda m, *parts: 0.5 * f["M1"] * sum(m[p] ** 2 * (1 if p[0] == "v" else 0.4 * f["R1"] ** 2) for p in parts)
     names = lambda ball: [f"{kind}{ball}{axis}" for kind in "vw" for axis in "xyz"]
     at_first = energy(f, *names(1))
     lost = 1 - energy(b, *names(1), *names(2)) / at_first
@@ -97,7 +97,7 @@ def said(row, after, spin, cut):
 # Both sides, every spin, a ball that stops, one that comes straight back, a smooth cloth, other balls.
 for cut, spin, more in (
     (30, "stun", ""), (-40, "draw", "--side gearing --speed 3 --friction 0.05"), (0, "draw", "--speed 4"), (0, "stun", "--restitution 1 --friction 0"),
-    (75, "follow", "--side -40 --speed 6"), (-15, "-80", "--side 25 --cloth 0"), (50, "roll", "--radius 0.0307 --mass 0.2107 --restitution 0.8"), (10, "20", "--speed 0.3"),
+    (75, "follow", "--side -40rad/s --speed 6"), (-15, "-80 rad/s", "--side 25rad/s --cloth 0"), (50, "roll", "--radius 0.0307 --mass 0.2107 --restitution 0.8"), (10, "20 rad/s", "--speed 0.3"), (75, "stun", ""), (0, "follow", ""), (-30, "draw", "--speed 7mph"),
 ):
     asked = ["hit", "--cut", str(cut), "--spin", spin, *more.split()]
     words, rows = run(*asked, "--plot", "hit.svg").splitlines(), run(*asked, "--csv")
@@ -130,7 +130,7 @@ for v in (0.447, 1.34, 3.13, 6.7): # 1 to 15 miles an hour
             for side in (0, 0.25 * v / R, -0.5 * v / R):
                 if (cut + follow + side) % 3 < 1.5: # some half of them
                     continue
-                seen = -hit("--speed", v, "--cut", cut, "--spin", follow, "--side", side, "--restitution", 1, "--cloth", 0)["throw_deg"]
+                seen = -hit("--speed", v, "--cut", cut, "--spin", f"{follow}rad/s", "--side", f"{side}rad/s", "--restitution", 1, "--cloth", 0)["throw_deg"]
                 worst[follow != 0] = max(worst[follow != 0], abs(seen - throw(v, rad(cut), follow, side)))
 print("TP A-14:", worst[False] < 1e-5, worst[True] < 0.15)
 smooth = ("--friction", 0, "--restitution", 1)
@@ -159,7 +159,7 @@ try carom sweep --id stun,lag --over cut --from 0 --to 80 three.csv
 echo "several speeds, and each spin at each speed:"
 carom hit --spin stun,draw --speed 1,2,4.5 --cut 0 --csv > six.csv
 cut -d, -f1,5,9 six.csv
-carom sweep --id stun-1,stun-2,stun-4.5,draw-1,draw-2,draw-4.5 --over cut --from 0 --to 80 --points 361 --friction alciatore --plot six.svg -o six.out six.csv
+carom sweep --id stun-1m/s,stun-2m/s,stun-4.5m/s,draw-1m/s,draw-2m/s,draw-4.5m/s --over cut --from 0 --to 80 --points 361 --friction alciatore --plot six.svg -o six.out six.csv
 python - <<'PYTHON'
 import csv, os, subprocess
 from curves import curves, shows
@@ -172,9 +172,9 @@ print([name for name, _ in drawn] == list(rows), [shows(points, *zip(*rows[name]
 for spin, speed in (("stun", "2"), ("draw", "4.5")):
     one = subprocess.run([os.environ["CAROM"], "hit", "--spin", spin, "--speed", speed, "--cut", "0", "--csv"], capture_output=True, text=True).stdout
     rows = {line.split(",")[0]: line.split(",", 1)[1] for line in open("six.csv")}
-    print(rows[f"{spin}-{speed}"] == one.splitlines(True)[1].split(",", 1)[1])
+    print(rows[f"{spin}-{speed}m/s"] == one.splitlines(True)[1].split(",", 1)[1])
 PYTHON
-echo "friction that stays is told of, and so is a picture of one hit of several:"
+echo "friction that stays is told of, and every hit is drawn:"
 carom hit --cut 0 --csv > straight.csv
 for more in "" "--friction alciatore"; do
   # shellcheck disable=SC2086
@@ -182,9 +182,9 @@ for more in "" "--friction alciatore"; do
 done
 carom hit --cut 0 --csv --friction 0.05 | carom sweep --id stun --over cut --from 0 --to 30 --points 2 --brief -o /dev/null -
 carom sweep --id stun --over e_b --from 0.5 --to 1 --points 2 --brief -o /dev/null straight.csv
-carom hit --spin stun,draw --plot first.svg -o /dev/null && grep -c "</svg>" first.svg
+carom hit --spin stun,draw,follow --plot all.svg -o /dev/null && grep -c "^A cue ball\|>A cue ball" all.svg
 echo "refused:"
-for words in "--speed 1,,x" "--speed ," "--speed 1,2,3,4 --spin 1,2,3,4,5" "--spin spinny" "--spin nan" "--spin ,"  "--side much" "--cut 90" "--speed 0" "--speed -1" "--radius 0" "--cloth 2" "--friction 2" "--restitution -1" "--plot hit.png" "extra" "--strict --speed 60"; do
+for words in "--speed 1,,x" "--speed ," "--speed 1,2,3,4 --spin 1,2,3,4,5%" "--spin spinny" "--spin nan" "--spin ," "--spin 0.5" "--spin backspin" "--side 3" "--side much" "--cut 0:30 --speed 1:2" "--cut 30:0:1" "--cut 1.5ball" "--quantity throw" "--speed 3knots" "--cut 90" "--speed 0" "--speed -1" "--radius 0" "--cloth 2" "--friction 2" "--restitution -1" "--plot hit.txt" "--plot nowhere/hit.svg" "extra" "--strict --speed 60"; do
   # shellcheck disable=SC2086
   try carom hit -o refused.txt $words
 done

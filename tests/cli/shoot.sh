@@ -52,7 +52,7 @@ PYTHON
 echo "--- a picture"
 carom shoot --events none --plot break.svg "$DATA/break-nineball.jsonl" > none.jsonl
 grep -c events none.jsonl
-grep -c '<path fill' break.svg
+grep -c '<path fill="none"' break.svg
 tail -n 1 break.svg
 # Its parts are where the numbers say: of the break, and on a table that lies along x away from the origin, whose balls have odd names.
 rail() { printf '{"id": "%s", "p1": [%s, 0.036], "p2": [%s, 0.036], "direction": %s}' "$@"; }
@@ -75,15 +75,40 @@ from drawn import check_shots
 print(check_shots("odd.out", "odd.svg", 7), check_shots("pool.out", "pool.svg", "public-000"))
 PYTHON
 carom shoot --plot break.svg --id nosuch "$DATA/break-nineball.jsonl" > /dev/null || echo "exit $?"
+echo "--- balls that fly"
+carom shoot --events brief -o jumps.out --plot jump.svg "$DATA/shots-jumps.jsonl"
+carom shoot --events brief --space flat -o flat.out --plot flat.svg "$DATA/shots-jumps.jsonl"
+for id in jump off draw; do # the pictures of the docs
+  carom shoot --events none --plot figure.svg --id $id -o figure.out "$DATA/shots-jumps.jsonl"
+  cmp figure.svg "$DATA/../docs/figures/shot-$id.svg" && echo "as in the docs: $id"
+done
+python - <<'PYTHON'
+import json
+for name in ("jumps.out", "flat.out"):
+    for shot in map(json.loads, open(name)):
+        kinds = [event[1] for event in shot["events"]]
+        met = [event[2] for event in shot["events"] if event[1] == "ball_ball"]
+        print(name, shot["id"], shot["status"], kinds.count("slate"), "slate", kinds.count("left_table"), "left", "first hit", met[:1])
+PYTHON
+grep -c "<circle" jump.svg flat.svg
+# the new numbers of a table, a cue and a ball are read: on a rail of 0.5 m the ball falls on its top, without restitution it does not hop
+made() { printf '{"kind": "table", "id": "wide", "w": 2, "l": 2, %s "linear": [%s, %s, %s, %s]}\n' "$1" "$(rail left '0, 0' '0, 2' 0)" "$(rail right '2, 0' '2, 2' 1)" \
+  "$(rail near '0, 0' '2, 0' 1)" "$(rail far '0, 2' '2, 2' 0)"; }
+shot() { printf '{"kind": "shot", "id": "%s", "table": "wide", "cue": {"ball": "cue", "V0": 3, "phi": 90, "theta": 45, "b": 0.3%s}, "balls": [{"id": "cue", "params": {%s}, "state": [0, 1, 1.6, 0.028575, 0, 0, 0, 0, 0, 0]}]}\n' "$1" "$2" "$3"; }
+{ made '"rail_width": 0.5, "ball_radius": 0.028575, "pocket_back": 0.04,'; shot top '' ''; shot dead '' '"e_t": -1'; shot miscue ', "miscue": 0.25' ''; shot wrong '' '"e_t": 1.5'; } > numbers.jsonl
+try carom shoot --events brief -o numbers.out numbers.jsonl
+grep '"shot"' numbers.out | sed 's/.*"n_events"/.../; s/"final".*"pockets": {}}/.../' | cut -c 1-400
 echo "--- bad lines"
 ball='{"id": "cue", "state": [0, 0.3, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}'
 {
-  echo "{\"kind\": \"shot\", \"id\": \"good\", \"cue\": {\"ball\": \"cue\", \"V0\": 1}, \"balls\": [$ball]}"
+  echo "{\"kind\": \"shot\", \"id\": \"good\", \"cue\": {\"ball\": \"cue\", \"V0\": 1, \"b\": 0.25}, \"balls\": [$ball]}"
   echo 'no JSON'
   echo '{"id": 1}'
   echo '{"kind": "shot", "id": "no balls"}'
-  echo '{"kind": "shot", "id": "text for a number", "cue": {"V0": "fast"}, "balls": ['"$ball"']}'
+  echo '{"kind": "shot", "id": "text for a number", "cue": {"V0": "fast", "b": 0}, "balls": ['"$ball"']}'
   echo '{"kind": "shot", "id": "no such ball", "cue": {"ball": "8"}, "balls": ['"$ball"']}'
+  echo '{"kind": "shot", "id": "no b", "cue": {"V0": 1}, "balls": ['"$ball"']}'
+  echo '{"kind": "shot", "id": "unknown key", "cue": {"V0": 1, "b": 0, "speed": 2}, "balls": ['"$ball"']}'
   echo '{"kind": "shot", "id": "no such table", "table": "attic", "balls": ['"$ball"']}'
   echo '{"kind": "shot", "id": "short state", "balls": [{"id": "cue", "state": [0, 1]}]}'
   echo '{"kind": "shot", "id": "twins", "balls": ['"$ball, $ball"']}'

@@ -15,7 +15,8 @@ for k in range(points):
         one["r2x"] = repr(number("r1x") + x * math.cos(angle) - y * math.sin(angle))
         one["r2y"] = repr(number("r1y") + x * math.sin(angle) + y * math.cos(angle))
     elif over == "speed":
-        one.update({a + b + c: repr(number(a + b + c) * value) for a in "vw" for b in "12" for c in "xyz"})
+        share = value / math.hypot(number("v1x"), number("v1y"))
+        one.update({a + b + c: repr(number(a + b + c) * share) for a in "vw" for b in "12" for c in "xyz"})
     elif over == "u_s":
         one.update(u_s1=repr(value), u_s2=repr(value))
     else:
@@ -41,3 +42,24 @@ compare v2x -0.5 0.5 --solver euler --steps 100
 carom sweep --id pooltool-135 --over speed --from 0.1 --to 4 --points 41 --friction alciatore --brief |
   awk -F, '/^exact/ { n++; falls += n == 1 || $(NF - 1) < last; last = $(NF - 1) } END { print n, falls, "the friction falls with the speed" }'
 try carom sweep --id pooltool-135 --over u_b --from 0 --to 1 --friction alciatore
+echo "speed is in m/s, the rows swept are what resolve reads, and notes can be left out:"
+carom hit --csv > hit.csv
+carom sweep --id stun --over speed --from 0.5 --to 3 --points 3 --brief --no-comments --friction alciatore hit.csv > swept
+carom sweep --id stun --over speed --from 0.5 --to 3 --points 3 --rows --friction alciatore hit.csv | carom resolve --derived - > derived
+paste -d ' ' swept derived | awk 'NR > 1 { split($1, a, ","); split($2, b, ","); print a[2], b[1], a[3] == b[15] }'
+for speed in 0.5 3; do carom hit --speed $speed --csv | carom resolve --derived - | tail -n 1 | cut -d, -f15; done
+cut -d, -f3 swept | sed -n '2p;4p'
+carom sweep --id stun --over speed --from 1 --to 2 --points 2 --brief hit.csv -o /dev/null
+sed 's/,1.5,/,0,/' hit.csv > rests.csv
+try carom sweep --id stun --over speed --from 1 --to 2 rests.csv
+carom trace --id stun --points 2 --no-comments hit.csv | head -n 1 | cut -d, -f1
+# What it writes is no table of rows, unless by --rows.
+carom sweep --id stun --over cut --from 0 --to 10 --points 3 --friction alciatore hit.csv > swept.csv
+try carom resolve swept.csv
+carom sweep --rows --id stun --over cut --from 0 --to 10 --points 3 --friction alciatore hit.csv | carom resolve --derived - > derived.csv
+python - <<'PYTHON'
+import csv
+swept = list(csv.DictReader(line for line in open("swept.csv") if line[0] != "#"))
+derived = list(csv.DictReader(open("derived.csv")))
+print([abs(float(a["throw_deg"]) - float(b["throw_deg"])) < 1e-9 for a, b in zip(swept, derived, strict=True)])
+PYTHON

@@ -57,6 +57,14 @@ with tempfile.TemporaryDirectory() as work:
                 if done.returncode:
                     sys.exit(f"{page}:\n{text}{done.stdout[-4000:]}exit {done.returncode}")
                 run += 1
+    # The pieces of a page are one program.
+    pieces = [text for kind, text in blocks(SOURCE, "docs/using/games.md") if kind == "c game"]
+    (folder / "game.c").write_text("#include <carom_shot.h>\n#include <stdio.h>\n\nint main(void) {\n" + "".join(pieces) + "return 0;\n}\n")
+    said = subprocess.run([os.environ.get("CC", "cc"), "-std=c11", "-Wall", "-Wextra", "-Werror", f"-I{SOURCE}/include", "game.c", BUILD / "libcarom.a",
+                           "-lm", "-pthread", "-o", "game"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert said.returncode == 0, said.stdout
+    played = subprocess.run([folder / "game"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    assert len(pieces) >= 4 and "ball" in played, played
     # What they leave, where they leave something.
     for name in ("OTHER/index.html", "runtime.svg"):
         assert (folder / name).stat().st_size > 1000, name

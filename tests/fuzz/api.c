@@ -119,8 +119,9 @@ static void two_balls(void) {
   carom_options o = {.solver = (carom_solver)(choice(16) == 0 ? choice(256) - 128 : choice(8) == 0),
                      .slip = (carom_slip)(choice(16) == 0 ? choice(256) - 128 : choice(2)),
                      .steps = choice(16) == 0 ? -choice(3) : 1 + choice(200),
-                     .threads = choice(32) == 0 ? choice(5) - 2 : 0};
-  reserve(&o.reserved[choice(6)]);
+                     .threads = choice(32) == 0 ? choice(5) - 2 : 0,
+                     .plain = choice(16) == 0 ? choice(5) - 2 : choice(2)};
+  reserve(&o.reserved[choice(5)]);
   carom_isa_limit((carom_isa)choice(CAROM_ISA_AVX512 + 1));
   carom_result out, many[ROWS];
   int8_t statuses[ROWS];
@@ -137,8 +138,8 @@ static void two_balls(void) {
       rows[k].a.v[k % 2] += 0.01 * k;
   }
   if (carom_collide_batch(rows, (size_t)n, &o, many, statuses) != CAROM_ERROR_THREADS && o.steps >= 0 && o.threads >= -1) {
-    bool bad_options = false;
-    for (int k = 0; k < 6; k++)
+    bool bad_options = (o.plain & ~1) != 0;
+    for (int k = 0; k < 5; k++)
       bad_options |= o.reserved[k] != 0;
     if (!bad_options && (unsigned)o.solver <= 1 && (unsigned)o.slip <= 1 &&
         (statuses[at] != status || (status >= 0 && memcmp(&many[at], &out, sizeof out) != 0)))
@@ -170,6 +171,11 @@ static void two_balls(void) {
   for (int k = 0; k < 12; k++)
     if (isfinite(((float *)&out32)[k]) != (narrowly >= 0))
       fail("carom_collide_f32");
+  /* as spheres in space */
+  if (choice(2) == 0)
+    in.b.r[2] += number(-0.06, 0.06);
+  const carom_status in_space = carom_impact3(&in, &out);
+  expect((double *)&out, 12, in_space >= 0, "carom_impact3");
   double rolling[3];
   carom_rolling_velocity(in.a.v, in.a.w, in.a.radius, rolling);
   (void)carom_mu_ball(&in, carom_alciatore());
@@ -195,7 +201,8 @@ static void cushion(void) {
                              .law = (carom_cushion_law)choice(2),
                              .steps = choice(16) == 0 ? -choice(3) : 1 + choice(200),
                              .least_step = choice(8) == 0 ? number(0, 0.001) : 0,
-                             .omega_ratio = choice(8) == 0 ? number(1, 2) : 0};
+                             .omega_ratio = choice(8) == 0 ? number(1, 2) : 0,
+                             .plain = choice(2)};
   reserve(&o.reserved[choice(4)]);
   carom_motion out, many[3];
   int8_t statuses[3] = {1, 1, 1};
@@ -243,6 +250,13 @@ static void shots(void) {
         vector(s->v, 5, 0);
         vector(s->w, 200, number(-200, 200));
       }
+      if (choice(4) == 0) { /* it flies */
+        s->r[2] += number(0, 0.4);
+        s->v[2] = number(-5, 5);
+        s->label = choice(CAROM_BALL_OFF + 2);
+      }
+      if (choice(8) == 0)
+        balls[k].kind.radius *= number(0.8, 1.2);
     }
   }
   /* one number of one ball, or of the table, changed */
@@ -253,6 +267,8 @@ static void shots(void) {
     table.rail[choice(4)].height = number(0, 0.06);
   if (choice(20) == 0)
     table.rails = choice(40) - 2;
+  if (choice(10) == 0)
+    (&table.ball_radius)[choice(3)] = number(0, 0.2);
   carom_cue cues[SHOTS];
   for (int k = 0; k < SHOTS; k++) {
     cues[k] = carom_cue_of((carom_game)choice(3));
@@ -262,18 +278,22 @@ static void shots(void) {
     cues[k].a = number(-0.6, 0.6);
     cues[k].b = number(-0.6, 0.6);
     cues[k].ball = choice(10) == 0 ? choice(256) - 128 : 0;
+    cues[k].miscue = choice(10) == 0 ? number(0, 1) : 0;
   }
   carom_shot_options o = {.world = (carom_world)mostly(choice(3) == 0),
                           .ball_model = (carom_ball_model)mostly(choice(2) * choice(5)),
                           .cushion_model = (carom_shot_cushion)mostly(choice(2) * choice(6)),
                           .friction = (carom_ball_friction)choice(2),
+                          .space = (carom_space)mostly(choice(4) == 0),
                           .steps = 1 + choice(100),
                           .events_most = 1 + choice(120),
-                          .time_most = choice(3) == 0 ? number(0, 10) : 0};
+                          .time_most = choice(3) == 0 ? number(0, 10) : 0,
+                          .plain = choice(2)};
   if (choice(3) == 0)
-    o.stop_at = choice(4) == 0 ? (uint64_t)choice(256) << choice(64) : CAROM_STOP_AT(choice(CAROM_EVENT_POCKET + 1));
-  reserve(&o.reserved[choice(4)]);
-  carom_shot one = {.events = events[0], .room = choice(EVENTS + 1), .final = final[0]};
+    o.stop_at = choice(4) == 0 ? (uint64_t)choice(256) << choice(64) : CAROM_STOP_AT(choice(CAROM_EVENT_LEFT_TABLE + 1));
+  reserve(&o.reserved[choice(3)]);
+  static carom_shot_state state;
+  carom_shot one = {.events = events[0], .room = choice(EVENTS + 1), .final = final[0], .state = &state};
   const carom_status status = carom_shoot(&table, balls, count, &cues[0], &o, &one);
   const bool played = status >= 0 || status == CAROM_ERROR_TOO_MANY_EVENTS || status == CAROM_ERROR_TOO_LONG;
   for (int k = 0; k < count && played; k++)
@@ -288,6 +308,11 @@ static void shots(void) {
   for (int k = 0; k < count && played && at == CAROM_OK; k++)
     if (isnan(states[k].r[0]) || isnan(states[k].v[0]))
       fail("carom_shot_at is not a number"); /* where a time that is not finite was asked, see below */
+  double turned[CAROM_BALLS_MOST][4];
+  if (at == CAROM_OK && one.time < 100 && carom_shot_orientation(balls, count, &one, one.time, turned) == CAROM_OK)
+    for (int k = 0; k < count; k++)
+      if (!(fabs(turned[k][0]) <= 1.001))
+        fail("an orientation is no rotation");
   const carom_event first = events[0][0];
   carom_shot many[SHOTS];
   int8_t statuses[SHOTS] = {1, 1, 1};
@@ -302,10 +327,20 @@ static void shots(void) {
                               .options = &o,
                               .shots = many,
                               .status = statuses};
+  const int64_t first_count = one.count;
   carom_shoot_batch(&job);
-  if (played && (statuses[0] != (int8_t)status || many[0].count != one.count ||
+  if (played && (statuses[0] != (int8_t)status || many[0].count != first_count ||
                  (one.room > 0 && one.count > 0 && memcmp(&first, &events[0][0], sizeof first) != 0)))
     fail("a batch of shots differs from a shot");
+  /* on from where the shot stopped */
+  if (status > 0) {
+    carom_shot_options on = o;
+    on.time_most = 0;
+    on.stop_at = 0;
+    const carom_status then = carom_shot_continue(&table, balls, count, &on, &one);
+    if (then == CAROM_ERROR_STATE || one.count < first_count)
+      fail("carom_shot_continue refuses the state of a shot that was stopped");
+  }
   carom_motion struck;
   if (carom_strike(&cues[0], &balls[0].kind, &struck) == CAROM_OK)
     expect((double *)&struck, 6, true, "carom_strike");

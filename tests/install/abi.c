@@ -1,6 +1,6 @@
 /* Prints the binary interface as the compiler sees it: sizes, alignments, offsets of every field, values of every enumerator.
  * The script `abi` compares it with abi.expected. */
-#include "carom_shot.h"
+#include "carom_tangent.h"
 
 #include <stdio.h>
 
@@ -26,7 +26,7 @@ static void print_shot_types(void) {
   FIELD(carom_cushion_options, law);
   FIELD(carom_cushion_options, steps);
   FIELD(carom_cushion_options, threads);
-  FIELD(carom_cushion_options, unused);
+  FIELD(carom_cushion_options, plain);
   FIELD(carom_cushion_options, least_step);
   FIELD(carom_cushion_options, omega_ratio);
   FIELD(carom_cushion_options, reserved);
@@ -48,6 +48,7 @@ static void print_shot_types(void) {
   FIELD(carom_ball_kind, law_c);
   FIELD(carom_ball_kind, nose_height);
   FIELD(carom_ball_kind, omega_ratio);
+  FIELD(carom_ball_kind, restitution_table);
   TYPE(carom_ball_state);
   FIELD(carom_ball_state, r);
   FIELD(carom_ball_state, v);
@@ -83,6 +84,17 @@ static void print_shot_types(void) {
   FIELD(carom_table, rail);
   FIELD(carom_table, jaw);
   FIELD(carom_table, pocket);
+  FIELD(carom_table, ball_radius);
+  FIELD(carom_table, rail_width);
+  FIELD(carom_table, pocket_back);
+  TYPE(carom_part);
+  FIELD(carom_part, kind);
+  FIELD(carom_part, index);
+  TYPE(carom_table_fault);
+  FIELD(carom_table_fault, part);
+  FIELD(carom_table_fault, other);
+  FIELD(carom_table_fault, place);
+  FIELD(carom_table_fault, gap);
   TYPE(carom_cue);
   FIELD(carom_cue, speed);
   FIELD(carom_cue, phi);
@@ -93,6 +105,7 @@ static void print_shot_types(void) {
   FIELD(carom_cue, end_mass);
   FIELD(carom_cue, tip_radius);
   FIELD(carom_cue, ball);
+  FIELD(carom_cue, miscue);
   TYPE(carom_shot_options);
   FIELD(carom_shot_options, world);
   FIELD(carom_shot_options, ball_model);
@@ -101,9 +114,11 @@ static void print_shot_types(void) {
   FIELD(carom_shot_options, steps);
   FIELD(carom_shot_options, events_most);
   FIELD(carom_shot_options, threads);
-  FIELD(carom_shot_options, unused);
+  FIELD(carom_shot_options, space);
   FIELD(carom_shot_options, time_most);
   FIELD(carom_shot_options, stop_at);
+  FIELD(carom_shot_options, plain);
+  FIELD(carom_shot_options, unused);
   FIELD(carom_shot_options, reserved);
   TYPE(carom_event);
   FIELD(carom_event, time);
@@ -186,6 +201,8 @@ static void print_types(void) {
   FIELD(carom_options, slip);
   FIELD(carom_options, steps);
   FIELD(carom_options, threads);
+  FIELD(carom_options, plain);
+  FIELD(carom_options, unused);
   FIELD(carom_options, reserved);
   TYPE(carom_speed_law);
   FIELD(carom_speed_law, a);
@@ -225,9 +242,41 @@ static void print_types(void) {
   TYPE(carom_phase);
 }
 
+static void print_tangent_types(void) {
+  TYPE(carom_tangent_seeds);
+  FIELD(carom_tangent_seeds, directions);
+  FIELD(carom_tangent_seeds, cue);
+  FIELD(carom_tangent_seeds, kind);
+  FIELD(carom_tangent_seeds, state);
+  FIELD(carom_tangent_seeds, table);
+  FIELD(carom_tangent_seeds, reserved);
+  TYPE(carom_tangent);
+  FIELD(carom_tangent, final);
+  FIELD(carom_tangent, time);
+  FIELD(carom_tangent, before);
+  FIELD(carom_tangent, after);
+  FIELD(carom_tangent, at);
+  FIELD(carom_tangent, times);
+  FIELD(carom_tangent, times_count);
+  FIELD(carom_tangent, flags);
+  FIELD(carom_tangent, reach);
+  FIELD(carom_tangent, error);
+  FIELD(carom_tangent, all_flags);
+  FIELD(carom_tangent, reserved);
+  TYPE(carom_tangent_job);
+  FIELD(carom_tangent_job, played);
+  FIELD(carom_tangent_job, seeds);
+  FIELD(carom_tangent_job, seeds_stride);
+  FIELD(carom_tangent_job, tangents);
+  FIELD(carom_tangent_job, status);
+  FIELD(carom_tangent_job, reserved);
+  TYPE(carom_tangent_flag);
+}
+
 int main(void) {
   print_types();
   print_shot_types();
+  print_tangent_types();
 /* enumerators.h is made by the script: a line VALUE(NAME); for every enumerator that is spelt out in the header. */
 #include "enumerators.h"
   return 0;

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- Drag */
@@ -36,7 +37,7 @@ static void exact_roll(long double A, long double k, long double left, long doub
   *way = -log1pl(-sinl(w) * sinl(w)) / (2.0L * k);
 }
 
-/* A ball that rolls alone is where the exact solution has it, within the 1e-6 m of the header, as long as it rolls, and comes
+/* A ball that rolls alone is where the exact solution has it, within the 1e-5 m of the header, as long as it rolls, and comes
  * to rest at the time and the place of that. A fine integration agrees with the exact solution. */
 START_TEST(drag_of_a_ball_alone) {
   enum { BALLS = 400, LOOKS = 200 };
@@ -81,7 +82,7 @@ START_TEST(drag_of_a_ball_alone) {
     }
   }
   printf("drag: places within %.3g m of the exact solution, speeds within %.3g of them\n", worst, worst_speed);
-  ck_assert_msg(worst < 1e-6, "%g m from the exact solution", worst);
+  ck_assert_msg(worst < 1e-5, "%g m from the exact solution", worst);
 }
 END_TEST
 
@@ -93,9 +94,14 @@ static double energy_of(const carom_shot_ball *balls, const carom_ball_state *s,
     const carom_ball_kind *k = &balls[i].kind;
     const double *v = s[i].v, *w = s[i].w;
     sum += 0.5 * k->mass * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) +
-           0.2 * k->mass * k->radius * k->radius * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+           0.2 * k->mass * k->radius * k->radius * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) +
+           (s[i].label == CAROM_BALL_AIRBORNE ? k->mass * k->gravity * (s[i].r[2] - k->radius) : 0.0);
   }
   return sum;
+}
+
+static bool is_out(const carom_ball_state *s) {
+  return s->label == CAROM_BALL_POCKETED || s->label == CAROM_BALL_OFF;
 }
 
 /* The deepest overlap of two balls. */
@@ -103,17 +109,18 @@ static double overlap_of(const carom_ball_state *s, int count, double R) {
   double deepest = 0.0;
   for (int i = 0; i < count; i++)
     for (int j = 0; j < i; j++)
-      if (s[i].label != CAROM_BALL_POCKETED && s[j].label != CAROM_BALL_POCKETED)
-        deepest = fmax(deepest, 2.0 * R - hypot(s[i].r[0] - s[j].r[0], s[i].r[1] - s[j].r[1]));
+      if (!is_out(&s[i]) && !is_out(&s[j]))
+        deepest = fmax(deepest, 2.0 * R - hypot(hypot(s[i].r[0] - s[j].r[0], s[i].r[1] - s[j].r[1]), s[i].r[2] - s[j].r[2]));
   return deepest;
 }
 
-/* How far a rail of the plain table is entered. */
+/* How far a rail of the plain table is entered by balls on the cloth. */
 static double intrusion_of(const carom_table *table, const carom_ball_state *s, int count, double R) {
   double deepest = 0.0;
   for (int i = 0; i < count && table->pockets == 0 && table->jaws == 0; i++)
-    deepest = fmax(deepest,
-                   fmax(fmax(R - s[i].r[0], s[i].r[0] - table->width + R), fmax(R - s[i].r[1], s[i].r[1] - table->length + R)));
+    if (!is_out(&s[i]) && s[i].label != CAROM_BALL_AIRBORNE)
+      deepest = fmax(
+          deepest, fmax(fmax(R - s[i].r[0], s[i].r[0] - table->width + R), fmax(R - s[i].r[1], s[i].r[1] - table->length + R)));
   return deepest;
 }
 
@@ -306,6 +313,60 @@ START_TEST(noses) {
 }
 END_TEST
 
+/* Each rail and each jaw has its own friction and restitution: a ball that meets one after the other has those of the part that
+ * it meets, and its own where the part has none. */
+START_TEST(each_part_has_its_own) {
+  carom_table table = empty_table(1.0);
+  /* a post, met on the way */
+  table.jaw[table.jaws++] = (carom_jaw){.centre = {0.5, 0.52}, .radius = 0.05, .height = 0.036576};
+  table.jaw[table.jaws++] = (carom_jaw){.centre = {0.25, 0.8}, .radius = 0.05, .height = 0.036576};
+  for (int k = 0; k < 3; k++) { /* not those of the last rail */
+    table.rail[k].mu_cushion = 0.1 + 0.07 * k;
+    table.rail[k].restitution = 0.95 - 0.06 * k;
+  }
+  table.jaw[0].mu_cushion = 0.4;
+  table.jaw[1].restitution = 0.6;
+  int met[6] = {0};
+  for (int n = 0; n < 24; n++) {
+    const carom_shot_ball ball = rolling(0.3, 0.3, 4.0, 0.26 * n);
+    const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
+    const carom_shot shot = play(&table, &ball, 1, NULL, &options, CAROM_OK);
+    for (int64_t k = 0; k < shot.count; k++) {
+      const carom_event *e = &events[k];
+      const bool jaw = e->type == CAROM_EVENT_JAW;
+      if (!jaw && e->type != CAROM_EVENT_RAIL)
+        continue;
+      const double mu = jaw ? table.jaw[e->b].mu_cushion : table.rail[e->b].mu_cushion;
+      const double restitution = jaw ? table.jaw[e->b].restitution : table.rail[e->b].restitution;
+      const double normals[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+      carom_cushion_impact in = {.normal = {normals[e->b][0], normals[e->b][1]},
+                                 .height = 0.036576,
+                                 .radius = ball.kind.radius,
+                                 .mass = ball.kind.mass,
+                                 .mu_cloth = ball.kind.mu_slide,
+                                 .mu_cushion = mu > 0.0 ? mu : ball.kind.mu_cushion,
+                                 .restitution = restitution > 0.0 ? restitution : ball.kind.restitution_cushion};
+      for (int c = 0; c < 2 && jaw; c++)
+        in.normal[c] = table.jaw[e->b].centre[c] - e->before[0].r[c];
+      memcpy(in.v, e->before[0].v, sizeof in.v);
+      memcpy(in.w, e->before[0].w, sizeof in.w);
+      const carom_cushion_options han = {.model = CAROM_CUSHION_HAN};
+      carom_motion out;
+      /* slow contacts have a rule of their own */
+      if (carom_cushion(&in, &han, &out) != CAROM_OK || in.v[0] * in.normal[0] + in.v[1] * in.normal[1] < 0.05)
+        continue;
+      for (int c = 0; c < 2; c++)
+        ck_assert_double_eq_tol(e->after[0].v[c], out.v[c], 1e-12);
+      for (int c = 0; c < 3; c++)
+        ck_assert_double_eq_tol(e->after[0].w[c], out.w[c], 1e-10);
+      met[jaw ? 4 + e->b : e->b]++;
+    }
+  }
+  for (int k = 0; k < 6; k++)
+    ck_assert_msg(met[k] >= 3, "part %d was met %d times", k, met[k]);
+}
+END_TEST
+
 /* A bound ends a shot while balls with drag roll: the states at the end are those of carom_shot_at(). */
 START_TEST(bounds_with_drag) {
   static random_shot s;
@@ -333,8 +394,8 @@ END_TEST
 /* Field `name` of a kind; the fields are doubles without gaps. */
 static double *field_of(carom_ball_kind *kind, const char *name) {
   static const char *const names[] = {
-      "mass",    "radius", "mu_slide",  "mu_roll", "mu_spin", "mu_ball", "restitution", "mu_cushion", "restitution_cushion",
-      "gravity", "drag",   "roll_loss", "law_a",   "law_b",   "law_c",   "nose_height", "omega_ratio"};
+      "mass",    "radius", "mu_slide",  "mu_roll", "mu_spin", "mu_ball", "restitution", "mu_cushion",  "restitution_cushion",
+      "gravity", "drag",   "roll_loss", "law_a",   "law_b",   "law_c",   "nose_height", "omega_ratio", "restitution_table"};
   ck_assert_uint_eq(sizeof names / sizeof names[0] * sizeof(double), sizeof *kind);
   for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
     if (strcmp(names[k], name) == 0)
@@ -369,7 +430,7 @@ START_TEST(constants) {
     lines++;
   }
   fclose(file);
-  ck_assert_int_eq(lines, 5 * 10 + 13);
+  ck_assert_int_eq(lines, 5 * 10 + 15);
   for (int g = 0; g < 6; g++) {
     const carom_ball_kind there = carom_ball_kind_of((carom_game)g);
     for (size_t k = 0; k < sizeof there / sizeof(double); k++) {
@@ -380,7 +441,59 @@ START_TEST(constants) {
 }
 END_TEST
 
+static int by_size(const void *a, const void *b) {
+  return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
+}
+
+/* The cushion of the kind of snooker, for Han's model, does to rolling balls what the exact model does with the numbers that
+ * were measured: within 3 % of the speed in the median and 4 % in 9 of 10, up to 70 degrees from the normal, side spin up to
+ * half of v. */
+START_TEST(snooker_cushion_of_both_models) {
+  enum { COUNT = 2000 };
+  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_SNOOKER);
+  static double off[COUNT];
+  for (int n = 0; n < COUNT; n++) {
+    const double angle = 70.0 / 57.29577951308232 * (2.0 * (n + 0.5) / COUNT - 1.0), R = kind.radius;
+    carom_cushion_impact in = {.v = {sin(angle), cos(angle)},
+                               .w = {-cos(angle) / R, sin(angle) / R, (0.1 * (n % 11) - 0.5) / R},
+                               .normal = {0.0, 1.0},
+                               .radius = R,
+                               .mass = kind.mass,
+                               .mu_cloth = kind.mu_slide};
+    carom_motion out[2];
+    in.height = kind.nose_height, in.mu_cushion = kind.mu_cushion, in.restitution = kind.restitution_cushion;
+    ck_assert_int_eq(carom_cushion(&in, &(carom_cushion_options){.model = CAROM_CUSHION_HAN}, &out[0]), CAROM_OK);
+    in.height = 1.4 * R, in.mu_cushion = 0.14, in.restitution = 0.98;
+    ck_assert_int_eq(carom_cushion(&in, NULL, &out[1]), CAROM_OK);
+    off[n] = hypot(out[0].v[0] - out[1].v[0], out[0].v[1] - out[1].v[1]);
+  }
+  qsort(off, COUNT, sizeof *off, by_size);
+  ck_assert_msg(off[COUNT / 2] < 0.03 && off[COUNT * 9 / 10] < 0.04, "%.4f in the median, %.4f in 9 of 10", off[COUNT / 2],
+                off[COUNT * 9 / 10]);
+}
+END_TEST
+
+/* A shot by default has Han's cushions in the world carom, and Stronge's in pooltool. */
+START_TEST(default_cushions) {
+  carom_table table;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  const carom_shot_ball ball = rolling(0.6, 1.0, 3.0, 0.3);
+  for (int world = CAROM_WORLD_CAROM; world <= CAROM_WORLD_POOLTOOL; world++) {
+    carom_ball_state rest[2];
+    for (int named = 0; named < 2; named++) {
+      const carom_shot_cushion model = world == CAROM_WORLD_CAROM ? CAROM_SHOT_CUSHION_HAN : CAROM_SHOT_CUSHION_STRONGE;
+      const carom_shot_options options = {.world = (carom_world)world,
+                                          .cushion_model = named ? model : CAROM_SHOT_CUSHION_DEFAULT};
+      carom_shot shot = {.events = events, .room = ROOM, .final = &rest[named]};
+      ck_assert_int_eq(carom_shoot(&table, &ball, 1, NULL, &options, &shot), CAROM_OK);
+      ck_assert_ptr_nonnull(first_of(&shot, CAROM_EVENT_RAIL));
+    }
+    ck_assert_mem_eq(&rest[0], &rest[1], sizeof *rest);
+  }
+}
+END_TEST
+
 int main(void) {
-  return RUN_TESTS("terms", drag_of_a_ball_alone, invariants_with_all_terms, loss_of_roll, law_of_friction, noses,
-                   bounds_with_drag, constants);
+  return RUN_TESTS("terms", snooker_cushion_of_both_models, default_cushions, drag_of_a_ball_alone, invariants_with_all_terms,
+                   loss_of_roll, law_of_friction, noses, each_part_has_its_own, bounds_with_drag, constants);
 }

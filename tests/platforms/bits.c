@@ -11,6 +11,7 @@
 #include <carom_shot.h>
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -308,14 +309,26 @@ static void shots(void) {
                 {"han", {.cushion_model = CAROM_SHOT_CUSHION_HAN, .friction = CAROM_FRICTION_CONSTANT}},
                 {"mirror", {.cushion_model = CAROM_SHOT_CUSHION_MIRROR, .ball_model = CAROM_BALL_MODEL_INELASTIC}},
                 {"euler", {.cushion_model = CAROM_SHOT_CUSHION_EULER, .ball_model = CAROM_BALL_MODEL_EULER, .steps = 100}},
-                {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}}};
+                {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}},
+                {"mathavan", {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN}}};
   static carom_event events[ROOM];
   static carom_shot_ball balls[CAROM_BALLS_MOST];
   static carom_ball_state final[CAROM_BALLS_MOST], later[CAROM_BALLS_MOST];
   static carom_table table;
   state = 4;
-  for (int n = 0; n < 36; n++) { /* the measured ones behind the others, whose draws they leave as they are */
-    const int m = n < 24 ? n / 4 : n / 2 - 12, g = n < 24 ? n % 4 : 4 + n % 2;
+  for (int n = 0; n < 72;
+       n++) { /* the measured ones, then mathavan, behind the others, whose draws they leave as they are; then in space */
+    const bool space = n >= 42;
+    const int m = space    ? (n - 42) / 6
+                  : n < 24 ? n / 4
+                  : n < 36 ? n / 2 - 12
+                           : 6,
+              g = space    ? (n - 42) % 6
+                  : n < 24 ? n % 4
+                  : n < 36 ? 4 + n % 2
+                           : n - 36;
+    carom_shot_options options = models[m].options;
+    options.space = space ? CAROM_SPACE_3D : CAROM_SPACE_FLAT;
     uint64_t hash = START;
     carom_table_make(games[g].table, &table);
     for (int k = 0; k < SHOTS; k++) {
@@ -331,19 +344,21 @@ static void shots(void) {
       cue.a = between(-0.4, 0.4);
       cue.b = between(-0.4, 0.4);
       carom_shot shot = {.events = events, .room = ROOM, .final = final};
-      const carom_status status = carom_shoot(&table, balls, count, &cue, &models[m].options, &shot);
+      const carom_status status = carom_shoot(&table, balls, count, &cue, &options, &shot);
       hash = add_shot(hash, &shot, count, status);
       if (carom_shot_at(balls, count, &shot, 1.25, later) == CAROM_OK)
         for (int i = 0; i < count; i++)
           hash = add_state(hash, &later[i]);
     }
     char what[100];
-    snprintf(what, sizeof what, "shots: %s, %s", games[g].name, models[m].name);
+    snprintf(what, sizeof what, "shots%s: %s, %s", space ? " in space" : "", games[g].name, models[m].name);
     show(what, hash);
   }
 }
 
 int main(int argc, char **argv) {
+  if (argc > 1 && strcmp(argv[1], "revision") == 0)
+    return printf("%d\n", carom_physics_revision()) < 0;
   const int numbers = argc > 1 && strcmp(argv[1], "numbers") == 0;
   if (argc == 1)
     carom_isa_limit(CAROM_ISA_PLAIN);

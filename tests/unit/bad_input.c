@@ -173,7 +173,10 @@ START_TEST(bad_options) {
       {{.steps = -5}, CAROM_ERROR_STEPS},
       {{.threads = -2}, CAROM_ERROR_THREADS},
       {{.reserved = {1}}, CAROM_ERROR_OPTIONS},
-      {{.reserved = {[5] = (uint64_t)1 << 63}}, CAROM_ERROR_OPTIONS},
+      {{.reserved = {[4] = (uint64_t)1 << 63}}, CAROM_ERROR_OPTIONS},
+      {{.plain = 2}, CAROM_ERROR_OPTIONS},
+      {{.plain = -1}, CAROM_ERROR_OPTIONS},
+      {{.unused = 1}, CAROM_ERROR_OPTIONS},
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     ck_assert_int_eq(carom_collide(&in, &cases[k].options, &out), cases[k].status);

@@ -104,6 +104,12 @@ START_TEST(touching) {
   ck_assert(isinf(carom_first_contact(&d, reach, 1e-12, 1.9)));
   d.d0[0] -= 1e-14; /* and with a trace of an overlap */
   ck_assert_double_eq_tol(carom_first_contact(&d, reach, 1e-12, 9.0), 2.0, 1e-12);
+  /* away along the tangent but for a trace that rounding leaves, and back: 0.6 t^2 - 0.6 t^3 + 0.13 t^4 */
+  carom_separation tangent = {{1.0, 0.0}, {0.0, 1.0}, {-0.2, -0.3}};
+  for (int k = 0; k < 4; k++) {
+    tangent.d1[0] = (double[]){0.0, 4e-19, 1e-17, -1e-19}[k];
+    ck_assert_double_eq_tol(carom_first_contact(&tangent, 1.0, 1e-12, 3.0), (0.6 - sqrt(0.048)) / 0.26, 1e-9);
+  }
   const double g[3] = {0.0, 1.0, -0.5}, parting[3] = {-1e-15, 1.0, 0.1}, closing[3] = {1e-13, -1e-9, 0.0};
   ck_assert_double_eq_tol(carom_first_touch(g, 1e-12, 9.0), 2.0, 1e-15);
   ck_assert(isinf(carom_first_touch(parting, 1e-12, 9.0)));

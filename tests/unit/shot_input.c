@@ -92,7 +92,19 @@ START_TEST(kinds) {
     REFUSED(balls[9].kind.law_b, outside[k], CAROM_ERROR_MU_BALL, 9);
     REFUSED(balls[9].kind.law_c, k == 2 ? INFINITY : outside[k], CAROM_ERROR_MU_BALL, 9);
   }
-  REFUSED(balls[3].kind.radius, 0.03, CAROM_ERROR_RADII_DIFFER, 3);
+  /* balls of two radii: in space only, and both on the cloth */
+  set_up();
+  balls[3].kind.radius = balls[3].state.r[2] = 0.028;
+  expect(CAROM_OK, -1);
+  options.space = CAROM_SPACE_FLAT;
+  expect(CAROM_ERROR_RADII_DIFFER, 3);
+  REFUSED(balls[3].kind.radius, 0.03, CAROM_ERROR_OFF_TABLE, 3);
+  const double slate[] = {NAN, -0.5, 0.99, 1.0, -1.1};
+  for (int k = 0; k < 5; k++)
+    REFUSED(balls[9].kind.restitution_table, slate[k], CAROM_ERROR_RESTITUTION, 9);
+  set_up();
+  balls[9].kind.restitution_table = -1.0;
+  expect(CAROM_OK, -1);
   set_up();
   balls[3].kind.mass *= 1.1;
   expect(CAROM_OK, -1);
@@ -107,11 +119,46 @@ START_TEST(states) {
     REFUSED(balls[2].state.v[axis], INFINITY, CAROM_ERROR_VELOCITY, 2);
     REFUSED(balls[2].state.w[axis], NAN, CAROM_ERROR_SPIN, 2);
   }
-  REFUSED(balls[2].state.v[2], 0.1, CAROM_ERROR_VERTICAL, 2);
-  REFUSED(balls[2].state.r[2], 0.05, CAROM_ERROR_OFF_TABLE, 2);
+  set_up();
+  options.space = CAROM_SPACE_FLAT;
+  balls[2].state.v[2] = 0.1;
+  expect(CAROM_ERROR_VERTICAL, 2);
+  balls[2].state.v[2] = 0.0;
+  balls[2].state.r[2] = 0.05;
+  expect(CAROM_ERROR_OFF_TABLE, 2);
+  balls[2].state.r[2] = balls[2].kind.radius;
+  for (int label = CAROM_BALL_AIRBORNE; label <= CAROM_BALL_OFF; label++) {
+    balls[2].state.label = label;
+    expect(CAROM_ERROR_LABEL, 2);
+  }
+  /* in space a ball may be above the cloth, and move up and down; in no cushion, nor on top of another ball by less than 2 R */
+  set_up();
+  balls[2].state.v[2] = -0.1;
+  balls[2].state.r[2] = 0.05;
+  balls[3].state.label = CAROM_BALL_OFF;
+  expect(CAROM_OK, -1);
+  REFUSED(balls[2].state.r[2], 0.0285, CAROM_ERROR_OFF_TABLE, 2);
+  REFUSED(balls[2].state.label, 7, CAROM_ERROR_LABEL, 2);
+  set_up();
+  balls[2].state.r[0] = 0.02; /* over the nose, which is 1.1 mm inside, by less than a radius */
+  balls[2].state.r[2] = 0.05;
+  expect(CAROM_ERROR_OFF_TABLE, 2);
+  balls[2].state.r[2] = 0.066;
+  expect(CAROM_OK, -1);
+  balls[2].state.r[0] = -0.05; /* over the rail */
+  expect(CAROM_OK, -1);
+  balls[2].state.r[2] = 0.064; /* in its top */
+  expect(CAROM_ERROR_OFF_TABLE, 2);
+  balls[2].state.r[0] = -0.5; /* beyond it */
+  expect(CAROM_ERROR_OFF_TABLE, 2);
+  set_up();
+  balls[4].state = balls[1].state;
+  balls[4].state.r[2] += 1.99 * balls[1].kind.radius;
+  expect(CAROM_ERROR_OVERLAP, 4);
+  balls[4].state.r[2] += 0.02 * balls[1].kind.radius;
+  ck_assert_int_eq(carom_shot_check(&table, balls, 10, &cue, &options, NULL), CAROM_OK);
   REFUSED(balls[2].state.r[0], -0.5, CAROM_ERROR_OFF_TABLE, 2);
   REFUSED(balls[2].state.r[0], 0.01, CAROM_ERROR_OFF_TABLE, 2); /* in the rail */
-  REFUSED(balls[2].state.label, 5, CAROM_ERROR_LABEL, 2);
   REFUSED(balls[2].state.label, -1, CAROM_ERROR_LABEL, 2);
   set_up();
   balls[4].state = balls[1].state;
@@ -133,11 +180,27 @@ START_TEST(cues) {
   REFUSED(cue.ball, -1, CAROM_ERROR_CUE, -1);
   REFUSED(cue.a, 1.0, CAROM_ERROR_MISCUE, -1);
   REFUSED(cue.b, NAN, CAROM_ERROR_MISCUE, -1);
+  REFUSED(cue.miscue, -0.1, CAROM_ERROR_CUE, -1);
+  REFUSED(cue.miscue, 1.1, CAROM_ERROR_CUE, -1);
+  REFUSED(cue.miscue, NAN, CAROM_ERROR_CUE, -1);
+  set_up();
+  cue.a = 0.3;
+  cue.b = 0.4; /* at 0.5 */
+  cue.miscue = 0.50001;
+  expect(CAROM_OK, -1);
+  cue.miscue = 0.5;
+  expect(CAROM_ERROR_MISCUE, -1);
 }
 END_TEST
 
 START_TEST(tables) {
   REFUSED(table.rails, 33, CAROM_ERROR_TABLE, -1);
+  const double lengths[] = {NAN, -0.1, INFINITY};
+  for (int k = 0; k < 3; k++) {
+    REFUSED(table.ball_radius, lengths[k], CAROM_ERROR_TABLE, -1);
+    REFUSED(table.rail_width, lengths[k], CAROM_ERROR_TABLE, -1);
+    REFUSED(table.pocket_back, lengths[k], CAROM_ERROR_TABLE, -1);
+  }
   REFUSED(table.jaws, -1, CAROM_ERROR_TABLE, -1);
   REFUSED(table.pockets, 9, CAROM_ERROR_TABLE, -1);
   REFUSED(table.rail[4].p[0], NAN, CAROM_ERROR_TABLE, 4);
@@ -180,8 +243,11 @@ START_TEST(options_and_calls) {
   REFUSED(options.friction, (carom_ball_friction)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.friction, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.events_most, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.space, (carom_space)2, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.space, (carom_space)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.plain, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.unused, 1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.reserved[3], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.reserved[2], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.time_most, NAN, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.steps, -1, CAROM_ERROR_STEPS, -1);
   REFUSED(options.threads, -2, CAROM_ERROR_THREADS, -1);
@@ -290,6 +356,45 @@ START_TEST(bounds) {
   ck_assert_int_eq(shot.count, 0);
   ck_assert_int_eq(carom_shoot(&table, balls, 10, NULL, NULL, &shot), CAROM_OK);
   ck_assert_int_eq(shot.count, 0);
+}
+END_TEST
+
+/* Many times have the bits of one after another, in any order, with drag too; an error leaves the times before it written. */
+START_TEST(many_times) {
+  enum { TIMES = 400 };
+  static carom_event events[2000];
+  static carom_ball_state together[TIMES][10], alone[10];
+  double times[TIMES];
+  for (int drag = 0; drag < 2; drag++) {
+    set_up();
+    for (int i = 0; i < 10; i++)
+      balls[i].kind.drag = 0.02 * drag;
+    carom_shot shot = {.events = events, .room = 2000};
+    ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_OK);
+    ck_assert(shot.count > 20 && shot.count < 2000);
+    for (int order = 0; order < 3; order++) { /* forwards with every event among them, backwards, to and fro */
+      for (int k = 0; k < TIMES; k++) {
+        const double even = (k / (TIMES - 2.0)) * 1.1 * shot.time - 0.01;
+        times[order == 1 ? TIMES - 1 - k : k] = order == 2 && k % 3 == 0 ? shot.time - even : even;
+      }
+      for (int k = 0; order == 0 && k < 20; k++)
+        times[10 * k] = events[k].time;
+      ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, times, TIMES, together[0]), CAROM_OK);
+      for (int k = 0; k < TIMES; k++) {
+        ck_assert_int_eq(carom_shot_at(balls, 10, &shot, times[k], alone), CAROM_OK);
+        ck_assert_mem_eq(alone, together[k], sizeof alone);
+      }
+    }
+    times[0] = 0.5;
+    times[1] = NAN;
+    memset(together, 0, sizeof together);
+    ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, times, 2, together[0]), CAROM_ERROR_TIME);
+    ck_assert_int_eq(carom_shot_at(balls, 10, &shot, 0.5, alone), CAROM_OK);
+    ck_assert_mem_eq(alone, together[0], sizeof alone);
+    ck_assert_double_eq(together[1][0].r[2], 0.0);
+    ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, NULL, 0, NULL), CAROM_OK);
+    ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, NULL, 1, alone), CAROM_ERROR_NULL);
+  }
 }
 END_TEST
 
@@ -547,6 +652,6 @@ START_TEST(wild_shots) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, strikes_of_bad_balls, bounds, lost_ball,
-                   measures, places, wild_shots);
+  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, strikes_of_bad_balls, bounds, many_times,
+                   lost_ball, measures, places, wild_shots);
 }

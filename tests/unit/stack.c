@@ -1,7 +1,7 @@
 /* Every function runs on a thread with the smallest usual stack, 64 KiB, of which the C library takes its share too. The stack
  * is painted before, with a page that may not be touched below it; what lost its paint was used. */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
-#include "carom_shot.h"
+#include "every_function.h"
 #include "regimes.h"
 #include "support.h"
 
@@ -101,6 +101,16 @@ static void *shots(void *argument) {
   return argument;
 }
 
+/* One of every_function.h. */
+static every_input all_input;
+static every_room *all_room;
+static const struct every_function *one;
+
+static void *any_function(void *argument) {
+  one->body(&all_input, all_room);
+  return argument;
+}
+
 /* Bytes of a thread's stack that `body` takes. */
 static size_t stack_used(void *(*body)(void *)) {
   const size_t page = (size_t)sysconf(_SC_PAGESIZE);
@@ -173,6 +183,33 @@ START_TEST(each_function_fits_64_KiB) {
 }
 END_TEST
 
+/* Every function that the library exports, with threads where it starts any. */
+START_TEST(every_function_fits_64_KiB) {
+  every_function_is_there();
+  every_input_make(&all_input, 0, 3);
+  all_room = calloc(1, sizeof *all_room);
+  const size_t own = stack_used(nothing);
+  FOR_EACH_ISA(isa) {
+    size_t most = 0;
+    const char *of = "";
+    for (int k = 0; k < EVERY_COUNT; k++) {
+      one = &every_functions[k];
+      carom_isa_limit((carom_isa)isa); /* which one of the functions lifts */
+      const size_t used = stack_used(any_function);
+      ck_assert_msg(used < STACK, "%s", one->name);
+      if (used > most) {
+        most = used;
+        of = one->name;
+      }
+      if (isa == CAROM_ISA_PLAIN && used - own >= 4096)
+        printf("  %-24s %zu\n", one->name, used - own);
+    }
+    printf("  of all with %s %s takes most, %zu\n", carom_isa_name((carom_isa)isa), of, most - own);
+  }
+  free(all_room);
+}
+END_TEST
+
 int main(void) {
-  return RUN_TESTS("stack", each_function_fits_64_KiB);
+  return RUN_TESTS("stack", each_function_fits_64_KiB, every_function_fits_64_KiB);
 }

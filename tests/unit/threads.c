@@ -1,15 +1,19 @@
 /* Threads of the library: each row is worked on once, the first error is found wherever it is, and no signal handler of the
- * process runs on a thread that the process has not made. */
+ * process runs on a thread that the process has not made. And threads of the caller: every function may be called at once with
+ * all others, also in children forked meanwhile. */
 #define _GNU_SOURCE
 #include "platform/threads.h"
+#include "every_function.h"
 #include "support.h"
 
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 /* Rows of a made-up job: how often each was worked on, and which are in error. */
@@ -133,6 +137,94 @@ START_TEST(signals_stay_with_the_caller) {
 }
 END_TEST
 
+/* ---- Every public function at once */
+
+/* gcc and clang tell otherwise that a sanitizer is in. That of threads lets none start in a child of a process with threads;
+ * that of addresses may wait there for ever for a lock that another thread held at the fork. */
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#define SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
+#define SANITIZER 1
+#endif
+#endif
+#ifdef SANITIZER
+enum { CHILD_THREADS = 0 };
+#else
+enum { CHILD_THREADS = 3 };
+#endif
+
+enum { CALLERS = 16, ROUNDS = 4, FORKS = 12, INPUTS = 4 };
+static every_input shared[INPUTS];
+static uint64_t alone[INPUTS][EVERY_COUNT];
+static atomic_int others[EVERY_COUNT], calling;
+
+static void *call_all(void *argument) {
+  const int number = *(const int *)argument, with = number % INPUTS;
+  random_source r = {test_seed() + (uint64_t)number};
+  every_room *room = calloc(1, sizeof *room);
+  for (int n = 0; n < ROUNDS * EVERY_COUNT; n++) {
+    const int k = (int)random_between(&r, 0.0, EVERY_COUNT);
+    if (every_functions[k].body(&shared[with], room) != alone[with][k])
+      atomic_fetch_add(&others[k], 1);
+  }
+  free(room);
+  atomic_fetch_sub(&calling, 1);
+  return NULL;
+}
+
+/* How many functions have other results in a child that is made while the threads are at work. */
+static int in_a_child(every_room *room, every_input *copy) {
+  const pid_t child = fork();
+  ck_assert_int_ge(child, 0);
+  if (child == 0) {
+    int bad = 0;
+    copy->threads = CHILD_THREADS;
+    for (int k = 0; k < EVERY_COUNT; k++)
+      bad += every_functions[k].body(copy, room) != alone[0][k];
+    _exit(bad);
+  }
+  int status;
+  ck_assert_int_eq(waitpid(child, &status, 0), child);
+  ck_assert_msg(WIFEXITED(status), "the child ended by signal %d", WTERMSIG(status));
+  return WEXITSTATUS(status);
+}
+
+/* 16 threads call all functions in random order, and get what each call gives alone; so do children forked in between. */
+START_TEST(every_function_at_once) {
+  every_function_is_there();
+  every_room *room = calloc(1, sizeof *room);
+  every_input *copy = malloc(sizeof *copy);
+  for (int with = 0; with < INPUTS; with++) {
+    every_input_make(&shared[with], with, 0);
+    for (int k = 0; k < EVERY_COUNT; k++)
+      alone[with][k] = every_functions[k].body(&shared[with], room);
+    shared[with].threads = 3;
+  }
+  memcpy(copy, &shared[0], sizeof *copy);
+  pthread_t thread[CALLERS];
+  int number[CALLERS];
+  atomic_store(&calling, CALLERS);
+  for (int k = 0; k < CALLERS; k++) {
+    number[k] = k;
+    ck_assert_int_eq(pthread_create(&thread[k], NULL, call_all, &number[k]), 0);
+  }
+  int children = 0;
+  for (; children < FORKS && atomic_load(&calling) > 0; children++)
+    ck_assert_int_eq(in_a_child(room, copy), 0);
+  for (int k = 0; k < CALLERS; k++)
+    pthread_join(thread[k], NULL);
+  for (int k = 0; k < EVERY_COUNT; k++)
+    ck_assert_msg(atomic_load(&others[k]) == 0, "%s had other results %d times", every_functions[k].name,
+                  atomic_load(&others[k]));
+  ck_assert_int_gt(children, 0);
+  printf("%d threads called %d functions, %d times each in the mean; %d children between\n", CALLERS, EVERY_COUNT, ROUNDS,
+         children);
+  free(copy);
+  free(room);
+}
+END_TEST
+
 int main(void) {
-  return RUN_TESTS("threads", each_row_once, few_rows_are_shared, signals_stay_with_the_caller);
+  return RUN_TESTS("threads", each_row_once, few_rows_are_shared, signals_stay_with_the_caller, every_function_at_once);
 }

@@ -23,6 +23,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from carom._carom import lib
+from carom._rows import pointer
 from carom.dtypes import Doubles, Records
 
 if TYPE_CHECKING:
@@ -132,30 +134,11 @@ def _sigma(speed: Doubles) -> Doubles:
 def _cuts(track: Doubles, weight: Doubles) -> list[tuple[int, int]]:
     """First row and end of each piece of a track, (rows, 3), with weights 1/s^2."""
     n = len(track)
-    best, back = np.full(n + 1, np.inf), np.zeros(n + 1, int)
-    best[0] = 0.0
-    powers = np.arange(5)[:, None]
-    for j in range(1, n + 1):
-        # sums over the last 1, 2, ... samples before j, from the last one as origin, which keeps digits
-        i = np.arange(j - 1, max(-1, j - 1 - _LONGEST), -1)
-        w, u = weight[i], track[i, 0] - track[j - 1, 0]
-        s = np.cumsum(w * u**powers, axis=1)
-        chi2 = np.zeros(len(i))
-        several, enough = np.arange(len(i)) >= 1, np.arange(len(i)) >= 2
-        # chi^2 of the quadratic: what is left after the projections on 1, u, u^2, made orthogonal one after another
-        p11, p12 = s[2] - s[1] ** 2 / s[0], s[3] - s[1] * s[2] / s[0]
-        p11 = np.where(several, p11, 1.0)
-        p22 = np.where(enough, s[4] - s[2] ** 2 / s[0] - p12**2 / p11, 1.0)
-        for column in (1, 2):
-            d = track[i, column] - track[j - 1, column]
-            q = np.cumsum(w * d * u ** powers[:3], axis=1)
-            q1 = q[1] - s[1] * q[0] / s[0]
-            q2 = q[2] - s[2] * q[0] / s[0] - p12 * q1 / p11
-            left = np.cumsum(w * d * d) - q[0] ** 2 / s[0] - np.where(several, q1**2 / p11, 0.0)
-            chi2 += np.maximum(left - np.where(enough, q2**2 / np.where(p22 > 0.0, p22, 1.0), 0.0), 0.0)
-        total = best[i] + chi2 + _PENALTY + 4.0 * np.maximum(2 - np.arange(len(i)), 0)
-        least = int(np.argmin(total))
-        best[j], back[j] = total[least], i[least]
+    best, back = np.empty(n + 1), np.zeros(n + 1, np.int32)
+    lib.carom_python_cuts(
+        pointer("double[]", np.ascontiguousarray(track)), pointer("double[]", np.ascontiguousarray(weight)), n, _LONGEST, _PENALTY,
+        pointer("double[]", best), pointer("int32_t[]", back),
+    )  # fmt: skip
     cuts: list[tuple[int, int]] = []
     j = n
     while j > 0:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import operator
 import os
 import time
 from collections.abc import Callable
-from typing import Any
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
@@ -98,8 +100,46 @@ def in_chunks(n: int, seconds: float, threads: int, call: Callable[[int, int], i
     return status
 
 
+def spread(threads: int, call: Callable[[int, int], int]) -> Callable[[int, int], int]:
+    """The same call, its rows shared among threads, for C that has none of its own: a call of C lets other threads run."""
+    hands = workers(threads) if threads else 1
+    if hands == 1:
+        return call
+
+    def shared(begin: int, many: int) -> int:
+        ends = [begin + many * hand // hands for hand in range(hands + 1)]
+        sizes = [after - before for before, after in zip(ends, ends[1:])]
+        with ThreadPoolExecutor(hands) as pool:
+            return min(pool.map(call, ends[:-1], sizes))
+
+    return shared
+
+
+def addresses(array: Array, leading: int) -> npt.NDArray[np.uintp]:
+    """Where each row of an array begins, of shape (rows,): what its first `leading` indices choose, in C order."""
+    offsets: Array = np.zeros((), np.intp)
+    for size, stride in zip(array.shape[:leading], array.strides[:leading], strict=True):
+        offsets = offsets[..., np.newaxis] + np.arange(size) * stride
+    return (array.ctypes.data + offsets.reshape(-1)).astype(np.uintp)
+
+
+def one_or_all(array: Array, shape: tuple[int, ...], leading: int) -> tuple[Array, bool]:
+    """The rows of an array that is broadcast to a shape: the one row that all are, and True; or all of them, in C order."""
+    wide = np.broadcast_to(array, shape)
+    if all(stride == 0 or size == 1 for size, stride in zip(wide.shape[:leading], wide.strides[:leading], strict=True)):
+        return np.ascontiguousarray(wide[(slice(0, 1),) * leading]), True
+    return np.ascontiguousarray(wide), False
+
+
 pointer: Any = ffi.from_buffer
 """pointer(ctype, array): the array's memory as a C array, which keeps the array alive."""
+
+
+def whole(value: object, name: str, least: int = 0, most: int = 2**31 - 1) -> int:
+    """A whole number between bounds; anything else is refused by its name."""
+    if isinstance(value, SupportsIndex) and least <= operator.index(value) <= most:
+        return operator.index(value)
+    raise ValueError(f"{name}: it must be a whole number from {least} to {most}, not {value!r}")
 
 
 def choice(names: dict[str, int], value: str, option: str) -> int:

@@ -36,10 +36,11 @@ EARLIEST, LATEST = -0.03, 0.08  # of a strike on the clock of the recording, s
 _SPIN_MOST = 2.0  # greatest |R w| of a strike over |v|: a tip that does not slip gives 1.3
 _NUMBERS = 6
 # The first stage: samples up to a time (s), how many starts descend, and iterations.
-_FIRST, _FIRST_KEPT, _FIRST_ITERATIONS = 0.9, 16, 4
+_FIRST, _FIRST_KEPT, _FIRST_ITERATIONS = 0.9, 8, 4
 # The others: samples up to a time (s), offspring of each strike, how many of all descend, iterations, how many go on.
 _STAGES = tuple((until, 30, 3, 4, 3) for until in (2.0, 4.0, 8.0, np.inf))
 _WIDER = 10.0  # standard deviations of the widest offspring
+_FINALISTS = 3  # which the best by plain squares is of
 _LAST, _SQUARES = 10, 10  # iterations at the end, by the cost and by plain squares
 
 
@@ -293,15 +294,13 @@ def _offspring(of: Integers, strikes: Doubles, sums: Doubles, each: int, random:
     return np.repeat(of, each), _allowed(tried.reshape(-1, _NUMBERS))
 
 
-def polish(plays: Plays, strikes: Doubles) -> Doubles:
-    """Descends by the plain squares, whose mean the RMSE is, from strikes of all shots, (shots, 6)."""
-    of = np.arange(len(strikes), dtype=np.int32)
-    better, _ = descend(plays, of, strikes, plays.ends, _SQUARES, huber=0.0)
-    return np.where((plays.rmse(better) < plays.rmse(strikes))[:, None], better, strikes)
+def find(
+    plays: Plays, seed: int = 0, progress: Callable[[str, float], None] | None = None, *, squares: bool = False
+) -> tuple[Doubles, Doubles]:
+    """The strikes of all shots, (shots, 6), and their costs, (shots,): infinite where no start could be played.
 
-
-def find(plays: Plays, seed: int = 0, progress: Callable[[str, float], None] | None = None) -> tuple[Doubles, Doubles]:
-    """The strikes of all shots, (shots, 6), and their costs, (shots,): infinite where no start could be played."""
+    With `squares`, those of the least plain squares, which the RMSE is made of; the best few by the cost descend by these in the end.
+    """
     random = np.random.default_rng(seed)
     first = [starts(shot) for shot in plays.recordings]
     of = np.repeat(np.arange(len(first), dtype=np.int32), [len(rows) for rows in first])
@@ -322,9 +321,13 @@ def find(plays: Plays, seed: int = 0, progress: Callable[[str, float], None] | N
         rows = _best(of, strikes, plays.misfit(of, strikes, until[of], -np.inf)[:, 0], descending)
         of = of[rows]
         strikes, sums = descend(plays, of, strikes[rows], until[of], iterations)
-        rows = _best(of, strikes, sums[:, 0], keep if number + 1 < len(_STAGES) else 1)
+        rows = _best(of, strikes, sums[:, 0], keep if number + 1 < len(_STAGES) else _FINALISTS if squares else 1)
     of = of[rows]
     strikes, sums = descend(plays, of, strikes[rows], plays.ends[of], _LAST)
+    if squares:
+        strikes, sums = descend(plays, of, strikes, plays.ends[of], _SQUARES, huber=0.0)
+        rows = _best(of, strikes, sums[:, 0], 1)
+        of, strikes, sums = of[rows], strikes[rows], sums[rows]
     found, cost = np.full((len(first), _NUMBERS), np.nan), np.full(len(first), np.inf)
     found[of], cost[of] = strikes, sums[:, 0]
     return found, cost

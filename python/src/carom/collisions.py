@@ -60,7 +60,7 @@ def impacts(
     mu_ball: npt.ArrayLike = 0.05,
     restitution: npt.ArrayLike = 0.95,
 ) -> dtypes.Records:
-    """Impacts for `collide`, from fields that are broadcast against each other.
+    """Build impacts for `collide`. The fields are broadcast against each other.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def impacts(
     w_a, w_b : array_like, shape (..., 3)
         Angular velocities, rad/s.
     radius : array_like, shape (...)
-        Of both balls, m. The defaults of this and what follows are those of pool balls.
+        Radius of both balls, m. The defaults of this and all later arguments are those of pool balls.
     mass, mass_b : array_like, shape (...)
         Masses, kg; `mass_b` is `mass` if it is not given.
     mu_cloth, mu_cloth_b : array_like, shape (...)

@@ -76,6 +76,8 @@ table: Record = _record("carom_table")
 """A table: any geometry."""
 event: Record = _record("carom_event")
 """An event of a shot: time (s), type (`carom.EventType`), a, b, before and after (two ball states each)."""
+brief_event: Record = _record("carom_brief_event")
+"""An event without states, 24 bytes: time (s), type (`carom.EventType`), a, b."""
 shot: Record = _record("carom_shot")
 """What a shot gives, with the addresses of its arrays: for the calls of C."""
 
@@ -105,3 +107,23 @@ def plain(records: Records) -> Doubles:
         raise TypeError(f"records: {which} integers, but rows of float64 were asked for; take the fields by their names")
     numbers = np.ascontiguousarray(records).reshape(-1).view(np.float64)
     return numbers.reshape((*records.shape, records.dtype.itemsize // 8))
+
+
+def columns(records: Records) -> dict[str, npt.NDArray[Any]]:
+    """The numbers of records of shape (n,) as columns of shape (n,), for pandas and other tables: `DataFrame(columns(records))`.
+
+    The name of a column joins those of its parts: state_r_x, before_a_v_y. Vectors have x, y, z, pairs of states a, b.
+    """
+    if records.dtype.names is None or records.ndim != 1:
+        raise TypeError(f"records: a structured array of shape (n,) is needed, not of {records.dtype} and shape {records.shape}")
+    found: dict[str, npt.NDArray[Any]] = {}
+    for name in records.dtype.names:
+        field: npt.NDArray[Any] = records[name]
+        parts = {name: field}
+        if field.ndim == 2:
+            letters = "xyz" if field.dtype.names is None else "ab"
+            parts = {f"{name}_{letter}": field[:, k] for k, letter in enumerate(letters[: field.shape[1]])}
+        for part, values in parts.items():
+            inner = {part: values} if values.dtype.names is None else columns(values)
+            found |= {own if own == part else f"{part}_{own}": column for own, column in inner.items()}
+    return found

@@ -295,7 +295,7 @@ def fit(
                 progress("spread", _joint.STAGES / (_joint.STAGES + 2))
             spread = {**spread, **saved.get("spread", lambda: _joint.spread(search, seed))}
         plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
-        strikes[played] = _strikes.polish(plays, _strikes.find(plays, seed, progress)[0])
+        strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
         saved.done()
     part = None if train is None else [k in set(train) for k in range(len(recordings))]

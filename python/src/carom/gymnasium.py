@@ -19,6 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, pictures
+from carom._draws import Draws, Games
 from carom.pixels import Pixels, pixels
 from carom.potting import Potting, Strokes
 
@@ -38,10 +39,16 @@ RenderMode = Literal["rgb_array", "svg"]
 _RENDER_MODES = ("rgb_array", "svg")
 _OPTIONS = {"layout", "strokes"}
 _Bools = npt.NDArray[np.bool_]
+_ONE: Games = np.zeros(1, np.int64)
+
+
+def _raw(records: dtypes.Records) -> npt.NDArray[Any]:
+    """The same memory without fields, which NumPy copies ten times as fast where it is indexed."""
+    return records.view(f"V{records.dtype.itemsize}")
 
 
 class _Games:
-    """The state of games, and what both environments do with it. Each game has a generator of its own, given by the caller."""
+    """The state of games, and what both environments do with it. Each game has random numbers of its own."""
 
     def __init__(self, rules: Potting, games: int, render_mode: str | None) -> None:
         if render_mode is not None and render_mode not in _RENDER_MODES:
@@ -50,32 +57,47 @@ class _Games:
         self.balls: dtypes.Records = np.zeros((games, rules.balls + 1), dtypes.shot_ball)
         self.left: npt.NDArray[np.int64] = np.zeros(games, np.int64)
         self.ended: _Bools = np.ones(games, np.bool_)
-        # The last stroke, to be drawn.
+        self.draws = Draws(np.random.SeedSequence().generate_state(games, np.uint64))
+        # The last stroke, where it may be drawn.
+        self.drawn = render_mode is not None
         self.before = self.balls.copy()
-        self.actions: list[dtypes.Doubles | None] = [None] * games
+        self.actions: dtypes.Doubles = np.zeros((games, 4))
+        self.struck: _Bools = np.zeros(games, np.bool_)
 
-    def reset(self, game: int, generator: np.random.Generator, layout: npt.ArrayLike | None, strokes: int | None) -> None:
-        """Begin one game."""
+    def begin(self, games: Games, layouts: Sequence[Any] | None = None, strokes: int | None = None) -> None:
+        """Begin some games, at random or with the centres of balls; each goes on with its own random numbers."""
         if strokes is not None and not 1 <= strokes <= self.rules.strokes:
             raise ValueError(f"strokes: must be 1 to {self.rules.strokes}, that of the environment, not {strokes}")
-        self.balls[game] = self.rules.deal(generator, layout)
-        self.left[game] = self.rules.strokes if strokes is None else strokes
-        self.ended[game] = False
-        self.before[game] = self.balls[game]
-        self.actions[game] = None
-
-    def play(self, games: npt.NDArray[np.int64], actions: dtypes.Doubles, generators: Sequence[np.random.Generator]) -> Strokes:
-        """One stroke of each of some games."""
+        given = None if layouts is None else np.stack([self.rules.layout(layout) for layout in layouts])
+        self.balls[games] = self.rules.deal(self.draws, games)
+        if given is not None:
+            self.balls["state"][games] = given["state"]
+        self.left[games] = self.rules.strokes if strokes is None else strokes
+        self.ended[games] = False
         self.before[games] = self.balls[games]
-        strokes = self.rules.play(self.before[games], actions)
+        self.struck[games] = False
+
+    def play(self, games: Games, actions: dtypes.Doubles) -> Strokes:
+        """One stroke of each of some games."""
+        # Where all games play, nothing is copied but by the stroke itself.
+        everyone = len(games) == len(self.balls)
+        before = self.balls if everyone else _raw(self.balls)[games].view(dtypes.shot_ball)
+        done = self.rules.disturbed(actions, self.draws, games)
+        strokes = self.rules.play(before, done)
         self.left[games] -= 1
         self.ended[games] = self.rules.ended(strokes.layouts, self.left[games])
-        self.balls[games] = strokes.layouts
-        for k in range(len(games)):
-            game = int(games[k])
-            self.actions[game] = np.array(actions[k])
-            if strokes.scratch[k]:
-                self.rules.put_back(self.balls[game], generators[game])
+        if self.drawn:
+            _raw(self.before)[games] = _raw(before)
+        if everyone:
+            self.balls = strokes.layouts
+        else:
+            _raw(self.balls)[games] = _raw(strokes.layouts)
+        self.actions[games], self.struck[games] = done, True
+        back = games[strokes.scratch]
+        if len(back):
+            balls = self.balls[back]
+            self.rules.put_back(balls, self.draws, back)
+            self.balls[back] = balls
         return strokes
 
     def observe(self) -> dtypes.Doubles:
@@ -85,7 +107,7 @@ class _Games:
         """The picture of one game: its balls and the paths of its last stroke."""
         if mode is None:
             return None
-        shot = self.rules.shot(self.before[game], self.actions[game])
+        shot = self.rules.shot(self.before[game], self.actions[game] if self.struck[game] else None)
         if mode == "svg":
             return pictures.picture(self.rules.table, shot)
         return pixels(self.rules.table, self.balls[game], shot)
@@ -95,6 +117,11 @@ def _spaces(rules: Potting) -> tuple[Any, Any]:
     """Of one game: that of observations, that of actions. Versions of gymnasium differ in what type a Box has."""
     low, high = rules.bounds()
     return spaces.Box(low, high, dtype=np.float64), spaces.Box(-1.0, 1.0, (4,), dtype=np.float64)
+
+
+def _key(generator: np.random.Generator) -> int:
+    """What the random numbers of a game with a seed begin with."""
+    return int(generator.integers(2**63))
 
 
 def _checked(options: dict[str, Any] | None) -> dict[str, Any]:
@@ -121,8 +148,8 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
     Notes
     -----
     `info` after a stroke: potted (int), scratch (bool), status (int, as `carom.Status`), time (s). Options of `reset`: layout, the
-    centres (m) of shape (balls + 1, 2), the cue ball first; strokes, at most those of the environment. There is no truncation: how
-    many strokes are left is a part of what is observed.
+    centres (m) of shape (balls + 1, 2), the cue ball first; strokes, at most those of the environment. There is no truncation:
+    the observation contains the number of strokes left.
     """
 
     metadata: dict[str, Any] = {"render_modes": list(_RENDER_MODES), "render_fps": 1}
@@ -134,10 +161,13 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         self._games = _Games(self.rules, 1, render_mode)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dtypes.Doubles, dict[str, Any]]:
-        """Begin a game: a layout drawn from the seed, or from the generator as it stands."""
+        """Begin a game: a layout drawn from the seed, or from the game's random numbers as they stand."""
         super().reset(seed=seed)
         given = _checked(options)
-        self._games.reset(0, self.np_random, given.get("layout"), given.get("strokes"))
+        layout = given.get("layout")
+        if seed is not None:
+            self._games.draws.begin(_ONE, _key(self.np_random))
+        self._games.begin(_ONE, None if layout is None else [layout], given.get("strokes"))
         return self._games.observe()[0], {}
 
     def step(self, action: npt.ArrayLike) -> tuple[dtypes.Doubles, float, bool, bool, dict[str, Any]]:
@@ -149,7 +179,7 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         """
         if self._games.ended[0]:
             raise gymnasium.error.ResetNeeded("the game has ended, or has not begun: call reset()")
-        strokes = self._games.play(np.zeros(1, np.int64), np.asarray(action, np.float64)[np.newaxis], [self.np_random])
+        strokes = self._games.play(_ONE, np.asarray(action, np.float64)[np.newaxis])
         info = {
             "potted": int(strokes.potted[0]),
             "scratch": bool(strokes.scratch[0]),
@@ -198,7 +228,6 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
         self.single_observation_space, self.single_action_space = observed, acted
         self.observation_space, self.action_space = batch_space(observed, num_envs), batch_space(acted, num_envs)
         self._games = _Games(self.rules, num_envs, render_mode)
-        self._generators: list[np.random.Generator] = [seeding.np_random()[0] for _ in range(num_envs)]
 
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
@@ -210,16 +239,16 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed: one number or {self.num_envs} are needed, not {len(seeds)}")
         given = _checked(options)
-        layouts: list[Any] = [None] * self.num_envs
+        layouts: list[Any] | None = None
         if given.get("layout") is not None:
             centres = np.asarray(given["layout"], dtype=np.float64)
             layouts = list(centres) if centres.ndim == 3 else [centres] * self.num_envs
             if len(layouts) != self.num_envs:
                 raise ValueError(f"layout: one or {self.num_envs} are needed, not {len(layouts)}")
-        for game, (own, layout) in enumerate(zip(seeds, layouts, strict=True)):
+        for game, own in enumerate(seeds):
             if own is not None:
-                self._generators[game] = seeding.np_random(own)[0]
-            self._games.reset(game, self._generators[game], layout, given.get("strokes"))
+                self._games.draws.begin(np.array([game]), _key(seeding.np_random(own)[0]))
+        self._games.begin(np.arange(self.num_envs), layouts, given.get("strokes"))
         return self._games.observe(), {}
 
     def step(
@@ -236,12 +265,12 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
         if given.shape != (self.num_envs, 4):
             raise ValueError(f"actions: the shape must be ({self.num_envs}, 4), not {given.shape}")
         playing = ~self._games.ended
-        for game in np.flatnonzero(~playing):
-            self._games.reset(int(game), self._generators[game], None, None)
+        if not playing.all():
+            self._games.begin(np.flatnonzero(~playing))
         rewards = np.zeros(self.num_envs)
         infos: dict[str, Any] = {}
         if playing.any():
-            strokes = self._games.play(np.flatnonzero(playing), given[playing], self._generators)
+            strokes = self._games.play(np.flatnonzero(playing), given[playing])
             rewards[playing] = strokes.rewards
             told: dict[str, npt.NDArray[Any]] = {
                 "potted": strokes.potted,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, Literal
 
 import numpy as np
@@ -9,8 +10,8 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, as_array, choice, fill
-from carom.status import CaromError
+from carom._rows import Array, as_array, choice, fill, whole
+from carom.status import CaromError, Status
 
 Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"]
 _GAMES = {"pool": 0, "snooker": 1, "billiard": 2, "pooltool_pool": 3, "pooltool_snooker": 4, "pooltool_billiard": 5}
@@ -30,6 +31,9 @@ class Table:
         Rounded ends: centre, radius, height (m); mu_cushion and restitution, as of rails.
     pockets : ndarray of `carom.dtypes.pocket`, shape (up to 8,)
         centre, radius, depth (m).
+    ball_radius, rail_width, pocket_back : float
+        m; 0: as carom_shot.h says. The radius of the balls that the rails are meant for, the width of the tops of the rails, and the
+        height of the pockets' backs. They count for balls that fly, and for balls of other radii.
     """
 
     def __init__(
@@ -40,9 +44,16 @@ class Table:
         rails: dtypes.Records,
         jaws: dtypes.Records | None = None,
         pockets: dtypes.Records | None = None,
+        ball_radius: float = 0.0,
+        rail_width: float = 0.0,
+        pocket_back: float = 0.0,
     ) -> None:
+        for name, size in (("width", width), ("length", length)):
+            if not 0.0 < size < np.inf:
+                raise ValueError(f"{name}: it must be positive and finite, in m, not {size}")
         record: Array = np.zeros((), dtypes.table)
         record["width"], record["length"] = width, length
+        record["ball_radius"], record["rail_width"], record["pocket_back"] = ball_radius, rail_width, pocket_back
         for name, part, values in (("rails", "rail", rails), ("jaws", "jaw", jaws), ("pockets", "pocket", pockets)):
             if values is None:
                 continue
@@ -89,6 +100,30 @@ class Table:
         parts: dtypes.Records = self.record[part]
         return parts[: int(self.record[count])]
 
+    def check(self, radius: float = 0.028575) -> None:
+        """Raise what is wrong with the table for balls of a radius, m: numbers, holes through which a ball can leave, sides of rails.
+
+        The built-in tables are right. This takes some milliseconds; `simulate` checks the numbers only.
+
+        Raises
+        ------
+        CaromError
+            Its `field` is the part at fault, its sentence says where the fault is.
+        """
+        fault = ffi.new("carom_table_fault *")
+        code = lib.carom_table_check(ffi.from_buffer("carom_table[]", self.record), radius, fault)
+        if code < 0:
+            other = "" if fault.other.kind == lib.CAROM_PART_NONE else f", beside {_part(fault.other)}"
+            gap = f", {fault.gap:.4g} m wide" if fault.gap > 0.0 else ""
+            where = f" (at x = {fault.place[0]:.4g} m, y = {fault.place[1]:.4g} m{gap}{other})" if any(fault.place) else ""
+            raise CaromError(code, _part(fault.part), text=Status(code).text + where)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all numbers are the same."""
+        return isinstance(other, Table) and bool(np.array_equal(self.record, other.record))
+
+    __hash__ = None  # type: ignore[assignment]
+
     def __repr__(self) -> str:
         sizes = f"{len(self.rails)} rails, {len(self.jaws)} jaws, {len(self.pockets)} pockets"
         return f"<carom.Table {self.width:.4g} m x {self.length:.4g} m, {sizes}>"
@@ -97,6 +132,42 @@ class Table:
         from carom import pictures
 
         return pictures.picture(self)
+
+
+def _part(part: Any) -> str:
+    """The name of a part of a table, or of a ball."""
+    names = {lib.CAROM_PART_RAIL: "table.rails", lib.CAROM_PART_JAW: "table.jaws", lib.CAROM_PART_POCKET: "table.pockets"}
+    names[lib.CAROM_PART_BALL] = "balls"
+    return f"{names[part.kind]}[{part.index}]" if part.kind in names else "table"
+
+
+def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: float) -> dtypes.Records:
+    """Ball in hand: a copy of a layout, in which a ball lies at rest at (x, y), m, also one that was pocketed.
+
+    Parameters
+    ----------
+    table : Table
+    balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
+    ball : int
+        Its index.
+
+    Raises
+    ------
+    CaromError
+        The place is not free: `field` is the ball or the part of the table that is in the way.
+    """
+    if balls.dtype != dtypes.shot_ball or balls.ndim != 1:
+        raise TypeError(f"balls: an array of the dtype of carom.balls() and of shape (balls,) is needed, not of {balls.dtype}, {balls.shape}")
+    placed = balls.copy()
+    way = ffi.new("carom_part *")
+    of_table, layout = ffi.from_buffer("carom_table[]", table.record), ffi.from_buffer("carom_shot_ball[]", placed)
+    number = whole(ball, "ball", most=len(placed) - 1)
+    code = lib.carom_place_ball(of_table, layout, len(placed), number, x, y, way)
+    if code in (lib.CAROM_ERROR_OVERLAP, lib.CAROM_ERROR_OFF_TABLE):
+        raise CaromError(code, _part(way), text=f"is in the way of ball {number} at x = {x} m, y = {y} m; a free place on the table is needed")
+    if code < 0:
+        raise CaromError(code)
+    return placed
 
 
 def balls(
@@ -122,6 +193,7 @@ def balls(
     law_c: npt.ArrayLike | None = None,
     nose_height: npt.ArrayLike | None = None,
     omega_ratio: npt.ArrayLike | None = None,
+    restitution_table: npt.ArrayLike | None = None,
 ) -> dtypes.Records:
     """Balls on a table, from fields that are broadcast against each other.
 
@@ -135,7 +207,7 @@ def balls(
         Whose balls they are, for all that follows. docs/understanding/constants.md has the source of each number: those of billiard are
         measured, with drag and loss of roll; pooltool_... are pooltool's figures.
     mass, radius, gravity : array_like, shape (...)
-        kg, m, m/s^2. All balls of a layout have the same radius.
+        kg, m, m/s^2. With space="flat" all balls of a layout have the same radius.
     mu_slide, mu_roll, mu_spin : array_like, shape (...)
         Friction of sliding, rolling and turning on the spot, above 0, at most 1.
     mu_ball, restitution : array_like, shape (...)
@@ -152,6 +224,8 @@ def balls(
         Of every cushion that the ball meets, m; 0: that of the table.
     omega_ratio : array_like, shape (...)
         Of Stronge's cushions; 0: 1.8.
+    restitution_table : array_like, shape (...)
+        Ball and slate, at most 0.98; 0: 0.5; -1: none.
 
     Returns
     -------
@@ -176,6 +250,7 @@ def balls(
         "law_c": law_c,
         "nose_height": nose_height,
         "omega_ratio": omega_ratio,
+        "restitution_table": restitution_table,
     }
     fields: dict[str, npt.ArrayLike] = {
         f"kind.{name}": float(getattr(kind, name)) if value is None else value for name, value in given.items()
@@ -203,29 +278,34 @@ def cue(
     mass: npt.ArrayLike | None = None,
     end_mass: npt.ArrayLike | None = None,
     tip_radius: npt.ArrayLike | None = None,
+    miscue: npt.ArrayLike = 0.0,
 ) -> dtypes.Records:
-    """A cue and its strike, or many, from fields that are broadcast against each other.
+    """Build a cue with its strike, or many. The fields are broadcast against each other.
 
     Parameters
     ----------
     speed : array_like, shape (...)
-        Of the cue before the strike, m/s; 0: no strike.
+        Speed of the cue before the strike, m/s; 0: no strike.
     phi, theta : array_like, shape (...)
         Direction in the plane from +x towards +y, and elevation of the butt, degrees.
     a, b : array_like, shape (...)
-        Where the tip touches, in units of the ball's radius: a > 0 left, b > 0 above the centre; a^2 + b^2 < 1.
+        Where the tip touches the ball, in units of its radius: a > 0 left, b > 0 above the centre; a^2 + b^2 < miscue^2.
     ball : array_like of int, shape (...)
         Index of the ball that is struck.
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
-        Whose cue it is, for what follows.
+        The game whose cue gives the defaults of the later arguments.
     mass, end_mass, tip_radius : array_like, shape (...)
         kg, kg, m.
+    miscue : array_like, shape (...)
+        0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. Chalked tips reach 0.5.
 
     Returns
     -------
     ndarray of `carom.dtypes.cue`, shape (...)
     """
     usual = lib.carom_cue_of(choice(_GAMES, game, "game"))
+    for name, angle in (("phi", phi), ("theta", theta)):
+        _doubt_radians(name, angle)
     return fill(
         dtypes.cue,
         {},
@@ -239,8 +319,24 @@ def cue(
             "mass": usual.mass if mass is None else mass,
             "end_mass": usual.end_mass if end_mass is None else end_mass,
             "tip_radius": usual.tip_radius if tip_radius is None else tip_radius,
+            "miscue": miscue,
         },
     )
+
+
+def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
+    """Warns of angles that are within a turn in radians, one of them a twelfth of pi or a multiple of it, as few degrees are."""
+    given = as_array(angle, name, np.float64)
+    turns = given * (12.0 / np.pi)
+    nearest = np.round(turns)
+    with np.errstate(invalid="ignore"):
+        like = given[(np.abs(turns - nearest) < 1e-12) & (nearest != 0.0)]
+    if like.size and np.abs(turns).max() < 24.5:
+        first = like.flat[0]
+        warnings.warn(
+            f"{name}: degrees are taken, but {first} looks like radians, for {np.degrees(first):.6g} degrees: np.degrees() converts",
+            stacklevel=3,
+        )
 
 
 def cue_error(status: int, cue: dtypes.Records, balls: dtypes.Records | None = None) -> CaromError:
@@ -248,12 +344,13 @@ def cue_error(status: int, cue: dtypes.Records, balls: dtypes.Records | None = N
     number = int(cue["ball"])
     if balls is not None and not 0 <= number < len(balls):
         return CaromError(status, "cue.ball", number, text=f"it must be the index of one of the balls, 0 to {len(balls) - 1}")
-    if balls is not None and balls["state"]["label"][number] == lib.CAROM_BALL_POCKETED:
-        return CaromError(status, "cue.ball", number, text="this ball is pocketed; a ball on the table must be struck")
+    if balls is not None and balls["state"]["label"][number] in (lib.CAROM_BALL_POCKETED, lib.CAROM_BALL_OFF):
+        return CaromError(status, "cue.ball", number, text="this ball is out of play; a ball on the table must be struck")
     for field, low, high, text in (
         ("speed", 0.0, 1e3, "it must be 0 to 1000 m/s"),
         ("phi", -1e9, 1e9, "it must be a direction in degrees"),
         ("theta", 0.0, 90.0, "it must be 0 to 90 degrees"),
+        ("miscue", 0.0, 1.0, "it must be 0 to 1"),
         ("mass", 5e-324, 1.7976931348623157e308, "it must be positive and finite"),
         ("end_mass", 5e-324, 1.7976931348623157e308, "it must be positive and finite"),
     ):

@@ -9,8 +9,8 @@
             impacts[k, 24] = mu_ball(impacts[k])
             status[k] = collide(impacts[k], motion[k], solver="exact")
 
-The calls have the bits of `carom.collide`, `carom.cushion` and `carom.mu_ball`, and no cost of Python's. Importing this module tells
-LLVM where the functions of C are, under their names; what Numba caches has the names alone, which are resolved anew in each process.
+The calls have the bits of `carom.collide`, `carom.cushion` and `carom.mu_ball`, without the overhead of Python. Importing this module
+registers the addresses of the C functions in LLVM. Numba caches only their names, and resolves them in each process.
 
 Needs Numba. Its objects have no types here, so that carom can be checked without it.
 """
@@ -46,14 +46,14 @@ _A, _B, _C = float(_ALCIATORE.a), float(_ALCIATORE.b), float(_ALCIATORE.c)
 
 
 def collide(impact: dtypes.Doubles, out: dtypes.Doubles, solver: Solver = "exact", slip: Slip = "paper", steps: int = 0) -> int:
-    """Resolve one collision of two balls, in compiled code (or outside it, for looking into).
+    """Resolve one collision of two balls, in compiled code or, for debugging, outside it.
 
     Parameters
     ----------
     impact : ndarray of float64, shape (26,), in C order
-        A row of what `carom.collide` takes; `carom.dtypes.plain` gives rows of records.
+        A row of the argument of `carom.collide`; `carom.dtypes.plain` converts records to rows.
     out : ndarray of float64, shape (12,), in C order
-        Where the motion goes: v (m/s) and w (rad/s) of a, then of b. NaN in error.
+        Receives the motion: v (m/s) and w (rad/s) of a, then of b. NaN after an error.
     solver, slip
         As for `carom.collide`. In compiled code these are literals, or names of constants of the module.
     steps : int
@@ -67,7 +67,7 @@ def collide(impact: dtypes.Doubles, out: dtypes.Doubles, solver: Solver = "exact
     Raises
     ------
     ValueError
-        The sizes are wrong. (An impact in error is told by what is returned.)
+        The sizes are wrong. (For an error of the impact, see the returned value.)
     """
     numbers = choice(SOLVERS, solver, "solver"), choice(SLIPS, slip, "slip"), steps
     return int(lib.carom_python_collide(_row(impact, _IMPACT, "impact"), *numbers, _row(out, _RESULT, "out")))
@@ -79,14 +79,14 @@ def mu_ball(impact: dtypes.Doubles, a: float = _A, b: float = _B, c: float = _C)
     Parameters
     ----------
     impact : ndarray of float64, shape (26,), in C order
-        As for `collide`; its own mu_ball is not read.
+        As for `collide`; its field mu_ball is not read.
     a, b, c : float
         mu = a + b exp(-c |u|), |u| in m/s. By default those of `carom.alciatore()`.
 
     Returns
     -------
     float
-        Dimensionless: what to put into impact[24].
+        The coefficient of friction, to be stored in impact[24].
     """
     return float(lib.carom_python_mu_ball_one(_row(impact, _IMPACT, "impact"), a, b, c))
 
@@ -106,9 +106,9 @@ def cushion(
     Parameters
     ----------
     impact : ndarray of float64, shape (15,), in C order
-        A row of what `carom.cushion` takes.
+        A row of the argument of `carom.cushion`.
     out : ndarray of float64, shape (6,), in C order
-        Where the motion goes: v (m/s) and w (rad/s). NaN in error.
+        Receives the motion: v (m/s) and w (rad/s). NaN after an error.
     model, convention, law
         As for `carom.cushion`. In compiled code these are literals, or names of constants of the module.
     steps, least_step, omega_ratio

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
 from carom import dtypes
 
@@ -21,20 +22,28 @@ CLOTH, CUSHION, WOOD, POCKET = "#2e7d5b", "#1b5e42", "#6d4c33", "#111111"
 _COLOURS = (
     "#ffffff #f2c200 #1f4fd8 #d32f2f #6a1b9a #ef6c00 #2e9b3a #7b1c1c #222222 #f7dc6f #7fa3f5 #ef8a8a #b58ad4 #f7b27a #8fd19a #c58a8a"
 ).split()
+_DARK = set("#1f4fd8 #d32f2f #6a1b9a #2e9b3a #7b1c1c #222222".split())  # balls with a white number
 _PATH_POINTS = 400
 _DOT = 0.005  # m: radius of a place seen
 _FRAMES_A_SECOND = 25
 _FRAMES_MOST = 1500
 
 
-@dataclass(frozen=True)
-class Animation:
-    """A moving picture: `svg` is its text, which moves in any browser."""
+@dataclass(frozen=True, repr=False)
+class Picture:
+    """A picture: `svg` is its text."""
 
     svg: str
 
     def _repr_html_(self) -> str:
         return self.svg
+
+    def __repr__(self) -> str:
+        return f"<carom.{type(self).__name__}: an SVG of {len(self.svg)} characters, in .svg>"
+
+
+class Animation(Picture):
+    """A moving picture: `svg` is its text, which moves in any browser."""
 
 
 def _number(x: float) -> str:
@@ -42,18 +51,13 @@ def _number(x: float) -> str:
     return f"{x:.2f}".rstrip("0").rstrip(".")
 
 
-@dataclass(frozen=True)
-class Picture:
-    """A picture: `svg` is its text."""
-
-    svg: str
-
-    def _repr_svg_(self) -> str:
-        return self.svg
+def lies(size: dtypes.Doubles) -> bool:
+    """Whether a table of this size (m) is drawn on its side, as long ones are: y to the right, x downwards."""
+    return bool(size[1] > size[0])
 
 
 class _Canvas:
-    """Metres of the table to pixels of the picture, with y upwards."""
+    """Metres of the table to pixels of the picture."""
 
     def __init__(self, table: Table) -> None:
         ends = np.concatenate([table.rails["p"], table.rails["q"]]) if len(table.rails) else np.zeros((1, 2))
@@ -61,20 +65,37 @@ class _Canvas:
         everything = np.concatenate([ends, corners])
         self.low = everything.min(axis=0) - MARGIN
         self.high = everything.max(axis=0) + MARGIN
-        self.size = (self.high - self.low) * _SCALE
+        size = (self.high - self.low) * _SCALE
+        self.turned = lies(size)
+        self.size = size[::-1] if self.turned else size
 
-    def x(self, x: float) -> str:
-        return _number((x - float(self.low[0])) * _SCALE)
+    def at(self, r: npt.ArrayLike) -> tuple[float, float]:
+        """A point of the table on the picture, in pixels."""
+        x, y = (float(value) for value in np.asarray(r)[:2])
+        right, down = (y - self.low[1], x - self.low[0]) if self.turned else (x - self.low[0], self.high[1] - y)
+        return float(right) * _SCALE, float(down) * _SCALE
 
-    def y(self, y: float) -> str:
-        return _number((float(self.high[1]) - y) * _SCALE)
+    def point(self, r: npt.ArrayLike) -> str:
+        return ",".join(map(_number, self.at(r)))
 
-    def point(self, r: dtypes.Doubles) -> str:
-        return f"{self.x(float(r[0]))},{self.y(float(r[1]))}"
+    def circle(self, centre: npt.ArrayLike, radius: float, rest: str) -> str:
+        x, y = map(_number, self.at(centre))
+        return f'<circle cx="{x}" cy="{y}" r="{_number(radius * _SCALE)}" {rest}/>'
 
-    def circle(self, centre: dtypes.Doubles, radius: float, rest: str, inside: str = "") -> str:
-        place = f'cx="{self.x(float(centre[0]))}" cy="{self.y(float(centre[1]))}" r="{_number(radius * _SCALE)}"'
-        return f"<circle {place} {rest}>{inside}</circle>" if inside else f"<circle {place} {rest}/>"
+    def ball(self, shot: Shot, number: int, places: dtypes.Doubles, opacity: float = 1.0, duration: str = "") -> str:
+        """A ball of a shot, with its number unless it is the first: at a place, or moving over several, shape (n, 3)."""
+        points = [self.point(r) for r in places]
+        radius = float(shot.balls["kind"]["radius"][number]) * _SCALE
+        style = f'fill="{colour(number)}" fill-opacity="{opacity}" stroke="#000" stroke-width="0.5"'
+        parts = [f'<g transform="translate({points[0]})"><circle r="{_number(radius)}" {style}/>']
+        if number > 0:
+            ink = "#fff" if colour(number) in _DARK else "#111"
+            text = f'font-size="{_number(1.2 * radius)}" text-anchor="middle" dominant-baseline="central" font-family="sans-serif"'
+            parts.append(f'<text {text} fill="{ink}" fill-opacity="{opacity}">{number}</text>')
+        if len(set(points)) > 1:
+            values = ";".join(points)
+            parts.append(f'<animateTransform attributeName="transform" type="translate" values="{values}" {duration}/>')
+        return "".join([*parts, "</g>"])
 
     def document(self, parts: list[str]) -> str:
         width, height = _number(float(self.size[0])), _number(float(self.size[1]))
@@ -83,9 +104,8 @@ class _Canvas:
 
 
 def _table(canvas: _Canvas, table: Table) -> list[str]:
-    corner = f'x="{canvas.x(0.0)}" y="{canvas.y(table.length)}"'
-    size = f'width="{_number(table.width * _SCALE)}" height="{_number(table.length * _SCALE)}"'
-    parts = [f'<rect {corner} {size} fill="{CLOTH}"/>']
+    corners = ((0.0, 0.0), (table.width, 0.0), (table.width, table.length), (0.0, table.length))
+    parts = [f'<polygon points="{" ".join(map(canvas.point, corners))}" fill="{CLOTH}"/>']
     parts += [canvas.circle(pocket["centre"], float(pocket["radius"]), f'fill="{POCKET}"') for pocket in table.pockets]
     parts += [
         f'<polyline points="{canvas.point(rail["p"])} {canvas.point(rail["q"])}" stroke="{CUSHION}" stroke-width="4" fill="none"/>'
@@ -116,9 +136,7 @@ def picture(table: Table, shot: Shot | None = None, seen: Sequence[dtypes.Double
                 line = f'points="{" ".join(points)}" stroke="{colour(ball)}" stroke-width="1.5" stroke-opacity="0.8" fill="none"'
                 parts.append(f"<polyline {line}/>")
         for states, opacity in ((shot.balls["state"], 0.35), (shot.final, 1.0)):
-            for ball, state in enumerate(states):
-                style = f'fill="{colour(ball)}" fill-opacity="{opacity}" stroke="#000" stroke-width="0.5"'
-                parts.append(canvas.circle(state["r"], float(shot.balls["kind"]["radius"][ball]), style))
+            parts += [canvas.ball(shot, ball, state["r"][np.newaxis], opacity) for ball, state in enumerate(states)]
     for ball, places in enumerate(seen):
         parts += [canvas.circle(r, _DOT, f'fill="{colour(ball)}" stroke="#000" stroke-width="0.3"') for r in places]
     return canvas.document(parts)
@@ -133,14 +151,5 @@ def animation(shot: Shot, speed: float) -> Animation:
     canvas = _Canvas(shot.table)
     parts = _table(canvas, shot.table)
     duration = f'dur="{max(shot.time / speed, 0.01):.4g}s" repeatCount="indefinite"'
-    for ball in range(len(shot.balls)):
-        xs = [canvas.x(float(x)) for x in paths[:, ball, 0]]
-        ys = [canvas.y(float(y)) for y in paths[:, ball, 1]]
-        moves = "".join(
-            f'<animate attributeName="{name}" values="{";".join(values)}" {duration}/>'
-            for name, values in (("cx", xs), ("cy", ys))
-            if len(set(values)) > 1
-        )
-        style = f'fill="{colour(ball)}" stroke="#000" stroke-width="0.5"'
-        parts.append(canvas.circle(paths[0, ball], float(shot.balls["kind"]["radius"][ball]), style, moves))
+    parts += [canvas.ball(shot, ball, paths[:, ball], duration=duration) for ball in range(len(shot.balls))]
     return Animation(canvas.document(parts))

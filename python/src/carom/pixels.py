@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom.layouts import Table
-from carom.pictures import CLOTH, CUSHION, MARGIN, POCKET, WOOD, colour
+from carom.pictures import CLOTH, CUSHION, MARGIN, POCKET, WOOD, colour, lies
 from carom.results import Label, Shot
 
 Pixels = npt.NDArray[np.uint8]
@@ -15,23 +15,25 @@ _PATH_POINTS = 4000
 
 
 class _Canvas:
-    """Metres of the table to pixels, with y upwards; edges are softened over one pixel."""
+    """Metres of the table to pixels, as in `carom.pictures`; edges are softened over one pixel."""
 
     def __init__(self, table: Table, scale: float) -> None:
         self.scale = scale
         self.high = table.length + MARGIN
-        size = np.array([table.length, table.width]) + 2.0 * MARGIN
+        size = np.array([table.width, table.length]) + 2.0 * MARGIN
+        self.turned = lies(size)
+        size = size if self.turned else size[::-1]
         self.image: dtypes.Doubles = np.zeros((*np.round(size * scale).astype(int), 3))
         self.image[:] = _rgb(WOOD)
 
     def pixel(self, points: npt.ArrayLike) -> dtypes.Doubles:
         """Columns and rows, of shape (..., 2), of points in m."""
         given = np.asarray(points, dtype=np.float64)[..., :2]
-        return (given * [1.0, -1.0] + [MARGIN, self.high]) * self.scale - 0.5
+        place = given[..., ::-1] + MARGIN if self.turned else given * [1.0, -1.0] + [MARGIN, self.high]
+        return place * self.scale - 0.5
 
     def box(self, low: npt.ArrayLike, high: npt.ArrayLike, fill: str) -> None:
-        left, bottom = np.round(self.pixel(low)).astype(int)
-        right, top = np.round(self.pixel(high)).astype(int)
+        left, top, right, bottom = np.round(np.sort([self.pixel(low), self.pixel(high)], axis=0)).astype(int).ravel()
         self.image[top:bottom, left:right] = _rgb(fill)
 
     def stroke(self, start: npt.ArrayLike, end: npt.ArrayLike, radius: float, fill: str) -> None:
@@ -78,7 +80,7 @@ def pixels(table: Table, balls: dtypes.Records, shot: Shot | None = None, scale:
     Returns
     -------
     ndarray of uint8, shape (rows, columns, 3)
-        Red, green, blue; y of the table upwards.
+        Red, green, blue; y of the table upwards, or to the right where the table is longer than wide.
     """
     canvas = _Canvas(table, scale)
     canvas.box((0.0, 0.0), (table.width, table.length), CLOTH)
@@ -94,6 +96,6 @@ def pixels(table: Table, balls: dtypes.Records, shot: Shot | None = None, scale:
             if np.ptp(paths[:, ball, :2], axis=0).any():
                 canvas.dots(paths[:, ball], colour(ball))
     for ball, (state, kind) in enumerate(zip(balls["state"], balls["kind"], strict=True)):
-        if state["label"] != Label.POCKETED:
+        if state["label"] not in (Label.POCKETED, Label.OFF):
             canvas.stroke(state["r"], state["r"], float(kind["radius"]), colour(ball))
     return np.round(canvas.image).astype(np.uint8)

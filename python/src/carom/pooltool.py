@@ -73,11 +73,11 @@ _FRICTIONS: dict[str, Friction] = {"AlciatoreBallBallFriction": "alciatore", "Av
 
 
 class UnsupportedError(ValueError):
-    """What is asked for is pooltool's alone; `simulate(..., fallback=True)` lets pooltool do it."""
+    """Only pooltool can do this; `simulate(..., fallback=True)` lets pooltool do it."""
 
 
 class FallbackWarning(UserWarning):
-    """pooltool plays a system, at its own speed, because carom cannot. Each reason is told once."""
+    """pooltool plays a system, at the speed of pooltool, because carom cannot. Each reason is reported once."""
 
 
 # ---- What goes in -------------------------------------------------------------------------------------------------------
@@ -119,7 +119,7 @@ def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[A
 def balls_of(system: Any) -> dtypes.Records:
     """The balls of a System, in its order, for `carom.simulate`."""
     numbers: list[Any] = []
-    own = (0.0,) * 7  # drag and what follows it, which pooltool has not
+    own = (0.0,) * (len(dtypes.ball_kind.names or ()) - 10)  # drag and what follows it, which pooltool has not
     for ball in system.balls.values():
         p, rvw = ball.params, ball.state.rvw
         kind = (p.m, p.R, p.u_s, p.u_r, p.u_sp, p.u_b, p.e_b, p.f_c, p.e_c, p.g, *own)
@@ -131,7 +131,7 @@ def cue_of(system: Any) -> dtypes.Records:
     """The cue of a System, for `carom.simulate`."""
     cue, specs = system.cue, system.cue.specs
     ball = list(system.balls).index(cue.cue_ball_id)
-    numbers = (cue.V0, cue.phi, cue.theta, cue.a, cue.b, specs.M, specs.end_mass, specs.tip_radius, ball)
+    numbers = (cue.V0, cue.phi, cue.theta, cue.a, cue.b, specs.M, specs.end_mass, specs.tip_radius, ball, 0.0)
     return np.array(numbers, dtype=dtypes.cue)
 
 
@@ -268,7 +268,7 @@ def simulate(
         else:
             if engine is not None:
                 raise UnsupportedError("engine: with models='carom' the models are carom's")
-            played = _play(table, balls, cue, cushion_model=cushion_model)
+            played = _play(table, balls, cue, cushion_model=cushion_model, space="flat")  # as pooltool's 2D engine
     except (UnsupportedError, CaromError) as reason:
         if not fallback:
             raise

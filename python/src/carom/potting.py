@@ -1,18 +1,21 @@
 """A game for agents: pot as many balls of a random layout as you can within a number of strokes. `carom.gymnasium` plays it.
 
-Nothing here needs gymnasium. `Potting` holds the rules, as functions of arrays over many games at once: an agent that plans has them
-too, and plays a thousand strokes of its own from what it observes before it chooses one.
+This module does not need gymnasium. `Potting` has the rules, as functions of arrays over many games. An agent that plans can use them:
+it plays a thousand strokes from its observation, and then chooses one.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, layouts, tables
-from carom.layouts import Table
+from carom._draws import Draws as Draws
+from carom._draws import Games
+from carom.layouts import Game, Table
 from carom.results import Label, Shot
 from carom.shots import ShotCushion, simulate, simulate_batch
 
@@ -22,20 +25,20 @@ _TRIES = 10_000
 
 @dataclass(frozen=True)
 class Strokes:
-    """What strokes gave, each an array over the games.
+    """Results of strokes; each is an array over the games.
 
     Attributes
     ----------
     layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls + 1)
         The balls at rest after the stroke. A cue ball that was potted is still down.
     rewards : ndarray of float64, shape (...)
-        Balls that were potted, less 1 for a foul.
+        Balls that were potted, less 1 for a foul; or the result of `reward` of the rules.
     potted : ndarray of int64, shape (...)
         Balls that were potted, without the cue ball.
     scratch : ndarray of bool, shape (...)
         Whether the cue ball was potted, a foul.
     status : ndarray of int8, shape (...)
-        As `carom.Status`. In error (a ball left the table, for example) the stroke is a foul and the balls are where they were.
+        As `carom.Status`. After an error, or where a ball left the table, the stroke is a foul, and the balls stay where they were.
     time : ndarray of float64, shape (...)
         How long the balls moved, s.
     """
@@ -68,7 +71,16 @@ class Potting:
     strokes : int
         At least 1.
     table : Table, optional
-        A rectangular one with pockets, for balls of pool; by default `carom.tables.pool_9ft()`.
+        A rectangular one with pockets; by default `carom.tables.snooker()` for balls of snooker, otherwise `pool_9ft()`.
+    ball_set : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
+        Whose balls they are, as for `carom.balls`.
+    noise : tuple of three floats
+        How exactly an agent plays: standard deviations of the direction (degrees), of the speed (m/s) and of the place of the tip
+        (radii, each way). The environments add it to every action; `play` does not.
+    parameters : mapping of a field of `carom.dtypes.ball_kind` to two floats
+        Bounds between which each game draws the field for all its balls, for example `{"mu_slide": (0.15, 0.25)}`. Agents do not see it.
+    reward : callable, optional
+        reward(balls, strokes) gives the rewards, of shape (...): `balls` are the layouts before, `strokes` what they gave.
     speeds : tuple of two floats
         The least and the most speed of the cue, m/s.
     cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
@@ -83,6 +95,10 @@ class Potting:
         strokes: int = 5,
         *,
         table: Table | None = None,
+        ball_set: Game = "pool",
+        noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        parameters: Mapping[str, tuple[float, float]] | None = None,
+        reward: Callable[[dtypes.Records, Strokes], npt.ArrayLike] | None = None,
         speeds: tuple[float, float] = (0.5, 6.0),
         cushion_model: ShotCushion = "default",
         threads: int = 0,
@@ -93,7 +109,10 @@ class Potting:
             raise ValueError(f"strokes: must be at least 1, not {strokes}")
         if not 0.0 < speeds[0] <= speeds[1] < np.inf:
             raise ValueError(f"speeds: must be the least and the most, positive and finite, not {speeds}")
-        self.table = tables.pool_9ft() if table is None else table
+        if len(noise) != 3 or not all(0.0 <= deviation < np.inf for deviation in noise):
+            raise ValueError(f"noise: must be three standard deviations, of degrees, m/s and radii, not {noise}")
+        usual = tables.snooker if "snooker" in ball_set else tables.pool_9ft
+        self.table = usual() if table is None else table
         if len(self.table.pockets) == 0:
             raise ValueError("table: must have pockets")
         self.balls = balls
@@ -101,11 +120,28 @@ class Potting:
         self.speeds = speeds
         self.cushion_model: ShotCushion = cushion_model
         self.threads = threads
-        self._balls_at_0 = layouts.balls(np.zeros((balls + 1, 2)))
+        self.reward = reward
+        # Of an action, whose numbers are -1 to 1.
+        self._noise = np.array([noise[0] / 180.0, 2.0 * noise[1] / max(speeds[1] - speeds[0], 1e-12), noise[2] / 0.35, noise[2] / 0.35])
+        self.noise = noise
+        self._balls_at_0 = layouts.balls(np.zeros((balls + 1, 2)), game=ball_set)
         self.radius = float(self._balls_at_0["kind"]["radius"][0])
         # What a ball that is placed has to be clear of: pockets and the rounded ends of cushions, each with the least distance, m.
         self._fixed = np.concatenate([self.table.pockets["centre"], self.table.jaws["centre"]])
         self._clear = np.concatenate([self.table.pockets["radius"], self.table.jaws["radius"]]) + self.radius + _GAP
+        self.parameters = dict(parameters or {})
+        self._check_parameters()
+
+    def _check_parameters(self) -> None:
+        known = [name for name in dtypes.ball_kind.names or () if name != "radius"]
+        ends = self._balls_at_0[:1].repeat(2)
+        ends["state"]["r"][:, :2] = 0.3 * self.table.width, 0.3 * self.table.length
+        for name, bounds in self.parameters.items():
+            if name not in known or len(bounds) != 2 or not bounds[0] <= bounds[1]:
+                raise ValueError(f"parameters: must give the least and the most of one of {', '.join(known)}, not {name!r}: {bounds}")
+            ends["kind"][name] = bounds
+        for k in range(2):
+            simulate(self.table, ends[k : k + 1])  # raises CaromError where a bound is out of the field's range
 
     # ---- Actions and observations ---------------------------------------------------------------------------------------
 
@@ -162,40 +198,69 @@ class Potting:
 
     # ---- The game -------------------------------------------------------------------------------------------------------
 
-    def deal(self, generator: np.random.Generator, centres: npt.ArrayLike | None = None) -> dtypes.Records:
-        """A layout of shape (balls + 1,): at random, or with centres (m) of shape (balls + 1, 2), which are checked."""
-        if centres is not None:
-            given = np.asarray(centres, dtype=np.float64)
-            if given.shape != (self.balls + 1, 2):
-                raise ValueError(f"layout: the shape must be ({self.balls + 1}, 2), the cue ball first, not {given.shape}")
-            layout = self._balls(given, np.ones(self.balls + 1, np.bool_))
-            simulate(self.table, layout)  # without a strike: raises CaromError where balls overlap or are not on the table
-            return layout
-        return self._balls(self._places(generator, self.balls + 1, np.zeros((0, 2))), np.ones(self.balls + 1, np.bool_))
+    def deal(self, draws: Draws, games: Games) -> dtypes.Records:
+        """Random layouts of some games, of shape (len(games), balls + 1), with random parameters."""
+        made = self._balls(self._places(draws, games, self.balls + 1), np.ones((len(games), self.balls + 1), np.bool_))
+        for name, (low, high) in self.parameters.items():
+            made["kind"][name] = low + (high - low) * draws.uniform(games, 1)
+        return made
 
-    def put_back(self, layout: dtypes.Records, generator: np.random.Generator) -> None:
-        """Put the cue ball of a layout, of shape (balls + 1,), back on the table, at random."""
-        others = layout[1:]["state"]
-        in_play = others["label"] != Label.POCKETED
-        layout["state"]["r"][0, :2] = self._places(generator, 1, others["r"][in_play, :2])[0]
-        layout["state"]["r"][0, 2] = self.radius
-        layout["state"]["label"][0] = Label.STATIONARY
+    def layout(self, centres: npt.ArrayLike) -> dtypes.Records:
+        """A layout of shape (balls + 1,) with centres (m) of shape (balls + 1, 2), which are checked."""
+        given = np.asarray(centres, dtype=np.float64)
+        if given.shape != (self.balls + 1, 2):
+            raise ValueError(f"layout: the shape must be ({self.balls + 1}, 2), the cue ball first, not {given.shape}")
+        layout = self._balls(given, np.ones(self.balls + 1, np.bool_))
+        simulate(self.table, layout)  # without a strike: raises CaromError where balls overlap or are not on the table
+        return layout
 
-    def _places(self, generator: np.random.Generator, count: int, taken: dtypes.Doubles) -> dtypes.Doubles:
-        """Places for balls, of shape (count, 2): drawn together until all are clear of each other, what is fixed, and balls taken."""
+    def put_back(self, balls: dtypes.Records, draws: Draws, games: Games) -> None:
+        """Put the cue balls of some games, layouts of shape (len(games), balls + 1), back on the table, at random."""
+        others = balls["state"][:, 1:]
+        in_play = (others["label"] != Label.POCKETED)[..., np.newaxis]
+        taken = np.where(in_play, others["r"][..., :2], np.inf)
+        balls["state"]["r"][:, 0, :2] = self._places(draws, games, 1, taken)[:, 0]
+        balls["state"]["r"][:, 0, 2] = self.radius
+        balls["state"]["label"][:, 0] = Label.STATIONARY
+
+    def _places(self, draws: Draws, games: Games, count: int, taken: dtypes.Doubles | None = None) -> dtypes.Doubles:
+        """Places for balls, of shape (len(games), count, 2).
+
+        Those of a game are drawn together until all are clear of each other, of what is fixed, and of balls, (len(games), n, 2).
+        """
         low = np.full(2, self.radius + _GAP)
         high = np.array([self.table.width, self.table.length]) - low
+        others = np.zeros((len(games), 0, 2)) if taken is None else taken
+        places = np.zeros((len(games), count, 2))
+        left = np.arange(len(games))
         for _ in range(_TRIES):
-            places = generator.uniform(low, high, (count, 2))
-            others = np.concatenate([places, taken])
-            apart = np.hypot(*(places[:, np.newaxis] - others).T)
-            np.fill_diagonal(apart, np.inf)
-            if (
-                apart.min() > 2.0 * self.radius + _GAP
-                and (np.hypot(*(places[:, np.newaxis] - self._fixed).T).T > self._clear).all()
-            ):
+            if len(left) == 0:
                 return places
+            drawn = low + (high - low) * draws.uniform(games[left], count, 2)
+            places[left] = drawn
+            left = left[~self.free(drawn, others[left])]
         raise ValueError(f"table: no free places for {count} balls in {_TRIES} draws: it is too small for {self.balls}")
+
+    def free(self, places: dtypes.Doubles, taken: dtypes.Doubles) -> npt.NDArray[np.bool_]:
+        """Whether places of balls, (..., n, 2), are clear of each other, of pockets and jaws, and of balls, (..., m, 2)."""
+        x, y = places[..., 0, np.newaxis], places[..., 1, np.newaxis]
+        apart = (x - taken[..., np.newaxis, :, 0]) ** 2 + (y - taken[..., np.newaxis, :, 1]) ** 2
+        if places.shape[-2] > 1:
+            each = (x - places[..., np.newaxis, :, 0]) ** 2 + (y - places[..., np.newaxis, :, 1]) ** 2
+            own = np.arange(places.shape[-2])
+            each[..., own, own] = np.inf
+            apart = np.concatenate([each, apart], axis=-1)
+        fixed = (x - self._fixed[:, 0]) ** 2 + (y - self._fixed[:, 1]) ** 2
+        clear = (apart > (2.0 * self.radius + _GAP) ** 2).all(axis=(-2, -1)) & (fixed > self._clear**2).all(axis=(-2, -1))
+        return np.asarray(clear)
+
+    def disturbed(self, actions: npt.ArrayLike, draws: Draws, games: Games) -> dtypes.Doubles:
+        """The actions of some games, of shape (len(games), 4), as they are carried out: with the noise."""
+        given = np.clip(np.asarray(actions, dtype=np.float64), -1.0, 1.0)
+        if self._noise.any():
+            given += self._noise * draws.normal(games, 4)
+            given[..., 0] = (given[..., 0] + 1.0) % 2.0 - 1.0
+        return given
 
     def play(self, balls: dtypes.Records, actions: npt.ArrayLike) -> Strokes:
         """Play strokes.
@@ -213,13 +278,19 @@ class Potting:
         """
         shots = simulate_batch(self.table, balls, self.cues(actions), cushion_model=self.cushion_model, threads=self.threads)
         before = np.broadcast_to(balls, shots.final.shape)
-        played = shots.status >= 0
+        played = (shots.status >= 0) & (shots.final["label"] != Label.OFF).all(axis=-1)
         after = before.copy()
-        after["state"] = np.where(played[..., np.newaxis], shots.final, before["state"])
+        after["state"] = shots.final
+        if not played.all():
+            after[~played] = before[~played]
         down = (after["state"]["label"] == Label.POCKETED) & (before["state"]["label"] != Label.POCKETED)
         potted, scratch = down[..., 1:].sum(axis=-1), down[..., 0]
         rewards = potted - 1.0 * (scratch | ~played)
-        return Strokes(after, rewards, potted, scratch, shots.status, shots.time)
+        strokes = Strokes(after, rewards, potted, scratch, shots.status, shots.time)
+        if self.reward is not None:
+            own = np.asarray(self.reward(before, strokes), dtype=np.float64)
+            strokes = replace(strokes, rewards=np.broadcast_to(own, rewards.shape).copy())
+        return strokes
 
     def ended(self, balls: dtypes.Records, strokes_left: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Whether games have ended: layouts of shape (..., balls + 1) to (...)."""

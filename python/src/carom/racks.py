@@ -10,20 +10,19 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array
+from carom._rows import Array, whole
 from carom.layouts import Table
 from carom.status import CaromError
 
 
 def _rack(kind: int, table: Table, gap: float, seed: int) -> dtypes.Records:
-    if not 0 <= seed < 2**64:
-        raise ValueError(f"seed: it must be a whole number from 0 to 2**64 - 1, not {seed}")
     size = int(lib.carom_rack_size(kind))
     balls: Array = np.zeros(size, dtypes.shot_ball)
     of_table = ffi.from_buffer("carom_table[]", table.record)
-    code = lib.carom_rack(kind, of_table, gap, seed, ffi.from_buffer("carom_shot_ball[]", balls), size)
+    code = lib.carom_rack(kind, of_table, gap, whole(seed, "seed", most=2**64 - 1), ffi.from_buffer("carom_shot_ball[]", balls), size)
     if code < 0:
-        raise CaromError(code, "gap", gap)
+        text = "it must be 0 m to the radius of a ball"
+        raise CaromError(code, "gap", gap, text=text)
     return balls
 
 

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, as_array, in_chunks, pointer
-from carom.layouts import Table
+from carom._rows import INT8, Array, addresses, as_array, in_chunks, one_or_all, pointer, spread
+from carom._shot_options import shot_options
+from carom.layouts import Table, cue_error
 from carom.status import CaromError, Status
 
 if TYPE_CHECKING:
@@ -28,6 +30,7 @@ class Label(enum.IntEnum):
     ROLLING = 3
     POCKETED = 4
     AIRBORNE = 5
+    OFF = 6
 
 
 class EventType(enum.IntEnum):
@@ -42,6 +45,16 @@ class EventType(enum.IntEnum):
     ROLLING_SPINNING = 7
     ROLLING_STATIONARY = 8
     SPINNING_STATIONARY = 9
+    SLATE = 10
+    RAIL_TOP = 11
+    LEFT_TABLE = 12
+
+
+def _moments(times: npt.ArrayLike) -> dtypes.Doubles:
+    at = np.asarray(as_array(times, "times", np.float64), order="C")
+    if not np.isfinite(at).all():
+        raise ValueError(f"times: each must be a finite number of seconds, not {at[~np.isfinite(at)].flat[0]}")
+    return at
 
 
 class Shot:
@@ -54,13 +67,25 @@ class Shot:
         The layout before the strike.
     status : Status
     time : float
-        When the last event happened, s.
+        Time of the last event, or when the shot was stopped, s.
     count : int
-        Events that happened, also beyond what was kept.
+        Number of events, including those that were not kept.
     events : ndarray of `carom.dtypes.event`, shape (kept,)
-        In the order in which they happened.
+        In the order in which they happened. Of a batch with records="brief": `carom.dtypes.brief_event`.
     final : ndarray of `carom.dtypes.ball_state`, shape (balls,)
+    state, options
+        What `carom.resume` needs; None where the shot was not to be stopped.
     """
+
+    table: Table
+    balls: dtypes.Records
+    status: Status
+    time: float
+    count: int
+    events: dtypes.Records
+    final: dtypes.Records
+    state: Array | None
+    options: tuple[Any, ...] | None
 
     def __init__(
         self,
@@ -71,6 +96,8 @@ class Shot:
         count: int,
         events: dtypes.Records,
         final: dtypes.Records,
+        state: Array | None = None,
+        options: tuple[Any, ...] | None = None,
     ) -> None:
         self.table = table
         self.balls = balls
@@ -79,6 +106,8 @@ class Shot:
         self.count = count
         self.events = events
         self.final = final
+        self.state = state
+        self.options = options
 
     def states(self, times: npt.ArrayLike) -> dtypes.Records:
         """The states of all balls at any times.
@@ -95,30 +124,56 @@ class Shot:
         Raises
         ------
         CaromError
-            Not all events were kept (`simulate_batch` with too little room), or a time is after the end of a shot that a bound
-            or an error stopped while balls moved.
+            A time is after the end of a shot that was stopped, or that ended in an error, while balls moved.
         ValueError
-            A time is nan.
+            A time is not finite.
         """
-        at = np.asarray(as_array(times, "times", np.float64), order="C")
-        if np.isnan(at).any():
-            raise ValueError("times: a time must be a number of seconds, not nan")
+        at = _moments(times)
         states: Array = np.zeros((*at.shape, len(self.balls)), dtypes.ball_state)
+        self._at(at, states, 1, "carom_ball_state[]", lib.carom_shot_at_times)
+        return states
+
+    def _at(self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]) -> None:
+        """Calls look(balls, count, shot, times, n, out), in chunks of the times."""
+        if self.events.dtype != dtypes.event:
+            raise CaromError(Status.ERROR_EVENTS_LOST)
         events = np.ascontiguousarray(self.events)
         shot = ffi.new(
             "carom_shot *",
             {"events": pointer("carom_event[]", events), "room": len(events), "count": self.count, "time": self.time},
         )
         balls, count = pointer("carom_shot_ball[]", self.balls), len(self.balls)
-        moments, target = pointer("double[]", at), pointer("carom_ball_state[]", states)
+        moments, target = pointer("double[]", at), pointer(ctype, out)
 
-        def look(begin: int, many: int) -> int:
-            return int(lib.carom_python_shot_at(balls, count, shot, many, moments + begin, target + begin * count))
+        def chunk(begin: int, many: int) -> int:
+            return int(look(balls, count, shot, moments + begin, many, target + begin * count * numbers))
 
-        code = in_chunks(at.size, 1e-6, 0, look)
+        code = in_chunks(at.size, 1e-6, 0, chunk)
         if code < 0:
             raise CaromError(code)
-        return states
+
+    def orientations(self, times: npt.ArrayLike) -> dtypes.Doubles:
+        """How each ball has turned since the start of the shot, for drawing it.
+
+        Parameters
+        ----------
+        times : array_like, shape (...)
+            s.
+
+        Returns
+        -------
+        ndarray of float64, shape (..., balls, 4)
+            Unit quaternions (w, x, y, z), which take what is painted on a ball at the start to where it is then.
+
+        Raises
+        ------
+        CaromError, ValueError
+            As for `states`.
+        """
+        at = _moments(times)
+        turned: dtypes.Doubles = np.zeros((*at.shape, len(self.balls), 4))
+        self._at(at, turned, 4, "double[]", lib.carom_python_orientations)
+        return turned
 
     def positions(self, times: npt.ArrayLike) -> dtypes.Doubles:
         """The centres of all balls at any times.
@@ -139,6 +194,18 @@ class Shot:
             As for `states`.
         """
         return np.asarray(self.states(times)["r"], dtype=np.float64)
+
+    def to_dataframe(self) -> Any:
+        """The events as a pandas DataFrame, a row an event: time, type (by name), a, b, before_a_r_x and so on.
+
+        Needs pandas. `carom.dtypes.columns` makes columns of any records.
+        """
+        import pandas
+
+        names = {kind.value: kind.name.lower() for kind in EventType}
+        frame = pandas.DataFrame(dtypes.columns(self.events))
+        frame["type"] = pandas.Categorical([names[kind] for kind in self.events["type"].tolist()], list(names.values()))
+        return frame
 
     def __repr__(self) -> str:
         return f"<carom.Shot: {len(self.balls)} balls, {self.count} events, {self.time:.4g} s, {self.status.text}>"
@@ -166,35 +233,150 @@ class Shot:
         return pictures.animation(self, speed)
 
 
+class _OfBatch(Shot):
+    """A shot of a batch: its attributes are made when they are first used."""
+
+    def __init__(self, batch: Shots, index: Any) -> None:
+        self.batch = batch
+        self.index: Any = index
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            make = _ATTRIBUTES.get(name)
+            if make is None:
+                raise AttributeError(f"a carom.Shot has no attribute {name!r}")
+            value = make(self.batch, self.index)
+            self.__dict__[name] = value
+            return value
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        given = self.table, self.balls, int(self.status), self.time, self.count, self.events, self.final
+        return Shot, given
+
+    def states(self, times: npt.ArrayLike) -> dtypes.Records:
+        return self._seen(times, dtypes.ball_state, ())
+
+    def positions(self, times: npt.ArrayLike) -> dtypes.Doubles:
+        return self._seen(times, np.dtype(np.float64), (3,))
+
+    def _seen(self, times: npt.ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...]) -> Array:
+        index: tuple[Any, ...] = self.index if isinstance(self.index, tuple) else (self.index,)
+        seen, codes = self.batch[(*index, ...)].look_at(times, dtype, numbers, 0)
+        if codes[0] < 0:
+            raise CaromError(int(self.status) if self.status < 0 and self.time == 0.0 else int(codes[0]))
+        return seen
+
+    def _at(self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]) -> None:
+        if self.count > len(self.events) or self.events.dtype != dtypes.event:
+            raise CaromError(Status.ERROR_EVENTS_LOST)
+        super()._at(at, out, numbers, ctype, look)
+
+
+def _kept(batch: Shots, index: Any) -> dtypes.Records:
+    kept: dtypes.Records = batch.events[index]
+    return kept[: int(batch.record["count"][index])]
+
+
+def _layout(batch: Shots, index: Any) -> dtypes.Records:
+    return np.array(np.broadcast_to(batch.layouts, batch.final.shape)[index], dtypes.shot_ball)
+
+
+_ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
+    "table": lambda batch, index: batch.table,
+    "balls": _layout,
+    "status": lambda batch, index: Status(int(batch.status[index])),
+    "time": lambda batch, index: float(batch.record["time"][index]),
+    "count": lambda batch, index: int(batch.record["count"][index]),
+    "events": _kept,
+    "final": lambda batch, index: batch.final[index],
+    "state": lambda batch, index: None,
+    "options": lambda batch, index: None,
+}
+
+
+@dataclass(frozen=True)
+class Features:
+    """What planners want of shots, besides `Shots.final`: arrays of the shape of the batch.
+
+    Indices are -1 and times inf where there is none. The cue ball is the ball struck, or ball 0 without a cue. A cushion is a rail or
+    its rounded end.
+
+    Attributes
+    ----------
+    contact : ndarray of int32, shape (..., 2)
+        The first and the second of the different balls that the cue ball met.
+    contact_time : ndarray of float64, shape (..., 2)
+        When, s.
+    cushions_before : ndarray of int32, shape (..., 2)
+        Impacts of the cue ball on cushions before each of them; 0 where there was no contact.
+    cushions_after : ndarray of int32, shape (...)
+        Impacts on cushions, of all balls, after the first contact.
+    pocket : ndarray of int32, shape (..., balls)
+        The pocket that took each ball, by its index in `table.pockets`.
+    pocket_time : ndarray of float64, shape (..., balls)
+        When, s.
+    cushions : ndarray of int32, shape (..., balls)
+        Impacts of each ball on cushions.
+    """
+
+    contact: npt.NDArray[np.int32]
+    contact_time: dtypes.Doubles
+    cushions_before: npt.NDArray[np.int32]
+    cushions_after: npt.NDArray[np.int32]
+    pocket: npt.NDArray[np.int32]
+    pocket_time: dtypes.Doubles
+    cushions: npt.NDArray[np.int32]
+
+    def __getitem__(self, index: Any) -> Features:
+        """Those of some shots."""
+        return Features(*(getattr(self, field.name)[index] for field in fields(self)))
+
+
 class Shots:
     """Many shots: arrays of the shape of the batch.
+
+    `shots[k]` is a `Shot`, whose attributes are made when they are first used; slices and arrays of indices are `Shots`, as NumPy
+    has them. An iteration gives every shot, in C order.
 
     Attributes
     ----------
     table : Table
     layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls) or (1, balls)
+    cues : ndarray of `carom.dtypes.cue`, shape (...) or one, or None
     status : ndarray of int8, shape (...)
         As `Status`; a shot in error costs itself alone.
     time : ndarray of float64, shape (...)
-        When the last event happened, s.
+        Time of the last event, or when the shot was stopped, s.
     count : ndarray of int64, shape (...)
         Events that happened, also beyond the room.
     final : ndarray of `carom.dtypes.ball_state`, shape (..., balls)
         Undefined where an argument was in error.
-    events : ndarray of `carom.dtypes.event`, shape (..., room)
+    events : ndarray of `carom.dtypes.event` or `carom.dtypes.brief_event`, shape (..., room)
         The first count of each row are valid.
+    features : Features or None
+        With `simulate_batch(features=True)`.
     record : ndarray of `carom.dtypes.shot`, shape (...)
         The structs of C, with the addresses of final and events.
+    options : tuple
+        Arguments with which the shots are played again where that is needed.
     """
 
-    def __init__(self, table: Table, layouts: dtypes.Records, shape: tuple[int, ...], room: int) -> None:
+    table: Table
+
+    def __init__(
+        self, table: Table, layouts: dtypes.Records, shape: tuple[int, ...], room: int, event: dtypes.Record = dtypes.event
+    ) -> None:
         balls = layouts.shape[-1]
         self.table = table
         self.layouts = layouts
+        self.cues: dtypes.Records | None = None
         self.status: npt.NDArray[np.int8] = np.zeros(shape, INT8)
         self.final: dtypes.Records = np.zeros((*shape, balls), dtypes.ball_state)
-        self.events: dtypes.Records = np.zeros((*shape, room), dtypes.event)
+        self.events: dtypes.Records = np.zeros((*shape, room), event)
         self.record: dtypes.Records = np.zeros(shape, dtypes.shot)
+        self.features: Features | None = None
+        self.options: tuple[Any, ...] = ()
 
     @property
     def time(self) -> dtypes.Doubles:
@@ -214,21 +396,162 @@ class Shots:
     def __len__(self) -> int:
         return len(self.status)
 
-    def __getitem__(self, index: int | tuple[int, ...]) -> Shot:
-        """One shot of the batch, by its full index."""
-        status = self.status[index]
-        if np.ndim(status) != 0:
-            raise IndexError(f"a shot of a batch of shape {self.shape} has {len(self.shape)} indices")
-        count = int(self.count[index])
-        kept: dtypes.Records = self.events[index][: min(count, self.events.shape[-1])]
-        layout = np.broadcast_to(self.layouts, self.final.shape)[index]
-        balls = np.array(layout, dtypes.shot_ball)
-        return Shot(self.table, balls, int(status), float(self.time[index]), count, kept, self.final[index])
+    def __iter__(self) -> Iterator[Shot]:
+        """Every shot, in C order."""
+        for index in np.ndindex(self.shape):
+            yield _OfBatch(self, index)
+
+    @overload
+    def __getitem__(self, index: int | np.integer[Any] | tuple[int, ...]) -> Shot: ...
+    @overload
+    def __getitem__(self, index: Any) -> Shots: ...
+    def __getitem__(self, index: Any) -> Shot | Shots:
+        """One shot of the batch, by its full index, or some."""
+        chosen = self.status[index]
+        if not isinstance(chosen, np.ndarray):
+            return _OfBatch(self, index)
+        if isinstance(index, (int, np.integer)):
+            raise IndexError(f"a shot of a batch of shape {self.shape} has {len(self.shape)} indices; [{index}, ...] are some")
+        part = Shots.__new__(Shots)
+        part.table, part.options, part.status = self.table, self.options, chosen
+        part.layouts = np.broadcast_to(self.layouts, self.final.shape)[index]
+        part.cues = None if self.cues is None else np.broadcast_to(self.cues, self.shape)[index]
+        part.final, part.events, part.record = self.final[index], self.events[index], self.record[index]
+        part.features = None if self.features is None else self.features[index]
+        return part
+
+    # ---- Trajectories ---------------------------------------------------------------------------------------------------
+
+    def states(self, times: npt.ArrayLike, *, threads: int = 0) -> dtypes.Records:
+        """The states of all balls of all shots at any times.
+
+        Shots of which not all events were kept are played again, which takes the time of playing them.
+
+        Parameters
+        ----------
+        times : array_like, shape (...)
+            s, for all shots. Before 0: as at 0; after the end: as at the end, where nothing moves any more.
+        threads : int
+            Most threads to use; 0 is the calling one alone, -1 all processors. No bit depends on it.
+
+        Returns
+        -------
+        ndarray of `carom.dtypes.ball_state`, shape (shape of the batch..., shape of the times..., balls)
+            nan, and the label -1, where no state is known: of shots whose arguments were in error, and after shots were stopped,
+            or ended in an error, while balls moved.
+
+        Raises
+        ------
+        ValueError
+            A time is not finite; or a shot has to be played again, and its layout or cue has been changed since.
+        """
+        return self.look_at(times, dtypes.ball_state, (), threads)[0]
+
+    def positions(self, times: npt.ArrayLike, *, threads: int = 0) -> dtypes.Doubles:
+        """The centres of all balls of all shots at any times: float64 of shape (batch..., times..., balls, 3), m.
+
+        Parameters and errors are those of `states`.
+        """
+        return self.look_at(times, np.dtype(np.float64), (3,), threads)[0]
+
+    def look_at(
+        self, times: npt.ArrayLike, dtype: np.dtype[Any], numbers: tuple[int, ...], threads: int
+    ) -> tuple[Array, npt.NDArray[np.int8]]:
+        """For `states` and `positions`: the array, and of each shot, in C order, whether some of it is unknown."""
+        given = _moments(times)
+        order = np.argsort(given.reshape(-1), kind="stable")
+        at = given.reshape(-1)[order]
+        count = self.final.shape[-1]
+        out: Array = np.empty((self.status.size, at.size, count, *numbers), dtype)
+        seen = pointer("double[]" if numbers else "carom_ball_state[]", out)
+        moments, row = pointer("double[]", at), at.size * count * (numbers[0] if numbers else 1)
+
+        def look(job: Any, codes: Any, begin: int) -> int:
+            states, positions = (ffi.NULL, seen + begin * row) if numbers else (seen + begin * row, ffi.NULL)
+            return int(lib.carom_python_look(job, 0, moments, at.size, states, positions, ffi.NULL, codes))
+
+        codes = self._look(look, 5e-6 + 2e-8 * at.size * count, threads)
+        if (np.diff(order) < 0).any():
+            back = np.empty_like(order)
+            back[order] = np.arange(len(order))
+            out = out[:, back]
+        return out.reshape((*self.shape, *given.shape, count, *numbers)), codes
+
+    def look_for_features(self, threads: int) -> Features:
+        """For `simulate_batch`: plays the shots, and tells what happened."""
+        n, count = self.status.size, self.final.shape[-1]
+        sizes = {"contact": 2, "contact_time": 2, "cushions_before": 2, "cushions_after": 1, "pocket": count, "pocket_time": count}
+        sizes["cushions"] = count
+        made: dict[str, Any] = {name: np.empty((n, size), np.float64 if name.endswith("time") else np.int32) for name, size in sizes.items()}
+        starts = {name: pointer("double[]" if name.endswith("time") else "int32_t[]", array) for name, array in made.items()}
+
+        def look(job: Any, codes: Any, begin: int) -> int:
+            features = ffi.new("carom_python_features *", {name: start + begin * sizes[name] for name, start in starts.items()})
+            return int(lib.carom_python_look(job, 1, ffi.NULL, 0, ffi.NULL, ffi.NULL, features, codes))
+
+        self._look(look, 5e-5, threads)
+        made["cushions_after"] = made["cushions_after"][:, 0]
+        return Features(**{name: array.reshape((*self.shape, *array.shape[1:])) for name, array in made.items()})
+
+    def _look(self, look: Callable[[Any, Any, int], int], seconds: float, threads: int) -> npt.NDArray[np.int8]:
+        """Calls look(job, codes, first row) for all rows, which take so many seconds each; the codes."""
+        codes: npt.NDArray[np.int8] = np.zeros(self.status.size, INT8)
+        flags = pointer("int8_t[]", codes)
+        job = self.jobs(shot_options(*self.options, 0))
+        code = in_chunks(codes.size, seconds, threads, spread(threads, lambda begin, many: look(job(begin, many), flags + begin, begin)))
+        if code < 0:
+            raise MemoryError("no memory for the events of a shot")
+        if (codes == Status.ERROR_STATE).any():
+            raise ValueError(
+                "layouts, cues: they were changed after the shots were played, so they cannot be played again; "
+                "simulate_batch(room=...) keeps all events of shots of up to so many"
+            )
+        return codes
+
+    def jobs(self, options: Any) -> Callable[[int, int], Any]:
+        """A function that gives the carom_shot_job of `many` rows from `begin` on."""
+        lead, count = len(self.shape), self.final.shape[-1]
+        layouts, one_layout = one_or_all(self.layouts, self.final.shape, lead)
+        cues, one_cue = (None, True) if self.cues is None else one_or_all(self.cues, self.shape, lead)
+        record, status = np.ascontiguousarray(self.record).reshape(-1), np.ascontiguousarray(self.status).reshape(-1)
+        room = self.events.shape[-1]
+        record["events"], record["brief"], record["state"], record["room"] = 0, 0, 0, room
+        if room > 0:
+            record["events" if self.events.dtype == dtypes.event else "brief"] = addresses(self.events, lead)
+        record["final"] = addresses(self.final, lead)
+        table, balls = pointer("carom_table[]", self.table.record), pointer("carom_shot_ball[]", layouts)
+        strikes = ffi.NULL if cues is None else pointer("carom_cue[]", cues)
+        results, flags = pointer("carom_shot[]", record), pointer("int8_t[]", status)
+
+        def job(begin: int, many: int) -> Any:
+            return ffi.new(
+                "carom_shot_job *",
+                {
+                    "table": table,
+                    "balls": balls if one_layout else balls + begin * count,
+                    "cues": strikes if one_cue else strikes + begin,
+                    "count": count,
+                    "ball_stride": 0 if one_layout else count,
+                    "cue_stride": 0 if one_cue else 1,
+                    "n": many,
+                    "options": options,
+                    "shots": results + begin,
+                    "status": flags + begin,
+                },
+            )
+
+        return job
 
     def failures(self) -> list[tuple[tuple[int, ...], str]]:
-        """The index of each shot in error, and what is wrong with it."""
-        indices: Iterator[tuple[int, ...]] = (tuple(int(k) for k in row) for row in np.argwhere(self.status < 0))
-        return [(index, Status(int(self.status[index])).text) for index in indices]
+        """The index of each shot that ended in an error, and the error."""
+        return [(index, self._why(index)) for index in (tuple(int(k) for k in row) for row in np.argwhere(self.status < 0))]
+
+    def _why(self, index: tuple[int, ...]) -> str:
+        status = Status(int(self.status[index]))
+        if self.cues is None or status not in (Status.ERROR_CUE, Status.ERROR_MISCUE):
+            return status.text
+        layout = np.broadcast_to(self.layouts, self.final.shape)[index]
+        return str(cue_error(status, np.broadcast_to(self.cues, self.shape)[index], layout))
 
     def __repr__(self) -> str:
         return f"<carom.Shots: {self.shape}, {int((self.status < 0).sum())} in error>"

@@ -2,54 +2,26 @@
 
 from __future__ import annotations
 
-import functools
+from collections.abc import Callable, Iterable
 from typing import Any, Literal
 
 import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, apart, as_array, choice, in_chunks, output, pointer
+from carom._rows import INT8, Array, apart, as_array, in_chunks, output, pointer, whole
+from carom._shot_options import BallModel as BallModel
+from carom._shot_options import Friction as Friction
+from carom._shot_options import ShotCushion as ShotCushion
+from carom._shot_options import Space as Space
+from carom._shot_options import StopAt as StopAt
+from carom._shot_options import World as World
+from carom._shot_options import hashable, shot_options
 from carom.layouts import Table, cue_error
 from carom.results import Shot, Shots
 from carom.status import CaromError, Status
 
-World = Literal["carom", "pooltool"]
-BallModel = Literal["default", "exact", "euler", "inelastic", "mirror"]
-ShotCushion = Literal["default", "mathavan", "stronge", "han", "mirror", "euler"]
-Friction = Literal["alciatore", "constant"]
-_WORLDS = {"carom": 0, "pooltool": 1}
-_BALL_MODELS = {"default": 0, "exact": 1, "euler": 2, "inelastic": 3, "mirror": 4}
-_CUSHIONS = {"default": 0, "mathavan": 1, "stronge": 2, "han": 3, "mirror": 4, "euler": 5}
-_FRICTIONS = {"alciatore": 0, "constant": 1}
 _FIRST_ROOM = 512
-
-
-@functools.lru_cache(maxsize=256)
-def shot_options(
-    world: str,
-    ball_model: str,
-    cushion_model: str,
-    friction: str,
-    steps: int,
-    events_most: int,
-    time_most: float,
-    threads: int,
-) -> Any:
-    """The options of C; they are never written to."""
-    return ffi.new(
-        "carom_shot_options *",
-        {
-            "world": choice(_WORLDS, world, "world"),
-            "ball_model": choice(_BALL_MODELS, ball_model, "ball_model"),
-            "cushion_model": choice(_CUSHIONS, cushion_model, "cushion_model"),
-            "friction": choice(_FRICTIONS, friction, "friction"),
-            "steps": steps,
-            "events_most": events_most,
-            "time_most": time_most,
-            "threads": threads,
-        },
-    )
 
 
 def _records(values: dtypes.Records, record: dtypes.Record, name: str, builder: str) -> Array:
@@ -57,6 +29,11 @@ def _records(values: dtypes.Records, record: dtypes.Record, name: str, builder: 
     if array.dtype != record:
         raise TypeError(f"{name}: an array of the dtype of carom.{builder} is needed, not of {array.dtype}")
     return np.asarray(array, order="C")
+
+
+def _table(table: object) -> None:
+    if not isinstance(table, Table):
+        raise TypeError(f"table: a carom.Table is needed, such as carom.tables.pool_9ft() gives, not {type(table).__name__}")
 
 
 def simulate(
@@ -68,34 +45,43 @@ def simulate(
     ball_model: BallModel = "default",
     cushion_model: ShotCushion = "default",
     friction: Friction = "alciatore",
+    space: Space = "3d",
     steps: int = 0,
     events_most: int = 0,
-    time_most: float = 0.0,
+    t_final: float | None = None,
+    stop_at: StopAt | Iterable[StopAt] = (),
 ) -> Shot:
     """Play a shot until nothing moves.
 
     Parameters
     ----------
     table : Table
-        `carom.tables` has the usual ones.
+        `carom.tables` has the standard ones.
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
         1 to 32 of them, from `carom.racks` or `carom.balls`. Not changed.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
-        From `carom.cue`. There is no strike without it, at speed 0, or if a ball moves already.
+        From `carom.cue`. Without it, with speed 0, or if a ball moves already, there is no strike.
     world : {"carom", "pooltool"}
-        The rules of contact: those of carom, or pooltool's, for the same histories as pooltool's.
+        The rules of contact: carom's, or pooltool's, which give the histories of pooltool.
     ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
-        The collision of two balls; by default exact in the world carom, inelastic in pooltool.
+        Model of the collision of two balls. Default: exact in the world carom, inelastic in pooltool.
     cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
-        The impact on a cushion; by default mathavan in the world carom, stronge in pooltool. mathavan takes most of the time.
+        Model of the impact on a cushion. Default: han in the world carom, stronge in pooltool. mathavan is the exact limit, and takes most of
+        the time.
     friction : {"alciatore", "constant"}
         Between balls: by the speed of slip, or the balls' mu_ball.
+    space : {"3d", "flat"}
+        Whether balls can leave the cloth, as by an elevated cue. The world pooltool is flat.
     steps : int
         Of Euler's models; 0 is 1000.
     events_most : int
         Bound of events; 0 is 10000.
-    time_most : float
-        Bound of the clock, s; 0 is 1000.
+    t_final : float, optional
+        The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that
+        lasts longer than 1000 s is an error.
+    stop_at : str or iterable of str
+        The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT: "contact", of the cue ball with
+        another, or a type of `carom.EventType` in lower case, such as "pocket". `resume` goes on with a shot that was stopped.
 
     Returns
     -------
@@ -111,6 +97,7 @@ def simulate(
     if layout.ndim != 1:
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}; simulate_batch plays many layouts")
     layout = layout.copy()
+    _table(table)
     if cue is None:
         strike: Any = ffi.NULL
     else:
@@ -118,31 +105,77 @@ def simulate(
         if cues.size != 1:
             raise ValueError(f"cue: one is needed, not {cues.size}; simulate_batch plays many")
         strike = pointer("carom_cue[]", cues)
-    options = shot_options(world, ball_model, cushion_model, friction, steps, events_most, time_most, 0)
-    final: Array = np.zeros(layout.shape, dtypes.ball_state)
+    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most)
+    options = shot_options(*chosen, t_final, hashable(stop_at), 0)
+    state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if t_final is not None or stop_at else None
     arguments = (pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), strike, options)
     if lib.carom_shot_check(*arguments, ffi.NULL) < 0:
         raise _argument_error(arguments, layout, None if cue is None else cues.reshape(()))
-    # A shot that has more events than there is room for is played again with enough of it: it has the same bits.
-    room = _FIRST_ROOM
+    played = Shot(table, layout, 0, 0.0, 0, np.zeros(0, dtypes.event), np.zeros(layout.shape, dtypes.ball_state), state, chosen)
+    return _run(played, lambda shot: lib.carom_shoot(*arguments, shot))
+
+
+def _run(begun: Shot, play: Callable[[Any], int]) -> Shot:
+    """A shot as C plays it from its beginning, or goes on with it.
+
+    One that has more events than there is room for is played again with enough of it: it has the same bits.
+    """
+    room = max(_FIRST_ROOM, 2 * begun.count)
     while True:
         events: Array = np.empty(room, dtypes.event)
+        events[: begun.count] = begun.events
+        final = begun.final.copy()
+        state = None if begun.state is None else begun.state.copy()
         shot = ffi.new(
             "carom_shot *",
             {
                 "events": pointer("carom_event[]", events),
                 "room": room,
+                "count": begun.count,
+                "time": begun.time,
                 "final": pointer("carom_ball_state[]", final),
+                "state": ffi.NULL if state is None else ffi.cast("carom_shot_state *", pointer("uint64_t[]", state)),
             },
         )
-        code = lib.carom_shoot(*arguments, shot)
+        code = play(shot)
         if shot.count <= room:
             break
         room = shot.count
-    played = Shot(table, layout, code, shot.time, shot.count, events[: shot.count].copy(), final)
+    played = Shot(begun.table, begun.balls, code, shot.time, shot.count, events[: shot.count].copy(), final, state, begun.options)
     if code < 0:
         raise CaromError(code, shot=played)
     return played
+
+
+def resume(shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterable[StopAt] = ()) -> Shot:
+    """Go on with a shot that was stopped at a time or an event, as if it had not been.
+
+    Parameters
+    ----------
+    shot : Shot
+        Given by `simulate`, or by `resume`, with `t_final` or `stop_at`. It is not changed. One at rest stays at rest.
+    t_final, stop_at
+        When to stop again, as for `simulate`; t_final counts from the beginning of the shot.
+
+    Returns
+    -------
+    Shot
+        With all events from the beginning. Events and states have the bits of the unbroken shot.
+
+    Raises
+    ------
+    CaromError
+        The shot ends in an error.
+    ValueError
+        The shot was played without `t_final` and `stop_at`, or as one of a batch; or t_final is before the time at which it stopped.
+    """
+    if shot.state is None or shot.options is None:
+        raise ValueError("shot: only what simulate() or resume() stopped, with t_final= or stop_at=, can be gone on with")
+    if t_final is not None and t_final < shot.time:
+        raise ValueError(f"t_final: it must not be before {shot.time} s, when the shot stopped, but is {t_final}")
+    options = shot_options(*shot.options, t_final, hashable(stop_at), 0)
+    table, balls = pointer("carom_table[]", shot.table.record), pointer("carom_shot_ball[]", shot.balls)
+    return _run(shot, lambda begun: lib.carom_shot_continue(table, balls, len(shot.balls), options, begun))
 
 
 def simulate_batch(
@@ -151,13 +184,17 @@ def simulate_batch(
     cues: dtypes.Records | None = None,
     *,
     room: int = 0,
+    records: Literal["full", "brief"] = "full",
+    features: bool = False,
     world: World = "carom",
     ball_model: BallModel = "default",
     cushion_model: ShotCushion = "default",
     friction: Friction = "alciatore",
+    space: Space = "3d",
     steps: int = 0,
     events_most: int = 0,
-    time_most: float = 0.0,
+    t_final: float | None = None,
+    stop_at: StopAt | Iterable[StopAt] = (),
     threads: int = 0,
     out: Shots | None = None,
 ) -> Shots:
@@ -171,8 +208,12 @@ def simulate_batch(
     cues : ndarray of `carom.dtypes.cue`, shape (...), optional
         None: no strikes. Broadcast against the leading dimensions of the layouts: one layout and many cues, or the reverse.
     room : int
-        How many events of each shot are kept; 0: final states only. `shots[k].positions()` needs all of them.
-    world, ball_model, cushion_model, friction, steps, events_most, time_most
+        How many events of each shot are kept; 0: final states only.
+    records : {"full", "brief"}
+        What is kept of an event: all (`carom.dtypes.event`, 344 bytes), or time, type and who (`carom.dtypes.brief_event`, 24 bytes).
+    features : bool
+        Whether `shots.features` tells first contacts, cushions and pockets.
+    world, ball_model, cushion_model, friction, space, steps, events_most, t_final, stop_at
         As for `simulate`.
     threads : int
         Most threads to use; 0 is the calling one alone, -1 all processors. No bit depends on it.
@@ -193,56 +234,38 @@ def simulate_batch(
     all_cues = np.zeros((), dtypes.cue) if cues is None else _records(cues, dtypes.cue, "cues", "cue()")
     if all_balls.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")
+    _table(table)
+    whole(room, "room")
     count = all_balls.shape[-1]
     shape = np.broadcast_shapes(all_balls.shape[:-1], all_cues.shape)
     # One layout or one cue for all is not copied; what else is broadcast is.
-    one_layout = all_balls.size == count
-    one_cue = all_cues.size == 1
-    if not one_layout:
+    if all_balls.size != count:
         all_balls = np.ascontiguousarray(np.broadcast_to(all_balls, (*shape, count)))
-    if not one_cue:
+    if all_cues.size != 1:
         all_cues = np.ascontiguousarray(np.broadcast_to(all_cues, shape))
-    shots = Shots(table, all_balls, shape, room) if out is None else out
+    if records not in ("full", "brief"):
+        raise ValueError(f"records: must be 'full' or 'brief', not {records!r}")
+    record = dtypes.event if records == "full" else dtypes.brief_event
+    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most, t_final, hashable(stop_at))
+    options = shot_options(*chosen, threads)
+    shots = Shots(table, all_balls, shape, room, record) if out is None else out
     output(shots.status, shape, INT8, "out.status")
     output(shots.final, (*shape, count), dtypes.ball_state, "out.final")
-    output(shots.events, (*shape, room), dtypes.event, "out.events")
+    output(shots.events, (*shape, room), record, "out.events")
+    output(shots.record, shape, dtypes.shot, "out.record")
     if out is not None:
         written = (("out.status", out.status), ("out.final", out.final), ("out.events", out.events), ("out.record", out.record))
         apart((("layouts", all_balls), ("cues", all_cues), ("table", table.record)), written)
-    shots.table, shots.layouts = table, all_balls
-    n = shots.status.size
-    record = shots.record
-    flat = record.reshape(n)
-    flat["time"], flat["count"], flat["room"] = 0.0, 0, room
-    numbers = np.arange(n, dtype=np.uintp)
-    flat["brief"], flat["state"] = 0, 0
-    flat["events"] = 0 if room == 0 else shots.events.ctypes.data + numbers * np.uintp(room * dtypes.event.itemsize)
-    flat["final"] = shots.final.ctypes.data + numbers * np.uintp(count * dtypes.ball_state.itemsize)
-    options = shot_options(world, ball_model, cushion_model, friction, steps, events_most, time_most, threads)
+    shots.table, shots.layouts, shots.cues = table, all_balls, None if cues is None else all_cues
+    shots.options, shots.features = chosen, None
+    shots.record["time"], shots.record["count"] = 0.0, 0
     shots.status[...] = Status.OK
-    balls, results, flags = pointer("carom_shot_ball[]", all_balls), pointer("carom_shot[]", record), pointer("int8_t[]", shots.status)
-    strikes = ffi.NULL if cues is None else pointer("carom_cue[]", all_cues)
-    of_table = pointer("carom_table[]", table.record)
-
-    def play(begin: int, many: int) -> int:
-        job = ffi.new(
-            "carom_shot_job *",
-            {
-                "table": of_table,
-                "balls": balls if one_layout else balls + begin * count,
-                "cues": strikes if one_cue else strikes + begin,
-                "count": count,
-                "ball_stride": 0 if one_layout else count,
-                "cue_stride": 0 if one_cue else 1,
-                "n": many,
-                "options": options,
-                "shots": results + begin,
-                "status": flags + begin,
-            },
-        )
-        return int(lib.carom_shoot_batch(job))
-
-    code = in_chunks(n, 5e-5, threads, play)
+    if features:
+        shots.features = shots.look_for_features(threads)
+        code = 0
+    else:
+        job = shots.jobs(options)
+        code = in_chunks(shots.status.size, 5e-5, threads, lambda begin, many: int(lib.carom_shoot_batch(job(begin, many))))
     if code < 0 and not (shots.status < 0).any():
         raise CaromError(code)
     return shots
@@ -285,6 +308,9 @@ def _argument_error(arguments: tuple[Any, ...], layout: Array, cue: Array | None
     if status is Status.ERROR_RESTITUTION:
         restitutions = ("restitution", "restitution_cushion")
         field = next((f"kind.{name}" for name in restitutions if not 0 <= kind[name] <= 1), None)
+        if field is None:
+            text = "it must be 0 to 0.98, or -1 for none"
+            return CaromError(status, f"balls[{where[0]}].kind.restitution_table", kind["restitution_table"], text=text)
     if status is Status.ERROR_MU_BALL:
         laws = ("law_a", "law_b", "law_c")
         bad = (name for name in laws if not 0 <= kind[name] < np.inf or (name != "law_c" and kind[name] > 1))

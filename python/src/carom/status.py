@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Status(enum.IntEnum):
-    """How a call ended: 0 is success, positive a valid outcome worth a remark, negative an error. `text` tells what it means."""
+    """The outcome of a call: 0 is success, positive a valid result with a remark, negative an error. `text` explains it."""
 
     OK = 0
     SEPARATING = 1
@@ -66,6 +66,11 @@ class Status(enum.IntEnum):
     ERROR_DRAG = -56
     ERROR_BALL_CUSHION = -57
     ERROR_STATE = -60
+    ERROR_TABLE_OPEN = -61
+    ERROR_RAIL_SIDE = -62
+    ERROR_RAIL_LINE = -63
+    ERROR_TANGENT = -70
+    ERROR_DIRECTIONS = -71
 
     @property
     def text(self) -> str:

@@ -1,7 +1,7 @@
 """Recorded paths of balls: reading them, making them, and what happened on them.
 
 A recording is one shot: for each ball rows of time and place, s and m, in the order of time. The table is 0 <= x <= W, 0 <= y <= L,
-so a ball's centre stays a radius inside. What a camera's software writes has four traps, which everything here minds:
+so a ball's centre stays a radius inside. The files of cameras have four traps, which this module takes into account:
 
 - the first rows of a ball, often one, are its place at rest, whenever it starts to move;
 - later rows may be thinned by displacement: a row is written once the ball is far enough from the last one written, and the last row
@@ -48,7 +48,7 @@ _OUTSIDE = 0.02  # m: a centre that is farther outside its bounds than this was 
 
 
 class TrackError(ValueError):
-    """A file of tracks is not as it should be: the message tells what, where, and what would be right."""
+    """A file of tracks is wrong. The message says what is wrong, where, and what would be right."""
 
 
 @dataclass(frozen=True, eq=False)

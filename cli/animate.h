@@ -1,0 +1,13 @@
+/* Shots that play: one HTML file with the picture, the balls' places and a script that moves them. */
+#ifndef CAROM_CLI_ANIMATE_H
+#define CAROM_CLI_ANIMATE_H
+
+#include "shot_picture.h"
+
+/* For a `const char *`: a name that ends in .html. */
+OPTION_SET(set_animation);
+
+/* Writes the page, which loads nothing. */
+void shots_animate(FILE *out, const played *shots, int count, const char *footer);
+
+#endif

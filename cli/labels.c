@@ -1,0 +1,51 @@
+/* Labels: each is tried in eight directions from its place, ever farther away, until its box is free. */
+#include "labels.h"
+
+#include "derived.h"
+#include "picture.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+enum { MOST_CHARACTERS = 200 };
+static const double letter = 7.6 / 13.0, line = 16.0 / 13.0; /* widest letter and height, over the size */
+static const double farthest = 200.0;                        /* pixels */
+
+void keep_free(labels *l, double left, double top, double right, double bottom) {
+  if (l->boxes < MOST_BOXES)
+    memcpy(l->box[l->boxes++], (double[4]){left, top, right, bottom}, sizeof l->box[0]);
+}
+
+void keep_line(labels *l, double x0, double y0, double x1, double y1) {
+  const int pieces = 1 + (int)fmin(hypot(x1 - x0, y1 - y0) / 12.0, 200.0);
+  for (int k = 0; k <= pieces; k++) {
+    const double x = x0 + (x1 - x0) * k / pieces, y = y0 + (y1 - y0) * k / pieces;
+    keep_free(l, x - 3.0, y - 3.0, x + 3.0, y + 3.0);
+  }
+}
+
+static bool is_free(const labels *l, const double box[4]) {
+  bool good = box[0] > 2.0 && box[2] < l->width - 2.0 && box[1] > 2.0 && box[3] < l->height - 2.0;
+  for (int k = 0; k < l->boxes; k++)
+    good &= box[2] < l->box[k][0] || box[0] > l->box[k][2] || box[3] < l->box[k][1] || box[1] > l->box[k][3];
+  return good;
+}
+
+void put_label(labels *l, double x, double y, const char *text) {
+  const double width = letter * l->size * (double)strlen(text), height = line * l->size;
+  char style[160];
+  double box[4] = {0};
+  bool found = false;
+  for (double far = 4.0; far < farthest && !found; far += 8.0)
+    for (int turn = 0; turn < 8 && !found; turn++) {
+      const double angle = 45.0 * turn * degree, left = x + far * cos(angle) - (turn > 2 && turn < 6 ? width : 0.0);
+      const double middle = turn % 4 == 2 ? left - 0.5 * width : left, base = y + far * sin(angle) + 0.5 * height;
+      memcpy(box, (double[4]){middle, base - height, middle + width, base}, sizeof box);
+      found = is_free(l, box);
+    }
+  keep_free(l, box[0], box[1], box[2], box[3]);
+  snprintf(style, sizeof style,
+           "font-size=\"%g\" fill=\"#0b2a22\" stroke=\"#6fc0a6\" stroke-width=\"3\" paint-order=\"stroke\"", l->size);
+  svg_text(l->out, box[0], box[3] - 0.25 * height, style, text, MOST_CHARACTERS);
+}

@@ -1,0 +1,248 @@
+/* Impacts from words. */
+#include "series.h"
+
+#include "command.h"
+#include "contact_picture.h"
+#include "doubts.h"
+#include "memory.h"
+#include "message.h"
+#include "number.h"
+#include "output.h"
+#include "picture.h"
+#include "sink.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static int inputs_of(const series *s) {
+  int count = 0;
+  while (s->scene->inputs[count] != NULL)
+    count++;
+  return count;
+}
+
+/* The input that is a range; -1 if there is none. */
+static int range_of(const series *s) {
+  int range = -1;
+  for (int k = 0; k < inputs_of(s); k++)
+    range = s->in[k].range ? k : range;
+  return range;
+}
+
+static int count_of(const series *s) {
+  int count = 1;
+  for (int k = 0; k < inputs_of(s); k++)
+    count *= s->in[k].count;
+  return count;
+}
+
+/* Combination number `index`: a range changes fastest, then the last of the lists. */
+static void make_case(const series *s, int index, one_case *c) {
+  const int range = range_of(s), inputs = inputs_of(s);
+  *c = (one_case){0};
+  for (int k = inputs; k >= 0; k--) {
+    const int input = k == inputs ? range : k;
+    if (input < 0 || c->given[input] != NULL)
+      continue;
+    c->given[input] = &s->in[input].at[index % s->in[input].count];
+    index /= s->in[input].count;
+  }
+  /* The first value, and those of lists. */
+  for (int k = 0; k < inputs; k++)
+    if (k == 0 || s->in[k].count > 1)
+      snprintf(c->id + strlen(c->id), sizeof c->id - strlen(c->id), "%s%s", k > 0 ? "-" : "", c->given[k]->name);
+  for (char *blank = c->id; (blank = strchr(blank, ' ')) != NULL;)
+    memmove(blank, blank + 1, strlen(blank));
+  s->scene->make(s, c);
+}
+
+static carom_status resolve_case(const series *s, int index, one_case *c) {
+  int8_t status;
+  make_case(s, index, c);
+  s->scene->kind->solve(&s->asked, false, c->row, 1, c->result, &status);
+  return (carom_status)status;
+}
+
+/* Whether all can be resolved; else a complaint. */
+static bool check_all(const series *s, int count) {
+  const row_kind *kind = s->scene->kind;
+  doubts found = {0};
+  bool strange = false;
+  one_case c;
+  for (int k = 0; k < count; k++) {
+    int field = -1;
+    const carom_status status = resolve_case(s, k, &c);
+    if (status != CAROM_OK) {
+      kind->check(c.row, &s->asked, &field);
+      complain("no such %s (%s): %s%s%s (%s)", kind->noun, c.id, field >= 0 ? kind->columns[field].name : "",
+               field >= 0 ? ": " : "", carom_status_string(status), carom_status_name(status));
+      return false;
+    }
+    strange |= doubts_about(&found, kind, c.row) != NULL;
+  }
+  doubts_report(&found, kind, "the values given");
+  return !(s->asked.strict && strange);
+}
+
+/* ---- Tables */
+
+static void write_rows(FILE *out, const series *s, int count) {
+  one_case c;
+  write_row_header(out, s->scene->kind);
+  for (int k = 0; k < count; k++) {
+    make_case(s, k, &c);
+    write_row(out, s->scene->kind, c.id, c.row);
+  }
+}
+
+/* The word of a quantity; returns whether there is one. */
+static bool quantity_word(const series *s, int quantity, char word[32]) {
+  const char *at = s->scene->quantities;
+  for (int k = 0; k < quantity && at != NULL; k++)
+    at = strchr(at, '|') != NULL ? strchr(at, '|') + 1 : NULL;
+  if (at != NULL)
+    snprintf(word, 32, "%.*s", (int)strcspn(at, "|"), at);
+  return at != NULL;
+}
+
+/* The values that are several, as they were given, and the quantity asked for, or all. */
+static void write_table(FILE *out, const series *s, int count) {
+  const int first = s->quantity != NO_QUANTITY ? s->quantity : 0;
+  char word[32];
+  one_case c;
+  for (int k = 0; k < inputs_of(s); k++)
+    if (s->in[k].count > 1)
+      fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k], s->in[k].unit);
+  for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY); q++)
+    fprintf(out, "%s%s", q > first ? "," : "", word);
+  fputc('\n', out);
+  for (int k = 0; k < count; k++) {
+    resolve_case(s, k, &c);
+    for (int input = 0; input < inputs_of(s); input++)
+      if (s->in[input].count > 1) {
+        char text[NUMBER_TEXT];
+        fprintf(out, "%s,", isnan(c.given[input]->given) ? c.given[input]->name : number_text(c.given[input]->given, text));
+      }
+    for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY); q++) {
+      char text[NUMBER_TEXT];
+      fprintf(out, "%s%s", q > first ? "," : "", number_text(s->scene->measure(s, &c, q), text));
+    }
+    fputc('\n', out);
+  }
+}
+
+static void write_words(FILE *out, const series *s, int count) {
+  one_case c;
+  for (int k = 0; k < count; k++) {
+    resolve_case(s, k, &c);
+    fputs(k > 0 ? "\n" : "", out);
+    s->scene->tell(out, s, &c);
+  }
+}
+
+/* ---- Pictures */
+
+/* The data of figures/curves.gp: a curve for each combination of the lists, over the range. */
+static void write_curves(FILE *out, const void *data) {
+  const series *s = data;
+  const int range = range_of(s), points = s->in[range].count, curves = count_of(s) / points;
+  const int quantity = s->quantity != NO_QUANTITY ? s->quantity : 0;
+  char law[80];
+  one_case c;
+  fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range], s->in[range].unit, s->scene->quantity[quantity]);
+  /* What is the same for all, on lines of a few. */
+  int said = 0;
+  for (int k = 0; k < inputs_of(s); k++)
+    if (s->in[k].count == 1)
+      fprintf(out, "%s%s %s",
+              said % 4 > 0 ? ", "
+              : said > 0   ? "\n# footer: "
+                           : "",
+              s->scene->inputs[k], s->in[k].at[0].name),
+          said++;
+  fprintf(out, ", %s\n", s->scene->law(s, law));
+  for (int curve = 0; curve < curves; curve++) {
+    make_case(s, curve * points, &c);
+    fprintf(out, "# curve %d: ", curve + 1);
+    for (int k = 0, named = 0; k < inputs_of(s); k++)
+      if (k != range && s->in[k].count > 1)
+        fprintf(out, "%s%s%s%s", named++ > 0 ? ", " : "", isnan(c.given[k]->given) ? "" : s->scene->inputs[k],
+                isnan(c.given[k]->given) ? "" : " ", c.given[k]->name);
+    fputc('\n', out);
+  }
+  fputs("curve,x,y\n", out);
+  for (int k = 0; k < curves * points; k++) {
+    resolve_case(s, k, &c);
+    fprintf(out, "%d,%.9g,%.9g\n", k / points + 1, c.given[range]->given, s->scene->measure(s, &c, quantity));
+  }
+}
+
+/* All of the cases, below each other. */
+static void write_pictures(FILE *out, const void *data) {
+  const series *s = data;
+  char *body, *words;
+  size_t body_size, words_size;
+  double top = 0.0;
+  FILE *part = open_text(&body, &body_size);
+  for (int k = 0; k < count_of(s); k++) {
+    one_case c;
+    FILE *said = open_text(&words, &words_size);
+    resolve_case(s, k, &c);
+    s->scene->tell(said, s, &c);
+    close_text(said, &words);
+    top += s->scene->draw(part, top, s, &c, words);
+    free(words);
+  }
+  close_text(part, &body);
+  svg_begin(out, CONTACT_WIDTH, top, "fill=\"#fff\"");
+  fwrite(body, 1, body_size, out);
+  fputs("</svg>\n", out);
+  free(body);
+}
+
+static bool draw(const series *s) {
+  const int range = range_of(s);
+  if (range < 0)
+    return svg_draw(s->picture, write_pictures, s);
+  return picture_draw(s->picture, "curves", "", write_curves, s);
+}
+
+/* ---- */
+
+/* What is asked for and cannot be; false after a complaint. */
+static bool is_possible(const series *s, int count) {
+  int ranges = 0;
+  for (int k = 0; k < inputs_of(s); k++)
+    ranges += s->in[k].range;
+  if (ranges > 1)
+    complain("one number can be a range, and the others lists, with commas");
+  else if (ranges == 0 && count > MOST_CASES)
+    complain("%d combinations are too many: at most %d, or a range of one number, such as --speed 1:5", count, MOST_CASES);
+  else if (ranges > 0 && s->picture != NULL && count / s->in[range_of(s)].count > MOST_CASES)
+    complain("%d curves are too many to draw: at most %d", count / s->in[range_of(s)].count, MOST_CASES);
+  else if (ranges == 0 && s->quantity != NO_QUANTITY && !s->csv)
+    complain("--quantity is for curves and tables: give a range, such as --speed 1:5, or --csv");
+  else
+    return true;
+  return false;
+}
+
+int series_run(series *s) {
+  const int count = count_of(s);
+  if (!is_possible(s, count) || !output_possible(s->picture) || !check_all(s, count))
+    return EXIT_USAGE;
+  /* With a picture of curves the table is only written where it is asked for. */
+  const bool curves = range_of(s) >= 0, table = s->quantity != NO_QUANTITY || !s->csv;
+  if (!curves || s->picture == NULL || s->csv || s->asked.output != NULL) {
+    FILE *out = output_open(s->asked.output != NULL ? s->asked.output : "-");
+    if (out == NULL)
+      return EXIT_USAGE;
+    if (!curves && !s->csv)
+      write_words(out, s, count);
+    else
+      (table ? write_table : write_rows)(out, s, count);
+    if (!output_commit())
+      return EXIT_USAGE;
+  }
+  return s->picture == NULL || draw(s) ? EXIT_GOOD : EXIT_USAGE;
+}

@@ -1,0 +1,49 @@
+/* Impacts from words: a row for each combination of the values asked for, told in words, written as rows or as a table, drawn
+ * as pictures or, over a range of one of the values, as curves. What differs between a hit and a rail stands in a scene. */
+#ifndef CAROM_CLI_SERIES_H
+#define CAROM_CLI_SERIES_H
+
+#include "kind.h"
+#include "values.h"
+
+enum { MOST_INPUTS = 10, MOST_CASES = 16, NO_QUANTITY = -1 };
+
+typedef struct series series;
+
+/* One of the combinations: a value of each input, its row, and what comes of it. */
+typedef struct one_case {
+  const value *given[MOST_INPUTS];
+  double row[MOST_NUMBERS], result[MOST_RESULTS];
+  char id[MOST_INPUTS * VALUE_NAME];
+} one_case;
+
+typedef struct scene {
+  const row_kind *kind;
+  const char *const *inputs;   /* what each is, on an axis: "cut angle"; ends with NULL */
+  const char *quantities;      /* words of --quantity, with bars between; the first is the usual one */
+  const char *const *quantity; /* what each is, on an axis, with its unit */
+  /* Makes the row of the values; the id is made. */
+  void (*make)(const series *s, one_case *c);
+  /* Measures a quantity. */
+  double (*measure)(const series *s, const one_case *c, int quantity);
+  /* Tells in words what came of it. */
+  void (*tell)(FILE *out, const series *s, const one_case *c);
+  /* Draws it as a part of a picture, with those words, from `top` down; returns its height, pixels. */
+  double (*draw)(FILE *out, double top, const series *s, const one_case *c, const char *words);
+  /* What holds for all curves and is no input: the law of friction. */
+  const char *(*law)(const series *s, char text[80]);
+} scene;
+
+struct series {
+  shared_options asked;
+  const scene *scene;
+  values in[MOST_INPUTS];
+  int quantity;
+  bool csv;
+  const char *picture;
+};
+
+/* Does what the options ask for; an exit code. */
+int series_run(series *s);
+
+#endif

@@ -1,0 +1,291 @@
+/* Shots from words.
+ *
+ * Right is positive for english here; in the lines, which keep pooltool's format, a > 0 is left. The line of aim at a ball:
+ * its centre O lies off that line by 2 R sin(cut), so the line is turned from the direction of O, D away, by
+ * asin(2 R sin(cut) / D); the way of a ball with spin differs from it, and shots as far as the contact tell by how much.
+ */
+#include "shoot_flags.h"
+
+#include "derived.h"
+#include "message.h"
+#include "number.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+enum { MOST_TEXT = 1024, MOST_EVENTS = 64, MOST_TRIALS = 30 };
+
+static bool refuse(const option_row *row, const char *text) {
+  complain("--%s is %s; not '%.60s'", row->name,
+           row->least == MEASURE_TIP ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; several with "
+                                       "colons: 0,0:0.2,0"
+                                     : "X,Y in m, or with a unit: 2,3ft; several with colons: 0.6,1.5:0.9,2",
+           text);
+  return false;
+}
+
+/* X,Y:X,Y:..., each perhaps behind NAME=; or the name of a rack. */
+static OPTION_SET(set_places) {
+  place_list *list = field;
+  char copy[MOST_TEXT], *rest;
+  static values pair;
+  *list = (place_list){0};
+  for (int kind = 0; kind <= CAROM_RACK_THREECUSHION && row == &option_balls; kind++)
+    if (strcmp(text, carom_rack_name((carom_rack_kind)kind)) == 0)
+      list->rack = carom_rack_name((carom_rack_kind)kind);
+  snprintf(copy, sizeof copy, "%s", text);
+  for (char *one = strtok_r(copy, ":", &rest); one != NULL && list->rack == NULL; one = strtok_r(NULL, ":", &rest)) {
+    char *equals = strchr(one, '='), *numbers = equals != NULL ? equals + 1 : one;
+    const size_t name = equals != NULL ? (size_t)(equals - one) : 0;
+    if (list->count == MOST_PLACES || name >= PLACE_NAME || (name > 0 && row != &option_balls) ||
+        strspn(numbers, "+-.,0123456789 eEacdfhimnprtR\"") != strlen(numbers) || strchr(numbers, ',') == NULL)
+      return refuse(row, text);
+    for (size_t k = 0; k < name; k++)
+      if (!isalnum((unsigned char)one[k]) && one[k] != '-' && one[k] != '_')
+        return refuse(row, text);
+    if (!set_values(row, numbers, &pair) || pair.count != 2)
+      return refuse(row, text);
+    snprintf(list->at[list->count].name, PLACE_NAME, "%.*s", (int)name, one);
+    list->at[list->count].x = pair.at[0];
+    list->at[list->count++].y = pair.at[1];
+  }
+  return list->rack != NULL || list->count > 0 ? true : refuse(row, text);
+}
+
+#define ROW(row, name, member, argument, set, least, help) \
+  const option_row row = {name, 0, argument, help, set, offsetof(shoot_flags, member), least, ANY_KIND}
+
+ROW(option_table, "table", table, "7ft|8ft|9ft|snooker|threecushion", set_text, 0,
+    "play one shot on this table, instead of those of a file (default 9ft). x runs across the table, y along it");
+ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_LENGTH,
+    "place of the cue ball, m, or with a unit: 2,3ft (default: the middle of the table's first quarter, or the place in the "
+    "rack)");
+ROW(option_balls, "balls", balls, "nineball|eightball|tenball|snooker|threecushion|X,Y:...", set_places, MEASURE_LENGTH,
+    "places of the other balls, with colons between them: 0.6,1.5:0.9,2. They are named 1, 2, ..., or as 8=0.6,1.5 says. Or a "
+    "rack");
+ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
+    "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin turns the ball off it by "
+    "squirt");
+ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
+    "aim at this ball instead, so that the cue ball meets it at --cut; squirt and swerve are allowed for");
+ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|DEGREES", set_values, MEASURE_CUT,
+    "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
+ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,
+    "speed of the cue ball just after the strike, m/s, or with a unit: mph, km/h (default 2)");
+ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
+    "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip. Right is positive, as english is "
+    "everywhere in this command (default 0,0)");
+ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ANGLE, "of the butt of the cue (default 0)");
+ROW(option_json, "json", json, NULL, set_flag, 0,
+    "print the shot as a line of JSON to keep, instead of playing it. In the line pooltool's sign holds: a > 0 is left");
+
+bool has_flags(const shoot_flags *f) {
+  return f->table != NULL || f->at_ball != NULL || f->json || f->cue.count > 0 || f->balls.count > 0 || f->balls.rack != NULL ||
+         f->tip.count > 0 || f->speed.count > 0 || f->aim.count > 0 || f->cut.count > 0 || f->elevation.count > 0;
+}
+
+/* The balls on the table, the cue ball first. */
+typedef struct layout {
+  carom_game game;
+  carom_table table;
+  carom_shot_ball ball[CAROM_BALLS_MOST];
+  char name[CAROM_BALLS_MOST][PLACE_NAME];
+  int count;
+} layout;
+
+/* Names of the balls of a rack, by carom_rack()'s order. */
+static void name_rack(layout *l, carom_rack_kind kind) {
+  static const char *const snooker[] = {"yellow", "green", "brown", "blue", "pink", "black"};
+  static const char *const billiard[] = {"white", "yellow", "red"};
+  for (int k = 0; k < l->count; k++)
+    if (kind == CAROM_RACK_THREECUSHION)
+      snprintf(l->name[k], PLACE_NAME, "%s", billiard[k]);
+    else if (kind == CAROM_RACK_SNOOKER && k > 15)
+      snprintf(l->name[k], PLACE_NAME, "%s", snooker[k - 16]);
+    else
+      snprintf(l->name[k], PLACE_NAME, kind == CAROM_RACK_SNOOKER ? "red%d" : "%d", k);
+  if (kind != CAROM_RACK_THREECUSHION)
+    snprintf(l->name[0], PLACE_NAME, "%s", kind == CAROM_RACK_SNOOKER ? "white" : "cue");
+}
+
+static bool lay_out(const shoot_flags *f, layout *l) {
+  const char *const name = f->table != NULL ? f->table : "9ft";
+  const int kind = place_among("7ft|8ft|9ft|snooker|threecushion", name, strlen(name));
+  if (kind < 0) {
+    complain("--table is 7ft, 8ft, 9ft, snooker or threecushion, not '%s'; a table of one's own stands in a file", name);
+    return false;
+  }
+  carom_table_make((carom_table_kind)kind, &l->table);
+  l->game = kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
+            : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
+                                               : CAROM_GAME_POOL;
+  const carom_ball_kind ball = carom_ball_kind_of(l->game);
+  /* A rack, or the places given. */
+  for (int rack = 0; rack <= CAROM_RACK_THREECUSHION && f->balls.rack != NULL; rack++)
+    if (strcmp(f->balls.rack, carom_rack_name((carom_rack_kind)rack)) == 0) {
+      l->count = carom_rack_size((carom_rack_kind)rack);
+      carom_rack((carom_rack_kind)rack, &l->table, 1e-4, 1, l->ball, CAROM_BALLS_MOST);
+      name_rack(l, (carom_rack_kind)rack);
+    }
+  if (l->count == 0) {
+    l->count = 1 + f->balls.count;
+    snprintf(l->name[0], PLACE_NAME, "cue");
+    l->ball[0].state = (carom_ball_state){.r = {0.5 * l->table.width, 0.25 * l->table.length}};
+    for (int k = 1; k < l->count; k++) {
+      const char *own = f->balls.at[k - 1].name;
+      l->ball[k].state = (carom_ball_state){.r = {f->balls.at[k - 1].x.x, f->balls.at[k - 1].y.x}};
+      if (own[0] != '\0')
+        snprintf(l->name[k], PLACE_NAME, "%s", own);
+      else
+        snprintf(l->name[k], PLACE_NAME, "%d", k);
+    }
+  }
+  if (f->cue.count > 0)
+    l->ball[0].state = (carom_ball_state){.r = {f->cue.at[0].x.x, f->cue.at[0].y.x}};
+  for (int k = 0; k < l->count; k++) {
+    l->ball[k].kind = ball;
+    l->ball[k].state.r[2] = ball.radius;
+  }
+  return true;
+}
+
+/* The cut angle at which the cue ball meets ball `at` first, degrees; NaN where it meets something else. */
+static double cut_of(const layout *l, const carom_cue *cue, int at) {
+  carom_event events[MOST_EVENTS];
+  carom_shot shot = {.events = events, .room = MOST_EVENTS};
+  const carom_shot_options until_contact = {.stop_at = CAROM_STOP_AT_CONTACT, .events_most = MOST_EVENTS};
+  if (carom_shoot(&l->table, l->ball, l->count, cue, &until_contact, &shot) != CAROM_STOPPED_AT_EVENT ||
+      shot.count > MOST_EVENTS)
+    return (double)NAN;
+  const carom_event *e = &events[shot.count - 1];
+  const int side = e->a == 0 ? 0 : 1;
+  if ((side == 0 ? e->b : e->a) != at)
+    return (double)NAN;
+  const double *from = e->before[side].r, *to = e->before[1 - side].r;
+  return angle_between(e->before[side].v, (const double[]){to[0] - from[0], to[1] - from[1]});
+}
+
+/* Aims a cue at the ball, at a cut; false after a complaint. Squirt, and swerve where the way curves, are found by trial. */
+static bool aim_at_ball(const shoot_flags *f, const layout *l, double cut, carom_cue *cue) {
+  int at = 1;
+  while (at < l->count && f->at_ball != NULL && strcmp(l->name[at], f->at_ball) != 0)
+    at++;
+  if (at >= l->count) {
+    complain("--at-ball '%s': there is no such ball; --balls says where balls are", f->at_ball != NULL ? f->at_ball : "1");
+    return false;
+  }
+  const double *from = l->ball[0].state.r, *to = l->ball[at].state.r, x = to[0] - from[0], y = to[1] - from[1];
+  const double share = 2.0 * l->ball[0].kind.radius / hypot(x, y);
+  if (!(fabs(cut) < 90.0 && share < 1.0)) {
+    complain("--cut is between -90 and 90 degrees, and the balls are apart");
+    return false;
+  }
+  cue->phi = (atan2(y, x) - asin(share * sin(cut * degree))) / degree;
+  for (int k = 0; k < MOST_TRIALS; k++) {
+    const double seen = cut_of(l, cue, at), off = share * (sin(cut * degree) - sin(seen * degree)) / degree;
+    if (isnan(seen) || fabs(off) < 1e-12)
+      break;
+    cue->phi -= off;
+  }
+  return true;
+}
+
+static double tip_of(const value *v, double radius) {
+  return v->times == OFFSET ? v->x / radius : v->x;
+}
+
+/* What differs between shots, as text. */
+static void name_value(char *id, const char *what, const values *list, int k) {
+  if (list->count > 1)
+    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%s%s %s", id[0] != '\0' ? ", " : "", what, list->at[k].name);
+}
+
+/* One of the combinations; false after a complaint. */
+static bool write_shot(FILE *out, const shoot_flags *f, const layout *l, int index) {
+  const int speed = index % f->speed.count, tip = index / f->speed.count % f->tip.count;
+  const int rise = index / f->speed.count / f->tip.count % f->elevation.count;
+  const int way = index / f->speed.count / f->tip.count / f->elevation.count;
+  const double R = l->ball[0].kind.radius;
+  char id[MOST_TEXT] = "", number[NUMBER_TEXT];
+  carom_cue cue = carom_cue_of(l->game);
+  carom_motion after;
+  /* The speed of the ball is in proportion to that of the cue. */
+  cue.speed = 1.0;
+  cue.phi = 0.0;
+  cue.theta = f->elevation.at[rise].x;
+  cue.a = -tip_of(&f->tip.at[tip].x, R);
+  cue.b = tip_of(&f->tip.at[tip].y, R);
+  const carom_status bad = carom_strike(&cue, &l->ball[0].kind, &after);
+  if (bad != CAROM_OK) {
+    complain("no such strike: %s", carom_status_string(bad));
+    return false;
+  }
+  /* In space a raised cue drives the ball otherwise than on the plane: the shot itself tells. */
+  carom_event strike = {0};
+  carom_shot shot = {.events = &strike, .room = 1};
+  carom_shoot(&l->table, l->ball, l->count, &cue, &(carom_shot_options){.events_most = 1}, &shot);
+  const double *v = shot.count > 0 ? strike.after[0].v : after.v, ratio = hypot(v[0], v[1]);
+  if (!(ratio > 1e-6) || !(f->speed.at[speed].x > 0.0)) {
+    complain("the ball has no speed on the cloth: --speed is above 0, --elevation below 90");
+    return false;
+  }
+  cue.speed = f->speed.at[speed].x / ratio;
+  if (f->cut.count == 0)
+    cue.phi = f->aim.at[way].x;
+  else if (!aim_at_ball(f, l, f->cut.at[way].x, &cue))
+    return false;
+  name_value(id, "aim", &f->aim, way);
+  name_value(id, "cut", &f->cut, way);
+  name_value(id, "elevation", &f->elevation, rise);
+  name_value(id, "speed", &f->speed, speed);
+  if (f->tip.count > 1)
+    snprintf(id + strlen(id), sizeof id - strlen(id), "%stip %s,%s", id[0] != '\0' ? ", " : "", f->tip.at[tip].x.name,
+             f->tip.at[tip].y.name);
+  fprintf(out, "{\"kind\": \"shot\", \"id\": \"%s\", \"table\": \"%s\", \"cue\": {\"V0\": %s", id[0] != '\0' ? id : "shot",
+          f->table != NULL ? f->table : "9ft", number_text(cue.speed, number));
+  fprintf(out, ", \"phi\": %s", number_text(cue.phi, number));
+  fprintf(out, ", \"theta\": %s", number_text(cue.theta, number));
+  fprintf(out, ", \"a\": %s", number_text(cue.a == 0.0 ? 0.0 : cue.a, number));
+  fprintf(out, ", \"M\": %s", number_text(cue.mass, number));
+  fprintf(out, ", \"end_mass\": %s", number_text(cue.end_mass, number));
+  fprintf(out, ", \"b\": %s, \"ball\": \"%s\"}, \"balls\": [", number_text(cue.b, number), l->name[0]);
+  for (int k = 0; k < l->count; k++) {
+    static const char *const games[] = {"pool", "snooker", "billiard"};
+    fprintf(out, "%s{\"id\": \"%s\", \"params\": {\"game\": \"%s\"}, \"state\": [0", k > 0 ? ", " : "", l->name[k],
+            games[l->game]);
+    for (int axis = 0; axis < 2; axis++)
+      fprintf(out, ", %s", number_text(l->ball[k].state.r[axis], number));
+    fprintf(out, ", %s, 0, 0, 0, 0, 0, 0]}", number_text(R, number));
+  }
+  fputs("]}\n", out);
+  return true;
+}
+
+bool flags_write(FILE *out, shoot_flags *f) {
+  static layout l;
+  if (f->aim.count > 0 && (f->cut.count > 0 || f->at_ball != NULL)) {
+    complain("--aim is a direction, --at-ball and --cut aim at a ball: give one of both");
+    return false;
+  }
+  /* What is not given. */
+  if (f->at_ball != NULL && f->cut.count == 0)
+    values_default(&f->cut, MEASURE_CUT, "0");
+  if (f->aim.count == 0 && f->cut.count == 0)
+    values_default(&f->aim, MEASURE_ANGLE, "90");
+  if (f->speed.count == 0)
+    values_default(&f->speed, MEASURE_SPEED, "2");
+  if (f->elevation.count == 0)
+    values_default(&f->elevation, MEASURE_ANGLE, "0");
+  if (f->tip.count == 0)
+    f->tip.count = 1; /* 0,0 */
+  const int ways = f->cut.count > 0 ? f->cut.count : f->aim.count;
+  const int count = f->speed.count * f->tip.count * f->elevation.count * ways;
+  bool good = count <= MOST_SHOTS && f->cue.count <= 1;
+  if (!good)
+    complain("--cue is one place, and at most %d shots are played at once", MOST_SHOTS);
+  good = good && lay_out(f, &l);
+  for (int k = 0; k < count && good; k++)
+    good = write_shot(out, f, &l, k);
+  return good;
+}

@@ -1,0 +1,40 @@
+/* Shots from words: `carom shoot --cue 0.6,0.8 --at-ball 1 --cut 20 --balls 0.6,1.5`. They become the lines that a file would
+ * have, so that everything behind is the same. */
+#ifndef CAROM_CLI_SHOOT_FLAGS_H
+#define CAROM_CLI_SHOOT_FLAGS_H
+
+#include "values.h"
+
+#include <stdio.h>
+
+enum { MOST_PLACES = 32, PLACE_NAME = 16, MOST_SHOTS = 16 };
+
+/* Pairs of numbers, each with the name that stood before it. */
+typedef struct place_list {
+  int count;
+  const char *rack; /* a rack's name that stood there instead; or NULL */
+  struct {
+    char name[PLACE_NAME];
+    value x, y;
+  } at[MOST_PLACES];
+} place_list;
+
+/* The job of a subcommand that has these options begins with it. */
+typedef struct shoot_flags {
+  shared_options shared;
+  const char *table, *at_ball;
+  values speed, aim, cut, elevation;
+  place_list cue, balls, tip;
+  bool json;
+} shoot_flags;
+
+extern const option_row option_table, option_cue, option_balls, option_aim, option_at_ball, option_shot_cut, option_shot_speed,
+    option_tip, option_elevation, option_json;
+
+/* Whether one of them is given. */
+bool has_flags(const shoot_flags *f);
+
+/* Writes the shots as lines of JSON, one for each combination; false after a complaint. */
+bool flags_write(FILE *out, shoot_flags *f);
+
+#endif

@@ -1,0 +1,216 @@
+/* Lists and ranges of numbers with units.
+ *
+ * Percent of english: 100 % is the spin of a ball that a level cue strikes half a radius off its centre, without loss,
+ * 5/2 (1/2) V/R. A tip is an offset of 13 mm, the width of a usual tip. Percent of follow and draw are of the spin of a rolling
+ * ball, V/R.
+ */
+#include "values.h"
+
+#include "derived.h"
+#include "message.h"
+#include "number.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { POINTS = 161, MOST_TEXT = 256 };
+
+#define BALL_FRACTION ((double)NAN) /* an angle by the part x of the ball that is hit, 0 to 1: asin(1 - x) */
+static const double strike = 2.5, tip_width = 0.013;
+
+/* The first unit of a measure is that of a bare number; a spin has none. */
+static const struct {
+  int measure;
+  const char *name, *axis;
+  double factor;
+  int times;
+} units[] = {
+    {MEASURE_NUMBER, "", "", 1.0, FIXED},
+    {MEASURE_SPEED, "m/s", "m/s", 1.0, FIXED},
+    {MEASURE_SPEED, "mph", "mph", 0.44704, FIXED},
+    {MEASURE_SPEED, "km/h", "km/h", 1.0 / 3.6, FIXED},
+    {MEASURE_CUT, "deg", "degrees", 1.0, FIXED},
+    {MEASURE_CUT, "ball", "part of the ball that is hit", BALL_FRACTION, FIXED},
+    {MEASURE_ANGLE, "deg", "degrees", 1.0, FIXED},
+    {MEASURE_LENGTH, "m", "m", 1.0, FIXED},
+    {MEASURE_LENGTH, "mm", "mm", 1e-3, FIXED},
+    {MEASURE_LENGTH, "cm", "cm", 1e-2, FIXED},
+    {MEASURE_LENGTH, "in", "inches", 0.0254, FIXED},
+    {MEASURE_LENGTH, "ft", "feet", 0.3048, FIXED},
+    {MEASURE_MASS, "kg", "kg", 1.0, FIXED},
+    {MEASURE_MASS, "g", "g", 1e-3, FIXED},
+    {MEASURE_MASS, "oz", "ounces", 0.028349523125, FIXED},
+    {MEASURE_TIP, "R", "R", 1.0, FIXED},
+    {MEASURE_TIP, "tip", "tips", tip_width, OFFSET},
+    {MEASURE_SPIN, "rad/s", "rad/s", 1.0, FIXED},
+    {MEASURE_SPIN, "%", "% of rolling", 0.01, ROLLING},
+    {MEASURE_SPIN, "tip", "tips above the centre", strike *tip_width, OFFSET},
+    {MEASURE_SIDE, "rad/s", "rad/s counterclockwise", 1.0, FIXED},
+    {MEASURE_SIDE, "%", "% of right english", 0.01 * strike * 0.5, ROLLING},
+    {MEASURE_SIDE, "tip", "tips to the right", strike *tip_width, OFFSET},
+};
+
+static const struct {
+  int measure;
+  const char *name;
+  double x;
+  int times;
+} words[] = {
+    {MEASURE_CUT, "full", 0.0, FIXED},      {MEASURE_CUT, "three-quarter", 14.477512185929925, FIXED},
+    {MEASURE_CUT, "half", 30.0, FIXED},     {MEASURE_CUT, "quarter", 48.590377890729144, FIXED},
+    {MEASURE_SPIN, "stun", 0.0, FIXED},     {MEASURE_SPIN, "follow", 1.0, ROLLING},
+    {MEASURE_SPIN, "roll", 1.0, ROLLING},   {MEASURE_SPIN, "draw", -1.0, ROLLING},
+    {MEASURE_SIDE, "none", 0.0, FIXED},     {MEASURE_SIDE, "right", 1.25, ROLLING},
+    {MEASURE_SIDE, "left", -1.25, ROLLING}, {MEASURE_SIDE, "gearing", 1.0, GEARING},
+};
+
+enum { UNITS = sizeof units / sizeof units[0], WORDS = sizeof words / sizeof words[0], NO_UNIT = -1 };
+
+/* The unit of that name, "" for that of a bare number; NO_UNIT if there is none. */
+static int find_unit(int measure, const char *name) {
+  const bool plural = strcmp(name, "tips") == 0;
+  for (int k = 0; k < UNITS; k++)
+    if (units[k].measure == measure &&
+        ((name[0] == '\0' && measure < MEASURE_SPIN) || strcmp(plural ? "tip" : name, units[k].name) == 0))
+      return k;
+  return NO_UNIT;
+}
+
+/* Sets a value of a number in a unit; false where it is out of range. */
+static bool set_value(value *v, double given, int unit) {
+  v->given = given;
+  v->times = units[unit].times;
+  v->x = isnan(units[unit].factor) ? asin(given >= 0.0 && given <= 1.0 ? 1.0 - given : (double)NAN) / degree
+                                   : given * units[unit].factor;
+  snprintf(v->name, sizeof v->name, "%.6g%s%s", given, units[unit].name[0] >= 'a' ? " " : "", units[unit].name);
+  return isfinite(v->x);
+}
+
+/* Splits "7mph" into number and unit; the unit of none is ""; false where it is no number. */
+static bool split(const char *text, double *number, const char **unit) {
+  char digits[64];
+  const size_t size = strspn(text, "+-.0123456789"), power = text[size] == 'e' || text[size] == 'E';
+  const size_t more = power ? 1 + strspn(text + size + 1, "+-0123456789") : 0;
+  snprintf(digits, sizeof digits, "%.*s", (int)(size + more), text);
+  *unit = text + size + more + strspn(text + size + more, " ");
+  return size + more < sizeof digits && parse_number(digits, number) && isfinite(*number);
+}
+
+/* "m/s, mph or km/h", and the words. */
+static void list_units(int measure, char *text, size_t room) {
+  const char *between = "";
+  for (int k = 0; k < WORDS; k++)
+    if (words[k].measure == measure) {
+      snprintf(text + strlen(text), room - strlen(text), "%s%s", between, words[k].name);
+      between = ", ";
+    }
+  snprintf(text + strlen(text), room - strlen(text), "%sa number", between[0] != '\0' ? ", or " : "");
+  between = measure >= MEASURE_SPIN ? " with a unit: " : ", with a unit or without: ";
+  for (int k = 0; k < UNITS && measure != MEASURE_NUMBER; k++)
+    if (units[k].measure == measure) {
+      snprintf(text + strlen(text), room - strlen(text), "%s%s", between, units[k].name);
+      between = ", ";
+    }
+}
+
+static bool refuse(const option_row *row, const char *text) {
+  char list[MOST_TEXT] = "";
+  list_units(row->least, list, sizeof list);
+  complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'", row->name, list, text);
+  return false;
+}
+
+/* A range, whose ends are split at colons. */
+static bool set_range(const option_row *row, const char *text, values *list) {
+  char copy[MOST_TEXT], *rest = NULL;
+  double end[3];
+  const char *unit = "", *own;
+  int parts = 0;
+  snprintf(copy, sizeof copy, "%s", text);
+  for (char *part = strtok_r(copy, ":", &rest); part != NULL; part = strtok_r(NULL, ":", &rest), parts++) {
+    if (parts == 3 || !split(part, &end[parts], &own))
+      return refuse(row, text);
+    unit = own[0] != '\0' ? own : unit;
+  }
+  const int found = find_unit(row->least, unit);
+  const double steps = parts == 3 ? (end[1] - end[0]) / end[2] : POINTS - 1;
+  if (parts < 2 || found == NO_UNIT || !(steps >= 1.0) || steps > MOST_VALUES - 1)
+    return refuse(row, text);
+  *list = (values){.count = (int)(steps + 1.0 + 1e-9), .range = true, .unit = units[found].axis};
+  for (int k = 0; k < list->count; k++) {
+    const double x = parts == 3 ? end[0] + k * end[2] : end[0] + (end[1] - end[0]) * k / steps;
+    if (!set_value(&list->at[k], x, found))
+      return refuse(row, text);
+  }
+  return true;
+}
+
+static bool set_word(const char *text, int measure, value *v) {
+  for (int k = 0; k < WORDS; k++)
+    if (words[k].measure == measure && strcmp(words[k].name, text) == 0) {
+      *v = (value){.x = words[k].x, .given = (double)NAN, .times = words[k].times};
+      snprintf(v->name, sizeof v->name, "%s", text);
+      return true;
+    }
+  return false;
+}
+
+static bool read_values(const option_row *row, const char *text, values *list) {
+  const int measure = row->least;
+  char copy[MOST_TEXT], *rest = NULL;
+  double number;
+  const char *own, *last = strrchr(text, ',');
+  /* The unit of the last is that of those without. */
+  if (!split(last != NULL ? last + 1 : text, &number, &own))
+    own = "";
+  const int common = find_unit(measure, own);
+  *list = (values){.unit = common != NO_UNIT ? units[common].axis : ""};
+  if (strchr(text, ':') != NULL)
+    return set_range(row, text, list);
+  snprintf(copy, sizeof copy, "%s", text);
+  for (char *one = strtok_r(copy, ",", &rest); one != NULL; one = strtok_r(NULL, ",", &rest)) {
+    const char *unit;
+    value *v = &list->at[list->count];
+    if (list->count == MOST_VALUES)
+      return refuse(row, text);
+    list->count++;
+    if (set_word(one, measure, v))
+      continue;
+    if (!split(one, &number, &unit))
+      return refuse(row, one);
+    int found = unit[0] == '\0' ? common : find_unit(measure, unit);
+    if (found == NO_UNIT && number == 0.0 && unit[0] == '\0') /* 0 of any unit */
+      found = find_unit(measure, "rad/s");
+    if (found == NO_UNIT && unit[0] == '\0' && measure >= MEASURE_SPIN) {
+      complain("--%s %s needs a unit: %srad/s, %s%%%s or %stip", row->name, one, one, one,
+               measure == MEASURE_SPIN ? " of rolling" : " of english", one);
+      return false;
+    }
+    if (found == NO_UNIT || !set_value(v, number, found))
+      return refuse(row, one);
+  }
+  return list->count > 0 ? true : refuse(row, text);
+}
+
+OPTION_SET(set_values) {
+  return read_values(row, text, field);
+}
+
+void values_default(values *list, int measure, const char *text) {
+  const option_row row = {.name = "default", .least = measure};
+  read_values(&row, text, list);
+}
+
+double spin_of(const value *v, double speed, double radius, double gearing) {
+  switch (v->times) {
+  case ROLLING:
+    return v->x * speed / radius;
+  case OFFSET:
+    return v->x * speed / (radius * radius);
+  case GEARING:
+    return gearing;
+  default:
+    return v->x;
+  }
+}

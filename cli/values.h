@@ -1,0 +1,50 @@
+/* Lists and ranges of numbers with units, as players and students write them: 0:80, 1,3,7mph, 0:100%, half. */
+#ifndef CAROM_CLI_VALUES_H
+#define CAROM_CLI_VALUES_H
+
+#include "options.h"
+
+enum { MOST_VALUES = 1001, VALUE_NAME = 24 };
+
+/* What a number measures, which decides its units. */
+enum measure {
+  MEASURE_NUMBER,
+  MEASURE_SPEED,
+  MEASURE_CUT,
+  MEASURE_ANGLE,
+  MEASURE_LENGTH,
+  MEASURE_MASS,
+  MEASURE_TIP,
+  MEASURE_SPIN,
+  MEASURE_SIDE
+};
+
+/* What a spin is a multiple of: 1 rad/s; V/R, the spin of a ball that rolls; V/R^2, m, which is what a tip's offset gives; or
+ * the side spin of a ball that rolls on the other without slip. */
+enum spin_unit { FIXED, ROLLING, OFFSET, GEARING };
+
+typedef struct value {
+  double x;              /* SI units; angles in degrees */
+  double given;          /* in the unit of the list */
+  int times;             /* enum spin_unit */
+  char name[VALUE_NAME]; /* as it was given, with its unit: "7mph" */
+} value;
+
+typedef struct values {
+  int count;
+  bool range;
+  const char *unit; /* as an axis says it: "mph" */
+  value at[MOST_VALUES];
+} values;
+
+/* For `values` of a measure, row->least: numbers with commas, or a range A:B or A:B:STEP. Numbers without a unit have that of
+ * the last one. Complains where one is none, and where a spin has no unit. */
+OPTION_SET(set_values);
+
+/* Reads what set_values() would, for defaults; `text` is not changed. */
+void values_default(values *list, int measure, const char *text);
+
+/* A spin, rad/s, of a ball of that speed and radius. `gearing` is what GEARING stands for. */
+double spin_of(const value *v, double speed, double radius, double gearing);
+
+#endif

@@ -1,0 +1,46 @@
+"""Random numbers of many games at once, each game with its own: the same whatever games are beside it.
+
+Draw i of a game is SplitMix64 at key + i steps (Steele, Lea, Flood, OOPSLA 2014): all games are drawn in a few array operations.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes
+
+Games = npt.NDArray[np.int64]
+_STEP = np.uint64(0x9E3779B97F4A7C15)
+
+
+class Draws:
+    """The random numbers of `games` games, each begun with a key from 0 to 2**64 - 1."""
+
+    def __init__(self, keys: npt.ArrayLike) -> None:
+        self._at = np.array(keys, np.uint64)
+
+    def begin(self, games: Games, keys: npt.ArrayLike) -> None:
+        """Begins some games anew."""
+        self._at[games] = np.asarray(keys, np.uint64)
+
+    def copy(self) -> Draws:
+        """The same numbers once more."""
+        return Draws(self._at)
+
+    def uniform(self, games: Games, *shape: int) -> dtypes.Doubles:
+        """Numbers from 0 to 1, without 1, of shape (len(games), *shape)."""
+        z = self._at[games][:, np.newaxis] + _STEP * np.arange(1, math.prod(shape) + 1, dtype=np.uint64)
+        self._at[games] = z[:, -1]
+        z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+        z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+        z ^= z >> np.uint64(31)
+        numbers: dtypes.Doubles = (z >> np.uint64(11)) * 2.0**-53
+        return numbers.reshape(len(games), *shape)
+
+    def normal(self, games: Games, many: int) -> dtypes.Doubles:
+        """Standard normal numbers, of shape (len(games), many), by Box and Muller's method."""
+        u = self.uniform(games, 2, many)
+        return np.asarray(np.sqrt(-2.0 * np.log1p(-u[:, 0])) * np.cos(2.0 * np.pi * u[:, 1]))

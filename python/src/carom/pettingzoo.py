@@ -1,0 +1,132 @@
+"""Nine-ball (`carom.nineball`) as an environment of PettingZoo, in which two agents take turns.
+
+    from carom.pettingzoo import NineBallEnv
+
+    game = NineBallEnv(cushion_model="han")
+    game.reset(seed=1)
+    for agent in game.agent_iter():
+        observation, reward, terminated, truncated, info = game.last()
+        game.step(None if terminated or truncated else game.action_space(agent).sample())
+
+Actions, observations and rules are those of `carom.nineball.NineBall`. The winner gets 1, the other -1. Needs PettingZoo.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes, pictures
+from carom.nineball import NineBall, Turn
+from carom.pixels import pixels
+
+try:
+    from gymnasium import spaces
+    from gymnasium.utils import seeding
+    from pettingzoo import AECEnv
+except ImportError as missing:
+    message = "carom.pettingzoo needs PettingZoo, which is not installed here: pip install pettingzoo"
+    raise ImportError(message, name=missing.name) from missing
+
+__all__ = ["NineBallEnv"]
+
+_PLAYERS = ("player_0", "player_1")
+
+
+class NineBallEnv(AECEnv):
+    """One game of nine-ball.
+
+    Parameters
+    ----------
+    strokes : int
+        After so many, both players together, the game is truncated.
+    render_mode : {None, "rgb_array", "svg"}
+        As for `carom.gymnasium.PottingEnv`.
+    **options
+        Of `NineBall`.
+
+    Notes
+    -----
+    `infos` of both players, after a stroke: foul (why, or empty), first (the ball touched first, 0 for none), potted (a list), hand.
+    """
+
+    metadata: dict[str, Any] = {"name": "carom_nineball_v0", "render_modes": ["rgb_array", "svg"], "is_parallelizable": False}
+
+    def __init__(self, strokes: int = 200, *, render_mode: Literal["rgb_array", "svg"] | None = None, **options: Any) -> None:
+        super().__init__()
+        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
+            raise ValueError(f"render_mode: must be None, 'rgb_array' or 'svg', not {render_mode!r}")
+        self.rules = NineBall(**options)
+        self.strokes = strokes
+        self.render_mode = render_mode
+        self.possible_agents = list(_PLAYERS)
+        low, high = self.rules.bounds()
+        self._observed = {agent: spaces.Box(low, high, dtype=np.float64) for agent in _PLAYERS}
+        self._acted = {agent: spaces.Box(-1.0, 1.0, (6,), dtype=np.float64) for agent in _PLAYERS}
+        self._generator = seeding.np_random()[0]
+
+    def observation_space(self, agent: str) -> Any:
+        """The space of observations."""
+        return self._observed[agent]
+
+    def action_space(self, agent: str) -> Any:
+        """The space of actions."""
+        return self._acted[agent]
+
+    def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
+        """Begin a game with the break of player_0; options: "position", a `carom.nineball.Position` to begin with."""
+        if seed is not None:
+            self._generator = seeding.np_random(seed)[0]
+        given = {} if options is None else options
+        self.position = given.get("position") or self.rules.begin(int(self._generator.integers(2**63)))
+        self.turn: Turn | None = None
+        self.agents = list(_PLAYERS)
+        self.agent_selection = _PLAYERS[self.position.player]
+        self.rewards = dict.fromkeys(_PLAYERS, 0.0)
+        self._cumulative_rewards = dict.fromkeys(_PLAYERS, 0.0)
+        self.terminations = dict.fromkeys(_PLAYERS, False)
+        self.truncations = dict.fromkeys(_PLAYERS, False)
+        self.infos: dict[str, dict[str, Any]] = {agent: {} for agent in _PLAYERS}
+
+    def observe(self, agent: str) -> dtypes.Doubles:
+        """What a player sees."""
+        return self.rules.observe(self.position, _PLAYERS.index(agent))
+
+    def step(self, action: npt.ArrayLike | None) -> None:
+        """Play the stroke of the player whose turn it is."""
+        agent = self.agent_selection
+        if self.terminations[agent] or self.truncations[agent]:
+            self._was_dead_step(action)
+            return
+        self._cumulative_rewards[agent] = 0.0
+        if action is None:
+            raise ValueError("action: six numbers are needed while the game goes on")
+        self.position, self.turn = self.rules.play(self.position, action)
+        winner = self.position.winner
+        told = {
+            "foul": self.turn.foul,
+            "first": self.turn.first or 0,
+            "potted": list(self.turn.potted),
+            "hand": int(self.position.hand),
+        }
+        for k, name in enumerate(_PLAYERS):
+            self.rewards[name] = 0.0 if winner is None else 1.0 if k == winner else -1.0
+            self.terminations[name] = winner is not None
+            self.truncations[name] = winner is None and self.position.strokes >= self.strokes
+            self.infos[name] = dict(told)
+        self.agent_selection = _PLAYERS[self.position.player]
+        self._accumulate_rewards()
+
+    def render(self) -> Any:
+        """The balls as they lie and the paths of the last stroke; as `render_mode` says."""
+        if self.render_mode is None:
+            return None
+        shot = None if self.turn is None else self.turn.shot
+        if self.render_mode == "svg":
+            return pictures.picture(self.rules.table, shot or self.rules.base.shot(self.position.balls, None))
+        return pixels(self.rules.table, self.position.balls, shot)
+
+    def close(self) -> None:
+        """Nothing is held open."""

@@ -1,0 +1,91 @@
+"""Derivatives of shots against differences, and what is refused."""
+
+import numpy as np
+import pytest
+
+import carom
+
+TABLE = carom.tables.pool_9ft()
+CLOSED = {"ball_model": "inelastic", "cushion_model": "han"}
+
+
+def layout():
+    return carom.balls(np.array([[0.4, 0.5], [0.6, 1.5], [0.9, 2.0]])), carom.cue(speed=1.5, phi=79.0, a=0.1, b=0.1)
+
+
+def test_tangents_are_differences():
+    balls, cue = layout()
+    shot = carom.simulate(TABLE, balls, cue, **CLOSED)
+    found = carom.tangents(shot, cue, ["cue.speed", "cue.phi", "balls[1].r", "kind.mu_slide"], times=[0.5, 1.0])
+    assert found.names == ("cue.speed", "cue.phi", "balls[1].r[0]", "balls[1].r[1]", "kind.mu_slide")
+    assert found.units == ("m/s", "deg", "m", "m", "1")
+    assert found.final["r"].shape == (3, 2, 5) and found.final["w"].shape == (3, 3, 5)
+    assert found.at["v"].shape == (2, 3, 2, 5) and found.time.shape == (shot.count, 5)
+    assert (found.reach > 0).all() and not (found.flags & carom.Flag.KINK).any()
+
+    def moved(h, j):
+        other, stroke = balls.copy(), cue.copy()
+        if j < 2:
+            stroke["speed" if j == 0 else "phi"] += h
+        elif j < 4:
+            other["state"]["r"][1, j - 2] += h
+        else:
+            other["kind"]["mu_slide"] += h
+        return carom.simulate(TABLE, other, stroke, **CLOSED)
+
+    for j in range(5):
+        h = 1e-7
+        more, less = moved(h, j), moved(-h, j)
+        for name in "rvw":
+            wide = 3 if name == "w" else 2
+            difference = (more.final[name] - less.final[name])[:, :wide] / (2 * h)
+            np.testing.assert_allclose(found.final[name][..., j], difference, atol=1e-5 * np.abs(found.states[..., j]).max())
+        difference = (more.positions([0.5, 1.0]) - less.positions([0.5, 1.0]))[..., :2] / (2 * h)
+        np.testing.assert_allclose(found.at["r"][..., j], difference, atol=1e-5 * np.abs(found.states_at[..., j]).max())
+
+
+def test_jacobian_has_the_batch_in_front():
+    balls, cue = layout()
+    cues = np.repeat(cue.reshape(1), 6).reshape(2, 3)
+    cues["phi"] += np.linspace(0.0, 0.5, 6).reshape(2, 3)
+    cues["b"][1, 2] = 2.0
+    found = carom.jacobian(TABLE, balls, cues, ["cue.speed", "kind.mu_roll"], **CLOSED)
+    assert found.shape == (2, 3, 3, 2, 2)
+    assert np.isnan(found[1, 2]).all() and np.isfinite(found[:, :2]).all()
+    one = carom.tangents(carom.simulate(TABLE, balls, cues[0, 1], **CLOSED), cues[0, 1], ["cue.speed", "kind.mu_roll"])
+    np.testing.assert_array_equal(found[0, 1], one.final["r"])
+
+
+def test_more_directions_than_a_call_takes():
+    balls = carom.racks.nineball(TABLE, gap=1e-3, seed=1)
+    cue = carom.cue(speed=1.0)
+    shot = carom.simulate(TABLE, balls, cue, **CLOSED)
+    names = [f"balls[{i}].kind.{field}" for i in range(10) for field in ("mass", "mu_slide", "mu_roll", "mu_spin", "restitution", "mu_cushion", "restitution_cushion")]
+    found = carom.tangents(shot, cue, names)
+    assert found.states.shape == (10, 7, 70)
+    last = carom.tangents(shot, cue, names[-1:])
+    np.testing.assert_allclose(found.states[..., -1:], last.states, rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["phi", "cue.mu", "balls[7].r", "balls[0].r[2]", "kind", "balls[0].kind.radius", "cue.phi[0]"])
+def test_names_that_are_none(name):
+    balls, cue = layout()
+    shot = carom.simulate(TABLE, balls, cue)
+    with pytest.raises(ValueError, match="wrt"):
+        carom.tangents(shot, cue, [name])
+
+
+def test_what_is_not_known():
+    balls, cue = layout()
+    shot = carom.simulate(TABLE, balls, cue, world="pooltool")
+    with pytest.raises(carom.CaromError) as error:
+        carom.tangents(shot, cue, ["cue.phi"])
+    assert error.value.status is carom.Status.ERROR_TANGENT
+    cue["theta"] = 40.0
+    cue["speed"] = 3.0
+    shot = carom.simulate(TABLE, balls, cue)
+    with pytest.raises(carom.CaromError) as error:
+        carom.tangents(shot, cue, ["cue.phi"])
+    assert error.value.status is carom.Status.ERROR_TANGENT
+    with pytest.raises(ValueError, match="times"):
+        carom.tangents(shot, cue, ["cue.phi"], times=[1.0, 0.5])

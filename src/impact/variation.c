@@ -1,0 +1,494 @@
+/* Derivatives of an impact with two frictional contacts, in one pass of the precise solver.
+ *
+ * Within a regime the variational equations are linear. Let a prime be the derivative by p at fixed variables, d that by a
+ * variable at fixed p. The rates depend on the directions u = a/|a|, t = b/|b| and on the variables, and a direction turns by
+ * the angle
+ *
+ *     |a| dphi = u x da,     |b| dpsi = t x db.
+ *
+ * They are solved by collocation over the nodes of the solver's own step, where z = dp/dX and M integrates (step.h):
+ *
+ *     |a|_i dphi_i - u_i x sum_j M_ij z_j (a'_phi dphi + a'_psi dpsi)_j = u_i x (da_0 + sum_j M_ij z_j (da')_j)
+ *
+ * and the same for dpsi: 16 linear equations with a column for each variable. Written with |a| instead of its inverse they
+ * remain regular where a slip begins from zero. The end of the step follows by quadrature.
+ *
+ * EVENTS. Where a regime ends because a slip is zero, at p_s, friction changes, and so do the rates:
+ *
+ *     d p_s = -(u . da)/(u . a'),     dy+ = dy- + (y'- - y'+) d p_s,     da = 0 from there on.
+ *
+ * Rates are continuous where a load begins or ends and where friction leaves its cone. The impact ends where W = -e^2 W_c.
+ *
+ * Where these equations do not say how an impact goes on, its derivatives are central differences of order 4: motion in a
+ * plane, whose perturbations leave it; balls that jam; a slip that passes through zero. */
+#include "impact/variation.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+static const double TOLERANCE = 1e-2;   /* of the solver: see impact.h */
+static const double ESTIMATE = 1e-6;    /* square of the error estimate of a step, relative */
+static const double SHORTEST = 1e-8;    /* length of a step that is taken in any case */
+static const double UNRESOLVED = 1e-5;  /* of a slip's derivative, that is left where the slip ends */
+static const double COEFFICIENT = 1e-5; /* share of a variable by which coefficients are differentiated */
+
+/* The rates at one place, from directions. */
+static void rates_at(const carom_terms *k, const double lead[4], double v, double rate[CAROM_VARIED]) {
+  const double w = (k->w_0 + k->w_u * lead[1]) / (1 - k->w_t * lead[3]), x = w * lead[2], y = w * lead[3];
+  rate[OF_A_X] = k->S_x * lead[0] - k->C_x * x;
+  rate[OF_A_Y] = k->A_0 + k->S_y * lead[1] - k->C_y * y;
+  rate[OF_B_X] = k->R_x * lead[0] - k->H_x * x;
+  rate[OF_B_Y] = k->B_0 + k->R_y * lead[1] - k->H_y * y;
+  rate[OF_V] = k->V_0 + k->V_u * lead[1] - k->V_w * y;
+  rate[OF_W] = v;
+}
+
+/* Directions of the slips at a point; `otherwise` where a slip is zero. */
+static void leads(const carom_point *at, const double otherwise[4], double lead[4]) {
+  const double a = sqrt(at->a_x * at->a_x + at->a_y * at->a_y), b = sqrt(at->b_x * at->b_x + at->b_y * at->b_y);
+  lead[0] = a > 0 ? at->a_x / a : otherwise[0];
+  lead[1] = a > 0 ? at->a_y / a : otherwise[1];
+  lead[2] = b > 0 ? at->b_x / b : otherwise[2];
+  lead[3] = b > 0 ? at->b_y / b : otherwise[3];
+}
+
+/* The coefficients of the regime with one variable changed by a small amount, over twice of which their difference is their
+ * derivative: of this and the opposite change. */
+static double changed_terms(const carom_trajectory *path, enum carom_variable by, carom_terms *more, carom_terms *less) {
+  const carom_law *law = &path->law, *d = path->variation->d_law;
+  carom_law l[2] = {*law, *law};
+  double step = COEFFICIENT;
+  for (int k = 0; k < 2; k++) {
+    const double s = k == 0 ? COEFFICIENT : -COEFFICIENT;
+    if (by == BY_MU) {
+      l[k].mu += s * law->mu;
+      step = COEFFICIENT * law->mu;
+    } else if (by == BY_MU_C) {
+      l[k].mu_c += s * law->mu_c;
+      step = COEFFICIENT * law->mu_c;
+    } else {
+      l[k].A_0 += s * d->A_0;
+      l[k].K_x += s * d->K_x;
+      l[k].K_y += s * d->K_y;
+      l[k].C_x += s * d->C_x;
+      l[k].C_y += s * d->C_y;
+      l[k].B_0 += s * d->B_0;
+      l[k].L_x += s * d->L_x;
+      l[k].L_y += s * d->L_y;
+      l[k].H += s * d->H;
+      l[k].g_0 += s * d->g_0;
+      l[k].g_1 += s * d->g_1;
+      l[k].V_0 += s * d->V_0;
+      l[k].V_f += s * d->V_f;
+      l[k].V_F += s * d->V_F;
+    }
+  }
+  *more = carom_impact_terms(&l[0], &path->regime);
+  *less = carom_impact_terms(&l[1], &path->regime);
+  return 2 * step;
+}
+
+/* Solves n equations for the columns behind the matrix, in place: elimination with pivots. False for a singular matrix. */
+enum { UNKNOWNS = 2 * NODES, WIDTH = UNKNOWNS + CAROM_VARIABLES };
+static bool solve(double e[UNKNOWNS][WIDTH], int n, int width) {
+  for (int k = 0; k < n; k++) {
+    int best = k;
+    for (int i = k + 1; i < n; i++)
+      if (fabs(e[i][k]) > fabs(e[best][k]))
+        best = i;
+    if (!(fabs(e[best][k]) > 0))
+      return false;
+    if (best != k)
+      for (int j = k; j < width; j++) {
+        const double x = e[k][j];
+        e[k][j] = e[best][j];
+        e[best][j] = x;
+      }
+    /* the rows below */
+    const double per = 1 / e[k][k];
+    for (int i = k + 1; i < n; i++) {
+      const double f = e[i][k] * per;
+      if (f != 0)
+        for (int j = k + 1; j < width; j++)
+          e[i][j] -= f * e[k][j];
+    }
+  }
+  /* back */
+  for (int k = n - 1; k >= 0; k--) {
+    const double per = 1 / e[k][k];
+    for (int j = n; j < width; j++) {
+      double x = e[k][j];
+      for (int i = k + 1; i < n; i++)
+        x -= e[k][i] * e[i][j];
+      e[k][j] = x * per;
+    }
+  }
+  return true;
+}
+
+/* What the rates at a node depend on: by the angle of u, by that of t, and by the variables mu, mu_c and lambda. */
+typedef struct node_rates {
+  double by_u[5], by_t[5], by[CAROM_VARIABLES][5];
+} node_rates;
+
+double carom_variation_step(carom_trajectory *path, const carom_point *before, bool driving_slips, int vanishes) {
+  carom_variation *g = path->variation;
+  const carom_kept_step *s = &g->kept;
+  const carom_terms *k = &path->terms;
+  const bool loaded = path->regime.loaded;
+  const double length = path->at.p - before->p;
+  /* derivatives of the coefficients */
+  static const enum carom_variable parameters[3] = {BY_MU, BY_MU_C, BY_LAMBDA};
+  carom_terms more[3], less[3];
+  double apart[3];
+  for (int n = 0; n < 3; n++)
+    apart[n] = g->asked >> parameters[n] & 1 ? changed_terms(path, parameters[n], &more[n], &less[n]) : 0;
+  /* what comes to an end of a slip earlier or later, split off: along the motion itself, by alpha in p */
+  double alpha[CAROM_VARIABLES] = {0}, rest[CAROM_VARIED][CAROM_VARIABLES], first_rate[CAROM_VARIED];
+  memcpy(rest, g->d, sizeof rest);
+  if (vanishes >= 0) {
+    const double none[4] = {0};
+    double lead[4];
+    leads(before, none, lead);
+    const double x = lead[vanishes], y = lead[vanishes + 1];
+    const double w = (k->w_0 + k->w_u * lead[1]) / (1 - k->w_t * lead[3]);
+    rates_at(k, lead, before->v, first_rate);
+    const double falls = x * first_rate[vanishes] + y * first_rate[vanishes + 1];
+    for (int c = 0; c < CAROM_VARIABLES && falls < 0 && isfinite(w); c++) {
+      alpha[c] = (x * g->d[vanishes][c] + y * g->d[vanishes + 1][c]) / falls;
+      for (int r = 0; r < CAROM_VARIED; r++)
+        rest[r][c] -= alpha[c] * first_rate[r];
+    }
+  }
+  /* the rates at the nodes, and what they depend on */
+  node_rates at[NODES];
+  double rate[NODES][CAROM_VARIED];
+  memset(at, 0, sizeof at);
+  for (int i = 0; i < NODES; i++) {
+    const double lead[4] = {s->u_x[i], s->u_y[i], s->t_x[i], s->t_y[i]};
+    rates_at(k, lead, 0, rate[i]);
+    const double held = 1 - k->w_t * lead[3], w = (k->w_0 + k->w_u * lead[1]) / held;
+    const double w_u = k->w_u * lead[0] / held, w_t = w * k->w_t * lead[2] / held;
+    /* w t by the angles */
+    const double x_u = w_u * lead[2], y_u = w_u * lead[3], x_t = w_t * lead[2] - w * lead[3], y_t = w_t * lead[3] + w * lead[2];
+    const double by_u[5] = {-k->S_x * lead[1] - k->C_x * x_u, k->S_y * lead[0] - k->C_y * y_u, -k->R_x * lead[1] - k->H_x * x_u,
+                            k->R_y * lead[0] - k->H_y * y_u, k->V_u * lead[0] - k->V_w * y_u};
+    const double by_t[5] = {-k->C_x * x_t, -k->C_y * y_t, -k->H_x * x_t, -k->H_y * y_t, -k->V_w * y_t};
+    memcpy(at[i].by_u, by_u, sizeof by_u);
+    memcpy(at[i].by_t, by_t, sizeof by_t);
+    for (int n = 0; n < 3; n++) {
+      double high[CAROM_VARIED], low[CAROM_VARIED];
+      if (apart[n] == 0)
+        continue;
+      rates_at(&more[n], lead, 0, high);
+      rates_at(&less[n], lead, 0, low);
+      for (int r = 0; r < 5; r++)
+        at[i].by[parameters[n]][r] = (high[r] - low[r]) / apart[n];
+    }
+  }
+  /* the equations: rows and columns of dphi first, then of dpsi */
+  double e[UNKNOWNS][WIDTH];
+  const int of_t = driving_slips ? NODES : 0, unknowns = of_t + (loaded ? NODES : 0), width = unknowns + g->columns;
+  int from_parameters = 0; /* columns of the slips at the start come first, and no rate depends on those */
+  while (from_parameters < g->columns && g->column[from_parameters] < BY_MU)
+    from_parameters++;
+  const double start[4] = {before->a_x, before->a_y, before->b_x, before->b_y};
+  for (int row = 0; row < unknowns; row++) {
+    const bool of_b = row >= of_t;
+    const int i = of_b ? row - of_t : row, first = of_b ? OF_B_X : OF_A_X;
+    const double u_x = of_b ? s->t_x[i] : s->u_x[i], u_y = of_b ? s->t_y[i] : s->u_y[i];
+    double x = start[first], y = start[first + 1], right[CAROM_VARIABLES];
+    for (int n = 0; n < g->columns; n++)
+      right[n] = u_x * rest[first + 1][g->column[n]] - u_y * rest[first][g->column[n]];
+    for (int j = 0; j < NODES; j++) {
+      const double m = INTEGRAL[j][i] * s->z[j], m_x = m * u_x, m_y = m * u_y;
+      x += m * rate[j][first];
+      y += m * rate[j][first + 1];
+      if (driving_slips)
+        e[row][j] = m_y * at[j].by_u[first] - m_x * at[j].by_u[first + 1];
+      if (loaded)
+        e[row][of_t + j] = m_y * at[j].by_t[first] - m_x * at[j].by_t[first + 1];
+      for (int n = from_parameters; n < g->columns; n++) {
+        const double *by = at[j].by[g->column[n]];
+        right[n] += m_x * by[first + 1] - m_y * by[first];
+      }
+    }
+    e[row][row] += x * u_x + y * u_y;
+    memcpy(&e[row][unknowns], right, sizeof *right * (size_t)g->columns);
+  }
+  if (!solve(e, unknowns, width))
+    g->lost = true;
+  /* the end, by quadrature; W is the integral of an integral. The estimate of the error is that of the solver: the coefficient
+   * of the highest Legendre polynomial of the rates */
+  double ends[CAROM_VARIABLES][5], works[CAROM_VARIABLES], worst = 0;
+  for (int n = 0; n < g->columns; n++) {
+    const int c = g->column[n];
+    double end[5] = {0}, highest[5] = {0}, work = length * rest[OF_V][c], size = 0, error = 0;
+    for (int j = 0; j < NODES; j++) {
+      const double m = WEIGHT[j] * s->z[j];
+      double of_v = 0;
+      for (int r = 0; r < 5; r++) {
+        double d = at[j].by[c][r];
+        if (driving_slips)
+          d += at[j].by_u[r] * e[j][unknowns + n];
+        if (loaded)
+          d += at[j].by_t[r] * e[of_t + j][unknowns + n];
+        end[r] += m * d;
+        highest[r] += HIGHEST[j] * s->z[j] * d;
+        of_v = d;
+      }
+      work += m * (length - s->p[j]) * of_v;
+    }
+    for (int r = 0; r < 5; r++) {
+      size = fmax(size, fmax(fabs(g->d[r][c]), fabs(end[r])));
+      error = fmax(error, fabs(highest[r]));
+    }
+    worst = fmax(worst, size > 0 ? error / size : 0);
+    memcpy(ends[c], end, sizeof end);
+    works[c] = work;
+  }
+  if (worst * worst > ESTIMATE && length > SHORTEST)
+    return worst * worst / ESTIMATE;
+  /* what follows needs the rates at the end; the direction of a slip that is zero there is that of the polynomial */
+  double last[4] = {0};
+  for (int j = 0; j < NODES; j++) {
+    double value = 1;
+    for (int i = 0; i < NODES; i++)
+      value *= i == j ? 1 : (1 - NODE[i]) / (NODE[j] - NODE[i]);
+    last[0] += value * s->u_x[j];
+    last[1] += value * s->u_y[j];
+    last[2] += value * s->t_x[j];
+    last[3] += value * s->t_y[j];
+  }
+  leads(&path->at, last, g->lead);
+  rates_at(k, g->lead, path->at.v, g->rate);
+  for (int n = 0; n < g->columns; n++) {
+    const int c = g->column[n];
+    for (int r = 0; r < CAROM_VARIED; r++)
+      g->d[r][c] = rest[r][c] + (r == OF_W ? works[c] : ends[c][r]) + alpha[c] * g->rate[r];
+  }
+  return 0;
+}
+
+void carom_variation_straight(carom_trajectory *path, const carom_point *before, bool planar) {
+  carom_variation *g = path->variation;
+  const double length = path->at.p - before->p, none[4] = {0};
+  /* constant rates, which no direction changes */
+  g->lost |= planar && ((!path->regime.held && path->law.mu > 0) || path->regime.loaded);
+  for (int c = 0; c < CAROM_VARIABLES; c++)
+    g->d[OF_W][c] += length * g->d[OF_V][c];
+  for (int n = 0; n < 3; n++) {
+    static const enum carom_variable parameters[3] = {BY_MU, BY_MU_C, BY_LAMBDA};
+    carom_terms more, less;
+    double high[CAROM_VARIED], low[CAROM_VARIED];
+    const double apart = changed_terms(path, parameters[n], &more, &less);
+    if (apart == 0)
+      continue;
+    rates_at(&more, none, 0, high);
+    rates_at(&less, none, 0, low);
+    for (int r = 0; r < 5; r++)
+      g->d[r][parameters[n]] += length * (high[r] - low[r]) / apart;
+    g->d[OF_W][parameters[n]] += 0.5 * length * length * (high[OF_V] - low[OF_V]) / apart;
+  }
+  leads(&path->at, none, g->lead);
+  rates_at(&path->terms, g->lead, path->at.v, g->rate);
+}
+
+/* The end of the impact, or of compression: where W, or v, has its value. */
+static void end_phase(carom_trajectory *path) {
+  carom_variation *g = path->variation;
+  const double e = path->law.e;
+  const bool compression = path->at.v == 0 && !(path->ended && e > 0);
+  for (int c = 0; c < CAROM_VARIABLES; c++) {
+    double d_p = 0;
+    if (compression) {
+      g->d_W_c[c] = g->d[OF_W][c];
+      g->d[OF_W][c] = 0;
+      d_p = -g->d[OF_V][c] / g->rate[OF_V];
+    } else {
+      const double d_target = -e * e * g->d_W_c[c] - (c == BY_E ? 2 * e * path->W_c : 0);
+      d_p = (d_target - g->d[OF_W][c]) / g->rate[OF_W];
+    }
+    if (!path->ended)
+      continue;
+    for (int r = 0; r < CAROM_VARIED; r++)
+      g->d[r][c] += g->rate[r] * d_p;
+    g->d_p[c] = d_p;
+  }
+}
+
+void carom_variation_follow(carom_trajectory *path, const carom_point *before, bool phase_ended) {
+  carom_variation *g = path->variation;
+  const carom_point *at = &path->at;
+  if (phase_ended)
+    end_phase(path);
+  if (path->ended)
+    return;
+  /* a slip that has become zero */
+  const bool a_ends = at->a_x == 0 && at->a_y == 0 && (before->a_x != 0 || before->a_y != 0) && path->law.mu > 0;
+  const bool b_ends = at->b_x == 0 && at->b_y == 0 && (before->b_x != 0 || before->b_y != 0) && path->law.mu_c > 0;
+  if (!a_ends && !b_ends)
+    return;
+  if ((a_ends && b_ends) || (a_ends && !path->regime.held) || (b_ends && !path->regime.cloth_held)) {
+    g->lost = true;
+    return;
+  }
+  const int first = a_ends ? OF_A_X : OF_B_X;
+  const double u_x = g->lead[a_ends ? 0 : 2], u_y = g->lead[a_ends ? 1 : 3];
+  const double falls = u_x * g->rate[first] + u_y * g->rate[first + 1];
+  const double begins[4] = {path->regime.u_x, path->regime.u_y, path->regime.t_x, path->regime.t_y};
+  double lead[4], after[CAROM_VARIED];
+  leads(at, begins, lead);
+  rates_at(&path->terms, lead, at->v, after);
+  /* it ends a little earlier or later; rates change there. By the rates at its end and not by the direction of the slip alone:
+   * that of a slip which is negligible, but not zero, still turns, and what is left of da across the motion falls with |a| */
+  for (int c = 0; c < CAROM_VARIABLES; c++) {
+    const double d_p = falls < 0 ? -(u_x * g->d[first][c] + u_y * g->d[first + 1][c]) / falls : 0;
+    /* what is left of da, which has to be 0, tells how well the end of the slip was resolved */
+    const double x = g->d[first][c] + g->rate[first] * d_p, y = g->d[first + 1][c] + g->rate[first + 1] * d_p;
+    if ((g->asked >> c & 1) && fabs(x) + fabs(y) > UNRESOLVED * fmax(fabs(g->d[first][c]) + fabs(g->d[first + 1][c]), 1))
+      g->lost = true;
+    for (int r = 0; r < CAROM_VARIED; r++)
+      g->d[r][c] += (g->rate[r] - after[r]) * d_p;
+    g->d[first][c] = g->d[first + 1][c] = 0;
+  }
+}
+
+/* ---- From the start to the end ---- */
+
+static void begin(const carom_law *law, const double slips[4], int plain, carom_trajectory *path) {
+  carom_impact_begin(law, TOLERANCE, plain, slips[0], slips[1], slips[2], slips[3], path);
+}
+
+/* The impulses, without derivatives. */
+static carom_status impulses_of(const carom_law *law, const double slips[4], int plain, double q[5]) {
+  carom_trajectory path;
+  begin(law, slips, plain, &path);
+  const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
+  const carom_impulses i = carom_impact_impulses(&path);
+  memcpy(q, (const double[5]){i.p, i.f_x, i.f_y, i.F_x, i.F_y}, 5 * sizeof *q);
+  return status;
+}
+
+/* A law and slips with one variable changed. */
+static void change(carom_law *law, const carom_law *d_law, double slips[4], int by, double step) {
+  switch (by) {
+  case BY_MU:
+    law->mu += step;
+    break;
+  case BY_MU_C:
+    law->mu_c += step;
+    break;
+  case BY_E:
+    law->e += step;
+    break;
+  case BY_LAMBDA: {
+    const double *d = (const double *)d_law;
+    double *l = (double *)law;
+    for (int k = 0; k < 14; k++)
+      l[k] += step * d[k];
+    break;
+  }
+  default:
+    slips[by] += step;
+  }
+}
+_Static_assert(sizeof(carom_law) == 17 * sizeof(double) && offsetof(carom_law, mu) == 14 * sizeof(double),
+               "14 coefficients, then frictions and restitution");
+
+/* Central differences of order 4 by one variable, with smaller steps where two orders differ. */
+static void differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain, int by,
+                          carom_impact_tangent *out) {
+  const double size = fmax(fmax(fabs(slips[0]), fabs(slips[1])), fmax(fabs(slips[2]), fabs(slips[3])));
+  double h = by <= BY_B_Y ? 2e-3 * fmax(1, 0.01 * size) : by == BY_E ? 1e-3 : 1e-4, best = INFINITY;
+  if (by == BY_MU || by == BY_MU_C)
+    h = fmin(h, 0.4 * (by == BY_MU ? law->mu : law->mu_c));
+  if (by == BY_E)
+    h = fmin(h, 0.4 * law->e);
+  for (int attempt = 0; attempt < 4 && best > 1e-5 && h > 0; attempt++, h /= 8) {
+    static const double steps[4] = {-2, -1, 1, 2};
+    double f[4][5], error = 0, most = 1;
+    bool fine = true;
+    for (int s = 0; s < 4 && fine; s++) {
+      carom_law l = *law;
+      double x[4] = {slips[0], slips[1], slips[2], slips[3]};
+      change(&l, d_law, x, by, steps[s] * h);
+      fine = impulses_of(&l, x, plain, f[s]) == CAROM_OK;
+    }
+    for (int r = 0; r < 5 && fine; r++) {
+      const double near = (f[2][r] - f[1][r]) / (2 * h), far = (f[3][r] - f[0][r]) / (4 * h);
+      error = fmax(error, fabs(near - far) / 3);
+      most = fmax(most, fabs(near));
+    }
+    if (fine && error / most < best) {
+      best = error / most;
+      for (int r = 0; r < 5; r++)
+        out->d[r][by] = (8 * (f[2][r] - f[1][r]) - (f[3][r] - f[0][r])) / (12 * h);
+    }
+  }
+  out->differences = true;
+  out->error = fmax(out->error, best < INFINITY ? best : 1);
+  out->kink |= !(best < 1e-4);
+}
+
+carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain,
+                                        unsigned asked, carom_impact_tangent *out) {
+  carom_trajectory path;
+  carom_variation g;
+  begin(law, slips, plain, &path);
+  memset(&g, 0, sizeof g);
+  memset(out, 0, sizeof *out);
+  g.d_law = d_law;
+  g.asked = asked;
+  for (int c = 0; c < CAROM_VARIABLES; c++)
+    if (asked >> c & 1)
+      g.column[g.columns++] = c;
+  for (int c = BY_A_X; c <= BY_B_Y; c++)
+    g.d[c][c] = 1;
+  path.variation = &g;
+  const carom_status status = carom_impact_advance(&path, INFINITY, 10 * CAROM_IMPACT_ITERATIONS);
+  path.variation = NULL;
+  out->q = carom_impact_impulses(&path);
+  if (status != CAROM_OK)
+    return status;
+  out->kink = (law->mu == 0 && (asked >> BY_MU & 1)) || (law->e == 0 && (asked >> BY_E & 1));
+  g.lost |= !path.ended || g.rate[OF_V] == 0 || (path.regime.held && path.regime.cloth_held);
+  for (int c = 0; c < CAROM_VARIABLES; c++) {
+    if (!(asked >> c & 1))
+      continue;
+    if (g.lost) {
+      differentiate(law, d_law, slips, plain, c, out);
+      continue;
+    }
+    /* impulses are linear in the motion at both ends, with coefficients of the law */
+    carom_trajectory d = path;
+    d.start = (carom_point){.a_x = c == BY_A_X, .a_y = c == BY_A_Y, .b_x = c == BY_B_X, .b_y = c == BY_B_Y};
+    d.at = (carom_point){.a_x = g.d[OF_A_X][c],
+                         .a_y = g.d[OF_A_Y][c],
+                         .b_x = g.d[OF_B_X][c],
+                         .b_y = g.d[OF_B_Y][c],
+                         .v = g.d[OF_V][c],
+                         .p = g.d_p[c]};
+    const carom_impulses q = carom_impact_impulses(&d);
+    double sum[5] = {q.p, q.f_x, q.f_y, q.F_x, q.F_y};
+    if (c == BY_LAMBDA) {
+      carom_impulses end[2];
+      double unused[4];
+      for (int k = 0; k < 2; k++) {
+        carom_trajectory there = path;
+        change(&there.law, d_law, unused, c, k == 0 ? COEFFICIENT : -COEFFICIENT);
+        end[k] = carom_impact_impulses(&there);
+      }
+      sum[1] += (end[0].f_x - end[1].f_x) / (2 * COEFFICIENT);
+      sum[2] += (end[0].f_y - end[1].f_y) / (2 * COEFFICIENT);
+      sum[3] += (end[0].F_x - end[1].F_x) / (2 * COEFFICIENT);
+      sum[4] += (end[0].F_y - end[1].F_y) / (2 * COEFFICIENT);
+    }
+    for (int r = 0; r < 5; r++) {
+      out->d[r][c] = sum[r];
+      out->kink |= !isfinite(sum[r]);
+    }
+  }
+  return CAROM_OK;
+}

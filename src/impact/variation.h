@@ -1,0 +1,59 @@
+/* Derivatives of an impact with two frictional contacts, of law.h: its variational equations, which follow the precise solver
+ * step by step; variation.c has the method. */
+#ifndef CAROM_SRC_IMPACT_VARIATION_H
+#define CAROM_SRC_IMPACT_VARIATION_H
+
+#include "impact/impact.h"
+#include "impact/rules.h"
+
+/* By what an impact is differentiated: the slips at its start, frictions, restitution, and the parameter lambda of the
+ * geometry.
+ */
+enum carom_variable { BY_A_X, BY_A_Y, BY_B_X, BY_B_Y, BY_MU, BY_MU_C, BY_E, BY_LAMBDA, CAROM_VARIABLES };
+
+/* A step as the solver took it, at the nodes: dp/dX, p from the beginning of the step, directions of the slips. */
+typedef struct carom_kept_step {
+  double z[NODES], p[NODES], u_x[NODES], u_y[NODES], t_x[NODES], t_y[NODES];
+} carom_kept_step __attribute__((aligned(64)));
+
+/* What is differentiated, in the order of the numbers below. */
+enum carom_varied { OF_A_X, OF_A_Y, OF_B_X, OF_B_Y, OF_V, OF_W, CAROM_VARIED };
+
+typedef struct carom_variation {
+  carom_kept_step kept;
+  const carom_law *d_law;                  /* by lambda */
+  unsigned asked;                          /* bit k: by variable k */
+  int columns, column[CAROM_VARIABLES];    /* the same as a list */
+  double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: that of path->at; */
+  double d_p[CAROM_VARIABLES];             /* at the end that of where the impact ends, and then d are total ones */
+  double d_W_c[CAROM_VARIABLES];           /* of the work of compression */
+  double rate[CAROM_VARIED];               /* y' at the end of the last step, by its regime */
+  double lead[4];                          /* directions of a and b there */
+  bool lost;                               /* the equations do not say how it goes on: planar motion, a jammed ball */
+} carom_variation;
+
+/* Impulses and their derivatives. */
+typedef struct carom_impact_tangent {
+  carom_impulses q;
+  double d[5][CAROM_VARIABLES]; /* of p, f_x, f_y, F_x, F_y */
+  double error;                 /* of those, by differences: relative to the largest; else 0 */
+  bool differences, kink;
+} carom_impact_tangent;
+
+/* The impulses of an impact that begins with these slips over the speed of approach, and their derivatives by the variables in
+ * `asked` (bit k: variable k); the others are 0. d_law: the derivative of the law by lambda; plain:
+ * options.plain of the call. Errors: those of
+ * carom_impact_advance(). */
+carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain,
+                                        unsigned asked, carom_impact_tangent *out);
+
+/* Called by advance.c: after a step by collocation from `before`, while path->regime is still that of the step. Gives the
+ * squared error estimate over the tolerance; above 1 the step is too long, and nothing is changed. vanishes: which slip the
+ * step ends with, OF_A_X or OF_B_X, or -1; */
+double carom_variation_step(carom_trajectory *path, const carom_point *before, bool driving_slips, int vanishes);
+/* after a straight one; */
+void carom_variation_straight(carom_trajectory *path, const carom_point *before, bool planar);
+/* and after either, once what follows is decided. phase_ended: compression or restitution has. */
+void carom_variation_follow(carom_trajectory *path, const carom_point *before, bool phase_ended);
+
+#endif

@@ -1,0 +1,30 @@
+/* The impact of a ball with something that does not move: the slate, the top of a rail, a nose in flight. See fixed.c. */
+#ifndef CAROM_SRC_SHOT_FIXED_H
+#define CAROM_SRC_SHOT_FIXED_H
+
+#include "carom_shot.h"
+#include "platform/arithmetic.h"
+
+/* A ball at what it touches. N is the unit vector from its centre into that. */
+typedef struct carom_touch {
+  double N[3];
+  double closing; /* v . N, m/s */
+  double slip;    /* |u|, m/s, u = v - (v . N) N + R w x N the velocity of its surface there */
+  double t[3];    /* u/|u|, or 0 */
+} carom_touch;
+
+carom_touch carom_touch_of(const double N[3], double radius, const carom_ball_state *state);
+
+/* Takes the impulses J N and J_t t, over the mass, m/s, from the ball. */
+void carom_take_impulse(const carom_touch *touch, double radius, double J, double J_t, carom_ball_state *state);
+
+/* Coulomb's friction for a normal impulse J: it stops the slip, or slips to the end. Over the mass, both. */
+double carom_coulomb(const carom_touch *touch, double mu, double J);
+
+/* The speed at which a ball that falls at v_n on the slate leaves it, for a restitution e. */
+double carom_rebound(double v_n, double e);
+
+/* The ball, with v[2] < 0, falls on the slate or the top of a rail, at the height at which it is. Its label does not change. */
+void carom_hit_slate(const carom_ball_kind *kind, carom_ball_state *state);
+
+#endif

@@ -1,0 +1,287 @@
+/* What a ball in flight meets on the table: noses of rails and jaws, tops of rails, pockets, and the end of the table. nose.c
+ * has the geometry. In flight x and y are linear in t, and z = z0 + v_z t - g/2 t^2.
+ *
+ * RAIL. |d|^2 = (s - delta)^2 + (z - h)^2 is a quartic in t, that of two centres with d in two coordinates (contact.c); a
+ * contact beyond the ends of the rail is none, since a jaw or another rail stands there.
+ *
+ * JAW. With q the horizontal distance from the axis, c = rho + delta and F = (q - c)^2 + (z - h)^2 - R^2, squaring twice would
+ * give degree 8. But q'' >= 0 on a straight track, so where q >= c
+ *
+ *   F''/2 >= min q'^2 + min (z'^2 - g (z - h))
+ *
+ * on any interval: q' rises, so the least q'^2 is at an end, or 0; the second term is a parabola opening upward. So Newton's
+ * method from the left on a lower parabola works as in contact.c: F(t + s) >= F + F' s + m s^2, m the bound. [0, T] is cut
+ * where q = c, two zeros of a quadratic; between them the ball is over the disc, and the contact is that of the top.
+ *
+ * TOP. The plane z = h + R over the strip -W <= s < delta behind a nose, W the width of the rails, and over the disc of a jaw.
+ * A ball that lies on it, with v_z = 0, has left the table.
+ *
+ * POCKET. The ball is over the circle from t_in to t_out, zeros of a quadratic. Where t_in is before its landing it is looked
+ * at at t* = min(t_out, landing): if its centre is not above the pocket's back there, it falls into the pocket at t*. So a ball
+ * that lands in the circle always falls.
+ *
+ * LEAVING. The ball has left the table where its centre leaves the hull grown by W, or where it would land outside the
+ * cushions. */
+#include "shot/contact.h"
+#include "shot/sim.h"
+
+#include <math.h>
+
+static const double slack = 1e-12; /* m: as in detect.c */
+static const double behind = 1e-6; /* m: deeper in a nose than that, a ball is not in contact with it */
+static const double on_top = 1e-9; /* m: rounding of the edges of tops, and of a ball's height on them */
+enum { MOST_STEPS = 1000, LONG_STEPS = 8 };
+
+typedef struct flight {
+  double r[3], v[3], g, radius;
+} flight;
+
+static double height_at(const flight *f, double t) {
+  return f->r[2] + t * (f->v[2] - 0.5 * f->g * t);
+}
+
+/* ---- Jaws */
+
+/* A circle at a height above the cloth, its axis through `centre`. */
+typedef struct circle {
+  double centre[2], radius, height;
+} circle;
+
+/* F, F' and q' at t. */
+typedef struct gap {
+  double F, slope, across;
+} gap;
+
+static gap gap_at(const flight *f, const circle *c, double t) {
+  const double x = f->r[0] + t * f->v[0] - c->centre[0], y = f->r[1] + t * f->v[1] - c->centre[1], q = sqrt(x * x + y * y);
+  const double z = height_at(f, t) - c->height, v_z = f->v[2] - f->g * t;
+  const double across = q > 0.0 ? (x * f->v[0] + y * f->v[1]) / q : 0.0, s = q - c->radius;
+  return (gap){s * s + z * z - f->radius * f->radius, 2.0 * (s * across + z * v_z), across};
+}
+
+/* The bound of F''/2 on [t, T]. */
+static double least_half_curvature(const flight *f, const circle *c, double t, double T) {
+  const double first = gap_at(f, c, t).across, last = gap_at(f, c, T).across;
+  const double across = first >= 0.0 ? first * first : last <= 0.0 ? last * last : 0.0;
+  /* z'^2 - g (z - h) = v_z^2 - g (z0 - h) - 3 g v_z t + 3/2 g^2 t^2, least at t = v_z / g */
+  const double top = carom_lesser(carom_greater(f->v[2] / f->g, t), T);
+  const double upright = f->v[2] * f->v[2] - f->g * (f->r[2] - c->height) + top * f->g * (1.5 * f->g * top - 3.0 * f->v[2]);
+  return across + upright;
+}
+
+/* The first zero of F + raise from t on, where that is positive, up to T, with q >= c between; or infinity. */
+static double zero_from_left(const flight *f, const circle *c, double raise, double t, double T) {
+  double ahead = T; /* how far the bound reaches */
+  for (int k = 0; k < MOST_STEPS; k++) {
+    const gap here = gap_at(f, c, t);
+    const double y = here.F + raise;
+    if (y <= 0.0 && here.slope < 0.0)
+      return t;
+    const double s = carom_first_fall(y, here.slope, least_half_curvature(f, c, t, ahead));
+    if (!(s >= 0.0) || t + s > ahead) {
+      if (ahead >= T)
+        return INFINITY;
+      const double reached = ahead;
+      ahead = carom_lesser(T, reached + 4.0 * (reached - t));
+      t = reached;
+      continue;
+    }
+    if (t + s == t)
+      return here.slope < 0.0 ? t : INFINITY;
+    t += s;
+    if (k >= LONG_STEPS)
+      ahead = carom_lesser(T, t + 4.0 * s);
+  }
+  return t; /* not reached in practice: F has come as near to 0 as rounding lets it */
+}
+
+/* The first contact on [t, T], with q >= c between. Balls that touch at t and do not close are in contact where the gap has
+ * fallen by `slack` from that at t, or, if it has been greater than `slack` on the way, where it is 0: as PRESSED in contact.c.
+ */
+static double touch_circle(const flight *f, const circle *c, double t, double T) {
+  const gap here = gap_at(f, c, t);
+  const double touching = 2.0 * f->radius * slack;
+  if (here.F > touching)
+    return zero_from_left(f, c, 0.0, t, T);
+  if (here.F < -2.0 * f->radius * behind)
+    return INFINITY;
+  if (here.slope < -2.0 * f->radius * CAROM_NO_SPEED)
+    return t;
+  const double back = zero_from_left(f, c, touching - here.F, t, T), middle = 0.5 * (t + back);
+  return back < INFINITY && gap_at(f, c, middle).F > touching ? zero_from_left(f, c, 0.0, middle, T) : back;
+}
+
+/* The times at which the track crosses a circle, seen from above; the number of them, 0 or 2, infinite where it stands inside.
+ */
+static int cross_circle(const flight *f, const double centre[2], double radius, double t[2]) {
+  const double x = f->r[0] - centre[0], y = f->r[1] - centre[1], c = x * x + y * y - radius * radius;
+  const double a = f->v[0] * f->v[0] + f->v[1] * f->v[1], b = x * f->v[0] + y * f->v[1];
+  t[0] = -INFINITY;
+  t[1] = INFINITY;
+  if (a == 0.0)
+    return c < 0.0 ? 2 : 0;
+  return carom_quadratic_zeros(a, 2.0 * b, c, t);
+}
+
+static double meet_jaw(const flight *f, const circle *c, double T) {
+  double over[2];
+  if (cross_circle(f, c->centre, c->radius, over) < 2 || over[0] >= T || over[1] <= 0.0)
+    return touch_circle(f, c, 0.0, T);
+  const double before = over[0] > 0.0 ? touch_circle(f, c, 0.0, over[0]) : INFINITY;
+  return before < INFINITY || over[1] >= T ? before : touch_circle(f, c, over[1], T);
+}
+
+/* ---- Rails and tops */
+
+static double across(const double line[3], const flight *f, double t) {
+  return line[0] * (f->r[0] + t * f->v[0]) + line[1] * (f->r[1] + t * f->v[1]) + line[2];
+}
+static bool beside(const double along[3], const flight *f, double t) {
+  const double place = across(along, f, t);
+  return place >= 0.0 && place <= 1.0;
+}
+
+/* The part of [0, T] in which the ball is between the ends of a rail: place is linear in t. False where there is none. */
+static bool while_beside(const double along[3], const flight *f, double T, double window[2]) {
+  const double place = across(along, f, 0.0), speed = along[0] * f->v[0] + along[1] * f->v[1];
+  window[0] = 0.0;
+  window[1] = T;
+  if (speed == 0.0)
+    return place >= 0.0 && place <= 1.0;
+  const double at_p = -place / speed, at_q = (1.0 - place) / speed;
+  window[0] = carom_greater(0.0, carom_lesser(at_p, at_q));
+  window[1] = carom_lesser(T, carom_greater(at_p, at_q));
+  return window[0] <= window[1];
+}
+
+static double meet_rail(const carom_features *features, int k, double height, double shift, const flight *f, double T) {
+  double window[2];
+  if (!while_beside(features->along[k], f, T, window))
+    return INFINITY;
+  const double *line = features->line[k], from = window[0], z = height_at(f, from) - height;
+  const carom_separation d = {{across(line, f, from) - shift, z, 0.0},
+                              {line[0] * f->v[0] + line[1] * f->v[1], f->v[2] - f->g * from, 0.0},
+                              {0.0, -0.5 * f->g, 0.0}};
+  const double reach = f->radius - behind;
+  if (d.d0[0] * d.d0[0] + z * z < reach * reach)
+    return INFINITY;
+  return from + carom_first_contact(&d, f->radius, slack, window[1] - from);
+}
+
+/* When the ball falls on a plane; *lies becomes whether it lies on it now. */
+static double fall_on(const flight *f, double plane, bool *lies) {
+  double above = f->r[2] - plane;
+  if (fabs(above) <= on_top) {
+    *lies = f->v[2] == 0.0;
+    above = carom_greater(above, 0.0);
+  }
+  return carom_fall_time(above, f->v[2], f->g);
+}
+
+/* ---- All of it */
+
+/* Keeps what comes first. */
+static void keep(carom_meeting *first, double t, int type, int what, double *T) {
+  if (!(t <= *T) || (t >= first->time && type != CAROM_EVENT_POCKET))
+    return;
+  *first = (carom_meeting){t, type, what};
+  *T = t;
+}
+
+static bool near(const carom_features *f, int k, const float box[4]) {
+  return f->low_x[k] <= box[1] && f->high_x[k] >= box[0] && f->low_y[k] <= box[3] && f->high_y[k] >= box[2];
+}
+
+/* The box of the track from above and `more` around it, in single precision, which those of the features allow for. */
+static void box_of(const flight *f, double T, double more, float box[4]) {
+  for (int k = 0; k < 2; k++) {
+    const double end = f->r[k] + T * f->v[k];
+    box[2 * k] = (float)(carom_lesser(f->r[k], end) - more);
+    box[2 * k + 1] = (float)(carom_greater(f->r[k], end) + more);
+  }
+}
+
+/* The centre leaves the hull grown by the width of the rails. */
+static double leave(const carom_features *features, const flight *f) {
+  double first = INFINITY;
+  for (int k = 0; k < 2; k++) {
+    const double low = features->hull[2 * k] - features->width, high = features->hull[2 * k + 1] + features->width;
+    if (f->r[k] < low || f->r[k] > high)
+      return 0.0;
+    if (f->v[k] != 0.0)
+      first = carom_lesser(first, ((f->v[k] < 0.0 ? low : high) - f->r[k]) / f->v[k]);
+  }
+  return first;
+}
+
+/* Whether the ball is over a top at a time. */
+static bool over_rail(const carom_features *features, int k, double shift, const flight *f, double t) {
+  const double s = across(features->line[k], f, t);
+  return s >= -features->width && s <= shift + on_top && beside(features->along[k], f, t);
+}
+static bool over_jaw(const circle *c, const flight *f, double t) {
+  const double x = f->r[0] + t * f->v[0] - c->centre[0], y = f->r[1] + t * f->v[1] - c->centre[1], reach = c->radius + on_top;
+  return x * x + y * y <= reach * reach;
+}
+
+/* Noses and tops of rails and jaws. Each narrows the horizon of those behind it. */
+static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, const flight *f, carom_meeting *first, double *T) {
+  const carom_features *features = sim->features;
+  const double low = carom_nose_height(kind, features->nose_low), rise = f->v[2] > 0.0 ? 0.5 * f->v[2] * f->v[2] / f->g : 0.0;
+  const bool above = f->r[2] + rise >= low + f->radius - on_top; /* it is or comes to be higher than a rail */
+  float box[4];
+  box_of(f, *T, features->reference, box); /* noses are inside their walls, by less than that */
+  for (int k = 0; k < features->rails + features->jaws; k++) {
+    const bool is_near = near(features, k, box);
+    if (!above && !is_near)
+      continue;
+    const int j = k - features->rails;
+    const double h = carom_nose_height(kind, j < 0 ? sim->table->rail[k].height : sim->table->jaw[j].height);
+    const double shift = carom_nose_shift(h, features->reference);
+    circle c = {.height = h};
+    if (j >= 0) {
+      const carom_jaw *jaw = &sim->table->jaw[j];
+      c = (circle){{jaw->centre[0], jaw->centre[1]}, jaw->radius + shift, h};
+    }
+    bool lies = false;
+    const double top = above ? fall_on(f, h + f->radius, &lies) : INFINITY;
+    if (top <= *T && (j < 0 ? over_rail(features, k, shift, f, top) : over_jaw(&c, f, top)))
+      keep(first, top, lies ? CAROM_EVENT_LEFT_TABLE : CAROM_EVENT_RAIL_TOP, lies ? -1 : k, T);
+    if (is_near && j < 0)
+      keep(first, meet_rail(features, k, h, shift, f, *T), CAROM_EVENT_RAIL, k, T);
+    else if (is_near)
+      keep(first, meet_jaw(f, &c, *T), CAROM_EVENT_JAW, j, T);
+  }
+}
+
+static void meet_pockets(const carom_sim *sim, const flight *f, double landing, carom_meeting *first, double *T) {
+  const carom_features *features = sim->features;
+  float box[4];
+  box_of(f, *T, 0.0, box);
+  for (int k = 0; k < features->pockets; k++) {
+    const carom_pocket *pocket = &sim->table->pocket[k];
+    double over[2];
+    if (!near(features, features->rails + features->jaws + k, box) ||
+        cross_circle(f, pocket->centre, pocket->radius, over) < 2 || over[1] < 0.0 || over[0] >= landing)
+      continue;
+    const double t = carom_lesser(over[1], landing);
+    if (over[1] >= landing || height_at(f, t) <= features->pocket_back)
+      keep(first, t, CAROM_EVENT_POCKET, k, T);
+  }
+}
+
+carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3], const double v[3], double landing) {
+  const carom_ball_kind *kind = &sim->ball[i].kind;
+  const flight f = {{r[0], r[1], r[2]}, {v[0], v[1], v[2]}, kind->gravity, kind->radius};
+  carom_meeting first = {INFINITY, 0, 0};
+  double T = landing;
+  keep(&first, leave(sim->features, &f), CAROM_EVENT_LEFT_TABLE, -1, &T);
+  meet_cushions(sim, kind, &f, &first, &T);
+  meet_pockets(sim, &f, landing, &first, &T);
+  if (first.type == 0) { /* it lands */
+    const double there[2] = {r[0] + landing * v[0], r[1] + landing * v[1]};
+    if (carom_place_is_outside(sim->table, sim->features, there))
+      first = (carom_meeting){landing, CAROM_EVENT_LEFT_TABLE, -1};
+  }
+  return first;
+}

@@ -1,0 +1,280 @@
+/* Checks of a table of one's own: no way out but the pockets, and rails that are played from the right side.
+ *
+ * To the centre of a ball of radius R, jaws are discs grown by R, pockets discs, and rails segments grown by R; but detection
+ * knows of a rail only the segment at the distance R on its played side, not the rounded ends, which jaws stand for. Each of
+ * these is convex, and so two that overlap have no hole between them. They keep the centre in a place P exactly where a closed
+ * chain of overlapping parts winds around P. So the parts are the nodes of a graph: an edge goes from the middle of one part to
+ * a place in it, straight on to a place in the other, and to the middle of that. Along an edge the number of times is counted
+ * that a ray from P in the direction of +x is crossed, upward less downward. Over a closed chain these numbers add up to how
+ * often it winds around P. A forest of the nodes, each with the sum from its root, tells this for all chains at once: an edge
+ * between two nodes of one tree closes a chain.
+ *
+ * The ring is looked at twice. With rounded rails, which do not depend on the sides, it tells holes as wide as a ball; then,
+ * when the sides are known to be right, with rails as detection knows them it tells ends of rails without a jaw. Where no chain
+ * is closed, the parts are grown further until one is. The edge that closed it is the hole. */
+#include "shot/sim.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static const double touching = 1e-6; /* m: parts so near to each other have no hole between them */
+
+typedef struct shape {
+  double p[2], q[2];    /* the segment; p = q is the centre of a disc */
+  double reach, radius; /* m: as the centre of a ball sees it; of the surface */
+  carom_part part;
+} shape;
+
+typedef struct ring {
+  int count;
+  shape shape[MOST_FEATURES];
+  /* of the forest: the parent, itself for a root, and the windings from the parent here */
+  int parent[MOST_FEATURES], windings[MOST_FEATURES];
+} ring;
+
+static void add_shape(ring *g, const double p[2], const double q[2], double radius, double grown, carom_part part) {
+  g->shape[g->count++] = (shape){{p[0], p[1]}, {q[0], q[1]}, radius + grown, radius, part};
+}
+
+/* How far from the wall of a cushion the centre is when a ball touches the nose. */
+static double reach_of(const carom_features *f, double height) {
+  const carom_ball_kind kind = {.radius = f->radius};
+  return carom_reach_on_cloth(&kind, height, f->reference);
+}
+
+/* The parts; rails with round ends, or without. */
+static void shapes_of(const carom_table *t, const carom_features *f, bool round, ring *g) {
+  g->count = 0;
+  for (int k = 0; k < t->rails; k++) {
+    const carom_rail *rail = &t->rail[k];
+    const double reach = reach_of(f, rail->height), off = round ? 0.0 : reach, *n = f->line[k];
+    const double p[2] = {rail->p[0] + off * n[0], rail->p[1] + off * n[1]},
+                 q[2] = {rail->q[0] + off * n[0], rail->q[1] + off * n[1]};
+    add_shape(g, p, q, 0.0, round ? reach : 0.0, (carom_part){CAROM_PART_RAIL, k});
+  }
+  for (int k = 0; k < t->jaws; k++)
+    add_shape(g, t->jaw[k].centre, t->jaw[k].centre, t->jaw[k].radius, reach_of(f, t->jaw[k].height),
+              (carom_part){CAROM_PART_JAW, k});
+  for (int k = 0; k < t->pockets; k++)
+    add_shape(g, t->pocket[k].centre, t->pocket[k].centre, t->pocket[k].radius, 0.0, (carom_part){CAROM_PART_POCKET, k});
+}
+
+/* The place of a segment that is nearest to r, and how far it is. */
+static double nearest(const shape *s, const double r[2], double there[2]) {
+  const double e[2] = {s->q[0] - s->p[0], s->q[1] - s->p[1]}, size2 = e[0] * e[0] + e[1] * e[1];
+  const double along = size2 > 0.0 ? ((r[0] - s->p[0]) * e[0] + (r[1] - s->p[1]) * e[1]) / size2 : 0.0;
+  const double t = carom_lesser(carom_greater(along, 0.0), 1.0);
+  double d2 = 0.0;
+  for (int k = 0; k < 2; k++) {
+    there[k] = s->p[k] + t * e[k];
+    d2 += (r[k] - there[k]) * (r[k] - there[k]);
+  }
+  return sqrt(d2);
+}
+
+/* Where two segments cross; false if they do not. */
+static bool cross_at(const shape *a, const shape *b, double there[2]) {
+  const double u[2] = {a->q[0] - a->p[0], a->q[1] - a->p[1]}, v[2] = {b->q[0] - b->p[0], b->q[1] - b->p[1]};
+  const double d[2] = {b->p[0] - a->p[0], b->p[1] - a->p[1]}, area = u[0] * v[1] - u[1] * v[0];
+  const double s = (d[0] * v[1] - d[1] * v[0]) / area, t = (d[0] * u[1] - d[1] * u[0]) / area;
+  for (int k = 0; k < 2; k++)
+    there[k] = a->p[k] + s * u[k];
+  return s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0;
+}
+
+/* Edge `which` of the five between two parts, its places in them, and its length: where they cross, or from an end of one to
+ * the other. More than the shortest are wanted only to find holes: between parallel rails there is one at each end. */
+enum { EDGES = 5 };
+static double edge(const shape *a, const shape *b, int which, double in_a[2], double in_b[2]) {
+  if (which == 0) {
+    const bool they_do = cross_at(a, b, in_a);
+    in_b[0] = in_a[0];
+    in_b[1] = in_a[1];
+    return they_do ? 0.0 : INFINITY;
+  }
+  const double *end = which == 1 ? a->p : which == 2 ? a->q : which == 3 ? b->p : b->q;
+  double *at_end = which <= 2 ? in_a : in_b;
+  at_end[0] = end[0];
+  at_end[1] = end[1];
+  return nearest(which <= 2 ? b : a, end, which <= 2 ? in_b : in_a);
+}
+
+/* How a ray from P along +x is crossed on the way from a to b: 1 upward, -1 downward. */
+static int crossing(const double a[2], const double b[2], const double P[2]) {
+  if ((a[1] > P[1]) == (b[1] > P[1]))
+    return 0;
+  const double x = a[0] + (P[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+  return x <= P[0] ? 0 : b[1] > a[1] ? 1 : -1;
+}
+
+/* The windings of an edge. */
+static int windings_of(const shape *a, const shape *b, const double in_a[2], const double in_b[2], const double P[2]) {
+  const double from[2] = {0.5 * (a->p[0] + a->q[0]), 0.5 * (a->p[1] + a->q[1])},
+               to[2] = {0.5 * (b->p[0] + b->q[0]), 0.5 * (b->p[1] + b->q[1])};
+  return crossing(from, in_a, P) + crossing(in_a, in_b, P) + crossing(in_b, to, P);
+}
+
+/* The root of a node, and the windings from there. */
+static int root_of(const ring *g, int i, int *windings) {
+  for (*windings = 0; g->parent[i] != i; i = g->parent[i])
+    *windings += g->windings[i];
+  return i;
+}
+
+/* A hole: between which parts, by which edge. */
+typedef struct hole {
+  int a, b, which;
+} hole;
+
+/* Whether a chain of parts that are at most `grown` apart winds around P, and around P otherwise than around Q unless Q is
+ * NULL. Edges of up to `first` are taken before the others; *closing is the edge that closed a chain. */
+static bool encloses(ring *g, double first, double grown, const double P[2], const double *Q, hole *closing) {
+  for (int i = 0; i < g->count; i++) {
+    g->parent[i] = i;
+    g->windings[i] = 0;
+  }
+  for (int pass = 0; pass < (first < grown ? 2 : 1); pass++)
+    for (int i = 0; i < g->count; i++)
+      for (int j = i + 1; j < g->count; j++)
+        for (int which = 0; which < EDGES; which++) {
+          const shape *a = &g->shape[i], *b = &g->shape[j];
+          double in_a[2], in_b[2];
+          const double apart = edge(a, b, which, in_a, in_b) - a->reach - b->reach;
+          if (!(apart <= (pass == 0 ? first : grown) && apart < INFINITY))
+            continue;
+          const int turns = windings_of(a, b, in_a, in_b, P) - (Q != NULL ? windings_of(a, b, in_a, in_b, Q) : 0);
+          int to_i, to_j;
+          const int root_i = root_of(g, i, &to_i), root_j = root_of(g, j, &to_j);
+          if (root_i != root_j) {
+            g->parent[root_j] = root_i;
+            g->windings[root_j] = to_i + turns - to_j;
+          } else if (to_i + turns != to_j) {
+            *closing = (hole){i, j, which};
+            return true;
+          }
+        }
+  return false;
+}
+
+/* Whether the centre of a ball can be at r. */
+static bool is_free(const ring *g, const double r[2]) {
+  double there[2];
+  for (int k = 0; k < g->count; k++)
+    if (nearest(&g->shape[k], r, there) < g->shape[k].reach)
+      return false;
+  return true;
+}
+
+/* A place for a ball near the middle of the table: in rings of places around it. False if there is none. */
+static bool find_place(const ring *g, const carom_table *t, double P[2]) {
+  enum { HALF = 4 };
+  for (int far = 0; far <= HALF; far++)
+    for (int k = -far; k <= far; k++)
+      for (int l = -far; l <= far; l++) {
+        if (k != far && k != -far && l != far && l != -far)
+          continue;
+        P[0] = t->width * (0.5 + 0.1 * k);
+        P[1] = t->length * (0.5 + 0.1 * l);
+        if (is_free(g, P))
+          return true;
+      }
+  return false;
+}
+
+/* Finds the hole in a ring that is not closed, by bisection over how far the parts are grown. False if there is none to be
+ * found. */
+static bool find_hole(ring *g, const double P[2], hole *found) {
+  double low = touching, high = 1e-3;
+  while (high < 1e6 && !encloses(g, high, high, P, NULL, found)) {
+    low = high;
+    high *= 2.0;
+  }
+  for (int k = 0; k < 50 && high < 1e6; k++) {
+    const double middle = 0.5 * (low + high);
+    if (encloses(g, middle, middle, P, NULL, found))
+      high = middle;
+    else
+      low = middle;
+  }
+  return high < 1e6 && encloses(g, low, high, P, NULL, found);
+}
+
+/* Whether the played side of a rail is turned away from the table: nowhere along it can a ball that has come from P touch that
+ * side, and somewhere one is at its back. */
+static bool wrong_side(ring *g, const carom_rail *rail, const double normal[3], double R, const double P[2]) {
+  static const double places[] = {0.5, 0.25, 0.75, 0.1, 0.9, 0.02, 0.98};
+  bool at_back = false;
+  for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
+    for (int side = 1; side >= -1; side -= 2) {
+      double Q[2];
+      for (int c = 0; c < 2; c++)
+        Q[c] = rail->p[c] + places[k] * (rail->q[c] - rail->p[c]) + side * (R + 1e-6) * normal[c];
+      hole unused;
+      if (!is_free(g, Q) || encloses(g, touching, touching, P, Q, &unused))
+        continue;
+      if (side > 0)
+        return false;
+      at_back = true;
+    }
+  return at_back;
+}
+
+/* Whether the ring is closed; where it is not, *fault tells the hole. */
+static bool is_closed(ring *g, const double P[2], carom_table_fault *fault) {
+  hole found;
+  if (encloses(g, touching, touching, P, NULL, &found))
+    return true;
+  if (find_hole(g, P, &found)) {
+    const shape *a = &g->shape[found.a], *b = &g->shape[found.b];
+    double in_a[2], in_b[2];
+    fault->gap = edge(a, b, found.which, in_a, in_b) - a->radius - b->radius;
+    fault->part = a->part;
+    fault->other = b->part;
+    for (int c = 0; c < 2; c++)
+      fault->place[c] = 0.5 * (in_a[c] + in_b[c]);
+  }
+  return false;
+}
+
+static double off_line(const double line[3], const double r[2]) {
+  return fabs(line[0] * r[0] + line[1] * r[1] + line[2]);
+}
+
+carom_status carom_table_check(const carom_table *table, double radius, carom_table_fault *fault) {
+  carom_table_fault unused;
+  fault = fault != NULL ? fault : &unused;
+  *fault = (carom_table_fault){.part = {CAROM_PART_NONE, 0}};
+  if (table == NULL)
+    return CAROM_ERROR_NULL;
+  carom_features features;
+  const carom_status bad = carom_check_parts(table, radius, radius, &features, &fault->part);
+  if (bad != CAROM_OK)
+    return bad;
+  /* lines of rails, as they were given */
+  for (int k = 0; k < table->rails; k++) {
+    const carom_rail *rail = &table->rail[k];
+    const double off = carom_greater(off_line(features.line[k], rail->p), off_line(features.line[k], rail->q));
+    if (!(off <= 1e-6)) {
+      fault->part = (carom_part){CAROM_PART_RAIL, k};
+      for (int c = 0; c < 2; c++)
+        fault->place[c] = 0.5 * (rail->p[c] + rail->q[c]);
+      return CAROM_ERROR_RAIL_LINE;
+    }
+  }
+  /* the ring, with rails rounded */
+  ring g;
+  double P[2];
+  shapes_of(table, &features, true, &g);
+  if (!find_place(&g, table, P) || !is_closed(&g, P, fault))
+    return CAROM_ERROR_TABLE_OPEN;
+  for (int k = 0; k < table->rails; k++)
+    if (wrong_side(&g, &table->rail[k], features.line[k], reach_of(&features, table->rail[k].height), P)) {
+      fault->part = (carom_part){CAROM_PART_RAIL, k};
+      for (int c = 0; c < 2; c++)
+        fault->place[c] = 0.5 * (table->rail[k].p[c] + table->rail[k].q[c]);
+      return CAROM_ERROR_RAIL_SIDE;
+    }
+  /* and with rails as they are detected */
+  shapes_of(table, &features, false, &g);
+  return is_closed(&g, P, fault) ? CAROM_OK : CAROM_ERROR_TABLE_OPEN;
+}

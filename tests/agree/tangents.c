@@ -1,0 +1,625 @@
+/* Derivatives against differences. The program prints the tables of docs/understanding/gradients.md: errors and costs.
+ *
+ * Differences of shots are of order 4, by 15 steps from 1e-9 to 1e-2 of each number; of adjacent steps at which all shots have
+ * the events of the shot itself, the two that agree best are the reference, whatever the tangents are. By how much they
+ * disagree is what a reference can tell. carom_collide() is single precision in parts, whose noise makes false plateaus; so the
+ * shots of the exact model call the precise solver here, by carom_trace() (the linker wraps carom_collide()). */
+#define _POSIX_C_SOURCE 200809L
+#include "carom_tangent.h"
+#include "shot_support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* ---- The precise solver in place of the fast one ---- */
+
+carom_status __real_carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out);
+carom_status __wrap_carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out);
+static bool precisely;
+
+carom_status __wrap_carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out) {
+  if (!precisely)
+    return __real_carom_collide(in, opt, out);
+  carom_trace_point points[2];
+  const carom_status status = carom_trace(in, opt, 2, points);
+  *out = points[1].state;
+  return status;
+}
+
+/* ---- Random shots ---- */
+
+enum { DIRECTIONS = 14, MOST_BALLS = 9, SHOTS = 100, NUMBERS = CAROM_STATE_NUMBERS };
+
+typedef struct layout {
+  int count;
+  carom_shot_ball ball[MOST_BALLS];
+  carom_cue cue;
+} layout;
+
+static layout draw(random_source *random, bool terms) {
+  layout l = {.count = 2 + (int)random_between(random, 0.0, 7.999), .cue = carom_cue_of(CAROM_GAME_POOL)};
+  for (int i = 0; i < l.count;) {
+    l.ball[i] = ball_at(random_between(random, 0.05, 1.22), random_between(random, 0.05, 2.49));
+    bool alone = true;
+    for (int j = 0; j < i; j++)
+      alone &= hypot(l.ball[i].state.r[0] - l.ball[j].state.r[0], l.ball[i].state.r[1] - l.ball[j].state.r[1]) > 0.07;
+    i += alone;
+  }
+  for (int i = 0; i < l.count && terms; i++) {
+    carom_ball_kind *kind = &l.ball[i].kind;
+    kind->roll_loss = 0.087;
+    kind->law_a = kind->law_b = 0.05;
+    kind->law_c = 1.0;
+    kind->nose_height = 1.25 * kind->radius;
+  }
+  const double *to = l.ball[1].state.r, *from = l.ball[0].state.r;
+  l.cue.speed = random_between(random, 0.8, 5.0);
+  l.cue.phi = 57.29577951308232 * atan2(to[1] - from[1], to[0] - from[0]) + random_between(random, -1.5, 1.5);
+  l.cue.a = random_between(random, -0.3, 0.3);
+  l.cue.b = random_between(random, -0.4, 0.4);
+  return l;
+}
+
+/* What the directions change: speed, phi, a, b; x of ball 0, x and y of ball 1; constants of all balls. */
+enum { OF_CUE = 4, OF_PLACES = 3 };
+static const int cue_row[OF_CUE] = {0, 1, 3, 4}, place[OF_PLACES][2] = {{0, 0}, {1, 0}, {1, 1}};
+static const int kind_row[DIRECTIONS - OF_CUE - OF_PLACES] = {2, 3, 4, 6, 8, 7, 1};
+static const double unit[DIRECTIONS] = {2, 57, 1, 1, 1, 1, 1, 0.2, 0.01, 0.127, 1, 0.85, 0.2, 0.0286};
+
+static void change(layout *l, int j, double by) {
+  if (j < OF_CUE) {
+    ((double *)&l->cue)[cue_row[j]] += by;
+  } else if (j < OF_CUE + OF_PLACES) {
+    l->ball[place[j - OF_CUE][0]].state.r[place[j - OF_CUE][1]] += by;
+  } else {
+    for (int i = 0; i < l->count; i++) {
+      const int row = kind_row[j - OF_CUE - OF_PLACES];
+      ((double *)&l->ball[i].kind)[row] += by;
+      l->ball[i].state.r[2] += row == 1 ? by : 0.0;
+    }
+  }
+}
+
+static double seeds_cue[CAROM_CUE_NUMBERS][DIRECTIONS], seeds_kind[MOST_BALLS][CAROM_KIND_NUMBERS][DIRECTIONS],
+    seeds_state[MOST_BALLS][NUMBERS][DIRECTIONS];
+
+static carom_tangent_seeds seeds_of_all(void) {
+  for (int j = 0; j < DIRECTIONS; j++) {
+    if (j < OF_CUE)
+      seeds_cue[cue_row[j]][j] = 1.0;
+    else if (j < OF_CUE + OF_PLACES)
+      seeds_state[place[j - OF_CUE][0]][place[j - OF_CUE][1]][j] = 1.0;
+    else
+      for (int i = 0; i < MOST_BALLS; i++)
+        seeds_kind[i][kind_row[j - OF_CUE - OF_PLACES]][j] = 1.0;
+  }
+  return (carom_tangent_seeds){
+      .directions = DIRECTIONS, .cue = &seeds_cue[0][0], .kind = &seeds_kind[0][0][0], .state = &seeds_state[0][0][0]};
+}
+
+static void numbers_of(const carom_ball_state *s, double to[NUMBERS]) {
+  const double all[NUMBERS] = {s->r[0], s->r[1], s->v[0], s->v[1], s->w[0], s->w[1], s->w[2]};
+  memcpy(to, all, sizeof all);
+}
+
+/* ---- Differences ---- */
+
+static const carom_table *table_of_pool(void) {
+  static carom_table table;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  return &table;
+}
+
+/* The final numbers of a shot, if it has the same events as `shot`. */
+static bool plays_alike(const layout *l, const carom_shot_options *options, const carom_shot *shot, double *to) {
+  static carom_event other[ROOM];
+  carom_ball_state end[MOST_BALLS];
+  carom_shot s = {.events = other, .room = ROOM, .final = end};
+  if (carom_shoot(table_of_pool(), l->ball, l->count, &l->cue, options, &s) != CAROM_OK || s.count != shot->count)
+    return false;
+  for (int64_t k = 0; k < s.count; k++)
+    if (other[k].type != events[k].type || other[k].a != events[k].a || other[k].b != events[k].b)
+      return false;
+  for (int i = 0; i < l->count; i++)
+    numbers_of(&end[i], to + NUMBERS * i);
+  return true;
+}
+
+/* Largest difference of tangents from the best plateau, and by how much that itself disagrees; false if there is none. */
+static bool compare(const layout *l, const carom_shot_options *options, const carom_shot *shot, int j, const double *tangent,
+                    double *error, double *plateau) {
+  double last[NUMBERS * MOST_BALLS] = {0};
+  bool had = false;
+  *plateau = INFINITY;
+  for (int step = 0; step < 15; step++) {
+    const double h = pow(10.0, -9.0 + 0.5 * step) * unit[j];
+    static const double steps[4] = {-2, -1, 1, 2};
+    double f[4][NUMBERS * MOST_BALLS], apart = 0.0, off = 0.0;
+    bool same = true;
+    for (int s = 0; s < 4 && same; s++) {
+      layout changed = *l;
+      change(&changed, j, steps[s] * h);
+      same = plays_alike(&changed, options, shot, f[s]);
+    }
+    for (int x = 0; x < NUMBERS * l->count && same; x++) {
+      const double d = (8.0 * (f[2][x] - f[1][x]) - (f[3][x] - f[0][x])) / (12.0 * h);
+      apart = fmax(apart, had ? fabs(d - last[x]) : INFINITY);
+      off = fmax(off, fabs(d - tangent[x * DIRECTIONS + j]));
+      last[x] = d;
+    }
+    had = same;
+    if (same && apart < *plateau) {
+      *plateau = apart;
+      *error = off;
+    }
+  }
+  return *plateau < INFINITY;
+}
+
+/* ---- Whole shots ---- */
+
+static int by_size(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static const struct {
+  const char *name;
+  carom_shot_options options;
+  bool terms;
+} models[] = {
+    {"inelastic + Han", {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN}, false},
+    {"mirror + Stronge", {.ball_model = CAROM_BALL_MODEL_MIRROR, .cushion_model = CAROM_SHOT_CUSHION_STRONGE}, false},
+    {"inelastic + Han, terms", {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN}, true},
+    {"exact + Han", {.cushion_model = CAROM_SHOT_CUSHION_HAN}, false},
+    {"exact + exact cushions", {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN}, false},
+};
+
+START_TEST(shots_agree_with_differences) {
+  const bool exact = models[_i].options.ball_model == CAROM_BALL_MODEL_DEFAULT;
+  random_source random = {7};
+  const carom_tangent_seeds seeds = seeds_of_all();
+  static double errors[SHOTS * DIRECTIONS];
+  int pairs = 0, without = 0, wrong = 0;
+  precisely = exact;
+  for (int k = 0; k < SHOTS; k++) {
+    const layout l = draw(&random, models[_i].terms);
+    carom_shot shot = {.events = events, .room = ROOM, .final = final};
+    if (carom_shoot(table_of_pool(), l.ball, l.count, &l.cue, &models[_i].options, &shot) != CAROM_OK)
+      continue;
+    static double ends[MOST_BALLS * NUMBERS * DIRECTIONS];
+    carom_tangent tangent = {.final = ends};
+    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &models[_i].options, &shot, &seeds, &tangent),
+                     CAROM_OK);
+    for (int j = 0; j < DIRECTIONS; j++) {
+      double most = 0.0, error = 0.0, plateau;
+      for (int x = 0; x < NUMBERS * l.count; x++)
+        most = fmax(most, fabs(ends[x * DIRECTIONS + j]));
+      if (most == 0.0 || !compare(&l, &models[_i].options, &shot, j, ends, &error, &plateau)) {
+        without++;
+        continue;
+      }
+      errors[pairs++] = error / most;
+      if (error / most > 1e-5 && error > 30.0 * plateau && tangent.all_flags == 0) {
+        wrong++;
+        printf("shot %d, direction %d: %.1e off, plateau %.1e, size %.1e, %lld events\n", k, j, error / most, plateau / most,
+               most, (long long)shot.count);
+      }
+    }
+  }
+  precisely = false;
+  qsort(errors, (size_t)pairs, sizeof *errors, by_size);
+  printf("%-24s %4d pairs (%d without a plateau): error median %.1e, 90 %% %.1e, 99 %% %.1e, largest %.1e\n", models[_i].name,
+         pairs, without, errors[pairs / 2], errors[pairs * 9 / 10], errors[pairs * 99 / 100], errors[pairs - 1]);
+  ck_assert_int_gt(pairs, 1000);
+  /* two of exact cushions, without a flag: docs/understanding/gradients.md */
+  ck_assert_int_le(wrong, models[_i].options.cushion_model == CAROM_SHOT_CUSHION_MATHAVAN ? 2 : 0);
+  ck_assert_double_lt(errors[pairs / 2], 1e-8);
+}
+END_TEST
+
+/* ---- Costs, over that of the shot ---- */
+
+static double seconds(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+START_TEST(costs) {
+  const carom_tangent_seeds all = seeds_of_all();
+  for (size_t k = 0; k < sizeof models / sizeof models[0]; k++) {
+    random_source random = {3};
+    static double ratio[60], with_reach[60], ends[MOST_BALLS * NUMBERS * DIRECTIONS], times[ROOM * DIRECTIONS];
+    double reach[DIRECTIONS];
+    int n = 0;
+    for (int s = 0; s < 60; s++) {
+      const layout l = draw(&random, models[k].terms);
+      carom_shot shot = {.events = events, .room = ROOM};
+      if (carom_shoot(table_of_pool(), l.ball, l.count, &l.cue, &models[k].options, &shot) != CAROM_OK)
+        continue;
+      double least[3] = {INFINITY, INFINITY, INFINITY};
+      for (int repeat = 0; repeat < 5; repeat++) {
+        carom_tangent tangent = {.final = ends}, reaching = {.final = ends, .time = times, .reach = reach};
+        const double start = seconds();
+        for (int i = 0; i < 4; i++)
+          carom_shoot(table_of_pool(), l.ball, l.count, &l.cue, &models[k].options, &shot);
+        const double played = seconds();
+        carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &models[k].options, &shot, &all, &tangent);
+        const double differentiated = seconds();
+        carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &models[k].options, &shot, &all, &reaching);
+        least[0] = fmin(least[0], (played - start) / 4.0);
+        least[1] = fmin(least[1], differentiated - played);
+        least[2] = fmin(least[2], seconds() - differentiated);
+      }
+      ratio[n] = least[1] / least[0];
+      with_reach[n++] = least[2] / least[0];
+    }
+    qsort(ratio, (size_t)n, sizeof *ratio, by_size);
+    qsort(with_reach, (size_t)n, sizeof *with_reach, by_size);
+    printf("%-24s %d directions cost %.1f times the shot in the median, %.1f at 90 %%; with reach %.1f\n", models[k].name,
+           DIRECTIONS, ratio[n / 2], ratio[n * 9 / 10], with_reach[n / 2]);
+    ck_assert_int_gt(n, 50);
+  }
+}
+END_TEST
+
+/* ---- Single contacts ---- */
+
+/* The largest error of a row of J, over the largest derivative, against the best of three steps. */
+typedef carom_status solver(const double *in, double *out);
+
+static carom_status collide(const double *in, double *out) {
+  carom_impact impact;
+  carom_trace_point points[2];
+  memcpy(&impact, in, sizeof impact);
+  const carom_status status = carom_trace(&impact, NULL, 2, points);
+  memcpy(out, &points[1].state, sizeof points[1].state);
+  return status;
+}
+
+static carom_cushion_options cushion_options;
+
+static carom_status cushion(const double *in, double *out) {
+  carom_cushion_impact impact;
+  memcpy(&impact, in, sizeof impact);
+  return carom_cushion(&impact, &cushion_options, (carom_motion *)out);
+}
+
+static double error_of(solver *solve, const double *in, int ins, int outs, int k, double step, const double *tangent, int m) {
+  double best = INFINITY, most = 0.0;
+  for (int r = 0; r < outs; r++)
+    most = fmax(most, fabs(tangent[r * m + k]) * (r % 6 < 3 ? 1.0 : 0.0286));
+  for (int attempt = 0; attempt < 3; attempt++, step *= 0.2) {
+    static const double steps[4] = {-2, -1, 1, 2};
+    double f[4][12], there[26], error = 0.0;
+    bool fine = true;
+    for (int s = 0; s < 4; s++) {
+      memcpy(there, in, sizeof *in * (size_t)ins);
+      there[k] += steps[s] * step;
+      fine &= solve(there, f[s]) == CAROM_OK;
+    }
+    for (int r = 0; r < outs && fine; r++) {
+      const double d = (8.0 * (f[2][r] - f[1][r]) - (f[3][r] - f[0][r])) / (12.0 * step);
+      error = fmax(error, fabs(d - tangent[r * m + k]) * (r % 6 < 3 ? 1.0 : 0.0286));
+    }
+    best = fine ? fmin(best, error) : best;
+  }
+  return best / fmax(most, 1e-2);
+}
+
+START_TEST(collisions_agree_with_differences) {
+  random_source random = {test_seed()};
+  static double errors[20000];
+  int n = 0;
+  for (int k = 0; k < 500; k++) {
+    const double R = 0.028575;
+    carom_impact in = {.mu_ball = random_between(&random, 0.02, 0.15), .restitution = random_between(&random, 0.85, 0.98)};
+    in.a = (carom_ball){.v = {random_between(&random, 0.2, 3.0), random_between(&random, -1.0, 1.0), 0.0},
+                        .radius = R,
+                        .mass = random_between(&random, 0.15, 0.2),
+                        .mu_cloth = random_between(&random, 0.15, 0.25)};
+    in.b = (carom_ball){.r = {2.0 * R, 0.01, 0.0}, .radius = R, .mass = 0.17, .mu_cloth = 0.2};
+    for (int i = 0; i < 3; i++)
+      in.a.w[i] = random_between(&random, -60.0, 60.0);
+    const bool rolls = k % 2 == 1;
+    if (rolls) {
+      in.a.w[0] = -in.a.v[1] / R;
+      in.a.w[1] = in.a.v[0] / R;
+    }
+    double seeds[26][26] = {{0}}, tangent[12][26];
+    for (int i = 0; i < 26; i++)
+      seeds[i][i] = 1.0;
+    int32_t flags;
+    ck_assert_int_ge(carom_collide_tangent(&in, NULL, 26, &seeds[0][0], &tangent[0][0], &flags), CAROM_OK);
+    if (carom_collide(&in, NULL, &(carom_result){0}) == CAROM_SEPARATING || flags != 0)
+      continue;
+    /* places, motion of a that slides, its spin about the vertical, masses, frictions, restitution */
+    static const int asked[] = {0, 1, 3, 4, 6, 7, 8, 10, 11, 12, 13, 22, 24, 25};
+    static const double steps[] = {1e-4, 1e-4, 3e-3, 3e-3, 0.1, 0.1, 0.1, 1e-3, 5e-4, 1e-4, 1e-4, 1e-3, 3e-4, 1e-3};
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++)
+      if (!(rolls && (asked[i] == 3 || asked[i] == 4 || asked[i] == 6 || asked[i] == 7)))
+        errors[n++] = error_of(collide, (const double *)&in, 26, 12, asked[i], steps[i], &tangent[0][0], 26);
+  }
+  qsort(errors, (size_t)n, sizeof *errors, by_size);
+  printf("collisions: %d derivatives, error median %.1e, 99 %% %.1e, largest %.1e\n", n, errors[n / 2], errors[n * 99 / 100],
+         errors[n - 1]);
+  ck_assert_int_gt(n, 4000);
+  ck_assert_double_lt(errors[n * 99 / 100], 1e-6);
+}
+END_TEST
+
+START_TEST(cushions_agree_with_differences) {
+  random_source random = {test_seed()};
+  static double errors[20000];
+  int n = 0;
+  cushion_options = (carom_cushion_options){.model = (carom_cushion_model)(_i / 2), .law = (carom_cushion_law)(_i % 2)};
+  for (int k = 0; k < 400; k++) {
+    const double R = 0.028575;
+    carom_cushion_impact in = {.v = {random_between(&random, -2.0, 2.0), random_between(&random, 0.2, 3.0), 0.0},
+                               .normal = {random_between(&random, -0.3, 0.3), 1.0},
+                               .height = random_between(&random, 1.2, 1.4) * R,
+                               .radius = R,
+                               .mass = 0.17,
+                               .mu_cloth = random_between(&random, 0.15, 0.25),
+                               .mu_cushion = random_between(&random, 0.1, 0.3),
+                               .restitution = random_between(&random, 0.7, 0.95)};
+    for (int i = 0; i < 3; i++)
+      in.w[i] = random_between(&random, -60.0, 60.0);
+    double seeds[15][15] = {{0}}, tangent[6][15];
+    for (int i = 0; i < 15; i++)
+      seeds[i][i] = 1.0;
+    int32_t flags;
+    const carom_status status = carom_cushion_tangent(&in, &cushion_options, 15, &seeds[0][0], &tangent[0][0], &flags);
+    ck_assert_int_ge(status, CAROM_OK);
+    if (status == CAROM_SEPARATING || (flags & CAROM_TANGENT_KINK))
+      continue;
+    static const int asked[] = {0, 1, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13};
+    static const double steps[] = {3e-3, 3e-3, 0.1, 0.1, 0.1, 1e-3, 1e-3, 3e-5, 3e-5, 5e-4, 5e-4, 1e-3};
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++)
+      errors[n++] = error_of(cushion, (const double *)&in, 15, 6, asked[i], steps[i], &tangent[0][0], 15);
+  }
+  qsort(errors, (size_t)n, sizeof *errors, by_size);
+  printf("cushion %s%s: %d derivatives, error median %.1e, 99 %% %.1e, largest %.1e\n",
+         carom_cushion_model_name(cushion_options.model), _i % 2 ? " by Han's law" : "", n, errors[n / 2], errors[n * 99 / 100],
+         errors[n - 1]);
+  ck_assert_int_gt(n, 3000);
+  ck_assert_double_lt(errors[n * 99 / 100], cushion_options.model == CAROM_CUSHION_MATHAVAN ? 2e-5 : 1e-7);
+}
+END_TEST
+
+/* ---- Edges ---- */
+
+enum { MANY_BALLS = 16 };
+static double ends[MANY_BALLS * NUMBERS * DIRECTIONS], times[ROOM * DIRECTIONS];
+static int32_t flags_of[ROOM];
+
+/* The tangents of a shot by phi and speed. */
+static carom_tangent by_aim(const carom_shot_ball *balls, int count, const carom_cue *cue, const carom_shot_options *options,
+                            const carom_shot *shot, double reach[2]) {
+  static double cue_seeds[CAROM_CUE_NUMBERS][2];
+  cue_seeds[1][0] = cue_seeds[0][1] = 1.0;
+  const carom_tangent_seeds seeds = {.directions = 2, .cue = &cue_seeds[0][0]};
+  carom_tangent tangent = {.final = ends, .time = times, .flags = flags_of, .reach = reach};
+  ck_assert_int_eq(carom_shot_tangent(table_of_pool(), balls, count, cue, options, shot, &seeds, &tangent), CAROM_OK);
+  return tangent;
+}
+
+START_TEST(edges_are_flagged) {
+  const carom_shot_options closed = {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN};
+  double reach[2];
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  /* a frozen rack, and one with gaps */
+  for (int frozen = 0; frozen < 2; frozen++) {
+    carom_shot_ball rack[10];
+    carom_rack(CAROM_RACK_NINEBALL, table_of_pool(), frozen ? 0.0 : 1e-3, 1, rack, 10);
+    cue.speed = 8.0;
+    const carom_shot shot = play(table_of_pool(), rack, 10, &cue, &closed, CAROM_OK);
+    const carom_tangent t = by_aim(rack, 10, &cue, &closed, &shot, reach);
+    ck_assert_int_eq((t.all_flags & CAROM_TANGENT_SIMULTANEOUS) != 0, frozen);
+    ck_assert_double_lt(reach[0], 0.01);
+  }
+  /* a thin hit: s = 2 R (1 - 1e-6) */
+  const carom_shot_ball two[2] = {ball_at(0.4, 0.6), ball_at(0.55, 1.4)};
+  cue = carom_cue_of(CAROM_GAME_POOL);
+  cue.speed = 1.2;
+  cue.b = 0.0;
+  cue.phi = 57.29577951308232 * (atan2(0.8, 0.15) + asin(2.0 * 0.028575 * (1.0 - 1e-6) / hypot(0.15, 0.8)));
+  carom_shot shot = play(table_of_pool(), two, 2, &cue, &closed, CAROM_OK);
+  ck_assert_int_ne(by_aim(two, 2, &cue, &closed, &shot, reach).all_flags & CAROM_TANGENT_GRAZING, 0);
+  ck_assert_double_lt(reach[0], 1e-4);
+  /* a ball that follows into another one beside it, by topspin: slow contacts */
+  const carom_shot_ball near[2] = {ball_at(0.635, 1.0), ball_at(0.636, 1.06)};
+  cue.speed = 2.5;
+  cue.phi = 90.0;
+  cue.b = 0.5;
+  shot = play(table_of_pool(), near, 2, &cue, &closed, CAROM_OK);
+  bool slow = false;
+  carom_tangent t = by_aim(near, 2, &cue, &closed, &shot, reach);
+  for (int64_t k = 0; k < shot.count; k++)
+    slow |= (flags_of[k] & CAROM_TANGENT_SLOW) != 0;
+  ck_assert_int_eq(slow, (t.all_flags & CAROM_TANGENT_SLOW) != 0);
+  /* Stronge's cushions say that they are by differences */
+  const carom_shot_options stronge = {.cushion_model = CAROM_SHOT_CUSHION_STRONGE};
+  cue.phi = 80.0;
+  shot = play(table_of_pool(), two, 1, &cue, &stronge, CAROM_OK);
+  ck_assert_int_ne(by_aim(two, 1, &cue, &stronge, &shot, reach).all_flags & CAROM_TANGENT_DIFFERENCES, 0);
+  /* a ball that rolls with drag */
+  carom_shot_ball drags[1] = {ball_at(0.4, 0.6)};
+  drags[0].kind.drag = 0.0129;
+  shot = play(table_of_pool(), drags, 1, &cue, &closed, CAROM_OK);
+  ck_assert_int_ne(by_aim(drags, 1, &cue, &closed, &shot, reach).all_flags & CAROM_TANGENT_DRAG, 0);
+  /* and Euler's steps that they are steps */
+  const carom_shot_options euler = {.cushion_model = CAROM_SHOT_CUSHION_EULER};
+  shot = play(table_of_pool(), two, 1, &cue, &euler, CAROM_OK);
+  t = by_aim(two, 1, &cue, &euler, &shot, reach);
+  ck_assert_int_ne(t.all_flags & CAROM_TANGENT_EULER, 0);
+  ck_assert_int_ne(t.all_flags & CAROM_TANGENT_KINK, 0);
+}
+END_TEST
+
+START_TEST(pocketed_balls_do_not_change) {
+  const carom_shot_ball one[1] = {ball_at(0.3, 0.3)};
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  cue.phi = 225.0;
+  double reach[2];
+  const carom_shot shot = play(table_of_pool(), one, 1, &cue, NULL, CAROM_OK);
+  ck_assert_int_eq(final[0].label, CAROM_BALL_POCKETED);
+  by_aim(one, 1, &cue, NULL, &shot, reach);
+  for (int k = 0; k < NUMBERS * 2; k++)
+    ck_assert_double_eq(ends[k], 0.0);
+  ck_assert_double_lt(times[(shot.count - 1) * 2 + 1], 0.0); /* faster: earlier */
+}
+END_TEST
+
+START_TEST(states_at_times) {
+  random_source random = {5};
+  const carom_shot_options closed = {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN};
+  for (int k = 0; k < 20; k++) {
+    const layout l = draw(&random, false);
+    const carom_shot shot = play(table_of_pool(), l.ball, l.count, &l.cue, &closed, CAROM_OK);
+    const double at[3] = {0.1 * shot.time, 0.2 * shot.time, 2.0 * shot.time};
+    static double cue_seeds[CAROM_CUE_NUMBERS][1], states[3 * MOST_BALLS * NUMBERS];
+    cue_seeds[0][0] = 1.0;
+    const carom_tangent_seeds seeds = {.directions = 1, .cue = &cue_seeds[0][0]};
+    carom_tangent tangent = {.final = ends, .at = states, .times = at, .times_count = 3};
+    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &closed, &shot, &seeds, &tangent), CAROM_OK);
+    /* after the end all is as at the end */
+    for (int x = 0; x < l.count * NUMBERS; x++)
+      ck_assert_double_eq(states[2 * l.count * NUMBERS + x], ends[x]);
+    for (int n = 0; n < 2; n++) {
+      double f[2][MOST_BALLS * NUMBERS];
+      const double h = 1e-7;
+      for (int s = 0; s < 2; s++) {
+        carom_cue cue = l.cue;
+        cue.speed += s == 0 ? -h : h;
+        carom_ball_state there[MOST_BALLS];
+        carom_shot again = {.events = events, .room = ROOM};
+        carom_shoot(table_of_pool(), l.ball, l.count, &cue, &closed, &again);
+        ck_assert_int_eq(carom_shot_at(l.ball, l.count, &again, at[n], there), CAROM_OK);
+        for (int i = 0; i < l.count; i++)
+          numbers_of(&there[i], f[s] + i * NUMBERS);
+      }
+      double most = 0.0, off = 0.0;
+      for (int x = 0; x < l.count * NUMBERS; x++) {
+        most = fmax(most, fabs(states[n * l.count * NUMBERS + x]));
+        off = fmax(off, fabs((f[1][x] - f[0][x]) / (2.0 * h) - states[n * l.count * NUMBERS + x]));
+      }
+      ck_assert_double_lt(off, 1e-4 * most);
+    }
+  }
+}
+END_TEST
+
+START_TEST(what_is_not_known_is_refused) {
+  carom_shot_ball two[2] = {ball_at(0.4, 0.6), ball_at(0.55, 1.4)};
+  const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  carom_shot shot = play(table_of_pool(), two, 2, &cue, NULL, CAROM_OK);
+  double cue_seeds[CAROM_CUE_NUMBERS] = {1.0};
+  carom_tangent_seeds seeds = {.directions = 1, .cue = cue_seeds};
+  carom_tangent tangent = {.final = ends};
+  const carom_table *table = table_of_pool();
+  const carom_shot_options pooltool = {.world = CAROM_WORLD_POOLTOOL}, euler = {.ball_model = CAROM_BALL_MODEL_EULER};
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, &pooltool, &shot, &seeds, &tangent), CAROM_ERROR_TANGENT);
+  ck_assert(isnan(ends[0]));
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, &euler, &shot, &seeds, &tangent), CAROM_ERROR_TANGENT);
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &shot, &seeds, NULL), CAROM_ERROR_NULL);
+  seeds.directions = 65;
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &shot, &seeds, &tangent), CAROM_ERROR_DIRECTIONS);
+  seeds.directions = 1;
+  carom_shot lost = shot;
+  lost.room = 1;
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &lost, &seeds, &tangent), CAROM_ERROR_EVENTS_LOST);
+  ck_assert_int_eq(carom_shot_tangent(table, two, 1, NULL, NULL, &shot, &seeds, &tangent), CAROM_ERROR_STATE);
+  /* a ball that flies, and a kind of event that is not known yet */
+  events[1].after[0].label = CAROM_BALL_AIRBORNE;
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &shot, &seeds, &tangent), CAROM_ERROR_TANGENT);
+  events[1].after[0].label = CAROM_BALL_ROLLING;
+  events[1].type = CAROM_EVENT_SPINNING_STATIONARY + 1;
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &shot, &seeds, &tangent), CAROM_ERROR_TANGENT);
+  /* single contacts by other solvers and conventions */
+  const carom_impact in = {.a = {.v = {1.0, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_cloth = 0.2},
+                           .b = {.r = {0.06, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_cloth = 0.2},
+                           .mu_ball = 0.05,
+                           .restitution = 0.9};
+  const carom_options steps = {.solver = CAROM_SOLVER_EULER};
+  double contact_seeds[26] = {0}, out[12];
+  ck_assert_int_eq(carom_collide_tangent(&in, &steps, 1, contact_seeds, out, NULL), CAROM_ERROR_TANGENT);
+  ck_assert(isnan(out[11]));
+}
+END_TEST
+
+START_TEST(batches_have_the_bits_of_calls) {
+  enum { N = 12 };
+  random_source random = {test_seed()};
+  static carom_event all[N][200];
+  static carom_shot_ball balls[N * MOST_BALLS];
+  static double batch_ends[2][N][2 * NUMBERS * DIRECTIONS];
+  carom_cue cues[N];
+  carom_shot shots[N];
+  int8_t status[N];
+  const carom_tangent_seeds seeds = seeds_of_all();
+  for (int k = 0; k < N; k++) {
+    const layout l = draw(&random, true);
+    memcpy(balls + 2 * k, l.ball, 2 * sizeof l.ball[0]);
+    cues[k] = l.cue;
+    shots[k] = (carom_shot){.events = all[k], .room = 200};
+  }
+  cues[5].b = 2.0; /* one in error costs itself */
+  for (int run = 0; run < 2; run++) {
+    const carom_shot_options options = {.threads = run == 0 ? 0 : 3};
+    const carom_shot_job job = {.table = table_of_pool(),
+                                .balls = balls,
+                                .cues = cues,
+                                .count = 2,
+                                .ball_stride = 2,
+                                .cue_stride = 1,
+                                .n = N,
+                                .options = &options,
+                                .shots = shots,
+                                .status = status};
+    carom_shoot_batch(&job);
+    carom_tangent tangents[N];
+    int8_t ended[N];
+    for (int k = 0; k < N; k++)
+      tangents[k] = (carom_tangent){.final = batch_ends[run][k]};
+    const carom_tangent_job own = {.played = &job, .seeds = &seeds, .tangents = tangents, .status = ended};
+    ck_assert_int_eq(carom_shot_tangent_batch(&own), CAROM_ERROR_MISCUE);
+    ck_assert_int_eq(ended[5], CAROM_ERROR_MISCUE);
+    for (int k = 0; k < N && run == 1; k++) {
+      if (k == 5)
+        continue;
+      carom_tangent single = {.final = ends};
+      ck_assert_int_eq(carom_shot_tangent(table_of_pool(), balls + 2 * k, 2, &cues[k], NULL, &shots[k], &seeds, &single),
+                       CAROM_OK);
+      ck_assert_int_eq(memcmp(ends, batch_ends[0][k], sizeof batch_ends[0][k]), 0);
+      ck_assert_int_eq(memcmp(ends, batch_ends[1][k], sizeof batch_ends[1][k]), 0);
+    }
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("tangents");
+  TCase *tests = tcase_create("all");
+  tcase_set_timeout(tests, 300);
+  tcase_add_loop_test(tests, shots_agree_with_differences, 0, (int)(sizeof models / sizeof models[0]));
+  tcase_add_loop_test(tests, cushions_agree_with_differences, 0, 8);
+  tcase_add_test(tests, collisions_agree_with_differences);
+  tcase_add_test(tests, edges_are_flagged);
+  tcase_add_test(tests, pocketed_balls_do_not_change);
+  tcase_add_test(tests, states_at_times);
+  tcase_add_test(tests, what_is_not_known_is_refused);
+  tcase_add_test(tests, batches_have_the_bits_of_calls);
+  tcase_add_test(tests, costs);
+  suite_add_tcase(suite, tests);
+  SRunner *runner = srunner_create(suite);
+  srunner_set_fork_status(runner, CK_NOFORK);
+  srunner_run_all(runner, CK_NORMAL);
+  const int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed != 0;
+}

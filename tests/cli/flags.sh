@@ -1,0 +1,89 @@
+# shoot by options: the line that they make, what is told of it, pictures of several shots, and the page that plays them.
+shot="--cue 0.6,0.8 --balls 0.5,1.6:8=0.9,1.2 --at-ball 1"
+# shellcheck disable=SC2086
+try carom shoot $shot --cut 20 --speed 2
+try carom shoot --cue 0.6,0.8 --aim 35 --speed 3 --tip 0.2,-0.3
+cat > flags.py <<'PYTHON'
+import json, math, os, re, subprocess
+import xml.etree.ElementTree as tree
+from drawn import SVG
+carom, R = os.environ["CAROM"], 0.028575
+
+def run(*words, **given):
+    return subprocess.run([carom, "shoot", *map(str, words)], capture_output=True, text=True, check=True, **given).stdout
+
+def shots(*words):
+    lines = run(*words, "--json")
+    return [(json.loads(line), json.loads(played)) for line, played in zip(lines.splitlines(), run("-", input=lines).splitlines(), strict=True)]
+
+balls = ("--cue", "0.6,0.8", "--balls", "0.5,1.6:8=0.9,1.2")
+worst = 0.0
+for tip in ("0,0", "0.4,0.1", "-0.3,-0.4", "-1tip,0.5tip"):
+    for given, played in shots(*balls, "--at-ball", 8, "--cut", "-35,0,half", "--speed", "7mph", "--tip", tip, "--elevation", "0,3"):
+        strike = next(event for event in played["events"] if event[1] == "stick_ball")
+        v, w = strike[4][0][4:6], strike[4][0][7:10]
+        right = float(tip.split(",")[0].removesuffix("tip"))
+        # Right of the centre: a < 0 in the line, and a spin counterclockwise from above.
+        assert right == 0 and given["cue"]["a"] == 0 or right * given["cue"]["a"] < 0 < right * w[2], (tip, given["cue"], w)
+        assert abs(math.hypot(*v) - 7 * 0.44704) < 1e-9
+        contact = next(event for event in played["events"] if event[1] == "ball_ball")
+        sign = 1 if contact[2] == ["cue", "8"] else -1
+        a, b = contact[3][::sign]
+        x, y, vx, vy = b[1] - a[1], b[2] - a[2], *a[4:6]
+        cut = math.degrees(math.atan2(vx * y - vy * x, vx * x + vy * y))
+        worst = max(worst, min(abs(cut - asked) for asked in (-35, 0, 30)))
+        assert f"cut {'30' if cut > 10 else '-35' if cut < -10 else '0'} deg" in given["id"].replace("half", "30 deg"), (cut, given["id"])
+print("cuts are what was asked for:", worst < 1e-6)
+same = lambda a, b: run(*a, "--json") == run(*b, "--json")
+print("units:", same(["--cue", "1,2ft"], ["--cue", "0.3048,0.6096"]), same(["--speed", "3.6km/h"], ["--speed", 1]), same(["--tip", "1,0tip"], ["--tip", f"{0.013 / R!r},0"]))
+for rack, count in (("nineball", 10), ("eightball", 16), ("tenball", 11)):
+    [(given, _)] = shots("--balls", rack, "--speed", 8)
+    assert [ball["id"] for ball in given["balls"]] == ["cue", *map(str, range(1, count))]
+[(given, _)] = shots("--balls", "snooker", "--table", "snooker", "--speed", 1)
+print([ball["id"] for ball in given["balls"]][::5], given["balls"][0]["params"])
+
+# Pictures of several: a path for each ball and shot that moves, and groups that the page moves.
+words = (*balls, "--at-ball", 1, "--cut", "10,-20,45", "--plot", "all.svg", "--animate", "all.html")
+told = run(*words)
+played = [result for _, result in shots(*balls, "--at-ball", 1, "--cut", "10,-20,45")]
+moving = [{name for event in result["events"] for name in event[2] if name in result["final"]["balls"]} for result in played]
+page = tree.parse("all.svg").getroot()
+groups = [g for g in page.iter(SVG + "g") if g.get("class") == "ball"]
+ways = [path for path in page.iter(SVG + "path") if path.get("stroke-width") == "2.2"]
+print(len(ways) == sum(map(len, moving)), len(groups) == 3 + sum(map(len, moving[1:])))
+numbers = [text.text for g in groups for text in g.iter(SVG + "text")]
+print([name for name in numbers if name not in ("1", "8")])
+html = open("all.html", encoding="utf-8").read()
+print("needs nothing else:", set(re.findall(r"https?://[^\"' ]*", html)), "src=" in html, "href" in html)
+frames = json.loads(re.search(r"const shots=(.*?);\n", html, re.S)[1])
+k, checked = 0, 0
+for result, (times, paths) in zip(played, frames, strict=True):
+    assert times[0] == 0 and abs(times[-1] - result["final"]["t"]) < 1e-4 and times == sorted(times) and max(b - a for a, b in zip(times, times[1:])) < 0.026
+    names = [name for name in result["final"]["balls"] if result is played[0] or any(name in event[2] for event in result["events"])]
+    for name, path in zip(names, paths, strict=True):
+        place = [float(groups[k].get(axis)) for axis in ("data-x", "data-y")]
+        assert result["final"]["balls"][name][0] == 4 or math.dist(path[-2:], place) < 0.11, (name, path[-2:], place)
+        k += 1
+        # At events the places are those of the events: 400 pixels a metre, x of the table down.
+        for time, kind, ids, before, _ in result["events"]:
+            if kind in ("ball_ball", "ball_linear_cushion") and name in ids:
+                state, at = before[ids.index(name)], min(range(len(times)), key=lambda n: abs(times[n] - time))
+                start = next(ball["state"] for ball in result["balls"] if ball["id"] == name)
+                expected = [path[0] + 400 * (state[2] - start[2]), path[1] + 400 * (state[1] - start[1])]
+                assert abs(times[at] - time) < 1e-4 and math.dist(path[2 * at : 2 * at + 2], expected) < 0.2, (name, time, expected)
+                checked += 1
+print(checked > 5, told.count("rests") + told.count("falls") == sum(map(len, moving)))
+PYTHON
+python flags.py
+echo "--- refused"
+for words in "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--table attic" \
+  "--balls 0.5,0.5,0.5" "--cue 600,800" "--cue 0.6,0.8 --balls 0.61,0.8" "--cue 5,5" "--aim 0:90:1" "--cue 0.6,0.8 $DATA/break-nineball.jsonl" "--elevation 90" "--cue 0.6,0.8 --animate a.svg" "--cue 0.6,0.8 --animate nowhere/a.html"; do
+  # shellcheck disable=SC2086
+  try carom shoot -o refused.txt $words
+done
+echo '{"kind": "shot", "cue": {"V0": 2, "b": 0}, "balls": [{"id": "cue", "state": [0, 0.6, 0.6, 0, 0, 0, 0, 0, 0, 0]}]}' | try carom shoot -o refused.txt -
+echo "--- what the shells ask for"
+carom hit --complete --side ""
+carom shoot --complete --cushion "" | tr '\n' ' '
+carom sweep --complete x -- | head -n 3
+echo "files: $(carom resolve --complete --derived "")"

@@ -1,0 +1,82 @@
+"""No circle of includes or imports, and no arrow against the direction of CONTRIBUTING.md: python3 arrows.py SOURCE"""
+
+import ast
+import re
+import sys
+from collections import defaultdict
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+ROOT = Path(sys.argv[1]).resolve()
+ROOMS = ("include", "src", "cli", "lab", "python", "examples")
+# What a room may include besides itself; a room not named here may include everything.
+ALLOWED = {
+    "include": (),
+    "src/platform": ("include",),
+    "src/impact": ("include", "src/platform"),
+    "src/ball_ball": ("include", "src/platform", "src/impact"),
+    "src/cushion": ("include", "src/platform", "src/impact"),
+    "src/shot": ("include", "src/platform", "src/ball_ball", "src/cushion"),
+    "src": ("include", "src/platform"),
+    "cli": ("include",),
+    "examples": ("include",),
+}
+faults = []
+
+
+def no_circle(what, arrows):
+    try:
+        TopologicalSorter(arrows).prepare()
+    except CycleError as circle:
+        faults.append(f"{what} form a circle: {' <- '.join(circle.args[1])}")
+
+
+def room_of(file):
+    return str(file.parent.relative_to(ROOT))
+
+
+# C: a source and its header are one unit.
+files = [file for room in ROOMS for kind in ("h", "c", "def") for file in (ROOT / room).rglob(f"*.{kind}")]
+named = {file.name: file for file in reversed(files)}  # of two with one name that of the earlier room
+units, rooms = defaultdict(set), defaultdict(set)
+for file in files:
+    for name in re.findall(r'^\s*#\s*include\s+"([^"]+)"', file.read_text(encoding="utf-8"), re.M):
+        beside = [folder / name for folder in (file.parent, ROOT / "src", ROOT / "include")]
+        found = next((path for path in beside if path.is_file()), named.get(Path(name).name))
+        if found is None:
+            continue  # of another package, or made by the build
+        if found.with_suffix("") != file.with_suffix(""):
+            units[str(file.with_suffix("").relative_to(ROOT))].add(str(found.with_suffix("").relative_to(ROOT)))
+        here, there = room_of(file), room_of(found)
+        if here != there:
+            rooms[here].add(there)
+            if there not in ALLOWED.get(here, (there,)):
+                faults.append(f"{file.relative_to(ROOT)} includes {found.relative_to(ROOT)}: '{here}' must not know '{there}'")
+no_circle("units", units)
+no_circle("rooms", rooms)
+
+# Python: imports that are executed, at the top or in a function; those for annotations are not.
+PACKAGE = ROOT / "python" / "src"
+modules = {".".join(path.relative_to(PACKAGE).with_suffix("").parts).removesuffix(".__init__"): path for path in PACKAGE.rglob("*.py")}
+imports = defaultdict(set)
+
+
+def find_imports(module, node):
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.If) and getattr(child.test, "id", "") == "TYPE_CHECKING":
+            continue
+        names = [name.name for name in child.names] if isinstance(child, ast.Import) else []
+        if isinstance(child, ast.ImportFrom):
+            assert child.level == 0, f"{module}: imports are absolute"
+            names = [name for alias in child.names for name in (f"{child.module}.{alias.name}", child.module)]
+            names = names[:1] if names[0] in modules else names
+        imports[module].update(name for name in names if name in modules and name != module)
+        find_imports(module, child)
+
+
+for module, path in modules.items():
+    find_imports(module, ast.parse(path.read_text(encoding="utf-8")))
+no_circle("modules of python", imports)
+assert len(files) > 100 and len(imports) > 10, f"only {len(files)} files, {len(imports)} modules found in {ROOT}"
+print("\n".join(faults))
+sys.exit(bool(faults))

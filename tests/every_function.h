@@ -1,0 +1,559 @@
+/* Every public function, called with fixed arguments: what it computes, as one number, which is the same whenever, wherever and
+ * beside whatever it is called. unit/threads.c calls all of them at once, unit/stack.c on small stacks. */
+#ifndef CAROM_TESTS_EVERY_FUNCTION_H
+#define CAROM_TESTS_EVERY_FUNCTION_H
+
+#include "carom_tangent.h"
+#include "support.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { EVERY_ROWS = 256, EVERY_FEW = 8, EVERY_POINTS = 5, EVERY_BALLS = 16, EVERY_SHOTS = 8, EVERY_EVENTS = 600 };
+
+/* What the calls are about; nothing writes to it. */
+typedef struct every_input {
+  carom_impact impact[EVERY_ROWS];
+  carom_impact_f32 impact_f32[EVERY_ROWS];
+  carom_cushion_impact cushion[EVERY_ROWS];
+  carom_table table;
+  carom_shot_ball balls[EVERY_BALLS];
+  carom_cue cue[EVERY_SHOTS];
+  double seeds[26 * CAROM_DIRECTIONS_MOST]; /* of any derivatives: all numbers change in all directions */
+  int threads;                              /* of batches */
+} every_input;
+
+/* Where a caller has its results, so that its stack has only what the library puts there. */
+typedef struct every_room {
+  carom_result result[EVERY_ROWS];
+  carom_result_f32 result_f32[EVERY_ROWS];
+  carom_motion motion[EVERY_ROWS];
+  int8_t status[EVERY_ROWS];
+  carom_trace_point point[EVERY_POINTS];
+  carom_cushion_point cushion_point[EVERY_POINTS];
+  carom_detail detail;
+  carom_event event[EVERY_EVENTS];
+  carom_brief_event brief[EVERY_SHOTS][EVERY_EVENTS];
+  carom_shot shot[EVERY_SHOTS];
+  carom_shot_state state;
+  carom_ball_state final[EVERY_BALLS], later[3 * EVERY_BALLS];
+  double turned[EVERY_BALLS][4];
+  carom_table table;
+  carom_shot_ball balls[EVERY_BALLS];
+  double contact[12 * CAROM_DIRECTIONS_MOST], ends[EVERY_SHOTS][EVERY_BALLS * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST],
+      times[EVERY_EVENTS * CAROM_DIRECTIONS_MOST], before[EVERY_EVENTS * 2 * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST],
+      reach[CAROM_DIRECTIONS_MOST];
+  carom_tangent tangent[EVERY_SHOTS];
+} every_room;
+
+/* number: whose input it is; others have other numbers. */
+static inline void every_input_make(every_input *in, int number, int threads) {
+  random_source r = {test_seed() + (uint64_t)number};
+  memset(in, 0, sizeof *in);
+  in->threads = threads;
+  for (int k = 0; k < 26 * CAROM_DIRECTIONS_MOST; k++)
+    in->seeds[k] = random_between(&r, -1.0, 1.0);
+  for (int k = 0; k < EVERY_ROWS; k++) {
+    in->impact[k] = random_impact(&r);
+    for (int c = 0; c < 26; c++)
+      ((float *)&in->impact_f32[k])[c] = (float)((const double *)&in->impact[k])[c];
+    in->cushion[k] = (carom_cushion_impact){.v = {random_between(&r, -3.0, 3.0), random_between(&r, 0.1, 3.0)},
+                                            .normal = {0.0, 1.0},
+                                            .height = 0.0365,
+                                            .radius = 0.028575,
+                                            .mass = 0.17,
+                                            .mu_cloth = 0.2,
+                                            .mu_cushion = 0.2,
+                                            .restitution = 0.85};
+    for (int c = 0; c < 3; c++)
+      in->cushion[k].w[c] = random_between(&r, -99.0, 99.0);
+  }
+  carom_table_make(CAROM_TABLE_POOL_9FT, &in->table);
+  carom_rack(CAROM_RACK_EIGHTBALL, &in->table, 1e-4, (uint64_t)number, in->balls, EVERY_BALLS);
+  for (int k = 0; k < EVERY_SHOTS; k++) {
+    in->cue[k] = carom_cue_of(CAROM_GAME_POOL);
+    in->cue[k].speed = 5.0 + 0.1 * number;
+    in->cue[k].phi = 89.0 + 0.3 * k;
+    in->cue[k].a = 0.1;
+  }
+}
+
+/* ---- One number for what was computed */
+
+static inline uint64_t every_hash(uint64_t h, const void *bytes, size_t size) {
+  for (size_t k = 0; k < size; k++)
+    h = (h ^ ((const unsigned char *)bytes)[k]) * UINT64_C(0x100000001b3);
+  return h;
+}
+
+static inline uint64_t every_text(uint64_t h, const char *text) {
+  return text == NULL ? h * 3 : every_hash(h, text, strlen(text));
+}
+
+#define EVERY_BODY(name) static inline uint64_t every_##name(const every_input *in, every_room *room)
+#define HASH(object) h = every_hash(h, &(object), sizeof(object))
+#define STATUS(call)              \
+  do {                            \
+    const int code = (int)(call); \
+    HASH(code);                   \
+  } while (0)
+
+/* ---- Names and numbers */
+
+#define EVERY_NAMES(name, type)                 \
+  EVERY_BODY(name) {                            \
+    uint64_t h = 1;                             \
+    (void)in, (void)room;                       \
+    for (int k = -70; k < 40; k++)              \
+      h = every_text(h, carom_##name((type)k)); \
+    return h;                                   \
+  }
+EVERY_NAMES(status_name, carom_status)
+EVERY_NAMES(status_string, carom_status)
+EVERY_NAMES(solver_name, carom_solver)
+EVERY_NAMES(slip_name, carom_slip)
+EVERY_NAMES(isa_name, carom_isa)
+EVERY_NAMES(field_name, int)
+EVERY_NAMES(cushion_field_name, int)
+EVERY_NAMES(cushion_model_name, carom_cushion_model)
+EVERY_NAMES(label_name, carom_label)
+EVERY_NAMES(table_name, carom_table_kind)
+EVERY_NAMES(rack_name, carom_rack_kind)
+EVERY_NAMES(event_name, carom_event_type)
+
+EVERY_BODY(isa_available) {
+  uint64_t h = 1;
+  (void)in, (void)room;
+  for (int k = -2; k < 9; k++)
+    STATUS(carom_isa_available((carom_isa)k));
+  return h;
+}
+EVERY_BODY(isa_in_force) {
+  (void)in, (void)room;
+  return (uint64_t)carom_isa_in_force();
+}
+/* It may not change while a batch runs; lifting a limit that there is not changes nothing. */
+EVERY_BODY(isa_limit) {
+  (void)in, (void)room;
+  return (uint64_t)carom_isa_limit(CAROM_ISA_ANY);
+}
+EVERY_BODY(version) {
+  (void)in, (void)room;
+  return every_text(1, carom_version());
+}
+EVERY_BODY(version_number) {
+  (void)in, (void)room;
+  return (uint64_t)carom_version_number();
+}
+EVERY_BODY(physics_revision) {
+  (void)in, (void)room;
+  return (uint64_t)carom_physics_revision();
+}
+EVERY_BODY(serves) {
+  (void)in, (void)room;
+  return (uint64_t)carom_serves(CAROM_VERSION_NUMBER);
+}
+EVERY_BODY(rack_size) {
+  (void)in, (void)room;
+  return (uint64_t)carom_rack_size(CAROM_RACK_SNOOKER);
+}
+EVERY_BODY(ball_kind_of) {
+  uint64_t h = 1;
+  (void)in, (void)room;
+  const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_BILLIARD);
+  HASH(kind);
+  return h;
+}
+EVERY_BODY(cue_of) {
+  uint64_t h = 1;
+  (void)in, (void)room;
+  const carom_cue cue = carom_cue_of(CAROM_GAME_SNOOKER);
+  HASH(cue);
+  return h;
+}
+
+/* ---- Collisions and cushions */
+
+EVERY_BODY(alciatore) {
+  uint64_t h = 1;
+  (void)in, (void)room;
+  const carom_speed_law law = carom_alciatore();
+  HASH(law);
+  return h;
+}
+EVERY_BODY(mu_ball) {
+  uint64_t h = 1;
+  (void)room;
+  for (int k = 0; k < EVERY_FEW; k++) {
+    const double mu = carom_mu_ball(&in->impact[k], carom_alciatore());
+    HASH(mu);
+  }
+  return h;
+}
+EVERY_BODY(rolling_velocity) {
+  uint64_t h = 1;
+  double v[3];
+  (void)room;
+  carom_rolling_velocity(in->impact[0].a.v, in->impact[0].a.w, 0.028575, v);
+  HASH(v);
+  return h;
+}
+EVERY_BODY(check) {
+  uint64_t h = 1;
+  int field;
+  (void)room;
+  STATUS(carom_check(&in->impact[0], NULL, &field));
+  HASH(field);
+  return h;
+}
+EVERY_BODY(collide) {
+  uint64_t h = 1;
+  for (int k = 0; k < EVERY_FEW; k++)
+    STATUS(carom_collide(&in->impact[k], NULL, &room->result[k]));
+  return every_hash(h, room->result, EVERY_FEW * sizeof room->result[0]);
+}
+EVERY_BODY(collide_f32) {
+  uint64_t h = 1;
+  for (int k = 0; k < EVERY_FEW; k++)
+    STATUS(carom_collide_f32(&in->impact_f32[k], NULL, &room->result_f32[k]));
+  return every_hash(h, room->result_f32, EVERY_FEW * sizeof room->result_f32[0]);
+}
+EVERY_BODY(collide_detail) {
+  uint64_t h = 1;
+  for (int k = 0; k < EVERY_FEW; k++) {
+    STATUS(carom_collide_detail(&in->impact[k], NULL, &room->result[k], &room->detail));
+    HASH(room->detail.normal);
+    HASH(room->detail.friction);
+    HASH(room->detail.work);
+  }
+  return h;
+}
+/* The exact solver, and Euler's steps, which few rows are worth threads for. */
+EVERY_BODY(collide_batch) {
+  uint64_t h = 1;
+  for (int solver = 0; solver < 2; solver++) {
+    const carom_options options = {.solver = (carom_solver)solver, .steps = 300, .threads = in->threads};
+    STATUS(carom_collide_batch(in->impact, EVERY_ROWS, &options, room->result, room->status));
+    HASH(room->result);
+    HASH(room->status);
+  }
+  return h;
+}
+EVERY_BODY(collide_batch_f32) {
+  uint64_t h = 1;
+  for (int solver = 0; solver < 2; solver++) {
+    const carom_options options = {.solver = (carom_solver)solver, .steps = 300, .threads = in->threads};
+    STATUS(carom_collide_batch_f32(in->impact_f32, EVERY_ROWS, &options, room->result_f32, room->status));
+    HASH(room->result_f32);
+  }
+  return h;
+}
+EVERY_BODY(trace) {
+  uint64_t h = 1;
+  for (int solver = 0; solver < 2; solver++) {
+    const carom_options options = {.solver = (carom_solver)solver, .steps = 100};
+    STATUS(carom_trace(&in->impact[1], &options, EVERY_POINTS, room->point));
+    HASH(room->point);
+  }
+  return h;
+}
+EVERY_BODY(cushion) {
+  uint64_t h = 1;
+  for (int k = 0; k < 5 * EVERY_FEW; k++) {
+    const carom_cushion_options options = {.model = (carom_cushion_model)(k % 5), .steps = 100};
+    STATUS(carom_cushion(&in->cushion[k], &options, &room->motion[k]));
+  }
+  return every_hash(h, room->motion, (size_t)5 * EVERY_FEW * sizeof room->motion[0]);
+}
+EVERY_BODY(cushion_batch) {
+  uint64_t h = 1;
+  const carom_cushion_options options = {.threads = in->threads};
+  STATUS(carom_cushion_batch(in->cushion, EVERY_ROWS, &options, room->motion, room->status));
+  HASH(room->motion);
+  return h;
+}
+EVERY_BODY(cushion_check) {
+  uint64_t h = 1;
+  int field;
+  (void)room;
+  STATUS(carom_cushion_check(&in->cushion[0], NULL, &field));
+  HASH(field);
+  return h;
+}
+EVERY_BODY(cushion_trace) {
+  uint64_t h = 1;
+  for (int k = 0; k < 2; k++) {
+    const carom_cushion_options options = {.model = k == 0 ? CAROM_CUSHION_MATHAVAN : CAROM_CUSHION_EULER, .steps = 100};
+    STATUS(carom_cushion_trace(&in->cushion[1], &options, EVERY_POINTS, room->cushion_point));
+    HASH(room->cushion_point);
+  }
+  return h;
+}
+
+/* ---- Tables, balls and shots */
+
+EVERY_BODY(table_make) {
+  uint64_t h = 1;
+  (void)in;
+  for (int kind = 0; kind < 7; kind++) {
+    STATUS(carom_table_make((carom_table_kind)kind, &room->table));
+    HASH(room->table);
+  }
+  return h;
+}
+EVERY_BODY(table_check) {
+  uint64_t h = 1;
+  carom_table_fault fault;
+  memset(&room->table, 0, sizeof room->table);
+  room->table = in->table;
+  room->table.rail[3].side = 1 - room->table.rail[3].side;
+  STATUS(carom_table_check(&in->table, in->balls[0].kind.radius, &fault));
+  HASH(fault);
+  STATUS(carom_table_check(&room->table, in->balls[0].kind.radius, &fault));
+  HASH(fault);
+  return h;
+}
+EVERY_BODY(rack) {
+  uint64_t h = 1;
+  STATUS(carom_rack(CAROM_RACK_NINEBALL, &in->table, 1e-4, 3, room->balls, EVERY_BALLS));
+  return every_hash(h, room->balls, 10 * sizeof room->balls[0]);
+}
+EVERY_BODY(place_ball) {
+  uint64_t h = 1;
+  carom_part part;
+  memcpy(room->balls, in->balls, sizeof room->balls);
+  STATUS(carom_place_ball(&in->table, room->balls, EVERY_BALLS, 0, 0.3, 0.4, &part));
+  STATUS(carom_place_ball(&in->table, room->balls, EVERY_BALLS, 0, in->balls[3].state.r[0], in->balls[3].state.r[1], &part));
+  HASH(part);
+  HASH(room->balls);
+  return h;
+}
+EVERY_BODY(strike) {
+  uint64_t h = 1;
+  STATUS(carom_strike(&in->cue[0], &in->balls[0].kind, &room->motion[0]));
+  HASH(room->motion[0]);
+  return h;
+}
+EVERY_BODY(shot_check) {
+  uint64_t h = 1;
+  int where;
+  (void)room;
+  STATUS(carom_shot_check(&in->table, in->balls, EVERY_BALLS, &in->cue[0], NULL, &where));
+  HASH(where);
+  return h;
+}
+
+/* A break, up to a time or to its end. */
+static inline carom_status every_break(const every_input *in, every_room *room, int world, double time_most) {
+  const carom_shot_options options = {.world = (carom_world)world, .time_most = time_most};
+  room->shot[0] = (carom_shot){.events = room->event, .room = EVERY_EVENTS, .final = room->final, .state = &room->state};
+  return carom_shoot(&in->table, in->balls, EVERY_BALLS, &in->cue[0], &options, &room->shot[0]);
+}
+static inline uint64_t every_shot(uint64_t h, const every_room *room) {
+  HASH(room->shot[0].count);
+  HASH(room->final);
+  return every_hash(h, room->event, (size_t)room->shot[0].count * sizeof room->event[0]);
+}
+EVERY_BODY(shoot) {
+  uint64_t h = 1;
+  for (int world = 0; world < 2; world++) {
+    STATUS(every_break(in, room, world, 0.0));
+    h = every_shot(h, room);
+  }
+  return h;
+}
+EVERY_BODY(shot_continue) {
+  uint64_t h = 1;
+  STATUS(every_break(in, room, 0, 0.5));
+  STATUS(carom_shot_continue(&in->table, in->balls, EVERY_BALLS, NULL, &room->shot[0]));
+  return every_shot(h, room);
+}
+EVERY_BODY(shot_at) {
+  uint64_t h = 1;
+  every_break(in, room, 0, 0.5);
+  for (int k = 0; k < 5; k++) {
+    STATUS(carom_shot_at(in->balls, EVERY_BALLS, &room->shot[0], 0.1 * k, room->final));
+    HASH(room->final);
+  }
+  return h;
+}
+EVERY_BODY(shot_at_times) {
+  static const double times[] = {0.4, 0.1, 0.2};
+  uint64_t h = 1;
+  every_break(in, room, 0, 0.5);
+  STATUS(carom_shot_at_times(in->balls, EVERY_BALLS, &room->shot[0], times, 3, room->later));
+  HASH(room->later);
+  return h;
+}
+EVERY_BODY(impact3) {
+  uint64_t h = 1;
+  for (int k = 0; k < EVERY_FEW; k++)
+    STATUS(carom_impact3(&in->impact[k], &room->result[k]));
+  return every_hash(h, room->result, EVERY_FEW * sizeof room->result[0]);
+}
+EVERY_BODY(shot_orientation) {
+  uint64_t h = 1;
+  every_break(in, room, 0, 0.5);
+  STATUS(carom_shot_orientation(in->balls, EVERY_BALLS, &room->shot[0], 0.4, room->turned));
+  HASH(room->turned);
+  return h;
+}
+EVERY_BODY(shoot_batch) {
+  uint64_t h = 1;
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN, .threads = in->threads};
+  for (int k = 0; k < EVERY_SHOTS; k++)
+    room->shot[k] = (carom_shot){.brief = room->brief[k], .room = EVERY_EVENTS};
+  const carom_shot_job job = {.table = &in->table,
+                              .balls = in->balls,
+                              .count = EVERY_BALLS,
+                              .cues = in->cue,
+                              .cue_stride = 1,
+                              .n = EVERY_SHOTS,
+                              .options = &options,
+                              .shots = room->shot,
+                              .status = room->status};
+  STATUS(carom_shoot_batch(&job));
+  for (int k = 0; k < EVERY_SHOTS; k++)
+    h = every_hash(h, room->brief[k], (size_t)room->shot[k].count * sizeof room->brief[k][0]);
+  return h;
+}
+
+EVERY_BODY(collide_tangent) {
+  uint64_t h = 1;
+  for (int k = 0; k < EVERY_FEW; k++) {
+    STATUS(carom_collide_tangent(&in->impact[k], NULL, CAROM_DIRECTIONS_MOST, in->seeds, room->contact, NULL));
+    HASH(room->contact);
+  }
+  return h;
+}
+EVERY_BODY(cushion_tangent) {
+  uint64_t h = 1;
+  for (int k = 0; k < EVERY_FEW; k++) {
+    STATUS(carom_cushion_tangent(&in->cushion[k], NULL, CAROM_DIRECTIONS_MOST, in->seeds, room->contact, NULL));
+    h = every_hash(h, room->contact, sizeof room->contact / 2);
+  }
+  return h;
+}
+/* With all that can be asked for. */
+EVERY_BODY(shot_tangent) {
+  uint64_t h = 1;
+  const carom_tangent_seeds seeds = {.directions = CAROM_DIRECTIONS_MOST, .cue = in->seeds};
+  every_break(in, room, 0, 0.0);
+  room->tangent[0] = (carom_tangent){.final = room->ends[0], .time = room->times, .before = room->before, .reach = room->reach};
+  STATUS(carom_shot_tangent(&in->table, in->balls, EVERY_BALLS, &in->cue[0], NULL, &room->shot[0], &seeds, &room->tangent[0]));
+  HASH(room->ends[0]);
+  HASH(room->reach);
+  return h;
+}
+EVERY_BODY(shot_tangent_batch) {
+  uint64_t h = 1;
+  const carom_tangent_seeds seeds = {.directions = 3, .cue = in->seeds};
+  const carom_shot_options options = {.threads = in->threads};
+  every_break(in, room, 0, 0.0);
+  for (int k = 0; k < EVERY_SHOTS; k++) {
+    room->shot[k] = room->shot[0];
+    room->tangent[k] = (carom_tangent){.final = room->ends[k]};
+  }
+  const carom_shot_job job = {.table = &in->table,
+                              .balls = in->balls,
+                              .count = EVERY_BALLS,
+                              .cues = in->cue,
+                              .n = EVERY_SHOTS,
+                              .options = &options,
+                              .shots = room->shot};
+  const carom_tangent_job own = {.played = &job, .seeds = &seeds, .tangents = room->tangent};
+  STATUS(carom_shot_tangent_batch(&own));
+  for (int k = 0; k < EVERY_SHOTS; k++)
+    h = every_hash(h, room->ends[k], sizeof(double) * EVERY_BALLS * CAROM_STATE_NUMBERS * 3);
+  return h;
+}
+
+/* ---- All of them */
+
+static const struct every_function {
+  const char *name;
+  uint64_t (*body)(const every_input *in, every_room *room);
+} every_functions[] = {
+#define ROW(name) \
+  { "carom_" #name, every_##name }
+    ROW(alciatore),
+    ROW(ball_kind_of),
+    ROW(check),
+    ROW(collide),
+    ROW(collide_batch),
+    ROW(collide_batch_f32),
+    ROW(collide_detail),
+    ROW(collide_f32),
+    ROW(collide_tangent),
+    ROW(cue_of),
+    ROW(cushion),
+    ROW(cushion_batch),
+    ROW(cushion_check),
+    ROW(cushion_field_name),
+    ROW(cushion_model_name),
+    ROW(cushion_tangent),
+    ROW(cushion_trace),
+    ROW(event_name),
+    ROW(field_name),
+    ROW(impact3),
+    ROW(isa_available),
+    ROW(isa_in_force),
+    ROW(isa_limit),
+    ROW(isa_name),
+    ROW(label_name),
+    ROW(mu_ball),
+    ROW(physics_revision),
+    ROW(place_ball),
+    ROW(rack),
+    ROW(rack_name),
+    ROW(rack_size),
+    ROW(rolling_velocity),
+    ROW(serves),
+    ROW(shoot),
+    ROW(shoot_batch),
+    ROW(shot_at),
+    ROW(shot_at_times),
+    ROW(shot_check),
+    ROW(shot_continue),
+    ROW(shot_orientation),
+    ROW(shot_tangent),
+    ROW(shot_tangent_batch),
+    ROW(slip_name),
+    ROW(solver_name),
+    ROW(status_name),
+    ROW(status_string),
+    ROW(strike),
+    ROW(table_check),
+    ROW(table_make),
+    ROW(table_name),
+    ROW(trace),
+    ROW(version),
+    ROW(version_number),
+#undef ROW
+};
+enum { EVERY_COUNT = sizeof every_functions / sizeof every_functions[0] };
+
+/* What the library exports, by install/abi.expected, is what is called here. */
+static inline void every_function_is_there(void) {
+  FILE *f = fopen(CAROM_TEST_DATA "/../tests/install/abi.expected", "r");
+  char line[200], name[200];
+  int exported = 0;
+  ck_assert_ptr_nonnull(f);
+  while (fgets(line, sizeof line, f) != NULL)
+    if (sscanf(line, "exported: %199s", name) == 1) {
+      int k = 0;
+      while (k < EVERY_COUNT && strcmp(every_functions[k].name, name) != 0)
+        k++;
+      ck_assert_msg(k < EVERY_COUNT, "tests/every_function.h does not call %s", name);
+      exported++;
+    }
+  fclose(f);
+  ck_assert_int_eq(exported, EVERY_COUNT);
+}
+
+#undef EVERY_BODY
+#undef EVERY_NAMES
+#undef HASH
+#undef STATUS
+
+#endif

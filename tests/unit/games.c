@@ -1,0 +1,427 @@
+/* What a game asks besides shots: whether a table is sound, whether a place is free, how balls have turned, and names. */
+#include "carom_shot.h"
+#include "support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { TABLES = CAROM_TABLE_POOLTOOL + 1 };
+
+static double radius_on(int kind) {
+  return carom_ball_kind_of(kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
+                            : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
+                                                               : CAROM_GAME_POOL)
+      .radius;
+}
+
+/* ---- Tables */
+
+static void take_out(carom_table *t, int part) {
+  if (part < t->rails) {
+    memmove(&t->rail[part], &t->rail[part + 1], (size_t)(t->rails - part - 1) * sizeof *t->rail);
+    t->rails--;
+  } else if (part < t->rails + t->jaws) {
+    part -= (int)t->rails;
+    memmove(&t->jaw[part], &t->jaw[part + 1], (size_t)(t->jaws - part - 1) * sizeof *t->jaw);
+    t->jaws--;
+  } else {
+    part -= (int)(t->rails + t->jaws);
+    memmove(&t->pocket[part], &t->pocket[part + 1], (size_t)(t->pockets - part - 1) * sizeof *t->pocket);
+    t->pockets--;
+  }
+}
+
+/* How many of some shots of a lone ball lose it. */
+static int lost_balls(const carom_table *t, double R, int shots, random_source *r) {
+  int lost = 0;
+  carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  ball.kind.radius = R;
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_MIRROR};
+  for (int k = 0; k < shots; k++) {
+    carom_place_ball(t, &ball, 1, 0, 0.5 * t->width, 0.5 * t->length, NULL);
+    carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+    cue.speed = 9.0;
+    cue.phi = random_between(r, 0.0, 360.0);
+    lost += carom_shoot(t, &ball, 1, &cue, &options, &(carom_shot){0}) == CAROM_ERROR_LEFT_TABLE;
+  }
+  return lost;
+}
+
+/* How often a lone ball meets a rail in some shots. */
+static int touches(const carom_table *t, double R, int rail, int shots, random_source *r) {
+  int met = 0;
+  carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  ball.kind.radius = R;
+  for (int k = 0; k < shots; k++) {
+    carom_place_ball(t, &ball, 1, 0, 0.5 * t->width, 0.5 * t->length, NULL);
+    carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+    cue.speed = 9.0;
+    cue.phi = random_between(r, 0.0, 360.0);
+    carom_brief_event events[100];
+    carom_shot shot = {.brief = events, .room = 100};
+    carom_shoot(t, &ball, 1, &cue, NULL, &shot);
+    for (int64_t e = 0; e < shot.count && e < shot.room; e++)
+      met += events[e].type == CAROM_EVENT_RAIL && events[e].b == rail;
+  }
+  return met;
+}
+
+/* The built-in tables are sound; a table without any one of their parts is found open exactly where a ball can get out, and the
+ * hole is beside what is missing; a rail with the wrong side, or a line that is not its own, is named. */
+START_TEST(tables_are_checked) {
+  random_source r = {test_seed()};
+  int holes = 0, sides = 0, rails = 0;
+  for (int kind = 0; kind < TABLES; kind++) {
+    const double R = radius_on(kind);
+    carom_table sound, t;
+    carom_table_fault fault;
+    carom_table_make((carom_table_kind)kind, &sound);
+    ck_assert_int_eq(carom_table_check(&sound, R, &fault), CAROM_OK);
+    ck_assert(fault.part.kind == CAROM_PART_NONE && fault.gap == 0.0);
+    for (int part = 0; part < sound.rails + sound.jaws + sound.pockets; part++) {
+      t = sound;
+      take_out(&t, part);
+      const carom_status status = carom_table_check(&t, R, &fault);
+      ck_assert_msg(status == CAROM_OK || status == CAROM_ERROR_TABLE_OPEN, "%s without part %d: %s",
+                    carom_table_name((carom_table_kind)kind), part, carom_status_name(status));
+      const int lost = lost_balls(&t, R, kind == CAROM_TABLE_POOL_9FT ? 1000 : 100, &r);
+      ck_assert_msg(status == CAROM_ERROR_TABLE_OPEN || lost == 0, "%s without part %d: %d balls are lost, and it is ok",
+                    carom_table_name((carom_table_kind)kind), part, lost);
+      /* a long rail is a hole as wide as itself but for its jaws */
+      if (part < sound.rails) {
+        const carom_rail *rail = &sound.rail[part];
+        const double length = hypot(rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]);
+        const double off =
+            hypot(fault.place[0] - 0.5 * (rail->p[0] + rail->q[0]), fault.place[1] - 0.5 * (rail->p[1] + rail->q[1]));
+        if (length > 0.3) {
+          ck_assert_int_eq(status, CAROM_ERROR_TABLE_OPEN);
+          ck_assert_msg(off < 0.1 * length && fabs(fault.gap - length) < 0.1 * length, "%d/%d: a hole of %g m, %g m off", kind,
+                        part, fault.gap, off);
+          ck_assert(fault.part.kind != CAROM_PART_NONE && fault.other.kind != CAROM_PART_NONE);
+        }
+      }
+      holes += status == CAROM_ERROR_TABLE_OPEN;
+    }
+    for (int k = 0; k < sound.rails; k++, rails++) {
+      t = sound;
+      t.rail[k].side = 1 - t.rail[k].side;
+      const carom_status status = carom_table_check(&t, R, &fault);
+      if (status == CAROM_OK) { /* some facings of snooker's pockets are never met, so that their side does not matter */
+        ck_assert_int_eq(touches(&sound, R, k, 400, &r), 0);
+        continue;
+      }
+      ck_assert_msg(status == CAROM_ERROR_RAIL_SIDE && fault.part.kind == CAROM_PART_RAIL && fault.part.index == k,
+                    "%s, rail %d turned: %s", carom_table_name((carom_table_kind)kind), k, carom_status_name(status));
+      sides++;
+      t = sound;
+      t.rail[k].line[2] += 1e-4 * hypot(t.rail[k].line[0], t.rail[k].line[1]);
+      ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_RAIL_LINE);
+      ck_assert_int_eq(fault.part.index, k);
+    }
+  }
+  ck_assert(holes >= 60 && sides >= rails - 12);
+}
+END_TEST
+
+/* Parts that are bad by themselves are named with their kind; tables that are not convex, or have posts, are no trouble. */
+START_TEST(other_tables) {
+  carom_table t;
+  carom_table_fault fault;
+  const double R = 0.028575;
+  ck_assert_int_eq(carom_table_check(NULL, R, &fault), CAROM_ERROR_NULL);
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  ck_assert_int_eq(carom_table_check(&t, 0.0, NULL), CAROM_ERROR_RADIUS);
+  t.jaw[3].height = 0.2;
+  ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_NOSE_HEIGHT);
+  ck_assert(fault.part.kind == CAROM_PART_JAW && fault.part.index == 3);
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  t.pocket[2].radius = -1.0;
+  ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_TABLE);
+  ck_assert(fault.part.kind == CAROM_PART_POCKET && fault.part.index == 2);
+  /* an L, played on the left of its rails, counter-clockwise */
+  static const double corner[6][2] = {{0, 0}, {2, 0}, {2, 0.8}, {1.2, 0.8}, {1.2, 2}, {0, 2}};
+  t = (carom_table){.width = 1.2, .length = 1.2, .rails = 6};
+  for (int k = 0; k < 6; k++)
+    t.rail[k] = (carom_rail){
+        .p = {corner[k][0], corner[k][1]}, .q = {corner[(k + 1) % 6][0], corner[(k + 1) % 6][1]}, .height = 0.036, .side = 1};
+  /* its inner corner must be rounded: detection lets a ball in between the ends of two rails */
+  ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_TABLE_OPEN);
+  ck_assert(hypot(fault.place[0] - 1.2, fault.place[1] - 0.8) < R && fault.part.index == 2 && fault.other.index == 3);
+  t.jaw[t.jaws++] = (carom_jaw){.centre = {1.2, 0.8}, .height = 0.036};
+  ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_OK);
+  /* a post in the middle, and a wall that is played from one side */
+  t.jaw[t.jaws++] = (carom_jaw){.centre = {0.6, 0.6}, .radius = 0.05, .height = 0.036};
+  t.rail[t.rails++] = (carom_rail){.p = {0.3, 1.0}, .q = {0.3, 1.5}, .height = 0.036};
+  ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_OK);
+  /* a narrow slit is none where the rails still meet; wider, it needs a jaw; then it is a hole */
+  t.rail[1].p[1] = 0.028;
+  ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_OK);
+  t.rail[1].p[1] = 0.05;
+  ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_TABLE_OPEN);
+  ck_assert_double_eq_tol(fault.gap, 0.05 - R, 1e-9);
+  t.rail[1].p[1] = 0.06;
+  ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_TABLE_OPEN);
+  ck_assert_double_eq_tol(fault.gap, 0.06, 1e-9);
+  ck_assert_double_eq_tol(fault.place[0], 2.0, 1e-9);
+  ck_assert_double_eq_tol(fault.place[1], 0.03, 1e-9);
+  /* one rail is no ring */
+  t = (carom_table){.width = 1, .length = 1, .rails = 1, .rail = {{.p = {0, 0}, .q = {1, 0}, .height = 0.036}}};
+  ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_TABLE_OPEN);
+  ck_assert(fault.part.kind == CAROM_PART_NONE && fault.other.kind == CAROM_PART_NONE);
+}
+END_TEST
+
+/* ---- Ball in hand */
+
+/* A place is free exactly where carom_shot_check() has nothing against it, and what is in the way is there. */
+START_TEST(places) {
+  random_source r = {test_seed()};
+  int free_ones = 0, seen[5] = {0};
+  for (int kind = 0; kind < TABLES; kind++) {
+    carom_table t;
+    carom_shot_ball balls[10], before[10];
+    carom_table_make((carom_table_kind)kind, &t);
+    for (int n = 0; n < 3000; n++) {
+      carom_rack(CAROM_RACK_NINEBALL, &t, 1e-4, 1, balls, 10);
+      for (int k = 0; k < 10; k++) {
+        balls[k].kind.radius = balls[k].state.r[2] = radius_on(kind);
+        balls[k].state.r[1] += n % 2 * 1e-3; /* larger balls overlap in this rack, which is no matter of place */
+      }
+      const int ball = (int)random_between(&r, 0.0, 10.0);
+      balls[ball].state.label = n % 3 == 0 ? CAROM_BALL_POCKETED : CAROM_BALL_STATIONARY;
+      balls[ball].state.w[0] = n % 2;
+      double x = random_between(&r, -0.1, t.width + 0.1), y = random_between(&r, -0.1, t.length + 0.1);
+      if (n % 4 == 0) { /* near another ball */
+        x = balls[(ball + 1) % 10].state.r[0] + random_between(&r, -0.07, 0.07);
+        y = balls[(ball + 1) % 10].state.r[1] + random_between(&r, -0.07, 0.07);
+      }
+      memcpy(before, balls, sizeof balls);
+      carom_part part;
+      const carom_status status = carom_place_ball(&t, balls, 10, ball, x, y, &part);
+      /* the ball with each of the others, or alone */
+      carom_shot_ball pair[2] = {before[ball]};
+      pair[0].state = (carom_ball_state){.r = {x, y, radius_on(kind)}};
+      bool stands = carom_shot_check(&t, pair, 1, NULL, NULL, NULL) == CAROM_OK, overlaps = false;
+      for (int k = 0; k < 10 && stands; k++) {
+        pair[1] = before[k];
+        overlaps |= k != ball && carom_shot_check(&t, pair, 2, NULL, NULL, NULL) == CAROM_ERROR_OVERLAP;
+      }
+      ck_assert_int_eq(status, !stands ? CAROM_ERROR_OFF_TABLE : overlaps ? CAROM_ERROR_OVERLAP : CAROM_OK);
+      seen[part.kind]++;
+      if (status == CAROM_OK) {
+        ck_assert(balls[ball].state.r[0] == x && balls[ball].state.r[1] == y && balls[ball].state.w[0] == 0.0);
+        ck_assert(balls[ball].state.label == CAROM_BALL_STATIONARY && part.kind == CAROM_PART_NONE);
+        balls[ball].state = before[ball].state;
+        free_ones++;
+      }
+      ck_assert_int_eq(memcmp(balls, before, sizeof balls), 0);
+      if (part.kind == CAROM_PART_BALL)
+        ck_assert(hypot(x - balls[part.index].state.r[0], y - balls[part.index].state.r[1]) < 2.0 * radius_on(kind));
+      if (part.kind == CAROM_PART_POCKET)
+        ck_assert(hypot(x - t.pocket[part.index].centre[0], y - t.pocket[part.index].centre[1]) < t.pocket[part.index].radius);
+    }
+  }
+  ck_assert(free_ones > 1000);
+  for (int k = 0; k < 5; k++)
+    ck_assert_int_gt(seen[k], 20);
+  carom_table t;
+  carom_shot_ball one = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  ck_assert_int_eq(carom_place_ball(&t, &one, 1, 1, 0.5, 0.5, NULL), CAROM_ERROR_BALLS);
+  ck_assert_int_eq(carom_place_ball(&t, &one, 1, 0, NAN, 0.5, NULL), CAROM_ERROR_POSITION);
+  ck_assert_int_eq(carom_place_ball(NULL, &one, 1, 0, 0.5, 0.5, NULL), CAROM_ERROR_NULL);
+  one.kind.radius = -1.0;
+  ck_assert_int_eq(carom_place_ball(&t, &one, 1, 0, 0.5, 0.5, NULL), CAROM_ERROR_RADIUS);
+}
+END_TEST
+
+/* Under a ball that flies, where one has left the table, and beside balls and cushions of other sizes. */
+START_TEST(places_in_space) {
+  carom_table t;
+  carom_part part;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOL)}, {.kind = carom_ball_kind_of(CAROM_GAME_POOL)}};
+  const double R = balls[0].kind.radius;
+  for (int k = 0; k < 2; k++) {
+    balls[1].state = (carom_ball_state){.r = {0.5, 0.5, (k == 0 ? 3.001 : 2.999) * R}};
+    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5, 0.5, &part), k == 0 ? CAROM_OK : CAROM_ERROR_OVERLAP);
+    ck_assert_int_eq(part.kind, k == 0 ? CAROM_PART_NONE : CAROM_PART_BALL);
+  }
+  balls[1].state = (carom_ball_state){.r = {0.5, 0.5, R}, .label = CAROM_BALL_OFF};
+  ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5, 0.5, &part), CAROM_OK);
+  /* a large ball, on a table for small ones: as near to the nose and to the ball as carom_shot_check() lets it */
+  balls[0].kind.radius = 0.0302;
+  balls[1].state = (carom_ball_state){.r = {0.5, 0.5, R}};
+  const double h = t.rail[0].height, shift = R - sqrt(h * (2.0 * R - h)), beside = 2.0 * sqrt(R * 0.0302),
+               nose = shift + sqrt(h * (2.0 * 0.0302 - h));
+  for (int k = -1; k <= 1; k += 2) {
+    const carom_status expected = k < 0 ? CAROM_ERROR_OVERLAP : CAROM_OK;
+    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5 + beside + 2e-6 * k, 0.5, &part), expected);
+    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, nose + 2e-6 * k, 0.7, &part), k < 0 ? CAROM_ERROR_OFF_TABLE : CAROM_OK);
+    ck_assert_int_eq(part.kind, k < 0 ? CAROM_PART_RAIL : CAROM_PART_NONE);
+  }
+  ck_assert_int_eq(carom_shot_check(&t, balls, 2, NULL, NULL, NULL), CAROM_OK);
+  /* such tables are sound for such balls too, and bad numbers of a table's space are told */
+  t.ball_radius = R;
+  ck_assert_int_eq(carom_table_check(&t, 0.0302, NULL), CAROM_OK);
+  ck_assert_int_eq(carom_table_check(&t, 0.0262, NULL), CAROM_OK);
+  for (int k = 0; k < 3; k++) {
+    carom_table bad = t;
+    (&bad.ball_radius)[k] = -0.01;
+    carom_table_fault fault;
+    ck_assert_int_eq(carom_table_check(&bad, R, &fault), CAROM_ERROR_TABLE);
+    ck_assert_int_eq(fault.part.kind, CAROM_PART_NONE);
+  }
+}
+END_TEST
+
+/* ---- How balls have turned */
+
+/* The rotation by plain steps of Q' = [w] Q / 2, of order 4, with w from carom_shot_at(): what the library does in closed form.
+ */
+static void by_steps(const carom_shot_ball *balls, int count, const carom_shot *shot, int ball, double from, double to,
+                     int steps, double q[4]) {
+  const double h = (to - from) / steps;
+  carom_ball_state s[CAROM_BALLS_MOST];
+  for (int n = 0; n < steps; n++) {
+    double k[4][4];
+    for (int stage = 0; stage < 4; stage++) {
+      /* just inside the interval, as the spin jumps at events */
+      const double part = stage == 0 ? 1e-9 : stage == 3 ? 1.0 - 1e-9 : 0.5;
+      carom_shot_at(balls, count, shot, from + (n + part) * h, s);
+      const double *w = s[ball].w;
+      double p[4];
+      for (int c = 0; c < 4; c++)
+        p[c] = q[c] + (stage == 0 ? 0.0 : h * (stage == 3 ? 1.0 : 0.5) * k[stage - 1][c]);
+      k[stage][0] = 0.5 * (-w[0] * p[1] - w[1] * p[2] - w[2] * p[3]);
+      k[stage][1] = 0.5 * (w[0] * p[0] + w[1] * p[3] - w[2] * p[2]);
+      k[stage][2] = 0.5 * (w[1] * p[0] + w[2] * p[1] - w[0] * p[3]);
+      k[stage][3] = 0.5 * (w[2] * p[0] + w[0] * p[2] - w[1] * p[1]);
+    }
+    for (int c = 0; c < 4; c++)
+      q[c] += h / 6.0 * (k[0][c] + 2.0 * k[1][c] + 2.0 * k[2][c] + k[3][c]);
+  }
+}
+
+static double angle_between(const double a[4], const double b[4]) {
+  double inner = 0.0, apart = 0.0;
+  for (int k = 0; k < 4; k++)
+    inner += a[k] * b[k];
+  for (int k = 0; k < 4; k++)
+    apart += (a[k] - (inner < 0.0 ? -b[k] : b[k])) * (a[k] - (inner < 0.0 ? -b[k] : b[k]));
+  return 2.0 * sqrt(apart);
+}
+
+/* Balls with any spin, one shot at a time: from event to event the turn is that of many small steps. */
+START_TEST(turns_agree_with_steps) {
+  static carom_event events[200];
+  random_source r = {test_seed()};
+  carom_table t;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  double worst = 0.0;
+  for (int n = 0; n < 12; n++) {
+    carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+    ball.kind.drag = n % 3 == 0 ? 0.0129 : 0.0;
+    ball.state = (carom_ball_state){.r = {0.6, 1.2, ball.kind.radius}};
+    for (int k = 0; k < 2; k++)
+      ball.state.v[k] = random_between(&r, -2.0, 2.0);
+    for (int k = 0; k < 3; k++)
+      ball.state.w[k] = random_between(&r, -100.0, 100.0);
+    ball.state.v[2] = n % 2 * random_between(&r, -2.0, 2.0); /* half of them fly, with a constant spin */
+    carom_shot shot = {.events = events, .room = 200};
+    ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
+    ck_assert_int_le(shot.count, 200);
+    double at = 0.0;
+    for (int64_t k = 0; k < shot.count; k++) {
+      const double end = events[k].time;
+      const double side = k == 0 ? ball.state.w[2] : events[k - 1].after[0].w[2];
+      /* reference steps do not cross the end of the side spin */
+      const double kink = at + fabs(side) / (2.5 * ball.kind.mu_spin * ball.kind.gravity / ball.kind.radius);
+      double from[1][4], to[1][4], q[4];
+      carom_shot_orientation(&ball, 1, &shot, at, from);
+      carom_shot_orientation(&ball, 1, &shot, end, to);
+      memcpy(q, from[0], sizeof q);
+      const double cut = kink > at && kink < end ? kink : end;
+      by_steps(&ball, 1, &shot, 0, at, cut, 20000, q);
+      if (cut < end)
+        by_steps(&ball, 1, &shot, 0, cut, end, 20000, q);
+      worst = fmax(worst, angle_between(q, to[0]));
+      at = end;
+    }
+  }
+  printf("largest difference from 20,000 steps a phase: %.2g rad\n", worst);
+  ck_assert_msg(worst < 1e-7, "%g rad", worst);
+}
+END_TEST
+
+/* A ball that rolls straight turns by its way over R about the axis across it; on the spot about the vertical. */
+START_TEST(turns_in_closed_form) {
+  carom_table t;
+  carom_event events[20];
+  carom_table_make(CAROM_TABLE_POOL_9FT, &t);
+  carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  const double R = ball.kind.radius;
+  ball.state = (carom_ball_state){.r = {0.2, 0.3, R}, .v = {0.3, 0.4, 0.0}, .w = {-0.4 / R, 0.3 / R, 0.0}};
+  carom_shot shot = {.events = events, .room = 20};
+  carom_ball_state s;
+  double q[1][4];
+  ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
+  for (double time = 0.0; time < shot.time; time += 0.173) {
+    carom_shot_at(&ball, 1, &shot, time, &s);
+    carom_shot_orientation(&ball, 1, &shot, time, q);
+    const double half = 0.5 * hypot(s.r[0] - 0.2, s.r[1] - 0.3) / R,
+                 expected[4] = {cos(half), -0.8 * sin(half), 0.6 * sin(half), 0};
+    ck_assert_double_lt(angle_between(q[0], expected), 1e-12);
+  }
+  ball.state = (carom_ball_state){.r = {0.2, 0.3, R}, .w = {0, 0, 77.0}};
+  ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
+  for (double time = 0.0; time < shot.time; time += 0.11) {
+    carom_shot_orientation(&ball, 1, &shot, time, q);
+    const double fall = 2.5 * ball.kind.mu_spin * ball.kind.gravity / R, half = 0.5 * (77.0 - 0.5 * fall * time) * time;
+    const double expected[4] = {cos(half), 0, 0, sin(half)};
+    ck_assert_double_lt(angle_between(q[0], expected), 1e-12);
+  }
+  /* in flight about the axis of the spin, as long as it flies */
+  ball.state = (carom_ball_state){.r = {0.6, 0.6, R + 0.3}, .w = {30.0, 40.0, 120.0}};
+  ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
+  for (double time = 0.0; time < 0.24; time += 0.017) {
+    carom_shot_orientation(&ball, 1, &shot, time, q);
+    const double half = 65.0 * time, share = sin(half) / 13.0,
+                 expected[4] = {cos(half), 3.0 * share, 4.0 * share, 12.0 * share};
+    ck_assert_double_lt(angle_between(q[0], expected), 1e-12);
+  }
+  /* what carom_shot_at() refuses is refused */
+  ck_assert_int_eq(carom_shot_orientation(&ball, 1, &shot, NAN, q), CAROM_ERROR_TIME);
+  ck_assert_int_eq(carom_shot_orientation(&ball, 1, &shot, 0.0, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_shot_orientation(&ball, 1, &(carom_shot){.count = 3, .time = 1.0}, 0.5, q), CAROM_ERROR_EVENTS_LOST);
+}
+END_TEST
+
+/* ---- Names */
+
+START_TEST(names) {
+  for (int k = CAROM_EVENT_STRIKE; k <= CAROM_EVENT_LEFT_TABLE; k++)
+    for (int j = CAROM_EVENT_STRIKE; j < k; j++)
+      ck_assert_str_ne(carom_event_name((carom_event_type)j), carom_event_name((carom_event_type)k));
+  ck_assert_ptr_null(carom_event_name((carom_event_type)0));
+  ck_assert_ptr_null(carom_event_name((carom_event_type)99));
+  ck_assert_str_eq(carom_event_name(CAROM_EVENT_POCKET), "ball_pocket");
+  ck_assert_str_eq(carom_event_name(CAROM_EVENT_RAIL_TOP), "rail_top");
+  ck_assert_str_eq(carom_label_name(CAROM_BALL_ROLLING), "rolling");
+  ck_assert_str_eq(carom_label_name(CAROM_BALL_AIRBORNE), "airborne");
+  ck_assert_str_eq(carom_label_name(CAROM_BALL_OFF), "off");
+  ck_assert_ptr_null(carom_label_name((carom_label)99));
+  ck_assert_str_eq(carom_table_name(CAROM_TABLE_POOL_9FT), "9ft");
+  ck_assert_ptr_null(carom_table_name((carom_table_kind)TABLES));
+  for (int k = 0; carom_rack_name((carom_rack_kind)k) != NULL || carom_rack_size((carom_rack_kind)k) != 0; k++)
+    ck_assert(carom_rack_name((carom_rack_kind)k) != NULL && carom_rack_size((carom_rack_kind)k) > 0);
+  ck_assert_str_eq(carom_rack_name(CAROM_RACK_EIGHTBALL), "eightball");
+  ck_assert_int_ge(carom_physics_revision(), 1);
+}
+END_TEST
+
+int main(void) {
+  return RUN_TESTS("games", tables_are_checked, other_tables, places, places_in_space, turns_agree_with_steps,
+                   turns_in_closed_form, names);
+}

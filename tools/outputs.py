@@ -1,0 +1,29 @@
+"""Makes the outputs in the docs anew: tools/python tools/outputs.py [PAGE...], in a tree that ./run has built, on a quiet machine.
+
+Where a page has a line <!-- output of: COMMAND -->, the indented lines below it become what the command prints now. The commands take some
+minutes together. The figures of docs/figures are made by `cmake --build build --target figures`.
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+MARK = re.compile(r"(<!-- output of: (?P<command>.*) -->\n\n?)(?:(?: {4}.*)?\n)+?(?=\S)")
+
+
+def made(match: re.Match[str]) -> str:
+    command = match["command"]
+    print(command, flush=True)
+    run = subprocess.run(command.split(), cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    if run.returncode != 0:
+        sys.exit(f"{command}: exit code {run.returncode}")
+    lines = (f"    {line}".rstrip() for line in run.stdout.rstrip("\n").split("\n"))
+    return match[1] + "\n".join(lines) + "\n\n"
+
+
+for page in map(Path, sys.argv[1:]) if sys.argv[1:] else sorted(ROOT.glob("docs/*/*.md")):
+    text = page.read_text(encoding="utf-8")
+    if MARK.search(text):
+        page.write_text(MARK.sub(made, text), encoding="utf-8")

@@ -1,0 +1,54 @@
+// The page: the library, the views, the theme.
+import "uplot/dist/uPlot.min.css";
+import "./style.css";
+import { load } from "carom";
+import { collisionView } from "./collision.js";
+import { shotView } from "./shot.js";
+import { parameters } from "./ui.js";
+
+const main = document.getElementById("main")!;
+const solver = document.getElementById("solver") as HTMLSelectElement;
+const theme = document.getElementById("theme") as HTMLButtonElement;
+
+const dark = window.matchMedia("(prefers-color-scheme: dark)");
+function dress(name: "light" | "dark"): void {
+  document.documentElement.dataset.theme = name;
+  theme.textContent = name === "dark" ? "Light" : "Dark";
+}
+dress(dark.matches ? "dark" : "light");
+
+async function begin(): Promise<void> {
+  const carom = await load();
+  document.getElementById("about")!.append(` carom ${carom.version}, ${carom.build === "simd" ? "with" : "without"} vectors.`);
+  solver.value = parameters().get("solver") === "euler" ? "euler" : "exact";
+  const chosen = (): "exact" | "euler" => (solver.value === "euler" ? "euler" : "exact");
+  let view: { update(): void; theme(): void };
+  const show = (): void => {
+    const name = parameters().get("view") === "shot" ? "shot" : "collision";
+    for (const one of ["collision", "shot"]) {
+      const link = document.getElementById(`to-${one}`)!;
+      if (one === name) link.setAttribute("aria-current", "page");
+      else link.removeAttribute("aria-current");
+    }
+    view = (name === "shot" ? shotView : collisionView)(carom, chosen, main);
+    main.setAttribute("aria-busy", "false");
+  };
+  show();
+  window.addEventListener("hashchange", show);
+  solver.addEventListener("change", () => view.update());
+  const dressed = (name: "light" | "dark"): void => {
+    dress(name);
+    view.theme();
+  };
+  theme.addEventListener("click", () => dressed(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
+  dark.addEventListener("change", () => dressed(dark.matches ? "dark" : "light"));
+  let waiting = 0;
+  window.addEventListener("resize", () => {
+    window.clearTimeout(waiting);
+    waiting = window.setTimeout(() => view.theme(), 100);
+  });
+}
+
+begin().catch((error: unknown) => {
+  main.textContent = `The library did not start: ${error instanceof Error ? error.message : String(error)}`;
+});

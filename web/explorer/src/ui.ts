@@ -1,0 +1,130 @@
+// Small helpers for the page: elements, sliders, canvases, the state in the address.
+
+type Child = Node | string | undefined;
+
+export function el<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Record<string, string> = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.append(...children.filter((child) => child !== undefined));
+  return made;
+}
+
+export interface Slider {
+  root: HTMLElement;
+  input: HTMLInputElement;
+  get value(): number;
+  set value(x: number);
+}
+
+/** A labelled slider with its value and unit. */
+export function slider(id: string, text: string, min: number, max: number, step: number, unit: string, onInput: () => void, show = (x: number) => String(x)): Slider {
+  const input = el("input", { type: "range", id, min: String(min), max: String(max), step: String(step) });
+  const output = el("output", { for: id, id: `${id}-value` });
+  // A value that was set is kept as it is; the slider itself rounds to its steps.
+  let exact: number | undefined;
+  const tell = (): void => {
+    output.textContent = `${show(exact ?? input.valueAsNumber)}${unit}`;
+    input.setAttribute("aria-valuetext", output.textContent);
+  };
+  input.addEventListener("input", () => {
+    exact = undefined;
+    tell();
+    onInput();
+  });
+  return {
+    root: el("div", { class: "field" }, el("label", { for: id }, text), output, input),
+    input,
+    get value() {
+      return exact ?? input.valueAsNumber;
+    },
+    set value(x: number) {
+      exact = x;
+      input.value = String(x);
+      tell();
+    },
+  };
+}
+
+export function button(text: string, onClick: () => void, attributes: Record<string, string> = {}): HTMLButtonElement {
+  const made = el("button", { type: "button", ...attributes }, text);
+  made.addEventListener("click", onClick);
+  return made;
+}
+
+export function choice(id: string, text: string, options: readonly (readonly [string, string])[], onChange: () => void): { root: HTMLElement; select: HTMLSelectElement } {
+  const select = el("select", { id }, ...options.map(([value, label]) => el("option", { value }, label)));
+  select.addEventListener("change", onChange);
+  return { root: el("label", { class: "inline" }, text, select), select };
+}
+
+export function check(id: string, text: string, onChange: () => void): { root: HTMLElement; input: HTMLInputElement } {
+  const input = el("input", { type: "checkbox", id });
+  input.addEventListener("change", onChange);
+  return { root: el("label", { class: "check" }, input, text), input };
+}
+
+/** Calls `draw` once before the next frame, however often it is asked for. */
+export function eachFrame(draw: () => void): () => void {
+  let asked = false;
+  return () => {
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => {
+      asked = false;
+      draw();
+    });
+  };
+}
+
+/** A color of the page's theme. */
+export function color(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+/** Fits a canvas to its place at the device's resolution; returns its context in CSS pixels and its size. */
+export function fit(canvas: HTMLCanvasElement, ratio: number): { g: CanvasRenderingContext2D; width: number; height: number } {
+  const width = Math.max(canvas.clientWidth, 50);
+  const height = Math.round(width * ratio);
+  const dpr = window.devicePixelRatio || 1;
+  if (canvas.width !== Math.round(width * dpr) || canvas.height !== Math.round(height * dpr)) {
+    canvas.style.height = `${height}px`;
+    canvas.width = Math.round(width * dpr);
+    canvas.height = Math.round(height * dpr);
+  }
+  const g = canvas.getContext("2d")!;
+  g.setTransform(dpr, 0, 0, dpr, 0, 0);
+  g.clearRect(0, 0, width, height);
+  return { g, width, height };
+}
+
+export function arrow(g: CanvasRenderingContext2D, x: number, y: number, dx: number, dy: number, stroke: string, dashed = false): void {
+  const length = Math.hypot(dx, dy);
+  if (length < 2) return;
+  const head = Math.min(10, length);
+  const [ux, uy] = [dx / length, dy / length];
+  g.strokeStyle = g.fillStyle = stroke;
+  g.lineWidth = 3;
+  g.setLineDash(dashed ? [6, 5] : []);
+  g.beginPath();
+  g.moveTo(x, y);
+  g.lineTo(x + dx - ux * head, y + dy - uy * head);
+  g.stroke();
+  g.setLineDash([]);
+  g.beginPath();
+  g.moveTo(x + dx, y + dy);
+  g.lineTo(x + dx - head * ux - (head / 2) * uy, y + dy - head * uy + (head / 2) * ux);
+  g.lineTo(x + dx - head * ux + (head / 2) * uy, y + dy - head * uy - (head / 2) * ux);
+  g.fill();
+}
+
+/** The state in the address: what differs from the defaults. */
+export function parameters(): URLSearchParams {
+  return new URLSearchParams(location.hash.slice(1));
+}
+
+let writing: number | undefined;
+/** Writes the state behind the # a little later, so that dragging does not flood the history. */
+export function keep(state: Record<string, string>): void {
+  window.clearTimeout(writing);
+  writing = window.setTimeout(() => history.replaceState(null, "", `#${new URLSearchParams(state)}`), 150);
+}

@@ -1,0 +1,48 @@
+import { readFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { defineConfig, type Plugin } from "vite";
+
+const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
+
+// The page is one file, so that it works from a folder: browsers load neither modules nor WebAssembly from file: addresses.
+function oneFile(): Plugin {
+  return {
+    name: "one-file",
+    // After Vite's own plugins, which still change the code.
+    generateBundle: {
+      order: "post",
+      handler(_, bundle) {
+        const html = bundle["index.html"];
+        if (html?.type !== "asset") throw new Error("one-file: there is no index.html");
+        let text = String(html.source);
+        for (const [name, part] of Object.entries(bundle)) {
+          if (part === html) continue;
+          const source = part.type === "chunk" ? part.code.replaceAll("</script", "<\\/script") : String(part.source);
+          const tag = part.type === "chunk" ? `<script type="module">${source}</script>` : `<style>${source}</style>`;
+          const link = new RegExp(`<(script|link)[^>]*${name.replaceAll(/[.*+?^$()|[\]\\]/g, "\\$&")}[^>]*>(</script>)?`);
+          if (!link.test(text)) throw new Error(`one-file: index.html does not refer to ${name}`);
+          text = text.replace(link, () => tag);
+          delete bundle[name];
+        }
+        html.source = text;
+      },
+    },
+  };
+}
+
+export default defineConfig({
+  root: here("."),
+  base: "./",
+  resolve: { alias: { carom: here("../dist/index.js") } },
+  define: { MEASURED: JSON.stringify(readFileSync(here("../../data/experiments.csv"), "utf8")) },
+  build: {
+    target: "es2022",
+    outDir: here("dist"),
+    emptyOutDir: true,
+    cssCodeSplit: false,
+    modulePreload: false,
+    chunkSizeWarningLimit: 4000,
+    rollupOptions: { output: { inlineDynamicImports: true } },
+  },
+  plugins: [oneFile()],
+});

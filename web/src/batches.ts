@@ -1,0 +1,181 @@
+// Many collisions, or many shots, in the module's memory: what is written here is read by the library without a copy.
+import { layout } from "./generated/layout.js";
+import type { Memory, Pointer } from "./memory.js";
+import { type Shot } from "./shot.js";
+import { readMotion, readState, writeBalls, writeCue, writeTable } from "./structs.js";
+import type { BallState, Collided, Cue, Impact, ShotBall, Table } from "./types.js";
+
+const IMPACT = layout.carom_impact;
+const RESULT = layout.carom_result;
+const CUE = layout.carom_cue;
+const STATE = layout.carom_ball_state;
+
+/** What batches need of the library. */
+export interface Library {
+  readonly memory: Memory;
+  statusName(code: number): string;
+  writeImpact(at: Pointer, impact: Impact): void;
+  shotOf(shots: Shots, k: number): Shot;
+}
+
+/** Memory of the module that is given back by free(), or when nothing refers to it any more. */
+const owned = new FinalizationRegistry<{ memory: Memory; at: Pointer[] }>(({ memory, at }) => at.forEach((one) => memory.free(one)));
+
+class Owner {
+  readonly #held: { memory: Memory; at: Pointer[] };
+  protected readonly library: Library;
+
+  constructor(library: Library, sizes: number[]) {
+    this.library = library;
+    this.#held = { memory: library.memory, at: sizes.map((bytes) => library.memory.allocate(bytes)) };
+    owned.register(this, this.#held, this.#held);
+  }
+  /** @internal */
+  at(k: number): Pointer {
+    const at = this.#held.at[k];
+    if (at === undefined) throw new Error("carom: this batch has been freed");
+    return at;
+  }
+  /** Gives the memory back. Views of it are not valid any more. Without this call the garbage collector does it, later. */
+  free(): void {
+    owned.unregister(this.#held);
+    this.#held.at.splice(0).forEach((one) => this.#held.memory.free(one));
+  }
+}
+
+function rows(n: number, name: string): number {
+  if (!Number.isInteger(n) || n < 0) throw new RangeError(`${name}: it must be a whole number, 0 or more, not ${n}`);
+  return n;
+}
+
+/**
+ * Many collisions for `collideBatch`. `in`, `out` and `status` are views of WebAssembly memory. Get them anew after creating other
+ * batches or playing shots: the memory may have grown by that, and older views are then empty.
+ */
+export class Collisions extends Owner {
+  /** Number of collisions. */
+  readonly n: number;
+
+  /** @internal */
+  constructor(library: Library, n: number) {
+    super(library, [rows(n, "n") * IMPACT.size, n * RESULT.size, n]);
+    this.n = n;
+  }
+  /** 26 doubles for each collision, those of carom_impact: r, v, w, radius, mass, mu_cloth of both balls; mu_ball, restitution. */
+  get in(): Float64Array {
+    return new Float64Array(this.library.memory.buffer, this.at(0), (this.n * IMPACT.size) / 8);
+  }
+  /** 12 doubles for each collision, those of carom_result: v and w of both balls. NaN where the status is an error. */
+  get out(): Float64Array {
+    return new Float64Array(this.library.memory.buffer, this.at(1), (this.n * RESULT.size) / 8);
+  }
+  /** One status for each collision: 0 resolved, 1 separating, negative an error of carom.h. */
+  get status(): Int8Array {
+    return new Int8Array(this.library.memory.buffer, this.at(2), this.n);
+  }
+  /** Writes collision k from an object. */
+  set(k: number, impact: Impact): void {
+    this.library.writeImpact(this.at(0) + this.#row(k) * IMPACT.size, impact);
+  }
+  /** Collision k as an object. */
+  get(k: number): Collided {
+    const f64 = this.library.memory.f64;
+    const at = this.at(1) + this.#row(k) * RESULT.size;
+    return {
+      status: this.library.statusName(this.status[k]!),
+      a: readMotion(f64, at + RESULT.offset.a),
+      b: readMotion(f64, at + RESULT.offset.b),
+    };
+  }
+  #row(k: number): number {
+    if (!Number.isInteger(k) || k < 0 || k >= this.n) throw new RangeError(`k: it must be 0 to ${this.n - 1}, not ${k}`);
+    return k;
+  }
+}
+
+/** Where the fields of a cue are among its numbers, `cueSize` for each. The ball's index is set by `setCue`. */
+export const cueFields = Object.fromEntries(
+  Object.entries(CUE.offset)
+    .filter(([key]) => key !== "ball")
+    .map(([key, offset]) => [key, offset / 8]),
+) as Readonly<Record<Exclude<keyof Cue, "ball">, number>>;
+
+/** How many numbers a cue has in `Shots.cues`. */
+export const cueSize = CUE.size / 8;
+
+/** Many shots on one table for `simulateBatch`. `cues`, `final` and `status` are views of WebAssembly memory, as in `Collisions`. */
+export class Shots extends Owner {
+  /** Number of shots. */
+  readonly n: number;
+  /** Balls of a shot. */
+  readonly count: number;
+  /** How many events of each shot are kept. */
+  readonly room: number;
+  readonly table: Table;
+  /** @internal */
+  readonly layouts: readonly (readonly ShotBall[])[];
+
+  /** @internal */
+  constructor(library: Library, table: Table, layouts: readonly (readonly ShotBall[])[], n: number, room: number) {
+    const count = layouts[0]?.length ?? 0;
+    if (layouts.length !== 1 && layouts.length !== n) throw new RangeError(`balls: 1 layout or ${n} of them are needed, not ${layouts.length}`);
+    if (layouts.some((balls) => balls.length !== count)) throw new RangeError("balls: all layouts must have the same number of balls");
+    const sizes = [
+      layout.carom_table.size,
+      layouts.length * count * layout.carom_shot_ball.size,
+      rows(n, "n") * CUE.size,
+      n * layout.carom_shot.size,
+      n * count * STATE.size,
+      n,
+      n * rows(room, "room") * layout.carom_event.size,
+      layout.carom_shot_job.size,
+    ];
+    super(library, sizes);
+    this.n = n;
+    this.count = count;
+    this.room = room;
+    this.table = table;
+    this.layouts = layouts;
+    writeTable(library.memory, this.at(0), table);
+    layouts.forEach((balls, k) => writeBalls(library.memory, this.at(1) + k * count * layout.carom_shot_ball.size, balls));
+  }
+  /** `cueSize` numbers for each shot, those of carom_cue; `cueFields` says where each is. */
+  get cues(): Float64Array {
+    return new Float64Array(this.library.memory.buffer, this.at(2), (this.n * CUE.size) / 8);
+  }
+  /** 10 numbers for each ball of each shot: r, v, w at the end; the tenth is the label, an integer, for `label()`. */
+  get final(): Float64Array {
+    return new Float64Array(this.library.memory.buffer, this.at(4), (this.n * this.count * STATE.size) / 8);
+  }
+  /** One status for each shot: 0 came to rest, positive stopped as asked, negative an error of carom.h. */
+  get status(): Int8Array {
+    return new Int8Array(this.library.memory.buffer, this.at(5), this.n);
+  }
+  /** Sets the cue of shot k. */
+  setCue(k: number, cue: Cue): void {
+    writeCue(this.library.memory, this.at(2) + this.#shot(k) * CUE.size, cue);
+  }
+  /** The state of a ball at the end of shot k. */
+  state(k: number, ball: number): BallState {
+    if (!(ball >= 0 && ball < this.count)) throw new RangeError(`ball: it must be 0 to ${this.count - 1}, not ${ball}`);
+    return readState(this.library.memory, this.at(4) + (this.#shot(k) * this.count + ball) * STATE.size);
+  }
+  /** How long shot k lasts, s. */
+  time(k: number): number {
+    return this.library.memory.f64[(this.at(3) + this.#shot(k) * layout.carom_shot.size + layout.carom_shot.offset.time) / 8]!;
+  }
+  /** How many events shot k has. */
+  events(k: number): number {
+    return Number(this.library.memory.i64[(this.at(3) + this.#shot(k) * layout.carom_shot.size + layout.carom_shot.offset.count) / 8]);
+  }
+  /** Shot k with its events, copied. Needs `room` for all of them. */
+  shot(k: number): Shot {
+    if (this.events(k) > this.room)
+      throw new RangeError(`room: shot ${k} has ${this.events(k)} events, and there is room for ${this.room} of them`);
+    return this.library.shotOf(this, k);
+  }
+  #shot(k: number): number {
+    if (!Number.isInteger(k) || k < 0 || k >= this.n) throw new RangeError(`k: it must be 0 to ${this.n - 1}, not ${k}`);
+    return k;
+  }
+}

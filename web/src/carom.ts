@@ -1,0 +1,600 @@
+// The library: every call of C that the package offers.
+import { Collisions, type Library, Shots } from "./batches.js";
+import { CaromError } from "./error.js";
+import { layout, values } from "./generated/layout.js";
+import type { Build, Memory, Pointer } from "./memory.js";
+import { type Reader, Shot } from "./shot.js";
+import {
+  readBalls,
+  readCue,
+  readEvent,
+  readKind,
+  readMotion,
+  readState,
+  readTable,
+  value,
+  vec3,
+  writeBalls,
+  writeCue,
+  writeDoubles,
+  writeTable,
+} from "./structs.js";
+import type {
+  BallKind,
+  BallState,
+  Collided,
+  CollideOptions,
+  Contact,
+  Cue,
+  CushionImpact,
+  CushionOptions,
+  Detail,
+  Game,
+  Impact,
+  Motion,
+  RackName,
+  ShotBall,
+  ShotOptions,
+  Table,
+  TableName,
+  TracePoint,
+  Vec2,
+} from "./types.js";
+
+const IMPACT = layout.carom_impact;
+const RESULT = layout.carom_result;
+const DETAIL = layout.carom_detail.offset;
+const POINT = layout.carom_trace_point;
+const OPTIONS = layout.carom_options;
+const CUSHION = layout.carom_cushion_impact;
+const CUSHION_OPTIONS = layout.carom_cushion_options;
+const SHOT = layout.carom_shot;
+const SHOT_OPTIONS = layout.carom_shot_options;
+const EVENT = layout.carom_event;
+const JOB = layout.carom_shot_job;
+const BALLS_MOST = values.CAROM_BALLS_MOST;
+
+const STICK = ["never", "in compression", "in restitution"] as const;
+const BALL = { r: [0, 0, 0], v: [0, 0, 0], w: [0, 0, 0], radius: 0.028575, mass: 0.17, muCloth: 0.2 } as const;
+const RAIL = { w: [0, 0, 0], height: 0.0365, radius: 0.028575, mass: 0.17, muCloth: 0.2, muCushion: 0.2, restitution: 0.85, jawRadius: 0 } as const;
+
+function whole(number: number | undefined, option: string): number {
+  if (number === undefined) return 0;
+  if (!Number.isInteger(number) || number < 0 || number > 0x7fffffff) throw new RangeError(`${option}: it must be a whole number, 0 or more, not ${number}`);
+  return number;
+}
+
+/** Parts of the memory that every call uses again, one behind the other. */
+function arena(memory: Memory): (bytes: number) => Pointer {
+  let next = memory.allocate(65536);
+  const end = next + 65536;
+  return (bytes) => {
+    const at = next;
+    next += (bytes + 15) & ~15;
+    if (next > end) throw new RangeError("carom: the memory for arguments is too small");
+    return at;
+  };
+}
+
+/** The library carom, loaded. Calls may be made from any thread that has loaded it; each has a memory of its own. */
+export class Carom {
+  /** The build that runs. */
+  readonly build: Build;
+  readonly #memory: Memory;
+  readonly #library: Library;
+  readonly #reader: Reader;
+  readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "motion" | "number", Pointer>;
+  #points: Pointer = 0;
+  #pointRoom = 0;
+  #events: Pointer = 0;
+  #room = 0;
+  /** The shot whose balls and events are in the module's memory. */
+  #resident: Shot | undefined;
+  readonly #eventNames = new Map<number, string>();
+  readonly #tables: Map<string, number>;
+  readonly #racks: Map<string, number>;
+
+  /** @internal */
+  constructor(memory: Memory, build: Build) {
+    this.build = build;
+    this.#memory = memory;
+    const part = arena(memory);
+    this.#at = {
+      impact: part(Math.max(IMPACT.size, CUSHION.size)),
+      options: part(Math.max(OPTIONS.size, CUSHION_OPTIONS.size, SHOT_OPTIONS.size)),
+      result: part(RESULT.size),
+      detail: part(layout.carom_detail.size),
+      table: part(layout.carom_table.size),
+      balls: part(BALLS_MOST * layout.carom_shot_ball.size),
+      cue: part(layout.carom_cue.size),
+      shot: part(SHOT.size),
+      final: part(BALLS_MOST * layout.carom_ball_state.size),
+      motion: part(BALLS_MOST * 32),
+      number: part(64),
+    };
+    this.#library = {
+      memory,
+      statusName: (code) => this.statusName(code),
+      writeImpact: (at, impact) => this.#writeImpact(at, impact),
+      shotOf: (shots, k) => this.#shotOf(shots, k),
+    };
+    this.#reader = {
+      events: (shot) => {
+        this.#reside(shot);
+        const name = (type: number): string => this.#eventName(type);
+        return Array.from({ length: shot.count }, (_, k) => readEvent(this.#memory, this.#events + k * EVENT.size, name));
+      },
+      states: (shot, time) => {
+        this.#look(shot, time);
+        return shot.balls.map((_, k) => readState(this.#memory, this.#at.final + k * layout.carom_ball_state.size));
+      },
+      positions: (shot, time, into) => {
+        this.#look(shot, time);
+        const f64 = this.#memory.f64;
+        for (let k = 0; k < shot.balls.length; k++) {
+          const at = (this.#at.final + k * layout.carom_ball_state.size) / 8;
+          for (let c = 0; c < 3; c++) into[3 * k + c] = f64[at + c]!;
+        }
+      },
+      positionsAt: (shot, times) => {
+        this.#reside(shot);
+        const n = times.length;
+        const count = shot.balls.length;
+        const size = layout.carom_ball_state.size;
+        const at = this.#memory.allocate(8 * n + n * count * size);
+        try {
+          this.#memory.f64.set(times, at / 8);
+          const states = at + 8 * n;
+          this.#refuse(this.#call.carom_shot_at_times(this.#at.balls, count, this.#at.shot, at, n, states), "times");
+          const f64 = this.#memory.f64;
+          const into = new Float64Array(3 * n * count);
+          for (let k = 0; k < n * count; k++) into.set(f64.subarray((states + k * size) / 8, (states + k * size) / 8 + 3), 3 * k);
+          return into;
+        } finally {
+          this.#memory.free(at);
+        }
+      },
+      orientations: (shot, time, into) => {
+        this.#reside(shot);
+        const { balls, shot: at, motion } = this.#at;
+        this.#refuse(this.#call.carom_shot_orientation(balls, shot.balls.length, at, time, motion), `time ${time}`);
+        into.set(this.#memory.f64.subarray(motion / 8, motion / 8 + 4 * shot.balls.length));
+      },
+    };
+    const names = (name: (kind: number) => Pointer): Map<string, number> => {
+      const found = new Map<string, number>();
+      for (let kind = 0, text; (text = memory.text(name(kind))) !== undefined; kind++) found.set(text, kind);
+      return found;
+    };
+    this.#tables = names((kind) => this.#call.carom_table_name(kind));
+    this.#racks = names((kind) => this.#call.carom_rack_name(kind));
+  }
+
+  get #call(): Memory["exports"] {
+    return this.#memory.exports;
+  }
+
+  // ---- Texts and errors ----------------------------------------------------------------------------------------------------
+
+  /** The version of the library, such as "0.2.0". */
+  get version(): string {
+    return this.#memory.text(this.#call.carom_version())!;
+  }
+
+  /** A number that changes whenever a result has other bits than before: equal numbers are needed for replays and lockstep. */
+  get physicsRevision(): number {
+    return this.#call.carom_physics_revision();
+  }
+
+  /** Bytes of WebAssembly memory in use by the library. */
+  get memoryBytes(): number {
+    return this.#memory.buffer.byteLength;
+  }
+
+  /** The short name of a status: "ok", "separating", "bad_radius". */
+  statusName(code: number): string {
+    return this.#memory.text(this.#call.carom_status_name(code))!;
+  }
+
+  #error(code: number, field?: string, shot?: Shot): CaromError {
+    return new CaromError(code, this.statusName(code), this.#memory.text(this.#call.carom_status_string(code))!, field, shot);
+  }
+
+  #refuse(code: number, field?: string): void {
+    if (code < 0) throw this.#error(code, field);
+  }
+
+  #eventName(type: number): string {
+    let name = this.#eventNames.get(type);
+    if (name === undefined) {
+      name = this.#memory.text(this.#call.carom_event_name(type)) ?? `type ${type}`;
+      this.#eventNames.set(type, name);
+    }
+    return name;
+  }
+
+  // ---- Two balls -----------------------------------------------------------------------------------------------------------
+
+  #writeImpact(at: Pointer, impact: Impact): void {
+    const { a, b } = IMPACT.offset;
+    writeDoubles(this.#memory, at + a, "carom_ball", BALL);
+    writeDoubles(this.#memory, at + b, "carom_ball", BALL);
+    writeDoubles(this.#memory, at + a, "carom_ball", impact.a);
+    writeDoubles(this.#memory, at + b, "carom_ball", impact.b);
+    this.#memory.f64[(at + IMPACT.offset.restitution) / 8] = impact.restitution ?? 0.95;
+    this.#memory.f64[(at + IMPACT.offset.muBall) / 8] = impact.muBall ?? this.#alciatore(at);
+  }
+
+  #alciatore(impact: Pointer): number {
+    this.#call.carom_alciatore(this.#at.number);
+    return this.#call.carom_mu_ball(impact, this.#at.number);
+  }
+
+  #writeOptions(options: CollideOptions): Pointer {
+    const { options: at } = this.#at;
+    this.#memory.u8.fill(0, at, at + OPTIONS.size);
+    const i32 = this.#memory.i32;
+    i32[(at + OPTIONS.offset.solver) / 4] = value("CAROM_SOLVER_", options.solver ?? "exact", "solver");
+    i32[(at + OPTIONS.offset.slip) / 4] = value("CAROM_SLIP_", options.slip ?? "paper", "slip");
+    i32[(at + OPTIONS.offset.steps) / 4] = whole(options.steps, "steps");
+    return at;
+  }
+
+  /** What carom_check() says of the impact that a call refused. */
+  #impactError(code: number, options: Pointer): CaromError {
+    const { impact, number } = this.#at;
+    this.#call.carom_check(impact, options, number);
+    const field = this.#memory.text(this.#call.carom_field_name(this.#memory.i32[number / 4]!));
+    return this.#error(code, field);
+  }
+
+  #collided(code: number): Collided {
+    const f64 = this.#memory.f64;
+    const { result } = this.#at;
+    return { status: this.statusName(code), a: readMotion(f64, result + RESULT.offset.a), b: readMotion(f64, result + RESULT.offset.b) };
+  }
+
+  /** Resolves one collision of two balls. Throws a CaromError that names the field where something is out of range. */
+  collide(impact: Impact, options: CollideOptions = {}): Collided {
+    const { impact: at, result } = this.#at;
+    this.#writeImpact(at, impact);
+    const opt = this.#writeOptions(options);
+    const code = this.#call.carom_collide(at, opt, result);
+    if (code < 0) throw this.#impactError(code, opt);
+    return this.#collided(code);
+  }
+
+  /** The same, with impulses, works, and when the balls stuck. */
+  collideDetail(impact: Impact, options: CollideOptions = {}): Collided & { detail: Detail } {
+    const { impact: at, result, detail } = this.#at;
+    this.#writeImpact(at, impact);
+    const opt = this.#writeOptions(options);
+    const code = this.#call.carom_collide_detail(at, opt, result, detail);
+    if (code < 0) throw this.#impactError(code, opt);
+    const f64 = this.#memory.f64;
+    const number = (offset: number): number => f64[(detail + offset) / 8]!;
+    return {
+      ...this.#collided(code),
+      detail: {
+        normal: number(DETAIL.normal),
+        friction: vec3(f64, detail + DETAIL.friction),
+        clothA: vec3(f64, detail + DETAIL.clothA),
+        clothB: vec3(f64, detail + DETAIL.clothB),
+        workCompression: number(DETAIL.workCompression),
+        work: number(DETAIL.work),
+        stick: STICK[this.#memory.i32[(detail + DETAIL.stick) / 4]!]!,
+        stickNormal: number(DETAIL.stickNormal),
+      },
+    };
+  }
+
+  /** Follows one collision through n >= 2 points at equal steps of normal impulse. It takes about a millisecond. */
+  trace(impact: Impact, n: number, options: CollideOptions = {}): TracePoint[] {
+    if (whole(n, "n") < 2) throw new RangeError(`n: at least 2 points are needed, not ${n}`);
+    const { impact: at } = this.#at;
+    this.#writeImpact(at, impact);
+    const opt = this.#writeOptions(options);
+    if (n > this.#pointRoom) {
+      if (this.#points !== 0) this.#memory.free(this.#points);
+      this.#points = this.#memory.allocate(n * POINT.size);
+      this.#pointRoom = n;
+    }
+    const code = this.#call.carom_trace(at, opt, n, this.#points);
+    if (code < 0) throw this.#impactError(code, opt);
+    const f64 = this.#memory.f64;
+    const i32 = this.#memory.i32;
+    const o = POINT.offset;
+    return Array.from({ length: n }, (_, k) => {
+      const point = this.#points + k * POINT.size;
+      const number = (offset: number): number => f64[(point + offset) / 8]!;
+      return {
+        normal: number(o.normal),
+        work: number(o.work),
+        phase: i32[(point + o.phase) / 4]!,
+        sticks: i32[(point + o.sticks) / 4] === 1,
+        vN: number(o.vN),
+        uX: number(o.uX),
+        uZ: number(o.uZ),
+        d: [number(o.dX), number(o.dY)] as Vec2,
+        b: [number(o.bX), number(o.bY)] as Vec2,
+        state: { a: readMotion(f64, point + o.state + RESULT.offset.a), b: readMotion(f64, point + o.state + RESULT.offset.b) },
+      };
+    });
+  }
+
+  /** Friction between pool balls that slip on each other as those of the impact, by Alciatore's law. */
+  muBall(impact: Impact): number {
+    this.#writeImpact(this.#at.impact, { ...impact, muBall: 0 });
+    return this.#alciatore(this.#at.impact);
+  }
+
+  /** The velocity, m/s, at which a ball begins to roll after sliding. */
+  rollingVelocity(motion: Motion, radius: number): [number, number, number] {
+    const { motion: at } = this.#at;
+    writeDoubles(this.#memory, at, "carom_motion", motion);
+    this.#call.carom_rolling_velocity(at, at + layout.carom_motion.offset.w, radius, at);
+    return [...vec3(this.#memory.f64, at)];
+  }
+
+  /** Memory for n collisions. */
+  collisions(n: number): Collisions {
+    return new Collisions(this.#library, n);
+  }
+
+  /**
+   * Resolves all collisions of a batch, each with the bits of `collide`. A bad row gets NaN and its status, and changes nothing for the
+   * others. Returns "ok", or the name of the first error.
+   */
+  collideBatch(batch: Collisions, options: CollideOptions = {}): string {
+    const opt = this.#writeOptions(options);
+    return this.statusName(this.#call.carom_collide_batch(batch.at(0), batch.n, opt, batch.at(1), batch.at(2)));
+  }
+
+  // ---- A ball and a cushion --------------------------------------------------------------------------------------------------
+
+  /** Resolves one impact of a ball on a cushion. */
+  cushion(impact: CushionImpact, options: CushionOptions = {}): Motion & { status: string } {
+    const { impact: at, options: opt, motion, number } = this.#at;
+    writeDoubles(this.#memory, at, "carom_cushion_impact", RAIL);
+    writeDoubles(this.#memory, at, "carom_cushion_impact", impact);
+    this.#memory.u8.fill(0, opt, opt + CUSHION_OPTIONS.size);
+    const i32 = this.#memory.i32;
+    const o = CUSHION_OPTIONS.offset;
+    i32[(opt + o.model) / 4] = value("CAROM_CUSHION_", options.model ?? "mathavan", "model");
+    i32[(opt + o.convention) / 4] = value("CAROM_CONVENTION_", options.convention ?? "paper", "convention");
+    i32[(opt + o.law) / 4] = value("CAROM_CUSHION_LAW_", options.law ?? "constant", "law");
+    i32[(opt + o.steps) / 4] = whole(options.steps, "steps");
+    const code = this.#call.carom_cushion(at, opt, motion);
+    if (code < 0) {
+      this.#call.carom_cushion_check(at, opt, number);
+      throw this.#error(code, this.#memory.text(this.#call.carom_cushion_field_name(this.#memory.i32[number / 4]!)));
+    }
+    return { status: this.statusName(code), ...readMotion(this.#memory.f64, motion) };
+  }
+
+  // ---- Tables, racks, balls, cues --------------------------------------------------------------------------------------------
+
+  #kind(names: Map<string, number>, name: string, what: string): number {
+    const kind = names.get(name);
+    if (kind === undefined) throw new TypeError(`${what}: it must be one of ${[...names.keys()].join(", ")}, not ${JSON.stringify(name)}`);
+    return kind;
+  }
+
+  /** A built-in table. */
+  table(name: TableName): Table {
+    this.#refuse(this.#call.carom_table_make(this.#kind(this.#tables, name, "table"), this.#at.table), "table");
+    this.#resident = undefined;
+    return readTable(this.#memory, this.#at.table);
+  }
+
+  /**
+   * Checks a table of one's own for balls of a radius (m): that each part is in range, and that no ball can leave it. Throws a CaromError
+   * that says which part is wrong.
+   */
+  checkTable(table: Table, radius = 0.028575): void {
+    writeTable(this.#memory, this.#at.table, table);
+    const code = this.#call.carom_table_check(this.#at.table, radius, this.#at.detail);
+    if (code >= 0) return;
+    const part = this.#at.detail + layout.carom_table_fault.offset.part;
+    const kind = this.#memory.i32[(part + layout.carom_part.offset.kind) / 4]!;
+    const index = this.#memory.i32[(part + layout.carom_part.offset.index) / 4]!;
+    throw this.#error(code, kind === 0 ? "table" : `table.${["", "rails", "jaws", "pockets"][kind]}[${index}]`);
+  }
+
+  /**
+   * The balls of a rack; the cue ball is the first. Neighbours are `gap` apart, m (default 1e-4; 0 is a frozen rack). `seed` draws how they
+   * lie within it.
+   */
+  rack(name: RackName, table: Table, { gap = 1e-4, seed = 1 }: { gap?: number; seed?: number | bigint } = {}): ShotBall[] {
+    const kind = this.#kind(this.#racks, name, "rack");
+    this.#resident = undefined;
+    writeTable(this.#memory, this.#at.table, table);
+    const { table: of, balls } = this.#at;
+    const drawn = typeof seed === "bigint" ? seed : Number.isSafeInteger(seed) && seed >= 0 ? BigInt(seed) : undefined;
+    if (drawn === undefined) throw new RangeError(`seed: it must be a whole number, 0 or more, not ${seed}`);
+    this.#refuse(this.#call.carom_rack(kind, of, gap, drawn, balls, BALLS_MOST), `rack "${name}", gap ${gap}`);
+    return readBalls(this.#memory, balls, this.#call.carom_rack_size(kind));
+  }
+
+  /** The constants of a game's balls. */
+  kind(game: Game): BallKind {
+    this.#call.carom_ball_kind_of(this.#at.detail, value("CAROM_GAME_", game, "game"));
+    return readKind(this.#memory.f64, this.#at.detail);
+  }
+
+  /** A ball at rest at x, y (m), of a game or of constants of one's own. */
+  ball(x: number, y: number, kind: Game | BallKind = "pool"): ShotBall {
+    const constants = typeof kind === "string" ? this.kind(kind) : kind;
+    return { kind: constants, state: { r: [x, y, constants.radius], v: [0, 0, 0], w: [0, 0, 0], label: "stationary" } };
+  }
+
+  /** A cue: that of the game with the fields given. By default 2 m/s along the table, 0.25 radii above the centre, ball 0. */
+  cue(fields: Partial<Cue> = {}, game: Game = "pool"): Cue {
+    this.#call.carom_cue_of(this.#at.detail, value("CAROM_GAME_", game, "game"));
+    return { ...readCue(this.#memory, this.#at.detail), ...fields };
+  }
+
+  // ---- Shots -----------------------------------------------------------------------------------------------------------------
+
+  #writeShotOptions(options: ShotOptions): Pointer {
+    const { options: at } = this.#at;
+    this.#memory.u8.fill(0, at, at + SHOT_OPTIONS.size);
+    const i32 = this.#memory.i32;
+    const o = SHOT_OPTIONS.offset;
+    i32[(at + o.world) / 4] = value("CAROM_WORLD_", options.world ?? "carom", "world");
+    i32[(at + o.ballModel) / 4] = value("CAROM_BALL_MODEL_", options.ballModel ?? "default", "ballModel");
+    i32[(at + o.cushionModel) / 4] = value("CAROM_SHOT_CUSHION_", options.cushionModel ?? "default", "cushionModel");
+    i32[(at + o.space) / 4] = value("CAROM_SPACE_", options.space ?? "3d", "space");
+    i32[(at + o.friction) / 4] = value("CAROM_FRICTION_", options.friction ?? "alciatore", "friction");
+    i32[(at + o.steps) / 4] = whole(options.steps, "steps");
+    i32[(at + o.eventsMost) / 4] = whole(options.eventsMost, "eventsMost");
+    this.#memory.f64[(at + o.timeMost) / 8] = options.timeMost ?? 0;
+    this.#memory.i64[(at + o.stopAt) / 8] = options.stopAtContact === true ? 1n : 0n; // CAROM_STOP_AT_CONTACT
+    return at;
+  }
+
+  #needRoom(room: number): void {
+    if (room <= this.#room) return;
+    if (this.#events !== 0) this.#memory.free(this.#events);
+    this.#events = this.#memory.allocate(room * EVENT.size);
+    this.#room = room;
+  }
+
+  #writeShot(count: number): void {
+    const { shot: at, final } = this.#at;
+    this.#memory.u8.fill(0, at, at + SHOT.size);
+    this.#memory.u32[(at + SHOT.offset.events) / 4] = this.#events;
+    this.#memory.u32[(at + SHOT.offset.final) / 4] = final;
+    this.#memory.i64[(at + SHOT.offset.room) / 8] = BigInt(this.#room);
+    this.#memory.i64[(at + SHOT.offset.count) / 8] = BigInt(count);
+  }
+
+  /**
+   * Plays a shot until nothing moves. Without a cue, or if a ball moves already, there is no strike. Throws a CaromError that names the ball
+   * where something is out of range; where the shot ends in an error later, its `shot` has what had happened.
+   */
+  simulate(table: Table, balls: readonly ShotBall[], cue?: Partial<Cue>, options: ShotOptions = {}): Shot {
+    if (balls.length < 1 || balls.length > BALLS_MOST) throw new RangeError(`balls: there must be 1 to ${BALLS_MOST}, not ${balls.length}`);
+    const at = this.#at;
+    this.#resident = undefined;
+    writeTable(this.#memory, at.table, table);
+    writeBalls(this.#memory, at.balls, balls);
+    let cueAt = 0;
+    if (cue !== undefined) {
+      writeCue(this.#memory, at.cue, this.cue(cue));
+      cueAt = at.cue;
+    }
+    const opt = this.#writeShotOptions(options);
+    this.#needRoom(256);
+    let code: number;
+    let count: number;
+    // A shot that has more events than there is room for is played again with enough of it: it has the same bits.
+    for (;;) {
+      this.#writeShot(0);
+      code = this.#call.carom_shoot(at.table, at.balls, balls.length, cueAt, opt, at.shot);
+      count = Number(this.#memory.i64[(at.shot + SHOT.offset.count) / 8]);
+      if (count <= this.#room) break;
+      this.#needRoom(count);
+    }
+    if (code < 0 && count === 0) {
+      this.#call.carom_shot_check(at.table, at.balls, balls.length, cueAt, opt, at.number);
+      throw this.#error(code, this.#where(code, this.#memory.i32[at.number / 4]!));
+    }
+    const shot = this.#played(table, balls.map(({ kind, state }) => ({ kind: { ...kind }, state: { ...state } })), code, at.shot, at.final, this.#events);
+    this.#resident = shot;
+    if (code < 0) throw this.#error(code, undefined, shot);
+    return shot;
+  }
+
+  #where(code: number, index: number): string | undefined {
+    if (code === values.CAROM_ERROR_CUE || code === values.CAROM_ERROR_MISCUE) return "cue";
+    if (index < 0) return undefined;
+    return code === values.CAROM_ERROR_TABLE || code === values.CAROM_ERROR_NOSE_HEIGHT ? `table, part ${index}` : `balls[${index}]`;
+  }
+
+  #played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer): Shot {
+    const count = Number(this.#memory.i64[(shot + SHOT.offset.count) / 8]);
+    const bytes = this.#memory.u8.slice(events, events + count * EVENT.size);
+    const states = balls.map((_, k): BallState => readState(this.#memory, final + k * layout.carom_ball_state.size));
+    return new Shot(this.#reader, table, balls, this.statusName(code), this.#memory.f64[(shot + SHOT.offset.time) / 8]!, states, count, bytes);
+  }
+
+  /** Puts balls and events of a shot into the module's memory, if others are there. */
+  #reside(shot: Shot): void {
+    if (this.#resident === shot) return;
+    this.#resident = undefined;
+    this.#needRoom(Math.max(shot.count, 256));
+    writeBalls(this.#memory, this.#at.balls, shot.balls);
+    this.#memory.u8.set(shot.bytes, this.#events);
+    this.#writeShot(shot.count);
+    this.#memory.f64[(this.#at.shot + SHOT.offset.time) / 8] = shot.time;
+    this.#resident = shot;
+  }
+
+  #look(shot: Shot, time: number): void {
+    this.#reside(shot);
+    this.#refuse(this.#call.carom_shot_at(this.#at.balls, shot.balls.length, this.#at.shot, time, this.#at.final), `time ${time}`);
+  }
+
+  /** What the cue ball touches first, or undefined. The shot is followed until then only, so this costs a fraction of `simulate`. */
+  firstContact(table: Table, balls: readonly ShotBall[], cue?: Partial<Cue>, options: ShotOptions = {}): Contact | undefined {
+    return this.simulate(table, balls, cue, { ...options, stopAtContact: true }).firstContact;
+  }
+
+  /** The motion of a ball at rest just after a strike. */
+  strike(cue: Partial<Cue>, kind: BallKind): Motion {
+    const { cue: at, detail, motion } = this.#at;
+    this.#resident = undefined;
+    writeCue(this.#memory, at, this.cue(cue));
+    writeDoubles(this.#memory, detail, "carom_ball_kind", kind);
+    this.#refuse(this.#call.carom_strike(at, detail, motion), "cue");
+    return readMotion(this.#memory.f64, motion);
+  }
+
+  /**
+   * Memory for n shots on a table: of one layout of balls for all, or one for each. `room` is how many events of each are kept; 0, the
+   * default: none, only final states. All cues are at first those of `cue()`.
+   */
+  shots(table: Table, balls: readonly ShotBall[] | readonly (readonly ShotBall[])[], n: number, { room = 0 }: { room?: number } = {}): Shots {
+    const layouts = (Array.isArray(balls[0]) ? balls : [balls]) as readonly (readonly ShotBall[])[];
+    const shots = new Shots(this.#library, structuredClone(table), structuredClone(layouts), n, room);
+    const cue = this.cue();
+    for (let k = 0; k < n; k++) shots.setCue(k, cue);
+    return shots;
+  }
+
+  /** Plays all shots of a batch, each with the bits of `simulate`. Returns "ok", or the name of the first error. */
+  simulateBatch(shots: Shots, options: ShotOptions = {}): string {
+    const opt = this.#writeShotOptions(options);
+    const job = shots.at(7);
+    const { u32, i64, u8 } = this.#memory;
+    u8.fill(0, job, job + JOB.size);
+    for (let k = 0; k < shots.n; k++) {
+      const shot = shots.at(3) + k * SHOT.size;
+      u8.fill(0, shot, shot + SHOT.size);
+      u32[(shot + SHOT.offset.events) / 4] = shots.room === 0 ? 0 : shots.at(6) + k * shots.room * EVENT.size;
+      u32[(shot + SHOT.offset.final) / 4] = shots.at(4) + k * shots.count * layout.carom_ball_state.size;
+      i64[(shot + SHOT.offset.room) / 8] = BigInt(shots.room);
+    }
+    const o = JOB.offset;
+    u32[(job + o.table) / 4] = shots.at(0);
+    u32[(job + o.balls) / 4] = shots.at(1);
+    u32[(job + o.cues) / 4] = shots.at(2);
+    i64[(job + o.count) / 8] = BigInt(shots.count);
+    i64[(job + o.ballStride) / 8] = shots.layouts.length === 1 ? 0n : BigInt(shots.count);
+    i64[(job + o.cueStride) / 8] = 1n;
+    i64[(job + o.n) / 8] = BigInt(shots.n);
+    u32[(job + o.options) / 4] = opt;
+    u32[(job + o.shots) / 4] = shots.at(3);
+    u32[(job + o.status) / 4] = shots.at(5);
+    return this.statusName(this.#call.carom_shoot_batch(job));
+  }
+
+  #shotOf(shots: Shots, k: number): Shot {
+    const balls = shots.layouts[shots.layouts.length === 1 ? 0 : k]!;
+    const shot = shots.at(3) + k * SHOT.size;
+    const final = shots.at(4) + k * shots.count * layout.carom_ball_state.size;
+    return this.#played(shots.table, balls, shots.status[k]!, shot, final, shots.at(6) + k * shots.room * EVENT.size);
+  }
+}
+

@@ -1,0 +1,33 @@
+/**
+ * carom: collisions of two billiard balls, balls and cushions, and whole shots, by the C library of the same name as WebAssembly.
+ *
+ *     import { load } from "carom";
+ *     const carom = await load();
+ *     const table = carom.table("9ft");
+ *     const shot = carom.simulate(table, carom.rack("nineball", table), { speed: 8 });
+ *     console.log(shot.time, shot.firstContact?.ball, shot.positions(1.5));
+ *
+ * Units are SI; directions of a cue are in degrees. All results have the bits of the C library's instruction set `plain`.
+ * @packageDocumentation
+ */
+import { Carom } from "./carom.js";
+import { type Build, simdAvailable, start } from "./memory.js";
+
+export { Collisions, cueFields, cueSize, Shots } from "./batches.js";
+export type { Carom } from "./carom.js";
+export { CaromError } from "./error.js";
+export { fromLine, toLine, type Line } from "./lines.js";
+export type { Build } from "./memory.js";
+export { Shot } from "./shot.js";
+export type * from "./types.js";
+
+/** Options of `load`. */
+export interface LoadOptions {
+  /** The build to run; by default "simd" where the machine has 128-bit vectors, else "plain". Both have the same bits. */
+  build?: Build;
+}
+
+/** Compiles the WebAssembly module and returns the library. Each call gives a library with a memory of its own. */
+export async function load({ build = simdAvailable() ? "simd" : "plain" }: LoadOptions = {}): Promise<Carom> {
+  return new Carom(await start(build), build);
+}

@@ -1,0 +1,119 @@
+// Shots as the JSON lines that `carom shoot` reads and writes (docs/using/shots.md has the format).
+import type { Carom } from "./carom.js";
+import { LABELS } from "./structs.js";
+import type { BallKind, Cue, Game, ShotBall, Table, TableName } from "./types.js";
+
+/** A shot as a line has it. */
+export interface Line {
+  id: string;
+  /** The name of a built-in table, as in the line. */
+  tableName: TableName;
+  table: Table;
+  /** Names of the balls, which the line's cue and events use. */
+  names: string[];
+  balls: ShotBall[];
+  cue: Cue;
+}
+
+const PARAMS: readonly (readonly [string, keyof BallKind])[] = [
+  ["m", "mass"],
+  ["R", "radius"],
+  ["u_s", "muSlide"],
+  ["u_r", "muRoll"],
+  ["u_sp", "muSpin"],
+  ["u_b", "muBall"],
+  ["e_b", "restitution"],
+  ["e_c", "restitutionCushion"],
+  ["f_c", "muCushion"],
+  ["g", "gravity"],
+  ["drag", "drag"],
+  ["roll_loss", "rollLoss"],
+  ["law_a", "lawA"],
+  ["law_b", "lawB"],
+  ["law_c", "lawC"],
+  ["nose_height", "noseHeight"],
+  ["omega_ratio", "omegaRatio"],
+  ["e_t", "restitutionTable"],
+];
+const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
+  ["V0", "speed"],
+  ["phi", "phi"],
+  ["theta", "theta"],
+  ["a", "a"],
+  ["b", "b"],
+  ["M", "mass"],
+  ["end_mass", "endMass"],
+  ["tip_radius", "tipRadius"],
+  ["miscue", "miscue"],
+];
+
+/** The line of a shot, without a line break. `carom shoot` plays it with the same bits under CAROM_ISA=plain. */
+export function toLine(shot: Pick<Line, "tableName" | "balls" | "cue"> & { id?: string; names?: string[] }): string {
+  const names = shot.names ?? shot.balls.map((_, k) => (k === 0 ? "cue" : String(k)));
+  const cue: Record<string, number | string> = {};
+  for (const [key, field] of CUE) cue[key] = shot.cue[field];
+  cue.ball = names[shot.cue.ball]!;
+  const balls = shot.balls.map(({ kind, state }, k) => ({
+    id: names[k],
+    state: [LABELS.indexOf(state.label), ...state.r, ...state.v, ...state.w],
+    params: { game: "pool", ...Object.fromEntries(PARAMS.map(([key, field]) => [key, kind[field]])) },
+  }));
+  return JSON.stringify({ kind: "shot", id: shot.id ?? "shot", table: shot.tableName, cue, balls });
+}
+
+function refuse(key: string, right: string): never {
+  throw new TypeError(`${key}: ${right}`);
+}
+
+function numbers(from: unknown, key: string, count: number): number[] {
+  const good = Array.isArray(from) && from.length === count && from.every((x) => typeof x === "number" && Number.isFinite(x));
+  return good ? (from as number[]) : refuse(key, `${count} numbers are needed`);
+}
+
+function fill<Key extends string>(into: Record<Key, number>, keys: readonly (readonly [string, Key])[], from: Record<string, unknown>, name: string): void {
+  for (const [key, field] of keys) {
+    const given = from[key];
+    if (given === undefined) continue;
+    into[field] = typeof given === "number" && Number.isFinite(given) ? given : refuse(`${name}.${key}`, "a number is needed");
+  }
+}
+
+/** Reads a line of `carom shoot`, with a built-in table. Throws a TypeError that names the key where something is wrong. */
+export function fromLine(carom: Carom, text: string): Line {
+  let line: Record<string, unknown>;
+  try {
+    line = JSON.parse(text.trim()) as Record<string, unknown>;
+  } catch (error) {
+    return refuse("line", `one JSON object is needed (${(error as Error).message})`);
+  }
+  if (line?.kind !== "shot") return refuse("kind", 'it must be "shot"');
+  const tableName = line.table as TableName;
+  if (typeof tableName !== "string") return refuse("table", "the name of a built-in table is needed");
+  const table = carom.table(tableName);
+  if (!Array.isArray(line.balls) || line.balls.length < 1 || line.balls.length > 32) return refuse("balls", "a list of 1 to 32 balls is needed");
+  const names: string[] = [];
+  const balls = line.balls.map((ball: Record<string, unknown>, k): ShotBall => {
+    const params = (ball.params ?? {}) as Record<string, unknown>;
+    names.push(typeof ball.id === "string" ? ball.id : refuse(`balls[${k}].id`, "a text is needed"));
+    // Missing numbers are those of the game, or pooltool's, whose friction of spinning depends on the radius.
+    const kind = carom.kind((params.game ?? "pooltool_pool") as Game);
+    fill(kind as unknown as Record<string, number>, PARAMS, params, `balls[${k}].params`);
+    if (params.game === undefined && params.u_sp === undefined) kind.muSpin = ((10.0 * 2.0) / 5.0 / 9.0) * kind.radius;
+    const [label, x, y, z, ...motion] = numbers(ball.state, `balls[${k}].state`, 10) as [number, number, number, number, ...number[]];
+    return {
+      kind,
+      state: {
+        label: LABELS[label] ?? refuse(`balls[${k}].state`, "the label, its first number, must be 0 to 6"),
+        r: [x, y, z],
+        v: [motion[0]!, motion[1]!, motion[2]!],
+        w: [motion[3]!, motion[4]!, motion[5]!],
+      },
+    };
+  });
+  const given = (line.cue ?? {}) as Record<string, unknown>;
+  const ball = given.ball === undefined ? 0 : names.indexOf(given.ball as string);
+  if (ball < 0) return refuse("cue.ball", `it must be the id of a ball, not ${JSON.stringify(given.ball)}`);
+  const cue = carom.cue({ ball, phi: 0 }, "pooltool_pool");
+  fill(cue as unknown as Record<string, number>, CUE, given, "cue");
+  return { id: typeof line.id === "string" ? line.id : "shot", tableName, table, names, balls, cue };
+}

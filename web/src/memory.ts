@@ -1,0 +1,135 @@
+// The WebAssembly module: which of the two builds, its imports, its memory.
+
+/** Which build runs: with 128-bit vectors for batches, or without. Both have the same bits. */
+export type Build = "simd" | "plain";
+
+export type Pointer = number;
+
+/** The functions that the module exports; sizes of 64 bits are BigInt. */
+export interface Exports {
+  memory: WebAssembly.Memory;
+  malloc(bytes: number): Pointer;
+  free(at: Pointer): void;
+  [name: `carom_${string}`]: (...numbers: (number | bigint)[]) => number;
+}
+
+// A function whose body is one instruction on vectors: v128.const 0, i32x4.extract_lane 0. It validates where SIMD128 is known.
+const VECTORS = new Uint8Array([
+  0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 127, 3, 2, 1, 0, 10, 25, 1, 23, 0, 253, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 253, 27,
+  0, 11,
+]);
+
+/** Whether this machine runs the build with 128-bit vectors. */
+export function simdAvailable(): boolean {
+  return WebAssembly.validate(VECTORS);
+}
+
+function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let k = 0; k < text.length; k++) bytes[k] = text.charCodeAt(k);
+  return bytes;
+}
+
+/** Memory of the module, with views that are renewed after it has grown. */
+export class Memory {
+  readonly exports: Exports;
+  #f64 = new Float64Array();
+  #i32 = new Int32Array();
+  #u32 = new Uint32Array();
+  #i8 = new Int8Array();
+  #u8 = new Uint8Array();
+  #i64 = new BigInt64Array();
+  readonly #text = new TextDecoder();
+
+  constructor(exports: Exports) {
+    this.exports = exports;
+  }
+
+  get buffer(): ArrayBuffer {
+    return this.exports.memory.buffer;
+  }
+
+  #renew(): void {
+    const buffer = this.buffer;
+    if (this.#f64.buffer === buffer) return;
+    this.#f64 = new Float64Array(buffer);
+    this.#i32 = new Int32Array(buffer);
+    this.#u32 = new Uint32Array(buffer);
+    this.#i8 = new Int8Array(buffer);
+    this.#u8 = new Uint8Array(buffer);
+    this.#i64 = new BigInt64Array(buffer);
+  }
+  get f64(): Float64Array<ArrayBuffer> {
+    this.#renew();
+    return this.#f64 as Float64Array<ArrayBuffer>;
+  }
+  get i32(): Int32Array {
+    this.#renew();
+    return this.#i32;
+  }
+  get u32(): Uint32Array {
+    this.#renew();
+    return this.#u32;
+  }
+  get i8(): Int8Array {
+    this.#renew();
+    return this.#i8;
+  }
+  get u8(): Uint8Array {
+    this.#renew();
+    return this.#u8;
+  }
+  get i64(): BigInt64Array {
+    this.#renew();
+    return this.#i64;
+  }
+
+  /** Memory that is all zero. */
+  allocate(bytes: number): Pointer {
+    const at = this.exports.malloc(Math.max(bytes, 8)) >>> 0;
+    if (at === 0) throw new RangeError(`carom: no memory for ${bytes} bytes`);
+    this.u8.fill(0, at, at + bytes);
+    return at;
+  }
+  free(at: Pointer): void {
+    this.exports.free(at);
+  }
+
+  /** The text that a function of C returns; undefined for NULL. */
+  text(at: Pointer): string | undefined {
+    if (at === 0) return undefined;
+    const u8 = this.u8;
+    return this.#text.decode(u8.slice(at, u8.indexOf(0, at)));
+  }
+}
+
+/** Compiles and starts a build of the library. */
+export async function start(build: Build): Promise<Memory> {
+  const base64 = build === "simd" ? (await import("./generated/simd.js")).default : (await import("./generated/plain.js")).default;
+  const module = await WebAssembly.compile(bytesOf(base64));
+  // The library asks the system for nothing but the environment, in which it finds nothing.
+  let memory: WebAssembly.Memory | undefined;
+  const empty = (count: number, size: number): number => {
+    if (memory) new Uint32Array(memory.buffer)[count >>> 2] = new Uint32Array(memory.buffer)[size >>> 2] = 0;
+    return 0;
+  };
+  const known: Record<string, (...numbers: number[]) => number | void> = {
+    environ_sizes_get: empty as (...numbers: number[]) => number,
+    environ_get: () => 0,
+    emscripten_notify_memory_growth: () => undefined,
+  };
+  const imports: WebAssembly.Imports = {};
+  for (const wanted of WebAssembly.Module.imports(module)) {
+    (imports[wanted.module] ??= {})[wanted.name] =
+      known[wanted.name] ??
+      (() => {
+        throw new Error(`carom: the library called ${wanted.name}(), which has no meaning here`);
+      });
+  }
+  const instance = await WebAssembly.instantiate(module, imports);
+  const exports = instance.exports as unknown as Exports & { _initialize?: () => void };
+  memory = exports.memory;
+  exports._initialize?.();
+  return new Memory(exports);
+}

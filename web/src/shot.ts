@@ -1,0 +1,86 @@
+// One shot that was played: its events, and where the balls are at any time.
+import type { BallState, Contact, ShotBall, ShotEvent, Table } from "./types.js";
+
+/** What a shot needs of the library. */
+export interface Reader {
+  events(shot: Shot): ShotEvent[];
+  states(shot: Shot, time: number): BallState[];
+  positions(shot: Shot, time: number, into: Float64Array): void;
+  positionsAt(shot: Shot, times: ArrayLike<number>): Float64Array;
+  orientations(shot: Shot, time: number, into: Float64Array): void;
+}
+
+/** One shot that was played. It keeps its events in JavaScript's memory and needs no release. */
+export class Shot {
+  /** "ok" where everything came to rest; "stopped_at_time", "stopped_at_event"; or how it failed. */
+  readonly status: string;
+  /** How long it lasts, s. */
+  readonly time: number;
+  readonly table: Table;
+  /** The balls at the start. */
+  readonly balls: readonly ShotBall[];
+  /** The states at the end. */
+  readonly final: readonly BallState[];
+  /** The number of events. */
+  readonly count: number;
+  /** @internal The events as the library wrote them. */
+  readonly bytes: Uint8Array;
+  readonly #reader: Reader;
+  #events: readonly ShotEvent[] | undefined;
+
+  /** @internal */
+  constructor(
+    reader: Reader,
+    table: Table,
+    balls: readonly ShotBall[],
+    status: string,
+    time: number,
+    final: readonly BallState[],
+    count: number,
+    bytes: Uint8Array,
+  ) {
+    this.#reader = reader;
+    this.table = table;
+    this.balls = balls;
+    this.status = status;
+    this.time = time;
+    this.final = final;
+    this.count = count;
+    this.bytes = bytes;
+  }
+
+  /** What happened, in order. */
+  get events(): readonly ShotEvent[] {
+    return (this.#events ??= this.#reader.events(this));
+  }
+
+  /** The first contact of the cue ball, which is the one that the cue struck or ball 0, with another ball; or undefined. */
+  get firstContact(): Contact | undefined {
+    const struck = this.events[0]?.type === "stick_ball" ? this.events[0].a : 0;
+    const event = this.events.find((event) => event.type === "ball_ball" && (event.a === struck || event.b === struck));
+    if (event === undefined) return undefined;
+    return { time: event.time, ball: event.a === struck ? event.b : event.a, event };
+  }
+
+  /** x, y, z of every ball at a time (s), m: 3 numbers for each ball. Pass an array to use its memory. */
+  positions(time: number, into = new Float64Array(3 * this.balls.length)): Float64Array {
+    this.#reader.positions(this, time, into);
+    return into;
+  }
+
+  /** x, y, z of every ball at many times (s), m: 3 numbers for each ball, time after time. Ascending times cost least. */
+  positionsAt(times: ArrayLike<number>): Float64Array {
+    return this.#reader.positionsAt(this, times);
+  }
+
+  /** The states of all balls at a time, s. */
+  states(time: number): BallState[] {
+    return this.#reader.states(this, time);
+  }
+
+  /** How each ball has turned since the start, as unit quaternions w, x, y, z: 4 numbers for each ball. */
+  orientations(time: number, into = new Float64Array(4 * this.balls.length)): Float64Array {
+    this.#reader.orientations(this, time, into);
+    return into;
+  }
+}

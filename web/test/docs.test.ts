@@ -1,0 +1,18 @@
+// The blocks of the kind `js` in README and docs: each page is a session that is run; what a line prints is in the comment behind it.
+import { readFileSync } from "node:fs";
+import { expect, test, vi } from "vitest";
+import { root } from "./support.js";
+
+test.each(["README.md", "docs/using/web.md", "web/README.md"])("JavaScript of %s", async (page) => {
+  const blocks = [...readFileSync(`${root}${page}`, "utf8").matchAll(/^```js\n(.*?)^```$/gms)].map((match) => match[1]!);
+  if (page !== "README.md") expect(blocks.length).toBeGreaterThan(0);
+  if (blocks.length === 0) return;
+  const text = blocks.join("\n");
+  const expected = [...text.matchAll(/^\s*console\.log\(.*\);\s*\/\/ (.*)$/gm)].map((match) => match[1]!);
+  const printed: string[] = [];
+  const spy = vi.spyOn(console, "log").mockImplementation((...all: unknown[]) => void printed.push(all.join(" ")));
+  const session = text.replaceAll('from "carom"', `from ${JSON.stringify(`file://${root}web/dist/index.js`)}`);
+  await import(/* @vite-ignore */ `data:text/javascript,${encodeURIComponent(`${session}// ${page}`)}`);
+  spy.mockRestore();
+  expect(printed).toEqual(expected);
+});

@@ -1,0 +1,210 @@
+// Whole shots: against the command `carom shoot`, batches, times, lines, and what is refused.
+import { readFileSync } from "node:fs";
+import { describe, expect, test } from "vitest";
+import { type BallState, type Carom, CaromError, fromLine, type Shot, toLine } from "../dist/index.js";
+import { builds, root, run, thereIsACommand } from "./support.js";
+
+const LABELS = ["stationary", "spinning", "sliding", "rolling", "pocketed", "airborne", "off"];
+const flat = (s: BallState): number[] => [LABELS.indexOf(s.label), ...s.r, ...s.v, ...s.w];
+const break9 = readFileSync(`${root}data/break-nineball.jsonl`, "utf8").trim();
+const layouts = readFileSync(`${root}data/shots-layouts.jsonl`, "utf8").trim().split("\n");
+const named = layouts.filter((line) => /"kind": "shot"/.test(line) && /"table": "(7ft|8ft|9ft|snooker|threecushion)"/.test(line));
+
+function played(carom: Carom, line: string): Shot {
+  const { table, balls, cue } = fromLine(carom, line);
+  return carom.simulate(table, balls, cue);
+}
+
+interface Recorded {
+  kind: string;
+  status: string;
+  final: { t: number; balls: Record<string, number[]> };
+  events: [number, string, string[], number[][], number[][]][];
+}
+
+function expectFinal(shot: Shot, names: string[], recorded: Recorded): void {
+  const { t: time, balls: states } = recorded.final;
+  expect(shot.time).toBe(time);
+  expect(Object.fromEntries(shot.final.map((state, k) => [names[k], flat(state)]))).toEqual(states);
+}
+
+describe.each(builds)("shots by $name", ({ carom }) => {
+  test.runIf(thereIsACommand)("the break of data/, event by event: the command's doubles", () => {
+    const recorded = run(["shoot", "-"], break9).trim().split("\n").map((line) => JSON.parse(line) as Recorded).find((line) => line.kind === "shot")!;
+    const shot = played(carom, break9);
+    expect(shot.status).toBe(recorded.status);
+    // The file has events of no type before and after the others, as pooltool's have.
+    const events = recorded.events.filter(([, type]) => type !== "none");
+    expect(shot.count).toBe(events.length);
+    shot.events.forEach((event, k) => {
+      const [time, type, , before, after] = events[k]!;
+      expect([event.time, event.type]).toEqual([time, type]);
+      expect(event.before.map(flat).slice(0, before.length)).toEqual(before.slice(0, event.before.length));
+      expect(event.after.map(flat).slice(0, after.length)).toEqual(after.slice(0, event.after.length));
+    });
+    expectFinal(shot, fromLine(carom, break9).names, recorded);
+  });
+
+  test.runIf(thereIsACommand)("lines that are written are read by the command, with the same final states", () => {
+    const table = carom.table("snooker");
+    const balls = carom.rack("snooker", table, { seed: 5 });
+    const cue = carom.cue({ speed: 6.5, phi: 88.5, a: 0.3, b: -0.2, theta: 4 }, "snooker");
+    const line = toLine({ tableName: "snooker", balls, cue });
+    const shot = carom.simulate(table, balls, cue);
+    const recorded = JSON.parse(run(["shoot", "--events", "none", "-"], line).trim().split("\n").at(-1)!) as Recorded;
+    expect(recorded.status).toBe("ok");
+    const read = fromLine(carom, line);
+    expectFinal(shot, read.names, recorded);
+    expect(read.balls).toEqual(balls);
+    expect(read.cue).toEqual(cue);
+    expect(read.table).toEqual(table);
+    expect(toLine(read)).toBe(line);
+  });
+
+  test.runIf(thereIsACommand)("a jump over a ball, with the command's doubles", () => {
+    const table = carom.table("9ft");
+    const balls = [carom.ball(0.635, 0.635), carom.ball(0.635, 0.94)];
+    const cue = carom.cue({ speed: 3, theta: 45, phi: 90, b: 0 });
+    const shot = carom.simulate(table, balls, cue);
+    expect(shot.events.map((event) => event.type)).toContain("slate");
+    expect(Math.max(...[...Array(50).keys()].map((k) => shot.positions(k / 50)[2]!))).toBeGreaterThan(0.08);
+    // It flies over the ball, and meets it on its way back from the cushion only.
+    expect(shot.firstContact!.time).toBeGreaterThan(shot.events.find((event) => event.type === "ball_linear_cushion")!.time);
+    const recorded = JSON.parse(run(["shoot", "--events", "none", "-"], toLine({ tableName: "9ft", balls, cue }))) as Recorded;
+    expectFinal(shot, ["cue", "1"], recorded);
+    const flat = carom.simulate(table, balls, cue, { space: "flat" });
+    expect(flat.firstContact?.ball).toBe(1);
+  });
+
+  test("a batch has the bits of single shots", () => {
+    const table = carom.table("9ft");
+    const balls = carom.rack("nineball", table);
+    const batch = carom.shots(table, balls, 7, { room: 300 });
+    const cues = [...Array(7).keys()].map((k) => carom.cue({ speed: 2 + k, phi: 88 + k / 2, a: 0.05 * k }));
+    cues.forEach((cue, k) => batch.setCue(k, cue));
+    expect(carom.simulateBatch(batch, { cushionModel: "han" })).toBe("ok");
+    cues.forEach((cue, k) => {
+      const single = carom.simulate(table, balls, cue, { cushionModel: "han" });
+      const one = batch.shot(k);
+      expect(one.bytes).toEqual(single.bytes);
+      expect(one.final).toEqual(single.final);
+      expect([batch.time(k), batch.events(k), batch.status[k]]).toEqual([single.time, single.count, 0]);
+      expect(batch.state(k, 3)).toEqual(single.final[3]);
+      expect(one.states(1.25)).toEqual(single.states(1.25));
+    });
+    batch.free();
+  });
+
+  test("a batch with a layout for each shot; one in error costs itself", () => {
+    const table = carom.table("9ft");
+    const layout = (x: number) => [carom.ball(0.6, 0.6), carom.ball(x, 1.5)];
+    const batch = carom.shots(table, [layout(0.6), layout(-3), layout(0.7)], 3, { room: 64 });
+    expect(carom.simulateBatch(batch)).toBe("off_table");
+    expect([...batch.status].map((code) => Math.sign(code))).toEqual([0, -1, 0]);
+    expect(batch.shot(2).final).toEqual(carom.simulate(table, layout(0.7), {}).final);
+  });
+
+  test("positions, states and turns at any time", () => {
+    const shot = played(carom, break9);
+    const other = played(carom, named[0]!);
+    expect([...shot.positions(0)]).toEqual(shot.balls.flatMap((ball) => [...ball.state.r]));
+    expect([...shot.positions(1e6)]).toEqual(shot.final.flatMap((state) => [...state.r]));
+    expect(other.positions(0.3)).toHaveLength(3 * other.balls.length);
+    const early = shot.states(shot.events[5]!.time - 1e-9);
+    expect(early[shot.events[5]!.a]!.r[0]).toBeCloseTo(shot.events[5]!.before[0]!.r[0], 6);
+    const times = [0, 0.3, 1.5];
+    expect([...shot.positionsAt(times)]).toEqual(times.flatMap((time) => [...shot.positions(time)]));
+    const turned = shot.orientations(2);
+    for (let k = 0; k < shot.balls.length; k++) expect(Math.hypot(...turned.subarray(4 * k, 4 * k + 4))).toBeCloseTo(1, 12);
+    expect([...shot.orientations(0).subarray(0, 4)]).toEqual([1, 0, 0, 0]);
+  });
+
+  test("the first contact, without the rest of the shot", () => {
+    const table = carom.table("9ft");
+    const balls = carom.rack("nineball", table);
+    const contact = carom.firstContact(table, balls, { speed: 8 })!;
+    const whole = carom.simulate(table, balls, { speed: 8 }).firstContact!;
+    expect(contact).toEqual(whole);
+    expect(contact.ball).toBe(1);
+    expect(carom.firstContact(table, balls, { speed: 0.1, phi: 180 })).toBeUndefined();
+    expect(carom.simulate(table, balls, { speed: 8 }, { stopAtContact: true }).status).toBe("stopped_at_event");
+    const stopped = carom.simulate(table, balls, { speed: 8 }, { timeMost: 1 });
+    expect([stopped.status, stopped.time]).toEqual(["stopped_at_time", 1]);
+    expect(() => stopped.positions(1.5)).toThrow("time 1.5");
+  });
+
+  test("a table of one's own: rails, jaws and pockets are kept and checked", () => {
+    const table = carom.table("9ft");
+    const mine = structuredClone(table);
+    mine.rails[0]!.restitution = 0.5;
+    carom.checkTable(mine);
+    const balls = carom.rack("nineball", mine);
+    expect(carom.simulate(mine, balls, { speed: 8 }).count).toBeGreaterThan(20);
+    mine.rails.splice(2, 1);
+    expect(() => carom.checkTable(mine)).toThrow(CaromError);
+  });
+
+  test("what is refused", () => {
+    const table = carom.table("9ft");
+    const balls = carom.rack("nineball", table);
+    const bad = structuredClone(balls) as unknown as { kind: { radius: number }; state: { r: number[] } }[];
+    bad[3]!.state.r[0] = NaN;
+    expect(() => carom.simulate(table, bad as never, {})).toThrow(/^balls\[3\]: /);
+    expect(() => carom.simulate(table, balls, { a: 0.9, b: 0.9 })).toThrow(/^cue: /);
+    expect(() => carom.simulate(table, balls, { ball: 12 })).toThrow(/^cue: /);
+    expect(() => carom.simulate(table, balls, { ball: 0.5 })).toThrow(/^cue.ball: /);
+    expect(() => carom.simulate(table, [], {})).toThrow("1 to 32");
+    expect(() => carom.simulate(table, balls, {}, { cushionModel: "wood" as never })).toThrow("cushionModel: it must be one of ");
+    expect(() => carom.simulate({ ...table, rails: Array(33).fill(table.rails[0]) }, balls, {})).toThrow("at most 32");
+    let error: unknown;
+    try {
+      carom.simulate(table, balls, { speed: 8 }, { eventsMost: 10 });
+    } catch (thrown) {
+      error = thrown;
+    }
+    expect(error).toBeInstanceOf(CaromError);
+    expect((error as CaromError).status).toBe("too_many_events");
+    expect((error as CaromError).shot!.count).toBe(10);
+    const none = carom.shots(table, balls, 1);
+    carom.simulateBatch(none);
+    expect(() => none.shot(0)).toThrow("room");
+  });
+
+  test.each([
+    ["", "line"],
+    ['{"kind": "table"}', "kind"],
+    ['{"kind": "shot"}', "table"],
+    ['{"kind": "shot", "table": "9ft"}', "balls"],
+    ['{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 1]}]}', "balls[0].state"],
+    ['{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}], "cue": {"ball": "9"}}', "cue.ball"],
+    ['{"kind": "shot", "table": "9ft", "balls": [{"id": "cue", "state": [0, 0.5, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}], "cue": {"V0": "x"}}', "cue.V0"],
+  ])("a line that is wrong: %#", (line, key) => {
+    expect(() => fromLine(carom, line)).toThrow(`${key}: `);
+  });
+});
+
+test("memory stays flat over a million calls", () => {
+  const { carom } = builds[0]!;
+  const table = carom.table("9ft");
+  const balls = carom.rack("nineball", table);
+  const impact = { a: { v: [1.5, 0, 0] as const }, b: { r: [0.05, 0.02767, 0] as const }, muBall: 0.06 };
+  const cycle = (calls: number): void => {
+    for (let k = 0; k < calls; k++) {
+      carom.collide(impact);
+      if (k % 5000 === 0) {
+        carom.simulate(table, balls, { speed: 8 }, { cushionModel: "han" });
+        carom.trace(impact, 50);
+        const batch = carom.collisions(1000);
+        carom.collideBatch(batch);
+        batch.free();
+        const shots = carom.shots(table, balls, 10, { room: 100 });
+        carom.simulateBatch(shots, { cushionModel: "mirror", timeMost: 0.2 });
+        shots.free();
+      }
+    }
+  };
+  cycle(10_000);
+  const bytes = carom.memoryBytes;
+  cycle(1_000_000);
+  expect(carom.memoryBytes).toBe(bytes);
+});
