@@ -1,6 +1,6 @@
 """Makes the outputs in the docs anew: tools/python tools/outputs.py [PAGE...], in a tree that ./run has built, on a quiet machine.
 
-Where a page has a line <!-- output of: COMMAND -->, the indented lines below it become what the command prints now. The commands take some
+Where a page has a line <!-- output of: COMMAND -->, the indented lines below it become what the command prints now, without its notes. The commands take some
 minutes together. The figures of docs/figures are made by `cmake --build build --target figures`.
 """
 
@@ -19,7 +19,7 @@ def made(match: re.Match[str]) -> str:
     run = subprocess.run(command.split(), cwd=ROOT, stdout=subprocess.PIPE, text=True)
     if run.returncode != 0:
         sys.exit(f"{command}: exit code {run.returncode}")
-    lines = (f"    {line}".rstrip() for line in run.stdout.rstrip("\n").split("\n"))
+    lines = (f"    {line}".rstrip() for line in run.stdout.rstrip("\n").split("\n") if not line.startswith("#"))
     return match[1] + "\n".join(lines) + "\n\n"
 
 
