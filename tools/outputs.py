@@ -19,7 +19,8 @@ def made(match: re.Match[str]) -> str:
     run = subprocess.run(command.split(), cwd=ROOT, stdout=subprocess.PIPE, text=True)
     if run.returncode != 0:
         sys.exit(f"{command}: exit code {run.returncode}")
-    lines = (f"    {line}".rstrip() for line in run.stdout.rstrip("\n").split("\n") if not line.startswith("#"))
+    shown = run.stdout.split("\nlargest errors:")[0].rstrip("\n")  # those are rows for `carom resolve`
+    lines = (f"    {line}".rstrip() for line in shown.split("\n") if not line.startswith("#"))
     return match[1] + "\n".join(lines) + "\n\n"
 
 
