@@ -125,7 +125,7 @@ class Test:
 class Copy:
     """A copy of the tree, with its build and the installed package."""
 
-    def __init__(self, folder: Path, labels: str, isas: str, python: bool) -> None:
+    def __init__(self, folder: Path, labels: str, isas: str, rooms: list[str]) -> None:
         self.folder, self.build = folder, folder / "build"
         self.log = folder.parent / (folder.name + ".log")
         folder.parent.mkdir(parents=True, exist_ok=True)
@@ -137,9 +137,12 @@ class Copy:
                    "-DCAROM_LAB=ON", "-DCAROM_LADDER=OFF", "-DCAROM_INSTALL=ON", f"-DCAROM_ISAS={isas}"])  # fmt: skip
         self.must(["sh", "tools/python", "--version"], environment={
             "CAROM_PYTHON_ENVIRONMENT": str(self.build / "python"), "CAROM_PYTHON_MODULES": "jinja2 numpy pytest"})  # fmt: skip
-        self.tests = self.tests_of_ctest(labels)
-        self.must(["ninja", "-C", "build", *LINKED, "carom_man", "tests/refuse.so", *{target for test in self.tests for target in test.targets}])
-        self.programs = {name: self.hash(name) for name in [*LINKED, *{target for test in self.tests for target in test.targets}]}
+        # What each kind of room needs.
+        python = [room for room in rooms if room.startswith("python")]
+        self.tests = self.tests_of_ctest(labels) if len(python) < len(rooms) else []
+        built = [*LINKED, *{target for test in self.tests for target in test.targets}]
+        self.must(["ninja", "-C", "build", *built, *(["carom_man", "tests/refuse.so"] if self.tests else [])])
+        self.programs = {name: self.hash(name) for name in built}
         self.package = self.install() if python else None
         if python:
             self.tests += self.tests_of_package()
@@ -354,6 +357,7 @@ def main() -> None:
     options.add_argument("--minutes", type=float, default=1e9, help="begin no mutant after this time")
     options.add_argument("--again", action="store_true", help="only the survivors of the table")
     options.add_argument("--tests", default="unit|agree|physics|cli", help="labels of tests, a regular expression")
+    options.add_argument("--slowest", type=float, default=1e9, help="leave out tests that need more processor time, s; --again without it")
     options.add_argument("--isas", default="avx2;avx512", help="instruction sets beside plain; tests of rows need the best of the processor")
     options.add_argument("--folder", type=Path, default=ROOT / "build" / "mutants", help="where the copy of the tree is")
     options.add_argument("-o", dest="out", type=Path, default=Path("mutants.csv"))
@@ -361,7 +365,8 @@ def main() -> None:
 
     rooms = asked.rooms.split(",")
     started = time.monotonic()
-    copy = Copy(asked.folder.resolve(), asked.tests, asked.isas, any(room.startswith("python") for room in rooms))
+    copy = Copy(asked.folder.resolve(), asked.tests, asked.isas, rooms)
+    copy.tests = [test for test in copy.tests if test.seconds <= asked.slowest]
     rows = []
     if asked.out.exists():
         with open(asked.out, newline="") as file:
