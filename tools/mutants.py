@@ -258,8 +258,8 @@ class Copy:
         """The test that fails, or an empty name."""
 
         def worth(test: Test) -> float:
-            words = set(re.split(r"\W|_|/", f"{room} {file}".lower()))
-            near = len(words & set(re.split(r"\W|_|/", test.name)) - {"c", "h", "py", "src", "python", "carom"})
+            own, others = re.findall(r"[a-z]{4,}", f"{room} {file}".lower()), re.findall(r"[a-z]{4,}", test.name)
+            near = sum(len(os.path.commonprefix([one, other])) > 3 for one in own for other in others if other != "python")
             return (kills.get((room, test.name), 0) + near + 0.1) / (test.seconds + 0.3)
 
         for test in sorted(self.tests, key=worth, reverse=True):
