@@ -169,6 +169,29 @@ START_TEST(separating_is_unchanged) {
 }
 END_TEST
 
+/* Without friction a ball slips to the end, and the impulse of friction is proportional to the first bit of it. */
+START_TEST(a_smooth_nose_has_a_derivative_by_friction) {
+  static const carom_cushion_model closed[] = {CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN};
+  for (int m = 0; m < 2; m++) {
+    carom_cushion_impact in = usual();
+    const carom_cushion_options options = {.model = closed[m]};
+    const double seeds[15] = {[12] = 1}, step = 1e-6;
+    double tangent[6];
+    carom_motion out, more;
+    in.mu_cushion = 0;
+    ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_OK);
+    ck_assert_int_eq(carom_cushion_tangent(&in, &options, 1, seeds, tangent, NULL), CAROM_OK);
+    in.mu_cushion = step;
+    ck_assert_int_eq(carom_cushion(&in, &options, &more), CAROM_OK);
+    ck_assert_double_gt(fabs(tangent[5]), 1); /* side spin */
+    for (int c = 0; c < 3; c++) {
+      ck_assert_double_eq_tol(tangent[c], (more.v[c] - out.v[c]) / step, 1e-5);
+      ck_assert_double_eq_tol(tangent[3 + c], (more.w[c] - out.w[c]) / step, 1e-4);
+    }
+  }
+}
+END_TEST
+
 static carom_motion swept(int field, double value) {
   carom_cushion_impact in = usual();
   carom_motion out;
@@ -322,6 +345,6 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("cushion_physics", energy_never_rises, mirror_symmetry, rotation_changes_nothing, closed_forms, han_law,
-                   separating_is_unchanged, sweeps_are_smooth, batches_are_single_calls, traces_end_where_calls_do,
-                   traces_tell_every_point);
+                   separating_is_unchanged, a_smooth_nose_has_a_derivative_by_friction, sweeps_are_smooth,
+                   batches_are_single_calls, traces_end_where_calls_do, traces_tell_every_point);
 }
