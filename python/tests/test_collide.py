@@ -184,3 +184,9 @@ def test_statuses_are_those_of_c():
     names = {value: name.removeprefix("CAROM_") for value, name in ffi.typeof("carom_status").elements.items()}
     assert {status.value: status.name for status in carom.Status} == names
     assert carom.Status.ERROR_MASS.text == "a mass must be positive and finite"
+    for kind, enumeration, prefix in (
+        (carom.results.Label, "carom_label", "CAROM_BALL_"),
+        (carom.results.EventType, "carom_event_type", "CAROM_EVENT_"),
+    ):
+        names = {value: name.removeprefix(prefix) for value, name in ffi.typeof(enumeration).elements.items()}
+        assert {member.value: member.name for member in kind} == names
