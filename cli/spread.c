@@ -40,10 +40,9 @@ OPTION_SET(set_player_error) {
     error->of[count++] = error->of[ERROR_RIGHT];
   if (good && count == ERRORS && !all_zero)
     return true;
-  complain(
-      "--%s is SPEED,AIM,RIGHT,ABOVE, the standard deviations of a player's error: of the speed in %%, of the aim in degrees, "
-      "of the tip in radii of the ball or in tips, such as 1%%,0.05,0.01,0.01; not '%.60s'",
-      row->name, text);
+  complain("--%s is SPEED,AIM,RIGHT,ABOVE, standard deviations in %%, degrees and radii of the ball (or tips), such as "
+           "1%%,0.05,0.01,0.01; not '%.60s'",
+           row->name, text);
   return false;
 }
 
