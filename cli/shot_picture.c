@@ -248,7 +248,7 @@ static void draw_band(const view *v, const shot_line *line, const spread *s, int
     size_t size;
     FILE *part = open_text(&parts, &size);
     for (int k = 0, from = -1; k < s->points[ball]; k++) {
-      const bool goes_on = k + 1 < s->points[ball] && !band[k + 1].begins && (band[k + 1].time > s->within) == beyond;
+      const bool goes_on = k + 1 < s->points[ball] && !band[k + 1].begins && (band[k + 1].time > s->until) == beyond;
       if (!goes_on && from >= 0)
         draw_part(v, part, band, from, k);
       from = !goes_on ? -1 : from < 0 ? k : from;
@@ -273,7 +273,7 @@ static void draw_ellipse(const view *v, const spread *s, const carom_ball_state 
           "<ellipse class=\"band\" cx=\"%.1f\" cy=\"%.1f\" rx=\"%.1f\" ry=\"%.1f\" transform=\"rotate(%.1f %.1f %.1f)\" "
           "fill=\"none\" stroke=\"#0b2a22\" stroke-width=\"1.6\"%s/>\n",
           x, y, v->scale * axes.along, v->scale * axes.across, v->turned ? 90.0 - axes.degrees : -axes.degrees, x, y,
-          s->within < INFINITY ? " stroke-dasharray=\"5 4\"" : "");
+          s->until < INFINITY ? " stroke-dasharray=\"5 4\"" : "");
 }
 
 static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball, bool final, const char *name) {

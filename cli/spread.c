@@ -135,8 +135,8 @@ static double together(const double reach[ERRORS]) {
 }
 
 /* When the first event is that one standard deviation would change: the reach of the events up to one falls with each. */
-static carom_status find_within(const shot_line *line, const carom_shot *shot, const carom_shot_options *options,
-                                const carom_tangent_seeds *seeds, const shot_tangents *t, double *within) {
+static carom_status find_until(const shot_line *line, const carom_shot *shot, const carom_shot_options *options,
+                               const carom_tangent_seeds *seeds, const shot_tangents *t, double *until) {
   int64_t good = 0, bad = shot->count;
   while (bad - good > 1) {
     double reach[ERRORS];
@@ -150,7 +150,7 @@ static carom_status find_within(const shot_line *line, const carom_shot *shot, c
       return status;
     *(together(reach) < 1.0 ? &bad : &good) = part.count;
   }
-  *within = shot->events[bad - 1].time;
+  *until = shot->events[bad - 1].time;
   return CAROM_OK;
 }
 
@@ -159,7 +159,7 @@ void spread_of(const player_error *error, const shot_line *line, const carom_sho
   static const int number_of[ERRORS] = {CUE_SPEED, CUE_PHI, CUE_A, CUE_B};
   const size_t events = (size_t)shot->count + 1, balls = (size_t)line->count, times = bands ? TIMES : 0;
   const double R = line->ball[line->cue.ball].kind.radius;
-  *to = (spread){.within = INFINITY};
+  *to = (spread){.until = INFINITY};
   /* one direction for each error, as long as its standard deviation */
   double cue[CAROM_CUE_NUMBERS][ERRORS] = {{0}};
   for (int j = 0; j < ERRORS; j++) {
@@ -196,7 +196,7 @@ void spread_of(const player_error *error, const shot_line *line, const carom_sho
   }
   to->together = together(to->reach);
   if (status == CAROM_OK && to->together < 1.0)
-    status = find_within(line, shot, options, &seeds, &t, &to->within);
+    status = find_until(line, shot, options, &seeds, &t, &to->until);
   free_tangents(&t);
   if (status != CAROM_OK)
     spread_free(to);
@@ -249,8 +249,8 @@ void spread_tell(FILE *out, const spread *s, const shot_line *line) {
   else
     fprintf(out, "       reach: %.2g standard deviations of %s, %.2g of all together, change a ball's events\n",
             s->reach[least], named[least], s->together);
-  if (s->within < INFINITY)
-    fprintf(out, "       beyond reach from %.2f s on (dashed)\n", s->within);
+  if (s->until < INFINITY)
+    fprintf(out, "       beyond reach from %.2f s on (dashed)\n", s->until);
   if (cut)
     fprintf(out, "       bands end where the standard deviation is above %g m: derivatives tell nothing there\n", spread_most);
   if ((s->flags & (CAROM_TANGENT_SIMULTANEOUS | CAROM_TANGENT_KINK)) != 0)
@@ -270,6 +270,6 @@ json_t *spread_json(const spread *s, const shot_line *line) {
   for (int k = 0; k < line->count; k++)
     json_object_set_new(balls, line->name[k], json_pack("[f, f, f]", s->final[k][0], s->final[k][1], s->final[k][2]));
   return json_pack("{s: o, s: o, s: o, s: o, s: i, s: o}", "error", error, "reach", reach, "together",
-                   isfinite(s->together) ? json_real(s->together) : json_null(), "within",
-                   isfinite(s->within) ? json_real(s->within) : json_null(), "flags", (int)s->flags, "covariance", balls);
+                   isfinite(s->together) ? json_real(s->together) : json_null(), "until",
+                   isfinite(s->until) ? json_real(s->until) : json_null(), "flags", (int)s->flags, "covariance", balls);
 }

@@ -30,7 +30,7 @@ typedef struct spread {
   double error[ERRORS]; /* standard deviations of the shot's cue: m/s, degrees, R, R */
   double reach[ERRORS]; /* the least change of each at which a ball meets something else, in standard deviations, */
   double together;      /* and of all errors together, at least */
-  double within;        /* s: when the first event is for which one standard deviation is beyond reach; or infinite */
+  double until;         /* s: when the first event is for which one standard deviation is beyond reach; or infinite */
   int64_t flags;        /* of all events: carom_tangent_flag */
   /* Of each ball: covariance of its place at the end, m^2: xx, xy, yy, 0 in a pocket; and its band, up to where its place has a
    * standard deviation above spread_most, at which it is cut. */
