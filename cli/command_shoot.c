@@ -178,8 +178,7 @@ static void draw(const shoot_job *job, drawing to[DRAWINGS], const played *shots
       continue;
     FILE *out = open_text(&to[k].text, &to[k].size);
     (k == PICTURE ? shots_draw : shots_animate)(out, shots, count, footer);
-    if (fclose(out) != 0)
-      out_of_memory();
+    close_text(out, &to[k].text);
   }
 }
 
@@ -193,7 +192,7 @@ static void tell_block(const shoot_job *job, FILE *out, drawing to[DRAWINGS], co
       fprintf(said, "%d: ", k + 1);
     shot_tell(said, shots[k].line, shots[k].shot, shots[k].spread);
   }
-  fclose(said);
+  close_text(said, &words);
   fputs(words, out);
   if (count > 0)
     draw(job, to, shots, count, words);
@@ -212,7 +211,7 @@ static void draw_alone(const shoot_job *job, drawing to[DRAWINGS], const played 
   FILE *said = open_text(&words, &size);
   if (shot->spread != NULL)
     spread_tell(said, shot->spread, shot->line);
-  fclose(said);
+  close_text(said, &words);
   draw(job, to, shot, 1, words);
   free(words);
 }
@@ -364,9 +363,11 @@ static shot_file *shots_of(shoot_flags *from, char **text) {
   size_t size;
   FILE *lines = open_text(text, &size);
   const bool good = flags_write(lines, from);
-  if (fclose(lines) != 0)
+  close_text(lines, text);
+  FILE *in = good ? fmemopen(*text, size, "r") : NULL;
+  if (good && in == NULL)
     out_of_memory();
-  return good ? shot_file_of(fmemopen(*text, size, "r"), "the shot given") : NULL;
+  return good ? shot_file_of(in, "the shot given") : NULL;
 }
 
 int command_shoot(int argc, char **argv) {

@@ -222,7 +222,7 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
   }
   if (moved)
     fputs("\"/>\n", v->out);
-  fclose(head);
+  close_text(head, &heads);
   fputs(heads, v->out);
   free(heads);
 }
@@ -253,7 +253,7 @@ static void draw_band(const view *v, const shot_line *line, const spread *s, int
         draw_part(v, part, band, from, k);
       from = !goes_on ? -1 : from < 0 ? k : from;
     }
-    fclose(part);
+    close_text(part, &parts);
     if (size > 0)
       fprintf(v->out, "<path class=\"band\" fill=\"%s\" %s d=\"%s\"/>\n", colour,
               beyond ? "fill-opacity=\"0.12\" stroke=\"#0b2a22\" stroke-width=\"0.8\" stroke-dasharray=\"5 4\""
