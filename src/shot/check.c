@@ -40,17 +40,25 @@ static carom_status check_options(const carom_shot_options *o) {
   return o->threads >= 0 || o->threads == CAROM_ALL_THREADS ? CAROM_OK : CAROM_ERROR_THREADS;
 }
 
-static bool good_rail(const carom_rail *r) {
-  const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1];
-  return isfinite(r->p[0]) && isfinite(r->p[1]) && positive(x * x + y * y) && isfinite(r->line[0]) && isfinite(r->line[1]) &&
-         isfinite(r->line[2]) && (r->side == 0 || r->side == 1) && unit_interval(r->mu_cushion) &&
-         unit_interval(r->restitution);
-}
-static bool good_circle(const double centre[2], double radius, double least) {
-  return isfinite(centre[0]) && isfinite(centre[1]) && radius >= least && radius < INFINITY;
+/* 0 where all are finite, else NaN. The parts of a table are checked for each shot that is played alone, so without a branch
+ * for each number. */
+static inline double zero_if_finite(const double *x, int n) {
+  double sum = 0.0;
+  for (int k = 0; k < n; k++)
+    sum += 0.0 * x[k];
+  return sum;
 }
 
-static bool good_jaw(const carom_jaw *j) {
+static inline bool good_rail(const carom_rail *r) {
+  const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1];
+  return zero_if_finite(r->p, 2) + zero_if_finite(r->line, 3) == 0.0 && positive(x * x + y * y) && (uint64_t)r->side <= 1 &&
+         unit_interval(r->mu_cushion) && unit_interval(r->restitution);
+}
+static inline bool good_circle(const double centre[2], double radius, double least) {
+  return zero_if_finite(centre, 2) == 0.0 && radius >= least && radius < INFINITY;
+}
+
+static inline bool good_jaw(const carom_jaw *j) {
   return good_circle(j->centre, j->radius, 0.0) && unit_interval(j->mu_cushion) && unit_interval(j->restitution);
 }
 /* Every nose is above the cloth and below the top of a ball. */
