@@ -66,6 +66,12 @@ static bool good_height(double height, double R) {
   return height > 0.0 && height < 2.0 * R;
 }
 
+/* What is wrong, and where. */
+static carom_status at(int *where, int index, carom_status status) {
+  *where = index;
+  return status;
+}
+
 static carom_status check_table(const carom_table *t, int *where) {
   *where = -1;
   if (t->rails < 0 || t->rails > CAROM_RAILS_MOST || t->jaws < 0 || t->jaws > CAROM_JAWS_MOST || t->pockets < 0 ||
@@ -73,16 +79,15 @@ static carom_status check_table(const carom_table *t, int *where) {
     return CAROM_ERROR_TABLE;
   if (!zero_or_positive(t->ball_radius) || !zero_or_positive(t->rail_width) || !zero_or_positive(t->pocket_back))
     return CAROM_ERROR_TABLE;
-  for (*where = 0; *where < t->rails; ++*where)
-    if (!good_rail(&t->rail[*where]))
-      return CAROM_ERROR_TABLE;
-  for (*where = 0; *where < t->jaws; ++*where)
-    if (!good_jaw(&t->jaw[*where]))
-      return CAROM_ERROR_TABLE;
-  for (*where = 0; *where < t->pockets; ++*where)
-    if (!good_circle(t->pocket[*where].centre, t->pocket[*where].radius, 1e-9) || !isfinite(t->pocket[*where].depth))
-      return CAROM_ERROR_TABLE;
-  *where = -1;
+  for (int k = 0; k < t->rails; k++)
+    if (!good_rail(&t->rail[k]))
+      return at(where, k, CAROM_ERROR_TABLE);
+  for (int k = 0; k < t->jaws; k++)
+    if (!good_jaw(&t->jaw[k]))
+      return at(where, k, CAROM_ERROR_TABLE);
+  for (int k = 0; k < t->pockets; k++)
+    if (!good_circle(t->pocket[k].centre, t->pocket[k].radius, 1e-9) || !isfinite(t->pocket[k].depth))
+      return at(where, k, CAROM_ERROR_TABLE);
   return CAROM_OK;
 }
 
@@ -90,16 +95,15 @@ static carom_status check_table(const carom_table *t, int *where) {
  * that has been done. */
 static carom_status prepare(const carom_table *t, double least, double greatest, double reference, carom_features *features,
                             int *where) {
-  *where = 0;
   if (features->radius == greatest && features->least == least && features->reference == reference)
     return CAROM_OK;
   const double lowest = carom_lesser(least, reference);
-  for (*where = 0; *where < t->rails; ++*where)
-    if (!good_height(t->rail[*where].height, lowest))
-      return CAROM_ERROR_NOSE_HEIGHT;
-  for (*where = 0; *where < t->jaws; ++*where)
-    if (!good_height(t->jaw[*where].height, lowest))
-      return CAROM_ERROR_NOSE_HEIGHT;
+  for (int k = 0; k < t->rails; k++)
+    if (!good_height(t->rail[k].height, lowest))
+      return at(where, k, CAROM_ERROR_NOSE_HEIGHT);
+  for (int k = 0; k < t->jaws; k++)
+    if (!good_height(t->jaw[k].height, lowest))
+      return at(where, k, CAROM_ERROR_NOSE_HEIGHT);
   carom_features_of(t, greatest, reference, features);
   features->least = least;
   return CAROM_OK;
