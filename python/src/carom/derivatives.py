@@ -8,14 +8,14 @@ from __future__ import annotations
 import enum
 import re
 from collections.abc import Callable, Collection, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, addresses, as_array, in_chunks, pointer
+from carom._rows import Array, addresses, as_array, in_chunks, pointer, workers
 from carom._shot_options import shot_options
 from carom.layouts import Table
 from carom.results import Shot, Shots
@@ -25,11 +25,11 @@ from carom.status import CaromError, Status
 MOST: int = lib.CAROM_DIRECTIONS_MOST
 """Directions of one call of C; more are given in parts."""
 STATE: int = lib.CAROM_STATE_NUMBERS
-_AT_ONCE = 1024  # shots whose events are kept at a time
-_CUE = ("speed", "phi", "theta", "a", "b", "mass", "end_mass")
-_KIND = tuple(dtypes.ball_kind.names or ())
+_AT_ONCE = 128  # shots of a thread whose events are kept at a time: more take longer for the memory than for the shots
+CUE = ("speed", "phi", "theta", "a", "b", "mass", "end_mass")
+KIND = tuple(dtypes.ball_kind.names or ())
 # Places of r, v and w in a state: x, y, v_x, v_y, w_x, w_y, w_z; or with z and v_z.
-_STATE = {"r": (0, 2), "v": (2, 2), "w": (4, 3)} if STATE == 7 else {"r": (0, 3), "v": (3, 3), "w": (6, 3)}
+FIELDS = {"r": (0, 2), "v": (2, 2), "w": (4, 3)} if STATE == 7 else {"r": (0, 3), "v": (3, 3), "w": (6, 3)}
 _TABLE = ("nose_height", "mu_cushion", "restitution")
 _UNITS = {"speed": "m/s", "phi": "deg", "theta": "deg", "a": "R", "b": "R", "mass": "kg", "end_mass": "kg", "radius": "m", "gravity": "m/s^2"}
 _UNITS |= {"drag": "1/m", "law_c": "s/m", "nose_height": "m", "r": "m", "v": "m/s", "w": "rad/s"}
@@ -99,46 +99,66 @@ class Tangents:
 
 
 def _by_name(states: dtypes.Doubles) -> dict[str, dtypes.Doubles]:
-    return {name: states[..., first : first + many, :] for name, (first, many) in _STATE.items()}
+    return {name: states[..., first : first + many, :] for name, (first, many) in FIELDS.items()}
 
 
-def _seeds(wrt: Sequence[str], balls: int) -> tuple[tuple[str, ...], tuple[str, ...], dict[str, dtypes.Doubles]]:
-    """The directions of names: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both places, or balls[0].r[1]."""
-    found: list[tuple[str, str, tuple[str, list[tuple[int, ...]]]]] = []
+class Direction(NamedTuple):
+    """One direction: its name and unit, and which elements of which array of seeds change by 1."""
+
+    name: str
+    unit: str
+    array: str
+    places: tuple[tuple[int, ...], ...]
+
+
+def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[list[Direction]]:
+    """Of each name: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both places, or balls[0].r[1]."""
+    found: list[list[Direction]] = []
     for name in wrt:
         match = re.fullmatch(r"(cue|table|kind|balls\[(\d+)\])\.(?:(kind)\.)?(\w+)(?:\[(\d)\])?", name)
         group, ball, inner, field, index = match.groups() if match else ("", None, None, "", None)
         unit = _UNITS.get(field, "1")
-        if group == "cue" and field in _CUE and index is None and not inner:
-            found.append((name, unit, ("cue", [(_CUE.index(field),)])))
+        if group == "cue" and field in CUE and index is None and not inner:
+            found.append([Direction(name, unit, "cue", ((CUE.index(field),),))])
         elif group == "table" and field in _TABLE and index is None and not inner:
-            found.append((name, unit, ("table", [(_TABLE.index(field),)])))
-        elif group == "kind" and field in _KIND and index is None and not inner:
-            found.append((name, unit, ("kind", [(i, _KIND.index(field)) for i in range(balls)])))
-        elif ball is not None and int(ball) < balls and inner and field in _KIND and field != "radius" and index is None:
-            found.append((name, unit, ("kind", [(int(ball), _KIND.index(field))])))
-        elif ball is not None and int(ball) < balls and not inner and field in _STATE and (index is None or int(index) < _STATE[field][1]):
-            first, many = _STATE[field]
-            for k in range(many) if index is None else [int(index)]:
-                found.append((f"balls[{ball}].{field}[{k}]", unit, ("state", [(int(ball), first + k)])))
+            found.append([Direction(name, unit, "table", ((_TABLE.index(field),),))])
+        elif group == "kind" and field in KIND and index is None and not inner:
+            found.append([Direction(name, unit, "kind", tuple((i, KIND.index(field)) for i in range(balls)))])
+        elif ball is not None and int(ball) < balls and inner and field in KIND and field != "radius" and index is None:
+            found.append([Direction(name, unit, "kind", ((int(ball), KIND.index(field)),))])
+        elif ball is not None and int(ball) < balls and not inner and field in FIELDS and (index is None or int(index) < FIELDS[field][1]):
+            first, many = FIELDS[field]
+            ks = range(many) if index is None else [int(index)]
+            found.append([Direction(f"balls[{ball}].{field}[{k}]", unit, "state", ((int(ball), first + k),)) for k in ks])
         else:
             raise ValueError(
-                f"wrt: {name!r} is no number of a shot; such are cue.phi, kind.mu_slide (of all balls), balls[1].kind.mass, "
+                f"{argument}: {name!r} is no number of a shot; such are cue.phi, kind.mu_slide (of all balls), balls[1].kind.mass, "
                 f"balls[0].r[1] and table.nose_height, with 0 to {balls - 1} for balls"
             )
     if not found:
-        raise ValueError("wrt: name at least one number, such as 'cue.phi'")
-    m = len(found)
+        raise ValueError(f"{argument}: name at least one number, such as 'cue.phi'")
+    return found
+
+
+def seeds_of(given: Sequence[Direction], balls: int) -> dict[str, dtypes.Doubles]:
+    """The arrays of carom_tangent_seeds."""
+    m = len(given)
     seeds = {
-        "cue": np.zeros((len(_CUE), m)),
-        "kind": np.zeros((balls, len(_KIND), m)),
+        "cue": np.zeros((len(CUE), m)),
+        "kind": np.zeros((balls, len(KIND), m)),
         "state": np.zeros((balls, STATE, m)),
         "table": np.zeros((len(_TABLE), m)),
     }
-    for j, (_, _, (array, places)) in enumerate(found):
-        for place in places:
-            seeds[array][(*place, j)] = 1.0
-    return tuple(f[0] for f in found), tuple(f[1] for f in found), seeds
+    for j, direction in enumerate(given):
+        for place in direction.places:
+            seeds[direction.array][(*place, j)] = 1.0
+    return seeds
+
+
+def _seeds(wrt: Sequence[str], balls: int) -> tuple[tuple[str, ...], tuple[str, ...], dict[str, dtypes.Doubles]]:
+    """Names, units and seeds of all directions of some names."""
+    given = [direction for several in directions(wrt, balls) for direction in several]
+    return tuple(d.name for d in given), tuple(d.unit for d in given), seeds_of(given, balls)
 
 
 def _differentiate(
@@ -288,8 +308,9 @@ def play(
     strikes = cues if cues is None else cues.reshape(()) if one_cue else np.broadcast_to(cues, shape).reshape(n)
     parts: list[tuple[dict[str, Array], Array, Array]] = []
     shots: Shots | None = None
-    for begin in range(0, max(n, 1), _AT_ONCE):
-        part = slice(begin, min(begin + _AT_ONCE, n))
+    at_once = _AT_ONCE * workers(threads)
+    for begin in range(0, max(n, 1), at_once):
+        part = slice(begin, min(begin + at_once, n))
         many = part.stop - part.start
         struck = strikes if strikes is None or one_cue else strikes[part]
         again = shots if shots is not None and shots.shape == (many,) else None
@@ -346,7 +367,7 @@ def jacobian(
         (..., balls, 2, m) for "final.r"; nan for shots in error. Each shot has the bits of `tangents`.
     """
     group, _, field = of.partition(".")
-    if (group not in ("final", "at") or field not in _STATE) and of not in ("time", "reach"):
+    if (group not in ("final", "at") or field not in FIELDS) and of not in ("time", "reach"):
         raise ValueError(f"of: must be final.r, final.v, final.w, at.r, at.v, at.w, time or reach, not {of!r}")
     layouts = as_array(layouts, "layouts")
     if layouts.ndim == 0:
