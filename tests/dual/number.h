@@ -1,7 +1,7 @@
-/* The sources of whole shots as C++ in which `double` is a dual number, x + d eps with eps^2 = 0: with one direction in the d of
- * its input, a shot has the derivatives of all that it computes, by the rules of differentiation alone. The compiler includes
- * this file before each source (CMakeLists.txt of this folder). The values are those of the C library to the last bit, since
- * the operations on x are the same.
+/* The sources of whole shots as C++ in which `double` is a dual number, x + d eps with eps^2 = 0: with one direction in the d
+ * of its input, a shot has the derivatives of all that it computes, by the rules of differentiation alone. The compiler
+ * includes this file before each source (CMakeLists.txt of this folder). The values are those of the C library to the last bit,
+ * since the operations on x are the same.
  *
  * What a comparison decides, rounding and conversion to other types have no derivative. */
 #ifndef CAROM_TESTS_DUAL_NUMBER_H
@@ -32,31 +32,67 @@ typedef double real;
 struct dual {
   real x, d;
   dual() = default;
-  constexpr dual(real value) : x(value), d(0) {}
-  constexpr dual(real value, real change) : x(value), d(change) {}
-  explicit operator float() const { return (float)x; }
-  explicit operator int() const { return (int)x; }
-  explicit operator int64_t() const { return (int64_t)x; }
+  constexpr dual(real value) : x(value), d(0) {
+  }
+  constexpr dual(real value, real change) : x(value), d(change) {
+  }
+  explicit operator float() const {
+    return (float)x;
+  }
+  explicit operator int() const {
+    return (int)x;
+  }
+  explicit operator int64_t() const {
+    return (int64_t)x;
+  }
 };
 
-static inline dual operator+(dual a, dual b) { return {a.x + b.x, a.d + b.d}; }
-static inline dual operator-(dual a, dual b) { return {a.x - b.x, a.d - b.d}; }
-static inline dual operator*(dual a, dual b) { return {a.x * b.x, a.d * b.x + a.x * b.d}; }
+static inline dual operator+(dual a, dual b) {
+  return {a.x + b.x, a.d + b.d};
+}
+static inline dual operator-(dual a, dual b) {
+  return {a.x - b.x, a.d - b.d};
+}
+static inline dual operator*(dual a, dual b) {
+  return {a.x * b.x, a.d * b.x + a.x * b.d};
+}
 static inline dual operator/(dual a, dual b) {
   const real quotient = a.x / b.x;
   return {quotient, (a.d - quotient * b.d) / b.x};
 }
-static inline dual operator-(dual a) { return {-a.x, -a.d}; }
-static inline dual &operator+=(dual &a, dual b) { return a = a + b; }
-static inline dual &operator-=(dual &a, dual b) { return a = a - b; }
-static inline dual &operator*=(dual &a, dual b) { return a = a * b; }
-static inline dual &operator/=(dual &a, dual b) { return a = a / b; }
-static inline bool operator<(dual a, dual b) { return a.x < b.x; }
-static inline bool operator>(dual a, dual b) { return a.x > b.x; }
-static inline bool operator<=(dual a, dual b) { return a.x <= b.x; }
-static inline bool operator>=(dual a, dual b) { return a.x >= b.x; }
-static inline bool operator==(dual a, dual b) { return a.x == b.x; }
-static inline bool operator!=(dual a, dual b) { return a.x != b.x; }
+static inline dual operator-(dual a) {
+  return {-a.x, -a.d};
+}
+static inline dual &operator+=(dual &a, dual b) {
+  return a = a + b;
+}
+static inline dual &operator-=(dual &a, dual b) {
+  return a = a - b;
+}
+static inline dual &operator*=(dual &a, dual b) {
+  return a = a * b;
+}
+static inline dual &operator/=(dual &a, dual b) {
+  return a = a / b;
+}
+static inline bool operator<(dual a, dual b) {
+  return a.x < b.x;
+}
+static inline bool operator>(dual a, dual b) {
+  return a.x > b.x;
+}
+static inline bool operator<=(dual a, dual b) {
+  return a.x <= b.x;
+}
+static inline bool operator>=(dual a, dual b) {
+  return a.x >= b.x;
+}
+static inline bool operator==(dual a, dual b) {
+  return a.x == b.x;
+}
+static inline bool operator!=(dual a, dual b) {
+  return a.x != b.x;
+}
 
 /* The functions of the C library that the sources call. The root has no derivative at 0, where it is of a length that nothing
  * divides by. */
@@ -64,15 +100,33 @@ static inline dual sqrt(dual a) {
   const real root = sqrt(a.x);
   return {root, a.x == 0 ? 0 : a.d / (2 * root)};
 }
-static inline dual fabs(dual a) { return signbit(a.x) ? -a : a; }
-static inline dual fmin(dual a, dual b) { return a.x < b.x || isnan(b.x) ? a : b; }
-static inline dual fmax(dual a, dual b) { return a.x > b.x || isnan(b.x) ? a : b; }
-static inline dual copysign(dual a, dual b) { return signbit(a.x) == signbit(b.x) ? a : -a; }
-static inline dual ldexp(dual a, int n) { return {ldexp(a.x, n), ldexp(a.d, n)}; }
-static inline dual floor(dual a) { return floor(a.x); }
-static inline dual ceil(dual a) { return ceil(a.x); }
-static inline bool isfinite(dual a) { return isfinite(a.x); }
-static inline bool isnan(dual a) { return isnan(a.x); }
+static inline dual fabs(dual a) {
+  return signbit(a.x) ? -a : a;
+}
+static inline dual fmin(dual a, dual b) {
+  return a.x < b.x || isnan(b.x) ? a : b;
+}
+static inline dual fmax(dual a, dual b) {
+  return a.x > b.x || isnan(b.x) ? a : b;
+}
+static inline dual copysign(dual a, dual b) {
+  return signbit(a.x) == signbit(b.x) ? a : -a;
+}
+static inline dual ldexp(dual a, int n) {
+  return {ldexp(a.x, n), ldexp(a.d, n)};
+}
+static inline dual floor(dual a) {
+  return floor(a.x);
+}
+static inline dual ceil(dual a) {
+  return ceil(a.x);
+}
+static inline bool isfinite(dual a) {
+  return isfinite(a.x);
+}
+static inline bool isnan(dual a) {
+  return isnan(a.x);
+}
 
 #define double dual
 
