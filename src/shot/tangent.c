@@ -209,6 +209,24 @@ static void lose_roll(const carom_tangent_ball *ball, double v_x, const double *
   out[OF_W_Y] = all ? 0.0 : roll - part * v_x;
 }
 
+/* Whether the exact model refuses an impact, so that the shot has resolved it in steps: carom_model_cushion(). Its derivative
+ * may be known all the same, but is that of another motion. */
+static bool was_in_steps(const carom_ball_state *before, const carom_ball_kind *kind, double height, const double normal[2],
+                         const double in[CAROM_NOSE_INS], int plain) {
+  const carom_cushion_impact impact = {.v = {before->v[0], before->v[1], 0.0},
+                                       .w = {before->w[0], before->w[1], before->w[2]},
+                                       .normal = {normal[0], normal[1]},
+                                       .height = height,
+                                       .radius = kind->radius,
+                                       .mass = kind->mass,
+                                       .mu_cloth = in[NOSE_MU_S],
+                                       .mu_cushion = in[NOSE_MU_W],
+                                       .restitution = in[NOSE_E]};
+  const carom_cushion_options options = {.plain = plain};
+  carom_motion unused;
+  return carom_cushion(&impact, &options, &unused) == CAROM_ERROR_UNRESOLVED;
+}
+
 static carom_status cushion(work *w, const carom_event *event) {
   const int m = w->m;
   const carom_tangent_ball *ball = &w->ball[event->a];
@@ -271,11 +289,9 @@ static carom_status cushion(work *w, const carom_event *event) {
     carom_cushion_options options = {.steps = w->opt->steps, .plain = w->opt->plain, .omega_ratio = in[NOSE_RATIO]};
     const carom_shot_cushion asked = w->opt->cushion_model;
     options.model = asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1) : CAROM_CUSHION_HAN;
-    status = carom_nose_tangent(in, &options, m, din, dout, out, &w->note);
-    if (status == CAROM_ERROR_UNRESOLVED && options.model == CAROM_CUSHION_MATHAVAN) {
+    if (options.model == CAROM_CUSHION_MATHAVAN && was_in_steps(before, kind, height, (double[]){y_x, y_y}, in, w->opt->plain))
       options.model = CAROM_CUSHION_EULER;
-      status = carom_nose_tangent(in, &options, m, din, dout, out, &w->note);
-    }
+    status = carom_nose_tangent(in, &options, m, din, dout, out, &w->note);
     lose_roll(ball, in[OF_V_X], din[OF_V_X], m, out, dout);
   } else {
     out[OF_V_X] = in[OF_V_X];
