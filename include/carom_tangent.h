@@ -28,7 +28,7 @@ extern "C" {
 
 /* Directions of a call; and how many numbers a cue (speed, phi, theta, a, b, mass, end_mass), a state (x, y, v_x, v_y, w_x,
  * w_y, w_z), the cushions of a table (height of the noses, mu_cushion, restitution) and a carom_ball_kind (its fields) have. */
-enum { CAROM_DIRECTIONS_MOST = 64, CAROM_CUE_NUMBERS = 7, CAROM_STATE_NUMBERS = 7, CAROM_NOSE_NUMBERS = 3 };
+enum { CAROM_DIRECTIONS_MOST = 64, CAROM_CUE_NUMBERS = 7, CAROM_STATE_NUMBERS = 9, CAROM_NOSE_NUMBERS = 3 };
 #define CAROM_KIND_NUMBERS ((int)(sizeof(carom_ball_kind) / sizeof(double)))
 
 /* What a tangent at an event has to be read with. A sum of these, 0 for none. */

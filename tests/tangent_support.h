@@ -46,8 +46,9 @@ static inline void change(layout *l, const direction *d, double by) {
     if (d->of == OF_STATE) {
       ((double *)&l->ball[i].state)[number_at[d->row]] += by;
     } else {
+      const bool lies = l->ball[i].state.r[2] == l->ball[i].kind.radius;
       ((double *)&l->ball[i].kind)[d->row] += by;
-      l->ball[i].state.r[2] += d->row == 1 ? by : 0.0; /* the radius */
+      l->ball[i].state.r[2] += lies && d->row == 1 ? by : 0.0; /* the radius */
     }
 }
 
