@@ -50,9 +50,8 @@ static void go_on(work *w, int i, int side, const carom_event *event) {
 static void fix_time(work *w, int i, int side) {
   carom_tangent_ball *ball = &w->ball[i];
   double rate[CAROM_STATE_NUMBERS];
-  carom_row unused[CAROM_STATE_NUMBERS];
   put(ball->d, w->d[side], w->m);
-  carom_tangent_flow(ball, ball->path.start, 0, rate, unused);
+  carom_tangent_flow(ball, ball->path.start, 0, rate, w->d[side]); /* no direction: the rate alone */
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
     for (int j = 0; j < w->m; j++)
       ball->d[k * w->m + j] -= rate[k] * w->d_time[j];

@@ -250,47 +250,90 @@ static void d_arm(const arm *a, const carom_tangent_nose *nose, carom_row d[CARO
   to[1] = d[S_Z][j] - nose->d_height[j];
 }
 
-/* The flat model's part near the cloth, resolve.c: v and w become (1 - chi) of the flat result and chi of the free one. free_v
- * and free_w: that result; before: tangents before. Leaves the velocity in v. */
-static carom_status blend(carom_tangent_work *w, const carom_event *event, const double N[3], carom_row dN[3], double height,
-                          double *in, carom_row *din, carom_row before[CAROM_STATE_NUMBERS], double v[3], double spin[3]) {
+/* How the unit vector into a nose lies and turns. */
+typedef struct into_nose {
+  double N[3];
+  carom_row dN[3];
+} into_nose;
+
+/* The motion after an impact, with tangents: of v_x, v_y, w, v_z, the first five as those of a state. */
+typedef struct flat_motion {
+  double v[3], w[3];
+  carom_row d[6];
+} flat_motion;
+
+/* The result of the flat model, which has a part in that near the cloth: resolve.c. w->d: before. */
+__attribute__((noinline)) static carom_status flat_part(carom_tangent_work *w, const carom_event *event, const into_nose *into,
+                                                        double height, double *in, carom_row *din, flat_motion *flat) {
   const carom_tangent_ball *ball = &w->ball[event->a];
   const carom_ball_state *s = &event->before[0];
   const int m = w->m;
-  const double R = ball->kind->radius, near = 1e-3, chi = (s->r[2] - R) / near; /* m, as in models.c */
-  const double size = sqrt(N[0] * N[0] + N[1] * N[1]), normal[2] = {N[0] / size, N[1] / size}, c = normal[1], x = -normal[0];
-  carom_row turn, dout[CAROM_BALL_INS], d[5];
-  for (int j = 0; j < m; j++)
-    turn[j] = -(c * dN[0][j] + x * dN[1][j]) / size;
-  for (int k = 0; k < 5; k++)
-    memcpy(d[k], before[S_V_X + k], sizeof d[k]);
+  const double *N = into->N, R = ball->kind->radius, size = sqrt(N[0] * N[0] + N[1] * N[1]);
+  const double normal[2] = {N[0] / size, N[1] / size}, c = normal[1], x = -normal[0];
   const double *dR = carom_seeds_row(ball->d_kind, CAROM_KIND_ROW(radius), m);
-  carom_tangent_to_frame(s->v, s->w, R, c, x, false, m, turn, dR, d, in, din);
+  carom_row turn, dout[CAROM_BALL_INS];
+  for (int j = 0; j < m; j++) {
+    turn[j] = -(c * into->dN[0][j] + x * into->dN[1][j]) / size;
+    flat->d[5][j] = s->v[2] < 0.0 ? w->d[0][S_V_Z][j] : 0.0;
+  }
+  carom_tangent_to_frame(s->v, s->w, R, c, x, false, m, turn, dR, w->d[0] + S_V_X, in, din);
   double out[CAROM_BALL_INS];
   const carom_status status = carom_tangent_flat_nose(w, event, normal, height, in, din, out, dout);
   /* back in the axes of the table */
-  const double flat_v[3] = {c * out[OF_V_X] - x * out[OF_V_Y], x * out[OF_V_X] + c * out[OF_V_Y], fmin(s->v[2], 0.0)};
-  const double flat_w[3] = {(c * out[OF_W_X] - x * out[OF_W_Y]) / R, (x * out[OF_W_X] + c * out[OF_W_Y]) / R, out[OF_W_Z] / R};
-  carom_tangent_from_frame(flat_v, flat_w, R, c, x, m, turn, dR, dout, d);
-  for (int j = 0; j < m; j++) {
-    const double d_chi = (before[S_Z][j] - carom_seed(dR, j)) / near;
-    const double dv[3] = {d[0][j], d[1][j], s->v[2] < 0.0 ? before[S_V_Z][j] : 0.0};
-    for (int k = 0; k < 3; k++) {
-      double *of_v = &w->d[0][V[k]][j], *of_w = &w->d[0][W[k]][j];
-      *of_v = (1.0 - chi) * dv[k] + chi * *of_v + d_chi * (v[k] - flat_v[k]);
-      *of_w = (1.0 - chi) * d[2 + k][j] + chi * *of_w + d_chi * (spin[k] - flat_w[k]);
-    }
-  }
+  const double v[3] = {c * out[OF_V_X] - x * out[OF_V_Y], x * out[OF_V_X] + c * out[OF_V_Y], fmin(s->v[2], 0.0)};
+  const double turns[3] = {(c * out[OF_W_X] - x * out[OF_W_Y]) / R, (x * out[OF_W_X] + c * out[OF_W_Y]) / R, out[OF_W_Z] / R};
+  memcpy(flat->v, v, sizeof v);
+  memcpy(flat->w, turns, sizeof turns);
+  carom_tangent_from_frame(v, turns, R, c, x, m, turn, dR, dout, flat->d);
+  return status;
+}
+
+/* The result without the cloth, in v, spin and w->d. */
+__attribute__((noinline)) static carom_status free_part(carom_tangent_work *w, const carom_event *event, const into_nose *into,
+                                                        const double *in, carom_row *din, double v[3], double spin[3]) {
+  const carom_shot_cushion asked = w->opt->cushion_model;
+  const carom_cushion_model model = asked == CAROM_SHOT_CUSHION_STRONGE  ? CAROM_CUSHION_STRONGE
+                                    : asked == CAROM_SHOT_CUSHION_MIRROR ? CAROM_CUSHION_MIRROR
+                                                                         : CAROM_CUSHION_HAN;
+  const carom_tangent_ball *ball = &w->ball[event->a];
+  touch t = {.mu = in[NOSE_MU_W], .e = in[NOSE_E], .ratio = in[NOSE_RATIO]};
+  memcpy(t.N, into->N, sizeof t.N);
+  memcpy(t.dN, into->dN, sizeof t.dN);
+  memcpy(t.d_mu, din[NOSE_MU_W], sizeof t.d_mu);
+  memcpy(t.d_e, din[NOSE_E], sizeof t.d_e);
+  memcpy(t.d_ratio, din[NOSE_RATIO], sizeof t.d_ratio);
+  touch_alone(w, ball, &event->before[0], &t);
+  const carom_status status = free_impulse(&t, model, w->m, &w->note);
+  take(w, ball, 0, &t);
+  double turn[3];
+  cross(t.N, t.f, turn);
   for (int k = 0; k < 3; k++) {
-    v[k] = (1.0 - chi) * flat_v[k] + chi * v[k];
-    spin[k] = (1.0 - chi) * flat_w[k] + chi * spin[k];
+    v[k] += t.f[k] - t.P * t.N[k];
+    spin[k] += 2.5 / ball->kind->radius * turn[k];
   }
   return status;
 }
 
+/* (1 - chi) of the flat result and chi of the free one, which is in v, spin and w->d. */
+static void blend(carom_tangent_work *w, const carom_tangent_ball *ball, double height, const flat_motion *flat, double v[3],
+                  double spin[3]) {
+  static const int at[3] = {0, 1, 5};
+  const double near = 1e-3, chi = (height - ball->kind->radius) / near; /* m, as in models.c */
+  for (int k = 0; k < 3; k++) {
+    carom_row *of_v = &w->d[0][V[k]], *of_w = &w->d[0][W[k]];
+    for (int j = 0; j < w->m; j++) {
+      const double d_chi = (w->d[0][S_Z][j] - carom_d_kind(ball, CAROM_KIND_ROW(radius), w->m, j)) / near;
+      (*of_v)[j] = (1.0 - chi) * flat->d[at[k]][j] + chi * (*of_v)[j] + d_chi * (v[k] - flat->v[k]);
+      (*of_w)[j] = (1.0 - chi) * flat->d[2 + k][j] + chi * (*of_w)[j] + d_chi * (spin[k] - flat->w[k]);
+    }
+    v[k] = (1.0 - chi) * flat->v[k] + chi * v[k];
+    spin[k] = (1.0 - chi) * flat->w[k] + chi * spin[k];
+  }
+}
+
 /* A ball with v and spin, w->d their tangents, that a nose along N leaves by the rule of slow contacts. */
-static void part_from_nose(carom_tangent_work *w, const carom_tangent_ball *ball, const touch *t, double slow,
-                           const double v[3], const double spin[3]) {
+__attribute__((noinline)) static void part_from_nose(carom_tangent_work *w, const carom_tangent_ball *ball, const into_nose *t,
+                                                     double slow, const double v[3], const double spin[3]) {
   const double R = ball->kind->radius, closing = dot(v, t->N);
   double q[CAROM_BALL_INS] = {[OF_V_Y] = closing, [OF_W_X] = R * spin[0], [OF_W_Y] = R * spin[1], [OF_W_Z] = R * spin[2]};
   static const int turns[3] = {OF_W_X, OF_W_Y, OF_W_Z};
@@ -316,70 +359,60 @@ static void part_from_nose(carom_tangent_work *w, const carom_tangent_ball *ball
   }
 }
 
-carom_status carom_tangent_nose_in_flight(carom_tangent_work *w, const carom_event *event) {
-  const int m = w->m;
+/* When a ball in flight touches a nose, |(across, up)| = R, and how N turns. Returns what closes. */
+static double reach_nose(carom_tangent_work *w, const carom_event *event, const carom_tangent_nose *nose, into_nose *into) {
   const carom_tangent_ball *ball = &w->ball[event->a];
   const carom_ball_state *s = &event->before[0];
-  const double R = ball->kind->radius;
-  carom_tangent_nose nose;
-  double in[CAROM_NOSE_INS];
-  carom_row din[CAROM_NOSE_INS];
-  carom_tangent_nose_of(w, event, &nose, in, din);
-  const arm a = arm_of(w, event, &nose);
+  const arm a = arm_of(w, event, nose);
   const double size = sqrt(a.across * a.across + a.up * a.up), part = a.across / size, rise = a.up / size;
-  touch t = {.N = {-part * a.out[0], -part * a.out[1], -rise}, .mu = in[NOSE_MU_W], .e = in[NOSE_E], .ratio = in[NOSE_RATIO]};
-  const double closing = dot(s->v, t.N);
-  if (closing < GRAZING * sqrt(dot(s->v, s->v)))
-    w->note.flags |= CAROM_TANGENT_GRAZING;
-  /* when they touch: |(across, up)| = R */
+  const double N[3] = {-part * a.out[0], -part * a.out[1], -rise}, closing = dot(s->v, N);
   double d[2];
-  for (int j = 0; j < m; j++) {
-    d_arm(&a, &nose, w->d[0], j, d);
-    w->d_time[j] = (part * d[0] + rise * d[1] - carom_d_kind(ball, CAROM_KIND_ROW(radius), m, j)) / closing;
+  for (int j = 0; j < w->m; j++) {
+    d_arm(&a, nose, w->d[0], j, d);
+    w->d_time[j] = (part * d[0] + rise * d[1] - carom_d_kind(ball, CAROM_KIND_ROW(radius), w->m, j)) / closing;
   }
   carom_tangent_total(w, 0);
-  /* how N turns */
-  for (int j = 0; j < m; j++) {
-    d_arm(&a, &nose, w->d[0], j, d);
+  memcpy(into->N, N, sizeof N);
+  for (int j = 0; j < w->m; j++) {
+    d_arm(&a, nose, w->d[0], j, d);
     const double longer = part * d[0] + rise * d[1], d_part = (d[0] - part * longer) / size,
                  d_rise = (d[1] - rise * longer) / size;
     const double dx = w->d[0][S_X][j], dy = w->d[0][S_Y][j], dq = a.out[0] * dx + a.out[1] * dy;
-    t.dN[0][j] = -d_part * a.out[0] - part * (dx - a.out[0] * dq) / a.q;
-    t.dN[1][j] = -d_part * a.out[1] - part * (dy - a.out[1] * dq) / a.q;
-    t.dN[2][j] = -d_rise;
-    t.d_mu[j] = din[NOSE_MU_W][j];
-    t.d_e[j] = din[NOSE_E][j];
-    t.d_ratio[j] = din[NOSE_RATIO][j];
+    into->dN[0][j] = -d_part * a.out[0] - part * (dx - a.out[0] * dq) / a.q;
+    into->dN[1][j] = -d_part * a.out[1] - part * (dy - a.out[1] * dq) / a.q;
+    into->dN[2][j] = -d_rise;
   }
-  /* the contact, as carom_resolve_cushion() and carom_model_nose() decide it */
-  const double slow = carom_slow_speed(w->slow_instants);
-  double v[3], spin[3];
+  return closing;
+}
+
+/* As carom_resolve_cushion() and carom_model_nose() decide it. */
+carom_status carom_tangent_nose_in_flight(carom_tangent_work *w, const carom_event *event) {
+  const carom_tangent_ball *ball = &w->ball[event->a];
+  const carom_ball_state *s = &event->before[0];
+  carom_tangent_nose nose;
+  into_nose into;
+  double in[CAROM_NOSE_INS], v[3], spin[3];
+  carom_row din[CAROM_NOSE_INS];
+  carom_tangent_nose_of(w, event, &nose, in, din);
+  const double closing = reach_nose(w, event, &nose, &into), slow = carom_slow_speed(w->slow_instants);
+  if (closing < GRAZING * sqrt(dot(s->v, s->v)))
+    w->note.flags |= CAROM_TANGENT_GRAZING;
   memcpy(v, s->v, sizeof v);
   memcpy(spin, s->w, sizeof spin);
   carom_status status = CAROM_OK;
   if (closing >= slow) {
-    const carom_shot_cushion asked = w->opt->cushion_model;
-    const carom_cushion_model model = asked == CAROM_SHOT_CUSHION_STRONGE  ? CAROM_CUSHION_STRONGE
-                                      : asked == CAROM_SHOT_CUSHION_MIRROR ? CAROM_CUSHION_MIRROR
-                                                                           : CAROM_CUSHION_HAN;
-    carom_row before[CAROM_STATE_NUMBERS];
-    memcpy(before, w->d[0], sizeof before);
-    touch_alone(w, ball, s, &t);
-    status = free_impulse(&t, model, m, &w->note);
-    take(w, ball, 0, &t);
-    double turn[3];
-    cross(t.N, t.f, turn);
-    for (int k = 0; k < 3; k++) {
-      v[k] += t.f[k] - t.P * t.N[k];
-      spin[k] += 2.5 / R * turn[k];
-    }
-    if (status == CAROM_OK && s->r[2] - R < 1e-3)
-      status = blend(w, event, t.N, t.dN, nose.height, in, din, before, v, spin);
+    const bool is_near = s->r[2] - ball->kind->radius < 1e-3;
+    flat_motion flat;
+    if (is_near)
+      status = flat_part(w, event, &into, nose.height, in, din, &flat);
+    if (status == CAROM_OK)
+      status = free_part(w, event, &into, in, din, v, spin);
+    if (status == CAROM_OK && is_near)
+      blend(w, ball, s->r[2], &flat, v, spin);
   }
-  const double left = dot(v, t.N);
-  if (closing < slow || left > 0.0) {
+  if (closing < slow || dot(v, into.N) > 0.0) {
     carom_tangent_slow(w, event->time);
-    part_from_nose(w, ball, &t, slow, v, spin);
+    part_from_nose(w, ball, &into, slow, v, spin);
   }
   return status;
 }
