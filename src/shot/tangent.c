@@ -232,7 +232,7 @@ static carom_status differentiate(work *w, const carom_shot_ball *balls, const c
   carom_reach reach;
   begin(w, balls, tangent->final);
   if (tangent->reach != NULL)
-    carom_reach_begin(&reach, w->table, w->ball, w->count, m, tangent->time, tangent->reach);
+    carom_reach_begin(&reach, w, tangent->time, tangent->reach);
   for (int64_t k = 0; k <= shot->count; k++) {
     const carom_event *event = k < shot->count ? &shot->events[k] : NULL;
     /* the times before it; after the end nothing moves */
