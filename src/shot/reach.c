@@ -6,6 +6,7 @@
  *               straight line along the relative velocity would pass the centre, r the sum of the radii
  *     hit       a miss becomes a hit: the least distance of the surfaces on the way over its derivative n . (d_b - d_a), also
  *               where a ball comes to rest short of something, or lands beside a pocket
+ *     end       a ball on a rail comes to its end, where a jaw stands, or the other way round
  *     hop       the last hop of a ball on the slate: its fall less the least one after which there is a hop
  *
  * In flight the tops of rails, the backs of pockets and the edge of the table do not count. */
@@ -326,6 +327,29 @@ static hit hit_of(const carom_reach *reach, const carom_event *event, carom_row 
   return h;
 }
 
+/* The other rails of a corner or of a cushion's end: a ball that meets a rail beyond its end meets the jaw there instead, one
+ * at a jaw the rail, and one that falls into a pocket, or meets a jaw, may come to a rail before. */
+static void take_rails(carom_reach *reach, const carom_event *event, carom_row d[CAROM_STATE_NUMBERS]) {
+  const carom_tangent_work *w = reach->work;
+  const carom_ball_state *s = &event->before[0];
+  for (int64_t k = 0; k < w->table->rails; k++) {
+    const carom_rail *rail = &w->table->rail[k];
+    const double e[2] = {rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]}, length = sqrt(e[0] * e[0] + e[1] * e[1]);
+    const double x = s->r[0] - rail->p[0], y = s->r[1] - rail->p[1], place = (e[0] * x + e[1] * y) / length;
+    const double beyond = carom_greater(-place, place - length);
+    double line[3];
+    carom_rail_line(rail, line);
+    const double reaches = carom_reach_on_cloth(w->ball[event->a].kind, rail->height, w->reference);
+    const double gap = line[0] * s->r[0] + line[1] * s->r[1] + line[2] - reaches;
+    const bool meets = event->type == CAROM_EVENT_RAIL && event->b == k;
+    for (int j = 0; j < w->m; j++)
+      if (meets || (event->type != CAROM_EVENT_RAIL && beyond > 0.0 && beyond < NEAR && gap < 1e-3))
+        take(reach, j, fabs(beyond), (e[0] * d[S_X][j] + e[1] * d[S_Y][j]) / length);
+      else if (event->type != CAROM_EVENT_RAIL && beyond <= 0.0 && gap > 0.0 && gap < NEAR)
+        take(reach, j, gap, line[0] * d[S_X][j] + line[1] * d[S_Y][j]);
+  }
+}
+
 /* A landing: beside a pocket, and whether it is the last. */
 static void take_landing(carom_reach *reach, const carom_event *event, carom_row d[CAROM_STATE_NUMBERS]) {
   const carom_tangent_work *w = reach->work;
@@ -366,6 +390,9 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event, 
   }
   if (event->type == CAROM_EVENT_SLATE)
     take_landing(reach, event, d[0]);
+  const bool on_cloth = event->before[0].label != CAROM_BALL_AIRBORNE;
+  if (event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW || (event->type == CAROM_EVENT_POCKET && on_cloth))
+    take_rails(reach, event, d[0]);
   for (int j = 0; j < m; j++) {
     const hit h = hit_of(reach, event, d, j);
     if (h.r > 0.0)
