@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double GRAZING = 0.01; /* closing over relative speed */
-
 /* ---- Two balls ---- */
 
 double carom_tangent_friction(const carom_tangent_work *w, const carom_event *event, double slip, const double *d_slip,
@@ -72,7 +70,7 @@ carom_status carom_tangent_balls(carom_tangent_work *w, const carom_event *event
   carom_tangent_total(w, 1);
   for (int j = 0; j < m; j++)
     turn[j] = -(c * (w->d[1][S_X][j] - w->d[0][S_X][j]) + s * (w->d[1][S_Y][j] - w->d[0][S_Y][j])) / distance;
-  if (closing < GRAZING * sqrt(v_x * v_x + v_y * v_y))
+  if (closing < CAROM_GRAZING * sqrt(v_x * v_x + v_y * v_y))
     w->note.flags |= CAROM_TANGENT_GRAZING;
   /* in the frame */
   double in[CAROM_BALLS_INS];
@@ -249,7 +247,7 @@ carom_status carom_tangent_cushion(carom_tangent_work *w, const carom_event *eve
   carom_tangent_total(w, 0);
   for (int j = 0; j < m; j++)
     turn[j] = (c * w->d[0][S_X][j] + s * w->d[0][S_Y][j]) / distance;
-  if (closing < GRAZING * sqrt(before->v[0] * before->v[0] + before->v[1] * before->v[1]))
+  if (closing < CAROM_GRAZING * sqrt(before->v[0] * before->v[0] + before->v[1] * before->v[1]))
     w->note.flags |= CAROM_TANGENT_GRAZING;
   /* in the frame: the contact, as carom_resolve_cushion() decides it */
   const double *dR = carom_seeds_row(ball->d_kind, CAROM_KIND_ROW(radius), m);

@@ -15,6 +15,8 @@
 #include "shot/sim.h"
 #include "shot/tangent_path.h"
 
+#define CAROM_GRAZING 0.01 /* closing over relative speed, below which a contact has the flag */
+
 /* What an event is worked on with. */
 typedef struct carom_tangent_work {
   const carom_table *table;
@@ -51,9 +53,10 @@ void carom_tangent_strike(carom_tangent_work *w, const carom_event *event);
 /* tangent_contact.c: on the cloth. */
 carom_status carom_tangent_balls(carom_tangent_work *w, const carom_event *event);
 carom_status carom_tangent_cushion(carom_tangent_work *w, const carom_event *event);
-/* tangent_space.c: of balls that fly, or whose radii differ. */
+/* tangent_space.c: where a ball flies, or radii differ. */
 carom_status carom_tangent_spheres(carom_tangent_work *w, const carom_event *event);
 carom_status carom_tangent_nose_in_flight(carom_tangent_work *w, const carom_event *event);
+/* tangent_flight.c: the ends of flights. */
 carom_status carom_tangent_fall(carom_tangent_work *w, const carom_event *event);
 carom_status carom_tangent_level_strike(carom_tangent_work *w, const carom_event *event);
 void carom_tangent_pocket(carom_tangent_work *w, const carom_event *event);
