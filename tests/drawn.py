@@ -151,6 +151,29 @@ def check_shots(lines, picture, shot_id):
     return check_shot(picture, shot, table)
 
 
+def band_widths(picture, shot, ball, place, normal):
+    """How far the band of a ball goes from a place on its path, m, along the normal and against it; of a table that is longer than wide."""
+    page = tree.parse(picture).getroot()
+    index = [one["id"] for one in shot["balls"]].index(ball)
+    starts = [circle for circle in elements(page, "circle") if circle.get("stroke-dasharray")]
+    colour, start = starts[index].get("stroke"), shot["balls"][index]["state"][1:3]
+    x, y = ((a + 400 * (b - c)) for a, b, c in zip(numbers(starts[index], "cx", "cy"), reversed(list(place)), reversed(start)))
+    crossed = []
+    for path in elements(page, "path"):
+        if path.get("class") != "band" or path.get("fill") != colour:
+            continue
+        for part in path.get("d").split("Z")[:-1]:
+            points = [tuple(map(float, pair.split())) for pair in part[1:].split("L")]
+            for (ax, ay), (bx, by) in zip(points, points[1:] + points[:1]):
+                # the edge a + t (b - a) meets (x, y) + s n, n turned with the table
+                nx, ny, dx, dy = normal[1], normal[0], bx - ax, by - ay
+                cross = dx * ny - dy * nx
+                if cross and 0 <= ((x - ax) * ny - (y - ay) * nx) / cross < 1:
+                    crossed.append(((x - ax) * dy - (y - ay) * dx) / cross / 400)
+    sides = [[s for s in crossed if s > 0], [-s for s in crossed if s < 0]]
+    return [min(side) for side in sides if side]
+
+
 # ---- One collision -----------------------------------------------------------------------------------------------------
 
 

@@ -253,7 +253,9 @@ START_TEST(batches_are_single_calls) {
       ck_assert_int_lt(first, 0);
       ck_assert_mem_eq(out, alone, sizeof out);
       ck_assert_mem_eq(status, expected, sizeof status);
-      ck_assert_int_eq(carom_cushion_batch(in, 3, &options, out, NULL), CAROM_OK);
+      /* without statuses the first error is returned, of rows 0 to 2 seldom one */
+      const int8_t error = expected[0] < 0 ? expected[0] : expected[1] < 0 ? expected[1] : expected[2] < 0 ? expected[2] : 0;
+      ck_assert_int_eq(carom_cushion_batch(in, 3, &options, out, NULL), error);
     }
   }
 }
