@@ -19,7 +19,7 @@
 #include <string.h>
 
 enum { SAMPLES = 3, MOST_KINDS = 24, TOLD = 10 };
-static const double deepest = 1e-9, rounding = 1e-12, jump_most = 1e-9;
+static const double deepest = 1e-9, rounding = 1e-12, jump_most = 1e-11;
 
 typedef struct kind_tally {
   long shots, failed, too_many;
