@@ -131,7 +131,7 @@ START_TEST(random_hops) {
   random_source random = {test_seed()};
   double worst_rise = -1.0;
   int most = 0;
-  for (int n = 0; n < 20000; n++) {
+  for (int n = 0; n < 100000; n++) {
     const double down = pow(10.0, random_between(&random, -4.0, 0.9));
     carom_shot_ball ball = spinning(flying(20.0, 20.0, 0.0, random_between(&random, -5.0, 5.0), 0.0, -down),
                                     random_between(&random, -200.0, 200.0), random_between(&random, -200.0, 200.0),

@@ -139,7 +139,7 @@ static double gap_of(const track *f, double x, double y, double radius, double t
 
 /* Random flights at one post against samples of the gap and bisection: none is missed, none false, and the gap is 0 there. */
 START_TEST(posts) {
-  enum { FLIGHTS = 20000, LOOKS = 800 };
+  enum { FLIGHTS = 100000, LOOKS = 800 };
   random_source random = {test_seed()};
   carom_table table = empty_table(40.0);
   int hits = 0, tops = 0;
