@@ -14,6 +14,7 @@ with random errors, of many layouts: half the width of the middle 68 % of the en
 from __future__ import annotations
 
 import argparse
+import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -99,7 +100,9 @@ def compare(draws: int, strokes: int, seed: int) -> Doubles:
 
 def band(axes: Axes, shot: carom.Shot, cue: carom.dtypes.Records, ball: int, color: str) -> None:
     """The path of a ball, one standard deviation across it to both sides, and the ellipse of its end: as far as MOST."""
-    times = np.unique(np.concatenate([np.linspace(0.0, shot.time, 600), shot.events["time"]]))
+    own = shot.events[(shot.events["a"] == ball) | ((shot.events["type"] == carom.EventType.BALL_BALL) & (shot.events["b"] == ball))]
+    corners = np.array([0.0, *own["time"], shot.time])
+    times = np.unique(np.concatenate([np.linspace(0.0, shot.time, 200), corners, np.maximum(corners - 1e-6, 0.0)]))
     found = carom.tangents(shot, cue, NAMES, times=times)
     covariance = covariances(found.at["r"][:, ball], deviations(cue))
     states = shot.states(times)
@@ -113,8 +116,8 @@ def band(axes: Axes, shot: carom.Shot, cue: carom.dtypes.Records, ball: int, col
     axes.plot(r[:shown, 1], -r[:shown, 0], color=color, lw=1.4, zorder=3)
     # one band for each piece between corners of the path
     moving = speed[:shown] > 0.0
-    for begin, end in zip([0.0, *shot.events["time"]], [*shot.events["time"], shot.time]):
-        piece = np.flatnonzero((times[:shown] > begin) & (times[:shown] < end) & moving)
+    for begin, end in itertools.pairwise(corners):
+        piece = np.flatnonzero((times[:shown] >= begin) & (times[:shown] < end) & moving)
         if len(piece) > 1:
             left, right = r[piece] + (across * wide[:, None])[piece], r[piece] - (across * wide[:, None])[piece]
             outline = np.concatenate([left, right[::-1]])
@@ -166,7 +169,8 @@ def tell(rows: Doubles) -> None:
         some = ratio[(rows[:, 0] >= low) & (rows[:, 0] < high)]
         if len(some):
             near = np.mean((some > 0.8) & (some < 1.25))
-            print(f"predicted {low:4g} to {high:4g} m: {len(some):3} balls, played / predicted {np.median(some):.2f} in the median, {near:4.0%} within 25 %")
+            words = f"{len(some):3} balls, played / predicted {np.median(some):.2f} in the median, {near:4.0%} within 25 %"
+            print(f"predicted {low:4g} to {high:4g} m: {words}")
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -125,7 +125,7 @@ def fit(plays: Plays, recorded: Doubles, start: Doubles, differences: bool = Fal
         if np.abs(steps[-1] / steps[-2] - 1.0).max() < 1e-7 or now - cost(r) < 1e-9 * now:
             break
     J = plays.jacobian(x, plays.play(x), differences) / NOISE
-    return Fit(np.array(steps), np.linalg.inv(J.T @ J), plays.count - before)
+    return Fit(np.array(steps), np.asarray(np.linalg.inv(J.T @ J), np.float64), plays.count - before)
 
 
 def recordings(plays: Plays, draws: int, seed: int) -> tuple[Doubles, Doubles]:
@@ -138,8 +138,9 @@ def recordings(plays: Plays, draws: int, seed: int) -> tuple[Doubles, Doubles]:
 
 def fit_all(plays: Plays, recorded: Doubles, starts: Doubles, differences: bool = False) -> tuple[list[Fit], float]:
     """The fits of all recordings, and the processor time that they took, s."""
-    begin = time.process_time()
-    fits = [fit(plays, *given, differences) for given in tqdm(zip(recorded, starts), total=len(starts), desc="fitting", unit=" fits", disable=None)]
+    begin, fits = time.process_time(), list[Fit]()
+    for seen, start in tqdm(zip(recorded, starts), total=len(starts), desc="fitting", unit=" fits", disable=None):
+        fits.append(fit(plays, seen, start, differences))
     return fits, time.process_time() - begin
 
 
@@ -209,12 +210,14 @@ def main(arguments: list[str] | None = None) -> None:
         fits, took = fit_all(plays, recorded, starts, differences)
         played = np.median([one.played for one in fits])
         what = "differences" if differences else "tangents"
-        print(f"{what:11}: {solved(fits).sum()} of {len(fits)} fits within 5 %, {played:.0f} shots in the median, {1e3 * took / len(fits):.1f} ms a fit")
+        near = f"{solved(fits).sum()} of {len(fits)} fits within 5 %"
+        print(f"{what:11}: {near}, {played:.0f} shots in the median, {1e3 * took / len(fits):.1f} ms a fit")
     good = [one for one, yes in zip(fits, solved(fits)) if yes]
-    z = errors(good)
+    z = np.abs(errors(good))
     for k, name in enumerate(NAMES):
         deviation = np.sqrt(good[0].covariance[k, k])
-        print(f"{name:20} {good[0].found[k]:8.5f} +- {deviation:.5f}  truth {TRUTH[k]:<5g} {np.mean(np.abs(z[:, k]) < 1):.0%} within 1 sigma, {np.mean(np.abs(z[:, k]) < 2):.0%} within 2")
+        within = f"{np.mean(z[:, k] < 1):.0%} within 1 sigma, {np.mean(z[:, k] < 2):.0%} within 2"
+        print(f"{name:20} {good[0].found[k]:8.5f} +- {deviation:.5f}  truth {TRUTH[k]:<5g} {within}")
     draw(given.out, plays, recorded, fits)
 
 

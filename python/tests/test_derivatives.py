@@ -79,8 +79,8 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
         events = len(one.time)
         for batch, single in (
             (found.states[k], one.states), (found.states_at[k], one.states_at), (found.time[k, :events], one.time),
-            (found.flags[k, :events], one.flags), (found.reach[k], one.reach), (found.error[k], one.error), (ofs["final.r"][k], one.final["r"]),
-            (ofs["at.w"][k], one.at["w"]), (ofs["time"][k, :events], one.time), (ofs["reach"][k], one.reach),
+            (found.flags[k, :events], one.flags), (found.reach[k], one.reach), (found.error[k], one.error),
+            (ofs["final.r"][k], one.final["r"]), (ofs["at.w"][k], one.at["w"]), (ofs["time"][k, :events], one.time), (ofs["reach"][k], one.reach),
         ):  # fmt: skip
             assert np.isfinite(single).any() and batch.tobytes() == np.ascontiguousarray(single).tobytes()
         assert np.isnan(found.time[k, events:]).all() and (found.flags[k, events:] == -1).all()

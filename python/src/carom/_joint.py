@@ -22,7 +22,8 @@ import numpy as np
 from carom._strikes import Plays, descend, find, normal
 from carom.dtypes import Doubles
 
-_MOST = 1.4e-3  # m^2: where a shot's cost a sample stops counting; that of samples that are 8 cm off
+MOST = 1.4e-3  # m^2: where a shot's cost a sample stops counting; that of samples that are 8 cm off
+BOUND = 0.08  # m: that distance
 PRIOR_COST = 0.1  # m^2: what one deviation costs
 # Of each constant: the deviation of its prior, about the value that single events gave, and its bounds.
 PRIORS = {
@@ -68,7 +69,7 @@ class Search:
         self.first, self.scale = np.array(list(priors.values())).T
         self.low, self.high = np.array([PRIORS[name][1:] for name in priors]).T
         self.strikes, self.until = strikes[self.rows], plays.ends[self.rows]
-        self.most = _MOST * plays.counts[self.rows]
+        self.most = MOST * plays.counts[self.rows]
 
     def constants(self, values: Doubles) -> dict[str, float]:
         return {**self.plays.constants, **dict(zip(self.names, values.tolist()))}
