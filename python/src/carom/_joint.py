@@ -23,7 +23,6 @@ from carom._strikes import Plays, descend, find, normal
 from carom.dtypes import Doubles
 
 MOST = 1.4e-3  # m^2: where a shot's cost a sample stops counting; that of samples that are 8 cm off
-BOUND = 0.08  # m: that distance
 PRIOR_COST = 0.1  # m^2: what one deviation costs
 # Of each constant: the deviation of its prior, about the value that single events gave, and its bounds.
 PRIORS = {
