@@ -3,6 +3,7 @@
 import importlib
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -80,6 +81,19 @@ def test_rows_that_are_not_better_have_no_derivatives_and_threads_change_no_bit(
     assert np.array_equal(some[::2, :3], all_of_them[::2, :3]) and not some[::2, 3:].any()
     threads = _strikes.Plays(made.recordings, TABLE, RADIUS, made.constants, "han", threads=3)
     assert np.array_equal(threads.misfit(of, strikes, plays.ends[of], most), some)
+
+
+@pytest.mark.parametrize("rows", [1, 2, 3, 5])
+def test_a_start_is_near_the_strike_however_few_rows_tell_it(made, rows):
+    """Where another ball moves so soon that few rows of the cue ball are its own."""
+    for strike, shot in zip(made.strikes, made.recordings, strict=True):
+        track = shot.tracks[shot.cue]
+        last = np.searchsorted(track[:, 0], shot.moves[shot.cue]) + rows - 1
+        moves = [own if ball == shot.cue else track[last, 0] + 0.021 for ball, own in enumerate(shot.moves)]
+        found = _strikes.starts(SimpleNamespace(cue=shot.cue, tracks=shot.tracks, rest=shot.rest, moves=moves))
+        share = np.hypot(found[:, 0], found[:, 1]) / np.hypot(*strike[:2])
+        turn = np.abs(np.angle(np.exp(1j * (np.arctan2(found[:, 1], found[:, 0]) - np.arctan2(strike[1], strike[0])))))
+        assert ((share > (0.75 if rows < 3 else 0.9)) & (share < (1.35 if rows < 3 else 1.0)) & (turn < 0.012)).any()
 
 
 def test_known_constants_give_the_strikes_back(made):
