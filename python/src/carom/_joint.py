@@ -31,13 +31,14 @@ PRIORS = {
     "mu_cushion": (0.06, 0.0, 1.0), "roll_loss": (0.06, 0.0, 0.5), "nose_height": (1.8e-3, 0.0, np.inf),
 }  # fmt: skip
 # What the search leaves on synthetic recordings, whose truth is known.
-METHOD = {
+_METHOD = {
     "mu_slide": 1e-3, "mu_roll": 2e-5, "drag": 3e-4, "mu_spin": 1e-4, "law_a": 3e-3, "law_b": 0.025, "restitution": 1.5e-3,
     "restitution_cushion": 1.2e-3, "mu_cushion": 1.2e-3, "roll_loss": 4e-3, "nose_height": 1e-4,
 }  # fmt: skip
 _STEP = 1e-3  # of the differences, in deviations
 _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
 _STEPS = 12  # at most, of each
+_SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
 
 
 def damped(square: Doubles) -> Doubles:
@@ -141,3 +142,28 @@ class Search:
 
 
 STAGES = len(_HORIZONS)
+
+
+def spread(search: Search, seed: int) -> dict[str, float]:
+    """The errors of the constants of a search that is done: from halves of its shots, whose difference is twice the error of the whole."""
+    random, apart = np.random.default_rng(seed), []
+    every = np.arange(len(search.rows))
+    if len(every) < 2 * _HALF_LEAST:
+        return {}
+    strikes = np.full((len(search.plays.recordings), 6), np.nan)
+    strikes[search.rows] = search.strikes
+    for _ in range(_SPLITS):
+        order = random.permutation(every)
+        found: list[Doubles] = []
+        for half in np.array_split(order, 2):
+            rows = search.rows[np.sort(half)]
+            priors = dict(zip(search.names, zip(search.first.tolist(), search.scale.tolist())))
+            part = Search(search.plays.some(rows), strikes[rows], range(len(rows)), priors)
+            part.values = search.start.copy()
+            for number in range(STAGES):
+                part.stage(number, seed)
+            found.append(part.values)
+        apart.append(0.5 * (found[0] - found[1]))
+    method = np.array([_METHOD[name] for name in search.names])
+    error = np.hypot(np.sqrt((np.array(apart) ** 2).mean(axis=0)), method)
+    return dict(zip(search.names, error.tolist()))
