@@ -21,7 +21,7 @@ moves by more than 0.3 m has as much less weight as if it were moved by 0.3 m.
 
 The correlations are taken from this, and the standard errors from halves of the shots (`_joint.spread`). On synthetic recordings both
 agree. On 91 real shots, constants of random halves differ by two to three times what derivatives say, since a search ends in
-another minimum where events are missed, which no derivative sees; they differ by what halves say.
+another minimum where events are missed, which no derivative sees.
 """
 
 from __future__ import annotations
@@ -115,5 +115,7 @@ def of_constants(search: _joint.Search, told: Mapping[str, float], spread: Mappi
     inner = g.T @ g * (len(g) / max(len(g) - 1.0, 1.0)) + np.diag((_joint.PRIOR_COST * off) ** 2)
     inverse = np.linalg.inv(whole)
     covariance = inverse @ inner @ inverse
-    size = np.array([spread[name] for name in search.names]) / np.sqrt(covariance.diagonal())
-    return np.asarray(covariance * np.outer(size, size))
+    # what the search leaves, which the standard errors contain, is of each constant by itself
+    method = np.array([_joint.METHOD[name] for name in search.names]) ** 2
+    size = np.sqrt((np.array([spread[name] for name in search.names]) ** 2 - method).clip(0.0) / covariance.diagonal())
+    return np.asarray(covariance * np.outer(size, size) + np.diag(method))

@@ -31,7 +31,7 @@ PRIORS = {
     "mu_cushion": (0.06, 0.0, 1.0), "roll_loss": (0.06, 0.0, 0.5), "nose_height": (1.8e-3, 0.0, np.inf),
 }  # fmt: skip
 # What the search leaves on synthetic recordings, whose truth is known.
-_METHOD = {
+METHOD = {
     "mu_slide": 1e-3, "mu_roll": 2e-5, "drag": 3e-4, "mu_spin": 1e-4, "law_a": 3e-3, "law_b": 0.025, "restitution": 1.5e-3,
     "restitution_cushion": 1.2e-3, "mu_cushion": 1.2e-3, "roll_loss": 4e-3, "nose_height": 1e-4,
 }  # fmt: skip
@@ -164,6 +164,6 @@ def spread(search: Search, seed: int) -> dict[str, float]:
                 part.stage(number, seed)
             found.append(part.values)
         apart.append(0.5 * (found[0] - found[1]))
-    method = np.array([_METHOD[name] for name in search.names])
+    method = np.array([METHOD[name] for name in search.names])
     error = np.hypot(np.sqrt((np.array(apart) ** 2).mean(axis=0)), method)
     return dict(zip(search.names, error.tolist()))
