@@ -137,7 +137,7 @@ static void fly(random_source *random, const setting *s, const carom_table *tabl
 static void draw(random_source *random, const setting *s, dual_shot *shot) {
   carom_table table;
   ck_assert_int_eq(carom_table_make(s->table, &table), CAROM_OK);
-  *shot = (dual_shot){.table = s->table,
+  *shot = (dual_shot){.table = (int)s->table,
                       .count = is_slow(s->start) ? 2 : 2 + (int)random_between(random, 0.0, 7.999),
                       .ball_model = (int)s->balls,
                       .cushion_model = (int)s->cushions,
@@ -542,7 +542,7 @@ START_TEST(cushions_agree_with_dual_numbers) {
       dual_number dual_in[DUAL_IMPACT], dual_out[DUAL_MOTION];
       for (int k = 0; k < DUAL_IMPACT; k++)
         dual_in[k] = (dual_number){((const double *)&in)[k], seeds[k][j]};
-      ck_assert_int_eq(dual_cushion(dual_in, model, options.law, dual_out), CAROM_OK);
+      ck_assert_int_eq(dual_cushion(dual_in, (int)model, (int)options.law, dual_out), CAROM_OK);
       comparison c = nothing_yet;
       bool same = true;
       for (int k = 0; k < DUAL_MOTION; k++) {
