@@ -232,8 +232,10 @@ def test_shots_that_are_no_shots_have_a_status(made):
     with pytest.raises(ValueError, match="shot 1: no strike was found: no ball moves"):
         found.shot(0)
     assert json.loads(json.dumps(found.to_dict()))["shots"][0]["cue"] is None
-    with pytest.raises(ValueError, match="all shots must have the same number"):
-        fit.fit([made.recordings[0], tracks.Recording(9, (1, 2), still[:2])], TABLE, RADIUS)
+    first = made.recordings[0]
+    told = f"shot 9 has 2 balls, shot {first.id} {len(first.balls)}; all shots must have the same number"
+    with pytest.raises(ValueError, match=told):
+        fit.fit([first, tracks.Recording(9, (1, 2), still[:2])], TABLE, RADIUS)
 
 
 def test_the_command_writes_what_it_promises(made, tmp_path, capsys):
