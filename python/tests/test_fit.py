@@ -168,7 +168,9 @@ def test_unknown_constants_are_found_within_their_spread():
         assert set(found.fitted) == set(TRUTH) and found.to_dict()["covariance"]["constants"] == list(found.fitted)
         np.testing.assert_allclose(np.sqrt(found.covariance.diagonal()), [found.spread[name] for name in found.fitted])
         together = np.array([found.constants[name] - TRUTH[name] for name in found.fitted])
-        assert 2.0 < together @ np.linalg.solve(found.covariance, together) < 25.0
+        correlation = found.covariance / np.outer(*2 * [np.sqrt(found.covariance.diagonal())])
+        assert 2.0 < together @ np.linalg.solve(found.covariance, together) < 40.0
+        assert np.linalg.eigvalsh(correlation).min() > 0.0 and np.abs(correlation - np.eye(11)).max() > 0.1
         # the spreads are no excuse, and shots are off by hardly more than the noise
         assert all(found.spread[name] < 0.15 * value for name, value in TRUTH.items()), found.spread
         assert found.median_rmse < 3e-3
