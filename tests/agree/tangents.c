@@ -24,6 +24,20 @@ carom_status __wrap_carom_collide(const carom_impact *in, const carom_options *o
   return status;
 }
 
+carom_status __real_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out);
+carom_status __wrap_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out);
+
+carom_status __wrap_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out) {
+  if (!precisely || opt == NULL || opt->model != CAROM_CUSHION_MATHAVAN)
+    return __real_carom_cushion(in, opt, out);
+  carom_cushion_point points[2];
+  precisely = false; /* carom_cushion_trace() calls carom_cushion() */
+  const carom_status status = carom_cushion_trace(in, opt, 2, points);
+  precisely = true;
+  *out = points[1].state;
+  return status;
+}
+
 /* ---- Random shots ---- */
 
 enum { DIRECTIONS = 14, MOST_BALLS = 9, SHOTS = 100 };
@@ -173,8 +187,13 @@ static carom_cushion_options cushion_options;
 
 static carom_status cushion(const double *in, double *out) {
   carom_cushion_impact impact;
+  carom_cushion_point points[2];
   memcpy(&impact, in, sizeof impact);
-  return carom_cushion(&impact, &cushion_options, (carom_motion *)out);
+  if (cushion_options.model != CAROM_CUSHION_MATHAVAN)
+    return carom_cushion(&impact, &cushion_options, (carom_motion *)out);
+  const carom_status status = carom_cushion_trace(&impact, &cushion_options, 2, points);
+  memcpy(out, &points[1].state, sizeof points[1].state);
+  return status;
 }
 
 static double error_of(solver *solve, const double *in, int ins, int outs, int k, double step, const double *tangent, int m) {
