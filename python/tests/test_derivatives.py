@@ -117,7 +117,7 @@ def test_more_directions_than_a_call_takes():
     shot = carom.simulate(TABLE, balls, cue, **CLOSED)
     names = [f"balls[{i}].kind.{field}" for i in range(10) for field in ("mass", "mu_slide", "mu_roll", "mu_spin", "restitution", "mu_cushion", "restitution_cushion")]
     found = carom.tangents(shot, cue, names)
-    assert found.states.shape == (10, 7, 70)
+    assert found.states.shape == (10, 9, 70)
     last = carom.tangents(shot, cue, names[-1:])
     np.testing.assert_allclose(found.states[..., -1:], last.states, rtol=1e-9, atol=1e-12)
 
@@ -136,11 +136,32 @@ def test_what_is_not_known():
     with pytest.raises(carom.CaromError) as error:
         carom.tangents(shot, cue, ["cue.phi"])
     assert error.value.status is carom.Status.ERROR_TANGENT
-    cue["theta"] = 40.0
-    cue["speed"] = 3.0
     shot = carom.simulate(TABLE, balls, cue)
-    with pytest.raises(carom.CaromError) as error:
-        carom.tangents(shot, cue, ["cue.phi"])
-    assert error.value.status is carom.Status.ERROR_TANGENT
     with pytest.raises(ValueError, match="times"):
         carom.tangents(shot, cue, ["cue.phi"], times=[1.0, 0.5])
+
+
+def test_jump():
+    """By the elevation of the cue and in flight."""
+    balls, cue = layout()
+    cue["theta"], cue["speed"] = 40.0, 3.0
+    wrt, at, h = ["cue.theta", "cue.phi"], [0.1], 1e-6
+    shot = carom.simulate(TABLE, balls, cue, **CLOSED)
+    found = carom.tangents(shot, cue, wrt, times=at)
+    assert shot.states(at)["label"][0, 0] == carom.Label.AIRBORNE
+    for j, name in enumerate(("theta", "phi")):
+        more, less = cue.copy(), cue.copy()
+        more[name] += h
+        less[name] -= h
+        moved = [carom.simulate(TABLE, balls, other, **CLOSED) for other in (more, less)]
+        difference = (moved[0].final["r"] - moved[1].final["r"])[:, :2] / (2 * h)
+        np.testing.assert_allclose(found.final["r"][..., j], difference, atol=1e-5 * np.abs(found.states[..., j]).max())
+        height = (moved[0].states(at)["r"][0, 0, 2] - moved[1].states(at)["r"][0, 0, 2]) / (2 * h)
+        np.testing.assert_allclose(found.at["z"][0, 0, 0, j], height, atol=1e-8)
+    assert abs(found.at["z"][0, 0, 0, 0]) > 1e-4
+    # a ball that flies at the start, by its height
+    balls["state"]["r"][0, 2] += 0.05
+    flight = carom.simulate(TABLE, balls, None, **CLOSED)
+    down = carom.tangents(flight, None, ["balls[0].z", "balls[0].v_z"])
+    assert down.names == ("balls[0].z", "balls[0].v_z") and down.units == ("m", "m/s")
+    assert down.time[0, 0] == pytest.approx(1.0 / (9.81 * flight.events["time"][0]))

@@ -90,7 +90,7 @@ def of_constants(search: _joint.Search, told: Mapping[str, float]) -> Doubles | 
         try:
             d, X, C, _ = derivatives(plays, int(row), strike, search.names)
         except CaromError:
-            continue  # a ball flies, or the play ends in an error
+            continue  # the play ends in an error
         C = C * search.scale
         size = (d.reshape(-1, 2) ** 2).sum(axis=1)
         root = np.sqrt(1.0 + size / HUBER**2)

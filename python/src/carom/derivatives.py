@@ -28,11 +28,12 @@ STATE: int = lib.CAROM_STATE_NUMBERS
 _AT_ONCE = 128  # shots of a thread whose events are kept at a time: more take longer for the memory than for the shots
 CUE = ("speed", "phi", "theta", "a", "b", "mass", "end_mass")
 KIND = tuple(dtypes.ball_kind.names or ())
-# Places of r, v and w in a state: x, y, v_x, v_y, w_x, w_y, w_z; or with z and v_z.
-FIELDS = {"r": (0, 2), "v": (2, 2), "w": (4, 3)} if STATE == 7 else {"r": (0, 3), "v": (3, 3), "w": (6, 3)}
+# The numbers of a state are x, y, v_x, v_y, w_x, w_y, w_z, z, v_z: the first of a name and how many, and where each is in a record.
+FIELDS = {"r": (0, 2), "v": (2, 2), "w": (4, 3), "z": (7, 1), "v_z": (8, 1)}
+PLACES = (("r", 0), ("r", 1), ("v", 0), ("v", 1), ("w", 0), ("w", 1), ("w", 2), ("r", 2), ("v", 2))
 _TABLE = ("nose_height", "mu_cushion", "restitution")
 _UNITS = {"speed": "m/s", "phi": "deg", "theta": "deg", "a": "R", "b": "R", "mass": "kg", "end_mass": "kg", "radius": "m", "gravity": "m/s^2"}
-_UNITS |= {"drag": "1/m", "law_c": "s/m", "nose_height": "m", "r": "m", "v": "m/s", "w": "rad/s"}
+_UNITS |= {"drag": "1/m", "law_c": "s/m", "nose_height": "m", "r": "m", "v": "m/s", "w": "rad/s", "z": "m", "v_z": "m/s"}
 
 
 class Flag(enum.IntFlag):
@@ -56,6 +57,7 @@ class Tangents:
         What changes in each direction, and the unit that derivatives are per.
     final : dict of ndarray
         "r" of shape (..., balls, 2, m), m; "v" likewise, m/s; "w" (..., balls, 3, m), rad/s: of the final states.
+        "z" and "v_z" (..., balls, 1, m): of flights.
     at : dict of ndarray
         The same of the states at `times`, of shape (..., times, balls, 2 or 3, m).
     time : ndarray, shape (..., events, m)
@@ -129,7 +131,8 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
         elif ball is not None and int(ball) < balls and not inner and field in FIELDS and (index is None or int(index) < FIELDS[field][1]):
             first, many = FIELDS[field]
             ks = range(many) if index is None else [int(index)]
-            found.append([Direction(f"balls[{ball}].{field}[{k}]", unit, "state", ((int(ball), first + k),)) for k in ks])
+            names = [f"balls[{ball}].{field}" + (f"[{k}]" if many > 1 else "") for k in ks]
+            found.append([Direction(own, unit, "state", ((int(ball), first + k),)) for own, k in zip(names, ks)])
         else:
             raise ValueError(
                 f"{argument}: {name!r} is no number of a shot; such are cue.phi, kind.mu_slide (of all balls), balls[1].kind.mass, "
@@ -251,7 +254,7 @@ def tangents(
         That of the shot; None if there was none. None of many shots, which know theirs.
     wrt : sequence of str
         By what: "cue.phi" and other numbers of the cue; "kind.mu_slide" of all balls, "balls[1].kind.mass" of one;
-        "balls[0].r" (two directions), "balls[0].r[1]", v, w; "table.nose_height", "table.mu_cushion", "table.restitution".
+        "balls[0].r" (two directions), "balls[0].r[1]", v, w, and of a ball that flies z, v_z; "table.nose_height", "table.mu_cushion", "table.restitution".
     times : array_like, shape (times,), optional
         s, ascending: for `Tangents.at`.
     threads : int
@@ -265,7 +268,7 @@ def tangents(
     Raises
     ------
     CaromError
-        Derivatives are not known for this shot: in the world pooltool, by Euler's model of balls, where a ball flies.
+        Derivatives are not known for this shot: in the world pooltool, and by Euler's model of balls.
     """
     balls = shot.final.shape[-1]
     names, units, seeds = _seeds(wrt, balls)
@@ -355,7 +358,7 @@ def jacobian(
     wrt : sequence of str
         As for `tangents`.
     of : str
-        "final.r", "final.v", "final.w"; "at.r", "at.v", "at.w" at `times`; "time" of the events; or "reach".
+        "final.r", "final.v", "final.w", "final.z", "final.v_z"; "at.r" and so on at `times`; "time" of the events; or "reach".
     room : int
         Events of a shot at most; a shot with more has nan.
     models
@@ -368,7 +371,7 @@ def jacobian(
     """
     group, _, field = of.partition(".")
     if (group not in ("final", "at") or field not in FIELDS) and of not in ("time", "reach"):
-        raise ValueError(f"of: must be final.r, final.v, final.w, at.r, at.v, at.w, time or reach, not {of!r}")
+        raise ValueError(f"of: must be final.r, final.v, final.w, final.z, final.v_z, at.r and so on, time or reach, not {of!r}")
     layouts = as_array(layouts, "layouts")
     if layouts.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")

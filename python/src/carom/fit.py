@@ -119,7 +119,7 @@ class Fit:
         Raises
         ------
         ValueError
-            No strike was found; or, as a `CaromError`, the derivatives of the shot are not known, as a ball flies.
+            No strike was found; or, as a `CaromError`, the play of the shot ends in an error.
         """
         self.shot(i)
         plays = _strikes.Plays([self.recordings[i]], self.table, self.radius, self.constants, self.cushion_model)
