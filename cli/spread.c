@@ -71,18 +71,22 @@ static void add_covariance(const double *d, double c[3]) {
   }
 }
 
-/* Adds a point to a band. A ball at rest has the direction of the point before. */
-static void add_point(spread *s, int ball, double time, const carom_ball_state *state, const double *d, double along[2]) {
+/* Adds a point to a band, or cuts it there. A ball at rest has the direction of the point before. */
+static void add_point(spread *s, int ball, double time, const carom_ball_state *state, const double *d, double along[2],
+                      bool begins) {
   const double v = hypot(state->v[0], state->v[1]);
   for (int axis = 0; axis < 2 && v > 1e-6; axis++)
     along[axis] = state->v[axis] / v;
-  double across = 0.0;
+  double sum = 0.0;
   for (int j = 0; j < ERRORS; j++) {
     const double off = along[0] * d[ERRORS + j] - along[1] * d[j];
-    across += off * off;
+    sum += off * off;
   }
-  s->band[ball][s->points[ball]++] =
-      (band_point){.time = time, .r = {state->r[0], state->r[1]}, .side = {-along[1] * sqrt(across), along[0] * sqrt(across)}};
+  const double across = sqrt(sum);
+  s->cut[ball] = s->cut[ball] || across > spread_most;
+  if (!s->cut[ball])
+    s->band[ball][s->points[ball]++] = (band_point){
+        .time = time, .r = {state->r[0], state->r[1]}, .side = {-along[1] * across, along[0] * across}, .begins = begins};
 }
 
 /* The band of a ball, from event to event that it is in. */
@@ -101,18 +105,17 @@ static void make_band(spread *s, const shot_tangents *t, const shot_line *line, 
     const double until = e != NULL ? e->time : shot->time;
     const carom_ball_state *to = e != NULL ? &e->before[side] : &shot->final[ball];
     if (until > last && (to->r[0] != from->r[0] || to->r[1] != from->r[1])) {
-      add_point(s, ball, last, from, d, along);
-      s->band[ball][s->points[ball] - 1].begins = true;
+      add_point(s, ball, last, from, d, along, true);
       for (; next < TIMES && t->times[next] < until && !s->cut[ball]; next++) {
         const double *here = t->at + (next * line->count + ball) * NUMBERS;
         double c[3] = {0};
         add_covariance(here, c);
         s->cut[ball] = axes_of(c).along > spread_most;
-        if (t->times[next] > last && !s->cut[ball])
-          add_point(s, ball, t->times[next], &t->states[next * line->count + ball], here, along);
+        if (t->times[next] > last)
+          add_point(s, ball, t->times[next], &t->states[next * line->count + ball], here, along, false);
       }
-      if (!s->cut[ball])
-        add_point(s, ball, until, to, e != NULL ? t->before + (2 * k + side) * NUMBERS : t->final + ball * NUMBERS, along);
+      d = e != NULL ? t->before + (2 * k + side) * NUMBERS : t->final + ball * NUMBERS;
+      add_point(s, ball, until, to, d, along, false);
     }
     if (e != NULL) {
       from = &e->after[side];

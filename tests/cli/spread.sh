@@ -1,14 +1,19 @@
 # What a player's error makes of a shot: numbers and bands beside 2,000 shots with such errors, what is told, what is refused.
 error=1%,0.05,0.01,0.02
+small=0.2%,0.01,0.002,0.004
 bank="--table threecushion --cue 0.4,0.6 --aim 60 --speed 2.5 --tip 0.3,0.2"
 hit="--cue 0.6,0.8 --balls 0.75,1.6 --at-ball 1 --cut 40 --tip 0,0.1 --speed 2.2"
+hop="--table threecushion --cue 0.4,0.6 --aim 60 --speed 2 --elevation 30"
 echo "--- in words"
 # shellcheck disable=SC2086
 carom shoot $bank --spread $error --plot bank.svg
 # shellcheck disable=SC2086
 carom shoot $hit --spread $error --plot hit.svg
+# shellcheck disable=SC2086
+carom shoot $hop --spread $small
 carom shoot $bank --json > bank.jsonl
 carom shoot $hit --json > hit.jsonl
+carom shoot $hop --json > hop.jsonl
 echo "--- beside sampled shots"
 python - <<'PYTHON'
 import json
@@ -33,17 +38,17 @@ def places(shots, name):
 
 
 lines = {}
-for name in ("bank", "hit"):
+for name, scale in (("bank", 1.0), ("hit", 1.0), ("hop", 0.2)):
     shot = json.loads(open(f"{name}.jsonl", encoding="utf-8").read())
     lines[name] = []
     for _ in range(2000):
         cue = dict(shot["cue"])
         for key, x in zip(SD, random.normal(size=4)):
-            cue[key] += x * SD[key] * (cue["V0"] if key == "V0" else 1.0)
+            cue[key] += scale * x * SD[key] * (cue["V0"] if key == "V0" else 1.0)
         lines[name].append(json.dumps({**shot, "cue": cue}) + "\n")
     # standard deviations along both axes of the ellipses at the end, as sampled over as told
     for models in ([], ["--cushion", "mathavan"]):
-        middle = play([json.dumps(shot) + "\n"], "--spread", "1%,0.05,0.01,0.02", *models)[0]
+        middle = play([json.dumps(shot) + "\n"], "--spread", ",".join(f"{scale * x:g}" for x in (1.0, 0.05, 0.01, 0.02)), *models)[0]
         sampled = play(lines[name], *models)
         for ball, (xx, xy, yy) in middle["spread"]["covariance"].items():
             values, axes = np.linalg.eigh([[xx, xy], [xy, yy]])
@@ -99,6 +104,8 @@ done
 try carom shoot --spread 1%,0.05,0.01 --models pooltool -o refused.out bank.jsonl
 try carom shoot --spread 1%,0.05,0.01 --ball-ball euler -o refused.out bank.jsonl
 ls refused.out 2> /dev/null || echo "nothing written"
-echo "--- a jump"
-carom shoot --elevation 45 --spread 1%,0.05,0.01 --plot jump.svg
-grep -c 'class="band"' jump.svg
+echo "--- a shot that is stopped by an error has no spread"
+try carom shoot --speed 2 --spread 1%,0.05,0.01 --events-most 3 --plot stopped.svg
+grep 'class="band"' stopped.svg || echo "no band"
+try carom shoot --events none --spread 1%,0.05,0.01 --events-most 3 -o two.out bank.jsonl
+grep -o '"spread": null.*' two.out

@@ -13,7 +13,7 @@
 
 Shots are played and differentiated by C, in callbacks: a function under `jax.vmap` is one batch of `carom.simulate_batch`, and its
 derivative one of `carom.tangents`. `grad`, `jacfwd` and `jacrev` all use the Jacobian of `carom.tangents`; second derivatives are not
-known. docs/understanding/gradients.md says what a derivative cannot tell: `carom.jacobian(..., of="reach")` has its reach.
+known. docs/using/derivatives.md says what a derivative cannot tell: `carom.jacobian(..., of="reach")` has its reach.
 
 Needs JAX with 64-bit numbers. Its objects have no types here, so that carom can be checked without it.
 """
