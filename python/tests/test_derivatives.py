@@ -67,7 +67,7 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
     shots = carom.simulate_batch(table, layouts, cues, room=200, **models)
     found = carom.tangents(shots, None, names, times=[0.1, 0.4], threads=threads)
     assert found.status[4] == carom.Status.ERROR_MISCUE and (found.status != 0).sum() == 1
-    assert found.states.shape == (9, 3, 7, 6) and found.reach.shape == (9, 6)
+    assert found.states.shape == (9, 3, 9, 6) and found.reach.shape == (9, 6)
     ofs = {of: carom.jacobian(table, layouts, cues, names, of=of, times=[0.1, 0.4], room=200, threads=threads, **models)
            for of in ("final.r", "at.w", "time", "reach")}  # fmt: skip
     for k in range(9):
