@@ -43,7 +43,7 @@ static void check_tangent(const double *tangent, int n, int64_t m, carom_status 
     if (status >= 0)
       fail("a number of directions is not refused");
     m = 0;
-  } else if (status != solved && status != CAROM_ERROR_TANGENT && (plays || status != CAROM_ERROR_UNRESOLVED))
+  } else if (status != solved && status != CAROM_ERROR_TANGENT && (plays || status >= 0))
     fail("the status of a derivative is not that of the call");
   else if (status < 0 || plays)
     expect(tangent, (size_t)n * (size_t)m, status >= 0, "a derivative");

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import FLOAT32, FLOAT64, INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows
+from carom._rows import FLOAT32, FLOAT64, INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows, whole
 from carom.status import CaromError
 
 Solver = Literal["exact", "euler"]
@@ -38,8 +38,8 @@ def _options(solver: str, slip: str, steps: int, threads: int) -> Any:
         {
             "solver": choice(SOLVERS, solver, "solver"),
             "slip": choice(SLIPS, slip, "slip"),
-            "steps": steps,
-            "threads": threads,
+            "steps": whole(steps, "steps", least=-(2**31)),
+            "threads": whole(threads, "threads", least=-(2**31)),
         },
     )
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows
+from carom._rows import INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows, whole
 from carom.collisions import Outcome
 from carom.status import CaromError
 
@@ -31,8 +31,8 @@ def _options(model: str, convention: str, law: str, steps: int, threads: int, le
             "model": choice(MODELS, model, "model"),
             "convention": choice(CONVENTIONS, convention, "convention"),
             "law": choice(LAWS, law, "law"),
-            "steps": steps,
-            "threads": threads,
+            "steps": whole(steps, "steps", least=-(2**31)),
+            "threads": whole(threads, "threads", least=-(2**31)),
             "least_step": least_step,
             "omega_ratio": omega_ratio,
         },

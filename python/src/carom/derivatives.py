@@ -16,7 +16,7 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import Array, as_array, pointer
-from carom.layouts import Table
+from carom.layouts import Table, of_record
 from carom.results import Shot
 from carom._shot_options import shot_options
 from carom.shots import simulate_batch
@@ -210,6 +210,8 @@ def tangents(
     CaromError
         Derivatives are not known for this shot: in the world pooltool, by Euler's model of balls, where a ball flies.
     """
+    if not isinstance(shot, Shot):
+        raise TypeError(f"shot: what carom.simulate() gives is needed, not {type(shot).__name__}")
     names, units, seeds = _seeds(wrt, len(shot.balls))
     at = _sorted_times(times)
     if shot.options is None:
@@ -218,7 +220,7 @@ def tangents(
     found = Tangents(names, units, (), len(shot.balls), len(shot.events), len(at))
     if shot.count > len(shot.events):
         raise CaromError(-54)
-    struck = None if cue is None else np.ascontiguousarray(cue).reshape(1)
+    struck = None if cue is None else of_record(cue, dtypes.cue, "cue", "cue()").reshape(1)
     _differentiate(shot.table, np.ascontiguousarray(shot.balls), struck, np.ascontiguousarray(shot.events), shot.time, options, seeds, at, found, ())
     if found.status < 0:
         raise CaromError(int(found.status))
@@ -256,7 +258,7 @@ def jacobian(
     ndarray of float64
         (..., balls, 2, m) for "final.r"; nan for shots in error.
     """
-    group, _, field = of.partition(".")
+    group, _, field = str(of).partition(".")
     if (group not in ("final", "at") or field not in _STATE) and of not in ("time", "reach"):
         raise ValueError(f"of: must be final.r, final.v, final.w, at.r, at.v, at.w, time or reach, not {of!r}")
     shots = simulate_batch(table, layouts, cues, room=room, **models)
