@@ -137,6 +137,8 @@ def print_impact():
     print(row % ("Nodes on [0, 1], and weights.", "NODE[NODES]", text(x)))
     print("static const double __attribute__((aligned(64))) WEIGHT[NODES] = %s;" % text(weight))
     print(row % ("Sum with the values at the nodes: the coefficient of the Legendre polynomial of degree 7.", "HIGHEST[NODES]", text(highest)))
+    at_end = [sum(c) for c in L]
+    print(row % ("Sum with the values at the nodes: the value at 1.", "AT_END[NODES]", text(at_end)))
     sums = ",\n".join(text([integral(c, 0, zero, at) for at in x]) for c in L)
     print(row % ("[j][k]: integral of the Lagrange polynomial of node j from 0 to node k.", "INTEGRAL[NODES][NODES]", "{%s}" % sums))
 

@@ -56,6 +56,61 @@ def test_jacobian_has_the_batch_in_front():
     np.testing.assert_array_equal(found[0, 1], one.final["r"])
 
 
+@pytest.mark.parametrize("models", [CLOSED, {}, {"cushion_model": "mathavan"}, {"t_final": 0.7, **CLOSED}])
+@pytest.mark.parametrize("threads", [0, 3])
+def test_batches_have_the_bits_of_single_shots(models, threads):
+    table, random = carom.tables.pool_9ft(), np.random.default_rng(11)
+    layouts = carom.balls(random.uniform([0.1, 0.2], [0.5, 0.8], (9, 1, 2)) + np.array([[0.0, 0.0], [0.2, 0.9], [0.5, 1.4]]))
+    cues = carom.cue(speed=random.uniform(0.8, 3.0, 9), phi=random.uniform(60.0, 85.0, 9), a=0.1)
+    cues["b"][4] = 2.0
+    names = ["cue.speed", "cue.phi", "balls[1].r", "kind.restitution", "table.nose_height"]
+    shots = carom.simulate_batch(table, layouts, cues, room=200, **models)
+    found = carom.tangents(shots, None, names, times=[0.1, 0.4], threads=threads)
+    assert found.status[4] == carom.Status.ERROR_MISCUE and (found.status != 0).sum() == 1
+    assert found.states.shape == (9, 3, 7, 6) and found.reach.shape == (9, 6)
+    ofs = {of: carom.jacobian(table, layouts, cues, names, of=of, times=[0.1, 0.4], room=200, threads=threads, **models)
+           for of in ("final.r", "at.w", "time", "reach")}  # fmt: skip
+    for k in range(9):
+        if k == 4:
+            assert np.isnan(found.states[k]).all() and np.isnan(found.reach[k]).all() and (found.flags[k] == -1).all()
+            assert all(np.isnan(array[k]).all() for array in ofs.values())
+            continue
+        one = carom.tangents(carom.simulate(table, layouts[k], cues[k], **models), cues[k], names, times=[0.1, 0.4])
+        events = len(one.time)
+        for batch, single in (
+            (found.states[k], one.states), (found.states_at[k], one.states_at), (found.time[k, :events], one.time),
+            (found.flags[k, :events], one.flags), (found.reach[k], one.reach), (found.error[k], one.error), (ofs["final.r"][k], one.final["r"]),
+            (ofs["at.w"][k], one.at["w"]), (ofs["time"][k, :events], one.time), (ofs["reach"][k], one.reach),
+        ):  # fmt: skip
+            assert np.isfinite(single).any() and batch.tobytes() == np.ascontiguousarray(single).tobytes()
+        assert np.isnan(found.time[k, events:]).all() and (found.flags[k, events:] == -1).all()
+        # a shot that is taken out of the batch knows how it was played
+        again = carom.tangents(shots[k], cues[k], names)
+        assert again.states.tobytes() == one.states.tobytes()
+
+
+def test_jacobians_of_more_shots_than_are_kept_at_a_time(monkeypatch):
+    balls, _ = layout()
+    cues = carom.cue(speed=1.5, phi=np.linspace(76.0, 81.0, 23))
+    names = ["cue.phi", *(f"balls[{i}].kind.{field}" for i in range(3) for field in carom.dtypes.ball_kind.names if field != "radius")]
+    assert len(names) < carom.derivatives.MOST
+    whole = {of: carom.jacobian(TABLE, balls, cues, names, of=of, **CLOSED) for of in ("final.v", "final.r", "time", "reach")}
+    monkeypatch.setattr(carom.derivatives, "_AT_ONCE", 5)
+    monkeypatch.setattr(carom.derivatives, "MOST", 20)
+    for of, array in whole.items():
+        part = carom.jacobian(TABLE, np.broadcast_to(balls, (23, 3)), cues, names, of=of, **CLOSED)
+        np.testing.assert_allclose(part, array, rtol=1e-9, atol=1e-9 * np.nanmax(np.abs(array[np.isfinite(array)])))
+        assert part.shape == array.shape and np.isfinite(part).sum() == np.isfinite(array).sum() > 0
+    # none, one, and one of too many events for its room
+    assert carom.jacobian(TABLE, balls, cues[:0], names, **CLOSED).shape == (0, 3, 2, len(names))
+    assert carom.jacobian(TABLE, balls, cues[3], names, **CLOSED).shape == (3, 2, len(names))
+    assert np.isnan(carom.jacobian(TABLE, balls, cues, names, room=2, **CLOSED)).all()
+    with pytest.raises(ValueError, match="layouts"):
+        carom.jacobian(TABLE, balls[0], cues, names)
+    with pytest.raises(ValueError, match="cue: shots of a batch know"):
+        carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=99), cues, names)
+
+
 def test_more_directions_than_a_call_takes():
     balls = carom.racks.nineball(TABLE, gap=1e-3, seed=1)
     cue = carom.cue(speed=1.0)

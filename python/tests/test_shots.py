@@ -130,6 +130,17 @@ def test_a_batch_has_the_bits_of_single_shots():
     np.testing.assert_array_equal(finals[1, 2].positions([0.3, 1.0]), shots[1, 2].positions([0.3, 1.0]))
 
 
+def test_a_batch_without_cues():
+    """Balls that move from the start, played and looked at by several threads, each of which begins at another row."""
+    table = carom.tables.pool_9ft()
+    layouts = carom.balls([[0.5, 0.5], [0.6, 1.2]], v=np.linspace([[0.0, 1.0, 0.0]], [[0.3, 2.0, 0.0]], 7) * [[1], [0]])
+    shots = carom.simulate_batch(table, layouts, None, threads=3)
+    alone = [carom.simulate(table, layout) for layout in layouts]
+    assert shots.shape == (7,) and not shots.failures()
+    assert shots.final.tobytes() == b"".join(one.final.tobytes() for one in alone)
+    np.testing.assert_array_equal(shots.positions([0.2, 0.9], threads=3), [one.positions([0.2, 0.9]) for one in alone])
+
+
 @pytest.fixture(scope="module")
 def breaks():
     """Breaks of which every 3rd is in error: the batch, and each shot alone, None in place of those."""

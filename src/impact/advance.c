@@ -16,6 +16,7 @@
  * by careful steps: exact ones over even maps, each only a share of the way to where a slip could vanish. The caller bounds the
  * number of iterations of all steps together. */
 #include "impact/map.h"
+#include "impact/variation_step.h"
 
 #include <float.h>
 
@@ -363,13 +364,14 @@ static bool next_step(carom_trajectory *path, double to) {
   if (r == TAKEN && path->variation != NULL) {
     /* derivatives may need a shorter step */
     const double length = path->at.p - before.p;
-    advice = carom_variation_step(path, &before, driving_slips(path),
-                                  n.s.goal == AT_STICK         ? (int)OF_A_X
-                                  : n.s.goal == AT_CLOTH_STICK ? (int)OF_B_X
-                                                               : -1);
+    advice = variation_step(path, &before, driving_slips(path),
+                            n.s.goal == AT_STICK         ? (int)OF_A_X
+                            : n.s.goal == AT_CLOTH_STICK ? (int)OF_B_X
+                                                         : -1);
     if (advice > 1) {
+      /* the planner keeps a length that it is given to a few percent only */
       path->at = before;
-      path->longest = length * most_of(0.2, 0.9 / sqrt(sqrt(sqrt(sqrt(least(advice, 1e12))))));
+      path->longest = length * most_of(0.2, least(0.7, 0.9 / sqrt(sqrt(sqrt(sqrt(least(advice, 1e12)))))));
       return true;
     }
   }

@@ -17,6 +17,11 @@ static const double __attribute__((aligned(64)))
 HIGHEST[NODES] = {-0.11769245644771356, 0.3778969370845921, -0.6317745531190048, 0.7849065579218132,
                   -0.7849065579218132,  0.6317745531190048, -0.3778969370845921, 0.11769245644771356};
 
+/* Sum with the values at the nodes: the value at 1. */
+static const double __attribute__((aligned(64)))
+AT_END[NODES] = {-0.032020422845832404, 0.11217721020871642, -0.2208713667044389, 0.3537304181064418,
+                 -0.5126556338013685,   0.7101568903172424,  -0.9912041583117163, 1.5806870630309555};
+
 /* [j][k]: integral of the Lagrange polynomial of node j from 0 to node k. */
 static const double __attribute__((aligned(64)))
 INTEGRAL[NODES][NODES] = {{0.025307134072594065, 0.05475932176755432, 0.048587535998912884, 0.05186552097058123,

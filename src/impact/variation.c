@@ -28,13 +28,10 @@
 #include <string.h>
 
 static const double TOLERANCE = 1e-2;   /* of the solver: see impact.h */
-static const double ESTIMATE = 1e-6;    /* square of the error estimate of a step, relative */
-static const double SHORTEST = 1e-8;    /* length of a step that is taken in any case */
 static const double UNRESOLVED = 1e-5;  /* of a slip's derivative, that is left where the slip ends */
 static const double COEFFICIENT = 1e-5; /* share of a variable by which coefficients are differentiated */
 
-/* The rates at one place, from directions. */
-static void rates_at(const carom_terms *k, const double lead[4], double v, double rate[CAROM_VARIED]) {
+void carom_variation_rates(const carom_terms *k, const double lead[4], double v, double rate[CAROM_VARIED]) {
   const double w = (k->w_0 + k->w_u * lead[1]) / (1 - k->w_t * lead[3]), x = w * lead[2], y = w * lead[3];
   rate[OF_A_X] = k->S_x * lead[0] - k->C_x * x;
   rate[OF_A_Y] = k->A_0 + k->S_y * lead[1] - k->C_y * y;
@@ -44,8 +41,7 @@ static void rates_at(const carom_terms *k, const double lead[4], double v, doubl
   rate[OF_W] = v;
 }
 
-/* Directions of the slips at a point; `otherwise` where a slip is zero. */
-static void leads(const carom_point *at, const double otherwise[4], double lead[4]) {
+void carom_variation_leads(const carom_point *at, const double otherwise[4], double lead[4]) {
   const double a = sqrt(at->a_x * at->a_x + at->a_y * at->a_y), b = sqrt(at->b_x * at->b_x + at->b_y * at->b_y);
   lead[0] = a > 0 ? at->a_x / a : otherwise[0];
   lead[1] = a > 0 ? at->a_y / a : otherwise[1];
@@ -89,186 +85,22 @@ static double changed_terms(const carom_trajectory *path, enum carom_variable by
   return 2 * step;
 }
 
-/* Solves n equations for the columns behind the matrix, in place: elimination with pivots. False for a singular matrix. */
-enum { UNKNOWNS = 2 * NODES, WIDTH = UNKNOWNS + CAROM_VARIABLES };
-static bool solve(double e[UNKNOWNS][WIDTH], int n, int width) {
-  for (int k = 0; k < n; k++) {
-    int best = k;
-    for (int i = k + 1; i < n; i++)
-      if (fabs(e[i][k]) > fabs(e[best][k]))
-        best = i;
-    if (!(fabs(e[best][k]) > 0))
-      return false;
-    if (best != k)
-      for (int j = k; j < width; j++) {
-        const double x = e[k][j];
-        e[k][j] = e[best][j];
-        e[best][j] = x;
-      }
-    /* the rows below */
-    const double per = 1 / e[k][k];
-    for (int i = k + 1; i < n; i++) {
-      const double f = e[i][k] * per;
-      if (f != 0)
-        for (int j = k + 1; j < width; j++)
-          e[i][j] -= f * e[k][j];
-    }
-  }
-  /* back */
-  for (int k = n - 1; k >= 0; k--) {
-    const double per = 1 / e[k][k];
-    for (int j = n; j < width; j++) {
-      double x = e[k][j];
-      for (int i = k + 1; i < n; i++)
-        x -= e[k][i] * e[i][j];
-      e[k][j] = x * per;
-    }
-  }
-  return true;
-}
-
-/* What the rates at a node depend on: by the angle of u, by that of t, and by the variables mu, mu_c and lambda. */
-typedef struct node_rates {
-  double by_u[5], by_t[5], by[CAROM_VARIABLES][5];
-} node_rates;
-
-double carom_variation_step(carom_trajectory *path, const carom_point *before, bool driving_slips, int vanishes) {
+void carom_variation_begin_regime(carom_trajectory *path) {
   carom_variation *g = path->variation;
-  const carom_kept_step *s = &g->kept;
-  const carom_terms *k = &path->terms;
-  const bool loaded = path->regime.loaded;
-  const double length = path->at.p - before->p;
-  /* derivatives of the coefficients */
-  static const enum carom_variable parameters[3] = {BY_MU, BY_MU_C, BY_LAMBDA};
-  carom_terms more[3], less[3];
-  double apart[3];
-  for (int n = 0; n < 3; n++)
-    apart[n] = g->asked >> parameters[n] & 1 ? changed_terms(path, parameters[n], &more[n], &less[n]) : 0;
-  /* what comes to an end of a slip earlier or later, split off: along the motion itself, by alpha in p */
-  double alpha[CAROM_VARIABLES] = {0}, rest[CAROM_VARIED][CAROM_VARIABLES], first_rate[CAROM_VARIED];
-  memcpy(rest, g->d, sizeof rest);
-  if (vanishes >= 0) {
-    const double none[4] = {0};
-    double lead[4];
-    leads(before, none, lead);
-    const double x = lead[vanishes], y = lead[vanishes + 1];
-    const double w = (k->w_0 + k->w_u * lead[1]) / (1 - k->w_t * lead[3]);
-    rates_at(k, lead, before->v, first_rate);
-    const double falls = x * first_rate[vanishes] + y * first_rate[vanishes + 1];
-    for (int c = 0; c < CAROM_VARIABLES && falls < 0 && isfinite(w); c++) {
-      alpha[c] = (x * g->d[vanishes][c] + y * g->d[vanishes + 1][c]) / falls;
-      for (int r = 0; r < CAROM_VARIED; r++)
-        rest[r][c] -= alpha[c] * first_rate[r];
-    }
+  const int regime = 1 + path->regime.held + 2 * path->regime.cloth_held + 4 * path->regime.loaded;
+  if (g->regime == regime)
+    return;
+  g->regime = regime;
+  for (int n = 0; n < 3; n++) {
+    carom_terms more, less;
+    if (!(g->asked >> CAROM_PARAMETER[n] & 1))
+      continue;
+    const double apart = changed_terms(path, CAROM_PARAMETER[n], &more, &less);
+    const double *high = (const double *)&more, *low = (const double *)&less;
+    double *d = (double *)&g->d_terms[n];
+    for (size_t k = 0; k < sizeof more / sizeof(double); k++)
+      d[k] = apart > 0 ? (high[k] - low[k]) / apart : 0;
   }
-  /* the rates at the nodes, and what they depend on */
-  node_rates at[NODES];
-  double rate[NODES][CAROM_VARIED];
-  memset(at, 0, sizeof at);
-  for (int i = 0; i < NODES; i++) {
-    const double lead[4] = {s->u_x[i], s->u_y[i], s->t_x[i], s->t_y[i]};
-    rates_at(k, lead, 0, rate[i]);
-    const double held = 1 - k->w_t * lead[3], w = (k->w_0 + k->w_u * lead[1]) / held;
-    const double w_u = k->w_u * lead[0] / held, w_t = w * k->w_t * lead[2] / held;
-    /* w t by the angles */
-    const double x_u = w_u * lead[2], y_u = w_u * lead[3], x_t = w_t * lead[2] - w * lead[3], y_t = w_t * lead[3] + w * lead[2];
-    const double by_u[5] = {-k->S_x * lead[1] - k->C_x * x_u, k->S_y * lead[0] - k->C_y * y_u, -k->R_x * lead[1] - k->H_x * x_u,
-                            k->R_y * lead[0] - k->H_y * y_u, k->V_u * lead[0] - k->V_w * y_u};
-    const double by_t[5] = {-k->C_x * x_t, -k->C_y * y_t, -k->H_x * x_t, -k->H_y * y_t, -k->V_w * y_t};
-    memcpy(at[i].by_u, by_u, sizeof by_u);
-    memcpy(at[i].by_t, by_t, sizeof by_t);
-    for (int n = 0; n < 3; n++) {
-      double high[CAROM_VARIED], low[CAROM_VARIED];
-      if (apart[n] == 0)
-        continue;
-      rates_at(&more[n], lead, 0, high);
-      rates_at(&less[n], lead, 0, low);
-      for (int r = 0; r < 5; r++)
-        at[i].by[parameters[n]][r] = (high[r] - low[r]) / apart[n];
-    }
-  }
-  /* the equations: rows and columns of dphi first, then of dpsi */
-  double e[UNKNOWNS][WIDTH];
-  const int of_t = driving_slips ? NODES : 0, unknowns = of_t + (loaded ? NODES : 0), width = unknowns + g->columns;
-  int from_parameters = 0; /* columns of the slips at the start come first, and no rate depends on those */
-  while (from_parameters < g->columns && g->column[from_parameters] < BY_MU)
-    from_parameters++;
-  const double start[4] = {before->a_x, before->a_y, before->b_x, before->b_y};
-  for (int row = 0; row < unknowns; row++) {
-    const bool of_b = row >= of_t;
-    const int i = of_b ? row - of_t : row, first = of_b ? OF_B_X : OF_A_X;
-    const double u_x = of_b ? s->t_x[i] : s->u_x[i], u_y = of_b ? s->t_y[i] : s->u_y[i];
-    double x = start[first], y = start[first + 1], right[CAROM_VARIABLES];
-    for (int n = 0; n < g->columns; n++)
-      right[n] = u_x * rest[first + 1][g->column[n]] - u_y * rest[first][g->column[n]];
-    for (int j = 0; j < NODES; j++) {
-      const double m = INTEGRAL[j][i] * s->z[j], m_x = m * u_x, m_y = m * u_y;
-      x += m * rate[j][first];
-      y += m * rate[j][first + 1];
-      if (driving_slips)
-        e[row][j] = m_y * at[j].by_u[first] - m_x * at[j].by_u[first + 1];
-      if (loaded)
-        e[row][of_t + j] = m_y * at[j].by_t[first] - m_x * at[j].by_t[first + 1];
-      for (int n = from_parameters; n < g->columns; n++) {
-        const double *by = at[j].by[g->column[n]];
-        right[n] += m_x * by[first + 1] - m_y * by[first];
-      }
-    }
-    e[row][row] += x * u_x + y * u_y;
-    memcpy(&e[row][unknowns], right, sizeof *right * (size_t)g->columns);
-  }
-  if (!solve(e, unknowns, width))
-    g->lost = true;
-  /* the end, by quadrature; W is the integral of an integral. The estimate of the error is that of the solver: the coefficient
-   * of the highest Legendre polynomial of the rates */
-  double ends[CAROM_VARIABLES][5], works[CAROM_VARIABLES], worst = 0;
-  for (int n = 0; n < g->columns; n++) {
-    const int c = g->column[n];
-    double end[5] = {0}, highest[5] = {0}, work = length * rest[OF_V][c], size = 0, error = 0;
-    for (int j = 0; j < NODES; j++) {
-      const double m = WEIGHT[j] * s->z[j];
-      double of_v = 0;
-      for (int r = 0; r < 5; r++) {
-        double d = at[j].by[c][r];
-        if (driving_slips)
-          d += at[j].by_u[r] * e[j][unknowns + n];
-        if (loaded)
-          d += at[j].by_t[r] * e[of_t + j][unknowns + n];
-        end[r] += m * d;
-        highest[r] += HIGHEST[j] * s->z[j] * d;
-        of_v = d;
-      }
-      work += m * (length - s->p[j]) * of_v;
-    }
-    for (int r = 0; r < 5; r++) {
-      size = fmax(size, fmax(fabs(g->d[r][c]), fabs(end[r])));
-      error = fmax(error, fabs(highest[r]));
-    }
-    worst = fmax(worst, size > 0 ? error / size : 0);
-    memcpy(ends[c], end, sizeof end);
-    works[c] = work;
-  }
-  if (worst * worst > ESTIMATE && length > SHORTEST)
-    return worst * worst / ESTIMATE;
-  /* what follows needs the rates at the end; the direction of a slip that is zero there is that of the polynomial */
-  double last[4] = {0};
-  for (int j = 0; j < NODES; j++) {
-    double value = 1;
-    for (int i = 0; i < NODES; i++)
-      value *= i == j ? 1 : (1 - NODE[i]) / (NODE[j] - NODE[i]);
-    last[0] += value * s->u_x[j];
-    last[1] += value * s->u_y[j];
-    last[2] += value * s->t_x[j];
-    last[3] += value * s->t_y[j];
-  }
-  leads(&path->at, last, g->lead);
-  rates_at(k, g->lead, path->at.v, g->rate);
-  for (int n = 0; n < g->columns; n++) {
-    const int c = g->column[n];
-    for (int r = 0; r < CAROM_VARIED; r++)
-      g->d[r][c] = rest[r][c] + (r == OF_W ? works[c] : ends[c][r]) + alpha[c] * g->rate[r];
-  }
-  return 0;
 }
 
 void carom_variation_straight(carom_trajectory *path, const carom_point *before, bool planar) {
@@ -278,21 +110,18 @@ void carom_variation_straight(carom_trajectory *path, const carom_point *before,
   g->lost |= planar && ((!path->regime.held && path->law.mu > 0) || path->regime.loaded);
   for (int c = 0; c < CAROM_VARIABLES; c++)
     g->d[OF_W][c] += length * g->d[OF_V][c];
-  for (int n = 0; n < 3; n++) {
-    static const enum carom_variable parameters[3] = {BY_MU, BY_MU_C, BY_LAMBDA};
-    carom_terms more, less;
-    double high[CAROM_VARIED], low[CAROM_VARIED];
-    const double apart = changed_terms(path, parameters[n], &more, &less);
-    if (apart == 0)
-      continue;
-    rates_at(&more, none, 0, high);
-    rates_at(&less, none, 0, low);
-    for (int r = 0; r < 5; r++)
-      g->d[r][parameters[n]] += length * (high[r] - low[r]) / apart;
-    g->d[OF_W][parameters[n]] += 0.5 * length * length * (high[OF_V] - low[OF_V]) / apart;
-  }
-  leads(&path->at, none, g->lead);
-  rates_at(&path->terms, g->lead, path->at.v, g->rate);
+  carom_variation_begin_regime(path);
+  for (int n = 0; n < 3; n++)
+    if (g->asked >> CAROM_PARAMETER[n] & 1) {
+      const int c = CAROM_PARAMETER[n];
+      const carom_terms *d = &g->d_terms[n];
+      const double by[5] = {0, d->A_0, 0, d->B_0, d->V_0};
+      for (int r = 0; r < 5; r++)
+        g->d[r][c] += length * by[r];
+      g->d[OF_W][c] += 0.5 * length * length * d->V_0;
+    }
+  carom_variation_leads(&path->at, none, g->lead);
+  carom_variation_rates(&path->terms, g->lead, path->at.v, g->rate);
 }
 
 /* The end of the impact, or of compression: where W, or v, has its value. */
@@ -339,8 +168,8 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
   const double falls = u_x * g->rate[first] + u_y * g->rate[first + 1];
   const double begins[4] = {path->regime.u_x, path->regime.u_y, path->regime.t_x, path->regime.t_y};
   double lead[4], after[CAROM_VARIED];
-  leads(at, begins, lead);
-  rates_at(&path->terms, lead, at->v, after);
+  carom_variation_leads(at, begins, lead);
+  carom_variation_rates(&path->terms, lead, at->v, after);
   /* it ends a little earlier or later; rates change there. By the rates at its end and not by the direction of the slip alone:
    * that of a slip which is negligible, but not zero, still turns, and what is left of da across the motion falls with |a| */
   for (int c = 0; c < CAROM_VARIABLES; c++) {
@@ -442,7 +271,7 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   g.d_law = d_law;
   g.asked = asked;
   for (int c = 0; c < CAROM_VARIABLES; c++)
-    if (asked >> c & 1)
+    if ((asked >> c & 1) && c != BY_E)
       g.column[g.columns++] = c;
   for (int c = BY_A_X; c <= BY_B_Y; c++)
     g.d[c][c] = 1;

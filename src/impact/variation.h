@@ -11,6 +11,9 @@
  */
 enum carom_variable { BY_A_X, BY_A_Y, BY_B_X, BY_B_Y, BY_MU, BY_MU_C, BY_E, BY_LAMBDA, CAROM_VARIABLES };
 
+/* The parameters on which rates depend. */
+static const enum carom_variable CAROM_PARAMETER[3] = {BY_MU, BY_MU_C, BY_LAMBDA};
+
 /* A step as the solver took it, at the nodes: dp/dX, p from the beginning of the step, directions of the slips. */
 typedef struct carom_kept_step {
   double z[NODES], p[NODES], u_x[NODES], u_y[NODES], t_x[NODES], t_y[NODES];
@@ -23,7 +26,9 @@ typedef struct carom_variation {
   carom_kept_step kept;
   const carom_law *d_law;                  /* by lambda */
   unsigned asked;                          /* bit k: by variable k */
-  int columns, column[CAROM_VARIABLES];    /* the same as a list */
+  int columns, column[CAROM_VARIABLES];    /* the same as a list, but for e, which changes no rate */
+  int regime;                              /* for which d_terms are, */
+  carom_terms d_terms[3];                  /* the derivatives of path->terms by mu, mu_c and lambda */
   double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: that of path->at; */
   double d_p[CAROM_VARIABLES];             /* at the end that of where the impact ends, and then d are total ones */
   double d_W_c[CAROM_VARIABLES];           /* of the work of compression */
@@ -47,11 +52,14 @@ typedef struct carom_impact_tangent {
 carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain,
                                         unsigned asked, carom_impact_tangent *out);
 
-/* Called by advance.c: after a step by collocation from `before`, while path->regime is still that of the step. Gives the
- * squared error estimate over the tolerance; above 1 the step is too long, and nothing is changed. vanishes: which slip the
- * step ends with, OF_A_X or OF_B_X, or -1; */
-double carom_variation_step(carom_trajectory *path, const carom_point *before, bool driving_slips, int vanishes);
-/* after a straight one; */
+/* Makes d_terms those of path->regime. */
+void carom_variation_begin_regime(carom_trajectory *path);
+/* Directions of the slips at a point; `otherwise` where a slip is zero. */
+void carom_variation_leads(const carom_point *at, const double otherwise[4], double lead[4]);
+/* The rates at one place, from directions. */
+void carom_variation_rates(const carom_terms *k, const double lead[4], double v, double rate[CAROM_VARIED]);
+
+/* Called by advance.c, besides variation_step() of variation_step.h: after a straight step; */
 void carom_variation_straight(carom_trajectory *path, const carom_point *before, bool planar);
 /* and after either, once what follows is decided. phase_ended: compression or restitution has. */
 void carom_variation_follow(carom_trajectory *path, const carom_point *before, bool phase_ended);

@@ -36,6 +36,7 @@ def simulate(
     space: Space = "3d",
     steps: int = 0,
     events_most: int = 0,
+    plain: bool = False,
     t_final: float | None = None,
     stop_at: StopAt | Iterable[StopAt] = (),
 ) -> Shot:
@@ -64,6 +65,8 @@ def simulate(
         Of Euler's models; 0 is 1000.
     events_most : int
         Bound of events; 0 is 10000.
+    plain : bool
+        Whether this call computes with the instruction set plain, as with CAROM_ISA=plain: it has the bits that all machines share.
     t_final : float, optional
         The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that
         lasts longer than 1000 s is an error.
@@ -93,7 +96,7 @@ def simulate(
         if cues.size != 1:
             raise ValueError(f"cue: one is needed, not {cues.size}; simulate_batch plays many")
         strike = pointer("carom_cue[]", cues)
-    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most)
+    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most, plain)
     options = shot_options(*chosen, t_final, hashable(stop_at), 0)
     state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if t_final is not None or stop_at else None
     arguments = (pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), strike, options)
@@ -181,6 +184,7 @@ def simulate_batch(
     space: Space = "3d",
     steps: int = 0,
     events_most: int = 0,
+    plain: bool = False,
     t_final: float | None = None,
     stop_at: StopAt | Iterable[StopAt] = (),
     threads: int = 0,
@@ -201,7 +205,7 @@ def simulate_batch(
         What is kept of an event: all (`carom.dtypes.event`, 344 bytes), or time, type and who (`carom.dtypes.brief_event`, 24 bytes).
     features : bool
         Whether `shots.features` tells first contacts, cushions and pockets.
-    world, ball_model, cushion_model, friction, space, steps, events_most, t_final, stop_at
+    world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, stop_at
         As for `simulate`.
     threads : int
         Most threads to use; 0 is the calling one alone, -1 all processors. No bit depends on it.
@@ -234,7 +238,7 @@ def simulate_batch(
     if records not in ("full", "brief"):
         raise ValueError(f"records: must be 'full' or 'brief', not {records!r}")
     record = dtypes.event if records == "full" else dtypes.brief_event
-    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most, t_final, hashable(stop_at))
+    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, hashable(stop_at))
     options = shot_options(*chosen, threads)
     shots = Shots(table, all_balls, shape, room, record) if out is None else out
     output(shots.status, shape, INT8, "out.status")
