@@ -169,6 +169,7 @@ SHOTS = [
     carom.simulate(TABLES[1], RACKS[1], carom.cue(speed=3.0, phi=80.0), t_final=2.0),
     carom.simulate(TABLES[0], RACKS[0], carom.cue(speed=6.0), events_most=10000),
 ]
+BATCH = carom.simulate_batch(TABLES[1], RACKS[1], carom.cue(speed=[1.0, 2.0]), room=60)
 
 
 def count(draws):
@@ -251,7 +252,9 @@ def objects(draws):
     names, columns = tuple("abc"[: draws.choice(4)]), tuple(draws.of([1, 2, 3], [1] * n, 7, None) for _ in range(draws.choice(4)))
     kind = draws.of(Plain, Plain, Plain, int, dict, type, Odd, np.ndarray, Sub, Exception, junk(draws))
     if draws.choice(2):
-        return _objects.make, (kind, draws.of(n, n, -1, -(2**63), 2**62, junk(draws)), spoilt(draws, names), spoilt(draws, columns)), None
+        n = draws.of(n, n, -1, -(2**63), 2**62, junk(draws))
+        n = 2**62 if isinstance(n, int) and n > 10**6 else n  # what has no room, instead of all memory
+        return _objects.make, (kind, n, spoilt(draws, names), spoilt(draws, columns)), None
     return _objects.turn, (spoilt(draws, [Odd(), Plain(), Odd()][:n]), kind, spoilt(draws, names), spoilt(draws, columns)), None
 
 
@@ -288,7 +291,8 @@ def call_of(draws):
         if draws.choice(2):
             return carom.resume, given(draws, shot=shot, t_final=draws.of(None, 3.0, draws.number()), stop_at=draws.of((), "rail")), None
         wrt = draws.of(["cue.phi", "kind.mass"], ["balls[0].v[1]"] * 70, [], junk(draws))
-        return carom.tangents, given(draws, shot=shot, cue=carom.cue(speed=3.0, phi=80.0), wrt=wrt, times=np.array([0.5])), None
+        shot, cue = draws.of((shot, carom.cue(speed=3.0, phi=80.0)), (BATCH, None), (BATCH[1], None))
+        return carom.tangents, given(draws, shot=shot, cue=cue, wrt=wrt, times=np.array([0.5]), threads=draws.of(0, 0, 2, count(draws))), None
     if which == 13:
         return objects(draws)
     table = draws.of(*TABLES)

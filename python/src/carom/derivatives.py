@@ -321,7 +321,7 @@ def play(
         job = shots.jobs(_options(shots.options[:-2], threads))
         found, codes = _differentiate(job, many, balls, events, seeds, times, wanted, threads)
         parts.append((found, codes, shots.final.copy()))
-    whole: dict[str, Array] = {}
+    gathered: dict[str, Array] = {}
     for name in parts[0][0]:
         blocks = [part[0][name] for part in parts]
         if name == "time":
@@ -332,9 +332,9 @@ def play(
                 to[:, : block.shape[1]] = block
             blocks = longer
         joined = np.concatenate(blocks) if len(blocks) > 1 else blocks[0]
-        whole[name] = joined.reshape((*shape, *joined.shape[1:]))
+        gathered[name] = joined.reshape((*shape, *joined.shape[1:]))
     codes = np.concatenate([part[1] for part in parts]).reshape(shape)
-    return whole, codes, np.concatenate([part[2] for part in parts]).reshape((*shape, balls))
+    return gathered, codes, np.concatenate([part[2] for part in parts]).reshape((*shape, balls))
 
 
 def jacobian(
