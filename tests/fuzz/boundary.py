@@ -313,7 +313,7 @@ def one(data):
     draws = Draws(data)
     try:
         function, arguments, intact = call_of(draws)
-    except ALLOWED:  # NumPy has no such array
+    except (*ALLOWED, OverflowError):  # NumPy has no such array
         return
     values = list(arguments.values()) if isinstance(arguments, dict) else []
     before = [value.tobytes() if isinstance(value, np.ndarray) and value.dtype != object else None for value in values]
