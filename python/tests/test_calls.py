@@ -154,6 +154,50 @@ def test_messages_name_what_is_wrong_with_a_cue():
     assert len(carom.racks.nineball(table, seed=2**64 - 1)) == 10
 
 
+def test_arguments_of_other_kinds_are_refused_by_their_names():
+    table = carom.tables.pool_9ft()
+    rack = carom.racks.nineball(table)
+    for wrong, message, call in (
+        (TypeError, r"balls: .* carom\.balls\(\)", lambda: carom.place_ball(table, [1.0, 2.0], 0, 0.5, 0.5)),
+        (TypeError, "table: .* not NoneType", lambda: carom.place_ball(None, rack, 0, 0.5, 0.5)),
+        (TypeError, "table: .* not str", lambda: carom.racks.nineball("9ft")),
+        (TypeError, r"cue: .* carom\.cue\(\)", lambda: carom.struck(10**30, rack[0]["kind"])),
+        (TypeError, "kind: ", lambda: carom.struck(carom.cue(), [np.inf])),
+        (ValueError, "rails: ", lambda: carom.Table(1.0, 2.0, rails=[[0.0, 1.0]])),
+        (ValueError, "shot: ", lambda: carom.resume(None)),
+        (TypeError, "shot: .* not str", lambda: carom.tangents("shot", None, ["cue.phi"])),
+        (TypeError, "cue: ", lambda: carom.tangents(carom.simulate(table, rack, carom.cue()), np.array(7), ["cue.phi"])),
+        (ValueError, "of: .* not None", lambda: carom.jacobian(table, rack, carom.cue(), ["cue.phi"], of=None)),
+        (ValueError, "steps: .* whole number", lambda: carom.collide(GOOD, steps=2**31)),
+        (ValueError, "threads: .* whole number", lambda: carom.cushion(carom.cushion_impacts(v=(0, 1, 0)), threads=10**30)),
+        (TypeError, r"out\[0\]: .* not str", lambda: carom.collide(GOOD, out=("motion", "status"))),
+    ):
+        with pytest.raises(wrong, match=f"^{message}"):
+            call()
+
+
+def test_objects_are_made_of_plain_classes_alone():
+    """Zeros are no dict, no type and no exception."""
+    from carom._objects import make
+
+    class Plain:
+        pass
+
+    class Dict(dict):
+        pass
+
+    class Own:
+        def __new__(cls):
+            return super().__new__(cls)
+
+    assert [found.a for found in make(Plain, 2, ("a",), ([1, 2],))] == [1, 2]
+    for other in (type, dict, int, Exception, Dict, Own):
+        with pytest.raises(TypeError, match="no __new__"):
+            make(other, 1, (), ())
+    with pytest.raises(ValueError, match="negative"):
+        make(Plain, -1, (), ())
+
+
 # ---- Arrays ------------------------------------------------------------------------------------------------------------
 
 

@@ -225,9 +225,18 @@ static bool is_outside(const carom_table *table, const carom_features *f, const 
 static double distance_to(const carom_features *f, int rail, const double r[2]) {
   return f->line[rail][0] * r[0] + f->line[rail][1] * r[1] + f->line[rail][2];
 }
+/* Along a rail, 0 at one of its ends and 1 at the other. */
+static double place_along(const carom_features *f, int rail, const double r[2]) {
+  return f->along[rail][0] * r[0] + f->along[rail][1] * r[1] + f->along[rail][2];
+}
 static bool is_beside(const carom_features *f, int rail, const double r[2]) {
-  const double place = f->along[rail][0] * r[0] + f->along[rail][1] * r[1] + f->along[rail][2];
+  const double place = place_along(f, rail, r);
   return place >= 0.0 && place <= 1.0;
+}
+/* Whether a place is behind a rail, or up to the rail's length farther: a place beyond a corner is beside neither of its rails.
+ */
+static bool is_behind(double place, double distance) {
+  return place >= -1.0 && place <= 2.0 && distance < 0.0;
 }
 
 static bool is_in_hull(const carom_features *f, const double r[2]) {
@@ -243,7 +252,7 @@ bool carom_place_is_outside(const carom_table *table, const carom_features *f, c
   /* only behind a rail, or beyond the ends of all rails, can it be outside */
   bool behind = beyond_ends(f, r);
   for (int k = 0; k < f->rails; k++)
-    behind |= is_beside(f, k, r) && distance_to(f, k, r) < 0.0;
+    behind |= is_behind(place_along(f, k, r), distance_to(f, k, r));
   return behind && is_outside(table, f, r);
 }
 
@@ -253,9 +262,9 @@ static inline double reach_of(const carom_features *f, const carom_ball_kind *ki
 }
 /* Whether a ball on the cloth is in a rail; in a jaw; with its centre in a pocket. */
 static inline bool in_rail(const carom_features *f, int k, const double r[3], double reach, bool *behind) {
-  const double distance = distance_to(f, k, r);
-  const bool beside = is_beside(f, k, r);
-  *behind |= beside && distance < 0.0;
+  const double distance = distance_to(f, k, r), place = place_along(f, k, r);
+  const bool beside = place >= 0.0 && place <= 1.0;
+  *behind |= is_behind(place, distance);
   return beside && distance < reach - most_overlap && distance > -reach;
 }
 static inline bool in_circle(const double centre[2], double reach, const double r[3]) {

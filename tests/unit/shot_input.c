@@ -529,15 +529,35 @@ static bool in_pocket(double x, double y) {
   return false;
 }
 
+/* A regular polygon of rails, with a jaw of radius 0 at each corner. */
+static void make_polygon(int rails) {
+  memset(&table, 0, sizeof table);
+  table.width = table.length = 1.5;
+  table.rails = table.jaws = rails;
+  for (int k = 0; k < rails; k++) {
+    carom_rail *const rail = &table.rail[k];
+    *rail = (carom_rail){.height = 0.0365, .side = 1};
+    for (int end = 0; end < 2; end++) {
+      const double angle = 0.1 + 6.283185307179586 * (k + end) / rails;
+      (end == 0 ? rail->p : rail->q)[0] = 0.75 + 0.75 * cos(angle);
+      (end == 0 ? rail->p : rail->q)[1] = 0.75 + 0.75 * sin(angle);
+    }
+    table.jaw[k] = (carom_jaw){.centre = {rail->p[0], rail->p[1]}, .height = 0.0365};
+  }
+}
+
 /* A ball may stand where it can be rolled to from the middle of the table, and nowhere else: not behind a cushion, not in a
- * pocket. All places of a grid, by flooding. */
+ * pocket; on the built-in tables, and on polygons of 5 and 8 rails. All places of a grid, by flooding. */
 START_TEST(places) {
   enum { MOST_X = 530, MOST_Y = 980 };
   static uint8_t reached[MOST_X][MOST_Y];
   static int queue[MOST_X * MOST_Y];
   const double step = 0.004, margin = 0.15;
-  for (int kind = CAROM_TABLE_POOL_7FT; kind <= CAROM_TABLE_POOLTOOL; kind++) {
-    carom_table_make((carom_table_kind)kind, &table);
+  for (int kind = CAROM_TABLE_POOL_7FT; kind <= CAROM_TABLE_POOLTOOL + 2; kind++) {
+    if (kind > CAROM_TABLE_POOLTOOL)
+      make_polygon(kind == CAROM_TABLE_POOLTOOL + 1 ? 5 : 8);
+    else
+      carom_table_make((carom_table_kind)kind, &table);
     carom_shot_ball ball = {.kind = carom_ball_kind_of(kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
                                                        : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
                                                                                           : CAROM_GAME_POOL)};

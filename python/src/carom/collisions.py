@@ -38,8 +38,8 @@ def _options(solver: str, slip: str, steps: int, threads: int, plain: bool) -> A
         {
             "solver": choice(SOLVERS, solver, "solver"),
             "slip": choice(SLIPS, slip, "slip"),
-            "steps": steps,
-            "threads": threads,
+            "steps": whole(steps, "steps", least=-(2**31)),
+            "threads": whole(threads, "threads", least=-(2**31)),
             "plain": whole(plain, "plain", most=1),
         },
     )

@@ -15,9 +15,9 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, addresses, as_array, in_chunks, pointer, workers
+from carom._rows import Array, addresses, as_array, in_chunks, pointer, whole, workers
 from carom._shot_options import shot_options
-from carom.layouts import Table
+from carom.layouts import Table, of_record
 from carom.results import Shot, Shots
 from carom.shots import simulate_batch
 from carom.status import CaromError, Status
@@ -226,7 +226,7 @@ def _options(models: tuple[Any, ...], threads: int) -> Any:
 def _job_of_one(shot: Shot, cue: dtypes.Records | None, options: Any) -> Callable[[int, int], Any]:
     """What `Shots.jobs` gives, of a single shot."""
     balls, events = np.ascontiguousarray(shot.balls), np.ascontiguousarray(shot.events)
-    struck = ffi.NULL if cue is None else pointer("carom_cue[]", np.ascontiguousarray(cue).reshape(1))
+    struck = ffi.NULL if cue is None else pointer("carom_cue[]", of_record(cue, dtypes.cue, "cue", "cue()").reshape(1))
     of_c = {"events": pointer("carom_event[]", events), "room": len(events), "count": shot.count, "time": shot.time}
     played = {
         "table": pointer("carom_table[]", shot.table.record), "balls": pointer("carom_shot_ball[]", balls), "cues": struck,
@@ -270,6 +270,8 @@ def tangents(
     CaromError
         Derivatives are not known for this shot: in the world pooltool, or by Euler's model of balls.
     """
+    if not isinstance(shot, (Shot, Shots)):
+        raise TypeError(f"shot: what carom.simulate() or carom.simulate_batch() gives is needed, not {type(shot).__name__}")
     balls = shot.final.shape[-1]
     names, units, seeds = _seeds(wrt, balls)
     at = _sorted_times(times)
@@ -303,7 +305,7 @@ def play(
     models: dict[str, Any],
 ) -> tuple[dict[str, Array], Array, dtypes.Records]:
     """Plays shots, some at a time, and differentiates them: what is wanted, statuses and final states, of the shape of the batch."""
-    threads = int(models.get("threads", 0))
+    threads = whole(models.get("threads", 0), "threads", least=-1)
     balls, shape = layouts.shape[-1], np.broadcast_shapes(layouts.shape[:-1], () if cues is None else cues.shape)
     n = int(np.prod(shape))
     one_layout, one_cue = layouts.size == balls, cues is None or cues.size == 1
@@ -322,7 +324,7 @@ def play(
         job = shots.jobs(_options(shots.options[:-2], threads))
         found, codes = _differentiate(job, many, balls, events, seeds, times, wanted, threads)
         parts.append((found, codes, shots.final.copy()))
-    whole: dict[str, Array] = {}
+    gathered: dict[str, Array] = {}
     for name in parts[0][0]:
         blocks = [part[0][name] for part in parts]
         if name == "time":
@@ -333,9 +335,9 @@ def play(
                 to[:, : block.shape[1]] = block
             blocks = longer
         joined = np.concatenate(blocks) if len(blocks) > 1 else blocks[0]
-        whole[name] = joined.reshape((*shape, *joined.shape[1:]))
+        gathered[name] = joined.reshape((*shape, *joined.shape[1:]))
     codes = np.concatenate([part[1] for part in parts]).reshape(shape)
-    return whole, codes, np.concatenate([part[2] for part in parts]).reshape((*shape, balls))
+    return gathered, codes, np.concatenate([part[2] for part in parts]).reshape((*shape, balls))
 
 
 def jacobian(
@@ -369,10 +371,11 @@ def jacobian(
     ndarray of float64
         (..., balls, 2, m) for "final.r"; nan for shots in error. Each shot has the bits of `tangents`.
     """
-    group, _, field = of.partition(".")
+    group, _, field = str(of).partition(".")
     if (group not in ("final", "at") or field not in PARTS) and of not in ("time", "reach"):
         raise ValueError(f"of: must be final.r, v, w, z or v_z, at.r and so on, time or reach, not {of!r}")
-    layouts = as_array(layouts, "layouts")
+    layouts = of_record(layouts, dtypes.shot_ball, "layouts", "balls()")
+    cues = None if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")
     if layouts.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")
     seeds = _seeds(wrt, layouts.shape[-1])[2]

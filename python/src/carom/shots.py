@@ -9,7 +9,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, apart, as_array, in_chunks, output, pointer, whole
+from carom._rows import INT8, Array, apart, in_chunks, output, pointer, whole
 from carom._shot_options import BallModel as BallModel
 from carom._shot_options import Friction as Friction
 from carom._shot_options import ShotCushion as ShotCushion
@@ -17,23 +17,11 @@ from carom._shot_options import Space as Space
 from carom._shot_options import StopAt as StopAt
 from carom._shot_options import World as World
 from carom._shot_options import hashable, shot_options
-from carom.layouts import Table, cue_error
+from carom.layouts import Table, check_table, cue_error, of_record
 from carom.results import Shot, Shots
 from carom.status import CaromError, Status
 
 _FIRST_ROOM = 512
-
-
-def _records(values: dtypes.Records, record: dtypes.Record, name: str, builder: str) -> Array:
-    array = as_array(values, name)
-    if array.dtype != record:
-        raise TypeError(f"{name}: an array of the dtype of carom.{builder} is needed, not of {array.dtype}")
-    return np.asarray(array, order="C")
-
-
-def _table(table: object) -> None:
-    if not isinstance(table, Table):
-        raise TypeError(f"table: a carom.Table is needed, such as carom.tables.pool_9ft() gives, not {type(table).__name__}")
 
 
 def simulate(
@@ -96,15 +84,15 @@ def simulate(
         An argument is in error; or the shot ended in one (a bound, a ball that left the table, a collision): then the error's
         `shot` has what had happened.
     """
-    layout = _records(balls, dtypes.shot_ball, "balls", "balls()")
+    layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     if layout.ndim != 1:
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}; simulate_batch plays many layouts")
     layout = layout.copy()
-    _table(table)
+    check_table(table)
     if cue is None:
         strike: Any = ffi.NULL
     else:
-        cues = _records(cue, dtypes.cue, "cue", "cue()")
+        cues = of_record(cue, dtypes.cue, "cue", "cue()")
         if cues.size != 1:
             raise ValueError(f"cue: one is needed, not {cues.size}; simulate_batch plays many")
         strike = pointer("carom_cue[]", cues)
@@ -172,7 +160,7 @@ def resume(shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterab
     ValueError
         The shot was played without `t_final` and `stop_at`, or as one of a batch; or t_final is before the time at which it stopped.
     """
-    if shot.state is None or shot.options is None:
+    if not isinstance(shot, Shot) or shot.state is None or shot.options is None:
         raise ValueError("shot: only what simulate() or resume() stopped, with t_final= or stop_at=, can be gone on with")
     if t_final is not None and t_final < shot.time:
         raise ValueError(f"t_final: it must not be before {shot.time} s, when the shot stopped, but is {t_final}")
@@ -234,11 +222,11 @@ def simulate_batch(
     CaromError
         The table or an option is in error.
     """
-    all_balls = _records(layouts, dtypes.shot_ball, "layouts", "balls()")
-    all_cues = np.zeros((), dtypes.cue) if cues is None else _records(cues, dtypes.cue, "cues", "cue()")
+    all_balls = of_record(layouts, dtypes.shot_ball, "layouts", "balls()")
+    all_cues = np.zeros((), dtypes.cue) if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")
     if all_balls.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")
-    _table(table)
+    check_table(table)
     whole(room, "room")
     count = all_balls.shape[-1]
     shape = np.broadcast_shapes(all_balls.shape[:-1], all_cues.shape)
