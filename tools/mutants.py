@@ -363,6 +363,7 @@ def main() -> None:
     options.add_argument("-o", dest="out", type=Path, default=Path("mutants.csv"))
     asked = options.parse_args()
 
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # so that the source is restored and no test stays behind
     rooms = asked.rooms.split(",")
     started = time.monotonic()
     copy = Copy(asked.folder.resolve(), asked.tests, asked.isas, rooms)

@@ -36,6 +36,17 @@ def played(aim, **models):
     return carom.simulate(TABLE, BALLS, carom.cue(**dict(zip(("speed", "phi", "a", "b"), map(float, aim)))), **{**CLOSED, **models})
 
 
+def test_a_ball_in_the_air():
+    jump, numbers = {"t_final": 0.1, **CLOSED}, {"cue.speed": 4.0, "cue.theta": 35.0}
+    cue = carom.cue(phi=80.0, speed=4.0, theta=35.0)
+    shot = carom.simulate(TABLE, BALLS, cue, **jump)
+    found = carom.jax.final(TABLE, BALLS, cue, numbers, **jump)
+    assert found.z[0] > 0.03 and np.array_equal(found.z, shot.final["r"][:, 2]) and np.array_equal(found.v_z, shot.final["v"][:, 2])
+    slopes = jax.jacrev(lambda given: carom.jax.final(TABLE, BALLS, cue, given, **jump).z)(numbers)
+    tangents = carom.tangents(shot, cue, list(numbers)).final["z"]
+    assert (tangents[0] != 0.0).all() and np.array_equal(np.stack(list(slopes.values()), axis=-1), tangents)
+
+
 @pytest.mark.parametrize("models", [{}, {"ball_model": "exact"}, {"t_final": 0.9}])
 def test_values_are_those_of_shots_and_derivatives_those_of_tangents(models):
     shot, found = played(AIM, **models), ends(AIM, **models)

@@ -484,7 +484,9 @@ def test_tables_and_racks():
     racks = (carom.racks.nineball, carom.racks.eightball, carom.racks.tenball, carom.racks.snooker, carom.racks.threecushion)
     for rack, size in zip(racks, (10, 16, 11, 22, 3)):
         table = carom.tables.snooker() if size == 22 else carom.tables.threecushion() if size == 3 else carom.tables.pool_8ft()
-        assert rack(table).shape == (size,)
+        assert rack(table).shape == (size,) and rack(table).tobytes() == rack(table, 1e-4, 1).tobytes()
+        # The opening of three-cushion has its balls on their spots, whatever the gap and the seed.
+        assert all((rack(table).tobytes() == rack(table, *other).tobytes()) == (size == 3) for other in ((2e-4, 1), (1e-4, 2)))
     table = carom.tables.pool_7ft()
     assert (table.width, table.length) == (0.9906, 1.9812) and len(table.pockets) == 6
     copy = carom.Table(table.width, table.length, rails=table.rails, jaws=table.jaws, pockets=table.pockets)

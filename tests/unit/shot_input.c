@@ -570,6 +570,19 @@ START_TEST(places) {
         ck_assert_msg(status == expected || fabs(room_at(ball.state.r[0], ball.state.r[1], R)) < 1.1e-6,
                       "table %d, (%g, %g): %s", kind, ball.state.r[0], ball.state.r[1], carom_status_name(status));
       }
+    /* farther out, in line with a pocket, through which one sees the cushion beyond: in the directions that the check looks in
+     */
+    static const double quarter[4][2] = {{5, 1}, {3, 2}, {2, 3}, {1, 5}};
+    for (int k = 0; k < table.pockets * 16; k++)
+      for (int far = 1; far <= 12; far++) {
+        const double *c = table.pocket[k / 16].centre, *u = quarter[k % 4], turn[4] = {u[0], -u[1], -u[0], u[1]};
+        const double *r = ball.state.r;
+        ball.state.r[0] = c[0] + 0.03 * far * turn[k / 4 % 4];
+        ball.state.r[1] = c[1] + 0.03 * far * turn[(k / 4 + 3) % 4];
+        if (r[0] < -margin || r[0] > table.width + margin || r[1] < -margin || r[1] > table.length + margin)
+          ck_assert_msg(carom_shot_check(&table, &ball, 1, NULL, NULL, NULL) == CAROM_ERROR_OFF_TABLE, "table %d, (%g, %g)",
+                        kind, r[0], r[1]);
+      }
     printf("table %d: a ball may stand at %d of %d places\n", kind, counts[1], counts[0] + counts[1]);
   }
 }

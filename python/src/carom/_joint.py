@@ -22,7 +22,7 @@ import numpy as np
 from carom._strikes import Plays, descend, find, normal
 from carom.dtypes import Doubles
 
-_MOST = 1.4e-3  # m^2: where a shot's cost a sample stops counting; that of samples that are 8 cm off
+MOST = 1.4e-3  # m^2: where a shot's cost a sample stops counting; that of samples that are 8 cm off
 PRIOR_COST = 0.1  # m^2: what one deviation costs
 # Of each constant: the deviation of its prior, about the value that single events gave, and its bounds.
 PRIORS = {
@@ -38,6 +38,7 @@ METHOD = {
 _STEP = 1e-3  # of the differences, in deviations
 _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
 _STEPS = 12  # at most, of each
+_SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
 
 
 def damped(square: Doubles) -> Doubles:
@@ -68,7 +69,7 @@ class Search:
         self.first, self.scale = np.array(list(priors.values())).T
         self.low, self.high = np.array([PRIORS[name][1:] for name in priors]).T
         self.strikes, self.until = strikes[self.rows], plays.ends[self.rows]
-        self.most = _MOST * plays.counts[self.rows]
+        self.most = MOST * plays.counts[self.rows]
 
     def constants(self, values: Doubles) -> dict[str, float]:
         return {**self.plays.constants, **dict(zip(self.names, values.tolist()))}
@@ -141,3 +142,28 @@ class Search:
 
 
 STAGES = len(_HORIZONS)
+
+
+def spread(search: Search, seed: int) -> dict[str, float]:
+    """The errors of the constants of a search that is done: from halves of its shots, whose difference is twice the error of the whole."""
+    random, apart = np.random.default_rng(seed), []
+    every = np.arange(len(search.rows))
+    if len(every) < 2 * _HALF_LEAST:
+        return {}
+    strikes = np.full((len(search.plays.recordings), 6), np.nan)
+    strikes[search.rows] = search.strikes
+    for _ in range(_SPLITS):
+        order = random.permutation(every)
+        found: list[Doubles] = []
+        for half in np.array_split(order, 2):
+            rows = search.rows[np.sort(half)]
+            priors = dict(zip(search.names, zip(search.first.tolist(), search.scale.tolist())))
+            part = Search(search.plays.some(rows), strikes[rows], range(len(rows)), priors)
+            part.values = search.start.copy()
+            for number in range(STAGES):
+                part.stage(number, seed)
+            found.append(part.values)
+        apart.append(0.5 * (found[0] - found[1]))
+    method = np.array([METHOD[name] for name in search.names])
+    error = np.hypot(np.sqrt((np.array(apart) ** 2).mean(axis=0)), method)
+    return dict(zip(search.names, error.tolist()))

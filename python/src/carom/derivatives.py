@@ -28,8 +28,9 @@ STATE: int = lib.CAROM_STATE_NUMBERS
 _AT_ONCE = 128  # shots of a thread whose events are kept at a time: more take longer for the memory than for the shots
 CUE = ("speed", "phi", "theta", "a", "b", "mass", "end_mass")
 KIND = tuple(dtypes.ball_kind.names or ())
-# Places of r, v and w in a state: x, y, v_x, v_y, w_x, w_y, w_z; or with z and v_z.
-FIELDS = {"r": (0, 2), "v": (2, 2), "w": (4, 3)} if STATE == 7 else {"r": (0, 3), "v": (3, 3), "w": (6, 3)}
+# A state is x, y, v_x, v_y, w_x, w_y, w_z, z, v_z: where its parts are, and the elements of r, v and w of a ball.
+PARTS: dict[str, slice | int] = {"r": slice(0, 2), "v": slice(2, 4), "w": slice(4, 7), "z": 7, "v_z": 8}
+ELEMENTS = {"r": (0, 1, 7), "v": (2, 3, 8), "w": (4, 5, 6)}
 _TABLE = ("nose_height", "mu_cushion", "restitution")
 _UNITS = {"speed": "m/s", "phi": "deg", "theta": "deg", "a": "R", "b": "R", "mass": "kg", "end_mass": "kg", "radius": "m", "gravity": "m/s^2"}
 _UNITS |= {"drag": "1/m", "law_c": "s/m", "nose_height": "m", "r": "m", "v": "m/s", "w": "rad/s"}
@@ -55,7 +56,8 @@ class Tangents:
     names, units : tuple of str
         What changes in each direction, and the unit that derivatives are per.
     final : dict of ndarray
-        "r" of shape (..., balls, 2, m), m; "v" likewise, m/s; "w" (..., balls, 3, m), rad/s: of the final states.
+        "r" of shape (..., balls, 2, m), m; "v" likewise, m/s; "w" (..., balls, 3, m), rad/s: of the final states. Of balls that fly
+        "z", m, and "v_z", m/s, of shape (..., balls, m), too.
     at : dict of ndarray
         The same of the states at `times`, of shape (..., times, balls, 2 or 3, m).
     time : ndarray, shape (..., events, m)
@@ -99,7 +101,7 @@ class Tangents:
 
 
 def _by_name(states: dtypes.Doubles) -> dict[str, dtypes.Doubles]:
-    return {name: states[..., first : first + many, :] for name, (first, many) in FIELDS.items()}
+    return {name: states[..., part, :] for name, part in PARTS.items()}
 
 
 class Direction(NamedTuple):
@@ -126,10 +128,10 @@ def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[li
             found.append([Direction(name, unit, "kind", tuple((i, KIND.index(field)) for i in range(balls)))])
         elif ball is not None and int(ball) < balls and inner and field in KIND and field != "radius" and index is None:
             found.append([Direction(name, unit, "kind", ((int(ball), KIND.index(field)),))])
-        elif ball is not None and int(ball) < balls and not inner and field in FIELDS and (index is None or int(index) < FIELDS[field][1]):
-            first, many = FIELDS[field]
-            ks = range(many) if index is None else [int(index)]
-            found.append([Direction(f"balls[{ball}].{field}[{k}]", unit, "state", ((int(ball), first + k),)) for k in ks])
+        elif ball is not None and int(ball) < balls and not inner and field in ELEMENTS and int(index or 0) < 3:
+            # of a place and a velocity those along the cloth, unless the one upward is asked for
+            ks = range(3 if field == "w" else 2) if index is None else [int(index)]
+            found.append([Direction(f"balls[{ball}].{field}[{k}]", unit, "state", ((int(ball), ELEMENTS[field][k]),)) for k in ks])
         else:
             raise ValueError(
                 f"{argument}: {name!r} is no number of a shot; such are cue.phi, kind.mu_slide (of all balls), balls[1].kind.mass, "
@@ -251,7 +253,8 @@ def tangents(
         That of the shot; None if there was none. None of many shots, which know theirs.
     wrt : sequence of str
         By what: "cue.phi" and other numbers of the cue; "kind.mu_slide" of all balls, "balls[1].kind.mass" of one;
-        "balls[0].r" (two directions), "balls[0].r[1]", v, w; "table.nose_height", "table.mu_cushion", "table.restitution".
+        "balls[0].r" (two directions), "balls[0].r[1]", v, w, and "balls[0].v[2]" of a ball that flies; "table.nose_height",
+        "table.mu_cushion", "table.restitution".
     times : array_like, shape (times,), optional
         s, ascending: for `Tangents.at`.
     threads : int
@@ -265,7 +268,7 @@ def tangents(
     Raises
     ------
     CaromError
-        Derivatives are not known for this shot: in the world pooltool, by Euler's model of balls, where a ball flies.
+        Derivatives are not known for this shot: in the world pooltool, or by Euler's model of balls.
     """
     balls = shot.final.shape[-1]
     names, units, seeds = _seeds(wrt, balls)
@@ -355,7 +358,7 @@ def jacobian(
     wrt : sequence of str
         As for `tangents`.
     of : str
-        "final.r", "final.v", "final.w"; "at.r", "at.v", "at.w" at `times`; "time" of the events; or "reach".
+        "final.r", "final.v", "final.w", "final.z", "final.v_z"; "at.r" and so on at `times`; "time" of the events; or "reach".
     room : int
         Events of a shot at most; a shot with more has nan.
     models
@@ -367,8 +370,8 @@ def jacobian(
         (..., balls, 2, m) for "final.r"; nan for shots in error. Each shot has the bits of `tangents`.
     """
     group, _, field = of.partition(".")
-    if (group not in ("final", "at") or field not in FIELDS) and of not in ("time", "reach"):
-        raise ValueError(f"of: must be final.r, final.v, final.w, at.r, at.v, at.w, time or reach, not {of!r}")
+    if (group not in ("final", "at") or field not in PARTS) and of not in ("time", "reach"):
+        raise ValueError(f"of: must be final.r, v, w, z or v_z, at.r and so on, time or reach, not {of!r}")
     layouts = as_array(layouts, "layouts")
     if layouts.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")

@@ -119,7 +119,7 @@ class Fit:
         Raises
         ------
         ValueError
-            No strike was found; or, as a `CaromError`, the derivatives of the shot are not known, as a ball flies.
+            No strike was found.
         """
         self.shot(i)
         plays = _strikes.Plays([self.recordings[i]], self.table, self.radius, self.constants, self.cushion_model)
@@ -318,9 +318,9 @@ def fit(
                 progress("spread", _joint.STAGES / (_joint.STAGES + 2))
             names = tuple(search.names)
             told = {name: error for name, error in spread.items() if name not in (priors or {})}
-            covariance = _covariance.of_constants(search, told)
-            if covariance is not None:
-                spread = {**spread, **dict(zip(names, np.sqrt(covariance.diagonal()).tolist()))}
+            errors = saved.get("spread", lambda: _joint.spread(search, seed))
+            covariance = _covariance.of_constants(search, told, errors)
+            spread = {**spread, **errors}
         plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
         strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])

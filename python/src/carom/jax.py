@@ -31,7 +31,7 @@ import numpy as np
 from carom import dtypes
 from carom._rows import Array
 from carom._shot_options import hashable
-from carom.derivatives import CUE, FIELDS, KIND, STATE, Direction, directions, play, seeds_of
+from carom.derivatives import CUE, ELEMENTS, KIND, PARTS, STATE, Direction, directions, play, seeds_of
 from carom.layouts import Table
 from carom.shots import simulate, simulate_batch
 from carom.status import CaromError, Status
@@ -54,11 +54,15 @@ class Final(NamedTuple):
         Places, m, and velocities, m/s, along x and y.
     w : shape (balls, 3)
         Angular velocities, rad/s.
+    z, v_z : shape (balls,)
+        Heights of the centres, m, and velocities upward, m/s.
     """
 
     r: Any
     v: Any
     w: Any
+    z: Any
+    v_z: Any
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,8 +109,8 @@ class _Shots:
                         layouts["state"]["r"][..., place[0], 2] += x[..., j] - layouts["kind"]["radius"][..., place[0]]
                     layouts["kind"][name][..., place[0]] = x[..., j]
                 elif direction.array == "state":
-                    name = next(field for field, (first, many) in FIELDS.items() if first <= place[1] < first + many)
-                    layouts["state"][name][..., place[0], place[1] - FIELDS[name][0]] = x[..., j]
+                    name, elements = next(item for item in ELEMENTS.items() if place[1] in item[1])
+                    layouts["state"][name][..., place[0], elements.index(place[1])] = x[..., j]
         return layouts, cues
 
     def states(self, x: Any) -> dtypes.Doubles:
@@ -131,8 +135,8 @@ class _Shots:
         if len(bad) and not self.nan:
             self.refuse(x, tuple(int(k) for k in bad[0]), Status(int(status[tuple(bad[0])])))
         states: dtypes.Doubles = np.empty((*final.shape, STATE))
-        for name, (first, many) in FIELDS.items():
-            states[..., first : first + many] = final[name][..., :many]
+        for name, elements in ELEMENTS.items():
+            states[..., elements] = final[name]
         states[status < 0] = np.nan
         return states
 
@@ -247,4 +251,4 @@ def final(
     struck = None if cue is None else cue.tobytes()
     shots = _shots(table.record.tobytes(), balls.tobytes(), struck, tuple(numbers), tuple(sorted(given.items())), room, errors == "nan")
     states = _states(shots, _jnp.concatenate(parts))
-    return Final(*(states[..., first : first + many] for first, many in FIELDS.values()))
+    return Final(**{name: states[..., part] for name, part in PARTS.items()})
