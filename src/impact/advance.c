@@ -269,7 +269,8 @@ static void plan_sliding(const carom_trajectory *path, const step_start *s, plan
     /* tau to the goal, or the largest that is allowed; two equal steps rather than a long and a short one */
     const double ln = s->r < 1 ? rough_log(1 / s->r) : 0, growth = along * s->to_goal / s->r;
     const double fall = most_of(most_of(-along, c.m - 0.5 * c.D), 1e-12);
-    const double most = least((MOST_TURN + BOLDER * ln) / c.D, (MOST_FALL + BOLDER * ln) / fall);
+    const double share = path->variation != NULL ? SHARE : 1;
+    const double most = share * least((MOST_TURN + BOLDER * ln) / c.D, (MOST_FALL + BOLDER * ln) / fall);
     double tau = tau_at(&c, s->to_goal, growth > -0.9 ? s->to_goal / s->r * (6 + growth) / (6 + 4 * growth) : most, most);
     if (tau > 1.1 * most) {
       n->s.goal = AT_LENGTH;
