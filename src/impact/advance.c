@@ -365,10 +365,9 @@ static bool next_step(carom_trajectory *path, double to) {
   if (r == TAKEN && path->variation != NULL) {
     /* derivatives may need a shorter step */
     const double length = path->at.p - before.p;
-    advice = variation_step(path, &before, driving_slips(path),
-                            n.s.goal == AT_STICK         ? (int)OF_A_X
-                            : n.s.goal == AT_CLOTH_STICK ? (int)OF_B_X
-                                                         : -1);
+    const int vanishes = n.s.goal == AT_STICK ? (int)OF_A_X : n.s.goal == AT_CLOTH_STICK ? (int)OF_B_X : -1;
+    const bool stiff = n.kind == exact_in_a || n.kind == exact_unloaded || n.kind == exact_in_both || n.kind == held_exact;
+    advice = variation_step(path, &before, driving_slips(path), stiff, vanishes);
     if (advice > 1) {
       /* the planner keeps a length that it is given to a few percent only */
       path->at = before;

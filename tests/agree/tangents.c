@@ -47,6 +47,10 @@ carom_status __wrap_carom_cushion(const carom_cushion_impact *in, const carom_cu
 
 enum { DIRECTIONS = 14, MOST_BALLS = 9, SHOTS = 100, NUMBERS = CAROM_STATE_NUMBERS };
 
+/* Of the shots that the tables report. Tolerances of src/impact/variation_step.h were found on those of seeds 7 and 28. */
+enum { SEED = 29 };
+static const double NOTHING = 1e-10; /* a derivative that is rounding errors */
+
 typedef struct layout {
   int count;
   carom_shot_ball ball[MOST_BALLS];
@@ -194,10 +198,10 @@ static const struct {
 
 START_TEST(shots_agree_with_differences) {
   const bool exact = models[_i].options.ball_model == CAROM_BALL_MODEL_DEFAULT;
-  random_source random = {7};
+  random_source random = {SEED};
   const carom_tangent_seeds seeds = seeds_of_all();
   static double errors[SHOTS * DIRECTIONS];
-  int pairs = 0, without = 0, wrong = 0;
+  int pairs = 0, without = 0, wrong = 0, by_differences = 0;
   precisely = exact;
   for (int k = 0; k < SHOTS; k++) {
     const layout l = draw(&random, models[_i].terms);
@@ -208,11 +212,12 @@ START_TEST(shots_agree_with_differences) {
     carom_tangent tangent = {.final = ends};
     ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &models[_i].options, &shot, &seeds, &tangent),
                      CAROM_OK);
+    by_differences += (tangent.all_flags & CAROM_TANGENT_DIFFERENCES) != 0;
     for (int j = 0; j < DIRECTIONS; j++) {
       double most = 0.0, error = 0.0, plateau;
       for (int x = 0; x < NUMBERS * l.count; x++)
         most = fmax(most, fabs(ends[x * DIRECTIONS + j]));
-      if (most == 0.0 || !compare(&l, &models[_i].options, &shot, j, ends, &error, &plateau)) {
+      if (most < NOTHING || !compare(&l, &models[_i].options, &shot, j, ends, &error, &plateau)) {
         without++;
         continue;
       }
@@ -229,8 +234,8 @@ START_TEST(shots_agree_with_differences) {
   printf("%-24s %4d pairs (%d without a plateau): error median %.1e, 90 %% %.1e, 99 %% %.1e, largest %.1e\n", models[_i].name,
          pairs, without, errors[pairs / 2], errors[pairs * 9 / 10], errors[pairs * 99 / 100], errors[pairs - 1]);
   ck_assert_int_gt(pairs, 1000);
-  /* two of exact cushions, without a flag: docs/understanding/gradients.md */
-  ck_assert_int_le(wrong, models[_i].options.cushion_model == CAROM_SHOT_CUSHION_MATHAVAN ? 2 : 0);
+  ck_assert_int_eq(wrong, 0);
+  ck_assert_int_le(by_differences, exact ? SHOTS / 50 : SHOTS);
   ck_assert_double_lt(errors[pairs / 2], 1e-8);
 }
 END_TEST
@@ -406,7 +411,7 @@ START_TEST(cushions_agree_with_differences) {
          carom_cushion_model_name(cushion_options.model), _i % 2 ? " by Han's law" : "", n, errors[n / 2], errors[n * 99 / 100],
          errors[n - 1]);
   ck_assert_int_gt(n, 3000);
-  ck_assert_double_lt(errors[n * 99 / 100], cushion_options.model == CAROM_CUSHION_MATHAVAN ? 2e-5 : 1e-7);
+  ck_assert_double_lt(errors[n * 99 / 100], cushion_options.model == CAROM_CUSHION_MATHAVAN ? 1e-6 : 1e-7);
 }
 END_TEST
 
