@@ -13,6 +13,10 @@
  * and the same for dpsi: 16 linear equations with a column for each variable. Written with |a| instead of its inverse they
  * remain regular where a slip begins from zero. The end of the step follows by quadrature.
  *
+ * SHIFTS. Nothing depends on p itself, so y' is a solution too: that of a start a little later. Where a slip is small its
+ * direction, y' and dy turn fast, but most of dy is a shift, alpha y'. There dy = alpha y' + rest, with the alpha for which the
+ * rest of da is smallest, and only the rest is followed over the step.
+ *
  * EVENTS. Where a regime ends because a slip is zero, at p_s, friction changes, and so do the rates:
  *
  *     d p_s = -(u . da)/(u . a'),     dy+ = dy- + (y'- - y'+) d p_s,     da = 0 from there on.
