@@ -23,6 +23,7 @@ typedef struct shoot_job {
   int events_most;
   double time_most;
   const char *plot, *animation, *id;
+  player_error error;
   bool words; /* the shots came from words, and are told so */
 } shoot_job;
 
@@ -61,6 +62,12 @@ OPTION(
     shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
     "draw the table and the paths of the balls in the first shot without an error, or in all that options describe; from the "
     "side too where a ball flies");
+OPTION(
+    shoot_job, option_spread, "spread", error, 0, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
+    "standard deviations of a player's error: speed in %, aim in degrees, tip in radii, such as 1%,0.05,0.01,0.01. Tells the "
+    "standard deviations of the places where balls end, to first order, and with --plot draws them as bands around the paths, "
+    "up "
+    "to 0.3 m, with how far this holds");
 OPTION(shoot_job, option_animate, "animate", animation, 0, "OUT.html", set_animation, 0,
        "write a page that plays what --plot draws; it is one file and needs nothing else");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
@@ -161,14 +168,17 @@ typedef struct drawing {
 
 enum { PICTURE, ANIMATION, DRAWINGS };
 
+static bool draws(const shoot_job *job) {
+  return job->plot != NULL || job->animation != NULL;
+}
+
 static void draw(const shoot_job *job, drawing to[DRAWINGS], const played *shots, int count, const char *footer) {
   for (int k = 0; k < DRAWINGS; k++) {
     if (to[k].text != NULL || (k == PICTURE ? job->plot : job->animation) == NULL)
       continue;
     FILE *out = open_text(&to[k].text, &to[k].size);
     (k == PICTURE ? shots_draw : shots_animate)(out, shots, count, footer);
-    if (fclose(out) != 0)
-      out_of_memory();
+    close_text(out, &to[k].text);
   }
 }
 
@@ -180,9 +190,9 @@ static void tell_block(const shoot_job *job, FILE *out, drawing to[DRAWINGS], co
   for (int k = 0; k < count; k++) {
     if (count > 1)
       fprintf(said, "%d: ", k + 1);
-    shot_tell(said, shots[k].line, shots[k].shot);
+    shot_tell(said, shots[k].line, shots[k].shot, shots[k].spread);
   }
-  fclose(said);
+  close_text(said, &words);
   fputs(words, out);
   if (count > 0)
     draw(job, to, shots, count, words);
@@ -194,9 +204,34 @@ static void write_drawing(FILE *out, const void *data) {
   fwrite(picture->text, 1, picture->size, out);
 }
 
+/* Draws one shot of a file; a spread tells below it what it shows. */
+static void draw_alone(const shoot_job *job, drawing to[DRAWINGS], const played *shot) {
+  char *words;
+  size_t size;
+  FILE *said = open_text(&words, &size);
+  if (shot->spread != NULL)
+    spread_tell(said, shot->spread, shot->line);
+  close_text(said, &words);
+  draw(job, to, shot, 1, words);
+  free(words);
+}
+
+/* The spread of shot k of a block; where it is not known, that is an error of the shot. */
+static void find_spread(block *b, int k, const shoot_job *job, const carom_shot_options *options, spread *to) {
+  *to = (spread){.status = b->status[k]};
+  if (b->status[k] < 0)
+    return;
+  spread_of(&job->error, &b->line[k], &b->shot[k], options, draws(job), to);
+  if (to->status < 0 && is_named(b))
+    complain("%s:%zu: --spread: %s", b->file, b->line[k].number, carom_status_string(to->status));
+  if (to->status < 0)
+    b->status[k] = to->status;
+}
+
 /* Plays what has been read and writes it; returns whether all was good. */
 static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *picture) {
   played good_ones[BLOCK];
+  spread spreads[BLOCK] = {0};
   int goods = 0;
   const carom_shot_options options = options_of(job);
   for (int from = 0, end; from < b->count; from = end) {
@@ -226,22 +261,26 @@ static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *pic
     } else {
       if (b->status[k] < 0 && is_named(b))
         complain("%s:%zu: after %g s: %s", b->file, line->number, b->shot[k].time, carom_status_string(b->status[k]));
+      spread *s = job->error.given ? &spreads[job->words ? goods : 0] : NULL;
+      if (s != NULL)
+        find_spread(b, k, job, &options, s);
       good &= b->status[k] >= 0;
-      good_ones[goods] = (played){line, &b->shot[k]};
-      if (!job->words)
-        shot_write(out, line, &b->shot[k], b->status[k], job->events);
-      if (!job->words && shot_has_id(line, job->id))
-        draw(job, picture, &good_ones[goods], 1, "");
+      good_ones[goods] = (played){line, &b->shot[k], s};
+      if (!job->words) {
+        shot_write(out, line, &b->shot[k], b->status[k], job->events, s != NULL ? spread_json(s, line) : NULL);
+        if (shot_has_id(line, job->id))
+          draw_alone(job, picture, &good_ones[goods]);
+        if (s != NULL)
+          spread_free(s);
+      }
       goods++;
     }
   }
   if (job->words)
     tell_block(job, out, picture, good_ones, goods);
+  for (int k = 0; k < goods; k++)
+    spread_free(&spreads[k]);
   return good;
-}
-
-static bool draws(const shoot_job *job) {
-  return job->plot != NULL || job->animation != NULL;
 }
 
 static void begin_shot(block *b, bool events) {
@@ -277,7 +316,7 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
       fputs(text, out);
       continue;
     }
-    begin_shot(b, job->events != EVENTS_NONE || job->words || draws(job));
+    begin_shot(b, job->events != EVENTS_NONE || job->words || draws(job) || job->error.given);
     if (++b->count == BLOCK) {
       good &= finish_block(b, job, out, picture);
       clear_block(b);
@@ -306,12 +345,13 @@ static const command_form form = {
              "format; recorded results in them are ignored) and writes each table and each shot with its events and final "
              "states. IN may be -. Or plays a shot that options describe, and tells it in words; several values with commas "
              "give several shots, drawn over each other.\n",
-    .options = (const option_row *const[]){&option_table,         &option_cue,       &option_balls,      &option_aim,
-                                           &option_at_ball,       &option_shot_cut,  &option_shot_speed, &option_tip,
-                                           &option_elevation,     &option_json,      &option_models,     &option_ball_ball,
-                                           &option_cushion_model, &option_space,     &option_events,     &option_steps,
-                                           &option_events_most,   &option_time_most, &option_threads,    &option_plot,
-                                           &option_animate,       &option_shot_id,   &option_output,     NULL},
+    .options =
+        (const option_row *const[]){
+            &option_table,    &option_cue,         &option_balls,         &option_aim,       &option_at_ball,
+            &option_shot_cut, &option_shot_speed,  &option_tip,           &option_elevation, &option_json,
+            &option_models,   &option_ball_ball,   &option_cushion_model, &option_space,     &option_events,
+            &option_steps,    &option_events_most, &option_time_most,     &option_threads,   &option_plot,
+            &option_spread,   &option_animate,     &option_shot_id,       &option_output,    NULL},
     .details = "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and the error; the others "
                "are played); 2 for bad usage or unreadable input\n",
     .example = "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3 --plot shot.svg",
@@ -323,9 +363,11 @@ static shot_file *shots_of(shoot_flags *from, char **text) {
   size_t size;
   FILE *lines = open_text(text, &size);
   const bool good = flags_write(lines, from);
-  if (fclose(lines) != 0)
+  close_text(lines, text);
+  FILE *in = good ? fmemopen(*text, size, "r") : NULL;
+  if (good && in == NULL)
     out_of_memory();
-  return good ? shot_file_of(fmemopen(*text, size, "r"), "the shot given") : NULL;
+  return good ? shot_file_of(in, "the shot given") : NULL;
 }
 
 int command_shoot(int argc, char **argv) {
@@ -346,7 +388,15 @@ int command_shoot(int argc, char **argv) {
     complain("--time-most is a number of seconds above 0");
     return EXIT_USAGE;
   }
-  if (!output_possible(job.plot) || !output_possible(job.animation))
+  if (job.error.given && job.world == CAROM_WORLD_POOLTOOL) {
+    complain("--spread needs derivatives, which shots by --models pooltool do not have; --models carom has them");
+    return EXIT_USAGE;
+  }
+  if (job.error.given && job.ball_model == CAROM_BALL_MODEL_EULER) {
+    complain("--spread needs derivatives, which --ball-ball euler does not have; exact, its limit, has them");
+    return EXIT_USAGE;
+  }
+  if (!svg_possible(job.plot) || !output_possible(job.animation))
     return EXIT_USAGE;
   shot_file *file = job.words ? shots_of(&job.from, &lines) : shot_file_open(path);
   FILE *out = file != NULL ? output_open(job.from.shared.output) : NULL;

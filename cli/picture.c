@@ -7,12 +7,17 @@
 #include "place.h"
 
 #include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 enum { NOT_INSTALLED = 127 };
+static char converter[] = "rsvg-convert";
+static const char converter_package[] = "librsvg2-bin";
 
 static const char *ending_of(const char *path) {
   const size_t size = strlen(path);
@@ -26,6 +31,10 @@ OPTION_SET(set_picture) {
     return true;
   complain("--%s draws a picture whose name ends in .svg, .png or .pdf, not '%s'", row->name, text);
   return false;
+}
+
+static void complain_missing(const char *path, const char *program, const char *package) {
+  complain("cannot draw %s: %s is not installed (Debian: %s)", path, program, package);
 }
 
 /* A file in memory, which the child inherits. Complains and returns NULL if there can be none. */
@@ -55,7 +64,7 @@ static bool run(const char *path, char *const words[], const char *package, FILE
   if (status == 0)
     return true;
   if (WIFEXITED(status) && WEXITSTATUS(status) == NOT_INSTALLED)
-    complain("cannot draw %s: %s is not installed (Debian: %s)", path, words[0], package);
+    complain_missing(path, words[0], package);
   else {
     output_copy(noise, stderr);
     complain("cannot draw %s: %s failed", path, words[0]);
@@ -96,12 +105,35 @@ bool picture_draw(const char *path, const char *name, const char *title, void (*
   return make(path, words, "gnuplot-nox", csv, write, data);
 }
 
+/* Whether execvp() would find the program: in the folders of PATH, of which an empty one is the current folder. */
+static bool is_installed(const char *program) {
+  const char *path = getenv("PATH"), *folder = path != NULL ? path : "/bin:/usr/bin";
+  for (;;) {
+    char name[PATH_MAX];
+    struct stat about;
+    const int size = (int)strcspn(folder, ":");
+    snprintf(name, sizeof name, "%.*s/%s", size > 0 ? size : 1, size > 0 ? folder : ".", program);
+    if (stat(name, &about) == 0 && S_ISREG(about.st_mode) && access(name, X_OK) == 0)
+      return true;
+    if (folder[size] == '\0')
+      return false;
+    folder += size + 1;
+  }
+}
+
+bool svg_possible(const char *path) {
+  if (path == NULL || strcmp(ending_of(path), ".svg") == 0 || is_installed(converter))
+    return output_possible(path);
+  complain_missing(path, converter, converter_package);
+  return false;
+}
+
 bool svg_draw(const char *path, void (*write)(FILE *out, const void *data), const void *data) {
   char format[8];
   snprintf(format, sizeof format, "%s", ending_of(path) + 1);
-  char *const words[] = {(char[]){"rsvg-convert"}, (char[]){"--format"}, format, (char[]){"--zoom=2"}, NULL};
+  char *const words[] = {converter, (char[]){"--format"}, format, (char[]){"--zoom=2"}, NULL};
   const bool is_svg = strcmp(format, "svg") == 0;
-  return make(path, is_svg ? NULL : words, "librsvg2-bin", in_memory("data"), write, data);
+  return make(path, is_svg ? NULL : words, converter_package, in_memory("data"), write, data);
 }
 
 bool file_draw(const char *path, void (*write)(FILE *out, const void *data), const void *data) {

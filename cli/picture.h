@@ -14,6 +14,9 @@ OPTION_SET(set_picture);
 bool picture_draw(const char *path, const char *name, const char *title, void (*write)(FILE *out, const void *data),
                   const void *data);
 
+/* Whether svg_draw() would find what it needs to draw `path`, which may be NULL; complains where it would not. */
+bool svg_possible(const char *path);
+
 /* Draws `path` from what `write` writes as SVG; rsvg-convert makes PNG and PDF of it. */
 bool svg_draw(const char *path, void (*write)(FILE *out, const void *data), const void *data);
 

@@ -55,8 +55,8 @@ const char *shot_part_name(const named_table *table, const carom_event *event);
 
 enum { EVENTS_NONE, EVENTS_BRIEF, EVENTS_FULL };
 
-/* Writes a shot with its result as one line. */
-void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status, int events);
+/* Writes a shot with its result as one line; `spread` may be NULL, else it is taken over. */
+void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status, int events, json_t *spread);
 /* Writes a line in error. */
 void shot_write_error(FILE *out, const shot_line *line, const char *status, const char *error);
 

@@ -222,9 +222,58 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
   }
   if (moved)
     fputs("\"/>\n", v->out);
-  fclose(head);
+  close_text(head, &heads);
   fputs(heads, v->out);
   free(heads);
+}
+
+/* Part of a band, from a point to another: along one side and back along the other. */
+static void draw_part(const view *v, FILE *out, const band_point *band, int from, int to) {
+  char command = 'M';
+  for (int sign = 1; sign >= -1; sign -= 2)
+    for (int n = 0; n <= to - from; n++, command = 'L') {
+      const band_point *p = &band[sign > 0 ? from + n : to - n];
+      const double r[2] = {p->r[0] + sign * p->side[0], p->r[1] + sign * p->side[1]};
+      fprintf(out, "%c%.1f %.1f", command, across(v, r), down(v, r));
+    }
+  fputc('Z', out);
+}
+
+/* The band of a player's spread around a ball's path: where it is beyond reach, pale and dashed. */
+static void draw_band(const view *v, const shot_line *line, const spread *s, int ball) {
+  const band_point *band = s->band[ball];
+  const char *colour = colour_of(line->name[ball], ball);
+  for (int beyond = 0; beyond < 2; beyond++) {
+    char *parts;
+    size_t size;
+    FILE *part = open_text(&parts, &size);
+    for (int k = 0, from = -1; k < s->points[ball]; k++) {
+      const bool goes_on = k + 1 < s->points[ball] && !band[k + 1].begins && (band[k + 1].time > s->until) == beyond;
+      if (!goes_on && from >= 0)
+        draw_part(v, part, band, from, k);
+      from = !goes_on ? -1 : from < 0 ? k : from;
+    }
+    close_text(part, &parts);
+    if (size > 0)
+      fprintf(v->out, "<path class=\"band\" fill=\"%s\" %s d=\"%s\"/>\n", colour,
+              beyond ? "fill-opacity=\"0.12\" stroke=\"#0b2a22\" stroke-width=\"0.8\" stroke-dasharray=\"5 4\""
+                     : "fill-opacity=\"0.4\"",
+              parts);
+    free(parts);
+  }
+}
+
+/* The ellipse of one standard deviation around the place where a ball ends. */
+static void draw_ellipse(const view *v, const spread *s, const carom_ball_state *final, int ball) {
+  const spread_axes axes = axes_of(s->final[ball]);
+  if (s->cut[ball] || axes.along > spread_most || axes.along == 0.0 || final->label == CAROM_BALL_POCKETED)
+    return;
+  const double x = across(v, final->r), y = down(v, final->r);
+  fprintf(v->out,
+          "<ellipse class=\"band\" cx=\"%.1f\" cy=\"%.1f\" rx=\"%.1f\" ry=\"%.1f\" transform=\"rotate(%.1f %.1f %.1f)\" "
+          "fill=\"none\" stroke=\"#0b2a22\" stroke-width=\"1.6\"%s/>\n",
+          x, y, v->scale * axes.along, v->scale * axes.across, v->turned ? 90.0 - axes.degrees : -axes.degrees, x, y,
+          s->until < INFINITY ? " stroke-dasharray=\"5 4\"" : "");
 }
 
 static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball, bool final, const char *name) {
@@ -362,6 +411,9 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   for (int k = 0; k < shots[0].line->count; k++)
     draw_ball(&v, shots[0].line, &shots[0].line->ball[k].state, k, false, NULL);
   for (int shot = count - 1; shot >= 0; shot--)
+    for (int k = shots[shot].line->count - 1; k >= 0 && shots[shot].spread != NULL; k--)
+      draw_band(&v, shots[shot].line, shots[shot].spread, k);
+  for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0; k--)
       draw_path(&v, shots[shot].line, shots[shot].shot, k);
   /* Where they end; what does not move, once. */
@@ -378,6 +430,8 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
       fprintf(out, "<g class=\"ball\" data-x=\"%.1f\" data-y=\"%.1f\">\n", across(&v, final[k].r), down(&v, final[k].r));
       draw_ball(&v, line, &final[k], k, true, count > 1 && k == line->cue.ball ? number : line->name[k]);
       fputs("</g>\n", out);
+      if (shots[shot].spread != NULL)
+        draw_ellipse(&v, shots[shot].spread, &final[k], k);
       const double r = v.scale * line->ball[k].kind.radius, x = across(&v, final[k].r), y = down(&v, final[k].r);
       keep_free(&l, x - r, y - r, x + r, y + r);
     }

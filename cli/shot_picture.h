@@ -4,11 +4,13 @@
 
 #include "options.h"
 #include "shot_file.h"
+#include "spread.h"
 
 /* A shot and its result. */
 typedef struct played {
   const shot_line *line;
   const carom_shot *shot;
+  const spread *spread; /* a player's, with bands; or NULL */
 } played;
 
 /* Whether the shot has this id; any has NULL. */

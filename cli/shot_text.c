@@ -102,7 +102,7 @@ static void write_line(FILE *out, json_t *line) {
   json_decref(line);
 }
 
-void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status, int events) {
+void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status, int events, json_t *spread) {
   json_t *all = head_of(line), *balls = json_object();
   set_given(all, line, "family");
   json_object_set_new(all, "table", json_string(line->table->id));
@@ -122,6 +122,8 @@ void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_
     json_object_set_new(balls, line->name[k], state_of(&shot->final[k]));
   json_object_set_new(
       all, "final", json_pack("{s: f, s: o, s: o}", "t", shot->time, "balls", balls, "pockets", pockets_of(line, shot->final)));
+  if (spread != NULL)
+    json_object_set_new(all, "spread", spread);
   json_object_set_new(all, "status", json_string(carom_status_name(status)));
   if (status < 0)
     json_object_set_new(all, "error", json_string(carom_status_string(status)));

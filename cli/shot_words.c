@@ -104,7 +104,7 @@ static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, 
             final->r[0], final->r[1], final->label == CAROM_BALL_STATIONARY ? last : shot->time);
 }
 
-void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot) {
+void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const spread *s) {
   const carom_cue *cue = &line->cue;
   const double *v = shot->events[0].after[0].v;
   fprintf(out, "%s table, %s at %.4g m/s, aim %.2f degrees", line->table->id, line->name[cue->ball], hypot(v[0], v[1]),
@@ -117,6 +117,11 @@ void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot) {
     fprintf(out, ", tip %.3g R %s and %.3g R %s the centre\n", fabs(cue->a), cue->a > 0.0 ? "left" : "right", fabs(cue->b),
             cue->b < 0.0 ? "below" : "above");
   for (int k = 0; k < line->count; k++)
-    if (ball_moved(shot, k))
+    if (ball_moved(shot, k)) {
       tell_ball(out, line, shot, k);
+      if (s != NULL && shot->final[k].label != CAROM_BALL_POCKETED)
+        spread_tell_ball(out, s, k);
+    }
+  if (s != NULL)
+    spread_tell(out, s, line);
 }

@@ -2,7 +2,7 @@
 #ifndef CAROM_CLI_SHOT_WORDS_H
 #define CAROM_CLI_SHOT_WORDS_H
 
-#include "shot_file.h"
+#include "spread.h"
 
 /* Whether a rail is no cut of a pocket: those are short. */
 bool is_cushion(const carom_table *t, int rail);
@@ -14,7 +14,7 @@ bool counts_as_rail(const shot_line *line, const carom_shot *shot, int64_t k, in
 /* Whether the ball is in any event: the others lie where they lay. */
 bool ball_moved(const carom_shot *shot, int ball);
 
-/* Tells it, a line for each ball that moved. */
-void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot);
+/* Tells it, a line for each ball that moved; with the spread of a player where `s` is not NULL. */
+void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const spread *s);
 
 #endif

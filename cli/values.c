@@ -43,6 +43,7 @@ static const struct {
     {MEASURE_MASS, "oz", "ounces", 0.028349523125, FIXED},
     {MEASURE_TIP, "R", "R", 1.0, FIXED},
     {MEASURE_TIP, "tip", "tips", tip_width, OFFSET},
+    {MEASURE_SHARE, "%", "%", 0.01, FIXED},
     {MEASURE_SPIN, "rad/s", "rad/s", 1.0, FIXED},
     {MEASURE_SPIN, "%", "% of rolling", 0.01, ROLLING},
     {MEASURE_SPIN, "tip", "tips above the centre", strike *tip_width, OFFSET},
@@ -195,6 +196,15 @@ static bool read_values(const option_row *row, const char *text, values *list) {
 
 OPTION_SET(set_values) {
   return read_values(row, text, field);
+}
+
+bool value_of(int measure, const char *text, value *v) {
+  double number;
+  const char *unit;
+  if (!split(text, &number, &unit))
+    return false;
+  const int found = find_unit(measure, unit);
+  return found != NO_UNIT && set_value(v, number, found);
 }
 
 void values_default(values *list, int measure, const char *text) {

@@ -15,6 +15,7 @@ enum measure {
   MEASURE_LENGTH,
   MEASURE_MASS,
   MEASURE_TIP,
+  MEASURE_SHARE,
   MEASURE_SPIN,
   MEASURE_SIDE
 };
@@ -43,6 +44,9 @@ OPTION_SET(set_values);
 
 /* Reads what set_values() would, for defaults; `text` is not changed. */
 void values_default(values *list, int measure, const char *text);
+
+/* Reads one number of a measure, with a unit or without; false where it is none. */
+bool value_of(int measure, const char *text, value *v);
 
 /* A spin, rad/s, of a ball of that speed and radius. `gearing` is what GEARING stands for. */
 double spin_of(const value *v, double speed, double radius, double gearing);

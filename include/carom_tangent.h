@@ -8,13 +8,14 @@
  *     cue[0][0] = 1.0;                                         // 0: the speed of the cue, per m/s
  *     cue[1][1] = 1.0;                                         // 1: its direction phi, per degree
  *     carom_tangent_seeds seeds = {.directions = 2, .cue = &cue[0][0]};
- *     double final[10][7][2], reach[2];
+ *     double final[10][CAROM_STATE_NUMBERS][2], reach[2];
  *     carom_tangent tangent = {.final = &final[0][0][0], .reach = reach};
  *     status = carom_shoot(&table, balls, 10, &cue, NULL, &shot);                   // with room for all of its events
  *     status = carom_shot_tangent(&table, balls, 10, &cue, NULL, &shot, &seeds, &tangent);
  *     // final[i][0][1]: by how many metres the place x of ball i moves per degree of phi, where |change| < reach[1]
  *
- * docs/understanding/gradients.md has the equations, the errors that were measured and what tangents cannot tell.
+ * docs/using/derivatives.md tells what tangents mean and what they cannot tell; docs/understanding/gradients.md has the
+ * equations and the errors that were measured.
  *
  * Units are those of carom_shot.h; of the angles phi and theta degrees. Arrays are in row order with the directions last. */
 #ifndef CAROM_TANGENT_H
@@ -27,18 +28,22 @@ extern "C" {
 #endif
 
 /* Directions of a call; and how many numbers a cue (speed, phi, theta, a, b, mass, end_mass), a state (x, y, v_x, v_y, w_x,
- * w_y, w_z), the cushions of a table (height of the noses, mu_cushion, restitution) and a carom_ball_kind (its fields) have. */
-enum { CAROM_DIRECTIONS_MOST = 64, CAROM_CUE_NUMBERS = 7, CAROM_STATE_NUMBERS = 7, CAROM_NOSE_NUMBERS = 3 };
+ * w_y, w_z, z, v_z), the cushions of a table (height of the noses, mu_cushion, restitution) and a carom_ball_kind (its fields)
+ * have. The last two numbers of a state are those of flight: of a ball on the cloth z changes as its radius does, and v_z not
+ * at all, whatever their seeds are. */
+enum { CAROM_DIRECTIONS_MOST = 64, CAROM_CUE_NUMBERS = 7, CAROM_STATE_NUMBERS = 9, CAROM_NOSE_NUMBERS = 3 };
 #define CAROM_KIND_NUMBERS ((int)(sizeof(carom_ball_kind) / sizeof(double)))
 
 /* What a tangent at an event has to be read with. A sum of these, 0 for none. */
 typedef enum carom_tangent_flag {
-  CAROM_TANGENT_GRAZING = 1,      /* the contact closes at less than 1 % of the speed: derivatives grow without bound there. */
-  CAROM_TANGENT_SLOW = 2,         /* a slow contact, which the rule of docs/using/shots.md resolves. */
+  CAROM_TANGENT_GRAZING = 1, /* the contact closes at less than 1 % of the speed, or it is the last hop of a ball on the slate
+                                or nearly so: derivatives grow without bound there. */
+  CAROM_TANGENT_SLOW = 2,    /* a slow contact, which the rule of docs/using/shots.md resolves. */
   CAROM_TANGENT_SIMULTANEOUS = 4, /* a ball of it was in another contact less than 1e-9 s before: a small change may reverse
                                      their order, so the derivative holds to one side at most. */
-  CAROM_TANGENT_KINK = 8,         /* the model has no derivative here, or it was not found to 1e-4. */
-  CAROM_TANGENT_EULER = 16,       /* the cushion was resolved in steps: the derivative is that of the steps, by differences. */
+  CAROM_TANGENT_KINK = 8,   /* the model has no derivative here, or it was not found to 1e-4. So by theta at theta = 0 where
+                               balls can leave the cloth: the derivative is that upward. */
+  CAROM_TANGENT_EULER = 16, /* the cushion was resolved in steps: the derivative is that of the steps, by differences. */
   CAROM_TANGENT_DIFFERENCES = 32, /* the derivative of this contact is by central differences of the one contact: of
                                     CAROM_CUSHION_STRONGE, and of exact models where the motion is planar or a ball jams. */
   CAROM_TANGENT_DRAG = 64 /* a ball rolled there with drag: the derivative is that of its exact motion, which shots follow in
@@ -50,19 +55,20 @@ typedef enum carom_tangent_flag {
 typedef struct carom_tangent_seeds {
   int64_t directions;
   const double *cue;    /* [7][m] */
-  const double *kind;   /* [balls][CAROM_KIND_NUMBERS][m]; the radius of all balls has to change together, by that of ball 0. */
-  const double *state;  /* [balls][7][m]: at the start. Of the ball that the cue strikes, only x and y count. */
+  const double *kind;   /* [balls][CAROM_KIND_NUMBERS][m]; balls of one radius have to change it together. */
+  const double *state;  /* [balls][9][m]: at the start. Of the ball that the cue strikes, only x and y count. */
   const double *table;  /* [3][m]: of all rails and jaws together */
   uint64_t reserved[4]; /* must be 0. */
 } carom_tangent_seeds;
 
 /* Results, per unit of the seeds. `final` is needed; each of the others may be NULL. */
 typedef struct carom_tangent {
-  double *final;        /* [balls][7][m]: of the states at the end of the shot. 0 of a pocketed ball. */
-  double *time;         /* [events][m], s: of the times of the events. */
-  double *before;       /* [events][2][7][m]: of the states of its balls just before each event, whose time changes too; */
-  double *after;        /* and just after it. 0 where an event has one ball. */
-  double *at;           /* [times][balls][7][m]: of the states at fixed times. */
+  double *final;  /* [balls][9][m]: of the states at the end of the shot. 0 of a pocketed ball; of one that left the table by
+                     where it did. */
+  double *time;   /* [events][m], s: of the times of the events. */
+  double *before; /* [events][2][9][m]: of the states of its balls just before each event, whose time changes too; */
+  double *after;  /* and just after it. 0 where an event has one ball. */
+  double *at;     /* [times][balls][9][m]: of the states at fixed times. */
   const double *times;  /* [times], s: ascending, for `at`. */
   int64_t times_count;  /* how many. */
   int32_t *flags;       /* [events]: sums of carom_tangent_flag. */
@@ -75,14 +81,14 @@ typedef struct carom_tangent {
 } carom_tangent;
 
 /* Derivatives of a shot that carom_shoot() has played: table, balls, cue and options are those of that call, and shot->events
- * holds all of its events. Tangents follow each ball from event to event; nothing is played again. Nothing is allocated; stack:
- * 50 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
+ * holds all of its events. Tangents follow each ball from event to event, on the cloth and in flight; nothing is played again.
+ * Nothing is allocated; stack: 50 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS; CAROM_ERROR_DIRECTIONS for other than 1
  * to 64; CAROM_ERROR_EVENTS_LOST where shot->room was too small or events is NULL; CAROM_ERROR_STATE where an event cannot be
  * one of this shot; CAROM_ERROR_TIME for times that are not finite or not ascending; CAROM_ERROR_SHOT_OPTIONS for a reserved
  * field; or an error of the table or of an option. CAROM_ERROR_TANGENT where derivatives are not known: in
- * CAROM_WORLD_POOLTOOL, whose spacers are not differentiable; by CAROM_BALL_MODEL_EULER; and where a ball leaves the cloth. Or
+ * CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, and by CAROM_BALL_MODEL_EULER. Or
  * CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved, or an error of a collision. Then every
  * number of `final` is NaN, and others may have been written. */
 CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls, int count,

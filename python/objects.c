@@ -3,6 +3,15 @@
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
 
+/* Whether zeros are a valid object of a class, as in one written in Python whose bases are too, but for object. A class with a
+ * __new__() of its own, or of a base such as dict, needs that. Otherwise an exception is set. */
+static int zeros_will_do(PyObject *type) {
+  if (PyType_GetSlot((PyTypeObject *)type, Py_tp_new) == PyType_GetSlot(&PyBaseObject_Type, Py_tp_new))
+    return 1;
+  PyErr_SetString(PyExc_TypeError, "type: a class that is written in Python and has no __new__() is needed");
+  return 0;
+}
+
 /* Gives object k its attributes: names[j] is item k of columns[j] where that is a list, otherwise columns[j] itself. */
 static int set_row(PyObject *object, PyObject *names, PyObject *columns, Py_ssize_t k) {
   for (Py_ssize_t j = 0; j < PyTuple_Size(names); j++) {
@@ -19,8 +28,13 @@ static PyObject *make(PyObject *module, PyObject *arguments) {
   PyObject *type, *names, *columns;
   Py_ssize_t n;
   (void)module;
-  if (!PyArg_ParseTuple(arguments, "O!nO!O!", &PyType_Type, &type, &n, &PyTuple_Type, &names, &PyTuple_Type, &columns))
+  if (!PyArg_ParseTuple(arguments, "O!nO!O!", &PyType_Type, &type, &n, &PyTuple_Type, &names, &PyTuple_Type, &columns) ||
+      !zeros_will_do(type))
     return NULL;
+  if (n < 0) {
+    PyErr_SetString(PyExc_ValueError, "n: it must not be negative");
+    return NULL;
+  }
   PyObject *objects = PyList_New(n);
   for (Py_ssize_t k = 0; k < n && objects != NULL; k++) {
     PyObject *object = PyType_GenericAlloc((PyTypeObject *)type, 0);

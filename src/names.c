@@ -73,8 +73,7 @@
     "a ball can leave the table between two of its parts, or there is no place for a ball")                                    \
   X(ERROR_RAIL_SIDE, -62, "bad_rail_side", "the played side of a rail is turned away from the table")                          \
   X(ERROR_RAIL_LINE, -63, "bad_rail_line", "the line of a rail does not pass through both of its ends")                        \
-  X(ERROR_TANGENT, -70, "no_tangent",                                                                                          \
-    "derivatives are not known in the world pooltool, by Euler's model of balls, or where a ball leaves the cloth")            \
+  X(ERROR_TANGENT, -70, "no_tangent", "derivatives are not known in the world pooltool, nor by Euler's model of balls")        \
   X(ERROR_DIRECTIONS, -71, "bad_directions", "derivatives are in 1 to 64 directions at once")                                  \
   X(ERROR_STATE, -60, "bad_state", "shot.state is not that of a shot of these balls that can go on")
 
@@ -93,7 +92,7 @@ int carom_version_number(void) {
 
 /* Raised by the commit that changes the bits of any result; tests/platforms/revision says when that is. */
 int carom_physics_revision(void) {
-  return 2;
+  return 3;
 }
 
 int carom_serves(int header) {

@@ -5,6 +5,7 @@ Each check gives a list of what differs, which is empty for a picture that is ri
 
 import json
 import math
+import re
 import xml.etree.ElementTree as tree
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -150,6 +151,29 @@ def check_shots(lines, picture, shot_id):
     return check_shot(picture, shot, table)
 
 
+def band_widths(picture, shot, ball, place, normal):
+    """How far the band of a ball goes from a place on its path, m, along the normal and against it; of a table that is longer than wide."""
+    page = tree.parse(picture).getroot()
+    index = [one["id"] for one in shot["balls"]].index(ball)
+    starts = [circle for circle in elements(page, "circle") if circle.get("stroke-dasharray")]
+    colour, start = starts[index].get("stroke"), shot["balls"][index]["state"][1:3]
+    x, y = ((a + 400 * (b - c)) for a, b, c in zip(numbers(starts[index], "cx", "cy"), reversed(list(place)), reversed(start)))
+    crossed = []
+    for path in elements(page, "path"):
+        if path.get("class") != "band" or path.get("fill") != colour:
+            continue
+        for part in path.get("d").split("Z")[:-1]:
+            points = [tuple(map(float, pair.split())) for pair in part[1:].split("L")]
+            for (ax, ay), (bx, by) in zip(points, points[1:] + points[:1]):
+                # the edge a + t (b - a) meets (x, y) + s n, n turned with the table
+                nx, ny, dx, dy = normal[1], normal[0], bx - ax, by - ay
+                cross = dx * ny - dy * nx
+                if cross and 0 <= ((x - ax) * ny - (y - ay) * nx) / cross < 1:
+                    crossed.append(((x - ax) * dy - (y - ay) * dx) / cross / 400)
+    sides = [[s for s in crossed if s > 0], [-s for s in crossed if s < 0]]
+    return [min(side) for side in sides if side]
+
+
 # ---- One collision -----------------------------------------------------------------------------------------------------
 
 
@@ -203,6 +227,21 @@ def check_hit(picture, row, after, words):
     drawn = [path for path in paths if path.get("stroke-width") == "2.2"]
     for path, way in zip(drawn, ways, strict=True):
         report.path("path", vertices(path), [px(p) for p in way])
+    # An arrow's head, 13 pixels long and 10 wide, on each path that is no point.
+    heads = [path for path in paths if path.get("d").endswith("Z")]
+    arrows = [(px(way[-2]), px(way[-1])) for way in ways if sum(map(math.dist, way[1:], way)) * scale >= 4]
+    for path, (before, tail) in zip(heads, arrows, strict=True):
+        x, y = ((b - a) / math.dist(before, tail) for a, b in zip(before, tail))
+        corners = [(tail[0] + far * x + side * y, tail[1] + far * y - side * x) for far, side in ((13, 0), (0, -5), (0, 5))]
+        report.path("head", [tuple(map(float, pair.split())) for pair in path.get("d")[1:-1].split("L")], corners)
+    # A bar of 1, 2 or 5 times a power of ten, at most a sixth of the width, and its length in words.
+    [bar] = [path for path in paths if "v6h" in path.get("d")]
+    length = max(n * 10.0**power for n in (1, 2, 5) for power in range(-6, 6) if n * 10.0**power <= 150 / scale)
+    bottom = scale * (high[1] - low[1]) + 52 - 16
+    report.near("bar", map(float, re.findall(r"[\d.]+", bar.get("d"))), [874 - scale * length, bottom, 6, scale * length, 6])
+    [text] = [text for text in elements(page, "text") if text.get("text-anchor") == "middle" and text.get("font-size") == "12"]
+    report.near("words of the bar", numbers(text, "x", "y"), [874 - scale * length / 2, bottom])
+    report.same("length of the bar", text.text, f"{length:g} m" if length >= 1 else f"{100 * length:g} cm")
     # All is on the picture, and no label covers another.
     width, height = map(float, page.get("viewBox").split()[2:])
     texts = elements(page, "text")

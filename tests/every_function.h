@@ -443,6 +443,18 @@ EVERY_BODY(shot_tangent) {
   STATUS(carom_shot_tangent(&in->table, in->balls, EVERY_BALLS, &in->cue[0], NULL, &room->shot[0], &seeds, &room->tangent[0]));
   HASH(room->ends[0]);
   HASH(room->reach);
+  /* a ball that flies at a rail right above the cloth, where both the flat and the free model have a part */
+  const carom_shot_options exact = {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN};
+  carom_shot_ball ball = in->balls[0];
+  ball.state = (carom_ball_state){.r = {ball.kind.radius + 0.01, 0.8, ball.kind.radius + 5e-4},
+                                  .v = {-2.0, 0.1, 0.05},
+                                  .w = {20.0, -30.0, 40.0},
+                                  .label = CAROM_BALL_AIRBORNE};
+  room->shot[0].count = 0;
+  STATUS(carom_shoot(&in->table, &ball, 1, NULL, &exact, &room->shot[0]));
+  const carom_tangent_seeds of_state = {.directions = CAROM_DIRECTIONS_MOST, .state = in->seeds};
+  STATUS(carom_shot_tangent(&in->table, &ball, 1, NULL, &exact, &room->shot[0], &of_state, &room->tangent[0]));
+  h = every_hash(h, room->ends[0], sizeof(double) * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST);
   return h;
 }
 EVERY_BODY(shot_tangent_batch) {

@@ -389,6 +389,12 @@ int command_stress(int argc, char **argv) {
     return code;
   if (job.shots > 0)
     return stress_shots(job.shots, (uint64_t)job.seed, job.models, job.cushion, job.elevated);
+  if (job.elevated || job.models != 0 || job.cushion != 0) {
+    complain("%s is for whole shots, which --shots N asks for", job.elevated      ? "--elevated"
+                                                                : job.models != 0 ? "--models"
+                                                                                  : "--cushion-model");
+    return EXIT_USAGE;
+  }
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;

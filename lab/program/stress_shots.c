@@ -19,7 +19,7 @@
 #include <string.h>
 
 enum { SAMPLES = 3, MOST_KINDS = 24, TOLD = 10 };
-static const double deepest = 1e-9, rounding = 1e-12, jump_most = 1e-9;
+static const double deepest = 1e-9, rounding = 1e-12, jump_most = 1e-11;
 
 typedef struct kind_tally {
   long shots, failed, too_many;
@@ -86,10 +86,10 @@ int stress_shots(int shots, uint64_t seed, int world, int cushion_model, bool el
     if (!good(&m, status)) {
       t->failed++;
       if (told++ < TOLD)
-        complain("%s %d: %s, %lld events in %g s; overlap %.2g, intrusion %.2g (after %s), gain %.2g, momentum %.2g, jump "
-                 "%.2g, %d restless",
-                 s.kind, n / kinds, carom_status_name(status), (long long)shot.count, shot.time, m.overlap, m.intrusion,
-                 m.worst_at, m.gain, m.momentum, m.jump, m.restless);
+        complain("shot %d of seed %llu, %s: %s, %lld events in %g s; overlap %.2g, intrusion %.2g (after %s), gain %.2g, "
+                 "momentum %.2g, jump %.2g, %d restless",
+                 n + 1, (unsigned long long)seed, s.kind, carom_status_name(status), (long long)shot.count, shot.time,
+                 m.overlap, m.intrusion, m.worst_at, m.gain, m.momentum, m.jump, m.restless);
     }
     progress_show("shots", n, shots);
   }

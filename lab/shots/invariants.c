@@ -3,6 +3,7 @@
 #include "invariants.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 static double length2(double x, double y) {
@@ -187,9 +188,12 @@ static double momentum_change(const follower *f, const carom_event *e) {
     change[axis] = p_a + p_b;
     normal[axis] = p_b;
   }
-  if (in_space(f->balls, e)) { /* the cloth takes no part, and heights count */
+  if (in_space(f->balls, e)) { /* heights count, but for a ball that stays on the cloth; the cloth has no other part */
     const double p_a = a->mass * (e->after[0].v[2] - e->before[0].v[2]), p_b = b->mass * (e->after[1].v[2] - e->before[1].v[2]);
-    return hypot(length2(change[0], change[1]), p_a + p_b) / (1e-13 + 1e-9 * (a->mass + b->mass));
+    bool lies = false;
+    for (int side = 0; side < 2; side++)
+      lies |= !flies(&e->before[side]) && !flies(&e->after[side]);
+    return hypot(length2(change[0], change[1]), lies ? 0.0 : p_a + p_b) / (1e-13 + 1e-9 * (a->mass + b->mass));
   }
   const double allowed = fmax(a->mu_slide, b->mu_slide) * 0.12 * 1.01 * length2(normal[0], normal[1]) / (1.0 - 0.12) + 1e-13;
   return length2(change[0], change[1]) / allowed;

@@ -287,6 +287,32 @@ static void coincident(random_shot *s, lab_random *r) {
   }
 }
 
+/* The same in the air, where time is without rounding too, as g = 8 m/s^2: balls at the heights of others, of the noses and of
+ * their tops, thrown upward, downward and level, beside each other or a diameter apart; and a pocket with its edge at their
+ * places. */
+static void coincident_in_space(random_shot *s, lab_random *r) {
+  coincident(s, r);
+  const double R = 0.03125, nose = s->table.rail[0].height, lies = R;
+  const double heights[] = {lies, 2.0 * R, 3.0 * R, 5.0 * R, nose, nose + R, nose + 2.0 * R};
+  static const double speeds[] = {0.0, 0.0, 1.0, -1.0, 0.5};
+  const double x = 0.25, y = 0.5 + 2.0 * R * whole(r, 0, 1);
+  if (whole(r, 0, 1) && is_free(s, x, y, 2.0 * R))
+    s->table.pocket[s->table.pockets++] = (carom_pocket){.centre = {x, y}, .radius = 2.0 * R};
+  for (int k = 0; k < s->count; k++) {
+    carom_shot_ball *b = &s->ball[k];
+    b->kind.gravity = 8.0;
+    b->kind.restitution_table = 0.25 * whole(r, 0, 3);
+    const double *at = b->state.r, centre = hypot(at[0] - 0.5, at[1] - 1.0); /* from the post, if there is one */
+    const bool beside =
+        at[0] < 2.0 * R || at[0] > 1.0 - 2.0 * R || at[1] < 2.0 * R || at[1] > 2.0 - 2.0 * R || centre < 4.0 * R;
+    b->state.r[2] = heights[beside ? 3 * whole(r, 0, 1) : whole(r, 0, 6)]; /* at a nose it would be in it */
+    b->state.v[2] = b->state.r[2] > lies || whole(r, 0, 1) ? speeds[whole(r, 0, 4)] : 0.0;
+    if (b->state.r[2] == lies && b->state.v[2] < 0.0)
+      b->state.v[2] = -b->state.v[2];
+    b->state.label = b->state.r[2] > lies || b->state.v[2] > 0.0 ? CAROM_BALL_AIRBORNE : b->state.label;
+  }
+}
+
 /* A layout, and a cue that makes the ball jump; every third time at the next ball, from near. */
 static void jump(random_shot *s, lab_random *r) {
   layout(s, r);
@@ -373,8 +399,9 @@ static const struct {
     {"jump", jump},
     {"falling", falling},
     {"unlike_radii", unlike_radii},
+    {"coincident_air", coincident_in_space},
 };
-enum { IN_SPACE_ONLY = 3 };
+enum { IN_SPACE_ONLY = 4 };
 
 int random_shot_kinds(void) {
   return random_shot_kinds_in_space() - IN_SPACE_ONLY;

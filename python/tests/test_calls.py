@@ -2,11 +2,14 @@
 
 import concurrent.futures
 import functools
+import json
 import multiprocessing
 import os
 import pickle
 import re
 import signal
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -18,6 +21,59 @@ import carom
 
 GOOD = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0))
 BAD = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0), mass=-1.0)
+
+
+# ---- Bits --------------------------------------------------------------------------------------------------------------
+
+PLAYS = """
+import numpy as np, sys
+import carom
+
+plain = eval(sys.argv[1])
+angles = np.linspace(-1.2, 1.2, 101)
+pairs = carom.impacts(v_a=(1.5, 0, 0), w_a=(3.0, 10.0, 5.0), r_b=np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=-1))
+into = carom.cushion_impacts(v=np.stack([np.sin(angles), np.cos(angles), 0 * angles], axis=-1), w=(3.0, 10.0, 5.0))
+table = carom.tables.pool_9ft()
+rack, cues = carom.racks.nineball(table), carom.cue(speed=8.0, phi=np.linspace(89.0, 91.0, 5))
+bits = {
+    "batch": carom.collide(pairs, **plain).motion,
+    "one": carom.collide(pairs[3], **plain).motion,
+    "trace": carom.trace(pairs[3], 5, **plain)["state"],
+    "cushions": carom.cushion(into, **plain).motion,
+    "cushion trace": carom.cushion_trace(into[3], 5, **plain)["state"],
+    "shot": carom.simulate(table, rack, cues[0], **plain).final,
+    "shots": carom.simulate_batch(table, rack, cues, **plain).final,
+    "later": carom.resume(carom.simulate(table, rack, cues[0], t_final=1.0, **plain)).final,
+}
+bits = {name: array.tobytes().hex() for name, array in bits.items()}
+"""
+
+
+def test_plain_has_the_bits_of_a_process_limited_to_plain():
+    def bits(plain, isa):
+        program = PLAYS + "import json; print(json.dumps(bits))"
+        environment = {**{name: value for name, value in os.environ.items() if name != "CAROM_ISA"}, **isa}
+        done = subprocess.run([sys.executable, "-c", program, repr(plain)], env=environment, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)
+
+    limited, asked = bits({}, {"CAROM_ISA": "plain"}), bits({"plain": True}, {})
+    assert asked == limited and limited["shot"] == limited["shots"][: len(limited["shot"])]
+    if carom.isa_in_force() not in ("plain", "sse2"):
+        other = bits({"plain": False}, {})
+        assert all(other[name] != limited[name] for name in ("batch", "shots"))
+
+
+@pytest.mark.parametrize("plain", [2, -1, "yes", None])
+def test_plain_is_yes_or_no(plain):
+    table = carom.tables.pool_9ft()
+    for call in (
+        lambda: carom.collide(GOOD, plain=plain),
+        lambda: carom.cushion(carom.cushion_impacts(v=(0.0, 1.0, 0.0)), plain=plain),
+        lambda: carom.simulate(table, carom.balls([[0.3, 0.3]]), carom.cue(), plain=plain),
+    ):
+        with pytest.raises(ValueError, match="plain: it must be a whole number from 0 to 1"):
+            call()
 
 
 # ---- Errors ------------------------------------------------------------------------------------------------------------
@@ -96,6 +152,50 @@ def test_messages_name_what_is_wrong_with_a_cue():
         with pytest.raises(ValueError, match="seed: it must be a whole number from 0"):
             carom.racks.nineball(table, seed=seed)
     assert len(carom.racks.nineball(table, seed=2**64 - 1)) == 10
+
+
+def test_arguments_of_other_kinds_are_refused_by_their_names():
+    table = carom.tables.pool_9ft()
+    rack = carom.racks.nineball(table)
+    for wrong, message, call in (
+        (TypeError, r"balls: .* carom\.balls\(\)", lambda: carom.place_ball(table, [1.0, 2.0], 0, 0.5, 0.5)),
+        (TypeError, "table: .* not NoneType", lambda: carom.place_ball(None, rack, 0, 0.5, 0.5)),
+        (TypeError, "table: .* not str", lambda: carom.racks.nineball("9ft")),
+        (TypeError, r"cue: .* carom\.cue\(\)", lambda: carom.struck(10**30, rack[0]["kind"])),
+        (TypeError, "kind: ", lambda: carom.struck(carom.cue(), [np.inf])),
+        (ValueError, "rails: ", lambda: carom.Table(1.0, 2.0, rails=[[0.0, 1.0]])),
+        (ValueError, "shot: ", lambda: carom.resume(None)),
+        (TypeError, "shot: .* not str", lambda: carom.tangents("shot", None, ["cue.phi"])),
+        (TypeError, "cue: ", lambda: carom.tangents(carom.simulate(table, rack, carom.cue()), np.array(7), ["cue.phi"])),
+        (ValueError, "of: .* not None", lambda: carom.jacobian(table, rack, carom.cue(), ["cue.phi"], of=None)),
+        (ValueError, "steps: .* whole number", lambda: carom.collide(GOOD, steps=2**31)),
+        (ValueError, "threads: .* whole number", lambda: carom.cushion(carom.cushion_impacts(v=(0, 1, 0)), threads=10**30)),
+        (TypeError, r"out\[0\]: .* not str", lambda: carom.collide(GOOD, out=("motion", "status"))),
+    ):
+        with pytest.raises(wrong, match=f"^{message}"):
+            call()
+
+
+def test_objects_are_made_of_plain_classes_alone():
+    """Zeros are no dict, no type and no exception."""
+    from carom._objects import make
+
+    class Plain:
+        pass
+
+    class Dict(dict):
+        pass
+
+    class Own:
+        def __new__(cls):
+            return super().__new__(cls)
+
+    assert [found.a for found in make(Plain, 2, ("a",), ([1, 2],))] == [1, 2]
+    for other in (type, dict, int, Exception, Dict, Own):
+        with pytest.raises(TypeError, match="no __new__"):
+            make(other, 1, (), ())
+    with pytest.raises(ValueError, match="negative"):
+        make(Plain, -1, (), ())
 
 
 # ---- Arrays ------------------------------------------------------------------------------------------------------------

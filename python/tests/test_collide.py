@@ -117,6 +117,15 @@ def test_impacts_broadcast():
         carom.impacts(v_a=(1, 0), r_b=(1, 0, 0))
 
 
+def test_each_number_of_an_impact_has_its_place_and_its_default():
+    ball = [0.028575, 0.170097, 0.2]  # radius, mass, friction with the cloth, of a pool ball
+    built = carom.impacts(v_a=(1, 2, 0), r_b=(0.05715, 0, 0))
+    assert carom.dtypes.plain(built).tolist() == [0, 0, 0, 1, 2, 0, 0, 0, 0, *ball, 0.05715, *[0] * 8, *ball, 0.05, 0.95]
+    vectors = {name: np.arange(3) + 3 * k for k, name in enumerate(("r_a", "v_a", "w_a", "r_b", "v_b", "w_b"))}
+    built = carom.impacts(**vectors, radius=20, mass=21, mu_cloth=22, mass_b=23, mu_cloth_b=24, mu_ball=25, restitution=26)
+    assert carom.dtypes.plain(built).tolist() == [*range(9), 20, 21, 22, *range(9, 18), 20, 23, 24, 25, 26]
+
+
 def test_mu_ball(impacts):
     a, b, c = carom.alciatore()
     shot = carom.impacts(v_a=[(0, 0, 0), (0, 3, 0)], r_b=(0.05715, 0, 0))
@@ -175,3 +184,9 @@ def test_statuses_are_those_of_c():
     names = {value: name.removeprefix("CAROM_") for value, name in ffi.typeof("carom_status").elements.items()}
     assert {status.value: status.name for status in carom.Status} == names
     assert carom.Status.ERROR_MASS.text == "a mass must be positive and finite"
+    for kind, enumeration, prefix in (
+        (carom.results.Label, "carom_label", "CAROM_BALL_"),
+        (carom.results.EventType, "carom_event_type", "CAROM_EVENT_"),
+    ):
+        names = {value: name.removeprefix(prefix) for value, name in ffi.typeof(enumeration).elements.items()}
+        assert {member.value: member.name for member in kind} == names

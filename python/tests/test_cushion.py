@@ -32,6 +32,14 @@ def test_mirror_by_hand():
     np.testing.assert_array_equal(motion["w"], [[1, 2, 3]] * 2)
 
 
+def test_each_number_of_an_impact_has_its_place_and_its_default():
+    numbers = carom.dtypes.plain(carom.cushion_impacts(v=(1, 2, 0)))
+    assert numbers.tolist() == [1, 2, 0, 0, 0, 0, 0, 1, 0.036576, 0.028575, 0.170097, 0.2, 0.2, 0.85, 0]
+    names = ("height", "radius", "mass", "mu_cloth", "mu_cushion", "restitution", "jaw_radius")
+    built = carom.cushion_impacts(v=(0, 1, 2), w=(3, 4, 5), normal=(6, 7), **{name: 8 + k for k, name in enumerate(names)})
+    assert carom.dtypes.plain(built).tolist() == [*range(15)]
+
+
 def test_errors():
     with pytest.raises(carom.CaromError, match="mu_cushion = 3.0") as caught:
         carom.cushion(carom.cushion_impacts(v=(0, 1, 0), mu_cushion=3.0))

@@ -23,7 +23,9 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 sys.path.insert(0, str(EXAMPLES))
 
 import best_of_many  # noqa: E402
+import error_bars  # noqa: E402
 import fit_cloth  # noqa: E402
+import fit_shots  # noqa: E402
 import learn_potting  # noqa: E402
 import refine_aim  # noqa: E402
 import smoothness  # noqa: E402
@@ -236,3 +238,46 @@ def test_refine_aim(tmp_path, monkeypatch):
     monkeypatch.setattr("sys.argv", ["refine_aim.py", "--draws", "4", "--out", str(out)])
     refine_aim.main()
     assert picture(out)
+
+
+def test_error_bars(tmp_path, capsys):
+    rows = error_bars.compare(40, 2000, SEED)
+    small = rows[rows[:, 0] < 0.1]
+    ratio = small[:, 1] / small[:, 0]
+    assert len(rows) > 40 and len(small) > 25
+    assert 0.95 < np.median(ratio) < 1.05 and np.mean((ratio > 0.8) & (ratio < 1.25)) > 0.8
+    # beyond what is shown, a first order says too much: no ball goes farther than the table is long
+    assert rows[:, 1].max() < 2.0
+    # a covariance by hand, of a straight roll without contacts: along the way by speed and height, across it by direction and side
+    balls, cue = carom.balls([[0.6, 0.4]]), {"speed": 0.45, "phi": 90.0, "a": 0.0, "b": 0.0}
+    shot, bars = error_bars.predict(balls, carom.cue(**cue))
+    assert shot.count < 5 and not np.isin(shot.events["type"], (carom.EventType.RAIL, carom.EventType.JAW)).any()
+
+    def moved(**by):
+        return carom.simulate(error_bars.table, balls, carom.cue(**{**cue, **by})).final["r"][0, :2] - shot.final["r"][0, :2]
+
+    across = np.hypot(moved(phi=90.05)[0], moved(a=0.01)[0])
+    along = np.hypot(moved(speed=0.4545)[1], moved(b=0.01)[1])
+    np.testing.assert_allclose(np.sqrt(bars.ends[0].diagonal()), [across, along], rtol=0.02)
+    error_bars.main(["--draws", "4", "--strokes", "200", "--seed", str(SEED), "--out", str(tmp_path / "bars.svg")])
+    assert picture(tmp_path / "bars.svg") and "played / predicted" in capsys.readouterr().out
+
+
+def test_fit_shots(tmp_path, capsys):
+    plays = fit_shots.Plays(SEED)
+    recorded, starts = fit_shots.recordings(plays, 40, SEED)
+    fits, _ = fit_shots.fit_all(plays, recorded, starts)
+    good = fit_shots.solved(fits)
+    assert good.mean() > 0.7
+    # 200 standard normal numbers: 68 % within one deviation, 95 % within two
+    z = np.abs(fit_shots.errors([one for one, yes in zip(fits, good) if yes]))
+    assert 0.56 < (z < 1).mean() < 0.82 and 0.89 < (z < 2).mean() < 0.99
+    assert (np.abs([one.found / fit_shots.TRUTH - 1 for one, yes in zip(fits, good) if yes]) < 0.02).mean() > 0.95
+    # differences of shots end at the same constants, and play several times as many shots
+    by_differences, _ = fit_shots.fit_all(plays, recorded[:5], starts[:5], differences=True)
+    for one, other in zip(fits, by_differences):
+        if np.abs(other.found / fit_shots.TRUTH - 1).max() < 0.02 and np.abs(one.found / fit_shots.TRUTH - 1).max() < 0.02:
+            assert (np.abs(one.found - other.found) < 0.1 * np.sqrt(one.covariance.diagonal())).all()
+    assert np.median([one.played for one in fits]) < 0.5 * np.median([one.played for one in by_differences])
+    fit_shots.main(["--draws", "12", "--seed", str(SEED), "--out", str(tmp_path / "shots.svg")])
+    assert picture(tmp_path / "shots.svg") and "tangents" in capsys.readouterr().out

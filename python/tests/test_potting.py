@@ -1,6 +1,7 @@
 """The game of carom.potting by its rules, and its environments of gymnasium by gymnasium's checker and against each other."""
 
 import importlib.util
+import math
 import subprocess
 import sys
 import time
@@ -36,6 +37,19 @@ def lined_up(rules, distance=0.3):
     line = [pocket + (0.2 + distance) * way, pocket + 0.2 * way]
     rest = [(0.3 + 0.1 * k, 2.2) for k in range(rules.balls - 1)]
     return np.array([*line, *rest]), -135.0
+
+
+def test_draws_are_those_of_splitmix64_and_of_box_and_muller():
+    """The first numbers of the key 1234567, as implementations of SplitMix64 are checked by; then normal ones of pairs of them."""
+    first = [6457827717110365317, 3203168211198807973, 9817491932198370423, 4593380528125082431]
+    u = [(z >> 11) / 2**53 for z in first]
+    draws, games = Draws([1234567, 7]), np.array([0])
+    again = draws.copy()
+    assert draws.uniform(games, 3).tolist() == [u[:3]] and draws.uniform(games, 1).tolist() == [u[3:]]
+    expected = [math.sqrt(-2 * math.log(1 - u[k])) * math.cos(2 * math.pi * u[k + 2]) for k in range(2)]
+    np.testing.assert_allclose(again.normal(games, 2), [expected], rtol=1e-14)
+    draws.begin(games, [1234567])
+    assert draws.uniform(np.array([1, 0]), 2)[1].tolist() == u[:2]
 
 
 def test_a_pot_and_a_scratch_by_hand():

@@ -130,6 +130,17 @@ def test_a_batch_has_the_bits_of_single_shots():
     np.testing.assert_array_equal(finals[1, 2].positions([0.3, 1.0]), shots[1, 2].positions([0.3, 1.0]))
 
 
+def test_a_batch_without_cues():
+    """Balls that move from the start, played and looked at by several threads, each of which begins at another row."""
+    table = carom.tables.pool_9ft()
+    layouts = carom.balls([[0.5, 0.5], [0.6, 1.2]], v=np.linspace([[0.0, 1.0, 0.0]], [[0.3, 2.0, 0.0]], 7) * [[1], [0]])
+    shots = carom.simulate_batch(table, layouts, None, threads=3)
+    alone = [carom.simulate(table, layout) for layout in layouts]
+    assert shots.shape == (7,) and not shots.failures()
+    assert shots.final.tobytes() == b"".join(one.final.tobytes() for one in alone)
+    np.testing.assert_array_equal(shots.positions([0.2, 0.9], threads=3), [one.positions([0.2, 0.9]) for one in alone])
+
+
 @pytest.fixture(scope="module")
 def breaks():
     """Breaks of which every 3rd is in error: the batch, and each shot alone, None in place of those."""
@@ -473,7 +484,9 @@ def test_tables_and_racks():
     racks = (carom.racks.nineball, carom.racks.eightball, carom.racks.tenball, carom.racks.snooker, carom.racks.threecushion)
     for rack, size in zip(racks, (10, 16, 11, 22, 3)):
         table = carom.tables.snooker() if size == 22 else carom.tables.threecushion() if size == 3 else carom.tables.pool_8ft()
-        assert rack(table).shape == (size,)
+        assert rack(table).shape == (size,) and rack(table).tobytes() == rack(table, 1e-4, 1).tobytes()
+        # The opening of three-cushion has its balls on their spots, whatever the gap and the seed.
+        assert all((rack(table).tobytes() == rack(table, *other).tobytes()) == (size == 3) for other in ((2e-4, 1), (1e-4, 2)))
     table = carom.tables.pool_7ft()
     assert (table.width, table.length) == (0.9906, 1.9812) and len(table.pockets) == 6
     copy = carom.Table(table.width, table.length, rails=table.rails, jaws=table.jaws, pockets=table.pockets)

@@ -78,20 +78,12 @@ carom_status carom_cushion_check_impact(const carom_cushion_impact *in, int *fie
   const int at = *field = fault(in);
   if (at < 0)
     return CAROM_OK;
-  if (at < FIELD(w))
-    return isfinite(in->v[at]) ? CAROM_ERROR_VERTICAL : CAROM_ERROR_VELOCITY;
-  static const carom_status of_field[FIELDS] = {[FIELD(w)] = CAROM_ERROR_SPIN,
-                                                [FIELD(w) + 1] = CAROM_ERROR_SPIN,
-                                                [FIELD(w) + 2] = CAROM_ERROR_SPIN,
-                                                [FIELD(normal)] = CAROM_ERROR_NORMAL,
-                                                [FIELD(normal) + 1] = CAROM_ERROR_NORMAL,
-                                                [FIELD(height)] = CAROM_ERROR_NOSE_HEIGHT,
-                                                [FIELD(radius)] = CAROM_ERROR_RADIUS,
-                                                [FIELD(mass)] = CAROM_ERROR_MASS,
-                                                [FIELD(mu_cloth)] = CAROM_ERROR_MU_CLOTH,
-                                                [FIELD(mu_cushion)] = CAROM_ERROR_MU_CUSHION,
-                                                [FIELD(restitution)] = CAROM_ERROR_RESTITUTION,
-                                                [FIELD(jaw_radius)] = CAROM_ERROR_JAW_RADIUS};
+  if (at == FIELD(v) + 2 && isfinite(in->v[2]))
+    return CAROM_ERROR_VERTICAL;
+  static const carom_status of_field[FIELDS] = {
+      CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY,   CAROM_ERROR_SPIN,        CAROM_ERROR_SPIN,
+      CAROM_ERROR_SPIN,     CAROM_ERROR_NORMAL,   CAROM_ERROR_NORMAL,     CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RADIUS,
+      CAROM_ERROR_MASS,     CAROM_ERROR_MU_CLOTH, CAROM_ERROR_MU_CUSHION, CAROM_ERROR_RESTITUTION, CAROM_ERROR_JAW_RADIUS};
   return of_field[at];
 }
 

@@ -259,7 +259,7 @@ static carom_status euler_at(const double in[CAROM_NOSE_INS], const carom_cushio
   return status;
 }
 
-/* Central differences of order 2 by each number with a seed. */
+/* Central differences of order 2 by each number with a seed; by a constant that is 0, forward ones. */
 static carom_status euler(const double in[CAROM_NOSE_INS], const carom_cushion_options *opt, int m,
                           carom_row din[CAROM_NOSE_INS], carom_row dout[CAROM_BALL_INS], double out[CAROM_BALL_INS],
                           carom_tangent_note *note) {
@@ -273,16 +273,17 @@ static carom_status euler(const double in[CAROM_NOSE_INS], const carom_cushion_o
     if (!any)
       continue;
     double there[CAROM_NOSE_INS], more[CAROM_BALL_INS], less[CAROM_BALL_INS];
-    const double h = k < CAROM_BALL_INS ? 1e-3 * in[OF_V_Y] : fmin(1e-4, 0.5 * fabs(in[k]));
+    const bool forward = k >= CAROM_BALL_INS && in[k] == 0;
+    const double h = k < CAROM_BALL_INS ? 1e-3 * in[OF_V_Y] : forward ? 1e-4 : fmin(1e-4, 0.5 * fabs(in[k]));
     memcpy(there, in, sizeof there);
     there[k] = in[k] + h;
     status = euler_at(there, opt, more);
-    there[k] = in[k] - h;
+    there[k] = forward ? 0 : in[k] - h;
     if (status == CAROM_OK)
       status = euler_at(there, opt, less);
     for (int r = 0; r < CAROM_BALL_INS; r++)
       for (int j = 0; j < m; j++)
-        dout[r][j] += (more[r] - less[r]) / (2 * h) * din[k][j];
+        dout[r][j] += (more[r] - less[r]) / (forward ? h : 2 * h) * din[k][j];
   }
   note->flags |= CAROM_TANGENT_EULER | CAROM_TANGENT_DIFFERENCES | CAROM_TANGENT_KINK; /* steps are counted in whole numbers */
   return status;

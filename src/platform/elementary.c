@@ -40,8 +40,8 @@ static const double inverse_factorial[HIGHEST] = {1.0,
 /* 2^k, for a normal result. */
 static double power_of_two(double k) {
   const int64_t exponent = (int64_t)(k + 1023.0) << 52;
-  double x;
-  memcpy(&x, &exponent, sizeof x);
+  double x = 0.0;
+  memcpy(&x, &exponent, sizeof exponent);
   return x;
 }
 

@@ -40,22 +40,36 @@ static carom_status check_options(const carom_shot_options *o) {
   return o->threads >= 0 || o->threads == CAROM_ALL_THREADS ? CAROM_OK : CAROM_ERROR_THREADS;
 }
 
-static bool good_rail(const carom_rail *r) {
-  const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1];
-  return isfinite(r->p[0]) && isfinite(r->p[1]) && positive(x * x + y * y) && isfinite(r->line[0]) && isfinite(r->line[1]) &&
-         isfinite(r->line[2]) && (r->side == 0 || r->side == 1) && unit_interval(r->mu_cushion) &&
-         unit_interval(r->restitution);
-}
-static bool good_circle(const double centre[2], double radius, double least) {
-  return isfinite(centre[0]) && isfinite(centre[1]) && radius >= least && radius < INFINITY;
+/* 0 where all are finite, else NaN. The parts of a table are checked for each shot that is played alone, so without a branch
+ * for each number. */
+static inline double zero_if_finite(const double *x, int n) {
+  double sum = 0.0;
+  for (int k = 0; k < n; k++)
+    sum += 0.0 * x[k];
+  return sum;
 }
 
-static bool good_jaw(const carom_jaw *j) {
+static inline bool good_rail(const carom_rail *r) {
+  const double x = r->q[0] - r->p[0], y = r->q[1] - r->p[1];
+  return zero_if_finite(r->p, 2) + zero_if_finite(r->line, 3) == 0.0 && positive(x * x + y * y) && (uint64_t)r->side <= 1 &&
+         unit_interval(r->mu_cushion) && unit_interval(r->restitution);
+}
+static inline bool good_circle(const double centre[2], double radius, double least) {
+  return zero_if_finite(centre, 2) == 0.0 && radius >= least && radius < INFINITY;
+}
+
+static inline bool good_jaw(const carom_jaw *j) {
   return good_circle(j->centre, j->radius, 0.0) && unit_interval(j->mu_cushion) && unit_interval(j->restitution);
 }
 /* Every nose is above the cloth and below the top of a ball. */
 static bool good_height(double height, double R) {
   return height > 0.0 && height < 2.0 * R;
+}
+
+/* What is wrong, and where. */
+static carom_status at(int *where, int index, carom_status status) {
+  *where = index;
+  return status;
 }
 
 static carom_status check_table(const carom_table *t, int *where) {
@@ -65,16 +79,15 @@ static carom_status check_table(const carom_table *t, int *where) {
     return CAROM_ERROR_TABLE;
   if (!zero_or_positive(t->ball_radius) || !zero_or_positive(t->rail_width) || !zero_or_positive(t->pocket_back))
     return CAROM_ERROR_TABLE;
-  for (*where = 0; *where < t->rails; ++*where)
-    if (!good_rail(&t->rail[*where]))
-      return CAROM_ERROR_TABLE;
-  for (*where = 0; *where < t->jaws; ++*where)
-    if (!good_jaw(&t->jaw[*where]))
-      return CAROM_ERROR_TABLE;
-  for (*where = 0; *where < t->pockets; ++*where)
-    if (!good_circle(t->pocket[*where].centre, t->pocket[*where].radius, 1e-9) || !isfinite(t->pocket[*where].depth))
-      return CAROM_ERROR_TABLE;
-  *where = -1;
+  for (int k = 0; k < t->rails; k++)
+    if (!good_rail(&t->rail[k]))
+      return at(where, k, CAROM_ERROR_TABLE);
+  for (int k = 0; k < t->jaws; k++)
+    if (!good_jaw(&t->jaw[k]))
+      return at(where, k, CAROM_ERROR_TABLE);
+  for (int k = 0; k < t->pockets; k++)
+    if (!good_circle(t->pocket[k].centre, t->pocket[k].radius, 1e-9) || !isfinite(t->pocket[k].depth))
+      return at(where, k, CAROM_ERROR_TABLE);
   return CAROM_OK;
 }
 
@@ -82,16 +95,15 @@ static carom_status check_table(const carom_table *t, int *where) {
  * that has been done. */
 static carom_status prepare(const carom_table *t, double least, double greatest, double reference, carom_features *features,
                             int *where) {
-  *where = 0;
   if (features->radius == greatest && features->least == least && features->reference == reference)
     return CAROM_OK;
   const double lowest = carom_lesser(least, reference);
-  for (*where = 0; *where < t->rails; ++*where)
-    if (!good_height(t->rail[*where].height, lowest))
-      return CAROM_ERROR_NOSE_HEIGHT;
-  for (*where = 0; *where < t->jaws; ++*where)
-    if (!good_height(t->jaw[*where].height, lowest))
-      return CAROM_ERROR_NOSE_HEIGHT;
+  for (int k = 0; k < t->rails; k++)
+    if (!good_height(t->rail[k].height, lowest))
+      return at(where, k, CAROM_ERROR_NOSE_HEIGHT);
+  for (int k = 0; k < t->jaws; k++)
+    if (!good_height(t->jaw[k].height, lowest))
+      return at(where, k, CAROM_ERROR_NOSE_HEIGHT);
   carom_features_of(t, greatest, reference, features);
   features->least = least;
   return CAROM_OK;
@@ -213,9 +225,18 @@ static bool is_outside(const carom_table *table, const carom_features *f, const 
 static double distance_to(const carom_features *f, int rail, const double r[2]) {
   return f->line[rail][0] * r[0] + f->line[rail][1] * r[1] + f->line[rail][2];
 }
+/* Along a rail, 0 at one of its ends and 1 at the other. */
+static double place_along(const carom_features *f, int rail, const double r[2]) {
+  return f->along[rail][0] * r[0] + f->along[rail][1] * r[1] + f->along[rail][2];
+}
 static bool is_beside(const carom_features *f, int rail, const double r[2]) {
-  const double place = f->along[rail][0] * r[0] + f->along[rail][1] * r[1] + f->along[rail][2];
+  const double place = place_along(f, rail, r);
   return place >= 0.0 && place <= 1.0;
+}
+/* Whether a place is behind a rail, or up to the rail's length farther: a place beyond a corner is beside neither of its rails.
+ */
+static bool is_behind(double place, double distance) {
+  return place >= -1.0 && place <= 2.0 && distance < 0.0;
 }
 
 static bool is_in_hull(const carom_features *f, const double r[2]) {
@@ -231,7 +252,7 @@ bool carom_place_is_outside(const carom_table *table, const carom_features *f, c
   /* only behind a rail, or beyond the ends of all rails, can it be outside */
   bool behind = beyond_ends(f, r);
   for (int k = 0; k < f->rails; k++)
-    behind |= is_beside(f, k, r) && distance_to(f, k, r) < 0.0;
+    behind |= is_behind(place_along(f, k, r), distance_to(f, k, r));
   return behind && is_outside(table, f, r);
 }
 
@@ -241,9 +262,9 @@ static inline double reach_of(const carom_features *f, const carom_ball_kind *ki
 }
 /* Whether a ball on the cloth is in a rail; in a jaw; with its centre in a pocket. */
 static inline bool in_rail(const carom_features *f, int k, const double r[3], double reach, bool *behind) {
-  const double distance = distance_to(f, k, r);
-  const bool beside = is_beside(f, k, r);
-  *behind |= beside && distance < 0.0;
+  const double distance = distance_to(f, k, r), place = place_along(f, k, r);
+  const bool beside = place >= 0.0 && place <= 1.0;
+  *behind |= is_behind(place, distance);
   return beside && distance < reach - most_overlap && distance > -reach;
 }
 static inline bool in_circle(const double centre[2], double reach, const double r[3]) {

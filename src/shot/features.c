@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* The box of feature k: around two points, with a margin. The hull grows to hold it. */
-static void enclose(carom_features *f, int k, const double p[2], const double q[2], double margin, double reach) {
+static inline void enclose(carom_features *f, int k, const double p[2], const double q[2], double margin, double reach) {
   const double low_x = carom_lesser(p[0], q[0]) - margin, high_x = carom_greater(p[0], q[0]) + margin;
   const double low_y = carom_lesser(p[1], q[1]) - margin, high_y = carom_greater(p[1], q[1]) + margin;
   /* a trace more, so that rounding to single precision cannot lose anything */

@@ -168,12 +168,14 @@ static double meet_rail(const carom_features *features, int k, double height, do
   return from + carom_first_contact(&d, f->radius, slack, window[1] - from);
 }
 
-/* When the ball falls on a plane; *lies becomes whether it lies on it now. */
+/* When the ball falls on a plane; *lies becomes whether it lies on it now. A ball that is hardly lower counts as on it, unless
+ * it rises over it. */
 static double fall_on(const flight *f, double plane, bool *lies) {
   double above = f->r[2] - plane;
   if (fabs(above) <= on_top) {
     *lies = f->v[2] == 0.0;
-    above = carom_greater(above, 0.0);
+    if (!(f->v[2] > 0.0 && f->v[2] * f->v[2] + 2.0 * f->g * above > 0.0))
+      above = carom_greater(above, 0.0);
   }
   return carom_fall_time(above, f->v[2], f->g);
 }

@@ -20,8 +20,8 @@ static double rough_cube_root(double x) {
   uint64_t bits;
   memcpy(&bits, &x, sizeof bits);
   bits = bits / 3 + 0x2a9f7893782da1ceu; /* 2/3 of the bits of 1 */
-  double y;
-  memcpy(&y, &bits, sizeof y);
+  double y = 0.0;
+  memcpy(&y, &bits, sizeof bits);
   for (int k = 0; k < 2; k++)
     y = (2.0 * y + x / (y * y)) / 3.0;
   return y;

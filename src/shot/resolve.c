@@ -36,7 +36,12 @@
  * and slate one after the other would let it hop by centimetres. A ball on the cloth has the flat model, a flying one that of a
  * free sphere; and with chi = (z - R) / 1 mm < 1 it has (1 - chi) of the flat result and chi of the free one, in v and w, the
  * flat one's v_z being min(v_z, 0). This is continuous at both ends and safe: kinetic energy is convex and neither end has more
- * than before, and both ends part. 1 mm is a convention. */
+ * than before, and both ends part. 1 mm is a convention.
+ *
+ * PRESSED BY WEIGHT. A ball that lies on another, or on a nose, is pressed by its weight, which does not end as spin does. So a
+ * slow contact in space takes energy from the motion of the balls past each other, too, as opposite impulses on both; and what
+ * pushes a ball on the cloth down the cloth takes at once, without a landing. The upper ball hops as it rolls off. Where
+ * nothing moves, no energy is there: a ball that is balanced on another ends the shot as too_many_events. */
 #include "shot/sim.h"
 
 #include <math.h>
@@ -65,18 +70,61 @@ static void slow_spin(carom_ball_state *s, double share) {
     s->w[k] *= share;
 }
 
-/* The speed at which a slow contact parts, `s` or less; takes the energy that it needs more from the spins. `m`: the reduced
- * mass. */
-static double part_slowly(double s, double m, double closing, const carom_ball_kind *kind_a, carom_ball_state *a,
-                          const carom_ball_kind *kind_b, carom_ball_state *b) {
-  const double there = spin_energy(kind_a, a) + (b != NULL ? spin_energy(kind_b, b) : 0.0);
+/* Two bodies in contact; b is NULL where it is a cushion. n is the normal from a to b. Where the cloth holds a body it takes
+ * the vertical part of what pushes the body down. */
+typedef struct contact {
+  const carom_ball_kind *kind_a, *kind_b;
+  carom_ball_state *a, *b;
+  const double *n;
+  bool held_a, held_b;
+} contact;
+
+/* An impulse of P along a direction, against a and on b. */
+static void push(const contact *c, double P, const double along[3]) {
+  for (int k = 0; k < 3; k++) {
+    if (!(k == 2 && c->held_a))
+      c->a->v[k] -= P / c->kind_a->mass * along[k];
+    if (c->b != NULL && !(k == 2 && c->held_b))
+      c->b->v[k] += P / c->kind_b->mass * along[k];
+  }
+}
+
+/* What an impulse along an axis changes of the relative velocity. */
+static double mobility(const contact *c, int axis) {
+  const double of_a = axis == 2 && c->held_a ? 0.0 : 1.0 / c->kind_a->mass;
+  return c->b == NULL || (axis == 2 && c->held_b) ? of_a : of_a + 1.0 / c->kind_b->mass;
+}
+
+/* The motion of a and b past each other, which an impulse along n does not change: u = v_a - v_b - closing m W n, with the
+ * mobilities W and m = 1/(n.W n). Returns its energy, u.u/W / 2. */
+static double passing(const contact *c, double m, double closing, double u[3]) {
+  double energy = 0.0;
+  for (int k = 0; k < 3; k++) {
+    const double W = mobility(c, k);
+    u[k] = c->a->v[k] - (c->b != NULL ? c->b->v[k] : 0.0) - closing * m * W * c->n[k];
+    energy += 0.5 * u[k] * u[k] / W;
+  }
+  return energy;
+}
+
+/* The speed at which a slow contact parts, `s` or less; takes the energy that it needs more from the spins and, in space, in
+ * the same proportion from the motion past each other. `m`: the reduced mass along n. */
+static double part_slowly(const contact *c, double s, double m, double closing, bool in_space) {
+  double u[3] = {0.0};
+  const double there = spin_energy(c->kind_a, c->a) + (c->b != NULL ? spin_energy(c->kind_b, c->b) : 0.0) +
+                       (in_space ? passing(c, m, closing, u) : 0.0);
   const double taken = fmin(0.5 * m * (s * s - closing * closing), 0.5 * there);
   if (!(taken > 0.0))
     return fmax(closing, 0.0);
   const double share = sqrt(1.0 - taken / there) * (1.0 - 1e-15);
-  slow_spin(a, share);
-  if (b != NULL)
-    slow_spin(b, share);
+  slow_spin(c->a, share);
+  if (c->b != NULL)
+    slow_spin(c->b, share);
+  if (in_space) {
+    for (int k = 0; k < 3; k++)
+      u[k] /= mobility(c, k);
+    push(c, 1.0 - share, u);
+  }
   return sqrt(closing * closing + 2.0 * taken / m);
 }
 
@@ -120,12 +168,17 @@ carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state 
     status = carom_model_balls(sim, i, j, n, a, b);
   } else {
     count_slow(sim);
-    const double m = kind_a->mass * kind_b->mass / (kind_a->mass + kind_b->mass);
-    const double P = m * (closing + part_slowly(slow, m, closing, kind_a, a, kind_b, b));
-    for (int k = 0; k < 3; k++) {
-      a->v[k] -= P / kind_a->mass * n[k];
-      b->v[k] += P / kind_b->mass * n[k];
-    }
+    const contact c = {.kind_a = kind_a,
+                       .kind_b = kind_b,
+                       .a = a,
+                       .b = b,
+                       .n = n,
+                       .held_a = in_space && !flies(a) && n[2] > 0.0,
+                       .held_b = in_space && !flies(b) && n[2] < 0.0};
+    const double level = n[0] * n[0] + n[1] * n[1];
+    const double m = c.held_a || c.held_b ? 1.0 / (level * mobility(&c, 0) + n[2] * n[2] * mobility(&c, 2))
+                                          : kind_a->mass * kind_b->mass / (kind_a->mass + kind_b->mass);
+    push(&c, m * (closing + part_slowly(&c, slow, m, closing, in_space)), n);
   }
   label_after(in_space, kind_a, a);
   label_after(in_space, kind_b, b);
@@ -161,7 +214,8 @@ carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, 
   /* slow, or left moving into the cushion by the model, as the file's head says */
   if (!fast || closing > 0.0) {
     count_slow(sim);
-    const double part = closing < slow ? part_slowly(slow, kind->mass, closing, kind, s, NULL, NULL) : slow;
+    const contact c = {.kind_a = kind, .a = s, .n = n};
+    const double part = closing < slow ? part_slowly(&c, slow, kind->mass, closing, in_space) : slow;
     for (int k = 0; k < 3; k++)
       s->v[k] -= (closing + part) * n[k];
   }

@@ -7,6 +7,7 @@
  *     sliding    du = dv0 + (-d(R w_y), d(R w_x)),  q = 5 s tau/(2R),  d(w_x, w_y) = d(w_x, w_y)0 + (-d(q e_y), d(q e_x))
  *     rolling    d(w_x, w_y) = d((-v_y, v_x)/R)
  *     w_z        dw_z0 - sign(w_z) tau d(5 mu_sp g/(2R)) while it turns; then 0
+ *     airborne   dr = dr0 + tau dv0 - tau^2/2 dg z,  dv = dv0 - tau dg z; on the cloth dz = dR
  *
  * DRAG. A rolling ball with drag k slows by A + k v^2, A = mu_r g. Its speed v(tau) along e obeys
  *
@@ -79,6 +80,20 @@ void carom_tangent_flow(const carom_tangent_ball *ball, double time, int m, doub
     memcpy(d[k], ball->d + k * m, sizeof(double) * (size_t)m);
   if (from->label == CAROM_BALL_STATIONARY || carom_is_out(from->label))
     return;
+  if (from->label == CAROM_BALL_AIRBORNE) {
+    rate[S_X] = from->v[0];
+    rate[S_Y] = from->v[1];
+    rate[S_Z] = from->v[2] - tau * g;
+    rate[S_V_Z] = -g;
+    for (int j = 0; j < m; j++) {
+      const double dg = carom_d_kind(ball, CAROM_KIND_ROW(gravity), m, j);
+      d[S_X][j] += tau * d[S_V_X][j];
+      d[S_Y][j] += tau * d[S_V_Y][j];
+      d[S_Z][j] += tau * (d[S_V_Z][j] - 0.5 * tau * dg);
+      d[S_V_Z][j] -= tau * dg;
+    }
+    return;
+  }
   /* the spin about the vertical, which may have come to an end on the way; the end of a phase is not yet one */
   const double fall = 2.5 * kind->mu_spin * g / R, sign = from->w[2] > 0.0 ? 1.0 : -1.0;
   if (fabs(from->w[2]) <= fall * tau && from->label != CAROM_BALL_SPINNING) {
@@ -199,6 +214,11 @@ void carom_tangent_settle(const carom_ball_state *state, const carom_tangent_bal
                           carom_row d[CAROM_STATE_NUMBERS]) {
   const double R = ball->kind->radius;
   const int64_t label = state->label;
+  if (label == CAROM_BALL_AIRBORNE)
+    return;
+  memset(d[S_V_Z], 0, sizeof(double) * (size_t)m);
+  for (int j = 0; j < m && !carom_is_out(label); j++)
+    d[S_Z][j] = carom_d_kind(ball, CAROM_KIND_ROW(radius), m, j);
   if (label == CAROM_BALL_SLIDING)
     return;
   if (label != CAROM_BALL_ROLLING) {

@@ -6,8 +6,8 @@
 #include "shot/path.h"
 
 /* In the order of the numbers of a state. */
-enum { S_X, S_Y, S_V_X, S_V_Y, S_W_X, S_W_Y, S_W_Z };
-_Static_assert(S_W_Z + 1 == CAROM_STATE_NUMBERS, "the numbers of a state");
+enum { S_X, S_Y, S_V_X, S_V_Y, S_W_X, S_W_Y, S_W_Z, S_Z, S_V_Z };
+_Static_assert(S_V_Z + 1 == CAROM_STATE_NUMBERS, "the numbers of a state");
 
 /* A ball since its last event. Tangents stand at a fixed time, that of the start: d[number][direction], rows of m. d_kind:
  * rows of m of its constants, or NULL. */

@@ -1,4 +1,5 @@
 # hit and rail over lists and ranges: questions of players and students, a line each, beside what is published.
+export CAROM_ISA=plain # for digits that are the same everywhere
 cat > questions.py <<'PYTHON'
 import csv, math, os, subprocess
 from curves import curves, shows

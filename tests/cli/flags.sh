@@ -42,6 +42,11 @@ for rack, count in (("nineball", 10), ("eightball", 16), ("tenball", 11)):
 [(given, _)] = shots("--balls", "snooker", "--table", "snooker", "--speed", 1)
 print([ball["id"] for ball in given["balls"]][::5], given["balls"][0]["params"])
 
+# Each option alone is a shot by options, though it may lack another one.
+alone = "--table snooker,--at-ball 1,--json,--cue 0.6_0.8,--balls 0.5_1.6,--balls nineball,--tip 0.1_0,--speed 1,--aim 10,--cut 10,--elevation 5"
+told = lambda words: subprocess.run([carom, "shoot", *words.replace("_", ",").split()], capture_output=True, text=True).stderr
+print("by options:", [words for words in alone.split(",") if "needs the name of a file" in told(words)])
+
 # Pictures of several: a path for each ball and shot that moves, and groups that the page moves.
 words = (*balls, "--at-ball", 1, "--cut", "10,-20,45", "--plot", "all.svg", "--animate", "all.html")
 told = run(*words)

@@ -11,16 +11,19 @@ if not library.exists():  # a build with a sanitizer, which has an allocator of 
     sys.exit()
 Path("five.csv").write_text("".join(open(data / "collisions-204.csv").readlines()[:6]))
 Path("shot.jsonl").write_text(open(data / "shots-layouts.jsonl").readline())
+Path("ball.jsonl").write_text('{"kind": "shot", "cue": {"V0": 1, "b": 0}, "balls": [{"id": "1", "state": [0, 0.3, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}]}\n')
 runs = [
     "resolve -o out.csv five.csv",
     "resolve --threads 2 -o out.npy five.csv",
     "shoot -o out.jsonl shot.jsonl",
+    "shoot --spread 1%,0.05,0.01 --events none --plot out.svg -o out.jsonl ball.jsonl",
+    "shoot --speed 1 --spread 1%,0.05,0.01 --plot out.svg",
     "hit --speed 2m/s --cut 30 --plot out.svg",
     "rail --speed 2m/s --angle 30",
     "trace --id pooltool-001 -o out.csv five.csv",
     "sweep --id pooltool-001 --over cut --from 0 --to 60 --points 5 -o out.csv five.csv",
 ]
-inputs = {"five.csv", "shot.jsonl"}
+inputs = {"five.csv", "shot.jsonl", "ball.jsonl"}
 for run in runs:
     for one in ("", "1"):
         refused = 0

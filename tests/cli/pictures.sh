@@ -42,6 +42,13 @@ wait $! 2> /dev/null || echo "ended: shoot"
 exec 3>&-
 nothing_else
 ls kept.jsonl 2> /dev/null || echo "no shots"
+# What would draw is missing: that is said before anything is played.
+PATH="$PWD/bin" try "$CAROM" shoot --plot break.png -o kept.jsonl "$DATA/break-nineball.jsonl"
+PATH="$PWD/bin" try "$CAROM" shoot --plot break.pdf --cue 0.6,0.8
+ls kept.jsonl 2> /dev/null || echo "nothing was played"
+# shellcheck disable=SC1007
+(cp "$(command -v rsvg-convert)" . && PATH= try "$CAROM" shoot --events none --plot break.png -o /dev/null "$DATA/break-nineball.jsonl"; rm rsvg-convert)
+head -c 4 break.png | tail -c 3 && echo
 ln -s /dev/full full.svg
 try carom shoot --events none --plot full.svg -o /dev/null "$DATA/break-nineball.jsonl"
 try carom shoot --events none --plot nowhere/break.svg -o /dev/null "$DATA/break-nineball.jsonl"

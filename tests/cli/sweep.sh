@@ -1,4 +1,5 @@
 # sweep is resolve row by row: with a law of friction, which depends on what is varied, and over velocities and spins.
+export CAROM_ISA=plain # for digits that are the same everywhere
 cat > rows.py <<'PYTHON'
 import csv, math, sys
 # rows.py FILE ID OVER FROM TO POINTS: the collisions that a sweep resolves, one a row.

@@ -8,20 +8,21 @@
                   build, the scripts of python/examples by the test of that name; a cluster of many machines by who has one
     c             README's: built by readme.py
     c game        docs/using/games.md's: one program, whose main() they are, compiled and run by pages.py
+    c program    docs/using/derivatives.md's: likewise
     cmake fetch, cmake package    docs/using/building.md's: built by readme.py
     cmake windows    docs/using/building.md's: built and run by the test platforms/windows
     js            a page is a session, run in Node by the test web/package
-    python        a page is a session, in the environment of the test python/package; its kinds pooltool, numba, gymnasium, pettingzoo and scale need those packages
+    python        a page is a session, in the environment of the test python/package; its kinds pooltool, numba, jax, gymnasium, pettingzoo and scale need those packages
 """
 
 import re
 from pathlib import Path
 
-KINDS = {"sh", "sh install", "sh started", "console", "sh elsewhere", "c", "c game", "cmake fetch", "cmake package", "cmake windows", "js", "python"}
-KINDS |= {f"python {need}" for need in ("pooltool", "numba", "gymnasium", "pettingzoo", "scale", "elsewhere")}
+KINDS = {"sh", "sh install", "sh started", "console", "sh elsewhere", "c", "c game", "c program", "cmake fetch", "cmake package", "cmake windows", "js", "python"}
+KINDS |= {f"python {need}" for need in ("pooltool", "numba", "jax", "gymnasium", "pettingzoo", "scale", "elsewhere")}
 
 # Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.
-ELSEWHERE = {"docs/using/examples.md": 8, "docs/using/python.md": 1, "docs/study/report.md": 1, "docs/using/scale.md": 3, "docs/understanding/reality.md": 1, "docs/using/tracks.md": 1, "docs/using/web.md": 1, "python/README.md": 1, "docs/understanding/gradients.md": 1}
+ELSEWHERE = {"docs/using/examples.md": 10, "docs/using/python.md": 1, "docs/study/report.md": 1, "docs/using/scale.md": 3, "docs/understanding/reality.md": 1, "docs/using/tracks.md": 1, "docs/using/web.md": 1, "python/README.md": 1}
 
 # What may be indented instead: formulas and what programs print, but no line that one would paste.
 PASTED = re.compile(r" {4}(\./|build/|tools/|pip3? |cmake |ctest |gnuplot |carom(-lab)? |python3? |git |sudo |import |from \w+ import|#include)")

@@ -139,7 +139,7 @@ static double gap_of(const track *f, double x, double y, double radius, double t
 
 /* Random flights at one post against samples of the gap and bisection: none is missed, none false, and the gap is 0 there. */
 START_TEST(posts) {
-  enum { FLIGHTS = 20000, LOOKS = 800 };
+  enum { FLIGHTS = 100000, LOOKS = 800 };
   random_source random = {test_seed()};
   carom_table table = empty_table(40.0);
   int hits = 0, tops = 0;
@@ -280,6 +280,17 @@ START_TEST(over_the_rail) {
   ck_assert_int_eq(events[shot.count - 2].type, CAROM_EVENT_RAIL_TOP);
   ck_assert_int_eq(events[shot.count - 1].type, CAROM_EVENT_LEFT_TABLE);
   ck_assert_double_eq(events[shot.count - 1].time, events[shot.count - 2].time);
+  /* over the nose, lower than the top by what counts as rounding, and on its way up: it falls on the top when its own flight
+   * takes it there; with hardly any speed it is on the top at once */
+  const double low = 4e-10, rise = 1.5e-3;
+  const carom_shot_ball up = flying(20.0, 40.05, h + R - low, 0.0, 0.1, rise);
+  shot = play(&table, &up, 1, NULL, NULL, CAROM_OK);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_RAIL_TOP);
+  NEAR(events[0].time, (rise + sqrt(rise * rise - 2.0 * g * (h + R - up.state.r[2]))) / g, 1e-15);
+  const carom_shot_ball hardly = flying(20.0, 40.05, h + R - low, 0.0, 0.1, 1e-5);
+  shot = play(&table, &hardly, 1, NULL, NULL, CAROM_OK);
+  ck_assert_int_eq(events[0].type, CAROM_EVENT_RAIL_TOP);
+  NEAR(events[0].time, 2e-5 / g, 1e-15);
   /* the others go on */
   const carom_shot_ball two[2] = {down, flying(10.0, 10.0, R, 1.0, 0.0, 0.0)};
   shot = play(&table, two, 2, NULL, NULL, CAROM_OK);
@@ -360,7 +371,7 @@ START_TEST(random_flights) {
                     carom_status_name(status));
       const shot_measures m = shot_measure(&s.table, s.ball, s.count, &shot, status, 4);
       ck_assert_msg(m.overlap <= 1e-11 && m.intrusion <= 1e-11 && m.depth <= 1e-12 && m.gain <= 1e-12 && m.momentum <= 1.0 &&
-                        m.jump <= 1e-9 && m.restless == 0,
+                        m.jump <= 1e-11 && m.restless == 0,
                     "%s %d: overlap %g, intrusion %g after %s, depth %g, gain %g, momentum %g, jump %g, %d restless", s.kind, n,
                     m.overlap, m.intrusion, m.worst_at, m.depth, m.gain, m.momentum, m.jump, m.restless);
       for (int64_t k = 0; k < shot.count; k++)

@@ -1,4 +1,5 @@
 /* Bad input: each field at fault gets its own status, hangs nothing, and disturbs no neighbour. */
+#include "carom_tangent.h"
 #include "support.h"
 
 #include <math.h>
@@ -276,6 +277,13 @@ static void expect_unchanged(const carom_impact *in) {
   ck_assert_mem_eq(out.a.w, in->a.w, sizeof out.a.w);
   ck_assert_mem_eq(out.b.v, in->b.v, sizeof out.b.v);
   ck_assert_mem_eq(out.b.w, in->b.w, sizeof out.b.w);
+  /* the derivatives of what is unchanged are the seeds: a direction for each of the 26 numbers */
+  static double seeds[26][26], tangent[12][26];
+  for (int k = 0; k < 26; k++)
+    seeds[k][k] = k + 1;
+  ck_assert_int_eq(carom_collide_tangent(in, NULL, 26, seeds[0], tangent[0], NULL), CAROM_SEPARATING);
+  for (int k = 0; k < 12; k++)
+    ck_assert_mem_eq(tangent[k], seeds[FIELD(a.v) + k % 6 + (k < 6 ? 0 : FIELD(b.v) - FIELD(a.v))], sizeof tangent[k]);
 }
 
 START_TEST(separating_pairs_are_unchanged) {

@@ -1,7 +1,11 @@
 /* Names and texts: every status has its own; what there is of each enumeration has a name, and nothing else has. */
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* setenv */
+#endif
 #include "support.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 START_TEST(statuses_are_distinct) {
@@ -58,6 +62,26 @@ START_TEST(version_is_that_of_the_header) {
 }
 END_TEST
 
+/* The environment limits the instruction set by its name, which is read anew when the limit of the process is lifted. */
+START_TEST(the_environment_limits_the_instruction_set) {
+  const char *given = getenv("CAROM_ISA");
+  carom_isa below = CAROM_ISA_PLAIN; /* the best of those up to this one */
+  for (int isa = 0; isa < CAROM_ISA_COUNT; isa++) {
+    below = carom_isa_available((carom_isa)isa) ? (carom_isa)isa : below;
+    setenv("CAROM_ISA", carom_isa_name((carom_isa)isa), 1);
+    ck_assert_int_eq(carom_isa_limit(CAROM_ISA_ANY), below);
+    ck_assert_int_eq(carom_isa_in_force(), below);
+  }
+  setenv("CAROM_ISA", "none of them", 1);
+  ck_assert_int_eq(carom_isa_limit(CAROM_ISA_ANY), below);
+  unsetenv("CAROM_ISA");
+  ck_assert_int_eq(carom_isa_limit(CAROM_ISA_ANY), below);
+  if (given != NULL)
+    setenv("CAROM_ISA", given, 1);
+}
+END_TEST
+
 int main(void) {
-  return RUN_TESTS("names", statuses_are_distinct, enumerations_have_names, fields_have_names, version_is_that_of_the_header);
+  return RUN_TESTS("names", statuses_are_distinct, enumerations_have_names, fields_have_names, version_is_that_of_the_header,
+                   the_environment_limits_the_instruction_set);
 }

@@ -529,15 +529,35 @@ static bool in_pocket(double x, double y) {
   return false;
 }
 
+/* A regular polygon of rails, with a jaw of radius 0 at each corner. */
+static void make_polygon(int rails) {
+  memset(&table, 0, sizeof table);
+  table.width = table.length = 1.5;
+  table.rails = table.jaws = rails;
+  for (int k = 0; k < rails; k++) {
+    carom_rail *const rail = &table.rail[k];
+    *rail = (carom_rail){.height = 0.0365, .side = 1};
+    for (int end = 0; end < 2; end++) {
+      const double angle = 0.1 + 6.283185307179586 * (k + end) / rails;
+      (end == 0 ? rail->p : rail->q)[0] = 0.75 + 0.75 * cos(angle);
+      (end == 0 ? rail->p : rail->q)[1] = 0.75 + 0.75 * sin(angle);
+    }
+    table.jaw[k] = (carom_jaw){.centre = {rail->p[0], rail->p[1]}, .height = 0.0365};
+  }
+}
+
 /* A ball may stand where it can be rolled to from the middle of the table, and nowhere else: not behind a cushion, not in a
- * pocket. All places of a grid, by flooding. */
+ * pocket; on the built-in tables, and on polygons of 5 and 8 rails. All places of a grid, by flooding. */
 START_TEST(places) {
   enum { MOST_X = 530, MOST_Y = 980 };
   static uint8_t reached[MOST_X][MOST_Y];
   static int queue[MOST_X * MOST_Y];
   const double step = 0.004, margin = 0.15;
-  for (int kind = CAROM_TABLE_POOL_7FT; kind <= CAROM_TABLE_POOLTOOL; kind++) {
-    carom_table_make((carom_table_kind)kind, &table);
+  for (int kind = CAROM_TABLE_POOL_7FT; kind <= CAROM_TABLE_POOLTOOL + 2; kind++) {
+    if (kind > CAROM_TABLE_POOLTOOL)
+      make_polygon(kind == CAROM_TABLE_POOLTOOL + 1 ? 5 : 8);
+    else
+      carom_table_make((carom_table_kind)kind, &table);
     carom_shot_ball ball = {.kind = carom_ball_kind_of(kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
                                                        : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
                                                                                           : CAROM_GAME_POOL)};
@@ -569,6 +589,19 @@ START_TEST(places) {
         counts[reached[i][j]]++;
         ck_assert_msg(status == expected || fabs(room_at(ball.state.r[0], ball.state.r[1], R)) < 1.1e-6,
                       "table %d, (%g, %g): %s", kind, ball.state.r[0], ball.state.r[1], carom_status_name(status));
+      }
+    /* farther out, in line with a pocket, through which one sees the cushion beyond: in the directions that the check looks in
+     */
+    static const double quarter[4][2] = {{5, 1}, {3, 2}, {2, 3}, {1, 5}};
+    for (int k = 0; k < table.pockets * 16; k++)
+      for (int far = 1; far <= 12; far++) {
+        const double *c = table.pocket[k / 16].centre, *u = quarter[k % 4], turn[4] = {u[0], -u[1], -u[0], u[1]};
+        const double *r = ball.state.r;
+        ball.state.r[0] = c[0] + 0.03 * far * turn[k / 4 % 4];
+        ball.state.r[1] = c[1] + 0.03 * far * turn[(k / 4 + 3) % 4];
+        if (r[0] < -margin || r[0] > table.width + margin || r[1] < -margin || r[1] > table.length + margin)
+          ck_assert_msg(carom_shot_check(&table, &ball, 1, NULL, NULL, NULL) == CAROM_ERROR_OFF_TABLE, "table %d, (%g, %g)",
+                        kind, r[0], r[1]);
       }
     printf("table %d: a ball may stand at %d of %d places\n", kind, counts[1], counts[0] + counts[1]);
   }

@@ -77,4 +77,4 @@ def layout(centres: dtypes.Doubles, radius: float, constants: Mapping[str, float
 
 def options(cushion_model: ShotCushion) -> Any:
     """The options of C that recorded shots are played with."""
-    return shot_options("carom", "default", cushion_model, "alciatore", "3d", 0, 0, None, (), 0)
+    return shot_options("carom", "default", cushion_model, "alciatore", "3d", 0, 0, False, None, (), 0)

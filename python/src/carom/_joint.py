@@ -22,8 +22,8 @@ import numpy as np
 from carom._strikes import Plays, descend, find, normal
 from carom.dtypes import Doubles
 
-_MOST = 1.4e-3  # m^2: where a shot's cost a sample stops counting; that of samples that are 8 cm off
-_PRIOR = 0.1  # m^2: what one deviation costs
+MOST = 1.4e-3  # m^2: where a shot's cost a sample stops counting; that of samples that are 8 cm off
+PRIOR_COST = 0.1  # m^2: what one deviation costs
 # Of each constant: the deviation of its prior, about the value that single events gave, and its bounds.
 PRIORS = {
     "mu_slide": (0.02, 0.01, 1.0), "mu_roll": (5e-4, 1e-4, 0.1), "drag": (4e-3, 0.0, 0.2), "mu_spin": (3e-3, 1e-4, 0.5),
@@ -31,7 +31,7 @@ PRIORS = {
     "mu_cushion": (0.06, 0.0, 1.0), "roll_loss": (0.06, 0.0, 0.5), "nose_height": (1.8e-3, 0.0, np.inf),
 }  # fmt: skip
 # What the search leaves on synthetic recordings, whose truth is known.
-_METHOD = {
+METHOD = {
     "mu_slide": 1e-3, "mu_roll": 2e-5, "drag": 3e-4, "mu_spin": 1e-4, "law_a": 3e-3, "law_b": 0.025, "restitution": 1.5e-3,
     "restitution_cushion": 1.2e-3, "mu_cushion": 1.2e-3, "roll_loss": 4e-3, "nose_height": 1e-4,
 }  # fmt: skip
@@ -39,6 +39,13 @@ _STEP = 1e-3  # of the differences, in deviations
 _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
 _STEPS = 12  # at most, of each
 _SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
+
+
+def damped(square: Doubles) -> Doubles:
+    """J_p^T W J_p, (..., 6, 6), made so much larger that it can be inverted where no sample tells a number of the strike."""
+    diagonal, larger = np.arange(6), square.copy()
+    larger[..., diagonal, diagonal] = square[..., diagonal, diagonal] * (1.0 + 1e-3) + 1e-9
+    return larger
 
 
 class Search:
@@ -62,7 +69,7 @@ class Search:
         self.first, self.scale = np.array(list(priors.values())).T
         self.low, self.high = np.array([PRIORS[name][1:] for name in priors]).T
         self.strikes, self.until = strikes[self.rows], plays.ends[self.rows]
-        self.most = _MOST * plays.counts[self.rows]
+        self.most = MOST * plays.counts[self.rows]
 
     def constants(self, values: Doubles) -> dict[str, float]:
         return {**self.plays.constants, **dict(zip(self.names, values.tolist()))}
@@ -71,7 +78,7 @@ class Search:
         """Of constants, after the strikes have descended; and these."""
         self.plays.set(self.constants(values))
         strikes, sums = descend(self.plays, self.rows, strikes, self.until, iterations)
-        prior = _PRIOR * float((((values - self.first) / self.scale) ** 2).sum())
+        prior = PRIOR_COST * float((((values - self.first) / self.scale) ** 2).sum())
         return float(np.minimum(sums[:, 0], self.most).sum()) + prior, strikes
 
     def step(self, damping: float, cost: float) -> tuple[float, float]:
@@ -84,18 +91,15 @@ class Search:
         size = np.concatenate([np.ones(6), self.scale])
         square, gradient = square * np.outer(size, size), gradient * size
         # the strikes put in; what no sample depends on stays where it is
-        P, X, C = square[:, :6, :6].copy(), square[:, :6, 6:], square[:, 6:, 6:]
-        diagonal = np.arange(6)
-        P[:, diagonal, diagonal] *= 1.0 + 1e-3
-        P[:, diagonal, diagonal] += 1e-9
+        P, X, C = damped(square[:, :6, :6]), square[:, :6, 6:], square[:, 6:, 6:]
         follow = np.linalg.solve(P, np.concatenate([X, gradient[:, :6, None]], axis=2))
         whole = (C - np.swapaxes(X, 1, 2) @ follow[..., :-1])[counted].sum(axis=0)
         slope = (gradient[:, 6:] - (np.swapaxes(X, 1, 2) @ follow[..., -1:])[..., 0])[counted].sum(axis=0)
-        whole[np.diag_indices(len(whole))] += _PRIOR
-        slope = slope + _PRIOR * (self.values - self.first) / self.scale
+        whole[np.diag_indices(len(whole))] += PRIOR_COST
+        slope = slope + PRIOR_COST * (self.values - self.first) / self.scale
         for _ in range(6):
-            damped = whole + damping * np.diag(whole.diagonal())
-            values = np.clip(self.values - self.scale * np.linalg.solve(damped, slope), self.low, self.high)
+            shorter = whole + damping * np.diag(whole.diagonal())
+            values = np.clip(self.values - self.scale * np.linalg.solve(shorter, slope), self.low, self.high)
             moved = (values - self.values) / self.scale
             strikes = self.strikes - np.where(counted[:, None], follow[..., :-1] @ moved + follow[..., -1], 0.0)
             # a strike follows, or stays where that is better
@@ -160,6 +164,6 @@ def spread(search: Search, seed: int) -> dict[str, float]:
                 part.stage(number, seed)
             found.append(part.values)
         apart.append(0.5 * (found[0] - found[1]))
-    method = np.array([_METHOD[name] for name in search.names])
+    method = np.array([METHOD[name] for name in search.names])
     error = np.hypot(np.sqrt((np.array(apart) ** 2).mean(axis=0)), method)
     return dict(zip(search.names, error.tolist()))

@@ -50,6 +50,8 @@ def output(given: Array | None, shape: tuple[int, ...], dtype: np.dtype[Any], na
     if given is None:
         return np.empty(shape, dtype)
     as_array(given, name)
+    if not isinstance(given, np.ndarray):
+        raise TypeError(f"{name}: an array of shape {shape} and dtype {dtype} is needed, not {type(given).__name__}")
     flags = given.flags
     right = given.shape == shape and (given.dtype is dtype or given.dtype == dtype)
     if not (right and flags.c_contiguous and flags.writeable and flags.aligned):

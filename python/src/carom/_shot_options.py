@@ -49,6 +49,7 @@ def shot_options(
     space: str,
     steps: int,
     events_most: int,
+    plain: bool,
     t_final: float | None,
     stop_at: StopAt | tuple[StopAt, ...],
     threads: int,
@@ -70,6 +71,7 @@ def shot_options(
             "time_most": 0.0 if t_final is None else t_final,
             "stop_at": sum({1 << choice(_STOPS, stop, "stop_at") for stop in stops}),
             "threads": whole(threads, "threads", least=-1),
+            "plain": whole(plain, "plain", most=1),
         },
     )
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import FLOAT32, FLOAT64, INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows
+from carom._rows import FLOAT32, FLOAT64, INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows, whole
 from carom.status import CaromError
 
 Solver = Literal["exact", "euler"]
@@ -31,15 +31,16 @@ class Outcome(NamedTuple):
 
 
 @functools.lru_cache(maxsize=256)
-def _options(solver: str, slip: str, steps: int, threads: int) -> Any:
+def _options(solver: str, slip: str, steps: int, threads: int, plain: bool) -> Any:
     """The options of C; they are never written to."""
     return ffi.new(
         "carom_options *",
         {
             "solver": choice(SOLVERS, solver, "solver"),
             "slip": choice(SLIPS, slip, "slip"),
-            "steps": steps,
-            "threads": threads,
+            "steps": whole(steps, "steps", least=-(2**31)),
+            "threads": whole(threads, "threads", least=-(2**31)),
+            "plain": whole(plain, "plain", most=1),
         },
     )
 
@@ -114,6 +115,7 @@ def collide(
     solver: Solver = "exact",
     slip: Slip = "paper",
     steps: int = 0,
+    plain: bool = False,
     threads: int = 0,
     out: tuple[Array, Array] | None = None,
 ) -> Outcome:
@@ -130,6 +132,8 @@ def collide(
         Which velocity slips over the cloth.
     steps : int
         Euler's N; 0 is 1000.
+    plain : bool
+        Whether this call computes with the instruction set plain, as with CAROM_ISA=plain: it has the bits that all machines share.
     threads : int
         Most threads to use; 0 is the calling one alone, -1 all processors. Results do not depend on it.
     out : tuple of two arrays, optional
@@ -148,7 +152,7 @@ def collide(
         One impact, of shape (26,) or (), that is in error, or options out of range.
     """
     array = rows(impacts, dtypes.impact, "impacts", single=True)
-    options = _options(solver, slip, steps, threads)
+    options = _options(solver, slip, steps, threads, plain)
     record = array.dtype.names is not None
     shape: tuple[int, ...] = array.shape if record else array.shape[:-1]
     motion, status = (None, None) if out is None else out
@@ -234,7 +238,13 @@ def mu_ball(impacts: npt.ArrayLike, law: tuple[float, float, float] | None = Non
 
 
 def trace(
-    impact: npt.ArrayLike, points: int = 101, *, solver: Solver = "exact", slip: Slip = "paper", steps: int = 0
+    impact: npt.ArrayLike,
+    points: int = 101,
+    *,
+    solver: Solver = "exact",
+    slip: Slip = "paper",
+    steps: int = 0,
+    plain: bool = False,
 ) -> dtypes.Records:
     """Follow one collision, at equal steps of normal impulse from 0 to its end.
 
@@ -244,7 +254,7 @@ def trace(
         As for `collide`.
     points : int
         How many, at least 2.
-    solver, slip, steps
+    solver, slip, steps, plain
         As for `collide`; Euler's method gives the nearest whole steps.
 
     Returns
@@ -261,7 +271,7 @@ def trace(
     array = rows(impact, dtypes.impact, "impact")
     if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
         raise ValueError("impact: a trace is of one impact, of shape (26,), or structured of shape ()")
-    options = _options(solver, slip, steps, 0)
+    options = _options(solver, slip, steps, 0, plain)
     traced = np.zeros(max(points, 0), dtypes.trace_point)
     code = lib.carom_trace(pointer("carom_impact[]", array), options, traced.size, pointer("carom_trace_point[]", traced))
     if code < 0:

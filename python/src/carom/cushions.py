@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows
+from carom._rows import INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows, whole
 from carom.collisions import Outcome
 from carom.status import CaromError
 
@@ -23,7 +23,9 @@ LAWS = {"constant": 0, "han": 1}
 
 
 @functools.lru_cache(maxsize=256)
-def _options(model: str, convention: str, law: str, steps: int, threads: int, least_step: float, omega_ratio: float) -> Any:
+def _options(
+    model: str, convention: str, law: str, steps: int, threads: int, least_step: float, omega_ratio: float, plain: bool
+) -> Any:
     """The options of C; they are never written to."""
     return ffi.new(
         "carom_cushion_options *",
@@ -31,10 +33,11 @@ def _options(model: str, convention: str, law: str, steps: int, threads: int, le
             "model": choice(MODELS, model, "model"),
             "convention": choice(CONVENTIONS, convention, "convention"),
             "law": choice(LAWS, law, "law"),
-            "steps": steps,
-            "threads": threads,
+            "steps": whole(steps, "steps", least=-(2**31)),
+            "threads": whole(threads, "threads", least=-(2**31)),
             "least_step": least_step,
             "omega_ratio": omega_ratio,
+            "plain": whole(plain, "plain", most=1),
         },
     )
 
@@ -100,6 +103,7 @@ def cushion(
     steps: int = 0,
     least_step: float = 0.0,
     omega_ratio: float = 0.0,
+    plain: bool = False,
     threads: int = 0,
     out: tuple[Array, Array] | None = None,
 ) -> Outcome:
@@ -121,6 +125,8 @@ def cushion(
         Least impulse of a step of Euler's, N s; pooltool has 0.001.
     omega_ratio : float
         Stronge's ratio of frequencies, between 1 and 2; 0 is 1.8.
+    plain : bool
+        Whether this call computes with the instruction set plain, as with CAROM_ISA=plain: it has the bits that all machines share.
     threads : int
         Most threads to use; 0 is the calling one alone, -1 all processors.
     out : tuple of two arrays, optional
@@ -139,7 +145,7 @@ def cushion(
         One impact, of shape (15,) or (), that is in error, or options out of range.
     """
     array = rows(impacts, dtypes.cushion_impact, "impacts")
-    options = _options(model, convention, law, steps, threads, least_step, omega_ratio)
+    options = _options(model, convention, law, steps, threads, least_step, omega_ratio, plain)
     record = array.dtype.names is not None
     shape: tuple[int, ...] = array.shape if record else array.shape[:-1]
     motion, status = (None, None) if out is None else out
@@ -187,6 +193,7 @@ def cushion_trace(
     law: CushionLaw = "constant",
     steps: int = 0,
     least_step: float = 0.0,
+    plain: bool = False,
 ) -> dtypes.Records:
     """Follow one impact by the model mathavan or euler, at equal steps of normal impulse from 0 to its end.
 
@@ -196,7 +203,7 @@ def cushion_trace(
         As for `cushion`.
     points : int
         How many, at least 2.
-    model, convention, law, steps, least_step
+    model, convention, law, steps, least_step, plain
         As for `cushion`.
 
     Returns
@@ -211,7 +218,7 @@ def cushion_trace(
     array = rows(impact, dtypes.cushion_impact, "impact")
     if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
         raise ValueError("impact: a trace is of one impact, of shape (15,), or structured of shape ()")
-    options = _options(model, convention, law, steps, 0, least_step, 0.0)
+    options = _options(model, convention, law, steps, 0, least_step, 0.0, plain)
     traced = np.zeros(max(points, 0), dtypes.cushion_point)
     code = lib.carom_cushion_trace(
         pointer("carom_cushion_impact[]", array), options, traced.size, pointer("carom_cushion_point[]", traced)

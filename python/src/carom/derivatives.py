@@ -7,26 +7,30 @@ from __future__ import annotations
 
 import enum
 import re
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Collection, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, as_array, pointer
-from carom.layouts import Table
-from carom.results import Shot
+from carom._rows import Array, addresses, as_array, in_chunks, pointer, whole, workers
 from carom._shot_options import shot_options
+from carom.layouts import Table, of_record
+from carom.results import Shot, Shots
 from carom.shots import simulate_batch
-from carom.status import CaromError
+from carom.status import CaromError, Status
 
-MOST = 64
+MOST: int = lib.CAROM_DIRECTIONS_MOST
 """Directions of one call of C; more are given in parts."""
-_CUE = ("speed", "phi", "theta", "a", "b", "mass", "end_mass")
-_KIND = tuple(dtypes.ball_kind.names or ())
-_STATE = {"r": (0, 2), "v": (2, 2), "w": (4, 3)}
+STATE: int = lib.CAROM_STATE_NUMBERS
+_AT_ONCE = 128  # shots of a thread whose events are kept at a time: more take longer for the memory than for the shots
+CUE = ("speed", "phi", "theta", "a", "b", "mass", "end_mass")
+KIND = tuple(dtypes.ball_kind.names or ())
+# A state is x, y, v_x, v_y, w_x, w_y, w_z, z, v_z: where its parts are, and the elements of r, v and w of a ball.
+PARTS: dict[str, slice | int] = {"r": slice(0, 2), "v": slice(2, 4), "w": slice(4, 7), "z": 7, "v_z": 8}
+ELEMENTS = {"r": (0, 1, 7), "v": (2, 3, 8), "w": (4, 5, 6)}
 _TABLE = ("nose_height", "mu_cushion", "restitution")
 _UNITS = {"speed": "m/s", "phi": "deg", "theta": "deg", "a": "R", "b": "R", "mass": "kg", "end_mass": "kg", "radius": "m", "gravity": "m/s^2"}
 _UNITS |= {"drag": "1/m", "law_c": "s/m", "nose_height": "m", "r": "m", "v": "m/s", "w": "rad/s"}
@@ -52,7 +56,8 @@ class Tangents:
     names, units : tuple of str
         What changes in each direction, and the unit that derivatives are per.
     final : dict of ndarray
-        "r" of shape (..., balls, 2, m), m; "v" likewise, m/s; "w" (..., balls, 3, m), rad/s: of the final states.
+        "r" of shape (..., balls, 2, m), m; "v" likewise, m/s; "w" (..., balls, 3, m), rad/s: of the final states. Of balls that fly
+        "z", m, and "v_z", m/s, of shape (..., balls, m), too.
     at : dict of ndarray
         The same of the states at `times`, of shape (..., times, balls, 2 or 3, m).
     time : ndarray, shape (..., events, m)
@@ -67,17 +72,19 @@ class Tangents:
         As `carom.Status`; derivatives of a shot in error are nan.
     """
 
-    def __init__(self, names: tuple[str, ...], units: tuple[str, ...], shape: tuple[int, ...], balls: int, events: int, times: int) -> None:
-        m = len(names)
+    def __init__(
+        self, names: tuple[str, ...], units: tuple[str, ...], shape: tuple[int, ...], found: dict[str, Array], status: Array
+    ) -> None:
+        given = {name: array.reshape((*shape, *array.shape[1:])) for name, array in found.items()}
         self.names = names
         self.units = units
-        self.states: dtypes.Doubles = np.full((*shape, balls, 7, m), np.nan)
-        self.states_at: dtypes.Doubles = np.full((*shape, times, balls, 7, m), np.nan)
-        self.time: dtypes.Doubles = np.full((*shape, events, m), np.nan)
-        self.flags: npt.NDArray[np.int32] = np.full((*shape, events), -1, np.int32)
-        self.reach: dtypes.Doubles = np.full((*shape, m), np.nan)
-        self.error: dtypes.Doubles = np.zeros(shape)
-        self.status: npt.NDArray[np.int8] = np.zeros(shape, np.int8)
+        self.states: dtypes.Doubles = given["final"]
+        self.states_at: dtypes.Doubles = given["at"]
+        self.time: dtypes.Doubles = given["time"]
+        self.flags: npt.NDArray[np.int32] = given["flags"]
+        self.reach: dtypes.Doubles = given["reach"]
+        self.error: dtypes.Doubles = given["error"]
+        self.status: npt.NDArray[np.int8] = status.reshape(shape)
 
     @property
     def final(self) -> dict[str, dtypes.Doubles]:
@@ -94,83 +101,114 @@ class Tangents:
 
 
 def _by_name(states: dtypes.Doubles) -> dict[str, dtypes.Doubles]:
-    return {name: states[..., first : first + many, :] for name, (first, many) in _STATE.items()}
+    return {name: states[..., part, :] for name, part in PARTS.items()}
 
 
-def _seeds(wrt: Sequence[str], balls: int) -> tuple[tuple[str, ...], tuple[str, ...], dict[str, dtypes.Doubles]]:
-    """The directions of names: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both places, or balls[0].r[1]."""
-    found: list[tuple[str, str, tuple[str, list[tuple[int, ...]]]]] = []
+class Direction(NamedTuple):
+    """One direction: its name and unit, and which elements of which array of seeds change by 1."""
+
+    name: str
+    unit: str
+    array: str
+    places: tuple[tuple[int, ...], ...]
+
+
+def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[list[Direction]]:
+    """Of each name: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both places, or balls[0].r[1]."""
+    found: list[list[Direction]] = []
     for name in wrt:
         match = re.fullmatch(r"(cue|table|kind|balls\[(\d+)\])\.(?:(kind)\.)?(\w+)(?:\[(\d)\])?", name)
         group, ball, inner, field, index = match.groups() if match else ("", None, None, "", None)
         unit = _UNITS.get(field, "1")
-        if group == "cue" and field in _CUE and index is None and not inner:
-            found.append((name, unit, ("cue", [(_CUE.index(field),)])))
+        if group == "cue" and field in CUE and index is None and not inner:
+            found.append([Direction(name, unit, "cue", ((CUE.index(field),),))])
         elif group == "table" and field in _TABLE and index is None and not inner:
-            found.append((name, unit, ("table", [(_TABLE.index(field),)])))
-        elif group == "kind" and field in _KIND and index is None and not inner:
-            found.append((name, unit, ("kind", [(i, _KIND.index(field)) for i in range(balls)])))
-        elif ball is not None and int(ball) < balls and inner and field in _KIND and field != "radius" and index is None:
-            found.append((name, unit, ("kind", [(int(ball), _KIND.index(field))])))
-        elif ball is not None and int(ball) < balls and not inner and field in _STATE and (index is None or int(index) < _STATE[field][1]):
-            first, many = _STATE[field]
-            for k in range(many) if index is None else [int(index)]:
-                found.append((f"balls[{ball}].{field}[{k}]", unit, ("state", [(int(ball), first + k)])))
+            found.append([Direction(name, unit, "table", ((_TABLE.index(field),),))])
+        elif group == "kind" and field in KIND and index is None and not inner:
+            found.append([Direction(name, unit, "kind", tuple((i, KIND.index(field)) for i in range(balls)))])
+        elif ball is not None and int(ball) < balls and inner and field in KIND and field != "radius" and index is None:
+            found.append([Direction(name, unit, "kind", ((int(ball), KIND.index(field)),))])
+        elif ball is not None and int(ball) < balls and not inner and field in ELEMENTS and int(index or 0) < 3:
+            # of a place and a velocity those along the cloth, unless the one upward is asked for
+            ks = range(3 if field == "w" else 2) if index is None else [int(index)]
+            found.append([Direction(f"balls[{ball}].{field}[{k}]", unit, "state", ((int(ball), ELEMENTS[field][k]),)) for k in ks])
         else:
             raise ValueError(
-                f"wrt: {name!r} is no number of a shot; such are cue.phi, kind.mu_slide (of all balls), balls[1].kind.mass, "
+                f"{argument}: {name!r} is no number of a shot; such are cue.phi, kind.mu_slide (of all balls), balls[1].kind.mass, "
                 f"balls[0].r[1] and table.nose_height, with 0 to {balls - 1} for balls"
             )
     if not found:
-        raise ValueError("wrt: name at least one number, such as 'cue.phi'")
-    m = len(found)
+        raise ValueError(f"{argument}: name at least one number, such as 'cue.phi'")
+    return found
+
+
+def seeds_of(given: Sequence[Direction], balls: int) -> dict[str, dtypes.Doubles]:
+    """The arrays of carom_tangent_seeds."""
+    m = len(given)
     seeds = {
-        "cue": np.zeros((len(_CUE), m)),
-        "kind": np.zeros((balls, len(_KIND), m)),
-        "state": np.zeros((balls, 7, m)),
+        "cue": np.zeros((len(CUE), m)),
+        "kind": np.zeros((balls, len(KIND), m)),
+        "state": np.zeros((balls, STATE, m)),
         "table": np.zeros((len(_TABLE), m)),
     }
-    for j, (_, _, (array, places)) in enumerate(found):
-        for place in places:
-            seeds[array][(*place, j)] = 1.0
-    return tuple(f[0] for f in found), tuple(f[1] for f in found), seeds
+    for j, direction in enumerate(given):
+        for place in direction.places:
+            seeds[direction.array][(*place, j)] = 1.0
+    return seeds
+
+
+def _seeds(wrt: Sequence[str], balls: int) -> tuple[tuple[str, ...], tuple[str, ...], dict[str, dtypes.Doubles]]:
+    """Names, units and seeds of all directions of some names."""
+    given = [direction for several in directions(wrt, balls) for direction in several]
+    return tuple(d.name for d in given), tuple(d.unit for d in given), seeds_of(given, balls)
 
 
 def _differentiate(
-    table: Table, balls: Array, cue: Array | None, events: Array, time: float, options: Any, seeds: dict[str, dtypes.Doubles], times: Array, to: Tangents, where: tuple[int, ...]
-) -> None:
-    """The tangents of one shot into `to`, in parts of as many directions as C takes."""
-    m, n = len(to.names), len(balls)
-    shot = ffi.new("carom_shot *", {"events": pointer("carom_event[]", events), "room": len(events), "count": len(events), "time": time})
+    job: Callable[[int, int], Any],
+    n: int,
+    balls: int,
+    events: int,
+    seeds: dict[str, dtypes.Doubles],
+    times: Array,
+    wanted: Collection[str],
+    threads: int,
+) -> tuple[dict[str, Array], Array]:
+    """What is wanted of the tangents of n played shots, each of shape (n, ...), and their statuses.
+
+    `job` gives the carom_shot_job of some of the shots. Directions beyond what C takes are given in parts.
+    """
+    m = next(iter(seeds.values())).shape[-1]
+    parts: list[dict[str, Array]] = []
+    codes: Array = np.zeros(n, np.int8)
     for first in range(0, m, MOST):
         part = slice(first, min(first + MOST, m))
         width = part.stop - part.start
         rows = {name: np.ascontiguousarray(seed[..., part]) for name, seed in seeds.items()}
-        final, moments, reach = np.zeros((n, 7, width)), np.zeros((len(events), width)), np.zeros(width)
-        states, flags = np.zeros((len(times), n, 7, width)), np.zeros(len(events), np.int32)
         of_c = ffi.new("carom_tangent_seeds *", {"directions": width, **{name: pointer("double[]", row) for name, row in rows.items()}})
-        results = {"final": final, "time": moments, "reach": reach, "at": states, "times": times}
-        tangent = ffi.new(
-            "carom_tangent *",
-            {
-                **{name: pointer("double[]", array) for name, array in results.items()},
-                "times_count": len(times),
-                "flags": pointer("int32_t[]", flags),
-            },
-        )
-        struck = ffi.NULL if cue is None else pointer("carom_cue[]", cue)
-        code = lib.carom_shot_tangent(
-            pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", balls), n, struck, options, shot, of_c, tangent
-        )
-        to.status[where] = code
-        if code < 0:
-            return
-        to.states[where][..., part] = final
-        to.states_at[where][..., part] = states
-        to.time[where][: len(events), part] = moments
-        to.reach[where][part] = reach
-        to.flags[where][: len(events)] = flags
-        to.error[where] = max(to.error[where], tangent.error)
+        # C writes into arrays of all shots: what it does not write is nan, and -1 for flags
+        shapes = {"final": (balls, STATE, width), "at": (len(times), balls, STATE, width), "time": (events, width), "reach": (width,)}
+        needed = {"final", *wanted} | ({"time"} if "reach" in wanted else set())
+        made: dict[str, Array] = {name: np.full((n, *shape), np.nan) for name, shape in shapes.items() if name in needed}
+        if "flags" in wanted:
+            made["flags"] = np.full((n, events), -1, np.int32)
+        record: Array = np.zeros(n, dtypes.tangent)
+        for name, array in made.items():
+            record[name] = addresses(array, 1)
+        record["times"], record["times_count"] = times.ctypes.data, len(times) if "at" in made else 0
+        results, statuses = pointer("carom_tangent[]", record), pointer("int8_t[]", codes)
+
+        def differentiate(begin: int, many: int) -> int:
+            given = {"played": job(begin, many), "seeds": of_c, "tangents": results + begin, "status": statuses + begin}
+            return int(lib.carom_shot_tangent_batch(ffi.new("carom_tangent_job *", given)))
+
+        in_chunks(n, 1e-4, threads, differentiate)
+        made["error"] = record["error"]
+        parts.append(made)
+    whole = parts[0]
+    for name in set(whole) - {"flags", "error"} if len(parts) > 1 else ():
+        whole[name] = np.concatenate([part[name] for part in parts], axis=-1)
+    whole["error"] = np.max([part["error"] for part in parts], axis=0)
+    return whole, codes
 
 
 def _sorted_times(times: npt.ArrayLike | None) -> Array:
@@ -180,49 +218,126 @@ def _sorted_times(times: npt.ArrayLike | None) -> Array:
     return at
 
 
+def _options(models: tuple[Any, ...], threads: int) -> Any:
+    """The options of C of a shot that was played by these, less when it was to be stopped."""
+    return shot_options(*models, None, (), threads)
+
+
+def _job_of_one(shot: Shot, cue: dtypes.Records | None, options: Any) -> Callable[[int, int], Any]:
+    """What `Shots.jobs` gives, of a single shot."""
+    balls, events = np.ascontiguousarray(shot.balls), np.ascontiguousarray(shot.events)
+    struck = ffi.NULL if cue is None else pointer("carom_cue[]", of_record(cue, dtypes.cue, "cue", "cue()").reshape(1))
+    of_c = {"events": pointer("carom_event[]", events), "room": len(events), "count": shot.count, "time": shot.time}
+    played = {
+        "table": pointer("carom_table[]", shot.table.record), "balls": pointer("carom_shot_ball[]", balls), "cues": struck,
+        "count": len(balls), "n": 1, "options": options, "shots": ffi.new("carom_shot *", of_c),
+    }  # fmt: skip
+    return lambda begin, many: ffi.new("carom_shot_job *", played)
+
+
 def tangents(
-    shot: Shot,
+    shot: Shot | Shots,
     cue: dtypes.Records | None,
     wrt: Sequence[str],
     *,
     times: npt.ArrayLike | None = None,
+    threads: int = 0,
 ) -> Tangents:
-    """Differentiate a shot that `carom.simulate` has played.
+    """Differentiate a shot that `carom.simulate` has played, or many of `carom.simulate_batch`.
 
     Parameters
     ----------
-    shot : Shot
-        With all of its events.
+    shot : Shot or Shots
+        With all of its events: many need a `room` that is large enough.
     cue : ndarray of `carom.dtypes.cue`, shape ()
-        That of the shot; None if there was none.
+        That of the shot; None if there was none. None of many shots, which know theirs.
     wrt : sequence of str
         By what: "cue.phi" and other numbers of the cue; "kind.mu_slide" of all balls, "balls[1].kind.mass" of one;
-        "balls[0].r" (two directions), "balls[0].r[1]", v, w; "table.nose_height", "table.mu_cushion", "table.restitution".
+        "balls[0].r" (two directions), "balls[0].r[1]", v, w, and "balls[0].v[2]" of a ball that flies; "table.nose_height",
+        "table.mu_cushion", "table.restitution".
     times : array_like, shape (times,), optional
         s, ascending: for `Tangents.at`.
+    threads : int
+        Most threads to use for many shots; 0 is the calling one alone, -1 all processors. No bit depends on it.
 
     Returns
     -------
     Tangents
+        Of many shots with the bits of each alone. One in error, or whose derivatives are not known, costs itself: see `status`.
 
     Raises
     ------
     CaromError
-        Derivatives are not known for this shot: in the world pooltool, by Euler's model of balls, where a ball flies.
+        Derivatives are not known for this shot: in the world pooltool, or by Euler's model of balls.
     """
-    names, units, seeds = _seeds(wrt, len(shot.balls))
+    if not isinstance(shot, (Shot, Shots)):
+        raise TypeError(f"shot: what carom.simulate() or carom.simulate_batch() gives is needed, not {type(shot).__name__}")
+    balls = shot.final.shape[-1]
+    names, units, seeds = _seeds(wrt, balls)
     at = _sorted_times(times)
+    wanted = ("final", "at", "time", "flags", "reach")
+    if isinstance(shot, Shots):
+        if cue is not None:
+            raise ValueError("cue: shots of a batch know their cues; give None")
+        if shot.events.dtype != dtypes.event:
+            raise CaromError(Status.ERROR_EVENTS_LOST)
+        events = int(np.minimum(shot.count, shot.events.shape[-1]).max(initial=0))
+        job = shot.jobs(_options(shot.options[:-2], threads))
+        found, codes = _differentiate(job, shot.status.size, balls, events, seeds, at, wanted, threads)
+        return Tangents(names, units, shot.shape, found, codes)
     if shot.options is None:
         raise ValueError("shot: it does not know by which models it was played; give one of carom.simulate()")
-    options = shot_options(*shot.options[:7], None, (), 0)
-    found = Tangents(names, units, (), len(shot.balls), len(shot.events), len(at))
-    if shot.count > len(shot.events):
-        raise CaromError(-54)
-    struck = None if cue is None else np.ascontiguousarray(cue).reshape(1)
-    _differentiate(shot.table, np.ascontiguousarray(shot.balls), struck, np.ascontiguousarray(shot.events), shot.time, options, seeds, at, found, ())
-    if found.status < 0:
-        raise CaromError(int(found.status))
-    return found
+    job = _job_of_one(shot, cue, _options(shot.options, 0))
+    found, codes = _differentiate(job, 1, balls, len(shot.events), seeds, at, wanted, 0)
+    if codes[0] < 0:
+        raise CaromError(int(codes[0]))
+    return Tangents(names, units, (), found, codes)
+
+
+def play(
+    table: Table,
+    layouts: dtypes.Records,
+    cues: dtypes.Records | None,
+    seeds: dict[str, dtypes.Doubles],
+    times: Array,
+    wanted: Collection[str],
+    room: int,
+    models: dict[str, Any],
+) -> tuple[dict[str, Array], Array, dtypes.Records]:
+    """Plays shots, some at a time, and differentiates them: what is wanted, statuses and final states, of the shape of the batch."""
+    threads = whole(models.get("threads", 0), "threads", least=-1)
+    balls, shape = layouts.shape[-1], np.broadcast_shapes(layouts.shape[:-1], () if cues is None else cues.shape)
+    n = int(np.prod(shape))
+    one_layout, one_cue = layouts.size == balls, cues is None or cues.size == 1
+    rows = layouts.reshape(1, balls) if one_layout else np.broadcast_to(layouts, (*shape, balls)).reshape(n, balls)
+    strikes = cues if cues is None else cues.reshape(()) if one_cue else np.broadcast_to(cues, shape).reshape(n)
+    parts: list[tuple[dict[str, Array], Array, Array]] = []
+    shots: Shots | None = None
+    at_once = _AT_ONCE * workers(threads)
+    for begin in range(0, max(n, 1), at_once):
+        part = slice(begin, min(begin + at_once, n))
+        many = part.stop - part.start
+        struck = strikes if strikes is None or one_cue else strikes[part]
+        again = shots if shots is not None and shots.shape == (many,) else None
+        shots = simulate_batch(table, rows if one_layout else rows[part], struck, room=room, out=again, **models)
+        events = int(np.minimum(shots.count, room).max(initial=0))
+        job = shots.jobs(_options(shots.options[:-2], threads))
+        found, codes = _differentiate(job, many, balls, events, seeds, times, wanted, threads)
+        parts.append((found, codes, shots.final.copy()))
+    gathered: dict[str, Array] = {}
+    for name in parts[0][0]:
+        blocks = [part[0][name] for part in parts]
+        if name == "time":
+            # as many events as the longest shot has
+            most = max(block.shape[1] for block in blocks)
+            longer = [np.full((len(block), most, *block.shape[2:]), np.nan) for block in blocks]
+            for to, block in zip(longer, blocks):
+                to[:, : block.shape[1]] = block
+            blocks = longer
+        joined = np.concatenate(blocks) if len(blocks) > 1 else blocks[0]
+        gathered[name] = joined.reshape((*shape, *joined.shape[1:]))
+    codes = np.concatenate([part[1] for part in parts]).reshape(shape)
+    return gathered, codes, np.concatenate([part[2] for part in parts]).reshape((*shape, balls))
 
 
 def jacobian(
@@ -245,35 +360,24 @@ def jacobian(
     wrt : sequence of str
         As for `tangents`.
     of : str
-        "final.r", "final.v", "final.w"; "at.r", "at.v", "at.w" at `times`; "time" of the events; or "reach".
+        "final.r", "final.v", "final.w", "final.z", "final.v_z"; "at.r" and so on at `times`; "time" of the events; or "reach".
     room : int
         Events of a shot at most; a shot with more has nan.
     models
-        ball_model, cushion_model, friction, space and so on, as for `carom.simulate_batch`.
+        ball_model, cushion_model, friction, space, threads and so on, as for `carom.simulate_batch`.
 
     Returns
     -------
     ndarray of float64
-        (..., balls, 2, m) for "final.r"; nan for shots in error.
+        (..., balls, 2, m) for "final.r"; nan for shots in error. Each shot has the bits of `tangents`.
     """
-    group, _, field = of.partition(".")
-    if (group not in ("final", "at") or field not in _STATE) and of not in ("time", "reach"):
-        raise ValueError(f"of: must be final.r, final.v, final.w, at.r, at.v, at.w, time or reach, not {of!r}")
-    shots = simulate_batch(table, layouts, cues, room=room, **models)
-    balls = shots.final.shape[-1]
-    names, units, seeds = _seeds(wrt, balls)
-    at = _sorted_times(times)
-    options = shot_options(*shots.options[:7], None, (), 0)
-    found = Tangents(names, units, shots.shape, balls, int(np.minimum(shots.count, room).max(initial=0)), len(at))
-    all_cues = None if shots.cues is None else np.broadcast_to(shots.cues, shots.shape)
-    all_balls = np.broadcast_to(shots.layouts.reshape(balls) if shots.layouts.size == balls else shots.layouts, shots.final.shape)
-    for where in np.ndindex(shots.shape):
-        count = int(shots.count[where])
-        if shots.status[where] < 0 or count > room:
-            continue
-        cue = None if all_cues is None else np.array(all_cues[where]).reshape(1)
-        events = np.ascontiguousarray(shots.events[where][:count])
-        _differentiate(table, np.array(all_balls[where]), cue, events, float(shots.time[where]), options, seeds, at, found, where)
-    if of in ("time", "reach"):
-        return found.time if of == "time" else found.reach
-    return (found.final if group == "final" else found.at)[field]
+    group, _, field = str(of).partition(".")
+    if (group not in ("final", "at") or field not in PARTS) and of not in ("time", "reach"):
+        raise ValueError(f"of: must be final.r, v, w, z or v_z, at.r and so on, time or reach, not {of!r}")
+    layouts = of_record(layouts, dtypes.shot_ball, "layouts", "balls()")
+    cues = None if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")
+    if layouts.ndim == 0:
+        raise ValueError("layouts: the shape must be (..., balls), not ()")
+    seeds = _seeds(wrt, layouts.shape[-1])[2]
+    found = play(table, layouts, cues, seeds, _sorted_times(times), (group,), room, models)[0][group]
+    return _by_name(found)[field] if field else found

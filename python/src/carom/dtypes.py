@@ -80,6 +80,8 @@ brief_event: Record = _record("carom_brief_event")
 """An event without states, 24 bytes: time (s), type (`carom.EventType`), a, b."""
 shot: Record = _record("carom_shot")
 """What a shot gives, with the addresses of its arrays: for the calls of C."""
+tangent: Record = _record("carom_tangent")
+"""What derivatives of a shot give, with the addresses of their arrays: for the calls of C."""
 
 
 @functools.lru_cache(maxsize=64)

@@ -23,7 +23,7 @@ from typing import Any, cast
 import numpy as np
 import numpy.typing as npt
 
-from carom import _constants, _from_events, _joint, _strikes, _summary, pictures
+from carom import _constants, _covariance, _from_events, _joint, _strikes, _summary, pictures
 from carom.dtypes import Doubles
 from carom.results import Shot
 from carom.shots import ShotCushion, simulate
@@ -51,6 +51,10 @@ class Fit:
         What the shots are played with: fields of `carom.dtypes.ball_kind`, and nose_height (m).
     spread : dict
         Of each constant that was fitted, how far it is off by the evidence itself: a standard deviation.
+    fitted : tuple of str
+        The constants that whole shots told.
+    covariance : ndarray, shape (fitted, fitted), or None
+        Of these; the roots of its diagonal are their `spread`. None where fewer than 8 shots tell.
     strikes : ndarray, shape (shots, 6)
         v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike, and its time (s). NaN where there is none.
     status : list of str
@@ -71,6 +75,8 @@ class Fit:
     status: list[str]
     rmse: Doubles
     train: list[bool] | None = None
+    fitted: tuple[str, ...] = ()
+    covariance: Doubles | None = None
 
     def counted(self, train: bool | None = None) -> Doubles:
         """The RMSE of the shots that are ok, m: of all, of those that constants were fitted to, or of the others."""
@@ -105,6 +111,20 @@ class Fit:
         table = _constants.rectangle(self.table, self.constants["nose_height"])
         return simulate(table, balls, cushion_model=self.cushion_model)
 
+    def strike_covariance(self, i: int) -> Doubles:
+        """The covariance of the six numbers of `strikes[i]`, shape (6, 6), the constants being right: by derivatives of the shot.
+
+        It has the noise of the samples, by what they leave over, and that of the places of rest, which contacts magnify.
+
+        Raises
+        ------
+        ValueError
+            No strike was found.
+        """
+        self.shot(i)
+        plays = _strikes.Plays([self.recordings[i]], self.table, self.radius, self.constants, self.cushion_model)
+        return _covariance.of_strike(plays, 0, self.strikes[i])
+
     def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
         """The centres of shot i's balls as played at times of the recording's clock, m, shape (..., balls, 2)."""
         at = np.asarray(times, np.float64)
@@ -130,6 +150,7 @@ class Fit:
         return {
             "constants": self.constants,
             "spread": self.spread,
+            "covariance": None if self.covariance is None else {"constants": list(self.fitted), "matrix": self.covariance.tolist()},
             "cushion_model": self.cushion_model,
             "table": list(self.table),
             "radius": self.radius,
@@ -268,6 +289,8 @@ def fit(
     values = _constants.complete(constants or {}, cushion_model)
     _priors([] if free[0] in ("none", "events") else free, priors or {}, values, cushion_model)
     spread: dict[str, float] = {}
+    names: tuple[str, ...] = ()
+    covariance: Doubles | None = None
     status = [_status(shot, radius) for shot in recordings]
     played = [k for k, text in enumerate(status) if text != "no ball moves"]
     fitted = [k for k in played if status[k] == "ok" and (train is None or k in set(train))]
@@ -293,7 +316,11 @@ def fit(
             values = search.constants(search.values)
             if progress:
                 progress("spread", _joint.STAGES / (_joint.STAGES + 2))
-            spread = {**spread, **saved.get("spread", lambda: _joint.spread(search, seed))}
+            names = tuple(search.names)
+            told = {name: error for name, error in spread.items() if name not in (priors or {})}
+            errors = saved.get("spread", lambda: _joint.spread(search, seed))
+            covariance = _covariance.of_constants(search, told, errors)
+            spread = {**spread, **errors}
         plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
         strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
@@ -302,7 +329,7 @@ def fit(
     for k in played:
         if not np.isfinite(rmse[k]):
             status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
-    return Fit(recordings, table, radius, cushion_model, values, spread, strikes, status, rmse, part)
+    return Fit(recordings, table, radius, cushion_model, values, spread, strikes, status, rmse, part, names, covariance)
 
 
 def _extents(text: str) -> tuple[float, float]:

@@ -57,6 +57,7 @@ class Table:
         for name, part, values in (("rails", "rail", rails), ("jaws", "jaw", jaws), ("pockets", "pocket", pockets)):
             if values is None:
                 continue
+            values = as_array(values, name)
             room = record[part].shape[0]
             if values.dtype != record[part].dtype or values.ndim != 1 or len(values) > room:
                 raise ValueError(f"{name}: an array of carom.dtypes.{part} of shape (up to {room},) is needed")
@@ -134,6 +135,20 @@ class Table:
         return pictures.picture(self)
 
 
+def check_table(table: object) -> None:
+    """Refuses what is no table."""
+    if not isinstance(table, Table):
+        raise TypeError(f"table: a carom.Table is needed, such as carom.tables.pool_9ft() gives, not {type(table).__name__}")
+
+
+def of_record(values: dtypes.Records, record: dtypes.Record, name: str, builder: str) -> Array:
+    """The values in C order, refused where they are not of the record, which carom.<builder> gives."""
+    array = as_array(values, name)
+    if array.dtype != record:
+        raise TypeError(f"{name}: an array of the dtype of carom.{builder} is needed, not of {array.dtype}")
+    return np.asarray(array, order="C")
+
+
 def _part(part: Any) -> str:
     """The name of a part of a table, or of a ball."""
     names = {lib.CAROM_PART_RAIL: "table.rails", lib.CAROM_PART_JAW: "table.jaws", lib.CAROM_PART_POCKET: "table.pockets"}
@@ -156,9 +171,10 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
     CaromError
         The place is not free: `field` is the ball or the part of the table that is in the way.
     """
-    if balls.dtype != dtypes.shot_ball or balls.ndim != 1:
-        raise TypeError(f"balls: an array of the dtype of carom.balls() and of shape (balls,) is needed, not of {balls.dtype}, {balls.shape}")
-    placed = balls.copy()
+    placed = of_record(balls, dtypes.shot_ball, "balls", "balls()").copy()
+    if placed.ndim != 1:
+        raise TypeError(f"balls: an array of shape (balls,) is needed, not of {placed.shape}")
+    check_table(table)
     way = ffi.new("carom_part *")
     of_table, layout = ffi.from_buffer("carom_table[]", table.record), ffi.from_buffer("carom_shot_ball[]", placed)
     number = whole(ball, "ball", most=len(placed) - 1)
@@ -372,10 +388,11 @@ def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
     ndarray of `carom.dtypes.motion`, shape ()
     """
     motion: Array = np.zeros((), dtypes.motion)
-    strike = np.array(cue, dtypes.cue).reshape(())
+    strike = of_record(cue, dtypes.cue, "cue", "cue()").reshape(())
+    ball = of_record(kind, dtypes.ball_kind, "kind", "balls()['kind']").reshape(1)
     arguments: list[Any] = [
         ffi.from_buffer("carom_cue[]", strike),
-        ffi.from_buffer("carom_ball_kind[]", np.array(kind, dtypes.ball_kind).reshape(1)),
+        ffi.from_buffer("carom_ball_kind[]", ball),
         ffi.from_buffer("carom_motion[]", motion),
     ]
     code = lib.carom_strike(*arguments)

@@ -11,13 +11,14 @@ import numpy as np
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import Array, whole
-from carom.layouts import Table
+from carom.layouts import Table, check_table
 from carom.status import CaromError
 
 
 def _rack(kind: int, table: Table, gap: float, seed: int) -> dtypes.Records:
     size = int(lib.carom_rack_size(kind))
     balls: Array = np.zeros(size, dtypes.shot_ball)
+    check_table(table)
     of_table = ffi.from_buffer("carom_table[]", table.record)
     code = lib.carom_rack(kind, of_table, gap, whole(seed, "seed", most=2**64 - 1), ffi.from_buffer("carom_shot_ball[]", balls), size)
     if code < 0:

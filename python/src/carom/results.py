@@ -251,7 +251,7 @@ class _OfBatch(Shot):
             return value
 
     def __reduce__(self) -> tuple[Any, ...]:
-        given = self.table, self.balls, int(self.status), self.time, self.count, self.events, self.final
+        given = self.table, self.balls, int(self.status), self.time, self.count, self.events, self.final, None, self.options
         return Shot, given
 
     def states(self, times: npt.ArrayLike) -> dtypes.Records:
@@ -291,7 +291,7 @@ _ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
     "events": _kept,
     "final": lambda batch, index: batch.final[index],
     "state": lambda batch, index: None,
-    "options": lambda batch, index: None,
+    "options": lambda batch, index: batch.options[:-2],
 }
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, apart, as_array, in_chunks, output, pointer, whole
+from carom._rows import INT8, Array, apart, in_chunks, output, pointer, whole
 from carom._shot_options import BallModel as BallModel
 from carom._shot_options import Friction as Friction
 from carom._shot_options import ShotCushion as ShotCushion
@@ -17,23 +17,11 @@ from carom._shot_options import Space as Space
 from carom._shot_options import StopAt as StopAt
 from carom._shot_options import World as World
 from carom._shot_options import hashable, shot_options
-from carom.layouts import Table, cue_error
+from carom.layouts import Table, check_table, cue_error, of_record
 from carom.results import Shot, Shots
 from carom.status import CaromError, Status
 
 _FIRST_ROOM = 512
-
-
-def _records(values: dtypes.Records, record: dtypes.Record, name: str, builder: str) -> Array:
-    array = as_array(values, name)
-    if array.dtype != record:
-        raise TypeError(f"{name}: an array of the dtype of carom.{builder} is needed, not of {array.dtype}")
-    return np.asarray(array, order="C")
-
-
-def _table(table: object) -> None:
-    if not isinstance(table, Table):
-        raise TypeError(f"table: a carom.Table is needed, such as carom.tables.pool_9ft() gives, not {type(table).__name__}")
 
 
 def simulate(
@@ -48,6 +36,7 @@ def simulate(
     space: Space = "3d",
     steps: int = 0,
     events_most: int = 0,
+    plain: bool = False,
     t_final: float | None = None,
     stop_at: StopAt | Iterable[StopAt] = (),
 ) -> Shot:
@@ -76,6 +65,8 @@ def simulate(
         Of Euler's models; 0 is 1000.
     events_most : int
         Bound of events; 0 is 10000.
+    plain : bool
+        Whether this call computes with the instruction set plain, as with CAROM_ISA=plain: it has the bits that all machines share.
     t_final : float, optional
         The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that
         lasts longer than 1000 s is an error.
@@ -93,19 +84,19 @@ def simulate(
         An argument is in error; or the shot ended in one (a bound, a ball that left the table, a collision): then the error's
         `shot` has what had happened.
     """
-    layout = _records(balls, dtypes.shot_ball, "balls", "balls()")
+    layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     if layout.ndim != 1:
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}; simulate_batch plays many layouts")
     layout = layout.copy()
-    _table(table)
+    check_table(table)
     if cue is None:
         strike: Any = ffi.NULL
     else:
-        cues = _records(cue, dtypes.cue, "cue", "cue()")
+        cues = of_record(cue, dtypes.cue, "cue", "cue()")
         if cues.size != 1:
             raise ValueError(f"cue: one is needed, not {cues.size}; simulate_batch plays many")
         strike = pointer("carom_cue[]", cues)
-    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most)
+    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most, plain)
     options = shot_options(*chosen, t_final, hashable(stop_at), 0)
     state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if t_final is not None or stop_at else None
     arguments = (pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), strike, options)
@@ -169,7 +160,7 @@ def resume(shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterab
     ValueError
         The shot was played without `t_final` and `stop_at`, or as one of a batch; or t_final is before the time at which it stopped.
     """
-    if shot.state is None or shot.options is None:
+    if not isinstance(shot, Shot) or shot.state is None or shot.options is None:
         raise ValueError("shot: only what simulate() or resume() stopped, with t_final= or stop_at=, can be gone on with")
     if t_final is not None and t_final < shot.time:
         raise ValueError(f"t_final: it must not be before {shot.time} s, when the shot stopped, but is {t_final}")
@@ -193,6 +184,7 @@ def simulate_batch(
     space: Space = "3d",
     steps: int = 0,
     events_most: int = 0,
+    plain: bool = False,
     t_final: float | None = None,
     stop_at: StopAt | Iterable[StopAt] = (),
     threads: int = 0,
@@ -213,7 +205,7 @@ def simulate_batch(
         What is kept of an event: all (`carom.dtypes.event`, 344 bytes), or time, type and who (`carom.dtypes.brief_event`, 24 bytes).
     features : bool
         Whether `shots.features` tells first contacts, cushions and pockets.
-    world, ball_model, cushion_model, friction, space, steps, events_most, t_final, stop_at
+    world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, stop_at
         As for `simulate`.
     threads : int
         Most threads to use; 0 is the calling one alone, -1 all processors. No bit depends on it.
@@ -230,11 +222,11 @@ def simulate_batch(
     CaromError
         The table or an option is in error.
     """
-    all_balls = _records(layouts, dtypes.shot_ball, "layouts", "balls()")
-    all_cues = np.zeros((), dtypes.cue) if cues is None else _records(cues, dtypes.cue, "cues", "cue()")
+    all_balls = of_record(layouts, dtypes.shot_ball, "layouts", "balls()")
+    all_cues = np.zeros((), dtypes.cue) if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")
     if all_balls.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")
-    _table(table)
+    check_table(table)
     whole(room, "room")
     count = all_balls.shape[-1]
     shape = np.broadcast_shapes(all_balls.shape[:-1], all_cues.shape)
@@ -246,7 +238,7 @@ def simulate_batch(
     if records not in ("full", "brief"):
         raise ValueError(f"records: must be 'full' or 'brief', not {records!r}")
     record = dtypes.event if records == "full" else dtypes.brief_event
-    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most, t_final, hashable(stop_at))
+    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, hashable(stop_at))
     options = shot_options(*chosen, threads)
     shots = Shots(table, all_balls, shape, room, record) if out is None else out
     output(shots.status, shape, INT8, "out.status")

@@ -75,6 +75,11 @@ class Recording:
         return np.array([track[: self._still(track), 1:].mean(axis=0) for track in self.tracks])
 
     @property
+    def still(self) -> list[int]:
+        """How many rows each ball has before it moved, shape (balls,)."""
+        return [self._still(track) for track in self.tracks]
+
+    @property
     def moves(self) -> Doubles:
         """The time of each ball's first row away from its place of rest, s, shape (balls,); inf if it never moves."""
         times = [(*track[self._still(track) :, 0], math.inf)[0] for track in self.tracks]
