@@ -227,8 +227,8 @@ _Static_assert(sizeof(carom_law) == 17 * sizeof(double) && offsetof(carom_law, m
                "14 coefficients, then frictions and restitution");
 
 /* Central differences of order 4 by one variable, with smaller steps where two orders differ. */
-static void differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain, int by,
-                          carom_impact_tangent *out) {
+__attribute__((noinline)) static void differentiate(const carom_law *law, const carom_law *d_law, const double slips[4],
+                                                    int plain, int by, carom_impact_tangent *out) {
   const double size = fmax(fmax(fabs(slips[0]), fabs(slips[1])), fmax(fabs(slips[2]), fabs(slips[3])));
   double h = by <= BY_B_Y ? 2e-3 * fmax(1, 0.01 * size) : by == BY_E ? 1e-3 : 1e-4, best = INFINITY;
   if (by == BY_MU || by == BY_MU_C)
@@ -261,6 +261,40 @@ static void differentiate(const carom_law *law, const carom_law *d_law, const do
   out->kink |= !(best < 1e-4);
 }
 
+/* Derivatives of the impulses by one variable, at the end of an impact. A function of its own, so that its stack is not there
+ * while the impact is followed. */
+__attribute__((noinline)) static void impulses_by(const carom_trajectory *path, const carom_variation *g, int c,
+                                                  carom_impact_tangent *out) {
+  /* impulses are linear in the motion at both ends, with coefficients of the law */
+  carom_trajectory d = *path;
+  d.start = (carom_point){.a_x = c == BY_A_X, .a_y = c == BY_A_Y, .b_x = c == BY_B_X, .b_y = c == BY_B_Y};
+  d.at = (carom_point){.a_x = g->d[OF_A_X][c],
+                       .a_y = g->d[OF_A_Y][c],
+                       .b_x = g->d[OF_B_X][c],
+                       .b_y = g->d[OF_B_Y][c],
+                       .v = g->d[OF_V][c],
+                       .p = g->d_p[c]};
+  const carom_impulses q = carom_impact_impulses(&d);
+  double sum[5] = {q.p, q.f_x, q.f_y, q.F_x, q.F_y};
+  if (c == BY_LAMBDA) {
+    carom_impulses end[2];
+    double unused[4];
+    for (int k = 0; k < 2; k++) {
+      carom_trajectory there = *path;
+      change(&there.law, g->d_law, unused, c, k == 0 ? COEFFICIENT : -COEFFICIENT);
+      end[k] = carom_impact_impulses(&there);
+    }
+    sum[1] += (end[0].f_x - end[1].f_x) / (2 * COEFFICIENT);
+    sum[2] += (end[0].f_y - end[1].f_y) / (2 * COEFFICIENT);
+    sum[3] += (end[0].F_x - end[1].F_x) / (2 * COEFFICIENT);
+    sum[4] += (end[0].F_y - end[1].F_y) / (2 * COEFFICIENT);
+  }
+  for (int r = 0; r < 5; r++) {
+    out->d[r][c] = sum[r];
+    out->kink |= !isfinite(sum[r]);
+  }
+}
+
 carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain,
                                         unsigned asked, carom_impact_tangent *out) {
   carom_trajectory path;
@@ -287,34 +321,7 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
       differentiate(law, d_law, slips, plain, c, out);
       continue;
     }
-    /* impulses are linear in the motion at both ends, with coefficients of the law */
-    carom_trajectory d = path;
-    d.start = (carom_point){.a_x = c == BY_A_X, .a_y = c == BY_A_Y, .b_x = c == BY_B_X, .b_y = c == BY_B_Y};
-    d.at = (carom_point){.a_x = g.d[OF_A_X][c],
-                         .a_y = g.d[OF_A_Y][c],
-                         .b_x = g.d[OF_B_X][c],
-                         .b_y = g.d[OF_B_Y][c],
-                         .v = g.d[OF_V][c],
-                         .p = g.d_p[c]};
-    const carom_impulses q = carom_impact_impulses(&d);
-    double sum[5] = {q.p, q.f_x, q.f_y, q.F_x, q.F_y};
-    if (c == BY_LAMBDA) {
-      carom_impulses end[2];
-      double unused[4];
-      for (int k = 0; k < 2; k++) {
-        carom_trajectory there = path;
-        change(&there.law, d_law, unused, c, k == 0 ? COEFFICIENT : -COEFFICIENT);
-        end[k] = carom_impact_impulses(&there);
-      }
-      sum[1] += (end[0].f_x - end[1].f_x) / (2 * COEFFICIENT);
-      sum[2] += (end[0].f_y - end[1].f_y) / (2 * COEFFICIENT);
-      sum[3] += (end[0].F_x - end[1].F_x) / (2 * COEFFICIENT);
-      sum[4] += (end[0].F_y - end[1].F_y) / (2 * COEFFICIENT);
-    }
-    for (int r = 0; r < 5; r++) {
-      out->d[r][c] = sum[r];
-      out->kink |= !isfinite(sum[r]);
-    }
+    impulses_by(&path, &g, c, out);
   }
   return CAROM_OK;
 }

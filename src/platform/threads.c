@@ -48,7 +48,7 @@ typedef struct cut {
 /* Short, as all of them are on the stack of the caller. */
 typedef struct part {
   const cut *of;
-  size_t number, first_bad;
+  size_t number; /* becomes the first bad row of the part, or the row behind it */
   thread_handle thread;
 } part;
 
@@ -59,7 +59,7 @@ static size_t start_of(const cut *of, size_t number) {
 }
 
 static void run_part(part *p) {
-  p->first_bad = p->of->worker(p->of->job, start_of(p->of, p->number), start_of(p->of, p->number + 1));
+  p->number = p->of->worker(p->of->job, start_of(p->of, p->number), start_of(p->of, p->number + 1));
 }
 
 #ifdef _WIN32
@@ -130,8 +130,8 @@ size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, in
   for (size_t t = 0; t < count; t++) {
     if (started[t])
       join(parts[t].thread);
-    if (first_bad == n && parts[t].first_bad < start_of(&of, t + 1))
-      first_bad = parts[t].first_bad;
+    if (first_bad == n && parts[t].number < start_of(&of, t + 1))
+      first_bad = parts[t].number;
   }
   return first_bad;
 }
