@@ -181,7 +181,7 @@ typedef enum carom_status {
   CAROM_ERROR_TABLE_OPEN = -61,   /* carom_table_check(): a ball can leave the table, or has no place on it. */
   CAROM_ERROR_RAIL_SIDE = -62,    /* carom_table_check(): the played side of a rail is turned away from the table. */
   CAROM_ERROR_RAIL_LINE = -63,    /* carom_table_check(): the line of a rail does not pass through both of its ends. */
-  CAROM_ERROR_TANGENT = -70,      /* carom_tangent.h: derivatives are not known for this world, model or motion. */
+  CAROM_ERROR_TANGENT = -70,      /* carom_tangent.h: derivatives are not known for this world or model. */
   CAROM_ERROR_DIRECTIONS = -71,   /* carom_tangent.h: the number of directions is not 1 to CAROM_DIRECTIONS_MOST. */
 } carom_status;
 

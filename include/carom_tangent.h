@@ -14,8 +14,8 @@
  *     status = carom_shot_tangent(&table, balls, 10, &cue, NULL, &shot, &seeds, &tangent);
  *     // final[i][0][1]: by how many metres the place x of ball i moves per degree of phi, where |change| < reach[1]
  *
- * docs/using/derivatives.md tells what tangents mean and what they cannot tell; docs/understanding/gradients.md has the equations
- * and the errors that were measured.
+ * docs/using/derivatives.md tells what tangents mean and what they cannot tell; docs/understanding/gradients.md has the
+ * equations and the errors that were measured.
  *
  * Units are those of carom_shot.h; of the angles phi and theta degrees. Arrays are in row order with the directions last. */
 #ifndef CAROM_TANGENT_H

@@ -113,7 +113,7 @@ void carom_variation_straight(carom_trajectory *path, const carom_point *before,
   carom_variation_begin_regime(path);
   for (int n = 0; n < 3; n++)
     if (g->asked >> CAROM_PARAMETER[n] & 1) {
-      const int c = CAROM_PARAMETER[n];
+      const int c = (int)CAROM_PARAMETER[n];
       const carom_terms *d = &g->d_terms[n];
       const double by[5] = {0, d->A_0, 0, d->B_0, d->V_0};
       for (int r = 0; r < 5; r++)

@@ -327,11 +327,18 @@ static hit hit_of(const carom_reach *reach, const carom_event *event, carom_row 
   return h;
 }
 
-/* The other rails of a corner or of a cushion's end: a ball that meets a rail beyond its end meets the jaw there instead, one
- * at a jaw the rail, and one that falls into a pocket, or meets a jaw, may come to a rail before. */
+/* Whether a jaw rounds an end of a rail. */
+static bool rounds(const carom_jaw *jaw, const double end[2]) {
+  const double x = jaw->centre[0] - end[0], y = jaw->centre[1] - end[1], off = sqrt(x * x + y * y) - jaw->radius;
+  return fabs(off) < 1e-4;
+}
+
+/* The rails beside an event. A ball that meets a rail beyond its end meets the jaw there instead, one that meets a jaw beyond
+ * the end of its rail the rail; and one that falls into a pocket, or meets a jaw, may come to a rail before. */
 static void take_rails(carom_reach *reach, const carom_event *event, carom_row d[CAROM_STATE_NUMBERS]) {
   const carom_tangent_work *w = reach->work;
   const carom_ball_state *s = &event->before[0];
+  const carom_jaw *jaw = event->type == CAROM_EVENT_JAW ? &w->table->jaw[event->b] : NULL;
   for (int64_t k = 0; k < w->table->rails; k++) {
     const carom_rail *rail = &w->table->rail[k];
     const double e[2] = {rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]}, length = sqrt(e[0] * e[0] + e[1] * e[1]);
@@ -342,11 +349,11 @@ static void take_rails(carom_reach *reach, const carom_event *event, carom_row d
     const double reaches = carom_reach_on_cloth(w->ball[event->a].kind, rail->height, w->reference);
     const double gap = line[0] * s->r[0] + line[1] * s->r[1] + line[2] - reaches;
     const bool meets = event->type == CAROM_EVENT_RAIL && event->b == k;
-    for (int j = 0; j < w->m; j++)
-      if (meets || (event->type != CAROM_EVENT_RAIL && beyond > 0.0 && beyond < NEAR && gap < 1e-3))
-        take(reach, j, fabs(beyond), (e[0] * d[S_X][j] + e[1] * d[S_Y][j]) / length);
-      else if (event->type != CAROM_EVENT_RAIL && beyond <= 0.0 && gap > 0.0 && gap < NEAR)
-        take(reach, j, gap, line[0] * d[S_X][j] + line[1] * d[S_Y][j]);
+    const bool at_end = meets || (jaw != NULL && beyond > 0.0 && rounds(jaw, place < 0.0 ? rail->p : rail->q));
+    const bool before = event->type != CAROM_EVENT_RAIL && beyond <= 0.0 && gap > 0.0 && gap < NEAR;
+    for (int j = 0; j < w->m && (at_end || before); j++)
+      take(reach, j, at_end ? fabs(beyond) : gap,
+           at_end ? (e[0] * d[S_X][j] + e[1] * d[S_Y][j]) / length : line[0] * d[S_X][j] + line[1] * d[S_Y][j]);
   }
 }
 

@@ -165,14 +165,26 @@ static void lose_roll(const carom_tangent_ball *ball, double v_x, const double *
 }
 
 /* Whether the exact model refuses an impact, so that the shot has resolved it in steps: carom_model_cushion(). Its derivative
- * may be known all the same, but is that of another motion. */
-static bool was_in_steps(const carom_ball_state *before, const carom_ball_kind *kind, double height, const double normal[2],
-                         const double in[CAROM_NOSE_INS], int plain) {
+ * may be known all the same, but is that of another motion. out: that motion, in the frame; where it is the one after the event
+ * the shot has had it, and the model is not asked. */
+static bool was_in_steps(const carom_event *event, const carom_ball_kind *kind, double height, const double normal[2],
+                         const double in[CAROM_NOSE_INS], const double out[CAROM_BALL_INS], int plain) {
+  const double *v = event->after[0].v, *w = event->after[0].w, c = normal[1], s = -normal[0], R = kind->radius;
+  const double there[CAROM_BALL_INS] = {c * v[0] + s * v[1], c * v[1] - s * v[0], R * (c * w[0] + s * w[1]),
+                                        R * (c * w[1] - s * w[0]), R * w[2]};
+  double apart = 0.0, size = 0.0;
+  for (int k = 0; k < CAROM_BALL_INS; k++) {
+    apart = fmax(apart, fabs(out[k] - there[k]));
+    size = fmax(size, fabs(out[k]));
+  }
+  if (apart < 1e-6 * size)
+    return false;
+  const carom_ball_state *before = &event->before[0];
   const carom_cushion_impact impact = {.v = {before->v[0], before->v[1], 0.0},
                                        .w = {before->w[0], before->w[1], before->w[2]},
                                        .normal = {normal[0], normal[1]},
                                        .height = height,
-                                       .radius = kind->radius,
+                                       .radius = R,
                                        .mass = kind->mass,
                                        .mu_cloth = in[NOSE_MU_S],
                                        .mu_cushion = in[NOSE_MU_W],
@@ -209,10 +221,12 @@ carom_status carom_tangent_flat_nose(carom_tangent_work *w, const carom_event *e
   if (!(in[OF_V_Y] > 0.0)) { /* it falls on the nose, but does not move into the cushion */
     stay(in, w->m, din, out, dout);
   } else {
-    if (options.model == CAROM_CUSHION_MATHAVAN &&
-        was_in_steps(&event->before[0], ball->kind, height, normal, in, w->opt->plain))
-      options.model = CAROM_CUSHION_EULER;
     status = carom_nose_tangent(in, &options, w->m, din, dout, out, &w->note);
+    if (options.model == CAROM_CUSHION_MATHAVAN &&
+        (status == CAROM_ERROR_UNRESOLVED || was_in_steps(event, ball->kind, height, normal, in, out, w->opt->plain))) {
+      options.model = CAROM_CUSHION_EULER;
+      status = carom_nose_tangent(in, &options, w->m, din, dout, out, &w->note);
+    }
   }
   lose_roll(ball, in[OF_V_X], din[OF_V_X], w->m, out, dout);
   return status;
