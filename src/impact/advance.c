@@ -269,7 +269,8 @@ static void plan_sliding(const carom_trajectory *path, const step_start *s, plan
     /* tau to the goal, or the largest that is allowed; two equal steps rather than a long and a short one */
     const double ln = s->r < 1 ? rough_log(1 / s->r) : 0, growth = along * s->to_goal / s->r;
     const double fall = most_of(most_of(-along, c.m - 0.5 * c.D), 1e-12);
-    const double most = least((MOST_TURN + BOLDER * ln) / c.D, (MOST_FALL + BOLDER * ln) / fall);
+    const double share = path->variation != NULL ? SHARE : 1;
+    const double most = share * least((MOST_TURN + BOLDER * ln) / c.D, (MOST_FALL + BOLDER * ln) / fall);
     double tau = tau_at(&c, s->to_goal, growth > -0.9 ? s->to_goal / s->r * (6 + growth) / (6 + 4 * growth) : most, most);
     if (tau > 1.1 * most) {
       n->s.goal = AT_LENGTH;
@@ -364,10 +365,9 @@ static bool next_step(carom_trajectory *path, double to) {
   if (r == TAKEN && path->variation != NULL) {
     /* derivatives may need a shorter step */
     const double length = path->at.p - before.p;
-    advice = variation_step(path, &before, driving_slips(path),
-                            n.s.goal == AT_STICK         ? (int)OF_A_X
-                            : n.s.goal == AT_CLOTH_STICK ? (int)OF_B_X
-                                                         : -1);
+    const int vanishes = n.s.goal == AT_STICK ? (int)OF_A_X : n.s.goal == AT_CLOTH_STICK ? (int)OF_B_X : -1;
+    const bool stiff = n.kind == exact_in_a || n.kind == exact_unloaded || n.kind == exact_in_both || n.kind == held_exact;
+    advice = variation_step(path, &before, driving_slips(path), stiff, vanishes);
     if (advice > 1) {
       /* the planner keeps a length that it is given to a few percent only */
       path->at = before;

@@ -1,8 +1,8 @@
 /* Numbers at the eight Gauss nodes of a step, and the operations on them.
  *
- * Eight numbers are PARTS vectors: two of four numbers with AVX2, else four of two. What happens at every node alike is a loop
- * over the parts; only integrals join nodes. Each operation is one of IEEE 754 on each number, so that all builds without AVX2
- * have the same bits. `madd` fuses a product and a sum where the instruction set can. */
+ * Eight numbers are PARTS vectors: two of four numbers with AVX2, else four of two. What happens at every
+ * node alike is a loop over the parts; only integrals join nodes. Each operation is one of IEEE 754 on each number, so that all
+ * builds without AVX2 have the same bits. `madd` fuses a product and a sum where the instruction set can. */
 #ifndef CAROM_SRC_IMPACT_NODES_H
 #define CAROM_SRC_IMPACT_NODES_H
 
@@ -141,18 +141,24 @@ always void integrate(const part *f, part *out) {
 /* Replaces a matrix, given by columns, by its inverse: Gauss and Jordan's method without pivots. */
 always void invert(double (*matrix)[NODES]) {
 #define ROW(x, i) (((part_of_row *)(x))[i])
+  double diagonal = matrix[0][0];
   unrolled for (int k = 0; k < NODES; k++) {
-    /* what of row k every row gets: the entries of column k vanish, that of row k becomes 1 */
-    const double pivot = 1 / matrix[k][k];
-    EACH ROW(matrix[k], i) = ROW(matrix[k], i) * -pivot;
-    matrix[k][k] = pivot - 1;
+    /* what of row k every row gets: the entries of column k vanish, that of row k becomes 1. The next element of the diagonal
+     * comes first, as its division is what the next row waits for */
+    const double pivot = 1 / diagonal;
+    if (k + 1 < NODES)
+      diagonal = madd(splat(matrix[k][k + 1] * -pivot), splat(matrix[k + 1][k]), splat(matrix[k + 1][k + 1]))[0];
+    nodes column;
+    EACH column[i] = (part)ROW(matrix[k], i) * -pivot;
+    AT(column, k) = pivot - 1;
     for (int j = 0; j < NODES; j++)
       if (j != k) {
         const double row = matrix[j][k];
-        EACH ROW(matrix[j], i) = (part_of_row)madd(PART(matrix[k], i), splat(row), PART(matrix[j], i));
+        EACH ROW(matrix[j], i) = (part_of_row)madd(column[i], splat(row), PART(matrix[j], i));
       }
     /* column k of the inverse takes its place */
-    matrix[k][k] = pivot;
+    AT(column, k) = pivot;
+    EACH ROW(matrix[k], i) = (part_of_row)column[i];
   }
 #undef ROW
 }

@@ -13,6 +13,10 @@
  * and the same for dpsi: 16 linear equations with a column for each variable. Written with |a| instead of its inverse they
  * remain regular where a slip begins from zero. The end of the step follows by quadrature.
  *
+ * SHIFTS. Nothing depends on p itself, so y' is a solution too: that of a start a little later. Where a slip is small its
+ * direction, y' and dy turn fast, but most of dy is a shift, alpha y'. There dy = alpha y' + rest, with the alpha for which the
+ * rest of da is smallest, and only the rest is followed over the step.
+ *
  * EVENTS. Where a regime ends because a slip is zero, at p_s, friction changes, and so do the rates:
  *
  *     d p_s = -(u . da)/(u . a'),     dy+ = dy- + (y'- - y'+) d p_s,     da = 0 from there on.
@@ -91,15 +95,14 @@ void carom_variation_begin_regime(carom_trajectory *path) {
   if (g->regime == regime)
     return;
   g->regime = regime;
-  for (int n = 0; n < 3; n++) {
+  for (int c = BY_MU; c < CAROM_VARIABLES; c++) {
     carom_terms more, less;
-    if (!(g->asked >> CAROM_PARAMETER[n] & 1))
+    if (!(g->asked & CAROM_PARAMETERS & 1u << c))
       continue;
-    const double apart = changed_terms(path, CAROM_PARAMETER[n], &more, &less);
+    const double apart = changed_terms(path, (enum carom_variable)c, &more, &less);
     const double *high = (const double *)&more, *low = (const double *)&less;
-    double *d = (double *)&g->d_terms[n];
-    for (size_t k = 0; k < sizeof more / sizeof(double); k++)
-      d[k] = apart > 0 ? (high[k] - low[k]) / apart : 0;
+    for (size_t k = 0; k < sizeof g->d_terms / sizeof g->d_terms[0]; k++)
+      g->d_terms[k][c] = apart > 0 ? (high[k] - low[k]) / apart : 0;
   }
 }
 
@@ -111,15 +114,12 @@ void carom_variation_straight(carom_trajectory *path, const carom_point *before,
   for (int c = 0; c < CAROM_VARIABLES; c++)
     g->d[OF_W][c] += length * g->d[OF_V][c];
   carom_variation_begin_regime(path);
-  for (int n = 0; n < 3; n++)
-    if (g->asked >> CAROM_PARAMETER[n] & 1) {
-      const int c = (int)CAROM_PARAMETER[n];
-      const carom_terms *d = &g->d_terms[n];
-      const double by[5] = {0, d->A_0, 0, d->B_0, d->V_0};
-      for (int r = 0; r < 5; r++)
-        g->d[r][c] += length * by[r];
-      g->d[OF_W][c] += 0.5 * length * length * d->V_0;
-    }
+  static const size_t term[5] = {0, offsetof(carom_terms, A_0), 0, offsetof(carom_terms, B_0), offsetof(carom_terms, V_0)};
+  for (int c = BY_MU; c < CAROM_VARIABLES; c++) {
+    for (int r = 1; r < 5; r += r == 1 ? 2 : 1)
+      g->d[r][c] += length * g->d_terms[term[r] / sizeof(double)][c];
+    g->d[OF_W][c] += 0.5 * length * length * g->d_terms[term[OF_V] / sizeof(double)][c];
+  }
   carom_variation_leads(&path->at, none, g->lead);
   carom_variation_rates(&path->terms, g->lead, path->at.v, g->rate);
 }
@@ -256,6 +256,10 @@ static void differentiate(const carom_law *law, const carom_law *d_law, const do
         out->d[r][by] = (8 * (f[2][r] - f[1][r]) - (f[3][r] - f[0][r])) / (12 * h);
     }
   }
+  if (!(best < INFINITY) && tolerance < 1) {
+    differentiate(law, d_law, slips, 1, plain, by, out);
+    return;
+  }
   out->differences = true;
   out->error = fmax(out->error, best < INFINITY ? best : 1);
   out->kink |= !(best < 1e-4);
@@ -265,23 +269,22 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
                                         unsigned asked, carom_impact_tangent *out) {
   carom_trajectory path;
   carom_variation g;
+  begin(law, slips, TOLERANCE, plain, &path);
+  memset(&g, 0, sizeof g);
   memset(out, 0, sizeof *out);
-  /* near the frictions at which balls jam only the tolerance of the collision itself leaves a way to the end */
-  carom_status status = CAROM_ERROR_UNRESOLVED;
+  g.d_law = d_law;
+  g.asked = asked;
+  for (int c = BY_A_X; c <= BY_B_Y; c++)
+    g.d[c][c] = asked >> c & 1;
   double tolerance = TOLERANCE;
-  for (int attempt = 0; attempt < 2 && status == CAROM_ERROR_UNRESOLVED; attempt++) {
-    tolerance = attempt == 0 ? TOLERANCE : 1;
+  path.variation = &g;
+  carom_status status = carom_impact_advance(&path, INFINITY, 10 * CAROM_IMPACT_ITERATIONS);
+  if (status == CAROM_ERROR_UNRESOLVED) {
+    /* near the frictions at which balls jam only the tolerance of the impact itself leaves a way to the end */
+    tolerance = 1;
+    g.lost = true;
     begin(law, slips, tolerance, plain, &path);
-    memset(&g, 0, sizeof g);
-    g.d_law = d_law;
-    g.asked = asked;
-    for (int c = 0; c < CAROM_VARIABLES; c++)
-      if ((asked >> c & 1) && c != BY_E)
-        g.column[g.columns++] = c;
-    for (int c = BY_A_X; c <= BY_B_Y; c++)
-      g.d[c][c] = 1;
-    path.variation = &g;
-    status = carom_impact_advance(&path, INFINITY, 10 * CAROM_IMPACT_ITERATIONS);
+    status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
   }
   path.variation = NULL;
   out->q = carom_impact_impulses(&path);

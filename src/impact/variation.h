@@ -11,8 +11,8 @@
  */
 enum carom_variable { BY_A_X, BY_A_Y, BY_B_X, BY_B_Y, BY_MU, BY_MU_C, BY_E, BY_LAMBDA, CAROM_VARIABLES };
 
-/* The parameters on which rates depend. */
-static const enum carom_variable CAROM_PARAMETER[3] = {BY_MU, BY_MU_C, BY_LAMBDA};
+/* The variables on which rates depend. */
+enum { CAROM_PARAMETERS = 1 << BY_MU | 1 << BY_MU_C | 1 << BY_LAMBDA };
 
 /* A step as the solver took it, at the nodes: dp/dX, p from the beginning of the step, directions of the slips. */
 typedef struct carom_kept_step {
@@ -24,17 +24,17 @@ enum carom_varied { OF_A_X, OF_A_Y, OF_B_X, OF_B_Y, OF_V, OF_W, CAROM_VARIED };
 
 typedef struct carom_variation {
   carom_kept_step kept;
+  /* the derivatives of the coefficients of path->terms by the variables, for `regime` */
+  double d_terms[sizeof(carom_terms) / sizeof(double)][CAROM_VARIABLES];
+  double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: that of path->at; those by what is not asked are 0 */
   const carom_law *d_law;                  /* by lambda */
   unsigned asked;                          /* bit k: by variable k */
-  int columns, column[CAROM_VARIABLES];    /* the same as a list, but for e, which changes no rate */
-  int regime;                              /* for which d_terms are, */
-  carom_terms d_terms[3];                  /* the derivatives of path->terms by mu, mu_c and lambda */
-  double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: that of path->at; */
-  double d_p[CAROM_VARIABLES];             /* at the end that of where the impact ends, and then d are total ones */
-  double d_W_c[CAROM_VARIABLES];           /* of the work of compression */
-  double rate[CAROM_VARIED];               /* y' at the end of the last step, by its regime */
-  double lead[4];                          /* directions of a and b there */
-  bool lost;                               /* the equations do not say how it goes on: planar motion, a jammed ball */
+  int regime;
+  double d_p[CAROM_VARIABLES];   /* at the end that of where the impact ends, and then d are total ones */
+  double d_W_c[CAROM_VARIABLES]; /* of the work of compression */
+  double rate[CAROM_VARIED];     /* y' at the end of the last step, by its regime */
+  double lead[4];                /* directions of a and b there */
+  bool lost;                     /* the equations do not say how it goes on: planar motion, a jammed ball */
 } carom_variation;
 
 /* Impulses and their derivatives. */

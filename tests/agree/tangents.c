@@ -49,6 +49,10 @@ static const direction directions[DIRECTIONS] = {
     {OF_KIND, -1, 6, 1}, {OF_KIND, -1, 8, 0.85}, {OF_KIND, -1, 7, 0.2}, {OF_KIND, -1, 1, 0.0286},
 };
 
+/* Of the shots that the tables report. Tolerances of src/impact/variation_step.h were found on those of seeds 7 and 28. */
+enum { SEED = 29 };
+static const double NOTHING = 1e-10; /* a derivative that is rounding errors */
+
 /* With the terms of measured tables, or without. */
 static layout draw_with(random_source *random, bool terms) {
   layout l = draw(random, MOST_BALLS);
@@ -82,10 +86,10 @@ static const struct {
 
 START_TEST(shots_agree_with_differences) {
   const bool exact = models[_i].options.ball_model == CAROM_BALL_MODEL_DEFAULT;
-  random_source random = {7};
+  random_source random = {SEED};
   const carom_tangent_seeds seeds = seeds_of_all();
   static double errors[SHOTS * DIRECTIONS];
-  int pairs = 0, without = 0, wrong = 0;
+  int pairs = 0, without = 0, wrong = 0, by_differences = 0;
   precisely = exact;
   for (int k = 0; k < SHOTS; k++) {
     const layout l = draw_with(&random, models[_i].terms);
@@ -96,10 +100,11 @@ START_TEST(shots_agree_with_differences) {
     carom_tangent tangent = {.final = ends};
     ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &models[_i].options, &shot, &seeds, &tangent),
                      CAROM_OK);
+    by_differences += (tangent.all_flags & CAROM_TANGENT_DIFFERENCES) != 0;
     for (int j = 0; j < DIRECTIONS; j++) {
       const double most = largest(ends, NUMBERS * l.count, j, DIRECTIONS);
       double error = 0.0, plateau;
-      if (most == 0.0 ||
+      if (most < NOTHING ||
           !compare(table_of_pool(), &l, &models[_i].options, &shot, &directions[j], ends, j, DIRECTIONS, &error, &plateau)) {
         without++;
         continue;
@@ -117,8 +122,8 @@ START_TEST(shots_agree_with_differences) {
   printf("%-24s %4d pairs (%d without a plateau): error median %.1e, 90 %% %.1e, 99 %% %.1e, largest %.1e\n", models[_i].name,
          pairs, without, errors[pairs / 2], errors[pairs * 9 / 10], errors[pairs * 99 / 100], errors[pairs - 1]);
   ck_assert_int_gt(pairs, 1000);
-  /* two of exact cushions, without a flag: docs/understanding/gradients.md */
-  ck_assert_int_le(wrong, models[_i].options.cushion_model == CAROM_SHOT_CUSHION_MATHAVAN ? 2 : 0);
+  ck_assert_int_eq(wrong, 0);
+  ck_assert_int_le(by_differences, exact ? SHOTS / 50 : SHOTS);
   ck_assert_double_lt(errors[pairs / 2], 1e-8);
 }
 END_TEST
@@ -294,7 +299,7 @@ START_TEST(cushions_agree_with_differences) {
          carom_cushion_model_name(cushion_options.model), _i % 2 ? " by Han's law" : "", n, errors[n / 2], errors[n * 99 / 100],
          errors[n - 1]);
   ck_assert_int_gt(n, 3000);
-  ck_assert_double_lt(errors[n * 99 / 100], cushion_options.model == CAROM_CUSHION_MATHAVAN ? 2e-5 : 1e-7);
+  ck_assert_double_lt(errors[n * 99 / 100], cushion_options.model == CAROM_CUSHION_MATHAVAN ? 1e-6 : 1e-7);
 }
 END_TEST
 
