@@ -186,14 +186,14 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
 
 /* ---- From the start to the end ---- */
 
-static void begin(const carom_law *law, const double slips[4], int plain, carom_trajectory *path) {
-  carom_impact_begin(law, TOLERANCE, plain, slips[0], slips[1], slips[2], slips[3], path);
+static void begin(const carom_law *law, const double slips[4], double tolerance, int plain, carom_trajectory *path) {
+  carom_impact_begin(law, tolerance, plain, slips[0], slips[1], slips[2], slips[3], path);
 }
 
 /* The impulses, without derivatives. */
-static carom_status impulses_of(const carom_law *law, const double slips[4], int plain, double q[5]) {
+static carom_status impulses_of(const carom_law *law, const double slips[4], double tolerance, int plain, double q[5]) {
   carom_trajectory path;
-  begin(law, slips, plain, &path);
+  begin(law, slips, tolerance, plain, &path);
   const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
   const carom_impulses i = carom_impact_impulses(&path);
   memcpy(q, (const double[5]){i.p, i.f_x, i.f_y, i.F_x, i.F_y}, 5 * sizeof *q);
@@ -228,7 +228,7 @@ _Static_assert(sizeof(carom_law) == 17 * sizeof(double) && offsetof(carom_law, m
 
 /* Central differences of order 4 by one variable, with smaller steps where two orders differ. */
 __attribute__((noinline)) static void differentiate(const carom_law *law, const carom_law *d_law, const double slips[4],
-                                                    int plain, int by, carom_impact_tangent *out) {
+                                                    double tolerance, int plain, int by, carom_impact_tangent *out) {
   const double size = fmax(fmax(fabs(slips[0]), fabs(slips[1])), fmax(fabs(slips[2]), fabs(slips[3])));
   double h = by <= BY_B_Y ? 2e-3 * fmax(1, 0.01 * size) : by == BY_E ? 1e-3 : 1e-4, best = INFINITY;
   if (by == BY_MU || by == BY_MU_C)
@@ -243,7 +243,7 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
       carom_law l = *law;
       double x[4] = {slips[0], slips[1], slips[2], slips[3]};
       change(&l, d_law, x, by, steps[s] * h);
-      fine = impulses_of(&l, x, plain, f[s]) == CAROM_OK;
+      fine = impulses_of(&l, x, tolerance, plain, f[s]) == CAROM_OK;
     }
     for (int r = 0; r < 5 && fine; r++) {
       const double near = (f[2][r] - f[1][r]) / (2 * h), far = (f[3][r] - f[0][r]) / (4 * h);
@@ -255,6 +255,10 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
       for (int r = 0; r < 5; r++)
         out->d[r][by] = (8 * (f[2][r] - f[1][r]) - (f[3][r] - f[0][r])) / (12 * h);
     }
+  }
+  if (!(best < INFINITY) && tolerance < 1) {
+    differentiate(law, d_law, slips, 1, plain, by, out);
+    return;
   }
   out->differences = true;
   out->error = fmax(out->error, best < INFINITY ? best : 1);
@@ -299,15 +303,23 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
                                         unsigned asked, carom_impact_tangent *out) {
   carom_trajectory path;
   carom_variation g;
-  begin(law, slips, plain, &path);
+  begin(law, slips, TOLERANCE, plain, &path);
   memset(&g, 0, sizeof g);
   memset(out, 0, sizeof *out);
   g.d_law = d_law;
   g.asked = asked;
   for (int c = BY_A_X; c <= BY_B_Y; c++)
     g.d[c][c] = asked >> c & 1;
+  double tolerance = TOLERANCE;
   path.variation = &g;
-  const carom_status status = carom_impact_advance(&path, INFINITY, 10 * CAROM_IMPACT_ITERATIONS);
+  carom_status status = carom_impact_advance(&path, INFINITY, 10 * CAROM_IMPACT_ITERATIONS);
+  if (status == CAROM_ERROR_UNRESOLVED) {
+    /* near the frictions at which balls jam only the tolerance of the impact itself leaves a way to the end */
+    tolerance = 1;
+    g.lost = true;
+    begin(law, slips, tolerance, plain, &path);
+    status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
+  }
   path.variation = NULL;
   out->q = carom_impact_impulses(&path);
   if (status != CAROM_OK)
@@ -318,7 +330,7 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
     if (!(asked >> c & 1))
       continue;
     if (g.lost) {
-      differentiate(law, d_law, slips, plain, c, out);
+      differentiate(law, d_law, slips, tolerance, plain, c, out);
       continue;
     }
     impulses_by(&path, &g, c, out);

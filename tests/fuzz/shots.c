@@ -174,11 +174,12 @@ static bool is_play(const carom_cue *cue) {
   for (int k = 0; k < count && plays; k++) {
     const carom_ball_kind *const kind = &balls[k].kind;
     const carom_ball_state *const s = &balls[k].state;
-    plays = between(kind->mass, 0.05, 1) && between(kind->radius, 0.01, 0.1) && between(kind->gravity, 1, 20) &&
-            kind->mu_slide >= 1e-3 && kind->mu_roll >= 1e-4 && kind->mu_spin >= 1e-4 &&
+    plays = within((const double *)kind, sizeof *kind / sizeof(double), 1e6) && between(kind->mass, 0.05, 1) &&
+            between(kind->radius, 0.01, 0.1) && between(kind->gravity, 1, 20) && kind->mu_slide >= 1e-3 &&
+            kind->mu_roll >= 1e-4 && kind->mu_spin >= 1e-4 &&
             (kind->nose_height == 0 || between(kind->nose_height / kind->radius, 0.5, 1.8));
     for (int part = 0; part < table.rails && plays; part++)
-      plays = between(table.rail[part].height / kind->radius, 0.5, 1.8);
+      plays = between(table.rail[part].height / kind->radius, 0.5, 1.8) && within(&table.rail[part].mu_cushion, 2, 1e6);
     for (int c = 0; c < 3; c++)
       plays = plays && fabs(s->r[c]) < 10 && fabs(s->v[c]) < 20 && fabs(s->w[c]) < 1000;
   }
@@ -517,7 +518,7 @@ static void shots(void) {
 
   /* Derivatives of them, and the rest of a shot that was stopped. */
   if (choice(2) == 0)
-    check_tangents(&job, plays);
+    check_tangents(&job, plays && played);
   if (status > 0 || status == CAROM_ERROR_TOO_MANY_EVENTS)
     check_parts(&one, &many[0]);
   carom_motion struck;
