@@ -89,8 +89,8 @@ typedef struct carom_tangent {
  * one of this shot; CAROM_ERROR_TIME for times that are not finite or not ascending; CAROM_ERROR_SHOT_OPTIONS for a reserved
  * field; or an error of the table or of an option. CAROM_ERROR_TANGENT where derivatives are not known: in
  * CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, and by CAROM_BALL_MODEL_EULER. Or
- * CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved, or an error of a collision. Then every
- * number of `final` is NaN, and others may have been written. */
+ * CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved, CAROM_ERROR_OVERFLOW where a number of
+ * `final` is not finite, or an error of a collision. Then every number of `final` is NaN, and others may have been written. */
 CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls, int count,
                                           const carom_cue *cue, const carom_shot_options *opt, const carom_shot *shot,
                                           const carom_tangent_seeds *seeds, carom_tangent *tangent);

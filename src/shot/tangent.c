@@ -301,7 +301,10 @@ carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball 
       .table = table, .cue = cue, .opt = opt, .seeds = seeds, .count = count, .m = (int)seeds->directions, .slow_last = -1.0};
   if (status == CAROM_OK)
     status = differentiate(&w, balls, shot, tangent);
-  for (int64_t k = 0; status != CAROM_OK && k < (int64_t)count * CAROM_STATE_NUMBERS * seeds->directions; k++)
+  const int64_t finals = (int64_t)count * CAROM_STATE_NUMBERS * seeds->directions;
+  for (int64_t k = 0; status == CAROM_OK && k < finals; k++)
+    status = isfinite(tangent->final[k]) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+  for (int64_t k = 0; status != CAROM_OK && k < finals; k++)
     tangent->final[k] = NAN;
   return status;
 }

@@ -262,6 +262,22 @@ START_TEST(differences) {
 }
 END_TEST
 
+/* A derivative beyond the range of double is an error, and no number of the end is given. */
+START_TEST(overflow) {
+  layout l = of_two(0.9, 0.2);
+  l.cue.phi = 80.0;
+  carom_shot shot;
+  differentiate(&l, NULL, &by_phi, 1, &shot);
+  double cue[CAROM_CUE_NUMBERS] = {0};
+  cue[1] = DBL_MAX;
+  const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
+  carom_tangent t = {.final = ends};
+  ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, NULL, &shot, &seeds, &t), CAROM_ERROR_OVERFLOW);
+  for (int k = 0; k < NUMBERS * l.count; k++)
+    ck_assert(isnan(ends[k]));
+}
+END_TEST
+
 /* A cushion in steps, and one that the exact model refuses, so that its steps take its place. */
 START_TEST(euler) {
   const carom_shot_options steps = {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_EULER};
@@ -565,6 +581,6 @@ START_TEST(frictions_of_the_cloth) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("tangent_edges", grazing, simultaneous, slow, slow_in_space, differences, euler, kink, level_cue,
+  return RUN_TESTS("tangent_edges", grazing, simultaneous, slow, slow_in_space, differences, overflow, euler, kink, level_cue,
                    edges_of_flights, ends_of_flights, reach_beside_trial, frictions_of_the_cloth);
 }
