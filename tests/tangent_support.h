@@ -140,7 +140,8 @@ static inline const carom_table *table_of_pool(void) {
 static inline layout draw(random_source *random, int most) {
   layout l = {.count = 2 + (int)random_between(random, 0.0, most - 1.001), .cue = carom_cue_of(CAROM_GAME_POOL)};
   for (int i = 0; i < l.count;) {
-    l.ball[i] = ball_at(random_between(random, 0.05, 1.22), random_between(random, 0.05, 2.49));
+    const double y = random_between(random, 0.05, 2.49);
+    l.ball[i] = ball_at(random_between(random, 0.05, 1.22), y);
     bool alone = true;
     for (int j = 0; j < i; j++)
       alone &= hypot(l.ball[i].state.r[0] - l.ball[j].state.r[0], l.ball[i].state.r[1] - l.ball[j].state.r[1]) > 0.07;
