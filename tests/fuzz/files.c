@@ -31,8 +31,8 @@ static const struct {
     {command_trace, "csv", {"trace", "--samples", "5"}},
 };
 
-static char folder[] = "/tmp/carom-fuzz-XXXXXX";
-static char path[3][sizeof folder + 16]; /* by suffix */
+static char folder[] = "carom-fuzz-XXXXXX"; /* in the working folder */
+static char path[3][sizeof folder + 16];    /* by suffix */
 
 static void remove_files(void) {
   for (int k = 0; k < 3; k++)
