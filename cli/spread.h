@@ -5,8 +5,8 @@
 #include "shot_file.h"
 #include "values.h"
 
-/* Standard deviations of what a player does: speed (a share of the cue's), aim (degrees), and where the tip touches, to the
- * right and above (R, or tips). They are independent of each other. */
+/* Standard deviations of a player's errors, which are independent of each other. The speed's is a share of the cue's, that of
+ * the aim is in degrees; those of the tip to the right and above are in R, or in tips. */
 enum { ERROR_SPEED, ERROR_AIM, ERROR_RIGHT, ERROR_ABOVE, ERRORS };
 typedef struct player_error {
   bool given;

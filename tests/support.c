@@ -102,16 +102,28 @@ void edge_free(const edge *e) {
     munmap(e->base, e->size);
 }
 
-int run_tests(const char *name, const TTest *const *tests, size_t count) {
+static int run(const char *name, TCase *tcase, enum fork_status fork) {
   Suite *suite = suite_create(name);
-  TCase *tcase = tcase_create(name);
-  tcase_set_timeout(tcase, 240);
-  for (size_t k = 0; k < count; k++)
-    tcase_add_test(tcase, tests[k]);
   suite_add_tcase(suite, tcase);
   SRunner *runner = srunner_create(suite);
+  srunner_set_fork_status(runner, fork);
   srunner_run_all(runner, CK_NORMAL);
   const int failed = srunner_ntests_failed(runner);
   srunner_free(runner);
   return failed == 0 ? 0 : 1;
+}
+
+int run_tests(const char *name, const TTest *const *tests, size_t count) {
+  TCase *tcase = tcase_create(name);
+  tcase_set_timeout(tcase, 240);
+  for (size_t k = 0; k < count; k++)
+    tcase_add_test(tcase, tests[k]);
+  return run(name, tcase, CK_FORK_GETENV);
+}
+
+int run_looped(const char *name, const looped_test *tests, size_t count) {
+  TCase *tcase = tcase_create(name);
+  for (size_t k = 0; k < count; k++)
+    tcase_add_loop_test(tcase, tests[k].test, 0, tests[k].times);
+  return run(name, tcase, CK_NOFORK);
 }

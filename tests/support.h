@@ -41,6 +41,16 @@ void edge_free(const edge *e);
   for (int isa = 0; isa < CAROM_ISA_COUNT; isa++) \
     if (carom_isa_available((carom_isa)isa) && carom_isa_limit((carom_isa)isa) == (carom_isa)isa)
 
+/* A test that runs for each index from 0 on. */
+typedef struct looped_test {
+  const TTest *test;
+  int times;
+} looped_test;
+
+/* Runs tests in this process, so that later ones see what earlier ones left, and returns main's exit code. */
+int run_looped(const char *name, const looped_test *tests, size_t count);
+#define RUN_LOOPED(name, tests) run_looped(name, tests, sizeof(tests) / sizeof *(tests))
+
 /* Runs one test case and returns main's exit code. */
 int run_tests(const char *name, const TTest *const *tests, size_t count);
 #define RUN_TESTS(name, ...) \

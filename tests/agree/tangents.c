@@ -459,22 +459,15 @@ START_TEST(batches_have_the_bits_of_calls) {
 END_TEST
 
 int main(void) {
-  Suite *suite = suite_create("tangents");
-  TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 300);
-  tcase_add_loop_test(tests, shots_agree_with_differences, 0, (int)(sizeof models / sizeof models[0]));
-  tcase_add_loop_test(tests, cushions_agree_with_differences, 0, 8);
-  tcase_add_test(tests, collisions_agree_with_differences);
-  tcase_add_test(tests, pocketed_balls_do_not_change);
-  tcase_add_test(tests, states_at_times);
-  tcase_add_test(tests, what_is_not_known_is_refused);
-  tcase_add_test(tests, batches_have_the_bits_of_calls);
-  tcase_add_test(tests, costs);
-  suite_add_tcase(suite, tests);
-  SRunner *runner = srunner_create(suite);
-  srunner_set_fork_status(runner, CK_NOFORK);
-  srunner_run_all(runner, CK_NORMAL);
-  const int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
+  const looped_test tests[] = {
+      {shots_agree_with_differences, sizeof models / sizeof models[0]},
+      {cushions_agree_with_differences, 8},
+      {collisions_agree_with_differences, 1},
+      {pocketed_balls_do_not_change, 1},
+      {states_at_times, 1},
+      {what_is_not_known_is_refused, 1},
+      {batches_have_the_bits_of_calls, 1},
+      {costs, 1},
+  };
+  return RUN_LOOPED("tangents", tests);
 }

@@ -139,15 +139,6 @@ START_TEST(shots_agree_with_differences) {
 END_TEST
 
 int main(void) {
-  Suite *suite = suite_create("tangents_3d");
-  TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 300);
-  tcase_add_loop_test(tests, shots_agree_with_differences, 0, (int)(sizeof kinds / sizeof kinds[0]));
-  suite_add_tcase(suite, tests);
-  SRunner *runner = srunner_create(suite);
-  srunner_set_fork_status(runner, CK_NOFORK);
-  srunner_run_all(runner, CK_NORMAL);
-  const int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
+  const looped_test tests[] = {{shots_agree_with_differences, sizeof kinds / sizeof kinds[0]}};
+  return RUN_LOOPED("tangents_3d", tests);
 }

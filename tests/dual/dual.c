@@ -589,17 +589,7 @@ END_TEST
 int main(void) {
   for (int k = 0; k < KINDS; k++)
     all[k].of = malloc(MOST_ERRORS * sizeof *all[k].of);
-  Suite *suite = suite_create("dual");
-  TCase *tests = tcase_create("all");
-  tcase_set_timeout(tests, 300);
-  tcase_add_loop_test(tests, shots_agree_with_dual_numbers, 0, SETTINGS);
-  tcase_add_loop_test(tests, cushions_agree_with_dual_numbers, 0, 2 * CUSHIONS);
-  tcase_add_test(tests, everything_took_part);
-  suite_add_tcase(suite, tests);
-  SRunner *runner = srunner_create(suite);
-  srunner_set_fork_status(runner, CK_NOFORK);
-  srunner_run_all(runner, CK_NORMAL);
-  const int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
+  const looped_test tests[] = {
+      {shots_agree_with_dual_numbers, SETTINGS}, {cushions_agree_with_dual_numbers, 2 * CUSHIONS}, {everything_took_part, 1}};
+  return RUN_LOOPED("dual", tests);
 }
