@@ -3,7 +3,7 @@
  * EXACT. The collision depends on nine numbers (reduced.h): slips u and d, v_n, kappa, mu, mu_b, e. Its integrals are |v_n|
  * times functions of the slips over |v_n|, whose derivatives src/impact has. All else is linear.
  *
- * INELASTIC, MIRROR and slow contacts are closed forms (shot/models.c, shot/resolve.c), differentiated line by line. */
+ * INELASTIC and MIRROR are closed forms (shot/models.c), differentiated line by line. */
 #include "ball_ball/tangent.h"
 #include "ball_ball/frame.h"
 #include "ball_ball/reduced.h"
@@ -177,52 +177,6 @@ void carom_inelastic_balls_tangent(const double in[CAROM_BALLS_INS], int m, caro
     ob[OF_W_X][j] += 2.5 * of_up;
     oa[OF_W_Z][j] -= 2.5 * of_along;
     ob[OF_W_Z][j] -= 2.5 * of_along;
-  }
-}
-
-void carom_slow_balls_tangent(const double in[CAROM_BALLS_INS], double slow, int m, carom_row din[CAROM_BALLS_INS],
-                              carom_row dout[CAROM_BALLS_OUTS]) {
-  const double m_a = in[BALLS_M_A], m_b = in[BALLS_M_B], reduced = m_a * m_b / (m_a + m_b);
-  const double closing = in[OF_V_Y] - in[CAROM_BALL_INS + OF_V_Y];
-  carom_row *o[2] = {dout, dout + CAROM_BALL_INS};
-  /* the energy of the spins, and what the parting takes of it: resolve.c */
-  double W[2][3], energy = 0;
-  for (int k = 0; k < 2; k++) {
-    const double *b = in + k * CAROM_BALL_INS, mass = k == 0 ? m_a : m_b;
-    W[k][0] = b[OF_C_Y] - b[OF_V_Y];
-    W[k][1] = b[OF_V_X] - b[OF_C_X];
-    W[k][2] = b[OF_W_Z];
-    energy += 0.2 * mass * (W[k][0] * W[k][0] + W[k][1] * W[k][1] + W[k][2] * W[k][2]);
-    to_spins(m, din + k * CAROM_BALL_INS, o[k]);
-  }
-  const double want = 0.5 * reduced * (slow * slow - closing * closing), taken = fmin(want, 0.5 * energy);
-  const bool takes = taken > 0, all = want <= 0.5 * energy;
-  const double share = takes ? sqrt(1.0 - taken / energy) : 1.0;
-  const double parts = takes ? sqrt(closing * closing + 2.0 * taken / reduced) : fmax(closing, 0.0);
-  for (int j = 0; j < m; j++) {
-    const double dm_a = din[BALLS_M_A][j], dm_b = din[BALLS_M_B][j];
-    const double d_reduced = reduced * reduced * (dm_a / (m_a * m_a) + dm_b / (m_b * m_b));
-    const double d_closing = din[OF_V_Y][j] - din[CAROM_BALL_INS + OF_V_Y][j];
-    double d_parts = closing > 0 ? d_closing : 0;
-    if (takes) {
-      double d_energy = 0;
-      for (int k = 0; k < 2; k++) {
-        const double mass = k == 0 ? m_a : m_b, dm = k == 0 ? dm_a : dm_b;
-        for (int i = 0; i < 3; i++)
-          d_energy += 0.2 * W[k][i] * (dm * W[k][i] + 2 * mass * o[k][OF_W_X + i][j]);
-      }
-      const double d_taken =
-          all ? 0.5 * d_reduced * (slow * slow - closing * closing) - reduced * closing * d_closing : 0.5 * d_energy;
-      const double d_share = -0.5 / share * (d_taken - taken / energy * d_energy) / energy;
-      d_parts = (closing * d_closing + d_taken / reduced - taken / (reduced * reduced) * d_reduced) / parts;
-      for (int k = 0; k < 2; k++)
-        for (int i = 0; i < 3; i++)
-          o[k][OF_W_X + i][j] = share * o[k][OF_W_X + i][j] + d_share * W[k][i];
-    }
-    /* P over each mass */
-    const double d_speed = d_closing + d_parts, speed = closing + parts;
-    o[0][OF_V_Y][j] -= reduced / m_a * d_speed + speed * (d_reduced / m_a - reduced / (m_a * m_a) * dm_a);
-    o[1][OF_V_Y][j] += reduced / m_b * d_speed + speed * (d_reduced / m_b - reduced / (m_b * m_b) * dm_b);
   }
 }
 

@@ -15,8 +15,5 @@ void carom_inelastic_balls_tangent(const double in[CAROM_BALLS_INS], int m, caro
                                    carom_row dout[CAROM_BALLS_OUTS], carom_tangent_note *note);
 void carom_mirror_balls_tangent(const double in[CAROM_BALLS_INS], int m, carom_row din[CAROM_BALLS_INS],
                                 carom_row dout[CAROM_BALLS_OUTS]);
-/* A slow contact, which parts at `slow` or less. */
-void carom_slow_balls_tangent(const double in[CAROM_BALLS_INS], double slow, int m, carom_row din[CAROM_BALLS_INS],
-                              carom_row dout[CAROM_BALLS_OUTS]);
 
 #endif

@@ -3,7 +3,7 @@
  * MATHAVAN. The impulses are v_y times functions of the slips over v_y, of the frictions, e and sin(theta), whose derivatives
  * src/impact has; carom_push() is linear in them, with coefficients of theta.
  *
- * HAN, MIRROR and slow contacts are closed forms (closed.c, shot/resolve.c), differentiated line by line. STRONGE changes the
+ * HAN and MIRROR are closed forms (closed.c), differentiated line by line. STRONGE changes the
  * slip at the nose to v_n S(rho, mu, e, ratio), rho = |slip|/v_n: the four derivatives of S are central differences of order 4
  * of the closed form, whose error is about 1e-11. EULER's steps are differentiated by central differences of the whole impact.
  */
@@ -310,36 +310,6 @@ carom_status carom_nose_tangent(const double in[CAROM_NOSE_INS], const carom_cus
     break;
   }
   return status;
-}
-
-void carom_slow_nose_tangent(double q[CAROM_BALL_INS], double slow, int m, carom_row d[CAROM_BALL_INS]) {
-  /* masses cancel: energies over the mass */
-  const double closing = q[OF_V_Y], energy = 0.2 * (q[OF_W_X] * q[OF_W_X] + q[OF_W_Y] * q[OF_W_Y] + q[OF_W_Z] * q[OF_W_Z]);
-  if (closing >= slow) { /* left moving into the cushion, and parts at `slow` */
-    for (int j = 0; j < m; j++)
-      d[OF_V_Y][j] = 0;
-    q[OF_V_Y] = -slow;
-    return;
-  }
-  const double want = 0.5 * (slow * slow - closing * closing), taken = fmin(want, 0.5 * energy);
-  const bool takes = taken > 0, all = want <= 0.5 * energy;
-  const double share = takes ? sqrt(1.0 - taken / energy) : 1.0;
-  const double parts = takes ? sqrt(closing * closing + 2.0 * taken) : fmax(closing, 0.0);
-  for (int j = 0; j < m; j++) {
-    double d_parts = closing > 0 ? d[OF_V_Y][j] : 0;
-    if (takes) {
-      const double d_energy = 0.4 * (q[OF_W_X] * d[OF_W_X][j] + q[OF_W_Y] * d[OF_W_Y][j] + q[OF_W_Z] * d[OF_W_Z][j]);
-      const double d_taken = all ? -closing * d[OF_V_Y][j] : 0.5 * d_energy;
-      const double d_share = -0.5 / share * (d_taken - taken / energy * d_energy) / energy;
-      d_parts = (closing * d[OF_V_Y][j] + d_taken) / parts;
-      for (int k = OF_W_X; k <= OF_W_Z; k++)
-        d[k][j] = share * d[k][j] + d_share * q[k];
-    }
-    d[OF_V_Y][j] = -d_parts;
-  }
-  for (int k = OF_W_X; k <= OF_W_Z; k++)
-    q[k] *= share;
-  q[OF_V_Y] = -parts;
 }
 
 /* ---- The public call ---- */

@@ -12,7 +12,5 @@ enum { NOSE_MU_S = CAROM_BALL_INS, NOSE_MU_W, NOSE_E, NOSE_SINE, NOSE_RATIO, CAR
 carom_status carom_nose_tangent(const double in[CAROM_NOSE_INS], const carom_cushion_options *opt, int m,
                                 carom_row din[CAROM_NOSE_INS], carom_row dout[CAROM_BALL_INS], double out[CAROM_BALL_INS],
                                 carom_tangent_note *note);
-/* A slow contact of a ball whose motion is in the order of `after`; changes it and its tangents. */
-void carom_slow_nose_tangent(double motion[CAROM_BALL_INS], double slow, int m, carom_row d[CAROM_BALL_INS]);
 
 #endif

@@ -267,7 +267,7 @@ static void update_rows(carom_sim *sim, int i) {
  * be 1e-6 m off. */
 __attribute__((noinline, cold)) static void take_height(carom_sim *sim, int i) {
   const carom_path *path = &sim->path[i];
-  const bool flies = path->from.label == CAROM_BALL_AIRBORNE;
+  const bool flies = carom_flies(&path->from);
   sim->flying += flies - (sim->a_z[i] != 0.0);
   sim->z[i] = flies ? path->from.r[2] : sim->rates[i].radius;
   sim->v_z[i] = flies ? path->from.v[2] : 0.0;
@@ -300,7 +300,7 @@ static void take_path(carom_sim *sim, int i) {
   sim->horizon[i] = carom_is_out(path->from.label) ? -INFINITY : INFINITY;
   if (!translates)
     return;
-  if (path->from.label == CAROM_BALL_AIRBORNE) {
+  if (carom_flies(&path->from)) {
     sim->meeting[i] = meet_in_flight(sim, i);
   } else {
     const motion m = motion_now(sim, i);

@@ -23,7 +23,7 @@ static int type_of_end(const carom_sim *sim, int i) {
     return CAROM_EVENT_SLIDING_ROLLING;
   if (path->from.label == CAROM_BALL_SPINNING)
     return CAROM_EVENT_SPINNING_STATIONARY;
-  if (path->from.label == CAROM_BALL_AIRBORNE)
+  if (carom_flies(&path->from))
     return CAROM_EVENT_SLATE;
   if (path->goes_on)
     return CAROM_DUE_PIECE;

@@ -94,7 +94,7 @@ static void turn_until(double q[4], carom_path *path, const carom_ball_rates *ra
     const double kink = path->start + fabs(path->from.w[2]) / rates->spin;
     double from = path->start;
     carom_ball_state a = path->from, b;
-    if (kink > from && kink < end && path->from.label != CAROM_BALL_AIRBORNE) {
+    if (kink > from && kink < end && !carom_flies(&path->from)) {
       carom_path_at(path, rates, kink, &b);
       turn_interval(q, a.w, b.w, kink - from);
       a = b;

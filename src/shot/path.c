@@ -126,7 +126,7 @@ void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double
   const double tau = time - path->start;
   if (state->label == CAROM_BALL_STATIONARY || carom_is_out(state->label) || !(tau > 0.0))
     return;
-  if (state->label == CAROM_BALL_AIRBORNE) {
+  if (carom_flies(state)) {
     for (int k = 0; k < 3; k++) {
       state->r[k] += tau * (state->v[k] + tau * path->a[k]);
       state->v[k] += 2.0 * tau * path->a[k];

@@ -94,6 +94,10 @@ int64_t carom_label_of(carom_ball_state *state, double radius);
  * rounding on the cloth, less than 1e-9 m/s, lies on it. */
 int64_t carom_label_in_space(carom_ball_state *state, double radius);
 
+static inline bool carom_flies(const carom_ball_state *s) {
+  return s->label == CAROM_BALL_AIRBORNE;
+}
+
 /* Whether a ball of a layout is airborne, unless it is out of play: by its label, or as it moves up or down or is more than
  * 1e-6 m above the cloth. */
 static inline bool carom_flies_in_layout(const carom_ball_state *s, double radius) {

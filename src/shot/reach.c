@@ -130,10 +130,6 @@ static void search(carom_reach *reach, const carom_tangent_ball *ball, const car
   }
 }
 
-static bool flies(const carom_path *path) {
-  return path->from.label == CAROM_BALL_AIRBORNE;
-}
-
 /* Place, velocity and half the acceleration of a ball at a time; on the cloth, at the height of its radius. */
 static void motion_at(const carom_tangent_ball *ball, double time, double r[3], double v[3], double a[3]) {
   const carom_path *path = &ball->path;
@@ -144,7 +140,7 @@ static void motion_at(const carom_tangent_ball *ball, double time, double r[3], 
     v[k] = moves ? path->from.v[k] + 2.0 * tau * path->a[k] : 0.0;
     a[k] = moves ? path->a[k] : 0.0;
   }
-  if (!flies(path))
+  if (!carom_flies(&path->from))
     r[2] = ball->kind->radius;
 }
 
@@ -237,7 +233,7 @@ static void misses_of(carom_reach *reach, int i, const carom_event *event) {
     const separation s = between(ball, other, NULL, NAN, from);
     search(reach, ball, other, &s, event->time - from, ball->kind->radius + other->kind->radius, stops, NULL);
   }
-  if (flies(&ball->path))
+  if (carom_flies(&ball->path.from))
     noses_missed(reach, ball, event);
   else if (moves)
     cushions_missed(reach, ball, event, stops);
@@ -281,14 +277,13 @@ static hit hit_of(const carom_reach *reach, const carom_event *event, carom_row 
   const carom_ball_kind *kind = w->ball[event->a].kind;
   const carom_ball_state *a = &event->before[0], *b = &event->before[1];
   const bool two = event->type == CAROM_EVENT_BALL_BALL, is_jaw = event->type == CAROM_EVENT_JAW;
-  const bool in_flight = a->label == CAROM_BALL_AIRBORNE, at_nose = in_flight && (is_jaw || event->type == CAROM_EVENT_RAIL);
+  const bool in_flight = carom_flies(a), at_nose = in_flight && (is_jaw || event->type == CAROM_EVENT_RAIL);
   hit h = {.r = 0.0};
   double to[2];
   if (two) {
     memcpy(to, b->r, sizeof to);
     h.r = kind->radius + w->ball[event->b].kind->radius;
-    h.d[2] =
-        (b->label == CAROM_BALL_AIRBORNE ? b->r[2] : w->ball[event->b].kind->radius) - (in_flight ? a->r[2] : kind->radius);
+    h.d[2] = (carom_flies(b) ? b->r[2] : w->ball[event->b].kind->radius) - (in_flight ? a->r[2] : kind->radius);
   } else if (is_jaw) {
     const carom_jaw *jaw = &table->jaw[event->b];
     memcpy(to, jaw->centre, sizeof to);
@@ -397,7 +392,7 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event, 
   }
   if (event->type == CAROM_EVENT_SLATE)
     take_landing(reach, event, d[0]);
-  const bool on_cloth = event->before[0].label != CAROM_BALL_AIRBORNE;
+  const bool on_cloth = !carom_flies(&event->before[0]);
   if (event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW || (event->type == CAROM_EVENT_POCKET && on_cloth))
     take_rails(reach, event, d[0]);
   for (int j = 0; j < m; j++) {

@@ -128,15 +128,11 @@ static double part_slowly(const contact *c, double s, double m, double closing, 
   return sqrt(closing * closing + 2.0 * taken / m);
 }
 
-static bool flies(const carom_ball_state *s) {
-  return s->label == CAROM_BALL_AIRBORNE;
-}
-
 void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a, const carom_ball_kind *kind_b,
                            const carom_ball_state *b, double n[3]) {
   n[0] = b->r[0] - a->r[0];
   n[1] = b->r[1] - a->r[1];
-  n[2] = (flies(b) ? b->r[2] : kind_b->radius) - (flies(a) ? a->r[2] : kind_a->radius);
+  n[2] = (carom_flies(b) ? b->r[2] : kind_b->radius) - (carom_flies(a) ? a->r[2] : kind_a->radius);
   const double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   for (int k = 0; k < 3; k++)
     n[k] /= size;
@@ -148,14 +144,14 @@ static void label_after(bool in_space, const carom_ball_kind *kind, carom_ball_s
     carom_label_of(s, kind->radius);
     return;
   }
-  if (!flies(s))
+  if (!carom_flies(s))
     s->r[2] = kind->radius;
   carom_label_in_space(s, kind->radius);
 }
 
 carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b) {
   const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
-  const bool in_space = flies(a) || flies(b) || kind_a->radius != kind_b->radius;
+  const bool in_space = carom_flies(a) || carom_flies(b) || kind_a->radius != kind_b->radius;
   double n[3], closing = 0.0;
   carom_line_of_centres(kind_a, a, kind_b, b, n);
   for (int k = 0; k < 3; k++)
@@ -173,8 +169,8 @@ carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state 
                        .a = a,
                        .b = b,
                        .n = n,
-                       .held_a = in_space && !flies(a) && n[2] > 0.0,
-                       .held_b = in_space && !flies(b) && n[2] < 0.0};
+                       .held_a = in_space && !carom_flies(a) && n[2] > 0.0,
+                       .held_b = in_space && !carom_flies(b) && n[2] < 0.0};
     const double level = n[0] * n[0] + n[1] * n[1];
     const double m = c.held_a || c.held_b ? 1.0 / (level * mobility(&c, 0) + n[2] * n[2] * mobility(&c, 2))
                                           : kind_a->mass * kind_b->mass / (kind_a->mass + kind_b->mass);
@@ -188,7 +184,7 @@ carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state 
 carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *s) {
   const carom_ball_kind *kind = &sim->ball[i].kind;
   const carom_nose nose = carom_nose_of(sim->table, due);
-  const bool in_space = flies(s);
+  const bool in_space = carom_flies(s);
   double n[3] = {0.0};
   if (in_space) {
     carom_into_nose(sim, kind, due->type, due->b, s->r, n);

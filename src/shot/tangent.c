@@ -18,12 +18,6 @@ void carom_tangent_total(work *w, int side) {
       w->d[side][k][j] += w->rate[side][k] * w->d_time[j];
 }
 
-void carom_tangent_slow(work *w, double time) {
-  w->slow_instants += time > w->slow_last;
-  w->slow_last = time;
-  w->note.flags |= CAROM_TANGENT_SLOW;
-}
-
 /* ---- From event to event ---- */
 
 /* Tangents into rows of m of the caller's. */
@@ -59,7 +53,7 @@ static void fix_time(work *w, int i, int side) {
 
 /* A ball that is about to land, and whose landing may come before or after another event of this instant. */
 static bool lands_now(const carom_tangent_ball *ball, double time) {
-  return ball->path.from.label == CAROM_BALL_AIRBORNE && ball->path.end - time < SIMULTANEOUS;
+  return carom_flies(&ball->path.from) && ball->path.end - time < SIMULTANEOUS;
 }
 
 /* Contacts so close that a small change reverses their order. A ball that is pressed into the slate lands in the same instant,
@@ -96,15 +90,14 @@ static carom_status follow(work *w, const carom_event *event) {
       (two && b->path.from.label == CAROM_BALL_ROLLING && b->kind->drag > 0.0))
     w->note.flags |= CAROM_TANGENT_DRAG;
   note_order(w, event);
-  const bool in_space = event->before[0].label == CAROM_BALL_AIRBORNE;
+  const bool in_space = carom_flies(&event->before[0]);
   switch (event->type) {
   case CAROM_EVENT_STRIKE:
     carom_tangent_strike(w, event);
     return rises(w) ? carom_tangent_level_strike(w, event) : CAROM_OK;
   case CAROM_EVENT_BALL_BALL:
-    return (in_space || event->before[1].label == CAROM_BALL_AIRBORNE || a->kind->radius != b->kind->radius
-                ? carom_tangent_spheres
-                : carom_tangent_balls)(w, event);
+    return (in_space || carom_flies(&event->before[1]) || a->kind->radius != b->kind->radius ? carom_tangent_spheres
+                                                                                             : carom_tangent_balls)(w, event);
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:
     return (in_space ? carom_tangent_nose_in_flight : carom_tangent_cushion)(w, event);

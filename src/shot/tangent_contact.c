@@ -2,7 +2,7 @@
  */
 #include "cushion/tangent.h"
 #include "platform/elementary.h"
-#include "shot/tangent_work.h"
+#include "shot/tangent_free.h"
 
 #include <math.h>
 #include <string.h>
@@ -72,6 +72,15 @@ carom_status carom_tangent_balls(carom_tangent_work *w, const carom_event *event
     turn[j] = -(c * (w->d[1][S_X][j] - w->d[0][S_X][j]) + s * (w->d[1][S_Y][j] - w->d[0][S_Y][j])) / distance;
   if (closing < CAROM_GRAZING * sqrt(v_x * v_x + v_y * v_y))
     w->note.flags |= CAROM_TANGENT_GRAZING;
+  if (closing < carom_slow_speed(w->slow_instants)) {
+    carom_normal at = {.N = {y_x, y_y}};
+    for (int j = 0; j < m; j++) {
+      at.dN[0][j] = -turn[j] * c;
+      at.dN[1][j] = -turn[j] * s;
+    }
+    carom_tangent_part_balls(w, event, &at, false);
+    return CAROM_OK;
+  }
   /* in the frame */
   double in[CAROM_BALLS_INS];
   carom_row din[CAROM_BALLS_INS], dout[CAROM_BALLS_OUTS];
@@ -92,11 +101,7 @@ carom_status carom_tangent_balls(carom_tangent_work *w, const carom_event *event
   }
   /* the contact */
   carom_status status = CAROM_OK;
-  const double slow = carom_slow_speed(w->slow_instants);
-  if (closing < slow) {
-    carom_tangent_slow(w, event->time);
-    carom_slow_balls_tangent(in, slow, m, din, dout);
-  } else if (w->opt->ball_model == CAROM_BALL_MODEL_MIRROR) {
+  if (w->opt->ball_model == CAROM_BALL_MODEL_MIRROR) {
     carom_mirror_balls_tangent(in, m, din, dout);
   } else {
     friction(w, event, in, din);
@@ -211,9 +216,19 @@ static void stay(const double in[CAROM_NOSE_INS], int m, carom_row din[CAROM_NOS
   }
 }
 
-carom_status carom_tangent_flat_nose(carom_tangent_work *w, const carom_event *event, const double normal[2], double height,
-                                     const double *in, carom_row *din, double *out, carom_row *dout) {
+carom_status carom_tangent_flat_nose(carom_tangent_work *w, const carom_event *event, const carom_normal *into, bool rolls,
+                                     double height, double *in, carom_row *din, double v[3], double spin[3], carom_row d[5]) {
   const carom_tangent_ball *ball = &w->ball[event->a];
+  const carom_ball_state *before = &event->before[0];
+  const double *N = into->N, R = ball->kind->radius, size = sqrt(N[0] * N[0] + N[1] * N[1]);
+  const double normal[2] = {N[0] / size, N[1] / size}, c = normal[1], s = -normal[0];
+  const double *dR = carom_seeds_row(ball->d_kind, CAROM_KIND_ROW(radius), w->m);
+  double out[CAROM_BALL_INS];
+  carom_row turn, dout[CAROM_BALL_INS];
+  for (int j = 0; j < w->m; j++)
+    turn[j] = -(c * into->dN[0][j] + s * into->dN[1][j]) / size;
+  carom_tangent_to_frame(before->v, before->w, R, c, s, rolls, w->m, turn, dR, w->d[0] + S_V_X, in, din);
+  /* the model */
   carom_cushion_options options = {.steps = w->opt->steps, .plain = w->opt->plain, .omega_ratio = in[NOSE_RATIO]};
   const carom_shot_cushion asked = w->opt->cushion_model;
   options.model = asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1) : CAROM_CUSHION_HAN;
@@ -229,54 +244,59 @@ carom_status carom_tangent_flat_nose(carom_tangent_work *w, const carom_event *e
     }
   }
   lose_roll(ball, in[OF_V_X], din[OF_V_X], w->m, out, dout);
+  /* back in the axes of the table */
+  v[0] = c * out[OF_V_X] - s * out[OF_V_Y];
+  v[1] = s * out[OF_V_X] + c * out[OF_V_Y];
+  spin[0] = (c * out[OF_W_X] - s * out[OF_W_Y]) / R;
+  spin[1] = (s * out[OF_W_X] + c * out[OF_W_Y]) / R;
+  spin[2] = out[OF_W_Z] / R;
+  carom_tangent_from_frame(v, spin, R, c, s, w->m, turn, dR, dout, d);
   return status;
 }
 
 carom_status carom_tangent_cushion(carom_tangent_work *w, const carom_event *event) {
-  const int m = w->m;
   const carom_tangent_ball *ball = &w->ball[event->a];
   const carom_ball_state *before = &event->before[0];
-  const double R = ball->kind->radius;
-  double in[CAROM_NOSE_INS], out[CAROM_BALL_INS];
-  carom_row din[CAROM_NOSE_INS], dout[CAROM_BALL_INS];
+  double in[CAROM_NOSE_INS];
+  carom_row din[CAROM_NOSE_INS];
   carom_tangent_nose nose;
   carom_tangent_nose_of(w, event, &nose, in, din);
   /* the direction into the cushion */
-  double line[3], y_x, y_y, distance = INFINITY;
+  carom_normal into = {.N = {0.0}};
+  double *N = into.N, distance = INFINITY;
   if (event->type == CAROM_EVENT_RAIL) {
+    double line[3];
     carom_rail_line(&w->table->rail[event->b], line);
-    y_x = -line[0];
-    y_y = -line[1];
+    N[0] = -line[0];
+    N[1] = -line[1];
   } else {
     const carom_jaw *jaw = &w->table->jaw[event->b];
     const double x = jaw->centre[0] - before->r[0], y = jaw->centre[1] - before->r[1];
     distance = sqrt(x * x + y * y);
-    y_x = x / distance;
-    y_y = y / distance;
+    N[0] = x / distance;
+    N[1] = y / distance;
   }
-  const double c = y_y, s = -y_x, closing = before->v[0] * y_x + before->v[1] * y_y;
-  carom_row turn;
-  for (int j = 0; j < m; j++)
-    w->d_time[j] = -(y_x * w->d[0][S_X][j] + y_y * w->d[0][S_Y][j] + nose.d_reach[j]) / closing;
+  const double closing = carom_dot(before->v, N);
+  for (int j = 0; j < w->m; j++)
+    w->d_time[j] = -(N[0] * w->d[0][S_X][j] + N[1] * w->d[0][S_Y][j] + nose.d_reach[j]) / closing;
   carom_tangent_total(w, 0);
-  for (int j = 0; j < m; j++)
-    turn[j] = (c * w->d[0][S_X][j] + s * w->d[0][S_Y][j]) / distance;
-  if (closing < CAROM_GRAZING * sqrt(before->v[0] * before->v[0] + before->v[1] * before->v[1]))
-    w->note.flags |= CAROM_TANGENT_GRAZING;
-  /* in the frame: the contact, as carom_resolve_cushion() decides it */
-  const double *dR = carom_seeds_row(ball->d_kind, CAROM_KIND_ROW(radius), m);
-  carom_tangent_to_frame(before->v, before->w, R, c, s, ball->path.from.label != CAROM_BALL_SLIDING, m, turn, dR,
-                         w->d[0] + S_V_X, in, din);
-  const double slow = carom_slow_speed(w->slow_instants), normal[2] = {y_x, y_y};
-  carom_status status = CAROM_OK;
-  if (closing >= slow)
-    status = carom_tangent_flat_nose(w, event, normal, nose.height, in, din, out, dout);
-  else
-    stay(in, m, din, out, dout);
-  if (closing < slow || out[OF_V_Y] > 0.0) {
-    carom_tangent_slow(w, event->time);
-    carom_slow_nose_tangent(out, slow, m, dout);
+  for (int j = 0; j < w->m; j++) {
+    const double turns = (N[1] * w->d[0][S_X][j] - N[0] * w->d[0][S_Y][j]) / distance;
+    into.dN[0][j] = -turns * N[1];
+    into.dN[1][j] = turns * N[0];
   }
-  carom_tangent_from_frame(event->after[0].v, event->after[0].w, R, c, s, m, turn, dR, dout, w->d[0] + S_V_X);
+  if (closing < CAROM_GRAZING * sqrt(carom_dot(before->v, before->v)))
+    w->note.flags |= CAROM_TANGENT_GRAZING;
+  /* as carom_resolve_cushion() decides it */
+  double v[1][3], spin[1][3];
+  memcpy(v[0], before->v, sizeof v[0]);
+  memcpy(spin[0], before->w, sizeof spin[0]);
+  carom_status status = CAROM_OK;
+  const bool slow = closing < carom_slow_speed(w->slow_instants);
+  if (!slow)
+    status = carom_tangent_flat_nose(w, event, &into, ball->path.from.label != CAROM_BALL_SLIDING, nose.height, in, din, v[0],
+                                     spin[0], w->d[0] + S_V_X);
+  if (slow || carom_dot(v[0], N) > 0.0)
+    carom_tangent_part(w, event, 1, &into, false, (const double(*)[3])v, (const double(*)[3])spin);
   return status;
 }

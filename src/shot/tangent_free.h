@@ -1,4 +1,4 @@
-/* Impacts in space with tangents: tangent_free.c has the equations. */
+/* Impacts by their normals with tangents, in space (tangent_free.c has the equations) and on the cloth. */
 #ifndef CAROM_SRC_SHOT_TANGENT_FREE_H
 #define CAROM_SRC_SHOT_TANGENT_FREE_H
 
@@ -11,9 +11,6 @@ static const int CAROM_S_R[3] = {S_X, S_Y, S_Z}, CAROM_S_V[3] = {S_V_X, S_V_Y, S
 
 static inline double carom_dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-static inline bool carom_flies(const carom_ball_state *s) {
-  return s->label == CAROM_BALL_AIRBORNE;
 }
 
 /* How the unit vector into what is touched lies and turns. */
@@ -47,9 +44,17 @@ void carom_free_torque(const carom_free_touch *t, int j, double there[3], double
 /* Takes the impulses from a ball that is alone. */
 void carom_take_free(carom_tangent_work *w, const carom_tangent_ball *ball, const carom_free_touch *t);
 
-/* The rule of slow contacts in space, part_slowly() of resolve.c, for one ball at a nose or two balls. v, spin: motions before,
- * whose tangents are in w->d. */
-void carom_part_in_space(carom_tangent_work *w, const carom_event *event, int bodies, const carom_normal *at, double slow,
-                         const double (*v)[3], const double (*spin)[3]);
+/* tangent_contact.c. The impact of a ball on a cushion by the flat model of the shot, without the rule of slow contacts: the
+ * motion after it, v_x, v_y and the spin, with their tangents d. into: along the normal, whose part across the table counts;
+ * `in`, din: the numbers of the nose, for which this writes those of the ball; rolls: as in carom_tangent_to_frame(). */
+carom_status carom_tangent_flat_nose(carom_tangent_work *w, const carom_event *event, const carom_normal *into, bool rolls,
+                                     double height, double *in, carom_row *din, double v[3], double spin[3], carom_row d[5]);
+
+/* tangent_slow.c. The rule of slow contacts, for one ball at a nose or two balls. v, spin: motions before, whose tangents are
+ * in w->d. */
+void carom_tangent_part(carom_tangent_work *w, const carom_event *event, int bodies, const carom_normal *at, bool in_space,
+                        const double (*v)[3], const double (*spin)[3]);
+/* The same of the two balls of an event. */
+void carom_tangent_part_balls(carom_tangent_work *w, const carom_event *event, const carom_normal *at, bool in_space);
 
 #endif

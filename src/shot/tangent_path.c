@@ -80,7 +80,7 @@ void carom_tangent_flow(const carom_tangent_ball *ball, double time, int m, doub
     memcpy(d[k], ball->d + k * m, sizeof(double) * (size_t)m);
   if (from->label == CAROM_BALL_STATIONARY || carom_is_out(from->label))
     return;
-  if (from->label == CAROM_BALL_AIRBORNE) {
+  if (carom_flies(from)) {
     rate[S_X] = from->v[0];
     rate[S_Y] = from->v[1];
     rate[S_Z] = from->v[2] - tau * g;

@@ -40,38 +40,11 @@ static void d_arm(const arm *a, const carom_tangent_nose *nose, carom_row d[CARO
   to[1] = d[S_Z][j] - nose->d_height[j];
 }
 
-/* The motion after an impact, with tangents: of v_x, v_y, w, v_z, the first five as those of a state. */
+/* The motion by the flat model, which has a part in that near the cloth (resolve.c), with tangents of v_x, v_y, w, v_z. */
 typedef struct flat_motion {
   double v[3], w[3];
   carom_row d[6];
 } flat_motion;
-
-/* The result of the flat model, which has a part in that near the cloth: resolve.c. w->d: before. */
-__attribute__((noinline)) static carom_status flat_part(carom_tangent_work *w, const carom_event *event,
-                                                        const carom_normal *into, double height, double *in, carom_row *din,
-                                                        flat_motion *flat) {
-  const carom_tangent_ball *ball = &w->ball[event->a];
-  const carom_ball_state *s = &event->before[0];
-  const int m = w->m;
-  const double *N = into->N, R = ball->kind->radius, size = sqrt(N[0] * N[0] + N[1] * N[1]);
-  const double level[2] = {N[0] / size, N[1] / size}, c = level[1], x = -level[0];
-  const double *dR = carom_seeds_row(ball->d_kind, CAROM_KIND_ROW(radius), m);
-  carom_row turn, dout[CAROM_BALL_INS];
-  for (int j = 0; j < m; j++) {
-    turn[j] = -(c * into->dN[0][j] + x * into->dN[1][j]) / size;
-    flat->d[5][j] = s->v[2] < 0.0 ? w->d[0][S_V_Z][j] : 0.0;
-  }
-  carom_tangent_to_frame(s->v, s->w, R, c, x, false, m, turn, dR, w->d[0] + S_V_X, in, din);
-  double out[CAROM_BALL_INS];
-  const carom_status status = carom_tangent_flat_nose(w, event, level, height, in, din, out, dout);
-  /* back in the axes of the table */
-  const double v[3] = {c * out[OF_V_X] - x * out[OF_V_Y], x * out[OF_V_X] + c * out[OF_V_Y], fmin(s->v[2], 0.0)};
-  const double turns[3] = {(c * out[OF_W_X] - x * out[OF_W_Y]) / R, (x * out[OF_W_X] + c * out[OF_W_Y]) / R, out[OF_W_Z] / R};
-  memcpy(flat->v, v, sizeof v);
-  memcpy(flat->w, turns, sizeof turns);
-  carom_tangent_from_frame(v, turns, R, c, x, m, turn, dR, dout, flat->d);
-  return status;
-}
 
 /* The result without the cloth, in v, spin and w->d. */
 __attribute__((noinline)) static carom_status free_part(carom_tangent_work *w, const carom_event *event,
@@ -160,17 +133,19 @@ carom_status carom_tangent_nose_in_flight(carom_tangent_work *w, const carom_eve
   if (closing >= slow) {
     const bool is_near = s->r[2] - ball->kind->radius < 1e-3;
     flat_motion flat;
-    if (is_near)
-      status = flat_part(w, event, &into, nose.height, in, din, &flat);
+    if (is_near) {
+      status = carom_tangent_flat_nose(w, event, &into, false, nose.height, in, din, flat.v, flat.w, flat.d);
+      flat.v[2] = fmin(s->v[2], 0.0);
+      for (int j = 0; j < w->m; j++)
+        flat.d[5][j] = s->v[2] < 0.0 ? w->d[0][S_V_Z][j] : 0.0;
+    }
     if (status == CAROM_OK)
       status = free_part(w, event, &into, in, din, v, spin);
     if (status == CAROM_OK && is_near)
       blend(w, ball, s->r[2], &flat, v, spin);
   }
-  if (closing < slow || carom_dot(v, into.N) > 0.0) {
-    carom_tangent_slow(w, event->time);
-    carom_part_in_space(w, event, 1, &into, slow, (const double(*)[3]) & v, (const double(*)[3]) & spin);
-  }
+  if (closing < slow || carom_dot(v, into.N) > 0.0)
+    carom_tangent_part(w, event, 1, &into, true, (const double(*)[3]) & v, (const double(*)[3]) & spin);
   return status;
 }
 
@@ -261,12 +236,8 @@ carom_status carom_tangent_spheres(carom_tangent_work *w, const carom_event *eve
       t.at.dN[k][j] = d[k] - along * t.at.N[k];
   }
   carom_status status = CAROM_OK;
-  const double slow = carom_slow_speed(w->slow_instants);
-  if (closing < slow) {
-    carom_tangent_slow(w, event->time);
-    const double v_both[2][3] = {{s[0].v[0], s[0].v[1], s[0].v[2]}, {s[1].v[0], s[1].v[1], s[1].v[2]}};
-    const double spins[2][3] = {{s[0].w[0], s[0].w[1], s[0].w[2]}, {s[1].w[0], s[1].w[1], s[1].w[2]}};
-    carom_part_in_space(w, event, 2, &t.at, slow, v_both, spins);
+  if (closing < carom_slow_speed(w->slow_instants)) {
+    carom_tangent_part_balls(w, event, &t.at, true);
   } else {
     status = collide(w, event, &t);
   }

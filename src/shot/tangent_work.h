@@ -42,9 +42,8 @@ static inline double carom_seed(const double *row, int j) {
   return row != NULL ? row[j] : 0.0;
 }
 
-/* tangent.c: total tangents before the event, of one of its balls; and that it has a slow contact. */
+/* tangent.c: total tangents before the event, of one of its balls. */
 void carom_tangent_total(carom_tangent_work *w, int side);
-void carom_tangent_slow(carom_tangent_work *w, double time);
 
 /* Each turns tangents at the fixed time of an event into total ones after it, and finds the tangent of its time.
  *
@@ -74,11 +73,6 @@ typedef struct carom_tangent_nose {
 /* tangent_contact.c. The nose of an event, for its ball. */
 void carom_tangent_nose_of(const carom_tangent_work *w, const carom_event *event, carom_tangent_nose *nose, double *in,
                            carom_row *din);
-
-/* The impact of a ball on a cushion by the model of the shot, without the rule of slow contacts: numbers before and after in
- * the frame whose y points along `normal` into the cushion. rolls, as in carom_tangent_to_frame(). */
-carom_status carom_tangent_flat_nose(carom_tangent_work *w, const carom_event *event, const double normal[2], double height,
-                                     const double *in, carom_row *din, double *out, carom_row *dout);
 
 /* Friction between the balls of an event at a slip, with its tangents: models.c. */
 double carom_tangent_friction(const carom_tangent_work *w, const carom_event *event, double slip, const double *d_slip,
