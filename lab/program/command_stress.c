@@ -383,13 +383,17 @@ static const command_form form = {
 };
 
 int command_stress(int argc, char **argv) {
-  stress_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .draws = 100000, .seed = 1};
+  stress_job job = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .seed = 1};
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;
-  if (job.shots > 0)
-    return stress_shots(job.shots, (uint64_t)job.seed, job.models, job.cushion, job.elevated);
-  if (job.elevated || job.models != 0 || job.cushion != 0) {
+  const int things = (job.draws > 0) + (job.cushions > 0) + (job.coincidences > 0) + (job.shots > 0);
+  if (things > 1 || (job.kind != DRAW_REALISTIC && things > (job.draws > 0))) {
+    complain(things > 1 ? "give one of --draws, --cushion, --coincidences and --shots"
+                        : "--kind is for collisions of two balls");
+    return EXIT_USAGE;
+  }
+  if (job.shots == 0 && (job.elevated || job.models != 0 || job.cushion != 0)) {
     complain("%s is for whole shots, which --shots N asks for", job.elevated      ? "--elevated"
                                                                 : job.models != 0 ? "--models"
                                                                                   : "--cushion-model");
@@ -398,11 +402,15 @@ int command_stress(int argc, char **argv) {
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
+  if (job.shots > 0) {
+    const int shot_code = stress_shots(out, job.shots, (uint64_t)job.seed, job.models, job.cushion, job.elevated);
+    return output_commit() ? shot_code : EXIT_USAGE;
+  }
   stress *all = allocate(1, sizeof *all);
   all->job = &job;
   all->balls = job.cushions == 0 && job.coincidences == 0;
   all->kinds = all->balls ? CAROM_SLIP_COUNT : job.coincidences > 0 ? coincidence_kinds() : CUSHION_DRAWS;
-  all->draws = (uint64_t)(all->balls ? job.draws : job.coincidences > 0 ? job.coincidences : job.cushions);
+  all->draws = things > 0 ? (uint64_t)(job.draws + job.cushions + job.coincidences) : 100000;
   carom_in_threads(run_blocks, &all, (size_t)all->kinds * ((all->draws + BLOCK - 1) / BLOCK), job.shared.options.threads, 1);
   progress_clear();
   print_table(all, out);

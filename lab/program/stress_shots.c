@@ -54,13 +54,13 @@ static carom_status play(const random_shot *s, const carom_shot_options *options
   return status;
 }
 
-static void print(const char *name, const kind_tally *t) {
-  printf("%-16s %8ld %7ld %8ld %8.1f %7lld %9.2g %9.2g %9.2g %9.2g %9.2g %6d\n", name, t->shots, t->failed, t->too_many,
-         t->events / (double)t->shots, (long long)t->most_events, t->worst.overlap, t->worst.intrusion, t->worst.gain,
-         t->worst.momentum, t->worst.jump, t->worst.restless);
+static void print(FILE *out, const char *name, const kind_tally *t) {
+  fprintf(out, "%-16s %8ld %7ld %8ld %8.1f %7lld %9.2g %9.2g %9.2g %9.2g %9.2g %6d\n", name, t->shots, t->failed, t->too_many,
+          t->events / (double)t->shots, (long long)t->most_events, t->worst.overlap, t->worst.intrusion, t->worst.gain,
+          t->worst.momentum, t->worst.jump, t->worst.restless);
 }
 
-int stress_shots(int shots, uint64_t seed, int world, int cushion_model, bool elevated) {
+int stress_shots(FILE *out, int shots, uint64_t seed, int world, int cushion_model, bool elevated) {
   const carom_shot_options options = {.world = (carom_world)world, .cushion_model = (carom_shot_cushion)cushion_model};
   const int kinds = world == CAROM_WORLD_CAROM ? random_shot_kinds_in_space() : random_shot_kinds();
   kind_tally tally[MOST_KINDS] = {{0}}, all = {0};
@@ -95,12 +95,12 @@ int stress_shots(int shots, uint64_t seed, int world, int cushion_model, bool el
   }
   progress_clear();
   free(shot.events);
-  printf("%d random shots, seed %llu, %d places sampled between events%s\n\n", shots, (unsigned long long)seed, SAMPLES,
-         elevated ? ", all cues elevated" : "");
-  printf("%-16s %8s %7s %8s %8s %7s %9s %9s %9s %9s %9s %6s\n", "kind", "shots", "failed", "too_many", "events", "most",
-         "overlap", "intrusion", "gain", "momentum", "jump", "moving");
+  fprintf(out, "%d random shots, seed %llu, %d places sampled between events%s\n\n", shots, (unsigned long long)seed, SAMPLES,
+          elevated ? ", all cues elevated" : "");
+  fprintf(out, "%-16s %8s %7s %8s %8s %7s %9s %9s %9s %9s %9s %6s\n", "kind", "shots", "failed", "too_many", "events", "most",
+          "overlap", "intrusion", "gain", "momentum", "jump", "moving");
   for (int k = 0; k < kinds && tally[k].shots > 0; k++) {
-    print(random_shot_kind(k), &tally[k]);
+    print(out, random_shot_kind(k), &tally[k]);
     all.shots += tally[k].shots;
     all.failed += tally[k].failed;
     all.too_many += tally[k].too_many;
@@ -108,6 +108,6 @@ int stress_shots(int shots, uint64_t seed, int world, int cushion_model, bool el
     all.most_events = tally[k].most_events > all.most_events ? tally[k].most_events : all.most_events;
     take_worst(&all.worst, &tally[k].worst);
   }
-  print("all", &all);
+  print(out, "all", &all);
   return all.failed == 0 ? EXIT_GOOD : EXIT_SOME;
 }

@@ -4,9 +4,10 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 
-/* Plays `shots` random shots, the kinds in turn, and prints what invariants they keep. `world` and `cushion_model` as in
- * carom_shot_options; `elevated`: every cue comes from above. An exit code. */
-int stress_shots(int shots, uint64_t seed, int world, int cushion_model, bool elevated);
+/* Plays `shots` random shots, the kinds in turn, and writes to `out` what invariants they keep. `world` and `cushion_model` as
+ * in carom_shot_options; `elevated`: every cue comes from above. An exit code. */
+int stress_shots(FILE *out, int shots, uint64_t seed, int world, int cushion_model, bool elevated);
 
 #endif

@@ -11,7 +11,7 @@ echo "--- the largest errors can be made again"
 sed -n 's/^cushion, rolling [0-9]*, [^:]*: //p' table | awk -F, '{ print NF }'
 echo "--- shots with elevated cues, by the same seed and by another"
 for s in 7 7 8; do
-  lab stress --shots 36 --elevated --cushion-model han --seed $s > shots.$s.new || cat shots.$s.new
+  lab stress --shots 36 --elevated --cushion-model han --seed $s -o shots.$s.new || cat shots.$s.new
   head -n 1 shots.$s.new
   [ ! -e shots.$s ] || cmp shots.$s shots.$s.new
   mv shots.$s.new shots.$s
@@ -26,3 +26,5 @@ try lab stress --elevated
 try lab stress --models pooltool --draws 10
 try lab stress --cushion-model han --cushion 10
 try lab stress --coincidences 0
+try lab stress --shots 5 --draws 10
+try lab stress --shots 5 --kind extreme
