@@ -4,6 +4,7 @@ import importlib
 import json
 from pathlib import Path
 from types import SimpleNamespace
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -271,6 +272,9 @@ def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, mo
     assert "fitted, 4 of 8 shots" in told and "predicted, 4 of 8 shots" in told
     # one file, with the pictures in it
     text = page.read_text()
+    chart = ElementTree.fromstring(text[text.index("<svg") : text.index("</svg>") + 6])
+    width, axes = float(chart.get("viewBox", "").split()[2]), next(path for path in chart.iter() if path.tag.endswith("path")).get("d", "")
+    assert 0.0 < float(axes.split("H")[1]) < width
     assert text.count("<svg") == 8 and "http" not in text.replace("http://www.w3.org/2000/svg", "") and "mu_spin" in text
     # interrupted in the second of the searches, the same command goes on with the third, and has the same bits
     stages, done = _joint.Search.stage, []

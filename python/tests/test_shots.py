@@ -162,6 +162,7 @@ def test_trajectories_of_a_batch(breaks, options):
     assert positions.shape == (12, 2, 3, 10, 3) and states.shape == (12, 2, 3, 10)
     for k, one in enumerate(alone):
         if one is None:
+            assert shots.record["count"][k] == 0 and shots.record["time"][k] == 0.0
             assert np.isnan(positions[k]).all() and np.isnan(states["w"][k]).all() and (states["label"][k] == -1).all()
             with pytest.raises(carom.CaromError, match="miscue|a\\^2"):
                 shots[k].states(0.5)

@@ -49,6 +49,8 @@ ls kept.jsonl 2> /dev/null || echo "nothing was played"
 # shellcheck disable=SC1007
 (cp "$(command -v rsvg-convert)" . && PATH= try "$CAROM" shoot --events none --plot break.png -o /dev/null "$DATA/break-nineball.jsonl"; rm rsvg-convert)
 head -c 4 break.png | tail -c 3 && echo
+try carom shoot --events none --plot usual.png -o /dev/null "$DATA/break-nineball.jsonl"
+head -c 4 usual.png | tail -c 3 && echo
 ln -s /dev/full full.svg
 try carom shoot --events none --plot full.svg -o /dev/null "$DATA/break-nineball.jsonl"
 try carom shoot --events none --plot nowhere/break.svg -o /dev/null "$DATA/break-nineball.jsonl"

@@ -60,6 +60,8 @@ START_TEST(version_2) {
   put("jobs/cpu.max", "200000 100000\n"); /* a group above is stricter */
   ck_assert_int_eq(limit("0::/jobs/one\n"), 2);
   ck_assert_int_eq(limit("0::/jobs/two\n"), 2);
+  put("jobs/on/cpu.max", "100000 100000\n"); /* a neighbour whose name begins the same way does not count */
+  ck_assert_int_eq(limit("0::/jobs/one\n"), 2);
   ck_assert_int_eq(limit("0::/jobs/two/inner/most\n"), 2); /* groups that are not mounted say nothing */
   put("cpu.max", "100000 100000\n");                       /* as in a container: its own group is the mount */
   ck_assert_int_eq(limit("0::/somewhere/of/the/host\n"), 1);
