@@ -31,7 +31,7 @@ class Carom(ConanFile):
         self.version = ".".join(re.search(rf"^#define CAROM_VERSION_{part} (\d+)$", header, re.M)[1] for part in ("MAJOR", "MINOR", "PATCH"))
 
     def export_sources(self):
-        for part in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*"):
+        for part in ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "cmake/*", "docs/*", "examples/*", "include/*", "src/*"):
             copy(self, part, Path(self.recipe_folder, TREE), self.export_sources_folder)
 
     def layout(self):
@@ -44,7 +44,6 @@ class Carom(ConanFile):
         toolchain.cache_variables["CAROM_CLI"] = False
         toolchain.cache_variables["CAROM_THREADS"] = bool(self.options.threads)
         toolchain.cache_variables["CAROM_ISAS"] = str(self.options.isas)
-        toolchain.cache_variables["CMAKE_INSTALL_DOCDIR"] = "licenses"
         toolchain.generate()
 
     def build(self):
@@ -54,6 +53,7 @@ class Carom(ConanFile):
 
     def package(self):
         CMake(self).install()
+        copy(self, "LICENSE", self.source_folder, Path(self.package_folder, "licenses"))
 
     def package_info(self):
         # CMake uses the installed package; the rest is for consumers that use other build systems.

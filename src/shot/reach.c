@@ -29,9 +29,10 @@ void carom_reach_begin(carom_reach *reach, const carom_tangent_work *work, const
     to[j] = INFINITY;
 }
 
+/* A gap below 0 is a rounding error, of a hit that only just is one. */
 static void take(carom_reach *reach, int j, double gap, double rate) {
   if (rate != 0.0)
-    reach->reach[j] = carom_lesser(reach->reach[j], gap / fabs(rate));
+    reach->reach[j] = carom_lesser(reach->reach[j], carom_greater(gap, 0.0) / fabs(rate));
 }
 
 /* The separation to what a ball may meet, quadratic in the time since `from`: d + v t + a t^2. It may be a point, or the

@@ -149,6 +149,10 @@ static void label_after(bool in_space, const carom_ball_kind *kind, carom_ball_s
   carom_label_in_space(s, kind->radius);
 }
 
+static bool is_finite(const carom_ball_state *s) {
+  return isfinite(s->v[0] + s->v[1] + s->v[2] + s->w[0] + s->w[1] + s->w[2]);
+}
+
 carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b) {
   const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
   const bool in_space = carom_flies(a) || carom_flies(b) || kind_a->radius != kind_b->radius;
@@ -178,7 +182,7 @@ carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state 
   }
   label_after(in_space, kind_a, a);
   label_after(in_space, kind_b, b);
-  return status < 0 ? status : CAROM_OK;
+  return status < 0 ? status : is_finite(a) && is_finite(b) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }
 
 carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *s) {
@@ -216,5 +220,5 @@ carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, 
       s->v[k] -= (closing + part) * n[k];
   }
   label_after(in_space, kind, s);
-  return status < 0 ? status : CAROM_OK;
+  return status < 0 ? status : is_finite(s) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }

@@ -49,7 +49,7 @@ with tempfile.TemporaryDirectory() as work:
         assert (reader / f"{picture}.svg").read_text(encoding="utf-8").rstrip().endswith("</svg>"), picture
 
     # Installing, from a copy of what a clone has.
-    for part in ("CMakeLists.txt", "LICENSE", "cmake", "cli", "data", "include", "src"):
+    for part in ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "cmake", "cli", "data", "docs", "examples", "include", "src"):
         (clone / part).symlink_to(SOURCE / part)
     assert "cmake -B b " in of["sh install"]
     shell(of["sh install"].replace("cmake -B b ", f"cmake -B b {QUICK} "), clone, HOME=str(home))
