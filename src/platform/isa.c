@@ -11,6 +11,9 @@
 
 #include "platform/enumerations.h"
 
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
 #include <math.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -60,15 +63,38 @@ static const bool built[CAROM_ISA_COUNT] = {
 #undef BUILT
 };
 
+#if defined(__x86_64__)
+/* Has the processor AVX2 or AVX-512 as carom uses them, and does the system keep their registers? Not by
+ * __builtin_cpu_supports(): the run-time library of zig has a stub for it, which knows no processor. Source: Intel's Software
+ * Developer's Manual, volume 1, sections "Detection of AVX Instructions" and "Detection of AVX-512 Foundation Instructions". */
+static bool processor_has_avx(bool wide) {
+  unsigned a, b, c, d, kept, high;
+  /* Leaf 1: AVX, fused multiply-add, and whether xgetbv may be used. */
+  const unsigned first = bit_AVX | bit_FMA | bit_OSXSAVE;
+  if (!__get_cpuid(1, &a, &b, &c, &d) || (c & first) != first)
+    return false;
+  /* Registers that the system keeps: bits 1 and 2 for SSE and AVX, 5 to 7 for AVX-512. macOS sets these at the first use. */
+  __asm__ volatile("xgetbv" : "=a"(kept), "=d"(high) : "c"(0));
+#if defined(__APPLE__)
+  const unsigned needed = 0x06;
+#else
+  const unsigned needed = wide ? 0xe6 : 0x06;
+#endif
+  /* Leaf 7: the sets themselves. */
+  const unsigned sets = wide ? bit_AVX512F | bit_AVX512DQ | bit_AVX512VL : bit_AVX2;
+  return (kept & needed) == needed && __get_cpuid_count(7, 0, &a, &b, &c, &d) && (b & sets) == sets;
+}
+#endif
+
 static bool processor_has(carom_isa isa) {
   switch (isa) {
 #if defined(__x86_64__)
   case CAROM_ISA_SSE2:
     return true;
   case CAROM_ISA_AVX2:
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    return processor_has_avx(false);
   case CAROM_ISA_AVX512:
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    return processor_has_avx(true);
 #elif defined(__aarch64__)
   case CAROM_ISA_NEON:
     return true;

@@ -3,6 +3,7 @@
     sh            run by readme.py (README's, with `carom` on the path) or pages.py (with the tree and its build beside)
     sh install    README's: installed by readme.py
     sh started    takes minutes: pages.py starts each line, sees that it is not refused, and ends it
+    sh conan, sh wheel   docs/using/building.md's and python.md's: run by the tests install/conan and python/sdist
     console       commands and what they print: run and compared by shown.py
     sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the test python/package, cmake by every
                   build, the scripts of python/examples by the test of that name; a cluster of many machines by who has one
@@ -18,7 +19,7 @@
 import re
 from pathlib import Path
 
-KINDS = {"sh", "sh install", "sh started", "console", "sh elsewhere", "c", "c game", "c program", "cmake fetch", "cmake package", "cmake windows", "js", "python"}
+KINDS = {"sh", "sh install", "sh started", "sh conan", "sh wheel", "console", "sh elsewhere", "c", "c game", "c program", "cmake fetch", "cmake package", "cmake windows", "js", "python"}
 KINDS |= {f"python {need}" for need in ("pooltool", "numba", "jax", "gymnasium", "pettingzoo", "scale", "elsewhere")}
 
 # Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.

@@ -62,6 +62,22 @@ START_TEST(version_is_that_of_the_header) {
 }
 END_TEST
 
+/* What the library finds out about the processor is what the compiler's run-time library does; zig's does not. */
+START_TEST(the_processor_is_known) {
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+#ifndef CAROM_WITHOUT_AVX2
+  ck_assert_int_eq(carom_isa_available(CAROM_ISA_AVX2), __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
+#endif
+#ifndef CAROM_WITHOUT_AVX512
+  ck_assert_int_eq(carom_isa_available(CAROM_ISA_AVX512), __builtin_cpu_supports("avx512f") &&
+                                                              __builtin_cpu_supports("avx512dq") &&
+                                                              __builtin_cpu_supports("avx512vl"));
+#endif
+#endif
+}
+END_TEST
+
 /* The environment limits the instruction set by its name, which is read anew when the limit of the process is lifted. */
 START_TEST(the_environment_limits_the_instruction_set) {
   const char *given = getenv("CAROM_ISA");
@@ -83,5 +99,5 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("names", statuses_are_distinct, enumerations_have_names, fields_have_names, version_is_that_of_the_header,
-                   the_environment_limits_the_instruction_set);
+                   the_processor_is_known, the_environment_limits_the_instruction_set);
 }
