@@ -31,7 +31,7 @@ class Carom(ConanFile):
         self.version = ".".join(re.search(rf"^#define CAROM_VERSION_{part} (\d+)$", header, re.M)[1] for part in ("MAJOR", "MINOR", "PATCH"))
 
     def export_sources(self):
-        for part in ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "cmake/*", "docs/*", "examples/*", "include/*", "src/*"):
+        for part in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*"):
             copy(self, part, Path(self.recipe_folder, TREE), self.export_sources_folder)
 
     def layout(self):
