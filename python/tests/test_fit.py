@@ -219,6 +219,8 @@ def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given
         fit.fit(made.recordings, TABLE, RADIUS, free="all")
     with pytest.raises(ValueError, match="cushion_model: must be"):
         fit.fit(made.recordings, TABLE, RADIUS, cushion_model="euler")
+    with pytest.raises(ValueError, match="mu_spin must have a finite mean and a deviation above 0"):
+        fit.fit(made.recordings, TABLE, RADIUS, priors={"mu_spin": (0.005, 0.0)})
 
 
 def test_shots_that_are_no_shots_have_a_status(made):

@@ -63,6 +63,8 @@ run("hit", "--cut", "0:80", "--speed", "1,3,7mph", "--plot", "throw.svg")
 points = numbers("hit", "--cut", "0:80", "--speed", "1,3,7mph", "--quantity", "throw")
 drawn = curves("throw.svg")
 print([name for name, _ in drawn], [shows(shown, *zip(*[(cut, y) for speed, cut, y in points if f"speed {speed:g} mph" == name])) for name, shown in drawn])
+run("hit", "--spin", "0:100%:50%", "--quantity", "throw", "--plot", "spin.svg")
+print(len(curves("spin.svg")), "curve over spin")
 PYTHON
 python questions.py
 echo "in words:"

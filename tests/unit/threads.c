@@ -13,8 +13,19 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+/* gcc and clang tell otherwise that a sanitizer is in. That of threads lets none start in a child of a process with threads;
+ * that of addresses may wait there for ever for a lock that another thread held at the fork. */
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#define SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
+#define SANITIZER 1
+#endif
+#endif
 
 /* Rows of a made-up job: how often each was worked on, and which are in error. */
 typedef struct counting {
@@ -56,6 +67,36 @@ START_TEST(each_row_once) {
     free(times);
     free(bad);
   }
+}
+END_TEST
+
+#ifndef SANITIZER
+static void *idle(void *argument) {
+  return argument;
+}
+#endif
+
+/* Where the system starts no thread, the calling one works on all rows. In a child without room for another stack. */
+START_TEST(threads_that_cannot_be_started) {
+#ifndef SANITIZER
+  enum { FEW = 400 };
+  static unsigned char times[FEW];
+  static bool bad[FEW] = {[FEW - 1] = true};
+  const counting job = {times, bad};
+  const pid_t child = fork();
+  if (child == 0) {
+    setrlimit(RLIMIT_AS, &(struct rlimit){0, 0});
+    pthread_t unused;
+    const bool none = pthread_create(&unused, NULL, idle, NULL) != 0;
+    bool good = none && carom_in_threads(count_rows, &job, FEW, 4, 1) == FEW - 1;
+    for (int k = 0; k < FEW; k++)
+      good &= times[k] == 1;
+    _exit(good ? 0 : 1);
+  }
+  int status;
+  ck_assert_int_eq(waitpid(child, &status, 0), child);
+  ck_assert(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+#endif
 }
 END_TEST
 
@@ -139,15 +180,6 @@ END_TEST
 
 /* ---- Every public function at once */
 
-/* gcc and clang tell otherwise that a sanitizer is in. That of threads lets none start in a child of a process with threads;
- * that of addresses may wait there for ever for a lock that another thread held at the fork. */
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-#define SANITIZER 1
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
-#define SANITIZER 1
-#endif
-#endif
 #ifdef SANITIZER
 enum { CHILD_THREADS = 0 };
 #else
@@ -226,5 +258,6 @@ START_TEST(every_function_at_once) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("threads", each_row_once, few_rows_are_shared, signals_stay_with_the_caller, every_function_at_once);
+  return RUN_TESTS("threads", each_row_once, threads_that_cannot_be_started, few_rows_are_shared, signals_stay_with_the_caller,
+                   every_function_at_once);
 }
