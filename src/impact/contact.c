@@ -11,8 +11,9 @@
  * contact is held if this friction lies within the cone, |f| <= mu or |F| <= mu_c g. It is held until it leaves the cone.
  *
  * LEAVING. Where friction cannot hold, the slip begins in a direction to which its own rate is parallel. On the cloth that is
- * the direction of (0, B_0) + L f, which does not depend on F. At the driving contact it is a zero of u x a'(u) on the circle,
- * from positive to negative, where a' points along u: with friction that opposes slip there is one. Where both slips are zero
+ * the direction of (0, B_0) + L f, which does not depend on F. At the driving contact it is that of -h, h the friction that
+ * would hold it: a' = M (f - h) with M_xx = K_x, M_xy = -C_x mu_c g_1 t_x, M_yy = K_y - C_y mu_c g_1 t_y, and by the numbers of
+ * law.h M h = M_yy h for a cushion, so that f = mu h/|h| gives an a' along -h. For two balls h = 0. Where both slips are zero
  * all is symmetric about the y axis, and so are the directions.
  *
  * UNSTABLE. Where H < 0 friction drives the slip on the cloth. Let it begin at b = 0 with the rate d without friction, and let
@@ -26,11 +27,8 @@
 #include <math.h>
 
 static const double EDGE = 1e-9;          /* share of the cone that is not used */
-static const double BACKWARDS = 1e-6;     /* rate of a slip that begins at the edge of the cone */
 static const double MOST_DRIVEN = 2. / 3; /* h / d: see the head */
 static const double NEARLY_JAMMED = 5e-8; /* v and both slips together, of a ball that is about to be jammed */
-enum { DIRECTIONS = 64, BISECTIONS = 50 };
-static const double STEP_COSINE = 0x1.fd88da3d12526p-1, STEP_SINE = 0x1.917a6bc29b42cp-4; /* of 360 / DIRECTIONS degrees */
 
 typedef struct pair {
   double x, y;
@@ -79,47 +77,6 @@ static bool cloth_holds(const carom_law *l, pair f) {
 
 static bool within(pair f, double mu) {
   return size(f) <= (1 - EDGE) * mu;
-}
-
-/* a'(u) x u, and u . a'(u), with the slip on the cloth along t. */
-static double across(const carom_law *l, pair u, pair t, double *along) {
-  const pair f = {-l->mu * u.x, -l->mu * u.y}, rate = driving_rate(l, f, cloth_friction(l, f, t));
-  *along = u.x * rate.x + u.y * rate.y;
-  return u.y * rate.x - u.x * rate.y;
-}
-
-/* The direction in which a slip begins at the driving contact, which the friction `hold` cannot hold: of those to which
- * friction rotates u, where a' x u falls through zero clockwise, the one in which the slip grows fastest. */
-static pair leaves(const carom_law *l, pair t, pair hold) {
-  /* mirrored, so that t.x >= 0: mirrored impacts have mirrored results */
-  const double side = t.x < 0 ? -1 : 1;
-  const pair there = {side * t.x, t.y};
-  /* at the edge of the cone it begins against the friction that held */
-  /* around the circle: between two directions where across() changes from positive to negative lies a stable zero */
-  pair best = direction((pair){-hold.x, -hold.y}, (pair){0, 1});
-  double most = BACKWARDS, along;
-  pair u = {0, -1};
-  double last = across(l, u, there, &along);
-  for (int k = 0; k < DIRECTIONS; k++) {
-    const pair next = {u.x * STEP_COSINE + u.y * STEP_SINE, u.y * STEP_COSINE - u.x * STEP_SINE};
-    const double now = across(l, next, there, &along);
-    if (last >= 0 && now < 0) {
-      /* by bisection */
-      pair low = u, high = next;
-      for (int n = 0; n < BISECTIONS; n++) {
-        const pair middle = direction((pair){low.x + high.x, low.y + high.y}, low);
-        *(across(l, middle, there, &along) >= 0 ? &low : &high) = middle;
-      }
-      /* the slip grows fastest there so far */
-      if (along > most) {
-        most = along;
-        best = (pair){side * low.x, low.y};
-      }
-    }
-    u = next;
-    last = now;
-  }
-  return best;
 }
 
 /* Whether friction holds both contacts, once they do not slip. */
@@ -182,7 +139,7 @@ static bool choose(const carom_law *l, const carom_point *at, bool event, carom_
     f = holding(l, t);
     r->held = within(f, l->mu) && !(event && last.held);
     if (!r->held) {
-      u = leaves(l, t, f);
+      u = direction((pair){-f.x, -f.y}, (pair){0, 1});
       r->u_x = u.x;
       r->u_y = u.y;
       f = (pair){-l->mu * u.x, -l->mu * u.y};

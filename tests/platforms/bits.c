@@ -249,6 +249,29 @@ static void cushions(void) {
     }
 }
 
+/* Neither slip nor sideways motion at the nose at first, to the last bit: where friction cannot hold it, the slip begins. */
+static void slips_that_begin(void) {
+  const double R = 0x1p-5;
+  uint64_t hash = START;
+  state = 5;
+  for (int k = 0; k < 600; k++) {
+    const double sine = (k % 9 - 4) / 16.0, v_x = k % 2 == 0 || sine == 0.0 ? 0.0 : (k % 7 - 3) / 4.0;
+    const carom_cushion_impact rail = {.v = {v_x, 1.0, 0.0},
+                                       .w = {sine / R, v_x == 0.0 ? 0.0 : -v_x / sine / R, 0.0},
+                                       .normal = {0.0, 1.0},
+                                       .height = (1.0 + sine) * R,
+                                       .radius = R,
+                                       .mass = 0.17,
+                                       .mu_cloth = between(0.0, 0.6),
+                                       .mu_cushion = between(0.0, 0.3),
+                                       .restitution = 0.8};
+    carom_motion out;
+    hash = add(hash, (uint64_t)(int64_t)carom_cushion(&rail, NULL, &out));
+    hash = add_numbers(hash, (const double *)&out, 6);
+  }
+  show("cushions: slips that begin", hash);
+}
+
 /* A few impacts on their way. */
 static void cushion_traces(void) {
   static carom_cushion_point points[POINTS];
@@ -383,6 +406,7 @@ int main(int argc, char **argv) {
   if (argc > 1)
     return 0;
   cushions();
+  slips_that_begin();
   cushion_traces();
   shots();
   return 0;
