@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from test_tracks import RADIUS, TABLE, csv_of
 
-from carom import _constants, _covariance, _joint, _strikes, fit, tracks
+from carom import _constants, _covariance, _joint, _strikes, _summary, fit, tracks
 
 HAN = {"mu_slide": 0.21, "mu_roll": 0.005, "mu_spin": 0.005, "mu_cushion": 0.22, "restitution_cushion": 0.88, "law_a": 0.05}
 
@@ -277,6 +277,9 @@ def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, mo
     chart = ElementTree.fromstring(text[text.index("<svg") : text.index("</svg>") + 6])
     width, axes = float(chart.get("viewBox", "").split()[2]), next(path for path in chart.iter() if path.tag.endswith("path")).get("d", "")
     assert 0.0 < float(axes.split("H")[1]) < width
+    # the ends of an axis have ticks, also where rounding puts them just beside
+    assert _summary._ticks(0.07, 0.1) == pytest.approx([0.07, 0.08, 0.09, 0.1])
+    assert _summary._ticks(0.0, 0.3) == pytest.approx([0.0, 0.1, 0.2, 0.3])
     assert text.count("<svg") == 8 and "http" not in text.replace("http://www.w3.org/2000/svg", "") and "mu_spin" in text
     # interrupted in the second of the searches, the same command goes on with the third, and has the same bits
     stages, done = _joint.Search.stage, []
