@@ -387,10 +387,13 @@ int command_stress(int argc, char **argv) {
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;
-  const int things = (job.draws > 0) + (job.cushions > 0) + (job.coincidences > 0) + (job.shots > 0);
-  if (things > 1 || (job.kind != DRAW_REALISTIC && things > (job.draws > 0))) {
-    complain(things > 1 ? "give one of --draws, --cushion, --coincidences and --shots"
-                        : "--kind is for collisions of two balls");
+  const int counts = (job.draws > 0) + (job.cushions > 0) + (job.coincidences > 0) + (job.shots > 0);
+  if (counts > 1) {
+    complain("give one of --draws, --cushion, --coincidences and --shots");
+    return EXIT_USAGE;
+  }
+  if (job.kind != DRAW_REALISTIC && counts == 1 && job.draws == 0) {
+    complain("--kind is for collisions of two balls");
     return EXIT_USAGE;
   }
   if (job.shots == 0 && (job.elevated || job.models != 0 || job.cushion != 0)) {
@@ -410,7 +413,7 @@ int command_stress(int argc, char **argv) {
   all->job = &job;
   all->balls = job.cushions == 0 && job.coincidences == 0;
   all->kinds = all->balls ? CAROM_SLIP_COUNT : job.coincidences > 0 ? coincidence_kinds() : CUSHION_DRAWS;
-  all->draws = things > 0 ? (uint64_t)(job.draws + job.cushions + job.coincidences) : 100000;
+  all->draws = counts > 0 ? (uint64_t)(job.draws + job.cushions + job.coincidences) : 100000;
   carom_in_threads(run_blocks, &all, (size_t)all->kinds * ((all->draws + BLOCK - 1) / BLOCK), job.shared.options.threads, 1);
   progress_clear();
   print_table(all, out);

@@ -44,9 +44,10 @@ void carom_free_torque(const carom_free_touch *t, int j, double there[3], double
 /* Takes the impulses from a ball that is alone. */
 void carom_take_free(carom_tangent_work *w, const carom_tangent_ball *ball, const carom_free_touch *t);
 
-/* tangent_contact.c. The impact of a ball on a cushion by the flat model of the shot, without the rule of slow contacts: the
- * motion after it, v_x, v_y and the spin, with their tangents d. into: along the normal, whose part across the table counts;
- * `in`, din: the numbers of the nose, for which this writes those of the ball; rolls: as in carom_tangent_to_frame(). */
+/* tangent_contact.c. The impact of a ball on a cushion by the flat model of the shot, without the rule of slow contacts.
+ * v, spin: the motion after it, of which v_z is not written; d: the tangents of v_x, v_y and the spin.
+ * into: along the normal, whose part across the table counts. rolls: as in carom_tangent_to_frame().
+ * in, din: the numbers of the nose; this function writes those of the ball. */
 carom_status carom_tangent_flat_nose(carom_tangent_work *w, const carom_event *event, const carom_normal *into, bool rolls,
                                      double height, double *in, carom_row *din, double v[3], double spin[3], carom_row d[5]);
 

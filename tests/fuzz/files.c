@@ -3,6 +3,7 @@
  * number of threads, or if a file is refused and yet something is written. Crashes, hangs and undefined behaviour are for the
  * fuzzer and the sanitizers to see. */
 #include "command.h"
+#include "message.h"
 #include "subcommands.h"
 
 #include <getopt.h>
@@ -31,8 +32,8 @@ static const struct {
     {command_trace, "csv", {"trace", "--samples", "5"}},
 };
 
-static char folder[] = "carom-fuzz-XXXXXX"; /* in the working folder */
-static char path[3][sizeof folder + 16];    /* by suffix */
+static char folder[20];                  /* in the working folder */
+static char path[3][sizeof folder + 16]; /* by suffix */
 
 static void remove_files(void) {
   for (int k = 0; k < 3; k++)
@@ -86,6 +87,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   static const char *const suffixes[] = {"csv", "npy", "jsonl"};
   if (path[0][0] == '\0') {
     stderr = fopen("/dev/null", "w");
+    snprintf(folder, sizeof folder, "carom-fuzz-%s", random_name);
     if (stderr == NULL || mkdtemp(folder) == NULL)
       abort();
     for (int k = 0; k < 3; k++)
