@@ -18,8 +18,9 @@ target_compile_options(
             $<$<BOOL:${CAROM_WERROR}>:-Werror>
             # Parity with pooltool to the last bit: a*b + c stays two roundings unless a source asks for fma().
             -ffp-contract=off)
+# -g1: lines for the reports; more would double the time that gcc takes.
 if(CAROM_SANITIZE)
   target_compile_options(carom_options INTERFACE -fsanitize=${CAROM_SANITIZE} -fno-omit-frame-pointer
-                                                 -fno-sanitize-recover=all)
+                                                 -fno-sanitize-recover=all -g1)
   target_link_options(carom_options INTERFACE -fsanitize=${CAROM_SANITIZE})
 endif()

@@ -11,6 +11,21 @@
 /* The seed of this run: $CAROM_TEST_SEED, or a fixed one. Printed once, so that a failure can be replayed. */
 uint64_t test_seed(void);
 
+/* Whether a sanitizer is in, which gcc and clang tell otherwise. */
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#define SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+#ifndef SANITIZED
+#define SANITIZED 0
+#endif
+
+/* How much a long test does of what it does `count` times: a quarter where a sanitizer is in, as other builds do the rest. */
+#define FEWER(count) (SANITIZED ? ((count) + 3) / 4 : (count))
+
 /* Random numbers; each test starts its own from test_seed(). */
 typedef struct random_source {
   uint64_t state;

@@ -1,6 +1,7 @@
-"""The recorded references of the repository's data/, as arrays."""
+"""The recorded references of the repository's data/, as arrays, and a count of calls."""
 
 import csv
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -29,3 +30,19 @@ def impacts() -> np.ndarray:
 def reference():
     """reference(name): the motion after the 204 collisions, (204, 12), by a file of data/."""
     return lambda name: columns(name, MOTION)
+
+
+@pytest.fixture
+def calls():
+    """calls(function): how many functions Python calls while it runs, those written in C included."""
+
+    def count(function) -> int:
+        kinds = []
+        sys.setprofile(lambda frame, kind, argument: kinds.append(kind))
+        try:
+            function()
+        finally:
+            sys.setprofile(None)
+        return kinds.count("call") + kinds.count("c_call")
+
+    return count

@@ -4,7 +4,6 @@ import importlib.util
 import math
 import subprocess
 import sys
-import time
 import warnings
 from pathlib import Path
 from xml.etree import ElementTree
@@ -237,27 +236,15 @@ def test_many_games_are_single_games(gymnasium, threads):
     assert envs.reset(seed=seeds)[0].tobytes() == singles.reset(seed=seeds)[0].tobytes()
 
 
-@pytest.mark.parametrize(("model", "least"), [("mathavan", 0.8), ("han", 0.6)])
-def test_many_games_are_as_fast_as_their_batch(gymnasium, model, least):
-    """The share of simulate_batch in the processor time of a step of many games, resets included."""
-    envs = gymnasium.make_vec("carom/Potting-v0", num_envs=256, strokes=5, cushion_model=model)
-    rules, generator = envs.unwrapped.rules, np.random.default_rng(1)
-    envs.reset(seed=1)
-    shares = []
-    for _ in range(6):
-        spent, batch = 0.0, 0.0
-        for _ in range(6):  # a game and its reset
-            before, playing = envs.unwrapped._games.balls.copy(), ~envs.unwrapped._games.ended
-            actions = generator.uniform(-1.0, 1.0, (256, 4))
-            begun = time.process_time()
-            envs.step(actions)
-            spent += time.process_time() - begun
-            begun = time.process_time()
-            carom.simulate_batch(rules.table, before[playing], rules.cues(actions[playing]), cushion_model=model)
-            batch += time.process_time() - begun
-        shares.append(batch / spent)
-    print(shares)
-    assert max(shares) >= least, shares
+def test_many_games_are_one_batch(gymnasium, calls):
+    """A step of many games, resets included, makes hardly more calls than one of few: no game has a loop of its own in Python."""
+    most = []
+    for count in (8, 256):
+        envs = gymnasium.make_vec("carom/Potting-v0", num_envs=count, strokes=5, cushion_model="han")
+        envs.reset(seed=1)
+        actions = np.random.default_rng(1).uniform(-1.0, 1.0, (6, count, 4))
+        most.append(max(calls(lambda: envs.step(action)) for action in actions))  # noqa: B023: it is called at once
+    assert most[1] < 1.2 * most[0], most
 
 
 def test_reset_options(gymnasium):

@@ -4,7 +4,6 @@ import json
 import os
 import pickle
 import subprocess
-import time
 import warnings
 import xml.etree.ElementTree as ElementTree
 
@@ -216,20 +215,12 @@ def test_slices_and_iteration(breaks):
     assert single.shape == () and single.features.contact[0] == 1 and single.positions([0.1, 0.2]).shape == (2, 10, 3) and single.time > 1.0
 
 
-def test_a_shot_of_a_batch_costs_less_than_to_play_it():
-    """The processor time of shots[k] against that of two balls' shots."""
+def test_a_shot_of_a_batch_is_made_in_few_calls(calls):
+    """shots[k] makes the arrays of a shot when they are asked for."""
     table = carom.tables.pool_9ft()
-    cues = carom.cue(speed=3.0, phi=np.linspace(60.0, 120.0, 5000))
-    layout = carom.balls([[0.5, 0.6], [0.7, 1.5]])
-
-    def seconds(call):
-        begin = time.process_time()
-        call()
-        return time.process_time() - begin
-
-    shots = carom.simulate_batch(table, layout, cues, cushion_model="han")
-    played = min(seconds(lambda: carom.simulate_batch(table, layout, cues, cushion_model="han")) for _ in range(5))
-    assert min(seconds(lambda: [shots[k] for k in range(5000)]) for _ in range(5)) < played
+    cues = carom.cue(speed=3.0, phi=np.linspace(60.0, 120.0, 100))
+    shots = carom.simulate_batch(table, carom.balls([[0.5, 0.6], [0.7, 1.5]]), cues, cushion_model="han")
+    assert calls(lambda: [shots[k] for k in range(100)]) <= 5 * 100
 
 
 def test_light_records(breaks):

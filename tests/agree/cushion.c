@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { DRAWN = 250, MOST_ROWS = 600, NUMBERS = 21 };
+enum { DRAWN = FEWER(250), MOST_ROWS = 600, NUMBERS = 21 };
 
 static int compare(const void *a, const void *b) {
   const double x = *(const double *)a, y = *(const double *)b;

@@ -66,7 +66,7 @@ END_TEST
 
 static int draws_per_regime(void) {
   const char *given = getenv("CAROM_TEST_DRAWS");
-  const int draws = given != NULL ? atoi(given) : 8;
+  const int draws = given != NULL ? atoi(given) : FEWER(8);
   return draws > 0 ? draws : 1;
 }
 
@@ -262,7 +262,7 @@ START_TEST(details) {
   int stuck[3] = {0};
   for (int regime = 0; regime < regimes_count(); regime++) {
     lab_random rng = {test_seed() + (uint64_t)regime};
-    for (int k = 0; k < 20; k++) {
+    for (int k = 0; k < FEWER(20); k++) {
       const carom_impact in = regimes_draw(regime, -1.0, &rng);
       carom_result out;
       carom_detail d;

@@ -176,7 +176,7 @@ END_TEST
 /* A pressed ball that rolls, so that the cloth slip starts at zero: 1e-6 was exceeded mostly there. */
 START_TEST(rolling_balls) {
   random_source source = {test_seed()};
-  for (int k = 0; k < 120; k++) {
+  for (int k = 0; k < FEWER(120); k++) {
     carom_impact in = random_impact(&source);
     in.mu_ball = random_between(&source, 0.05, 0.2);
     in.a.mu_cloth = in.b.mu_cloth = random_between(&source, 0.1, 0.5);
@@ -195,7 +195,7 @@ END_TEST
 START_TEST(strong_friction) {
   random_source source = {test_seed()};
   int solved = 0;
-  enum { DRAWS = 150 };
+  enum { DRAWS = FEWER(150) };
   for (int k = 0; k < DRAWS; k++) {
     carom_impact in = random_impact(&source);
     in.mu_ball = random_between(&source, 0, 0.5);

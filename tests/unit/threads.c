@@ -17,16 +17,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* gcc and clang tell otherwise that a sanitizer is in. That of threads lets none start in a child of a process with threads;
- * that of addresses may wait there for ever for a lock that another thread held at the fork. */
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-#define SANITIZER 1
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
-#define SANITIZER 1
-#endif
-#endif
-
 /* Rows of a made-up job: how often each was worked on, and which are in error. */
 typedef struct counting {
   unsigned char *times;
@@ -70,7 +60,7 @@ START_TEST(each_row_once) {
 }
 END_TEST
 
-#ifndef SANITIZER
+#if !SANITIZED
 static void *idle(void *argument) {
   return argument;
 }
@@ -78,7 +68,7 @@ static void *idle(void *argument) {
 
 /* Where the system starts no thread, the calling one works on all rows. In a child without room for another stack. */
 START_TEST(threads_that_cannot_be_started) {
-#ifndef SANITIZER
+#if !SANITIZED
   enum { FEW = 400 };
   static unsigned char times[FEW];
   static bool bad[FEW] = {[FEW - 1] = true};
@@ -180,13 +170,9 @@ END_TEST
 
 /* ---- Every public function at once */
 
-#ifdef SANITIZER
-enum { CHILD_THREADS = 0 };
-#else
-enum { CHILD_THREADS = 3 };
-#endif
-
-enum { CALLERS = 16, ROUNDS = 4, FORKS = 12, INPUTS = 4 };
+/* The sanitizer of threads lets none start in a child of a process with threads; that of addresses may wait there for ever for
+ * a lock that another thread held at the fork. */
+enum { CHILD_THREADS = SANITIZED ? 0 : 3, CALLERS = 16, ROUNDS = 4, FORKS = 12, INPUTS = 4 };
 static every_input shared[INPUTS];
 static uint64_t alone[INPUTS][EVERY_COUNT];
 static atomic_int others[EVERY_COUNT], calling;
