@@ -64,3 +64,26 @@ swept = list(csv.DictReader(line for line in open("swept.csv") if line[0] != "#"
 derived = list(csv.DictReader(open("derived.csv")))
 print([abs(float(a["throw_deg"]) - float(b["throw_deg"])) < 1e-9 for a, b in zip(swept, derived, strict=True)])
 PYTHON
+# The jump by its definition, from the results that are written: how far a step is outside of those before and after it.
+cat > jumps.py <<'PYTHON'
+import csv, sys
+radius, numbers = float(sys.argv[1]), sys.argv[2].split()
+curves, worst, most = {}, 0.0, 0.0
+for row in csv.DictReader(line for line in open("swept.csv") if line[0] != "#"):
+    curves.setdefault(next(iter(row.values())), []).append(row)
+for rows in curves.values():
+    points = [[float(row[name]) * (radius if name[0] == "w" else 1.0) for name in numbers] for row in rows]
+    for k in range(1, len(points) - 2):
+        one, two, three = ([b - a for a, b in zip(points[n], points[n + 1])] for n in (k - 1, k, k + 1))
+        outside = max(0.0, *(max(y - max(x, z), min(x, z) - y) for x, y, z in zip(one, two, three)))
+        jump = outside / max(map(abs, points[k]))
+        worst, most = max(worst, abs(jump - float(rows[k]["jump"]))), max(most, jump)
+print(len(curves), "curves,", "the jumps are those of the results" if worst < 1e-12 < most else (worst, most))
+PYTHON
+pair=$(for ball in 1 2; do for name in v w; do for axis in x y z; do printf '%s ' $name$ball$axis; done; done; done)
+for over in w1x w2y; do
+  carom sweep --id pooltool-135 --over $over --from -60 --to 60 --points 41 --solver exact,euler > swept.csv 2> /dev/null
+  python jumps.py 0.03075 "$pair"
+done
+carom sweep --cushion --id public-000:16 --over wx --from -60 --to 60 --points 41 "$DATA/cushion-stronge.csv" > swept.csv
+python jumps.py 0.028575 "vx vy vz wx wy wz"
