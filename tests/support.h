@@ -11,7 +11,7 @@
 /* The seed of this run: $CAROM_TEST_SEED, or a fixed one. Printed once, so that a failure can be replayed. */
 uint64_t test_seed(void);
 
-/* Whether a sanitizer is in, which gcc and clang tell otherwise. */
+/* 1 where the sanitizer of addresses or of threads is in, else 0. gcc and clang tell it in different ways. */
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
 #define SANITIZED 1
 #elif defined(__has_feature)
@@ -23,7 +23,7 @@ uint64_t test_seed(void);
 #define SANITIZED 0
 #endif
 
-/* How much a long test does of what it does `count` times: a quarter where a sanitizer is in, as other builds do the rest. */
+/* How many draws a long test makes: `count`, and a quarter of them where a sanitizer is in. Builds without one make all. */
 #define FEWER(count) (SANITIZED ? ((count) + 3) / 4 : (count))
 
 /* Random numbers; each test starts its own from test_seed(). */
