@@ -1,8 +1,12 @@
 /* carom: collisions of two billiard balls on a table.
  *
  * This header is the manual of collisions, from simple to advanced. Cushions and whole shots are in carom_shot.h.
+ * The samples of the headers are valid in C and in C++.
  *
- *     carom_impact in = { ... };                    // two touching balls, before the collision
+ *     carom_ball ball = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0.028575, 0.17, 0.2};   // r, v, w, radius, mass, mu_cloth
+ *     carom_impact in = {ball, ball, 0.05, 0.95};                                 // a, b, mu_ball, restitution
+ *     in.a.v[0] = 1.5;                                                            // m/s, along x
+ *     in.b.r[0] = 2 * ball.radius;                                                // b touches a
  *     carom_result out;
  *     carom_status status = carom_collide(&in, NULL, &out);
  *     if (status < 0) fprintf(stderr, "%s\n", carom_status_string(status));

@@ -1,7 +1,8 @@
 /* carom_shot.h: balls on a table. The impact of a ball on a cushion, and whole shots from the strike to rest.
  *
- *     carom_cushion_impact in = {.v = {0.5, 1.2, 0}, .normal = {0, 1}, .height = 0.0365, .radius = 0.028575, .mass = 0.17,
- *                                .mu_cloth = 0.2, .mu_cushion = 0.2, .restitution = 0.85};
+ *     carom_cushion_impact in = {{0.5, 1.2, 0}, {0, 0, 0}, {0, 1},   // v, w, normal
+ *                                0.0365, 0.028575, 0.17,             // height, radius, mass
+ *                                0.2, 0.2, 0.85, 0};                 // mu_cloth, mu_cushion, restitution, jaw_radius
  *     carom_motion out;
  *     carom_status status = carom_cushion(&in, NULL, &out);
  *
@@ -142,10 +143,13 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
  *     carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, balls, 10);              // gap 0.1 mm, seed 1; balls[0] is the cue ball
  *     carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
  *     cue.speed = 8.0;                                                          // aimed at the rack by default
- *     carom_event events[256];
- *     carom_shot shot = {.events = events, .room = 256};
- *     carom_status status = carom_shoot(&table, balls, 10, &cue, NULL, &shot);  // balls[] are not changed,
- *     carom_shot_at(balls, 10, &shot, 1.5, moved);                              // the state after 1.5 s goes to moved[10]
+ *     static carom_event events[256];
+ *     static carom_shot shot;                                                   // static: all zero
+ *     shot.events = events;
+ *     shot.room = 256;
+ *     carom_status status = carom_shoot(&table, balls, 10, &cue, NULL, &shot);  // balls[] are not changed
+ *     carom_ball_state moved[10];
+ *     carom_shot_at(balls, 10, &shot, 1.5, moved);                              // the states after 1.5 s
  *
  * The playing surface is 0 <= x <= width, 0 <= y <= length for the built-in tables, with z up and the cloth at z = 0: a ball on
  * it has its centre at z = R. docs/using/shots.md describes the models, the rules and the bounds.
@@ -494,13 +498,16 @@ CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ba
 /* Goes on with a shot that was stopped, by its options or by a bound, as if it had not been: every event and state has the bits
  * of the unbroken shot, however often it is stopped. Table, balls and `shot`, with its events so far, are those of the call
  * that stopped, for which shot->state was set; the options say when to stop again, and keep the models. shot->events and ->room
- * may have been replaced by a copy with more room. A shot that has come to rest stays as it is, with CAROM_OK.
+ * may have been replaced by a copy with more room. A shot that has come to rest stays as it is, with CAROM_OK. With table,
+ * balls, cue, shot and moved of the sample above:
  *
- *     carom_shot_state state;
- *     carom_shot shot = {.events = events, .room = 256, .final = states, .state = &state};
- *     carom_shot_options options = {.time_most = 1.0 / 60.0};
- *     carom_status status = carom_shoot(&table, balls, 10, &cue, &options, &shot);
- *     for (int frame = 2; status == CAROM_STOPPED_AT_TIME; frame++) {    // states[] are those of the frame before
+ *     static carom_shot_state state;
+ *     static carom_shot_options options;                                 // all zero: the defaults
+ *     options.time_most = 1.0 / 60.0;
+ *     shot.state = &state;
+ *     shot.final = moved;
+ *     status = carom_shoot(&table, balls, 10, &cue, &options, &shot);
+ *     for (int frame = 2; status == CAROM_STOPPED_AT_TIME; frame++) {    // moved[] are the states of the frame before
  *       options.time_most = frame / 60.0;
  *       status = carom_shot_continue(&table, balls, 10, &options, &shot);
  *     }
@@ -525,10 +532,23 @@ CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int cou
                                            size_t n, carom_ball_state *states);
 
 /* Many shots on one table. Shot k is of the `count` balls from balls[k * ball_stride] on, and of cues[k * cue_stride].
+ * With table, balls and cue of the sample above:
  *
- *     carom_shot_job job = {.table = &table, .balls = balls, .count = 10,                    // one layout for all,
- *                           .cues = cues, .cue_stride = 1, .n = 1000, .shots = shots};       // a cue for each
- *     carom_status status = carom_shoot_batch(&job); */
+ *     static carom_cue cues[100];
+ *     static carom_shot shots[100];
+ *     for (int k = 0; k < 100; k++) {
+ *       cues[k] = cue;
+ *       cues[k].phi = 85.0 + 0.1 * k;
+ *     }
+ *     static carom_shot_job job;
+ *     job.table = &table;
+ *     job.balls = balls;     // one layout for all,
+ *     job.count = 10;
+ *     job.cues = cues;       // a cue for each
+ *     job.cue_stride = 1;
+ *     job.n = 100;
+ *     job.shots = shots;
+ *     status = carom_shoot_batch(&job); */
 typedef struct carom_shot_job {
   const carom_table *table;
   const carom_shot_ball *balls;

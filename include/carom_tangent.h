@@ -2,17 +2,23 @@
  *
  * A direction says how all inputs change together: numbers of the cue, constants of the balls, their states, noses and cushions
  * of the table. A tangent is the derivative of a result in a direction: what changes, per unit of the direction, while the
- * events and their order stay as they are. It is exact for small changes and says nothing about larger ones:
+ * events and their order stay as they are. It is exact for small changes and says nothing about larger ones. With table, balls,
+ * cue and shot of the sample of whole shots in carom_shot.h:
  *
- *     double cue[7][2] = {{0}};                                // two directions:
- *     cue[0][0] = 1.0;                                         // 0: the speed of the cue, per m/s
- *     cue[1][1] = 1.0;                                         // 1: its direction phi, per degree
- *     carom_tangent_seeds seeds = {.directions = 2, .cue = &cue[0][0]};
- *     double final[10][CAROM_STATE_NUMBERS][2], reach[2];
- *     carom_tangent tangent = {.final = &final[0][0][0], .reach = reach};
+ *     static double seed[CAROM_CUE_NUMBERS][2];                // two directions; all else is zero:
+ *     seed[0][0] = 1.0;                                        // 0: the speed of the cue, per m/s
+ *     seed[1][1] = 1.0;                                        // 1: its direction phi, per degree
+ *     static carom_tangent_seeds seeds;
+ *     seeds.directions = 2;
+ *     seeds.cue = &seed[0][0];
+ *     double change[10][CAROM_STATE_NUMBERS][2], when[256][2], reach[2];
+ *     static carom_tangent tangent;
+ *     tangent.final = &change[0][0][0];
+ *     tangent.time = &when[0][0];
+ *     tangent.reach = reach;
  *     status = carom_shoot(&table, balls, 10, &cue, NULL, &shot);                   // with room for all of its events
  *     status = carom_shot_tangent(&table, balls, 10, &cue, NULL, &shot, &seeds, &tangent);
- *     // final[i][0][1]: by how many metres the place x of ball i moves per degree of phi, where |change| < reach[1]
+ *     // change[i][0][1]: by how many metres the place x of ball i moves per degree of phi, for less than reach[1] degrees
  *
  * docs/using/derivatives.md tells what tangents mean and what they cannot tell; docs/understanding/gradients.md has the
  * equations and the errors that were measured.

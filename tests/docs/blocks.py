@@ -7,9 +7,9 @@
     console       commands and what they print: run and compared by shown.py
     sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the test python/package, cmake by every
                   build, the scripts of python/examples by the test of that name; a cluster of many machines by who has one
-    c             README's: built by readme.py
-    c game        docs/using/games.md's: one program, whose main() they are, compiled and run by pages.py
-    c program    docs/using/derivatives.md's: likewise
+    c             README's, a program: built by readme.py, and by samples.py
+    c piece       of one program, whose main() the blocks of a page are: built and run by samples.py, as C and as C++
+    cpp           a program in C++: likewise
     cmake fetch, cmake package    docs/using/building.md's: built by readme.py
     cmake windows    docs/using/building.md's: built and run by the test platforms/windows
     js            a page is a session, run in Node by the test web/package
@@ -19,7 +19,7 @@
 import re
 from pathlib import Path
 
-KINDS = {"sh", "sh install", "sh started", "sh conan", "sh wheel", "console", "sh elsewhere", "c", "c game", "c program", "cmake fetch", "cmake package", "cmake windows", "js", "python"}
+KINDS = {"sh", "sh install", "sh started", "sh conan", "sh wheel", "console", "sh elsewhere", "c", "c piece", "cpp", "cmake fetch", "cmake package", "cmake windows", "js", "python"}
 KINDS |= {f"python {need}" for need in ("pooltool", "numba", "jax", "gymnasium", "pettingzoo", "scale", "elsewhere")}
 
 # Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.

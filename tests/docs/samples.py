@@ -1,0 +1,62 @@
+"""samples.py SOURCE LIBRARY CC CXX: the samples of C in README, docs and the public headers, compiled as pasted, as C17, C++17 and C++20, without
+a warning, linked with the static library and run; and those of C++.
+
+README's block is a program. The blocks `c piece` of a page are together the main() of one, and so are the samples of headers, which are the
+indented paragraphs of their comments: a sample that declares a status begins a program, the others continue it.
+"""
+
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from blocks import blocks, pages
+
+SOURCE, LIBRARY, CC, CXX = Path(sys.argv[1]), *sys.argv[2:5]
+HEADERS = ("carom.h", "carom_shot.h", "carom_tangent.h")
+C = [(CC, "-std=c17"), (CXX, "-std=c++17"), (CXX, "-std=c++20")]
+WARNINGS = ["-Wall", "-Wextra", "-pedantic", "-Werror"]
+
+
+def program(pieces, end="return 0;"):
+    return f"#include <carom_tangent.h>\n#include <stdio.h>\n\nint main(void) {{\n{''.join(pieces)}{end}\n}}\n"
+
+
+def header_programs():
+    """The pieces of each program of the headers."""
+    found = []
+    for header in HEADERS:
+        text = (SOURCE / "include" / header).read_text(encoding="utf-8").replace(" */\n", "\n *\n")
+        for sample in re.findall(r"^ \*\n((?: \*     .*\n)+)", text, flags=re.M):
+            piece = re.sub(r"^ \*     ", "", sample, flags=re.M)
+            if "carom_status status =" in piece:
+                found.append([])
+            found[-1].append(piece)
+    return found
+
+
+# Name, compilers, text, and what it has to print.
+programs = [(f"headers, program {k}", C, program(pieces, "return status != CAROM_OK;"), "") for k, pieces in enumerate(header_programs(), 1)]
+assert sum(map(len, header_programs())) >= 6, "a sample of the headers was not found"
+for page in pages(SOURCE):
+    found, shown = blocks(SOURCE, page), re.search("It prints `(.*?)`", Path(SOURCE, page).read_text(encoding="utf-8"))
+    pieces = [text for kind, text in found if kind == "c piece"]
+    programs += [(page, C, text, "ball 1 is hit after") for kind, text in found if kind == "c"]
+    programs += [(page, C[1:], text, shown[1]) for kind, text in found if kind == "cpp"]
+    if pieces:
+        programs.append((page, C, program(pieces), "at 90.0 degrees ball 4 is hit" if page.endswith("games.md") else shown[1]))
+assert len(programs) >= 7, programs
+
+with tempfile.TemporaryDirectory() as work:
+    for number, (name, compilers, text, shown) in enumerate(programs):
+        for compiler, standard in compilers:
+            # The name of the file says which language it has, as a user's does.
+            file = Path(work, f"{number}.{'cpp' if '++' in standard else 'c'}")
+            file.write_text(text, encoding="utf-8")
+            built = subprocess.run([compiler, standard, *WARNINGS, f"-I{SOURCE}/include", file, LIBRARY, "-lm", "-pthread", "-o", file.with_suffix("")],
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            assert built.returncode == 0, f"{name}, {compiler} {standard}:\n{built.stdout}"
+            said = subprocess.run([file.with_suffix("")], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            assert said.returncode == 0 and shown in said.stdout, f"{name}, {standard}: exit {said.returncode}\n{said.stdout}"
+print(f"{len(programs)} programs")
