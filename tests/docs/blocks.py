@@ -7,6 +7,7 @@
     console       commands and what they print: run and compared by shown.py
     sh elsewhere, python elsewhere   not run here but by others: ./test by who reads this, pip by the test python/package, cmake by every
                   build, the scripts of python/examples by the test of that name; a cluster of many machines by who has one
+    sh program    README's and docs/using/building.md's: compile README's block of C in readme.py, against what has been installed
     c             README's, a program: built by readme.py, and by samples.py
     c piece       of one program, whose main() the blocks of a page are: built and run by samples.py, as C and as C++
     cpp           a program in C++: likewise
@@ -19,7 +20,7 @@
 import re
 from pathlib import Path
 
-KINDS = {"sh", "sh install", "sh started", "sh conan", "sh wheel", "console", "sh elsewhere", "c", "c piece", "cpp", "cmake fetch", "cmake package", "cmake windows", "js", "python"}
+KINDS = {"sh", "sh install", "sh started", "sh program", "sh conan", "sh wheel", "console", "sh elsewhere", "c", "c piece", "cpp", "cmake fetch", "cmake package", "cmake windows", "js", "python"}
 KINDS |= {f"python {need}" for need in ("pooltool", "numba", "jax", "gymnasium", "pettingzoo", "scale", "elsewhere")}
 
 # Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.

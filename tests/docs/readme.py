@@ -1,7 +1,8 @@
 """readme.py SOURCE BUILD CMAKE CC: runs the code blocks of README.md as a reader would who pastes them, in an empty folder.
 
-Blocks of sh run with `carom` on the path; the one that installs is built with one instruction set, to be quick. The C programs are built
-by the CMake files of docs/using/building.md and by pkg-config, against what has been installed. blocks.py says what runs the others.
+Blocks of sh run with `carom` on the path; the one that installs is built with one instruction set, to be quick. The C program is built
+by the CMake files of docs/using/building.md and by the blocks `sh program` of both pages, against what has been installed, with nothing in
+the environment that the pages do not put there. blocks.py says what runs the others.
 """
 
 import os
@@ -14,6 +15,8 @@ from blocks import blocks
 
 SOURCE, BUILD, CMAKE, CC = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], sys.argv[4]
 QUICK = "-DCAROM_ISAS=none"
+for variable in ("PKG_CONFIG_PATH", "LD_LIBRARY_PATH", "LD_RUN_PATH", "CPATH", "C_INCLUDE_PATH", "LIBRARY_PATH", "CMAKE_PREFIX_PATH"):
+    os.environ.pop(variable, None)
 
 
 def run(command, folder, **more):
@@ -32,7 +35,8 @@ def shell(text, folder, **more):
 readme, building = blocks(SOURCE, "README.md"), blocks(SOURCE, "docs/using/building.md")
 kinds = [kind for kind, _ in readme + building]
 assert all(kinds.count(kind) == 1 for kind in ("c", "cmake fetch", "cmake package", "sh install")), kinds
-of = dict(readme + building)
+of, programs = dict(readme + building), [text for kind, text in readme + building if kind == "sh program"]
+assert len(programs) == 2, programs
 
 with tempfile.TemporaryDirectory() as work:
     work = Path(work)
@@ -51,25 +55,22 @@ with tempfile.TemporaryDirectory() as work:
     # Installing, from a copy of what a clone has.
     for part in ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "cmake", "cli", "data", "docs", "examples", "include", "src"):
         (clone / part).symlink_to(SOURCE / part)
+    # Then the program, in the same shell, and in a new one; and by CMake, which finds what is beside a folder of the path.
     assert "cmake -B b " in of["sh install"]
-    shell(of["sh install"].replace("cmake -B b ", f"cmake -B b {QUICK} "), clone, HOME=str(home))
+    (reader / "main.c").write_text(of["c"], encoding="utf-8")
+    installing = of["sh install"].replace("cmake -B b ", f"cmake -B b {QUICK} ")
+    printed = [shell(f"{installing}cd {reader}\n{programs[0]}", clone, HOME=str(home)), shell(programs[1], reader, HOME=str(home))]
+    said = {"".join(text.splitlines(keepends=True)[-2:]) for text in printed}
     prefix = home / ".local"
     assert "carom 0." in run([prefix / "bin/carom", "--version"], reader)
-
-    # The program, built in each of the three ways.
-    said = set()
-    for way, more in (("fetch", [QUICK]), ("package", [f"-DCMAKE_PREFIX_PATH={prefix}"])):
+    for way, more in (("fetch", [QUICK]), ("package", [])):
         folder = work / way
-        folder.mkdir(exist_ok=True)
-        if not (folder / "carom").exists():
-            (folder / "carom").symlink_to(SOURCE)
+        folder.mkdir()
+        (folder / "carom").symlink_to(SOURCE)
         (folder / "main.c").write_text(of["c"], encoding="utf-8")
         (folder / "CMakeLists.txt").write_text(of[f"cmake {way}"], encoding="utf-8")
-        run([CMAKE, "-B", "b", *more], folder)
+        run([CMAKE, "-B", "b", *more], folder, PATH=f"{prefix}/bin:{os.environ['PATH']}")
         run([CMAKE, "--build", "b"], folder)
         said.add(run([folder / "b/game"], folder))
-    library = next(prefix.glob("lib*/**/libcarom.so")).parent
-    shell('"$CC" main.c $(pkg-config --cflags --libs carom) -o game', folder, PKG_CONFIG_PATH=str(library / "pkgconfig"))
-    said.add(run(["./game"], folder, LD_LIBRARY_PATH=str(library), CAROM_ISA="plain"))
     assert said == {"ok: ball 1 is hit after 0.111 s\nok: the object ball leaves with 1.103, 0.615 m/s\n"}, said
-print("README.md: pasted, installed and built in three ways")
+print("README.md: pasted, installed and built in four ways")
