@@ -2,7 +2,7 @@
 import { layout } from "./generated/layout.js";
 import type { Memory, Pointer } from "./memory.js";
 import { type Shot } from "./shot.js";
-import { readMotion, readState, writeBalls, writeCue, writeTable } from "./structs.js";
+import { readMotion, readState, writeBalls, writeStruct, writeTable } from "./structs.js";
 import type { BallState, Collided, Cue, Impact, ShotBall, Table } from "./types.js";
 
 const IMPACT = layout.carom_impact;
@@ -153,7 +153,7 @@ export class Shots extends Owner {
   }
   /** Sets the cue of shot k. */
   setCue(k: number, cue: Cue): void {
-    writeCue(this.library.memory, this.at(2) + this.#shot(k) * CUE.size, cue);
+    writeStruct(this.library.memory, this.at(2) + this.#shot(k) * CUE.size, "carom_cue", cue, "cue");
   }
   /** The state of a ball at the end of shot k. */
   state(k: number, ball: number): BallState {

@@ -2,21 +2,22 @@
 import { Collisions, type Library, Shots } from "./batches.js";
 import { CaromError } from "./error.js";
 import { layout, values } from "./generated/layout.js";
+import { KEYS, refuseUnknown } from "./keys.js";
 import type { Build, Memory, Pointer } from "./memory.js";
-import { type Reader, Shot } from "./shot.js";
+import { type Kept, type Reader, Shot } from "./shot.js";
 import {
   readBalls,
-  readCue,
   readEvent,
-  readKind,
   readMotion,
   readState,
+  readStruct,
   readTable,
+  refuseName,
+  refuseUnknownOf,
   value,
   vec3,
   writeBalls,
-  writeCue,
-  writeDoubles,
+  writeStruct,
   writeTable,
 } from "./structs.js";
 import type {
@@ -29,12 +30,14 @@ import type {
   CushionImpact,
   CushionOptions,
   Detail,
+  EventType,
   Game,
   Impact,
   Motion,
   RackName,
   ShotBall,
   ShotOptions,
+  StopOptions,
   Table,
   TableName,
   TracePoint,
@@ -83,16 +86,18 @@ export class Carom {
   readonly #memory: Memory;
   readonly #library: Library;
   readonly #reader: Reader;
-  readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "motion" | "number", Pointer>;
+  readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "state" | "motion" | "number", Pointer>;
   #points: Pointer = 0;
   #pointRoom = 0;
   #events: Pointer = 0;
   #room = 0;
   /** The shot whose balls and events are in the module's memory. */
   #resident: Shot | undefined;
-  readonly #eventNames = new Map<number, string>();
   readonly #tables: Map<string, number>;
   readonly #racks: Map<string, number>;
+  /** What a shot may be stopped after, by the bit in stop_at: "contact", then the types of events. */
+  readonly #stops: Map<string, number>;
+  readonly #eventNames: readonly EventType[];
 
   /** @internal */
   constructor(memory: Memory, build: Build) {
@@ -109,6 +114,7 @@ export class Carom {
       cue: part(layout.carom_cue.size),
       shot: part(SHOT.size),
       final: part(BALLS_MOST * layout.carom_ball_state.size),
+      state: memory.allocate(layout.carom_shot_state.size),
       motion: part(BALLS_MOST * 32),
       number: part(64),
     };
@@ -121,7 +127,7 @@ export class Carom {
     this.#reader = {
       events: (shot) => {
         this.#reside(shot);
-        const name = (type: number): string => this.#eventName(type);
+        const name = (type: number): EventType => this.#eventNames[type]!;
         return Array.from({ length: shot.count }, (_, k) => readEvent(this.#memory, this.#events + k * EVENT.size, name));
       },
       states: (shot, time) => {
@@ -161,13 +167,14 @@ export class Carom {
         into.set(this.#memory.f64.subarray(motion / 8, motion / 8 + 4 * shot.balls.length));
       },
     };
-    const names = (name: (kind: number) => Pointer): Map<string, number> => {
-      const found = new Map<string, number>();
-      for (let kind = 0, text; (text = memory.text(name(kind))) !== undefined; kind++) found.set(text, kind);
+    const names = (name: (kind: number) => Pointer, found = new Map<string, number>()): Map<string, number> => {
+      for (let text; (text = memory.text(name(found.size))) !== undefined; ) found.set(text, found.size);
       return found;
     };
     this.#tables = names((kind) => this.#call.carom_table_name(kind));
     this.#racks = names((kind) => this.#call.carom_rack_name(kind));
+    this.#stops = names((type) => this.#call.carom_event_name(type), new Map([["contact", 0]]));
+    this.#eventNames = [...this.#stops.keys()] as EventType[];
   }
 
   get #call(): Memory["exports"] {
@@ -196,31 +203,21 @@ export class Carom {
     return this.#memory.text(this.#call.carom_status_name(code))!;
   }
 
-  #error(code: number, field?: string, shot?: Shot): CaromError {
-    return new CaromError(code, this.statusName(code), this.#memory.text(this.#call.carom_status_string(code))!, field, shot);
+  #error(code: number, field?: string, shot?: Shot, text = this.#memory.text(this.#call.carom_status_string(code))!): CaromError {
+    return new CaromError(code, this.statusName(code), text, field, shot);
   }
 
   #refuse(code: number, field?: string): void {
     if (code < 0) throw this.#error(code, field);
   }
 
-  #eventName(type: number): string {
-    let name = this.#eventNames.get(type);
-    if (name === undefined) {
-      name = this.#memory.text(this.#call.carom_event_name(type)) ?? `type ${type}`;
-      this.#eventNames.set(type, name);
-    }
-    return name;
-  }
-
   // ---- Two balls -----------------------------------------------------------------------------------------------------------
 
   #writeImpact(at: Pointer, impact: Impact): void {
     const { a, b } = IMPACT.offset;
-    writeDoubles(this.#memory, at + a, "carom_ball", BALL);
-    writeDoubles(this.#memory, at + b, "carom_ball", BALL);
-    writeDoubles(this.#memory, at + a, "carom_ball", impact.a);
-    writeDoubles(this.#memory, at + b, "carom_ball", impact.b);
+    refuseUnknown(impact, KEYS.impact, "impact");
+    writeStruct(this.#memory, at + a, "carom_ball", impact.a, "a", BALL);
+    writeStruct(this.#memory, at + b, "carom_ball", impact.b, "b", BALL);
     this.#memory.f64[(at + IMPACT.offset.restitution) / 8] = impact.restitution ?? 0.95;
     this.#memory.f64[(at + IMPACT.offset.muBall) / 8] = impact.muBall ?? this.#alciatore(at);
   }
@@ -231,6 +228,7 @@ export class Carom {
   }
 
   #writeOptions(options: CollideOptions): Pointer {
+    refuseUnknown(options, KEYS.collide);
     const { options: at } = this.#at;
     this.#memory.u8.fill(0, at, at + OPTIONS.size);
     const i32 = this.#memory.i32;
@@ -331,7 +329,9 @@ export class Carom {
   /** The velocity, m/s, at which a ball begins to roll after sliding. */
   rollingVelocity(motion: Motion, radius: number): [number, number, number] {
     const { motion: at } = this.#at;
-    writeDoubles(this.#memory, at, "carom_motion", motion);
+    refuseUnknown(motion, KEYS.motion, "motion");
+    const { v, w } = motion;
+    writeStruct(this.#memory, at, "carom_motion", { v, w }, "motion");
     this.#call.carom_rolling_velocity(at, at + layout.carom_motion.offset.w, radius, at);
     return [...vec3(this.#memory.f64, at)];
   }
@@ -355,8 +355,8 @@ export class Carom {
   /** Resolves one impact of a ball on a cushion. */
   cushion(impact: CushionImpact, options: CushionOptions = {}): Motion & { status: string } {
     const { impact: at, options: opt, motion, number } = this.#at;
-    writeDoubles(this.#memory, at, "carom_cushion_impact", RAIL);
-    writeDoubles(this.#memory, at, "carom_cushion_impact", impact);
+    refuseUnknown(options, KEYS.cushion);
+    writeStruct(this.#memory, at, "carom_cushion_impact", impact, "impact", RAIL);
     this.#memory.u8.fill(0, opt, opt + CUSHION_OPTIONS.size);
     const i32 = this.#memory.i32;
     const o = CUSHION_OPTIONS.offset;
@@ -375,9 +375,7 @@ export class Carom {
   // ---- Tables, racks, balls, cues --------------------------------------------------------------------------------------------
 
   #kind(names: Map<string, number>, name: string, what: string): number {
-    const kind = names.get(name);
-    if (kind === undefined) throw new TypeError(`${what}: it must be one of ${[...names.keys()].join(", ")}, not ${JSON.stringify(name)}`);
-    return kind;
+    return names.get(name) ?? refuseName(what, name, [...names.keys()]);
   }
 
   /** A built-in table. */
@@ -395,17 +393,23 @@ export class Carom {
     writeTable(this.#memory, this.#at.table, table);
     const code = this.#call.carom_table_check(this.#at.table, radius, this.#at.detail);
     if (code >= 0) return;
-    const part = this.#at.detail + layout.carom_table_fault.offset.part;
-    const kind = this.#memory.i32[(part + layout.carom_part.offset.kind) / 4]!;
-    const index = this.#memory.i32[(part + layout.carom_part.offset.index) / 4]!;
-    throw this.#error(code, kind === 0 ? "table" : `table.${["", "rails", "jaws", "pockets"][kind]}[${index}]`);
+    throw this.#error(code, this.#part(this.#at.detail + layout.carom_table_fault.offset.part));
+  }
+
+  /** The name of a carom_part. */
+  #part(at: Pointer): string {
+    const kind = this.#memory.i32[(at + layout.carom_part.offset.kind) / 4]!;
+    const index = this.#memory.i32[(at + layout.carom_part.offset.index) / 4]!;
+    return kind === 0 ? "table" : `${["", "table.rails", "table.jaws", "table.pockets", "balls"][kind]}[${index}]`;
   }
 
   /**
    * The balls of a rack; the cue ball is the first. Neighbours are `gap` apart, m (default 1e-4; 0 is a frozen rack). `seed` draws how they
    * lie within it.
    */
-  rack(name: RackName, table: Table, { gap = 1e-4, seed = 1 }: { gap?: number; seed?: number | bigint } = {}): ShotBall[] {
+  rack(name: RackName, table: Table, options: { gap?: number; seed?: number | bigint } = {}): ShotBall[] {
+    refuseUnknown(options, KEYS.rack);
+    const { gap = 1e-4, seed = 1 } = options;
     const kind = this.#kind(this.#racks, name, "rack");
     this.#resident = undefined;
     writeTable(this.#memory, this.#at.table, table);
@@ -419,24 +423,46 @@ export class Carom {
   /** The constants of a game's balls. */
   kind(game: Game): BallKind {
     this.#call.carom_ball_kind_of(this.#at.detail, value("CAROM_GAME_", game, "game"));
-    return readKind(this.#memory.f64, this.#at.detail);
+    return readStruct(this.#memory, this.#at.detail, "carom_ball_kind");
   }
 
   /** A ball at rest at x, y (m), of a game or of constants of one's own. */
   ball(x: number, y: number, kind: Game | BallKind = "pool"): ShotBall {
     const constants = typeof kind === "string" ? this.kind(kind) : kind;
+    refuseUnknownOf("carom_ball_kind", constants, "kind");
     return { kind: constants, state: { r: [x, y, constants.radius], v: [0, 0, 0], w: [0, 0, 0], label: "stationary" } };
+  }
+
+  /**
+   * Ball in hand: the layout with a ball at rest at x, y (m), also one that was pocketed. Throws a CaromError where the place is not free, whose
+   * `field` is the ball or the part of the table that is in the way.
+   */
+  placeBall(table: Table, balls: readonly ShotBall[], ball: number, x: number, y: number): ShotBall[] {
+    if (!Number.isInteger(ball) || ball < 0 || ball >= balls.length) throw new RangeError(`ball: it must be 0 to ${balls.length - 1}, not ${ball}`);
+    this.#writeLayout(table, balls);
+    const { table: of, balls: at, detail } = this.#at;
+    const code = this.#call.carom_place_ball(of, at, balls.length, ball, x, y, detail);
+    if (code === values.CAROM_ERROR_OVERLAP || code === values.CAROM_ERROR_OFF_TABLE) {
+      const part = this.#part(detail);
+      throw this.#error(code, part, undefined, `${part === "table" ? "outside of it" : "in the way"} at ${x}, ${y} m; a free place is needed`);
+    }
+    this.#refuse(code, `ball ${ball} at ${x}, ${y}`);
+    const placed = readBalls(this.#memory, at, balls.length)[ball]!;
+    return balls.map((one, k) => (k === ball ? { kind: one.kind, state: placed.state } : one));
   }
 
   /** A cue: that of the game with the fields given. By default 2 m/s along the table, 0.25 radii above the centre, ball 0. */
   cue(fields: Partial<Cue> = {}, game: Game = "pool"): Cue {
     this.#call.carom_cue_of(this.#at.detail, value("CAROM_GAME_", game, "game"));
-    return { ...readCue(this.#memory, this.#at.detail), ...fields };
+    const cue = readStruct<Cue>(this.#memory, this.#at.detail, "carom_cue");
+    refuseUnknownOf("carom_cue", fields, "cue");
+    return { ...cue, ...Object.fromEntries(Object.entries(fields).filter(([, given]) => given !== undefined)) };
   }
 
   // ---- Shots -----------------------------------------------------------------------------------------------------------------
 
   #writeShotOptions(options: ShotOptions): Pointer {
+    refuseUnknown(options, KEYS.shot);
     const { options: at } = this.#at;
     this.#memory.u8.fill(0, at, at + SHOT_OPTIONS.size);
     const i32 = this.#memory.i32;
@@ -447,10 +473,17 @@ export class Carom {
     i32[(at + o.space) / 4] = value("CAROM_SPACE_", options.space ?? "3d", "space");
     i32[(at + o.friction) / 4] = value("CAROM_FRICTION_", options.friction ?? "alciatore", "friction");
     i32[(at + o.steps) / 4] = whole(options.steps, "steps");
-    i32[(at + o.eventsMost) / 4] = whole(options.eventsMost, "eventsMost");
-    this.#memory.f64[(at + o.timeMost) / 8] = options.timeMost ?? 0;
-    this.#memory.i64[(at + o.stopAt) / 8] = options.stopAtContact === true ? 1n : 0n; // CAROM_STOP_AT_CONTACT
+    this.#writeStops(options);
     return at;
+  }
+
+  #writeStops({ timeMost = 0, stopAt = [], eventsMost }: StopOptions): void {
+    const { options: at } = this.#at;
+    const o = SHOT_OPTIONS.offset;
+    const stops = typeof stopAt === "string" ? [stopAt] : stopAt;
+    this.#memory.i32[(at + o.eventsMost) / 4] = whole(eventsMost, "eventsMost");
+    this.#memory.f64[(at + o.timeMost) / 8] = timeMost;
+    this.#memory.i64[(at + o.stopAt) / 8] = stops.reduce((set, stop) => set | (1n << BigInt(this.#kind(this.#stops, stop, "stopAt"))), 0n);
   }
 
   #needRoom(room: number): void {
@@ -461,12 +494,25 @@ export class Carom {
   }
 
   #writeShot(count: number): void {
-    const { shot: at, final } = this.#at;
+    const { shot: at, final, state } = this.#at;
     this.#memory.u8.fill(0, at, at + SHOT.size);
     this.#memory.u32[(at + SHOT.offset.events) / 4] = this.#events;
     this.#memory.u32[(at + SHOT.offset.final) / 4] = final;
+    this.#memory.u32[(at + SHOT.offset.state) / 4] = state;
     this.#memory.i64[(at + SHOT.offset.room) / 8] = BigInt(this.#room);
     this.#memory.i64[(at + SHOT.offset.count) / 8] = BigInt(count);
+  }
+
+  #count(): number {
+    return Number(this.#memory.i64[(this.#at.shot + SHOT.offset.count) / 8]);
+  }
+
+  /** Table and balls into the module's memory. */
+  #writeLayout(table: Table, balls: readonly ShotBall[]): void {
+    if (balls.length < 1 || balls.length > BALLS_MOST) throw new RangeError(`balls: there must be 1 to ${BALLS_MOST}, not ${balls.length}`);
+    this.#resident = undefined;
+    writeTable(this.#memory, this.#at.table, table);
+    writeBalls(this.#memory, this.#at.balls, balls);
   }
 
   /**
@@ -474,33 +520,65 @@ export class Carom {
    * where something is out of range; where the shot ends in an error later, its `shot` has what had happened.
    */
   simulate(table: Table, balls: readonly ShotBall[], cue?: Partial<Cue>, options: ShotOptions = {}): Shot {
-    if (balls.length < 1 || balls.length > BALLS_MOST) throw new RangeError(`balls: there must be 1 to ${BALLS_MOST}, not ${balls.length}`);
     const at = this.#at;
-    this.#resident = undefined;
-    writeTable(this.#memory, at.table, table);
-    writeBalls(this.#memory, at.balls, balls);
-    let cueAt = 0;
-    if (cue !== undefined) {
-      writeCue(this.#memory, at.cue, this.cue(cue));
-      cueAt = at.cue;
-    }
+    const struck = cue === undefined ? undefined : this.cue(cue);
+    this.#writeLayout(table, balls);
+    if (struck !== undefined) writeStruct(this.#memory, at.cue, "carom_cue", struck, "cue");
+    const cueAt = struck === undefined ? 0 : at.cue;
     const opt = this.#writeShotOptions(options);
     this.#needRoom(256);
     let code: number;
-    let count: number;
     // A shot that has more events than there is room for is played again with enough of it: it has the same bits.
     for (;;) {
       this.#writeShot(0);
       code = this.#call.carom_shoot(at.table, at.balls, balls.length, cueAt, opt, at.shot);
-      count = Number(this.#memory.i64[(at.shot + SHOT.offset.count) / 8]);
-      if (count <= this.#room) break;
-      this.#needRoom(count);
+      if (this.#count() <= this.#room) break;
+      this.#needRoom(this.#count());
     }
-    if (code < 0 && count === 0) {
+    if (code < 0 && this.#count() === 0) {
       this.#call.carom_shot_check(at.table, at.balls, balls.length, cueAt, opt, at.number);
       throw this.#error(code, this.#where(code, this.#memory.i32[at.number / 4]!));
     }
-    const shot = this.#played(table, balls.map(({ kind, state }) => ({ kind: { ...kind }, state: { ...state } })), code, at.shot, at.final, this.#events);
+    return this.#ended(table, balls.map(({ kind, state }) => ({ kind: { ...kind }, state: { ...state } })), code);
+  }
+
+  /**
+   * Goes on with a shot that was stopped, by `timeMost`, `stopAt` or a bound, as if it had not been: every event and state has the bits of the
+   * unbroken shot, however often it is stopped. The options say when to stop again; table, balls and models are those that the shot began
+   * with. The shot that is given does not change; the new one has all events from the beginning. A shot at rest stays as it is.
+   */
+  continue(shot: Shot, options: StopOptions = {}): Shot {
+    refuseUnknown(options, KEYS.stop);
+    if (shot.status === "ok") return shot;
+    const kept = shot.kept;
+    if (kept === undefined) throw new TypeError(`shot: only what simulate() or continue() stopped can go on, not a shot "${shot.status}", or one of a batch`);
+    const at = this.#at;
+    let code: number;
+    // As in simulate(), if there is too little room: what was there before is put back.
+    for (;;) {
+      this.#resident = undefined;
+      this.#reside(shot);
+      this.#resident = undefined;
+      for (const part of ["table", "options", "state"] as const) this.#memory.u8.set(kept[part], at[part]);
+      this.#writeStops(options);
+      code = this.#call.carom_shot_continue(at.table, at.balls, shot.balls.length, at.options, at.shot);
+      if (code === values.CAROM_ERROR_TIME) throw this.#error(code, `timeMost ${options.timeMost}, where the shot stopped at ${shot.time}`);
+      if (code === values.CAROM_ERROR_SHOT_OPTIONS || code === values.CAROM_ERROR_STATE) throw this.#error(code, "continue");
+      if (this.#count() <= this.#room) break;
+      this.#needRoom(this.#count());
+    }
+    return this.#ended(shot.table, shot.balls, code);
+  }
+
+  /** The shot that has just been played or continued in the module's memory. Throws where it ended in an error. */
+  #ended(table: Table, balls: readonly ShotBall[], code: number): Shot {
+    const { shot: at, final } = this.#at;
+    let kept: Kept | undefined;
+    if (code > 0 || code === values.CAROM_ERROR_TOO_MANY_EVENTS || code === values.CAROM_ERROR_TOO_LONG) {
+      const copy = (part: keyof Kept, size: number): Uint8Array => this.#memory.u8.slice(this.#at[part], this.#at[part] + size);
+      kept = { table: copy("table", layout.carom_table.size), options: copy("options", SHOT_OPTIONS.size), state: copy("state", layout.carom_shot_state.size) };
+    }
+    const shot = this.#played(table, balls, code, at, final, this.#events, kept);
     this.#resident = shot;
     if (code < 0) throw this.#error(code, undefined, shot);
     return shot;
@@ -512,11 +590,11 @@ export class Carom {
     return code === values.CAROM_ERROR_TABLE || code === values.CAROM_ERROR_NOSE_HEIGHT ? `table, part ${index}` : `balls[${index}]`;
   }
 
-  #played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer): Shot {
+  #played(table: Table, balls: readonly ShotBall[], code: number, shot: Pointer, final: Pointer, events: Pointer, kept?: Kept): Shot {
     const count = Number(this.#memory.i64[(shot + SHOT.offset.count) / 8]);
     const bytes = this.#memory.u8.slice(events, events + count * EVENT.size);
     const states = balls.map((_, k): BallState => readState(this.#memory, final + k * layout.carom_ball_state.size));
-    return new Shot(this.#reader, table, balls, this.statusName(code), this.#memory.f64[(shot + SHOT.offset.time) / 8]!, states, count, bytes);
+    return new Shot(this.#reader, table, balls, this.statusName(code), this.#memory.f64[(shot + SHOT.offset.time) / 8]!, states, count, bytes, kept);
   }
 
   /** Puts balls and events of a shot into the module's memory, if others are there. */
@@ -537,16 +615,16 @@ export class Carom {
   }
 
   /** What the cue ball touches first, or undefined. The shot is followed until then only, so this costs a fraction of `simulate`. */
-  firstContact(table: Table, balls: readonly ShotBall[], cue?: Partial<Cue>, options: ShotOptions = {}): Contact | undefined {
-    return this.simulate(table, balls, cue, { ...options, stopAtContact: true }).firstContact;
+  firstContact(table: Table, balls: readonly ShotBall[], cue?: Partial<Cue>, options: Omit<ShotOptions, "stopAt"> = {}): Contact | undefined {
+    return this.simulate(table, balls, cue, { ...options, stopAt: "contact" }).firstContact;
   }
 
   /** The motion of a ball at rest just after a strike. */
   strike(cue: Partial<Cue>, kind: BallKind): Motion {
     const { cue: at, detail, motion } = this.#at;
     this.#resident = undefined;
-    writeCue(this.#memory, at, this.cue(cue));
-    writeDoubles(this.#memory, detail, "carom_ball_kind", kind);
+    writeStruct(this.#memory, at, "carom_cue", this.cue(cue), "cue");
+    writeStruct(this.#memory, detail, "carom_ball_kind", kind, "kind");
     this.#refuse(this.#call.carom_strike(at, detail, motion), "cue");
     return readMotion(this.#memory.f64, motion);
   }
@@ -555,9 +633,10 @@ export class Carom {
    * Memory for n shots on a table: of one layout of balls for all, or one for each. `room` is how many events of each are kept; 0, the
    * default: none, only final states. All cues are at first those of `cue()`.
    */
-  shots(table: Table, balls: readonly ShotBall[] | readonly (readonly ShotBall[])[], n: number, { room = 0 }: { room?: number } = {}): Shots {
+  shots(table: Table, balls: readonly ShotBall[] | readonly (readonly ShotBall[])[], n: number, options: { room?: number } = {}): Shots {
+    refuseUnknown(options, KEYS.room);
     const layouts = (Array.isArray(balls[0]) ? balls : [balls]) as readonly (readonly ShotBall[])[];
-    const shots = new Shots(this.#library, structuredClone(table), structuredClone(layouts), n, room);
+    const shots = new Shots(this.#library, structuredClone(table), structuredClone(layouts), n, options.room ?? 0);
     const cue = this.cue();
     for (let k = 0; k < n; k++) shots.setCue(k, cue);
     return shots;

@@ -11,6 +11,7 @@
  * @packageDocumentation
  */
 import { Carom } from "./carom.js";
+import { KEYS, refuseUnknown } from "./keys.js";
 import { type Build, simdAvailable, start } from "./memory.js";
 
 export { Collisions, cueFields, cueSize, Shots } from "./batches.js";
@@ -28,6 +29,8 @@ export interface LoadOptions {
 }
 
 /** Compiles the WebAssembly module and returns the library. Each call gives a library with a memory of its own. */
-export async function load({ build = simdAvailable() ? "simd" : "plain" }: LoadOptions = {}): Promise<Carom> {
+export async function load(options: LoadOptions = {}): Promise<Carom> {
+  refuseUnknown(options, KEYS.build);
+  const { build = simdAvailable() ? "simd" : "plain" } = options;
   return new Carom(await start(build), build);
 }

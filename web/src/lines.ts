@@ -1,5 +1,6 @@
 // Shots as the JSON lines that `carom shoot` reads and writes (docs/using/shots.md has the format).
 import type { Carom } from "./carom.js";
+import { KEYS, refuseUnknown } from "./keys.js";
 import { LABELS } from "./structs.js";
 import type { BallKind, Cue, Game, ShotBall, Table, TableName } from "./types.js";
 
@@ -49,6 +50,7 @@ const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
 
 /** The line of a shot, without a line break. `carom shoot` plays it with the same bits under CAROM_ISA=plain. */
 export function toLine(shot: Pick<Line, "tableName" | "balls" | "cue"> & { id?: string; names?: string[] }): string {
+  refuseUnknown(shot, KEYS.line, "shot");
   const names = shot.names ?? shot.balls.map((_, k) => (k === 0 ? "cue" : String(k)));
   const cue: Record<string, number | string> = {};
   for (const [key, field] of CUE) cue[key] = shot.cue[field];
@@ -70,7 +72,9 @@ function numbers(from: unknown, key: string, count: number): number[] {
   return good ? (from as number[]) : refuse(key, `${count} numbers are needed`);
 }
 
-function fill<Key extends string>(into: Record<Key, number>, keys: readonly (readonly [string, Key])[], from: Record<string, unknown>, name: string): void {
+/** Numbers by their keys; `other` is the key of what is no number. */
+function fill<Key extends string>(into: Record<Key, number>, keys: readonly (readonly [string, Key])[], from: Record<string, unknown>, other: string, name: string): void {
+  refuseUnknown(from, [...keys.map(([key]) => key), other], name);
   for (const [key, field] of keys) {
     const given = from[key];
     if (given === undefined) continue;
@@ -97,7 +101,7 @@ export function fromLine(carom: Carom, text: string): Line {
     names.push(typeof ball.id === "string" ? ball.id : refuse(`balls[${k}].id`, "a text is needed"));
     // Missing numbers are those of the game, or pooltool's, whose friction of spinning depends on the radius.
     const kind = carom.kind((params.game ?? "pooltool_pool") as Game);
-    fill(kind as unknown as Record<string, number>, PARAMS, params, `balls[${k}].params`);
+    fill(kind as unknown as Record<string, number>, PARAMS, params, "game", `balls[${k}].params`);
     if (params.game === undefined && params.u_sp === undefined) kind.muSpin = ((10.0 * 2.0) / 5.0 / 9.0) * kind.radius;
     const [label, x, y, z, ...motion] = numbers(ball.state, `balls[${k}].state`, 10) as [number, number, number, number, ...number[]];
     return {
@@ -114,6 +118,9 @@ export function fromLine(carom: Carom, text: string): Line {
   const ball = given.ball === undefined ? 0 : names.indexOf(given.ball as string);
   if (ball < 0) return refuse("cue.ball", `it must be the id of a ball, not ${JSON.stringify(given.ball)}`);
   const cue = carom.cue({ ball, phi: 0 }, "pooltool_pool");
-  fill(cue as unknown as Record<string, number>, CUE, given, "cue");
+  fill(cue as unknown as Record<string, number>, CUE, given, "ball", "cue");
+  // A strike says how high it is: the cue's usual b is not the centre.
+  if (given.b === undefined && Object.keys(given).some((key) => key !== "ball"))
+    return refuse("cue.b", "how far above the centre the tip touches, in radii, is missing; 0 is the centre");
   return { id: typeof line.id === "string" ? line.id : "shot", tableName, table, names, balls, cue };
 }

@@ -10,6 +10,9 @@ export interface Reader {
   orientations(shot: Shot, time: number, into: Float64Array): void;
 }
 
+/** What a stopped shot needs to go on, as bytes of C: the table, the options and the state. */
+export type Kept = Readonly<Record<"table" | "options" | "state", Uint8Array>>;
+
 /** One shot that was played. It keeps its events in JavaScript's memory and needs no release. */
 export class Shot {
   /** "ok" where everything came to rest; "stopped_at_time", "stopped_at_event"; or how it failed. */
@@ -25,6 +28,8 @@ export class Shot {
   readonly count: number;
   /** @internal The events as the library wrote them. */
   readonly bytes: Uint8Array;
+  /** @internal What `continue` needs. */
+  readonly kept: Kept | undefined;
   readonly #reader: Reader;
   #events: readonly ShotEvent[] | undefined;
 
@@ -38,6 +43,7 @@ export class Shot {
     final: readonly BallState[],
     count: number,
     bytes: Uint8Array,
+    kept?: Kept,
   ) {
     this.#reader = reader;
     this.table = table;
@@ -47,6 +53,7 @@ export class Shot {
     this.final = final;
     this.count = count;
     this.bytes = bytes;
+    this.kept = kept;
   }
 
   /** What happened, in order. */

@@ -1,7 +1,8 @@
 // Objects to structs in the module's memory, and back.
 import { layout, values } from "./generated/layout.js";
+import { KEYS, meant, refuseUnknown } from "./keys.js";
 import type { Memory, Pointer } from "./memory.js";
-import type { BallKind, BallState, Cue, Label, Motion, ShotBall, ShotEvent, Table, Vec3 } from "./types.js";
+import type { BallState, EventType, Label, Motion, ShotBall, ShotEvent, Table, Vec3 } from "./types.js";
 
 export type StructName = keyof typeof layout;
 
@@ -13,31 +14,60 @@ export function value(prefix: string, name: string, option: string): number {
   const names = Object.keys(values)
     .filter((key) => key.startsWith(prefix) && (prefix === "CAROM_GAME_" || !key.slice(prefix.length).includes("_")))
     .map((key) => key.slice(prefix.length).toLowerCase());
-  throw new TypeError(`${option}: it must be one of ${names.join(", ")}, not ${JSON.stringify(name)}`);
+  return refuseName(option, name, names);
 }
 
-/** Where the doubles of each struct are: for each field its offset and how many numbers it has. */
+/** Throws because a name is none of a list. */
+export function refuseName(option: string, name: string, names: readonly string[]): never {
+  throw new TypeError(`${option}: it must be one of ${names.join(", ")}, not ${JSON.stringify(name)}${meant(String(name), names)}`);
+}
+
+/** Fields that are whole numbers of 64 bits. */
+const WHOLE: readonly string[] = ["carom_rail.side", "carom_cue.ball", "carom_ball_state.label"];
+
+/** Where the numbers of a field of a struct are, and how many. */
+interface Field {
+  key: string;
+  begin: number;
+  size: number;
+  whole: boolean;
+}
 const FIELDS = Object.fromEntries(
   Object.entries(layout).map(([struct, { offset, bytes }]) => [
     struct,
-    new Map(Object.entries(offset).map(([key, begin]) => [key, { begin, size: (bytes as Record<string, number>)[key]! / 8 }])),
+    Object.entries(offset).map(([key, begin]) => ({ key, begin, size: (bytes as Record<string, number>)[key]! / 8, whole: WHOLE.includes(`${struct}.${key}`) })),
   ]),
-) as Record<StructName, Map<string, { begin: number; size: number }>>;
+) as Record<StructName, Field[]>;
+const KEYS_OF = Object.fromEntries(Object.entries(FIELDS).map(([struct, fields]) => [struct, fields.map(({ key }) => key)])) as Record<StructName, string[]>;
 
-/** A struct of doubles and of arrays of them, from an object whose keys are the fields; what is missing stays. */
-export function writeDoubles(memory: Memory, at: Pointer, struct: StructName, from: object): void {
-  const fields = FIELDS[struct];
+/** Refuses what a struct does not have. */
+export function refuseUnknownOf(struct: StructName, from: object, name: string): void {
+  refuseUnknown(from, KEYS_OF[struct], name);
+}
+
+/** A struct of numbers and arrays of them, from an object whose keys are the fields; `defaults` has those that may be missing. */
+export function writeStruct(memory: Memory, at: Pointer, struct: StructName, from: object, name: string, defaults?: object): void {
+  refuseUnknownOf(struct, from, name);
   const f64 = memory.f64;
-  for (const key in from) {
-    const given = (from as Record<string, unknown>)[key];
-    const field = fields.get(key);
-    if (field === undefined) throw new TypeError(`${key}: no such field; these are: ${[...fields.keys()].join(", ")}`);
-    const index = (at + field.begin) / 8;
-    if (typeof given === "number" && field.size === 1) f64[index] = given;
-    else if (typeof given === "object" && (given as number[] | null)?.length === field.size)
-      for (let k = 0; k < field.size; k++) f64[index + k] = (given as number[])[k]!;
-    else if (given !== undefined) throw new TypeError(`${key}: it must be ${field.size === 1 ? "a number" : `${field.size} numbers`}`);
+  for (const { key, begin, size, whole } of FIELDS[struct]) {
+    const given = (from as Record<string, unknown>)[key] ?? (defaults as Record<string, unknown> | undefined)?.[key];
+    const index = (at + begin) / 8;
+    if (whole && Number.isSafeInteger(given)) memory.i64[index] = BigInt(given as number);
+    else if (!whole && typeof given === "number" && size === 1) f64[index] = given;
+    else if (typeof given === "object" && (given as number[] | null)?.length === size)
+      for (let k = 0; k < size; k++) f64[index + k] = (given as number[])[k]!;
+    else throw new TypeError(`${name}.${key}: it must be ${whole ? "a whole number" : size === 1 ? "a number" : `${size} numbers`}, not ${JSON.stringify(given)}`);
   }
+}
+
+/** The same, back. */
+export function readStruct<T>(memory: Memory, at: Pointer, struct: StructName): T {
+  const { f64, i64 } = memory;
+  const read = ({ key, begin, size, whole }: Field): [string, unknown] => {
+    const index = (at + begin) / 8;
+    return [key, whole ? Number(i64[index]) : size === 1 ? f64[index] : Array.from(f64.subarray(index, index + size))];
+  };
+  return Object.fromEntries(FIELDS[struct].map(read)) as T;
 }
 
 export function vec3(f64: Float64Array, at: Pointer): Vec3 {
@@ -47,12 +77,6 @@ export function vec3(f64: Float64Array, at: Pointer): Vec3 {
 
 export function readMotion(f64: Float64Array, at: Pointer): Motion {
   return { v: vec3(f64, at + layout.carom_motion.offset.v), w: vec3(f64, at + layout.carom_motion.offset.w) };
-}
-
-const KIND_FIELDS = Object.entries(layout.carom_ball_kind.offset) as [keyof BallKind, number][];
-
-export function readKind(f64: Float64Array, at: Pointer): BallKind {
-  return Object.fromEntries(KIND_FIELDS.map(([key, offset]) => [key, f64[(at + offset) / 8]!])) as unknown as BallKind;
 }
 
 /** The labels, by number. */
@@ -70,12 +94,12 @@ export function writeBalls(memory: Memory, at: Pointer, balls: readonly ShotBall
   const { kind, state } = layout.carom_shot_ball.offset;
   for (const [k, ball] of balls.entries()) {
     const ballAt = at + k * layout.carom_shot_ball.size;
-    writeDoubles(memory, ballAt + kind, "carom_ball_kind", ball.kind);
-    const { r, v, w, label } = ball.state;
-    writeDoubles(memory, ballAt + state, "carom_ball_state", { r, v, w });
-    const number = LABELS.indexOf(label ?? "stationary");
-    if (number < 0) throw new TypeError(`balls[${k}].state.label: it must be one of ${LABELS.join(", ")}, not ${JSON.stringify(label)}`);
-    memory.i64[(ballAt + state + STATE.label) / 8] = BigInt(number);
+    const name = `balls[${k}]`;
+    refuseUnknown(ball, KEYS.ball, name);
+    writeStruct(memory, ballAt + kind, "carom_ball_kind", ball.kind, `${name}.kind`);
+    const label = LABELS.indexOf(ball.state.label ?? "stationary");
+    if (label < 0) refuseName(`${name}.state.label`, ball.state.label, LABELS);
+    writeStruct(memory, ballAt + state, "carom_ball_state", { ...ball.state, label }, `${name}.state`);
   }
 }
 
@@ -83,7 +107,7 @@ export function readBalls(memory: Memory, at: Pointer, count: number): ShotBall[
   const { kind, state } = layout.carom_shot_ball.offset;
   return Array.from({ length: count }, (_, k) => {
     const ball = at + k * layout.carom_shot_ball.size;
-    return { kind: readKind(memory.f64, ball + kind), state: readState(memory, ball + state) };
+    return { kind: readStruct(memory, ball + kind, "carom_ball_kind"), state: readState(memory, ball + state) };
   });
 }
 
@@ -95,58 +119,34 @@ const PARTS = [
   ["pockets", TABLE.pockets, "carom_pocket", TABLE.pocket, values.CAROM_POCKETS_MOST],
 ] as const;
 
+/** What the parts of a table may lack. */
+const PART = { line: [0, 0, 0], muCushion: 0, restitution: 0 };
+
 export function writeTable(memory: Memory, at: Pointer, table: Table): void {
+  refuseUnknown(table, KEYS.table, "table");
   memory.u8.fill(0, at, at + layout.carom_table.size);
   for (const key of TABLE_NUMBERS) memory.f64[(at + TABLE[key]) / 8] = table[key] ?? 0;
   for (const [name, count, struct, first, most] of PARTS) {
     const parts = table[name];
+    if (!Array.isArray(parts)) throw new TypeError(`table.${name}: a list is needed, not ${JSON.stringify(parts)}`);
     if (parts.length > most) throw new RangeError(`table.${name}: at most ${most}, not ${parts.length}`);
     memory.i64[(at + count) / 8] = BigInt(parts.length);
-    for (const [k, part] of parts.entries()) {
-      const partAt = at + first + k * layout[struct].size;
-      const { side, ...doubles } = part as { side?: number };
-      writeDoubles(memory, partAt, struct, doubles);
-      if (struct === "carom_rail") memory.i64[(partAt + layout.carom_rail.offset.side) / 8] = BigInt(side ?? 0);
-    }
+    for (const [k, part] of parts.entries()) writeStruct(memory, at + first + k * layout[struct].size, struct, part, `table.${name}[${k}]`, PART);
   }
 }
 
 export function readTable(memory: Memory, at: Pointer): Table {
-  const f64 = memory.f64;
-  const parts = PARTS.map(([name, count, struct, first]) => {
-    const { offset, bytes, size } = layout[struct] as { offset: Record<string, number>; bytes: Record<string, number>; size: number };
-    const read = (partAt: Pointer): object =>
-      Object.fromEntries(
-        Object.entries(offset).map(([key, begin]) => {
-          const index = (partAt + begin) / 8;
-          if (key === "side") return [key, Number(memory.i64[index])];
-          return [key, bytes[key] === 8 ? f64[index] : Array.from(f64.subarray(index, index + bytes[key]! / 8))];
-        }),
-      );
-    return [name, Array.from({ length: Number(memory.i64[(at + count) / 8]) }, (_, k) => read(at + first + k * size))];
-  });
-  const numbers = TABLE_NUMBERS.map((key) => [key, f64[(at + TABLE[key]) / 8]!]);
+  const parts = PARTS.map(([name, count, struct, first]) => [
+    name,
+    Array.from({ length: Number(memory.i64[(at + count) / 8]) }, (_, k) => readStruct(memory, at + first + k * layout[struct].size, struct)),
+  ]);
+  const numbers = TABLE_NUMBERS.map((key) => [key, memory.f64[(at + TABLE[key]) / 8]!]);
   return { ...Object.fromEntries(numbers), ...Object.fromEntries(parts) } as Table;
-}
-
-export function writeCue(memory: Memory, at: Pointer, cue: Cue): void {
-  const { ball, ...doubles } = cue;
-  writeDoubles(memory, at, "carom_cue", doubles);
-  if (!Number.isSafeInteger(ball)) throw new TypeError(`cue.ball: it must be the index of a ball, not ${ball}`);
-  memory.i64[(at + layout.carom_cue.offset.ball) / 8] = BigInt(ball);
-}
-
-export function readCue(memory: Memory, at: Pointer): Cue {
-  const cue = Object.entries(layout.carom_cue.offset).map(([key, offset]) => {
-    const index = (at + offset) / 8;
-    return [key, key === "ball" ? Number(memory.i64[index]) : memory.f64[index]!];
-  });
-  return Object.fromEntries(cue) as unknown as Cue;
 }
 
 const EVENT = layout.carom_event.offset;
 
-export function readEvent(memory: Memory, at: Pointer, typeName: (type: number) => string): ShotEvent {
+export function readEvent(memory: Memory, at: Pointer, typeName: (type: number) => EventType): ShotEvent {
   const i32 = memory.i32;
   const type = i32[(at + EVENT.type) / 4]!;
   const sides = type === values.CAROM_EVENT_BALL_BALL ? 2 : 1;

@@ -280,8 +280,36 @@ export interface Cue {
   miscue: number;
 }
 
+/** What happened, in the words of files of `carom shoot`. */
+export type EventType =
+  | "stick_ball"
+  | "ball_ball"
+  | "ball_linear_cushion"
+  | "ball_circular_cushion"
+  | "ball_pocket"
+  | "sliding_rolling"
+  | "rolling_spinning"
+  | "rolling_stationary"
+  | "spinning_stationary"
+  | "slate"
+  | "rail_top"
+  | "left_table";
+
+/** When a shot is stopped. */
+export interface StopOptions {
+  /** At this time, s, counted from the start of the shot, with the status "stopped_at_time". 0 (default): it is not. */
+  timeMost?: number;
+  /**
+   * Right after an event of this type, or of one of these, with the status "stopped_at_event". "contact" is the contact of the cue ball with
+   * another ball. Default: after none.
+   */
+  stopAt?: "contact" | EventType | readonly ("contact" | EventType)[];
+  /** Bound of events; default 10000. A shot with more fails with "too_many_events". */
+  eventsMost?: number;
+}
+
 /** Options of shots. */
-export interface ShotOptions {
+export interface ShotOptions extends StopOptions {
   /** The rules of contact: carom's (default), or pooltool's. */
   world?: "carom" | "pooltool";
   /** The collision of two balls; default exact in the world carom. */
@@ -294,20 +322,13 @@ export interface ShotOptions {
   friction?: "alciatore" | "constant";
   /** Of Euler's models; default 1000. */
   steps?: number;
-  /** Bound of events; default 10000. */
-  eventsMost?: number;
-  /** The shot is stopped at this time, s, with the status "stopped_at_time". 0 (default): it is not. */
-  timeMost?: number;
-  /** Stop right after the first contact of the cue ball with another ball. Default false. */
-  stopAtContact?: boolean;
 }
 
 /** One event of a shot. */
 export interface ShotEvent {
   /** s. */
   time: number;
-  /** Such as "ball_ball", as in files of `carom shoot`. */
-  type: string;
+  type: EventType;
   /** Index of the ball. */
   a: number;
   /** Index of the other ball, rail, jaw or pocket; -1 where there is none. */

@@ -1,7 +1,7 @@
 // The 204 reference collisions, cushions, and what is refused.
 import { describe, expect, test } from "vitest";
 import { base } from "../bench/base.mjs";
-import { CaromError, type CushionImpact, type Impact, type Vec3 } from "../dist/index.js";
+import { CaromError, type CushionImpact, type Impact, load, toLine, type Vec3 } from "../dist/index.js";
 import { builds, cases, csv, references, run, thereIsACommand } from "./support.js";
 
 const { ids, rows } = cases();
@@ -159,8 +159,7 @@ describe("what is refused", () => {
   test("words, shapes, fields and sizes that are not there", () => {
     expect(() => carom.collide(good, { solver: "magic" as never })).toThrow("solver: it must be one of euler, exact");
     expect(() => carom.collide(good, { steps: -1 })).toThrow("steps: it must be a whole number");
-    expect(() => carom.collide({ ...good, a: { v: [1, 0] as never } })).toThrow("v: it must be 3 numbers");
-    expect(() => carom.collide({ ...good, a: { speed: 3 } as never })).toThrow("speed: no such field");
+    expect(() => carom.collide({ ...good, a: { v: [1, 0] as never } })).toThrow("a.v: it must be 3 numbers, not [1,0]");
     expect(() => carom.cushion({ v: [1, 0, 0], normal: [0, 0] })).toThrow("normal");
     expect(() => carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { model: "wood" as never })).toThrow("model: it must be one of euler, han, mathavan, mirror, stronge");
     expect(() => carom.trace(good, 1)).toThrow("at least 2");
@@ -171,5 +170,59 @@ describe("what is refused", () => {
     expect(() => carom.kind("golf" as never)).toThrow("game: it must be one of");
     expect(() => carom.rack("nineball", carom.table("9ft"), { gap: -1 })).toThrow(CaromError);
     expect(() => carom.rack("nineball", carom.table("9ft"), { seed: 0.5 })).toThrow("seed");
+  });
+
+  // Every object that a call takes, with one key that it does not have.
+  const table = carom.table("9ft");
+  const ball = carom.ball(0.6, 0.6);
+  const cue = carom.cue();
+  test.each([
+    [() => carom.collide({ ...good, mu_ball: 0.1 } as never), "impact.mu_ball", "muBall"],
+    [() => carom.collide({ ...good, b: { ...good.b, raduis: 0.03 } } as never), "b.raduis", "radius"],
+    [() => carom.collide({ ...good, a: { speed: 3 } } as never), "a.speed", undefined],
+    [() => carom.collide(good, { step: 10 } as never), "step", "steps"],
+    [() => carom.collideDetail(good, { solvr: "exact" } as never), "solvr", "solver"],
+    [() => carom.trace(good, 3, { Slip: "paper" } as never), "Slip", "slip"],
+    [() => carom.collideBatch(carom.collisions(1), { threads: 2 } as never), "threads", undefined],
+    [() => carom.collisions(1).set(0, { ...good, restitutoin: 0.9 } as never), "impact.restitutoin", "restitution"],
+    [() => carom.muBall({ ...good, c: 1 } as never), "impact.c", undefined],
+    [() => carom.rollingVelocity({ v: [1, 0, 0], w: [0, 0, 0], r: [0, 0, 0] } as never, 0.03), "motion.r", undefined],
+    [() => carom.cushion({ v: [1, 0, 0], normal: [1, 0], mu_cushion: 0.2 } as never), "impact.mu_cushion", "muCushion"],
+    [() => carom.cushion({ v: [1, 0, 0], normal: [1, 0] }, { modle: "han" } as never), "modle", "model"],
+    [() => carom.rack("nineball", table, { sed: 3 } as never), "sed", "seed"],
+    [() => carom.rack("nineball", { ...table, ball_radius: 0.03 } as never), "table.ball_radius", "ballRadius"],
+    [() => carom.checkTable({ ...table, rails: [{ ...table.rails[0]!, heigth: 0.03 }] } as never), "table.rails[0].heigth", "height"],
+    [() => carom.checkTable({ ...table, jaws: [{ ...table.jaws[0]!, center: [0, 0] }] } as never), "table.jaws[0].center", "centre"],
+    [() => carom.checkTable({ ...table, pockets: [{ ...table.pockets[0]!, side: 1 }] } as never), "table.pockets[0].side", undefined],
+    [() => carom.ball(0.5, 0.5, { ...ball.kind, muRol: 0.01 } as never), "kind.muRol", "muRoll"],
+    [() => carom.cue({ spead: 3 } as never), "cue.spead", "speed"],
+    [() => carom.strike({ tipradius: 3 } as never, ball.kind), "cue.tipradius", "tipRadius"],
+    [() => carom.strike({}, { ...ball.kind, gravty: 9.81 } as never), "kind.gravty", "gravity"],
+    [() => carom.simulate(table, [ball], { V0: 3 } as never), "cue.V0", undefined],
+    [() => carom.simulate(table, [ball], {}, { cushion: "han" } as never), "cushion", "cushionModel"],
+    [() => carom.simulate(table, [ball], {}, { stopAtContact: true } as never), "stopAtContact", "stopAt"],
+    [() => carom.simulate(table, [{ ...ball, name: "eight" }] as never), "balls[0].name", undefined],
+    [() => carom.simulate(table, [ball, { ...ball, state: { ...ball.state, lable: "off" } }] as never), "balls[1].state.lable", "label"],
+    [() => carom.simulate(table, [{ ...ball, kind: { ...ball.kind, mu_slide: 0.2 } }] as never), "balls[0].kind.mu_slide", "muSlide"],
+    [() => carom.firstContact(table, [ball], {}, { timemost: 1 } as never), "timemost", "timeMost"],
+    [() => carom.continue(carom.simulate(table, [ball]), { tiemMost: 1 } as never), "tiemMost", "timeMost"],
+    [() => carom.placeBall(table, [{ ...ball, stat: 1 }] as never, 0, 0.5, 0.5), "balls[0].stat", "state"],
+    [() => carom.shots(table, [ball], 1, { events: 5 } as never), "events", undefined],
+    [() => carom.shots(table, [ball], 1).setCue(0, { ...cue, endmass: 0.005 } as never), "cue.endmass", "endMass"],
+    [() => carom.simulateBatch(carom.shots(table, [ball], 1), { eventMost: 5 } as never), "eventMost", "eventsMost"],
+    [() => toLine({ table: "9ft", balls: [ball], cue, tablename: "9ft" } as never), "shot.tablename", "tableName"],
+  ] as [() => unknown, string, string | undefined][])("an unknown key: %#", (call, key, better) => {
+    const { message } = refusal(call) as Error;
+    expect(message.startsWith(`${key}: there is no such key${better === undefined ? "; there are " : `; did you mean "${better}"?`}`), message).toBe(true);
+  });
+
+  test("an unknown key of load(), and keys that are missing", async () => {
+    await expect(load({ bild: "plain" } as never)).rejects.toThrow('bild: there is no such key; did you mean "build"?');
+    // What is missing is neither that of the call before, nor undefined.
+    expect(carom.cue({ speed: undefined })).toEqual(cue);
+    const { mass: _, ...kind } = ball.kind;
+    expect(() => carom.simulate(table, [{ ...ball, kind }] as never)).toThrow("balls[0].kind.mass: it must be a number, not undefined");
+    expect(() => carom.cushion({ normal: [1, 0] } as never)).toThrow("impact.v: it must be 3 numbers, not undefined");
+    expect(() => carom.collide({ a: { v: [1, 0, 0] } } as never)).toThrow("b: an object is needed, not undefined");
   });
 });
