@@ -12,6 +12,7 @@ import tempfile
 from pathlib import Path
 
 from blocks import blocks
+from sizes import check
 
 SOURCE, BUILD, CMAKE, CC = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], sys.argv[4]
 QUICK = "-DCAROM_ISAS=none"
@@ -63,6 +64,7 @@ with tempfile.TemporaryDirectory() as work:
     said = {"".join(text.splitlines(keepends=True)[-2:]) for text in printed}
     prefix = home / ".local"
     assert "carom 0." in run([prefix / "bin/carom", "--version"], reader)
+    check(SOURCE, "installed", prefix)
     for way, more in (("fetch", [QUICK]), ("package", [])):
         folder = work / way
         folder.mkdir()
