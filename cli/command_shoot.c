@@ -359,10 +359,11 @@ static const command_form form = {
 };
 
 /* The shots that options describe, written as lines; NULL after a complaint. *text is to be freed when they have been read. */
-static shot_file *shots_of(shoot_flags *from, char **text) {
+static shot_file *shots_of(shoot_job *job, char **text) {
   size_t size;
   FILE *lines = open_text(text, &size);
-  const bool good = flags_write(lines, from);
+  const carom_shot_options options = options_of(job);
+  const bool good = flags_write(lines, &job->from, &options);
   close_text(lines, text);
   FILE *in = good ? fmemopen(*text, size, "r") : NULL;
   if (good && in == NULL)
@@ -398,7 +399,7 @@ int command_shoot(int argc, char **argv) {
   }
   if (!svg_possible(job.plot) || !output_possible(job.animation))
     return EXIT_USAGE;
-  shot_file *file = job.words ? shots_of(&job.from, &lines) : shot_file_open(path);
+  shot_file *file = job.words ? shots_of(&job, &lines) : shot_file_open(path);
   FILE *out = file != NULL ? output_open(job.from.shared.output) : NULL;
   drawing picture[DRAWINGS] = {0};
   code = EXIT_USAGE;

@@ -2,7 +2,7 @@
  * sight. */
 #include "contact_picture.h"
 
-#include "carom_shot.h"
+#include "aim.h"
 #include "derived.h"
 #include "labels.h"
 #include "picture.h"
@@ -11,8 +11,8 @@
 #include <string.h>
 
 enum { MOST_EVENTS = 64, SAMPLES = 64, ARC_PIECES = 8, MOST_CHARACTERS = 200 };
-static const double away = 1e5, reach = 14.0; /* of the cushions, and of the faster ball at least: in radii */
-static const double least_friction = 1e-6;    /* the library's motion needs some; balls slide straight on by so little */
+static const double reach = 14.0;          /* of the faster ball at least, in radii */
+static const double least_friction = 1e-6; /* the library's motion needs some; balls slide straight on by so little */
 static const double margin = 26.0, most_height = 620.0, line_height = 19.0; /* pixels */
 static const char *const colours[2] = {"#ffffff", "#f2c230"};
 
@@ -81,16 +81,10 @@ typedef struct motion {
 } motion;
 
 static void move(const contact_picture *p, motion *m) {
-  const double R = p->ball[0]->radius, far = away * R;
-  const double corner[4][2] = {{-far, -far}, {far, -far}, {far, far}, {-far, far}};
-  carom_table table = {.width = 2.0 * far, .length = 2.0 * far, .rails = 4};
+  const double R = p->ball[0]->radius;
+  const carom_table table = endless_cloth(R);
   double fastest = 1e-9, rolling[3];
   *m = (motion){.shot = {.events = m->events, .room = MOST_EVENTS, .final = m->final}};
-  for (int k = 0; k < 4; k++) {
-    table.rail[k] = (carom_rail){.height = 1.25 * R, .side = 1};
-    memcpy(table.rail[k].p, corner[k], sizeof corner[k]);
-    memcpy(table.rail[k].q, corner[(k + 1) % 4], sizeof corner[k]);
-  }
   for (int k = 0; k < p->balls; k++) {
     carom_shot_ball *b = &m->ball[k];
     *b = (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_POOL)};

@@ -1,12 +1,9 @@
 /* Shots from words.
  *
- * Right is positive for english here; in the lines, which keep pooltool's format, a > 0 is left. The line of aim at a ball:
- * its centre O lies off that line by 2 R sin(cut), so the line is turned from the direction of O, D away, by
- * asin(2 R sin(cut) / D); the way of a ball with spin differs from it, and shots as far as the contact tell by how much.
- */
+ * Right is positive for english here; in the lines, which keep pooltool's format, a > 0 is left. */
 #include "shoot_flags.h"
 
-#include "derived.h"
+#include "aim.h"
 #include "message.h"
 #include "number.h"
 
@@ -14,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_TEXT = 1024, MOST_EVENTS = 64, MOST_TRIALS = 30 };
+enum { MOST_TEXT = 1024 };
 
 static bool refuse(const option_row *row, const char *text) {
   complain("--%s is %s; not '%.60s'", row->name,
@@ -68,7 +65,8 @@ ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
     "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin turns the ball off it by "
     "squirt");
 ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
-    "aim at this ball instead, so that the cue ball meets it at --cut; squirt and swerve are allowed for");
+    "aim at this ball instead, so that the cue ball meets it first and at --cut, whatever squirt, swerve and hops do; an error "
+    "where no direction does");
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|DEGREES", set_values, MEASURE_CUT,
     "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
 ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,
@@ -150,45 +148,44 @@ static bool lay_out(const shoot_flags *f, layout *l) {
   return true;
 }
 
-/* The cut angle at which the cue ball meets ball `at` first, degrees; NaN where it meets something else. */
-static double cut_of(const layout *l, const carom_cue *cue, int at) {
-  carom_event events[MOST_EVENTS];
-  carom_shot shot = {.events = events, .room = MOST_EVENTS};
-  const carom_shot_options until_contact = {.stop_at = CAROM_STOP_AT_CONTACT, .events_most = MOST_EVENTS};
-  if (carom_shoot(&l->table, l->ball, l->count, cue, &until_contact, &shot) != CAROM_STOPPED_AT_EVENT ||
-      shot.count > MOST_EVENTS)
-    return (double)NAN;
-  const carom_event *e = &events[shot.count - 1];
-  const int side = e->a == 0 ? 0 : 1;
-  if ((side == 0 ? e->b : e->a) != at)
-    return (double)NAN;
-  const double *from = e->before[side].r, *to = e->before[1 - side].r;
-  return angle_between(e->before[side].v, (const double[]){to[0] - from[0], to[1] - from[1]});
+/* What stands in the way of the ball of the cue. */
+static const char *obstacle(const layout *l, const carom_event *met, char text[40]) {
+  if (met->type == CAROM_EVENT_BALL_BALL)
+    snprintf(text, 40, "ball %s", l->name[met->a == 0 ? met->b : met->a]);
+  return met->type == CAROM_EVENT_BALL_BALL    ? text
+         : met->type == CAROM_EVENT_POCKET     ? "a pocket"
+         : met->type == CAROM_EVENT_LEFT_TABLE ? "the end of the table"
+                                               : "a cushion";
 }
 
-/* Aims a cue at the ball, at a cut; false after a complaint. Squirt, and swerve where the way curves, are found by trial. */
-static bool aim_at_ball(const shoot_flags *f, const layout *l, double cut, carom_cue *cue) {
+/* Aims a cue at the ball, at a cut; false after a complaint. */
+static bool aim_at_ball(const shoot_flags *f, const layout *l, const carom_shot_options *options, double cut, carom_cue *cue) {
+  const char *name = f->at_ball != NULL ? f->at_ball : "1";
+  char text[40];
+  carom_event met;
   int at = 1;
-  while (at < l->count && f->at_ball != NULL && strcmp(l->name[at], f->at_ball) != 0)
+  while (at < l->count && strcmp(l->name[at], name) != 0)
     at++;
-  if (at >= l->count) {
-    complain("--at-ball '%s': there is no such ball; --balls says where balls are", f->at_ball != NULL ? f->at_ball : "1");
-    return false;
-  }
-  const double *from = l->ball[0].state.r, *to = l->ball[at].state.r, x = to[0] - from[0], y = to[1] - from[1];
-  const double share = 2.0 * l->ball[0].kind.radius / hypot(x, y);
-  if (!(fabs(cut) < 90.0 && share < 1.0)) {
-    complain("--cut is between -90 and 90 degrees, and the balls are apart");
-    return false;
-  }
-  cue->phi = (atan2(y, x) - asin(share * sin(cut * degree))) / degree;
-  for (int k = 0; k < MOST_TRIALS; k++) {
-    const double seen = cut_of(l, cue, at), off = share * (sin(cut * degree) - sin(seen * degree)) / degree;
-    if (isnan(seen) || fabs(off) < 1e-12)
+  if (at >= l->count)
+    complain("--at-ball '%s': there is no such ball; --balls says where balls are", name);
+  else if (!(fabs(cut) < 90.0))
+    complain("--cut is between -90 and 90 degrees");
+  else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)
+    return true; /* which is told when it is played */
+  else
+    switch (aim_at(&l->table, l->ball, l->count, options, at, cut, cue, &met)) {
+    case AIM_FOUND:
+      return true;
+    case AIM_BARRED:
+      complain("--at-ball %s: at a cut of %.4g degrees %s is in the way", name, cut, obstacle(l, &met, text));
       break;
-    cue->phi -= off;
-  }
-  return true;
+    case AIM_NOT_REACHED:
+      complain("--at-ball %s: at a cut of %.4g degrees the cue ball comes to rest before it; give a higher --speed", name, cut);
+      break;
+    default:
+      complain("--at-ball %s: no direction of this cue makes the cue ball meet it first at a cut of %.4g degrees", name, cut);
+    }
+  return false;
 }
 
 static double tip_of(const value *v, double radius) {
@@ -202,7 +199,7 @@ static void name_value(char *id, const char *what, const values *list, int k) {
 }
 
 /* One of the combinations; false after a complaint. */
-static bool write_shot(FILE *out, const shoot_flags *f, const layout *l, int index) {
+static bool write_shot(FILE *out, const shoot_flags *f, const layout *l, const carom_shot_options *options, int index) {
   const int speed = index % f->speed.count, tip = index / f->speed.count % f->tip.count;
   const int rise = index / f->speed.count / f->tip.count % f->elevation.count;
   const int way = index / f->speed.count / f->tip.count / f->elevation.count;
@@ -224,7 +221,9 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l, int ind
   /* In space a raised cue drives the ball otherwise than on the plane: the shot itself tells. */
   carom_event strike = {0};
   carom_shot shot = {.events = &strike, .room = 1};
-  carom_shoot(&l->table, l->ball, l->count, &cue, &(carom_shot_options){.events_most = 1}, &shot);
+  carom_shot_options only_strike = *options;
+  only_strike.events_most = 1;
+  carom_shoot(&l->table, l->ball, l->count, &cue, &only_strike, &shot);
   const double *v = shot.count > 0 ? strike.after[0].v : after.v, ratio = hypot(v[0], v[1]);
   if (!(ratio > 1e-6) || !(f->speed.at[speed].x > 0.0)) {
     complain("the ball has no speed on the cloth: --speed is above 0, --elevation below 90");
@@ -233,7 +232,7 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l, int ind
   cue.speed = f->speed.at[speed].x / ratio;
   if (f->cut.count == 0)
     cue.phi = f->aim.at[way].x;
-  else if (!aim_at_ball(f, l, f->cut.at[way].x, &cue))
+  else if (!aim_at_ball(f, l, options, f->cut.at[way].x, &cue))
     return false;
   name_value(id, "aim", &f->aim, way);
   name_value(id, "cut", &f->cut, way);
@@ -262,7 +261,7 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l, int ind
   return true;
 }
 
-bool flags_write(FILE *out, shoot_flags *f) {
+bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options) {
   static layout l;
   if (f->aim.count > 0 && (f->cut.count > 0 || f->at_ball != NULL)) {
     complain("--aim is a direction, --at-ball and --cut aim at a ball: give one of both");
@@ -286,6 +285,6 @@ bool flags_write(FILE *out, shoot_flags *f) {
     complain("--cue is one place, and at most %d shots are played at once", MOST_SHOTS);
   good = good && lay_out(f, &l);
   for (int k = 0; k < count && good; k++)
-    good = write_shot(out, f, &l, k);
+    good = write_shot(out, f, &l, options, k);
   return good;
 }

@@ -34,7 +34,7 @@ extern const option_row option_table, option_cue, option_balls, option_aim, opti
 /* Whether one of them is given. */
 bool has_flags(const shoot_flags *f);
 
-/* Writes the shots as lines of JSON, one for each combination; false after a complaint. */
-bool flags_write(FILE *out, shoot_flags *f);
+/* Writes the shots as lines of JSON, one for each combination, aimed for a play by these options; false after a complaint. */
+bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options);
 
 #endif
