@@ -1,6 +1,7 @@
 /* `carom shoot`: whole shots from a file or from words, from the strike to rest. */
 #include "animate.h"
 #include "command.h"
+#include "doubts.h"
 #include "memory.h"
 #include "message.h"
 #include "options.h"
@@ -35,6 +36,7 @@ typedef struct block {
   int count;
   const char *file;  /* its name, for messages */
   long long unnamed; /* lines in error beyond those that are named, -MOST_NAMED at first */
+  doubts tips;
   /* the shots without error, as batches take them */
   carom_shot_ball ball[BLOCK * CAROM_BALLS_MOST];
   carom_cue cue[BLOCK];
@@ -126,6 +128,11 @@ static bool goes_with(const shot_line *a, const shot_line *b) {
   return b->error == NULL && a->table == b->table && a->count == b->count;
 }
 
+/* How far the tip is from the centre, R. */
+static double tip_of(const carom_cue *cue) {
+  return hypot(cue->a, cue->b);
+}
+
 /* What is wrong with the arguments of a shot, with the key. False if nothing is. */
 static bool argument_error(const shot_line *line, const carom_shot_options *options, char text[300]) {
   int where;
@@ -134,7 +141,10 @@ static bool argument_error(const shot_line *line, const carom_shot_options *opti
     return false;
   if (bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT)
     snprintf(text, 300, "table '%s': %s", line->table->id, carom_status_string(bad));
-  else if (bad == CAROM_ERROR_CUE || bad == CAROM_ERROR_MISCUE)
+  else if (bad == CAROM_ERROR_MISCUE)
+    snprintf(text, 300, "cue: the tip is %.4g R from the centre; it slips off the ball from %.4g R on", tip_of(&line->cue),
+             line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
+  else if (bad == CAROM_ERROR_CUE)
     snprintf(text, 300, "cue: %s", carom_status_string(bad));
   else if (bad == CAROM_ERROR_RESTITUTION)
     snprintf(text, 300, "balls[%d] ('%s'): e_b and e_c must be in [0, 1], and e_t at most 0.98 and not below 0, or -1 for none",
@@ -316,6 +326,10 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
       fputs(text, out);
       continue;
     }
+    carom_cue *cue = &b->line[b->count].cue;
+    const bool plays = b->line[b->count].error == NULL && cue->speed > 0.0 && cue->miscue == 0.0 && tip_of(cue) < 1.0;
+    if (plays && doubts_about_tip(&b->tips, tip_of(cue)) != NULL && job->from.shared.strict)
+      cue->miscue = TIP_LIMIT;
     begin_shot(b, job->events != EVENTS_NONE || job->words || draws(job) || job->error.given);
     if (++b->count == BLOCK) {
       good &= finish_block(b, job, out, picture);
@@ -327,6 +341,7 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
   clear_block(b);
   if (b->unnamed > 0)
     complain("%s: %lld more lines in error", b->file, b->unnamed);
+  doubts_report(&b->tips, "shot", b->file);
   free(b);
   progress_clear();
   if (draws(job) && picture[PICTURE].text == NULL && picture[ANIMATION].text == NULL) {
@@ -347,11 +362,11 @@ static const command_form form = {
              "give several shots, drawn over each other.\n",
     .options =
         (const option_row *const[]){
-            &option_table,    &option_cue,         &option_balls,         &option_aim,       &option_at_ball,
-            &option_shot_cut, &option_shot_speed,  &option_tip,           &option_elevation, &option_json,
-            &option_models,   &option_ball_ball,   &option_cushion_model, &option_space,     &option_events,
-            &option_steps,    &option_events_most, &option_time_most,     &option_threads,   &option_plot,
-            &option_spread,   &option_animate,     &option_shot_id,       &option_output,    NULL},
+            &option_table,         &option_cue,   &option_balls,     &option_aim,     &option_at_ball,     &option_shot_cut,
+            &option_shot_speed,    &option_tip,   &option_elevation, &option_json,    &option_models,      &option_ball_ball,
+            &option_cushion_model, &option_space, &option_events,    &option_steps,   &option_events_most, &option_time_most,
+            &option_threads,       &option_plot,  &option_spread,    &option_animate, &option_shot_id,     &option_strict,
+            &option_output,        NULL},
     .details = "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and the error; the others "
                "are played); 2 for bad usage or unreadable input\n",
     .example = "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3 --plot shot.svg",

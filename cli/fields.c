@@ -48,14 +48,14 @@ static OPTION_SET(set_threads) {
 OPTION_SET(set_number) {
   if (parse_number(text, field) && isfinite(*(double *)field))
     return true;
-  complain("--%s is a number, not '%s'", row->name, text);
+  complain("--%s is a number, not '%s'%s", row->name, text, comma_hint(text));
   return false;
 }
 
 OPTION_SET(set_amount) {
   if (parse_number(text, field) && *(double *)field >= 0.0 && isfinite(*(double *)field))
     return true;
-  complain("--%s is a number, 0 or more, not '%s'", row->name, text);
+  complain("--%s is a number, 0 or more, not '%s'%s", row->name, text, comma_hint(text));
   return false;
 }
 
@@ -161,7 +161,7 @@ ROW(option_derived, "derived", derived, 0, NULL, set_flag, 0, ANY_KIND,
     "more columns after the status: angles, rolling velocities, energy");
 ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0, ANY_KIND,
     "treat warnings as errors: centres whose distance is not R1 + R2 to 1 %, more than 50 m/s or 2,000 rad/s, a radius above "
-    "0.5 m, a mass above 10 kg");
+    "0.5 m, a mass above 10 kg, a tip more than 0.5 R from the centre, two values that look like one with a decimal comma");
 ROW(option_bare, "no-comments", bare, 0, NULL, set_flag, 0, ANY_KIND, "leave out the lines that begin with #");
 ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
     "print counts and the time on standard error at the end");

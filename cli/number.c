@@ -35,6 +35,10 @@ void write_numbers(FILE *out, const double *x, size_t count) {
   }
 }
 
+const char *comma_hint(const char *text) {
+  return strchr(text, ',') != NULL ? "; decimals have a point, not a comma" : "";
+}
+
 bool parse_number(const char *text, double *number) {
   char *end;
   *number = strtod(text, &end);

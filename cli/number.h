@@ -19,4 +19,7 @@ void write_numbers(FILE *out, const double *x, size_t count);
  * if it is anything else. */
 bool parse_number(const char *text, double *number);
 
+/* What a message adds about a text that is no number: where it has a comma, that decimals have a point. */
+const char *comma_hint(const char *text);
+
 #endif

@@ -39,7 +39,7 @@ static void take(search *s, row_source *source, const source_block *block, size_
   /* What hardly was meant is warned of, or refused. */
   doubts found = {0};
   const char *doubt = good ? doubts_about(&found, kind, row) : NULL;
-  doubts_report(&found, kind, source_name(source));
+  doubts_report(&found, kind->noun, source_name(source));
   good &= !(s->asked->strict && doubt != NULL);
   if (!good)
     source_report(source, block, k, status, doubt);

@@ -106,14 +106,17 @@ static const char *kind_of(const record_reader *r) {
                                              : NULL;
 }
 
-/* The first record says what stands between fields. */
+/* What stands between fields: of comma, semicolon and tab, the first that is as frequent in the first line as any. */
 static void find_delimiter(record_reader *r) {
-  const bool commas = memchr(r->line, ',', r->line_size) != NULL;
-  for (const char *other = ";\t"; !commas && *other != '\0'; other++)
-    if (memchr(r->line, *other, r->line_size) != NULL) {
-      csv_set_delim(&r->parser, (unsigned char)*other);
-      return;
-    }
+  size_t most = 0;
+  for (const char *one = ",;\t"; *one != '\0'; one++) {
+    size_t count = 0;
+    for (size_t k = 0; k < r->line_size; k++)
+      count += r->line[k] == *one;
+    if (count > most)
+      csv_set_delim(&r->parser, (unsigned char)*one);
+    most = count > most ? count : most;
+  }
 }
 
 /* Whether the line, the first of a record, is passed over. */
@@ -181,14 +184,25 @@ read_result record_next(record_reader *r, record *out) {
     r->field[k] = r->text + r->start[k];
   out->count = r->count;
   out->field = r->field;
+  out->decimal_commas = csv_get_delim(&r->parser) == ';';
   return r->complete ? READ_ONE : READ_END;
+}
+
+bool record_number(const record *r, const char *text, double *number) {
+  char point[64];
+  const size_t size = strlen(text), comma = strcspn(text, ",");
+  if (!r->decimal_commas || comma == size || size >= sizeof point || strpbrk(text, ".xX") != NULL)
+    return parse_number(text, number);
+  memcpy(point, text, size + 1);
+  point[comma] = '.';
+  return parse_number(point, number);
 }
 
 bool record_is_numbers(const record *r) {
   size_t numbers = 0;
   double unused;
   for (size_t k = 0; k < r->count; k++)
-    numbers += parse_number(r->field[k], &unused);
+    numbers += record_number(r, r->field[k], &unused);
   return 2 * numbers > r->count;
 }
 

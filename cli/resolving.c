@@ -114,7 +114,7 @@ static bool resolve_all(run *r) {
   progress_clear();
   if (r->errors > MOST_NAMED)
     complain("%lld more rows are in error; the column status says of each why", r->errors - MOST_NAMED);
-  doubts_report(&r->doubts, r->kind, source_name(r->in));
+  doubts_report(&r->doubts, r->kind->noun, source_name(r->in));
   source_free_block(&now->block);
   source_free_block(&next->block);
   return now->result == READ_END;

@@ -66,7 +66,7 @@ static carom_status resolve_case(const series *s, int index, one_case *c) {
 /* Whether all can be resolved; else a complaint. */
 static bool check_all(const series *s, int count) {
   const row_kind *kind = s->scene->kind;
-  doubts found = {0};
+  doubts found = {0}, tips = {0};
   bool strange = false;
   one_case c;
   for (int k = 0; k < count; k++) {
@@ -79,8 +79,12 @@ static bool check_all(const series *s, int count) {
       return false;
     }
     strange |= doubts_about(&found, kind, c.row) != NULL;
+    strange |= doubts_about_tip(&tips, tip_offset(c.given, inputs_of(s), c.row[kind->radius])) != NULL;
   }
-  doubts_report(&found, kind, "the values given");
+  for (int k = 0; k < inputs_of(s); k++)
+    strange |= s->in[k].comma;
+  doubts_report(&found, kind->noun, "the values given");
+  doubts_report(&tips, kind->noun, "the values given");
   return !(s->asked.strict && strange);
 }
 

@@ -73,7 +73,7 @@ ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,
     "speed of the cue ball just after the strike, m/s, or with a unit: mph, km/h (default 2)");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip. Right is positive, as english is "
-    "everywhere in this command (default 0,0)");
+    "everywhere in this command (default 0,0). Beyond 0.5 R a chalked tip slips off the ball, of which carom warns");
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ANGLE, "of the butt of the cue (default 0)");
 ROW(option_json, "json", json, NULL, set_flag, 0,
     "print the shot as a line of JSON to keep, instead of playing it. In the line pooltool's sign holds: a > 0 is left");
@@ -278,6 +278,8 @@ bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options) {
     values_default(&f->elevation, MEASURE_ANGLE, "0");
   if (f->tip.count == 0)
     f->tip.count = 1; /* 0,0 */
+  if (f->shared.strict && (f->aim.comma || f->cut.comma || f->speed.comma || f->elevation.comma))
+    return false;
   const int ways = f->cut.count > 0 ? f->cut.count : f->aim.count;
   const int count = f->speed.count * f->tip.count * f->elevation.count * ways;
   bool good = count <= MOST_SHOTS && f->cue.count <= 1;

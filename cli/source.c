@@ -162,9 +162,9 @@ static const char *fill(const row_source *s, const record *in, row_note *note, d
       snprintf(note->message, sizeof note->message, "%s is missing", name);
       return "missing_value";
     }
-    if (!parse_number(text, &number[k])) {
+    if (!record_number(in, text, &number[k])) {
       snprintf(note->message, sizeof note->message, "%s = '%.60s' is not a number%s", name, text,
-               strchr(text, ',') != NULL ? "; decimals have a point, not a comma" : "");
+               in->decimal_commas ? "" : comma_hint(text));
       return "not_a_number";
     }
   }

@@ -194,8 +194,23 @@ static bool read_values(const option_row *row, const char *text, values *list) {
   return list->count > 0 ? true : refuse(row, text);
 }
 
+/* Whether two whole numbers look like one with a decimal comma: 1,5 or 0,90 but not 20,30 or 0,50%. Warns. */
+static bool warn_of_comma(const option_row *row, const char *text) {
+  static const char digits[] = "0123456789";
+  const int whole = (int)strspn(text, digits), part = text[whole] == ',' ? (int)strspn(text + whole + 1, digits) : 0;
+  const char *second = text + whole + 1, *unit = second + part;
+  if (whole == 0 || part == 0 || strpbrk(unit, ",.:eE%") != NULL ||
+      (whole > 1 && text[0] != '0' && part > 1 && second[0] != '0' && second[part - 1] == '0'))
+    return false;
+  complain("--%s %s is two values, %.*s and %s; decimals have a point: %.*s.%s. Two values that are meant: %.*s.0,%.*s.0%s",
+           row->name, text, whole, text, second, whole, text, second, whole, text, part, second, unit);
+  return true;
+}
+
 OPTION_SET(set_values) {
-  return read_values(row, text, field);
+  const bool comma = row->set == set_values && warn_of_comma(row, text), good = read_values(row, text, field);
+  ((values *)field)->comma = comma;
+  return good;
 }
 
 bool value_of(int measure, const char *text, value *v) {
@@ -210,6 +225,13 @@ bool value_of(int measure, const char *text, value *v) {
 void values_default(values *list, int measure, const char *text) {
   const option_row row = {.name = "default", .least = measure};
   read_values(&row, text, list);
+}
+
+double tip_offset(const value *const *given, int count, double radius) {
+  double square = 0.0;
+  for (int k = 0; k < count; k++)
+    square += given[k]->times == OFFSET ? given[k]->x * given[k]->x : 0.0;
+  return sqrt(square) / (strike * radius);
 }
 
 double spin_of(const value *v, double speed, double radius, double gearing) {

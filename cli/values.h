@@ -34,12 +34,14 @@ typedef struct value {
 typedef struct values {
   int count;
   bool range;
+  bool comma;       /* two numbers that look like one with a decimal comma, of which set_values() warned */
   const char *unit; /* as an axis says it: "mph" */
   value at[MOST_VALUES];
 } values;
 
 /* For `values` of a measure, row->least: numbers with commas, or a range A:B or A:B:STEP. Numbers without a unit have that of
- * the last one. Complains where one is none, and where a spin has no unit. */
+ * the last one. Complains where one is none, where a spin has no unit, and, but as a warning, where a list looks like one
+ * number with a decimal comma, 1,5, unless it is for another kind of option. */
 OPTION_SET(set_values);
 
 /* Reads what set_values() would, for defaults; `text` is not changed. */
@@ -47,6 +49,9 @@ void values_default(values *list, int measure, const char *text);
 
 /* Reads one number of a measure, with a unit or without; false where it is none. */
 bool value_of(int measure, const char *text, value *v);
+
+/* How far from the centre, in R, a tip is that gives all spins that are given in tips. */
+double tip_offset(const value *const *given, int count, double radius);
 
 /* A spin, rad/s, of a ball of that speed and radius. `gearing` is what GEARING stands for. */
 double spin_of(const value *v, double speed, double radius, double gearing);

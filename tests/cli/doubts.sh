@@ -36,6 +36,26 @@ try carom sweep --id "$id" --over u_b --from 0 --to 1 --points 2 --brief -o /dev
 try carom sweep --strict --id "$id" --over u_b --from 0 --to 1 --points 2 --brief one.csv
 try carom trace --id "$id" --points 2 -o /dev/null one.csv
 try carom trace --strict --id "$id" --points 2 one.csv
+echo "tips so far from the centre that they slip off the ball:"
+for words in "hit --side 1tip --spin -0.4tip" "hit --side 1tip --spin -0.5tip" "rail --side 0,1,2tip --csv" "shoot --tip 0.3,0.4" "shoot --tip 0,0.51" "shoot --tip 0.2,0.4:0.9,0.1"; do
+  # shellcheck disable=SC2086
+  try carom $words > /dev/null
+  # shellcheck disable=SC2086
+  try carom $words --strict > strict.out
+  wc -l < strict.out
+done
+sed '2{s/"b": [-0-9.e]*/"b": 0.6/;s/"a": [-0-9.e]*/"a": 0/}' "$DATA/shots-jumps.jsonl" > tips.jsonl
+try carom shoot --strict --events none tips.jsonl | cut -c 1-150
+sed -i '2s/"cue": {/&"miscue": 0.7, /' tips.jsonl
+try carom shoot --strict --events none tips.jsonl | grep -c '"status": "ok"'
+echo "two values that look like one:"
+for words in "--speed 1,5" "--speed 1,5mph" "--restitution 0,90" "--radius 28,575mm" "--cut 22,5" "--speed 1,5,7" "--cut 20,30" "--cut 5,5.5" "--side 0,50%" "--speed 1.0,5.0" "--speed 1,5:7"; do
+  # shellcheck disable=SC2086
+  { try carom hit $words; try carom hit --strict $words; } | grep exit
+done
+try carom shoot --speed 1,5 --strict
+try carom shoot --cue 1,1 --strict | head -n 1
+try carom shoot --time-most 0,5 "$DATA/shots-jumps.jsonl"
 echo "rows in error are not asked about, and no time is told of work below 10 ms:"
 sed '2,$s/^\([^,]*\),[^,]*,[^,]*/\1,,nan/' few.csv > bad.csv
 try carom resolve --summary -o /dev/null bad.csv

@@ -7,8 +7,13 @@ tr , '\t' < plain.csv > tabs.csv; same tabs.csv
 { echo "# collision: 1"; echo "#"; cat plain.csv; } > notes.csv; same notes.csv
 { cat plain.csv; echo ",,,,"; sed -n 2p plain.csv | sed 's/[^,]//g'; } > empty_rows.csv; same empty_rows.csv
 sed 's/\r*$/\r/' semicolons.csv > crlf.csv; same crlf.csv
-tr , ';' < plain.csv | tr . , > comma.csv
-try carom resolve -o /dev/null comma.csv
+# Decimal commas are read between semicolons only: elsewhere a comma may part thousands.
+tr , ';' < plain.csv | tr . , > commas.csv; same commas.csv
+tr , ';' < plain.csv | tr . , | sed '1s/$/;note (m, m)/; 2,3s/$/;a, b/' > noted.csv; same noted.csv
+tr , ';' < plain.csv | sed '2s/\./,/' > mixed.csv; same mixed.csv
+tail -n 2 commas.csv > headless.csv; try carom resolve headless.csv
+tr , ';' < plain.csv | sed '2s/;[-0-9.]*/;1.234,5/; 3s/;[-0-9.]*/;1,234,5/' > thousands.csv; try carom resolve -o /dev/null thousands.csv
+tr , '\t' < plain.csv | tr . , > comma.csv; try carom resolve -o /dev/null comma.csv
 tail -n 2 plain.csv > headless.csv; try carom resolve headless.csv
 tail -n 2 plain.csv | cut -d, -f2- > headless.csv; try carom resolve headless.csv
 { printf '\377\376'; sed 's/./&\x00/g' plain.csv; } > utf16.csv; try carom resolve utf16.csv

@@ -1,18 +1,19 @@
 # Whole shots: what is written reads back to the same shots, whatever the threads; a bad line costs itself.
+ln -s "$DATA/shots-pooltool.jsonl" recorded.jsonl
 carom shoot -o once.jsonl "$DATA/break-nineball.jsonl"
 echo "exit $?"
 carom shoot --threads 3 -o again.jsonl once.jsonl
 cmp once.jsonl again.jsonl && echo "the same again"
 grep -c '"status": "ok"' once.jsonl
-carom shoot --threads 1 -o one.jsonl "$DATA/shots-pooltool.jsonl"
-carom shoot --threads 4 -o four.jsonl "$DATA/shots-pooltool.jsonl"
+carom shoot --threads 1 -o one.jsonl recorded.jsonl
+carom shoot --threads 4 -o four.jsonl recorded.jsonl
 cmp one.jsonl four.jsonl && echo "the same with any number of threads"
 grep -o '"kind": "[a-z]*"' one.jsonl | sort | uniq -c | tr -s ' '
-carom shoot --models pooltool --events brief "$DATA/shots-pooltool.jsonl" | grep -o '"n_events": [0-9]*' | tr -d ' ' > ours
-tr -d ' ' < "$DATA/shots-pooltool.jsonl" | grep -o '"n_events":[0-9]*' | cmp - ours && echo "as many events as recorded"
-carom shoot --models pooltool --events brief "$DATA/shots-pooltool.jsonl" | grep public-017 | sed 's/\[\([0-9.]*\), "/["/g; s/"final".*//; s/.*"events"/"events"/'
+carom shoot --models pooltool --events brief recorded.jsonl | grep -o '"n_events": [0-9]*' | tr -d ' ' > ours
+tr -d ' ' < recorded.jsonl | grep -o '"n_events":[0-9]*' | cmp - ours && echo "as many events as recorded"
+carom shoot --models pooltool --events brief recorded.jsonl | grep public-017 | sed 's/\[\([0-9.]*\), "/["/g; s/"final".*//; s/.*"events"/"events"/'
 echo "--- what is written of shots that pooltool recorded"
-carom shoot --models pooltool "$DATA/shots-pooltool.jsonl" > written.jsonl
+carom shoot --models pooltool recorded.jsonl > written.jsonl
 python - <<'PYTHON'
 import json, os
 
@@ -26,7 +27,7 @@ def differ(ours, theirs, allowed):
         for a, b in zip(ours, theirs)
     )
 
-written, recorded = shots("written.jsonl"), shots(f"{os.environ['DATA']}/shots-pooltool.jsonl")
+written, recorded = shots("written.jsonl"), shots("recorded.jsonl")
 wrong, compared, whole = [], 0, 0
 for name, theirs in recorded.items():
     ours, same = written[name], theirs["sens"]["same_events"]
@@ -69,7 +70,7 @@ rail() { printf '{"id": "%s", "p1": [%s, 0.036], "p2": [%s, 0.036], "direction":
 } > odd.jsonl
 carom shoot -o odd.out --plot odd.svg odd.jsonl
 grep -o '"status": "[a-z]*"' odd.out
-carom shoot -o pool.out --models pooltool --plot pool.svg --id public-000 "$DATA/shots-pooltool.jsonl"
+carom shoot -o pool.out --models pooltool --plot pool.svg --id public-000 recorded.jsonl
 python - <<'PYTHON'
 from drawn import check_shots
 print(check_shots("odd.out", "odd.svg", 7), check_shots("pool.out", "pool.svg", "public-000"))
@@ -124,7 +125,7 @@ sed 's/"table".*"final"/.../; s/"t": .*}, "pockets"/.../' bad.out
 echo "--- a byte-order mark"
 { printf '\357\273\277'; cat "$DATA/break-nineball.jsonl"; } > mark.jsonl
 carom shoot mark.jsonl | cmp - once.jsonl && echo "the same with one"
-{ printf '\357\273\277'; grep -m 1 '"kind": "table"' "$DATA/shots-pooltool.jsonl"; } > mark.jsonl
+{ printf '\357\273\277'; grep -m 1 '"kind": "table"' recorded.jsonl; } > mark.jsonl
 carom shoot mark.jsonl | head -c 15 && echo
 echo "--- bounds"
 try carom shoot --events-most 5 --events none - < "$DATA/break-nineball.jsonl" > bounds.out

@@ -57,6 +57,7 @@ START_TEST(what_other_programs_write) {
   expect("a;b\n1,5;2\n", "1:a|b;2:1,5|2;");
   expect("a\tb\n1\t\"2\t3\"\n", "1:a|b;2:1|2\t3;");
   expect("a,b;c\n1,2;3\n", "1:a|b;c;2:1|2;3;");
+  expect("a;b (m, m);c\n1,5;2;3\n", "1:a|b (m, m)|c;2:1,5|2|3;");
   expect("a,b\n , \n,,,\n1,2\n\"\",\n", "1:a|b;4:1|2;");
   expect("PK\x03\x04,1\n2,3\n", "");
 }
@@ -70,6 +71,23 @@ START_TEST(a_first_record_of_numbers) {
     ck_assert_int_eq(record_next(reader, &in), READ_ONE);
     ck_assert_msg(record_is_numbers(&in) == (k < 2), "%s", texts[k]);
     record_close(reader);
+  }
+}
+END_TEST
+
+START_TEST(decimal_commas) {
+  static const struct {
+    const char *text;
+    bool semicolons, good;
+    double number;
+  } cases[] = {{"1,5", true, true, 1.5},    {"-0,25e1", true, true, -2.5}, {"1.5", true, true, 1.5},
+               {",5", true, true, 0.5},     {"1,5", false, false, 0.0},    {"1.234,5", true, false, 0.0},
+               {"1,2,3", true, false, 0.0}, {",", true, false, 0.0},       {"0x1,8", true, false, 0.0}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    double number = 0.0;
+    const record r = {.decimal_commas = cases[k].semicolons};
+    ck_assert_msg(record_number(&r, cases[k].text, &number) == cases[k].good, "%s", cases[k].text);
+    ck_assert_msg(!cases[k].good || number == cases[k].number, "%s is %g", cases[k].text, number);
   }
 }
 END_TEST
@@ -141,6 +159,6 @@ START_TEST(a_nul_does_not_end_a_field) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("records", shapes_of_files, what_other_programs_write, a_first_record_of_numbers, quotes,
+  return RUN_TESTS("records", shapes_of_files, what_other_programs_write, a_first_record_of_numbers, decimal_commas, quotes,
                    a_quote_left_open_costs_one_record, a_line_without_end_costs_one_record, a_nul_does_not_end_a_field);
 }
