@@ -13,7 +13,7 @@
 enum { MOST_EVENTS = 64, SAMPLES = 64, ARC_PIECES = 8, MOST_CHARACTERS = 200 };
 static const double reach = 14.0;          /* of the faster ball at least, in radii */
 static const double least_friction = 1e-6; /* the library's motion needs some; balls slide straight on by so little */
-static const double margin = 26.0, most_height = 620.0, line_height = 19.0; /* pixels */
+static const double margin = 26.0, most_height = 620.0; /* pixels */
 static const char *const colours[2] = {"#ffffff", "#f2c230"};
 
 /* A part of the cloth, and its labels. */
@@ -145,13 +145,13 @@ static void draw_path(sketch *s, const contact_picture *p, const motion *m, int 
 static void draw_scale(sketch *s) {
   const double wanted = CONTACT_WIDTH / 6.0 / s->scale, power = pow(10.0, floor(log10(wanted))), share = wanted / power;
   const double length = power * (share >= 5.0 ? 5.0 : share >= 2.0 ? 2.0 : 1.0), x = CONTACT_WIDTH - margin;
-  char text[40];
+  char text[40], style[80];
+  snprintf(style, sizeof style, "class=\"bar\" font-size=\"%.1f\" fill=\"#0b2a22\" text-anchor=\"middle\"", s->labels.size);
   snprintf(text, sizeof text, length < 1.0 ? "%.3g cm" : "%.3g m", length < 1.0 ? 100.0 * length : length);
   fprintf(s->out, "<path d=\"M%.1f %.1fv6h%.1fv-6\" fill=\"none\" stroke=\"#0b2a22\" stroke-width=\"1.5\"/>\n",
           x - s->scale * length, s->bottom - 16.0, s->scale * length);
-  svg_text(s->out, x - 0.5 * s->scale * length, s->bottom - 16.0, "font-size=\"12\" fill=\"#0b2a22\" text-anchor=\"middle\"",
-           text, MOST_CHARACTERS);
-  keep_free(&s->labels, x - s->scale * length, s->bottom - 32.0, x, s->bottom);
+  svg_text(s->out, x - 0.5 * s->scale * length, s->bottom - 16.0, style, text, MOST_CHARACTERS);
+  keep_free(&s->labels, x - s->scale * length, s->bottom - 36.0, x, s->bottom);
 }
 
 /* What is to be seen: balls, lines, paths. */
@@ -175,7 +175,7 @@ static sketch sketch_of(FILE *out, const contact_picture *p, const motion *m) {
   const double wide = s.high[0] - s.low[0], high = s.high[1] - s.low[1];
   s.scale = fmin((CONTACT_WIDTH - 2.0 * margin) / wide, most_height / high);
   s.bottom = s.scale * high + 2.0 * margin;
-  s.labels = (labels){.out = out, .width = CONTACT_WIDTH, .height = s.bottom, .size = 16.0};
+  s.labels = (labels){.out = out, .width = CONTACT_WIDTH, .height = s.bottom, .size = svg_letters(CONTACT_WIDTH)};
   s.low[0] -= 0.5 * ((CONTACT_WIDTH - 2.0 * margin) / s.scale - wide);
   return s;
 }
@@ -184,16 +184,16 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
   motion m;
   move(p, &m);
   sketch s = sketch_of(out, p, &m);
-  const double R = p->ball[0]->radius;
-  int lines = 0;
-  for (const char *end = p->words; (end = strchr(end, '\n')) != NULL; end++)
-    lines++;
-  const double height = s.bottom + line_height * (lines + 1);
+  const double R = p->ball[0]->radius, size = s.labels.size, first = s.bottom + 1.5 * size;
+  const int columns = (int)((CONTACT_WIDTH - 1.5 * margin) / (0.602 * size));
+  const double height = svg_lines(NULL, 0.0, first, size, columns, "", p->words);
   fprintf(out, "<svg y=\"%.1f\" width=\"%d\" height=\"%.1f\">\n<rect width=\"100%%\" height=\"%.1f\" fill=\"#3f9d80\"/>\n", top,
           CONTACT_WIDTH, height, s.bottom);
   draw_scale(&s);
-  if (p->rail)
+  if (p->rail) {
     fprintf(out, "<rect width=\"100%%\" height=\"%.1f\" fill=\"#1d4a3c\"/>\n", down(&s, (double[]){0.0, R}));
+    keep_free(&s.labels, 0.0, 0.0, CONTACT_WIDTH, down(&s, (double[]){0.0, R}));
+  }
   /* Balls as they meet, lines, angles, paths; labels last find what is free. */
   for (int k = 0; k < p->balls; k++) {
     const double x = across(&s, p->ball[k]->r), y = down(&s, p->ball[k]->r), r = fmax(s.scale * R, 3.0);
@@ -212,11 +212,7 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
   for (int k = 0; k < p->lines; k++)
     if (p->line[k].label != NULL)
       put_label(&s.labels, across(&s, p->line[k].to), down(&s, p->line[k].to), p->line[k].label);
-  const char *text = p->words;
-  for (int k = 0; k < lines; k++, text += strcspn(text, "\n") + 1)
-    svg_text(out, margin, s.bottom + line_height * (k + 1),
-             "xml:space=\"preserve\" font-size=\"12.5\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", text,
-             (int)strcspn(text, "\n"));
+  svg_lines(out, margin, first, size, columns, "font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", p->words);
   fputs("</svg>\n", out);
   return height;
 }

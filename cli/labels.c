@@ -1,4 +1,5 @@
-/* Labels: each is tried in eight directions from its place, ever farther away, until its box is free. */
+/* Labels: each is tried in directions from its place, by its left end, middle and right end, ever farther away, until its box
+ * is free. */
 #include "labels.h"
 
 #include "derived.h"
@@ -8,9 +9,9 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { MOST_CHARACTERS = 200 };
+enum { MOST_CHARACTERS = 200, TURNS = 16, ANCHORS = 3 };
 static const double letter = 7.6 / 13.0, line = 16.0 / 13.0; /* widest letter and height, over the size */
-static const double farthest = 200.0;                        /* pixels */
+static const double farthest = 900.0;                        /* pixels */
 
 void keep_free(labels *l, double left, double top, double right, double bottom) {
   if (l->boxes < MOST_BOXES)
@@ -38,14 +39,16 @@ void put_label(labels *l, double x, double y, const char *text) {
   double box[4] = {0};
   bool found = false;
   for (double far = 4.0; far < farthest && !found; far += 8.0)
-    for (int turn = 0; turn < 8 && !found; turn++) {
-      const double angle = 45.0 * turn * degree, left = x + far * cos(angle) - (turn > 2 && turn < 6 ? width : 0.0);
-      const double middle = turn % 4 == 2 ? left - 0.5 * width : left, base = y + far * sin(angle) + 0.5 * height;
-      memcpy(box, (double[4]){middle, base - height, middle + width, base}, sizeof box);
+    for (int turn = 0; turn < TURNS * ANCHORS && !found; turn++) {
+      const double angle = 360.0 / TURNS * (turn / ANCHORS) * degree, anchor = turn % ANCHORS * width / (ANCHORS - 1);
+      const double left = x + far * cos(angle) - anchor, base = y + far * sin(angle) + 0.5 * height;
+      memcpy(box, (double[]){left, base - height, left + width, base}, sizeof box);
       found = is_free(l, box);
     }
+  if (!found)
+    return;
   keep_free(l, box[0], box[1], box[2], box[3]);
   snprintf(style, sizeof style,
-           "font-size=\"%g\" fill=\"#0b2a22\" stroke=\"#6fc0a6\" stroke-width=\"3\" paint-order=\"stroke\"", l->size);
+           "font-size=\"%.1f\" fill=\"#0b2a22\" stroke=\"#6fc0a6\" stroke-width=\"3\" paint-order=\"stroke\"", l->size);
   svg_text(l->out, box[0], box[3] - 0.25 * height, style, text, MOST_CHARACTERS);
 }

@@ -20,7 +20,7 @@ void keep_free(labels *l, double left, double top, double right, double bottom);
 /* The same for a line, whose ends are those. */
 void keep_line(labels *l, double x0, double y0, double x1, double y1);
 
-/* Writes a label as near to a place as it finds room. */
+/* Writes a label as near to a place as it finds room; none where there is no room. */
 void put_label(labels *l, double x, double y, const char *text);
 
 #endif

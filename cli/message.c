@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 enum { LONGEST = 2 * PATH_MAX }; /* a message; what is beyond is cut */
+enum { TABLE_MOST = 32 };        /* columns in which a paragraph's first words stand */
 
 const char random_name[7] = {'X', 'X', 'X', 'X', 'X', 'X', '\0'};
 
@@ -38,6 +39,31 @@ void complain(const char *format, ...) {
   progress_clear();
   fprintf(stderr, "%s: %s\n", program_name, text);
   funlockfile(stderr);
+}
+
+static int hanging_indent(const char *line, size_t size) {
+  const size_t own = strspn(line, " "), most = size < TABLE_MOST ? size : TABLE_MOST;
+  size_t indent = own;
+  for (size_t k = own; k + 2 < most; k++)
+    if (line[k] == ' ' && line[k + 1] == ' ')
+      indent = k + 2;
+  return (int)indent;
+}
+
+void print_wrapped(FILE *out, const char *text, int width) {
+  for (size_t size; *text != '\0'; text += size + (text[size] == '\n')) {
+    size = strcspn(text, "\n");
+    const int indent = hanging_indent(text, size);
+    int column = 0;
+    for (size_t k = 0; k < size;) { /* a word with the blanks before it */
+      const int blanks = (int)strspn(text + k, " "), word = (int)strcspn(text + k + blanks, " \n");
+      const bool breaks = column > indent && column + blanks + word > width;
+      fprintf(out, "%s%*s%.*s", breaks ? "\n" : "", breaks ? indent : blanks, "", word, text + k + blanks);
+      column = (breaks ? indent : column + blanks) + word;
+      k += (size_t)(blanks + word);
+    }
+    putc('\n', out);
+  }
 }
 
 const char *id_text(const char *id, char text[ID_TEXT]) {

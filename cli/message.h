@@ -2,12 +2,18 @@
 #ifndef CAROM_CLI_MESSAGE_H
 #define CAROM_CLI_MESSAGE_H
 
+#include <stdio.h>
+
 /* The program's name, which stands before every message. */
 extern const char *program_name;
 
 /* Prints the program's name, the message and a newline, clear of a progress line that may stand there. Texts of the user's may
  * stand in a message as they are: characters that a terminal would obey are shown as '?'. */
 __attribute__((format(printf, 1, 2))) void complain(const char *format, ...);
+
+/* Prints paragraphs, a line each, broken between words where one is longer than `width`; the further lines of a paragraph begin
+ * below the text behind its first words where blanks make a table of it. */
+void print_wrapped(FILE *out, const char *text, int width);
 
 /* An id as a message shows it: whole up to 60 characters, else cut there with "..." behind it. Returns `text`. */
 enum { ID_TEXT = 64 };

@@ -10,38 +10,11 @@
 #include <string.h>
 
 enum { MOST_ROWS = 32, FIRST_CODE = UCHAR_MAX + 1 };
-enum { HELP_WIDTH = 80, OPTION_WIDTH = 23, TABLE_MOST = 32 }; /* columns of the help */
+enum { HELP_WIDTH = 80, OPTION_WIDTH = 23 }; /* columns of the help */
 
 static const option_row help_row = {.name = "help", .letter = 'h', .help = "this text"};
 
 /* ---- Help */
-
-/* Where the further lines of a paragraph begin: below the text behind its first word where blanks make a table of it. */
-static int hanging_indent(const char *line, size_t size) {
-  const size_t own = strspn(line, " "), most = size < TABLE_MOST ? size : TABLE_MOST;
-  size_t indent = own;
-  for (size_t k = own; own > 0 && k + 2 < most; k++)
-    if (line[k] == ' ' && line[k + 1] == ' ')
-      indent = k + 2;
-  return (int)indent;
-}
-
-/* Prints paragraphs, a line each, broken between words where one is longer than a terminal is wide. */
-static void print_wrapped(FILE *out, const char *text) {
-  for (size_t size; *text != '\0'; text += size + (text[size] == '\n')) {
-    size = strcspn(text, "\n");
-    const int indent = hanging_indent(text, size);
-    int column = 0;
-    for (size_t k = 0; k < size;) { /* a word with the blanks before it */
-      const int blanks = (int)strspn(text + k, " "), word = (int)strcspn(text + k + blanks, " \n");
-      const bool breaks = column > indent && column + blanks + word > HELP_WIDTH;
-      fprintf(out, "%s%*s%.*s", breaks ? "\n" : "", breaks ? indent : blanks, "", word, text + k + blanks);
-      column = (breaks ? indent : column + blanks) + word;
-      k += (size_t)(blanks + word);
-    }
-    putc('\n', out);
-  }
-}
 
 /* "  -o, --output OUT"; choices that do not fit into a line are listed in the details. */
 static int write_head(const option_row *row, char text[80]) {
@@ -60,7 +33,7 @@ static void print_row(FILE *out, const option_row *row) {
   if (width + 2 > OPTION_WIDTH)
     fprintf(out, "%s\n", head);
   snprintf(text, sizeof text, "%-*s%s", OPTION_WIDTH, width + 2 > OPTION_WIDTH ? " " : head, row->help);
-  print_wrapped(out, text);
+  print_wrapped(out, text, HELP_WIDTH);
 }
 
 /* Prints the options that are for one kind of rows, or all. */
@@ -81,7 +54,7 @@ static bool has_kinds(const command_form *form) {
 
 static void print_help(FILE *out, const command_form *form) {
   fprintf(out, "usage: %s %s%s%s\n\n", program_name, form->name, form->usage[0] != '\0' ? " " : "", form->usage);
-  print_wrapped(out, form->about);
+  print_wrapped(out, form->about, HELP_WIDTH);
   fputs("\noptions:\n", out);
   print_options(out, form, has_kinds(form) ? ANY_KIND : EVERY_ROW);
   print_row(out, &help_row);
@@ -92,7 +65,7 @@ static void print_help(FILE *out, const command_form *form) {
     print_options(out, form, CUSHION_ONLY);
   }
   putc('\n', out);
-  print_wrapped(out, form->details);
+  print_wrapped(out, form->details, HELP_WIDTH);
   fprintf(out, "\nexample:\n  %s\n", form->example);
 }
 

@@ -2,6 +2,7 @@
  * picture that is whole then goes to its place. */
 #include "picture.h"
 
+#include "memory.h"
 #include "message.h"
 #include "output.h"
 #include "place.h"
@@ -155,4 +156,22 @@ void svg_text(FILE *out, double x, double y, const char *style, const char *text
   for (int k = 0; k < most && text[k] != '\0'; k++)
     text[k] == '<' ? fputs("&lt;", out) : text[k] == '&' ? fputs("&amp;", out) : putc(text[k], out);
   fputs("</text>\n", out);
+}
+
+double svg_letters(double width) {
+  return 9.2 / 500.0 * width;
+}
+
+double svg_lines(FILE *out, double x, double y, double size, int columns, const char *style, const char *text) {
+  char *lines, whole[160];
+  size_t length;
+  FILE *wrapped = open_text(&lines, &length);
+  print_wrapped(wrapped, text, columns);
+  close_text(wrapped, &lines);
+  snprintf(whole, sizeof whole, "xml:space=\"preserve\" font-size=\"%.1f\" %s", size, style);
+  for (const char *at = lines; *at != '\0'; at += strcspn(at, "\n") + 1, y += 1.25 * size)
+    if (out != NULL)
+      svg_text(out, x, y, whole, at, (int)strcspn(at, "\n"));
+  free(lines);
+  return y;
 }

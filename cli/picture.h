@@ -26,6 +26,13 @@ bool file_draw(const char *path, void (*write)(FILE *out, const void *data), con
 /* The head of an SVG, and what is behind all, as attributes: "fill=\"#fff\"". */
 void svg_begin(FILE *out, double width, double height, const char *background);
 
+/* The size of letters of a picture of that width: 9 pixels or more where it is shown 500 pixels wide. */
+double svg_letters(double width);
+
+/* Writes lines below each other, the first at `y`, letters `size` high; those of more than `columns` are broken. Returns where
+ * the next would be. Without `out` it only tells that. */
+double svg_lines(FILE *out, double x, double y, double size, int columns, const char *style, const char *text);
+
 /* A text at a place, of `most` characters at most, with what XML would take for its own put right. */
 void svg_text(FILE *out, double x, double y, const char *style, const char *text, int most);
 

@@ -154,17 +154,17 @@ static void write_curves(FILE *out, const void *data) {
   char law[80];
   one_case c;
   fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range], s->in[range].unit, s->scene->quantity[quantity]);
-  /* What is the same for all, on lines of a few. */
+  /* What is the same for all, on lines of a few, and the law. */
   int said = 0;
   for (int k = 0; k < inputs_of(s); k++)
     if (s->in[k].count == 1)
       fprintf(out, "%s%s %s",
-              said % 4 > 0 ? ", "
+              said % 3 > 0 ? ", "
               : said > 0   ? "\n# footer: "
                            : "",
               s->scene->inputs[k], s->in[k].at[0].name),
           said++;
-  fprintf(out, ", %s\n", s->scene->law(s, law));
+  fprintf(out, "\n# footer: %s\n", s->scene->law(s, law));
   for (int curve = 0; curve < curves; curve++) {
     make_case(s, curve * points, &c);
     fprintf(out, "# curve %d: ", curve + 1);

@@ -25,26 +25,32 @@ bool shot_has_id(const shot_line *line, const char *id) {
          (strlen(line->id) == size + 2 && line->id[0] == '"' && strncmp(line->id + 1, id, size) == 0);
 }
 
-static const double table_scale = 400.0, table_margin = 0.11, side_margin = 30.0; /* pixels a metre; m; pixels */
-static const double line_height = 23.0, least_arrow = 40.0;                       /* pixels */
+static const double table_scale = 400.0, table_margin = 0.05; /* pixels a metre; over the length of the table */
+static const double side_margin = 30.0, least_arrow = 40.0;   /* pixels */
+static const double letter_width = 0.53;                      /* a usual one, over the size of letters */
 
 /* Colours of pool balls by number, as bright as a path on green has to be; the first is for the cue ball and others. */
 static const char *const colours[] = {"#ffffff", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd",
                                       "#111111", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd"};
 
-static const char *colour_of(const char *name, int index) {
+/* The colour that the name of a ball says, or NULL. */
+static const char *named_colour(const char *name) {
   static const struct {
     const char *name, *colour;
-  } named[] = {{"cue", "#ffffff"},   {"white", "#ffffff"}, {"yellow", "#ffd84a"}, {"red", "#ff8d80"},  {"green", "#b6f09c"},
+  } named[] = {{"cue", "#ffffff"},   {"white", "#ffffff"}, {"yellow", "#ffd84a"}, {"green", "#b6f09c"},
                {"brown", "#c9a27a"}, {"blue", "#8fc1ff"},  {"pink", "#f2a0bd"},   {"black", "#111111"}};
-  if (strncmp(name, "red", 3) == 0)
-    return "#ff8d80";
   for (size_t k = 0; k < sizeof named / sizeof named[0]; k++)
     if (strcmp(name, named[k].name) == 0)
       return named[k].colour;
+  return strncmp(name, "red", 3) == 0 ? "#ff8d80" : NULL;
+}
+
+static const char *colour_of(const char *name, int index) {
   char *end;
   const long number = strtol(name, &end, 10);
-  return *end == '\0' && number >= 1 && number <= 15 ? colours[number] : colours[index % 16];
+  return named_colour(name) != NULL                    ? named_colour(name)
+         : *end == '\0' && number >= 1 && number <= 15 ? colours[number]
+                                                       : colours[index % 16];
 }
 
 static bool is_striped(const char *name) {
@@ -69,8 +75,7 @@ static double down(const view *v, const double r[2]) {
 }
 
 static view view_of(FILE *out, const carom_table *t) {
-  view v = {
-      .out = out, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}, .scale = table_scale, .margin = table_margin};
+  view v = {.out = out, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}, .scale = table_scale};
   for (int k = 0; k < t->rails; k++)
     for (int end = 0; end < 2; end++)
       for (int axis = 0; axis < 2; axis++) {
@@ -79,6 +84,7 @@ static view view_of(FILE *out, const carom_table *t) {
         v.high[axis] = fmax(v.high[axis], x);
       }
   v.turned = v.high[1] - v.low[1] > v.high[0] - v.low[0];
+  v.margin = table_margin * fmax(v.high[0] - v.low[0], v.high[1] - v.low[1]);
   return v;
 }
 
@@ -113,10 +119,10 @@ static void draw_diamonds(const view *v, const carom_table *t) {
 /* Axes on the wood beside the corner of the origin, from which aims are counted. */
 static void draw_axes(const view *v) {
   static const char *const names[] = {"x, aim 0\u00b0", "y, aim 90\u00b0"};
-  const double far = 0.25, out = 0.6 * v->margin;
+  const double far = 0.25, out = 0.55 * v->margin;
   for (int axis = 0; axis < 2; axis++) {
     double from[2] = {v->low[0], v->low[1]}, to[2];
-    char style[120];
+    char style[160];
     from[1 - axis] -= out;
     memcpy(to, from, sizeof to);
     to[axis] += far;
@@ -127,12 +133,31 @@ static void draw_axes(const view *v) {
         "<path class=\"axis\" d=\"M%.1f %.1fl%.1f %.1fm%.1f %.1fl%.1f %.1fl%.1f %.1f\" stroke=\"#e8dcc0\" fill=\"none\"/>\n",
         left, top, x, y, -7.0 * ux - 4.0 * uy, -7.0 * uy + 4.0 * ux, 7.0 * ux + 4.0 * uy, 7.0 * uy - 4.0 * ux,
         -7.0 * ux + 4.0 * uy, -7.0 * uy - 4.0 * ux);
-    snprintf(style, sizeof style, "class=\"axis\" font-size=\"14\" fill=\"#e8dcc0\" transform=\"rotate(%d %.1f %.1f)\"",
-             x > 1.0   ? 0
-             : y > 0.0 ? 90
-                       : -90,
-             left, top);
-    svg_text(v->out, left + 4.0, top - 3.0, style, names[axis], 20);
+    /* The name is on the outer side of its arrow: above it, left of it, or below one along the lower edge. */
+    const double size = v->labels->size;
+    snprintf(style, sizeof style,
+             "class=\"axis\" font-size=\"%.1f\" fill=\"#e8dcc0\" text-anchor=\"%s\" transform=\"rotate(%d %.1f %.1f)\"", size,
+             y > 1.0 ? "end" : "start", x > 1.0 ? 0 : -90, left, top);
+    svg_text(v->out, y > 1.0 ? left - 4.0 : left + 4.0, x > 1.0 && !v->turned ? top + size : top - 0.25 * size, style,
+             names[axis], 20);
+  }
+}
+
+/* Keeps rails, pockets and what is behind them free of labels. */
+static void keep_rails(const view *v, const carom_table *t, double width, double height) {
+  double low[2], high[2];
+  noses_of(t, low, high);
+  const double left = fmin(across(v, low), across(v, high)), right = fmax(across(v, low), across(v, high));
+  const double top = fmin(down(v, low), down(v, high)), bottom = fmax(down(v, low), down(v, high));
+  keep_free(v->labels, 0.0, 0.0, left, height);
+  keep_free(v->labels, right, 0.0, width, height);
+  keep_free(v->labels, 0.0, 0.0, width, top);
+  keep_free(v->labels, 0.0, bottom, width, height);
+  for (int k = 0; k < t->rails; k++)
+    keep_line(v->labels, across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q), down(v, t->rail[k].q));
+  for (int k = 0; k < t->pockets; k++) {
+    const double x = across(v, t->pocket[k].centre), y = down(v, t->pocket[k].centre), r = v->scale * t->pocket[k].radius;
+    keep_free(v->labels, x - r, y - r, x + r, y + r);
   }
 }
 
@@ -157,6 +182,7 @@ static void draw_table(const view *v, const carom_table *t, double below) {
             across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q), down(v, t->rail[k].q));
   draw_diamonds(v, t);
   draw_axes(v);
+  keep_rails(v, t, width, height);
 }
 
 /* Goes on with a path from a place to another and a time: straight, or in short pieces where the ball slides. */
@@ -276,6 +302,7 @@ static void draw_ellipse(const view *v, const spread *s, const carom_ball_state 
           s->until < INFINITY ? " stroke-dasharray=\"5 4\"" : "");
 }
 
+/* A name of more than two letters stands beside the ball, unless the ball's colour says it. */
 static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball, bool final, const char *name) {
   const char *colour = colour_of(line->name[ball], ball);
   const double x = across(v, s->r), y = down(v, s->r), r = v->scale * line->ball[ball].kind.radius;
@@ -290,10 +317,13 @@ static void draw_ball(const view *v, const shot_line *line, const carom_ball_sta
   if (is_striped(line->name[ball]))
     fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\"/>\n", x, y,
             r - 1.8);
-  char style[120];
-  snprintf(style, sizeof style, "font-size=\"%.1f\" fill=\"%s\" text-anchor=\"middle\" dominant-baseline=\"central\"",
-           strlen(name) > 2 ? 7.0 : 11.0, dark ? "#fff" : "#111");
-  svg_text(v->out, x, y, style, name, 5);
+  char style[160];
+  snprintf(style, sizeof style, "font-size=\"%.1f\" letter-spacing=\"-2\" fill=\"%s\" text-anchor=\"middle\"", v->labels->size,
+           dark ? "#fff" : "#111");
+  if (strlen(name) <= 2)
+    svg_text(v->out, x, y + 0.36 * v->labels->size, style, name, 2);
+  else if (named_colour(name) == NULL)
+    put_label(v->labels, x, y, name);
 }
 
 /* Balls that fell lie beside each other in the pocket's place. */
@@ -389,23 +419,22 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   const carom_table *t = &shots[0].line->table->table;
   view v = view_of(out, t);
   static labels l;
-  int lines = 0;
-  for (const char *end = footer; (end = strchr(end, '\n')) != NULL; end++)
-    lines++;
   const double wide = v.scale * (fmax(v.high[0] - v.low[0], v.high[1] - v.low[1]) + 2.0 * v.margin);
   const double high = v.scale * (fmin(v.high[0] - v.low[0], v.high[1] - v.low[1]) + 2.0 * v.margin);
+  const double letters = svg_letters(wide), left = 24.0;
+  const int columns = (int)((wide - 2.0 * left) / (letter_width * letters));
   v.labels = &l;
-  l = (labels){.out = out, .width = wide, .height = high, .size = 20.0};
+  l = (labels){.out = out, .width = wide, .height = high, .size = letters};
   double rise = 0.0;
   for (int shot = 0; shot < count; shot++)
     for (int k = 0; k < shots[shot].line->count; k++)
       rise = fmax(rise, rise_of(shots[shot].line, shots[shot].shot, k));
   const double side = rise > 1e-3 ? v.scale * (rise + 2.0 * shots[0].line->ball[0].kind.radius) + side_margin : 0.0;
-  const double below = side > 0.0 ? side + side_margin : 0.0;
-  draw_table(&v, t, below + (lines > 0 ? line_height * (lines + 1) : 0.0));
+  const double below = side > 0.0 ? side + side_margin : 0.0, said = svg_lines(NULL, left, 0.0, letters, columns, "", footer);
+  draw_table(&v, t, below + said + (said > 0.0 ? letters : 0.0));
   if (side > 0.0)
     fprintf(out, "<rect y=\"%.1f\" width=\"100%%\" height=\"%.1f\" fill=\"#86a398\"/>\n", high,
-            below + (lines > 0 ? 0.0 : 20.0));
+            below + (said > 0.0 ? 0.0 : 20.0));
   for (int shot = 0; shot < count && side > 0.0; shot++)
     draw_side(&v, shots[shot].line, shots[shot].shot, high + side, wide);
   for (int k = 0; k < shots[0].line->count; k++)
@@ -416,31 +445,33 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0; k--)
       draw_path(&v, shots[shot].line, shots[shot].shot, k);
-  /* Where they end; what does not move, once. */
-  for (int shot = 0; shot < count; shot++) {
-    const shot_line *line = shots[shot].line;
-    carom_ball_state final[CAROM_BALLS_MOST];
-    memcpy(final, shots[shot].shot->final, (size_t)line->count * sizeof *final);
-    spread_pocketed(line, final);
-    for (int k = 0; k < line->count; k++) {
-      char number[12];
-      if (!shot_shows(&shots[shot], shot, k))
-        continue;
-      snprintf(number, sizeof number, "%d", shot + 1);
-      fprintf(out, "<g class=\"ball\" data-x=\"%.1f\" data-y=\"%.1f\">\n", across(&v, final[k].r), down(&v, final[k].r));
-      draw_ball(&v, line, &final[k], k, true, count > 1 && k == line->cue.ball ? number : line->name[k]);
-      fputs("</g>\n", out);
-      if (shots[shot].spread != NULL)
-        draw_ellipse(&v, shots[shot].spread, &final[k], k);
-      const double r = v.scale * line->ball[k].kind.radius, x = across(&v, final[k].r), y = down(&v, final[k].r);
-      keep_free(&l, x - r, y - r, x + r, y + r);
+  /* Where they end, kept free of labels and then drawn; what does not move, once. */
+  for (int drawn = 0; drawn < 2; drawn++)
+    for (int shot = 0; shot < count; shot++) {
+      const shot_line *line = shots[shot].line;
+      carom_ball_state final[CAROM_BALLS_MOST];
+      memcpy(final, shots[shot].shot->final, (size_t)line->count * sizeof *final);
+      spread_pocketed(line, final);
+      for (int k = 0; k < line->count; k++) {
+        const double r = v.scale * line->ball[k].kind.radius, x = across(&v, final[k].r), y = down(&v, final[k].r);
+        char number[12];
+        if (!shot_shows(&shots[shot], shot, k))
+          continue;
+        if (drawn == 0) {
+          keep_free(&l, x - r, y - r, x + r, y + r);
+          continue;
+        }
+        snprintf(number, sizeof number, "%d", shot + 1);
+        fprintf(out, "<g class=\"ball\" data-x=\"%.1f\" data-y=\"%.1f\">\n", x, y);
+        draw_ball(&v, line, &final[k], k, true, count > 1 && k == line->cue.ball ? number : line->name[k]);
+        fputs("</g>\n", out);
+        if (shots[shot].spread != NULL)
+          draw_ellipse(&v, shots[shot].spread, &final[k], k);
+      }
     }
-  }
   for (int shot = 0; shot < count; shot++)
     draw_rails(&v, &l, shots[shot].line, shots[shot].shot);
-  for (int k = 0; k < lines; k++, footer += strcspn(footer, "\n") + 1)
-    svg_text(out, 24.0, high + below + line_height * (k + (below > 0.0 ? 1.0 : 0.6)),
-             "xml:space=\"preserve\" font-size=\"18\" fill=\"#fff\"", footer, (int)strcspn(footer, "\n"));
+  svg_lines(out, left, high + below + (below > 0.0 ? 1.25 : 0.75) * letters, letters, columns, "fill=\"#fff\"", footer);
   fputs("</svg>\n", out);
 }
 

@@ -25,6 +25,36 @@ def vertices(path):
     return [tuple(map(float, pair.split())) for pair in path.get("d")[1:].split("L")]
 
 
+def small_letters(picture):
+    """Sizes of letters that have less than 9 pixels where the picture is 500 wide."""
+    page = tree.parse(picture).getroot()
+    sizes = {float(one.get("font-size")) for one in page.iter() if one.get("font-size")}
+    return sorted(size for size in sizes if size * 500 / float(page.get("viewBox").split()[2]) < 9)
+
+
+def label_boxes(page):
+    """Left, top, right and bottom of each label; that of an axis as it is turned."""
+    for text in elements(page, "text"):
+        if not text.get("stroke") and text.get("class") != "axis":
+            continue
+        (x, y, size), width = numbers(text, "x", "y", "font-size"), 0.5 * len(text.text) * float(text.get("font-size"))
+        left = x - width if text.get("text-anchor") == "end" else x
+        box = (left, y - 0.73 * size, left + width, y + 0.24 * size)
+        turn, about_x, about_y = map(float, re.findall(r"[-.\d]+", text.get("transform", "rotate(0 0 0)")))
+        if turn == -90:
+            box = (about_x + box[1] - about_y, about_y - box[2] + about_x, about_x + box[3] - about_y, about_y - box[0] + about_x)
+        yield text.text, box
+
+
+def labels_on_rails(picture):
+    """The labels that lie over the line of a nose, or over the cushion of `carom rail`."""
+    page = tree.parse(picture).getroot()
+    noses = [vertices(path) for path in elements(page, "path") if path.get("stroke-linecap")]
+    noses += [[(0, y), (1e4, y)] for rect in elements(page, "rect") if rect.get("fill") == "#1d4a3c" for y in range(int(float(rect.get("height"))))]
+    crossed = lambda box, a, b: any(box[0] < a[0] + t * (b[0] - a[0]) < box[2] and box[1] < a[1] + t * (b[1] - a[1]) < box[3] for t in (k / 500 for k in range(501)))
+    return [text for text, box in label_boxes(page) if any(crossed(box, *nose) for nose in noses)]
+
+
 class Report:
     """What differs."""
 
@@ -92,16 +122,17 @@ def check_shot(picture, shot, table):
     report, page = Report(), tree.parse(picture).getroot()
     ends = [rail[end][:2] for rail in table["linear"] for end in ("p1", "p2")]
     low, high = [min(p) for p in zip(*ends)], [max(p) for p in zip(*ends)]
-    # 400 pixels a metre and a margin of 11 cm; a table that is longer than wide is turned to lie along the picture.
+    # 400 pixels a metre and a margin of a twentieth; a table that is longer than wide is turned to lie along the picture.
     turned = high[1] - low[1] > high[0] - low[0]
-    size = [400 * (high[k] - low[k] + 0.22) for k in ((1, 0) if turned else (0, 1))]
+    margin = 0.05 * max(high[k] - low[k] for k in (0, 1))
+    size = [400 * (high[k] - low[k] + 2 * margin) for k in ((1, 0) if turned else (0, 1))]
 
     def at(r):
         across, down = (r[1] - low[1], r[0] - low[0]) if turned else (r[0] - low[0], high[1] - r[1])
-        return 400 * (across + 0.11), 400 * (down + 0.11)
+        return 400 * (across + margin), 400 * (down + margin)
 
     report.near("size", map(float, page.get("viewBox").split()), [0, 0, *size], 0.5)
-    report.near("cloth", numbers(elements(page, "rect")[1], "x", "y", "width", "height"), [22, 22, size[0] - 44, size[1] - 44])
+    report.near("cloth", numbers(elements(page, "rect")[1], "x", "y", "width", "height"), [200 * margin, 200 * margin, size[0] - 400 * margin, size[1] - 400 * margin])
     circles, paths, texts = ([one for one in elements(page, name) if one.get("class") != "axis"] for name in ("circle", "path", "text"))
     marks, texts = [text.text for text in texts if text.get("stroke")], [text for text in texts if not text.get("stroke")]
     # Holes, jaws, balls at first; paths between; balls at the end, striped ones with a ring.
@@ -122,10 +153,15 @@ def check_shot(picture, shot, table):
     for circle, (what, place, r, fill) in zip(circles, expected):
         report.near(what, numbers(circle, "cx", "cy", "r"), [*at(place), 400 * r])
         report.same(f"{what} is filled", circle.get("fill") != "none", fill != "none")
-    report.same("texts", [text.text for text in texts], [name[:5] for name in final])
-    for text, (name, place) in zip(texts, final.items()):
-        report.near(f"text of {name}", numbers(text, "x", "y"), place)
-    report.same("cushions of the cue ball", marks, cushions(shot, table))
+    # Short names stand on the balls, others beside them, but those of colours nowhere.
+    short = {name: place for name, place in final.items() if len(name) < 3}
+    coloured = {"cue", "white", "yellow", "green", "brown", "blue", "pink", "black"}
+    report.same("texts", [text.text for text in texts], list(short))
+    for text, (name, (x, y)) in zip(texts, short.items()):
+        report.near(f"text of {name}", numbers(text, "x", "y"), [x, y + 0.36 * 9.2 / 500 * size[0]], 0.1)
+    named = [name for name in final if len(name) > 2 and name not in coloured and not name.startswith("red")]
+    report.same("names and cushions of the cue ball", marks, named + cushions(shot, table))
+    report.same("letters", (small_letters(picture), labels_on_rails(picture)), ([], []))
     # Diamonds: three on each short side, seven on each long one, six where a pocket is.
     diamonds = [path for path in paths if path.get("fill") == "#e8dcc0"]
     report.same("diamonds", len(diamonds), 2 * (3 + (6 if table["pockets"] else 7)))
@@ -239,7 +275,7 @@ def check_hit(picture, row, after, words):
     length = max(n * 10.0**power for n in (1, 2, 5) for power in range(-6, 6) if n * 10.0**power <= 150 / scale)
     bottom = scale * (high[1] - low[1]) + 52 - 16
     report.near("bar", map(float, re.findall(r"[\d.]+", bar.get("d"))), [874 - scale * length, bottom, 6, scale * length, 6])
-    [text] = [text for text in elements(page, "text") if text.get("text-anchor") == "middle" and text.get("font-size") == "12"]
+    [text] = [text for text in elements(page, "text") if text.get("class") == "bar"]
     report.near("words of the bar", numbers(text, "x", "y"), [874 - scale * length / 2, bottom])
     report.same("length of the bar", text.text, f"{length:g} m" if length >= 1 else f"{100 * length:g} cm")
     # All is on the picture, and no label covers another.
@@ -249,5 +285,6 @@ def check_hit(picture, row, after, words):
     inside = all(a >= 0 and c <= width and b >= 0 and d <= height for a, b, c, d in boxes)
     apart = all(a[2] < b[0] or b[2] < a[0] or a[3] < b[1] or b[3] < a[1] for k, a in enumerate(boxes) for b in boxes[:k])
     report.same("labels inside and apart", (inside, apart), (True, True))
-    report.same("words", [text.text for text in texts][-len(words) :], words)
+    report.same("words", " ".join(text.text for text in texts).split()[-len(" ".join(words).split()) :], " ".join(words).split())
+    report.same("letters", small_letters(picture), [])
     return report.found

@@ -1,6 +1,7 @@
 # What all figures share; each begins by calling it. They are called as `gnuplot -c NAME.gp DATA.csv PICTURE [TITLE [narrow]]`, where
 # the picture's ending, .svg or .png, decides what it is; an ending alone stands for standard output. A narrow one is for screens of 500 pixels: 470 wide and `tall`, its panels
-# below each other and its key below the plot, the letters as large as in the wide one.
+# below each other and its key below the plot, the letters as large as in the wide one. The letters of one that is 760 wide have 9 pixels where
+# it is shown 500 wide.
 #
 # Colours are Okabe and Ito's, which stay apart without colour vision; marks and dashes differ too.
 
@@ -19,9 +20,9 @@ upper(k, n, above, below, gap) = 1 - px(above + (k - 1) * (panel(n, above, below
 lower(k, n, above, below, gap) = upper(k, n, above, below, gap) - px(panel(n, above, below, gap))
 
 if (picture[strlen(picture)-3:] eq ".pdf") {
-  set terminal pdfcairo size width/90.0, height/90.0 font "DejaVu Sans,10" linewidth 1 background "white"
+  set terminal pdfcairo size width/90.0, height/90.0 font "DejaVu Sans,11.2" linewidth 1 background "white"
 } else { if (picture[strlen(picture)-3:] eq ".png") {
-  set terminal pngcairo size 2*width, 2*height font "DejaVu Sans,12" fontscale 1.7 linewidth 2 pointscale 2 background "white"
+  set terminal pngcairo size 2*width, 2*height font "DejaVu Sans,12" fontscale 1.75 linewidth 2 pointscale 2 background "white"
 } else {
   set terminal svg size width, height fixed font "Helvetica, Arial, DejaVu Sans, sans-serif,14" linewidth 1 background "white"
 }

@@ -1,6 +1,6 @@
 # One collision or one impact on a cushion against normal impulse: slips, velocities and work, from the CSV of `carom trace`. Lines
 # are the exact limit, circles Euler's method; with one solver only, it has the lines.
-width = 1080; height = 780; tall = 1120
+width = 760; height = 1120; tall = 1120
 call (strstrt(ARG0, "/") ? system("dirname '".ARG0."'") : ".")."/style.gp" ARG1 ARG2 ARG3 ARG4
 unset title
 
@@ -33,20 +33,19 @@ of(name, x) = strcol(solver) eq name ? x : NaN
 exact = rail ? "the exact limit of Mathavan's model of 2010" : "the exact limit"
 euler = rail ? "Mathavan's model of 2010 in steps, N = ".note("steps") : "Euler's method, N = ".note("steps")
 what = both ? "Lines: ".exact.". Circles: ".euler."." : solvers[1:5] eq "euler" ? euler."." : "T".exact[2:]."."
-set label 1001 said.(narrow ? "\n" : " ").note("friction of the cloth")." with the cloth; restitution ".note("restitution").\
-  (rail ? "." : "; slip: ".note("slip").".").(narrow ? "\n" : "  ").what \
-  at screen 0.012, screen (narrow ? px(44) : 0.022) font ",11" textcolor rgb grey noenhanced
+set label 1001 said."\n".note("friction of the cloth")." with the cloth; restitution ".note("restitution").\
+  (rail ? "." : "; slip: ".note("slip").".")."\n".what at screen 0.012, screen px(48) textcolor rgb grey noenhanced
 
 set multiplot
-if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen (narrow ? 1 - px(16) : 0.968) center font large textcolor rgb ink noenhanced
+if (strlen(heading) > 0) set label 1 heading at screen 0.5, screen 1 - px(16) center font large textcolor rgb ink noenhanced
 turn = from("compression ends")
 last = system("awk -F, '!/^#/ && $2 + 0 > m { m = $2 + 0 } END { print m }' '".data."'") + 0
 set xrange [0:last]
 set xlabel "normal impulse (N s)" offset 0,0.3
-set key at graph 1.0, graph 1 left top Left reverse samplen 1.6 spacing 1.35
+set key at graph 1.0, graph 1 left top Left reverse noenhanced samplen 1.6 spacing 1.35
 set object 1 rectangle from graph 0, graph 0 to first turn, graph 1 behind fillcolor rgb "#eef4f8" fillstyle solid noborder
-set label 2 "compression" at first turn/2, graph 1.035 center font ",11" textcolor rgb grey
-set label 3 "restitution" at first (turn + last)/2, graph 1.035 center font ",11" textcolor rgb grey
+set label 2 "compression" at first turn/2, graph 1.035 center textcolor rgb grey
+set label 3 "restitution" at first (turn + last)/2, graph 1.035 center textcolor rgb grey
 array tints[4] = [blue, vermilion, green, orange]
 circles = 20
 every_n = ceil(system("grep -c -v -e '^#' -e '^".solver."' '".data."'") / words(solvers) / real(circles))
@@ -56,14 +55,12 @@ series = "plot for [k=1:words(names[p])] data using \"impulse_N_s\":(of(word(sol
   with lines lc rgb tints[k] lw 2.2 title word(names[p], k), \
   for [k=1:(both ? words(names[p]) : 0)] data every every_n using \"impulse_N_s\":(of(word(solvers, 2), column(word(columns[p], k)))) \
   with points pt 6 ps 0.9 lw 1.3 lc rgb tints[k] notitle"
-left(p) = narrow ? 0.19 : p % 2 ? 0.092 : 0.585
-right(p) = narrow ? 0.75 : p % 2 ? 0.38 : 0.88
-high(p) = narrow ? upper(p, 4, 60, 115, 60) : p < 3 ? 0.885 : 0.44
-low(p) = narrow ? lower(p, 4, 60, 115, 60) : p < 3 ? 0.585 : 0.14
+left = narrow ? 0.19 : 0.12; right = narrow ? 0.75 : 0.84
 
 do for [p=1:4] {
-  set lmargin at screen left(p); set rmargin at screen right(p); set tmargin at screen high(p); set bmargin at screen low(p)
-  if (narrow && p < 4) { unset xlabel } else { set xlabel "normal impulse (N s)" offset 0,0.3 }
+  set lmargin at screen left; set rmargin at screen right
+  set tmargin at screen upper(p, 4, 60, 125, 60); set bmargin at screen lower(p, 4, 60, 125, 60)
+  if (p < 4) { unset xlabel } else { set xlabel "normal impulse (N s)" offset 0,0.3 }
   set ylabel labels[p] offset 0.3,0
   if (p < 4) { set offsets 0, 0, graph 0.04, graph 0.04 } else { set offsets 0, 0, graph 0.04, 0 }
   if (p == 4) { set yrange [0:*]; unset key }
@@ -74,8 +71,8 @@ do for [p=1:4] {
     set arrow 1 from first at, graph 0 to first at, graph 1 nohead back lc rgb purple lw 1.5 dt (6,4)
     if (p == 1 || rail) {
       stick = rail ? "it sticks" : "they stick"
-      if (at > 0.4*last) { set label 4 stick at first at, graph 0.94 right offset -0.6,0 font ",11" textcolor rgb purple } \
-      else { set label 4 stick at first at, graph 0.94 left offset 0.6,0 font ",11" textcolor rgb purple }
+      if (at > 0.4*last) { set label 4 stick at first at, graph 0.94 right offset -0.6,0 textcolor rgb purple } \
+      else { set label 4 stick at first at, graph 0.94 left offset 0.6,0 textcolor rgb purple }
     }
   }
   eval(series)

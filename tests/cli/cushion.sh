@@ -95,7 +95,7 @@ python - <<'PYTHON'
 import csv, xml.etree.ElementTree as tree
 page = tree.parse("side.svg").getroot()
 texts = ["".join(e.itertext()).strip() for e in page.iter("{http://www.w3.org/2000/svg}text")]
-print([t for t in texts if t.startswith(("Impact", "side:", "slip", "velocity", "work", "it sticks")) or t in ("along", "into it", "upwards")])
+print([t for t in texts if t.startswith(("Impact", "side:", "0.2 with", "The exact", "slip", "velocity", "work", "it sticks")) or t in ("along", "into it", "upwards")])
 from curves import curves, shows
 rows = list(csv.DictReader(line for line in open("noted.csv") if not line.startswith("#")))
 column = lambda name: [float(row[name]) for row in rows]

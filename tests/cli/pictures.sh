@@ -65,3 +65,26 @@ for closed in "<&-" ">&-" "2>&-" "<&- >&- 2>&-"; do
   eval "timeout 60 \"\$CAROM\" trace --id stun --plot closed.svg -o closed.csv hit.csv $closed" || echo "exit $?"
   echo "closed $closed: $(grep -c '</svg>' closed.svg) $(grep -c ^exact closed.csv)"
 done
+# Letters have 9 pixels in a picture that is 500 wide, and no label lies over a rail.
+carom sweep --id stun --over cut --from 0 --to 60 --points 11 --plot swept.svg hit.csv
+carom trace --id stun --solver exact,euler --plot traced.svg hit.csv
+carom hit --cut 0:80 --speed 1,3,7mph --plot curves.svg
+python - <<'PYTHON'
+import os, random, subprocess
+from drawn import labels_on_rails, small_letters
+
+def plot(*words):
+    subprocess.run([os.environ["CAROM"], *words, "--plot", "drawn.svg", "-o", "/dev/null"], check=True)
+    return small_letters("drawn.svg"), labels_on_rails("drawn.svg")
+
+print([small_letters(f"{name}.svg") for name in ("swept", "traced", "curves")])
+print({str(plot("rail", "--angle", angle, "--side", side)) for angle in ("1", "30", "75", "89") for side in ("left", "none", "right")})
+random.seed(1)
+sizes = {"7ft": (0.9906, 1.9812), "8ft": (1.1176, 2.2352), "9ft": (1.27, 2.54), "snooker": (1.7785, 3.569), "threecushion": (1.42, 2.84)}
+seen = set()
+for table, (width, length) in sizes.items():
+    for _ in range(8):
+        cue, ball = ([f"{random.uniform(0.1, 0.9) * width:.3f},{part * length:.3f}" for part in (random.uniform(0.1, 0.4), random.uniform(0.6, 0.9))])
+        seen.add(str(plot("shoot", "--table", table, "--cue", cue, "--balls", f"a_long_name={ball}", "--aim", f"{random.uniform(0, 360):.1f},{random.uniform(0, 360):.1f}", "--speed", "6")))
+print(seen)
+PYTHON
