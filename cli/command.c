@@ -3,6 +3,7 @@
 
 #include "carom.h"
 #include "message.h"
+#include "options.h"
 #include "output.h"
 
 #include <fcntl.h>
@@ -86,6 +87,9 @@ int program_run(const program *p, int argc, char **argv) {
   for (size_t k = 0; k < p->count; k++)
     if (strcmp(name, p->commands[k].name) == 0)
       return finish(p->commands[k].run(argc - 1, argv + 1));
-  complain("no command '%s'; `%s --help` lists them", name, p->name);
+  char words[256] = "--help|--version", hint[HINT_TEXT];
+  for (size_t k = 0; k < p->count; k++)
+    snprintf(words + strlen(words), sizeof words - strlen(words), "|%s", p->commands[k].name);
+  complain("no command '%s'; `%s --help` lists them%s", name, p->name, did_you_mean(name, words, hint));
   return EXIT_USAGE;
 }

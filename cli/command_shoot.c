@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 }; /* lines in error that are named */
+enum { EVENTS_USUAL = -1, BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 }; /* lines in error that are named */
 
 typedef struct shoot_job {
   shoot_flags from; /* --threads, --steps, --output; and a shot from words */
@@ -25,7 +25,8 @@ typedef struct shoot_job {
   double time_most;
   const char *plot, *animation, *id;
   player_error error;
-  bool words; /* the shots came from words, and are told so */
+  bool together; /* the shots came from options: they are drawn over each other, */
+  bool words;    /* and told in words, unless --events asks for lines */
 } shoot_job;
 
 /* What is read at once, and its results. */
@@ -54,8 +55,10 @@ OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "mathavan|stronge
        "--models pooltool stronge)");
 OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
        "whether balls can leave the cloth (default: 3d; by pooltool's rules always flat)");
-OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
-       "what to write of events: nothing; time, type and ids; or the states before and after too (default full)");
+OPTION(
+    shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
+    "what to write of events: nothing; time, type and ids; or the states before and after too (default full). With a shot by "
+    "options: write it as a line like those of a file, instead of words");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
        "largest number of events of a shot (default 10000)");
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
@@ -203,7 +206,8 @@ static void tell_block(const shoot_job *job, FILE *out, drawing to[DRAWINGS], co
     shot_tell(said, shots[k].line, shots[k].shot, shots[k].spread);
   }
   close_text(said, &words);
-  fputs(words, out);
+  if (job->words)
+    fputs(words, out);
   if (count > 0)
     draw(job, to, shots, count, words);
   free(words);
@@ -271,22 +275,21 @@ static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *pic
     } else {
       if (b->status[k] < 0 && is_named(b))
         complain("%s:%zu: after %g s: %s", b->file, line->number, b->shot[k].time, carom_status_string(b->status[k]));
-      spread *s = job->error.given ? &spreads[job->words ? goods : 0] : NULL;
+      spread *s = job->error.given ? &spreads[job->together ? goods : 0] : NULL;
       if (s != NULL)
         find_spread(b, k, job, &options, s);
       good &= b->status[k] >= 0;
       good_ones[goods] = (played){line, &b->shot[k], s};
-      if (!job->words) {
+      if (!job->words)
         shot_write(out, line, &b->shot[k], b->status[k], job->events, s != NULL ? spread_json(s, line) : NULL);
-        if (shot_has_id(line, job->id))
-          draw_alone(job, picture, &good_ones[goods]);
-        if (s != NULL)
-          spread_free(s);
-      }
+      if (!job->together && shot_has_id(line, job->id))
+        draw_alone(job, picture, &good_ones[goods]);
+      if (!job->together && s != NULL)
+        spread_free(s);
       goods++;
     }
   }
-  if (job->words)
+  if (job->together)
     tell_block(job, out, picture, good_ones, goods);
   for (int k = 0; k < goods; k++)
     spread_free(&spreads[k]);
@@ -330,7 +333,7 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
     const bool plays = b->line[b->count].error == NULL && cue->speed > 0.0 && cue->miscue == 0.0 && tip_of(cue) < 1.0;
     if (plays && doubts_about_tip(&b->tips, tip_of(cue)) != NULL && job->from.shared.strict)
       cue->miscue = TIP_LIMIT;
-    begin_shot(b, job->events != EVENTS_NONE || job->words || draws(job) || job->error.given);
+    begin_shot(b, job->events != EVENTS_NONE || job->together || draws(job) || job->error.given);
     if (++b->count == BLOCK) {
       good &= finish_block(b, job, out, picture);
       clear_block(b);
@@ -390,14 +393,16 @@ int command_shoot(int argc, char **argv) {
   static shoot_job job;
   const char *path;
   char *lines = NULL;
-  job = (shoot_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}}, .events = EVENTS_FULL};
+  job = (shoot_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}}, .events = EVENTS_USUAL};
   int code = parse_arguments(&form, argc, argv, &job, &path);
   if (code >= 0)
     return code;
-  job.words = has_flags(&job.from);
-  if (job.words == (path != NULL)) {
-    complain(job.words ? "a file has its own shots: give it, or the shot by --cue, --aim and the like"
-                       : "shoot needs the name of a file, or a shot by options: --cue 0.6,0.8 --aim 35 --speed 2");
+  job.together = has_flags(&job.from);
+  job.words = job.together && job.events == EVENTS_USUAL;
+  job.events = job.events == EVENTS_USUAL ? EVENTS_FULL : job.events;
+  if (job.together == (path != NULL)) {
+    complain(job.together ? "a file has its own shots: give it, or the shot by --cue, --aim and the like"
+                          : "shoot needs the name of a file, or a shot by options: --cue 0.6,0.8 --aim 35 --speed 2");
     return usage_hint(&form);
   }
   if (job.time_most < 0.0) {
@@ -414,7 +419,7 @@ int command_shoot(int argc, char **argv) {
   }
   if (!svg_possible(job.plot) || !output_possible(job.animation))
     return EXIT_USAGE;
-  shot_file *file = job.words ? shots_of(&job, &lines) : shot_file_open(path);
+  shot_file *file = job.together ? shots_of(&job, &lines) : shot_file_open(path);
   FILE *out = file != NULL ? output_open(job.from.shared.output) : NULL;
   drawing picture[DRAWINGS] = {0};
   code = EXIT_USAGE;

@@ -211,8 +211,9 @@ static bool split_ids(sweep *s) {
 
 /* False after a complaint. */
 static bool can_vary(const sweep *s) {
+  char hint[HINT_TEXT];
   if (place_among(s->kind->inputs, s->over, strlen(s->over)) < 0) {
-    complain("--over is one of %s, not '%s'", s->kind->inputs, s->over);
+    complain("--over is one of %s, not '%s'%s", s->kind->inputs, s->over, did_you_mean(s->over, s->kind->inputs, hint));
     return false;
   }
   for (int k = 0; k < s->id_count; k++)

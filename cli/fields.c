@@ -3,12 +3,15 @@
 #include "number.h"
 #include "options.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { LONGEST_WORD = 24 };
 
 OPTION_SET(set_flag) {
   (void)row;
@@ -69,10 +72,45 @@ int place_among(const char *words, const char *text, size_t size) {
   return -1;
 }
 
+/* How many letters are wrong, missing, too many, or swapped with the next, whatever their case. A beginning lacks one. */
+static int misspelt(const char *text, int n, const char *word, int m) {
+  int cost[LONGEST_WORD + 1][LONGEST_WORD + 1];
+  if (n > LONGEST_WORD || m > LONGEST_WORD)
+    return LONGEST_WORD;
+  for (int i = 0; i <= n; i++)
+    for (int j = 0; j <= m; j++) {
+      const int a = i > 0 ? tolower(text[i - 1]) : 0, b = j > 0 ? tolower(word[j - 1]) : 0;
+      cost[i][j] = i == 0 ? j : j == 0 ? i : cost[i - 1][j - 1] + (a != b);
+      for (int k = 0; k < 2 && i > 0 && j > 0; k++)
+        cost[i][j] = cost[i - k][j - 1 + k] + 1 < cost[i][j] ? cost[i - k][j - 1 + k] + 1 : cost[i][j];
+      if (i > 1 && j > 1 && a != b && a == tolower(word[j - 2]) && tolower(text[i - 2]) == b &&
+          cost[i - 2][j - 2] + 1 < cost[i][j])
+        cost[i][j] = cost[i - 2][j - 2] + 1;
+    }
+  return n > 1 && n < m && cost[n][n] == 0 ? 1 : cost[n][m];
+}
+
+const char *did_you_mean(const char *text, const char *words, char hint[HINT_TEXT]) {
+  const int size = (int)strlen(text);
+  int least = (size + 4) / 3; /* a third of the letters may be wrong, and one of few */
+  hint[0] = '\0';
+  if (place_among(words, text, strlen(text)) >= 0) /* it is something else that is wrong */
+    return hint;
+  for (int length; *words != '\0'; words += length + (words[length] != '\0')) {
+    length = (int)strcspn(words, " |");
+    const int wrong = length > 0 ? misspelt(text, size, words, length) : least;
+    if (wrong < least) {
+      least = wrong;
+      snprintf(hint, HINT_TEXT, "; did you mean '%.*s'?", length, words);
+    }
+  }
+  return hint;
+}
+
 /* Sets the place of the text among words with bars between them; complains where it is none of them. */
 static bool set_place(const option_row *row, const char *text, const char *words, int *place) {
   const int found = place_among(words, text, strlen(text));
-  char list[120] = ""; /* "this, that or another" */
+  char list[120] = "", hint[HINT_TEXT]; /* "this, that or another" */
   for (const char *at = words; found < 0 && *at != '\0';) {
     const size_t used = strlen(list), size = strcspn(at, "|");
     const bool last = at[size] == '\0';
@@ -82,7 +120,7 @@ static bool set_place(const option_row *row, const char *text, const char *words
   if (found >= 0)
     *place = found;
   else
-    complain("--%s is %s, not '%s'", row->name, list, text);
+    complain("--%s is %s, not '%s'%s", row->name, list, text, did_you_mean(text, words, hint));
   return found >= 0;
 }
 
@@ -101,11 +139,13 @@ OPTION_SET(set_cushion_model) {
 static OPTION_SET(set_solvers) {
   static const solver_list lists[] = {
       {{CAROM_SOLVER_EXACT}, 1}, {{CAROM_SOLVER_EULER}, 1}, {{CAROM_SOLVER_EXACT, CAROM_SOLVER_EULER}, 2}};
-  const int place = place_among("exact|euler|exact,euler", text, strlen(text));
+  static const char words[] = "exact|euler|exact,euler";
+  char hint[HINT_TEXT];
+  const int place = place_among(words, text, strlen(text));
   if (place >= 0)
     *(solver_list *)field = lists[place];
   else
-    complain("--%s is exact, euler, or both as exact,euler, not '%s'", row->name, text);
+    complain("--%s is exact, euler, or both as exact,euler, not '%s'%s", row->name, text, did_you_mean(text, words, hint));
   return place >= 0;
 }
 
@@ -113,7 +153,7 @@ static OPTION_SET(set_law) {
   friction_law *law = field;
   static const char name[] = "alciatore";
   const size_t size = sizeof name - 1;
-  char rest;
+  char rest, hint[HINT_TEXT];
   double mu;
   *law = (friction_law){.given = true, .law = carom_alciatore()};
   if (parse_number(text, &mu) && mu >= 0.0 && mu <= 1.0) {
@@ -124,7 +164,8 @@ static OPTION_SET(set_law) {
       (text[size] == '\0' ||
        (text[size] == '=' && sscanf(text + size + 1, "%lf,%lf,%lf%c", &law->law.a, &law->law.b, &law->law.c, &rest) == 3)))
     return true;
-  complain("--%s is alciatore, alciatore=a,b,c (mu = a + b exp(-c |u|)) or a number from 0 to 1, not '%s'", row->name, text);
+  complain("--%s is alciatore, alciatore=a,b,c (mu = a + b exp(-c |u|)) or a number from 0 to 1, not '%s'%s", row->name, text,
+           did_you_mean(strchr(text, '=') == NULL ? text : name, name, hint));
   return false;
 }
 

@@ -32,8 +32,9 @@ bool json_only(const json_t *object, const char *where, const char *keys, json_f
   const char *key;
   json_t *v;
   json_object_foreach((json_t *)object, key, v) {
+    char hint[HINT_TEXT];
     if (place_among(keys, key, strlen(key)) < 0)
-      return json_wrong(f, "%s%.40s is no key; there are %s", where, key, keys);
+      return json_wrong(f, "%s%.40s is no key; there are %s%s", where, key, keys, did_you_mean(key, keys, hint));
   }
   return true;
 }

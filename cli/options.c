@@ -93,6 +93,19 @@ static void list_options(const command_form *form, struct option longs[MOST_ROWS
   longs[k] = (struct option){help_row.name, no_argument, NULL, help_row.letter};
 }
 
+/* What an option that there is not may have been; its value may stand behind it. Nothing of the beginnings of several. */
+static void hint_at_option(const command_form *form, char *text) {
+  char words[32 * MOST_ROWS] = "--help", hint[HINT_TEXT];
+  text[strcspn(text, "=")] = '\0';
+  for (int k = 0; form->options[k] != NULL; k++) {
+    snprintf(words + strlen(words), sizeof words - strlen(words), "|--%s", form->options[k]->name);
+    if (strncmp(text + 2, form->options[k]->name, strlen(text + 2)) == 0)
+      return;
+  }
+  if (did_you_mean(text, words, hint)[0] != '\0')
+    fprintf(stderr, "%s %s: %s\n", program_name, form->name, hint + 2);
+}
+
 /* Whether the options that were given are for the kind of rows that is asked for; complains where one is not. */
 static bool are_for_kind(const command_form *form, const bool given[MOST_ROWS], const void *job) {
   for (int k = 0; form->options[k] != NULL; k++) {
@@ -139,6 +152,8 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
   list_options(form, longs, shorts);
   while ((option = getopt_long(argc, argv, shorts, longs, NULL)) != -1) {
     const option_row *row = row_of(form, option);
+    if (row == NULL && optopt == 0 && optind > 1 && strncmp(argv[optind - 1], "--", 2) == 0)
+      hint_at_option(form, argv[optind - 1]);
     if (row == NULL)
       return usage_hint(form);
     if (row == &help_row) {

@@ -13,12 +13,18 @@
 
 enum { MOST_TEXT = 1024 };
 
+/* In the order of carom_table_kind and of carom_rack_kind. */
+#define RACKS "nineball|eightball|tenball|snooker|threecushion"
+static const char tables[] = "7ft|8ft|9ft|snooker|threecushion";
+
 static bool refuse(const option_row *row, const char *text) {
-  complain("--%s is %s; not '%.60s'", row->name,
+  char hint[HINT_TEXT] = "";
+  complain("--%s is %s%s%s; not '%.60s'%s", row->name,
            row->least == MEASURE_TIP ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; several with "
                                        "colons: 0,0:0.2,0"
                                      : "X,Y in m, or with a unit: 2,3ft; several with colons: 0.6,1.5:0.9,2",
-           text);
+           row == &option_balls ? "; or a rack: " : "", row == &option_balls ? RACKS : "", text,
+           row == &option_balls ? did_you_mean(text, RACKS, hint) : hint);
   return false;
 }
 
@@ -28,11 +34,9 @@ static OPTION_SET(set_places) {
   char copy[MOST_TEXT], *rest;
   static values pair;
   *list = (place_list){0};
-  for (int kind = 0; kind <= CAROM_RACK_THREECUSHION && row == &option_balls; kind++)
-    if (strcmp(text, carom_rack_name((carom_rack_kind)kind)) == 0)
-      list->rack = carom_rack_name((carom_rack_kind)kind);
+  list->rack = row == &option_balls ? 1 + place_among(RACKS, text, strlen(text)) : 0;
   snprintf(copy, sizeof copy, "%s", text);
-  for (char *one = strtok_r(copy, ":", &rest); one != NULL && list->rack == NULL; one = strtok_r(NULL, ":", &rest)) {
+  for (char *one = strtok_r(copy, ":", &rest); one != NULL && list->rack == 0; one = strtok_r(NULL, ":", &rest)) {
     char *equals = strchr(one, '='), *numbers = equals != NULL ? equals + 1 : one;
     const size_t name = equals != NULL ? (size_t)(equals - one) : 0;
     if (list->count == MOST_PLACES || name >= PLACE_NAME || (name > 0 && row != &option_balls) ||
@@ -47,18 +51,18 @@ static OPTION_SET(set_places) {
     list->at[list->count].x = pair.at[0];
     list->at[list->count++].y = pair.at[1];
   }
-  return list->rack != NULL || list->count > 0 ? true : refuse(row, text);
+  return list->rack > 0 || list->count > 0 ? true : refuse(row, text);
 }
 
 #define ROW(row, name, member, argument, set, least, help) \
   const option_row row = {name, 0, argument, help, set, offsetof(shoot_flags, member), least, ANY_KIND}
 
-ROW(option_table, "table", table, "7ft|8ft|9ft|snooker|threecushion", set_text, 0,
+ROW(option_table, "table", table, tables, set_text, 0,
     "play one shot on this table, instead of those of a file (default 9ft). x runs across the table, y along it");
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_LENGTH,
     "place of the cue ball, m, or with a unit: 2,3ft (default: the middle of the table's first quarter, or the place in the "
     "rack)");
-ROW(option_balls, "balls", balls, "nineball|eightball|tenball|snooker|threecushion|X,Y:...", set_places, MEASURE_LENGTH,
+ROW(option_balls, "balls", balls, RACKS "|X,Y:...", set_places, MEASURE_LENGTH,
     "places of the other balls, with colons between them: 0.6,1.5:0.9,2. They are named 1, 2, ..., or as 8=0.6,1.5 says. Or a "
     "rack");
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
@@ -79,7 +83,7 @@ ROW(option_json, "json", json, NULL, set_flag, 0,
     "print the shot as a line of JSON to keep, instead of playing it. In the line pooltool's sign holds: a > 0 is left");
 
 bool has_flags(const shoot_flags *f) {
-  return f->table != NULL || f->at_ball != NULL || f->json || f->cue.count > 0 || f->balls.count > 0 || f->balls.rack != NULL ||
+  return f->table != NULL || f->at_ball != NULL || f->json || f->cue.count > 0 || f->balls.count > 0 || f->balls.rack > 0 ||
          f->tip.count > 0 || f->speed.count > 0 || f->aim.count > 0 || f->cut.count > 0 || f->elevation.count > 0;
 }
 
@@ -109,9 +113,11 @@ static void name_rack(layout *l, carom_rack_kind kind) {
 
 static bool lay_out(const shoot_flags *f, layout *l) {
   const char *const name = f->table != NULL ? f->table : "9ft";
-  const int kind = place_among("7ft|8ft|9ft|snooker|threecushion", name, strlen(name));
+  const int kind = place_among(tables, name, strlen(name));
+  char hint[HINT_TEXT];
   if (kind < 0) {
-    complain("--table is 7ft, 8ft, 9ft, snooker or threecushion, not '%s'; a table of one's own stands in a file", name);
+    complain("--table is 7ft, 8ft, 9ft, snooker or threecushion, not '%s'; a table of one's own stands in a file%s", name,
+             did_you_mean(name, tables, hint));
     return false;
   }
   carom_table_make((carom_table_kind)kind, &l->table);
@@ -120,13 +126,12 @@ static bool lay_out(const shoot_flags *f, layout *l) {
                                                : CAROM_GAME_POOL;
   const carom_ball_kind ball = carom_ball_kind_of(l->game);
   /* A rack, or the places given. */
-  for (int rack = 0; rack <= CAROM_RACK_THREECUSHION && f->balls.rack != NULL; rack++)
-    if (strcmp(f->balls.rack, carom_rack_name((carom_rack_kind)rack)) == 0) {
-      l->count = carom_rack_size((carom_rack_kind)rack);
-      carom_rack((carom_rack_kind)rack, &l->table, 1e-4, 1, l->ball, CAROM_BALLS_MOST);
-      name_rack(l, (carom_rack_kind)rack);
-    }
-  if (l->count == 0) {
+  if (f->balls.rack > 0) {
+    const carom_rack_kind rack = (carom_rack_kind)(f->balls.rack - 1);
+    l->count = carom_rack_size(rack);
+    carom_rack(rack, &l->table, 1e-4, 1, l->ball, CAROM_BALLS_MOST);
+    name_rack(l, rack);
+  } else {
     l->count = 1 + f->balls.count;
     snprintf(l->name[0], PLACE_NAME, "cue");
     l->ball[0].state = (carom_ball_state){.r = {0.5 * l->table.width, 0.25 * l->table.length}};
@@ -161,13 +166,13 @@ static const char *obstacle(const layout *l, const carom_event *met, char text[4
 /* Aims a cue at the ball, at a cut; false after a complaint. */
 static bool aim_at_ball(const shoot_flags *f, const layout *l, const carom_shot_options *options, double cut, carom_cue *cue) {
   const char *name = f->at_ball != NULL ? f->at_ball : "1";
-  char text[40];
+  char text[40], names[CAROM_BALLS_MOST * (PLACE_NAME + 1)] = "", hint[HINT_TEXT];
   carom_event met;
   int at = 1;
-  while (at < l->count && strcmp(l->name[at], name) != 0)
-    at++;
+  for (; at < l->count && strcmp(l->name[at], name) != 0; at++)
+    snprintf(names + strlen(names), sizeof names - strlen(names), "%s|", l->name[at]);
   if (at >= l->count)
-    complain("--at-ball '%s': there is no such ball; --balls says where balls are", name);
+    complain("--at-ball '%s': there is no such ball; --balls says where balls are%s", name, did_you_mean(name, names, hint));
   else if (!(fabs(cut) < 90.0))
     complain("--cut is between -90 and 90 degrees");
   else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)

@@ -12,7 +12,7 @@ enum { MOST_PLACES = 32, PLACE_NAME = 16, MOST_SHOTS = 16 };
 /* Pairs of numbers, each with the name that stood before it. */
 typedef struct place_list {
   int count;
-  const char *rack; /* a rack's name that stood there instead; or NULL */
+  int rack; /* 1 + the carom_rack_kind that stood there instead; or 0 */
   struct {
     char name[PLACE_NAME];
     value x, y;

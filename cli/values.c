@@ -116,9 +116,14 @@ static void list_units(int measure, char *text, size_t room) {
 }
 
 static bool refuse(const option_row *row, const char *text) {
-  char list[MOST_TEXT] = "";
+  char list[MOST_TEXT] = "", known[MOST_TEXT] = "", hint[HINT_TEXT];
+  const char *word = text + strspn(text, "+-.0123456789");
   list_units(row->least, list, sizeof list);
-  complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'", row->name, list, text);
+  for (int k = 0; k < WORDS + UNITS; k++)
+    if ((k < WORDS ? words[k].measure : units[k - WORDS].measure) == row->least)
+      snprintf(known + strlen(known), sizeof known - strlen(known), "%s|", k < WORDS ? words[k].name : units[k - WORDS].name);
+  complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'%s", row->name, list, text,
+           did_you_mean(word, known, hint));
   return false;
 }
 

@@ -80,6 +80,11 @@ for result, (times, paths) in zip(played, frames, strict=True):
 print(checked > 5, told.count("rests") + told.count("falls") == sum(map(len, moving)))
 PYTHON
 python flags.py
+echo "--- with --events the lines that a file would give, and the same picture"
+carom shoot --balls 0.5,1.6 --at-ball 1 --cut 10,20 --json | carom shoot --events brief - > lines
+carom shoot --balls 0.5,1.6 --at-ball 1 --cut 10,20 --events brief --plot lines.svg | cmp - lines && grep -c '"ball_ball"' lines
+carom shoot --balls 0.5,1.6 --at-ball 1 --cut 10,20 --plot words.svg > words
+cmp lines.svg words.svg && try carom shoot --cue 5,5 --events none
 echo "--- refused"
 for words in "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--table attic" \
   "--balls 0.5,1.6:8=0.55,1.2 --cue 0.6,0.8 --at-ball 1" "--balls 0.5,1.6 --cue 0.6,0.8 --at-ball 1 --speed 0.2" "--balls 0.6,1.1 --cue 0.6,0.8 --at-ball 1 --elevation 30 --speed 4" \

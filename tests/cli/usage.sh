@@ -48,3 +48,12 @@ for command in resolve hit rail shoot trace sweep; do
   done
 done
 try carom resolve --sovler exact x.csv
+# What is nearly a word gets it as a suggestion; what is none, or the beginning of several, gets none.
+{ head -n 1 "$DATA/collisions-204.csv"; sed -n 2p "$DATA/collisions-204.csv"; } > row.csv
+cue='{"kind": "shot", "cue": {"V0": 2, "b": 0, "phii": 90}, "balls": [{"id": "cue", "state": [0, 0.6, 0.6, 0.03, 0, 0, 0, 0, 0, 0]}]}'
+for words in shot resolv re Hit --verison frobnicate "hit --sped 3" "hit --sped=3" "hit --sp 3" "hit --xyz" "hit --spin folow" "hit --spin 20rads" "hit --speed 7mhp" "hit --cut hlaf" "hit --quantity Throw" \
+  "hit --friction alciator" "rail --model strong" "shoot --balls ninebal" "shoot --balls pyramid" "shoot --table snoker" "shoot --balls target=0.5,1.6 --at-ball tarqet" "shoot --models pooltol -" "shoot --cushion math -" "trace --solver exat --id 1" \
+  "sweep --id pooltool-001 --over u_B --from 0 --to 1 row.csv" "shoot --events none -"; do
+  # shellcheck disable=SC2086
+  echo "$cue" | carom $words 2>&1 > /dev/null | grep -o "did you mean.*" || echo "none: $words"
+done
