@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include "carom.h"
+#include "manual.h"
 #include "message.h"
 #include "options.h"
 #include "output.h"
@@ -19,6 +20,28 @@ static void print_help(FILE *to, const program *p) {
     fprintf(to, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
   fprintf(to, "\n`%s COMMAND --help` lists its arguments,\n`%s --version` the version.\n\nexample:\n  %s\n", p->name, p->name,
           p->example);
+}
+
+/* The same as a page of the manual. */
+static void print_manual(FILE *to, const program *p) {
+  manual_begin(to, p->name, NULL, "COMMAND [ARGUMENTS]", p->about);
+  manual_section(to, "DESCRIPTION", p->about);
+  manual_section(to, "COMMANDS", "");
+  for (size_t k = 0; k < p->count; k++)
+    manual_item(to, p->commands[k].name, NULL, p->commands[k].text);
+  manual_section(to, "OPTIONS", "");
+  manual_item(to, "--help", NULL, "the commands; behind a command, its arguments");
+  manual_item(to, "--version", NULL, "the version");
+  manual_section(to, "ENVIRONMENT", "");
+  manual_item(to, "CAROM_ISA", NULL,
+              "the largest instruction set to use: plain, sse2, avx2 or avx512; on arm64 plain or neon. With "
+              "plain, results have the same bits on every machine");
+  manual_item(to, "CAROM_DATA", NULL, "the folder of the reference collisions, if it is not where carom was installed");
+  manual_end(to,
+             "0 if all went well; 1 if some rows or shots are in error, or a picture could not be drawn, and all others were "
+             "computed; "
+             "2 for bad usage or unreadable input, with nothing written",
+             p->example);
 }
 
 /* What could not be written was not said, so the run was not good. */
@@ -76,6 +99,10 @@ int program_run(const program *p, int argc, char **argv) {
   if (strcmp(name, "--complete") == 0) { /* for the shells: completion.* */
     for (size_t k = 0; k < p->count; k++)
       puts(p->commands[k].name);
+    return finish(EXIT_GOOD);
+  }
+  if (strcmp(name, "--manual") == 0) { /* for manual.cmake */
+    print_manual(stdout, p);
     return finish(EXIT_GOOD);
   }
   if (strcmp(name, "--version") == 0) {

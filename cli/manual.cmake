@@ -1,9 +1,11 @@
-# Writes a page of the manual, which is the program's own help: cmake -DPROGRAM=... -DCOMMAND=hit -DVERSION=... -DPAGE=carom-hit.1 -P
-execute_process(COMMAND ${PROGRAM} ${COMMAND} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+# Writes a page of the manual, between its head and SEE ALSO the program's own text:
+# cmake -DPROGRAM=... -DCOMMAND=hit -DVERSION=... -DPAGE=carom-hit.1 "-DALL=carom carom-hit ..." -P
+execute_process(COMMAND ${PROGRAM} ${COMMAND} --manual OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
 cmake_path(GET PAGE STEM name)
-string(REGEX MATCH "\n\n([^.]*)" about "${help}") # the first sentence below the usage
-string(REPLACE "\n" " " about "${CMAKE_MATCH_1}")
-# What roff would take for requests and escapes is put right.
-string(REGEX REPLACE "\n([.'])" "\n\\\\&\\1" help "${help}")
-string(REPLACE "-" "\\-" help "${help}")
-file(WRITE ${PAGE} ".TH ${name} 1 \"\" \"carom ${VERSION}\"\n.SH NAME\n${name} \\- ${about}\n.SH DESCRIPTION\n.nf\n${help}.fi\n")
+separate_arguments(others UNIX_COMMAND "${ALL}")
+list(REMOVE_ITEM others ${name})
+list(TRANSFORM others REPLACE "(.+)" ".BR \\1 (1)")
+list(JOIN others ",\n" others)
+string(REPLACE "-" "\\-" others "${others}")
+file(WRITE ${PAGE} ".TH ${name} 1 \"\" \"carom ${VERSION}\" \"carom\"\n.nh\n.ad l\n${text}.SH SEE ALSO\n${others}\n.PP\n"
+     "The documentation of carom has a manual of the command with worked questions, docs/using/command.md.\n")

@@ -2,6 +2,7 @@
 #include "options.h"
 
 #include "command.h"
+#include "manual.h"
 #include "message.h"
 
 #include <getopt.h>
@@ -36,12 +37,18 @@ static void print_row(FILE *out, const option_row *row) {
   print_wrapped(out, text, HELP_WIDTH);
 }
 
-/* Prints the options that are for one kind of rows, or all. */
+static void print_item(FILE *out, const option_row *row) {
+  char head[80];
+  snprintf(head, sizeof head, "-%c, --%s", row->letter, row->name);
+  manual_item(out, row->letter != 0 ? head : head + 4, row->argument, row->help);
+}
+
+/* Prints the options that are for one kind of rows, or all, by one of these. */
 enum { EVERY_ROW = -1 };
-static void print_options(FILE *out, const command_form *form, int only) {
+static void print_options(FILE *out, const command_form *form, int only, void (*print)(FILE *out, const option_row *row)) {
   for (size_t k = 0; form->options[k] != NULL; k++)
     if (only == EVERY_ROW || form->options[k]->only == only)
-      print_row(out, form->options[k]);
+      print(out, form->options[k]);
 }
 
 /* Whether the subcommand works on both kinds of rows. */
@@ -52,21 +59,38 @@ static bool has_kinds(const command_form *form) {
   return form->options[k] != NULL;
 }
 
+/* All options; `title` stands before those for a kind of rows. */
+static void print_all_options(FILE *out, const command_form *form, const char *title,
+                              void (*print)(FILE *out, const option_row *row)) {
+  print_options(out, form, has_kinds(form) ? ANY_KIND : EVERY_ROW, print);
+  print(out, &help_row);
+  for (int kind = BALLS_ONLY; kind <= CUSHION_ONLY && has_kinds(form); kind++) {
+    fprintf(out, title, kind == BALLS_ONLY ? "for collisions of two balls" : "for impacts on a cushion, with --cushion");
+    print_options(out, form, kind, print);
+  }
+}
+
 static void print_help(FILE *out, const command_form *form) {
   fprintf(out, "usage: %s %s%s%s\n\n", program_name, form->name, form->usage[0] != '\0' ? " " : "", form->usage);
   print_wrapped(out, form->about, HELP_WIDTH);
   fputs("\noptions:\n", out);
-  print_options(out, form, has_kinds(form) ? ANY_KIND : EVERY_ROW);
-  print_row(out, &help_row);
-  if (has_kinds(form)) {
-    fputs("\noptions for collisions of two balls:\n", out);
-    print_options(out, form, BALLS_ONLY);
-    fputs("\noptions for impacts on a cushion, with --cushion:\n", out);
-    print_options(out, form, CUSHION_ONLY);
-  }
+  print_all_options(out, form, "\noptions %s:\n", print_row);
   putc('\n', out);
   print_wrapped(out, form->details, HELP_WIDTH);
   fprintf(out, "\nexample:\n  %s\n", form->example);
+}
+
+/* The same as a page of the manual. */
+static void print_manual(FILE *out, const command_form *form) {
+  static const char exits[] = "exit code: ";
+  char text[4096];
+  const char *exit = strstr(form->details, exits);
+  manual_begin(out, program_name, form->name, form->usage, form->about);
+  snprintf(text, sizeof text, "%s\n%.*s", form->about, (int)(exit - form->details), form->details);
+  manual_section(out, "DESCRIPTION", text);
+  manual_section(out, "OPTIONS", "");
+  print_all_options(out, form, ".SS Options %s\n", print_item);
+  manual_end(out, exit + sizeof exits - 1, form->example);
 }
 
 int usage_hint(const command_form *form) {
@@ -147,6 +171,10 @@ static int parse_options(const command_form *form, int argc, char **argv, void *
   argv[0] = name;
   if (argc == 4 && strcmp(argv[1], "--complete") == 0) {
     complete(form, argv[2], argv[3]);
+    return EXIT_GOOD;
+  }
+  if (argc == 2 && strcmp(argv[1], "--manual") == 0) { /* for manual.cmake */
+    print_manual(stdout, form);
     return EXIT_GOOD;
   }
   list_options(form, longs, shorts);
