@@ -4,8 +4,8 @@
 #include "carom.h"
 #include "manual.h"
 #include "message.h"
-#include "options.h"
 #include "output.h"
+#include "words.h"
 
 #include <fcntl.h>
 #include <stdbool.h>

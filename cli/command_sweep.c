@@ -8,6 +8,7 @@
 #include "picture.h"
 #include "sink.h"
 #include "subcommands.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdio.h>

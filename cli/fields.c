@@ -2,16 +2,14 @@
 #include "message.h"
 #include "number.h"
 #include "options.h"
+#include "words.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { LONGEST_WORD = 24 };
 
 OPTION_SET(set_flag) {
   (void)row;
@@ -60,51 +58,6 @@ OPTION_SET(set_amount) {
     return true;
   complain("--%s is a number, 0 or more, not '%s'%s", row->name, text, comma_hint(text));
   return false;
-}
-
-int place_among(const char *words, const char *text, size_t size) {
-  for (int place = 0; *words != '\0'; place++) {
-    const size_t length = strcspn(words, " |");
-    if (length == size && memcmp(words, text, size) == 0)
-      return place;
-    words += length + (words[length] != '\0');
-  }
-  return -1;
-}
-
-/* How many letters are wrong, missing, too many, or swapped with the next, whatever their case. A beginning lacks one. */
-static int misspelt(const char *text, int n, const char *word, int m) {
-  int cost[LONGEST_WORD + 1][LONGEST_WORD + 1];
-  if (n > LONGEST_WORD || m > LONGEST_WORD)
-    return LONGEST_WORD;
-  for (int i = 0; i <= n; i++)
-    for (int j = 0; j <= m; j++) {
-      const int a = i > 0 ? tolower(text[i - 1]) : 0, b = j > 0 ? tolower(word[j - 1]) : 0;
-      cost[i][j] = i == 0 ? j : j == 0 ? i : cost[i - 1][j - 1] + (a != b);
-      for (int k = 0; k < 2 && i > 0 && j > 0; k++)
-        cost[i][j] = cost[i - k][j - 1 + k] + 1 < cost[i][j] ? cost[i - k][j - 1 + k] + 1 : cost[i][j];
-      if (i > 1 && j > 1 && a != b && a == tolower(word[j - 2]) && tolower(text[i - 2]) == b &&
-          cost[i - 2][j - 2] + 1 < cost[i][j])
-        cost[i][j] = cost[i - 2][j - 2] + 1;
-    }
-  return n > 1 && n < m && cost[n][n] == 0 ? 1 : cost[n][m];
-}
-
-const char *did_you_mean(const char *text, const char *words, char hint[HINT_TEXT]) {
-  const int size = (int)strlen(text);
-  int least = (size + 4) / 3; /* a third of the letters may be wrong, and one of few */
-  hint[0] = '\0';
-  if (place_among(words, text, strlen(text)) >= 0) /* it is something else that is wrong */
-    return hint;
-  for (int length; *words != '\0'; words += length + (words[length] != '\0')) {
-    length = (int)strcspn(words, " |");
-    const int wrong = length > 0 ? misspelt(text, size, words, length) : least;
-    if (wrong < least) {
-      least = wrong;
-      snprintf(hint, HINT_TEXT, "; did you mean '%.*s'?", length, words);
-    }
-  }
-  return hint;
 }
 
 /* Sets the place of the text among words with bars between them; complains where it is none of them. */

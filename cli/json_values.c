@@ -2,7 +2,7 @@
 #include "json_values.h"
 
 #include "memory.h"
-#include "options.h"
+#include "words.h"
 
 #include <stdarg.h>
 #include <stdio.h>

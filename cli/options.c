@@ -4,6 +4,7 @@
 #include "command.h"
 #include "manual.h"
 #include "message.h"
+#include "words.h"
 
 #include <getopt.h>
 #include <limits.h>

@@ -56,13 +56,6 @@ OPTION_SET(set_choice); /* int, or an enumeration from 0: the place of the text 
 OPTION_SET(set_ball_model);    /* int: carom_shot_options.ball_model */
 OPTION_SET(set_cushion_model); /* int: carom_shot_options.cushion_model */
 
-/* The place of `text`, of `size` characters, among words with blanks or bars between them; -1 if it is none of them. */
-int place_among(const char *words, const char *text, size_t size);
-
-/* "; did you mean 'follow'?" where `text` is nearly one of such words, or the beginning of one; else "". Returns `hint`. */
-enum { HINT_TEXT = 64 };
-const char *did_you_mean(const char *text, const char *words, char hint[HINT_TEXT]);
-
 /* Friction between the balls by their slip speed, where it is `given`. */
 typedef struct friction_law {
   bool given;

@@ -6,6 +6,7 @@
 #include "aim.h"
 #include "message.h"
 #include "number.h"
+#include "words.h"
 
 #include <ctype.h>
 #include <math.h>

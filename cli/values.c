@@ -9,6 +9,7 @@
 #include "derived.h"
 #include "message.h"
 #include "number.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -56,6 +56,7 @@ with tempfile.TemporaryDirectory() as work:
     # Installing, from a copy of what a clone has.
     for part in ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "cmake", "cli", "data", "docs", "examples", "include", "src"):
         (clone / part).symlink_to(SOURCE / part)
+    kept = {name: (SOURCE / name).read_bytes() for name in ("README.md", "CHANGELOG.md")}
     # Then the program, in the same shell, and in a new one; and by CMake, which finds what is beside a folder of the path.
     assert "cmake -B b " in of["sh install"]
     (reader / "main.c").write_text(of["c"], encoding="utf-8")
@@ -64,6 +65,8 @@ with tempfile.TemporaryDirectory() as work:
     said = {"".join(text.splitlines(keepends=True)[-2:]) for text in printed}
     prefix = home / ".local"
     assert "carom 0." in run([prefix / "bin/carom", "--version"], reader)
+    # The links of installed pages are made right there, not behind a link in the source.
+    assert all((SOURCE / name).read_bytes() == page for name, page in kept.items()), "installing changed the source"
     check(SOURCE, "installed", prefix)
     for way, more in (("fetch", [QUICK]), ("package", [])):
         folder = work / way

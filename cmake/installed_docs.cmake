@@ -1,0 +1,27 @@
+# Makes the links of installed pages right: those to headers lead to the installed ones, and those to files that are not installed become
+# their texts. docs is the folder of the pages, headers that of the headers, both with DESTDIR.
+file(GLOB_RECURSE pages "${docs}/*.md")
+foreach(page IN LISTS pages)
+  file(READ "${page}" text)
+  set(before "${text}")
+  cmake_path(GET page PARENT_PATH folder)
+  file(RELATIVE_PATH to_headers "${folder}" "${headers}")
+  string(REGEX REPLACE "\\]\\([./]*include/(carom[a-z_]*\\.h)" "](${to_headers}/\\1" text "${text}")
+  # The links as a list, in which brackets and semicolons would have a meaning; those with a colon lead to other sites.
+  string(REGEX REPLACE ";" "" flat "${text}")
+  string(REPLACE "](" "<to:" flat "${flat}")
+  string(REGEX REPLACE "[][]" "" flat "${flat}")
+  string(REGEX MATCHALL "<to:[^): \n]+\\)" links "${flat}")
+  foreach(link IN LISTS links)
+    string(REGEX REPLACE "^<to:(.*)\\)$" "\\1" link "${link}")
+    string(REGEX REPLACE "#.*" "" path "${link}")
+    if(NOT EXISTS "${folder}/${path}")
+      string(REPLACE "." "\\." link "${link}")
+      string(REGEX REPLACE "\\[([^]]*)\\]\\(${link}\\)" "\\1" text "${text}")
+    endif()
+  endforeach()
+  if(NOT text STREQUAL before)
+    file(REMOVE "${page}") # it may be a link to the source
+    file(WRITE "${page}" "${text}")
+  endif()
+endforeach()
