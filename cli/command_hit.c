@@ -16,15 +16,15 @@
 #include <string.h>
 
 enum { SPIN, SPEED, CUT, SIDE, RESTITUTION, CLOTH, RADIUS, MASS };
-static const char *const inputs[] = {"spin",
-                                     "speed",
-                                     "cut angle",
-                                     "side spin",
-                                     "restitution",
-                                     "friction of the cloth",
-                                     "radius of the balls",
-                                     "mass of the balls",
-                                     NULL};
+static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN, "stun"},
+                                     [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
+                                     [CUT] = {"cut angle", MEASURE_CUT, "30"},
+                                     [SIDE] = {"side spin", MEASURE_SIDE, "none"},
+                                     [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.95"},
+                                     [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
+                                     [RADIUS] = {"radius of the balls", MEASURE_LENGTH, "0.028575"},
+                                     [MASS] = {"mass of the balls", MEASURE_MASS, "0.170097"},
+                                     [MASS + 1] = {NULL}};
 
 /* How the names of quantities stand on axes. */
 enum { THROW, DEFLECTION, ROLLING_DEFLECTION, ANGLE_BETWEEN, OBJECT_SPEED, SPIN_TRANSFER, ENERGY };
@@ -217,28 +217,6 @@ static const command_form form = {
 int command_hit(int argc, char **argv) {
   static const scene hit = {&ball_kind, inputs, QUANTITIES, quantity, make, measure, tell, draw, law};
   static series s;
-  s = (series){
-      .asked = {.options = COMMAND_OPTIONS, .friction = {.law = carom_alciatore()}}, .scene = &hit, .quantity = NO_QUANTITY};
-  values_default(&s.in[SPIN], MEASURE_SPIN, "stun");
-  values_default(&s.in[SPEED], MEASURE_SPEED, "1.5");
-  values_default(&s.in[CUT], MEASURE_CUT, "30");
-  values_default(&s.in[SIDE], MEASURE_SIDE, "none");
-  values_default(&s.in[RESTITUTION], MEASURE_NUMBER, "0.95");
-  values_default(&s.in[CLOTH], MEASURE_NUMBER, "0.2");
-  values_default(&s.in[RADIUS], MEASURE_LENGTH, "0.028575");
-  values_default(&s.in[MASS], MEASURE_MASS, "0.170097");
-  const int code = parse_arguments(&form, argc, argv, &s, NULL);
-  if (code >= 0)
-    return code;
-  for (int k = 0; k < s.in[CUT].count; k++)
-    if (!(fabs(s.in[CUT].at[k].x) < 90.0)) {
-      complain("--cut is between -90 and 90 degrees; at 90 the balls do not meet");
-      return EXIT_USAGE;
-    }
-  for (int k = 0; k < s.in[SPEED].count; k++)
-    if (!(s.in[SPEED].at[k].x > 0.0)) {
-      complain("--speed is above 0");
-      return EXIT_USAGE;
-    }
-  return series_run(&s);
+  s = (series){.asked = {.options = COMMAND_OPTIONS, .friction = {.law = carom_alciatore()}}, .scene = &hit};
+  return series_command(&s, &form, argc, argv, CUT, "--cut is between -90 and 90 degrees; at 90 the balls do not meet");
 }

@@ -16,17 +16,17 @@
 #include <string.h>
 
 enum { SPIN, SPEED, ANGLE, SIDE, HEIGHT, RESTITUTION, FRICTION, CLOTH, RADIUS, MASS };
-static const char *const inputs[] = {"spin",
-                                     "speed",
-                                     "angle of incidence",
-                                     "side spin",
-                                     "height of the nose",
-                                     "restitution",
-                                     "friction of the cushion",
-                                     "friction of the cloth",
-                                     "radius of the ball",
-                                     "mass of the ball",
-                                     NULL};
+static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN, "roll"},
+                                     [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
+                                     [ANGLE] = {"angle of incidence", MEASURE_ANGLE, "45"},
+                                     [SIDE] = {"side spin", MEASURE_SIDE, "none"},
+                                     [HEIGHT] = {"height of the nose", MEASURE_LENGTH, "0.036576"},
+                                     [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.85"},
+                                     [FRICTION] = {"friction of the cushion", MEASURE_NUMBER, "0.2"},
+                                     [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
+                                     [RADIUS] = {"radius of the ball", MEASURE_LENGTH, "0.028575"},
+                                     [MASS] = {"mass of the ball", MEASURE_MASS, "0.170097"},
+                                     [MASS + 1] = {NULL}};
 _Static_assert(sizeof inputs / sizeof inputs[0] == MOST_INPUTS + 1, "room for all");
 
 enum { ROLLING_REBOUND, REBOUND, SPEED_AFTER, SIDE_AFTER, ENERGY };
@@ -209,24 +209,7 @@ static const command_form form = {
 int command_rail(int argc, char **argv) {
   static const scene rail = {&cushion_kind, inputs, QUANTITIES, quantity, make, measure, tell, draw, law};
   static series s;
-  s = (series){.asked = {.cushion = true, .options = COMMAND_OPTIONS}, .scene = &rail, .quantity = NO_QUANTITY};
-  values_default(&s.in[SPIN], MEASURE_SPIN, "roll");
-  values_default(&s.in[SPEED], MEASURE_SPEED, "1.5");
-  values_default(&s.in[ANGLE], MEASURE_ANGLE, "45");
-  values_default(&s.in[SIDE], MEASURE_SIDE, "none");
-  values_default(&s.in[HEIGHT], MEASURE_LENGTH, "0.036576");
-  values_default(&s.in[RESTITUTION], MEASURE_NUMBER, "0.85");
-  values_default(&s.in[FRICTION], MEASURE_NUMBER, "0.2");
-  values_default(&s.in[CLOTH], MEASURE_NUMBER, "0.2");
-  values_default(&s.in[RADIUS], MEASURE_LENGTH, "0.028575");
-  values_default(&s.in[MASS], MEASURE_MASS, "0.170097");
-  const int code = parse_arguments(&form, argc, argv, &s, NULL);
-  if (code >= 0)
-    return code;
-  for (int k = 0; k < s.in[ANGLE].count; k++)
-    if (!(fabs(s.in[ANGLE].at[k].x) < 90.0)) {
-      complain("--angle is between -90 and 90 degrees; at 90 the ball moves along the cushion");
-      return EXIT_USAGE;
-    }
-  return series_run(&s);
+  s = (series){.asked = {.cushion = true, .options = COMMAND_OPTIONS}, .scene = &rail};
+  return series_command(&s, &form, argc, argv, ANGLE,
+                        "--angle is between -90 and 90 degrees; at 90 the ball moves along the cushion");
 }

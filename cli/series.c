@@ -16,7 +16,7 @@
 
 static int inputs_of(const series *s) {
   int count = 0;
-  while (s->scene->inputs[count] != NULL)
+  while (s->scene->inputs[count].name != NULL)
     count++;
   return count;
 }
@@ -116,7 +116,7 @@ static void write_table(FILE *out, const series *s, int count) {
   one_case c;
   for (int k = 0; k < inputs_of(s); k++)
     if (s->in[k].count > 1)
-      fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k], s->in[k].unit);
+      fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k].name, s->in[k].unit);
   for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY); q++)
     fprintf(out, "%s%s", q > first ? "," : "", word);
   fputc('\n', out);
@@ -153,7 +153,8 @@ static void write_curves(FILE *out, const void *data) {
   const int quantity = s->quantity != NO_QUANTITY ? s->quantity : 0;
   char law[80];
   one_case c;
-  fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range], s->in[range].unit, s->scene->quantity[quantity]);
+  fprintf(out, "# x: %s (%s)\n# y: %s\n# footer: ", s->scene->inputs[range].name, s->in[range].unit,
+          s->scene->quantity[quantity]);
   /* What is the same for all, on lines of a few, and the law. */
   int said = 0;
   for (int k = 0; k < inputs_of(s); k++)
@@ -162,7 +163,7 @@ static void write_curves(FILE *out, const void *data) {
               said % 3 > 0 ? ", "
               : said > 0   ? "\n# footer: "
                            : "",
-              s->scene->inputs[k], s->in[k].at[0].name),
+              s->scene->inputs[k].name, s->in[k].at[0].name),
           said++;
   fprintf(out, "\n# footer: %s\n", s->scene->law(s, law));
   for (int curve = 0; curve < curves; curve++) {
@@ -170,7 +171,7 @@ static void write_curves(FILE *out, const void *data) {
     fprintf(out, "# curve %d: ", curve + 1);
     for (int k = 0, named = 0; k < inputs_of(s); k++)
       if (k != range && s->in[k].count > 1)
-        fprintf(out, "%s%s%s%s", named++ > 0 ? ", " : "", isnan(c.given[k]->given) ? "" : s->scene->inputs[k],
+        fprintf(out, "%s%s%s%s", named++ > 0 ? ", " : "", isnan(c.given[k]->given) ? "" : s->scene->inputs[k].name,
                 isnan(c.given[k]->given) ? "" : " ", c.given[k]->name);
     fputc('\n', out);
   }
@@ -231,8 +232,22 @@ static bool is_possible(const series *s, int count) {
   return false;
 }
 
-int series_run(series *s) {
-  const int count = count_of(s);
+int series_command(series *s, const command_form *form, int argc, char **argv, int angle, const char *complaint) {
+  s->quantity = NO_QUANTITY;
+  for (int k = 0; k < inputs_of(s); k++)
+    values_default(&s->in[k], s->scene->inputs[k].measure, s->scene->inputs[k].usual);
+  const int code = parse_arguments(form, argc, argv, s, NULL), count = count_of(s);
+  if (code >= 0)
+    return code;
+  bool good = true;
+  for (int k = 0; k < s->in[angle].count && good; k++)
+    if (!(good = fabs(s->in[angle].at[k].x) < 90.0))
+      complain("%s", complaint);
+  for (int k = 0; k < s->in[SPEED_INPUT].count && good; k++)
+    if (!(good = s->in[SPEED_INPUT].at[k].x > 0.0))
+      complain("--speed is above 0");
+  if (!good)
+    return EXIT_USAGE;
   if (!is_possible(s, count) || !output_possible(s->picture) || !check_all(s, count))
     return EXIT_USAGE;
   /* With a picture of curves the table is only written where it is asked for. */

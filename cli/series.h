@@ -6,7 +6,7 @@
 #include "kind.h"
 #include "values.h"
 
-enum { MOST_INPUTS = 10, MOST_CASES = 16, NO_QUANTITY = -1 };
+enum { SPEED_INPUT = 1, MOST_INPUTS = 10, MOST_CASES = 16, NO_QUANTITY = -1 }; /* the speed is the second input of a scene */
 
 typedef struct series series;
 
@@ -17,9 +17,16 @@ typedef struct one_case {
   char id[MOST_INPUTS * VALUE_NAME];
 } one_case;
 
+/* What an input is, on an axis: "cut angle", its measure, and its usual value. */
+typedef struct scene_input {
+  const char *name;
+  int measure;
+  const char *usual;
+} scene_input;
+
 typedef struct scene {
   const row_kind *kind;
-  const char *const *inputs;   /* what each is, on an axis: "cut angle"; ends with NULL */
+  const scene_input *inputs;   /* ends with a name of NULL */
   const char *quantities;      /* words of --quantity, with bars between; the first is the usual one */
   const char *const *quantity; /* what each is, on an axis, with its unit */
   /* Makes the row of the values; the id is made. */
@@ -43,7 +50,8 @@ struct series {
   const char *picture;
 };
 
-/* Does what the options ask for; an exit code. */
-int series_run(series *s);
+/* A subcommand: reads the arguments and does what they ask for; an exit code. Input `angle` is below 90 degrees, or that is
+ * what it complains of. */
+int series_command(series *s, const command_form *form, int argc, char **argv, int angle, const char *complaint);
 
 #endif
