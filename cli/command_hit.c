@@ -24,7 +24,7 @@ static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN, "stun"},
                                      [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
                                      [RADIUS] = {"radius of the balls", MEASURE_LENGTH, "0.028575"},
                                      [MASS] = {"mass of the balls", MEASURE_MASS, "0.170097"},
-                                     [MASS + 1] = {NULL}};
+                                     [MASS + 1] = {NULL, 0, NULL}};
 
 /* How the names of quantities stand on axes. */
 enum { THROW, DEFLECTION, ROLLING_DEFLECTION, ANGLE_BETWEEN, OBJECT_SPEED, SPIN_TRANSFER, ENERGY };

@@ -26,7 +26,7 @@ static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN, "roll"},
                                      [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
                                      [RADIUS] = {"radius of the ball", MEASURE_LENGTH, "0.028575"},
                                      [MASS] = {"mass of the ball", MEASURE_MASS, "0.170097"},
-                                     [MASS + 1] = {NULL}};
+                                     [MASS + 1] = {NULL, 0, NULL}};
 _Static_assert(sizeof inputs / sizeof inputs[0] == MOST_INPUTS + 1, "room for all");
 
 enum { ROLLING_REBOUND, REBOUND, SPEED_AFTER, SIDE_AFTER, ENERGY };

@@ -4,6 +4,7 @@
 #include "shoot_flags.h"
 
 #include "aim.h"
+#include "doubts.h"
 #include "message.h"
 #include "number.h"
 #include "words.h"
@@ -220,8 +221,12 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l, const c
   cue.a = -tip_of(&f->tip.at[tip].x, R);
   cue.b = tip_of(&f->tip.at[tip].y, R);
   const carom_status bad = carom_strike(&cue, &l->ball[0].kind, &after);
-  if (bad != CAROM_OK) {
+  if (bad == CAROM_ERROR_MISCUE)
+    complain("--tip: it is %.4g R from the centre, beside the ball; a chalked tip slips off beyond %g R", hypot(cue.a, cue.b),
+             TIP_LIMIT);
+  else if (bad != CAROM_OK)
     complain("no such strike: %s", carom_status_string(bad));
+  if (bad != CAROM_OK) {
     return false;
   }
   /* In space a raised cue drives the ball otherwise than on the plane: the shot itself tells. */

@@ -200,12 +200,14 @@ static bool read_values(const option_row *row, const char *text, values *list) {
   return list->count > 0 ? true : refuse(row, text);
 }
 
-/* Whether two whole numbers look like one with a decimal comma: 1,5 or 0,90 but not 20,30 or 0,50%. Warns. */
+/* Whether two whole numbers look like one with a decimal comma: 1,5 or 0,90 but not 20,30 or 0,50%, nor 0,40 of degrees. Warns.
+ */
 static bool warn_of_comma(const option_row *row, const char *text) {
   static const char digits[] = "0123456789";
   const int whole = (int)strspn(text, digits), part = text[whole] == ',' ? (int)strspn(text + whole + 1, digits) : 0;
   const char *second = text + whole + 1, *unit = second + part;
-  if (whole == 0 || part == 0 || strpbrk(unit, ",.:eE%") != NULL ||
+  const bool angle = row->least == MEASURE_CUT || row->least == MEASURE_ANGLE;
+  if (whole == 0 || part == 0 || strpbrk(unit, ",.:%") != NULL || unit[0] == 'e' || unit[0] == 'E' || (angle && part > 1) ||
       (whole > 1 && text[0] != '0' && part > 1 && second[0] != '0' && second[part - 1] == '0'))
     return false;
   complain("--%s %s is two values, %.*s and %s; decimals have a point: %.*s.%s. Two values that are meant: %.*s.0,%.*s.0%s",

@@ -49,7 +49,7 @@ try carom shoot --strict --events none tips.jsonl | cut -c 1-150
 sed -i '2s/"cue": {/&"miscue": 0.7, /' tips.jsonl
 try carom shoot --strict --events none tips.jsonl | grep -c '"status": "ok"'
 echo "two values that look like one:"
-for words in "--speed 1,5" "--speed 1,5mph" "--restitution 0,90" "--radius 28,575mm" "--cut 22,5" "--speed 1,5,7" "--cut 20,30" "--cut 5,5.5" "--side 0,50%" "--speed 1.0,5.0" "--speed 1,5:7"; do
+for words in "--speed 1,5" "--speed 1,5mph" "--restitution 0,90" "--radius 28,575mm" "--cut 22,5" "--cut 22,5deg" "--cut 0,40" "--speed 1,5,7" "--cut 20,30" "--cut 5,5.5" "--side 0,50%" "--speed 1.0,5.0" "--speed 1,5:7"; do
   # shellcheck disable=SC2086
   { try carom hit $words; try carom hit --strict $words; } | grep exit
 done

@@ -38,9 +38,10 @@ static double cut_at(const problem *p, double phi) {
 
 /* Whether some direction has the cut, by trial: neighbours with a lesser and a greater cut are halved. */
 static bool exists(const problem *p) {
+  const int directions = FEWER(DIRECTIONS);
   double last = cut_at(p, 0.0);
-  for (int k = 1; k <= DIRECTIONS; k++) {
-    double low = 360.0 * (k - 1) / DIRECTIONS, high = 360.0 * k / DIRECTIONS;
+  for (int k = 1; k <= directions; k++) {
+    double low = 360.0 * (k - 1) / directions, high = 360.0 * k / directions;
     const double before = last, after = last = cut_at(p, high);
     if (!((before - p->cut) * (after - p->cut) < 0.0))
       continue;
