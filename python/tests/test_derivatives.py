@@ -1,5 +1,7 @@
 """Derivatives of shots against differences, and what is refused."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -16,7 +18,7 @@ def layout():
 def test_tangents_are_differences():
     balls, cue = layout()
     shot = carom.simulate(TABLE, balls, cue, **CLOSED)
-    found = carom.tangents(shot, cue, ["cue.speed", "cue.phi", "balls[1].r", "kind.mu_slide"], times=[0.5, 1.0])
+    found = carom.tangents(shot, ["cue.speed", "cue.phi", "balls[1].r", "kind.mu_slide"], times=[0.5, 1.0])
     assert found.names == ("cue.speed", "cue.phi", "balls[1].r[0]", "balls[1].r[1]", "kind.mu_slide")
     assert found.units == ("m/s", "deg", "m", "m", "1")
     assert found.final["r"].shape == (3, 2, 5) and found.final["w"].shape == (3, 3, 5)
@@ -52,7 +54,7 @@ def test_jacobian_has_the_batch_in_front():
     found = carom.jacobian(TABLE, balls, cues, ["cue.speed", "kind.mu_roll"], **CLOSED)
     assert found.shape == (2, 3, 3, 2, 2)
     assert np.isnan(found[1, 2]).all() and np.isfinite(found[:, :2]).all()
-    one = carom.tangents(carom.simulate(TABLE, balls, cues[0, 1], **CLOSED), cues[0, 1], ["cue.speed", "kind.mu_roll"])
+    one = carom.tangents(carom.simulate(TABLE, balls, cues[0, 1], **CLOSED), ["cue.speed", "kind.mu_roll"])
     np.testing.assert_array_equal(found[0, 1], one.final["r"])
 
 
@@ -65,7 +67,7 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
     cues["b"][4] = 2.0
     names = ["cue.speed", "cue.phi", "balls[1].r", "kind.restitution", "table.nose_height"]
     shots = carom.simulate_batch(table, layouts, cues, room=200, **models)
-    found = carom.tangents(shots, None, names, times=[0.1, 0.4], threads=threads)
+    found = carom.tangents(shots, names, times=[0.1, 0.4], threads=threads)
     assert found.status[4] == carom.Status.ERROR_MISCUE and (found.status != 0).sum() == 1
     assert found.states.shape == (9, 3, carom.derivatives.STATE, 6) and found.reach.shape == (9, 6)
     ofs = {of: carom.jacobian(table, layouts, cues, names, of=of, times=[0.1, 0.4], room=200, threads=threads, **models)
@@ -75,7 +77,7 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
             assert np.isnan(found.states[k]).all() and np.isnan(found.reach[k]).all() and (found.flags[k] == -1).all()
             assert all(np.isnan(array[k]).all() for array in ofs.values())
             continue
-        one = carom.tangents(carom.simulate(table, layouts[k], cues[k], **models), cues[k], names, times=[0.1, 0.4])
+        one = carom.tangents(carom.simulate(table, layouts[k], cues[k], **models), names, times=[0.1, 0.4])
         events = len(one.time)
         for batch, single in (
             (found.states[k], one.states), (found.states_at[k], one.states_at), (found.time[k, :events], one.time),
@@ -85,7 +87,7 @@ def test_batches_have_the_bits_of_single_shots(models, threads):
             assert np.isfinite(single).any() and batch.tobytes() == np.ascontiguousarray(single).tobytes()
         assert np.isnan(found.time[k, events:]).all() and (found.flags[k, events:] == -1).all()
         # a shot that is taken out of the batch knows how it was played
-        again = carom.tangents(shots[k], cues[k], names)
+        again = carom.tangents(shots[k], names)
         assert again.states.tobytes() == one.states.tobytes()
 
 
@@ -107,8 +109,56 @@ def test_jacobians_of_more_shots_than_are_kept_at_a_time(monkeypatch):
     assert np.isnan(carom.jacobian(TABLE, balls, cues, names, room=2, **CLOSED)).all()
     with pytest.raises(ValueError, match="layouts"):
         carom.jacobian(TABLE, balls[0], cues, names)
-    with pytest.raises(ValueError, match="cue: shots of a batch know"):
-        carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=99), cues, names)
+
+
+def test_a_shot_knows_what_it_was_played_with():
+    """Its cue, its table and its models; what contradicts them is refused by name."""
+    table = carom.tables.pool_9ft()
+    balls, cue = layout()
+    shot, names = carom.simulate(table, balls, cue, t_final=2.0, **CLOSED), ["cue.phi", "kind.mu_slide"]
+    expected = carom.tangents(shot, names).states.tobytes()
+    assert shot.options.cushion_model == "han" and shot.options.t_final == 2.0 and shot.cue == cue
+    other = cue.copy()
+    other["phi"] += 0.1
+    again = carom.resume(shot, t_final=3.0)
+    assert again.options == shot.options._replace(t_final=3.0) and again.cue == cue
+    with pytest.raises(ValueError, match=r"^cue\.phi = 79\.1: the shot was played with 79\.0; leave the cue out"):
+        carom.tangents(shot, other, names)
+    with pytest.raises(ValueError, match="^cue: 1 given, but the shot was played with 0; leave"):
+        carom.tangents(carom.simulate(table, balls), cue, names)
+    for given in (shot, pickle.loads(pickle.dumps(shot))):
+        assert carom.tangents(given, cue, names).states.tobytes() == carom.tangents(given, wrt=names).states.tobytes() == expected
+    cues = np.repeat(cue.reshape(1), 3)
+    cues["speed"][1] = 1.7
+    shots = carom.simulate_batch(table, balls, cues, room=99, **CLOSED)
+    assert shots[1].cue == cues[1] and pickle.loads(pickle.dumps(shots[1])).cue == cues[1]
+    with pytest.raises(ValueError, match=r"^cue\.speed = 1\.5: the shot was played with 1\.7"):
+        carom.tangents(shots, np.repeat(cue.reshape(1), 3), names)
+    with pytest.raises(ValueError, match=r"^cue\.speed = 1\.5: the shot was played with 1\.7"):
+        carom.tangents(shots[1], cue, names)
+    # what is changed afterwards is not the shot's
+    cue["phi"], balls["kind"]["mu_slide"] = 12.0, 0.3
+    table.rails["restitution"] = 0.5
+    assert carom.tangents(shot, names).states.tobytes() == expected
+    with pytest.raises(ValueError, match="wrt: name at least one number"):
+        carom.tangents(shot)
+
+
+def test_events_that_were_not_kept():
+    """The error says which room keeps them, and in that room there are derivatives."""
+    balls, cue = layout()
+    cues = carom.cue(speed=[1.5, 1.5, 3.0], phi=79.0, b=[0.1, 2.0, 0.1])
+    for room in (0, 4):
+        shots = carom.simulate_batch(TABLE, balls, cues, room=room)
+        most = shots.count.max()
+        with pytest.raises(ValueError, match=f"^shot: room={room} does not keep all events of 2 of 3 shots; room={most} does"):
+            carom.tangents(shots, ["cue.phi"])
+        with pytest.raises(ValueError, match=f"^shot: room={room} does not keep all events of 1 of 1 shots; room={most} does"):
+            carom.tangents(shots[2], ["cue.phi"])
+    found = carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=most), ["cue.phi"])
+    assert np.isfinite(found.states[[0, 2]]).all() and np.isnan(found.states[1]).all()
+    with pytest.raises(ValueError, match='records="full"'):
+        carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=99, records="brief"), ["cue.phi"])
 
 
 def test_a_ball_that_flies():
@@ -118,23 +168,23 @@ def test_a_ball_that_flies():
 
     def jump(x):
         cue = carom.cue(speed=x[0], phi=x[1], theta=x[2], b=0.1)
-        return carom.simulate(TABLE, carom.balls([x[3:]]), cue, **CLOSED), cue
+        return carom.simulate(TABLE, carom.balls([x[3:]]), cue, **CLOSED)
 
     def thrown(x):
         balls = carom.balls([[0.4, 0.5, 0.2]], v=[[0.3, x[0], x[1]]], w=[[5.0, x[2], 3.0]])
-        return carom.simulate(TABLE, balls, **CLOSED), None
+        return carom.simulate(TABLE, balls, **CLOSED)
 
     for play, names, numbers in (
         (jump, names, numbers),
         (thrown, ["balls[0].v[1]", "balls[0].v[2]", "balls[0].w[1]"], np.array([0.5, 0.4, 2.0])),
     ):
-        shot, cue = play(numbers)
+        shot = play(numbers)
         assert (shot.events["type"] == carom.EventType.SLATE).any() and (shot.states(times)["r"][:, 0, 2] > 0.03).all()
-        found = carom.tangents(shot, cue, names, times=times)
+        found = carom.tangents(shot, names, times=times)
         assert found.at["z"].shape == found.at["v_z"].shape == (2, 1, len(numbers)) and np.abs(found.at["z"]).max() > 0.01
         for j, value in enumerate(numbers):
             h = 1e-6 * np.eye(len(numbers))[j]
-            more, less = play(numbers + h)[0].states(times), play(numbers - h)[0].states(times)
+            more, less = play(numbers + h).states(times), play(numbers - h).states(times)
             r, v = ((more[name] - less[name])[:, 0] / 2e-6 for name in "rv")
             np.testing.assert_allclose(found.at["r"][:, 0, :, j], r[:, :2], atol=1e-6)
             np.testing.assert_allclose(found.at["z"][:, 0, j], r[:, 2], atol=1e-6)
@@ -147,9 +197,9 @@ def test_more_directions_than_a_call_takes():
     cue = carom.cue(speed=1.0)
     shot = carom.simulate(TABLE, balls, cue, **CLOSED)
     names = [f"balls[{i}].kind.{field}" for i in range(10) for field in ("mass", "mu_slide", "mu_roll", "mu_spin", "restitution", "mu_cushion", "restitution_cushion")]
-    found = carom.tangents(shot, cue, names)
+    found = carom.tangents(shot, names)
     assert found.states.shape == (10, 9, 70)
-    last = carom.tangents(shot, cue, names[-1:])
+    last = carom.tangents(shot, names[-1:])
     np.testing.assert_allclose(found.states[..., -1:], last.states, rtol=1e-9, atol=1e-12)
 
 
@@ -158,15 +208,15 @@ def test_names_that_are_none(name):
     balls, cue = layout()
     shot = carom.simulate(TABLE, balls, cue)
     with pytest.raises(ValueError, match="wrt"):
-        carom.tangents(shot, cue, [name])
+        carom.tangents(shot, [name])
 
 
 def test_what_is_not_known():
     balls, cue = layout()
     shot = carom.simulate(TABLE, balls, cue, world="pooltool")
     with pytest.raises(carom.CaromError) as error:
-        carom.tangents(shot, cue, ["cue.phi"])
+        carom.tangents(shot, ["cue.phi"])
     assert error.value.status is carom.Status.ERROR_TANGENT
     shot = carom.simulate(TABLE, balls, cue)
     with pytest.raises(ValueError, match="times"):
-        carom.tangents(shot, cue, ["cue.phi"], times=[1.0, 0.5])
+        carom.tangents(shot, ["cue.phi"], times=[1.0, 0.5])

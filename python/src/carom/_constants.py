@@ -14,7 +14,7 @@ import numpy as np
 from carom import dtypes
 from carom._rows import Array
 from carom.layouts import Table, balls
-from carom._shot_options import ShotCushion, shot_options
+from carom._shot_options import Options, ShotCushion, shot_options
 
 Constants = dict[str, float]
 
@@ -77,4 +77,4 @@ def layout(centres: dtypes.Doubles, radius: float, constants: Mapping[str, float
 
 def options(cushion_model: ShotCushion) -> Any:
     """The options of C that recorded shots are played with."""
-    return shot_options("carom", "default", cushion_model, "alciatore", "3d", 0, 0, False, None, (), 0)
+    return shot_options(Options(cushion_model=cushion_model))

@@ -24,7 +24,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom._carom import lib
-from carom._rows import pointer
+from carom._rows import Arrays, pointer
 from carom.dtypes import Doubles, Records
 
 if TYPE_CHECKING:
@@ -65,8 +65,8 @@ hit = np.dtype([
 after (z); errors of a component; chi^2 over its degrees of freedom."""
 
 
-@dataclass(frozen=True, eq=False)
-class Events:
+@dataclass(frozen=True, eq=False, repr=False)
+class Events(Arrays):
     """What happened on recorded tracks, as structured arrays: `pieces`, `impacts`, `hits` with the dtypes of their names in
     `carom.tracks`, and the friction on the cloth that was found on the way.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -40,21 +40,25 @@ _SPACES = {"3d": 0, "flat": 1}
 _STOPS: dict[str, int] = {name: k for k, name in enumerate(StopAt.__args__)}  # type: ignore[attr-defined]
 
 
+class Options(NamedTuple):
+    """By what a shot was played: the arguments of `carom.simulate` of these names."""
+
+    world: World = "carom"
+    ball_model: BallModel = "default"
+    cushion_model: ShotCushion = "default"
+    friction: Friction = "alciatore"
+    space: Space = "3d"
+    steps: int = 0
+    events_most: int = 0
+    plain: bool = False
+    t_final: float | None = None
+    stop_at: StopAt | tuple[StopAt, ...] = ()
+
+
 @functools.lru_cache(maxsize=256)
-def shot_options(
-    world: str,
-    ball_model: str,
-    cushion_model: str,
-    friction: str,
-    space: str,
-    steps: int,
-    events_most: int,
-    plain: bool,
-    t_final: float | None,
-    stop_at: StopAt | tuple[StopAt, ...],
-    threads: int,
-) -> Any:
+def shot_options(given: Options, threads: int = 0) -> Any:
     """The options of C; they are never written to."""
+    world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, stop_at = given
     if t_final is not None and not 0.0 < t_final < np.inf:
         raise ValueError(f"t_final: it must be positive and finite, in s, or None, not {t_final}")
     stops = (stop_at,) if isinstance(stop_at, str) else stop_at

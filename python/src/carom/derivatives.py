@@ -16,7 +16,7 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import Array, addresses, as_array, in_chunks, pointer, whole, workers
-from carom._shot_options import shot_options
+from carom._shot_options import Options, shot_options
 from carom.layouts import Table, of_record
 from carom.results import Shot, Shots
 from carom.shots import simulate_batch
@@ -116,8 +116,8 @@ class Direction(NamedTuple):
 def directions(wrt: Sequence[str], balls: int, argument: str = "wrt") -> list[list[Direction]]:
     """Of each name: cue.phi; kind.mu_slide of all balls; balls[1].kind.mass; balls[0].r, both places, or balls[0].r[1]."""
     found: list[list[Direction]] = []
-    for name in wrt:
-        match = re.fullmatch(r"(cue|table|kind|balls\[(\d+)\])\.(?:(kind)\.)?(\w+)(?:\[(\d)\])?", name)
+    for name in [wrt] if isinstance(wrt, str) else wrt:
+        match = re.fullmatch(r"(cue|table|kind|balls\[(\d+)\])\.(?:(kind)\.)?(\w+)(?:\[(\d)\])?", str(name))
         group, ball, inner, field, index = match.groups() if match else ("", None, None, "", None)
         unit = _UNITS.get(field, "1")
         if group == "cue" and field in CUE and index is None and not inner:
@@ -218,15 +218,15 @@ def _sorted_times(times: npt.ArrayLike | None) -> Array:
     return at
 
 
-def _options(models: tuple[Any, ...], threads: int) -> Any:
+def _options(models: Options, threads: int) -> Any:
     """The options of C of a shot that was played by these, less when it was to be stopped."""
-    return shot_options(*models, None, (), threads)
+    return shot_options(models._replace(t_final=None, stop_at=()), threads)
 
 
-def _job_of_one(shot: Shot, cue: dtypes.Records | None, options: Any) -> Callable[[int, int], Any]:
+def _job_of_one(shot: Shot, options: Any) -> Callable[[int, int], Any]:
     """What `Shots.jobs` gives, of a single shot."""
     balls, events = np.ascontiguousarray(shot.balls), np.ascontiguousarray(shot.events)
-    struck = ffi.NULL if cue is None else pointer("carom_cue[]", of_record(cue, dtypes.cue, "cue", "cue()").reshape(1))
+    struck = ffi.NULL if shot.cue is None else pointer("carom_cue[]", shot.cue)
     of_c = {"events": pointer("carom_event[]", events), "room": len(events), "count": shot.count, "time": shot.time}
     played = {
         "table": pointer("carom_table[]", shot.table.record), "balls": pointer("carom_shot_ball[]", balls), "cues": struck,
@@ -235,22 +235,34 @@ def _job_of_one(shot: Shot, cue: dtypes.Records | None, options: Any) -> Callabl
     return lambda begin, many: ffi.new("carom_shot_job *", played)
 
 
+def _same_cue(shot: Shot | Shots, cue: dtypes.Records) -> None:
+    """Refuses a cue that is not the one a shot was played with."""
+    given, played = of_record(cue, dtypes.cue, "cue", "cue()").reshape(-1), shot.cues if isinstance(shot, Shots) else shot.cue
+    advice = "leave the cue out, as a shot knows its own"
+    if played is None or given.size != played.size:
+        raise ValueError(f"cue: {given.size} given, but the shot was played with {0 if played is None else played.size}; {advice}")
+    for name in dtypes.cue.names or ():
+        for value, right in zip(given[name].tolist(), played[name].reshape(-1).tolist()):
+            if value != right:
+                raise ValueError(f"cue.{name} = {value}: the shot was played with {right}; {advice}")
+
+
 def tangents(
     shot: Shot | Shots,
-    cue: dtypes.Records | None,
-    wrt: Sequence[str],
+    cue: dtypes.Records | Sequence[str] | None = None,
+    wrt: Sequence[str] | None = None,
     *,
     times: npt.ArrayLike | None = None,
     threads: int = 0,
 ) -> Tangents:
-    """Differentiate a shot that `carom.simulate` has played, or many of `carom.simulate_batch`.
+    """Differentiate a shot that `carom.simulate` has played, or many of `carom.simulate_batch`: `tangents(shot, wrt)`.
 
     Parameters
     ----------
     shot : Shot or Shots
         With all of its events: many need a `room` that is large enough.
-    cue : ndarray of `carom.dtypes.cue`, shape ()
-        That of the shot; None if there was none. None of many shots, which know theirs.
+    cue : ndarray of `carom.dtypes.cue`, optional
+        A shot knows its own: `tangents(shot, cue, wrt)` refuses any other.
     wrt : sequence of str
         By what: "cue.phi" and other numbers of the cue; "kind.mu_slide" of all balls, "balls[1].kind.mass" of one;
         "balls[0].r" (two directions), "balls[0].r[1]", v, w, and "balls[0].v[2]" of a ball that flies; "table.nose_height",
@@ -269,26 +281,31 @@ def tangents(
     ------
     CaromError
         Derivatives are not known for this shot: in the world pooltool, or by Euler's model of balls.
+    ValueError
+        The cue is not that of the shot; or shots of a batch have more events than were kept.
     """
+    cue, wrt = (cue, wrt) if wrt is not None else (None, cue)  # type: ignore[assignment]
     if not isinstance(shot, (Shot, Shots)):
         raise TypeError(f"shot: what carom.simulate() or carom.simulate_batch() gives is needed, not {type(shot).__name__}")
     balls = shot.final.shape[-1]
-    names, units, seeds = _seeds(wrt, balls)
+    names, units, seeds = _seeds(() if wrt is None else wrt, balls)
     at = _sorted_times(times)
     wanted = ("final", "at", "time", "flags", "reach")
+    if cue is not None:
+        _same_cue(shot, cue)  # type: ignore[arg-type]
+    if shot.events.dtype != dtypes.event:
+        raise ValueError('shot: its events were kept in brief; play it with records="full"')
+    count, status, room = np.asarray(shot.count), np.asarray(shot.status), shot.events.shape[-1]
+    lost = count[(status >= 0) & (count > room)]
+    if lost.size:
+        raise ValueError(f"shot: room={room} does not keep all events of {lost.size} of {count.size} shots; room={lost.max()} does")
+    events = int(np.minimum(count, room).max(initial=0))
     if isinstance(shot, Shots):
-        if cue is not None:
-            raise ValueError("cue: shots of a batch know their cues; give None")
-        if shot.events.dtype != dtypes.event:
-            raise CaromError(Status.ERROR_EVENTS_LOST)
-        events = int(np.minimum(shot.count, shot.events.shape[-1]).max(initial=0))
-        job = shot.jobs(_options(shot.options[:-2], threads))
-        found, codes = _differentiate(job, shot.status.size, balls, events, seeds, at, wanted, threads)
+        job = shot.jobs(_options(shot.options, threads))
+        found, codes = _differentiate(job, count.size, balls, events, seeds, at, wanted, threads)
         return Tangents(names, units, shot.shape, found, codes)
-    if shot.options is None:
-        raise ValueError("shot: it does not know by which models it was played; give one of carom.simulate()")
-    job = _job_of_one(shot, cue, _options(shot.options, 0))
-    found, codes = _differentiate(job, 1, balls, len(shot.events), seeds, at, wanted, 0)
+    job = _job_of_one(shot, _options(shot.options, 0))
+    found, codes = _differentiate(job, 1, balls, events, seeds, at, wanted, 0)
     if codes[0] < 0:
         raise CaromError(int(codes[0]))
     return Tangents(names, units, (), found, codes)
@@ -321,7 +338,7 @@ def play(
         again = shots if shots is not None and shots.shape == (many,) else None
         shots = simulate_batch(table, rows if one_layout else rows[part], struck, room=room, out=again, **models)
         events = int(np.minimum(shots.count, room).max(initial=0))
-        job = shots.jobs(_options(shots.options[:-2], threads))
+        job = shots.jobs(_options(shots.options, threads))
         found, codes = _differentiate(job, many, balls, events, seeds, times, wanted, threads)
         parts.append((found, codes, shots.final.copy()))
     gathered: dict[str, Array] = {}

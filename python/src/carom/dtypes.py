@@ -19,6 +19,11 @@ Records = npt.NDArray[np.void]
 """Type of a structured array."""
 Doubles = npt.NDArray[np.float64]
 
+__all__ = [
+    "ball_kind", "ball_state", "brief_event", "columns", "cue", "cushion_impact", "cushion_point", "event", "impact", "jaw", "motion",
+    "plain", "pocket", "rail", "result", "shot", "shot_ball", "table", "tangent", "trace_point",
+]  # fmt: skip
+
 _NOT_SHOWN = {"reserved", "unused"}
 
 
@@ -84,6 +89,14 @@ tangent: Record = _record("carom_tangent")
 """What derivatives of a shot give, with the addresses of their arrays: for the calls of C."""
 
 
+def described(dtype: np.dtype[Any]) -> str:
+    """A dtype in a few words, for errors."""
+    if dtype.names is None:
+        return str(dtype)
+    fields = ", ".join(dtype.names[:3]) + (", ..." if len(dtype.names) > 3 else "")
+    return next((f"carom.dtypes.{name}" for name, value in globals().items() if value is dtype), f"a structured dtype of {fields}")
+
+
 @functools.lru_cache(maxsize=64)
 def _integers(dtype: np.dtype[Any], name: str = "") -> tuple[str, ...]:
     """The names of the fields that are no float64, with those of the parts that they are in."""
@@ -102,7 +115,7 @@ def plain(records: Records) -> Doubles:
     (1000, 26)
     """
     if records.dtype.names is None:
-        raise TypeError(f"records: a structured array is needed, such as carom.impacts() gives, not one of {records.dtype}")
+        raise TypeError(f"records: a structured array is needed, such as carom.impacts() gives, not one of {described(records.dtype)}")
     integers = _integers(records.dtype)
     if integers:
         which = f"{integers[0]} and {len(integers) - 1} more hold" if len(integers) > 1 else f"{integers[0]} holds"
@@ -117,7 +130,7 @@ def columns(records: Records) -> dict[str, npt.NDArray[Any]]:
     The name of a column joins those of its parts: state_r_x, before_a_v_y. Vectors have x, y, z, pairs of states a, b.
     """
     if records.dtype.names is None or records.ndim != 1:
-        raise TypeError(f"records: a structured array of shape (n,) is needed, not of {records.dtype} and shape {records.shape}")
+        raise TypeError(f"records: a structured array of shape (n,) is needed, not of {described(records.dtype)} and shape {records.shape}")
     found: dict[str, npt.NDArray[Any]] = {}
     for name in records.dtype.names:
         field: npt.NDArray[Any] = records[name]

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import Array, as_array, choice, fill, whole
+from carom._rows import Array, as_array, choice, copied, fill, whole
 from carom.status import CaromError, Status
 
 Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"]
@@ -69,7 +69,7 @@ class Table:
     def from_record(cls, record: dtypes.Records) -> Table:
         """The table of a record of `carom.dtypes.table`, of shape (), which is copied."""
         table = cls.__new__(cls)
-        table.record = np.array(record, dtypes.table).reshape(())
+        table.record = copied(np.asarray(record, dtypes.table)).reshape(())
         return table
 
     @property
@@ -145,8 +145,16 @@ def of_record(values: dtypes.Records, record: dtypes.Record, name: str, builder:
     """The values in C order, refused where they are not of the record, which carom.<builder> gives."""
     array = as_array(values, name)
     if array.dtype != record:
-        raise TypeError(f"{name}: an array of the dtype of carom.{builder} is needed, not of {array.dtype}")
+        raise TypeError(f"{name}: an array of the dtype of carom.{builder} is needed, not of {dtypes.described(array.dtype)}")
     return np.asarray(array, order="C")
+
+
+def one_cue(cue: dtypes.Records, name: str = "cue") -> Array:
+    """A cue of shape (); many are refused."""
+    cues = of_record(cue, dtypes.cue, name, "cue()")
+    if cues.size != 1:
+        raise ValueError(f"{name}: one is needed, not {cues.size}; simulate_batch plays many")
+    return cues.reshape(())
 
 
 def _part(part: Any) -> str:
@@ -247,39 +255,36 @@ def balls(
     -------
     ndarray of `carom.dtypes.shot_ball`, shape (..., balls)
     """
-    kind = lib.carom_ball_kind_of(choice(_GAMES, game, "game"))
-    given: dict[str, npt.ArrayLike | None] = {
-        "mass": mass,
-        "radius": radius,
-        "mu_slide": mu_slide,
-        "mu_roll": mu_roll,
-        "mu_spin": mu_spin,
-        "mu_ball": mu_ball,
-        "restitution": restitution,
-        "mu_cushion": mu_cushion,
-        "restitution_cushion": restitution_cushion,
-        "gravity": gravity,
-        "drag": drag,
-        "roll_loss": roll_loss,
-        "law_a": law_a,
-        "law_b": law_b,
-        "law_c": law_c,
-        "nose_height": nose_height,
-        "omega_ratio": omega_ratio,
-        "restitution_table": restitution_table,
-    }
-    fields: dict[str, npt.ArrayLike] = {
-        f"kind.{name}": float(getattr(kind, name)) if value is None else value for name, value in given.items()
+    fields: dict[str, npt.ArrayLike | None] = {
+        "kind.mass": mass,
+        "kind.radius": radius,
+        "kind.mu_slide": mu_slide,
+        "kind.mu_roll": mu_roll,
+        "kind.mu_spin": mu_spin,
+        "kind.mu_ball": mu_ball,
+        "kind.restitution": restitution,
+        "kind.mu_cushion": mu_cushion,
+        "kind.restitution_cushion": restitution_cushion,
+        "kind.gravity": gravity,
+        "kind.drag": drag,
+        "kind.roll_loss": roll_loss,
+        "kind.law_a": law_a,
+        "kind.law_b": law_b,
+        "kind.law_c": law_c,
+        "kind.nose_height": nose_height,
+        "kind.omega_ratio": omega_ratio,
+        "kind.restitution_table": restitution_table,
     }
     centres = as_array(r, "r", np.float64)
     if centres.ndim < 2 or centres.shape[-1] not in (2, 3):
         raise ValueError(f"r: the shape must be (..., balls, 2) or (..., balls, 3), not {centres.shape}")
+    places = np.zeros((*centres.shape[:-1], 3))
+    places[..., : centres.shape[-1]] = centres
+    usual = bytes(ffi.buffer(ffi.new("carom_shot_ball *", {"kind": lib.carom_ball_kind_of(choice(_GAMES, game, "game"))})))
+    made = fill(dtypes.shot_ball, {"r": 3, "v": 3, "w": 3}, {**fields, "state.r": places, "state.v": v, "state.w": w}, usual)
     if centres.shape[-1] == 2:
-        heights = np.broadcast_to(np.asarray(fields["kind.radius"], np.float64), centres.shape[:-1])
-        centres = np.concatenate([centres, heights[..., np.newaxis]], axis=-1)
-    return fill(
-        dtypes.shot_ball, {"r": 3, "v": 3, "w": 3}, {**fields, "state.r": centres, "state.v": v, "state.w": w}
-    )
+        made["state"]["r"][..., 2] = made["kind"]["radius"]
+    return made
 
 
 def cue(
@@ -319,9 +324,12 @@ def cue(
     -------
     ndarray of `carom.dtypes.cue`, shape (...)
     """
-    usual = lib.carom_cue_of(choice(_GAMES, game, "game"))
     for name, angle in (("phi", phi), ("theta", theta)):
         _doubt_radians(name, angle)
+    numbers = as_array(ball, "ball", np.float64)
+    whole_ones = (np.abs(numbers) < 2**31) & (np.trunc(numbers) == numbers)
+    if not whole_ones.all():
+        raise ValueError(f"ball: it must be the index of one of the balls, a whole number, not {numbers[~whole_ones].flat[0]}")
     return fill(
         dtypes.cue,
         {},
@@ -332,22 +340,24 @@ def cue(
             "a": a,
             "b": b,
             "ball": ball,
-            "mass": usual.mass if mass is None else mass,
-            "end_mass": usual.end_mass if end_mass is None else end_mass,
-            "tip_radius": usual.tip_radius if tip_radius is None else tip_radius,
+            "mass": mass,
+            "end_mass": end_mass,
+            "tip_radius": tip_radius,
             "miscue": miscue,
         },
+        bytes(ffi.buffer(ffi.new("carom_cue *", lib.carom_cue_of(choice(_GAMES, game, "game"))))),
     )
 
 
 def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
     """Warns of angles that are within a turn in radians, one of them a twelfth of pi or a multiple of it, as few degrees are."""
     given = as_array(angle, name, np.float64)
+    if not (np.abs(given) < 24.5 * np.pi / 12.0).all():
+        return
     turns = given * (12.0 / np.pi)
     nearest = np.round(turns)
-    with np.errstate(invalid="ignore"):
-        like = given[(np.abs(turns - nearest) < 1e-12) & (nearest != 0.0)]
-    if like.size and np.abs(turns).max() < 24.5:
+    like = given[(np.abs(turns - nearest) < 1e-12) & (nearest != 0.0)]
+    if like.size:
         first = like.flat[0]
         warnings.warn(
             f"{name}: degrees are taken, but {first} looks like radians, for {np.degrees(first):.6g} degrees: np.degrees() converts",
@@ -388,7 +398,7 @@ def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
     ndarray of `carom.dtypes.motion`, shape ()
     """
     motion: Array = np.zeros((), dtypes.motion)
-    strike = of_record(cue, dtypes.cue, "cue", "cue()").reshape(())
+    strike = one_cue(cue)
     ball = of_record(kind, dtypes.ball_kind, "kind", "balls()['kind']").reshape(1)
     arguments: list[Any] = [
         ffi.from_buffer("carom_cue[]", strike),

@@ -12,8 +12,8 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, addresses, as_array, in_chunks, one_or_all, pointer, spread
-from carom._shot_options import shot_options
+from carom._rows import INT8, Array, Arrays, addresses, as_array, in_chunks, one_or_all, pointer, spread
+from carom._shot_options import Options, shot_options
 from carom.layouts import Table, cue_error
 from carom.status import CaromError, Status
 
@@ -63,6 +63,7 @@ class Shot:
     Attributes
     ----------
     table : Table
+        A copy, as of the balls and the cue: a shot knows what it was played with.
     balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
         The layout before the strike.
     status : Status
@@ -73,7 +74,10 @@ class Shot:
     events : ndarray of `carom.dtypes.event`, shape (kept,)
         In the order in which they happened. Of a batch with records="brief": `carom.dtypes.brief_event`.
     final : ndarray of `carom.dtypes.ball_state`, shape (balls,)
-    state, options
+    cue : ndarray of `carom.dtypes.cue`, shape (), or None
+    options : named tuple of world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, stop_at
+        As for `carom.simulate`: by what the shot was played.
+    state
         What `carom.resume` needs; None where the shot was not to be stopped.
     """
 
@@ -84,8 +88,9 @@ class Shot:
     count: int
     events: dtypes.Records
     final: dtypes.Records
+    cue: dtypes.Records | None
+    options: Options
     state: Array | None
-    options: tuple[Any, ...] | None
 
     def __init__(
         self,
@@ -96,8 +101,9 @@ class Shot:
         count: int,
         events: dtypes.Records,
         final: dtypes.Records,
+        cue: dtypes.Records | None,
+        options: Options,
         state: Array | None = None,
-        options: tuple[Any, ...] | None = None,
     ) -> None:
         self.table = table
         self.balls = balls
@@ -106,8 +112,9 @@ class Shot:
         self.count = count
         self.events = events
         self.final = final
-        self.state = state
+        self.cue = cue
         self.options = options
+        self.state = state
 
     def states(self, times: npt.ArrayLike) -> dtypes.Records:
         """The states of all balls at any times.
@@ -251,8 +258,11 @@ class _OfBatch(Shot):
             return value
 
     def __reduce__(self) -> tuple[Any, ...]:
-        given = self.table, self.balls, int(self.status), self.time, self.count, self.events, self.final, None, self.options
+        given = self.table, self.balls, int(self.status), self.time, self.count, self.events, self.final, self.cue, self.options
         return Shot, given
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *_ATTRIBUTES})
 
     def states(self, times: npt.ArrayLike) -> dtypes.Records:
         return self._seen(times, dtypes.ball_state, ())
@@ -290,13 +300,14 @@ _ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
     "count": lambda batch, index: int(batch.record["count"][index]),
     "events": _kept,
     "final": lambda batch, index: batch.final[index],
+    "cue": lambda batch, index: None if batch.cues is None else np.array(np.broadcast_to(batch.cues, batch.shape)[index]),
+    "options": lambda batch, index: batch.options,
     "state": lambda batch, index: None,
-    "options": lambda batch, index: batch.options[:-2],
 }
 
 
-@dataclass(frozen=True)
-class Features:
+@dataclass(frozen=True, repr=False)
+class Features(Arrays):
     """What planners want of shots, besides `Shots.final`: arrays of the shape of the batch.
 
     Indices are -1 and times inf where there is none. The cue ball is the ball struck, or ball 0 without a cue. A cushion is a rail or
@@ -358,11 +369,12 @@ class Shots:
         With `simulate_batch(features=True)`.
     record : ndarray of `carom.dtypes.shot`, shape (...)
         The structs of C, with the addresses of final and events.
-    options : tuple
-        Arguments with which the shots are played again where that is needed.
+    options
+        As of a `Shot`: by what the shots were played.
     """
 
     table: Table
+    options: Options
 
     def __init__(
         self, table: Table, layouts: dtypes.Records, shape: tuple[int, ...], room: int, event: dtypes.Record = dtypes.event
@@ -376,7 +388,7 @@ class Shots:
         self.events: dtypes.Records = np.zeros((*shape, room), event)
         self.record: dtypes.Records = np.zeros(shape, dtypes.shot)
         self.features: Features | None = None
-        self.options: tuple[Any, ...] = ()
+        self.options = Options()
 
     @property
     def time(self) -> dtypes.Doubles:
@@ -497,7 +509,7 @@ class Shots:
         """Calls look(job, codes, first row) for all rows, which take so many seconds each; the codes."""
         codes: npt.NDArray[np.int8] = np.zeros(self.status.size, INT8)
         flags = pointer("int8_t[]", codes)
-        job = self.jobs(shot_options(*self.options, 0))
+        job = self.jobs(shot_options(self.options))
         code = in_chunks(codes.size, seconds, threads, spread(threads, lambda begin, many: look(job(begin, many), flags + begin, begin)))
         if code < 0:
             raise MemoryError("no memory for the events of a shot")
@@ -515,7 +527,7 @@ class Shots:
         cues, one_cue = (None, True) if self.cues is None else one_or_all(self.cues, self.shape, lead)
         record, status = np.ascontiguousarray(self.record).reshape(-1), np.ascontiguousarray(self.status).reshape(-1)
         room = self.events.shape[-1]
-        record["events"], record["brief"], record["state"], record["room"] = 0, 0, 0, room
+        record["room"] = room
         if room > 0:
             record["events" if self.events.dtype == dtypes.event else "brief"] = addresses(self.events, lead)
         record["final"] = addresses(self.final, lead)
@@ -541,6 +553,30 @@ class Shots:
             )
 
         return job
+
+    def to_dataframe(self) -> Any:
+        """The shots as a pandas DataFrame, a row a shot: status (by name), time, count, cue_speed and what else the cue has,
+        ball_0_r_x and what else is known of each ball at the end, and the features where they were asked for, such as pocket_3.
+
+        Needs pandas. The index is that of the batch.
+        """
+        import pandas
+
+        n, count = self.status.size, self.final.shape[-1]
+        names = {status.value: status.name.lower() for status in Status}
+        found: dict[str, Any] = {"status": pandas.Categorical([names[code] for code in self.status.reshape(-1).tolist()], list(names.values()))}
+        found |= {"time": self.time.reshape(-1), "count": self.count.reshape(-1)}
+        if self.cues is not None:
+            cues = np.broadcast_to(self.cues, self.shape).reshape(-1)
+            found |= {f"cue_{name}": column for name, column in dtypes.columns(cues).items()}
+        final = self.final.reshape(n, count)
+        for k in range(count):
+            found |= {f"ball_{k}_{name}": column for name, column in dtypes.columns(final[:, k]).items()}
+        for name, values in vars(self.features).items() if self.features is not None else ():
+            several = [("", ())] if values.shape == self.shape else [(f"_{k}", (k,)) for k in range(values.shape[-1])]
+            found |= {f"{name}{suffix}": values[(..., *which)].reshape(-1) for suffix, which in several}
+        index = pandas.MultiIndex.from_tuples(list(np.ndindex(self.shape))) if len(self.shape) > 1 else None
+        return pandas.DataFrame(found, index=index)
 
     def failures(self) -> list[tuple[tuple[int, ...], str]]:
         """The index of each shot that ended in an error, and the error."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Iterable
 from typing import Any, Literal
 
@@ -9,19 +10,20 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import INT8, Array, apart, in_chunks, output, pointer, whole
+from carom._rows import INT8, Array, apart, broadcast, copied, in_chunks, output, pointer, whole
 from carom._shot_options import BallModel as BallModel
 from carom._shot_options import Friction as Friction
+from carom._shot_options import Options, hashable, shot_options
 from carom._shot_options import ShotCushion as ShotCushion
 from carom._shot_options import Space as Space
 from carom._shot_options import StopAt as StopAt
 from carom._shot_options import World as World
-from carom._shot_options import hashable, shot_options
-from carom.layouts import Table, check_table, cue_error, of_record
+from carom.layouts import Table, check_table, cue_error, of_record, one_cue
 from carom.results import Shot, Shots
 from carom.status import CaromError, Status
 
 _FIRST_ROOM = 512
+_NO_EVENTS: Array = np.zeros(0, dtypes.event)
 
 
 def simulate(
@@ -87,35 +89,32 @@ def simulate(
     layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     if layout.ndim != 1:
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}; simulate_batch plays many layouts")
-    layout = layout.copy()
     check_table(table)
-    if cue is None:
-        strike: Any = ffi.NULL
-    else:
-        cues = of_record(cue, dtypes.cue, "cue", "cue()")
-        if cues.size != 1:
-            raise ValueError(f"cue: one is needed, not {cues.size}; simulate_batch plays many")
-        strike = pointer("carom_cue[]", cues)
-    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most, plain)
-    options = shot_options(*chosen, t_final, hashable(stop_at), 0)
+    table, layout = Table.from_record(table.record), copied(layout)
+    strike: Any = ffi.NULL
+    if cue is not None:
+        cue = copied(one_cue(cue))
+        strike = pointer("carom_cue[]", cue)
+    chosen = Options(world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, hashable(stop_at))
     state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if t_final is not None or stop_at else None
-    arguments = (pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), strike, options)
+    arguments = (pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), strike, shot_options(chosen))
     if lib.carom_shot_check(*arguments, ffi.NULL) < 0:
-        raise _argument_error(arguments, layout, None if cue is None else cues.reshape(()))
-    played = Shot(table, layout, 0, 0.0, 0, np.zeros(0, dtypes.event), np.zeros(layout.shape, dtypes.ball_state), state, chosen)
-    return _run(played, lambda shot: lib.carom_shoot(*arguments, shot))
+        raise _argument_error(arguments, layout, cue)
+    begun = Shot(table, layout, 0, 0.0, 0, _NO_EVENTS, layout["state"], cue, chosen, state)
+    return _run(begun, lambda shot: lib.carom_shoot(*arguments, shot))
 
 
 def _run(begun: Shot, play: Callable[[Any], int]) -> Shot:
-    """A shot as C plays it from its beginning, or goes on with it.
+    """The shot that has begun, as C plays it from its beginning, or goes on with it.
 
     One that has more events than there is room for is played again with enough of it: it has the same bits.
     """
     room = max(_FIRST_ROOM, 2 * begun.count)
     while True:
         events: Array = np.empty(room, dtypes.event)
-        events[: begun.count] = begun.events
-        final = begun.final.copy()
+        if begun.count:
+            events[: begun.count] = begun.events
+        final = copied(begun.final)
         state = None if begun.state is None else begun.state.copy()
         shot = ffi.new(
             "carom_shot *",
@@ -132,10 +131,11 @@ def _run(begun: Shot, play: Callable[[Any], int]) -> Shot:
         if shot.count <= room:
             break
         room = shot.count
-    played = Shot(begun.table, begun.balls, code, shot.time, shot.count, events[: shot.count].copy(), final, state, begun.options)
+    begun.status, begun.time, begun.count = Status(code), shot.time, shot.count
+    begun.events, begun.final, begun.state = copied(events[: shot.count]), final, state
     if code < 0:
-        raise CaromError(code, shot=played)
-    return played
+        raise CaromError(code, shot=begun)
+    return begun
 
 
 def resume(shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterable[StopAt] = ()) -> Shot:
@@ -160,13 +160,14 @@ def resume(shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterab
     ValueError
         The shot was played without `t_final` and `stop_at`, or as one of a batch; or t_final is before the time at which it stopped.
     """
-    if not isinstance(shot, Shot) or shot.state is None or shot.options is None:
+    if not isinstance(shot, Shot) or shot.state is None:
         raise ValueError("shot: only what simulate() or resume() stopped, with t_final= or stop_at=, can be gone on with")
     if t_final is not None and t_final < shot.time:
         raise ValueError(f"t_final: it must not be before {shot.time} s, when the shot stopped, but is {t_final}")
-    options = shot_options(*shot.options, t_final, hashable(stop_at), 0)
-    table, balls = pointer("carom_table[]", shot.table.record), pointer("carom_shot_ball[]", shot.balls)
-    return _run(shot, lambda begun: lib.carom_shot_continue(table, balls, len(shot.balls), options, begun))
+    begun = copy.copy(shot)
+    begun.options = shot.options._replace(t_final=t_final, stop_at=hashable(stop_at))
+    table, balls, options = pointer("carom_table[]", shot.table.record), pointer("carom_shot_ball[]", shot.balls), shot_options(begun.options)
+    return _run(begun, lambda given: lib.carom_shot_continue(table, balls, len(shot.balls), options, given))
 
 
 def simulate_batch(
@@ -229,7 +230,7 @@ def simulate_batch(
     check_table(table)
     whole(room, "room")
     count = all_balls.shape[-1]
-    shape = np.broadcast_shapes(all_balls.shape[:-1], all_cues.shape)
+    shape = broadcast({"layouts": all_balls.shape[:-1], "cues": all_cues.shape})
     # One layout or one cue for all is not copied; what else is broadcast is.
     if all_balls.size != count:
         all_balls = np.ascontiguousarray(np.broadcast_to(all_balls, (*shape, count)))
@@ -238,20 +239,18 @@ def simulate_batch(
     if records not in ("full", "brief"):
         raise ValueError(f"records: must be 'full' or 'brief', not {records!r}")
     record = dtypes.event if records == "full" else dtypes.brief_event
-    chosen = (world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, hashable(stop_at))
-    options = shot_options(*chosen, threads)
+    chosen = Options(world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, hashable(stop_at))
+    options = shot_options(chosen, threads)
     shots = Shots(table, all_balls, shape, room, record) if out is None else out
-    output(shots.status, shape, INT8, "out.status")
-    output(shots.final, (*shape, count), dtypes.ball_state, "out.final")
-    output(shots.events, (*shape, room), record, "out.events")
-    output(shots.record, shape, dtypes.shot, "out.record")
     if out is not None:
-        written = (("out.status", out.status), ("out.final", out.final), ("out.events", out.events), ("out.record", out.record))
+        wanted = {"status": (shape, INT8), "final": ((*shape, count), dtypes.ball_state)}
+        wanted |= {"events": ((*shape, room), record), "record": (shape, dtypes.shot)}
+        written = tuple((f"out.{name}", output(getattr(out, name), *form, f"out.{name}")) for name, form in wanted.items())
         apart((("layouts", all_balls), ("cues", all_cues), ("table", table.record)), written)
-    shots.table, shots.layouts, shots.cues = table, all_balls, None if cues is None else all_cues
-    shots.options, shots.features = chosen, None
-    shots.record["time"], shots.record["count"] = 0.0, 0
-    shots.status[...] = Status.OK
+        out.table, out.layouts, out.features = table, all_balls, None
+        out.record["time"], out.record["count"] = 0.0, 0
+        out.status[...] = Status.OK
+    shots.cues, shots.options = None if cues is None else all_cues, chosen
     if features:
         shots.features = shots.look_for_features(threads)
         code = 0
