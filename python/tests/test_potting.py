@@ -141,12 +141,19 @@ def test_any_game_keeps_the_rules():
     assert down.any() and not down.all()
 
 
+def wider():
+    """A table that says that its bed is wider than it is: balls would be dealt beyond its rails."""
+    table = carom.tables.pool_9ft()
+    return carom.Table(table.width + 0.1, table.length, rails=table.rails, jaws=table.jaws, pockets=table.pockets)
+
+
 def test_what_the_rules_refuse():
     for arguments, words in (
         ({"balls": 0}, "balls: must be 1 to 15"),
         ({"strokes": 0}, "strokes: must be at least 1"),
         ({"speeds": (2.0, 1.0)}, "speeds: must be the least and the most"),
         ({"table": carom.tables.threecushion()}, "table: must have pockets"),
+        ({"table": wider()}, r"table: its rails must lie around 0 <= x <= width = 1\.37 m, .* there is one at x = 1\.27 m"),
     ):
         with pytest.raises(ValueError, match=words):
             Potting(**arguments)
@@ -234,6 +241,25 @@ def test_many_games_are_single_games(gymnasium, threads):
     assert ended > 40
     seeds = [5, None, 7, None, None, 5, 1]
     assert envs.reset(seed=seeds)[0].tobytes() == singles.reset(seed=seeds)[0].tobytes()
+
+
+def test_a_step_before_a_reset_says_what_is_needed(gymnasium):
+    import carom.gymnasium
+
+    for env, action in ((carom.gymnasium.PottingEnv(), np.zeros(4)), (carom.gymnasium.PottingVectorEnv(3), np.zeros((3, 4)))):
+        with pytest.raises(gymnasium.error.ResetNeeded, match=r"call reset\(\)"):
+            env.step(action)
+        env.reset(seed=1)
+        env.step(action)
+
+
+def test_a_step_of_one_game_makes_few_calls(gymnasium, calls):
+    """Those of C included. A shot takes some microseconds, and so does every few calls of Python."""
+    env = gymnasium.make("carom/Potting-v0").unwrapped
+    env.reset(seed=1)
+    action = env.rules.actions(10.0, 1.0)
+    env.step(action)
+    assert calls(lambda: env.step(action)) <= 170
 
 
 def test_many_games_are_one_batch(gymnasium, calls):

@@ -20,11 +20,14 @@ import numpy.typing as npt
 
 from carom import dtypes, racks
 from carom._draws import Draws
+from carom._rows import Arrays, listing
 from carom.layouts import Table
 from carom.potting import Potting
 from carom.results import EventType, Label, Shot
 from carom.shots import ShotCushion, simulate
 from carom.status import CaromError
+
+__dir__ = listing(__name__)
 
 _ONE = np.zeros(1, np.int64)
 _FOULS_MOST = 3
@@ -40,8 +43,8 @@ class Hand(enum.IntEnum):
     ANYWHERE = 2
 
 
-@dataclass(frozen=True)
-class Position:
+@dataclass(frozen=True, repr=False)
+class Position(Arrays):
     """A game between two strokes.
 
     Attributes

@@ -15,16 +15,25 @@ import numpy.typing as npt
 from carom import dtypes, layouts, tables
 from carom._draws import Draws as Draws
 from carom._draws import Games
+from carom._rows import Arrays, copied, listing, repeated
 from carom.layouts import Game, Table
 from carom.results import Label, Shot
 from carom.shots import ShotCushion, simulate, simulate_batch
 
+__dir__ = listing(__name__)
+
 _GAP = 1e-3  # m, the least distance between balls that are placed
 _TRIES = 10_000
+_STATIONARY, _POCKETED, _OFF = int(Label.STATIONARY), int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
 
 
-@dataclass(frozen=True)
-class Strokes:
+def _within(actions: dtypes.Doubles) -> dtypes.Doubles:
+    """Actions, with the bounds for what is beyond."""
+    return np.asarray(np.minimum(np.maximum(actions, -1.0), 1.0))
+
+
+@dataclass(frozen=True, repr=False)
+class Strokes(Arrays):
     """Results of strokes; each is an array over the games.
 
     Attributes
@@ -71,7 +80,7 @@ class Potting:
     strokes : int
         At least 1.
     table : Table, optional
-        A rectangular one with pockets; by default `carom.tables.snooker()` for balls of snooker, otherwise `pool_9ft()`.
+        A rectangular one with pockets, of which 0 <= x <= width, 0 <= y <= length is the bed; by default `carom.tables.snooker()` for balls of snooker, otherwise `pool_9ft()`.
     ball_set : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
         Whose balls they are, as for `carom.balls`.
     noise : tuple of three floats
@@ -115,6 +124,13 @@ class Potting:
         self.table = usual() if table is None else table
         if len(self.table.pockets) == 0:
             raise ValueError("table: must have pockets")
+        size, p, q = np.array([self.table.width, self.table.length]), self.table.rails["p"], self.table.rails["q"]
+        for place in np.concatenate([p, q, (p + q) / 2.0]):
+            if (place > 1e-6).all() and (place < size - 1e-6).all():
+                raise ValueError(
+                    f"table: its rails must lie around 0 <= x <= width = {size[0]:.6g} m, 0 <= y <= length = {size[1]:.6g} m; "
+                    f"there is one at x = {place[0]:.6g} m, y = {place[1]:.6g} m"
+                )
         self.balls = balls
         self.strokes = strokes
         self.speeds = speeds
@@ -124,8 +140,10 @@ class Potting:
         # Of an action, whose numbers are -1 to 1.
         self._noise = np.array([noise[0] / 180.0, 2.0 * noise[1] / max(speeds[1] - speeds[0], 1e-12), noise[2] / 0.35, noise[2] / 0.35])
         self.noise = noise
-        self._balls_at_0 = layouts.balls(np.zeros((balls + 1, 2)), game=ball_set)
-        self.radius = float(self._balls_at_0["kind"]["radius"][0])
+        self._cue = layouts.cue().tobytes()
+        ball = layouts.balls(np.zeros((1, 2)), game=ball_set)
+        self._ball = ball.tobytes()
+        self.radius = float(ball["kind"]["radius"][0])
         # What a ball that is placed has to be clear of: pockets and the rounded ends of cushions, each with the least distance, m.
         self._fixed = np.concatenate([self.table.pockets["centre"], self.table.jaws["centre"]])
         self._clear = np.concatenate([self.table.pockets["radius"], self.table.jaws["radius"]]) + self.radius + _GAP
@@ -134,7 +152,7 @@ class Potting:
 
     def _check_parameters(self) -> None:
         known = [name for name in dtypes.ball_kind.names or () if name != "radius"]
-        ends = self._balls_at_0[:1].repeat(2)
+        ends = repeated(self._ball, dtypes.shot_ball, (2,))
         ends["state"]["r"][:, :2] = 0.3 * self.table.width, 0.3 * self.table.length
         for name, bounds in self.parameters.items():
             if name not in known or len(bounds) != 2 or not bounds[0] <= bounds[1]:
@@ -157,18 +175,19 @@ class Potting:
         given = np.asarray(actions, dtype=np.float64)
         if given.ndim == 0 or given.shape[-1] != 4 or not np.isfinite(given).all():
             raise ValueError(f"actions: finite numbers of shape (..., 4) are needed, not of shape {given.shape}: {given}")
-        given = np.clip(given, -1.0, 1.0)
+        given = _within(given)
         least, most = self.speeds
-        return layouts.cue(
-            phi=180.0 * given[..., 0],
-            speed=least + (most - least) * (given[..., 1] + 1.0) / 2.0,
-            a=0.35 * given[..., 2],
-            b=0.35 * given[..., 3],
-        )
+        cues = repeated(self._cue, dtypes.cue, given.shape[:-1])
+        cues["phi"] = 180.0 * given[..., 0]
+        cues["speed"] = least + (most - least) * (given[..., 1] + 1.0) / 2.0
+        cues["a"], cues["b"] = 0.35 * given[..., 2], 0.35 * given[..., 3]
+        return cues
 
     def actions(self, phi: npt.ArrayLike, speed: npt.ArrayLike, a: npt.ArrayLike = 0.0, b: npt.ArrayLike = 0.0) -> dtypes.Doubles:
         """The actions, of shape (..., 4), of directions (degrees), speeds (m/s) and places of the tip (radii), of shape (...)."""
         least, most = self.speeds
+        if not all(np.isfinite(part).all() for part in (phi, speed, a, b)):
+            raise ValueError(f"phi, speed, a, b: finite numbers are needed, not {phi!r}, {speed!r}, {a!r}, {b!r}")
         turn = (np.asarray(phi, dtype=np.float64) + 180.0) % 360.0 / 180.0 - 1.0
         hard = 2.0 * (np.asarray(speed, dtype=np.float64) - least) / max(most - least, 1e-12) - 1.0
         parts = np.broadcast_arrays(turn, hard, np.asarray(a, dtype=np.float64) / 0.35, np.asarray(b, dtype=np.float64) / 0.35)
@@ -176,12 +195,14 @@ class Potting:
 
     def observe(self, balls: dtypes.Records, strokes_left: npt.ArrayLike) -> dtypes.Doubles:
         """What an agent sees of layouts, of shape (..., balls + 1): of shape (..., 3 (balls + 1) + 1)."""
-        in_play = balls["state"]["label"] != Label.POCKETED
-        seen = np.zeros((*balls.shape, 3))
-        seen[..., :2] = np.where(in_play[..., np.newaxis], balls["state"]["r"][..., :2], 0.0)
-        seen[..., 2] = in_play
-        left = np.broadcast_to(np.asarray(strokes_left, dtype=np.float64), balls.shape[:-1])
-        return np.concatenate([seen.reshape((*balls.shape[:-1], -1)), left[..., np.newaxis]], axis=-1)
+        seen = np.empty((*balls.shape[:-1], 3 * balls.shape[-1] + 1))
+        state = balls["state"]
+        down = state["label"] == _POCKETED
+        for k in range(2):
+            seen[..., k:-1:3] = np.where(down, 0.0, state["r"][..., k])
+        seen[..., 2:-1:3] = ~down
+        seen[..., -1] = strokes_left
+        return seen
 
     def layouts(self, observations: npt.ArrayLike) -> dtypes.Records:
         """The balls of observations: `carom.dtypes.shot_ball` of shape (..., balls + 1)."""
@@ -191,9 +212,9 @@ class Potting:
 
     def _balls(self, centres: dtypes.Doubles, in_play: npt.NDArray[np.bool_]) -> dtypes.Records:
         """Balls at rest, those that are not in play in a pocket."""
-        made = np.broadcast_to(self._balls_at_0, centres.shape[:-1]).copy()
+        made = repeated(self._ball, dtypes.shot_ball, centres.shape[:-1])
         made["state"]["r"][..., :2] = centres
-        made["state"]["label"] = np.where(in_play, int(Label.STATIONARY), int(Label.POCKETED))
+        made["state"]["label"] = np.where(in_play, _STATIONARY, _POCKETED)
         return made
 
     # ---- The game -------------------------------------------------------------------------------------------------------
@@ -217,11 +238,11 @@ class Potting:
     def put_back(self, balls: dtypes.Records, draws: Draws, games: Games) -> None:
         """Put the cue balls of some games, layouts of shape (len(games), balls + 1), back on the table, at random."""
         others = balls["state"][:, 1:]
-        in_play = (others["label"] != Label.POCKETED)[..., np.newaxis]
+        in_play = (others["label"] != _POCKETED)[..., np.newaxis]
         taken = np.where(in_play, others["r"][..., :2], np.inf)
         balls["state"]["r"][:, 0, :2] = self._places(draws, games, 1, taken)[:, 0]
         balls["state"]["r"][:, 0, 2] = self.radius
-        balls["state"]["label"][:, 0] = Label.STATIONARY
+        balls["state"]["label"][:, 0] = _STATIONARY
 
     def _places(self, draws: Draws, games: Games, count: int, taken: dtypes.Doubles | None = None) -> dtypes.Doubles:
         """Places for balls, of shape (len(games), count, 2).
@@ -256,8 +277,8 @@ class Potting:
 
     def disturbed(self, actions: npt.ArrayLike, draws: Draws, games: Games) -> dtypes.Doubles:
         """The actions of some games, of shape (len(games), 4), as they are carried out: with the noise."""
-        given = np.clip(np.asarray(actions, dtype=np.float64), -1.0, 1.0)
-        if self._noise.any():
+        given = _within(np.asarray(actions, dtype=np.float64))
+        if any(self.noise):
             given += self._noise * draws.normal(games, 4)
             given[..., 0] = (given[..., 0] + 1.0) % 2.0 - 1.0
         return given
@@ -277,13 +298,13 @@ class Potting:
             Of the broadcast shape. Each stroke has the bits that it has alone.
         """
         shots = simulate_batch(self.table, balls, self.cues(actions), cushion_model=self.cushion_model, threads=self.threads)
-        before = np.broadcast_to(balls, shots.final.shape)
-        played = (shots.status >= 0) & (shots.final["label"] != Label.OFF).all(axis=-1)
-        after = before.copy()
+        before = balls if balls.shape == shots.final.shape else np.broadcast_to(balls, shots.final.shape)
+        played = (shots.status >= 0) & (shots.final["label"] != _OFF).all(axis=-1)
+        after = copied(before)
         after["state"] = shots.final
         if not played.all():
             after[~played] = before[~played]
-        down = (after["state"]["label"] == Label.POCKETED) & (before["state"]["label"] != Label.POCKETED)
+        down = (after["state"]["label"] == _POCKETED) & (before["state"]["label"] != _POCKETED)
         potted, scratch = down[..., 1:].sum(axis=-1), down[..., 0]
         rewards = potted - 1.0 * (scratch | ~played)
         strokes = Strokes(after, rewards, potted, scratch, shots.status, shots.time)
@@ -294,8 +315,8 @@ class Potting:
 
     def ended(self, balls: dtypes.Records, strokes_left: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Whether games have ended: layouts of shape (..., balls + 1) to (...)."""
-        all_down = (balls["state"]["label"][..., 1:] == Label.POCKETED).all(axis=-1)
-        return np.asarray(all_down | (np.asarray(strokes_left) <= 0), dtype=np.bool_)
+        all_down = (balls["state"]["label"][..., 1:] == _POCKETED).all(axis=-1)
+        return np.asarray(all_down | (np.asarray(strokes_left) <= 0))
 
     def shot(self, balls: dtypes.Records, action: npt.ArrayLike | None) -> Shot:
         """One stroke with its events, for looking at; without an action the balls lie still."""
