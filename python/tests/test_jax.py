@@ -43,14 +43,14 @@ def test_a_ball_in_the_air():
     found = carom.jax.final(TABLE, BALLS, cue, numbers, **jump)
     assert found.z[0] > 0.03 and np.array_equal(found.z, shot.final["r"][:, 2]) and np.array_equal(found.v_z, shot.final["v"][:, 2])
     slopes = jax.jacrev(lambda given: carom.jax.final(TABLE, BALLS, cue, given, **jump).z)(numbers)
-    tangents = carom.tangents(shot, cue, list(numbers)).final["z"]
+    tangents = carom.tangents(shot, list(numbers)).final["z"]
     assert (tangents[0] != 0.0).all() and np.array_equal(np.stack(list(slopes.values()), axis=-1), tangents)
 
 
 @pytest.mark.parametrize("models", [{}, {"ball_model": "exact"}, {"t_final": 0.9}])
 def test_values_are_those_of_shots_and_derivatives_those_of_tangents(models):
     shot, found = played(AIM, **models), ends(AIM, **models)
-    tangents = carom.tangents(shot, CUE, NAMES)
+    tangents = carom.tangents(shot, NAMES)
     forward, reverse = jax.jacfwd(lambda aim: ends(aim, **models))(AIM), jax.jacrev(lambda aim: ends(aim, **models))(AIM)
     for name, numbers in (("r", 2), ("v", 2), ("w", 3)):
         assert np.array_equal(getattr(found, name), shot.final[name][:, :numbers])
@@ -131,6 +131,41 @@ def test_vmap_is_one_batch_and_jit_changes_no_bit(monkeypatch):
     assert batches[2:] == [(6,)]
 
 
+def test_batches_of_layouts_cues_and_numbers():
+    """Broadcast against each other, compiled and mapped, with the bits of single shots and the derivatives of tangents."""
+    layouts = carom.balls([[[0.4, 0.5], [0.6, 1.5]], [[0.4, 0.6], [0.62, 1.4]], [[0.45, 0.5], [0.63, 1.45]]])
+    cues = carom.cue(speed=[[1.5], [1.9]], phi=79.0, b=0.1)
+    places = layouts["state"]["r"][:, 1, :2]
+    numbers = {"cue.phi": jnp.linspace(78.5, 79.5, 6).reshape(2, 3), "balls[1].r": jnp.asarray(places), "kind.mu_slide": 0.21}
+    layouts["kind"]["mu_slide"] = 0.21
+
+    def play(given):
+        return carom.jax.final(TABLE, layouts, cues, given, **CLOSED).r
+
+    found, compiled, slopes = play(numbers), jax.jit(play)(numbers), jax.jacrev(lambda given: play(given).sum(axis=(0, 1)))(numbers)
+    assert found.shape == (2, 3, 2, 2) and np.array_equal(found, compiled)
+    expected = {name: [] for name in numbers}
+    for i, j in np.ndindex(2, 3):
+        cue = cues[i, 0].copy()
+        cue["phi"] = numbers["cue.phi"][i, j]
+        shot = carom.simulate(TABLE, layouts[j], cue, **CLOSED)
+        assert np.array_equal(found[i, j], shot.final["r"][:, :2])
+        tangents = carom.tangents(shot, list(numbers)).final["r"]
+        for name, part in zip(numbers, (tangents[..., 0], tangents[..., 1:3], tangents[..., 3])):
+            expected[name].append(part)
+    # of a sum over the batch, each shot has its own slope by its own number, and all of them one by a number for all
+    own = {"cue.phi": np.moveaxis(np.reshape(expected["cue.phi"], (2, 3, 2, 2)), (0, 1), (2, 3)), "kind.mu_slide": np.sum(expected["kind.mu_slide"], axis=0)}
+    own["balls[1].r"] = np.moveaxis(np.reshape(expected["balls[1].r"], (2, 3, 2, 2, 2)).sum(axis=0), 0, 2)
+    for name, slope in slopes.items():
+        assert np.abs(slope).max() > 0.0
+        np.testing.assert_allclose(slope, own[name], rtol=1e-12, atol=1e-12 * np.abs(own[name]).max(), err_msg=name)
+    # a batch that is mapped is a batch of batches
+    more = jax.vmap(lambda phi: play({**numbers, "cue.phi": phi}))(jnp.stack([numbers["cue.phi"], numbers["cue.phi"] + 0.1]))
+    assert np.array_equal(more[0], found) and not np.array_equal(more[1], found)
+    with pytest.raises((ValueError, RuntimeError), match=r"shot \[1, 2\] of the batch, cue\.b = 2: .*cue"):
+        carom.jax.final(TABLE, layouts, cues, {"cue.b": jnp.zeros((2, 3)).at[1, 2].set(2.0)}, **CLOSED)
+
+
 def test_a_search_in_compiled_code_improves_an_aim():
     goal = jnp.asarray(played(AIM).final["r"][1, :2])
 
@@ -177,8 +212,8 @@ def test_shots_that_are_refused_say_why():
     [
         ({}, "numbers: name at least one"),
         ({"cue.mu": 1.0}, "numbers: 'cue.mu' is no number of a shot"),
-        ({"cue.phi": jnp.ones(3)}, r"numbers: cue\.phi: the shape must be \(\), not \(3,\); jax\.vmap"),
-        ({"balls[1].r": jnp.ones(3)}, r"numbers: balls\[1\]\.r: the shape must be \(2,\), not \(3,\)"),
+        ({"cue.phi": jnp.ones(3), "cue.a": jnp.ones(2)}, r"leading dimensions .* but are cue\.phi \(3,\), cue\.a \(2,\)"),
+        ({"balls[1].r": jnp.ones(3)}, r"numbers: balls\[1\]\.r: the shape must be \(\.\.\., 2\), not \(3,\)"),
         ({"table.nose_height": 0.036}, r"numbers: table\.nose_height: a batch has one table"),
     ],
 )
@@ -187,10 +222,10 @@ def test_arguments_that_are_wrong(numbers, match):
         carom.jax.final(TABLE, BALLS, CUE, numbers)
     with pytest.raises(ValueError, match=r"numbers: cue\.phi: there is no cue"):
         carom.jax.final(TABLE, BALLS, None, {"cue.phi": 1.0})
-    with pytest.raises(ValueError, match="balls: records"):
-        carom.jax.final(TABLE, BALLS.reshape(1, 3), CUE, {"cue.phi": 1.0})
-    with pytest.raises(ValueError, match="cue: one record"):
-        carom.jax.final(TABLE, BALLS, carom.cue(phi=[1.0, 2.0]), {"cue.phi": 1.0})
+    with pytest.raises(TypeError, match="^balls: an array of the dtype of carom"):
+        carom.jax.final(TABLE, CUE, CUE, {"cue.phi": 1.0})
+    with pytest.raises(TypeError, match="^cue: an array of the dtype of carom"):
+        carom.jax.final(TABLE, BALLS, BALLS, {"cue.phi": 1.0})
     with pytest.raises(ValueError, match="errors: must be"):
         carom.jax.final(TABLE, BALLS, CUE, {"cue.phi": 1.0}, errors="ignore")
 

@@ -11,8 +11,8 @@
     jax.value_and_grad(miss)(aim)
     jax.jit(jax.vmap(jax.grad(miss)))(aims)                    # all shots in one batch
 
-Shots are played and differentiated by C, in callbacks: a function under `jax.vmap` is one batch of `carom.simulate_batch`, and its
-derivative one of `carom.tangents`. `grad`, `jacfwd` and `jacrev` all use the Jacobian of `carom.tangents`; second derivatives are not
+Shots are played and differentiated by C, in callbacks: a batch, or a function under `jax.vmap`, is one batch of `carom.simulate_batch`,
+and its derivative one of `carom.tangents`. `grad`, `jacfwd` and `jacrev` all use the Jacobian of `carom.tangents`; second derivatives are not
 known. docs/using/derivatives.md says what a derivative cannot tell: `carom.jacobian(..., of="reach")` has its reach.
 
 Needs JAX with 64-bit numbers. Its objects have no types here, so that carom can be checked without it.
@@ -29,14 +29,15 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from carom import dtypes
-from carom._rows import Array
+from carom._rows import Array, broadcast, listing
 from carom._shot_options import hashable
 from carom.derivatives import CUE, ELEMENTS, KIND, PARTS, STATE, Direction, directions, play, seeds_of
-from carom.layouts import Table
+from carom.layouts import Table, of_record
 from carom.shots import simulate, simulate_batch
 from carom.status import CaromError, Status
 
 __all__ = ["Final", "final"]
+__dir__ = listing(__name__)
 
 try:
     _jax: Any = importlib.import_module("jax")
@@ -50,11 +51,11 @@ class Final(NamedTuple):
 
     Attributes
     ----------
-    r, v : shape (balls, 2)
+    r, v : shape (..., balls, 2)
         Places, m, and velocities, m/s, along x and y.
-    w : shape (balls, 3)
+    w : shape (..., balls, 3)
         Angular velocities, rad/s.
-    z, v_z : shape (balls,)
+    z, v_z : shape (..., balls)
         Heights of the centres, m, and velocities upward, m/s.
     """
 
@@ -67,11 +68,13 @@ class Final(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class _Shots:
-    """Shots that differ by some numbers."""
+    """Shots that differ by some numbers: on a table, of layouts (..., balls) and cues (...), as bytes with their shapes."""
 
     table: bytes
     balls: bytes
-    cue: bytes | None
+    balls_shape: tuple[int, ...]
+    cues: bytes | None
+    cues_shape: tuple[int, ...]
     names: tuple[str, ...]
     models: tuple[tuple[str, Any], ...]
     room: int
@@ -79,7 +82,7 @@ class _Shots:
 
     @property
     def count(self) -> int:
-        return len(self.balls) // dtypes.shot_ball.itemsize
+        return self.balls_shape[-1]
 
     @functools.cached_property
     def directions(self) -> list[Direction]:
@@ -91,8 +94,8 @@ class _Shots:
 
     def records(self, x: dtypes.Doubles) -> tuple[dtypes.Records, dtypes.Records | None]:
         """Layouts and cues with these numbers, of shape (..., m)."""
-        layouts: Array = np.frombuffer(self.balls, dtypes.shot_ball)
-        cues: Array | None = None if self.cue is None else np.frombuffer(self.cue, dtypes.cue)[0]
+        layouts: Array = np.frombuffer(self.balls, dtypes.shot_ball).reshape(self.balls_shape)
+        cues: Array | None = None if self.cues is None else np.frombuffer(self.cues, dtypes.cue).reshape(self.cues_shape)
         arrays = {direction.array for direction in self.directions}
         if arrays & {"state", "kind"}:
             layouts = np.broadcast_to(layouts, (*x.shape[:-1], self.count)).copy()
@@ -143,7 +146,9 @@ class _Shots:
     def refuse(self, x: dtypes.Doubles, where: tuple[int, ...], status: Status) -> None:
         """Raises the error of one shot, with its place in the batch and its numbers."""
         text = status.text
-        layouts, cues = self.records(x[where])
+        layouts, cues = self.records(x)
+        layouts = np.broadcast_to(layouts, (*x.shape[:-1], self.count))[where]
+        cues = None if cues is None else np.broadcast_to(cues, x.shape[:-1])[where]
         try:
             simulate(self.played_on, layouts, cues, **{name: value for name, value in self.models if name != "threads"})
         except CaromError as error:
@@ -159,20 +164,20 @@ _shots = functools.lru_cache(maxsize=256)(_Shots)
 
 @functools.partial(_jax.custom_jvp, nondiff_argnums=(0,))
 def _states(shots: _Shots, x: Any) -> Any:
-    shape = _jax.ShapeDtypeStruct((shots.count, STATE), np.float64)
+    shape = _jax.ShapeDtypeStruct((*x.shape[:-1], shots.count, STATE), np.float64)
     return _jax.pure_callback(shots.states, shape, x, vmap_method="expand_dims")
 
 
 @functools.partial(_jax.custom_jvp, nondiff_argnums=(0,))
 def _both(shots: _Shots, x: Any) -> Any:
-    states, derivatives = (shots.count, STATE), (shots.count, STATE, len(shots.directions))
-    shapes = (_jax.ShapeDtypeStruct(states, np.float64), _jax.ShapeDtypeStruct(derivatives, np.float64))
+    states = (*x.shape[:-1], shots.count, STATE)
+    shapes = (_jax.ShapeDtypeStruct(states, np.float64), _jax.ShapeDtypeStruct((*states, x.shape[-1]), np.float64))
     return _jax.pure_callback(shots.both, shapes, x, vmap_method="expand_dims")
 
 
 def _of_states(shots: _Shots, primals: Any, changes: Any) -> Any:
     states, derivatives = _both(shots, primals[0])
-    return states, derivatives @ changes[0]
+    return states, _jnp.einsum("...bsm,...m->...bs", derivatives, changes[0])
 
 
 def _of_both(shots: _Shots, primals: Any, changes: Any) -> Any:
@@ -193,18 +198,18 @@ def final(
     errors: Literal["raise", "nan"] = "raise",
     **models: Any,
 ) -> Final:
-    """The final states of a shot, as a function of some of its numbers that JAX can differentiate, compile and map.
+    """The final states of shots, as a function of some of their numbers that JAX can differentiate, compile and map.
 
     Parameters
     ----------
     table : Table
-    balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
-    cue : ndarray of `carom.dtypes.cue`, shape (), or None
-        The shot, where `numbers` say nothing else.
+    balls : ndarray of `carom.dtypes.shot_ball`, shape (..., balls)
+    cue : ndarray of `carom.dtypes.cue`, shape (...), or None
+        The shots, where `numbers` say nothing else. Leading dimensions of balls, cue and numbers are broadcast against each other.
     numbers : mapping of str to array_like
-        The numbers of the shot that take part in derivatives, by the names of `carom.tangents`: "cue.phi", "kind.mu_slide" (of all
-        balls), "balls[1].kind.mass" and "balls[0].r[1]" of shape (); "balls[0].r" and "balls[0].v" of shape (2,), "balls[0].w" (3,).
-        Many shots are played by `jax.vmap`, as one batch. Those of the table are left out, as a batch has one table: the balls'
+        The numbers of the shots that take part in derivatives, by the names of `carom.tangents`: "cue.phi", "kind.mu_slide" (of all
+        balls), "balls[1].kind.mass" and "balls[0].r[1]" of shape (...); "balls[0].r", "balls[0].v" (..., 2), "balls[0].w" (..., 3).
+        Under `jax.vmap` all shots are one batch, too. Those of the table are left out, as a batch has one table: the balls'
         own "kind.nose_height", "kind.mu_cushion" and "kind.restitution_cushion" are used instead.
     room : int
         Events of a shot at most, where it is differentiated.
@@ -232,23 +237,28 @@ def final(
         raise TypeError('carom.jax needs 64-bit numbers: set jax.config.update("jax_enable_x64", True) first, or JAX_ENABLE_X64=1')
     if errors not in ("raise", "nan"):
         raise ValueError(f"errors: must be 'raise' or 'nan', not {errors!r}")
-    if balls.dtype != dtypes.shot_ball or balls.ndim != 1:
-        raise ValueError(f"balls: records of carom.balls() of shape (balls,) are needed, not {balls.dtype}, {balls.shape}; jax.vmap plays many")
-    if cue is not None and (cue.dtype != dtypes.cue or cue.size != 1):
-        raise ValueError(f"cue: one record of carom.cue() is needed, not {cue.dtype}, {cue.shape}; jax.vmap plays many")
+    layouts = of_record(balls, dtypes.shot_ball, "balls", "balls()")
+    cues = None if cue is None else of_record(cue, dtypes.cue, "cue", "cue()")
+    if layouts.ndim == 0:
+        raise ValueError("balls: the shape must be (..., balls), not ()")
     parts: list[Any] = []
-    for (name, value), several in zip(numbers.items(), directions(list(numbers), len(balls), "numbers")):
+    for (name, value), several in zip(numbers.items(), directions(list(numbers), layouts.shape[-1], "numbers")):
         if several[0].array == "table":
             raise ValueError(f"numbers: {name}: a batch has one table; kind.nose_height, kind.mu_cushion and kind.restitution_cushion can differ")
         if several[0].array == "cue" and cue is None:
             raise ValueError(f"numbers: {name}: there is no cue; give one of carom.cue()")
-        shape = () if name == several[0].name else (len(several),)
         array = _jnp.asarray(value, np.float64)
-        if array.shape != shape:
-            raise ValueError(f"numbers: {name}: the shape must be {shape}, not {array.shape}; jax.vmap plays many shots")
-        parts.append(array.reshape(-1))
+        if name == several[0].name:
+            array = array[..., np.newaxis]
+        elif array.shape[-1:] != (len(several),):
+            raise ValueError(f"numbers: {name}: the shape must be (..., {len(several)}), not {array.shape}")
+        parts.append(array)
+    leading = {"balls": layouts.shape[:-1], "cue": () if cues is None else cues.shape}
+    batch = broadcast({**leading, **{name: part.shape[:-1] for name, part in zip(numbers, parts)}})
     given = {**models, "stop_at": hashable(models["stop_at"])} if "stop_at" in models else models
-    struck = None if cue is None else cue.tobytes()
-    shots = _shots(table.record.tobytes(), balls.tobytes(), struck, tuple(numbers), tuple(sorted(given.items())), room, errors == "nan")
-    states = _states(shots, _jnp.concatenate(parts))
+    shots = _shots(
+        table.record.tobytes(), layouts.tobytes(), layouts.shape, None if cues is None else cues.tobytes(), () if cues is None else cues.shape,
+        tuple(numbers), tuple(sorted(given.items())), room, errors == "nan",
+    )  # fmt: skip
+    states = _states(shots, _jnp.concatenate([_jnp.broadcast_to(part, (*batch, part.shape[-1])) for part in parts], axis=-1))
     return Final(**{name: states[..., part] for name, part in PARTS.items()})
