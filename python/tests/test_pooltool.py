@@ -33,6 +33,8 @@ with pytest.MonkeyPatch.context() as patch:
 import attrs
 
 import carom
+from carom._draws import Draws
+from carom.potting import Potting
 
 SEED = int(os.environ.get("CAROM_TEST_SEED", "1"))
 SHOTS = int(os.environ.get("CAROM_TEST_SHOTS", "12"))
@@ -286,6 +288,17 @@ def test_recorded_shots():
     assert compared > 1000
 
 
+@pytest.mark.parametrize("game", [None, *pt.GameType])
+def test_tables_have_the_size_of_their_bed(game):
+    """So racks and layouts that are dealt lie on it."""
+    theirs = pt.Table.default() if game is None else pt.Table.from_game_type(game)
+    table = bridge.table_of(theirs)
+    np.testing.assert_allclose([table.width, table.length], [theirs.w, theirs.l], rtol=1e-12)
+    if len(table.pockets):
+        rules = Potting(balls=5, table=table, ball_set="snooker" if game is pt.GameType.SNOOKER else "pool")
+        assert (carom.simulate_batch(table, rules.deal(Draws(np.arange(500)), np.arange(500))).status == 0).all()
+
+
 def test_continuized():
     """Histories that pooltool continuizes give the paths of its own."""
     system = pt.System.example()
@@ -420,9 +433,10 @@ def played(monkeypatch):
 
 
 def test_installed(installed, played):
-    assert pt.simulate is not installed and pt.evolution.simulate is pt.simulate
+    assert pt.simulate is not installed is bridge.original and pt.evolution.simulate is pt.simulate
     system = pt.simulate(pt.System.example())
     assert len(played) == 1
+    assert [e.ids for e in bridge.original(pt.System.example()).events] == [e.ids for e in system.events] and len(played) == 1
     assert [e.time for e in system.events] == [e.time for e in bridge.simulate(pt.System.example()).events]
 
 

@@ -19,7 +19,7 @@ from typing import Any, Literal
 import numpy as np
 
 from carom import dtypes
-from carom._rows import Array
+from carom._rows import Array, listing
 from carom._pooltool_fill import fill
 from carom._pooltool_models import ExactBallBall, ExactCircularCushion, ExactLinearCushion
 from carom.collisions import alciatore
@@ -38,17 +38,20 @@ __all__ = [
     "balls_of",
     "cue_of",
     "install",
+    "original",
     "simulate",
     "table_of",
     "uninstall",
 ]
+__dir__ = listing(__name__)
 
 Models = Literal["pooltool", "carom"]
 
 _pt: Any = importlib.import_module("pooltool")
 _simulate: Any = importlib.import_module("pooltool.evolution.event_based.simulate")
 
-_pooltools_simulate: Any = _simulate.simulate
+original: Any = _simulate.simulate
+"""pooltool's own `simulate`, whatever is installed: to compare with."""
 
 # What carom plays of pooltool's engines, and of its own strategies in them: repository HEAD has InstantaneousPoint2D.
 _FIXED = {
@@ -110,10 +113,14 @@ def _table_of(linear: tuple[Any, ...], circular: tuple[Any, ...], holes: tuple[A
     )
     jaws: Array = np.array([(c.center[:2], c.radius, c.height, 0.0, 0.0) for c in circular], dtype=dtypes.jaw)
     pockets: Array = np.array([((x, y), radius, depth) for x, y, radius, depth in holes], dtype=dtypes.pocket)
-    # Width and length are for pictures; a table that is not made of pooltool's own parts may have none.
-    ends = np.concatenate([rails["p"], rails["q"]])
-    low, high = (ends.min(axis=0), ends.max(axis=0)) if len(ends) else (np.zeros(2), np.ones(2))
-    return Table(float(high[0] - low[0]), float(high[1] - low[1]), rails=rails, jaws=jaws, pockets=pockets)
+    # The bed reaches from rail to rail, those in the mouths of pockets left out, which are oblique. (A System's own table.w and table.l
+    # need segments with the names of pooltool's tables.)
+    size = []
+    for axis in range(2):
+        across = rails[np.abs(rails["p"][:, axis] - rails["q"][:, axis]) < 1e-9]
+        at = np.concatenate([(across if len(across) else rails)[end][:, axis] for end in "pq"])
+        size.append(float(np.ptp(at)) if len(at) else 1.0)
+    return Table(size[0], size[1], rails=rails, jaws=jaws, pockets=pockets)
 
 
 def balls_of(system: Any) -> dtypes.Records:
@@ -273,7 +280,7 @@ def simulate(
         if not fallback:
             raise
         _tell(reason)
-        return _pooltools_simulate(shot, engine, inplace, continuous, dt, t_final, include, max_events)
+        return original(shot, engine, inplace, continuous, dt, t_final, include, max_events)
     system = shot if inplace else shot.copy()
     kept, stopped = played.count, False
     if t_final is not None:
@@ -320,12 +327,12 @@ def install() -> None:
     What carom cannot do is then played by pooltool; a `FallbackWarning` says why, once for each reason.
     """
     _told.clear()
-    _replace(_pooltools_simulate, _installed)
+    _replace(original, _installed)
 
 
 def uninstall() -> None:
     """Put `pooltool.simulate` back."""
-    _replace(_installed, _pooltools_simulate)
+    _replace(_installed, original)
 
 
 def _installed(
@@ -342,4 +349,4 @@ def _installed(
 
 
 _installed.__name__ = _installed.__qualname__ = "simulate"
-_installed.__doc__ = _pooltools_simulate.__doc__
+_installed.__doc__ = original.__doc__
