@@ -2,22 +2,26 @@
 
 import concurrent.futures
 import functools
+import importlib
 import json
 import multiprocessing
 import os
 import pickle
+import pkgutil
 import re
 import signal
 import subprocess
 import sys
 import threading
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import carom
+import carom.potting
 
 GOOD = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0))
 BAD = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0), mass=-1.0)
@@ -174,6 +178,54 @@ def test_arguments_of_other_kinds_are_refused_by_their_names():
     ):
         with pytest.raises(wrong, match=f"^{message}"):
             call()
+
+
+def test_errors_name_dtypes_in_few_words():
+    table = carom.tables.pool_9ft()
+    rack = carom.racks.nineball(table)
+    for call, words in (
+        (lambda: carom.simulate(table, carom.cue()), "carom.dtypes.cue"),
+        (lambda: carom.collide(rack), "carom.dtypes.impact, not carom.dtypes.shot_ball"),
+        (lambda: carom.collide(rack["kind"][["mass", "radius"]]), "not a structured dtype of mass, radius"),
+        (lambda: carom.collide(GOOD, out=(np.zeros((), carom.dtypes.motion), np.zeros((), np.int8))), "carom.dtypes.result is needed"),
+        (lambda: carom.dtypes.columns(rack.reshape(2, 5)), "carom.dtypes.shot_ball and shape"),
+    ):
+        with pytest.raises((TypeError, ValueError)) as caught:
+            call()
+        assert words in str(caught.value) and len(str(caught.value)) < 200 and "offsets" not in str(caught.value)
+
+
+def test_what_is_no_number_is_refused_by_its_name_without_a_warning_of_numpys():
+    rules = carom.potting.Potting()
+    for wrong, message, call in (
+        (ValueError, "speed: could not convert", lambda: carom.cue(speed="fast")),
+        (TypeError, "speed: real numbers", lambda: carom.cue(speed=[1j])),
+        (TypeError, "impacts: real numbers", lambda: carom.collide(np.zeros((3, 26), np.complex128))),
+        (ValueError, "r: setting an array element", lambda: carom.balls([[1.0, 2.0], [3.0]])),
+        (ValueError, r"ball: .* a whole number, not nan", lambda: carom.cue(ball=[0, np.nan])),
+        (ValueError, r"ball: .* a whole number, not 1\.7", lambda: carom.cue(ball=1.7)),
+        (ValueError, r"ball: .* a whole number, not 1e\+30", lambda: carom.cue(ball=1e30)),
+        (ValueError, r"leading dimensions .* but are speed \(2,\), phi \(3,\)", lambda: carom.cue(speed=[1, 2], phi=[1, 2, 3])),
+        (ValueError, r"leading dimensions .* but are kind\.radius \(3,\), state\.r \(2,\)", lambda: carom.balls([[0.5, 0.5]] * 2, radius=[0.03] * 3)),
+        (ValueError, r"phi, speed, a, b: finite numbers", lambda: rules.actions(np.inf, 1.0)),
+        (ValueError, r"cue\.phi = 1e\+308: ", lambda: carom.struck(carom.cue(phi=1e308), carom.balls([[0, 0]])["kind"][0])),
+    ):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with pytest.raises(wrong, match=f"^{message}"):
+                call()
+
+
+def test_tab_completion_shows_what_a_module_offers():
+    for name in ("", *(f".{module.name}" for module in pkgutil.iter_modules(carom.__path__) if module.name[0] != "_")):
+        try:
+            module = importlib.import_module(f"carom{name}")
+        except ImportError:
+            continue
+        shown = {name for name in dir(module) if name[0] != "_"}
+        assert shown and not shown & {"np", "npt", "ffi", "lib", "annotations", "Any", "Literal", "dataclass", "Array", "pointer"}, module
+        assert set(getattr(module, "__all__", ())) <= shown | {"__version__"}, module
+    assert dir(carom.racks) == ["eightball", "nineball", "snooker", "tenball", "threecushion"]
 
 
 def test_objects_are_made_of_plain_classes_alone():

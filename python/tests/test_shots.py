@@ -640,3 +640,36 @@ def test_columns_and_frames():
     frame = shot.to_dataframe()
     assert list(frame) == list(columns) and frame["type"][0] == "strike"
     assert (frame["type"] == "ball_ball").sum() == (shot.events["type"] == carom.EventType.BALL_BALL).sum()
+
+
+def test_a_batch_as_a_frame(breaks):
+    """A row a shot, with what it was played with, what became of the balls, and features; an index of many dimensions has as many."""
+    pandas = pytest.importorskip("pandas")
+    shots = breaks[0](features=True)
+    frame = shots.to_dataframe()
+    assert len(frame) == 12 and frame["status"].tolist().count("error_miscue") == 4 and frame["status"][0] == "ok"
+    for column, values in (
+        ("time", shots.time), ("count", shots.count), ("cue_phi", shots.cues["phi"]), ("ball_3_r_y", shots.final["r"][:, 3, 1]),
+        ("ball_0_label", shots.final["label"][:, 0]), ("contact_1", shots.features.contact[:, 1]), ("pocket_9", shots.features.pocket[:, 9]),
+        ("cushions_after", shots.features.cushions_after),
+    ):  # fmt: skip
+        np.testing.assert_array_equal(frame[column], values, err_msg=column)
+    table = carom.tables.pool_9ft()
+    grid = carom.simulate_batch(table, carom.balls([[0.5, 0.6]], v=[0.0, 0.5, 0.0]), carom.cue(speed=[[0.0], [0.0]], phi=[0.0, 1.0, 2.0]))
+    assert grid.to_dataframe().loc[(1, 2), "cue_phi"] == 2.0 and isinstance(grid.to_dataframe().index, pandas.MultiIndex)
+    assert "cue_phi" not in carom.simulate_batch(table, carom.balls([[0.5, 0.6]])).to_dataframe()
+
+
+def test_what_is_shown_is_short(breaks):
+    shots = breaks[0](features=True)
+    for shown in (shots, shots.features, shots[0], shots[0].table, shots.features[0]):
+        assert len(repr(shown)) < 250 and "\n" not in repr(shown), repr(shown)
+    assert "pocket (12, 10)" in repr(shots.features)
+    assert {"events", "final", "cue", "positions"} <= set(dir(shots[0]))
+
+
+def test_a_batch_of_one_makes_few_calls(calls):
+    """Those of C included."""
+    table, balls, cue = carom.tables.pool_9ft(), carom.balls([[0.5, 0.6], [0.7, 1.5]]), carom.cue(speed=3.0, phi=79.0)
+    carom.simulate_batch(table, balls, cue)
+    assert calls(lambda: carom.simulate_batch(table, balls, cue)) <= 80

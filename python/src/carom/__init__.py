@@ -6,9 +6,12 @@ balls from their slip speed. `trace` and `cushion_trace` follow one impact. `sim
 vectors are right-handed with z up. `dtypes` has the structured dtypes. Every call that computes releases the GIL.
 """
 
+import sys as _sys
+
 from carom import dtypes, racks, tables
 from carom._carom import ffi as _ffi
 from carom._carom import lib as _lib
+from carom._rows import listing as _listing
 from carom.collisions import ALL_THREADS, Outcome, alciatore, collide, impacts, mu_ball, trace
 from carom.cushions import cushion, cushion_impacts, cushion_trace
 from carom.derivatives import Flag, Tangents, jacobian, tangents
@@ -16,6 +19,9 @@ from carom.layouts import Table, balls, cue, place_ball, struck
 from carom.results import EventType, Features, Label, Shot, Shots
 from carom.shots import resume, simulate, simulate_batch
 from carom.status import CaromError, Status
+
+for _name in ("collisions", "cushions", "derivatives", "dtypes", "layouts", "racks", "results", "shots", "status", "tables"):
+    setattr(_sys.modules[f"carom.{_name}"], "__dir__", _listing(f"carom.{_name}"))
 
 __version__: str = _ffi.string(_lib.carom_version()).decode()
 

@@ -24,12 +24,14 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import _constants, _covariance, _from_events, _joint, _strikes, _summary, pictures
+from carom._rows import listing
 from carom.dtypes import Doubles
 from carom.results import Shot
 from carom.shots import ShotCushion, simulate
 from carom.tracks import Recording, TrackError, events, read
 
 __all__ = ["Fit", "fit", "main"]
+__dir__ = listing(__name__)
 
 Progress = Callable[[str, float], None]
 _FASTEST = 8.0  # m/s: no ball is faster

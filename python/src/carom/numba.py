@@ -25,11 +25,12 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import choice, pointer
+from carom._rows import choice, listing, pointer
 from carom.collisions import SLIPS, SOLVERS, Slip, Solver
 from carom.cushions import CONVENTIONS, LAWS, MODELS, CushionConvention, CushionLaw, CushionModel
 
 __all__ = ["collide", "cushion", "mu_ball"]
+__dir__ = listing(__name__)
 
 try:
     _types: Any = importlib.import_module("numba").types

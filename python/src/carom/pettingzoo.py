@@ -19,6 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes, pictures
+from carom._rows import listing
 from carom.nineball import NineBall, Turn
 from carom.pixels import pixels
 
@@ -31,6 +32,7 @@ except ImportError as missing:
     raise ImportError(message, name=missing.name) from missing
 
 __all__ = ["NineBallEnv"]
+__dir__ = listing(__name__)
 
 _PLAYERS = ("player_0", "player_1")
 

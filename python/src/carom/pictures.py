@@ -10,10 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
+from carom._rows import listing
 
 if TYPE_CHECKING:
     from carom.layouts import Table
     from carom.results import Shot
+
+__dir__ = listing(__name__)
 
 _SCALE = 300.0  # pixels a metre
 MARGIN = 0.12  # m around the cushions, for pockets and the frame

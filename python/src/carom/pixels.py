@@ -6,9 +6,12 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
+from carom._rows import listing
 from carom.layouts import Table
 from carom.pictures import CLOTH, CUSHION, MARGIN, POCKET, WOOD, colour, lies
 from carom.results import Label, Shot
+
+__dir__ = listing(__name__)
 
 Pixels = npt.NDArray[np.uint8]
 _PATH_POINTS = 4000

@@ -30,13 +30,15 @@ import numpy as np
 
 from carom import _constants
 from carom._events import Events, events, hit, impact, piece
+from carom._rows import listing
 from carom.dtypes import Doubles
 from carom.results import Shot
 from carom.shots import ShotCushion, simulate
 
 __all__ = [
     "MOVED", "NOISE", "Events", "Recording", "Synthetic", "TrackError", "events", "hit", "impact", "piece", "read", "synthetic",
-]  # fmt: skip
+]
+__dir__ = listing(__name__)  # fmt: skip
 
 NOISE = 0.35e-3
 """m: standard deviation of a coordinate that a good camera gives for a slow ball, as found on real tracks."""
