@@ -121,10 +121,19 @@ def test_errors_reach_the_process_that_asked():
 
 
 def test_messages_name_arguments_of_python():
-    with pytest.raises(carom.CaromError, match=r"^threads must be carom\.ALL_THREADS, or 0 or more$"):
-        carom.collide(GOOD, threads=-7)
-    with pytest.raises(carom.CaromError, match=r"^steps must not be negative"):
-        carom.collide(GOOD, solver="euler", steps=-1)
+    cushions = carom.cushion_impacts(v=(0.0, 1.0, 0.0))
+    for message, call in (
+        (r"threads: .* from -1 to .*, not -7", lambda: carom.collide(GOOD, threads=-7)),
+        (r"steps: .* from 0 to .*, not -1", lambda: carom.collide(GOOD, solver="euler", steps=-1)),
+        (r"threads: .* from -1 to .*, not -2", lambda: carom.cushion(cushions, threads=-2)),
+        (r"least_step: it must be 0 or more .*, not -1.0", lambda: carom.cushion(cushions, least_step=-1.0)),
+        (r"least_step: it must be 0 or more .*, not nan", lambda: carom.cushion_trace(cushions, least_step=np.nan)),
+        (r"omega_ratio: it must be 0, or between 1 and 2, not 2.0", lambda: carom.cushion(cushions, model="stronge", omega_ratio=2.0)),
+        (r"model: must be 'mathavan' or 'euler', .* not 'han'", lambda: carom.cushion_trace(cushions, model="han")),
+        (r"points: .* from 2 to .*, not 1", lambda: carom.cushion_trace(cushions, 1)),
+    ):
+        with pytest.raises(ValueError, match=f"^{message}"):
+            call()
     assert "than events_most" in str(stopped())
     for status in carom.Status:
         assert "options." not in status.text
@@ -144,7 +153,7 @@ def test_messages_name_what_is_wrong_with_a_cue():
         ({"ball": 99}, "cue.ball", r"cue\.ball = 99: .* index of one of the balls, 0 to 9"),
         ({"ball": -1}, "cue.ball", "0 to 9"),
         ({"ball": 3}, "cue.ball", r"cue\.ball = 3: this ball is out of play"),
-        ({"a": 0.8, "b": 0.8}, "cue", "the tip misses the ball"),
+        ({"a": 0.8, "b": 0.8}, "cue.a, cue.b", r"cue\.a, cue\.b = 0\.8, 0\.8: the tip misses the ball: .* must be below"),
     ):
         with pytest.raises(carom.CaromError, match=message) as caught:
             carom.simulate(table, rack, carom.cue(**given))

@@ -96,7 +96,7 @@ def test_bad_options(impacts):
     with pytest.raises(ValueError, match="solver: must be one of 'exact', 'euler', not 'exakt'"):
         carom.collide(impacts, solver="exakt")
     for options in ({"steps": -1}, {"threads": -7}):
-        with pytest.raises(carom.CaromError, match=next(iter(options))):
+        with pytest.raises(ValueError, match=rf"^{next(iter(options))}: it must be a whole number from -?\d to .*, not -\d$"):
             carom.collide(impacts, **options)
     with pytest.raises(ValueError, match=r"\(\.\.\., 26\)"):
         carom.collide(np.zeros((4, 25)))
@@ -138,7 +138,7 @@ def test_trace(impacts):
     assert points.shape == (11,) and points["normal"][0] == 0 and (np.diff(points["normal"]) > 0).all()
     end = carom.collide(impacts[0]).motion
     np.testing.assert_allclose(points["state"][-1]["a"]["v"], end[:3], atol=1e-5)
-    with pytest.raises(carom.CaromError, match="at least 2 points"):
+    with pytest.raises(ValueError, match="points: it must be a whole number from 2 to .*, not 1"):
         carom.trace(impacts[0], 1)
 
 

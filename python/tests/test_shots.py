@@ -359,7 +359,7 @@ def test_a_bad_shot_costs_itself():
     cues = carom.cue(speed=5.0, a=[0.0, 0.9, 0.1], b=0.5)
     shots = carom.simulate_batch(table, rack, cues, cushion_model="han")
     assert shots.status.tolist() == [0, carom.Status.ERROR_MISCUE, 0]
-    assert shots.failures() == [((1,), f"cue: {carom.Status.ERROR_MISCUE.text}")]
+    assert shots.failures() == [((1,), f"cue.a, cue.b = 0.9, 0.5: {carom.Status.ERROR_MISCUE.text}")]
     assert shots.final[2].tobytes() == carom.simulate(table, rack, cues[2], cushion_model="han").final.tobytes()
 
 
@@ -575,8 +575,22 @@ def test_each_bad_argument_has_its_message():
     ):
         with pytest.raises((ValueError, TypeError), match=f"^{message}"):
             call()
-    shots = carom.simulate_batch(table, rack, carom.cue(speed=[1.0, np.nan], ball=[99, 0]))
-    assert [(index, text.partition(":")[0]) for index, text in shots.failures()] == [((0,), "cue.ball = 99"), ((1,), "cue.speed = nan")]
+    for message, call in (
+        ("balls = 40: a shot has 1 to 32 balls", lambda: carom.simulate(table, np.repeat(rack, 4))),
+        ("layouts = 40: a shot has 1 to 32 balls", lambda: carom.simulate_batch(table, np.repeat(rack, 4))),
+        ("x, y = nan, 0.5: a position must be finite", lambda: carom.place_ball(table, rack, 0, np.nan, 0.5)),
+        ("kind.mass = -1.0: a mass must be positive", lambda: carom.struck(cue, carom.balls([[0, 0]], mass=-1.0)["kind"][0])),
+        (r"balls\[0\].kind.mu_roll = 0.0: it must be above 0 and at most 1", lambda: carom.simulate(table, carom.balls([[0.3, 0.4]], mu_roll=0.0))),
+    ):
+        with pytest.raises(carom.CaromError, match=f"^{message}"):
+            call()
+    layouts = np.stack([rack] * 4)
+    layouts["kind"]["mass"][2, 3], layouts["state"]["r"][3, 5] = -1.0, 0.0
+    shots = carom.simulate_batch(table, layouts, carom.cue(speed=[1.0, np.nan, 1.0, 1.0], ball=[99, 0, 0, 0]))
+    told = [(index[0], text.partition(":")[0]) for index, text in shots.failures()]
+    assert told == [(0, "cue.ball = 99"), (1, "cue.speed = nan"), (2, "balls[3].kind.mass = -1.0"), (3, "balls[5].state.r = [0. 0. 0.]")]
+    with pytest.raises(carom.CaromError, match=r"^balls\[3\]\.kind\.mass = -1\.0"):
+        shots[2].positions(0.1)
 
 
 def test_radians_are_doubted():

@@ -38,8 +38,8 @@ def _options(solver: str, slip: str, steps: int, threads: int, plain: bool) -> A
         {
             "solver": choice(SOLVERS, solver, "solver"),
             "slip": choice(SLIPS, slip, "slip"),
-            "steps": whole(steps, "steps", least=-(2**31)),
-            "threads": whole(threads, "threads", least=-(2**31)),
+            "steps": whole(steps, "steps"),
+            "threads": whole(threads, "threads", least=ALL_THREADS),
             "plain": whole(plain, "plain", most=1),
         },
     )
@@ -149,7 +149,7 @@ def collide(
     Raises
     ------
     CaromError
-        One impact, of shape (26,) or (), that is in error, or options out of range.
+        One impact, of shape (26,) or (), that is in error.
     """
     array = rows(impacts, dtypes.impact, "impacts", single=True)
     options = _options(solver, slip, steps, threads, plain)
@@ -178,20 +178,9 @@ def collide(
             return int(batch(source + begin, count, options, target + begin, flags + begin))
 
         code = in_chunks(status.size, 2e-7 if solver == "exact" else 1e-8 * (steps or 1000), threads, solve)
-    if code < 0 and (shape == () or _options_at_fault(options)):
+    if code < 0 and shape == ():
         raise _error(code, array, options)
     return Outcome(motion, status)
-
-
-def _options_at_fault(options: Any) -> bool:
-    """Whether the options are what is wrong: an impact that is right in all else tells."""
-    return bool(lib.carom_check(_good(), options, ffi.NULL) < 0)
-
-
-@functools.cache
-def _good() -> Any:
-    good = impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0))
-    return ffi.new("carom_impact *", ffi.from_buffer("carom_impact[]", good)[0])
 
 
 def _error(code: int, array: Array, options: Any) -> CaromError:
@@ -266,13 +255,13 @@ def trace(
     Raises
     ------
     CaromError
-        The impact is in error, or points or options are.
+        The impact is in error.
     """
     array = rows(impact, dtypes.impact, "impact")
     if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
         raise ValueError("impact: a trace is of one impact, of shape (26,), or structured of shape ()")
     options = _options(solver, slip, steps, 0, plain)
-    traced = np.zeros(max(points, 0), dtypes.trace_point)
+    traced = np.zeros(whole(points, "points", least=2), dtypes.trace_point)
     code = lib.carom_trace(pointer("carom_impact[]", array), options, traced.size, pointer("carom_trace_point[]", traced))
     if code < 0:
         raise _error(code, array, options)

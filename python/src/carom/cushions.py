@@ -11,7 +11,7 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._rows import INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows, whole
-from carom.collisions import Outcome
+from carom.collisions import ALL_THREADS, Outcome
 from carom.status import CaromError
 
 CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler"]
@@ -27,14 +27,18 @@ def _options(
     model: str, convention: str, law: str, steps: int, threads: int, least_step: float, omega_ratio: float, plain: bool
 ) -> Any:
     """The options of C; they are never written to."""
+    if not 0.0 <= least_step < np.inf:
+        raise ValueError(f"least_step: it must be 0 or more and finite, in N s, not {least_step!r}")
+    if omega_ratio != 0.0 and not 1.0 < omega_ratio < 2.0:
+        raise ValueError(f"omega_ratio: it must be 0, or between 1 and 2, not {omega_ratio!r}")
     return ffi.new(
         "carom_cushion_options *",
         {
             "model": choice(MODELS, model, "model"),
             "convention": choice(CONVENTIONS, convention, "convention"),
             "law": choice(LAWS, law, "law"),
-            "steps": whole(steps, "steps", least=-(2**31)),
-            "threads": whole(threads, "threads", least=-(2**31)),
+            "steps": whole(steps, "steps"),
+            "threads": whole(threads, "threads", least=ALL_THREADS),
             "least_step": least_step,
             "omega_ratio": omega_ratio,
             "plain": whole(plain, "plain", most=1),
@@ -142,7 +146,7 @@ def cushion(
     Raises
     ------
     CaromError
-        One impact, of shape (15,) or (), that is in error, or options out of range.
+        One impact, of shape (15,) or (), that is in error.
     """
     array = rows(impacts, dtypes.cushion_impact, "impacts")
     options = _options(model, convention, law, steps, threads, least_step, omega_ratio, plain)
@@ -163,15 +167,9 @@ def cushion(
 
     seconds = 1e-5 if model == "mathavan" else 1e-7 * (steps or 1000) if model == "euler" else 1e-7
     code = in_chunks(status.size, seconds, threads, solve)
-    if code < 0 and (shape == () or lib.carom_cushion_check(_good(), options, ffi.NULL) < 0):
+    if code < 0 and shape == ():
         raise _error(code, array, options)
     return Outcome(motion, status)
-
-
-@functools.cache
-def _good() -> Any:
-    """An impact with nothing wrong, by which options at fault are told from rows at fault."""
-    return ffi.new("carom_cushion_impact *", pointer("carom_cushion_impact[]", cushion_impacts(v=(0.0, 1.0, 0.0)))[0])
 
 
 def _error(code: int, array: Array, options: Any) -> CaromError:
@@ -213,13 +211,15 @@ def cushion_trace(
     Raises
     ------
     CaromError
-        The impact is in error, or points or options are.
+        The impact is in error.
     """
     array = rows(impact, dtypes.cushion_impact, "impact")
     if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
         raise ValueError("impact: a trace is of one impact, of shape (15,), or structured of shape ()")
+    if model not in ("mathavan", "euler"):
+        raise ValueError(f"model: must be 'mathavan' or 'euler', which can be followed, not {model!r}")
     options = _options(model, convention, law, steps, 0, least_step, 0.0, plain)
-    traced = np.zeros(max(points, 0), dtypes.cushion_point)
+    traced = np.zeros(whole(points, "points", least=2), dtypes.cushion_point)
     code = lib.carom_cushion_trace(
         pointer("carom_cushion_impact[]", array), options, traced.size, pointer("carom_cushion_point[]", traced)
     )

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
+from carom._faults import cue_error, fault, is_of_cue
 from carom._rows import Array, as_array, choice, copied, fill, whole
 from carom.status import CaromError, Status
 
@@ -189,8 +190,12 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
     code = lib.carom_place_ball(of_table, layout, len(placed), number, x, y, way)
     if code in (lib.CAROM_ERROR_OVERLAP, lib.CAROM_ERROR_OFF_TABLE):
         raise CaromError(code, _part(way), text=f"is in the way of ball {number} at x = {x} m, y = {y} m; a free place on the table is needed")
+    if code == lib.CAROM_ERROR_POSITION:
+        raise CaromError(code, "x, y", f"{x}, {y}")
+    if code == lib.CAROM_ERROR_RADIUS:
+        raise fault(code, f"balls[{number}].kind", placed[number]["kind"])
     if code < 0:
-        raise CaromError(code)
+        raise CaromError(code, "balls" if code == lib.CAROM_ERROR_BALLS else _part(way))
     return placed
 
 
@@ -365,26 +370,6 @@ def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
         )
 
 
-def cue_error(status: int, cue: dtypes.Records, balls: dtypes.Records | None = None) -> CaromError:
-    """The exception for a cue that C refuses, with the field at fault; `balls` is the layout, if there is one."""
-    number = int(cue["ball"])
-    if balls is not None and not 0 <= number < len(balls):
-        return CaromError(status, "cue.ball", number, text=f"it must be the index of one of the balls, 0 to {len(balls) - 1}")
-    if balls is not None and balls["state"]["label"][number] in (lib.CAROM_BALL_POCKETED, lib.CAROM_BALL_OFF):
-        return CaromError(status, "cue.ball", number, text="this ball is out of play; a ball on the table must be struck")
-    for field, low, high, text in (
-        ("speed", 0.0, 1e3, "it must be 0 to 1000 m/s"),
-        ("phi", -1e9, 1e9, "it must be a direction in degrees"),
-        ("theta", 0.0, 90.0, "it must be 0 to 90 degrees"),
-        ("miscue", 0.0, 1.0, "it must be 0 to 1"),
-        ("mass", 5e-324, 1.7976931348623157e308, "it must be positive and finite"),
-        ("end_mass", 5e-324, 1.7976931348623157e308, "it must be positive and finite"),
-    ):
-        if not low <= cue[field] <= high:
-            return CaromError(status, f"cue.{field}", float(cue[field]), text=text)
-    return CaromError(status, "cue")
-
-
 def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
     """The motion of a ball at rest after a strike.
 
@@ -406,8 +391,6 @@ def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
         ffi.from_buffer("carom_motion[]", motion),
     ]
     code = lib.carom_strike(*arguments)
-    if code in (lib.CAROM_ERROR_CUE, lib.CAROM_ERROR_MISCUE):
-        raise cue_error(code, strike)
     if code < 0:
-        raise CaromError(code)
+        raise cue_error(code, strike) if is_of_cue(code) else fault(code, "kind", ball[0])
     return motion

@@ -12,9 +12,10 @@ import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
+from carom._faults import argument_error, shot_arguments
 from carom._rows import INT8, Array, Arrays, addresses, as_array, in_chunks, one_or_all, pointer, spread
 from carom._shot_options import Options, shot_options
-from carom.layouts import Table, cue_error
+from carom.layouts import Table
 from carom.status import CaromError, Status
 
 if TYPE_CHECKING:
@@ -274,7 +275,7 @@ class _OfBatch(Shot):
         index: tuple[Any, ...] = self.index if isinstance(self.index, tuple) else (self.index,)
         seen, codes = self.batch[(*index, ...)].look_at(times, dtype, numbers, 0)
         if codes[0] < 0:
-            raise CaromError(int(self.status) if self.status < 0 and self.time == 0.0 else int(codes[0]))
+            raise self.batch.error(self.index) if self.status < 0 and self.time == 0.0 else CaromError(int(codes[0]))
         return seen
 
     def _at(self, at: dtypes.Doubles, out: Array, numbers: int, ctype: str, look: Callable[..., int]) -> None:
@@ -580,14 +581,13 @@ class Shots:
 
     def failures(self) -> list[tuple[tuple[int, ...], str]]:
         """The index of each shot that ended in an error, and the error."""
-        return [(index, self._why(index)) for index in (tuple(int(k) for k in row) for row in np.argwhere(self.status < 0))]
+        return [(index, str(self.error(index))) for index in (tuple(int(k) for k in row) for row in np.argwhere(self.status < 0))]
 
-    def _why(self, index: tuple[int, ...]) -> str:
-        status = Status(int(self.status[index]))
-        if self.cues is None or status not in (Status.ERROR_CUE, Status.ERROR_MISCUE):
-            return status.text
-        layout = np.broadcast_to(self.layouts, self.final.shape)[index]
-        return str(cue_error(status, np.broadcast_to(self.cues, self.shape)[index], layout))
+    def error(self, index: Any) -> CaromError:
+        """The exception for a shot that ended in an error, with the argument at fault if it was refused."""
+        shot = self[index]
+        error = argument_error(shot_arguments(self.table, shot.balls, shot.cue, shot_options(self.options)), shot.balls, shot.cue)
+        return error if error is not None and error.status == shot.status else CaromError(shot.status)
 
     def __repr__(self) -> str:
         return f"<carom.Shots: {self.shape}, {int((self.status < 0).sum())} in error>"

@@ -10,6 +10,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._carom import ffi, lib
+from carom._faults import argument_error, shot_arguments
 from carom._rows import INT8, Array, apart, broadcast, copied, in_chunks, output, pointer, whole
 from carom._shot_options import BallModel as BallModel
 from carom._shot_options import Friction as Friction
@@ -18,7 +19,7 @@ from carom._shot_options import ShotCushion as ShotCushion
 from carom._shot_options import Space as Space
 from carom._shot_options import StopAt as StopAt
 from carom._shot_options import World as World
-from carom.layouts import Table, check_table, cue_error, of_record, one_cue
+from carom.layouts import Table, check_table, of_record, one_cue
 from carom.results import Shot, Shots
 from carom.status import CaromError, Status
 
@@ -91,15 +92,12 @@ def simulate(
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}; simulate_batch plays many layouts")
     check_table(table)
     table, layout = Table.from_record(table.record), copied(layout)
-    strike: Any = ffi.NULL
-    if cue is not None:
-        cue = copied(one_cue(cue))
-        strike = pointer("carom_cue[]", cue)
+    cue = None if cue is None else copied(one_cue(cue))
     chosen = Options(world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, hashable(stop_at))
     state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if t_final is not None or stop_at else None
-    arguments = (pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", layout), len(layout), strike, shot_options(chosen))
-    if lib.carom_shot_check(*arguments, ffi.NULL) < 0:
-        raise _argument_error(arguments, layout, cue)
+    arguments = shot_arguments(table, layout, cue, shot_options(chosen))
+    if (error := argument_error(arguments, layout, cue)) is not None:
+        raise error
     begun = Shot(table, layout, 0, 0.0, 0, _NO_EVENTS, layout["state"], cue, chosen, state)
     return _run(begun, lambda shot: lib.carom_shoot(*arguments, shot))
 
@@ -258,64 +256,5 @@ def simulate_batch(
         job = shots.jobs(options)
         code = in_chunks(shots.status.size, 5e-5, threads, lambda begin, many: int(lib.carom_shoot_batch(job(begin, many))))
     if code < 0 and not (shots.status < 0).any():
-        raise CaromError(code)
+        raise CaromError(code, "layouts", count) if code == Status.ERROR_BALLS else CaromError(code, "table")
     return shots
-
-
-# Which field of a ball a status is about.
-_BALL_FIELDS = {
-    Status.ERROR_POSITION: "state.r",
-    Status.ERROR_VELOCITY: "state.v",
-    Status.ERROR_VERTICAL: "state.v",
-    Status.ERROR_SPIN: "state.w",
-    Status.ERROR_LABEL: "state.label",
-    Status.ERROR_OVERLAP: "state.r",
-    Status.ERROR_OFF_TABLE: "state.r",
-    Status.ERROR_RADIUS: "kind.radius",
-    Status.ERROR_RADII_DIFFER: "kind.radius",
-    Status.ERROR_MASS: "kind.mass",
-    Status.ERROR_MASSES_DIFFER: "kind.mass",
-    Status.ERROR_MU_CUSHION: "kind.mu_cushion",
-    Status.ERROR_GRAVITY: "kind.gravity",
-    Status.ERROR_DRAG: "kind.drag",
-}
-
-
-def _argument_error(arguments: tuple[Any, ...], layout: Array, cue: Array | None) -> CaromError:
-    """The exception for arguments that carom_shot_check() refuses."""
-    where = ffi.new("int *", -1)
-    status = Status(lib.carom_shot_check(*arguments, where))
-    if cue is not None and status in (Status.ERROR_CUE, Status.ERROR_MISCUE):
-        return cue_error(status, cue, layout)
-    if status in (Status.ERROR_TABLE, Status.ERROR_NOSE_HEIGHT):
-        return CaromError(status, "table")
-    if not 0 <= where[0] < len(layout):
-        return CaromError(status)
-    kind = layout[where[0]]["kind"]
-    field = _BALL_FIELDS.get(status)
-    if status is Status.ERROR_MU_MOTION:
-        motions = ("mu_slide", "mu_roll", "mu_spin")
-        field = next((f"kind.{name}" for name in motions if not 0 < kind[name] <= 1), None)
-    if status is Status.ERROR_RESTITUTION:
-        restitutions = ("restitution", "restitution_cushion")
-        field = next((f"kind.{name}" for name in restitutions if not 0 <= kind[name] <= 1), None)
-        if field is None:
-            text = "it must be 0 to 0.98, or -1 for none"
-            return CaromError(status, f"balls[{where[0]}].kind.restitution_table", kind["restitution_table"], text=text)
-    if status is Status.ERROR_MU_BALL:
-        laws = ("law_a", "law_b", "law_c")
-        bad = (name for name in laws if not 0 <= kind[name] < np.inf or (name != "law_c" and kind[name] > 1))
-        field = "kind.mu_ball" if not 0 <= kind["mu_ball"] <= 1 else next((f"kind.{name}" for name in bad), None)
-    if status is Status.ERROR_BALL_CUSHION:
-        field = (
-            "kind.roll_loss"
-            if not 0 <= kind["roll_loss"] <= 1
-            else "kind.nose_height"
-            if not 0 <= kind["nose_height"] < 2 * kind["radius"]
-            else "kind.omega_ratio"
-        )
-    ball = f"balls[{where[0]}]"
-    if field is None:
-        return CaromError(status, ball)
-    group, name = field.split(".")
-    return CaromError(status, f"{ball}.{field}", layout[where[0]][group][name])
