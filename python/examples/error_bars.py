@@ -56,7 +56,7 @@ def covariances(J: Doubles, deviation: Doubles) -> Doubles:
 def predict(balls: carom.dtypes.Records, cue: carom.dtypes.Records) -> tuple[carom.Shot, Bars]:
     """A shot, and its error bars."""
     shot = carom.simulate(table, balls, cue)
-    found, deviation = carom.tangents(shot, cue, NAMES), deviations(cue)
+    found, deviation = carom.tangents(shot, NAMES), deviations(cue)
     return shot, Bars(deviation, covariances(found.final["r"], deviation), found.reach / deviation)
 
 
@@ -103,7 +103,7 @@ def band(axes: Axes, shot: carom.Shot, cue: carom.dtypes.Records, ball: int, col
     own = shot.events[(shot.events["a"] == ball) | ((shot.events["type"] == carom.EventType.BALL_BALL) & (shot.events["b"] == ball))]
     corners = np.array([0.0, *own["time"], shot.time])
     times = np.unique(np.concatenate([np.linspace(0.0, shot.time, 200), corners, np.maximum(corners - 1e-6, 0.0)]))
-    found = carom.tangents(shot, cue, NAMES, times=times)
+    found = carom.tangents(shot, NAMES, times=times)
     covariance = covariances(found.at["r"][:, ball], deviations(cue))
     states = shot.states(times)
     r, v = states["r"][:, ball, :2], states["v"][:, ball, :2]

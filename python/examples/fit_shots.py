@@ -88,7 +88,7 @@ class Plays:
     def jacobian(self, x: Doubles, shots: carom.Shots, differences: bool) -> Doubles:
         """Derivatives of the places by the constants, (numbers, 5)."""
         if not differences:
-            return carom.tangents(shots, None, [f"kind.{name}" for name in NAMES], times=TIMES).at["r"].reshape(-1, 5)
+            return carom.tangents(shots, [f"kind.{name}" for name in NAMES], times=TIMES).at["r"].reshape(-1, 5)
         first = self.places(shots)
         moved = [self.places(self.play(x + step)) for step in np.diag(DIFFERENCE * x)]
         return np.stack([(other - first).ravel() / (DIFFERENCE * value) for other, value in zip(moved, x)], axis=-1)

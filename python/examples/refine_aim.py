@@ -26,11 +26,10 @@ OFF = np.array([0.03, 0.3, 0.2, 0.2])  # by how much a start is off, in scales
 table = carom.tables.pool_9ft()
 
 
-def play(x: Doubles, balls: carom.dtypes.Records) -> tuple[carom.Shot, carom.dtypes.Records] | None:
+def play(x: Doubles, balls: carom.dtypes.Records) -> carom.Shot | None:
     """The shot of a strike; None where that is in error."""
-    cue = carom.cue(speed=x[0], phi=x[1], a=x[2], b=x[3])
     try:
-        return carom.simulate(table, balls, cue, cushion_model="han"), cue
+        return carom.simulate(table, balls, carom.cue(speed=x[0], phi=x[1], a=x[2], b=x[3]), cushion_model="han")
     except carom.CaromError:
         return None
 
@@ -43,20 +42,19 @@ def ends(shot: carom.Shot) -> Doubles:
 def refine(start: Doubles, balls: carom.dtypes.Records, goal: Doubles, steps: int = 12) -> tuple[Doubles, list[float]]:
     """The strike found from `start`, and the largest miss, m, before and after each step."""
     x = start
-    played = play(x, balls)
+    shot = play(x, balls)
     misses: list[float] = []
-    while played is not None:
-        shot, cue = played
+    while shot is not None:
         residuals = ends(shot) - goal
         misses.append(float(np.abs(residuals).max()))
         if misses[-1] < 1e-6 or len(misses) > steps:
             break
         # the step in scales, damped a little against directions in which nothing changes
-        J = carom.tangents(shot, cue, NAMES).final["r"].reshape(4, 4) * SCALES
+        J = carom.tangents(shot, NAMES).final["r"].reshape(4, 4) * SCALES
         step = -np.linalg.solve(J.T @ J + 1e-9 * np.eye(4), J.T @ residuals) * SCALES
         for _ in range(12):
-            played = play(x + step, balls)
-            if played is not None and np.abs(ends(played[0]) - goal).max() < misses[-1]:
+            shot = play(x + step, balls)
+            if shot is not None and np.abs(ends(shot) - goal).max() < misses[-1]:
                 break
             step *= 0.5
         else:
@@ -77,9 +75,9 @@ def tasks(draws: int, seed: int) -> list[tuple[carom.dtypes.Records, Doubles, Do
         cut = random.uniform(-0.6, 0.6) * 0.05715 / np.hypot(*d)
         x = np.array([random.uniform(0.8, 1.6), np.degrees(np.arctan2(d[1], d[0]) + cut), random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.3)])
         balls = carom.balls(centres)
-        played = play(x, balls)
-        if played is not None and not (played[0].final["label"] == carom.Label.POCKETED).any():
-            found.append((balls, x, ends(played[0]), x + random.normal(size=4) * OFF * SCALES))
+        shot = play(x, balls)
+        if shot is not None and not (shot.final["label"] == carom.Label.POCKETED).any():
+            found.append((balls, x, ends(shot), x + random.normal(size=4) * OFF * SCALES))
     return found
 
 

@@ -2,8 +2,9 @@
 
 Arrays are of any dtype, shape, order, stride and alignment, read-only, subclasses, masked, objects; numbers are huge, negative, NaN or
 none; anything may be None or a string. A call must return, or raise TypeError, ValueError (and so CaromError) or, where an array of the
-size asked for has no room, MemoryError, without a warning of NumPy's. What it reads stays as it was, and it writes nothing beside the arrays it is given. Crashes are
-for the process to show, and writes beside other arrays for the sanitizer of addresses: tests/fuzz/run builds the extension modules with it.
+size asked for has no room, MemoryError, without a warning of NumPy's. What it reads stays as it was, and it writes nothing beside the
+arrays it is given. Crashes are for the process to show, and writes beside other arrays for the sanitizer of addresses: tests/fuzz/run
+builds the extension modules with it.
 
 Each input has a seed of its own; every hundredth is printed, so a failure is among the hundred from the last one on. With Atheris, and
 `boundary.py --atheris ARGUMENTS...`, libFuzzer chooses the bytes instead.

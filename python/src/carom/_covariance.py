@@ -55,7 +55,7 @@ def derivatives(plays: Plays, row: int, strike: Doubles, names: list[str]) -> tu
     at = np.maximum(times - strike[5], 0.0)
     wrt = [f"balls[{struck}].v", f"balls[{struck}].w", *(f"kind.{name}" for name in names)]
     wrt += [f"balls[{ball}].r" for ball in range(len(balls))]
-    found = tangents(played, None, wrt, times=at).at["r"]
+    found = tangents(played, wrt, times=at).at["r"]
     states = played.states(at)
 
     distances, slopes = [], []

@@ -331,10 +331,11 @@ def cue(
     """
     for name, angle in (("phi", phi), ("theta", theta)):
         _doubt_radians(name, angle)
-    numbers = as_array(ball, "ball", np.float64)
-    whole_ones = (np.abs(numbers) < 2**31) & (np.trunc(numbers) == numbers)
-    if not whole_ones.all():
-        raise ValueError(f"ball: it must be the index of one of the balls, a whole number, not {numbers[~whole_ones].flat[0]}")
+    if type(ball) is not int or abs(ball) >= 2**31:
+        numbers = as_array(ball, "ball", np.float64)
+        whole_ones = (np.abs(numbers) < 2**31) & (np.trunc(numbers) == numbers)
+        if not whole_ones.all():
+            raise ValueError(f"ball: it must be the index of one of the balls, a whole number, not {numbers[~whole_ones].flat[0]}")
     return fill(
         dtypes.cue,
         {},

@@ -299,14 +299,14 @@ class Potting:
         """
         shots = simulate_batch(self.table, balls, self.cues(actions), cushion_model=self.cushion_model, threads=self.threads)
         before = balls if balls.shape == shots.final.shape else np.broadcast_to(balls, shots.final.shape)
-        played = (shots.status >= 0) & (shots.final["label"] != _OFF).all(axis=-1)
+        failed = (shots.status < 0) | (shots.final["label"] == _OFF).any(axis=-1)
         after = copied(before)
         after["state"] = shots.final
-        if not played.all():
-            after[~played] = before[~played]
+        if failed.any():
+            after[failed] = before[failed]
         down = (after["state"]["label"] == _POCKETED) & (before["state"]["label"] != _POCKETED)
         potted, scratch = down[..., 1:].sum(axis=-1), down[..., 0]
-        rewards = potted - 1.0 * (scratch | ~played)
+        rewards = potted - 1.0 * (scratch | failed)
         strokes = Strokes(after, rewards, potted, scratch, shots.status, shots.time)
         if self.reward is not None:
             own = np.asarray(self.reward(before, strokes), dtype=np.float64)
