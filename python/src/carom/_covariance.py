@@ -77,7 +77,9 @@ def of_strike(plays: Plays, row: int, strike: Doubles) -> Doubles:
     variance = float(d @ d) / max(len(d) - 6, 1)
     speed = float(np.hypot(strike[0], strike[1]))
     bounds = np.array([_SPEED, _SPEED, *3 * [_SPIN * speed + 0.2], _TIME])
-    P = np.linalg.inv(J_p.T @ J_p / variance + np.diag(bounds**-2.0)) / variance
+    # by R of the factorisation Q R, as the product J^T J has the square of its condition number
+    root = np.linalg.inv(np.linalg.qr(np.vstack([J_p / np.sqrt(variance), np.diag(1.0 / bounds)]), mode="r"))
+    P = root @ root.T / variance
     follow = P @ (J_p.T @ J_r) / np.sqrt(np.repeat(plays.recordings[row].still, 2))
     return np.asarray(variance * (P + follow @ follow.T))
 
