@@ -185,7 +185,8 @@ def test_statuses_are_those_of_c():
     from carom._carom import ffi
 
     header = (Path(__file__).parents[2] / "include" / "carom.h").read_text(encoding="utf-8")
-    names = {int(value): name for name, value in re.findall(r"^  CAROM_(\w+) = (-?\d+),?", header[header.index("enum carom_status") :].partition("}")[0], re.M)}
+    enumerators = header[header.index("enum carom_status") :].partition("}")[0]
+    names = {int(value): name for name, value in re.findall(r"^  CAROM_(\w+) = (-?\d+),?", enumerators, re.M)}
     assert {status.value: status.name for status in carom.Status} == names and len(names) > 50
     assert list(carom.Status)[:3] == [0, 1, -1] and pickle.loads(pickle.dumps(carom.Status.ERROR_CUE)) is carom.Status.ERROR_CUE
     assert carom.Status.ERROR_MASS.text == "a mass must be positive and finite"

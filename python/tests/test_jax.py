@@ -154,7 +154,8 @@ def test_batches_of_layouts_cues_and_numbers():
         for name, part in zip(numbers, (tangents[..., 0], tangents[..., 1:3], tangents[..., 3])):
             expected[name].append(part)
     # of a sum over the batch, each shot has its own slope by its own number, and all of them one by a number for all
-    own = {"cue.phi": np.moveaxis(np.reshape(expected["cue.phi"], (2, 3, 2, 2)), (0, 1), (2, 3)), "kind.mu_slide": np.sum(expected["kind.mu_slide"], axis=0)}
+    own = {"kind.mu_slide": np.sum(expected["kind.mu_slide"], axis=0)}
+    own["cue.phi"] = np.moveaxis(np.reshape(expected["cue.phi"], (2, 3, 2, 2)), (0, 1), (2, 3))
     own["balls[1].r"] = np.moveaxis(np.reshape(expected["balls[1].r"], (2, 3, 2, 2, 2)).sum(axis=0), 0, 2)
     for name, slope in slopes.items():
         assert np.abs(slope).max() > 0.0

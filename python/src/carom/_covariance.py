@@ -30,7 +30,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from carom import _constants, _joint
+from carom import _joint
 from carom._strikes import HUBER, Plays
 from carom.derivatives import tangents
 from carom.dtypes import Doubles

@@ -80,7 +80,8 @@ class Potting:
     strokes : int
         At least 1.
     table : Table, optional
-        A rectangular one with pockets, of which 0 <= x <= width, 0 <= y <= length is the bed; by default `carom.tables.snooker()` for balls of snooker, otherwise `pool_9ft()`.
+        A rectangular one with pockets, of which 0 <= x <= width, 0 <= y <= length is the bed; by default `carom.tables.snooker()` for
+        balls of snooker, otherwise `pool_9ft()`.
     ball_set : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
         Whose balls they are, as for `carom.balls`.
     noise : tuple of three floats
