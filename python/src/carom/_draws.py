@@ -5,6 +5,7 @@ Draw i of a game is SplitMix64 at key + i steps (Steele, Lea, Flood, OOPSLA 2014
 
 from __future__ import annotations
 
+import functools
 import math
 
 import numpy as np
@@ -13,7 +14,13 @@ import numpy.typing as npt
 from carom import dtypes
 
 Games = npt.NDArray[np.int64]
-_STEP = np.uint64(0x9E3779B97F4A7C15)
+_MIX = ((np.uint64(30), np.uint64(0xBF58476D1CE4E5B9)), (np.uint64(27), np.uint64(0x94D049BB133111EB)))
+_11, _31 = np.uint64(11), np.uint64(31)
+
+
+@functools.cache
+def _steps(many: int) -> npt.NDArray[np.uint64]:
+    return np.uint64(0x9E3779B97F4A7C15) * np.arange(1, many + 1, dtype=np.uint64)
 
 
 class Draws:
@@ -32,12 +39,14 @@ class Draws:
 
     def uniform(self, games: Games, *shape: int) -> dtypes.Doubles:
         """Numbers from 0 to 1, without 1, of shape (len(games), *shape)."""
-        z = self._at[games][:, np.newaxis] + _STEP * np.arange(1, math.prod(shape) + 1, dtype=np.uint64)
+        z = self._at[games][:, np.newaxis] + _steps(math.prod(shape))
         self._at[games] = z[:, -1]
-        z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-        z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-        z ^= z >> np.uint64(31)
-        numbers: dtypes.Doubles = (z >> np.uint64(11)) * 2.0**-53
+        for shift, factor in _MIX:
+            z ^= z >> shift
+            z *= factor
+        z ^= z >> _31
+        z >>= _11
+        numbers: dtypes.Doubles = np.multiply(z, 2.0**-53, dtype=np.float64)
         return numbers.reshape(len(games), *shape)
 
     def normal(self, games: Games, many: int) -> dtypes.Doubles:

@@ -145,9 +145,12 @@ class Potting:
         ball = layouts.balls(np.zeros((1, 2)), game=ball_set)
         self._ball = ball.tobytes()
         self.radius = float(ball["kind"]["radius"][0])
-        # What a ball that is placed has to be clear of: pockets and the rounded ends of cushions, each with the least distance, m.
+        # What a ball that is placed has to be clear of: pockets and the rounded ends of cushions, each with the square of the least
+        # distance, m^2; and the bounds of its place.
         self._fixed = np.concatenate([self.table.pockets["centre"], self.table.jaws["centre"]])
-        self._clear = np.concatenate([self.table.pockets["radius"], self.table.jaws["radius"]]) + self.radius + _GAP
+        self._clear = (np.concatenate([self.table.pockets["radius"], self.table.jaws["radius"]]) + self.radius + _GAP) ** 2
+        self._low = np.full(2, self.radius + _GAP)
+        self._wide = (size - self._low) - self._low
         self.parameters = dict(parameters or {})
         self._check_parameters()
 
@@ -250,15 +253,13 @@ class Potting:
 
         Those of a game are drawn together until all are clear of each other, of what is fixed, and of balls, (len(games), n, 2).
         """
-        low = np.full(2, self.radius + _GAP)
-        high = np.array([self.table.width, self.table.length]) - low
         others = np.zeros((len(games), 0, 2)) if taken is None else taken
         places = np.zeros((len(games), count, 2))
         left = np.arange(len(games))
         for _ in range(_TRIES):
             if len(left) == 0:
                 return places
-            drawn = low + (high - low) * draws.uniform(games[left], count, 2)
+            drawn = self._low + self._wide * draws.uniform(games[left], count, 2)
             places[left] = drawn
             left = left[~self.free(drawn, others[left])]
         raise ValueError(f"table: no free places for {count} balls in {_TRIES} draws: it is too small for {self.balls}")
@@ -266,14 +267,18 @@ class Potting:
     def free(self, places: dtypes.Doubles, taken: dtypes.Doubles) -> npt.NDArray[np.bool_]:
         """Whether places of balls, (..., n, 2), are clear of each other, of pockets and jaws, and of balls, (..., m, 2)."""
         x, y = places[..., 0, np.newaxis], places[..., 1, np.newaxis]
-        apart = (x - taken[..., np.newaxis, :, 0]) ** 2 + (y - taken[..., np.newaxis, :, 1]) ** 2
+
+        def squares(of: dtypes.Doubles) -> dtypes.Doubles:
+            return np.asarray((x - of[..., np.newaxis, :, 0]) ** 2 + (y - of[..., np.newaxis, :, 1]) ** 2)
+
+        apart = (2.0 * self.radius + _GAP) ** 2
+        clear = (squares(self._fixed) > self._clear).all(axis=(-2, -1))
+        if taken.shape[-2] > 0:
+            clear &= (squares(taken) > apart).all(axis=(-2, -1))
         if places.shape[-2] > 1:
-            each = (x - places[..., np.newaxis, :, 0]) ** 2 + (y - places[..., np.newaxis, :, 1]) ** 2
-            own = np.arange(places.shape[-2])
+            each, own = squares(places), np.arange(places.shape[-2])
             each[..., own, own] = np.inf
-            apart = np.concatenate([each, apart], axis=-1)
-        fixed = (x - self._fixed[:, 0]) ** 2 + (y - self._fixed[:, 1]) ** 2
-        clear = (apart > (2.0 * self.radius + _GAP) ** 2).all(axis=(-2, -1)) & (fixed > self._clear**2).all(axis=(-2, -1))
+            clear &= (each > apart).all(axis=(-2, -1))
         return np.asarray(clear)
 
     def disturbed(self, actions: npt.ArrayLike, draws: Draws, games: Games) -> dtypes.Doubles:
