@@ -59,7 +59,8 @@ def fault(status: int, name: str, record: dtypes.Records) -> CaromError:
     field = word.removeprefix("cue_") if word.startswith("cue_") else _NAMES.get(word, word)
     if field not in (record.dtype.names or ()) or word in _SHARED:
         return CaromError(status, name)
-    return CaromError(status, f"{name}.{field}", record[field] if record[field].ndim else record[field].item())
+    text = Status(status).text.replace(f"{name}.{field} must", "it must")
+    return CaromError(status, f"{name}.{field}", record[field] if record[field].ndim else record[field].item(), text=text)
 
 
 def is_of_cue(status: int) -> bool:
