@@ -1,6 +1,6 @@
 /* The one place where the arguments of a shot are checked, by the conditions of the comments in carom_shot.h: what is common to
  * a batch once; a layout, its cue, and whether the table suits the radius of its balls, for each. */
-#include "shot/sim.h"
+#include "shot/rules.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -20,7 +20,7 @@ static bool zero_or_positive(double x) {
   return x >= 0.0 && x < INFINITY;
 }
 static bool is_flat(const carom_shot_options *o) {
-  return o->world == CAROM_WORLD_POOLTOOL || o->space == CAROM_SPACE_FLAT;
+  return carom_rules_of(o->world)->flat || o->space == CAROM_SPACE_FLAT;
 }
 
 static carom_status check_options(const carom_shot_options *o) {
@@ -350,7 +350,7 @@ carom_status carom_check_common(const carom_table *table, int64_t count, const c
 
 carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                 const carom_cue *cue, const carom_shot_options *opt, int *where) {
-  const bool one_mass = opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
+  const bool one_mass = carom_rules_of(opt->world)->one_mass || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
   const bool flat = is_flat(opt);
   carom_status bad = prepare_for(table, balls, count, flat, features, where);
   if (bad != CAROM_OK)

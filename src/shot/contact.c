@@ -14,8 +14,8 @@
  * event detection in event-driven particle dynamics, Comp. Part. Mech. 1 (2014) 191-198.
  *
  * PRESSED. Things that touch, do not close and are accelerated into each other are in contact once their gap is 0 and by
- * `slack` less than at its greatest, not at once. They close at sqrt(2 slack acceleration) or more there, some 2e-6 m/s for a
- * sliding ball. At once they would close at 0, part at 0 where they have no spin, and be found again at the same instant
+ * CAROM_SLACK less than at its greatest, not at once. They close at sqrt(2 slack acceleration) or more there, some 2e-6 m/s for
+ * a sliding ball. At once they would close at 0, part at 0 where they have no spin, and be found again at the same instant
  * without end. Where only rounding presses them, as where a ball slides along a rail that it touches, their paths end before
  * the gap has fallen by so much, and there is no contact. */
 #include "shot/contact.h"
@@ -123,9 +123,9 @@ static void add_height(const carom_separation *d, quartic *f) {
 }
 
 /* The first contact of things whose squared distance is f + reach^2. */
-static inline double first_contact(quartic f, double reach, double slack, double horizon) {
+static inline double first_contact(quartic f, double reach, double horizon) {
   const double small = 1e-12 * reach * reach;
-  if (f.c[0] > 2.0 * reach * slack)
+  if (f.c[0] > 2.0 * reach * CAROM_SLACK)
     return zero_from_left(&f, 0.0, horizon, small);
   if (f.c[1] < -2.0 * reach * CAROM_NO_SPEED)
     return 0.0;
@@ -133,18 +133,18 @@ static inline double first_contact(quartic f, double reach, double slack, double
   const double turn = end_of_rise(&f, 0.0, horizon);
   if (!(turn <= horizon))
     return INFINITY;
-  f.c[0] += carom_greater(2.0 * reach * slack - value(&f, turn), 0.0);
+  f.c[0] += carom_greater(2.0 * reach * CAROM_SLACK - value(&f, turn), 0.0);
   return zero_from_left(&f, turn, horizon, small);
 }
 
-double carom_first_contact(const carom_separation *d, double reach, double slack, double horizon) {
-  return first_contact(squared(d, reach), reach, slack, horizon);
+double carom_first_contact(const carom_separation *d, double reach, double horizon) {
+  return first_contact(squared(d, reach), reach, horizon);
 }
 
-double carom_first_contact_in_space(const carom_separation *d, double reach, double slack, double horizon) {
+double carom_first_contact_in_space(const carom_separation *d, double reach, double horizon) {
   quartic f = squared(d, reach);
   add_height(d, &f);
-  return first_contact(f, reach, slack, horizon);
+  return first_contact(f, reach, horizon);
 }
 
 double carom_first_crossing(const carom_separation *d, double reach, double horizon) {

@@ -11,6 +11,10 @@
 
 /* Touching things that close at less than this, m/s, do so by rounding. */
 #define CAROM_NO_SPEED 1e-11
+/* A gap, m, up to which things that close are in contact. */
+#define CAROM_SLACK 1e-12
+/* A ball that is deeper than this, m, in a rail or a nose is not in contact with it. */
+#define CAROM_BEHIND 1e-6
 
 /* d(t) = d0 + d1 t + d2 t^2: from one centre to the other. The third coordinate is read only where a function says so. */
 typedef struct carom_separation {
@@ -21,14 +25,14 @@ typedef struct carom_separation {
  */
 double carom_first_crossing(const carom_separation *d, double reach, double horizon);
 
-/* The first time in [0, horizon] when |d(t)| <= reach and falling, or infinity. `slack`, m: a start with a gap up to that,
- * closing, is a contact now; one that does not close is in contact where the gap has fallen by that from its greatest. */
-double carom_first_contact(const carom_separation *d, double reach, double slack, double horizon);
+/* The first time in [0, horizon] when |d(t)| <= reach and falling, or infinity. A start with a gap up to CAROM_SLACK, closing,
+ * is a contact now; one that does not close is in contact where the gap has fallen by that from its greatest. */
+double carom_first_contact(const carom_separation *d, double reach, double horizon);
 
 /* The same in space, with the third coordinate. */
-double carom_first_contact_in_space(const carom_separation *d, double reach, double slack, double horizon);
+double carom_first_contact_in_space(const carom_separation *d, double reach, double horizon);
 
-/* The same for a gap of g[0] + g[1] t + g[2] t^2: the first time when it is <= 0 and falling. */
+/* The same for a gap of g[0] + g[1] t + g[2] t^2, the first time when it is <= 0 and falling, with `slack`, m, instead. */
 double carom_first_touch(const double g[3], double slack, double horizon);
 
 /* Both real zeros of a polynomial of degree 2 or less, the earlier first; the number of them. */

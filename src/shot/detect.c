@@ -5,13 +5,9 @@
  * solving: features of the table by boxes; pairs along the line of centres, where n . d(t) > R_i + R_j on the whole way, n =
  * d(0)/|d(0)|. */
 #include "shot/contact.h"
-#include "shot/sim.h"
+#include "shot/rules.h"
 
 #include <math.h>
-
-static const double slack = 1e-12; /* m: a gap that counts as contact when it closes */
-static const double behind = 1e-6; /* m: farther behind a rail's surface than that, a ball is not in contact with it */
-static const double root_least = 2.220446049250313e-14; /* s: pooltool's EPS; earlier zeros are no contact with a rail */
 
 /* A path seen from now on: r + v t + a t^2. */
 typedef struct line_of_motion {
@@ -47,28 +43,14 @@ static double meet_rail(const carom_sim *sim, int k, double reach, const motion 
   const double *n = sim->features->line[k], *along = sim->features->along[k];
   const double g[3] = {n[0] * m->r[0] + n[1] * m->r[1] + n[2] - reach, n[0] * m->v[0] + n[1] * m->v[1],
                        n[0] * m->a[0] + n[1] * m->a[1]};
-  if (sim->pooltool) { /* any zero counts, coming or going */
-    double zero[2];
-    const int zeros = carom_quadratic_zeros(g[2], g[1], g[0], zero);
-    for (int z = 0; z < zeros; z++)
-      if (zero[z] > root_least && zero[z] <= T) {
-        const double s = place(along, m, zero[z]);
-        if (s >= 0.0 && s <= 1.0)
-          return zero[z];
-      }
-    return INFINITY;
+  double times[2];
+  const int count = sim->rules->touch_rail(g, T, times);
+  for (int z = 0; z < count; z++) {
+    const double s = place(along, m, times[z]);
+    if (s >= 0.0 && s <= 1.0)
+      return times[z];
   }
-  double t;
-  if (g[0] < -behind) { /* coming out of the cushion's back and falling onto it is the only way */
-    const double D = g[1] * g[1] - 4.0 * g[2] * g[0];
-    t = g[2] < 0.0 && D > 0.0 && g[1] > 0.0 ? (-g[1] - sqrt(D)) / (2.0 * g[2]) : INFINITY;
-  } else {
-    t = carom_first_touch(g, slack, T);
-  }
-  if (!(t <= T))
-    return INFINITY;
-  const double s = place(along, m, t);
-  return s >= 0.0 && s <= 1.0 ? t : INFINITY;
+  return INFINITY;
 }
 
 static carom_separation from_point(const double centre[2], const motion *m) {
@@ -90,17 +72,13 @@ static double meet_jaw(const carom_sim *sim, int k, double radius, const motion 
   const double reach = jaw->radius + radius;
   if (stays_away(&d, reach, T))
     return INFINITY;
-  return sim->pooltool ? carom_first_crossing(&d, reach, T) : carom_first_contact(&d, reach, slack, T);
+  return sim->rules->touch_jaw(&d, reach, T);
 }
 
 static double meet_pocket(const carom_sim *sim, int k, const motion *m, double T) {
   const carom_pocket *pocket = &sim->table->pocket[k];
   const carom_separation d = from_point(pocket->centre, m);
-  if (stays_away(&d, pocket->radius, T))
-    return INFINITY;
-  if (!sim->pooltool && d.d0[0] * d.d0[0] + d.d0[1] * d.d0[1] <= pocket->radius * pocket->radius)
-    return 0.0; /* by rounding, at an event on the circle: a layout has no ball in there */
-  return carom_first_crossing(&d, pocket->radius, T);
+  return stays_away(&d, pocket->radius, T) ? INFINITY : sim->rules->enter_pocket(&d, pocket->radius, T);
 }
 
 /* When the centre leaves the hull, up to T; or infinity. */
@@ -165,11 +143,7 @@ static carom_meeting meet_table(const carom_sim *sim, int i, const motion *m, do
 
 /* When balls i and j meet; their separation is d from now on. */
 static inline double meet_ball(const carom_sim *sim, const carom_separation *d, double reach, double T, bool space) {
-  if (space)
-    return carom_first_contact_in_space(d, reach, slack, T);
-  if (sim->pooltool) /* overlapping balls collide now, even if they part */
-    return d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] < reach * reach ? 0.0 : carom_first_crossing(d, reach, T);
-  return carom_first_contact(d, reach, slack, T);
+  return space ? carom_first_contact_in_space(d, reach, T) : sim->rules->touch_ball(d, reach, T);
 }
 
 /* Pairs of ball i with all others: rejected in one loop that compilers turn into vectors, then solved. `space`, a constant:

@@ -27,8 +27,6 @@
 
 #include <math.h>
 
-static const double slack = 1e-12; /* m: as in detect.c */
-static const double behind = 1e-6; /* m: deeper in a nose than that, a ball is not in contact with it */
 static const double on_top = 1e-9; /* m: rounding of the edges of tops, and of a ball's height on them */
 enum { MOST_STEPS = 1000, LONG_STEPS = 8 };
 
@@ -96,14 +94,15 @@ static double zero_from_left(const flight *f, const circle *c, double raise, dou
 }
 
 /* The first contact on [t, T], with q >= c between. Balls that touch at t and do not close are in contact where the gap has
- * fallen by `slack` from that at t, or, if it has been greater than `slack` on the way, where it is 0: as PRESSED in contact.c.
+ * fallen by CAROM_SLACK from that at t, or, if it has been greater than that on the way, where it is 0: as PRESSED in
+ * contact.c.
  */
 static double touch_circle(const flight *f, const circle *c, double t, double T) {
   const gap here = gap_at(f, c, t);
-  const double touching = 2.0 * f->radius * slack;
+  const double touching = 2.0 * f->radius * CAROM_SLACK;
   if (here.F > touching)
     return zero_from_left(f, c, 0.0, t, T);
-  if (here.F < -2.0 * f->radius * behind)
+  if (here.F < -2.0 * f->radius * CAROM_BEHIND)
     return INFINITY;
   if (here.slope < -2.0 * f->radius * CAROM_NO_SPEED)
     return t;
@@ -162,10 +161,10 @@ static double meet_rail(const carom_features *features, int k, double height, do
   const carom_separation d = {{across(line, f, from) - shift, z, 0.0},
                               {line[0] * f->v[0] + line[1] * f->v[1], f->v[2] - f->g * from, 0.0},
                               {0.0, -0.5 * f->g, 0.0}};
-  const double reach = f->radius - behind;
+  const double reach = f->radius - CAROM_BEHIND;
   if (d.d0[0] * d.d0[0] + z * z < reach * reach)
     return INFINITY;
-  return from + carom_first_contact(&d, f->radius, slack, window[1] - from);
+  return from + carom_first_contact(&d, f->radius, window[1] - from);
 }
 
 /* When the ball falls on a plane; *lies becomes whether it lies on it now. A ball that is hardly lower counts as on it, unless

@@ -1,10 +1,9 @@
 /* Collisions of balls with each other and with cushions, by the model that the options ask for. */
 #include "cushion/models.h"
 #include "ball_ball/arguments.h"
-#include "ball_ball/euler.h"
 #include "platform/elementary.h"
 #include "shot/fixed.h"
-#include "shot/sim.h"
+#include "shot/rules.h"
 #include "shot/spheres.h"
 
 #include <math.h>
@@ -87,17 +86,6 @@ static void take_motion(const carom_motion *motion, carom_ball_state *s) {
   s->v[2] = 0.0;
 }
 
-/* What pooltool does with balls that part, as balls may that its spacers push into each other in a rack: it takes its steps
- * nevertheless. The first ends the compression, the second the restitution, so the balls part faster by 2 (1 + e) / N of their
- * speed. Balls that neither part nor close stay as they are; its loop has no end there. */
-static void part_by_steps(const carom_impact *in, const carom_options *options, carom_result *out) {
-  const carom_frame frame = carom_frame_of(in);
-  carom_local local = carom_to_frame(&frame, in, options->slip);
-  carom_euler_run run;
-  if (local.v_jy > local.v_iy && carom_euler(&local, carom_steps(options), INT64_MAX, &run) == CAROM_OK)
-    carom_from_frame(&frame, &local, out);
-}
-
 /* Takes kind->roll_loss of the speed v_t along a cushion, before the impact, from the roll along it. Along t = (n_y, -n_x) a
  * ball rolls at R w . n. The roll does not change sign, so the energy falls. */
 __attribute__((noinline, cold)) static void lose_roll(const carom_ball_kind *kind, const double n[2], const double v[3],
@@ -110,9 +98,7 @@ __attribute__((noinline, cold)) static void lose_roll(const carom_ball_kind *kin
 }
 
 static carom_ball_model ball_model(const carom_sim *sim) {
-  if (sim->opt->ball_model != CAROM_BALL_MODEL_DEFAULT)
-    return sim->opt->ball_model;
-  return sim->pooltool ? CAROM_BALL_MODEL_INELASTIC : CAROM_BALL_MODEL_EXACT;
+  return sim->opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? sim->opt->ball_model : sim->rules->ball_model;
 }
 
 carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double n[2], carom_ball_state *a,
@@ -136,13 +122,13 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
   in.b.r[1] = n[1];
   const bool euler = model == CAROM_BALL_MODEL_EULER;
   const carom_options options = {.solver = euler ? CAROM_SOLVER_EULER : CAROM_SOLVER_EXACT,
-                                 .slip = euler && sim->pooltool ? CAROM_SLIP_POOLTOOL : CAROM_SLIP_PAPER,
+                                 .slip = euler ? sim->rules->euler_slip : CAROM_SLIP_PAPER,
                                  .steps = sim->opt->steps,
                                  .plain = sim->opt->plain};
   carom_result out;
   const carom_status status = carom_collide(&in, &options, &out);
-  if (status == CAROM_SEPARATING && sim->pooltool && euler)
-    part_by_steps(&in, &options, &out);
+  if (status == CAROM_SEPARATING && euler && sim->rules->part_by_steps != NULL)
+    sim->rules->part_by_steps(&in, &options, &out);
   if (status >= 0) {
     take_motion(&out.a, a);
     take_motion(&out.b, b);
@@ -183,9 +169,7 @@ _Static_assert(CAROM_SHOT_CUSHION_MATHAVAN == 1 + CAROM_CUSHION_MATHAVAN &&
 
 static carom_cushion_model cushion_model(const carom_sim *sim) {
   const carom_shot_cushion asked = sim->opt->cushion_model;
-  return asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1)
-         : sim->pooltool                     ? CAROM_CUSHION_STRONGE
-                                             : CAROM_CUSHION_HAN;
+  return asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1) : sim->rules->cushion_model;
 }
 
 /* Of a rail or jaw, or of the ball where that has none. */
@@ -242,12 +226,12 @@ carom_status carom_model_cushion(const carom_sim *sim, int i, const double norma
                                    .mu_cushion = own_or(nose->mu_cushion, kind->mu_cushion),
                                    .restitution = own_or(nose->restitution, kind->restitution_cushion),
                                    .jaw_radius = nose->jaw_radius};
-  carom_cushion_options options = {
-      .model = cushion_model(sim), .steps = sim->opt->steps, .plain = sim->opt->plain, .omega_ratio = kind->omega_ratio};
-  if (sim->pooltool) {
-    options.convention = CAROM_CONVENTION_POOLTOOL;
-    options.least_step = 0.001;
-  }
+  carom_cushion_options options = {.model = cushion_model(sim),
+                                   .convention = sim->rules->convention,
+                                   .steps = sim->opt->steps,
+                                   .plain = sim->opt->plain,
+                                   .least_step = sim->rules->least_step,
+                                   .omega_ratio = kind->omega_ratio};
   carom_motion out;
   carom_status status = carom_cushion(&in, &options, &out);
   if (status == CAROM_ERROR_UNRESOLVED && options.model == CAROM_CUSHION_MATHAVAN) {

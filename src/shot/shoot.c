@@ -1,7 +1,7 @@
 /* The loop of a shot: find the next event, bring the balls in it there, resolve it, look again what they will meet. */
 #include "platform/threads.h"
 #include "shot/fixed.h"
-#include "shot/sim.h"
+#include "shot/rules.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -36,11 +36,11 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
   case CAROM_EVENT_BALL_BALL:
     *state = event->before[0];
     sim->path[j].from = event->before[1];
-    return (sim->pooltool ? carom_pooltool_balls : carom_resolve_balls)(sim, i, j, state, &sim->path[j].from);
+    return sim->rules->balls(sim, i, j, state, &sim->path[j].from);
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:
     *state = event->before[0];
-    return (sim->pooltool ? carom_pooltool_cushion : carom_resolve_cushion)(sim, i, due, state);
+    return sim->rules->cushion(sim, i, due, state);
   case CAROM_EVENT_POCKET: {
     const carom_pocket *pocket = &sim->table->pocket[j];
     *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth}, .label = CAROM_BALL_POCKETED};
@@ -109,7 +109,7 @@ static carom_status strike(carom_sim *sim) {
   }
   const int i = (int)cue->ball;
   carom_motion motion;
-  const bool flat = sim->pooltool || sim->opt->space == CAROM_SPACE_FLAT;
+  const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
   const carom_status status = (flat ? carom_strike : carom_strike_in_space)(cue, &sim->ball[i].kind, &motion);
   if (status < 0)
     return status;
@@ -125,7 +125,7 @@ static carom_status strike(carom_sim *sim) {
   } else {
     carom_label_of(state, sim->rates[i].radius);
   }
-  if (sim->pooltool)
+  if (sim->rules->contacts_slide)
     state->label = CAROM_BALL_SLIDING;
   event->after[0] = *state;
   memset(&event->after[1], 0, sizeof event->after[1]);
@@ -199,7 +199,8 @@ static carom_status finish(carom_sim *sim, carom_status status) {
   if (shot->state != NULL) {
     const bool goes_on = status >= 0 || status == CAROM_ERROR_TOO_LONG || status == CAROM_ERROR_TOO_MANY_EVENTS;
     sim->can_go_on = goes_on ? resumable : 0;
-    sim->table = NULL; /* what is the caller's comes with the next call */
+    sim->rules = NULL; /* these come with the next call */
+    sim->table = NULL;
     sim->features = NULL;
     sim->ball = NULL;
     sim->opt = NULL;
@@ -212,7 +213,7 @@ static carom_status finish(carom_sim *sim, carom_status status) {
 
 /* Whether a state is that of a shot of these balls in this world. */
 static bool is_of(const carom_sim *sim, const carom_shot_ball *balls, int count, const carom_shot_options *opt) {
-  bool same = sim->can_go_on == resumable && sim->count == count && sim->pooltool == (opt->world == CAROM_WORLD_POOLTOOL);
+  bool same = sim->can_go_on == resumable && sim->count == count && sim->world == opt->world;
   for (int i = 0; same && i < count; i++) {
     const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
     same = memcmp(&rates, &sim->rates[i], sizeof rates) == 0;
@@ -235,6 +236,7 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   carom_sim sim;
   if (!anew)
     memcpy(&sim, shot->state, sizeof sim);
+  sim.rules = carom_rules_of(opt->world);
   sim.table = table;
   sim.features = features;
   sim.ball = balls;
@@ -245,7 +247,7 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   if (anew) {
     sim.count = count;
     sim.struck = cue != NULL ? (int)cue->ball : 0;
-    sim.pooltool = opt->world == CAROM_WORLD_POOLTOOL;
+    sim.world = opt->world;
     sim.now = 0.0;
     sim.round = 0;
     sim.slow_instants = 0;

@@ -29,8 +29,11 @@ typedef struct carom_meeting {
   int type, what; /* a carom_event_type, or 0 where it leaves the table on the cloth; the index of rail, jaw or pocket */
 } carom_meeting;
 
+struct carom_rules;
+
 typedef struct carom_sim {
-  uint64_t can_go_on; /* of a state that is kept: resumable, or 0 */
+  uint64_t can_go_on;              /* of a state that is kept: resumable, or 0 */
+  const struct carom_rules *rules; /* of the world, rules.h */
   const carom_table *table;
   const carom_features *features;
   const carom_shot_ball *ball;
@@ -38,7 +41,7 @@ typedef struct carom_sim {
   const carom_cue *cue;
   carom_shot *shot;
   int count, struck; /* struck: the cue ball */
-  bool pooltool;
+  carom_world world;
   bool unlike; /* radii differ from each other or from the table's reference: contacts are those of spheres in space */
   int flying;  /* airborne balls */
   double now;
@@ -104,14 +107,12 @@ void carom_detect_all(carom_sim *sim);
 /* next.c: the next event. */
 carom_due carom_next(const carom_sim *sim);
 
-/* resolve.c and resolve_pooltool.c: a contact of two balls, or of a ball with a rail or a jaw, now. Changes the states, labels
- * too. */
+/* resolve.c: a contact in the world carom of two balls, or of a ball with a rail or a jaw, now. Changes the states, labels too.
+ */
 carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
 carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
 /* The speed below which contacts are slow, after so many instants that had one. */
 double carom_slow_speed(int64_t instants);
-carom_status carom_pooltool_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
-carom_status carom_pooltool_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
 
 /* What a ball meets of a rail or a jaw, of which it has the unit vector into it besides. */
 typedef struct carom_nose {

@@ -1,0 +1,255 @@
+/* The rules of the world pooltool: what its default engine does otherwise, for the same histories.
+ *
+ * ORDER. Only times that are equal as doubles are simultaneous. Of each kind the entry that was computed first leads (in one
+ * round: by index), then lower tiers, then higher energies, then the order of kinds: ends of phases, rails, jaws, pockets,
+ * pairs.
+ *
+ * ZEROS. A rail or a jaw is met wherever the gap is 0, coming or going, and a pocket where its circle is crossed; two balls
+ * that overlap collide now, even if they part.
+ *
+ * CONTACTS. Before the model the things in contact are set 1e-6 m apart along their velocities, the clock standing still; where
+ * that would take them farther than 5e-6 m, along the line between them instead. After the collision of two balls that keep
+ * touching, at less than 1 cm/s and in nearly the same direction, a tenth of the faster normal velocity passes from one to the
+ * other. Every ball slides then.
+ *
+ * Source: pooltool, commit 9a8abfe0. */
+#include "ball_ball/arguments.h"
+#include "ball_ball/euler.h"
+#include "shot/contact.h"
+#include "shot/rules.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static const double root_least = 2.220446049250313e-14; /* s: pooltool's EPS; earlier zeros are no contact with a rail */
+static const double spacer = 1e-6, longest = 5e-6;      /* m */
+
+/* ---- ORDER */
+
+static double energy_of(const carom_sim *sim, int i) {
+  const carom_ball_kind *k = &sim->ball[i].kind;
+  carom_ball_state s;
+  carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &s);
+  const double v2 = s.v[0] * s.v[0] + s.v[1] * s.v[1] + s.v[2] * s.v[2],
+               w2 = s.w[0] * s.w[0] + s.w[1] * s.w[1] + s.w[2] * s.w[2];
+  return 0.5 * k->mass * v2 + 0.5 * 0.4 * k->mass * k->radius * k->radius * w2 + k->mass * k->gravity * (s.r[2] - k->radius);
+}
+
+static double energy_of_event(const carom_sim *sim, const carom_due *due) {
+  if (due->type != CAROM_EVENT_BALL_BALL)
+    return energy_of(sim, due->a);
+  carom_ball_state a, b;
+  carom_path_at(&sim->path[due->a], &sim->rates[due->a], sim->now, &a);
+  carom_path_at(&sim->path[due->b], &sim->rates[due->b], sim->now, &b);
+  const double x = a.v[0] - b.v[0], y = a.v[1] - b.v[1];
+  return x * x + y * y;
+}
+
+static int kind_of(int type) { /* in the order of pooltool's candidates */
+  switch (type) {
+  case CAROM_EVENT_RAIL:
+    return 1;
+  case CAROM_EVENT_JAW:
+    return 2;
+  case CAROM_EVENT_POCKET:
+    return 3;
+  case CAROM_EVENT_BALL_BALL:
+    return 4;
+  default:
+    return 0;
+  }
+}
+static int tier_of(int kind) {
+  return kind == 0 || kind == 3 ? 2 : 3;
+}
+static int round_of(const carom_sim *sim, const carom_due *due) {
+  return due->type == CAROM_EVENT_BALL_BALL        ? sim->pair_round[due->a][due->b]
+         : due->type < CAROM_EVENT_SLIDING_ROLLING ? sim->meeting_round[due->a]
+                                                   : 0;
+}
+
+static carom_due choose(const carom_sim *sim, const carom_due *due, int count) {
+  const carom_due *of_kind[5] = {NULL}, *best = NULL;
+  for (int k = 0; k < count; k++) {
+    const carom_due **leader = &of_kind[kind_of(due[k].type)];
+    if (*leader == NULL || round_of(sim, &due[k]) < round_of(sim, *leader))
+      *leader = &due[k];
+  }
+  for (int k = 0; k < 5; k++) {
+    if (of_kind[k] == NULL)
+      continue;
+    const int tiers = best == NULL ? -1 : tier_of(k) - tier_of(kind_of(best->type));
+    if (tiers < 0 || (tiers == 0 && energy_of_event(sim, of_kind[k]) > energy_of_event(sim, best)))
+      best = of_kind[k];
+  }
+  return *best;
+}
+
+/* ---- ZEROS */
+
+static int touch_rail(const double g[3], double T, double times[2]) {
+  double zero[2];
+  const int zeros = carom_quadratic_zeros(g[2], g[1], g[0], zero);
+  int count = 0;
+  for (int z = 0; z < zeros; z++)
+    if (zero[z] > root_least && zero[z] <= T)
+      times[count++] = zero[z];
+  return count;
+}
+
+static double touch_ball(const carom_separation *d, double reach, double T) {
+  return d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] < reach * reach ? 0.0 : carom_first_crossing(d, reach, T);
+}
+
+/* ---- CONTACTS */
+
+/* The zero of smallest size of a t^2 + b t + c; those that are nearly real count. NaN if there is none. */
+static double nearest_zero(double a, double b, double c) {
+  double zero[2];
+  const int zeros = carom_quadratic_zeros(a, b, c, zero);
+  if (zeros == 0) {
+    const double real = -b / (2.0 * a), imaginary = sqrt(4.0 * a * c - b * b) / (2.0 * a);
+    return fabs(imaginary) < 1e-3 * fabs(real) ? real : NAN;
+  }
+  return zeros == 2 && fabs(zero[1]) < fabs(zero[0]) ? zero[1] : zero[0];
+}
+
+/* Two balls, set apart. False where pooltool has no answer. */
+static bool kiss_balls(double R, carom_ball_state *a, carom_ball_state *b) {
+  const double reach = 2.0 * R + spacer;
+  const double x = b->r[0] - a->r[0], y = b->r[1] - a->r[1], v_x = b->v[0] - a->v[0], v_y = b->v[1] - a->v[1];
+  const double t = nearest_zero(v_x * v_x + v_y * v_y, 2.0 * (x * v_x + y * v_y), x * x + y * y - reach * reach);
+  if (isnan(t))
+    return false;
+  const double m_x = 0.5 * t * (a->v[0] + b->v[0]), m_y = 0.5 * t * (a->v[1] + b->v[1]);
+  if (sqrt(m_x * m_x + m_y * m_y) <= longest) {
+    for (int k = 0; k < 2; k++) {
+      a->r[k] += t * a->v[k];
+      b->r[k] += t * b->v[k];
+    }
+    return true;
+  }
+  const double size = sqrt(x * x + y * y), half = 0.5 * (reach - size) / size;
+  a->r[0] -= half * x;
+  a->r[1] -= half * y;
+  b->r[0] += half * x;
+  b->r[1] += half * y;
+  return true;
+}
+
+/* See above. n from a to b. */
+static void keep_touching(const double n[2], carom_ball_state *a, carom_ball_state *b) {
+  const double speed_a = sqrt(a->v[0] * a->v[0] + a->v[1] * a->v[1]), speed_b = sqrt(b->v[0] * b->v[0] + b->v[1] * b->v[1]);
+  if (!(speed_a > 0.0 && speed_b > 0.0))
+    return;
+  const double p = a->v[0] * n[0] + a->v[1] * n[1], q = b->v[0] * n[0] + b->v[1] * n[1];
+  if (!(fabs(q - p) < 0.01) || !((a->v[0] * b->v[0] + a->v[1] * b->v[1]) / (speed_a * speed_b) > 0.9))
+    return;
+  const double passed = p > q ? 0.1 * p : -0.1 * q;
+  for (int k = 0; k < 2; k++) {
+    a->v[k] -= passed * n[k];
+    b->v[k] += passed * n[k];
+  }
+}
+
+static carom_status resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b) {
+  if (!kiss_balls(sim->rates[i].radius, a, b))
+    return CAROM_ERROR_UNRESOLVED;
+  double n[2] = {b->r[0] - a->r[0], b->r[1] - a->r[1]};
+  const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
+  n[0] /= size;
+  n[1] /= size;
+  const carom_status status = carom_model_balls(sim, i, j, n, a, b);
+  if (status < 0)
+    return status;
+  keep_touching(n, a, b);
+  a->label = b->label = CAROM_BALL_SLIDING;
+  return CAROM_OK;
+}
+
+/* Sets the ball at the spacer's distance from a rail; n becomes the direction into it. */
+static void kiss_rail(const carom_rail *rail, const double line[3], double R, double n[2], carom_ball_state *s) {
+  const double reach = R + spacer;
+  const double turn = line[0] * s->v[0] + line[1] * s->v[1] > 0.0 ? 1.0 : -1.0;
+  n[0] = turn * line[0];
+  n[1] = turn * line[1];
+  const double d = (s->r[0] - rail->p[0]) * n[0] + (s->r[1] - rail->p[1]) * n[1], v = s->v[0] * n[0] + s->v[1] * n[1];
+  const double t1 = (reach - d) / v, t2 = (-reach - d) / v, t = fabs(t1) < fabs(t2) ? t1 : t2;
+  const double speed = sqrt(s->v[0] * s->v[0] + s->v[1] * s->v[1]);
+  if (fabs(t) * speed <= longest) {
+    s->r[0] += t * s->v[0];
+    s->r[1] += t * s->v[1];
+  } else {
+    const double more = (d > 0.0 ? reach : -reach) - d;
+    s->r[0] += more * n[0];
+    s->r[1] += more * n[1];
+  }
+}
+
+static bool kiss_jaw(const carom_jaw *jaw, double R, double n[2], carom_ball_state *s) {
+  const double reach = R + jaw->radius + spacer;
+  const double x = s->r[0] - jaw->centre[0], y = s->r[1] - jaw->centre[1], v2 = s->v[0] * s->v[0] + s->v[1] * s->v[1];
+  const double t = nearest_zero(v2, 2.0 * (x * s->v[0] + y * s->v[1]), x * x + y * y - reach * reach);
+  if (isnan(t))
+    return false;
+  if (fabs(t) * sqrt(v2) <= longest) {
+    s->r[0] += t * s->v[0];
+    s->r[1] += t * s->v[1];
+  } else {
+    const double size = sqrt(x * x + y * y);
+    s->r[0] = jaw->centre[0] + reach * x / size;
+    s->r[1] = jaw->centre[1] + reach * y / size;
+  }
+  n[0] = jaw->centre[0] - s->r[0];
+  n[1] = jaw->centre[1] - s->r[1];
+  return true;
+}
+
+static carom_status resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *s) {
+  const double R = sim->rates[i].radius;
+  const carom_nose nose = carom_nose_of(sim->table, due);
+  double n[2];
+  if (due->type == CAROM_EVENT_RAIL) {
+    kiss_rail(&sim->table->rail[due->b], sim->features->line[due->b], R, n, s);
+  } else if (!kiss_jaw(&sim->table->jaw[due->b], R, n, s)) {
+    return CAROM_ERROR_UNRESOLVED;
+  }
+  const carom_status status = carom_model_cushion(sim, i, n, &nose, s);
+  s->label = CAROM_BALL_SLIDING;
+  return status < 0 ? status : CAROM_OK;
+}
+
+/* Balls that part, as balls may that the spacers push into each other in a rack: pooltool takes its steps of Euler's method
+ * nevertheless. The first ends the compression, the second the restitution, so the balls part faster by 2 (1 + e) / N of their
+ * speed. Balls that neither part nor close stay as they are; its loop has no end there. */
+static void part_by_steps(const carom_impact *in, const carom_options *options, carom_result *out) {
+  const carom_frame frame = carom_frame_of(in);
+  carom_local local = carom_to_frame(&frame, in, options->slip);
+  carom_euler_run run;
+  if (local.v_jy > local.v_iy && carom_euler(&local, carom_steps(options), INT64_MAX, &run) == CAROM_OK)
+    carom_from_frame(&frame, &local, out);
+}
+
+static const carom_rules rules = {
+    .flat = true,
+    .one_mass = true,
+    .contacts_slide = true,
+    .simultaneous = 0.0,
+    .ball_model = CAROM_BALL_MODEL_INELASTIC,
+    .cushion_model = CAROM_CUSHION_STRONGE,
+    .euler_slip = CAROM_SLIP_POOLTOOL,
+    .convention = CAROM_CONVENTION_POOLTOOL,
+    .least_step = 0.001,
+    .choose = choose,
+    .touch_rail = touch_rail,
+    .touch_jaw = carom_first_crossing,
+    .touch_ball = touch_ball,
+    .enter_pocket = carom_first_crossing,
+    .balls = resolve_balls,
+    .cushion = resolve_cushion,
+    .part_by_steps = part_by_steps,
+};
+
+const carom_rules *carom_rules_pooltool(void) {
+  return &rules;
+}
