@@ -572,10 +572,10 @@ CAROM_API carom_status carom_shoot_batch(const carom_shot_job *job);
 
 /* Checks the arguments of carom_shoot() and plays nothing. *where becomes the index of the ball, rail, jaw or pocket at fault,
  * or -1; it may be NULL. CAROM_ERROR_OFF_TABLE: a ball is in a cushion by more than 1e-6 m; or its centre is behind one,
- * outside the ring of rails, jaws and pockets; or its centre is in a pocket and its label is not CAROM_BALL_POCKETED. Outside
- * is where no played side of a rail is seen in any of 16 directions, but the back of one or a pocket is; on tables whose ring
- * has gaps a place outside may pass. An airborne ball may be over a pocket or over the top of a rail; it must not be in a nose
- * or below a top, nor lower than the cloth. */
+ * outside the ring of rails, jaws and pockets; or its centre is in a pocket and its label is not CAROM_BALL_POCKETED. A place
+ * is outside if no ball of that radius can be rolled to it from the middle of the table (width/2, length/2). On a table that
+ * carom_table_check() refuses as open, a place outside may pass. An airborne ball may be over a pocket or over the top of a
+ * rail; it must not be in a nose or below a top, nor lower than the cloth. */
 CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                                         const carom_shot_options *opt, int *where);
 

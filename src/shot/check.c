@@ -173,55 +173,6 @@ static carom_status check_state(const carom_ball_state *s, double R, bool flat) 
   return fabs(s->r[2] - R) <= most_overlap ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
 }
 
-/* When a ray from r along u enters a circle, in units of u; infinite if it does not, or begins inside. */
-static double enters_circle(const double r[2], const double u[2], const double centre[2], double radius) {
-  const double d_x = centre[0] - r[0], d_y = centre[1] - r[1], a = u[0] * u[0] + u[1] * u[1], b = d_x * u[0] + d_y * u[1];
-  const double D = b * b - a * (d_x * d_x + d_y * d_y - radius * radius), t = D >= 0.0 ? (b - sqrt(D)) / a : INFINITY;
-  return t > 0.0 ? t : INFINITY;
-}
-
-/* What a ray from r along u meets first: 1 for the played side of a rail, -1 for the back of one or a pocket, 0 for a jaw or
- * nothing. */
-static int first_met(const carom_table *table, const carom_features *f, const double r[2], const double u[2]) {
-  double first = INFINITY;
-  int what = 0;
-  for (int k = 0; k < f->rails; k++) {
-    const double *n = f->line[k], *along = f->along[k];
-    const double distance = n[0] * r[0] + n[1] * r[1] + n[2], t = -distance / (n[0] * u[0] + n[1] * u[1]);
-    const double place = along[0] * (r[0] + t * u[0]) + along[1] * (r[1] + t * u[1]) + along[2];
-    if (t >= 0.0 && t < first && place >= 0.0 && place <= 1.0) {
-      first = t;
-      what = distance > 0.0 ? 1 : -1;
-    }
-  }
-  for (int k = 0; k < f->jaws + f->pockets; k++) {
-    const int pocket = k - f->jaws;
-    const double t = pocket < 0 ? enters_circle(r, u, table->jaw[k].centre, table->jaw[k].radius)
-                                : enters_circle(r, u, table->pocket[pocket].centre, table->pocket[pocket].radius);
-    if (t < first) {
-      first = t;
-      what = pocket < 0 ? 0 : -1;
-    }
-  }
-  return what;
-}
-
-/* Whether a place is outside the ring of cushions and pockets: in some of 16 directions it sees the back of a rail or a pocket
- * first, and in none the played side of a rail. */
-static bool is_outside(const carom_table *table, const carom_features *f, const double r[2]) {
-  static const double quarter[4][2] = {{5, 1}, {3, 2}, {2, 3}, {1, 5}}; /* few rails have these directions */
-  bool outside = false;
-  for (int k = 0; k < 16; k++) {
-    const double *q = quarter[k % 4], turned[2] = {k & 4 ? -q[1] : q[0], k & 4 ? q[0] : q[1]};
-    const double u[2] = {k & 8 ? -turned[0] : turned[0], k & 8 ? -turned[1] : turned[1]};
-    const int met = first_met(table, f, r, u);
-    if (met > 0)
-      return false;
-    outside |= met < 0;
-  }
-  return outside;
-}
-
 static double distance_to(const carom_features *f, int rail, const double r[2]) {
   return f->line[rail][0] * r[0] + f->line[rail][1] * r[1] + f->line[rail][2];
 }
@@ -246,14 +197,14 @@ static bool beyond_ends(const carom_features *f, const double r[2]) {
   return f->rails > 0 && (r[0] < f->ends[0] || r[0] > f->ends[1] || r[1] < f->ends[2] || r[1] > f->ends[3]);
 }
 
-bool carom_place_is_outside(const carom_table *table, const carom_features *f, const double r[2]) {
+bool carom_place_is_outside(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[2]) {
   if (!is_in_hull(f, r))
     return true;
   /* only behind a rail, or beyond the ends of all rails, can it be outside */
   bool behind = beyond_ends(f, r);
   for (int k = 0; k < f->rails; k++)
     behind |= is_behind(place_along(f, k, r), distance_to(f, k, r));
-  return behind && is_outside(table, f, r);
+  return behind && carom_is_cut_off(table, f, kind, r);
 }
 
 /* How far from the wall of a cushion the centre is when a ball on the cloth touches its nose. */
@@ -286,7 +237,7 @@ static inline bool stands_on_table(const carom_table *table, const carom_feature
     good &= !in_jaw(&table->jaw[k], r, reach_of(f, kind, table->jaw[k].height, usual));
   for (int k = 0; k < f->pockets; k++)
     good &= !in_circle(table->pocket[k].centre, table->pocket[k].radius, r);
-  return good && !(behind && is_outside(table, f, r));
+  return good && !(behind && carom_is_cut_off(table, f, kind, r));
 }
 static bool on_table(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
   return kind->radius == f->reference ? stands_on_table(table, f, kind, r, true) : stands_on_table(table, f, kind, r, false);
@@ -303,7 +254,7 @@ static bool clear_of_nose(double across, double down, double R) {
 __attribute__((noinline, cold)) static bool above_table(const carom_table *table, const carom_features *f,
                                                         const carom_ball_kind *kind, const double r[3]) {
   bool good =
-      r[2] >= carom_nose_height(kind, f->nose_low) + kind->radius - most_overlap || !carom_place_is_outside(table, f, r);
+      r[2] >= carom_nose_height(kind, f->nose_low) + kind->radius - most_overlap || !carom_place_is_outside(table, f, kind, r);
   for (int axis = 0; axis < 2; axis++)
     good &= r[axis] >= f->hull[2 * axis] - f->width && r[axis] <= f->hull[2 * axis + 1] + f->width;
   for (int k = 0; k < f->rails; k++) {

@@ -137,8 +137,11 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
 carom_status carom_check_cue(const carom_cue *cue);
 carom_status carom_strike_in_space(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out);
 
-/* check.c: whether a place is outside the ring of cushions and pockets. */
-bool carom_place_is_outside(const carom_table *table, const carom_features *features, const double r[2]);
+/* check.c: whether a place is outside the ring of cushions and pockets, for the centre of a ball that touches none of them. */
+bool carom_place_is_outside(const carom_table *table, const carom_features *features, const carom_ball_kind *kind,
+                            const double r[2]);
+/* table_check.c: the same by the parts of the table, without a look at the place first: some microseconds. */
+bool carom_is_cut_off(const carom_table *table, const carom_features *features, const carom_ball_kind *kind, const double r[2]);
 /* What a batch has in common. */
 carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where);
 /* One layout with its cue. Prepares the table for the radii of the balls, where *features are for others. */

@@ -1,4 +1,5 @@
-/* Checks of a table of one's own: no way out but the pockets, and rails that are played from the right side.
+/* Checks of a table of one's own: no way out but the pockets, and rails that are played from the right side. And whether a
+ * place can be reached from the middle of a table.
  *
  * To the centre of a ball of radius R, jaws are discs grown by R, pockets discs, and rails segments grown by R; but detection
  * knows of a rail only the segment at the distance R on its played side, not the rounded ends, which jaws stand for. Each of
@@ -36,25 +37,21 @@ static void add_shape(ring *g, const double p[2], const double q[2], double radi
   g->shape[g->count++] = (shape){{p[0], p[1]}, {q[0], q[1]}, radius + grown, radius, part};
 }
 
-/* How far from the wall of a cushion the centre is when a ball touches the nose. */
-static double reach_of(const carom_features *f, double height) {
-  const carom_ball_kind kind = {.radius = f->radius};
-  return carom_reach_on_cloth(&kind, height, f->reference);
-}
-
-/* The parts; rails with round ends, or without. */
-static void shapes_of(const carom_table *t, const carom_features *f, bool round, ring *g) {
+/* The parts, as the centre of a ball sees them that may be `overlap` in a cushion; rails with round ends, or without. */
+static void shapes_of(const carom_table *t, const carom_features *f, const carom_ball_kind *ball, double overlap, bool round,
+                      ring *g) {
   g->count = 0;
   for (int k = 0; k < t->rails; k++) {
     const carom_rail *rail = &t->rail[k];
-    const double reach = reach_of(f, rail->height), off = round ? 0.0 : reach, *n = f->line[k];
+    const double reach = carom_reach_on_cloth(ball, rail->height, f->reference) - overlap, off = round ? 0.0 : reach,
+                 *n = f->line[k];
     const double p[2] = {rail->p[0] + off * n[0], rail->p[1] + off * n[1]},
                  q[2] = {rail->q[0] + off * n[0], rail->q[1] + off * n[1]};
     add_shape(g, p, q, 0.0, round ? reach : 0.0, (carom_part){CAROM_PART_RAIL, k});
   }
   for (int k = 0; k < t->jaws; k++)
-    add_shape(g, t->jaw[k].centre, t->jaw[k].centre, t->jaw[k].radius, reach_of(f, t->jaw[k].height),
-              (carom_part){CAROM_PART_JAW, k});
+    add_shape(g, t->jaw[k].centre, t->jaw[k].centre, t->jaw[k].radius,
+              carom_reach_on_cloth(ball, t->jaw[k].height, f->reference) - overlap, (carom_part){CAROM_PART_JAW, k});
   for (int k = 0; k < t->pockets; k++)
     add_shape(g, t->pocket[k].centre, t->pocket[k].centre, t->pocket[k].radius, 0.0, (carom_part){CAROM_PART_POCKET, k});
 }
@@ -99,6 +96,16 @@ static double edge(const shape *a, const shape *b, int which, double in_a[2], do
   return nearest(which <= 2 ? b : a, end, which <= 2 ? in_b : in_a);
 }
 
+/* Whether boxes around two parts are farther apart than `grown`. */
+static bool far_apart(const shape *a, const shape *b, double grown) {
+  const double room = a->reach + b->reach + grown;
+  for (int k = 0; k < 2; k++)
+    if (carom_lesser(a->p[k], a->q[k]) - carom_greater(b->p[k], b->q[k]) > room ||
+        carom_lesser(b->p[k], b->q[k]) - carom_greater(a->p[k], a->q[k]) > room)
+      return true;
+  return false;
+}
+
 /* How a ray from P along +x is crossed on the way from a to b: 1 upward, -1 downward. */
 static int crossing(const double a[2], const double b[2], const double P[2]) {
   if ((a[1] > P[1]) == (b[1] > P[1]))
@@ -136,7 +143,7 @@ static bool encloses(ring *g, double first, double grown, const double P[2], con
   for (int pass = 0; pass < (first < grown ? 2 : 1); pass++)
     for (int i = 0; i < g->count; i++)
       for (int j = i + 1; j < g->count; j++)
-        for (int which = 0; which < EDGES; which++) {
+        for (int which = 0; which < EDGES && !far_apart(&g->shape[i], &g->shape[j], pass == 0 ? first : grown); which++) {
           const shape *a = &g->shape[i], *b = &g->shape[j];
           double in_a[2], in_b[2];
           const double apart = edge(a, b, which, in_a, in_b) - a->reach - b->reach;
@@ -262,19 +269,38 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
     }
   }
   /* the ring, with rails rounded */
+  const carom_ball_kind ball = {.radius = radius};
   ring g;
   double P[2];
-  shapes_of(table, &features, true, &g);
+  shapes_of(table, &features, &ball, 0.0, true, &g);
   if (!find_place(&g, table, P) || !is_closed(&g, P, fault))
     return CAROM_ERROR_TABLE_OPEN;
   for (int k = 0; k < table->rails; k++)
-    if (wrong_side(&g, &table->rail[k], features.line[k], reach_of(&features, table->rail[k].height), P)) {
+    if (wrong_side(&g, &table->rail[k], features.line[k],
+                   carom_reach_on_cloth(&ball, table->rail[k].height, features.reference), P)) {
       fault->part = (carom_part){CAROM_PART_RAIL, k};
       for (int c = 0; c < 2; c++)
         fault->place[c] = 0.5 * (table->rail[k].p[c] + table->rail[k].q[c]);
       return CAROM_ERROR_RAIL_SIDE;
     }
   /* and with rails as they are detected */
-  shapes_of(table, &features, false, &g);
+  shapes_of(table, &features, &ball, 0.0, false, &g);
   return is_closed(&g, P, fault) ? CAROM_OK : CAROM_ERROR_TABLE_OPEN;
+}
+
+__attribute__((noinline, cold)) bool carom_is_cut_off(const carom_table *table, const carom_features *features,
+                                                      const carom_ball_kind *kind, const double r[2]) {
+  static const double overlap = 2e-6; /* m: a ball that touches a cushion may be 1e-6 m in it */
+  /* the middle of the table */
+  ring g;
+  hole unused;
+  double P[2];
+  shapes_of(table, features, kind, overlap, true, &g);
+  if (!find_place(&g, table, P))
+    return false;
+  /* a ring with a hole keeps no place apart; there, holes of up to the width of a ball are taken to be closed */
+  shapes_of(table, features, kind, overlap, false, &g);
+  const double closed = touching + 2.0 * overlap;
+  const double grown = encloses(&g, closed, closed, P, NULL, &unused) ? closed : 2.0 * kind->radius;
+  return encloses(&g, grown, grown, P, r, &unused);
 }

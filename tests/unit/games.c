@@ -236,6 +236,160 @@ START_TEST(places) {
 }
 END_TEST
 
+/* ---- Places on tables of one's own */
+
+enum { MOST_CORNERS = 7 };
+typedef struct polygon {
+  int corners;
+  double at[MOST_CORNERS][2]; /* counter-clockwise */
+} polygon;
+
+static void add_rail(carom_table *t, const double p[2], const double q[2]) {
+  t->rail[t->rails++] = (carom_rail){.p = {p[0], p[1]}, .q = {q[0], q[1]}, .height = 0.0365, .side = 1};
+}
+
+/* The rounded end of a rail, whose outside is along `out`. */
+static void add_jaw(carom_table *t, const double end[2], const double out[2], double radius) {
+  t->jaw[t->jaws++] =
+      (carom_jaw){.centre = {end[0] + radius * out[0], end[1] + radius * out[1]}, .radius = radius, .height = 0.0365};
+}
+
+/* A polygon about the middle of the table, which need not be convex. Some corners are pockets, and some rails have a pocket in
+ * their middle; a corner without a pocket has a jaw of radius 0. */
+static void make_polygon(random_source *r, carom_table *t, polygon *shape) {
+  *t = (carom_table){.width = 2.0, .length = 2.0};
+  const int n = shape->corners = 3 + (int)random_between(r, 0.0, MOST_CORNERS - 2.0);
+  const double turn = random_between(r, 0.0, 6.283185307179586), uneven = random_between(r, 0.0, 0.5);
+  for (int k = 0; k < n; k++) {
+    const double angle = turn + 6.283185307179586 * (k + random_between(r, -0.3, 0.3) * uneven) / n;
+    const double far = random_between(r, 1.0 - uneven, 1.0);
+    shape->at[k][0] = 1.0 + far * cos(angle);
+    shape->at[k][1] = 1.0 + far * sin(angle);
+  }
+  const double mouth = random_between(r, 0.045, 0.08), jaw = random_between(r, 0.0, 0.03),
+               radius = random_between(r, 0.03, 0.06), back = random_between(r, 0.0, 0.05);
+  bool has_pocket[MOST_CORNERS];
+  for (int k = 0; k < n; k++)
+    has_pocket[k] = random_between(r, 0.0, 1.0) < 0.7;
+  for (int k = 0; k < n; k++) {
+    const double *p = shape->at[k], *q = shape->at[(k + 1) % n], *o = shape->at[(k + n - 1) % n];
+    const double length = hypot(q[0] - p[0], q[1] - p[1]), before = hypot(p[0] - o[0], p[1] - o[1]);
+    const double u[2] = {(q[0] - p[0]) / length, (q[1] - p[1]) / length}, out[2] = {u[1], -u[0]};
+    const double from = has_pocket[k] ? mouth : 0.0, to = length - (has_pocket[(k + 1) % n] ? mouth : 0.0);
+    const double end[4] = {from, 0.5 * length - mouth, 0.5 * length + mouth, to};
+    const bool in_middle = length > 0.6 && t->pockets < CAROM_POCKETS_MOST - 1 && random_between(r, 0.0, 1.0) < 0.3;
+    /* the rail, or the two beside the pocket in its middle */
+    for (int part = 0; part <= (in_middle ? 1 : 0); part++) {
+      const double first = end[2 * part], last = in_middle ? end[2 * part + 1] : to;
+      const double a[2] = {p[0] + first * u[0], p[1] + first * u[1]}, b[2] = {p[0] + last * u[0], p[1] + last * u[1]};
+      add_rail(t, a, b);
+      add_jaw(t, a, out, part == 1 || has_pocket[k] ? jaw : 0.0);
+      add_jaw(t, b, out, (in_middle && part == 0) || has_pocket[(k + 1) % n] ? jaw : 0.0);
+    }
+    if (in_middle)
+      t->pocket[t->pockets++] = (carom_pocket){.centre = {p[0] + 0.5 * length * u[0] + (radius + 0.01) * out[0],
+                                                          p[1] + 0.5 * length * u[1] + (radius + 0.01) * out[1]},
+                                               .radius = radius,
+                                               .depth = 0.08};
+    if (has_pocket[k] && t->pockets < CAROM_POCKETS_MOST) {
+      const double v[2] = {(o[0] - p[0]) / before, (o[1] - p[1]) / before}, w[2] = {u[0] + v[0], u[1] + v[1]};
+      const double size = hypot(w[0], w[1]), sign = u[0] * v[1] - u[1] * v[0] > 0.0 ? -1.0 : 1.0;
+      t->pocket[t->pockets++] = (carom_pocket){
+          .centre = {p[0] + sign * back * w[0] / size, p[1] + sign * back * w[1] / size}, .radius = radius, .depth = 0.08};
+    }
+  }
+}
+
+static bool is_in_polygon(const polygon *shape, double x, double y) {
+  bool in = false;
+  for (int k = 0; k < shape->corners; k++) {
+    const double *p = shape->at[k], *q = shape->at[(k + 1) % shape->corners];
+    if ((p[1] > y) != (q[1] > y) && x < p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0]))
+      in = !in;
+  }
+  return in;
+}
+
+/* How far a place is from the segment from p to q. */
+static double off_segment(const double p[2], const double q[2], double x, double y) {
+  const double e[2] = {q[0] - p[0], q[1] - p[1]}, size2 = e[0] * e[0] + e[1] * e[1];
+  const double along = size2 > 0.0 ? ((x - p[0]) * e[0] + (y - p[1]) * e[1]) / size2 : 0.0;
+  const double place = fmin(fmax(along, 0.0), 1.0);
+  return hypot(x - p[0] - place * e[0], y - p[1] - place * e[1]);
+}
+
+/* Whether a ball at a place is clear of everything, by more than `room`. */
+static bool is_clear(const carom_table *t, double R, double room, double x, double y) {
+  for (int k = 0; k < t->rails; k++)
+    if (off_segment(t->rail[k].p, t->rail[k].q, x, y) <= R + room)
+      return false;
+  for (int k = 0; k < t->jaws; k++)
+    if (hypot(x - t->jaw[k].centre[0], y - t->jaw[k].centre[1]) <= t->jaw[k].radius + R + room)
+      return false;
+  for (int k = 0; k < t->pockets; k++)
+    if (hypot(x - t->pocket[k].centre[0], y - t->pocket[k].centre[1]) <= t->pocket[k].radius + room)
+      return false;
+  return true;
+}
+
+/* Whether a ball can be rolled straight to a place from the middle: in steps shorter than the room that there is on both sides
+ * of each. */
+static bool is_straight_on(const carom_table *t, double R, double x, double y) {
+  static const double step = 0.002;
+  const double d_x = x - 1.0, d_y = y - 1.0;
+  const int steps = (int)(hypot(d_x, d_y) / step) + 1;
+  for (int k = 0; k <= steps; k++)
+    if (!is_clear(t, R, 0.5 * step, 1.0 + d_x * k / steps, 1.0 + d_y * k / steps))
+      return false;
+  return true;
+}
+
+/* On tables of all shapes that carom_table_check() accepts, a ball may stand where it can be rolled straight to from the
+ * middle, and nowhere beyond the rails but in the mouth of a pocket. Rays through slits that no ball passes once told
+ * otherwise. */
+START_TEST(places_on_polygons) {
+  static const double mouth = 0.15; /* m: beyond the rails and farther than that from a pocket nobody comes */
+  random_source r = {test_seed()};
+  const double R = 0.028575;
+  int tables = 0, drawn = 0, inside = 0, beyond = 0;
+  while (tables < FEWER(1000)) {
+    carom_table t;
+    polygon shape;
+    make_polygon(&r, &t, &shape);
+    drawn++;
+    ck_assert_int_lt(drawn, 40000);
+    if (!is_clear(&t, R, 0.1, 1.0, 1.0) || carom_table_check(&t, R, NULL) != CAROM_OK)
+      continue;
+    tables++;
+    for (int judged = 0; judged < 100;) {
+      double x = random_between(&r, -0.3, 2.3), y = random_between(&r, -0.3, 2.3);
+      if (judged % 2 == 0 && t.pockets > 0) { /* near a pocket */
+        const double *centre = t.pocket[(int)random_between(&r, 0.0, (double)t.pockets)].centre;
+        x = centre[0] + random_between(&r, -0.4, 0.4);
+        y = centre[1] + random_between(&r, -0.4, 0.4);
+      }
+      bool far = true;
+      for (int k = 0; k < t.pockets; k++)
+        far &= hypot(x - t.pocket[k].centre[0], y - t.pocket[k].centre[1]) > mouth;
+      const bool reached = is_straight_on(&t, R, x, y);
+      if (!reached && (!far || is_in_polygon(&shape, x, y)))
+        continue;
+      judged++;
+      *(reached ? &inside : &beyond) += 1;
+      carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+      const carom_status expected = reached ? CAROM_OK : CAROM_ERROR_OFF_TABLE,
+                         status = carom_place_ball(&t, &ball, 1, 0, x, y, NULL);
+      ck_assert_msg(status == expected, "table %d of seed %llu, (%.17g, %.17g): %s", drawn, (unsigned long long)test_seed(), x,
+                    y, carom_status_name(status));
+      ball.state = (carom_ball_state){.r = {x, y, R}};
+      ck_assert_int_eq(carom_shot_check(&t, &ball, 1, NULL, NULL, NULL), expected);
+    }
+  }
+  printf("%d tables of %d: a ball may stand at %d places, and not at %d\n", tables, drawn, inside, beyond);
+  ck_assert(inside > 20 * tables && beyond > 20 * tables);
+}
+END_TEST
+
 /* Under a ball that flies, where one has left the table, and beside balls and cushions of other sizes. */
 START_TEST(places_in_space) {
   carom_table t;
@@ -422,6 +576,6 @@ START_TEST(names) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("games", tables_are_checked, other_tables, places, places_in_space, turns_agree_with_steps,
-                   turns_in_closed_form, names);
+  return RUN_TESTS("games", tables_are_checked, other_tables, places, places_on_polygons, places_in_space,
+                   turns_agree_with_steps, turns_in_closed_form, names);
 }
