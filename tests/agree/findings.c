@@ -2,8 +2,8 @@
  * and draws in which they could come back. Rows are in findings/, as `carom resolve` reads them.
  */
 #include "cases.h"
+#include "kept.h"
 #include "precisely.h"
-#include "reference.h"
 #include "regimes.h"
 #include "support.h"
 
@@ -37,7 +37,7 @@ static bool expect_solved(const carom_impact *in, carom_slip slip, double bound,
   bool solved = false;
   for (int k = 0; k < FILL; k++)
     rows[k] = *in;
-  const bool known = reference_collide(in, slip, &exact, NULL) == REFERENCE_OK;
+  const bool known = kept_collide(in, slip, &exact, NULL) == REFERENCE_OK;
   FOR_EACH_ISA(isa) {
     carom_detail detail;
     const carom_status status = carom_collide_detail(in, &options, &out, &detail);
@@ -79,7 +79,7 @@ static void expect_in_single(const carom_impact *in, carom_slip slip, const char
   }
   for (int row = 1; row < FILL; row++)
     rows[row] = rows[0];
-  const bool known = of_play(&wide) && reference_collide(&wide, slip, &exact, NULL) == REFERENCE_OK;
+  const bool known = of_play(&wide) && kept_collide(&wide, slip, &exact, NULL) == REFERENCE_OK;
   FOR_EACH_ISA(isa) {
     const carom_status status = carom_collide_f32(&rows[0], &options, &out);
     ck_assert_int_eq(carom_collide_batch_f32(rows, FILL, &options, many, NULL), status);
@@ -132,7 +132,7 @@ START_TEST(single_precision_that_lost_restitution) {
         ((double *)&wide)[c] = ((const float *)&in[0])[c];
       for (int row = 1; row < FILL; row++)
         in[row] = in[0];
-      if (reference_collide(&wide, (carom_slip)slip, &exact, NULL) != REFERENCE_OK)
+      if (kept_collide(&wide, (carom_slip)slip, &exact, NULL) != REFERENCE_OK)
         continue;
       FOR_EACH_ISA(isa) {
         if (carom_collide_batch_f32(in, FILL, &options, out, NULL) != CAROM_OK)
@@ -294,7 +294,7 @@ static int expect_planar(random_source *source, carom_slip slip, bool play, bool
         for (int c = 0; single && c < 12; c++)
           ((double *)&alone)[c] = ((const float *)&alone_f32)[c];
         double error = result_distance(&alone, &right[single][k], in->a.radius);
-        if (!(error <= bound) && reference_collide(in, slip, &right[single][k], NULL) == REFERENCE_OK)
+        if (!(error <= bound) && kept_collide(in, slip, &right[single][k], NULL) == REFERENCE_OK)
           error = result_distance(&alone, &right[single][k], in->a.radius);
         ck_assert_msg(error <= bound, "slip %d, stick %d, pass %d%s: %g off with %s, mu_b %.17g mu %.17g e %.17g", slip, stick,
                       pass, single ? ", in single precision" : "", error, carom_isa_name((carom_isa)isa), in->mu_ball,
