@@ -23,8 +23,17 @@
  *
  * Rates are continuous where a load begins or ends and where friction leaves its cone. The impact ends where W = -e^2 W_c.
  *
+ * HELD FROM THE START. Friction ends a small slip da at once, in a p of the order of da. There it is f and not the f_h that
+ * holds, and all rates are linear in f - f_h as long as the load keeps its sign. With M of contact.c, a' = M (f - f_h), so
+ *
+ *     int (f - f_h) dp = -M^-1 da,     int (F - F_h) dp = mu_c g_1 t (M^-1 da)_y,     da = 0 from there on,
+ *
+ * and db and dv change by their rates for these impulses. A slip db that the cloth holds ends by int (F - F_h) dp = -db/H.
+ * Where the load may change its sign on the way, the derivatives depend on the direction of da.
+ *
  * Where these equations do not say how an impact goes on, its derivatives are central differences of order 4: motion in a
- * plane, whose perturbations leave it; balls that jam; a slip that passes through zero. */
+ * plane, whose perturbations leave it; balls that jam; a slip that passes through zero. A kink is seen there by the differences
+ * to each side. */
 #include "impact/variation.h"
 
 #include <math.h>
@@ -34,6 +43,8 @@
 static const double TOLERANCE = 1e-2;   /* of the solver: see impact.h */
 static const double UNRESOLVED = 1e-5;  /* of a slip's derivative, that is left where the slip ends */
 static const double COEFFICIENT = 1e-5; /* share of a variable by which coefficients are differentiated */
+static const double CONE = 0.02;        /* 1 - (|f| / mu)^2 of a slip that friction hardly holds: tests/agree/tangents.c */
+static const double KINK = 1e-4;        /* difference of the slopes to both sides, over the largest, that is a kink */
 
 void carom_variation_rates(const carom_terms *k, const double lead[4], double v, double rate[CAROM_VARIED]) {
   const double w = (k->w_0 + k->w_u * lead[1]) / (1 - k->w_t * lead[3]), x = w * lead[2], y = w * lead[3];
@@ -230,14 +241,15 @@ _Static_assert(sizeof(carom_law) == 17 * sizeof(double) && offsetof(carom_law, m
 __attribute__((noinline)) static void differentiate(const carom_law *law, const carom_law *d_law, const double slips[4],
                                                     double tolerance, int plain, int by, carom_impact_tangent *out) {
   const double size = fmax(fmax(fabs(slips[0]), fabs(slips[1])), fmax(fabs(slips[2]), fabs(slips[3])));
-  double h = by <= BY_B_Y ? 2e-3 * fmax(1, 0.01 * size) : by == BY_E ? 1e-3 : 1e-4, best = INFINITY;
+  double h = by <= BY_B_Y ? 2e-3 * fmax(1, 0.01 * size) : by == BY_E ? 1e-3 : 1e-4, best = INFINITY, bends = INFINITY;
+  const double here[5] = {out->q.p, out->q.f_x, out->q.f_y, out->q.F_x, out->q.F_y};
   if (by == BY_MU || by == BY_MU_C)
     h = fmin(h, 0.4 * (by == BY_MU ? law->mu : law->mu_c));
   if (by == BY_E)
     h = fmin(h, 0.4 * law->e);
-  for (int attempt = 0; attempt < 4 && best > 1e-5 && h > 0; attempt++, h /= 8) {
+  for (int attempt = 0; attempt < 4 && (best > 1e-5 || bends > KINK) && h > 0; attempt++, h /= 8) {
     static const double steps[4] = {-2, -1, 1, 2};
-    double f[4][5], error = 0, most = 1;
+    double f[4][5], error = 0, bend = 0, most = 1;
     bool fine = true;
     for (int s = 0; s < 4 && fine; s++) {
       carom_law l = *law;
@@ -249,7 +261,12 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
       const double near = (f[2][r] - f[1][r]) / (2 * h), far = (f[3][r] - f[0][r]) / (4 * h);
       error = fmax(error, fabs(near - far) / 3);
       most = fmax(most, fabs(near));
+      /* what the slopes to both sides differ by, less what a smooth function has in proportion to h */
+      const double less = f[2][r] + f[1][r] - 2 * here[r], more = f[3][r] + f[0][r] - 2 * here[r];
+      bend = fmax(bend, fabs(2 * less - 0.5 * more) / h);
     }
+    if (fine)
+      bends = fmin(bends, bend / most);
     if (fine && error / most < best) {
       best = error / most;
       for (int r = 0; r < 5; r++)
@@ -262,7 +279,7 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
   }
   out->differences = true;
   out->error = fmax(out->error, best < INFINITY ? best : 1);
-  out->kink |= !(best < 1e-4);
+  out->kink |= !(best < 1e-4) || !(bends < KINK);
 }
 
 /* Derivatives of the impulses by one variable, at the end of an impact. A function of its own, so that its stack is not there
@@ -299,6 +316,51 @@ __attribute__((noinline)) static void impulses_by(const carom_trajectory *path, 
   }
 }
 
+/* Ends the seeds of slips that friction holds from the start: see the head. */
+static void end_held_slips(const carom_trajectory *path, carom_variation *g) {
+  const carom_law *l = &path->law;
+  const carom_regime *r = &path->regime;
+  const carom_point *at = &path->at;
+  const double begins[4] = {r->u_x, r->u_y, r->t_x, r->t_y};
+  carom_variation_leads(at, begins, g->lead);
+  const double t_x = g->lead[2], t_y = g->lead[3], w = r->loaded ? l->mu_c * l->g_1 : 0;
+  /* friction that nearly leaves its cone: the smallest change lasts, or is held, depending on its sign */
+  const carom_terms *k = &path->terms;
+  const double load = k->w_0 / (1 - k->w_t * t_y), x = load * t_x, y = load * t_y;
+  const double outside = k->event[0] + k->event[1] * y + k->event[2] * x * x + k->event[3] * y * y;
+  const bool edge = r->held && outside > -CONE * l->mu * l->mu;
+  for (int c = BY_A_X; c <= BY_B_Y; c++) {
+    double f_x = 0, f_y = 0, F_x = 0, F_y = 0;
+    const double a_x = g->d[OF_A_X][c], a_y = g->d[OF_A_Y][c];
+    /* a slip that begins from zero goes one way, whatever the sign of a change: here, and of b below */
+    g->kink |= l->mu > 0 && !r->held && at->a_x == 0 && at->a_y == 0 && (a_x != 0 || a_y != 0);
+    if (r->held && (a_x != 0 || a_y != 0)) {
+      g->kink |= edge;
+      f_y = -a_y / (l->K_y - l->C_y * w * t_y);
+      F_x = -w * t_x * f_y;
+      F_y = -w * t_y * f_y;
+      f_x = -(a_x + l->C_x * F_x) / l->K_x;
+      /* on the way friction may be anything in the cone, but along x alone if nothing turns it: does the load keep its sign? */
+      const double most = a_y != 0 || l->A_0 != 0 || r->loaded ? l->mu * fabs(l->g_1) : 0;
+      g->lost |= l->mu_c > 0 && (r->loaded ? l->g_0 < most : l->g_0 > -most);
+    } else if (r->cloth_held) {
+      F_x = -g->d[OF_B_X][c] / l->H;
+      F_y = -g->d[OF_B_Y][c] / l->H;
+    }
+    g->d[OF_A_X][c] += l->K_x * f_x + l->C_x * F_x;
+    g->d[OF_A_Y][c] += l->K_y * f_y + l->C_y * F_y;
+    g->d[OF_B_X][c] += l->L_x * f_x + l->H * F_x;
+    g->d[OF_B_Y][c] += l->L_y * f_y + l->H * F_y;
+    g->d[OF_V][c] += l->V_f * f_y + l->V_F * F_y;
+    /* exactly none is left */
+    if (r->held)
+      g->d[OF_A_X][c] = g->d[OF_A_Y][c] = 0;
+    if (r->cloth_held)
+      g->d[OF_B_X][c] = g->d[OF_B_Y][c] = 0;
+    g->kink |= r->loaded && at->b_x == 0 && at->b_y == 0 && (g->d[OF_B_X][c] != 0 || g->d[OF_B_Y][c] != 0);
+  }
+}
+
 carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain,
                                         unsigned asked, carom_impact_tangent *out) {
   carom_trajectory path;
@@ -310,6 +372,8 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   g.asked = asked;
   for (int c = BY_A_X; c <= BY_B_Y; c++)
     g.d[c][c] = asked >> c & 1;
+  if (path.status == CAROM_OK)
+    end_held_slips(&path, &g);
   double tolerance = TOLERANCE;
   path.variation = &g;
   carom_status status = carom_impact_advance(&path, INFINITY, 10 * CAROM_IMPACT_ITERATIONS);
@@ -324,7 +388,7 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   out->q = carom_impact_impulses(&path);
   if (status != CAROM_OK)
     return status;
-  out->kink = (law->mu == 0 && (asked >> BY_MU & 1)) || (law->e == 0 && (asked >> BY_E & 1));
+  out->kink = g.kink || (law->mu == 0 && (asked >> BY_MU & 1)) || (law->e == 0 && (asked >> BY_E & 1));
   g.lost |= !path.ended || g.rate[OF_V] == 0 || (path.regime.held && path.regime.cloth_held);
   for (int c = 0; c < CAROM_VARIABLES; c++) {
     if (!(asked >> c & 1))

@@ -35,6 +35,7 @@ typedef struct carom_variation {
   double rate[CAROM_VARIED];     /* y' at the end of the last step, by its regime */
   double lead[4];                /* directions of a and b there */
   bool lost;                     /* the equations do not say how it goes on: planar motion, a jammed ball */
+  bool kink;                     /* a slip begins from zero, and there is a seed by it */
 } carom_variation;
 
 /* Impulses and their derivatives. */

@@ -481,6 +481,23 @@ START_TEST(ends_of_flights) {
 }
 END_TEST
 
+/* A straight shot at a frozen ball: its contact follows the strike before slip between the balls can begin. */
+START_TEST(frozen_and_straight) {
+  for (int exact = 0; exact < 2; exact++) {
+    layout l = of_two(0.4, 0.6 + 2.0 * 0.028575);
+    const carom_shot_options *options = exact ? NULL : &closed;
+    l.cue.speed = 1.5;
+    l.cue.phi = 90.0;
+    carom_shot shot;
+    differentiate(&l, options, &by_phi, 1, &shot);
+    ck_assert_int_eq(shot.events[1].type, CAROM_EVENT_BALL_BALL);
+    ck_assert_double_eq(shot.events[1].time, 0.0);
+    /* the differences of carom_collide() itself are noisy */
+    ck_assert_double_lt(error_of(&l, options, &shot, &by_phi, 0, 1), exact ? 1e-3 : 1e-6);
+  }
+}
+END_TEST
+
 /* ---- Reach ---- */
 
 /* The least change at which a ball's events are others, in steps of 10 % from 1e-9 on. */
@@ -582,5 +599,5 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("tangent_edges", grazing, simultaneous, slow, slow_in_space, differences, overflow, euler, kink, level_cue,
-                   edges_of_flights, ends_of_flights, reach_beside_trial, frictions_of_the_cloth);
+                   edges_of_flights, ends_of_flights, frozen_and_straight, reach_beside_trial, frictions_of_the_cloth);
 }

@@ -303,6 +303,99 @@ START_TEST(cushions_agree_with_differences) {
 }
 END_TEST
 
+/* A straight stop shot begins without slip between the balls. A small slip ends at once, whatever the friction: of a change of
+ * v across the line of centres, the balls exchange 1/7, and of W_z 1/7 of it. */
+START_TEST(stop_shots) {
+  const double R = 0.028575, across[] = {0.0, 1e-17, 1e-12, 1e-9, 2e-9, 1e-6};
+  for (size_t k = 0; k < sizeof across / sizeof across[0]; k++) {
+    const carom_impact in = {
+        .a = {.v = {2.0 * across[k], 2.0, 0.0}, .radius = R, .mass = 0.17, .mu_cloth = 0.2},
+        .b = {.r = {0.0, 2.0 * R, 0.0}, .radius = R, .mass = 0.17, .mu_cloth = 0.2},
+        .mu_ball = 0.06,
+        .restitution = 0.95,
+    };
+    double seeds[26][2] = {{0}}, tangent[12][2];
+    seeds[3][0] = seeds[8][1] = 1.0; /* v_x and w_z of ball a */
+    int32_t flags;
+    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 2, &seeds[0][0], &tangent[0][0], &flags), CAROM_OK);
+    ck_assert_int_eq(flags, 0);
+    const double expected[2][4] = {{6.0 / 7.0, 2.5 / (7.0 * R), 1.0 / 7.0, 2.5 / (7.0 * R)},
+                                   {R / 7.0, 4.5 / 7.0, -R / 7.0, -2.5 / 7.0}};
+    static const int row[4] = {0, 5, 6, 11};
+    for (int j = 0; j < 2; j++)
+      for (int i = 0; i < 4; i++)
+        ck_assert_double_eq_tol(tangent[row[i]][j], expected[j][i], 1e-5 * fmax(1.0, fabs(expected[j][i])));
+  }
+}
+END_TEST
+
+/* What the slopes to both sides differ by, over the larger, at a step h. */
+static double bend_of(const carom_cushion_impact *in, int k, double h) {
+  double here[6], there[26], f[2][6], bend = 0.0, most = 1e-3;
+  memcpy(there, in, sizeof *in);
+  cushion(there, here);
+  for (int s = 0; s < 2; s++) {
+    memcpy(there, in, sizeof *in);
+    there[k] += s == 0 ? -h : h;
+    cushion(there, f[s]);
+  }
+  for (int r = 0; r < 6; r++) {
+    const double unit = r < 3 ? 1.0 : 0.0286;
+    bend = fmax(bend, unit * fabs(f[0][r] + f[1][r] - 2.0 * here[r]) / h);
+    most = fmax(most, unit * fabs(f[1][r] - f[0][r]) / (2.0 * h));
+  }
+  return bend / most;
+}
+
+/* Balls that meet the nose without slip: a derivative is right, or its flag says that the model bends there. */
+START_TEST(cushions_without_slip_at_the_nose) {
+  random_source random = {test_seed()};
+  static const double heights[] = {1.0, 1.2, 1.25, 1.28, 1.4};
+  int right = 0, wrong = 0, bends = 0, without_flag = 0;
+  cushion_options = (carom_cushion_options){.model = CAROM_CUSHION_MATHAVAN};
+  for (int k = 0; k < FEWER(400); k++) {
+    const double R = 0.028575, sine = heights[k % 5] - 1.0, cosine = sqrt(1.0 - sine * sine);
+    const double v_x = random_between(&random, -2.0, 2.0), v_y = random_between(&random, 0.3, 4.0);
+    const double W_y = k % 2 == 0 ? 0.0 : random_between(&random, -2.0, 2.0);
+    const carom_cushion_impact in = {.v = {v_x, v_y, 0.0},
+                                     .w = {v_y * sine / R, W_y / R, (v_x + W_y * sine) / (cosine * R)},
+                                     .normal = {0.0, 1.0},
+                                     .height = heights[k % 5] * R,
+                                     .radius = R,
+                                     .mass = 0.17,
+                                     .mu_cloth = random_between(&random, 0.1, 0.3),
+                                     .mu_cushion = random_between(&random, 0.05, 0.3),
+                                     .restitution = random_between(&random, 0.7, 0.95)};
+    /* one direction a call, since a flag is that of all directions */
+    static const int asked[] = {0, 1, 3, 4, 5, 6, 9, 11, 12, 13};
+    static const double steps[] = {1e-4, 1e-4, 3e-3, 3e-3, 3e-3, 1e-4, 1e-6, 1e-4, 1e-4, 1e-4};
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
+      double seeds[15] = {0.0}, tangent[6], all[6][15] = {{0}};
+      int32_t flags;
+      seeds[asked[i]] = 1.0;
+      ck_assert_int_eq(carom_cushion_tangent(&in, &cushion_options, 1, seeds, tangent, &flags), CAROM_OK);
+      for (int r = 0; r < 6; r++)
+        all[r][asked[i]] = tangent[r];
+      const double bend = bend_of(&in, asked[i], steps[i]);
+      const bool kink = bend > 1e-3 && bend_of(&in, asked[i], 0.1 * steps[i]) > 0.5 * bend;
+      bends += kink;
+      without_flag += kink && !(flags & CAROM_TANGENT_KINK);
+      if (flags & CAROM_TANGENT_KINK)
+        continue;
+      const bool agrees = error_of(cushion, (const double *)&in, 15, 6, asked[i], steps[i], &all[0][0], 15) < 1e-3;
+      right += agrees;
+      wrong += !agrees;
+    }
+  }
+  printf("cushions without slip at the nose: %d right, %d wrong; %d kinks, %d without the flag\n", right, wrong, bends,
+         without_flag);
+  ck_assert_int_gt(right, FEWER(2000));
+  ck_assert_int_gt(bends, FEWER(100));
+  ck_assert_int_eq(wrong, 0);
+  ck_assert_int_eq(without_flag, 0);
+}
+END_TEST
+
 /* ---- Other results ---- */
 
 enum { MANY_BALLS = 16 };
@@ -463,6 +556,8 @@ int main(void) {
       {shots_agree_with_differences, sizeof models / sizeof models[0]},
       {cushions_agree_with_differences, 8},
       {collisions_agree_with_differences, 1},
+      {stop_shots, 1},
+      {cushions_without_slip_at_the_nose, 1},
       {pocketed_balls_do_not_change, 1},
       {states_at_times, 1},
       {what_is_not_known_is_refused, 1},
