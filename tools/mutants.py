@@ -206,7 +206,7 @@ class Copy:
         state = subprocess.run(["git", "rev-parse", "HEAD:include", "HEAD:src", "HEAD:python/src"],
                                cwd=self.folder, capture_output=True, text=True, check=True).stdout  # fmt: skip
         if not mark.exists() or mark.read_text() != state:
-            for name in ("package", "numba", "jax", "pooltool"):
+            for name in ("package", "jax", "pooltool"):
                 self.must(["sh", f"tests/python/{name}", str(self.folder), str(self.build)], skipped=name != "package")
             mark.write_text(state)
         where = subprocess.run([self.python, "-c", "import carom; print(carom.__path__[0])"], cwd="/", capture_output=True, text=True, check=True)

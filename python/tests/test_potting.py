@@ -202,7 +202,7 @@ def test_random_parameters_ball_sets_and_rewards():
 # ---- The environments -----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("render_mode", [None, "rgb_array", "svg"])
+@pytest.mark.parametrize("render_mode", [None, "svg"])
 def test_gymnasiums_checker(gymnasium, render_mode):
     from gymnasium.utils.env_checker import check_env
 
@@ -302,27 +302,14 @@ def test_reset_options(gymnasium):
 
 
 def test_pictures(gymnasium):
-    envs = gymnasium.make_vec("carom/Potting-v0", num_envs=2, balls=2, strokes=5, render_mode="rgb_array")
-    seen, _ = envs.reset(seed=4)
-    still = envs.render()[1]
-    table = envs.unwrapped.rules.table
-    assert still.dtype == np.uint8 and still.ndim == 3 and abs(still.shape[1] / still.shape[0] - 2.78 / 1.51) < 0.01
-
-    def colour_at(image, x, y):
-        column, row = (y + 0.12) * 200, (x + 0.12) * 200
-        return tuple(int(part) for part in image[int(row), int(column)])
-
-    for ball, colour in enumerate(("#ffffff", "#f2c200", "#1f4fd8")):
-        expected = tuple(int(colour[k : k + 2], 16) for k in (1, 3, 5))
-        assert colour_at(still, *seen[1, 3 * ball : 3 * ball + 2]) == expected
-    assert colour_at(still, *table.pockets["centre"][0]) == (0x11, 0x11, 0x11)
+    envs = gymnasium.make_vec("carom/Potting-v0", num_envs=2, balls=2, strokes=5, render_mode="svg")
+    envs.reset(seed=4)
+    still = envs.render()
     envs.step(np.full((2, 4), 0.3))
-    assert (envs.render()[1] != still).any()
-    env = gymnasium.make("carom/Potting-v0", render_mode="svg")
-    env.reset(seed=1)
-    env.step(np.array([0.5, 0.5, 0.0, 0.0]))
-    assert "polyline" in env.render() and ElementTree.fromstring(env.render()).tag.endswith("svg")
-    with pytest.raises(ValueError, match="render_mode: must be None or one of"):
+    for before, after in zip(still, envs.render()):
+        assert ElementTree.fromstring(before).tag == ElementTree.fromstring(after).tag == "{http://www.w3.org/2000/svg}svg"
+        assert after.count("polyline") > before.count("polyline")
+    with pytest.raises(ValueError, match="render_mode: must be None or 'svg', not 'human'"):
         carom.gymnasium.PottingEnv(render_mode="human")
 
 

@@ -12,7 +12,7 @@ import tempfile
 
 from blocks import blocks, pages
 
-NEEDS = {"python": [], "python pooltool": ["pooltool"], "python numba": ["numba"], "python jax": ["jax"], "python gymnasium": ["gymnasium"], "python pettingzoo": ["pettingzoo"], "python scale": ["dask", "xarray"]}
+NEEDS = {"python": [], "python pooltool": ["pooltool"], "python jax": ["jax"], "python gymnasium": ["gymnasium"], "python pettingzoo": ["pettingzoo"], "python scale": ["dask", "xarray"]}
 source = os.path.abspath(sys.argv[1])
 run, left_out, shown = 0, 0, 0
 
@@ -26,10 +26,7 @@ with tempfile.TemporaryDirectory() as work:
             if not all(importlib.util.find_spec(module) for module in NEEDS[kind]):
                 left_out += 1
                 continue
-            # A file, as Numba keeps what it compiles beside the source.
-            where = os.path.join(work, f"{page.replace('/', '_')}_block_{number}.py")
-            with open(where, "w", encoding="utf-8") as file:
-                file.write(text)
+            where = f"{page}, block {number}"
             # Statement by statement, as one who types them: an expression's value is shown, so it must show.
             for statement in ast.parse(text).body:
                 if isinstance(statement, ast.Expr):

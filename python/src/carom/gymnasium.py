@@ -3,7 +3,7 @@
     import gymnasium
     import carom.gymnasium
 
-    game = gymnasium.make("carom/Potting-v0", balls=5, strokes=5, render_mode="rgb_array")
+    game = gymnasium.make("carom/Potting-v0", balls=5, strokes=5, render_mode="svg")
     games = gymnasium.make_vec("carom/Potting-v0", num_envs=64, cushion_model="han", threads=-1)
 
 Actions, observations, rewards and ends are those of `carom.potting.Potting`, whose arguments both take; `rules` is that object. Game k
@@ -18,10 +18,9 @@ from typing import Any, Literal, cast
 import numpy as np
 import numpy.typing as npt
 
-from carom import dtypes, pictures
+from carom import dtypes
 from carom._draws import Draws, Games
 from carom._rows import listing, raw
-from carom.pixels import Pixels, pixels
 from carom.potting import Potting, Strokes
 
 try:
@@ -37,8 +36,7 @@ except ImportError as missing:
 __all__ = ["PottingEnv", "PottingVectorEnv"]
 __dir__ = listing(__name__)
 
-RenderMode = Literal["rgb_array", "svg"]
-_RENDER_MODES = ("rgb_array", "svg")
+RenderMode = Literal["svg"]
 _OPTIONS = {"layout", "strokes"}
 _Bools = npt.NDArray[np.bool_]
 _ONE: Games = np.zeros(1, np.int64)
@@ -48,8 +46,8 @@ class _Games:
     """The state of games, and what both environments do with it. Each game has random numbers of its own."""
 
     def __init__(self, rules: Potting, games: int, render_mode: str | None) -> None:
-        if render_mode is not None and render_mode not in _RENDER_MODES:
-            raise ValueError(f"render_mode: must be None or one of {', '.join(map(repr, _RENDER_MODES))}, not {render_mode!r}")
+        if render_mode not in (None, "svg"):
+            raise ValueError(f"render_mode: must be None or 'svg', not {render_mode!r}")
         self.rules = rules
         self.balls: dtypes.Records = np.zeros((games, rules.balls + 1), dtypes.shot_ball)
         self.left: npt.NDArray[np.int64] = np.zeros(games, np.int64)
@@ -105,14 +103,11 @@ class _Games:
     def observe(self) -> dtypes.Doubles:
         return self.rules.observe(self.balls, self.left)
 
-    def render(self, game: int, mode: str | None) -> Pixels | str | None:
+    def render(self, game: int) -> str | None:
         """The picture of one game: its balls and the paths of its last stroke."""
-        if mode is None:
+        if not self.drawn:
             return None
-        shot = self.rules.shot(self.before[game], self.actions[game] if self.struck[game] else None)
-        if mode == "svg":
-            return pictures.picture(self.rules.table, shot)
-        return pixels(self.rules.table, self.balls[game], shot)
+        return self.rules.shot(self.before[game], self.actions[game] if self.struck[game] else None)._repr_svg_()
 
 
 def _spaces(rules: Potting) -> tuple[Any, Any]:
@@ -141,9 +136,9 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
     ----------
     balls, strokes
         As for `Potting`.
-    render_mode : {None, "rgb_array", "svg"}
-        What `render` gives: nothing; an array of uint8, of shape (rows, columns, 3), with the balls as they lie and the paths of the
-        last stroke; the text of a picture of that stroke, from where the balls lay (faint) to where they came to rest.
+    render_mode : {None, "svg"}
+        What `render` gives: nothing, or the text of a picture of the last stroke, from where the balls lay (faint) to where they
+        came to rest.
     **rules
         Other arguments of `Potting`.
 
@@ -154,7 +149,7 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
     the observation contains the number of strokes left.
     """
 
-    metadata: dict[str, Any] = {"render_modes": list(_RENDER_MODES), "render_fps": 1}
+    metadata: dict[str, Any] = {"render_modes": ["svg"], "render_fps": 1}
 
     def __init__(self, balls: int = 5, strokes: int = 5, *, render_mode: RenderMode | None = None, **rules: Any) -> None:
         self.rules = Potting(balls, strokes, **rules)
@@ -192,7 +187,7 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
 
     def render(self) -> Any:
         """The picture, as `render_mode` says."""
-        return self._games.render(0, self.render_mode)
+        return self._games.render(0)
 
 
 class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]]):
@@ -213,7 +208,7 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
     """
 
     metadata: dict[str, Any] = {
-        "render_modes": list(_RENDER_MODES),
+        "render_modes": ["svg"],
         "render_fps": 1,
         "autoreset_mode": AutoresetMode.NEXT_STEP,
     }
@@ -292,7 +287,7 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
         """The pictures of all games, as `render_mode` says."""
         if self.render_mode is None:
             return None
-        return tuple(self._games.render(game, self.render_mode) for game in range(self.num_envs))
+        return tuple(self._games.render(game) for game in range(self.num_envs))
 
 
 _registry = cast("Any", gymnasium)

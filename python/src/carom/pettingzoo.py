@@ -18,10 +18,9 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from carom import dtypes, pictures
+from carom import dtypes
 from carom._rows import listing
 from carom.nineball import NineBall, Turn
-from carom.pixels import pixels
 
 try:
     from gymnasium import spaces
@@ -44,7 +43,7 @@ class NineBallEnv(AECEnv):
     ----------
     strokes : int
         After so many, both players together, the game is truncated.
-    render_mode : {None, "rgb_array", "svg"}
+    render_mode : {None, "svg"}
         As for `carom.gymnasium.PottingEnv`.
     **options
         Of `NineBall`.
@@ -54,12 +53,12 @@ class NineBallEnv(AECEnv):
     `infos` of both players, after a stroke: foul (why, or empty), first (the ball touched first, 0 for none), potted (a list), hand.
     """
 
-    metadata: dict[str, Any] = {"name": "carom_nineball_v0", "render_modes": ["rgb_array", "svg"], "is_parallelizable": False}
+    metadata: dict[str, Any] = {"name": "carom_nineball_v0", "render_modes": ["svg"], "is_parallelizable": False}
 
-    def __init__(self, strokes: int = 200, *, render_mode: Literal["rgb_array", "svg"] | None = None, **options: Any) -> None:
+    def __init__(self, strokes: int = 200, *, render_mode: Literal["svg"] | None = None, **options: Any) -> None:
         super().__init__()
-        if render_mode is not None and render_mode not in self.metadata["render_modes"]:
-            raise ValueError(f"render_mode: must be None, 'rgb_array' or 'svg', not {render_mode!r}")
+        if render_mode not in (None, "svg"):
+            raise ValueError(f"render_mode: must be None or 'svg', not {render_mode!r}")
         self.rules = NineBall(**options)
         self.strokes = strokes
         self.render_mode = render_mode
@@ -122,13 +121,10 @@ class NineBallEnv(AECEnv):
         self._accumulate_rewards()
 
     def render(self) -> Any:
-        """The balls as they lie and the paths of the last stroke; as `render_mode` says."""
+        """The text of a picture: the balls and the paths of the last stroke."""
         if self.render_mode is None:
             return None
-        shot = None if self.turn is None else self.turn.shot
-        if self.render_mode == "svg":
-            return pictures.picture(self.rules.table, shot or self.rules.base.shot(self.position.balls, None))
-        return pixels(self.rules.table, self.position.balls, shot)
+        return (self.rules.base.shot(self.position.balls, None) if self.turn is None else self.turn.shot)._repr_svg_()
 
     def close(self) -> None:
         """Nothing is held open."""
