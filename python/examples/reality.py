@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 import carom.fit
 import carom.tracks
-from carom import _from_events, _summary
+from carom import _events, _from_events, _summary
 
 Doubles = npt.NDArray[np.float64]
 Recordings = list[carom.tracks.Recording]
@@ -31,8 +31,7 @@ def law(values: Doubles, by: Doubles, edges: Sequence[float]) -> list[str]:
     for low, high in zip(edges[:-1], edges[1:]):
         part = values[(by >= low) & (by < high)]
         if len(part) >= 5:
-            middle = np.median(part)
-            error = 1.2533 * 1.4826 * np.median(np.abs(part - middle)) / np.sqrt(len(part))
+            middle, error = _events.median(part)
             rows.append(f"| {low:g} to {high:g} | {middle:.3f} ± {error:.3f} | {len(part)} |")
     return rows
 

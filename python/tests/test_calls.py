@@ -412,7 +412,7 @@ def test_ctrl_c_ends_a_long_call(name):
 
 
 def test_chunks_have_the_bits_of_one_call(impacts, monkeypatch):
-    from carom import _rows, collisions, cushions, results, shots
+    from carom import _impacts, _rows, collisions, results, shots
 
     def calls():
         many = np.tile(impacts, (70, 1))
@@ -429,7 +429,7 @@ def test_chunks_have_the_bits_of_one_call(impacts, monkeypatch):
         yield from (carom.mu_ball(np.tile(many, (4, 1))), one.states(np.linspace(0, one.time, 5000)))
 
     seen = [array.tobytes() for array in calls()]
-    for module in (collisions, cushions, results, shots):
+    for module in (_impacts, collisions, results, shots):
         assert module.in_chunks is _rows.in_chunks
         monkeypatch.setattr(module, "in_chunks", lambda n, seconds, threads, call: call(0, n))
     assert seen == [array.tobytes() for array in calls()]

@@ -55,7 +55,7 @@ for file in files:
 no_circle("units", units)
 no_circle("rooms", rooms)
 
-# Python: imports that are executed, at the top or in a function; those for annotations are not.
+# Python: every import, at the top, in a function or for annotations alone.
 PACKAGE = ROOT / "python" / "src"
 modules = {".".join(path.relative_to(PACKAGE).with_suffix("").parts).removesuffix(".__init__"): path for path in PACKAGE.rglob("*.py")}
 imports = defaultdict(set)
@@ -63,8 +63,6 @@ imports = defaultdict(set)
 
 def find_imports(module, node):
     for child in ast.iter_child_nodes(node):
-        if isinstance(child, ast.If) and getattr(child.test, "id", "") == "TYPE_CHECKING":
-            continue
         names = [name.name for name in child.names] if isinstance(child, ast.Import) else []
         if isinstance(child, ast.ImportFrom):
             assert child.level == 0, f"{module}: imports are absolute"

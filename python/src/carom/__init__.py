@@ -12,7 +12,9 @@ from carom import dtypes, racks, tables
 from carom._carom import ffi as _ffi
 from carom._carom import lib as _lib
 from carom._rows import listing as _listing
-from carom.collisions import ALL_THREADS, Outcome, alciatore, collide, impacts, mu_ball, trace
+from carom._shot_options import Options
+from carom._impacts import Outcome
+from carom.collisions import ALL_THREADS, alciatore, collide, impacts, mu_ball, trace
 from carom.cushions import cushion, cushion_impacts, cushion_trace
 from carom.derivatives import Flag, Tangents, jacobian, tangents
 from carom.layouts import Table, balls, cue, place_ball, struck
@@ -26,41 +28,11 @@ for _name in ("collisions", "cushions", "derivatives", "dtypes", "layouts", "rac
 __version__: str = _ffi.string(_lib.carom_version()).decode()
 
 __all__ = [
-    "ALL_THREADS",
-    "CaromError",
-    "EventType",
-    "Features",
-    "Flag",
-    "Label",
-    "Outcome",
-    "Shot",
-    "Shots",
-    "Status",
-    "Table",
-    "Tangents",
-    "alciatore",
-    "balls",
-    "collide",
-    "cue",
-    "cushion",
-    "cushion_impacts",
-    "cushion_trace",
-    "dtypes",
-    "impacts",
-    "isa_in_force",
-    "jacobian",
-    "mu_ball",
-    "physics_revision",
-    "place_ball",
-    "racks",
-    "resume",
-    "simulate",
-    "simulate_batch",
-    "struck",
-    "tables",
-    "tangents",
-    "trace",
-]
+    "ALL_THREADS", "CaromError", "EventType", "Features", "Flag", "Label", "Options", "Outcome", "Shot", "Shots",
+    "Status", "Table", "Tangents", "alciatore", "balls", "collide", "cue", "cushion", "cushion_impacts",
+    "cushion_trace", "dtypes", "impacts", "isa_in_force", "jacobian", "mu_ball", "physics_revision", "place_ball",
+    "racks", "resume", "simulate", "simulate_batch", "struck", "tables", "tangents", "trace",
+]  # fmt: skip
 
 
 def isa_in_force() -> str:

@@ -13,8 +13,8 @@ import numpy as np
 
 from carom import dtypes
 from carom._rows import Array
-from carom.layouts import Table, balls
 from carom._shot_options import Options, ShotCushion, shot_options
+from carom.layouts import Table, balls
 
 Constants = dict[str, float]
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -26,9 +26,6 @@ import numpy.typing as npt
 from carom._carom import lib
 from carom._rows import Arrays, pointer
 from carom.dtypes import Doubles, Records
-
-if TYPE_CHECKING:
-    from carom.tracks import Recording
 
 _NOISE, _JITTER = 0.45e-3, 0.25e-3  # s_0 (m) and s_t (s)
 # Penalty of a piece, in chi^2; 18 is the log of how many cuts there could be, doubled, for its 7 numbers. Half of it cuts noise, twice
@@ -40,6 +37,72 @@ _DELAY, _DELAY_ERROR = 0.003, 0.006  # s
 _TOUCH = 0.02  # m: at a cut a ball is this close to what it met
 _TURN = 0.03  # m/s: least change of velocity in a hit
 _BEFORE, _AFTER = 0.6, 0.9  # s: samples of an impact, at most
+
+MOVED = 3e-3
+"""m: a ball that is farther than this from its first place has moved."""
+
+
+class TrackError(ValueError):
+    """A file of tracks is wrong. The message says what is wrong, where, and what would be right."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """One recorded shot.
+
+    Attributes
+    ----------
+    id : int or str
+        As in the file.
+    balls : tuple of int or str
+        The names of the balls, as in the file.
+    tracks : tuple of ndarray, shapes (rows, 3)
+        Of each ball t (s), x and y (m); the first row is at rest.
+    """
+
+    id: int | str
+    balls: tuple[int | str, ...]
+    tracks: tuple[Doubles, ...]
+
+    @property
+    def rest(self) -> Doubles:
+        """Where the balls lay before the strike, m, shape (balls, 2): the mean of a ball's rows before it moved."""
+        return np.array([track[: self._still(track), 1:].mean(axis=0) for track in self.tracks])
+
+    @property
+    def still(self) -> list[int]:
+        """How many rows each ball has before it moved, shape (balls,)."""
+        return [self._still(track) for track in self.tracks]
+
+    @property
+    def moves(self) -> Doubles:
+        """The time of each ball's first row away from its place of rest, s, shape (balls,); inf if it never moves."""
+        times = [(*track[self._still(track) :, 0], math.inf)[0] for track in self.tracks]
+        return np.array(times)
+
+    @property
+    def cue(self) -> int:
+        """The index of the ball that was struck: the one that moves first, and farthest of those that move at once."""
+        moves = self.moves
+        if not np.isfinite(moves).any():
+            raise TrackError(f"shot {self.id}: no ball moves by more than {MOVED * 1e3:g} mm, so there is no strike")
+        first = np.flatnonzero(moves == moves.min())
+        if len(first) == 1:
+            return int(first[0])
+        far = [np.hypot(*(track[self._still(track), 1:] - track[0, 1:])) for track in (self.tracks[k] for k in first)]
+        return int(first[int(np.argmax(far))])
+
+    @property
+    def end(self) -> float:
+        """The time of the last row, s."""
+        return float(max(track[-1, 0] for track in self.tracks))
+
+    @staticmethod
+    def _still(track: Doubles) -> int:
+        """How many rows at the beginning of a track are at its place of rest."""
+        away = np.hypot(*(track[:, 1:] - track[0, 1:]).T) > MOVED
+        return int(np.argmax(away)) if away.any() else len(track)
+
 
 piece = np.dtype([
     ("shot", "i8"), ("ball", "i8"), ("begin", "f8"), ("end", "f8"), ("samples", "i8"), ("time", "f8"), ("r", "f8", 2), ("v", "f8", 2),
@@ -224,6 +287,13 @@ def median(values: Doubles) -> tuple[float, float]:
         return math.nan, math.nan
     middle = float(np.median(values))
     return middle, 1.2533 * 1.4826 * float(np.median(np.abs(values - middle))) / math.sqrt(len(values))
+
+
+def halves(n: int, splits: int, random: np.random.Generator, find: Callable[[npt.NDArray[np.intp]], Doubles]) -> Doubles:
+    """The standard errors of what `find` gives of all n rows, by random halves: the difference of two halves is twice that error."""
+    parts = [np.array_split(random.permutation(n), 2) for _ in range(splits)]
+    apart = np.array([find(first) - find(second) for first, second in parts])
+    return np.asarray(0.5 * np.sqrt((apart**2).mean(axis=0)))
 
 
 # ---- Impacts and hits

@@ -22,9 +22,9 @@ from carom import _events, dtypes
 from carom._constants import usual
 from carom._events import Events
 from carom._rows import Array
+from carom._shot_options import ShotCushion
 from carom.cushions import cushion
 from carom.dtypes import Doubles, Records
-from carom.shots import ShotCushion
 
 _GRAVITY = 9.81
 _SPINS = np.linspace(-1.8, 1.8, 61)  # R w_z over v, that are tried
@@ -131,12 +131,6 @@ def _cushion(
     first, size = usual(model), np.array([1.0, 1.0, 1.0, radius])
     start = np.array([first[name] for name in _CUSHION]) / size
     found = _fit_cushion(good, radius, model, start)
-    # halves: the difference of two is twice the error of the whole
-    apart: list[Doubles] = []
-    for _ in range(_SPLITS):
-        order = random.permutation(len(good))
-        half = len(good) // 2
-        apart.append(_fit_cushion(good[order[:half]], radius, model, found) - _fit_cushion(good[order[half:]], radius, model, found))
-    error = 0.5 * np.sqrt((np.array(apart) ** 2).mean(axis=0))
+    error = _events.halves(len(good), _SPLITS, random, lambda half: _fit_cushion(good[half], radius, model, found))
     names = _CUSHION[: 1 if model == "mirror" else None]
     return {name: (float(value), float(spread)) for name, value, spread in zip(names, found * size, error * size)}

@@ -18,7 +18,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
+from carom import _events
 from carom._strikes import Plays, descend, find, normal
 from carom.dtypes import Doubles
 
@@ -145,25 +147,21 @@ STAGES = len(_HORIZONS)
 
 
 def spread(search: Search, seed: int) -> dict[str, float]:
-    """The errors of the constants of a search that is done: from halves of its shots, whose difference is twice the error of the whole."""
-    random, apart = np.random.default_rng(seed), []
-    every = np.arange(len(search.rows))
-    if len(every) < 2 * _HALF_LEAST:
+    """The errors of the constants of a search that is done, from halves of its shots."""
+    if len(search.rows) < 2 * _HALF_LEAST:
         return {}
     strikes = np.full((len(search.plays.recordings), 6), np.nan)
     strikes[search.rows] = search.strikes
-    for _ in range(_SPLITS):
-        order = random.permutation(every)
-        found: list[Doubles] = []
-        for half in np.array_split(order, 2):
-            rows = search.rows[np.sort(half)]
-            priors = dict(zip(search.names, zip(search.first.tolist(), search.scale.tolist())))
-            part = Search(search.plays.some(rows), strikes[rows], range(len(rows)), priors)
-            part.values = search.start.copy()
-            for number in range(STAGES):
-                part.stage(number, seed)
-            found.append(part.values)
-        apart.append(0.5 * (found[0] - found[1]))
+    priors = dict(zip(search.names, zip(search.first.tolist(), search.scale.tolist())))
+
+    def find(half: npt.NDArray[np.intp]) -> Doubles:
+        rows = search.rows[np.sort(half)]
+        part = Search(search.plays.some(rows), strikes[rows], range(len(rows)), priors)
+        part.values = search.start.copy()
+        for number in range(STAGES):
+            part.stage(number, seed)
+        return part.values
+
+    error = _events.halves(len(search.rows), _SPLITS, np.random.default_rng(seed), find)
     method = np.array([METHOD[name] for name in search.names])
-    error = np.hypot(np.sqrt((np.array(apart) ** 2).mean(axis=0)), method)
-    return dict(zip(search.names, error.tolist()))
+    return dict(zip(search.names, np.hypot(error, method).tolist()))

@@ -169,7 +169,8 @@ def _rvw(states: dtypes.Records) -> dtypes.Doubles:
 
 def _states(rvws: dtypes.Doubles, labels: list[int], times: list[float]) -> list[Any]:
     """States of pooltool's, of (n, 3, 3) numbers."""
-    return make(_balls.BallState, len(labels), ("rvw", "s", "t"), (list(rvws), labels, times))
+    states: list[Any] = make(_balls.BallState, len(labels), ("rvw", "s", "t"), (list(rvws), labels, times))
+    return states
 
 
 class _Histories:
@@ -250,7 +251,8 @@ class _Filler:
             else:
                 who.append((ball,))
         columns = ([_TYPES[kind] for kind in types], who, events["time"].tolist())
-        return make(_events.Event, len(who), ("event_type", "agents", "time"), columns)
+        made: list[Any] = make(_events.Event, len(who), ("event_type", "agents", "time"), columns)
+        return made
 
 
 def fill(system: Any, shot: Shot, kept: int, stopped: bool, dt: float | None) -> None:

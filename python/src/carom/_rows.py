@@ -7,7 +7,7 @@ import operator
 import os
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -220,7 +220,7 @@ def broadcast(shapes: dict[str, tuple[int, ...]]) -> tuple[int, ...]:
         raise ValueError(f"leading dimensions must be equal or 1, to be broadcast against each other, but are {given}") from None
 
 
-def fill(record: np.dtype[Any], vectors: dict[str, int], fields: dict[str, npt.ArrayLike | None], usual: bytes | None = None) -> Array:
+def fill(record: np.dtype[Any], vectors: dict[str, int], fields: Mapping[str, npt.ArrayLike | None], usual: bytes | None = None) -> Array:
     """An array of the record from fields that are broadcast against each other; others are those of a usual record, or 0.
 
     A field "a.v" is v of the part a; one that is None is not given.

@@ -1,10 +1,10 @@
-"""The options of whole shots, by their names."""
+"""The options of whole shots, by their names. A new one stands in `Options`, in `Changes` for type checkers, and in `shot_options`."""
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Iterable
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict
 
 import numpy as np
 
@@ -17,20 +17,9 @@ ShotCushion = Literal["default", "mathavan", "stronge", "han", "mirror", "euler"
 Friction = Literal["alciatore", "constant"]
 Space = Literal["3d", "flat"]
 StopAt = Literal[
-    "contact",
-    "strike",
-    "ball_ball",
-    "rail",
-    "jaw",
-    "pocket",
-    "sliding_rolling",
-    "rolling_spinning",
-    "rolling_stationary",
-    "spinning_stationary",
-    "slate",
-    "rail_top",
-    "left_table",
-]
+    "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
+    "spinning_stationary", "slate", "rail_top", "left_table",
+]  # fmt: skip
 _WORLDS = {"carom": 0, "pooltool": 1}
 _BALL_MODELS = {"default": 0, "exact": 1, "euler": 2, "inelastic": 3, "mirror": 4}
 _CUSHIONS = {"default": 0, "mathavan": 1, "stronge": 2, "han": 3, "mirror": 4, "euler": 5}
@@ -41,7 +30,34 @@ _STOPS: dict[str, int] = {name: k for k, name in enumerate(StopAt.__args__)}  # 
 
 
 class Options(NamedTuple):
-    """By what a shot was played: the arguments of `carom.simulate` of these names."""
+    """By what a shot is played. `carom.simulate` takes these names as keywords, or an object of this class, or both.
+
+    Attributes
+    ----------
+    world : {"carom", "pooltool"}
+        The rules of contact: carom's, or pooltool's, which give the histories of pooltool.
+    ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
+        Model of the collision of two balls. Default: exact in the world carom, inelastic in pooltool.
+    cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
+        Model of the impact on a cushion. Default: han in the world carom, stronge in pooltool. mathavan is the exact limit, and takes most of
+        the time.
+    friction : {"alciatore", "constant"}
+        Between balls: by the speed of slip, or the balls' mu_ball.
+    space : {"3d", "flat"}
+        Whether balls can leave the cloth, as by an elevated cue. The world pooltool is flat.
+    steps : int
+        Of Euler's models; 0 is 1000.
+    events_most : int
+        Bound of events; 0 is 10000.
+    plain : bool
+        Whether this call computes with the instruction set plain, as with CAROM_ISA=plain: it has the bits that all machines share.
+    t_final : float, optional
+        The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that
+        lasts longer than 1000 s is an error.
+    stop_at : str or tuple of str
+        The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT: "contact", of the cue ball with
+        another, or a type of `carom.EventType` in lower case, such as "pocket". `carom.resume` goes on with a shot that was stopped.
+    """
 
     world: World = "carom"
     ball_model: BallModel = "default"
@@ -52,7 +68,32 @@ class Options(NamedTuple):
     events_most: int = 0
     plain: bool = False
     t_final: float | None = None
-    stop_at: StopAt | tuple[StopAt, ...] = ()
+    stop_at: StopAt | Iterable[StopAt] = ()
+
+    def changed(self, changes: Any) -> Options:
+        """These options but for some, by their names."""
+        unknown = changes.keys() - set(self._fields)
+        if unknown:
+            raise TypeError(f"options: there is no {min(unknown)!r}; known are {', '.join(self._fields)}")
+        made = self._replace(**changes)
+        return made if isinstance(made.stop_at, (str, tuple)) else made._replace(stop_at=tuple(made.stop_at))
+
+
+if TYPE_CHECKING:
+
+    class Changes(TypedDict, total=False):
+        """Some of the options, as keywords."""
+
+        world: World
+        ball_model: BallModel
+        cushion_model: ShotCushion
+        friction: Friction
+        space: Space
+        steps: int
+        events_most: int
+        plain: bool
+        t_final: float | None
+        stop_at: StopAt | Iterable[StopAt]
 
 
 @functools.lru_cache(maxsize=256)
@@ -61,25 +102,12 @@ def shot_options(given: Options, threads: int = 0) -> Any:
     world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, stop_at = given
     if t_final is not None and not 0.0 < t_final < np.inf:
         raise ValueError(f"t_final: it must be positive and finite, in s, or None, not {t_final}")
-    stops = (stop_at,) if isinstance(stop_at, str) else stop_at
-    return ffi.new(
-        "carom_shot_options *",
-        {
-            "world": choice(_WORLDS, world, "world"),
-            "ball_model": choice(_BALL_MODELS, ball_model, "ball_model"),
-            "cushion_model": choice(_CUSHIONS, cushion_model, "cushion_model"),
-            "friction": choice(_FRICTIONS, friction, "friction"),
-            "space": choice(_SPACES, space, "space"),
-            "steps": whole(steps, "steps"),
-            "events_most": whole(events_most, "events_most"),
-            "time_most": 0.0 if t_final is None else t_final,
-            "stop_at": sum({1 << choice(_STOPS, stop, "stop_at") for stop in stops}),
-            "threads": whole(threads, "threads", least=-1),
-            "plain": whole(plain, "plain", most=1),
-        },
-    )
-
-
-def hashable(stop_at: StopAt | Iterable[StopAt]) -> StopAt | tuple[StopAt, ...]:
-    """As `shot_options` takes it."""
-    return stop_at if isinstance(stop_at, str) else tuple(stop_at)
+    stops = (stop_at,) if isinstance(stop_at, str) else tuple(stop_at)
+    named = {
+        "world": choice(_WORLDS, world, "world"), "ball_model": choice(_BALL_MODELS, ball_model, "ball_model"),
+        "cushion_model": choice(_CUSHIONS, cushion_model, "cushion_model"), "friction": choice(_FRICTIONS, friction, "friction"),
+        "space": choice(_SPACES, space, "space"), "stop_at": sum({1 << choice(_STOPS, stop, "stop_at") for stop in stops}),
+    }  # fmt: skip
+    numbers = {"steps": whole(steps, "steps"), "events_most": whole(events_most, "events_most"), "plain": whole(plain, "plain", most=1)}
+    numbers["threads"] = whole(threads, "threads", least=-1)
+    return ffi.new("carom_shot_options *", {**named, **numbers, "time_most": t_final or 0.0})

@@ -23,8 +23,8 @@ import numpy.typing as npt
 from carom import _constants
 from carom._carom import ffi, lib
 from carom._rows import pointer, workers
+from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles
-from carom.shots import ShotCushion
 from carom.status import CaromError
 from carom.tracks import Recording
 

@@ -3,46 +3,32 @@
 from __future__ import annotations
 
 import functools
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
-from carom._rows import FLOAT32, FLOAT64, INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows, whole
-from carom.status import CaromError
+from carom._impacts import BALLS, Outcome, resolve
+from carom._impacts import trace as follow
+from carom._rows import Array, choice, fill, in_chunks, pointer, rows, whole
 
 Solver = Literal["exact", "euler"]
 Slip = Literal["paper", "pooltool"]
-SOLVERS = {"exact": 0, "euler": 1}
-SLIPS = {"paper": 0, "pooltool": 1}
-_VECTORS = {"r": 3, "v": 3, "w": 3}
+_SOLVERS = {"exact": 0, "euler": 1}
+_SLIPS = {"paper": 0, "pooltool": 1}
 
 ALL_THREADS = -1
 """For `threads`: one thread for each processor that the process may use."""
 
 
-class Outcome(NamedTuple):
-    """What impacts give: the motion after them, and how each ended."""
-
-    motion: Array
-    status: Array
-
-
 @functools.lru_cache(maxsize=256)
 def _options(solver: str, slip: str, steps: int, threads: int, plain: bool) -> Any:
     """The options of C; they are never written to."""
-    return ffi.new(
-        "carom_options *",
-        {
-            "solver": choice(SOLVERS, solver, "solver"),
-            "slip": choice(SLIPS, slip, "slip"),
-            "steps": whole(steps, "steps"),
-            "threads": whole(threads, "threads", least=ALL_THREADS),
-            "plain": whole(plain, "plain", most=1),
-        },
-    )
+    numbers = {"solver": choice(_SOLVERS, solver, "solver"), "slip": choice(_SLIPS, slip, "slip"), "steps": whole(steps, "steps")}
+    numbers |= {"threads": whole(threads, "threads", least=ALL_THREADS), "plain": whole(plain, "plain", most=1)}
+    return ffi.new("carom_options *", numbers)
 
 
 def impacts(
@@ -87,26 +73,14 @@ def impacts(
     ndarray of `carom.dtypes.impact`, shape (...)
         `carom.dtypes.plain()` gives the numbers, of shape (..., 26).
     """
+    other = {"b.mass": mass if mass_b is None else mass_b, "b.mu_cloth": mu_cloth if mu_cloth_b is None else mu_cloth_b}
     return fill(
-        dtypes.impact,
-        _VECTORS,
+        dtypes.impact, {"r": 3, "v": 3, "w": 3},
         {
-            "a.r": r_a,
-            "a.v": v_a,
-            "a.w": w_a,
-            "a.radius": radius,
-            "a.mass": mass,
-            "a.mu_cloth": mu_cloth,
-            "b.r": r_b,
-            "b.v": v_b,
-            "b.w": w_b,
-            "b.radius": radius,
-            "b.mass": mass if mass_b is None else mass_b,
-            "b.mu_cloth": mu_cloth if mu_cloth_b is None else mu_cloth_b,
-            "mu_ball": mu_ball,
-            "restitution": restitution,
+            "a.r": r_a, "a.v": v_a, "a.w": w_a, "a.radius": radius, "a.mass": mass, "a.mu_cloth": mu_cloth,
+            "b.r": r_b, "b.v": v_b, "b.w": w_b, "b.radius": radius, **other, "mu_ball": mu_ball, "restitution": restitution,
         },
-    )
+    )  # fmt: skip
 
 
 def collide(
@@ -151,46 +125,8 @@ def collide(
     CaromError
         One impact, of shape (26,) or (), that is in error.
     """
-    array = rows(impacts, dtypes.impact, "impacts", single=True)
     options = _options(solver, slip, steps, threads, plain)
-    record = array.dtype.names is not None
-    shape: tuple[int, ...] = array.shape if record else array.shape[:-1]
-    motion, status = (None, None) if out is None else out
-    if record:
-        motion = output(motion, shape, dtypes.result, "out[0]")
-    else:
-        motion = output(motion, (*shape, 12), array.dtype, "out[0]")
-    status = output(status, shape, INT8, "out[1]")
-    if out is not None:
-        apart((("impacts", array),), (("out[0]", motion), ("out[1]", status)))
-    single = array.dtype is not FLOAT64 and array.dtype == FLOAT32
-    if shape == () and not single:
-        # One alone has the same bits by a call that does not fill lanes.
-        code = lib.carom_collide(pointer("carom_impact[]", array), options, pointer("carom_result[]", motion))
-        status[...] = code
-    else:
-        width = "_f32" if single else ""
-        batch = lib.carom_collide_batch_f32 if single else lib.carom_collide_batch
-        source, target = pointer(f"carom_impact{width}[]", array), pointer(f"carom_result{width}[]", motion)
-        flags = pointer("int8_t[]", status)
-
-        def solve(begin: int, count: int) -> int:
-            return int(batch(source + begin, count, options, target + begin, flags + begin))
-
-        code = in_chunks(status.size, 2e-7 if solver == "exact" else 1e-8 * (steps or 1000), threads, solve)
-    if code < 0 and shape == ():
-        raise _error(code, array, options)
-    return Outcome(motion, status)
-
-
-def _error(code: int, array: Array, options: Any) -> CaromError:
-    """The exception for one impact, with the field at fault."""
-    flat = np.ascontiguousarray(array).reshape(-1).view(FLOAT64 if array.dtype != FLOAT32 else FLOAT32)
-    row = flat[:26].astype(np.float64)
-    field = ffi.new("int *", -1)
-    if row.size == 26 and lib.carom_check(pointer("carom_impact[]", row), options, field) == code and field[0] >= 0:
-        return CaromError(code, ffi.string(lib.carom_field_name(field[0])).decode(), row[field[0]])
-    return CaromError(code)
+    return resolve(BALLS, impacts, options, 2e-7 if solver == "exact" else 1e-8 * (steps or 1000), threads, out)
 
 
 def alciatore() -> tuple[float, float, float]:
@@ -257,12 +193,4 @@ def trace(
     CaromError
         The impact is in error.
     """
-    array = rows(impact, dtypes.impact, "impact")
-    if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
-        raise ValueError("impact: a trace is of one impact, of shape (26,), or structured of shape ()")
-    options = _options(solver, slip, steps, 0, plain)
-    traced = np.zeros(whole(points, "points", least=2), dtypes.trace_point)
-    code = lib.carom_trace(pointer("carom_impact[]", array), options, traced.size, pointer("carom_trace_point[]", traced))
-    if code < 0:
-        raise _error(code, array, options)
-    return traced
+    return follow(BALLS, impact, points, _options(solver, slip, steps, 0, plain))

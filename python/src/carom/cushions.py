@@ -9,17 +9,17 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import dtypes
-from carom._carom import ffi, lib
-from carom._rows import INT8, Array, apart, choice, fill, in_chunks, output, pointer, rows, whole
-from carom.collisions import ALL_THREADS, Outcome
-from carom.status import CaromError
+from carom._carom import ffi
+from carom._impacts import CUSHION, Outcome, resolve
+from carom._impacts import trace as follow
+from carom._rows import Array, choice, fill, whole
 
 CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler"]
 CushionConvention = Literal["paper", "pooltool"]
 CushionLaw = Literal["constant", "han"]
-MODELS = {"mathavan": 0, "stronge": 1, "han": 2, "mirror": 3, "euler": 4}
-CONVENTIONS = {"paper": 0, "pooltool": 1}
-LAWS = {"constant": 0, "han": 1}
+_MODELS = {"mathavan": 0, "stronge": 1, "han": 2, "mirror": 3, "euler": 4}
+_CONVENTIONS = {"paper": 0, "pooltool": 1}
+_LAWS = {"constant": 0, "han": 1}
 
 
 @functools.lru_cache(maxsize=256)
@@ -31,19 +31,9 @@ def _options(
         raise ValueError(f"least_step: it must be 0 or more and finite, in N s, not {least_step!r}")
     if omega_ratio != 0.0 and not 1.0 < omega_ratio < 2.0:
         raise ValueError(f"omega_ratio: it must be 0, or between 1 and 2, not {omega_ratio!r}")
-    return ffi.new(
-        "carom_cushion_options *",
-        {
-            "model": choice(MODELS, model, "model"),
-            "convention": choice(CONVENTIONS, convention, "convention"),
-            "law": choice(LAWS, law, "law"),
-            "steps": whole(steps, "steps"),
-            "threads": whole(threads, "threads", least=ALL_THREADS),
-            "least_step": least_step,
-            "omega_ratio": omega_ratio,
-            "plain": whole(plain, "plain", most=1),
-        },
-    )
+    named = {"model": choice(_MODELS, model, "model"), "convention": choice(_CONVENTIONS, convention, "convention"), "law": choice(_LAWS, law, "law")}
+    numbers = {"steps": whole(steps, "steps"), "threads": whole(threads, "threads", least=-1), "plain": whole(plain, "plain", most=1)}
+    return ffi.new("carom_cushion_options *", {**named, **numbers, "least_step": least_step, "omega_ratio": omega_ratio})
 
 
 def cushion_impacts(
@@ -80,22 +70,9 @@ def cushion_impacts(
     -------
     ndarray of `carom.dtypes.cushion_impact`, shape (...)
     """
-    return fill(
-        dtypes.cushion_impact,
-        {"v": 3, "w": 3, "normal": 2},
-        {
-            "v": v,
-            "w": w,
-            "normal": normal,
-            "height": height,
-            "radius": radius,
-            "mass": mass,
-            "mu_cloth": mu_cloth,
-            "mu_cushion": mu_cushion,
-            "restitution": restitution,
-            "jaw_radius": jaw_radius,
-        },
-    )
+    fields = {"v": v, "w": w, "normal": normal, "height": height, "radius": radius, "mass": mass, "mu_cloth": mu_cloth}
+    fields |= {"mu_cushion": mu_cushion, "restitution": restitution, "jaw_radius": jaw_radius}
+    return fill(dtypes.cushion_impact, {"v": 3, "w": 3, "normal": 2}, fields)
 
 
 def cushion(
@@ -148,38 +125,9 @@ def cushion(
     CaromError
         One impact, of shape (15,) or (), that is in error.
     """
-    array = rows(impacts, dtypes.cushion_impact, "impacts")
     options = _options(model, convention, law, steps, threads, least_step, omega_ratio, plain)
-    record = array.dtype.names is not None
-    shape: tuple[int, ...] = array.shape if record else array.shape[:-1]
-    motion, status = (None, None) if out is None else out
-    if record:
-        motion = output(motion, shape, dtypes.motion, "out[0]")
-    else:
-        motion = output(motion, (*shape, 6), array.dtype, "out[0]")
-    status = output(status, shape, INT8, "out[1]")
-    if out is not None:
-        apart((("impacts", array),), (("out[0]", motion), ("out[1]", status)))
-    source, target, flags = pointer("carom_cushion_impact[]", array), pointer("carom_motion[]", motion), pointer("int8_t[]", status)
-
-    def solve(begin: int, count: int) -> int:
-        return int(lib.carom_cushion_batch(source + begin, count, options, target + begin, flags + begin))
-
     seconds = 1e-5 if model == "mathavan" else 1e-7 * (steps or 1000) if model == "euler" else 1e-7
-    code = in_chunks(status.size, seconds, threads, solve)
-    if code < 0 and shape == ():
-        raise _error(code, array, options)
-    return Outcome(motion, status)
-
-
-def _error(code: int, array: Array, options: Any) -> CaromError:
-    """The exception for one impact, with the field at fault."""
-    row = np.ascontiguousarray(array).reshape(-1).view(np.float64)[:15]
-    field = ffi.new("int *", -1)
-    if row.size == 15 and lib.carom_cushion_check(pointer("carom_cushion_impact[]", row), options, field) == code:
-        if field[0] >= 0:
-            return CaromError(code, ffi.string(lib.carom_cushion_field_name(field[0])).decode(), row[field[0]])
-    return CaromError(code)
+    return resolve(CUSHION, impacts, options, seconds, threads, out)
 
 
 def cushion_trace(
@@ -213,16 +161,6 @@ def cushion_trace(
     CaromError
         The impact is in error.
     """
-    array = rows(impact, dtypes.cushion_impact, "impact")
-    if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
-        raise ValueError("impact: a trace is of one impact, of shape (15,), or structured of shape ()")
     if model not in ("mathavan", "euler"):
         raise ValueError(f"model: must be 'mathavan' or 'euler', which can be followed, not {model!r}")
-    options = _options(model, convention, law, steps, 0, least_step, 0.0, plain)
-    traced = np.zeros(whole(points, "points", least=2), dtypes.cushion_point)
-    code = lib.carom_cushion_trace(
-        pointer("carom_cushion_impact[]", array), options, traced.size, pointer("carom_cushion_point[]", traced)
-    )
-    if code < 0:
-        raise _error(code, array, options)
-    return traced
+    return follow(CUSHION, impact, points, _options(model, convention, law, steps, 0, least_step, 0.0, plain))

@@ -8,7 +8,7 @@ from __future__ import annotations
 import enum
 import re
 from collections.abc import Callable, Collection, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +21,11 @@ from carom.layouts import Table, of_record
 from carom.results import Shot, Shots
 from carom.shots import simulate_batch
 from carom.status import CaromError, Status
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from carom._shot_options import Changes
 
 MOST: int = lib.CAROM_DIRECTIONS_MOST
 """Directions of one call of C; more are given in parts."""
@@ -319,10 +324,11 @@ def play(
     times: Array,
     wanted: Collection[str],
     room: int,
-    models: dict[str, Any],
+    threads: int,
+    options: Options,
 ) -> tuple[dict[str, Array], Array, dtypes.Records]:
     """Plays shots, some at a time, and differentiates them: what is wanted, statuses and final states, of the shape of the batch."""
-    threads = whole(models.get("threads", 0), "threads", least=-1)
+    whole(threads, "threads", least=-1)
     balls, shape = layouts.shape[-1], np.broadcast_shapes(layouts.shape[:-1], () if cues is None else cues.shape)
     n = int(np.prod(shape))
     one_layout, one_cue = layouts.size == balls, cues is None or cues.size == 1
@@ -336,7 +342,7 @@ def play(
         many = part.stop - part.start
         struck = strikes if strikes is None or one_cue else strikes[part]
         again = shots if shots is not None and shots.shape == (many,) else None
-        shots = simulate_batch(table, rows if one_layout else rows[part], struck, room=room, out=again, **models)
+        shots = simulate_batch(table, rows if one_layout else rows[part], struck, room=room, threads=threads, out=again, options=options)
         events = int(np.minimum(shots.count, room).max(initial=0))
         job = shots.jobs(_options(shots.options, threads))
         found, codes = _differentiate(job, many, balls, events, seeds, times, wanted, threads)
@@ -366,7 +372,9 @@ def jacobian(
     of: str = "final.r",
     times: npt.ArrayLike | None = None,
     room: int = 512,
-    **models: Any,
+    threads: int = 0,
+    options: Options = Options(),
+    **changes: Unpack[Changes],
 ) -> dtypes.Doubles:
     """Play shots and give one derivative of each, with leading batch dimensions.
 
@@ -380,8 +388,8 @@ def jacobian(
         "final.r", "final.v", "final.w", "final.z", "final.v_z"; "at.r" and so on at `times`; "time" of the events; or "reach".
     room : int
         Events of a shot at most; a shot with more has nan.
-    models
-        ball_model, cushion_model, friction, space, threads and so on, as for `carom.simulate_batch`.
+    threads, options, **changes
+        As for `carom.simulate_batch`.
 
     Returns
     -------
@@ -396,5 +404,5 @@ def jacobian(
     if layouts.ndim == 0:
         raise ValueError("layouts: the shape must be (..., balls), not ()")
     seeds = _seeds(wrt, layouts.shape[-1])[2]
-    found = play(table, layouts, cues, seeds, _sorted_times(times), (group,), room, models)[0][group]
+    found = play(table, layouts, cues, seeds, _sorted_times(times), (group,), room, threads, options.changed(changes))[0][group]
     return _by_name(found)[field] if field else found

@@ -16,18 +16,16 @@ import json
 import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
-import numpy.typing as npt
 
-from carom import _constants, _covariance, _from_events, _joint, _strikes, _summary, pictures
+from carom import _constants, _covariance, _from_events, _joint, _strikes, _summary
 from carom._rows import listing
+from carom._shot_options import ShotCushion
+from carom._summary import Fit
 from carom.dtypes import Doubles
-from carom.results import Shot
-from carom.shots import ShotCushion, simulate
 from carom.tracks import Recording, TrackError, events, read
 
 __all__ = ["Fit", "fit", "main"]
@@ -35,131 +33,6 @@ __dir__ = listing(__name__)
 
 Progress = Callable[[str, float], None]
 _FASTEST = 8.0  # m/s: no ball is faster
-
-
-@dataclass(frozen=True, eq=False)
-class Fit:
-    """Recorded shots, and what they were fitted by.
-
-    Attributes
-    ----------
-    recordings : list of Recording
-    table : (float, float)
-        Extents of x and y, m.
-    radius : float
-        m.
-    cushion_model : str
-    constants : dict
-        What the shots are played with: fields of `carom.dtypes.ball_kind`, and nose_height (m).
-    spread : dict
-        Of each constant that was fitted, how far it is off by the evidence itself: a standard deviation.
-    fitted : tuple of str
-        The constants that whole shots told.
-    covariance : ndarray, shape (fitted, fitted), or None
-        Of these; the roots of its diagonal are their `spread`. None where fewer than 8 shots tell.
-    strikes : ndarray, shape (shots, 6)
-        v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike, and its time (s). NaN where there is none.
-    status : list of str
-        "ok", or why the shot does not count.
-    rmse : ndarray, shape (shots,)
-        Root of the mean squared distance between recorded and played places over all samples of all balls, m; NaN without a play.
-    train : list of bool, optional
-        Which shots the constants were fitted to, if not all.
-    """
-
-    recordings: list[Recording]
-    table: tuple[float, float]
-    radius: float
-    cushion_model: ShotCushion
-    constants: dict[str, float]
-    spread: dict[str, float]
-    strikes: Doubles
-    status: list[str]
-    rmse: Doubles
-    train: list[bool] | None = None
-    fitted: tuple[str, ...] = ()
-    covariance: Doubles | None = None
-
-    def counted(self, train: bool | None = None) -> Doubles:
-        """The RMSE of the shots that are ok, m: of all, of those that constants were fitted to, or of the others."""
-        part = [train is None or self.train is None or one == train for one in self.train or [True] * len(self.status)]
-        return self.rmse[[status == "ok" and counts for status, counts in zip(self.status, part)]]
-
-    @property
-    def median_rmse(self) -> float:
-        """m, over the shots that are ok."""
-        return float(np.median(self.counted())) if len(self.counted()) else float("nan")
-
-    @property
-    def p90_rmse(self) -> float:
-        """m: 9 in 10 of the shots that are ok are better."""
-        return float(np.percentile(self.counted(), 90)) if len(self.counted()) else float("nan")
-
-    def shot(self, i: int) -> Shot:
-        """Shot i played; its clock begins at the strike, `strikes[i, 5]`.
-
-        Raises
-        ------
-        ValueError
-            No strike was found.
-        """
-        strike, recording = self.strikes[i], self.recordings[i]
-        if not np.isfinite(strike).all():
-            raise ValueError(f"shot {recording.id}: no strike was found: {self.status[i]}")
-        centres = _strikes.apart(recording.rest, self.table, self.radius)
-        balls = _constants.layout(centres, self.radius, self.constants)
-        balls["state"]["v"][recording.cue, :2] = strike[:2]
-        balls["state"]["w"][recording.cue] = strike[2:5] / self.radius
-        table = _constants.rectangle(self.table, self.constants["nose_height"])
-        return simulate(table, balls, cushion_model=self.cushion_model)
-
-    def strike_covariance(self, i: int) -> Doubles:
-        """The covariance of the six numbers of `strikes[i]`, shape (6, 6), the constants being right: by derivatives of the shot.
-
-        It has the noise of the samples, by what they leave over, and that of the places of rest, which contacts magnify.
-
-        Raises
-        ------
-        ValueError
-            No strike was found.
-        """
-        self.shot(i)
-        plays = _strikes.Plays([self.recordings[i]], self.table, self.radius, self.constants, self.cushion_model)
-        return _covariance.of_strike(plays, 0, self.strikes[i])
-
-    def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
-        """The centres of shot i's balls as played at times of the recording's clock, m, shape (..., balls, 2)."""
-        at = np.asarray(times, np.float64)
-        return self.shot(i).positions(at - self.strikes[i, 5])[..., :2]
-
-    def plot(self, i: int) -> pictures.Picture:
-        """Shot i: lines as played, dots as recorded. Its `svg` is the text of a file."""
-        shot = self.shot(i)
-        return pictures.Picture(pictures.picture(shot.table, shot, [track[:, 1:] for track in self.recordings[i].tracks]))
-
-    def to_dict(self) -> dict[str, Any]:
-        """What the command writes, of numbers that JSON has."""
-        shots: list[dict[str, Any]] = []
-        for recording, strike, status, rmse in zip(self.recordings, self.strikes, self.status, self.rmse):
-            found = bool(np.isfinite(strike).all())
-            v_x, v_y, w_x, w_y, w_z, start = strike.tolist()
-            cue = {
-                "ball": recording.balls[recording.cue], "v_x": v_x, "v_y": v_y,
-                "w_x": w_x / self.radius, "w_y": w_y / self.radius, "w_z": w_z / self.radius, "start": start,
-            } if found else None  # fmt: skip
-            part = {} if self.train is None else {"train": self.train[len(shots)]}
-            shots.append({**part, "id": recording.id, "status": status, "rmse": float(rmse) if found else None, "cue": cue})
-        return {
-            "constants": self.constants,
-            "spread": self.spread,
-            "covariance": None if self.covariance is None else {"constants": list(self.fitted), "matrix": self.covariance.tolist()},
-            "cushion_model": self.cushion_model,
-            "table": list(self.table),
-            "radius": self.radius,
-            "shots": shots,
-            "median_rmse": self.median_rmse if len(self.counted()) else None,
-            "p90_rmse": self.p90_rmse if len(self.counted()) else None,
-        }
 
 
 def _status(shot: Recording, radius: float) -> str:

@@ -1,4 +1,4 @@
-"""Whole shots as functions that JAX differentiates.
+"""Whole shots as functions that JAX differentiates. This module is an experiment: its names may change in any version.
 
     import jax
     jax.config.update("jax_enable_x64", True)
@@ -30,7 +30,7 @@ import numpy as np
 
 from carom import dtypes
 from carom._rows import Array, broadcast, listing
-from carom._shot_options import hashable
+from carom._shot_options import Options
 from carom.derivatives import CUE, ELEMENTS, KIND, PARTS, STATE, Direction, directions, play, seeds_of
 from carom.layouts import Table, of_record
 from carom.shots import simulate, simulate_batch
@@ -76,7 +76,8 @@ class _Shots:
     cues: bytes | None
     cues_shape: tuple[int, ...]
     names: tuple[str, ...]
-    models: tuple[tuple[str, Any], ...]
+    options: Options
+    threads: int
     room: int
     nan: bool
 
@@ -120,7 +121,7 @@ class _Shots:
         """The final states, of shape (..., balls, STATE)."""
         numbers = np.asarray(x)
         layouts, cues = self.records(numbers)
-        shots = simulate_batch(self.played_on, layouts, cues, **dict(self.models))
+        shots = simulate_batch(self.played_on, layouts, cues, threads=self.threads, options=self.options)
         return self.numbers(numbers, shots.final, shots.status)
 
     def both(self, x: Any) -> tuple[dtypes.Doubles, dtypes.Doubles]:
@@ -128,7 +129,7 @@ class _Shots:
         numbers = np.asarray(x)
         layouts, cues = self.records(numbers)
         seeds, none = seeds_of(self.directions, self.count), np.zeros(0)
-        found, codes, final = play(self.played_on, layouts, cues, seeds, none, ("final",), self.room, dict(self.models))
+        found, codes, final = play(self.played_on, layouts, cues, seeds, none, ("final",), self.room, self.threads, self.options)
         played = np.where(np.isin(codes, (Status.ERROR_TANGENT, Status.ERROR_EVENTS_LOST)), 0, codes) if self.nan else codes
         return self.numbers(numbers, final, played), found["final"]
 
@@ -150,7 +151,7 @@ class _Shots:
         layouts = np.broadcast_to(layouts, (*x.shape[:-1], self.count))[where]
         cues = None if cues is None else np.broadcast_to(cues, x.shape[:-1])[where]
         try:
-            simulate(self.played_on, layouts, cues, **{name: value for name, value in self.models if name != "threads"})
+            simulate(self.played_on, layouts, cues, options=self.options)
         except CaromError as error:
             text = str(error)
         which = f"shot {list(where)} of the batch, " if where else ""
@@ -196,7 +197,9 @@ def final(
     *,
     room: int = 512,
     errors: Literal["raise", "nan"] = "raise",
-    **models: Any,
+    threads: int = 0,
+    options: Options = Options(),
+    **changes: Any,
 ) -> Final:
     """The final states of shots, as a function of some of their numbers that JAX can differentiate, compile and map.
 
@@ -215,9 +218,8 @@ def final(
         Events of a shot at most, where it is differentiated.
     errors : {"raise", "nan"}
         What a shot in error gives: an exception, or nan, so that the other shots of a batch are not lost.
-    models
-        ball_model, cushion_model, friction, space, t_final, threads and so on, as for `carom.simulate_batch`. With t_final the states
-        are those at that time.
+    threads, options, **changes
+        As for `carom.simulate_batch`. With t_final the states are those at that time.
 
     Returns
     -------
@@ -255,10 +257,9 @@ def final(
         parts.append(array)
     leading = {"balls": layouts.shape[:-1], "cue": () if cues is None else cues.shape}
     batch = broadcast({**leading, **{name: part.shape[:-1] for name, part in zip(numbers, parts)}})
-    given = {**models, "stop_at": hashable(models["stop_at"])} if "stop_at" in models else models
     shots = _shots(
         table.record.tobytes(), layouts.tobytes(), layouts.shape, None if cues is None else cues.tobytes(), () if cues is None else cues.shape,
-        tuple(numbers), tuple(sorted(given.items())), room, errors == "nan",
+        tuple(numbers), options.changed(changes), threads, room, errors == "nan",
     )  # fmt: skip
     states = _states(shots, _jnp.concatenate([_jnp.broadcast_to(part, (*batch, part.shape[-1])) for part in parts], axis=-1))
     return Final(**{name: states[..., part] for name, part in PARTS.items()})

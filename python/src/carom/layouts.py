@@ -8,10 +8,10 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from carom import dtypes
+from carom import dtypes, pictures
 from carom._carom import ffi, lib
 from carom._faults import cue_error, fault, is_of_cue
-from carom._rows import Array, as_array, choice, copied, fill, whole
+from carom._rows import Array, as_array, choice, copied, fill, pointer, whole
 from carom.status import CaromError, Status
 
 Game = Literal["pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"]
@@ -113,7 +113,7 @@ class Table:
             Its `field` is the part at fault, its sentence says where the fault is.
         """
         fault = ffi.new("carom_table_fault *")
-        code = lib.carom_table_check(ffi.from_buffer("carom_table[]", self.record), radius, fault)
+        code = lib.carom_table_check(pointer("carom_table[]", self.record), radius, fault)
         if code < 0:
             other = "" if fault.other.kind == lib.CAROM_PART_NONE else f", beside {_part(fault.other)}"
             gap = f", {fault.gap:.4g} m wide" if fault.gap > 0.0 else ""
@@ -131,8 +131,6 @@ class Table:
         return f"<carom.Table {self.width:.4g} m x {self.length:.4g} m, {sizes}>"
 
     def _repr_svg_(self) -> str:
-        from carom import pictures
-
         return pictures.picture(self)
 
 
@@ -185,7 +183,7 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
         raise TypeError(f"balls: an array of shape (balls,) is needed, not of {placed.shape}")
     check_table(table)
     way = ffi.new("carom_part *")
-    of_table, layout = ffi.from_buffer("carom_table[]", table.record), ffi.from_buffer("carom_shot_ball[]", placed)
+    of_table, layout = pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", placed)
     number = whole(ball, "ball", most=len(placed) - 1)
     code = lib.carom_place_ball(of_table, layout, len(placed), number, x, y, way)
     if code in (lib.CAROM_ERROR_OVERLAP, lib.CAROM_ERROR_OFF_TABLE):
@@ -205,24 +203,7 @@ def balls(
     v: npt.ArrayLike = 0.0,
     w: npt.ArrayLike = 0.0,
     game: Game = "pool",
-    mass: npt.ArrayLike | None = None,
-    radius: npt.ArrayLike | None = None,
-    mu_slide: npt.ArrayLike | None = None,
-    mu_roll: npt.ArrayLike | None = None,
-    mu_spin: npt.ArrayLike | None = None,
-    mu_ball: npt.ArrayLike | None = None,
-    restitution: npt.ArrayLike | None = None,
-    mu_cushion: npt.ArrayLike | None = None,
-    restitution_cushion: npt.ArrayLike | None = None,
-    gravity: npt.ArrayLike | None = None,
-    drag: npt.ArrayLike | None = None,
-    roll_loss: npt.ArrayLike | None = None,
-    law_a: npt.ArrayLike | None = None,
-    law_b: npt.ArrayLike | None = None,
-    law_c: npt.ArrayLike | None = None,
-    nose_height: npt.ArrayLike | None = None,
-    omega_ratio: npt.ArrayLike | None = None,
-    restitution_table: npt.ArrayLike | None = None,
+    **kind: npt.ArrayLike | None,
 ) -> dtypes.Records:
     """Balls on a table, from fields that are broadcast against each other.
 
@@ -233,7 +214,7 @@ def balls(
     v, w : array_like, shape (..., 3)
         Velocities, m/s, and angular velocities, rad/s.
     game : {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"}
-        Whose balls they are, for all that follows. docs/understanding/constants.md has the source of each number: those of billiard are
+        Whose balls they are: the defaults of the fields of `carom.dtypes.ball_kind`, which follow. docs/understanding/constants.md has the source of each number: those of billiard are
         measured, with drag and loss of roll; pooltool_... are pooltool's figures.
     mass, radius, gravity : array_like, shape (...)
         kg, m, m/s^2. With space="flat" all balls of a layout have the same radius.
@@ -260,26 +241,10 @@ def balls(
     -------
     ndarray of `carom.dtypes.shot_ball`, shape (..., balls)
     """
-    fields: dict[str, npt.ArrayLike | None] = {
-        "kind.mass": mass,
-        "kind.radius": radius,
-        "kind.mu_slide": mu_slide,
-        "kind.mu_roll": mu_roll,
-        "kind.mu_spin": mu_spin,
-        "kind.mu_ball": mu_ball,
-        "kind.restitution": restitution,
-        "kind.mu_cushion": mu_cushion,
-        "kind.restitution_cushion": restitution_cushion,
-        "kind.gravity": gravity,
-        "kind.drag": drag,
-        "kind.roll_loss": roll_loss,
-        "kind.law_a": law_a,
-        "kind.law_b": law_b,
-        "kind.law_c": law_c,
-        "kind.nose_height": nose_height,
-        "kind.omega_ratio": omega_ratio,
-        "kind.restitution_table": restitution_table,
-    }
+    unknown = [name for name in kind if name not in (dtypes.ball_kind.names or ())]
+    if unknown:
+        raise TypeError(f"balls: there is no field {unknown[0]!r}; known are {', '.join(dtypes.ball_kind.names or ())}")
+    fields = {f"kind.{name}": value for name, value in kind.items()}
     centres = as_array(r, "r", np.float64)
     if centres.ndim < 2 or centres.shape[-1] not in (2, 3):
         raise ValueError(f"r: the shape must be (..., balls, 2) or (..., balls, 3), not {centres.shape}")
@@ -336,23 +301,9 @@ def cue(
         whole_ones = (np.abs(numbers) < 2**31) & (np.trunc(numbers) == numbers)
         if not whole_ones.all():
             raise ValueError(f"ball: it must be the index of one of the balls, a whole number, not {numbers[~whole_ones].flat[0]}")
-    return fill(
-        dtypes.cue,
-        {},
-        {
-            "speed": speed,
-            "phi": phi,
-            "theta": theta,
-            "a": a,
-            "b": b,
-            "ball": ball,
-            "mass": mass,
-            "end_mass": end_mass,
-            "tip_radius": tip_radius,
-            "miscue": miscue,
-        },
-        bytes(ffi.buffer(ffi.new("carom_cue *", lib.carom_cue_of(choice(_GAMES, game, "game"))))),
-    )
+    usual = bytes(ffi.buffer(ffi.new("carom_cue *", lib.carom_cue_of(choice(_GAMES, game, "game")))))
+    given = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball, "miscue": miscue}
+    return fill(dtypes.cue, {}, {**given, "mass": mass, "end_mass": end_mass, "tip_radius": tip_radius}, usual)
 
 
 def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
@@ -386,12 +337,7 @@ def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
     motion: Array = np.zeros((), dtypes.motion)
     strike = one_cue(cue)
     ball = of_record(kind, dtypes.ball_kind, "kind", "balls()['kind']").reshape(1)
-    arguments: list[Any] = [
-        ffi.from_buffer("carom_cue[]", strike),
-        ffi.from_buffer("carom_ball_kind[]", ball),
-        ffi.from_buffer("carom_motion[]", motion),
-    ]
-    code = lib.carom_strike(*arguments)
+    code = lib.carom_strike(pointer("carom_cue[]", strike), pointer("carom_ball_kind[]", ball), pointer("carom_motion[]", motion))
     if code < 0:
         raise cue_error(code, strike) if is_of_cue(code) else fault(code, "kind", ball[0])
     return motion

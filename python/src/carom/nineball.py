@@ -21,10 +21,11 @@ import numpy.typing as npt
 from carom import dtypes, racks
 from carom._draws import Draws
 from carom._rows import Arrays, listing
+from carom._shot_options import ShotCushion
 from carom.layouts import Table
 from carom.potting import Potting
 from carom.results import EventType, Label, Shot
-from carom.shots import ShotCushion, simulate
+from carom.shots import simulate
 from carom.status import CaromError
 
 __dir__ = listing(__name__)

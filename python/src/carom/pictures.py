@@ -1,10 +1,11 @@
-"""Pictures of a table and a shot as SVG: still, with the balls' paths, and moving."""
+"""Pictures of a table and a shot as SVG: still, with the balls' paths, and moving. They are drawn for `carom.Table` and `carom.Shot`,
+which import this module; so these have no types here."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -12,15 +13,11 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._rows import listing
 
-if TYPE_CHECKING:
-    from carom.layouts import Table
-    from carom.results import Shot
-
 __dir__ = listing(__name__)
 
 _SCALE = 300.0  # pixels a metre
-MARGIN = 0.12  # m around the cushions, for pockets and the frame
-CLOTH, CUSHION, WOOD, POCKET = "#2e7d5b", "#1b5e42", "#6d4c33", "#111111"
+_MARGIN = 0.12  # m around the cushions, for pockets and the frame
+_CLOTH, _CUSHION, _WOOD, _POCKET = "#2e7d5b", "#1b5e42", "#6d4c33", "#111111"
 # The balls in the order of the layout: the cue ball, then 1 to 15 in the colours of pool, and again.
 _COLOURS = (
     "#ffffff #f2c200 #1f4fd8 #d32f2f #6a1b9a #ef6c00 #2e9b3a #7b1c1c #222222 #f7dc6f #7fa3f5 #ef8a8a #b58ad4 #f7b27a #8fd19a #c58a8a"
@@ -54,22 +51,17 @@ def _number(x: float) -> str:
     return f"{x:.2f}".rstrip("0").rstrip(".")
 
 
-def lies(size: dtypes.Doubles) -> bool:
-    """Whether a table of this size (m) is drawn on its side, as long ones are: y to the right, x downwards."""
-    return bool(size[1] > size[0])
-
-
 class _Canvas:
     """Metres of the table to pixels of the picture."""
 
-    def __init__(self, table: Table) -> None:
+    def __init__(self, table: Any) -> None:
         ends = np.concatenate([table.rails["p"], table.rails["q"]]) if len(table.rails) else np.zeros((1, 2))
         corners = np.array([[0.0, 0.0], [table.width, table.length]])
         everything = np.concatenate([ends, corners])
-        self.low = everything.min(axis=0) - MARGIN
-        self.high = everything.max(axis=0) + MARGIN
+        self.low = everything.min(axis=0) - _MARGIN
+        self.high = everything.max(axis=0) + _MARGIN
         size = (self.high - self.low) * _SCALE
-        self.turned = lies(size)
+        self.turned = bool(size[1] > size[0])  # a long table lies on its side: y to the right, x downwards
         self.size = size[::-1] if self.turned else size
 
     def at(self, r: npt.ArrayLike) -> tuple[float, float]:
@@ -85,7 +77,7 @@ class _Canvas:
         x, y = map(_number, self.at(centre))
         return f'<circle cx="{x}" cy="{y}" r="{_number(radius * _SCALE)}" {rest}/>'
 
-    def ball(self, shot: Shot, number: int, places: dtypes.Doubles, opacity: float = 1.0, duration: str = "") -> str:
+    def ball(self, shot: Any, number: int, places: dtypes.Doubles, opacity: float = 1.0, duration: str = "") -> str:
         """A ball of a shot, with its number unless it is the first: at a place, or moving over several, shape (n, 3)."""
         points = [self.point(r) for r in places]
         radius = float(shot.balls["kind"]["radius"][number]) * _SCALE
@@ -103,18 +95,18 @@ class _Canvas:
     def document(self, parts: list[str]) -> str:
         width, height = _number(float(self.size[0])), _number(float(self.size[1]))
         head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">'
-        return "\n".join([head, f'<rect width="{width}" height="{height}" rx="12" fill="{WOOD}"/>', *parts, "</svg>", ""])
+        return "\n".join([head, f'<rect width="{width}" height="{height}" rx="12" fill="{_WOOD}"/>', *parts, "</svg>", ""])
 
 
-def _table(canvas: _Canvas, table: Table) -> list[str]:
+def _table(canvas: _Canvas, table: Any) -> list[str]:
     corners = ((0.0, 0.0), (table.width, 0.0), (table.width, table.length), (0.0, table.length))
-    parts = [f'<polygon points="{" ".join(map(canvas.point, corners))}" fill="{CLOTH}"/>']
-    parts += [canvas.circle(pocket["centre"], float(pocket["radius"]), f'fill="{POCKET}"') for pocket in table.pockets]
+    parts = [f'<polygon points="{" ".join(map(canvas.point, corners))}" fill="{_CLOTH}"/>']
+    parts += [canvas.circle(pocket["centre"], float(pocket["radius"]), f'fill="{_POCKET}"') for pocket in table.pockets]
     parts += [
-        f'<polyline points="{canvas.point(rail["p"])} {canvas.point(rail["q"])}" stroke="{CUSHION}" stroke-width="4" fill="none"/>'
+        f'<polyline points="{canvas.point(rail["p"])} {canvas.point(rail["q"])}" stroke="{_CUSHION}" stroke-width="4" fill="none"/>'
         for rail in table.rails
     ]
-    parts += [canvas.circle(jaw["centre"], float(jaw["radius"]), f'fill="{CUSHION}"') for jaw in table.jaws]
+    parts += [canvas.circle(jaw["centre"], float(jaw["radius"]), f'fill="{_CUSHION}"') for jaw in table.jaws]
     return parts
 
 
@@ -122,7 +114,7 @@ def colour(ball: int) -> str:
     return _COLOURS[ball] if ball < len(_COLOURS) else _COLOURS[1 + (ball - 1) % (len(_COLOURS) - 1)]
 
 
-def picture(table: Table, shot: Shot | None = None, seen: Sequence[dtypes.Doubles] = ()) -> str:
+def picture(table: Any, shot: Any = None, seen: Sequence[dtypes.Doubles] = ()) -> str:
     """A table, and a shot's paths with the balls where they begin (faint) and end, as the text of an SVG.
 
     `seen` are places of each ball, shapes (..., 2), that are drawn as dots.
@@ -145,7 +137,7 @@ def picture(table: Table, shot: Shot | None = None, seen: Sequence[dtypes.Double
     return canvas.document(parts)
 
 
-def animation(shot: Shot, speed: float) -> Animation:
+def animation(shot: Any, speed: float) -> Animation:
     """The shot as an SVG that moves and repeats, `speed` times as fast as the balls."""
     if not speed > 0.0:
         raise ValueError(f"speed: must be positive, not {speed}")

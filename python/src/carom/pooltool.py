@@ -25,7 +25,7 @@ from carom._pooltool_models import ExactBallBall, ExactCircularCushion, ExactLin
 from carom.collisions import alciatore
 from carom.layouts import Table
 from carom.results import Shot
-from carom.shots import BallModel, Friction, ShotCushion
+from carom._shot_options import BallModel, Friction, ShotCushion
 from carom.shots import simulate as _play
 from carom.status import CaromError
 

@@ -16,9 +16,10 @@ from carom import dtypes, layouts, tables
 from carom._draws import Draws as Draws
 from carom._draws import Games
 from carom._rows import Arrays, copied, listing, repeated
+from carom._shot_options import ShotCushion
 from carom.layouts import Game, Table
 from carom.results import Label, Shot
-from carom.shots import ShotCushion, simulate, simulate_batch
+from carom.shots import simulate, simulate_batch
 
 __dir__ = listing(__name__)
 

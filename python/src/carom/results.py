@@ -5,21 +5,19 @@ from __future__ import annotations
 import enum
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from carom import dtypes
+from carom import dtypes, pictures
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
 from carom._rows import INT8, Array, Arrays, addresses, as_array, in_chunks, one_or_all, pointer, spread
 from carom._shot_options import Options, shot_options
 from carom.layouts import Table
+from carom.pictures import Animation
 from carom.status import CaromError, Status
-
-if TYPE_CHECKING:
-    from carom.pictures import Animation
 
 
 class Label(enum.IntEnum):
@@ -58,6 +56,7 @@ def _moments(times: npt.ArrayLike) -> dtypes.Doubles:
     return at
 
 
+@dataclass(eq=False, repr=False)
 class Shot:
     """One shot.
 
@@ -76,8 +75,8 @@ class Shot:
         In the order in which they happened. Of a batch with records="brief": `carom.dtypes.brief_event`.
     final : ndarray of `carom.dtypes.ball_state`, shape (balls,)
     cue : ndarray of `carom.dtypes.cue`, shape (), or None
-    options : named tuple of world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, stop_at
-        As for `carom.simulate`: by what the shot was played.
+    options : Options
+        By what the shot was played.
     state
         What `carom.resume` needs; None where the shot was not to be stopped.
     """
@@ -91,31 +90,7 @@ class Shot:
     final: dtypes.Records
     cue: dtypes.Records | None
     options: Options
-    state: Array | None
-
-    def __init__(
-        self,
-        table: Table,
-        balls: dtypes.Records,
-        status: int,
-        time: float,
-        count: int,
-        events: dtypes.Records,
-        final: dtypes.Records,
-        cue: dtypes.Records | None,
-        options: Options,
-        state: Array | None = None,
-    ) -> None:
-        self.table = table
-        self.balls = balls
-        self.status = Status(status)
-        self.time = time
-        self.count = count
-        self.events = events
-        self.final = final
-        self.cue = cue
-        self.options = options
-        self.state = state
+    state: Array | None = None
 
     def states(self, times: npt.ArrayLike) -> dtypes.Records:
         """The states of all balls at any times.
@@ -146,10 +121,8 @@ class Shot:
         if self.events.dtype != dtypes.event:
             raise CaromError(Status.ERROR_EVENTS_LOST)
         events = np.ascontiguousarray(self.events)
-        shot = ffi.new(
-            "carom_shot *",
-            {"events": pointer("carom_event[]", events), "room": len(events), "count": self.count, "time": self.time},
-        )
+        kept = {"events": pointer("carom_event[]", events), "room": len(events), "count": self.count, "time": self.time}
+        shot = ffi.new("carom_shot *", kept)
         balls, count = pointer("carom_shot_ball[]", self.balls), len(self.balls)
         moments, target = pointer("double[]", at), pointer(ctype, out)
 
@@ -161,22 +134,10 @@ class Shot:
             raise CaromError(code)
 
     def orientations(self, times: npt.ArrayLike) -> dtypes.Doubles:
-        """How each ball has turned since the start of the shot, for drawing it.
+        """How each ball has turned since the start of the shot, for drawing it: float64 of shape (..., balls, 4).
 
-        Parameters
-        ----------
-        times : array_like, shape (...)
-            s.
-
-        Returns
-        -------
-        ndarray of float64, shape (..., balls, 4)
-            Unit quaternions (w, x, y, z), which take what is painted on a ball at the start to where it is then.
-
-        Raises
-        ------
-        CaromError, ValueError
-            As for `states`.
+        These are unit quaternions (w, x, y, z), which take what is painted on a ball at the start to where it is then. Times and
+        errors are those of `states`.
         """
         at = _moments(times)
         turned: dtypes.Doubles = np.zeros((*at.shape, len(self.balls), 4))
@@ -184,23 +145,7 @@ class Shot:
         return turned
 
     def positions(self, times: npt.ArrayLike) -> dtypes.Doubles:
-        """The centres of all balls at any times.
-
-        Parameters
-        ----------
-        times : array_like, shape (...)
-            s.
-
-        Returns
-        -------
-        ndarray of float64, shape (..., balls, 3)
-            m.
-
-        Raises
-        ------
-        CaromError, ValueError
-            As for `states`.
-        """
+        """The centres of all balls at any times: float64 of shape (..., balls, 3), m. Times and errors are those of `states`."""
         return np.asarray(self.states(times)["r"], dtype=np.float64)
 
     def to_dataframe(self) -> Any:
@@ -219,8 +164,6 @@ class Shot:
         return f"<carom.Shot: {len(self.balls)} balls, {self.count} events, {self.time:.4g} s, {self.status.text}>"
 
     def _repr_svg_(self) -> str:
-        from carom import pictures
-
         return pictures.picture(self.table, self)
 
     def animate(self, speed: float = 1.0) -> Animation:
@@ -236,8 +179,6 @@ class Shot:
         Animation
             Its `svg` is the text of a file that moves in any browser.
         """
-        from carom import pictures
-
         return pictures.animation(self, speed)
 
 
@@ -248,19 +189,15 @@ class _OfBatch(Shot):
         self.batch = batch
         self.index: Any = index
 
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:
-            make = _ATTRIBUTES.get(name)
-            if make is None:
-                raise AttributeError(f"a carom.Shot has no attribute {name!r}")
-            value = make(self.batch, self.index)
-            self.__dict__[name] = value
-            return value
+    def __getattr__(self, name: str) -> Any:
+        make = _ATTRIBUTES.get(name)
+        if make is None:
+            raise AttributeError(f"a carom.Shot has no attribute {name!r}")
+        value = self.__dict__[name] = make(self.batch, self.index)
+        return value
 
     def __reduce__(self) -> tuple[Any, ...]:
-        given = self.table, self.balls, int(self.status), self.time, self.count, self.events, self.final, self.cue, self.options
-        return Shot, given
+        return Shot, tuple(getattr(self, field.name) for field in fields(Shot))
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *_ATTRIBUTES})
@@ -303,7 +240,6 @@ _ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
     "final": lambda batch, index: batch.final[index],
     "cue": lambda batch, index: None if batch.cues is None else np.array(np.broadcast_to(batch.cues, batch.shape)[index]),
     "options": lambda batch, index: batch.options,
-    "state": lambda batch, index: None,
 }
 
 
@@ -537,21 +473,12 @@ class Shots:
         results, flags = pointer("carom_shot[]", record), pointer("int8_t[]", status)
 
         def job(begin: int, many: int) -> Any:
-            return ffi.new(
-                "carom_shot_job *",
-                {
-                    "table": table,
-                    "balls": balls if one_layout else balls + begin * count,
-                    "cues": strikes if one_cue else strikes + begin,
-                    "count": count,
-                    "ball_stride": 0 if one_layout else count,
-                    "cue_stride": 0 if one_cue else 1,
-                    "n": many,
-                    "options": options,
-                    "shots": results + begin,
-                    "status": flags + begin,
-                },
-            )
+            given = {
+                "table": table, "balls": balls if one_layout else balls + begin * count, "cues": strikes if one_cue else strikes + begin,
+                "count": count, "ball_stride": 0 if one_layout else count, "cue_stride": 0 if one_cue else 1, "n": many,
+                "options": options, "shots": results + begin, "status": flags + begin,
+            }  # fmt: skip
+            return ffi.new("carom_shot_job *", given)
 
         return job
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Iterable
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -12,36 +12,23 @@ from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
 from carom._rows import INT8, Array, apart, broadcast, copied, in_chunks, output, pointer, whole
-from carom._shot_options import BallModel as BallModel
-from carom._shot_options import Friction as Friction
-from carom._shot_options import Options, hashable, shot_options
-from carom._shot_options import ShotCushion as ShotCushion
-from carom._shot_options import Space as Space
-from carom._shot_options import StopAt as StopAt
-from carom._shot_options import World as World
+from carom._shot_options import Options, StopAt, shot_options
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.results import Shot, Shots
 from carom.status import CaromError, Status
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from carom._shot_options import Changes
+
+_USUAL = Options()
 _FIRST_ROOM = 512
 _NO_EVENTS: Array = np.zeros(0, dtypes.event)
 
 
 def simulate(
-    table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records | None = None,
-    *,
-    world: World = "carom",
-    ball_model: BallModel = "default",
-    cushion_model: ShotCushion = "default",
-    friction: Friction = "alciatore",
-    space: Space = "3d",
-    steps: int = 0,
-    events_most: int = 0,
-    plain: bool = False,
-    t_final: float | None = None,
-    stop_at: StopAt | Iterable[StopAt] = (),
+    table: Table, balls: dtypes.Records, cue: dtypes.Records | None = None, *, options: Options = _USUAL, **changes: Unpack[Changes]
 ) -> Shot:
     """Play a shot until nothing moves.
 
@@ -53,29 +40,10 @@ def simulate(
         1 to 32 of them, from `carom.racks` or `carom.balls`. Not changed.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
         From `carom.cue`. Without it, with speed 0, or if a ball moves already, there is no strike.
-    world : {"carom", "pooltool"}
-        The rules of contact: carom's, or pooltool's, which give the histories of pooltool.
-    ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
-        Model of the collision of two balls. Default: exact in the world carom, inelastic in pooltool.
-    cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
-        Model of the impact on a cushion. Default: han in the world carom, stronge in pooltool. mathavan is the exact limit, and takes most of
-        the time.
-    friction : {"alciatore", "constant"}
-        Between balls: by the speed of slip, or the balls' mu_ball.
-    space : {"3d", "flat"}
-        Whether balls can leave the cloth, as by an elevated cue. The world pooltool is flat.
-    steps : int
-        Of Euler's models; 0 is 1000.
-    events_most : int
-        Bound of events; 0 is 10000.
-    plain : bool
-        Whether this call computes with the instruction set plain, as with CAROM_ISA=plain: it has the bits that all machines share.
-    t_final : float, optional
-        The shot is stopped at exactly this time, s, with the status STOPPED_AT_TIME if balls still move. Without it a shot that
-        lasts longer than 1000 s is an error.
-    stop_at : str or iterable of str
-        The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT: "contact", of the cue ball with
-        another, or a type of `carom.EventType` in lower case, such as "pocket". `resume` goes on with a shot that was stopped.
+    options : Options
+        Models, bounds and when to stop: see `carom.Options`.
+    **changes
+        Single options, by their names: cushion_model="mathavan", t_final=1.5, stop_at="contact", space="flat", ...
 
     Returns
     -------
@@ -93,12 +61,12 @@ def simulate(
     check_table(table)
     table, layout = Table.from_record(table.record), copied(layout)
     cue = None if cue is None else copied(one_cue(cue))
-    chosen = Options(world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, hashable(stop_at))
-    state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if t_final is not None or stop_at else None
+    chosen = options.changed(changes)
+    state = np.zeros(ffi.sizeof("carom_shot_state") // 8, np.uint64) if chosen.t_final is not None or chosen.stop_at else None
     arguments = shot_arguments(table, layout, cue, shot_options(chosen))
     if (error := argument_error(arguments, layout, cue)) is not None:
         raise error
-    begun = Shot(table, layout, 0, 0.0, 0, _NO_EVENTS, layout["state"], cue, chosen, state)
+    begun = Shot(table, layout, Status.OK, 0.0, 0, _NO_EVENTS, layout["state"], cue, chosen, state)
     return _run(begun, lambda shot: lib.carom_shoot(*arguments, shot))
 
 
@@ -114,17 +82,12 @@ def _run(begun: Shot, play: Callable[[Any], int]) -> Shot:
             events[: begun.count] = begun.events
         final = copied(begun.final)
         state = None if begun.state is None else begun.state.copy()
-        shot = ffi.new(
-            "carom_shot *",
-            {
-                "events": pointer("carom_event[]", events),
-                "room": room,
-                "count": begun.count,
-                "time": begun.time,
-                "final": pointer("carom_ball_state[]", final),
-                "state": ffi.NULL if state is None else ffi.cast("carom_shot_state *", pointer("uint64_t[]", state)),
-            },
-        )
+        given = {
+            "events": pointer("carom_event[]", events), "room": room, "count": begun.count, "time": begun.time,
+            "final": pointer("carom_ball_state[]", final),
+            "state": ffi.NULL if state is None else ffi.cast("carom_shot_state *", pointer("uint64_t[]", state)),
+        }  # fmt: skip
+        shot = ffi.new("carom_shot *", given)
         code = play(shot)
         if shot.count <= room:
             break
@@ -163,7 +126,7 @@ def resume(shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterab
     if t_final is not None and t_final < shot.time:
         raise ValueError(f"t_final: it must not be before {shot.time} s, when the shot stopped, but is {t_final}")
     begun = copy.copy(shot)
-    begun.options = shot.options._replace(t_final=t_final, stop_at=hashable(stop_at))
+    begun.options = shot.options.changed({"t_final": t_final, "stop_at": stop_at})
     table, balls, options = pointer("carom_table[]", shot.table.record), pointer("carom_shot_ball[]", shot.balls), shot_options(begun.options)
     return _run(begun, lambda given: lib.carom_shot_continue(table, balls, len(shot.balls), options, given))
 
@@ -176,18 +139,10 @@ def simulate_batch(
     room: int = 0,
     records: Literal["full", "brief"] = "full",
     features: bool = False,
-    world: World = "carom",
-    ball_model: BallModel = "default",
-    cushion_model: ShotCushion = "default",
-    friction: Friction = "alciatore",
-    space: Space = "3d",
-    steps: int = 0,
-    events_most: int = 0,
-    plain: bool = False,
-    t_final: float | None = None,
-    stop_at: StopAt | Iterable[StopAt] = (),
     threads: int = 0,
     out: Shots | None = None,
+    options: Options = _USUAL,
+    **changes: Unpack[Changes],
 ) -> Shots:
     """Play many shots.
 
@@ -204,12 +159,12 @@ def simulate_batch(
         What is kept of an event: all (`carom.dtypes.event`, 344 bytes), or time, type and who (`carom.dtypes.brief_event`, 24 bytes).
     features : bool
         Whether `shots.features` tells first contacts, cushions and pockets.
-    world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, stop_at
-        As for `simulate`.
     threads : int
         Most threads to use; 0 is the calling one alone, -1 all processors. No bit depends on it.
     out : Shots, optional
         An earlier result of the same shape, balls and room, whose memory is used again.
+    options, **changes
+        As for `simulate`.
 
     Returns
     -------
@@ -237,8 +192,8 @@ def simulate_batch(
     if records not in ("full", "brief"):
         raise ValueError(f"records: must be 'full' or 'brief', not {records!r}")
     record = dtypes.event if records == "full" else dtypes.brief_event
-    chosen = Options(world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, hashable(stop_at))
-    options = shot_options(chosen, threads)
+    chosen = options.changed(changes)
+    of_c = shot_options(chosen, threads)
     shots = Shots(table, all_balls, shape, room, record) if out is None else out
     if out is not None:
         wanted = {"status": (shape, INT8), "final": ((*shape, count), dtypes.ball_state)}
@@ -253,7 +208,7 @@ def simulate_batch(
         shots.features = shots.look_for_features(threads)
         code = 0
     else:
-        job = shots.jobs(options)
+        job = shots.jobs(of_c)
         code = in_chunks(shots.status.size, 5e-5, threads, lambda begin, many: int(lib.carom_shoot_batch(job(begin, many))))
     if code < 0 and not (shots.status < 0).any():
         raise CaromError(code, "layouts", count) if code == Status.ERROR_BALLS else CaromError(code, "table")

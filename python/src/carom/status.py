@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import enum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from carom._carom import ffi, lib
-
-if TYPE_CHECKING:
-    from carom.results import Shot
 
 
 class _Status(enum.IntEnum):
@@ -53,9 +50,7 @@ class CaromError(ValueError):
         What had happened until then, where a shot ended in an error.
     """
 
-    def __init__(
-        self, status: int, field: str | None = None, value: object = None, shot: Shot | None = None, text: str | None = None
-    ) -> None:
+    def __init__(self, status: int, field: str | None = None, value: object = None, shot: Any = None, text: str | None = None) -> None:
         self.status = Status(status)
         self.field = field
         self.value = value

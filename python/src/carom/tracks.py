@@ -29,11 +29,12 @@ from typing import Any, cast
 import numpy as np
 
 from carom import _constants
-from carom._events import Events, events, hit, impact, piece
+from carom._events import MOVED, Events, Recording, TrackError, events, hit, impact, piece
 from carom._rows import listing
+from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles
 from carom.results import Shot
-from carom.shots import ShotCushion, simulate
+from carom.shots import simulate
 
 __all__ = [
     "MOVED", "NOISE", "Events", "Recording", "Synthetic", "TrackError", "events", "hit", "impact", "piece", "read", "synthetic",
@@ -42,73 +43,9 @@ __dir__ = listing(__name__)  # fmt: skip
 
 NOISE = 0.35e-3
 """m: standard deviation of a coordinate that a good camera gives for a slow ball, as found on real tracks."""
-MOVED = 3e-3
-"""m: a ball that is farther than this from its first place has moved."""
 
 _COLUMNS = ("shot", "ball", "t", "x", "y")
 _OUTSIDE = 0.02  # m: a centre that is farther outside its bounds than this was measured in other units or on another table
-
-
-class TrackError(ValueError):
-    """A file of tracks is wrong. The message says what is wrong, where, and what would be right."""
-
-
-@dataclass(frozen=True, eq=False)
-class Recording:
-    """One recorded shot.
-
-    Attributes
-    ----------
-    id : int or str
-        As in the file.
-    balls : tuple of int or str
-        The names of the balls, as in the file.
-    tracks : tuple of ndarray, shapes (rows, 3)
-        Of each ball t (s), x and y (m); the first row is at rest.
-    """
-
-    id: int | str
-    balls: tuple[int | str, ...]
-    tracks: tuple[Doubles, ...]
-
-    @property
-    def rest(self) -> Doubles:
-        """Where the balls lay before the strike, m, shape (balls, 2): the mean of a ball's rows before it moved."""
-        return np.array([track[: self._still(track), 1:].mean(axis=0) for track in self.tracks])
-
-    @property
-    def still(self) -> list[int]:
-        """How many rows each ball has before it moved, shape (balls,)."""
-        return [self._still(track) for track in self.tracks]
-
-    @property
-    def moves(self) -> Doubles:
-        """The time of each ball's first row away from its place of rest, s, shape (balls,); inf if it never moves."""
-        times = [(*track[self._still(track) :, 0], math.inf)[0] for track in self.tracks]
-        return np.array(times)
-
-    @property
-    def cue(self) -> int:
-        """The index of the ball that was struck: the one that moves first, and farthest of those that move at once."""
-        moves = self.moves
-        if not np.isfinite(moves).any():
-            raise TrackError(f"shot {self.id}: no ball moves by more than {MOVED * 1e3:g} mm, so there is no strike")
-        first = np.flatnonzero(moves == moves.min())
-        if len(first) == 1:
-            return int(first[0])
-        far = [np.hypot(*(track[self._still(track), 1:] - track[0, 1:])) for track in (self.tracks[k] for k in first)]
-        return int(first[int(np.argmax(far))])
-
-    @property
-    def end(self) -> float:
-        """The time of the last row, s."""
-        return float(max(track[-1, 0] for track in self.tracks))
-
-    @staticmethod
-    def _still(track: Doubles) -> int:
-        """How many rows at the beginning of a track are at its place of rest."""
-        away = np.hypot(*(track[:, 1:] - track[0, 1:]).T) > MOVED
-        return int(np.argmax(away)) if away.any() else len(track)
 
 
 def _name(text: str) -> int | str:

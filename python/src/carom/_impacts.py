@@ -1,0 +1,104 @@
+"""Both kinds of impacts, of two balls and of a ball and a cushion: many at once, one on its way, and the exception for one in error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes
+from carom._carom import ffi, lib
+from carom._rows import FLOAT32, FLOAT64, INT8, Array, apart, in_chunks, output, pointer, rows, whole
+from carom.status import CaromError
+
+
+class Outcome(NamedTuple):
+    """What impacts give: the motion after them, and how each ended."""
+
+    motion: Array
+    status: Array
+
+
+class Kind(NamedTuple):
+    """A kind of impact: its records, what C calls them, and C's functions."""
+
+    given: dtypes.Record
+    gives: dtypes.Record
+    point: dtypes.Record
+    names: tuple[str, str, str]
+    batch: Callable[..., int]
+    trace: Callable[..., int]
+    check: Callable[..., int]
+    field_name: Callable[[int], Any]
+    one: Callable[..., int] | None = None  # a single call, with the bits of a batch and without filling lanes
+    batch_f32: Callable[..., int] | None = None
+
+
+BALLS = Kind(
+    dtypes.impact, dtypes.result, dtypes.trace_point, ("carom_impact", "carom_result", "carom_trace_point"), lib.carom_collide_batch,
+    lib.carom_trace, lib.carom_check, lib.carom_field_name, lib.carom_collide, lib.carom_collide_batch_f32,
+)  # fmt: skip
+CUSHION = Kind(
+    dtypes.cushion_impact, dtypes.motion, dtypes.cushion_point, ("carom_cushion_impact", "carom_motion", "carom_cushion_point"),
+    lib.carom_cushion_batch, lib.carom_cushion_trace, lib.carom_cushion_check, lib.carom_cushion_field_name,
+)  # fmt: skip
+
+
+def resolve(
+    kind: Kind, impacts: npt.ArrayLike, options: Any, seconds: float, threads: int, out: tuple[Array, Array] | None
+) -> Outcome:
+    """Resolves impacts, each of which takes so many seconds."""
+    array = rows(impacts, kind.given, "impacts", single=kind.batch_f32 is not None)
+    record = array.dtype.names is not None
+    shape: tuple[int, ...] = array.shape if record else array.shape[:-1]
+    motion, status = (None, None) if out is None else out
+    if record:
+        motion = output(motion, shape, kind.gives, "out[0]")
+    else:
+        motion = output(motion, (*shape, kind.gives.itemsize // 8), array.dtype, "out[0]")
+    status = output(status, shape, INT8, "out[1]")
+    if out is not None:
+        apart((("impacts", array),), (("out[0]", motion), ("out[1]", status)))
+
+    given, gives, _ = kind.names
+    single = array.dtype is not FLOAT64 and array.dtype == FLOAT32
+    if shape == () and not single and kind.one is not None:
+        code = kind.one(pointer(f"{given}[]", array), options, pointer(f"{gives}[]", motion))
+        status[...] = code
+    else:
+        width, batch = ("_f32", kind.batch_f32) if single else ("", kind.batch)
+        source, target = pointer(f"{given}{width}[]", array), pointer(f"{gives}{width}[]", motion)
+        flags = pointer("int8_t[]", status)
+
+        def solve(begin: int, count: int) -> int:
+            return int(batch(source + begin, count, options, target + begin, flags + begin))  # type: ignore[misc]
+
+        code = in_chunks(status.size, seconds, threads, solve)
+    if code < 0 and shape == ():
+        raise _error(kind, code, array, options)
+    return Outcome(motion, status)
+
+
+def trace(kind: Kind, impact: npt.ArrayLike, points: int, options: Any) -> dtypes.Records:
+    """Follows one impact."""
+    array = rows(impact, kind.given, "impact")
+    if (array.shape if array.dtype.names is not None else array.shape[:-1]) != ():
+        width = kind.given.itemsize // 8
+        raise ValueError(f"impact: a trace is of one impact, of shape ({width},), or structured of shape ()")
+    traced = np.zeros(whole(points, "points", least=2), kind.point)
+    given, _, point = kind.names
+    code = kind.trace(pointer(f"{given}[]", array), options, traced.size, pointer(f"{point}[]", traced))
+    if code < 0:
+        raise _error(kind, code, array, options)
+    return traced
+
+
+def _error(kind: Kind, code: int, array: Array, options: Any) -> CaromError:
+    """The exception for one impact, with the field at fault."""
+    numbers = np.ascontiguousarray(array).reshape(-1).view(FLOAT32 if array.dtype == FLOAT32 else FLOAT64).astype(np.float64)
+    field = ffi.new("int *", -1)
+    if kind.check(pointer(f"{kind.names[0]}[]", numbers), options, field) == code and field[0] >= 0:
+        return CaromError(code, ffi.string(kind.field_name(field[0])).decode(), numbers[field[0]])
+    return CaromError(code)
