@@ -29,20 +29,6 @@ CAROM_TARGET_AVX2 static inline __m128 slip_on_cloth(__m128 v, __m128 w, __m128 
   return _mm_fmadd_ps(sR, _mm_permute_ps(w, 0xb1), v);
 }
 
-#define STEP()                                                                                      \
-  const __m128 pressed = _mm_cmpgt_ps(_mm_mul_ps(_mm_permute_ps(u, 0x55), sign), _mm_setzero_ps()); \
-  const __m128 mu = _mm_and_ps(pressed, mu_ij);                                                     \
-  const __m128 r = rlengths(db, u); /* rd, rb, ru, ru */                                            \
-  const __m128 DP12 = _mm_mul_ps(_mm_mul_ps(mu_b_DP, u), _mm_movehl_ps(r, r));                      \
-  const __m128 DP1 = _mm_permute_ps(DP12, 0x00), DP2 = _mm_permute_ps(DP12, 0x55);                  \
-  const __m128 cloth = _mm_mul_ps(_mm_mul_ps(_mm_mul_ps(mu, _mm_unpacklo_ps(r, r)), db), DP2);      \
-  v = _mm_fmadd_ps(cloth, v_of_cloth, _mm_fmadd_ps(DP1, v_of_DP1, _mm_add_ps(v, v_of_DP)));         \
-  w = _mm_fmadd_ps(_mm_permute_ps(cloth, 0xb1), w_of_cloth, _mm_fmadd_ps(DP2, w_of_DP2, w));        \
-  w_z = _mm_fmadd_ps(DP1, w_z_of_DP1, w_z);                                                         \
-  const __m128 v_ij = _mm_sub_ps(v, _mm_movehl_ps(v, v));                                           \
-  u = slip_of_balls(v_ij, w, w_z, R);                                                               \
-  db = slip_on_cloth(v, w, sR)
-
 CAROM_TARGET_AVX2 void carom_rung_float_vec(carom_local *state, int N) {
   const carom_local_f32 c = carom_to_single(state);
   const float M = c.M_i;
@@ -73,7 +59,19 @@ CAROM_TARGET_AVX2 void carom_rung_float_vec(carom_local *state, int N) {
   __m128 db = slip_on_cloth(v, w, sR);
 
   while (v_n <= 0.0f) {
-    STEP();
+    const __m128 pressed = _mm_cmpgt_ps(_mm_mul_ps(_mm_permute_ps(u, 0x55), sign), _mm_setzero_ps());
+    const __m128 mu = _mm_and_ps(pressed, mu_ij);
+    const __m128 r = rlengths(db, u); /* rd, rb, ru, ru */
+    const __m128 DP12 = _mm_mul_ps(_mm_mul_ps(mu_b_DP, u), _mm_movehl_ps(r, r));
+    const __m128 DP1 = _mm_permute_ps(DP12, 0x00), DP2 = _mm_permute_ps(DP12, 0x55);
+    const __m128 cloth = _mm_mul_ps(_mm_mul_ps(_mm_mul_ps(mu, _mm_unpacklo_ps(r, r)), db), DP2);
+    v = _mm_fmadd_ps(cloth, v_of_cloth, _mm_fmadd_ps(DP1, v_of_DP1, _mm_add_ps(v, v_of_DP)));
+    w = _mm_fmadd_ps(_mm_permute_ps(cloth, 0xb1), w_of_cloth, _mm_fmadd_ps(DP2, w_of_DP2, w));
+    w_z = _mm_fmadd_ps(DP1, w_z_of_DP1, w_z);
+    const __m128 v_ij = _mm_sub_ps(v, _mm_movehl_ps(v, v));
+    u = slip_of_balls(v_ij, w, w_z, R);
+    db = slip_on_cloth(v, w, sR);
+
     const float v_n_old = v_n;
     v_n = -_mm_cvtss_f32(_mm_movehdup_ps(v_ij));
     W -= v_n_old + v_n;
@@ -81,7 +79,19 @@ CAROM_TARGET_AVX2 void carom_rung_float_vec(carom_local *state, int N) {
 
   const float W_f = (1.0f + c.e * c.e) * W;
   while (W < W_f) {
-    STEP();
+    const __m128 pressed = _mm_cmpgt_ps(_mm_mul_ps(_mm_permute_ps(u, 0x55), sign), _mm_setzero_ps());
+    const __m128 mu = _mm_and_ps(pressed, mu_ij);
+    const __m128 r = rlengths(db, u); /* rd, rb, ru, ru */
+    const __m128 DP12 = _mm_mul_ps(_mm_mul_ps(mu_b_DP, u), _mm_movehl_ps(r, r));
+    const __m128 DP1 = _mm_permute_ps(DP12, 0x00), DP2 = _mm_permute_ps(DP12, 0x55);
+    const __m128 cloth = _mm_mul_ps(_mm_mul_ps(_mm_mul_ps(mu, _mm_unpacklo_ps(r, r)), db), DP2);
+    v = _mm_fmadd_ps(cloth, v_of_cloth, _mm_fmadd_ps(DP1, v_of_DP1, _mm_add_ps(v, v_of_DP)));
+    w = _mm_fmadd_ps(_mm_permute_ps(cloth, 0xb1), w_of_cloth, _mm_fmadd_ps(DP2, w_of_DP2, w));
+    w_z = _mm_fmadd_ps(DP1, w_z_of_DP1, w_z);
+    const __m128 v_ij = _mm_sub_ps(v, _mm_movehl_ps(v, v));
+    u = slip_of_balls(v_ij, w, w_z, R);
+    db = slip_on_cloth(v, w, sR);
+
     const float v_n_old = v_n;
     v_n = -_mm_cvtss_f32(_mm_movehdup_ps(v_ij));
     W += v_n_old + v_n;

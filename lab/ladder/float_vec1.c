@@ -33,54 +33,6 @@ CAROM_TARGET_AVX2 static inline float z_of(__m128 a) {
   return _mm_cvtss_f32(_mm_movehl_ps(a, a));
 }
 
-/* One step; in restitution the pressed ball has been slipping for a while, and is not asked. */
-#define STEP(may_not_slip)                                                                            \
-  if (ru <= 1e16f) {                                                                                  \
-    const float t = -c.mu_b * DP * ru;                                                                \
-    const float DP1 = t * x_of(u);                                                                    \
-    const float Dw_z = C * -DP1;                                                                      \
-    c.v_ix += DP1 * recM;                                                                             \
-    c.v_jx -= DP1 * recM;                                                                             \
-    c.w_iz += Dw_z;                                                                                   \
-    c.w_jz += Dw_z;                                                                                   \
-    if (fabsf(z_of(u)) >= 1e-16f) {                                                                   \
-      const float DP2 = t * z_of(u);                                                                  \
-      c.w_ix += C * DP2;                                                                              \
-      c.w_jx += C * DP2;                                                                              \
-      if (z_of(u) < 0.0f) {                                                                           \
-        const float rb = rlength(b);                                                                  \
-        if (!may_not_slip || rb < INFINITY) {                                                         \
-          const float t_j = -c.mu_j * rb;                                                             \
-          const float DP_jx = t_j * x_of(b) * DP2;                                                    \
-          const float DP_jy = t_j * y_of(b) * DP2;                                                    \
-          c.v_jx += DP_jx * recM;                                                                     \
-          c.v_jy += DP_jy * recM;                                                                     \
-          c.w_jx += C * DP_jy;                                                                        \
-          c.w_jy -= C * DP_jx;                                                                        \
-        }                                                                                             \
-      } else {                                                                                        \
-        const float rd = rlength(d);                                                                  \
-        if (!may_not_slip || rd < INFINITY) {                                                         \
-          const float t_i = c.mu_i * rd;                                                              \
-          const float DP_ix = t_i * x_of(d) * DP2;                                                    \
-          const float DP_iy = t_i * y_of(d) * DP2;                                                    \
-          c.v_ix += DP_ix * recM;                                                                     \
-          c.v_iy += DP_iy * recM;                                                                     \
-          c.w_ix += C * DP_iy;                                                                        \
-          c.w_iy -= C * DP_ix;                                                                        \
-        }                                                                                             \
-      }                                                                                               \
-    }                                                                                                 \
-    u = slip(_mm_setr_ps(c.v_ix - c.v_jx, 0.0f, 0.0f, 0.0f),                                          \
-             _mm_setr_ps(c.w_ix + c.w_jx, c.w_iy + c.w_jy, c.w_iz + c.w_jz, 0.0f), r_A);              \
-    ru = rlength(u);                                                                                  \
-  }                                                                                                   \
-  c.v_iy -= DP * recM;                                                                                \
-  c.v_jy += DP * recM;                                                                                \
-                                                                                                      \
-  d = slip(_mm_setr_ps(c.v_ix, c.v_iy, 0.0f, 0.0f), _mm_setr_ps(c.w_ix, c.w_iy, c.w_iz, 0.0f), r_DB); \
-  b = slip(_mm_setr_ps(c.v_jx, c.v_jy, 0.0f, 0.0f), _mm_setr_ps(c.w_jx, c.w_jy, c.w_jz, 0.0f), r_DB)
-
 CAROM_TARGET_AVX2 void carom_rung_float_vec1(carom_local *state, int N) {
   carom_local_f32 c = carom_to_single(state);
   const float M = c.M_i, R = c.R, sR = c.s * c.R;
@@ -99,7 +51,52 @@ CAROM_TARGET_AVX2 void carom_rung_float_vec1(carom_local *state, int N) {
   float W = 0.0f;
 
   while (v_n <= 0.0f) {
-    STEP(1);
+    if (ru <= 1e16f) {
+      const float t = -c.mu_b * DP * ru;
+      const float DP1 = t * x_of(u);
+      const float Dw_z = C * -DP1;
+      c.v_ix += DP1 * recM;
+      c.v_jx -= DP1 * recM;
+      c.w_iz += Dw_z;
+      c.w_jz += Dw_z;
+      if (fabsf(z_of(u)) >= 1e-16f) {
+        const float DP2 = t * z_of(u);
+        c.w_ix += C * DP2;
+        c.w_jx += C * DP2;
+        if (z_of(u) < 0.0f) {
+          const float rb = rlength(b);
+          if (rb < INFINITY) {
+            const float t_j = -c.mu_j * rb;
+            const float DP_jx = t_j * x_of(b) * DP2;
+            const float DP_jy = t_j * y_of(b) * DP2;
+            c.v_jx += DP_jx * recM;
+            c.v_jy += DP_jy * recM;
+            c.w_jx += C * DP_jy;
+            c.w_jy -= C * DP_jx;
+          }
+        } else {
+          const float rd = rlength(d);
+          if (rd < INFINITY) {
+            const float t_i = c.mu_i * rd;
+            const float DP_ix = t_i * x_of(d) * DP2;
+            const float DP_iy = t_i * y_of(d) * DP2;
+            c.v_ix += DP_ix * recM;
+            c.v_iy += DP_iy * recM;
+            c.w_ix += C * DP_iy;
+            c.w_iy -= C * DP_ix;
+          }
+        }
+      }
+      u = slip(_mm_setr_ps(c.v_ix - c.v_jx, 0.0f, 0.0f, 0.0f),
+               _mm_setr_ps(c.w_ix + c.w_jx, c.w_iy + c.w_jy, c.w_iz + c.w_jz, 0.0f), r_A);
+      ru = rlength(u);
+    }
+    c.v_iy -= DP * recM;
+    c.v_jy += DP * recM;
+
+    d = slip(_mm_setr_ps(c.v_ix, c.v_iy, 0.0f, 0.0f), _mm_setr_ps(c.w_ix, c.w_iy, c.w_iz, 0.0f), r_DB);
+    b = slip(_mm_setr_ps(c.v_jx, c.v_jy, 0.0f, 0.0f), _mm_setr_ps(c.w_jx, c.w_jy, c.w_jz, 0.0f), r_DB);
+
     const float v_n_old = v_n;
     v_n = c.v_jy - c.v_iy;
     W -= v_n_old + v_n;
@@ -107,7 +104,48 @@ CAROM_TARGET_AVX2 void carom_rung_float_vec1(carom_local *state, int N) {
 
   const float W_f = (1.0f + c.e * c.e) * W;
   while (W < W_f) {
-    STEP(0);
+    if (ru <= 1e16f) {
+      const float t = -c.mu_b * DP * ru;
+      const float DP1 = t * x_of(u);
+      const float Dw_z = C * -DP1;
+      c.v_ix += DP1 * recM;
+      c.v_jx -= DP1 * recM;
+      c.w_iz += Dw_z;
+      c.w_jz += Dw_z;
+      if (fabsf(z_of(u)) >= 1e-16f) {
+        const float DP2 = t * z_of(u);
+        c.w_ix += C * DP2;
+        c.w_jx += C * DP2;
+        if (z_of(u) < 0.0f) {
+          const float rb = rlength(b);
+          const float t_j = -c.mu_j * rb;
+          const float DP_jx = t_j * x_of(b) * DP2;
+          const float DP_jy = t_j * y_of(b) * DP2;
+          c.v_jx += DP_jx * recM;
+          c.v_jy += DP_jy * recM;
+          c.w_jx += C * DP_jy;
+          c.w_jy -= C * DP_jx;
+        } else {
+          const float rd = rlength(d);
+          const float t_i = c.mu_i * rd;
+          const float DP_ix = t_i * x_of(d) * DP2;
+          const float DP_iy = t_i * y_of(d) * DP2;
+          c.v_ix += DP_ix * recM;
+          c.v_iy += DP_iy * recM;
+          c.w_ix += C * DP_iy;
+          c.w_iy -= C * DP_ix;
+        }
+      }
+      u = slip(_mm_setr_ps(c.v_ix - c.v_jx, 0.0f, 0.0f, 0.0f),
+               _mm_setr_ps(c.w_ix + c.w_jx, c.w_iy + c.w_jy, c.w_iz + c.w_jz, 0.0f), r_A);
+      ru = rlength(u);
+    }
+    c.v_iy -= DP * recM;
+    c.v_jy += DP * recM;
+
+    d = slip(_mm_setr_ps(c.v_ix, c.v_iy, 0.0f, 0.0f), _mm_setr_ps(c.w_ix, c.w_iy, c.w_iz, 0.0f), r_DB);
+    b = slip(_mm_setr_ps(c.v_jx, c.v_jy, 0.0f, 0.0f), _mm_setr_ps(c.w_jx, c.w_jy, c.w_jz, 0.0f), r_DB);
+
     const float v_n_old = v_n;
     v_n = c.v_jy - c.v_iy;
     W += v_n_old + v_n;
