@@ -71,7 +71,7 @@ static void inelastic(const double n[2], double R, double e, double mu, const co
 }
 
 static carom_ball impact_ball(const carom_ball_kind *kind, const carom_ball_state *s) {
-  return (carom_ball){.v = {s->v[0], s->v[1], 0.0},
+  return (carom_ball){.v = {s->v[0], s->v[1], s->v[2]},
                       .w = {s->w[0], s->w[1], s->w[2]},
                       .radius = kind->radius,
                       .mass = kind->mass,
@@ -83,7 +83,6 @@ static void take_motion(const carom_motion *motion, carom_ball_state *s) {
     s->v[k] = motion->v[k];
     s->w[k] = motion->w[k];
   }
-  s->v[2] = 0.0;
 }
 
 /* Takes kind->roll_loss of the speed v_t along a cushion, before the impact, from the roll along it. Along t = (n_y, -n_x) a
@@ -101,23 +100,48 @@ static carom_ball_model ball_model(const carom_sim *sim) {
   return sim->opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? sim->opt->ball_model : sim->rules->ball_model;
 }
 
-carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double n[2], carom_ball_state *a,
-                               carom_ball_state *b) {
+void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a, const carom_ball_kind *kind_b,
+                           const carom_ball_state *b, double n[3]) {
+  n[0] = b->r[0] - a->r[0];
+  n[1] = b->r[1] - a->r[1];
+  n[2] = (carom_flies(b) ? b->r[2] : kind_b->radius) - (carom_flies(a) ? a->r[2] : kind_a->radius);
+  const double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  for (int k = 0; k < 3; k++)
+    n[k] /= size;
+}
+
+carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3], bool in_space,
+                               carom_ball_state *a, carom_ball_state *b) {
+  const int i = due->a, j = due->b;
   const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
   const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
-  const contact_slip s = slip_of(n, R, a, b);
   const carom_ball_model model = ball_model(sim);
+  carom_result out;
+
+  /* spheres in space; without friction where the model has none */
+  if (in_space) {
+    carom_impact in = {.a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .restitution = e};
+    in.mu_ball = model == CAROM_BALL_MODEL_MIRROR ? 0.0 : friction_of(sim, i, j, carom_spheres_slip(&in, n));
+    carom_spheres_collide(&in, n, &out);
+    take_motion(&out.a, a);
+    take_motion(&out.b, b);
+    return CAROM_OK;
+  }
+
+  /* on the cloth: closed forms */
   if (model == CAROM_BALL_MODEL_MIRROR) {
     exchange(e, kind_a->mass, kind_b->mass, n, a, b);
     return CAROM_OK;
   }
+  const contact_slip s = slip_of(n, R, a, b);
   const double mu = friction_of(sim, i, j, sqrt(s.along * s.along + s.up * s.up));
   if (model == CAROM_BALL_MODEL_INELASTIC) {
     inelastic(n, R, e, mu, &s, a, b);
     return CAROM_OK;
   }
+
+  /* the 2014 model; the first ball is at the origin, since only the direction counts */
   carom_impact in = {.a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .mu_ball = mu, .restitution = e};
-  /* the first ball at the origin: only the direction counts */
   in.b.r[0] = n[0];
   in.b.r[1] = n[1];
   const bool euler = model == CAROM_BALL_MODEL_EULER;
@@ -125,32 +149,15 @@ carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double 
                                  .slip = euler ? sim->rules->euler_slip : CAROM_SLIP_PAPER,
                                  .steps = sim->opt->steps,
                                  .plain = sim->opt->plain};
-  carom_result out;
   const carom_status status = carom_collide(&in, &options, &out);
   if (status == CAROM_SEPARATING && euler && sim->rules->part_by_steps != NULL)
     sim->rules->part_by_steps(&in, &options, &out);
   if (status >= 0) {
     take_motion(&out.a, a);
     take_motion(&out.b, b);
+    a->v[2] = b->v[2] = 0.0;
   }
   return status;
-}
-
-void carom_model_spheres(const carom_sim *sim, int i, int j, const double n[3], carom_ball_state *a, carom_ball_state *b) {
-  const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
-  carom_impact in = {.a = impact_ball(kind_a, a),
-                     .b = impact_ball(kind_b, b),
-                     .restitution = 0.5 * (kind_a->restitution + kind_b->restitution)};
-  in.a.v[2] = a->v[2];
-  in.b.v[2] = b->v[2];
-  if (ball_model(sim) != CAROM_BALL_MODEL_MIRROR)
-    in.mu_ball = friction_of(sim, i, j, carom_spheres_slip(&in, n));
-  carom_result out;
-  carom_spheres_collide(&in, n, &out);
-  memcpy(a->v, out.a.v, sizeof a->v);
-  memcpy(a->w, out.a.w, sizeof a->w);
-  memcpy(b->v, out.b.v, sizeof b->v);
-  memcpy(b->w, out.b.w, sizeof b->w);
 }
 
 carom_nose carom_nose_of(const carom_table *table, const carom_due *due) {
@@ -192,33 +199,12 @@ static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const
   carom_take_impulse(&touch, kind->radius, J, J_t, s);
 }
 
-/* NEAR THE CLOTH, resolve.c. */
-carom_status carom_model_nose(const carom_sim *sim, int i, const double N[3], const carom_nose *nose, carom_ball_state *s) {
-  static const double near = 1e-3; /* m */
-  const carom_ball_kind *kind = &sim->ball[i].kind;
-  const double chi = carom_greater((s->r[2] - kind->radius) / near, 0.0);
-  const carom_ball_state before = *s;
-  free_impact(sim, kind, N, nose, s);
-  if (chi >= 1.0)
-    return CAROM_OK;
-  /* the flat model, along the horizontal part of N; a ball that does not move into the cushion stays as it is */
-  const double size = sqrt(N[0] * N[0] + N[1] * N[1]), normal[2] = {N[0] / size, N[1] / size};
-  carom_ball_state flat = before;
-  const carom_status status = carom_model_cushion(sim, i, normal, nose, &flat);
-  flat.v[2] = carom_lesser(before.v[2], 0.0);
-  for (int k = 0; k < 3; k++) {
-    s->v[k] = (1.0 - chi) * flat.v[k] + chi * s->v[k];
-    s->w[k] = (1.0 - chi) * flat.w[k] + chi * s->w[k];
-  }
-  return status;
-}
-
-carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], const carom_nose *nose,
-                                 carom_ball_state *state) {
-  const carom_ball_kind *kind = &sim->ball[i].kind;
-  const carom_cushion_impact in = {.v = {state->v[0], state->v[1], 0.0},
-                                   .w = {state->w[0], state->w[1], state->w[2]},
-                                   .normal = {normal[0], normal[1]},
+/* A ball on the cloth, by the model asked for. */
+static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind *kind, const double n[2],
+                                    const carom_nose *nose, carom_ball_state *s) {
+  const carom_cushion_impact in = {.v = {s->v[0], s->v[1], 0.0},
+                                   .w = {s->w[0], s->w[1], s->w[2]},
+                                   .normal = {n[0], n[1]},
                                    .height = carom_nose_height(kind, nose->height),
                                    .radius = kind->radius,
                                    .mass = kind->mass,
@@ -234,15 +220,43 @@ carom_status carom_model_cushion(const carom_sim *sim, int i, const double norma
                                    .omega_ratio = kind->omega_ratio};
   carom_motion out;
   carom_status status = carom_cushion(&in, &options, &out);
+
+  /* a shot goes on by the same model's steps where its limit is refused, as for a ball whose rolling is exact but for rounding
+   */
   if (status == CAROM_ERROR_UNRESOLVED && options.model == CAROM_CUSHION_MATHAVAN) {
-    /* a shot goes on by the same model's steps where its limit is refused, as for a ball whose rolling is exact but for
-     * rounding */
     options.model = CAROM_CUSHION_EULER;
     status = carom_cushion(&in, &options, &out);
   }
-  if (status >= 0)
-    take_motion(&out, state);
-  if (status >= 0 && kind->roll_loss > 0.0)
-    lose_roll(kind, normal, in.v, state);
+  if (status < 0)
+    return status;
+  take_motion(&out, s);
+  s->v[2] = 0.0;
+  if (kind->roll_loss > 0.0)
+    lose_roll(kind, n, in.v, s);
+  return status;
+}
+
+/* NEAR THE CLOTH in resolve.c has the blend. */
+carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3], carom_ball_state *s) {
+  static const double near = 1e-3; /* m */
+  const carom_ball_kind *kind = &sim->ball[due->a].kind;
+  const carom_nose nose = carom_nose_of(sim->table, due);
+  if (!carom_flies(s))
+    return impact_on_cloth(sim, kind, n, &nose, s);
+  const double chi = carom_greater((s->r[2] - kind->radius) / near, 0.0);
+  carom_ball_state flat = *s;
+  free_impact(sim, kind, n, &nose, s);
+  if (chi >= 1.0)
+    return CAROM_OK;
+
+  /* the flat model, along the horizontal part of n; a ball that does not move into the cushion stays as it is */
+  const double size = sqrt(n[0] * n[0] + n[1] * n[1]), level[2] = {n[0] / size, n[1] / size};
+  const double v_z = carom_lesser(flat.v[2], 0.0);
+  const carom_status status = impact_on_cloth(sim, kind, level, &nose, &flat);
+  flat.v[2] = v_z;
+  for (int k = 0; k < 3; k++) {
+    s->v[k] = (1.0 - chi) * flat.v[k] + chi * s->v[k];
+    s->w[k] = (1.0 - chi) * flat.w[k] + chi * s->w[k];
+  }
   return status;
 }

@@ -27,25 +27,37 @@ double carom_reach_on_cloth(const carom_ball_kind *kind, double height, double r
   return R == reference ? R : carom_nose_shift(h, reference) + sqrt(h * (2.0 * R - h));
 }
 
-/* The unit vector of -(across * out, up), of which out points from the nose to the ball in the plane. */
-static void turn_back(double across, double up, const double out[2], double N[3]) {
+void carom_into_nose(const carom_sim *sim, int i, const carom_due *due, const carom_ball_state *s, double N[3]) {
+  const carom_ball_kind *kind = &sim->ball[i].kind;
+  const double *r = s->r;
+  double out[2], across, height; /* the horizontal direction from the nose to the centre; the distance from the wall */
+  if (due->type == CAROM_EVENT_RAIL) {
+    const double *line = sim->features->line[due->b];
+    out[0] = line[0];
+    out[1] = line[1];
+    across = line[0] * r[0] + line[1] * r[1] + line[2];
+    height = sim->table->rail[due->b].height;
+  } else {
+    const carom_jaw *jaw = &sim->table->jaw[due->b];
+    const double x = r[0] - jaw->centre[0], y = r[1] - jaw->centre[1], q = sqrt(x * x + y * y);
+    out[0] = q > 0.0 ? x / q : 0.0;
+    out[1] = q > 0.0 ? y / q : 0.0;
+    across = q - jaw->radius;
+    height = jaw->height;
+  }
+
+  /* a ball on the cloth meets the wall, one that flies the nose itself */
+  N[0] = -out[0];
+  N[1] = -out[1];
+  N[2] = 0.0;
+  if (!carom_flies(s))
+    return;
+  const double h = carom_nose_height(kind, height), up = r[2] - h;
+  across -= carom_nose_shift(h, sim->features->reference);
   const double size = sqrt(across * across + up * up);
   N[0] = -across / size * out[0];
   N[1] = -across / size * out[1];
   N[2] = -up / size;
-}
-
-void carom_into_nose(const carom_sim *sim, const carom_ball_kind *kind, int type, int what, const double r[3], double N[3]) {
-  const double reference = sim->features->reference;
-  if (type == CAROM_EVENT_RAIL) {
-    const double *line = sim->features->line[what], h = carom_nose_height(kind, sim->table->rail[what].height);
-    turn_back(line[0] * r[0] + line[1] * r[1] + line[2] - carom_nose_shift(h, reference), r[2] - h, line, N);
-  } else {
-    const carom_jaw *jaw = &sim->table->jaw[what];
-    const double h = carom_nose_height(kind, jaw->height), x = r[0] - jaw->centre[0], y = r[1] - jaw->centre[1];
-    const double q = sqrt(x * x + y * y), out[2] = {q > 0.0 ? x / q : 0.0, q > 0.0 ? y / q : 0.0};
-    turn_back(q - jaw->radius - carom_nose_shift(h, reference), r[2] - h, out, N);
-  }
 }
 
 double carom_height_on_top(const carom_sim *sim, int i, int what) {

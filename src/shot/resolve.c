@@ -70,13 +70,13 @@ static void slow_spin(carom_ball_state *s, double share) {
     s->w[k] *= share;
 }
 
-/* Two bodies in contact; b is NULL where it is a cushion. n is the normal from a to b. Where the cloth holds a body it takes
- * the vertical part of what pushes the body down. */
+/* A contact. b is NULL where it is one with a cushion. */
 typedef struct contact {
   const carom_ball_kind *kind_a, *kind_b;
   carom_ball_state *a, *b;
-  const double *n;
-  bool held_a, held_b;
+  double n[3];         /* from a to b, or into the cushion */
+  bool in_space;       /* a ball flies, or the radii differ */
+  bool held_a, held_b; /* the cloth takes the vertical part of an impulse that pushes the ball down */
 } contact;
 
 /* An impulse of P along a direction, against a and on b. */
@@ -95,6 +95,15 @@ static double mobility(const contact *c, int axis) {
   return c->b == NULL || (axis == 2 && c->held_b) ? of_a : of_a + 1.0 / c->kind_b->mass;
 }
 
+/* The reduced mass along n. */
+static double reduced_mass(const contact *c) {
+  const double level = c->n[0] * c->n[0] + c->n[1] * c->n[1], m_a = c->kind_a->mass;
+  if (c->b == NULL)
+    return m_a;
+  return c->held_a || c->held_b ? 1.0 / (level * mobility(c, 0) + c->n[2] * c->n[2] * mobility(c, 2))
+                                : m_a * c->kind_b->mass / (m_a + c->kind_b->mass);
+}
+
 /* The motion of a and b past each other, which an impulse along n does not change: u = v_a - v_b - closing m W n, with the
  * mobilities W and m = 1/(n.W n). Returns its energy, u.u/W / 2. */
 static double passing(const contact *c, double m, double closing, double u[3]) {
@@ -109,18 +118,20 @@ static double passing(const contact *c, double m, double closing, double u[3]) {
 
 /* The speed at which a slow contact parts, `s` or less; takes the energy that it needs more from the spins and, in space, in
  * the same proportion from the motion past each other. `m`: the reduced mass along n. */
-static double part_slowly(const contact *c, double s, double m, double closing, bool in_space) {
+static double part_slowly(const contact *c, double s, double m, double closing) {
   double u[3] = {0.0};
   const double there = spin_energy(c->kind_a, c->a) + (c->b != NULL ? spin_energy(c->kind_b, c->b) : 0.0) +
-                       (in_space ? passing(c, m, closing, u) : 0.0);
+                       (c->in_space ? passing(c, m, closing, u) : 0.0);
   const double taken = fmin(0.5 * m * (s * s - closing * closing), 0.5 * there);
   if (!(taken > 0.0))
     return fmax(closing, 0.0);
+
+  /* the same share of all spins and of the motion past each other */
   const double share = sqrt(1.0 - taken / there) * (1.0 - 1e-15);
   slow_spin(c->a, share);
   if (c->b != NULL)
     slow_spin(c->b, share);
-  if (in_space) {
+  if (c->in_space) {
     for (int k = 0; k < 3; k++)
       u[k] /= mobility(c, k);
     push(c, 1.0 - share, u);
@@ -128,19 +139,19 @@ static double part_slowly(const contact *c, double s, double m, double closing, 
   return sqrt(closing * closing + 2.0 * taken / m);
 }
 
-void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a, const carom_ball_kind *kind_b,
-                           const carom_ball_state *b, double n[3]) {
-  n[0] = b->r[0] - a->r[0];
-  n[1] = b->r[1] - a->r[1];
-  n[2] = (carom_flies(b) ? b->r[2] : kind_b->radius) - (carom_flies(a) ? a->r[2] : kind_a->radius);
-  const double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  for (int k = 0; k < 3; k++)
-    n[k] /= size;
+/* A contact that closes slowly, or that its model has left closing. */
+static void resolve_slowly(const contact *c, double slow, double closing) {
+  const double m = reduced_mass(c), change = closing + (closing < slow ? part_slowly(c, slow, m, closing) : slow);
+  if (c->b != NULL)
+    push(c, m * change, c->n);
+  else
+    for (int k = 0; k < 3; k++)
+      c->a->v[k] -= change * c->n[k];
 }
 
-/* The phase after a contact, which may have lifted the ball or pushed it down if it was `in_space`. */
-static void label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *s) {
-  if (!in_space) {
+/* The phase after a contact. One in space may have lifted the ball or pushed it down. */
+static void label_after(const contact *c, const carom_ball_kind *kind, carom_ball_state *s) {
+  if (!c->in_space) {
     carom_label_of(s, kind->radius);
     return;
   }
@@ -153,72 +164,47 @@ static bool is_finite(const carom_ball_state *s) {
   return isfinite(s->v[0] + s->v[1] + s->v[2] + s->w[0] + s->w[1] + s->w[2]);
 }
 
-carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b) {
-  const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
-  const bool in_space = carom_flies(a) || carom_flies(b) || kind_a->radius != kind_b->radius;
-  double n[3], closing = 0.0;
-  carom_line_of_centres(kind_a, a, kind_b, b, n);
-  for (int k = 0; k < 3; k++)
-    closing += (a->v[k] - b->v[k]) * n[k];
-  const double slow = carom_slow_speed(sim->slow_instants);
-  carom_status status = CAROM_OK;
-  if (closing >= slow && in_space) {
-    carom_model_spheres(sim, i, j, n, a, b);
-  } else if (closing >= slow) {
-    status = carom_model_balls(sim, i, j, n, a, b);
-  } else {
-    count_slow(sim);
-    const contact c = {.kind_a = kind_a,
-                       .kind_b = kind_b,
-                       .a = a,
-                       .b = b,
-                       .n = n,
-                       .held_a = in_space && !carom_flies(a) && n[2] > 0.0,
-                       .held_b = in_space && !carom_flies(b) && n[2] < 0.0};
-    const double level = n[0] * n[0] + n[1] * n[1];
-    const double m = c.held_a || c.held_b ? 1.0 / (level * mobility(&c, 0) + n[2] * n[2] * mobility(&c, 2))
-                                          : kind_a->mass * kind_b->mass / (kind_a->mass + kind_b->mass);
-    push(&c, m * (closing + part_slowly(&c, slow, m, closing, in_space)), n);
-  }
-  label_after(in_space, kind_a, a);
-  label_after(in_space, kind_b, b);
-  return status < 0 ? status : is_finite(a) && is_finite(b) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a, const carom_ball_state *b,
+                          double n[3]) {
+  if (b != NULL)
+    carom_line_of_centres(&sim->ball[due->a].kind, a, &sim->ball[due->b].kind, b, n);
+  else
+    carom_into_nose(sim, due->a, due, a, n);
 }
 
-carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *s) {
-  const carom_ball_kind *kind = &sim->ball[i].kind;
-  const carom_nose nose = carom_nose_of(sim->table, due);
-  const bool in_space = carom_flies(s);
-  double n[3] = {0.0};
-  if (in_space) {
-    carom_into_nose(sim, kind, due->type, due->b, s->r, n);
-  } else if (due->type == CAROM_EVENT_RAIL) {
-    n[0] = -sim->features->line[due->b][0];
-    n[1] = -sim->features->line[due->b][1];
-  } else {
-    const carom_jaw *jaw = &sim->table->jaw[due->b];
-    n[0] = jaw->centre[0] - s->r[0];
-    n[1] = jaw->centre[1] - s->r[1];
-    const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
-    n[0] /= size;
-    n[1] /= size;
+double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double n[3]) {
+  double closing = 0.0;
+  for (int k = 0; k < 3; k++)
+    closing += (a->v[k] - (b != NULL ? b->v[k] : 0.0)) * n[k];
+  return closing;
+}
+
+carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a, carom_ball_state *b) {
+  contact c = {.kind_a = &sim->ball[due->a].kind, .a = a, .b = b};
+  c.in_space = carom_flies(a);
+  carom_contact_normal(sim, due, a, b, c.n);
+  if (b != NULL) {
+    c.kind_b = &sim->ball[due->b].kind;
+    c.in_space = c.in_space || carom_flies(b) || c.kind_a->radius != c.kind_b->radius;
+    c.held_a = c.in_space && !carom_flies(a) && c.n[2] > 0.0;
+    c.held_b = c.in_space && !carom_flies(b) && c.n[2] < 0.0;
   }
-  double closing = s->v[0] * n[0] + s->v[1] * n[1] + s->v[2] * n[2];
-  const double slow = carom_slow_speed(sim->slow_instants);
-  const bool fast = closing >= slow;
+
+  /* by the model, or slowly; a ball that the model leaves moving into a cushion parts slowly, as the head says */
+  const double slow = carom_slow_speed(sim->slow_instants), before = carom_closing(a, b, c.n);
   carom_status status = CAROM_OK;
-  if (fast) {
-    status = in_space ? carom_model_nose(sim, i, n, &nose, s) : carom_model_cushion(sim, i, n, &nose, s);
-    closing = s->v[0] * n[0] + s->v[1] * n[1] + s->v[2] * n[2];
+  double closing = before;
+  if (before >= slow) {
+    status = b != NULL ? carom_model_balls(sim, due, c.n, c.in_space, a, b) : carom_model_cushion(sim, due, c.n, a);
+    closing = b != NULL ? 0.0 : carom_closing(a, NULL, c.n);
   }
-  /* slow, or left moving into the cushion by the model, as the file's head says */
-  if (!fast || closing > 0.0) {
+  if (before < slow || closing > 0.0) {
     count_slow(sim);
-    const contact c = {.kind_a = kind, .a = s, .n = n};
-    const double part = closing < slow ? part_slowly(&c, slow, kind->mass, closing, in_space) : slow;
-    for (int k = 0; k < 3; k++)
-      s->v[k] -= (closing + part) * n[k];
+    resolve_slowly(&c, slow, closing);
   }
-  label_after(in_space, kind, s);
-  return status < 0 ? status : is_finite(s) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+
+  label_after(&c, c.kind_a, a);
+  if (b != NULL)
+    label_after(&c, c.kind_b, b);
+  return status < 0 ? status : is_finite(a) && (b == NULL || is_finite(b)) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }

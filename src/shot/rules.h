@@ -27,9 +27,8 @@ typedef struct carom_rules {
   double (*touch_jaw)(const carom_separation *d, double reach, double T);
   double (*touch_ball)(const carom_separation *d, double reach, double T);
   double (*enter_pocket)(const carom_separation *d, double radius, double T);
-  /* A contact of two balls, or of a ball with a rail or a jaw, now. Changes the states, labels too. */
-  carom_status (*balls)(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
-  carom_status (*cushion)(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
+  /* A contact of two balls, or of a ball with a rail or a jaw, now; b is NULL then. Changes the states, labels too. */
+  carom_status (*resolve)(carom_sim *sim, const carom_due *due, carom_ball_state *a, carom_ball_state *b);
   /* What Euler's model of two balls does with balls that part; NULL: nothing. */
   void (*part_by_steps)(const carom_impact *in, const carom_options *options, carom_result *out);
 } carom_rules;

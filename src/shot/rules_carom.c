@@ -10,50 +10,24 @@
 #include "shot/rules.h"
 
 #include <math.h>
+#include <stddef.h>
 
 static const double equal_speeds = 1e-9; /* relative */
 
 /* ---- The order of simultaneous events */
 
-/* How fast a contact of a ball that flies, or of unlike balls, closes. */
-static double closing_in_space(const carom_sim *sim, const carom_due *due, const carom_ball_state *a) {
-  if (due->type == CAROM_EVENT_SLATE || due->type == CAROM_EVENT_RAIL_TOP)
-    return -a->v[2];
-  carom_ball_state b = {.v = {0.0}};
-  double n[3], closing = 0.0;
-  if (due->type == CAROM_EVENT_BALL_BALL) {
-    carom_path_at(&sim->path[due->b], &sim->rates[due->b], due->time, &b);
-    carom_line_of_centres(&sim->ball[due->a].kind, a, &sim->ball[due->b].kind, &b, n);
-  } else {
-    carom_into_nose(sim, &sim->ball[due->a].kind, due->type, due->b, a->r, n);
-  }
-  for (int k = 0; k < 3; k++)
-    closing += (a->v[k] - b.v[k]) * n[k];
-  return closing;
-}
-
 /* How fast the contact closes, m/s. */
 static double closing_speed(const carom_sim *sim, const carom_due *due) {
-  carom_ball_state a, b = {.v = {0.0}};
-  double n[2];
+  carom_ball_state a, b;
+  double n[3];
   carom_path_at(&sim->path[due->a], &sim->rates[due->a], due->time, &a);
-  const int64_t other = due->type == CAROM_EVENT_BALL_BALL ? sim->path[due->b].from.label : CAROM_BALL_STATIONARY;
-  if (a.label == CAROM_BALL_AIRBORNE || other == CAROM_BALL_AIRBORNE || (sim->unlike && due->type == CAROM_EVENT_BALL_BALL))
-    return closing_in_space(sim, due, &a);
-  if (due->type == CAROM_EVENT_RAIL) {
-    n[0] = -sim->features->line[due->b][0];
-    n[1] = -sim->features->line[due->b][1];
-  } else {
-    if (due->type == CAROM_EVENT_BALL_BALL)
-      carom_path_at(&sim->path[due->b], &sim->rates[due->b], due->time, &b);
-    const double *to = due->type == CAROM_EVENT_JAW ? sim->table->jaw[due->b].centre : b.r;
-    n[0] = to[0] - a.r[0];
-    n[1] = to[1] - a.r[1];
-    const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
-    n[0] /= size;
-    n[1] /= size;
-  }
-  return (a.v[0] - b.v[0]) * n[0] + (a.v[1] - b.v[1]) * n[1];
+  if (due->type == CAROM_EVENT_SLATE || due->type == CAROM_EVENT_RAIL_TOP)
+    return -a.v[2];
+  const bool two = due->type == CAROM_EVENT_BALL_BALL;
+  if (two)
+    carom_path_at(&sim->path[due->b], &sim->rates[due->b], due->time, &b);
+  carom_contact_normal(sim, due, &a, two ? &b : NULL, n);
+  return carom_closing(&a, two ? &b : NULL, n);
 }
 
 static int rank(int type) {
@@ -120,8 +94,7 @@ static const carom_rules rules = {
     .touch_jaw = carom_first_contact,
     .touch_ball = carom_first_contact,
     .enter_pocket = enter_pocket,
-    .balls = carom_resolve_balls,
-    .cushion = carom_resolve_cushion,
+    .resolve = carom_resolve,
 };
 
 const carom_rules *carom_rules_carom(void) {

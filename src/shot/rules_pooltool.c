@@ -114,26 +114,25 @@ static double nearest_zero(double a, double b, double c) {
   return zeros == 2 && fabs(zero[1]) < fabs(zero[0]) ? zero[1] : zero[0];
 }
 
-/* Two balls, set apart. False where pooltool has no answer. */
-static bool kiss_balls(double R, carom_ball_state *a, carom_ball_state *b) {
+/* Two balls, set apart; n becomes the direction from a to b. False where pooltool has no answer. */
+static bool kiss_balls(double R, double n[2], carom_ball_state *a, carom_ball_state *b) {
   const double reach = 2.0 * R + spacer;
   const double x = b->r[0] - a->r[0], y = b->r[1] - a->r[1], v_x = b->v[0] - a->v[0], v_y = b->v[1] - a->v[1];
   const double t = nearest_zero(v_x * v_x + v_y * v_y, 2.0 * (x * v_x + y * v_y), x * x + y * y - reach * reach);
   if (isnan(t))
     return false;
   const double m_x = 0.5 * t * (a->v[0] + b->v[0]), m_y = 0.5 * t * (a->v[1] + b->v[1]);
-  if (sqrt(m_x * m_x + m_y * m_y) <= longest) {
-    for (int k = 0; k < 2; k++) {
-      a->r[k] += t * a->v[k];
-      b->r[k] += t * b->v[k];
-    }
-    return true;
-  }
-  const double size = sqrt(x * x + y * y), half = 0.5 * (reach - size) / size;
-  a->r[0] -= half * x;
-  a->r[1] -= half * y;
-  b->r[0] += half * x;
-  b->r[1] += half * y;
+  const double apart = sqrt(x * x + y * y), half = 0.5 * (reach - apart) / apart;
+  const bool along = sqrt(m_x * m_x + m_y * m_y) <= longest;
+  a->r[0] += along ? t * a->v[0] : -half * x;
+  a->r[1] += along ? t * a->v[1] : -half * y;
+  b->r[0] += along ? t * b->v[0] : half * x;
+  b->r[1] += along ? t * b->v[1] : half * y;
+  n[0] = b->r[0] - a->r[0];
+  n[1] = b->r[1] - a->r[1];
+  const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
+  n[0] /= size;
+  n[1] /= size;
   return true;
 }
 
@@ -150,21 +149,6 @@ static void keep_touching(const double n[2], carom_ball_state *a, carom_ball_sta
     a->v[k] -= passed * n[k];
     b->v[k] += passed * n[k];
   }
-}
-
-static carom_status resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b) {
-  if (!kiss_balls(sim->rates[i].radius, a, b))
-    return CAROM_ERROR_UNRESOLVED;
-  double n[2] = {b->r[0] - a->r[0], b->r[1] - a->r[1]};
-  const double size = sqrt(n[0] * n[0] + n[1] * n[1]);
-  n[0] /= size;
-  n[1] /= size;
-  const carom_status status = carom_model_balls(sim, i, j, n, a, b);
-  if (status < 0)
-    return status;
-  keep_touching(n, a, b);
-  a->label = b->label = CAROM_BALL_SLIDING;
-  return CAROM_OK;
 }
 
 /* Sets the ball at the spacer's distance from a rail; n becomes the direction into it. */
@@ -205,18 +189,25 @@ static bool kiss_jaw(const carom_jaw *jaw, double R, double n[2], carom_ball_sta
   return true;
 }
 
-static carom_status resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *s) {
-  const double R = sim->rates[i].radius;
-  const carom_nose nose = carom_nose_of(sim->table, due);
-  double n[2];
-  if (due->type == CAROM_EVENT_RAIL) {
-    kiss_rail(&sim->table->rail[due->b], sim->features->line[due->b], R, n, s);
-  } else if (!kiss_jaw(&sim->table->jaw[due->b], R, n, s)) {
+static bool kiss_cushion(const carom_sim *sim, const carom_due *due, double n[2], carom_ball_state *s) {
+  const double R = sim->rates[due->a].radius;
+  if (due->type == CAROM_EVENT_JAW)
+    return kiss_jaw(&sim->table->jaw[due->b], R, n, s);
+  kiss_rail(&sim->table->rail[due->b], sim->features->line[due->b], R, n, s);
+  return true;
+}
+
+static carom_status resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a, carom_ball_state *b) {
+  double n[3] = {0.0};
+  if (!(b != NULL ? kiss_balls(sim->rates[due->a].radius, n, a, b) : kiss_cushion(sim, due, n, a)))
     return CAROM_ERROR_UNRESOLVED;
-  }
-  const carom_status status = carom_model_cushion(sim, i, n, &nose, s);
-  s->label = CAROM_BALL_SLIDING;
-  return status < 0 ? status : CAROM_OK;
+  const carom_status status = b != NULL ? carom_model_balls(sim, due, n, false, a, b) : carom_model_cushion(sim, due, n, a);
+  a->label = CAROM_BALL_SLIDING;
+  if (b == NULL || status < 0)
+    return status < 0 ? status : CAROM_OK;
+  keep_touching(n, a, b);
+  b->label = CAROM_BALL_SLIDING;
+  return CAROM_OK;
 }
 
 /* Balls that part, as balls may that the spacers push into each other in a rack: pooltool takes its steps of Euler's method
@@ -245,8 +236,7 @@ static const carom_rules rules = {
     .touch_jaw = carom_first_crossing,
     .touch_ball = touch_ball,
     .enter_pocket = carom_first_crossing,
-    .balls = resolve_balls,
-    .cushion = resolve_cushion,
+    .resolve = resolve,
     .part_by_steps = part_by_steps,
 };
 

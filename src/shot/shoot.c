@@ -36,11 +36,11 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
   case CAROM_EVENT_BALL_BALL:
     *state = event->before[0];
     sim->path[j].from = event->before[1];
-    return sim->rules->balls(sim, i, j, state, &sim->path[j].from);
+    return sim->rules->resolve(sim, due, state, &sim->path[j].from);
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW:
     *state = event->before[0];
-    return sim->rules->cushion(sim, i, due, state);
+    return sim->rules->resolve(sim, due, state, NULL);
   case CAROM_EVENT_POCKET: {
     const carom_pocket *pocket = &sim->table->pocket[j];
     *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth}, .label = CAROM_BALL_POCKETED};

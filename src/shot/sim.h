@@ -92,8 +92,8 @@ double carom_nose_shift(double height, double reference);
 double carom_reach_on_cloth(const carom_ball_kind *kind, double height, double reference);
 /* The height of ball i's centre on the top of rail `what`, or of jaw `what` less the rails. */
 double carom_height_on_top(const carom_sim *sim, int i, int what);
-/* The unit vector from the centre r of a ball into the nose of rail or jaw `what`. */
-void carom_into_nose(const carom_sim *sim, const carom_ball_kind *kind, int type, int what, const double r[3], double N[3]);
+/* The unit vector from the centre of ball i into the rail or jaw of a contact; horizontal for a ball on the cloth. */
+void carom_into_nose(const carom_sim *sim, int i, const carom_due *due, const carom_ball_state *state, double N[3]);
 
 /* flight.c: what airborne ball i meets first on the table, from r with v now, and when from now on; landing: the time until it
  * would land. */
@@ -107,10 +107,13 @@ void carom_detect_all(carom_sim *sim);
 /* next.c: the next event. */
 carom_due carom_next(const carom_sim *sim);
 
-/* resolve.c: a contact in the world carom of two balls, or of a ball with a rail or a jaw, now. Changes the states, labels too.
- */
-carom_status carom_resolve_balls(carom_sim *sim, int i, int j, carom_ball_state *a, carom_ball_state *b);
-carom_status carom_resolve_cushion(carom_sim *sim, int i, const carom_due *due, carom_ball_state *state);
+/* resolve.c: a contact in the world carom of two balls, or of a ball with a rail or a jaw, now; b is NULL then. Changes the
+ * states, labels too. */
+carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a, carom_ball_state *b);
+/* The unit vector from ball a to ball b, or into the cushion; and how fast the two close along it, m/s. */
+void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a, const carom_ball_state *b,
+                          double n[3]);
+double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double n[3]);
 /* The speed below which contacts are slow, after so many instants that had one. */
 double carom_slow_speed(int64_t instants);
 
@@ -120,15 +123,13 @@ typedef struct carom_nose {
   double mu_cushion, restitution; /* 0: those of the ball */
 } carom_nose;
 
-/* models.c: v and w after a collision by the model asked for. normal: unit vector from a to b; for a cushion, into it. */
-carom_status carom_model_balls(const carom_sim *sim, int i, int j, const double normal[2], carom_ball_state *a,
-                               carom_ball_state *b);
-carom_status carom_model_cushion(const carom_sim *sim, int i, const double normal[2], const carom_nose *nose,
-                                 carom_ball_state *state);
-/* The same in space: for spheres along any line of centres; for an airborne ball and a nose into which N points. */
-void carom_model_spheres(const carom_sim *sim, int i, int j, const double normal[3], carom_ball_state *a, carom_ball_state *b);
-carom_status carom_model_nose(const carom_sim *sim, int i, const double N[3], const carom_nose *nose, carom_ball_state *state);
-/* resolve.c: the unit vector from ball a to ball b, in space. What lies on the cloth is at z = R exactly. */
+/* models.c: v and w after a collision by the model asked for. n: unit vector from ball i to ball j, or into the cushion. Balls
+ * `in_space` are not both on the cloth, or have unlike radii: they collide as spheres; an airborne ball meets a nose with less
+ * of the cloth the higher it is. */
+carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3], bool in_space,
+                               carom_ball_state *a, carom_ball_state *b);
+carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3], carom_ball_state *state);
+/* The unit vector from ball a to ball b, in space. What lies on the cloth is at z = R exactly. */
 void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a, const carom_ball_kind *kind_b,
                            const carom_ball_state *b, double n[3]);
 carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
