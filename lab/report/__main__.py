@@ -30,7 +30,6 @@ DATA = {
     "kernels": (0, "carom-lab kernels --csv"),
     "experiments": (0, "carom-lab experiments --csv"),
     "trace": (0, "carom trace --id pooltool-135 --solver exact,euler"),
-    "sweep": (0, "carom sweep --id pooltool-135 --over w1z --from -60 --to 60 --solver exact,euler --brief"),
     "verify": (0, "carom-lab verify --csv"),
     "ladder": (20, "carom-lab bench --csv --spread"),
     "steps": (17, f"carom-lab bench --kernel {FIVE} --steps {STEPS} --csv --spread"),
@@ -48,12 +47,9 @@ FIGURES = {
     "runtime": ("steps", "Run time over the number of steps"),
     "configs": ("configs", "Compilers and configurations"),
     "performance": ("performance", "Floating point operations per cycle"),
-    "experiments": ("experiments", "The 2014 paper's experiments"),
     "trace": ("trace", "The course of one collision"),
-    "smooth": ("sweep", "A fine sweep of the side spin"),
     "isas": ("isas", "Batches by instruction set and precision"),
     "batch": ("batch", "Throughput of the exact solver over batch size and threads"),
-    "floor": ("batch", "Batches beside a copy of their bytes"),
     "cushion": ("cushion", "A ball and a cushion: rebound, a fine sweep, jumps"),
 }
 # Pictures that `carom` draws by itself.
