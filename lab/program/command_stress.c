@@ -16,7 +16,6 @@
 #include "precisely.h"
 #include "precision.h"
 #include "reference.h"
-#include "stress_shots.h"
 #include "subcommands.h"
 
 #include "ball_ball/frame.h"
@@ -42,9 +41,7 @@ static const double REFERENCE_FROM = 1e-7, LEAST_ERROR = 1e-18, MOST_OF_PLAY = 1
 typedef struct stress_job {
   shared_options shared;
   int draws, seed, kind;
-  int shots, models, cushion; /* whole shots instead */
   int cushions, coincidences; /* or these impacts */
-  bool elevated;
 } stress_job;
 
 /* Rows of one kind, solved in one way. Errors are those of rows with status ok that could be compared. */
@@ -361,13 +358,6 @@ OPTION(stress_job, option_cushions, "cushion", cushions, 0, "N", set_count, 1,
 OPTION(stress_job, option_coincidences, "coincidences", coincidences, 0, "N", set_count, 1,
        "draw so many impacts of each kind of coincidence instead, of two balls and on a cushion: numbers that are exactly "
        "equal, zero or at the edge of a friction cone; planar motion; slips that are rounding errors; grazing impacts");
-OPTION(stress_job, option_shots, "shots", shots, 0, "N", set_count, 1,
-       "play so many random whole shots instead, and check their invariants");
-OPTION(stress_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0, "the rules and models of the shots");
-OPTION(stress_job, option_cushion_model, "cushion-model", cushion, 0, "MODEL", set_cushion_model, 0,
-       "impacts on cushions in the shots: mathavan, stronge, han, mirror or euler");
-OPTION(stress_job, option_elevated, "elevated", elevated, 0, NULL, set_flag, 0,
-       "in the shots raise the butt of every cue, by 2 to 80 degrees, so that balls fly");
 
 static const command_form form = {
     .name = "stress",
@@ -375,8 +365,7 @@ static const command_form form = {
     .about = "Draws random collisions and solves them by single calls and in batches, in double and in single precision. The "
              "results are compared with the precise solver; where they differ, with a reference in extended precision.\n",
     .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_cushions, &option_coincidences,
-                                           &option_shots, &option_models, &option_cushion_model, &option_threads,
-                                           &option_elevated, &option_output, NULL},
+                                           &option_threads, &option_output, NULL},
     .details = "exit code: 0; 1 if an error is larger than carom.h promises, or if a batch has other bits than single calls; 2 "
                "for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
@@ -387,28 +376,18 @@ int command_stress(int argc, char **argv) {
   const int code = parse_arguments(&form, argc, argv, &job, NULL);
   if (code >= 0)
     return code;
-  const int counts = (job.draws > 0) + (job.cushions > 0) + (job.coincidences > 0) + (job.shots > 0);
+  const int counts = (job.draws > 0) + (job.cushions > 0) + (job.coincidences > 0);
   if (counts > 1) {
-    complain("give one of --draws, --cushion, --coincidences and --shots");
+    complain("give one of --draws, --cushion and --coincidences");
     return EXIT_USAGE;
   }
   if (job.kind != DRAW_REALISTIC && counts == 1 && job.draws == 0) {
     complain("--kind is for collisions of two balls");
     return EXIT_USAGE;
   }
-  if (job.shots == 0 && (job.elevated || job.models != 0 || job.cushion != 0)) {
-    complain("%s is for whole shots, which --shots N asks for", job.elevated      ? "--elevated"
-                                                                : job.models != 0 ? "--models"
-                                                                                  : "--cushion-model");
-    return EXIT_USAGE;
-  }
   FILE *out = output_open(job.shared.output);
   if (out == NULL)
     return EXIT_USAGE;
-  if (job.shots > 0) {
-    const int shot_code = stress_shots(out, job.shots, (uint64_t)job.seed, job.models, job.cushion, job.elevated);
-    return output_commit() ? shot_code : EXIT_USAGE;
-  }
   stress *all = allocate(1, sizeof *all);
   all->job = &job;
   all->balls = job.cushions == 0 && job.coincidences == 0;

@@ -2,7 +2,6 @@
 #include "accuracy.h"
 #include "cases.h"
 #include "command.h"
-#include "cushion_lab.h"
 #include "kernel.h"
 #include "memory.h"
 #include "message.h"
@@ -24,12 +23,8 @@ typedef struct ladder_summary {
 /* How the library is called: pair by pair, or as a batch in the lanes of one instruction set. */
 enum { SINGLE_CALLS = -1 };
 
-/* Random impacts on cushions of each kind, behind the collisions and with --cushion. */
-enum { DRAWS_BEHIND = 40, DRAWS = 500 };
-
 typedef struct verification {
   shared_options shared;
-  int draws, seed; /* of impacts on cushions */
   const kernel *only;
   const char *config;
   const char *folder;
@@ -207,62 +202,39 @@ static bool verify_all(verification *v) {
     tell_ladder(v);
   else if (!v->csv)
     fprintf(v->out, "\n%s", v->parity);
-  if (v->only == NULL && !v->csv && !v->brief) {
-    fputc('\n', v->out);
-    return cushion_verify(v->out, v->folder, DRAWS_BEHIND, 1, false, &v->all_pass);
-  }
   return true;
 }
 
-OPTION_FOR(BALLS_ONLY, verification, option_kernel, "kernel", only, 0, "NAME", set_kernel, 0, "only this kernel");
-OPTION_FOR(BALLS_ONLY, verification, option_config, "config", config, 0, "NAME", set_text, 0,
-           "only this build of the ladder (see `carom-lab kernels`)");
-OPTION_FOR(BALLS_ONLY, verification, option_brief, "brief", brief, 0, NULL, set_flag, 0,
-           "sentences instead of the table, one for the whole ladder; kernels over their bound are named");
-OPTION_FOR(CUSHION_ONLY, verification, option_draws, "draws", draws, 0, "N", set_count, 1,
-           "random impacts of each kind (default 500: about twenty seconds)");
-OPTION_FOR(CUSHION_ONLY, verification, option_seed, "seed", seed, 0, "S", set_count, 0, "of the random impacts (default: 1)");
-OPTION(verification, option_folder, "data", shared.folder, 0, "DIR", set_text, 0,
-       "folder of the references (default: $CAROM_DATA, else what came with carom)");
+OPTION(verification, option_kernel, "kernel", only, 0, "NAME", set_kernel, 0, "only this kernel");
+OPTION(verification, option_config, "config", config, 0, "NAME", set_text, 0,
+       "only this build of the ladder (see `carom-lab kernels`)");
+OPTION(verification, option_brief, "brief", brief, 0, NULL, set_flag, 0,
+       "sentences instead of the table, one for the whole ladder; kernels over their bound are named");
 OPTION(verification, option_csv, "csv", csv, 0, NULL, set_flag, 0, "as CSV; NA where the paper gives no count");
 
 static const char about[] =
     "Compares the reference collisions by every kernel with their references: kernels of the ladder in every configuration of "
-    "every compiler, the library's solvers by single calls and in the lanes of every instruction set of this processor. "
-    "With --cushion, compares the exact limit of impacts on a cushion with a reference, an integration in extended precision "
-    "that shares no code with it; Stronge's closed form and Euler's steps with the records of the simulator pooltool.\n";
+    "every compiler, the library's solvers by single calls and in the lanes of every instruction set of this processor.\n";
 
 static const char details[] =
     "Pair error: the largest deviation of a velocity or R times an angular velocity, over the largest such value of the "
-    "pair; of an impact on a cushion, over the largest such value before it. Component errors compare each number with "
-    "itself; the columns count the cases with one above 0.1 % or 1 %, and the seed paper's own count in brackets where it "
-    "gives one. A bound of 0 requires the same bits in every component.\n"
-    "Of the recorded impacts, balls that roll are left out: their slip on the cloth is pooltool's rounding. The reference "
-    "may leave out no random impact, and none may be unresolved.\n\n"
+    "pair. Component errors compare each number with itself; the columns count the cases with one above 0.1 % or 1 %, and the "
+    "seed paper's own count in brackets where it "
+    "gives one. A bound of 0 requires the same bits in every component.\n\n"
     "exit code: 0 if all is within its bounds, 1 if something is not, 2 for bad usage or unreadable data\n";
 
 static const command_form form = {
     .name = "verify",
     .usage = "[OPTIONS]",
     .about = about,
-    .options = (const option_row *const[]){&option_cushion, &option_folder, &option_csv, &option_output, &option_kernel,
-                                           &option_config, &option_brief, &option_draws, &option_seed, NULL},
+    .options = (const option_row *const[]){&option_data, &option_csv, &option_output, &option_kernel, &option_config,
+                                           &option_brief, NULL},
     .details = details,
     .example = "carom-lab verify --kernel float",
 };
 
-/* Prints what is asked for into job->out; false after a complaint. */
-static bool print_all(verification *v) {
-  if (v->shared.cushion)
-    return cushion_verify(v->out, v->folder, v->draws, (uint64_t)v->seed, v->csv, &v->all_pass);
-  const bool good = verify_all(v);
-  free(v->result);
-  free(v->each);
-  return good;
-}
-
 int command_verify(int argc, char **argv) {
-  verification v = {.shared.output = "-", .draws = DRAWS, .seed = 1, .way = SINGLE_CALLS, .all_pass = true};
+  verification v = {.shared.output = "-", .way = SINGLE_CALLS, .all_pass = true};
   int code = parse_arguments(&form, argc, argv, &v, NULL);
   if (code >= 0)
     return code;
@@ -277,13 +249,14 @@ int command_verify(int argc, char **argv) {
     return EXIT_USAGE;
   v.folder = data_folder(v.shared.folder);
   code = EXIT_USAGE;
-  if ((v.shared.cushion || cases_load(v.folder, "collisions-204.csv", &v.cases)) &&
-      (v.out = output_open(v.shared.output)) != NULL) {
-    if (!print_all(&v))
+  if (cases_load(v.folder, "collisions-204.csv", &v.cases) && (v.out = output_open(v.shared.output)) != NULL) {
+    if (!verify_all(&v))
       output_abandon();
     else if (output_commit())
       code = v.all_pass ? EXIT_GOOD : EXIT_SOME;
   }
+  free(v.result);
+  free(v.each);
   cases_free(&v.cases);
   return code;
 }

@@ -22,5 +22,3 @@ lab bench --shots "$DATA/shots-mathavan.jsonl" --csv | grep -v '^#' | cut -d, -f
 lab bench --shots "$DATA/shots-pooltool.jsonl" --models pooltool | cut -c1-30
 lab bench --shots "$DATA/shots-mathavan.jsonl" --threads 2 --budget 0.2 --csv -o shots.csv
 grep -v '^#' shots.csv | awk -F, 'NR > 1 { print $1, NF, ($5 > 0 && $6 > 0 && $8 > 1 ? "timed" : "not timed: " $0) }' | tail -n 1
-echo "--- invariants"
-lab stress --shots 150 --cushion-model han | cut -c1-34

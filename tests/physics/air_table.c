@@ -348,21 +348,22 @@ END_TEST
 
 /* ---- What every shot keeps */
 
-/* Shots with elevated cues and falling balls: the invariants of lab/shots, which follow the motion by other code; what the
+/* Shots with elevated cues and falling balls: the invariants of tests/shots, which follow the motion by other code; what the
  * library evaluates at events is what it found; batches, and shots that are stopped and go on, have the bits of single shots.
  */
 START_TEST(random_flights) {
-  enum { EACH = 25 };
+  const char *given = getenv("CAROM_TEST_DRAWS"); /* of each kind */
+  const int each = given != NULL ? atoi(given) : 25;
   static random_shot s;
   static carom_event again[ROOM];
   static carom_brief_event brief[ROOM];
   carom_ball_state again_final[CAROM_BALLS_MOST];
   int64_t shots = 0, flights = 0, many = 0, stops = 0;
   for (int kind = 0; kind < random_shot_kinds_in_space(); kind++)
-    for (int n = 0; n < EACH; n++) {
+    for (int n = 0; n < each; n++) {
       random_shot_make(kind, test_seed() + 9, (uint64_t)n, &s);
       if (kind < random_shot_kinds() && s.cue.speed > 0.0 && strcmp(s.kind, "coincident") != 0)
-        s.cue.theta = 2.0 + 58.0 * n / EACH;
+        s.cue.theta = 2.0 + 58.0 * n / each;
       carom_shot_options options = {.cushion_model = n % 2 ? CAROM_SHOT_CUSHION_HAN : CAROM_SHOT_CUSHION_STRONGE};
       carom_shot shot = {.events = events, .room = ROOM, .final = final};
       const carom_status status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &shot);

@@ -1,6 +1,6 @@
 /* Random shots of every kind, from seeds. */
-#ifndef CAROM_LAB_RANDOM_SHOTS_H
-#define CAROM_LAB_RANDOM_SHOTS_H
+#ifndef CAROM_TESTS_RANDOM_SHOTS_H
+#define CAROM_TESTS_RANDOM_SHOTS_H
 
 #include "carom_shot.h"
 #include "random.h"

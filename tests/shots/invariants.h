@@ -1,6 +1,6 @@
 /* What every shot must satisfy whatever the models compute. */
-#ifndef CAROM_LAB_SHOT_INVARIANTS_H
-#define CAROM_LAB_SHOT_INVARIANTS_H
+#ifndef CAROM_TESTS_INVARIANTS_H
+#define CAROM_TESTS_INVARIANTS_H
 
 #include "carom_shot.h"
 
