@@ -127,3 +127,16 @@ int run_looped(const char *name, const looped_test *tests, size_t count) {
     tcase_add_loop_test(tcase, tests[k].test, 0, tests[k].times);
   return run(name, tcase, CK_NOFORK);
 }
+
+static TCase *added; /* those of TEST() */
+
+void add_test(const TTest *test) {
+  if (added == NULL)
+    added = tcase_create("tests");
+  tcase_set_timeout(added, 240);
+  tcase_add_test(added, test);
+}
+
+__attribute__((weak)) int main(void) {
+  return added == NULL ? 1 : run("tests", added, CK_FORK_GETENV);
+}

@@ -56,6 +56,15 @@ void edge_free(const edge *e);
   for (int isa = 0; isa < CAROM_ISA_COUNT; isa++) \
     if (carom_isa_available((carom_isa)isa) && carom_isa_limit((carom_isa)isa) == (carom_isa)isa)
 
+/* TEST(name) { ... } is a test that main() of support.c runs. A program with a main() of its own lists its tests. */
+#define TEST(name)                                              \
+  START_TEST(name);                                             \
+  __attribute__((constructor)) static void name##_added(void) { \
+    add_test(name);                                             \
+  }                                                             \
+  static void name##_fn(int _i CK_ATTRIBUTE_UNUSED)
+void add_test(const TTest *test);
+
 /* A test that runs for each index from 0 on. */
 typedef struct looped_test {
   const TTest *test;

@@ -182,22 +182,19 @@ static void every_size(make_row *row) {
   table_free(&t);
 }
 
-START_TEST(good_rows_at_every_size) {
+TEST(good_rows_at_every_size) {
   every_size(good_row);
 }
-END_TEST
 
-START_TEST(mixed_rows_at_every_size) {
+TEST(mixed_rows_at_every_size) {
   every_size(mixed_row);
 }
-END_TEST
 
-START_TEST(rows_of_zeros_at_every_size) {
+TEST(rows_of_zeros_at_every_size) {
   every_size(zero_row);
 }
-END_TEST
 
-START_TEST(the_204_cases) {
+TEST(the_204_cases) {
   case_set cases;
   ck_assert(cases_load(CAROM_TEST_DATA, "collisions-204.csv", &cases));
   const table t = table_make(cases.count);
@@ -213,10 +210,9 @@ START_TEST(the_204_cases) {
   table_free(&t);
   cases_free(&cases);
 }
-END_TEST
 
 /* Whoever its neighbours are, a row keeps its bits; some regimes are too slow for Euler's method. */
-START_TEST(all_regimes_side_by_side) {
+TEST(all_regimes_side_by_side) {
   const table t = table_make((size_t)regimes_count() * 16);
   FOR_EACH_ISA(isa)
   FOR_EACH_WAY(solver, slip, precision) {
@@ -231,7 +227,6 @@ START_TEST(all_regimes_side_by_side) {
   }
   table_free(&t);
 }
-END_TEST
 
 /* Moves row `from` of a table to place `to` of another. */
 static void copy_row(int precision, const table *source, size_t from, const table *target, size_t to) {
@@ -243,7 +238,7 @@ static void copy_row(int precision, const table *source, size_t from, const tabl
 
 /* The rows in random order, cut at random places into batches, each with 1, 2, 3 or 7 threads. Euler's method takes fewer rows
  * to be worth a thread. */
-START_TEST(cut_anywhere_in_any_order) {
+TEST(cut_anywhere_in_any_order) {
   static const int threads[] = {1, 2, 3, 7};
   const table t = table_make(MANY), mixed = table_make(MANY);
   size_t *order = malloc(MANY * sizeof *order);
@@ -279,10 +274,9 @@ START_TEST(cut_anywhere_in_any_order) {
   }
   table_free(&t), table_free(&mixed), free(order);
 }
-END_TEST
 
 /* Single precision against double, relative to the pair's scale. */
-START_TEST(single_precision_is_near) {
+TEST(single_precision_is_near) {
   static const double allowed[CAROM_SOLVER_COUNT] = {[CAROM_SOLVER_EXACT] = 2e-4, [CAROM_SOLVER_EULER] = 2e-2};
   random_source source = {test_seed()};
   carom_impact wide[MOST];
@@ -309,7 +303,6 @@ START_TEST(single_precision_is_near) {
       }
     }
 }
-END_TEST
 
 typedef struct caller {
   const carom_impact *in;
@@ -325,7 +318,7 @@ static void *call(void *argument) {
   return NULL;
 }
 
-START_TEST(many_callers_at_once) {
+TEST(many_callers_at_once) {
   enum { CALLERS = 4 };
   random_source source = {test_seed()};
   carom_impact *in = malloc(MANY * sizeof *in);
@@ -346,7 +339,6 @@ START_TEST(many_callers_at_once) {
     free(each[k].out);
   free(in);
 }
-END_TEST
 
 /* All that a call may compute of some rows, by both precisions; cushions too. */
 typedef struct everything {
@@ -359,7 +351,7 @@ typedef struct everything {
 } everything;
 
 /* options.plain of a call is what the whole process may be limited to: the same bits, and nothing else is changed by it. */
-START_TEST(plain_for_one_call) {
+TEST(plain_for_one_call) {
   static carom_impact in[MOST];
   static carom_impact_f32 in_f32[MOST];
   static carom_cushion_impact on[MOST];
@@ -411,9 +403,8 @@ START_TEST(plain_for_one_call) {
   }
 #undef SAME
 }
-END_TEST
 
-START_TEST(lower_sets_can_be_asked_for) {
+TEST(lower_sets_can_be_asked_for) {
   const carom_isa best = carom_isa_limit(CAROM_ISA_ANY);
   ck_assert(carom_isa_available(best));
   ck_assert_int_eq(carom_isa_limit(CAROM_ISA_PLAIN), CAROM_ISA_PLAIN);
@@ -424,11 +415,4 @@ START_TEST(lower_sets_can_be_asked_for) {
   printf("instruction sets tested:");
   FOR_EACH_ISA(isa) printf(" %s", carom_isa_name((carom_isa)isa));
   printf("\n");
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("batch", good_rows_at_every_size, mixed_rows_at_every_size, rows_of_zeros_at_every_size, the_204_cases,
-                   all_regimes_side_by_side, cut_anywhere_in_any_order, single_precision_is_near, many_callers_at_once,
-                   plain_for_one_call, lower_sets_can_be_asked_for);
 }

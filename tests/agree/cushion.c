@@ -16,7 +16,7 @@ static int compare(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-START_TEST(exact_against_the_reference) {
+TEST(exact_against_the_reference) {
   for (cushion_draw kind = CUSHION_PLAY; kind < CUSHION_DRAWS; kind++) {
     double error[DRAWN];
     int count = 0;
@@ -36,11 +36,10 @@ START_TEST(exact_against_the_reference) {
     ck_assert_msg(error[count / 2] <= 3e-9, "median %.3g", error[count / 2]);
   }
 }
-END_TEST
 
 /* Straight at a cushion with top or back spin both contacts may come to hold, and then the cloth's slip begins again while the
  * nose holds. Whether it does depends on the frictions: all of them have a result. */
-START_TEST(from_both_contacts_at_rest) {
+TEST(from_both_contacts_at_rest) {
   random_source r = {test_seed()};
   for (int k = 0; k < 20000; k++) {
     const carom_cushion_impact in = {.v = {0.0, 1.0, 0.0},
@@ -60,10 +59,9 @@ START_TEST(from_both_contacts_at_rest) {
     }
   }
 }
-END_TEST
 
 /* A ball that meets an infinitely heavy ball meets a wall, touched at the height of its centre. */
-START_TEST(a_heavy_ball_is_a_wall) {
+TEST(a_heavy_ball_is_a_wall) {
   enum { DRAWS = 15000 };
   int compared = 0, unresolved = 0;
   double worst = 0, worst_call = 0;
@@ -102,7 +100,6 @@ START_TEST(a_heavy_ball_is_a_wall) {
   ck_assert_double_le(worst, 1e-9);
   ck_assert_double_le(worst_call, 1e-6);
 }
-END_TEST
 
 /* One recorded impact. */
 typedef struct recorded {
@@ -135,7 +132,7 @@ static size_t load(const char *name, recorded rows[MOST_ROWS]) {
   return count;
 }
 
-START_TEST(stronge_as_recorded) {
+TEST(stronge_as_recorded) {
   static recorded rows[MOST_ROWS];
   const size_t count = load("cushion-stronge.csv", rows);
   const carom_cushion_options options = {.model = CAROM_CUSHION_STRONGE, .convention = CAROM_CONVENTION_POOLTOOL};
@@ -146,11 +143,10 @@ START_TEST(stronge_as_recorded) {
     ck_assert_msg(cushion_distance(&rows[k].in, &out, &rows[k].after) <= 1e-9, "row %zu", k);
   }
 }
-END_TEST
 
 /* A ball that rolls slips on the cloth by rounding alone, so pooltool's first step goes where its own rounding points. Two more
  * differ by less than 1e-5: spins that amplify it. */
-START_TEST(euler_as_recorded) {
+TEST(euler_as_recorded) {
   static recorded rows[MOST_ROWS];
   const size_t count = load("cushion-mathavan2010.csv", rows);
   const carom_cushion_options options = {
@@ -170,11 +166,10 @@ START_TEST(euler_as_recorded) {
   ck_assert_uint_ge(near + rolling, count - 2);
   ck_assert_uint_ge(near, 390);
 }
-END_TEST
 
 /* Not where friction may lift the ball, sin < mu cos: there steps that chatter about stick load the cloth by turns, on the mean
  * more than sticking does. */
-START_TEST(euler_converges_at_first_order) {
+TEST(euler_converges_at_first_order) {
   double mean[3] = {0};
   for (uint64_t k = 0; k < 100; k++) {
     carom_cushion_impact in = draw_cushion(CUSHION_PLAY, 1, k);
@@ -191,11 +186,10 @@ START_TEST(euler_converges_at_first_order) {
   for (int j = 0; j < 2; j++)
     ck_assert_msg(mean[j] / mean[j + 1] > 3 && mean[j] / mean[j + 1] < 5, "%g, then %g", mean[j], mean[j + 1]);
 }
-END_TEST
 
 /* Figure 7 of the 2010 paper: rolling balls straight into the cushion, as measured up to the speed for which a rigid cushion is
  * said to hold. The restitution and friction are those that the paper fitted. */
-START_TEST(measured_rebounds) {
+TEST(measured_rebounds) {
   for (double speed = 0.3; speed <= 2.5; speed += 0.1) {
     const double R = 0.02625;
     const carom_cushion_impact in = {.v = {0, speed, 0},
@@ -212,10 +206,4 @@ START_TEST(measured_rebounds) {
     const double measured = (-0.0877 * speed + 1.131) * speed - 0.0953;
     ck_assert_msg(fabs(-out.v[1] - measured) < 0.08, "%g m/s: %g, measured %g", speed, -out.v[1], measured);
   }
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("cushion", exact_against_the_reference, from_both_contacts_at_rest, a_heavy_ball_is_a_wall,
-                   stronge_as_recorded, euler_as_recorded, euler_converges_at_first_order, measured_rebounds);
 }

@@ -42,14 +42,13 @@ static void expect_references(carom_slip slip, const char *file) {
   cases_free(&cases);
 }
 
-START_TEST(references) {
+TEST(references) {
   expect_references(CAROM_SLIP_PAPER, "reference-exact-paper.csv");
   expect_references(CAROM_SLIP_POOLTOOL, "reference-exact-pooltool.csv");
 }
-END_TEST
 
 /* The reference itself against the data: what it is trusted for. */
-START_TEST(reference_agrees_with_the_data) {
+TEST(reference_agrees_with_the_data) {
   case_set cases;
   reference_set reference;
   ck_assert(cases_load(CAROM_TEST_DATA, "collisions-204.csv", &cases));
@@ -62,7 +61,6 @@ START_TEST(reference_agrees_with_the_data) {
   reference_free(&reference);
   cases_free(&cases);
 }
-END_TEST
 
 static int draws_per_regime(void) {
   const char *given = getenv("CAROM_TEST_DRAWS");
@@ -106,7 +104,7 @@ static void expect_details(const carom_impact *in, const carom_result *out, cons
 
 /* Nearly all collisions are within 1e-6. At the corners single ones are not, and none is farther off than 1e-5; a few say that
  * they are unresolved. */
-START_TEST(reference_in_every_regime) {
+TEST(reference_in_every_regime) {
   tally alone = {0}, batch = {0};
   int unresolved = 0, stuck[3] = {0};
   const int draws = draws_per_regime();
@@ -159,11 +157,10 @@ START_TEST(reference_in_every_regime) {
   for (int k = 0; k < 3; k++)
     ck_assert_int_gt(stuck[k], 10);
 }
-END_TEST
 
 /* Collocation and the fallback share no arithmetic, and together are what carom_collide() does. Here each is asked by itself:
  * they agree, and collocation takes what it is made for. */
-START_TEST(collocation_and_fallback_agree) {
+TEST(collocation_and_fallback_agree) {
   int drawn = 0, taken = 0, apart = 0, sets = 0;
   FOR_EACH_ISA(isa) sets++;
   for (int regime = 0; regime < regimes_count(); regime++) {
@@ -189,10 +186,9 @@ START_TEST(collocation_and_fallback_agree) {
   ck_assert_int_ge(taken, drawn * sets / 2); /* the rest is strong friction, or hardly any restitution */
   ck_assert_int_le(apart, taken / 1000);
 }
-END_TEST
 
 /* Real shots are not left to the fallback. */
-START_TEST(collocation_takes_the_references) {
+TEST(collocation_takes_the_references) {
   case_set cases;
   ck_assert(cases_load(CAROM_TEST_DATA, "collisions-204.csv", &cases));
   FOR_EACH_ISA(isa) for (int sign = -1; sign <= 1; sign += 2) {
@@ -202,10 +198,9 @@ START_TEST(collocation_takes_the_references) {
   }
   cases_free(&cases);
 }
-END_TEST
 
 /* The same collision at other speeds, down to where squares vanish and up to where they are infinite. */
-START_TEST(speeds_scale) {
+TEST(speeds_scale) {
   static const int powers[] = {-980, -600, -100, -40, 40, 100, 600, 980};
   random_source source = {test_seed()};
   for (int k = 0; k < 200; k++) {
@@ -226,7 +221,6 @@ START_TEST(speeds_scale) {
     }
   }
 }
-END_TEST
 
 /* Collisions that a class of arcs once accepted wrongly: stick just at the end, hardly any u_z, strong friction beside a light
  * ball, no ball slip at all, a light pressed ball on rough cloth, friction so weak that the sweeps leave p rough. In the units
@@ -248,7 +242,7 @@ static const struct {
             {2.496e-9, 1.43e-10, -0.13886, 1.765, 1.3245, 0.66622, 2.5e-10, 0.975, -1},
             {-0.00631, 1.98e-7, 1.248, 0.846, 1.213, 0.749, 7.27e-4, 0.9626, 1}};
 
-START_TEST(hard_cases) {
+TEST(hard_cases) {
   const double R = 0.03;
   for (size_t k = 0; k < sizeof hard / sizeof hard[0]; k++) {
     const double s = hard[k].s, w_x = (hard[k].kappa - hard[k].d_y) / (s * R);
@@ -281,9 +275,8 @@ START_TEST(hard_cases) {
     ck_assert_double_le(result_distance(&alone, &exact, R), 1e-9);
   }
 }
-END_TEST
 
-START_TEST(details_of_euler_come_near) {
+TEST(details_of_euler_come_near) {
   random_source source = {test_seed()};
   for (int k = 0; k < 200; k++) {
     const carom_impact in = random_impact(&source);
@@ -305,10 +298,4 @@ START_TEST(details_of_euler_come_near) {
       ck_assert_double_eq_tol(euler.cloth_b[c], exact.cloth_b[c], 1e-3 * exact.normal);
     }
   }
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("exact", references, reference_agrees_with_the_data, reference_in_every_regime, details_of_euler_come_near,
-                   hard_cases, collocation_and_fallback_agree, collocation_takes_the_references, speeds_scale);
 }

@@ -106,17 +106,16 @@ static void expect_file(const char *file, carom_slip slip) {
   cases_free(&cases);
 }
 
-START_TEST(results_that_were_wrong) {
+TEST(results_that_were_wrong) {
   expect_file("exact-wrong-paper.csv", CAROM_SLIP_PAPER);
   expect_file("exact-wrong-pooltool.csv", CAROM_SLIP_POOLTOOL);
   for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)
     expect_file("stick-before-the-end.csv", (carom_slip)slip);
   expect_file("pooltool-turns.csv", CAROM_SLIP_POOLTOOL);
 }
-END_TEST
 
 /* The rows are for the pooltool slip; here both. */
-START_TEST(single_precision_that_lost_restitution) {
+TEST(single_precision_that_lost_restitution) {
   case_set cases;
   ck_assert(cases_load(CAROM_TEST_FINDINGS, "f32-batch-wrong.csv", &cases));
   for (size_t k = 0; k < cases.count; k++)
@@ -144,10 +143,9 @@ START_TEST(single_precision_that_lost_restitution) {
     }
   cases_free(&cases);
 }
-END_TEST
 
 /* Euler's method says at once that it would take too long, and never takes more than 16 N steps. */
-START_TEST(euler_is_bounded) {
+TEST(euler_is_bounded) {
   case_set cases;
   carom_result out;
   carom_detail detail;
@@ -171,10 +169,9 @@ START_TEST(euler_is_bounded) {
   }
   cases_free(&cases);
 }
-END_TEST
 
 /* A pressed ball that rolls, so that the cloth slip starts at zero: 1e-6 was exceeded mostly there. */
-START_TEST(rolling_balls) {
+TEST(rolling_balls) {
   random_source source = {test_seed()};
   for (int k = 0; k < FEWER(120); k++) {
     carom_impact in = random_impact(&source);
@@ -189,10 +186,9 @@ START_TEST(rolling_balls) {
     }
   }
 }
-END_TEST
 
 /* Masses within 1 : 2, mu_b <= 0.5, mu <= 0.8. */
-START_TEST(strong_friction) {
+TEST(strong_friction) {
   random_source source = {test_seed()};
   int solved = 0;
   enum { DRAWS = FEWER(150) };
@@ -206,7 +202,6 @@ START_TEST(strong_friction) {
   }
   ck_assert_int_ge(solved, DRAWS * CAROM_SLIP_COUNT - 3);
 }
-END_TEST
 
 /* A number that is 0 in one of four draws, and else anything from 1e-14 to 1e-3. */
 static double near_zero(random_source *source) {
@@ -307,7 +302,7 @@ static int expect_planar(random_source *source, carom_slip slip, bool play, bool
 
 /* Windows of 1e-5 that random draws miss: the balls are about to stick as the collision ends, the cloth slip begins at zero,
  * passes it or ends there, and the motion is planar, exactly or nearly. */
-START_TEST(planar_collisions) {
+TEST(planar_collisions) {
   random_source source = {test_seed()};
   for (int kind = 0; kind < 16; kind++) {
     const bool play = kind & 1, stick = kind & 2, pass = kind & 4;
@@ -318,11 +313,10 @@ START_TEST(planar_collisions) {
     ck_assert_int_gt(solved, play ? 670 : 290);
   }
 }
-END_TEST
 
 /* At the ends of the range of double precision: the same status and bits alone and in a batch, and nothing but finite numbers
  * with status ok. */
-START_TEST(ends_of_the_range) {
+TEST(ends_of_the_range) {
   static const double radii[] = {2e-308, 1e-300, 1e-160, 1e160, 1e300}, spins[] = {1e307, 1e200, 1e160, 1e-300};
   random_source source = {test_seed()};
   for (int k = 0; k < 40; k++) {
@@ -348,10 +342,4 @@ START_TEST(ends_of_the_range) {
         ck_assert(memcmp(&many[row], &out, sizeof out) == 0);
     }
   }
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("findings", results_that_were_wrong, single_precision_that_lost_restitution, euler_is_bounded, rolling_balls,
-                   strong_friction, planar_collisions, ends_of_the_range);
 }

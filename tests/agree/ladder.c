@@ -33,7 +33,7 @@ static carom_options pooltool(int steps) {
   return options;
 }
 
-START_TEST(every_rung_is_within_its_bound) {
+TEST(every_rung_is_within_its_bound) {
   case_set cases;
   reference_set reference;
   const carom_options options = pooltool(1000);
@@ -53,7 +53,6 @@ START_TEST(every_rung_is_within_its_bound) {
   reference_free(&reference);
   cases_free(&cases);
 }
-END_TEST
 
 /* How far a rung may be from its parent on a pair of N steps, beyond its own bound.
  *
@@ -74,7 +73,7 @@ static double allowance(const carom_impact *in, const carom_options *options, co
   return (dv + (slip_ended ? 2.5 * fmax(in->a.mu_cloth, in->b.mu_cloth) * in->mu_ball * P : 0.0)) / scale;
 }
 
-START_TEST(each_rung_agrees_with_its_parent) {
+TEST(each_rung_agrees_with_its_parent) {
   static const int steps[] = {100, 1000, 10000};
   random_source source = {test_seed()};
   for (int trial = 0; trial < 60; trial++) {
@@ -97,9 +96,8 @@ START_TEST(each_rung_agrees_with_its_parent) {
     }
   }
 }
-END_TEST
 
-START_TEST(base_is_euler) {
+TEST(base_is_euler) {
   char why[LADDER_WHY_SIZE];
   const ladder_module *module = ladder_module_find("o3", why);
   if (ladder_module_name(0) == NULL)
@@ -119,7 +117,6 @@ START_TEST(base_is_euler) {
       ck_assert(((const double *)&base)[k] == ((const double *)&euler)[k]);
   }
 }
-END_TEST
 
 static carom_impact head_on(void) {
   return (carom_impact){
@@ -148,7 +145,7 @@ static void expect(carom_impact impact, int steps, carom_status expected) {
   }
 }
 
-START_TEST(bad_input_is_refused) {
+TEST(bad_input_is_refused) {
   carom_impact impact = head_on();
   expect(impact, 1000, CAROM_OK);
   expect(impact, 1, CAROM_OK);
@@ -170,18 +167,16 @@ START_TEST(bad_input_is_refused) {
   impact = head_on(), impact.a.v[1] = -1.0;
   expect(impact, 1000, CAROM_SEPARATING);
 }
-END_TEST
 
-START_TEST(nothing_that_would_never_end_is_begun) {
+TEST(nothing_that_would_never_end_is_begun) {
   carom_impact impact = head_on();
   impact.a.v[1] = 1e-14; /* the step is below what a slip must be to count */
   expect(impact, 1000, CAROM_ERROR_TOO_SLOW);
   impact = head_on(), impact.a.v[1] = 1e3, impact.b.v[1] = 1e3 - 1e-10; /* the steps are rounded away */
   expect(impact, 1000, CAROM_ERROR_TOO_SLOW);
 }
-END_TEST
 
-START_TEST(the_extremes_end) {
+TEST(the_extremes_end) {
   carom_impact impact = head_on();
   impact.restitution = 0.0;
   expect(impact, 1000, CAROM_OK);
@@ -205,10 +200,9 @@ START_TEST(the_extremes_end) {
   impact.a.mass = impact.b.mass = impact.a.radius = impact.b.radius = 1e9;
   expect(impact, 1000, CAROM_OK);
 }
-END_TEST
 
 /* The limit of steps is each precision's own. */
-START_TEST(single_precision_takes_fewer_steps) {
+TEST(single_precision_takes_fewer_steps) {
   const carom_impact impact = head_on();
   const carom_options options = pooltool(2000000);
   FOR_EACH_MODULE(module) {
@@ -217,9 +211,8 @@ START_TEST(single_precision_takes_fewer_steps) {
     ck_assert_int_eq(ladder_resolve(module, ladder_rung_find("double"), &impact, &options, &out), CAROM_OK);
   }
 }
-END_TEST
 
-START_TEST(modules_have_names) {
+TEST(modules_have_names) {
   char why[LADDER_WHY_SIZE] = "";
   ck_assert_ptr_null(ladder_module_find("nonsense", why));
   ck_assert_uint_gt(strlen(why), 0);
@@ -232,21 +225,13 @@ START_TEST(modules_have_names) {
   FOR_EACH_MODULE(each)
   ck_assert_ptr_eq(each, ladder_module_find(each->name, why));
 }
-END_TEST
 
 /* Linking with -ffast-math makes a library switch the whole process to flushing subnormal numbers when it is loaded. */
-START_TEST(loading_leaves_arithmetic_alone) {
+TEST(loading_leaves_arithmetic_alone) {
 #if defined(__x86_64__)
   const unsigned before = _mm_getcsr() & ~(unsigned)_MM_EXCEPT_MASK;
   FOR_EACH_MODULE(module)
   ck_assert_ptr_nonnull(module);
   ck_assert_uint_eq(_mm_getcsr() & ~(unsigned)_MM_EXCEPT_MASK, before);
 #endif
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("ladder", every_rung_is_within_its_bound, each_rung_agrees_with_its_parent, base_is_euler,
-                   bad_input_is_refused, nothing_that_would_never_end_is_begun, the_extremes_end,
-                   single_precision_takes_fewer_steps, modules_have_names, loading_leaves_arithmetic_alone);
 }

@@ -12,7 +12,7 @@ static carom_options parity(void) {
   return options;
 }
 
-START_TEST(every_bit_and_every_step) {
+TEST(every_bit_and_every_step) {
   case_set cases;
   reference_set reference;
   const carom_options options = parity();
@@ -30,9 +30,8 @@ START_TEST(every_bit_and_every_step) {
   reference_free(&reference);
   cases_free(&cases);
 }
-END_TEST
 
-START_TEST(a_batch_is_single_calls) {
+TEST(a_batch_is_single_calls) {
   case_set cases;
   const carom_options options = parity();
   ck_assert(cases_load(CAROM_TEST_DATA, "collisions-204.csv", &cases));
@@ -46,9 +45,8 @@ START_TEST(a_batch_is_single_calls) {
   }
   cases_free(&cases);
 }
-END_TEST
 
-START_TEST(separating_pairs_of_real_shots) {
+TEST(separating_pairs_of_real_shots) {
   case_set cases;
   ck_assert(cases_load(CAROM_TEST_DATA, "separating-20.csv", &cases));
   ck_assert_uint_eq(cases.count, 20);
@@ -59,9 +57,4 @@ START_TEST(separating_pairs_of_real_shots) {
     ck_assert_mem_eq(out.b.w, cases.impact[k].b.w, sizeof out.b.w);
   }
   cases_free(&cases);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("pooltool", every_bit_and_every_step, a_batch_is_single_calls, separating_pairs_of_real_shots);
 }

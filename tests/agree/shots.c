@@ -79,7 +79,7 @@ static void free_results(results *r) {
   free(r);
 }
 
-START_TEST(batch_is_singles) {
+TEST(batch_is_singles) {
   make_breaks();
   for (int world = 0; world < 2; world++) {
     carom_shot_options options = {.world = (carom_world)world, .cushion_model = CAROM_SHOT_CUSHION_HAN};
@@ -109,10 +109,9 @@ START_TEST(batch_is_singles) {
     free_results(single);
   }
 }
-END_TEST
 
 /* A bad layout costs itself, wherever it stands, and whatever is wrong with its first ball. */
-START_TEST(bad_layouts) {
+TEST(bad_layouts) {
   static const double radii[] = {0.0, -1.0, NAN, INFINITY};
   const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
   for (int bad = 0; bad <= SHOTS; bad++) { /* the first ones; all of them */
@@ -132,11 +131,10 @@ START_TEST(bad_layouts) {
     bad += bad > 2 && bad < SHOTS - 1 ? SHOTS - 2 - bad : 0;
   }
 }
-END_TEST
 
 /* Each layout is checked and played with its own radius and its own kinds of balls, whatever the radius of the others: too
  * large for the nose, too small for it, in the cushion with this radius and not with that. */
-START_TEST(radii) {
+TEST(radii) {
   enum { LAYOUTS = 144, BALLS = 2 };
   static const double factor[] = {1.0, 1.0, 1.1, 0.7, 1.0, 1.95, 0.4, 1.1, 0.0};
   const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
@@ -178,10 +176,9 @@ START_TEST(radii) {
   ck_assert_int_eq(played, 9 * 96);
   ck_assert_int_eq(refused, 9 * 32);
 }
-END_TEST
 
 /* One layout for all cues, one cue for all layouts; layouts and cues further apart than they are long. */
-START_TEST(one_for_all) {
+TEST(one_for_all) {
   make_breaks();
   cues[4].a = 0.0;
   const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
@@ -215,11 +212,10 @@ START_TEST(one_for_all) {
   free_results(single);
   free_results(batch);
 }
-END_TEST
 
 /* What a game waits for: a break as a whole, to the first contact and in frames, each with the status that it must have. The
  * times that are printed are medians over interleaved rounds. */
-START_TEST(costs_of_a_game) {
+TEST(costs_of_a_game) {
   enum { ROUNDS = 25, MODELS = 2, FIGURES = 5 };
   static const carom_shot_cushion models[MODELS] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_MATHAVAN};
   static const char *const what[FIGURES] = {"the break", "to the first contact", "a frame by carom_shot_continue()",
@@ -271,10 +267,9 @@ START_TEST(costs_of_a_game) {
     printf("\n");
   }
 }
-END_TEST
 
 /* Brief events tell what full ones do, in place of them and beside them, and no more of them than there is room for. */
-START_TEST(brief_events) {
+TEST(brief_events) {
   enum { FEW = 7 };
   static carom_brief_event in_place[ROOM], beside[ROOM];
   static carom_event full[ROOM], others[ROOM];
@@ -301,7 +296,6 @@ START_TEST(brief_events) {
   carom_ball_state states[16];
   ck_assert_int_eq(carom_shot_at(balls, 16, &b, 0.5, states), CAROM_ERROR_EVENTS_LOST);
 }
-END_TEST
 
 /* ---- Stopping and going on */
 
@@ -352,7 +346,7 @@ static carom_shot_options next_stop(const carom_shot_options *options, int way, 
 }
 
 /* However often a shot is stopped, it has the bits of the unbroken one; and where it stops, it has the states of that time. */
-START_TEST(stopped_and_continued) {
+TEST(stopped_and_continued) {
   static random_shot s;
   random_source r = {test_seed()};
   long stops = 0;
@@ -406,10 +400,9 @@ START_TEST(stopped_and_continued) {
   }
   ck_assert_int_gt(stops, 2000);
 }
-END_TEST
 
 /* The first contact of the cue ball is that of the whole shot; in a batch too, and each shot of a batch can go on. */
-START_TEST(first_contact) {
+TEST(first_contact) {
   enum { FEW = 20 };
   static carom_shot_state state[FEW];
   make_breaks();
@@ -436,10 +429,9 @@ START_TEST(first_contact) {
   free_results(single);
   free_results(batch);
 }
-END_TEST
 
 /* What cannot go on is refused, and nothing is written. */
-START_TEST(bad_states) {
+TEST(bad_states) {
   make_breaks();
   broken *b = make_broken();
   carom_shot_options options = {.time_most = 0.2};
@@ -473,11 +465,10 @@ START_TEST(bad_states) {
   free(before);
   free(b);
 }
-END_TEST
 
 /* On every instruction set a shot ends well, and the first events, which nothing has amplified yet, are the same but for
  * rounding. */
-START_TEST(instruction_sets) {
+TEST(instruction_sets) {
   static carom_event events[ROOM], others[ROOM];
   make_breaks();
   carom_isa_limit(CAROM_ISA_PLAIN);
@@ -504,10 +495,4 @@ START_TEST(instruction_sets) {
     ck_assert_int_eq(memcmp(events, others, (size_t)plain.count * sizeof *events), 0);
   }
   carom_isa_limit(CAROM_ISA_ANY);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("shots", batch_is_singles, bad_layouts, radii, one_for_all, costs_of_a_game, brief_events,
-                   stopped_and_continued, first_contact, bad_states, instruction_sets);
 }

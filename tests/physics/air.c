@@ -73,7 +73,7 @@ static carom_shot strike(double speed, double theta, double b, carom_space space
 
 /* ---- Ball and slate */
 
-START_TEST(drop) {
+TEST(drop) {
   static const double up[] = {0.700071425, 0.349463875, 0.173583553, 0.084455980, 0.037191439, 0.0};
   const carom_shot shot = let_go(flying(20.0, 20.0, 0.1, 0.0, 0.0, 0.0));
   ck_assert_int_eq(shot.count, 6);
@@ -89,11 +89,10 @@ START_TEST(drop) {
   }
   NEAR(events[5].time, 0.416946651, 1e-9);
 }
-END_TEST
 
 /* One landing that slips, one that sticks, one of a ball that only spins. w_z falls by the friction of turning on the spot, and
  * by no other: pooltool multiplies it by 2/7 where the ball sticks. */
-START_TEST(one_landing) {
+TEST(one_landing) {
   let_go(spinning(flying(20.0, 20.0, 0.0, 3.0, 0.0, -1.0), 0.0, 0.0, 50.0));
   const carom_ball_state *after = &events[0].after[0];
   ck_assert_int_eq(events[0].type, CAROM_EVENT_SLATE);
@@ -114,20 +113,18 @@ START_TEST(one_landing) {
   NEAR(after->v[2], 0.999799980, 1e-9);
   NEAR(after->w[1], -47.510062, 1e-6);
 }
-END_TEST
 
 /* A ball that slips on all the way loses as much speed as if it had lain on the cloth. */
-START_TEST(hops_slow_as_sliding_does) {
+TEST(hops_slow_as_sliding_does) {
   const carom_shot shot = let_go(flying(20.0, 20.0, 0.0, 8.0, 0.0, -2.0));
   const carom_event *last = event_of(&shot, CAROM_EVENT_SLATE, count_of(&shot, CAROM_EVENT_SLATE) - 1);
   NEAR(last->time, 0.3976, 1e-4);
   NEAR(8.0 - last->after[0].v[0], 1.180097, 1e-6);
   NEAR(8.0 - last->after[0].v[0], 0.2 * (2.0 + g * last->time), 1e-12);
 }
-END_TEST
 
 /* Landings are bounded by the formula of src/shot/fixed.c, energy never rises, and friction does not turn the slip round. */
-START_TEST(random_hops) {
+TEST(random_hops) {
   static const double restitutions[] = {-1.0, 0.3, 0.0, 0.7, 0.9, 0.95, 0.98};
   random_source random = {test_seed()};
   double worst_rise = -1.0;
@@ -158,11 +155,10 @@ START_TEST(random_hops) {
   printf("hops: at most %d landings, greatest rise of energy %.1e of it\n", most, worst_rise);
   ck_assert_double_lt(worst_rise, 1e-14);
 }
-END_TEST
 
 /* ---- The elevated cue */
 
-START_TEST(elevated_strikes) {
+TEST(elevated_strikes) {
   /* V0 3 m/s, centre hits: angle, v_y and v_z after the slate, height and range of the first hop */
   static const struct {
     double theta, v_y, v_z, height, range;
@@ -212,10 +208,9 @@ START_TEST(elevated_strikes) {
   ck_assert_int_eq(events[0].after[0].label, CAROM_BALL_SLIDING);
   NEAR(events[0].after[0].v[1], 4.615403 * sqrt(0.5), 1e-6);
 }
-END_TEST
 
 /* Over a ball 0.305 m (12 inches) ahead. */
-START_TEST(jump_over_a_ball) {
+TEST(jump_over_a_ball) {
   static const struct { double theta, speed; } least[] = {{30.0, 2.762}, {40.0, 2.281}, {45.0, 2.221}, {60.0, 2.264}};
   const carom_table table = empty_table(40.0);
   const carom_shot_ball balls[2] = {ball_at(20.0, 20.0), ball_at(20.0, 20.305)};
@@ -228,10 +223,9 @@ START_TEST(jump_over_a_ball) {
     ck_assert_msg((count_of(&shot, CAROM_EVENT_BALL_BALL) > 0) == (k % 2 == 0), "%g degrees, %g m/s", cue.theta, cue.speed);
   }
 }
-END_TEST
 
 /* A shot in which nothing leaves the cloth has the same bits in both spaces; the header promises it. */
-START_TEST(level_shots_are_flat_shots) {
+TEST(level_shots_are_flat_shots) {
   static carom_event kept[ROOM];
   for (int n = 0; n < 300; n++) {
     random_shot s;
@@ -247,11 +241,10 @@ START_TEST(level_shots_are_flat_shots) {
     ck_assert_int_eq(memcmp(events, kept, (size_t)(flat.count < ROOM ? flat.count : ROOM) * sizeof *kept), 0);
   }
 }
-END_TEST
 
 /* ---- Two balls */
 
-START_TEST(two_flying_balls) {
+TEST(two_flying_balls) {
   const carom_table table = empty_table(40.0);
   for (int k = 0; k < 5; k++) { /* on a straight line towards each other, whatever their common fall */
     const double v_z = (double[]){3.0, 0.0, 1.0, -0.5, 2.0}[k], above = k == 1 ? 0.5 : 1.0;
@@ -260,7 +253,6 @@ START_TEST(two_flying_balls) {
     NEAR(event_of(&shot, CAROM_EVENT_BALL_BALL, 0)->time, 0.221425, 1e-12);
   }
 }
-END_TEST
 
 static carom_impact impact_of(const carom_shot_ball *a, const carom_shot_ball *b, double mu) {
   carom_impact in = {.a = {.radius = a->kind.radius, .mass = a->kind.mass},
@@ -272,7 +264,7 @@ static carom_impact impact_of(const carom_shot_ball *a, const carom_shot_ball *b
   return in;
 }
 
-START_TEST(oblique_hits) {
+TEST(oblique_hits) {
   const carom_shot_options constant = {.friction = CAROM_FRICTION_CONSTANT};
   const carom_table table = empty_table(40.0);
   const double x = sqrt(4.0 * R * R - 0.03 * 0.03);
@@ -332,10 +324,9 @@ START_TEST(oblique_hits) {
   NEAR(events[2].after[0].v[2], 0.474287, 1e-6);
   ck_assert_double_eq(events[3].after[0].v[2], 0.0);
 }
-END_TEST
 
 /* A ball of 30.2 mm and 0.2 kg rolls into a pool ball. */
-START_TEST(unlike_radii) {
+TEST(unlike_radii) {
   const carom_table table = empty_table(40.0);
   carom_shot_ball balls[2] = {ball_at(20.0, 20.0), ball_at(20.3, 20.0)};
   balls[0].kind.radius = balls[0].state.r[2] = 0.0302;
@@ -355,11 +346,10 @@ START_TEST(unlike_radii) {
   NEAR(hit->after[1].w[1], -9.215879, 1e-6);
   ck_assert_int_eq(hit->after[0].label, CAROM_BALL_AIRBORNE);
 }
-END_TEST
 
 /* How far spheres in space are from the 2014 model for two balls on the cloth: nothing for stun shots, at most 0.6 % of the
  * speed in the rolling velocities that the balls end with. */
-START_TEST(jump_at_the_cloth) {
+TEST(jump_at_the_cloth) {
   static const double told[3][4] = {{2.7, 3.2, 4.3}, {0.0, 2.1, 0.0}, {0.0, 0.0, -4.2}}; /* mm/s: roll full, half; draw full */
   double worst = 0.0;
   for (int spin = -1; spin <= 1; spin++)
@@ -389,13 +379,12 @@ START_TEST(jump_at_the_cloth) {
       }
   ck_assert_double_lt(worst, 0.006);
 }
-END_TEST
 
 /* carom_impact3() keeps momentum and angular momentum about the contact, loses energy, turns with the frame, and refuses what
  * has no meaning. */
 /* A ball on another one, not balanced: it rolls off in a bounded number of hops, though neither spins. From 1 mm off the top it
  * came to 10,000 events within 4 ms. */
-START_TEST(rolls_off_a_ball) {
+TEST(rolls_off_a_ball) {
   static const double up[] = {1e-12, 1e-6, 0.001, 0.01, 0.1}, off[] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05};
   for (int k = 0; k < 30; k++) {
     const double aside = off[k % 6];
@@ -413,9 +402,8 @@ START_TEST(rolls_off_a_ball) {
     ck_assert_double_gt(final[1].r[0] - final[0].r[0], 2.0 * R);
   }
 }
-END_TEST
 
-START_TEST(spheres) {
+TEST(spheres) {
   random_source random = {test_seed()};
   double worst = 0.0, rise = -1.0;
   for (int n = 0; n < 20000; n++) {
@@ -491,11 +479,4 @@ START_TEST(spheres) {
   in.a.v[0] = -1.0;
   ck_assert_int_eq(carom_impact3(&in, &out), CAROM_SEPARATING);
   ck_assert_double_eq(out.a.v[0], -1.0);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("air", drop, one_landing, hops_slow_as_sliding_does, random_hops, elevated_strikes, jump_over_a_ball,
-                   level_shots_are_flat_shots, two_flying_balls, oblique_hits, unlike_radii, jump_at_the_cloth,
-                   rolls_off_a_ball, spheres);
 }

@@ -46,7 +46,7 @@ static const carom_event *event_of(const carom_shot *shot, int type) {
 
 /* ---- Noses */
 
-START_TEST(nose_from_above) {
+TEST(nose_from_above) {
   /* 0.2 m from the nose, level at 3 m/s and 40 mm above the cloth: the rail of the far side is at y = 40 */
   const carom_table table = empty_table(40.0);
   carom_shot_ball ball = flying(20.0, 40.0 - shift() - 0.2, R + 0.04, 0.0, 3.0, 0.0);
@@ -71,10 +71,9 @@ START_TEST(nose_from_above) {
   }
   NEAR(events[0].after[0].v[2] * events[0].after[0].v[2] / (2.0 * g), 0.2944, 1e-4);
 }
-END_TEST
 
 /* Near the cloth the result goes over to that of a ball that lies on it, to the last bit at z = R; and energy never rises. */
-START_TEST(near_the_cloth) {
+TEST(near_the_cloth) {
   const carom_table table = empty_table(4.0);
   static const int models[] = {CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN, CAROM_CUSHION_MIRROR};
   random_source random = {test_seed()};
@@ -122,7 +121,6 @@ START_TEST(near_the_cloth) {
     last = away;
   }
 }
-END_TEST
 
 /* ---- Jaws */
 
@@ -138,7 +136,7 @@ static double gap_of(const track *f, double x, double y, double radius, double t
 }
 
 /* Random flights at one post against samples of the gap and bisection: none is missed, none false, and the gap is 0 there. */
-START_TEST(posts) {
+TEST(posts) {
   enum { FLIGHTS = 100000, LOOKS = 800 };
   random_source random = {test_seed()};
   carom_table table = empty_table(40.0);
@@ -186,10 +184,9 @@ START_TEST(posts) {
   ck_assert_int_gt(hits, 1000);
   ck_assert_int_gt(tops, 100);
 }
-END_TEST
 
 /* Flights that graze a post by less and less: contact and miss are told apart down to 1e-13 m. */
-START_TEST(grazed_posts) {
+TEST(grazed_posts) {
   random_source random = {test_seed()};
   carom_table table = empty_table(40.0);
   table.jaws = 1;
@@ -243,11 +240,10 @@ START_TEST(grazed_posts) {
   printf("grazed posts: %d told apart\n", told);
   ck_assert_int_gt(told, 500);
 }
-END_TEST
 
 /* ---- Over the rail, into pockets, off the table */
 
-START_TEST(over_the_rail) {
+TEST(over_the_rail) {
   carom_table table = empty_table(40.0);
   const carom_shot_ball ball = ball_at(20.0, 39.6);
   carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
@@ -298,10 +294,9 @@ START_TEST(over_the_rail) {
   ck_assert_int_eq(final[1].label, CAROM_BALL_STATIONARY);
   ck_assert_double_gt(shot.time, 1.0);
 }
-END_TEST
 
 /* A pocket of radius 0.06 in the middle of a table. */
-START_TEST(pockets) {
+TEST(pockets) {
   carom_table table = empty_table(4.0);
   table.pockets = 1;
   table.pocket[0] = (carom_pocket){.centre = {2.0, 2.0}, .radius = 0.06, .depth = 0.08};
@@ -344,14 +339,13 @@ START_TEST(pockets) {
   shot = play(&table, &ball, 1, NULL, NULL, CAROM_OK);
   ck_assert_ptr_nonnull(event_of(&shot, CAROM_EVENT_POCKET));
 }
-END_TEST
 
 /* ---- What every shot keeps */
 
 /* Shots with elevated cues and falling balls: the invariants of tests/shots, which follow the motion by other code; what the
  * library evaluates at events is what it found; batches, and shots that are stopped and go on, have the bits of single shots.
  */
-START_TEST(random_flights) {
+TEST(random_flights) {
   const char *given = getenv("CAROM_TEST_DRAWS"); /* of each kind */
   const int each = given != NULL ? atoi(given) : 25;
   static random_shot s;
@@ -427,10 +421,9 @@ START_TEST(random_flights) {
   ck_assert_int_gt(stops, 1000);
   ck_assert_int_le(many, 2);
 }
-END_TEST
 
 /* About the origin the mirrored table, balls and motion have the mirrored history, bit for bit. */
-START_TEST(mirrored) {
+TEST(mirrored) {
   random_source random = {test_seed()};
   for (int n = 0; n < 200; n++) {
     carom_table table[2] = {empty_table(2.0), empty_table(2.0)};
@@ -478,10 +471,4 @@ START_TEST(mirrored) {
       }
     }
   }
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("air_table", nose_from_above, near_the_cloth, posts, grazed_posts, over_the_rail, pockets, random_flights,
-                   mirrored);
 }

@@ -22,7 +22,7 @@ static double energy(const double v[3], const double w[3], double R) {
   return sum;
 }
 
-START_TEST(energy_never_rises) {
+TEST(energy_never_rises) {
   int unresolved = 0;
   for (uint64_t k = 0; k < DRAWN; k++)
     for (int m = 0; m < MODELS; m++) {
@@ -43,10 +43,9 @@ START_TEST(energy_never_rises) {
     }
   ck_assert_int_le(unresolved, 4);
 }
-END_TEST
 
 /* The other way along the cushion: v_x, w_y and w_z change sign, and the result does likewise, to the last bit. */
-START_TEST(mirror_symmetry) {
+TEST(mirror_symmetry) {
   for (uint64_t k = 0; k < DRAWN; k++)
     for (int m = 0; m < MODELS; m++) {
       carom_cushion_impact in = draw_cushion(CUSHION_ANY, test_seed(), k);
@@ -69,9 +68,8 @@ START_TEST(mirror_symmetry) {
         ck_assert_msg(((double *)&out)[c] == ((double *)&other)[c], "model %d, impact %d, number %d", m, (int)k, c);
     }
 }
-END_TEST
 
-START_TEST(rotation_changes_nothing) {
+TEST(rotation_changes_nothing) {
   for (uint64_t k = 0; k < DRAWN; k++) {
     const carom_cushion_impact in = draw_cushion(CUSHION_PLAY, test_seed(), k);
     const double c = cos(1.1), s = sin(1.1);
@@ -90,7 +88,6 @@ START_TEST(rotation_changes_nothing) {
     ck_assert_msg(cushion_distance(&in, &out, &back) < 1e-9, "impact %d", (int)k);
   }
 }
-END_TEST
 
 static carom_cushion_impact usual(void) {
   const double R = 0.02625;
@@ -106,7 +103,7 @@ static carom_cushion_impact usual(void) {
 }
 
 /* Without friction only the speed into the nose changes: v_y becomes v_y (1 - (1 + e) cos^2), as nothing lifts the ball. */
-START_TEST(closed_forms) {
+TEST(closed_forms) {
   for (int k = 0; k <= 10; k++) {
     carom_cushion_impact in = usual();
     const double sine = in.height / in.radius - 1, cosine_2 = 1 - sine * sine;
@@ -133,10 +130,9 @@ START_TEST(closed_forms) {
   ck_assert_int_eq(carom_cushion(&in, NULL, &out), CAROM_OK);
   ck_assert_double_eq_tol(out.v[1], 0, 1e-12);
 }
-END_TEST
 
 /* Han's fits: what they say for one ball, by hand. */
-START_TEST(han_law) {
+TEST(han_law) {
   carom_cushion_impact in = usual();
   in.v[0] = 1.3;
   const carom_cushion_options fitted = {.law = CAROM_CUSHION_LAW_HAN}, given = {0};
@@ -147,9 +143,8 @@ START_TEST(han_law) {
   ck_assert_int_eq(carom_cushion(&in, &given, &b), CAROM_OK);
   ck_assert_msg(cushion_distance(&in, &a, &b) < 1e-12, "%g", cushion_distance(&in, &a, &b));
 }
-END_TEST
 
-START_TEST(separating_is_unchanged) {
+TEST(separating_is_unchanged) {
   for (int m = 0; m < MODELS; m++) {
     carom_cushion_impact in = usual();
     const carom_cushion_options options = {.model = models[m]};
@@ -168,7 +163,6 @@ START_TEST(separating_is_unchanged) {
     }
   }
 }
-END_TEST
 
 /* The slip after an impact on a nose of two springs, over the approach, by small steps in time: the force of the spring along
  * the nose is at most mu times that of the spring across it. */
@@ -193,7 +187,7 @@ static double slip_by_steps(double rho, double mu, double e, double ratio) {
   return slip;
 }
 
-START_TEST(stronge_is_two_springs) {
+TEST(stronge_is_two_springs) {
   for (int k = 0; k < 400; k++) {
     const double mu = (const double[]){0.1, 0.3, 0.8, 1}[k % 4], e = (const double[]){0.5, 0.7, 0.85, 1, 0.95}[k / 4 % 5],
                  ratio = (const double[]){1.7, 1.8, 1.9, 2}[k / 20 % 4], rho = mu * (const double[]){0.3, 1, 1.5, 3, 6}[k / 80];
@@ -202,10 +196,9 @@ START_TEST(stronge_is_two_springs) {
                   stepped);
   }
 }
-END_TEST
 
 /* Without friction a ball slips to the end, and the impulse of friction is proportional to the first bit of it. */
-START_TEST(a_smooth_nose_has_a_derivative_by_friction) {
+TEST(a_smooth_nose_has_a_derivative_by_friction) {
   static const carom_cushion_model closed[] = {CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN};
   for (int m = 0; m < 2; m++) {
     carom_cushion_impact in = usual();
@@ -225,7 +218,6 @@ START_TEST(a_smooth_nose_has_a_derivative_by_friction) {
     }
   }
 }
-END_TEST
 
 static carom_motion swept(int field, double value) {
   carom_cushion_impact in = usual();
@@ -251,7 +243,7 @@ static double jump_between(int field, double low, double high) {
 }
 
 /* Sweeps of each input, over changes of regime too: there is no jump anywhere. */
-START_TEST(sweeps_are_smooth) {
+TEST(sweeps_are_smooth) {
   static const struct {
     int field;
     double from, to;
@@ -264,9 +256,8 @@ START_TEST(sweeps_are_smooth) {
       ck_assert_msg(jump < 1e-9, "field %d near %g: %.3g", sweeps[s].field, from, jump);
     }
 }
-END_TEST
 
-START_TEST(batches_are_single_calls) {
+TEST(batches_are_single_calls) {
   static carom_cushion_impact in[1000];
   static carom_motion out[1000], alone[1000];
   static int8_t status[1000], expected[1000];
@@ -294,9 +285,8 @@ START_TEST(batches_are_single_calls) {
     }
   }
 }
-END_TEST
 
-START_TEST(traces_end_where_calls_do) {
+TEST(traces_end_where_calls_do) {
   enum { POINTS = 101 };
   static const carom_cushion_model traced[] = {CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_EULER};
   for (uint64_t k = 0; k < 100; k++)
@@ -322,7 +312,6 @@ START_TEST(traces_end_where_calls_do) {
       ck_assert_msg(work_c <= all * 1.02 && work_c >= 0.95 * all, "impact %d: %g of %g", (int)k, work_c, all);
     }
 }
-END_TEST
 
 /* Along the cushion's axes, which are the table's here: the state, and the slips that it has by its geometry. */
 static void expect_point(const carom_cushion_impact *in, const carom_cushion_point *p) {
@@ -340,7 +329,7 @@ static void expect_point(const carom_cushion_impact *in, const carom_cushion_poi
 }
 
 /* The first point is the motion before, and every point is told alike in its state and its slips. */
-START_TEST(traces_tell_every_point) {
+TEST(traces_tell_every_point) {
   enum { POINTS = 41 };
   static const carom_cushion_model traced[] = {CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_EULER};
   int nose = 0, cloth = 0;
@@ -377,11 +366,4 @@ START_TEST(traces_tell_every_point) {
     }
   ck_assert_int_ge(nose, 100);
   ck_assert_int_ge(cloth, 100);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("cushion_physics", energy_never_rises, mirror_symmetry, rotation_changes_nothing, closed_forms, han_law,
-                   separating_is_unchanged, stronge_is_two_springs, a_smooth_nose_has_a_derivative_by_friction,
-                   sweeps_are_smooth, batches_are_single_calls, traces_end_where_calls_do, traces_tell_every_point);
 }

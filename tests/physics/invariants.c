@@ -69,7 +69,7 @@ static void expect_balance(const carom_impact *in, carom_slip slip) {
     ck_assert_double_le(fabs(along_y - about_x), 1e-11 * scale);
 }
 
-START_TEST(momentum_balances) {
+TEST(momentum_balances) {
   EACH_SOLVER {
     random_source source = start();
     for (int k = 0; k < COLLISIONS; k++) {
@@ -85,7 +85,6 @@ START_TEST(momentum_balances) {
     }
   }
 }
-END_TEST
 
 static double square(const double x[3]) {
   return x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
@@ -95,7 +94,7 @@ static double energy_of(const carom_ball *ball) {
   return 0.5 * ball->mass * (square(ball->v) + 0.4 * ball->radius * ball->radius * square(ball->w));
 }
 
-START_TEST(energy_never_rises) {
+TEST(energy_never_rises) {
   EACH_SOLVER {
     random_source source = start();
     for (int k = 0; k < COLLISIONS; k++) {
@@ -109,10 +108,9 @@ START_TEST(energy_never_rises) {
     }
   }
 }
-END_TEST
 
 /* The balls part: the normal relative velocity is positive, and not more than it was. */
-START_TEST(the_balls_part) {
+TEST(the_balls_part) {
   EACH_SOLVER {
     random_source source = start();
     for (int k = 0; k < COLLISIONS; k++) {
@@ -127,7 +125,6 @@ START_TEST(the_balls_part) {
     }
   }
 }
-END_TEST
 
 typedef carom_impact transform(const carom_impact *in);
 typedef carom_result transform_result(const carom_result *out);
@@ -208,26 +205,23 @@ static void expect_symmetry(transform *of_impact, transform_result *of_result) {
   }
 }
 
-START_TEST(quarter_turns_are_exact) {
+TEST(quarter_turns_are_exact) {
   EACH_SOLVER {
     expect_symmetry(turn, turn_result);
   }
 }
-END_TEST
 
-START_TEST(mirror_images_are_exact) {
+TEST(mirror_images_are_exact) {
   EACH_SOLVER {
     expect_symmetry(mirror, mirror_result);
   }
 }
-END_TEST
 
-START_TEST(swapped_balls_are_exact) {
+TEST(swapped_balls_are_exact) {
   EACH_SOLVER {
     expect_symmetry(swap, swap_result);
   }
 }
-END_TEST
 
 static void rotate3(double x[3], double angle) {
   const double x0 = x[0], x1 = x[1];
@@ -236,7 +230,7 @@ static void rotate3(double x[3], double angle) {
 }
 
 /* Rounding can add or drop a step of Euler's, or shift its chatter once the slip has stopped, so few may differ visibly. */
-START_TEST(any_rotation_is_close) {
+TEST(any_rotation_is_close) {
   EACH_SOLVER {
     random_source source = start();
     int visible = 0;
@@ -257,10 +251,4 @@ START_TEST(any_rotation_is_close) {
     }
     ck_assert_int_le(visible, COLLISIONS / 20);
   }
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("invariants", momentum_balances, energy_never_rises, the_balls_part, quarter_turns_are_exact,
-                   mirror_images_are_exact, swapped_balls_are_exact, any_rotation_is_close);
 }

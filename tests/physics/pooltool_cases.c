@@ -10,7 +10,7 @@ static const carom_shot_options pooltool = {.world = CAROM_WORLD_POOLTOOL};
 
 /* Full hits with follow along x: two balls with equal accelerations, of which it makes a polynomial without leading
  * coefficient. */
-START_TEST(straight_follow) {
+TEST(straight_follow) {
   carom_table t;
   carom_table_make(CAROM_TABLE_POOLTOOL, &t);
   carom_shot_ball b[2] = {ball_at(0.3, 0.5), ball_at(0.6, 0.5)};
@@ -26,10 +26,9 @@ START_TEST(straight_follow) {
     }
   }
 }
-END_TEST
 
 /* Two balls that roll in exactly the same direction. */
-START_TEST(rolling_together) {
+TEST(rolling_together) {
   carom_table t = empty_table(30.0);
   carom_shot_ball b[2] = {ball_at(5.0, 10.0), ball_at(5.3, 10.0)};
   for (int world = 0; world < 2; world++) {
@@ -45,11 +44,10 @@ START_TEST(rolling_together) {
     ck_assert_double_ge(final[1].r[0] - final[0].r[0], 2.0 * b[0].kind.radius - 1e-9);
   }
 }
-END_TEST
 
 /* Newton's cradle: the last ball of a row goes; the others move by the rest of the first one's topspin only. It ends. By
  * pooltool's rules it ends or a bound ends it. */
-START_TEST(cradle) {
+TEST(cradle) {
   const carom_table t = empty_table(30.0);
   for (int n = 2; n <= 6; n++) {
     carom_shot_ball b[8];
@@ -72,10 +70,9 @@ START_TEST(cradle) {
     ck_assert(status == CAROM_OK || status == CAROM_ERROR_TOO_MANY_EVENTS || status == CAROM_ERROR_UNRESOLVED);
   }
 }
-END_TEST
 
 /* A ball that starts in contact with a rail and moves into it; pooltool lets it through. */
-START_TEST(starts_at_a_rail) {
+TEST(starts_at_a_rail) {
   carom_table t;
   carom_table_make(CAROM_TABLE_THREECUSHION, &t);
   carom_shot_ball b = {.kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD)};
@@ -92,11 +89,10 @@ START_TEST(starts_at_a_rail) {
     ck_assert_int_eq(status, n == 2 ? CAROM_OK : CAROM_ERROR_LEFT_TABLE);
   }
 }
-END_TEST
 
 /* Two contacts at the same instant, mirror images of each other: one is resolved after the other, by index, in a way that
  * rounding does not decide; where both closings are alike the results are the same from one place on the table to another. */
-START_TEST(two_at_once) {
+TEST(two_at_once) {
   const carom_table t = empty_table(30.0);
   double first[3][2];
   for (int place = 0; place < 50; place++) {
@@ -122,10 +118,9 @@ START_TEST(two_at_once) {
       }
   }
 }
-END_TEST
 
 /* pooltool hands velocity on between balls that touch for long by a rule that depends on their order; world carom does not. */
-START_TEST(order_of_balls) {
+TEST(order_of_balls) {
   static random_shot s;
   static carom_ball_state other[CAROM_BALLS_MOST];
   for (int n = 0; n < 40; n++) {
@@ -143,11 +138,10 @@ START_TEST(order_of_balls) {
       ck_assert_double_eq_tol(final[s.count - 1 - k].r[0], other[k].r[0], 1e-6);
   }
 }
-END_TEST
 
 /* A ball that begins in a pocket is refused, where pooltool waits until it leaves. One that begins at its edge and moves into
  * it falls. */
-START_TEST(begins_in_a_pocket) {
+TEST(begins_in_a_pocket) {
   carom_table t;
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);
   carom_shot_ball b = ball_at(t.pocket[1].centre[0] + t.pocket[1].radius - 1e-9, t.pocket[1].centre[1]);
@@ -161,10 +155,4 @@ START_TEST(begins_in_a_pocket) {
   ck_assert_double_le(events[0].time, 2e-8);
   b.state.label = CAROM_BALL_POCKETED;
   play(&t, &b, 1, NULL, NULL, CAROM_OK);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("pooltool_cases", straight_follow, rolling_together, cradle, starts_at_a_rail, two_at_once, order_of_balls,
-                   begins_in_a_pocket);
 }

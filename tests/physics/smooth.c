@@ -153,7 +153,7 @@ static carom_impact find_case(const case_set *cases, const char *id) {
   return cases->impact[k];
 }
 
-START_TEST(exact_is_smooth) {
+TEST(exact_is_smooth) {
   case_set cases;
   ck_assert(cases_load(CAROM_TEST_DATA, "collisions-204.csv", &cases));
   double most = 0.0;
@@ -173,10 +173,9 @@ START_TEST(exact_is_smooth) {
   ck_assert_double_le(most, bound);
   cases_free(&cases);
 }
-END_TEST
 
 /* What the measure sees of Euler's method, where the slip has come to its end. */
-START_TEST(euler_is_not) {
+TEST(euler_is_not) {
   case_set cases;
   ck_assert(cases_load(CAROM_TEST_DATA, "collisions-204.csv", &cases));
   const carom_impact in = find_case(&cases, "pooltool-135");
@@ -192,9 +191,4 @@ START_TEST(euler_is_not) {
   printf("Euler's method, N = 1000, where it sticks: %d of 197 steps jump by more than 1e-5\n", jumps);
   ck_assert_int_ge(jumps, 50);
   cases_free(&cases);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("smooth", exact_is_smooth, euler_is_not);
 }

@@ -39,7 +39,7 @@ static void exact_roll(long double A, long double k, long double left, long doub
 
 /* A ball that rolls alone is where the exact solution has it, within the 1e-5 m of the header, as long as it rolls, and comes
  * to rest at the time and the place of that. A fine integration agrees with the exact solution. */
-START_TEST(drag_of_a_ball_alone) {
+TEST(drag_of_a_ball_alone) {
   enum { BALLS = 400, LOOKS = 200 };
   random_source random = {test_seed()};
   const carom_table table = empty_table(4e4);
@@ -84,7 +84,6 @@ START_TEST(drag_of_a_ball_alone) {
   printf("drag: places within %.3g m of the exact solution, speeds within %.3g of them\n", worst, worst_speed);
   ck_assert_msg(worst < 1e-5, "%g m from the exact solution", worst);
 }
-END_TEST
 
 /* ---- All terms */
 
@@ -138,7 +137,7 @@ static carom_shot until(const carom_shot *shot, int64_t k, double time) {
 
 /* Random shots of every kind with all terms: they end; between and at events no energy rises and nothing overlaps, as
  * carom_shot_at() has the motion, which leads to the states that the engine found at events; the end is that of the events. */
-START_TEST(invariants_with_all_terms) {
+TEST(invariants_with_all_terms) {
   enum { EACH = 12, LOOKS = 3 };
   static random_shot s;
   static const carom_shot_cushion models[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE, CAROM_SHOT_CUSHION_MATHAVAN};
@@ -187,7 +186,6 @@ START_TEST(invariants_with_all_terms) {
     }
   printf("all terms: %lld shots, %lld events\n", (long long)shots, (long long)events_seen);
 }
-END_TEST
 
 /* ---- Each by itself */
 
@@ -208,7 +206,7 @@ static carom_event rail_event(const carom_table *table, const carom_shot_ball *b
 
 /* A cushion takes its part of the speed along it from the roll, whatever the model; not more than there is, and nothing where
  * the ball does not roll forward along the cushion. */
-START_TEST(loss_of_roll) {
+TEST(loss_of_roll) {
   const carom_table table = empty_table(2.0);
   for (int model = CAROM_CUSHION_MATHAVAN; model <= CAROM_CUSHION_MIRROR; model++)
     for (int spin = -1; spin <= 1; spin++)
@@ -235,7 +233,6 @@ START_TEST(loss_of_roll) {
         ck_assert_double_eq(back.after[0].w[1], back.before[0].w[1]);
       }
 }
-END_TEST
 
 /* A ball that hits another at an angle. */
 static carom_event hit(double speed, const carom_ball_kind *a, const carom_ball_kind *b, int friction) {
@@ -255,7 +252,7 @@ static void same_event(const carom_event *a, const carom_event *b) {
 
 /* The law of friction of the balls: its numbers are Alciatore's where all are 0; a pair has the mean; constant with law_b = 0.
  */
-START_TEST(law_of_friction) {
+TEST(law_of_friction) {
   const carom_ball_kind usual = carom_ball_kind_of(CAROM_GAME_POOL);
   const carom_speed_law law = carom_alciatore();
   for (double speed = 0.5; speed < 6.0; speed += 1.5) {
@@ -278,11 +275,10 @@ START_TEST(law_of_friction) {
     ck_assert_int_ne(memcmp(e.after, c.after, sizeof c.after), 0);
   }
 }
-END_TEST
 
 /* Height, friction and restitution of a rail, and the balls' own height and ratio of frequencies, are those of carom_cushion().
  */
-START_TEST(noses) {
+TEST(noses) {
   carom_table table = empty_table(2.0);
   for (int n = 0; n < 16; n++) {
     carom_shot_ball ball = rolling(1.0, 0.1, 1.5, -1.0);
@@ -311,11 +307,10 @@ START_TEST(noses) {
       ck_assert_double_eq_tol(e.after[0].w[k], out.w[k], 1e-12);
   }
 }
-END_TEST
 
 /* Each rail and each jaw has its own friction and restitution: a ball that meets one after the other has those of the part that
  * it meets, and its own where the part has none. */
-START_TEST(each_part_has_its_own) {
+TEST(each_part_has_its_own) {
   carom_table table = empty_table(1.0);
   /* a post, met on the way */
   table.jaw[table.jaws++] = (carom_jaw){.centre = {0.5, 0.52}, .radius = 0.05, .height = 0.036576};
@@ -365,10 +360,9 @@ START_TEST(each_part_has_its_own) {
   for (int k = 0; k < 6; k++)
     ck_assert_msg(met[k] >= 3, "part %d was met %d times", k, met[k]);
 }
-END_TEST
 
 /* A bound ends a shot while balls with drag roll: the states at the end are those of carom_shot_at(). */
-START_TEST(bounds_with_drag) {
+TEST(bounds_with_drag) {
   static random_shot s;
   for (int n = 0; n < 40; n++) {
     random_shot_make(n % random_shot_kinds(), test_seed(), (uint64_t)n, &s);
@@ -387,7 +381,6 @@ START_TEST(bounds_with_drag) {
     }
   }
 }
-END_TEST
 
 /* ---- The games */
 
@@ -405,7 +398,7 @@ static double *field_of(carom_ball_kind *kind, const char *name) {
 
 /* Every number of every game stands, with its source, in the tables of docs/understanding/constants.md, and is that number;
  * what does not stand there is 0. */
-START_TEST(constants) {
+TEST(constants) {
   static const char *const games[] = {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"};
   FILE *file = fopen(CAROM_TEST_DATA "/../docs/understanding/constants.md", "r");
   ck_assert_ptr_nonnull(file);
@@ -439,7 +432,6 @@ START_TEST(constants) {
     }
   }
 }
-END_TEST
 
 static int by_size(const void *a, const void *b) {
   return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
@@ -448,7 +440,7 @@ static int by_size(const void *a, const void *b) {
 /* The cushion of the kind of snooker, for Han's model, does to rolling balls what the exact model does with the numbers that
  * were measured: within 3 % of the speed in the median and 4 % in 9 of 10, up to 70 degrees from the normal, side spin up to
  * half of v. */
-START_TEST(snooker_cushion_of_both_models) {
+TEST(snooker_cushion_of_both_models) {
   enum { COUNT = 2000 };
   const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_SNOOKER);
   static double off[COUNT];
@@ -471,10 +463,9 @@ START_TEST(snooker_cushion_of_both_models) {
   ck_assert_msg(off[COUNT / 2] < 0.03 && off[COUNT * 9 / 10] < 0.04, "%.4f in the median, %.4f in 9 of 10", off[COUNT / 2],
                 off[COUNT * 9 / 10]);
 }
-END_TEST
 
 /* A shot by default has Han's cushions in the world carom, and Stronge's in pooltool. */
-START_TEST(default_cushions) {
+TEST(default_cushions) {
   carom_table table;
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
   const carom_shot_ball ball = rolling(0.6, 1.0, 3.0, 0.3);
@@ -490,10 +481,4 @@ START_TEST(default_cushions) {
     }
     ck_assert_mem_eq(&rest[0], &rest[1], sizeof *rest);
   }
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("terms", snooker_cushion_of_both_models, default_cushions, drag_of_a_ball_alone, invariants_with_all_terms,
-                   loss_of_roll, law_of_friction, noses, each_part_has_its_own, bounds_with_drag, constants);
 }

@@ -66,7 +66,7 @@ static double worst_end(carom_solver solver, carom_slip slip) {
   return worst;
 }
 
-START_TEST(ends_at_the_result) {
+TEST(ends_at_the_result) {
   for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
     const double exact = worst_end(CAROM_SOLVER_EXACT, (carom_slip)slip);
     printf("exact, %s: the ends differ by %.2g at most\n", carom_slip_name((carom_slip)slip), exact);
@@ -74,10 +74,9 @@ START_TEST(ends_at_the_result) {
     ck_assert_double_eq(worst_end(CAROM_SOLVER_EULER, (carom_slip)slip), 0.0);
   }
 }
-END_TEST
 
 /* The same on hard collisions of every regime, where a few results of the exact solver are off by up to 1e-5. */
-START_TEST(ends_at_the_result_everywhere) {
+TEST(ends_at_the_result_everywhere) {
   lab_random rng = {test_seed()};
   double worst = 0.0;
   int at = 0;
@@ -98,10 +97,9 @@ START_TEST(ends_at_the_result_everywhere) {
   printf("exact, all regimes: the ends differ by %.2g at most, in regime %s\n", worst, regimes_name(at));
   ck_assert_double_le(worst, 5e-5);
 }
-END_TEST
 
 /* What lies between does not depend on how many points there are, and is what Euler's method comes to with many steps. */
-START_TEST(the_way_is_one) {
+TEST(the_way_is_one) {
   case_set cases = load_cases();
   double worst_points = 0.0, worst_euler = 0.0;
   for (size_t k = 0; k < cases.count; k++) {
@@ -124,9 +122,8 @@ START_TEST(the_way_is_one) {
   ck_assert_double_le(worst_euler, 2e-4);
   cases_free(&cases);
 }
-END_TEST
 
-START_TEST(balls_that_separate_stay) {
+TEST(balls_that_separate_stay) {
   random_source source = {test_seed()};
   carom_impact in = random_impact(&source);
   for (int k = 0; k < 3; k++) {
@@ -145,9 +142,8 @@ START_TEST(balls_that_separate_stay) {
     }
   }
 }
-END_TEST
 
-START_TEST(errors_are_those_of_collide) {
+TEST(errors_are_those_of_collide) {
   random_source source = {test_seed()};
   carom_impact in = random_impact(&source);
   carom_options options = {0};
@@ -162,10 +158,4 @@ START_TEST(errors_are_those_of_collide) {
   ck_assert(isnan(point[0].normal) && isnan(point[1].state.b.w[2]) && isnan(point[1].u_z));
   in.b.radius *= 2.0;
   ck_assert_int_eq(carom_trace(&in, NULL, 2, point), CAROM_ERROR_RADII_DIFFER);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("trace", ends_at_the_result, ends_at_the_result_everywhere, the_way_is_one, balls_that_separate_stay,
-                   errors_are_those_of_collide);
 }

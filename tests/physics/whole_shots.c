@@ -34,16 +34,14 @@ static void keep_invariants(carom_shot_cushion cushion_model, int each) {
 }
 
 /* $CAROM_TEST_DRAWS says how many of each kind: before a release some ten thousand. */
-START_TEST(invariants) {
+TEST(invariants) {
   const char *given = getenv("CAROM_TEST_DRAWS");
   keep_invariants(CAROM_SHOT_CUSHION_HAN, given != NULL ? atoi(given) : 60);
 }
-END_TEST
 
-START_TEST(invariants_of_exact_cushions) {
+TEST(invariants_of_exact_cushions) {
   keep_invariants(0, 4);
 }
-END_TEST
 
 /* The mirrored table gives the mirrored history, bit for bit about the origin. */
 static carom_ball_state mirrored(carom_ball_state s) {
@@ -92,7 +90,7 @@ static bool same(const carom_ball_state *a, const carom_ball_state *b) {
   return good;
 }
 
-START_TEST(mirror) {
+TEST(mirror) {
   static random_shot s, m;
   static carom_event other[ROOM];
   random_source random = {test_seed()};
@@ -130,7 +128,6 @@ START_TEST(mirror) {
       }
     }
 }
-END_TEST
 
 /* ---- Balls that press on each other */
 
@@ -145,7 +142,7 @@ static void ends_well(const carom_table *t, const carom_shot_ball *b, int count,
 }
 
 /* A line of frozen balls that the spin of the first presses along; it took 32,184 events. */
-START_TEST(pressed_line) {
+TEST(pressed_line) {
   const carom_table t = empty_table(8.0);
   carom_shot_ball b[CAROM_BALLS_MOST];
   for (int k = 0; k < CAROM_BALLS_MOST; k++)
@@ -160,11 +157,10 @@ START_TEST(pressed_line) {
   for (int k = 0; k < 4; k++)
     ck_assert_double_eq_tol(final[k].r[0] - b[k].state.r[0], 0.7486, 0.03);
 }
-END_TEST
 
 /* A frozen triangle that a ball with spin presses on: balls at relative rest that only rounding presses were in contact without
  * end. */
-START_TEST(pressed_triangle) {
+TEST(pressed_triangle) {
   const carom_table t = empty_table(8.0);
   for (int rows = 2; rows <= 7; rows++) {
     carom_shot_ball b[CAROM_BALLS_MOST];
@@ -180,10 +176,9 @@ START_TEST(pressed_triangle) {
     }
   }
 }
-END_TEST
 
 /* Balls without any room between two rails cannot part, so their contacts have no end: a bound ends them, with a state. */
-START_TEST(wedged) {
+TEST(wedged) {
   carom_shot_ball b[5];
   const double R = ball_at(0.0, 0.0).kind.radius;
   const carom_table t = empty_table(10.0 * R);
@@ -195,11 +190,10 @@ START_TEST(wedged) {
   for (int k = 0; k < 5; k++)
     ck_assert_double_eq_tol(final[k].r[0], b[k].state.r[0], 1e-9);
 }
-END_TEST
 
 /* A ball that touches a rail, at rest or moving along it, whatever the direction of the rail: rounding presses it against the
  * rail or lifts it off. */
-START_TEST(along_a_rail) {
+TEST(along_a_rail) {
   for (int turn = 0; turn < 90; turn++)
     for (int way = 0; way < 4; way++) {
       const double c = cos(turn / 57.29577951308232), s = sin(turn / 57.29577951308232);
@@ -224,11 +218,10 @@ START_TEST(along_a_rail) {
       ends_well(&t, &b, 1, 40);
     }
 }
-END_TEST
 
 /* Han's and Stronge's formulas leave a ball moving into the cushion where its restitution is small or its nose far from the
  * height of the centre. The shot turns it back in the same event. */
-START_TEST(left_moving_into_the_cushion) {
+TEST(left_moving_into_the_cushion) {
   static const double restitutions[] = {0.0, 0.02, 0.1, 0.3, 0.85}, heights[] = {0.01, 0.5, 1.0, 1.28, 1.7, 1.999};
   random_source r = {test_seed()};
   int turned = 0;
@@ -271,12 +264,11 @@ START_TEST(left_moving_into_the_cushion) {
   }
   ck_assert_int_gt(turned, 1000);
 }
-END_TEST
 
 /* ---- What players know */
 
 /* A ball alone: it slides to 5/7 v + 2/7 R w, then rolls v^2 / (2 mu g). */
-START_TEST(alone) {
+TEST(alone) {
   random_source r = {test_seed()};
   const carom_table t = empty_table(200.0);
   for (int n = 0; n < 200; n++) {
@@ -302,7 +294,6 @@ START_TEST(alone) {
     ck_assert_double_eq_tol(shot.time, fmax(spin, roll), 1e-10);
   }
 }
-END_TEST
 
 /* The direction in which ball 0 leaves its collision with ball 1, in degrees from its own, once it rolls. fullness: 1 full, 0 a
  * miss. */
@@ -328,7 +319,7 @@ static double deflection(double fullness, double speed, double roll, const carom
 
 /* A stun shot leaves along the tangent line; a rolling ball by the angle of 30 degrees at half-ball hits (33.7 by the formula
  * tan = sin a cos a / (sin^2 a + 2/5), a the cut angle), for perfect balls and nearly for real ones. */
-START_TEST(tangent_line_and_thirty_degrees) {
+TEST(tangent_line_and_thirty_degrees) {
   const carom_shot_options smooth = {.ball_model = CAROM_BALL_MODEL_MIRROR};
   double at_once;
   for (double fullness = 0.2; fullness < 0.95; fullness += 0.05) {
@@ -342,10 +333,9 @@ START_TEST(tangent_line_and_thirty_degrees) {
   }
   ck_assert_double_eq_tol(deflection(0.5, 1.5, 1.0, &smooth, &at_once), 33.67, 0.1);
 }
-END_TEST
 
 /* Draw and follow: a full hit leaves the cue ball with its spin, 2/7 R w of speed backward or forward. */
-START_TEST(draw_and_follow) {
+TEST(draw_and_follow) {
   const carom_table t = empty_table(50.0);
   const carom_shot_options smooth = {.ball_model = CAROM_BALL_MODEL_MIRROR};
   for (int way = -1; way <= 1; way += 2) {
@@ -365,11 +355,10 @@ START_TEST(draw_and_follow) {
     ck_assert(distance * way > 0.0);
   }
 }
-END_TEST
 
 /* The 2014 paper's experiments as whole shots: a rolling cue ball cuts a ball at rest; speeds and angles once both roll are
  * those that the paper predicts. */
-START_TEST(experiments_of_the_paper) {
+TEST(experiments_of_the_paper) {
   FILE *file = fopen(CAROM_TEST_DATA "/experiments.csv", "r");
   ck_assert_ptr_nonnull(file);
   char line[400], id[40];
@@ -413,11 +402,4 @@ START_TEST(experiments_of_the_paper) {
   }
   fclose(file);
   ck_assert_int_eq(shots, 5);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("whole_shots", invariants, invariants_of_exact_cushions, mirror, pressed_line, pressed_triangle, wedged,
-                   along_a_rail, left_moving_into_the_cushion, alone, tangent_line_and_thirty_degrees, draw_and_follow,
-                   experiments_of_the_paper);
 }

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-START_TEST(pair_and_component_errors) {
+TEST(pair_and_component_errors) {
   const carom_result reference = {.a.v = {2.0, 0.001, 0.0}, .b.w = {0.0, 0.0, 100.0}};
   carom_result result = reference;
   pair_accuracy a = accuracy_of(&result, &reference, 0.03);
@@ -25,9 +25,8 @@ START_TEST(pair_and_component_errors) {
   a = accuracy_of(&result, &reference, 0.03);
   ck_assert(isinf(a.pair) && isinf(a.component) && !a.identical);
 }
-END_TEST
 
-START_TEST(summary) {
+TEST(summary) {
   pair_accuracy each[200];
   for (int k = 0; k < 200; k++)
     each[(k * 77) % 200] = (pair_accuracy){.pair = k, .component = 1e-4 * k, .identical = k == 0};
@@ -40,9 +39,4 @@ START_TEST(summary) {
   ck_assert_double_eq(s.max, 199.0);
   ck_assert_uint_eq(s.component_1e3, 189);
   ck_assert_uint_eq(s.component_1e2, 99);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("accuracy", pair_and_component_errors, summary);
 }

@@ -90,7 +90,7 @@ static problem random_problem(random_source *random) {
   return p;
 }
 
-START_TEST(the_ball_is_met_at_the_cut_or_cannot_be) {
+TEST(the_ball_is_met_at_the_cut_or_cannot_be) {
   random_source random = {test_seed()};
   int found[AIM_NONE + 1] = {0};
   for (int k = 0; k < FEWER(LAYOUTS); k++) {
@@ -117,9 +117,4 @@ START_TEST(the_ball_is_met_at_the_cut_or_cannot_be) {
          found[AIM_NOT_REACHED], found[AIM_NONE]);
   for (int k = 0; k <= AIM_NONE; k++)
     ck_assert_int_gt(found[k], 10);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("aim", the_ball_is_met_at_the_cut_or_cannot_be);
 }

@@ -77,7 +77,7 @@ static void expect_all_nan(const carom_result *out) {
     ck_assert_msg(isnan(((const double *)out)[k]), "component %d is a number", k);
 }
 
-START_TEST(each_field_is_named) {
+TEST(each_field_is_named) {
   for (int k = 0; k < BAD_CASES; k++) {
     const bad_case *bad = &bad_cases[k];
     const carom_impact in = with(bad->field, bad->value);
@@ -91,9 +91,8 @@ START_TEST(each_field_is_named) {
     ck_assert_int_eq(blamed, bad->blamed);
   }
 }
-END_TEST
 
-START_TEST(coincident_centres) {
+TEST(coincident_centres) {
   carom_impact in = good_impact();
   carom_result out;
   int blamed;
@@ -105,9 +104,8 @@ START_TEST(coincident_centres) {
   in.b.r[1] += 1e-200; /* distinct, but the square of the distance is not */
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_COINCIDENT);
 }
-END_TEST
 
-START_TEST(good_input_passes_the_check) {
+TEST(good_input_passes_the_check) {
   const carom_impact in = good_impact();
   carom_result out;
   int blamed;
@@ -116,19 +114,17 @@ START_TEST(good_input_passes_the_check) {
   ck_assert_int_eq(carom_check(&in, NULL, NULL), CAROM_OK);
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
 }
-END_TEST
 
-START_TEST(noise_in_the_heights_passes) {
+TEST(noise_in_the_heights_passes) {
   carom_impact in = good_impact();
   carom_result out;
   in.b.r[2] += 1e-15;
   in.a.v[2] = 1e-15;
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
 }
-END_TEST
 
 /* Radii that differ by rounding are one radius, ball a's, in single calls and in rows of a batch, by each solver. */
-START_TEST(noise_in_the_radii_passes) {
+TEST(noise_in_the_radii_passes) {
   enum { ROWS = 40 };
   for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++) {
     const carom_options options = {.solver = (carom_solver)solver};
@@ -155,9 +151,8 @@ START_TEST(noise_in_the_radii_passes) {
     }
   }
 }
-END_TEST
 
-START_TEST(bad_options) {
+TEST(bad_options) {
   const carom_impact in = good_impact();
   carom_result out;
   int8_t status = 77;
@@ -187,7 +182,6 @@ START_TEST(bad_options) {
     ck_assert_int_eq(status, 77);
   }
 }
-END_TEST
 
 static void expect_same(const carom_impact *in, const carom_options *one, const carom_options *other) {
   carom_result x, y;
@@ -201,7 +195,7 @@ static void expect_same(const carom_impact *in, const carom_options *one, const 
   ck_assert(of_x == CAROM_OK && of_y == CAROM_OK);
 }
 
-START_TEST(zero_is_the_default) {
+TEST(zero_is_the_default) {
   const carom_impact in = good_impact();
   const carom_options zero = {0}, said = {.solver = CAROM_SOLVER_EXACT, .slip = CAROM_SLIP_PAPER, .steps = 1000, .threads = 1};
   expect_same(&in, NULL, &zero);
@@ -215,9 +209,8 @@ START_TEST(zero_is_the_default) {
   const carom_options all = {.threads = CAROM_ALL_THREADS};
   expect_same(&in, &zero, &all);
 }
-END_TEST
 
-START_TEST(null_pointers) {
+TEST(null_pointers) {
   const carom_impact in = good_impact();
   carom_result out;
   carom_detail detail = {.steps = 7};
@@ -240,9 +233,8 @@ START_TEST(null_pointers) {
   ck_assert_int_eq(carom_collide_batch(&in, 1, NULL, NULL, &status), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_collide_batch(NULL, 0, NULL, NULL, NULL), CAROM_OK);
 }
-END_TEST
 
-START_TEST(a_bad_row_disturbs_no_neighbour) {
+TEST(a_bad_row_disturbs_no_neighbour) {
   enum { ROWS = 2 * BAD_CASES + 1 };
   carom_impact in[ROWS];
   carom_result out[ROWS], alone;
@@ -266,7 +258,6 @@ START_TEST(a_bad_row_disturbs_no_neighbour) {
   ck_assert_int_eq(carom_collide_batch(in, ROWS, NULL, out, NULL), bad_cases[0].status);
   ck_assert_int_eq(carom_collide_batch(in, 1, NULL, out, NULL), CAROM_OK);
 }
-END_TEST
 
 static void expect_unchanged(const carom_impact *in) {
   carom_result out;
@@ -286,7 +277,7 @@ static void expect_unchanged(const carom_impact *in) {
     ck_assert_mem_eq(tangent[k], seeds[FIELD(a.v) + k % 6 + (k < 6 ? 0 : FIELD(b.v) - FIELD(a.v))], sizeof tangent[k]);
 }
 
-START_TEST(separating_pairs_are_unchanged) {
+TEST(separating_pairs_are_unchanged) {
   carom_impact in = good_impact();
   in.a.v[1] = -1.0;
   expect_unchanged(&in);
@@ -296,10 +287,9 @@ START_TEST(separating_pairs_are_unchanged) {
   memset(in.b.v, 0, sizeof in.b.v);
   expect_unchanged(&in);
 }
-END_TEST
 
 /* The collisions on which pooltool never returns. */
-START_TEST(too_slow_for_euler) {
+TEST(too_slow_for_euler) {
   carom_impact in = good_impact();
   carom_result out;
   carom_options options = {0};
@@ -321,9 +311,8 @@ START_TEST(too_slow_for_euler) {
         ck_assert_int_eq(status, CAROM_OK);
     }
 }
-END_TEST
 
-START_TEST(overflow_is_told) {
+TEST(overflow_is_told) {
   carom_impact in = good_impact();
   carom_result out;
   in.a.v[0] = in.a.v[1] = 1e200; /* none yet: only its square is too large */
@@ -339,11 +328,4 @@ START_TEST(overflow_is_told) {
   in = good_impact();
   in.a.mass = in.b.mass = 1e-310;
   ck_assert_int_lt(carom_collide(&in, &options, &out), 0);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("bad_input", each_field_is_named, coincident_centres, good_input_passes_the_check,
-                   noise_in_the_heights_passes, noise_in_the_radii_passes, bad_options, zero_is_the_default, null_pointers,
-                   a_bad_row_disturbs_no_neighbour, separating_pairs_are_unchanged, too_slow_for_euler, overflow_is_told);
 }

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-START_TEST(summaries) {
+TEST(summaries) {
   double odd[] = {5.0, 1.0, 100.0, 3.0, 4.0};
   sample_summary s = summarise(odd, 5);
   ck_assert_uint_eq(s.count, 5);
@@ -31,9 +31,8 @@ START_TEST(summaries) {
   s = summarise(unknown, 3);
   ck_assert(isnan(s.median) && isnan(s.min) && isnan(s.max) && isnan(s.spread));
 }
-END_TEST
 
-START_TEST(ratios_cancel_what_slows_both) {
+TEST(ratios_cancel_what_slows_both) {
   const double reference[] = {20.0, 40.0, 20.0, 60.0}, other[] = {10.0, 20.0, 10.0, 30.0};
   double scratch[4];
   const sample_summary s = summarise_ratios(reference, other, 4, scratch);
@@ -41,7 +40,6 @@ START_TEST(ratios_cancel_what_slows_both) {
   ck_assert_double_eq(s.spread, 0.0);
   ck_assert_double_eq(reference[1], 40.0);
 }
-END_TEST
 
 /* A machine made of a number: its clock stands still but while a subject works. */
 static double made_up_now;
@@ -84,7 +82,7 @@ static bench_subject subject_of(made_up *m, size_t reference) {
                          .reference = reference};
 }
 
-START_TEST(turns_and_figures) {
+TEST(turns_and_figures) {
   made_up slow = {.name = 'A', .cost = 1e6, .call = 100.0, .result = 42};
   made_up fast = {.name = 'B', .cost = 2.5e5, .call = 100.0, .result = 43};
   const bench_subject subjects[] = {subject_of(&slow, 0), subject_of(&fast, 0), subject_of(&fast, SIZE_MAX)};
@@ -106,9 +104,8 @@ START_TEST(turns_and_figures) {
   ck_assert(bench_rounds(subjects, 3, &settings, figure));
   ck_assert(isnan(figure[2].speedup.median)); /* without a reference */
 }
-END_TEST
 
-START_TEST(budget_too_small_for_one_round) {
+TEST(budget_too_small_for_one_round) {
   made_up slow = {.name = 'A', .cost = 1e9, .call = 0.0, .result = 42};
   const bench_subject subject = subject_of(&slow, 0);
   bench_figure figure;
@@ -117,18 +114,16 @@ START_TEST(budget_too_small_for_one_round) {
   ck_assert_uint_eq(figure.ns.count, 5);
   ck_assert_uint_eq(figure.loops, 1);
 }
-END_TEST
 
-START_TEST(fingerprints) {
+TEST(fingerprints) {
   double numbers[] = {1.0, 2.0, 3.0};
   const uint64_t before = bench_fingerprint(numbers, sizeof numbers);
   ck_assert_uint_eq(bench_fingerprint(numbers, sizeof numbers), before);
   numbers[2] = nextafter(3.0, 4.0);
   ck_assert_uint_ne(bench_fingerprint(numbers, sizeof numbers), before);
 }
-END_TEST
 
-START_TEST(clocks_go_forward) {
+TEST(clocks_go_forward) {
   const double before = clock_ns(), cycle = clock_core_cycle();
   ck_assert_double_gt(clock_ns(), before);
 #if defined(__x86_64__) || defined(__aarch64__)
@@ -137,9 +132,8 @@ START_TEST(clocks_go_forward) {
   ck_assert(isnan(cycle));
 #endif
 }
-END_TEST
 
-START_TEST(caches_hold_what_fits) {
+TEST(caches_hold_what_fits) {
   const bool visible = cache_size(1) > 0;
   ck_assert_str_eq(cache_holding(0), visible ? "L1" : "NA");
   ck_assert_str_eq(cache_holding(cache_size(1) + 1), cache_size(2) > cache_size(1) ? "L2" : visible ? "memory" : "NA");
@@ -147,19 +141,12 @@ START_TEST(caches_hold_what_fits) {
   ck_assert_uint_eq(cache_size(0), 0);
   ck_assert_uint_eq(cache_size(9), 0);
 }
-END_TEST
 
-START_TEST(pinning_says_what_it_reached) {
+TEST(pinning_says_what_it_reached) {
   const char *text = pinning_begin();
   ck_assert(strstr(text, "pinned") != NULL);
   pinning_suspend();
   pinning_resume();
   pinning_end();
   pinning_resume(); /* nothing is pinned any more */
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("bench", summaries, ratios_cancel_what_slows_both, turns_and_figures, budget_too_small_for_one_round,
-                   fingerprints, clocks_go_forward, caches_hold_what_fits, pinning_says_what_it_reached);
 }

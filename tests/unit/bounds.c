@@ -107,7 +107,7 @@ static const carom_cushion_impact found[] = {
      1,
      0}};
 
-START_TEST(found_ones) {
+TEST(found_ones) {
   carom_isa_limit(CAROM_ISA_PLAIN);
   for (size_t k = 0; k < sizeof found / sizeof found[0]; k++) {
     char what[40];
@@ -115,9 +115,8 @@ START_TEST(found_ones) {
     expect_bounded_cushion(&found[k], what);
   }
 }
-END_TEST
 
-START_TEST(coincidences) {
+TEST(coincidences) {
   carom_isa_limit(CAROM_ISA_PLAIN);
   for (int kind = 0; kind < coincidence_kinds(); kind++)
     for (uint64_t k = 0; k < DRAWS; k++) {
@@ -131,9 +130,8 @@ START_TEST(coincidences) {
     }
   printf("coincidences: %d iterations at most\n", most_spent);
 }
-END_TEST
 
-START_TEST(everything_that_is_accepted) {
+TEST(everything_that_is_accepted) {
   carom_isa_limit(CAROM_ISA_PLAIN);
   for (uint64_t k = 0; k < 4 * DRAWS; k++) {
     char what[40];
@@ -152,10 +150,9 @@ START_TEST(everything_that_is_accepted) {
   printf("everything: %d iterations at most\n", most_spent);
   ck_assert_int_gt(most_spent, 0);
 }
-END_TEST
 
 /* Euler's steps: at most ten times N in each phase, and the halved ones between. */
-START_TEST(steps_of_a_cushion) {
+TEST(steps_of_a_cushion) {
   enum { N = 50 };
   const carom_cushion_options options = {.model = CAROM_CUSHION_EULER, .steps = N};
   carom_cushion_point points[POINTS];
@@ -169,9 +166,4 @@ START_TEST(steps_of_a_cushion) {
     carom_cushion_trace(&in, &options, POINTS, points);
     expect_spent(0, "Euler's steps");
   }
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("bounds", found_ones, coincidences, everything_that_is_accepted, steps_of_a_cushion);
 }

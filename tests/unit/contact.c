@@ -20,7 +20,7 @@ static carom_separation random_pair(random_source *r, double reach) {
 }
 
 /* Nothing is stepped over, and what is found is a contact. */
-START_TEST(pairs) {
+TEST(pairs) {
   random_source r = {test_seed()};
   const double reach = 0.05715;
   int found = 0;
@@ -44,11 +44,10 @@ START_TEST(pairs) {
   printf("%d of 8000 pairs meet\n", found);
   ck_assert_int_gt(found, 1600);
 }
-END_TEST
 
 /* Pairs that graze: the least distance differs from reach by 1e-15 to 1e-3 of it, on either side. Below 1e-14 m
  * rounding of the polynomial decides. */
-START_TEST(grazing) {
+TEST(grazing) {
   random_source r = {test_seed()};
   const double reach = 0.05715;
   for (int n = 0; n < 20000; n++) {
@@ -63,10 +62,9 @@ START_TEST(grazing) {
       ck_assert_msg(t < 0.5 && fabsl(gap(&d, t) - reach) < 1e-13L, "a contact %g deep is missed: %g", -miss, t);
   }
 }
-END_TEST
 
 /* Coming from inside the circle, as by pooltool's rules: when it goes out. */
-START_TEST(from_inside) {
+TEST(from_inside) {
   random_source r = {test_seed()};
   const double reach = 0.062;
   int found = 0;
@@ -90,10 +88,9 @@ START_TEST(from_inside) {
   const carom_separation on = {{reach, 0.0}, {-1.0, 0.0}, {0.0, 0.0}};
   ck_assert_double_eq(carom_first_crossing(&on, reach, 1.0), 0.0);
 }
-END_TEST
 
 /* Touching at first: now if closing; never if parting for good; where it closes again if not. */
-START_TEST(touching) {
+TEST(touching) {
   const double reach = 0.05;
   carom_separation d = {{reach, 0.0}, {-1.0, 0.0}, {0.0, 0.0}};
   ck_assert_double_eq(carom_first_contact(&d, reach, 9.0), 0.0);
@@ -119,10 +116,9 @@ START_TEST(touching) {
   ck_assert_double_eq(carom_first_touch(on_slack, 1e-12, 9.0), 0.0);
   ck_assert(isinf(carom_first_touch(no_speed, 1e-12, 9.0)));
 }
-END_TEST
 
 /* Touching and pressed: where the gap has fallen by the slack from its greatest, so that it closes there. */
-START_TEST(pressed) {
+TEST(pressed) {
   const double reach = 0.05, slack = 1e-12;
   static const double gaps[] = {0.0, 1e-13, -1e-13, 1e-12, -1e-9};
   for (int k = 0; k < 5; k++)
@@ -142,11 +138,10 @@ START_TEST(pressed) {
   const carom_separation tangential = {{reach, 0.0}, {0.0, 1e-9}, {-1e-17, -1.0}};
   ck_assert(isinf(carom_first_contact(&tangential, reach, 5e-10)));
 }
-END_TEST
 
 /* Touching, with slope and curvature exactly 0: |d|^2 - 1 = -2 t^3 + 5/4 t^4 falls by its third derivative, and the same with
  * the other sign rises. */
-START_TEST(third_derivative) {
+TEST(third_derivative) {
   const carom_separation falls = {{1.0, 0.0}, {0.0, 1.0}, {-0.5, -1.0}}, rises = {{1.0, 0.0}, {0.0, 1.0}, {-0.5, 1.0}};
   const double t = carom_first_contact(&falls, 1.0, 0.8);
   ck_assert_double_eq_tol(t, 1e-4, 1e-6); /* where it has fallen by twice the slack */
@@ -155,9 +150,4 @@ START_TEST(third_derivative) {
   const carom_separation comes = {{0.5, -2.0}, {1.0, 3.0}, {-0.5, -1.0}};
   ck_assert_double_eq_tol(carom_first_crossing(&comes, 1.0, 3.0), 1.0, 1e-4);
   ck_assert_double_eq_tol(carom_first_contact(&comes, 1.0, 3.0), 1.0, 1e-4);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("contact", pairs, grazing, from_inside, touching, pressed, third_derivative);
 }

@@ -29,7 +29,7 @@ static void expect(const carom_cushion_impact *in, const carom_cushion_options *
   ck_assert_int_eq(blamed, field);
 }
 
-START_TEST(each_field_is_named) {
+TEST(each_field_is_named) {
   static const carom_status not_finite[15] = {
       CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY,   CAROM_ERROR_SPIN,        CAROM_ERROR_SPIN,
       CAROM_ERROR_SPIN,     CAROM_ERROR_NORMAL,   CAROM_ERROR_NORMAL,     CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RADIUS,
@@ -61,9 +61,8 @@ START_TEST(each_field_is_named) {
   in.normal[1] = 0;
   expect(&in, NULL, CAROM_ERROR_NORMAL, 6);
 }
-END_TEST
 
-START_TEST(each_option_is_checked) {
+TEST(each_option_is_checked) {
   const carom_cushion_impact in = good();
   const struct {
     carom_cushion_options options;
@@ -88,9 +87,8 @@ START_TEST(each_option_is_checked) {
     ck_assert_int_eq(status, 77);
   }
 }
-END_TEST
 
-START_TEST(pointers_and_traces) {
+TEST(pointers_and_traces) {
   const carom_cushion_impact in = good();
   const carom_cushion_options closed = {.model = CAROM_CUSHION_HAN};
   carom_cushion_point point[2];
@@ -110,10 +108,9 @@ START_TEST(pointers_and_traces) {
   ck_assert_str_eq(carom_cushion_model_name(CAROM_CUSHION_STRONGE), "stronge");
   ck_assert_ptr_null(carom_cushion_model_name((carom_cushion_model)9));
 }
-END_TEST
 
 /* Numbers at the ends of the range: a result or an error, and soon. */
-START_TEST(extremes_end) {
+TEST(extremes_end) {
   static const double sizes[] = {1e-300, 1e-30, 1e-9, 1e9, 1e30, 1e150, 1e300};
   for (size_t j = 0; j < sizeof sizes / sizeof sizes[0]; j++)
     for (int field = 0; field < 15; field++)
@@ -127,9 +124,4 @@ START_TEST(extremes_end) {
           ck_assert_msg(isfinite(((double *)&out)[c]) == (status >= 0), "field %d times %g, model %d: %s", field, sizes[j],
                         model, carom_status_name(status));
       }
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("cushion_input", each_field_is_named, each_option_is_checked, pointers_and_traces, extremes_end);
 }

@@ -17,7 +17,7 @@ static double in_ulp_of_1(double x, long double exact) {
   return (double)fabsl((long double)x - exact) / DBL_EPSILON;
 }
 
-START_TEST(exponential) {
+TEST(exponential) {
   random_source r = {test_seed()};
   for (int n = 0; n < DRAWN; n++) {
     const double size = pow(10.0, random_between(&r, -6.0, 2.85)), x = n % 2 == 0 ? -size : size;
@@ -32,9 +32,8 @@ START_TEST(exponential) {
   ck_assert_double_infinite(carom_exp(INFINITY));
   ck_assert_double_nan(carom_exp(NAN));
 }
-END_TEST
 
-START_TEST(sine_and_cosine) {
+TEST(sine_and_cosine) {
   random_source r = {test_seed()};
   double s, c;
   for (int n = 0; n < DRAWN; n++) {
@@ -56,9 +55,8 @@ START_TEST(sine_and_cosine) {
         fabs((quarter % 2 == 0 ? s : c) - (double)(quarter % 2 == 0 ? sinl((long double)x) : cosl((long double)x))), 1e-30);
   }
 }
-END_TEST
 
-START_TEST(inverse_tangent_and_cosine) {
+TEST(inverse_tangent_and_cosine) {
   random_source r = {test_seed()};
   for (int n = 0; n < DRAWN; n++) {
     const double size = pow(10.0, random_between(&r, -8.0, 8.0)), x = n % 2 == 0 ? -size : size;
@@ -81,9 +79,4 @@ START_TEST(inverse_tangent_and_cosine) {
   ck_assert_double_eq(carom_acos(-1.0), 3.1415926535897931);
   ck_assert_double_nan(carom_acos(1.0000001));
   ck_assert_double_nan(carom_acos(NAN));
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("elementary", exponential, sine_and_cosine, inverse_tangent_and_cosine);
 }

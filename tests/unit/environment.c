@@ -47,7 +47,7 @@ static void resolve(const carom_impact *in, int solver, results *r) {
 
 static results expected, seen;
 
-START_TEST(rounding_to_nearest_is_needed) {
+TEST(rounding_to_nearest_is_needed) {
   static const int modes[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
   double worst = 0.0;
   make_rows();
@@ -69,7 +69,6 @@ START_TEST(rounding_to_nearest_is_needed) {
   ck_assert_double_gt(worst, 0.0);
   ck_assert_double_lt(worst, 1e-5);
 }
-END_TEST
 
 /* Flushes results to zero that are subnormal, and reads operands that are so as zero; false where this is not known here. */
 static bool flush_to_zero(bool on) {
@@ -89,7 +88,7 @@ static bool flush_to_zero(bool on) {
 #endif
 }
 
-START_TEST(flushing_to_zero_makes_no_difference) {
+TEST(flushing_to_zero_makes_no_difference) {
   make_rows();
   const carom_impact *const rows[] = {ordinary, regimes};
   FOR_EACH_ISA(isa)
@@ -103,7 +102,6 @@ START_TEST(flushing_to_zero_makes_no_difference) {
       ck_assert_mem_eq(&seen, &expected, sizeof seen);
     }
 }
-END_TEST
 
 /* Rounding, masks and flushing, without the flags, which may be raised. */
 static unsigned control(void) {
@@ -114,7 +112,7 @@ static unsigned control(void) {
 #endif
 }
 
-START_TEST(the_environment_is_left_alone) {
+TEST(the_environment_is_left_alone) {
   make_rows();
   FOR_EACH_ISA(isa)
   for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++)
@@ -126,10 +124,4 @@ START_TEST(the_environment_is_left_alone) {
       flush_to_zero(false);
       ck_assert_uint_eq(after, before);
     }
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("environment", rounding_to_nearest_is_needed, flushing_to_zero_makes_no_difference,
-                   the_environment_is_left_alone);
 }

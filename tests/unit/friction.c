@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-START_TEST(known_slips) {
+TEST(known_slips) {
   carom_impact in = {.a = {.radius = 0.03}, .b = {.r = {0.0, 0.06, 0.0}, .radius = 0.03}};
   const carom_speed_law law = carom_alciatore();
   ck_assert_double_eq_tol(carom_mu_ball(&in, law), 0.009951 + 0.108, 1e-15); /* no slip */
@@ -18,9 +18,8 @@ START_TEST(known_slips) {
   ck_assert(isnan(carom_mu_ball(&in, law)));
   ck_assert(isnan(carom_mu_ball(NULL, law)));
 }
-END_TEST
 
-START_TEST(rolling) {
+TEST(rolling) {
   const double v[3] = {1.4, -0.7, 0.0}, still[3] = {0.0, 0.0, 5.0}, rolls[3] = {0.7 / 0.03, 1.4 / 0.03, 0.0};
   double end[3];
   carom_rolling_velocity(v, still, 0.03, end);
@@ -32,9 +31,4 @@ START_TEST(rolling) {
   double in_place[3] = {rolls[0], rolls[1], rolls[2]};
   carom_rolling_velocity(v, in_place, 0.03, in_place);
   ck_assert_mem_eq(in_place, end, sizeof end);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("friction", known_slips, rolling);
 }

@@ -69,7 +69,7 @@ static int touches(const carom_table *t, double R, int rail, int shots, random_s
 
 /* The built-in tables are sound; a table without any one of their parts is found open exactly where a ball can get out, and the
  * hole is beside what is missing; a rail with the wrong side, or a line that is not its own, is named. */
-START_TEST(tables_are_checked) {
+TEST(tables_are_checked) {
   random_source r = {test_seed()};
   int holes = 0, sides = 0, rails = 0;
   for (int kind = 0; kind < TABLES; kind++) {
@@ -122,10 +122,9 @@ START_TEST(tables_are_checked) {
   }
   ck_assert(holes >= 60 && sides >= rails - 12);
 }
-END_TEST
 
 /* Parts that are bad by themselves are named with their kind; tables that are not convex, or have posts, are no trouble. */
-START_TEST(other_tables) {
+TEST(other_tables) {
   carom_table t;
   carom_table_fault fault;
   const double R = 0.028575;
@@ -170,12 +169,11 @@ START_TEST(other_tables) {
   ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_TABLE_OPEN);
   ck_assert(fault.part.kind == CAROM_PART_NONE && fault.other.kind == CAROM_PART_NONE);
 }
-END_TEST
 
 /* ---- Ball in hand */
 
 /* A place is free exactly where carom_shot_check() has nothing against it, and what is in the way is there. */
-START_TEST(places) {
+TEST(places) {
   random_source r = {test_seed()};
   int free_ones = 0, seen[5] = {0};
   for (int kind = 0; kind < TABLES; kind++) {
@@ -234,7 +232,6 @@ START_TEST(places) {
   one.kind.radius = -1.0;
   ck_assert_int_eq(carom_place_ball(&t, &one, 1, 0, 0.5, 0.5, NULL), CAROM_ERROR_RADIUS);
 }
-END_TEST
 
 /* ---- Places on tables of one's own */
 
@@ -347,7 +344,7 @@ static bool is_straight_on(const carom_table *t, double R, double x, double y) {
 /* On tables of all shapes that carom_table_check() accepts, a ball may stand where it can be rolled straight to from the
  * middle, and nowhere beyond the rails but in the mouth of a pocket. Rays through slits that no ball passes once told
  * otherwise. */
-START_TEST(places_on_polygons) {
+TEST(places_on_polygons) {
   static const double mouth = 0.15; /* m: beyond the rails and farther than that from a pocket nobody comes */
   random_source r = {test_seed()};
   const double R = 0.028575;
@@ -388,10 +385,9 @@ START_TEST(places_on_polygons) {
   printf("%d tables of %d: a ball may stand at %d places, and not at %d\n", tables, drawn, inside, beyond);
   ck_assert(inside > 20 * tables && beyond > 20 * tables);
 }
-END_TEST
 
 /* Under a ball that flies, where one has left the table, and beside balls and cushions of other sizes. */
-START_TEST(places_in_space) {
+TEST(places_in_space) {
   carom_table t;
   carom_part part;
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);
@@ -428,7 +424,6 @@ START_TEST(places_in_space) {
     ck_assert_int_eq(fault.part.kind, CAROM_PART_NONE);
   }
 }
-END_TEST
 
 /* ---- How balls have turned */
 
@@ -468,7 +463,7 @@ static double angle_between(const double a[4], const double b[4]) {
 }
 
 /* Balls with any spin, one shot at a time: from event to event the turn is that of many small steps. */
-START_TEST(turns_agree_with_steps) {
+TEST(turns_agree_with_steps) {
   static carom_event events[200];
   random_source r = {test_seed()};
   carom_table t;
@@ -507,10 +502,9 @@ START_TEST(turns_agree_with_steps) {
   printf("largest difference from 20,000 steps a phase: %.2g rad\n", worst);
   ck_assert_msg(worst < 1e-7, "%g rad", worst);
 }
-END_TEST
 
 /* A ball that rolls straight turns by its way over R about the axis across it; on the spot about the vertical. */
-START_TEST(turns_in_closed_form) {
+TEST(turns_in_closed_form) {
   carom_table t;
   carom_event events[20];
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);
@@ -550,11 +544,10 @@ START_TEST(turns_in_closed_form) {
   ck_assert_int_eq(carom_shot_orientation(&ball, 1, &shot, 0.0, NULL), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_shot_orientation(&ball, 1, &(carom_shot){.count = 3, .time = 1.0}, 0.5, q), CAROM_ERROR_EVENTS_LOST);
 }
-END_TEST
 
 /* ---- Names */
 
-START_TEST(names) {
+TEST(names) {
   for (int k = CAROM_EVENT_STRIKE; k <= CAROM_EVENT_LEFT_TABLE; k++)
     for (int j = CAROM_EVENT_STRIKE; j < k; j++)
       ck_assert_str_ne(carom_event_name((carom_event_type)j), carom_event_name((carom_event_type)k));
@@ -572,10 +565,4 @@ START_TEST(names) {
     ck_assert(carom_rack_name((carom_rack_kind)k) != NULL && carom_rack_size((carom_rack_kind)k) > 0);
   ck_assert_str_eq(carom_rack_name(CAROM_RACK_EIGHTBALL), "eightball");
   ck_assert_int_ge(carom_physics_revision(), 1);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("games", tables_are_checked, other_tables, places, places_on_polygons, places_in_space,
-                   turns_agree_with_steps, turns_in_closed_form, names);
 }

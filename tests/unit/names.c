@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-START_TEST(statuses_are_distinct) {
+TEST(statuses_are_distinct) {
   int known = 0;
   for (int j = -128; j < 128; j++) { /* what an int8_t holds */
     const char *name = carom_status_name((carom_status)j);
@@ -27,9 +27,8 @@ START_TEST(statuses_are_distinct) {
   ck_assert_str_eq(carom_status_name((carom_status)-100), "unknown");
   ck_assert_ptr_nonnull(carom_status_string((carom_status)100));
 }
-END_TEST
 
-START_TEST(enumerations_have_names) {
+TEST(enumerations_have_names) {
   for (int k = 0; k < CAROM_SOLVER_COUNT; k++)
     ck_assert_ptr_nonnull(carom_solver_name((carom_solver)k));
   ck_assert_str_eq(carom_slip_name(CAROM_SLIP_PAPER), "paper");
@@ -37,9 +36,8 @@ START_TEST(enumerations_have_names) {
   ck_assert_ptr_null(carom_solver_name((carom_solver)CAROM_SOLVER_COUNT));
   ck_assert_ptr_null(carom_slip_name((carom_slip)-1));
 }
-END_TEST
 
-START_TEST(fields_have_names) {
+TEST(fields_have_names) {
   ck_assert_str_eq(carom_field_name(0), "a.r[0]");
   ck_assert_str_eq(carom_field_name(11), "a.mu_cloth");
   ck_assert_str_eq(carom_field_name(12), "b.r[0]");
@@ -48,9 +46,8 @@ START_TEST(fields_have_names) {
   ck_assert_ptr_null(carom_field_name(26));
   ck_assert_ptr_null(carom_field_name(-1));
 }
-END_TEST
 
-START_TEST(version_is_that_of_the_header) {
+TEST(version_is_that_of_the_header) {
   char expected[32];
   snprintf(expected, sizeof expected, "%d.%d.%d", CAROM_VERSION_MAJOR, CAROM_VERSION_MINOR, CAROM_VERSION_PATCH);
   ck_assert_str_eq(carom_version(), expected);
@@ -60,10 +57,9 @@ START_TEST(version_is_that_of_the_header) {
   ck_assert_int_eq(carom_serves(CAROM_VERSION_NUMBER + 10000), 0); /* a later major one */
   ck_assert_int_eq(carom_serves(-1), 0);
 }
-END_TEST
 
 /* What the library finds out about the processor is what the compiler's run-time library does; zig's does not. */
-START_TEST(the_processor_is_known) {
+TEST(the_processor_is_known) {
 #if defined(__x86_64__)
   __builtin_cpu_init();
 #ifndef CAROM_WITHOUT_AVX2
@@ -76,10 +72,9 @@ START_TEST(the_processor_is_known) {
 #endif
 #endif
 }
-END_TEST
 
 /* The environment limits the instruction set by its name, which is read anew when the limit of the process is lifted. */
-START_TEST(the_environment_limits_the_instruction_set) {
+TEST(the_environment_limits_the_instruction_set) {
   const char *given = getenv("CAROM_ISA");
   carom_isa below = CAROM_ISA_PLAIN; /* the best of those up to this one */
   for (int isa = 0; isa < CAROM_ISA_COUNT; isa++) {
@@ -94,10 +89,4 @@ START_TEST(the_environment_limits_the_instruction_set) {
   ck_assert_int_eq(carom_isa_limit(CAROM_ISA_ANY), below);
   if (given != NULL)
     setenv("CAROM_ISA", given, 1);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("names", statuses_are_distinct, enumerations_have_names, fields_have_names, version_is_that_of_the_header,
-                   the_processor_is_known, the_environment_limits_the_instruction_set);
 }

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-START_TEST(what_is_read) {
+TEST(what_is_read) {
   const struct {
     const char *text;
     double value;
@@ -32,7 +32,6 @@ START_TEST(what_is_read) {
   for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
     ck_assert_msg(!parse_number(bad[k], &x), "%s", bad[k]);
 }
-END_TEST
 
 static void check_shortest(double x) {
   char text[NUMBER_TEXT], expected[NUMBER_TEXT];
@@ -48,7 +47,7 @@ static void check_shortest(double x) {
   ck_assert_str_eq(text, expected);
 }
 
-START_TEST(what_is_written_is_the_shortest) {
+TEST(what_is_written_is_the_shortest) {
   const double chosen[] = {0.0,
                            -0.0,
                            1.0,
@@ -79,15 +78,13 @@ START_TEST(what_is_written_is_the_shortest) {
     check_shortest(-chosen[k]);
   }
 }
-END_TEST
 
-START_TEST(powers_of_two_are_asymmetric) {
+TEST(powers_of_two_are_asymmetric) {
   for (int exponent = -1074; exponent <= 1023; exponent++)
     check_shortest(ldexp(1.0, exponent));
 }
-END_TEST
 
-START_TEST(random_doubles_and_random_decimals) {
+TEST(random_doubles_and_random_decimals) {
   random_source source = {test_seed()};
   for (int k = 0; k < 50000; k++) {
     const double usual = random_between(&source, -1.0, 1.0) * pow(10.0, floor(random_between(&source, -9.0, 17.0)));
@@ -101,9 +98,8 @@ START_TEST(random_doubles_and_random_decimals) {
     check_shortest(decimal);
   }
 }
-END_TEST
 
-START_TEST(notation) {
+TEST(notation) {
   const struct {
     double x;
     const char *text;
@@ -114,10 +110,4 @@ START_TEST(notation) {
   char text[NUMBER_TEXT];
   for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
     ck_assert_str_eq(number_text(known[k].x, text), known[k].text);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("number", what_is_read, what_is_written_is_the_shortest, powers_of_two_are_asymmetric,
-                   random_doubles_and_random_decimals, notation);
 }

@@ -47,7 +47,7 @@ static void tear_down(void) {
   ck_assert_int_eq(system(command), 0);
 }
 
-START_TEST(version_2) {
+TEST(version_2) {
   set_up();
   put("cpu.max", "max 100000\n");
   put("jobs/one/cpu.max", "250000 100000\n");
@@ -68,9 +68,8 @@ START_TEST(version_2) {
   ck_assert_int_eq(limit("0::/../..\n"), 1);
   tear_down();
 }
-END_TEST
 
-START_TEST(version_1) {
+TEST(version_1) {
   set_up();
   put("cpu,cpuacct/cpu.cfs_quota_us", "-1\n");
   put("cpu,cpuacct/cpu.cfs_period_us", "100000\n");
@@ -83,9 +82,8 @@ START_TEST(version_1) {
   ck_assert_int_eq(limit("4:cpu,cpuacct:/box/deeper"), 4);
   tear_down();
 }
-END_TEST
 
-START_TEST(strange_files_are_no_limit) {
+TEST(strange_files_are_no_limit) {
   set_up();
   ck_assert_int_eq(carom_group_limit("/nowhere/at/all", root), INT_MAX);
   ck_assert_int_eq(limit(""), INT_MAX);
@@ -103,9 +101,8 @@ START_TEST(strange_files_are_no_limit) {
   ck_assert_int_eq(limit(path), INT_MAX); /* too long to open */
   tear_down();
 }
-END_TEST
 
-START_TEST(affinity_counts) {
+TEST(affinity_counts) {
   cpu_set_t before, one;
   ck_assert_int_ge(carom_processors(), 1);
   ck_assert_int_eq(sched_getaffinity(0, sizeof before, &before), 0);
@@ -119,9 +116,4 @@ START_TEST(affinity_counts) {
       break;
     }
   ck_assert_int_eq(sched_setaffinity(0, sizeof before, &before), 0);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("processors", version_2, version_1, strange_files_are_no_limit, affinity_counts);
 }

@@ -35,7 +35,7 @@ static void expect(const char *text, const char *expected) {
   ck_assert_str_eq(seen, expected);
 }
 
-START_TEST(shapes_of_files) {
+TEST(shapes_of_files) {
   expect("", "");
   expect("\n\n", "");
   expect("a,b\n1,2\n", "1:a|b;2:1|2;");
@@ -49,9 +49,8 @@ START_TEST(shapes_of_files) {
   expect("a,b\n,\n1\n1,2,3\n", "1:a|b;3:1;4:1|2|3;");
   expect(" a , b \n", "1:a|b;");
 }
-END_TEST
 
-START_TEST(what_other_programs_write) {
+TEST(what_other_programs_write) {
   expect("# note\n#,\na,b\n1,2\n", "3:a|b;4:1|2;");
   expect("a,b\n#1,2\n", "1:a|b;2:#1|2;");
   expect("a;b\n1,5;2\n", "1:a|b;2:1,5|2;");
@@ -61,9 +60,8 @@ START_TEST(what_other_programs_write) {
   expect("a,b\n , \n,,,\n1,2\n\"\",\n", "1:a|b;4:1|2;");
   expect("PK\x03\x04,1\n2,3\n", "");
 }
-END_TEST
 
-START_TEST(a_first_record_of_numbers) {
+TEST(a_first_record_of_numbers) {
   static const char *const texts[] = {"x,1,2\n", "1,2\n", "a,b,1\n", "a,b\n"};
   for (size_t k = 0; k < 4; k++) {
     record_reader *reader = open_text(texts[k], strlen(texts[k]));
@@ -73,9 +71,8 @@ START_TEST(a_first_record_of_numbers) {
     record_close(reader);
   }
 }
-END_TEST
 
-START_TEST(decimal_commas) {
+TEST(decimal_commas) {
   static const struct {
     const char *text;
     bool semicolons, good;
@@ -90,16 +87,14 @@ START_TEST(decimal_commas) {
     ck_assert_msg(!cases[k].good || number == cases[k].number, "%s is %g", cases[k].text, number);
   }
 }
-END_TEST
 
-START_TEST(quotes) {
+TEST(quotes) {
   expect("\"a\",\"b,c\",\"d \"\"e\"\"\"\n1,2,3\n", "1:a|b,c|d \"e\";2:1|2|3;");
   expect("a,\"two\nlines\"\nnext,\"x\r\ny\"\nlast\n", "1:a|two\nlines;3:next|x\r\ny;5:last;");
   expect("\"starts\nhere\",1\nb\n", "1:starts\nhere|1;3:b;");
 }
-END_TEST
 
-START_TEST(a_quote_left_open_costs_one_record) {
+TEST(a_quote_left_open_costs_one_record) {
   const size_t size = 3 << 20;
   char *text = malloc(size);
   memset(text, 'x', size);
@@ -122,9 +117,8 @@ START_TEST(a_quote_left_open_costs_one_record) {
   record_close(reader);
   free(text);
 }
-END_TEST
 
-START_TEST(a_line_without_end_costs_one_record) {
+TEST(a_line_without_end_costs_one_record) {
   const size_t size = 5 << 20;
   char *text = malloc(size);
   memset(text, 'x', size);
@@ -143,9 +137,8 @@ START_TEST(a_line_without_end_costs_one_record) {
   record_close(reader);
   free(text);
 }
-END_TEST
 
-START_TEST(a_nul_does_not_end_a_field) {
+TEST(a_nul_does_not_end_a_field) {
   record_reader *reader = open_text("a\n0.5\0junk,\0\0,\"\0\"\n", 19);
   record in;
   ck_assert_int_eq(record_next(reader, &in), READ_ONE);
@@ -155,10 +148,4 @@ START_TEST(a_nul_does_not_end_a_field) {
   ck_assert_str_eq(in.field[1], "??");
   ck_assert_str_eq(in.field[2], "?");
   record_close(reader);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("records", shapes_of_files, what_other_programs_write, a_first_record_of_numbers, decimal_commas, quotes,
-                   a_quote_left_open_costs_one_record, a_line_without_end_costs_one_record, a_nul_does_not_end_a_field);
 }

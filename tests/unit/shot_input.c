@@ -67,7 +67,7 @@ static void expect(carom_status status, int where) {
     expect((status), (where));               \
   } while (0)
 
-START_TEST(kinds) {
+TEST(kinds) {
   const double bad[] = {NAN, INFINITY, -1.0, 0.0};
   for (int k = 0; k < 4; k++) {
     REFUSED(balls[3].kind.mass, bad[k], CAROM_ERROR_MASS, 3);
@@ -111,9 +111,8 @@ START_TEST(kinds) {
   options.world = CAROM_WORLD_POOLTOOL;
   expect(CAROM_ERROR_MASSES_DIFFER, 3);
 }
-END_TEST
 
-START_TEST(states) {
+TEST(states) {
   for (int axis = 0; axis < 3; axis++) {
     REFUSED(balls[2].state.r[axis], NAN, CAROM_ERROR_POSITION, 2);
     REFUSED(balls[2].state.v[axis], INFINITY, CAROM_ERROR_VELOCITY, 2);
@@ -166,9 +165,8 @@ START_TEST(states) {
   balls[4].state.label = CAROM_BALL_POCKETED; /* which is not there */
   expect(CAROM_OK, -1);
 }
-END_TEST
 
-START_TEST(cues) {
+TEST(cues) {
   REFUSED(cue.speed, NAN, CAROM_ERROR_CUE, -1);
   REFUSED(cue.speed, -1.0, CAROM_ERROR_CUE, -1);
   REFUSED(cue.phi, INFINITY, CAROM_ERROR_CUE, -1);
@@ -191,9 +189,8 @@ START_TEST(cues) {
   cue.miscue = 0.5;
   expect(CAROM_ERROR_MISCUE, -1);
 }
-END_TEST
 
-START_TEST(tables) {
+TEST(tables) {
   REFUSED(table.rails, 33, CAROM_ERROR_TABLE, -1);
   const double lengths[] = {NAN, -0.1, INFINITY};
   for (int k = 0; k < 3; k++) {
@@ -231,9 +228,8 @@ START_TEST(tables) {
   ck_assert_int_eq(carom_table_make((carom_table_kind)99, &table), CAROM_ERROR_TABLE);
   ck_assert_int_eq(carom_table_make(CAROM_TABLE_POOL_7FT, NULL), CAROM_ERROR_NULL);
 }
-END_TEST
 
-START_TEST(options_and_calls) {
+TEST(options_and_calls) {
   REFUSED(options.world, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.ball_model, 5, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.world, (carom_world)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
@@ -287,7 +283,6 @@ START_TEST(options_and_calls) {
   ck_assert_int_eq(carom_rack(CAROM_RACK_NINEBALL, &table, 0.0, 1, balls, 9), CAROM_ERROR_RACK);
   ck_assert_int_eq(carom_rack((carom_rack_kind)-1, &table, 0.0, 1, balls, 9), CAROM_ERROR_RACK);
 }
-END_TEST
 
 /* What a shot ended with is known up to its end, and nothing after it where balls still move: states are not touched. */
 static void ends_there(const carom_shot *shot, int count) {
@@ -306,7 +301,7 @@ static void ends_there(const carom_shot *shot, int count) {
 }
 
 /* A strike of a ball that cannot be, or whose spin overflows. */
-START_TEST(strikes_of_bad_balls) {
+TEST(strikes_of_bad_balls) {
   const carom_cue usual = carom_cue_of(CAROM_GAME_POOL);
   carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
   carom_motion out = {.v = {7}};
@@ -321,10 +316,9 @@ START_TEST(strikes_of_bad_balls) {
   ck_assert_int_eq(carom_strike(&usual, &kind, &out), CAROM_ERROR_OVERFLOW);
   ck_assert(out.v[0] == 7);
 }
-END_TEST
 
 /* A bound ends a shot with its status and a valid state; a shot without a strike is none. */
-START_TEST(bounds) {
+TEST(bounds) {
   set_up();
   carom_event events[40];
   static carom_event rested[1000];
@@ -357,10 +351,9 @@ START_TEST(bounds) {
   ck_assert_int_eq(carom_shoot(&table, balls, 10, NULL, NULL, &shot), CAROM_OK);
   ck_assert_int_eq(shot.count, 0);
 }
-END_TEST
 
 /* Many times have the bits of one after another, in any order, with drag too; an error leaves the times before it written. */
-START_TEST(many_times) {
+TEST(many_times) {
   enum { TIMES = 400 };
   static carom_event events[2000];
   static carom_ball_state together[TIMES][10], alone[10];
@@ -396,10 +389,9 @@ START_TEST(many_times) {
     ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, NULL, 1, alone), CAROM_ERROR_NULL);
   }
 }
-END_TEST
 
 /* A table with a hole in its rails loses a ball: that is told. */
-START_TEST(lost_ball) {
+TEST(lost_ball) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
   table.rail[1] = table.rail[2];
   table.rail[2] = table.rail[3];
@@ -414,7 +406,6 @@ START_TEST(lost_ball) {
   ck_assert_double_eq_tol(final.r[0], table.width, 1e-9);
   ends_there(&shot, 1);
 }
-END_TEST
 
 /* ---- The built-in tables */
 
@@ -452,7 +443,7 @@ static double outside(double x, double length) {
 
 /* The measures that a player would take, from the parts of the tables. The mouth of a pocket lies between the points where its
  * rails would meet its facings. The facings of pooltool's side pockets are 0.064 degrees off the given angle. */
-START_TEST(measures) {
+TEST(measures) {
   for (size_t n = 0; n < sizeof measured / sizeof measured[0]; n++) {
     const double w = measured[n].width, l = measured[n].length;
     ck_assert_int_eq(carom_table_make(measured[n].kind, &table), CAROM_OK);
@@ -504,7 +495,6 @@ START_TEST(measures) {
   for (int k = 0; k < 4; k++)
     ck_assert_double_eq(table.rail[k].height, 0.037);
 }
-END_TEST
 
 /* ---- Where a ball may stand */
 
@@ -548,7 +538,7 @@ static void make_polygon(int rails) {
 
 /* A ball may stand where it can be rolled to from the middle of the table, and nowhere else: not behind a cushion, not in a
  * pocket; on the built-in tables, and on polygons of 5 and 8 rails. All places of a grid, by flooding. */
-START_TEST(places) {
+TEST(places) {
   enum { MOST_X = 530, MOST_Y = 980 };
   static uint8_t reached[MOST_X][MOST_Y];
   static int queue[MOST_X * MOST_Y];
@@ -606,7 +596,6 @@ START_TEST(places) {
     printf("table %d: a ball may stand at %d of %d places\n", kind, counts[1], counts[0] + counts[1]);
   }
 }
-END_TEST
 
 /* A number of any size, or none. */
 static double wild(random_source *r, double least, double most) {
@@ -617,7 +606,7 @@ static double wild(random_source *r, double least, double most) {
 }
 
 /* Whatever numbers a shot is made of, it ends, with a status, and its states are numbers. */
-START_TEST(wild_shots) {
+TEST(wild_shots) {
   random_source r = {test_seed()};
   static carom_event events[2000];
   int played = 0, statuses[128] = {0};
@@ -681,10 +670,4 @@ START_TEST(wild_shots) {
       printf(" %d %s", statuses[k], carom_status_name((carom_status)-k));
   printf("\n");
   ck_assert_int_gt(played, FEWER(200));
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("shot_input", kinds, states, cues, tables, options_and_calls, strikes_of_bad_balls, bounds, many_times,
-                   lost_ball, measures, places, wild_shots);
 }

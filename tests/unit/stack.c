@@ -164,7 +164,7 @@ static void make_rows(void) {
     many[k] = random_impact(&source);
 }
 
-START_TEST(each_function_fits_64_KiB) {
+TEST(each_function_fits_64_KiB) {
   make_rows();
   const size_t own = stack_used(nothing);
   printf("a thread that does nothing uses %zu bytes of its stack of %d; the functions use besides\n", own, STACK);
@@ -181,10 +181,9 @@ START_TEST(each_function_fits_64_KiB) {
     }
   free(rows), free(rows_f32), free(many), free(out), free(out_f32);
 }
-END_TEST
 
 /* Every function that the library exports, with threads where it starts any. */
-START_TEST(every_function_fits_64_KiB) {
+TEST(every_function_fits_64_KiB) {
   every_function_is_there();
   every_input_make(&all_input, 0, 3);
   all_room = calloc(1, sizeof *all_room);
@@ -207,9 +206,4 @@ START_TEST(every_function_fits_64_KiB) {
     printf("  of all with %s %s takes most, %zu\n", carom_isa_name((carom_isa)isa), of, most - own);
   }
   free(all_room);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("stack", each_function_fits_64_KiB, every_function_fits_64_KiB);
 }

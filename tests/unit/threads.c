@@ -34,7 +34,7 @@ static size_t count_rows(const void *job, size_t from, size_t end) {
   return first_bad;
 }
 
-START_TEST(each_row_once) {
+TEST(each_row_once) {
   enum { MOST = 3000 };
   random_source source = {test_seed()};
   for (int trial = 0; trial < 300; trial++) {
@@ -58,7 +58,6 @@ START_TEST(each_row_once) {
     free(bad);
   }
 }
-END_TEST
 
 #if !SANITIZED
 static void *idle(void *argument) {
@@ -67,7 +66,7 @@ static void *idle(void *argument) {
 #endif
 
 /* Where the system starts no thread, the calling one works on all rows. In a child without room for another stack. */
-START_TEST(threads_that_cannot_be_started) {
+TEST(threads_that_cannot_be_started) {
 #if !SANITIZED
   enum { FEW = 400 };
   static unsigned char times[FEW];
@@ -88,7 +87,6 @@ START_TEST(threads_that_cannot_be_started) {
   ck_assert(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 #endif
 }
-END_TEST
 
 /* The most rows of a part so far. */
 static size_t note_size(const void *job, size_t from, size_t end) {
@@ -100,7 +98,7 @@ static size_t note_size(const void *job, size_t from, size_t end) {
 }
 
 /* A few dozen rows that are worth a thread, such as shots, are shared too. */
-START_TEST(few_rows_are_shared) {
+TEST(few_rows_are_shared) {
   atomic_size_t most, *const job = &most;
   for (size_t n = 8; n <= 64; n++)
     for (int threads = 2; threads <= 4; threads++) {
@@ -110,7 +108,6 @@ START_TEST(few_rows_are_shared) {
       ck_assert_msg(atomic_load(&most) <= n / parts + 4, "%zu of %zu rows on one of %zu threads", atomic_load(&most), n, parts);
     }
 }
-END_TEST
 
 static pthread_t caller;
 static atomic_int handled, elsewhere;
@@ -150,7 +147,7 @@ static void *call_batches(void *argument) {
 }
 
 /* The signals go to the process; the only thread of ours that takes them is the one that calls the library. */
-START_TEST(signals_stay_with_the_caller) {
+TEST(signals_stay_with_the_caller) {
   const struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
   sigset_t own;
   sigaction(SIGUSR1, &action, NULL);
@@ -166,7 +163,6 @@ START_TEST(signals_stay_with_the_caller) {
   ck_assert_int_gt(atomic_load(&handled), 10);
   ck_assert_int_eq(atomic_load(&elsewhere), 0);
 }
-END_TEST
 
 /* ---- Every public function at once */
 
@@ -209,7 +205,7 @@ static int in_a_child(every_room *room, every_input *copy) {
 }
 
 /* 16 threads call all functions in random order, and get what each call gives alone; so do children forked in between. */
-START_TEST(every_function_at_once) {
+TEST(every_function_at_once) {
   every_function_is_there();
   every_room *room = calloc(1, sizeof *room);
   every_input *copy = malloc(sizeof *copy);
@@ -240,10 +236,4 @@ START_TEST(every_function_at_once) {
          children);
   free(copy);
   free(room);
-}
-END_TEST
-
-int main(void) {
-  return RUN_TESTS("threads", each_row_once, threads_that_cannot_be_started, few_rows_are_shared, signals_stay_with_the_caller,
-                   every_function_at_once);
 }
