@@ -182,6 +182,7 @@ typedef enum carom_status {
   CAROM_ERROR_TIME = -55,         /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */
   CAROM_ERROR_DRAG = -56,         /* the drag of a rolling ball is not in [0, 1] 1/m. */
   CAROM_ERROR_BALL_CUSHION = -57, /* a ball's roll_loss, nose_height or omega_ratio is out of its range. */
+  CAROM_ERROR_MODULUS = -58,      /* a ball's modulus is neither 0 nor 1e6 to 1e15 Pa. */
   CAROM_ERROR_STATE = -60,        /* carom_shot_continue(): shot.state is not that of a shot of these balls that can go on. */
   CAROM_ERROR_TABLE_OPEN = -61,   /* carom_table_check(): a ball can leave the table, or has no place on it. */
   CAROM_ERROR_RAIL_SIDE = -62,    /* carom_table_check(): the played side of a rail is turned away from the table. */

@@ -197,6 +197,8 @@ typedef struct carom_ball_kind {
   double nose_height; /* of every cushion that the ball meets, above the cloth, m, below 2 R; 0: that of the rail or jaw. */
   double omega_ratio; /* of Stronge's cushions, as in carom_cushion_options: 1 to 2 without the ends; 0: 1.8. */
   double restitution_table; /* ball and slate, at most 0.98; 0: 0.5, which is a convention; -1: none. */
+  double modulus; /* E/(1 - nu^2) of the ball's material, 1e6 to 1e15 Pa; 0: 6.6e9, that of one phenolic resin. Read by
+                     carom_cluster() only. */
 } carom_ball_kind;
 
 /* Where a ball is and how it moves. */
@@ -400,6 +402,11 @@ typedef enum carom_shot_cushion {
   CAROM_SHOT_CUSHION_EULER = 5
 } carom_shot_cushion;
 
+/* Contacts of several balls at one instant. CLUSTER: they last and overlap in time, by carom_cluster(); with the ball models
+ * EXACT and MIRROR, which has them without friction. PAIRS: one after the other, the fastest first. The world pooltool and the
+ * other ball models have PAIRS whatever this says. */
+typedef enum carom_simultaneous { CAROM_SIMULTANEOUS_CLUSTER = 0, CAROM_SIMULTANEOUS_PAIRS = 1 } carom_simultaneous;
+
 /* All zero means the defaults. */
 typedef struct carom_shot_options {
   carom_world world;
@@ -416,8 +423,10 @@ typedef struct carom_shot_options {
                        of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
   int32_t plain;    /* 1: with CAROM_ISA_PLAIN, as in carom_options: a shot with the bits that all machines share. 0: with
                        the instruction set in use. */
-  int32_t unused;   /* must be 0. */
-  uint64_t reserved[3]; /* must be 0. */
+  carom_simultaneous simultaneous;
+  int32_t cluster_steps; /* of the integrator of clusters, for the duration of a contact, at most 10000; 0: 25. */
+  int32_t unused;        /* must be 0. */
+  uint64_t reserved[2];  /* must be 0. */
 } carom_shot_options;
 
 /* ---- What happened ---------------------------------------------------------------------------------------------------- */
@@ -485,6 +494,35 @@ typedef struct carom_shot {
  * not read. Only the direction of b.r - a.r counts. CAROM_OK; CAROM_SEPARATING where the balls do not close, with the motion
  * before; or an error of a field, with *out all NaN (untouched when a pointer is NULL). */
 CAROM_API carom_status carom_impact3(const carom_impact *in, carom_result *out);
+
+/* One contact of a cluster. */
+typedef struct carom_cluster_contact {
+  int32_t a, b;       /* indices of its balls, a < b. */
+  double touched;     /* s: when it touched first, by the inner time of the cluster, in which 0 is its start. */
+  double impulse;     /* N s: along the normal, on ball b away from a; the reverse on a. */
+  double normal[3];   /* unit vector from ball a to ball b where they touched. */
+  double friction[3]; /* N s: impulse of ball b's friction on ball a; the reverse on b. */
+} carom_cluster_contact;
+
+/* Contacts that last: resolves all balls that touch at one instant together, in the limit of stiff contacts. Positions stay.
+ * Each contact has Hertz's force with restitution e and Coulomb's friction, for which mu falls with the greatest slip so far;
+ * on the cloth, the friction of the cloth too. Balls that are not in contact yet, but near, take part where they are touched
+ * while a contact lasts (0.2 to 0.6 ms in truth). docs/understanding/clusters.md has the equations, their limits and what they
+ * explain. One contact alone has the law of carom_collide(), within 4e-4 of the closing speed.
+ *
+ * Balls touch that are less than 1e-9 m apart. They are in space where one of them is CAROM_BALL_AIRBORNE or two radii differ,
+ * unless opt->space is FLAT, else on the cloth; the slate takes no part in space. Balls out of play are left out. Read of
+ * `opt`, which may be NULL for the defaults: ball_model, which may be EXACT or MIRROR, friction, space, cluster_steps.
+ * Restitutions below 0.2 are computed as 0.2.
+ *
+ * out[] takes `count` motions. contacts[] takes the contacts that had an impulse, in the order in which they touched; `room` of
+ * them are kept, and *contacts_count, which may be NULL, becomes their number. CAROM_OK; CAROM_SEPARATING, with the motion
+ * before, where no balls touch and close at 1 mm/s or faster; CAROM_ERROR_UNRESOLVED where it takes more than 20,000 steps,
+ * which needs long rows of balls of small restitution, or there is no room for the contacts of balls of very unlike size; an
+ * error of a field. With an error *out is all NaN (untouched when a pointer is NULL). About 80 us for a full rack, 6 us for
+ * three balls. */
+CAROM_API carom_status carom_cluster(const carom_shot_ball *balls, int count, const carom_shot_options *opt, carom_motion *out,
+                                     carom_cluster_contact *contacts, int room, int *contacts_count);
 
 /* Plays a shot until nothing moves. 1 to CAROM_BALLS_MOST balls. If a ball moves already, or cue is NULL or its speed 0, there
  * is no strike. `opt` may be NULL for the defaults. Returns CAROM_OK; CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT where

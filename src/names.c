@@ -75,6 +75,7 @@
   X(ERROR_RAIL_LINE, -63, "bad_rail_line", "the line of a rail does not pass through both of its ends")                        \
   X(ERROR_TANGENT, -70, "no_tangent", "derivatives are not known in the world pooltool, nor by Euler's model of balls")        \
   X(ERROR_DIRECTIONS, -71, "bad_directions", "derivatives are in 1 to 64 directions at once")                                  \
+  X(ERROR_MODULUS, -58, "bad_modulus", "a ball's modulus must be 0 or 1e6 to 1e15 Pa")                                         \
   X(ERROR_STATE, -60, "bad_state", "shot.state is not that of a shot of these balls that can go on")
 
 #define AGREES(NAME, value, name, text) _Static_assert(CAROM_##NAME == (value), "values are never renumbered");

@@ -32,6 +32,7 @@ typedef struct every_room {
   carom_trace_point point[EVERY_POINTS];
   carom_cushion_point cushion_point[EVERY_POINTS];
   carom_detail detail;
+  carom_cluster_contact cluster[EVERY_FEW];
   carom_event event[EVERY_EVENTS];
   carom_brief_event brief[EVERY_SHOTS][EVERY_EVENTS];
   carom_shot shot[EVERY_SHOTS];
@@ -391,6 +392,15 @@ EVERY_BODY(impact3) {
     STATUS(carom_impact3(&in->impact[k], &room->result[k]));
   return every_hash(h, room->result, EVERY_FEW * sizeof room->result[0]);
 }
+EVERY_BODY(cluster) {
+  uint64_t h = 1;
+  carom_shot_ball balls[EVERY_BALLS];
+  memcpy(balls, in->balls, sizeof balls);
+  balls[1].state.v[1] = 5.0; /* into the rack */
+  STATUS(carom_cluster(balls, EVERY_BALLS, NULL, room->motion, room->cluster, EVERY_FEW, NULL));
+  HASH(room->cluster);
+  return every_hash(h, room->motion, EVERY_BALLS * sizeof room->motion[0]);
+}
 EVERY_BODY(shot_orientation) {
   uint64_t h = 1;
   every_break(in, room, 0, 0.5);
@@ -492,6 +502,7 @@ static const struct every_function {
     ROW(ball_kind_of),
     ROW(check),
     ROW(collide),
+    ROW(cluster),
     ROW(collide_batch),
     ROW(collide_batch_f32),
     ROW(collide_detail),

@@ -23,7 +23,7 @@ static bool is_flat(const carom_shot_options *o) {
   return carom_rules_of(o->world)->flat || o->space == CAROM_SPACE_FLAT;
 }
 
-static carom_status check_options(const carom_shot_options *o) {
+carom_status carom_check_shot_options(const carom_shot_options *o) {
   bool reserved = false;
   for (size_t k = 0; k < sizeof o->reserved / sizeof o->reserved[0]; k++)
     reserved |= o->reserved[k] != 0;
@@ -31,7 +31,8 @@ static carom_status check_options(const carom_shot_options *o) {
   const bool good = (uint32_t)o->world <= CAROM_WORLD_POOLTOOL && (uint32_t)o->ball_model <= CAROM_BALL_MODEL_MIRROR &&
                     (uint32_t)o->cushion_model <= CAROM_SHOT_CUSHION_EULER &&
                     (uint32_t)o->friction <= CAROM_FRICTION_CONSTANT && (uint32_t)o->space <= CAROM_SPACE_FLAT &&
-                    o->events_most >= 0 && (o->plain & ~1) == 0 && o->unused == 0 && !reserved && o->time_most >= 0.0 &&
+                    o->events_most >= 0 && (o->plain & ~1) == 0 && (uint32_t)o->simultaneous <= CAROM_SIMULTANEOUS_PAIRS &&
+                    (uint32_t)o->cluster_steps <= 10000 && o->unused == 0 && !reserved && o->time_most >= 0.0 &&
                     o->time_most < INFINITY && o->stop_at >> CAROM_DUE_PIECE == 0;
   if (!good)
     return CAROM_ERROR_SHOT_OPTIONS;
@@ -148,6 +149,8 @@ static carom_status check_kind(const carom_ball_kind *k) {
   const bool ratio = k->omega_ratio == 0.0 || (k->omega_ratio > 1.0 && k->omega_ratio < 2.0);
   if (!unit_interval(k->roll_loss) || !(k->nose_height >= 0.0 && k->nose_height < 2.0 * k->radius) || !ratio)
     return CAROM_ERROR_BALL_CUSHION;
+  if (!(k->modulus == 0.0 || (k->modulus >= 1e6 && k->modulus <= 1e15)))
+    return CAROM_ERROR_MODULUS;
   return positive(k->gravity) ? CAROM_OK : CAROM_ERROR_GRAVITY;
 }
 
@@ -171,6 +174,11 @@ static carom_status check_state(const carom_ball_state *s, double R, bool flat) 
   if (s->v[2] != 0.0)
     return CAROM_ERROR_VERTICAL;
   return fabs(s->r[2] - R) <= most_overlap ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
+}
+
+carom_status carom_check_ball(const carom_shot_ball *ball, bool flat) {
+  const carom_status bad = check_kind(&ball->kind);
+  return bad != CAROM_OK ? bad : check_state(&ball->state, ball->kind.radius, flat);
 }
 
 static double distance_to(const carom_features *f, int rail, const double r[2]) {
@@ -293,7 +301,7 @@ static carom_status check_cue(const carom_shot_ball *balls, int count, const car
 
 carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where) {
   *where = -1;
-  const carom_status bad = check_options(opt);
+  const carom_status bad = carom_check_shot_options(opt);
   if (bad != CAROM_OK)
     return bad;
   return count < 1 || count > CAROM_BALLS_MOST ? CAROM_ERROR_BALLS : check_table(table, where);

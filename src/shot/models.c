@@ -21,14 +21,13 @@ static contact_slip slip_of(const double n[2], double R, const carom_ball_state 
   return s;
 }
 
-/* Alciatore's law, or the mean of the balls'. */
+carom_speed_law carom_law_of_ball(const carom_ball_kind *kind) {
+  const bool own = kind->law_a + kind->law_b + kind->law_c > 0.0;
+  return own ? (carom_speed_law){kind->law_a, kind->law_b, kind->law_c} : carom_alciatore();
+}
+
 static inline carom_speed_law law_of(const carom_ball_kind *a, const carom_ball_kind *b) {
-  const carom_speed_law usual = carom_alciatore();
-  const bool own_a = a->law_a + a->law_b + a->law_c > 0.0, own_b = b->law_a + b->law_b + b->law_c > 0.0;
-  if (!own_a && !own_b)
-    return usual;
-  const carom_speed_law p = own_a ? (carom_speed_law){a->law_a, a->law_b, a->law_c} : usual,
-                        q = own_b ? (carom_speed_law){b->law_a, b->law_b, b->law_c} : usual;
+  const carom_speed_law p = carom_law_of_ball(a), q = carom_law_of_ball(b);
   return (carom_speed_law){0.5 * (p.a + q.a), 0.5 * (p.b + q.b), 0.5 * (p.c + q.c)};
 }
 

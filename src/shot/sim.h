@@ -133,6 +133,8 @@ carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, con
 void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a, const carom_ball_kind *kind_b,
                            const carom_ball_state *b, double n[3]);
 carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
+/* models.c: friction of a ball with others, over the slip: its own law, or Alciatore's. A pair has the mean. */
+carom_speed_law carom_law_of_ball(const carom_ball_kind *kind);
 
 /* strike.c: the numbers of a cue, apart from its ball; and carom_strike() with the part of the blow that goes down. */
 carom_status carom_check_cue(const carom_cue *cue);
@@ -143,6 +145,9 @@ bool carom_place_is_outside(const carom_table *table, const carom_features *feat
                             const double r[2]);
 /* table_check.c: the same by the parts of the table, without a look at the place first: some microseconds. */
 bool carom_is_cut_off(const carom_table *table, const carom_features *features, const carom_ball_kind *kind, const double r[2]);
+/* check.c: the options of a shot; and a ball by itself. */
+carom_status carom_check_shot_options(const carom_shot_options *opt);
+carom_status carom_check_ball(const carom_shot_ball *ball, bool flat);
 /* What a batch has in common. */
 carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where);
 /* One layout with its cue. Prepares the table for the radii of the balls, where *features are for others. */

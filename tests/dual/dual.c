@@ -211,9 +211,9 @@ static int directions_of(const setting *s, direction to[MOST_DIRECTIONS]) {
   for (int k = 0; k < DUAL_CUE && by_cue(s->start); k++)
     if (k != CUE_ROW(theta) || s->start == ELEVATED) /* in space a level cue is at a kink */
       to[m++] = (direction){OF_CUE, k, 0};
-  for (int k = 0; k < DUAL_KIND; k++)
+  for (int k = 0; k < KIND_ROW(modulus); k++) /* which only clusters read */
     to[m++] = (direction){OF_KINDS, k, 0};
-  for (int k = 0; k < DUAL_KIND; k++)
+  for (int k = 0; k < KIND_ROW(modulus); k++)
     if (k != KIND_ROW(radius) || s->radii) /* balls of one radius change it together */
       to[m++] = (direction){OF_KIND, k, 1};
   for (int i = 0; i < 2; i++) {
@@ -577,7 +577,7 @@ START_TEST(everything_took_part) {
   for (int k = 0; k < 3; k++)
     ck_assert_int_ge(slow[k], 10);
   static const int rows[OF_NOSE + 1] = {
-      [OF_CUE] = DUAL_CUE, [OF_KINDS] = DUAL_KIND, [OF_KIND] = DUAL_KIND, [OF_STATE] = NUMBERS, [OF_NOSE] = 3};
+      [OF_CUE] = DUAL_CUE, [OF_KINDS] = KIND_ROW(modulus), [OF_KIND] = KIND_ROW(modulus), [OF_STATE] = NUMBERS, [OF_NOSE] = 3};
   for (int of = 0; of <= OF_NOSE; of++)
     for (int row = 0; row < rows[of]; row++) {
       const bool drag = (of == OF_KINDS || of == OF_KIND) && row == KIND_ROW(drag);

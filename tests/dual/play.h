@@ -12,7 +12,7 @@ typedef struct dual_number {
   real x, d;
 } dual_number;
 
-enum { DUAL_BALLS = 9, DUAL_EVENTS = 2000, DUAL_CUE = 7, DUAL_KIND = 18, DUAL_STATE = 9, DUAL_IMPACT = 15, DUAL_MOTION = 6 };
+enum { DUAL_BALLS = 9, DUAL_EVENTS = 2000, DUAL_CUE = 7, DUAL_KIND = 19, DUAL_STATE = 9, DUAL_IMPACT = 15, DUAL_MOTION = 6 };
 
 typedef struct dual_event {
   dual_number time, before[2][DUAL_STATE], after[2][DUAL_STATE]; /* r, v, w */

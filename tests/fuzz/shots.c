@@ -47,7 +47,7 @@ static void make_polygon(void) {
     }
   }
   table.jaws = jaws ? table.rails : 0;
-  if (choice(3) == 0) {
+  if (choice(2) == 0) {
     table.pockets = 1;
     memcpy(table.pocket[0].centre, at[0], sizeof at[0]);
     table.pocket[0].radius = number(0.02, 0.1);

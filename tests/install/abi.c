@@ -49,6 +49,7 @@ static void print_shot_types(void) {
   FIELD(carom_ball_kind, nose_height);
   FIELD(carom_ball_kind, omega_ratio);
   FIELD(carom_ball_kind, restitution_table);
+  FIELD(carom_ball_kind, modulus);
   TYPE(carom_ball_state);
   FIELD(carom_ball_state, r);
   FIELD(carom_ball_state, v);
@@ -118,8 +119,17 @@ static void print_shot_types(void) {
   FIELD(carom_shot_options, time_most);
   FIELD(carom_shot_options, stop_at);
   FIELD(carom_shot_options, plain);
+  FIELD(carom_shot_options, simultaneous);
+  FIELD(carom_shot_options, cluster_steps);
   FIELD(carom_shot_options, unused);
   FIELD(carom_shot_options, reserved);
+  TYPE(carom_cluster_contact);
+  FIELD(carom_cluster_contact, a);
+  FIELD(carom_cluster_contact, b);
+  FIELD(carom_cluster_contact, touched);
+  FIELD(carom_cluster_contact, impulse);
+  FIELD(carom_cluster_contact, normal);
+  FIELD(carom_cluster_contact, friction);
   TYPE(carom_event);
   FIELD(carom_event, time);
   FIELD(carom_event, type);

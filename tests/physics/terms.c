@@ -388,7 +388,8 @@ TEST(bounds_with_drag) {
 static double *field_of(carom_ball_kind *kind, const char *name) {
   static const char *const names[] = {
       "mass",    "radius", "mu_slide",  "mu_roll", "mu_spin", "mu_ball", "restitution", "mu_cushion",  "restitution_cushion",
-      "gravity", "drag",   "roll_loss", "law_a",   "law_b",   "law_c",   "nose_height", "omega_ratio", "restitution_table"};
+      "gravity", "drag",   "roll_loss", "law_a",   "law_b",   "law_c",   "nose_height", "omega_ratio", "restitution_table",
+      "modulus"};
   ck_assert_uint_eq(sizeof names / sizeof names[0] * sizeof(double), sizeof *kind);
   for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
     if (strcmp(names[k], name) == 0)

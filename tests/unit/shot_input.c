@@ -99,6 +99,9 @@ TEST(kinds) {
   options.space = CAROM_SPACE_FLAT;
   expect(CAROM_ERROR_RADII_DIFFER, 3);
   REFUSED(balls[3].kind.radius, 0.03, CAROM_ERROR_OFF_TABLE, 3);
+  const double modulus[] = {NAN, -1.0, 1e5, 1e16, INFINITY};
+  for (int k = 0; k < 5; k++)
+    REFUSED(balls[9].kind.modulus, modulus[k], CAROM_ERROR_MODULUS, 9);
   const double slate[] = {NAN, -0.5, 0.99, 1.0, -1.1};
   for (int k = 0; k < 5; k++)
     REFUSED(balls[9].kind.restitution_table, slate[k], CAROM_ERROR_RESTITUTION, 9);
@@ -242,8 +245,12 @@ TEST(options_and_calls) {
   REFUSED(options.space, (carom_space)2, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.space, (carom_space)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.plain, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.simultaneous, (carom_simultaneous)2, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.simultaneous, (carom_simultaneous)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.cluster_steps, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.cluster_steps, 10001, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.unused, 1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.reserved[2], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.reserved[1], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.time_most, NAN, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.steps, -1, CAROM_ERROR_STEPS, -1);
   REFUSED(options.threads, -2, CAROM_ERROR_THREADS, -1);

@@ -35,6 +35,7 @@ const PARAMS: readonly (readonly [string, keyof BallKind])[] = [
   ["nose_height", "noseHeight"],
   ["omega_ratio", "omegaRatio"],
   ["e_t", "restitutionTable"],
+  ["modulus", "modulus"],
 ];
 const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
   ["V0", "speed"],

@@ -184,6 +184,8 @@ export interface BallKind {
   omegaRatio: number;
   /** Restitution of ball and slate, at most 0.98; 0: 0.5, which is a convention; -1: none. */
   restitutionTable: number;
+  /** Stiffness of the material, E/(1 - nu^2), Pa; 0: 6.6e9. It counts where several balls touch at one instant. */
+  modulus: number;
 }
 
 /** How a ball moves. */

@@ -35,6 +35,7 @@ _SHARED: dict[str, dict[str, _Range]] = {
         "restitution_table": (lambda x: x == -1 or 0 <= x <= 0.98, "0 to 0.98, or -1 for none"),
     },
     "mu_ball": {"mu_ball": _UNIT, "law_a": _UNIT, "law_b": _UNIT, "law_c": (lambda x: 0 <= x < np.inf, "0 or more, and finite")},
+    "modulus": {"modulus": (lambda x: x == 0 or 1e6 <= x <= 1e15, "0, or 1e6 to 1e15 Pa")},
     "ball_cushion": {
         "roll_loss": _UNIT,
         "omega_ratio": (lambda x: x == 0 or 1 < x < 2, "0, or between 1 and 2"),

@@ -236,6 +236,8 @@ def balls(
         Of Stronge's cushions; 0: 1.8.
     restitution_table : array_like, shape (...)
         Ball and slate, at most 0.98; 0: 0.5; -1: none.
+    modulus : array_like, shape (...)
+        Stiffness of the material, E/(1 - nu^2), 1e6 to 1e15 Pa; 0: 6.6e9. It counts where several balls touch at one instant.
 
     Returns
     -------

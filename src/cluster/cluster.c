@@ -1,0 +1,452 @@
+/* The integrator of a cluster, cluster.h: leapfrog in tau, with the friction of a step by fixed iterations. A step of h:
+ *
+ *     s += h/2 v;  d and F there, so J = h F for every contact that acts;  v by J
+ *     friction, `iterations` times, for all contacts from the same velocities (Jacobi), so that the numbering does not count:
+ *       a contact with |u0| <= 7 B mu J may stick:   f := the projection of f - u/(7 B) on |f| <= mu J, u at the end of the
+ * step another slips:                               f := -mu J (u0 + u)/|u0 + u|, the mean slip, of order 2 and dissipative
+ *     after each the cloth, which is isotropic: g in closed form by the same two rules, with 2/7 of the mass
+ *     s += h/2 v;  where v_n changes its sign, d_max is the vertex of the parabola of d
+ *
+ * u0 is the slip as the step begins, B = 1/m_i + 1/m_j; an impulse f takes 7/2 B f from the slip, of which half is taken at a
+ * time since neighbours act too. f begins with that of the step before, scaled with J. mu is linear in the growth of U within
+ * the step.
+ *
+ * h = T/steps for the stiffest of the contacts that act, T the duration for its compression, shorter by the least e. Where
+ * nothing acts all fly to the next touch. It ends where nothing acts and no contact that has touched closes at `slow` or
+ * faster: those that never touched are met later, as other events.
+ *
+ * Without friction the order is 2; contacts that stick make it 1 (docs/understanding/clusters.md has the errors). The energy
+ * rises by 3e-4 at most where e = 1 and nothing rubs; what it has risen is then taken from the motion about the centre of mass.
+ */
+#include "cluster/cluster.h"
+#include "cluster/vectors.h"
+#include "platform/elementary.h"
+
+#include <math.h>
+
+typedef carom_cluster_state state;
+typedef carom_cluster_contact_state contact;
+typedef carom_cluster_ball ball;
+
+enum { ITERATIONS = 2 };
+static const double open = 1e-12; /* m: overlaps below it are none; their forces could underflow */
+
+static inline double greater(double a, double b) {
+  return a > b ? a : b;
+}
+static inline double lesser(double a, double b) {
+  return a < b ? a : b;
+}
+
+/* ---- A contact's geometry and motion */
+
+static inline double closing_of(bool flat, const state *c, const contact *x) {
+  double v[3];
+  cluster_minus(flat, c->ball[x->i].v, c->ball[x->j].v, v);
+  return cluster_dot(flat, v, x->n);
+}
+
+static inline double overlap_of(bool flat, const state *c, const contact *x) {
+  double s[3];
+  cluster_minus(flat, c->ball[x->i].s, c->ball[x->j].s, s);
+  return x->offset + cluster_dot(flat, s, x->n);
+}
+
+static inline void slip_of(bool flat, const state *c, const contact *x, double u[2]) {
+  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+  double v[3];
+  cluster_minus(flat, p->v, q->v, v);
+  const double W[3] = {p->W[0] + q->W[0], p->W[1] + q->W[1], p->W[2] + q->W[2]};
+  if (flat) {
+    u[0] = v[0] * x->t[0] + v[1] * x->t[1] - W[2];
+    u[1] = W[0] * x->t[0] + W[1] * x->t[1];
+  } else {
+    double third[3];
+    cluster_third(x->n, x->t, third);
+    u[0] = cluster_dot(false, v, x->t) - cluster_dot(false, W, third);
+    u[1] = cluster_dot(false, v, third) + cluster_dot(false, W, x->t);
+  }
+}
+
+/* Friction's impulse f on i, and -f on j. */
+static inline void rub(bool flat, state *c, const contact *x, const double f[2]) {
+  ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+  const double a = f[0] * p->inverse_mass, b = f[1] * p->inverse_mass, d = f[0] * q->inverse_mass, e = f[1] * q->inverse_mass;
+  cluster_add(flat, p->v, a, x->t);
+  cluster_add(flat, q->v, -d, x->t);
+  cluster_add(flat, p->W, 2.5 * b, x->t);
+  cluster_add(flat, q->W, 2.5 * e, x->t);
+  if (flat) {
+    p->W[2] -= 2.5 * a;
+    q->W[2] -= 2.5 * d;
+    p->load -= f[1];
+    q->load += f[1];
+  } else {
+    double third[3];
+    cluster_third(x->n, x->t, third);
+    cluster_add(false, p->v, b, third);
+    cluster_add(false, q->v, -e, third);
+    cluster_add(false, p->W, -2.5 * a, third);
+    cluster_add(false, q->W, -2.5 * d, third);
+  }
+}
+
+/* Where two balls that were apart have come together within the last half step, all moved by s: the normal of the contact from
+ * then on. */
+static void touch(bool flat, const state *c, contact *x, double half) {
+  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+  double d[3], v[3];
+  for (int k = 0; k < 3; k++) {
+    d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
+    v[k] = q->v[k] - p->v[k];
+  }
+  const double R = p->radius + q->radius;
+  const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v), C = cluster_dot(flat, d, d) - R * R;
+  const double D = greater(B * B - A * C, 0.0);
+  const double back = A > 0.0 ? greater((-B - sqrt(D)) / A, -2.0 * half) : 0.0;
+  for (int k = 0; k < 3; k++)
+    x->n[k] = d[k] + back * v[k];
+  if (flat)
+    x->n[2] = 0.0;
+  const double size = sqrt(cluster_dot(flat, x->n, x->n));
+  for (int k = 0; k < 3; k++)
+    x->n[k] /= size;
+  cluster_across(flat, x->n, x->t);
+  double s[3];
+  cluster_minus(flat, p->s, q->s, s);
+  x->offset = R - cluster_dot(flat, d, x->n) - cluster_dot(flat, s, x->n);
+}
+
+/* Whether two balls that have not touched overlap now; and when they will, moving on as they do, infinite if they do not. */
+static inline bool meet(bool flat, const state *c, const contact *x) {
+  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+  double d[3];
+  for (int k = 0; k < 3; k++)
+    d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
+  const double R = p->radius + q->radius;
+  return cluster_dot(flat, d, d) < R * R;
+}
+
+static double time_to_touch(bool flat, const state *c, const contact *x) {
+  if (x->touched) {
+    const double v = closing_of(flat, c, x);
+    return v >= c->slow ? greater(-overlap_of(flat, c, x) / v, 0.0) : (double)INFINITY;
+  }
+  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+  double d[3], v[3];
+  for (int k = 0; k < 3; k++) {
+    d[k] = q->r[k] - p->r[k] + (q->s[k] - p->s[k]);
+    v[k] = q->v[k] - p->v[k];
+  }
+  const double R = p->radius + q->radius;
+  const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v), C = cluster_dot(flat, d, d) - R * R;
+  const double D = B * B - A * C;
+  return B < 0.0 && D > 0.0 ? greater(C / (sqrt(D) - B), 0.0) : (double)INFINITY;
+}
+
+/* ---- Forces */
+
+static double friction_at(const state *c, const contact *x, double slip) {
+  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+  const double a = 0.5 * (p->law[0] + q->law[0]), b = 0.5 * (p->law[1] + q->law[1]), rate = 0.5 * (p->law[2] + q->law[2]);
+  return b > 0.0 ? a + b * carom_exp(-rate * slip) : a;
+}
+
+/* The normal force at an overlap; d_max grows with it. */
+static inline double normal_force(contact *x, double d) {
+  x->d = d;
+  if (d >= x->d_max) {
+    x->d_max = d;
+    x->size = greater(x->size, d);
+    return x->K * d * sqrt(d);
+  }
+  const double y = d - (1.0 - x->e * x->e) * x->d_max;
+  return y > 0.0 ? x->K / (x->e * x->e * x->e) * y * sqrt(y) : 0.0;
+}
+
+/* The contacts that act at half a step, and their impulses. `lead` becomes the stiffest. Returns how many act; *overlap tells
+ * whether any has an overlap. */
+static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t acting[], const contact **lead,
+                              bool *overlap) {
+  int count = 0;
+  double stiffest = 0.0;
+  *overlap = false;
+  for (int k = 0; k < c->contacts; k++) {
+    contact *x = &c->contact[k];
+    if (!x->touched) {
+      if (!meet(flat, c, x))
+        continue;
+      touch(flat, c, x, 0.5 * h);
+    }
+    const double d = overlap_of(flat, c, x);
+    if (d <= open)
+      continue;
+    x->touched = *overlap = true;
+    if (x->d_max == 0.0) { /* it touches now */
+      const double v = closing_of(flat, c, x);
+      x->U = -1.0;
+      x->f[0] = x->f[1] = 0.0;
+      x->size = v > 0.0 ? carom_cluster_compression(x->K, x->B, v) : 0.0;
+      if (x->time < 0.0)
+        x->time = greater(tau - (v > 0.0 ? d / v : 0.0), 0.0);
+    }
+    x->J = h * normal_force(x, d);
+    const double stiff = x->K * x->B * x->K * x->B * x->size;
+    if (stiff > stiffest) {
+      stiffest = stiff;
+      *lead = x;
+    }
+    if (x->J > 0.0)
+      acting[count++] = (uint8_t)k;
+  }
+  return count;
+}
+
+/* Flies to the next touch, where nothing acts, if a contact that has touched closes again. Returns how long, or -1. */
+static double fly(bool flat, state *c) {
+  double next = (double)INFINITY;
+  bool goes_on = false;
+  for (int k = 0; k < c->contacts; k++) {
+    const double t = time_to_touch(flat, c, &c->contact[k]);
+    goes_on |= c->contact[k].touched && t < (double)INFINITY;
+    next = lesser(next, t);
+  }
+  if (!goes_on)
+    return -1.0;
+  for (int k = 0; k < c->balls; k++)
+    cluster_add(flat, c->ball[k].s, next, c->ball[k].v);
+  return next;
+}
+
+/* The friction of the cloth in a step, in closed form: it stops the slip on the cloth, or acts against its mean. */
+static inline void rub_on_cloth(ball *p) {
+  const double most = p->mu_cloth * p->load, m = 3.5 * p->inverse_mass;
+  double g[2] = {0.0, 0.0};
+  if (most > 0.0) {
+    /* the slip at the end without this friction */
+    const double u_x = p->v[0] - p->W[1] - m * p->g[0], u_y = p->v[1] + p->W[0] - m * p->g[1];
+    const double end = sqrt(u_x * u_x + u_y * u_y);
+    if (end <= m * most) {
+      g[0] = -u_x / m;
+      g[1] = -u_y / m;
+    } else {
+      /* a slip that may turn back within the step has no mean direction */
+      const double x = p->base[0] + u_x, y = p->base[1] + u_y, mean = sqrt(x * x + y * y);
+      const bool by_end = mean < 4.0 * m * most;
+      g[0] = by_end ? -most / end * u_x : -most / mean * x;
+      g[1] = by_end ? -most / end * u_y : -most / mean * y;
+    }
+  } else if (p->g[0] == 0.0 && p->g[1] == 0.0) {
+    return;
+  }
+  const double d_x = p->inverse_mass * (g[0] - p->g[0]), d_y = p->inverse_mass * (g[1] - p->g[1]);
+  p->v[0] += d_x;
+  p->v[1] += d_y;
+  p->W[0] += 2.5 * d_y;
+  p->W[1] -= 2.5 * d_x;
+  p->g[0] = g[0];
+  p->g[1] = g[1];
+}
+
+/* The next iterate of a contact's friction; change[] becomes what it changes by. */
+static inline void iterate(bool flat, const state *c, contact *x, double change[2]) {
+  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+  double u[2], f[2];
+  slip_of(flat, c, x, u);
+  const double m_x = u[0] + x->u[0], m_y = u[1] + x->u[1], mean = sqrt(m_x * m_x + m_y * m_y);
+  /* mu falls as the slip grows within the step */
+  double most = x->mu * x->J;
+  const double grown = 0.5 * mean - x->U;
+  if (grown > 0.0) {
+    const double a = 0.5 * (p->law[0] + q->law[0]), rate = 0.5 * (p->law[2] + q->law[2]);
+    most = (a + (x->mu - a) * (1.0 - lesser(1.0, rate * grown))) * x->J;
+  }
+  if (x->may_stick) {
+    const double share = 1.0 / (3.5 * (p->shared * p->inverse_mass + q->shared * q->inverse_mass));
+    f[0] = x->f[0] - share * u[0];
+    f[1] = x->f[1] - share * u[1];
+    const double size2 = f[0] * f[0] + f[1] * f[1];
+    if (size2 > most * most) {
+      const double down = most / sqrt(size2);
+      f[0] *= down;
+      f[1] *= down;
+    }
+  } else {
+    const double k = mean > 0.0 ? -most / mean : 0.0;
+    f[0] = k * m_x;
+    f[1] = k * m_y;
+  }
+  for (int k = 0; k < 2; k++) {
+    change[k] = f[k] - x->f[k];
+    x->f[k] = f[k];
+  }
+}
+
+/* ---- A step */
+
+/* Slips, limits and speeds as the step begins, and the normal impulses. */
+static inline void begin_step(bool flat, state *c, const uint8_t acting[], int count) {
+  for (int k = 0; k < c->balls; k++) {
+    ball *p = &c->ball[k];
+    p->shared = 0.0;
+    if (!flat)
+      continue;
+    p->base[0] = p->v[0] - p->W[1];
+    p->base[1] = p->v[1] + p->W[0];
+    p->load = p->g[0] = p->g[1] = 0.0;
+  }
+  for (int a = 0; a < count; a++) {
+    contact *x = &c->contact[acting[a]];
+    x->closing = closing_of(flat, c, x);
+    slip_of(flat, c, x, x->u);
+    const double u = sqrt(x->u[0] * x->u[0] + x->u[1] * x->u[1]);
+    if (u > x->U) {
+      x->U = u;
+      x->mu = friction_at(c, x, u);
+    }
+    x->may_stick = u <= 7.0 * x->B * x->mu * x->J;
+    x->impulse += x->J;
+    c->ball[x->i].shared = lesser(c->ball[x->i].shared + 1.0, 2.0);
+    c->ball[x->j].shared = lesser(c->ball[x->j].shared + 1.0, 2.0);
+  }
+  for (int a = 0; a < count; a++) {
+    const contact *x = &c->contact[acting[a]];
+    cluster_add(flat, c->ball[x->i].v, -x->J * c->ball[x->i].inverse_mass, x->n);
+    cluster_add(flat, c->ball[x->j].v, x->J * c->ball[x->j].inverse_mass, x->n);
+  }
+}
+
+static inline void rub_all(bool flat, state *c, const uint8_t acting[], int count) {
+  double change[CAROM_CLUSTER_CONTACTS][2];
+  /* first that of the step before */
+  for (int a = 0; a < count; a++) {
+    contact *x = &c->contact[acting[a]];
+    x->f[0] *= x->J;
+    x->f[1] *= x->J;
+    rub(flat, c, x, x->f);
+  }
+  for (int iteration = 0; iteration <= ITERATIONS; iteration++) {
+    for (int k = 0; flat && k < c->balls; k++)
+      rub_on_cloth(&c->ball[k]);
+    if (iteration == ITERATIONS)
+      return;
+    for (int a = 0; a < count; a++)
+      iterate(flat, c, &c->contact[acting[a]], change[a]);
+    for (int a = 0; a < count; a++)
+      rub(flat, c, &c->contact[acting[a]], change[a]);
+  }
+}
+
+static inline void end_step(bool flat, state *c, double h, const uint8_t acting[], int count) {
+  for (int k = 0; k < c->balls; k++)
+    cluster_add(flat, c->ball[k].s, 0.5 * h, c->ball[k].v);
+  for (int a = 0; a < count; a++) {
+    contact *x = &c->contact[acting[a]];
+    for (int k = 0; k < 2; k++) {
+      x->rubbed[k] += x->f[k];
+      x->f[k] /= x->J;
+    }
+    /* the greatest overlap is the vertex of a parabola */
+    const double v0 = x->closing, v1 = closing_of(flat, c, x);
+    if (v0 > 0.0 && v1 <= 0.0 && x->d >= x->d_max)
+      x->d_max = greater(x->d, x->d - 0.5 * h * v0 + 0.5 * h * v0 * v0 / (v0 - v1));
+  }
+  /* where the force has reached 0 the rest of the overlap is forgotten */
+  for (int k = 0; k < c->contacts; k++) {
+    contact *x = &c->contact[k];
+    if (x->d_max == 0.0)
+      continue;
+    const double rest = (1.0 - x->e * x->e) * x->d_max;
+    if (overlap_of(flat, c, x) <= rest) {
+      x->offset -= rest;
+      x->d_max = 0.0;
+    }
+  }
+}
+
+/* ---- All of it */
+
+static double energy_of(const state *c) {
+  double sum = 0.0;
+  for (int k = 0; k < c->balls; k++) {
+    const ball *p = &c->ball[k];
+    sum += (0.5 * cluster_dot(false, p->v, p->v) + 0.2 * cluster_dot(false, p->W, p->W)) / p->inverse_mass;
+  }
+  return sum;
+}
+
+/* Takes what the integrator has added to the energy from the motion about the centre of mass, so momentum is kept. */
+static void take_back(state *c, double before) {
+  const double after = energy_of(c);
+  if (!(after > before))
+    return;
+  double mass = 0.0, P[3] = {0.0, 0.0, 0.0}, about = 0.0;
+  for (int k = 0; k < c->balls; k++) {
+    mass += 1.0 / c->ball[k].inverse_mass;
+    cluster_add(false, P, 1.0 / c->ball[k].inverse_mass, c->ball[k].v);
+  }
+  const double centre[3] = {P[0] / mass, P[1] / mass, P[2] / mass};
+  for (int k = 0; k < c->balls; k++) {
+    double v[3];
+    cluster_minus(false, c->ball[k].v, centre, v);
+    about += 0.5 * cluster_dot(false, v, v) / c->ball[k].inverse_mass;
+  }
+  const double share = sqrt(greater(1.0 - (after - before) / about, 0.0)) * (1.0 - 1e-15);
+  for (int k = 0; k < c->balls; k++)
+    for (int axis = 0; axis < 3; axis++)
+      c->ball[k].v[axis] = centre[axis] + share * (c->ball[k].v[axis] - centre[axis]);
+}
+
+/* The duration of a step before any contact has acted: by the fastest that touches. Also the greatest 1/e. */
+static inline double first_step(bool flat, const state *c, double *stiff) {
+  double most = 0.0, T = 0.0;
+  *stiff = 1.0;
+  for (int k = 0; k < c->contacts; k++) {
+    const contact *x = &c->contact[k];
+    const double v = closing_of(flat, c, x);
+    *stiff = greater(*stiff, 1.0 / x->e);
+    if (!x->touched || v <= most)
+      continue;
+    most = v;
+    T = carom_cluster_duration(x->K, x->B, carom_cluster_compression(x->K, x->B, v));
+  }
+  return T / (c->steps * *stiff);
+}
+
+static inline bool solve(bool flat, state *c) {
+  const double before = energy_of(c);
+  const contact *lead = c->contact;
+  double stiff, h = first_step(flat, c, &stiff), tau = 0.0;
+  c->taken = 0;
+  for (;; c->taken++) {
+    if (c->taken == CAROM_CLUSTER_STEPS_MOST)
+      return false;
+    uint8_t acting[CAROM_CLUSTER_CONTACTS];
+    bool overlap;
+    for (int k = 0; k < c->balls; k++)
+      cluster_add(flat, c->ball[k].s, 0.5 * h, c->ball[k].v);
+    tau += 0.5 * h;
+    const int count = find_acting(flat, c, h, tau, acting, &lead, &overlap);
+    if (!overlap) {
+      const double flown = fly(flat, c);
+      if (flown < 0.0)
+        break;
+      tau += flown;
+      continue;
+    }
+    begin_step(flat, c, acting, count);
+    rub_all(flat, c, acting, count);
+    end_step(flat, c, h, acting, count);
+    tau += 0.5 * h;
+    h = carom_cluster_duration(lead->K, lead->B, lead->size) / (c->steps * stiff);
+  }
+  c->duration = tau;
+  take_back(c, before);
+  return true;
+}
+
+bool carom_cluster_solve(carom_cluster_state *c) {
+  for (int k = 0; k < c->balls; k++)
+    c->ball[k].s[0] = c->ball[k].s[1] = c->ball[k].s[2] = 0.0;
+  return c->in_space ? solve(false, c) : solve(true, c);
+}

@@ -1,0 +1,53 @@
+/* Vectors of three, of which a contact on the cloth uses two numbers. `flat` is a constant where these are inlined. */
+#ifndef CAROM_SRC_CLUSTER_VECTORS_H
+#define CAROM_SRC_CLUSTER_VECTORS_H
+
+#include "platform/arithmetic.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+static inline double cluster_dot(bool flat, const double a[3], const double b[3]) {
+  const double level = a[0] * b[0] + a[1] * b[1];
+  return flat ? level : level + a[2] * b[2];
+}
+
+/* out = a - b */
+static inline void cluster_minus(bool flat, const double a[3], const double b[3], double out[3]) {
+  out[0] = a[0] - b[0];
+  out[1] = a[1] - b[1];
+  out[2] = flat ? 0.0 : a[2] - b[2];
+}
+
+/* a += x b */
+static inline void cluster_add(bool flat, double a[3], double x, const double b[3]) {
+  a[0] += x * b[0];
+  a[1] += x * b[1];
+  if (!flat)
+    a[2] += x * b[2];
+}
+
+/* t: a unit vector across n, horizontal where n is not upright. */
+static inline void cluster_across(bool flat, const double n[3], double t[3]) {
+  const double level = flat ? 1.0 : sqrt(n[0] * n[0] + n[1] * n[1]);
+  const bool upright = !flat && level < 0.1;
+  if (!upright) {
+    t[0] = n[1] / level;
+    t[1] = -n[0] / level;
+    t[2] = 0.0;
+  } else { /* n x e_x */
+    const double size = sqrt(n[1] * n[1] + n[2] * n[2]);
+    t[0] = 0.0;
+    t[1] = n[2] / size;
+    t[2] = -n[1] / size;
+  }
+}
+
+/* The third direction, t x n: up on the cloth. */
+static inline void cluster_third(const double n[3], const double t[3], double out[3]) {
+  out[0] = t[1] * n[2] - t[2] * n[1];
+  out[1] = t[2] * n[0] - t[0] * n[2];
+  out[2] = t[0] * n[1] - t[1] * n[0];
+}
+
+#endif

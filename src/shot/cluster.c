@@ -1,0 +1,161 @@
+/* Contacts that last, src/cluster/, for the balls of a shot. */
+#include "cluster/cluster.h"
+#include "shot/sim.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double usual_modulus = 6.6e9; /* N/m^2: phenolic resin, docs/understanding/clusters.md */
+static const double simultaneous = 1e-9;   /* of a contact's duration: touches that are nearer in time count as one */
+
+/* One of the balls of a cluster. On the cloth all centres are at the height of their radius. */
+static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_ball_state *s, const carom_shot_options *opt,
+                                    bool flies, int which) {
+  carom_cluster_ball b;
+  memset(&b, 0, sizeof b);
+  for (int k = 0; k < 3; k++) {
+    b.r[k] = s->r[k];
+    b.v[k] = s->v[k];
+    b.W[k] = kind->radius * s->w[k];
+  }
+  if (!flies) {
+    b.r[2] = kind->radius;
+    b.v[2] = 0.0;
+  }
+  b.which = which;
+  b.radius = kind->radius;
+  b.inverse_mass = 1.0 / kind->mass;
+  b.mu_cloth = kind->mu_slide;
+  b.restitution = kind->restitution;
+  b.modulus = kind->modulus > 0.0 ? kind->modulus : usual_modulus;
+  const carom_speed_law law = carom_law_of_ball(kind);
+  const bool rubs = opt->ball_model != CAROM_BALL_MODEL_MIRROR, constant = opt->friction == CAROM_FRICTION_CONSTANT;
+  b.law[0] = !rubs ? 0.0 : constant ? kind->mu_ball : law.a;
+  b.law[1] = !rubs || constant ? 0.0 : law.b;
+  b.law[2] = !rubs || constant ? 0.0 : law.c;
+  return b;
+}
+
+static void motion_of(const carom_cluster_ball *b, double v[3], double w[3]) {
+  for (int k = 0; k < 3; k++) {
+    v[k] = b->v[k];
+    w[k] = b->W[k] / b->radius;
+  }
+}
+
+/* The contacts that had an impulse, in the order in which they touched first; those that touch at one time by their indices.
+ * Returns how many. */
+static int in_order(const carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
+  int count = 0;
+  const double tie = simultaneous * c->duration;
+  for (int k = 0; k < c->contacts; k++) {
+    if (!(c->contact[k].impulse > 0.0))
+      continue;
+    int place = count++;
+    for (; place > 0 && c->contact[k].time < c->contact[order[place - 1]].time - tie; place--)
+      order[place] = order[place - 1];
+    order[place] = (uint8_t)k;
+  }
+  return count;
+}
+
+/* ---- The public entry */
+
+static carom_cluster_contact contact_of(const carom_cluster_state *c, const carom_cluster_contact_state *x) {
+  carom_cluster_contact out = {c->ball[x->i].which, c->ball[x->j].which,         x->time,
+                               x->impulse,          {x->n[0], x->n[1], x->n[2]}, {0.0}};
+  double third[3] = {x->t[1] * x->n[2] - x->t[2] * x->n[1], x->t[2] * x->n[0] - x->t[0] * x->n[2],
+                     x->t[0] * x->n[1] - x->t[1] * x->n[0]};
+  for (int k = 0; k < 3; k++)
+    out.friction[k] = x->rubbed[0] * x->t[k] + x->rubbed[1] * third[k];
+  return out;
+}
+
+/* The balls that are left, as a cluster of which the members are not known yet. */
+static void gather(const carom_shot_ball *balls, int count, const carom_shot_options *opt, const bool done[],
+                   carom_cluster_state *c) {
+  c->balls = 0;
+  c->in_space = false;
+  c->steps = opt->cluster_steps > 0 ? opt->cluster_steps : CAROM_CLUSTER_STEPS;
+  c->slow = carom_slow_speed(0);
+  for (int k = 0; k < count; k++) {
+    if (done[k])
+      continue;
+    const carom_ball_kind *kind = &balls[k].kind;
+    const bool flies = opt->space != CAROM_SPACE_FLAT && carom_flies_in_layout(&balls[k].state, kind->radius);
+    c->in_space |= flies || (c->balls > 0 && kind->radius != c->ball[0].radius);
+    c->ball[c->balls++] = member_of(kind, &balls[k].state, opt, flies, k);
+  }
+}
+
+static carom_status check(const carom_shot_ball *balls, int count, const carom_shot_options *opt) {
+  const carom_status bad = carom_check_shot_options(opt);
+  if (bad != CAROM_OK)
+    return bad;
+  const bool solves = opt->ball_model <= CAROM_BALL_MODEL_EXACT || opt->ball_model == CAROM_BALL_MODEL_MIRROR;
+  if (opt->world != CAROM_WORLD_CAROM || !solves)
+    return CAROM_ERROR_SHOT_OPTIONS;
+  for (int k = 0; k < count; k++) {
+    const carom_status status = carom_check_ball(&balls[k], opt->space == CAROM_SPACE_FLAT);
+    if (status != CAROM_OK)
+      return status;
+    if (opt->space == CAROM_SPACE_FLAT && balls[k].kind.radius != balls[0].kind.radius)
+      return CAROM_ERROR_RADII_DIFFER;
+    for (int i = 0; i < k; i++)
+      if (memcmp(balls[i].state.r, balls[k].state.r, sizeof balls[i].state.r) == 0 && !carom_is_out(balls[i].state.label))
+        return CAROM_ERROR_COINCIDENT;
+  }
+  return CAROM_OK;
+}
+
+/* Cluster by cluster, the fastest contact first; balls far from each other are in clusters of their own. */
+static carom_status solve(const carom_shot_ball *balls, int count, const carom_shot_options *opt, carom_motion *out,
+                          carom_cluster_contact *contacts, int room, int *found) {
+  carom_cluster_state c;
+  bool done[CAROM_CLUSTER_BALLS];
+  for (int k = 0; k < count; k++) {
+    done[k] = carom_is_out(balls[k].state.label);
+    memcpy(out[k].v, balls[k].state.v, sizeof out[k].v);
+    memcpy(out[k].w, balls[k].state.w, sizeof out[k].w);
+  }
+  for (;;) {
+    gather(balls, count, opt, done, &c);
+    const int size = carom_cluster_members(&c, -1, -1);
+    if (size == 0)
+      return *found > 0 ? CAROM_OK : CAROM_SEPARATING;
+    if (size < 0 || !carom_cluster_solve(&c))
+      return CAROM_ERROR_UNRESOLVED;
+    for (int k = 0; k < c.balls; k++) {
+      const int i = c.ball[k].which;
+      done[i] = true;
+      motion_of(&c.ball[k], out[i].v, out[i].w);
+      for (int axis = 0; axis < 3; axis++)
+        if (!isfinite(out[i].v[axis] + out[i].w[axis]))
+          return CAROM_ERROR_OVERFLOW;
+    }
+    uint8_t order[CAROM_CLUSTER_CONTACTS];
+    const int touched = in_order(&c, order);
+    for (int k = 0; k < touched; k++, ++*found)
+      if (*found < room)
+        contacts[*found] = contact_of(&c, &c.contact[order[k]]);
+  }
+}
+
+carom_status carom_cluster(const carom_shot_ball *balls, int count, const carom_shot_options *opt, carom_motion *out,
+                           carom_cluster_contact *contacts, int room, int *contacts_count) {
+  static const carom_shot_options no_options = {0};
+  int found = 0;
+  if (balls == NULL || out == NULL || (contacts == NULL && room != 0) || room < 0)
+    return CAROM_ERROR_NULL;
+  if (count < 1 || count > CAROM_BALLS_MOST)
+    return CAROM_ERROR_BALLS;
+  opt = opt != NULL ? opt : &no_options;
+  carom_status status = check(balls, count, opt);
+  if (status == CAROM_OK)
+    status = solve(balls, count, opt, out, contacts, room, &found);
+  for (int k = 0; k < count && status < 0; k++)
+    out[k] = (carom_motion){{NAN, NAN, NAN}, {NAN, NAN, NAN}};
+  if (contacts_count != NULL)
+    *contacts_count = status < 0 ? 0 : found;
+  return status;
+}
