@@ -1,7 +1,6 @@
 /* Where and with what a figure was measured, from what Linux shows; elsewhere most of it is NA. */
 #include "machine.h"
 
-#include "caches.h"
 #include "clock.h"
 #include "commit.h"
 
@@ -24,17 +23,6 @@ void machine_note(FILE *to, const char *what, const char *format, ...) {
   fprintf(to, "# %s: %s\n", what, text);
 }
 
-/* The first line of a file without its end, or NULL. */
-static const char *first_line(const char *path, char *line, int size) {
-  FILE *file = fopen(path, "r");
-  const char *found = file != NULL ? fgets(line, size, file) : NULL;
-  if (file != NULL)
-    fclose(file);
-  if (found != NULL)
-    line[strcspn(line, "\n")] = '\0';
-  return found;
-}
-
 /* The text behind "key ... : " in /proc/cpuinfo, or NULL. */
 static const char *cpuinfo(const char *key, char *line, int size) {
   FILE *file = fopen("/proc/cpuinfo", "r");
@@ -49,6 +37,36 @@ static const char *cpuinfo(const char *key, char *line, int size) {
   if (file != NULL)
     fclose(file);
   return found;
+}
+
+enum { MOST_CACHES = 8 };
+
+/* The first word of a file in the k-th cache's folder, or "". */
+static const char *word_of(int k, const char *name, char word[32]) {
+  char path[128];
+  snprintf(path, sizeof path, "/sys/devices/system/cpu/cpu0/cache/index%d/%s", k, name);
+  FILE *file = fopen(path, "r");
+  if (file == NULL || fscanf(file, "%31s", word) != 1)
+    word[0] = '\0';
+  if (file != NULL)
+    fclose(file);
+  return word;
+}
+
+/* Size in bytes of the data cache of level 1, 2, ...; 0 where there is none or it is not visible. sysconf() would answer for
+ * the whole package, of which a core reaches a part only. */
+static size_t cache_size(int level) {
+  for (int k = 0; k < MOST_CACHES; k++) {
+    char word[32], unit = ' ';
+    int found;
+    size_t size;
+    if (sscanf(word_of(k, "level", word), "%d", &found) != 1 || found != level ||
+        strcmp(word_of(k, "type", word), "Instruction") == 0)
+      continue;
+    if (sscanf(word_of(k, "size", word), "%zu%c", &size, &unit) >= 1)
+      return unit == 'K' ? size << 10 : unit == 'M' ? size << 20 : size;
+  }
+  return 0;
 }
 
 static void describe_processor(FILE *to) {
@@ -67,13 +85,6 @@ static void describe_processor(FILE *to) {
     snprintf(caches + used, sizeof caches - used, "%sL%d %zu KiB", used > 0 ? ", " : "", level, cache_size(level) / 1024);
   }
   machine_note(to, "caches", "%s", caches[0] != '\0' ? caches : "NA (not visible)");
-  const char *governor = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", name, sizeof name);
-  machine_note(to, "governor", "%s", governor != NULL ? governor : "NA (not visible)");
-  const char *threads = first_line("/sys/devices/system/cpu/smt/active", other, sizeof other);
-  machine_note(to, "hardware threads share a core", "%s",
-               threads == NULL             ? "NA (not visible)"
-               : strcmp(threads, "0") == 0 ? "no"
-                                           : "yes");
   if (clock_core_cycle() > 0)
     machine_note(to, "core cycle", "%.4f ns", clock_core_cycle());
 }

@@ -2,20 +2,17 @@
  *
  *     calls   the cases, one call each                               any kernel       isa "scalar"
  *     batch   the cases over and over, many in a call                solvers only     isa "avx512", ...
- *     copy    a batch's bytes, read and written, nothing computed    no kernel        what no batch can be faster than
  *
  * Calls go through a pointer, as those of a program that chooses its kernel at run time would; the empty kernel is called
  * through it too. Small batches move on: call j begins at case j * size, modulo the number of cases, until every case has been
  * in as many batches as any other, so that what is timed does not depend on which cases a batch happens to hold. */
 #include "accuracy.h"
 #include "bench_job.h"
-#include "caches.h"
 #include "command.h"
 #include "kernel.h"
 #include "machine.h"
 #include "memory.h"
 #include "message.h"
-#include "platform/threads.h"
 #include "precision.h"
 
 #include <math.h>
@@ -25,7 +22,6 @@
 
 enum {
   LARGE = 4096, /* so many pairs hold all cases about equally often: one call is enough; fewer are not worth a thread */
-  BLOCK = 64,   /* pairs that a copy moves at once, as the solvers do: they stay in the first cache */
   DEFAULT_SIZE = 65536
 };
 
@@ -33,14 +29,14 @@ typedef struct workload workload;
 typedef carom_status call(const workload *w, size_t first);
 
 struct workload {
-  const kernel *kernel;        /* NULL for a copy */
+  const kernel *kernel;
   const ladder_module *module; /* of a rung; NULL for a solver of the library */
   const ladder_rung *rung;     /* likewise */
   const case_set *cases;
   carom_options options;
   carom_isa isa;
   bool single;          /* precision */
-  size_t size;          /* pairs in a call of a batch or a copy; 0: single calls */
+  size_t size;          /* pairs in a call of a batch; 0: single calls */
   size_t calls, stride; /* calls in a pass, each so many rows after the one before */
   call *one;
   const carom_impact *in; /* the rows; row k is case k modulo the number of cases, or case_of[k] */
@@ -85,28 +81,6 @@ static carom_status by_batch(const workload *w, size_t first) {
                    : carom_collide_batch(&w->in[first], w->size, &w->options, &w->result[first], NULL);
 }
 
-/* Blocks of a copy: a block is read whole, and as many bytes as its results take are written, its first ones. */
-static size_t copy_rows(const void *job, size_t from, size_t end) {
-  const workload *w = job;
-  const size_t in_size = w->single ? sizeof *w->in_f32 : sizeof *w->in;
-  const size_t out_size = w->single ? sizeof *w->result_f32 : sizeof *w->result;
-  const char *in = w->single ? (const char *)w->in_f32 : (const char *)w->in;
-  char *out = w->single ? (char *)w->result_f32 : (char *)w->result, block[BLOCK * sizeof(carom_impact)];
-  for (size_t k = from; k < end; k += BLOCK) {
-    const size_t n = end - k < BLOCK ? end - k : BLOCK;
-    memcpy(block, in + k * in_size, n * in_size);
-    BENCH_CONSUME(block);
-    memcpy(out + k * out_size, block, n * out_size);
-  }
-  return end;
-}
-
-static carom_status by_copy(const workload *w, size_t first) {
-  (void)first;
-  carom_in_threads(copy_rows, w, w->size, w->options.threads, LARGE);
-  return CAROM_OK;
-}
-
 static void call_all(const workload *w, call *one) {
   __asm__ volatile("" : "+r"(one)); /* hidden from the compiler, or it would look into by_nothing */
   carom_isa_limit(w->isa);
@@ -140,12 +114,11 @@ static bool takes_steps(const kernel *one) {
 }
 
 static int steps_of(const workload *w) {
-  return w->kernel != NULL && takes_steps(w->kernel) ? w->options.steps : 0;
+  return takes_steps(w->kernel) ? w->options.steps : 0;
 }
 
 static const char *config_of(const workload *w) {
-  const size_t bytes = w->size * (sizeof(carom_impact) + sizeof(carom_result)) / (w->single ? 2 : 1);
-  return w->kernel == NULL ? cache_holding(bytes) : w->module != NULL ? w->module->name : "library";
+  return w->module != NULL ? w->module->name : "library";
 }
 
 static const char *precision_of(const workload *w) {
@@ -153,7 +126,7 @@ static const char *precision_of(const workload *w) {
 }
 
 static const char *isa_of(const workload *w) {
-  return w->size == 0 ? "scalar" : w->kernel == NULL ? "memcpy" : carom_isa_name(w->isa);
+  return w->size == 0 ? "scalar" : carom_isa_name(w->isa);
 }
 
 /* ---- Verification */
@@ -235,12 +208,6 @@ static bool verify_other_steps(workload *w) {
 
 /* Resolves the cases and compares. *good: may it be timed? False if data could not be read. */
 static bool verify(workload *w, const char *folder, bool *good) {
-  if (w->kernel == NULL) {
-    resolve(w);
-    w->own = (accuracy_summary){.max = NAN};
-    *good = true;
-    return true;
-  }
   const kernel_claim *claim = &w->kernel->claims[0];
   const int steps = w->options.steps;
   reference_set reference;
@@ -263,8 +230,6 @@ static bool compare_exact(const workload *w, const char *folder, bench_subject *
   reference_set reference;
   s->slip = carom_slip_name(w->options.slip);
   s->error_exact_median = s->error_exact_max = NAN;
-  if (w->kernel == NULL)
-    return true;
   snprintf(name, sizeof name, "reference-exact-%s.csv", s->slip);
   const bool loaded = reference_load(folder, name, w->cases, &reference);
   if (loaded) {
@@ -294,10 +259,9 @@ static workload *add(struct collisions *c, const kernel *one) {
   workload *w = &c->work[c->count++];
   *w = (workload){.kernel = one, .cases = &c->cases, .in = c->cases.impact, .isa = carom_isa_in_force()};
   w->options.steps = CAROM_DEFAULT_STEPS;
-  if (one != NULL && !one->is_rung)
+  if (!one->is_rung)
     w->options.solver = one->solver;
-  if (one != NULL)
-    w->options.slip = one->claims[0].slip;
+  w->options.slip = one->claims[0].slip;
   return w;
 }
 
@@ -359,7 +323,7 @@ static size_t common_divisor(size_t a, size_t b) {
   return b == 0 ? a : common_divisor(b, a % b);
 }
 
-/* Batches of `size` pairs by a solver in lanes of `isa`; or a copy of their bytes, without a kernel. */
+/* Batches of `size` pairs by a solver in lanes of `isa`. */
 static void add_batch(struct collisions *c, const kernel *one, carom_isa isa, bool single, int threads, int steps,
                       size_t size) {
   const size_t shared = common_divisor(size, c->cases.count);
@@ -369,13 +333,13 @@ static void add_batch(struct collisions *c, const kernel *one, carom_isa isa, bo
   w->isa = isa;
   w->single = single;
   w->size = size;
-  w->calls = one != NULL && size < LARGE ? c->cases.count / shared : 1;
+  w->calls = size < LARGE ? c->cases.count / shared : 1;
   w->stride = size % c->cases.count;
-  w->one = one != NULL ? by_batch : by_copy;
+  w->one = by_batch;
   w->rows = w->calls > 1 ? size + c->cases.count - shared : size;
   w->pairs = w->calls * size;
   w->options.threads = threads;
-  if (one != NULL && takes_steps(one))
+  if (takes_steps(one))
     w->options.steps = steps;
   if (single)
     w->result_f32 = allocate(w->rows, sizeof *w->result_f32);
@@ -385,7 +349,7 @@ static void add_batch(struct collisions *c, const kernel *one, carom_isa isa, bo
 
 /* Every size, precision, number of threads and, where a kernel takes any, of steps that is wanted. */
 static void add_batches(bench_job *job, const kernel *one, carom_isa isa) {
-  const size_t counts = one != NULL && takes_steps(one) ? job->steps.count : 1;
+  const size_t counts = takes_steps(one) ? job->steps.count : 1;
   for (size_t size = 0; size < job->pairs.count; size++)
     for (int single = 0; single < 2; single++)
       for (size_t t = 0; t < job->threads.count && wants_precision(job, single != 0); t++)
@@ -410,7 +374,6 @@ static bool wants_batches(const bench_job *job, const kernel *one) {
   return job->batch || (job->configs.count == 0 && !takes_steps(one));
 }
 
-/* The batches, and behind them the copies of as many bytes. */
 static void add_all_batches(bench_job *job) {
   struct collisions *c = job->collisions;
   const size_t n = c->cases.count;
@@ -430,15 +393,10 @@ static void add_all_batches(bench_job *job) {
     c->tiled[k] = c->cases.impact[k % n];
   to_single(c->tiled, c->tiled_f32, rows * sizeof *c->tiled / sizeof(double));
   const kernel *one;
-  bool any = false;
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
     for (int isa = 0; carom_isa_name((carom_isa)isa) != NULL && wants_batches(job, one); isa++)
-      if (wants_isa(job, (carom_isa)isa)) {
+      if (wants_isa(job, (carom_isa)isa))
         add_batches(job, one, (carom_isa)isa);
-        any = true;
-      }
-  if (any)
-    add_batches(job, NULL, carom_isa_in_force());
 }
 
 /* ---- The reference of speedup: the ladder's first rung in the default configuration; without a ladder, the library's Euler */
@@ -482,7 +440,7 @@ static bool verify_all(bench_job *job) {
   for (size_t k = 0; k < c->count; k++) {
     workload *w = &c->work[k];
     bool good;
-    bench_subject s = {.kernel = w->kernel != NULL ? w->kernel->name : "copy",
+    bench_subject s = {.kernel = w->kernel->name,
                        .config = config_of(w),
                        .isa = isa_of(w),
                        .precision = precision_of(w),
@@ -491,7 +449,7 @@ static bool verify_all(bench_job *job) {
                        .paper = w->rung != NULL ? w->rung->paper : NULL,
                        .in_a_call = w->size,
                        .resolve = resolve,
-                       .empty = w->kernel != NULL ? resolve_nothing : NULL,
+                       .empty = resolve_nothing,
                        .fingerprint = fingerprint,
                        .context = w,
                        .reference = SIZE_MAX};
@@ -545,11 +503,6 @@ static void note(const bench_job *job, FILE *out) {
     machine_note(out, "batches", "the cases over and over, so many pairs in a call as the column says");
   else if (batches)
     machine_note(out, "batches", "the cases over and over, %d pairs in a call", job->pairs.value[0]);
-  if (batches) {
-    machine_note(out, "bytes", "a pair is %zu bytes in and %zu out in double precision, half of that in single",
-                 sizeof(carom_impact), sizeof(carom_result));
-    machine_note(out, "copy", "reads and writes as many bytes and computes nothing; its config is the cache that holds them");
-  }
   machine_note(out, "reference kernel", "%s, %s, with as many steps", c->reference->name, config_of(&c->work[0]));
   const char *name;
   for (size_t k = 0; (name = ladder_module_name(k)) != NULL; k++)

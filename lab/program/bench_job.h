@@ -4,10 +4,23 @@
 #define CAROM_LAB_BENCH_JOB_H
 
 #include "cases.h"
-#include "lists.h"
+#include "options.h"
 #include "rounds.h"
 
 #include <stdio.h>
+
+/* Lists that options grow: names and whole numbers with commas between; repeating the option adds to them. */
+/* Names point into the argument vector, whose commas become ends. */
+typedef struct name_list {
+  const char **name;
+  size_t count, room;
+} name_list;
+
+typedef struct count_list {
+  int *value;
+  size_t count, room;
+} count_list;
+void add_count(count_list *list, int value);
 
 typedef struct bench_job bench_job;
 

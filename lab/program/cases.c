@@ -44,20 +44,6 @@ bool cases_load(const char *folder, const char *name, case_set *out) {
   return result == READ_END && out->count > 0;
 }
 
-bool header_begins(record_reader *reader, const char *columns, size_t *count) {
-  record header;
-  if (record_next(reader, &header) != READ_ONE)
-    return false;
-  for (size_t k = 0; k < header.count && *columns != '\0'; k++) {
-    const size_t length = strlen(header.field[k]);
-    if (strncmp(columns, header.field[k], length) != 0 || (columns[length] != ',' && columns[length] != '\0'))
-      return false;
-    columns += length + (columns[length] == ',');
-  }
-  *count = header.count;
-  return *columns == '\0';
-}
-
 bool numbers_of(const record *row, size_t n, double number[]) {
   bool good = !row->malformed && row->count > n;
   for (size_t k = 0; good && k < n; k++)
@@ -70,12 +56,8 @@ enum { RESULT_NUMBERS = sizeof(carom_result) / sizeof(double) };
 /* The results and, where there is one more column, the step counts. */
 static bool read_references(record_reader *reader, const case_set *cases, reference_set *out) {
   const char *file = record_file_name(reader);
-  size_t columns;
-  if (!header_begins(reader, "id," RESULT_COLUMNS, &columns)) {
-    complain("%s: needs the columns id, v1x ... w2z, in this order", file);
-    return false;
-  }
-  const bool steps = columns == RESULT_NUMBERS + 2;
+  record header;
+  const bool steps = record_next(reader, &header) == READ_ONE && header.count == RESULT_NUMBERS + 2;
   out->result = allocate(cases->count, sizeof *out->result);
   out->steps = steps ? allocate(cases->count, sizeof *out->steps) : NULL;
   for (; out->count < cases->count; out->count++) {

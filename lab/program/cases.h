@@ -26,9 +26,6 @@ bool cases_load(const char *folder, const char *name, case_set *out);
 /* Loads results for exactly the ids of `cases`, in that order. */
 bool reference_load(const char *folder, const char *name, const case_set *cases, reference_set *out);
 
-/* Reads the header: does it begin with these columns, "id,v1x,...", in this order? Sets the number of all columns. */
-bool header_begins(record_reader *reader, const char *columns, size_t *count);
-
 /* The n numbers of a row behind its id; false if there are fewer. */
 bool numbers_of(const record *row, size_t n, double number[]);
 

@@ -169,6 +169,34 @@ void bench_print(const bench_job *job, FILE *out) {
 
 /* ---- Arguments */
 
+void add_count(count_list *list, int value) {
+  list->value = grow(list->value, &list->room, list->count + 1, sizeof *list->value);
+  list->value[list->count++] = value;
+}
+
+static OPTION_SET(set_names) {
+  name_list *list = field;
+  const size_t before = list->count;
+  char *rest;
+  for (char *name = strtok_r(text, ",", &rest); name != NULL; name = strtok_r(NULL, ",", &rest)) {
+    list->name = grow(list->name, &list->room, list->count + 1, sizeof *list->name);
+    list->name[list->count++] = name;
+  }
+  if (list->count == before)
+    complain("--%s needs a name", row->name);
+  return list->count > before;
+}
+
+static OPTION_SET(set_counts) {
+  count_list *list = field;
+  const size_t before = list->count;
+  int value;
+  char *rest, *one;
+  for (one = strtok_r(text, ",", &rest); one != NULL && set_count(row, one, &value); one = strtok_r(NULL, ",", &rest))
+    add_count(list, value);
+  return one == NULL && (list->count > before || set_count(row, text + strlen(text), &value));
+}
+
 static OPTION_SET(set_kernels) {
   name_list *list = field;
   const size_t before = list->count;
@@ -255,7 +283,7 @@ static const char about[] =
     "one whose error is above its bound is not timed. Times are nanoseconds per collision, the mean over the collisions; "
     "median and spread are over the rounds. The speedup of a round is relative to the ladder's first kernel in the default "
     "configuration with the same number of steps (1000 for kernels without steps). The exact solver is also timed in batches, "
-    "with every instruction set; the row copy moves the bytes of a batch and computes nothing.\n";
+    "with every instruction set.\n";
 
 static const char details[] =
     "Spread is the median absolute deviation: half of the rounds lie within it. docs/study/measuring.md explains how to read "

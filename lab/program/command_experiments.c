@@ -20,8 +20,6 @@ static const double degree = 3.14159265358979323846 / 180.0;
 /* What is compared, in the order of the columns: m/s and degrees. */
 enum { V_CUE, V_OBJECT, ANGLE_CUE, ANGLE_OBJECT, OUTCOMES };
 static const char *const outcome_names[OUTCOMES] = {"v_cue", "v_object", "angle_cue_deg", "angle_object_deg"};
-static const char *const outcome_titles[OUTCOMES] = {"cue ball, m/s", "object ball, m/s", "cue ball, degrees",
-                                                     "object ball, degrees"};
 
 typedef struct shot {
   char id[32];
@@ -30,10 +28,8 @@ typedef struct shot {
 } shot;
 
 enum { MOST_SHOTS = 32, SHOT_NUMBERS = 3 + 2 * OUTCOMES };
-static const char shot_columns[] =
-    "id,V0,omega_T,theta_deg,measured_v_cue,measured_v_object,predicted_v_cue,predicted_v_object,"
-    "measured_angle_cue_deg,measured_angle_object_deg,predicted_angle_cue_deg,"
-    "predicted_angle_object_deg";
+/* Of a row: id,V0,omega_T,theta_deg,measured_v_cue,measured_v_object,predicted_v_cue,predicted_v_object,
+ * measured_angle_cue_deg,measured_angle_object_deg,predicted_angle_cue_deg,predicted_angle_object_deg */
 
 static shot shot_of(const char *id, const double x[SHOT_NUMBERS]) {
   shot s = {.V0 = x[0],
@@ -52,10 +48,8 @@ static size_t read_shots(const char *folder, shot shots[MOST_SHOTS]) {
   if (reader == NULL)
     return 0;
   record row;
-  size_t count = 0, columns;
-  bool good = header_begins(reader, shot_columns, &columns);
-  if (!good)
-    complain("%s: needs the columns %s", path, shot_columns);
+  size_t count = 0;
+  bool good = record_next(reader, &row) == READ_ONE; /* the header */
   while (good && count < MOST_SHOTS && record_next(reader, &row) == READ_ONE) {
     double number[SHOT_NUMBERS];
     good = numbers_of(&row, SHOT_NUMBERS, number);
@@ -98,59 +92,30 @@ static bool outcome_of(const shot *s, const kernel *one, carom_slip slip, double
   return true;
 }
 
-/* The library's solvers, one column each: the k-th, or NULL. */
-static const kernel *solver_at(size_t k) {
-  const kernel *one;
-  for (size_t at = 0; (one = kernel_at(at)) != NULL; at++)
-    if (!one->is_rung && k-- == 0)
-      return one;
-  return NULL;
-}
-
-static void print_csv(FILE *out, const shot *shots, size_t count, carom_slip slip) {
-  fputs("shot,source", out);
+/* One line: what a source says of a shot. */
+static void print_line(FILE *out, bool csv, const char *id, const char *source, const double outcome[OUTCOMES], bool computed) {
+  fprintf(out, csv ? "%s,%s" : "%-20s %-10s", id, source);
   for (int k = 0; k < OUTCOMES; k++)
-    fprintf(out, ",%s", outcome_names[k]);
+    if (csv)
+      fprintf(out, computed ? ",%.6f" : ",%g", outcome[k]);
+    else
+      fprintf(out, " %16.3f", outcome[k]);
   fputc('\n', out);
-  for (size_t s = 0; s < count; s++) {
-    const double *given[] = {shots[s].measured, shots[s].predicted};
-    static const char *const names[] = {"measured", "predicted"};
-    for (int g = 0; g < 2; g++) {
-      fprintf(out, "%s,%s", shots[s].id, names[g]);
-      for (int k = 0; k < OUTCOMES; k++)
-        fprintf(out, ",%g", given[g][k]);
-      fputc('\n', out);
-    }
-    const kernel *one;
-    for (size_t at = 0; (one = solver_at(at)) != NULL; at++) {
-      double outcome[OUTCOMES];
-      if (!outcome_of(&shots[s], one, slip, outcome))
-        continue;
-      fprintf(out, "%s,%s", shots[s].id, one->name);
-      for (int k = 0; k < OUTCOMES; k++)
-        fprintf(out, ",%.6f", outcome[k]);
-      fputc('\n', out);
-    }
-  }
 }
 
-static void print_table(FILE *out, const shot *shots, size_t count, carom_slip slip) {
-  const kernel *one;
-  for (int k = 0; k < OUTCOMES; k++) {
-    fprintf(out, "%s%-22s %9s %10s", k > 0 ? "\n" : "", outcome_titles[k], "measured", "predicted");
-    for (size_t at = 0; (one = solver_at(at)) != NULL; at++)
-      fprintf(out, " %9s - predicted - measured", one->name);
-    fputc('\n', out);
-    for (size_t s = 0; s < count; s++) {
-      fprintf(out, "  %-20s %9.3f %10.3f", shots[s].id, shots[s].measured[k], shots[s].predicted[k]);
-      for (size_t at = 0; (one = solver_at(at)) != NULL; at++) {
-        double outcome[OUTCOMES];
-        if (outcome_of(&shots[s], one, slip, outcome))
-          fprintf(out, " %9.3f %+11.4f %+10.3f", outcome[k], outcome[k] - shots[s].predicted[k],
-                  outcome[k] - shots[s].measured[k]);
-      }
-      fputc('\n', out);
-    }
+static void print_all(FILE *out, bool csv, const shot *shots, size_t count, carom_slip slip) {
+  fputs(csv ? "shot,source" : "shot                 source    ", out);
+  for (int k = 0; k < OUTCOMES; k++)
+    fprintf(out, csv ? ",%s" : " %16s", outcome_names[k]);
+  fputc('\n', out);
+  for (const shot *s = shots; s < shots + count; s++) {
+    print_line(out, csv, s->id, "measured", s->measured, false);
+    print_line(out, csv, s->id, "predicted", s->predicted, false);
+    const kernel *one;
+    double outcome[OUTCOMES];
+    for (size_t at = 0; (one = kernel_at(at)) != NULL; at++)
+      if (!one->is_rung && outcome_of(s, one, slip, outcome))
+        print_line(out, csv, s->id, one->name, outcome, true);
   }
 }
 
@@ -186,6 +151,6 @@ int command_experiments(int argc, char **argv) {
   FILE *out = count > 0 ? output_open(job.shared.output) : NULL;
   if (out == NULL)
     return EXIT_USAGE;
-  (job.csv ? print_csv : print_table)(out, shots, count, job.shared.options.slip);
+  print_all(out, job.csv, shots, count, job.shared.options.slip);
   return output_commit() ? EXIT_GOOD : EXIT_USAGE;
 }

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a sentence on the ladder says. */
+/* What the sentence below the table says of the ladder. */
 typedef struct ladder_summary {
   size_t comparisons, pass;
   double worst_double, worst_single; /* pair errors */
@@ -33,8 +33,8 @@ typedef struct verification {
   carom_result *result;
   pair_accuracy *each;
   FILE *out;
-  bool csv, brief, all_pass;
-  char parity[512]; /* sentences for below the table */
+  bool csv, all_pass;
+  char parity[1024]; /* sentences for below the table */
   ladder_summary ladder;
 } verification;
 
@@ -81,27 +81,6 @@ static void print_claim(const verification *v, const kernel *one, const ladder_m
             count_beside_paper(s->component_1e2, paper_1e2, over_1e2), pass ? "pass" : "FAIL");
 }
 
-/* The claim in a sentence; a rung that passes is only counted. */
-static void tell_claim(verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim,
-                       const accuracy_summary *s, bool pass) {
-  if (module != NULL) {
-    double *worst = strcmp(one->precision, "single") == 0 ? &v->ladder.worst_single : &v->ladder.worst_double;
-    *worst = fmax(*worst, s->max);
-    v->ladder.comparisons++;
-    v->ladder.pass += pass;
-    if (pass)
-      return;
-  }
-  fprintf(v->out, "%s%s%s, %s slip: ", one->name, module != NULL ? " in " : "", module != NULL ? module->name : "",
-          carom_slip_name(claim->slip));
-  if (claim->bound > 0.0)
-    fprintf(v->out, "pair error against %s: mean %.2g, p99 %.2g, max %.2g; %.1g is allowed", claim->reference, s->mean, s->p99,
-            s->max, claim->bound);
-  else
-    fprintf(v->out, "%zu of %zu cases bit-identical to %s", s->identical, s->cases, claim->reference);
-  fputs(pass ? "\n" : ": FAIL\n", v->out);
-}
-
 static void tell_ladder(const verification *v) {
   const ladder_summary *l = &v->ladder;
   if (l->comparisons == 0)
@@ -133,14 +112,20 @@ static bool verify_claim(verification *v, const kernel *one, const ladder_module
     const accuracy_summary s = accuracy_summarise(v->each, v->cases.count);
     const bool pass = claim->bound > 0.0 ? s.max <= claim->bound : s.identical == s.cases;
     v->all_pass &= pass;
-    if (v->brief)
-      tell_claim(v, one, module, claim, &s, pass);
-    else
-      print_claim(v, one, module, claim, &s, pass);
-    if (claim->bound == 0.0 && v->way == SINGLE_CALLS) {
+    print_claim(v, one, module, claim, &s, pass);
+    if (module != NULL) {
+      double *worst = strcmp(one->precision, "single") == 0 ? &v->ladder.worst_single : &v->ladder.worst_double;
+      *worst = fmax(*worst, s.max);
+      v->ladder.comparisons++;
+      v->ladder.pass += pass;
+    } else if (v->way == SINGLE_CALLS) {
       const size_t used = strlen(v->parity);
-      snprintf(v->parity + used, sizeof v->parity - used, "%s: %zu of %zu cases bit-identical to %s\n", one->name, s.identical,
-               s.cases, claim->reference);
+      if (claim->bound > 0.0)
+        snprintf(v->parity + used, sizeof v->parity - used, "%s, %s slip: pair error against %s at most %.2g\n", one->name,
+                 carom_slip_name(claim->slip), claim->reference, s.max);
+      else
+        snprintf(v->parity + used, sizeof v->parity - used, "%s: %zu of %zu cases bit-identical to %s\n", one->name,
+                 s.identical, s.cases, claim->reference);
     }
   }
   reference_free(&reference);
@@ -154,13 +139,14 @@ static bool verify_module(verification *v, const kernel *one, const ladder_modul
   return true;
 }
 
-/* By single calls and in the lanes of every instruction set that this processor has; sentences tell of single calls only. */
+/* By single calls and in the lanes of every instruction set that this processor has; the sentences tell of single calls only.
+ */
 static bool verify_solver(verification *v, const kernel *one) {
   if (v->config != NULL)
     return true;
   bool good = verify_module(v, one, NULL);
   const carom_isa before = carom_isa_in_force();
-  for (int isa = 0; good && !v->brief && isa <= (int)before; isa++)
+  for (int isa = 0; good && isa <= (int)before; isa++)
     if (carom_isa_available((carom_isa)isa)) {
       carom_isa_limit((carom_isa)isa);
       v->way = isa;
@@ -191,25 +177,23 @@ static bool verify_all(verification *v) {
     fputs("kernel,config,slip,steps,reference,cases,identical,mean,median,p99,max,bound,over_1e3,paper_1e3,over_1e2,paper_1e2,"
           "verdict\n",
           v->out);
-  else if (!v->brief)
+  else
     fprintf(v->out, "%-15s %-17s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %7s %6s  %s\n", "kernel", "configuration", "slip",
             "steps", "reference", "identical", "mean", "median", "p99", "max", "bound", ">0.1%", ">1%", "");
   const kernel *one;
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
     if ((v->only == NULL || v->only == one) && !(one->is_rung ? verify_rung(v, one) : verify_solver(v, one)))
       return false;
-  if (v->brief)
-    tell_ladder(v);
-  else if (!v->csv)
+  if (!v->csv) {
     fprintf(v->out, "\n%s", v->parity);
+    tell_ladder(v);
+  }
   return true;
 }
 
 OPTION(verification, option_kernel, "kernel", only, 0, "NAME", set_kernel, 0, "only this kernel");
 OPTION(verification, option_config, "config", config, 0, "NAME", set_text, 0,
        "only this build of the ladder (see `carom-lab kernels`)");
-OPTION(verification, option_brief, "brief", brief, 0, NULL, set_flag, 0,
-       "sentences instead of the table, one for the whole ladder; kernels over their bound are named");
 OPTION(verification, option_csv, "csv", csv, 0, NULL, set_flag, 0, "as CSV; NA where the paper gives no count");
 
 static const char about[] =
@@ -227,8 +211,7 @@ static const command_form form = {
     .name = "verify",
     .usage = "[OPTIONS]",
     .about = about,
-    .options = (const option_row *const[]){&option_data, &option_csv, &option_output, &option_kernel, &option_config,
-                                           &option_brief, NULL},
+    .options = (const option_row *const[]){&option_data, &option_csv, &option_output, &option_kernel, &option_config, NULL},
     .details = details,
     .example = "carom-lab verify --kernel float",
 };
@@ -238,10 +221,6 @@ int command_verify(int argc, char **argv) {
   int code = parse_arguments(&form, argc, argv, &v, NULL);
   if (code >= 0)
     return code;
-  if (v.csv && v.brief) {
-    complain("--csv and --brief are two ways to print; give one of them");
-    return usage_hint(&form);
-  }
   /* A build that is not there, or a kernel of the ladder where no build is, would leave nothing to verify. */
   const ladder_module *unused;
   const bool wants_rung = v.config != NULL || (v.only != NULL && v.only->is_rung && ladder_module_name(0) == NULL);

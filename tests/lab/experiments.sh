@@ -11,7 +11,7 @@ for slip in paper pooltool; do
     }
     END { for (name in rows) print slip, rows[name] " shots by " name }' | sort
 done
-lab experiments | head -n 1 | cut -c 1-43
+lab experiments | head -n 3
 try lab experiments --slip none
 try lab experiments now
 try lab experiments --data nowhere

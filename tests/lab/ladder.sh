@@ -9,11 +9,11 @@ try lab resolve --kernel cse --config o4 "$DATA/collisions-204.csv" 2>&1 | sed '
 try lab verify --config o4 2>&1 | sed 's/there are .*/there are .../'
 try lab resolve --kernel base --precision single x.csv
 lab verify --kernel double --config o3 | cut -d' ' -f1
-lab verify --brief | sed -n '/^ladder/s/[0-9][0-9.]*\(e-[0-9]*\)\{0,1\}/N/gp'
+lab verify | sed -n '/^ladder/s/[0-9][0-9.]*\(e-[0-9]*\)\{0,1\}/N/gp'
 mkdir data
 cp "$DATA"/*.csv data
 sed '2s/,-0.008/,-0.009/' "$DATA/reference-pooltool-n1000.csv" > data/reference-pooltool-n1000.csv
-lab verify --brief --kernel double --config o3 --data data | sed 's/ in [a-z]*-o3/ in .../; s/mean [^;]*, max/mean ..., max/' | tail -n 2
+lab verify --kernel double --config o3 --data data | tail -n 1
 {
   sed '1s/,M,/,M1,M2,/; 1q' "$DATA/collisions-204.csv"
   echo unequal,hand,0,0,0,0,1,0,0,0,0,0,0.06,0,0,0,0,0,0,0,0.03,0.17,0.16,0.2,0.2,0.05,0.95

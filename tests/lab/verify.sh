@@ -16,7 +16,4 @@ echo "--- as CSV"
 lab verify --kernel euler --csv -o table.csv
 grep -v ',library-' table.csv | cut -d, -f1-7,12,17
 echo "--- in sentences"
-lab verify --brief | grep '^euler'
-sed '2s/,-0.008/,-0.009/' "$DATA/reference-pooltool-n1000.csv" > data/reference-pooltool-n1000.csv
-try lab verify --brief --kernel euler --data data
-try lab verify --brief --csv
+lab verify --kernel euler | grep '^euler[:,]'

@@ -5,7 +5,7 @@ try lab verify --config o3
 try lab bench --kernel base
 try lab bench --config all
 lab kernels | tail -n 1
-lab verify --brief --kernel exact | cut -d: -f1
+lab verify --kernel exact | sed -n 's/^\(exact, .*\):.*/\1/p'
 echo "--- times: Euler's method of the library is the reference"
 rows() { grep -v '^#' "$1"; }
 lab bench --kernel exact --steps 10,50 --isa scalar --budget 0.2 --csv --spread --errors -o calls.csv

@@ -1,6 +1,5 @@
 /* The benchmark's engine: statistics on made-up samples, turns and figures under a clock that the test turns by hand. Nothing
  * here asserts a real time. */
-#include "caches.h"
 #include "clock.h"
 #include "pinning.h"
 #include "rounds.h"
@@ -131,15 +130,6 @@ TEST(clocks_go_forward) {
 #else
   ck_assert(isnan(cycle));
 #endif
-}
-
-TEST(caches_hold_what_fits) {
-  const bool visible = cache_size(1) > 0;
-  ck_assert_str_eq(cache_holding(0), visible ? "L1" : "NA");
-  ck_assert_str_eq(cache_holding(cache_size(1) + 1), cache_size(2) > cache_size(1) ? "L2" : visible ? "memory" : "NA");
-  ck_assert_str_eq(cache_holding(SIZE_MAX), visible ? "memory" : "NA");
-  ck_assert_uint_eq(cache_size(0), 0);
-  ck_assert_uint_eq(cache_size(9), 0);
 }
 
 TEST(pinning_says_what_it_reached) {
