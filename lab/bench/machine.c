@@ -1,9 +1,10 @@
 /* Where and with what a figure was measured, from what Linux shows; elsewhere most of it is NA. */
 #include "machine.h"
 
-#include "clock.h"
 #include "commit.h"
+#include "monotonic.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +22,29 @@ void machine_note(FILE *to, const char *what, const char *format, ...) {
     if (*c == '\n' || *c == '\r')
       *c = ' ';
   fprintf(to, "# %s: %s\n", what, text);
+}
+
+#if defined(__x86_64__)
+#define CHAIN ".rept 100\n\tadd %0, %0\n\t.endr"
+#elif defined(__aarch64__)
+#define CHAIN ".rept 100\n\tadd %0, %0, %0\n\t.endr"
+#endif
+
+double clock_core_cycle(void) {
+#ifdef CHAIN
+  enum { TURNS = 1000, LINKS = 100, ROUNDS = 300 };
+  double least = INFINITY;
+  unsigned long long value = 1;
+  for (int round = 0; round < ROUNDS; round++) {
+    const double begin = clock_ns();
+    for (int turn = 0; turn < TURNS; turn++)
+      __asm__ volatile(CHAIN : "+r"(value));
+    least = fmin(least, (clock_ns() - begin) / (TURNS * LINKS));
+  }
+  return least;
+#else
+  return NAN;
+#endif
 }
 
 /* The text behind "key ... : " in /proc/cpuinfo, or NULL. */
@@ -85,8 +109,9 @@ static void describe_processor(FILE *to) {
     snprintf(caches + used, sizeof caches - used, "%sL%d %zu KiB", used > 0 ? ", " : "", level, cache_size(level) / 1024);
   }
   machine_note(to, "caches", "%s", caches[0] != '\0' ? caches : "NA (not visible)");
-  if (clock_core_cycle() > 0)
-    machine_note(to, "core cycle", "%.4f ns", clock_core_cycle());
+  const double cycle = clock_core_cycle();
+  if (cycle > 0)
+    machine_note(to, "core cycle", "%.4f ns", cycle);
 }
 
 void machine_describe(FILE *to) {

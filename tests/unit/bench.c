@@ -1,6 +1,7 @@
 /* The benchmark's engine: statistics on made-up samples, turns and figures under a clock that the test turns by hand. Nothing
  * here asserts a real time. */
-#include "clock.h"
+#include "machine.h"
+#include "monotonic.h"
 #include "pinning.h"
 #include "rounds.h"
 #include "statistics.h"
