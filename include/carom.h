@@ -46,8 +46,7 @@
  * (tests/unit/stack.c measures them).
  *
  * Determinism. Equal bits have:
- *   - Each row of a batch and a single call on that row, for any batch size, split, neighbours and thread count. The exception
- *     is Euler's method in single precision: see carom_collide_batch_f32().
+ *   - Each row of a batch and a single call on that row, for any batch size, split, neighbours and thread count.
  *   - Two runs on one processor with one instruction set.
  *   - All machines and compilers with options.plain = 1, with the environment variable CAROM_ISA=plain, or after
  *     carom_isa_limit(CAROM_ISA_PLAIN): for lockstep, replays and tests. This holds for every function, also under flags such
@@ -299,9 +298,7 @@ typedef struct carom_result_f32 {
 /* carom_collide() in single precision. Euler's method is computed in double precision and rounded. */
 CAROM_API carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt, carom_result_f32 *out);
 
-/* carom_collide_batch() in single precision. By the exact solver each row is bit-identical to carom_collide_f32(). Euler's
- * method is computed in single precision here, so its rows differ from single calls by rounding. They do not depend on the
- * number of threads or on other rows. */
+/* carom_collide_batch() in single precision. Each row is bit-identical to carom_collide_f32(). */
 CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt,
                                                carom_result_f32 *out, int8_t *status);
 

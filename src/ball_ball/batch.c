@@ -1,4 +1,4 @@
-/* A batch by the exact limit: collisions sorted by the collocation step that they need next.
+/* A batch: collisions by the exact limit, sorted by the collocation step that they need next.
  *
  * Every row has the bits of carom_collide: its steps are decided by its own numbers, and computed lane by lane. The lists only
  * decide which rows share a register.
@@ -10,7 +10,7 @@
  *                 then the precise solver
  *
  * A list is worked off when it fills a register, and all of them at the end. Batches of few rows would leave most lanes empty:
- * they are solved one by one. */
+ * they are solved one by one, and so are all rows by Euler's method. */
 #include "ball_ball/kernels.h"
 
 #include "ball_ball/frame.h"
@@ -146,20 +146,21 @@ static bool work_off_lists(work *w, int least) {
   return any;
 }
 
-static size_t solve_rows_in_lanes(carom_precision precision, const void *in, size_t in_size, size_t n, const carom_options *opt,
-                                  void *out, size_t out_size, int8_t *status) {
+/* Rows that 32 bits can count. */
+static size_t solve_part(carom_precision precision, const char *in, size_t n, const carom_options *opt, char *out,
+                         int8_t *status) {
   work w; /* its lists are not cleared: that would take longer than a few rows do */
   w.with = carom_kernels_of_call(opt->plain);
   w.precision = precision;
   w.in = in;
   w.out = out;
-  w.in_size = in_size;
-  w.out_size = out_size;
+  w.in_size = carom_impact_size(precision);
+  w.out_size = carom_result_size(precision);
   w.opt = opt;
   w.s = carom_spin_sign(opt->slip);
   w.status = status;
   w.first_bad = n;
-  if (n < w.with->fewest[precision]) {
+  if (opt->solver == CAROM_SOLVER_EULER || n < w.with->fewest[precision]) {
     for (uint32_t row = 0; row < n; row++)
       one_by_one(&w, row);
     return w.first_bad;
@@ -168,10 +169,10 @@ static size_t solve_rows_in_lanes(carom_precision precision, const void *in, siz
     w.list[kind][AT_START].count = w.list[kind][ON_THEIR_WAY].count = 0;
   if (status != NULL)
     memset(status, CAROM_OK, n * sizeof *status); /* what is not solved by a step, has its own */
-  const size_t lanes = (size_t)w.with->lanes, register_size = lanes * in_size, size = n * in_size;
+  const size_t lanes = (size_t)w.with->lanes, register_size = lanes * w.in_size, size = n * w.in_size;
   for (size_t first = 0; first < n; first += lanes) {
     /* what comes two registers later, while there is work to hide it */
-    const size_t ahead = (first + 2 * lanes) * in_size, end = ahead + register_size < size ? ahead + register_size : size;
+    const size_t ahead = (first + 2 * lanes) * w.in_size, end = ahead + register_size < size ? ahead + register_size : size;
     for (size_t at = ahead; at < end; at += CACHE_LINE)
       __builtin_prefetch(w.in + at);
     lane_group t;
@@ -186,23 +187,16 @@ static size_t solve_rows_in_lanes(carom_precision precision, const void *in, siz
   return w.first_bad;
 }
 
-static size_t solve_in_parts(carom_precision precision, const char *in, size_t in_size, size_t n, const carom_options *opt,
-                             char *out, size_t out_size, int8_t *status) {
+size_t carom_solve_rows(carom_precision precision, const void *in, size_t n, const carom_options *opt, void *out,
+                        int8_t *status) {
+  const size_t in_size = carom_impact_size(precision), out_size = carom_result_size(precision);
   size_t first_bad = n;
   for (size_t from = 0; from < n; from += MOST_ROWS) {
     const size_t rows = n - from < MOST_ROWS ? n - from : MOST_ROWS;
-    const size_t bad = solve_rows_in_lanes(precision, in + from * in_size, in_size, rows, opt, out + from * out_size, out_size,
-                                           status != NULL ? status + from : NULL);
+    const size_t bad = solve_part(precision, (const char *)in + from * in_size, rows, opt, (char *)out + from * out_size,
+                                  status != NULL ? status + from : NULL);
     if (bad < rows && first_bad == n)
       first_bad = from + bad;
   }
   return first_bad;
-}
-
-size_t carom_exact_batch_f64(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
-  return solve_in_parts(CAROM_F64, in, sizeof(carom_impact), n, opt, out, sizeof(carom_result), status);
-}
-
-size_t carom_exact_batch_f32(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status) {
-  return solve_in_parts(CAROM_F32, in, sizeof(carom_impact_f32), n, opt, out, sizeof(carom_result_f32), status);
 }

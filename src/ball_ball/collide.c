@@ -228,23 +228,22 @@ carom_status carom_collide_one(carom_precision precision, const void *in, const 
 
 /* A batch as threads see it. */
 typedef struct batch {
-  carom_batch_solver *solver;
+  carom_precision precision;
   const char *in;
   char *out;
   int8_t *status;
-  size_t in_size, out_size;
   const carom_options *opt;
 } batch;
 
 static size_t solve_part(const void *job, size_t from, size_t end) {
   const batch *b = job;
-  return from + b->solver(b->in + from * b->in_size, end - from, b->opt, b->out + from * b->out_size,
-                          b->status != NULL ? b->status + from : NULL);
+  return from + carom_solve_rows(b->precision, b->in + from * carom_impact_size(b->precision), end - from, b->opt,
+                                 b->out + from * carom_result_size(b->precision), b->status != NULL ? b->status + from : NULL);
 }
 
 /* Fewer pairs than this are not worth a thread: about 50 us of work, some times what starting one costs. */
 static size_t least_part(const carom_options *opt) {
-  const size_t exact = 4096, least = 64, euler = 20000 / (size_t)carom_steps(opt);
+  const size_t exact = 4096, least = 4, euler = 4000 / (size_t)carom_steps(opt);
   if (opt->solver != CAROM_SOLVER_EULER)
     return exact;
   return euler > least ? euler : least;
@@ -260,20 +259,13 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
     bad = CAROM_ERROR_NULL;
   if (bad != CAROM_OK || n == 0)
     return bad;
-  carom_batch_solver *const exact = precision == CAROM_F64 ? carom_exact_batch_f64 : carom_exact_batch_f32;
-  const batch job = {.solver = opt->solver == CAROM_SOLVER_EXACT ? exact : carom_kernels_of_call(opt->plain)->euler[precision],
-                     .in = in,
-                     .out = out,
-                     .status = status,
-                     .in_size = precision == CAROM_F64 ? sizeof(carom_impact) : sizeof(carom_impact_f32),
-                     .out_size = precision == CAROM_F64 ? sizeof(carom_result) : sizeof(carom_result_f32),
-                     .opt = opt};
+  const batch job = {.precision = precision, .in = in, .out = out, .status = status, .opt = opt};
   const size_t first_bad = carom_in_threads(solve_part, &job, n, opt->threads, least_part(opt));
   if (first_bad == n)
     return CAROM_OK;
   /* Only its index came back through the threads; doing the pair again tells its status. */
   carom_result unused;
-  return carom_collide_one(precision, job.in + first_bad * job.in_size, opt, &unused);
+  return carom_collide_one(precision, job.in + first_bad * carom_impact_size(precision), opt, &unused);
 }
 
 carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,

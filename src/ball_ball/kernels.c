@@ -18,7 +18,7 @@
 #define FEWEST_OF_AVX2 20, 13
 #define FEWEST_OF_AVX512 29, 18
 
-/* CAROM_WITHOUT_LANES leaves the exact solver's steps in lanes out: every batch is then solved by calls, which have the same
+/* CAROM_WITHOUT_LANES leaves the steps in lanes out: every batch is then solved by calls, which have the same
  * bits. That is for targets without vectors, such as WebAssembly without SIMD128, on which lanes are long scalar code. */
 #ifdef CAROM_WITHOUT_LANES
 #define EXACT_LANES(NAME, suffix) .fewest = {UINT32_MAX, UINT32_MAX}
@@ -30,12 +30,11 @@
 #endif
 
 static const carom_kernels kernels[CAROM_ISA_COUNT] = {
-#define ROW(NAME, suffix)                                                            \
-  [CAROM_ISA_##NAME] = {                                                             \
-      .lanes = LANES_OF_##NAME,                                                      \
-      EXACT_LANES(NAME, suffix),                                                     \
-      .call = {carom_call_##suffix##_f64, carom_call_##suffix##_f32},                \
-      .euler = {carom_euler_lanes_##suffix##_f64, carom_euler_lanes_##suffix##_f32}, \
+#define ROW(NAME, suffix)                                             \
+  [CAROM_ISA_##NAME] = {                                              \
+      .lanes = LANES_OF_##NAME,                                       \
+      EXACT_LANES(NAME, suffix),                                      \
+      .call = {carom_call_##suffix##_f64, carom_call_##suffix##_f32}, \
   },
     CAROM_BUILT_ISAS(ROW)
 #undef ROW

@@ -1,5 +1,5 @@
 /* What is compiled once for every instruction set, as tables of functions: reduction and restoration of rows, collocation steps
- * of many collisions, one collision as a whole, and Euler's method. kernels.c has the tables. */
+ * of many collisions, and one collision as a whole. kernels.c has the tables. */
 #ifndef CAROM_SRC_BALL_BALL_KERNELS_H
 #define CAROM_SRC_BALL_BALL_KERNELS_H
 
@@ -70,10 +70,6 @@ typedef int carom_collocate(const float in[IN_COLUMNS], float spin, float tolera
 /* One row from end to end. Returns the same number, 0 also for a row that is not good; *solution may be NULL. */
 typedef int carom_call(const void *in, double s, void *out, float solution[OUT_COLUMNS]);
 
-/* Resolves n pairs of one precision with checked options; in, out and status as in carom_collide_batch(), status may be NULL.
- * Returns the index of the first pair in error, or n. */
-typedef size_t carom_batch_solver(const void *in, size_t n, const carom_options *opt, void *out, int8_t *status);
-
 typedef struct carom_kernels {
   int lanes; /* floats in a vector */
   /* Fewest rows of a batch for which steps in lanes take no longer than calls, in collisions of play. */
@@ -83,7 +79,6 @@ typedef struct carom_kernels {
   carom_first_step *first_step;
   carom_next_step *next_step;
   carom_call *call[CAROM_PRECISIONS];
-  carom_batch_solver *euler[CAROM_PRECISIONS];
 } carom_kernels;
 
 #define CAROM_KERNEL_PROTOTYPES(NAME, suffix)                                  \
@@ -92,8 +87,7 @@ typedef struct carom_kernels {
   carom_first_step carom_first_step_##suffix;                                  \
   carom_next_step carom_next_step_##suffix;                                    \
   carom_collocate carom_collocate_##suffix;                                    \
-  carom_call carom_call_##suffix##_f64, carom_call_##suffix##_f32;             \
-  carom_batch_solver carom_euler_lanes_##suffix##_f64, carom_euler_lanes_##suffix##_f32;
+  carom_call carom_call_##suffix##_f64, carom_call_##suffix##_f32;
 CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 #undef CAROM_KERNEL_PROTOTYPES
 
@@ -115,8 +109,17 @@ CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 /* Those of a call with options.plain, 0 or 1. */
 const carom_kernels *carom_kernels_of_call(int plain);
 
-/* Batches by the exact limit; see batch.c. */
-carom_batch_solver carom_exact_batch_f64, carom_exact_batch_f32;
+/* batch.c: resolves n pairs of a precision with checked options; in, out and status as in carom_collide_batch(), status may be
+ * NULL. Returns the index of the first pair in error, or n. */
+size_t carom_solve_rows(carom_precision precision, const void *in, size_t n, const carom_options *opt, void *out,
+                        int8_t *status);
+/* Of an impact and of a result of a precision. */
+static inline size_t carom_impact_size(carom_precision precision) {
+  return precision == CAROM_F64 ? sizeof(carom_impact) : sizeof(carom_impact_f32);
+}
+static inline size_t carom_result_size(carom_precision precision) {
+  return precision == CAROM_F64 ? sizeof(carom_result) : sizeof(carom_result_f32);
+}
 
 /* One pair by a single call, with the checks and the status of carom_collide(): what lanes leave to it is a row that is not
  * plainly good. `in` and `out` are of the precision. */

@@ -1,6 +1,4 @@
 /* A batch is n single calls, bit for bit: every instruction set that the processor has, both precisions, every solver and slip.
- * Only Euler's method in single precision is computed otherwise in lanes than alone: there each row has the bits of a batch of
- * one.
  *
  * All sizes from 0 to a vector more than what is solved by calls, rows in error and rows of junk between good ones, all regimes
  * side by side, batches cut at random places, in random order, over any number of threads. Arrays end where memory ends, so
@@ -110,13 +108,10 @@ static carom_options options_for(int solver, int slip) {
 
 /* What the rows of a batch must come to. */
 static void alone(int precision, const void *in, size_t n, const carom_options *options, void *out, int8_t *status) {
-  const bool by_batches_of_one = precision == IN_SINGLE && options->solver == CAROM_SOLVER_EULER;
   for (size_t k = 0; k < n; k++) {
     const void *from = (const char *)in + k * in_size[precision];
     void *to = (char *)out + k * out_size[precision];
     status[k] = (int8_t)collide(precision, from, options, to);
-    if (by_batches_of_one)
-      collide_batch(precision, from, 1, options, to, &status[k]);
   }
 }
 
