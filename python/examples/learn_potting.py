@@ -21,15 +21,12 @@ from __future__ import annotations
 
 import argparse
 
-import matplotlib
-import matplotlib.pyplot as plt
 import numpy as np
 import numpy.typing as npt
 
 import carom
+import picture
 from carom.potting import Draws, Potting
-
-matplotlib.use("Agg")
 
 Doubles = npt.NDArray[np.float64]
 NAMES = "w1 w2 w3 w4 s0 s1 s2 s3 c t".split()
@@ -128,17 +125,15 @@ def main(arguments: list[str] | None = None) -> tuple[Doubles, Doubles]:
     print(f"balls potted a stroke, less fouls: {curve[0]:.2f} at first, {curve[-1]:.2f} at the end")
     print("  ".join(f"{name} {value:.2f}" for name, value in zip(NAMES, policies[-1], strict=True)))
 
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.0), layout="constrained")
-    left.plot(np.arange(len(curve)), curve, label="policy in the middle, 2000 layouts not learnt from")
-    left.plot(np.arange(len(best)), best, ".", label="best eighth, on the layouts it is chosen by")
+    figure, (left, right) = picture.start(2, (10.0, 4.0))
+    left.plot(np.arange(len(curve)), curve, color=picture.BLUE, label="policy in the middle, 2000 layouts not learnt from")
+    left.plot(np.arange(len(best)), best, ".", color=picture.ORANGE, label="best eighth, on the layouts it is chosen by")
     left.set(xlabel="generation", ylabel="balls potted a stroke, less fouls")
-    for name, values in zip(NAMES, policies.T, strict=True):
-        right.plot(values, label=name)
+    right.plot(policies, label=NAMES)
     right.set(xlabel="generation", ylabel="number of the policy")
     left.legend(frameon=False, fontsize="small")
     right.legend(frameon=False, fontsize="small", ncols=2)
-    figure.savefig(given.out)
-    print(f"wrote {given.out}")
+    picture.save(figure, given.out)
     return policies[-1], curve
 
 

@@ -16,7 +16,6 @@ import contextlib
 import hashlib
 import importlib
 import os
-import sys
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -110,21 +109,15 @@ def main(arguments: list[str] | None = None) -> None:
     sizes = np.diff(np.linspace(0, given.shots, given.parts + 1).astype(int))
     parts = [Part(given.seed, k, int(size), given.threads, given.isa) for k, size in enumerate(sizes)]
 
-    # The first summaries come when processes have started and libraries are loaded: the rate is that of the others.
-    skipped = 1 if given.by == "local" else given.workers
     together, potted, isas, begun = hashlib.sha256(), np.zeros(11, np.int64), set[str](), time.monotonic()
-    first = begun
     for k, summary in enumerate(WAYS[given.by](parts, given.workers, given.address)):
-        if k == skipped - 1:
-            first = time.monotonic()
+        # the first summaries come when processes have started and libraries are loaded: the rate is that of the others
+        if k == (0 if given.by == "local" else given.workers - 1):
+            first, skipped = time.monotonic(), k + 1
         together.update(summary.digest)
         potted += summary.potted
         isas.add(summary.isa)
-        if sys.stderr.isatty():
-            print(f"\r{k + 1} of {len(parts)} parts", end="", file=sys.stderr, flush=True)
     ended = time.monotonic()
-    if sys.stderr.isatty():
-        print(file=sys.stderr)
     print(f"{given.shots} breaks by {given.by}, computed with {', '.join(sorted(isas))}, in {ended - begun:.2f} s", end="")
     print(f"; once all workers run {sizes[skipped:].sum() / (ended - first):.0f} shots/s" if len(parts) > skipped else "")
     print("balls potted:", *(f"{balls}: {count}" for balls, count in enumerate(potted) if count))

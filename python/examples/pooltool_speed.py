@@ -84,6 +84,9 @@ def main() -> None:
 
     times = right.balls["cue"].history_cts.vectorize()[2]
 
+    def in_a_batch(_: Any) -> object:
+        return carom.simulate_batch(table, balls, cues, room=256, world="pooltool")
+
     def trajectories(_: Any) -> object:
         return carom.simulate_batch(table, balls, cues, world="pooltool").positions(times)
 
@@ -98,17 +101,9 @@ def main() -> None:
         ("drop-in", alone, least(repeats, system, lambda s: ours(s, inplace=True))),
         ("drop-in, all objects looked at", alone, least(repeats, system, lambda s: look(ours(s, inplace=True)))),
         ("continuous=True", continuous, least(repeats, system, lambda s: ours(s, inplace=True, continuous=True))),
-        (
-            "continuous=True, all objects",
-            continuous,
-            least(repeats, system, lambda s: look(ours(s, inplace=True, continuous=True))),
-        ),
+        ("continuous=True, all objects", continuous, least(repeats, system, lambda s: look(ours(s, inplace=True, continuous=True)))),
         ("carom.simulate", alone, least(repeats, system, lambda _: carom.simulate(table, balls, cue, world="pooltool"))),
-        (
-            f"carom.simulate_batch, one of {BATCH}",
-            alone,
-            least(few, system, lambda _: carom.simulate_batch(table, balls, cues, room=256, world="pooltool")) / BATCH,
-        ),
+        (f"carom.simulate_batch, one of {BATCH}", alone, least(few, system, in_a_batch) / BATCH),
         (f"trajectories, one of {BATCH}", continuous, least(few, system, trajectories) / BATCH),
     )
     states = look(mine)

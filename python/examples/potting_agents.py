@@ -14,8 +14,6 @@ its standard error, game by game.
 from __future__ import annotations
 
 import argparse
-import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -73,7 +71,6 @@ def play(agent: Agent, games: int, seed: int, **rules: Any) -> tuple[Doubles, st
     envs: Any = gymnasium.make_vec("carom/Potting-v0", num_envs=games, render_mode="svg", **rules)
     observations, _ = envs.reset(seed=seed)
     returns, running, most, best = np.zeros(games), np.ones(games, np.bool_), -np.inf, ""
-    begun = time.monotonic()
     while running.any():
         actions = np.zeros((games, 4))
         for game in np.flatnonzero(running):
@@ -84,11 +81,6 @@ def play(agent: Agent, games: int, seed: int, **rules: Any) -> tuple[Doubles, st
         if rewards.max() > most:
             most, best = rewards.max(), envs.render()[int(rewards.argmax())]
         running &= ~terminated
-        if sys.stderr.isatty():
-            done = games - int(running.sum())
-            print(f"\r{done} of {games} games, {time.monotonic() - begun:.1f} s ", end="", file=sys.stderr, flush=True)
-    if sys.stderr.isatty():
-        print(file=sys.stderr)
     envs.close()
     return returns, best
 

@@ -18,12 +18,9 @@ import pytest
 import carom
 
 pytest.importorskip("matplotlib", reason="matplotlib is not installed")
-pytest.importorskip("tqdm", reason="tqdm is not installed")
 EXAMPLES = Path(__file__).parents[1] / "examples"
 sys.path.insert(0, str(EXAMPLES))
 
-import best_of_many  # noqa: E402
-import fit_shots  # noqa: E402
 import learn_potting  # noqa: E402
 import refine_aim  # noqa: E402
 import throw  # noqa: E402
@@ -64,47 +61,6 @@ def test_throw(tmp_path, capsys):
     assert throw.throw(0.0, 1.0, "stun") == pytest.approx(0.0, abs=1e-9)
     throw.main(["--draws", "50", "--out", str(tmp_path / "throw.svg")])
     assert picture(tmp_path / "throw.svg") and "stun   at 1 m/s: at most 4.3" in capsys.readouterr().out
-
-
-def test_margins():
-    # By brute force: the nearest place that is not good, the layer around the grid counted in.
-    grid = best_of_many.Grid(np.linspace(-0.5, 0.5, 7), np.geomspace(1, 2, 5), np.linspace(-0.2, 0.2, 4))
-    good = np.random.default_rng(SEED).random(grid.shape) < 0.9
-    errors = best_of_many.ERRORS
-    axes = [grid.aim / errors["aim"], np.log(grid.speed) / errors["speed"], grid.height / errors["height"]]
-    axes = [np.concatenate([[2 * at[0] - at[1]], at, [2 * at[-1] - at[-2]]]) for at in axes]
-    padded = np.pad(good, 1)
-    bad = np.array([[axes[k][n] for k, n in enumerate(index)] for index in np.argwhere(~padded)])
-    margin = best_of_many.margins(good, grid)
-    for index in itertools.product(*(range(n) for n in grid.shape)):
-        here = np.array([axes[k][n + 1] for k, n in enumerate(index)])
-        expected = np.linalg.norm(bad - here, axis=-1).min() if good[index] else 0.0
-        assert margin[index] == pytest.approx(expected, abs=1e-12)
-
-
-def test_best_of_many(tmp_path):
-    grid = best_of_many.grid_of(8000)
-    outcomes = best_of_many.play(best_of_many.cue(*np.meshgrid(*grid, indexing="ij")))
-    assert outcomes.shape == grid.shape and 0.05 < (outcomes == best_of_many.POTTED).mean() < 0.5
-    i, j, k = best_of_many.widest(best_of_many.margins(outcomes == best_of_many.POTTED, grid))
-    best = (float(grid.aim[i]), float(grid.speed[j]), float(grid.height[k]))
-    # Alone, event by event: ball 1 into that pocket, and no other ball into any.
-    shot = carom.simulate(best_of_many.table, best_of_many.layout, best_of_many.cue(*best), cushion_model=best_of_many.CUSHION)
-    potted = shot.events[shot.events["type"] == carom.EventType.POCKET]
-    assert [(event["a"], event["b"]) for event in potted] == [(1, best_of_many.POCKET)]
-    # The neighbours are within the margin; and a player pots it more often than by geometry, and than others that went in.
-    around = best_of_many.cue(best[0] + np.array([-0.04, 0.04]), best[1] * np.array([[0.97], [1.03]]), best[2])
-    assert (best_of_many.play(around) == best_of_many.POTTED).all()
-
-    def share(aim, speed, height):
-        played = best_of_many.executions((aim, speed, height), 400, SEED)
-        return (best_of_many.play(played) == best_of_many.POTTED).mean()
-
-    others = np.random.default_rng(SEED).permutation(np.argwhere(outcomes == best_of_many.POTTED))[:15]
-    shares = [share(grid.aim[a], grid.speed[s], grid.height[h]) for a, s, h in others]
-    assert share(*best) > max(0.5, share(0.0, *best[1:]) + 0.2, np.median(shares) + 0.1)
-    best_of_many.main(["--draws", "2000", "--out", str(tmp_path / "best.png")])
-    assert picture(tmp_path / "best.png")
 
 
 def test_learning(tmp_path, capsys):
@@ -156,23 +112,3 @@ def test_refine_aim(tmp_path, monkeypatch):
     monkeypatch.setattr("sys.argv", ["refine_aim.py", "--draws", "4", "--out", str(out)])
     refine_aim.main()
     assert picture(out)
-
-
-def test_fit_shots(tmp_path, capsys):
-    plays = fit_shots.Plays(SEED)
-    recorded, starts = fit_shots.recordings(plays, 40, SEED)
-    fits, _ = fit_shots.fit_all(plays, recorded, starts)
-    good = fit_shots.solved(fits)
-    assert good.mean() > 0.7
-    # 200 standard normal numbers: 68 % within one deviation, 95 % within two
-    z = np.abs(fit_shots.errors([one for one, yes in zip(fits, good) if yes]))
-    assert 0.56 < (z < 1).mean() < 0.82 and 0.89 < (z < 2).mean() < 0.99
-    assert (np.abs([one.found / fit_shots.TRUTH - 1 for one, yes in zip(fits, good) if yes]) < 0.02).mean() > 0.95
-    # differences of shots end at the same constants, and play several times as many shots
-    by_differences, _ = fit_shots.fit_all(plays, recorded[:5], starts[:5], differences=True)
-    for one, other in zip(fits, by_differences):
-        if np.abs(other.found / fit_shots.TRUTH - 1).max() < 0.02 and np.abs(one.found / fit_shots.TRUTH - 1).max() < 0.02:
-            assert (np.abs(one.found - other.found) < 0.1 * np.sqrt(one.covariance.diagonal())).all()
-    assert np.median([one.played for one in fits]) < 0.5 * np.median([one.played for one in by_differences])
-    fit_shots.main(["--draws", "12", "--seed", str(SEED), "--out", str(tmp_path / "shots.svg")])
-    assert picture(tmp_path / "shots.svg") and "tangents" in capsys.readouterr().out

@@ -1,10 +1,9 @@
-"""Whole shots: pooltool's recorded histories, the command's output, batches, times between events, errors, pictures."""
+"""Whole shots: the command's output, batches, times between events, stopped shots, pictures, frames."""
 
 import json
 import os
 import pickle
 import subprocess
-import warnings
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -13,83 +12,8 @@ from conftest import DATA
 
 import carom
 
-KINDS = {
-    "m": "mass", "R": "radius", "u_s": "mu_slide", "u_r": "mu_roll", "u_sp": "mu_spin", "u_b": "mu_ball", "e_b": "restitution",
-    "f_c": "mu_cushion", "e_c": "restitution_cushion", "g": "gravity",
-}  # fmt: skip
-TYPES = (
-    "none stick_ball ball_ball ball_linear_cushion ball_circular_cushion ball_pocket sliding_rolling rolling_spinning "
-    "rolling_stationary spinning_stationary"
-).split()
-
-
-def table_of(line):
-    rails = np.zeros(len(line["linear"]), carom.dtypes.rail)
-    for rail, given in zip(rails, line["linear"]):
-        rail["p"], rail["q"], rail["height"] = given["p1"][:2], given["p2"][:2], given["p1"][2]
-        rail["line"], rail["side"] = [given["lx"], given["ly"], given["l0"]], given["direction"]
-    jaws = np.zeros(len(line["circular"]), carom.dtypes.jaw)
-    for jaw, given in zip(jaws, line["circular"]):
-        jaw["centre"], jaw["height"], jaw["radius"] = given["center"][:2], given["center"][2], given["radius"]
-    pockets = np.zeros(len(line["pockets"]), carom.dtypes.pocket)
-    for pocket, given in zip(pockets, line["pockets"]):
-        pocket["centre"], pocket["radius"], pocket["depth"] = given["center"][:2], given["radius"], given["depth"]
-    return carom.Table(line["w"], line["l"], rails=rails, jaws=jaws, pockets=pockets)
-
-
-def recorded(name):
-    """(table, balls, cue, line) of each shot of a file of data/."""
-    tables, shots = {}, []
-    for text in open(DATA / name, encoding="utf-8"):
-        line = json.loads(text)
-        if line["kind"] == "table":
-            tables[line["id"]] = table_of(line)
-        if line["kind"] == "shot":
-            states = np.array([ball["state"] for ball in line["balls"]])
-            kinds = {new: [ball["params"][old] for ball in line["balls"]] for old, new in KINDS.items()}
-            balls = carom.balls(states[:, 1:4], v=states[:, 4:7], w=states[:, 7:10], **kinds)
-            given = line["cue"]
-            ids = [ball["id"] for ball in line["balls"]]
-            cue = carom.cue(
-                speed=given["V0"], phi=given["phi"], theta=given["theta"], a=given["a"], b=given["b"], mass=given["M"],
-                end_mass=given["end_mass"], tip_radius=given["tip_radius"], ball=ids.index(given["ball"]),
-            )  # fmt: skip
-            shots.append((tables[line["table"]], balls, cue, line))
-    return shots
-
-
-def flat(states):
-    """A state as x, v and 0.03 w: what the recorded sensitivities are of."""
-    return np.concatenate([states["r"], states["v"], 0.03 * states["w"]], axis=-1)
-
-
-@pytest.fixture(scope="module")
-def pooltool_shots():
-    return recorded("shots-pooltool.jsonl")
-
-
-def test_pooltools_histories(pooltool_shots):
-    assert len(pooltool_shots) >= 30
-    for table, balls, cue, line in pooltool_shots:
-        shot = carom.simulate(table, balls, cue, world="pooltool")
-        ids = [ball["id"] for ball in line["balls"]]
-        # pooltool begins and ends with an event of the type none.
-        happened = [(k, given) for k, given in enumerate(line["events"]) if given[1] != "none"]
-        assert shot.count == len(shot.events) == len(happened)
-        for event, (k, given) in zip(shot.events, happened):
-            if k >= line["sens"]["same_events"]:
-                break
-            assert TYPES[event["type"]] == given[1], line["id"]
-            assert abs(event["time"] - given[0]) <= 1e-12 + 5e-13 * line["sens"]["t"][k]
-            # Rails and pockets have names that may be those of balls.
-            names = given[2][1:] if given[1] == "stick_ball" else given[2][: len(given[4])]
-            assert {ids[event["a"]]} | ({ids[event["b"]]} if len(names) == 2 else set()) == set(names)
-            for side, name in enumerate(names):
-                after = np.array(given[4][side])
-                # pooltool may name the balls of a pair in the other order.
-                mine = event["after"][0 if ids[event["a"]] == name else 1]
-                difference = flat(mine) - np.concatenate([after[1:7], 0.03 * after[7:10]])
-                assert np.abs(difference).max() <= 1e-12 + 5e-13 * line["sens"]["state"][k]
+TABLE = carom.tables.pool_9ft()
+RACK = carom.racks.nineball(TABLE)
 
 
 def test_the_command_gives_the_same_bits():
@@ -111,43 +35,28 @@ def test_the_command_gives_the_same_bits():
 
 
 def test_a_batch_has_the_bits_of_single_shots():
-    table = carom.tables.pool_9ft()
-    rack = carom.racks.nineball(table)
     cues = carom.cue(speed=[[6.0], [9.0]], phi=np.linspace(88.0, 92.0, 5))
     options = {"cushion_model": "han"}
-    shots = carom.simulate_batch(table, rack, cues, room=1000, threads=3, **options)
+    shots = carom.simulate_batch(TABLE, RACK, cues, room=1000, threads=3, **options)
     assert shots.shape == (2, 5) and not shots.failures() and (shots.count > 10).all()
     for index in np.ndindex(2, 5):
-        one = carom.simulate(table, rack, cues[index], **options)
+        one = carom.simulate(TABLE, RACK, cues[index], **options)
         assert shots[index].count == one.count and shots.time[index] == one.time
         assert np.array_equal(shots[index].events, one.events)
         assert shots.final[index].tobytes() == one.final.tobytes()
         np.testing.assert_array_equal(shots[index].positions([0.3, 1.0]), one.positions([0.3, 1.0]))
-    finals = carom.simulate_batch(table, rack, cues, **options)
+    finals = carom.simulate_batch(TABLE, RACK, cues, **options)
     assert finals.final.tobytes() == shots.final.tobytes()
     # Where events were not kept, the shot is played again.
     np.testing.assert_array_equal(finals[1, 2].positions([0.3, 1.0]), shots[1, 2].positions([0.3, 1.0]))
 
 
-def test_a_batch_without_cues():
-    """Balls that move from the start, played and looked at by several threads, each of which begins at another row."""
-    table = carom.tables.pool_9ft()
-    layouts = carom.balls([[0.5, 0.5], [0.6, 1.2]], v=np.linspace([[0.0, 1.0, 0.0]], [[0.3, 2.0, 0.0]], 7) * [[1], [0]])
-    shots = carom.simulate_batch(table, layouts, None, threads=3)
-    alone = [carom.simulate(table, layout) for layout in layouts]
-    assert shots.shape == (7,) and not shots.failures()
-    assert shots.final.tobytes() == b"".join(one.final.tobytes() for one in alone)
-    np.testing.assert_array_equal(shots.positions([0.2, 0.9], threads=3), [one.positions([0.2, 0.9]) for one in alone])
-
-
 @pytest.fixture(scope="module")
 def breaks():
     """Breaks of which every 3rd is in error: the batch, and each shot alone, None in place of those."""
-    table = carom.tables.pool_9ft()
-    rack = carom.racks.nineball(table)
     cues = carom.cue(speed=8.0, phi=np.linspace(85.0, 95.0, 12), a=np.where(np.arange(12) % 3 == 2, 1.0, 0.0), b=0.1)
-    alone = [carom.simulate(table, rack, cue, cushion_model="han") if k % 3 != 2 else None for k, cue in enumerate(cues)]
-    return lambda **options: carom.simulate_batch(table, rack, cues, cushion_model="han", **options), alone
+    alone = [carom.simulate(TABLE, RACK, cue, cushion_model="han") if k % 3 != 2 else None for k, cue in enumerate(cues)]
+    return lambda **options: carom.simulate_batch(TABLE, RACK, cues, cushion_model="han", **options), alone
 
 
 @pytest.mark.parametrize("options", [{}, {"room": 1000}, {"room": 40}, {"room": 1000, "records": "brief"}])
@@ -173,15 +82,11 @@ def test_trajectories_of_a_batch(breaks, options):
     np.testing.assert_array_equal(shots[[7, 1]].positions(0.5), shots.positions(0.5)[[7, 1]])
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(shots)).positions(times), positions)
     assert shots.positions(np.zeros(0)).shape == (12, 0, 10, 3) and shots[:0].positions(1.0).shape == (0, 10, 3)
-    for bad in (np.nan, np.inf):
-        with pytest.raises(ValueError, match=f"times: .* not {bad}"):
-            shots.positions([0.1, bad])
 
 
 def test_shots_that_were_changed_are_not_played_again():
-    table = carom.tables.pool_9ft()
     cues = carom.cue(speed=[8.0, 8.0], phi=[89.0, 90.0])
-    shots = carom.simulate_batch(table, carom.racks.nineball(table), cues, cushion_model="han")
+    shots = carom.simulate_batch(TABLE, RACK, cues, cushion_model="han")
     cues["speed"][0] = 7.0
     with pytest.raises(ValueError, match="layouts, cues: they were changed"):
         shots.positions(1.0)
@@ -204,22 +109,20 @@ def test_slices_and_iteration(breaks):
     assert not hasattr(one, "colour")
     with pytest.raises(IndexError):
         shots[12]
-    table = carom.tables.pool_9ft()
-    grid = carom.simulate_batch(table, carom.racks.nineball(table), carom.cue(speed=[[5.0], [6.0]], phi=[89.0, 90.0, 91.0]), cushion_model="han")
+    grid = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[[5.0], [6.0]], phi=[89.0, 90.0, 91.0]), cushion_model="han")
     assert grid[1, :].shape == (3,) and grid[:, 2].time.tolist() == grid.time[:, 2].tolist()
     np.testing.assert_array_equal(grid[:, 1:].positions(0.4), grid.positions(0.4)[:, 1:])
     assert [shot.time for shot in grid] == grid.time.reshape(-1).tolist()
     with pytest.raises(IndexError, match="2 indices"):
         grid[0]
-    single = carom.simulate_batch(table, carom.racks.nineball(table), carom.cue(speed=5.0), features=True)
+    single = carom.simulate_batch(TABLE, RACK, carom.cue(speed=5.0), features=True)
     assert single.shape == () and single.features.contact[0] == 1 and single.positions([0.1, 0.2]).shape == (2, 10, 3) and single.time > 1.0
 
 
 def test_a_shot_of_a_batch_is_made_in_few_calls(calls):
     """shots[k] makes the arrays of a shot when they are asked for."""
-    table = carom.tables.pool_9ft()
     cues = carom.cue(speed=3.0, phi=np.linspace(60.0, 120.0, 100))
-    shots = carom.simulate_batch(table, carom.balls([[0.5, 0.6], [0.7, 1.5]]), cues, cushion_model="han")
+    shots = carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6], [0.7, 1.5]]), cues, cushion_model="han")
     assert calls(lambda: [shots[k] for k in range(100)]) <= 5 * 100
 
 
@@ -295,10 +198,9 @@ def test_features_of_three_cushions():
 
 def test_shots_that_are_stopped():
     """At a time, at an event; both are outcomes. What goes on has the bits of the unbroken shot."""
-    table = carom.tables.pool_9ft()
-    rack, cue = carom.racks.nineball(table), carom.cue(speed=8.0)
-    whole = carom.simulate(table, rack, cue)
-    shot = carom.simulate(table, rack, cue, t_final=0.9)
+    cue = carom.cue(speed=8.0)
+    whole = carom.simulate(TABLE, RACK, cue)
+    shot = carom.simulate(TABLE, RACK, cue, t_final=0.9)
     assert shot.status is carom.Status.STOPPED_AT_TIME and shot.time == 0.9 and (shot.events["time"] <= 0.9).all()
     assert shot.final["r"].tobytes() == whole.states(0.9)["r"].tobytes()
     with pytest.raises(carom.CaromError) as caught:
@@ -315,9 +217,9 @@ def test_shots_that_are_stopped():
     with pytest.raises(ValueError, match="t_final: it must not be before 1.5 s"):
         carom.resume(shot, t_final=1.0)
     # A shot that ends before t_final is no other than without it.
-    assert carom.simulate(table, rack, cue, t_final=900.0).status is carom.Status.OK
-    assert carom.simulate(table, rack, cue, stop_at=["jaw", "contact"]).events["type"][-1] == carom.EventType.BALL_BALL
-    shots = carom.simulate_batch(table, rack, carom.cue(speed=[0.05, 8.0, 9.0]), t_final=0.9, cushion_model="han")
+    assert carom.simulate(TABLE, RACK, cue, t_final=900.0).status is carom.Status.OK
+    assert carom.simulate(TABLE, RACK, cue, stop_at=["jaw", "contact"]).events["type"][-1] == carom.EventType.BALL_BALL
+    shots = carom.simulate_batch(TABLE, RACK, carom.cue(speed=[0.05, 8.0, 9.0]), t_final=0.9, cushion_model="han")
     assert shots.status.tolist() == [0, 2, 2] and not shots.failures() and shots.time[1:].tolist() == [0.9, 0.9]
     seen = shots.positions([0.9, 1.0])
     assert np.isfinite(seen[:, 0]).all() and np.isfinite(seen[0]).all() and np.isnan(seen[1:, 1]).all()
@@ -325,9 +227,8 @@ def test_shots_that_are_stopped():
 
 def test_orientations():
     """A ball that rolls in a straight line turns by its way over its radius, about the axis across."""
-    table = carom.tables.pool_9ft()
     balls = carom.balls([[0.3, 0.3], [0.9, 2.0]], v=[[0.0, 0.5, 0.0], [0.0, 0.0, 0.0]], w=[[-0.5 / 0.028575, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    shot = carom.simulate(table, balls)
+    shot = carom.simulate(TABLE, balls)
     times = np.array([[0.0, 0.1], [0.2, 0.4]])
     turned = shot.orientations(times)
     way = shot.positions(times)[..., 0, 1] - 0.3
@@ -354,13 +255,11 @@ def test_broadcasting_and_out():
 
 
 def test_a_bad_shot_costs_itself():
-    table = carom.tables.pool_9ft()
-    rack = carom.racks.nineball(table)
     cues = carom.cue(speed=5.0, a=[0.0, 0.9, 0.1], b=0.5)
-    shots = carom.simulate_batch(table, rack, cues, cushion_model="han")
+    shots = carom.simulate_batch(TABLE, RACK, cues, cushion_model="han")
     assert shots.status.tolist() == [0, carom.Status.ERROR_MISCUE, 0]
     assert shots.failures() == [((1,), f"cue.a, cue.b = 0.9, 0.5: {carom.Status.ERROR_MISCUE.text}")]
-    assert shots.final[2].tobytes() == carom.simulate(table, rack, cues[2], cushion_model="han").final.tobytes()
+    assert shots.final[2].tobytes() == carom.simulate(TABLE, RACK, cues[2], cushion_model="han").final.tobytes()
 
 
 def test_each_layout_has_its_own_radius():
@@ -402,16 +301,12 @@ def test_games_and_terms():
     lower = carom.balls(r, v=v, game="billiard", nose_height=0.036)
     tables = carom.balls(r, v=v, game="billiard", nose_height=0.0)
     assert carom.simulate(higher, tables).final.tobytes() == carom.simulate(table, lower).final.tobytes()
-    for name, value in [("drag", 2.0), ("roll_loss", -0.1), ("law_b", 1.5), ("law_c", np.inf), ("nose_height", 0.07), ("omega_ratio", 2.0)]:
-        with pytest.raises(carom.CaromError, match=rf"balls\[0\]\.kind\.{name}"):
-            carom.simulate(table, carom.balls(r, v=v, game="billiard", **{name: value}))
 
 
 def test_states_between_events():
     """A ball alone, sliding, in closed form."""
-    table = carom.tables.pool_9ft()
     balls = carom.balls([[0.6, 0.3]], v=[0.0, 1.0, 0.0])
-    shot = carom.simulate(table, balls)
+    shot = carom.simulate(TABLE, balls)
     times = np.linspace(0.0, 0.1, 7).reshape(7, 1)
     at = shot.positions(times)
     assert at.shape == (7, 1, 1, 3)
@@ -419,46 +314,6 @@ def test_states_between_events():
     assert shot.states(1e9).tobytes() == shot.final.tobytes() and shot.states(-1.0)["r"].tolist() == [[0.6, 0.3, 0.028575]]
     assert shot.events["type"][0] == carom.EventType.SLIDING_ROLLING
     assert shot.final["label"].tolist() == [carom.Label.STATIONARY]
-
-
-@pytest.mark.parametrize(
-    ("change", "field", "status"),
-    [
-        ({"mass": [0.17, -1.0]}, "balls[1].kind.mass", "MASS"),
-        ({"mu_roll": 0.0}, "balls[0].kind.mu_roll", "MU_MOTION"),
-        ({"restitution_cushion": 2.0}, "balls[0].kind.restitution_cushion", "RESTITUTION"),
-        ({"v": [[0, 0, 0], [0, np.nan, 0]]}, "balls[1].state.v", "VELOCITY"),
-        ({"r": [[0.5, 0.5], [-0.5, 0.5]]}, "balls[1].state.r", "OFF_TABLE"),
-    ],
-)
-def test_bad_balls(change, field, status):
-    balls = carom.balls(**{"r": [[0.5, 0.5], [0.7, 0.5]], **change})
-    with pytest.raises(carom.CaromError) as caught:
-        carom.simulate(carom.tables.pool_9ft(), balls, carom.cue())
-    assert caught.value.field == field and caught.value.status.name == f"ERROR_{status}"
-
-
-def test_other_errors():
-    table = carom.tables.pool_9ft()
-    rack = carom.racks.nineball(table)
-    with pytest.raises(carom.CaromError, match="cue"):
-        carom.simulate(table, rack, carom.cue(a=0.9, b=0.9))
-    with pytest.raises(carom.CaromError) as caught:
-        carom.simulate(table, rack, carom.cue(speed=8.0), events_most=20)
-    assert caught.value.status is carom.Status.ERROR_TOO_MANY_EVENTS
-    stopped = caught.value.shot
-    assert stopped is not None and stopped.count == 20 and stopped.states(stopped.time).tobytes() == stopped.final.tobytes()
-    with pytest.raises(carom.CaromError) as caught:
-        stopped.states([0.0, stopped.time + 1.0])
-    assert caught.value.status is carom.Status.ERROR_TIME
-    with pytest.raises(TypeError, match=r"carom\.balls\(\)"):
-        carom.simulate(table, np.zeros((2, 20)))
-    with pytest.raises(ValueError, match="cushion_model: must be one of"):
-        carom.simulate(table, rack, carom.cue(), cushion_model="rubber")
-    with pytest.raises(carom.CaromError, match="rack|gap"):
-        carom.racks.nineball(table, gap=-1.0)
-    with pytest.raises(ValueError, match="steps"):
-        carom.simulate_batch(table, rack, carom.cue(), steps=-3)
 
 
 def test_more_events_than_the_first_room():
@@ -484,8 +339,7 @@ def test_tables_and_racks():
     copy = carom.Table(table.width, table.length, rails=table.rails, jaws=table.jaws, pockets=table.pockets)
     assert copy.record.tobytes() == table.record.tobytes() and "6 pockets" in repr(copy)
     assert not len(carom.tables.threecushion().pockets)
-    with pytest.raises(ValueError, match="rails"):
-        carom.Table(1.0, 2.0, rails=np.zeros(33, carom.dtypes.rail))
+    assert carom.tables.pool_9ft() == TABLE != carom.tables.pool_8ft() and TABLE != "table"
 
 
 def test_strike():
@@ -495,14 +349,13 @@ def test_strike():
 
 
 def test_pictures():
-    table = carom.tables.pool_9ft()
-    shot = carom.simulate(table, carom.racks.nineball(table), carom.cue(speed=8.0), cushion_model="han")
+    shot = carom.simulate(TABLE, RACK, carom.cue(speed=8.0), cushion_model="han")
     name = "{http://www.w3.org/2000/svg}"
     still = ElementTree.fromstring(shot._repr_svg_())
     moved = int((np.abs(shot.final["r"] - shot.balls["state"]["r"]).max(axis=-1) > 1e-3).sum())
     lines = [line for line in still.iter(name + "polyline") if line.get("stroke") not in ("#1b5e42",)]
     assert len(lines) >= moved > 3
-    assert len(list(still.iter(name + "circle"))) == len(table.pockets) + len(table.jaws) + 20
+    assert len(list(still.iter(name + "circle"))) == len(TABLE.pockets) + len(TABLE.jaws) + 20
     # A long table lies on its side, and every ball but the cue ball has its number.
     assert float(still.get("width")) > float(still.get("height"))
     balls = [part for part in still.iter(name + "g")]
@@ -514,94 +367,31 @@ def test_pictures():
         ways = [part.get("values").split(";") for part in ball.iter(name + "animateTransform")] or [[ball.get("transform")[10:-1]]]
         assert [f"translate({ways[0][0]})", f"translate({ways[0][-1]})"] == [balls[k].get("transform"), balls[k + 10].get("transform")]
     assert len(moving) == 10 and len(repr(animation)) < 80
-    assert len(list(ElementTree.fromstring(table._repr_svg_()).iter(name + "circle"))) == len(table.pockets) + len(table.jaws)
+    assert len(list(ElementTree.fromstring(TABLE._repr_svg_()).iter(name + "circle"))) == len(TABLE.pockets) + len(TABLE.jaws)
 
 
 def test_balls_that_fly():
-    table = carom.tables.pool_9ft()
     balls = carom.balls([[0.5, 0.6], [0.5, 0.905]])
     cue = carom.cue(speed=3.0, theta=45.0, b=0.0)
-    over = carom.simulate(table, balls, cue, cushion_model="han")
+    over = carom.simulate(TABLE, balls, cue, cushion_model="han")
     kinds = over.events["type"].tolist()
     assert kinds[:2] == [carom.EventType.STRIKE, carom.EventType.SLATE] and kinds.count(carom.EventType.SLATE) > 3
     top = over.positions(np.linspace(0.0, 0.3, 31))[:, 0, 2].max()
     assert abs(top - 0.028575 - 0.135695) < 1e-4
-    flat = carom.simulate(table, balls, cue, cushion_model="han", space="flat")
+    flat = carom.simulate(TABLE, balls, cue, cushion_model="han", space="flat")
     assert flat.events["type"][1] == carom.EventType.BALL_BALL and (flat.events["after"]["v"][..., 2] == 0).all()
-    # off the table, which is no error; the batch takes the same option
+    # off the TABLE, which is no error; the batch takes the same option
     balls = carom.balls([[0.4, 2.14], [0.8, 1.8]])
     cue = carom.cue(speed=3.0, theta=45.0, b=0.0, miscue=0.5)
-    gone = carom.simulate(table, balls, cue, cushion_model="han")
+    gone = carom.simulate(TABLE, balls, cue, cushion_model="han")
     assert gone.events["type"][-1] == carom.EventType.LEFT_TABLE and gone.final["label"].tolist() == [carom.Label.OFF, 0]
     for space in ("3d", "flat"):
-        shots = carom.simulate_batch(table, balls, cue, cushion_model="han", space=space)
+        shots = carom.simulate_batch(TABLE, balls, cue, cushion_model="han", space=space)
         assert shots.final[0]["label"] == (carom.Label.OFF if space == "3d" else carom.Label.STATIONARY)
-    with pytest.raises(carom.CaromError, match="miscue"):
-        carom.simulate(table, balls, carom.cue(a=0.3, b=0.4, miscue=0.5))
-    with pytest.raises(ValueError, match="space"):
-        carom.simulate(table, balls, cue, space="2d")
-    with pytest.raises(carom.CaromError, match="restitution_table = 0.99: it must be 0 to 0.98"):
-        carom.simulate(table, carom.balls([[0.5, 0.5]], restitution_table=0.99))
     # a large ball rolls into a small one: spheres in space
     unlike = carom.balls([[0.4, 0.5], [0.7, 0.5]], radius=[0.0302, 0.028575], v=[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    hit = carom.simulate(table, unlike, cushion_model="han")
+    hit = carom.simulate(TABLE, unlike, cushion_model="han")
     assert carom.EventType.SLATE in hit.events["type"].tolist()
-
-
-def test_each_bad_argument_has_its_message():
-    """In Python's words, with the argument's name and what would be right."""
-    table = carom.tables.pool_9ft()
-    rack, cue = carom.racks.nineball(table), carom.cue()
-    pocketed = rack.copy()
-    pocketed["state"]["label"][0] = carom.Label.POCKETED
-    for message, call in (
-        ("seed: it must be a whole number", lambda: carom.racks.nineball(table, seed=-1)),
-        ("seed: it must be a whole number", lambda: carom.racks.nineball(table, seed=1.5)),
-        ("gap = -1: it must be 0 m to the radius", lambda: carom.racks.nineball(table, gap=-1)),
-        ("width: it must be positive", lambda: carom.Table(0.0, 1.0, rails=table.rails)),
-        ("table: a carom.Table is needed", lambda: carom.simulate("pool", rack, cue)),
-        ("steps: it must be a whole number", lambda: carom.simulate(table, rack, cue, steps=1.5)),
-        ("events_most: it must be a whole number", lambda: carom.simulate(table, rack, cue, events_most=-1)),
-        ("t_final: it must be positive and finite", lambda: carom.simulate(table, rack, cue, t_final=np.nan)),
-        ("t_final: it must be positive and finite", lambda: carom.simulate_batch(table, rack, cue, t_final=0.0)),
-        ("stop_at: must be one of 'contact', 'strike'", lambda: carom.simulate(table, rack, cue, stop_at="goal")),
-        ("records: must be 'full' or 'brief'", lambda: carom.simulate_batch(table, rack, cue, records="some")),
-        ("shot: only what simulate", lambda: carom.resume(carom.simulate(table, rack, cue))),
-        ("threads: it must be a whole number from -1", lambda: carom.simulate_batch(table, rack, cue, threads=-7)),
-        ("room: it must be a whole number", lambda: carom.simulate_batch(table, rack, cue, room=-1)),
-        ("cue.speed = nan: it must be 0 to 1000 m/s", lambda: carom.simulate(table, rack, carom.cue(speed=np.nan))),
-        ("cue.ball = 99: it must be the index", lambda: carom.simulate(table, rack, carom.cue(ball=99))),
-        ("cue.ball = 0: this ball is out of play", lambda: carom.simulate(table, pocketed, cue)),
-    ):
-        with pytest.raises((ValueError, TypeError), match=f"^{message}"):
-            call()
-    for message, call in (
-        ("balls = 40: a shot has 1 to 32 balls", lambda: carom.simulate(table, np.repeat(rack, 4))),
-        ("layouts = 40: a shot has 1 to 32 balls", lambda: carom.simulate_batch(table, np.repeat(rack, 4))),
-        ("x, y = nan, 0.5: a position must be finite", lambda: carom.place_ball(table, rack, 0, np.nan, 0.5)),
-        ("kind.mass = -1.0: a mass must be positive", lambda: carom.struck(cue, carom.balls([[0, 0]], mass=-1.0)["kind"][0])),
-        (r"balls\[0\].kind.mu_roll = 0.0: it must be above 0 and at most 1", lambda: carom.simulate(table, carom.balls([[0.3, 0.4]], mu_roll=0.0))),
-    ):
-        with pytest.raises(carom.CaromError, match=f"^{message}"):
-            call()
-    layouts = np.stack([rack] * 4)
-    layouts["kind"]["mass"][2, 3], layouts["state"]["r"][3, 5] = -1.0, 0.0
-    shots = carom.simulate_batch(table, layouts, carom.cue(speed=[1.0, np.nan, 1.0, 1.0], ball=[99, 0, 0, 0]))
-    told = [(index[0], text.partition(":")[0]) for index, text in shots.failures()]
-    assert told == [(0, "cue.ball = 99"), (1, "cue.speed = nan"), (2, "balls[3].kind.mass = -1.0"), (3, "balls[5].state.r = [0. 0. 0.]")]
-    with pytest.raises(carom.CaromError, match=r"^balls\[3\]\.kind\.mass = -1\.0"):
-        shots[2].positions(0.1)
-
-
-def test_radians_are_doubted():
-    for angles in ({"phi": np.pi / 2}, {"phi": np.linspace(0.0, 2.0 * np.pi, 100)}, {"phi": -np.pi / 3}, {"phi": 0.0, "theta": np.pi / 12}):
-        with pytest.warns(UserWarning, match="degrees are taken, but .* looks like radians") as caught:
-            carom.cue(**angles)
-        assert caught[0].filename == __file__
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        for phi in (0.0, 90.0, 1.5, np.linspace(0.0, 360.0, 100), np.zeros(0), np.nan, np.inf, 360.0 * np.pi):
-            carom.cue(phi=phi)
 
 
 def test_tables_are_checked():
@@ -615,41 +405,28 @@ def test_tables_are_checked():
 
 
 def test_ball_in_hand():
-    table = carom.tables.pool_9ft()
-    rack = carom.racks.nineball(table)
+    rack = RACK.copy()
     rack["state"]["label"][0] = carom.Label.POCKETED
     kept = rack.copy()
-    placed = carom.place_ball(table, rack, 0, 0.4, 0.5)
+    placed = carom.place_ball(TABLE, rack, 0, 0.4, 0.5)
     assert placed["state"]["r"][0].tolist() == [0.4, 0.5, 0.028575] and placed["state"]["label"][0] == carom.Label.STATIONARY
     assert rack.tobytes() == kept.tobytes() and placed[1:].tobytes() == rack[1:].tobytes()
-    one = rack["state"]["r"][1]
+    one = RACK["state"]["r"][1]
     for place, field in (((one[0], one[1] - 0.04), "balls[1]"), ((0.01, 0.7), "table.rails"), ((0.0, 0.0), "table.pockets"), ((-1.0, 1.0), "table")):
         with pytest.raises(carom.CaromError, match="is in the way of ball 0") as caught:
-            carom.place_ball(table, rack, 0, *place)
+            carom.place_ball(TABLE, RACK, 0, *place)
         assert caught.value.field is not None and caught.value.field.startswith(field)
-    with pytest.raises(ValueError, match="ball: it must be a whole number from 0 to 9"):
-        carom.place_ball(table, rack, 10, 0.4, 0.5)
-
-
-def test_tables_are_equal_by_their_numbers():
-    assert carom.tables.pool_9ft() == carom.tables.pool_9ft() != carom.tables.pool_8ft()
-    other = carom.tables.pool_9ft()
-    other.rails["restitution"][3] = 0.5
-    assert other != carom.tables.pool_9ft() and other != "table"
 
 
 def test_columns_and_frames():
     """Every number of the records is in a column of its name."""
-    table = carom.tables.pool_9ft()
-    shot = carom.simulate(table, carom.racks.nineball(table), carom.cue(speed=8.0), cushion_model="han")
+    shot = carom.simulate(TABLE, RACK, carom.cue(speed=8.0), cushion_model="han")
     columns = carom.dtypes.columns(shot.events)
     assert all(column.shape == (shot.count,) for column in columns.values())
     np.testing.assert_array_equal(columns["after_b_w_z"], shot.events["after"]["w"][:, 1, 2])
     np.testing.assert_array_equal(columns["time"], shot.events["time"])
-    assert set(carom.dtypes.columns(table.rails)) >= {"p_x", "q_y", "height", "line_z"}
+    assert set(carom.dtypes.columns(TABLE.rails)) >= {"p_x", "q_y", "height", "line_z"}
     assert "state_label" in carom.dtypes.columns(shot.balls) and "kind_mass" in carom.dtypes.columns(shot.balls)
-    with pytest.raises(TypeError, match="records"):
-        carom.dtypes.columns(np.zeros(3))
     pytest.importorskip("pandas")
     frame = shot.to_dataframe()
     assert list(frame) == list(columns) and frame["type"][0] == "strike"
@@ -668,10 +445,9 @@ def test_a_batch_as_a_frame(breaks):
         ("cushions_after", shots.features.cushions_after),
     ):  # fmt: skip
         np.testing.assert_array_equal(frame[column], values, err_msg=column)
-    table = carom.tables.pool_9ft()
-    grid = carom.simulate_batch(table, carom.balls([[0.5, 0.6]], v=[0.0, 0.5, 0.0]), carom.cue(speed=[[0.0], [0.0]], phi=[0.0, 1.0, 2.0]))
+    grid = carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6]], v=[0.0, 0.5, 0.0]), carom.cue(speed=[[0.0], [0.0]], phi=[0.0, 1.0, 2.0]))
     assert grid.to_dataframe().loc[(1, 2), "cue_phi"] == 2.0 and isinstance(grid.to_dataframe().index, pandas.MultiIndex)
-    assert "cue_phi" not in carom.simulate_batch(table, carom.balls([[0.5, 0.6]])).to_dataframe()
+    assert "cue_phi" not in carom.simulate_batch(TABLE, carom.balls([[0.5, 0.6]])).to_dataframe()
 
 
 def test_what_is_shown_is_short(breaks):
@@ -684,6 +460,6 @@ def test_what_is_shown_is_short(breaks):
 
 def test_a_batch_of_one_makes_few_calls(calls):
     """Those of C included."""
-    table, balls, cue = carom.tables.pool_9ft(), carom.balls([[0.5, 0.6], [0.7, 1.5]]), carom.cue(speed=3.0, phi=79.0)
-    carom.simulate_batch(table, balls, cue)
-    assert calls(lambda: carom.simulate_batch(table, balls, cue)) <= 80
+    TABLE, balls, cue = carom.tables.pool_9ft(), carom.balls([[0.5, 0.6], [0.7, 1.5]]), carom.cue(speed=3.0, phi=79.0)
+    carom.simulate_batch(TABLE, balls, cue)
+    assert calls(lambda: carom.simulate_batch(TABLE, balls, cue)) <= 80

@@ -1,0 +1,203 @@
+"""Each bad argument has its error: of the right kind, beginning with the argument's name, and saying what would be right."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import carom
+from carom.potting import Potting
+
+TABLE = carom.tables.pool_9ft()
+RACK, CUE, RULES = carom.racks.nineball(TABLE), carom.cue(), Potting()
+GOOD = carom.impacts(v_a=(1.0, 0.0, 0.0), r_b=(0.05715, 0.0, 0.0))
+WALL = carom.cushion_impacts(v=(0.0, 1.0, 0.0))
+ROWS = np.tile(carom.dtypes.plain(GOOD), (4, 1))
+POCKETED = RACK.copy()
+POCKETED["state"]["label"][3] = carom.Label.POCKETED
+MASKED = np.ma.masked_array(ROWS, mask=np.zeros_like(ROWS, bool))
+
+
+def shot(**cue):
+    return carom.simulate(TABLE, POCKETED, carom.cue(**cue))
+
+
+def balls(**fields):
+    return carom.simulate(TABLE, carom.balls(**{"r": [[0.5, 0.5], [0.7, 0.5]], **fields}), CUE)
+
+
+def billiard(**fields):
+    return carom.simulate(carom.tables.threecushion(), carom.balls([[0.7, 1.0]], game="billiard", **fields))
+
+
+VALUES = [
+    # collisions and cushions
+    (r"solver: must be one of 'exact', 'euler', not 'exakt'", lambda: carom.collide(ROWS, solver="exakt")),
+    (r"threads: it must be a whole number from -1 to .*, not -7", lambda: carom.collide(GOOD, threads=-7)),
+    (r"threads: .* from -1 to .*, not -2", lambda: carom.cushion(WALL, threads=-2)),
+    (r"threads: .* whole number", lambda: carom.cushion(WALL, threads=10**30)),
+    (r"steps: .* from 0 to .*, not -1", lambda: carom.collide(GOOD, solver="euler", steps=-1)),
+    (r"steps: .* whole number", lambda: carom.collide(GOOD, steps=2**31)),
+    (r"impacts: the shape must be \(\.\.\., 26\)", lambda: carom.collide(np.zeros((4, 25)))),
+    (r"(a\.)?v(_a)?: the shape must be", lambda: carom.impacts(v_a=(1, 0), r_b=(1, 0, 0))),
+    (r"points: it must be a whole number from 2 to .*, not 1", lambda: carom.trace(GOOD, 1)),
+    (r"points: .* from 2 to .*, not 1", lambda: carom.cushion_trace(WALL, 1)),
+    (r"impact: a trace is of one impact, of shape \(26,\)", lambda: carom.trace(ROWS)),
+    (r"least_step: it must be 0 or more .*, not -1.0", lambda: carom.cushion(WALL, least_step=-1.0)),
+    (r"least_step: it must be 0 or more .*, not nan", lambda: carom.cushion_trace(WALL, least_step=np.nan)),
+    (r"omega_ratio: it must be 0, or between 1 and 2, not 2.0", lambda: carom.cushion(WALL, model="stronge", omega_ratio=2.0)),
+    (r"model: must be one of", lambda: carom.cushion(WALL, model="mirrored")),
+    (r"model: must be 'mathavan' or 'euler', .* not 'han'", lambda: carom.cushion_trace(WALL, model="han")),
+    *((r"plain: it must be a whole number from 0 to 1", lambda plain=plain, call=call: call(plain=plain))
+      for plain in (2, -1, "yes", None)
+      for call in (lambda **p: carom.collide(GOOD, **p), lambda **p: carom.cushion(WALL, **p), lambda **p: carom.simulate(TABLE, RACK, CUE, **p))),
+    # tables, racks, cues
+    (r"seed: it must be a whole number", lambda: carom.racks.nineball(TABLE, seed=-1)),
+    (r"seed: it must be a whole number from 0", lambda: carom.racks.nineball(TABLE, seed=2**64)),
+    (r"seed: it must be a whole number", lambda: carom.racks.nineball(TABLE, seed=1.5)),
+    (r"gap = -1: it must be 0 m to the radius", lambda: carom.racks.nineball(TABLE, gap=-1)),
+    (r"width: it must be positive", lambda: carom.Table(0.0, 1.0, rails=TABLE.rails)),
+    (r"rails: ", lambda: carom.Table(1.0, 2.0, rails=[[0.0, 1.0]])),
+    (r"rails: .* \(up to 32,\)", lambda: carom.Table(1.0, 2.0, rails=np.zeros(33, carom.dtypes.rail))),
+    (r"speed: could not convert", lambda: carom.cue(speed="fast")),
+    (r"ball: .* a whole number, not nan", lambda: carom.cue(ball=[0, np.nan])),
+    (r"ball: .* a whole number, not 1\.7", lambda: carom.cue(ball=1.7)),
+    (r"ball: .* a whole number, not 1e\+30", lambda: carom.cue(ball=1e30)),
+    (r"ball: it must be a whole number from 0 to 9", lambda: carom.place_ball(TABLE, RACK, 10, 0.4, 0.5)),
+    (r"r: setting an array element", lambda: carom.balls([[1.0, 2.0], [3.0]])),
+    (r"r: the shape must be", lambda: carom.balls([1.0, 2.0])),
+    (r"leading dimensions .* but are speed \(2,\), phi \(3,\)", lambda: carom.cue(speed=[1, 2], phi=[1, 2, 3])),
+    (r"leading dimensions .* but are kind\.radius \(3,\), state\.r \(2,\)", lambda: carom.balls([[0.5, 0.5]] * 2, radius=[0.03] * 3)),
+    (r"phi, speed, a, b: finite numbers", lambda: RULES.actions(np.inf, 1.0)),
+    # shots
+    (r"balls: the shape must be \(balls,\)", lambda: carom.simulate(TABLE, np.stack([RACK] * 2))),
+    (r"layouts: the shape", lambda: carom.simulate_batch(TABLE, RACK[0])),
+    (r"cue: one is needed, not 2", lambda: carom.simulate(TABLE, RACK, carom.cue(speed=[1, 2]))),
+    (r"steps: it must be a whole number", lambda: carom.simulate(TABLE, RACK, CUE, steps=1.5)),
+    (r"steps: it must be a whole number", lambda: carom.simulate_batch(TABLE, RACK, CUE, steps=-3)),
+    (r"events_most: it must be a whole number", lambda: carom.simulate(TABLE, RACK, CUE, events_most=-1)),
+    (r"t_final: it must be positive and finite", lambda: carom.simulate(TABLE, RACK, CUE, t_final=np.nan)),
+    (r"t_final: it must be positive and finite", lambda: carom.simulate_batch(TABLE, RACK, CUE, t_final=0.0)),
+    (r"stop_at: must be one of 'contact', 'strike'", lambda: carom.simulate(TABLE, RACK, CUE, stop_at="goal")),
+    (r"cushion_model: must be one of", lambda: carom.simulate(TABLE, RACK, CUE, cushion_model="rubber")),
+    (r"space: must be one of", lambda: carom.simulate(TABLE, RACK, CUE, options=carom.Options(space="2d"))),
+    (r"records: must be 'full' or 'brief'", lambda: carom.simulate_batch(TABLE, RACK, CUE, records="some")),
+    (r"threads: it must be a whole number from -1", lambda: carom.simulate_batch(TABLE, RACK, CUE, threads=-7)),
+    (r"room: it must be a whole number", lambda: carom.simulate_batch(TABLE, RACK, CUE, room=-1)),
+    (r"shot: only what simulate", lambda: carom.resume(carom.simulate(TABLE, RACK, CUE))),
+    (r"shot: ", lambda: carom.resume(None)),
+    *((rf"times: .* not {bad}", lambda bad=bad, look=look: look(carom.simulate(TABLE, RACK, CUE))([0.1, bad]))
+      for bad in (np.nan, np.inf) for look in (lambda s: s.positions, lambda s: s.states, lambda s: s.orientations)),
+    (r"of: .* not None", lambda: carom.jacobian(TABLE, RACK, CUE, ["cue.phi"], of=None)),
+]  # fmt: skip
+
+TYPES = [
+    (r"balls: .* carom\.balls\(\)", lambda: carom.place_ball(TABLE, [1.0, 2.0], 0, 0.5, 0.5)),
+    (r"balls: .* carom\.balls\(\)", lambda: carom.simulate(TABLE, np.zeros((2, 20)))),
+    (r"balls: .* not of carom\.dtypes\.cue$", lambda: carom.simulate(TABLE, CUE)),
+    (r"balls: there is no field 'mu'; known are mass, radius", lambda: carom.balls([[0.5, 0.5]], mu=0.2)),
+    (r"table: .* not NoneType", lambda: carom.place_ball(None, RACK, 0, 0.5, 0.5)),
+    (r"table: .* not str", lambda: carom.racks.nineball("9ft")),
+    (r"table: a carom.Table is needed", lambda: carom.simulate("pool", RACK, CUE)),
+    (r"cue: .* carom\.cue\(\)", lambda: carom.struck(10**30, RACK[0]["kind"])),
+    (r"kind: ", lambda: carom.struck(CUE, [np.inf])),
+    (r"speed: real numbers", lambda: carom.cue(speed=[1j])),
+    (r"impacts: real numbers", lambda: carom.collide(np.zeros((3, 26), np.complex128))),
+    (r"impacts: .* carom\.dtypes\.impact, not carom\.dtypes\.shot_ball$", lambda: carom.collide(RACK)),
+    (r"impacts: .* not a structured dtype of mass, radius$", lambda: carom.collide(RACK["kind"][["mass", "radius"]])),
+    (r"out\[0\]: .* not str", lambda: carom.collide(GOOD, out=("motion", "status"))),
+    (r"records: .* of carom\.dtypes\.shot_ball and shape", lambda: carom.dtypes.columns(RACK.reshape(2, 5))),
+    (r"records: ", lambda: carom.dtypes.columns(np.zeros(3))),
+    (r"shot: .* not str", lambda: carom.tangents("shot", None, ["cue.phi"])),
+    (r"cue: ", lambda: carom.tangents(carom.simulate(TABLE, RACK, CUE), np.array(7), ["cue.phi"])),
+    (r"options: there is no 'cushion'; known are world, ball_model", lambda: carom.simulate(TABLE, RACK, CUE, cushion="han")),
+    # masks would be lost
+    *((rf"{name}: masks are not read", call) for name, call in (
+        ("impacts", lambda: carom.collide(MASKED)), ("impacts", lambda: carom.cushion(np.ma.masked_array(WALL))),
+        ("impacts", lambda: carom.mu_ball(MASKED)), ("impact", lambda: carom.trace(MASKED[0])),
+        (r"out\[0\]", lambda: carom.collide(ROWS, out=(np.ma.zeros((4, 12)), np.zeros(4, np.int8)))),
+        ("restitution", lambda: carom.impacts(v_a=(1, 0, 0), r_b=(1, 0, 0), restitution=np.ma.masked_array([0.9], mask=[True]))),
+        ("layouts", lambda: carom.simulate_batch(TABLE, np.ma.masked_array(RACK))),
+        ("times", lambda: carom.simulate(TABLE, RACK, CUE).positions(np.ma.masked_array([0.1], mask=[True]))),
+        ("r", lambda: carom.balls(np.ma.zeros((3, 2)))))),
+]  # fmt: skip
+
+FIELDS = [
+    (r"a\.mass = -1\.0: a mass must be positive and finite", lambda: carom.collide(carom.impacts(v_a=(1, 0, 0), r_b=(1, 0, 0), mass=-1.0))),
+    (r"a\.mass = -1\.0: a mass must be", lambda: carom.collide(np.where(np.arange(26) == 10, -1.0, ROWS[0]).astype(np.float32))),
+    (r"a\.mass = -1\.0: a mass must be", lambda: carom.trace(carom.impacts(v_a=(1, 0, 0), r_b=(1, 0, 0), mass=-1.0))),
+    (r"mu_ball = 2\.0", lambda: carom.collide(carom.impacts(v_a=(1, 0, 0), r_b=(0.05715, 0, 0), mu_ball=2.0))),
+    (r"mu_cushion = 3\.0", lambda: carom.cushion(carom.cushion_impacts(v=(0, 1, 0), mu_cushion=3.0))),
+    (r"mu_cushion = 3\.0", lambda: carom.cushion_trace(carom.cushion_impacts(v=(0, 1, 0), mu_cushion=3.0))),
+    (r"cue\.speed = nan: it must be 0 to 1000 m/s", lambda: shot(speed=np.nan)),
+    (r"cue\.speed = -1\.0: it must be 0", lambda: shot(speed=-1.0)),
+    (r"cue\.phi = inf: .* direction", lambda: shot(phi=np.inf)),
+    (r"cue\.theta = 91\.0: .*0 to 90 degrees", lambda: shot(theta=91.0)),
+    (r"cue\.mass = 0\.0: .*positive", lambda: shot(mass=0.0)),
+    (r"cue\.end_mass = inf: .*positive and finite", lambda: shot(end_mass=np.inf)),
+    (r"cue\.ball = 99: .* index of one of the balls, 0 to 9", lambda: shot(ball=99)),
+    (r"cue\.ball = -1: .* 0 to 9", lambda: shot(ball=-1)),
+    (r"cue\.ball = 3: this ball is out of play", lambda: shot(ball=3)),
+    (r"cue\.a, cue\.b = 0\.8, 0\.8: the tip misses the ball: .* must be below", lambda: shot(a=0.8, b=0.8)),
+    (r"cue\.a, cue\.b = 0\.3, 0\.4: .*miscue", lambda: shot(a=0.3, b=0.4, miscue=0.5)),
+    (r"cue\.phi = 1e\+308: ", lambda: carom.struck(carom.cue(phi=1e308), RACK[0]["kind"])),
+    (r"cue\.speed = nan: it must be 0", lambda: carom.struck(carom.cue(speed=np.nan), RACK[0]["kind"])),
+    (r"cue\.a, cue\.b = 0\.8, 0\.8: ", lambda: carom.struck(carom.cue(a=0.8, b=0.8), RACK[0]["kind"])),
+    (r"kind\.mass = -1\.0: a mass must be positive", lambda: carom.struck(CUE, carom.balls([[0, 0]], mass=-1.0)["kind"][0])),
+    (r"balls = 40: a shot has 1 to 32 balls", lambda: carom.simulate(TABLE, np.repeat(RACK, 4))),
+    (r"layouts = 40: a shot has 1 to 32 balls", lambda: carom.simulate_batch(TABLE, np.repeat(RACK, 4))),
+    (r"x, y = nan, 0\.5: a position must be finite", lambda: carom.place_ball(TABLE, RACK, 0, np.nan, 0.5)),
+    (r"balls\[1\]\.kind\.mass = -1\.0: ", lambda: balls(mass=[0.17, -1.0])),
+    (r"balls\[0\]\.kind\.mu_roll = 0\.0: it must be above 0 and at most 1", lambda: balls(mu_roll=0.0)),
+    (r"balls\[0\]\.kind\.restitution_cushion = 2\.0: ", lambda: balls(restitution_cushion=2.0)),
+    (r"balls\[0\]\.kind\.restitution_table = 0\.99: it must be 0 to 0\.98", lambda: balls(restitution_table=0.99)),
+    (r"balls\[1\]\.state\.v = \[ ?0\. nan ", lambda: balls(v=[[0, 0, 0], [0, np.nan, 0]])),
+    (r"balls\[1\]\.state\.r = \[-0\.5", lambda: balls(r=[[0.5, 0.5], [-0.5, 0.5]])),
+    *((rf"balls\[0\]\.kind\.{name}", lambda name=name, value=value: billiard(**{name: value}))
+      for name, value in (("drag", 2.0), ("roll_loss", -0.1), ("law_b", 1.5), ("law_c", np.inf), ("nose_height", 0.07), ("omega_ratio", 2.0))),
+]  # fmt: skip
+
+CASES = [(kind, *case) for kind, cases in ((ValueError, VALUES), (TypeError, TYPES), (carom.CaromError, FIELDS)) for case in cases]
+
+
+@pytest.mark.parametrize(("kind", "message", "call"), CASES, ids=[f"{k}-{case[1][:24]}" for k, case in enumerate(CASES)])
+def test_message(kind, message, call):
+    """Short, without a warning of NumPy's; the field of a CaromError is the one that the message names."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(kind, match=f"^{message}") as caught:
+            call()
+    assert len(str(caught.value)) < 300 and "offsets" not in str(caught.value) and "options." not in str(caught.value)
+    if kind is carom.CaromError:
+        assert caught.value.field == str(caught.value).partition(" = ")[0] and caught.value.status < 0
+
+
+def test_failures_of_a_batch():
+    layouts = np.stack([RACK] * 4)
+    layouts["kind"]["mass"][2, 3], layouts["state"]["r"][3, 5] = -1.0, 0.0
+    shots = carom.simulate_batch(TABLE, layouts, carom.cue(speed=[1.0, np.nan, 1.0, 1.0], ball=[99, 0, 0, 0]))
+    told = [(index[0], text.partition(":")[0]) for index, text in shots.failures()]
+    assert told == [(0, "cue.ball = 99"), (1, "cue.speed = nan"), (2, "balls[3].kind.mass = -1.0"), (3, "balls[5].state.r = [0. 0. 0.]")]
+    with pytest.raises(carom.CaromError, match=r"^balls\[3\]\.kind\.mass = -1\.0"):
+        shots[2].positions(0.1)
+
+
+def test_texts_of_statuses():
+    assert all("options." not in status.text for status in carom.Status)
+    assert carom.Status.ERROR_MASS.text == "a mass must be positive and finite"
+
+
+@pytest.mark.parametrize(
+    "angles", [{"phi": np.pi / 2}, {"phi": np.linspace(0.0, 2.0 * np.pi, 100)}, {"phi": -np.pi / 3}, {"phi": 0.0, "theta": np.pi / 12}]
+)
+def test_radians_are_doubted(angles):
+    with pytest.warns(UserWarning, match="degrees are taken, but .* looks like radians") as caught:
+        carom.cue(**angles)
+    assert caught[0].filename == __file__
+
+
+def test_degrees_are_not_doubted():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for phi in (0.0, 90.0, 1.5, np.linspace(0.0, 360.0, 100), np.zeros(0), np.nan, np.inf, 360.0 * np.pi):
+            carom.cue(phi=phi)
