@@ -93,6 +93,7 @@ static void take_sample(engine *e, size_t k, size_t round) {
   l->empty[round] = s->empty != NULL ? sample(e, s->empty, s->context, 8) / (8.0 * (double)s->pairs) : 0.0;
   if (s->threads > 1)
     pinning_resume();
+  pinning_breathe(full);
 }
 
 static void take_rounds(engine *e) {
