@@ -5,6 +5,9 @@
 #include "carom_shot.h"
 #include "support.h"
 
+#include <math.h>
+#include <string.h>
+
 enum { ROOM = 12000 };
 static carom_event events[ROOM];
 static carom_ball_state final[CAROM_BALLS_MOST];
@@ -35,6 +38,33 @@ static inline carom_shot_ball ball_at(double x, double y) {
   b.state.r[1] = y;
   b.state.r[2] = b.kind.radius;
   return b;
+}
+
+#define NEAR(is, says, within) \
+  ck_assert_msg(fabs((is) - (says)) <= (within), "%s is %.12g, not %.12g", #is, (double)(is), (double)(says))
+
+/* A pool ball that moves, with its centre at z. */
+static inline carom_shot_ball flying(double x, double y, double z, double v_x, double v_y, double v_z) {
+  carom_shot_ball b = ball_at(x, y);
+  const double v[3] = {v_x, v_y, v_z};
+  b.state.r[2] = z;
+  memcpy(b.state.v, v, sizeof v);
+  return b;
+}
+
+static inline double state_energy(const carom_ball_kind *k, const carom_ball_state *s) {
+  double sum = k->mass * k->gravity * (s->r[2] - k->radius);
+  for (int axis = 0; axis < 3; axis++)
+    sum += 0.5 * k->mass * (s->v[axis] * s->v[axis] + 0.4 * k->radius * k->radius * s->w[axis] * s->w[axis]);
+  return sum;
+}
+
+/* The n-th event of a type, from 0; NULL where there are fewer. */
+static inline const carom_event *event_of(const carom_shot *shot, int type, int n) {
+  for (int64_t k = 0; k < shot->count; k++)
+    if (events[k].type == type && n-- == 0)
+      return &events[k];
+  return NULL;
 }
 
 /* Gives each ball of a layout the terms of measured tables, drawn for each by itself; a third of the balls have none. */

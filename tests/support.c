@@ -23,6 +23,11 @@ uint64_t test_seed(void) {
   return seed;
 }
 
+int draws_of_each(int usual) {
+  const char *given = getenv("CAROM_TEST_DRAWS");
+  return given != NULL && atoi(given) > 0 ? atoi(given) : usual;
+}
+
 /* splitmix64 */
 static uint64_t random_bits(random_source *source) {
   uint64_t z = source->state += 0x9e3779b97f4a7c15u;

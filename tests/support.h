@@ -26,6 +26,9 @@ uint64_t test_seed(void);
 /* How many draws a long test makes: `count`, and a quarter of them where a sanitizer is in. Builds without one make all. */
 #define FEWER(count) (SANITIZED ? ((count) + 3) / 4 : (count))
 
+/* $CAROM_TEST_DRAWS, or as many as usual: how many draws of each kind a test makes that `./test --release` makes long. */
+int draws_of_each(int usual);
+
 /* Random numbers; each test starts its own from test_seed(). */
 typedef struct random_source {
   uint64_t state;

@@ -148,7 +148,8 @@ stage() {
   return $ended
 }
 
-# build PRESET [CMAKE-OPTIONS]: configures and builds, a line for both.
+# build PRESET [CMAKE-OPTIONS]: configures and builds all, or the $targets, a line for both.
+targets=
 build() {
   if stage "building ($1)" configure_and_build "$@"; then
     say
@@ -161,4 +162,4 @@ build() {
   rm -f "$log"
 }
 
-configure_and_build() { cmake --preset "$@" && cmake --build --preset "$1"; }
+configure_and_build() { cmake --preset "$@" && cmake --build --preset "$1" ${targets:+--target $targets}; }

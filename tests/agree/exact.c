@@ -62,12 +62,6 @@ TEST(reference_agrees_with_the_data) {
   cases_free(&cases);
 }
 
-static int draws_per_regime(void) {
-  const char *given = getenv("CAROM_TEST_DRAWS");
-  const int draws = given != NULL ? atoi(given) : FEWER(8);
-  return draws > 0 ? draws : 1;
-}
-
 enum { FILL = 96 }; /* rows of a batch that every instruction set solves in lanes */
 
 typedef struct tally {
@@ -107,7 +101,7 @@ static void expect_details(const carom_impact *in, const carom_result *out, cons
 TEST(reference_in_every_regime) {
   tally alone = {0}, batch = {0};
   int unresolved = 0, stuck[3] = {0};
-  const int draws = draws_per_regime();
+  const int draws = draws_of_each(FEWER(8));
   for (int regime = 0; regime < regimes_count(); regime++) {
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
       lab_random rng = {test_seed() + 1000003u * (uint64_t)(2 * regime + slip)};

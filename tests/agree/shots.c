@@ -333,7 +333,8 @@ static carom_shot_options next_stop(const carom_shot_options *options, int way, 
     o.stop_at = 2 * (CAROM_STOP_AT(CAROM_EVENT_SPINNING_STATIONARY) - 1);
     break;
   case 2:
-    o.stop_at = CAROM_STOP_AT_CONTACT | CAROM_STOP_AT(CAROM_EVENT_STRIKE) | CAROM_STOP_AT(CAROM_EVENT_RAIL);
+    o.stop_at = CAROM_STOP_AT_CONTACT | CAROM_STOP_AT(CAROM_EVENT_STRIKE) | CAROM_STOP_AT(CAROM_EVENT_RAIL) |
+                CAROM_STOP_AT(CAROM_EVENT_SLATE);
     break;
   case 3:
     o.events_most = (int)shot->count + 1 + (int)random_between(r, 0.0, 9.0);
@@ -351,7 +352,9 @@ TEST(stopped_and_continued) {
   random_source r = {test_seed()};
   long stops = 0;
   for (int n = 0; n < 40; n++) {
-    random_shot_make(n % random_shot_kinds(), test_seed() + 7, (uint64_t)n, &s);
+    random_shot_make(n % random_shot_kinds_in_space(), test_seed() + 7, (uint64_t)n, &s);
+    if (n % 4 == 2 && n % random_shot_kinds_in_space() < random_shot_kinds())
+      s.cue.theta = 30.0;
     for (int k = 0; k < s.count && n % 3 == 1; k++)
       s.ball[k].kind.drag = 0.0129;
     const carom_shot_options options = {.world = n % 4 == 3 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM,

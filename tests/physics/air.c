@@ -11,18 +11,6 @@
 
 static const double R = 0.028575, g = 9.81, loss = 0.02, pi = 3.14159265358979323846;
 
-#define NEAR(is, says, within) \
-  ck_assert_msg(fabs((is) - (says)) <= (within), "%s is %.12g, not %.12g", #is, (double)(is), (double)(says))
-
-/* A pool ball `above` the cloth, in the middle of a large table, that moves and spins. */
-static carom_shot_ball flying(double x, double y, double above, double v_x, double v_y, double v_z) {
-  carom_shot_ball b = ball_at(x, y);
-  b.state.r[2] += above;
-  b.state.v[0] = v_x;
-  b.state.v[1] = v_y;
-  b.state.v[2] = v_z;
-  return b;
-}
 static carom_shot_ball spinning(carom_shot_ball b, double w_x, double w_y, double w_z) {
   b.state.w[0] = w_x;
   b.state.w[1] = w_y;
@@ -30,22 +18,6 @@ static carom_shot_ball spinning(carom_shot_ball b, double w_x, double w_y, doubl
   return b;
 }
 
-static double energy(const carom_ball_kind *k, const carom_ball_state *s) {
-  double v2 = 0.0, w2 = 0.0;
-  for (int axis = 0; axis < 3; axis++) {
-    v2 += s->v[axis] * s->v[axis];
-    w2 += s->w[axis] * s->w[axis];
-  }
-  return 0.5 * k->mass * v2 + 0.2 * k->mass * k->radius * k->radius * w2 + k->mass * k->gravity * (s->r[2] - k->radius);
-}
-
-/* The n-th event of a type, from 0; NULL where there are fewer. */
-static const carom_event *event_of(const carom_shot *shot, int type, int n) {
-  for (int64_t k = 0; k < shot->count; k++)
-    if (events[k].type == type && n-- == 0)
-      return &events[k];
-  return NULL;
-}
 static int count_of(const carom_shot *shot, int type) {
   int count = 0;
   for (int64_t k = 0; k < shot->count; k++)
@@ -75,7 +47,7 @@ static carom_shot strike(double speed, double theta, double b, carom_space space
 
 TEST(drop) {
   static const double up[] = {0.700071425, 0.349463875, 0.173583553, 0.084455980, 0.037191439, 0.0};
-  const carom_shot shot = let_go(flying(20.0, 20.0, 0.1, 0.0, 0.0, 0.0));
+  const carom_shot shot = let_go(flying(20.0, 20.0, R + 0.1, 0.0, 0.0, 0.0));
   ck_assert_int_eq(shot.count, 6);
   NEAR(events[0].time, 0.142784312, 1e-9);
   NEAR(events[0].before[0].v[2], -1.400714104, 1e-9);
@@ -93,7 +65,7 @@ TEST(drop) {
 /* One landing that slips, one that sticks, one of a ball that only spins. w_z falls by the friction of turning on the spot, and
  * by no other: pooltool multiplies it by 2/7 where the ball sticks. */
 TEST(one_landing) {
-  let_go(spinning(flying(20.0, 20.0, 0.0, 3.0, 0.0, -1.0), 0.0, 0.0, 50.0));
+  let_go(spinning(flying(20.0, 20.0, R, 3.0, 0.0, -1.0), 0.0, 0.0, 50.0));
   const carom_ball_state *after = &events[0].after[0];
   ck_assert_int_eq(events[0].type, CAROM_EVENT_SLATE);
   ck_assert_double_eq(events[0].time, 0.0);
@@ -102,13 +74,13 @@ TEST(one_landing) {
   NEAR(after->w[1], 26.239717, 1e-6);
   NEAR(after->w[2], 48.333778, 1e-6);
   const carom_ball_kind kind = carom_ball_kind_of(CAROM_GAME_POOL);
-  NEAR(energy(&kind, after) - energy(&kind, &events[0].before[0]), -0.194642162, 1e-9);
-  let_go(spinning(flying(20.0, 20.0, 0.0, 0.5, 0.0, -1.0), 0.0, 0.0, 50.0));
+  NEAR(state_energy(&kind, after) - state_energy(&kind, &events[0].before[0]), -0.194642162, 1e-9);
+  let_go(spinning(flying(20.0, 20.0, R, 0.5, 0.0, -1.0), 0.0, 0.0, 50.0));
   NEAR(after->v[0], 5.0 / 14.0, 1e-12);
   NEAR(after->w[1], 12.498438, 1e-6);
   NEAR(after->w[1] * R, after->v[0], 1e-15);
   NEAR(after->w[2], 48.333778, 1e-6);
-  let_go(spinning(flying(20.0, 20.0, 0.0, 0.0, 0.0, -2.0), 0.0, -100.0, 0.0));
+  let_go(spinning(flying(20.0, 20.0, R, 0.0, 0.0, -2.0), 0.0, -100.0, 0.0));
   NEAR(after->v[0], -0.599959996, 1e-9);
   NEAR(after->v[2], 0.999799980, 1e-9);
   NEAR(after->w[1], -47.510062, 1e-6);
@@ -116,7 +88,7 @@ TEST(one_landing) {
 
 /* A ball that slips on all the way loses as much speed as if it had lain on the cloth. */
 TEST(hops_slow_as_sliding_does) {
-  const carom_shot shot = let_go(flying(20.0, 20.0, 0.0, 8.0, 0.0, -2.0));
+  const carom_shot shot = let_go(flying(20.0, 20.0, R, 8.0, 0.0, -2.0));
   const carom_event *last = event_of(&shot, CAROM_EVENT_SLATE, count_of(&shot, CAROM_EVENT_SLATE) - 1);
   NEAR(last->time, 0.3976, 1e-4);
   NEAR(8.0 - last->after[0].v[0], 1.180097, 1e-6);
@@ -131,9 +103,9 @@ TEST(random_hops) {
   int most = 0;
   for (int n = 0; n < 100000; n++) {
     const double down = pow(10.0, random_between(&random, -4.0, 0.9));
-    carom_shot_ball ball = spinning(flying(20.0, 20.0, 0.0, random_between(&random, -5.0, 5.0), 0.0, -down),
-                                    random_between(&random, -200.0, 200.0), random_between(&random, -200.0, 200.0),
-                                    random_between(&random, -200.0, 200.0));
+    carom_shot_ball ball =
+        spinning(flying(20.0, 20.0, R, random_between(&random, -5.0, 5.0), 0.0, -down), random_between(&random, -200.0, 200.0),
+                 random_between(&random, -200.0, 200.0), random_between(&random, -200.0, 200.0));
     ball.kind.restitution_table = restitutions[n % 7];
     const double given = ball.kind.restitution_table, e = given == 0.0 ? 0.5 : fmax(given, 0.0);
     const carom_shot shot = let_go(ball);
@@ -149,7 +121,7 @@ TEST(random_hops) {
                    is[2] = {b->v[0] - R * b->w[1], b->v[1] + R * b->w[0]};
       /* by no more than rounding of speeds of some m/s */
       ck_assert(was[0] * is[0] + was[1] * is[1] >= -2e-14 * hypot(was[0], was[1]));
-      worst_rise = fmax(worst_rise, (energy(&ball.kind, b) - energy(&ball.kind, a)) / energy(&ball.kind, a));
+      worst_rise = fmax(worst_rise, (state_energy(&ball.kind, b) - state_energy(&ball.kind, a)) / state_energy(&ball.kind, a));
     }
   }
   printf("hops: at most %d landings, greatest rise of energy %.1e of it\n", most, worst_rise);
@@ -248,7 +220,8 @@ TEST(two_flying_balls) {
   const carom_table table = empty_table(40.0);
   for (int k = 0; k < 5; k++) { /* on a straight line towards each other, whatever their common fall */
     const double v_z = (double[]){3.0, 0.0, 1.0, -0.5, 2.0}[k], above = k == 1 ? 0.5 : 1.0;
-    const carom_shot_ball balls[2] = {flying(20.0, 20.0, above, 2.5, 0.0, v_z), flying(20.5, 20.0, above, 0.5, 0.0, v_z)};
+    const carom_shot_ball balls[2] = {flying(20.0, 20.0, R + above, 2.5, 0.0, v_z),
+                                      flying(20.5, 20.0, R + above, 0.5, 0.0, v_z)};
     carom_shot shot = play(&table, balls, 2, NULL, NULL, CAROM_OK);
     NEAR(event_of(&shot, CAROM_EVENT_BALL_BALL, 0)->time, 0.221425, 1e-12);
   }
@@ -268,7 +241,7 @@ TEST(oblique_hits) {
   const carom_shot_options constant = {.friction = CAROM_FRICTION_CONSTANT};
   const carom_table table = empty_table(40.0);
   const double x = sqrt(4.0 * R * R - 0.03 * 0.03);
-  carom_shot_ball balls[2] = {spinning(flying(20.0, 20.0, 0.03, 2.0, 0.0, -0.5), 0.0, 30.0, 10.0), ball_at(20.0 + x, 20.0)};
+  carom_shot_ball balls[2] = {spinning(flying(20.0, 20.0, R + 0.03, 2.0, 0.0, -0.5), 0.0, 30.0, 10.0), ball_at(20.0 + x, 20.0)};
   play(&table, balls, 2, NULL, &constant, CAROM_OK);
   const double v_a[] = {0.386991560, -0.034744861, 0.533907161}, w_a[] = {-1.595693, 27.088457, 7.412700},
                w_b[] = {-1.595693, -2.911543, -2.587300}, before[] = {2.0, 0.0, -0.5},
@@ -280,7 +253,8 @@ TEST(oblique_hits) {
   ck_assert_int_eq(carom_impact3(&in, &out), CAROM_OK);
   double change = 0.0;
   for (int side = 0; side < 2; side++)
-    change += energy(&balls[side].kind, &events[0].after[side]) - energy(&balls[side].kind, &events[0].before[side]);
+    change +=
+        state_energy(&balls[side].kind, &events[0].after[side]) - state_energy(&balls[side].kind, &events[0].before[side]);
   NEAR(change, -0.017383078, 1e-9);
   for (int k = 0; k < 3; k++) {
     NEAR(events[0].after[0].v[k], v_a[k], 1e-9);
@@ -298,7 +272,7 @@ TEST(oblique_hits) {
     NEAR(events[1].after[0].v[k], then[k], 1e-9);
 
   /* 45 degrees from above at 2 m/s, without friction */
-  balls[0] = flying(20.0 - 2.0 * R * sqrt(0.5), 20.0, 2.0 * R * sqrt(0.5), 0.0, 0.0, -2.0);
+  balls[0] = flying(20.0 - 2.0 * R * sqrt(0.5), 20.0, R + 2.0 * R * sqrt(0.5), 0.0, 0.0, -2.0);
   balls[1] = ball_at(20.0, 20.0);
   balls[0].kind.mu_ball = balls[1].kind.mu_ball = 0.0;
   play(&table, balls, 2, NULL, &constant, CAROM_OK);
@@ -312,7 +286,7 @@ TEST(oblique_hits) {
   NEAR(events[1].after[0].w[1], 24.371954, 1e-6);
 
   /* straight down at 1 m/s on a ball that lies: four impacts at one instant */
-  balls[0] = flying(20.0, 20.0, 2.0 * R, 0.0, 0.0, -1.0);
+  balls[0] = flying(20.0, 20.0, R + 2.0 * R, 0.0, 0.0, -1.0);
   balls[1] = ball_at(20.0, 20.0);
   carom_shot down = {.events = events, .room = ROOM};
   carom_shoot(&table, balls, 2, NULL, NULL, &down);
@@ -388,15 +362,14 @@ TEST(rolls_off_a_ball) {
   static const double up[] = {1e-12, 1e-6, 0.001, 0.01, 0.1}, off[] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05};
   for (int k = 0; k < 30; k++) {
     const double aside = off[k % 6];
-    const carom_shot_ball balls[2] = {flying(20.0, 20.0, 0.0, 0.0, 0.0, 0.0),
-                                      flying(20.0 + aside, 20.0, sqrt(4.0 * R * R - aside * aside) + up[k / 6], 0.0, 0.0, 0.0)};
+    const carom_shot_ball balls[2] = {
+        flying(20.0, 20.0, R, 0.0, 0.0, 0.0),
+        flying(20.0 + aside, 20.0, R + sqrt(4.0 * R * R - aside * aside) + up[k / 6], 0.0, 0.0, 0.0)};
     const carom_table table = empty_table(40.0);
     const carom_shot shot = play(&table, balls, 2, NULL, NULL, CAROM_OK);
     const shot_measures m = shot_measure(&table, balls, 2, &shot, CAROM_OK, 3);
-    ck_assert_msg(shot.count <= 5000 && m.overlap <= 1e-9 && m.gain <= 1e-12 && m.momentum <= 1.0 && m.jump <= 1e-9 &&
-                      m.restless == 0,
-                  "%g m off the top, %g m up: %lld events, overlap %g, gain %g, momentum %g, jump %g", aside, up[k / 6],
-                  (long long)shot.count, m.overlap, m.gain, m.momentum, m.jump);
+    EXPECT_SOUND(m, 1e-9, "off a ball", k);
+    ck_assert_int_le(shot.count, 5000);
     /* both reach the cloth, and move apart */
     ck_assert_int_eq(final[1].label, CAROM_BALL_STATIONARY);
     ck_assert_double_gt(final[1].r[0] - final[0].r[0], 2.0 * R);

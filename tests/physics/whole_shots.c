@@ -12,35 +12,47 @@
 
 /* ---- Invariants */
 
-static void keep_invariants(carom_shot_cushion cushion_model, int each) {
+/* Random shots of every kind, by three models of cushions: a third with the terms of measured tables, a third with the butt
+ * raised. They are sound as tests/shots judges, and carom_shot_at() has the states at events and at the end. */
+TEST(invariants) {
   static random_shot s;
-  const carom_shot_options options = {.cushion_model = cushion_model};
-  for (int kind = 0; kind < random_shot_kinds(); kind++)
-    for (int n = 0; n < each; n++) {
+  static const carom_shot_cushion models[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE, CAROM_SHOT_CUSHION_MATHAVAN};
+  const int each = draws_of_each(60), flat = random_shot_kinds();
+  random_source random = {test_seed()};
+  int64_t landings = 0, many = 0, shots = 0;
+  for (int kind = 0; kind < random_shot_kinds_in_space(); kind++)
+    for (int n = 0; n < each; n++, shots++) {
       random_shot_make(kind, test_seed(), (uint64_t)n, &s);
+      const bool terms = n % 3 == 1 && kind < flat;
+      if (terms)
+        give_terms(s.ball, s.count, &random);
+      if (n % 3 == 2 && kind < flat && s.cue.speed > 0.0 && strcmp(s.kind, "coincident") != 0)
+        s.cue.theta = 2.0 + 58.0 * n / each;
+      const carom_shot_options options = {.cushion_model = models[n % 15 == 14 ? 2 : n % 2]};
       carom_shot shot = {.events = events, .room = ROOM, .final = final};
       const carom_status status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &shot);
+      many += status == CAROM_ERROR_TOO_MANY_EVENTS;
+      ck_assert_msg(status == CAROM_OK || (kind >= flat && status == CAROM_ERROR_TOO_MANY_EVENTS), "%s %d: %s", s.kind, n,
+                    carom_status_name(status));
       const shot_measures m = shot_measure(&s.table, s.ball, s.count, &shot, status, 3);
-      ck_assert_msg(status == CAROM_OK && m.overlap <= 1e-9 && m.intrusion <= 1e-9 && m.gain <= 1e-12 && m.momentum <= 1.0 &&
-                        m.jump <= 1e-9 && m.restless == 0,
-                    "%s %d: %s, overlap %g, intrusion %g, gain %g, momentum %g, jump %g, %d still move", s.kind, n,
-                    carom_status_name(status), m.overlap, m.intrusion, m.gain, m.momentum, m.jump, m.restless);
-      /* the state at any time is that of the events */
+      EXPECT_SOUND(m, terms ? 1e-9 : 1e-11, s.kind, n);
       carom_ball_state at[CAROM_BALLS_MOST];
+      for (int64_t k = 1; k < shot.count && k < 60; k++) {
+        const carom_shot before = {.events = events, .room = k, .count = k, .time = events[k].time};
+        landings += events[k].type == CAROM_EVENT_SLATE;
+        ck_assert_int_eq(carom_shot_at(s.ball, s.count, &before, events[k].time, at), CAROM_OK);
+        for (int axis = 0; axis < 3; axis++)
+          NEAR(at[events[k].a].r[axis], events[k].before[0].r[axis], terms ? 1e-9 : 1e-12);
+      }
+      if (status != CAROM_OK)
+        continue;
       ck_assert_int_eq(carom_shot_at(s.ball, s.count, &shot, 2.0 * shot.time + 1.0, at), CAROM_OK);
       for (int k = 0; k < s.count; k++)
         ck_assert_int_eq(memcmp(&at[k], &final[k], sizeof at[k]), 0);
     }
-}
-
-/* $CAROM_TEST_DRAWS says how many of each kind: before a release some ten thousand. */
-TEST(invariants) {
-  const char *given = getenv("CAROM_TEST_DRAWS");
-  keep_invariants(CAROM_SHOT_CUSHION_HAN, given != NULL ? atoi(given) : 60);
-}
-
-TEST(invariants_of_exact_cushions) {
-  keep_invariants(0, 4);
+  printf("invariants: %d shots, %d landings, %d with too many events\n", (int)shots, (int)landings, (int)many);
+  ck_assert_int_gt(landings, 10 * each);
+  ck_assert_int_le(many, 2 + shots / 500);
 }
 
 /* The mirrored table gives the mirrored history, bit for bit about the origin. */
@@ -94,15 +106,16 @@ TEST(mirror) {
   static random_shot s, m;
   static carom_event other[ROOM];
   random_source random = {test_seed()};
-  for (int kind = 0; kind < random_shot_kinds(); kind++)
+  for (int kind = 0; kind < random_shot_kinds_in_space(); kind++)
     for (int n = 0; n < 20; n++) {
       random_shot_make(kind, test_seed(), (uint64_t)n, &s);
       centre_table(&s);
       /* a first ball that moves, since the direction of a cue is an angle; but where all coincides */
       s.cue.speed = 0.0;
-      if (strcmp(s.kind, "coincident") != 0) {
+      if (strncmp(s.kind, "coincident", 10) != 0) {
         s.ball[0].state.v[0] = random_between(&random, -4.0, 4.0);
         s.ball[0].state.v[1] = random_between(&random, 2.0, 6.0);
+        s.ball[0].state.v[2] = n % 3 == 0 ? random_between(&random, 0.0, 2.0) : 0.0;
         s.ball[0].state.w[2] = random_between(&random, -50.0, 50.0);
       }
       if (n % 2 == 1)
@@ -135,10 +148,8 @@ static void ends_well(const carom_table *t, const carom_shot_ball *b, int count,
   const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
   const carom_shot shot = play(t, b, count, NULL, &options, CAROM_OK);
   const shot_measures m = shot_measure(t, b, count, &shot, CAROM_OK, 3);
-  ck_assert_msg(shot.count <= most_events && m.overlap <= 1e-9 && m.intrusion <= 1e-9 && m.gain <= 1e-12 && m.momentum <= 1.0 &&
-                    m.jump <= 1e-9 && m.restless == 0,
-                "%d balls: %lld events, overlap %g, intrusion %g, gain %g, momentum %g, jump %g", count, (long long)shot.count,
-                m.overlap, m.intrusion, m.gain, m.momentum, m.jump);
+  EXPECT_SOUND(m, 1e-9, "pressed balls", count);
+  ck_assert_int_le(shot.count, most_events);
 }
 
 /* A line of frozen balls that the spin of the first presses along; it took 32,184 events. */
@@ -240,8 +251,8 @@ TEST(left_moving_into_the_cushion) {
     const carom_shot_options options = {.cushion_model = n % 2 == 0 ? CAROM_SHOT_CUSHION_HAN : CAROM_SHOT_CUSHION_STRONGE};
     const carom_shot shot = play(&t, &b, 1, NULL, &options, CAROM_OK);
     const shot_measures m = shot_measure(&t, &b, 1, &shot, CAROM_OK, 3);
-    ck_assert_msg(shot.count <= 3000 && m.intrusion <= 1e-9 && m.gain <= 1e-12 && m.restless == 0,
-                  "shot %d: %lld events, intrusion %g, gain %g", n, (long long)shot.count, m.intrusion, m.gain);
+    EXPECT_SOUND(m, 1e-9, "one ball", n);
+    ck_assert_int_le(shot.count, 3000);
     for (int k = 0; k < shot.count; k++) {
       if (events[k].type != CAROM_EVENT_RAIL || events[k].b != 0)
         continue;

@@ -66,6 +66,8 @@ static int in_space(const carom_shot_ball *balls, const carom_event *e) {
 }
 
 typedef struct follower {
+  carom_shot before; /* the shot up to the next event */
+  bool drag;         /* some ball has it: the library has the motion, since its path is an approximation */
   const carom_table *table;
   const carom_shot_ball *balls;
   int count;
@@ -77,8 +79,12 @@ typedef struct follower {
 } follower;
 
 static void go(follower *f, double time) {
-  for (int i = 0; i < f->count; i++)
-    move(&f->balls[i].kind, &f->from[i], time - f->since[i], &f->at[i]);
+  f->before.time = time;
+  if (f->drag)
+    carom_shot_at(f->balls, f->count, &f->before, time, f->at);
+  else
+    for (int i = 0; i < f->count; i++)
+      move(&f->balls[i].kind, &f->from[i], time - f->since[i], &f->at[i]);
 }
 
 static void measure_energy(follower *f) {
@@ -123,7 +129,7 @@ static void measure_places(follower *f) {
   for (int i = 0; i < f->count; i++) {
     if (is_out(&f->at[i]))
       continue;
-    const double *r = f->at[i].r, R = f->balls[i].kind.radius;
+    const double *r = f->at[i].r, R = f->balls[i].kind.radius, own = f->balls[i].kind.nose_height;
     if (flies(&f->at[i]))
       f->m.depth = fmax(f->m.depth, R - r[2]);
     for (int j = 0; j < i; j++) {
@@ -143,7 +149,7 @@ static void measure_places(follower *f) {
       const double line = rail->line[0] * -e_y + rail->line[1] * e_x; /* whether the given line counts that as positive */
       left = (rail->side == 1) == (line >= 0.0) ? left : -left;
       if (flies(&f->at[i])) {
-        const double deep = nose_intrusion(f, left, rail->height, R, r[2]);
+        const double deep = nose_intrusion(f, left, own > 0.0 ? own : rail->height, R, r[2]);
         if (place >= 0.0 && place <= 1.0 && deep > f->m.intrusion) {
           f->m.intrusion = deep;
           f->m.worst_at = type_name(f->last_type);
@@ -159,8 +165,8 @@ static void measure_places(follower *f) {
     for (int k = 0; k < f->table->jaws; k++) {
       const carom_jaw *jaw = &f->table->jaw[k];
       const double left = length2(r[0] - jaw->centre[0], r[1] - jaw->centre[1]) - jaw->radius;
-      const double intrusion =
-          flies(&f->at[i]) ? nose_intrusion(f, left, jaw->height, R, r[2]) : reach_on_cloth(f, jaw->height, R) - left;
+      const double intrusion = flies(&f->at[i]) ? nose_intrusion(f, left, own > 0.0 ? own : jaw->height, R, r[2])
+                                                : reach_on_cloth(f, jaw->height, R) - left;
       if (intrusion > f->m.intrusion) {
         f->m.intrusion = intrusion;
         f->m.worst_at = type_name(f->last_type);
@@ -201,10 +207,12 @@ static double momentum_change(const follower *f, const carom_event *e) {
 
 shot_measures shot_measure(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot *shot,
                            carom_status status, int samples) {
-  follower f = {.table = table, .balls = balls, .count = count, .m = {.worst_at = "-"}, .energy = INFINITY};
-  carom_shot nothing = *shot;
-  nothing.count = 0; /* what the layout is taken for */
-  carom_shot_at(balls, count, &nothing, 0.0, f.from);
+  follower f = {.before = *shot, .table = table, .balls = balls, .count = count, .m = {.worst_at = "-"}, .energy = INFINITY};
+  f.before.room = shot->count;
+  f.before.count = 0; /* what the layout is taken for */
+  carom_shot_at(balls, count, &f.before, 0.0, f.from);
+  for (int i = 0; i < count; i++)
+    f.drag |= balls[i].kind.drag > 0.0;
   double now = 0.0;
   go(&f, 0.0);
   measure_energy(&f);
@@ -229,6 +237,7 @@ shot_measures shot_measure(const carom_table *table, const carom_shot_ball *ball
     }
     if (e->type == CAROM_EVENT_BALL_BALL)
       f.m.momentum = fmax(f.m.momentum, momentum_change(&f, e));
+    f.before.count = k + 1;
     f.last_type = e->type;
     if (e->type == CAROM_EVENT_STRIKE)
       f.energy = INFINITY;

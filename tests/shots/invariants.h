@@ -17,9 +17,17 @@ typedef struct shot_measures {
   const char *worst_at; /* kind of the last event before the worst overlap or intrusion */
 } shot_measures;
 
-/* Follows a shot through all its events with its own evaluation of the motion, with `samples` places between two events. The
- * shot has room for all events. */
+/* Follows a shot through all its events with its own evaluation of the motion, but for balls with drag, with `samples` places
+ * between two events. The shot has room for all events. */
 shot_measures shot_measure(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot *shot,
                            carom_status status, int samples);
+
+/* That a shot is sound, with places and states within so much. */
+#define EXPECT_SOUND(m, within, name, number)                                                                           \
+  ck_assert_msg((m).overlap <= (within) && (m).intrusion <= (within) && (m).depth <= 1e-12 && (m).gain <= 1e-12 &&      \
+                    (m).momentum <= 1.0 && (m).jump <= (within) && (m).restless == 0,                                   \
+                "%s %d: overlap %g, intrusion %g after %s, depth %g, gain %g, momentum %g, jump %g, %d restless", name, \
+                (int)(number), (m).overlap, (m).intrusion, (m).worst_at, (m).depth, (m).gain, (m).momentum, (m).jump,   \
+                (m).restless)
 
 #endif
