@@ -177,17 +177,20 @@ typedef enum carom_status {
   CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below miscue^2. */
   CAROM_ERROR_TABLE = -52, /* the table has too many parts, or a part that is not finite, has no length, or a bad mu or e. */
   CAROM_ERROR_RACK = -53,  /* no such rack, a gap that is not between 0 and R, or too little room. */
-  CAROM_ERROR_EVENTS_LOST = -54,  /* carom_shot_at(): the shot had more events than there was room for. */
-  CAROM_ERROR_TIME = -55,         /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */
-  CAROM_ERROR_DRAG = -56,         /* the drag of a rolling ball is not in [0, 1] 1/m. */
-  CAROM_ERROR_BALL_CUSHION = -57, /* a ball's roll_loss, nose_height or omega_ratio is out of its range. */
-  CAROM_ERROR_MODULUS = -58,      /* a ball's modulus is neither 0 nor 1e6 to 1e15 Pa. */
-  CAROM_ERROR_STATE = -60,        /* carom_shot_continue(): shot.state is not that of a shot of these balls that can go on. */
-  CAROM_ERROR_TABLE_OPEN = -61,   /* carom_table_check(): a ball can leave the table, or has no place on it. */
-  CAROM_ERROR_RAIL_SIDE = -62,    /* carom_table_check(): the played side of a rail is turned away from the table. */
-  CAROM_ERROR_RAIL_LINE = -63,    /* carom_table_check(): the line of a rail does not pass through both of its ends. */
-  CAROM_ERROR_TANGENT = -70,      /* carom_tangent.h: derivatives are not known for this world or model. */
-  CAROM_ERROR_DIRECTIONS = -71,   /* carom_tangent.h: the number of directions is not 1 to CAROM_DIRECTIONS_MOST. */
+  CAROM_ERROR_EVENTS_LOST = -54,   /* carom_shot_at(): the shot had more events than there was room for. */
+  CAROM_ERROR_TIME = -55,          /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */
+  CAROM_ERROR_DRAG = -56,          /* the drag of a rolling ball is not in [0, 1] 1/m. */
+  CAROM_ERROR_BALL_CUSHION = -57,  /* a ball's roll_loss, nose_height or omega_ratio is out of its range. */
+  CAROM_ERROR_MODULUS = -58,       /* a ball's modulus is neither 0 nor 1e6 to 1e15 Pa. */
+  CAROM_ERROR_STATE = -60,         /* carom_shot_continue(): shot.state is damaged, or of no shot that can go on; */
+  CAROM_ERROR_STATE_TABLE = -64,   /* is that of a shot on another table, */
+  CAROM_ERROR_STATE_BALLS = -65,   /* of other balls, or of another layout, */
+  CAROM_ERROR_STATE_OPTIONS = -66, /* or with other options, besides those that say when to stop. */
+  CAROM_ERROR_TABLE_OPEN = -61,    /* carom_table_check(): a ball can leave the table, or has no place on it. */
+  CAROM_ERROR_RAIL_SIDE = -62,     /* carom_table_check(): the played side of a rail is turned away from the table. */
+  CAROM_ERROR_RAIL_LINE = -63,     /* carom_table_check(): the line of a rail does not pass through both of its ends. */
+  CAROM_ERROR_TANGENT = -70,       /* carom_tangent.h: derivatives are not known for this world or model. */
+  CAROM_ERROR_DIRECTIONS = -71,    /* carom_tangent.h: the number of directions is not 1 to CAROM_DIRECTIONS_MOST. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value not listed. Arrays of

@@ -469,7 +469,8 @@ typedef struct carom_brief_event {
 #define CAROM_STOP_AT_CONTACT UINT64_C(1)
 
 /* All that a stopped shot needs to go on; see carom_shot_continue(). Its bytes may be copied, kept in a file and read by the
- * same build of the library; they are not checked beyond whether they can be such. */
+ * same build of the library, which refuses them where one has changed. They depend on the arguments of the calls alone, and are
+ * 0 where they hold nothing. */
 typedef struct carom_shot_state {
   uint64_t opaque[4096];
 } carom_shot_state;
@@ -550,9 +551,10 @@ CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ba
  *       status = carom_shot_continue(&table, balls, 10, &options, &shot);
  *     }
  *
- * Returns what carom_shoot() does. CAROM_ERROR_STATE, with nothing written: shot->state is not that of a shot in this world, of
- * so many balls of these kinds, or the shot ended in an error other than a bound. CAROM_ERROR_TIME, likewise: time_most is
- * before the time at which the shot stopped. */
+ * Returns what carom_shoot() does. With nothing written: CAROM_ERROR_STATE: shot->state is damaged or of another build, the
+ * shot ended in an error other than a bound, or shot->count or ->time cannot be. CAROM_ERROR_STATE_TABLE,
+ * CAROM_ERROR_STATE_BALLS, CAROM_ERROR_STATE_OPTIONS: the table, the balls or their layout, or what `options` say besides when
+ * to stop, are not those of the call that stopped. CAROM_ERROR_TIME: time_most is before the time at which the shot stopped. */
 CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
                                            const carom_shot_options *opt, carom_shot *shot);
 

@@ -76,7 +76,11 @@
   X(ERROR_TANGENT, -70, "no_tangent", "derivatives are not known in the world pooltool, nor by Euler's model of balls")        \
   X(ERROR_DIRECTIONS, -71, "bad_directions", "derivatives are in 1 to 64 directions at once")                                  \
   X(ERROR_MODULUS, -58, "bad_modulus", "a ball's modulus must be 0 or 1e6 to 1e15 Pa")                                         \
-  X(ERROR_STATE, -60, "bad_state", "shot.state is not that of a shot of these balls that can go on")
+  X(ERROR_STATE, -60, "bad_state", "shot.state is damaged, or of another build, or of no shot that can go on")                 \
+  X(ERROR_STATE_TABLE, -64, "other_table", "shot.state is that of a shot on another table")                                    \
+  X(ERROR_STATE_BALLS, -65, "other_balls", "shot.state is that of a shot of other balls, or of another layout")                \
+  X(ERROR_STATE_OPTIONS, -66, "other_options",                                                                                 \
+    "shot.state is that of a shot with other options, besides those that say when to stop")
 
 #define AGREES(NAME, value, name, text) _Static_assert(CAROM_##NAME == (value), "values are never renumbered");
 STATUS_LIST(AGREES)

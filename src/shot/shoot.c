@@ -187,38 +187,17 @@ static carom_status go_on(carom_sim *sim) {
   return status;
 }
 
-/* What a state begins with that carom_shot_continue() takes: another version, or another layout, is not. */
-static const uint64_t resumable = (uint64_t)CAROM_VERSION_NUMBER << 32 | sizeof(carom_sim);
-_Static_assert(sizeof(carom_sim) <= sizeof(carom_shot_state), "a shot on its way fits what callers keep of it");
-
 /* The states at the end; and all of the shot, where the caller keeps it. */
 static carom_status finish(carom_sim *sim, carom_status status) {
   carom_shot *shot = sim->shot;
   for (int i = 0; shot->final != NULL && i < sim->count; i++)
     carom_path_at(&sim->path[i], &sim->rates[i], shot->time, &shot->final[i]);
-  if (shot->state != NULL) {
-    const bool goes_on = status >= 0 || status == CAROM_ERROR_TOO_LONG || status == CAROM_ERROR_TOO_MANY_EVENTS;
-    sim->can_go_on = goes_on ? resumable : 0;
-    sim->rules = NULL; /* these come with the next call */
-    sim->table = NULL;
-    sim->features = NULL;
-    sim->ball = NULL;
-    sim->opt = NULL;
-    sim->cue = NULL;
-    sim->shot = NULL;
-    memcpy(shot->state, sim, sizeof *sim);
-  }
+  const bool goes_on = status >= 0 || status == CAROM_ERROR_TOO_LONG || status == CAROM_ERROR_TOO_MANY_EVENTS;
+  if (shot->state != NULL && goes_on)
+    carom_state_save(sim, shot->state);
+  else if (shot->state != NULL)
+    memset(shot->state, 0, sizeof *shot->state);
   return status;
-}
-
-/* Whether a state is that of a shot of these balls in this world. */
-static bool is_of(const carom_sim *sim, const carom_shot_ball *balls, int count, const carom_shot_options *opt) {
-  bool same = sim->can_go_on == resumable && sim->count == count && sim->world == opt->world;
-  for (int i = 0; same && i < count; i++) {
-    const carom_ball_rates rates = carom_rates_of(&balls[i].kind);
-    same = memcmp(&rates, &sim->rates[i], sizeof rates) == 0;
-  }
-  return same;
 }
 
 /* The strike, and whether the shot is to go on after it. */
@@ -236,6 +215,8 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   carom_sim sim;
   if (!anew)
     memcpy(&sim, shot->state, sizeof sim);
+  else if (shot->state != NULL) /* what is not written below is kept too */
+    memset(&sim, 0, sizeof sim);
   sim.rules = carom_rules_of(opt->world);
   sim.table = table;
   sim.features = features;
@@ -252,10 +233,14 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
     sim.round = 0;
     sim.slow_instants = 0;
     sim.slow_last = -1.0;
+    if (shot->state != NULL)
+      carom_state_begin(&sim);
     begin(&sim);
     status = start(&sim);
-  } else if (!is_of(&sim, balls, count, opt)) {
-    return CAROM_ERROR_STATE;
+  } else {
+    status = carom_state_check(&sim, shot->state, count);
+    if (status != CAROM_OK)
+      return status;
   }
   return finish(&sim, status == CAROM_OK ? go_on(&sim) : status);
 }
@@ -265,14 +250,13 @@ static void clear(carom_shot *shot) {
   shot->count = 0;
   shot->time = 0.0;
   if (shot->state != NULL)
-    shot->state->opaque[0] = 0;
+    memset(shot->state, 0, sizeof *shot->state);
 }
 
 /* *features are prepared for the radius of these balls, unless they are so already. */
 static carom_status shoot_checked(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                   const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
   int where;
-  clear(shot);
   const carom_status bad = carom_check_layout(table, features, balls, count, cue, opt, &where);
   return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot, true);
 }
@@ -307,6 +291,8 @@ carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball
     bad = carom_check_layout(table, &features, balls, count, NULL, opt, &where);
   if (bad != CAROM_OK)
     return bad;
+  if (shot->count < 0 || !(shot->time >= 0.0 && shot->time < INFINITY))
+    return CAROM_ERROR_STATE;
   if (opt->time_most > 0.0 && opt->time_most < shot->time)
     return CAROM_ERROR_TIME;
   return shoot(table, &features, balls, count, NULL, opt, shot, false);
@@ -320,6 +306,7 @@ static carom_status shoot_row(const carom_shot_job *job, size_t k, carom_feature
   const carom_shot_options *opt = job->options != NULL ? job->options : &no_options;
   if (!room_is_there(&job->shots[k]))
     return CAROM_ERROR_NULL;
+  clear(&job->shots[k]);
   return shoot_checked(job->table, features, balls, (int)job->count, cue, opt, &job->shots[k]);
 }
 

@@ -32,7 +32,9 @@ typedef struct carom_meeting {
 struct carom_rules;
 
 typedef struct carom_sim {
-  uint64_t can_go_on;              /* of a state that is kept: resumable, or 0 */
+  /* of a state that is kept, state.c */
+  uint64_t can_go_on, seal;
+  uint64_t of_table, of_balls, of_options;
   const struct carom_rules *rules; /* of the world, rules.h */
   const carom_table *table;
   const carom_features *features;
@@ -103,6 +105,15 @@ carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3
 void carom_detect(carom_sim *sim, int i, int j);
 /* The same for all balls, at the start. */
 void carom_detect_all(carom_sim *sim);
+
+/* state.c: takes fingerprints of what the shot is of, where a state will be kept. */
+void carom_state_begin(carom_sim *sim);
+/* Leaves the shot, of which the state is the copy, without what is the caller's. */
+void carom_state_save(carom_sim *sim, carom_shot_state *state);
+/* Whether sim, the copy of a state with what is the caller's, can go on: CAROM_OK or why not. */
+carom_status carom_state_check(const carom_sim *sim, const carom_shot_state *state, int count);
+/* Gives a state the seal that its bits must have. */
+void carom_state_seal(carom_shot_state *state);
 
 /* next.c: the next event. */
 carom_due carom_next(const carom_sim *sim);

@@ -1,5 +1,6 @@
 /* Whole shots have equal bits in a batch and in single calls, whatever the threads and the cut. */
 #include "random_shots.h"
+#include "shot/sim.h"
 #include "support.h"
 
 #include <math.h>
@@ -433,7 +434,7 @@ TEST(first_contact) {
   free_results(batch);
 }
 
-/* What cannot go on is refused, and nothing is written. */
+/* What cannot go on is refused, and nothing is written: a state that is damaged or empty, and one of another shot, by name. */
 TEST(bad_states) {
   make_breaks();
   broken *b = make_broken();
@@ -443,30 +444,140 @@ TEST(bad_states) {
   ck_assert_int_eq(b->status, CAROM_STOPPED_AT_TIME);
   broken *before = malloc(sizeof *before);
   memcpy(before, b, sizeof *before);
+#define REFUSED(status) ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), (status))
+#define REFUSED_WITH(what, value, status) \
+  do {                                    \
+    __typeof__(what) kept = (what);       \
+    (what) = (value);                     \
+    REFUSED(status);                      \
+    (what) = kept;                        \
+  } while (0)
   options.time_most = 0.1;
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_TIME);
+  REFUSED(CAROM_ERROR_TIME);
   options.time_most = 0.3;
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 15, &options, &b->shot), CAROM_ERROR_STATE);
-  options.world = CAROM_WORLD_POOLTOOL;
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
-  options.world = CAROM_WORLD_CAROM;
-  balls[7].kind.mu_roll *= 2.0;
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
-  balls[7].kind.mu_roll /= 2.0;
-  options.stop_at = UINT64_C(1) << 63;
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_SHOT_OPTIONS);
-  ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &(carom_shot){0}), CAROM_ERROR_SHOT_OPTIONS);
-  options.stop_at = 0;
-  b->shot.state = NULL;
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_NULL);
-  b->shot.state = &b->state;
+  /* other arguments */
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 15, &options, &b->shot), CAROM_ERROR_STATE_BALLS);
+  REFUSED_WITH(balls[7].kind.mu_roll, 0.02, CAROM_ERROR_STATE_BALLS);
+  REFUSED_WITH(balls[7].kind.mass, 0.18, CAROM_ERROR_STATE_BALLS);
+  REFUSED_WITH(balls[7].kind.restitution, 0.9, CAROM_ERROR_STATE_BALLS);
+  REFUSED_WITH(balls[0].state.r[1], 0.5, CAROM_ERROR_STATE_BALLS);
+  REFUSED_WITH(table.rail[3].height, 0.036, CAROM_ERROR_STATE_TABLE);
+  REFUSED_WITH(table.pocket[5].depth, 0.2, CAROM_ERROR_STATE_TABLE);
+  REFUSED_WITH(table.rail_width, 0.2, CAROM_ERROR_STATE_TABLE);
+  REFUSED_WITH(table.jaws, table.jaws - 1, CAROM_ERROR_STATE_TABLE);
+  REFUSED_WITH(options.world, CAROM_WORLD_POOLTOOL, CAROM_ERROR_STATE_OPTIONS);
+  REFUSED_WITH(options.ball_model, CAROM_BALL_MODEL_MIRROR, CAROM_ERROR_STATE_OPTIONS);
+  REFUSED_WITH(options.cushion_model, CAROM_SHOT_CUSHION_MATHAVAN, CAROM_ERROR_STATE_OPTIONS);
+  REFUSED_WITH(options.friction, CAROM_FRICTION_CONSTANT, CAROM_ERROR_STATE_OPTIONS);
+  REFUSED_WITH(options.space, CAROM_SPACE_FLAT, CAROM_ERROR_STATE_OPTIONS);
+  REFUSED_WITH(options.steps, 500, CAROM_ERROR_STATE_OPTIONS);
+  REFUSED_WITH(options.plain, 1, CAROM_ERROR_STATE_OPTIONS);
+  REFUSED_WITH(options.cluster_steps, 50, CAROM_ERROR_STATE_OPTIONS);
+  REFUSED_WITH(options.stop_at, UINT64_C(1) << 63, CAROM_ERROR_SHOT_OPTIONS);
   ck_assert_int_eq(memcmp(b, before, sizeof *b), 0);
+  /* numbers of the result that cannot be */
+  REFUSED_WITH(b->shot.count, -1, CAROM_ERROR_STATE);
+  REFUSED_WITH(b->shot.time, (double)NAN, CAROM_ERROR_STATE);
+  REFUSED_WITH(b->shot.time, -1.0, CAROM_ERROR_STATE);
+  REFUSED_WITH(b->shot.state, NULL, CAROM_ERROR_NULL);
+  /* any single bit */
+  for (size_t bit = 0; bit < 8 * sizeof(carom_sim); bit += bit < 4096 ? 1 : 61) {
+    b->state.opaque[bit / 64] ^= UINT64_C(1) << bit % 64;
+    REFUSED(CAROM_ERROR_STATE);
+    b->state.opaque[bit / 64] ^= UINT64_C(1) << bit % 64;
+  }
+  ck_assert_int_eq(memcmp(b, before, sizeof *b), 0);
+#undef REFUSED_WITH
   ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_STOPPED_AT_TIME);
   /* a shot that is refused leaves no state to go on with, nor does one that ended in an error */
   ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[4], &options, &b->shot), CAROM_ERROR_MISCUE);
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_ERROR_STATE);
+  REFUSED(CAROM_ERROR_STATE);
+#undef REFUSED
   free(before);
   free(b);
+}
+
+/* What lay on the stack before. */
+__attribute__((noinline)) static void soil_stack(int with) {
+  volatile unsigned char stack[60000];
+  for (size_t k = 0; k < sizeof stack; k++)
+    stack[k] = (unsigned char)with;
+}
+
+/* A state has the same bytes whatever lay on the stack and in its place, in a batch and alone: nothing else of the process gets
+ * into what a game saves. */
+TEST(bytes_of_states) {
+  enum { TIMES = 4, FEW = 12 };
+  static carom_shot_state state[TIMES];
+  static carom_event events[ROOM];
+  make_breaks();
+  for (int n = 0; n < FEW; n++) {
+    carom_shot_ball *layout = balls + 16 * n;
+    const int count = n % 3 == 0 ? 16 : 2 + n;
+    cues[n].a = 0.2;
+    cues[n].theta = n % 2 == 0 ? 0.0 : 20.0;
+    for (int k = 0; k < count && n % 4 == 3; k++)
+      layout[k].kind.drag = 0.01;
+    carom_shot_options options = {.time_most = 0.1 * (1 + n % 5),
+                                  .world = n % 4 == 2 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM};
+    for (int k = 0; k < TIMES; k++) {
+      memset(&state[k], 0x11 * k, sizeof state[k]);
+      carom_shot shot = {.events = events, .room = ROOM, .state = &state[k]};
+      soil_stack(0x31 * k + 1);
+      if (k % 2 == 0) {
+        carom_shoot(&table, layout, count, &cues[n], &options, &shot);
+      } else {
+        const carom_shot_job job = {
+            .table = &table, .balls = layout, .cues = &cues[n], .count = count, .n = 1, .options = &options, .shots = &shot};
+        carom_shoot_batch(&job);
+      }
+      ck_assert_msg(memcmp(&state[k], &state[0], sizeof *state) == 0, "shot %d, state %d", n, k);
+    }
+    ck_assert_uint_ne(state[0].opaque[0], 0);
+  }
+}
+
+/* A state with wrong numbers under a right seal, as nobody has it by accident: it is refused, or the shot ends somehow. */
+TEST(forged_states) {
+  enum { SETTINGS = 4 };
+  static carom_event events[ROOM];
+  random_source r = {test_seed()};
+  int refused = 0, played = 0;
+  make_breaks();
+  for (int setting = 0; setting < SETTINGS; setting++) {
+    static carom_shot_state sound, forged;
+    carom_shot_options options = {.time_most = 0.25, .world = setting == 3 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM};
+    carom_shot_ball *layout = balls + 16 * setting;
+    for (int k = 0; k < 16 && setting == 2; k++)
+      layout[k].kind.drag = 0.0129;
+    cues[setting].a = 0.0;
+    cues[setting].theta = setting == 1 ? 20.0 : 0.0;
+    carom_shot shot = {.events = events, .room = ROOM, .state = &sound};
+    const carom_status stopped = carom_shoot(&table, layout, 16, &cues[setting], &options, &shot);
+    ck_assert_msg(stopped == CAROM_STOPPED_AT_TIME, "setting %d: %s at %g s", setting, carom_status_name(stopped), shot.time);
+    options.time_most = 0.0;
+    for (int n = 0; n < FEWER(5000); n++) {
+      static const double junk[] = {0.0, -1.0, 1e300, 1e-300, 0.41, (double)NAN, INFINITY, -INFINITY};
+      forged = sound;
+      for (int k = (int)random_between(&r, 1.0, 4.0); k > 0; k--) {
+        const size_t word = (size_t)random_between(&r, 2.0, (double)(sizeof(carom_sim) / 8));
+        if (forged.opaque[word] == 0 && k > 1) /* rather where something is */
+          continue;
+        if (random_between(&r, 0.0, 1.0) < 0.5)
+          memcpy(&forged.opaque[word], &junk[(int)random_between(&r, 0.0, 8.0)], sizeof *junk);
+        else
+          ((unsigned char *)&forged.opaque[word])[(int)random_between(&r, 0.0, 8.0)] =
+              (unsigned char)random_between(&r, 0.0, 256.0);
+      }
+      carom_shot on = shot;
+      on.state = &forged;
+      carom_state_seal(&forged);
+      const carom_status status = carom_shot_continue(&table, layout, 16, &options, &on);
+      *(status == CAROM_ERROR_STATE ? &refused : &played) += 1;
+    }
+  }
+  printf("%d forged states are refused, %d played\n", refused, played);
+  ck_assert_int_gt(refused, 1000);
 }
 
 /* On every instruction set a shot ends well, and the first events, which nothing has amplified yet, are the same but for

@@ -7,6 +7,9 @@
 #include "carom_tangent.h"
 #include "draws.h"
 
+/* Of the library's own sources: the seal that the bytes of a state must have to be looked at. */
+void carom_state_seal(carom_shot_state *state);
+
 enum { EVENTS = 120, SHOTS = 3, MOST = CAROM_BALLS_MOST, DIRECTIONS = 3 };
 
 /* What is played, and how. */
@@ -415,6 +418,38 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
 
 /* ---- Shots */
 
+/* Goes on with damaged copies of a state: they are refused by their seal; under a right one the shot is refused or ends. */
+static void check_damage(const carom_shot *shot, const carom_shot_options *on) {
+  static carom_shot_state damaged;
+  static carom_event events[EVENTS + 1];
+  enum { SEALED = 2, WORDS = 2800 }; /* of those that are sealed, without the last */
+  carom_shot again = *shot;
+  memcpy(&damaged, shot->state, sizeof damaged);
+  memset(events, GUARD, sizeof events);
+  again.events = events;
+  again.brief = NULL;
+  again.room = EVENTS;
+  again.final = NULL;
+  again.state = &damaged;
+  const bool forged = choice(2);
+  for (int k = 1 + choice(3); k > 0; k--) {
+    const int high = choice(256), word = SEALED + (256 * high + choice(256)) % (WORDS - SEALED);
+    if (choice(2) == 0) {
+      const double x = number(-1, 1);
+      memcpy(&damaged.opaque[word], &x, sizeof x);
+    } else {
+      damaged.opaque[word] ^= UINT64_C(1) << choice(64);
+    }
+  }
+  if (forged)
+    carom_state_seal(&damaged);
+  const bool same = memcmp(&damaged, shot->state, sizeof damaged) == 0;
+  const carom_status status = carom_shot_continue(&table, balls, count, on, &again);
+  if (!forged && !same && status != CAROM_ERROR_STATE)
+    fail("carom_shot_continue takes a damaged state");
+  unwritten(&events[EVENTS], sizeof *events, "a shot with a damaged state writes beside its events");
+}
+
 /* Plays the rest of a shot that was stopped, and the whole at once. */
 static void check_parts(carom_shot *shot, const carom_shot *room) {
   carom_shot_options on = options;
@@ -425,6 +460,8 @@ static void check_parts(carom_shot *shot, const carom_shot *room) {
   const int64_t before = shot->count;
   carom_status then = CAROM_STOPPED_AT_EVENT;
   carom_shot_options part = on;
+  if (choice(2) == 0)
+    check_damage(shot, &on);
   for (int k = choice(4); k >= 0 && (then > 0 || then == CAROM_ERROR_TOO_MANY_EVENTS); k--) {
     part.stop_at = k > 0 ? CAROM_STOP_AT(1 + choice(CAROM_EVENT_LEFT_TABLE)) : 0;
     then = carom_shot_continue(&table, balls, count, &part, shot);
