@@ -29,6 +29,7 @@ typedef struct carom_local {
   double mu_i, mu_j, mu_b;             /* friction of i and j with the cloth, and of the balls with each other */
   double e;                            /* restitution */
   double s;                            /* sign of the spin in the cloth slip: -1 paper, +1 pooltool */
+  double rounding;                     /* of velocities along axes that are not those of the table, m/s; else 0 */
 } carom_local;
 
 /* s in the slip over the cloth, v_x + s R w_y and v_y - s R w_x. */
@@ -54,6 +55,11 @@ static inline carom_frame carom_frame_of(const carom_impact *in) {
   return f;
 }
 
+/* A speed that bounds those of the ball's surface. */
+static inline double size_of_motion(const carom_ball *b) {
+  return fabs(b->v[0]) + fabs(b->v[1]) + b->radius * (fabs(b->w[0]) + fabs(b->w[1]) + fabs(b->w[2]));
+}
+
 static inline carom_local carom_to_frame(const carom_frame *f, const carom_impact *in, carom_slip slip) {
   return (carom_local){
       .v_ix = carom_dot(in->a.v, f->x),
@@ -74,6 +80,7 @@ static inline carom_local carom_to_frame(const carom_frame *f, const carom_impac
       .mu_b = in->mu_ball,
       .e = in->restitution,
       .s = carom_spin_sign(slip),
+      .rounding = f->x[0] == 0 || f->x[1] == 0 ? 0 : 0x1p-52 * (size_of_motion(&in->a) + size_of_motion(&in->b)),
   };
 }
 

@@ -34,7 +34,8 @@
 typedef struct carom_reduced {
   double u_x, u_z, d_x, d_y, v_n; /* at the start, m/s; u_z >= 0, v_n < 0 */
   double kappa, mu, mu_b, e, s;
-  int j_pressed; /* 1 if the pressed ball is j */
+  double rounding; /* of frame.h */
+  int j_pressed;   /* 1 if the pressed ball is j */
 } carom_reduced;
 
 typedef struct carom_integrals {
@@ -54,6 +55,7 @@ static inline carom_reduced carom_reduce(const carom_local *c) {
                          .mu_b = c->mu_b,
                          .e = c->e,
                          .s = c->s,
+                         .rounding = c->rounding,
                          .j_pressed = on_j};
 }
 
@@ -95,7 +97,7 @@ static inline void carom_precise_begin(const carom_reduced *c, double tolerance,
                          .mu = c->mu_b,
                          .mu_c = c->u_z > 0 ? c->mu : 0, /* no ball is pressed into the cloth */
                          .e = c->e};
-  carom_impact_begin(&law, tolerance, plain, per * c->u_x, per * c->u_z, per * c->d_x, per * c->d_y, path);
+  carom_impact_begin(&law, tolerance, plain, per * c->u_x, per * c->u_z, per * c->d_x, per * c->d_y, per * c->rounding, path);
 }
 
 /* The integrals of reduced.h so far. */

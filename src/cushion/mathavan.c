@@ -30,7 +30,7 @@ void carom_mathavan_begin(const carom_contact *c, double tolerance, int plain, c
                          .mu_c = c->mu_s,
                          .e = c->e};
   carom_impact_begin(&law, tolerance, plain, per * carom_slip_x(c), per * carom_slip_t(c), per * carom_cloth_x(c),
-                     per * carom_cloth_y(c), path);
+                     per * carom_cloth_y(c), 0, path);
 }
 
 carom_impulse carom_mathavan_impulse(const carom_contact *c, const carom_trajectory *path) {

@@ -17,6 +17,7 @@
  * number of iterations of all steps together. */
 #include "impact/map.h"
 #include "impact/variation_step.h"
+#include "platform/elementary.h"
 
 #include <float.h>
 
@@ -40,6 +41,7 @@ static const double SLOW = 0.5;          /* rate of a slip over that by friction
 static const double CAREFUL_SHARE = 0.6; /* of the way to a slip of zero, for a careful step */
 static const double IMMEDIATE = 1e-9;    /* share of a step at which an event happens where the step begins */
 static const double MOST_GROWTH = 6.9;   /* carom_point.growth: log of 1000 */
+static const double MOST_ACROSS = 1e-6;  /* carom_trajectory.across */
 static const double AGAIN = 1e-6;        /* v in restitution of a ball that approaches again: a second compression */
 enum {
   MOST_REFUSALS = 6,         /* in a row, before steps become careful; */
@@ -285,8 +287,11 @@ static void plan_sliding(const carom_trajectory *path, const step_start *s, plan
  * the regime has ended. before: where the step began. */
 static bool snap_to_zero(carom_trajectory *path, const carom_point *before) {
   carom_point *at = &path->at;
-  if (fabs(at->a_x) <= path->no_slip && fabs(at->b_x) <= path->no_slip)
+  if (fabs(at->a_x) <= path->no_slip && fabs(at->b_x) <= path->no_slip) {
+    if (path->law.H < 0)
+      path->across += fabs(at->a_x) + fabs(at->b_x);
     at->a_x = at->b_x = 0;
+  }
   const double a = fabs(at->a_x) + fabs(at->a_y), b = fabs(at->b_x) + fabs(at->b_y);
   const bool a_ends = driving_slips(path) && a <= path->no_slip && a < fabs(before->a_x) + fabs(before->a_y);
   const bool b_ends = path->regime.loaded && b <= path->no_slip && b < fabs(before->b_x) + fabs(before->b_y);
@@ -297,10 +302,40 @@ static bool snap_to_zero(carom_trajectory *path, const carom_point *before) {
   return a_ends || b_ends;
 }
 
+/* Where friction drives the slip on the cloth, it also drives an error e of planar motion that lies across b. With |b|' = r and
+ * h = -H w, e' = h e/|b|, so that e follows |b|^(h/r). Where b passes zero, e is what is left of |b|: then |b|^(h/r) e is |b|
+ * itself. The error of the friction's impulse is the change of e over |H|. */
+static void drive_error(carom_trajectory *path, const step_start *s, const carom_point *before) {
+  const double e = path->across, from = most_of(fabs(before->b_y), e), end = fabs(path->at.b_y);
+  const double h = -path->terms.H_x * s->w, r = (end - fabs(before->b_y)) / (path->at.p - before->p);
+  if (!(e > 0 && h > 0 && path->regime.loaded))
+    return;
+  if (end > e) /* rates of nearly zero leave |b| as it is, and e grows exponentially */
+    path->across = e * carom_exp(fabs(r) > 1e-3 * h ? h / r * (rough_log(end) - rough_log(from))
+                                                    : h * (path->at.p - before->p) / least(from, end));
+  if (r < 0 && from > e && !(path->across < end)) {
+    const double power = -h / r;
+    path->across = carom_exp((rough_log(e) + power * rough_log(from)) / (1 + power));
+  }
+}
+
+/* Whether friction would drive a rounding error of b's direction, where the impact begins with a small b that is not planar. */
+static bool driven_at_start(const carom_trajectory *path) {
+  if (!(path->law.H < 0) || !path->regime.loaded || (path->at.a_x == 0 && path->at.b_x == 0))
+    return false;
+  step_start s;
+  start_at(path, INFINITY, &s);
+  /* |b|' = h + d, if what drives b beside friction is along b */
+  const double h = -path->terms.H_x * s.w, d_x = s.db_x - h * s.t_x, d_y = s.db_y - h * s.t_y;
+  const double d = sqrt(d_x * d_x + d_y * d_y);
+  return s.q > 0 && s.q < 1 && DBL_EPSILON * carom_exp(-h / (h + d) * rough_log(s.q)) > MOST_ACROSS;
+}
+
 /* On along a straight line, where all rates are constant: to the goal, or to where a slip is zero. Returns whether that is the
  * goal. In planar motion only the y components change. */
 static bool go_straight(carom_trajectory *path, const step_start *s) {
   carom_point *at = &path->at;
+  const carom_point before = *at;
   const double to_a = driving_slips(path) && at->a_y * s->da_y < 0 ? -at->a_y / s->da_y : INFINITY;
   const double to_b = path->regime.loaded && at->b_y * s->db_y < 0 ? -at->b_y / s->db_y : INFINITY;
   const double length = least(s->to_goal, least(to_a, to_b));
@@ -311,6 +346,7 @@ static bool go_straight(carom_trajectory *path, const step_start *s) {
   at->a_y = length == to_a ? 0 : at->a_y + s->da_y * length;
   at->b_y = length == to_b ? 0 : at->b_y + s->db_y * length;
   path->iterations++;
+  drive_error(path, s, &before);
   return length == s->to_goal;
 }
 
@@ -410,9 +446,11 @@ static bool next_step(carom_trajectory *path, double to) {
 }
 
 carom_status CAROM_IMPACT_ADVANCE(carom_trajectory *path, double to, int most) {
+  if (path->at.p == 0 && driven_at_start(path))
+    return CAROM_ERROR_UNRESOLVED;
   while (!path->ended && path->at.p < to) {
     if (path->iterations >= most || !next_step(path, to) || !(path->at.growth <= MOST_GROWTH) ||
-        (path->restitution && path->at.v > AGAIN))
+        !(path->across <= MOST_ACROSS) || (path->restitution && path->at.v > AGAIN))
       return CAROM_ERROR_UNRESOLVED;
     /* the first stick; and what holds both contacts ends the impact */
     if (path->regime.held && isnan(path->p_stick))

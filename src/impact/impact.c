@@ -17,7 +17,7 @@ static const double ROUNDING = 1e-15;  /* at least this share of all slips; wher
 static const double MOST_SLIP = 1e100; /* squares of more would overflow */
 
 void carom_impact_begin(const carom_law *law, double tolerance, int plain, double a_x, double a_y, double b_x, double b_y,
-                        carom_trajectory *path) {
+                        double rounding, carom_trajectory *path) {
   const double driving_slips = fabs(a_x) + fabs(a_y) + fabs(b_x) + fabs(b_y);
   *path = (carom_trajectory){.law = *law,
                              .start = {.a_x = a_x, .a_y = a_y, .b_x = b_x, .b_y = b_y, .v = 1},
@@ -34,8 +34,11 @@ void carom_impact_begin(const carom_law *law, double tolerance, int plain, doubl
   }
   /* slips that count as zero, and motion along x of which there is none */
   carom_point *at = &path->at;
-  if (fabs(a_x) <= path->no_slip && fabs(b_x) <= path->no_slip)
+  if (fabs(a_x) <= path->no_slip && fabs(b_x) <= path->no_slip) {
+    if (law->H < 0)
+      path->across = fabs(a_x) + fabs(b_x) + rounding;
     at->a_x = at->b_x = 0;
+  }
   if (fabs(a_x) + fabs(a_y) <= path->no_slip)
     at->a_x = at->a_y = 0;
   if (fabs(b_x) + fabs(b_y) <= path->no_slip)

@@ -41,6 +41,8 @@ typedef struct carom_trajectory {
   carom_terms terms;
   bool restitution, ended; /* v = 0 is passed; nothing follows */
   double W_c;              /* int v dp over compression */
+  double across;           /* of planar motion, where H < 0: the slip across the plane that friction may have made of what
+                              counts as none there. 0 if there is none */
   double p_stick;          /* p where friction first held the driving contact; NaN before that */
   int iterations;          /* of all steps so far; each computes the rates at eight nodes */
   carom_status status;     /* not CAROM_OK if there is no way on */
@@ -62,10 +64,11 @@ typedef struct carom_impulses {
   double p, f_x, f_y, F_x, F_y;
 } carom_impulses;
 
-/* Puts an impact at its start. a, b: the slips over the speed of approach. tolerance: 1 for errors of about 1e-9 in the mean
+/* Puts an impact at its start. a, b: the slips over the speed of approach, in which errors are at most `rounding`, and 0 along
+ * x in motion along the axes of the table. tolerance: 1 for errors of about 1e-9 in the mean
  * and 1e-7 at most, of the largest speed; errors are about proportional to it. plain: that of the options. */
 void carom_impact_begin(const carom_law *law, double tolerance, int plain, double a_x, double a_y, double b_x, double b_y,
-                        carom_trajectory *path);
+                        double rounding, carom_trajectory *path);
 
 /* On to p = `to`, or to the end if that comes first. Errors: CAROM_ERROR_OVERFLOW; and CAROM_ERROR_UNRESOLVED if that takes
  * more than `most` iterations, counted from the start, if no regime is consistent, or if the result depends on rounding errors.

@@ -198,7 +198,7 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
 /* ---- From the start to the end ---- */
 
 static void begin(const carom_law *law, const double slips[4], double tolerance, int plain, carom_trajectory *path) {
-  carom_impact_begin(law, tolerance, plain, slips[0], slips[1], slips[2], slips[3], path);
+  carom_impact_begin(law, tolerance, plain, slips[0], slips[1], slips[2], slips[3], 0, path);
 }
 
 /* The impulses, without derivatives. */
