@@ -27,8 +27,7 @@
  * twelve numbers (spins times the radius).
  *   - Double precision, collisions of play (mu_ball up to 0.2, mu_cloth up to 0.5, e from 0.5, masses within 1 : 2, any speeds
  *     and spins): within 1e-6, median 2e-9.
- *   - Double precision, anything else that is accepted: within 1e-5, or the status is CAROM_ERROR_UNRESOLVED; accuracy.md has
- *     one coincidence with pooltool's slip, in which neither holds.
+ *   - Double precision, anything else that is accepted: within 1e-5, or the status is CAROM_ERROR_UNRESOLVED.
  *   - Single precision, collisions of play: within 2e-5, median 1e-7.
  * docs/understanding/accuracy.md has the figures and the commands that print them. docs/understanding/physics.md describes the
  * model and its limits.

@@ -114,6 +114,21 @@ TEST(results_that_were_wrong) {
   expect_file("pooltool-turns.csv", CAROM_SLIP_POOLTOOL);
 }
 
+/* Full hits with the slip of pooltool, in which friction makes motion across the line of centres of what counts as none: up to
+ * 20 % of the fastest speed, by a reference of 34 digits. */
+TEST(rounding_errors_that_friction_drives) {
+  case_set cases;
+  ck_assert(cases_load(CAROM_TEST_FINDINGS, "pooltool-no-drive.csv", &cases));
+  const carom_options options = options_for(CAROM_SLIP_POOLTOOL);
+  ck_assert_uint_eq(cases.count, 30);
+  for (size_t k = 0; k < cases.count; k++)
+    FOR_EACH_ISA(isa) {
+      carom_result out;
+      ck_assert_int_eq(carom_collide(&cases.impact[k], &options, &out), CAROM_ERROR_UNRESOLVED);
+    }
+  cases_free(&cases);
+}
+
 /* The rows are for the pooltool slip; here both. */
 TEST(single_precision_that_lost_restitution) {
   case_set cases;
