@@ -4,9 +4,11 @@
  *
  *     dT = -(d_x g d + d_k g dk)/g'        dx- = d + x'- dT        dx+ = J dx-        d+ = dx+ - x'+ dT
  *
- *     two balls       closing . dT = n . (d_b - d_a) - dR_a - dR_b     rail, jaw   closing . dT = -n . d - dR, n into the
- * cushion pocket          (p . v) dT = -p . d, p from its centre           slate       v_z dT = dR - d_z end of a phase
- * tangent_path.c
+ *     two balls         closing . dT = n . (d_b - d_a) - dR_a - dR_b
+ *     rail, jaw         closing . dT = -n . d - dR, n into the cushion
+ *     pocket            (p . v) dT = -p . d, p from its centre
+ *     slate             v_z dT = dR - d_z
+ *     end of a phase    tangent_path.c
  *
  * J is that of the contact. docs/understanding/gradients.md derives this. */
 #ifndef CAROM_SRC_SHOT_TANGENT_WORK_H
