@@ -18,15 +18,13 @@ import importlib
 import os
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(NamedTuple):
     """Which shots: those of the part of this number, of a batch with this seed."""
 
     seed: int
@@ -36,9 +34,8 @@ class Part:
     isa: str
 
 
-@dataclass(frozen=True)
-class Summary:
-    """What a part gave: digest of the final states, how many shots potted 0, 1, ... balls, and what it was computed with."""
+class Summary(NamedTuple):
+    """What a part gave: digest of the final states, how many shots potted 0, 1, ... balls, and the instruction set in force."""
 
     digest: bytes
     potted: npt.NDArray[np.int64]

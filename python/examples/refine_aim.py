@@ -12,12 +12,14 @@ from __future__ import annotations
 
 import argparse
 
+import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
 import numpy.typing as npt
 
 import carom
-import picture
 
+matplotlib.use("Agg")
 Doubles = npt.NDArray[np.float64]
 NAMES = ("cue.speed", "cue.phi", "cue.a", "cue.b")
 SCALES = np.array([1.0, 1.0, 0.1, 0.1])  # what is a moderate change of each: m/s, degrees, R, R
@@ -91,13 +93,13 @@ def main() -> None:
     solved = sum(misses[-1] < 1e-3 for misses in runs)
     counts = [len(misses) - 1 for misses in runs if misses[-1] < 1e-3]
     print(f"{solved} of {len(runs)} aims end within 1 mm of both places, after {np.median(counts):.0f} steps in the median")
-    figure, axes = picture.start(1, (6.0, 3.6))
+    figure, axes = plt.subplots(figsize=(6.0, 3.6), layout="constrained")
     for misses in runs:
-        axes[0].semilogy(np.maximum(misses, 1e-9), color=picture.BLUE if misses[-1] < 1e-3 else picture.PALE, lw=0.9)
-    axes[0].set_xlabel("step")
-    axes[0].set_ylabel("largest miss of the two balls, m")
-    axes[0].set_title(f"{solved} of {len(runs)} within 1 mm (blue)")
-    picture.save(figure, given.out)
+        axes.semilogy(np.maximum(misses, 1e-9), color="#0072b2" if misses[-1] < 1e-3 else "#d9d9d9", lw=0.9)
+    axes.set(xlabel="step", ylabel="largest miss of the two balls, m", title=f"{solved} of {len(runs)} within 1 mm (blue)")
+    plt.rcParams["svg.hashsalt"] = "carom"
+    figure.savefig(given.out, dpi=150, metadata={"Date": None} if given.out.endswith(".svg") else None)
+    print(f"wrote {given.out}")
 
 
 if __name__ == "__main__":

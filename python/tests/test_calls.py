@@ -123,6 +123,14 @@ def test_tab_completion_shows_what_a_module_offers():
     assert dir(carom.racks) == ["eightball", "nineball", "snooker", "tenball", "threecushion"]
 
 
+@pytest.mark.parametrize(("module", "package"), [("gymnasium", "gymnasium"), ("pettingzoo", "pettingzoo"), ("jax", "jax")])
+def test_without_what_is_optional(module, package):
+    """The import says what is needed."""
+    blocked = f"import sys; sys.modules['{package}'] = None; import carom.potting, carom.nineball; import carom.{module}"
+    done = subprocess.run([sys.executable, "-c", blocked], capture_output=True, text=True)
+    assert done.returncode == 1 and f"pip install {package}" in done.stderr and f"ImportError: carom.{module} needs" in done.stderr
+
+
 def test_objects_are_made_of_plain_classes_alone():
     """Zeros are no dict, no type and no exception."""
     from carom._objects import make
@@ -218,18 +226,13 @@ def shots_of(n):
 def long_calls():
     """Each takes half a second or more."""
     easy = np.tile(hard()[:1], 1_000_000)
-    single = carom.dtypes.plain(easy).astype(np.float32)
     cushions = np.tile(carom.cushion_impacts(v=(0.5, 1.0, 0.0), w=(0.0, 20.0, 60.0)), 400_000)
     table, rack, cues = shots_of(30_000)
     shot = carom.simulate(*shots_of(1)[:2], carom.cue(speed=9.0))
     return {
         "exact": lambda: carom.collide(hard()),
-        "exact, threads": lambda: carom.collide(np.tile(hard(), 2), threads=2),
-        "euler": lambda: carom.collide(easy, solver="euler"),
         "euler, threads": lambda: carom.collide(easy, solver="euler", threads=-1, steps=2000),
-        "single": lambda: carom.collide(single, solver="euler"),
         "cushion": lambda: carom.cushion(cushions),
-        "shots": lambda: carom.simulate_batch(table, rack, cues),
         "shots, threads": lambda: carom.simulate_batch(table, rack, cues, threads=2),
         "states": lambda: shot.states(np.linspace(0, shot.time, 2_000_000)),
     }

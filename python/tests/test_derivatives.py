@@ -112,36 +112,24 @@ def test_jacobians_of_more_shots_than_are_kept_at_a_time(monkeypatch):
 
 
 def test_a_shot_knows_what_it_was_played_with():
-    """Its cue, its table and its models; what contradicts them is refused by name."""
+    """Its cue, its table and its models, also in a pickle; what is changed afterwards is not the shot's."""
     table = carom.tables.pool_9ft()
     balls, cue = layout()
     shot, names = carom.simulate(table, balls, cue, t_final=2.0, **CLOSED), ["cue.phi", "kind.mu_slide"]
     expected = carom.tangents(shot, names).states.tobytes()
     assert shot.options.cushion_model == "han" and shot.options.t_final == 2.0 and shot.cue == cue
-    other = cue.copy()
-    other["phi"] += 0.1
     again = carom.resume(shot, t_final=3.0)
     assert again.options == shot.options._replace(t_final=3.0) and again.cue == cue
-    with pytest.raises(ValueError, match=r"^cue\.phi = 79\.1: the shot was played with 79\.0; leave the cue out"):
-        carom.tangents(shot, other, names)
-    with pytest.raises(ValueError, match="^cue: 1 given, but the shot was played with 0; leave"):
-        carom.tangents(carom.simulate(table, balls), cue, names)
-    for given in (shot, pickle.loads(pickle.dumps(shot))):
-        assert carom.tangents(given, cue, names).states.tobytes() == carom.tangents(given, wrt=names).states.tobytes() == expected
+    assert carom.tangents(pickle.loads(pickle.dumps(shot)), names).states.tobytes() == expected
     cues = np.repeat(cue.reshape(1), 3)
     cues["speed"][1] = 1.7
     shots = carom.simulate_batch(table, balls, cues, room=99, **CLOSED)
     assert shots[1].cue == cues[1] and pickle.loads(pickle.dumps(shots[1])).cue == cues[1]
-    with pytest.raises(ValueError, match=r"^cue\.speed = 1\.5: the shot was played with 1\.7"):
-        carom.tangents(shots, np.repeat(cue.reshape(1), 3), names)
-    with pytest.raises(ValueError, match=r"^cue\.speed = 1\.5: the shot was played with 1\.7"):
-        carom.tangents(shots[1], cue, names)
-    # what is changed afterwards is not the shot's
     cue["phi"], balls["kind"]["mu_slide"] = 12.0, 0.3
     table.rails["restitution"] = 0.5
     assert carom.tangents(shot, names).states.tobytes() == expected
     with pytest.raises(ValueError, match="wrt: name at least one number"):
-        carom.tangents(shot)
+        carom.tangents(shot, [])
 
 
 def test_events_that_were_not_kept():
@@ -161,48 +149,6 @@ def test_events_that_were_not_kept():
         carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=99, records="brief"), ["cue.phi"])
 
 
-def test_a_ball_that_flies():
-    """A jump shot, and a ball that is thrown: heights and velocities upward, at times in the air, against differences."""
-    names, times = ["cue.speed", "cue.phi", "cue.theta", "balls[0].r"], [0.05, 0.1]
-    numbers = np.array([4.0, 80.0, 35.0, 0.4, 0.5])
-
-    def jump(x):
-        cue = carom.cue(speed=x[0], phi=x[1], theta=x[2], b=0.1)
-        return carom.simulate(TABLE, carom.balls([x[3:]]), cue, **CLOSED)
-
-    def thrown(x):
-        balls = carom.balls([[0.4, 0.5, 0.2]], v=[[0.3, x[0], x[1]]], w=[[5.0, x[2], 3.0]])
-        return carom.simulate(TABLE, balls, **CLOSED)
-
-    for play, names, numbers in (
-        (jump, names, numbers),
-        (thrown, ["balls[0].v[1]", "balls[0].v[2]", "balls[0].w[1]"], np.array([0.5, 0.4, 2.0])),
-    ):
-        shot = play(numbers)
-        assert (shot.events["type"] == carom.EventType.SLATE).any() and (shot.states(times)["r"][:, 0, 2] > 0.03).all()
-        found = carom.tangents(shot, names, times=times)
-        assert found.at["z"].shape == found.at["v_z"].shape == (2, 1, len(numbers)) and np.abs(found.at["z"]).max() > 0.01
-        for j, value in enumerate(numbers):
-            h = 1e-6 * np.eye(len(numbers))[j]
-            more, less = play(numbers + h).states(times), play(numbers - h).states(times)
-            r, v = ((more[name] - less[name])[:, 0] / 2e-6 for name in "rv")
-            np.testing.assert_allclose(found.at["r"][:, 0, :, j], r[:, :2], atol=1e-6)
-            np.testing.assert_allclose(found.at["z"][:, 0, j], r[:, 2], atol=1e-6)
-            np.testing.assert_allclose(found.at["v"][:, 0, :, j], v[:, :2], atol=1e-6)
-            np.testing.assert_allclose(found.at["v_z"][:, 0, j], v[:, 2], atol=1e-6)
-
-
-def test_more_directions_than_a_call_takes():
-    balls = carom.racks.nineball(TABLE, gap=1e-3, seed=1)
-    cue = carom.cue(speed=1.0)
-    shot = carom.simulate(TABLE, balls, cue, **CLOSED)
-    names = [f"balls[{i}].kind.{field}" for i in range(10) for field in ("mass", "mu_slide", "mu_roll", "mu_spin", "restitution", "mu_cushion", "restitution_cushion")]
-    found = carom.tangents(shot, names)
-    assert found.states.shape == (10, 9, 70)
-    last = carom.tangents(shot, names[-1:])
-    np.testing.assert_allclose(found.states[..., -1:], last.states, rtol=1e-9, atol=1e-12)
-
-
 @pytest.mark.parametrize("name", ["phi", "cue.mu", "balls[7].r", "balls[0].r[3]", "kind", "balls[0].kind.radius", "cue.phi[0]"])
 def test_names_that_are_none(name):
     balls, cue = layout()
@@ -213,10 +159,8 @@ def test_names_that_are_none(name):
 
 def test_what_is_not_known():
     balls, cue = layout()
-    shot = carom.simulate(TABLE, balls, cue, world="pooltool")
     with pytest.raises(carom.CaromError) as error:
-        carom.tangents(shot, ["cue.phi"])
+        carom.tangents(carom.simulate(TABLE, balls, cue, world="pooltool"), ["cue.phi"])
     assert error.value.status is carom.Status.ERROR_TANGENT
-    shot = carom.simulate(TABLE, balls, cue)
     with pytest.raises(ValueError, match="times"):
-        carom.tangents(shot, ["cue.phi"], times=[1.0, 0.5])
+        carom.tangents(carom.simulate(TABLE, balls, cue), ["cue.phi"], times=[1.0, 0.5])

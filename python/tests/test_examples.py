@@ -21,9 +21,7 @@ pytest.importorskip("matplotlib", reason="matplotlib is not installed")
 EXAMPLES = Path(__file__).parents[1] / "examples"
 sys.path.insert(0, str(EXAMPLES))
 
-import learn_potting  # noqa: E402
 import refine_aim  # noqa: E402
-import throw  # noqa: E402
 
 SEED = int(os.environ.get("CAROM_TEST_SEED", "1"))
 
@@ -31,44 +29,6 @@ SEED = int(os.environ.get("CAROM_TEST_SEED", "1"))
 @pytest.fixture(autouse=True)
 def seed():
     print(f"CAROM_TEST_SEED={SEED}")
-
-
-def picture(path):
-    """Whether the file is a picture of its kind, of a size that suits a page."""
-    head = path.read_bytes()[:200]
-    kind = head.startswith(b"\x89PNG") if path.suffix == ".png" else b"<?xml" in head
-    return kind and 10_000 < path.stat().st_size < 1_000_000
-
-
-def test_throw(tmp_path, capsys):
-    # Alciatore's closed form, TP A-14: friction by the slip, and at most what ends it. The normal impulse is (1 + e) M v_n / 2.
-    cut = np.linspace(1.0, 88.0, 60)
-    for speed in (0.1, 0.5, 1.0, 3.0, 10.0):
-        slip, approach = speed * np.sin(np.radians(cut)), speed * np.cos(np.radians(cut))
-        friction = 0.009951 + 0.108 * np.exp(-1.088 * slip)
-        ends = 2 / 7 / 1.95 * slip / approach
-        expected = np.degrees(np.arctan(np.minimum(friction, ends)))
-        np.testing.assert_allclose(throw.throw(cut, speed, "stun"), expected, atol=2e-4)
-    # Marlow's three points: of the law that was fitted to them, and of the throw.
-    for (speed, mu), at in zip(throw.MEASURED, throw.measured_throw(), strict=True):
-        assert carom.mu_ball(throw.cuts(throw.MEASURED_CUT, speed, "stun")) == pytest.approx(mu, abs=1e-4)
-        assert throw.throw(throw.MEASURED_CUT, speed, "stun") == pytest.approx(at, abs=0.01)
-    # Spin takes friction away from the throw; thin cuts slip across alone, whatever the spin.
-    by_spin = {spin: throw.throw(np.array([15.0, 30.0, 60.0, 89.9]), 1.0, spin) for spin in throw.SPINS}
-    for spin in ("follow", "draw"):
-        assert (by_spin["stun"][:3] - by_spin[spin][:3] > 0.5).all()
-        assert by_spin[spin][3] == pytest.approx(by_spin["stun"][3], abs=1e-3)
-    assert throw.throw(0.0, 1.0, "stun") == pytest.approx(0.0, abs=1e-9)
-    throw.main(["--draws", "50", "--out", str(tmp_path / "throw.svg")])
-    assert picture(tmp_path / "throw.svg") and "stun   at 1 m/s: at most 4.3" in capsys.readouterr().out
-
-
-def test_learning(tmp_path, capsys):
-    """The policy learns: from every seed it pots at least twice as much, less fouls, on layouts that it has not learnt from."""
-    policy, curve = learn_potting.main(["--generations", "20", "--seed", str(SEED), "--out", str(tmp_path / "learning.svg")])
-    assert curve[0] < 0.25 and curve[-1] > 0.42 and curve[-5:].min() > 2 * curve[0]
-    assert (policy[:2] > 0).all() and policy[3] > 0  # cuts, ways and balls in the way cost something
-    assert picture(tmp_path / "learning.svg") and "at the end" in capsys.readouterr().out
 
 
 def test_the_notebook(capsys):
@@ -111,4 +71,4 @@ def test_refine_aim(tmp_path, monkeypatch):
     out = tmp_path / "refine_aim.svg"
     monkeypatch.setattr("sys.argv", ["refine_aim.py", "--draws", "4", "--out", str(out)])
     refine_aim.main()
-    assert picture(out)
+    assert out.read_text(encoding="utf-8").startswith("<?xml") and out.stat().st_size > 10_000

@@ -126,23 +126,6 @@ def test_a_shot_of_a_batch_is_made_in_few_calls(calls):
     assert calls(lambda: [shots[k] for k in range(100)]) <= 5 * 100
 
 
-def test_light_records(breaks):
-    """24 bytes an event, with the numbers of the full ones."""
-    play, alone = breaks
-    shots = play(room=300, records="brief")
-    assert carom.dtypes.brief_event.itemsize == 24 and shots.events.dtype == carom.dtypes.brief_event
-    for one, shot in zip(alone, shots):
-        if one is None:
-            assert shot.count == 0
-            continue
-        assert shot.count == one.count and all(np.array_equal(shot.events[name], one.events[name]) for name in ("time", "type", "a", "b"))
-    assert list(carom.dtypes.columns(shots[0].events)) == ["time", "type", "a", "b"]
-    again = play(room=300, records="brief", out=shots)
-    assert again is shots
-    with pytest.raises(ValueError, match=r"out\.events"):
-        play(room=300, out=shots)
-
-
 def features_of(shot, cue):
     """By a plain walk over the events of one shot."""
     count = len(shot.balls)
@@ -187,13 +170,10 @@ def test_features_of_three_cushions():
     """Cushions before the second ball, of another cue ball than the first of the layout."""
     table = carom.tables.threecushion()
     cues = carom.cue(speed=5.0, phi=np.linspace(0.0, 360.0, 90), a=0.3, ball=1, game="billiard")
-    shots = carom.simulate_batch(table, carom.racks.threecushion(table), cues, cushion_model="han", features=True)
-    scored = (shots.features.contact[:, 1] >= 0) & (shots.features.cushions_before[:, 1] >= 3)
-    assert 0 < scored.sum() < 45
-    for k in range(90):
-        one = carom.simulate(table, carom.racks.threecushion(table), cues[k], cushion_model="han")
-        for name, value in features_of(one, 1).items():
-            assert getattr(shots.features, name)[k].tolist() == value, name
+    shots = carom.simulate_batch(table, carom.racks.threecushion(table), cues, features=True, room=300)
+    assert 0 < ((shots.features.contact[:, 1] >= 0) & (shots.features.cushions_before[:, 1] >= 3)).sum() < 45
+    for shot, found in zip(shots, (shots.features[k] for k in range(90))):
+        assert all(getattr(found, name).tolist() == value for name, value in features_of(shot, 1).items())
 
 
 def test_shots_that_are_stopped():
@@ -227,15 +207,12 @@ def test_shots_that_are_stopped():
 
 def test_orientations():
     """A ball that rolls in a straight line turns by its way over its radius, about the axis across."""
-    balls = carom.balls([[0.3, 0.3], [0.9, 2.0]], v=[[0.0, 0.5, 0.0], [0.0, 0.0, 0.0]], w=[[-0.5 / 0.028575, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    balls = carom.balls([[0.3, 0.3], [0.9, 2.0]], v=[[0.0, 0.5, 0.0], [0.0] * 3], w=[[-0.5 / 0.028575, 0.0, 0.0], [0.0] * 3])
     shot = carom.simulate(TABLE, balls)
     times = np.array([[0.0, 0.1], [0.2, 0.4]])
-    turned = shot.orientations(times)
-    way = shot.positions(times)[..., 0, 1] - 0.3
-    assert turned.shape == (2, 2, 2, 4) and way[1, 1] > 0.15
-    np.testing.assert_allclose(turned[..., 0, 0], np.cos(way / 0.028575 / 2), atol=1e-12)
-    np.testing.assert_allclose(turned[..., 0, 1], -np.sin(way / 0.028575 / 2), atol=1e-12)
-    assert (turned[..., 1, :] == [1, 0, 0, 0]).all()
+    turned, half = shot.orientations(times), (shot.positions(times)[..., 0, 1] - 0.3) / 0.028575 / 2
+    assert turned.shape == (2, 2, 2, 4) and half[1, 1] > 2.6 and (turned[..., 1, :] == [1, 0, 0, 0]).all()
+    np.testing.assert_allclose(turned[..., 0, :2], np.stack([np.cos(half), -np.sin(half)], axis=-1), atol=1e-12)
 
 
 def test_broadcasting_and_out():
@@ -262,69 +239,43 @@ def test_a_bad_shot_costs_itself():
     assert shots.final[2].tobytes() == carom.simulate(TABLE, RACK, cues[2], cushion_model="han").final.tobytes()
 
 
-def test_each_layout_has_its_own_radius():
-    table = carom.tables.threecushion()
-    kind = carom.balls([[0.7, 0.5]], game="billiard")
-    layouts = np.stack([kind, kind, kind])
-    for layout, radius in zip(layouts, [0.02, 0.06, 0.015]):
-        layout["kind"]["radius"], layout["state"]["r"][:, 2] = radius, radius
-        layout["state"]["v"][:, 1], layout["state"]["w"][:, 0] = -0.2992, 0.2992 / radius
-    shots = carom.simulate_batch(table, layouts, room=50)
-    assert shots.status.tolist() == [0, 0, carom.Status.ERROR_NOSE_HEIGHT]
-    for k in range(2):
-        assert shots.final[k].tobytes() == carom.simulate(table, layouts[k]).final.tobytes()
-
-
 def test_games_and_terms():
-    """The measured balls of billiard, the terms by themselves, each shot of a batch with its own; pooltool's figures."""
+    """The measured balls of billiard, the terms by themselves, each shot of a batch with its own; rails of their own."""
     table = carom.tables.threecushion()
     r, v = [[0.7, 1.0]], [0.6, 1.2, 0.0]
-    measured = carom.balls(r, v=v, game="billiard")
+    measured, plain = carom.balls(r, v=v, game="billiard"), carom.balls(r, v=v, game="billiard", drag=0.0, roll_loss=0.0)
     kind = measured["kind"][0]
     assert kind["drag"] == 0.0129 and kind["roll_loss"] == 0.087 and kind["law_a"] == kind["mu_ball"] == 0.08
-    terms = ("drag", "roll_loss", "law_a", "law_b", "law_c", "nose_height", "omega_ratio")
     for game in ("pool", "snooker", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"):
+        terms = ("drag", "roll_loss", "law_a", "law_b", "law_c", "nose_height", "omega_ratio")
         given = [name for name in terms if carom.balls(r, game=game)["kind"][name].any()]
         assert given == (["nose_height"] if game == "snooker" else [])
-    plain = carom.balls(r, v=v, game="billiard", drag=0.0, roll_loss=0.0)
-    shots = carom.simulate_batch(table, np.stack([measured, plain]), cushion_model="han")
-    assert shots.record["time"][0] < shots.record["time"][1]
-    for k, layout in enumerate((measured, plain)):
-        assert shots.final[k].tobytes() == carom.simulate(table, layout, cushion_model="han").final.tobytes()
-    # Rails of their own are balls of their own.
+    shots = carom.simulate_batch(table, np.stack([measured, plain]))
+    assert shots.time[0] < shots.time[1]
+    assert all(shots.final[k].tobytes() == carom.simulate(table, one).final.tobytes() for k, one in enumerate((measured, plain)))
     own = carom.Table.from_record(table.record)
     own.rails["mu_cushion"], own.rails["restitution"] = 0.3, 0.7
     other = carom.balls(r, v=v, game="billiard", mu_cushion=0.3, restitution_cushion=0.7)
     assert carom.simulate(own, measured).final.tobytes() == carom.simulate(table, other).final.tobytes()
-    higher = carom.Table.from_record(table.record)
-    higher.rails["height"] = 0.036
-    lower = carom.balls(r, v=v, game="billiard", nose_height=0.036)
-    tables = carom.balls(r, v=v, game="billiard", nose_height=0.0)
-    assert carom.simulate(higher, tables).final.tobytes() == carom.simulate(table, lower).final.tobytes()
 
 
 def test_states_between_events():
     """A ball alone, sliding, in closed form."""
-    balls = carom.balls([[0.6, 0.3]], v=[0.0, 1.0, 0.0])
-    shot = carom.simulate(TABLE, balls)
+    shot = carom.simulate(TABLE, carom.balls([[0.6, 0.3]], v=[0.0, 1.0, 0.0]))
     times = np.linspace(0.0, 0.1, 7).reshape(7, 1)
     at = shot.positions(times)
-    assert at.shape == (7, 1, 1, 3)
+    assert at.shape == (7, 1, 1, 3) and shot.events["type"][0] == carom.EventType.SLIDING_ROLLING
     np.testing.assert_allclose(at[:, 0, 0, 1], 0.3 + times[:, 0] - 0.5 * 0.2 * 9.81 * times[:, 0] ** 2, rtol=1e-14)
     assert shot.states(1e9).tobytes() == shot.final.tobytes() and shot.states(-1.0)["r"].tolist() == [[0.6, 0.3, 0.028575]]
-    assert shot.events["type"][0] == carom.EventType.SLIDING_ROLLING
-    assert shot.final["label"].tolist() == [carom.Label.STATIONARY]
 
 
-def test_more_events_than_the_first_room():
-    """A shot of more than 512 events keeps them all."""
-    table = carom.tables.snooker()
-    rack = carom.racks.snooker(table)
-    shots = [carom.simulate(table, rack, carom.cue(speed=s, game="snooker"), cushion_model="han") for s in (8, 12, 16)]
-    for shot in shots:
-        assert shot.count == len(shot.events) and (np.diff(shot.events["time"]) >= 0).all()
-    small = carom.simulate_batch(table, rack, carom.cue(speed=16, game="snooker"), room=10, cushion_model="han")
-    assert small.count == shots[-1].count and np.array_equal(small.events, shots[-1].events[:10])
+def test_more_events_than_the_first_room(monkeypatch):
+    """A shot of more events than there is room for at first keeps them all."""
+    shot = carom.simulate(TABLE, RACK, carom.cue(speed=8.0))
+    small = carom.simulate_batch(TABLE, RACK, carom.cue(speed=8.0), room=10)
+    monkeypatch.setattr(carom.shots, "_FIRST_ROOM", 20)
+    assert shot.count > 40 and carom.simulate(TABLE, RACK, carom.cue(speed=8.0)).events.tobytes() == shot.events.tobytes()
+    assert small.count == shot.count and np.array_equal(small.events, shot.events[:10])
 
 
 def test_tables_and_racks():
@@ -371,27 +322,20 @@ def test_pictures():
 
 
 def test_balls_that_fly():
-    balls = carom.balls([[0.5, 0.6], [0.5, 0.905]])
-    cue = carom.cue(speed=3.0, theta=45.0, b=0.0)
-    over = carom.simulate(TABLE, balls, cue, cushion_model="han")
-    kinds = over.events["type"].tolist()
-    assert kinds[:2] == [carom.EventType.STRIKE, carom.EventType.SLATE] and kinds.count(carom.EventType.SLATE) > 3
-    top = over.positions(np.linspace(0.0, 0.3, 31))[:, 0, 2].max()
-    assert abs(top - 0.028575 - 0.135695) < 1e-4
-    flat = carom.simulate(TABLE, balls, cue, cushion_model="han", space="flat")
+    balls, cue = carom.balls([[0.5, 0.6], [0.5, 0.905]]), carom.cue(speed=3.0, theta=45.0, b=0.0)
+    over = carom.simulate(TABLE, balls, cue)
+    assert over.events["type"][:2].tolist() == [carom.EventType.STRIKE, carom.EventType.SLATE]
+    assert abs(over.positions(np.linspace(0.0, 0.3, 31))[:, 0, 2].max() - 0.028575 - 0.135695) < 1e-4
+    flat = carom.simulate(TABLE, balls, cue, space="flat")
     assert flat.events["type"][1] == carom.EventType.BALL_BALL and (flat.events["after"]["v"][..., 2] == 0).all()
-    # off the TABLE, which is no error; the batch takes the same option
-    balls = carom.balls([[0.4, 2.14], [0.8, 1.8]])
-    cue = carom.cue(speed=3.0, theta=45.0, b=0.0, miscue=0.5)
-    gone = carom.simulate(TABLE, balls, cue, cushion_model="han")
+    # off the table, which is no error; the batch takes the same options, as keywords or as one object
+    balls, cue = carom.balls([[0.4, 2.14], [0.8, 1.8]]), carom.cue(speed=3.0, theta=45.0, b=0.0, miscue=0.5)
+    gone = carom.simulate(TABLE, balls, cue)
     assert gone.events["type"][-1] == carom.EventType.LEFT_TABLE and gone.final["label"].tolist() == [carom.Label.OFF, 0]
-    for space in ("3d", "flat"):
-        shots = carom.simulate_batch(TABLE, balls, cue, cushion_model="han", space=space)
-        assert shots.final[0]["label"] == (carom.Label.OFF if space == "3d" else carom.Label.STATIONARY)
-    # a large ball rolls into a small one: spheres in space
-    unlike = carom.balls([[0.4, 0.5], [0.7, 0.5]], radius=[0.0302, 0.028575], v=[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    hit = carom.simulate(TABLE, unlike, cushion_model="han")
-    assert carom.EventType.SLATE in hit.events["type"].tolist()
+    for space, label in (("3d", carom.Label.OFF), ("flat", carom.Label.STATIONARY)):
+        given, chosen = carom.Options(space=space, ball_model="mirror"), carom.Options(space=space)
+        shots = carom.simulate_batch(TABLE, balls, cue, space=space), carom.simulate_batch(TABLE, balls, cue, options=given, ball_model="default")
+        assert all(one.final[0]["label"] == label and one.options == chosen for one in shots)
 
 
 def test_tables_are_checked():

@@ -48,21 +48,11 @@ class TrackError(ValueError):
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """One recorded shot.
+    """One recorded shot."""
 
-    Attributes
-    ----------
-    id : int or str
-        As in the file.
-    balls : tuple of int or str
-        The names of the balls, as in the file.
-    tracks : tuple of ndarray, shapes (rows, 3)
-        Of each ball t (s), x and y (m); the first row is at rest.
-    """
-
-    id: int | str
-    balls: tuple[int | str, ...]
-    tracks: tuple[Doubles, ...]
+    id: int | str  # As in the file
+    balls: tuple[int | str, ...]  # The names of the balls, as in the file
+    tracks: tuple[Doubles, ...]  # Of each ball t (s), x and y (m); the first row is at rest
 
     @property
     def rest(self) -> Doubles:
@@ -132,20 +122,13 @@ after (z); errors of a component; chi^2 over its degrees of freedom."""
 class Events(Arrays):
     """What happened on recorded tracks, as structured arrays: `pieces`, `impacts`, `hits` with the dtypes of their names in
     `carom.tracks`, and the friction on the cloth that was found on the way.
-
-    Attributes
-    ----------
-    pieces, impacts, hits : structured arrays, shape (n,)
-    slide : (float, float)
-        Deceleration of sliding, m/s^2, and its error.
-    roll : ((float, float), (float, float))
-        a and its error (m/s^2), b and its error (1/m) of the deceleration of rolling, a + b v^2.
     """
 
-    pieces: Records
-    impacts: Records
-    hits: Records
-    slide: tuple[float, float]
+    pieces: Records  # (n,)
+    impacts: Records  # (n,)
+    hits: Records  # (n,)
+    slide: tuple[float, float]  # Deceleration of sliding, m/s^2, and its error
+    # a and its error (m/s^2), b and its error (1/m) of the deceleration of rolling, a + b v^2
     roll: tuple[tuple[float, float], tuple[float, float]]
 
 
@@ -472,11 +455,8 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
     radius : float
         Of the balls, m.
 
-    Returns
-    -------
-    Events
-        Pieces of all tracks; the impacts and hits that enough samples tell of. Nothing is left out for being improbable: select by
-        chi2 and errors.
+    Returns Events: Pieces of all tracks; the impacts and hits that enough samples tell of. Nothing is left out for being
+    improbable: select by chi2 and errors.
     """
     low, high = radius, np.array(table) - radius
     rows = [[_free(*of, low, high) for of in zip(shot.tracks, shot.moves.tolist())] for shot in recordings]

@@ -51,16 +51,9 @@ def damped(square: Doubles) -> Doubles:
 
 
 class Search:
-    """The search for constants by some shots.
+    """The search for constants by some shots, `rows`, that begin with `strikes`, (shots, 6).
 
-    Parameters
-    ----------
-    plays : Plays
-    strikes : (shots, 6)
-    rows : sequence of int
-        The shots that count.
-    priors : mapping
-        Mean and deviation of each constant to find.
+    `priors` has the mean and the deviation of each constant to find.
     """
 
     def __init__(self, plays: Plays, strikes: Doubles, rows: Sequence[int], priors: Mapping[str, tuple[float, float]]) -> None:

@@ -104,27 +104,20 @@ class _LaterAgent(_Agent):  # type: ignore[misc]
         else:
             settle()
 
-    @property
-    def initial(self) -> Any:
-        """The ball before the event."""
-        self._settle()
-        return _initial_of.__get__(self)
+    def _field(slot: Any) -> Any:
+        """The ball before or after the event: the field of an Agent, which this becomes."""
 
-    @initial.setter
-    def initial(self, value: Any) -> None:
-        self._settle()
-        _initial_of.__set__(self, value)
+        def get(self: Any) -> Any:
+            self._settle()
+            return slot.__get__(self)
 
-    @property
-    def final(self) -> Any:
-        """The ball after the event."""
-        self._settle()
-        return _final_of.__get__(self)
+        def put(self: Any, value: Any) -> None:
+            self._settle()
+            slot.__set__(self, value)
 
-    @final.setter
-    def final(self, value: Any) -> None:
-        self._settle()
-        _final_of.__set__(self, value)
+        return property(get, put)
+
+    initial, final = _field(_initial_of), _field(_final_of)
 
     def __eq__(self, other: object) -> bool:
         self._settle()

@@ -57,7 +57,7 @@ def _set_motion(ball: Any, motion: Array) -> None:
     ball.state = _balls.BallState(rvw, Label.SLIDING)
 
 
-def _resolve_cushion(ball: Any, cushion: Any, jaw_radius: float) -> None:
+def _resolve_cushion(ball: Any, cushion: Any, jaw_radius: float) -> tuple[Any, Any]:
     normal = cushion.get_normal_xy(ball.state.rvw[0].copy())[:2]
     # Into the cushion: from a jaw's axis the normal points to the ball; a rail's has either sense.
     if jaw_radius > 0.0 or np.dot(normal, ball.state.rvw[1][:2]) < 0.0:
@@ -66,6 +66,7 @@ def _resolve_cushion(ball: Any, cushion: Any, jaw_radius: float) -> None:
     numbers = (*ball.state.rvw[1], *ball.state.rvw[2], *normal, cushion.height, p.R, p.m, p.u_s, p.f_c, p.e_c, jaw_radius)
     motion, _ = resolve_cushion(np.array(numbers))
     _set_motion(ball, motion)
+    return ball, cushion
 
 
 class ExactLinearCushion(_ball_cushion_core.CoreBallLCushionCollision):  # type: ignore[misc]
@@ -75,8 +76,7 @@ class ExactLinearCushion(_ball_cushion_core.CoreBallLCushionCollision):  # type:
 
     def solve(self, ball: Any, cushion: Any) -> tuple[Any, Any]:
         """The ball, with the motion after the impact, in place."""
-        _resolve_cushion(ball, cushion, 0.0)
-        return ball, cushion
+        return _resolve_cushion(ball, cushion, 0.0)
 
 
 class ExactCircularCushion(_ball_cushion_core.CoreBallCCushionCollision):  # type: ignore[misc]
@@ -86,5 +86,4 @@ class ExactCircularCushion(_ball_cushion_core.CoreBallCCushionCollision):  # typ
 
     def solve(self, ball: Any, cushion: Any) -> tuple[Any, Any]:
         """The ball, with the motion after the impact, in place."""
-        _resolve_cushion(ball, cushion, float(cushion.radius))
-        return ball, cushion
+        return _resolve_cushion(ball, cushion, float(cushion.radius))

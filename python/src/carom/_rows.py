@@ -9,7 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -187,6 +187,16 @@ def whole(value: object, name: str, least: int = 0, most: int = 2**31 - 1) -> in
     if least <= number <= most:
         return number
     raise ValueError(f"{name}: it must be a whole number from {least} to {most}, not {value!r}")
+
+
+_Made = TypeVar("_Made", bound=Callable[..., Any])
+
+
+def called(function: _Made, name: str, text: str) -> _Made:
+    """A function that was made in another one, with a name and a text of its own."""
+    function.__name__ = function.__qualname__ = name
+    function.__doc__ = text
+    return function
 
 
 def listing(module: str) -> Callable[[], list[str]]:

@@ -45,32 +45,15 @@ _LAST, _SQUARES = 10, 10  # iterations at the end, by the cost and by plain squa
 
 
 class Plays:
-    """Recorded shots, ready to be played with given constants.
+    """Recorded shots of the same number of balls, ready to be played with given constants: all of them, for all shots.
 
-    Parameters
-    ----------
-    recordings : sequence of Recording
-        Of the same number of balls.
-    table : (float, float)
-        Extents of x and y, m.
-    radius : float
-        m.
-    constants : mapping
-        All of them, for all shots.
-    cushion_model : str
-    threads : int
-        As in `carom.simulate_batch`.
+    `table` has the extents of x and y, m; `radius` is that of the balls, m; `threads` is as in `carom.simulate_batch`.
     """
 
     def __init__(
-        self,
-        recordings: Sequence[Recording],
-        table: tuple[float, float],
-        radius: float,
-        constants: Mapping[str, float],
-        cushion_model: ShotCushion,
-        threads: int = 0,
-    ) -> None:
+        self, recordings: Sequence[Recording], table: tuple[float, float], radius: float,
+        constants: Mapping[str, float], cushion_model: ShotCushion, threads: int = 0
+    ) -> None:  # fmt: skip
         self.recordings = recordings
         self.radius = radius
         self.threads, self.workers = threads, workers(threads) if threads else 1
@@ -102,18 +85,8 @@ class Plays:
     def misfit(
         self, of: Integers, strikes: Doubles, until: Doubles, most: Doubles | float, *, huber: float = HUBER, stride: int = 1
     ) -> Doubles:
-        """Costs, and normal equations where the cost is below `most`, of n plays: see loops.h.
-
-        Parameters
-        ----------
-        of : (n,) which recording each play is of
-        strikes : (n, 6)
-        until : (n,) the time of the last sample that counts, s
-        most : (n,)
-
-        Returns
-        -------
-        (n, 3 + m + m (m + 1)/2), m = 6 and the number of steps
+        """Costs, and normal equations where the cost is below `most`, of n plays: see loops.h. Shape (n, 3 + m + m (m + 1)/2), m = 6 and
+        the number of steps. Play k is of recording of[k], by strikes[k], with the samples up to until[k], s.
         """
         numbers = _NUMBERS + len(self.steps)
         sums = np.empty((len(of), 3 + numbers + numbers * (numbers + 1) // 2))

@@ -29,45 +29,24 @@ _STYLE = (
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Recorded shots, and what they were fitted by.
-
-    Attributes
-    ----------
-    recordings : list of Recording
-    table : (float, float)
-        Extents of x and y, m.
-    radius : float
-        m.
-    cushion_model : str
-    constants : dict
-        What the shots are played with: fields of `carom.dtypes.ball_kind`, and nose_height (m).
-    spread : dict
-        Of each constant that was fitted, how far it is off by the evidence itself: a standard deviation.
-    fitted : tuple of str
-        The constants that whole shots told.
-    covariance : ndarray, shape (fitted, fitted), or None
-        Of these; the roots of its diagonal are their `spread`. None where fewer than 8 shots tell.
-    strikes : ndarray, shape (shots, 6)
-        v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike, and its time (s). NaN where there is none.
-    status : list of str
-        "ok", or why the shot does not count.
-    rmse : ndarray, shape (shots,)
-        Root of the mean squared distance between recorded and played places over all samples of all balls, m; NaN without a play.
-    train : list of bool, optional
-        Which shots the constants were fitted to, if not all.
-    """
+    """Recorded shots, and what they were fitted by."""
 
     recordings: list[Recording]
-    table: tuple[float, float]
-    radius: float
+    table: tuple[float, float]  # Extents of x and y, m
+    radius: float  # m
     cushion_model: ShotCushion
-    constants: dict[str, float]
-    spread: dict[str, float]
+    constants: dict[str, float]  # What the shots are played with: fields of `carom.dtypes.ball_kind`, and nose_height (m)
+    spread: dict[str, float]  # Of each constant that was fitted, how far it is off by the evidence itself: a standard deviation
+    # (shots, 6): v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike, and its time (s). NaN where
+    # there is none.
     strikes: Doubles
-    status: list[str]
+    status: list[str]  # "ok", or why the shot does not count
+    # (shots,): Root of the mean squared distance between recorded and played places over all samples of all balls, m; NaN
+    # without a play
     rmse: Doubles
-    train: list[bool] | None = None
-    fitted: tuple[str, ...] = ()
+    train: list[bool] | None = None  # Which shots the constants were fitted to, if not all
+    fitted: tuple[str, ...] = ()  # The constants that whole shots told
+    # (fitted, fitted): Of these; the roots of its diagonal are their `spread`. None where fewer than 8 shots tell.
     covariance: Doubles | None = None
 
     def counted(self, train: bool | None = None) -> Doubles:
@@ -88,10 +67,7 @@ class Fit:
     def shot(self, i: int) -> Shot:
         """Shot i played; its clock begins at the strike, `strikes[i, 5]`.
 
-        Raises
-        ------
-        ValueError
-            No strike was found.
+        Raises ValueError: No strike was found.
         """
         strike, recording = self.strikes[i], self.recordings[i]
         if not np.isfinite(strike).all():
@@ -108,10 +84,7 @@ class Fit:
 
         It has the noise of the samples, by what they leave over, and that of the places of rest, which contacts magnify.
 
-        Raises
-        ------
-        ValueError
-            No strike was found.
+        Raises ValueError: No strike was found.
         """
         self.shot(i)
         plays = _strikes.Plays([self.recordings[i]], self.table, self.radius, self.constants, self.cushion_model)

@@ -32,21 +32,11 @@ def _options(solver: str, slip: str, steps: int, threads: int, plain: bool) -> A
 
 
 def impacts(
-    *,
-    r_a: npt.ArrayLike = (0.0, 0.0, 0.0),
-    v_a: npt.ArrayLike,
-    w_a: npt.ArrayLike = 0.0,
-    r_b: npt.ArrayLike,
-    v_b: npt.ArrayLike = 0.0,
-    w_b: npt.ArrayLike = 0.0,
-    radius: npt.ArrayLike = 0.028575,
-    mass: npt.ArrayLike = 0.170097,
-    mass_b: npt.ArrayLike | None = None,
-    mu_cloth: npt.ArrayLike = 0.2,
-    mu_cloth_b: npt.ArrayLike | None = None,
-    mu_ball: npt.ArrayLike = 0.05,
-    restitution: npt.ArrayLike = 0.95,
-) -> dtypes.Records:
+    *, r_a: npt.ArrayLike = (0.0, 0.0, 0.0), v_a: npt.ArrayLike, w_a: npt.ArrayLike = 0.0, r_b: npt.ArrayLike,
+    v_b: npt.ArrayLike = 0.0, w_b: npt.ArrayLike = 0.0, radius: npt.ArrayLike = 0.028575,
+    mass: npt.ArrayLike = 0.170097, mass_b: npt.ArrayLike | None = None, mu_cloth: npt.ArrayLike = 0.2,
+    mu_cloth_b: npt.ArrayLike | None = None, mu_ball: npt.ArrayLike = 0.05, restitution: npt.ArrayLike = 0.95
+) -> dtypes.Records:  # fmt: skip
     """Build impacts for `collide`. The fields are broadcast against each other.
 
     Parameters
@@ -68,10 +58,7 @@ def impacts(
     restitution : array_like, shape (...)
         0 to 1.
 
-    Returns
-    -------
-    ndarray of `carom.dtypes.impact`, shape (...)
-        `carom.dtypes.plain()` gives the numbers, of shape (..., 26).
+    Returns an ndarray of `carom.dtypes.impact`, shape (...): `carom.dtypes.plain()` gives the numbers, of shape (..., 26).
     """
     other = {"b.mass": mass if mass_b is None else mass_b, "b.mu_cloth": mu_cloth if mu_cloth_b is None else mu_cloth_b}
     return fill(
@@ -84,15 +71,9 @@ def impacts(
 
 
 def collide(
-    impacts: npt.ArrayLike,
-    *,
-    solver: Solver = "exact",
-    slip: Slip = "paper",
-    steps: int = 0,
-    plain: bool = False,
-    threads: int = 0,
-    out: tuple[Array, Array] | None = None,
-) -> Outcome:
+    impacts: npt.ArrayLike, *, solver: Solver = "exact", slip: Slip = "paper", steps: int = 0, plain: bool = False,
+    threads: int = 0, out: tuple[Array, Array] | None = None
+) -> Outcome:  # fmt: skip
     """Resolve collisions of two balls.
 
     Parameters
@@ -120,10 +101,7 @@ def collide(
     status : ndarray of int8, shape (...)
         0: resolved; 1: the balls do not approach each other, and motion is that before; negative: an error, see `Status`.
 
-    Raises
-    ------
-    CaromError
-        One impact, of shape (26,) or (), that is in error.
+    Raises CaromError: One impact, of shape (26,) or (), that is in error.
     """
     options = _options(solver, slip, steps, threads, plain)
     return resolve(BALLS, impacts, options, 2e-7 if solver == "exact" else 1e-8 * (steps or 1000), threads, out)
@@ -145,10 +123,8 @@ def mu_ball(impacts: npt.ArrayLike, law: tuple[float, float, float] | None = Non
     law : tuple of a, b, c, optional
         mu = a + b exp(-c |u|), |u| in m/s. Default: `alciatore()`.
 
-    Returns
-    -------
-    ndarray of float64, shape (...)
-        Dimensionless. A law that leaves [0, 1] or motion that is not finite gives a number that `collide` refuses.
+    Returns an ndarray of float64, shape (...): Dimensionless. A law that leaves [0, 1] or motion that is not finite gives a number
+    that `collide` refuses.
     """
     array = rows(impacts, dtypes.impact, "impacts")
     mu = np.empty(array.shape if array.dtype.names is not None else array.shape[:-1])
@@ -163,14 +139,9 @@ def mu_ball(impacts: npt.ArrayLike, law: tuple[float, float, float] | None = Non
 
 
 def trace(
-    impact: npt.ArrayLike,
-    points: int = 101,
-    *,
-    solver: Solver = "exact",
-    slip: Slip = "paper",
-    steps: int = 0,
-    plain: bool = False,
-) -> dtypes.Records:
+    impact: npt.ArrayLike, points: int = 101, *, solver: Solver = "exact", slip: Slip = "paper", steps: int = 0,
+    plain: bool = False
+) -> dtypes.Records:  # fmt: skip
     """Follow one collision, at equal steps of normal impulse from 0 to its end.
 
     Parameters
@@ -182,15 +153,8 @@ def trace(
     solver, slip, steps, plain
         As for `collide`; Euler's method gives the nearest whole steps.
 
-    Returns
-    -------
-    ndarray of `carom.dtypes.trace_point`, shape (points,)
-        normal (N s), work (J), phase (0 compression, 1 restitution), sticks, v_n and slips (m/s) in the frame of the collision,
-        state (both balls, along the axes of the table).
-
-    Raises
-    ------
-    CaromError
-        The impact is in error.
+    Returns an ndarray of `carom.dtypes.trace_point`, shape (points,): normal (N s), work (J), phase (0 compression, 1
+    restitution), sticks, v_n and slips (m/s) in the frame of the collision, state (both balls, along the axes of the table).
+    Raises CaromError: The impact is in error.
     """
     return follow(BALLS, impact, points, _options(solver, slip, steps, 0, plain))

@@ -37,18 +37,10 @@ def _options(
 
 
 def cushion_impacts(
-    *,
-    v: npt.ArrayLike,
-    w: npt.ArrayLike = 0.0,
-    normal: npt.ArrayLike = (0.0, 1.0),
-    height: npt.ArrayLike = 0.036576,
-    radius: npt.ArrayLike = 0.028575,
-    mass: npt.ArrayLike = 0.170097,
-    mu_cloth: npt.ArrayLike = 0.2,
-    mu_cushion: npt.ArrayLike = 0.2,
-    restitution: npt.ArrayLike = 0.85,
-    jaw_radius: npt.ArrayLike = 0.0,
-) -> dtypes.Records:
+    *, v: npt.ArrayLike, w: npt.ArrayLike = 0.0, normal: npt.ArrayLike = (0.0, 1.0), height: npt.ArrayLike = 0.036576,
+    radius: npt.ArrayLike = 0.028575, mass: npt.ArrayLike = 0.170097, mu_cloth: npt.ArrayLike = 0.2,
+    mu_cushion: npt.ArrayLike = 0.2, restitution: npt.ArrayLike = 0.85, jaw_radius: npt.ArrayLike = 0.0
+) -> dtypes.Records:  # fmt: skip
     """Impacts for `cushion`, from fields that are broadcast against each other.
 
     Parameters
@@ -66,9 +58,7 @@ def cushion_impacts(
     jaw_radius : array_like, shape (...)
         m; 0 for a straight rail.
 
-    Returns
-    -------
-    ndarray of `carom.dtypes.cushion_impact`, shape (...)
+    Returns an ndarray of `carom.dtypes.cushion_impact`, shape (...).
     """
     fields = {"v": v, "w": w, "normal": normal, "height": height, "radius": radius, "mass": mass, "mu_cloth": mu_cloth}
     fields |= {"mu_cushion": mu_cushion, "restitution": restitution, "jaw_radius": jaw_radius}
@@ -76,18 +66,10 @@ def cushion_impacts(
 
 
 def cushion(
-    impacts: npt.ArrayLike,
-    *,
-    model: CushionModel = "mathavan",
-    convention: CushionConvention = "paper",
-    law: CushionLaw = "constant",
-    steps: int = 0,
-    least_step: float = 0.0,
-    omega_ratio: float = 0.0,
-    plain: bool = False,
-    threads: int = 0,
-    out: tuple[Array, Array] | None = None,
-) -> Outcome:
+    impacts: npt.ArrayLike, *, model: CushionModel = "mathavan", convention: CushionConvention = "paper",
+    law: CushionLaw = "constant", steps: int = 0, least_step: float = 0.0, omega_ratio: float = 0.0,
+    plain: bool = False, threads: int = 0, out: tuple[Array, Array] | None = None
+) -> Outcome:  # fmt: skip
     """Resolve impacts of a ball on a cushion.
 
     Parameters
@@ -106,12 +88,8 @@ def cushion(
         Least impulse of a step of Euler's, N s; pooltool has 0.001.
     omega_ratio : float
         Stronge's ratio of frequencies, between 1 and 2; 0 is 1.8.
-    plain : bool
-        Whether this call computes with the instruction set plain, as with CAROM_ISA=plain: it has the bits that all machines share.
-    threads : int
-        Most threads to use; 0 is the calling one alone, -1 all processors.
-    out : tuple of two arrays, optional
-        Where motion and status go. They may not overlap each other or the impacts.
+    plain, threads, out
+        As for `carom.collide`.
 
     Returns
     -------
@@ -120,10 +98,7 @@ def cushion(
     status : ndarray of int8, shape (...)
         0: resolved; 1: the ball does not move into the cushion; negative: an error, see `Status`.
 
-    Raises
-    ------
-    CaromError
-        One impact, of shape (15,) or (), that is in error.
+    Raises CaromError: One impact, of shape (15,) or (), that is in error.
     """
     options = _options(model, convention, law, steps, threads, least_step, omega_ratio, plain)
     seconds = 1e-5 if model == "mathavan" else 1e-7 * (steps or 1000) if model == "euler" else 1e-7
@@ -131,16 +106,10 @@ def cushion(
 
 
 def cushion_trace(
-    impact: npt.ArrayLike,
-    points: int = 101,
-    *,
-    model: CushionModel = "mathavan",
-    convention: CushionConvention = "paper",
-    law: CushionLaw = "constant",
-    steps: int = 0,
-    least_step: float = 0.0,
-    plain: bool = False,
-) -> dtypes.Records:
+    impact: npt.ArrayLike, points: int = 101, *, model: CushionModel = "mathavan",
+    convention: CushionConvention = "paper", law: CushionLaw = "constant", steps: int = 0, least_step: float = 0.0,
+    plain: bool = False
+) -> dtypes.Records:  # fmt: skip
     """Follow one impact by the model mathavan or euler, at equal steps of normal impulse from 0 to its end.
 
     Parameters
@@ -152,14 +121,8 @@ def cushion_trace(
     model, convention, law, steps, least_step, plain
         As for `cushion`.
 
-    Returns
-    -------
-    ndarray of `carom.dtypes.cushion_point`, shape (points,)
-
-    Raises
-    ------
-    CaromError
-        The impact is in error.
+    Returns an ndarray of `carom.dtypes.cushion_point`, shape (points,).
+    Raises CaromError: The impact is in error.
     """
     if model not in ("mathavan", "euler"):
         raise ValueError(f"model: must be 'mathavan' or 'euler', which can be followed, not {model!r}")

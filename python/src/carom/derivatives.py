@@ -169,15 +169,9 @@ def _seeds(wrt: Sequence[str], balls: int) -> tuple[tuple[str, ...], tuple[str, 
 
 
 def _differentiate(
-    job: Callable[[int, int], Any],
-    n: int,
-    balls: int,
-    events: int,
-    seeds: dict[str, dtypes.Doubles],
-    times: Array,
-    wanted: Collection[str],
-    threads: int,
-) -> tuple[dict[str, Array], Array]:
+    job: Callable[[int, int], Any], n: int, balls: int, events: int, seeds: dict[str, dtypes.Doubles], times: Array,
+    wanted: Collection[str], threads: int
+) -> tuple[dict[str, Array], Array]:  # fmt: skip
     """What is wanted of the tangents of n played shots, each of shape (n, ...), and their statuses.
 
     `job` gives the carom_shot_job of some of the shots. Directions beyond what C takes are given in parts.
@@ -240,34 +234,13 @@ def _job_of_one(shot: Shot, options: Any) -> Callable[[int, int], Any]:
     return lambda begin, many: ffi.new("carom_shot_job *", played)
 
 
-def _same_cue(shot: Shot | Shots, cue: dtypes.Records) -> None:
-    """Refuses a cue that is not the one a shot was played with."""
-    given, played = of_record(cue, dtypes.cue, "cue", "cue()").reshape(-1), shot.cues if isinstance(shot, Shots) else shot.cue
-    advice = "leave the cue out, as a shot knows its own"
-    if played is None or given.size != played.size:
-        raise ValueError(f"cue: {given.size} given, but the shot was played with {0 if played is None else played.size}; {advice}")
-    for name in dtypes.cue.names or ():
-        for value, right in zip(given[name].tolist(), played[name].reshape(-1).tolist()):
-            if value != right:
-                raise ValueError(f"cue.{name} = {value}: the shot was played with {right}; {advice}")
-
-
-def tangents(
-    shot: Shot | Shots,
-    cue: dtypes.Records | Sequence[str] | None = None,
-    wrt: Sequence[str] | None = None,
-    *,
-    times: npt.ArrayLike | None = None,
-    threads: int = 0,
-) -> Tangents:
-    """Differentiate a shot that `carom.simulate` has played, or many of `carom.simulate_batch`: `tangents(shot, wrt)`.
+def tangents(shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | None = None, threads: int = 0) -> Tangents:
+    """Differentiate a shot that `carom.simulate` has played, or many of `carom.simulate_batch`. A shot knows its cue and its models.
 
     Parameters
     ----------
     shot : Shot or Shots
         With all of its events: many need a `room` that is large enough.
-    cue : ndarray of `carom.dtypes.cue`, optional
-        A shot knows its own: `tangents(shot, cue, wrt)` refuses any other.
     wrt : sequence of str
         By what: "cue.phi" and other numbers of the cue; "kind.mu_slide" of all balls, "balls[1].kind.mass" of one;
         "balls[0].r" (two directions), "balls[0].r[1]", v, w, and "balls[0].v[2]" of a ball that flies; "table.nose_height",
@@ -277,27 +250,17 @@ def tangents(
     threads : int
         Most threads to use for many shots; 0 is the calling one alone, -1 all processors. No bit depends on it.
 
-    Returns
-    -------
-    Tangents
-        Of many shots with the bits of each alone. One in error, or whose derivatives are not known, costs itself: see `status`.
-
-    Raises
-    ------
-    CaromError
-        Derivatives are not known for this shot: in the world pooltool, or by Euler's model of balls.
-    ValueError
-        The cue is not that of the shot; or shots of a batch have more events than were kept.
+    Returns Tangents: Of many shots with the bits of each alone. One in error, or whose derivatives are not known, costs itself:
+    see `status`.
+    Raises CaromError: Derivatives are not known for this shot: in the world pooltool, or by Euler's model of balls.
+    Raises ValueError: Shots of a batch have more events than were kept.
     """
-    cue, wrt = (cue, wrt) if wrt is not None else (None, cue)  # type: ignore[assignment]
     if not isinstance(shot, (Shot, Shots)):
         raise TypeError(f"shot: what carom.simulate() or carom.simulate_batch() gives is needed, not {type(shot).__name__}")
     balls = shot.final.shape[-1]
-    names, units, seeds = _seeds(() if wrt is None else wrt, balls)
+    names, units, seeds = _seeds(wrt, balls)
     at = _sorted_times(times)
     wanted = ("final", "at", "time", "flags", "reach")
-    if cue is not None:
-        _same_cue(shot, cue)  # type: ignore[arg-type]
     if shot.events.dtype != dtypes.event:
         raise ValueError('shot: its events were kept in brief; play it with records="full"')
     count, status, room = np.asarray(shot.count), np.asarray(shot.status), shot.events.shape[-1]
@@ -317,16 +280,9 @@ def tangents(
 
 
 def play(
-    table: Table,
-    layouts: dtypes.Records,
-    cues: dtypes.Records | None,
-    seeds: dict[str, dtypes.Doubles],
-    times: Array,
-    wanted: Collection[str],
-    room: int,
-    threads: int,
-    options: Options,
-) -> tuple[dict[str, Array], Array, dtypes.Records]:
+    table: Table, layouts: dtypes.Records, cues: dtypes.Records | None, seeds: dict[str, dtypes.Doubles], times: Array,
+    wanted: Collection[str], room: int, threads: int, options: Options
+) -> tuple[dict[str, Array], Array, dtypes.Records]:  # fmt: skip
     """Plays shots, some at a time, and differentiates them: what is wanted, statuses and final states, of the shape of the batch."""
     whole(threads, "threads", least=-1)
     balls, shape = layouts.shape[-1], np.broadcast_shapes(layouts.shape[:-1], () if cues is None else cues.shape)
@@ -364,18 +320,10 @@ def play(
 
 
 def jacobian(
-    table: Table,
-    layouts: dtypes.Records,
-    cues: dtypes.Records | None,
-    wrt: Sequence[str],
-    *,
-    of: str = "final.r",
-    times: npt.ArrayLike | None = None,
-    room: int = 512,
-    threads: int = 0,
-    options: Options = Options(),
-    **changes: Unpack[Changes],
-) -> dtypes.Doubles:
+    table: Table, layouts: dtypes.Records, cues: dtypes.Records | None, wrt: Sequence[str], *, of: str = "final.r",
+    times: npt.ArrayLike | None = None, room: int = 512, threads: int = 0, options: Options = Options(),
+    **changes: Unpack[Changes]
+) -> dtypes.Doubles:  # fmt: skip
     """Play shots and give one derivative of each, with leading batch dimensions.
 
     Parameters
@@ -391,10 +339,7 @@ def jacobian(
     threads, options, **changes
         As for `carom.simulate_batch`.
 
-    Returns
-    -------
-    ndarray of float64
-        (..., balls, 2, m) for "final.r"; nan for shots in error. Each shot has the bits of `tangents`.
+    Returns an ndarray of float64: (..., balls, 2, m) for "final.r"; nan for shots in error. Each shot has the bits of `tangents`.
     """
     group, _, field = str(of).partition(".")
     if (group not in ("final", "at") or field not in PARTS) and of not in ("time", "reach"):

@@ -51,42 +51,31 @@ def _record(name: str) -> Record:
     return _dtype(ffi.typeof(name))
 
 
+# docs/using/python.md has the fields of each, with their units.
+# Two balls at the instant of contact: a, b (r, v, w, radius, mass, mu_cloth), mu_ball, restitution. 26 doubles.
 impact: Record = _record("carom_impact")
-"""Two balls at the instant of contact: a, b (r, v, w, radius, mass, mu_cloth), mu_ball, restitution. 26 doubles."""
-result: Record = _record("carom_result")
-"""Two balls after the collision: a, b (v, w). 12 doubles."""
-motion: Record = _record("carom_motion")
-"""A ball's v (m/s) and w (rad/s). 6 doubles."""
+result: Record = _record("carom_result")  # Two balls after the collision: a, b (v, w). 12 doubles.
+motion: Record = _record("carom_motion")  # A ball's v (m/s) and w (rad/s). 6 doubles.
+# A ball at a cushion: v, w, normal, height, radius, mass, mu_cloth, mu_cushion, restitution, jaw_radius. 15 doubles.
 cushion_impact: Record = _record("carom_cushion_impact")
-"""A ball at a cushion: v, w, normal, height, radius, mass, mu_cloth, mu_cushion, restitution, jaw_radius. 15 doubles."""
-trace_point: Record = _record("carom_trace_point")
-"""A point of `carom.trace`."""
-cushion_point: Record = _record("carom_cushion_point")
-"""A point of `carom.cushion_trace`."""
-ball_kind: Record = _record("carom_ball_kind")
-"""What a ball is made of and runs on."""
+trace_point: Record = _record("carom_trace_point")  # A point of `carom.trace`.
+cushion_point: Record = _record("carom_cushion_point")  # A point of `carom.cushion_trace`.
+ball_kind: Record = _record("carom_ball_kind")  # What a ball is made of and runs on.
+# Where a ball is and how it moves: r (m), v (m/s), w (rad/s), label (`carom.Label`).
 ball_state: Record = _record("carom_ball_state")
-"""Where a ball is and how it moves: r (m), v (m/s), w (rad/s), label (`carom.Label`)."""
-shot_ball: Record = _record("carom_shot_ball")
-"""A ball of a layout: kind, state."""
-cue: Record = _record("carom_cue")
-"""A cue and its strike."""
-rail: Record = _record("carom_rail")
-"""A straight piece of cushion."""
-jaw: Record = _record("carom_jaw")
-"""A rounded end of a cushion."""
-pocket: Record = _record("carom_pocket")
-"""A pocket."""
-table: Record = _record("carom_table")
-"""A table: any geometry."""
+shot_ball: Record = _record("carom_shot_ball")  # A ball of a layout: kind, state.
+cue: Record = _record("carom_cue")  # A cue and its strike.
+rail: Record = _record("carom_rail")  # A straight piece of cushion.
+jaw: Record = _record("carom_jaw")  # A rounded end of a cushion.
+pocket: Record = _record("carom_pocket")  # A pocket.
+table: Record = _record("carom_table")  # A table: any geometry.
+# An event of a shot: time (s), type (`carom.EventType`), a, b, before and after (two ball states each).
 event: Record = _record("carom_event")
-"""An event of a shot: time (s), type (`carom.EventType`), a, b, before and after (two ball states each)."""
+# An event without states, 24 bytes: time (s), type (`carom.EventType`), a, b.
 brief_event: Record = _record("carom_brief_event")
-"""An event without states, 24 bytes: time (s), type (`carom.EventType`), a, b."""
-shot: Record = _record("carom_shot")
-"""What a shot gives, with the addresses of its arrays: for the calls of C."""
+shot: Record = _record("carom_shot")  # What a shot gives, with the addresses of its arrays: for the calls of C.
+# What derivatives of a shot give, with the addresses of their arrays: for the calls of C.
 tangent: Record = _record("carom_tangent")
-"""What derivatives of a shot give, with the addresses of their arrays: for the calls of C."""
 
 
 def described(dtype: np.dtype[Any]) -> str:

@@ -93,33 +93,22 @@ class _Saved:
 
 
 def fit(
-    recordings: Sequence[Recording],
-    table: tuple[float, float],
-    radius: float,
-    *,
-    cushion_model: ShotCushion = "han",
-    constants: Mapping[str, float] | None = None,
-    free: str | Sequence[str] = "default",
-    priors: Mapping[str, tuple[float, float]] | None = None,
-    train: Sequence[int] | None = None,
-    seed: int = 0,
-    threads: int = 0,
-    progress: Progress | None = None,
-    state: Path | None = None,
-) -> Fit:
+    recordings: Sequence[Recording], table: tuple[float, float], radius: float, *, cushion_model: ShotCushion = "han",
+    constants: Mapping[str, float] | None = None, free: str | Sequence[str] = "default",
+    priors: Mapping[str, tuple[float, float]] | None = None, train: Sequence[int] | None = None, seed: int = 0,
+    threads: int = 0, progress: Progress | None = None, state: Path | None = None
+) -> Fit:  # fmt: skip
     """Fit recorded shots.
 
     Parameters
     ----------
     recordings : sequence of Recording
         From `carom.tracks.read`, all of the same number of balls.
-    table : (float, float)
-        Extents of x and y, m.
-    radius : float
-        Of the balls, m.
+    table, radius
+        Extents (float, float) of x and y, and the radius of the balls, m.
     cushion_model : {"mathavan", "stronge", "han", "mirror"}
     constants : mapping, optional
-        What is known; the usual ones for what is not given.
+        Known constants; the usual ones stand for those that are not given.
     free : "none", "events", "default", or names of constants
         What is fitted besides each shot's strike. "none": nothing. "events": the constants that single events tell: mu_slide, mu_roll,
         drag, restitution, and those of the cushion. What too few events tell stays as given. "default": these first, and then all of
@@ -129,24 +118,15 @@ def fit(
         different tables are.
     train : sequence of int, optional
         The shots, from 0, that constants are fitted to; all without. The others then tell how well the constants predict.
-    seed : int
-        Of what is drawn: the same seed, the same bits.
-    threads : int
-        Most threads; 0 is the calling one alone, -1 all processors. No bit depends on it.
+    seed, threads : int
+        Of what is drawn, and most threads: 0 is the calling one alone, -1 all processors. The bits depend on the seed alone.
     progress : callable(what, part), optional
-        Is told what is being done, and the part of it that is done, 0 to 1.
+        Is told the name of the work and the part of it that is done, 0 to 1.
     state : path, optional
         A file that keeps what is done so far. A fit that was interrupted goes on from there when it is called again with the same
         arguments, and has the same bits; the file is removed at the end.
 
-    Returns
-    -------
-    Fit
-
-    Raises
-    ------
-    ValueError
-        An argument is wrong: which, and what would be right.
+    Raises ValueError: An argument is wrong: which, and what would be right.
     """
     recordings = list(recordings)
     if not recordings:

@@ -1,4 +1,4 @@
-"""The game of `carom.potting` as environments of gymnasium: one game, and many at once.
+"""The game of `carom.potting` as environments of gymnasium: one game, and many at once. An experiment: names may change.
 
     import gymnasium
     import carom.gymnasium
@@ -130,23 +130,12 @@ def _checked(options: dict[str, Any] | None) -> dict[str, Any]:
 
 
 class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
-    """One game of `carom.potting.Potting`.
+    """One game of `carom.potting.Potting`: `balls`, `strokes` and **rules are its arguments.
 
-    Parameters
-    ----------
-    balls, strokes
-        As for `Potting`.
-    render_mode : {None, "svg"}
-        What `render` gives: nothing, or the text of a picture of the last stroke, from where the balls lay (faint) to where they
-        came to rest.
-    **rules
-        Other arguments of `Potting`.
-
-    Notes
-    -----
-    `info` after a stroke: potted (int), scratch (bool), status (int, as `carom.Status`), time (s). Options of `reset`: layout, the
-    centres (m) of shape (balls + 1, 2), the cue ball first; strokes, at most those of the environment. There is no truncation:
-    the observation contains the number of strokes left.
+    With `render_mode="svg"`, `render` gives the text of a picture of the last stroke, from where the balls lay (faint) to where they
+    came to rest. `info` after a stroke: potted (int), scratch (bool), status (int, as `carom.Status`), time (s). Options of `reset`:
+    layout, the centres (m) of shape (balls + 1, 2), the cue ball first; strokes, at most those of the environment. There is no
+    truncation: the observation contains the number of strokes left.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["svg"], "render_fps": 1}
@@ -168,21 +157,12 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         return self._games.observe()[0], {}
 
     def step(self, action: npt.ArrayLike) -> tuple[dtypes.Doubles, float, bool, bool, dict[str, Any]]:
-        """Play a stroke.
-
-        Returns
-        -------
-        observation, reward, terminated, truncated, info
-        """
+        """Play a stroke: observation, reward, terminated, truncated, info."""
         if self._games.ended[0]:
             raise gymnasium.error.ResetNeeded("the game has ended, or has not begun: call reset()")
         strokes = self._games.play(_ONE, np.asarray(action, np.float64)[np.newaxis])
-        info = {
-            "potted": int(strokes.potted[0]),
-            "scratch": bool(strokes.scratch[0]),
-            "status": int(strokes.status[0]),
-            "time": float(strokes.time[0]),
-        }
+        info = {"potted": int(strokes.potted[0]), "scratch": bool(strokes.scratch[0]), "status": int(strokes.status[0])}
+        info["time"] = float(strokes.time[0])  # type: ignore[assignment]
         return self._games.observe()[0], float(strokes.rewards[0]), bool(self._games.ended[0]), False, info
 
     def render(self) -> Any:
@@ -193,25 +173,14 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
 class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any]]):
     """Many games of `carom.potting.Potting`, all strokes of a step in one `carom.simulate_batch`.
 
-    Parameters
-    ----------
-    num_envs : int
-        How many games.
-    balls, strokes, render_mode, **rules
-        As for `PottingEnv`; `render` gives a tuple of pictures. `threads` plays the strokes of a step side by side.
-
-    Notes
-    -----
-    A game that has ended begins anew with the next step, whose action for it is not played (AutoresetMode.NEXT_STEP, gymnasium's
-    default). Seeds are as for gymnasium's SyncVectorEnv: s is s, s + 1, ...; a list has one for each game. Options of `reset` are as
-    for `PottingEnv`; layout may be of shape (num_envs, balls + 1, 2). `infos` has arrays, and under "_" + name where they are set.
+    Arguments are those of `PottingEnv`, after the number of games; `threads` plays the strokes of a step side by side, and `render`
+    gives a tuple of pictures. A game that has ended begins anew with the next step, whose action for it is not played
+    (AutoresetMode.NEXT_STEP, gymnasium's default). Seeds are as for gymnasium's SyncVectorEnv: s is s, s + 1, ...; a list has one for
+    each game. Options of `reset` are as for `PottingEnv`; layout may be of shape (num_envs, balls + 1, 2). `infos` has arrays, and
+    under "_" + name where they are set.
     """
 
-    metadata: dict[str, Any] = {
-        "render_modes": ["svg"],
-        "render_fps": 1,
-        "autoreset_mode": AutoresetMode.NEXT_STEP,
-    }
+    metadata: dict[str, Any] = {"render_modes": ["svg"], "render_fps": 1, "autoreset_mode": AutoresetMode.NEXT_STEP}
 
     def __init__(
         self, num_envs: int = 1, balls: int = 5, strokes: int = 5, *, render_mode: RenderMode | None = None, **rules: Any
@@ -251,13 +220,7 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
     def step(
         self, actions: npt.ArrayLike
     ) -> tuple[dtypes.Doubles, npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any], dict[str, Any]]:
-        """Play a stroke of each game, or begin it anew.
-
-        Returns
-        -------
-        observations, rewards, terminated, truncated, infos
-            The first of shape (num_envs, ...), the next three of shape (num_envs,).
-        """
+        """Play a stroke of each game, or begin it anew: observations (num_envs, ...); rewards, terminated, truncated (num_envs,); infos."""
         given = np.asarray(actions, dtype=np.float64)
         if given.shape != (self.num_envs, 4):
             raise ValueError(f"actions: the shape must be ({self.num_envs}, 4), not {given.shape}")
@@ -271,12 +234,7 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
         if playing.any():
             strokes = self._games.play(np.flatnonzero(playing), given[playing])
             rewards[playing] = strokes.rewards
-            told: dict[str, npt.NDArray[Any]] = {
-                "potted": strokes.potted,
-                "scratch": strokes.scratch,
-                "status": strokes.status.astype(np.int64),
-                "time": strokes.time,
-            }
+            told = {"potted": strokes.potted, "scratch": strokes.scratch, "status": strokes.status.astype(np.int64), "time": strokes.time}
             for name, values in told.items():
                 infos[name] = np.zeros(self.num_envs, values.dtype)
                 infos[name][playing] = values
@@ -292,8 +250,5 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
 
 _registry = cast("Any", gymnasium)
 if "carom/Potting-v0" not in _registry.registry:
-    _registry.register(
-        "carom/Potting-v0",
-        entry_point="carom.gymnasium:PottingEnv",
-        vector_entry_point="carom.gymnasium:PottingVectorEnv",
-    )
+    entry = {"entry_point": "carom.gymnasium:PottingEnv", "vector_entry_point": "carom.gymnasium:PottingVectorEnv"}
+    _registry.register("carom/Potting-v0", **entry)

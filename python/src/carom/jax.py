@@ -47,23 +47,13 @@ except ImportError as missing:
 
 
 class Final(NamedTuple):
-    """Final states: JAX arrays of float64.
+    """Final states: JAX arrays of float64."""
 
-    Attributes
-    ----------
-    r, v : shape (..., balls, 2)
-        Places, m, and velocities, m/s, along x and y.
-    w : shape (..., balls, 3)
-        Angular velocities, rad/s.
-    z, v_z : shape (..., balls)
-        Heights of the centres, m, and velocities upward, m/s.
-    """
-
-    r: Any
-    v: Any
-    w: Any
-    z: Any
-    v_z: Any
+    r: Any  # (..., balls, 2): Places, m, and velocities, m/s, along x and y
+    v: Any  # (..., balls, 2): Places, m, and velocities, m/s, along x and y
+    w: Any  # (..., balls, 3): Angular velocities, rad/s
+    z: Any  # (..., balls): Heights of the centres, m, and velocities upward, m/s
+    v_z: Any  # (..., balls): Heights of the centres, m, and velocities upward, m/s
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,17 +180,9 @@ _both.defjvp(_of_both)
 
 
 def final(
-    table: Table,
-    balls: dtypes.Records,
-    cue: dtypes.Records | None,
-    numbers: Mapping[str, Any],
-    *,
-    room: int = 512,
-    errors: Literal["raise", "nan"] = "raise",
-    threads: int = 0,
-    options: Options = Options(),
-    **changes: Any,
-) -> Final:
+    table: Table, balls: dtypes.Records, cue: dtypes.Records | None, numbers: Mapping[str, Any], *, room: int = 512,
+    errors: Literal["raise", "nan"] = "raise", threads: int = 0, options: Options = Options(), **changes: Any
+) -> Final:  # fmt: skip
     """The final states of shots, as a function of some of their numbers that JAX can differentiate, compile and map.
 
     Parameters
@@ -221,19 +203,11 @@ def final(
     threads, options, **changes
         As for `carom.simulate_batch`. With t_final the states are those at that time.
 
-    Returns
-    -------
-    Final
-
-    Raises
-    ------
-    ValueError
-        A name or a shape is wrong.
-    TypeError
-        JAX has no 64-bit numbers: the error says what to set.
-    jax.errors.JaxRuntimeError, or ValueError
-        A shot is refused, ends in an error or cannot be differentiated: the last line has its numbers, and what is wrong with it. JAX
-        makes this exception of what a callback raises.
+    Returns Final.
+    Raises ValueError: A name or a shape is wrong.
+    Raises TypeError: JAX has no 64-bit numbers: the error says what to set.
+    Raises jax.errors.JaxRuntimeError, or ValueError: A shot is refused, ends in an error or cannot be differentiated: the last
+    line has its numbers, and what is wrong with it. JAX makes this exception of what a callback raises.
     """
     if _jax.dtypes.canonicalize_dtype(np.float64) != np.float64:
         raise TypeError('carom.jax needs 64-bit numbers: set jax.config.update("jax_enable_x64", True) first, or JAX_ENABLE_X64=1')

@@ -38,17 +38,10 @@ class Table:
     """
 
     def __init__(
-        self,
-        width: float,
-        length: float,
-        *,
-        rails: dtypes.Records,
-        jaws: dtypes.Records | None = None,
-        pockets: dtypes.Records | None = None,
-        ball_radius: float = 0.0,
-        rail_width: float = 0.0,
-        pocket_back: float = 0.0,
-    ) -> None:
+        self, width: float, length: float, *, rails: dtypes.Records, jaws: dtypes.Records | None = None,
+        pockets: dtypes.Records | None = None, ball_radius: float = 0.0, rail_width: float = 0.0,
+        pocket_back: float = 0.0
+    ) -> None:  # fmt: skip
         for name, size in (("width", width), ("length", length)):
             if not 0.0 < size < np.inf:
                 raise ValueError(f"{name}: it must be positive and finite, in m, not {size}")
@@ -107,10 +100,7 @@ class Table:
 
         The built-in tables are right. This takes some milliseconds; `simulate` checks the numbers only.
 
-        Raises
-        ------
-        CaromError
-            Its `field` is the part at fault, its sentence says where the fault is.
+        Raises CaromError: Its `field` is the part at fault, its sentence says where the fault is.
         """
         fault = ffi.new("carom_table_fault *")
         code = lib.carom_table_check(pointer("carom_table[]", self.record), radius, fault)
@@ -173,10 +163,7 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
     ball : int
         Its index.
 
-    Raises
-    ------
-    CaromError
-        The place is not free: `field` is the ball or the part of the table that is in the way.
+    Raises CaromError: The place is not free: `field` is the ball or the part of the table that is in the way.
     """
     placed = of_record(balls, dtypes.shot_ball, "balls", "balls()").copy()
     if placed.ndim != 1:
@@ -198,13 +185,9 @@ def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: floa
 
 
 def balls(
-    r: npt.ArrayLike,
-    *,
-    v: npt.ArrayLike = 0.0,
-    w: npt.ArrayLike = 0.0,
-    game: Game = "pool",
-    **kind: npt.ArrayLike | None,
-) -> dtypes.Records:
+    r: npt.ArrayLike, *, v: npt.ArrayLike = 0.0, w: npt.ArrayLike = 0.0, game: Game = "pool",
+    **kind: npt.ArrayLike | None
+) -> dtypes.Records:  # fmt: skip
     """Balls on a table, from fields that are broadcast against each other.
 
     Parameters
@@ -239,9 +222,7 @@ def balls(
     modulus : array_like, shape (...)
         Stiffness of the material, E/(1 - nu^2), 1e6 to 1e15 Pa; 0: 6.6e9. It counts where several balls touch at one instant.
 
-    Returns
-    -------
-    ndarray of `carom.dtypes.shot_ball`, shape (..., balls)
+    Returns an ndarray of `carom.dtypes.shot_ball`, shape (..., balls).
     """
     unknown = [name for name in kind if name not in (dtypes.ball_kind.names or ())]
     if unknown:
@@ -260,19 +241,10 @@ def balls(
 
 
 def cue(
-    *,
-    speed: npt.ArrayLike = 2.0,
-    phi: npt.ArrayLike = 90.0,
-    theta: npt.ArrayLike = 0.0,
-    a: npt.ArrayLike = 0.0,
-    b: npt.ArrayLike = 0.25,
-    ball: npt.ArrayLike = 0,
-    game: Game = "pool",
-    mass: npt.ArrayLike | None = None,
-    end_mass: npt.ArrayLike | None = None,
-    tip_radius: npt.ArrayLike | None = None,
-    miscue: npt.ArrayLike = 0.0,
-) -> dtypes.Records:
+    *, speed: npt.ArrayLike = 2.0, phi: npt.ArrayLike = 90.0, theta: npt.ArrayLike = 0.0, a: npt.ArrayLike = 0.0,
+    b: npt.ArrayLike = 0.25, ball: npt.ArrayLike = 0, game: Game = "pool", mass: npt.ArrayLike | None = None,
+    end_mass: npt.ArrayLike | None = None, tip_radius: npt.ArrayLike | None = None, miscue: npt.ArrayLike = 0.0
+) -> dtypes.Records:  # fmt: skip
     """Build a cue with its strike, or many. The fields are broadcast against each other.
 
     Parameters
@@ -292,9 +264,7 @@ def cue(
     miscue : array_like, shape (...)
         0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. Chalked tips reach 0.5.
 
-    Returns
-    -------
-    ndarray of `carom.dtypes.cue`, shape (...)
+    Returns an ndarray of `carom.dtypes.cue`, shape (...).
     """
     for name, angle in (("phi", phi), ("theta", theta)):
         _doubt_radians(name, angle)
@@ -332,9 +302,7 @@ def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
     cue : ndarray of `carom.dtypes.cue`, shape ()
     kind : ndarray of `carom.dtypes.ball_kind`, shape ()
 
-    Returns
-    -------
-    ndarray of `carom.dtypes.motion`, shape ()
+    Returns an ndarray of `carom.dtypes.motion`, shape ().
     """
     motion: Array = np.zeros((), dtypes.motion)
     strike = one_cue(cue)

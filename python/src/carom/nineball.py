@@ -46,52 +46,24 @@ class Hand(enum.IntEnum):
 
 @dataclass(frozen=True, repr=False)
 class Position(Arrays):
-    """A game between two strokes.
+    """A game between two strokes."""
 
-    Attributes
-    ----------
-    balls : ndarray of `carom.dtypes.shot_ball`, shape (10,)
-        The cue ball, then 1 to 9.
-    player : int
-        Whose turn it is, 0 or 1.
-    hand : Hand
-        Whether that player has the cue ball in hand.
-    fouls : tuple of two ints
-        Of each player, in consecutive strokes of that player; three lose the game.
-    strokes : int
-        Played until now.
-    winner : int or None
-    draws : Draws
-        The random numbers of the game: noise, and places that a player chose but that were not free.
-    """
-
-    balls: dtypes.Records
-    player: int
-    hand: Hand
-    fouls: tuple[int, int]
-    strokes: int
+    balls: dtypes.Records  # (10,): The cue ball, then 1 to 9
+    player: int  # Whose turn it is, 0 or 1
+    hand: Hand  # Whether that player has the cue ball in hand
+    fouls: tuple[int, int]  # Of each player, in consecutive strokes of that player; three lose the game
+    strokes: int  # Played until now
     winner: int | None
-    draws: Draws
+    draws: Draws  # The random numbers of the game: noise, and places that a player chose but that were not free
 
 
 @dataclass(frozen=True)
 class Turn:
-    """What a stroke was.
+    """What a stroke was."""
 
-    Attributes
-    ----------
-    foul : str
-        Why it was a foul; empty for a legal stroke.
-    first : int or None
-        The ball that the cue ball touched first.
-    potted : tuple of ints
-        Without the cue ball, in their order.
-    shot : Shot
-    """
-
-    foul: str
-    first: int | None
-    potted: tuple[int, ...]
+    foul: str  # Why it was a foul; empty for a legal stroke
+    first: int | None  # The ball that the cue ball touched first
+    potted: tuple[int, ...]  # Without the cue ball, in their order
     shot: Shot
 
 
@@ -104,21 +76,15 @@ class NineBall:
 
     Parameters
     ----------
-    table, noise, parameters, cushion_model
+    table, noise, parameters, speeds, cushion_model
         As for `Potting`. The balls are those of pool.
-    speeds : tuple of two floats
-        The least and the most speed of the cue, m/s.
     """
 
     def __init__(
-        self,
-        *,
-        table: Table | None = None,
-        noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
-        parameters: Mapping[str, tuple[float, float]] | None = None,
-        speeds: tuple[float, float] = (0.5, 9.0),
-        cushion_model: ShotCushion = "default",
-    ) -> None:
+        self, *, table: Table | None = None, noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        parameters: Mapping[str, tuple[float, float]] | None = None, speeds: tuple[float, float] = (0.5, 9.0),
+        cushion_model: ShotCushion = "default"
+    ) -> None:  # fmt: skip
         self.base = Potting(9, 1, table=table, noise=noise, parameters=parameters, speeds=speeds, cushion_model=cushion_model)
         self.table = self.base.table
 

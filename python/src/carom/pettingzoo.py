@@ -1,4 +1,4 @@
-"""Nine-ball (`carom.nineball`) as an environment of PettingZoo, in which two agents take turns.
+"""Nine-ball (`carom.nineball`) as an environment of PettingZoo, in which two agents take turns. An experiment: names may change.
 
     from carom.pettingzoo import NineBallEnv
 
@@ -37,20 +37,10 @@ _PLAYERS = ("player_0", "player_1")
 
 
 class NineBallEnv(AECEnv):
-    """One game of nine-ball.
+    """One game of nine-ball: **options are those of `NineBall`. After so many `strokes`, both players together, it is truncated.
 
-    Parameters
-    ----------
-    strokes : int
-        After so many, both players together, the game is truncated.
-    render_mode : {None, "svg"}
-        As for `carom.gymnasium.PottingEnv`.
-    **options
-        Of `NineBall`.
-
-    Notes
-    -----
-    `infos` of both players, after a stroke: foul (why, or empty), first (the ball touched first, 0 for none), potted (a list), hand.
+    `render_mode` is as for `carom.gymnasium.PottingEnv`. `infos` of both players, after a stroke: foul (why, or empty), first (the ball
+    touched first, 0 for none), potted (a list), hand.
     """
 
     metadata: dict[str, Any] = {"name": "carom_nineball_v0", "render_modes": ["svg"], "is_parallelizable": False}
@@ -106,12 +96,7 @@ class NineBallEnv(AECEnv):
             raise ValueError("action: six numbers are needed while the game goes on")
         self.position, self.turn = self.rules.play(self.position, action)
         winner = self.position.winner
-        told = {
-            "foul": self.turn.foul,
-            "first": self.turn.first or 0,
-            "potted": list(self.turn.potted),
-            "hand": int(self.position.hand),
-        }
+        told = {"foul": self.turn.foul, "first": self.turn.first or 0, "potted": list(self.turn.potted), "hand": int(self.position.hand)}
         for k, name in enumerate(_PLAYERS):
             self.rewards[name] = 0.0 if winner is None else 1.0 if k == winner else -1.0
             self.terminations[name] = winner is not None

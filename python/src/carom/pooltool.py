@@ -9,6 +9,7 @@ Needs pooltool 0.6 (pooltool-billiards), or the head of its repository. Its obje
 
 from __future__ import annotations
 
+import functools
 import importlib
 import sys
 import types
@@ -25,24 +26,14 @@ from carom._pooltool_models import ExactBallBall, ExactCircularCushion, ExactLin
 from carom.collisions import alciatore
 from carom.layouts import Table
 from carom.results import Shot
-from carom._shot_options import BallModel, Friction, ShotCushion
+from carom._shot_options import BallModel, Friction, Options, ShotCushion
 from carom.shots import simulate as _play
 from carom.status import CaromError
 
 __all__ = [
-    "ExactBallBall",
-    "ExactCircularCushion",
-    "ExactLinearCushion",
-    "FallbackWarning",
-    "UnsupportedError",
-    "balls_of",
-    "cue_of",
-    "install",
-    "original",
-    "simulate",
-    "table_of",
-    "uninstall",
-]
+    "ExactBallBall", "ExactCircularCushion", "ExactLinearCushion", "FallbackWarning", "UnsupportedError", "balls_of", "cue_of", "install",
+    "original", "simulate", "table_of", "uninstall",
+]  # fmt: skip
 __dir__ = listing(__name__)
 
 Models = Literal["pooltool", "carom"]
@@ -204,32 +195,15 @@ def _play_by(engine: Any, table: Table, balls: dtypes.Records, cue: dtypes.Recor
             raise UnsupportedError("engine: carom knows a delta_p of 0.001 N s alone for Mathavan2010")
     if len(steps) > 1:
         raise UnsupportedError("engine: carom knows the same number of steps for FrictionalMathavan and Mathavan2010")
-    return _play(
-        table,
-        balls,
-        cue,
-        world="pooltool",
-        ball_model=ball_model,
-        cushion_model=cushion_model,
-        friction=friction,
-        steps=next(iter(steps), 0),
-    )
+    models = Options("pooltool", ball_model, cushion_model, friction, steps=next(iter(steps), 0))
+    return _play(table, balls, cue, options=models)
 
 
 def simulate(
-    shot: Any,
-    engine: Any = None,
-    inplace: bool = False,
-    continuous: bool = False,
-    dt: float | None = None,
-    t_final: float | None = None,
-    include: Any = _simulate.INCLUDED_EVENTS,
-    max_events: int = 0,
-    *,
-    models: Models = "pooltool",
-    cushion_model: ShotCushion = "default",
-    fallback: bool = False,
-) -> Any:
+    shot: Any, engine: Any = None, inplace: bool = False, continuous: bool = False, dt: float | None = None,
+    t_final: float | None = None, include: Any = _simulate.INCLUDED_EVENTS, max_events: int = 0, *,
+    models: Models = "pooltool", cushion_model: ShotCushion = "default", fallback: bool = False
+) -> Any:  # fmt: skip
     """pooltool's `simulate`, by carom.
 
     Parameters
@@ -251,18 +225,11 @@ def simulate(
     fallback : bool
         What carom cannot do is played by pooltool instead of an error. A `FallbackWarning` says why, once for each reason.
 
-    Returns
-    -------
-    pooltool.System
-        Events with their agents before and after, the balls' states and histories, pockets and their contents, as pooltool
-        leaves them.
-
-    Raises
-    ------
-    UnsupportedError
-        An engine, a table or an `include` that is pooltool's alone.
-    CaromError
-        A System that carom refuses (overlapping balls, a ball off the table, more than 32 balls), or a shot that ends in an error.
+    Returns pooltool.System: Events with their agents before and after, the balls' states and histories, pockets and their
+    contents, as pooltool leaves them.
+    Raises UnsupportedError: An engine, a table or an `include` that is pooltool's alone.
+    Raises CaromError: A System that carom refuses (overlapping balls, a ball off the table, more than 32 balls), or a shot that
+    ends in an error.
     """
     try:
         if models not in ("pooltool", "carom"):
@@ -335,18 +302,6 @@ def uninstall() -> None:
     _replace(_installed, original)
 
 
-def _installed(
-    shot: Any,
-    engine: Any = None,
-    inplace: bool = False,
-    continuous: bool = False,
-    dt: float | None = None,
-    t_final: float | None = None,
-    include: Any = _simulate.INCLUDED_EVENTS,
-    max_events: int = 0,
-) -> Any:
-    return simulate(shot, engine, inplace, continuous, dt, t_final, include, max_events, fallback=True)
-
-
-_installed.__name__ = _installed.__qualname__ = "simulate"
-_installed.__doc__ = original.__doc__
+@functools.wraps(original)
+def _installed(*arguments: Any, **options: Any) -> Any:
+    return simulate(*arguments, **options, fallback=True)

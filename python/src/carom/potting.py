@@ -35,30 +35,16 @@ def _within(actions: dtypes.Doubles) -> dtypes.Doubles:
 
 @dataclass(frozen=True, repr=False)
 class Strokes(Arrays):
-    """Results of strokes; each is an array over the games.
+    """Results of strokes; each is an array over the games."""
 
-    Attributes
-    ----------
-    layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls + 1)
-        The balls at rest after the stroke. A cue ball that was potted is still down.
-    rewards : ndarray of float64, shape (...)
-        Balls that were potted, less 1 for a foul; or the result of `reward` of the rules.
-    potted : ndarray of int64, shape (...)
-        Balls that were potted, without the cue ball.
-    scratch : ndarray of bool, shape (...)
-        Whether the cue ball was potted, a foul.
-    status : ndarray of int8, shape (...)
-        As `carom.Status`. After an error, or where a ball left the table, the stroke is a foul, and the balls stay where they were.
-    time : ndarray of float64, shape (...)
-        How long the balls moved, s.
-    """
-
-    layouts: dtypes.Records
-    rewards: dtypes.Doubles
-    potted: npt.NDArray[np.int64]
-    scratch: npt.NDArray[np.bool_]
+    layouts: dtypes.Records  # (..., balls + 1): The balls at rest after the stroke. A cue ball that was potted is still down.
+    rewards: dtypes.Doubles  # (...): Balls that were potted, less 1 for a foul; or the result of `reward` of the rules
+    potted: npt.NDArray[np.int64]  # (...): Balls that were potted, without the cue ball
+    scratch: npt.NDArray[np.bool_]  # (...): Whether the cue ball was potted, a foul
+    # (...): As `carom.Status`. After an error, or where a ball left the table, the stroke is a foul, and the balls stay where
+    # they were.
     status: npt.NDArray[np.int8]
-    time: dtypes.Doubles
+    time: dtypes.Doubles  # (...): How long the balls moved, s
 
 
 class Potting:
@@ -76,10 +62,8 @@ class Potting:
 
     Parameters
     ----------
-    balls : int
-        Besides the cue ball, 1 to 15.
-    strokes : int
-        At least 1.
+    balls, strokes : int
+        Besides the cue ball, 1 to 15; and at least 1.
     table : Table, optional
         A rectangular one with pockets, of which 0 <= x <= width, 0 <= y <= length is the bed; by default `carom.tables.snooker()` for
         balls of snooker, otherwise `pool_9ft()`.
@@ -94,26 +78,17 @@ class Potting:
         reward(balls, strokes) gives the rewards, of shape (...): `balls` are the layouts before, `strokes` what they gave.
     speeds : tuple of two floats
         The least and the most speed of the cue, m/s.
-    cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
-        As for `carom.simulate`. "han" takes a tenth of the time.
-    threads : int
-        Most threads for many games; no bit depends on it.
+    cushion_model, threads
+        As for `carom.simulate_batch`.
     """
 
     def __init__(
-        self,
-        balls: int = 5,
-        strokes: int = 5,
-        *,
-        table: Table | None = None,
-        ball_set: Game = "pool",
+        self, balls: int = 5, strokes: int = 5, *, table: Table | None = None, ball_set: Game = "pool",
         noise: tuple[float, float, float] = (0.0, 0.0, 0.0),
         parameters: Mapping[str, tuple[float, float]] | None = None,
         reward: Callable[[dtypes.Records, Strokes], npt.ArrayLike] | None = None,
-        speeds: tuple[float, float] = (0.5, 6.0),
-        cushion_model: ShotCushion = "default",
-        threads: int = 0,
-    ) -> None:
+        speeds: tuple[float, float] = (0.5, 6.0), cushion_model: ShotCushion = "default", threads: int = 0
+    ) -> None:  # fmt: skip
         if not 1 <= balls <= 15:
             raise ValueError(f"balls: must be 1 to 15, not {balls}")
         if strokes < 1:
@@ -299,10 +274,7 @@ class Potting:
         actions : array_like, shape (..., 4)
             Broadcast against the leading dimensions of the balls: many actions from one layout, or one for each of many.
 
-        Returns
-        -------
-        Strokes
-            Of the broadcast shape. Each stroke has the bits that it has alone.
+        Returns Strokes: Of the broadcast shape. Each stroke has the bits that it has alone.
         """
         shots = simulate_batch(self.table, balls, self.cues(actions), cushion_model=self.cushion_model, threads=self.threads)
         before = balls if balls.shape == shots.final.shape else np.broadcast_to(balls, shots.final.shape)

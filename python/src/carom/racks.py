@@ -6,47 +6,37 @@ to a quarter of the gap, and where the other balls of the rack go; and gives an 
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
 
 from carom import dtypes
-from carom._carom import ffi, lib
-from carom._rows import Array, whole
+from carom._carom import lib
+from carom._rows import Array, called, pointer, whole
 from carom.layouts import Table, check_table
 from carom.status import CaromError
 
 
-def _rack(kind: int, table: Table, gap: float, seed: int) -> dtypes.Records:
-    size = int(lib.carom_rack_size(kind))
-    balls: Array = np.zeros(size, dtypes.shot_ball)
-    check_table(table)
-    of_table = ffi.from_buffer("carom_table[]", table.record)
-    code = lib.carom_rack(kind, of_table, gap, whole(seed, "seed", most=2**64 - 1), ffi.from_buffer("carom_shot_ball[]", balls), size)
-    if code < 0:
-        text = "it must be 0 m to the radius of a ball"
-        raise CaromError(code, "gap", gap, text=text)
-    return balls
+class _Rack(Protocol):
+    def __call__(self, table: Table, gap: float = 1e-4, seed: int = 1) -> dtypes.Records: ...
 
 
-def nineball(table: Table, gap: float = 1e-4, seed: int = 1) -> dtypes.Records:
-    """10 balls: cue ball, then 1 to 9 by number; 1 in front, 9 in the middle."""
-    return _rack(lib.CAROM_RACK_NINEBALL, table, gap, seed)
+def _maker(name: str, kind: int, text: str) -> _Rack:
+    def make(table: Table, gap: float = 1e-4, seed: int = 1) -> dtypes.Records:
+        size = int(lib.carom_rack_size(kind))
+        balls: Array = np.zeros(size, dtypes.shot_ball)
+        check_table(table)
+        of_table, drawn = pointer("carom_table[]", table.record), whole(seed, "seed", most=2**64 - 1)
+        code = lib.carom_rack(kind, of_table, gap, drawn, pointer("carom_shot_ball[]", balls), size)
+        if code < 0:
+            raise CaromError(code, "gap", gap, text="it must be 0 m to the radius of a ball")
+        return balls
+
+    return called(make, name, text)
 
 
-def eightball(table: Table, gap: float = 1e-4, seed: int = 1) -> dtypes.Records:
-    """16 balls: cue ball, then 1 to 15 by number; 8 in the middle, both kinds in the corners."""
-    return _rack(lib.CAROM_RACK_EIGHTBALL, table, gap, seed)
-
-
-def tenball(table: Table, gap: float = 1e-4, seed: int = 1) -> dtypes.Records:
-    """11 balls: cue ball, then 1 to 10 by number; 10 in the middle."""
-    return _rack(lib.CAROM_RACK_TENBALL, table, gap, seed)
-
-
-def snooker(table: Table, gap: float = 1e-4, seed: int = 1) -> dtypes.Records:
-    """22 balls: white, 15 reds, yellow, green, brown, blue, pink, black."""
-    return _rack(lib.CAROM_RACK_SNOOKER, table, gap, seed)
-
-
-def threecushion(table: Table, gap: float = 1e-4, seed: int = 1) -> dtypes.Records:
-    """3 balls: white, yellow, red, as for the opening."""
-    return _rack(lib.CAROM_RACK_THREECUSHION, table, gap, seed)
+nineball = _maker("nineball", lib.CAROM_RACK_NINEBALL, "10 balls: cue ball, then 1 to 9 by number; 1 in front, 9 in the middle.")
+eightball = _maker("eightball", lib.CAROM_RACK_EIGHTBALL, "16 balls: cue ball, then 1 to 15 by number; 8 in the middle, both kinds in the corners.")
+tenball = _maker("tenball", lib.CAROM_RACK_TENBALL, "11 balls: cue ball, then 1 to 10 by number; 10 in the middle.")
+snooker = _maker("snooker", lib.CAROM_RACK_SNOOKER, "22 balls: white, 15 reds, yellow, green, brown, blue, pink, black.")
+threecushion = _maker("threecushion", lib.CAROM_RACK_THREECUSHION, "3 balls: white, yellow, red, as for the opening.")

@@ -100,16 +100,9 @@ class Shot:
         times : array_like, shape (...)
             s. Before 0: as at 0; after the end: as at the end, where nothing moves any more.
 
-        Returns
-        -------
-        ndarray of `carom.dtypes.ball_state`, shape (..., balls)
-
-        Raises
-        ------
-        CaromError
-            A time is after the end of a shot that was stopped, or that ended in an error, while balls moved.
-        ValueError
-            A time is not finite.
+        Returns an ndarray of `carom.dtypes.ball_state`, shape (..., balls).
+        Raises CaromError: A time is after the end of a shot that was stopped, or that ended in an error, while balls moved.
+        Raises ValueError: A time is not finite.
         """
         at = _moments(times)
         states: Array = np.zeros((*at.shape, len(self.balls)), dtypes.ball_state)
@@ -174,10 +167,7 @@ class Shot:
         speed : float
             1 is that of the shot.
 
-        Returns
-        -------
-        Animation
-            Its `svg` is the text of a file that moves in any browser.
+        Returns Animation: Its `svg` is the text of a file that moves in any browser.
         """
         return pictures.animation(self, speed)
 
@@ -247,34 +237,17 @@ _ATTRIBUTES: dict[str, Callable[[Shots, Any], Any]] = {
 class Features(Arrays):
     """What planners want of shots, besides `Shots.final`: arrays of the shape of the batch.
 
-    Indices are -1 and times inf where there is none. The cue ball is the ball struck, or ball 0 without a cue. A cushion is a rail or
-    its rounded end.
-
-    Attributes
-    ----------
-    contact : ndarray of int32, shape (..., 2)
-        The first and the second of the different balls that the cue ball met.
-    contact_time : ndarray of float64, shape (..., 2)
-        When, s.
-    cushions_before : ndarray of int32, shape (..., 2)
-        Impacts of the cue ball on cushions before each of them; 0 where there was no contact.
-    cushions_after : ndarray of int32, shape (...)
-        Impacts on cushions, of all balls, after the first contact.
-    pocket : ndarray of int32, shape (..., balls)
-        The pocket that took each ball, by its index in `table.pockets`.
-    pocket_time : ndarray of float64, shape (..., balls)
-        When, s.
-    cushions : ndarray of int32, shape (..., balls)
-        Impacts of each ball on cushions.
+    Indices are -1 and times (s) inf where there is none. The cue ball is the ball struck, or ball 0 without a cue. A cushion is a rail
+    or its rounded end. docs/using/python.md explains each.
     """
 
-    contact: npt.NDArray[np.int32]
-    contact_time: dtypes.Doubles
-    cushions_before: npt.NDArray[np.int32]
-    cushions_after: npt.NDArray[np.int32]
-    pocket: npt.NDArray[np.int32]
-    pocket_time: dtypes.Doubles
-    cushions: npt.NDArray[np.int32]
+    contact: npt.NDArray[np.int32]  # (..., 2): the first and the second of the different balls that the cue ball met
+    contact_time: dtypes.Doubles  # (..., 2)
+    cushions_before: npt.NDArray[np.int32]  # (..., 2): impacts of the cue ball on cushions before each; 0 without a contact
+    cushions_after: npt.NDArray[np.int32]  # (...): impacts on cushions, of all balls, after the first contact
+    pocket: npt.NDArray[np.int32]  # (..., balls): the pocket that took each ball, by its index in `table.pockets`
+    pocket_time: dtypes.Doubles  # (..., balls)
+    cushions: npt.NDArray[np.int32]  # (..., balls): impacts of each ball on cushions
 
     def __getitem__(self, index: Any) -> Features:
         """Those of some shots."""
@@ -289,15 +262,14 @@ class Shots:
 
     Attributes
     ----------
-    table : Table
+    table, options
+        As of a `Shot`.
     layouts : ndarray of `carom.dtypes.shot_ball`, shape (..., balls) or (1, balls)
     cues : ndarray of `carom.dtypes.cue`, shape (...) or one, or None
     status : ndarray of int8, shape (...)
         As `Status`; a shot in error costs itself alone.
-    time : ndarray of float64, shape (...)
-        Time of the last event, or when the shot was stopped, s.
-    count : ndarray of int64, shape (...)
-        Events that happened, also beyond the room.
+    time, count : ndarrays of float64 and int64, shape (...)
+        Time of the last event, or when the shot was stopped, s; events that happened, also beyond the room.
     final : ndarray of `carom.dtypes.ball_state`, shape (..., balls)
         Undefined where an argument was in error.
     events : ndarray of `carom.dtypes.event` or `carom.dtypes.brief_event`, shape (..., room)
@@ -306,8 +278,6 @@ class Shots:
         With `simulate_batch(features=True)`.
     record : ndarray of `carom.dtypes.shot`, shape (...)
         The structs of C, with the addresses of final and events.
-    options
-        As of a `Shot`: by what the shots were played.
     """
 
     table: Table
@@ -383,16 +353,10 @@ class Shots:
         threads : int
             Most threads to use; 0 is the calling one alone, -1 all processors. No bit depends on it.
 
-        Returns
-        -------
-        ndarray of `carom.dtypes.ball_state`, shape (shape of the batch..., shape of the times..., balls)
-            nan, and the label -1, where no state is known: of shots whose arguments were in error, and after shots were stopped,
-            or ended in an error, while balls moved.
-
-        Raises
-        ------
-        ValueError
-            A time is not finite; or a shot has to be played again, and its layout or cue has been changed since.
+        Returns an ndarray of `carom.dtypes.ball_state`, shape (shape of the batch..., shape of the times..., balls): nan, and the
+        label -1, where no state is known: of shots whose arguments were in error, and after shots were stopped, or ended in an
+        error, while balls moved.
+        Raises ValueError: A time is not finite; or a shot has to be played again, and its layout or cue has been changed since.
         """
         return self.look_at(times, dtypes.ball_state, (), threads)[0]
 

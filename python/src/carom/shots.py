@@ -45,15 +45,9 @@ def simulate(
     **changes
         Single options, by their names: cushion_model="mathavan", t_final=1.5, stop_at="contact", space="flat", ...
 
-    Returns
-    -------
-    Shot
-
-    Raises
-    ------
-    CaromError
-        An argument is in error; or the shot ended in one (a bound, a ball that left the table, a collision): then the error's
-        `shot` has what had happened.
+    Returns Shot.
+    Raises CaromError: An argument is in error; or the shot ended in one (a bound, a ball that left the table, a collision):
+    then the error's `shot` has what had happened.
     """
     layout = of_record(balls, dtypes.shot_ball, "balls", "balls()")
     if layout.ndim != 1:
@@ -109,17 +103,10 @@ def resume(shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterab
     t_final, stop_at
         When to stop again, as for `simulate`; t_final counts from the beginning of the shot.
 
-    Returns
-    -------
-    Shot
-        With all events from the beginning. Events and states have the bits of the unbroken shot.
-
-    Raises
-    ------
-    CaromError
-        The shot ends in an error.
-    ValueError
-        The shot was played without `t_final` and `stop_at`, or as one of a batch; or t_final is before the time at which it stopped.
+    Returns Shot: With all events from the beginning. Events and states have the bits of the unbroken shot.
+    Raises CaromError: The shot ends in an error.
+    Raises ValueError: The shot was played without `t_final` and `stop_at`, or as one of a batch; or t_final is before the time
+    at which it stopped.
     """
     if not isinstance(shot, Shot) or shot.state is None:
         raise ValueError("shot: only what simulate() or resume() stopped, with t_final= or stop_at=, can be gone on with")
@@ -132,18 +119,10 @@ def resume(shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterab
 
 
 def simulate_batch(
-    table: Table,
-    layouts: dtypes.Records,
-    cues: dtypes.Records | None = None,
-    *,
-    room: int = 0,
-    records: Literal["full", "brief"] = "full",
-    features: bool = False,
-    threads: int = 0,
-    out: Shots | None = None,
-    options: Options = _USUAL,
-    **changes: Unpack[Changes],
-) -> Shots:
+    table: Table, layouts: dtypes.Records, cues: dtypes.Records | None = None, *, room: int = 0,
+    records: Literal["full", "brief"] = "full", features: bool = False, threads: int = 0, out: Shots | None = None,
+    options: Options = _USUAL, **changes: Unpack[Changes]
+) -> Shots:  # fmt: skip
     """Play many shots.
 
     Parameters
@@ -166,15 +145,8 @@ def simulate_batch(
     options, **changes
         As for `simulate`.
 
-    Returns
-    -------
-    Shots
-        Each with the bits of `simulate`. One in error costs itself: see `status` and `failures()`.
-
-    Raises
-    ------
-    CaromError
-        The table or an option is in error.
+    Returns Shots: Each with the bits of `simulate`. One in error costs itself: see `status` and `failures()`.
+    Raises CaromError: The table or an option is in error.
     """
     all_balls = of_record(layouts, dtypes.shot_ball, "layouts", "balls()")
     all_cues = np.zeros((), dtypes.cue) if cues is None else of_record(cues, dtypes.cue, "cues", "cue()")

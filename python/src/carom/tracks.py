@@ -135,17 +135,9 @@ def read(path: str | Path, *, table: tuple[float, float] | None = None, radius: 
     radius : float, optional
         of the balls, m: with both, a centre that is more than 20 mm outside its bounds is an error.
 
-    Returns
-    -------
-    list of Recording
-        In the order of the file.
-
-    Raises
-    ------
-    TrackError
-        What is wrong, where, and what would be right.
-    OSError
-        The file cannot be read.
+    Returns a list of Recording: In the order of the file.
+    Raises TrackError: What is wrong, where, and what would be right.
+    Raises OSError: The file cannot be read.
     """
     path = Path(path)
     rows: Callable[[io.TextIOBase, Path], _Rows] = _csv_rows
@@ -182,21 +174,11 @@ def read(path: str | Path, *, table: tuple[float, float] | None = None, radius: 
 
 @dataclass(frozen=True, eq=False)
 class Synthetic:
-    """Recordings of played shots, and the truth about them.
-
-    Attributes
-    ----------
-    recordings : list of Recording
-    shots : list of Shot
-        As played; their clocks begin at the strikes.
-    strikes : ndarray, shape (shots, 6)
-        v_x, v_y (m/s); R w_x, R w_y, R w_z (m/s); start (s).
-    constants : dict
-    """
+    """Recordings of played shots, and the truth about them."""
 
     recordings: list[Recording]
-    shots: list[Shot]
-    strikes: Doubles
+    shots: list[Shot]  # As played; their clocks begin at the strikes
+    strikes: Doubles  # (shots, 6): v_x, v_y (m/s); R w_x, R w_y, R w_z (m/s); start (s)
     constants: dict[str, float]
 
 
@@ -220,42 +202,17 @@ def _record(positions: Callable[[Doubles], Doubles], end: float, rate: float, th
 
 
 def synthetic(
-    shots: int,
-    *,
-    table: tuple[float, float] = (2.84, 1.42),
-    radius: float = 0.03075,
-    cushion_model: ShotCushion = "han",
-    constants: Mapping[str, float] | None = None,
-    speeds: tuple[float, float] = (1.5, 5.0),
-    noise: float = NOISE,
-    rate: float = 50.0,
-    thin: float = 0.016,
-    seed: int = 0,
-) -> Synthetic:
+    shots: int, *, table: tuple[float, float] = (2.84, 1.42), radius: float = 0.03075,
+    cushion_model: ShotCushion = "han", constants: Mapping[str, float] | None = None,
+    speeds: tuple[float, float] = (1.5, 5.0), noise: float = NOISE, rate: float = 50.0, thin: float = 0.016,
+    seed: int = 0
+) -> Synthetic:  # fmt: skip
     """Play shots of three balls with strikes drawn at random, and record them as a camera does.
 
-    Parameters
-    ----------
-    shots : int
-    table, radius
-        Extents of x and y, and the balls' radius, m.
-    cushion_model : {"mathavan", "stronge", "han", "mirror"}
-    constants : mapping, optional
-        Those of `carom.fit`; the usual ones for what is not given.
-    speeds : (float, float)
-        Least and greatest speed of a strike, m/s.
-    noise : float
-        Standard deviation of each coordinate, m.
-    rate : float
-        Pictures a second.
-    thin : float
-        A ball's row is kept once it is this far from the last one kept, m.
-    seed : int
-        The same seed, the same recordings.
-
-    Returns
-    -------
-    Synthetic
+    `table` has the extents of x and y and `radius` is that of the balls, m; `constants` are those of `carom.fit`, the usual ones where
+    none is given; `speeds` are the least and the greatest of a strike, m/s. The camera takes `rate` pictures a second, each coordinate has
+    the standard deviation `noise`, m, and a row of a ball is kept once the ball is `thin` m from the last row kept. The same seed gives
+    the same recordings.
     """
     random = np.random.default_rng(seed)
     values = _constants.complete(constants or {}, cushion_model)
