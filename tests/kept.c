@@ -17,7 +17,7 @@ typedef struct solution {
   double number[NUMBERS]; /* 12 of a result or 6 of a motion; then, of a result, impulse and work */
 } solution;
 
-static const char path[] = CAROM_TEST_SOURCE "/agree/references.txt";
+static const char path[] = CAROM_TEST_SOURCE "/agree/references.csv";
 static solution kept[MOST_KEPT];
 static size_t kept_count;
 
@@ -30,9 +30,9 @@ static void load(void) {
     solution *const s = &kept[kept_count++];
     char *at;
     s->key = strtoull(line, &at, 16);
-    s->status = (reference_status)strtoul(at, &at, 16);
-    for (int k = 0; k < NUMBERS; k++) {
-      const uint64_t bits = strtoull(at, &at, 16);
+    s->status = (reference_status)strtoul(at + 1, &at, 16);
+    for (int k = 0; k < NUMBERS && *at == ','; k++) {
+      const uint64_t bits = strtoull(at + 1, &at, 16);
       memcpy(&s->number[k], &bits, sizeof bits);
     }
   }
@@ -43,14 +43,14 @@ static void load(void) {
 static void add(const solution *s) {
   FILE *file = fopen(path, "a");
   ck_assert_msg(file != NULL, "%s cannot be written", path);
-  fprintf(file, "%016" PRIx64 " %x", s->key, (unsigned)s->status);
+  fprintf(file, "%016" PRIx64 ",%x", s->key, (unsigned)s->status);
   int last = NUMBERS;
   while (last > 0 && s->number[last - 1] == 0)
     last--;
   for (int k = 0; k < last; k++) {
     uint64_t bits;
     memcpy(&bits, &s->number[k], sizeof bits);
-    fprintf(file, " %" PRIx64, bits);
+    fprintf(file, ",%" PRIx64, bits);
   }
   ck_assert(fputc('\n', file) != EOF && fclose(file) == 0);
 }

@@ -1,4 +1,4 @@
-/* Solutions of the references of lab/stress, which take long, kept in agree/references.txt. An impact that is not there is
+/* Solutions of the references of lab/stress, which take long, kept in agree/references.csv. An impact that is not there is
  * solved. One of 32 that are there is solved all the same, and must agree; with UPDATE=1 in the environment all are, and the
  * missing ones are added to the file. `cmake --build build --target references` makes the file anew. */
 #ifndef CAROM_TESTS_KEPT_H

@@ -107,7 +107,7 @@ static every_room *all_room;
 static const struct every_function *one;
 
 static void *any_function(void *argument) {
-  one->body(&all_input, all_room);
+  one->body(&all_input, all_room, 1);
   return argument;
 }
 

@@ -179,7 +179,7 @@ static void *call_all(void *argument) {
   every_room *room = calloc(1, sizeof *room);
   for (int n = 0; n < ROUNDS * EVERY_COUNT; n++) {
     const int k = (int)random_between(&r, 0.0, EVERY_COUNT);
-    if (every_functions[k].body(&shared[with], room) != alone[with][k])
+    if (every_functions[k].body(&shared[with], room, 1) != alone[with][k])
       atomic_fetch_add(&others[k], 1);
   }
   free(room);
@@ -195,7 +195,7 @@ static int in_a_child(every_room *room, every_input *copy) {
     int bad = 0;
     copy->threads = CHILD_THREADS;
     for (int k = 0; k < EVERY_COUNT; k++)
-      bad += every_functions[k].body(copy, room) != alone[0][k];
+      bad += every_functions[k].body(copy, room, 1) != alone[0][k];
     _exit(bad);
   }
   int status;
@@ -212,7 +212,7 @@ TEST(every_function_at_once) {
   for (int with = 0; with < INPUTS; with++) {
     every_input_make(&shared[with], with, 0);
     for (int k = 0; k < EVERY_COUNT; k++)
-      alone[with][k] = every_functions[k].body(&shared[with], room);
+      alone[with][k] = every_functions[k].body(&shared[with], room, 1);
     shared[with].threads = 3;
   }
   memcpy(copy, &shared[0], sizeof *copy);
