@@ -14,7 +14,7 @@ static carom_status by_model(carom_contact *c, const carom_cushion_options *opt,
   case CAROM_CUSHION_MATHAVAN:
     return carom_mathavan(c, opt->plain);
   case CAROM_CUSHION_STRONGE:
-    return carom_stronge(c, opt->omega_ratio > 0 ? opt->omega_ratio : 1.8, pooltool);
+    return carom_stronge(c, opt->omega_ratio > 0 ? opt->omega_ratio : CAROM_OMEGA_RATIO, pooltool);
   case CAROM_CUSHION_HAN:
     return carom_han(c);
   case CAROM_CUSHION_MIRROR:

@@ -11,7 +11,8 @@
 /* The exact limit. See mathavan.c. */
 carom_status carom_mathavan(carom_contact *contact, int plain);
 
-/* Compliant impact; `ratio` is options.omega_ratio. See stronge.c. */
+/* Compliant impact; `ratio` is options.omega_ratio, that of pooltool by default. See stronge.c. */
+#define CAROM_OMEGA_RATIO 1.8
 carom_status carom_stronge(carom_contact *contact, double ratio, int pooltool);
 
 /* Its friction impulse over the mass, against a slip, m/s, for a ball that meets a nose at v_n, from any side. */

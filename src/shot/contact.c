@@ -1,14 +1,8 @@
 /* First contacts on quadratic paths.
  *
- * For two centres f(t) = |d0 + d1 t + d2 t^2|^2 - reach^2 is a polynomial of degree 4, f = c0 + c1 t + ... + c4 t^4. Its first
- * zero is approached from the left: with m the least f''/2 on [t, T],
- *
- *     f(t + s) >= f + f' s + m s^2     for t + s <= T
- *
- * so the first zero of the parabola, s = 2 f / (-f' + sqrt(f'^2 - 4 m f)), is not behind that of f, and where the parabola has
- * no zero, f has none. f''/2 = c2 + 3 c3 t + 6 c4 t^2 is itself a parabola, so m is known in closed form. As t rises, [t, T]
- * and with it the bound tighten; after some steps that were short the bound is taken on a short piece ahead only. No case needs
- * c4 or c3 to differ from 0.
+ * For two centres f(t) = |d0 + d1 t + d2 t^2|^2 - reach^2 is a polynomial of degree 4, f = c0 + c1 t + ... + c4 t^4, whose
+ * first zero is searched by first_zero.h. f''/2 = c2 + 3 c3 t + 6 c4 t^2 is itself a parabola, so its least value on an
+ * interval is known in closed form. No case needs c4 or c3 to differ from 0.
  *
  * An event is where the gap is <= 0 and closing: M. N. Bannerman, S. Strobl, A. Formella, T. Poeschel, Stable algorithm for
  * event detection in event-driven particle dynamics, Comp. Part. Mech. 1 (2014) 191-198.
@@ -19,11 +13,9 @@
  * without end. Where only rounding presses them, as where a ball slides along a rail that it touches, their paths end before
  * the gap has fallen by so much, and there is no contact. */
 #include "shot/contact.h"
-#include "shot/path.h"
+#include "shot/first_zero.h"
 
 #include <math.h>
-
-enum { MOST_STEPS = 1000, LONG_STEPS = 8 };
 
 /* c0 + c1 t + ... + c4 t^4 */
 typedef struct quartic {
@@ -40,8 +32,14 @@ static double half_curvature(const quartic *f, double t) {
   return f->c[2] + t * (3.0 * f->c[3] + t * 6.0 * f->c[4]);
 }
 
+static carom_gap_at quartic_at(const void *of, double t) {
+  const quartic *f = of;
+  return (carom_gap_at){value(f, t), slope(f, t)};
+}
+
 /* The least half curvature on [from, to]. */
-static double least_half_curvature(const quartic *f, double from, double to) {
+static double least_half_curvature(const void *of, double from, double to) {
+  const quartic *f = of;
   double least = carom_lesser(half_curvature(f, from), half_curvature(f, to));
   if (f->c[4] > 0.0) {
     const double lowest = -f->c[3] / (4.0 * f->c[4]);
@@ -51,58 +49,33 @@ static double least_half_curvature(const quartic *f, double from, double to) {
   return least;
 }
 
-/* The first zero of f at or after t, where f(t) > 0, up to T; or infinity. `small`: a value of f that counts as none but for a
- * last step of Newton's. */
 static double zero_from_left(const quartic *f, double t, double T, double small) {
-  double ahead = T; /* how far the bound reaches */
-  for (int k = 0; k < MOST_STEPS; k++) {
-    const double y = value(f, t), y1 = slope(f, t);
-    if (y <= small && y1 < 0.0) { /* the last step, by the parabola that touches f here */
-      const double own = y1 * y1 - 4.0 * half_curvature(f, t) * y;
-      if (own >= 0.0) {
-        const double last = t + 2.0 * y / (-y1 + sqrt(own));
-        return last <= T ? carom_greater(last, 0.0) : INFINITY;
-      }
-    }
-    const double s = carom_first_fall(y, y1, least_half_curvature(f, t, ahead));
-    if (!(s > 0.0) || t + s > ahead) {
-      /* nothing up to `ahead` */
-      if (ahead >= T)
-        return INFINITY;
-      const double reached = ahead;
-      ahead = carom_lesser(T, reached + 4.0 * (reached - t));
-      t = reached;
-      if (value(f, t) <= 0.0) /* rounding: the zero is here */
-        return t;
-      continue;
-    }
-    if (t + s == t)
-      return y1 < 0.0 ? t : INFINITY;
-    t += s;
-    if (k >= LONG_STEPS)
-      ahead = carom_lesser(T, t + 4.0 * s);
-  }
-  return t; /* not reached in practice: f has come as near to 0 as rounding lets it */
+  return carom_first_zero(quartic_at, least_half_curvature, f, 0.0, t, T, small);
 }
 
-/* The first time from t on, up to T, when f begins to fall: t itself where it does so at once, the end of a rise otherwise. */
-static double end_of_rise(const quartic *f, double t, double T) {
-  for (int k = 0; k < MOST_STEPS; k++) {
-    /* g = f' >= g(t) + g'(t) s + n s^2, n the least g''/2 = 3 c3 + 12 c4 t on [t, T] */
-    const double y = slope(f, t), y1 = 2.0 * half_curvature(f, t);
-    const double n = 3.0 * f->c[3] + 12.0 * f->c[4] * (f->c[4] > 0.0 ? t : T);
-    if (y <= 0.0 && (y1 < 0.0 || k > 0))
-      return t;
-    /* where it begins at 0 or, by rounding, below, and rises, the bound is back at 0 later; where it does not rise either, the
-       third derivative decides, 6 n: s = 0 if f falls by that */
-    const double s = y <= 0.0 ? (n < 0.0 ? -y1 / n : INFINITY) : carom_first_fall(y, y1, n);
-    if (!(s >= 0.0) || t + s > T)
-      return INFINITY;
-    if (s <= 1e-15 * (t + s))
-      return t + s;
-    t += s;
-  }
-  return t;
+/* The slope as a gap: g = f', and the least g''/2 = 3 c3 + 12 c4 t. */
+static carom_gap_at slope_at(const void *of, double t) {
+  const quartic *f = of;
+  return (carom_gap_at){slope(f, t), 2.0 * half_curvature(f, t)};
+}
+static double least_third(const void *of, double from, double to) {
+  const quartic *f = of;
+  return 3.0 * f->c[3] + 12.0 * f->c[4] * (f->c[4] > 0.0 ? from : to);
+}
+
+/* The first time up to T when f begins to fall: 0 where it does so at once, the end of a rise otherwise. */
+static double end_of_rise(const quartic *f, double T) {
+  const carom_gap_at start = slope_at(f, 0.0);
+  if (start.value > 0.0)
+    return carom_first_zero(slope_at, least_third, f, 0.0, 0.0, T, 0.0);
+  if (start.slope < 0.0)
+    return 0.0;
+  /* where the slope begins at 0 or, by rounding, below, and rises, its bound is back at 0 later; where it does not rise either,
+     the third derivative decides: at once if f falls by that */
+  const double third = least_third(f, 0.0, T), back = third < 0.0 ? -start.slope / third : INFINITY;
+  if (!(back > 0.0 && back <= T))
+    return back <= 0.0 ? 0.0 : INFINITY;
+  return slope(f, back) > 0.0 ? carom_first_zero(slope_at, least_third, f, 0.0, back, T, 0.0) : back;
 }
 
 static quartic squared(const carom_separation *d, double reach) {
@@ -130,7 +103,7 @@ static inline double first_contact(quartic f, double reach, double horizon) {
   if (f.c[1] < -2.0 * reach * CAROM_NO_SPEED)
     return 0.0;
   /* touching and not closing: the next contact is behind the turn, where it closes again; see PRESSED */
-  const double turn = end_of_rise(&f, 0.0, horizon);
+  const double turn = end_of_rise(&f, horizon);
   if (!(turn <= horizon))
     return INFINITY;
   f.c[0] += carom_greater(2.0 * reach * CAROM_SLACK - value(&f, turn), 0.0);

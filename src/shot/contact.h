@@ -38,15 +38,4 @@ double carom_first_touch(const double g[3], double slack, double horizon);
 /* Both real zeros of a polynomial of degree 2 or less, the earlier first; the number of them. */
 int carom_quadratic_zeros(double a, double b, double c, double zero[2]);
 
-/* The first s >= 0 at which y + y1 s + m s^2 is 0, for y > 0; infinite where it is not. Where the usual form of the zero would
- * lose half of its digits, or all of them, it has the other. */
-static inline double carom_first_fall(double y, double y1, double m) {
-  const double D = y1 * y1 - 4.0 * m * y;
-  if (!(D >= 0.0))
-    return INFINITY;
-  if (!(y1 > 0.0 && D < y1 * y1 * (1.0 + 1e-8)))
-    return 2.0 * y / (-y1 + sqrt(D));
-  return m < 0.0 ? (y1 + sqrt(D)) / (-2.0 * m) : INFINITY;
-}
-
 #endif

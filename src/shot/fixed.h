@@ -24,6 +24,12 @@ double carom_coulomb(const carom_touch *touch, double mu, double J);
 /* The speed at which a ball that falls at v_n on the slate leaves it, for a restitution e. */
 double carom_rebound(double v_n, double e);
 
+/* Of a ball with the slate: 0 stands for the default, -1 for none. */
+static inline double carom_slate_restitution(const carom_ball_kind *kind) {
+  const double given = kind->restitution_table;
+  return given == 0.0 ? 0.5 : given > 0.0 ? given : 0.0;
+}
+
 /* The ball, with v[2] < 0, falls on the slate or the top of a rail, at the height at which it is. Its label does not change. */
 void carom_hit_slate(const carom_ball_kind *kind, carom_ball_state *state);
 

@@ -9,9 +9,9 @@
  *
  *   F''/2 >= min q'^2 + min (z'^2 - g (z - h))
  *
- * on any interval: q' rises, so the least q'^2 is at an end, or 0; the second term is a parabola opening upward. So Newton's
- * method from the left on a lower parabola works as in contact.c: F(t + s) >= F + F' s + m s^2, m the bound. [0, T] is cut
- * where q = c, two zeros of a quadratic; between them the ball is over the disc, and the contact is that of the top.
+ * on any interval: q' rises, so the least q'^2 is at an end, or 0; the second term is a parabola opening upward. That is the
+ * bound for first_zero.h. [0, T] is cut where q = c, two zeros of a quadratic; between them the ball is over the disc, and the
+ * contact is that of the top.
  *
  * TOP. The plane z = h + R over the strip -W <= s < delta behind a nose, W the width of the rails, and over the disc of a jaw.
  * A ball that lies on it, with v_z = 0, has left the table.
@@ -23,12 +23,12 @@
  * LEAVING. The ball has left the table where its centre leaves the hull grown by W, or where it would land outside the
  * cushions. */
 #include "shot/contact.h"
+#include "shot/first_zero.h"
 #include "shot/sim.h"
 
 #include <math.h>
 
 static const double on_top = 1e-9; /* m: rounding of the edges of tops, and of a ball's height on them */
-enum { MOST_STEPS = 1000, LONG_STEPS = 8 };
 
 typedef struct flight {
   double r[3], v[3], g, radius;
@@ -45,52 +45,44 @@ typedef struct circle {
   double centre[2], radius, height;
 } circle;
 
-/* F, F' and q' at t. */
-typedef struct gap {
-  double F, slope, across;
-} gap;
+typedef struct jaw_gap {
+  const flight *f;
+  const circle *c;
+} jaw_gap;
 
-static gap gap_at(const flight *f, const circle *c, double t) {
+/* How fast the ball leaves the axis, q', from a place seen from there. */
+static double leaving(const flight *f, double x, double y, double q) {
+  return q > 0.0 ? (x * f->v[0] + y * f->v[1]) / q : 0.0;
+}
+
+static carom_gap_at gap_at(const void *of, double t) {
+  const flight *f = ((const jaw_gap *)of)->f;
+  const circle *c = ((const jaw_gap *)of)->c;
   const double x = f->r[0] + t * f->v[0] - c->centre[0], y = f->r[1] + t * f->v[1] - c->centre[1], q = sqrt(x * x + y * y);
-  const double z = height_at(f, t) - c->height, v_z = f->v[2] - f->g * t;
-  const double across = q > 0.0 ? (x * f->v[0] + y * f->v[1]) / q : 0.0, s = q - c->radius;
-  return (gap){s * s + z * z - f->radius * f->radius, 2.0 * (s * across + z * v_z), across};
+  const double z = height_at(f, t) - c->height, v_z = f->v[2] - f->g * t, s = q - c->radius;
+  return (carom_gap_at){s * s + z * z - f->radius * f->radius, 2.0 * (s * leaving(f, x, y, q) + z * v_z)};
+}
+
+static double leaving_at(const jaw_gap *g, double t) {
+  const double x = g->f->r[0] + t * g->f->v[0] - g->c->centre[0], y = g->f->r[1] + t * g->f->v[1] - g->c->centre[1];
+  return leaving(g->f, x, y, sqrt(x * x + y * y));
 }
 
 /* The bound of F''/2 on [t, T]. */
-static double least_half_curvature(const flight *f, const circle *c, double t, double T) {
-  const double first = gap_at(f, c, t).across, last = gap_at(f, c, T).across;
+static double least_half_curvature(const void *of, double t, double T) {
+  const jaw_gap *g = of;
+  const flight *f = g->f;
+  const double first = leaving_at(g, t), last = leaving_at(g, T);
   const double across = first >= 0.0 ? first * first : last <= 0.0 ? last * last : 0.0;
   /* z'^2 - g (z - h) = v_z^2 - g (z0 - h) - 3 g v_z t + 3/2 g^2 t^2, least at t = v_z / g */
   const double top = carom_lesser(carom_greater(f->v[2] / f->g, t), T);
-  const double upright = f->v[2] * f->v[2] - f->g * (f->r[2] - c->height) + top * f->g * (1.5 * f->g * top - 3.0 * f->v[2]);
+  const double upright = f->v[2] * f->v[2] - f->g * (f->r[2] - g->c->height) + top * f->g * (1.5 * f->g * top - 3.0 * f->v[2]);
   return across + upright;
 }
 
 /* The first zero of F + raise from t on, where that is positive, up to T, with q >= c between; or infinity. */
-static double zero_from_left(const flight *f, const circle *c, double raise, double t, double T) {
-  double ahead = T; /* how far the bound reaches */
-  for (int k = 0; k < MOST_STEPS; k++) {
-    const gap here = gap_at(f, c, t);
-    const double y = here.F + raise;
-    if (y <= 0.0 && here.slope < 0.0)
-      return t;
-    const double s = carom_first_fall(y, here.slope, least_half_curvature(f, c, t, ahead));
-    if (!(s >= 0.0) || t + s > ahead) {
-      if (ahead >= T)
-        return INFINITY;
-      const double reached = ahead;
-      ahead = carom_lesser(T, reached + 4.0 * (reached - t));
-      t = reached;
-      continue;
-    }
-    if (t + s == t)
-      return here.slope < 0.0 ? t : INFINITY;
-    t += s;
-    if (k >= LONG_STEPS)
-      ahead = carom_lesser(T, t + 4.0 * s);
-  }
-  return t; /* not reached in practice: F has come as near to 0 as rounding lets it */
+static double zero_from_left(const jaw_gap *g, double raise, double t, double T) {
+  return carom_first_zero(gap_at, least_half_curvature, g, raise, t, T, 0.0);
 }
 
 /* The first contact on [t, T], with q >= c between. Balls that touch at t and do not close are in contact where the gap has
@@ -98,16 +90,17 @@ static double zero_from_left(const flight *f, const circle *c, double raise, dou
  * contact.c.
  */
 static double touch_circle(const flight *f, const circle *c, double t, double T) {
-  const gap here = gap_at(f, c, t);
+  const jaw_gap g = {f, c};
+  const carom_gap_at here = gap_at(&g, t);
   const double touching = 2.0 * f->radius * CAROM_SLACK;
-  if (here.F > touching)
-    return zero_from_left(f, c, 0.0, t, T);
-  if (here.F < -2.0 * f->radius * CAROM_BEHIND)
+  if (here.value > touching)
+    return zero_from_left(&g, 0.0, t, T);
+  if (here.value < -2.0 * f->radius * CAROM_BEHIND)
     return INFINITY;
   if (here.slope < -2.0 * f->radius * CAROM_NO_SPEED)
     return t;
-  const double back = zero_from_left(f, c, touching - here.F, t, T), middle = 0.5 * (t + back);
-  return back < INFINITY && gap_at(f, c, middle).F > touching ? zero_from_left(f, c, 0.0, middle, T) : back;
+  const double back = zero_from_left(&g, touching - here.value, t, T), middle = 0.5 * (t + back);
+  return back < INFINITY && gap_at(&g, middle).value > touching ? zero_from_left(&g, 0.0, middle, T) : back;
 }
 
 /* The times at which the track crosses a circle, seen from above; the number of them, 0 or 2, infinite where it stands inside.

@@ -192,7 +192,7 @@ static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const
   const double J = (1.0 + e) * touch.closing;
   double J_t = 0.0;
   if (cushion_model(sim) == CAROM_CUSHION_STRONGE)
-    J_t = carom_stronge_friction(touch.closing, touch.slip, mu, e, own_or(kind->omega_ratio, 1.8), false);
+    J_t = carom_stronge_friction(touch.closing, touch.slip, mu, e, own_or(kind->omega_ratio, CAROM_OMEGA_RATIO), false);
   else if (cushion_model(sim) != CAROM_CUSHION_MIRROR)
     J_t = carom_coulomb(&touch, mu, J);
   carom_take_impulse(&touch, kind->radius, J, J_t, s);
