@@ -30,7 +30,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-ROOMS = ["src/platform", "src/impact", "src/ball_ball", "src/cushion", "src/shot", "cli", "python/src/carom"]
+ROOMS = ["src/platform", "src/impact", "src/ball_ball", "src/cushion", "src/cluster", "src/table", "src/motion", "src/shot", "cli", "python/src/carom"]
 FIELDS = ["room", "file", "line", "column", "was", "now", "outcome", "by", "seconds", "text"]
 KEY = FIELDS[:6]
 # Exit codes of a test that passes: also of one that is skipped, by ctest or by pytest.

@@ -4,7 +4,7 @@
  * latest, and is looked at again. So pairs are searched up to the nearer of two horizons only. Most things are rejected without
  * solving: features of the table by boxes; pairs along the line of centres, where n . d(t) > R_i + R_j on the whole way, n =
  * d(0)/|d(0)|. */
-#include "shot/contact.h"
+#include "motion/gap.h"
 #include "shot/rules.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* What a ball in flight meets on the table: noses of rails and jaws, tops of rails, pockets, and the end of the table. nose.c
  * has the geometry. In flight x and y are linear in t, and z = z0 + v_z t - g/2 t^2.
  *
- * RAIL. |d|^2 = (s - delta)^2 + (z - h)^2 is a quartic in t, that of two centres with d in two coordinates (contact.c); a
+ * RAIL. |d|^2 = (s - delta)^2 + (z - h)^2 is a quartic in t, that of two centres with d in two coordinates (gap.c); a
  * contact beyond the ends of the rail is none, since a jaw or another rail stands there.
  *
  * JAW. With q the horizontal distance from the axis, c = rho + delta and F = (q - c)^2 + (z - h)^2 - R^2, squaring twice would
@@ -22,8 +22,8 @@
  *
  * LEAVING. The ball has left the table where its centre leaves the hull grown by W, or where it would land outside the
  * cushions. */
-#include "shot/contact.h"
-#include "shot/first_zero.h"
+#include "motion/first_zero.h"
+#include "motion/gap.h"
 #include "shot/sim.h"
 
 #include <math.h>
@@ -87,7 +87,7 @@ static double zero_from_left(const jaw_gap *g, double raise, double t, double T)
 
 /* The first contact on [t, T], with q >= c between. Balls that touch at t and do not close are in contact where the gap has
  * fallen by CAROM_SLACK from that at t, or, if it has been greater than that on the way, where it is 0: as PRESSED in
- * contact.c.
+ * gap.c.
  */
 static double touch_circle(const flight *f, const circle *c, double t, double T) {
   const jaw_gap g = {f, c};

@@ -164,12 +164,52 @@ static bool is_finite(const carom_ball_state *s) {
   return isfinite(s->v[0] + s->v[1] + s->v[2] + s->w[0] + s->w[1] + s->w[2]);
 }
 
+/* The unit vector from the centre of a ball into a rail or a jaw; horizontal for a ball on the cloth. */
+static void into_nose(const carom_sim *sim, const carom_due *due, const carom_ball_state *s, double N[3]) {
+  const carom_ball_kind *kind = &sim->ball[due->a].kind;
+  const double *r = s->r;
+  double out[2], across, height; /* the horizontal direction from the nose to the centre; the distance from the wall */
+  if (due->type == CAROM_EVENT_RAIL) {
+    const double *line = sim->features->line[due->b];
+    out[0] = line[0];
+    out[1] = line[1];
+    across = line[0] * r[0] + line[1] * r[1] + line[2];
+    height = sim->table->rail[due->b].height;
+  } else {
+    const carom_jaw *jaw = &sim->table->jaw[due->b];
+    const double x = r[0] - jaw->centre[0], y = r[1] - jaw->centre[1], q = sqrt(x * x + y * y);
+    out[0] = q > 0.0 ? x / q : 0.0;
+    out[1] = q > 0.0 ? y / q : 0.0;
+    across = q - jaw->radius;
+    height = jaw->height;
+  }
+
+  /* a ball on the cloth meets the wall, one that flies the nose itself */
+  N[0] = -out[0];
+  N[1] = -out[1];
+  N[2] = 0.0;
+  if (!carom_flies(s))
+    return;
+  const double h = carom_nose_height(kind, height), up = r[2] - h;
+  across -= carom_nose_shift(h, sim->features->reference);
+  const double size = sqrt(across * across + up * up);
+  N[0] = -across / size * out[0];
+  N[1] = -across / size * out[1];
+  N[2] = -up / size;
+}
+
+double carom_height_on_top(const carom_sim *sim, int i, int what) {
+  const carom_ball_kind *kind = &sim->ball[i].kind;
+  const int jaw = what - sim->features->rails;
+  return carom_nose_height(kind, jaw < 0 ? sim->table->rail[what].height : sim->table->jaw[jaw].height) + kind->radius;
+}
+
 void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a, const carom_ball_state *b,
                           double n[3]) {
   if (b != NULL)
     carom_line_of_centres(&sim->ball[due->a].kind, a, &sim->ball[due->b].kind, b, n);
   else
-    carom_into_nose(sim, due->a, due, a, n);
+    into_nose(sim, due, a, n);
 }
 
 double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double n[3]) {

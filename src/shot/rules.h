@@ -3,7 +3,7 @@
 #ifndef CAROM_SRC_SHOT_RULES_H
 #define CAROM_SRC_SHOT_RULES_H
 
-#include "shot/contact.h"
+#include "motion/gap.h"
 #include "shot/sim.h"
 
 typedef struct carom_rules {

@@ -5,8 +5,8 @@
  * the one that closes fastest first; where that too is equal to a part in 1e9, the one of the lower index, and of one ball its
  * landing, then cushions, then balls. So a symmetrical layout is resolved in an order that rounding does not change.
  *
- * A contact is where a gap is 0 and closing (contact.c). */
-#include "shot/contact.h"
+ * A contact is where a gap is 0 and closing (gap.c). */
+#include "motion/gap.h"
 #include "shot/rules.h"
 
 #include <math.h>

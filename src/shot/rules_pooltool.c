@@ -15,7 +15,7 @@
  * Source: pooltool, commit 9a8abfe0. */
 #include "ball_ball/arguments.h"
 #include "ball_ball/euler.h"
-#include "shot/contact.h"
+#include "motion/gap.h"
 #include "shot/rules.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* The loop of a shot: find the next event, bring the balls in it there, resolve it, look again what they will meet. */
+#include "motion/strike.h"
 #include "platform/threads.h"
 #include "shot/fixed.h"
 #include "shot/rules.h"

@@ -3,25 +3,8 @@
 #ifndef CAROM_SRC_SHOT_SIM_H
 #define CAROM_SRC_SHOT_SIM_H
 
-#include "shot/path.h"
-
-enum { MOST_FEATURES = CAROM_RAILS_MOST + CAROM_JAWS_MOST + CAROM_POCKETS_MOST };
-
-/* What a ball can meet on the table. In the order of rails, jaws, pockets. */
-typedef struct carom_features {
-  double radius; /* the greatest of the balls for which the rest was prepared; 0: nothing yet */
-  int rails, jaws, pockets, count;
-  double line[CAROM_RAILS_MOST][3];  /* unit normal towards the played side, and offset: distance = line . (x, y, 1) */
-  double along[CAROM_RAILS_MOST][3]; /* place along the rail, 0 at p and 1 at q: along . (x, y, 1) */
-  /* boxes around the things, in single precision, rounded outward */
-  float low_x[MOST_FEATURES], high_x[MOST_FEATURES], low_y[MOST_FEATURES], high_y[MOST_FEATURES];
-  double least;              /* the least radius of those balls */
-  double reference;          /* radius of the balls that the table is meant for, nose.c */
-  double nose_low;           /* least height of a nose */
-  double width, pocket_back; /* of the tops of rails; height of the pockets' backs: see carom_table */
-  double hull[4];            /* low x, high x, low y, high y: centres stay inside */
-  double ends[4];            /* the same around the ends of the rails alone */
-} carom_features;
+#include "motion/path.h"
+#include "table/table.h"
 
 /* What will happen to a ball by itself or on the table. */
 typedef struct carom_meeting {
@@ -79,24 +62,8 @@ static inline bool carom_in_space(const carom_sim *sim) {
   return sim->flying > 0 || sim->unlike;
 }
 
-/* table_pooltool.c */
-extern const carom_table carom_table_pooltool;
-
-/* features.c: the unit normal of a rail towards its played side, and its offset: distance = line . (x, y, 1). */
-void carom_rail_line(const carom_rail *rail, double line[3]);
-/* What follows from a table for balls of a greatest radius, and from the radius that it is meant for. */
-void carom_features_of(const carom_table *table, double radius, double reference, carom_features *features);
-
-/* nose.c: the height of a nose for a ball, how far it is inside the wall that stands for it, and the distance from the wall at
- * which a ball on the cloth touches it. */
-double carom_nose_height(const carom_ball_kind *kind, double height);
-double carom_nose_shift(double height, double reference);
-double carom_reach_on_cloth(const carom_ball_kind *kind, double height, double reference);
-/* The height of ball i's centre on the top of rail `what`, or of jaw `what` less the rails. */
+/* resolve.c: the height of ball i's centre on the top of rail `what`, or of jaw `what` less the rails. */
 double carom_height_on_top(const carom_sim *sim, int i, int what);
-/* The unit vector from the centre of ball i into the rail or jaw of a contact; horizontal for a ball on the cloth. */
-void carom_into_nose(const carom_sim *sim, int i, const carom_due *due, const carom_ball_state *state, double N[3]);
-
 /* flight.c: what airborne ball i meets first on the table, from r with v now, and when from now on; landing: the time until it
  * would land. */
 carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3], const double v[3], double landing);
@@ -147,15 +114,6 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
 /* models.c: friction of a ball with others, over the slip: its own law, or Alciatore's. A pair has the mean. */
 carom_speed_law carom_law_of_ball(const carom_ball_kind *kind);
 
-/* strike.c: the numbers of a cue, apart from its ball; and carom_strike() with the part of the blow that goes down. */
-carom_status carom_check_cue(const carom_cue *cue);
-carom_status carom_strike_in_space(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out);
-
-/* check.c: whether a place is outside the ring of cushions and pockets, for the centre of a ball that touches none of them. */
-bool carom_place_is_outside(const carom_table *table, const carom_features *features, const carom_ball_kind *kind,
-                            const double r[2]);
-/* table_check.c: the same by the parts of the table, without a look at the place first: some microseconds. */
-bool carom_is_cut_off(const carom_table *table, const carom_features *features, const carom_ball_kind *kind, const double r[2]);
 /* check.c: the options of a shot; and a ball by itself. */
 carom_status carom_check_shot_options(const carom_shot_options *opt);
 carom_status carom_check_ball(const carom_shot_ball *ball, bool flat);
@@ -164,9 +122,4 @@ carom_status carom_check_common(const carom_table *table, int64_t count, const c
 /* One layout with its cue. Prepares the table for the radii of the balls, where *features are for others. */
 carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
                                 const carom_cue *cue, const carom_shot_options *opt, int *where);
-/* The parts of a table, each by itself, for balls of a radius, for which it prepares the table; `usual`: the radius that the
- * table is meant for, where it names none. */
-carom_status carom_check_parts(const carom_table *table, double radius, double usual, carom_features *features,
-                               carom_part *part);
-
 #endif

@@ -3,7 +3,7 @@
 #define CAROM_SRC_SHOT_TANGENT_PATH_H
 
 #include "ball_ball/tangent.h"
-#include "shot/path.h"
+#include "motion/path.h"
 
 /* In the order of the numbers of a state. */
 enum { S_X, S_Y, S_V_X, S_V_Y, S_W_X, S_W_Y, S_W_Z, S_Z, S_V_Z };

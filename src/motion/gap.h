@@ -1,7 +1,7 @@
 /* When two things on quadratic paths first touch: zeros of polynomials of the time since now, that cannot be stepped over. See
- * contact.c. */
-#ifndef CAROM_SRC_SHOT_CONTACT_H
-#define CAROM_SRC_SHOT_CONTACT_H
+ * gap.c. */
+#ifndef CAROM_SRC_MOTION_GAP_H
+#define CAROM_SRC_MOTION_GAP_H
 
 #include <math.h>
 

@@ -7,10 +7,10 @@
  * so the first zero of the parabola, s = 2 g / (-g' + sqrt(g'^2 - 4 m g)), is not behind that of g, and where the parabola has
  * no zero, g has none. As t rises, [t, T] and with it the bound tighten; after some steps that were short the bound is taken on
  * a short piece ahead only. */
-#ifndef CAROM_SRC_SHOT_FIRST_ZERO_H
-#define CAROM_SRC_SHOT_FIRST_ZERO_H
+#ifndef CAROM_SRC_MOTION_FIRST_ZERO_H
+#define CAROM_SRC_MOTION_FIRST_ZERO_H
 
-#include "shot/path.h"
+#include "motion/path.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
  * of both, at a side ds = rs / tan((90 degrees + sa) / 2). Facings go back to the depth of the cushion. Source: pooltool's
  * generator, whose default table is CAROM_TABLE_POOL_7FT with its order of parts. */
 #include "platform/elementary.h"
-#include "shot/sim.h"
+#include "table/table.h"
 
 #include <math.h>
 #include <stddef.h>

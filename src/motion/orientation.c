@@ -11,8 +11,8 @@
  * Source: S. Blanes, F. Casas, J. A. Oteo, J. Ros, "The Magnus expansion and some of its applications", Physics Reports 470
  * (2009) 151-238, section 5. Only correctly rounded operations and the library's own sines: the bits are equal on all machines.
  */
+#include "motion/path.h"
 #include "platform/elementary.h"
-#include "shot/path.h"
 
 #include <math.h>
 

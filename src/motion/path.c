@@ -1,5 +1,5 @@
 /* The motion of a ball between events, in closed form; path.h has the equations. */
-#include "shot/path.h"
+#include "motion/path.h"
 
 #include <math.h>
 #include <stdint.h>

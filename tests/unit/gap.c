@@ -1,5 +1,5 @@
 /* First contacts against a search in small steps. */
-#include "shot/contact.h"
+#include "motion/gap.h"
 #include "support.h"
 
 #include <math.h>

@@ -12,8 +12,8 @@
  * a sliding ball. At once they would close at 0, part at 0 where they have no spin, and be found again at the same instant
  * without end. Where only rounding presses them, as where a ball slides along a rail that it touches, their paths end before
  * the gap has fallen by so much, and there is no contact. */
-#include "shot/contact.h"
-#include "shot/first_zero.h"
+#include "motion/gap.h"
+#include "motion/first_zero.h"
 
 #include <math.h>
 

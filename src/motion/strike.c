@@ -13,19 +13,16 @@
  *
  * so that a ball on the cloth is airborne with v_z < 0 and lands at once: most of that happens after the tip has left. With
  * theta = 0 both are the same, to the last bit. Sources: D. Alciatore, TP A-30 and TP A-31; pooltool's. */
+#include "motion/strike.h"
 #include "platform/elementary.h"
-#include "shot/sim.h"
+#include "platform/ranges.h"
 
 #include <math.h>
 #include <stddef.h>
 
-static bool positive(double x) {
-  return x > 0.0 && x < INFINITY;
-}
-
 carom_status carom_check_cue(const carom_cue *cue) {
   if (!(cue->speed >= 0.0 && cue->speed <= 1e3) || !(fabs(cue->phi) <= 1e9) || !(cue->theta >= 0.0 && cue->theta <= 90.0) ||
-      !positive(cue->mass) || !positive(cue->end_mass))
+      !carom_is_positive(cue->mass) || !carom_is_positive(cue->end_mass))
     return CAROM_ERROR_CUE;
   if (!(cue->miscue >= 0.0 && cue->miscue <= 1.0))
     return CAROM_ERROR_CUE;
@@ -39,9 +36,9 @@ static carom_status strike(const carom_cue *cue, const carom_ball_kind *kind, bo
   const carom_status bad = carom_check_cue(cue);
   if (bad != CAROM_OK)
     return bad;
-  if (!positive(kind->mass))
+  if (!carom_is_positive(kind->mass))
     return CAROM_ERROR_MASS;
-  if (!positive(kind->radius))
+  if (!carom_is_positive(kind->radius))
     return CAROM_ERROR_RADIUS;
   const double a = cue->a, b = cue->b, inside = 1.0 - a * a;
   double sin_phi, cos_phi, sin_theta, cos_theta;
@@ -71,60 +68,4 @@ carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, car
 
 carom_status carom_strike_in_space(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out) {
   return strike(cue, kind, true, out);
-}
-
-carom_cue carom_cue_of(carom_game game) {
-  const bool snooker = game == CAROM_GAME_SNOOKER || game == CAROM_GAME_POOLTOOL_SNOOKER;
-  return (carom_cue){.speed = 2.0,
-                     .phi = 90.0,
-                     .b = 0.25,
-                     .mass = snooker ? 0.478 : 0.567,
-                     .end_mass = carom_ball_kind_of(game).mass / 30.0,
-                     .tip_radius = 0.0106045};
-}
-
-carom_ball_kind carom_ball_kind_of(carom_game game) {
-  /* pool, by pooltool too */
-  carom_ball_kind kind = {.mass = 0.170097,
-                          .radius = 0.028575,
-                          .mu_slide = 0.2,
-                          .mu_roll = 0.01,
-                          .mu_ball = 0.05,
-                          .restitution = 0.95,
-                          .mu_cushion = 0.2,
-                          .restitution_cushion = 0.85,
-                          .gravity = 9.81};
-  if (game == CAROM_GAME_SNOOKER || game == CAROM_GAME_POOLTOOL_SNOOKER) {
-    kind.mass = 0.140;
-    kind.radius = 0.02619375;
-    kind.mu_slide = kind.mu_cushion = 0.5;
-  } else if (game == CAROM_GAME_BILLIARD || game == CAROM_GAME_POOLTOOL_BILLIARD) {
-    kind.mass = 0.210;
-    kind.radius = 0.03075;
-    kind.mu_cushion = 0.15;
-  }
-  kind.mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind.radius;
-  /* what was measured: m/s^2 over g, or the coefficient itself */
-  if (game == CAROM_GAME_SNOOKER) {
-    kind.mu_slide = 2.075 / 9.81;
-    kind.mu_roll = 0.125 / 9.81;
-    kind.restitution = 0.89;
-    /* of Han's closed form: what the exact cushion does with 0.14, 0.98 and the nose at 7/5 R (physics/terms) */
-    kind.mu_cushion = 0.2;
-    kind.restitution_cushion = 0.936;
-    kind.nose_height = 0.03074;
-  } else if (game == CAROM_GAME_BILLIARD) {
-    kind.mu_slide = 2.02 / 9.81;
-    kind.mu_roll = 0.0418 / 9.81;
-    kind.drag = 0.0129;
-    kind.mu_spin = 0.004;
-    kind.restitution = 0.951;
-    kind.mu_ball = kind.law_a = 0.08;
-    /* of Han's closed form, with its nose: the cushion of the world carom by default */
-    kind.mu_cushion = 0.231;
-    kind.restitution_cushion = 0.874;
-    kind.nose_height = 0.03545;
-    kind.roll_loss = 0.087;
-  }
-  return kind;
 }

@@ -1,6 +1,6 @@
 /* CAROM_TABLE_POOL_7FT to the last bit as pooltool has it (its "7 Ft Showood"), numbers and order of parts: simulations that
  * are to have the same histories cannot afford another rounding of its corners. tables.c has the construction. */
-#include "shot/sim.h"
+#include "table/table.h"
 
 /* A line for each part. */
 /* clang-format off */

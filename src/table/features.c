@@ -1,6 +1,6 @@
 /* What balls up to a radius can meet on a table, prepared once for all shots that share both: lines with unit normals, boxes
  * for rejection, and the hull outside of which no centre has a place. */
-#include "shot/sim.h"
+#include "table/table.h"
 
 #include <math.h>
 #include <string.h>

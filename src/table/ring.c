@@ -13,7 +13,7 @@
  * The ring is looked at twice. With rounded rails, which do not depend on the sides, it tells holes as wide as a ball; then,
  * when the sides are known to be right, with rails as detection knows them it tells ends of rails without a jaw. Where no chain
  * is closed, the parts are grown further until one is. The edge that closed it is the hole. */
-#include "shot/sim.h"
+#include "table/table.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -27,21 +27,14 @@
  * Errors do not accumulate from pair to pair. Within one, where J is v'' (J = 2 k v (A + k v^2), largest at the start, and
  * nearly constant), the place differs from the exact one by J T^3 / 324 at most, at T/3 and 2T/3, and by nothing at T/2. The
  * speed v0 - v1 that a pair takes is chosen for an error of 1e-5 m. Where that is v0 the pair ends at rest. */
-#ifndef CAROM_SRC_SHOT_PATH_H
-#define CAROM_SRC_SHOT_PATH_H
+#ifndef CAROM_SRC_MOTION_PATH_H
+#define CAROM_SRC_MOTION_PATH_H
 
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
+#include "platform/ranges.h"
 
 #include <stdbool.h>
-
-/* fmin() and fmax() without their care for NaN, which costs a call. */
-static inline double carom_lesser(double a, double b) {
-  return a < b ? a : b;
-}
-static inline double carom_greater(double a, double b) {
-  return a > b ? a : b;
-}
 
 /* What follows from a ball's kind, once for a shot. */
 typedef struct carom_ball_rates {
