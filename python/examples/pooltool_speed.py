@@ -37,12 +37,8 @@ def nineball_break(seed: int, speed: float) -> Any:
 
 def look(system: Any) -> int:
     """Looks at every object of a simulated System: agents before and after, histories. The number of states."""
-    states = [agent.initial for event in system.events for agent in event.agents]
-    states += [agent.final for event in system.events for agent in event.agents]
-    for ball in system.balls.values():
-        states += ball.history.states
-        states += ball.history_cts.states
-    return len(states)
+    states = [state for event in system.events for agent in event.agents for state in (agent.initial, agent.final)]
+    return len(states) + sum(len(ball.history.states) + len(ball.history_cts.states) for ball in system.balls.values())
 
 
 def check(mine: Any, theirs: Any) -> None:

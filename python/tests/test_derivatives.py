@@ -149,14 +149,6 @@ def test_events_that_were_not_kept():
         carom.tangents(carom.simulate_batch(TABLE, balls, cues, room=99, records="brief"), ["cue.phi"])
 
 
-@pytest.mark.parametrize("name", ["phi", "cue.mu", "balls[7].r", "balls[0].r[3]", "kind", "balls[0].kind.radius", "cue.phi[0]"])
-def test_names_that_are_none(name):
-    balls, cue = layout()
-    shot = carom.simulate(TABLE, balls, cue)
-    with pytest.raises(ValueError, match="wrt"):
-        carom.tangents(shot, [name])
-
-
 def test_what_is_not_known():
     balls, cue = layout()
     with pytest.raises(carom.CaromError) as error:

@@ -241,22 +241,6 @@ def test_shots_that_are_no_shots_have_a_status(made):
         fit.fit([first, tracks.Recording(9, (1, 2), still[:2])], TABLE, RADIUS)
 
 
-def test_the_command_writes_what_it_promises(made, tmp_path, capsys):
-    (tmp_path / "tracks.csv").write_text(csv_of(made.recordings[:3]))
-    (tmp_path / "in.json").write_text(json.dumps({"constants": HAN}))
-    usual = [str(tmp_path / "tracks.csv"), "--table", "2.84,1.42", "--radius", "0.03075", "--cushion-model", "han"]
-    out = tmp_path / "out.json"
-    assert fit.main([*usual, "--constants", str(tmp_path / "in.json"), "--free", "none", "--seed", "1", "-o", str(out)]) == 0
-    written = json.loads(out.read_text())
-    assert {name: written["constants"][name] for name in HAN} == HAN
-    assert [shot["id"] for shot in written["shots"]] == [1, 2, 3]
-    rmse = [shot["rmse"] for shot in written["shots"]]
-    assert written["median_rmse"] == pytest.approx(np.median(rmse)) and written["p90_rmse"] == pytest.approx(np.percentile(rmse, 90))
-    assert written["median_rmse"] < 1e-3
-    assert set(written["shots"][0]["cue"]) == {"ball", "v_x", "v_y", "w_x", "w_y", "w_z", "start"}
-    assert "RMSE median" in capsys.readouterr().out
-
-
 def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, monkeypatch):
     (tmp_path / "tracks.csv").write_text(csv_of(made.recordings[:8]))
     (tmp_path / "in.json").write_text(json.dumps({**made.constants, "mu_spin": 0.0045}))
@@ -269,9 +253,13 @@ def test_the_command_splits_goes_on_and_writes_a_page(made, tmp_path, capsys, mo
     assert fit.main([*usual, "--summary", str(page), "-o", str(out)]) == 0
     written = json.loads(out.read_text())
     assert [shot["train"] for shot in written["shots"]] == [True, False] * 4
-    assert written["constants"]["mu_spin"] == pytest.approx(0.005, rel=0.05)
+    assert written["constants"]["mu_spin"] == pytest.approx(0.005, rel=0.05) and written["constants"]["mu_slide"] == HAN["mu_slide"]
+    assert [shot["id"] for shot in written["shots"]] == [*range(1, 9)]
+    rmse = [shot["rmse"] for shot in written["shots"]]
+    assert written["median_rmse"] == pytest.approx(np.median(rmse)) and written["p90_rmse"] == pytest.approx(np.percentile(rmse, 90))
+    assert set(written["shots"][0]["cue"]) == {"ball", "v_x", "v_y", "w_x", "w_y", "w_z", "start"}
     told = capsys.readouterr().out
-    assert "fitted, 4 of 8 shots" in told and "predicted, 4 of 8 shots" in told
+    assert "fitted, 4 of 8 shots: RMSE median" in told and "predicted, 4 of 8 shots" in told
     # one file, with the pictures in it
     text = page.read_text()
     chart = ElementTree.fromstring(text[text.index("<svg") : text.index("</svg>") + 6])

@@ -88,6 +88,8 @@ VALUES = [
     (r"shot: ", lambda: carom.resume(None)),
     *((rf"times: .* not {bad}", lambda bad=bad, look=look: look(carom.simulate(TABLE, RACK, CUE))([0.1, bad]))
       for bad in (np.nan, np.inf) for look in (lambda s: s.positions, lambda s: s.states, lambda s: s.orientations)),
+    *((r"wrt: ", lambda name=name: carom.tangents(shot(), [name]))
+      for name in ("phi", "cue.mu", "balls[17].r", "balls[0].r[3]", "kind", "balls[0].kind.radius", "cue.phi[0]")),
     (r"of: .* not None", lambda: carom.jacobian(TABLE, RACK, CUE, ["cue.phi"], of=None)),
 ]  # fmt: skip
 
@@ -179,11 +181,7 @@ def test_failures_of_a_batch():
     assert told == [(0, "cue.ball = 99"), (1, "cue.speed = nan"), (2, "balls[3].kind.mass = -1.0"), (3, "balls[5].state.r = [0. 0. 0.]")]
     with pytest.raises(carom.CaromError, match=r"^balls\[3\]\.kind\.mass = -1\.0"):
         shots[2].positions(0.1)
-
-
-def test_texts_of_statuses():
     assert all("options." not in status.text for status in carom.Status)
-    assert carom.Status.ERROR_MASS.text == "a mass must be positive and finite"
 
 
 @pytest.mark.parametrize(

@@ -472,19 +472,6 @@ def test_what_pooltool_plays_is_told_once(installed, played):
     assert len(played) == 8  # the overlapping ones are refused by carom, the last ones played
 
 
-def test_strategies_in_pooltools_engine():
-    """The exact models in pooltool's own engine: close to the shot by carom's models, before chaos."""
-    engine = new_engine()
-    engine.resolver.ball_ball = bridge.ExactBallBall()
-    engine.resolver.ball_linear_cushion = bridge.ExactLinearCushion()
-    engine.resolver.ball_circular_cushion = bridge.ExactCircularCushion()
-    system = pt.System.example()
-    theirs, mine = pt.simulate(system, engine), bridge.simulate(system, models="carom", cushion_model="mathavan")
-    for ours, event in list(zip(mine.events, theirs.events))[:8]:
-        assert (ours.event_type, ours.ids) == (event.event_type, event.ids)
-        assert abs(ours.time - event.time) < 1e-4
-
-
 def test_speed():
     """The example that compares the times finds the same events and histories, and prints its eight rows."""
     script = Path(__file__).parents[1] / "examples" / "pooltool_speed.py"

@@ -139,18 +139,15 @@ def test_any_game_keeps_the_rules():
     assert down.any() and not down.all()
 
 
-def wider():
-    """A table that says that its bed is wider than it is: balls would be dealt beyond its rails."""
-    table = carom.tables.pool_9ft()
-    return carom.Table(table.width + 0.1, table.length, rails=table.rails, jaws=table.jaws, pockets=table.pockets)
-
-
 def test_what_the_rules_refuse():
+    # a table that says that its bed is wider than it is: balls would be dealt beyond its rails
+    pool = carom.tables.pool_9ft()
+    wider = carom.Table(pool.width + 0.1, pool.length, rails=pool.rails, jaws=pool.jaws, pockets=pool.pockets)
     for arguments, words in (
         ({"balls": 0}, "balls: must be 1 to 15"), ({"strokes": 0}, "strokes: must be at least 1"),
         ({"speeds": (2.0, 1.0)}, "speeds: must be the least and the most"), ({"noise": (1.0, -1.0, 0.0)}, "noise: must be three standard deviations"),
         ({"table": carom.tables.threecushion()}, "table: must have pockets"),
-        ({"table": wider()}, r"table: its rails must lie around 0 <= x <= width = 1\.37 m, .* there is one at x = 1\.27 m"),
+        ({"table": wider}, r"table: its rails must lie around 0 <= x <= width = 1\.37 m, .* there is one at x = 1\.27 m"),
         ({"parameters": {"mu": (0, 1)}}, "parameters: must give"), ({"parameters": {"mass": (2, 1)}}, "'mass'"),
         ({"parameters": {"mu_slide": (-1, 1)}}, "mu_slide"),
     ):  # fmt: skip

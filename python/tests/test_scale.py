@@ -10,25 +10,20 @@ import pytest
 
 import carom
 
-
 EXAMPLE = Path(__file__).parents[1] / "examples" / "on_a_cluster.py"
 
 
-def test_dask_array(impacts):
+def test_dask_and_xarray(impacts):
     array = pytest.importorskip("dask.array", reason="Dask is not installed")
-    chunked = array.from_array(np.tile(impacts, (20, 1)), chunks=(1000, 26))
+    xarray = pytest.importorskip("xarray", reason="xarray is not installed")
+    expected, chunked = carom.collide(impacts), array.from_array(impacts, chunks=(50, 26))
     motion, status = array.apply_gufunc(carom.collide, "(i)->(j),()", chunked, output_sizes={"j": 12}, output_dtypes=[float, np.int8])
-    expected = carom.collide(np.tile(impacts, (20, 1)))
     np.testing.assert_array_equal(motion.compute(), expected.motion)
     np.testing.assert_array_equal(status.compute(), expected.status)
-
-
-def test_xarray(impacts):
-    xarray = pytest.importorskip("xarray", reason="xarray is not installed")
     given = xarray.DataArray(impacts.reshape(4, 51, 26), dims=("speed", "angle", "field"))
     motion, status = xarray.apply_ufunc(carom.collide, given, input_core_dims=[["field"]], output_core_dims=[["motion"], []])
     assert motion.dims == ("speed", "angle", "motion") and status.dims == ("speed", "angle")
-    np.testing.assert_array_equal(motion.values.reshape(204, 12), carom.collide(impacts).motion)
+    np.testing.assert_array_equal(motion.values.reshape(204, 12), expected.motion)
 
 
 def digest_of(*arguments):

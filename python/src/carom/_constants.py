@@ -1,4 +1,4 @@
-"""What recorded shots are played with: named constants, and the table, balls and options that follow from them.
+"""What recorded shots are played with: named constants, and the table and balls that follow from them.
 
 A constant is a field of `carom.dtypes.ball_kind`, but for the radius. Friction between balls is the law of law_a, law_b and law_c; mu_ball
 stands for a law that does not depend on the slip.
@@ -7,13 +7,11 @@ stands for a law that does not depend on the slip.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 
 from carom import dtypes
 from carom._rows import Array
-from carom._shot_options import Options, ShotCushion, shot_options
+from carom._shot_options import ShotCushion
 from carom.layouts import Table, balls
 
 Constants = dict[str, float]
@@ -73,8 +71,3 @@ def layout(centres: dtypes.Doubles, radius: float, constants: Mapping[str, float
     for name, value in constants.items():
         made["kind"][name] = value
     return made
-
-
-def options(cushion_model: ShotCushion) -> Any:
-    """The options of C that recorded shots are played with."""
-    return shot_options(Options(cushion_model=cushion_model))

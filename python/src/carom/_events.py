@@ -445,18 +445,10 @@ def _cuts_of(shot: Recording, pieces: Records, ball: int, radius: float, table: 
 
 
 def events(recordings: Sequence[Recording], table: tuple[float, float], radius: float) -> Events:
-    """Find what happened on recorded tracks.
+    """Find what happened on recorded tracks; `table` has the extents of x and y and `radius` is that of the balls, m.
 
-    Parameters
-    ----------
-    recordings : sequence of Recording
-    table : (float, float)
-        Extents of x and y, m.
-    radius : float
-        Of the balls, m.
-
-    Returns Events: Pieces of all tracks; the impacts and hits that enough samples tell of. Nothing is left out for being
-    improbable: select by chi2 and errors.
+    Returns the pieces of all tracks, and the impacts and hits that enough samples tell of. Nothing is left out for being improbable:
+    select by chi2 and errors.
     """
     low, high = radius, np.array(table) - radius
     rows = [[_free(*of, low, high) for of in zip(shot.tracks, shot.moves.tolist())] for shot in recordings]

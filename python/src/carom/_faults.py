@@ -24,9 +24,7 @@ _SHARED: dict[str, dict[str, _Range]] = {
         "speed": (lambda x: 0 <= x <= 1000, "0 to 1000 m/s"),
         "phi": (lambda x: abs(x) <= 1e9, "a direction in degrees"),
         "theta": (lambda x: 0 <= x <= 90, "0 to 90 degrees"),
-        "miscue": _UNIT,
-        "mass": _POSITIVE,
-        "end_mass": _POSITIVE,
+        **{"miscue": _UNIT, "mass": _POSITIVE, "end_mass": _POSITIVE},
     },
     "mu_motion": {"mu_slide": _FRICTION, "mu_roll": _FRICTION, "mu_spin": _FRICTION},
     "restitution": {

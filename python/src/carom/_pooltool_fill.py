@@ -35,16 +35,11 @@ _OWN_FIELDS = ("id", "params", "ballset", "initial_orientation")  # of a ball: t
 _STRIKE, _BALL_BALL = int(EventType.STRIKE), int(EventType.BALL_BALL)
 _RAIL, _JAW, _POCKET = int(EventType.RAIL), int(EventType.JAW), int(EventType.POCKET)
 _TYPES: dict[int, Any] = {
-    EventType.STRIKE: _PoolType.STICK_BALL,
-    EventType.BALL_BALL: _PoolType.BALL_BALL,
-    EventType.RAIL: _PoolType.BALL_LINEAR_CUSHION,
-    EventType.JAW: _PoolType.BALL_CIRCULAR_CUSHION,
-    EventType.POCKET: _PoolType.BALL_POCKET,
-    EventType.SLIDING_ROLLING: _PoolType.SLIDING_ROLLING,
-    EventType.ROLLING_SPINNING: _PoolType.ROLLING_SPINNING,
-    EventType.ROLLING_STATIONARY: _PoolType.ROLLING_STATIONARY,
-    EventType.SPINNING_STATIONARY: _PoolType.SPINNING_STATIONARY,
-}
+    EventType.STRIKE: _PoolType.STICK_BALL, EventType.BALL_BALL: _PoolType.BALL_BALL, EventType.RAIL: _PoolType.BALL_LINEAR_CUSHION,
+    EventType.JAW: _PoolType.BALL_CIRCULAR_CUSHION, EventType.POCKET: _PoolType.BALL_POCKET,
+    **{EventType[name]: getattr(_PoolType, name) for name in
+       ("SLIDING_ROLLING", "ROLLING_SPINNING", "ROLLING_STATIONARY", "SPINNING_STATIONARY")},
+}  # fmt: skip
 
 
 # ---- Made when first looked at ------------------------------------------------------------------------------------------

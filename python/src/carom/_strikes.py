@@ -23,7 +23,7 @@ import numpy.typing as npt
 from carom import _constants
 from carom._carom import ffi, lib
 from carom._rows import pointer, workers
-from carom._shot_options import ShotCushion
+from carom._shot_options import Options, ShotCushion, shot_options
 from carom.dtypes import Doubles
 from carom.status import CaromError
 from carom.tracks import Recording
@@ -96,7 +96,7 @@ class Plays:
             "carom_python_tracks *",
             {
                 "table": pointer("carom_table[]", self.table.record),
-                "options": _constants.options(self.cushion_model),
+                "options": shot_options(Options(cushion_model=self.cushion_model)),
                 "balls": pointer("carom_shot_ball[]", self.layouts),
                 "struck": pointer("int32_t[]", self.struck),
                 "samples": pointer("double[]", self.samples),
@@ -135,11 +135,8 @@ class Plays:
 
     def rmse(self, strikes: Doubles) -> Doubles:
         """Root of the mean squared distance over all samples of each shot, m, shape (shots,); inf where the play is in error."""
-        count = len(strikes)
-        sums = self.misfit(np.arange(count, dtype=np.int32), strikes, self.ends, -np.inf)
-        mean: Doubles = sums[:, 1] / np.maximum(sums[:, 2], 1.0)
-        root: Doubles = np.sqrt(mean)
-        return root
+        sums = self.misfit(np.arange(len(strikes), dtype=np.int32), strikes, self.ends, -np.inf)
+        return np.asarray(np.sqrt(sums[:, 1] / np.maximum(sums[:, 2], 1.0)))
 
 
 def apart(rest: Doubles, table: tuple[float, float], radius: float) -> Doubles:

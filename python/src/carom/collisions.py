@@ -114,17 +114,10 @@ def alciatore() -> tuple[float, float, float]:
 
 
 def mu_ball(impacts: npt.ArrayLike, law: tuple[float, float, float] | None = None) -> dtypes.Doubles:
-    """Friction between two balls from the speed of slip just before they collide.
+    """Friction between two balls from the speed of slip just before they collide: float64, shape (...).
 
-    Parameters
-    ----------
-    impacts : array_like, shape (..., 26), or structured of shape (...)
-        As for `collide`; their own mu_ball is not read.
-    law : tuple of a, b, c, optional
-        mu = a + b exp(-c |u|), |u| in m/s. Default: `alciatore()`.
-
-    Returns an ndarray of float64, shape (...): Dimensionless. A law that leaves [0, 1] or motion that is not finite gives a number
-    that `collide` refuses.
+    Impacts are as for `collide`, and their own mu_ball is not read. The law of a, b, c is mu = a + b exp(-c |u|), |u| in m/s; without
+    one it is `alciatore()`. A law that leaves [0, 1] or motion that is not finite gives a number that `collide` refuses.
     """
     array = rows(impacts, dtypes.impact, "impacts")
     mu = np.empty(array.shape if array.dtype.names is not None else array.shape[:-1])
@@ -142,19 +135,12 @@ def trace(
     impact: npt.ArrayLike, points: int = 101, *, solver: Solver = "exact", slip: Slip = "paper", steps: int = 0,
     plain: bool = False
 ) -> dtypes.Records:  # fmt: skip
-    """Follow one collision, at equal steps of normal impulse from 0 to its end.
+    """Follow one collision, of shape (26,) or (), at `points` equal steps of normal impulse from 0 to its end.
 
-    Parameters
-    ----------
-    impact : array_like, shape (26,), or structured of shape ()
-        As for `collide`.
-    points : int
-        How many, at least 2.
-    solver, slip, steps, plain
-        As for `collide`; Euler's method gives the nearest whole steps.
+    Options are as for `collide`; Euler's method gives the nearest whole steps. Returns an ndarray of `carom.dtypes.trace_point`, shape
+    (points,): normal (N s), work (J), phase (0 compression, 1 restitution), sticks, v_n and slips (m/s) in the frame of the
+    collision, state (both balls, along the axes of the table).
 
-    Returns an ndarray of `carom.dtypes.trace_point`, shape (points,): normal (N s), work (J), phase (0 compression, 1
-    restitution), sticks, v_n and slips (m/s) in the frame of the collision, state (both balls, along the axes of the table).
     Raises CaromError: The impact is in error.
     """
     return follow(BALLS, impact, points, _options(solver, slip, steps, 0, plain))

@@ -110,18 +110,10 @@ def cushion_trace(
     convention: CushionConvention = "paper", law: CushionLaw = "constant", steps: int = 0, least_step: float = 0.0,
     plain: bool = False
 ) -> dtypes.Records:  # fmt: skip
-    """Follow one impact by the model mathavan or euler, at equal steps of normal impulse from 0 to its end.
+    """Follow one impact, of shape (15,) or (), by the model mathavan or euler, at `points` equal steps of normal impulse from 0 to its end.
 
-    Parameters
-    ----------
-    impact : array_like, shape (15,), or structured of shape ()
-        As for `cushion`.
-    points : int
-        How many, at least 2.
-    model, convention, law, steps, least_step, plain
-        As for `cushion`.
+    Options are as for `cushion`. Returns an ndarray of `carom.dtypes.cushion_point`, shape (points,).
 
-    Returns an ndarray of `carom.dtypes.cushion_point`, shape (points,).
     Raises CaromError: The impact is in error.
     """
     if model not in ("mathavan", "euler"):

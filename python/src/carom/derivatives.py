@@ -8,6 +8,7 @@ from __future__ import annotations
 import enum
 import re
 from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -53,43 +54,26 @@ class Flag(enum.IntFlag):
     DRAG = 64
 
 
+@dataclass(eq=False, repr=False)
 class Tangents:
     """Derivatives of a shot, or of many: the last dimension is that of the directions, m.
 
-    Attributes
-    ----------
-    names, units : tuple of str
-        What changes in each direction, and the unit that derivatives are per.
-    final : dict of ndarray
-        "r" of shape (..., balls, 2, m), m; "v" likewise, m/s; "w" (..., balls, 3, m), rad/s: of the final states. Of balls that fly
-        "z", m, and "v_z", m/s, of shape (..., balls, m), too.
-    at : dict of ndarray
-        The same of the states at `times`, of shape (..., times, balls, 2 or 3, m).
-    time : ndarray, shape (..., events, m)
-        Of the times of the events, s. nan beyond the events of a shot.
-    flags : ndarray of int32, shape (..., events)
-        Sums of `Flag`; -1 beyond the events.
-    reach : ndarray, shape (..., m)
-        The least change in each direction, in its unit, at which to first order a ball meets something else, or in another order.
-    error : ndarray, shape (...)
-        The largest relative error of what had to be found by differences.
-    status : ndarray of int8, shape (...)
-        As `carom.Status`; derivatives of a shot in error are nan.
+    `final` has "r" of shape (..., balls, 2, m), m; "v" likewise, m/s; "w" (..., balls, 3, m), rad/s: of the final states. Of balls
+    that fly it has "z", m, and "v_z", m/s, of shape (..., balls, m), too. `at` has the same of the states at `times`, of shape
+    (..., times, balls, 2 or 3, m).
     """
 
-    def __init__(
-        self, names: tuple[str, ...], units: tuple[str, ...], shape: tuple[int, ...], found: dict[str, Array], status: Array
-    ) -> None:
-        given = {name: array.reshape((*shape, *array.shape[1:])) for name, array in found.items()}
-        self.names = names
-        self.units = units
-        self.states: dtypes.Doubles = given["final"]
-        self.states_at: dtypes.Doubles = given["at"]
-        self.time: dtypes.Doubles = given["time"]
-        self.flags: npt.NDArray[np.int32] = given["flags"]
-        self.reach: dtypes.Doubles = given["reach"]
-        self.error: dtypes.Doubles = given["error"]
-        self.status: npt.NDArray[np.int8] = status.reshape(shape)
+    names: tuple[str, ...]  # what changes in each direction,
+    units: tuple[str, ...]  # and the unit that derivatives are per
+    states: dtypes.Doubles  # all of `final`, (..., balls, 9, m)
+    states_at: dtypes.Doubles  # all of `at`, (..., times, balls, 9, m)
+    time: dtypes.Doubles  # (..., events, m): of the times of the events, s; nan beyond the events of a shot
+    flags: npt.NDArray[np.int32]  # (..., events): sums of `Flag`; -1 beyond the events
+    # (..., m): the least change in each direction, in its unit, at which to first order a ball meets something else, or in
+    # another order
+    reach: dtypes.Doubles
+    error: dtypes.Doubles  # (...): the largest relative error of what had to be found by differences
+    status: npt.NDArray[np.int8]  # (...): as `carom.Status`; derivatives of a shot in error are nan
 
     @property
     def final(self) -> dict[str, dtypes.Doubles]:
@@ -103,6 +87,15 @@ class Tangents:
 
     def __repr__(self) -> str:
         return f"<carom.Tangents: {self.states.shape[:-3]}, by {', '.join(self.names)}>"
+
+
+def _tangents(
+    names: tuple[str, ...], units: tuple[str, ...], shape: tuple[int, ...], found: dict[str, Array], status: Array
+) -> Tangents:
+    parts = ("final", "at", "time", "flags", "reach", "error")
+    given = {name: found[name].reshape((*shape, *found[name].shape[1:])) for name in parts}
+    given["states"], given["states_at"] = given.pop("final"), given.pop("at")
+    return Tangents(names, units, **given, status=status.reshape(shape))
 
 
 def _by_name(states: dtypes.Doubles) -> dict[str, dtypes.Doubles]:
@@ -271,12 +264,12 @@ def tangents(shot: Shot | Shots, wrt: Sequence[str], *, times: npt.ArrayLike | N
     if isinstance(shot, Shots):
         job = shot.jobs(_options(shot.options, threads))
         found, codes = _differentiate(job, count.size, balls, events, seeds, at, wanted, threads)
-        return Tangents(names, units, shot.shape, found, codes)
+        return _tangents(names, units, shot.shape, found, codes)
     job = _job_of_one(shot, _options(shot.options, 0))
     found, codes = _differentiate(job, 1, balls, events, seeds, at, wanted, 0)
     if codes[0] < 0:
         raise CaromError(int(codes[0]))
-    return Tangents(names, units, (), found, codes)
+    return _tangents(names, units, (), found, codes)
 
 
 def play(
@@ -328,10 +321,8 @@ def jacobian(
 
     Parameters
     ----------
-    table, layouts, cues
-        As for `carom.simulate_batch`.
-    wrt : sequence of str
-        As for `tangents`.
+    table, layouts, cues, wrt
+        As for `carom.simulate_batch` and `tangents`.
     of : str
         "final.r", "final.v", "final.w", "final.z", "final.v_z"; "at.r" and so on at `times`; "time" of the events; or "reach".
     room : int

@@ -33,14 +33,9 @@ def _dtype(ctype: Any) -> np.dtype[Any]:
         return np.dtype((_dtype(ctype.item), (ctype.length,)))
     if ctype.kind == "struct":
         fields = [(name, field) for name, field in ctype.fields if name not in _NOT_SHOWN]
-        return np.dtype(
-            {
-                "names": [name for name, _ in fields],
-                "formats": [_dtype(field.type) for _, field in fields],
-                "offsets": [field.offset for _, field in fields],
-                "itemsize": ffi.sizeof(ctype),
-            }
-        )
+        formats, offsets = [_dtype(field.type) for _, field in fields], [field.offset for _, field in fields]
+        names = [name for name, _ in fields]
+        return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": ffi.sizeof(ctype)})
     if ctype.kind == "pointer":
         return np.dtype(np.uintp)
     letter = "f" if ctype.cname in ("double", "float") else "u" if ctype.cname.startswith("u") else "i"

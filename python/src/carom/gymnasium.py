@@ -116,11 +116,6 @@ def _spaces(rules: Potting) -> tuple[Any, Any]:
     return spaces.Box(low, high, dtype=np.float64), spaces.Box(-1.0, 1.0, (4,), dtype=np.float64)
 
 
-def _key(generator: np.random.Generator) -> int:
-    """What the random numbers of a game with a seed begin with."""
-    return int(generator.integers(2**63))
-
-
 def _checked(options: dict[str, Any] | None) -> dict[str, Any]:
     """The options of a reset, none of them unknown."""
     given = {} if options is None else options
@@ -152,7 +147,7 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         given = _checked(options)
         layout = given.get("layout")
         if seed is not None:
-            self._games.draws.begin(_ONE, _key(self.np_random))
+            self._games.draws.begin(_ONE, int(self.np_random.integers(2**63)))
         self._games.begin(_ONE, None if layout is None else [layout], given.get("strokes"))
         return self._games.observe()[0], {}
 
@@ -213,7 +208,7 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
                 raise ValueError(f"layout: one or {self.num_envs} are needed, not {len(layouts)}")
         for game, own in enumerate(seeds):
             if own is not None:
-                self._games.draws.begin(np.array([game]), _key(seeding.np_random(own)[0]))
+                self._games.draws.begin(np.array([game]), int(seeding.np_random(own)[0].integers(2**63)))
         self._games.begin(np.arange(self.num_envs), layouts, given.get("strokes"))
         return self._games.observe(), {}
 

@@ -187,10 +187,8 @@ def final(
 
     Parameters
     ----------
-    table : Table
-    balls : ndarray of `carom.dtypes.shot_ball`, shape (..., balls)
-    cue : ndarray of `carom.dtypes.cue`, shape (...), or None
-        The shots, where `numbers` say nothing else. Leading dimensions of balls, cue and numbers are broadcast against each other.
+    table, balls, cue
+        The shots, as for `carom.simulate_batch`, where `numbers` say nothing else. Leading dimensions of balls, cue and numbers are broadcast against each other.
     numbers : mapping of str to array_like
         The numbers of the shots that take part in derivatives, by the names of `carom.tangents`: "cue.phi", "kind.mu_slide" (of all
         balls), "balls[1].kind.mass" and "balls[0].r[1]" of shape (...); "balls[0].r", "balls[0].v" (..., 2), "balls[0].w" (..., 3).

@@ -154,14 +154,7 @@ def _part(part: Any) -> str:
 
 
 def place_ball(table: Table, balls: dtypes.Records, ball: int, x: float, y: float) -> dtypes.Records:
-    """Ball in hand: a copy of a layout, in which a ball lies at rest at (x, y), m, also one that was pocketed.
-
-    Parameters
-    ----------
-    table : Table
-    balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
-    ball : int
-        Its index.
+    """Ball in hand: a copy of a layout, in which the ball of this index lies at rest at (x, y), m, also one that was pocketed.
 
     Raises CaromError: The place is not free: `field` is the ball or the part of the table that is in the way.
     """
@@ -295,15 +288,7 @@ def _doubt_radians(name: str, angle: npt.ArrayLike) -> None:
 
 
 def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
-    """The motion of a ball at rest after a strike.
-
-    Parameters
-    ----------
-    cue : ndarray of `carom.dtypes.cue`, shape ()
-    kind : ndarray of `carom.dtypes.ball_kind`, shape ()
-
-    Returns an ndarray of `carom.dtypes.motion`, shape ().
-    """
+    """The motion of a ball at rest after a strike: `carom.dtypes.motion` of a `carom.dtypes.cue` and a `carom.dtypes.ball_kind`, shapes ()."""
     motion: Array = np.zeros((), dtypes.motion)
     strike = one_cue(cue)
     ball = of_record(kind, dtypes.ball_kind, "kind", "balls()['kind']").reshape(1)

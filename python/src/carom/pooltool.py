@@ -51,18 +51,11 @@ _FIXED = {
     "transition": ("CanonicalTransition",),
 }
 _PAIRS: dict[str, BallModel] = {
-    "FrictionalInelastic": "inelastic",
-    "FrictionalMathavan": "euler",
-    "FrictionlessElastic": "mirror",
-    "ExactBallBall": "exact",
-}
+    "FrictionalInelastic": "inelastic", "FrictionalMathavan": "euler", "FrictionlessElastic": "mirror", "ExactBallBall": "exact",
+}  # fmt: skip
 _CUSHIONS: dict[str, ShotCushion] = {
-    "StrongeCompliant": "stronge",
-    "Han2005": "han",
-    "Mathavan2010": "euler",
-    "Unrealistic": "mirror",
-    "ExactCushion": "mathavan",
-}
+    "StrongeCompliant": "stronge", "Han2005": "han", "Mathavan2010": "euler", "Unrealistic": "mirror", "ExactCushion": "mathavan",
+}  # fmt: skip
 _FRICTIONS: dict[str, Friction] = {"AlciatoreBallBallFriction": "alciatore", "AverageBallBallFriction": "constant"}
 
 
@@ -225,8 +218,7 @@ def simulate(
     fallback : bool
         What carom cannot do is played by pooltool instead of an error. A `FallbackWarning` says why, once for each reason.
 
-    Returns pooltool.System: Events with their agents before and after, the balls' states and histories, pockets and their
-    contents, as pooltool leaves them.
+    Returns a System as pooltool leaves it: events with their agents, states, histories, pockets with their contents.
     Raises UnsupportedError: An engine, a table or an `include` that is pooltool's alone.
     Raises CaromError: A System that carom refuses (overlapping balls, a ball off the table, more than 32 balls), or a shot that
     ends in an error.

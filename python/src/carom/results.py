@@ -93,14 +93,10 @@ class Shot:
     state: Array | None = None
 
     def states(self, times: npt.ArrayLike) -> dtypes.Records:
-        """The states of all balls at any times.
+        """The states of all balls at any times, s: an ndarray of `carom.dtypes.ball_state`, shape (shape of the times..., balls).
 
-        Parameters
-        ----------
-        times : array_like, shape (...)
-            s. Before 0: as at 0; after the end: as at the end, where nothing moves any more.
+        Before 0 they are as at 0; after the end as at the end, where nothing moves any more.
 
-        Returns an ndarray of `carom.dtypes.ball_state`, shape (..., balls).
         Raises CaromError: A time is after the end of a shot that was stopped, or that ended in an error, while balls moved.
         Raises ValueError: A time is not finite.
         """
@@ -160,15 +156,7 @@ class Shot:
         return pictures.picture(self.table, self)
 
     def animate(self, speed: float = 1.0) -> Animation:
-        """A moving picture, for Jupyter or a file.
-
-        Parameters
-        ----------
-        speed : float
-            1 is that of the shot.
-
-        Returns Animation: Its `svg` is the text of a file that moves in any browser.
-        """
+        """A moving picture, for Jupyter or a file: `speed` 1 is that of the shot, and `svg` is the text, which moves in any browser."""
         return pictures.animation(self, speed)
 
 
@@ -342,20 +330,12 @@ class Shots:
     # ---- Trajectories ---------------------------------------------------------------------------------------------------
 
     def states(self, times: npt.ArrayLike, *, threads: int = 0) -> dtypes.Records:
-        """The states of all balls of all shots at any times.
+        """The states of all balls of all shots at any times, s: an ndarray of `carom.dtypes.ball_state`, shape (batch..., times..., balls).
 
-        Shots of which not all events were kept are played again, which takes the time of playing them.
+        Before 0 they are as at 0; after the end as at the end, where nothing moves any more. Shots of which not all events were kept are
+        played again, which takes the time of playing them. Numbers are nan, and the label -1, where no state is known: of shots whose
+        arguments were in error, and after shots were stopped, or ended in an error, while balls moved. No bit depends on `threads`.
 
-        Parameters
-        ----------
-        times : array_like, shape (...)
-            s, for all shots. Before 0: as at 0; after the end: as at the end, where nothing moves any more.
-        threads : int
-            Most threads to use; 0 is the calling one alone, -1 all processors. No bit depends on it.
-
-        Returns an ndarray of `carom.dtypes.ball_state`, shape (shape of the batch..., shape of the times..., balls): nan, and the
-        label -1, where no state is known: of shots whose arguments were in error, and after shots were stopped, or ended in an
-        error, while balls moved.
         Raises ValueError: A time is not finite; or a shot has to be played again, and its layout or cue has been changed since.
         """
         return self.look_at(times, dtypes.ball_state, (), threads)[0]

@@ -96,14 +96,9 @@ def _run(begun: Shot, play: Callable[[Any], int]) -> Shot:
 def resume(shot: Shot, *, t_final: float | None = None, stop_at: StopAt | Iterable[StopAt] = ()) -> Shot:
     """Go on with a shot that was stopped at a time or an event, as if it had not been.
 
-    Parameters
-    ----------
-    shot : Shot
-        Given by `simulate`, or by `resume`, with `t_final` or `stop_at`. It is not changed. One at rest stays at rest.
-    t_final, stop_at
-        When to stop again, as for `simulate`; t_final counts from the beginning of the shot.
+    The shot, of `simulate` or `resume` with `t_final` or `stop_at`, is not changed. These say when to stop again; t_final counts from the
+    beginning of the shot. The result has all events from the beginning, and events and states have the bits of the unbroken shot.
 
-    Returns Shot: With all events from the beginning. Events and states have the bits of the unbroken shot.
     Raises CaromError: The shot ends in an error.
     Raises ValueError: The shot was played without `t_final` and `stop_at`, or as one of a batch; or t_final is before the time
     at which it stopped.

@@ -39,15 +39,9 @@ else:
 class CaromError(ValueError):
     """A call that could not be served.
 
-    Attributes
-    ----------
-    status : Status
-    field : str or None
-        Name of the field at fault ("a.mass", "balls[3].state.r"), None where no single one is to blame.
-    value : object
-        What stands there, None where nothing is to be shown.
-    shot : Shot or None
-        What had happened until then, where a shot ended in an error.
+    `status` is a Status; `field` is the name of the field at fault ("a.mass", "balls[3].state.r"), None where no single one is to
+    blame; `value` is the value of that field, None where nothing is to be shown; `shot` is the Shot until then, where one ended in an
+    error, or None.
     """
 
     def __init__(self, status: int, field: str | None = None, value: object = None, shot: Any = None, text: str | None = None) -> None:

@@ -122,7 +122,7 @@ def _json_rows(file: io.TextIOBase, path: Path) -> _Rows:
 
 
 def read(path: str | Path, *, table: tuple[float, float] | None = None, radius: float | None = None) -> list[Recording]:
-    """Read recorded shots.
+    """Read recorded shots, in the order of the file.
 
     Parameters
     ----------
@@ -130,14 +130,11 @@ def read(path: str | Path, *, table: tuple[float, float] | None = None, radius: 
         A long CSV with the columns shot, ball, t, x, y (s and m), a row a sample, in any order of shots and balls; or, if the name
         has .jsonl or .ndjson in it, JSON Lines, a shot a line: {"id": 1, "tracks": {"1": [[t, x, y], ...], ...}}. Either may be
         compressed (.xz, .gz).
-    table : (float, float), optional
-        The extents W and L of x and y, m, and
-    radius : float, optional
-        of the balls, m: with both, a centre that is more than 20 mm outside its bounds is an error.
+    table, radius : optional
+        The extents (W, L) of x and y, and the radius of the balls, m: with both, a centre that is more than 20 mm outside its
+        bounds is an error.
 
-    Returns a list of Recording: In the order of the file.
-    Raises TrackError: What is wrong, where, and what would be right.
-    Raises OSError: The file cannot be read.
+    Raises TrackError: the message says where, and what would be right. Raises OSError: The file cannot be read.
     """
     path = Path(path)
     rows: Callable[[io.TextIOBase, Path], _Rows] = _csv_rows
