@@ -1,6 +1,6 @@
 # One command formats, one checks: cmake --build build --target format (or format-check).
 find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
-file(GLOB_RECURSE formatted CONFIGURE_DEPENDS include/*.h src/*.[ch] cli/*.[ch] lab/*.[ch] tests/*.[ch] examples/*.[ch]
+file(GLOB_RECURSE formatted CONFIGURE_DEPENDS include/*.h src/*.[ch] src/*.cpp cli/*.[ch] lab/*.[ch] tests/*.[ch] examples/*.[ch]
      python/*.[ch])
 if(CLANG_FORMAT)
   add_custom_target(format COMMAND ${CLANG_FORMAT} -i ${formatted} VERBATIM)

@@ -190,6 +190,7 @@ typedef enum carom_status {
   CAROM_ERROR_RAIL_LINE = -63,     /* carom_table_check(): the line of a rail does not pass through both of its ends. */
   CAROM_ERROR_TANGENT = -70,       /* carom_tangent.h: derivatives are not known for this world or model. */
   CAROM_ERROR_DIRECTIONS = -71,    /* carom_tangent.h: the number of directions is not 1 to CAROM_DIRECTIONS_MOST. */
+  CAROM_ERROR_NO_TANGENTS = -72,   /* carom_tangent.h: this library was built without derivatives, as it was without C++. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value not listed. Arrays of

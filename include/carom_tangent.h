@@ -45,15 +45,15 @@ typedef enum carom_tangent_flag {
   CAROM_TANGENT_GRAZING = 1, /* the contact closes at less than 1 % of the speed, or it is the last hop of a ball on the slate
                                 or nearly so: derivatives grow without bound there. */
   CAROM_TANGENT_SLOW = 2,    /* a slow contact, which the rule of docs/using/shots.md resolves. */
-  CAROM_TANGENT_SIMULTANEOUS = 4, /* a ball of it was in another contact less than 1e-9 s before: a small change may reverse
-                                     their order, so the derivative holds to one side at most. */
+  CAROM_TANGENT_SIMULTANEOUS = 4, /* a ball of it was in another contact less than 1e-9 s before, or it is a contact at the
+                                     start whose gap changes: a small change may reverse their order, or part them, so the
+                                     derivative holds to one side at most. */
   CAROM_TANGENT_KINK = 8,   /* the model has no derivative here, or it was not found to 1e-4. So by theta at theta = 0 where
                                balls can leave the cloth: the derivative is that upward. */
   CAROM_TANGENT_EULER = 16, /* the cushion was resolved in steps: the derivative is that of the steps, by differences. */
   CAROM_TANGENT_DIFFERENCES = 32, /* the derivative of this contact is by central differences of the one contact: of
-                                    CAROM_CUSHION_STRONGE, and of exact models where the motion is planar or a ball jams. */
-  CAROM_TANGENT_DRAG = 64 /* a ball rolled there with drag: the derivative is that of its exact motion, which shots follow in
-                              pieces; differences of shots see the pieces. */
+                                    exact models where the motion is planar or a ball jams, and of Euler's steps. */
+  CAROM_TANGENT_DRAG = 64 /* not set any more: derivatives of a roll with drag are those of the pieces that shots follow. */
 } carom_tangent_flag;
 
 /* What changes in each of `directions` m, 1 to 64. NULL stands for zeros. Numbers for what a shot does not read are not read:
@@ -88,15 +88,16 @@ typedef struct carom_tangent {
 
 /* Derivatives of a shot that carom_shoot() has played: table, balls, cue and options are those of that call, and shot->events
  * holds all of its events. Tangents follow each ball from event to event, on the cloth and in flight; nothing is played again.
- * Nothing is allocated; stack: 52 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
+ * Nothing is allocated; stack: 53 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS; CAROM_ERROR_DIRECTIONS for other than 1
  * to 64; CAROM_ERROR_EVENTS_LOST where shot->room was too small or events is NULL; CAROM_ERROR_STATE where an event cannot be
  * one of this shot; CAROM_ERROR_TIME for times that are not finite or not ascending; CAROM_ERROR_SHOT_OPTIONS for a reserved
- * field; or an error of the table or of an option. CAROM_ERROR_TANGENT where derivatives are not known: in
- * CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, and by CAROM_BALL_MODEL_EULER. Or
- * CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved, CAROM_ERROR_OVERFLOW where a number of
- * `final` is not finite, or an error of a collision. Then every number of `final` is NaN, and others may have been written. */
+ * field; or an error of the table or of an option. CAROM_ERROR_NO_TANGENTS from a library that was built without derivatives.
+ * CAROM_ERROR_TANGENT where derivatives are not known: in CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, and by
+ * CAROM_BALL_MODEL_EULER. Or CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved,
+ * CAROM_ERROR_OVERFLOW where a number of `final` is not finite, or an error of a collision. Then every number of `final` is
+ * NaN, and others may have been written. */
 CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls, int count,
                                           const carom_cue *cue, const carom_shot_options *opt, const carom_shot *shot,
                                           const carom_tangent_seeds *seeds, carom_tangent *tangent);

@@ -76,6 +76,7 @@
   X(ERROR_TANGENT, -70, "no_tangent", "derivatives are not known in the world pooltool, nor by Euler's model of balls")        \
   X(ERROR_DIRECTIONS, -71, "bad_directions", "derivatives are in 1 to 64 directions at once")                                  \
   X(ERROR_MODULUS, -58, "bad_modulus", "a ball's modulus must be 0 or 1e6 to 1e15 Pa")                                         \
+  X(ERROR_NO_TANGENTS, -72, "no_tangents", "this library was built without derivatives, as it was without C++")                \
   X(ERROR_STATE, -60, "bad_state", "shot.state is damaged, or of another build, or of no shot that can go on")                 \
   X(ERROR_STATE_TABLE, -64, "other_table", "shot.state is that of a shot on another table")                                    \
   X(ERROR_STATE_BALLS, -65, "other_balls", "shot.state is that of a shot of other balls, or of another layout")                \

@@ -80,23 +80,27 @@ static inline void carom_restore(const carom_reduced *r, const carom_integrals *
 
 /* ---- In the terms of impact/law.h, for the precise solver: it solves what the fast steps refuse, and follows traces ---- */
 
+static inline carom_law carom_law_of_balls(const carom_reduced *c) {
+  return (carom_law){.K_x = 3.5 * c->kappa,
+                     .K_y = 2.5 * c->kappa,
+                     .C_x = 1,
+                     .C_y = 2.5,
+                     .B_0 = -1,
+                     .L_x = 1,
+                     .L_y = -2.5 * c->s,
+                     .H = 1 - 2.5 * c->s,
+                     .g_1 = -1,
+                     .V_0 = -c->kappa,
+                     .V_F = 1,
+                     .mu = c->mu_b,
+                     .mu_c = c->u_z > 0 ? c->mu : 0, /* no ball is pressed into the cloth */
+                     .e = c->e};
+}
+
 /* Puts a collision at its start; tolerance, plain: see impact.h. */
 static inline void carom_precise_begin(const carom_reduced *c, double tolerance, int plain, carom_trajectory *path) {
   const double per = -1 / c->v_n;
-  const carom_law law = {.K_x = 3.5 * c->kappa,
-                         .K_y = 2.5 * c->kappa,
-                         .C_x = 1,
-                         .C_y = 2.5,
-                         .B_0 = -1,
-                         .L_x = 1,
-                         .L_y = -2.5 * c->s,
-                         .H = 1 - 2.5 * c->s,
-                         .g_1 = -1,
-                         .V_0 = -c->kappa,
-                         .V_F = 1,
-                         .mu = c->mu_b,
-                         .mu_c = c->u_z > 0 ? c->mu : 0, /* no ball is pressed into the cloth */
-                         .e = c->e};
+  const carom_law law = carom_law_of_balls(c);
   carom_impact_begin(&law, tolerance, plain, per * c->u_x, per * c->u_z, per * c->d_x, per * c->d_y, per * c->rounding, path);
 }
 

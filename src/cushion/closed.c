@@ -23,7 +23,8 @@ carom_status carom_han(carom_contact *c) {
   const double s_x = carom_slip_x(c), s_t = carom_slip_t(c), slip = sqrt(s_x * s_x + s_t * s_t);
   const double P = (1 + c->e) * (c->v_y * c->cosine), most = c->mu_w * P;
   const double share = slip <= 3.5 * most ? 2.0 / 7.0 : most / slip;
-  carom_push(c, &(carom_impulse){.P = P, .f_x = -share * s_x, .f_t = -share * s_t});
+  const carom_impulse q = {.P = P, .f_x = -share * s_x, .f_t = -share * s_t};
+  carom_push(c, &q);
   return CAROM_OK;
 }
 

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-static const carom_cushion_options defaults = {0};
+static const carom_cushion_options defaults = {.steps = 0};
 
 static carom_status by_model(carom_contact *c, const carom_cushion_options *opt, double mass) {
   const bool pooltool = opt->convention == CAROM_CONVENTION_POOLTOOL;
@@ -75,7 +75,7 @@ typedef struct batch {
 
 /* Rows from `first` on; returns the first in error, or `end`. */
 static size_t solve_rows(const void *context, size_t first, size_t end) {
-  const batch *b = context;
+  const batch *b = (const batch *)context;
   size_t first_bad = end;
   for (size_t k = first; k < end; k++) {
     const carom_status status = solve_impact(&b->in[k], b->opt, &b->out[k]);

@@ -11,24 +11,8 @@
 #include "cushion/models.h"
 
 void carom_mathavan_begin(const carom_contact *c, double tolerance, int plain, carom_trajectory *path) {
-  const double per = 1 / c->v_y, sine = c->sine, cosine = c->cosine;
-  const carom_law law = {.A_0 = sine * cosine,
-                         .K_x = 3.5,
-                         .K_y = 2.5 + sine * sine,
-                         .C_x = 1 - 2.5 * sine,
-                         .C_y = 2.5 - sine,
-                         .B_0 = -cosine,
-                         .L_x = 1 - 2.5 * sine,
-                         .L_y = 2.5 - sine,
-                         .H = 3.5,
-                         .g_0 = sine,
-                         .g_1 = -cosine,
-                         .V_0 = -cosine,
-                         .V_f = -sine,
-                         .V_F = 1,
-                         .mu = c->mu_w,
-                         .mu_c = c->mu_s,
-                         .e = c->e};
+  const double per = 1 / c->v_y;
+  const carom_law law = carom_mathavan_law(c);
   carom_impact_begin(&law, tolerance, plain, per * carom_slip_x(c), per * carom_slip_t(c), per * carom_cloth_x(c),
                      per * carom_cloth_y(c), 0, path);
 }

@@ -37,6 +37,26 @@ carom_status carom_cushion_euler(carom_contact *contact, int steps, double least
                                  carom_cushion_run *run);
 
 /* The exact limit for the precise solver of src/impact. See mathavan.c. */
+static inline carom_law carom_mathavan_law(const carom_contact *c) {
+  const double sine = c->sine, cosine = c->cosine;
+  return (carom_law){.A_0 = sine * cosine,
+                     .K_x = 3.5,
+                     .K_y = 2.5 + sine * sine,
+                     .C_x = 1 - 2.5 * sine,
+                     .C_y = 2.5 - sine,
+                     .B_0 = -cosine,
+                     .L_x = 1 - 2.5 * sine,
+                     .L_y = 2.5 - sine,
+                     .H = 3.5,
+                     .g_0 = sine,
+                     .g_1 = -cosine,
+                     .V_0 = -cosine,
+                     .V_f = -sine,
+                     .V_F = 1,
+                     .mu = c->mu_w,
+                     .mu_c = c->mu_s,
+                     .e = c->e};
+}
 
 /* Puts an impact at its start; tolerance: see impact.h. */
 void carom_mathavan_begin(const carom_contact *contact, double tolerance, int plain, carom_trajectory *path);

@@ -127,6 +127,7 @@ double carom_stronge_friction(double v_n, double slip, double mu, double e, doub
 carom_status carom_stronge(carom_contact *c, double ratio, int pooltool) {
   const double s_x = carom_slip_x(c), s_t = carom_slip_t(c), slip = sqrt(s_x * s_x + s_t * s_t), v_n = c->v_y * c->cosine;
   const double share = friction_share(v_n, slip, c->mu_w, c->e, ratio, pooltool);
-  carom_push(c, &(carom_impulse){.P = (1 + c->e) * v_n, .f_x = -share * s_x, .f_t = -share * s_t});
+  const carom_impulse q = {.P = (1 + c->e) * v_n, .f_x = -share * s_x, .f_t = -share * s_t};
+  carom_push(c, &q);
   return CAROM_OK;
 }

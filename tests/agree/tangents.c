@@ -59,6 +59,7 @@ static layout draw_with(random_source *random, bool terms) {
   for (int i = 0; i < l.count && terms; i++) {
     carom_ball_kind *kind = &l.ball[i].kind;
     kind->roll_loss = 0.087;
+    kind->drag = 0.0129;
     kind->law_a = kind->law_b = 0.05;
     kind->law_c = 1.0;
     kind->nose_height = 1.25 * kind->radius;

@@ -20,6 +20,7 @@ ALLOWED = {
     "src/motion": ("include", "src/platform"),
     "src/table": ("include", "src/platform"),
     "src/shot": ("include", "src/platform", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/table"),
+    "src/tangent": ("include", "src/platform", "src/impact", "src/ball_ball", "src/cushion", "src/motion", "src/shot", "src/table"),
     "src": ("include", "src/platform"),
     "cli": ("include",),
     "examples": ("include",),
@@ -39,7 +40,7 @@ def room_of(file):
 
 
 # C: a source and its header are one unit.
-files = [file for room in ROOMS for kind in ("h", "c", "def") for file in (ROOT / room).rglob(f"*.{kind}")]
+files = [file for room in ROOMS for kind in ("h", "c", "cpp", "def") for file in (ROOT / room).rglob(f"*.{kind}")]
 named = {file.name: file for file in reversed(files)}  # of two with one name that of the earlier room
 units, rooms = defaultdict(set), defaultdict(set)
 for file in files:

@@ -10,23 +10,35 @@
  *     hop       the last hop of a ball on the slate: its fall less the least one after which there is a hop
  *
  * In flight the tops of rails, the backs of pockets and the edge of the table do not count. */
-#include "shot/reach.h"
+#include "tangent/reach.h"
 #include "shot/fixed.h"
 #include "shot/sim.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 static const double NEAR = 0.2;      /* m: gaps beyond are not asked for; */
 static const double TOUCHING = 2e-4; /* nor those of balls that have just parted */
 enum { PARTS_OF_WAY = 6, BISECTIONS = 30 };
 
-void carom_reach_begin(carom_reach *reach, const carom_tangent_work *work, const double *time, double *to) {
-  *reach = (carom_reach){.work = work, .reach = to, .time = time};
-  for (int i = 0; i < work->count; i++)
+void carom_reach_go_on(carom_tangent_work *work, int i) {
+  carom_tangent_ball *ball = &work->ball[i];
+  const carom_ball_rates rates = carom_rates_of(ball->kind);
+  carom_path path = {.from = ball->from};
+  carom_path_begin(&path, &rates, ball->since);
+  memcpy(ball->a, path.a, sizeof ball->a);
+}
+
+void carom_reach_begin(carom_reach *reach, carom_tangent_work *work) {
+  reach->work = work;
+  reach->reach = work->tangent->reach + work->pass.first;
+  for (int i = 0; i < work->count; i++) {
     reach->last_event[i] = -1;
-  for (int j = 0; j < work->m; j++)
-    to[j] = INFINITY;
+    carom_reach_go_on(work, i);
+  }
+  for (int j = 0; j < work->pass.columns; j++)
+    reach->reach[j] = INFINITY;
 }
 
 /* A gap below 0 is a rounding error, of a hit that only just is one. */
@@ -78,17 +90,20 @@ static distance distance_at(const separation *s, double t) {
 __attribute__((noinline)) static void take_gap(carom_reach *reach, const carom_tangent_ball *ball,
                                                const carom_tangent_ball *other, double time, const double n[3], double gap,
                                                bool surface) {
-  const int m = reach->work->m;
-  carom_row d[CAROM_STATE_NUMBERS];
-  carom_row along;
-  double rate[CAROM_STATE_NUMBERS];
+  const carom_tangent_work *w = reach->work;
+  const int m = w->pass.columns, radius = (int)(offsetof(carom_ball_kind, radius) / sizeof(double));
+  carom_tangent_rows d;
+  carom_tangent_row along;
   for (int side = 0; side < (other != NULL ? 2 : 1); side++) {
     const carom_tangent_ball *one = side == 0 ? ball : other;
-    carom_tangent_flow(one, time, m, rate, d);
+    const int i = (int)(one - w->ball);
+    const double *dR =
+        w->seeds->kind != NULL ? w->seeds->kind + (i * CAROM_KIND_NUMBERS + radius) * w->pass.m + w->pass.first : NULL;
+    carom_tangent_at(w, i, time, d);
     for (int j = 0; j < m; j++) {
       const double moves = n[0] * d[S_X][j] + n[1] * d[S_Y][j] + n[2] * d[S_Z][j];
       along[j] = side == 0 ? -moves : along[j] + moves;
-      along[j] -= surface ? carom_d_kind(one, CAROM_KIND_ROW(radius), m, j) : 0.0;
+      along[j] -= surface && dR != NULL ? dR[j] : 0.0;
     }
   }
   for (int j = 0; j < m; j++)
@@ -133,15 +148,14 @@ static void search(carom_reach *reach, const carom_tangent_ball *ball, const car
 
 /* Place, velocity and half the acceleration of a ball at a time; on the cloth, at the height of its radius. */
 static void motion_at(const carom_tangent_ball *ball, double time, double r[3], double v[3], double a[3]) {
-  const carom_path *path = &ball->path;
-  const double tau = time - path->start;
-  const bool moves = carom_translates(path->from.label);
+  const double tau = time - ball->since;
+  const bool moves = carom_translates(ball->from.label);
   for (int k = 0; k < 3; k++) {
-    r[k] = path->from.r[k] + (moves ? tau * (path->from.v[k] + tau * path->a[k]) : 0.0);
-    v[k] = moves ? path->from.v[k] + 2.0 * tau * path->a[k] : 0.0;
-    a[k] = moves ? path->a[k] : 0.0;
+    r[k] = ball->from.r[k] + (moves ? tau * (ball->from.v[k] + tau * ball->a[k]) : 0.0);
+    v[k] = moves ? ball->from.v[k] + 2.0 * tau * ball->a[k] : 0.0;
+    a[k] = moves ? ball->a[k] : 0.0;
   }
-  if (!carom_flies(&path->from))
+  if (!carom_flies(&ball->from))
     r[2] = ball->kind->radius;
 }
 
@@ -168,7 +182,7 @@ static separation between(const carom_tangent_ball *ball, const carom_tangent_ba
 /* The noses that a flying ball missed. */
 static void noses_missed(carom_reach *reach, const carom_tangent_ball *ball, const carom_event *event) {
   const carom_table *table = reach->work->table;
-  const double start = ball->path.start, R = ball->kind->radius, ref = reach->work->reference;
+  const double start = ball->since, R = ball->kind->radius, ref = reach->work->reference;
   for (int64_t k = 0; k < table->rails; k++) {
     if (event->type == CAROM_EVENT_RAIL && event->b == k)
       continue;
@@ -195,7 +209,7 @@ static void noses_missed(carom_reach *reach, const carom_tangent_ball *ball, con
 /* The cushions and pockets that a ball on the cloth missed; stops: it came to rest. */
 static void cushions_missed(carom_reach *reach, const carom_tangent_ball *ball, const carom_event *event, bool stops) {
   const carom_table *table = reach->work->table;
-  const double start = ball->path.start, T = event->time - start;
+  const double start = ball->since, T = event->time - start;
   for (int64_t k = 0; k < table->jaws; k++) {
     const separation s = between(ball, NULL, table->jaw[k].centre, NAN, start);
     const double R = carom_reach_on_cloth(ball->kind, table->jaw[k].height, reach->work->reference);
@@ -224,17 +238,17 @@ static void misses_of(carom_reach *reach, int i, const carom_event *event) {
   const carom_tangent_work *w = reach->work;
   const carom_tangent_ball *ball = &w->ball[i];
   const bool stops = event->type == CAROM_EVENT_ROLLING_SPINNING || event->type == CAROM_EVENT_ROLLING_STATIONARY;
-  const bool moves = carom_translates(ball->path.from.label);
+  const bool moves = carom_translates(ball->from.label);
   for (int q = 0; q < w->count; q++) {
     const carom_tangent_ball *other = &w->ball[q];
     const bool met = event->type == CAROM_EVENT_BALL_BALL && (q == event->a || q == event->b);
-    if (q == i || met || carom_is_out(other->path.from.label) || !(moves || carom_translates(other->path.from.label)))
+    if (q == i || met || carom_is_out(other->from.label) || !(moves || carom_translates(other->from.label)))
       continue;
-    const double from = fmax(ball->path.start, other->path.start);
+    const double from = fmax(ball->since, other->since);
     const separation s = between(ball, other, NULL, NAN, from);
     search(reach, ball, other, &s, event->time - from, ball->kind->radius + other->kind->radius, stops, NULL);
   }
-  if (carom_flies(&ball->path.from))
+  if (carom_flies(&ball->from))
     noses_missed(reach, ball, event);
   else if (moves)
     cushions_missed(reach, ball, event, stops);
@@ -271,7 +285,7 @@ static void take_hit(carom_reach *reach, int j, const hit *h) {
 }
 
 /* The hit of an event, with tangents t. On a nose in flight it is one in the plane across that: level and up. */
-static hit hit_of(const carom_reach *reach, const carom_event *event, carom_row (*t)[CAROM_STATE_NUMBERS], int j) {
+static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tangent_rows *t, int j) {
   static const int X[3] = {S_X, S_Y, S_Z}, V[3] = {S_V_X, S_V_Y, S_V_Z};
   const carom_tangent_work *w = reach->work;
   const carom_table *table = w->table;
@@ -331,7 +345,7 @@ static bool rounds(const carom_jaw *jaw, const double end[2]) {
 
 /* The rails beside an event. A ball that meets a rail beyond its end meets the jaw there instead, one that meets a jaw beyond
  * the end of its rail the rail; and one that falls into a pocket, or meets a jaw, may come to a rail before. */
-static void take_rails(carom_reach *reach, const carom_event *event, carom_row d[CAROM_STATE_NUMBERS]) {
+static void take_rails(carom_reach *reach, const carom_event *event, carom_tangent_rows d) {
   const carom_tangent_work *w = reach->work;
   const carom_ball_state *s = &event->before[0];
   const carom_jaw *jaw = event->type == CAROM_EVENT_JAW ? &w->table->jaw[event->b] : NULL;
@@ -347,14 +361,14 @@ static void take_rails(carom_reach *reach, const carom_event *event, carom_row d
     const bool meets = event->type == CAROM_EVENT_RAIL && event->b == k;
     const bool at_end = meets || (jaw != NULL && beyond > 0.0 && rounds(jaw, place < 0.0 ? rail->p : rail->q));
     const bool before = event->type != CAROM_EVENT_RAIL && beyond <= 0.0 && gap > 0.0 && gap < NEAR;
-    for (int j = 0; j < w->m && (at_end || before); j++)
+    for (int j = 0; j < w->pass.columns && (at_end || before); j++)
       take(reach, j, at_end ? fabs(beyond) : gap,
            at_end ? (e[0] * d[S_X][j] + e[1] * d[S_Y][j]) / length : line[0] * d[S_X][j] + line[1] * d[S_Y][j]);
   }
 }
 
 /* A landing: beside a pocket, and whether it is the last. */
-static void take_landing(carom_reach *reach, const carom_event *event, carom_row d[CAROM_STATE_NUMBERS]) {
+static void take_landing(carom_reach *reach, const carom_event *event, carom_tangent_rows d) {
   const carom_tangent_work *w = reach->work;
   const carom_ball_state *s = &event->before[0];
   const double given = w->ball[event->a].kind->restitution_table, e = given == 0.0 ? 0.5 : given > 0.0 ? given : 0.0;
@@ -364,7 +378,7 @@ static void take_landing(carom_reach *reach, const carom_event *event, carom_row
     const double middle = 0.5 * (low + high);
     *(carom_rebound(middle, e) > 0.0 ? &high : &low) = middle;
   }
-  for (int j = 0; j < w->m; j++) {
+  for (int j = 0; j < w->pass.columns; j++) {
     if (e > 0.0)
       take(reach, j, fabs(-s->v[2] - high), d[S_V_Z][j]);
     for (int64_t k = 0; k < w->table->pockets; k++) {
@@ -376,8 +390,10 @@ static void take_landing(carom_reach *reach, const carom_event *event, carom_row
   }
 }
 
-void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event, carom_row (*d)[CAROM_STATE_NUMBERS]) {
-  const int m = reach->work->m;
+void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) {
+  carom_tangent_work *w = reach->work;
+  carom_tangent_rows *d = w->before;
+  const int m = w->pass.columns;
   const bool two = event->type == CAROM_EVENT_BALL_BALL;
   /* the order of the events of each ball */
   for (int side = 0; side <= two; side++) {
@@ -386,8 +402,9 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event, 
     /* a ball that is pressed into the slate lands at once, and one that lies on a rail is off the table, whatever changes */
     const bool at_once = (event->type == CAROM_EVENT_SLATE || event->type == CAROM_EVENT_LEFT_TABLE) && last >= 0 &&
                          event->time <= reach->last_time[i];
+    const double *before = last >= 0 ? carom_tangent_columns(&w->pass, w->tangent->time, last) : NULL;
     for (int j = 0; j < m && last >= 0 && !at_once; j++)
-      take(reach, j, event->time - reach->last_time[i], reach->time[k * m + j] - reach->time[last * m + j]);
+      take(reach, j, event->time - reach->last_time[i], w->time[j] - before[j]);
     reach->last_event[i] = k;
     reach->last_time[i] = event->time;
   }

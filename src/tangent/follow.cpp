@@ -1,0 +1,602 @@
+/* Follows the events of a shot that has been played, with numbers that carry their derivatives in up to CAROM_TANGENT_COLUMNS
+ * directions, and by time.
+ *
+ * VALUES are those of the shot, to the bit: after each step they are set to what was played, so only derivatives flow.
+ *
+ * TIME OF AN EVENT. Let d be the derivatives of the states of its balls at a fixed time, and x' their rates: both are in the
+ * state at that time, x' in the direction CLOCK. An event is where a gap g of these states is zero, so
+ *
+ *     dT = -(dg . d) / (dg . x'),      dx- = d + x' dT.
+ *
+ * The end of a phase is a number that knows its own derivatives. So contacts are resolved from dx-, by the sources of the shot,
+ * and what they make of it is the state from which the next path begins, at T + dT.
+ *
+ * LABELS. A ball that rolls after an event, or lies, keeps doing so where a change of the first order would have it slide for a
+ * time of the first order: a slip du becomes the speed -2/7 du. */
+#include "tangent/text.h"
+
+#include <stdlib.h>
+
+namespace {
+
+using text::carom_ball_state;
+using text::carom_sim;
+
+/* s: events less than this apart are simultaneous. Contacts that close slower than so much of the speed graze. */
+const real SIMULTANEOUS = 1e-9, GRAZING = 0.01;
+/* s: at the beginning of a path its motion is that of a time after it that is too short to change any value. */
+const real AT_ONCE = 1e-200;
+
+number &number_of(carom_ball_state *s, int k) {
+  switch (k) {
+  case S_X:
+  case S_Y:
+    return s->r[k - S_X];
+  case S_V_X:
+  case S_V_Y:
+    return s->v[k - S_V_X];
+  case S_W_X:
+  case S_W_Y:
+  case S_W_Z:
+    return s->w[k - S_W_X];
+  default:
+    return k == S_Z ? s->r[2] : s->v[2];
+  }
+}
+
+/* ---- Rows ---- */
+
+void load(const carom_tangent_pass &pass, const real *rows, int64_t at, number *to) {
+  const real *from = rows != nullptr ? rows + at * pass.m + pass.first : nullptr;
+  to->d = row{};
+  if (rows != nullptr && pass.columns == CAROM_TANGENT_COLUMNS)
+    memcpy(&to->d, from, sizeof(real) * CAROM_TANGENT_COLUMNS); /* of a size that is known */
+  else if (rows != nullptr)
+    memcpy(&to->d, from, sizeof(real) * (size_t)pass.columns);
+}
+void unload(const carom_tangent_pass &pass, const number &from, real *rows, int64_t at) {
+  real *to = carom_tangent_columns(&pass, rows, at);
+  if (pass.columns == CAROM_TANGENT_COLUMNS)
+    memcpy(to, &from.d, sizeof(real) * CAROM_TANGENT_COLUMNS);
+  else
+    memcpy(to, &from.d, sizeof(real) * (size_t)pass.columns);
+}
+void store(const number &from, carom_tangent_row to) {
+  memcpy(to, &from.d, sizeof from.d);
+}
+void store_state(carom_ball_state *s, carom_tangent_rows to) {
+  for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
+    store(number_of(s, k), to[k]);
+}
+
+/* All numbers of a struct that has nothing else. */
+template <class plain, class type>
+void load_struct(const carom_tangent_pass &pass, const plain *from, const real *rows, type *to) {
+  enum { NUMBERS = sizeof(type) / sizeof(number) };
+  static_assert(sizeof(plain) == NUMBERS * sizeof(real), "it has nothing but numbers");
+  const real *value = reinterpret_cast<const real *>(from);
+  number *x = reinterpret_cast<number *>(to);
+  for (int k = 0; k < NUMBERS; k++) {
+    x[k].x = value[k];
+    load(pass, rows, k, &x[k]);
+  }
+}
+void load_kind(const carom_tangent_work *w, int i, text::carom_ball_kind *to) {
+  const real *rows = w->seeds->kind;
+  load_struct(w->pass, w->ball[i].kind, rows != nullptr ? rows + (int64_t)i * CAROM_KIND_NUMBERS * w->pass.m : nullptr, to);
+}
+
+/* Values are those that were played. */
+void set(const ::carom_ball_state &played, carom_ball_state *s) {
+  for (int k = 0; k < 3; k++) {
+    s->r[k].x = played.r[k];
+    s->v[k].x = played.v[k];
+    s->w[k].x = played.w[k];
+  }
+  s->label = played.label;
+}
+
+/* ---- An event ---- */
+
+/* What the sources of the shot work on: two balls at places 0 and 1, and one part of the table. */
+struct scene {
+  carom_tangent_work *w;
+  const carom_event *event;
+  bool two;
+  int side[2]; /* which balls */
+  carom_sim sim;
+  text::carom_shot_ball ball[2];
+  text::carom_shot_options opt;
+  text::carom_rules rules;
+  text::carom_table table;
+  text::carom_features features;
+};
+
+CAROM_APART void begin_ball(const carom_tangent_work *w, int i, int side, scene *s) {
+  const carom_tangent_ball *ball = &w->ball[i];
+  text::carom_ball_kind *kind = &s->ball[side].kind;
+  load_kind(w, i, kind);
+  s->sim.rates[side] = text::carom_rates_of(kind);
+  text::carom_path *path = &s->sim.path[side];
+  set(ball->from, &path->from);
+  for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
+    load(w->pass, w->tangent->final, (int64_t)i * CAROM_STATE_NUMBERS + k, &number_of(&path->from, k));
+  number start = 0.0;
+  memcpy(&start.d, ball->start, sizeof start.d);
+  text::carom_path_begin(path, &s->sim.rates[side], start);
+}
+
+/* The state at a time, with derivatives at that fixed time and, by CLOCK, its rate. A path begins at 0 on its own clock. */
+CAROM_APART void state_at(const carom_tangent_work *w, int i, int side, real time, scene *s, carom_ball_state *to) {
+  text::carom_path *path = &s->sim.path[side];
+  const real tau = time - w->ball[i].since;
+  number at = tau > AT_ONCE ? tau : AT_ONCE;
+  at.d[CLOCK] = 1;
+  /* pieces of a roll with drag */
+  while (path->goes_on && path->end.x < tau - 1e-13)
+    text::carom_path_go_on(path, &s->sim.rates[side]);
+  text::carom_path_at(path, &s->sim.rates[side], at, to);
+  /* a spin of 0 that a change brings about takes time to end */
+  if (!(tau > 0) && path->from.w[2].x == 0 && path->from.label != text::CAROM_BALL_STATIONARY)
+    to->w[2].d = path->from.w[2].d;
+}
+
+/* The derivatives at a fixed time become those of an event at the time of which dT are those. */
+CAROM_APART void add_time(const row &dT, carom_ball_state *s) {
+  for (int k = 0; k < CAROM_STATE_NUMBERS; k++) {
+    row &d = number_of(s, k).d;
+    const real rate = d[CLOCK];
+    d += rate * dT;
+    d[CLOCK] = 0;
+  }
+}
+
+/* The part of the table that an event has, as the only one. */
+CAROM_APART void take_part(scene *s) {
+  const carom_tangent_work *w = s->w;
+  const carom_event *e = s->event;
+  s->table.rails = s->features.rails = 1;
+  s->table.jaws = s->features.jaws = 1;
+  s->features.reference = w->reference;
+  /* the radius of the last ball places the nose, unless the table names one */
+  if (!(w->table->ball_radius > 0) && w->seeds->kind != nullptr)
+    load(w->pass, w->seeds->kind,
+         (int64_t)(w->count - 1) * CAROM_KIND_NUMBERS + (int)(offsetof(carom_ball_kind, radius) / sizeof(real)),
+         &s->features.reference);
+  const int b = e->type == CAROM_EVENT_RAIL_TOP && e->b >= w->table->rails ? e->b - (int)w->table->rails : e->b;
+  const bool rail = e->type == CAROM_EVENT_RAIL || (e->type == CAROM_EVENT_RAIL_TOP && e->b < w->table->rails);
+  number *nose[3];
+  real value[3];
+  if (rail) {
+    const carom_rail *from = &w->table->rail[b];
+    text::carom_rail *to = &s->table.rail[0];
+    real line[3];
+    ::carom_rail_line(from, line);
+    for (int k = 0; k < 3; k++) {
+      s->features.line[0][k] = line[k];
+      nose[k] = k == 0 ? &to->height : k == 1 ? &to->mu_cushion : &to->restitution;
+      value[k] = k == 0 ? from->height : k == 1 ? from->mu_cushion : from->restitution;
+    }
+  } else {
+    const carom_jaw *from = &w->table->jaw[b];
+    text::carom_jaw *to = &s->table.jaw[0];
+    to->centre[0] = from->centre[0];
+    to->centre[1] = from->centre[1];
+    to->radius = from->radius;
+    for (int k = 0; k < 3; k++) {
+      nose[k] = k == 0 ? &to->height : k == 1 ? &to->mu_cushion : &to->restitution;
+      value[k] = k == 0 ? from->height : k == 1 ? from->mu_cushion : from->restitution;
+    }
+  }
+  for (int k = 0; k < 3; k++) {
+    *nose[k] = value[k];
+    load(w->pass, w->seeds->table, k, nose[k]);
+  }
+}
+
+/* Whether the event is the landing of its ball, which has no event of its own. */
+bool lands(const scene *s) {
+  const carom_event *e = s->event;
+  const ::carom_ball_state *at = &e->before[0];
+  if (e->type == CAROM_EVENT_POCKET && at->label == CAROM_BALL_AIRBORNE) { /* over the circle, and not at its far side */
+    const carom_pocket *p = &s->w->table->pocket[e->b];
+    const real x = at->r[0] - p->centre[0], y = at->r[1] - p->centre[1];
+    return __builtin_sqrt(x * x + y * y) < p->radius - SIMULTANEOUS;
+  }
+  const real start = s->w->ball[e->a].since;
+  return e->type == CAROM_EVENT_SLATE || (e->type == CAROM_EVENT_LEFT_TABLE && !(at->v[2] == 0 && e->time <= start) &&
+                                          e->time >= start + s->sim.path[0].end.x - 1e-12);
+}
+
+/* Of a ball that leaves the table in flight: how far it is from the nearest edge of the rails. */
+CAROM_APART number edge(scene *s, const carom_ball_state *a) {
+  real at[4];
+  carom_tangent_edges(s->w, s->w->ball[s->event->a].kind, at);
+  number nearest = INFINITY;
+  for (int side = 0; side < 4; side++) {
+    const number gap = a->r[side / 2] - at[side];
+    nearest = fabs(gap).x < fabs(nearest).x ? gap : nearest;
+  }
+  if (!(fabs(nearest).x <= SIMULTANEOUS)) /* it was beyond at the start of its flight */
+    s->w->note.flags |= CAROM_TANGENT_KINK;
+  return nearest;
+}
+
+/* The gap whose zero is the event. */
+CAROM_APART number gap(scene *s) {
+  const carom_event *e = s->event;
+  const carom_tangent_work *w = s->w;
+  carom_ball_state *a = &s->ball[0].state, *b = &s->ball[1].state;
+  const text::carom_ball_kind *kind = &s->ball[0].kind;
+  switch (e->type) {
+  case CAROM_EVENT_BALL_BALL: {
+    number square = 0.0;
+    for (int k = 0; k < 2; k++)
+      square += (b->r[k] - a->r[k]) * (b->r[k] - a->r[k]);
+    const number z =
+        (text::carom_flies(b) ? b->r[2] : s->ball[1].kind.radius) - (text::carom_flies(a) ? a->r[2] : kind->radius);
+    return sqrt(square + z * z) - kind->radius - s->ball[1].kind.radius;
+  }
+  case CAROM_EVENT_RAIL:
+  case CAROM_EVENT_JAW: {
+    const bool rail = e->type == CAROM_EVENT_RAIL;
+    const number *line = s->features.line[0], height = rail ? s->table.rail[0].height : s->table.jaw[0].height;
+    const number x = a->r[0] - (rail ? number(0) : s->table.jaw[0].centre[0]),
+                 y = a->r[1] - (rail ? number(0) : s->table.jaw[0].centre[1]);
+    const number across = rail ? line[0] * x + line[1] * y + line[2] : sqrt(x * x + y * y) - s->table.jaw[0].radius;
+    if (!text::carom_flies(a))
+      return across - (w->opt->space == CAROM_SPACE_FLAT ? kind->radius
+                                                         : text::carom_reach_on_cloth(kind, height, s->features.reference));
+    const number own = text::carom_nose_height(kind, height), out = across - text::carom_nose_shift(own, s->features.reference);
+    const number up = a->r[2] - own;
+    return sqrt(out * out + up * up) - kind->radius;
+  }
+  case CAROM_EVENT_POCKET: {
+    const carom_pocket *p = &w->table->pocket[e->b];
+    const number x = a->r[0] - p->centre[0], y = a->r[1] - p->centre[1];
+    return sqrt(x * x + y * y) - p->radius;
+  }
+  case CAROM_EVENT_RAIL_TOP:
+    return a->r[2] - text::carom_height_on_top(&s->sim, 0, e->b < w->table->rails ? 0 : 1);
+  case CAROM_EVENT_LEFT_TABLE: /* it comes to lie on a rail, or to the edge of the rails */
+    return e->before[0].v[2] == 0 && e->time <= w->ball[e->a].since ? a->v[2] : edge(s, a);
+  default: /* the strike */
+    return 0.0;
+  }
+}
+
+/* ---- What is said of an event ---- */
+
+bool is_contact(const carom_event *e) {
+  return e->type == CAROM_EVENT_BALL_BALL || e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW;
+}
+
+bool ends_phase(const carom_event *e) {
+  return e->type >= CAROM_EVENT_SLIDING_ROLLING && e->type <= CAROM_EVENT_SPINNING_STATIONARY;
+}
+
+/* A contact that closes slowly, or the last hop of a ball, or nearly so: there the derivative of v' grows without bound. */
+CAROM_APART void note_grazing(scene *s, real rate) {
+  const carom_event *e = s->event;
+  const ::carom_ball_state *a = &e->before[0], *b = &e->before[1];
+  bool grazes = false;
+  if (is_contact(e) || (e->type == CAROM_EVENT_POCKET && !lands(s))) {
+    real square = 0;
+    for (int k = 0; k < (e->type == CAROM_EVENT_POCKET ? 2 : 3); k++) {
+      const real v = a->v[k] - (s->two ? b->v[k] : 0);
+      square += v * v;
+    }
+    grazes = __builtin_fabs(rate) < GRAZING * __builtin_sqrt(square);
+  } else if (e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP) {
+    const real given = s->ball[0].kind.restitution_table.x, rebound = given == 0 ? 0.5 : given > 0 ? given : 0, v_n = -a->v[2];
+    const real up = ::carom_rebound(v_n > 0 ? v_n : 0, rebound);
+    grazes = up<GRAZING * rebound * v_n && ::carom_rebound((1 + GRAZING) * v_n, rebound)> 0;
+  }
+  s->w->note.flags |= grazes ? CAROM_TANGENT_GRAZING : 0;
+}
+
+/* Contacts so close that a small change reverses their order, or at the start so close that it parts the balls. A ball that is
+ * pressed into the slate lands in the same instant, whatever changes. */
+CAROM_APART void note_order(scene *s, const number &g) {
+  const carom_event *e = s->event;
+  const bool slate = e->type == CAROM_EVENT_SLATE;
+  if (!is_contact(e) && !slate && e->type != CAROM_EVENT_RAIL_TOP)
+    return;
+  for (int i = 0; i <= s->two; i++) {
+    carom_tangent_ball *ball = &s->w->ball[s->side[i]];
+    const bool at_once = slate && e->time <= ball->since;
+    const bool lands_now =
+        ball->from.label == CAROM_BALL_AIRBORNE && ball->since + s->sim.path[i].end.x - e->time < SIMULTANEOUS;
+    if ((e->time - ball->last_contact < SIMULTANEOUS && !at_once) || (!slate && lands_now))
+      s->w->note.flags |= CAROM_TANGENT_SIMULTANEOUS;
+    ball->last_contact = e->time;
+  }
+  if (is_contact(e) && e->time < SIMULTANEOUS)
+    for (int j = 0; j < s->w->pass.columns; j++)
+      if (__builtin_fabs(g.d[j]) > 1e-100)
+        s->w->note.flags |= CAROM_TANGENT_SIMULTANEOUS;
+}
+
+/* ---- What an event makes of the states ---- */
+
+CAROM_APART text::carom_status strike(scene *s) {
+  const carom_tangent_work *w = s->w;
+  text::carom_cue cue = {};
+  number *x = &cue.speed;
+  for (int k = 0; k < CAROM_CUE_NUMBERS; k++) {
+    x[k] = (&w->cue->speed)[k];
+    load(w->pass, w->seeds->cue, k, &x[k]);
+  }
+  const bool flat = w->opt->space == CAROM_SPACE_FLAT, level = !flat && cue.theta.x == 0 && text::changes(cue.theta);
+  if (level)
+    cue.theta.x = AT_ONCE;
+  text::carom_motion motion;
+  const text::carom_status status = (flat ? text::carom_strike : text::carom_strike_in_space)(&cue, &s->ball[0].kind, &motion);
+  if (status < 0)
+    return status;
+  memcpy(s->ball[0].state.v, motion.v, sizeof motion.v);
+  memcpy(s->ball[0].state.w, motion.w, sizeof motion.w);
+  /* a change of the elevation raises a level cue: the ball falls onto the slate at a speed that is 0 */
+  if (level) {
+    set(s->event->after[0], &s->ball[0].state);
+    s->ball[0].state.v[2].x = -AT_ONCE;
+    text::carom_hit_slate(&s->ball[0].kind, &s->ball[0].state);
+    s->w->note.flags |= CAROM_TANGENT_KINK;
+  }
+  return text::CAROM_OK;
+}
+
+/* How far the values are from those of the shot, over the largest of them. */
+real apart(const ::carom_ball_state *played, carom_ball_state *s) {
+  real off = 0, most = 0;
+  for (int k = 0; k < 3; k++) {
+    off =
+        __builtin_fmax(off, __builtin_fmax(__builtin_fabs(s->v[k].x - played->v[k]), __builtin_fabs(s->w[k].x - played->w[k])));
+    most = __builtin_fmax(most, __builtin_fmax(__builtin_fabs(played->v[k]), __builtin_fabs(played->w[k])));
+  }
+  return off / most;
+}
+
+/* A cushion. Where the exact model refuses an impact a shot takes it in steps; the derivatives of the impact may be known all
+ * the same, but are those of another motion. */
+CAROM_APART text::carom_status meet_cushion(scene *s) {
+  const text::carom_due due = {s->event->time, s->event->type, 0, 0};
+  const carom_ball_state before = s->ball[0].state;
+  text::carom_status status = text::carom_resolve(&s->sim, &due, &s->ball[0].state, nullptr);
+  if (s->w->cushion_model != CAROM_SHOT_CUSHION_MATHAVAN ||
+      !(status < 0 || apart(&s->event->after[0], &s->ball[0].state) > 1e-6))
+    return status;
+  const carom_ball_state exact = s->ball[0].state;
+  const carom_tangent_note note = watched.note;
+  s->ball[0].state = before;
+  s->opt.cushion_model = text::CAROM_SHOT_CUSHION_EULER;
+  s->sim.slow_instants = s->w->slow_instants;
+  s->sim.slow_last = s->w->slow_last;
+  const text::carom_status in_steps = text::carom_resolve(&s->sim, &due, &s->ball[0].state, nullptr);
+  carom_ball_state first = exact;
+  if (status >= 0 && (in_steps < 0 || apart(&s->event->after[0], &s->ball[0].state) > apart(&s->event->after[0], &first))) {
+    s->ball[0].state = exact;
+    watched.note = note;
+    return status;
+  }
+  return in_steps;
+}
+
+CAROM_APART text::carom_status meet_ball(scene *s) {
+  const text::carom_due due = {s->event->time, s->event->type, 0, 1};
+  return text::carom_resolve(&s->sim, &due, &s->ball[0].state, &s->ball[1].state);
+}
+
+text::carom_status resolve(scene *s) {
+  const carom_event *e = s->event;
+  carom_ball_state *a = &s->ball[0].state;
+  switch (e->type) {
+  case CAROM_EVENT_STRIKE:
+    return strike(s);
+  case CAROM_EVENT_BALL_BALL:
+    return meet_ball(s);
+  case CAROM_EVENT_RAIL:
+  case CAROM_EVENT_JAW:
+    return meet_cushion(s);
+  case CAROM_EVENT_SLATE:
+  case CAROM_EVENT_RAIL_TOP:
+    text::carom_hit_slate(&s->ball[0].kind, a);
+    return text::CAROM_OK;
+  case CAROM_EVENT_POCKET:
+    memset(a, 0, sizeof *a);
+    return text::CAROM_OK;
+  case CAROM_EVENT_LEFT_TABLE:
+    memset(a->v, 0, sizeof a->v);
+    memset(a->w, 0, sizeof a->w);
+    return text::CAROM_OK;
+  default:
+    text::carom_path_end(&s->sim.path[0], &s->sim.rates[0], a);
+    return text::CAROM_OK;
+  }
+}
+
+/* Derivatives that the label of a state leaves. */
+CAROM_APART void settle(const text::carom_ball_kind *kind, carom_ball_state *s) {
+  const int64_t label = s->label;
+  if (label == CAROM_BALL_AIRBORNE)
+    return;
+  s->v[2].d = row{};
+  if (!text::carom_is_out(label))
+    s->r[2].d = kind->radius.d;
+  if (label == CAROM_BALL_ROLLING) {
+    const number &R = kind->radius;
+    s->v[0].d -= 2.0 / 7.0 * (s->v[0] - R * s->w[1]).d;
+    s->v[1].d -= 2.0 / 7.0 * (s->v[1] + R * s->w[0]).d;
+    s->w[0].d = (-s->v[1] / R).d;
+    s->w[1].d = (s->v[0] / R).d;
+  } else if (label != CAROM_BALL_SLIDING) {
+    for (int k = 0; k < 3; k++) {
+      s->v[k].d = row{};
+      if (k < 2 || label != CAROM_BALL_SPINNING)
+        s->w[k].d = row{};
+    }
+  }
+}
+
+/* Puts ball i where its path begins, at a time. */
+CAROM_APART void put(carom_tangent_work *w, int i, const ::carom_ball_state &played, real time, const row &dT,
+                     carom_ball_state *s) {
+  carom_tangent_ball *ball = &w->ball[i];
+  for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
+    unload(w->pass, number_of(s, k), w->tangent->final, (int64_t)i * CAROM_STATE_NUMBERS + k);
+  memcpy(ball->start, &dT, sizeof dT);
+  ball->from = played;
+  ball->since = time;
+}
+
+/* What does not change from event to event. */
+void begin_scene(carom_tangent_work *w, scene *s) {
+  s->w = w;
+  s->opt = {};
+  s->opt.ball_model = (text::carom_ball_model)w->ball_model;
+  s->opt.cushion_model = (text::carom_shot_cushion)w->cushion_model;
+  s->opt.friction = (text::carom_ball_friction)w->opt->friction;
+  s->opt.space = (text::carom_space)w->opt->space;
+  s->opt.steps = w->opt->steps;
+  s->opt.plain = w->opt->plain;
+  memset(&s->rules, 0, sizeof s->rules);
+  s->sim.rules = &s->rules;
+  s->sim.table = &s->table;
+  s->sim.features = &s->features;
+  s->sim.ball = s->ball;
+  s->sim.opt = &s->opt;
+  s->sim.count = 2;
+}
+
+} // namespace
+
+void carom_tangent_begin(carom_tangent_work *w, int i) {
+  const carom_tangent_ball *ball = &w->ball[i];
+  text::carom_ball_state s;
+  text::carom_ball_kind kind;
+  load_kind(w, i, &kind);
+  for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
+    load(w->pass, carom_is_out(ball->from.label) ? nullptr : w->seeds->state, (int64_t)i * CAROM_STATE_NUMBERS + k,
+         &number_of(&s, k));
+  set(ball->from, &s);
+  settle(&kind, &s);
+  put(w, i, ball->from, 0, row{}, &s);
+}
+
+void carom_tangent_at(const carom_tangent_work *w, int i, double time, carom_tangent_rows d) {
+  scene s;
+  begin_ball(w, i, 0, &s);
+  state_at(w, i, 0, time, &s, &s.ball[0].state);
+  store_state(&s.ball[0].state, d);
+}
+
+carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
+  scene s;
+  begin_scene(w, &s);
+  s.event = e;
+  s.two = e->type == CAROM_EVENT_BALL_BALL;
+  s.side[0] = e->a;
+  s.side[1] = e->b;
+  if (e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW || e->type == CAROM_EVENT_RAIL_TOP)
+    take_part(&s);
+  w->note = {0, 0};
+  watched = {false, {0, 0}};
+  /* the states at the fixed time of the event, and the derivatives of that time */
+  for (int i = 0; i <= s.two; i++) {
+    begin_ball(w, s.side[i], i, &s);
+    state_at(w, s.side[i], i, e->time, &s, &s.ball[i].state);
+  }
+  row dT = {};
+  if (ends_phase(e) || lands(&s)) {
+    dT = s.sim.path[0].end.d;
+  } else {
+    const number g = gap(&s);
+    if (g.d[CLOCK] != 0)
+      dT = g.d / -g.d[CLOCK];
+    note_grazing(&s, g.d[CLOCK]);
+    note_order(&s, g);
+  }
+  dT[CLOCK] = 0;
+  for (int i = 0; i <= s.two; i++) {
+    add_time(dT, &s.ball[i].state);
+    set(e->before[i], &s.ball[i].state);
+    store_state(&s.ball[i].state, w->before[i]);
+  }
+  if (e->type == CAROM_EVENT_SLATE) {
+    text::carom_path_land(&s.sim.path[0], &s.sim.rates[0], &s.ball[0].state);
+    set(e->before[0], &s.ball[0].state);
+    note_grazing(&s, 0);
+    note_order(&s, 0.0);
+  }
+  if ((e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP) && !(e->before[0].v[2] < 0))
+    w->note.flags |= CAROM_TANGENT_KINK;
+  /* the contact, which marks the instant of a slow one by the time that it leaves */
+  s.sim.now = e->time;
+  s.sim.now.d[CLOCK] = 1;
+  s.sim.slow_instants = w->slow_instants;
+  s.sim.slow_last = w->slow_last;
+  const bool raised = s.two && (text::changes(s.ball[0].state.v[2]) || text::changes(s.ball[1].state.v[2]) ||
+                                text::changes(s.ball[1].state.r[2] - s.ball[0].state.r[2]));
+  watched.on = is_contact(e) || e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP;
+  const text::carom_status status = resolve(&s);
+  watched.on = false;
+  if (status < 0)
+    return (carom_status)status;
+  const bool slow = s.sim.slow_last.d[CLOCK] == 1;
+  w->slow_instants = s.sim.slow_instants;
+  w->slow_last = s.sim.slow_last.x;
+  w->note.flags |= watched.note.flags | (slow ? CAROM_TANGENT_SLOW : 0);
+  w->note.error = watched.note.error;
+  /* a ball without vertical speed but for rounding stays on the cloth, though a change would lift it */
+  const bool in_space = s.two && (e->before[0].label == CAROM_BALL_AIRBORNE || e->before[1].label == CAROM_BALL_AIRBORNE ||
+                                  w->ball[e->a].kind->radius != w->ball[e->b].kind->radius);
+  if (in_space && !slow && raised && (e->after[0].label != CAROM_BALL_AIRBORNE || e->after[1].label != CAROM_BALL_AIRBORNE))
+    w->note.flags |= CAROM_TANGENT_KINK;
+  for (int i = 0; i <= s.two; i++) {
+    set(e->after[i], &s.ball[i].state);
+    settle(&s.ball[i].kind, &s.ball[i].state);
+    put(w, s.side[i], e->after[i], e->time, dT, &s.ball[i].state);
+  }
+  memcpy(w->time, &dT, sizeof dT);
+  return CAROM_OK;
+}
+
+carom_status carom_tangent_of_balls(const carom_impact *in, const carom_options *opt, const carom_tangent_pass *pass,
+                                    const double *seeds, double *tangent, carom_tangent_note *note) {
+  text::carom_impact impact;
+  text::carom_options options = {};
+  text::carom_result out;
+  load_struct(*pass, in, seeds, &impact);
+  options.plain = opt->plain;
+  watched = {true, *note};
+  const text::carom_status status = text::carom_collide(&impact, &options, &out);
+  watched.on = false;
+  *note = watched.note;
+  const number *x = reinterpret_cast<const number *>(&out);
+  for (int k = 0; k < (int)(sizeof out / sizeof *x) && status == text::CAROM_OK; k++)
+    unload(*pass, x[k], tangent, k);
+  return (carom_status)status;
+}
+
+carom_status carom_tangent_of_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                                      const carom_tangent_pass *pass, const double *seeds, double *tangent,
+                                      carom_tangent_note *note) {
+  text::carom_cushion_impact impact;
+  text::carom_cushion_options options = {};
+  text::carom_motion out;
+  load_struct(*pass, in, seeds, &impact);
+  options.model = (text::carom_cushion_model)opt->model;
+  options.law = (text::carom_cushion_law)opt->law;
+  options.steps = opt->steps;
+  options.plain = opt->plain;
+  options.omega_ratio = opt->omega_ratio;
+  options.least_step = opt->least_step;
+  watched = {true, *note};
+  const text::carom_status status = text::carom_cushion(&impact, &options, &out);
+  watched.on = false;
+  *note = watched.note;
+  const number *x = reinterpret_cast<const number *>(&out);
+  for (int k = 0; k < (int)(sizeof out / sizeof *x) && status >= 0; k++)
+    unload(*pass, x[k], tangent, k);
+  return (carom_status)status;
+}

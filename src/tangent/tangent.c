@@ -1,0 +1,321 @@
+/* Derivatives of shots, of collisions and of impacts on cushions: the calls, which check arguments and take the directions in
+ * passes. follow.cpp differentiates. */
+#include "tangent/work.h"
+
+#include "platform/threads.h"
+#include "shot/sim.h"
+#include "tangent/reach.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+typedef carom_tangent_work work;
+
+/* What follows checks of arguments. */
+#ifdef CAROM_WITH_TANGENTS
+static const carom_status BUILT = CAROM_OK;
+#else
+static const carom_status BUILT = CAROM_ERROR_NO_TANGENTS;
+#endif
+
+void carom_tangent_edges(const work *w, const carom_ball_kind *kind, double edge[4]) {
+  carom_features features;
+  carom_features_of(w->table, kind->radius, w->reference, &features);
+  for (int side = 0; side < 4; side++)
+    edge[side] = features.hull[side] + (side % 2 == 0 ? -features.width : features.width);
+}
+
+/* ---- Arguments ---- */
+
+/* Whether an event can be one of the shot. */
+static carom_status check_event(const carom_table *table, int count, const carom_cue *cue, const carom_event *event,
+                                double since) {
+  const int type = event->type;
+  if (type < CAROM_EVENT_STRIKE || type > CAROM_EVENT_LEFT_TABLE || event->a < 0 || event->a >= count ||
+      !(event->time >= since && event->time < INFINITY))
+    return CAROM_ERROR_STATE;
+  const bool two = type == CAROM_EVENT_BALL_BALL;
+  const int64_t parts = two                            ? count
+                        : type == CAROM_EVENT_RAIL     ? table->rails
+                        : type == CAROM_EVENT_JAW      ? table->jaws
+                        : type == CAROM_EVENT_POCKET   ? table->pockets
+                        : type == CAROM_EVENT_RAIL_TOP ? table->rails + table->jaws
+                                                       : INT64_MAX;
+  if ((parts < INT64_MAX && (event->b < 0 || event->b >= parts)) || (two && event->a == event->b) ||
+      (type == CAROM_EVENT_STRIKE && cue == NULL))
+    return CAROM_ERROR_STATE;
+  return CAROM_OK;
+}
+
+static carom_status check(const carom_table *table, int count, const carom_cue *cue, const carom_shot_options *opt,
+                          const carom_shot *shot, const carom_tangent_seeds *seeds, const carom_tangent *tangent) {
+  if (count < 1 || count > CAROM_BALLS_MOST)
+    return CAROM_ERROR_BALLS;
+  if (seeds->directions < 1 || seeds->directions > CAROM_DIRECTIONS_MOST)
+    return CAROM_ERROR_DIRECTIONS;
+  for (size_t k = 0; k < sizeof seeds->reserved / sizeof seeds->reserved[0]; k++)
+    if (seeds->reserved[k] != 0)
+      return CAROM_ERROR_SHOT_OPTIONS;
+  int where;
+  const carom_status bad = carom_check_common(table, count, opt, &where);
+  if (bad != CAROM_OK)
+    return bad;
+  if (shot->count > 0 && (shot->events == NULL || shot->count > shot->room))
+    return CAROM_ERROR_EVENTS_LOST;
+  /* times, and whether the motion is known there */
+  if (tangent->reach != NULL && tangent->time == NULL && shot->count > 0)
+    return CAROM_ERROR_NULL;
+  if (tangent->times_count > 0 && (tangent->times == NULL || tangent->at == NULL))
+    return CAROM_ERROR_NULL;
+  for (int64_t k = 0; k < tangent->times_count; k++)
+    if (!(fabs(tangent->times[k]) < INFINITY) || (k > 0 && tangent->times[k] < tangent->times[k - 1]))
+      return CAROM_ERROR_TIME;
+  if (opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_EULER)
+    return CAROM_ERROR_TANGENT;
+  for (int64_t k = 0; k < shot->count; k++) {
+    const carom_status status = check_event(table, count, cue, &shot->events[k], k > 0 ? shot->events[k - 1].time : 0.0);
+    if (status != CAROM_OK)
+      return status;
+  }
+  return CAROM_OK;
+}
+
+/* ---- A pass ---- */
+
+static carom_tangent_pass pass_of(int m, int first) {
+  return (carom_tangent_pass){m, first, m - first < CAROM_TANGENT_COLUMNS ? m - first : CAROM_TANGENT_COLUMNS};
+}
+
+static const carom_tangent_row zeros;
+
+/* Tangents of a state into rows of the caller's; NULL stands for zeros. */
+static void put(const work *w, carom_tangent_row *d, double *rows, int64_t at) {
+  for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
+    memcpy(carom_tangent_columns(&w->pass, rows, at * CAROM_STATE_NUMBERS + k), d != NULL ? d[k] : zeros,
+           sizeof(double) * (size_t)w->pass.columns);
+}
+
+/* Where all balls begin. */
+static void begin(work *w, const carom_shot_ball *balls) {
+  const bool own = w->table->ball_radius > 0.0 && w->opt->space != CAROM_SPACE_FLAT;
+  w->reference = own ? w->table->ball_radius : balls[w->count - 1].kind.radius;
+  w->slow_instants = 0;
+  w->slow_last = -1.0;
+  for (int i = 0; i < w->count; i++) {
+    carom_tangent_ball *ball = &w->ball[i];
+    ball->kind = &balls[i].kind;
+    ball->last_contact = -INFINITY;
+    ball->from = balls[i].state;
+    carom_label_of_layout(&ball->from, balls[i].kind.radius);
+    carom_tangent_begin(w, i);
+  }
+}
+
+/* What the caller asks of event k, whose balls are behind it. */
+static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reach) {
+  const carom_tangent *t = w->tangent;
+  const size_t columns = sizeof(double) * (size_t)w->pass.columns;
+  if (t->time != NULL)
+    memcpy(carom_tangent_columns(&w->pass, t->time, k), w->time, columns);
+  if (t->reach != NULL)
+    carom_reach_event(reach, k, event);
+  for (int side = 0; side < 2; side++) {
+    const bool has = side == 0 || event->type == CAROM_EVENT_BALL_BALL;
+    const int i = side == 0 ? event->a : event->b;
+    if (t->before != NULL)
+      put(w, has ? w->before[side] : NULL, t->before, 2 * k + side);
+    for (int n = 0; n < CAROM_STATE_NUMBERS && t->after != NULL; n++) {
+      const double *from = has ? carom_tangent_columns(&w->pass, t->final, i * CAROM_STATE_NUMBERS + n) : zeros;
+      memcpy(carom_tangent_columns(&w->pass, t->after, (2 * k + side) * CAROM_STATE_NUMBERS + n), from, columns);
+    }
+    if (has && t->reach != NULL)
+      carom_reach_go_on(w, i);
+  }
+}
+
+/* The directions of one pass. */
+static carom_status differentiate(work *w, const carom_shot_ball *balls, const carom_shot *shot) {
+  carom_tangent *tangent = w->tangent;
+  carom_tangent_rows d;
+  carom_reach reach;
+  int64_t next = 0;
+  begin(w, balls);
+  if (tangent->reach != NULL)
+    carom_reach_begin(&reach, w);
+  for (int64_t k = 0; k <= shot->count; k++) {
+    const carom_event *event = k < shot->count ? &shot->events[k] : NULL;
+    /* the times before it; after the end nothing moves */
+    for (; next < tangent->times_count && (event == NULL || tangent->times[next] < event->time); next++)
+      for (int i = 0; i < w->count; i++) {
+        carom_tangent_at(w, i, fmin(tangent->times[next], shot->time), d);
+        put(w, d, tangent->at, next * w->count + i);
+      }
+    if (event == NULL)
+      break;
+    if (tangent->reach != NULL)
+      carom_reach_misses(&reach, event);
+    const carom_status status = carom_tangent_follow(w, event);
+    if (status < 0)
+      return status;
+    tell(w, k, event, &reach);
+    if (tangent->flags != NULL)
+      tangent->flags[k] = w->note.flags | (w->pass.first > 0 ? tangent->flags[k] : 0);
+    tangent->all_flags |= w->note.flags;
+    tangent->error = fmax(tangent->error, w->note.error);
+  }
+  /* the end of the shot, where balls may still move; how they go on is not known */
+  for (int i = 0; i < w->count && tangent->times_count > 0; i++) {
+    const int64_t label = w->ball[i].from.label;
+    if (tangent->times[tangent->times_count - 1] > shot->time && label != CAROM_BALL_STATIONARY && !carom_is_out(label))
+      return CAROM_ERROR_TIME;
+  }
+  for (int i = 0; i < w->count; i++) {
+    carom_tangent_at(w, i, shot->time, d);
+    put(w, d, tangent->final, i);
+  }
+  return CAROM_OK;
+}
+
+static const carom_shot_options no_options = {0};
+
+carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                const carom_shot_options *opt, const carom_shot *shot, const carom_tangent_seeds *seeds,
+                                carom_tangent *tangent) {
+  if (table == NULL || balls == NULL || shot == NULL || seeds == NULL || tangent == NULL || tangent->final == NULL)
+    return CAROM_ERROR_NULL;
+  opt = opt != NULL ? opt : &no_options;
+  carom_status status = check(table, count, cue, opt, shot, seeds, tangent);
+  if (status != CAROM_OK && status != CAROM_ERROR_TANGENT)
+    return status;
+  status = status == CAROM_OK ? BUILT : status;
+  tangent->error = 0.0;
+  tangent->all_flags = 0;
+  work w;
+  w.table = table;
+  w.cue = cue;
+  w.opt = opt;
+  w.seeds = seeds;
+  w.tangent = tangent;
+  w.count = count;
+  w.ball_model = opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? opt->ball_model : CAROM_BALL_MODEL_EXACT;
+  w.cushion_model = opt->cushion_model != CAROM_SHOT_CUSHION_DEFAULT ? opt->cushion_model : CAROM_SHOT_CUSHION_HAN;
+  const int m = (int)seeds->directions;
+  for (int first = 0; first < m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
+    w.pass = pass_of(m, first);
+    status = differentiate(&w, balls, shot);
+  }
+  const int64_t finals = (int64_t)count * CAROM_STATE_NUMBERS * seeds->directions;
+  for (int64_t k = 0; status == CAROM_OK && k < finals; k++)
+    status = isfinite(tangent->final[k]) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+  for (int64_t k = 0; status != CAROM_OK && k < finals; k++)
+    tangent->final[k] = NAN;
+  return status;
+}
+
+/* ---- Many ---- */
+
+static carom_status row(const carom_tangent_job *job, size_t k) {
+  const carom_shot_job *played = job->played;
+  const carom_status status = played->status != NULL ? (carom_status)played->status[k] : CAROM_OK;
+  if (status < 0)
+    return status;
+  return carom_shot_tangent(played->table, played->balls + k * played->ball_stride, (int)played->count,
+                            played->cues != NULL ? played->cues + k * played->cue_stride : NULL, played->options,
+                            &played->shots[k], job->seeds + k * job->seeds_stride, &job->tangents[k]);
+}
+
+static size_t rows(const void *context, size_t first, size_t end) {
+  const carom_tangent_job *job = context;
+  size_t first_bad = end;
+  for (size_t k = first; k < end; k++) {
+    const carom_status status = row(job, k);
+    if (job->status != NULL)
+      job->status[k] = (int8_t)status;
+    if (status < 0 && first_bad == end)
+      first_bad = k;
+  }
+  return first_bad;
+}
+
+carom_status carom_shot_tangent_batch(const carom_tangent_job *job) {
+  if (job == NULL || job->played == NULL)
+    return CAROM_ERROR_NULL;
+  const carom_shot_job *played = job->played;
+  if (played->n == 0)
+    return CAROM_OK;
+  if (played->table == NULL || played->balls == NULL || played->shots == NULL || job->seeds == NULL || job->tangents == NULL)
+    return CAROM_ERROR_NULL;
+  for (size_t k = 0; k < sizeof job->reserved / sizeof job->reserved[0]; k++)
+    if (job->reserved[k] != 0)
+      return CAROM_ERROR_SHOT_OPTIONS;
+  int where;
+  const carom_shot_options *opt = played->options != NULL ? played->options : &no_options;
+  const carom_status bad = carom_check_common(played->table, played->count, opt, &where);
+  if (bad != CAROM_OK)
+    return bad;
+  const size_t first_bad = carom_in_threads(rows, job, (size_t)played->n, opt->threads, 4);
+  return first_bad == played->n ? CAROM_OK : row(job, first_bad);
+}
+
+/* ---- Single contacts ---- */
+
+carom_status carom_collide_tangent(const carom_impact *in, const carom_options *opt, int64_t directions, const double *seeds,
+                                   double *tangent, int32_t *flags) {
+  static const carom_options defaults = {.plain = 0};
+  if (in == NULL || seeds == NULL || tangent == NULL)
+    return CAROM_ERROR_NULL;
+  if (directions < 1 || directions > CAROM_DIRECTIONS_MOST)
+    return CAROM_ERROR_DIRECTIONS;
+  const size_t m = (size_t)directions;
+  carom_result out;
+  carom_tangent_note note = {0, 0.0};
+  carom_status status = carom_collide(in, opt, &out);
+  opt = opt != NULL ? opt : &defaults;
+  memset(tangent, 0, 12 * m * sizeof *tangent);
+  if (status >= 0 && (opt->solver != CAROM_SOLVER_EXACT || opt->slip != CAROM_SLIP_PAPER))
+    status = CAROM_ERROR_TANGENT;
+  status = status >= 0 && BUILT < 0 ? BUILT : status;
+  if (status == CAROM_SEPARATING) {
+    static const int from[12] = {3, 4, 5, 6, 7, 8, 15, 16, 17, 18, 19, 20};
+    for (int k = 0; k < 12; k++)
+      memcpy(tangent + (size_t)k * m, seeds + (size_t)from[k] * m, m * sizeof *tangent);
+  }
+  for (int first = 0; first < (int)m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
+    const carom_tangent_pass pass = pass_of((int)m, first);
+    status = carom_tangent_of_balls(in, opt, &pass, seeds, tangent, &note);
+  }
+  if (flags != NULL)
+    *flags = note.flags;
+  for (size_t k = 0; status < 0 && k < 12 * m; k++)
+    tangent[k] = NAN;
+  return status;
+}
+
+carom_status carom_cushion_tangent(const carom_cushion_impact *in, const carom_cushion_options *opt, int64_t directions,
+                                   const double *seeds, double *tangent, int32_t *flags) {
+  static const carom_cushion_options defaults = {.plain = 0};
+  if (in == NULL || seeds == NULL || tangent == NULL)
+    return CAROM_ERROR_NULL;
+  if (directions < 1 || directions > CAROM_DIRECTIONS_MOST)
+    return CAROM_ERROR_DIRECTIONS;
+  const size_t m = (size_t)directions;
+  carom_motion out;
+  carom_tangent_note note = {0, 0.0};
+  carom_status status = carom_cushion(in, opt, &out);
+  opt = opt != NULL ? opt : &defaults;
+  if (status >= 0 && opt->convention != CAROM_CONVENTION_PAPER)
+    status = CAROM_ERROR_TANGENT;
+  status = status >= 0 && BUILT < 0 ? BUILT : status;
+  if (status == CAROM_SEPARATING)
+    memcpy(tangent, seeds, 6 * m * sizeof *tangent);
+  for (int first = 0; first < (int)m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
+    const carom_tangent_pass pass = pass_of((int)m, first);
+    status = carom_tangent_of_cushion(in, opt, &pass, seeds, tangent, &note);
+  }
+  if (flags != NULL)
+    *flags = note.flags;
+  for (size_t k = 0; status < 0 && k < 6 * m; k++)
+    tangent[k] = NAN;
+  return status;
+}

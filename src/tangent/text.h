@@ -1,0 +1,154 @@
+/* The sources of motion, contacts and the strike once more, with a number that carries derivatives for every double. All of it
+ * stands in a namespace of its own, beside the same types of plain doubles, and nothing of it is seen by the linker. Each
+ * source is checked as C; so this file counts as one of the system, whose warnings the compiler keeps to itself. */
+#ifndef CAROM_SRC_TANGENT_TEXT_H
+#define CAROM_SRC_TANGENT_TEXT_H
+#pragma GCC system_header
+
+#include "tangent/number.h"
+extern "C" {
+#include "cushion/models.h"
+#include "impact/variation.h"
+#include "shot/fixed.h"
+#include "table/table.h"
+}
+
+/* Headers that plain doubles have had already. */
+#undef CAROM_H
+#undef CAROM_SHOT_H
+#undef CAROM_SRC_PLATFORM_ELEMENTARY_H
+#undef CAROM_SRC_CUSHION_CONTACT_H
+#undef CAROM_SRC_CUSHION_MODELS_H
+#undef CAROM_SRC_IMPACT_IMPACT_H
+#undef CAROM_SRC_IMPACT_LAW_H
+#undef CAROM_SRC_SHOT_FIXED_H
+#undef CAROM_SRC_TABLE_TABLE_H
+#undef CAROM_SRC_MOTION_PATH_H
+#undef CAROM_SRC_PLATFORM_RANGES_H
+
+/* Declarations of C with another type in them would be other functions for the same symbols. */
+#pragma push_macro("__cplusplus")
+#undef __cplusplus
+#undef _Static_assert
+#define _Static_assert(...) static_assert(true, "")
+#pragma push_macro("CAROM_API")
+#undef CAROM_API
+
+namespace {
+namespace text {
+#define double number
+
+#define carom_table carom_whole_table
+#include "carom.h"
+#include "carom_shot.h"
+#undef carom_table
+#undef CAROM_API
+#define CAROM_API
+
+/* An event has at most one part of a table and two balls: there is room for these, all at place 0 or 1. */
+typedef struct carom_table {
+  int64_t rails, jaws, pockets;
+  carom_rail rail[1];
+  carom_jaw jaw[1];
+  carom_pocket pocket[1];
+  double ball_radius;
+} carom_table;
+#define CAROM_RAILS_MOST 1
+#define CAROM_JAWS_MOST 1
+#define CAROM_POCKETS_MOST 1
+#define CAROM_BALLS_MOST 2
+#include "shot/sim.h"
+#undef CAROM_RAILS_MOST
+#undef CAROM_JAWS_MOST
+#undef CAROM_POCKETS_MOST
+#undef CAROM_BALLS_MOST
+
+#include "ball_ball/arguments.h"
+#include "ball_ball/euler.h"
+#include "ball_ball/reduced.h"
+#include "cushion/models.h"
+#include "platform/elementary.h"
+#include "platform/threads.h"
+#include "shot/fixed.h"
+#include "shot/spheres.h"
+
+/* ---- What is not differentiated by its text ---- */
+
+double carom_exp(double x) {
+  const real y = ::carom_exp(x.x);
+  return {y, x.d * y};
+}
+void carom_sincos(double x, double *sine, double *cosine) {
+  real s, c;
+  ::carom_sincos(x.x, &s, &c);
+  *sine = number(s, x.d * c);
+  *cosine = number(c, x.d * -s);
+}
+void carom_sincos_degrees(double degrees, double *sine, double *cosine) {
+  const real radians = 0.017453292519943295;
+  real s, c;
+  ::carom_sincos_degrees(degrees.x, &s, &c);
+  *sine = number(s, degrees.d * (radians * c));
+  *cosine = number(c, degrees.d * (radians * -s));
+}
+double carom_atan(double x) {
+  return {::carom_atan(x.x), x.d * (1 / (1 + x.x * x.x))};
+}
+double carom_acos(double x) {
+  const real square = 1 - x.x * x.x;
+  return square > 0 ? number(::carom_acos(x.x), x.d * (-1 / __builtin_sqrt(square))) : number(::carom_acos(x.x));
+}
+carom_speed_law carom_alciatore(void) {
+  const ::carom_speed_law law = ::carom_alciatore();
+  return {law.a, law.b, law.c};
+}
+/* Arguments have been checked; batches and two balls by Euler's steps have no derivatives. */
+carom_status carom_cushion_check_impact(const carom_cushion_impact *, int *) {
+  return CAROM_OK;
+}
+carom_status carom_cushion_check_options(const carom_cushion_options *) {
+  return CAROM_OK;
+}
+carom_status carom_euler(carom_local *, int, int64_t, carom_euler_run *) {
+  return CAROM_ERROR_TANGENT;
+}
+size_t carom_in_threads(carom_part_worker *, const void *, size_t, int, size_t) {
+  return 0;
+}
+void carom_rail_line(const carom_rail *, double *) {
+}
+
+#include "tangent/exact.h"
+
+/* ---- The sources; names that two of them have for their own ---- */
+
+#include "cushion/closed.c"
+#define defaults cushion_defaults
+#define is_finite motion_is_finite
+#include "cushion/cushion.c"
+#undef is_finite
+#undef defaults
+#include "cushion/stronge.c"
+#include "motion/path.c"
+#include "shot/fixed.c"
+#include "shot/models.c"
+#include "table/nose.c"
+#define contact slow_contact
+#include "shot/resolve.c"
+#undef contact
+#include "shot/spheres.c"
+#define positive cue_positive
+#include "motion/strike.c"
+#undef positive
+
+#undef double
+} // namespace text
+} // namespace
+
+#undef CAROM_API
+#pragma pop_macro("CAROM_API")
+#undef _Static_assert
+#define _Static_assert static_assert
+#pragma pop_macro("__cplusplus")
+
+#endif

@@ -1,0 +1,86 @@
+/* Derivatives in several directions, a pass of at most CAROM_TANGENT_COLUMNS of them at a time: what the C of this room and its
+ * C++, follow.cpp, have in common. README.md tells how they work. */
+#ifndef CAROM_SRC_TANGENT_WORK_H
+#define CAROM_SRC_TANGENT_WORK_H
+
+#include "carom_tangent.h"
+#include "motion/path.h"
+#include "platform/arithmetic.h"
+
+/* Derivatives that a number carries, of which the last is that by time. */
+#ifndef CAROM_TANGENT_WIDTH
+#define CAROM_TANGENT_WIDTH 8
+#endif
+enum { CAROM_TANGENT_COLUMNS = CAROM_TANGENT_WIDTH - 1 };
+
+/* In the order of the numbers of a state. */
+enum { S_X, S_Y, S_V_X, S_V_Y, S_W_X, S_W_Y, S_W_Z, S_Z, S_V_Z };
+
+typedef double carom_tangent_row[CAROM_TANGENT_WIDTH];
+typedef carom_tangent_row carom_tangent_rows[CAROM_STATE_NUMBERS];
+
+/* What is said of a derivative. */
+typedef struct carom_tangent_note {
+  int32_t flags; /* of carom_tangent_flag */
+  double error;  /* of differences, relative */
+} carom_tangent_note;
+
+/* The directions of a pass: so many of m, from `first` on. */
+typedef struct carom_tangent_pass {
+  int m, first, columns;
+} carom_tangent_pass;
+
+/* A ball since its last event. Total tangents of the state there are in tangent->final. */
+typedef struct carom_tangent_ball {
+  const carom_ball_kind *kind;
+  carom_ball_state from;   /* the state there, */
+  double since;            /* and its time, s, */
+  carom_tangent_row start; /* with its tangent */
+  double a[3];             /* half the acceleration from there on; for reach only */
+  double last_contact;     /* s */
+} carom_tangent_ball;
+
+/* A shot on its way through its events once more. */
+typedef struct carom_tangent_work {
+  const carom_table *table;
+  const carom_cue *cue;
+  const carom_shot_options *opt;
+  const carom_tangent_seeds *seeds;
+  carom_tangent *tangent;
+  carom_ball_model ball_model; /* of opt, or the default */
+  carom_shot_cushion cushion_model;
+  int count; /* balls */
+  carom_tangent_pass pass;
+  double reference;      /* radius of the balls that the table is meant for: nose.c */
+  int64_t slow_instants; /* as in carom_sim */
+  double slow_last;
+  carom_tangent_ball ball[CAROM_BALLS_MOST];
+  /* of the last event: what is said of it, the tangent of its time, total tangents before it, of both balls */
+  carom_tangent_note note;
+  carom_tangent_row time;
+  carom_tangent_rows before[2];
+} carom_tangent_work;
+
+/* The numbers of the caller that stand for row `row` in a pass. */
+static inline double *carom_tangent_columns(const carom_tangent_pass *pass, double *rows, int64_t row) {
+  return rows + row * pass->m + pass->first;
+}
+
+/* tangent.c: the edges of the rails for a ball, beyond which it has left the table: low and high x, low and high y, m. */
+void carom_tangent_edges(const carom_tangent_work *w, const carom_ball_kind *kind, double edge[4]);
+
+/* follow.cpp: takes a ball to where it begins, from the seeds; */
+void carom_tangent_begin(carom_tangent_work *w, int i);
+/* an event and its balls behind it; CAROM_OK, or an error of the collision; */
+carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *event);
+/* tangents of ball i at a fixed time, not before its last event. */
+void carom_tangent_at(const carom_tangent_work *w, int i, double time, carom_tangent_rows d);
+
+/* follow.cpp: carom_collide() of balls that close, and carom_cushion(). Their arguments have been checked. */
+carom_status carom_tangent_of_balls(const carom_impact *in, const carom_options *opt, const carom_tangent_pass *pass,
+                                    const double *seeds, double *tangent, carom_tangent_note *note);
+carom_status carom_tangent_of_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                                      const carom_tangent_pass *pass, const double *seeds, double *tangent,
+                                      carom_tangent_note *note);
+
+#endif
