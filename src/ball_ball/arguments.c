@@ -6,6 +6,7 @@
 #include "ball_ball/arguments.h"
 
 #include "platform/enumerations.h"
+#include "platform/ranges.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -42,14 +43,6 @@ carom_status carom_check_options(const carom_options *opt) {
   return CAROM_OK;
 }
 
-static bool positive(double x) {
-  return x > 0.0 && x < INFINITY;
-}
-
-static bool unit_interval(double x) {
-  return x >= 0.0 && x <= 1.0;
-}
-
 static bool vertical(const carom_ball *ball) {
   return fabs(ball->v[2]) > level * (fabs(ball->v[0]) + fabs(ball->v[1]));
 }
@@ -75,48 +68,28 @@ static bool motion_is_finite(const carom_ball *ball) {
   return sum == 0.0;
 }
 
-static carom_status first_not_finite(const double x[3], carom_status status, int base, int *field) {
-  for (int k = 0; k < 3; k++)
-    if (!isfinite(x[k])) {
-      *field = base + k;
-      return status;
-    }
-  return CAROM_OK;
-}
-
-static carom_status check_ball(const carom_ball *ball, int base, int *field) {
-  carom_status status;
-  if ((status = first_not_finite(ball->r, CAROM_ERROR_POSITION, base, field)) != CAROM_OK ||
-      (status = first_not_finite(ball->v, CAROM_ERROR_VELOCITY, base + 3, field)) != CAROM_OK ||
-      (status = first_not_finite(ball->w, CAROM_ERROR_SPIN, base + 6, field)) != CAROM_OK)
-    return status;
-  if (!positive(ball->radius)) {
-    *field = base + field_at(offsetof(carom_ball, radius));
-    return CAROM_ERROR_RADIUS;
-  }
-  if (!positive(ball->mass)) {
-    *field = base + field_at(offsetof(carom_ball, mass));
-    return CAROM_ERROR_MASS;
-  }
-  if (!unit_interval(ball->mu_cloth)) {
-    *field = base + field_at(offsetof(carom_ball, mu_cloth));
-    return CAROM_ERROR_MU_CLOTH;
-  }
-  return CAROM_OK;
-}
+/* Of a ball, and of what follows the two balls. */
+static const carom_range of_ball[BALL_FIELDS] = {
+    {CAROM_FINITE, CAROM_ERROR_POSITION}, {CAROM_FINITE, CAROM_ERROR_POSITION}, {CAROM_FINITE, CAROM_ERROR_POSITION},
+    {CAROM_FINITE, CAROM_ERROR_VELOCITY}, {CAROM_FINITE, CAROM_ERROR_VELOCITY}, {CAROM_FINITE, CAROM_ERROR_VELOCITY},
+    {CAROM_FINITE, CAROM_ERROR_SPIN},     {CAROM_FINITE, CAROM_ERROR_SPIN},     {CAROM_FINITE, CAROM_ERROR_SPIN},
+    {CAROM_POSITIVE, CAROM_ERROR_RADIUS}, {CAROM_POSITIVE, CAROM_ERROR_MASS},   {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_CLOTH},
+};
+static const carom_range of_pair[] = {
+    {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_BALL},
+    {CAROM_UNIT_INTERVAL, CAROM_ERROR_RESTITUTION},
+};
 
 static carom_status blame(const carom_impact *in, int *field) {
-  carom_status status;
-  if ((status = check_ball(&in->a, FIELD(a), field)) != CAROM_OK || (status = check_ball(&in->b, FIELD(b), field)) != CAROM_OK)
-    return status;
-  if (!unit_interval(in->mu_ball)) {
-    *field = FIELD(mu_ball);
-    return CAROM_ERROR_MU_BALL;
-  }
-  if (!unit_interval(in->restitution)) {
-    *field = FIELD(restitution);
-    return CAROM_ERROR_RESTITUTION;
-  }
+  const double *x = (const double *)in;
+  *field = carom_first_outside(x, 2 * BALL_FIELDS, of_ball, BALL_FIELDS);
+  if (*field < 2 * BALL_FIELDS)
+    return of_ball[*field % BALL_FIELDS].error;
+  const int of = carom_first_outside(x + 2 * BALL_FIELDS, 2, of_pair, 2);
+  *field += of;
+  if (of < 2)
+    return of_pair[of].error;
+  *field = -1;
   if (radii_differ(in)) {
     *field = FIELD(b.radius);
     return CAROM_ERROR_RADII_DIFFER;
@@ -139,13 +112,13 @@ carom_status carom_check_impact(const carom_impact *in, int *field) {
   bool good = true; /* joined by & so that all conditions are evaluated and only one branch is taken */
   good &= motion_is_finite(&in->a);
   good &= motion_is_finite(&in->b);
-  good &= positive(in->a.radius);
-  good &= positive(in->a.mass);
-  good &= positive(in->b.mass);
-  good &= unit_interval(in->a.mu_cloth);
-  good &= unit_interval(in->b.mu_cloth);
-  good &= unit_interval(in->mu_ball);
-  good &= unit_interval(in->restitution);
+  good &= carom_is_positive(in->a.radius);
+  good &= carom_is_positive(in->a.mass);
+  good &= carom_is_positive(in->b.mass);
+  good &= carom_in_unit_interval(in->a.mu_cloth);
+  good &= carom_in_unit_interval(in->b.mu_cloth);
+  good &= carom_in_unit_interval(in->mu_ball);
+  good &= carom_in_unit_interval(in->restitution);
   good &= !radii_differ(in);
   good &= !coincident(in);
   good &= !heights_differ(in);

@@ -1,6 +1,7 @@
 /* The one place where the arguments of an impact on a cushion are checked, by the conditions of the comments in carom_shot.h.
  */
 #include "cushion/models.h"
+#include "platform/ranges.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -34,57 +35,33 @@ carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
   return convention && law && step && ratio ? CAROM_OK : CAROM_ERROR_CUSHION_OPTIONS;
 }
 
-static bool unit_interval(double x) {
-  return x >= 0 && x <= 1;
-}
-
-static bool positive(double x) {
-  return x > 0 && x < INFINITY;
-}
-
-/* The first number at fault, or -1. */
-static int fault(const carom_cushion_impact *in) {
-  for (int k = 0; k < 3; k++)
-    if (!isfinite(in->v[k]))
-      return FIELD(v) + k;
-  for (int k = 0; k < 3; k++)
-    if (!isfinite(in->w[k]))
-      return FIELD(w) + k;
-  for (int k = 0; k < 2; k++)
-    if (!isfinite(in->normal[k]))
-      return FIELD(normal) + k;
-  if (in->normal[0] == 0 && in->normal[1] == 0)
-    return FIELD(normal);
-  if (!positive(in->radius))
-    return FIELD(radius);
-  if (!(in->height > 0 && in->height / 2 < in->radius))
-    return FIELD(height);
-  if (!positive(in->mass))
-    return FIELD(mass);
-  if (!unit_interval(in->mu_cloth))
-    return FIELD(mu_cloth);
-  if (!unit_interval(in->mu_cushion))
-    return FIELD(mu_cushion);
-  if (!unit_interval(in->restitution))
-    return FIELD(restitution);
-  if (!(in->jaw_radius >= 0 && in->jaw_radius < INFINITY))
-    return FIELD(jaw_radius);
-  if (fabs(in->v[2]) > level * (fabs(in->v[0]) + fabs(in->v[1])))
-    return FIELD(v) + 2;
-  return -1;
-}
+static const carom_range of_field[FIELDS] = {
+    {CAROM_FINITE, CAROM_ERROR_VELOCITY},
+    {CAROM_FINITE, CAROM_ERROR_VELOCITY},
+    {CAROM_FINITE, CAROM_ERROR_VELOCITY},
+    {CAROM_FINITE, CAROM_ERROR_SPIN},
+    {CAROM_FINITE, CAROM_ERROR_SPIN},
+    {CAROM_FINITE, CAROM_ERROR_SPIN},
+    {CAROM_FINITE, CAROM_ERROR_NORMAL},
+    {CAROM_FINITE, CAROM_ERROR_NORMAL},
+    {CAROM_POSITIVE, CAROM_ERROR_NOSE_HEIGHT},
+    {CAROM_POSITIVE, CAROM_ERROR_RADIUS},
+    {CAROM_POSITIVE, CAROM_ERROR_MASS},
+    {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_CLOTH},
+    {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_CUSHION},
+    {CAROM_UNIT_INTERVAL, CAROM_ERROR_RESTITUTION},
+    {CAROM_NOT_NEGATIVE, CAROM_ERROR_JAW_RADIUS},
+};
 
 carom_status carom_cushion_check_impact(const carom_cushion_impact *in, int *field) {
-  const int at = *field = fault(in);
-  if (at < 0)
-    return CAROM_OK;
-  if (at == FIELD(v) + 2 && isfinite(in->v[2]))
-    return CAROM_ERROR_VERTICAL;
-  static const carom_status of_field[FIELDS] = {
-      CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY,   CAROM_ERROR_SPIN,        CAROM_ERROR_SPIN,
-      CAROM_ERROR_SPIN,     CAROM_ERROR_NORMAL,   CAROM_ERROR_NORMAL,     CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RADIUS,
-      CAROM_ERROR_MASS,     CAROM_ERROR_MU_CLOTH, CAROM_ERROR_MU_CUSHION, CAROM_ERROR_RESTITUTION, CAROM_ERROR_JAW_RADIUS};
-  return of_field[at];
+  *field = carom_first_outside((const double *)in, FIELDS, of_field, FIELDS);
+  if (*field < FIELDS)
+    return of_field[*field].error;
+  /* conditions on several numbers */
+  const bool no_normal = in->normal[0] == 0 && in->normal[1] == 0, high = !(in->height / 2 < in->radius);
+  const bool vertical = fabs(in->v[2]) > level * (fabs(in->v[0]) + fabs(in->v[1]));
+  *field = no_normal ? FIELD(normal) : high ? FIELD(height) : vertical ? FIELD(v) + 2 : -1;
+  return no_normal ? CAROM_ERROR_NORMAL : high ? CAROM_ERROR_NOSE_HEIGHT : vertical ? CAROM_ERROR_VERTICAL : CAROM_OK;
 }
 
 carom_status carom_cushion_check(const carom_cushion_impact *in, const carom_cushion_options *opt, int *field) {
@@ -105,17 +82,6 @@ const char *carom_cushion_field_name(int field) {
 }
 
 const char *carom_cushion_model_name(carom_cushion_model model) {
-  switch (model) {
-  case CAROM_CUSHION_MATHAVAN:
-    return "mathavan";
-  case CAROM_CUSHION_STRONGE:
-    return "stronge";
-  case CAROM_CUSHION_HAN:
-    return "han";
-  case CAROM_CUSHION_MIRROR:
-    return "mirror";
-  case CAROM_CUSHION_EULER:
-    return "euler";
-  }
-  return NULL;
+  static const char *const names[] = {"mathavan", "stronge", "han", "mirror", "euler"};
+  return (unsigned)model < sizeof names / sizeof names[0] ? names[model] : NULL;
 }

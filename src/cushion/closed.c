@@ -9,14 +9,14 @@
 #include "cushion/models.h"
 #include "platform/elementary.h"
 
-static double unit_interval(double x) {
+static double limited(double x) {
   return fmin(fmax(x, 0), 1);
 }
 
 void carom_apply_han(carom_contact *c) {
   const double v = c->v_y;
-  c->e = unit_interval(0.39 + 0.257 * v - 0.044 * v * v);
-  c->mu_w = unit_interval(0.471 - 0.241 * carom_atan(fabs(c->v_x) / v));
+  c->e = limited(0.39 + 0.257 * v - 0.044 * v * v);
+  c->mu_w = limited(0.471 - 0.241 * carom_atan(fabs(c->v_x) / v));
 }
 
 carom_status carom_han(carom_contact *c) {

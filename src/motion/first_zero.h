@@ -29,7 +29,7 @@ typedef struct carom_gap_at {
   double value, slope;
 } carom_gap_at;
 
-/* A gap, as functions of what describes it. They are constants where the search is inlined. */
+/* A gap, as functions of its description. They are constants where the search is inlined. */
 typedef carom_gap_at carom_gap(const void *of, double t);
 typedef double carom_gap_bound(const void *of, double from, double to);
 

@@ -85,7 +85,7 @@ static quartic squared(const carom_separation *d, double reach) {
                     a[0] * a[0] + a[1] * a[1]}};
 }
 
-/* What the third coordinate adds. */
+/* Adds the third coordinate. */
 static void add_height(const carom_separation *d, quartic *f) {
   const double p = d->d0[2], v = d->d1[2], a = d->d2[2];
   f->c[0] += p * p;

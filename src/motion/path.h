@@ -36,7 +36,7 @@
 
 #include <stdbool.h>
 
-/* What follows from a ball's kind, once for a shot. */
+/* Numbers that follow from a ball's kind, once for a shot. */
 typedef struct carom_ball_rates {
   double radius, slide, roll; /* R; mu_s g and mu_r g, m/s^2 */
   double gravity;             /* g */
@@ -83,8 +83,8 @@ void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double
 /* The phase that v and w of a state amount to: not one that would end at once but for rounding. Tidies v and w. */
 int64_t carom_label_of(carom_ball_state *state, double radius);
 
-/* The same where the ball may have left the cloth: airborne with v_z other than 0 or above the cloth. What moves down or up by
- * rounding on the cloth, less than 1e-9 m/s, lies on it. */
+/* The same where the ball may have left the cloth: airborne with v_z other than 0 or above the cloth. A ball on the cloth that
+ * moves down or up by rounding, less than 1e-9 m/s, lies on it. */
 int64_t carom_label_in_space(carom_ball_state *state, double radius);
 
 static inline bool carom_flies(const carom_ball_state *s) {
@@ -104,7 +104,7 @@ int64_t carom_label_of_layout(carom_ball_state *state, double radius);
 /* The state of an airborne ball as it reaches the cloth. */
 void carom_path_land(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state);
 
-/* The phase that follows the path's own at its end, and the state there, with what has come to an end exactly 0. */
+/* The phase that follows the path's own at its end, and the state there; a velocity that has come to its end is exactly 0. */
 void carom_path_end(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state);
 
 #endif

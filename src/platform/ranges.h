@@ -1,7 +1,10 @@
-/* Comparisons of numbers, without a call. */
+/* Comparisons of numbers without a call, and the ranges of the numbers of a struct. */
 #ifndef CAROM_SRC_PLATFORM_RANGES_H
 #define CAROM_SRC_PLATFORM_RANGES_H
 
+#include "carom.h"
+
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -18,6 +21,27 @@ static inline bool carom_is_positive(double x) {
 }
 static inline bool carom_in_unit_interval(double x) {
   return x >= 0.0 && x <= 1.0;
+}
+static inline bool carom_is_not_negative(double x) {
+  return x >= 0.0 && x < INFINITY;
+}
+
+/* The range of a number, both ends of which belong to it, and the error of a number outside. */
+typedef struct carom_range {
+  double low, high;
+  carom_status error;
+} carom_range;
+#define CAROM_FINITE -DBL_MAX, DBL_MAX
+#define CAROM_POSITIVE DBL_TRUE_MIN, DBL_MAX
+#define CAROM_NOT_NEGATIVE 0.0, DBL_MAX
+#define CAROM_UNIT_INTERVAL 0.0, 1.0
+
+/* The first of n numbers that is outside its range, or n. Ranges repeat with a period. */
+static inline int carom_first_outside(const double *x, int n, const carom_range *of, int period) {
+  int k = 0;
+  while (k < n && x[k] >= of[k % period].low && x[k] <= of[k % period].high)
+    k++;
+  return k;
 }
 
 #endif

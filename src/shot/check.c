@@ -1,5 +1,5 @@
-/* The one place where the arguments of a shot are checked, by the conditions of the comments in carom_shot.h: what is common to
- * a batch once; a layout, its cue, and whether the table suits the radius of its balls, for each. */
+/* The one place where the arguments of a shot are checked, by the conditions of the comments in carom_shot.h: the table and the
+ * options once for a batch; a layout, its cue, and whether the table suits the radius of its balls, for each. */
 #include "motion/strike.h"
 #include "shot/rules.h"
 
@@ -98,7 +98,7 @@ carom_status carom_check_ball(const carom_shot_ball *ball, bool flat) {
   return bad != CAROM_OK ? bad : check_state(&ball->state, ball->kind.radius, flat);
 }
 
-/* The height of a ball's centre above the cloth as the shot takes it: what lies on the cloth is at z = R. */
+/* The height of a ball's centre above the cloth as the shot takes it: a ball on the cloth is at z = R. */
 static inline double height_of(const carom_shot_ball *ball) {
   return carom_flies_in_layout(&ball->state, ball->kind.radius) ? ball->state.r[2] : ball->kind.radius;
 }

@@ -1,4 +1,4 @@
-/* Looking for what a ball will meet: rails, jaws and pockets, then other balls.
+/* Looking for the next meeting of a ball: with rails, jaws and pockets, then with other balls.
  *
  * A ball's horizon is the earlier of the end of its phase and its meeting with the table: it has another path after that at the
  * latest, and is looked at again. So pairs are searched up to the nearer of two horizons only. Most things are rejected without
@@ -254,7 +254,7 @@ __attribute__((noinline, cold)) static carom_meeting meet_in_flight(carom_sim *s
   return carom_meet_in_flight(sim, i, s.r, s.v, sim->path[i].end - sim->now);
 }
 
-/* Puts the path of ball i into the columns, and looks for what it will meet on the table. */
+/* Puts the path of ball i into the columns, and looks for its next meeting with the table. */
 static void take_path(carom_sim *sim, int i) {
   const carom_path *path = &sim->path[i];
   const bool translates = carom_translates(path->from.label);

@@ -5,7 +5,7 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
-/* A ball at what it touches. N is the unit vector from its centre into that. */
+/* A ball that touches something fixed. N is the unit vector from its centre into that. */
 typedef struct carom_touch {
   double N[3];
   double closing; /* v . N, m/s */

@@ -1,4 +1,4 @@
-/* What a ball in flight meets on the table: noses of rails and jaws, tops of rails, pockets, and the end of the table. nose.c
+/* The next meeting of a ball in flight with the table: noses of rails and jaws, tops of rails, pockets, and the end of the table. nose.c
  * has the geometry. In flight x and y are linear in t, and z = z0 + v_z t - g/2 t^2.
  *
  * RAIL. |d|^2 = (s - delta)^2 + (z - h)^2 is a quartic in t, that of two centres with d in two coordinates (gap.c); a
@@ -174,11 +174,11 @@ static double fall_on(const flight *f, double plane, bool *lies) {
 
 /* ---- All of it */
 
-/* Keeps what comes first. */
-static void keep(carom_meeting *first, double t, int type, int what, double *T) {
+/* Replaces the first meeting by an earlier one. */
+static void take_earlier(carom_meeting *first, double t, int type, int part, double *T) {
   if (!(t <= *T) || (t >= first->time && type != CAROM_EVENT_POCKET))
     return;
-  *first = (carom_meeting){t, type, what};
+  *first = (carom_meeting){t, type, part};
   *T = t;
 }
 
@@ -240,11 +240,11 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
     bool lies = false;
     const double top = above ? fall_on(f, h + f->radius, &lies) : INFINITY;
     if (top <= *T && (j < 0 ? over_rail(features, k, shift, f, top) : over_jaw(&c, f, top)))
-      keep(first, top, lies ? CAROM_EVENT_LEFT_TABLE : CAROM_EVENT_RAIL_TOP, lies ? -1 : k, T);
+      take_earlier(first, top, lies ? CAROM_EVENT_LEFT_TABLE : CAROM_EVENT_RAIL_TOP, lies ? -1 : k, T);
     if (is_near && j < 0)
-      keep(first, meet_rail(features, k, h, shift, f, *T), CAROM_EVENT_RAIL, k, T);
+      take_earlier(first, meet_rail(features, k, h, shift, f, *T), CAROM_EVENT_RAIL, k, T);
     else if (is_near)
-      keep(first, meet_jaw(f, &c, *T), CAROM_EVENT_JAW, j, T);
+      take_earlier(first, meet_jaw(f, &c, *T), CAROM_EVENT_JAW, j, T);
   }
 }
 
@@ -260,7 +260,7 @@ static void meet_pockets(const carom_sim *sim, const flight *f, double landing, 
       continue;
     const double t = carom_lesser(over[1], landing);
     if (over[1] >= landing || height_at(f, t) <= features->pocket_back)
-      keep(first, t, CAROM_EVENT_POCKET, k, T);
+      take_earlier(first, t, CAROM_EVENT_POCKET, k, T);
   }
 }
 
@@ -269,7 +269,7 @@ carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3
   const flight f = {{r[0], r[1], r[2]}, {v[0], v[1], v[2]}, kind->gravity, kind->radius};
   carom_meeting first = {INFINITY, 0, 0};
   double T = landing;
-  keep(&first, leave(sim->features, &f), CAROM_EVENT_LEFT_TABLE, -1, &T);
+  take_earlier(&first, leave(sim->features, &f), CAROM_EVENT_LEFT_TABLE, -1, &T);
   meet_cushions(sim, kind, &f, &first, &T);
   meet_pockets(sim, &f, landing, &first, &T);
   if (first.type == 0) { /* it lands */

@@ -25,7 +25,7 @@ static carom_due end_of(const carom_sim *sim, int i) {
   return (carom_due){sim->path[i].end, type_of_end(sim, i), i, -1};
 }
 static carom_due meeting_of(const carom_sim *sim, int i) {
-  return (carom_due){sim->meeting[i].time, sim->meeting[i].type, i, sim->meeting[i].what};
+  return (carom_due){sim->meeting[i].time, sim->meeting[i].type, i, sim->meeting[i].part};
 }
 static carom_due pair_of(const carom_sim *sim, int i, int j) {
   return (carom_due){sim->pair[i][j], CAROM_EVENT_BALL_BALL, i, j};

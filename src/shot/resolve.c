@@ -1,7 +1,7 @@
 /* Contacts in the world carom: where the surfaces touch, at the instant when they touch, by the model.
  *
  * SLOW CONTACTS. A ball that its spin presses against another ball or a cushion bounces in ever smaller hops, infinitely many
- * in a finite time. So a contact that closes at less than s is resolved without friction, and what touches parts at s: hops
+ * in a finite time. So a contact that closes at less than s is resolved without friction, and the two part at s: hops
  * then last at least 2 s over the acceleration, and end when the spin that presses is used up. The energy that parting takes
  * more than closing gives, some 1e-8 J at first, is taken from the spin of the balls in contact, so energy never rises; it
  * takes half of the spin's at most, so balls that hardly move part at less than s, but soon stop. Momentum is kept.
@@ -19,10 +19,10 @@
  * 1500 and 0.2 m/s were found with 60,000 random shots of tests/shots by the model han, whose kind `pressed` is 2 to
  * 32 balls that touch, one at the end with up to 300 rad/s, or two, or all. Most events of a shot: 7,796. With 3000 instead of
  * 1500 237 of 4,000 shots need more than 10,000; with 750 none needs more than 5,873. With 0.1 m/s 4 need more than 10,000;
- * with 0.4 m/s none more than 6,838. What the growth costs: of a row of four balls with 200 rad/s in the first, the last goes
+ * with 0.4 m/s none more than 6,838. The growth has a cost: of a row of four balls with 200 rad/s in the first, the last goes
  * 0.760 m, and 0.749 m with s = 0.1 mm/s throughout; of a row of eight 0.035 m, and 0.124 m.
  *
- * CUSHIONS. The formulas of Han and Stronge take what they know of the impact along the inclined normal of the nose, and drop
+ * CUSHIONS. The formulas of Han and Stronge take the impact along the inclined normal of the nose, and drop
  * the vertical velocity. Where the restitution is small, below some tan^2 of the inclination, or the nose far from the height
  * of the centre, or the ball spins much for its speed, a ball is left that moves into the cushion. It would hit again at the
  * same instant, a thousand times where the nose is near the cloth. The same event lets it part as a slow contact does.
@@ -39,8 +39,8 @@
  * than before, and both ends part. 1 mm is a convention.
  *
  * PRESSED BY WEIGHT. A ball that lies on another, or on a nose, is pressed by its weight, which does not end as spin does. So a
- * slow contact in space takes energy from the motion of the balls past each other, too, as opposite impulses on both; and what
- * pushes a ball on the cloth down the cloth takes at once, without a landing. The upper ball hops as it rolls off. Where
+ * slow contact in space takes energy from the motion of the balls past each other, too, as opposite impulses on both. The
+ * cloth takes an impulse that pushes a ball down at once, without a landing. The upper ball hops as it rolls off. Where
  * nothing moves, no energy is there: a ball that is balanced on another ends the shot as too_many_events. */
 #include "shot/sim.h"
 
@@ -89,7 +89,7 @@ static void push(const contact *c, double P, const double along[3]) {
   }
 }
 
-/* What an impulse along an axis changes of the relative velocity. */
+/* The change of the relative velocity along an axis for a unit impulse along it. */
 static double mobility(const contact *c, int axis) {
   const double of_a = axis == 2 && c->held_a ? 0.0 : 1.0 / c->kind_a->mass;
   return c->b == NULL || (axis == 2 && c->held_b) ? of_a : of_a + 1.0 / c->kind_b->mass;
@@ -198,10 +198,10 @@ static void into_nose(const carom_sim *sim, const carom_due *due, const carom_ba
   N[2] = -up / size;
 }
 
-double carom_height_on_top(const carom_sim *sim, int i, int what) {
+double carom_height_on_top(const carom_sim *sim, int i, int part) {
   const carom_ball_kind *kind = &sim->ball[i].kind;
-  const int jaw = what - sim->features->rails;
-  return carom_nose_height(kind, jaw < 0 ? sim->table->rail[what].height : sim->table->jaw[jaw].height) + kind->radius;
+  const int jaw = part - sim->features->rails;
+  return carom_nose_height(kind, jaw < 0 ? sim->table->rail[part].height : sim->table->jaw[jaw].height) + kind->radius;
 }
 
 void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a, const carom_ball_state *b,

@@ -11,7 +11,7 @@ typedef struct carom_rules {
   bool one_mass;       /* all balls have equal masses */
   bool contacts_slide; /* after a strike or a contact a ball slides, even where it would roll */
   double simultaneous; /* s: events this much later than the earliest are simultaneous with it */
-  /* the models by default, and what they read besides the options */
+  /* the models by default, and numbers that they read besides the options */
   carom_ball_model ball_model;
   carom_cushion_model cushion_model;
   carom_slip euler_slip;               /* of Euler's model of two balls */
@@ -29,7 +29,7 @@ typedef struct carom_rules {
   double (*enter_pocket)(const carom_separation *d, double radius, double T);
   /* A contact of two balls, or of a ball with a rail or a jaw, now; b is NULL then. Changes the states, labels too. */
   carom_status (*resolve)(carom_sim *sim, const carom_due *due, carom_ball_state *a, carom_ball_state *b);
-  /* What Euler's model of two balls does with balls that part; NULL: nothing. */
+  /* Resolves balls that part, by Euler's model of two balls; NULL: they stay as they are. */
   void (*part_by_steps)(const carom_impact *in, const carom_options *options, carom_result *out);
 } carom_rules;
 

@@ -1,4 +1,4 @@
-/* The rules of the world pooltool: what its default engine does otherwise, for the same histories.
+/* The rules of the world pooltool: all in which its default engine differs, for the same histories.
  *
  * ORDER. Only times that are equal as doubles are simultaneous. Of each kind the entry that was computed first leads (in one
  * round: by index), then lower tiers, then higher energies, then the order of kinds: ends of phases, rails, jaws, pockets,

@@ -1,4 +1,4 @@
-/* The loop of a shot: find the next event, bring the balls in it there, resolve it, look again what they will meet. */
+/* The loop of a shot: find the next event, bring the balls in it there, resolve it, and look for their next meetings. */
 #include "motion/strike.h"
 #include "platform/threads.h"
 #include "shot/fixed.h"
@@ -216,7 +216,7 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   carom_sim sim;
   if (!anew)
     memcpy(&sim, shot->state, sizeof sim);
-  else if (shot->state != NULL) /* what is not written below is kept too */
+  else if (shot->state != NULL) /* the bytes that are not written below are kept too */
     memset(&sim, 0, sizeof sim);
   sim.rules = carom_rules_of(opt->world);
   sim.table = table;
@@ -353,7 +353,7 @@ carom_status carom_shoot_batch(const carom_shot_job *job) {
 
 /* ---- Later */
 
-/* What is known of a shot at a time: the way of each ball after its last event until then. */
+/* A shot at a time: the path of each ball after its last event until then. */
 typedef struct replay {
   const carom_shot_ball *balls;
   const carom_shot *shot;
@@ -426,7 +426,7 @@ carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const 
       replay_begin(&at);
     replay_go(&at, time);
     last = time;
-    /* what moves at the end goes on nobody knows how */
+    /* the motion after the end of the shot is unknown */
     for (int i = 0; i < count && times[k] > shot->time; i++)
       if (at.path[i].from.label != CAROM_BALL_STATIONARY && !carom_is_out(at.path[i].from.label))
         return CAROM_ERROR_TIME;

@@ -1,4 +1,4 @@
-/* A shot on its way: what the parts of this room share. One of these stands on the stack of carom_shoot(), nothing is
+/* A shot on its way, which the parts of this room share. One of these stands on the stack of carom_shoot(), nothing is
  * allocated. */
 #ifndef CAROM_SRC_SHOT_SIM_H
 #define CAROM_SRC_SHOT_SIM_H
@@ -6,10 +6,10 @@
 #include "motion/path.h"
 #include "table/table.h"
 
-/* What will happen to a ball by itself or on the table. */
+/* The next meeting of a ball with the table. */
 typedef struct carom_meeting {
   double time;
-  int type, what; /* a carom_event_type, or 0 where it leaves the table on the cloth; the index of rail, jaw or pocket */
+  int type, part; /* a carom_event_type, or 0 where it leaves the table on the cloth; the index of rail, jaw or pocket */
 } carom_meeting;
 
 struct carom_rules;
@@ -62,9 +62,9 @@ static inline bool carom_in_space(const carom_sim *sim) {
   return sim->flying > 0 || sim->unlike;
 }
 
-/* resolve.c: the height of ball i's centre on the top of rail `what`, or of jaw `what` less the rails. */
-double carom_height_on_top(const carom_sim *sim, int i, int what);
-/* flight.c: what airborne ball i meets first on the table, from r with v now, and when from now on; landing: the time until it
+/* resolve.c: the height of ball i's centre on the top of rail `part`, or of jaw `part` less the rails. */
+double carom_height_on_top(const carom_sim *sim, int i, int part);
+/* flight.c: the first meeting of airborne ball i with the table, from r with v now, its time from now on; landing: the time until it
  * would land. */
 carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3], const double v[3], double landing);
 
@@ -73,11 +73,11 @@ void carom_detect(carom_sim *sim, int i, int j);
 /* The same for all balls, at the start. */
 void carom_detect_all(carom_sim *sim);
 
-/* state.c: takes fingerprints of what the shot is of, where a state will be kept. */
+/* state.c: takes fingerprints of table, balls and options, where a state will be kept. */
 void carom_state_begin(carom_sim *sim);
-/* Leaves the shot, of which the state is the copy, without what is the caller's. */
+/* Leaves the shot, of which the state is the copy, without the caller's pointers. */
 void carom_state_save(carom_sim *sim, carom_shot_state *state);
-/* Whether sim, the copy of a state with what is the caller's, can go on: CAROM_OK or why not. */
+/* Whether sim, the copy of a state with the caller's pointers, can go on: CAROM_OK or why not. */
 carom_status carom_state_check(const carom_sim *sim, const carom_shot_state *state, int count);
 /* Gives a state the seal that its bits must have. */
 void carom_state_seal(carom_shot_state *state);
@@ -95,7 +95,7 @@ double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const
 /* The speed below which contacts are slow, after so many instants that had one. */
 double carom_slow_speed(int64_t instants);
 
-/* What a ball meets of a rail or a jaw, of which it has the unit vector into it besides. */
+/* The nose of a rail or a jaw. */
 typedef struct carom_nose {
   double height, jaw_radius;      /* jaw_radius: 0 of a rail */
   double mu_cushion, restitution; /* 0: those of the ball */
@@ -107,7 +107,7 @@ typedef struct carom_nose {
 carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3], bool in_space,
                                carom_ball_state *a, carom_ball_state *b);
 carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3], carom_ball_state *state);
-/* The unit vector from ball a to ball b, in space. What lies on the cloth is at z = R exactly. */
+/* The unit vector from ball a to ball b, in space. A ball on the cloth is at z = R exactly. */
 void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a, const carom_ball_kind *kind_b,
                            const carom_ball_state *b, double n[3]);
 carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
@@ -117,7 +117,7 @@ carom_speed_law carom_law_of_ball(const carom_ball_kind *kind);
 /* check.c: the options of a shot; and a ball by itself. */
 carom_status carom_check_shot_options(const carom_shot_options *opt);
 carom_status carom_check_ball(const carom_shot_ball *ball, bool flat);
-/* What a batch has in common. */
+/* The arguments that the shots of a batch share. */
 carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where);
 /* One layout with its cue. Prepares the table for the radii of the balls, where *features are for others. */
 carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,

@@ -1,7 +1,7 @@
-/* What a stopped shot needs to go on, in the keeping of the caller: carom_shot_state has the carom_sim of the shot.
+/* A stopped shot in the keeping of the caller, so that it can go on: carom_shot_state has the carom_sim of the shot.
  *
  * The caller may have kept it in a file, so nothing in it is believed. A state is taken only with its seal, which depends on
- * each of its bits; then every index and number is checked nevertheless. What follows from other numbers of the state must have
+ * each of its bits; then every index and number is checked nevertheless. A number that follows from others of the state must have
  * their bits: a path those with which it begins at its start, columns and firsts those that detect.c derives.
  *
  * With the state are kept fingerprints of the table, the balls and the options that it is of, so that it does not go on with
@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What a state begins with: another version, or another layout, is not taken. */
+/* The first number of a state: another version, or another layout, is refused. */
 static const uint64_t resumable = (uint64_t)CAROM_VERSION_NUMBER << 32 | sizeof(carom_sim);
 _Static_assert(sizeof(carom_sim) <= sizeof(carom_shot_state), "a shot on its way fits what callers keep of it");
 
@@ -177,17 +177,17 @@ static bool good_meeting(const carom_sim *sim, int i) {
     return false;
   switch (m->type) {
   case 0:
-    return m->what == 0;
+    return m->part == 0;
   case CAROM_EVENT_RAIL:
-    return m->what >= 0 && m->what < t->rails;
+    return m->part >= 0 && m->part < t->rails;
   case CAROM_EVENT_JAW:
-    return m->what >= 0 && m->what < t->jaws;
+    return m->part >= 0 && m->part < t->jaws;
   case CAROM_EVENT_POCKET:
-    return m->what >= 0 && m->what < t->pockets;
+    return m->part >= 0 && m->part < t->pockets;
   case CAROM_EVENT_RAIL_TOP:
-    return m->what >= 0 && m->what < t->rails + t->jaws;
+    return m->part >= 0 && m->part < t->rails + t->jaws;
   case CAROM_EVENT_LEFT_TABLE:
-    return m->what == -1;
+    return m->part == -1;
   default:
     return false;
   }
@@ -231,7 +231,7 @@ static bool is_sound(const carom_sim *sim) {
 carom_status carom_state_check(const carom_sim *sim, const carom_shot_state *state, int count) {
   if (sim->can_go_on != resumable || state->opaque[SEAL] != seal_of(state))
     return CAROM_ERROR_STATE;
-  /* what it is of */
+  /* the table, the balls and the options */
   if (sim->world != sim->opt->world || sim->of_options != of_options(sim->opt))
     return CAROM_ERROR_STATE_OPTIONS;
   if (sim->of_table != of_table(sim->table))

@@ -1,4 +1,4 @@
-/* What balls up to a radius can meet on a table, prepared once for all shots that share both: lines with unit normals, boxes
+/* The parts of a table that balls up to a radius can meet, prepared once for all shots that share both: lines with unit normals, boxes
  * for rejection, and the hull outside of which no centre has a place. */
 #include "table/table.h"
 
@@ -53,7 +53,7 @@ void carom_features_of(const carom_table *table, double radius, double reference
   f->hull[0] = f->hull[2] = INFINITY;
   f->hull[1] = f->hull[3] = -INFINITY;
   double low = INFINITY, high = 0.0; /* of the noses */
-  /* what is met by a ball's surface reaches as far as its radius; of a ball larger than those of the table farther (nose.c) */
+  /* a part that the ball's surface meets reaches as far as its radius, for a ball larger than those of the table farther (nose.c) */
   if (radius != reference)
     radius += reference;
   int at = 0;
@@ -71,7 +71,7 @@ void carom_features_of(const carom_table *table, double radius, double reference
   }
   for (int k = 0; k < f->pockets; k++, at++)
     enclose(f, at, table->pocket[k].centre, table->pocket[k].centre, table->pocket[k].radius, 0.0);
-  /* what the table leaves to defaults */
+  /* defaults of the table */
   f->nose_low = low;
   f->width = table->rail_width > 0.0 ? table->rail_width : 0.12;
   f->pocket_back = table->pocket_back > 0.0 ? table->pocket_back : high;

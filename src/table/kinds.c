@@ -35,12 +35,12 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
     kind.mu_cushion = 0.15;
   }
   kind.mu_spin = 10.0 * 2.0 / 5.0 / 9.0 * kind.radius;
-  /* what was measured: m/s^2 over g, or the coefficient itself */
+  /* measured: m/s^2 over g, or the coefficient itself */
   if (game == CAROM_GAME_SNOOKER) {
     kind.mu_slide = 2.075 / 9.81;
     kind.mu_roll = 0.125 / 9.81;
     kind.restitution = 0.89;
-    /* of Han's closed form: what the exact cushion does with 0.14, 0.98 and the nose at 7/5 R (physics/terms) */
+    /* of Han's closed form: as the exact cushion with 0.14, 0.98 and the nose at 7/5 R (physics/terms) */
     kind.mu_cushion = 0.2;
     kind.restitution_cushion = 0.936;
     kind.nose_height = 0.03074;

@@ -1,10 +1,6 @@
 /* The parts of a table, each by itself, by the conditions of the comments in carom_shot.h. */
 #include "table/table.h"
 
-static bool zero_or_positive(double x) {
-  return x >= 0.0 && x < INFINITY;
-}
-
 /* 0 where all are finite, else NaN. The parts of a table are checked for each shot that is played alone, so without a branch
  * for each number. */
 static inline double zero_if_finite(const double *x, int n) {
@@ -32,7 +28,7 @@ static bool good_height(double height, double R) {
   return height > 0.0 && height < 2.0 * R;
 }
 
-/* What is wrong, and where. */
+/* Sets the place of an error. */
 static carom_status at(int *where, int index, carom_status status) {
   *where = index;
   return status;
@@ -43,7 +39,7 @@ carom_status carom_check_table(const carom_table *t, int *where) {
   if (t->rails < 0 || t->rails > CAROM_RAILS_MOST || t->jaws < 0 || t->jaws > CAROM_JAWS_MOST || t->pockets < 0 ||
       t->pockets > CAROM_POCKETS_MOST || t->rails + t->jaws < 1)
     return CAROM_ERROR_TABLE;
-  if (!zero_or_positive(t->ball_radius) || !zero_or_positive(t->rail_width) || !zero_or_positive(t->pocket_back))
+  if (!carom_is_not_negative(t->ball_radius) || !carom_is_not_negative(t->rail_width) || !carom_is_not_negative(t->pocket_back))
     return CAROM_ERROR_TABLE;
   for (int k = 0; k < t->rails; k++)
     if (!good_rail(&t->rail[k]))

@@ -57,7 +57,7 @@ static void shuffle(rack *k, int *number, int count) {
   }
 }
 
-/* Fills the places that are still 0 with what is not placed yet of 1 to `last`. */
+/* Fills the places that are still 0 with the numbers from 1 to `last` that have no place yet. */
 static void fill(rack *k, int *number, int last) {
   int rest[16], count = 0, next = 0;
   for (int n = 1; n <= last; n++) {

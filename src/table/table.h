@@ -1,4 +1,4 @@
-/* What follows from a table and is the same for all shots on it: rails, jaws and pockets as the centre of a ball sees them. */
+/* A table prepared for all shots on it: rails, jaws and pockets as the centre of a ball sees them. */
 #ifndef CAROM_SRC_TABLE_TABLE_H
 #define CAROM_SRC_TABLE_TABLE_H
 
@@ -13,7 +13,7 @@
 
 enum { MOST_FEATURES = CAROM_RAILS_MOST + CAROM_JAWS_MOST + CAROM_POCKETS_MOST };
 
-/* What a ball can meet on the table. In the order of rails, jaws, pockets. */
+/* The parts that a ball can meet on the table, in the order of rails, jaws, pockets. */
 typedef struct carom_features {
   double radius; /* the greatest of the balls for which the rest was prepared; 0: nothing yet */
   int rails, jaws, pockets, count;
@@ -34,7 +34,7 @@ extern const carom_table carom_table_pooltool;
 
 /* features.c: the unit normal of a rail towards its played side, and its offset: distance = line . (x, y, 1). */
 void carom_rail_line(const carom_rail *rail, double line[3]);
-/* What follows from a table for balls of a greatest radius, and from the radius that it is meant for. */
+/* Prepares a table for balls of a greatest radius; reference: the radius that it is meant for. */
 void carom_features_of(const carom_table *table, double radius, double reference, carom_features *features);
 
 /* nose.c: the height of a nose for a ball, how far it is inside the wall that stands for it, and the distance from the wall at
