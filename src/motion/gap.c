@@ -132,23 +132,6 @@ double carom_first_crossing(const carom_separation *d, double reach, double hori
   return zero_from_left(&f, 0.0, horizon, small);
 }
 
-double carom_first_touch(const double g[3], double slack, double horizon) {
-  double t;
-  if (g[0] > slack) {
-    const double D = g[1] * g[1] - 4.0 * g[2] * g[0];
-    t = D >= 0.0 ? 2.0 * g[0] / (-g[1] + sqrt(D)) : INFINITY;
-    return t >= 0.0 && t <= horizon ? t : INFINITY;
-  }
-  if (g[1] < -CAROM_NO_SPEED)
-    return 0.0;
-  if (!(g[2] < 0.0))
-    return INFINITY;
-  /* touching and not closing: where it falls to 0 again; see PRESSED */
-  const double highest = g[1] > 0.0 ? g[0] - 0.25 * g[1] * g[1] / g[2] : g[0], end = carom_lesser(highest - slack, 0.0);
-  t = (-g[1] - sqrt(carom_greater(g[1] * g[1] - 4.0 * g[2] * (g[0] - end), 0.0))) / (2.0 * g[2]);
-  return t <= horizon ? t : INFINITY;
-}
-
 int carom_quadratic_zeros(double a, double b, double c, double zero[2]) {
   if (a == 0.0) {
     zero[0] = -c / b;

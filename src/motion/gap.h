@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "platform/arithmetic.h"
+#include "platform/ranges.h"
 
 #include <stdbool.h>
 
@@ -33,7 +34,22 @@ double carom_first_contact(const carom_separation *d, double reach, double horiz
 double carom_first_contact_in_space(const carom_separation *d, double reach, double horizon);
 
 /* The same for a gap of g[0] + g[1] t + g[2] t^2, the first time when it is <= 0 and falling, with `slack`, m, instead. */
-double carom_first_touch(const double g[3], double slack, double horizon);
+static inline double carom_first_touch(const double g[3], double slack, double horizon) {
+  double t;
+  if (g[0] > slack) {
+    const double D = g[1] * g[1] - 4.0 * g[2] * g[0];
+    t = D >= 0.0 ? 2.0 * g[0] / (-g[1] + sqrt(D)) : INFINITY;
+    return t >= 0.0 && t <= horizon ? t : INFINITY;
+  }
+  if (g[1] < -CAROM_NO_SPEED)
+    return 0.0;
+  if (!(g[2] < 0.0))
+    return INFINITY;
+  /* touching and not closing: where it falls to 0 again; see PRESSED */
+  const double highest = g[1] > 0.0 ? g[0] - 0.25 * g[1] * g[1] / g[2] : g[0], end = carom_lesser(highest - slack, 0.0);
+  t = (-g[1] - sqrt(carom_greater(g[1] * g[1] - 4.0 * g[2] * (g[0] - end), 0.0))) / (2.0 * g[2]);
+  return t <= horizon ? t : INFINITY;
+}
 
 /* Both real zeros of a polynomial of degree 2 or less, the earlier first; the number of them. */
 int carom_quadratic_zeros(double a, double b, double c, double zero[2]);
