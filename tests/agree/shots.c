@@ -70,9 +70,11 @@ static void same_results(const results *a, const results *b) {
   ck_assert_int_eq(memcmp(a->events, b->events, (size_t)SHOTS * ROOM * sizeof *a->events), 0);
 }
 
-static int ascending(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
+/* Shots 0 to n - 1 by themselves. */
+static void play_singles(int count, bool one_layout, bool one_cue, int n, const carom_shot_options *options, results *r) {
+  for (int k = 0; k < n; k++)
+    r->status[k] =
+        (int8_t)carom_shoot(&table, balls + (one_layout ? 0 : count * k), count, &cues[one_cue ? 0 : k], options, &r->shot[k]);
 }
 
 static void free_results(results *r) {
@@ -85,8 +87,7 @@ TEST(batch_is_singles) {
   for (int world = 0; world < 2; world++) {
     carom_shot_options options = {.world = (carom_world)world, .cushion_model = CAROM_SHOT_CUSHION_HAN};
     results *single = make_results();
-    for (int k = 0; k < SHOTS; k++)
-      single->status[k] = (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
+    play_singles(16, false, false, SHOTS, &options, single);
     ck_assert_int_eq(single->status[4], CAROM_ERROR_MISCUE);
     ck_assert_int_eq(single->status[5], CAROM_OK);
     static const int threads[] = {0, 1, 2, 3, 7, CAROM_ALL_THREADS};
@@ -121,8 +122,7 @@ TEST(bad_layouts) {
     for (int k = 0; k < bad; k++)
       balls[16 * k].kind.radius = radii[k % 4];
     results *single = make_results(), *batch = make_results();
-    for (int k = 0; k < SHOTS; k++)
-      single->status[k] = (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
+    play_singles(16, false, false, SHOTS, &options, single);
     ck_assert_int_eq(play_batch(16, false, false, 0, SHOTS, &options, batch), bad > 0 ? CAROM_ERROR_RADIUS : CAROM_OK);
     for (int k = 0; k < SHOTS; k++)
       ck_assert_int_eq(single->status[k], k < bad ? CAROM_ERROR_RADIUS : CAROM_OK);
@@ -185,9 +185,7 @@ TEST(one_for_all) {
   const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
   for (int which = 0; which < 2; which++) {
     results *single = make_results(), *batch = make_results();
-    for (int k = 0; k < SHOTS; k++)
-      single->status[k] = (int8_t)carom_shoot(&table, balls + (which == 0 ? 0 : 16 * k), 16, &cues[which == 0 ? k : 0],
-                                              &options, &single->shot[k]);
+    play_singles(16, which == 0, which == 1, SHOTS, &options, single);
     ck_assert_int_eq(play_batch(16, which == 0, which == 1, 0, SHOTS, &options, batch), CAROM_OK);
     same_results(single, batch);
     free_results(single);
@@ -212,6 +210,11 @@ TEST(one_for_all) {
   same_results(single, batch);
   free_results(single);
   free_results(batch);
+}
+
+static int ascending(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
 }
 
 /* What a game waits for: a break as a whole, to the first contact and in frames, each with the status that it must have. The
