@@ -20,7 +20,7 @@ enum { EVENTS_USUAL = -1, BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 }; /* 
 
 typedef struct shoot_job {
   shoot_flags from; /* --threads, --steps, --output; and a shot from words */
-  int world, ball_model, cushion, space, events;
+  int world, ball_model, cushion, space, simultaneous, events;
   int events_most;
   double time_most;
   const char *plot, *animation, *id;
@@ -55,6 +55,9 @@ OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "mathavan|stronge
        "--models pooltool stronge)");
 OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
        "whether balls can leave the cloth (default: 3d; by pooltool's rules always flat)");
+OPTION(shoot_job, option_simultaneous, "simultaneous", simultaneous, 0, "cluster|pairs", set_choice, 0,
+       "contacts of several balls at one instant, as in a rack: they last and overlap in time, or they are resolved one after "
+       "the other (default: cluster; by pooltool's rules and with --ball-ball euler or inelastic always pairs)");
 OPTION(
     shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
     "what to write of events: nothing; time, type and ids; or the states before and after too (default full). With a shot by "
@@ -82,6 +85,7 @@ static carom_shot_options options_of(const shoot_job *job) {
                               .ball_model = (carom_ball_model)job->ball_model,
                               .cushion_model = (carom_shot_cushion)job->cushion,
                               .space = (carom_space)job->space,
+                              .simultaneous = (carom_simultaneous)job->simultaneous,
                               .steps = job->from.shared.options.steps,
                               .events_most = job->events_most,
                               .threads = job->from.shared.options.threads,
@@ -363,13 +367,15 @@ static const command_form form = {
              "format; recorded results in them are ignored) and writes each table and each shot with its events and final "
              "states. IN may be -. Or plays a shot that options describe, and tells it in words; several values with commas "
              "give several shots, drawn over each other.\n",
-    .options =
-        (const option_row *const[]){
-            &option_table,         &option_cue,   &option_balls,     &option_aim,     &option_at_ball,     &option_shot_cut,
-            &option_shot_speed,    &option_tip,   &option_elevation, &option_json,    &option_models,      &option_ball_ball,
-            &option_cushion_model, &option_space, &option_events,    &option_steps,   &option_events_most, &option_time_most,
-            &option_threads,       &option_plot,  &option_spread,    &option_animate, &option_shot_id,     &option_strict,
-            &option_output,        NULL},
+    .options = (const option_row *const[]){&option_table,         &option_cue,     &option_balls,
+                                           &option_aim,           &option_at_ball, &option_shot_cut,
+                                           &option_shot_speed,    &option_tip,     &option_elevation,
+                                           &option_json,          &option_models,  &option_ball_ball,
+                                           &option_cushion_model, &option_space,   &option_simultaneous,
+                                           &option_events,        &option_steps,   &option_events_most,
+                                           &option_time_most,     &option_threads, &option_plot,
+                                           &option_spread,        &option_animate, &option_shot_id,
+                                           &option_strict,        &option_output,  NULL},
     .details = "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and the error; the others "
                "are played); 2 for bad usage or unreadable input\n",
     .example = "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3 --plot shot.svg",

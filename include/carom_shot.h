@@ -157,7 +157,7 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
  * Bits: those of a batch are those of single calls, for any number of threads and any cut; with options.plain or
  * CAROM_ISA=plain they are the same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with Han's
  * cushions, the default, so 3 us for a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion costs
- * some 7 to 10 us an impact besides. Stack: 32 KiB; a batch 35, with threads 42. Nothing is allocated, but for the threads of a
+ * some 7 to 10 us an impact besides. Stack: 49 KiB; a batch 53, with threads 59. Nothing is allocated, but for the threads of a
  * batch. */
 
 /* ---- Balls ------------------------------------------------------------------------------------------------------------ */
@@ -197,8 +197,8 @@ typedef struct carom_ball_kind {
   double nose_height; /* of every cushion that the ball meets, above the cloth, m, below 2 R; 0: that of the rail or jaw. */
   double omega_ratio; /* of Stronge's cushions, as in carom_cushion_options: 1 to 2 without the ends; 0: 1.8. */
   double restitution_table; /* ball and slate, at most 0.98; 0: 0.5, which is a convention; -1: none. */
-  double modulus; /* E/(1 - nu^2) of the ball's material, 1e6 to 1e15 Pa; 0: 6.6e9, that of one phenolic resin. Read by
-                     carom_cluster() only. */
+  double modulus;           /* E/(1 - nu^2) of the ball's material, 1e6 to 1e15 Pa; 0: 6.6e9, that of one phenolic resin. It
+                               counts where several balls touch at one instant. */
 } carom_ball_kind;
 
 /* Where a ball is and how it moves. */
@@ -414,15 +414,15 @@ typedef struct carom_shot_options {
   carom_shot_cushion cushion_model;
   carom_ball_friction friction;
   int32_t steps;       /* of Euler's models; 0: 1000. */
-  int32_t events_most; /* events of a shot; 0: 10000. */
+  int32_t events_most; /* events of a shot, but that those of a cluster are not parted; 0: 10000. */
   int32_t threads;     /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
   carom_space space;
   double time_most; /* s: the shot is stopped at exactly this time of its clock, after the events of that instant, with
                        CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s with CAROM_ERROR_TOO_LONG. */
-  uint64_t stop_at; /* the shot is stopped right after an event of this set, with CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)
-                       of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
+  uint64_t stop_at; /* the shot is stopped right after an event of this set, or its cluster, with CAROM_STOPPED_AT_EVENT:
+                    CAROM_STOP_AT(type)   of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
   int32_t plain;    /* 1: with CAROM_ISA_PLAIN, as in carom_options: a shot with the bits that all machines share. 0: with
-                       the instruction set in use. */
+                    the instruction set in use. */
   carom_simultaneous simultaneous;
   int32_t cluster_steps; /* of the integrator of clusters, for the duration of a contact, at most 10000; 0: 25. */
   int32_t unused;        /* must be 0. */
@@ -450,10 +450,13 @@ typedef enum carom_event_type {
 /* Its name ("ball_linear_cushion" for a rail), as in files of `carom shoot`, or NULL for a value not listed. */
 CAROM_API const char *carom_event_name(carom_event_type type);
 
-/* One event. before[1] and after[1] are those of ball b of a CAROM_EVENT_BALL_BALL, else all zero. */
+/* One event. before[1] and after[1] are those of ball b of a CAROM_EVENT_BALL_BALL, else all zero. The contacts of a cluster
+ * are events one after another, in the order in which they touched. A ball changes at its first one; before and after the
+ * others it has the state that it has at the end. So momentum and energy balance over all events of a cluster, not over one. */
 typedef struct carom_event {
   double time; /* s */
-  int32_t type, a, b, reserved;
+  int32_t type, a, b;
+  int32_t cluster; /* of a CAROM_EVENT_BALL_BALL: contacts of its cluster; 0: a contact of two balls alone. */
   carom_ball_state before[2], after[2];
 } carom_event;
 

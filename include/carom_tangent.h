@@ -16,8 +16,10 @@
  *     tangent.final = &change[0][0][0];
  *     tangent.time = &when[0][0];
  *     tangent.reach = reach;
- *     status = carom_shoot(&table, balls, 10, &cue, NULL, &shot);                   // with room for all of its events
- *     status = carom_shot_tangent(&table, balls, 10, &cue, NULL, &shot, &seeds, &tangent);
+ *     static carom_shot_options pairwise;                      // derivatives through contacts that last are not known
+ *     pairwise.simultaneous = CAROM_SIMULTANEOUS_PAIRS;
+ *     status = carom_shoot(&table, balls, 10, &cue, &pairwise, &shot);              // with room for all of its events
+ *     status = carom_shot_tangent(&table, balls, 10, &cue, &pairwise, &shot, &seeds, &tangent);
  *     // change[i][0][1]: by how many metres the place x of ball i moves per degree of phi, for less than reach[1] degrees
  *
  * docs/using/derivatives.md tells what tangents mean and what they cannot tell; docs/understanding/gradients.md has the
@@ -94,10 +96,10 @@ typedef struct carom_tangent {
  * to 64; CAROM_ERROR_EVENTS_LOST where shot->room was too small or events is NULL; CAROM_ERROR_STATE where an event cannot be
  * one of this shot; CAROM_ERROR_TIME for times that are not finite or not ascending; CAROM_ERROR_SHOT_OPTIONS for a reserved
  * field; or an error of the table or of an option. CAROM_ERROR_NO_TANGENTS from a library that was built without derivatives.
- * CAROM_ERROR_TANGENT where derivatives are not known: in CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, and by
- * CAROM_BALL_MODEL_EULER. Or CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved,
- * CAROM_ERROR_OVERFLOW where a number of `final` is not finite, or an error of a collision. Then every number of `final` is
- * NaN, and others may have been written. */
+ * CAROM_ERROR_TANGENT where derivatives are not known: in CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, by
+ * CAROM_BALL_MODEL_EULER, and where several balls touched at once (with CAROM_SIMULTANEOUS_PAIRS they are known there too). Or
+ * CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved, CAROM_ERROR_OVERFLOW where a number of
+ * `final` is not finite, or an error of a collision. Then every number of `final` is NaN, and others may have been written. */
 CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls, int count,
                                           const carom_cue *cue, const carom_shot_options *opt, const carom_shot *shot,
                                           const carom_tangent_seeds *seeds, carom_tangent *tangent);

@@ -73,7 +73,8 @@
     "a ball can leave the table between two of its parts, or there is no place for a ball")                                    \
   X(ERROR_RAIL_SIDE, -62, "bad_rail_side", "the played side of a rail is turned away from the table")                          \
   X(ERROR_RAIL_LINE, -63, "bad_rail_line", "the line of a rail does not pass through both of its ends")                        \
-  X(ERROR_TANGENT, -70, "no_tangent", "derivatives are not known in the world pooltool, nor by Euler's model of balls")        \
+  X(ERROR_TANGENT, -70, "no_tangent",                                                                                          \
+    "derivatives are not known in the world pooltool, by Euler's model of balls, nor through a cluster")                       \
   X(ERROR_DIRECTIONS, -71, "bad_directions", "derivatives are in 1 to 64 directions at once")                                  \
   X(ERROR_MODULUS, -58, "bad_modulus", "a ball's modulus must be 0 or 1e6 to 1e15 Pa")                                         \
   X(ERROR_NO_TANGENTS, -72, "no_tangents", "this library was built without derivatives, as it was without C++")                \
@@ -98,7 +99,7 @@ int carom_version_number(void) {
 
 /* Raised by the commit that changes the bits of any result; tests/platforms/revision says when that is. */
 int carom_physics_revision(void) {
-  return 5;
+  return 6;
 }
 
 int carom_serves(int header) {

@@ -40,6 +40,10 @@ static inline double lesser(double a, double b) {
 
 /* ---- A contact's geometry and motion */
 
+static inline double mobility(const state *c, const contact *x) { /* B */
+  return c->ball[x->i].inverse_mass + c->ball[x->j].inverse_mass;
+}
+
 static inline double closing_of(bool flat, const state *c, const contact *x) {
   double v[3];
   cluster_minus(flat, c->ball[x->i].v, c->ball[x->j].v, v);
@@ -54,40 +58,40 @@ static inline double overlap_of(bool flat, const state *c, const contact *x) {
 
 static inline void slip_of(bool flat, const state *c, const contact *x, double u[2]) {
   const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
-  double v[3];
+  double v[3], t[3], third[3];
   cluster_minus(flat, p->v, q->v, v);
   const double W[3] = {p->W[0] + q->W[0], p->W[1] + q->W[1], p->W[2] + q->W[2]};
+  cluster_across(flat, x->n, x->level, t, third);
   if (flat) {
-    u[0] = v[0] * x->t[0] + v[1] * x->t[1] - W[2];
-    u[1] = W[0] * x->t[0] + W[1] * x->t[1];
+    u[0] = v[0] * t[0] + v[1] * t[1] - W[2];
+    u[1] = W[0] * t[0] + W[1] * t[1];
   } else {
-    double third[3];
-    cluster_third(x->n, x->t, third);
-    u[0] = cluster_dot(false, v, x->t) - cluster_dot(false, W, third);
-    u[1] = cluster_dot(false, v, third) + cluster_dot(false, W, x->t);
+    u[0] = cluster_dot(false, v, t) - cluster_dot(false, W, third);
+    u[1] = cluster_dot(false, v, third) + cluster_dot(false, W, t);
   }
 }
 
 /* Friction's impulse f on i, and -f on j. */
 static inline void rub(bool flat, state *c, const contact *x, const double f[2]) {
   ball *p = &c->ball[x->i], *q = &c->ball[x->j];
-  const double a = f[0] * p->inverse_mass, b = f[1] * p->inverse_mass, d = f[0] * q->inverse_mass, e = f[1] * q->inverse_mass;
-  cluster_add(flat, p->v, a, x->t);
-  cluster_add(flat, q->v, -d, x->t);
-  cluster_add(flat, p->W, 2.5 * b, x->t);
-  cluster_add(flat, q->W, 2.5 * e, x->t);
+  const double p_0 = f[0] * p->inverse_mass, p_1 = f[1] * p->inverse_mass;
+  const double q_0 = f[0] * q->inverse_mass, q_1 = f[1] * q->inverse_mass;
+  double t[3], third[3];
+  cluster_across(flat, x->n, x->level, t, third);
+  cluster_add(flat, p->v, p_0, t);
+  cluster_add(flat, q->v, -q_0, t);
+  cluster_add(flat, p->W, 2.5 * p_1, t);
+  cluster_add(flat, q->W, 2.5 * q_1, t);
   if (flat) {
-    p->W[2] -= 2.5 * a;
-    q->W[2] -= 2.5 * d;
+    p->W[2] -= 2.5 * p_0;
+    q->W[2] -= 2.5 * q_0;
     p->load -= f[1];
     q->load += f[1];
   } else {
-    double third[3];
-    cluster_third(x->n, x->t, third);
-    cluster_add(false, p->v, b, third);
-    cluster_add(false, q->v, -e, third);
-    cluster_add(false, p->W, -2.5 * a, third);
-    cluster_add(false, q->W, -2.5 * d, third);
+    cluster_add(false, p->v, p_1, third);
+    cluster_add(false, q->v, -q_1, third);
+    cluster_add(false, p->W, -2.5 * p_0, third);
+    cluster_add(false, q->W, -2.5 * q_0, third);
   }
 }
 
@@ -111,7 +115,7 @@ static void touch(bool flat, const state *c, contact *x, double half) {
   const double size = sqrt(cluster_dot(flat, x->n, x->n));
   for (int k = 0; k < 3; k++)
     x->n[k] /= size;
-  cluster_across(flat, x->n, x->t);
+  x->level = cluster_level(flat, x->n);
   double s[3];
   cluster_minus(flat, p->s, q->s, s);
   x->offset = R - cluster_dot(flat, d, x->n) - cluster_dot(flat, s, x->n);
@@ -186,12 +190,12 @@ static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t
       const double v = closing_of(flat, c, x);
       x->U = -1.0;
       x->f[0] = x->f[1] = 0.0;
-      x->size = v > 0.0 ? carom_cluster_compression(x->K, x->B, v) : 0.0;
+      x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(c, x), v) : 0.0;
       if (x->time < 0.0)
         x->time = greater(tau - (v > 0.0 ? d / v : 0.0), 0.0);
     }
     x->J = h * normal_force(x, d);
-    const double stiff = x->K * x->B * x->K * x->B * x->size;
+    const double KB = x->K * mobility(c, x), stiff = KB * KB * x->size;
     if (stiff > stiffest) {
       stiffest = stiff;
       *lead = x;
@@ -262,7 +266,7 @@ static inline void iterate(bool flat, const state *c, contact *x, double change[
     most = (a + (x->mu - a) * (1.0 - lesser(1.0, rate * grown))) * x->J;
   }
   if (x->may_stick) {
-    const double share = 1.0 / (3.5 * (p->shared * p->inverse_mass + q->shared * q->inverse_mass));
+    const double share = 1.0 / (3.5 * (p->acting * p->inverse_mass + q->acting * q->inverse_mass));
     f[0] = x->f[0] - share * u[0];
     f[1] = x->f[1] - share * u[1];
     const double size2 = f[0] * f[0] + f[1] * f[1];
@@ -288,7 +292,7 @@ static inline void iterate(bool flat, const state *c, contact *x, double change[
 static inline void begin_step(bool flat, state *c, const uint8_t acting[], int count) {
   for (int k = 0; k < c->balls; k++) {
     ball *p = &c->ball[k];
-    p->shared = 0.0;
+    p->acting = 0;
     if (!flat)
       continue;
     p->base[0] = p->v[0] - p->W[1];
@@ -304,10 +308,12 @@ static inline void begin_step(bool flat, state *c, const uint8_t acting[], int c
       x->U = u;
       x->mu = friction_at(c, x, u);
     }
-    x->may_stick = u <= 7.0 * x->B * x->mu * x->J;
+    x->may_stick = u <= 7.0 * mobility(c, x) * x->mu * x->J;
     x->impulse += x->J;
-    c->ball[x->i].shared = lesser(c->ball[x->i].shared + 1.0, 2.0);
-    c->ball[x->j].shared = lesser(c->ball[x->j].shared + 1.0, 2.0);
+    for (int side = 0; side < 2; side++) {
+      ball *p = &c->ball[side == 0 ? x->i : x->j];
+      p->acting = (int8_t)(p->acting < 2 ? p->acting + 1 : 2);
+    }
   }
   for (int a = 0; a < count; a++) {
     const contact *x = &c->contact[acting[a]];
@@ -408,7 +414,7 @@ static inline double first_step(bool flat, const state *c, double *stiff) {
     if (!x->touched || v <= most)
       continue;
     most = v;
-    T = carom_cluster_duration(x->K, x->B, carom_cluster_compression(x->K, x->B, v));
+    T = carom_cluster_duration(x->K, mobility(c, x), carom_cluster_compression(x->K, mobility(c, x), v));
   }
   return T / (c->steps * *stiff);
 }
@@ -438,7 +444,7 @@ static inline bool solve(bool flat, state *c) {
     rub_all(flat, c, acting, count);
     end_step(flat, c, h, acting, count);
     tau += 0.5 * h;
-    h = carom_cluster_duration(lead->K, lead->B, lead->size) / (c->steps * stiff);
+    h = carom_cluster_duration(lead->K, mobility(c, lead), lead->size) / (c->steps * stiff);
   }
   c->duration = tau;
   take_back(c, before);

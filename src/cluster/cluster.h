@@ -34,7 +34,7 @@
 
 enum {
   CAROM_CLUSTER_BALLS = 32,
-  CAROM_CLUSTER_CONTACTS = 80,     /* 32 balls of one radius have at most 76 contacts on the cloth */
+  CAROM_CLUSTER_CONTACTS = 76,     /* as many as 32 balls of one radius have on the cloth at most */
   CAROM_CLUSTER_STEPS = 25,        /* of a contact's duration, where the caller does not say */
   CAROM_CLUSTER_STEPS_MOST = 20000 /* of a cluster; more are not tried */
 };
@@ -45,22 +45,24 @@ typedef struct carom_cluster_ball {
   double mu_cloth;
   double restitution, modulus; /* e; E, N/m^2 */
   double law[3];               /* a, b, c of its friction with other balls; a pair has the mean of each */
-  int which;                   /* the caller's index */
+  bool flies;                  /* above the cloth: its contacts are in space */
+  int8_t which;                /* the caller's index */
+  int8_t acting;               /* its contacts that act in this step, at most 2 */
   /* of the integrator */
-  double s[3]; /* int v dtau, m */
-  double shared;
+  double s[3];                /* int v dtau, m */
   double base[2], g[2], load; /* slip on the cloth as a step begins; impulses of the cloth's friction and of the load */
 } carom_cluster_ball;
 
 typedef struct carom_cluster_contact_state {
-  int8_t i, j;       /* in ball[] */
-  bool touched;      /* now or before: n is known */
-  bool may_stick;    /* within this step */
-  double n[3], t[3]; /* unit vectors, from i to j and across; the third is t x n, on the cloth up */
-  double offset;     /* d = offset + (s_i - s_j) . n */
-  double d, d_max;   /* d_max: 0 while open */
-  double size;       /* the compression that it has, or will have */
-  double K, B, e;
+  int8_t i, j;     /* in ball[] */
+  bool touched;    /* now or before: n is known */
+  bool may_stick;  /* within this step */
+  double n[3];     /* unit vector from i to j */
+  double level;    /* 1 over the horizontal part of n; 0 where n is nearly upright */
+  double offset;   /* d = offset + (s_i - s_j) . n */
+  double d, d_max; /* d_max: 0 while open */
+  double size;     /* the compression that it has, or will have */
+  double K, e;
   double mu, U;
   double J, f[2];            /* impulses of a step along n, and of friction along t and the third; between steps f/J */
   double u[2], closing;      /* slip and closing speed as a step begins */
@@ -68,7 +70,7 @@ typedef struct carom_cluster_contact_state {
   double impulse, rubbed[2]; /* sums of J and f */
 } carom_cluster_contact_state;
 
-/* The caller sets balls, ball[] up to `which`, in_space, steps and slow; carom_cluster_members() the contacts. */
+/* The caller sets balls, ball[] up to `which`, steps and slow; carom_cluster_members() in_space and the contacts. */
 typedef struct carom_cluster_state {
   bool in_space;
   int balls, contacts;

@@ -109,9 +109,8 @@ static void make_contact(const carom_cluster_state *c, int i, int j, const two_b
   x->touched = two->gap < touching;
   x->offset = x->touched ? 0.0 : -two->gap;
   memcpy(x->n, two->n, sizeof x->n);
-  cluster_across(!c->in_space, x->n, x->t);
+  x->level = cluster_level(!c->in_space, x->n);
   x->K = carom_cluster_stiffness(a, b);
-  x->B = a->inverse_mass + b->inverse_mass;
   x->e = e > least_restitution ? e : least_restitution;
   x->time = -1.0;
 }
@@ -137,6 +136,8 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second) {
   c->contacts = 0;
   if (first < 0 && !fastest_pair(c, pair))
     return 0;
+  if (between(&c->ball[pair[0]], &c->ball[pair[1]]).closing < c->slow)
+    return 0;
   follow(c, pair, in);
   /* the members, in the caller's order */
   int kept = 0;
@@ -144,6 +145,9 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second) {
     if (in[k])
       c->ball[kept++] = c->ball[k];
   c->balls = kept;
+  c->in_space = false;
+  for (int k = 0; k < kept; k++)
+    c->in_space |= c->ball[k].flies || c->ball[k].radius != c->ball[0].radius;
   /* small balls around a large one may have more neighbours than there is room for: then only the nearest */
   int count = -1;
   for (double limit = far; count < 0 && limit > touching; limit *= 0.5)

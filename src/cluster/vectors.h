@@ -27,27 +27,28 @@ static inline void cluster_add(bool flat, double a[3], double x, const double b[
     a[2] += x * b[2];
 }
 
-/* t: a unit vector across n, horizontal where n is not upright. */
-static inline void cluster_across(bool flat, const double n[3], double t[3]) {
+/* 1 over the horizontal part of a unit vector; 0 where that is small. */
+static inline double cluster_level(bool flat, const double n[3]) {
   const double level = flat ? 1.0 : sqrt(n[0] * n[0] + n[1] * n[1]);
-  const bool upright = !flat && level < 0.1;
-  if (!upright) {
-    t[0] = n[1] / level;
-    t[1] = -n[0] / level;
-    t[2] = 0.0;
-  } else { /* n x e_x */
-    const double size = sqrt(n[1] * n[1] + n[2] * n[2]);
-    t[0] = 0.0;
-    t[1] = n[2] / size;
-    t[2] = -n[1] / size;
-  }
+  return level < 0.1 ? 0.0 : 1.0 / level;
 }
 
-/* The third direction, t x n: up on the cloth. */
-static inline void cluster_third(const double n[3], const double t[3], double out[3]) {
-  out[0] = t[1] * n[2] - t[2] * n[1];
-  out[1] = t[2] * n[0] - t[0] * n[2];
-  out[2] = t[0] * n[1] - t[1] * n[0];
+/* Two unit vectors across n and each other: t, horizontal or along n x e_x, and t x n, which is up on the cloth. `level` is
+ * that of n. */
+static inline void cluster_across(bool flat, const double n[3], double level, double t[3], double third[3]) {
+  if (flat || level > 0.0) {
+    t[0] = flat ? n[1] : n[1] * level;
+    t[1] = flat ? -n[0] : -n[0] * level;
+    t[2] = 0.0;
+  } else {
+    const double size = 1.0 / sqrt(n[1] * n[1] + n[2] * n[2]);
+    t[0] = 0.0;
+    t[1] = n[2] * size;
+    t[2] = -n[1] * size;
+  }
+  third[0] = flat ? 0.0 : t[1] * n[2] - t[2] * n[1];
+  third[1] = flat ? 0.0 : t[2] * n[0] - t[0] * n[2];
+  third[2] = flat ? 1.0 : t[0] * n[1] - t[1] * n[0];
 }
 
 #endif

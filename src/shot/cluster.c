@@ -1,6 +1,7 @@
-/* Contacts that last, src/cluster/, for the balls of a shot. */
-#include "cluster/cluster.h"
-#include "shot/sim.h"
+/* Contacts that last, src/cluster/, for the balls of a shot, and carom_cluster(). */
+#include "shot/cluster.h"
+#include "cluster/vectors.h"
+#include "shot/rules.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,7 +23,8 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
     b.r[2] = kind->radius;
     b.v[2] = 0.0;
   }
-  b.which = which;
+  b.flies = flies;
+  b.which = (int8_t)which;
   b.radius = kind->radius;
   b.inverse_mass = 1.0 / kind->mass;
   b.mu_cloth = kind->mu_slide;
@@ -59,15 +61,74 @@ static int in_order(const carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CO
   return count;
 }
 
+/* ---- In a shot */
+
+bool carom_third_is_near(const carom_sim *sim, int i, int j) {
+  static const double near = 0.01; /* m, as in members.c: farther neighbours are in no cluster */
+  const double reach = 2.0 * sim->features->radius + near, most = reach * reach;
+  const double ti = sim->now - sim->start[i], tj = sim->now - sim->start[j];
+  const double xi = sim->x[i] + ti * (sim->v_x[i] + ti * sim->a_x[i]), yi = sim->y[i] + ti * (sim->v_y[i] + ti * sim->a_y[i]);
+  const double xj = sim->x[j] + tj * (sim->v_x[j] + tj * sim->a_x[j]), yj = sim->y[j] + tj * (sim->v_y[j] + tj * sim->a_y[j]);
+  int near_them = 0; /* i and j are near themselves */
+  for (int k = 0; k < sim->count; k++) {
+    const double t = sim->now - sim->start[k];
+    const double x = sim->x[k] + t * (sim->v_x[k] + t * sim->a_x[k]), y = sim->y[k] + t * (sim->v_y[k] + t * sim->a_y[k]);
+    const double to_i = (x - xi) * (x - xi) + (y - yi) * (y - yi), to_j = (x - xj) * (x - xj) + (y - yj) * (y - yj);
+    near_them += (to_i < most) | (to_j < most);
+  }
+  return near_them > 2;
+}
+
+int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
+  c->balls = 0;
+  c->steps = sim->opt->cluster_steps > 0 ? sim->opt->cluster_steps : CAROM_CLUSTER_STEPS;
+  c->slow = carom_slow_speed(sim->slow_instants);
+  int first = 0, second = 0;
+  for (int k = 0; k < sim->count; k++) {
+    const carom_path *path = &sim->path[k];
+    if (carom_is_out(path->from.label))
+      continue;
+    carom_ball_state now;
+    carom_path_at(path, &sim->rates[k], sim->now, &now);
+    if (k == i)
+      first = c->balls;
+    if (k == j)
+      second = c->balls;
+    c->ball[c->balls++] = member_of(&sim->ball[k].kind, &now, sim->opt, carom_flies(&now), k);
+  }
+  const int size = carom_cluster_members(c, first, second);
+  if (size == 0 || size == 1)
+    return 0;
+  if (size < 0 || !carom_cluster_solve(c)) {
+    sim->one_by_one = sim->now;
+    return 0;
+  }
+  /* the contact that is due goes first */
+  const int count = in_order(c, order);
+  for (int k = 1; k < count; k++) {
+    const carom_cluster_contact_state *x = &c->contact[order[k]];
+    if (c->ball[x->i].which != i || c->ball[x->j].which != j)
+      continue;
+    const uint8_t due = order[k];
+    memmove(&order[1], &order[0], (size_t)k);
+    order[0] = due;
+  }
+  return count > 1 ? count : 0;
+}
+
+void carom_cluster_take(const carom_cluster_ball *b, carom_ball_state *s) {
+  motion_of(b, s->v, s->w);
+}
+
 /* ---- The public entry */
 
 static carom_cluster_contact contact_of(const carom_cluster_state *c, const carom_cluster_contact_state *x) {
   carom_cluster_contact out = {c->ball[x->i].which, c->ball[x->j].which,         x->time,
                                x->impulse,          {x->n[0], x->n[1], x->n[2]}, {0.0}};
-  double third[3] = {x->t[1] * x->n[2] - x->t[2] * x->n[1], x->t[2] * x->n[0] - x->t[0] * x->n[2],
-                     x->t[0] * x->n[1] - x->t[1] * x->n[0]};
+  double t[3], third[3];
+  cluster_across(!c->in_space, x->n, x->level, t, third);
   for (int k = 0; k < 3; k++)
-    out.friction[k] = x->rubbed[0] * x->t[k] + x->rubbed[1] * third[k];
+    out.friction[k] = x->rubbed[0] * t[k] + x->rubbed[1] * third[k];
   return out;
 }
 
@@ -75,7 +136,6 @@ static carom_cluster_contact contact_of(const carom_cluster_state *c, const caro
 static void gather(const carom_shot_ball *balls, int count, const carom_shot_options *opt, const bool done[],
                    carom_cluster_state *c) {
   c->balls = 0;
-  c->in_space = false;
   c->steps = opt->cluster_steps > 0 ? opt->cluster_steps : CAROM_CLUSTER_STEPS;
   c->slow = carom_slow_speed(0);
   for (int k = 0; k < count; k++) {
@@ -83,7 +143,6 @@ static void gather(const carom_shot_ball *balls, int count, const carom_shot_opt
       continue;
     const carom_ball_kind *kind = &balls[k].kind;
     const bool flies = opt->space != CAROM_SPACE_FLAT && carom_flies_in_layout(&balls[k].state, kind->radius);
-    c->in_space |= flies || (c->balls > 0 && kind->radius != c->ball[0].radius);
     c->ball[c->balls++] = member_of(kind, &balls[k].state, opt, flies, k);
   }
 }

@@ -150,8 +150,8 @@ static void resolve_slowly(const contact *c, double slow, double closing) {
 }
 
 /* The phase after a contact. One in space may have lifted the ball or pushed it down. */
-static void label_after(const contact *c, const carom_ball_kind *kind, carom_ball_state *s) {
-  if (!c->in_space) {
+void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *s) {
+  if (!in_space) {
     carom_label_of(s, kind->radius);
     return;
   }
@@ -243,8 +243,8 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_stat
     resolve_slowly(&c, slow, closing);
   }
 
-  label_after(&c, c.kind_a, a);
+  carom_label_after(c.in_space, c.kind_a, a);
   if (b != NULL)
-    label_after(&c, c.kind_b, b);
+    carom_label_after(c.in_space, c.kind_b, b);
   return status < 0 ? status : is_finite(a) && (b == NULL || is_finite(b)) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }

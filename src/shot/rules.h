@@ -9,6 +9,7 @@
 typedef struct carom_rules {
   bool flat;           /* balls stay on the cloth, whatever the options say */
   bool one_mass;       /* all balls have equal masses */
+  bool clusters;       /* contacts of several balls at one instant may last: options.simultaneous */
   bool contacts_slide; /* after a strike or a contact a ball slides, even where it would roll */
   double simultaneous; /* s: events this much later than the earliest are simultaneous with it */
   /* the models by default, and numbers that they read besides the options */

@@ -1,6 +1,7 @@
 /* The loop of a shot: find the next event, bring the balls in it there, resolve it, and look for their next meetings. */
 #include "motion/strike.h"
 #include "platform/threads.h"
+#include "shot/cluster.h"
 #include "shot/fixed.h"
 #include "shot/rules.h"
 
@@ -23,7 +24,7 @@ static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_
   event->type = due->type;
   event->a = due->a;
   event->b = due->b;
-  event->reserved = 0;
+  event->cluster = 0;
   if (due->type != CAROM_EVENT_BALL_BALL)
     memset(&event->before[1], 0, sizeof event->before[1]);
   return event;
@@ -66,8 +67,68 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
   }
 }
 
-/* One event. */
-static carom_status step(carom_sim *sim, const carom_due *due) {
+static bool is_finite(const carom_ball_state *s) {
+  return isfinite(s->v[0] + s->v[1] + s->v[2] + s->w[0] + s->w[1] + s->w[2]);
+}
+
+/* The contact that is due with all that lasts at the same time. Returns false where there is nothing else. Each contact is an
+ * event. A ball changes at its first one, and has the same state before and after the others. *due becomes a contact of the
+ * struck ball, where it has one. Apart, as a cluster needs 20 KiB of stack. */
+__attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *due, carom_status *status) {
+  carom_cluster_state c;
+  uint8_t order[CAROM_CLUSTER_CONTACTS];
+  const int count = carom_cluster_now(sim, due->a, due->b, &c, order);
+  if (count == 0)
+    return false;
+  *status = CAROM_OK;
+  bool changed[CAROM_BALLS_MOST] = {false};
+  const int struck = sim->struck;
+  for (int k = 0; k < count; k++) {
+    const carom_cluster_contact_state *x = &c.contact[order[k]];
+    const carom_cluster_ball *two[2] = {&c.ball[x->i], &c.ball[x->j]};
+    const carom_due contact = {sim->now, CAROM_EVENT_BALL_BALL, two[0]->which, two[1]->which};
+    if (contact.a == struck || (contact.b == struck && due->a != struck && due->b != struck))
+      *due = contact;
+    carom_event spare, *event = note(sim, &spare, &contact);
+    event->cluster = count;
+    for (int side = 0; side < 2; side++) {
+      const int i = two[side]->which;
+      carom_path *path = &sim->path[i];
+      if (changed[i]) {
+        event->before[side] = path->from;
+      } else {
+        changed[i] = true;
+        carom_path_at(path, &sim->rates[i], sim->now, &event->before[side]);
+        path->from = event->before[side];
+        carom_cluster_take(two[side], &path->from);
+        carom_label_after(c.in_space, &sim->ball[i].kind, &path->from);
+        if (!is_finite(&path->from)) {
+          *status = CAROM_ERROR_OVERFLOW;
+          path->from = event->before[side];
+        }
+        carom_path_begin(path, &sim->rates[i], sim->now);
+      }
+      event->after[side] = path->from;
+    }
+  }
+  carom_detect_all(sim);
+  return true;
+}
+
+/* Whether a contact may be one of several that last. */
+static inline bool may_last(const carom_sim *sim, const carom_due *due) {
+  const carom_shot_options *opt = sim->opt;
+  const carom_ball_model model = opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? opt->ball_model : sim->rules->ball_model;
+  return due->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters && opt->simultaneous == CAROM_SIMULTANEOUS_CLUSTER &&
+         (model == CAROM_BALL_MODEL_EXACT || model == CAROM_BALL_MODEL_MIRROR) && sim->one_by_one != sim->now &&
+         carom_third_is_near(sim, due->a, due->b);
+}
+
+/* One event, or those of a cluster. */
+static carom_status step(carom_sim *sim, carom_due *due) {
+  carom_status together;
+  if (may_last(sim, due) && step_together(sim, due, &together))
+    return together;
   carom_event spare, *event = note(sim, &spare, due);
   const int i = due->a, j = due->type == CAROM_EVENT_BALL_BALL ? due->b : -1;
   carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &event->before[0]);
@@ -159,7 +220,7 @@ static carom_status go_on(carom_sim *sim) {
   const double time_most = sim->opt->time_most > 0.0 ? sim->opt->time_most : 1000.0;
   carom_status status = CAROM_OK;
   while (status == CAROM_OK) {
-    const carom_due due = carom_next(sim);
+    carom_due due = carom_next(sim);
     if (due.type < 0)
       break;
     if (due.time > time_most) {
@@ -233,7 +294,7 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
     sim.now = 0.0;
     sim.round = 0;
     sim.slow_instants = 0;
-    sim.slow_last = -1.0;
+    sim.slow_last = sim.one_by_one = -1.0;
     if (shot->state != NULL)
       carom_state_begin(&sim);
     begin(&sim);

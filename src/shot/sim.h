@@ -32,6 +32,7 @@ typedef struct carom_sim {
   double now;
   int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */
   double slow_last;      /* s: the last of them */
+  double one_by_one;     /* s: the instant of a cluster that took too many steps; its contacts are resolved one by one */
   int64_t round;         /* events so far: tells when an entry below was computed */
   carom_ball_rates rates[CAROM_BALLS_MOST];
   carom_path path[CAROM_BALLS_MOST];
@@ -111,6 +112,8 @@ carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, con
 void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a, const carom_ball_kind *kind_b,
                            const carom_ball_state *b, double n[3]);
 carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
+/* resolve.c: the phase of a ball after a contact, which may have lifted it or pushed it down if it was in space. */
+void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *s);
 /* models.c: friction of a ball with others, over the slip: its own law, or Alciatore's. A pair has the mean. */
 carom_speed_law carom_law_of_ball(const carom_ball_kind *kind);
 

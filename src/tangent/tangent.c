@@ -77,6 +77,8 @@ static carom_status check(const carom_table *table, int count, const carom_cue *
     const carom_status status = check_event(table, count, cue, &shot->events[k], k > 0 ? shot->events[k - 1].time : 0.0);
     if (status != CAROM_OK)
       return status;
+    if (shot->events[k].cluster > 0)
+      return CAROM_ERROR_TANGENT;
   }
   return CAROM_OK;
 }

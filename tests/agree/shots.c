@@ -387,7 +387,9 @@ TEST(stopped_and_continued) {
         } else if (parts->status == CAROM_STOPPED_AT_EVENT) {
           const carom_event *last = &parts->events[parts->shot.count - 1];
           ck_assert_double_eq(parts->shot.time, last->time);
-          const bool contact = last->type == CAROM_EVENT_BALL_BALL && (last->a == s.cue.ball || last->b == s.cue.ball);
+          bool contact = false; /* of the cue ball: the last event, or one of the cluster that ends with it */
+          for (int k = 0; last->type == CAROM_EVENT_BALL_BALL && k <= (last->cluster > 0 ? last->cluster - 1 : 0); k++)
+            contact |= last[-k].a == s.cue.ball || last[-k].b == s.cue.ball;
           ck_assert((o.stop_at & CAROM_STOP_AT(last->type)) || ((o.stop_at & CAROM_STOP_AT_CONTACT) && contact));
           for (int k = 0; k < s.count; k++)
             if (k == last->a)
@@ -422,8 +424,9 @@ TEST(first_contact) {
   for (int k = 0; k < FEW; k++) {
     ck_assert_int_eq(batch->status[k], CAROM_STOPPED_AT_EVENT);
     const carom_event *last = &batch->shot[k].events[batch->shot[k].count - 1];
-    ck_assert(last->type == CAROM_EVENT_BALL_BALL && last->a == 0);
-    for (int64_t e = 0; e < batch->shot[k].count - 1; e++)
+    const int64_t contact = batch->shot[k].count - (last->cluster > 0 ? last->cluster : 1); /* the first of a cluster */
+    ck_assert(last->type == CAROM_EVENT_BALL_BALL && batch->shot[k].events[contact].a == 0);
+    for (int64_t e = 0; e < contact; e++)
       ck_assert_int_ne(batch->shot[k].events[e].type, CAROM_EVENT_BALL_BALL);
     options.stop_at = 0;
     batch->status[k] = (int8_t)carom_shot_continue(&table, balls + 16 * k, 16, &options, &batch->shot[k]);

@@ -162,11 +162,11 @@ TEST(pressed_line) {
     ends_well(&t, b, 27, 8000);
     ends_well(&t, b, CAROM_BALLS_MOST, 8000);
   }
-  /* balls that hardly hop stay together: as far as with s = 0.1 mm/s throughout, 95,821 events */
+  /* balls that hardly hop stay nearly together: as far as one by one with s = 0.1 mm/s throughout, 95,821 events */
   b[0].state.w[1] = 200.0;
   ends_well(&t, b, 4, 3000);
   for (int k = 0; k < 4; k++)
-    ck_assert_double_eq_tol(final[k].r[0] - b[k].state.r[0], 0.7486, 0.03);
+    ck_assert_double_eq_tol(final[k].r[0] - b[k].state.r[0], 0.7486, 0.06);
 }
 
 /* A frozen triangle that a ball with spin presses on: balls at relative rest that only rounding presses were in contact without

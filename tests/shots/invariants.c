@@ -205,6 +205,32 @@ static double momentum_change(const follower *f, const carom_event *e) {
   return length2(change[0], change[1]) / allowed;
 }
 
+/* The same for the contacts of a cluster together. The loads of all its balls press on the cloth: friction's part of the normal
+ * impulses, of which each contact has at most as much as the balls of the cluster change together. */
+static double momentum_change_of_cluster(const follower *f, const carom_event *e) {
+  double change[3] = {0.0}, sum = 0.0, mass = 0.0, mu = 0.0;
+  bool space = false, changed[CAROM_BALLS_MOST] = {false};
+  for (int k = 0; k < e->cluster; k++)
+    for (int side = 0; side < 2; side++) {
+      const int i = side == 0 ? e[k].a : e[k].b;
+      if (changed[i])
+        continue;
+      changed[i] = true;
+      const carom_ball_kind *kind = &f->balls[i].kind;
+      double own[3];
+      for (int axis = 0; axis < 3; axis++) {
+        own[axis] = kind->mass * (e[k].after[side].v[axis] - e[k].before[side].v[axis]);
+        change[axis] += own[axis];
+      }
+      sum += hypot(length2(own[0], own[1]), own[2]);
+      mass += kind->mass;
+      mu = fmax(mu, kind->mu_slide);
+      space |= flies(&e[k].before[side]) || kind->radius != f->balls[e->a].kind.radius;
+    }
+  const double size = hypot(length2(change[0], change[1]), change[2]);
+  return size / (space ? 1e-13 + 1e-9 * mass : 1e-13 + mu * 0.12 * e->cluster * sum);
+}
+
 shot_measures shot_measure(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot *shot,
                            carom_status status, int samples) {
   follower f = {.before = *shot, .table = table, .balls = balls, .count = count, .m = {.worst_at = "-"}, .energy = INFINITY};
@@ -228,15 +254,22 @@ shot_measures shot_measure(const carom_table *table, const carom_shot_ball *ball
     go(&f, now);
     measure_energy(&f);
     measure_places(&f);
-    const int sides = e->type == CAROM_EVENT_BALL_BALL ? 2 : 1;
-    for (int side = 0; side < sides; side++) {
-      const int i = side == 0 ? e->a : e->b;
-      f.m.jump = fmax(f.m.jump, jump_of(&f.at[i], &e->before[side], balls[i].kind.radius));
-      f.from[i] = f.at[i] = e->after[side];
+    /* an event, or all of a cluster, which balance together */
+    const int together = e->cluster > 0 ? e->cluster : 1;
+    for (int side = 0; side < 2 * together; side++) {
+      const carom_event *one = &e[side / 2];
+      if (side % 2 == 1 && e->type != CAROM_EVENT_BALL_BALL)
+        continue;
+      const int i = side % 2 == 0 ? one->a : one->b;
+      f.m.jump = fmax(f.m.jump, jump_of(&f.at[i], &one->before[side % 2], balls[i].kind.radius));
+      f.from[i] = f.at[i] = one->after[side % 2];
       f.since[i] = now;
     }
-    if (e->type == CAROM_EVENT_BALL_BALL)
+    if (e->cluster > 0)
+      f.m.momentum = fmax(f.m.momentum, momentum_change_of_cluster(&f, e));
+    else if (e->type == CAROM_EVENT_BALL_BALL)
       f.m.momentum = fmax(f.m.momentum, momentum_change(&f, e));
+    k += together - 1;
     f.before.count = k + 1;
     f.last_type = e->type;
     if (e->type == CAROM_EVENT_STRIKE)

@@ -471,6 +471,8 @@ export class Carom {
     i32[(at + o.ballModel) / 4] = value("CAROM_BALL_MODEL_", options.ballModel ?? "default", "ballModel");
     i32[(at + o.cushionModel) / 4] = value("CAROM_SHOT_CUSHION_", options.cushionModel ?? "default", "cushionModel");
     i32[(at + o.space) / 4] = value("CAROM_SPACE_", options.space ?? "3d", "space");
+    i32[(at + o.simultaneous) / 4] = value("CAROM_SIMULTANEOUS_", options.simultaneous ?? "cluster", "simultaneous");
+    i32[(at + o.clusterSteps) / 4] = whole(options.clusterSteps, "clusterSteps");
     i32[(at + o.friction) / 4] = value("CAROM_FRICTION_", options.friction ?? "alciatore", "friction");
     i32[(at + o.steps) / 4] = whole(options.steps, "steps");
     this.#writeStops(options);

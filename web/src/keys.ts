@@ -16,7 +16,7 @@ export const KEYS = {
   ball: all<ShotBall>({ kind: 1, state: 1 }),
   table: all<Table>({ width: 1, length: 1, ballRadius: 1, railWidth: 1, pocketBack: 1, rails: 1, jaws: 1, pockets: 1 }),
   stop: all<StopOptions>(STOP),
-  shot: all<ShotOptions>({ world: 1, ballModel: 1, cushionModel: 1, space: 1, friction: 1, steps: 1, ...STOP }),
+  shot: all<ShotOptions>({ world: 1, ballModel: 1, cushionModel: 1, space: 1, simultaneous: 1, clusterSteps: 1, friction: 1, steps: 1, ...STOP }),
   line: all<Line>({ id: 1, tableName: 1, table: 1, names: 1, balls: 1, cue: 1 }),
   rack: ["gap", "seed"],
   room: ["room"],

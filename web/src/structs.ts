@@ -159,5 +159,6 @@ export function readEvent(memory: Memory, at: Pointer, typeName: (type: number) 
     b: i32[(at + EVENT.b) / 4]!,
     before: states(EVENT.before),
     after: states(EVENT.after),
+    cluster: i32[(at + EVENT.cluster) / 4]!,
   };
 }

@@ -320,6 +320,10 @@ export interface ShotOptions extends StopOptions {
   cushionModel?: "default" | CushionModel;
   /** "3d" (default): balls hop, jump and leave the table. "flat": they stay on the cloth. */
   space?: "3d" | "flat";
+  /** Contacts of several balls at one instant: they last and overlap in time (default), or they are resolved one after the other. */
+  simultaneous?: "cluster" | "pairs";
+  /** Of the integrator of clusters, for the duration of a contact; default 25. */
+  clusterSteps?: number;
   /** Between balls: by their speed of slip (default), or muBall. */
   friction?: "alciatore" | "constant";
   /** Of Euler's models; default 1000. */
@@ -339,6 +343,8 @@ export interface ShotEvent {
   before: BallState[];
   /** States after. */
   after: BallState[];
+  /** Of the contact of two balls: how many contacts its cluster has, whose events follow each other; 0: it is alone. */
+  cluster: number;
 }
 
 /** What the cue ball touches first. */

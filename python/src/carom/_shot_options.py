@@ -16,6 +16,7 @@ BallModel = Literal["default", "exact", "euler", "inelastic", "mirror"]
 ShotCushion = Literal["default", "mathavan", "stronge", "han", "mirror", "euler"]
 Friction = Literal["alciatore", "constant"]
 Space = Literal["3d", "flat"]
+Simultaneous = Literal["cluster", "pairs"]
 StopAt = Literal[
     "contact", "strike", "ball_ball", "rail", "jaw", "pocket", "sliding_rolling", "rolling_spinning", "rolling_stationary",
     "spinning_stationary", "slate", "rail_top", "left_table",
@@ -25,6 +26,7 @@ _BALL_MODELS = {"default": 0, "exact": 1, "euler": 2, "inelastic": 3, "mirror": 
 _CUSHIONS = {"default": 0, "mathavan": 1, "stronge": 2, "han": 3, "mirror": 4, "euler": 5}
 _FRICTIONS = {"alciatore": 0, "constant": 1}
 _SPACES = {"3d": 0, "flat": 1}
+_SIMULTANEOUS = {"cluster": 0, "pairs": 1}
 # CAROM_STOP_AT_CONTACT, and CAROM_STOP_AT() of the values of carom_event_type.
 _STOPS: dict[str, int] = {name: k for k, name in enumerate(StopAt.__args__)}  # type: ignore[attr-defined]
 
@@ -45,6 +47,11 @@ class Options(NamedTuple):
         Between balls: by the speed of slip, or the balls' mu_ball.
     space : {"3d", "flat"}
         Whether balls can leave the cloth, as by an elevated cue. The world pooltool is flat.
+    simultaneous : {"cluster", "pairs"}
+        Contacts of several balls at one instant, as in a rack: they last and overlap in time, or they are resolved one after the other. The world
+        pooltool and the ball models euler and inelastic have pairs.
+    cluster_steps : int
+        Of the integrator of clusters, for the duration of a contact, at most 10000; 0 is 25.
     steps : int
         Of Euler's models; 0 is 1000.
     events_most : int
@@ -64,6 +71,8 @@ class Options(NamedTuple):
     cushion_model: ShotCushion = "default"
     friction: Friction = "alciatore"
     space: Space = "3d"
+    simultaneous: Simultaneous = "cluster"
+    cluster_steps: int = 0
     steps: int = 0
     events_most: int = 0
     plain: bool = False
@@ -89,6 +98,8 @@ if TYPE_CHECKING:
         cushion_model: ShotCushion
         friction: Friction
         space: Space
+        simultaneous: Simultaneous
+        cluster_steps: int
         steps: int
         events_most: int
         plain: bool
@@ -99,15 +110,17 @@ if TYPE_CHECKING:
 @functools.lru_cache(maxsize=256)
 def shot_options(given: Options, threads: int = 0) -> Any:
     """The options of C; they are never written to."""
-    world, ball_model, cushion_model, friction, space, steps, events_most, plain, t_final, stop_at = given
+    world, ball_model, cushion_model, friction, space, simultaneous, cluster_steps, steps, events_most, plain, t_final, stop_at = given
     if t_final is not None and not 0.0 < t_final < np.inf:
         raise ValueError(f"t_final: it must be positive and finite, in s, or None, not {t_final}")
     stops = (stop_at,) if isinstance(stop_at, str) else tuple(stop_at)
     named = {
         "world": choice(_WORLDS, world, "world"), "ball_model": choice(_BALL_MODELS, ball_model, "ball_model"),
         "cushion_model": choice(_CUSHIONS, cushion_model, "cushion_model"), "friction": choice(_FRICTIONS, friction, "friction"),
+        "simultaneous": choice(_SIMULTANEOUS, simultaneous, "simultaneous"),
         "space": choice(_SPACES, space, "space"), "stop_at": sum({1 << choice(_STOPS, stop, "stop_at") for stop in stops}),
     }  # fmt: skip
     numbers = {"steps": whole(steps, "steps"), "events_most": whole(events_most, "events_most"), "plain": whole(plain, "plain", most=1)}
+    numbers["cluster_steps"] = whole(cluster_steps, "cluster_steps", most=10000)
     numbers["threads"] = whole(threads, "threads", least=-1)
     return ffi.new("carom_shot_options *", {**named, **numbers, "time_most": t_final or 0.0})
