@@ -171,10 +171,10 @@ typedef enum carom_status {
   CAROM_ERROR_OVERLAP = -46,         /* two balls overlap by more than 1e-6 m. */
   CAROM_ERROR_OFF_TABLE = -47,       /* a ball is in or behind a cushion, in a pocket, or not at the height of its radius. */
   CAROM_ERROR_MU_MOTION = -48,       /* a friction of sliding, rolling or spinning is not above 0 and at most 1. */
-  CAROM_ERROR_GRAVITY = -49,         /* gravity is not positive and finite. */
+  CAROM_ERROR_GRAVITY = -49,         /* gravity is not above 0 and at most 1e6 m/s^2. */
   CAROM_ERROR_CUE = -50,             /* a field of the cue is out of its range. */
   CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below miscue^2. */
-  CAROM_ERROR_TABLE = -52, /* the table has too many parts, or a part that is not finite, has no length, or a bad mu or e. */
+  CAROM_ERROR_TABLE = -52, /* too many parts, or one not finite, without length, with a bad mu or e; or a small rail_width. */
   CAROM_ERROR_RACK = -53,  /* no such rack, a gap that is not between 0 and R, or too little room. */
   CAROM_ERROR_EVENTS_LOST = -54,   /* carom_shot_at(): the shot had more events than there was room for. */
   CAROM_ERROR_TIME = -55,          /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */

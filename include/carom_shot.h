@@ -187,7 +187,7 @@ typedef struct carom_ball_kind {
   double restitution;         /* ball and ball, 0 to 1; a pair has the mean. Pool 0.95. */
   double mu_cushion;          /* ball and cushion, 0 to 1. Pool 0.2. */
   double restitution_cushion; /* ball and cushion, 0 to 1. Pool 0.85. */
-  double gravity;             /* g, m/s^2, > 0. */
+  double gravity;             /* g, m/s^2, > 0, at most 1e6. */
   double drag;                /* k, 1/m, 0 to 1: a rolling ball slows by mu_roll g + k v^2, m/s^2. 0: by mu_roll g alone. */
   double roll_loss; /* 0 to 1: an impact on a cushion takes this part of the ball's speed along the cushion from its roll
                        along it: from R w_n, w_n the spin about the normal, which does not fall below 0 by it. */
@@ -207,7 +207,8 @@ typedef struct carom_ball_state {
   double v[3];   /* velocity, m/s; v[2] = 0 on the cloth. */
   double w[3];   /* angular velocity, rad/s. */
   int64_t label; /* a carom_label. In a layout POCKETED, AIRBORNE and OFF are kept and the others derived: AIRBORNE where v[2]
-                    is not 0 or the ball is more than 1e-6 m above the cloth, else from v and w. */
+                    is not 0 or the ball is more than 1e-6 m above the cloth, else from v and w: a slip or a speed of at most
+                    1e-12 m/s counts as 0. */
 } carom_ball_state;
 
 typedef struct carom_shot_ball {
@@ -265,7 +266,8 @@ typedef struct carom_table {
   /* Read with CAROM_SPACE_3D only. All >= 0, m; 0 means the default. */
   double ball_radius; /* of the balls that touch a rail on the cloth when their centre is their radius from its line, which
                          places the nose; 0: that of the last ball of the layout. */
-  double rail_width;  /* of the tops of the rails, behind the noses, which balls may fall on; 0: 0.12 m, a convention. */
+  double rail_width;  /* of the tops of the rails, behind the noses, which balls may fall on; at least the radius of the
+                         largest ball; 0: 0.12 m, a convention. */
   double pocket_back; /* an airborne ball over a pocket falls into it if its centre is not higher than this above the cloth
                          where it leaves the circle; 0: the greatest height of a nose. */
 } carom_table;
@@ -496,7 +498,8 @@ typedef struct carom_shot {
 /* The collision of two spheres in space along any line of centres: one impulse in closed form, of any radii and masses, with
  * restitution e and Coulomb's friction mu_ball, which stops the slip or slips to the end. The cloth takes no part: mu_cloth is
  * not read. Only the direction of b.r - a.r counts. CAROM_OK; CAROM_SEPARATING where the balls do not close, with the motion
- * before; or an error of a field, with *out all NaN (untouched when a pointer is NULL). */
+ * before; an error of a field; or CAROM_ERROR_OVERFLOW where speeds are above 1e300 m/s or impulses are not within 1e-290 to
+ * 1e300 kg m/s. With an error *out is all NaN (untouched when a pointer is NULL). */
 CAROM_API carom_status carom_impact3(const carom_impact *in, carom_result *out);
 
 /* One contact of a cluster. */

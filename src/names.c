@@ -57,12 +57,13 @@
   X(ERROR_OVERLAP, -46, "overlap", "two balls overlap")                                                                        \
   X(ERROR_OFF_TABLE, -47, "off_table", "a ball is not on the table")                                                           \
   X(ERROR_MU_MOTION, -48, "bad_mu_motion", "frictions of sliding, rolling and spinning must be above 0 and at most 1")         \
-  X(ERROR_GRAVITY, -49, "bad_gravity", "gravity must be positive and finite")                                                  \
+  X(ERROR_GRAVITY, -49, "bad_gravity", "gravity must be above 0 and at most 1e6 m/s^2")                                        \
   X(ERROR_CUE, -50, "bad_cue",                                                                                                 \
     "the cue must have a speed of 0 to 1000 m/s, a direction, an elevation of 0 to 90 degrees, positive masses, and a ball")   \
   X(ERROR_MISCUE, -51, "miscue", "the tip misses the ball: a^2 + b^2 must be below miscue^2, which is 1 by default")           \
   X(ERROR_TABLE, -52, "bad_table",                                                                                             \
-    "the table has too many parts, or a part that is not finite, has no length, or friction or restitution outside 0 to 1")    \
+    "the table has too many parts, a part that is not finite or has no length, friction or restitution outside 0 to 1, or a "  \
+    "rail_width below the radius of a ball")                                                                                   \
   X(ERROR_RACK, -53, "bad_rack", "no such rack, or its gap is not between 0 and R, or there is too little room")               \
   X(ERROR_EVENTS_LOST, -54, "events_lost", "the shot had more events than there was room for, so the state then is not known") \
   X(ERROR_TIME, -55, "bad_time", "the time is not a number, or after the end of a shot that was stopped while balls moved")    \

@@ -68,7 +68,7 @@ static carom_status check_kind(const carom_ball_kind *k) {
     return CAROM_ERROR_BALL_CUSHION;
   if (!(k->modulus == 0.0 || (k->modulus >= 1e6 && k->modulus <= 1e15)))
     return CAROM_ERROR_MODULUS;
-  return carom_is_positive(k->gravity) ? CAROM_OK : CAROM_ERROR_GRAVITY;
+  return k->gravity > 0.0 && k->gravity <= 1e6 ? CAROM_OK : CAROM_ERROR_GRAVITY;
 }
 
 static bool bounded(const double x[3], double most) {

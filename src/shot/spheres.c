@@ -42,16 +42,28 @@ static double relative_motion(const carom_impact *in, const double n[3], double 
   return v_n;
 }
 
+/* |u|, by the largest component first where a square would overflow or vanish. */
+static double size_of(const double u[3]) {
+  const double square = dot(u, u);
+  if (square > 1e-280 && square < 1e300)
+    return sqrt(square);
+  const double most = fmax(fmax(fabs(u[0]), fabs(u[1])), fabs(u[2]));
+  if (!(most > 0.0 && most < INFINITY))
+    return sqrt(square);
+  const double unit[3] = {u[0] / most, u[1] / most, u[2] / most};
+  return most * sqrt(dot(unit, unit));
+}
+
 double carom_spheres_slip(const carom_impact *in, const double n[3]) {
   double u[3];
   relative_motion(in, n, u);
-  return sqrt(dot(u, u));
+  return size_of(u);
 }
 
 void carom_spheres_collide(const carom_impact *in, const double n[3], carom_result *out) {
   const carom_ball *a = &in->a, *b = &in->b;
   double u[3], turn[3];
-  const double v_n = relative_motion(in, n, u), slip = sqrt(dot(u, u)), B = 1.0 / a->mass + 1.0 / b->mass;
+  const double v_n = relative_motion(in, n, u), slip = size_of(u), B = 1.0 / a->mass + 1.0 / b->mass;
   const double J = (1.0 + in->restitution) * v_n / B, stops = slip / (3.5 * B), most = in->mu_ball * J;
   const double J_t = most < stops ? most : stops;
   /* u becomes the direction t */
@@ -105,6 +117,12 @@ static carom_status direction(const carom_impact *in, double n[3]) {
   return CAROM_OK;
 }
 
+/* Whether no impulse overflows or vanishes: closing speed v_n, slip, impulse along n. */
+static bool in_range(const carom_impact *in, double v_n, double slip) {
+  const double least = 1e-290, most = 1e300, B = 1.0 / in->a.mass + 1.0 / in->b.mass, J = v_n / B;
+  return v_n < most && slip < most && B < most && J < most && J > least && slip / B < most;
+}
+
 static carom_status solve(const carom_impact *in, carom_result *out) {
   double n[3], u[3];
   carom_status status = check_ball(&in->a);
@@ -116,7 +134,8 @@ static carom_status solve(const carom_impact *in, carom_result *out) {
   status = status == CAROM_OK ? direction(in, n) : status;
   if (status != CAROM_OK)
     return status;
-  if (relative_motion(in, n, u) <= 0.0) {
+  const double v_n = relative_motion(in, n, u);
+  if (v_n <= 0.0) {
     for (int k = 0; k < 3; k++) {
       out->a.v[k] = in->a.v[k];
       out->a.w[k] = in->a.w[k];
@@ -125,6 +144,8 @@ static carom_status solve(const carom_impact *in, carom_result *out) {
     }
     return CAROM_SEPARATING;
   }
+  if (!in_range(in, v_n, size_of(u)))
+    return CAROM_ERROR_OVERFLOW;
   carom_spheres_collide(in, n, out);
   const bool good = all_finite(out->a.v) && all_finite(out->a.w) && all_finite(out->b.v) && all_finite(out->b.w);
   return good ? CAROM_OK : CAROM_ERROR_OVERFLOW;

@@ -57,6 +57,9 @@ carom_status carom_prepare_table(const carom_table *t, double least, double grea
                                  carom_features *features, int *where) {
   if (features->radius == greatest && features->least == least && features->reference == reference)
     return CAROM_OK;
+  /* a ball that is behind a narrower top could be below it and clear of the nose, and so come over the nose from behind */
+  if (t->rail_width > 0.0 && t->rail_width < greatest)
+    return at(where, -1, CAROM_ERROR_TABLE);
   const double lowest = carom_lesser(least, reference);
   for (int k = 0; k < t->rails; k++)
     if (!good_height(t->rail[k].height, lowest))

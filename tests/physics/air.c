@@ -449,6 +449,27 @@ TEST(spheres) {
   in.b.v[0] = -1e308;
   REFUSED(a.v[0], 1.7e308, CAROM_ERROR_OVERFLOW);
   in.b.v[0] = 0.0;
+  REFUSED(a.mass, 1e-310, CAROM_ERROR_OVERFLOW);
+  /* friction at any speed: the same as at 1 m/s, in that unit */
+  static const double units[] = {1e-280, 1e-200, 1e-160, 1e-100, 1e150, 1e155, 1e200, 1e290};
+  const carom_impact slow = {.a = {.v = {1, 0.5, 0.2}, .w = {5, 7, 9}, .radius = R, .mass = 1},
+                             .b = {.r = {1, 0, 0}, .radius = R, .mass = 1},
+                             .mu_ball = 0.1,
+                             .restitution = 0.9};
+  carom_result expected;
+  ck_assert_int_eq(carom_impact3(&slow, &expected), CAROM_OK);
+  for (int n = 0; n < 8; n++) {
+    carom_impact fast = slow;
+    for (int k = 0; k < 3; k++) {
+      fast.a.v[k] *= units[n];
+      fast.a.w[k] *= units[n];
+    }
+    ck_assert_int_eq(carom_impact3(&fast, &out), CAROM_OK);
+    for (int k = 0; k < 3; k++) {
+      NEAR(out.a.v[k] / units[n], expected.a.v[k], 1e-14);
+      NEAR(out.b.w[k] / units[n], expected.b.w[k], 1e-12);
+    }
+  }
   in.a.v[0] = -1.0;
   ck_assert_int_eq(carom_impact3(&in, &out), CAROM_SEPARATING);
   ck_assert_double_eq(out.a.v[0], -1.0);
