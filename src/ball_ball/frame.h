@@ -93,7 +93,7 @@ static inline void carom_from_frame(const carom_frame *f, const carom_local *c, 
   }
 }
 
-/* ---- Results: what they are when nothing was solved, and whether they are any ---- */
+/* ---- Results where nothing was solved, and whether they are finite ---- */
 
 /* After an error. */
 static inline void carom_fill_nan(carom_result *out) {

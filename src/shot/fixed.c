@@ -64,7 +64,7 @@ double carom_rebound(double v_n, double e) {
 
 void carom_hit_slate(const carom_ball_kind *kind, carom_ball_state *s) {
   static const double down[3] = {0.0, 0.0, -1.0};
-  const double e = carom_slate_restitution(kind);
+  const double e = carom_slate_restitution(kind->restitution_table);
   const carom_touch touch = carom_touch_of(down, kind->radius, s);
   const double v_n = touch.closing > 0.0 ? touch.closing : 0.0, up = carom_rebound(v_n, e), J = v_n + up;
   carom_take_impulse(&touch, kind->radius, J, carom_coulomb(&touch, kind->mu_slide, J), s);

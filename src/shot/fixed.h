@@ -24,9 +24,8 @@ double carom_coulomb(const carom_touch *touch, double mu, double J);
 /* The speed at which a ball that falls at v_n on the slate leaves it, for a restitution e. */
 double carom_rebound(double v_n, double e);
 
-/* Of a ball with the slate: 0 stands for the default, -1 for none. */
-static inline double carom_slate_restitution(const carom_ball_kind *kind) {
-  const double given = kind->restitution_table;
+/* Of a ball with the slate, from restitution_table of its kind: 0 stands for the default, -1 for none. */
+static inline double carom_slate_restitution(double given) {
   return given == 0.0 ? 0.5 : given > 0.0 ? given : 0.0;
 }
 

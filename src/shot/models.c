@@ -1,7 +1,6 @@
 /* Collisions of balls with each other and with cushions, by the model that the options ask for. */
 #include "cushion/models.h"
-#include "ball_ball/arguments.h"
-#include "platform/elementary.h"
+#include "ball_ball/friction.h"
 #include "shot/fixed.h"
 #include "shot/rules.h"
 #include "shot/spheres.h"
@@ -36,7 +35,7 @@ static double friction_of(const carom_sim *sim, int i, int j, double slip) {
   if (sim->opt->friction == CAROM_FRICTION_CONSTANT)
     return 0.5 * (sim->ball[i].kind.mu_ball + sim->ball[j].kind.mu_ball);
   const carom_speed_law law = law_of(&sim->ball[i].kind, &sim->ball[j].kind);
-  return law.a + law.b * carom_exp(-law.c * slip);
+  return carom_friction_at(&law, slip);
 }
 
 /* Normal velocities by the restitution: w, the same for each unit of mass. */

@@ -288,7 +288,7 @@ CAROM_APART void note_grazing(scene *s, real rate) {
     }
     grazes = __builtin_fabs(rate) < GRAZING * __builtin_sqrt(square);
   } else if (e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP) {
-    const real given = s->ball[0].kind.restitution_table.x, rebound = given == 0 ? 0.5 : given > 0 ? given : 0, v_n = -a->v[2];
+    const real rebound = ::carom_slate_restitution(s->ball[0].kind.restitution_table.x), v_n = -a->v[2];
     const real up = ::carom_rebound(v_n > 0 ? v_n : 0, rebound);
     grazes = up<GRAZING * rebound * v_n && ::carom_rebound((1 + GRAZING) * v_n, rebound)> 0;
   }

@@ -371,7 +371,7 @@ static void take_rails(carom_reach *reach, const carom_event *event, carom_tange
 static void take_landing(carom_reach *reach, const carom_event *event, carom_tangent_rows d) {
   const carom_tangent_work *w = reach->work;
   const carom_ball_state *s = &event->before[0];
-  const double given = w->ball[event->a].kind->restitution_table, e = given == 0.0 ? 0.5 : given > 0.0 ? given : 0.0;
+  const double e = carom_slate_restitution(w->ball[event->a].kind->restitution_table);
   /* the least fall after which the ball hops */
   double low = 0.0, high = e > 0.0 ? 1.0 / e : 0.0;
   for (int k = 0; k < BISECTIONS && e > 0.0; k++) {
