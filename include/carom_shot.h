@@ -428,7 +428,9 @@ typedef struct carom_shot_options {
   carom_simultaneous simultaneous;
   int32_t cluster_steps; /* of the integrator of clusters, for the duration of a contact, at most 10000; 0: 25. */
   int32_t unused;        /* must be 0. */
-  uint64_t reserved[2];  /* must be 0. */
+  uint64_t first_of;     /* the shot is stopped right after the first contact of the cue ball with another ball, with
+                            CAROM_STOPPED_AT_EVENT, unless that ball is of this set: bit k is ball k. 0: it is not stopped. */
+  uint64_t reserved[1];  /* must be 0. */
 } carom_shot_options;
 
 /* ---- What happened ---------------------------------------------------------------------------------------------------- */
@@ -480,6 +482,22 @@ typedef struct carom_shot_state {
   uint64_t opaque[4096];
 } carom_shot_state;
 
+/* What happened in a shot, for rules of games. The library fills it in while the shot is played, so no event has to be kept. An
+ * index is -1 and a time infinite where there is none. The cue ball is that of the cue, or ball 0 without a cue. A cushion is a
+ * rail or a jaw. Bit k of a set is ball k. */
+typedef struct carom_facts {
+  int32_t first[2];                 /* the first two different balls that the cue ball met, */
+  int32_t cushions_before[2];       /* impacts of the cue ball on cushions before it met each of them; 0 where it met none, */
+  double first_time[2];             /* and when it met them, s. */
+  int32_t cushions_after;           /* impacts of all balls on cushions after the first contact. */
+  uint32_t down;                    /* the set of the balls that fell into a pocket in this shot, */
+  uint32_t off;                     /* of those that left the table in this shot, */
+  uint32_t moved;                   /* and of those that were struck or met by another ball. */
+  int32_t pocket[CAROM_BALLS_MOST]; /* the pocket that took each ball in this shot, */
+  double pocket_time[CAROM_BALLS_MOST]; /* and when, s. */
+  int32_t cushions[CAROM_BALLS_MOST];   /* impacts of each ball on cushions. */
+} carom_facts;
+
 /* The result of a shot. All zero is a shot of which only count and time are wanted; the caller sets what else is. */
 typedef struct carom_shot {
   carom_event *events;      /* in the order in which they happened; the first `room` of them are kept. May be NULL, */
@@ -492,7 +510,8 @@ typedef struct carom_shot {
                   rolled, up to when they were followed. carom_shot_at() knows no later state of a shot that ended
                   while balls moved. */
   carom_shot_state *state; /* where the shot leaves what carom_shot_continue() needs; may be NULL. */
-  uint64_t reserved[4];    /* not read or written yet. */
+  carom_facts *facts;      /* what happened; may be NULL. carom_shot_continue() adds to the facts of the shot so far. */
+  uint64_t reserved[3];    /* not read or written yet. */
 } carom_shot;
 
 /* The collision of two spheres in space along any line of centres: one impulse in closed form, of any radii and masses, with

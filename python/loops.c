@@ -23,24 +23,17 @@ carom_status carom_python_orientations(const carom_shot_ball *balls, int count, 
 /* What one thread needs for shots that are played again, and the job. */
 typedef struct looking {
   const carom_shot_job *job;
-  bool full; /* whether states are needed, or events without them will do */
   int64_t room;
   carom_event *events;
-  carom_brief_event *brief;
   carom_ball_state *final, *states; /* at the end of a shot played again, and at all times */
 } looking;
 
 /* Room for so many events. */
 static bool make_room(looking *with, int64_t room) {
   with->room = room;
-  if (with->full) {
-    free(with->events);
-    with->events = malloc((size_t)room * sizeof *with->events);
-    return with->events != NULL;
-  }
-  free(with->brief);
-  with->brief = malloc((size_t)room * sizeof *with->brief);
-  return with->brief != NULL;
+  free(with->events);
+  with->events = malloc((size_t)room * sizeof *with->events);
+  return with->events != NULL;
 }
 
 /* Plays shot k with room for all of its events. A shot of more than there is room for is played again, with enough. */
@@ -50,8 +43,8 @@ static bool play_whole(looking *with, size_t k, carom_shot *shot, carom_status *
   do {
     if (shot->count > with->room && !make_room(with, shot->count))
       return false;
-    shot->events = with->full ? with->events : NULL;
-    shot->brief = with->full ? NULL : with->brief;
+    shot->events = with->events;
+    shot->brief = NULL;
     shot->room = with->room;
     *status = carom_shoot(job->table, job->balls + k * job->ball_stride, (int)job->count, cue, job->options, shot);
   } while (shot->count > with->room);
@@ -69,71 +62,18 @@ static carom_status look_at_times(const looking *with, size_t k, const carom_sho
   return shot == NULL ? CAROM_ERROR_TIME : carom_shot_at_times(balls, (int)count, shot, times, m, states);
 }
 
-/* Counts and first times from the events, full ones or brief ones. */
-static void look_at_events(const looking *with, size_t k, const carom_shot *shot, const carom_python_features *f) {
-  const size_t count = (size_t)with->job->count;
-  int32_t *contact = &f->contact[2 * k], *before = &f->cushions_before[2 * k], *after = &f->cushions_after[k];
-  int32_t *pocket = &f->pocket[k * count], *cushions = &f->cushions[k * count];
-  double *contact_time = &f->contact_time[2 * k], *pocket_time = &f->pocket_time[k * count];
-  for (int n = 0; n < 2; n++) {
-    contact[n] = -1;
-    before[n] = 0;
-    contact_time[n] = HUGE_VAL;
-  }
-  for (size_t i = 0; i < count; i++) {
-    pocket[i] = -1;
-    cushions[i] = 0;
-    pocket_time[i] = HUGE_VAL;
-  }
-  *after = 0;
-
-  const int cue = with->job->cues == NULL ? 0 : (int)(with->job->cues + k * with->job->cue_stride)->ball;
-  for (int64_t e = 0; shot != NULL && e < shot->count; e++) {
-    const int type = shot->events != NULL ? shot->events[e].type : shot->brief[e].type;
-    const int a = shot->events != NULL ? shot->events[e].a : shot->brief[e].a;
-    const int b = shot->events != NULL ? shot->events[e].b : shot->brief[e].b;
-    const double time = shot->events != NULL ? shot->events[e].time : shot->brief[e].time;
-    if (type == CAROM_EVENT_RAIL || type == CAROM_EVENT_JAW) {
-      cushions[a]++;
-      *after += contact[0] >= 0;
-    } else if (type == CAROM_EVENT_POCKET) {
-      pocket[a] = b;
-      pocket_time[a] = time;
-    } else if (type == CAROM_EVENT_BALL_BALL && (a == cue || b == cue)) {
-      /* the cue ball meets a ball that it has not met, the first or the second */
-      const int other = a == cue ? b : a, n = contact[0] >= 0;
-      if (contact[n] < 0 && other != contact[0]) {
-        contact[n] = other;
-        contact_time[n] = time;
-        before[n] = cushions[cue];
-      }
-    }
-  }
-}
-
 /* One shot. False: there is no memory. */
-static bool look_at_shot(looking *with, size_t k, bool play, const double *times, size_t m, carom_ball_state *states,
-                         double *positions, const carom_python_features *features, int8_t *status) {
+static bool look_at_shot(looking *with, size_t k, const double *times, size_t m, carom_ball_state *states, double *positions,
+                         int8_t *status) {
   const carom_shot_job *job = with->job;
   const size_t count = (size_t)job->count;
   carom_shot *given = &job->shots[k], shot = *given;
   carom_status played = (carom_status)job->status[k], look = CAROM_OK;
 
-  /* The shot with all of its events; none of one whose arguments were refused. Played here where events are kept, they go
-   * there. */
-  if (play && given->room > 0) {
-    const carom_cue *cue = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
-    played = carom_shoot(job->table, job->balls + k * job->ball_stride, (int)job->count, cue, job->options, given);
-    shot = *given;
-  }
-  const bool kept = given->count <= given->room && (given->events != NULL || (!with->full && given->brief != NULL));
+  /* The shot with all of its events; none of one whose arguments were refused. */
+  const bool kept = given->count <= given->room && given->events != NULL;
   bool known = true;
-  if (play && given->room == 0) {
-    if (!play_whole(with, k, &shot, &played))
-      return false;
-    given->count = shot.count;
-    given->time = shot.time;
-  } else if (given->count == 0 && played < 0 && !(given->time > 0.0)) {
+  if (given->count == 0 && played < 0 && !(given->time > 0.0)) {
     known = false;
   } else if (!kept) {
     carom_status again;
@@ -145,8 +85,6 @@ static bool look_at_shot(looking *with, size_t k, bool play, const double *times
     look = known ? CAROM_OK : CAROM_ERROR_STATE;
   }
 
-  job->status[k] = (int8_t)played;
-
   carom_ball_state *at = states != NULL ? &states[k * m * count] : with->states;
   if (at != NULL) {
     const carom_status late = look_at_times(with, k, known ? &shot : NULL, times, m, at);
@@ -154,16 +92,14 @@ static bool look_at_shot(looking *with, size_t k, bool play, const double *times
   }
   for (size_t i = 0; positions != NULL && i < m * count; i++)
     memcpy(&positions[3 * (k * m * count + i)], at[i].r, sizeof at[i].r);
-  if (features != NULL)
-    look_at_events(with, k, known ? &shot : NULL, features);
   status[k] = (int8_t)look;
   return true;
 }
 
-carom_status carom_python_look(const carom_shot_job *job, int play, const double *times, size_t m, carom_ball_state *states,
-                               double *positions, const carom_python_features *features, int8_t *status) {
+carom_status carom_python_look(const carom_shot_job *job, const double *times, size_t m, carom_ball_state *states,
+                               double *positions, int8_t *status) {
   const size_t count = (size_t)job->count;
-  looking with = {.job = job, .full = states != NULL || positions != NULL};
+  looking with = {.job = job};
   bool room = make_room(&with, 512);
   with.final = malloc(count * sizeof *with.final);
   room = room && with.final != NULL;
@@ -172,12 +108,56 @@ carom_status carom_python_look(const carom_shot_job *job, int play, const double
     room = room && with.states != NULL;
   }
   for (size_t k = 0; k < job->n && room; k++)
-    room = look_at_shot(&with, k, play != 0, times, m, states, positions, features, status);
+    room = look_at_shot(&with, k, times, m, states, positions, status);
   free(with.events);
-  free(with.brief);
   free(with.final);
   free(with.states);
   return room ? CAROM_OK : CAROM_ERROR_NULL;
+}
+
+/* ---- Facts of many shots ----------------------------------------------------------------------------------------------- */
+
+/* The facts of shot k, to the arrays. */
+static void spread_facts(const carom_facts *from, size_t k, size_t count, const carom_python_features *f) {
+  f->cushions_after[k] = from->cushions_after;
+  for (size_t n = 0; n < 2; n++) {
+    f->contact[2 * k + n] = from->first[n];
+    f->contact_time[2 * k + n] = from->first_time[n];
+    f->cushions_before[2 * k + n] = from->cushions_before[n];
+  }
+  memcpy(&f->pocket[k * count], from->pocket, count * sizeof *from->pocket);
+  memcpy(&f->pocket_time[k * count], from->pocket_time, count * sizeof *from->pocket_time);
+  memcpy(&f->cushions[k * count], from->cushions, count * sizeof *from->cushions);
+}
+
+carom_status carom_python_play(const carom_shot_job *job, const carom_python_features *features) {
+  enum { BLOCK = 16 }; /* shots whose facts are on the stack, 10 kB */
+  carom_facts facts[BLOCK];
+  carom_status status = CAROM_OK;
+  for (size_t k = 0; k < job->n; k += BLOCK) {
+    /* A block is a job by itself. */
+    const size_t many = job->n - k < BLOCK ? job->n - k : BLOCK;
+    carom_shot_job block = *job;
+    block.balls = job->balls + k * job->ball_stride;
+    block.cues = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
+    block.shots = job->shots + k;
+    block.status = job->status + k;
+    block.n = many;
+    for (size_t i = 0; i < many; i++)
+      block.shots[i].facts = &facts[i];
+    const carom_status of_block = carom_shoot_batch(&block);
+    status = status == CAROM_OK ? of_block : status;
+
+    /* Where the call itself was refused, no shot has a status, and nothing was written. */
+    bool played = of_block == CAROM_OK;
+    for (size_t i = 0; i < many; i++) {
+      block.shots[i].facts = NULL;
+      played |= block.status[i] < 0;
+    }
+    for (size_t i = 0; i < many && played; i++)
+      spread_facts(&facts[i], k + i, (size_t)job->count, features);
+  }
+  return status;
 }
 
 /* ---- Pieces of a track -------------------------------------------------------------------------------------------------

@@ -23,15 +23,18 @@ typedef struct carom_python_features {
   double *pocket_time;        /* and when it was pocketed, s. */
 } carom_python_features;
 
-/* Looks at the shots of a job, each of which has been played, or with `play` is played first: then job->shots and job->status
- * become what carom_shoot_batch() makes them. Where not all events were kept, or not in full but states are wanted, the shot is
- * played again, which has the same bits. Each of the following may be NULL: `states`, (n, times, count), and `positions`, (n,
- * times, count, 3), at `times`, ascending times; and `features`. What is not known (all of a shot whose arguments are in error,
- * and what comes after a shot was stopped while balls moved) is NaN, its labels -1. status[k] becomes the error of shot k:
- * CAROM_OK, CAROM_ERROR_TIME where states are unknown, CAROM_ERROR_STATE where a shot played again is not as it was, as its
- * layout or cue has been changed meanwhile. Returns CAROM_OK, or CAROM_ERROR_NULL without memory. */
-carom_status carom_python_look(const carom_shot_job *job, int play, const double *times, size_t m, carom_ball_state *states,
-                               double *positions, const carom_python_features *features, int8_t *status);
+/* Plays a job as carom_shoot_batch() does, and puts the facts of its shots into arrays. job->status must not be NULL, and 0 at
+ * first. */
+carom_status carom_python_play(const carom_shot_job *job, const carom_python_features *features);
+
+/* Looks at the shots of a job, each of which has been played. A shot of which not all events were kept in full is played again,
+ * which has the same bits. `states`, (n, times, count), and `positions`, (n, times, count, 3), at `times`, ascending times, may
+ * each be NULL. What is not known (all of a shot whose arguments are in error, and what comes after a shot was stopped while
+ * balls moved) is NaN, its labels -1. status[k] becomes the error of shot k: CAROM_OK, CAROM_ERROR_TIME where states are
+ * unknown, CAROM_ERROR_STATE where a shot played again is not as it was, as its layout or cue has been changed meanwhile.
+ * Returns CAROM_OK, or CAROM_ERROR_NULL without memory. */
+carom_status carom_python_look(const carom_shot_job *job, const double *times, size_t m, carom_ball_state *states,
+                               double *positions, int8_t *status);
 
 /* Cuts a track of n samples t, x, y (s, m), weights 1/s^2, into pieces of at most `longest` samples that are quadratic in time:
  * the cuts minimise the sum over pieces of chi^2 of the quadratic, of `penalty`, and of 4 for each sample less than 3. back[j],

@@ -166,6 +166,19 @@ def test_features(breaks, options):
     assert sum(max(found["pocket"]) >= 0 for found in seen) > 2 and any(found["contact"][1] > 0 for found in seen)
 
 
+def test_stops_unless_the_first_is_of_a_set():
+    """Legal shots have the bits that they have without the option; the others stop at their first contact."""
+    layout, cues = carom.balls([[0.5, 0.6], [0.7, 1.5], [0.4, 1.6]]), carom.cue(speed=3.0, phi=np.linspace(60.0, 120.0, 60))
+    whole = carom.simulate_batch(TABLE, layout, cues, features=True)
+    shots = carom.simulate_batch(TABLE, layout, cues, features=True, first_of=2)
+    stops = whole.features.contact[:, 0] == 1
+    assert 5 < stops.sum() < 40 and (shots.status == np.where(stops, carom.Status.STOPPED_AT_EVENT, carom.Status.OK)).all()
+    assert (shots.final[~stops] == whole.final[~stops]).all() and (shots.time[stops] == whole.features.contact_time[stops, 0]).all()
+    assert (carom.simulate_batch(TABLE, layout, cues, first_of=[1, 2]).final == whole.final).all()
+    with pytest.raises(ValueError, match="first_of"):
+        carom.simulate(TABLE, layout, cues[0], first_of=32)
+
+
 def test_features_of_three_cushions():
     """Cushions before the second ball, of another cue ball than the first of the layout."""
     table = carom.tables.threecushion()

@@ -11,6 +11,59 @@
 
 static const carom_shot_options no_options = {0};
 
+/* As facts begin: nothing happened. */
+static void no_facts(carom_facts *facts) {
+  memset(facts, 0, sizeof *facts);
+  for (int n = 0; n < 2; n++) {
+    facts->first[n] = -1;
+    facts->first_time[n] = INFINITY;
+  }
+  for (int i = 0; i < CAROM_BALLS_MOST; i++) {
+    facts->pocket[i] = -1;
+    facts->pocket_time[i] = INFINITY;
+  }
+}
+
+/* The cue ball meets a ball: the first, or the second that is another. */
+static void meet(carom_facts *facts, int cue, int other, double now) {
+  const int n = facts->first[0] >= 0;
+  if (facts->first[n] >= 0 || other == facts->first[0])
+    return;
+  facts->first[n] = other;
+  facts->first_time[n] = now;
+  facts->cushions_before[n] = facts->cushions[cue];
+}
+
+/* Adds an event to the facts. */
+static void add_fact(carom_facts *facts, const carom_due *due, int cue, double now) {
+  const int a = due->a, b = due->b;
+  switch (due->type) {
+  case CAROM_EVENT_STRIKE:
+    facts->moved |= UINT32_C(1) << a;
+    break;
+  case CAROM_EVENT_BALL_BALL:
+    facts->moved |= UINT32_C(1) << a | UINT32_C(1) << b;
+    if (a == cue || b == cue)
+      meet(facts, cue, a == cue ? b : a, now);
+    break;
+  case CAROM_EVENT_RAIL:
+  case CAROM_EVENT_JAW:
+    facts->cushions[a]++;
+    facts->cushions_after += facts->first[0] >= 0;
+    break;
+  case CAROM_EVENT_POCKET:
+    facts->down |= UINT32_C(1) << a;
+    facts->pocket[a] = b;
+    facts->pocket_time[a] = now;
+    break;
+  case CAROM_EVENT_LEFT_TABLE:
+    facts->off |= UINT32_C(1) << a;
+    break;
+  default:
+    break;
+  }
+}
+
 /* The next place for an event, or a spare one where there is no room for it. */
 static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_due *due) {
   carom_shot *shot = sim->shot;
@@ -18,6 +71,8 @@ static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_
   if (room && shot->brief != NULL)
     shot->brief[shot->count] = (carom_brief_event){sim->now, due->type, due->a, due->b, 0};
   carom_event *event = room && shot->events != NULL ? &shot->events[shot->count] : spare;
+  if (shot->facts != NULL)
+    add_fact(shot->facts, due, sim->struck, sim->now);
   shot->count++;
   shot->time = sim->now;
   event->time = sim->now;
@@ -208,8 +263,12 @@ static void begin(carom_sim *sim) {
 }
 
 /* Whether the shot is to stop after an event of this kind. */
-static bool stops_at(const carom_sim *sim, int type, int a, int b) {
+static bool stops_at(carom_sim *sim, int type, int a, int b) {
   const bool contact = type == CAROM_EVENT_BALL_BALL && (a == sim->struck || b == sim->struck);
+  const bool first = contact && !sim->met;
+  sim->met |= contact;
+  if (first && sim->opt->first_of != 0 && !(sim->opt->first_of >> (a == sim->struck ? b : a) & 1))
+    return true;
   return ((contact ? CAROM_STOP_AT_CONTACT : 0) | CAROM_STOP_AT(type)) & sim->opt->stop_at;
 }
 
@@ -243,7 +302,7 @@ static carom_status go_on(carom_sim *sim) {
     sim->now = carom_greater(sim->now, due.time); /* of simultaneous events one may have been found a trace earlier */
     sim->round++;
     status = step(sim, &due);
-    if (sim->opt->stop_at != 0 && status == CAROM_OK && stops_at(sim, due.type, due.a, due.b))
+    if (status == CAROM_OK && stops_at(sim, due.type, due.a, due.b))
       return CAROM_STOPPED_AT_EVENT;
   }
   return status;
@@ -291,6 +350,7 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
     sim.count = count;
     sim.struck = cue != NULL ? (int)cue->ball : 0;
     sim.world = opt->world;
+    sim.met = false;
     sim.now = 0.0;
     sim.round = 0;
     sim.slow_instants = 0;
@@ -313,6 +373,8 @@ static void clear(carom_shot *shot) {
   shot->time = 0.0;
   if (shot->state != NULL)
     memset(shot->state, 0, sizeof *shot->state);
+  if (shot->facts != NULL)
+    no_facts(shot->facts);
 }
 
 /* *features are prepared for the radius of these balls, unless they are so already. */

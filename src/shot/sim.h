@@ -27,6 +27,7 @@ typedef struct carom_sim {
   carom_shot *shot;
   int count, struck; /* struck: the cue ball */
   carom_world world;
+  bool met;    /* the cue ball has met another */
   bool unlike; /* radii differ from each other or from the table's reference: contacts are those of spheres in space */
   int flying;  /* airborne balls */
   double now;

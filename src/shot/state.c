@@ -210,7 +210,8 @@ static bool good_pairs(const carom_sim *sim, int i) {
 static bool is_sound(const carom_sim *sim) {
   static const int64_t many = INT64_C(1) << 62;
   if (!(sim->now >= 0.0 && sim->now < INFINITY) || sim->round < 0 || sim->round > many || sim->slow_instants < 0 ||
-      sim->slow_instants > many || isnan(sim->slow_last) || isnan(sim->one_by_one) || !is_bool(&sim->unlike))
+      sim->slow_instants > many || isnan(sim->slow_last) || isnan(sim->one_by_one) || !is_bool(&sim->unlike) ||
+      !is_bool(&sim->met) || sim->struck < 0 || sim->struck >= sim->count)
     return false;
   int flying = 0;
   bool unlike = false;

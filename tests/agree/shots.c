@@ -586,6 +586,112 @@ TEST(forged_states) {
   ck_assert_int_gt(refused, 1000);
 }
 
+/* The facts of a shot by a walk over its events. */
+static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
+  carom_facts f = {.first = {-1, -1}, .first_time = {INFINITY, INFINITY}};
+  for (int i = 0; i < CAROM_BALLS_MOST; i++) {
+    f.pocket[i] = -1;
+    f.pocket_time[i] = INFINITY;
+  }
+  for (int64_t k = 0; k < count; k++) {
+    const carom_event *e = &events[k];
+    const int other = e->a == cue ? e->b : e->a;
+    if (e->type == CAROM_EVENT_STRIKE || e->type == CAROM_EVENT_BALL_BALL)
+      f.moved |= 1U << e->a;
+    if (e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW) {
+      f.cushions[e->a]++;
+      f.cushions_after += f.first[0] != -1;
+    } else if (e->type == CAROM_EVENT_POCKET) {
+      f.down |= 1U << e->a;
+      f.pocket[e->a] = e->b;
+      f.pocket_time[e->a] = e->time;
+    } else if (e->type == CAROM_EVENT_LEFT_TABLE) {
+      f.off |= 1U << e->a;
+    } else if (e->type == CAROM_EVENT_BALL_BALL) {
+      f.moved |= 1U << e->b;
+      const int n = f.first[0] == -1 ? 0 : 1;
+      if ((e->a == cue || e->b == cue) && f.first[1] == -1 && f.first[0] != other) {
+        f.first[n] = other;
+        f.first_time[n] = e->time;
+        f.cushions_before[n] = f.cushions[cue];
+      }
+    }
+  }
+  return f;
+}
+
+/* Facts are those of the events, whichever ball is struck, in one go or in parts; those of a shot that is refused say that
+ * nothing happened. */
+TEST(facts_of_shots) {
+  static carom_event events[10 * ROOM];
+  static carom_shot_state state;
+  make_breaks();
+  int down = 0, off = 0, second = 0;
+  for (int k = 0; k < 60; k++) {
+    carom_cue cue = cues[k == 4 ? 5 : k];
+    carom_facts facts, parts;
+    memset(&facts, 0x55, sizeof facts);
+    cue.ball = k % 3 == 2 ? 7 : 0;
+    cue.phi = 6.0 * k;
+    cue.theta = k % 4 == 3 ? 35.0 : 0.0;
+    carom_shot shot = {.events = events, .room = 10 * ROOM, .facts = &facts};
+    carom_shot_options options = {0};
+    const carom_status whole = carom_shoot(&table, balls + 16 * k, 16, &cue, &options, &shot);
+    ck_assert_int_ge(whole, CAROM_OK);
+    const carom_facts found = facts_of(events, shot.count, (int)cue.ball);
+    ck_assert_int_eq(memcmp(&found, &facts, sizeof facts), 0);
+    down += facts.down != 0;
+    off += facts.off != 0;
+    second += facts.first[1] >= 0;
+
+    /* in parts */
+    carom_shot cut = {.facts = &parts, .state = &state};
+    options.time_most = 0.4;
+    carom_status status = carom_shoot(&table, balls + 16 * k, 16, &cue, &options, &cut);
+    while (status == CAROM_STOPPED_AT_TIME) {
+      options.time_most += 0.9;
+      status = carom_shot_continue(&table, balls + 16 * k, 16, &options, &cut);
+    }
+    ck_assert_int_eq(memcmp(&parts, &facts, sizeof facts), 0);
+  }
+  printf("%d shots pot, %d lose a ball over the cushions, in %d the cue ball meets a second ball\n", down, off, second);
+  ck_assert(down > 5 && second > 5);
+  carom_facts facts;
+  const carom_facts nothing = facts_of(events, 0, 0);
+  ck_assert_int_lt(carom_shoot(&table, balls, 16, &cues[4], NULL, &(carom_shot){.facts = &facts}), 0);
+  ck_assert_int_eq(memcmp(&nothing, &facts, sizeof facts), 0);
+}
+
+/* A shot stops at the first contact of the cue ball if the other is not in the set, and else is as without the option; it goes
+ * on as if it had not stopped. */
+TEST(stops_unless_the_first_is_of_a_set) {
+  static carom_shot_state state;
+  make_breaks();
+  int stopped = 0, played = 0;
+  for (int k = 5; k < 60; k++) {
+    carom_ball_state final[2][16];
+    carom_facts facts, part;
+    carom_cue cue = cues[k];
+    cue.phi = 80.0 + 0.3 * k;
+    carom_shot whole = {.facts = &facts, .final = final[0]};
+    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cue, NULL, &whole), CAROM_OK);
+    const carom_shot_options options = {.first_of = UINT64_C(0x0a0a)}; /* balls 1, 3, 9, 11 */
+    carom_shot shot = {.facts = &part, .final = final[1], .state = &state};
+    carom_status status = carom_shoot(&table, balls, 16, &cue, &options, &shot);
+    const bool stops = facts.first[0] >= 0 && !(options.first_of >> facts.first[0] & 1);
+    ck_assert_int_eq(status, stops ? CAROM_STOPPED_AT_EVENT : CAROM_OK);
+    if (stops) {
+      ck_assert(part.first[0] == facts.first[0] && part.first_time[0] == facts.first_time[0] &&
+                shot.time == part.first_time[0]);
+      status = carom_shot_continue(&table, balls, 16, &options, &shot);
+    }
+    ck_assert_int_eq(status, CAROM_OK);
+    ck_assert(memcmp(&part, &facts, sizeof facts) == 0 && memcmp(final[0], final[1], sizeof final[0]) == 0);
+    *(stops ? &stopped : &played) += 1;
+  }
+  ck_assert(stopped > 10 && played > 10);
+}
+
 /* On every instruction set a shot ends well, and the first events, which nothing has amplified yet, are the same but for
  * rounding. */
 TEST(instruction_sets) {

@@ -255,7 +255,7 @@ TEST(options_and_calls) {
   REFUSED(options.cluster_steps, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.cluster_steps, 10001, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.unused, 1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.reserved[1], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
+  REFUSED(options.reserved[0], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.time_most, NAN, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.steps, -1, CAROM_ERROR_STEPS, -1);
   REFUSED(options.threads, -2, CAROM_ERROR_THREADS, -1);

@@ -64,6 +64,9 @@ class Options(NamedTuple):
     stop_at : str or tuple of str
         The shot is stopped after the first event of these, with the status STOPPED_AT_EVENT: "contact", of the cue ball with
         another, or a type of `carom.EventType` in lower case, such as "pocket". `carom.resume` goes on with a shot that was stopped.
+    first_of : int or tuple of int
+        Indices of balls. The shot is stopped right after the first contact of the cue ball with another ball, with the status
+        STOPPED_AT_EVENT, unless that ball is one of these. (): it is not stopped.
     """
 
     world: World = "carom"
@@ -78,6 +81,7 @@ class Options(NamedTuple):
     plain: bool = False
     t_final: float | None = None
     stop_at: StopAt | Iterable[StopAt] = ()
+    first_of: int | Iterable[int] = ()
 
     def changed(self, changes: Any) -> Options:
         """These options but for some, by their names."""
@@ -85,6 +89,8 @@ class Options(NamedTuple):
         if unknown:
             raise TypeError(f"options: there is no {min(unknown)!r}; known are {', '.join(self._fields)}")
         made = self._replace(**changes)
+        if not isinstance(made.first_of, (int, tuple)):
+            made = made._replace(first_of=tuple(int(ball) for ball in made.first_of))
         return made if isinstance(made.stop_at, (str, tuple)) else made._replace(stop_at=tuple(made.stop_at))
 
 
@@ -105,20 +111,24 @@ if TYPE_CHECKING:
         plain: bool
         t_final: float | None
         stop_at: StopAt | Iterable[StopAt]
+        first_of: int | Iterable[int]
 
 
 @functools.lru_cache(maxsize=256)
 def shot_options(given: Options, threads: int = 0) -> Any:
     """The options of C; they are never written to."""
-    world, ball_model, cushion_model, friction, space, simultaneous, cluster_steps, steps, events_most, plain, t_final, stop_at = given
+    (world, ball_model, cushion_model, friction, space, simultaneous, cluster_steps, steps, events_most, plain, t_final, stop_at,
+     first_of) = given  # fmt: skip
     if t_final is not None and not 0.0 < t_final < np.inf:
         raise ValueError(f"t_final: it must be positive and finite, in s, or None, not {t_final}")
     stops = (stop_at,) if isinstance(stop_at, str) else tuple(stop_at)
+    balls = (first_of,) if isinstance(first_of, int) else tuple(first_of)
     named = {
         "world": choice(_WORLDS, world, "world"), "ball_model": choice(_BALL_MODELS, ball_model, "ball_model"),
         "cushion_model": choice(_CUSHIONS, cushion_model, "cushion_model"), "friction": choice(_FRICTIONS, friction, "friction"),
         "simultaneous": choice(_SIMULTANEOUS, simultaneous, "simultaneous"),
         "space": choice(_SPACES, space, "space"), "stop_at": sum({1 << choice(_STOPS, stop, "stop_at") for stop in stops}),
+        "first_of": sum({1 << whole(ball, "first_of", most=31) for ball in balls}),
     }  # fmt: skip
     numbers = {"steps": whole(steps, "steps"), "events_most": whole(events_most, "events_most"), "plain": whole(plain, "plain", most=1)}
     numbers["cluster_steps"] = whole(cluster_steps, "cluster_steps", most=10000)

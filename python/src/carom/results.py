@@ -361,7 +361,7 @@ class Shots:
 
         def look(job: Any, codes: Any, begin: int) -> int:
             states, positions = (ffi.NULL, seen + begin * row) if numbers else (seen + begin * row, ffi.NULL)
-            return int(lib.carom_python_look(job, 0, moments, at.size, states, positions, ffi.NULL, codes))
+            return int(lib.carom_python_look(job, moments, at.size, states, positions, codes))
 
         codes = self._look(look, 5e-6 + 2e-8 * at.size * count, threads)
         if (np.diff(order) < 0).any():
@@ -370,21 +370,23 @@ class Shots:
             out = out[:, back]
         return out.reshape((*self.shape, *given.shape, count, *numbers)), codes
 
-    def look_for_features(self, threads: int) -> Features:
-        """For `simulate_batch`: plays the shots, and tells what happened."""
+    def play_with_features(self, threads: int) -> int:
+        """For `simulate_batch`: plays the shots and sets `features`; the status of the batch."""
         n, count = self.status.size, self.final.shape[-1]
         sizes = {"contact": 2, "contact_time": 2, "cushions_before": 2, "cushions_after": 1, "pocket": count, "pocket_time": count}
         sizes["cushions"] = count
         made: dict[str, Any] = {name: np.empty((n, size), np.float64 if name.endswith("time") else np.int32) for name, size in sizes.items()}
         starts = {name: pointer("double[]" if name.endswith("time") else "int32_t[]", array) for name, array in made.items()}
+        job = self.jobs(shot_options(self.options))
 
-        def look(job: Any, codes: Any, begin: int) -> int:
+        def play(begin: int, many: int) -> int:
             features = ffi.new("carom_python_features *", {name: start + begin * sizes[name] for name, start in starts.items()})
-            return int(lib.carom_python_look(job, 1, ffi.NULL, 0, ffi.NULL, ffi.NULL, features, codes))
+            return int(lib.carom_python_play(job(begin, many), features))
 
-        self._look(look, 5e-5, threads)
+        code = in_chunks(n, 5e-5, threads, spread(threads, play))
         made["cushions_after"] = made["cushions_after"][:, 0]
-        return Features(**{name: array.reshape((*self.shape, *array.shape[1:])) for name, array in made.items()})
+        self.features = Features(**{name: array.reshape((*self.shape, *array.shape[1:])) for name, array in made.items()})
+        return code
 
     def _look(self, look: Callable[[Any, Any, int], int], seconds: float, threads: int) -> npt.NDArray[np.int8]:
         """Calls look(job, codes, first row) for all rows, which take so many seconds each; the codes."""

@@ -172,8 +172,7 @@ def simulate_batch(
         out.status[...] = Status.OK
     shots.cues, shots.options = None if cues is None else all_cues, chosen
     if features:
-        shots.features = shots.look_for_features(threads)
-        code = 0
+        code = shots.play_with_features(threads)
     else:
         job = shots.jobs(of_c)
         code = in_chunks(shots.status.size, 5e-5, threads, lambda begin, many: int(lib.carom_shoot_batch(job(begin, many))))
