@@ -157,7 +157,7 @@ CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const
  * Bits: those of a batch are those of single calls, for any number of threads and any cut; with options.plain or
  * CAROM_ISA=plain they are the same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with Han's
  * cushions, the default, so 3 us for a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion costs
- * some 7 to 10 us an impact besides. Stack: 49 KiB; a batch 53, with threads 59. Nothing is allocated, but for the threads of a
+ * some 7 to 10 us an impact besides. Stack: 50 KiB; a batch 53, with threads 60. Nothing is allocated, but for the threads of a
  * batch. */
 
 /* ---- Balls ------------------------------------------------------------------------------------------------------------ */

@@ -229,16 +229,17 @@ static inline void rub_on_cloth(ball *p) {
   if (most > 0.0) {
     /* the slip at the end without this friction */
     const double u_x = p->v[0] - p->W[1] - m * p->g[0], u_y = p->v[1] + p->W[0] - m * p->g[1];
-    const double end = sqrt(u_x * u_x + u_y * u_y);
-    if (end <= m * most) {
+    const double end2 = u_x * u_x + u_y * u_y, stops = m * most;
+    if (end2 <= stops * stops) {
       g[0] = -u_x / m;
       g[1] = -u_y / m;
     } else {
       /* a slip that may turn back within the step has no mean direction */
-      const double x = p->base[0] + u_x, y = p->base[1] + u_y, mean = sqrt(x * x + y * y);
-      const bool by_end = mean < 4.0 * m * most;
-      g[0] = by_end ? -most / end * u_x : -most / mean * x;
-      g[1] = by_end ? -most / end * u_y : -most / mean * y;
+      const double x = p->base[0] + u_x, y = p->base[1] + u_y, mean2 = x * x + y * y;
+      const bool by_end = mean2 < 16.0 * stops * stops;
+      const double k = -most / sqrt(by_end ? end2 : mean2);
+      g[0] = k * (by_end ? u_x : x);
+      g[1] = k * (by_end ? u_y : y);
     }
   } else if (p->g[0] == 0.0 && p->g[1] == 0.0) {
     return;
@@ -252,21 +253,21 @@ static inline void rub_on_cloth(ball *p) {
   p->g[1] = g[1];
 }
 
-/* The next iterate of a contact's friction; change[] becomes what it changes by. */
-static inline void iterate(bool flat, const state *c, contact *x, double change[2]) {
-  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+/* The next iterate of a contact's friction; change[] becomes what it changes by. `share` of the slip is taken where the contact
+ * may stick. */
+static inline void iterate(bool flat, const state *c, contact *x, double share, double change[2]) {
   double u[2], f[2];
   slip_of(flat, c, x, u);
-  const double m_x = u[0] + x->u[0], m_y = u[1] + x->u[1], mean = sqrt(m_x * m_x + m_y * m_y);
+  const double m_x = u[0] + x->u[0], m_y = u[1] + x->u[1], mean2 = m_x * m_x + m_y * m_y;
   /* mu falls as the slip grows within the step */
   double most = x->mu * x->J;
-  const double grown = 0.5 * mean - x->U;
-  if (grown > 0.0) {
+  if (mean2 > 4.0 * x->U * x->U) {
+    const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
     const double a = 0.5 * (p->law[0] + q->law[0]), rate = 0.5 * (p->law[2] + q->law[2]);
+    const double grown = 0.5 * sqrt(mean2) - x->U;
     most = (a + (x->mu - a) * (1.0 - lesser(1.0, rate * grown))) * x->J;
   }
   if (x->may_stick) {
-    const double share = 1.0 / (3.5 * (p->acting * p->inverse_mass + q->acting * q->inverse_mass));
     f[0] = x->f[0] - share * u[0];
     f[1] = x->f[1] - share * u[1];
     const double size2 = f[0] * f[0] + f[1] * f[1];
@@ -276,7 +277,7 @@ static inline void iterate(bool flat, const state *c, contact *x, double change[
       f[1] *= down;
     }
   } else {
-    const double k = mean > 0.0 ? -most / mean : 0.0;
+    const double k = mean2 > 0.0 ? -most / sqrt(mean2) : 0.0;
     f[0] = k * m_x;
     f[1] = k * m_y;
   }
@@ -323,10 +324,12 @@ static inline void begin_step(bool flat, state *c, const uint8_t acting[], int c
 }
 
 static inline void rub_all(bool flat, state *c, const uint8_t acting[], int count) {
-  double change[CAROM_CLUSTER_CONTACTS][2];
+  double change[CAROM_CLUSTER_CONTACTS][2], share[CAROM_CLUSTER_CONTACTS];
   /* first that of the step before */
   for (int a = 0; a < count; a++) {
     contact *x = &c->contact[acting[a]];
+    const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+    share[a] = 1.0 / (3.5 * (p->acting * p->inverse_mass + q->acting * q->inverse_mass));
     x->f[0] *= x->J;
     x->f[1] *= x->J;
     rub(flat, c, x, x->f);
@@ -337,7 +340,7 @@ static inline void rub_all(bool flat, state *c, const uint8_t acting[], int coun
     if (iteration == ITERATIONS)
       return;
     for (int a = 0; a < count; a++)
-      iterate(flat, c, &c->contact[acting[a]], change[a]);
+      iterate(flat, c, &c->contact[acting[a]], share[a], change[a]);
     for (int a = 0; a < count; a++)
       rub(flat, c, &c->contact[acting[a]], change[a]);
   }
@@ -348,9 +351,10 @@ static inline void end_step(bool flat, state *c, double h, const uint8_t acting[
     cluster_add(flat, c->ball[k].s, 0.5 * h, c->ball[k].v);
   for (int a = 0; a < count; a++) {
     contact *x = &c->contact[acting[a]];
+    const double each = 1.0 / x->J;
     for (int k = 0; k < 2; k++) {
       x->rubbed[k] += x->f[k];
-      x->f[k] /= x->J;
+      x->f[k] *= each;
     }
     /* the greatest overlap is the vertex of a parabola */
     const double v0 = x->closing, v1 = closing_of(flat, c, x);

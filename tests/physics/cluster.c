@@ -622,6 +622,40 @@ START_TEST(crowds) {
 }
 END_TEST
 
+/* ---- 12: continuity over the gap behind a ball that is hit */
+
+START_TEST(gap_has_no_step) {
+  enum { STEPS = 250 };
+  static const double aim[3] = {0.0, 0.3, 0.2}, behind[3] = {0.0, 0.4, 1.0};
+  const carom_table table = empty_table(4.0);
+  for (int kind = 0; kind < 3; kind++) {
+    static double v[STEPS][3][2];
+    for (int k = 0; k < STEPS; k++) {
+      const double d = 2.0 * R + 2.5e-3 * k / STEPS;
+      carom_shot_ball b[3] = {ball_at(2.0 - 2.0 * R * sin(aim[kind]), 2.0 - 2.0 * R * cos(aim[kind])), ball_at(2.0, 2.0),
+                              ball_at(2.0 + d * sin(behind[kind]), 2.0 + d * cos(behind[kind]))};
+      b[0].state.v[1] = 4.0;
+      b[0].state.w[2] = 30.0;
+      const carom_shot_options options = {.time_most = 0.01, .cluster_steps = 60};
+      play(&table, b, 3, NULL, &options, CAROM_STOPPED_AT_TIME);
+      for (int i = 0; i < 3; i++)
+        memcpy(v[k][i], final[i].v, sizeof v[k][i]);
+    }
+    /* a step beside the mean of its neighbours */
+    double worst = 0.0;
+    for (int k = 1; k + 2 < STEPS; k++)
+      for (int i = 0; i < 3; i++)
+        for (int axis = 0; axis < 2; axis++) {
+          const double step = v[k + 1][i][axis] - v[k][i][axis], before = v[k][i][axis] - v[k - 1][i][axis],
+                       after = v[k + 2][i][axis] - v[k + 1][i][axis];
+          worst = fmax(worst, fabs(step - 0.5 * (before + after)) / 4.0);
+        }
+    printf("gap behind a ball, kind %d: largest step %.1e of the speed\n", kind, worst);
+    ck_assert_double_lt(worst, 2e-3);
+  }
+}
+END_TEST
+
 /* ---- Arguments */
 
 START_TEST(arguments) {
@@ -656,5 +690,5 @@ END_TEST
 int main(void) {
   return RUN_TESTS("cluster", one_contact_is_a_collision, one_contact_in_space, two_at_once, rows_of_balls, symmetries,
                    symmetric_rack, balances, scaling, break_of_a_rack, frozen_kiss, wing_ball_from_the_side, default_steps,
-                   ball_on_three, crowds, arguments);
+                   ball_on_three, crowds, gap_has_no_step, arguments);
 }
