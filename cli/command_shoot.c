@@ -151,8 +151,8 @@ static bool argument_error(const shot_line *line, const carom_shot_options *opti
   else if (bad == CAROM_ERROR_MISCUE)
     snprintf(text, 300, "cue: the tip is %.4g R from the centre; it slips off the ball from %.4g R on", tip_of(&line->cue),
              line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
-  else if (bad == CAROM_ERROR_CUE)
-    snprintf(text, 300, "cue: %s", carom_status_string(bad));
+  else if (bad == CAROM_ERROR_CUE_SPEED || bad == CAROM_ERROR_CUE_MASS) /* the keys of these fields have other names */
+    snprintf(text, 300, "cue.%s%s", bad == CAROM_ERROR_CUE_SPEED ? "V0" : "M", strchr(carom_status_string(bad), ' '));
   else if (bad == CAROM_ERROR_RESTITUTION)
     snprintf(text, 300, "balls[%d] ('%s'): e_b and e_c must be in [0, 1], and e_t at most 0.98 and not below 0, or -1 for none",
              where, line->name[where]);

@@ -127,7 +127,7 @@ typedef struct carom_result {
 /* ---- How a call ended ------------------------------------------------------------------------------------------------ */
 
 /* 0 is success, a positive value a valid outcome of another kind, a negative value an error. Values are never renumbered or
- * used again. -30 to -39 are reserved for cushions, -40 to -79 for shots. carom_status_string() describes each. */
+ * used again. -30 to -39 are reserved for cushions, -40 to -109 for shots. carom_status_string() describes each. */
 typedef enum carom_status {
   CAROM_OK = 0,                      /* resolved. */
   CAROM_SEPARATING = 1,              /* the balls do not approach each other; their state is returned unchanged. */
@@ -155,7 +155,7 @@ typedef enum carom_status {
   CAROM_ERROR_THREADS = -20,         /* options.threads is neither CAROM_ALL_THREADS nor 0 or more. */
   CAROM_ERROR_POINTS = -21,          /* a trace needs at least 2 points. */
   CAROM_ERROR_UNRESOLVED = -22,      /* the result depends on rounding errors, or takes more work than a call may cost. */
-  CAROM_ERROR_OPTIONS = -23,         /* options.plain is neither 0 nor 1, or a reserved field of the options is not 0. */
+  CAROM_ERROR_OPTIONS = -23,         /* a reserved or unused field of the options is not 0. */
   CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model of carom_shot.h is not one of carom_cushion_model. */
   CAROM_ERROR_CUSHION_OPTIONS = -31, /* an option of a cushion is out of its range. */
   CAROM_ERROR_NORMAL = -32,          /* the direction into a cushion is not finite, or 0. */
@@ -165,14 +165,13 @@ typedef enum carom_status {
   CAROM_ERROR_TOO_MANY_EVENTS = -40, /* a shot has more than options.events_most events. */
   CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than 1000 s, and options.time_most is 0. */
   CAROM_ERROR_LEFT_TABLE = -42,      /* a ball on the cloth left the table. */
-  CAROM_ERROR_SHOT_OPTIONS = -43,    /* an option of the shot is out of its range, or a reserved one is not 0. */
+  CAROM_ERROR_SHOT_OPTIONS = -43,    /* a reserved or unused field of a shot's options, a job or seeds is not 0. */
   CAROM_ERROR_BALLS = -44,           /* the number of balls is not 1 to CAROM_BALLS_MOST. */
   CAROM_ERROR_LABEL = -45,           /* the label of a ball is not one that a layout may have. */
   CAROM_ERROR_OVERLAP = -46,         /* two balls overlap by more than 1e-6 m. */
   CAROM_ERROR_OFF_TABLE = -47,       /* a ball is in or behind a cushion, in a pocket, or not at the height of its radius. */
   CAROM_ERROR_MU_MOTION = -48,       /* a friction of sliding, rolling or spinning is not above 0 and at most 1. */
   CAROM_ERROR_GRAVITY = -49,         /* gravity is not above 0 and at most 1e6 m/s^2. */
-  CAROM_ERROR_CUE = -50,             /* a field of the cue is out of its range. */
   CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below miscue^2. */
   CAROM_ERROR_TABLE = -52, /* too many parts, or one not finite, without length, with a bad mu or e; or a small rail_width. */
   CAROM_ERROR_RACK = -53,  /* no such rack, a gap that is not between 0 and R, or too little room. */
@@ -185,12 +184,34 @@ typedef enum carom_status {
   CAROM_ERROR_STATE_TABLE = -64,   /* is that of a shot on another table, */
   CAROM_ERROR_STATE_BALLS = -65,   /* of other balls, or of another layout, */
   CAROM_ERROR_STATE_OPTIONS = -66, /* or with other options, besides those that say when to stop. */
+  CAROM_ERROR_ROOM = -67,          /* shot.room is negative, or is not 0 where shot.events and shot.brief are both NULL. */
   CAROM_ERROR_TABLE_OPEN = -61,    /* carom_table_check(): a ball can leave the table, or has no place on it. */
   CAROM_ERROR_RAIL_SIDE = -62,     /* carom_table_check(): the played side of a rail is turned away from the table. */
   CAROM_ERROR_RAIL_LINE = -63,     /* carom_table_check(): the line of a rail does not pass through both of its ends. */
   CAROM_ERROR_TANGENT = -70,       /* carom_tangent.h: derivatives are not known for this world or model. */
   CAROM_ERROR_DIRECTIONS = -71,    /* carom_tangent.h: the number of directions is not 1 to CAROM_DIRECTIONS_MOST. */
   CAROM_ERROR_NO_TANGENTS = -72,   /* carom_tangent.h: this library was built without derivatives, as it was without C++. */
+
+  CAROM_ERROR_CUE_SPEED = -80,    /* cue.speed is not 0 to 1000 m/s. */
+  CAROM_ERROR_CUE_PHI = -81,      /* cue.phi is not -1e9 to 1e9 degrees. */
+  CAROM_ERROR_CUE_THETA = -82,    /* cue.theta is not 0 to 90 degrees. */
+  CAROM_ERROR_CUE_MASS = -83,     /* cue.mass is not positive and finite. */
+  CAROM_ERROR_CUE_END_MASS = -84, /* cue.end_mass is not positive and finite. */
+  CAROM_ERROR_CUE_BALL = -85,     /* cue.ball is not the index of a ball. */
+  CAROM_ERROR_CUE_BALL_OUT = -86, /* cue.ball is in a pocket or off the table. */
+  CAROM_ERROR_CUE_MISCUE = -87,   /* cue.miscue is not 0 to 1. */
+
+  CAROM_ERROR_WORLD = -90,              /* options.world is not one of carom_world, or not CAROM_WORLD_CAROM for a cluster. */
+  CAROM_ERROR_BALL_MODEL = -91,         /* options.ball_model is not one of carom_ball_model, or none for a cluster. */
+  CAROM_ERROR_SHOT_CUSHION_MODEL = -92, /* options.cushion_model is not one of carom_shot_cushion. */
+  CAROM_ERROR_FRICTION = -93,           /* options.friction is not one of carom_ball_friction. */
+  CAROM_ERROR_SPACE = -94,              /* options.space is not one of carom_space. */
+  CAROM_ERROR_EVENTS_MOST = -95,        /* options.events_most is negative. */
+  CAROM_ERROR_TIME_MOST = -96,      /* options.time_most is negative, not finite, or before the time of a shot that goes on. */
+  CAROM_ERROR_STOP_AT = -97,        /* options.stop_at has a bit that stands for no event. */
+  CAROM_ERROR_PLAIN = -98,          /* options.plain is neither 0 nor 1. */
+  CAROM_ERROR_SIMULTANEOUS = -99,   /* options.simultaneous is not one of carom_simultaneous. */
+  CAROM_ERROR_CLUSTER_STEPS = -100, /* options.cluster_steps is not 0 to 10000. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value not listed. Arrays of

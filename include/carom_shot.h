@@ -579,14 +579,16 @@ CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ba
  * Returns what carom_shoot() does. With nothing written: CAROM_ERROR_STATE: shot->state is damaged or of another build, the
  * shot ended in an error other than a bound, or shot->count or ->time cannot be. CAROM_ERROR_STATE_TABLE,
  * CAROM_ERROR_STATE_BALLS, CAROM_ERROR_STATE_OPTIONS: the table, the balls or their layout, or what `options` say besides when
- * to stop, are not those of the call that stopped. CAROM_ERROR_TIME: time_most is before the time at which the shot stopped. */
+ * to stop, are not those of the call that stopped. CAROM_ERROR_TIME_MOST: time_most is before the time at which the shot
+ * stopped. */
 CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
                                            const carom_shot_options *opt, carom_shot *shot);
 
 /* The states of all balls at a time, by evaluation of the motion after each ball's last event. Before 0: as at 0; after the
  * end: as at the end, where nothing moves any more. CAROM_OK, or an error with nothing written: CAROM_ERROR_NULL;
- * CAROM_ERROR_BALLS; CAROM_ERROR_EVENTS_LOST where shot->room was too small to know; CAROM_ERROR_TIME for a time that is not a
- * number, and for one after shot->time where balls still move then, since a bound or an error ended the shot. */
+ * CAROM_ERROR_ROOM; CAROM_ERROR_BALLS; CAROM_ERROR_EVENTS_LOST where shot->room was too small to know; CAROM_ERROR_TIME for a
+ * time that is not a number, and for one after shot->time where balls still move then, since a bound or an error ended the
+ * shot. */
 CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
                                      carom_ball_state *states);
 

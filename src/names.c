@@ -38,7 +38,7 @@
   X(ERROR_POINTS, -21, "bad_points", "a trace needs at least 2 points")                                             \
   X(ERROR_UNRESOLVED, -22, "unresolved",                                                                            \
     "the collision is too extreme: its result depends on rounding errors, or takes more work than a call may cost") \
-  X(ERROR_OPTIONS, -23, "bad_options", "plain must be 0 or 1, and the reserved fields of the options 0")            \
+  X(ERROR_OPTIONS, -23, "bad_options", "a reserved or unused field of the options is not 0")                        \
   X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model", "options.model is not one of carom_cushion_model")               \
   X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options", "an option of the cushion is out of its range")              \
   X(ERROR_NORMAL, -32, "bad_normal", "the direction into the cushion must be finite and not 0")                     \
@@ -51,15 +51,13 @@
   X(ERROR_TOO_MANY_EVENTS, -40, "too_many_events", "the shot was stopped: it has more events than options.events_most")        \
   X(ERROR_TOO_LONG, -41, "too_long", "the shot was stopped: it lasts longer than 1000 s, and options.time_most is 0")          \
   X(ERROR_LEFT_TABLE, -42, "left_table", "a ball on the cloth left the table, through a gap between its cushions")             \
-  X(ERROR_SHOT_OPTIONS, -43, "bad_shot_options", "an option of the shot is out of its range, or a reserved one is not 0")      \
-  X(ERROR_BALLS, -44, "bad_balls", "a shot has 1 to 32 balls")                                                                 \
+  X(ERROR_SHOT_OPTIONS, -43, "bad_shot_options", "a reserved or unused field of the options, the job or the seeds is not 0")   \
+  X(ERROR_BALLS, -44, "bad_balls", "the count of balls must be 1 to 32, and the index of a ball below it")                     \
   X(ERROR_LABEL, -45, "bad_label", "the label of a ball is none that a layout may have: 0 to 4, and in space 5 and 6")         \
   X(ERROR_OVERLAP, -46, "overlap", "two balls overlap")                                                                        \
   X(ERROR_OFF_TABLE, -47, "off_table", "a ball is not on the table")                                                           \
   X(ERROR_MU_MOTION, -48, "bad_mu_motion", "frictions of sliding, rolling and spinning must be above 0 and at most 1")         \
   X(ERROR_GRAVITY, -49, "bad_gravity", "gravity must be above 0 and at most 1e6 m/s^2")                                        \
-  X(ERROR_CUE, -50, "bad_cue",                                                                                                 \
-    "the cue must have a speed of 0 to 1000 m/s, a direction, an elevation of 0 to 90 degrees, positive masses, and a ball")   \
   X(ERROR_MISCUE, -51, "miscue", "the tip misses the ball: a^2 + b^2 must be below miscue^2, which is 1 by default")           \
   X(ERROR_TABLE, -52, "bad_table",                                                                                             \
     "the table has too many parts, a part that is not finite or has no length, friction or restitution outside 0 to 1, or a "  \
@@ -83,7 +81,29 @@
   X(ERROR_STATE_TABLE, -64, "other_table", "shot.state is that of a shot on another table")                                    \
   X(ERROR_STATE_BALLS, -65, "other_balls", "shot.state is that of a shot of other balls, or of another layout")                \
   X(ERROR_STATE_OPTIONS, -66, "other_options",                                                                                 \
-    "shot.state is that of a shot with other options, besides those that say when to stop")
+    "shot.state is that of a shot with other options, besides those that say when to stop")                                    \
+  X(ERROR_ROOM, -67, "bad_room", "shot.room must be 0 or more, and 0 where shot.events and shot.brief are both NULL")          \
+  X(ERROR_CUE_SPEED, -80, "bad_cue_speed", "cue.speed must be 0 to 1000 m/s")                                                  \
+  X(ERROR_CUE_PHI, -81, "bad_cue_phi", "cue.phi must be a direction of -1e9 to 1e9 degrees")                                   \
+  X(ERROR_CUE_THETA, -82, "bad_cue_theta", "cue.theta must be 0 to 90 degrees")                                                \
+  X(ERROR_CUE_MASS, -83, "bad_cue_mass", "cue.mass must be positive and finite")                                               \
+  X(ERROR_CUE_END_MASS, -84, "bad_cue_end_mass", "cue.end_mass must be positive and finite")                                   \
+  X(ERROR_CUE_BALL, -85, "bad_cue_ball", "cue.ball must be the index of one of the balls, which are counted from 0")           \
+  X(ERROR_CUE_BALL_OUT, -86, "cue_ball_out", "cue.ball must be in play, neither in a pocket nor off the table")                \
+  X(ERROR_CUE_MISCUE, -87, "bad_cue_miscue", "cue.miscue must be 0 to 1")                                                      \
+  X(ERROR_WORLD, -90, "bad_world", "options.world must be one of carom_world; of a cluster, CAROM_WORLD_CAROM")                \
+  X(ERROR_BALL_MODEL, -91, "bad_ball_model",                                                                                   \
+    "options.ball_model must be one of carom_ball_model; of a cluster, the default, EXACT or MIRROR")                          \
+  X(ERROR_SHOT_CUSHION_MODEL, -92, "bad_shot_cushion_model", "options.cushion_model must be one of carom_shot_cushion")        \
+  X(ERROR_FRICTION, -93, "bad_friction", "options.friction must be one of carom_ball_friction")                                \
+  X(ERROR_SPACE, -94, "bad_space", "options.space must be one of carom_space")                                                 \
+  X(ERROR_EVENTS_MOST, -95, "bad_events_most", "options.events_most must not be negative (0 is the default)")                  \
+  X(ERROR_TIME_MOST, -96, "bad_time_most",                                                                                     \
+    "options.time_most must be 0 or more, finite, and not before the time of a shot that goes on")                             \
+  X(ERROR_STOP_AT, -97, "bad_stop_at", "options.stop_at must be a set of CAROM_STOP_AT() and CAROM_STOP_AT_CONTACT")           \
+  X(ERROR_PLAIN, -98, "bad_plain", "options.plain must be 0 or 1")                                                             \
+  X(ERROR_SIMULTANEOUS, -99, "bad_simultaneous", "options.simultaneous must be one of carom_simultaneous")                     \
+  X(ERROR_CLUSTER_STEPS, -100, "bad_cluster_steps", "options.cluster_steps must be 0 to 10000 (0 is the default)")
 
 #define AGREES(NAME, value, name, text) _Static_assert(CAROM_##NAME == (value), "values are never renumbered");
 STATUS_LIST(AGREES)

@@ -80,7 +80,7 @@ def stopped():
 def test_errors_can_be_pickled():
     with pytest.raises(carom.CaromError) as caught:
         carom.collide(BAD)
-    others = carom.CaromError(carom.Status.ERROR_TABLE), carom.CaromError(-50, "cue", text="odd")
+    others = carom.CaromError(carom.Status.ERROR_TABLE), carom.CaromError(-80, "cue", text="odd")
     assert stopped().status is carom.Status.ERROR_TOO_MANY_EVENTS and "than events_most" in str(stopped())
     shot = stopped().shot
     assert shot.states(shot.time).tobytes() == shot.final.tobytes()

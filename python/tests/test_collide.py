@@ -164,7 +164,7 @@ def test_statuses_and_labels_are_those_of_c():
     enumerators = header[header.index("enum carom_status") :].partition("}")[0]
     names = {int(value): name for name, value in re.findall(r"^  CAROM_(\w+) = (-?\d+),?", enumerators, re.M)}
     assert {status.value: status.name for status in carom.Status} == names and len(names) > 50
-    assert list(carom.Status)[:3] == [0, 1, -1] and pickle.loads(pickle.dumps(carom.Status.ERROR_CUE)) is carom.Status.ERROR_CUE
+    assert list(carom.Status)[:3] == [0, 1, -1] and pickle.loads(pickle.dumps(carom.Status.ERROR_CUE_BALL)) is carom.Status.ERROR_CUE_BALL
     for kind, enumeration, prefix in ((carom.Label, "carom_label", "CAROM_BALL_"), (carom.EventType, "carom_event_type", "CAROM_EVENT_")):
         names = {value: name.removeprefix(prefix) for value, name in ffi.typeof(enumeration).elements.items()}
         assert {member.value: member.name for member in kind} == names

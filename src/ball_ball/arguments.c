@@ -27,7 +27,7 @@ static int field_at(size_t offset) {
 #define FIELD(member) field_at(offsetof(carom_impact, member))
 
 carom_status carom_check_options(const carom_options *opt) {
-  uint64_t reserved = (uint64_t)opt->unused | (uint64_t)(opt->plain & ~1);
+  uint64_t reserved = (uint64_t)opt->unused;
   for (size_t k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++)
     reserved |= opt->reserved[k];
   if ((int)opt->solver < 0 || opt->solver >= CAROM_SOLVER_COUNT)
@@ -38,6 +38,8 @@ carom_status carom_check_options(const carom_options *opt) {
     return CAROM_ERROR_STEPS;
   if (opt->threads < CAROM_ALL_THREADS)
     return CAROM_ERROR_THREADS;
+  if ((opt->plain & ~1) != 0)
+    return CAROM_ERROR_PLAIN;
   if (reserved != 0)
     return CAROM_ERROR_OPTIONS;
   return CAROM_OK;

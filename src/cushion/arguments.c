@@ -17,7 +17,7 @@ _Static_assert(sizeof(carom_motion) == 6 * sizeof(double), "a motion is 6 double
 #define FIELD(member) ((int)(offsetof(carom_cushion_impact, member) / sizeof(double)))
 
 carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
-  bool reserved = (opt->plain & ~1) != 0;
+  bool reserved = false;
   for (size_t k = 0; k < sizeof opt->reserved / sizeof opt->reserved[0]; k++)
     reserved |= opt->reserved[k] != 0;
   if (carom_cushion_model_name(opt->model) == NULL)
@@ -26,6 +26,8 @@ carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
     return CAROM_ERROR_STEPS;
   if (opt->threads < 0 && opt->threads != CAROM_ALL_THREADS)
     return CAROM_ERROR_THREADS;
+  if ((opt->plain & ~1) != 0)
+    return CAROM_ERROR_PLAIN;
   if (reserved)
     return CAROM_ERROR_OPTIONS;
   const bool convention = (int)opt->convention >= 0 && opt->convention <= CAROM_CONVENTION_POOLTOOL;

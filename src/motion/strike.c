@@ -21,11 +21,18 @@
 #include <stddef.h>
 
 carom_status carom_check_cue(const carom_cue *cue) {
-  if (!(cue->speed >= 0.0 && cue->speed <= 1e3) || !(fabs(cue->phi) <= 1e9) || !(cue->theta >= 0.0 && cue->theta <= 90.0) ||
-      !carom_is_positive(cue->mass) || !carom_is_positive(cue->end_mass))
-    return CAROM_ERROR_CUE;
+  if (!(cue->speed >= 0.0 && cue->speed <= 1e3))
+    return CAROM_ERROR_CUE_SPEED;
+  if (!(fabs(cue->phi) <= 1e9))
+    return CAROM_ERROR_CUE_PHI;
+  if (!(cue->theta >= 0.0 && cue->theta <= 90.0))
+    return CAROM_ERROR_CUE_THETA;
+  if (!carom_is_positive(cue->mass))
+    return CAROM_ERROR_CUE_MASS;
+  if (!carom_is_positive(cue->end_mass))
+    return CAROM_ERROR_CUE_END_MASS;
   if (!(cue->miscue >= 0.0 && cue->miscue <= 1.0))
-    return CAROM_ERROR_CUE;
+    return CAROM_ERROR_CUE_MISCUE;
   const double limit = cue->miscue > 0.0 ? cue->miscue : 1.0;
   return cue->a * cue->a + cue->b * cue->b < limit * limit ? CAROM_OK : CAROM_ERROR_MISCUE;
 }

@@ -18,17 +18,35 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
   for (size_t k = 0; k < sizeof o->reserved / sizeof o->reserved[0]; k++)
     reserved |= o->reserved[k] != 0;
   /* enumerations may be signed or not; a number below 0 is a large one here */
-  const bool good = (uint32_t)o->world <= CAROM_WORLD_POOLTOOL && (uint32_t)o->ball_model <= CAROM_BALL_MODEL_MIRROR &&
-                    (uint32_t)o->cushion_model <= CAROM_SHOT_CUSHION_EULER &&
-                    (uint32_t)o->friction <= CAROM_FRICTION_CONSTANT && (uint32_t)o->space <= CAROM_SPACE_FLAT &&
-                    o->events_most >= 0 && (o->plain & ~1) == 0 && (uint32_t)o->simultaneous <= CAROM_SIMULTANEOUS_PAIRS &&
-                    (uint32_t)o->cluster_steps <= 10000 && o->unused == 0 && !reserved && o->time_most >= 0.0 &&
-                    o->time_most < INFINITY && o->stop_at >> CAROM_DUE_PIECE == 0;
-  if (!good)
-    return CAROM_ERROR_SHOT_OPTIONS;
+  if ((uint32_t)o->world > CAROM_WORLD_POOLTOOL)
+    return CAROM_ERROR_WORLD;
+  if ((uint32_t)o->ball_model > CAROM_BALL_MODEL_MIRROR)
+    return CAROM_ERROR_BALL_MODEL;
+  if ((uint32_t)o->cushion_model > CAROM_SHOT_CUSHION_EULER)
+    return CAROM_ERROR_SHOT_CUSHION_MODEL;
+  if ((uint32_t)o->friction > CAROM_FRICTION_CONSTANT)
+    return CAROM_ERROR_FRICTION;
+  if ((uint32_t)o->space > CAROM_SPACE_FLAT)
+    return CAROM_ERROR_SPACE;
+  if ((uint32_t)o->simultaneous > CAROM_SIMULTANEOUS_PAIRS)
+    return CAROM_ERROR_SIMULTANEOUS;
+
+  /* bounds, when to stop, and how to compute */
   if (o->steps < 0)
     return CAROM_ERROR_STEPS;
-  return o->threads >= 0 || o->threads == CAROM_ALL_THREADS ? CAROM_OK : CAROM_ERROR_THREADS;
+  if ((uint32_t)o->cluster_steps > 10000)
+    return CAROM_ERROR_CLUSTER_STEPS;
+  if (o->events_most < 0)
+    return CAROM_ERROR_EVENTS_MOST;
+  if (!(o->time_most >= 0.0 && o->time_most < INFINITY))
+    return CAROM_ERROR_TIME_MOST;
+  if (o->stop_at >> CAROM_DUE_PIECE != 0)
+    return CAROM_ERROR_STOP_AT;
+  if ((o->plain & ~1) != 0)
+    return CAROM_ERROR_PLAIN;
+  if (o->threads < CAROM_ALL_THREADS)
+    return CAROM_ERROR_THREADS;
+  return o->unused != 0 || reserved ? CAROM_ERROR_SHOT_OPTIONS : CAROM_OK;
 }
 
 /* Prepares the table for the balls of a layout. In flat play all radii are to be that of the first. */
@@ -113,9 +131,9 @@ static inline bool overlap(const carom_shot_ball *a, double z_a, const carom_sho
 static carom_status check_cue(const carom_shot_ball *balls, int count, const carom_cue *cue) {
   if (cue == NULL || cue->speed == 0.0)
     return CAROM_OK;
-  if (cue->ball < 0 || cue->ball >= count || carom_is_out(balls[cue->ball].state.label))
-    return CAROM_ERROR_CUE;
-  return carom_check_cue(cue);
+  if (cue->ball < 0 || cue->ball >= count)
+    return CAROM_ERROR_CUE_BALL;
+  return carom_is_out(balls[cue->ball].state.label) ? CAROM_ERROR_CUE_BALL_OUT : carom_check_cue(cue);
 }
 
 carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where) {

@@ -152,8 +152,10 @@ static carom_status check(const carom_shot_ball *balls, int count, const carom_s
   if (bad != CAROM_OK)
     return bad;
   const bool solves = opt->ball_model <= CAROM_BALL_MODEL_EXACT || opt->ball_model == CAROM_BALL_MODEL_MIRROR;
-  if (opt->world != CAROM_WORLD_CAROM || !solves)
-    return CAROM_ERROR_SHOT_OPTIONS;
+  if (opt->world != CAROM_WORLD_CAROM)
+    return CAROM_ERROR_WORLD;
+  if (!solves)
+    return CAROM_ERROR_BALL_MODEL;
   for (int k = 0; k < count; k++) {
     const carom_status status = carom_check_ball(&balls[k], opt->space == CAROM_SPACE_FLAT);
     if (status != CAROM_OK)

@@ -385,18 +385,22 @@ static carom_status shoot_checked(const carom_table *table, carom_features *feat
   return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot, true);
 }
 
-static bool room_is_there(const carom_shot *shot) {
-  return shot->room == 0 || (shot->room > 0 && (shot->events != NULL || shot->brief != NULL));
+static carom_status check_room(const carom_shot *shot) {
+  const bool good = shot->room == 0 || (shot->room > 0 && (shot->events != NULL || shot->brief != NULL));
+  return good ? CAROM_OK : CAROM_ERROR_ROOM;
 }
 
 carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
                          const carom_shot_options *opt, carom_shot *shot) {
-  if (table == NULL || balls == NULL || shot == NULL || !room_is_there(shot))
+  if (table == NULL || balls == NULL || shot == NULL)
     return CAROM_ERROR_NULL;
+  carom_status bad = check_room(shot);
+  if (bad != CAROM_OK)
+    return bad;
   opt = opt != NULL ? opt : &no_options;
   clear(shot);
   int where;
-  const carom_status bad = carom_check_common(table, count, opt, &where);
+  bad = carom_check_common(table, count, opt, &where);
   carom_features features;
   features.radius = 0.0;
   return bad != CAROM_OK ? bad : shoot_checked(table, &features, balls, count, cue, opt, shot);
@@ -404,13 +408,15 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
 
 carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
                                  const carom_shot_options *opt, carom_shot *shot) {
-  if (table == NULL || balls == NULL || shot == NULL || shot->state == NULL || !room_is_there(shot))
+  if (table == NULL || balls == NULL || shot == NULL || shot->state == NULL)
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
   int where;
   carom_features features;
   features.radius = 0.0;
-  carom_status bad = carom_check_common(table, count, opt, &where);
+  carom_status bad = check_room(shot);
+  if (bad == CAROM_OK)
+    bad = carom_check_common(table, count, opt, &where);
   if (bad == CAROM_OK)
     bad = carom_check_layout(table, &features, balls, count, NULL, opt, &where);
   if (bad != CAROM_OK)
@@ -418,7 +424,7 @@ carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball
   if (shot->count < 0 || !(shot->time >= 0.0 && shot->time < INFINITY))
     return CAROM_ERROR_STATE;
   if (opt->time_most > 0.0 && opt->time_most < shot->time)
-    return CAROM_ERROR_TIME;
+    return CAROM_ERROR_TIME_MOST;
   return shoot(table, &features, balls, count, NULL, opt, shot, false);
 }
 
@@ -428,8 +434,9 @@ static carom_status shoot_row(const carom_shot_job *job, size_t k, carom_feature
   const carom_shot_ball *balls = job->balls + k * job->ball_stride;
   const carom_cue *cue = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
   const carom_shot_options *opt = job->options != NULL ? job->options : &no_options;
-  if (!room_is_there(&job->shots[k]))
-    return CAROM_ERROR_NULL;
+  const carom_status bad = check_room(&job->shots[k]);
+  if (bad != CAROM_OK)
+    return bad;
   clear(&job->shots[k]);
   return shoot_checked(job->table, features, balls, (int)job->count, cue, opt, &job->shots[k]);
 }
@@ -527,8 +534,11 @@ static void replay_states(replay *at, double time, carom_ball_state *states) {
 
 carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const carom_shot *shot, const double *times, size_t n,
                                  carom_ball_state *states) {
-  if (balls == NULL || shot == NULL || (n > 0 && (times == NULL || states == NULL)) || !room_is_there(shot))
+  if (balls == NULL || shot == NULL || (n > 0 && (times == NULL || states == NULL)))
     return CAROM_ERROR_NULL;
+  const carom_status bad = check_room(shot);
+  if (bad != CAROM_OK)
+    return bad;
   if (count < 1 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
   const int64_t room = shot->events != NULL ? shot->room : 0; /* brief events have no states */

@@ -459,7 +459,7 @@ TEST(bad_states) {
     (what) = kept;                        \
   } while (0)
   options.time_most = 0.1;
-  REFUSED(CAROM_ERROR_TIME);
+  REFUSED(CAROM_ERROR_TIME_MOST);
   options.time_most = 0.3;
   /* other arguments */
   ck_assert_int_eq(carom_shot_continue(&table, balls, 15, &options, &b->shot), CAROM_ERROR_STATE_BALLS);
@@ -479,7 +479,7 @@ TEST(bad_states) {
   REFUSED_WITH(options.steps, 500, CAROM_ERROR_STATE_OPTIONS);
   REFUSED_WITH(options.plain, 1, CAROM_ERROR_STATE_OPTIONS);
   REFUSED_WITH(options.cluster_steps, 50, CAROM_ERROR_STATE_OPTIONS);
-  REFUSED_WITH(options.stop_at, UINT64_C(1) << 63, CAROM_ERROR_SHOT_OPTIONS);
+  REFUSED_WITH(options.stop_at, UINT64_C(1) << 63, CAROM_ERROR_STOP_AT);
   ck_assert_int_eq(memcmp(b, before, sizeof *b), 0);
   /* numbers of the result that cannot be */
   REFUSED_WITH(b->shot.count, -1, CAROM_ERROR_STATE);

@@ -660,13 +660,15 @@ END_TEST
 
 START_TEST(arguments) {
   layout l = row(3, 0.95);
-  const carom_shot_options pairs = {.ball_model = CAROM_BALL_MODEL_EULER}, flat = {.space = CAROM_SPACE_FLAT};
+  const carom_shot_options pairs = {.ball_model = CAROM_BALL_MODEL_EULER}, flat = {.space = CAROM_SPACE_FLAT},
+                           elsewhere = {.world = CAROM_WORLD_POOLTOOL};
   ck_assert_int_eq(carom_cluster(NULL, 3, NULL, out, NULL, 0, NULL), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_cluster(l.ball, 3, NULL, NULL, NULL, 0, NULL), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_cluster(l.ball, 3, NULL, out, NULL, 1, NULL), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_cluster(l.ball, 0, NULL, out, NULL, 0, NULL), CAROM_ERROR_BALLS);
   ck_assert_int_eq(carom_cluster(l.ball, MOST + 1, NULL, out, NULL, 0, NULL), CAROM_ERROR_BALLS);
-  ck_assert_int_eq(carom_cluster(l.ball, 3, &pairs, out, NULL, 0, NULL), CAROM_ERROR_SHOT_OPTIONS);
+  ck_assert_int_eq(carom_cluster(l.ball, 3, &pairs, out, NULL, 0, NULL), CAROM_ERROR_BALL_MODEL);
+  ck_assert_int_eq(carom_cluster(l.ball, 3, &elsewhere, out, NULL, 0, NULL), CAROM_ERROR_WORLD);
   ck_assert_int_eq(carom_cluster(l.ball, 3, NULL, out, NULL, 0, NULL), CAROM_OK);
   /* a pocketed ball takes no part, and nothing is told of contacts beyond the room */
   l.ball[2].state.label = CAROM_BALL_POCKETED;

@@ -170,8 +170,8 @@ TEST(bad_options) {
       {{.threads = -2}, CAROM_ERROR_THREADS},
       {{.reserved = {1}}, CAROM_ERROR_OPTIONS},
       {{.reserved = {[4] = (uint64_t)1 << 63}}, CAROM_ERROR_OPTIONS},
-      {{.plain = 2}, CAROM_ERROR_OPTIONS},
-      {{.plain = -1}, CAROM_ERROR_OPTIONS},
+      {{.plain = 2}, CAROM_ERROR_PLAIN},
+      {{.plain = -1}, CAROM_ERROR_PLAIN},
       {{.unused = 1}, CAROM_ERROR_OPTIONS},
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {

@@ -73,7 +73,7 @@ TEST(each_option_is_checked) {
                {{.law = (carom_cushion_law)2}, CAROM_ERROR_CUSHION_OPTIONS},
                {{.steps = -1}, CAROM_ERROR_STEPS},
                {{.threads = -2}, CAROM_ERROR_THREADS},
-               {{.plain = 2}, CAROM_ERROR_OPTIONS},
+               {{.plain = 2}, CAROM_ERROR_PLAIN},
                {{.reserved = {0, 0, 0, 1}}, CAROM_ERROR_OPTIONS},
                {{.least_step = -1}, CAROM_ERROR_CUSHION_OPTIONS},
                {{.least_step = NAN}, CAROM_ERROR_CUSHION_OPTIONS},

@@ -68,6 +68,19 @@ static void expect(carom_status status, int where) {
     expect((status), (where));               \
   } while (0)
 
+/* The same of a field that has a status of its own, whose name and text say the field: `text` is "cue.mass must". */
+static void named(const char *field, carom_status status) {
+  char text[64];
+  snprintf(text, sizeof text, "%s must", field);
+  ck_assert_ptr_nonnull(strstr(carom_status_name(status), strchr(field, '.') + 1));
+  ck_assert_ptr_eq(strstr(carom_status_string(status), text), carom_status_string(status));
+}
+#define NAMED(field, value, status)    \
+  do {                                 \
+    REFUSED(field, value, status, -1); \
+    named(#field, status);             \
+  } while (0)
+
 TEST(kinds) {
   const double bad[] = {NAN, INFINITY, -1.0, 0.0};
   for (int k = 0; k < 4; k++) {
@@ -173,20 +186,27 @@ TEST(states) {
 }
 
 TEST(cues) {
-  REFUSED(cue.speed, NAN, CAROM_ERROR_CUE, -1);
-  REFUSED(cue.speed, -1.0, CAROM_ERROR_CUE, -1);
-  REFUSED(cue.phi, INFINITY, CAROM_ERROR_CUE, -1);
-  REFUSED(cue.theta, 91.0, CAROM_ERROR_CUE, -1);
-  REFUSED(cue.theta, NAN, CAROM_ERROR_CUE, -1);
-  REFUSED(cue.mass, 0.0, CAROM_ERROR_CUE, -1);
-  REFUSED(cue.end_mass, -1.0, CAROM_ERROR_CUE, -1);
-  REFUSED(cue.ball, 10, CAROM_ERROR_CUE, -1);
-  REFUSED(cue.ball, -1, CAROM_ERROR_CUE, -1);
+  NAMED(cue.speed, NAN, CAROM_ERROR_CUE_SPEED);
+  NAMED(cue.speed, -1.0, CAROM_ERROR_CUE_SPEED);
+  NAMED(cue.phi, INFINITY, CAROM_ERROR_CUE_PHI);
+  NAMED(cue.theta, 91.0, CAROM_ERROR_CUE_THETA);
+  NAMED(cue.theta, NAN, CAROM_ERROR_CUE_THETA);
+  NAMED(cue.mass, 0.0, CAROM_ERROR_CUE_MASS);
+  NAMED(cue.end_mass, -1.0, CAROM_ERROR_CUE_END_MASS);
+  NAMED(cue.ball, 10, CAROM_ERROR_CUE_BALL);
+  NAMED(cue.ball, -1, CAROM_ERROR_CUE_BALL);
+  for (int label = CAROM_BALL_POCKETED; label <= CAROM_BALL_OFF; label += CAROM_BALL_OFF - CAROM_BALL_POCKETED) {
+    set_up();
+    cue.ball = 3;
+    balls[3].state.label = label;
+    expect(CAROM_ERROR_CUE_BALL_OUT, -1);
+    named("cue.ball", CAROM_ERROR_CUE_BALL_OUT);
+  }
   REFUSED(cue.a, 1.0, CAROM_ERROR_MISCUE, -1);
   REFUSED(cue.b, NAN, CAROM_ERROR_MISCUE, -1);
-  REFUSED(cue.miscue, -0.1, CAROM_ERROR_CUE, -1);
-  REFUSED(cue.miscue, 1.1, CAROM_ERROR_CUE, -1);
-  REFUSED(cue.miscue, NAN, CAROM_ERROR_CUE, -1);
+  NAMED(cue.miscue, -0.1, CAROM_ERROR_CUE_MISCUE);
+  NAMED(cue.miscue, 1.1, CAROM_ERROR_CUE_MISCUE);
+  NAMED(cue.miscue, NAN, CAROM_ERROR_CUE_MISCUE);
   set_up();
   cue.a = 0.3;
   cue.b = 0.4; /* at 0.5 */
@@ -238,27 +258,31 @@ TEST(tables) {
 }
 
 TEST(options_and_calls) {
-  REFUSED(options.world, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.ball_model, 5, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.world, (carom_world)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.ball_model, (carom_ball_model)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.cushion_model, (carom_shot_cushion)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.cushion_model, (carom_shot_cushion)6, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.friction, (carom_ball_friction)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.friction, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.events_most, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.space, (carom_space)2, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.space, (carom_space)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.plain, 2, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.simultaneous, (carom_simultaneous)2, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.simultaneous, (carom_simultaneous)-1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.cluster_steps, -1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.cluster_steps, 10001, CAROM_ERROR_SHOT_OPTIONS, -1);
+  NAMED(options.world, 2, CAROM_ERROR_WORLD);
+  NAMED(options.ball_model, 5, CAROM_ERROR_BALL_MODEL);
+  NAMED(options.world, (carom_world)-1, CAROM_ERROR_WORLD);
+  NAMED(options.ball_model, (carom_ball_model)-1, CAROM_ERROR_BALL_MODEL);
+  NAMED(options.cushion_model, (carom_shot_cushion)-1, CAROM_ERROR_SHOT_CUSHION_MODEL);
+  NAMED(options.cushion_model, (carom_shot_cushion)6, CAROM_ERROR_SHOT_CUSHION_MODEL);
+  NAMED(options.friction, (carom_ball_friction)-1, CAROM_ERROR_FRICTION);
+  NAMED(options.friction, 2, CAROM_ERROR_FRICTION);
+  NAMED(options.events_most, -1, CAROM_ERROR_EVENTS_MOST);
+  NAMED(options.space, (carom_space)2, CAROM_ERROR_SPACE);
+  NAMED(options.space, (carom_space)-1, CAROM_ERROR_SPACE);
+  NAMED(options.plain, 2, CAROM_ERROR_PLAIN);
+  NAMED(options.simultaneous, (carom_simultaneous)2, CAROM_ERROR_SIMULTANEOUS);
+  NAMED(options.simultaneous, (carom_simultaneous)-1, CAROM_ERROR_SIMULTANEOUS);
+  NAMED(options.cluster_steps, -1, CAROM_ERROR_CLUSTER_STEPS);
+  NAMED(options.cluster_steps, 10001, CAROM_ERROR_CLUSTER_STEPS);
   REFUSED(options.unused, 1, CAROM_ERROR_SHOT_OPTIONS, -1);
   REFUSED(options.reserved[0], 1, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.time_most, NAN, CAROM_ERROR_SHOT_OPTIONS, -1);
-  REFUSED(options.steps, -1, CAROM_ERROR_STEPS, -1);
-  REFUSED(options.threads, -2, CAROM_ERROR_THREADS, -1);
+  NAMED(options.time_most, NAN, CAROM_ERROR_TIME_MOST);
+  NAMED(options.time_most, -1.0, CAROM_ERROR_TIME_MOST);
+  NAMED(options.time_most, INFINITY, CAROM_ERROR_TIME_MOST);
+  NAMED(options.stop_at, UINT64_C(1) << 13, CAROM_ERROR_STOP_AT);
+  NAMED(options.plain, -1, CAROM_ERROR_PLAIN);
+  NAMED(options.steps, -1, CAROM_ERROR_STEPS);
+  NAMED(options.threads, -2, CAROM_ERROR_THREADS);
   set_up();
   carom_shot shot = {0};
   ck_assert_int_eq(carom_shoot(NULL, balls, 10, &cue, NULL, &shot), CAROM_ERROR_NULL);
@@ -266,8 +290,22 @@ TEST(options_and_calls) {
   ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, NULL), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_shoot(&table, balls, 0, &cue, NULL, &shot), CAROM_ERROR_BALLS);
   ck_assert_int_eq(carom_shoot(&table, balls, 33, &cue, NULL, &shot), CAROM_ERROR_BALLS);
-  shot.room = 5;
-  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_ERROR_NULL);
+  /* room for events that are nowhere, and less than none */
+  static carom_shot_state state;
+  carom_ball_state then[10];
+  const int64_t rooms[] = {5, -1};
+  for (int k = 0; k < 2; k++) {
+    carom_shot bad = {.room = rooms[k], .count = 77, .state = &state};
+    int8_t said = 99;
+    const carom_shot_job one = {.table = &table, .balls = balls, .count = 10, .n = 1, .shots = &bad, .status = &said};
+    ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &bad), CAROM_ERROR_ROOM);
+    ck_assert_int_eq(carom_shoot_batch(&one), CAROM_ERROR_ROOM);
+    ck_assert_int_eq(said, CAROM_ERROR_ROOM);
+    ck_assert_int_eq(carom_shot_continue(&table, balls, 10, NULL, &bad), CAROM_ERROR_ROOM);
+    ck_assert_int_eq(carom_shot_at(balls, 10, &bad, 0.0, then), CAROM_ERROR_ROOM);
+    ck_assert_int_eq(bad.count, 77);
+  }
+  named("shot.room", CAROM_ERROR_ROOM);
   /* a job that cannot be served is refused whole, without a word to any shot */
   int8_t told = 99;
   const carom_shot_job good = {
@@ -288,7 +326,9 @@ TEST(options_and_calls) {
   JOB_REFUSED(shots, NULL, CAROM_ERROR_NULL);
   JOB_REFUSED(count, 0, CAROM_ERROR_BALLS);
   JOB_REFUSED(count, INT64_C(1) << 32 | 10, CAROM_ERROR_BALLS);
+  ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_BALLS), "count"));
   JOB_REFUSED(reserved[3], 1, CAROM_ERROR_SHOT_OPTIONS);
+  ck_assert_ptr_nonnull(strstr(carom_status_string(CAROM_ERROR_SHOT_OPTIONS), "reserved"));
   ck_assert_int_eq(carom_shoot_batch(&good), CAROM_OK);
   ck_assert(told == CAROM_OK && shot.count != 77);
   ck_assert_int_eq(carom_rack(CAROM_RACK_NINEBALL, &table, -1.0, 1, balls, 10), CAROM_ERROR_RACK);

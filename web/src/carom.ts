@@ -61,6 +61,12 @@ const STICK = ["never", "in compression", "in restitution"] as const;
 const BALL = { r: [0, 0, 0], v: [0, 0, 0], w: [0, 0, 0], radius: 0.028575, mass: 0.17, muCloth: 0.2 } as const;
 const RAIL = { w: [0, 0, 0], height: 0.0365, radius: 0.028575, mass: 0.17, muCloth: 0.2, muCushion: 0.2, restitution: 0.85, jawRadius: 0 } as const;
 
+/** How continue() refuses arguments, with nothing played. */
+const REFUSED: readonly number[] = [
+  ...[values.CAROM_ERROR_STATE, values.CAROM_ERROR_STATE_TABLE, values.CAROM_ERROR_STATE_BALLS, values.CAROM_ERROR_STATE_OPTIONS],
+  ...[values.CAROM_ERROR_TIME_MOST, values.CAROM_ERROR_STOP_AT, values.CAROM_ERROR_EVENTS_MOST],
+];
+
 function whole(number: number | undefined, option: string): number {
   if (number === undefined) return 0;
   if (!Number.isInteger(number) || number < 0 || number > 0x7fffffff) throw new RangeError(`${option}: it must be a whole number, 0 or more, not ${number}`);
@@ -204,7 +210,11 @@ export class Carom {
   }
 
   #error(code: number, field?: string, shot?: Shot, text = this.#memory.text(this.#call.carom_status_string(code))!): CaromError {
-    return new CaromError(code, this.statusName(code), text, field, shot);
+    // The text of a field's own status begins with the field, by its name in C: "cue.end_mass must be positive and finite".
+    const [, of, name, must] = (field === undefined && /^(cue\.|options\.)(\w+) (must .*)/.exec(text)) || [];
+    if (name === undefined) return new CaromError(code, this.statusName(code), text, field, shot);
+    const key = name.replace(/_(.)/g, (_, letter: string) => letter.toUpperCase());
+    return new CaromError(code, this.statusName(code), `it ${must}`, of === "cue." ? of + key : key, shot);
   }
 
   #refuse(code: number, field?: string): void {
@@ -564,8 +574,7 @@ export class Carom {
       for (const part of ["table", "options", "state"] as const) this.#memory.u8.set(kept[part], at[part]);
       this.#writeStops(options);
       code = this.#call.carom_shot_continue(at.table, at.balls, shot.balls.length, at.options, at.shot);
-      if (code === values.CAROM_ERROR_TIME) throw this.#error(code, `timeMost ${options.timeMost}, where the shot stopped at ${shot.time}`);
-      if (code === values.CAROM_ERROR_SHOT_OPTIONS || code === values.CAROM_ERROR_STATE) throw this.#error(code, "continue");
+      if (REFUSED.includes(code)) throw this.#error(code);
       if (this.#count() <= this.#room) break;
       this.#needRoom(this.#count());
     }
@@ -587,7 +596,7 @@ export class Carom {
   }
 
   #where(code: number, index: number): string | undefined {
-    if (code === values.CAROM_ERROR_CUE || code === values.CAROM_ERROR_MISCUE) return "cue";
+    if (code === values.CAROM_ERROR_MISCUE) return "cue.a, cue.b";
     if (index < 0) return undefined;
     return code === values.CAROM_ERROR_TABLE || code === values.CAROM_ERROR_NOSE_HEIGHT ? `table, part ${index}` : `balls[${index}]`;
   }
@@ -627,7 +636,8 @@ export class Carom {
     this.#resident = undefined;
     writeStruct(this.#memory, at, "carom_cue", this.cue(cue), "cue");
     writeStruct(this.#memory, detail, "carom_ball_kind", kind, "kind");
-    this.#refuse(this.#call.carom_strike(at, detail, motion), "cue");
+    const code = this.#call.carom_strike(at, detail, motion);
+    if (code < 0) throw this.#error(code, this.#where(code, -1));
     return readMotion(this.#memory.f64, motion);
   }
 

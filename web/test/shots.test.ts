@@ -183,7 +183,10 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     }
     expect([(error as CaromError).status, (error as CaromError).shot!.count]).toEqual(["too_many_events", 50]);
     expect(carom.continue((error as CaromError).shot!).bytes).toEqual(whole.bytes);
-    expect(() => carom.continue(rail, { timeMost: rail.time / 2 })).toThrow(/^timeMost .*where the shot stopped at /);
+    expect(() => carom.continue(rail, { timeMost: rail.time / 2 })).toThrow(/^timeMost: it must be .* not before the time of a shot that goes on$/);
+    const changed = carom.simulate(table, balls, { speed: 20 }, { timeMost: 0.01 });
+    (changed.balls[1]!.kind as { mass: number }).mass *= 1.1;
+    expect(() => carom.continue(changed)).toThrow(expect.objectContaining({ status: "other_balls", shot: undefined }));
     expect(() => carom.continue(first, { cushionModel: "han" } as never)).toThrow("cushionModel: there is no such key; there are timeMost, stopAt, eventsMost");
     const batch = carom.shots(table, balls, 1, { room: 64 });
     carom.simulateBatch(batch, { timeMost: 0.01 });
@@ -239,8 +242,18 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     const bad = structuredClone(balls) as unknown as { kind: { radius: number }; state: { r: number[] } }[];
     bad[3]!.state.r[0] = NaN;
     expect(() => carom.simulate(table, bad as never, {})).toThrow(/^balls\[3\]: /);
-    expect(() => carom.simulate(table, balls, { a: 0.9, b: 0.9 })).toThrow(/^cue: /);
-    expect(() => carom.simulate(table, balls, { ball: 12 })).toThrow(/^cue: /);
+    expect(() => carom.simulate(table, balls, { a: 0.9, b: 0.9 })).toThrow(/^cue\.a, cue\.b: the tip misses the ball: /);
+    const out = structuredClone(balls) as unknown as { state: { label: string } }[];
+    out[3]!.state.label = "pocketed";
+    for (const [key, wrong] of [["speed", -1], ["phi", Infinity], ["theta", 91], ["mass", 0], ["endMass", NaN], ["miscue", 1.1], ["ball", 12], ["ball", 3]] as const) {
+      const calls = [() => carom.simulate(table, out as never, { [key]: wrong })];
+      // A strike alone has no layout.
+      if (key !== "ball") calls.push(() => carom.strike({ [key]: wrong }, balls[0]!.kind) as never);
+      const status = expect.stringContaining(`cue_${key.replace("M", "_m")}`);
+      for (const call of calls) expect(call).toThrow(expect.objectContaining({ field: `cue.${key}`, status, message: expect.stringMatching(/: it must be /) }));
+    }
+    expect(() => carom.simulate(table, balls, {}, { timeMost: -1 })).toThrow(/^timeMost: it must be 0 or more/);
+    expect(() => carom.simulate(table, balls, {}, { eventsMost: -1 })).toThrow(/^eventsMost: it must be a whole number, 0 or more, not -1/);
     expect(() => carom.simulate(table, balls, { ball: 0.5 })).toThrow(/^cue.ball: /);
     expect(() => carom.simulate(table, [], {})).toThrow("1 to 32");
     expect(() => carom.simulate(table, balls, {}, { cushionModel: "wood" as never })).toThrow("cushionModel: it must be one of ");

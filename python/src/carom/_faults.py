@@ -18,14 +18,7 @@ from carom.status import CaromError, Status
 _Range = tuple[Callable[[Any], bool], str]
 _UNIT: _Range = (lambda x: 0 <= x <= 1, "0 to 1")
 _FRICTION: _Range = (lambda x: 0 < x <= 1, "above 0 and at most 1")
-_POSITIVE: _Range = (lambda x: 0 < x < np.inf, "positive and finite")
 _SHARED: dict[str, dict[str, _Range]] = {
-    "cue": {
-        "speed": (lambda x: 0 <= x <= 1000, "0 to 1000 m/s"),
-        "phi": (lambda x: abs(x) <= 1e9, "a direction in degrees"),
-        "theta": (lambda x: 0 <= x <= 90, "0 to 90 degrees"),
-        **{"miscue": _UNIT, "mass": _POSITIVE, "end_mass": _POSITIVE},
-    },
     "mu_motion": {"mu_slide": _FRICTION, "mu_roll": _FRICTION, "mu_spin": _FRICTION},
     "restitution": {
         "restitution": _UNIT,
@@ -42,7 +35,7 @@ _SHARED: dict[str, dict[str, _Range]] = {
 }
 # Fields whose statuses have other names.
 _NAMES = {"position": "r", "overlap": "r", "off_table": "r", "velocity": "v", "vertical": "v", "spin": "w"}
-_NAMES |= {"radii_differ": "radius", "masses_differ": "mass"}
+_NAMES |= {"radii_differ": "radius", "masses_differ": "mass", "cue_ball_out": "ball"}
 
 
 def _word(status: int) -> str:
@@ -52,10 +45,12 @@ def _word(status: int) -> str:
 def fault(status: int, name: str, record: dtypes.Records) -> CaromError:
     """The exception for a record, called `name`, that C refuses: a cue, or the kind or the state of a ball."""
     word = _word(status)
+    if status == Status.ERROR_MISCUE:
+        return CaromError(status, f"{name}.a, {name}.b", f"{record['a']}, {record['b']}")
     for field, (is_right, right) in _SHARED.get(word, {}).items():
         if not is_right(record[field]):
             return CaromError(status, f"{name}.{field}", record[field].item(), text=f"it must be {right}")
-    field = word.removeprefix("cue_") if word.startswith("cue_") else _NAMES.get(word, word)
+    field = _NAMES.get(word, word.removeprefix("cue_"))
     if field not in (record.dtype.names or ()) or word in _SHARED:
         return CaromError(status, name)
     text = Status(status).text.replace(f"{name}.{field} must", "it must")
@@ -65,18 +60,6 @@ def fault(status: int, name: str, record: dtypes.Records) -> CaromError:
 def is_of_cue(status: int) -> bool:
     """Whether a status is about a cue."""
     return _word(status).startswith(("cue", "miscue"))
-
-
-def cue_error(status: int, cue: dtypes.Records, balls: dtypes.Records | None = None) -> CaromError:
-    """The exception for a cue that C refuses; `balls` is the layout, if there is one."""
-    number = int(cue["ball"])
-    if balls is not None and not 0 <= number < len(balls):
-        return CaromError(status, "cue.ball", number, text=f"it must be the index of one of the balls, 0 to {len(balls) - 1}")
-    if balls is not None and balls["state"]["label"][number] in (lib.CAROM_BALL_POCKETED, lib.CAROM_BALL_OFF):
-        return CaromError(status, "cue.ball", number, text="this ball is out of play; a ball on the table must be struck")
-    if status == Status.ERROR_MISCUE:
-        return CaromError(status, "cue.a, cue.b", f"{cue['a']}, {cue['b']}")
-    return fault(status, "cue", cue)
 
 
 def shot_arguments(table: Any, layout: dtypes.Records, cue: dtypes.Records | None, options: Any) -> tuple[Any, ...]:
@@ -92,7 +75,7 @@ def argument_error(arguments: tuple[Any, ...], layout: dtypes.Records, cue: dtyp
     if code >= 0:
         return None
     if cue is not None and is_of_cue(code):
-        return cue_error(code, cue, layout)
+        return fault(code, "cue", cue)
     if code in (lib.CAROM_ERROR_TABLE, lib.CAROM_ERROR_NOSE_HEIGHT):
         return CaromError(code, "table")
     if not 0 <= where[0] < len(layout):

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from carom import dtypes, pictures
 from carom._carom import ffi, lib
-from carom._faults import cue_error, fault, is_of_cue
+from carom._faults import fault, is_of_cue
 from carom._rows import Array, as_array, choice, copied, fill, pointer, whole
 from carom.status import CaromError, Status
 
@@ -294,5 +294,5 @@ def struck(cue: dtypes.Records, kind: dtypes.Records) -> dtypes.Records:
     ball = of_record(kind, dtypes.ball_kind, "kind", "balls()['kind']").reshape(1)
     code = lib.carom_strike(pointer("carom_cue[]", strike), pointer("carom_ball_kind[]", ball), pointer("carom_motion[]", motion))
     if code < 0:
-        raise cue_error(code, strike) if is_of_cue(code) else fault(code, "kind", ball[0])
+        raise fault(code, "cue", strike) if is_of_cue(code) else fault(code, "kind", ball[0])
     return motion
