@@ -15,6 +15,10 @@
 #include <stdint.h>
 #include <string.h>
 
+/* Macros where there is only the header of C. */
+#undef isfinite
+#undef isnan
+
 /* The bits that the library promises hold in C; what C says of them is C++ so. */
 #define _Static_assert static_assert
 extern "C" {

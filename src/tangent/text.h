@@ -29,6 +29,7 @@ extern "C" {
 /* Declarations of C with another type in them would be other functions for the same symbols. */
 #pragma push_macro("__cplusplus")
 #undef __cplusplus
+#define _WCHAR_T /* a word of C++, which headers of C would define */
 #undef _Static_assert
 #define _Static_assert(...) static_assert(true, "")
 #pragma push_macro("CAROM_API")
