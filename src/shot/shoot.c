@@ -127,8 +127,8 @@ static bool is_finite(const carom_ball_state *s) {
 }
 
 /* The contact that is due with all that lasts at the same time. Returns false where there is nothing else. Each contact is an
- * event. A ball changes at its first one, and has the same state before and after the others. *due becomes a contact of the
- * struck ball, where it has one. Apart, as a cluster needs 20 KiB of stack. */
+ * event. A ball changes at its first one, and has the same state before and after the others. *due becomes the first
+ * contact of the struck ball, where it has one. Apart, as a cluster needs 20 KiB of stack. */
 __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *due, carom_status *status) {
   carom_cluster_state c;
   uint8_t order[CAROM_CLUSTER_CONTACTS];
@@ -142,7 +142,7 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
     const carom_cluster_contact_state *x = &c.contact[order[k]];
     const carom_cluster_ball *two[2] = {&c.ball[x->i], &c.ball[x->j]};
     const carom_due contact = {sim->now, CAROM_EVENT_BALL_BALL, two[0]->which, two[1]->which};
-    if (contact.a == struck || (contact.b == struck && due->a != struck && due->b != struck))
+    if ((contact.a == struck || contact.b == struck) && due->a != struck && due->b != struck)
       *due = contact;
     carom_event spare, *event = note(sim, &spare, &contact);
     event->cluster = count;
