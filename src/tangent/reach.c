@@ -19,7 +19,7 @@
 #include <string.h>
 
 static const double NEAR = 0.2;      /* m: gaps beyond are not asked for; */
-static const double TOUCHING = 2e-4; /* nor those of balls that have just parted */
+static const double TOUCHING = 2e-4; /* nor those up to this, of what touched or nearly did as the way began */
 enum { PARTS_OF_WAY = 6, BISECTIONS = 30 };
 
 void carom_reach_go_on(carom_tangent_work *work, int i) {
@@ -85,6 +85,11 @@ static distance distance_at(const separation *s, double t) {
   return is;
 }
 
+/* Whether a gap is one that a change may close. first: the gap where the way began. */
+static bool is_missed(double gap, double first) {
+  return gap > (first <= TOUCHING ? TOUCHING : 0.0) && gap < NEAR;
+}
+
 /* What the gap at a time is worth in each direction. other: the ball that is missed, or NULL. surface: of the ball, and not its
  * centre. */
 __attribute__((noinline)) static void take_gap(carom_reach *reach, const carom_tangent_ball *ball,
@@ -117,9 +122,10 @@ static void search(carom_reach *reach, const carom_tangent_ball *ball, const car
   double way = 0.0;
   for (int k = 0; k < 3; k++)
     way += T * (fabs(s->v[k]) + T * fabs(s->a[k]));
-  if (!(T > 0.0) || distance_at(s, 0.0).size - way > reaches + NEAR)
+  const distance first = distance_at(s, 0.0);
+  if (!(T > 0.0) || first.size - way > reaches + NEAR)
     return;
-  double before = distance_at(s, 0.0).opens;
+  double before = first.opens;
   for (int k = 1; k <= PARTS_OF_WAY; k++) {
     double low = T * (k - 1) / (double)PARTS_OF_WAY, high = T * k / (double)PARTS_OF_WAY;
     const double now = distance_at(s, high).opens;
@@ -133,7 +139,7 @@ static void search(carom_reach *reach, const carom_tangent_ball *ball, const car
     }
     const distance there = distance_at(s, high);
     const double gap = there.size - reaches;
-    if (!(gap > TOUCHING && gap < NEAR))
+    if (!is_missed(gap, first.size - reaches))
       continue;
     if (rail != NULL) { /* d points to p */
       const double e_x = rail->q[0] - rail->p[0], e_y = rail->q[1] - rail->p[1];
@@ -228,7 +234,8 @@ static void cushions_missed(carom_reach *reach, const carom_tangent_ball *ball, 
     carom_rail_line(&table->rail[k], line);
     const double *r = event->before[0].r, R = carom_reach_on_cloth(ball->kind, table->rail[k].height, reach->work->reference);
     const double gap = line[0] * r[0] + line[1] * r[1] + line[2] - R, n[3] = {-line[0], -line[1], 0.0};
-    if (gap > TOUCHING && gap < NEAR)
+    const double *from = ball->from.r, first = line[0] * from[0] + line[1] * from[1] + line[2] - R;
+    if (is_missed(gap, first))
       take_gap(reach, ball, NULL, event->time, n, gap, true);
   }
 }

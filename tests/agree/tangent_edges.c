@@ -562,6 +562,26 @@ START_TEST(reach_beside_trial) {
 }
 END_TEST
 
+/* Of a ball that passes another one at 10 nm to 1 mm, on its right or left, fast or slow. */
+START_TEST(reach_of_near_misses) {
+  static const double gaps[] = {1e-8, 1e-7, 1e-6, 1e-5, 5e-5, 1e-4, 1.9e-4, 2.1e-4, 1e-3}, speeds[] = {0.6, 2.0, 5.0};
+  for (int k = 0; k < 9 * 3 * 2; k++) {
+    const double gap = gaps[k % 9], side = k / 27 == 0 ? 1.0 : -1.0;
+    layout l = {.count = 2, .ball = {ball_at(0.635, 0.5), ball_at(0.635, 1.4)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
+    l.cue.speed = speeds[k / 9 % 3];
+    l.cue.phi = 90.0;
+    l.ball[1].state.r[0] += side * (2.0 * l.ball[1].kind.radius + gap);
+    const direction by = {OF_CUE, 0, 1, 1};
+    carom_shot shot;
+    differentiate(&l, &closed, &by, 1, &shot);
+    const double predicted = reach[0], found = change_of_events(&l, &by, &shot) / predicted;
+    /* changes are tried in steps of 10 % */
+    if (!(found > 0.9 && found < 1.2))
+      ck_abort_msg("gap %g m, speed %g m/s, side %g: found %g of the reach %g", gap, l.cue.speed, side, found, predicted);
+  }
+}
+END_TEST
+
 /* ---- The cloth ---- */
 
 /* Where a ball that starts at v without spin along its way, and with w about the vertical, comes to rest, and when: how far it
@@ -610,5 +630,6 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("tangent_edges", grazing, simultaneous, slow, slow_in_space, frozen, overflow, euler, kink, level_cue,
-                   edges_of_flights, ends_of_flights, frozen_and_straight, reach_beside_trial, frictions_of_the_cloth);
+                   edges_of_flights, ends_of_flights, frozen_and_straight, reach_beside_trial, reach_of_near_misses,
+                   frictions_of_the_cloth);
 }
