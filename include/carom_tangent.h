@@ -120,9 +120,10 @@ CAROM_API carom_status carom_shot_tangent_batch(const carom_tangent_job *job);
 
 /* Derivatives of carom_collide() by the exact solver: tangent[12][m] = J seeds[26][m], in the order of the doubles of
  * carom_result and carom_impact. Of the seeds only those of r[0] and r[1], v[0] and v[1], w, radius of a, mass, mu_cloth,
- * mu_ball and restitution are read. A ball whose slip on the cloth is below 1e-12 m/s rolls, and is taken to go on rolling in
- * every direction: by the slip of a ball that rolls and is pressed there is no derivative. *flags (may be NULL) becomes a sum
- * of CAROM_TANGENT_KINK and CAROM_TANGENT_DIFFERENCES.
+ * mu_ball and restitution are read. By the slip of a ball that rolls and is pressed into the cloth there is no derivative: it
+ * is taken to go on rolling in every direction, and directions in which it would slide set CAROM_TANGENT_KINK. It rolls where
+ * its slip is at most 1e-12 of its speeds. *flags (may be NULL) becomes a sum of CAROM_TANGENT_KINK and
+ * CAROM_TANGENT_DIFFERENCES.
  * Returns what carom_collide() does: after CAROM_SEPARATING the tangents are those of the motion before, after an error all are
  * NaN; CAROM_ERROR_DIRECTIONS; CAROM_ERROR_TANGENT for options other than the exact solver and the slip of the paper. */
 CAROM_API carom_status carom_collide_tangent(const carom_impact *in, const carom_options *opt, int64_t directions,

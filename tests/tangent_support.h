@@ -76,7 +76,7 @@ static inline bool plays_alike(const carom_table *table, const layout *l, const 
   static carom_event other[ROOM];
   carom_ball_state end[LAYOUT_BALLS];
   carom_shot s = {.events = other, .room = ROOM, .final = end};
-  if (carom_shoot(table, l->ball, l->count, &l->cue, options, &s) != CAROM_OK || s.count != shot->count)
+  if (carom_shoot(table, l->ball, l->count, &l->cue, options, &s) < CAROM_OK || s.count != shot->count)
     return false;
   for (int64_t k = 0; k < s.count; k++)
     if (other[k].type != shot->events[k].type || other[k].a != shot->events[k].a || other[k].b != shot->events[k].b)

@@ -65,10 +65,14 @@ void carom_spheres_collide(const carom_impact *in, const double n[3], carom_resu
   double u[3], turn[3];
   const double v_n = relative_motion(in, n, u), slip = size_of(u), B = 1.0 / a->mass + 1.0 / b->mass;
   const double J = (1.0 + in->restitution) * v_n / B, stops = slip / (3.5 * B), most = in->mu_ball * J;
-  const double J_t = most < stops ? most : stops;
-  /* u becomes the direction t */
-  for (int k = 0; k < 3; k++)
-    u[k] = slip > 0.0 ? u[k] / slip : 0.0;
+  double J_t = most < stops ? most : stops;
+  /* u becomes the direction t; where it is 0, J_t t stays u / (7/2 B), which has derivatives */
+  if (slip > 0.0) {
+    for (int k = 0; k < 3; k++)
+      u[k] /= slip;
+  } else if (most > 0.0) {
+    J_t = 1.0 / (3.5 * B);
+  }
   cross(n, u, turn);
   for (int k = 0; k < 3; k++) {
     const double impulse = J * n[k] + J_t * u[k];

@@ -5,10 +5,11 @@
  * geometry, the law, lambda: kappa, or the sine of the nose. src/impact has the derivatives by these eight variables.
  * Everything before and behind is arithmetic.
  *
- * A ball that rolls is taken to go on rolling: by the slip of a ball that rolls and is pressed there is no derivative. */
+ * A ball that rolls is taken to go on rolling: by the slip of a ball that rolls and is pressed there is no derivative. A
+ * direction that has it slide is flagged as a kink. */
 
-/* A slip at most this, m/s, is that of a ball that rolls. */
-static const real rolls = 1e-12;
+/* A slip at most this share of a ball's speeds is that of a ball that rolls; of derivatives, a rounding error. */
+static const real rolls = 1e-12, rounding = 1e-9;
 
 static bool changes(const number &x) {
   return part(x.d, row{});
@@ -55,12 +56,25 @@ static number alone(const number &x) {
   return {x.x, first};
 }
 
-/* Keeps the spin of a ball that rolls such that it rolls; its slip becomes 0. W: R times the spin. */
-static void keep_rolling(const number &v_x, const number &v_y, number *W_x, number *W_y) {
-  if (!(__builtin_fabs((v_x - *W_y).x) <= rolls && __builtin_fabs((v_y + *W_x).x) <= rolls))
-    return;
+/* Keeps the spin of a ball that rolls such that it rolls. W: R times the spin. Returns whether it rolls. */
+static bool keep_rolling(const number &v_x, const number &v_y, number *W_x, number *W_y) {
+  const number slip_x = v_x - *W_y, slip_y = v_y + *W_x, all[4] = {v_x, v_y, *W_x, *W_y};
+  real speeds = 0;
+  row sizes = {};
+  for (int j = 0; j < 4; j++) {
+    speeds += __builtin_fabs(all[j].x);
+    for (int k = 0; k < CLOCK; k++)
+      sizes[k] += __builtin_fabs(all[j].d[k]);
+  }
+  if (!(__builtin_fabs(slip_x.x) <= rolls * speeds && __builtin_fabs(slip_y.x) <= rolls * speeds))
+    return false;
+  /* a direction that leaves the roll */
+  for (int k = 0; k < CLOCK; k++)
+    if (__builtin_fabs(slip_x.d[k]) + __builtin_fabs(slip_y.d[k]) > rounding * sizes[k])
+      watched.note.flags |= ::CAROM_TANGENT_KINK;
   *W_x = -v_y;
   *W_y = v_x;
+  return true;
 }
 
 /* ---- Two balls ---- */
@@ -69,15 +83,20 @@ static void keep_rolling(const number &v_x, const number &v_y, number *W_x, numb
 CAROM_APART static void begin_balls(const carom_impact *in, carom_local *local, carom_reduced *r) {
   const carom_frame frame = carom_frame_of(in);
   *local = carom_to_frame(&frame, in, CAROM_SLIP_PAPER);
-  const number v[4] = {local->v_ix, local->v_iy, local->v_jx, local->v_jy};
-  number *const w[4] = {&local->w_ix, &local->w_iy, &local->w_jx, &local->w_jy};
-  for (int k = 0; k < 4; k += 2) {
-    number W_x = local->R * *w[k], W_y = local->R * *w[k + 1];
-    keep_rolling(v[k], v[k + 1], &W_x, &W_y);
-    *w[k] = W_x / local->R;
-    *w[k + 1] = W_y / local->R;
-  }
   *r = carom_reduce(local);
+  /* the slip on the cloth counts of the ball that is pressed */
+  bool rolling = !(r->u_z.x > 0);
+  if (!rolling) {
+    const number v_x = r->j_pressed ? local->v_jx : local->v_ix, v_y = r->j_pressed ? local->v_jy : local->v_iy;
+    number *const w_x = r->j_pressed ? &local->w_jx : &local->w_ix, *const w_y = r->j_pressed ? &local->w_jy : &local->w_iy;
+    number W_x = local->R * *w_x, W_y = local->R * *w_y;
+    rolling = keep_rolling(v_x, v_y, &W_x, &W_y);
+    *w_x = W_x / local->R;
+    *w_y = W_y / local->R;
+    *r = carom_reduce(local);
+  }
+  if (rolling)
+    r->d_x = r->d_y = 0;
 }
 
 CAROM_APART static void law_of_balls(const carom_reduced *r, ::carom_law *law, ::carom_law *slope) {
@@ -89,12 +108,7 @@ CAROM_APART static void law_of_balls(const carom_reduced *r, ::carom_law *law, :
 
 CAROM_APART static carom_status integrate_balls(const carom_reduced *r, int plain, carom_integrals *g) {
   const number V = -r->v_n;
-  const bool rolling = __builtin_fabs(r->d_x.x) <= rolls && __builtin_fabs(r->d_y.x) <= rolls;
-  number by[CAROM_VARIABLES] = {r->u_x / V, r->u_z / V, 0, 0, r->mu_b, 0, r->e, r->kappa}, q[5];
-  if (!rolling) {
-    by[BY_B_X] = r->d_x / V;
-    by[BY_B_Y] = r->d_y / V;
-  }
+  number by[CAROM_VARIABLES] = {r->u_x / V, r->u_z / V, r->d_x / V, r->d_y / V, r->mu_b, 0, r->e, r->kappa}, q[5];
   if (r->u_z.x > 0)
     by[BY_MU_C] = r->mu;
   /* the pressed ball changes with the sign of u_z */
@@ -143,13 +157,10 @@ CAROM_APART static void law_of_cushion(const carom_contact *c, ::carom_law *law,
 
 carom_status carom_mathavan(carom_contact *c, int plain) {
   keep_rolling(c->v_x, c->v_y, &c->W_x, &c->W_y);
-  const number V = c->v_y, X = carom_cloth_x(c), Y = carom_cloth_y(c);
-  const bool rolling = __builtin_fabs(X.x) <= rolls && __builtin_fabs(Y.x) <= rolls;
-  number by[CAROM_VARIABLES] = {carom_slip_x(c) / V, carom_slip_t(c) / V, 0, 0, c->mu_w, c->mu_s, c->e, c->sine}, q[5];
-  if (!rolling) {
-    by[BY_B_X] = X / V;
-    by[BY_B_Y] = Y / V;
-  }
+  const number V = c->v_y;
+  number by[CAROM_VARIABLES] = {
+      carom_slip_x(c) / V, carom_slip_t(c) / V, carom_cloth_x(c) / V, carom_cloth_y(c) / V, c->mu_w, c->mu_s, c->e, c->sine};
+  number q[5];
   ::carom_law law, slope;
   law_of_cushion(c, &law, &slope);
   const carom_status status = impact(&law, &slope, by, plain, q);

@@ -246,6 +246,10 @@ START_TEST(collisions_agree_with_differences) {
     double seeds[26][26] = {{0}}, tangent[12][26];
     for (int i = 0; i < 26; i++)
       seeds[i][i] = 1.0;
+    /* directions that leave the roll of a, or the rest of b, have a flag */
+    static const int leave[] = {3, 4, 6, 7, 9, 15, 16, 18, 19, 21};
+    for (int i = rolls ? 0 : 5; i < 10; i++)
+      seeds[leave[i]][leave[i]] = 0.0;
     int32_t flags;
     ck_assert_int_ge(carom_collide_tangent(&in, NULL, 26, &seeds[0][0], &tangent[0][0], &flags), CAROM_OK);
     if (carom_collide(&in, NULL, &(carom_result){0}) == CAROM_SEPARATING || flags != 0)
@@ -262,6 +266,67 @@ START_TEST(collisions_agree_with_differences) {
          errors[n - 1]);
   ck_assert_int_gt(n, 4000);
   ck_assert_double_lt(errors[n * 99 / 100], 1e-6);
+}
+END_TEST
+
+/* A ball that rolls and is pressed into the cloth: directions along the roll have a derivative, those that leave it a flag. What
+ * the other ball's spin changes has one too, also where that ball rests; and speeds are in no unit. */
+START_TEST(directions_that_leave_a_roll) {
+  static const double units[] = {1.0, 1e-8, 1e-14};
+  for (int k = 0; k < 3; k++) {
+    const double R = 0.028575, V = 2.0 * units[k];
+    carom_impact in = {.mu_ball = 0.06, .restitution = 0.95};
+    in.a = (carom_ball){.v = {0.3 * V, V, 0}, .w = {0, 0, 20 * units[k]}, .radius = R, .mass = 0.17, .mu_cloth = 0.2};
+    in.b = (carom_ball){.r = {0, 2 * R, 0}, .radius = R, .mass = 0.17, .mu_cloth = 0.2};
+    /* backwards, so that a is pressed */
+    in.a.w[0] = -in.a.v[1] / R;
+    in.a.w[1] = in.a.v[0] / R;
+    in.b.w[0] = 2.5 * V / R;
+    double seeds[26][4] = {{0}}, tangent[12][4];
+    int32_t flags = -1;
+    /* along the roll */
+    seeds[4][0] = 1.0;
+    seeds[6][0] = -1.0 / R;
+    seeds[18][1] = 1.0 / R;
+    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 4, &seeds[0][0], &tangent[0][0], &flags), CAROM_OK);
+    ck_assert_int_eq(flags, 0);
+    for (int j = 0; j < 2; j++) {
+      const double h = 1e-4 * V;
+      carom_result out[2];
+      for (int s = 0; s < 2; s++) {
+        carom_impact changed = in;
+        for (int i = 0; i < 26; i++)
+          ((double *)&changed)[i] += (s == 0 ? -h : h) * seeds[i][j];
+        ck_assert_int_eq(carom_collide(&changed, NULL, &out[s]), CAROM_OK);
+      }
+      for (int i = 0; i < 12; i++) {
+        const double slope = (((const double *)&out[1])[i] - ((const double *)&out[0])[i]) / (2 * h), unit = i % 6 < 3 ? 1 : R;
+        ck_assert_double_eq_tol(unit * tangent[i][j], unit * slope, 1e-4);
+      }
+    }
+    /* by the velocity alone: the ball would slide */
+    seeds[6][0] = 0.0;
+    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 4, &seeds[0][0], &tangent[0][0], &flags), CAROM_OK);
+    ck_assert_int_eq(flags & CAROM_TANGENT_KINK, CAROM_TANGENT_KINK);
+    /* the same on a cushion */
+    carom_cushion_impact rail = {.normal = {0, 1},
+                                 .height = 1.28 * R,
+                                 .radius = R,
+                                 .mass = 0.17,
+                                 .mu_cloth = 0.2,
+                                 .mu_cushion = 0.2,
+                                 .restitution = 0.85};
+    memcpy(rail.v, in.a.v, sizeof rail.v);
+    memcpy(rail.w, in.a.w, sizeof rail.w);
+    double nose[15] = {0}, out[6];
+    nose[1] = 1.0;
+    nose[3] = -1.0 / R;
+    ck_assert_int_eq(carom_cushion_tangent(&rail, NULL, 1, nose, out, &flags), CAROM_OK);
+    ck_assert_int_eq(flags, 0);
+    nose[3] = 0.0;
+    ck_assert_int_eq(carom_cushion_tangent(&rail, NULL, 1, nose, out, &flags), CAROM_OK);
+    ck_assert_int_eq(flags & CAROM_TANGENT_KINK, CAROM_TANGENT_KINK);
+  }
 }
 END_TEST
 
@@ -557,6 +622,7 @@ int main(void) {
       {shots_agree_with_differences, sizeof models / sizeof models[0]},
       {cushions_agree_with_differences, 8},
       {collisions_agree_with_differences, 1},
+      {directions_that_leave_a_roll, 1},
       {stop_shots, 1},
       {cushions_without_slip_at_the_nose, 1},
       {pocketed_balls_do_not_change, 1},

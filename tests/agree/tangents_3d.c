@@ -138,7 +138,26 @@ START_TEST(shots_agree_with_differences) {
 }
 END_TEST
 
+/* Two balls in the air that meet head-on without slip, up to the contact; friction holds them, whatever the change is. */
+START_TEST(head_on_without_slip) {
+  static const direction by = {OF_STATE, 0, 3, 1.0};
+  const carom_shot_options options = {.stop_at = CAROM_STOP_AT(CAROM_EVENT_BALL_BALL)};
+  layout l = {.count = 2, .ball = {ball_at(0.5, 1.2), ball_at(0.7, 1.2)}};
+  l.ball[0].state.v[0] = 2.0;
+  for (int i = 0; i < 2; i++)
+    l.ball[i].state.r[2] = 0.2;
+  static double ends[2 * NUMBERS];
+  carom_tangent tangent = {.final = ends};
+  const carom_tangent_seeds seeds = seeds_of(&by, 1);
+  const carom_shot shot = play(table_of_pool(), l.ball, 2, NULL, &options, CAROM_STOPPED_AT_EVENT);
+  ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, 2, NULL, &options, &shot, &seeds, &tangent), CAROM_OK);
+  double error, plateau;
+  ck_assert(compare(table_of_pool(), &l, &options, &shot, &by, ends, 0, 1, &error, &plateau));
+  ck_assert_double_lt(error / largest(ends, 2 * NUMBERS, 0, 1), 1e-6);
+}
+END_TEST
+
 int main(void) {
-  const looped_test tests[] = {{shots_agree_with_differences, sizeof kinds / sizeof kinds[0]}};
+  const looped_test tests[] = {{shots_agree_with_differences, sizeof kinds / sizeof kinds[0]}, {head_on_without_slip, 1}};
   return RUN_LOOPED("tangents_3d", tests);
 }
