@@ -8,6 +8,7 @@ int main(int argc, char **argv) {
       {"hit", "one collision from speed, cut and spin: words, picture, curves", command_hit},
       {"rail", "one impact on a cushion, in the same ways", command_rail},
       {"shoot", "play whole shots, from the cue to rest", command_shoot},
+      {"plan", "the shots that win most often from a layout", command_plan},
       {"trace", "write the slips and velocities during one collision", command_trace},
       {"sweep", "resolve one row of a file, with one input varied in small steps", command_sweep},
   };

@@ -6,6 +6,7 @@ int command_resolve(int argc, char **argv);
 int command_hit(int argc, char **argv);
 int command_rail(int argc, char **argv);
 int command_shoot(int argc, char **argv);
+int command_plan(int argc, char **argv);
 int command_trace(int argc, char **argv);
 int command_sweep(int argc, char **argv);
 

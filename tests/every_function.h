@@ -3,6 +3,7 @@
 #ifndef CAROM_TESTS_EVERY_FUNCTION_H
 #define CAROM_TESTS_EVERY_FUNCTION_H
 
+#include "carom_plan.h"
 #include "carom_tangent.h"
 #include "support.h"
 
@@ -45,6 +46,8 @@ typedef struct every_room {
       times[EVERY_EVENTS * CAROM_DIRECTIONS_MOST], before[EVERY_EVENTS * 2 * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST],
       reach[CAROM_DIRECTIONS_MOST];
   carom_tangent tangent[EVERY_SHOTS];
+  carom_choice choice[EVERY_FEW];
+  double plan[32768];
 } every_room;
 
 /* number: whose input it is; others have other numbers. */
@@ -319,6 +322,49 @@ EVERY_BODY(shot_at_times) {
   STATUS(carom_shot_at_times(in->balls, EVERY_BALLS, &room->shot[0], times, 3, room->later));
   return HASH(room->later);
 }
+/* A plan for the rack, with few shots. */
+static inline carom_plan_job plan_of(const every_input *in, every_room *room, const carom_player *player,
+                                     const carom_plan_rules *rules, const carom_plan_options *options) {
+  return (carom_plan_job){.table = &in->table,
+                          .balls = in->balls,
+                          .count = EVERY_BALLS,
+                          .cue = &in->cue[0],
+                          .player = player,
+                          .rules = rules,
+                          .options = options,
+                          .memory = room->plan,
+                          .memory_size = sizeof room->plan};
+}
+#define EVERY_PLAN(name, call)                                                 \
+  EVERY_BODY(name) {                                                           \
+    const carom_player player = carom_player_of(1.0);                          \
+    const carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_POTTING);   \
+    const carom_plan_options options = {.shots = 100, .threads = in->threads}; \
+    const carom_plan_job job = plan_of(in, room, &player, &rules, &options);   \
+    int found = 0;                                                             \
+    memset(room->choice, 0, sizeof room->choice);                              \
+    STATUS(call);                                                              \
+    HASH(found);                                                               \
+    return HASH(room->choice);                                                 \
+  }
+EVERY_PLAN(plan, carom_plan(&job, room->choice, EVERY_FEW, &found))
+EVERY_PLAN(plan_hand, carom_plan_hand(&job, NULL, NULL, room->choice, EVERY_FEW, &found))
+EVERY_PLAN(plan_try, carom_plan_try(&job, in->cue, 2, room->choice))
+EVERY_PLAN(plan_value, carom_plan_value(&job, 1, &room->choice[0].value))
+EVERY_BODY(plan_aim) {
+  for (int pocket = 0; pocket < 6; pocket++) {
+    carom_cue cue = in->cue[0];
+    double window[2] = {0};
+    STATUS(carom_plan_aim(&in->table, in->balls, EVERY_BALLS, 1, pocket, NULL, &cue, window));
+    HASH(cue);
+    HASH(window);
+  }
+  return h;
+}
+EVERY_VALUE(plan_memory, carom_plan_memory(NULL))
+EVERY_NAMES(rules_name, carom_rules_kind)
+EVERY_OBJECT(player_of, carom_player, carom_player_of(2.0))
+EVERY_OBJECT(plan_rules_of, carom_plan_rules, carom_plan_rules_of(CAROM_RULES_NINEBALL))
 EVERY_BODY(impact3) {
   for (int k = 0; k < EVERY_FEW; k++)
     STATUS(carom_impact3(&in->impact[k], &room->result[k]));
@@ -421,8 +467,9 @@ EVERY_BODY(shot_tangent_batch) {
   F(alciatore) F(ball_kind_of) F(check) F(collide) F(cluster) F(collide_batch) F(collide_batch_f32) F(collide_detail) \
   F(collide_f32) F(collide_tangent) F(cue_of) F(cushion) F(cushion_batch) F(cushion_check) F(cushion_field_name) \
   F(cushion_model_name) F(cushion_tangent) F(cushion_trace) F(event_name) F(field_name) F(impact3) F(isa_available) \
-  F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) F(physics_revision) F(place_ball) F(rack) \
-  F(rack_name) F(rack_size) F(rolling_velocity) F(serves) F(shoot) F(shoot_batch) F(shot_at) F(shot_at_times) \
+  F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) F(physics_revision) F(place_ball) F(plan) \
+  F(plan_aim) F(plan_hand) F(plan_memory) F(plan_rules_of) F(plan_try) F(plan_value) F(player_of) F(rack) F(rack_name) \
+  F(rack_size) F(rolling_velocity) F(rules_name) F(serves) F(shoot) F(shoot_batch) F(shot_at) F(shot_at_times) \
   F(shot_check) F(shot_continue) F(shot_orientation) F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) \
   F(status_name) F(status_string) F(strike) F(table_check) F(table_make) F(table_name) F(trace) F(version) \
   F(version_number)

@@ -10,6 +10,7 @@ int main(int argc, char **argv) {
       {"bench", "time every kernel, once it is verified", command_bench},
       {"stress", "test the exact solver on random collisions", command_stress},
       {"parity", "compare whole shots with those that pooltool recorded", command_parity},
+      {"plan", "play racks of eight-ball by plans", command_plan},
       {"experiments", "compare with the 2014 paper's measured shots", command_experiments},
   };
   static const program lab = {

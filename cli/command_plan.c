@@ -1,0 +1,274 @@
+/* `carom plan`: which shot to play from a layout. */
+#include "command.h"
+#include "memory.h"
+#include "message.h"
+#include "options.h"
+#include "output.h"
+#include "picture.h"
+#include "shot_file.h"
+#include "shot_picture.h"
+#include "subcommands.h"
+
+#include "carom_plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BEST = 5, SHOTS_LEAST = 100, FIRST_ROOM = 512 };
+enum { OPEN, SOLIDS, STRIPES };
+
+typedef struct plan_job {
+  shared_options shared; /* --threads, --output */
+  int rules, group, shots, seed;
+  double rating, errors;
+  bool hand, csv;
+  const char *plot;
+} plan_job;
+
+OPTION(plan_job, option_rules, "rules", rules, 0, "eightball|nineball|potting", set_choice, 0,
+       "the game (default eightball). Balls are named cue and by their numbers; potting takes any names");
+OPTION(plan_job, option_group, "group", group, 0, "open|solids|stripes", set_choice, 0,
+       "of eight-ball: the balls of the player (default open: any but the eight)");
+OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0, "the cue ball is in hand: where to put it, too");
+OPTION(plan_job, option_player, "player", rating, 0, "RATING", set_number, 0,
+       "a player by a Fargo rating, such as 500. Provisional: errors of 3 at 500 and of 8 at 400, on the scale of --errors");
+OPTION(plan_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
+       "a player by his errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
+OPTION(plan_job, option_shots, "shots", shots, 0, "N", set_count, SHOTS_LEAST,
+       "shots to be played, about; at most 1000000 (default 2000)");
+OPTION(plan_job, option_seed, "seed", seed, 0, "N", set_count, 0, "seed of the errors (default 0)");
+OPTION(plan_job, option_csv, "csv", csv, 0, NULL, set_flag, 0, "write rows of CSV instead of words");
+OPTION(plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0, "draw the best shot, without errors");
+
+/* The scale of errors of a rating: a share of 10 % of run-outs at 500, of 1 % at 400 (docs/understanding/plan.md). */
+static double scale_of(double rating) {
+  return 3.0 * pow(8.0 / 3.0, (500.0 - rating) / 100.0);
+}
+
+/* The first shot of a file. Its line is to be freed. */
+static bool read_layout(shot_file *file, shot_line *line) {
+  const char *text;
+  shot_read what;
+  while ((what = shot_file_next(file, line, &text)) == SHOT_TABLE)
+    continue;
+  if (what == SHOT_END)
+    complain("%s: there is no shot", shot_file_name(file));
+  else if (what == SHOT_SHOT && line->error != NULL)
+    complain("%s:%zu: %s", shot_file_name(file), line->number, line->error);
+  return what == SHOT_SHOT && line->error == NULL;
+}
+
+/* Puts the balls where their numbers are, with those that are missing in a pocket: the line's balls and names change. */
+static bool order_balls(shot_line *line, const char *file, int last) {
+  carom_shot_ball ball[CAROM_BALLS_MOST];
+  char *name[CAROM_BALLS_MOST] = {0};
+  bool good = true;
+  for (int k = 0; k < line->count && good; k++) {
+    char *end;
+    const bool cue = k == line->cue.ball;
+    const long number = cue ? 0 : strtol(line->name[k], &end, 10);
+    good = cue || (end != line->name[k] && *end == '\0' && number >= 1 && number <= last);
+    if (!good || name[number] != NULL) {
+      complain("%s:%zu: ball '%s': the balls of this game are the cue ball and 1 to %d, each once", file, line->number,
+               line->name[k], last);
+      return false;
+    }
+    ball[number] = line->ball[k];
+    name[number] = line->name[k];
+  }
+
+  /* missing balls are down */
+  for (int k = 0; k <= last; k++)
+    if (name[k] == NULL) {
+      char text[16];
+      snprintf(text, sizeof text, "%d", k);
+      name[k] = strdup(text);
+      ball[k] = line->ball[0];
+      ball[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
+    }
+  memcpy(line->ball, ball, sizeof ball);
+  memcpy(line->name, name, sizeof name);
+  line->count = last + 1;
+  line->cue.ball = 0;
+  return true;
+}
+
+static const char *const kinds[] = {"pot", "scan", "foul", "given"};
+
+/* What a choice does, by the names of the file. */
+static void describe(const shot_line *line, const carom_choice *c, char text[200]) {
+  const char *pocket = c->pocket >= 0 ? line->table->pocket[c->pocket] : NULL;
+  const double *at = c->pocket >= 0 ? line->table->table.pocket[c->pocket].centre : NULL;
+  if (c->kind == CAROM_PLAN_FOUL)
+    snprintf(text, 200, "no shot without a foul was found");
+  else if (c->ball < 0)
+    snprintf(text, 200, "a safety: nothing is potted");
+  else
+    snprintf(text, 200, "ball %s into pocket %s at %.3f, %.3f m%s", line->name[c->ball], pocket != NULL ? pocket : "", at[0],
+             at[1],
+             c->kind == CAROM_PLAN_POT ? ""
+             : c->cushions > 0         ? ", off a cushion"
+                                       : ", by another way than directly");
+}
+
+static void tell(FILE *out, const plan_job *job, const shot_line *line, const carom_choice *choices, int n) {
+  for (int k = 0; k < n; k++) {
+    const carom_choice *c = &choices[k];
+    char text[200];
+    describe(line, c, text);
+    fprintf(out, "%d. %s\n", k + 1, text);
+    if (job->hand)
+      fprintf(out, "   cue ball at  %.4f, %.4f m\n", c->place[0], c->place[1]);
+    fprintf(out, "   stroke       speed %.3g m/s, direction %.3f degrees, tip %.2f right, %.2f above\n", c->cue.speed,
+            c->cue.phi, 0.0 - c->cue.a, c->cue.b);
+    fprintf(out, "   chances      %s %.1f %% (error %.1f), plays on %.0f %%, foul %.0f %%; played %lld times\n",
+            job->rules == CAROM_RULES_POTTING ? "share potted" : "wins", 100.0 * c->value, 100.0 * c->error, 100.0 * c->keep,
+            100.0 * c->foul, (long long)c->seen);
+  }
+}
+
+static void write_rows(FILE *out, const shot_line *line, const carom_choice *choices, int n) {
+  fputs("rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n", out);
+  for (int k = 0; k < n; k++) {
+    const carom_choice *c = &choices[k];
+    const char *pocket = c->pocket >= 0 ? line->table->pocket[c->pocket] : NULL;
+    fprintf(out, "%d,%s,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.6f,%.6f,%.6f,%.6f,%.6f,%lld\n", k + 1, kinds[c->kind],
+            c->ball >= 0 ? line->name[c->ball] : "", pocket != NULL ? pocket : "", c->place[0], c->place[1], c->cue.speed,
+            c->cue.phi, c->cue.theta, c->cue.a, c->cue.b, c->value, c->error, c->keep, c->foul, c->lose, (long long)c->seen);
+  }
+}
+
+/* The best shot as a picture. */
+typedef struct best_shot {
+  played shot;
+  const char *words;
+} best_shot;
+
+static void draw(FILE *out, const void *data) {
+  const best_shot *best = data;
+  shots_draw(out, &best->shot, 1, best->words);
+}
+
+static bool plot(const plan_job *job, shot_line *line, const carom_choice *c) {
+  carom_ball_state final[CAROM_BALLS_MOST];
+  carom_shot shot = {.final = final};
+  line->cue = c->cue;
+  line->ball[0].state.r[0] = c->place[0];
+  line->ball[0].state.r[1] = c->place[1];
+  shot.room = FIRST_ROOM;
+  do {
+    free(shot.events);
+    shot.room = shot.count > shot.room ? shot.count : shot.room;
+    shot.events = allocate((size_t)shot.room, sizeof *shot.events);
+    carom_shoot(&line->table->table, line->ball, line->count, &line->cue, NULL, &shot);
+  } while (shot.count > shot.room);
+  char words[256], what[200];
+  describe(line, c, what);
+  snprintf(words, sizeof words, "The best shot: %s.\n", what);
+  const best_shot best = {{line, &shot, NULL}, words};
+  const bool good = svg_draw(job->plot, draw, &best);
+  free(shot.events);
+  return good;
+}
+
+/* Plans for a layout, writes the choices and keeps the best; an exit code. */
+static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out, carom_choice *best) {
+  static const int last[] = {15, 9};
+  if (job->rules != CAROM_RULES_POTTING && !order_balls(line, file, last[job->rules]))
+    return EXIT_USAGE;
+  if (line->cue.ball != 0) { /* potting: the cue ball is ball 0 */
+    const carom_shot_ball ball = line->ball[0];
+    char *const name = line->name[0];
+    line->ball[0] = line->ball[line->cue.ball];
+    line->name[0] = line->name[line->cue.ball];
+    line->ball[line->cue.ball] = ball;
+    line->name[line->cue.ball] = name;
+    line->cue.ball = 0;
+  }
+  const double scale = !isnan(job->rating) ? scale_of(job->rating) : job->errors;
+  const carom_player player = carom_player_of(scale);
+  carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)job->rules);
+  rules.user[0] = (uint64_t)job->group;
+  const carom_plan_options options = {.shots = job->shots, .threads = job->shared.options.threads, .seed = (uint64_t)job->seed};
+  carom_plan_job asked = {.table = &line->table->table,
+                          .balls = line->ball,
+                          .count = line->count,
+                          .cue = &line->cue,
+                          .player = &player,
+                          .rules = &rules,
+                          .options = &options,
+                          .memory_size = carom_plan_memory(&options)};
+  if (asked.memory_size == 0) {
+    complain("--shots: it must be %d to 1000000, not %d", SHOTS_LEAST, job->shots);
+    return EXIT_USAGE;
+  }
+  asked.memory = allocate(1, asked.memory_size);
+  carom_choice choices[BEST];
+  int n = 0;
+  const carom_status status =
+      job->hand ? carom_plan_hand(&asked, NULL, NULL, choices, BEST, &n) : carom_plan(&asked, choices, BEST, &n);
+  free(asked.memory);
+  if (status != CAROM_OK) {
+    complain("%s:%zu: %s", file, line->number, carom_status_string(status));
+    return EXIT_USAGE;
+  }
+  if (job->csv)
+    write_rows(out, line, choices, n);
+  else
+    tell(out, job, line, choices, n);
+  *best = choices[0];
+  return EXIT_GOOD;
+}
+
+static const command_form form = {
+    .name = "plan",
+    .usage = "[OPTIONS] LAYOUT.jsonl",
+    .about = "Finds the shots that win most often from a layout, for a player whose strokes err. LAYOUT is a file as of carom "
+             "shoot, of which the first shot counts: its table, balls and cue; the stroke itself is not read. Balls that are "
+             "missing are down. The five best shots are told in words: what they do, how to strike, and their chances.\n",
+    .options =
+        (const option_row *const[]){&option_rules, &option_group, &option_hand, &option_player, &option_errors, &option_shots,
+                                    &option_seed, &option_csv, &option_plan_plot, &option_threads, &option_output, NULL},
+    .details = "columns of --csv: rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
+               "  x y                  place of the cue ball, m\n"
+               "  value error          chance to win and its standard error; of potting the share of the balls potted\n"
+               "  keep foul lose       chances that the player plays on or wins, fouls, loses\n"
+               "  seen                 how often the shot was played with errors\n"
+               "The choice depends on the input, --shots and --seed alone, not on --threads.\n\n"
+               "exit code: 0; 2 for bad usage or unreadable input\n",
+    .example = "carom plan --rules eightball --group solids --shots 4000 --plot best.svg layout.jsonl",
+    .files = ONE_FILE,
+};
+
+int command_plan(int argc, char **argv) {
+  static plan_job job;
+  const char *path;
+  job = (plan_job){.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .rating = NAN, .errors = 1.0};
+  const int parsed = parse_arguments(&form, argc, argv, &job, &path);
+  if (parsed >= 0)
+    return parsed;
+  if (!svg_possible(job.plot))
+    return EXIT_USAGE;
+  shot_file *file = shot_file_open(path);
+  if (file == NULL)
+    return EXIT_USAGE;
+  static shot_line line;
+  carom_choice best;
+  int code = EXIT_USAGE;
+  if (read_layout(file, &line)) {
+    FILE *out = output_open(job.shared.output);
+    if (out != NULL) {
+      code = plan(&job, &line, shot_file_name(file), out, &best);
+      if (code == EXIT_USAGE)
+        output_abandon();
+      else if (!output_commit())
+        code = EXIT_USAGE;
+      else if (job.plot != NULL && !plot(&job, &line, &best))
+        code = EXIT_SOME;
+    }
+    shot_line_free(&line);
+  }
+  shot_file_close(file);
+  return code;
+}

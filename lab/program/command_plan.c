@@ -1,0 +1,202 @@
+/* `carom-lab plan`: how strong the planner is. Racks of eight-ball after a break that pots nothing, run out from ball in hand by
+ * a player who errs; and how often shots come off beside the chance that was predicted for them. */
+#include "command.h"
+#include "memory.h"
+#include "message.h"
+#include "options.h"
+#include "subcommands.h"
+
+#include "carom_plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { BALLS = 16, BINS = 10 };
+
+typedef struct strength_job {
+  shared_options shared;
+  int racks, shots, seed;
+  double errors;
+} strength_job;
+
+OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1, "racks to be played (default 100)");
+OPTION(strength_job, option_shots, "shots", shots, 0, "N", set_count, 100, "shots of a plan (default 2000)");
+OPTION(strength_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0, "scale of the player's errors (default 1)");
+OPTION(strength_job, option_seed, "seed", seed, 0, "N", set_count, 0, "seed of racks, plans and strokes (default 0)");
+
+/* A row of the comparison of chances. */
+typedef struct bin {
+  double predicted, variance;
+  long shots, kept;
+} bin;
+
+typedef struct tally {
+  long racks, wins, strokes, pots, plans;
+  double seconds;
+  bin bins[BINS];
+} tally;
+
+/* splitmix64, and normal numbers by Box and Muller */
+static double uniform(uint64_t *state) {
+  uint64_t z = *state += 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return ((double)((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
+}
+static double normal(uint64_t *state) {
+  const double size = sqrt(-2.0 * log(uniform(state)));
+  return size * cos(6.283185307179586 * uniform(state));
+}
+
+static double processor_time(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The first break of a rack's seed that pots nothing. */
+static void make_rack(const carom_table *table, const carom_cue *cue, const carom_shot_options *shot, uint64_t *state,
+                      carom_shot_ball *balls) {
+  for (;;) {
+    carom_facts facts;
+    carom_ball_state final[BALLS];
+    carom_cue opening = *cue;
+    opening.speed = 7.0 + uniform(state);
+    opening.phi = 89.0 + 2.0 * uniform(state);
+    carom_rack(CAROM_RACK_EIGHTBALL, table, 1e-4, (uint64_t)(1e9 * uniform(state)), balls, BALLS);
+    carom_shot played = {.final = final, .facts = &facts};
+    if (carom_shoot(table, balls, BALLS, &opening, shot, &played) != CAROM_OK || facts.down != 0 || facts.off != 0)
+      continue;
+    for (int k = 0; k < BALLS; k++)
+      balls[k].state = final[k];
+    return;
+  }
+}
+
+static void stroke_errs(carom_cue *cue, const carom_player *player, uint64_t *state) {
+  cue->speed = fmin(fmax(cue->speed + player->speed * normal(state), 0.5), 8.0);
+  cue->phi += player->phi * normal(state);
+  cue->theta = fmax(cue->theta + player->theta * normal(state), 0.0);
+  cue->a += player->a * normal(state);
+  cue->b += player->b * normal(state);
+}
+
+/* One rack: strokes until the turn is not kept. */
+static void run_out(const strength_job *job, uint64_t rack, carom_plan_job *plan, carom_plan_options *options, tally *to) {
+  carom_shot_ball balls[BALLS];
+  uint64_t state = ((uint64_t)job->seed << 32) + 7919 * (rack + 1);
+  carom_plan_rules rules = *plan->rules;
+  make_rack(plan->table, plan->cue, plan->shot, &state, balls);
+  carom_plan_job of = *plan;
+  of.balls = balls;
+  of.rules = &rules;
+  for (bool hand = true;; hand = false) {
+    /* the plan */
+    carom_choice best;
+    int found;
+    options->seed = state;
+    const double begin = processor_time();
+    const carom_status status = hand ? carom_plan_hand(&of, NULL, NULL, &best, 1, &found) : carom_plan(&of, &best, 1, &found);
+    to->seconds += processor_time() - begin;
+    to->plans++;
+    if (status < 0) {
+      complain("rack %d: %s", (int)rack, carom_status_string(status));
+      return;
+    }
+    if (hand)
+      carom_place_ball(of.table, balls, BALLS, 0, best.place[0], best.place[1], NULL);
+
+    /* the stroke */
+    carom_facts facts;
+    carom_ball_state final[BALLS];
+    carom_shot played = {.final = final, .facts = &facts};
+    uint32_t in_play = 0;
+    for (int k = 0; k < BALLS; k++)
+      in_play |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED) << k;
+    stroke_errs(&best.cue, of.player, &state);
+    carom_shoot(of.table, balls, BALLS, &best.cue, of.shot, &played);
+    const carom_turn turn = rules.judge(rules.user, in_play, 0, &facts, (carom_call){best.ball, best.pocket});
+    const bool kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+    bin *b = &to->bins[best.keep < 1.0 ? (int)(BINS * best.keep) : BINS - 1];
+    b->predicted += best.keep;
+    b->variance += best.keep * (1.0 - best.keep) * (1.0 + 1.0 / (double)(best.seen > 0 ? best.seen : 1));
+    b->shots++;
+    b->kept += kept;
+    to->strokes++;
+    to->pots += kept;
+    to->wins += turn.is == CAROM_TURN_WIN;
+    if (turn.is != CAROM_TURN_KEEP)
+      return;
+    for (int k = 0; k < BALLS; k++)
+      balls[k].state = final[k];
+  }
+}
+
+static void report(const tally *t, const strength_job *job) {
+  /* Wilson's interval, 95 % */
+  const double n = (double)t->racks, p = (double)t->wins / n, z = 1.96;
+  const double wide = 1.0 + z * z / n, middle = (p + z * z / (2.0 * n)) / wide;
+  const double half = z * sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / wide;
+  printf("%d shots a plan, errors %g: run out %ld of %ld, %.1f %% (95 %%: %.1f to %.1f), pots a stroke %.3f, %.1f ms a plan\n",
+         job->shots, job->errors, t->wins, t->racks, 100.0 * p, 100.0 * (middle - half), 100.0 * (middle + half),
+         (double)t->pots / (double)t->strokes, 1e3 * t->seconds / (double)t->plans);
+  printf("predicted,shots,kept,standard_errors\n");
+  for (int k = 0; k < BINS; k++) {
+    const bin *b = &t->bins[k];
+    if (b->shots > 0)
+      printf("%.3f,%ld,%.3f,%.1f\n", b->predicted / (double)b->shots, b->shots, (double)b->kept / (double)b->shots,
+             ((double)b->kept - b->predicted) / sqrt(b->variance + 0.25));
+  }
+}
+
+static const command_form form = {
+    .name = "plan",
+    .usage = "[OPTIONS]",
+    .about = "Plays racks of eight-ball by plans: each is run out from ball in hand after a break that potted nothing, by a "
+             "player whose strokes err. Tells how many are run out, and how often shots keep the turn beside the chance that "
+             "was predicted.\n",
+    .options = (const option_row *const[]){&option_racks, &option_shots, &option_errors, &option_seed, &option_threads, NULL},
+    .details = "exit code: 0; 2 for bad usage\n",
+    .example = "carom-lab plan --racks 100 --shots 1000",
+    .files = NO_FILES,
+};
+
+int command_plan(int argc, char **argv) {
+  static strength_job job;
+  const char *path;
+  job = (strength_job){.shared = {.options = {.threads = 0}}, .racks = 100, .shots = 2000, .errors = 1.0};
+  const int parsed = parse_arguments(&form, argc, argv, &job, &path);
+  if (parsed >= 0)
+    return parsed;
+  carom_table table;
+  carom_table_make(CAROM_TABLE_POOLTOOL, &table);
+  const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  const carom_player player = carom_player_of(job.errors);
+  const carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
+  const carom_shot_options shot = {.space = CAROM_SPACE_FLAT};
+  carom_plan_options options = {.shots = job.shots, .threads = job.shared.options.threads};
+  carom_plan_job plan = {.table = &table,
+                         .count = BALLS,
+                         .cue = &cue,
+                         .player = &player,
+                         .rules = &rules,
+                         .shot = &shot,
+                         .options = &options,
+                         .memory_size = carom_plan_memory(&options)};
+  if (plan.memory_size == 0) {
+    complain("--shots: it must be 100 to 1000000");
+    return EXIT_USAGE;
+  }
+  plan.memory = allocate(1, plan.memory_size);
+  static tally t;
+  for (; t.racks < job.racks; t.racks++) {
+    run_out(&job, (uint64_t)t.racks, &plan, &options, &t);
+    progress_show("racks", (double)t.racks, job.racks);
+  }
+  progress_clear();
+  free(plan.memory);
+  report(&t, &job);
+  return EXIT_GOOD;
+}

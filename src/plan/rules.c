@@ -1,0 +1,164 @@
+/* Games as data: who may be met first, what a shot amounts to, how many balls are left. World Standardized Rules of the WPA
+ * (2016), sections 2 and 3, with the simplifications that carom_plan.h names. */
+#include "plan/plan.h"
+
+#include <stddef.h>
+
+enum { GROUP = 0, BREAK = 1 }; /* words of the state */
+enum { OPEN = 0, SOLIDS = 1, STRIPES = 2 };
+static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100, nine = 0x200;
+
+static int count_of(uint32_t set) {
+  int n = 0;
+  for (; set != 0; set &= set - 1)
+    n++;
+  return n;
+}
+
+/* A foul of any game: no ball that may be met first, the cue ball down, a ball off the table, no cushion and no pot. */
+static bool is_foul(const carom_facts *facts, uint32_t on, int cue_ball) {
+  const int first = facts->first[0];
+  return first < 0 || !(on >> first & 1) || (facts->down >> cue_ball & 1) || facts->off != 0 ||
+         (facts->down == 0 && facts->cushions_after == 0);
+}
+
+/* Whether a break reaches cushions with four balls, or pots. */
+static bool is_break(const carom_facts *facts, int cue_ball) {
+  int reached = 0;
+  for (int k = 0; k < CAROM_BALLS_MOST; k++)
+    reached += k != cue_ball && facts->cushions[k] > 0;
+  return facts->down != 0 || reached >= 4;
+}
+
+static const carom_turn keep = {CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0, 0, 0.0};
+static const carom_turn pass = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, 0, 0, 0.0};
+static const carom_turn foul = {CAROM_TURN_PASS, CAROM_LEAVE_HAND, 1, 0, 0.0};
+static const carom_turn win = {CAROM_TURN_WIN, CAROM_LEAVE_AFTER, 0, 0, 0.0};
+
+/* ---- Eight-ball */
+
+static uint32_t eightball_on(const uint64_t *user, uint32_t in_play) {
+  const uint32_t own = in_play & balls_of[user[GROUP] <= STRIPES ? user[GROUP] : OPEN];
+  return user[BREAK] != 0 ? in_play & 0xfffe : own != 0 ? own : in_play & eight;
+}
+
+static void eightball_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
+  const int solids = count_of(in_play & balls_of[SOLIDS]), stripes = count_of(in_play & balls_of[STRIPES]);
+  const bool open = user[GROUP] == OPEN;
+  left[0] = 1 + (open ? (solids < stripes ? solids : stripes) : user[GROUP] == SOLIDS ? solids : stripes);
+  left[1] = 1 + (open ? (solids < stripes ? stripes : solids) : user[GROUP] == SOLIDS ? stripes : solids);
+}
+
+/* The turn goes to the other: the state becomes his. */
+static carom_turn give(uint64_t *user, carom_turn turn) {
+  if (user[GROUP] == SOLIDS || user[GROUP] == STRIPES)
+    user[GROUP] = SOLIDS + STRIPES - user[GROUP];
+  return turn;
+}
+
+static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts, carom_call call) {
+  const uint32_t on = eightball_on(user, in_play);
+  const bool bad = is_foul(facts, on, cue_ball);
+
+  /* The break: nothing is called, the eight comes back, and the table is open after it. */
+  if (user[BREAK] != 0) {
+    user[BREAK] = 0;
+    carom_turn turn = bad ? foul : !is_break(facts, cue_ball) ? foul : (facts->down & 0xfffe) != 0 ? keep : pass;
+    turn.leave = bad ? CAROM_LEAVE_KITCHEN : turn.leave;
+    turn.spot = (facts->down | facts->off) & eight;
+    return turn;
+  }
+
+  /* The eight wins as the last ball, in the pocket that was called, without a foul. */
+  const bool called = call.ball >= 0 && call.ball < CAROM_BALLS_MOST && facts->pocket[call.ball] == call.pocket;
+  if (((facts->down | facts->off) & eight) != 0)
+    return on == eight && !bad && called && call.ball == 8 ? win
+                                                           : (carom_turn){CAROM_TURN_LOSE, CAROM_LEAVE_AFTER, bad, 0, 0.0};
+  if (bad)
+    return give(user, foul);
+
+  /* The first ball that is called and falls decides the groups. */
+  if (!called || !(on >> call.ball & 1))
+    return give(user, pass);
+  if (user[GROUP] == OPEN)
+    user[GROUP] = balls_of[SOLIDS] >> call.ball & 1 ? SOLIDS : STRIPES;
+  return keep;
+}
+
+/* ---- Nine-ball */
+
+static uint32_t nineball_on(const uint64_t *user, uint32_t in_play) {
+  const uint32_t balls = in_play & 0x3fe;
+  (void)user;
+  return balls & (~balls + 1);
+}
+
+static void nineball_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
+  (void)user;
+  left[0] = left[1] = count_of(in_play & 0x3fe);
+}
+
+static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts, carom_call call) {
+  (void)call;
+  const bool broke = user[BREAK] != 0 && !is_break(facts, cue_ball);
+  const bool bad = is_foul(facts, nineball_on(user, in_play), cue_ball) || broke;
+  user[BREAK] = 0;
+  if (bad) {
+    carom_turn turn = foul;
+    turn.spot = (facts->down | facts->off) & nine;
+    return turn;
+  }
+  return (facts->down & nine) != 0 ? win : facts->down != 0 ? keep : pass;
+}
+
+/* ---- Potting */
+
+static uint32_t potting_on(const uint64_t *user, uint32_t in_play) {
+  (void)user;
+  return in_play & ~UINT32_C(1);
+}
+
+static void potting_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
+  left[0] = count_of(potting_on(user, in_play));
+  left[1] = 1;
+}
+
+static carom_turn potting_judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts, carom_call call) {
+  (void)call;
+  const uint32_t on = potting_on(user, in_play);
+  const bool bad = facts->first[0] < 0 || (facts->down >> cue_ball & 1) || facts->off != 0;
+  carom_turn turn = bad ? foul : facts->down == 0 ? pass : (facts->down & on) == on ? win : keep;
+  turn.points = bad ? 0.0 : count_of(facts->down & on);
+  return turn;
+}
+
+/* ---- The table of games */
+
+static const struct {
+  const char *name;
+  carom_plan_rules rules;
+} games[] = {
+    {"eightball",
+     {.on = eightball_on,
+      .judge = eightball_judge,
+      .left = eightball_left,
+      .race = CAROM_RACE_OWN,
+      .calls = 1,
+      .first_decides = 1}},
+    {"nineball",
+     {.on = nineball_on, .judge = nineball_judge, .left = nineball_left, .race = CAROM_RACE_SHARED, .first_decides = 1}},
+    {"potting", {.on = potting_on, .judge = potting_judge, .left = potting_left, .race = CAROM_RACE_ALONE}},
+};
+enum { GAMES = sizeof games / sizeof games[0] };
+
+const char *carom_rules_name(carom_rules_kind kind) {
+  return (unsigned)kind < GAMES ? games[kind].name : NULL;
+}
+
+carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
+  return games[(unsigned)kind < GAMES ? kind : 0].rules;
+}
+
+carom_player carom_player_of(double scale) {
+  return (carom_player){.speed = 0.1 * scale, .phi = 0.1 * scale, .theta = 0.1 * scale, .a = 0.003 * scale, .b = 0.003 * scale};
+}

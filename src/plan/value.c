@@ -1,0 +1,248 @@
+/* Values of layouts: how likely is the best direct pot, and who wins from there.
+ *
+ * A ball at o gets into a pocket between the tangents from o to its two jaws, moved by 0.93 R: a window of directions with the
+ * middle psi and the half width h. The cue ball has to come to the ghost, g = o - (R + R') (cos psi, sin psi), over a distance
+ * d, and cuts by an angle c. An error s of its direction becomes one of s d / ((R + R') cos c) of the ball's, to which the
+ * uncertainty of throw adds 1.5 degrees sqrt(1.2 - cos c). With e the sum of both in squares the chance is erf(h / (e sqrt 2)).
+ * It is 0 where a ball is in either way, where the ghost is in a cushion, or the cut is above 80 degrees.
+ *
+ * With p of the best ball and q of the second best one, the player pots with the chance p (0.92 + 0.06 q). What follows is a
+ * chain over the balls left, n to the player and m to the other one: he pots the next with a chance a, the other with b, and who
+ * misses gives the turn away:
+ *
+ *     W(n, m) = a W(n - 1, m) + (1 - a) (1 - V(m, n)),   V(m, n) = b V(m - 1, n) + (1 - b) (1 - W(n, m)),   W(0, m) = 1.
+ *
+ * 0.93, 1.5 degrees, 1.2, 0.92, 0.06 are the prototype's, chosen by hand; they order layouts, and nothing else depends on them.
+ */
+#include "plan/plan.h"
+#include "platform/elementary.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+uint32_t carom_in_play(const carom_ball_state *balls, int count) {
+  uint32_t set = 0;
+  for (int k = 0; k < count; k++)
+    if (balls[k].label != CAROM_BALL_POCKETED && balls[k].label != CAROM_BALL_OFF)
+      set |= UINT32_C(1) << k;
+  return set;
+}
+
+/* ---- Once for a plan */
+
+/* The two jaws nearest to the centre of a pocket, where both are near. */
+static carom_mouth mouth_of(const carom_table *table, const carom_pocket *pocket) {
+  carom_mouth mouth = {.centre = {pocket->centre[0], pocket->centre[1]}, .jaw = {{0.0, 0.0, pocket->radius}}};
+  double least[2] = {INFINITY, INFINITY};
+  int nearest[2] = {-1, -1};
+  for (int k = 0; k < table->jaws; k++) {
+    const double x = table->jaw[k].centre[0] - pocket->centre[0], y = table->jaw[k].centre[1] - pocket->centre[1];
+    const double square = x * x + y * y;
+    const int at = square < least[0] ? 0 : square < least[1] ? 1 : 2;
+    if (at == 0) {
+      least[1] = least[0];
+      nearest[1] = nearest[0];
+    }
+    if (at < 2) {
+      least[at] = square;
+      nearest[at] = k;
+    }
+  }
+
+  /* jaws farther off than three radii are those of other pockets */
+  mouth.jaws = least[1] < 9.0 * pocket->radius * pocket->radius;
+  for (int side = 0; side < 2 && mouth.jaws; side++) {
+    const carom_jaw *jaw = &table->jaw[nearest[side]];
+    memcpy(mouth.jaw[side], jaw->centre, sizeof jaw->centre);
+    mouth.jaw[side][2] = jaw->radius;
+  }
+  return mouth;
+}
+
+/* The chain: of each pair of numbers of balls the two equations are solved together. */
+static void chain(carom_view *view, double a, double b) {
+  const bool shared = view->rules->race == CAROM_RACE_SHARED;
+  for (int k = 0; k <= MOST_LEFT; k++)
+    for (int who = 0; who < 2; who++) {
+      view->win[who][0][k] = 1.0;
+      view->win[who][k][0] = k == 0 ? 1.0 : 0.0;
+    }
+  for (int total = 2; total <= 2 * MOST_LEFT; total++)
+    for (int n = total > MOST_LEFT ? total - MOST_LEFT : 1; n < total && n <= MOST_LEFT; n++) {
+      const int m = total - n;
+      if (shared && n != m)
+        continue;
+      const double s = n == 1 ? 1.0 : view->win[0][n - 1][shared ? n - 1 : m];
+      const double t = m == 1 ? 1.0 : view->win[1][m - 1][shared ? m - 1 : n];
+      const double f = a * s + 1.0 - a, g = b * t + 1.0 - b, det = 1.0 - (1.0 - a) * (1.0 - b);
+      view->win[0][n][m] = (f - (1.0 - a) * g) / det;
+      view->win[1][m][n] = (g - (1.0 - b) * f) / det;
+    }
+
+  /* alone: the expected number of pots */
+  view->more[0] = 0.0;
+  for (int n = 1; n < CAROM_BALLS_MOST; n++)
+    view->more[n] = a * (1.0 + view->more[n - 1]);
+}
+
+/* The chance of a pot from a layout that was chosen, by the error of the direction. */
+static double chance_of(const carom_player *player, double given) {
+  const double usual = 0.9 - 0.5 * player->phi;
+  return given > 0.0 ? given : usual > 0.3 ? usual : 0.3;
+}
+
+void carom_view_make(carom_view *view, const carom_plan_job *job, const carom_plan_options *options) {
+  const carom_player *other = options->opponent != NULL ? options->opponent : job->player;
+  view->rules = job->rules;
+  view->pockets = (int)job->table->pockets;
+  view->count = (int)job->count;
+  view->cue_ball = (int)job->cue->ball;
+  view->width = job->table->width;
+  view->length = job->table->length;
+  for (int p = 0; p < view->pockets; p++)
+    view->mouth[p] = mouth_of(job->table, &job->table->pocket[p]);
+  for (int k = 0; k < view->count; k++)
+    view->radius[k] = job->balls[k].kind.radius;
+  view->sigma[0] = job->player->phi * (pi / 180.0);
+  view->sigma[1] = other->phi * (pi / 180.0);
+  chain(view, chance_of(job->player, options->chance_me), chance_of(other, options->chance_opponent));
+}
+
+/* ---- A pot */
+
+/* Whether no ball but i and j is nearer to the segment from p to q than its own radius and R together. */
+static bool is_clear(const carom_view *view, const carom_ball_state *balls, uint32_t in_play, const double p[2],
+                     const double q[2], int i, int j, double R) {
+  double d[2] = {q[0] - p[0], q[1] - p[1]};
+  const double length = sqrt(d[0] * d[0] + d[1] * d[1]);
+  if (length < 1e-9)
+    return true;
+  d[0] /= length;
+  d[1] /= length;
+  in_play &= ~(UINT32_C(1) << i | UINT32_C(1) << j);
+  for (int k = 0; in_play >> k != 0; k++) {
+    if (!(in_play >> k & 1))
+      continue;
+    const double x = balls[k].r[0] - p[0], y = balls[k].r[1] - p[1], least = R + view->radius[k];
+    double along = x * d[0] + y * d[1];
+    along = along < 0.0 ? 0.0 : along > length ? length : along;
+    const double off[2] = {x - along * d[0], y - along * d[1]};
+    if (off[0] * off[0] + off[1] * off[1] < least * least)
+      return false;
+  }
+  return true;
+}
+
+/* The directions in which a ball of radius R at o gets between the jaws: the middle and half the range. */
+static void window(const carom_mouth *mouth, const double o[2], double R, double *psi, double *half) {
+  const double x = mouth->centre[0] - o[0], y = mouth->centre[1] - o[1], mid = carom_angle_of(x, y);
+  *psi = mid;
+  if (!mouth->jaws) {
+    const double sine = mouth->jaw[0][2] / sqrt(x * x + y * y);
+    *half = sine < 1.0 ? carom_asin(sine) : 0.5;
+    return;
+  }
+
+  /* Where the jaws are from the middle, and how far their tangents are turned. */
+  double turn[2], tangent[2];
+  for (int side = 0; side < 2; side++) {
+    const double jx = mouth->jaw[side][0] - o[0], jy = mouth->jaw[side][1] - o[1];
+    const double sine = (mouth->jaw[side][2] + 0.93 * R) / sqrt(jx * jx + jy * jy);
+    if (sine >= 1.0) { /* it is between them */
+      *half = 0.5;
+      return;
+    }
+    turn[side] = carom_angle_of(jx, jy) - mid;
+    turn[side] += turn[side] > pi ? -2.0 * pi : turn[side] < -pi ? 2.0 * pi : 0.0;
+    tangent[side] = carom_asin(sine);
+  }
+
+  /* Between the left one and the right one; from the side both may be on one side of the pocket's centre. */
+  const int left = turn[1] > turn[0];
+  const double high = turn[left] - tangent[left], low = turn[1 - left] + tangent[1 - left];
+  *psi = mid + 0.5 * (low + high);
+  *half = 0.5 * (high - low);
+}
+
+carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play, int k, int pocket, int who,
+                       bool in_hand) {
+  const carom_mouth *mouth = &view->mouth[pocket];
+  const double *o = balls[k].r, *c = balls[view->cue_ball].r;
+  const double R = view->radius[view->cue_ball], both = R + view->radius[k];
+  carom_way way = {0};
+  window(mouth, o, view->radius[k], &way.psi, &way.half);
+  if (!(way.half > 0.0))
+    return way;
+
+  /* The ghost has to be on the table. */
+  double sine, cosine;
+  carom_sincos(way.psi, &sine, &cosine);
+  const double g[2] = {o[0] - both * cosine, o[1] - both * sine}, edge = 0.9 * R;
+  if (g[0] < edge || g[1] < edge || g[0] > view->width - edge || g[1] > view->length - edge)
+    return way;
+
+  /* Distance and cut; in hand they are those of an easy shot. */
+  const double dx = g[0] - c[0], dy = g[1] - c[1];
+  double d = sqrt(dx * dx + dy * dy), cut = d < 0.01 ? 1.0 : (dx * cosine + dy * sine) / d;
+  if (in_hand) {
+    d = 0.3;
+    cut = 0.97;
+  }
+  const double cosine_most = 0.17; /* of 80 degrees */
+  if (cut < cosine_most || !is_clear(view, balls, in_play, o, mouth->centre, view->cue_ball, k, view->radius[k]) ||
+      (!in_hand && !is_clear(view, balls, in_play, c, g, view->cue_ball, k, R)))
+    return way;
+
+  const double aim = view->sigma[who] * d / (both * cut), throw = 1.5 * pi / 180.0;
+  const double error = sqrt(aim * aim + throw *throw *(1.2 - cut));
+  way.chance = carom_erf(way.half / (error * 1.4142135623730951));
+  return way;
+}
+
+/* ---- A layout */
+
+static double with_targets(const carom_view *view, const carom_ball_state *balls, uint32_t in_play, uint32_t targets,
+                           const int32_t given[2], int who, bool in_hand) {
+  const bool alone = view->rules->race == CAROM_RACE_ALONE;
+  const int32_t most = alone ? CAROM_BALLS_MOST : MOST_LEFT;
+  int32_t left[2];
+  for (int k = 0; k < 2; k++)
+    left[k] = given[k] < 1 ? 1 : given[k] > most ? most : given[k];
+
+  /* the best pot of the best ball and of the second best one */
+  double best = 0.0, second = 0.0;
+  targets &= in_play;
+  for (int k = 0; targets >> k != 0; k++) {
+    double of = 0.0;
+    for (int p = 0; p < view->pockets && (targets >> k & 1); p++) {
+      const carom_way way = carom_way_of(view, balls, in_play, k, p, who, in_hand);
+      of = way.chance > of ? way.chance : of;
+    }
+    if (of > best) {
+      second = best;
+      best = of;
+    } else if (of > second) {
+      second = of;
+    }
+  }
+  const double p = best * (0.92 + 0.06 * second);
+
+  /* the chain after it */
+  if (alone)
+    return p * (1.0 + view->more[left[0] - 1]);
+  const bool shared = view->rules->race == CAROM_RACE_SHARED;
+  const double after = left[0] == 1 ? 1.0 : view->win[who][left[0] - 1][shared ? left[0] - 1 : left[1]];
+  return p * after + (1.0 - p) * (1.0 - view->win[1 - who][left[1]][left[0]]);
+}
+
+double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls, int who, bool in_hand) {
+  const carom_plan_rules *rules = view->rules;
+  if (rules->value != NULL)
+    return rules->value(user, balls, view->count, in_hand);
+  const uint32_t in_play = carom_in_play(balls, view->count) | UINT32_C(1) << view->cue_ball;
+  int32_t left[2];
+  rules->left(user, in_play, left);
+  return with_targets(view, balls, in_play, rules->on(user, in_play), left, who, in_hand);
+}

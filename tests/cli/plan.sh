@@ -1,0 +1,26 @@
+# plan: the best shots in words and as rows, the same for any number of threads; pictures, games, and what is refused.
+carom shoot --cue 0.4,0.9 --balls 0.3,1.9:0.9,1.7:0.7,0.5 --aim 90 --json > layout.jsonl
+echo "--- words"
+CAROM_ISA=plain
+export CAROM_ISA
+try carom plan --rules potting --shots 300 layout.jsonl | cut -c 1-60 | grep -v chances
+try carom plan --rules nineball --shots 300 --plot best.svg layout.jsonl | sed -n 1p
+grep -c "<svg" best.svg
+echo "--- rows, threads"
+for threads in 1 2; do carom plan --rules potting --shots 300 --threads $threads --csv -o rows$threads.csv layout.jsonl; done
+cmp rows1.csv rows2.csv && sed -n 1p rows1.csv && wc -l < rows1.csv | tr -d ' '
+carom plan --rules potting --in-hand --shots 300 --csv layout.jsonl | cut -d , -f 1-4 | sed -n 2p
+echo "--- a weaker player has less"
+chance() { carom plan --rules potting --shots 300 --csv "$@" layout.jsonl | sed -n 2p | cut -d , -f 12; }
+awk -v sure="$(chance --errors 0.2)" -v weak="$(chance --errors 6)" -v rated="$(chance --player 400)" 'BEGIN { print (sure > weak + 0.1), (sure > rated + 0.1) }'
+echo "--- eight-ball by groups"
+carom plan --group solids --shots 100 --csv layout.jsonl | cut -d , -f 2,3 | sed -n 2p
+echo "--- refused"
+try carom plan
+try carom plan --shots 99 layout.jsonl
+try carom plan --rules snooker layout.jsonl
+try carom plan --shots 2000000 layout.jsonl
+sed 's/"id": "2"/"id": "red"/' layout.jsonl > names.jsonl
+try carom plan --rules eightball names.jsonl
+: > empty.jsonl
+try carom plan empty.jsonl
