@@ -98,7 +98,7 @@ typedef double carom_rules_value(const uint64_t *user, const carom_ball_state *l
 /* The rules of a game. The state `user` is always that of the player at the table: judge() leaves it as the next player has it.
  */
 typedef struct carom_plan_rules {
-  uint64_t user[8]; /* 64 bytes for the rules: who has which group and the like. A shot may change them. */
+  uint64_t user[8]; /* eight words for the rules: who has which group and the like. A shot may change them. */
   carom_rules_on *on;
   carom_rules_judge *judge;
   carom_rules_left *left;
@@ -182,7 +182,7 @@ typedef struct carom_plan_job {
   uint64_t reserved[4];              /* must be 0. */
 } carom_plan_job;
 
-/* The bytes that a plan with these options needs; 1.1 MB for the defaults. NULL: the defaults. 0 for bad options. */
+/* The bytes that a plan with these options needs; about a million for the defaults. NULL: the defaults. 0 for bad options. */
 CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
 
 /* The best shots of a layout, best first: up to `room` of them to choices[], and *found becomes their number, at least 1.

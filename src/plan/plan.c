@@ -564,7 +564,7 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   const carom_cue *cue = in_hand ? NULL : job->cue; /* its ball may be down */
   const carom_status bad = carom_shot_check(job->table, job->balls, (int)job->count, cue, &of->shot, &where);
   if (bad != CAROM_OK || job->cue->ball < 0 || job->cue->ball >= job->count)
-    return bad != CAROM_OK ? bad : CAROM_ERROR_CUE;
+    return bad != CAROM_OK ? bad : CAROM_ERROR_CUE_BALL;
   of->count = 0;
   of->most = most_candidates(shots_of(options), scan_of(options));
   of->room = most_rows(shots_of(options), scan_of(options));

@@ -276,8 +276,8 @@ TEST(arguments_of_plans) {
   REFUSED(rules.race, 3, CAROM_ERROR_OPTIONS);
   REFUSED(shot_options.unused, 1, CAROM_ERROR_SHOT_OPTIONS);
   REFUSED(balls[1].state, balls[0].state, CAROM_ERROR_OVERLAP);
-  REFUSED(cue.ball, BALLS, CAROM_ERROR_CUE);
-  REFUSED(cue.mass, NAN, CAROM_ERROR_CUE);
+  REFUSED(cue.ball, BALLS, CAROM_ERROR_CUE_BALL);
+  REFUSED(cue.mass, NAN, CAROM_ERROR_CUE_MASS);
   make_layout(5, 6);
   ck_assert_int_eq(carom_plan(&job, NULL, 1, &found), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_plan(NULL, &best, 1, &found), CAROM_ERROR_NULL);

@@ -18,11 +18,12 @@ from carom.collisions import ALL_THREADS, alciatore, collide, impacts, mu_ball, 
 from carom.cushions import cushion, cushion_impacts, cushion_trace
 from carom.derivatives import Flag, Tangents, jacobian, tangents
 from carom.layouts import Table, balls, cue, place_ball, struck
+from carom.plans import plan
 from carom.results import EventType, Features, Label, Shot, Shots
 from carom.shots import resume, simulate, simulate_batch
 from carom.status import CaromError, Status
 
-for _name in ("collisions", "cushions", "derivatives", "dtypes", "layouts", "racks", "results", "shots", "status", "tables"):
+for _name in ("collisions", "cushions", "derivatives", "dtypes", "layouts", "plans", "racks", "results", "shots", "status", "tables"):
     setattr(_sys.modules[f"carom.{_name}"], "__dir__", _listing(f"carom.{_name}"))
 
 __version__: str = _ffi.string(_lib.carom_version()).decode()
@@ -31,7 +32,7 @@ __all__ = [
     "ALL_THREADS", "CaromError", "EventType", "Features", "Flag", "Label", "Options", "Outcome", "Shot", "Shots",
     "Status", "Table", "Tangents", "alciatore", "balls", "collide", "cue", "cushion", "cushion_impacts",
     "cushion_trace", "dtypes", "impacts", "isa_in_force", "jacobian", "mu_ball", "physics_revision", "place_ball",
-    "racks", "resume", "simulate", "simulate_batch", "struck", "tables", "tangents", "trace",
+    "plan", "racks", "resume", "simulate", "simulate_batch", "struck", "tables", "tangents", "trace",
 ]  # fmt: skip
 
 

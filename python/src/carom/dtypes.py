@@ -20,7 +20,7 @@ Records = npt.NDArray[np.void]
 Doubles = npt.NDArray[np.float64]
 
 __all__ = [
-    "ball_kind", "ball_state", "brief_event", "columns", "cue", "cushion_impact", "cushion_point", "event", "impact", "jaw", "motion",
+    "ball_kind", "ball_state", "brief_event", "choice", "columns", "cue", "cushion_impact", "cushion_point", "event", "impact", "jaw", "motion",
     "plain", "pocket", "rail", "result", "shot", "shot_ball", "table", "tangent", "trace_point",
 ]  # fmt: skip
 
@@ -68,6 +68,7 @@ table: Record = _record("carom_table")  # A table: any geometry.
 event: Record = _record("carom_event")
 # An event without states, 24 bytes: time (s), type (`carom.EventType`), a, b.
 brief_event: Record = _record("carom_brief_event")
+choice: Record = _record("carom_choice")  # A shot that `carom.plan` proposes.
 shot: Record = _record("carom_shot")  # What a shot gives, with the addresses of its arrays: for the calls of C.
 # What derivatives of a shot give, with the addresses of their arrays: for the calls of C.
 tangent: Record = _record("carom_tangent")
