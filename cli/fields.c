@@ -86,7 +86,7 @@ OPTION_SET(set_ball_model) {
 }
 
 OPTION_SET(set_cushion_model) {
-  return set_place(row, text, "default|mathavan|stronge|han|mirror|euler", field);
+  return set_place(row, text, "default|mathavan|stronge|han|mirror|euler|smooth", field);
 }
 
 static OPTION_SET(set_solvers) {
@@ -161,9 +161,10 @@ ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
     "print counts and the time on standard error at the end");
 ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
     "impacts of a ball on a cushion, instead of collisions of two balls");
-ROW(option_model, "model", rail.model, 0, "mathavan|stronge|han|mirror|euler", set_choice, 0, CUSHION_ONLY,
+ROW(option_model, "model", rail.model, 0, "mathavan|stronge|han|mirror|euler|smooth", set_choice, 0, CUSHION_ONLY,
     "mathavan: the exact limit of Mathavan's model (default); stronge, han: closed forms; mirror: the velocity into the "
-    "cushion is reversed and multiplied by e; euler: Mathavan's model in N steps");
+    "cushion is reversed and multiplied by e; euler: Mathavan's model in N steps; smooth: a closed form read off recorded "
+    "impacts");
 ROW(option_convention, "convention", rail.convention, 0, "paper|pooltool", set_choice, 0, CUSHION_ONLY,
     "the conventions to follow where pooltool differs from the papers (default: paper)");
 ROW(option_law, "law", rail.law, 0, "constant|han", set_choice, 0, CUSHION_ONLY,

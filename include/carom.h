@@ -178,7 +178,7 @@ typedef enum carom_status {
   CAROM_ERROR_EVENTS_LOST = -54,   /* carom_shot_at(): the shot had more events than there was room for. */
   CAROM_ERROR_TIME = -55,          /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */
   CAROM_ERROR_DRAG = -56,          /* the drag of a rolling ball is not in [0, 1] 1/m. */
-  CAROM_ERROR_BALL_CUSHION = -57,  /* a ball's roll_loss, nose_height or omega_ratio is out of its range. */
+  CAROM_ERROR_BALL_CUSHION = -57,  /* a number of a ball for its impacts on cushions is out of its range. */
   CAROM_ERROR_MODULUS = -58,       /* a ball's modulus is neither 0 nor 1e6 to 1e15 Pa. */
   CAROM_ERROR_STATE = -60,         /* carom_shot_continue(): shot.state is damaged, or of no shot that can go on; */
   CAROM_ERROR_STATE_TABLE = -64,   /* is that of a shot on another table, */

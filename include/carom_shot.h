@@ -35,7 +35,7 @@ typedef struct carom_cushion_impact {
                          this counts only for Stronge's model with the convention of pooltool. */
 } carom_cushion_impact;
 
-/* How the impact is computed. STRONGE and HAN work along the inclined normal of the nose and drop the vertical velocity, so
+/* How the impact is computed. STRONGE, HAN and SMOOTH work along the inclined normal of the nose and drop the vertical velocity, so
  * they can leave a ball that still moves into the cushion, with CAROM_OK: without friction where e < tan^2 theta, sin(theta) =
  * (height - radius) / radius, which is 0.085 at a pool table's nose; with friction and much spin at larger e too. In a whole
  * shot of the world carom such a ball parts from the cushion in the same event, as after a slow contact (docs/using/shots.md).
@@ -47,6 +47,8 @@ typedef enum carom_cushion_model {
   CAROM_CUSHION_HAN = 2,      /* rigid nose, no cloth: I. Han, J. Mech. Sci. Technol. 19 (2005) 976-984. */
   CAROM_CUSHION_MIRROR = 3,   /* the velocity across the cushion is turned back and multiplied by e; spin stays. */
   CAROM_CUSHION_EULER = 4,    /* the model of MATHAVAN in N steps of impulse, as pooltool takes them. */
+  CAROM_CUSHION_SMOOTH = 5,   /* HAN without its corner between sticking and sliding, and with an elastic nose; read off
+                                 recorded impacts: docs/understanding/cushion.md. No cloth. */
 } carom_cushion_model;
 
 /* Which conventions are used where the simulator pooltool differs from the papers. POOLTOOL is for parity with it only. */
@@ -70,17 +72,27 @@ typedef struct carom_cushion_options {
   carom_cushion_model model;           /* default CAROM_CUSHION_MATHAVAN. */
   carom_cushion_convention convention; /* default CAROM_CONVENTION_PAPER. */
   carom_cushion_law law;               /* default CAROM_CUSHION_LAW_CONSTANT. */
-  int steps;            /* Euler's N: compression and restitution take about so many steps each; 0: CAROM_DEFAULT_STEPS. */
-  int threads;          /* most threads that a batch may use, the calling one among them. 0, the default: that one alone;
+  int steps;          /* Euler's N: compression and restitution take about so many steps each; 0: CAROM_DEFAULT_STEPS. */
+  int threads;        /* most threads that a batch may use, the calling one among them. 0, the default: that one alone;
                            CAROM_ALL_THREADS: one for each processor. Results do not depend on it. */
-  int plain;            /* 1: with CAROM_ISA_PLAIN, as in carom_options. Default 0. */
-  double least_step;    /* N s, >= 0: EULER takes no step of less impulse, but for the last ones. Default 0; pooltool: 0.001. */
-  double omega_ratio;   /* STRONGE: frequency of the nose along its surface over that across it, 1 to 2 without the ends. 0:
+  int plain;          /* 1: with CAROM_ISA_PLAIN, as in carom_options. Default 0. */
+  double least_step;  /* N s, >= 0: EULER takes no step of less impulse, but for the last ones. Default 0; pooltool: 0.001. */
+  double omega_ratio; /* STRONGE: frequency of the nose along its surface over that across it, 1 to 2 without the ends. 0:
                            1.8, which is that of pooltool. */
-  uint64_t reserved[4]; /* must be 0. */
+  double smooth_q;    /* SMOOTH: width of the passage from sticking to sliding, 1e-12 to 0.5. 0: this and the next four are
+                           those measured on one table: 0.35, 1.3, 1.2, 0.13 and 0.047; then all five must be 0. */
+  double smooth_x;    /* SMOOTH: part of the slip along the cushion that friction takes if it can, above 0, at most 2: 1 */
+  double smooth_t;    /* stops it, more turns a part of it round. And of the slip across the cushion. */
+  double smooth_a;    /* SMOOTH: friction across the cushion reaches 1 + a times as far, 0 to 1. */
+  double smooth_k;    /* SMOOTH: rebound gains this part of the impulse where friction is used up, 0 to 1. The ball never
+                           leaves the nose faster than it came. */
+  double restitution_log; /* any model: restitution and friction at v m/s across the cushion are those of the impact, which */
+  double mu_log;          /* hold at 1 m/s, plus this times ln(v), limited to 0 to 1; below 0.1 m/s as at 0.1. -1 to 1;
+                             default 0. Not read with CAROM_CUSHION_LAW_HAN. */
+  uint64_t reserved[4];   /* must be 0. */
 } carom_cushion_options;
 
-/* The name of a model ("mathavan", "stronge", "han", "mirror", "euler"), or NULL for a value not listed. */
+/* The name of a model ("mathavan", "stronge", "han", "mirror", "euler", "smooth"), or NULL for a value not listed. */
 CAROM_API const char *carom_cushion_model_name(carom_cushion_model model);
 
 /* Resolves one impact. `opt` may be NULL for the defaults; `out` may not overlap `in`.
@@ -199,6 +211,10 @@ typedef struct carom_ball_kind {
   double restitution_table; /* ball and slate, at most 0.98; 0: 0.5, which is a convention; -1: none. */
   double modulus;           /* E/(1 - nu^2) of the ball's material, 1e6 to 1e15 Pa; 0: 6.6e9, that of one phenolic resin. It
                                counts where several balls touch at one instant. */
+  double restitution_log, mu_log; /* of cushions: restitution and friction change by these for each unit of ln(v), v in m/s the
+                                     speed across the cushion, as in carom_cushion_options. */
+  double smooth_q, smooth_x, smooth_t, smooth_a, smooth_k; /* of smooth cushions, as in carom_cushion_options. All 0: those
+                                                              measured on one table. */
 } carom_ball_kind;
 
 /* Where a ball is and how it moves. */
@@ -401,7 +417,8 @@ typedef enum carom_shot_cushion {
   CAROM_SHOT_CUSHION_STRONGE = 2,
   CAROM_SHOT_CUSHION_HAN = 3,
   CAROM_SHOT_CUSHION_MIRROR = 4,
-  CAROM_SHOT_CUSHION_EULER = 5
+  CAROM_SHOT_CUSHION_EULER = 5,
+  CAROM_SHOT_CUSHION_SMOOTH = 6
 } carom_shot_cushion;
 
 /* Contacts of several balls at one instant. CLUSTER: they last and overlap in time, by carom_cluster(); with the ball models

@@ -67,7 +67,9 @@
   X(ERROR_TIME, -55, "bad_time", "the time is not a number, or after the end of a shot that was stopped while balls moved")    \
   X(ERROR_DRAG, -56, "bad_drag", "the drag of a rolling ball must be 0 to 1 per metre")                                        \
   X(ERROR_BALL_CUSHION, -57, "bad_ball_cushion",                                                                               \
-    "a ball's roll_loss must be 0 to 1, its nose_height 0 to below 2 R, its omega_ratio 0 or between 1 and 2")                 \
+    "a ball's roll_loss must be 0 to 1, its nose_height 0 to below 2 R, its omega_ratio 0 or between 1 and 2, its "            \
+    "restitution_log and mu_log -1 to 1, its smooth_q 1e-12 to 0.5, smooth_x and smooth_t above 0 to 2, smooth_a and "         \
+    "smooth_k 0 to 1, or all five 0")                                                                                          \
   X(ERROR_TABLE_OPEN, -61, "table_open",                                                                                       \
     "a ball can leave the table between two of its parts, or there is no place for a ball")                                    \
   X(ERROR_RAIL_SIDE, -62, "bad_rail_side", "the played side of a rail is turned away from the table")                          \

@@ -34,7 +34,9 @@ carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
   const bool law = (int)opt->law >= 0 && opt->law <= CAROM_CUSHION_LAW_HAN;
   const bool step = opt->least_step >= 0 && opt->least_step < INFINITY;
   const bool ratio = opt->omega_ratio == 0 || (opt->omega_ratio > 1 && opt->omega_ratio < 2);
-  return convention && law && step && ratio ? CAROM_OK : CAROM_ERROR_CUSHION_OPTIONS;
+  const bool speed = fabs(opt->restitution_log) <= 1 && fabs(opt->mu_log) <= 1;
+  const bool smooth = carom_smooth_is_good(opt->smooth_q, opt->smooth_x, opt->smooth_t, opt->smooth_a, opt->smooth_k);
+  return convention && law && step && ratio && speed && smooth ? CAROM_OK : CAROM_ERROR_CUSHION_OPTIONS;
 }
 
 static const carom_range of_field[FIELDS] = {
@@ -84,6 +86,6 @@ const char *carom_cushion_field_name(int field) {
 }
 
 const char *carom_cushion_model_name(carom_cushion_model model) {
-  static const char *const names[] = {"mathavan", "stronge", "han", "mirror", "euler"};
+  static const char *const names[] = {"mathavan", "stronge", "han", "mirror", "euler", "smooth"};
   return (unsigned)model < sizeof names / sizeof names[0] ? names[model] : NULL;
 }

@@ -19,6 +19,8 @@ static carom_status by_model(carom_contact *c, const carom_cushion_options *opt,
     return carom_han(c);
   case CAROM_CUSHION_MIRROR:
     return carom_mirror(c);
+  case CAROM_CUSHION_SMOOTH:
+    return carom_smooth(c, opt);
   case CAROM_CUSHION_EULER:
     return carom_cushion_euler(c, carom_cushion_steps(opt), opt->least_step / mass, pooltool, INT64_MAX, &run);
   }
@@ -43,6 +45,8 @@ static carom_status solve_impact(const carom_cushion_impact *in, const carom_cus
     }
     if (opt->law == CAROM_CUSHION_LAW_HAN)
       carom_apply_han(&contact);
+    else
+      carom_apply_speed(&contact, opt->restitution_log, opt->mu_log);
     status = by_model(&contact, opt, in->mass);
     if (status == CAROM_OK) {
       carom_from_cushion(&frame, &contact, in->radius, out);

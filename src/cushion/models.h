@@ -6,6 +6,7 @@
 #include "cushion/contact.h"
 #include "impact/impact.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* The exact limit. See mathavan.c. */
@@ -23,6 +24,15 @@ void carom_apply_han(carom_contact *contact);
 
 /* Coulomb impact on a rigid nose. See closed.c. */
 carom_status carom_han(carom_contact *contact);
+
+/* Han's impact without its corner. See closed.c. */
+carom_status carom_smooth(carom_contact *contact, const carom_cushion_options *opt);
+
+/* Restitution and friction of a contact at its speed v_y, by the changes for each unit of ln(v_y). See closed.c. */
+void carom_apply_speed(carom_contact *contact, double restitution_log, double mu_log);
+
+/* Whether the five numbers of the smooth law are in their ranges. */
+bool carom_smooth_is_good(double q, double C_x, double C_t, double a, double k);
 
 carom_status carom_mirror(carom_contact *contact);
 

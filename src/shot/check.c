@@ -1,5 +1,6 @@
 /* The one place where the arguments of a shot are checked, by the conditions of the comments in carom_shot.h: the table and the
  * options once for a batch; a layout, its cue, and whether the table suits the radius of its balls, for each. */
+#include "cushion/models.h"
 #include "motion/strike.h"
 #include "shot/rules.h"
 
@@ -22,7 +23,7 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
     return CAROM_ERROR_WORLD;
   if ((uint32_t)o->ball_model > CAROM_BALL_MODEL_MIRROR)
     return CAROM_ERROR_BALL_MODEL;
-  if ((uint32_t)o->cushion_model > CAROM_SHOT_CUSHION_EULER)
+  if ((uint32_t)o->cushion_model > CAROM_SHOT_CUSHION_SMOOTH)
     return CAROM_ERROR_SHOT_CUSHION_MODEL;
   if ((uint32_t)o->friction > CAROM_FRICTION_CONSTANT)
     return CAROM_ERROR_FRICTION;
@@ -82,7 +83,10 @@ static carom_status check_kind(const carom_ball_kind *k) {
   if (!carom_in_unit_interval(k->mu_cushion))
     return CAROM_ERROR_MU_CUSHION;
   const bool ratio = k->omega_ratio == 0.0 || (k->omega_ratio > 1.0 && k->omega_ratio < 2.0);
-  if (!carom_in_unit_interval(k->roll_loss) || !(k->nose_height >= 0.0 && k->nose_height < 2.0 * k->radius) || !ratio)
+  const bool speed = fabs(k->restitution_log) <= 1.0 && fabs(k->mu_log) <= 1.0;
+  const bool smooth = carom_smooth_is_good(k->smooth_q, k->smooth_x, k->smooth_t, k->smooth_a, k->smooth_k);
+  if (!carom_in_unit_interval(k->roll_loss) || !(k->nose_height >= 0.0 && k->nose_height < 2.0 * k->radius) || !ratio ||
+      !speed || !smooth)
     return CAROM_ERROR_BALL_CUSHION;
   if (!(k->modulus == 0.0 || (k->modulus >= 1e6 && k->modulus <= 1e15)))
     return CAROM_ERROR_MODULUS;

@@ -169,7 +169,8 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due) {
 
 _Static_assert(CAROM_SHOT_CUSHION_MATHAVAN == 1 + CAROM_CUSHION_MATHAVAN &&
                    CAROM_SHOT_CUSHION_STRONGE == 1 + CAROM_CUSHION_STRONGE && CAROM_SHOT_CUSHION_HAN == 1 + CAROM_CUSHION_HAN &&
-                   CAROM_SHOT_CUSHION_MIRROR == 1 + CAROM_CUSHION_MIRROR && CAROM_SHOT_CUSHION_EULER == 1 + CAROM_CUSHION_EULER,
+                   CAROM_SHOT_CUSHION_MIRROR == 1 + CAROM_CUSHION_MIRROR &&
+                   CAROM_SHOT_CUSHION_EULER == 1 + CAROM_CUSHION_EULER && CAROM_SHOT_CUSHION_SMOOTH == 1 + CAROM_CUSHION_SMOOTH,
                "the models of a shot are those of an impact, behind the default");
 
 static carom_cushion_model cushion_model(const carom_sim *sim) {
@@ -183,11 +184,15 @@ static double own_or(double own, double of_ball) {
 }
 
 /* A ball in flight, by the model without the cloth. Mathavan's equations have a constant direction of slip then, as Han's do,
- * so the impact of fixed.c is their exact limit; Stronge's model is planar in N and the direction of slip already. */
+ * so the impact of fixed.c is their exact limit; it stands for the smooth law too, which was not measured in flight; Stronge's model is planar in N and the direction of slip already. */
 static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const double N[3], const carom_nose *nose,
                         carom_ball_state *s) {
   const carom_touch touch = carom_touch_of(N, kind->radius, s);
-  const double mu = own_or(nose->mu_cushion, kind->mu_cushion), e = own_or(nose->restitution, kind->restitution_cushion);
+  carom_contact c = {.v_y = touch.closing,
+                     .mu_w = own_or(nose->mu_cushion, kind->mu_cushion),
+                     .e = own_or(nose->restitution, kind->restitution_cushion)};
+  carom_apply_speed(&c, kind->restitution_log, kind->mu_log);
+  const double mu = c.mu_w, e = c.e;
   const double J = (1.0 + e) * touch.closing;
   double J_t = 0.0;
   if (cushion_model(sim) == CAROM_CUSHION_STRONGE)
@@ -215,7 +220,14 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
                                    .steps = sim->opt->steps,
                                    .plain = sim->opt->plain,
                                    .least_step = sim->rules->least_step,
-                                   .omega_ratio = kind->omega_ratio};
+                                   .omega_ratio = kind->omega_ratio,
+                                   .smooth_q = kind->smooth_q,
+                                   .smooth_x = kind->smooth_x,
+                                   .smooth_t = kind->smooth_t,
+                                   .smooth_a = kind->smooth_a,
+                                   .smooth_k = kind->smooth_k,
+                                   .restitution_log = kind->restitution_log,
+                                   .mu_log = kind->mu_log};
   carom_motion out;
   carom_status status = carom_cushion(&in, &options, &out);
 

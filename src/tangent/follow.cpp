@@ -591,6 +591,13 @@ carom_status carom_tangent_of_cushion(const carom_cushion_impact *in, const caro
   options.plain = opt->plain;
   options.omega_ratio = opt->omega_ratio;
   options.least_step = opt->least_step;
+  options.smooth_q = opt->smooth_q;
+  options.smooth_x = opt->smooth_x;
+  options.smooth_t = opt->smooth_t;
+  options.smooth_a = opt->smooth_a;
+  options.smooth_k = opt->smooth_k;
+  options.restitution_log = opt->restitution_log;
+  options.mu_log = opt->mu_log;
   watched = {true, *note};
   const text::carom_status status = text::carom_cushion(&impact, &options, &out);
   watched.on = false;

@@ -79,6 +79,13 @@ double carom_exp(double x) {
   const real y = ::carom_exp(x.x);
   return {y, x.d * y};
 }
+double carom_log(double x) {
+  return {::carom_log(x.x), x.d * (1 / x.x)};
+}
+double carom_power(double x, double y) {
+  const real z = ::carom_power(x.x, y.x);
+  return z > 0 ? number(z, x.d * (y.x * z / x.x) + y.d * (::carom_log(x.x) * z)) : number(z);
+}
 void carom_sincos(double x, double *sine, double *cosine) {
   real s, c;
   ::carom_sincos(x.x, &s, &c);

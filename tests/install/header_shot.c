@@ -9,8 +9,8 @@
 
 STATIC_ASSERT(sizeof(carom_cushion_impact) == 15 * sizeof(double), "an impact is 15 doubles");
 STATIC_ASSERT(sizeof(carom_motion) == 6 * sizeof(double), "a motion is 6 doubles");
-STATIC_ASSERT(sizeof(carom_cushion_options) == 72, "options have no gaps that a compiler may fill");
-STATIC_ASSERT(CAROM_CUSHION_MATHAVAN == 0 && CAROM_CUSHION_EULER == 4, "values are never changed");
+STATIC_ASSERT(sizeof(carom_cushion_options) == 128, "options have no gaps that a compiler may fill");
+STATIC_ASSERT(CAROM_CUSHION_MATHAVAN == 0 && CAROM_CUSHION_EULER == 4 && CAROM_CUSHION_SMOOTH == 5, "values are never changed");
 
 STATIC_ASSERT(sizeof(carom_shot_options) == 80 && sizeof(carom_brief_event) == 24, "sizes that callers rely on");
 

@@ -11,7 +11,7 @@
 
 enum { DRAWN = 2000, SWEPT = 60 };
 static const carom_cushion_model models[] = {CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN,
-                                             CAROM_CUSHION_MIRROR, CAROM_CUSHION_EULER};
+                                             CAROM_CUSHION_MIRROR,   CAROM_CUSHION_EULER,   CAROM_CUSHION_SMOOTH};
 enum { MODELS = sizeof models / sizeof models[0] };
 
 /* Twice the kinetic energy, over the mass. */
@@ -144,6 +144,113 @@ TEST(han_law) {
   ck_assert_msg(cushion_distance(&in, &a, &b) < 1e-12, "%g", cushion_distance(&in, &a, &b));
 }
 
+/* ---- The smooth law */
+
+static const carom_cushion_options nearly_han = {
+    .model = CAROM_CUSHION_SMOOTH, .smooth_q = 1e-11, .smooth_x = 1, .smooth_t = 1};
+
+/* Without its five constants it is Han's. */
+TEST(smooth_has_the_limit_of_han) {
+  const carom_cushion_options han = {.model = CAROM_CUSHION_HAN};
+  for (uint64_t k = 0; k < DRAWN; k++) {
+    const carom_cushion_impact in = draw_cushion(k % 2 == 0 ? CUSHION_ANY : CUSHION_PLAY, test_seed(), k);
+    carom_motion a, b;
+    ck_assert_int_eq(carom_cushion(&in, &nearly_han, &a), CAROM_OK);
+    ck_assert_int_eq(carom_cushion(&in, &han, &b), CAROM_OK);
+    ck_assert_msg(cushion_distance(&in, &a, &b) < 1e-9, "impact %d: %g", (int)k, cushion_distance(&in, &a, &b));
+  }
+}
+
+/* By all constants that are accepted, most of them at an end of their range: energy does not rise, and the impulse is one that
+ * acts at the nose, so the angular momentum about it stays. */
+TEST(smooth_keeps_the_laws) {
+  random_source r = {test_seed()};
+  for (uint64_t k = 0; k < 50 * DRAWN; k++) {
+    carom_cushion_impact in = draw_cushion(k % 2 == 0 ? CUSHION_ANY : CUSHION_PLAY, test_seed(), k);
+    double c[7];
+    for (int j = 0; j < 7; j++)
+      c[j] = fmin(fmax(random_between(&r, -0.5, 1.5), 1e-6), 1);
+    in.normal[0] = 0;
+    in.normal[1] = 1;
+    in.v[1] = fabs(in.v[1]);
+    in.restitution = k % 3 == 0 ? 1 : in.restitution;
+    const carom_cushion_options options = {.model = CAROM_CUSHION_SMOOTH,
+                                           .smooth_q = 0.5 * c[0],
+                                           .smooth_x = 2 * c[1],
+                                           .smooth_t = 2 * c[2],
+                                           .smooth_a = c[3],
+                                           .smooth_k = c[4],
+                                           .restitution_log = 2 * c[5] - 1,
+                                           .mu_log = 2 * c[6] - 1};
+    carom_motion out;
+    ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_OK);
+    const double R = in.radius, before = energy(in.v, in.w, R), after = energy(out.v, out.w, R);
+    ck_assert_msg(after <= before * (1 + 1e-12), "impact %d: %.17g becomes %.17g", (int)k, before, after);
+    const double sine = in.height / R - 1, cosine = sqrt((1 - sine) * (1 + sine)), slack = 1e-12 * sqrt(before);
+    const double f_x = out.v[0] - in.v[0], W_y = R * (out.w[1] - in.w[1]), W_z = R * (out.w[2] - in.w[2]);
+    ck_assert_double_eq_tol(W_y, 2.5 * sine * f_x, slack);
+    ck_assert_double_eq_tol(W_z, -2.5 * cosine * f_x, slack);
+  }
+}
+
+/* How far the derivatives of two impacts by the side spin are apart, over the first. */
+static double slope_change(const carom_cushion_options *options, double w_z, double step) {
+  double slope[2][6], most = 0, size = 0;
+  for (int k = 0; k < 2; k++) {
+    carom_cushion_impact in = usual();
+    const double seeds[15] = {[5] = 1};
+    in.w[2] = w_z + k * step;
+    ck_assert_int_eq(carom_cushion_tangent(&in, options, 1, seeds, slope[k], NULL), CAROM_OK);
+  }
+  for (int c = 0; c < 6; c++) {
+    most = fmax(most, fabs(slope[1][c] - slope[0][c]));
+    size = fmax(size, fabs(slope[0][c]));
+  }
+  return most / size;
+}
+
+/* Where Han's derivative by the side spin jumps, that of the smooth law goes on. */
+TEST(smooth_has_no_corner) {
+  const carom_cushion_options han = {.model = CAROM_CUSHION_HAN}, smooth = {.model = CAROM_CUSHION_SMOOTH};
+  double han_most = 0, smooth_most = 0;
+  for (double w_z = -100; w_z < 150; w_z += 0.01) {
+    han_most = fmax(han_most, slope_change(&han, w_z, 0.01));
+    smooth_most = fmax(smooth_most, slope_change(&smooth, w_z, 0.01));
+  }
+  ck_assert_double_gt(han_most, 0.1);
+  ck_assert_double_lt(smooth_most, 2e-3);
+}
+
+/* Its derivatives by each input, against differences. */
+TEST(smooth_derivatives) {
+  static const double step[15] = {1e-6, 1e-6, 0, 1e-5, 1e-5, 1e-5, 0, 0, 1e-8, 1e-8, 0, 0, 1e-6, 1e-6, 0};
+  for (uint64_t n = 0; n < 200; n++) {
+    const carom_cushion_impact in = draw_cushion(CUSHION_PLAY, test_seed(), n);
+    const carom_cushion_options options = {.model = CAROM_CUSHION_SMOOTH, .restitution_log = -0.03, .mu_log = -0.02};
+    for (int k = 0; k < 15; k++) {
+      if (step[k] == 0)
+        continue;
+      double seeds[15] = {0}, slope[6];
+      carom_cushion_impact less = in, more = in;
+      carom_motion low, high;
+      seeds[k] = 1;
+      ((double *)&less)[k] -= step[k];
+      ((double *)&more)[k] += step[k];
+      ck_assert_int_eq(carom_cushion_tangent(&in, &options, 1, seeds, slope, NULL), CAROM_OK);
+      ck_assert_int_eq(carom_cushion(&less, &options, &low), CAROM_OK);
+      ck_assert_int_eq(carom_cushion(&more, &options, &high), CAROM_OK);
+      double size = 1e-3;
+      for (int c = 0; c < 6; c++)
+        size = fmax(size, fabs(slope[c]));
+      for (int c = 0; c < 6; c++) {
+        const double differences = (((double *)&high)[c] - ((double *)&low)[c]) / (2 * step[k]);
+        ck_assert_msg(fabs(slope[c] - differences) <= 1e-4 * size, "impact %d, number %d by %d: %g, not %g", (int)n, c, k,
+                      slope[c], differences);
+      }
+    }
+  }
+}
+
 TEST(separating_is_unchanged) {
   for (int m = 0; m < MODELS; m++) {
     carom_cushion_impact in = usual();
@@ -199,8 +306,8 @@ TEST(stronge_is_two_springs) {
 
 /* Without friction a ball slips to the end, and the impulse of friction is proportional to the first bit of it. */
 TEST(a_smooth_nose_has_a_derivative_by_friction) {
-  static const carom_cushion_model closed[] = {CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN};
-  for (int m = 0; m < 2; m++) {
+  static const carom_cushion_model closed[] = {CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN, CAROM_CUSHION_SMOOTH};
+  for (int m = 0; m < 3; m++) {
     carom_cushion_impact in = usual();
     const carom_cushion_options options = {.model = closed[m]};
     const double seeds[15] = {[12] = 1}, step = 1e-6;

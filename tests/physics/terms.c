@@ -284,10 +284,32 @@ TEST(bounds_with_drag) {
 
 /* Field `name` of a kind; the fields are doubles without gaps. */
 static double *field_of(carom_ball_kind *kind, const char *name) {
-  static const char *const names[] = {
-      "mass",    "radius", "mu_slide",  "mu_roll", "mu_spin", "mu_ball", "restitution", "mu_cushion",  "restitution_cushion",
-      "gravity", "drag",   "roll_loss", "law_a",   "law_b",   "law_c",   "nose_height", "omega_ratio", "restitution_table",
-      "modulus"};
+  static const char *const names[] = {"mass",
+                                      "radius",
+                                      "mu_slide",
+                                      "mu_roll",
+                                      "mu_spin",
+                                      "mu_ball",
+                                      "restitution",
+                                      "mu_cushion",
+                                      "restitution_cushion",
+                                      "gravity",
+                                      "drag",
+                                      "roll_loss",
+                                      "law_a",
+                                      "law_b",
+                                      "law_c",
+                                      "nose_height",
+                                      "omega_ratio",
+                                      "restitution_table",
+                                      "modulus",
+                                      "restitution_log",
+                                      "mu_log",
+                                      "smooth_q",
+                                      "smooth_x",
+                                      "smooth_t",
+                                      "smooth_a",
+                                      "smooth_k"};
   ck_assert_uint_eq(sizeof names / sizeof names[0] * sizeof(double), sizeof *kind);
   for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
     if (strcmp(names[k], name) == 0)

@@ -67,7 +67,7 @@ TEST(each_option_is_checked) {
   const struct {
     carom_cushion_options options;
     carom_status status;
-  } cases[] = {{{.model = (carom_cushion_model)5}, CAROM_ERROR_CUSHION_MODEL},
+  } cases[] = {{{.model = (carom_cushion_model)6}, CAROM_ERROR_CUSHION_MODEL},
                {{.model = (carom_cushion_model)-1}, CAROM_ERROR_CUSHION_MODEL},
                {{.convention = (carom_cushion_convention)2}, CAROM_ERROR_CUSHION_OPTIONS},
                {{.law = (carom_cushion_law)2}, CAROM_ERROR_CUSHION_OPTIONS},
@@ -78,7 +78,17 @@ TEST(each_option_is_checked) {
                {{.least_step = -1}, CAROM_ERROR_CUSHION_OPTIONS},
                {{.least_step = NAN}, CAROM_ERROR_CUSHION_OPTIONS},
                {{.omega_ratio = 1}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.omega_ratio = 2}, CAROM_ERROR_CUSHION_OPTIONS}};
+               {{.omega_ratio = 2}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.restitution_log = -1.1}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.mu_log = NAN}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.smooth_k = 0.1}, CAROM_ERROR_CUSHION_OPTIONS}, /* without the others */
+               {{.smooth_q = 1e-13, .smooth_x = 1, .smooth_t = 1}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.smooth_q = 0.51, .smooth_x = 1, .smooth_t = 1}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.smooth_q = 0.3, .smooth_t = 1}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.smooth_q = 0.3, .smooth_x = 2.1, .smooth_t = 1}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 2.1}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 1, .smooth_a = -0.1}, CAROM_ERROR_CUSHION_OPTIONS},
+               {{.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 1, .smooth_k = 1.1}, CAROM_ERROR_CUSHION_OPTIONS}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     carom_motion out;
     int8_t status = 77;
@@ -114,7 +124,7 @@ TEST(extremes_end) {
   static const double sizes[] = {1e-300, 1e-30, 1e-9, 1e9, 1e30, 1e150, 1e300};
   for (size_t j = 0; j < sizeof sizes / sizeof sizes[0]; j++)
     for (int field = 0; field < 15; field++)
-      for (int model = 0; model < 5; model++) {
+      for (int model = 0; model < 6; model++) {
         carom_cushion_impact in = good();
         const carom_cushion_options options = {.model = (carom_cushion_model)model, .steps = 10};
         carom_motion out;

@@ -104,6 +104,8 @@ TEST(kinds) {
     REFUSED(balls[9].kind.roll_loss, outside[k], CAROM_ERROR_BALL_CUSHION, 9);
     REFUSED(balls[9].kind.nose_height, outside[k], CAROM_ERROR_BALL_CUSHION, 9);
     REFUSED(balls[9].kind.omega_ratio, k == 2 ? 2.0 : outside[k], CAROM_ERROR_BALL_CUSHION, 9);
+    REFUSED(balls[9].kind.smooth_k, outside[k], CAROM_ERROR_BALL_CUSHION, 9);
+    REFUSED(balls[9].kind.mu_log, 11.0 * outside[k], CAROM_ERROR_BALL_CUSHION, 9);
     REFUSED(balls[9].kind.law_a, outside[k], CAROM_ERROR_MU_BALL, 9);
     REFUSED(balls[9].kind.law_b, outside[k], CAROM_ERROR_MU_BALL, 9);
     REFUSED(balls[9].kind.law_c, k == 2 ? INFINITY : outside[k], CAROM_ERROR_MU_BALL, 9);
@@ -263,7 +265,7 @@ TEST(options_and_calls) {
   NAMED(options.world, (carom_world)-1, CAROM_ERROR_WORLD);
   NAMED(options.ball_model, (carom_ball_model)-1, CAROM_ERROR_BALL_MODEL);
   NAMED(options.cushion_model, (carom_shot_cushion)-1, CAROM_ERROR_SHOT_CUSHION_MODEL);
-  NAMED(options.cushion_model, (carom_shot_cushion)6, CAROM_ERROR_SHOT_CUSHION_MODEL);
+  NAMED(options.cushion_model, (carom_shot_cushion)7, CAROM_ERROR_SHOT_CUSHION_MODEL);
   NAMED(options.friction, (carom_ball_friction)-1, CAROM_ERROR_FRICTION);
   NAMED(options.friction, 2, CAROM_ERROR_FRICTION);
   NAMED(options.events_most, -1, CAROM_ERROR_EVENTS_MOST);

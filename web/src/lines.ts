@@ -36,6 +36,13 @@ const PARAMS: readonly (readonly [string, keyof BallKind])[] = [
   ["omega_ratio", "omegaRatio"],
   ["e_t", "restitutionTable"],
   ["modulus", "modulus"],
+  ["e_c_log", "restitutionLog"],
+  ["f_c_log", "muLog"],
+  ["smooth_q", "smoothQ"],
+  ["smooth_x", "smoothX"],
+  ["smooth_t", "smoothT"],
+  ["smooth_a", "smoothA"],
+  ["smooth_k", "smoothK"],
 ];
 const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
   ["V0", "speed"],

@@ -130,7 +130,7 @@ export interface CushionImpact {
   jawRadius?: number;
 }
 
-export type CushionModel = "mathavan" | "stronge" | "han" | "mirror" | "euler";
+export type CushionModel = "mathavan" | "stronge" | "han" | "mirror" | "euler" | "smooth";
 
 /** Options of impacts on cushions. */
 export interface CushionOptions {
@@ -186,6 +186,18 @@ export interface BallKind {
   restitutionTable: number;
   /** Stiffness of the material, E/(1 - nu^2), Pa; 0: 6.6e9. It counts where several balls touch at one instant. */
   modulus: number;
+  /** Restitution and friction of cushions change by these for each unit of ln(v), v in m/s the speed across the cushion, -1 to 1. */
+  restitutionLog: number;
+  muLog: number;
+  /** Of smooth cushions: width of the passage from sticking to sliding, up to 0.5. 0: the five are those measured on one table. */
+  smoothQ: number;
+  /** The parts of the slip along and across the cushion that friction takes if it can, above 0, at most 2. */
+  smoothX: number;
+  smoothT: number;
+  /** Friction across the cushion reaches 1 + smoothA times as far, 0 to 1. */
+  smoothA: number;
+  /** Rebound gains this part of the impulse where friction is used up, 0 to 1. */
+  smoothK: number;
 }
 
 /** How a ball moves. */

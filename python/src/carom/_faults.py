@@ -30,6 +30,10 @@ _SHARED: dict[str, dict[str, _Range]] = {
     "ball_cushion": {
         "roll_loss": _UNIT,
         "omega_ratio": (lambda x: x == 0 or 1 < x < 2, "0, or between 1 and 2"),
+        **dict.fromkeys(("restitution_log", "mu_log"), (lambda x: abs(x) <= 1, "-1 to 1")),
+        "smooth_q": (lambda x: x == 0 or 1e-12 <= x <= 0.5, "0, or 1e-12 to 0.5"),
+        **dict.fromkeys(("smooth_x", "smooth_t"), (lambda x: 0 <= x <= 2, "above 0 and at most 2, or 0 if smooth_q is 0")),
+        **dict.fromkeys(("smooth_a", "smooth_k"), (lambda x: 0 <= x <= 1, "0 to 1, or 0 if smooth_q is 0")),
         "nose_height": (lambda x: False, "0 to less than 2 R"),
     },
 }

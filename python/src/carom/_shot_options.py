@@ -13,7 +13,7 @@ from carom._rows import choice, whole
 
 World = Literal["carom", "pooltool"]
 BallModel = Literal["default", "exact", "euler", "inelastic", "mirror"]
-ShotCushion = Literal["default", "mathavan", "stronge", "han", "mirror", "euler"]
+ShotCushion = Literal["default", "mathavan", "stronge", "han", "mirror", "euler", "smooth"]
 Friction = Literal["alciatore", "constant"]
 Space = Literal["3d", "flat"]
 Simultaneous = Literal["cluster", "pairs"]
@@ -23,7 +23,7 @@ StopAt = Literal[
 ]  # fmt: skip
 _WORLDS = {"carom": 0, "pooltool": 1}
 _BALL_MODELS = {"default": 0, "exact": 1, "euler": 2, "inelastic": 3, "mirror": 4}
-_CUSHIONS = {"default": 0, "mathavan": 1, "stronge": 2, "han": 3, "mirror": 4, "euler": 5}
+_CUSHIONS = {"default": 0, "mathavan": 1, "stronge": 2, "han": 3, "mirror": 4, "euler": 5, "smooth": 6}
 _FRICTIONS = {"alciatore": 0, "constant": 1}
 _SPACES = {"3d": 0, "flat": 1}
 _SIMULTANEOUS = {"cluster": 0, "pairs": 1}
@@ -40,7 +40,7 @@ class Options(NamedTuple):
         The rules of contact: carom's, or pooltool's, which give the histories of pooltool.
     ball_model : {"default", "exact", "euler", "inelastic", "mirror"}
         Model of the collision of two balls. Default: exact in the world carom, inelastic in pooltool.
-    cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler"}
+    cushion_model : {"default", "mathavan", "stronge", "han", "mirror", "euler", "smooth"}
         Model of the impact on a cushion. Default: han in the world carom, stronge in pooltool. mathavan is the exact limit, and takes most of
         the time.
     friction : {"alciatore", "constant"}

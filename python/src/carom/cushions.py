@@ -14,10 +14,10 @@ from carom._impacts import CUSHION, Outcome, resolve
 from carom._impacts import trace as follow
 from carom._rows import Array, choice, fill, whole
 
-CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler"]
+CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler", "smooth"]
 CushionConvention = Literal["paper", "pooltool"]
 CushionLaw = Literal["constant", "han"]
-_MODELS = {"mathavan": 0, "stronge": 1, "han": 2, "mirror": 3, "euler": 4}
+_MODELS = {"mathavan": 0, "stronge": 1, "han": 2, "mirror": 3, "euler": 4, "smooth": 5}
 _CONVENTIONS = {"paper": 0, "pooltool": 1}
 _LAWS = {"constant": 0, "han": 1}
 
@@ -76,7 +76,7 @@ def cushion(
     ----------
     impacts : array_like, shape (..., 15), or structured of shape (...)
         Rows of float64 (others are converted), or of `carom.dtypes.cushion_impact`; see `carom.cushion_impacts`.
-    model : {"mathavan", "stronge", "han", "mirror", "euler"}
+    model : {"mathavan", "stronge", "han", "mirror", "euler", "smooth"}
         Mathavan's model of 2010 in its exact limit, closed forms, or the steps of that model.
     convention : {"paper", "pooltool"}
         Whose geometry holds where pooltool departs from the papers.
