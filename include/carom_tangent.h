@@ -90,7 +90,7 @@ typedef struct carom_tangent {
 
 /* Derivatives of a shot that carom_shoot() has played: table, balls, cue and options are those of that call, and shot->events
  * holds all of its events. Tangents follow each ball from event to event, on the cloth and in flight; nothing is played again.
- * Nothing is allocated; stack: 53 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
+ * Nothing is allocated; stack: 54 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS; CAROM_ERROR_DIRECTIONS for other than 1
  * to 64; CAROM_ERROR_EVENTS_LOST where shot->room was too small or events is NULL; CAROM_ERROR_STATE where an event cannot be
