@@ -3,8 +3,15 @@
  *     carom_player player = carom_player_of(1.0);
  *     carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
  *     rules.user[0] = 1;                                            // the player has the solids
- *     carom_plan_job job = {.table = &table, .balls = balls, .count = 16, .cue = &cue, .player = &player, .rules = &rules};
- *     job.memory = malloc(job.memory_size = carom_plan_memory(NULL));
+ *     static carom_plan_job job;
+ *     job.table = &table;                                           // table, balls and cue as of carom_shoot()
+ *     job.balls = balls;
+ *     job.count = 16;
+ *     job.cue = &cue;
+ *     job.player = &player;
+ *     job.rules = &rules;
+ *     job.memory_size = carom_plan_memory(NULL);
+ *     job.memory = malloc(job.memory_size);
  *     carom_choice best[5];
  *     int found;
  *     carom_status status = carom_plan(&job, best, 5, &found);      // best[0].cue is the shot, best[0].value the chance to win
