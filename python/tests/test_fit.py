@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from test_tracks import RADIUS, TABLE, csv_of
 
-from carom import _constants, _covariance, _joint, _strikes, _summary, fit, tracks
+from carom import _constants, _covariance, _from_events, _joint, _strikes, _summary, fit, tracks
 
 HAN = {"mu_slide": 0.21, "mu_roll": 0.005, "mu_spin": 0.005, "mu_cushion": 0.22, "restitution_cushion": 0.88, "law_a": 0.05}
 
@@ -209,6 +209,18 @@ def test_one_number_of_friction_between_balls_is_a_law_without_slip():
     assert (values["law_a"], values["law_b"], values["law_c"]) == (0.07, 0.0, 0.0) and "mu_ball" not in values
     both = _constants.complete({"mu_ball": 0.07, "law_a": 0.05}, "han")
     assert both["law_a"] == 0.05 and both["law_b"] > 0
+
+
+def test_the_smooth_law_is_fitted_with_its_change_by_speed():
+    usual = _constants.usual("smooth")
+    assert usual["restitution_log"] < 0.0 and usual["mu_log"] < 0.0 and usual["smooth_q"] == 0.0
+    assert {"restitution_log", "mu_log"} <= set(fit._priors(["default"], {}, usual, "smooth"))
+    assert not {"restitution_log", "mu_log"} & set(fit._priors(["default"], {}, _constants.usual("han"), "han"))
+    impacts = np.zeros(2, [(name, float) for name in ("v_n", "v_t", "w_t", "w_n", "u_t", "u_n", "w_error", "u_error", "first")])
+    impacts["v_n"], impacts["v_t"], impacts["first"] = (0.5, 3.0), (0.3, 1.8), 1.0
+    slow, fast = _from_events.predicted(impacts, RADIUS, "smooth", 0.8, 0.0, 0.036)[:, 1] / impacts["v_n"]
+    # the faster of two that are alike rebounds less, by the change of e between them
+    assert fast - slow == pytest.approx(-usual["restitution_log"] * np.log(6.0), abs=0.01)
 
 
 def test_a_mirror_has_no_friction_to_fit_and_few_events_leave_constants_as_given(made):

@@ -23,7 +23,13 @@ _CUSHION = {
     "stronge": (0.874, 0.22, 0.0365),
     "han": (0.874, 0.231, 0.03545),
     "mirror": (0.875, 0.0, 0.037),
+    "smooth": (0.795, 0.27, 0.0366),
 }
+# What else belongs to the smooth law, whose five other numbers are held at their defaults: friction between balls was fitted together with it.
+_SMOOTH = {
+    "restitution_log": -0.025, "mu_log": -0.02, "roll_loss": 0.055, "mu_spin": 0.005,
+    "law_a": 0.041, "law_b": 0.214, "law_c": 0.560, "restitution": 0.9515,
+}  # fmt: skip
 # Friction between balls over their slip: Alciatore's law, 4.5 times.
 _LAW = {"law_a": 0.0448, "law_b": 0.486, "law_c": 1.088}
 KINDS = tuple(name for name in dtypes.ball_kind.names or () if name != "radius")
@@ -36,8 +42,11 @@ def usual(cushion_model: ShotCushion) -> Constants:
     kind = balls(np.zeros((1, 2)), game="billiard")["kind"][0]
     e, mu, height = _CUSHION[cushion_model]
     cushion = {"restitution_cushion": e, "mu_cushion": mu, "nose_height": height}
-    loss = 0.0 if cushion_model == "mirror" else float(kind["roll_loss"])
-    return {**{name: float(kind[name]) for name in KINDS if name != "mu_ball"}, **_LAW, **cushion, "roll_loss": loss}
+    if cushion_model == "mirror":
+        cushion["roll_loss"] = 0.0
+    elif cushion_model == "smooth":
+        cushion.update(_SMOOTH)
+    return {**{name: float(kind[name]) for name in KINDS if name != "mu_ball"}, **_LAW, **cushion}
 
 
 def complete(given: Mapping[str, float], cushion_model: ShotCushion, where: str = "constants") -> Constants:

@@ -66,7 +66,7 @@ def chosen(impacts: Records) -> Records:
 
 
 def predicted(
-    impacts: Records, radius: float, model: ShotCushion, e: float, mu: float, height: float, roll_loss: float = 0.0
+    impacts: Records, radius: float, model: ShotCushion, e: float | Doubles, mu: float | Doubles, height: float, roll_loss: float = 0.0
 ) -> Doubles:
     """w_t, w_n, u_t and u_n after each impact of a rolling ball, by the model, with its best side spin, and the misfit, (n, 5).
 
@@ -79,6 +79,10 @@ def predicted(
     balls["w"][..., 0], balls["w"][..., 1] = -impacts["v_n"][:, None] / radius, impacts["v_t"][:, None] / radius
     balls["w"][..., 2] = _SPINS * v[:, None] / radius
     balls["normal"] = (0.0, 1.0)
+    # the change with the speed is that of the usual constants
+    given, logarithm = usual(model), np.log(np.maximum(impacts["v_n"], 0.1))[:, None]
+    e = np.clip(e + given["restitution_log"] * logarithm, 0.0, 1.0)
+    mu = np.clip(mu + given["mu_log"] * logarithm, 0.0, 1.0)
     for name, value in (("height", height), ("radius", radius), ("mass", 0.21), ("mu_cloth", 0.2), ("mu_cushion", mu),
                         ("restitution", e)):  # fmt: skip
         balls[name] = value

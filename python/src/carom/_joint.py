@@ -31,11 +31,13 @@ PRIORS = {
     "mu_slide": (0.02, 0.01, 1.0), "mu_roll": (5e-4, 1e-4, 0.1), "drag": (4e-3, 0.0, 0.2), "mu_spin": (3e-3, 1e-4, 0.5),
     "law_a": (0.03, 0.0, 0.4), "law_b": (0.2, 0.0, 0.6), "restitution": (0.03, 0.3, 1.0), "restitution_cushion": (0.03, 0.2, 1.0),
     "mu_cushion": (0.06, 0.0, 1.0), "roll_loss": (0.06, 0.0, 0.5), "nose_height": (1.8e-3, 0.0, np.inf),
+    "restitution_log": (0.01, -0.2, 0.2), "mu_log": (0.01, -0.2, 0.2),
 }  # fmt: skip
 # What the search leaves on synthetic recordings, whose truth is known.
 METHOD = {
     "mu_slide": 1e-3, "mu_roll": 2e-5, "drag": 3e-4, "mu_spin": 1e-4, "law_a": 3e-3, "law_b": 0.025, "restitution": 1.5e-3,
     "restitution_cushion": 1.2e-3, "mu_cushion": 1.2e-3, "roll_loss": 4e-3, "nose_height": 1e-4,
+    "restitution_log": 2e-3, "mu_log": 2e-3,
 }  # fmt: skip
 _STEP = 1e-3  # of the differences, in deviations
 _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another

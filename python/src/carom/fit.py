@@ -53,7 +53,9 @@ def _priors(
     free: Sequence[str], priors: Mapping[str, tuple[float, float]], values: Mapping[str, float], cushion_model: ShotCushion
 ) -> dict[str, tuple[float, float]]:
     """Mean and deviation of each constant that whole shots are to tell."""
-    names = [name for name in _joint.PRIORS if cushion_model != "mirror" or name not in ("mu_cushion", "roll_loss", "nose_height")]
+    left_out = ("mu_cushion", "roll_loss", "nose_height") if cushion_model == "mirror" else ()
+    left_out += () if cushion_model == "smooth" else ("restitution_log", "mu_log")
+    names = [name for name in _joint.PRIORS if name not in left_out]
     if list(free) != ["default"]:
         names = list(free)
     unknown = [name for name in [*names, *priors] if name not in _joint.PRIORS]
@@ -106,7 +108,7 @@ def fit(
         From `carom.tracks.read`, all of the same number of balls.
     table, radius
         Extents (float, float) of x and y, and the radius of the balls, m.
-    cushion_model : {"mathavan", "stronge", "han", "mirror"}
+    cushion_model : {"mathavan", "stronge", "han", "mirror", "smooth"}
     constants : mapping, optional
         Known constants; the usual ones stand for those that are not given.
     free : "none", "events", "default", or names of constants
@@ -218,7 +220,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("tracks", type=Path, help="recorded tracks: a CSV with shot,ball,t,x,y, or JSON Lines; .xz and .gz too")
     parser.add_argument("--table", type=_extents, required=True, metavar="W,L", help="extents of x and y, m")
     parser.add_argument("--radius", type=float, required=True, metavar="R", help="of the balls, m")
-    parser.add_argument("--cushion-model", default="han", choices=["mathavan", "stronge", "han", "mirror"])
+    parser.add_argument("--cushion-model", default="han", choices=["mathavan", "stronge", "han", "mirror", "smooth"])
     parser.add_argument("--constants", type=Path, metavar="IN.json", help="known constants; the usual ones otherwise")
     parser.add_argument("--free", default="default", type=lambda text: text.split(","), metavar="none|events|default|NAME,...",
                         help="constants that are fitted besides the strikes")  # fmt: skip
