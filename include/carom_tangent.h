@@ -16,10 +16,8 @@
  *     tangent.final = &change[0][0][0];
  *     tangent.time = &when[0][0];
  *     tangent.reach = reach;
- *     static carom_shot_options pairwise;                      // derivatives through contacts that last are not known
- *     pairwise.simultaneous = CAROM_SIMULTANEOUS_PAIRS;
- *     status = carom_shoot(&table, balls, 10, &cue, &pairwise, &shot);              // with room for all of its events
- *     status = carom_shot_tangent(&table, balls, 10, &cue, &pairwise, &shot, &seeds, &tangent);
+ *     status = carom_shoot(&table, balls, 10, &cue, NULL, &shot);              // with room for all of its events
+ *     status = carom_shot_tangent(&table, balls, 10, &cue, NULL, &shot, &seeds, &tangent);
  *     // change[i][0][1]: by how many metres the place x of ball i moves per degree of phi, for less than reach[1] degrees
  *
  * docs/using/derivatives.md tells what tangents mean and what they cannot tell; docs/understanding/gradients.md has the
@@ -89,7 +87,9 @@ typedef struct carom_tangent {
 } carom_tangent;
 
 /* Derivatives of a shot that carom_shoot() has played: table, balls, cue and options are those of that call, and shot->events
- * holds all of its events. Tangents follow each ball from event to event, on the cloth and in flight; nothing is played again.
+ * holds all of its events. Tangents follow each ball from event to event, on the cloth and in flight; nothing is played again
+ * but clusters, once for each direction. All events of a cluster have the flags and the tangent of the time of its first one. A
+ * touch that comes or goes inside a cluster with a small change has no flag, nor has one that begins to stick.
  * Nothing is allocated; stack: 54 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS; CAROM_ERROR_DIRECTIONS for other than 1
@@ -97,7 +97,7 @@ typedef struct carom_tangent {
  * one of this shot; CAROM_ERROR_TIME for times that are not finite or not ascending; CAROM_ERROR_SHOT_OPTIONS for a reserved
  * field; or an error of the table or of an option. CAROM_ERROR_NO_TANGENTS from a library that was built without derivatives.
  * CAROM_ERROR_TANGENT where derivatives are not known: in CAROM_WORLD_POOLTOOL, whose spacers are not differentiable, by
- * CAROM_BALL_MODEL_EULER, and where several balls touched at once (with CAROM_SIMULTANEOUS_PAIRS they are known there too). Or
+ * CAROM_BALL_MODEL_EULER, and through clusters that are not those of the events, or have more than 40 contacts. Or
  * CAROM_ERROR_TIME for a time after the end of a shot that ended while balls moved, CAROM_ERROR_OVERFLOW where a number of
  * `final` is not finite, or an error of a collision. Then every number of `final` is NaN, and others may have been written. */
 CAROM_API carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls, int count,

@@ -32,9 +32,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* As many as 32 balls of one radius have on the cloth at most. */
+#ifndef CAROM_CLUSTER_CONTACTS
+#define CAROM_CLUSTER_CONTACTS 76
+#endif
 enum {
   CAROM_CLUSTER_BALLS = 32,
-  CAROM_CLUSTER_CONTACTS = 76,     /* as many as 32 balls of one radius have on the cloth at most */
   CAROM_CLUSTER_STEPS = 25,        /* of a contact's duration, where the caller does not say */
   CAROM_CLUSTER_STEPS_MOST = 20000 /* of a cluster; more are not tried */
 };

@@ -204,7 +204,7 @@ static carom_status solve(const carom_shot_ball *balls, int count, const carom_s
 
 carom_status carom_cluster(const carom_shot_ball *balls, int count, const carom_shot_options *opt, carom_motion *out,
                            carom_cluster_contact *contacts, int room, int *contacts_count) {
-  static const carom_shot_options no_options = {0};
+  static const carom_shot_options no_options = {.steps = 0};
   int found = 0;
   if (balls == NULL || out == NULL || (contacts == NULL && room != 0) || room < 0)
     return CAROM_ERROR_NULL;

@@ -11,9 +11,15 @@
  * The end of a phase is a number that knows its own derivatives. So contacts are resolved from dx-, by the sources of the shot,
  * and what they make of it is the state from which the next path begins, at T + dT.
  *
+ * CLUSTERS. All balls of a cluster change at the time of the contact that starts it. Their states there stand in the rows of the
+ * result, from which each direction is taken through the cluster by itself.
+ *
  * LABELS. A ball that rolls after an event, or lies, keeps doing so where a change of the first order would have it slide for a
  * time of the first order: a slip du becomes the speed -2/7 du. */
 #include "tangent/text.h"
+extern "C" {
+#include "tangent/cluster.h"
+}
 
 #include <stdlib.h>
 
@@ -468,7 +474,209 @@ void begin_scene(carom_tangent_work *w, scene *s) {
   s->sim.count = 2;
 }
 
+/* ---- A cluster ---- */
+
+struct member {
+  int ball;
+  const carom_event *event; /* its first one, */
+  int side;                 /* and which of the two it is there */
+};
+struct cluster {
+  carom_tangent_work *w;
+  int direction, count;
+  double apart, most; /* values from those of the shot, and the largest of these */
+  member of[CAROM_BALLS_MOST];
+};
+
+/* The balls of the events of a cluster, in the caller's order. */
+void find_members(carom_tangent_work *w, const carom_event *events, int count, cluster *c) {
+  c->w = w;
+  c->count = 0;
+  c->apart = c->most = 0;
+  for (int i = 0; i < w->count; i++)
+    for (int k = 0; k < count; k++)
+      if (events[k].a == i || events[k].b == i) {
+        c->of[c->count++] = {i, &events[k], events[k].a == i ? 0 : 1};
+        break;
+      }
+}
+int place_of(const cluster *c, int ball) {
+  int k = 0;
+  while (c->of[k].ball != ball)
+    k++;
+  return k;
+}
+
+/* The derivatives of the time of the contact that starts a cluster, and its own two balls. */
+CAROM_APART row begin_cluster(carom_tangent_work *w, const carom_event *e) {
+  scene s;
+  begin_scene(w, &s);
+  s.event = e;
+  s.two = true;
+  s.side[0] = e->a;
+  s.side[1] = e->b;
+  for (int i = 0; i < 2; i++) {
+    begin_ball(w, s.side[i], i, &s);
+    state_at(w, s.side[i], i, e->time, &s, &s.ball[i].state);
+  }
+  const number g = gap(&s);
+  row dT = {};
+  if (g.d[CLOCK] != 0)
+    dT = g.d / -g.d[CLOCK];
+  dT[CLOCK] = 0;
+  note_grazing(&s, g.d[CLOCK]);
+  note_order(&s, g);
+  for (int i = 0; i < 2; i++) {
+    add_time(dT, &s.ball[i].state);
+    set(e->before[i], &s.ball[i].state);
+    store_state(&s.ball[i].state, w->before[i]);
+  }
+  return dT;
+}
+
+/* Takes a member to the time of its cluster. */
+CAROM_APART void arrive(carom_tangent_work *w, const member *of, const row &dT, bool starts) {
+  scene s;
+  carom_tangent_ball *ball = &w->ball[of->ball];
+  carom_ball_state *state = &s.ball[0].state;
+  begin_ball(w, of->ball, 0, &s);
+  state_at(w, of->ball, 0, of->event->time, &s, state);
+  add_time(dT, state);
+  for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
+    unload(w->pass, number_of(state, k), w->tangent->final, (int64_t)of->ball * CAROM_STATE_NUMBERS + k);
+  if (!starts && of->event->time - ball->last_contact < SIMULTANEOUS)
+    w->note.flags |= CAROM_TANGENT_SIMULTANEOUS;
+  ball->last_contact = of->event->time;
+}
+
+CAROM_APART void load_member(const carom_tangent_work *w, int i, const ::carom_ball_state &played, text::carom_ball_kind *kind,
+                             carom_ball_state *s) {
+  load_kind(w, i, kind);
+  for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
+    load(w->pass, w->tangent->final, (int64_t)i * CAROM_STATE_NUMBERS + k, &number_of(s, k));
+  set(played, s);
+}
+
+/* A further contact of balls that touch already, of which a change opens the gap. */
+CAROM_APART void note_gap(carom_tangent_work *w, const carom_event *e) {
+  text::carom_ball_kind kind[2];
+  carom_ball_state s[2];
+  load_member(w, e->a, e->before[0], &kind[0], &s[0]);
+  load_member(w, e->b, e->before[1], &kind[1], &s[1]);
+  number square = 0.0;
+  for (int k = 0; k < 3; k++)
+    square += (s[1].r[k] - s[0].r[k]) * (s[1].r[k] - s[0].r[k]);
+  const number g = sqrt(square) - kind[0].radius - kind[1].radius;
+  for (int j = 0; g.x < SIMULTANEOUS && j < w->pass.columns; j++)
+    if (__builtin_fabs(g.d[j]) > 1e-100)
+      w->note.flags |= CAROM_TANGENT_SIMULTANEOUS;
+}
+
+bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS], real d[CAROM_MEMBER_NUMBERS]) {
+  const cluster *c = (const cluster *)context;
+  const member *of = &c->of[k];
+  text::carom_ball_kind kind;
+  carom_ball_state s;
+  load_member(c->w, of->ball, of->event->before[of->side], &kind, &s);
+  text::carom_shot_options opt = {};
+  opt.ball_model = (text::carom_ball_model)c->w->ball_model;
+  opt.friction = (text::carom_ball_friction)c->w->opt->friction;
+  const text::carom_cluster_ball ball = text::member_of(&kind, &s, &opt, text::carom_flies(&s), of->ball);
+  const number *from = ball.r;
+  for (int n = 0; n < CAROM_MEMBER_NUMBERS; n++) {
+    x[n] = from[n].x;
+    d[n] = from[n].d[c->direction];
+  }
+  return ball.flies;
+}
+
+void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS], const real d[CAROM_MOTION_NUMBERS]) {
+  static const int row_of[CAROM_MOTION_NUMBERS] = {S_V_X, S_V_Y, S_V_Z, S_W_X, S_W_Y, S_W_Z};
+  cluster *c = (cluster *)context;
+  const carom_tangent_work *w = c->w;
+  const int i = c->of[k].ball;
+  const ::carom_ball_state *after = &c->of[k].event->after[c->of[k].side];
+  text::carom_ball_kind kind;
+  load_kind(w, i, &kind);
+  const real R = kind.radius.x, dR = kind.radius.d[c->direction];
+  for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
+    const int64_t at = (int64_t)i * CAROM_STATE_NUMBERS + row_of[n];
+    carom_tangent_columns(&w->pass, w->tangent->final, at)[c->direction] = n < 3 ? d[n] : (d[n] - x[n] / R * dR) / R;
+    if (n == 2) /* the label may end it */
+      continue;
+    const real played = n < 3 ? after->v[n] : R * after->w[n - 3];
+    c->apart = __builtin_fmax(c->apart, __builtin_fabs(x[n] - played));
+    c->most = __builtin_fmax(c->most, __builtin_fabs(played));
+  }
+}
+
+/* Each direction through the cluster. A motion that is not the one that was played has other derivatives. */
+CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
+  carom_tangent_work *w = c->w;
+  const int64_t steps = w->opt->cluster_steps;
+  const carom_tangent_cluster task = {.balls = c->count,
+                                      .first = place_of(c, first->a),
+                                      .second = place_of(c, first->b),
+                                      .steps = steps > 0 ? (real)steps : (real)text::CAROM_CLUSTER_STEPS,
+                                      .slow = text::carom_slow_speed(w->slow_instants).x,
+                                      .give = give,
+                                      .take = take,
+                                      .context = c};
+  for (c->direction = 0; c->direction < w->pass.columns; c->direction++)
+    if (!carom_tangent_solve_cluster(&task))
+      return false;
+  if (!(c->apart <= 1e-6 * c->most))
+    w->note.flags |= CAROM_TANGENT_KINK;
+  return true;
+}
+
+/* The rows of a ball where it is now become those before an event. */
+void tell_before(const carom_tangent_work *w, int i, int64_t at) {
+  for (int k = 0; k < CAROM_STATE_NUMBERS && w->tangent->before != nullptr; k++) {
+    number x;
+    load(w->pass, w->tangent->final, (int64_t)i * CAROM_STATE_NUMBERS + k, &x);
+    unload(w->pass, x, w->tangent->before, at * CAROM_STATE_NUMBERS + k);
+  }
+}
+
+CAROM_APART void leave(const cluster *c, const member *of, const row &dT) {
+  const ::carom_ball_state &after = of->event->after[of->side];
+  text::carom_ball_kind kind;
+  carom_ball_state s;
+  load_member(c->w, of->ball, after, &kind, &s);
+  settle(&kind, &s);
+  put(c->w, of->ball, after, of->event->time, dT, &s);
+}
+
 } // namespace
+
+carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_event *events, int count, int64_t at) {
+  cluster c;
+  w->note = {0, 0};
+  watched = {false, {0, 0}};
+  find_members(w, events, count, &c);
+  const row dT = begin_cluster(w, &events[0]);
+  for (int k = 0; k < c.count; k++) {
+    const member *of = &c.of[k];
+    arrive(w, of, dT, of->ball == events[0].a || of->ball == events[0].b);
+    tell_before(w, of->ball, 2 * (at + (of->event - events)) + of->side);
+  }
+  for (int k = 1; k < count; k++)
+    note_gap(w, &events[k]);
+  if (!solve_cluster(&c, &events[0]))
+    return CAROM_ERROR_TANGENT;
+  for (int k = 0; k < c.count; k++)
+    leave(&c, &c.of[k], dT);
+  /* before their further events balls are as after the first */
+  for (int k = 1; k < count; k++)
+    for (int side = 0; side < 2; side++) {
+      const int i = side == 0 ? events[k].a : events[k].b;
+      if (c.of[place_of(&c, i)].event != &events[k])
+        tell_before(w, i, 2 * (at + k) + side);
+    }
+  memcpy(w->time, &dT, sizeof dT);
+  return CAROM_OK;
+}
 
 void carom_tangent_begin(carom_tangent_work *w, int i) {
   const carom_tangent_ball *ball = &w->ball[i];

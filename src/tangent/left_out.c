@@ -14,6 +14,14 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *even
   return CAROM_ERROR_NO_TANGENTS;
 }
 
+carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_event *events, int count, int64_t at) {
+  (void)w;
+  (void)events;
+  (void)count;
+  (void)at;
+  return CAROM_ERROR_NO_TANGENTS;
+}
+
 void carom_tangent_at(const carom_tangent_work *w, int i, double time, carom_tangent_rows d) {
   (void)w;
   (void)i;

@@ -420,7 +420,8 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
   const bool on_cloth = !carom_flies(&event->before[0]);
   if (event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW || (event->type == CAROM_EVENT_POCKET && on_cloth))
     take_rails(reach, event, d[0]);
-  for (int j = 0; j < m; j++) {
+  /* of a cluster the contact that starts it */
+  for (int j = 0; j < m && !w->inner; j++) {
     const hit h = hit_of(reach, event, d, j);
     if (h.r > 0.0)
       take_hit(reach, j, &h);

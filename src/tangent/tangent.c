@@ -48,6 +48,21 @@ static carom_status check_event(const carom_table *table, int count, const carom
   return CAROM_OK;
 }
 
+/* Whether the contacts of each cluster are all there, at one time. */
+static carom_status check_clusters(const carom_shot *shot) {
+  for (int64_t k = 0; k < shot->count;) {
+    const carom_event *first = &shot->events[k];
+    const int64_t contacts = first->cluster > 0 ? first->cluster : 1;
+    if (contacts > shot->count - k)
+      return CAROM_ERROR_STATE;
+    for (const carom_event *e = first; first->cluster > 0 && e < first + contacts; e++)
+      if (e->type != CAROM_EVENT_BALL_BALL || e->cluster != first->cluster || e->time != first->time)
+        return CAROM_ERROR_STATE;
+    k += contacts;
+  }
+  return CAROM_OK;
+}
+
 static carom_status check(const carom_table *table, int count, const carom_cue *cue, const carom_shot_options *opt,
                           const carom_shot *shot, const carom_tangent_seeds *seeds, const carom_tangent *tangent) {
   if (count < 1 || count > CAROM_BALLS_MOST)
@@ -77,10 +92,8 @@ static carom_status check(const carom_table *table, int count, const carom_cue *
     const carom_status status = check_event(table, count, cue, &shot->events[k], k > 0 ? shot->events[k - 1].time : 0.0);
     if (status != CAROM_OK)
       return status;
-    if (shot->events[k].cluster > 0)
-      return CAROM_ERROR_TANGENT;
   }
-  return CAROM_OK;
+  return check_clusters(shot);
 }
 
 /* ---- A pass ---- */
@@ -125,7 +138,7 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
   for (int side = 0; side < 2; side++) {
     const bool has = side == 0 || event->type == CAROM_EVENT_BALL_BALL;
     const int i = side == 0 ? event->a : event->b;
-    if (t->before != NULL)
+    if (t->before != NULL && event->cluster == 0)
       put(w, has ? w->before[side] : NULL, t->before, 2 * k + side);
     for (int n = 0; n < CAROM_STATE_NUMBERS && t->after != NULL; n++) {
       const double *from = has ? carom_tangent_columns(&w->pass, t->final, i * CAROM_STATE_NUMBERS + n) : zeros;
@@ -139,9 +152,9 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
 /* The directions of one pass. */
 static carom_status differentiate(work *w, const carom_shot_ball *balls, const carom_shot *shot) {
   carom_tangent *tangent = w->tangent;
-  carom_tangent_rows d;
+  carom_tangent_row *d = w->before[0]; /* free before and behind an event */
   carom_reach reach;
-  int64_t next = 0;
+  int64_t next = 0, end_of_cluster = 0;
   begin(w, balls);
   if (tangent->reach != NULL)
     carom_reach_begin(&reach, w);
@@ -155,9 +168,17 @@ static carom_status differentiate(work *w, const carom_shot_ball *balls, const c
       }
     if (event == NULL)
       break;
-    if (tangent->reach != NULL)
-      carom_reach_misses(&reach, event);
-    const carom_status status = carom_tangent_follow(w, event);
+    w->inner = k < end_of_cluster;
+    const int contacts = event->cluster > 0 ? event->cluster : 1;
+    for (int c = 0; c < contacts && !w->inner && tangent->reach != NULL; c++)
+      carom_reach_misses(&reach, &event[c]);
+    carom_status status = CAROM_OK;
+    if (event->cluster == 0) {
+      status = carom_tangent_follow(w, event);
+    } else if (!w->inner) { /* all of it at once */
+      status = carom_tangent_follow_cluster(w, event, contacts, k);
+      end_of_cluster = k + contacts;
+    }
     if (status < 0)
       return status;
     tell(w, k, event, &reach);

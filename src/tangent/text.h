@@ -148,6 +148,11 @@ void carom_rail_line(const carom_rail *, double *) {
 #define positive cue_positive
 #include "motion/strike.c"
 #undef positive
+#define check cluster_check
+#define contact_of cluster_contact_of
+#include "shot/cluster.c"
+#undef contact_of
+#undef check
 
 #undef double
 } // namespace text

@@ -7,6 +7,8 @@
 #include "motion/path.h"
 #include "platform/arithmetic.h"
 
+#include <stdbool.h>
+
 /* Derivatives that a number carries, of which the last is that by time. */
 #ifndef CAROM_TANGENT_WIDTH
 #define CAROM_TANGENT_WIDTH 8
@@ -59,6 +61,7 @@ typedef struct carom_tangent_work {
   carom_tangent_note note;
   carom_tangent_row time;
   carom_tangent_rows before[2];
+  bool inner; /* it is one of a cluster, and not the one that starts it */
 } carom_tangent_work;
 
 /* The numbers of the caller that stand for row `row` in a pass. */
@@ -73,6 +76,9 @@ void carom_tangent_edges(const carom_tangent_work *w, const carom_ball_kind *kin
 void carom_tangent_begin(carom_tangent_work *w, int i);
 /* an event and its balls behind it; CAROM_OK, or an error of the collision; */
 carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *event);
+/* the events of a cluster, of which the first is event `at` of the shot; writes tangent->before too. CAROM_ERROR_TANGENT where
+ * it is not found again; */
+carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_event *events, int count, int64_t at);
 /* tangents of ball i at a fixed time, not before its last event. */
 void carom_tangent_at(const carom_tangent_work *w, int i, double time, carom_tangent_rows d);
 

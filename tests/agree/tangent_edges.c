@@ -628,8 +628,124 @@ START_TEST(frictions_of_the_cloth) {
 }
 END_TEST
 
+/* ---- Clusters ---- */
+
+enum { CLUSTERS = FEWER(20), WAYS = 13, FROZEN_WAYS = 11 };
+
+/* Of the cue: speed, phi, a, b; x of the cue ball; of all balls: mass, mu_slide, restitution, law_a, modulus; the mass of ball
+ * 1; and its place, by which balls that touch come apart. */
+static const direction ways[WAYS] = {
+    {OF_CUE, 0, 0, 2},     {OF_CUE, 0, 1, 57},    {OF_CUE, 0, 3, 1},   {OF_CUE, 0, 4, 1},       {OF_STATE, 0, 0, 1},
+    {OF_KIND, -1, 0, 0.2}, {OF_KIND, -1, 2, 0.2}, {OF_KIND, -1, 6, 1}, {OF_KIND, -1, 12, 0.05}, {OF_KIND, -1, 18, 6.6e9},
+    {OF_KIND, 1, 0, 0.2},  {OF_STATE, 1, 0, 1},   {OF_STATE, 1, 1, 1},
+};
+
+/* A cue ball and two others that it meets at once, or all but; or a rack of eight-ball. Odd kinds have gaps. */
+static layout cluster_of(random_source *random, int kind) {
+  layout l = {.count = 3, .ball = {ball_at(0.4, 0.6)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
+  const double gap = kind % 2 == 0 ? 0.0 : 3e-5, apart = 2.0 * l.ball[0].kind.radius + gap;
+  if (kind < 2) {
+    const double along = random_between(random, 0.3, 2.8);
+    l.ball[1] = ball_at(0.6, 1.2);
+    l.ball[2] = ball_at(0.6 + apart * cos(along), 1.2 + apart * sin(along));
+    l.cue.phi = 57.29577951308232 * atan2(0.6, 0.2) + random_between(random, -1.5, 1.5);
+  } else {
+    l.count = carom_rack_size(CAROM_RACK_EIGHTBALL);
+    carom_rack(CAROM_RACK_EIGHTBALL, table_of_pool(), gap, 1, l.ball, LAYOUT_BALLS);
+    l.cue.phi += random_between(random, -0.4, 0.4);
+  }
+  for (int i = 0; i < l.count; i++) {
+    carom_ball_kind *k = &l.ball[i].kind;
+    k->law_a = k->law_b = 0.05;
+    k->law_c = 1.0;
+    k->modulus = 6.6e9;
+  }
+  l.cue.speed = random_between(random, 2.0, 9.0);
+  l.cue.a = random_between(random, -0.2, 0.2);
+  l.cue.b = random_between(random, -0.3, 0.3);
+  return l;
+}
+
+/* A ball has after its first contact of a cluster what it has before and after the others. */
+static void check_rows(const carom_shot *shot, int64_t first, int m, const double *before, const double *after) {
+  const size_t size = (size_t)(NUMBERS * m);
+  const int64_t end = first + shot->events[first].cluster;
+  for (int64_t k = first; k < end; k++)
+    for (int side = 0; side < 2; side++) {
+      const int ball = side == 0 ? shot->events[k].a : shot->events[k].b;
+      int64_t its = first;
+      while (shot->events[its].a != ball && shot->events[its].b != ball)
+        its++;
+      const double *left = after + (size_t)(2 * its + (shot->events[its].b == ball)) * size;
+      const double *row = before + (size_t)(2 * k + side) * size;
+      ck_assert_mem_eq(left, after + (size_t)(2 * k + side) * size, size * sizeof *left);
+      ck_assert_int_eq(memcmp(row, left, size * sizeof *row) == 0, its != k);
+    }
+}
+
+/* Derivatives halfway to the event after the first cluster, beside differences of whole shots. */
+static void follow_clusters(random_source *random, int kind) {
+  carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN};
+  static double errors[CLUSTERS * WAYS], columns[LAYOUT_BALLS * NUMBERS * WAYS], when[ROOM * WAYS],
+      before[2 * ROOM * NUMBERS * WAYS], after[2 * ROOM * NUMBERS * WAYS];
+  const bool touching = kind % 2 == 0;
+  const int m = touching ? FROZEN_WAYS : WAYS;
+  int n = 0, without = 0, unclear = 0;
+  for (int c = 0; c < CLUSTERS; c++) {
+    const layout l = cluster_of(random, kind);
+    options.time_most = 0.0;
+    carom_shot shot = play(table_of_pool(), l.ball, l.count, &l.cue, &options, CAROM_OK);
+    int64_t k = 0;
+    while (k < shot.count && shot.events[k].cluster == 0)
+      k++;
+    if (k == shot.count)
+      continue;
+    options.time_most = 0.5 * (shot.events[k].time + shot.events[k + shot.events[k].cluster].time);
+    shot = play(table_of_pool(), l.ball, l.count, &l.cue, &options, CAROM_STOPPED_AT_TIME);
+    double nearest[WAYS];
+    carom_tangent t = {.final = columns, .time = when, .before = before, .after = after, .reach = nearest};
+    carom_tangent_seeds seeds = seeds_of(ways, m);
+    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &options, &shot, &seeds, &t), CAROM_OK);
+    check_rows(&shot, k, m, before, after);
+    ck_assert_int_eq(t.all_flags & ~CAROM_TANGENT_GRAZING, 0);
+    for (int j = 0; j < m; j++) {
+      double error, plateau;
+      const double most = largest(columns, NUMBERS * l.count, j, m);
+      ck_assert_double_gt(nearest[j], 0.0);
+      if (most * ways[j].unit < 1e-8) /* that of rounding errors: by the modulus nothing changes where no ball has a gap */
+        continue;
+      if (!compare(table_of_pool(), &l, &options, &shot, &ways[j], columns, j, m, &error, &plateau)) {
+        without++;
+        continue;
+      }
+      errors[n++] = error / most;
+      unclear += plateau > 1e-6 * most;
+      if (!(error <= 1e-6 * most || error <= 30.0 * plateau))
+        ck_abort_msg("cluster %d, direction %d: %.1e off, plateau %.1e, size %.1e", c, j, error, plateau, most);
+    }
+    /* a change that parts balls which touch */
+    seeds = seeds_of(&ways[FROZEN_WAYS], 2);
+    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &options, &shot, &seeds, &t), CAROM_OK);
+    ck_assert_int_eq((t.all_flags & CAROM_TANGENT_SIMULTANEOUS) != 0, touching);
+  }
+  qsort(errors, (size_t)n, sizeof *errors, by_size);
+  printf("clusters of %s%s: %d derivatives (%d without differences, %d with unclear ones), error median %.1e, 90 %% %.1e, "
+         "largest %.1e\n",
+         kind < 2 ? "three balls" : "a rack", touching ? "" : " with gaps", n, without, unclear, errors[n / 2],
+         errors[n * 9 / 10], errors[n - 1]);
+  ck_assert_int_gt(n, 5 * CLUSTERS);
+  ck_assert_double_lt(errors[n / 2], 1e-8);
+}
+
+START_TEST(clusters) {
+  random_source random = {test_seed()};
+  for (int kind = 0; kind < 4; kind++)
+    follow_clusters(&random, kind);
+}
+END_TEST
+
 int main(void) {
   return RUN_TESTS("tangent_edges", grazing, simultaneous, slow, slow_in_space, frozen, overflow, euler, kink, level_cue,
                    edges_of_flights, ends_of_flights, frozen_and_straight, reach_beside_trial, reach_of_near_misses,
-                   frictions_of_the_cloth);
+                   frictions_of_the_cloth, clusters);
 }

@@ -1,0 +1,34 @@
+/* A cluster with the derivatives of one direction, by its sources (cluster_text.h). follow.cpp gives and takes them. */
+#include "tangent/cluster_text.h"
+
+bool carom_tangent_solve_cluster(const carom_tangent_cluster *c) {
+  text::carom_cluster_state state;
+  state.balls = c->balls;
+  state.steps = c->steps;
+  state.slow = c->slow;
+  for (int k = 0; k < c->balls; k++) {
+    text::carom_cluster_ball *ball = &state.ball[k];
+    number *to = ball->r;
+    static_assert(offsetof(text::carom_cluster_ball, flies) == CAROM_MEMBER_NUMBERS * sizeof(number), "the numbers come first");
+    real x[CAROM_MEMBER_NUMBERS], d[CAROM_MEMBER_NUMBERS];
+    ball->flies = c->give(c->context, k, x, d);
+    ball->which = (int8_t)k;
+    for (int n = 0; n < CAROM_MEMBER_NUMBERS; n++) {
+      to[n].x = x[n];
+      to[n].d[0] = d[n];
+    }
+  }
+  if (text::carom_cluster_members(&state, c->first, c->second) <= 0 || state.balls != c->balls ||
+      !text::carom_cluster_solve(&state))
+    return false;
+  for (int k = 0; k < c->balls; k++) {
+    const number *from = state.ball[k].v;
+    real x[CAROM_MOTION_NUMBERS], d[CAROM_MOTION_NUMBERS];
+    for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
+      x[n] = from[n].x;
+      d[n] = from[n].d[0];
+    }
+    c->take(c->context, k, x, d);
+  }
+  return true;
+}

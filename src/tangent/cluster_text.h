@@ -1,0 +1,33 @@
+/* The sources of clusters with a number for every double, as text.h has the others. The number has one direction. */
+#ifndef CAROM_SRC_TANGENT_CLUSTER_TEXT_H
+#define CAROM_SRC_TANGENT_CLUSTER_TEXT_H
+#pragma GCC system_header
+
+#define CAROM_TANGENT_WIDTH 1
+#define LANE_BYTES 8
+#define CAROM_CLUSTER_CONTACTS 40 /* more would take too much of the stack; a triangle of 15 balls has 30 */
+#include "tangent/number.h"
+extern "C" {
+#include "tangent/cluster.h"
+}
+
+namespace {
+namespace text {
+#define double number
+
+double carom_exp(double x) {
+  const real y = ::carom_exp(x.x);
+  return {y, x.d * y};
+}
+
+#include "cluster/cluster.h"
+#define open least_overlap
+#include "cluster/cluster.c"
+#undef open
+#include "cluster/members.c"
+
+#undef double
+} // namespace text
+} // namespace
+
+#endif
