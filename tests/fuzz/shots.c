@@ -113,7 +113,7 @@ static void make_balls(void) {
 static void make_options(void) {
   options = (carom_shot_options){.world = (carom_world)mostly(choice(4) == 0)};
   options.ball_model = (carom_ball_model)mostly(choice(2) == 0 ? choice(5) : 0);
-  options.cushion_model = (carom_shot_cushion)mostly(choice(2) == 0 ? choice(6) : 0);
+  options.cushion_model = (carom_shot_cushion)mostly(choice(2) == 0 ? choice(CAROM_SHOT_CUSHION_SMOOTH + 2) : 0);
   options.friction = (carom_ball_friction)choice(2);
   options.space = (carom_space)mostly(choice(4) == 0);
   options.steps = 1 + choice(100);
@@ -123,7 +123,7 @@ static void make_options(void) {
   if (choice(3) == 0)
     options.stop_at =
         !tame && choice(4) == 0 ? (uint64_t)choice(256) << choice(64) : CAROM_STOP_AT(choice(CAROM_EVENT_LEFT_TABLE + 1));
-  reserve(&options.reserved[choice(3)]);
+  reserve(&options.reserved[choice((int)(sizeof options.reserved / sizeof *options.reserved))]);
 }
 
 static bool make_inputs(void) {

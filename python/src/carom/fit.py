@@ -53,7 +53,7 @@ def _priors(
     free: Sequence[str], priors: Mapping[str, tuple[float, float]], values: Mapping[str, float], cushion_model: ShotCushion
 ) -> dict[str, tuple[float, float]]:
     """Mean and deviation of each constant that whole shots are to tell."""
-    left_out = ("mu_cushion", "roll_loss", "nose_height") if cushion_model == "mirror" else ()
+    left_out: tuple[str, ...] = ("mu_cushion", "roll_loss", "nose_height") if cushion_model == "mirror" else ()
     left_out += () if cushion_model == "smooth" else ("restitution_log", "mu_log")
     names = [name for name in _joint.PRIORS if name not in left_out]
     if list(free) != ["default"]:
