@@ -29,9 +29,11 @@ static void make_layout(uint64_t seed, int in_play) {
     balls[k].state = (carom_ball_state){.r = {0.0, 0.0, -0.1}, .label = CAROM_BALL_POCKETED};
   for (int n = 0; n < in_play; n++) {
     const int k = n == 0 ? 0 : n == 1 ? 8 : n;
-    while (carom_place_ball(&table, balls, BALLS, k, random_between(&r, 0.05, 1.22), random_between(&r, 0.05, 2.49), NULL) !=
-           CAROM_OK)
-      continue;
+    double x, y;
+    do { /* one draw after the other: the order of arguments is the compiler's */
+      y = random_between(&r, 0.05, 2.49);
+      x = random_between(&r, 0.05, 1.22);
+    } while (carom_place_ball(&table, balls, BALLS, k, x, y, NULL) != CAROM_OK);
   }
   cue = carom_cue_of(CAROM_GAME_POOL);
   player = carom_player_of(1.0);
