@@ -137,6 +137,12 @@ static double together(const double reach[ERRORS]) {
   return 1.0 / sqrt(sum);
 }
 
+/* Whether the first `count` events end inside a cluster. */
+static bool parts_cluster(const carom_shot *shot, int64_t count) {
+  const carom_event *e = &shot->events[count];
+  return count < shot->count && e[0].cluster > 0 && e[-1].cluster > 0 && e[0].time == e[-1].time;
+}
+
 /* When the first event is that one standard deviation would change: the reach of the events up to one falls with each. */
 static carom_status find_until(const shot_line *line, const carom_shot *shot, const carom_shot_options *options,
                                const carom_tangent_seeds *seeds, const shot_tangents *t, double *until) {
@@ -145,6 +151,12 @@ static carom_status find_until(const shot_line *line, const carom_shot *shot, co
     double reach[ERRORS];
     carom_shot part = *shot;
     part.count = good + (bad - good) / 2;
+    while (part.count > good && parts_cluster(shot, part.count))
+      part.count--;
+    for (part.count += part.count == good; part.count < bad && parts_cluster(shot, part.count);)
+      part.count++;
+    if (part.count == bad)
+      break;
     part.time = shot->events[part.count - 1].time;
     carom_tangent tangent = {.final = t->final, .time = t->time, .reach = reach};
     const carom_status status =
