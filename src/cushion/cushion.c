@@ -31,6 +31,13 @@ static bool is_finite(const carom_motion *m) {
   return isfinite(m->v[0]) && isfinite(m->v[1]) && isfinite(m->w[0]) && isfinite(m->w[1]) && isfinite(m->w[2]);
 }
 
+void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt) {
+  if (opt->law == CAROM_CUSHION_LAW_HAN)
+    carom_apply_han(contact);
+  else
+    carom_apply_speed(contact, opt->restitution_log, opt->mu_log);
+}
+
 /* One impact, with options that have been checked. */
 static carom_status solve_impact(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out) {
   int field;
@@ -43,10 +50,7 @@ static carom_status solve_impact(const carom_cushion_impact *in, const carom_cus
       memcpy(out->w, in->w, sizeof out->w);
       return CAROM_SEPARATING;
     }
-    if (opt->law == CAROM_CUSHION_LAW_HAN)
-      carom_apply_han(&contact);
-    else
-      carom_apply_speed(&contact, opt->restitution_log, opt->mu_log);
+    carom_apply_law(&contact, opt);
     status = by_model(&contact, opt, in->mass);
     if (status == CAROM_OK) {
       carom_from_cushion(&frame, &contact, in->radius, out);

@@ -31,6 +31,9 @@ carom_status carom_smooth(carom_contact *contact, const carom_cushion_options *o
 /* Restitution and friction of a contact at its speed v_y, by the changes for each unit of ln(v_y). See closed.c. */
 void carom_apply_speed(carom_contact *contact, double restitution_log, double mu_log);
 
+/* Restitution and friction of a contact by the law of the options: Han's fits, or the changes by speed. See cushion.c. */
+void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt);
+
 /* Whether the five numbers of the smooth law are in their ranges. */
 bool carom_smooth_is_good(double q, double C_x, double C_t, double a, double k);
 

@@ -95,8 +95,7 @@ carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cus
   if (status >= 0) {
     subject s = {.in = in, .frame = carom_cushion_frame_of(in)};
     s.start = carom_to_cushion(&s.frame, in, opt);
-    if (opt->law == CAROM_CUSHION_LAW_HAN)
-      carom_apply_han(&s.start);
+    carom_apply_law(&s.start, opt);
     if (status == CAROM_SEPARATING)
       for (size_t k = 0; k < n; k++) {
         put_point(&s, &s.start, 0, 0, true, &points[k]);

@@ -399,7 +399,8 @@ TEST(traces_end_where_calls_do) {
   for (uint64_t k = 0; k < 100; k++)
     for (int m = 0; m < 2; m++) {
       const carom_cushion_impact in = draw_cushion(CUSHION_PLAY, test_seed(), k);
-      const carom_cushion_options options = {.model = traced[m]};
+      const double logs = k % 2 == 0 ? 0.0 : 0.05; /* restitution and friction that change with the speed, too */
+      const carom_cushion_options options = {.model = traced[m], .restitution_log = -logs, .mu_log = -logs};
       carom_cushion_point point[POINTS];
       carom_motion out;
       ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_OK);
@@ -416,7 +417,7 @@ TEST(traces_end_where_calls_do) {
         work_c = point[j].phase == CAROM_PHASE_COMPRESSION ? point[j].work : work_c;
       }
       const double all = point[POINTS - 1].work / (1 + in.restitution * in.restitution);
-      ck_assert_msg(work_c <= all * 1.02 && work_c >= 0.95 * all, "impact %d: %g of %g", (int)k, work_c, all);
+      ck_assert_msg(logs != 0.0 || (work_c <= all * 1.02 && work_c >= 0.95 * all), "impact %d: %g of %g", (int)k, work_c, all);
     }
 }
 
