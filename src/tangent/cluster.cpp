@@ -1,4 +1,7 @@
 /* A cluster with the derivatives of one direction, by its sources (cluster_text.h). follow.cpp gives and takes them. */
+extern "C" {
+#include "tangent/cluster.h"
+}
 #include "tangent/cluster_text.h"
 
 bool carom_tangent_solve_cluster(const carom_tangent_cluster *c) {

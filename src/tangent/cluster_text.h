@@ -7,9 +7,6 @@
 #define LANE_BYTES 8
 #define CAROM_CLUSTER_CONTACTS 40 /* more would take too much of the stack; a triangle of 15 balls has 30 */
 #include "tangent/number.h"
-extern "C" {
-#include "tangent/cluster.h"
-}
 
 namespace {
 namespace text {

@@ -20,7 +20,7 @@ ALLOWED = {
     "src/motion": ("include", "src/platform"),
     "src/table": ("include", "src/platform"),
     "src/shot": ("include", "src/platform", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/table"),
-    "src/tangent": ("include", "src/platform", "src/impact", "src/ball_ball", "src/cushion", "src/motion", "src/shot", "src/table"),
+    "src/tangent": ("include", "src/platform", "src/impact", "src/ball_ball", "src/cluster", "src/cushion", "src/motion", "src/shot", "src/table"),
     "src/plan": ("include", "src/platform"),
     "src": ("include", "src/platform"),
     "cli": ("include",),
