@@ -67,6 +67,7 @@ typedef struct carom_table {
 #include "ball_ball/arguments.h"
 #include "ball_ball/euler.h"
 #include "ball_ball/reduced.h"
+#include "cluster/cluster.h"
 #include "cushion/models.h"
 #include "platform/elementary.h"
 #include "platform/threads.h"
@@ -124,6 +125,16 @@ size_t carom_in_threads(carom_part_worker *, const void *, size_t, int, size_t) 
   return 0;
 }
 void carom_rail_line(const carom_rail *, double *) {
+}
+/* Clusters are followed by cluster.cpp. */
+carom_status carom_check_ball(const carom_shot_ball *, bool) {
+  return CAROM_OK;
+}
+int carom_cluster_members(carom_cluster_state *, int, int) {
+  return -1;
+}
+bool carom_cluster_solve(carom_cluster_state *) {
+  return false;
 }
 
 #include "tangent/exact.h"
