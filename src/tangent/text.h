@@ -130,6 +130,9 @@ void carom_rail_line(const carom_rail *, double *) {
 carom_status carom_check_ball(const carom_shot_ball *, bool) {
   return CAROM_OK;
 }
+carom_status carom_check_shot_options(const carom_shot_options *) {
+  return CAROM_OK;
+}
 int carom_cluster_members(carom_cluster_state *, int, int) {
   return -1;
 }
