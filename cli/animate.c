@@ -1,5 +1,5 @@
-/* Shots that play. The places are those of carom_shot_at() at equal steps and at every event, so that between two of them a
- * straight line does, and no contact is cut short. */
+/* Shots that play. The places are those of carom_shot_at() at equal steps and at every event, so
+ * that between two of them a straight line does, and no contact is cut short. */
 #include "animate.h"
 
 #include "memory.h"
@@ -68,11 +68,14 @@ static void write_frames(FILE *out, const played *p, int index) {
 }
 
 static const char head[] =
-    "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n"
+    "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+    "content=\"width=device-width\">\n"
     "<title>carom shoot</title>\n"
-    "<style>body{margin:1em auto;max-width:1200px;font-family:sans-serif}svg{width:100%;height:auto}"
+    "<style>body{margin:1em "
+    "auto;max-width:1200px;font-family:sans-serif}svg{width:100%;height:auto}"
     "p{display:flex;gap:1em;align-items:center}input{flex:1}</style>\n"
-    "<p><button id=\"play\">Play</button><input id=\"time\" type=\"range\" min=\"0\" step=\"0.01\" aria-label=\"time\">"
+    "<p><button id=\"play\">Play</button><input id=\"time\" type=\"range\" min=\"0\" step=\"0.01\" "
+    "aria-label=\"time\">"
     "<output id=\"said\"></output>"
     "<select id=\"pace\" aria-label=\"speed\"><option value=\"0.25\">1/4<option value=\"0.5\">1/2"
     "<option value=\"1\" selected>1<option value=\"2\">2</select></p>\n";
@@ -94,10 +97,12 @@ static const char script[] =
     "    else g.setAttribute('transform',`translate(${x-g.dataset.x} ${y-g.dataset.y})`)}\n"
     "  time.value=now;said.value=now.toFixed(2)+' s'}\n"
     "function frame(stamp){\n"
-    "  if(last===null)return;now=Math.min(now+(stamp-last)/1000*pace.value,end);last=stamp;show();\n"
+    "  "
+    "if(last===null)return;now=Math.min(now+(stamp-last)/1000*pace.value,end);last=stamp;show();\n"
     "  if(now<end)requestAnimationFrame(frame);else stop()}\n"
     "function stop(){last=null;play.textContent='Play'}\n"
-    "play.onclick=()=>{if(last!==null)return stop();if(now>=end)now=0;play.textContent='Pause';last=performance.now();"
+    "play.onclick=()=>{if(last!==null)return "
+    "stop();if(now>=end)now=0;play.textContent='Pause';last=performance.now();"
     "requestAnimationFrame(frame)};\n"
     "time.oninput=()=>{stop();now=+time.value;show()};\n"
     "show();play.click();\n";

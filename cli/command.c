@@ -18,8 +18,10 @@ static void print_help(FILE *to, const program *p) {
   fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n\ncommands:\n", p->name, p->about);
   for (size_t k = 0; k < p->count; k++)
     fprintf(to, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
-  fprintf(to, "\n`%s COMMAND --help` lists its arguments,\n`%s --version` the version.\n\nexample:\n  %s\n", p->name, p->name,
-          p->example);
+  fprintf(
+      to,
+      "\n`%s COMMAND --help` lists its arguments,\n`%s --version` the version.\n\nexample:\n  %s\n",
+      p->name, p->name, p->example);
 }
 
 /* The same as a page of the manual. */
@@ -34,11 +36,14 @@ static void print_manual(FILE *to, const program *p) {
   manual_item(to, "--version", NULL, "the version");
   manual_section(to, "ENVIRONMENT", "");
   manual_item(to, "CAROM_ISA", NULL,
-              "the largest instruction set to use: plain, sse2, avx2 or avx512; on arm64 plain or neon. With "
+              "the largest instruction set to use: plain, sse2, avx2 or avx512; on arm64 plain or "
+              "neon. With "
               "plain, results have the same bits on every machine");
-  manual_item(to, "CAROM_DATA", NULL, "the folder of the reference collisions, if it is not where carom was installed");
+  manual_item(to, "CAROM_DATA", NULL,
+              "the folder of the reference collisions, if it is not where carom was installed");
   manual_end(to,
-             "0 if all went well; 1 if some rows or shots are in error, or a picture could not be drawn, and all others were "
+             "0 if all went well; 1 if some rows or shots are in error, or a picture could not be "
+             "drawn, and all others were "
              "computed; "
              "2 for bad usage or unreadable input, with nothing written",
              p->example);
@@ -68,11 +73,13 @@ static bool isa_is_known(void) {
   return false;
 }
 
-/* Where standard input, output or error are closed, something stands in their places on which every reading and writing fails:
- * else the next file opened would take the number, and be what the program and gnuplot write to. */
+/* Where standard input, output or error are closed, something stands in their places on which
+ * every reading and writing fails: else the next file opened would take the number, and be what
+ * the program and gnuplot write to. */
 static void hold_standard_places(void) {
   for (int place = STDIN_FILENO; place <= STDERR_FILENO; place++)
-    if (fcntl(place, F_GETFD) < 0 && open("/dev/null", place == STDIN_FILENO ? O_WRONLY : O_RDONLY) != place)
+    if (fcntl(place, F_GETFD) < 0 &&
+        open("/dev/null", place == STDIN_FILENO ? O_WRONLY : O_RDONLY) != place)
       exit(EXIT_USAGE);
 }
 
@@ -117,6 +124,7 @@ int program_run(const program *p, int argc, char **argv) {
   char words[256] = "--help|--version", hint[HINT_TEXT];
   for (size_t k = 0; k < p->count; k++)
     snprintf(words + strlen(words), sizeof words - strlen(words), "|%s", p->commands[k].name);
-  complain("no command '%s'; `%s --help` lists them%s", name, p->name, did_you_mean(name, words, hint));
+  complain("no command '%s'; `%s --help` lists them%s", name, p->name,
+           did_you_mean(name, words, hint));
   return EXIT_USAGE;
 }

@@ -12,7 +12,8 @@ enum {
 
 typedef struct command {
   const char *name, *text;           /* one line of help */
-  int (*run)(int argc, char **argv); /* gets its own arguments, argv[0] being its name; returns an exit code */
+  int (*run)(int argc, char **argv); /* gets its own arguments, argv[0] being its name; returns
+                                        an exit code */
 } command;
 
 typedef struct program {
@@ -21,8 +22,8 @@ typedef struct program {
   size_t count;
 } program;
 
-/* Finds the subcommand and hands over: the program's main(). The locale is never set, so numbers are read and written with a
- * point whatever the environment says. */
+/* Finds the subcommand and hands over: the program's main(). The locale is never set, so numbers
+ * are read and written with a point whatever the environment says. */
 int program_run(const program *p, int argc, char **argv);
 
 #endif

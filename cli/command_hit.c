@@ -1,7 +1,8 @@
-/* `carom hit`: the collision of a cue ball with a ball at rest, from speed, cut angle and spin; in words, as rows, pictures and
- * curves.
+/* `carom hit`: the collision of a cue ball with a ball at rest, from speed, cut angle and spin;
+ * in words, as rows, pictures and curves.
  *
- * The cue ball comes along +x. A cut above 0 sends the object ball to the left as seen from above.
+ * The cue ball comes along +x. A cut above 0 sends the object ball to the left as seen from
+ * above.
  */
 #include "command.h"
 #include "contact_picture.h"
@@ -28,7 +29,8 @@ static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN, "stun"},
 
 /* How the names of quantities stand on axes. */
 enum { THROW, DEFLECTION, ROLLING_DEFLECTION, ANGLE_BETWEEN, OBJECT_SPEED, SPIN_TRANSFER, ENERGY };
-#define QUANTITIES "throw|deflection|rolling-deflection|angle-between|object-speed|spin-transfer|energy"
+#define QUANTITIES \
+  "throw|deflection|rolling-deflection|angle-between|object-speed|spin-transfer|energy"
 static const char *const quantity[] = {"throw of the object ball (degrees)",
                                        "deflection of the cue ball at once (degrees)",
                                        "deflection of the cue ball once it rolls (degrees)",
@@ -39,35 +41,46 @@ static const char *const quantity[] = {"throw of the object ball (degrees)",
 
 OPTION(series, option_speed, "speed", in[SPEED], 0, "V", set_values, MEASURE_SPEED,
        "speed of the cue ball at contact, m/s, or with a unit: mph, km/h (default 1.5)");
-OPTION(series, option_cut, "cut", in[CUT], 0, "full|three-quarter|half|quarter|DEGREES", set_values, MEASURE_CUT,
-       "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object ball goes to the left "
+OPTION(series, option_cut, "cut", in[CUT], 0, "full|three-quarter|half|quarter|DEGREES", set_values,
+       MEASURE_CUT,
+       "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
+       "ball goes to the left "
        "(default 30). Or the fullness of the hit: full, three-quarter, half, quarter, 0.4ball");
 OPTION(series, option_spin, "spin", in[SPIN], 0, "stun|follow|draw|SPIN", set_values, MEASURE_SPIN,
-       "stun: no spin (default); follow or roll: the ball rolls; draw: the same spin backwards. Or a number with a unit, above "
-       "0 for follow: rad/s, % of rolling, tip (height of the cue's tip above the centre; 1 tip is 13 mm)");
-OPTION(series, option_side, "side", in[SIDE], 0, "right|left|gearing|none|SPIN", set_values, MEASURE_SIDE,
-       "side spin, above 0 for right english (counterclockwise seen from above). A number with a unit: rad/s, % of english "
-       "(100%: the tip half a radius off centre, 1.25 V/R) or tip; right, left: 100%; gearing: the balls roll on each other "
+       "stun: no spin (default); follow or roll: the ball rolls; draw: the same spin backwards. Or "
+       "a number with a unit, above "
+       "0 for follow: rad/s, % of rolling, tip (height of the cue's tip above the centre; 1 tip is "
+       "13 mm)");
+OPTION(series, option_side, "side", in[SIDE], 0, "right|left|gearing|none|SPIN", set_values,
+       MEASURE_SIDE,
+       "side spin, above 0 for right english (counterclockwise seen from above). A number with a "
+       "unit: rad/s, % of english "
+       "(100%: the tip half a radius off centre, 1.25 V/R) or tip; right, left: 100%; gearing: the "
+       "balls roll on each other "
        "without slip; none (default)");
 OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
        "of the balls, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
        "of the balls, kg, or with a unit: g, oz (default 0.170097, 6 oz)");
-OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER, "friction with the cloth (default 0.2)");
-OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values, MEASURE_NUMBER,
-       "of the balls (default 0.95)");
+OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
+       "friction with the cloth (default 0.2)");
+OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
+       MEASURE_NUMBER, "of the balls (default 0.95)");
 OPTION(series, option_quantity, "quantity", quantity, 0, QUANTITIES, set_choice, 0,
        "the quantity that curves and tables show (default: throw for curves, all for tables)");
 OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "write the collisions as rows for `carom resolve`. An id is the spin and the values of other lists, such as "
+       "write the collisions as rows for `carom resolve`. An id is the spin and the values of "
+       "other lists, such as "
        "draw-1.5m/s. With --quantity: write a table of it");
 OPTION(series, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-       "draw the balls and their paths of every collision from above; or curves over a range, by gnuplot. OUT.svg, OUT.png or "
+       "draw the balls and their paths of every collision from above; or curves over a range, by "
+       "gnuplot. OUT.svg, OUT.png or "
        "OUT.pdf");
 
 static void make(const series *s, one_case *c) {
   const value *const *v = c->given;
-  const double angle = v[CUT]->x * degree, speed = v[SPEED]->x, R = v[RADIUS]->x, rolling = speed / R;
+  const double angle = v[CUT]->x * degree, speed = v[SPEED]->x, R = v[RADIUS]->x,
+               rolling = speed / R;
   carom_impact in = {.restitution = v[RESTITUTION]->x};
   /* gearing: the surfaces move alike along the tangent line */
   const double side = spin_of(v[SIDE], speed, R, rolling * sin(angle));
@@ -86,8 +99,9 @@ static void make(const series *s, one_case *c) {
   memcpy(c->row, &in, sizeof in);
 }
 
-/* 1 where angles to the left are positive, -1 where they are to the right: throw and deflection are positive for what a cut
- * does. Where every cut is 0, throw is positive to the left, which is where right english throws. */
+/* 1 where angles to the left are positive, -1 where they are to the right: throw and deflection
+ * are positive for what a cut does. Where every cut is 0, throw is positive to the left, which
+ * is where right english throws. */
 static double sign_of(const series *s) {
   double sum = 0.0;
   for (int k = 0; k < s->in[CUT].count; k++)
@@ -107,8 +121,9 @@ static double measure(const series *s, const one_case *c, int which) {
   case ROLLING_DEFLECTION:
     return sign_of(s) * d.deflection_rolls;
   case ANGLE_BETWEEN:
-    return hypot(d.rolling_1[0], d.rolling_1[1]) > 1e-9 * in->a.v[0] ? fabs(angle_between(d.rolling_1, d.rolling_2))
-                                                                     : (double)NAN;
+    return hypot(d.rolling_1[0], d.rolling_1[1]) > 1e-9 * in->a.v[0]
+               ? fabs(angle_between(d.rolling_1, d.rolling_2))
+               : (double)NAN;
   case OBJECT_SPEED:
     return hypot(out->b.v[0], out->b.v[1]);
   case SPIN_TRANSFER:
@@ -126,18 +141,20 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   const double energy = energy_of(in->a.mass, in->a.radius, in->a.v, in->a.w), scale = in->a.v[0];
   char text[64];
   (void)s;
-  fprintf(out, "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s (%.4g rad/s), side spin %.4g rad/s.\n",
+  fprintf(out,
+          "A cue ball at %.4g m/s meets a ball at rest: cut %.4g degrees, spin %s (%.4g rad/s), "
+          "side spin %.4g rad/s.\n",
           scale, c->given[CUT]->x, c->given[SPIN]->name, in->a.w[1], in->a.w[2]);
-  fprintf(out, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.\n", in->mu_ball, in->a.mu_cloth,
-          in->restitution);
+  fprintf(out, "Friction between the balls %.4f, with the cloth %.4g, restitution %.4g.\n",
+          in->mu_ball, in->a.mu_cloth, in->restitution);
   /* The object ball, the cue ball, both together. */
   fprintf(out, "object ball   at once:     %s\n", velocity_text(after->b.v, scale, text));
   fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_2, scale, text));
   if (fabs(d.throw_deg) < 0.005)
     fputs("              throw:       none: it leaves along the line of centres\n", out);
   else
-    fprintf(out, "              throw:       %.2f degrees to the %s of the line of centres\n", fabs(d.throw_deg),
-            side_of(d.throw_deg));
+    fprintf(out, "              throw:       %.2f degrees to the %s of the line of centres\n",
+            fabs(d.throw_deg), side_of(d.throw_deg));
   tell_spin(out, after->b.w);
   fprintf(out, "cue ball      at once:     %s\n", velocity_text(after->a.v, scale, text));
   fprintf(out, "              rolling:     %s\n", velocity_text(d.rolling_1, scale, text));
@@ -145,29 +162,37 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   if (isfinite(d.energy_lost))
     fprintf(out, "energy        lost:        %.2f %% of %.4g J\n", 100.0 * d.energy_lost, energy);
   else
-    fputs("energy        lost:        cannot be told: the energies are beyond the range of numbers\n", out);
+    fputs(
+        "energy        lost:        cannot be told: the energies are beyond the range of numbers\n",
+        out);
 }
 
 static double draw(FILE *out, double top, const series *s, const one_case *c, const char *words) {
   const carom_impact *in = (const carom_impact *)(const void *)c->row;
   const carom_result *after = (const carom_result *)(const void *)c->result;
   const derived d = derive(in, after);
-  const double R = in->a.radius, cut = c->given[CUT]->x, x = cos(cut * degree), y = sin(cut * degree);
+  const double R = in->a.radius, cut = c->given[CUT]->x, x = cos(cut * degree),
+               y = sin(cut * degree);
   char ways[2][64], lines[2048];
   snprintf(lines, sizeof lines,
-           "Dots: the ball rolls from here on. Angles are from the direction in which the cue ball came.\n%s", words);
-  contact_picture p = {
-      .balls = 2,
-      .ball = {&in->a, &in->b},
-      .after = {&after->a, &after->b},
-      .way = {velocity_text(d.rolling_1, in->a.v[0], ways[0]), velocity_text(d.rolling_2, in->a.v[0], ways[1])},
-      .words = lines};
+           "Dots: the ball rolls from here on. Angles are from the direction in which the cue ball "
+           "came.\n%s",
+           words);
+  contact_picture p = {.balls = 2,
+                       .ball = {&in->a, &in->b},
+                       .after = {&after->a, &after->b},
+                       .way = {velocity_text(d.rolling_1, in->a.v[0], ways[0]),
+                               velocity_text(d.rolling_2, in->a.v[0], ways[1])},
+                       .words = lines};
   (void)s;
-  /* The way there and on, the line of centres, and the tangent line through the centre of the cue ball. */
+  /* The way there and on, the line of centres, and the tangent line through the centre of the
+   * cue ball. */
   p.line[p.lines++] = (contact_line){{-6.0 * R, 0.0}, {0.0, 0.0}, NULL};
   p.line[p.lines++] = (contact_line){{0.0, 0.0}, {5.0 * R, 0.0}, NULL};
-  p.line[p.lines++] = (contact_line){{-2.5 * R * x, -2.5 * R * y}, {6.0 * R * x, 6.0 * R * y}, "line of centres"};
-  p.line[p.lines++] = (contact_line){{-5.0 * R * y, 5.0 * R * x}, {5.0 * R * y, -5.0 * R * x}, "tangent line"};
+  p.line[p.lines++] =
+      (contact_line){{-2.5 * R * x, -2.5 * R * y}, {6.0 * R * x, 6.0 * R * y}, "line of centres"};
+  p.line[p.lines++] =
+      (contact_line){{-5.0 * R * y, 5.0 * R * x}, {5.0 * R * y, -5.0 * R * x}, "tangent line"};
   p.arc[p.arcs++] = (contact_arc){{0.0, 0.0}, 0.0, cut, "cut"};
   if (isfinite(d.deflection_deg))
     p.arc[p.arcs++] = (contact_arc){{0.0, 0.0}, 0.0, d.deflection_deg, "at once"};
@@ -188,35 +213,48 @@ static const char *law(const series *s, char text[80]) {
 static const command_form form = {
     .name = "hit",
     .usage = "[OPTIONS]",
-    .about = "Computes the collision of the cue ball with a ball at rest, and describes it in words: throw, deflection, spin, "
-             "and the speeds just after the collision and once the balls roll. Angles are measured from the cue ball's path "
+    .about = "Computes the collision of the cue ball with a ball at rest, and describes it in "
+             "words: throw, deflection, spin, "
+             "and the speeds just after the collision and once the balls roll. Angles are measured "
+             "from the cue ball's path "
              "before, seen from above.\n",
-    .options = (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side, &option_friction,
-                                           &option_restitution, &option_cloth, &option_radius, &option_mass, &option_solver,
-                                           &option_slip, &option_steps, &option_quantity, &option_csv, &option_plot,
-                                           &option_strict, &option_output, NULL},
-    .details = "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A unit after the last "
-               "number holds for all: --speed 1,3,7mph, --side 0:100%. Each value of a list is a collision. A range gives a "
-               "table, with --plot curves.\n\n"
-               "quantities:\n"
-               "  throw                angle of the object ball's velocity from the line of centres, degrees; above 0 in the "
-               "direction in which a cut throws; for a full hit, in that of right english\n"
-               "  deflection           angle between the cue ball's paths before and just after, degrees; above 0 away from "
-               "the object ball\n"
-               "  rolling-deflection   the same once it rolls\n"
-               "  angle-between        angle between the directions of both balls once they roll, degrees\n"
-               "  object-speed         speed of the object ball just after, m/s\n"
-               "  spin-transfer        side spin of the object ball over that of the cue ball before, %\n"
-               "  energy               share of the kinetic energy that is lost, %\n\n"
-               "The default of --friction is alciatore.\n\n"
-               "exit code: 0; 2 for bad usage or an impossible collision\n",
+    .options =
+        (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side,
+                                    &option_friction, &option_restitution, &option_cloth,
+                                    &option_radius, &option_mass, &option_solver, &option_slip,
+                                    &option_steps, &option_quantity, &option_csv, &option_plot,
+                                    &option_strict, &option_output, NULL},
+    .details =
+        "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A "
+        "unit after the last "
+        "number holds for all: --speed 1,3,7mph, --side 0:100%. Each value of a list is a "
+        "collision. A range gives a "
+        "table, with --plot curves.\n\n"
+        "quantities:\n"
+        "  throw                angle of the object ball's velocity from the line of centres, "
+        "degrees; above 0 in the "
+        "direction in which a cut throws; for a full hit, in that of right english\n"
+        "  deflection           angle between the cue ball's paths before and just after, degrees; "
+        "above 0 away from "
+        "the object ball\n"
+        "  rolling-deflection   the same once it rolls\n"
+        "  angle-between        angle between the directions of both balls once they roll, "
+        "degrees\n"
+        "  object-speed         speed of the object ball just after, m/s\n"
+        "  spin-transfer        side spin of the object ball over that of the cue ball before, %\n"
+        "  energy               share of the kinetic energy that is lost, %\n\n"
+        "The default of --friction is alciatore.\n\n"
+        "exit code: 0; 2 for bad usage or an impossible collision\n",
     .example = "carom hit --speed 1.5 --cut 30 --spin draw --plot hit.svg",
     .files = NO_FILES,
 };
 
 int command_hit(int argc, char **argv) {
-  static const scene hit = {&ball_kind, inputs, QUANTITIES, quantity, make, measure, tell, draw, law};
+  static const scene hit = {&ball_kind, inputs, QUANTITIES, quantity, make,
+                            measure,    tell,   draw,       law};
   static series s;
-  s = (series){.asked = {.options = COMMAND_OPTIONS, .friction = {.law = carom_alciatore()}}, .scene = &hit};
-  return series_command(&s, &form, argc, argv, CUT, "--cut is between -90 and 90 degrees; at 90 the balls do not meet");
+  s = (series){.asked = {.options = COMMAND_OPTIONS, .friction = {.law = carom_alciatore()}},
+               .scene = &hit};
+  return series_command(&s, &form, argc, argv, CUT,
+                        "--cut is between -90 and 90 degrees; at 90 the balls do not meet");
 }

@@ -27,21 +27,27 @@ typedef struct plan_job {
 } plan_job;
 
 OPTION(plan_job, option_rules, "rules", rules, 0, "eightball|nineball|potting", set_choice, 0,
-       "the game (default eightball). Balls are named cue and by their numbers; potting takes any names");
+       "the game (default eightball). Balls are named cue and by their numbers; potting takes any "
+       "names");
 OPTION(plan_job, option_group, "group", group, 0, "open|solids|stripes", set_choice, 0,
        "of eight-ball: the balls of the player (default open: any but the eight)");
-OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0, "the cue ball is in hand: where to put it, too");
+OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
+       "the cue ball is in hand: where to put it, too");
 OPTION(plan_job, option_player, "player", rating, 0, "RATING", set_number, 0,
-       "a player by a Fargo rating, such as 500. Provisional: errors of 3 at 500 and of 8 at 400, on the scale of --errors");
+       "a player by a Fargo rating, such as 500. Provisional: errors of 3 at 500 and of 8 at 400, "
+       "on the scale of --errors");
 OPTION(plan_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
        "a player by his errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
 OPTION(plan_job, option_shots, "shots", shots, 0, "N", set_count, SHOTS_LEAST,
        "shots to be played, about; at most 1000000 (default 2000)");
 OPTION(plan_job, option_seed, "seed", seed, 0, "N", set_count, 0, "seed of the errors (default 0)");
-OPTION(plan_job, option_csv, "csv", csv, 0, NULL, set_flag, 0, "write rows of CSV instead of words");
-OPTION(plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0, "draw the best shot, without errors");
+OPTION(plan_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "write rows of CSV instead of words");
+OPTION(plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0,
+       "draw the best shot, without errors");
 
-/* The scale of errors of a rating: a share of 10 % of run-outs at 500, of 1 % at 400 (docs/understanding/plan.md). */
+/* The scale of errors of a rating: a share of 10 % of run-outs at 500, of 1 % at 400
+ * (docs/understanding/plan.md). */
 static double scale_of(double rating) {
   return 3.0 * pow(8.0 / 3.0, (500.0 - rating) / 100.0);
 }
@@ -59,7 +65,8 @@ static bool read_layout(shot_file *file, shot_line *line) {
   return what == SHOT_SHOT && line->error == NULL;
 }
 
-/* Puts the balls where their numbers are, with those that are missing in a pocket: the line's balls and names change. */
+/* Puts the balls where their numbers are, with those that are missing in a pocket: the line's
+ * balls and names change. */
 static bool order_balls(shot_line *line, const char *file, int last) {
   carom_shot_ball ball[CAROM_BALLS_MOST];
   char *name[CAROM_BALLS_MOST] = {0};
@@ -70,8 +77,8 @@ static bool order_balls(shot_line *line, const char *file, int last) {
     const long number = cue ? 0 : strtol(line->name[k], &end, 10);
     good = cue || (end != line->name[k] && *end == '\0' && number >= 1 && number <= last);
     if (!good || name[number] != NULL) {
-      complain("%s:%zu: ball '%s': the balls of this game are the cue ball and 1 to %d, each once", file, line->number,
-               line->name[k], last);
+      complain("%s:%zu: ball '%s': the balls of this game are the cue ball and 1 to %d, each once",
+               file, line->number, line->name[k], last);
       return false;
     }
     ball[number] = line->ball[k];
@@ -105,14 +112,15 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
   else if (c->ball < 0)
     snprintf(text, 200, "a safety: nothing is potted");
   else
-    snprintf(text, 200, "ball %s into pocket %s at %.3f, %.3f m%s", line->name[c->ball], pocket != NULL ? pocket : "", at[0],
-             at[1],
+    snprintf(text, 200, "ball %s into pocket %s at %.3f, %.3f m%s", line->name[c->ball],
+             pocket != NULL ? pocket : "", at[0], at[1],
              c->kind == CAROM_PLAN_POT ? ""
              : c->cushions > 0         ? ", off a cushion"
                                        : ", by another way than directly");
 }
 
-static void tell(FILE *out, const plan_job *job, const shot_line *line, const carom_choice *choices, int n) {
+static void tell(FILE *out, const plan_job *job, const shot_line *line, const carom_choice *choices,
+                 int n) {
   for (int k = 0; k < n; k++) {
     const carom_choice *c = &choices[k];
     char text[200];
@@ -120,11 +128,14 @@ static void tell(FILE *out, const plan_job *job, const shot_line *line, const ca
     fprintf(out, "%d. %s\n", k + 1, text);
     if (job->hand)
       fprintf(out, "   cue ball at  %.4f, %.4f m\n", c->place[0], c->place[1]);
-    fprintf(out, "   stroke       speed %.3g m/s, direction %.3f degrees, tip %.2f right, %.2f above\n", c->cue.speed,
-            c->cue.phi, 0.0 - c->cue.a, c->cue.b);
-    fprintf(out, "   chances      %s %.1f %% (error %.1f), plays on %.0f %%, foul %.0f %%; played %lld times\n",
-            job->rules == CAROM_RULES_POTTING ? "share potted" : "wins", 100.0 * c->value, 100.0 * c->error, 100.0 * c->keep,
-            100.0 * c->foul, (long long)c->seen);
+    fprintf(out,
+            "   stroke       speed %.3g m/s, direction %.3f degrees, tip %.2f right, %.2f above\n",
+            c->cue.speed, c->cue.phi, 0.0 - c->cue.a, c->cue.b);
+    fprintf(out,
+            "   chances      %s %.1f %% (error %.1f), plays on %.0f %%, foul %.0f %%; played %lld "
+            "times\n",
+            job->rules == CAROM_RULES_POTTING ? "share potted" : "wins", 100.0 * c->value,
+            100.0 * c->error, 100.0 * c->keep, 100.0 * c->foul, (long long)c->seen);
   }
 }
 
@@ -133,9 +144,12 @@ static void write_rows(FILE *out, const shot_line *line, const carom_choice *cho
   for (int k = 0; k < n; k++) {
     const carom_choice *c = &choices[k];
     const char *pocket = c->pocket >= 0 ? line->table->pocket[c->pocket] : NULL;
-    fprintf(out, "%d,%s,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.6f,%.6f,%.6f,%.6f,%.6f,%lld\n", k + 1, kinds[c->kind],
-            c->ball >= 0 ? line->name[c->ball] : "", pocket != NULL ? pocket : "", c->place[0], c->place[1], c->cue.speed,
-            c->cue.phi, c->cue.theta, c->cue.a, c->cue.b, c->value, c->error, c->keep, c->foul, c->lose, (long long)c->seen);
+    fprintf(out,
+            "%d,%s,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.6f,%.6f,%.6f,%.6f,%.6f,%lld\n",
+            k + 1, kinds[c->kind], c->ball >= 0 ? line->name[c->ball] : "",
+            pocket != NULL ? pocket : "", c->place[0], c->place[1], c->cue.speed, c->cue.phi,
+            c->cue.theta, c->cue.a, c->cue.b, c->value, c->error, c->keep, c->foul, c->lose,
+            (long long)c->seen);
   }
 }
 
@@ -173,7 +187,8 @@ static bool plot(const plan_job *job, shot_line *line, const carom_choice *c) {
 }
 
 /* Plans for a layout, writes the choices and keeps the best; an exit code. */
-static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out, carom_choice *best) {
+static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out,
+                carom_choice *best) {
   static const int last[] = {15, 9};
   if (job->rules != CAROM_RULES_POTTING && !order_balls(line, file, last[job->rules]))
     return EXIT_USAGE;
@@ -190,7 +205,8 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   const carom_player player = carom_player_of(scale);
   carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)job->rules);
   rules.user[0] = (uint64_t)job->group;
-  const carom_plan_options options = {.shots = job->shots, .threads = job->shared.options.threads, .seed = (uint64_t)job->seed};
+  const carom_plan_options options = {
+      .shots = job->shots, .threads = job->shared.options.threads, .seed = (uint64_t)job->seed};
   carom_plan_job asked = {.table = &line->table->table,
                           .balls = line->ball,
                           .count = line->count,
@@ -206,8 +222,8 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
   asked.memory = allocate(1, asked.memory_size);
   carom_choice choices[BEST];
   int n = 0;
-  const carom_status status =
-      job->hand ? carom_plan_hand(&asked, NULL, NULL, choices, BEST, &n) : carom_plan(&asked, choices, BEST, &n);
+  const carom_status status = job->hand ? carom_plan_hand(&asked, NULL, NULL, choices, BEST, &n)
+                                        : carom_plan(&asked, choices, BEST, &n);
   free(asked.memory);
   if (status != CAROM_OK) {
     complain("%s:%zu: %s", file, line->number, carom_status_string(status));
@@ -224,27 +240,35 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
 static const command_form form = {
     .name = "plan",
     .usage = "[OPTIONS] LAYOUT.jsonl",
-    .about = "Finds the shots that win most often from a layout, for a player whose strokes err. LAYOUT is a file as of carom "
-             "shoot, of which the first shot counts: its table, balls and cue; the stroke itself is not read. Balls that are "
-             "missing are down. The five best shots are told in words: what they do, how to strike, and their chances.\n",
+    .about = "Finds the shots that win most often from a layout, for a player whose strokes err. "
+             "LAYOUT is a file as of carom "
+             "shoot, of which the first shot counts: its table, balls and cue; the stroke itself "
+             "is not read. Balls that are "
+             "missing are down. The five best shots are told in words: what they do, how to "
+             "strike, and their chances.\n",
     .options =
-        (const option_row *const[]){&option_rules, &option_group, &option_hand, &option_player, &option_errors, &option_shots,
-                                    &option_seed, &option_csv, &option_plan_plot, &option_threads, &option_output, NULL},
-    .details = "columns of --csv: rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
+        (const option_row *const[]){&option_rules, &option_group, &option_hand, &option_player,
+                                    &option_errors, &option_shots, &option_seed, &option_csv,
+                                    &option_plan_plot, &option_threads, &option_output, NULL},
+    .details = "columns of --csv: "
+               "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"
-               "  value error          chance to win and its standard error; of potting the share of the balls potted\n"
+               "  value error          chance to win and its standard error; of potting the share "
+               "of the balls potted\n"
                "  keep foul lose       chances that the player plays on or wins, fouls, loses\n"
                "  seen                 how often the shot was played with errors\n"
                "The choice depends on the input, --shots and --seed alone, not on --threads.\n\n"
                "exit code: 0; 2 for bad usage or unreadable input\n",
-    .example = "carom plan --rules eightball --group solids --shots 4000 --plot best.svg layout.jsonl",
+    .example =
+        "carom plan --rules eightball --group solids --shots 4000 --plot best.svg layout.jsonl",
     .files = ONE_FILE,
 };
 
 int command_plan(int argc, char **argv) {
   static plan_job job;
   const char *path;
-  job = (plan_job){.shared = {.options = COMMAND_OPTIONS, .output = "-"}, .rating = NAN, .errors = 1.0};
+  job = (plan_job){
+      .shared = {.options = COMMAND_OPTIONS, .output = "-"}, .rating = NAN, .errors = 1.0};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;

@@ -1,7 +1,8 @@
-/* `carom rail`: the impact of a ball on a cushion, from speed, angle and spin; in words, as rows, pictures and curves.
+/* `carom rail`: the impact of a ball on a cushion, from speed, angle and spin; in words, as
+ * rows, pictures and curves.
  *
- * The cushion lies along x, and the ball comes to it towards +y and, at an angle of incidence above 0, +x: to the right. Right
- * english then is running english, left english is reverse.
+ * The cushion lies along x, and the ball comes to it towards +y and, at an angle of incidence
+ * above 0, +x: to the right. Right english then is running english, left english is reverse.
  */
 #include "command.h"
 #include "contact_picture.h"
@@ -16,71 +17,84 @@
 #include <string.h>
 
 enum { SPIN, SPEED, ANGLE, SIDE, HEIGHT, RESTITUTION, FRICTION, CLOTH, RADIUS, MASS };
-static const scene_input inputs[] = {[SPIN] = {"spin", MEASURE_SPIN, "roll"},
-                                     [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
-                                     [ANGLE] = {"angle of incidence", MEASURE_ANGLE, "45"},
-                                     [SIDE] = {"side spin", MEASURE_SIDE, "none"},
-                                     [HEIGHT] = {"height of the nose", MEASURE_LENGTH, "0.036576"},
-                                     [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.85"},
-                                     [FRICTION] = {"friction of the cushion", MEASURE_NUMBER, "0.2"},
-                                     [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
-                                     [RADIUS] = {"radius of the ball", MEASURE_LENGTH, "0.028575"},
-                                     [MASS] = {"mass of the ball", MEASURE_MASS, "0.170097"},
-                                     [MASS + 1] = {NULL, 0, NULL}};
+static const scene_input inputs[] = {
+    [SPIN] = {"spin", MEASURE_SPIN, "roll"},
+    [SPEED] = {"speed", MEASURE_SPEED, "1.5"},
+    [ANGLE] = {"angle of incidence", MEASURE_ANGLE, "45"},
+    [SIDE] = {"side spin", MEASURE_SIDE, "none"},
+    [HEIGHT] = {"height of the nose", MEASURE_LENGTH, "0.036576"},
+    [RESTITUTION] = {"restitution", MEASURE_NUMBER, "0.85"},
+    [FRICTION] = {"friction of the cushion", MEASURE_NUMBER, "0.2"},
+    [CLOTH] = {"friction of the cloth", MEASURE_NUMBER, "0.2"},
+    [RADIUS] = {"radius of the ball", MEASURE_LENGTH, "0.028575"},
+    [MASS] = {"mass of the ball", MEASURE_MASS, "0.170097"},
+    [MASS + 1] = {NULL, 0, NULL}};
 _Static_assert(sizeof inputs / sizeof inputs[0] == MOST_INPUTS + 1, "room for all");
 
 enum { ROLLING_REBOUND, REBOUND, SPEED_AFTER, SIDE_AFTER, ENERGY };
 #define QUANTITIES "rolling-rebound|rebound|speed|side|energy"
-static const char *const quantity[] = {"angle of rebound once the ball rolls (degrees)", "angle of rebound at once (degrees)",
-                                       "speed at once (m/s)", "side spin after (rad/s)", "kinetic energy that is lost (%)"};
+static const char *const quantity[] = {
+    "angle of rebound once the ball rolls (degrees)", "angle of rebound at once (degrees)",
+    "speed at once (m/s)", "side spin after (rad/s)", "kinetic energy that is lost (%)"};
 
 OPTION(series, option_speed, "speed", in[SPEED], 0, "V", set_values, MEASURE_SPEED,
        "speed of the ball, m/s, or with a unit: mph, km/h (default 1.5)");
 OPTION(series, option_angle, "angle", in[ANGLE], 0, "DEGREES", set_values, MEASURE_ANGLE,
-       "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to the right (default 45)");
+       "angle of incidence, from the normal of the cushion, -90 to 90; above 0 the ball moves to "
+       "the right (default 45)");
 OPTION(series, option_spin, "spin", in[SPIN], 0, "roll|stun|draw|SPIN", set_values, MEASURE_SPIN,
-       "roll or follow: the ball rolls (default); stun: no spin; draw: the same spin backwards. Or a number with a unit: "
+       "roll or follow: the ball rolls (default); stun: no spin; draw: the same spin backwards. Or "
+       "a number with a unit: "
        "rad/s, % of rolling, tip");
-OPTION(series, option_side, "side", in[SIDE], 0, "right|left|gearing|none|SPIN", set_values, MEASURE_SIDE,
-       "side spin, above 0 for right english, which is running english here; left is reverse. A number with a unit: rad/s, % "
-       "of english (100%: 1.25 V/R) or tip; right, left: 100%; gearing: the ball rolls along the cushion; none (default)");
+OPTION(series, option_side, "side", in[SIDE], 0, "right|left|gearing|none|SPIN", set_values,
+       MEASURE_SIDE,
+       "side spin, above 0 for right english, which is running english here; left is reverse. A "
+       "number with a unit: rad/s, % "
+       "of english (100%: 1.25 V/R) or tip; right, left: 100%; gearing: the ball rolls along the "
+       "cushion; none (default)");
 OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,
-       "of the nose above the cloth, m, or with a unit: mm, in (default 0.036576, that of a pool table)");
-OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values, MEASURE_NUMBER,
-       "of the cushion (default 0.85)");
+       "of the nose above the cloth, m, or with a unit: mm, in (default 0.036576, that of a pool "
+       "table)");
+OPTION(series, option_restitution, "restitution", in[RESTITUTION], 0, "E", set_values,
+       MEASURE_NUMBER, "of the cushion (default 0.85)");
 OPTION(series, option_friction_rail, "friction", in[FRICTION], 0, "MU", set_values, MEASURE_NUMBER,
        "of the cushion (default 0.2)");
-OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER, "friction with the cloth (default 0.2)");
+OPTION(series, option_cloth, "cloth", in[CLOTH], 0, "MU", set_values, MEASURE_NUMBER,
+       "friction with the cloth (default 0.2)");
 OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
        "of the ball, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
        "of the ball, kg, or with a unit: g, oz (default 0.170097, 6 oz)");
 OPTION(series, option_quantity, "quantity", quantity, 0, QUANTITIES, set_choice, 0,
-       "the quantity that curves and tables show (default: rolling-rebound for curves, all for tables)");
+       "the quantity that curves and tables show (default: rolling-rebound for curves, all for "
+       "tables)");
 OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
-       "write the impacts as rows for `carom resolve --cushion`. With --quantity: write a table of it");
-OPTION(
-    series, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-    "draw the ball and its path of every impact from above; or curves over a range, by gnuplot. OUT.svg, OUT.png or OUT.pdf");
+       "write the impacts as rows for `carom resolve --cushion`. With --quantity: write a table of "
+       "it");
+OPTION(series, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
+       "draw the ball and its path of every impact from above; or curves over a range, by gnuplot. "
+       "OUT.svg, OUT.png or OUT.pdf");
 
 static void make(const series *s, one_case *c) {
   const value *const *v = c->given;
   const double angle = v[ANGLE]->x * degree, speed = v[SPEED]->x, R = v[RADIUS]->x;
   const double x = sin(angle), y = cos(angle), spin = spin_of(v[SPIN], speed, R, 0.0);
-  const carom_cushion_impact in = {.v = {speed * x, speed * y, 0.0},
-                                   .w = {-spin * y, spin * x, spin_of(v[SIDE], speed, R, speed * x / R)},
-                                   .normal = {0.0, 1.0},
-                                   .height = v[HEIGHT]->x,
-                                   .radius = R,
-                                   .mass = v[MASS]->x,
-                                   .mu_cloth = v[CLOTH]->x,
-                                   .mu_cushion = v[FRICTION]->x,
-                                   .restitution = v[RESTITUTION]->x};
+  const carom_cushion_impact in = {
+      .v = {speed * x, speed * y, 0.0},
+      .w = {-spin * y, spin * x, spin_of(v[SIDE], speed, R, speed * x / R)},
+      .normal = {0.0, 1.0},
+      .height = v[HEIGHT]->x,
+      .radius = R,
+      .mass = v[MASS]->x,
+      .mu_cloth = v[CLOTH]->x,
+      .mu_cushion = v[FRICTION]->x,
+      .restitution = v[RESTITUTION]->x};
   (void)s;
   memcpy(c->row, &in, sizeof in);
 }
 
-/* angle_in, angle_out, angle_rolling, rollx, rolly, energy_lost: see kind_cushion.c; angles to the left. */
+/* angle_in, angle_out, angle_rolling, rollx, rolly, energy_lost: see kind_cushion.c; angles to
+ * the left. */
 static void derive_case(const one_case *c, double d[MOST_DERIVED]) {
   cushion_kind.derive(c->row, c->result, d);
 }
@@ -142,10 +156,12 @@ static void tell(FILE *out, const series *s, const one_case *c) {
   char text[64];
   derive_case(c, d);
   fprintf(out,
-          "A ball at %.4g m/s meets a cushion: %.4g degrees from its normal, spin %s (%.4g rad/s), side spin %.4g rad/s.\n",
-          hypot(in->v[0], in->v[1]), c->given[ANGLE]->x, c->given[SPIN]->name, hypot(in->w[0], in->w[1]), in->w[2]);
-  fprintf(out, "Friction with the cushion %.4g, with the cloth %.4g, restitution %.4g; model %s.\n", in->mu_cushion,
-          in->mu_cloth, in->restitution, cushion_kind.name(&s->asked, 0));
+          "A ball at %.4g m/s meets a cushion: %.4g degrees from its normal, spin %s (%.4g rad/s), "
+          "side spin %.4g rad/s.\n",
+          hypot(in->v[0], in->v[1]), c->given[ANGLE]->x, c->given[SPIN]->name,
+          hypot(in->w[0], in->w[1]), in->w[2]);
+  fprintf(out, "Friction with the cushion %.4g, with the cloth %.4g, restitution %.4g; model %s.\n",
+          in->mu_cushion, in->mu_cloth, in->restitution, cushion_kind.name(&s->asked, 0));
   fprintf(out, "rebound       at once:     %s\n", rebound_text(d[1], v, text));
   fprintf(out, "              rolling:     %s\n", rebound_text(d[2], d + 3, text));
   tell_spin(out, v + 3);
@@ -155,7 +171,8 @@ static void tell(FILE *out, const series *s, const one_case *c) {
 
 static double draw(FILE *out, double top, const series *s, const one_case *c, const char *words) {
   const carom_cushion_impact *in = (const carom_cushion_impact *)(const void *)c->row;
-  const double R = in->radius, speed = hypot(in->v[0], in->v[1]), x = in->v[0] / speed, y = in->v[1] / speed;
+  const double R = in->radius, speed = hypot(in->v[0], in->v[1]), x = in->v[0] / speed,
+               y = in->v[1] / speed;
   double d[MOST_DERIVED];
   char way[64], lines[2048];
   carom_ball ball = {.r = {0.0, 0.0, R}, .radius = R, .mass = in->mass, .mu_cloth = in->mu_cloth};
@@ -163,9 +180,15 @@ static double draw(FILE *out, double top, const series *s, const one_case *c, co
   memcpy(&after, c->result, sizeof after);
   derive_case(c, d);
   (void)s;
-  snprintf(lines, sizeof lines, "Dot: the ball rolls from here on. Angles are from the normal of the cushion.\n%s", words);
-  contact_picture p = {
-      .balls = 1, .ball = {&ball}, .after = {&after}, .rail = true, .way = {rebound_text(d[2], d + 3, way)}, .words = lines};
+  snprintf(lines, sizeof lines,
+           "Dot: the ball rolls from here on. Angles are from the normal of the cushion.\n%s",
+           words);
+  contact_picture p = {.balls = 1,
+                       .ball = {&ball},
+                       .after = {&after},
+                       .rail = true,
+                       .way = {rebound_text(d[2], d + 3, way)},
+                       .words = lines};
   p.line[p.lines++] = (contact_line){{-8.0 * R * x, -8.0 * R * y}, {0.0, 0.0}, NULL};
   p.line[p.lines++] = (contact_line){{0.0, 0.0}, {0.0, -8.0 * R}, "normal"};
   p.arc[p.arcs++] = (contact_arc){{0.0, 0.0}, -90.0, -90.0 - c->given[ANGLE]->x, "in"};
@@ -176,40 +199,49 @@ static double draw(FILE *out, double top, const series *s, const one_case *c, co
 
 static const char *law(const series *s, char text[80]) {
   snprintf(text, 80, "model %s%s", cushion_kind.name(&s->asked, 0),
-           s->asked.rail.law == CAROM_CUSHION_LAW_HAN ? " with Han's restitution and friction" : "");
+           s->asked.rail.law == CAROM_CUSHION_LAW_HAN ? " with Han's restitution and friction"
+                                                      : "");
   return text;
 }
 
 static const command_form form = {
     .name = "rail",
     .usage = "[OPTIONS]",
-    .about = "Computes the impact of a ball on a cushion, and describes it in words: the rebound angle just after and once the "
-             "ball rolls, speeds, spin, and which contacts stuck or slipped. The ball moves to the right along the cushion, so "
+    .about = "Computes the impact of a ball on a cushion, and describes it in words: the rebound "
+             "angle just after and once the "
+             "ball rolls, speeds, spin, and which contacts stuck or slipped. The ball moves to the "
+             "right along the cushion, so "
              "right english is running english.\n",
-    .options = (const option_row *const[]){&option_speed,  &option_angle,       &option_spin,          &option_side,
-                                           &option_height, &option_restitution, &option_friction_rail, &option_cloth,
-                                           &option_radius, &option_mass,        &option_model,         &option_convention,
-                                           &option_law,    &option_steps,       &option_quantity,      &option_csv,
-                                           &option_plot,   &option_strict,      &option_output,        NULL},
-    .details =
-        "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A unit after the last number "
-        "holds for all: --speed 1,3,7mph, --side -100:100%. Each value of a list is an impact. A range gives a table, with "
-        "--plot curves.\n\n"
-        "quantities:\n"
-        "  rolling-rebound      angle from the normal once the ball rolls, degrees; a mirror keeps the angle of incidence\n"
-        "  rebound              the same just after the impact\n"
-        "  speed                just after, m/s\n"
-        "  side                 side spin after, rad/s; above 0 for right\n"
-        "  energy               share of the kinetic energy that is lost, %\n\n"
-        "exit code: 0; 2 for bad usage or an impossible impact\n",
+    .options =
+        (const option_row *const[]){
+            &option_speed,  &option_angle,       &option_spin,          &option_side,
+            &option_height, &option_restitution, &option_friction_rail, &option_cloth,
+            &option_radius, &option_mass,        &option_model,         &option_convention,
+            &option_law,    &option_steps,       &option_quantity,      &option_csv,
+            &option_plot,   &option_strict,      &option_output,        NULL},
+    .details = "Every number may be a list, separated by commas; one may be a range A:B or "
+               "A:B:STEP. A unit after the last number "
+               "holds for all: --speed 1,3,7mph, --side -100:100%. Each value of a list is an "
+               "impact. A range gives a table, with "
+               "--plot curves.\n\n"
+               "quantities:\n"
+               "  rolling-rebound      angle from the normal once the ball rolls, degrees; a "
+               "mirror keeps the angle of incidence\n"
+               "  rebound              the same just after the impact\n"
+               "  speed                just after, m/s\n"
+               "  side                 side spin after, rad/s; above 0 for right\n"
+               "  energy               share of the kinetic energy that is lost, %\n\n"
+               "exit code: 0; 2 for bad usage or an impossible impact\n",
     .example = "carom rail --angle 0:75 --side -50,0,50% --plot rail.svg",
     .files = NO_FILES,
 };
 
 int command_rail(int argc, char **argv) {
-  static const scene rail = {&cushion_kind, inputs, QUANTITIES, quantity, make, measure, tell, draw, law};
+  static const scene rail = {&cushion_kind, inputs, QUANTITIES, quantity, make,
+                             measure,       tell,   draw,       law};
   static series s;
   s = (series){.asked = {.cushion = true, .options = COMMAND_OPTIONS}, .scene = &rail};
-  return series_command(&s, &form, argc, argv, ANGLE,
-                        "--angle is between -90 and 90 degrees; at 90 the ball moves along the cushion");
+  return series_command(
+      &s, &form, argc, argv, ANGLE,
+      "--angle is between -90 and 90 degrees; at 90 the ball moves along the cushion");
 }

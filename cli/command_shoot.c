@@ -16,7 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EVENTS_USUAL = -1, BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 }; /* lines in error that are named */
+/* lines in error that are named */
+enum { EVENTS_USUAL = -1, BLOCK = 64, FIRST_ROOM = 512, MOST_NAMED = 1000 };
 
 typedef struct shoot_job {
   shoot_flags from; /* --threads, --steps, --output; and a shot from words */
@@ -47,38 +48,45 @@ typedef struct block {
 
 OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
        "the rules of contact and the default models (default carom)");
-OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "exact|euler|inelastic|mirror", set_ball_model, 0,
+OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "exact|euler|inelastic|mirror",
+       set_ball_model, 0,
        "model of the collision of two balls (default: exact; with --models pooltool "
        "inelastic)");
-OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, "mathavan|stronge|han|mirror|euler|smooth", set_cushion_model, 0,
+OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0,
+       "mathavan|stronge|han|mirror|euler|smooth", set_cushion_model, 0,
        "model of the impact on a cushion; mathavan is the exact limit (default: han; with "
        "--models pooltool stronge)");
 OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
        "whether balls can leave the cloth (default: 3d; by pooltool's rules always flat)");
-OPTION(shoot_job, option_simultaneous, "simultaneous", simultaneous, 0, "cluster|pairs", set_choice, 0,
-       "contacts of several balls at one instant, as in a rack: they last and overlap in time, or they are resolved one after "
-       "the other (default: cluster; by pooltool's rules and with --ball-ball euler or inelastic always pairs)");
-OPTION(
-    shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
-    "what to write of events: nothing; time, type and ids; or the states before and after too (default full). With a shot by "
-    "options: write it as a line like those of a file, instead of words");
+OPTION(shoot_job, option_simultaneous, "simultaneous", simultaneous, 0, "cluster|pairs", set_choice,
+       0,
+       "contacts of several balls at one instant, as in a rack: they last and overlap in time, or "
+       "they are resolved one after "
+       "the other (default: cluster; by pooltool's rules and with --ball-ball euler or inelastic "
+       "always pairs)");
+OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
+       "what to write of events: nothing; time, type and ids; or the states before and after too "
+       "(default full). With a shot by "
+       "options: write it as a line like those of a file, instead of words");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
        "largest number of events of a shot (default 10000)");
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
        "largest time of a shot, on its own clock (default 1000)");
-OPTION(
-    shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
-    "draw the table and the paths of the balls in the first shot without an error, or in all that options describe; from the "
-    "side too where a ball flies");
-OPTION(
-    shoot_job, option_spread, "spread", error, 0, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
-    "standard deviations of a player's error: speed in %, aim in degrees, tip in radii, such as 1%,0.05,0.01,0.01. Tells the "
-    "standard deviations of the places where balls end, to first order, and with --plot draws them as bands around the paths, "
-    "up "
-    "to 0.3 m, with how far this holds");
+OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
+       "draw the table and the paths of the balls in the first shot without an error, or in all "
+       "that options describe; from the "
+       "side too where a ball flies");
+OPTION(shoot_job, option_spread, "spread", error, 0, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
+       "standard deviations of a player's error: speed in %, aim in degrees, tip in radii, such as "
+       "1%,0.05,0.01,0.01. Tells the "
+       "standard deviations of the places where balls end, to first order, and with --plot draws "
+       "them as bands around the paths, "
+       "up "
+       "to 0.3 m, with how far this holds");
 OPTION(shoot_job, option_animate, "animate", animation, 0, "OUT.html", set_animation, 0,
        "write a page that plays what --plot draws; it is one file and needs nothing else");
-OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0, "draw the shot of this id instead");
+OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0,
+       "draw the shot of this id instead");
 
 static carom_shot_options options_of(const shoot_job *job) {
   return (carom_shot_options){.world = (carom_world)job->world,
@@ -117,16 +125,19 @@ static void play(block *b, int from, int end, const carom_shot_options *options)
     /* what is common to the batch may be at fault, and then nothing was played */
     *status = (carom_status)b->batch_status[k];
     int where;
-    const carom_status common =
-        bad != CAROM_OK ? carom_shot_check(&first->table->table, b->line[from + k].ball, count, &b->cue[k], options, &where)
-                        : CAROM_OK;
+    const carom_status common = bad != CAROM_OK
+                                    ? carom_shot_check(&first->table->table, b->line[from + k].ball,
+                                                       count, &b->cue[k], options, &where)
+                                    : CAROM_OK;
     if (common != CAROM_OK)
       *status = common;
-    if (common == CAROM_OK && shot->room > 0 && shot->count > shot->room) { /* once more, with room for all */
+    /* once more, with room for all */
+    if (common == CAROM_OK && shot->room > 0 && shot->count > shot->room) {
       shot->room = shot->count;
       free(shot->events);
       shot->events = allocate((size_t)shot->room, sizeof *shot->events);
-      *status = carom_shoot(&first->table->table, b->line[from + k].ball, count, &b->cue[k], options, shot);
+      *status = carom_shoot(&first->table->table, b->line[from + k].ball, count, &b->cue[k],
+                            options, shot);
     }
   }
 }
@@ -141,30 +152,40 @@ static double tip_of(const carom_cue *cue) {
 }
 
 /* What is wrong with the arguments of a shot, with the key. False if nothing is. */
-static bool argument_error(const shot_line *line, const carom_shot_options *options, char text[300]) {
+static bool argument_error(const shot_line *line, const carom_shot_options *options,
+                           char text[300]) {
   int where;
-  const carom_status bad = carom_shot_check(&line->table->table, line->ball, line->count, &line->cue, options, &where);
+  const carom_status bad =
+      carom_shot_check(&line->table->table, line->ball, line->count, &line->cue, options, &where);
   if (bad == CAROM_OK)
     return false;
   if (bad == CAROM_ERROR_TABLE || bad == CAROM_ERROR_NOSE_HEIGHT)
     snprintf(text, 300, "table '%s': %s", line->table->id, carom_status_string(bad));
   else if (bad == CAROM_ERROR_MISCUE)
-    snprintf(text, 300, "cue: the tip is %.4g R from the centre; it slips off the ball from %.4g R on", tip_of(&line->cue),
-             line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
-  else if (bad == CAROM_ERROR_CUE_SPEED || bad == CAROM_ERROR_CUE_MASS) /* the keys of these fields have other names */
-    snprintf(text, 300, "cue.%s%s", bad == CAROM_ERROR_CUE_SPEED ? "V0" : "M", strchr(carom_status_string(bad), ' '));
+    snprintf(text, 300,
+             "cue: the tip is %.4g R from the centre; it slips off the ball from %.4g R on",
+             tip_of(&line->cue), line->cue.miscue > 0.0 ? line->cue.miscue : 1.0);
+  /* the keys of these fields have other names */
+  else if (bad == CAROM_ERROR_CUE_SPEED || bad == CAROM_ERROR_CUE_MASS)
+    snprintf(text, 300, "cue.%s%s", bad == CAROM_ERROR_CUE_SPEED ? "V0" : "M",
+             strchr(carom_status_string(bad), ' '));
   else if (bad == CAROM_ERROR_RESTITUTION)
-    snprintf(text, 300, "balls[%d] ('%s'): e_b and e_c must be in [0, 1], and e_t at most 0.98 and not below 0, or -1 for none",
+    snprintf(text, 300,
+             "balls[%d] ('%s'): e_b and e_c must be in [0, 1], and e_t at most 0.98 and not below "
+             "0, or -1 for none",
              where, line->name[where]);
   else if (bad == CAROM_ERROR_OFF_TABLE && where >= 0) {
     const carom_shot_ball *ball = &line->ball[where];
     const double *r = ball->state.r, R = ball->kind.radius;
-    const int size = snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where], carom_status_string(bad));
+    const int size = snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where],
+                              carom_status_string(bad));
     if (fabs(r[2] - R) > 1e-6)
-      snprintf(text + size, (size_t)(300 - size), ": its centre must lie at z = R = %.6g m, not at z = %.6g", R, r[2]);
+      snprintf(text + size, (size_t)(300 - size),
+               ": its centre must lie at z = R = %.6g m, not at z = %.6g", R, r[2]);
     else
-      snprintf(text + size, (size_t)(300 - size), ": x = %.6g, y = %.6g m is in a cushion or a pocket, or outside%s", r[0],
-               r[1], fmax(r[0], r[1]) > 10.0 ? "; are places in m?" : "");
+      snprintf(text + size, (size_t)(300 - size),
+               ": x = %.6g, y = %.6g m is in a cushion or a pocket, or outside%s", r[0], r[1],
+               fmax(r[0], r[1]) > 10.0 ? "; are places in m?" : "");
   } else if (where >= 0)
     snprintf(text, 300, "balls[%d] ('%s'): %s", where, line->name[where], carom_status_string(bad));
   else
@@ -189,7 +210,8 @@ static bool draws(const shoot_job *job) {
   return job->plot != NULL || job->animation != NULL;
 }
 
-static void draw(const shoot_job *job, drawing to[DRAWINGS], const played *shots, int count, const char *footer) {
+static void draw(const shoot_job *job, drawing to[DRAWINGS], const played *shots, int count,
+                 const char *footer) {
   for (int k = 0; k < DRAWINGS; k++) {
     if (to[k].text != NULL || (k == PICTURE ? job->plot : job->animation) == NULL)
       continue;
@@ -200,7 +222,8 @@ static void draw(const shoot_job *job, drawing to[DRAWINGS], const played *shots
 }
 
 /* Tells the shots of a block in words, and draws them over each other. */
-static void tell_block(const shoot_job *job, FILE *out, drawing to[DRAWINGS], const played *shots, int count) {
+static void tell_block(const shoot_job *job, FILE *out, drawing to[DRAWINGS], const played *shots,
+                       int count) {
   char *words;
   size_t size;
   FILE *said = open_text(&words, &size);
@@ -235,7 +258,8 @@ static void draw_alone(const shoot_job *job, drawing to[DRAWINGS], const played 
 }
 
 /* The spread of shot k of a block; where it is not known, that is an error of the shot. */
-static void find_spread(block *b, int k, const shoot_job *job, const carom_shot_options *options, spread *to) {
+static void find_spread(block *b, int k, const shoot_job *job, const carom_shot_options *options,
+                        spread *to) {
   *to = (spread){.status = b->status[k]};
   if (b->status[k] < 0)
     return;
@@ -278,14 +302,16 @@ static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *pic
       good = false;
     } else {
       if (b->status[k] < 0 && is_named(b))
-        complain("%s:%zu: after %g s: %s", b->file, line->number, b->shot[k].time, carom_status_string(b->status[k]));
+        complain("%s:%zu: after %g s: %s", b->file, line->number, b->shot[k].time,
+                 carom_status_string(b->status[k]));
       spread *s = job->error.given ? &spreads[job->together ? goods : 0] : NULL;
       if (s != NULL)
         find_spread(b, k, job, &options, s);
       good &= b->status[k] >= 0;
       good_ones[goods] = (played){line, &b->shot[k], s};
       if (!job->words)
-        shot_write(out, line, &b->shot[k], b->status[k], job->events, s != NULL ? spread_json(s, line) : NULL);
+        shot_write(out, line, &b->shot[k], b->status[k], job->events,
+                   s != NULL ? spread_json(s, line) : NULL);
       if (!job->together && shot_has_id(line, job->id))
         draw_alone(job, picture, &good_ones[goods]);
       if (!job->together && s != NULL)
@@ -326,7 +352,8 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
   bool good = true;
   double done = 0.0;
   shot_read what;
-  while ((what = shot_file_next(file, &b->line[b->count], &text)) == SHOT_SHOT || what == SHOT_TABLE) {
+  while ((what = shot_file_next(file, &b->line[b->count], &text)) == SHOT_SHOT ||
+         what == SHOT_TABLE) {
     if (what == SHOT_TABLE) { /* behind the shots before it */
       good &= finish_block(b, job, out, picture);
       clear_block(b);
@@ -334,7 +361,8 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
       continue;
     }
     carom_cue *cue = &b->line[b->count].cue;
-    const bool plays = b->line[b->count].error == NULL && cue->speed > 0.0 && cue->miscue == 0.0 && tip_of(cue) < 1.0;
+    const bool plays = b->line[b->count].error == NULL && cue->speed > 0.0 && cue->miscue == 0.0 &&
+                       tip_of(cue) < 1.0;
     if (plays && doubts_about_tip(&b->tips, tip_of(cue)) != NULL && job->from.shared.strict)
       cue->miscue = TIP_LIMIT;
     begin_shot(b, job->events != EVENTS_NONE || job->together || draws(job) || job->error.given);
@@ -362,27 +390,34 @@ static int shoot_all(const shoot_job *job, shot_file *file, FILE *out, drawing *
 static const command_form form = {
     .name = "shoot",
     .usage = "[OPTIONS] IN.jsonl | --cue X,Y --aim DEGREES [OPTIONS]",
-    .about = "Plays whole shots, from the strike of the cue until nothing moves. Reads tables and shots as JSON Lines "
+    .about = "Plays whole shots, from the strike of the cue until nothing moves. Reads tables and "
+             "shots as JSON Lines "
              "(docs/using/shots.md has the "
-             "format; recorded results in them are ignored) and writes each table and each shot with its events and final "
-             "states. IN may be -. Or plays a shot that options describe, and tells it in words; several values with commas "
+             "format; recorded results in them are ignored) and writes each table and each shot "
+             "with its events and final "
+             "states. IN may be -. Or plays a shot that options describe, and tells it in words; "
+             "several values with commas "
              "give several shots, drawn over each other.\n",
-    .options = (const option_row *const[]){&option_table,         &option_cue,     &option_balls,
-                                           &option_aim,           &option_at_ball, &option_shot_cut,
-                                           &option_shot_speed,    &option_tip,     &option_elevation,
-                                           &option_json,          &option_models,  &option_ball_ball,
-                                           &option_cushion_model, &option_space,   &option_simultaneous,
-                                           &option_events,        &option_steps,   &option_events_most,
-                                           &option_time_most,     &option_threads, &option_plot,
-                                           &option_spread,        &option_animate, &option_shot_id,
-                                           &option_strict,        &option_output,  NULL},
-    .details = "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and the error; the others "
+    .options =
+        (const option_row *const[]){&option_table,         &option_cue,     &option_balls,
+                                    &option_aim,           &option_at_ball, &option_shot_cut,
+                                    &option_shot_speed,    &option_tip,     &option_elevation,
+                                    &option_json,          &option_models,  &option_ball_ball,
+                                    &option_cushion_model, &option_space,   &option_simultaneous,
+                                    &option_events,        &option_steps,   &option_events_most,
+                                    &option_time_most,     &option_threads, &option_plot,
+                                    &option_spread,        &option_animate, &option_shot_id,
+                                    &option_strict,        &option_output,  NULL},
+    .details = "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their "
+               "status and the error; the others "
                "are played); 2 for bad usage or unreadable input\n",
-    .example = "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3 --plot shot.svg",
+    .example = "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3 "
+               "--plot shot.svg",
     .files = FILE_OR_NONE,
 };
 
-/* The shots that options describe, written as lines; NULL after a complaint. *text is to be freed when they have been read. */
+/* The shots that options describe, written as lines; NULL after a complaint. *text is to be
+ * freed when they have been read. */
 static shot_file *shots_of(shoot_job *job, char **text) {
   size_t size;
   FILE *lines = open_text(text, &size);
@@ -399,7 +434,8 @@ int command_shoot(int argc, char **argv) {
   static shoot_job job;
   const char *path;
   char *lines = NULL;
-  job = (shoot_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}}, .events = EVENTS_USUAL};
+  job = (shoot_job){.from = {.shared = {.options = COMMAND_OPTIONS, .output = "-"}},
+                    .events = EVENTS_USUAL};
   int code = parse_arguments(&form, argc, argv, &job, &path);
   if (code >= 0)
     return code;
@@ -407,8 +443,10 @@ int command_shoot(int argc, char **argv) {
   job.words = job.together && job.events == EVENTS_USUAL;
   job.events = job.events == EVENTS_USUAL ? EVENTS_FULL : job.events;
   if (job.together == (path != NULL)) {
-    complain(job.together ? "a file has its own shots: give it, or the shot by --cue, --aim and the like"
-                          : "shoot needs the name of a file, or a shot by options: --cue 0.6,0.8 --aim 35 --speed 2");
+    complain(job.together
+                 ? "a file has its own shots: give it, or the shot by --cue, --aim and the like"
+                 : "shoot needs the name of a file, or a shot by options: --cue 0.6,0.8 --aim 35 "
+                   "--speed 2");
     return usage_hint(&form);
   }
   if (job.time_most < 0.0) {
@@ -416,11 +454,13 @@ int command_shoot(int argc, char **argv) {
     return EXIT_USAGE;
   }
   if (job.error.given && job.world == CAROM_WORLD_POOLTOOL) {
-    complain("--spread needs derivatives, which shots by --models pooltool do not have; --models carom has them");
+    complain("--spread needs derivatives, which shots by --models pooltool do not have; --models "
+             "carom has them");
     return EXIT_USAGE;
   }
   if (job.error.given && job.ball_model == CAROM_BALL_MODEL_EULER) {
-    complain("--spread needs derivatives, which --ball-ball euler does not have; exact, its limit, has them");
+    complain("--spread needs derivatives, which --ball-ball euler does not have; exact, its limit, "
+             "has them");
     return EXIT_USAGE;
   }
   if (!svg_possible(job.plot) || !output_possible(job.animation))
@@ -440,8 +480,10 @@ int command_shoot(int argc, char **argv) {
     output_abandon();
   else if (out != NULL && !output_commit())
     code = EXIT_USAGE;
-  else if ((picture[PICTURE].text != NULL && !svg_draw(job.plot, write_drawing, &picture[PICTURE])) ||
-           (picture[ANIMATION].text != NULL && !file_draw(job.animation, write_drawing, &picture[ANIMATION])))
+  else if ((picture[PICTURE].text != NULL &&
+            !svg_draw(job.plot, write_drawing, &picture[PICTURE])) ||
+           (picture[ANIMATION].text != NULL &&
+            !file_draw(job.animation, write_drawing, &picture[ANIMATION])))
     code = EXIT_SOME;
   free(picture[PICTURE].text);
   free(picture[ANIMATION].text);

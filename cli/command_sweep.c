@@ -49,14 +49,16 @@ static void turn(double *r, const double *centre, double degrees) {
   r[1] = centre[1] + x * sin(angle) + y * cos(angle);
 }
 
-/* Puts the value into the row: into the number of that column, or into all that the word stands for. */
+/* Puts the value into the row: into the number of that column, or into all that the word stands
+ * for. */
 static void vary(const sweep *s, double *row, double value) {
   const row_kind *kind = s->kind;
   for (int k = 0; k < kind->numbers; k++)
     if (kind_fills(kind, k, s->over))
       row[k] = value;
   if (strcmp(s->over, kind->turning) == 0)
-    turn(row + kind->direction[1], kind->direction[0] >= 0 ? row + kind->direction[0] : (const double[2]){0.0}, value);
+    turn(row + kind->direction[1],
+         kind->direction[0] >= 0 ? row + kind->direction[0] : (const double[2]){0.0}, value);
   /* All velocities, and the spins behind them, as those of the first ball. */
   const double *v = row + kind->motion[0], share = value / hypot(v[0], v[1]);
   for (int ball = 0; ball < 2 && strcmp(s->over, "speed") == 0 && kind->motion[ball] >= 0; ball++)
@@ -117,7 +119,8 @@ static void print_outcome(FILE *out, const curve *c, const outcome *o, double ju
 static int print_curve(FILE *out, const curve *c, double done, double total) {
   const sweep *s = c->s;
   int errors = 0;
-  outcome first = {0}, at[4] = {0}; /* k - 1 to k + 2, where they exist: a jump needs both neighbours */
+  outcome first = {0}, at[4] = {0}; /* k - 1 to k + 2, where they exist: a jump needs both
+                                       neighbours */
   for (int k = -2; k < s->points; k++) {
     memmove(at, at + 1, 3 * sizeof at[0]);
     if (k + 2 < s->points)
@@ -125,14 +128,15 @@ static int print_curve(FILE *out, const curve *c, double done, double total) {
     if (k < 0)
       continue;
     progress_show("values", done + k, total);
-    print_outcome(out, c, &at[1], k == 0 || k + 2 >= s->points ? (double)NAN : jump_of(at, s->kind->results));
+    print_outcome(out, c, &at[1],
+                  k == 0 || k + 2 >= s->points ? (double)NAN : jump_of(at, s->kind->results));
     if (at[1].status < 0 && errors++ == 0)
       first = at[1];
   }
   progress_clear();
   if (errors > 0)
-    complain("%d of the values make an error, first %s = %.6g: %s (%s)", errors, s->over, first.value,
-             carom_status_string(first.status), carom_status_name(first.status));
+    complain("%d of the values make an error, first %s = %.6g: %s (%s)", errors, s->over,
+             first.value, carom_status_string(first.status), carom_status_name(first.status));
   return errors;
 }
 
@@ -214,12 +218,15 @@ static bool split_ids(sweep *s) {
 static bool can_vary(const sweep *s) {
   char hint[HINT_TEXT];
   if (place_among(s->kind->inputs, s->over, strlen(s->over)) < 0) {
-    complain("--over is one of %s, not '%s'%s", s->kind->inputs, s->over, did_you_mean(s->over, s->kind->inputs, hint));
+    complain("--over is one of %s, not '%s'%s", s->kind->inputs, s->over,
+             did_you_mean(s->over, s->kind->inputs, hint));
     return false;
   }
   for (int k = 0; k < s->id_count; k++)
-    if (strcmp(s->over, "speed") == 0 && hypot(s->rows[k][s->kind->motion[0]], s->rows[k][s->kind->motion[0] + 1]) == 0.0) {
-      complain("--over speed needs a ball that moves: in row '%s' the first one is at rest", s->id[k]);
+    if (strcmp(s->over, "speed") == 0 &&
+        hypot(s->rows[k][s->kind->motion[0]], s->rows[k][s->kind->motion[0] + 1]) == 0.0) {
+      complain("--over speed needs a ball that moves: in row '%s' the first one is at rest",
+               s->id[k]);
       return false;
     }
   if (s->asked.friction.given && strcmp(s->over, "u_b") == 0) {
@@ -229,28 +236,37 @@ static bool can_vary(const sweep *s) {
   return true;
 }
 
-/* Friction that depends on the slip, which changes with what is varied, is a number here unless a law is given. */
+/* Friction that depends on the slip, which changes with what is varied, is a number here unless
+ * a law is given. */
 static void warn_of_constant(const sweep *s) {
   if (s->kind->prepare != NULL && !s->asked.friction.given &&
-      place_among("cut speed v1x v1y w1x w1y w1z v2x v2y w2x w2y w2z", s->over, strlen(s->over)) >= 0)
-    complain("u_b stays constant; that of real balls depends on their slip: --friction alciatore applies such a law to every "
+      place_among("cut speed v1x v1y w1x w1y w1z v2x v2y w2x w2y w2z", s->over, strlen(s->over)) >=
+          0)
+    complain("u_b stays constant; that of real balls depends on their slip: --friction alciatore "
+             "applies such a law to every "
              "value");
 }
 
 OPTION(sweep, option_over, "over", over, 0, "cut|angle|speed|INPUT", set_text, 0,
-       "what to vary: a column, such as w1z, u_b or e_b; cut: turns the line of centres by so many degrees; angle: turns the "
-       "cushion; speed: that of the first ball, m/s, and all other velocities and spins in proportion");
+       "what to vary: a column, such as w1z, u_b or e_b; cut: turns the line of centres by so many "
+       "degrees; angle: turns the "
+       "cushion; speed: that of the first ball, m/s, and all other velocities and spins in "
+       "proportion");
 OPTION(sweep, option_from, "from", from, 0, "A", set_number, 0, "first value of INPUT");
 OPTION(sweep, option_to, "to", to, 0, "B", set_number, 0, "last value of INPUT");
-OPTION(sweep, option_points, "points", points, 0, "N", set_count, 2, "number of values, 2 or more (default 10001)");
+OPTION(sweep, option_points, "points", points, 0, "N", set_count, 2,
+       "number of values, 2 or more (default 10001)");
 OPTION(sweep, option_ids, "id", ids, 0, "X", set_text, 0,
-       "the row with this id; its number, from 1, if there is no column id. Several ids, separated by commas, are swept one "
+       "the row with this id; its number, from 1, if there is no column id. Several ids, separated "
+       "by commas, are swept one "
        "after the other");
 OPTION(sweep, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
-       "draw the throw, with --cushion the rebound angle, by gnuplot, a curve for each row and solver: OUT.svg, OUT.png or "
+       "draw the throw, with --cushion the rebound angle, by gnuplot, a curve for each row and "
+       "solver: OUT.svg, OUT.png or "
        "OUT.pdf. The "
        "CSV is then written only with -o");
-OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0, "leave out the columns v1x to w2z, or vx to wz");
+OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0,
+       "leave out the columns v1x to w2z, or vx to wz");
 
 OPTION(sweep, option_rows, "rows", only_rows, 0, NULL, set_flag, 0,
        "write the rows for `carom resolve`, instead of their results");
@@ -258,9 +274,10 @@ OPTION(sweep, option_rows, "rows", only_rows, 0, NULL, set_flag, 0,
 static const command_form form = {
     .name = "sweep",
     .usage = "--id X --over INPUT --from A --to B [OPTIONS] [FILE]",
-    .about =
-        "Resolves one collision, with --cushion one impact on a cushion, for equally spaced values of INPUT from A to B. FILE "
-        "has the format that `carom resolve` reads; - is CSV on standard input; without FILE, the 204 reference collisions.\n",
+    .about = "Resolves one collision, with --cushion one impact on a cushion, for equally spaced "
+             "values of INPUT from A to B. FILE "
+             "has the format that `carom resolve` reads; - is CSV on standard input; without FILE, "
+             "the 204 reference collisions.\n",
     .options = (const option_row *const[]){&option_ids,        &option_over,
                                            &option_from,       &option_to,
                                            &option_cushion,    &option_points,
@@ -275,16 +292,22 @@ static const command_form form = {
     .details =
         "columns written:\n"
         "  solver, value        the solver, with --cushion the model; the value of INPUT\n"
-        "  throw_deg            angle of ball 2's change of velocity from the line of centres, to the left from above\n"
-        "  stick_share          share of the normal impulse after which the balls no longer slip on each other; nan if they "
+        "  throw_deg            angle of ball 2's change of velocity from the line of centres, to "
+        "the left from above\n"
+        "  stick_share          share of the normal impulse after which the balls no longer slip "
+        "on each other; nan if they "
         "slip to the end, and with Euler's method\n"
-        "  jump                 how far the results (radius times spin), over the largest of them, leave a smooth curve "
-        "between this value and the next: the distance of their step from both neighbouring steps and all between. A corner "
+        "  jump                 how far the results (radius times spin), over the largest of them, "
+        "leave a smooth curve "
+        "between this value and the next: the distance of their step from both neighbouring steps "
+        "and all between. A corner "
         "is no jump; nan at the ends\n"
         "  v1x ... w2z, status  as `carom resolve` writes them; v1x to w2z not with --brief\n"
-        "  mu_ball              friction between the balls; with --friction alciatore, that of the law at this value\n"
+        "  mu_ball              friction between the balls; with --friction alciatore, that of the "
+        "law at this value\n"
         "  id                   the id of the row\n"
-        "With --cushion there is no throw_deg, stick_share or mu_ball, but rebound_deg: the angle of the velocity after from "
+        "With --cushion there is no throw_deg, stick_share or mu_ball, but rebound_deg: the angle "
+        "of the velocity after from "
         "the normal, degrees; a mirror without loss keeps it.\n"
         "\n"
         "exit code: 0; 1 if some values give an error; 2 for bad usage or unreadable input\n",
@@ -293,7 +316,10 @@ static const command_form form = {
 };
 
 int command_sweep(int argc, char **argv) {
-  sweep s = {.asked = {.options = COMMAND_OPTIONS}, .points = 10001, .from = (double)NAN, .to = (double)NAN};
+  sweep s = {.asked = {.options = COMMAND_OPTIONS},
+             .points = 10001,
+             .from = (double)NAN,
+             .to = (double)NAN};
   const char *file;
   const int code = parse_arguments(&form, argc, argv, &s, &file);
   if (code >= 0)
@@ -303,7 +329,8 @@ int command_sweep(int argc, char **argv) {
     return usage_hint(&form);
   }
   s.kind = kind_of(&s.asked);
-  if (!output_possible(s.picture) || !pick_rows(&s.asked, file, s.id, (size_t)s.id_count, s.rows) || !can_vary(&s))
+  if (!output_possible(s.picture) || !pick_rows(&s.asked, file, s.id, (size_t)s.id_count, s.rows) ||
+      !can_vary(&s))
     return EXIT_USAGE;
   warn_of_constant(&s);
   /* The CSV, unless only the picture is asked for. */
@@ -319,6 +346,7 @@ int command_sweep(int argc, char **argv) {
     if (!output_commit())
       return EXIT_USAGE;
   }
-  const bool drawn = s.picture == NULL || picture_draw(s.picture, "curves", s.kind->title, print_plotted, &s);
+  const bool drawn =
+      s.picture == NULL || picture_draw(s.picture, "curves", s.kind->title, print_plotted, &s);
   return errors > 0 || !drawn ? EXIT_SOME : EXIT_GOOD;
 }

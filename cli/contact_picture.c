@@ -1,5 +1,5 @@
-/* One impact from above. Its paths are those of a whole shot that begins just after it, on a cloth whose cushions are out of
- * sight. */
+/* One impact from above. Its paths are those of a whole shot that begins just after it, on a
+ * cloth whose cushions are out of sight. */
 #include "contact_picture.h"
 
 #include "aim.h"
@@ -12,7 +12,8 @@
 
 enum { MOST_EVENTS = 64, SAMPLES = 64, ARC_PIECES = 8, MOST_CHARACTERS = 200 };
 static const double reach = 14.0;          /* of the faster ball at least, in radii */
-static const double least_friction = 1e-6; /* the library's motion needs some; balls slide straight on by so little */
+static const double least_friction = 1e-6; /* the library's motion needs some; balls slide
+                                              straight on by so little */
 static const double margin = 26.0, most_height = 620.0; /* pixels */
 static const char *const colours[2] = {"#ffffff", "#f2c230"};
 
@@ -40,8 +41,10 @@ static void include(sketch *s, const double r[2], double around) {
 /* A dashed line; labels are not put on it. */
 static void dash(sketch *s, const double from[2], const double to[2]) {
   const double a[2] = {across(s, from), down(s, from)}, b[2] = {across(s, to), down(s, to)};
-  fprintf(s->out, "<path d=\"M%.1f %.1fL%.1f %.1f\" fill=\"none\" stroke=\"#0b2a22\" stroke-dasharray=\"5 4\"/>\n", a[0], a[1],
-          b[0], b[1]);
+  fprintf(s->out,
+          "<path d=\"M%.1f %.1fL%.1f %.1f\" fill=\"none\" stroke=\"#0b2a22\" stroke-dasharray=\"5 "
+          "4\"/>\n",
+          a[0], a[1], b[0], b[1]);
   keep_line(&s->labels, a[0], a[1], b[0], b[1]);
 }
 
@@ -50,7 +53,8 @@ static void keep_arc(sketch *s, const contact_arc *a, double radius) {
   double last[2] = {0};
   for (int k = 0; k <= ARC_PIECES; k++) {
     const double angle = (a->from + (a->to - a->from) * k / ARC_PIECES) * degree;
-    const double now[2] = {across(s, a->centre) + radius * cos(angle), down(s, a->centre) - radius * sin(angle)};
+    const double now[2] = {across(s, a->centre) + radius * cos(angle),
+                           down(s, a->centre) - radius * sin(angle)};
     if (k > 0)
       keep_line(&s->labels, last[0], last[1], now[0], now[1]);
     memcpy(last, now, sizeof last);
@@ -59,19 +63,23 @@ static void keep_arc(sketch *s, const contact_arc *a, double radius) {
 
 /* An arc of so many pixels about a place, and its angle beside its middle. */
 static void draw_arc(sketch *s, const contact_arc *a, double radius) {
-  const double x = across(s, a->centre), y = down(s, a->centre), middle = 0.5 * (a->from + a->to) * degree;
+  const double x = across(s, a->centre), y = down(s, a->centre),
+               middle = 0.5 * (a->from + a->to) * degree;
   const double angle = fabs(a->to - a->from);
   char text[60];
   if (angle < 0.05)
     return;
-  fprintf(s->out, "<path d=\"M%.1f %.1fA%.1f %.1f 0 %d %d %.1f %.1f\" fill=\"none\" stroke=\"#0b2a22\"/>\n",
-          x + radius * cos(a->from * degree), y - radius * sin(a->from * degree), radius, radius, angle > 180.0,
-          a->to < a->from, x + radius * cos(a->to * degree), y - radius * sin(a->to * degree));
+  fprintf(s->out,
+          "<path d=\"M%.1f %.1fA%.1f %.1f 0 %d %d %.1f %.1f\" fill=\"none\" stroke=\"#0b2a22\"/>\n",
+          x + radius * cos(a->from * degree), y - radius * sin(a->from * degree), radius, radius,
+          angle > 180.0, a->to < a->from, x + radius * cos(a->to * degree),
+          y - radius * sin(a->to * degree));
   snprintf(text, sizeof text, "%s %.1f\u00b0", a->label, angle);
   put_label(&s->labels, x + radius * cos(middle), y - radius * sin(middle), text);
 }
 
-/* The shot that begins after the impact: its states at any time, and from when on each ball rolls. */
+/* The shot that begins after the impact: its states at any time, and from when on each ball
+ * rolls. */
 typedef struct motion {
   carom_shot_ball ball[2];
   carom_event events[MOST_EVENTS];
@@ -95,7 +103,8 @@ static void move(const contact_picture *p, motion *m) {
     memcpy(b->state.v, p->after[k]->v, sizeof b->state.v);
     memcpy(b->state.w, p->after[k]->w, sizeof b->state.w);
     carom_rolling_velocity(b->state.v, b->state.w, R, rolling);
-    fastest = fmax(fastest, fmax(hypot(b->state.v[0], b->state.v[1]), hypot(rolling[0], rolling[1])));
+    fastest =
+        fmax(fastest, fmax(hypot(b->state.v[0], b->state.v[1]), hypot(rolling[0], rolling[1])));
   }
   const carom_shot_options options = {.events_most = MOST_EVENTS, .time_most = 1e12};
   carom_shoot(&table, m->ball, p->balls, NULL, &options, &m->shot);
@@ -120,36 +129,50 @@ static void draw_path(sketch *s, const contact_picture *p, const motion *m, int 
     memcpy(now, at[ball].r, sizeof now);
     sum += k > 0 ? hypot(now[0] - last[0], now[1] - last[1]) : 0.0;
     fprintf(s->out, "%c%.1f %.1f", k > 0 ? 'L' : 'M', across(s, now), down(s, now));
-    keep_free(&s->labels, across(s, now) - 4.0, down(s, now) - 4.0, across(s, now) + 4.0, down(s, now) + 4.0);
+    keep_free(&s->labels, across(s, now) - 4.0, down(s, now) - 4.0, across(s, now) + 4.0,
+              down(s, now) + 4.0);
   }
   fputs("\"/>\n", s->out);
   if (s->scale * sum < 4.0)
     return;
   /* An arrow's head, and from where on the ball rolls. */
-  const double angle = atan2(now[1] - last[1], now[0] - last[0]), x = across(s, now), y = down(s, now);
-  fprintf(s->out, "<path fill=\"%s\" d=\"M%.1f %.1f", colours[ball], x + 13.0 * cos(angle), y - 13.0 * sin(angle));
+  const double angle = atan2(now[1] - last[1], now[0] - last[0]), x = across(s, now),
+               y = down(s, now);
+  fprintf(s->out, "<path fill=\"%s\" d=\"M%.1f %.1f", colours[ball], x + 13.0 * cos(angle),
+          y - 13.0 * sin(angle));
   for (int side = -1; side < 2; side += 2)
-    fprintf(s->out, "L%.1f %.1f", x + 5.0 * cos(angle + 90.0 * side * degree), y - 5.0 * sin(angle + 90.0 * side * degree));
+    fprintf(s->out, "L%.1f %.1f", x + 5.0 * cos(angle + 90.0 * side * degree),
+            y - 5.0 * sin(angle + 90.0 * side * degree));
   fputs("Z\"/>\n", s->out);
   keep_free(&s->labels, x - 6.0, y - 6.0, x + 6.0, y + 6.0);
-  keep_free(&s->labels, x + 13.0 * cos(angle) - 4.0, y - 13.0 * sin(angle) - 4.0, x + 13.0 * cos(angle) + 4.0,
-            y - 13.0 * sin(angle) + 4.0);
+  keep_free(&s->labels, x + 13.0 * cos(angle) - 4.0, y - 13.0 * sin(angle) - 4.0,
+            x + 13.0 * cos(angle) + 4.0, y - 13.0 * sin(angle) + 4.0);
   if (m->rolls[ball] > 0.0 && m->rolls[ball] < m->end) {
     carom_shot_at(m->ball, p->balls, &m->shot, m->rolls[ball], at);
-    fprintf(s->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#0b2a22\"/>\n", across(s, at[ball].r), down(s, at[ball].r));
+    fprintf(s->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#0b2a22\"/>\n",
+            across(s, at[ball].r), down(s, at[ball].r));
   }
   put_label(&s->labels, x + 14.0 * cos(angle), y - 14.0 * sin(angle), p->way[ball]);
 }
 
 /* A bar of a round length, about a sixth of the width. */
 static void draw_scale(sketch *s) {
-  const double wanted = CONTACT_WIDTH / 6.0 / s->scale, power = pow(10.0, floor(log10(wanted))), share = wanted / power;
-  const double length = power * (share >= 5.0 ? 5.0 : share >= 2.0 ? 2.0 : 1.0), x = CONTACT_WIDTH - margin;
+  const double wanted = CONTACT_WIDTH / 6.0 / s->scale, power = pow(10.0, floor(log10(wanted))),
+               share = wanted / power;
+  const double length = power * (share >= 5.0   ? 5.0
+                                 : share >= 2.0 ? 2.0
+                                                : 1.0),
+               x = CONTACT_WIDTH - margin;
   char text[40], style[80];
-  snprintf(style, sizeof style, "class=\"bar\" font-size=\"%.1f\" fill=\"#0b2a22\" text-anchor=\"middle\"", s->labels.size);
-  snprintf(text, sizeof text, length < 1.0 ? "%.3g cm" : "%.3g m", length < 1.0 ? 100.0 * length : length);
-  fprintf(s->out, "<path d=\"M%.1f %.1fv6h%.1fv-6\" fill=\"none\" stroke=\"#0b2a22\" stroke-width=\"1.5\"/>\n",
-          x - s->scale * length, s->bottom - 16.0, s->scale * length);
+  snprintf(style, sizeof style,
+           "class=\"bar\" font-size=\"%.1f\" fill=\"#0b2a22\" text-anchor=\"middle\"",
+           s->labels.size);
+  snprintf(text, sizeof text, length < 1.0 ? "%.3g cm" : "%.3g m",
+           length < 1.0 ? 100.0 * length : length);
+  fprintf(
+      s->out,
+      "<path d=\"M%.1f %.1fv6h%.1fv-6\" fill=\"none\" stroke=\"#0b2a22\" stroke-width=\"1.5\"/>\n",
+      x - s->scale * length, s->bottom - 16.0, s->scale * length);
   svg_text(s->out, x - 0.5 * s->scale * length, s->bottom - 16.0, style, text, MOST_CHARACTERS);
   keep_free(&s->labels, x - s->scale * length, s->bottom - 36.0, x, s->bottom);
 }
@@ -175,7 +198,8 @@ static sketch sketch_of(FILE *out, const contact_picture *p, const motion *m) {
   const double wide = s.high[0] - s.low[0], high = s.high[1] - s.low[1];
   s.scale = fmin((CONTACT_WIDTH - 2.0 * margin) / wide, most_height / high);
   s.bottom = s.scale * high + 2.0 * margin;
-  s.labels = (labels){.out = out, .width = CONTACT_WIDTH, .height = s.bottom, .size = svg_letters(CONTACT_WIDTH)};
+  s.labels = (labels){
+      .out = out, .width = CONTACT_WIDTH, .height = s.bottom, .size = svg_letters(CONTACT_WIDTH)};
   s.low[0] -= 0.5 * ((CONTACT_WIDTH - 2.0 * margin) / s.scale - wide);
   return s;
 }
@@ -187,18 +211,24 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
   const double R = p->ball[0]->radius, size = s.labels.size, first = s.bottom + 1.5 * size;
   const int columns = (int)((CONTACT_WIDTH - 1.5 * margin) / (0.602 * size));
   const double height = svg_lines(NULL, 0.0, first, size, columns, "", p->words);
-  fprintf(out, "<svg y=\"%.1f\" width=\"%d\" height=\"%.1f\">\n<rect width=\"100%%\" height=\"%.1f\" fill=\"#3f9d80\"/>\n", top,
-          CONTACT_WIDTH, height, s.bottom);
+  fprintf(out,
+          "<svg y=\"%.1f\" width=\"%d\" height=\"%.1f\">\n<rect width=\"100%%\" height=\"%.1f\" "
+          "fill=\"#3f9d80\"/>\n",
+          top, CONTACT_WIDTH, height, s.bottom);
   draw_scale(&s);
   if (p->rail) {
-    fprintf(out, "<rect width=\"100%%\" height=\"%.1f\" fill=\"#1d4a3c\"/>\n", down(&s, (double[]){0.0, R}));
+    fprintf(out, "<rect width=\"100%%\" height=\"%.1f\" fill=\"#1d4a3c\"/>\n",
+            down(&s, (double[]){0.0, R}));
     keep_free(&s.labels, 0.0, 0.0, CONTACT_WIDTH, down(&s, (double[]){0.0, R}));
   }
   /* Balls as they meet, lines, angles, paths; labels last find what is free. */
   for (int k = 0; k < p->balls; k++) {
-    const double x = across(&s, p->ball[k]->r), y = down(&s, p->ball[k]->r), r = fmax(s.scale * R, 3.0);
-    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" fill-opacity=\"0.85\" stroke=\"#111\"/>\n", x, y, r,
-            colours[k]);
+    const double x = across(&s, p->ball[k]->r), y = down(&s, p->ball[k]->r),
+                 r = fmax(s.scale * R, 3.0);
+    fprintf(out,
+            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" fill-opacity=\"0.85\" "
+            "stroke=\"#111\"/>\n",
+            x, y, r, colours[k]);
     keep_free(&s.labels, x - r, y - r, x + r, y + r);
   }
   for (int k = 0; k < p->lines; k++)
@@ -212,7 +242,8 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
   for (int k = 0; k < p->lines; k++)
     if (p->line[k].label != NULL)
       put_label(&s.labels, across(&s, p->line[k].to), down(&s, p->line[k].to), p->line[k].label);
-  svg_lines(out, margin, first, size, columns, "font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", p->words);
+  svg_lines(out, margin, first, size, columns,
+            "font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\"", p->words);
   fputs("</svg>\n", out);
   return height;
 }

@@ -1,4 +1,5 @@
-/* One impact from above as a picture: the balls in contact, lines and angles, and their paths until they roll. */
+/* One impact from above as a picture: the balls in contact, lines and angles, and their paths
+ * until they roll. */
 #ifndef CAROM_CLI_CONTACT_PICTURE_H
 #define CAROM_CLI_CONTACT_PICTURE_H
 
@@ -26,7 +27,8 @@ typedef struct contact_picture {
   const carom_ball *ball[2]; /* as they were; the first one moved */
   const carom_motion *after[2];
   bool rail;                    /* a cushion touches the first ball from +y */
-  const char *name[2], *way[2]; /* of the balls, and what is said where a path ends: "33.5 degrees to the right" */
+  const char *name[2], *way[2]; /* of the balls, and what is said where a path ends: "33.5
+                                   degrees to the right" */
   contact_line line[MOST_LINES];
   contact_arc arc[MOST_ARCS];
   int lines, arcs;

@@ -1,4 +1,5 @@
-/* What people ask of a collision beyond its twelve numbers: throw, deflection, motion once both balls roll, spin, energy. */
+/* What people ask of a collision beyond its twelve numbers: throw, deflection, motion once both
+ * balls roll, spin, energy. */
 #ifndef CAROM_CLI_DERIVED_H
 #define CAROM_CLI_DERIVED_H
 
@@ -7,18 +8,23 @@
 /* One degree in radians. */
 static const double degree = 3.14159265358979323846 / 180.0;
 
-/* Its numbers stand in the order of DERIVED_COLUMNS. Angles in degrees, to the left as seen from above. */
+/* Its numbers stand in the order of DERIVED_COLUMNS. Angles in degrees, to the left as seen from
+ * above. */
 typedef struct derived {
   double throw_deg;                  /* of ball 2's change of velocity from the line of centres */
-  double deflection_deg;             /* of ball 1's velocity from what it was; NaN where it had or has none */
+  double deflection_deg;             /* of ball 1's velocity from what it was; NaN where it had
+                                        or has none */
   double deflection_rolls;           /* the same once ball 1 rolls */
   double rolling_1[2], rolling_2[2]; /* velocities once sliding has turned to rolling, m/s */
-  double spin_transfer; /* ball 2's change of spin about the vertical over ball 1's spin before; NaN where that is 0 */
+  double spin_transfer; /* ball 2's change of spin about the vertical over ball 1's spin before;
+                           NaN where that is 0 */
   double energy_lost;   /* share of the kinetic energy, spins included */
 } derived;
 
 enum { DERIVED_NUMBERS = sizeof(derived) / sizeof(double) };
-#define DERIVED_COLUMNS "throw_deg,deflection_deg,deflection_rolling_deg,roll1x,roll1y,roll2x,roll2y,spin_transfer,energy_lost"
+#define DERIVED_COLUMNS                                                                        \
+  "throw_deg,deflection_deg,deflection_rolling_deg,roll1x,roll1y,roll2x,roll2y,spin_transfer," \
+  "energy_lost"
 
 derived derive(const carom_impact *in, const carom_result *out);
 

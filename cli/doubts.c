@@ -8,7 +8,8 @@
 /* Balls in contact are R1 + R2 apart; simulators leave them some 1e-4 of it apart. */
 static const double looseness = 0.01;
 
-/* No break is faster than 20 m/s, no ball larger than a bowling ball; beyond half a radius chalked tips slip off a ball. */
+/* No break is faster than 20 m/s, no ball larger than a bowling ball; beyond half a radius
+ * chalked tips slip off a ball. */
 static const struct {
   const char *name, *has, *unit, *guess;
   double most;
@@ -18,8 +19,8 @@ static const struct {
     [DOUBT_SPIN] = {"implausible_spin", "a ball has", "rad/s", "are spins in rad/s?", 2000.0},
     [DOUBT_RADIUS] = {"implausible_radius", "the radius is", "m", "is R in mm or cm?", 0.5},
     [DOUBT_MASS] = {"implausible_mass", "the mass is", "kg", "is M in g?", 10.0},
-    [DOUBT_TIP] = {"implausible_tip", "the tip is", "R from the centre", "a chalked tip slips off the ball there (a miscue)",
-                   TIP_LIMIT *(1.0 + 1e-9)},
+    [DOUBT_TIP] = {"implausible_tip", "the tip is", "R from the centre",
+                   "a chalked tip slips off the ball there (a miscue)", TIP_LIMIT *(1.0 + 1e-9)},
 };
 
 static double length(const double x[3]) {
@@ -47,7 +48,8 @@ static double share_of(const double *in) {
 }
 
 const char *doubts_about(doubts *d, const row_kind *kind, const double *in) {
-  double is[DOUBTS] = {kind == &ball_kind ? share_of(in) : 1.0, 0.0, 0.0, in[kind->radius], in[kind->radius + 1]};
+  double is[DOUBTS] = {kind == &ball_kind ? share_of(in) : 1.0, 0.0, 0.0, in[kind->radius],
+                       in[kind->radius + 1]};
   /* The fastest of the balls. */
   for (int k = 0; k < 2 && kind->motion[k] >= 0; k++) {
     is[DOUBT_SPEED] = fmax(is[DOUBT_SPEED], length(in + kind->motion[k]));
@@ -76,10 +78,13 @@ static const char *guess(double share) {
 
 void doubts_report(const doubts *d, const char *noun, const char *file) {
   if (d->count[DOUBT_APART] > 0)
-    complain("%s: in %lld of %lld collisions the centres are not R1 + R2 apart, in the first of them %.4g times as far%s", file,
-             d->count[DOUBT_APART], d->rows, d->first[DOUBT_APART], guess(d->first[DOUBT_APART]));
+    complain("%s: in %lld of %lld collisions the centres are not R1 + R2 apart, in the first of "
+             "them %.4g times as far%s",
+             file, d->count[DOUBT_APART], d->rows, d->first[DOUBT_APART],
+             guess(d->first[DOUBT_APART]));
   for (int k = DOUBT_SPEED; k < DOUBTS; k++)
     if (d->count[k] > 0)
-      complain("%s: in %lld of %lld %ss %s more than %g %s, in the first of them %.4g; %s", file, d->count[k], d->rows, noun,
-               bounds[k].has, bounds[k].most, bounds[k].unit, d->first[k], bounds[k].guess);
+      complain("%s: in %lld of %lld %ss %s more than %g %s, in the first of them %.4g; %s", file,
+               d->count[k], d->rows, noun, bounds[k].has, bounds[k].most, bounds[k].unit,
+               d->first[k], bounds[k].guess);
 }

@@ -16,7 +16,8 @@ bool json_wrong(json_fault *f, const char *format, ...) {
   return false;
 }
 
-bool json_get_doubles(const json_t *object, const char *where, const char *keys, double *to, json_fault *f) {
+bool json_get_doubles(const json_t *object, const char *where, const char *keys, double *to,
+                      json_fault *f) {
   char key[32];
   for (int read; sscanf(keys, "%31s%n", key, &read) == 1; keys += read, to++) {
     const json_t *v = json_object_get(object, key);
@@ -34,12 +35,14 @@ bool json_only(const json_t *object, const char *where, const char *keys, json_f
   json_object_foreach((json_t *)object, key, v) {
     char hint[HINT_TEXT];
     if (place_among(keys, key, strlen(key)) < 0)
-      return json_wrong(f, "%s%.40s is no key; there are %s%s", where, key, keys, did_you_mean(key, keys, hint));
+      return json_wrong(f, "%s%.40s is no key; there are %s%s", where, key, keys,
+                        did_you_mean(key, keys, hint));
   }
   return true;
 }
 
-bool json_get_numbers(const json_t *array, const char *where, size_t count, double *value, json_fault *f) {
+bool json_get_numbers(const json_t *array, const char *where, size_t count, double *value,
+                      json_fault *f) {
   if (!json_is_array(array) || json_array_size(array) < count)
     return json_wrong(f, "%s must be an array of %zu numbers", where, count);
   for (size_t k = 0; k < count; k++) {
@@ -65,9 +68,11 @@ bool json_get_id(const json_t *object, const char *where, char **id, json_fault 
   return true;
 }
 
-bool json_get_list(const json_t *object, const char *key, size_t most, const json_t **list, json_fault *f) {
+bool json_get_list(const json_t *object, const char *key, size_t most, const json_t **list,
+                   json_fault *f) {
   *list = json_object_get(object, key);
   if (*list != NULL && !json_is_array(*list))
     return json_wrong(f, "%s must be an array", key);
-  return json_array_size(*list) <= most ? true : json_wrong(f, "%s has more than %zu elements", key, most);
+  return json_array_size(*list) <= most ? true
+                                        : json_wrong(f, "%s has more than %zu elements", key, most);
 }

@@ -1,4 +1,5 @@
-/* The kind of row that is a collision of two balls: 26 numbers, those of a carom_impact, and 12 results. */
+/* The kind of row that is a collision of two balls: 26 numbers, those of a carom_impact, and 12
+ * results. */
 #include "derived.h"
 #include "kind.h"
 #include "memory.h"
@@ -6,14 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBERS = sizeof(carom_impact) / sizeof(double), RESULTS = sizeof(carom_result) / sizeof(double) };
+enum {
+  NUMBERS = sizeof(carom_impact) / sizeof(double),
+  RESULTS = sizeof(carom_result) / sizeof(double)
+};
 enum { RADIUS = 9, MASS = 10, CLOTH = 11, SECOND = 12, POINT = 23 };
 
-#define OF_BALL(n, other)                                                                                                     \
-  {"r" n "x", 0, NO_NUMBER, 0}, {"r" n "y", 0, NO_NUMBER, 0}, {"r" n "z", 0, NO_NUMBER, 0}, {"v" n "x", 0, NO_NUMBER, 0},     \
-      {"v" n "y", 0, NO_NUMBER, 0}, {"v" n "z", 0, NO_NUMBER, 0}, {"w" n "x", 0, NO_NUMBER, 0}, {"w" n "y", 0, NO_NUMBER, 0}, \
-      {"w" n "z", 0, NO_NUMBER, 0}, {"R" n, "R", (other) + RADIUS, 0}, {"M" n, "M", (other) + MASS, 0}, {                     \
-    "u_s" n, "u_s", (other) + CLOTH, 0                                                                                        \
+#define OF_BALL(n, other)                                                                       \
+  {"r" n "x", 0, NO_NUMBER, 0}, {"r" n "y", 0, NO_NUMBER, 0}, {"r" n "z", 0, NO_NUMBER, 0},     \
+      {"v" n "x", 0, NO_NUMBER, 0}, {"v" n "y", 0, NO_NUMBER, 0}, {"v" n "z", 0, NO_NUMBER, 0}, \
+      {"w" n "x", 0, NO_NUMBER, 0}, {"w" n "y", 0, NO_NUMBER, 0}, {"w" n "z", 0, NO_NUMBER, 0}, \
+      {"R" n, "R", (other) + RADIUS, 0}, {"M" n, "M", (other) + MASS, 0}, {                     \
+    "u_s" n, "u_s", (other) + CLOTH, 0                                                          \
   }
 
 static const column columns[NUMBERS] = {
@@ -43,7 +48,8 @@ static void prepare(const shared_options *asked, void *in) {
     impact->mu_ball = carom_mu_ball(impact, asked->friction.law);
 }
 
-static void solve(const shared_options *asked, bool single, const void *in, size_t n, void *out, int8_t *status) {
+static void solve(const shared_options *asked, bool single, const void *in, size_t n, void *out,
+                  int8_t *status) {
   const carom_options options = options_of(asked, 0);
   if (single)
     carom_collide_batch_f32(in, n, &options, out, status);
@@ -59,12 +65,16 @@ static void derive_row(const void *in, const void *out, double *numbers) {
 static void describe(FILE *out, const shared_options *asked, const void *in) {
   const carom_impact *impact = in;
   const carom_options *options = &asked->options;
-  fprintf(out, "# collision: %s\n# slip: %s\n# steps: %d\n", asked->id, carom_slip_name(options->slip), options->steps);
-  fprintf(out, "# friction between the balls: %.3g\n# friction of the cloth: %.3g and %.3g\n# restitution: %.3g\n",
+  fprintf(out, "# collision: %s\n# slip: %s\n# steps: %d\n", asked->id,
+          carom_slip_name(options->slip), options->steps);
+  fprintf(out,
+          "# friction between the balls: %.3g\n# friction of the cloth: %.3g and %.3g\n# "
+          "restitution: %.3g\n",
           impact->mu_ball, impact->a.mu_cloth, impact->b.mu_cloth, impact->restitution);
 }
 
-static carom_status trace(const shared_options *asked, int variant, const void *in, int n, trace_point *points) {
+static carom_status trace(const shared_options *asked, int variant, const void *in, int n,
+                          trace_point *points) {
   const carom_impact *impact = in;
   const carom_options options = options_of(asked, variant);
   const double along[2] = {impact->b.r[0] - impact->a.r[0], impact->b.r[1] - impact->a.r[1]};
@@ -86,7 +96,8 @@ static carom_status trace(const shared_options *asked, int variant, const void *
 }
 
 /* The exact solver says where the balls stick; Euler's method does not see it. */
-static void stuck(const shared_options *asked, const void *in, int n, const trace_point *points, double at[2]) {
+static void stuck(const shared_options *asked, const void *in, int n, const trace_point *points,
+                  double at[2]) {
   carom_options options = asked->options;
   carom_result unused;
   carom_detail detail;
@@ -97,8 +108,10 @@ static void stuck(const shared_options *asked, const void *in, int n, const trac
   at[0] = detail.stick_normal;
 }
 
-/* Throw, the share of the impulse after which the balls stick, and the friction that was in force. */
-static carom_status look(const shared_options *asked, int variant, const void *in, void *out, double lead[2], double *tail) {
+/* Throw, the share of the impulse after which the balls stick, and the friction that was in
+ * force. */
+static carom_status look(const shared_options *asked, int variant, const void *in, void *out,
+                         double lead[2], double *tail) {
   const carom_options options = options_of(asked, variant);
   carom_detail detail;
   const carom_status status = carom_collide_detail(in, &options, out, &detail);
@@ -130,7 +143,8 @@ const row_kind ball_kind = {
     .derived = DERIVED_NUMBERS,
     .derive = derive_row,
     .describe = describe,
-    .trace_columns = "sticks,v_n_m_s,u_x_m_s,u_z_m_s,d_x_m_s,d_y_m_s,b_x_m_s,b_y_m_s,v1_x_m_s,v1_y_m_s,v2_x_m_s,v2_y_m_s",
+    .trace_columns = "sticks,v_n_m_s,u_x_m_s,u_z_m_s,d_x_m_s,d_y_m_s,b_x_m_s,b_y_m_s,v1_x_m_s,v1_y_"
+                     "m_s,v2_x_m_s,v2_y_m_s",
     .contacts = {"the balls stick"},
     .trace_numbers = POINT,
     .trace = trace,

@@ -1,4 +1,5 @@
-/* The kind of row that is an impact of a ball on a cushion: 15 numbers, those of a carom_cushion_impact, and 6 results. */
+/* The kind of row that is an impact of a ball on a cushion: 15 numbers, those of a
+ * carom_cushion_impact, and 6 results. */
 #include "derived.h"
 #include "kind.h"
 #include "memory.h"
@@ -7,7 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBERS = sizeof(carom_cushion_impact) / sizeof(double), RESULTS = sizeof(carom_motion) / sizeof(double) };
+enum {
+  NUMBERS = sizeof(carom_cushion_impact) / sizeof(double),
+  RESULTS = sizeof(carom_motion) / sizeof(double)
+};
 enum { DERIVED = 6, POINT = 13, NORMAL = 6, HEIGHT = 8, RADIUS = 9 };
 
 #define PLAIN(name) \
@@ -34,7 +38,8 @@ static const char *name(const shared_options *asked, int variant) {
   return carom_cushion_model_name(asked->rail.model);
 }
 
-/* The options of the library: those of the cushion, with the steps and threads that every kind has. */
+/* The options of the library: those of the cushion, with the steps and threads that every kind
+ * has. */
 static carom_cushion_options options_of(const shared_options *asked) {
   carom_cushion_options options = asked->rail;
   options.steps = asked->options.steps;
@@ -47,15 +52,19 @@ static carom_status check(const void *in, const shared_options *asked, int *fiel
   return carom_cushion_check(in, &options, field);
 }
 
-static void solve(const shared_options *asked, bool single, const void *in, size_t n, void *out, int8_t *status) {
+static void solve(const shared_options *asked, bool single, const void *in, size_t n, void *out,
+                  int8_t *status) {
   const carom_cushion_options options = options_of(asked);
   (void)single;
   carom_cushion_batch(in, n, &options, out, status);
 }
 
-/* The angle of a velocity that leaves the cushion from its normal; a mirror keeps that of the velocity that came. */
+/* The angle of a velocity that leaves the cushion from its normal; a mirror keeps that of the
+ * velocity that came. */
 static double rebound(const carom_cushion_impact *in, const double v[2]) {
-  return hypot(v[0], v[1]) > 0.0 ? angle_between(v, (const double[]){-in->normal[0], -in->normal[1]}) : (double)NAN;
+  return hypot(v[0], v[1]) > 0.0
+             ? angle_between(v, (const double[]){-in->normal[0], -in->normal[1]})
+             : (double)NAN;
 }
 
 static void derive_row(const void *in, const void *out, double *numbers) {
@@ -69,18 +78,22 @@ static void derive_row(const void *in, const void *out, double *numbers) {
                                rebound(impact, rolling),
                                rolling[0],
                                rolling[1],
-                               1.0 - energy_of(m, R, after->v, after->w) / energy_of(m, R, impact->v, impact->w)};
+                               1.0 - energy_of(m, R, after->v, after->w) /
+                                         energy_of(m, R, impact->v, impact->w)};
   memcpy(numbers, all, sizeof all);
 }
 
 static void describe(FILE *out, const shared_options *asked, const void *in) {
   const carom_cushion_impact *impact = in;
-  fprintf(out, "# impact: %s\n# model: %s\n# steps: %d\n", asked->id, name(asked, 0), asked->options.steps);
-  fprintf(out, "# friction of the cushion: %.3g\n# friction of the cloth: %.3g\n# restitution: %.3g\n", impact->mu_cushion,
-          impact->mu_cloth, impact->restitution);
+  fprintf(out, "# impact: %s\n# model: %s\n# steps: %d\n", asked->id, name(asked, 0),
+          asked->options.steps);
+  fprintf(out,
+          "# friction of the cushion: %.3g\n# friction of the cloth: %.3g\n# restitution: %.3g\n",
+          impact->mu_cushion, impact->mu_cloth, impact->restitution);
 }
 
-static carom_status trace(const shared_options *asked, int variant, const void *in, int n, trace_point *points) {
+static carom_status trace(const shared_options *asked, int variant, const void *in, int n,
+                          trace_point *points) {
   const carom_cushion_impact *impact = in;
   const carom_cushion_options options = options_of(asked);
   carom_cushion_point *own = allocate((size_t)n, sizeof *own);
@@ -101,7 +114,8 @@ static carom_status trace(const shared_options *asked, int variant, const void *
 }
 
 /* The first point from which the ball sticks to the end, for the nose and for the cloth. */
-static void stuck(const shared_options *asked, const void *in, int n, const trace_point *points, double at[2]) {
+static void stuck(const shared_options *asked, const void *in, int n, const trace_point *points,
+                  double at[2]) {
   (void)asked;
   (void)in;
   for (int contact = 0; contact < 2; contact++) {
@@ -112,7 +126,8 @@ static void stuck(const shared_options *asked, const void *in, int n, const trac
   }
 }
 
-static carom_status look(const shared_options *asked, int variant, const void *in, void *out, double lead[2], double *tail) {
+static carom_status look(const shared_options *asked, int variant, const void *in, void *out,
+                         double lead[2], double *tail) {
   const carom_cushion_options options = options_of(asked);
   (void)variant;
   (void)lead;
@@ -141,7 +156,8 @@ const row_kind cushion_kind = {
     .derived = DERIVED,
     .derive = derive_row,
     .describe = describe,
-    .trace_columns = "nose_sticks,cloth_sticks,v_n_m_s,s_x_m_s,s_t_m_s,c_x_m_s,c_y_m_s,v_x_m_s,v_y_m_s",
+    .trace_columns =
+        "nose_sticks,cloth_sticks,v_n_m_s,s_x_m_s,s_t_m_s,c_x_m_s,c_y_m_s,v_x_m_s,v_y_m_s",
     .contacts = {"the nose sticks", "the cloth sticks"},
     .trace_numbers = POINT,
     .trace = trace,

@@ -1,5 +1,5 @@
-/* Labels: each is tried in directions from its place, by its left end, middle and right end, ever farther away, until its box
- * is free. */
+/* Labels: each is tried in directions from its place, by its left end, middle and right end,
+ * ever farther away, until its box is free. */
 #include "labels.h"
 
 #include "derived.h"
@@ -10,8 +10,9 @@
 #include <string.h>
 
 enum { MOST_CHARACTERS = 200, TURNS = 16, ANCHORS = 3 };
-static const double letter = 7.6 / 13.0, line = 16.0 / 13.0; /* widest letter and height, over the size */
-static const double farthest = 900.0;                        /* pixels */
+/* widest letter and height, over the size */
+static const double letter = 7.6 / 13.0, line = 16.0 / 13.0;
+static const double farthest = 900.0; /* pixels */
 
 void keep_free(labels *l, double left, double top, double right, double bottom) {
   if (l->boxes < MOST_BOXES)
@@ -29,7 +30,8 @@ void keep_line(labels *l, double x0, double y0, double x1, double y1) {
 static bool is_free(const labels *l, const double box[4]) {
   bool good = box[0] > 2.0 && box[2] < l->width - 2.0 && box[1] > 2.0 && box[3] < l->height - 2.0;
   for (int k = 0; k < l->boxes; k++)
-    good &= box[2] < l->box[k][0] || box[0] > l->box[k][2] || box[3] < l->box[k][1] || box[1] > l->box[k][3];
+    good &= box[2] < l->box[k][0] || box[0] > l->box[k][2] || box[3] < l->box[k][1] ||
+            box[1] > l->box[k][3];
   return good;
 }
 
@@ -40,7 +42,8 @@ void put_label(labels *l, double x, double y, const char *text) {
   bool found = false;
   for (double far = 4.0; far < farthest && !found; far += 8.0)
     for (int turn = 0; turn < TURNS * ANCHORS && !found; turn++) {
-      const double angle = 360.0 / TURNS * (turn / ANCHORS) * degree, anchor = turn % ANCHORS * width / (ANCHORS - 1);
+      const double angle = 360.0 / TURNS * (turn / ANCHORS) * degree,
+                   anchor = turn % ANCHORS * width / (ANCHORS - 1);
       const double left = x + far * cos(angle) - anchor, base = y + far * sin(angle) + 0.5 * height;
       memcpy(box, (double[]){left, base - height, left + width, base}, sizeof box);
       found = is_free(l, box);
@@ -49,6 +52,8 @@ void put_label(labels *l, double x, double y, const char *text) {
     return;
   keep_free(l, box[0], box[1], box[2], box[3]);
   snprintf(style, sizeof style,
-           "font-size=\"%.1f\" fill=\"#0b2a22\" stroke=\"#6fc0a6\" stroke-width=\"3\" paint-order=\"stroke\"", l->size);
+           "font-size=\"%.1f\" fill=\"#0b2a22\" stroke=\"#6fc0a6\" stroke-width=\"3\" "
+           "paint-order=\"stroke\"",
+           l->size);
   svg_text(l->out, box[0], box[3] - 0.25 * height, style, text, MOST_CHARACTERS);
 }

@@ -1,4 +1,5 @@
-/* Texts of the help as roff. A line is a paragraph; one that begins with blanks is an item of a list, whose head ends with two.
+/* Texts of the help as roff. A line is a paragraph; one that begins with blanks is an item of a
+ * list, whose head ends with two.
  */
 #include "manual.h"
 
@@ -53,9 +54,11 @@ void manual_item(FILE *out, const char *head, const char *argument, const char *
   putc('\n', out);
 }
 
-void manual_begin(FILE *out, const char *program, const char *command, const char *usage, const char *about) {
+void manual_begin(FILE *out, const char *program, const char *command, const char *usage,
+                  const char *about) {
   char name[64];
-  snprintf(name, sizeof name, "%s%s%s", program, command != NULL ? "-" : "", command != NULL ? command : "");
+  snprintf(name, sizeof name, "%s%s%s", program, command != NULL ? "-" : "",
+           command != NULL ? command : "");
   fputs(".SH NAME\n", out);
   write_roff(out, name, strlen(name));
   fputs(" \\- ", out);
@@ -63,7 +66,8 @@ void manual_begin(FILE *out, const char *program, const char *command, const cha
   fputs("\n.SH SYNOPSIS\n", out);
   for (const char *other;; usage = other + 3) { /* the ways, a line each */
     other = strstr(usage, " | ");
-    fprintf(out, ".B %s%s%s\n", program, command != NULL ? " " : "", command != NULL ? command : "");
+    fprintf(out, ".B %s%s%s\n", program, command != NULL ? " " : "",
+            command != NULL ? command : "");
     write_roff(out, usage, other != NULL ? (size_t)(other - usage) : strlen(usage));
     fputs(other != NULL ? "\n.br\n" : "\n", out);
     if (other == NULL)

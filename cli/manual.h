@@ -1,11 +1,14 @@
-/* Pages of the manual: the help as roff, with man's macros. cli/manual.cmake adds the head and SEE ALSO. */
+/* Pages of the manual: the help as roff, with man's macros. cli/manual.cmake adds the head and
+ * SEE ALSO. */
 #ifndef CAROM_CLI_MANUAL_H
 #define CAROM_CLI_MANUAL_H
 
 #include <stdio.h>
 
-/* NAME and SYNOPSIS of a command, or of the program where that is NULL; the name's line is the first sentence of `about`. */
-void manual_begin(FILE *out, const char *program, const char *command, const char *usage, const char *about);
+/* NAME and SYNOPSIS of a command, or of the program where that is NULL; the name's line is the
+ * first sentence of `about`. */
+void manual_begin(FILE *out, const char *program, const char *command, const char *usage,
+                  const char *about);
 
 /* Begins a section with a text, which may be "". */
 void manual_section(FILE *out, const char *name, const char *text);

@@ -1,4 +1,5 @@
-/* Memory that is there or ends the program: with a complaint, exit code 2, and no half-written output left behind. */
+/* Memory that is there or ends the program: with a complaint, exit code 2, and no half-written
+ * output left behind. */
 #ifndef CAROM_CLI_MEMORY_H
 #define CAROM_CLI_MEMORY_H
 
@@ -18,8 +19,9 @@ char *copy_text(const char *text);
 FILE *open_text(char **text, size_t *size);
 void close_text(FILE *stream, char *const *text);
 
-/* An array of `*room` elements, made larger where it holds fewer than `needed`: to twice its size at least, so that growing one
- * by one costs the same for each. Gives the block, which may have moved; a new one begins as NULL with `*room` 0. */
+/* An array of `*room` elements, made larger where it holds fewer than `needed`: to twice its
+ * size at least, so that growing one by one costs the same for each. Gives the block, which may
+ * have moved; a new one begins as NULL with `*room` 0. */
 void *grow(void *block, size_t *room, size_t needed, size_t size);
 
 #endif

@@ -19,7 +19,8 @@ const char *program_name = "carom";
 static double started, drawn; /* ns */
 static bool standing;
 
-/* What a terminal would obey becomes '?': control characters of ASCII, and those that UTF-8 writes as C2 80 to C2 9F. */
+/* What a terminal would obey becomes '?': control characters of ASCII, and those that UTF-8
+ * writes as C2 80 to C2 9F. */
 static void disarm(char *text) {
   for (unsigned char *at = (unsigned char *)text; *at != '\0'; at++)
     if (*at < 0x20 || *at == 0x7f)
@@ -58,7 +59,8 @@ void print_wrapped(FILE *out, const char *text, int width) {
     for (size_t k = 0; k < size;) { /* a word with the blanks before it */
       const int blanks = (int)strspn(text + k, " "), word = (int)strcspn(text + k + blanks, " \n");
       const bool breaks = column > indent && column + blanks + word > width;
-      fprintf(out, "%s%*s%.*s", breaks ? "\n" : "", breaks ? indent : blanks, "", word, text + k + blanks);
+      fprintf(out, "%s%*s%.*s", breaks ? "\n" : "", breaks ? indent : blanks, "", word,
+              text + k + blanks);
       column = (breaks ? indent : column + blanks) + word;
       k += (size_t)(blanks + word);
     }

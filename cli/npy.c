@@ -29,27 +29,30 @@ static const char *value_of(const char *header, const char *key) {
 }
 
 static bool parse_header(const char *path, const char *header, size_t columns, npy_array *array) {
-  const char *descr = value_of(header, "descr"), *order = value_of(header, "fortran_order"), *shape = value_of(header, "shape");
+  const char *descr = value_of(header, "descr"), *order = value_of(header, "fortran_order"),
+             *shape = value_of(header, "shape");
   if (descr == NULL || order == NULL || shape == NULL) {
     complain("%s: not a .npy header: descr, fortran_order and shape are needed", path);
     return false;
   }
   array->single = strncmp(descr, "'<f4'", 5) == 0;
   if (!array->single && strncmp(descr, "'<f8'", 5) != 0) {
-    complain("%s: dtype %.*s; float64 or float32, little-endian, is needed: array.astype('<f8')", path,
-             (int)strcspn(descr, ",}"), descr);
+    complain("%s: dtype %.*s; float64 or float32, little-endian, is needed: array.astype('<f8')",
+             path, (int)strcspn(descr, ",}"), descr);
     return false;
   }
   if (strncmp(order, "False", 5) != 0) {
-    complain("%s: the array is in Fortran order; C order is needed: numpy.ascontiguousarray(array)", path);
+    complain("%s: the array is in Fortran order; C order is needed: numpy.ascontiguousarray(array)",
+             path);
     return false;
   }
   unsigned long long rows, width;
   char close;
-  if (strcspn(shape, "-") < strcspn(shape, ")") || sscanf(shape, "(%llu , %llu %c", &rows, &width, &close) != 3 ||
-      width != columns || close != ')') {
-    complain("%s: shape %.*s; (n, %zu) is needed; `carom resolve --help` has the numbers of a row", path,
-             (int)strcspn(shape, ")") + 1, shape, columns);
+  if (strcspn(shape, "-") < strcspn(shape, ")") ||
+      sscanf(shape, "(%llu , %llu %c", &rows, &width, &close) != 3 || width != columns ||
+      close != ')') {
+    complain("%s: shape %.*s; (n, %zu) is needed; `carom resolve --help` has the numbers of a row",
+             path, (int)strcspn(shape, ")") + 1, shape, columns);
     return false;
   }
   array->rows = (size_t)rows;
@@ -59,10 +62,12 @@ static bool parse_header(const char *path, const char *header, size_t columns, n
 /* The header's text, to be freed; NULL if the file is none of NumPy's. */
 static char *read_header(FILE *in) {
   unsigned char head[12] = {0};
-  const bool first = fread(head, 1, 10, in) == 10 && memcmp(head, "\x93NUMPY", 6) == 0 && head[6] >= 1 && head[6] <= 3;
+  const bool first = fread(head, 1, 10, in) == 10 && memcmp(head, "\x93NUMPY", 6) == 0 &&
+                     head[6] >= 1 && head[6] <= 3;
   if (!first || (head[6] > 1 && fread(head + 10, 1, 2, in) != 2))
     return NULL;
-  const size_t length = head[8] | (size_t)head[9] << 8 | (size_t)head[10] << 16 | (size_t)head[11] << 24;
+  const size_t length =
+      head[8] | (size_t)head[9] << 8 | (size_t)head[10] << 16 | (size_t)head[11] << 24;
   char *header = length <= LONGEST_HEADER ? allocate(length + 1, 1) : NULL;
   if (header != NULL && fread(header, 1, length, in) == length)
     return header;
@@ -86,7 +91,8 @@ bool npy_open(const char *path, size_t columns, npy_array *array) {
   array->row_size *= array->single ? sizeof(float) : sizeof(double);
   const size_t left = good ? (size_t)(status.st_size - ftell(array->file)) : 0;
   if (good && S_ISREG(status.st_mode) && array->rows > left / array->row_size) {
-    complain("%s: cut off: %zu rows of %zu bytes are promised, %zu bytes are there", path, array->rows, array->row_size, left);
+    complain("%s: cut off: %zu rows of %zu bytes are promised, %zu bytes are there", path,
+             array->rows, array->row_size, left);
     good = false;
   }
   if (!good)
@@ -98,7 +104,8 @@ bool npy_read(npy_array *array, size_t rows, double *to) {
   const size_t numbers = rows * array->row_size / (array->single ? sizeof(float) : sizeof(double));
   /* Floats are read behind the room that they leave, and made double from the first on. */
   float *narrow = (float *)(void *)to + numbers;
-  const bool good = fread(array->single ? (void *)narrow : to, array->row_size, rows, array->file) == rows;
+  const bool good =
+      fread(array->single ? (void *)narrow : to, array->row_size, rows, array->file) == rows;
   for (size_t k = 0; good && array->single && k < numbers; k++) {
     float x;
     memcpy(&x, narrow + k, sizeof x);
@@ -106,7 +113,8 @@ bool npy_read(npy_array *array, size_t rows, double *to) {
   }
   if (good)
     return true;
-  complain("cannot read %s: %s", array->name, ferror(array->file) ? strerror(errno) : "it is cut off");
+  complain("cannot read %s: %s", array->name,
+           ferror(array->file) ? strerror(errno) : "it is cut off");
   return false;
 }
 
@@ -119,8 +127,9 @@ void npy_close(npy_array *array) {
 void npy_write_header(FILE *out, const char *descr, size_t rows, size_t columns) {
   char header[HEADER + 1];
   const int used =
-      snprintf(header, sizeof header, "\x93NUMPY%c%c%c%c{'descr': '%s', 'fortran_order': False, 'shape': (%zu, %zu), }", 1, 'x',
-               HEADER - 10, 'x', descr, rows, columns);
+      snprintf(header, sizeof header,
+               "\x93NUMPY%c%c%c%c{'descr': '%s', 'fortran_order': False, 'shape': (%zu, %zu), }", 1,
+               'x', HEADER - 10, 'x', descr, rows, columns);
   header[7] = 0;
   header[9] = 0;
   memset(header + used, ' ', (size_t)(HEADER - used));

@@ -17,8 +17,8 @@ const char *number_text(double x, char text[NUMBER_TEXT]) {
   const bool enough = strtod(text, NULL) == x;
   if (!enough)
     snprintf(text, NUMBER_TEXT, "%.*g", DBL_DIG + 2, x);
-  /* 15 may be where %g left out no zero at the end of 16, as of 9.3, 9.300000000000001; or at a power of two, whose neighbours
-   * are not at the same distance. */
+  /* 15 may be where %g left out no zero at the end of 16, as of 9.3, 9.300000000000001; or at a
+   * power of two, whose neighbours are not at the same distance. */
   if ((enough && strlen(text) > DBL_DIG) || frexp(fabs(x), &exponent) == 0.5) {
     snprintf(shorter, sizeof shorter, "%.*g", DBL_DIG, x);
     if (strtod(shorter, NULL) == x)

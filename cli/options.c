@@ -1,4 +1,5 @@
-/* The options of a subcommand: help and parsing from one table. What the fields are is known to fields.c. */
+/* The options of a subcommand: help and parsing from one table. What the fields are is known to
+ * fields.c. */
 #include "options.h"
 
 #include "command.h"
@@ -24,8 +25,8 @@ static int write_head(const option_row *row, char text[80]) {
   const char *argument = row->argument == NULL                               ? ""
                          : strlen(row->argument) > HELP_WIDTH - OPTION_WIDTH ? "NAME"
                                                                              : row->argument;
-  return snprintf(text, 80, "  %s--%s%s%s", row->letter != 0 ? letter : "", row->name, argument[0] != '\0' ? " " : "",
-                  argument);
+  return snprintf(text, 80, "  %s--%s%s%s", row->letter != 0 ? letter : "", row->name,
+                  argument[0] != '\0' ? " " : "", argument);
 }
 
 /* The help beside the head, or below it where that is long. */
@@ -34,7 +35,8 @@ static void print_row(FILE *out, const option_row *row) {
   const int width = write_head(row, head);
   if (width + 2 > OPTION_WIDTH)
     fprintf(out, "%s\n", head);
-  snprintf(text, sizeof text, "%-*s%s", OPTION_WIDTH, width + 2 > OPTION_WIDTH ? " " : head, row->help);
+  snprintf(text, sizeof text, "%-*s%s", OPTION_WIDTH, width + 2 > OPTION_WIDTH ? " " : head,
+           row->help);
   print_wrapped(out, text, HELP_WIDTH);
 }
 
@@ -46,7 +48,8 @@ static void print_item(FILE *out, const option_row *row) {
 
 /* Prints the options that are for one kind of rows, or all, by one of these. */
 enum { EVERY_ROW = -1 };
-static void print_options(FILE *out, const command_form *form, int only, void (*print)(FILE *out, const option_row *row)) {
+static void print_options(FILE *out, const command_form *form, int only,
+                          void (*print)(FILE *out, const option_row *row)) {
   for (size_t k = 0; form->options[k] != NULL; k++)
     if (only == EVERY_ROW || form->options[k]->only == only)
       print(out, form->options[k]);
@@ -66,13 +69,16 @@ static void print_all_options(FILE *out, const command_form *form, const char *t
   print_options(out, form, has_kinds(form) ? ANY_KIND : EVERY_ROW, print);
   print(out, &help_row);
   for (int kind = BALLS_ONLY; kind <= CUSHION_ONLY && has_kinds(form); kind++) {
-    fprintf(out, title, kind == BALLS_ONLY ? "for collisions of two balls" : "for impacts on a cushion, with --cushion");
+    fprintf(out, title,
+            kind == BALLS_ONLY ? "for collisions of two balls"
+                               : "for impacts on a cushion, with --cushion");
     print_options(out, form, kind, print);
   }
 }
 
 static void print_help(FILE *out, const command_form *form) {
-  fprintf(out, "usage: %s %s%s%s\n\n", program_name, form->name, form->usage[0] != '\0' ? " " : "", form->usage);
+  fprintf(out, "usage: %s %s%s%s\n\n", program_name, form->name, form->usage[0] != '\0' ? " " : "",
+          form->usage);
   print_wrapped(out, form->about, HELP_WIDTH);
   fputs("\noptions:\n", out);
   print_all_options(out, form, "\noptions %s:\n", print_row);
@@ -107,18 +113,21 @@ static const option_row *row_of(const command_form *form, int code) {
 }
 
 /* What getopt wants to know of the table. */
-static void list_options(const command_form *form, struct option longs[MOST_ROWS], char shorts[2 * MOST_ROWS]) {
+static void list_options(const command_form *form, struct option longs[MOST_ROWS],
+                         char shorts[2 * MOST_ROWS]) {
   int k = 0;
   for (; form->options[k] != NULL && k < MOST_ROWS - 3; k++) {
     const option_row *row = form->options[k];
-    longs[k] = (struct option){row->name, row->argument != NULL ? required_argument : no_argument, NULL, FIRST_CODE + k};
+    longs[k] = (struct option){row->name, row->argument != NULL ? required_argument : no_argument,
+                               NULL, FIRST_CODE + k};
     if (row->letter != 0)
       strcat(strncat(shorts, &row->letter, 1), row->argument != NULL ? ":" : "");
   }
   longs[k] = (struct option){help_row.name, no_argument, NULL, help_row.letter};
 }
 
-/* What an option that there is not may have been; its value may stand behind it. Nothing of the beginnings of several. */
+/* What an option that there is not may have been; its value may stand behind it. Nothing of the
+ * beginnings of several. */
 static void hint_at_option(const command_form *form, char *text) {
   char words[32 * MOST_ROWS] = "--help", hint[HINT_TEXT];
   text[strcspn(text, "=")] = '\0';
@@ -131,24 +140,28 @@ static void hint_at_option(const command_form *form, char *text) {
     fprintf(stderr, "%s %s: %s\n", program_name, form->name, hint + 2);
 }
 
-/* Whether the options that were given are for the kind of rows that is asked for; complains where one is not. */
+/* Whether the options that were given are for the kind of rows that is asked for; complains
+ * where one is not. */
 static bool are_for_kind(const command_form *form, const bool given[MOST_ROWS], const void *job) {
   for (int k = 0; form->options[k] != NULL; k++) {
     const option_row *row = form->options[k];
-    if (!given[k] || row->only == ANY_KIND || (row->only == CUSHION_ONLY) == ((const shared_options *)job)->cushion)
+    if (!given[k] || row->only == ANY_KIND ||
+        (row->only == CUSHION_ONLY) == ((const shared_options *)job)->cushion)
       continue;
-    complain("%s: option '--%s' goes %s --cushion", form->name, row->name, row->only == CUSHION_ONLY ? "with" : "without");
+    complain("%s: option '--%s' goes %s --cushion", form->name, row->name,
+             row->only == CUSHION_ONLY ? "with" : "without");
     return false;
   }
   return true;
 }
 
-/* Prints what may stand where `word` is being typed, a line each: values of the option before it, or options. Upper-case words
- * of an argument, such as OUT, are no values. */
+/* Prints what may stand where `word` is being typed, a line each: values of the option before
+ * it, or options. Upper-case words of an argument, such as OUT, are no values. */
 static void complete(const command_form *form, const char *before, const char *word) {
   for (int k = 0; form->options[k] != NULL; k++) {
     const char *value = form->options[k]->argument;
-    if (value == NULL || strncmp(before, "--", 2) != 0 || strcmp(before + 2, form->options[k]->name) != 0)
+    if (value == NULL || strncmp(before, "--", 2) != 0 ||
+        strcmp(before + 2, form->options[k]->name) != 0)
       continue;
     for (size_t size; *value != '\0'; value += size + (value[size] == '|')) {
       size = strcspn(value, "|");

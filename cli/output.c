@@ -19,7 +19,8 @@ static char place[PATH_MAX]; /* where the file is to be */
 /* Beside it, and whether it is there: read by the signal handler, and so never freed. */
 static char temporary[PATH_MAX];
 static volatile sig_atomic_t there;
-/* Or the file itself, -1 if it is not open: where none can stand beside it, an unnamed file takes the text until it is whole.
+/* Or the file itself, -1 if it is not open: where none can stand beside it, an unnamed file
+ * takes the text until it is whole.
  */
 static int itself = -1;
 
@@ -38,23 +39,26 @@ static void forget(void) {
 
 /* The signals that by default end a program: all but these. */
 static void list_ending(sigset_t *set) {
-  static const int others[] = {SIGKILL, SIGSTOP, SIGCHLD, SIGCONT, SIGTSTP, SIGTTIN, SIGTTOU, SIGURG, SIGWINCH};
+  static const int others[] = {SIGKILL, SIGSTOP, SIGCHLD, SIGCONT, SIGTSTP,
+                               SIGTTIN, SIGTTOU, SIGURG,  SIGWINCH};
   sigfillset(set);
   for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
     sigdelset(set, others[k]);
 }
 
-/* Has them handled, but for those that are ignored, as nohup and a shell's & leave them, or that someone else handles. */
+/* Has them handled, but for those that are ignored, as nohup and a shell's & leave them, or that
+ * someone else handles. */
 static void handle_signals(void) {
   struct sigaction now, own = {.sa_handler = on_signal};
   list_ending(&own.sa_mask);
   for (int number = 1; number <= SIGRTMAX; number++)
-    if (sigismember(&own.sa_mask, number) == 1 && sigaction(number, NULL, &now) == 0 && (now.sa_flags & SA_SIGINFO) == 0 &&
-        now.sa_handler == SIG_DFL)
+    if (sigismember(&own.sa_mask, number) == 1 && sigaction(number, NULL, &now) == 0 &&
+        (now.sa_flags & SA_SIGINFO) == 0 && now.sa_handler == SIG_DFL)
       sigaction(number, &own, NULL);
 }
 
-/* Has them wait while a file appears or goes that the handler must know of, or while a file is overwritten. */
+/* Has them wait while a file appears or goes that the handler must know of, or while a file is
+ * overwritten. */
 static void hold_signals(bool hold) {
   static sigset_t before;
   sigset_t set;
@@ -65,8 +69,8 @@ static void hold_signals(bool hold) {
     sigprocmask(SIG_SETMASK, &before, NULL);
 }
 
-/* Writes into `place` where a path leads in the end, through symbolic links even to what is not there yet: the system makes
- * that for a moment. False with errno. */
+/* Writes into `place` where a path leads in the end, through symbolic links even to what is not
+ * there yet: the system makes that for a moment. False with errno. */
 static bool follow_links(const char *path) {
   if (realpath(path, place) != NULL)
     return true;
@@ -78,7 +82,8 @@ static bool follow_links(const char *path) {
   return good;
 }
 
-/* Makes the file beside the place, under a name that is short however long that of the place is. False with errno. */
+/* Makes the file beside the place, under a name that is short however long that of the place is.
+ * False with errno. */
 static bool make_beside(void) {
   const char *slash = strrchr(place, '/');
   const int folder = slash != NULL ? (int)(slash + 1 - place) : 0;
@@ -140,11 +145,12 @@ FILE *output_open(const char *path) {
     file = fopen(path, "wb");
   else if (exists || errno == ENOENT)
     file = open_beside(path);
-  /* else no file can be there: a name is too long, links lead in a circle, a folder may not be searched */
+  /* else no file can be there: a name is too long, links lead in a circle, a folder may not be
+   * searched */
   if (file == NULL) {
     if (itself >= 0)
-      complain("cannot write %s: its folder cannot be written, and no file can be made in %s: %s", name, P_tmpdir,
-               strerror(errno));
+      complain("cannot write %s: its folder cannot be written, and no file can be made in %s: %s",
+               name, P_tmpdir, strerror(errno));
     else
       complain("cannot write %s: %s", name, strerror(errno));
     output_abandon();
@@ -155,7 +161,8 @@ FILE *output_open(const char *path) {
 
 bool output_possible(const char *path) {
   struct stat status;
-  if (path == NULL || strcmp(path, "-") == 0 || (stat(path, &status) == 0 && !S_ISREG(status.st_mode)))
+  if (path == NULL || strcmp(path, "-") == 0 ||
+      (stat(path, &status) == 0 && !S_ISREG(status.st_mode)))
     return true; /* what is no file is opened once */
   const bool good = output_open(path) != NULL;
   output_abandon();
@@ -171,17 +178,20 @@ size_t output_copy(FILE *from, FILE *to) {
   return all;
 }
 
-/* Copies the unnamed file over the file itself. The room is taken first, so that a full disk leaves the old text. */
+/* Copies the unnamed file over the file itself. The room is taken first, so that a full disk
+ * leaves the old text. */
 static bool put_in_place(void) {
   struct stat old, whole;
   FILE *to;
-  if (fstat(itself, &old) != 0 || fstat(fileno(file), &whole) != 0 || (to = fdopen(itself, "wb")) == NULL)
+  if (fstat(itself, &old) != 0 || fstat(fileno(file), &whole) != 0 ||
+      (to = fdopen(itself, "wb")) == NULL)
     return false; /* fdopen() shortens nothing */
   hold_signals(true);
   const int obstacle = whole.st_size > 0 ? posix_fallocate(itself, 0, whole.st_size) : 0;
   bool good = obstacle != ENOSPC && obstacle != EDQUOT && obstacle != EFBIG && obstacle != EIO;
   if (good)
-    good = output_copy(file, to) == (size_t)whole.st_size && fflush(to) == 0 && ftruncate(itself, whole.st_size) == 0;
+    good = output_copy(file, to) == (size_t)whole.st_size && fflush(to) == 0 &&
+           ftruncate(itself, whole.st_size) == 0;
   else if (ftruncate(itself, old.st_size) == 0) /* some of the room may have been taken */
     errno = obstacle;
   good = fclose(to) == 0 && good;

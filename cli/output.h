@@ -1,12 +1,14 @@
-/* A file that appears whole or not at all: written beside its place, renamed when it is complete.
+/* A file that appears whole or not at all: written beside its place, renamed when it is
+ * complete.
  *
- * "-" is stdout, and what exists already but is no regular file (a terminal, a pipe, /dev/null) is written in place: there
- * the output streams. A symbolic link stays, and what it leads to is written. Mode and owner of a file stay too. Where they
- * could not, or where no file can be made beside it, the text is gathered in an unnamed file first and then copied over the
- * old one; signals wait for the end of that copy.
+ * "-" is stdout, and what exists already but is no regular file (a terminal, a pipe, /dev/null)
+ * is written in place: there the output streams. A symbolic link stays, and what it leads to is
+ * written. Mode and owner of a file stay too. Where they could not, or where no file can be made
+ * beside it, the text is gathered in an unnamed file first and then copied over the old one;
+ * signals wait for the end of that copy.
  *
- * Until then every signal but SIGKILL leaves the old file, and nothing beside it. A signal that the command was told to ignore
- * stays ignored.
+ * Until then every signal but SIGKILL leaves the old file, and nothing beside it. A signal that
+ * the command was told to ignore stays ignored.
  */
 #ifndef CAROM_CLI_OUTPUT_H
 #define CAROM_CLI_OUTPUT_H

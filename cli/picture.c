@@ -1,5 +1,5 @@
-/* Pictures. A program that draws reads its data and writes the picture in memory, so that no temporary file can stay behind; a
- * picture that is whole then goes to its place. */
+/* Pictures. A program that draws reads its data and writes the picture in memory, so that no
+ * temporary file can stay behind; a picture that is whole then goes to its place. */
 #include "picture.h"
 
 #include "memory.h"
@@ -47,9 +47,11 @@ static FILE *in_memory(const char *name) {
   return file;
 }
 
-/* Runs a program from one file in memory to another. What it says is shown only if it fails: gnuplot also warns of every part
- * of a plot that a CSV has no rows for, and those are optional. False after a complaint. */
-static bool run(const char *path, char *const words[], const char *package, FILE *from, FILE *to, FILE *noise) {
+/* Runs a program from one file in memory to another. What it says is shown only if it fails:
+ * gnuplot also warns of every part of a plot that a CSV has no rows for, and those are optional.
+ * False after a complaint. */
+static bool run(const char *path, char *const words[], const char *package, FILE *from, FILE *to,
+                FILE *noise) {
   int status;
   fflush(NULL);
   rewind(from);
@@ -74,13 +76,14 @@ static bool run(const char *path, char *const words[], const char *package, FILE
 }
 
 /* What `write` writes, put to its place by a program with these words; without one as it is. */
-static bool make(const char *path, char *const words[], const char *package, FILE *from, void (*write)(FILE *, const void *),
-                 const void *data) {
+static bool make(const char *path, char *const words[], const char *package, FILE *from,
+                 void (*write)(FILE *, const void *), const void *data) {
   FILE *noise = in_memory("noise"), *drawn = in_memory("picture"), *out = NULL;
   bool good = from != NULL && noise != NULL && drawn != NULL;
   if (good) {
     write(words != NULL ? from : drawn, data);
-    good = (words == NULL || run(path, words, package, from, drawn, noise)) && (out = output_open(path)) != NULL;
+    good = (words == NULL || run(path, words, package, from, drawn, noise)) &&
+           (out = output_open(path)) != NULL;
   }
   if (good && output_copy(drawn, out) == 0) {
     complain("cannot draw %s: %s drew nothing", path, words != NULL ? words[0] : "carom");
@@ -93,8 +96,8 @@ static bool make(const char *path, char *const words[], const char *package, FIL
   return good && output_commit();
 }
 
-bool picture_draw(const char *path, const char *name, const char *title, void (*write)(FILE *out, const void *data),
-                  const void *data) {
+bool picture_draw(const char *path, const char *name, const char *title,
+                  void (*write)(FILE *out, const void *data), const void *data) {
   char scripts[PATH_MAX], script[PATH_MAX + 64], input[32], heading[256];
   FILE *csv = in_memory("data");
   snprintf(script, sizeof script, "%s/%s.gp", place_find("figures", scripts), name);
@@ -106,7 +109,8 @@ bool picture_draw(const char *path, const char *name, const char *title, void (*
   return make(path, words, "gnuplot-nox", csv, write, data);
 }
 
-/* Whether execvp() would find the program: in the folders of PATH, of which an empty one is the current folder. */
+/* Whether execvp() would find the program: in the folders of PATH, of which an empty one is the
+ * current folder. */
 static bool is_installed(const char *program) {
   const char *path = getenv("PATH"), *folder = path != NULL ? path : "/bin:/usr/bin";
   for (;;) {
@@ -146,7 +150,8 @@ bool file_draw(const char *path, void (*write)(FILE *out, const void *data), con
 
 void svg_begin(FILE *out, double width, double height, const char *background) {
   fprintf(out,
-          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" "
+          "height=\"%.0f\" "
           "font-family=\"DejaVu Sans, sans-serif\">\n<rect width=\"100%%\" height=\"100%%\" %s/>\n",
           width, height, width, height, background);
 }
@@ -162,7 +167,8 @@ double svg_letters(double width) {
   return 9.2 / 500.0 * width;
 }
 
-double svg_lines(FILE *out, double x, double y, double size, int columns, const char *style, const char *text) {
+double svg_lines(FILE *out, double x, double y, double size, int columns, const char *style,
+                 const char *text) {
   char *lines, whole[160];
   size_t length;
   FILE *wrapped = open_text(&lines, &length);

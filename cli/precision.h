@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/* `from` is an array of structs that hold nothing but doubles, `to` one of the same structs in float; `numbers` counts those of
- * all of them. */
+/* `from` is an array of structs that hold nothing but doubles, `to` one of the same structs in
+ * float; `numbers` counts those of all of them. */
 static inline void to_single(const void *from, void *to, size_t numbers) {
   for (size_t k = 0; k < numbers; k++)
     ((float *)to)[k] = (float)((const double *)from)[k];

@@ -1,7 +1,7 @@
 /* Records of a CSV file, over libcsv.
  *
- * libcsv is fed one line at a time, so that the number of the line on which a record began is known and a feed completes at
- * most one record.
+ * libcsv is fed one line at a time, so that the number of the line on which a record began is
+ * known and a feed completes at most one record.
  */
 #include "records.h"
 
@@ -62,7 +62,8 @@ record_reader *record_open(const char *path) {
   r->name = is_stdin ? "standard input" : path;
   r->file = is_stdin ? stdin : fopen(path, "rb");
   struct stat status;
-  if (r->file == NULL || fstat(fileno(r->file), &status) != 0 || (S_ISDIR(status.st_mode) && (errno = EISDIR))) {
+  if (r->file == NULL || fstat(fileno(r->file), &status) != 0 ||
+      (S_ISDIR(status.st_mode) && (errno = EISDIR))) {
     complain("cannot read %s: %s", r->name, strerror(errno));
     record_close(r);
     return NULL;
@@ -71,7 +72,8 @@ record_reader *record_open(const char *path) {
   return r;
 }
 
-/* The next line, which ends with LF, CRLF, CR or the input; what exceeds the limit is passed over. False if there is none. */
+/* The next line, which ends with LF, CRLF, CR or the input; what exceeds the limit is passed
+ * over. False if there is none. */
 static bool read_line(record_reader *r) {
   char *to = r->line, *const limit = r->line + RECORD_LIMIT + 1;
   int byte;
@@ -106,7 +108,8 @@ static const char *kind_of(const record_reader *r) {
                                              : NULL;
 }
 
-/* What stands between fields: of comma, semicolon and tab, the first that is as frequent in the first line as any. */
+/* What stands between fields: of comma, semicolon and tab, the first that is as frequent in the
+ * first line as any. */
 static void find_delimiter(record_reader *r) {
   size_t most = 0;
   for (const char *one = ",;\t"; *one != '\0'; one++) {
@@ -121,10 +124,12 @@ static void find_delimiter(record_reader *r) {
 
 /* Whether the line, the first of a record, is passed over. */
 static bool is_skipped(const record_reader *r) {
-  return r->line_size == 0 || r->line[0] == '\n' || r->line[0] == '\r' || (!r->begun && r->line[0] == '#');
+  return r->line_size == 0 || r->line[0] == '\n' || r->line[0] == '\r' ||
+         (!r->begun && r->line[0] == '#');
 }
 
-/* Feeds lines until a record is complete or the input ends; false if it is malformed, which drops it. */
+/* Feeds lines until a record is complete or the input ends; false if it is malformed, which
+ * drops it. */
 static bool feed_record(record_reader *r, record *out) {
   size_t fed = 0;
   while (!r->complete && read_line(r)) {
@@ -157,7 +162,8 @@ static bool feed_record(record_reader *r, record *out) {
   return true;
 }
 
-/* Whether there is nothing in any of the fields, as in ",,,," below a table that came out of a spreadsheet. */
+/* Whether there is nothing in any of the fields, as in ",,,," below a table that came out of a
+ * spreadsheet. */
 static bool is_empty(const record_reader *r) {
   return r->complete && r->count > 1 && r->text_size == r->count;
 }
@@ -172,7 +178,8 @@ read_result record_next(record_reader *r, record *out) {
   } while (!out->malformed && is_empty(r));
   if (r->refused)
     return READ_FAILED;
-  /* what ends before the end of the file, without an error of its own, found no memory for its buffer */
+  /* what ends before the end of the file, without an error of its own, found no memory for its
+   * buffer */
   if (ferror(r->file) || !(r->complete || out->malformed || feof(r->file))) {
     complain("cannot read %s: %s", r->name, strerror(errno));
     return READ_FAILED;

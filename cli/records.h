@@ -1,11 +1,12 @@
 /* Records of a CSV file, one at a time, in constant memory.
  *
- * Understood: fields quoted or not, quoted commas, quotes and line ends, LF, CRLF and CR, a UTF-8 byte-order mark, a last line
- * without its end; fields between semicolons or tabs, where the first record has more of them than commas. Passed over: blank
- * lines, records of which every field is empty, and lines that begin with # before the first record, which carom itself writes.
- * Other kinds of files that are given for CSV, such as JSON and archives, are refused. A record of more than a mebibyte, such
- * as an unclosed quote makes, is malformed: it costs that record, and reading goes on at the next line. A NUL in a field is
- * read as '?'.
+ * Understood: fields quoted or not, quoted commas, quotes and line ends, LF, CRLF and CR, a
+ * UTF-8 byte-order mark, a last line without its end; fields between semicolons or tabs, where
+ * the first record has more of them than commas. Passed over: blank lines, records of which
+ * every field is empty, and lines that begin with # before the first record, which carom itself
+ * writes. Other kinds of files that are given for CSV, such as JSON and archives, are refused. A
+ * record of more than a mebibyte, such as an unclosed quote makes, is malformed: it costs that
+ * record, and reading goes on at the next line. A NUL in a field is read as '?'.
  */
 #ifndef CAROM_CLI_RECORDS_H
 #define CAROM_CLI_RECORDS_H
@@ -20,7 +21,8 @@ typedef struct record {
   size_t count;        /* number of fields */
   char **field;        /* each ends with NUL; valid until the next call */
   bool malformed;      /* too long to be meant; no fields */
-  bool decimal_commas; /* the fields stand between semicolons, so that a number may have a decimal comma */
+  bool decimal_commas; /* the fields stand between semicolons, so that a number may have a
+                          decimal comma */
 } record;
 
 typedef enum read_result { READ_FAILED = -1, READ_END = 0, READ_ONE = 1 } read_result;
@@ -45,8 +47,11 @@ const char *record_file_name(const record_reader *reader);
 
 void record_close(record_reader *reader);
 
-/* Whether bytes may be text: there are no control characters but blanks. What else they are, for messages. */
+/* Whether bytes may be text: there are no control characters but blanks. What else they are, for
+ * messages. */
 bool is_text(const char *bytes, size_t size);
-#define NOT_TEXT "binary data: unpack what is compressed or an archive, save UTF-16 as UTF-8, name an array of NumPy .npy"
+#define NOT_TEXT                                                                                  \
+  "binary data: unpack what is compressed or an archive, save UTF-16 as UTF-8, name an array of " \
+  "NumPy .npy"
 
 #endif

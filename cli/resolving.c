@@ -1,6 +1,7 @@
 /* Rows from a file, resolved, to a file.
  *
- * While one block of rows is solved and written, in the order of the file, another thread reads the next.
+ * While one block of rows is solved and written, in the order of the file, another thread reads
+ * the next.
  */
 #include "resolving.h"
 
@@ -73,7 +74,8 @@ static void finish_row(run *r, const source_block *block, size_t k) {
 }
 
 static void solve_and_write(run *r, const source_block *block) {
-  const size_t count = block->count, numbers = count * (size_t)r->kind->numbers, results = count * (size_t)r->kind->results;
+  const size_t count = block->count, numbers = count * (size_t)r->kind->numbers,
+               results = count * (size_t)r->kind->results;
   const bool narrow = r->single && r->kind->has_single;
   const void *in = narrow ? (void *)r->narrow : block->numbers;
   void *out = narrow ? (void *)r->narrow_result : r->result;
@@ -96,10 +98,12 @@ static void solve_and_write(run *r, const source_block *block) {
     finish_row(r, block, k);
 }
 
-/* Two readings take turns: one is solved and written while the other is filled. False after a complaint. */
+/* Two readings take turns: one is solved and written while the other is filled. False after a
+ * complaint. */
 static bool resolve_all(run *r) {
   reading readings[2] = {{.in = r->in}, {.in = r->in}}, *now = &readings[0], *next = &readings[1];
-  for (read_block(now); now->result == READ_ONE; now = next, next = now == &readings[0] ? &readings[1] : &readings[0]) {
+  for (read_block(now); now->result == READ_ONE;
+       now = next, next = now == &readings[0] ? &readings[1] : &readings[0]) {
     pthread_t reader;
     /* Where no thread can be started, the next block is read when this one is done. */
     const bool apart = pthread_create(&reader, NULL, read_block, next) == 0;
@@ -113,7 +117,8 @@ static bool resolve_all(run *r) {
   }
   progress_clear();
   if (r->errors > MOST_NAMED)
-    complain("%lld more rows are in error; the column status says of each why", r->errors - MOST_NAMED);
+    complain("%lld more rows are in error; the column status says of each why",
+             r->errors - MOST_NAMED);
   doubts_report(&r->doubts, r->kind->noun, source_name(r->in));
   source_free_block(&now->block);
   source_free_block(&next->block);
@@ -121,16 +126,20 @@ static bool resolve_all(run *r) {
 }
 
 static void print_summary(const run *r) {
-  fprintf(stderr, "%lld rows: %lld ok, %lld separating, %lld in error", r->ok + r->separating + r->errors, r->ok, r->separating,
-          r->errors);
+  fprintf(stderr, "%lld rows: %lld ok, %lld separating, %lld in error",
+          r->ok + r->separating + r->errors, r->ok, r->separating, r->errors);
   if (r->solving >= least_timed)
-    fprintf(stderr, "; %s took %.3g s, %.3g us per %s", r->job->solve != NULL ? r->job->solver : r->kind->name(r->asked, 0),
-            1e-9 * r->solving, 1e-3 * r->solving / (double)(r->ok > 0 ? r->ok : 1), r->kind->noun);
+    fprintf(stderr, "; %s took %.3g s, %.3g us per %s",
+            r->job->solve != NULL ? r->job->solver : r->kind->name(r->asked, 0), 1e-9 * r->solving,
+            1e-3 * r->solving / (double)(r->ok > 0 ? r->ok : 1), r->kind->noun);
   fputc('\n', stderr);
 }
 
 int resolve_file(const resolving *job, const char *file) {
-  run r = {.job = job, .asked = &job->shared, .kind = kind_of(&job->shared), .in = source_open(file, &job->shared)};
+  run r = {.job = job,
+           .asked = &job->shared,
+           .kind = kind_of(&job->shared),
+           .in = source_open(file, &job->shared)};
   int code = EXIT_USAGE;
   if (r.in == NULL)
     return code;
@@ -140,7 +149,8 @@ int resolve_file(const resolving *job, const char *file) {
   r.narrow = allocate(NPY_BLOCK, (size_t)r.kind->numbers * sizeof *r.narrow);
   r.narrow_result = allocate(NPY_BLOCK, (size_t)r.kind->results * sizeof *r.narrow_result);
   r.status = allocate(NPY_BLOCK, 1);
-  /* Nothing is written before the input has been opened; what stands there appears when all is written. */
+  /* Nothing is written before the input has been opened; what stands there appears when all is
+   * written. */
   r.out = sink_open(&job->shared, r.single);
   if (r.out != NULL && sink_close(r.out, resolve_all(&r)))
     code = r.errors > 0 ? EXIT_SOME : EXIT_GOOD;

@@ -6,10 +6,10 @@
 
 #include <stdint.h>
 
-/* Resolves n collisions as carom_collide_batch() does, with `options` and what else stands in `context`; where `single` is set
- * the rows are in float. */
-typedef void row_solver(const void *context, const carom_options *options, bool single, const void *in, size_t n, void *out,
-                        int8_t *status);
+/* Resolves n collisions as carom_collide_batch() does, with `options` and what else stands in
+ * `context`; where `single` is set the rows are in float. */
+typedef void row_solver(const void *context, const carom_options *options, bool single,
+                        const void *in, size_t n, void *out, int8_t *status);
 
 typedef struct resolving {
   shared_options shared; /* the precision is that of the source where it is not given */

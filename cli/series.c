@@ -50,7 +50,8 @@ static void make_case(const series *s, int index, one_case *c) {
   /* The first value, and those of lists. */
   for (int k = 0; k < inputs; k++)
     if (k == 0 || s->in[k].count > 1)
-      snprintf(c->id + strlen(c->id), sizeof c->id - strlen(c->id), "%s%s", k > 0 ? "-" : "", c->given[k]->name);
+      snprintf(c->id + strlen(c->id), sizeof c->id - strlen(c->id), "%s%s", k > 0 ? "-" : "",
+               c->given[k]->name);
   for (char *blank = c->id; (blank = strchr(blank, ' ')) != NULL;)
     memmove(blank, blank + 1, strlen(blank));
   s->scene->make(s, c);
@@ -74,12 +75,14 @@ static bool check_all(const series *s, int count) {
     const carom_status status = resolve_case(s, k, &c);
     if (status != CAROM_OK) {
       kind->check(c.row, &s->asked, &field);
-      complain("no such %s (%s): %s%s%s (%s)", kind->noun, c.id, field >= 0 ? kind->columns[field].name : "",
-               field >= 0 ? ": " : "", carom_status_string(status), carom_status_name(status));
+      complain("no such %s (%s): %s%s%s (%s)", kind->noun, c.id,
+               field >= 0 ? kind->columns[field].name : "", field >= 0 ? ": " : "",
+               carom_status_string(status), carom_status_name(status));
       return false;
     }
     strange |= doubts_about(&found, kind, c.row) != NULL;
-    strange |= doubts_about_tip(&tips, tip_offset(c.given, inputs_of(s), c.row[kind->radius])) != NULL;
+    strange |=
+        doubts_about_tip(&tips, tip_offset(c.given, inputs_of(s), c.row[kind->radius])) != NULL;
   }
   for (int k = 0; k < inputs_of(s); k++)
     strange |= s->in[k].comma;
@@ -116,7 +119,8 @@ static void write_table(FILE *out, const series *s, int count) {
   one_case c;
   for (int k = 0; k < inputs_of(s); k++)
     if (s->in[k].count > 1)
-      fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k].name, s->in[k].unit);
+      fprintf(out, s->in[k].unit[0] != '\0' ? "%s (%s)," : "%s%s,", s->scene->inputs[k].name,
+              s->in[k].unit);
   for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY); q++)
     fprintf(out, "%s%s", q > first ? "," : "", word);
   fputc('\n', out);
@@ -125,9 +129,12 @@ static void write_table(FILE *out, const series *s, int count) {
     for (int input = 0; input < inputs_of(s); input++)
       if (s->in[input].count > 1) {
         char text[NUMBER_TEXT];
-        fprintf(out, "%s,", isnan(c.given[input]->given) ? c.given[input]->name : number_text(c.given[input]->given, text));
+        fprintf(out, "%s,",
+                isnan(c.given[input]->given) ? c.given[input]->name
+                                             : number_text(c.given[input]->given, text));
       }
-    for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY); q++) {
+    for (int q = first; quantity_word(s, q, word) && (q == first || s->quantity == NO_QUANTITY);
+         q++) {
       char text[NUMBER_TEXT];
       fprintf(out, "%s%s", q > first ? "," : "", number_text(s->scene->measure(s, &c, q), text));
     }
@@ -171,14 +178,16 @@ static void write_curves(FILE *out, const void *data) {
     fprintf(out, "# curve %d: ", curve + 1);
     for (int k = 0, named = 0; k < inputs_of(s); k++)
       if (k != range && s->in[k].count > 1)
-        fprintf(out, "%s%s%s%s", named++ > 0 ? ", " : "", isnan(c.given[k]->given) ? "" : s->scene->inputs[k].name,
+        fprintf(out, "%s%s%s%s", named++ > 0 ? ", " : "",
+                isnan(c.given[k]->given) ? "" : s->scene->inputs[k].name,
                 isnan(c.given[k]->given) ? "" : " ", c.given[k]->name);
     fputc('\n', out);
   }
   fputs("curve,x,y\n", out);
   for (int k = 0; k < curves * points; k++) {
     resolve_case(s, k, &c);
-    fprintf(out, "%d,%.9g,%.9g\n", k / points + 1, c.given[range]->given, s->scene->measure(s, &c, quantity));
+    fprintf(out, "%d,%.9g,%.9g\n", k / points + 1, c.given[range]->given,
+            s->scene->measure(s, &c, quantity));
   }
 }
 
@@ -222,9 +231,12 @@ static bool is_possible(const series *s, int count) {
   if (ranges > 1)
     complain("one number can be a range, and the others lists, with commas");
   else if (ranges == 0 && count > MOST_CASES)
-    complain("%d combinations are too many: at most %d, or a range of one number, such as --speed 1:5", count, MOST_CASES);
+    complain(
+        "%d combinations are too many: at most %d, or a range of one number, such as --speed 1:5",
+        count, MOST_CASES);
   else if (ranges > 0 && s->picture != NULL && count / s->in[range_of(s)].count > MOST_CASES)
-    complain("%d curves are too many to draw: at most %d", count / s->in[range_of(s)].count, MOST_CASES);
+    complain("%d curves are too many to draw: at most %d", count / s->in[range_of(s)].count,
+             MOST_CASES);
   else if (ranges == 0 && s->quantity != NO_QUANTITY && !s->csv)
     complain("--quantity is for curves and tables: give a range, such as --speed 1:5, or --csv");
   else
@@ -232,7 +244,8 @@ static bool is_possible(const series *s, int count) {
   return false;
 }
 
-int series_command(series *s, const command_form *form, int argc, char **argv, int angle, const char *complaint) {
+int series_command(series *s, const command_form *form, int argc, char **argv, int angle,
+                   const char *complaint) {
   s->quantity = NO_QUANTITY;
   for (int k = 0; k < inputs_of(s); k++)
     values_default(&s->in[k], s->scene->inputs[k].measure, s->scene->inputs[k].usual);

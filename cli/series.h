@@ -1,12 +1,14 @@
-/* Impacts from words: a row for each combination of the values asked for, told in words, written as rows or as a table, drawn
- * as pictures or, over a range of one of the values, as curves. What differs between a hit and a rail stands in a scene. */
+/* Impacts from words: a row for each combination of the values asked for, told in words, written
+ * as rows or as a table, drawn as pictures or, over a range of one of the values, as curves.
+ * What differs between a hit and a rail stands in a scene. */
 #ifndef CAROM_CLI_SERIES_H
 #define CAROM_CLI_SERIES_H
 
 #include "kind.h"
 #include "values.h"
 
-enum { SPEED_INPUT = 1, MOST_INPUTS = 10, MOST_CASES = 16, NO_QUANTITY = -1 }; /* the speed is the second input of a scene */
+/* the speed is the second input of a scene */
+enum { SPEED_INPUT = 1, MOST_INPUTS = 10, MOST_CASES = 16, NO_QUANTITY = -1 };
 
 typedef struct series series;
 
@@ -27,7 +29,8 @@ typedef struct scene_input {
 typedef struct scene {
   const row_kind *kind;
   const scene_input *inputs;   /* ends with a name of NULL */
-  const char *quantities;      /* words of --quantity, with bars between; the first is the usual one */
+  const char *quantities;      /* words of --quantity, with bars between; the first is the usual
+                                  one */
   const char *const *quantity; /* what each is, on an axis, with its unit */
   /* Makes the row of the values; the id is made. */
   void (*make)(const series *s, one_case *c);
@@ -35,7 +38,8 @@ typedef struct scene {
   double (*measure)(const series *s, const one_case *c, int quantity);
   /* Tells in words what came of it. */
   void (*tell)(FILE *out, const series *s, const one_case *c);
-  /* Draws it as a part of a picture, with those words, from `top` down; returns its height, pixels. */
+  /* Draws it as a part of a picture, with those words, from `top` down; returns its height,
+   * pixels. */
   double (*draw)(FILE *out, double top, const series *s, const one_case *c, const char *words);
   /* What holds for all curves and is no input: the law of friction. */
   const char *(*law)(const series *s, char text[80]);
@@ -50,8 +54,9 @@ struct series {
   const char *picture;
 };
 
-/* A subcommand: reads the arguments and does what they ask for; an exit code. Input `angle` is below 90 degrees, or that is
- * what it complains of. */
-int series_command(series *s, const command_form *form, int argc, char **argv, int angle, const char *complaint);
+/* A subcommand: reads the arguments and does what they ask for; an exit code. Input `angle` is
+ * below 90 degrees, or that is what it complains of. */
+int series_command(series *s, const command_form *form, int argc, char **argv, int angle,
+                   const char *complaint);
 
 #endif

@@ -22,9 +22,11 @@ static const char tables[] = "7ft|8ft|9ft|snooker|threecushion";
 static bool refuse(const option_row *row, const char *text) {
   char hint[HINT_TEXT] = "";
   complain("--%s is %s%s%s; not '%.60s'%s", row->name,
-           row->least == MEASURE_TIP ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; several with "
-                                       "colons: 0,0:0.2,0"
-                                     : "X,Y in m, or with a unit: 2,3ft; several with colons: 0.6,1.5:0.9,2",
+           row->least == MEASURE_TIP
+               ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
+                 "several with "
+                 "colons: 0,0:0.2,0"
+               : "X,Y in m, or with a unit: 2,3ft; several with colons: 0.6,1.5:0.9,2",
            row == &option_balls ? "; or a rack: " : "", row == &option_balls ? RACKS : "", text,
            row == &option_balls ? did_you_mean(text, RACKS, hint) : hint);
   return false;
@@ -38,11 +40,13 @@ static OPTION_SET(set_places) {
   *list = (place_list){0};
   list->rack = row == &option_balls ? 1 + place_among(RACKS, text, strlen(text)) : 0;
   snprintf(copy, sizeof copy, "%s", text);
-  for (char *one = strtok_r(copy, ":", &rest); one != NULL && list->rack == 0; one = strtok_r(NULL, ":", &rest)) {
+  for (char *one = strtok_r(copy, ":", &rest); one != NULL && list->rack == 0;
+       one = strtok_r(NULL, ":", &rest)) {
     char *equals = strchr(one, '='), *numbers = equals != NULL ? equals + 1 : one;
     const size_t name = equals != NULL ? (size_t)(equals - one) : 0;
     if (list->count == MOST_PLACES || name >= PLACE_NAME || (name > 0 && row != &option_balls) ||
-        strspn(numbers, "+-.,0123456789 eEacdfhimnprtR\"") != strlen(numbers) || strchr(numbers, ',') == NULL)
+        strspn(numbers, "+-.,0123456789 eEacdfhimnprtR\"") != strlen(numbers) ||
+        strchr(numbers, ',') == NULL)
       return refuse(row, text);
     for (size_t k = 0; k < name; k++)
       if (!isalnum((unsigned char)one[k]) && one[k] != '-' && one[k] != '_')
@@ -56,37 +60,48 @@ static OPTION_SET(set_places) {
   return list->rack > 0 || list->count > 0 ? true : refuse(row, text);
 }
 
-#define ROW(row, name, member, argument, set, least, help) \
-  const option_row row = {name, 0, argument, help, set, offsetof(shoot_flags, member), least, ANY_KIND}
+#define ROW(row, name, member, argument, set, least, help)                                    \
+  const option_row row = {name,  0,       argument, help, set, offsetof(shoot_flags, member), \
+                          least, ANY_KIND}
 
 ROW(option_table, "table", table, tables, set_text, 0,
-    "play one shot on this table, instead of those of a file (default 9ft). x runs across the table, y along it");
+    "play one shot on this table, instead of those of a file (default 9ft). x runs across the "
+    "table, y along it");
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_LENGTH,
-    "place of the cue ball, m, or with a unit: 2,3ft (default: the middle of the table's first quarter, or the place in the "
+    "place of the cue ball, m, or with a unit: 2,3ft (default: the middle of the table's first "
+    "quarter, or the place in the "
     "rack)");
 ROW(option_balls, "balls", balls, RACKS "|X,Y:...", set_places, MEASURE_LENGTH,
-    "places of the other balls, with colons between them: 0.6,1.5:0.9,2. They are named 1, 2, ..., or as 8=0.6,1.5 says. Or a "
+    "places of the other balls, with colons between them: 0.6,1.5:0.9,2. They are named 1, 2, ..., "
+    "or as 8=0.6,1.5 says. Or a "
     "rack");
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
-    "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin turns the ball off it by "
+    "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin "
+    "turns the ball off it by "
     "squirt");
 ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
-    "aim at this ball instead, so that the cue ball meets it first and at --cut, whatever squirt, swerve and hops do; an error "
+    "aim at this ball instead, so that the cue ball meets it first and at --cut, whatever squirt, "
+    "swerve and hops do; an error "
     "where no direction does");
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|DEGREES", set_values, MEASURE_CUT,
     "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
 ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,
     "speed of the cue ball just after the strike, m/s, or with a unit: mph, km/h (default 2)");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
-    "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip. Right is positive, as english is "
-    "everywhere in this command (default 0,0). Beyond 0.5 R a chalked tip slips off the ball, of which carom warns");
-ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ANGLE, "of the butt of the cue (default 0)");
+    "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip. Right is "
+    "positive, as english is "
+    "everywhere in this command (default 0,0). Beyond 0.5 R a chalked tip slips off the ball, of "
+    "which carom warns");
+ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ANGLE,
+    "of the butt of the cue (default 0)");
 ROW(option_json, "json", json, NULL, set_flag, 0,
-    "print the shot as a line of JSON to keep, instead of playing it. In the line pooltool's sign holds: a > 0 is left");
+    "print the shot as a line of JSON to keep, instead of playing it. In the line pooltool's sign "
+    "holds: a > 0 is left");
 
 bool has_flags(const shoot_flags *f) {
-  return f->table != NULL || f->at_ball != NULL || f->json || f->cue.count > 0 || f->balls.count > 0 || f->balls.rack > 0 ||
-         f->tip.count > 0 || f->speed.count > 0 || f->aim.count > 0 || f->cut.count > 0 || f->elevation.count > 0;
+  return f->table != NULL || f->at_ball != NULL || f->json || f->cue.count > 0 ||
+         f->balls.count > 0 || f->balls.rack > 0 || f->tip.count > 0 || f->speed.count > 0 ||
+         f->aim.count > 0 || f->cut.count > 0 || f->elevation.count > 0;
 }
 
 /* The balls on the table, the cue ball first. */
@@ -118,8 +133,9 @@ static bool lay_out(const shoot_flags *f, layout *l) {
   const int kind = place_among(tables, name, strlen(name));
   char hint[HINT_TEXT];
   if (kind < 0) {
-    complain("--table is 7ft, 8ft, 9ft, snooker or threecushion, not '%s'; a table of one's own stands in a file%s", name,
-             did_you_mean(name, tables, hint));
+    complain("--table is 7ft, 8ft, 9ft, snooker or threecushion, not '%s'; a table of one's own "
+             "stands in a file%s",
+             name, did_you_mean(name, tables, hint));
     return false;
   }
   carom_table_make((carom_table_kind)kind, &l->table);
@@ -166,7 +182,8 @@ static const char *obstacle(const layout *l, const carom_event *met, char text[4
 }
 
 /* Aims a cue at the ball, at a cut; false after a complaint. */
-static bool aim_at_ball(const shoot_flags *f, const layout *l, const carom_shot_options *options, double cut, carom_cue *cue) {
+static bool aim_at_ball(const shoot_flags *f, const layout *l, const carom_shot_options *options,
+                        double cut, carom_cue *cue) {
   const char *name = f->at_ball != NULL ? f->at_ball : "1";
   char text[40], names[CAROM_BALLS_MOST * (PLACE_NAME + 1)] = "", hint[HINT_TEXT];
   carom_event met;
@@ -174,7 +191,8 @@ static bool aim_at_ball(const shoot_flags *f, const layout *l, const carom_shot_
   for (; at < l->count && strcmp(l->name[at], name) != 0; at++)
     snprintf(names + strlen(names), sizeof names - strlen(names), "%s|", l->name[at]);
   if (at >= l->count)
-    complain("--at-ball '%s': there is no such ball; --balls says where balls are%s", name, did_you_mean(name, names, hint));
+    complain("--at-ball '%s': there is no such ball; --balls says where balls are%s", name,
+             did_you_mean(name, names, hint));
   else if (!(fabs(cut) < 90.0))
     complain("--cut is between -90 and 90 degrees");
   else if (carom_shot_check(&l->table, l->ball, l->count, cue, options, NULL) != CAROM_OK)
@@ -184,13 +202,18 @@ static bool aim_at_ball(const shoot_flags *f, const layout *l, const carom_shot_
     case AIM_FOUND:
       return true;
     case AIM_BARRED:
-      complain("--at-ball %s: at a cut of %.4g degrees %s is in the way", name, cut, obstacle(l, &met, text));
+      complain("--at-ball %s: at a cut of %.4g degrees %s is in the way", name, cut,
+               obstacle(l, &met, text));
       break;
     case AIM_NOT_REACHED:
-      complain("--at-ball %s: at a cut of %.4g degrees the cue ball comes to rest before it; give a higher --speed", name, cut);
+      complain("--at-ball %s: at a cut of %.4g degrees the cue ball comes to rest before it; give "
+               "a higher --speed",
+               name, cut);
       break;
     default:
-      complain("--at-ball %s: no direction of this cue makes the cue ball meet it first at a cut of %.4g degrees", name, cut);
+      complain("--at-ball %s: no direction of this cue makes the cue ball meet it first at a cut "
+               "of %.4g degrees",
+               name, cut);
     }
   return false;
 }
@@ -202,11 +225,13 @@ static double tip_of(const value *v, double radius) {
 /* What differs between shots, as text. */
 static void name_value(char *id, const char *what, const values *list, int k) {
   if (list->count > 1)
-    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%s%s %s", id[0] != '\0' ? ", " : "", what, list->at[k].name);
+    snprintf(id + strlen(id), MOST_TEXT - strlen(id), "%s%s %s", id[0] != '\0' ? ", " : "", what,
+             list->at[k].name);
 }
 
 /* One of the combinations; false after a complaint. */
-static bool write_shot(FILE *out, const shoot_flags *f, const layout *l, const carom_shot_options *options, int index) {
+static bool write_shot(FILE *out, const shoot_flags *f, const layout *l,
+                       const carom_shot_options *options, int index) {
   const int speed = index % f->speed.count, tip = index / f->speed.count % f->tip.count;
   const int rise = index / f->speed.count / f->tip.count % f->elevation.count;
   const int way = index / f->speed.count / f->tip.count / f->elevation.count;
@@ -222,8 +247,9 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l, const c
   cue.b = tip_of(&f->tip.at[tip].y, R);
   const carom_status bad = carom_strike(&cue, &l->ball[0].kind, &after);
   if (bad == CAROM_ERROR_MISCUE)
-    complain("--tip: it is %.4g R from the centre, beside the ball; a chalked tip slips off beyond %g R", hypot(cue.a, cue.b),
-             TIP_LIMIT);
+    complain(
+        "--tip: it is %.4g R from the centre, beside the ball; a chalked tip slips off beyond %g R",
+        hypot(cue.a, cue.b), TIP_LIMIT);
   else if (bad != CAROM_OK)
     complain("no such strike: %s", carom_status_string(bad));
   if (bad != CAROM_OK) {
@@ -250,20 +276,22 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l, const c
   name_value(id, "elevation", &f->elevation, rise);
   name_value(id, "speed", &f->speed, speed);
   if (f->tip.count > 1)
-    snprintf(id + strlen(id), sizeof id - strlen(id), "%stip %s,%s", id[0] != '\0' ? ", " : "", f->tip.at[tip].x.name,
-             f->tip.at[tip].y.name);
-  fprintf(out, "{\"kind\": \"shot\", \"id\": \"%s\", \"table\": \"%s\", \"cue\": {\"V0\": %s", id[0] != '\0' ? id : "shot",
-          f->table != NULL ? f->table : "9ft", number_text(cue.speed, number));
+    snprintf(id + strlen(id), sizeof id - strlen(id), "%stip %s,%s", id[0] != '\0' ? ", " : "",
+             f->tip.at[tip].x.name, f->tip.at[tip].y.name);
+  fprintf(out, "{\"kind\": \"shot\", \"id\": \"%s\", \"table\": \"%s\", \"cue\": {\"V0\": %s",
+          id[0] != '\0' ? id : "shot", f->table != NULL ? f->table : "9ft",
+          number_text(cue.speed, number));
   fprintf(out, ", \"phi\": %s", number_text(cue.phi, number));
   fprintf(out, ", \"theta\": %s", number_text(cue.theta, number));
   fprintf(out, ", \"a\": %s", number_text(cue.a == 0.0 ? 0.0 : cue.a, number));
   fprintf(out, ", \"M\": %s", number_text(cue.mass, number));
   fprintf(out, ", \"end_mass\": %s", number_text(cue.end_mass, number));
-  fprintf(out, ", \"b\": %s, \"ball\": \"%s\"}, \"balls\": [", number_text(cue.b, number), l->name[0]);
+  fprintf(out, ", \"b\": %s, \"ball\": \"%s\"}, \"balls\": [", number_text(cue.b, number),
+          l->name[0]);
   for (int k = 0; k < l->count; k++) {
     static const char *const games[] = {"pool", "snooker", "billiard"};
-    fprintf(out, "%s{\"id\": \"%s\", \"params\": {\"game\": \"%s\"}, \"state\": [0", k > 0 ? ", " : "", l->name[k],
-            games[l->game]);
+    fprintf(out, "%s{\"id\": \"%s\", \"params\": {\"game\": \"%s\"}, \"state\": [0",
+            k > 0 ? ", " : "", l->name[k], games[l->game]);
     for (int axis = 0; axis < 2; axis++)
       fprintf(out, ", %s", number_text(l->ball[k].state.r[axis], number));
     fprintf(out, ", %s, 0, 0, 0, 0, 0, 0]}", number_text(R, number));

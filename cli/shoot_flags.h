@@ -1,5 +1,5 @@
-/* Shots from words: `carom shoot --cue 0.6,0.8 --at-ball 1 --cut 20 --balls 0.6,1.5`. They become the lines that a file would
- * have, so that everything behind is the same. */
+/* Shots from words: `carom shoot --cue 0.6,0.8 --at-ball 1 --cut 20 --balls 0.6,1.5`. They
+ * become the lines that a file would have, so that everything behind is the same. */
 #ifndef CAROM_CLI_SHOOT_FLAGS_H
 #define CAROM_CLI_SHOOT_FLAGS_H
 
@@ -28,13 +28,14 @@ typedef struct shoot_flags {
   bool json;
 } shoot_flags;
 
-extern const option_row option_table, option_cue, option_balls, option_aim, option_at_ball, option_shot_cut, option_shot_speed,
-    option_tip, option_elevation, option_json;
+extern const option_row option_table, option_cue, option_balls, option_aim, option_at_ball,
+    option_shot_cut, option_shot_speed, option_tip, option_elevation, option_json;
 
 /* Whether one of them is given. */
 bool has_flags(const shoot_flags *f);
 
-/* Writes the shots as lines of JSON, one for each combination, aimed for a play by these options; false after a complaint. */
+/* Writes the shots as lines of JSON, one for each combination, aimed for a play by these
+ * options; false after a complaint. */
 bool flags_write(FILE *out, shoot_flags *f, const carom_shot_options *options);
 
 #endif

@@ -1,4 +1,5 @@
-/* Tables and shots from JSON Lines. What is missing takes pooltool's defaults; what is wrong is told by its key. */
+/* Tables and shots from JSON Lines. What is missing takes pooltool's defaults; what is wrong is
+ * told by its key. */
 #include "shot_file.h"
 
 #include "json_values.h"
@@ -38,16 +39,20 @@ static void keep_table(shot_file *file, named_table *t) {
 /* ---- Shots */
 
 /* The keys of the doubles of carom_ball_kind and of carom_cue, in their order there. */
-#define KIND_KEYS                                                                                            \
-  "m R u_s u_r u_sp u_b e_b f_c e_c g drag roll_loss law_a law_b law_c nose_height omega_ratio e_t modulus " \
+#define KIND_KEYS                                                                                \
+  "m R u_s u_r u_sp u_b e_b f_c e_c g drag roll_loss law_a law_b law_c nose_height omega_ratio " \
+  "e_t modulus "                                                                                 \
   "e_c_log f_c_log smooth_q smooth_x smooth_t smooth_a smooth_k"
 #define CUE_KEYS "V0 phi theta a b M end_mass tip_radius"
-_Static_assert(sizeof(carom_ball_kind) == 26 * sizeof(double) && offsetof(carom_cue, ball) == 8 * sizeof(double),
+_Static_assert(sizeof(carom_ball_kind) == 26 * sizeof(double) &&
+                   offsetof(carom_cue, ball) == 8 * sizeof(double),
                "a key for each double");
 
 /* The kind of the balls of a game, by its name; pooltool's pool balls where there is none. */
-static bool read_game(const json_t *params, const char *where, carom_ball_kind *kind, json_fault *f) {
-  static const char *const names[] = {"pool", "snooker", "billiard", "pooltool_pool", "pooltool_snooker", "pooltool_billiard"};
+static bool read_game(const json_t *params, const char *where, carom_ball_kind *kind,
+                      json_fault *f) {
+  static const char *const names[] = {"pool",          "snooker",          "billiard",
+                                      "pooltool_pool", "pooltool_snooker", "pooltool_billiard"};
   const json_t *game = json_object_get(params, "game");
   *kind = carom_ball_kind_of(CAROM_GAME_POOLTOOL_POOL);
   if (game == NULL)
@@ -57,7 +62,10 @@ static bool read_game(const json_t *params, const char *where, carom_ball_kind *
       *kind = carom_ball_kind_of((carom_game)k);
       return true;
     }
-  return json_wrong(f, "%sgame must be pool, snooker, billiard, pooltool_pool, pooltool_snooker or pooltool_billiard", where);
+  return json_wrong(f,
+                    "%sgame must be pool, snooker, billiard, pooltool_pool, pooltool_snooker or "
+                    "pooltool_billiard",
+                    where);
 }
 
 static bool read_ball(const json_t *v, int k, shot_line *line, json_fault *f) {
@@ -100,12 +108,14 @@ static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
     return true;
   if (!json_is_object(v))
     return json_wrong(f, "cue must be an object");
-  if (!json_get_doubles(v, "cue.", CUE_KEYS, &cue->speed, f) || !json_get_doubles(v, "cue.", "miscue", &cue->miscue, f) ||
+  if (!json_get_doubles(v, "cue.", CUE_KEYS, &cue->speed, f) ||
+      !json_get_doubles(v, "cue.", "miscue", &cue->miscue, f) ||
       !json_only(v, "cue.", CUE_KEYS " miscue ball", f))
     return false;
   /* A strike says how high it is: the cue's usual b is not the centre. */
   if (json_object_get(v, "b") == NULL && json_object_size(v) > (json_object_get(v, "ball") != NULL))
-    return json_wrong(f, "cue.b is missing: how far above the centre the tip touches, in radii of the ball; 0 is the centre");
+    return json_wrong(f, "cue.b is missing: how far above the centre the tip touches, in radii of "
+                         "the ball; 0 is the centre");
   const json_t *ball = json_object_get(v, "ball");
   if (ball == NULL)
     return true;
@@ -118,7 +128,8 @@ static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
 }
 
 static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json_fault *f) {
-  const json_t *id = json_object_get(json, "id"), *table = json_object_get(json, "table"), *balls, *v;
+  const json_t *id = json_object_get(json, "id"), *table = json_object_get(json, "table"), *balls,
+               *v;
   size_t k;
   if (id != NULL)
     line->id = json_dumps(id, JSON_ENCODE_ANY);
@@ -142,7 +153,9 @@ static bool read_shot(shot_file *file, const json_t *json, shot_line *line, json
     keep_table(file, built_in);
   found = found != NULL ? found : built_in;
   if (found == NULL)
-    return json_wrong(f, "table '%s' is not in the lines above, nor 7ft, 8ft, 9ft, snooker or threecushion", name);
+    return json_wrong(
+        f, "table '%s' is not in the lines above, nor 7ft, 8ft, 9ft, snooker or threecushion",
+        name);
   line->table = found;
   return true;
 }
@@ -180,9 +193,11 @@ static shot_read bad_line(shot_line *line, const char *text) {
   return SHOT_SHOT;
 }
 
-/* Whether the file is of another kind, by its first line, which is `json` or cannot be read as such: says what it is. */
+/* Whether the file is of another kind, by its first line, which is `json` or cannot be read as
+ * such: says what it is. */
 static bool is_other_kind(const shot_file *file, size_t size, const json_t *json) {
-  const char *first = file->text + strspn(file->text, " \t"), *kind = is_text(file->text, size) ? NULL : NOT_TEXT;
+  const char *first = file->text + strspn(file->text, " \t"),
+             *kind = is_text(file->text, size) ? NULL : NOT_TEXT;
   if (kind == NULL && *first == '[')
     kind = "one array of JSON; each shot is a line (`jq -c '.[]'` makes lines of it)";
   else if (kind == NULL && json == NULL && *first == '{' && strpbrk(first, ":,}") == NULL)

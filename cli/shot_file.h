@@ -1,4 +1,5 @@
-/* Shots in JSON Lines: tables and shots read, tables and results written. docs/using/shots.md has the format. */
+/* Shots in JSON Lines: tables and shots read, tables and results written. docs/using/shots.md
+ * has the format. */
 #ifndef CAROM_CLI_SHOT_FILE_H
 #define CAROM_CLI_SHOT_FILE_H
 
@@ -37,9 +38,9 @@ const char *shot_file_name(const shot_file *file);
 
 typedef enum shot_read { SHOT_END, SHOT_SHOT, SHOT_TABLE, SHOT_FAILED } shot_read;
 
-/* Reads on to the next shot or table; other kinds of lines are passed over. SHOT_SHOT: *line is to be freed by
- * shot_line_free(). SHOT_TABLE: *text is the line, until the next call. A table that is wrong is a shot in error. SHOT_FAILED:
- * after a complaint. */
+/* Reads on to the next shot or table; other kinds of lines are passed over. SHOT_SHOT: *line is
+ * to be freed by shot_line_free(). SHOT_TABLE: *text is the line, until the next call. A table
+ * that is wrong is a shot in error. SHOT_FAILED: after a complaint. */
 shot_read shot_file_next(shot_file *file, shot_line *line, const char **text);
 
 /* The engine that the last line of kind meta named, or "". */
@@ -50,13 +51,15 @@ void shot_file_close(shot_file *file);
 
 /* The name of an event's type as it stands in the files ("ball_ball"), or NULL. */
 const char *shot_event_name(int type);
-/* The id of the rail, jaw or pocket that ball a met, or NULL where the event is of no such thing. */
+/* The id of the rail, jaw or pocket that ball a met, or NULL where the event is of no such
+ * thing. */
 const char *shot_part_name(const named_table *table, const carom_event *event);
 
 enum { EVENTS_NONE, EVENTS_BRIEF, EVENTS_FULL };
 
 /* Writes a shot with its result as one line; `spread` may be NULL, else it is taken over. */
-void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status, int events, json_t *spread);
+void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status,
+                int events, json_t *spread);
 /* Writes a line in error. */
 void shot_write_error(FILE *out, const shot_line *line, const char *status, const char *error);
 

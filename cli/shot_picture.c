@@ -1,5 +1,5 @@
-/* A shot as a picture. Paths are drawn by evaluating the motion between events, so a curve is a curve. Long tables lie on their
- * side: y of the table runs to the right. */
+/* A shot as a picture. Paths are drawn by evaluating the motion between events, so a curve is a
+ * curve. Long tables lie on their side: y of the table runs to the right. */
 #include "shot_picture.h"
 
 #include "derived.h"
@@ -21,24 +21,29 @@ bool shot_has_id(const shot_line *line, const char *id) {
   const size_t size = strlen(id);
   if (line->id == NULL)
     return false;
-  return strcmp(line->id, id) == 0 ||
-         (strlen(line->id) == size + 2 && line->id[0] == '"' && strncmp(line->id + 1, id, size) == 0);
+  return strcmp(line->id, id) == 0 || (strlen(line->id) == size + 2 && line->id[0] == '"' &&
+                                       strncmp(line->id + 1, id, size) == 0);
 }
 
-static const double table_scale = 400.0, table_margin = 0.05; /* pixels a metre; over the length of the table */
-static const double side_margin = 30.0, least_arrow = 40.0;   /* pixels */
-static const double letter_width = 0.53;                      /* a usual one, over the size of letters */
+/* pixels a metre; over the length of the table */
+static const double table_scale = 400.0, table_margin = 0.05;
+static const double side_margin = 30.0, least_arrow = 40.0; /* pixels */
+/* a usual one, over the size of letters */
+static const double letter_width = 0.53;
 
-/* Colours of pool balls by number, as bright as a path on green has to be; the first is for the cue ball and others. */
-static const char *const colours[] = {"#ffffff", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd",
-                                      "#111111", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd"};
+/* Colours of pool balls by number, as bright as a path on green has to be; the first is for the
+ * cue ball and others. */
+static const char *const colours[] = {
+    "#ffffff", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd",
+    "#111111", "#ffd84a", "#8fc1ff", "#ff8d80", "#d3b3ff", "#ffb466", "#b6f09c", "#f2a0bd"};
 
 /* The colour that the name of a ball says, or NULL. */
 static const char *named_colour(const char *name) {
   static const struct {
     const char *name, *colour;
-  } named[] = {{"cue", "#ffffff"},   {"white", "#ffffff"}, {"yellow", "#ffd84a"}, {"green", "#b6f09c"},
-               {"brown", "#c9a27a"}, {"blue", "#8fc1ff"},  {"pink", "#f2a0bd"},   {"black", "#111111"}};
+  } named[] = {{"cue", "#ffffff"},   {"white", "#ffffff"}, {"yellow", "#ffd84a"},
+               {"green", "#b6f09c"}, {"brown", "#c9a27a"}, {"blue", "#8fc1ff"},
+               {"pink", "#f2a0bd"},  {"black", "#111111"}};
   for (size_t k = 0; k < sizeof named / sizeof named[0]; k++)
     if (strcmp(name, named[k].name) == 0)
       return named[k].colour;
@@ -75,7 +80,10 @@ static double down(const view *v, const double r[2]) {
 }
 
 static view view_of(FILE *out, const carom_table *t) {
-  view v = {.out = out, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}, .scale = table_scale};
+  view v = {.out = out,
+            .low = {INFINITY, INFINITY},
+            .high = {-INFINITY, -INFINITY},
+            .scale = table_scale};
   for (int k = 0; k < t->rails; k++)
     for (int end = 0; end < 2; end++)
       for (int axis = 0; axis < 2; axis++) {
@@ -101,7 +109,8 @@ static void noses_of(const carom_table *t, double low[2], double high[2]) {
   }
 }
 
-/* Diamonds on the wood: the long cushions in eight parts, the short ones in four. None where a pocket is. */
+/* Diamonds on the wood: the long cushions in eight parts, the short ones in four. None where a
+ * pocket is. */
 static void draw_diamonds(const view *v, const carom_table *t) {
   double low[2], high[2];
   noses_of(t, low, high);
@@ -111,8 +120,10 @@ static void draw_diamonds(const view *v, const carom_table *t) {
       for (int side = 0; side < 2 && (axis != along || k != 4 || t->pockets == 0); side++) {
         double r[2];
         r[axis] = low[axis] + (high[axis] - low[axis]) * k / (axis == along ? 8 : 4);
-        r[1 - axis] = side == 0 ? v->low[1 - axis] - 0.75 * v->margin : v->high[1 - axis] + 0.75 * v->margin;
-        fprintf(v->out, "<path d=\"M%.1f %.1fl3 4l-3 4l-3 -4Z\" fill=\"#e8dcc0\"/>\n", across(v, r), down(v, r) - 4.0);
+        r[1 - axis] =
+            side == 0 ? v->low[1 - axis] - 0.75 * v->margin : v->high[1 - axis] + 0.75 * v->margin;
+        fprintf(v->out, "<path d=\"M%.1f %.1fl3 4l-3 4l-3 -4Z\" fill=\"#e8dcc0\"/>\n", across(v, r),
+                down(v, r) - 4.0);
       }
 }
 
@@ -126,20 +137,23 @@ static void draw_axes(const view *v) {
     from[1 - axis] -= out;
     memcpy(to, from, sizeof to);
     to[axis] += far;
-    const double left = across(v, from), top = down(v, from), x = across(v, to) - left, y = down(v, to) - top;
+    const double left = across(v, from), top = down(v, from), x = across(v, to) - left,
+                 y = down(v, to) - top;
     const double ux = x / hypot(x, y), uy = y / hypot(x, y);
-    fprintf(
-        v->out,
-        "<path class=\"axis\" d=\"M%.1f %.1fl%.1f %.1fm%.1f %.1fl%.1f %.1fl%.1f %.1f\" stroke=\"#e8dcc0\" fill=\"none\"/>\n",
-        left, top, x, y, -7.0 * ux - 4.0 * uy, -7.0 * uy + 4.0 * ux, 7.0 * ux + 4.0 * uy, 7.0 * uy - 4.0 * ux,
-        -7.0 * ux + 4.0 * uy, -7.0 * uy - 4.0 * ux);
-    /* The name is on the outer side of its arrow: above it, left of it, or below one along the lower edge. */
+    fprintf(v->out,
+            "<path class=\"axis\" d=\"M%.1f %.1fl%.1f %.1fm%.1f %.1fl%.1f %.1fl%.1f %.1f\" "
+            "stroke=\"#e8dcc0\" fill=\"none\"/>\n",
+            left, top, x, y, -7.0 * ux - 4.0 * uy, -7.0 * uy + 4.0 * ux, 7.0 * ux + 4.0 * uy,
+            7.0 * uy - 4.0 * ux, -7.0 * ux + 4.0 * uy, -7.0 * uy - 4.0 * ux);
+    /* The name is on the outer side of its arrow: above it, left of it, or below one along the
+     * lower edge. */
     const double size = v->labels->size;
     snprintf(style, sizeof style,
-             "class=\"axis\" font-size=\"%.1f\" fill=\"#e8dcc0\" text-anchor=\"%s\" transform=\"rotate(%d %.1f %.1f)\"", size,
-             y > 1.0 ? "end" : "start", x > 1.0 ? 0 : -90, left, top);
-    svg_text(v->out, y > 1.0 ? left - 4.0 : left + 4.0, x > 1.0 && !v->turned ? top + size : top - 0.25 * size, style,
-             names[axis], 20);
+             "class=\"axis\" font-size=\"%.1f\" fill=\"#e8dcc0\" text-anchor=\"%s\" "
+             "transform=\"rotate(%d %.1f %.1f)\"",
+             size, y > 1.0 ? "end" : "start", x > 1.0 ? 0 : -90, left, top);
+    svg_text(v->out, y > 1.0 ? left - 4.0 : left + 4.0,
+             x > 1.0 && !v->turned ? top + size : top - 0.25 * size, style, names[axis], 20);
   }
 }
 
@@ -147,16 +161,19 @@ static void draw_axes(const view *v) {
 static void keep_rails(const view *v, const carom_table *t, double width, double height) {
   double low[2], high[2];
   noses_of(t, low, high);
-  const double left = fmin(across(v, low), across(v, high)), right = fmax(across(v, low), across(v, high));
+  const double left = fmin(across(v, low), across(v, high)),
+               right = fmax(across(v, low), across(v, high));
   const double top = fmin(down(v, low), down(v, high)), bottom = fmax(down(v, low), down(v, high));
   keep_free(v->labels, 0.0, 0.0, left, height);
   keep_free(v->labels, right, 0.0, width, height);
   keep_free(v->labels, 0.0, 0.0, width, top);
   keep_free(v->labels, 0.0, bottom, width, height);
   for (int k = 0; k < t->rails; k++)
-    keep_line(v->labels, across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q), down(v, t->rail[k].q));
+    keep_line(v->labels, across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q),
+              down(v, t->rail[k].q));
   for (int k = 0; k < t->pockets; k++) {
-    const double x = across(v, t->pocket[k].centre), y = down(v, t->pocket[k].centre), r = v->scale * t->pocket[k].radius;
+    const double x = across(v, t->pocket[k].centre), y = down(v, t->pocket[k].centre),
+                 r = v->scale * t->pocket[k].radius;
     keep_free(v->labels, x - r, y - r, x + r, y + r);
   }
 }
@@ -165,29 +182,39 @@ static void keep_rails(const view *v, const carom_table *t, double width, double
 static void draw_table(const view *v, const carom_table *t, double below) {
   FILE *out = v->out;
   const double scale = v->scale;
-  const double width = scale * ((v->turned ? v->high[1] - v->low[1] : v->high[0] - v->low[0]) + 2.0 * v->margin);
-  const double height = scale * ((v->turned ? v->high[0] - v->low[0] : v->high[1] - v->low[1]) + 2.0 * v->margin);
+  const double width =
+      scale * ((v->turned ? v->high[1] - v->low[1] : v->high[0] - v->low[0]) + 2.0 * v->margin);
+  const double height =
+      scale * ((v->turned ? v->high[0] - v->low[0] : v->high[1] - v->low[1]) + 2.0 * v->margin);
   svg_begin(out, width, height + below, "rx=\"18\" fill=\"#5b3a21\"");
   const double inset = scale * 0.5 * v->margin;
-  fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"10\" fill=\"#3f9d80\"/>\n", inset, inset,
-          width - 2.0 * inset, height - 2.0 * inset);
+  fprintf(
+      out,
+      "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"10\" fill=\"#3f9d80\"/>\n",
+      inset, inset, width - 2.0 * inset, height - 2.0 * inset);
   for (int k = 0; k < t->pockets; k++)
-    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#111\"/>\n", across(v, t->pocket[k].centre),
-            down(v, t->pocket[k].centre), scale * t->pocket[k].radius);
+    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#111\"/>\n",
+            across(v, t->pocket[k].centre), down(v, t->pocket[k].centre),
+            scale * t->pocket[k].radius);
   for (int k = 0; k < t->jaws; k++)
-    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#2b6f5a\"/>\n", across(v, t->jaw[k].centre),
-            down(v, t->jaw[k].centre), scale * t->jaw[k].radius);
+    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#2b6f5a\"/>\n",
+            across(v, t->jaw[k].centre), down(v, t->jaw[k].centre), scale * t->jaw[k].radius);
   for (int k = 0; k < t->rails; k++)
-    fprintf(out, "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#1d4a3c\" stroke-width=\"4\" stroke-linecap=\"round\"/>\n",
-            across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q), down(v, t->rail[k].q));
+    fprintf(out,
+            "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#1d4a3c\" stroke-width=\"4\" "
+            "stroke-linecap=\"round\"/>\n",
+            across(v, t->rail[k].p), down(v, t->rail[k].p), across(v, t->rail[k].q),
+            down(v, t->rail[k].q));
   draw_diamonds(v, t);
   draw_axes(v);
   keep_rails(v, t, width, height);
 }
 
-/* Goes on with a path from a place to another and a time: straight, or in short pieces where the ball slides. */
-static void draw_piece(const view *v, const shot_line *line, const carom_shot *shot, int ball, double from, double to,
-                       const double start[2], const double end[2], bool curved) {
+/* Goes on with a path from a place to another and a time: straight, or in short pieces where the
+ * ball slides. */
+static void draw_piece(const view *v, const shot_line *line, const carom_shot *shot, int ball,
+                       double from, double to, const double start[2], const double end[2],
+                       bool curved) {
   carom_ball_state states[CAROM_BALLS_MOST];
   double x = across(v, start), y = down(v, start);
   for (int n = curved ? 1 : 8; n <= 8; n++) {
@@ -201,15 +228,19 @@ static void draw_piece(const view *v, const shot_line *line, const carom_shot *s
 }
 
 /* An arrow's head on a long piece of a path. */
-static void draw_arrow(const view *v, FILE *out, const char *colour, const carom_ball_state *from, const double to[2],
-                       const carom_ball_state *middle) {
-  const double ux = across(v, (double[]){v->low[0] + middle->v[0], v->low[1] + middle->v[1]}) - across(v, v->low);
-  const double uy = down(v, (double[]){v->low[0] + middle->v[0], v->low[1] + middle->v[1]}) - down(v, v->low);
+static void draw_arrow(const view *v, FILE *out, const char *colour, const carom_ball_state *from,
+                       const double to[2], const carom_ball_state *middle) {
+  const double ux =
+      across(v, (double[]){v->low[0] + middle->v[0], v->low[1] + middle->v[1]}) - across(v, v->low);
+  const double uy =
+      down(v, (double[]){v->low[0] + middle->v[0], v->low[1] + middle->v[1]}) - down(v, v->low);
   const double x = ux / hypot(ux, uy), y = uy / hypot(ux, uy);
   if (hypot(across(v, to) - across(v, from->r), down(v, to) - down(v, from->r)) > least_arrow)
-    fprintf(out, "<path fill=\"%s\" stroke=\"#0b2a22\" stroke-width=\"0.5\" d=\"M%.1f %.1fl%.1f %.1fl%.1f %.1fZ\"/>\n", colour,
-            across(v, middle->r) + 6.0 * x, down(v, middle->r) + 6.0 * y, -11.0 * x - 4.5 * y, -11.0 * y + 4.5 * x, 9.0 * y,
-            -9.0 * x);
+    fprintf(out,
+            "<path fill=\"%s\" stroke=\"#0b2a22\" stroke-width=\"0.5\" d=\"M%.1f %.1fl%.1f "
+            "%.1fl%.1f %.1fZ\"/>\n",
+            colour, across(v, middle->r) + 6.0 * x, down(v, middle->r) + 6.0 * y,
+            -11.0 * x - 4.5 * y, -11.0 * y + 4.5 * x, 9.0 * y, -9.0 * x);
 }
 
 /* The path of one ball, from event to event that it is in. */
@@ -224,19 +255,25 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
     /* The next event, or the end of the picture. */
     const bool is_event = k < shot->count && k < shot->room && shot->events[k].time <= shot->time;
     const carom_event *e = is_event ? &shot->events[k] : NULL;
-    const int side = e == NULL || e->a == ball ? 0 : e->type == CAROM_EVENT_BALL_BALL && e->b == ball ? 1 : -1;
+    const int side = e == NULL || e->a == ball                          ? 0
+                     : e->type == CAROM_EVENT_BALL_BALL && e->b == ball ? 1
+                                                                        : -1;
     if (side < 0)
       continue;
     const double time = e != NULL ? e->time : shot->time;
     carom_shot_at(line->ball, line->count, shot, 0.5 * (last + time), states);
     middle = states[ball];
     const int64_t label = e != NULL ? e->before[side].label : middle.label;
-    const bool moves = label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING || label == CAROM_BALL_AIRBORNE;
+    const bool moves =
+        label == CAROM_BALL_SLIDING || label == CAROM_BALL_ROLLING || label == CAROM_BALL_AIRBORNE;
     if (e != NULL ? moved || time > last : moves) {
       if (!moved) {
         carom_shot_at(line->ball, line->count, shot, last, states);
-        fprintf(v->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"M%.1f %.1f",
-                colour_of(line->name[ball], ball), across(v, states[ball].r), down(v, states[ball].r));
+        fprintf(v->out,
+                "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" "
+                "d=\"M%.1f %.1f",
+                colour_of(line->name[ball], ball), across(v, states[ball].r),
+                down(v, states[ball].r));
         moved = true;
       }
       const double *to = e != NULL ? e->before[side].r : shot->final[ball].r;
@@ -274,7 +311,8 @@ static void draw_band(const view *v, const shot_line *line, const spread *s, int
     size_t size;
     FILE *part = open_text(&parts, &size);
     for (int k = 0, from = -1; k < s->points[ball]; k++) {
-      const bool goes_on = k + 1 < s->points[ball] && !band[k + 1].begins && (band[k + 1].time > s->until) == beyond;
+      const bool goes_on =
+          k + 1 < s->points[ball] && !band[k + 1].begins && (band[k + 1].time > s->until) == beyond;
       if (!goes_on && from >= 0)
         draw_part(v, part, band, from, k);
       from = !goes_on ? -1 : from < 0 ? k : from;
@@ -282,7 +320,8 @@ static void draw_band(const view *v, const shot_line *line, const spread *s, int
     close_text(part, &parts);
     if (size > 0)
       fprintf(v->out, "<path class=\"band\" fill=\"%s\" %s d=\"%s\"/>\n", colour,
-              beyond ? "fill-opacity=\"0.12\" stroke=\"#0b2a22\" stroke-width=\"0.8\" stroke-dasharray=\"5 4\""
+              beyond ? "fill-opacity=\"0.12\" stroke=\"#0b2a22\" stroke-width=\"0.8\" "
+                       "stroke-dasharray=\"5 4\""
                      : "fill-opacity=\"0.4\"",
               parts);
     free(parts);
@@ -292,34 +331,45 @@ static void draw_band(const view *v, const shot_line *line, const spread *s, int
 /* The ellipse of one standard deviation around the place where a ball ends. */
 static void draw_ellipse(const view *v, const spread *s, const carom_ball_state *final, int ball) {
   const spread_axes axes = axes_of(s->final[ball]);
-  if (s->cut[ball] || axes.along > spread_most || axes.along == 0.0 || final->label == CAROM_BALL_POCKETED)
+  if (s->cut[ball] || axes.along > spread_most || axes.along == 0.0 ||
+      final->label == CAROM_BALL_POCKETED)
     return;
   const double x = across(v, final->r), y = down(v, final->r);
   fprintf(v->out,
-          "<ellipse class=\"band\" cx=\"%.1f\" cy=\"%.1f\" rx=\"%.1f\" ry=\"%.1f\" transform=\"rotate(%.1f %.1f %.1f)\" "
+          "<ellipse class=\"band\" cx=\"%.1f\" cy=\"%.1f\" rx=\"%.1f\" ry=\"%.1f\" "
+          "transform=\"rotate(%.1f %.1f %.1f)\" "
           "fill=\"none\" stroke=\"#0b2a22\" stroke-width=\"1.6\"%s/>\n",
-          x, y, v->scale * axes.along, v->scale * axes.across, v->turned ? 90.0 - axes.degrees : -axes.degrees, x, y,
+          x, y, v->scale * axes.along, v->scale * axes.across,
+          v->turned ? 90.0 - axes.degrees : -axes.degrees, x, y,
           s->until < INFINITY ? " stroke-dasharray=\"5 4\"" : "");
 }
 
 /* A name of more than two letters stands beside the ball, unless the ball's colour says it. */
-static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball, bool final, const char *name) {
+static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball,
+                      bool final, const char *name) {
   const char *colour = colour_of(line->name[ball], ball);
   const double x = across(v, s->r), y = down(v, s->r), r = v->scale * line->ball[ball].kind.radius;
   if (!final) {
-    fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"/>\n", x, y,
-            r, colour);
+    fprintf(v->out,
+            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" "
+            "stroke-dasharray=\"3 2\"/>\n",
+            x, y, r, colour);
     return;
   }
   const bool dark = strcmp(colour, "#111111") == 0;
-  fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" stroke=\"#111\" stroke-width=\"0.8\"/>\n", x, y, r,
-          colour);
+  fprintf(v->out,
+          "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" stroke=\"#111\" "
+          "stroke-width=\"0.8\"/>\n",
+          x, y, r, colour);
   if (is_striped(line->name[ball]))
-    fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\"/>\n", x, y,
-            r - 1.8);
+    fprintf(v->out,
+            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"#fff\" "
+            "stroke-width=\"2.5\"/>\n",
+            x, y, r - 1.8);
   char style[160];
-  snprintf(style, sizeof style, "font-size=\"%.1f\" letter-spacing=\"-2\" fill=\"%s\" text-anchor=\"middle\"", v->labels->size,
-           dark ? "#fff" : "#111");
+  snprintf(style, sizeof style,
+           "font-size=\"%.1f\" letter-spacing=\"-2\" fill=\"%s\" text-anchor=\"middle\"",
+           v->labels->size, dark ? "#fff" : "#111");
   if (strlen(name) <= 2)
     svg_text(v->out, x, y + 0.36 * v->labels->size, style, name, 2);
   else if (named_colour(name) == NULL)
@@ -331,20 +381,24 @@ static void spread_pocketed(const shot_line *line, carom_ball_state *final) {
   for (int k = 0; k < line->count; k++) {
     int before = 0;
     for (int other = 0; other < k; other++)
-      before += final[k].label == CAROM_BALL_POCKETED && line->ball[k].state.label != CAROM_BALL_POCKETED &&
-                fabs(final[other].r[0] - final[k].r[0]) < 0.2 && fabs(final[other].r[1] - final[k].r[1]) < 1e-9 &&
+      before += final[k].label == CAROM_BALL_POCKETED &&
+                line->ball[k].state.label != CAROM_BALL_POCKETED &&
+                fabs(final[other].r[0] - final[k].r[0]) < 0.2 &&
+                fabs(final[other].r[1] - final[k].r[1]) < 1e-9 &&
                 final[other].label == CAROM_BALL_POCKETED;
     final[k].r[0] += 1.6 * before * line->ball[k].kind.radius;
   }
 }
 
-/* ---- From the side: places along the picture's width, as in the view from above, and heights at the same scale */
+/* ---- From the side: places along the picture's width, as in the view from above, and heights
+ * at the same scale */
 
 /* How high a ball's centre comes above the cloth that it would lie on, m, at events and between. */
 static double rise_of(const shot_line *line, const carom_shot *shot, int ball) {
   const double R = line->ball[ball].kind.radius, g = line->ball[ball].kind.gravity;
   const carom_ball_state *start = &line->ball[ball].state;
-  const bool flies = start->label == CAROM_BALL_AIRBORNE || start->v[2] != 0.0 || start->r[2] > R + 1e-6;
+  const bool flies =
+      start->label == CAROM_BALL_AIRBORNE || start->v[2] != 0.0 || start->r[2] > R + 1e-6;
   double most = flies ? start->r[2] - R + 0.5 * start->v[2] * fabs(start->v[2]) / g : 0.0;
   for (int64_t k = 0; k < shot->count && k < shot->room; k++)
     for (int side = 0; side < 2; side++) {
@@ -357,15 +411,18 @@ static double rise_of(const shot_line *line, const carom_shot *shot, int ball) {
   return most;
 }
 
-/* The side view of the balls that rise by more than a millimetre, above a line for the cloth at y = `cloth`, pixels. */
-static void draw_side(const view *v, const shot_line *line, const carom_shot *shot, double cloth, double width) {
+/* The side view of the balls that rise by more than a millimetre, above a line for the cloth at
+ * y = `cloth`, pixels. */
+static void draw_side(const view *v, const shot_line *line, const carom_shot *shot, double cloth,
+                      double width) {
   const carom_table *t = &line->table->table;
-  fprintf(v->out, "<path d=\"M0 %.1fL%.1f %.1f\" stroke=\"#3f9d80\" stroke-width=\"3\"/>\n", cloth, width, cloth);
+  fprintf(v->out, "<path d=\"M0 %.1fL%.1f %.1f\" stroke=\"#3f9d80\" stroke-width=\"3\"/>\n", cloth,
+          width, cloth);
   for (int k = 0; k < t->rails; k++) /* noses, as posts at their ends */
     for (int end = 0; end < 2; end++) {
       const double x = across(v, end == 0 ? t->rail[k].p : t->rail[k].q);
-      fprintf(v->out, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#1d4a3c\" stroke-width=\"2\"/>\n", x, cloth,
-              cloth - v->scale * t->rail[k].height);
+      fprintf(v->out, "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#1d4a3c\" stroke-width=\"2\"/>\n", x,
+              cloth, cloth - v->scale * t->rail[k].height);
     }
   carom_ball_state states[CAROM_BALLS_MOST];
   for (int ball = line->count - 1; ball >= 0; ball--) {
@@ -374,7 +431,10 @@ static void draw_side(const view *v, const shot_line *line, const carom_shot *sh
     const char *colour = colour_of(line->name[ball], ball);
     if (rise_of(line, shot, ball) > 1e-3) {
       /* up to the last time that it is on the table */
-      fprintf(v->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"", colour);
+      fprintf(
+          v->out,
+          "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"",
+          colour);
       double last = 0.0;
       for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
         const carom_event *e = &shot->events[k];
@@ -387,13 +447,16 @@ static void draw_side(const view *v, const shot_line *line, const carom_shot *sh
             carom_shot_at(line->ball, line->count, shot, time, states);
             s = &states[ball];
           }
-          fprintf(v->out, "%c%.1f %.1f", last == 0.0 && n == 0 ? 'M' : 'L', across(v, s->r), cloth - v->scale * s->r[2]);
+          fprintf(v->out, "%c%.1f %.1f", last == 0.0 && n == 0 ? 'M' : 'L', across(v, s->r),
+                  cloth - v->scale * s->r[2]);
         }
         last = in ? e->time : last;
       }
       fputs("\"/>\n", v->out);
     }
-    fprintf(v->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"/>\n",
+    fprintf(v->out,
+            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" "
+            "stroke-dasharray=\"3 2\"/>\n",
             across(v, from->r), cloth - v->scale * from->r[2], r, colour);
   }
 }
@@ -405,7 +468,8 @@ static void draw_rails(const view *v, labels *l, const shot_line *line, const ca
   for (int64_t k = 0, rails = 0; k < shot->count && k < shot->room && rails < MOST_MARKED; k++)
     if (counts_as_rail(line, shot, k, ball)) {
       snprintf(text, sizeof text, "%d (%.2f s)", (int)++rails, shot->events[k].time);
-      put_label(l, across(v, shot->events[k].before[0].r), down(v, shot->events[k].before[0].r), text);
+      put_label(l, across(v, shot->events[k].before[0].r), down(v, shot->events[k].before[0].r),
+                text);
     }
 }
 
@@ -429,8 +493,10 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   for (int shot = 0; shot < count; shot++)
     for (int k = 0; k < shots[shot].line->count; k++)
       rise = fmax(rise, rise_of(shots[shot].line, shots[shot].shot, k));
-  const double side = rise > 1e-3 ? v.scale * (rise + 2.0 * shots[0].line->ball[0].kind.radius) + side_margin : 0.0;
-  const double below = side > 0.0 ? side + side_margin : 0.0, said = svg_lines(NULL, left, 0.0, letters, columns, "", footer);
+  const double side =
+      rise > 1e-3 ? v.scale * (rise + 2.0 * shots[0].line->ball[0].kind.radius) + side_margin : 0.0;
+  const double below = side > 0.0 ? side + side_margin : 0.0,
+               said = svg_lines(NULL, left, 0.0, letters, columns, "", footer);
   draw_table(&v, t, below + said + (said > 0.0 ? letters : 0.0));
   if (side > 0.0)
     fprintf(out, "<rect y=\"%.1f\" width=\"100%%\" height=\"%.1f\" fill=\"#86a398\"/>\n", high,
@@ -453,7 +519,8 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
       memcpy(final, shots[shot].shot->final, (size_t)line->count * sizeof *final);
       spread_pocketed(line, final);
       for (int k = 0; k < line->count; k++) {
-        const double r = v.scale * line->ball[k].kind.radius, x = across(&v, final[k].r), y = down(&v, final[k].r);
+        const double r = v.scale * line->ball[k].kind.radius, x = across(&v, final[k].r),
+                     y = down(&v, final[k].r);
         char number[12];
         if (!shot_shows(&shots[shot], shot, k))
           continue;
@@ -463,7 +530,8 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
         }
         snprintf(number, sizeof number, "%d", shot + 1);
         fprintf(out, "<g class=\"ball\" data-x=\"%.1f\" data-y=\"%.1f\">\n", x, y);
-        draw_ball(&v, line, &final[k], k, true, count > 1 && k == line->cue.ball ? number : line->name[k]);
+        draw_ball(&v, line, &final[k], k, true,
+                  count > 1 && k == line->cue.ball ? number : line->name[k]);
         fputs("</g>\n", out);
         if (shots[shot].spread != NULL)
           draw_ellipse(&v, shots[shot].spread, &final[k], k);
@@ -471,7 +539,8 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
     }
   for (int shot = 0; shot < count; shot++)
     draw_rails(&v, &l, shots[shot].line, shots[shot].shot);
-  svg_lines(out, left, high + below + (below > 0.0 ? 1.25 : 0.75) * letters, letters, columns, "fill=\"#fff\"", footer);
+  svg_lines(out, left, high + below + (below > 0.0 ? 1.25 : 0.75) * letters, letters, columns,
+            "fill=\"#fff\"", footer);
   fputs("</svg>\n", out);
 }
 

@@ -19,7 +19,8 @@ void free_table(named_table *t) {
   free(t);
 }
 
-static bool read_rail(const json_t *v, const char *where, carom_rail *rail, char **id, json_fault *f) {
+static bool read_rail(const json_t *v, const char *where, carom_rail *rail, char **id,
+                      json_fault *f) {
   double p[3], q[3], side = NAN;
   char key[80];
   snprintf(key, sizeof key, "%sp1", where);
@@ -29,7 +30,8 @@ static bool read_rail(const json_t *v, const char *where, carom_rail *rail, char
   if (!json_get_numbers(json_object_get(v, "p2"), key, 3, q, f))
     return false;
   *rail = (carom_rail){.p = {p[0], p[1]}, .q = {q[0], q[1]}, .height = p[2]};
-  if (!json_get_doubles(v, where, "lx ly l0", rail->line, f) || !json_get_doubles(v, where, "direction", &side, f) ||
+  if (!json_get_doubles(v, where, "lx ly l0", rail->line, f) ||
+      !json_get_doubles(v, where, "direction", &side, f) ||
       !json_get_doubles(v, where, "f_c e_c", &rail->mu_cushion, f))
     return false;
   if (side != 0.0 && side != 1.0)
@@ -38,8 +40,8 @@ static bool read_rail(const json_t *v, const char *where, carom_rail *rail, char
   return json_get_id(v, where, id, f);
 }
 
-static bool read_circle(const json_t *v, const char *where, double centre[2], double *third, double *radius, char **id,
-                        json_fault *f) {
+static bool read_circle(const json_t *v, const char *where, double centre[2], double *third,
+                        double *radius, char **id, json_fault *f) {
   double c[3] = {0.0};
   char key[80];
   snprintf(key, sizeof key, "%scenter", where);
@@ -52,7 +54,8 @@ static bool read_circle(const json_t *v, const char *where, double centre[2], do
   *radius = NAN;
   if (!json_get_doubles(v, where, "radius", radius, f))
     return false;
-  return isnan(*radius) ? json_wrong(f, "%sradius is missing", where) : json_get_id(v, where, id, f);
+  return isnan(*radius) ? json_wrong(f, "%sradius is missing", where)
+                        : json_get_id(v, where, id, f);
 }
 
 bool read_table(const json_t *json, named_table *t, json_fault *f) {
@@ -100,7 +103,8 @@ named_table *built_in_table(const char *id) {
   static const char *const rails[] = {"3",  "6", "15", "12", "18", "9",  "5",  "4",  "13",
                                       "14", "1", "2",  "8",  "7",  "11", "10", "16", "17"};
   static const char *const plain[] = {"3", "12", "9", "18"};
-  static const char *const jaws[] = {"1t", "2t", "4t", "5t", "7t", "8t", "10t", "11t", "13t", "14t", "16t", "17t"};
+  static const char *const jaws[] = {"1t",  "2t",  "4t",  "5t",  "7t",  "8t",
+                                     "10t", "11t", "13t", "14t", "16t", "17t"};
   static const char *const pockets[] = {"lb", "lc", "lt", "rb", "rc", "rt"};
   for (int kind = 0; kind <= CAROM_TABLE_THREECUSHION; kind++) {
     if (strcmp(id, carom_table_name((carom_table_kind)kind)) != 0)

@@ -15,7 +15,8 @@ typedef struct named_table {
   char *rail[CAROM_RAILS_MOST], *jaw[CAROM_JAWS_MOST], *pocket[CAROM_POCKETS_MOST];
 } named_table;
 
-/* Reads a line of kind table into *t, which is all zero. False where it is wrong; *t is to be freed either way. */
+/* Reads a line of kind table into *t, which is all zero. False where it is wrong; *t is to be
+ * freed either way. */
 bool read_table(const json_t *json, named_table *t, json_fault *f);
 
 /* A new table of this name, or NULL if there is none that is built in. */

@@ -64,7 +64,8 @@ static json_t *event_of(const shot_line *line, const carom_event *e, int detail)
 
 /* pooltool's lists of events have one of nothing at either end. */
 static json_t *nothing_at(double time, int detail) {
-  return detail == EVENTS_FULL ? json_pack("[f, s, [], [], []]", time, "none") : json_pack("[f, s, []]", time, "none");
+  return detail == EVENTS_FULL ? json_pack("[f, s, [], [], []]", time, "none")
+                               : json_pack("[f, s, []]", time, "none");
 }
 
 /* Which balls fell where: by the final states, which lie at the pockets' centres. */
@@ -75,7 +76,8 @@ static json_t *pockets_of(const shot_line *line, const carom_ball_state *final) 
     const double *centre = t->table.pocket[p].centre;
     json_t *in = json_array();
     for (int k = 0; k < line->count; k++)
-      if (final[k].label == CAROM_BALL_POCKETED && final[k].r[0] == centre[0] && final[k].r[1] == centre[1])
+      if (final[k].label == CAROM_BALL_POCKETED && final[k].r[0] == centre[0] &&
+          final[k].r[1] == centre[1])
         json_array_append_new(in, json_string(line->name[k]));
     json_object_set_new(pockets, t->pocket[p], in);
   }
@@ -102,7 +104,8 @@ static void write_line(FILE *out, json_t *line) {
   json_decref(line);
 }
 
-void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status, int events, json_t *spread) {
+void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_status status,
+                int events, json_t *spread) {
   json_t *all = head_of(line), *balls = json_object();
   set_given(all, line, "family");
   json_object_set_new(all, "table", json_string(line->table->id));
@@ -120,8 +123,9 @@ void shot_write(FILE *out, const shot_line *line, const carom_shot *shot, carom_
   /* How it ended. */
   for (int k = 0; k < line->count; k++)
     json_object_set_new(balls, line->name[k], state_of(&shot->final[k]));
-  json_object_set_new(
-      all, "final", json_pack("{s: f, s: o, s: o}", "t", shot->time, "balls", balls, "pockets", pockets_of(line, shot->final)));
+  json_object_set_new(all, "final",
+                      json_pack("{s: f, s: o, s: o}", "t", shot->time, "balls", balls, "pockets",
+                                pockets_of(line, shot->final)));
   if (spread != NULL)
     json_object_set_new(all, "spread", spread);
   json_object_set_new(all, "status", json_string(carom_status_name(status)));

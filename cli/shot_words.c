@@ -27,8 +27,10 @@ bool counts_as_rail(const shot_line *line, const carom_shot *shot, int64_t k, in
   const carom_event *e = &shot->events[k];
   const carom_table *t = &line->table->table;
   bool counts = e->type == CAROM_EVENT_RAIL && e->a == ball && is_cushion(t, (int)e->b);
-  for (int64_t before = k - 1; before >= 0 && counts && e->time - shot->events[before].time < same_contact; before--)
-    counts = !(shot->events[before].type == e->type && shot->events[before].a == ball && shot->events[before].b == e->b);
+  for (int64_t before = k - 1;
+       before >= 0 && counts && e->time - shot->events[before].time < same_contact; before--)
+    counts = !(shot->events[before].type == e->type && shot->events[before].a == ball &&
+               shot->events[before].b == e->b);
   return counts;
 }
 
@@ -56,7 +58,8 @@ static void tell_legs(FILE *out, const shot_line *line, const carom_shot *shot, 
   for (int64_t k = 0; k <= shot->count && k <= shot->room && told < MOST_LEGS; k++) {
     const bool ends = k == shot->count || k == shot->room;
     const carom_event *e = &shot->events[k];
-    if (!ends && !counts_as_rail(line, shot, k, ball) && !(e->type == CAROM_EVENT_BALL_BALL && has_ball(e, ball)))
+    if (!ends && !counts_as_rail(line, shot, k, ball) &&
+        !(e->type == CAROM_EVENT_BALL_BALL && has_ball(e, ball)))
       continue;
     const double *to = ends ? shot->final[ball].r : e->before[e->a == ball ? 0 : 1].r;
     if (hypot(to[0] - from[0], to[1] - from[1]) < least_leg)
@@ -95,27 +98,28 @@ static void tell_ball(FILE *out, const shot_line *line, const carom_shot *shot, 
   if (final->label == CAROM_BALL_POCKETED) {
     const named_table *t = line->table;
     int in = 0;
-    while (in < t->table.pockets - 1 &&
-           (t->table.pocket[in].centre[0] != final->r[0] || t->table.pocket[in].centre[1] != final->r[1]))
+    while (in < t->table.pockets - 1 && (t->table.pocket[in].centre[0] != final->r[0] ||
+                                         t->table.pocket[in].centre[1] != final->r[1]))
       in++;
     fprintf(out, "falls into pocket %s after %.2f s\n", t->pocket[in], last);
   } else
-    fprintf(out, "%s at x = %.3f, y = %.3f m after %.2f s\n", final->label == CAROM_BALL_STATIONARY ? "rests" : "is",
-            final->r[0], final->r[1], final->label == CAROM_BALL_STATIONARY ? last : shot->time);
+    fprintf(out, "%s at x = %.3f, y = %.3f m after %.2f s\n",
+            final->label == CAROM_BALL_STATIONARY ? "rests" : "is", final->r[0], final->r[1],
+            final->label == CAROM_BALL_STATIONARY ? last : shot->time);
 }
 
 void shot_tell(FILE *out, const shot_line *line, const carom_shot *shot, const spread *s) {
   const carom_cue *cue = &line->cue;
   const double *v = shot->events[0].after[0].v;
-  fprintf(out, "%s table, %s at %.4g m/s, aim %.2f degrees", line->table->id, line->name[cue->ball], hypot(v[0], v[1]),
-          cue->phi);
+  fprintf(out, "%s table, %s at %.4g m/s, aim %.2f degrees", line->table->id, line->name[cue->ball],
+          hypot(v[0], v[1]), cue->phi);
   if (cue->theta != 0.0)
     fprintf(out, ", cue raised by %.4g degrees", cue->theta);
   if (cue->a == 0.0 && cue->b == 0.0)
     fputs(", tip at the centre\n", out);
   else
-    fprintf(out, ", tip %.3g R %s and %.3g R %s the centre\n", fabs(cue->a), cue->a > 0.0 ? "left" : "right", fabs(cue->b),
-            cue->b < 0.0 ? "below" : "above");
+    fprintf(out, ", tip %.3g R %s and %.3g R %s the centre\n", fabs(cue->a),
+            cue->a > 0.0 ? "left" : "right", fabs(cue->b), cue->b < 0.0 ? "below" : "above");
   for (int k = 0; k < line->count; k++)
     if (ball_moved(shot, k)) {
       tell_ball(out, line, shot, k);

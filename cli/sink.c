@@ -36,8 +36,11 @@ result_sink *sink_open(const shared_options *asked, bool single) {
   if (file == NULL)
     return NULL;
   result_sink *s = allocate(1, sizeof *s);
-  *s = (result_sink){
-      .file = file, .kind = kind_of(asked), .array = npy_is_name(path), .single = single, .derived = asked->derived};
+  *s = (result_sink){.file = file,
+                     .kind = kind_of(asked),
+                     .array = npy_is_name(path),
+                     .single = single,
+                     .derived = asked->derived};
   if (s->array)
     write_header(s);
   else
@@ -66,7 +69,8 @@ void write_row(FILE *out, const row_kind *kind, const char *id, const double *ro
   fputc('\n', out);
 }
 
-static void write_csv(result_sink *s, const char *id, const double *in, const double *result, const char *status, bool good) {
+static void write_csv(result_sink *s, const char *id, const double *in, const double *result,
+                      const char *status, bool good) {
   double derived[MOST_DERIVED];
   if (id == NULL)
     fprintf(s->file, "%zu", s->rows);
@@ -83,17 +87,19 @@ static void write_csv(result_sink *s, const char *id, const double *in, const do
   fputc('\n', s->file);
 }
 
-void sink_write(result_sink *s, const char *id, const double *in, const double *result, carom_status status,
-                const char *error) {
+void sink_write(result_sink *s, const char *id, const double *in, const double *result,
+                carom_status status, const char *error) {
   const size_t results = (size_t)s->kind->results;
   float narrow[MOST_RESULTS];
   s->rows++;
   if (s->single)
     to_single(result, narrow, results);
   if (s->array)
-    fwrite(s->single ? (const void *)narrow : result, s->single ? sizeof(float) : sizeof(double), results, s->file);
+    fwrite(s->single ? (const void *)narrow : result, s->single ? sizeof(float) : sizeof(double),
+           results, s->file);
   else
-    write_csv(s, id, in, result, error != NULL ? error : carom_status_name(status), error == NULL && status == CAROM_OK);
+    write_csv(s, id, in, result, error != NULL ? error : carom_status_name(status),
+              error == NULL && status == CAROM_OK);
 }
 
 bool sink_close(result_sink *s, bool good) {

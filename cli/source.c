@@ -18,7 +18,8 @@ struct row_source {
   npy_array array;
   record_reader *records;           /* of CSV; NULL for an array */
   size_t width;                     /* fields of the header */
-  size_t id_at, at[MOST_NUMBERS];   /* places of the column id and of those that fill the numbers, or SIZE_MAX; */
+  size_t id_at, at[MOST_NUMBERS];   /* places of the column id and of those that fill the
+                                       numbers, or SIZE_MAX; */
   const char *column[MOST_NUMBERS]; /* the names of these */
 };
 
@@ -44,17 +45,21 @@ static bool find_column(row_source *s, const record *header, int number) {
   const column *c = &s->kind->columns[number];
   const char *others = c->both != NULL ? s->kind->columns[c->partner].name : NULL;
   size_t at_own, at_both, at_others;
-  if (!find_once(header, s->name, c->name, &at_own) || !find_once(header, s->name, c->both, &at_both) ||
+  if (!find_once(header, s->name, c->name, &at_own) ||
+      !find_once(header, s->name, c->both, &at_both) ||
       !find_once(header, s->name, others, &at_others))
     return false;
   /* One of them is enough. */
   if (at_own != SIZE_MAX && at_both != SIZE_MAX) {
-    complain("%s:%lld: columns '%s' and '%s' say the same; give one of them", s->name, header->line, c->both, c->name);
+    complain("%s:%lld: columns '%s' and '%s' say the same; give one of them", s->name, header->line,
+             c->both, c->name);
     return false;
   }
   s->at[number] = at_own != SIZE_MAX ? at_own : at_both;
-  /* What is missing should have been for both balls, unless the other one has a column of its own. */
-  const bool alone = c->both == NULL || at_own != SIZE_MAX || (at_both == SIZE_MAX && at_others != SIZE_MAX);
+  /* What is missing should have been for both balls, unless the other one has a column of its
+   * own. */
+  const bool alone =
+      c->both == NULL || at_own != SIZE_MAX || (at_both == SIZE_MAX && at_others != SIZE_MAX);
   s->column[number] = alone ? c->name : c->both;
   return true;
 }
@@ -62,7 +67,8 @@ static bool find_column(row_source *s, const record *header, int number) {
 /* Whether the number must have a column but has none. */
 static bool is_missing(const row_source *s, int number) {
   const column *c = &s->kind->columns[number];
-  const bool named = c->both != NULL && c->partner < number && strcmp(s->column[number], s->column[c->partner]) == 0;
+  const bool named = c->both != NULL && c->partner < number &&
+                     strcmp(s->column[number], s->column[c->partner]) == 0;
   const bool half = c->optional && c->partner != NO_NUMBER && s->at[c->partner] != SIZE_MAX;
   const bool by_option = s->asked->friction.given && strcmp(c->name, "u_b") == 0;
   return s->at[number] == SIZE_MAX && (half || !c->optional) && !named && !by_option;
@@ -72,7 +78,8 @@ static bool find_columns(row_source *s, const record *header) {
   char missing[256] = " ";
   size_t unused;
   if (record_is_numbers(header)) {
-    complain("%s:%lld: no header: the first row holds numbers; the names of the columns come first (`%s resolve --help` lists "
+    complain("%s:%lld: no header: the first row holds numbers; the names of the columns come first "
+             "(`%s resolve --help` lists "
              "them)",
              s->name, header->line, program_name);
     return false;
@@ -91,14 +98,17 @@ static bool find_columns(row_source *s, const record *header) {
     return true;
   size_t jump;
   if (find_once(header, s->name, "jump", &jump) && jump != SIZE_MAX) {
-    complain("%s:%lld: these are the results of `carom sweep`; with --rows it writes the rows that are read here", s->name,
-             header->line);
+    complain("%s:%lld: these are the results of `carom sweep`; with --rows it writes the rows that "
+             "are read here",
+             s->name, header->line);
     return false;
   }
   const bool other = !find_once(header, s->name, s->kind->clue, &unused) || unused != SIZE_MAX;
-  complain("%s:%lld: missing columns:%s(%s%s; `%s resolve --help` lists them)", s->name, header->line, missing,
-           other ? s->kind->meant : "",
-           header->count > 1 ? "names are case-sensitive" : "the header is a single field, without commas", program_name);
+  complain("%s:%lld: missing columns:%s(%s%s; `%s resolve --help` lists them)", s->name,
+           header->line, missing, other ? s->kind->meant : "",
+           header->count > 1 ? "names are case-sensitive"
+                             : "the header is a single field, without commas",
+           program_name);
   return false;
 }
 
@@ -144,13 +154,15 @@ static void set_id(const row_source *s, const record *in, size_t row, row_note *
 /* NULL, or the name of what is wrong. */
 static const char *fill(const row_source *s, const record *in, row_note *note, double *number) {
   if (in->malformed) {
-    snprintf(note->message, sizeof note->message, "the row is longer than a mebibyte; is a quote left open?");
+    snprintf(note->message, sizeof note->message,
+             "the row is longer than a mebibyte; is a quote left open?");
     return "malformed_row";
   }
   /* Empty fields behind the last column are no harm. */
   for (size_t k = s->width; k < in->count; k++)
     if (in->field[k][0] != '\0') {
-      snprintf(note->message, sizeof note->message, "%zu fields, but the header has %zu", in->count, s->width);
+      snprintf(note->message, sizeof note->message, "%zu fields, but the header has %zu", in->count,
+               s->width);
       return "too_many_fields";
     }
   /* Each number from its column. */
@@ -207,7 +219,8 @@ read_result source_read(row_source *s, source_block *block) {
   block->first = s->next;
   const read_result result = s->records != NULL ? read_csv(s, block) : read_array(s, block);
   s->next += block->count;
-  for (size_t k = 0; s->kind->prepare != NULL && k < block->count; k++) /* what options say instead of columns */
+  /* what options say instead of columns */
+  for (size_t k = 0; s->kind->prepare != NULL && k < block->count; k++)
     s->kind->prepare(s->asked, source_row(s, block, k));
   if (result == READ_ONE && block->count == 0)
     return READ_END;
@@ -228,7 +241,8 @@ double *source_row(const row_source *s, const source_block *block, size_t k) {
 
 /* ---- Messages */
 
-void source_report(const row_source *s, const source_block *block, size_t k, carom_status status, const char *doubt) {
+void source_report(const row_source *s, const source_block *block, size_t k, carom_status status,
+                   const char *doubt) {
   const row_note *note = block->note != NULL ? &block->note[k] : NULL;
   const double *row = source_row(s, block, k);
   int field = -1;
@@ -242,7 +256,8 @@ void source_report(const row_source *s, const source_block *block, size_t k, car
   if (field >= 0 && note != NULL)
     snprintf(what, sizeof what, "%s = %s: ", s->column[field], number_text(row[field], text));
   else if (field >= 0)
-    snprintf(what, sizeof what, "%s (number %d) = %s: ", s->kind->columns[field].name, field, number_text(row[field], text));
+    snprintf(what, sizeof what, "%s (number %d) = %s: ", s->kind->columns[field].name, field,
+             number_text(row[field], text));
   /* What is wrong with it. */
   if (note != NULL && note->error != NULL)
     complain("%s: %s (%s)", where, note->message, note->error);

@@ -1,8 +1,9 @@
 /* What a player's error makes of a shot.
  *
- * Speed, aim and tip of the cue have independent errors with standard deviations s_j. With the tangents d_j of a place per s_j,
- * its covariance is, to first order, the sum of d_j d_j^T. Across a path, whose unit normal is n, the paths of a player's shots
- * have the standard deviation sqrt(sum (n . d_j)^2): a ball that is ahead or behind goes the same way.
+ * Speed, aim and tip of the cue have independent errors with standard deviations s_j. With the
+ * tangents d_j of a place per s_j, its covariance is, to first order, the sum of d_j d_j^T.
+ * Across a path, whose unit normal is n, the paths of a player's shots have the standard
+ * deviation sqrt(sum (n . d_j)^2): a ball that is ahead or behind goes the same way.
  */
 #include "spread.h"
 
@@ -19,7 +20,8 @@
 const double spread_most = 0.3;
 
 enum { MOST_TEXT = 128, TIMES = 512, NUMBERS = CAROM_STATE_NUMBERS * ERRORS };
-enum { CUE_SPEED = 0, CUE_PHI = 1, CUE_A = 3, CUE_B = 4 }; /* of the numbers of a cue that have tangents */
+/* of the numbers of a cue that have tangents */
+enum { CUE_SPEED = 0, CUE_PHI = 1, CUE_A = 3, CUE_B = 4 };
 
 /* ---- The option */
 
@@ -31,8 +33,10 @@ OPTION_SET(set_player_error) {
   bool good = strlen(text) < sizeof copy, all_zero = true;
   snprintf(copy, sizeof copy, "%s", text);
   *error = (player_error){.given = true};
-  for (char *one = strtok_r(copy, ",", &rest); one != NULL && good; one = strtok_r(NULL, ",", &rest)) {
-    good = count < ERRORS && value_of(measure[count], one, &error->of[count]) && error->of[count].x >= 0.0;
+  for (char *one = strtok_r(copy, ",", &rest); one != NULL && good;
+       one = strtok_r(NULL, ",", &rest)) {
+    good = count < ERRORS && value_of(measure[count], one, &error->of[count]) &&
+           error->of[count].x >= 0.0;
     all_zero = all_zero && good && error->of[count].x == 0.0;
     count++;
   }
@@ -40,7 +44,8 @@ OPTION_SET(set_player_error) {
     error->of[count++] = error->of[ERROR_RIGHT];
   if (good && count == ERRORS && !all_zero)
     return true;
-  complain("--%s is SPEED,AIM,RIGHT,ABOVE, standard deviations in %%, degrees and radii of the ball (or tips), such as "
+  complain("--%s is SPEED,AIM,RIGHT,ABOVE, standard deviations in %%, degrees and radii of the "
+           "ball (or tips), such as "
            "1%%,0.05,0.01,0.01; not '%.60s'",
            row->name, text);
   return false;
@@ -71,9 +76,10 @@ static void add_covariance(const double *d, double c[3]) {
   }
 }
 
-/* Adds a point to a band, or cuts it there. A ball at rest has the direction of the point before. */
-static void add_point(spread *s, int ball, double time, const carom_ball_state *state, const double *d, double along[2],
-                      bool begins) {
+/* Adds a point to a band, or cuts it there. A ball at rest has the direction of the point
+ * before. */
+static void add_point(spread *s, int ball, double time, const carom_ball_state *state,
+                      const double *d, double along[2], bool begins) {
   const double v = hypot(state->v[0], state->v[1]);
   for (int axis = 0; axis < 2 && v > 1e-6; axis++)
     along[axis] = state->v[axis] / v;
@@ -85,12 +91,15 @@ static void add_point(spread *s, int ball, double time, const carom_ball_state *
   const double across = sqrt(sum);
   s->cut[ball] = s->cut[ball] || across > spread_most;
   if (!s->cut[ball])
-    s->band[ball][s->points[ball]++] = (band_point){
-        .time = time, .r = {state->r[0], state->r[1]}, .side = {-along[1] * across, along[0] * across}, .begins = begins};
+    s->band[ball][s->points[ball]++] = (band_point){.time = time,
+                                                    .r = {state->r[0], state->r[1]},
+                                                    .side = {-along[1] * across, along[0] * across},
+                                                    .begins = begins};
 }
 
 /* The band of a ball, from event to event that it is in. */
-static void make_band(spread *s, const shot_tangents *t, const shot_line *line, const carom_shot *shot, int ball) {
+static void make_band(spread *s, const shot_tangents *t, const shot_line *line,
+                      const carom_shot *shot, int ball) {
   static const double zeros[NUMBERS];
   const carom_ball_state *from = &line->ball[ball].state;
   const double *d = zeros;
@@ -99,7 +108,9 @@ static void make_band(spread *s, const shot_tangents *t, const shot_line *line, 
   s->band[ball] = allocate((size_t)(TIMES + 2 * (shot->count + 1)), sizeof *s->band[ball]);
   for (int64_t k = 0; k <= shot->count && !s->cut[ball]; k++) {
     const carom_event *e = k < shot->count ? &shot->events[k] : NULL;
-    const int side = e == NULL || e->a == ball ? 0 : e->type == CAROM_EVENT_BALL_BALL && e->b == ball ? 1 : -1;
+    const int side = e == NULL || e->a == ball                          ? 0
+                     : e->type == CAROM_EVENT_BALL_BALL && e->b == ball ? 1
+                                                                        : -1;
     if (side < 0)
       continue;
     const double until = e != NULL ? e->time : shot->time;
@@ -112,7 +123,8 @@ static void make_band(spread *s, const shot_tangents *t, const shot_line *line, 
         add_covariance(here, c);
         s->cut[ball] = axes_of(c).along > spread_most;
         if (t->times[next] > last)
-          add_point(s, ball, t->times[next], &t->states[next * line->count + ball], here, along, false);
+          add_point(s, ball, t->times[next], &t->states[next * line->count + ball], here, along,
+                    false);
       }
       d = e != NULL ? t->before + (2 * k + side) * NUMBERS : t->final + ball * NUMBERS;
       add_point(s, ball, until, to, d, along, false);
@@ -127,9 +139,10 @@ static void make_band(spread *s, const shot_tangents *t, const shot_line *line, 
 
 /* ---- A shot */
 
-/* In the space of errors over their standard deviations an event is lost beyond a plane, whose distance along axis j is its
- * reach r_j, and whose distance from the shot is 1 / sqrt(sum 1/r_j^2). The least reaches are those of several planes, so this
- * is at most the distance of the nearest one. */
+/* In the space of errors over their standard deviations an event is lost beyond a plane, whose
+ * distance along axis j is its reach r_j, and whose distance from the shot is 1 / sqrt(sum
+ * 1/r_j^2). The least reaches are those of several planes, so this is at most the distance of
+ * the nearest one. */
 static double together(const double reach[ERRORS]) {
   double sum = 0.0;
   for (int j = 0; j < ERRORS; j++)
@@ -143,9 +156,11 @@ static bool parts_cluster(const carom_shot *shot, int64_t count) {
   return count < shot->count && e[0].cluster > 0 && e[-1].cluster > 0 && e[0].time == e[-1].time;
 }
 
-/* When the first event is that one standard deviation would change: the reach of the events up to one falls with each. */
-static carom_status find_until(const shot_line *line, const carom_shot *shot, const carom_shot_options *options,
-                               const carom_tangent_seeds *seeds, const shot_tangents *t, double *until) {
+/* When the first event is that one standard deviation would change: the reach of the events up
+ * to one falls with each. */
+static carom_status find_until(const shot_line *line, const carom_shot *shot,
+                               const carom_shot_options *options, const carom_tangent_seeds *seeds,
+                               const shot_tangents *t, double *until) {
   int64_t good = 0, bad = shot->count;
   while (bad - good > 1) {
     double reach[ERRORS];
@@ -159,8 +174,8 @@ static carom_status find_until(const shot_line *line, const carom_shot *shot, co
       break;
     part.time = shot->events[part.count - 1].time;
     carom_tangent tangent = {.final = t->final, .time = t->time, .reach = reach};
-    const carom_status status =
-        carom_shot_tangent(&line->table->table, line->ball, line->count, &line->cue, options, &part, seeds, &tangent);
+    const carom_status status = carom_shot_tangent(&line->table->table, line->ball, line->count,
+                                                   &line->cue, options, &part, seeds, &tangent);
     if (status != CAROM_OK)
       return status;
     *(together(reach) < 1.0 ? &bad : &good) = part.count;
@@ -169,16 +184,18 @@ static carom_status find_until(const shot_line *line, const carom_shot *shot, co
   return CAROM_OK;
 }
 
-void spread_of(const player_error *error, const shot_line *line, const carom_shot *shot, const carom_shot_options *options,
-               bool bands, spread *to) {
+void spread_of(const player_error *error, const shot_line *line, const carom_shot *shot,
+               const carom_shot_options *options, bool bands, spread *to) {
   static const int number_of[ERRORS] = {CUE_SPEED, CUE_PHI, CUE_A, CUE_B};
-  const size_t events = (size_t)shot->count + 1, balls = (size_t)line->count, times = bands ? TIMES : 0;
+  const size_t events = (size_t)shot->count + 1, balls = (size_t)line->count,
+               times = bands ? TIMES : 0;
   const double R = line->ball[line->cue.ball].kind.radius;
   *to = (spread){.until = INFINITY};
   /* one direction for each error, as long as its standard deviation */
   double cue[CAROM_CUE_NUMBERS][ERRORS] = {{0}};
   for (int j = 0; j < ERRORS; j++) {
-    to->error[j] = error->of[j].x * (j == ERROR_SPEED ? line->cue.speed : 1.0) / (error->of[j].times == OFFSET ? R : 1.0);
+    to->error[j] = error->of[j].x * (j == ERROR_SPEED ? line->cue.speed : 1.0) /
+                   (error->of[j].times == OFFSET ? R : 1.0);
     cue[number_of[j]][j] = to->error[j];
   }
   const carom_tangent_seeds seeds = {.directions = ERRORS, .cue = &cue[0][0]};
@@ -199,8 +216,8 @@ void spread_of(const player_error *error, const shot_line *line, const carom_sho
                            .times = t.times,
                            .times_count = (int64_t)times,
                            .reach = to->reach};
-  carom_status status =
-      carom_shot_tangent(&line->table->table, line->ball, line->count, &line->cue, options, shot, &seeds, &tangent);
+  carom_status status = carom_shot_tangent(&line->table->table, line->ball, line->count, &line->cue,
+                                           options, shot, &seeds, &tangent);
   if (status == CAROM_OK && bands)
     status = carom_shot_at_times(line->ball, line->count, shot, t.times, times, t.states);
   to->flags = tangent.all_flags;
@@ -238,13 +255,16 @@ void spread_tell_ball(FILE *out, const spread *s, int ball) {
     return;
   const spread_axes axes = axes_of(s->final[ball]);
   if (axes.along > spread_most)
-    fprintf(out, "       standard deviation above %g m: derivatives tell nothing of this place\n", spread_most);
+    fprintf(out, "       standard deviation above %g m: derivatives tell nothing of this place\n",
+            spread_most);
   else
-    fprintf(out, "       standard deviation %.2g m at %.0f degrees, %.2g m across\n", axes.along, axes.degrees, axes.across);
+    fprintf(out, "       standard deviation %.2g m at %.0f degrees, %.2g m across\n", axes.along,
+            axes.degrees, axes.across);
 }
 
 void spread_tell(FILE *out, const spread *s, const shot_line *line) {
-  static const char *const named[ERRORS] = {"the speed", "the aim", "the tip to the right", "the tip above"};
+  static const char *const named[ERRORS] = {"the speed", "the aim", "the tip to the right",
+                                            "the tip above"};
   if (s->status < 0) {
     fprintf(out, "spread not known: %s\n", carom_status_string(s->status));
     return;
@@ -256,18 +276,25 @@ void spread_tell(FILE *out, const spread *s, const shot_line *line) {
   for (int k = 0; k < line->count; k++)
     cut = cut || s->cut[k];
   const double speed = line->cue.speed;
-  fprintf(out, "spread by standard deviations: speed %.3g %%, aim %.3g degrees, tip %.3g R right, %.3g R above\n",
-          speed > 0.0 ? 100.0 * s->error[ERROR_SPEED] / speed : 0.0, s->error[ERROR_AIM], s->error[ERROR_RIGHT],
-          s->error[ERROR_ABOVE]);
+  fprintf(out,
+          "spread by standard deviations: speed %.3g %%, aim %.3g degrees, tip %.3g R right, %.3g "
+          "R above\n",
+          speed > 0.0 ? 100.0 * s->error[ERROR_SPEED] / speed : 0.0, s->error[ERROR_AIM],
+          s->error[ERROR_RIGHT], s->error[ERROR_ABOVE]);
   if (s->together == INFINITY)
     fputs("       reach: no error was found that changes a ball's events\n", out);
   else
-    fprintf(out, "       reach: %.2g standard deviations of %s, %.2g of all together, change a ball's events\n",
+    fprintf(out,
+            "       reach: %.2g standard deviations of %s, %.2g of all together, change a ball's "
+            "events\n",
             s->reach[least], named[least], s->together);
   if (s->until < INFINITY)
     fprintf(out, "       beyond reach from %.2f s on (dashed)\n", s->until);
   if (cut)
-    fprintf(out, "       bands end where the standard deviation is above %g m: derivatives tell nothing there\n", spread_most);
+    fprintf(out,
+            "       bands end where the standard deviation is above %g m: derivatives tell nothing "
+            "there\n",
+            spread_most);
   if ((s->flags & (CAROM_TANGENT_SIMULTANEOUS | CAROM_TANGENT_KINK)) != 0)
     fputs("       some contacts have no derivative, or one to one side only\n", out);
 }
@@ -280,11 +307,14 @@ json_t *spread_json(const spread *s, const shot_line *line) {
   for (int j = 0; j < ERRORS; j++) {
     const double most = s->reach[j] * s->error[j];
     json_object_set_new(error, keys[j], json_real(s->error[j]));
-    json_object_set_new(reach, keys[j], isfinite(most) && s->error[j] > 0.0 ? json_real(most) : json_null());
+    json_object_set_new(reach, keys[j],
+                        isfinite(most) && s->error[j] > 0.0 ? json_real(most) : json_null());
   }
   for (int k = 0; k < line->count; k++)
-    json_object_set_new(balls, line->name[k], json_pack("[f, f, f]", s->final[k][0], s->final[k][1], s->final[k][2]));
-  return json_pack("{s: o, s: o, s: o, s: o, s: i, s: o}", "error", error, "reach", reach, "together",
-                   isfinite(s->together) ? json_real(s->together) : json_null(), "until",
-                   isfinite(s->until) ? json_real(s->until) : json_null(), "flags", (int)s->flags, "covariance", balls);
+    json_object_set_new(balls, line->name[k],
+                        json_pack("[f, f, f]", s->final[k][0], s->final[k][1], s->final[k][2]));
+  return json_pack("{s: o, s: o, s: o, s: o, s: i, s: o}", "error", error, "reach", reach,
+                   "together", isfinite(s->together) ? json_real(s->together) : json_null(),
+                   "until", isfinite(s->until) ? json_real(s->until) : json_null(), "flags",
+                   (int)s->flags, "covariance", balls);
 }

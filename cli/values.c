@@ -1,8 +1,9 @@
 /* Lists and ranges of numbers with units.
  *
- * Percent of english: 100 % is the spin of a ball that a level cue strikes half a radius off its centre, without loss,
- * 5/2 (1/2) V/R. A tip is an offset of 13 mm, the width of a usual tip. Percent of follow and draw are of the spin of a rolling
- * ball, V/R.
+ * Percent of english: 100 % is the spin of a ball that a level cue strikes half a radius off its
+ * centre, without loss,
+ * 5/2 (1/2) V/R. A tip is an offset of 13 mm, the width of a usual tip. Percent of follow and
+ * draw are of the spin of a rolling ball, V/R.
  */
 #include "values.h"
 
@@ -17,7 +18,9 @@
 
 enum { POINTS = 161, MOST_TEXT = 256 };
 
-#define BALL_FRACTION ((double)NAN) /* an angle by the part x of the ball that is hit, 0 to 1: asin(1 - x) */
+#define BALL_FRACTION \
+  ((double)NAN) /* an angle by the part x of the ball that is hit, 0 to 1:
+                                       asin(1 - x) */
 static const double strike = 2.5, tip_width = 0.013;
 
 /* The first unit of a measure is that of a bare number; a spin has none. */
@@ -59,22 +62,32 @@ static const struct {
   double x;
   int times;
 } words[] = {
-    {MEASURE_CUT, "full", 0.0, FIXED},      {MEASURE_CUT, "three-quarter", 14.477512185929925, FIXED},
-    {MEASURE_CUT, "half", 30.0, FIXED},     {MEASURE_CUT, "quarter", 48.590377890729144, FIXED},
-    {MEASURE_SPIN, "stun", 0.0, FIXED},     {MEASURE_SPIN, "follow", 1.0, ROLLING},
-    {MEASURE_SPIN, "roll", 1.0, ROLLING},   {MEASURE_SPIN, "draw", -1.0, ROLLING},
-    {MEASURE_SIDE, "none", 0.0, FIXED},     {MEASURE_SIDE, "right", 1.25, ROLLING},
-    {MEASURE_SIDE, "left", -1.25, ROLLING}, {MEASURE_SIDE, "gearing", 1.0, GEARING},
+    {MEASURE_CUT, "full", 0.0, FIXED},
+    {MEASURE_CUT, "three-quarter", 14.477512185929925, FIXED},
+    {MEASURE_CUT, "half", 30.0, FIXED},
+    {MEASURE_CUT, "quarter", 48.590377890729144, FIXED},
+    {MEASURE_SPIN, "stun", 0.0, FIXED},
+    {MEASURE_SPIN, "follow", 1.0, ROLLING},
+    {MEASURE_SPIN, "roll", 1.0, ROLLING},
+    {MEASURE_SPIN, "draw", -1.0, ROLLING},
+    {MEASURE_SIDE, "none", 0.0, FIXED},
+    {MEASURE_SIDE, "right", 1.25, ROLLING},
+    {MEASURE_SIDE, "left", -1.25, ROLLING},
+    {MEASURE_SIDE, "gearing", 1.0, GEARING},
 };
 
-enum { UNITS = sizeof units / sizeof units[0], WORDS = sizeof words / sizeof words[0], NO_UNIT = -1 };
+enum {
+  UNITS = sizeof units / sizeof units[0],
+  WORDS = sizeof words / sizeof words[0],
+  NO_UNIT = -1
+};
 
 /* The unit of that name, "" for that of a bare number; NO_UNIT if there is none. */
 static int find_unit(int measure, const char *name) {
   const bool plural = strcmp(name, "tips") == 0;
   for (int k = 0; k < UNITS; k++)
-    if (units[k].measure == measure &&
-        ((name[0] == '\0' && measure < MEASURE_SPIN) || strcmp(plural ? "tip" : name, units[k].name) == 0))
+    if (units[k].measure == measure && ((name[0] == '\0' && measure < MEASURE_SPIN) ||
+                                        strcmp(plural ? "tip" : name, units[k].name) == 0))
       return k;
   return NO_UNIT;
 }
@@ -83,9 +96,11 @@ static int find_unit(int measure, const char *name) {
 static bool set_value(value *v, double given, int unit) {
   v->given = given;
   v->times = units[unit].times;
-  v->x = isnan(units[unit].factor) ? asin(given >= 0.0 && given <= 1.0 ? 1.0 - given : (double)NAN) / degree
-                                   : given * units[unit].factor;
-  snprintf(v->name, sizeof v->name, "%.6g%s%s", given, units[unit].name[0] >= 'a' ? " " : "", units[unit].name);
+  v->x = isnan(units[unit].factor)
+             ? asin(given >= 0.0 && given <= 1.0 ? 1.0 - given : (double)NAN) / degree
+             : given * units[unit].factor;
+  snprintf(v->name, sizeof v->name, "%.6g%s%s", given, units[unit].name[0] >= 'a' ? " " : "",
+           units[unit].name);
   return isfinite(v->x);
 }
 
@@ -107,7 +122,8 @@ static void list_units(int measure, char *text, size_t room) {
       snprintf(text + strlen(text), room - strlen(text), "%s%s", between, words[k].name);
       between = ", ";
     }
-  snprintf(text + strlen(text), room - strlen(text), "%sa number", between[0] != '\0' ? ", or " : "");
+  snprintf(text + strlen(text), room - strlen(text), "%sa number",
+           between[0] != '\0' ? ", or " : "");
   between = measure >= MEASURE_SPIN ? " with a unit: " : ", with a unit or without: ";
   for (int k = 0; k < UNITS && measure != MEASURE_NUMBER; k++)
     if (units[k].measure == measure) {
@@ -122,9 +138,10 @@ static bool refuse(const option_row *row, const char *text) {
   list_units(row->least, list, sizeof list);
   for (int k = 0; k < WORDS + UNITS; k++)
     if ((k < WORDS ? words[k].measure : units[k - WORDS].measure) == row->least)
-      snprintf(known + strlen(known), sizeof known - strlen(known), "%s|", k < WORDS ? words[k].name : units[k - WORDS].name);
-  complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'%s", row->name, list, text,
-           did_you_mean(word, known, hint));
+      snprintf(known + strlen(known), sizeof known - strlen(known), "%s|",
+               k < WORDS ? words[k].name : units[k - WORDS].name);
+  complain("--%s is %s; several with commas, or a range A:B or A:B:STEP; not '%.60s'%s", row->name,
+           list, text, did_you_mean(word, known, hint));
   return false;
 }
 
@@ -135,7 +152,8 @@ static bool set_range(const option_row *row, const char *text, values *list) {
   const char *unit = "", *own;
   int parts = 0;
   snprintf(copy, sizeof copy, "%s", text);
-  for (char *part = strtok_r(copy, ":", &rest); part != NULL; part = strtok_r(NULL, ":", &rest), parts++) {
+  for (char *part = strtok_r(copy, ":", &rest); part != NULL;
+       part = strtok_r(NULL, ":", &rest), parts++) {
     if (parts == 3 || !split(part, &end[parts], &own))
       return refuse(row, text);
     unit = own[0] != '\0' ? own : unit;
@@ -200,23 +218,29 @@ static bool read_values(const option_row *row, const char *text, values *list) {
   return list->count > 0 ? true : refuse(row, text);
 }
 
-/* Whether two whole numbers look like one with a decimal comma: 1,5 or 0,90 but not 20,30 or 0,50%, nor 0,40 of degrees. Warns.
+/* Whether two whole numbers look like one with a decimal comma: 1,5 or 0,90 but not 20,30 or
+ * 0,50%, nor 0,40 of degrees. Warns.
  */
 static bool warn_of_comma(const option_row *row, const char *text) {
   static const char digits[] = "0123456789";
-  const int whole = (int)strspn(text, digits), part = text[whole] == ',' ? (int)strspn(text + whole + 1, digits) : 0;
+  const int whole = (int)strspn(text, digits),
+            part = text[whole] == ',' ? (int)strspn(text + whole + 1, digits) : 0;
   const char *second = text + whole + 1, *unit = second + part;
   const bool angle = row->least == MEASURE_CUT || row->least == MEASURE_ANGLE;
-  if (whole == 0 || part == 0 || strpbrk(unit, ",.:%") != NULL || unit[0] == 'e' || unit[0] == 'E' || (angle && part > 1) ||
+  if (whole == 0 || part == 0 || strpbrk(unit, ",.:%") != NULL || unit[0] == 'e' ||
+      unit[0] == 'E' || (angle && part > 1) ||
       (whole > 1 && text[0] != '0' && part > 1 && second[0] != '0' && second[part - 1] == '0'))
     return false;
-  complain("--%s %s is two values, %.*s and %s; decimals have a point: %.*s.%s. Two values that are meant: %.*s.0,%.*s.0%s",
-           row->name, text, whole, text, second, whole, text, second, whole, text, part, second, unit);
+  complain("--%s %s is two values, %.*s and %s; decimals have a point: %.*s.%s. Two values that "
+           "are meant: %.*s.0,%.*s.0%s",
+           row->name, text, whole, text, second, whole, text, second, whole, text, part, second,
+           unit);
   return true;
 }
 
 OPTION_SET(set_values) {
-  const bool comma = row->set == set_values && warn_of_comma(row, text), good = read_values(row, text, field);
+  const bool comma = row->set == set_values && warn_of_comma(row, text),
+             good = read_values(row, text, field);
   ((values *)field)->comma = comma;
   return good;
 }

@@ -1,4 +1,5 @@
-/* Lists and ranges of numbers with units, as players and students write them: 0:80, 1,3,7mph, 0:100%, half. */
+/* Lists and ranges of numbers with units, as players and students write them: 0:80, 1,3,7mph,
+ * 0:100%, half. */
 #ifndef CAROM_CLI_VALUES_H
 #define CAROM_CLI_VALUES_H
 
@@ -20,8 +21,8 @@ enum measure {
   MEASURE_SIDE
 };
 
-/* What a spin is a multiple of: 1 rad/s; V/R, the spin of a ball that rolls; V/R^2, m, which is what a tip's offset gives; or
- * the side spin of a ball that rolls on the other without slip. */
+/* What a spin is a multiple of: 1 rad/s; V/R, the spin of a ball that rolls; V/R^2, m, which is
+ * what a tip's offset gives; or the side spin of a ball that rolls on the other without slip. */
 enum spin_unit { FIXED, ROLLING, OFFSET, GEARING };
 
 typedef struct value {
@@ -34,14 +35,16 @@ typedef struct value {
 typedef struct values {
   int count;
   bool range;
-  bool comma;       /* two numbers that look like one with a decimal comma, of which set_values() warned */
+  bool comma;       /* two numbers that look like one with a decimal comma, of which set_values()
+                       warned */
   const char *unit; /* as an axis says it: "mph" */
   value at[MOST_VALUES];
 } values;
 
-/* For `values` of a measure, row->least: numbers with commas, or a range A:B or A:B:STEP. Numbers without a unit have that of
- * the last one. Complains where one is none, where a spin has no unit, and, but as a warning, where a list looks like one
- * number with a decimal comma, 1,5, unless it is for another kind of option. */
+/* For `values` of a measure, row->least: numbers with commas, or a range A:B or A:B:STEP.
+ * Numbers without a unit have that of the last one. Complains where one is none, where a spin
+ * has no unit, and, but as a warning, where a list looks like one number with a decimal comma,
+ * 1,5, unless it is for another kind of option. */
 OPTION_SET(set_values);
 
 /* Reads what set_values() would, for defaults; `text` is not changed. */

@@ -21,7 +21,8 @@ static int lesser(int a, int b) {
   return a < b ? a : b;
 }
 
-/* How many letters are wrong, missing, too many, or swapped with the next, whatever their case. A beginning lacks one. */
+/* How many letters are wrong, missing, too many, or swapped with the next, whatever their case.
+ * A beginning lacks one. */
 static int misspelt(const char *text, int n, const char *word, int m) {
   int cost[LONGEST_WORD + 1][LONGEST_WORD + 1], a[LONGEST_WORD + 1], b[LONGEST_WORD + 1];
   if (n > LONGEST_WORD || m > LONGEST_WORD)
@@ -33,7 +34,8 @@ static int misspelt(const char *text, int n, const char *word, int m) {
         continue;
       a[i] = tolower((unsigned char)text[i - 1]);
       b[j] = tolower((unsigned char)word[j - 1]);
-      cost[i][j] = lesser(cost[i - 1][j - 1] + (a[i] != b[j]), 1 + lesser(cost[i - 1][j], cost[i][j - 1]));
+      cost[i][j] =
+          lesser(cost[i - 1][j - 1] + (a[i] != b[j]), 1 + lesser(cost[i - 1][j], cost[i][j - 1]));
       if (i > 1 && j > 1 && a[i] == b[j - 1] && a[i - 1] == b[j])
         cost[i][j] = lesser(cost[i][j], 1 + cost[i - 2][j - 2]);
     }

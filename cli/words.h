@@ -1,4 +1,5 @@
-/* Lists of words with bars or blanks between them: which of them a text is, and which it nearly is. */
+/* Lists of words with bars or blanks between them: which of them a text is, and which it nearly
+ * is. */
 #ifndef CAROM_CLI_WORDS_H
 #define CAROM_CLI_WORDS_H
 
@@ -7,7 +8,8 @@
 /* The place of `text`, of `size` characters, among the words; -1 if it is none of them. */
 int place_among(const char *words, const char *text, size_t size);
 
-/* "; did you mean 'follow'?" where `text` is nearly one of the words, or the beginning of one; else "". Returns `hint`. */
+/* "; did you mean 'follow'?" where `text` is nearly one of the words, or the beginning of one;
+ * else "". Returns `hint`. */
 enum { HINT_TEXT = 64 };
 const char *did_you_mean(const char *text, const char *words, char hint[HINT_TEXT]);
 

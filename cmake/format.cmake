@@ -1,4 +1,5 @@
-# One command formats, one checks: cmake --build build --target format (or format-check).
+# One command formats, one checks: cmake --build build --target format (or format-check). clang-format leaves comments and
+# formula sheets as they are, so that the test of columns looks at every line.
 find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
 file(GLOB_RECURSE formatted CONFIGURE_DEPENDS include/*.h src/*.[ch] src/*.cpp cli/*.[ch] lab/*.[ch] tests/*.[ch] examples/*.[ch]
      python/*.[ch])
@@ -7,6 +8,7 @@ if(CLANG_FORMAT)
   add_custom_target(format-check COMMAND ${CLANG_FORMAT} --dry-run --Werror ${formatted} VERBATIM)
   if(CAROM_TESTS)
     add_test(NAME format COMMAND ${CLANG_FORMAT} --dry-run --Werror ${formatted})
+    add_test(NAME format/columns COMMAND sh -c "! LC_ALL=C.UTF-8 grep -nE '.{101,}' \"$@\"" columns ${formatted})
   endif()
 else()
   message(STATUS "clang-format not found: no targets format, format-check")

@@ -1,8 +1,9 @@
 /* A draw shot, and what the choice of the cloth's slip does to it.
  *
- * A cue ball meets a resting ball full on, spinning backwards at the rate at which it would roll the other way. The balls
- * exchange velocities, nearly; the spin stays, and draws the cue ball back once the collision is over: a sliding ball comes to
- * roll with (5/7) v + (2/7) R (w_y, -w_x). Physics: docs/understanding/physics.md.
+ * A cue ball meets a resting ball full on, spinning backwards at the rate at which it would roll
+ * the other way. The balls exchange velocities, nearly; the spin stays, and draws the cue ball
+ * back once the collision is over: a sliding ball comes to roll with (5/7) v + (2/7) R (w_y,
+ * -w_x). Physics: docs/understanding/physics.md.
  */
 #include <carom.h>
 #include <stdio.h>
@@ -10,10 +11,15 @@
 int main(void) {
   const double speed = 2.0, radius = 0.028575;
   carom_impact in = {
-      .a = {.v = {0.0, speed, 0.0}, .w = {speed / radius, 0.0, 0.0}, .radius = radius, .mass = 0.17, .mu_cloth = 0.2},
+      .a = {.v = {0.0, speed, 0.0},
+            .w = {speed / radius, 0.0, 0.0},
+            .radius = radius,
+            .mass = 0.17,
+            .mu_cloth = 0.2},
       .restitution = 0.95,
   };
-  in.b = (carom_ball){.r = {0.0, 2.0 * radius, 0.0}, .radius = radius, .mass = 0.17, .mu_cloth = 0.2};
+  in.b =
+      (carom_ball){.r = {0.0, 2.0 * radius, 0.0}, .radius = radius, .mass = 0.17, .mu_cloth = 0.2};
   in.mu_ball = carom_mu_ball(&in, carom_alciatore());
 
   carom_options options = {0};
@@ -28,7 +34,8 @@ int main(void) {
       return 1;
     }
     carom_rolling_velocity(out.a.v, out.a.w, radius, rolling);
-    printf("%-8s  cue ball: %+.4f m/s, rolls back at %+.4f m/s; object ball: %+.4f m/s; normal impulse %.4f N s\n",
+    printf("%-8s  cue ball: %+.4f m/s, rolls back at %+.4f m/s; object ball: %+.4f m/s; normal "
+           "impulse %.4f N s\n",
            carom_slip_name(options.slip), out.a.v[1], rolling[1], out.b.v[1], detail.normal);
   }
   return 0;

@@ -1,16 +1,19 @@
 /* A game of eight-ball between two programs, and the same game once more from its record.
  *
- * The core of a game, without pictures: the state between shots, the rules, a player that tries shots, and the record. A record
- * is the seed of the rack and a few doubles a shot: where the cue ball was put, and the cue. Played again with options.plain it
- * gives the same bits on every machine that has the same carom_physics_revision(). So two machines that send each other these
+ * The core of a game, without pictures: the state between shots, the rules, a player that tries
+ * shots, and the record. A record is the seed of the rack and a few doubles a shot: where the
+ * cue ball was put, and the cue. Played again with options.plain it gives the same bits on every
+ * machine that has the same carom_physics_revision(). So two machines that send each other these
  * doubles play in lockstep; it is the doubles that count, not what is printed of them.
  *
- * The player plays all its candidates in one batch, with brief events and final states only, and takes the best outcome. It
- * aims as people do, at the ghost ball: where the cue ball is when it touches the object ball on the line to the pocket.
+ * The player plays all its candidates in one batch, with brief events and final states only, and
+ * takes the best outcome. It aims as people do, at the ghost ball: where the cue ball is when it
+ * touches the object ball on the line to the pocket.
  *
- * Rules: the first ball hit must be of the player's group; after that a ball must fall or reach a cushion; a foul gives ball in
- * hand; who pots a ball of the group without a foul goes on; the eight wins when the group is gone, else it loses. Pockets are
- * not called. An eight that falls on the break is put back. */
+ * Rules: the first ball hit must be of the player's group; after that a ball must fall or reach
+ * a cushion; a foul gives ball in hand; who pots a ball of the group without a foul goes on; the
+ * eight wins when the group is gone, else it loses. Pockets are not called. An eight that falls
+ * on the break is put back. */
 #include "carom_shot.h"
 
 #include <math.h>
@@ -78,7 +81,9 @@ static outcome judge(const game *g, const carom_shot *shot, const carom_brief_ev
       /* the first ball hit, by the cue ball */
       const int first = e->a == 0 ? e->b : e->a;
       hit = true;
-      o.foul = group == 0 ? first == EIGHT && g->shots > 0 : first == EIGHT ? left_of(g, group) > 0 : group_of(first) != group;
+      o.foul = group == 0       ? first == EIGHT && g->shots > 0
+               : first == EIGHT ? left_of(g, group) > 0
+                                : group_of(first) != group;
     }
     cushion |= hit && (e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW);
     if (e->type != CAROM_EVENT_POCKET)
@@ -95,7 +100,8 @@ static outcome judge(const game *g, const carom_shot *shot, const carom_brief_ev
 }
 
 /* plain: the same bits on every machine. */
-static const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN, .threads = CAROM_ALL_THREADS, .plain = 1};
+static const carom_shot_options options = {
+    .cushion_model = CAROM_SHOT_CUSHION_HAN, .threads = CAROM_ALL_THREADS, .plain = 1};
 
 /* Plays a move and applies the rules. False where the move cannot be played. */
 static bool play(game *g, const move *m) {
@@ -104,7 +110,8 @@ static bool play(game *g, const move *m) {
   if (g->in_hand && carom_place_ball(&g->table, g->balls, BALLS, 0, m->x, m->y, NULL) != CAROM_OK)
     return false;
   carom_shot shot = {.brief = events, .room = ROOM, .final = final};
-  if (carom_shoot(&g->table, g->balls, BALLS, &m->cue, &options, &shot) != CAROM_OK || shot.count > ROOM)
+  if (carom_shoot(&g->table, g->balls, BALLS, &m->cue, &options, &shot) != CAROM_OK ||
+      shot.count > ROOM)
     return false;
   const outcome o = judge(g, &shot, events);
   const int group = g->group[g->player], rest = left_of(g, group);
@@ -112,7 +119,8 @@ static bool play(game *g, const move *m) {
     g->balls[k].state = final[k];
   if (o.eight && g->shots == 0) { /* back to the foot spot, or up the table from it */
     double y = 0.75 * g->table.length;
-    while (carom_place_ball(&g->table, g->balls, BALLS, EIGHT, 0.5 * g->table.width, y, NULL) != CAROM_OK)
+    while (carom_place_ball(&g->table, g->balls, BALLS, EIGHT, 0.5 * g->table.width, y, NULL) !=
+           CAROM_OK)
       y += 1e-3;
   } else if (o.eight) {
     g->winner = group != 0 && rest == 0 && !o.foul ? g->player : 1 - g->player;
@@ -129,9 +137,10 @@ static bool play(game *g, const move *m) {
 
 /* ---- The player */
 
-/* The direction, in degrees, in which the cue ball meets the ball as if it were to go to the pocket; false where the cut is too
- * thin. */
-static bool aim(const double cue[2], const double ball[2], const double pocket[2], double R, double *phi) {
+/* The direction, in degrees, in which the cue ball meets the ball as if it were to go to the
+ * pocket; false where the cut is too thin. */
+static bool aim(const double cue[2], const double ball[2], const double pocket[2], double R,
+                double *phi) {
   const double d[2] = {pocket[0] - ball[0], pocket[1] - ball[1]}, size = hypot(d[0], d[1]);
   const double ghost[2] = {ball[0] - 2.0 * R * d[0] / size, ball[1] - 2.0 * R * d[1] / size};
   const double way[2] = {ghost[0] - cue[0], ghost[1] - cue[1]};
@@ -172,7 +181,8 @@ static move choose(const game *given) {
   const int group = g.group[g.player];
   int n = 0;
   for (int k = 1; k < BALLS; k++) {
-    const bool allowed = k == EIGHT ? group != 0 && left_of(&g, group) == 0 : group == 0 || group_of(k) == group;
+    const bool allowed =
+        k == EIGHT ? group != 0 && left_of(&g, group) == 0 : group == 0 || group_of(k) == group;
     for (int p = 0; p < g.table.pockets && allowed && !is_down(&g.balls[k].state); p++) {
       double phi;
       if (n + 2 <= CANDIDATES && aim(cue, g.balls[k].state.r, g.table.pocket[p].centre, R, &phi))
@@ -227,15 +237,18 @@ int main(void) {
       return 1;
     }
   }
-  printf("physics %d, rack %d: player %d wins after %d shots; %d and %d balls of the groups are left\n",
-         carom_physics_revision(), (int)seed, first.winner + 1, count, left_of(&first, SOLIDS), left_of(&first, STRIPES));
+  printf("physics %d, rack %d: player %d wins after %d shots; %d and %d balls of the groups are "
+         "left\n",
+         carom_physics_revision(), (int)seed, first.winner + 1, count, left_of(&first, SOLIDS),
+         left_of(&first, STRIPES));
 
   /* the record alone gives every state again, to the bit */
   begin(&again, seed);
   for (int k = 0; k < count; k++)
     if (!play(&again, &record[k]))
       return 1;
-  const bool same = memcmp(first.balls, again.balls, sizeof first.balls) == 0 && first.winner == again.winner;
+  const bool same =
+      memcmp(first.balls, again.balls, sizeof first.balls) == 0 && first.winner == again.winner;
   printf("played again from its record: %s\n", same ? "the same, to the last bit" : "ANOTHER GAME");
   return !same || first.winner < 0;
 }

@@ -1,12 +1,14 @@
-/* A thousand breaks: the same nine-ball rack, the aim and the tip's place varied, on all processors.
+/* A thousand breaks: the same nine-ball rack, the aim and the tip's place varied, on all
+ * processors.
  *
- * A shot is a chain of events. Between two of them each ball moves in closed form, so that nothing is stepped through:
+ * A shot is a chain of events. Between two of them each ball moves in closed form, so that
+ * nothing is stepped through:
  *
- *     sliding   r = r0 + v0 t - mu g/2 u/|u| t^2      until t = 2 |u| / (7 mu g), u the slip over the cloth
+ *     sliding   r = r0 + v0 t - mu g/2 u/|u| t^2      until t = 2 |u| / (7 mu g), u the slip
  *     rolling   r = r0 + v0 t - mu_r g/2 v0/|v0| t^2  until t = |v0| / (mu_r g)
  *
- * Only the final states are asked for, so a shot needs no memory but those. One shot more is played with its events, and looked
- * at while the balls run. */
+ * Only the final states are asked for, so a shot needs no memory but those. One shot more is
+ * played with its events, and looked at while the balls run. */
 #include "carom_shot.h"
 
 #include <math.h>
@@ -42,7 +44,8 @@ int main(void) {
   }
 
   /* one layout for all cues */
-  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN, .threads = CAROM_ALL_THREADS};
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN,
+                                      .threads = CAROM_ALL_THREADS};
   const carom_shot_job job = {.table = &table,
                               .balls = balls,
                               .cues = cues,
@@ -61,14 +64,16 @@ int main(void) {
     best = fallen(final[k]) > fallen(final[best]) ? k : best;
     dry += fallen(final[k]) == 0;
   }
-  printf("%d of %d breaks are dry; the best, at %.3f degrees, drops %d balls\n", dry, BREAKS, cues[best].phi,
-         fallen(final[best]));
+  printf("%d of %d breaks are dry; the best, at %.3f degrees, drops %d balls\n", dry, BREAKS,
+         cues[best].phi, fallen(final[best]));
 
-  /* the best one again, with its events: it ends as it did in the batch, and can be looked at at any time */
+  /* the best one again, with its events: it ends as it did in the batch, and can be looked at at
+   * any time */
   carom_ball_state end[BALLS], then[BALLS];
   carom_shot shot = {.events = events, .room = EVENTS, .final = end};
   status = carom_shoot(&table, balls, BALLS, &cues[best], &options, &shot);
-  if (status != CAROM_OK || fallen(end) != fallen(final[best]) || end[0].r[0] != final[best][0].r[0])
+  if (status != CAROM_OK || fallen(end) != fallen(final[best]) ||
+      end[0].r[0] != final[best][0].r[0])
     return 1;
   for (double time = 0.0; time < shot.time; time += 2.0) {
     carom_shot_at(balls, BALLS, &shot, time, then);

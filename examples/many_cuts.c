@@ -1,9 +1,10 @@
-/* Many collisions in one call: a sliding cue ball without spin meets a resting ball at every cut angle from 0 to
+/* Many collisions in one call: a sliding cue ball without spin meets a resting ball at every cut
+ * angle from 0 to
  * 89.9 degrees.
  *
- * The throw is the angle by which friction turns the object ball off the line of centres; without friction it is 0. Thin cuts
- * slip fast, and friction falls with speed; full hits stop slipping before the end: the example prints where the throw is
- * greatest.
+ * The throw is the angle by which friction turns the object ball off the line of centres;
+ * without friction it is 0. Thin cuts slip fast, and friction falls with speed; full hits stop
+ * slipping before the end: the example prints where the throw is greatest.
  */
 #include <carom.h>
 #include <math.h>
@@ -19,7 +20,8 @@ int main(void) {
   for (int k = 0; k < CUTS; k++) {
     const double cut = 0.1 * k * degree, v_x = speed * sin(cut), v_y = speed * cos(cut);
     in[k].a = (carom_ball){.v = {v_x, v_y, 0.0}, .radius = radius, .mass = 0.14, .mu_cloth = 0.2};
-    in[k].b = (carom_ball){.r = {0.0, 2.0 * radius, 0.0}, .radius = radius, .mass = 0.14, .mu_cloth = 0.2};
+    in[k].b = (carom_ball){
+        .r = {0.0, 2.0 * radius, 0.0}, .radius = radius, .mass = 0.14, .mu_cloth = 0.2};
     in[k].mu_ball = carom_mu_ball(&in[k], carom_alciatore()); /* falls with the speed of the slip */
     in[k].restitution = 0.89;
   }
@@ -29,7 +31,8 @@ int main(void) {
   for (int k = 0; k < CUTS; k++)
     if (fabs(atan2(out[k].b.v[0], out[k].b.v[1])) > fabs(atan2(out[most].b.v[0], out[most].b.v[1])))
       most = k;
-  printf("%d collisions on %s: the greatest throw, %.2f degrees, is at a cut of %.1f degrees\n", CUTS,
-         carom_isa_name(carom_isa_in_force()), fabs(atan2(out[most].b.v[0], out[most].b.v[1])) / degree, 0.1 * most);
+  printf("%d collisions on %s: the greatest throw, %.2f degrees, is at a cut of %.1f degrees\n",
+         CUTS, carom_isa_name(carom_isa_in_force()),
+         fabs(atan2(out[most].b.v[0], out[most].b.v[1])) / degree, 0.1 * most);
   return 0;
 }

@@ -1,72 +1,85 @@
 /* carom: collisions of two billiard balls on a table.
  *
- * This header is the manual of collisions, from simple to advanced. Cushions and whole shots are in carom_shot.h.
+ * This header is the manual of collisions, from simple to advanced. Cushions and whole shots are
+ * in carom_shot.h.
  * The samples of the headers are valid in C and in C++.
  *
- *     carom_ball ball = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0.028575, 0.17, 0.2};   // r, v, w, radius, mass, mu_cloth
- *     carom_impact in = {ball, ball, 0.05, 0.95};                                 // a, b, mu_ball, restitution
+ *     // r, v, w, radius, mass, mu_cloth; then a, b, mu_ball, restitution
+ *     carom_ball ball = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0.028575, 0.17, 0.2};
+ *     carom_impact in = {ball, ball, 0.05, 0.95};
  *     in.a.v[0] = 1.5;                                                            // m/s, along x
  *     in.b.r[0] = 2 * ball.radius;                                                // b touches a
  *     carom_result out;
  *     carom_status status = carom_collide(&in, NULL, &out);
  *     if (status < 0) fprintf(stderr, "%s\n", carom_status_string(status));
  *
- * Units are SI. The table is the plane x, y, its normal is +z, and all vectors are right-handed. The model is that of
- * S. Mathavan, M. R. Jackson, R. M. Parkin, "Numerical simulations of the frictional collisions of solid balls on a rough
- * surface", Sports Engineering 17 (2014) 227-237. Both balls stay on the cloth. Friction acts between the balls, and between
- * the cloth and the ball that is pressed into it.
+ * Units are SI. The table is the plane x, y, its normal is +z, and all vectors are right-handed.
+ * The model is that of
+ * S. Mathavan, M. R. Jackson, R. M. Parkin, "Numerical simulations of the frictional collisions
+ * of solid balls on a rough surface", Sports Engineering 17 (2014) 227-237. Both balls stay on
+ * the cloth. Friction acts between the balls, and between the cloth and the ball that is pressed
+ * into it.
  *
- * Scope. One collision of two balls of the same radius at the same height, of any masses. The caller finds the contact. Three
- * balls that touch at once and balls that jump are not included.
+ * Scope. One collision of two balls of the same radius at the same height, of any masses. The
+ * caller finds the contact. Three balls that touch at once and balls that jump are not included.
  *
- * Calls. Every function is reentrant and may be called from many threads at once. None prints, aborts or allocates memory. A
- * batch starts threads only if options.threads asks for them. They receive no signals of the process and end with the call.
- * The only global state is the instruction set in use.
+ * Calls. Every function is reentrant and may be called from many threads at once. None prints,
+ * aborts or allocates memory. A batch starts threads only if options.threads asks for them. They
+ * receive no signals of the process and end with the call. The only global state is the
+ * instruction set in use.
  *
- * Accuracy of the exact solver, the default. Errors are against the limit of Mathavan's equations, over the fastest of the
- * twelve numbers (spins times the radius).
- *   - Double precision, collisions of play (mu_ball up to 0.2, mu_cloth up to 0.5, e from 0.5, masses within 1 : 2, any speeds
- *     and spins): within 1e-6, median 2e-9.
- *   - Double precision, anything else that is accepted: within 1e-5, or the status is CAROM_ERROR_UNRESOLVED.
+ * Accuracy of the exact solver, the default. Errors are against the limit of Mathavan's
+ * equations, over the fastest of the twelve numbers (spins times the radius).
+ *   - Double precision, collisions of play (mu_ball up to 0.2, mu_cloth up to 0.5, e from 0.5,
+ *     masses within 1 : 2, any speeds and spins): within 1e-6, median 2e-9.
+ *   - Double precision, anything else that is accepted: within 1e-5, or the status is
+ *     CAROM_ERROR_UNRESOLVED.
  *   - Single precision, collisions of play: within 2e-5, median 1e-7.
- * docs/understanding/accuracy.md has the figures and the commands that print them. docs/understanding/physics.md describes the
- * model and its limits.
+ * docs/understanding/accuracy.md has the figures and the commands that print them.
+ * docs/understanding/physics.md describes the model and its limits.
  *
- * Cost of the exact solver for one collision, on one core of an Intel Xeon of 2 GHz with AVX-512:
- *   - A call takes 0.4 us in the mean of play: 0.2 us if the slip on the cloth is smooth, 0.3 to 3 us if it turns or the balls
- *     stick. A row of a batch takes 0.16 us. With SSE2 or in plain C a call takes a quarter longer.
+ * Cost of the exact solver for one collision, on one core of an Intel Xeon of 2 GHz with
+ * AVX-512:
+ *   - A call takes 0.4 us in the mean of play: 0.2 us if the slip on the cloth is smooth, 0.3 to
+ *     3 us if it turns or the balls stick. A row of a batch takes 0.16 us. With SSE2 or in plain
+ *     C a call takes a quarter longer.
  *   - Strong friction, very small restitution or very unequal masses take some microseconds.
- *   - No input takes more than 200 us: the solver ends after 400 iterations with CAROM_ERROR_UNRESOLVED, and evaluates the
- *     equations at most 3,300 times (carom_detail.evaluations). Each point of a trace may take as many again.
+ *   - No input takes more than 200 us: the solver ends after 400 iterations with
+ *     CAROM_ERROR_UNRESOLVED, and evaluates the equations at most 3,300 times
+ *     (carom_detail.evaluations). Each point of a trace may take as many again.
  * Euler's method takes about 20 ns a step.
  *
- * Stack. In an optimised build every call fits a thread with 64 KiB of stack, part of which the C library uses. On x86-64 a
- * single call takes at most 7 KiB, a trace 10, a batch 46, and a batch with threads 55 in the calling thread
- * (tests/unit/stack.c measures them).
+ * Stack. In an optimised build every call fits a thread with 64 KiB of stack, part of which the
+ * C library uses. On x86-64 a single call takes at most 7 KiB, a trace 10, a batch 46, and a
+ * batch with threads 55 in the calling thread (tests/unit/stack.c measures them).
  *
  * Determinism. Equal bits have:
- *   - Each row of a batch and a single call on that row, for any batch size, split, neighbours and thread count.
+ *   - Each row of a batch and a single call on that row, for any batch size, split, neighbours
+ *     and thread count.
  *   - Two runs on one processor with one instruction set.
- *   - All machines and compilers with options.plain = 1, with the environment variable CAROM_ISA=plain, or after
- *     carom_isa_limit(CAROM_ISA_PLAIN): for lockstep, replays and tests. This holds for every function, also under flags such
- *     as -mfma, -march=native and LTO.
- *     tests/platforms/bits.expected has hashes on which gcc and clang, Linux on x86-64 and arm64, Windows and WebAssembly
- *     agree.
+ *   - All machines and compilers with options.plain = 1, with the environment variable
+ *     CAROM_ISA=plain, or after carom_isa_limit(CAROM_ISA_PLAIN): for lockstep, replays and
+ *     tests. This holds for every function, also under flags such as -mfma, -march=native and
+ *     LTO.
+ *     tests/platforms/bits.expected has hashes on which gcc and clang, Linux on x86-64 and
+ *     arm64, Windows and WebAssembly agree.
  *   - All instruction sets, by Euler's method in double precision.
  *
- * Otherwise the exact solver's bits differ between instruction sets. With sse2 and avx2 they also differ between makes of
- * processors, whose estimates of reciprocals differ. Results then differ within the solver's errors. The bits of a NaN are not
- * specified.
+ * Otherwise the exact solver's bits differ between instruction sets. With sse2 and avx2 they
+ * also differ between makes of processors, whose estimates of reciprocals differ. Results then
+ * differ within the solver's errors. The bits of a NaN are not specified.
  *
  * Floating-point environment.
- *   - The rounding mode must be to nearest. With another mode, ordinary collisions are some 1e-6 less accurate and have other
- *     bits.
- *   - Exceptions must be masked, as in every C program at its start. Lanes of a batch compute on bad or missing rows too, so
- *     invalid operations, overflow and division by zero occur and are ignored. Flags may be left raised; nothing else changes.
+ *   - The rounding mode must be to nearest. With another mode, ordinary collisions are some 1e-6
+ *     less accurate and have other bits.
+ *   - Exceptions must be masked, as in every C program at its start. Lanes of a batch compute on
+ *     bad or missing rows too, so invalid operations, overflow and division by zero occur and
+ *     are ignored. Flags may be left raised; nothing else changes.
  *   - Flushing subnormal numbers to zero makes no difference to collisions on a table.
- *   - Threads of a batch have the environment of the calling thread; on Windows that of any new thread.
- * The library refuses to be compiled with flags that change results, such as -ffast-math or -fno-signed-zeros
- * (docs/using/building.md).
+ *   - Threads of a batch have the environment of the calling thread; on Windows that of any new
+ *     thread.
+ * The library refuses to be compiled with flags that change results, such as -ffast-math or
+ * -fno-signed-zeros (docs/using/building.md).
  */
 #ifndef CAROM_H
 #define CAROM_H
@@ -78,7 +91,8 @@
 #define CAROM_VERSION_MINOR 2
 #define CAROM_VERSION_PATCH 0
 
-/* Marks what the library exports. On Windows define CAROM_DLL to use it as a DLL; CAROM_BUILD is for its own build. */
+/* Marks what the library exports. On Windows define CAROM_DLL to use it as a DLL; CAROM_BUILD is
+ * for its own build. */
 #if defined(_WIN32) && defined(CAROM_BUILD)
 #define CAROM_API __declspec(dllexport)
 #elif defined(_WIN32) && defined(CAROM_DLL)
@@ -93,24 +107,28 @@
 extern "C" {
 #endif
 
-/* ---- One collision: what goes in and what comes out ---------------------------------------------------------------- */
+/* ---- One collision: what goes in and what comes out ------------------------------------------ */
 
 /* One ball just before the collision. */
 typedef struct carom_ball {
   double r[3];     /* centre, m. Both balls of a pair lie at the same height r[2]. */
   double v[3];     /* velocity, m/s. v[2] must be 0: the model keeps both balls on the table. */
   double w[3];     /* angular velocity, rad/s. */
-  double radius;   /* m, > 0, the same for both balls of a pair within 1e-9 of it; that of ball a is computed with. */
-  double mass;     /* kg, > 0, may differ between the balls. The moment of inertia is that of a solid ball, 2/5 M R^2. */
+  double radius;   /* m, > 0, the same for both balls of a pair within 1e-9 of it; that of ball a
+                      is computed with. */
+  double mass;     /* kg, > 0, may differ between the balls. The moment of inertia is that of a
+                      solid ball, 2/5 M R^2. */
   double mu_cloth; /* coefficient of sliding friction between this ball and the cloth, 0 to 1. */
 } carom_ball;
 
-/* Two balls at the instant of contact. The distance of the centres is not checked: the caller has found the contact. The
- * struct is 26 doubles without gaps, so an array of n is also an (n, 26) array of doubles in row order. */
+/* Two balls at the instant of contact. The distance of the centres is not checked: the caller
+ * has found the contact. The struct is 26 doubles without gaps, so an array of n is also an (n,
+ * 26) array of doubles in row order. */
 typedef struct carom_impact {
   carom_ball a, b;
   double mu_ball;     /* coefficient of sliding friction between the balls, 0 to 1. */
-  double restitution; /* e, 0 to 1: the collision ends once e^2 of the work of compression has been given back. */
+  double restitution; /* e, 0 to 1: the collision ends once e^2 of the work of compression has
+                         been given back. */
 } carom_impact;
 
 /* The motion of a ball. */
@@ -124,15 +142,19 @@ typedef struct carom_result {
   carom_motion a, b;
 } carom_result;
 
-/* ---- How a call ended ------------------------------------------------------------------------------------------------ */
+/* ---- How a call ended ------------------------------------------------------------------------ */
 
-/* 0 is success, a positive value a valid outcome of another kind, a negative value an error. Values are never renumbered or
- * used again. -30 to -39 are reserved for cushions, -40 to -109 for shots. carom_status_string() describes each. */
+/* 0 is success, a positive value a valid outcome of another kind, a negative value an error.
+ * Values are never renumbered or used again. -30 to -39 are reserved for cushions, -40 to -109
+ * for shots. carom_status_string() describes each. */
 typedef enum carom_status {
   CAROM_OK = 0,                      /* resolved. */
-  CAROM_SEPARATING = 1,              /* the balls do not approach each other; their state is returned unchanged. */
-  CAROM_STOPPED_AT_TIME = 2,         /* a shot was stopped at options.time_most, as asked; balls still move. */
-  CAROM_STOPPED_AT_EVENT = 3,        /* a shot was stopped after an event of options.stop_at, as asked. */
+  CAROM_SEPARATING = 1,              /* the balls do not approach each other; their state is
+                                        returned unchanged. */
+  CAROM_STOPPED_AT_TIME = 2,         /* a shot was stopped at options.time_most, as asked; balls
+                                        still move. */
+  CAROM_STOPPED_AT_EVENT = 3,        /* a shot was stopped after an event of options.stop_at, as
+                                        asked. */
   CAROM_ERROR_NULL = -1,             /* a required pointer is NULL. */
   CAROM_ERROR_SOLVER = -2,           /* options.solver is not one of carom_solver. */
   CAROM_ERROR_SLIP = -3,             /* options.slip is not one of carom_slip. */
@@ -145,52 +167,78 @@ typedef enum carom_status {
   CAROM_ERROR_MU_CLOTH = -10,        /* the friction of ball and cloth is not in [0, 1]. */
   CAROM_ERROR_MU_BALL = -11,         /* the friction of ball and ball is not in [0, 1]. */
   CAROM_ERROR_RESTITUTION = -12,     /* the restitution is not in [0, 1]. */
-  CAROM_ERROR_RADII_DIFFER = -13,    /* the balls have different radii, by more than 1e-9 of them. */
+  CAROM_ERROR_RADII_DIFFER = -13,    /* the balls have different radii, by more than 1e-9 of
+                                        them. */
   CAROM_ERROR_HEIGHTS_DIFFER = -14,  /* the centres are at different heights. */
-  CAROM_ERROR_VERTICAL = -15,        /* a vertical velocity is not 0: both balls stay on the table. */
+  CAROM_ERROR_VERTICAL = -15,        /* a vertical velocity is not 0: both balls stay on the
+                                        table. */
   CAROM_ERROR_COINCIDENT = -16,      /* the centres coincide, so there is no line of centres. */
-  CAROM_ERROR_TOO_SLOW = -17,        /* Euler's steps are lost in rounding, or more than 16 N of them are needed. */
-  CAROM_ERROR_OVERFLOW = -18,        /* the collision overflows the range of double, or of float for single precision. */
-  CAROM_ERROR_MASSES_DIFFER = -19,   /* the masses differ, in a shot by pooltool's rules or models, or a kernel of the study. */
-  CAROM_ERROR_THREADS = -20,         /* options.threads is neither CAROM_ALL_THREADS nor 0 or more. */
+  CAROM_ERROR_TOO_SLOW = -17,        /* Euler's steps are lost in rounding, or more than 16 N of
+                                        them are needed. */
+  CAROM_ERROR_OVERFLOW = -18,        /* the collision overflows the range of double, or of float
+                                        for single precision. */
+  CAROM_ERROR_MASSES_DIFFER = -19,   /* the masses differ, in a shot by pooltool's rules or
+                                        models, or a kernel of the study. */
+  CAROM_ERROR_THREADS = -20,         /* options.threads is neither CAROM_ALL_THREADS nor 0 or
+                                        more. */
   CAROM_ERROR_POINTS = -21,          /* a trace needs at least 2 points. */
-  CAROM_ERROR_UNRESOLVED = -22,      /* the result depends on rounding errors, or takes more work than a call may cost. */
+  CAROM_ERROR_UNRESOLVED = -22,      /* the result depends on rounding errors, or takes more work
+                                        than a call may cost. */
   CAROM_ERROR_OPTIONS = -23,         /* a reserved or unused field of the options is not 0. */
-  CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model of carom_shot.h is not one of carom_cushion_model. */
+  CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model of carom_shot.h is not one of
+                                        carom_cushion_model. */
   CAROM_ERROR_CUSHION_OPTIONS = -31, /* an option of a cushion is out of its range. */
   CAROM_ERROR_NORMAL = -32,          /* the direction into a cushion is not finite, or 0. */
-  CAROM_ERROR_NOSE_HEIGHT = -33,     /* the nose is not between the cloth and the top of the ball. */
+  CAROM_ERROR_NOSE_HEIGHT = -33,     /* the nose is not between the cloth and the top of the
+                                        ball. */
   CAROM_ERROR_MU_CUSHION = -34,      /* the friction of ball and cushion is not in [0, 1]. */
   CAROM_ERROR_JAW_RADIUS = -35,      /* the radius of a jaw is not finite, or negative. */
   CAROM_ERROR_TOO_MANY_EVENTS = -40, /* a shot has more than options.events_most events. */
-  CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than 1000 s, and options.time_most is 0. */
+  CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than 1000 s, and options.time_most is
+                                        0. */
   CAROM_ERROR_LEFT_TABLE = -42,      /* a ball on the cloth left the table. */
-  CAROM_ERROR_SHOT_OPTIONS = -43,    /* a reserved or unused field of a shot's options, a job or seeds is not 0. */
+  CAROM_ERROR_SHOT_OPTIONS = -43,    /* a reserved or unused field of a shot's options, a job or
+                                        seeds is not 0. */
   CAROM_ERROR_BALLS = -44,           /* the number of balls is not 1 to CAROM_BALLS_MOST. */
   CAROM_ERROR_LABEL = -45,           /* the label of a ball is not one that a layout may have. */
   CAROM_ERROR_OVERLAP = -46,         /* two balls overlap by more than 1e-6 m. */
-  CAROM_ERROR_OFF_TABLE = -47,       /* a ball is in or behind a cushion, in a pocket, or not at the height of its radius. */
-  CAROM_ERROR_MU_MOTION = -48,       /* a friction of sliding, rolling or spinning is not above 0 and at most 1. */
+  CAROM_ERROR_OFF_TABLE = -47,       /* a ball is in or behind a cushion, in a pocket, or not at
+                                        the height of its radius. */
+  CAROM_ERROR_MU_MOTION = -48,       /* a friction of sliding, rolling or spinning is not above 0
+                                        and at most 1. */
   CAROM_ERROR_GRAVITY = -49,         /* gravity is not above 0 and at most 1e6 m/s^2. */
   CAROM_ERROR_MISCUE = -51,          /* the tip misses the ball: a^2 + b^2 is not below miscue^2. */
-  CAROM_ERROR_TABLE = -52, /* too many parts, or one not finite, without length, with a bad mu or e; or a small rail_width. */
-  CAROM_ERROR_RACK = -53,  /* no such rack, a gap that is not between 0 and R, or too little room. */
-  CAROM_ERROR_EVENTS_LOST = -54,   /* carom_shot_at(): the shot had more events than there was room for. */
-  CAROM_ERROR_TIME = -55,          /* carom_shot_at(): no number, or after the end of a shot stopped while balls moved. */
+  CAROM_ERROR_TABLE = -52, /* too many parts, or one not finite, without length, with a bad mu or
+                              e; or a small rail_width. */
+  CAROM_ERROR_RACK = -53,  /* no such rack, a gap that is not between 0 and R, or too little
+                              room. */
+  CAROM_ERROR_EVENTS_LOST = -54,   /* carom_shot_at(): the shot had more events than there was
+                                      room for. */
+  CAROM_ERROR_TIME = -55,          /* carom_shot_at(): no number, or after the end of a shot
+                                      stopped while balls moved. */
   CAROM_ERROR_DRAG = -56,          /* the drag of a rolling ball is not in [0, 1] 1/m. */
-  CAROM_ERROR_BALL_CUSHION = -57,  /* a number of a ball for its impacts on cushions is out of its range. */
+  CAROM_ERROR_BALL_CUSHION = -57,  /* a number of a ball for its impacts on cushions is out of
+                                      its range. */
   CAROM_ERROR_MODULUS = -58,       /* a ball's modulus is neither 0 nor 1e6 to 1e15 Pa. */
-  CAROM_ERROR_STATE = -60,         /* carom_shot_continue(): shot.state is damaged, or of no shot that can go on; */
+  CAROM_ERROR_STATE = -60,         /* carom_shot_continue(): shot.state is damaged, or of no shot
+                                      that can go on; */
   CAROM_ERROR_STATE_TABLE = -64,   /* is that of a shot on another table, */
   CAROM_ERROR_STATE_BALLS = -65,   /* of other balls, or of another layout, */
   CAROM_ERROR_STATE_OPTIONS = -66, /* or with other options, besides those that say when to stop. */
-  CAROM_ERROR_ROOM = -67,          /* shot.room is negative, or is not 0 where shot.events and shot.brief are both NULL. */
-  CAROM_ERROR_TABLE_OPEN = -61,    /* carom_table_check(): a ball can leave the table, or has no place on it. */
-  CAROM_ERROR_RAIL_SIDE = -62,     /* carom_table_check(): the played side of a rail is turned away from the table. */
-  CAROM_ERROR_RAIL_LINE = -63,     /* carom_table_check(): the line of a rail does not pass through both of its ends. */
-  CAROM_ERROR_TANGENT = -70,       /* carom_tangent.h: derivatives are not known for this world or model. */
-  CAROM_ERROR_DIRECTIONS = -71,    /* carom_tangent.h: the number of directions is not 1 to CAROM_DIRECTIONS_MOST. */
-  CAROM_ERROR_NO_TANGENTS = -72,   /* carom_tangent.h: this library was built without derivatives, as it was without C++. */
+  CAROM_ERROR_ROOM = -67,          /* shot.room is negative, or is not 0 where shot.events and
+                                      shot.brief are both NULL. */
+  CAROM_ERROR_TABLE_OPEN = -61,    /* carom_table_check(): a ball can leave the table, or has no
+                                      place on it. */
+  CAROM_ERROR_RAIL_SIDE = -62,     /* carom_table_check(): the played side of a rail is turned
+                                      away from the table. */
+  CAROM_ERROR_RAIL_LINE = -63,     /* carom_table_check(): the line of a rail does not pass
+                                      through both of its ends. */
+  CAROM_ERROR_TANGENT = -70,       /* carom_tangent.h: derivatives are not known for this world
+                                      or model. */
+  CAROM_ERROR_DIRECTIONS = -71,    /* carom_tangent.h: the number of directions is not 1 to
+                                      CAROM_DIRECTIONS_MOST. */
+  CAROM_ERROR_NO_TANGENTS = -72,   /* carom_tangent.h: this library was built without
+                                      derivatives, as it was without C++. */
 
   CAROM_ERROR_CUE_SPEED = -80,    /* cue.speed is not 0 to 1000 m/s. */
   CAROM_ERROR_CUE_PHI = -81,      /* cue.phi is not -1e9 to 1e9 degrees. */
@@ -201,40 +249,47 @@ typedef enum carom_status {
   CAROM_ERROR_CUE_BALL_OUT = -86, /* cue.ball is in a pocket or off the table. */
   CAROM_ERROR_CUE_MISCUE = -87,   /* cue.miscue is not 0 to 1. */
 
-  CAROM_ERROR_WORLD = -90,              /* options.world is not one of carom_world, or not CAROM_WORLD_CAROM for a cluster. */
-  CAROM_ERROR_BALL_MODEL = -91,         /* options.ball_model is not one of carom_ball_model, or none for a cluster. */
-  CAROM_ERROR_SHOT_CUSHION_MODEL = -92, /* options.cushion_model is not one of carom_shot_cushion. */
+  CAROM_ERROR_WORLD = -90,              /* options.world is not one of carom_world, or not
+                                           CAROM_WORLD_CAROM for a cluster. */
+  CAROM_ERROR_BALL_MODEL = -91,         /* options.ball_model is not one of carom_ball_model, or
+                                           none for a cluster. */
+  CAROM_ERROR_SHOT_CUSHION_MODEL = -92, /* options.cushion_model is not one of
+                                           carom_shot_cushion. */
   CAROM_ERROR_FRICTION = -93,           /* options.friction is not one of carom_ball_friction. */
   CAROM_ERROR_SPACE = -94,              /* options.space is not one of carom_space. */
   CAROM_ERROR_EVENTS_MOST = -95,        /* options.events_most is negative. */
-  CAROM_ERROR_TIME_MOST = -96,      /* options.time_most is negative, not finite, or before the time of a shot that goes on. */
-  CAROM_ERROR_STOP_AT = -97,        /* options.stop_at has a bit that stands for no event. */
-  CAROM_ERROR_PLAIN = -98,          /* options.plain is neither 0 nor 1. */
-  CAROM_ERROR_SIMULTANEOUS = -99,   /* options.simultaneous is not one of carom_simultaneous. */
-  CAROM_ERROR_CLUSTER_STEPS = -100, /* options.cluster_steps is not 0 to 10000. */
+  CAROM_ERROR_TIME_MOST = -96,          /* options.time_most is negative, not finite, or before the
+                                       time of a shot that goes on. */
+  CAROM_ERROR_STOP_AT = -97,            /* options.stop_at has a bit that stands for no event. */
+  CAROM_ERROR_PLAIN = -98,              /* options.plain is neither 0 nor 1. */
+  CAROM_ERROR_SIMULTANEOUS = -99,       /* options.simultaneous is not one of carom_simultaneous. */
+  CAROM_ERROR_CLUSTER_STEPS = -100,     /* options.cluster_steps is not 0 to 10000. */
 } carom_status;
 
-/* The short name of a status ("separating"), as in the command's output. "unknown" for a value not listed. Arrays of
- * statuses are of int8_t, each with the value of a carom_status. */
+/* The short name of a status ("separating"), as in the command's output. "unknown" for a value
+ * not listed. Arrays of statuses are of int8_t, each with the value of a carom_status. */
 CAROM_API const char *carom_status_name(carom_status status);
 
-/* The meaning of the status, in one sentence without a full stop, for use in messages. Never NULL. */
+/* The meaning of the status, in one sentence without a full stop, for use in messages. Never
+ * NULL. */
 CAROM_API const char *carom_status_string(carom_status status);
 
-/* ---- Resolving ------------------------------------------------------------------------------------------------------- */
+/* ---- Resolving ------------------------------------------------------------------------------- */
 
 /* How the collision is computed. */
 typedef enum carom_solver {
-  CAROM_SOLVER_EXACT = 0, /* the limit of infinitely many steps, by collocation: the solution of the model. */
-  CAROM_SOLVER_EULER = 1, /* Mathavan's N steps of equal normal impulse. With the slip of pooltool the result has
-                             pooltool's bits. */
+  CAROM_SOLVER_EXACT = 0, /* the limit of infinitely many steps, by collocation: the solution of
+                             the model. */
+  CAROM_SOLVER_EULER = 1, /* Mathavan's N steps of equal normal impulse. With the slip of
+                             pooltool the result has pooltool's bits. */
 } carom_solver;
 
 /* How the slip on the cloth is computed. */
 typedef enum carom_slip {
-  CAROM_SLIP_PAPER = 0,    /* v_x - R w_y, v_y + R w_x: the 2014 paper's. A rolling ball does not slip. */
-  CAROM_SLIP_POOLTOOL = 1, /* v_x + R w_y, v_y - R w_x: that of the simulator pooltool, with the opposite sign of the spin. For
-                              parity with pooltool only. */
+  CAROM_SLIP_PAPER = 0,    /* v_x - R w_y, v_y + R w_x: the 2014 paper's. A rolling ball does not
+                              slip. */
+  CAROM_SLIP_POOLTOOL = 1, /* v_x + R w_y, v_y - R w_x: that of the simulator pooltool, with the
+                              opposite sign of the spin. For parity with pooltool only. */
 } carom_slip;
 
 /* The names above as text ("euler", "paper"), or NULL for a value not listed. */
@@ -246,61 +301,72 @@ enum {
   CAROM_ALL_THREADS = -1, /* for options.threads */
 };
 
-/* Options of a call. All zero means the defaults: `carom_options options = {0};` in C, `{}` in C++, then set what you need. A
- * pointer to options may be NULL for the defaults. */
+/* Options of a call. All zero means the defaults: `carom_options options = {0};` in C, `{}` in
+ * C++, then set what you need. A pointer to options may be NULL for the defaults. */
 typedef struct carom_options {
   carom_solver solver;  /* default CAROM_SOLVER_EXACT. */
   carom_slip slip;      /* default CAROM_SLIP_PAPER. */
-  int steps;            /* Euler's N, the approximate number of steps; the error falls like 1/N. 0: CAROM_DEFAULT_STEPS. */
-  int threads;          /* most threads that a batch may use, the calling one among them. 0, the default: that one alone.
-                           CAROM_ALL_THREADS: one for each processor that the process may use, by its affinity and the limit of
-                           its control group. Results do not depend on it. Small batches, single calls, and libraries built
-                           without threads start none. */
-  int plain;            /* 1: this call computes with CAROM_ISA_PLAIN, whatever instruction set is in use, and so has the bits
-                           that all machines share. 0, the default: with the one in use. */
+  int steps;            /* Euler's N, the approximate number of steps; the error falls like 1/N.
+                           0: CAROM_DEFAULT_STEPS. */
+  int threads;          /* most threads that a batch may use, the calling one among them. 0, the
+                           default: that one alone. CAROM_ALL_THREADS: one for each processor
+                           that the process may use, by its affinity and the limit of its control
+                           group. Results do not depend on it. Small batches, single calls, and
+                           libraries built without threads start none. */
+  int plain;            /* 1: this call computes with CAROM_ISA_PLAIN, whatever instruction set
+                           is in use, and so has the bits that all machines share. 0, the
+                           default: with the one in use. */
   int unused;           /* must be 0. */
   uint64_t reserved[5]; /* must be 0. Room for future options, for which 0 will mean the default. */
 } carom_options;
 
 /* Resolves one collision. `opt` may be NULL for the defaults; `out` may not overlap `in`.
- * CAROM_OK: `*out` is the state after the collision. CAROM_SEPARATING: `*out` is the state before it. An error: every number
- * of `*out` is NaN (but `*out` is untouched when a pointer is NULL). */
-CAROM_API carom_status carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out);
+ * CAROM_OK: `*out` is the state after the collision. CAROM_SEPARATING: `*out` is the state
+ * before it. An error: every number of `*out` is NaN (but `*out` is untouched when a pointer is
+ * NULL). */
+CAROM_API carom_status carom_collide(const carom_impact *in, const carom_options *opt,
+                                     carom_result *out);
 
-/* Resolves `n` collisions, in[0..n-1] to out[0..n-1], each as carom_collide() does, bit for bit: a bad pair gets NaN and its
- * own status and changes nothing for the others. `status` takes the n statuses; it may be NULL. `in`, `out` and `status` may
- * not overlap; with n = 0 they may be NULL. A caller with its own threads may split a batch in any way. Returns CAROM_OK if
- * no pair is in error, else the status of the first pair in error. A NULL pointer or bad options are an error of the call, and
- * then nothing is written. */
-CAROM_API carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
+/* Resolves `n` collisions, in[0..n-1] to out[0..n-1], each as carom_collide() does, bit for bit:
+ * a bad pair gets NaN and its own status and changes nothing for the others. `status` takes the
+ * n statuses; it may be NULL. `in`, `out` and `status` may not overlap; with n = 0 they may be
+ * NULL. A caller with its own threads may split a batch in any way. Returns CAROM_OK if no pair
+ * is in error, else the status of the first pair in error. A NULL pointer or bad options are an
+ * error of the call, and then nothing is written. */
+CAROM_API carom_status carom_collide_batch(const carom_impact *in, size_t n,
+                                           const carom_options *opt, carom_result *out,
                                            int8_t *status);
 
-/* ---- Friction between the balls -------------------------------------------------------------------------------------- */
+/* ---- Friction between the balls -------------------------------------------------------------- */
 
-/* Friction that falls with the speed at which the balls slip on each other: mu = a + b exp(-c |u|), |u| in m/s. */
+/* Friction that falls with the speed at which the balls slip on each other: mu = a + b exp(-c
+ * |u|), |u| in m/s. */
 typedef struct carom_speed_law {
   double a, b, c; /* -, -, s/m */
 } carom_speed_law;
 
-/* The usual fit for pool balls, a = 0.009951, b = 0.108, c = 1.088: D. Alciatore, TP A-14, to measurements by W. C. Marlow. */
+/* The usual fit for pool balls, a = 0.009951, b = 0.108, c = 1.088: D. Alciatore, TP A-14, to
+ * measurements by W. C. Marlow. */
 CAROM_API carom_speed_law carom_alciatore(void);
 
-/* The friction between the balls of `*in` by the law, |u| being the slip just before the collision; in->mu_ball is not read.
- * Assign it to in->mu_ball. A law that leaves [0, 1] or motion that is not finite gives a number that carom_collide() refuses.
- * NaN if `in` is NULL. */
+/* The friction between the balls of `*in` by the law, |u| being the slip just before the
+ * collision; in->mu_ball is not read. Assign it to in->mu_ball. A law that leaves [0, 1] or
+ * motion that is not finite gives a number that carom_collide() refuses. NaN if `in` is NULL. */
 CAROM_API double carom_mu_ball(const carom_impact *in, carom_speed_law law);
 
-/* ---- After the collision --------------------------------------------------------------------------------------------- */
+/* ---- After the collision --------------------------------------------------------------------- */
 
-/* The velocity, m/s, at which a ball of the given velocity, angular velocity and radius stops sliding and begins to roll:
- * (5/7) v + (2/7) R (w_y, -w_x, 0). It does not depend on the cloth's friction, which only determines when this happens.
- * `rolling` may be `v` or `w`. */
-CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], double radius, double rolling[3]);
+/* The velocity, m/s, at which a ball of the given velocity, angular velocity and radius stops
+ * sliding and begins to roll: (5/7) v + (2/7) R (w_y, -w_x, 0). It does not depend on the
+ * cloth's friction, which only determines when this happens. `rolling` may be `v` or `w`. */
+CAROM_API void carom_rolling_velocity(const double v[3], const double w[3], double radius,
+                                      double rolling[3]);
 
-/* ---- Single precision ------------------------------------------------------------------------------------------------ */
+/* ---- Single precision ------------------------------------------------------------------------ */
 
-/* The same in single precision, with the suffix _f32: half the memory, twice the lanes. Results of the exact solver for
- * collisions of play are within 2e-5 of the exact result for the rounded numbers. */
+/* The same in single precision, with the suffix _f32: half the memory, twice the lanes. Results
+ * of the exact solver for collisions of play are within 2e-5 of the exact result for the rounded
+ * numbers. */
 typedef struct carom_ball_f32 {
   float r[3], v[3], w[3];
   float radius, mass, mu_cloth;
@@ -319,18 +385,22 @@ typedef struct carom_result_f32 {
   carom_motion_f32 a, b;
 } carom_result_f32;
 
-/* carom_collide() in single precision. Euler's method is computed in double precision and rounded. */
-CAROM_API carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt, carom_result_f32 *out);
+/* carom_collide() in single precision. Euler's method is computed in double precision and
+ * rounded. */
+CAROM_API carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt,
+                                         carom_result_f32 *out);
 
 /* carom_collide_batch() in single precision. Each row is bit-identical to carom_collide_f32(). */
-CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt,
-                                               carom_result_f32 *out, int8_t *status);
+CAROM_API carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n,
+                                               const carom_options *opt, carom_result_f32 *out,
+                                               int8_t *status);
 
-/* ---- Instruction sets ------------------------------------------------------------------------------------------------ */
+/* ---- Instruction sets ------------------------------------------------------------------------ */
 
-/* Instruction sets of batches and of single calls of the exact solver, from low to high. The highest that the processor has is
- * used. Results differ within the solver's errors from one to another. The environment variable CAROM_ISA, set to one of the
- * names ("plain", "sse2", "neon", "avx2", "avx512") before the first call, limits it for the whole process; other values are
+/* Instruction sets of batches and of single calls of the exact solver, from low to high. The
+ * highest that the processor has is used. Results differ within the solver's errors from one to
+ * another. The environment variable CAROM_ISA, set to one of the names ("plain", "sse2", "neon",
+ * "avx2", "avx512") before the first call, limits it for the whole process; other values are
  * ignored. A single call computes with plain where options.plain is 1. */
 typedef enum carom_isa {
   CAROM_ISA_ANY = -1, /* no limit: for carom_isa_limit(). */
@@ -350,11 +420,12 @@ CAROM_API int carom_isa_available(carom_isa isa);
 /* The instruction set in use. */
 CAROM_API carom_isa carom_isa_in_force(void);
 
-/* Limits the whole process to `isa` and lower ones. CAROM_ISA_ANY lifts this limit, but not that of the environment variable.
- * Returns the instruction set then in use. Call it while no batch runs. */
+/* Limits the whole process to `isa` and lower ones. CAROM_ISA_ANY lifts this limit, but not that
+ * of the environment variable. Returns the instruction set then in use. Call it while no batch
+ * runs. */
 CAROM_API carom_isa carom_isa_limit(carom_isa isa);
 
-/* ---- Details and traces ---------------------------------------------------------------------------------------------- */
+/* ---- Details and traces ---------------------------------------------------------------------- */
 
 /* When the balls stopped slipping on each other. */
 typedef enum carom_stick {
@@ -363,37 +434,47 @@ typedef enum carom_stick {
   CAROM_STICK_IN_RESTITUTION = 2, /* while they were parting */
 } carom_stick;
 
-/* More about a collision. Impulses are in N s, as vectors along the axes of the table where they have a direction. */
+/* More about a collision. Impulses are in N s, as vectors along the axes of the table where they
+ * have a direction. */
 typedef struct carom_detail {
   int64_t steps;           /* steps that Euler's method took; 0 for other solvers. */
-  int64_t evaluations;     /* how often the exact solver evaluated the equations; 0 for other solvers. */
-  double normal;           /* impulse along the line of centres, on the second ball away from the first; the reverse on it. */
-  double friction[3];      /* impulse of the second ball's friction on the first ball; the reverse on the second. */
+  int64_t evaluations;     /* how often the exact solver evaluated the equations; 0 for other
+                              solvers. */
+  double normal;           /* impulse along the line of centres, on the second ball away from the
+                              first; the reverse on it. */
+  double friction[3];      /* impulse of the second ball's friction on the first ball; the
+                              reverse on the second. */
   double cloth_a[3];       /* impulse of the cloth's friction on the first ball, */
-  double cloth_b[3];       /* and on the second: only one of them is pressed into the cloth by the other's friction. */
+  double cloth_b[3];       /* and on the second: only one of them is pressed into the cloth by
+                              the other's friction. */
   double work_compression; /* work of the normal force until the balls no longer approach, J. */
-  double work;             /* the same over the whole collision: (1 + e^2) of it; by Euler's method up to a step more. */
-  carom_stick stick;       /* always CAROM_STICK_NEVER by Euler's method, whose slip alternates in sign instead. */
+  double work;             /* the same over the whole collision: (1 + e^2) of it; by Euler's
+                              method up to a step more. */
+  carom_stick stick;       /* always CAROM_STICK_NEVER by Euler's method, whose slip alternates
+                              in sign instead. */
   double stick_normal;     /* the normal impulse so far when they stuck; NaN if they never did. */
   double reserved[4];      /* 0; room for future fields. */
 } carom_detail;
 
-/* carom_collide() with details. `*detail` is filled for every status, with 0 and NaN where nothing was solved. `detail` may be
- * NULL. Works overflow to infinity above 1e150 m/s. */
-CAROM_API carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt, carom_result *out,
-                                            carom_detail *detail);
+/* carom_collide() with details. `*detail` is filled for every status, with 0 and NaN where
+ * nothing was solved. `detail` may be NULL. Works overflow to infinity above 1e150 m/s. */
+CAROM_API carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt,
+                                            carom_result *out, carom_detail *detail);
 
 /* Compression lasts while the balls approach each other; in restitution they part. */
 typedef enum carom_phase { CAROM_PHASE_COMPRESSION = 0, CAROM_PHASE_RESTITUTION = 1 } carom_phase;
 
-/* One point of a collision. Slips are in the collision frame: y is the line of centres from the first ball to the second, z
- * points up, x = y x z. A slip is the velocity, m/s, of one surface over the other where they touch. */
+/* One point of a collision. Slips are in the collision frame: y is the line of centres from the
+ * first ball to the second, z points up, x = y x z. A slip is the velocity, m/s, of one surface
+ * over the other where they touch. */
 typedef struct carom_trace_point {
   double normal;      /* normal impulse so far, N s. It grows during the whole collision. */
   double work;        /* work of the normal force so far, J: the sum of |v_n| dP. */
   carom_phase phase;  /* CAROM_PHASE_COMPRESSION up to v_n = 0. */
-  int sticks;         /* 1 from where the balls no longer slip on each other, else 0; always 0 by Euler's method. */
-  double v_n;         /* speed at which the balls part along y, m/s; negative while they approach. */
+  int sticks;         /* 1 from where the balls no longer slip on each other, else 0; always 0 by
+                         Euler's method. */
+  double v_n;         /* speed at which the balls part along y, m/s; negative while they
+                         approach. */
   double u_x, u_z;    /* slip of the first ball on the second; 0 once they stick. */
   double d_x, d_y;    /* slip of the first ball over the cloth, with the sign of options.slip, */
   double b_x, b_y;    /* and of the second ball. */
@@ -401,38 +482,44 @@ typedef struct carom_trace_point {
   double reserved[4]; /* 0; room for future fields. */
 } carom_trace_point;
 
-/* Follows one collision through `n` >= 2 points at equal steps of normal impulse, from 0 at points[0] to the end, which is the
- * result of carom_collide() (by the exact solver within about 1e-6, because the precise solver computes it). Euler's method
- * gives the nearest whole steps. `opt` may be NULL; `points` may not overlap `in`. It is not made for speed: it takes about a
- * millisecond by the exact solver, n/2 times a collision by Euler's method. Returns what carom_collide() does.
- * CAROM_SEPARATING: every point is the state before, with impulse 0. An error: every number is NaN (but nothing is written when
- * a pointer is NULL or n < 2). */
-CAROM_API carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_t n, carom_trace_point *points);
+/* Follows one collision through `n` >= 2 points at equal steps of normal impulse, from 0 at
+ * points[0] to the end, which is the result of carom_collide() (by the exact solver within about
+ * 1e-6, because the precise solver computes it). Euler's method gives the nearest whole steps.
+ * `opt` may be NULL; `points` may not overlap `in`. It is not made for speed: it takes about a
+ * millisecond by the exact solver, n/2 times a collision by Euler's method. Returns what
+ * carom_collide() does. CAROM_SEPARATING: every point is the state before, with impulse 0. An
+ * error: every number is NaN (but nothing is written when a pointer is NULL or n < 2). */
+CAROM_API carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_t n,
+                                   carom_trace_point *points);
 
-/* Checks the arguments of a collision and solves nothing. Returns CAROM_OK or an error that depends on single fields
- * (CAROM_SEPARATING, TOO_SLOW and OVERFLOW come only from solving). If `field` is not NULL, `*field` becomes the index of the
- * bad number among the 26 doubles of `*in`, or -1 if the error is in no single number. */
+/* Checks the arguments of a collision and solves nothing. Returns CAROM_OK or an error that
+ * depends on single fields (CAROM_SEPARATING, TOO_SLOW and OVERFLOW come only from solving). If
+ * `field` is not NULL, `*field` becomes the index of the bad number among the 26 doubles of
+ * `*in`, or -1 if the error is in no single number. */
 CAROM_API carom_status carom_check(const carom_impact *in, const carom_options *opt, int *field);
 
-/* The C name of number `field` of a carom_impact, 0 to 25: "a.r[0]" ... "restitution". NULL outside that range. */
+/* The C name of number `field` of a carom_impact, 0 to 25: "a.r[0]" ... "restitution". NULL
+ * outside that range. */
 CAROM_API const char *carom_field_name(int field);
 
-/* ---- Version --------------------------------------------------------------------------------------------------------- */
+/* ---- Version --------------------------------------------------------------------------------- */
 
 /* The version of this header as a number, 200 for 0.2.0. */
-#define CAROM_VERSION_NUMBER (CAROM_VERSION_MAJOR * 10000 + CAROM_VERSION_MINOR * 100 + CAROM_VERSION_PATCH)
+#define CAROM_VERSION_NUMBER \
+  (CAROM_VERSION_MAJOR * 10000 + CAROM_VERSION_MINOR * 100 + CAROM_VERSION_PATCH)
 
 /* The version of the library that runs, as "major.minor.patch" and as a number. */
 CAROM_API const char *carom_version(void);
 CAROM_API int carom_version_number(void);
 
-/* The revision of the physics: a number that changes whenever a result of any call or model has other bits than before.
- * Recordings play back bit for bit, and players in lockstep agree, only with the same number. */
+/* The revision of the physics: a number that changes whenever a result of any call or model has
+ * other bits than before. Recordings play back bit for bit, and players in lockstep agree, only
+ * with the same number. */
 CAROM_API int carom_physics_revision(void);
 
-/* Whether a caller compiled with the header of that version can use this library, 1 or 0: carom_serves(CAROM_VERSION_NUMBER).
- * Before 1.0 the minor version must be equal. From then on the major version must be equal, and the minor one not above the
- * library's. */
+/* Whether a caller compiled with the header of that version can use this library, 1 or 0:
+ * carom_serves(CAROM_VERSION_NUMBER). Before 1.0 the minor version must be equal. From then on
+ * the major version must be equal, and the minor one not above the library's. */
 CAROM_API int carom_serves(int header_version_number);
 
 #ifdef __cplusplus

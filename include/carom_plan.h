@@ -1,10 +1,11 @@
-/* carom_plan.h: which shot to play. Players who err, rules of games, the chance of a shot, and the best shots of a layout.
+/* carom_plan.h: which shot to play. Players who err, rules of games, the chance of a shot, and
+ * the best shots of a layout.
  *
  *     carom_player player = carom_player_of(1.0);
  *     carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
  *     rules.user[0] = 1;                                            // the player has the solids
  *     static carom_plan_job job;
- *     job.table = &table;                                           // table, balls and cue as of carom_shoot()
+ *     job.table = &table;  // table, balls and cue as of carom_shoot()
  *     job.balls = balls;
  *     job.count = 16;
  *     job.cue = &cue;
@@ -14,10 +15,11 @@
  *     job.memory = malloc(job.memory_size);
  *     carom_choice best[5];
  *     int found;
- *     carom_status status = carom_plan(&job, best, 5, &found);      // best[0].cue is the shot, best[0].value the chance to win
+ *     // best[0].cue is the shot, best[0].value the chance to win
+ *     carom_status status = carom_plan(&job, best, 5, &found);
  *
- * Units, axes and statuses are those of carom.h and carom_shot.h. Like them, nothing here allocates or prints. The method is
- * told in docs/understanding/plan.md. */
+ * Units, axes and statuses are those of carom.h and carom_shot.h. Like them, nothing here
+ * allocates or prints. The method is told in docs/understanding/plan.md. */
 #ifndef CAROM_PLAN_H
 #define CAROM_PLAN_H
 
@@ -27,10 +29,11 @@
 extern "C" {
 #endif
 
-/* ---- Players ---------------------------------------------------------------------------------------------------------- */
+/* ---- Players --------------------------------------------------------------------------------- */
 
-/* How the stroke of a player differs from the one that was meant: standard deviations of independent normal errors, each >= 0.
- * What the errors make of a stroke is kept within the bounds. */
+/* How the stroke of a player differs from the one that was meant: standard deviations of
+ * independent normal errors, each >= 0. What the errors make of a stroke is kept within the
+ * bounds. */
 typedef struct carom_player {
   double speed;       /* m/s, */
   double speed_share; /* and as a share of the speed; both are added in squares. */
@@ -42,12 +45,12 @@ typedef struct carom_player {
   double reserved[3]; /* must be 0. */
 } carom_player;
 
-/* A player with all errors proportional to `scale` >= 0: 0.1 m/s, 0.1 degrees of direction and of elevation, and 0.003 radii
- * each way, times scale. These are the errors of a public benchmark of eight-ball (AI3603, 2025). One scale for all errors is a
- * convention. */
+/* A player with all errors proportional to `scale` >= 0: 0.1 m/s, 0.1 degrees of direction and
+ * of elevation, and 0.003 radii each way, times scale. These are the errors of a public
+ * benchmark of eight-ball (AI3603, 2025). One scale for all errors is a convention. */
 CAROM_API carom_player carom_player_of(double scale);
 
-/* ---- Rules ------------------------------------------------------------------------------------------------------------ */
+/* ---- Rules ----------------------------------------------------------------------------------- */
 
 /* What becomes of the turn of the player who has played. */
 typedef enum carom_turn_is {
@@ -73,7 +76,8 @@ typedef struct carom_turn {
   double points; /* of the shot; counts without an opponent only. */
 } carom_turn;
 
-/* The ball and the pocket that were called. ball -1: none, a safety. Rules without calls do not read it. */
+/* The ball and the pocket that were called. ball -1: none, a safety. Rules without calls do not
+ * read it. */
 typedef struct carom_call {
   int32_t ball, pocket;
 } carom_call;
@@ -82,50 +86,61 @@ typedef struct carom_call {
 typedef enum carom_race {
   CAROM_RACE_OWN = 0,    /* each player has his own */
   CAROM_RACE_SHARED = 1, /* both have the same */
-  CAROM_RACE_ALONE = 2   /* there is no opponent: the value is the share of the balls that are potted in a visit */
+  CAROM_RACE_ALONE = 2   /* there is no opponent: the value is the share of the balls that are
+                            potted in a visit */
 } carom_race;
 
-/* The functions of rules. A set of balls has bit k for ball k; `in_play` are the balls on the table. They may be called from
- * several threads at once, and depend on their arguments only.
+/* The functions of rules. A set of balls has bit k for ball k; `in_play` are the balls on the
+ * table. They may be called from several threads at once, and depend on their arguments only.
  *
  * carom_rules_on: the balls that may be met first, and potted. */
 typedef uint32_t carom_rules_on(const uint64_t *user, uint32_t in_play);
 
-/* carom_rules_judge: what a shot amounts to. `in_play` are the balls before it; cue_ball is the index of the cue ball. Facts in
- * which no ball was met stand for a shot that ended in an error. */
-typedef carom_turn carom_rules_judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts, carom_call call);
+/* carom_rules_judge: what a shot amounts to. `in_play` are the balls before it; cue_ball is the
+ * index of the cue ball. Facts in which no ball was met stand for a shot that ended in an error. */
+typedef carom_turn carom_rules_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+                                     const carom_facts *facts, carom_call call);
 
-/* carom_rules_left: how many balls the player at the table, left[0], and the other one, left[1], have to pot to win. */
+/* carom_rules_left: how many balls the player at the table, left[0], and the other one, left[1],
+ * have to pot to win. */
 typedef void carom_rules_left(const uint64_t *user, uint32_t in_play, int32_t left[2]);
 
-/* carom_rules_value: the chance that the player at the table wins from a layout, 0 to 1; in_hand: 1 where he has ball in hand.
- * Without an opponent, how many balls he pots yet. */
-typedef double carom_rules_value(const uint64_t *user, const carom_ball_state *layout, int count, int in_hand);
+/* carom_rules_value: the chance that the player at the table wins from a layout, 0 to 1;
+ * in_hand: 1 where he has ball in hand. Without an opponent, how many balls he pots yet. */
+typedef double carom_rules_value(const uint64_t *user, const carom_ball_state *layout, int count,
+                                 int in_hand);
 
-/* The rules of a game. The state `user` is always that of the player at the table: judge() leaves it as the next player has it.
+/* The rules of a game. The state `user` is always that of the player at the table: judge()
+ * leaves it as the next player has it.
  */
 typedef struct carom_plan_rules {
-  uint64_t user[8]; /* eight words for the rules: who has which group and the like. A shot may change them. */
+  uint64_t user[8]; /* eight words for the rules: who has which group and the like. A shot may
+                       change them. */
   carom_rules_on *on;
   carom_rules_judge *judge;
   carom_rules_left *left;
   carom_rules_value *value; /* NULL: an estimate from the best two pots and from the balls left. */
   int32_t race;             /* a carom_race. */
-  int32_t calls;            /* 1: shots are called. Then a candidate calls the pot that it makes without errors. */
-  int32_t first_decides;    /* 1: a shot whose first contact is not with a ball of on() is a foul, whatever else happens. Such
-                            shots are not played to their end. */
+  int32_t calls;            /* 1: shots are called. Then a candidate calls the pot that it makes
+                               without errors. */
+  int32_t first_decides;    /* 1: a shot whose first contact is not with a ball of on() is a
+                               foul, whatever else happens. Such shots are not played to their
+                               end. */
   int32_t unused;           /* must be 0. */
 } carom_plan_rules;
 
 /* Rules that are built in. A ball's index is its number, and the cue ball is ball 0.
  *
- * EIGHTBALL and NINEBALL are the World Standardized Rules of the WPA (2016), with these simplifications: no push-out, no count
- * of successive fouls, no choice of the opponent after a break that is not legal (he has ball in hand). */
+ * EIGHTBALL and NINEBALL are the World Standardized Rules of the WPA (2016), with these
+ * simplifications: no push-out, no count of successive fouls, no choice of the opponent after a
+ * break that is not legal (he has ball in hand). */
 typedef enum carom_rules_kind {
-  CAROM_RULES_EIGHTBALL = 0, /* 15 balls. user[0]: 1 if the player at the table has the solids (1 to 7), 2 the stripes (9 to
-                                15), 0 while the table is open. user[1]: 1 before the break. Ball and pocket are called. */
+  CAROM_RULES_EIGHTBALL = 0, /* 15 balls. user[0]: 1 if the player at the table has the solids (1
+                                to 7), 2 the stripes (9 to 15), 0 while the table is open.
+                                user[1]: 1 before the break. Ball and pocket are called. */
   CAROM_RULES_NINEBALL = 1,  /* 9 balls. user[1]: 1 before the break. */
-  CAROM_RULES_POTTING = 2    /* a drill for one: any ball may be potted, until one misses or fouls. */
+  CAROM_RULES_POTTING = 2    /* a drill for one: any ball may be potted, until one misses or
+                                fouls. */
 } carom_rules_kind;
 
 /* Its name ("eightball", "nineball", "potting"), or NULL for a value not listed. */
@@ -134,27 +149,34 @@ CAROM_API const char *carom_rules_name(carom_rules_kind kind);
 /* The rules, with the state after the break; those of EIGHTBALL for a value not listed. */
 CAROM_API carom_plan_rules carom_plan_rules_of(carom_rules_kind kind);
 
-/* ---- Plans ------------------------------------------------------------------------------------------------------------ */
+/* ---- Plans ----------------------------------------------------------------------------------- */
 
 /* All zero means the defaults. */
 typedef struct carom_plan_options {
-  int64_t shots;                /* of the whole layout that a plan plays, about: 100 to 1,000,000. 0: 2000. */
-  double scan;                  /* share of them for shots in all directions, at most 0.9. 0: 0.5. Below 0: none. */
-  uint64_t seed;                /* errors of strokes are a function of the seed, the stage and the row. */
-  int32_t threads;              /* most threads, as in carom_shot_options. No bit of a result depends on it. */
+  int64_t shots;                /* of the whole layout that a plan plays, about: 100 to
+                                   1,000,000. 0: 2000. */
+  double scan;                  /* share of them for shots in all directions, at most 0.9. 0:
+                                   0.5. Below 0: none. */
+  uint64_t seed;                /* errors of strokes are a function of the seed, the stage and
+                                   the row. */
+  int32_t threads;              /* most threads, as in carom_shot_options. No bit of a result
+                                   depends on it. */
   int32_t unused;               /* must be 0. */
   const carom_player *opponent; /* NULL: he errs as the player does. */
-  double chance_me;       /* of a pot from a layout that was chosen, 0 to 1, of the player; 0: 0.9 less half of his error phi in
-                             degrees, at least 0.3. Values of layouts depend on it. */
-  double chance_opponent; /* and of his opponent, likewise. */
-  const volatile int32_t *stop; /* not NULL: another thread may set it to end the plan early; it then gives the best so far. */
+  double chance_me;             /* of a pot from a layout that was chosen, 0 to 1, of the player; 0:
+                             0.9 less half of his error phi in degrees, at least 0.3. Values of
+                             layouts depend on it. */
+  double chance_opponent;       /* and of his opponent, likewise. */
+  const volatile int32_t *stop; /* not NULL: another thread may set it to end the plan early; it
+                                   then gives the best so far. */
   uint64_t reserved[4];         /* must be 0. */
 } carom_plan_options;
 
 /* What a candidate is. */
 typedef enum carom_plan_kind {
   CAROM_PLAN_POT = 0,  /* a direct pot */
-  CAROM_PLAN_SCAN = 1, /* found by the scan: a bank, a kick, a combination, a carom, a safety, a break */
+  CAROM_PLAN_SCAN = 1, /* found by the scan: a bank, a kick, a combination, a carom, a safety, a
+                          break */
   CAROM_PLAN_FOUL = 2, /* no shot without a foul was found; this one is gentle */
   CAROM_PLAN_GIVEN = 3 /* the caller's, of carom_plan_try() */
 } carom_plan_kind;
@@ -163,10 +185,12 @@ typedef struct carom_choice {
   carom_cue cue;
   double place[2];      /* where the cue ball lies or is put, m. */
   int32_t kind;         /* a carom_plan_kind. */
-  int32_t ball;         /* the ball that falls without errors and keeps the turn, -1 if none does; of a foul -1. */
+  int32_t ball;         /* the ball that falls without errors and keeps the turn, -1 if none
+                           does; of a foul -1. */
   int32_t pocket;       /* and its pocket, or -1. */
   int32_t cushions;     /* impacts of that ball on cushions, without errors. */
-  double value;         /* chance to win; without an opponent, the share of the balls that are potted; 0 to 1. */
+  double value;         /* chance to win; without an opponent, the share of the balls that are
+                           potted; 0 to 1. */
   double error;         /* its standard error. */
   double keep;          /* chance that the player plays on, or wins, */
   double foul, lose;    /* that the shot is a foul, that it loses. */
@@ -179,47 +203,62 @@ typedef struct carom_plan_job {
   const carom_table *table;
   const carom_shot_ball *balls; /* the layout, at rest. */
   int64_t count;                /* 2 to CAROM_BALLS_MOST. */
-  const carom_cue *cue;         /* its ball, masses, tip and miscue; the stroke itself is not read. */
+  const carom_cue *cue;         /* its ball, masses, tip and miscue; the stroke itself is not
+                                   read. */
   const carom_player *player;
   const carom_plan_rules *rules;
-  const carom_shot_options *shot;    /* models, space, plain; NULL: the defaults. threads and when to stop are not read. */
+  const carom_shot_options *shot;    /* models, space, plain; NULL: the defaults. threads and
+                                        when to stop are not read. */
   const carom_plan_options *options; /* NULL: the defaults. */
   void *memory;                      /* room for the plan, aligned as by malloc(), */
   size_t memory_size;                /* of at least carom_plan_memory() bytes. */
   uint64_t reserved[4];              /* must be 0. */
 } carom_plan_job;
 
-/* The bytes that a plan with these options needs; about a million for the defaults. NULL: the defaults. 0 for bad options. */
+/* The bytes that a plan with these options needs; about a million for the defaults. NULL: the
+ * defaults. 0 for bad options. */
 CAROM_API size_t carom_plan_memory(const carom_plan_options *options);
 
-/* The best shots of a layout, best first: up to `room` of them to choices[], and *found becomes their number, at least 1.
+/* The best shots of a layout, best first: up to `room` of them to choices[], and *found becomes
+ * their number, at least 1.
  *
- * CAROM_OK; CAROM_ERROR_NULL for a pointer that is NULL or too little memory; CAROM_ERROR_OPTIONS for bad options, a bad player
- * or rules without on(), judge() or left(); or an error of the layout, as carom_shot_check() has it. With an error nothing is
- * written. The choice depends on the arguments alone, also for any number of threads; with shot->plain it is the same on all
- * machines. */
-CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int room, int *found);
+ * CAROM_OK; CAROM_ERROR_NULL for a pointer that is NULL or too little memory;
+ * CAROM_ERROR_OPTIONS for bad options, a bad player or rules without on(), judge() or left(); or
+ * an error of the layout, as carom_shot_check() has it. With an error nothing is written. The
+ * choice depends on the arguments alone, also for any number of threads; with shot->plain it is
+ * the same on all machines. */
+CAROM_API carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int room,
+                                  int *found);
 
-/* The same with ball in hand: the cue ball goes to the best place found, which all choices have. The place is within low[0] <=
- * x <= high[0] and low[1] <= y <= high[1], m; NULL: anywhere on the table. The cue ball of job->balls may be down. Also:
- * CAROM_ERROR_OFF_TABLE where no free place was found. */
-CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], const double high[2],
-                                       carom_choice *choices, int room, int *found);
+/* The same with ball in hand: the cue ball goes to the best place found, which all choices have.
+ * The place is within low[0] <= x <= high[0] and low[1] <= y <= high[1], m; NULL: anywhere on
+ * the table. The cue ball of job->balls may be down. Also: CAROM_ERROR_OFF_TABLE where no free
+ * place was found. */
+CAROM_API carom_status carom_plan_hand(const carom_plan_job *job, const double low[2],
+                                       const double high[2], carom_choice *choices, int room,
+                                       int *found);
 
-/* The chances of `n` strokes of the caller's, each of which is played options->shots / n times with errors, at least 10 times.
- * choices[k] becomes what is known of cues[k], in their order. n at most 1000. Statuses as of carom_plan(). */
-CAROM_API carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, int n, carom_choice *choices);
+/* The chances of `n` strokes of the caller's, each of which is played options->shots / n times
+ * with errors, at least 10 times. choices[k] becomes what is known of cues[k], in their order. n
+ * at most 1000. Statuses as of carom_plan(). */
+CAROM_API carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, int n,
+                                      carom_choice *choices);
 
-/* The chance that the player at the table wins from the layout, without playing a shot: an estimate, from the rules' value().
- * in_hand: 1 with ball in hand, else 0. Statuses as of carom_plan(); memory is not needed. */
+/* The chance that the player at the table wins from the layout, without playing a shot: an
+ * estimate, from the rules' value(). in_hand: 1 with ball in hand, else 0. Statuses as of
+ * carom_plan(); memory is not needed. */
 CAROM_API carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *value);
 
-/* Aims a direct pot of ball `ball` into pocket `pocket`: cue->phi becomes the direction for the cue's speed and tip, with squirt
- * and throw solved by shots that stop at the contact. The other balls are not looked at. window[0] and window[1], degrees, become
- * the directions of the ball, low and high, between which it passes the jaws. CAROM_OK; CAROM_SEPARATING where the ball cannot
- * be cut to the pocket from there, by more than 80 degrees; or an error of an argument. window may be NULL. */
-CAROM_API carom_status carom_plan_aim(const carom_table *table, const carom_shot_ball *balls, int count, int ball, int pocket,
-                                      const carom_shot_options *shot, carom_cue *cue, double window[2]);
+/* Aims a direct pot of ball `ball` into pocket `pocket`: cue->phi becomes the direction for the
+ * cue's speed and tip, with squirt and throw solved by shots that stop at the contact. The other
+ * balls are not looked at. window[0] and window[1], degrees, become the directions of the ball,
+ * low and high, between which it passes the jaws. CAROM_OK; CAROM_SEPARATING where the ball
+ * cannot be cut to the pocket from there, by more than 80 degrees; or an error of an argument.
+ * window may be NULL. */
+CAROM_API carom_status carom_plan_aim(const carom_table *table, const carom_shot_ball *balls,
+                                      int count, int ball, int pocket,
+                                      const carom_shot_options *shot, carom_cue *cue,
+                                      double window[2]);
 
 #ifdef __cplusplus
 }

@@ -1,8 +1,10 @@
-/* carom_shot.h: balls on a table. The impact of a ball on a cushion, and whole shots from the strike to rest.
+/* carom_shot.h: balls on a table. The impact of a ball on a cushion, and whole shots from the
+ * strike to rest.
  *
  *     carom_cushion_impact in = {{0.5, 1.2, 0}, {0, 0, 0}, {0, 1},   // v, w, normal
  *                                0.0365, 0.028575, 0.17,             // height, radius, mass
- *                                0.2, 0.2, 0.85, 0};                 // mu_cloth, mu_cushion, restitution, jaw_radius
+ *                                // mu_cloth, mu_cushion, restitution, jaw_radius
+ *                                0.2, 0.2, 0.85, 0};
  *     carom_motion out;
  *     carom_status status = carom_cushion(&in, NULL, &out);
  *
@@ -16,55 +18,70 @@
 extern "C" {
 #endif
 
-/* ==== A ball and a cushion ============================================================================================ */
+/* ==== A ball and a cushion ==================================================================== */
 
-/* A ball that touches a cushion, just before the impact. 15 doubles without gaps, so an array of n is also an (n, 15) array in
- * row order. */
+/* A ball that touches a cushion, just before the impact. 15 doubles without gaps, so an array of
+ * n is also an (n, 15) array in row order. */
 typedef struct carom_cushion_impact {
   double v[3];        /* velocity, m/s. v[2] must be 0: the model keeps the ball on the table. */
   double w[3];        /* angular velocity, rad/s. */
-  double normal[2];   /* horizontal direction from the ball into the cushion: across a rail, or from the centre of the ball to
-                         the axis of a jaw. Any length but 0. */
+  double normal[2];   /* horizontal direction from the ball into the cushion: across a rail, or
+                         from the centre of the ball to the axis of a jaw. Any length but 0. */
   double height;      /* of the cushion's nose above the cloth, m, between 0 and 2 radius. */
   double radius;      /* of the ball, m, > 0. */
   double mass;        /* kg, > 0. The moment of inertia is that of a solid ball, 2/5 M R^2. */
   double mu_cloth;    /* coefficient of sliding friction between ball and cloth, 0 to 1, */
   double mu_cushion;  /* and between ball and cushion, 0 to 1. */
-  double restitution; /* e, 0 to 1: the impact ends once e^2 of the work of compression has been given back. */
-  double jaw_radius;  /* m, >= 0: radius of the jaw, 0 for a straight rail. The nose is touched at its height either way, so
-                         this counts only for Stronge's model with the convention of pooltool. */
+  double restitution; /* e, 0 to 1: the impact ends once e^2 of the work of compression has been
+                         given back. */
+  double jaw_radius;  /* m, >= 0: radius of the jaw, 0 for a straight rail. The nose is touched
+                         at its height either way, so this counts only for Stronge's model with
+                         the convention of pooltool. */
 } carom_cushion_impact;
 
-/* How the impact is computed. STRONGE, HAN and SMOOTH work along the inclined normal of the nose and drop the vertical velocity, so
- * they can leave a ball that still moves into the cushion, with CAROM_OK: without friction where e < tan^2 theta, sin(theta) =
- * (height - radius) / radius, which is 0.085 at a pool table's nose; with friction and much spin at larger e too. In a whole
- * shot of the world carom such a ball parts from the cushion in the same event, as after a slow contact (docs/using/shots.md).
+/* How the impact is computed. STRONGE, HAN and SMOOTH work along the inclined normal of the nose
+ * and drop the vertical velocity, so they can leave a ball that still moves into the cushion,
+ * with CAROM_OK: without friction where e < tan^2 theta, sin(theta) = (height - radius) /
+ * radius, which is 0.085 at a pool table's nose; with friction and much spin at larger e too. In
+ * a whole shot of the world carom such a ball parts from the cushion in the same event, as after
+ * a slow contact (docs/using/shots.md).
  */
 typedef enum carom_cushion_model {
-  CAROM_CUSHION_MATHAVAN = 0, /* rigid cushion, friction at nose and cloth, energetic restitution: S. Mathavan, M. R. Jackson,
-                                 R. M. Parkin, Proc. IMechE C 224 (2010) 1863-1873, as the exact limit of small impulses. */
-  CAROM_CUSHION_STRONGE = 1,  /* compliant nose, no cloth: W. J. Stronge, Impact Mechanics (2000); the default of pooltool. */
-  CAROM_CUSHION_HAN = 2,      /* rigid nose, no cloth: I. Han, J. Mech. Sci. Technol. 19 (2005) 976-984. */
-  CAROM_CUSHION_MIRROR = 3,   /* the velocity across the cushion is turned back and multiplied by e; spin stays. */
-  CAROM_CUSHION_EULER = 4,    /* the model of MATHAVAN in N steps of impulse, as pooltool takes them. */
-  CAROM_CUSHION_SMOOTH = 5,   /* HAN without its corner between sticking and sliding, and with an elastic nose; read off
-                                 recorded impacts: docs/understanding/cushion.md. No cloth. */
+  CAROM_CUSHION_MATHAVAN = 0, /* rigid cushion, friction at nose and cloth, energetic
+                                 restitution: S. Mathavan, M. R. Jackson, R. M. Parkin, Proc.
+                                 IMechE C 224 (2010) 1863-1873, as the exact limit of small
+                                 impulses. */
+  CAROM_CUSHION_STRONGE = 1,  /* compliant nose, no cloth: W. J. Stronge, Impact Mechanics
+                                 (2000); the default of pooltool. */
+  CAROM_CUSHION_HAN = 2,      /* rigid nose, no cloth: I. Han, J. Mech. Sci. Technol. 19 (2005)
+                                 976-984. */
+  CAROM_CUSHION_MIRROR = 3,   /* the velocity across the cushion is turned back and multiplied by
+                                 e; spin stays. */
+  CAROM_CUSHION_EULER = 4,    /* the model of MATHAVAN in N steps of impulse, as pooltool takes
+                                 them. */
+  CAROM_CUSHION_SMOOTH = 5,   /* HAN without its corner between sticking and sliding, and with an
+                                 elastic nose; read off recorded impacts:
+                                 docs/understanding/cushion.md. No cloth. */
 } carom_cushion_model;
 
-/* Which conventions are used where the simulator pooltool differs from the papers. POOLTOOL is for parity with it only. */
+/* Which conventions are used where the simulator pooltool differs from the papers. POOLTOOL is
+ * for parity with it only. */
 typedef enum carom_cushion_convention {
-  CAROM_CONVENTION_PAPER = 0,    /* the nose is touched at its height: sin(theta) = (h - R) / R. The cloth cannot pull. Without
-                                    slip there is no friction. */
-  CAROM_CONVENTION_POOLTOOL = 1, /* STRONGE: tan(theta) = (h - R) / (R + jaw_radius + 1e-6 m). EULER: the cloth may pull, and a
-                                    slip of 0 has the direction of +x. Nothing changes for the other models. */
+  CAROM_CONVENTION_PAPER = 0,    /* the nose is touched at its height: sin(theta) = (h - R) / R.
+                                    The cloth cannot pull. Without slip there is no friction. */
+  CAROM_CONVENTION_POOLTOOL = 1, /* STRONGE: tan(theta) = (h - R) / (R + jaw_radius + 1e-6 m).
+                                    EULER: the cloth may pull, and a slip of 0 has the direction
+                                    of +x. Nothing changes for the other models. */
 } carom_cushion_convention;
 
 /* Where restitution and friction of the cushion come from. */
 typedef enum carom_cushion_law {
   CAROM_CUSHION_LAW_CONSTANT = 0, /* the fields of the impact. */
-  CAROM_CUSHION_LAW_HAN = 1,      /* Han's fits, limited to 0 to 1, for any model; the fields are not used, though checked:
-                                     e = 0.39 + 0.257 v_y - 0.044 v_y^2, v_y in m/s the speed into the cushion, and
-                                     mu = 0.471 - 0.241 alpha, alpha in rad the angle of the velocity from the normal. */
+  CAROM_CUSHION_LAW_HAN = 1,      /* Han's fits, limited to 0 to 1, for any model; the fields are
+                                     not used, though checked: e = 0.39 + 0.257 v_y - 0.044
+                                     v_y^2, v_y in m/s the speed into the cushion, and mu = 0.471
+                                     - 0.241 alpha, alpha in rad the angle of the velocity from
+                                     the normal. */
 } carom_cushion_law;
 
 /* Options of a call. All zero means the defaults; a pointer to options may be NULL for the same. */
@@ -72,57 +89,76 @@ typedef struct carom_cushion_options {
   carom_cushion_model model;           /* default CAROM_CUSHION_MATHAVAN. */
   carom_cushion_convention convention; /* default CAROM_CONVENTION_PAPER. */
   carom_cushion_law law;               /* default CAROM_CUSHION_LAW_CONSTANT. */
-  int steps;          /* Euler's N: compression and restitution take about so many steps each; 0: CAROM_DEFAULT_STEPS. */
-  int threads;        /* most threads that a batch may use, the calling one among them. 0, the default: that one alone;
-                           CAROM_ALL_THREADS: one for each processor. Results do not depend on it. */
+  int steps;          /* Euler's N: compression and restitution take about so many steps each; 0:
+                         CAROM_DEFAULT_STEPS. */
+  int threads;        /* most threads that a batch may use, the calling one among them. 0, the
+                         default: that one alone; CAROM_ALL_THREADS: one for each processor.
+                         Results do not depend on it. */
   int plain;          /* 1: with CAROM_ISA_PLAIN, as in carom_options. Default 0. */
-  double least_step;  /* N s, >= 0: EULER takes no step of less impulse, but for the last ones. Default 0; pooltool: 0.001. */
-  double omega_ratio; /* STRONGE: frequency of the nose along its surface over that across it, 1 to 2 without the ends. 0:
-                           1.8, which is that of pooltool. */
-  double smooth_q;    /* SMOOTH: width of the passage from sticking to sliding, 1e-12 to 0.5. 0: this and the next four are
-                           those measured on one table: 0.35, 1.3, 1.2, 0.13 and 0.047; then all five must be 0. */
-  double smooth_x;    /* SMOOTH: part of the slip along the cushion that friction takes if it can, above 0, at most 2: 1 */
-  double smooth_t;    /* stops it, more turns a part of it round. And of the slip across the cushion. */
+  double least_step;  /* N s, >= 0: EULER takes no step of less impulse, but for the last ones.
+                         Default 0; pooltool: 0.001. */
+  double omega_ratio; /* STRONGE: frequency of the nose along its surface over that across it, 1
+                         to 2 without the ends. 0: 1.8, which is that of pooltool. */
+  double smooth_q;    /* SMOOTH: width of the passage from sticking to sliding, 1e-12 to 0.5. 0:
+                         this and the next four are those measured on one table: 0.35, 1.3, 1.2,
+                         0.13 and 0.047; then all five must be 0. */
+  double smooth_x;    /* SMOOTH: part of the slip along the cushion that friction takes if it
+                         can, above 0, at most 2: 1 */
+  double smooth_t;    /* stops it, more turns a part of it round. And of the slip across the
+                         cushion. */
   double smooth_a;    /* SMOOTH: friction across the cushion reaches 1 + a times as far, 0 to 1. */
-  double smooth_k;    /* SMOOTH: rebound gains this part of the impulse where friction is used up, 0 to 1. The ball never
-                           leaves the nose faster than it came. */
-  double restitution_log; /* any model: restitution and friction at v m/s across the cushion are those of the impact, which */
-  double mu_log;          /* hold at 1 m/s, plus this times ln(v), limited to 0 to 1; below 0.1 m/s as at 0.1. -1 to 1;
-                             default 0. Not read with CAROM_CUSHION_LAW_HAN. */
+  double smooth_k;    /* SMOOTH: rebound gains this part of the impulse where friction is used
+                         up, 0 to 1. The ball never leaves the nose faster than it came. */
+  double restitution_log; /* any model: restitution and friction at v m/s across the cushion are
+                             those of the impact, which */
+  double mu_log;          /* hold at 1 m/s, plus this times ln(v), limited to 0 to 1; below 0.1
+                             m/s as at 0.1. -1 to 1; default 0. Not read with
+                             CAROM_CUSHION_LAW_HAN. */
   uint64_t reserved[4];   /* must be 0. */
 } carom_cushion_options;
 
-/* The name of a model ("mathavan", "stronge", "han", "mirror", "euler", "smooth"), or NULL for a value not listed. */
+/* The name of a model ("mathavan", "stronge", "han", "mirror", "euler", "smooth"), or NULL for a
+ * value not listed. */
 CAROM_API const char *carom_cushion_model_name(carom_cushion_model model);
 
 /* Resolves one impact. `opt` may be NULL for the defaults; `out` may not overlap `in`.
- * CAROM_OK: `*out` is the motion after the impact. CAROM_SEPARATING: the ball does not move into the cushion, and `*out` is its
- * motion before. An error: every number of `*out` is NaN (but `*out` is untouched when a pointer is NULL).
+ * CAROM_OK: `*out` is the motion after the impact. CAROM_SEPARATING: the ball does not move into
+ * the cushion, and `*out` is its motion before. An error: every number of `*out` is NaN (but
+ * `*out` is untouched when a pointer is NULL).
  *
- * MATHAVAN: impacts of play (mu_cloth and mu_cushion 0.1 to 0.4, e from 0.6, the nose 1.2 to 1.45 radii high) within 1e-6 of
- * the fastest of the numbers, times the radius for spins; anything else that is accepted within 1e-5, or its status is
- * CAROM_ERROR_UNRESOLVED; 3 of 2 million random impacts of play were. Window: with both frictions near those at which the ball
- * jams (docs/understanding/cushion.md), 1 of 2 million random impacts beyond play was 6e-4 off. Down to an approach of 1e-9 of
- * the speed. 2.4 us in the mean of play with AVX2, 3.7 in plain C. The solver ends after 400 iterations, at most 3,300
- * evaluations of the equations and 200 us. */
-CAROM_API carom_status carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out);
+ * MATHAVAN: impacts of play (mu_cloth and mu_cushion 0.1 to 0.4, e from 0.6, the nose 1.2 to
+ * 1.45 radii high) within 1e-6 of the fastest of the numbers, times the radius for spins;
+ * anything else that is accepted within 1e-5, or its status is CAROM_ERROR_UNRESOLVED; 3 of 2
+ * million random impacts of play were. Window: with both frictions near those at which the ball
+ * jams (docs/understanding/cushion.md), 1 of 2 million random impacts beyond play was 6e-4 off.
+ * Down to an approach of 1e-9 of the speed. 2.4 us in the mean of play with AVX2, 3.7 in plain
+ * C. The solver ends after 400 iterations, at most 3,300 evaluations of the equations and 200
+ * us. */
+CAROM_API carom_status carom_cushion(const carom_cushion_impact *in,
+                                     const carom_cushion_options *opt, carom_motion *out);
 
-/* Resolves `n` impacts, in[0..n-1] to out[0..n-1], each as carom_cushion() does, bit for bit: a bad row gets NaN and its own
- * status and changes nothing for the others. `status` takes the n statuses, each the value of a carom_status; it may be NULL.
- * `in`, `out` and `status` may not overlap; with n = 0 they may be NULL. Returns CAROM_OK if no row is in error, else the
- * status of the first row in error. NULL or bad options are an error of the call, and then nothing is written. */
-CAROM_API carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n, const carom_cushion_options *opt,
-                                           carom_motion *out, int8_t *status);
+/* Resolves `n` impacts, in[0..n-1] to out[0..n-1], each as carom_cushion() does, bit for bit: a
+ * bad row gets NaN and its own status and changes nothing for the others. `status` takes the n
+ * statuses, each the value of a carom_status; it may be NULL. `in`, `out` and `status` may not
+ * overlap; with n = 0 they may be NULL. Returns CAROM_OK if no row is in error, else the status
+ * of the first row in error. NULL or bad options are an error of the call, and then nothing is
+ * written. */
+CAROM_API carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n,
+                                           const carom_cushion_options *opt, carom_motion *out,
+                                           int8_t *status);
 
-/* Checks the arguments and solves nothing. Returns CAROM_OK or an error. If `field` is not NULL, `*field` becomes the index of
- * the bad number among the 15 doubles of `*in`, or -1 if the error is in no single number. `opt` may be NULL. */
-CAROM_API carom_status carom_cushion_check(const carom_cushion_impact *in, const carom_cushion_options *opt, int *field);
+/* Checks the arguments and solves nothing. Returns CAROM_OK or an error. If `field` is not NULL,
+ * `*field` becomes the index of the bad number among the 15 doubles of `*in`, or -1 if the error
+ * is in no single number. `opt` may be NULL. */
+CAROM_API carom_status carom_cushion_check(const carom_cushion_impact *in,
+                                           const carom_cushion_options *opt, int *field);
 
-/* The C name of number `field` of a carom_cushion_impact, 0 to 14: "v[0]" ... "jaw_radius". NULL outside that range. */
+/* The C name of number `field` of a carom_cushion_impact, 0 to 14: "v[0]" ... "jaw_radius". NULL
+ * outside that range. */
 CAROM_API const char *carom_cushion_field_name(int field);
 
-/* One point of an impact. Slips are in the frame of the cushion: x along it, y into it, z up. A slip is the velocity, m/s, of
- * the surface of the ball over what it touches. */
+/* One point of an impact. Slips are in the frame of the cushion: x along it, y into it, z up. A
+ * slip is the velocity, m/s, of the surface of the ball over what it touches. */
 typedef struct carom_cushion_point {
   double normal;      /* normal impulse so far, N s. It grows during the whole impact. */
   double work;        /* work of the normal force so far, J: the sum of |v_n| dP. */
@@ -130,49 +166,59 @@ typedef struct carom_cushion_point {
   int nose_sticks;    /* 1 where the ball does not slip on the nose, */
   int cloth_sticks;   /* and on the cloth; else 0, and always by Euler's method. */
   int unused;         /* 0. */
-  double v_n;         /* speed into the nose, along the normal there, m/s; negative while they part. */
-  double s_x, s_t;    /* slip on the nose, along the cushion and upwards across it; exactly 0 where it sticks. */
+  double v_n;         /* speed into the nose, along the normal there, m/s; negative while they
+                         part. */
+  double s_x, s_t;    /* slip on the nose, along the cushion and upwards across it; exactly 0
+                         where it sticks. */
   double c_x, c_y;    /* slip on the cloth; exactly 0 where it sticks. */
   carom_motion state; /* along the axes of the table. */
   double reserved[4]; /* 0; room for future fields. */
 } carom_cushion_point;
 
-/* Follows one impact, by the model MATHAVAN or EULER, through `n` >= 2 points at equal steps of normal impulse (EULER: the
- * nearest whole steps) from 0 at points[0] to the end, which is the result of carom_cushion(). `opt` may be NULL. It is not
- * made for speed: MATHAVAN may take 400 iterations for each point, EULER takes n/2 times an impact. Returns what
- * carom_cushion() does, or CAROM_ERROR_CUSHION_MODEL for a model in closed form. CAROM_SEPARATING: every point is the motion
- * before, with impulse 0. An error: every number is NaN (but nothing is written when a pointer is NULL or n < 2). */
-CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cushion_options *opt, size_t n,
+/* Follows one impact, by the model MATHAVAN or EULER, through `n` >= 2 points at equal steps of
+ * normal impulse (EULER: the nearest whole steps) from 0 at points[0] to the end, which is the
+ * result of carom_cushion(). `opt` may be NULL. It is not made for speed: MATHAVAN may take 400
+ * iterations for each point, EULER takes n/2 times an impact. Returns what carom_cushion() does,
+ * or CAROM_ERROR_CUSHION_MODEL for a model in closed form. CAROM_SEPARATING: every point is the
+ * motion before, with impulse 0. An error: every number is NaN (but nothing is written when a
+ * pointer is NULL or n < 2). */
+CAROM_API carom_status carom_cushion_trace(const carom_cushion_impact *in,
+                                           const carom_cushion_options *opt, size_t n,
                                            carom_cushion_point *points);
 
-/* ==== Whole shots ========================================================================================================
+/* ==== Whole shots ================================================================================
  *
- * From the strike of a cue to rest, event by event. Between events every ball moves by a closed form, and no contact is missed.
+ * From the strike of a cue to rest, event by event. Between events every ball moves by a closed
+ * form, and no contact is missed.
  *
  *     carom_table table;
  *     carom_table_make(CAROM_TABLE_POOL_9FT, &table);
  *     carom_shot_ball balls[10];
- *     carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, balls, 10);              // gap 0.1 mm, seed 1; balls[0] is the cue ball
+ *     // gap 0.1 mm, seed 1; balls[0] is the cue ball
+ *     carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, balls, 10);
  *     carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
- *     cue.speed = 8.0;                                                          // aimed at the rack by default
+ *     cue.speed = 8.0;  // aimed at the rack by default
  *     static carom_event events[256];
  *     static carom_shot shot;                                                   // static: all zero
  *     shot.events = events;
  *     shot.room = 256;
- *     carom_status status = carom_shoot(&table, balls, 10, &cue, NULL, &shot);  // balls[] are not changed
+ *     // balls[] are not changed
+ *     carom_status status = carom_shoot(&table, balls, 10, &cue, NULL, &shot);
  *     carom_ball_state moved[10];
- *     carom_shot_at(balls, 10, &shot, 1.5, moved);                              // the states after 1.5 s
+ *     carom_shot_at(balls, 10, &shot, 1.5, moved);  // the states after 1.5 s
  *
- * The playing surface is 0 <= x <= width, 0 <= y <= length for the built-in tables, with z up and the cloth at z = 0: a ball on
- * it has its centre at z = R. docs/using/shots.md describes the models, the rules and the bounds.
+ * The playing surface is 0 <= x <= width, 0 <= y <= length for the built-in tables, with z up
+ * and the cloth at z = 0: a ball on it has its centre at z = R. docs/using/shots.md describes
+ * the models, the rules and the bounds.
  *
- * Bits: those of a batch are those of single calls, for any number of threads and any cut; with options.plain or
- * CAROM_ISA=plain they are the same on every machine, by every model and in both worlds. Cost: about 0.4 us an event with Han's
- * cushions, the default, so 3 us for a shot with two balls and 40 us for a nine-ball break; the exact limit of a cushion costs
- * some 7 to 10 us an impact besides. Stack: 50 KiB; a batch 53, with threads 60. Nothing is allocated, but for the threads of a
- * batch. */
+ * Bits: those of a batch are those of single calls, for any number of threads and any cut; with
+ * options.plain or CAROM_ISA=plain they are the same on every machine, by every model and in
+ * both worlds. Cost: about 0.4 us an event with Han's cushions, the default, so 3 us for a shot
+ * with two balls and 40 us for a nine-ball break; the exact limit of a cushion costs some 7 to
+ * 10 us an impact besides. Stack: 50 KiB; a batch 53, with threads 60. Nothing is allocated, but
+ * for the threads of a batch. */
 
-/* ---- Balls ------------------------------------------------------------------------------------------------------------ */
+/* ---- Balls ----------------------------------------------------------------------------------- */
 
 /* How a ball moves. u = (v_x - R w_y, v_y + R w_x) is its slip over the cloth. */
 typedef enum carom_label {
@@ -181,7 +227,8 @@ typedef enum carom_label {
   CAROM_BALL_SLIDING = 2,    /* u is not 0; sliding friction acts against u */
   CAROM_BALL_ROLLING = 3,    /* u = 0; rolling resistance acts against v */
   CAROM_BALL_POCKETED = 4,   /* in a pocket, out of play */
-  CAROM_BALL_AIRBORNE = 5,   /* above the cloth, or about to leave it or to land: it flies freely, and its spin is constant */
+  CAROM_BALL_AIRBORNE = 5,   /* above the cloth, or about to leave it or to land: it flies
+                                freely, and its spin is constant */
   CAROM_BALL_OFF = 6         /* off the table, out of play; its place is where it left */
 } carom_label;
 
@@ -191,30 +238,41 @@ CAROM_API const char *carom_label_name(carom_label label);
 /* The constants of a ball and of its cloth. All doubles, without gaps. */
 typedef struct carom_ball_kind {
   double mass;                /* kg, > 0. May differ from ball to ball in the world carom. */
-  double radius;              /* R, m, > 0. The same for all balls of a layout with CAROM_SPACE_FLAT. */
+  double radius;              /* R, m, > 0. The same for all balls of a layout with
+                                 CAROM_SPACE_FLAT. */
   double mu_slide;            /* sliding friction of ball and cloth, > 0, at most 1. Pool 0.2. */
   double mu_roll;             /* rolling resistance, > 0, at most 1. Pool 0.01. */
-  double mu_spin;             /* friction of the ball turning on the spot, > 0, at most 1: w_z falls at 5 mu_spin g / (2 R). */
-  double mu_ball;             /* ball and ball, 0 to 1; a pair has the mean. Read with CAROM_FRICTION_CONSTANT only. */
+  double mu_spin;             /* friction of the ball turning on the spot, > 0, at most 1: w_z
+                                 falls at 5 mu_spin g / (2 R). */
+  double mu_ball;             /* ball and ball, 0 to 1; a pair has the mean. Read with
+                                 CAROM_FRICTION_CONSTANT only. */
   double restitution;         /* ball and ball, 0 to 1; a pair has the mean. Pool 0.95. */
   double mu_cushion;          /* ball and cushion, 0 to 1. Pool 0.2. */
   double restitution_cushion; /* ball and cushion, 0 to 1. Pool 0.85. */
   double gravity;             /* g, m/s^2, > 0, at most 1e6. */
-  double drag;                /* k, 1/m, 0 to 1: a rolling ball slows by mu_roll g + k v^2, m/s^2. 0: by mu_roll g alone. */
-  double roll_loss; /* 0 to 1: an impact on a cushion takes this part of the ball's speed along the cushion from its roll
-                       along it: from R w_n, w_n the spin about the normal, which does not fall below 0 by it. */
-  double law_a, law_b, law_c; /* friction with another ball at a slip of u, m/s: law_a + law_b exp(-law_c u). Each >= 0, law_a +
-                                 law_b <= 1; a pair has the mean of each. All 0: carom_alciatore(). Not read with
+  double drag;                /* k, 1/m, 0 to 1: a rolling ball slows by mu_roll g + k v^2,
+                                 m/s^2. 0: by mu_roll g alone. */
+  double roll_loss; /* 0 to 1: an impact on a cushion takes this part of the ball's speed along
+                       the cushion from its roll along it: from R w_n, w_n the spin about the
+                       normal, which does not fall below 0 by it. */
+  double law_a, law_b, law_c; /* friction with another ball at a slip of u, m/s: law_a + law_b
+                                 exp(-law_c u). Each >= 0, law_a + law_b <= 1; a pair has the
+                                 mean of each. All 0: carom_alciatore(). Not read with
                                  CAROM_FRICTION_CONSTANT. */
-  double nose_height; /* of every cushion that the ball meets, above the cloth, m, below 2 R; 0: that of the rail or jaw. */
-  double omega_ratio; /* of Stronge's cushions, as in carom_cushion_options: 1 to 2 without the ends; 0: 1.8. */
-  double restitution_table; /* ball and slate, at most 0.98; 0: 0.5, which is a convention; -1: none. */
-  double modulus;           /* E/(1 - nu^2) of the ball's material, 1e6 to 1e15 Pa; 0: 6.6e9, that of one phenolic resin. It
-                               counts where several balls touch at one instant. */
-  double restitution_log, mu_log; /* of cushions: restitution and friction change by these for each unit of ln(v), v in m/s the
-                                     speed across the cushion, as in carom_cushion_options. */
-  double smooth_q, smooth_x, smooth_t, smooth_a, smooth_k; /* of smooth cushions, as in carom_cushion_options. All 0: those
-                                                              measured on one table. */
+  double nose_height; /* of every cushion that the ball meets, above the cloth, m, below 2 R; 0:
+                         that of the rail or jaw. */
+  double omega_ratio; /* of Stronge's cushions, as in carom_cushion_options: 1 to 2 without the
+                         ends; 0: 1.8. */
+  double restitution_table; /* ball and slate, at most 0.98; 0: 0.5, which is a convention; -1:
+                               none. */
+  double modulus;           /* E/(1 - nu^2) of the ball's material, 1e6 to 1e15 Pa; 0: 6.6e9,
+                               that of one phenolic resin. It counts where several balls touch at
+                               one instant. */
+  double restitution_log, mu_log; /* of cushions: restitution and friction change by these for
+                                     each unit of ln(v), v in m/s the speed across the cushion,
+                                     as in carom_cushion_options. */
+  /* of smooth cushions, as in carom_cushion_options. All 0: those measured on one table. */
+  double smooth_q, smooth_x, smooth_t, smooth_a, smooth_k;
 } carom_ball_kind;
 
 /* Where a ball is and how it moves. */
@@ -222,9 +280,10 @@ typedef struct carom_ball_state {
   double r[3];   /* centre, m; r[2] = R on the cloth. */
   double v[3];   /* velocity, m/s; v[2] = 0 on the cloth. */
   double w[3];   /* angular velocity, rad/s. */
-  int64_t label; /* a carom_label. In a layout POCKETED, AIRBORNE and OFF are kept and the others derived: AIRBORNE where v[2]
-                    is not 0 or the ball is more than 1e-6 m above the cloth, else from v and w: a slip or a speed of at most
-                    1e-12 m/s counts as 0. */
+  int64_t label; /* a carom_label. In a layout POCKETED, AIRBORNE and OFF are kept and the others
+                    derived: AIRBORNE where v[2] is not 0 or the ball is more than 1e-6 m above
+                    the cloth, else from v and w: a slip or a speed of at most 1e-12 m/s counts
+                    as 0. */
 } carom_ball_state;
 
 typedef struct carom_shot_ball {
@@ -232,28 +291,34 @@ typedef struct carom_shot_ball {
   carom_ball_state state;
 } carom_shot_ball;
 
-/* Games, for their balls and cues. docs/understanding/constants.md has the source of each number. The numbers of the cushion
- * are those of Han's model, the default of the world carom; that page has those of the exact model. */
+/* Games, for their balls and cues. docs/understanding/constants.md has the source of each
+ * number. The numbers of the cushion are those of Han's model, the default of the world carom;
+ * that page has those of the exact model. */
 typedef enum carom_game {
-  CAROM_GAME_POOL = 0,             /* typical numbers, each within the range that is published; no table was measured */
+  CAROM_GAME_POOL = 0,             /* typical numbers, each within the range that is published;
+                                      no table was measured */
   CAROM_GAME_SNOOKER = 1,          /* measured by Mathavan and others, 2009 to 2014, on one table */
-  CAROM_GAME_BILLIARD = 2,         /* three-cushion: measured on one table, from 182 recorded shots, with drag and loss of roll;
-                                      mu_cushion, restitution_cushion and nose_height are for CAROM_CUSHION_HAN */
+  CAROM_GAME_BILLIARD = 2,         /* three-cushion: measured on one table, from 182 recorded
+                                      shots, with drag and loss of roll; mu_cushion,
+                                      restitution_cushion and nose_height are for
+                                      CAROM_CUSHION_HAN */
   CAROM_GAME_POOLTOOL_POOL = 3,    /* the figures of pooltool's balls, for parity with it: pool, */
   CAROM_GAME_POOLTOOL_SNOOKER = 4, /* snooker, */
   CAROM_GAME_POOLTOOL_BILLIARD = 5 /* and carom */
 } carom_game;
 
-/* The balls of a game; those of pool for a value not listed. Racks have those of the first three. */
+/* The balls of a game; those of pool for a value not listed. Racks have those of the first
+ * three. */
 CAROM_API carom_ball_kind carom_ball_kind_of(carom_game game);
 
-/* ---- Tables ----------------------------------------------------------------------------------------------------------- */
+/* ---- Tables ---------------------------------------------------------------------------------- */
 
 enum { CAROM_RAILS_MOST = 32, CAROM_JAWS_MOST = 32, CAROM_POCKETS_MOST = 8, CAROM_BALLS_MOST = 32 };
 
-/* A straight piece of cushion: a vertical wall above the segment from p to q. `line` is lx, ly, l0 of the line lx x + ly y + l0
- * = 0 through both, as a caller has it, or all 0: it is then derived. `side` says where balls are: 0 where lx x + ly y + l0 <
- * 0, 1 where it is > 0. With a derived line, side 1 is on the left of p -> q, side 0 on its right. */
+/* A straight piece of cushion: a vertical wall above the segment from p to q. `line` is lx, ly,
+ * l0 of the line lx x + ly y + l0 = 0 through both, as a caller has it, or all 0: it is then
+ * derived. `side` says where balls are: 0 where lx x + ly y + l0 < 0, 1 where it is > 0. With a
+ * derived line, side 1 is on the left of p -> q, side 0 on its right. */
 typedef struct carom_rail {
   double p[2], q[2], height; /* m; height of the nose above the cloth, between 0 and 2 R. */
   double line[3];
@@ -261,7 +326,8 @@ typedef struct carom_rail {
   double mu_cushion, restitution; /* of this rail, 0 to 1; 0: those of the ball. */
 } carom_rail;
 
-/* A rounded end of a cushion: a vertical cylinder, of which balls touch the outside. radius >= 0, m. */
+/* A rounded end of a cushion: a vertical cylinder, of which balls touch the outside. radius >=
+ * 0, m. */
 typedef struct carom_jaw {
   double centre[2], radius, height;
   double mu_cushion, restitution; /* as of a rail. */
@@ -280,12 +346,14 @@ typedef struct carom_table {
   carom_jaw jaw[CAROM_JAWS_MOST];
   carom_pocket pocket[CAROM_POCKETS_MOST];
   /* Read with CAROM_SPACE_3D only. All >= 0, m; 0 means the default. */
-  double ball_radius; /* of the balls that touch a rail on the cloth when their centre is their radius from its line, which
-                         places the nose; 0: that of the last ball of the layout. */
-  double rail_width;  /* of the tops of the rails, behind the noses, which balls may fall on; at least the radius of the
-                         largest ball; 0: 0.12 m, a convention. */
-  double pocket_back; /* an airborne ball over a pocket falls into it if its centre is not higher than this above the cloth
-                         where it leaves the circle; 0: the greatest height of a nose. */
+  double ball_radius; /* of the balls that touch a rail on the cloth when their centre is their
+                         radius from its line, which places the nose; 0: that of the last ball of
+                         the layout. */
+  double rail_width;  /* of the tops of the rails, behind the noses, which balls may fall on; at
+                         least the radius of the largest ball; 0: 0.12 m, a convention. */
+  double pocket_back; /* an airborne ball over a pocket falls into it if its centre is not higher
+                         than this above the cloth where it leaves the circle; 0: the greatest
+                         height of a nose. */
 } carom_table;
 
 typedef enum carom_table_kind {
@@ -294,10 +362,12 @@ typedef enum carom_table_kind {
   CAROM_TABLE_POOL_9FT = 2,     /* 1.27 x 2.54 m */
   CAROM_TABLE_SNOOKER = 3,      /* 12 ft, 1.778 x 3.569 m */
   CAROM_TABLE_THREECUSHION = 4, /* 10 ft, 1.42 x 2.84 m, no pockets */
-  CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood": that of CAROM_TABLE_POOL_7FT, under a name that stays */
+  CAROM_TABLE_POOLTOOL = 5      /* pooltool's default, "7 Ft Showood": that of
+                                   CAROM_TABLE_POOL_7FT, under a name that stays */
 } carom_table_kind;
 
-/* Its name ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value not listed. */
+/* Its name ("9ft", "threecushion"), as in files of `carom shoot`, or NULL for a value not
+ * listed. */
 CAROM_API const char *carom_table_name(carom_table_kind kind);
 
 /* Fills *table. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_TABLE where there is no such kind. */
@@ -320,27 +390,35 @@ typedef struct carom_part {
 /* What is wrong with a table, and where. */
 typedef struct carom_table_fault {
   carom_part part, other; /* the part at fault; of a hole, the parts on both of its sides. */
-  double place[2];        /* m: the middle of the hole or of the rail; 0 where a number of the part is bad. */
+  double place[2];        /* m: the middle of the hole or of the rail; 0 where a number of the
+                             part is bad. */
   double gap;             /* m: width of the hole, from surface to surface; else 0. */
 } carom_table_fault;
 
-/* Checks a table of one's own for balls of a radius; it is made for the workshop, not for each shot (some milliseconds). In
- * this order: each part by itself, as carom_shoot() does; that lines of rails pass through their ends, within 1e-6 m; that the
- * ring of rails, jaws and pockets around the middle (width/2, length/2) is closed, so that no ball can leave the table but into
- * a pocket; that the played side of each rail is the one where balls are, where a ball has a place beside it; and that a jaw,
- * of radius 0 if need be, stands where a ball could come in between the ends of two rails, at which there is nothing to be hit
- * (gap then is how far apart the centres of balls that touch the two rails are). The first fault is told in *fault, which may
- * be NULL. CAROM_OK, CAROM_ERROR_NULL, CAROM_ERROR_RADIUS, CAROM_ERROR_TABLE, CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE,
- * CAROM_ERROR_TABLE_OPEN (of all holes the one that has to be closed last is told; CAROM_PART_NONE where there is no ring, or
- * no place for a ball in its middle), CAROM_ERROR_RAIL_SIDE. */
-CAROM_API carom_status carom_table_check(const carom_table *table, double radius, carom_table_fault *fault);
+/* Checks a table of one's own for balls of a radius; it is made for the workshop, not for each
+ * shot (some milliseconds). In this order: each part by itself, as carom_shoot() does; that
+ * lines of rails pass through their ends, within 1e-6 m; that the ring of rails, jaws and
+ * pockets around the middle (width/2, length/2) is closed, so that no ball can leave the table
+ * but into a pocket; that the played side of each rail is the one where balls are, where a ball
+ * has a place beside it; and that a jaw, of radius 0 if need be, stands where a ball could come
+ * in between the ends of two rails, at which there is nothing to be hit (gap then is how far
+ * apart the centres of balls that touch the two rails are). The first fault is told in *fault,
+ * which may be NULL. CAROM_OK, CAROM_ERROR_NULL, CAROM_ERROR_RADIUS, CAROM_ERROR_TABLE,
+ * CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RAIL_LINE, CAROM_ERROR_TABLE_OPEN (of all holes the one
+ * that has to be closed last is told; CAROM_PART_NONE where there is no ring, or no place for a
+ * ball in its middle), CAROM_ERROR_RAIL_SIDE. */
+CAROM_API carom_status carom_table_check(const carom_table *table, double radius,
+                                         carom_table_fault *fault);
 
 /* Racks, with the cue ball first. */
 typedef enum carom_rack_kind {
-  CAROM_RACK_NINEBALL = 0,    /* 10 balls: cue ball, then 1 to 9 by number, 1 in front and 9 in the middle. */
-  CAROM_RACK_EIGHTBALL = 1,   /* 16 balls: cue ball, then 1 to 15 by number; 8 in the middle, both kinds in the corners. */
+  CAROM_RACK_NINEBALL = 0,    /* 10 balls: cue ball, then 1 to 9 by number, 1 in front and 9 in
+                                 the middle. */
+  CAROM_RACK_EIGHTBALL = 1,   /* 16 balls: cue ball, then 1 to 15 by number; 8 in the middle,
+                                 both kinds in the corners. */
   CAROM_RACK_TENBALL = 2,     /* 11 balls: cue ball, then 1 to 10 by number, 10 in the middle. */
-  CAROM_RACK_SNOOKER = 3,     /* 22 balls: white, 15 reds, yellow, green, brown, blue, pink, black. */
+  CAROM_RACK_SNOOKER = 3,     /* 22 balls: white, 15 reds, yellow, green, brown, blue, pink,
+                                 black. */
   CAROM_RACK_THREECUSHION = 4 /* 3 balls: white, yellow, red, as for the opening. */
 } carom_rack_kind;
 
@@ -350,67 +428,83 @@ CAROM_API const char *carom_rack_name(carom_rack_kind kind);
 /* The number of balls of a rack; 0 if there is no such kind. */
 CAROM_API int carom_rack_size(carom_rack_kind kind);
 
-/* Sets up a rack on the table. Neighbours are `gap` apart, and each ball is moved by up to a quarter of it in a direction drawn
- * from `seed`, which also draws where the other balls of the rack go; gap 0 is a frozen rack. `room` is the number of elements
- * of balls[]. CAROM_OK, CAROM_ERROR_NULL, or CAROM_ERROR_RACK: no such kind, a gap below 0 or above R, too little room. */
-CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double gap, uint64_t seed,
-                                  carom_shot_ball *balls, int room);
+/* Sets up a rack on the table. Neighbours are `gap` apart, and each ball is moved by up to a
+ * quarter of it in a direction drawn from `seed`, which also draws where the other balls of the
+ * rack go; gap 0 is a frozen rack. `room` is the number of elements of balls[]. CAROM_OK,
+ * CAROM_ERROR_NULL, or CAROM_ERROR_RACK: no such kind, a gap below 0 or above R, too little
+ * room. */
+CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double gap,
+                                  uint64_t seed, carom_shot_ball *balls, int room);
 
-/* ---- The cue ---------------------------------------------------------------------------------------------------------- */
+/* ---- The cue --------------------------------------------------------------------------------- */
 
 typedef struct carom_cue {
   double speed;      /* V0 of the cue before the strike, m/s, >= 0. 0: no strike. */
   double phi;        /* direction in the plane, degrees from +x towards +y. */
-  double theta;      /* elevation of the butt, degrees, 0 to 90. The ball is struck down onto the slate and hops; with
-                        CAROM_SPACE_FLAT the part of the blow that goes down is lost. */
-  double a, b;       /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre. a^2 + b^2 < miscue^2. */
+  double theta;      /* elevation of the butt, degrees, 0 to 90. The ball is struck down onto the
+                        slate and hops; with CAROM_SPACE_FLAT the part of the blow that goes down
+                        is lost. */
+  double a, b;       /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre.
+                        a^2 + b^2 < miscue^2. */
   double mass;       /* M, kg, > 0. */
   double end_mass;   /* effective mass of the tip's end, which makes squirt, kg, > 0. */
   double tip_radius; /* m; not used by the strike, kept with the cue. */
   int64_t ball;      /* index of the ball that is struck. */
-  double miscue;     /* 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. Chalked tips reach 0.5. */
+  double miscue;     /* 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its
+                        edge. Chalked tips reach 0.5. */
 } carom_cue;
 
 /* The usual cue: speed 2, phi 90 (along the table), b = 0.25, ball 0. */
 CAROM_API carom_cue carom_cue_of(carom_game game);
 
-/* The motion of a ball at rest after a strike, into out->v and out->w, as with CAROM_SPACE_FLAT: v[2] = 0. CAROM_OK; an error
- * of a field of the cue, or of the mass or radius of the ball, whose other fields are not read; or CAROM_ERROR_OVERFLOW. With
- * an error *out is untouched. */
-CAROM_API carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out);
+/* The motion of a ball at rest after a strike, into out->v and out->w, as with CAROM_SPACE_FLAT:
+ * v[2] = 0. CAROM_OK; an error of a field of the cue, or of the mass or radius of the ball,
+ * whose other fields are not read; or CAROM_ERROR_OVERFLOW. With an error *out is untouched. */
+CAROM_API carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind,
+                                    carom_motion *out);
 
-/* ---- Options ---------------------------------------------------------------------------------------------------------- */
+/* ---- Options --------------------------------------------------------------------------------- */
 
-/* The rules of contact. CAROM_WORLD_CAROM: an event is where the gap is <= 0 and closing; nothing moves but by its motion.
- * CAROM_WORLD_POOLTOOL: pooltool's, with its spacers of 1 um, its order of simultaneous events, and its exchange between balls
- * that touch for long; for the same histories as pooltool's. */
+/* The rules of contact. CAROM_WORLD_CAROM: an event is where the gap is <= 0 and closing;
+ * nothing moves but by its motion. CAROM_WORLD_POOLTOOL: pooltool's, with its spacers of 1 um,
+ * its order of simultaneous events, and its exchange between balls that touch for long; for the
+ * same histories as pooltool's. */
 typedef enum carom_world { CAROM_WORLD_CAROM = 0, CAROM_WORLD_POOLTOOL = 1 } carom_world;
 
 /* The collision of two balls. DEFAULT is EXACT in the world carom, INELASTIC in pooltool. */
 typedef enum carom_ball_model {
   CAROM_BALL_MODEL_DEFAULT = 0,
   CAROM_BALL_MODEL_EXACT = 1,     /* carom_collide(): the exact limit of the 2014 model */
-  CAROM_BALL_MODEL_EULER = 2,     /* carom_collide() in `steps` steps; with pooltool's slip in the world pooltool */
-  CAROM_BALL_MODEL_INELASTIC = 3, /* one closed-form impulse, as pooltool's default; for equal masses */
+  CAROM_BALL_MODEL_EULER = 2,     /* carom_collide() in `steps` steps; with pooltool's slip in
+                                     the world pooltool */
+  CAROM_BALL_MODEL_INELASTIC = 3, /* one closed-form impulse, as pooltool's default; for equal
+                                     masses */
   CAROM_BALL_MODEL_MIRROR = 4     /* no friction: normal velocities by the restitution alone */
 } carom_ball_model;
 
-/* Friction between two balls: from their speed of slip, by Alciatore's law or the one of the balls; or mu_ball of the balls. */
-typedef enum carom_ball_friction { CAROM_FRICTION_ALCIATORE = 0, CAROM_FRICTION_CONSTANT = 1 } carom_ball_friction;
+/* Friction between two balls: from their speed of slip, by Alciatore's law or the one of the
+ * balls; or mu_ball of the balls. */
+typedef enum carom_ball_friction {
+  CAROM_FRICTION_ALCIATORE = 0,
+  CAROM_FRICTION_CONSTANT = 1
+} carom_ball_friction;
 
-/* Whether balls can leave the cloth. In 3D a shot in which no ball does so has the bits that it has with FLAT, and its speed:
- * two balls on the cloth collide by the 2014 model, and a ball on the cloth and a cushion by the flat model. Where a ball
- * flies, or two radii differ, contacts are those of spheres in space (carom_impact3()). The world pooltool is flat whatever
- * this says. */
+/* Whether balls can leave the cloth. In 3D a shot in which no ball does so has the bits that it
+ * has with FLAT, and its speed: two balls on the cloth collide by the 2014 model, and a ball on
+ * the cloth and a cushion by the flat model. Where a ball flies, or two radii differ, contacts
+ * are those of spheres in space (carom_impact3()). The world pooltool is flat whatever this
+ * says. */
 typedef enum carom_space {
-  CAROM_SPACE_3D = 0,  /* elevated cues make balls hop; balls jump, fall on each other and on rails, and leave the table */
+  CAROM_SPACE_3D = 0,  /* elevated cues make balls hop; balls jump, fall on each other and on
+                          rails, and leave the table */
   CAROM_SPACE_FLAT = 1 /* balls stay on the cloth, whatever pushes them up or down */
 } carom_space;
 
-/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is HAN in the world carom, STRONGE in
- * pooltool. HAN predicts recorded shots as well as MATHAVAN, the exact limit, for a tenth of the cost or less
- * (docs/understanding/reality.md). These values are not those of carom_cushion_model, in which 0 is a model: compilers warn
- * where the two are mixed (-Wenum-conversion, which -Wextra of gcc turns on). */
+/* The impact of a ball on a cushion, by the models of carom_cushion_model. DEFAULT is HAN in the
+ * world carom, STRONGE in pooltool. HAN predicts recorded shots as well as MATHAVAN, the exact
+ * limit, for a tenth of the cost or less (docs/understanding/reality.md). These values are not
+ * those of carom_cushion_model, in which 0 is a model: compilers warn where the two are mixed
+ * (-Wenum-conversion, which -Wextra of gcc turns on). */
 typedef enum carom_shot_cushion {
   CAROM_SHOT_CUSHION_DEFAULT = 0,
   CAROM_SHOT_CUSHION_MATHAVAN = 1,
@@ -421,10 +515,14 @@ typedef enum carom_shot_cushion {
   CAROM_SHOT_CUSHION_SMOOTH = 6
 } carom_shot_cushion;
 
-/* Contacts of several balls at one instant. CLUSTER: they last and overlap in time, by carom_cluster(); with the ball models
- * EXACT and MIRROR, which has them without friction. PAIRS: one after the other, the fastest first. The world pooltool and the
- * other ball models have PAIRS whatever this says. */
-typedef enum carom_simultaneous { CAROM_SIMULTANEOUS_CLUSTER = 0, CAROM_SIMULTANEOUS_PAIRS = 1 } carom_simultaneous;
+/* Contacts of several balls at one instant. CLUSTER: they last and overlap in time, by
+ * carom_cluster(); with the ball models EXACT and MIRROR, which has them without friction.
+ * PAIRS: one after the other, the fastest first. The world pooltool and the other ball models
+ * have PAIRS whatever this says. */
+typedef enum carom_simultaneous {
+  CAROM_SIMULTANEOUS_CLUSTER = 0,
+  CAROM_SIMULTANEOUS_PAIRS = 1
+} carom_simultaneous;
 
 /* All zero means the defaults. */
 typedef struct carom_shot_options {
@@ -434,23 +532,28 @@ typedef struct carom_shot_options {
   carom_ball_friction friction;
   int32_t steps;       /* of Euler's models; 0: 1000. */
   int32_t events_most; /* events of a shot, but that those of a cluster are not parted; 0: 10000. */
-  int32_t threads;     /* most threads of a batch, the calling one among them; 0: that one alone; CAROM_ALL_THREADS. */
+  int32_t threads;     /* most threads of a batch, the calling one among them; 0: that one alone;
+                          CAROM_ALL_THREADS. */
   carom_space space;
-  double time_most; /* s: the shot is stopped at exactly this time of its clock, after the events of that instant, with
-                       CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s with CAROM_ERROR_TOO_LONG. */
-  uint64_t stop_at; /* the shot is stopped right after an event of this set, or its cluster, with CAROM_STOPPED_AT_EVENT:
-                    CAROM_STOP_AT(type)   of each carom_event_type, CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
-  int32_t plain;    /* 1: with CAROM_ISA_PLAIN, as in carom_options: a shot with the bits that all machines share. 0: with
-                    the instruction set in use. */
+  double time_most; /* s: the shot is stopped at exactly this time of its clock, after the events
+                       of that instant, with CAROM_STOPPED_AT_TIME. 0: it is not, but at 1000 s
+                       with CAROM_ERROR_TOO_LONG. */
+  uint64_t stop_at; /* the shot is stopped right after an event of this set, or its cluster, with
+                       CAROM_STOPPED_AT_EVENT: CAROM_STOP_AT(type)   of each carom_event_type,
+                       CAROM_STOP_AT_CONTACT, or several joined by |. 0: after none. */
+  int32_t plain;    /* 1: with CAROM_ISA_PLAIN, as in carom_options: a shot with the bits that
+                       all machines share. 0: with the instruction set in use. */
   carom_simultaneous simultaneous;
-  int32_t cluster_steps; /* of the integrator of clusters, for the duration of a contact, at most 10000; 0: 25. */
+  int32_t cluster_steps; /* of the integrator of clusters, for the duration of a contact, at most
+                            10000; 0: 25. */
   int32_t unused;        /* must be 0. */
-  uint64_t first_of;     /* the shot is stopped right after the first contact of the cue ball with another ball, with
-                            CAROM_STOPPED_AT_EVENT, unless that ball is of this set: bit k is ball k. 0: it is not stopped. */
+  uint64_t first_of;     /* the shot is stopped right after the first contact of the cue ball
+                            with another ball, with CAROM_STOPPED_AT_EVENT, unless that ball is
+                            of this set: bit k is ball k. 0: it is not stopped. */
   uint64_t reserved[1];  /* must be 0. */
 } carom_shot_options;
 
-/* ---- What happened ---------------------------------------------------------------------------------------------------- */
+/* ---- What happened --------------------------------------------------------------------------- */
 
 typedef enum carom_event_type {
   CAROM_EVENT_STRIKE = 1,          /* the cue and ball a */
@@ -463,21 +566,25 @@ typedef enum carom_event_type {
   CAROM_EVENT_ROLLING_STATIONARY = 8,
   CAROM_EVENT_SPINNING_STATIONARY = 9,
   CAROM_EVENT_SLATE = 10,     /* airborne ball a lands on the slate */
-  CAROM_EVENT_RAIL_TOP = 11,  /* airborne ball a falls on the top of rail b, or of jaw b - the table's rails */
-  CAROM_EVENT_LEFT_TABLE = 12 /* airborne ball a leaves the table: it falls or flies beyond it, or comes to lie on a rail. The
-                                 shot goes on. */
+  CAROM_EVENT_RAIL_TOP = 11,  /* airborne ball a falls on the top of rail b, or of jaw b - the
+                                 table's rails */
+  CAROM_EVENT_LEFT_TABLE = 12 /* airborne ball a leaves the table: it falls or flies beyond it,
+                                 or comes to lie on a rail. The shot goes on. */
 } carom_event_type;
 
-/* Its name ("ball_linear_cushion" for a rail), as in files of `carom shoot`, or NULL for a value not listed. */
+/* Its name ("ball_linear_cushion" for a rail), as in files of `carom shoot`, or NULL for a value
+ * not listed. */
 CAROM_API const char *carom_event_name(carom_event_type type);
 
-/* One event. before[1] and after[1] are those of ball b of a CAROM_EVENT_BALL_BALL, else all zero. The contacts of a cluster
- * are events one after another, in the order in which they touched. A ball changes at its first one; before and after the
- * others it has the state that it has at the end. So momentum and energy balance over all events of a cluster, not over one. */
+/* One event. before[1] and after[1] are those of ball b of a CAROM_EVENT_BALL_BALL, else all
+ * zero. The contacts of a cluster are events one after another, in the order in which they
+ * touched. A ball changes at its first one; before and after the others it has the state that it
+ * has at the end. So momentum and energy balance over all events of a cluster, not over one. */
 typedef struct carom_event {
   double time; /* s */
   int32_t type, a, b;
-  int32_t cluster; /* of a CAROM_EVENT_BALL_BALL: contacts of its cluster; 0: a contact of two balls alone. */
+  int32_t cluster; /* of a CAROM_EVENT_BALL_BALL: contacts of its cluster; 0: a contact of two
+                      balls alone. */
   carom_ball_state before[2], after[2];
 } carom_event;
 
@@ -489,22 +596,25 @@ typedef struct carom_brief_event {
 
 /* For options.stop_at: events of a type; */
 #define CAROM_STOP_AT(type) (UINT64_C(1) << (type))
-/* and a contact of the cue ball, which is that of the cue, or ball 0 without a cue, with another ball. */
+/* and a contact of the cue ball, which is that of the cue, or ball 0 without a cue, with another
+ * ball. */
 #define CAROM_STOP_AT_CONTACT UINT64_C(1)
 
-/* All that a stopped shot needs to go on; see carom_shot_continue(). Its bytes may be copied, kept in a file and read by the
- * same build of the library, which refuses them where one has changed. They depend on the arguments of the calls alone, and are
- * 0 where they hold nothing. */
+/* All that a stopped shot needs to go on; see carom_shot_continue(). Its bytes may be copied,
+ * kept in a file and read by the same build of the library, which refuses them where one has
+ * changed. They depend on the arguments of the calls alone, and are 0 where they hold nothing. */
 typedef struct carom_shot_state {
   uint64_t opaque[4096];
 } carom_shot_state;
 
-/* What happened in a shot, for rules of games. The library fills it in while the shot is played, so no event has to be kept. An
- * index is -1 and a time infinite where there is none. The cue ball is that of the cue, or ball 0 without a cue. A cushion is a
- * rail or a jaw. Bit k of a set is ball k. */
+/* What happened in a shot, for rules of games. The library fills it in while the shot is played,
+ * so no event has to be kept. An index is -1 and a time infinite where there is none. The cue
+ * ball is that of the cue, or ball 0 without a cue. A cushion is a rail or a jaw. Bit k of a set
+ * is ball k. */
 typedef struct carom_facts {
   int32_t first[2];                 /* the first two different balls that the cue ball met, */
-  int32_t cushions_before[2];       /* impacts of the cue ball on cushions before it met each of them; 0 where it met none, */
+  int32_t cushions_before[2];       /* impacts of the cue ball on cushions before it met each of
+                                       them; 0 where it met none, */
   double first_time[2];             /* and when it met them, s. */
   int32_t cushions_after;           /* impacts of all balls on cushions after the first contact. */
   uint32_t down;                    /* the set of the balls that fell into a pocket in this shot, */
@@ -515,72 +625,90 @@ typedef struct carom_facts {
   int32_t cushions[CAROM_BALLS_MOST];   /* impacts of each ball on cushions. */
 } carom_facts;
 
-/* The result of a shot. All zero is a shot of which only count and time are wanted; the caller sets what else is. */
+/* The result of a shot. All zero is a shot of which only count and time are wanted; the caller
+ * sets what else is. */
 typedef struct carom_shot {
-  carom_event *events;      /* in the order in which they happened; the first `room` of them are kept. May be NULL, */
+  carom_event *events;      /* in the order in which they happened; the first `room` of them are
+                               kept. May be NULL, */
   carom_brief_event *brief; /* and so may these: the same events without states. */
-  int64_t room;             /* elements of events[], of brief[], or of each of both. 0 if both are NULL. */
+  int64_t room;             /* elements of events[], of brief[], or of each of both. 0 if both
+                               are NULL. */
   int64_t count;            /* events that happened, also beyond room. */
   carom_ball_state *final;  /* the states at the end, one for each ball; may be NULL. */
-  double time; /* s: up to when the shot was followed: time_most, where the shot was stopped there; else when the last
-                  event happened, or a ball left the table; where events_most ended the shot while balls with drag
-                  rolled, up to when they were followed. carom_shot_at() knows no later state of a shot that ended
-                  while balls moved. */
-  carom_shot_state *state; /* where the shot leaves what carom_shot_continue() needs; may be NULL. */
-  carom_facts *facts;      /* what happened; may be NULL. carom_shot_continue() adds to the facts of the shot so far. */
+  double time; /* s: up to when the shot was followed: time_most, where the shot was stopped
+                  there; else when the last event happened, or a ball left the table; where
+                  events_most ended the shot while balls with drag rolled, up to when they were
+                  followed. carom_shot_at() knows no later state of a shot that ended while balls
+                  moved. */
+  carom_shot_state *state; /* where the shot leaves what carom_shot_continue() needs; may be
+                              NULL. */
+  carom_facts *facts;      /* what happened; may be NULL. carom_shot_continue() adds to the facts
+                              of the shot so far. */
   uint64_t reserved[3];    /* not read or written yet. */
 } carom_shot;
 
-/* The collision of two spheres in space along any line of centres: one impulse in closed form, of any radii and masses, with
- * restitution e and Coulomb's friction mu_ball, which stops the slip or slips to the end. The cloth takes no part: mu_cloth is
- * not read. Only the direction of b.r - a.r counts. CAROM_OK; CAROM_SEPARATING where the balls do not close, with the motion
- * before; an error of a field; or CAROM_ERROR_OVERFLOW where speeds are above 1e300 m/s or impulses are not within 1e-290 to
- * 1e300 kg m/s. With an error *out is all NaN (untouched when a pointer is NULL). */
+/* The collision of two spheres in space along any line of centres: one impulse in closed form,
+ * of any radii and masses, with restitution e and Coulomb's friction mu_ball, which stops the
+ * slip or slips to the end. The cloth takes no part: mu_cloth is not read. Only the direction of
+ * b.r - a.r counts. CAROM_OK; CAROM_SEPARATING where the balls do not close, with the motion
+ * before; an error of a field; or CAROM_ERROR_OVERFLOW where speeds are above 1e300 m/s or
+ * impulses are not within 1e-290 to 1e300 kg m/s. With an error *out is all NaN (untouched when
+ * a pointer is NULL). */
 CAROM_API carom_status carom_impact3(const carom_impact *in, carom_result *out);
 
 /* One contact of a cluster. */
 typedef struct carom_cluster_contact {
   int32_t a, b;       /* indices of its balls, a < b. */
-  double touched;     /* s: when it touched first, by the inner time of the cluster, in which 0 is its start. */
+  double touched;     /* s: when it touched first, by the inner time of the cluster, in which 0
+                         is its start. */
   double impulse;     /* N s: along the normal, on ball b away from a; the reverse on a. */
   double normal[3];   /* unit vector from ball a to ball b where they touched. */
   double friction[3]; /* N s: impulse of ball b's friction on ball a; the reverse on b. */
 } carom_cluster_contact;
 
-/* Contacts that last: resolves all balls that touch at one instant together, in the limit of stiff contacts. Positions stay.
- * Each contact has Hertz's force with restitution e and Coulomb's friction, for which mu falls with the greatest slip so far;
- * on the cloth, the friction of the cloth too. Balls that are not in contact yet, but near, take part where they are touched
- * while a contact lasts (0.2 to 0.6 ms in truth). docs/understanding/clusters.md has the equations, their limits and what they
- * explain. One contact alone has the law of carom_collide(), within 4e-4 of the closing speed.
+/* Contacts that last: resolves all balls that touch at one instant together, in the limit of
+ * stiff contacts. Positions stay. Each contact has Hertz's force with restitution e and
+ * Coulomb's friction, for which mu falls with the greatest slip so far; on the cloth, the
+ * friction of the cloth too. Balls that are not in contact yet, but near, take part where they
+ * are touched while a contact lasts (0.2 to 0.6 ms in truth). docs/understanding/clusters.md has
+ * the equations, their limits and what they explain. One contact alone has the law of
+ * carom_collide(), within 4e-4 of the closing speed.
  *
- * Balls touch that are less than 1e-9 m apart. They are in space where one of them is CAROM_BALL_AIRBORNE or two radii differ,
- * unless opt->space is FLAT, else on the cloth; the slate takes no part in space. Balls out of play are left out. Read of
- * `opt`, which may be NULL for the defaults: ball_model, which may be EXACT or MIRROR, friction, space, cluster_steps.
+ * Balls touch that are less than 1e-9 m apart. They are in space where one of them is
+ * CAROM_BALL_AIRBORNE or two radii differ, unless opt->space is FLAT, else on the cloth; the
+ * slate takes no part in space. Balls out of play are left out. Read of `opt`, which may be NULL
+ * for the defaults: ball_model, which may be EXACT or MIRROR, friction, space, cluster_steps.
  * Restitutions below 0.2 are computed as 0.2.
  *
- * out[] takes `count` motions. contacts[] takes the contacts that had an impulse, in the order in which they touched; `room` of
- * them are kept, and *contacts_count, which may be NULL, becomes their number. CAROM_OK; CAROM_SEPARATING, with the motion
- * before, where no balls touch and close at 1 mm/s or faster; CAROM_ERROR_UNRESOLVED where it takes more than 20,000 steps,
- * which needs long rows of balls of small restitution, or there is no room for the contacts of balls of very unlike size; an
- * error of a field. With an error *out is all NaN (untouched when a pointer is NULL). About 80 us for a full rack, 6 us for
- * three balls. */
-CAROM_API carom_status carom_cluster(const carom_shot_ball *balls, int count, const carom_shot_options *opt, carom_motion *out,
-                                     carom_cluster_contact *contacts, int room, int *contacts_count);
+ * out[] takes `count` motions. contacts[] takes the contacts that had an impulse, in the order
+ * in which they touched; `room` of them are kept, and *contacts_count, which may be NULL,
+ * becomes their number. CAROM_OK; CAROM_SEPARATING, with the motion before, where no balls touch
+ * and close at 1 mm/s or faster; CAROM_ERROR_UNRESOLVED where it takes more than 20,000 steps,
+ * which needs long rows of balls of small restitution, or there is no room for the contacts of
+ * balls of very unlike size; an error of a field. With an error *out is all NaN (untouched when
+ * a pointer is NULL). About 80 us for a full rack, 6 us for three balls. */
+CAROM_API carom_status carom_cluster(const carom_shot_ball *balls, int count,
+                                     const carom_shot_options *opt, carom_motion *out,
+                                     carom_cluster_contact *contacts, int room,
+                                     int *contacts_count);
 
-/* Plays a shot until nothing moves. 1 to CAROM_BALLS_MOST balls. If a ball moves already, or cue is NULL or its speed 0, there
- * is no strike. `opt` may be NULL for the defaults. Returns CAROM_OK; CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT where
- * the options ask for that; CAROM_ERROR_TOO_MANY_EVENTS or CAROM_ERROR_TOO_LONG where a bound ended it; an error of a field,
- * with count 0 and nothing else written (carom_shot_check() returns the field); or CAROM_ERROR_LEFT_TABLE, where a ball on the
- * cloth found a hole between the cushions, or one of a collision, with everything up to that event. The final states are those
- * at shot->time. */
-CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
-                                   const carom_shot_options *opt, carom_shot *shot);
+/* Plays a shot until nothing moves. 1 to CAROM_BALLS_MOST balls. If a ball moves already, or cue
+ * is NULL or its speed 0, there is no strike. `opt` may be NULL for the defaults. Returns
+ * CAROM_OK; CAROM_STOPPED_AT_TIME or CAROM_STOPPED_AT_EVENT where the options ask for that;
+ * CAROM_ERROR_TOO_MANY_EVENTS or CAROM_ERROR_TOO_LONG where a bound ended it; an error of a
+ * field, with count 0 and nothing else written (carom_shot_check() returns the field); or
+ * CAROM_ERROR_LEFT_TABLE, where a ball on the cloth found a hole between the cushions, or one of
+ * a collision, with everything up to that event. The final states are those at shot->time. */
+CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
+                                   int count, const carom_cue *cue, const carom_shot_options *opt,
+                                   carom_shot *shot);
 
-/* Goes on with a shot that was stopped, by its options or by a bound, as if it had not been: every event and state has the bits
- * of the unbroken shot, however often it is stopped. Table, balls and `shot`, with its events so far, are those of the call
- * that stopped, for which shot->state was set; the options say when to stop again, and keep the models. shot->events and ->room
- * may have been replaced by a copy with more room. A shot that has come to rest stays as it is, with CAROM_OK. With table,
- * balls, cue, shot and moved of the sample above:
+/* Goes on with a shot that was stopped, by its options or by a bound, as if it had not been:
+ * every event and state has the bits of the unbroken shot, however often it is stopped. Table,
+ * balls and `shot`, with its events so far, are those of the call that stopped, for which
+ * shot->state was set; the options say when to stop again, and keep the models. shot->events and
+ * ->room may have been replaced by a copy with more room. A shot that has come to rest stays as
+ * it is, with CAROM_OK. With table, balls, cue, shot and moved of the sample above:
  *
  *     static carom_shot_state state;
  *     static carom_shot_options options;                                 // all zero: the defaults
@@ -588,34 +716,41 @@ CAROM_API carom_status carom_shoot(const carom_table *table, const carom_shot_ba
  *     shot.state = &state;
  *     shot.final = moved;
  *     status = carom_shoot(&table, balls, 10, &cue, &options, &shot);
- *     for (int frame = 2; status == CAROM_STOPPED_AT_TIME; frame++) {    // moved[] are the states of the frame before
+ *     // moved[] are the states of the frame before
+ *     for (int frame = 2; status == CAROM_STOPPED_AT_TIME; frame++) {
  *       options.time_most = frame / 60.0;
  *       status = carom_shot_continue(&table, balls, 10, &options, &shot);
  *     }
  *
- * Returns what carom_shoot() does. With nothing written: CAROM_ERROR_STATE: shot->state is damaged or of another build, the
- * shot ended in an error other than a bound, or shot->count or ->time cannot be. CAROM_ERROR_STATE_TABLE,
- * CAROM_ERROR_STATE_BALLS, CAROM_ERROR_STATE_OPTIONS: the table, the balls or their layout, or what `options` say besides when
- * to stop, are not those of the call that stopped. CAROM_ERROR_TIME_MOST: time_most is before the time at which the shot
- * stopped. */
-CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
-                                           const carom_shot_options *opt, carom_shot *shot);
+ * Returns what carom_shoot() does. With nothing written: CAROM_ERROR_STATE: shot->state is
+ * damaged or of another build, the shot ended in an error other than a bound, or shot->count or
+ * ->time cannot be. CAROM_ERROR_STATE_TABLE, CAROM_ERROR_STATE_BALLS, CAROM_ERROR_STATE_OPTIONS:
+ * the table, the balls or their layout, or what `options` say besides when to stop, are not
+ * those of the call that stopped. CAROM_ERROR_TIME_MOST: time_most is before the time at which
+ * the shot stopped. */
+CAROM_API carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls,
+                                           int count, const carom_shot_options *opt,
+                                           carom_shot *shot);
 
-/* The states of all balls at a time, by evaluation of the motion after each ball's last event. Before 0: as at 0; after the
- * end: as at the end, where nothing moves any more. CAROM_OK, or an error with nothing written: CAROM_ERROR_NULL;
- * CAROM_ERROR_ROOM; CAROM_ERROR_BALLS; CAROM_ERROR_EVENTS_LOST where shot->room was too small to know; CAROM_ERROR_TIME for a
- * time that is not a number, and for one after shot->time where balls still move then, since a bound or an error ended the
- * shot. */
-CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
-                                     carom_ball_state *states);
+/* The states of all balls at a time, by evaluation of the motion after each ball's last event.
+ * Before 0: as at 0; after the end: as at the end, where nothing moves any more. CAROM_OK, or an
+ * error with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_ROOM; CAROM_ERROR_BALLS;
+ * CAROM_ERROR_EVENTS_LOST where shot->room was too small to know; CAROM_ERROR_TIME for a time
+ * that is not a number, and for one after shot->time where balls still move then, since a bound
+ * or an error ended the shot. */
+CAROM_API carom_status carom_shot_at(const carom_shot_ball *balls, int count,
+                                     const carom_shot *shot, double time, carom_ball_state *states);
 
-/* The states at `n` times: those of times[k] go to states[k * count ...], each with the bits of carom_shot_at(). Times in
- * ascending order cost some 20 ns a ball; every one before the last begins anew with the first event. Returns what
- * carom_shot_at() does, for the first time in error; the states of the times before it have been written. */
-CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const carom_shot *shot, const double *times,
-                                           size_t n, carom_ball_state *states);
+/* The states at `n` times: those of times[k] go to states[k * count ...], each with the bits of
+ * carom_shot_at(). Times in ascending order cost some 20 ns a ball; every one before the last
+ * begins anew with the first event. Returns what carom_shot_at() does, for the first time in
+ * error; the states of the times before it have been written. */
+CAROM_API carom_status carom_shot_at_times(const carom_shot_ball *balls, int count,
+                                           const carom_shot *shot, const double *times, size_t n,
+                                           carom_ball_state *states);
 
-/* Many shots on one table. Shot k is of the `count` balls from balls[k * ball_stride] on, and of cues[k * cue_stride].
+/* Many shots on one table. Shot k is of the `count` balls from balls[k * ball_stride] on, and of
+ * cues[k * cue_stride].
  * With table, balls and cue of the sample above:
  *
  *     static carom_cue cues[100];
@@ -638,46 +773,57 @@ typedef struct carom_shot_job {
   const carom_shot_ball *balls;
   const carom_cue *cues;             /* NULL: no strikes. */
   int64_t count;                     /* balls of a shot. */
-  uint64_t ball_stride;              /* from the layout of a shot to that of the next, in balls, as a rule `count`; */
-  uint64_t cue_stride;               /* and from cue to cue, as a rule 1. 0: all shots have the first. */
+  uint64_t ball_stride;              /* from the layout of a shot to that of the next, in balls,
+                                        as a rule `count`; */
+  uint64_t cue_stride;               /* and from cue to cue, as a rule 1. 0: all shots have the
+                                        first. */
   uint64_t n;                        /* shots. */
   const carom_shot_options *options; /* NULL: the defaults. `threads` is read here only. */
-  carom_shot *shots;                 /* n results, in which the caller has set what is wanted, as for carom_shoot(). */
+  carom_shot *shots;                 /* n results, in which the caller has set what is wanted, as
+                                        for carom_shoot(). */
   int8_t *status;                    /* n statuses; may be NULL. */
   uint64_t reserved[4];              /* must be 0. */
 } carom_shot_job;
 
-/* Plays all shots of a job. Each has the bits and the status of carom_shoot(), and a bad one costs itself: each layout has
- * balls and a radius of its own and is checked with them, and balls too small or too large for the noses of the table cost
- * their own shot only. Returns CAROM_OK or the status of the first shot in error; if the call itself cannot be served (NULL, a
- * bad option, a bad count, a part of the table that is bad for every radius), that error, with nothing written. With n = 0
- * nothing else is read. */
+/* Plays all shots of a job. Each has the bits and the status of carom_shoot(), and a bad one
+ * costs itself: each layout has balls and a radius of its own and is checked with them, and
+ * balls too small or too large for the noses of the table cost their own shot only. Returns
+ * CAROM_OK or the status of the first shot in error; if the call itself cannot be served (NULL,
+ * a bad option, a bad count, a part of the table that is bad for every radius), that error, with
+ * nothing written. With n = 0 nothing else is read. */
 CAROM_API carom_status carom_shoot_batch(const carom_shot_job *job);
 
-/* Checks the arguments of carom_shoot() and plays nothing. *where becomes the index of the ball, rail, jaw or pocket at fault,
- * or -1; it may be NULL. CAROM_ERROR_OFF_TABLE: a ball is in a cushion by more than 1e-6 m; or its centre is behind one,
- * outside the ring of rails, jaws and pockets; or its centre is in a pocket and its label is not CAROM_BALL_POCKETED. A place
- * is outside if no ball of that radius can be rolled to it from the middle of the table (width/2, length/2). On a table that
- * carom_table_check() refuses as open, a place outside may pass. An airborne ball may be over a pocket or over the top of a
- * rail; it must not be in a nose or below a top, nor lower than the cloth. */
-CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
+/* Checks the arguments of carom_shoot() and plays nothing. *where becomes the index of the ball,
+ * rail, jaw or pocket at fault, or -1; it may be NULL. CAROM_ERROR_OFF_TABLE: a ball is in a
+ * cushion by more than 1e-6 m; or its centre is behind one, outside the ring of rails, jaws and
+ * pockets; or its centre is in a pocket and its label is not CAROM_BALL_POCKETED. A place is
+ * outside if no ball of that radius can be rolled to it from the middle of the table (width/2,
+ * length/2). On a table that carom_table_check() refuses as open, a place outside may pass. An
+ * airborne ball may be over a pocket or over the top of a rail; it must not be in a nose or
+ * below a top, nor lower than the cloth. */
+CAROM_API carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls,
+                                        int count, const carom_cue *cue,
                                         const carom_shot_options *opt, int *where);
 
-/* Ball in hand: puts balls[ball] at rest at (x, y), if that place is free of the other balls, which need not be at rest, of
- * cushions and pockets, within the bounds of carom_shot_check(). Its kind is kept; it may have been out of play. CAROM_OK;
- * CAROM_ERROR_OVERLAP for a place that another ball takes, CAROM_ERROR_OFF_TABLE for one in a cushion or a pocket, or outside
- * the ring: *in_the_way then is that ball or part (CAROM_PART_NONE: outside), and nothing is moved. Or an error of the table,
- * of the ball's radius, CAROM_ERROR_POSITION, CAROM_ERROR_BALLS for a count or an index that cannot be. `in_the_way` may be
- * NULL. */
-CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball, double x,
-                                        double y, carom_part *in_the_way);
+/* Ball in hand: puts balls[ball] at rest at (x, y), if that place is free of the other balls,
+ * which need not be at rest, of cushions and pockets, within the bounds of carom_shot_check().
+ * Its kind is kept; it may have been out of play. CAROM_OK; CAROM_ERROR_OVERLAP for a place that
+ * another ball takes, CAROM_ERROR_OFF_TABLE for one in a cushion or a pocket, or outside the
+ * ring: *in_the_way then is that ball or part (CAROM_PART_NONE: outside), and nothing is moved.
+ * Or an error of the table, of the ball's radius, CAROM_ERROR_POSITION, CAROM_ERROR_BALLS for a
+ * count or an index that cannot be. `in_the_way` may be NULL. */
+CAROM_API carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count,
+                                        int ball, double x, double y, carom_part *in_the_way);
 
-/* How each ball has turned since the start of the shot, for drawing it: unit quaternions (w, x, y, z), which take what is
- * painted on a ball at the start to where it is at the time. They follow from the events alone, whatever was asked before.
- * Exact but for rounding while the axis of the spin keeps its direction (in flight, on the spot, rolling without side spin, in
- * straight slides), else within 1e-7 rad for each phase of the ball. `turned` takes `count` of them. Returns what
- * carom_shot_at() does. A call costs some 0.1 us for each radian that balls with side spin have turned. */
-CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
+/* How each ball has turned since the start of the shot, for drawing it: unit quaternions (w, x,
+ * y, z), which take what is painted on a ball at the start to where it is at the time. They
+ * follow from the events alone, whatever was asked before. Exact but for rounding while the axis
+ * of the spin keeps its direction (in flight, on the spot, rolling without side spin, in
+ * straight slides), else within 1e-7 rad for each phase of the ball. `turned` takes `count` of
+ * them. Returns what carom_shot_at() does. A call costs some 0.1 us for each radian that balls
+ * with side spin have turned. */
+CAROM_API carom_status carom_shot_orientation(const carom_shot_ball *balls, int count,
+                                              const carom_shot *shot, double time,
                                               double (*turned)[4]);
 
 #ifdef __cplusplus

@@ -10,15 +10,17 @@ void carom_python_mu_ball(const carom_impact *in, size_t n, carom_speed_law law,
     mu[k] = carom_mu_ball(&in[k], law);
 }
 
-carom_status carom_python_orientations(const carom_shot_ball *balls, int count, const carom_shot *shot, const double *times,
-                                       size_t n, double *turned) {
+carom_status carom_python_orientations(const carom_shot_ball *balls, int count,
+                                       const carom_shot *shot, const double *times, size_t n,
+                                       double *turned) {
   carom_status status = CAROM_OK;
   for (size_t k = 0; k < n && status == CAROM_OK; k++)
-    status = carom_shot_orientation(balls, count, shot, times[k], (double(*)[4]) & turned[4 * k * (size_t)count]);
+    status = carom_shot_orientation(balls, count, shot, times[k],
+                                    (double(*)[4]) & turned[4 * k * (size_t)count]);
   return status;
 }
 
-/* ---- A look at many shots ---------------------------------------------------------------------------------------------- */
+/* ---- A look at many shots -------------------------------------------------------------------- */
 
 /* What one thread needs for shots that are played again, and the job. */
 typedef struct looking {
@@ -36,7 +38,8 @@ static bool make_room(looking *with, int64_t room) {
   return with->events != NULL;
 }
 
-/* Plays shot k with room for all of its events. A shot of more than there is room for is played again, with enough. */
+/* Plays shot k with room for all of its events. A shot of more than there is room for is played
+ * again, with enough. */
 static bool play_whole(looking *with, size_t k, carom_shot *shot, carom_status *status) {
   const carom_shot_job *job = with->job;
   const carom_cue *cue = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
@@ -46,25 +49,28 @@ static bool play_whole(looking *with, size_t k, carom_shot *shot, carom_status *
     shot->events = with->events;
     shot->brief = NULL;
     shot->room = with->room;
-    *status = carom_shoot(job->table, job->balls + k * job->ball_stride, (int)job->count, cue, job->options, shot);
+    *status = carom_shoot(job->table, job->balls + k * job->ball_stride, (int)job->count, cue,
+                          job->options, shot);
   } while (shot->count > with->room);
   return true;
 }
 
 /* The states at the times, and what of them is unknown. */
-static carom_status look_at_times(const looking *with, size_t k, const carom_shot *shot, const double *times, size_t m,
-                                  carom_ball_state *states) {
+static carom_status look_at_times(const looking *with, size_t k, const carom_shot *shot,
+                                  const double *times, size_t m, carom_ball_state *states) {
   const size_t count = (size_t)with->job->count;
   const carom_shot_ball *balls = with->job->balls + k * with->job->ball_stride;
-  const carom_ball_state unknown = {.r = {NAN, NAN, NAN}, .v = {NAN, NAN, NAN}, .w = {NAN, NAN, NAN}, .label = -1};
+  const carom_ball_state unknown = {
+      .r = {NAN, NAN, NAN}, .v = {NAN, NAN, NAN}, .w = {NAN, NAN, NAN}, .label = -1};
   for (size_t i = 0; i < m * count; i++)
     states[i] = unknown;
-  return shot == NULL ? CAROM_ERROR_TIME : carom_shot_at_times(balls, (int)count, shot, times, m, states);
+  return shot == NULL ? CAROM_ERROR_TIME
+                      : carom_shot_at_times(balls, (int)count, shot, times, m, states);
 }
 
 /* One shot. False: there is no memory. */
-static bool look_at_shot(looking *with, size_t k, const double *times, size_t m, carom_ball_state *states, double *positions,
-                         int8_t *status) {
+static bool look_at_shot(looking *with, size_t k, const double *times, size_t m,
+                         carom_ball_state *states, double *positions, int8_t *status) {
   const carom_shot_job *job = with->job;
   const size_t count = (size_t)job->count;
   carom_shot *given = &job->shots[k], shot = *given;
@@ -96,8 +102,8 @@ static bool look_at_shot(looking *with, size_t k, const double *times, size_t m,
   return true;
 }
 
-carom_status carom_python_look(const carom_shot_job *job, const double *times, size_t m, carom_ball_state *states,
-                               double *positions, int8_t *status) {
+carom_status carom_python_look(const carom_shot_job *job, const double *times, size_t m,
+                               carom_ball_state *states, double *positions, int8_t *status) {
   const size_t count = (size_t)job->count;
   looking with = {.job = job};
   bool room = make_room(&with, 512);
@@ -115,10 +121,11 @@ carom_status carom_python_look(const carom_shot_job *job, const double *times, s
   return room ? CAROM_OK : CAROM_ERROR_NULL;
 }
 
-/* ---- Facts of many shots ----------------------------------------------------------------------------------------------- */
+/* ---- Facts of many shots --------------------------------------------------------------------- */
 
 /* The facts of shot k, to the arrays. */
-static void spread_facts(const carom_facts *from, size_t k, size_t count, const carom_python_features *f) {
+static void spread_facts(const carom_facts *from, size_t k, size_t count,
+                         const carom_python_features *f) {
   f->cushions_after[k] = from->cushions_after;
   for (size_t n = 0; n < 2; n++) {
     f->contact[2 * k + n] = from->first[n];
@@ -160,14 +167,15 @@ carom_status carom_python_play(const carom_shot_job *job, const carom_python_fea
   return status;
 }
 
-/* ---- Pieces of a track -------------------------------------------------------------------------------------------------
+/* ---- Pieces of a track --------------------------------------------------------------------------
  *
- * Dynamic programming. For each end j the beginning i goes back from it, and sums over the samples of u^k w, and of u^k w d for
- * both coordinates, grow by one sample; u and d are from the last sample, which keeps digits. chi^2 is what is left of the sum
- * of w d^2 after the projections on 1, u and u^2, made orthogonal one after another. */
+ * Dynamic programming. For each end j the beginning i goes back from it, and sums over the
+ * samples of u^k w, and of u^k w d for both coordinates, grow by one sample; u and d are from
+ * the last sample, which keeps digits. chi^2 is what is left of the sum of w d^2 after the
+ * projections on 1, u and u^2, made orthogonal one after another. */
 
-void carom_python_cuts(const double *samples, const double *weight, int n, int longest, double penalty, double *best,
-                       int32_t *back) {
+void carom_python_cuts(const double *samples, const double *weight, int n, int longest,
+                       double penalty, double *best, int32_t *back) {
   best[0] = 0.0;
   for (int j = 1; j <= n; j++) {
     const double *last = &samples[3 * (j - 1)];
@@ -210,15 +218,23 @@ void carom_python_cuts(const double *samples, const double *weight, int n, int l
   }
 }
 
-/* ---- Misfit ------------------------------------------------------------------------------------------------------------
+/* ---- Misfit -------------------------------------------------------------------------------------
  *
- * Between two events of a ball its way is taken as the cubic through the states at both ends: r(s) = c0 + s (c1 + s (c2 + s
- * c3)), s the time since the first. A sample then costs a few multiplications; carom_shot_at() would search the events for
- * every sample. With constant friction the motion is quadratic and the cubic exact. A ball that rolls against drag, whose
- * deceleration is A + k v^2, is off by |d^4 r/dt^4| T^4 / 384 = 2 k (A + 3 k v^2)(A + k v^2) T^4 / 384 at most. Its pieces last
- * at most 1 s, so that is 1.2e-6 m at 2 m/s with the k and A of docs/understanding/constants.md, and 2e-5 m at 5 m/s. */
+ * Between two events of a ball its way is taken as the cubic through the states at both ends:
+ * r(s) = c0 + s (c1 + s (c2 + s c3)), s the time since the first. A sample then costs a few
+ * multiplications; carom_shot_at() would search the events for every sample. With constant
+ * friction the motion is quadratic and the cubic exact. A ball that rolls against drag, whose
+ * deceleration is A + k v^2, is off by |d^4 r/dt^4| T^4 / 384 = 2 k (A + 3 k v^2)(A + k v^2) T^4
+ * / 384 at most. Its pieces last at most 1 s, so that is 1.2e-6 m at 2 m/s with the k and A of
+ * docs/understanding/constants.md, and 2e-5 m at 5 m/s. */
 
-enum { EVENTS_MOST = 400, PIECES_MOST = 800, STRIKE = 6, CONSTANTS_MOST = 24, PLAYS_MOST = 1 + STRIKE + CONSTANTS_MOST };
+enum {
+  EVENTS_MOST = 400,
+  PIECES_MOST = 800,
+  STRIKE = 6,
+  CONSTANTS_MOST = 24,
+  PLAYS_MOST = 1 + STRIKE + CONSTANTS_MOST
+};
 static const double piece_most = 1.0; /* s */
 
 typedef struct piece {
@@ -232,7 +248,8 @@ typedef struct way {
 } way;
 
 /* The cubic from one state to another. */
-static piece piece_of(double start, const carom_ball_state *a, double end, const carom_ball_state *b) {
+static piece piece_of(double start, const carom_ball_state *a, double end,
+                      const carom_ball_state *b) {
   piece p = {.start = start};
   const double T = end - start;
   for (int k = 0; k < 2; k++) {
@@ -247,23 +264,28 @@ static piece piece_of(double start, const carom_ball_state *a, double end, const
   return p;
 }
 
-/* The place and velocity of a ball that has rolled against drag for a time t, exactly: dv/dt = -(A + k v^2) takes v0, with q =
- * tan(sqrt(A k) t) / sqrt(A k), to v = (v0 - A q) / (1 + k v0 q) and log(cos(sqrt(A k) t) (1 + k v0 q)) / k further. */
+/* The place and velocity of a ball that has rolled against drag for a time t, exactly: dv/dt =
+ * -(A + k v^2) takes v0, with q = tan(sqrt(A k) t) / sqrt(A k), to v = (v0 - A q) / (1 + k v0 q)
+ * and log(cos(sqrt(A k) t) (1 + k v0 q)) / k further. */
 static void roll(const carom_ball_kind *kind, double t, carom_ball_state *s) {
   const double A = kind->mu_roll * kind->gravity, k = kind->drag, turn = sqrt(A * k);
   const double v = hypot(s->v[0], s->v[1]), q = turn > 0.0 ? tan(turn * t) / turn : t;
-  const double way = log(cos(turn * t) * (1.0 + k * v * q)) / k, later = (v - A * q) / (1.0 + k * v * q);
+  const double way = log(cos(turn * t) * (1.0 + k * v * q)) / k,
+               later = (v - A * q) / (1.0 + k * v * q);
   for (int axis = 0; axis < 2; axis++) {
     s->r[axis] += way * s->v[axis] / v;
     s->v[axis] *= later / v;
   }
 }
 
-/* Appends the way from a state to an end, whose state may be NULL: then it follows from the motion. */
-static bool go(way *w, const carom_shot_ball *ball, double start, double end, const carom_ball_state *to) {
+/* Appends the way from a state to an end, whose state may be NULL: then it follows from the
+ * motion. */
+static bool go(way *w, const carom_shot_ball *ball, double start, double end,
+               const carom_ball_state *to) {
   carom_ball_state from = ball->state, there;
   const bool cuts = ball->kind.drag > 0.0 && from.label == CAROM_BALL_ROLLING;
-  const int parts = cuts && end - start > piece_most ? (int)fmin(ceil((end - start) / piece_most), 64.0) : 1;
+  const int parts =
+      cuts && end - start > piece_most ? (int)fmin(ceil((end - start) / piece_most), 64.0) : 1;
   for (int k = 1; k <= parts; k++) {
     const double since = (end - start) * k / parts;
     if (k < parts) {
@@ -277,16 +299,18 @@ static bool go(way *w, const carom_shot_ball *ball, double start, double end, co
     }
     if (w->pieces == PIECES_MOST)
       return false;
-    w->piece[w->pieces++] = piece_of(start + (end - start) * (k - 1) / parts, &from, start + since, &there);
+    w->piece[w->pieces++] =
+        piece_of(start + (end - start) * (k - 1) / parts, &from, start + since, &there);
     from = there;
   }
   return true;
 }
 
-/* Plays a shot by a strike until a time on the play's own clock, and finds the ways of its balls, whose layout is that of a
- * variant: 0, or 1 + the constant that is changed. False: it ended in an error. */
-static bool play(const carom_python_tracks *tracks, int32_t shot, int variant, const double *strike, double end,
-                 carom_event *events, way *ways) {
+/* Plays a shot by a strike until a time on the play's own clock, and finds the ways of its
+ * balls, whose layout is that of a variant: 0, or 1 + the constant that is changed. False: it
+ * ended in an error. */
+static bool play(const carom_python_tracks *tracks, int32_t shot, int variant, const double *strike,
+                 double end, carom_event *events, way *ways) {
   const int count = tracks->count;
   carom_shot_ball balls[CAROM_BALLS_MOST];
   const size_t layout = (size_t)variant * (size_t)tracks->shots + (size_t)shot;
@@ -307,7 +331,8 @@ static bool play(const carom_python_tracks *tracks, int32_t shot, int variant, c
   if (status < 0)
     return false;
 
-  /* The ways between the events of each ball: from the state after one to the state before the next. */
+  /* The ways between the events of each ball: from the state after one to the state before the
+   * next. */
   double since[CAROM_BALLS_MOST] = {0};
   bool good = true;
   for (int i = 0; i < count; i++)
@@ -341,10 +366,11 @@ static void place(const way *w, double time, int *at, double r[2]) {
     r[k] = p->c[0][k] + s * (p->c[1][k] + s * (p->c[2][k] + s * p->c[3][k]));
 }
 
-/* Adds up the sums of a play. ways[0 ... count - 1] are those of the play itself, with start[0] the strike's time; with `plays`
- * above 1, the next `count` are those with the first number changed by step[0], and so on. */
-static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *ways, const double *start, int plays,
-                   const double *step, double until, double *sums) {
+/* Adds up the sums of a play. ways[0 ... count - 1] are those of the play itself, with start[0]
+ * the strike's time; with `plays` above 1, the next `count` are those with the first number
+ * changed by step[0], and so on. */
+static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *ways,
+                   const double *start, int plays, const double *step, double until, double *sums) {
   const int count = tracks->count;
   const double c2 = tracks->huber * tracks->huber;
   double *gradient = &sums[3], *square = &gradient[plays - 1];
@@ -385,8 +411,9 @@ static void add_up(const carom_python_tracks *tracks, int32_t shot, const way *w
   }
 }
 
-carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *of, const double *strikes,
-                                 const double *until, const double *most, double *sums) {
+carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *of,
+                                 const double *strikes, const double *until, const double *most,
+                                 double *sums) {
   const int numbers = STRIKE + tracks->constants, size = 3 + numbers + numbers * (numbers + 1) / 2;
   if (tracks->constants > CONSTANTS_MOST)
     return CAROM_ERROR_NULL;
@@ -419,8 +446,8 @@ carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, co
           copy(&ways[(d + 1) * tracks->count + i], &ways[i]);
         continue;
       }
-      good = play(tracks, of[k], d < STRIKE ? 0 : 1 + d - STRIKE, strike, until[k] - start[d + 1], events,
-                  &ways[(d + 1) * tracks->count]);
+      good = play(tracks, of[k], d < STRIKE ? 0 : 1 + d - STRIKE, strike, until[k] - start[d + 1],
+                  events, &ways[(d + 1) * tracks->count]);
     }
     if (good)
       add_up(tracks, of[k], ways, start, 1 + numbers, step, until[k], sums);

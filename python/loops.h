@@ -7,45 +7,56 @@
 /* mu[k] = carom_mu_ball(&in[k], law), k = 0 ... n - 1. */
 void carom_python_mu_ball(const carom_impact *in, size_t n, carom_speed_law law, double *mu);
 
-/* How all balls have turned at n times: carom_shot_orientation(), those of time k to turned[4 k count ...]. Returns what it
- * does; stops at the first error. */
-carom_status carom_python_orientations(const carom_shot_ball *balls, int count, const carom_shot *shot, const double *times,
-                                       size_t n, double *turned);
+/* How all balls have turned at n times: carom_shot_orientation(), those of time k to turned[4 k
+ * count ...]. Returns what it does; stops at the first error. */
+carom_status carom_python_orientations(const carom_shot_ball *balls, int count,
+                                       const carom_shot *shot, const double *times, size_t n,
+                                       double *turned);
 
-/* What planners want of shots, in arrays over n shots. Indices are -1 and times infinite where there is none. The cue ball is
- * the ball struck, or ball 0 without a cue. A cushion is a rail or a jaw. */
+/* What planners want of shots, in arrays over n shots. Indices are -1 and times infinite where
+ * there is none. The cue ball is the ball struck, or ball 0 without a cue. A cushion is a rail
+ * or a jaw. */
 typedef struct carom_python_features {
   int32_t *contact,
-      *cushions_before;       /* (n, 2): the first two different balls that the cue ball met, the cushions before that, */
+      *cushions_before;       /* (n, 2): the first two different balls that the cue ball met, the
+                                 cushions before that, */
   double *contact_time;       /* and when, s. */
-  int32_t *cushions_after;    /* (n,): impacts on cushions, of all balls, after the first contact. */
-  int32_t *pocket, *cushions; /* (n, count): the pocket that took each ball, its impacts on cushions, */
+  int32_t *cushions_after;    /* (n,): impacts on cushions, of all balls, after the first
+                                 contact. */
+  int32_t *pocket, *cushions; /* (n, count): the pocket that took each ball, its impacts on
+                                 cushions, */
   double *pocket_time;        /* and when it was pocketed, s. */
 } carom_python_features;
 
-/* Plays a job as carom_shoot_batch() does, and puts the facts of its shots into arrays. job->status must not be NULL, and 0 at
- * first. */
+/* Plays a job as carom_shoot_batch() does, and puts the facts of its shots into arrays.
+ * job->status must not be NULL, and 0 at first. */
 carom_status carom_python_play(const carom_shot_job *job, const carom_python_features *features);
 
-/* Looks at the shots of a job, each of which has been played. A shot of which not all events were kept in full is played again,
- * which has the same bits. `states`, (n, times, count), and `positions`, (n, times, count, 3), at `times`, ascending times, may
- * each be NULL. What is not known (all of a shot whose arguments are in error, and what comes after a shot was stopped while
- * balls moved) is NaN, its labels -1. status[k] becomes the error of shot k: CAROM_OK, CAROM_ERROR_TIME where states are
- * unknown, CAROM_ERROR_STATE where a shot played again is not as it was, as its layout or cue has been changed meanwhile.
- * Returns CAROM_OK, or CAROM_ERROR_NULL without memory. */
-carom_status carom_python_look(const carom_shot_job *job, const double *times, size_t m, carom_ball_state *states,
-                               double *positions, int8_t *status);
+/* Looks at the shots of a job, each of which has been played. A shot of which not all events
+ * were kept in full is played again, which has the same bits. `states`, (n, times, count), and
+ * `positions`, (n, times, count, 3), at `times`, ascending times, may each be NULL. What is not
+ * known (all of a shot whose arguments are in error, and what comes after a shot was stopped
+ * while balls moved) is NaN, its labels -1. status[k] becomes the error of shot k: CAROM_OK,
+ * CAROM_ERROR_TIME where states are unknown, CAROM_ERROR_STATE where a shot played again is not
+ * as it was, as its layout or cue has been changed meanwhile. Returns CAROM_OK, or
+ * CAROM_ERROR_NULL without memory. */
+carom_status carom_python_look(const carom_shot_job *job, const double *times, size_t m,
+                               carom_ball_state *states, double *positions, int8_t *status);
 
-/* Cuts a track of n samples t, x, y (s, m), weights 1/s^2, into pieces of at most `longest` samples that are quadratic in time:
- * the cuts minimise the sum over pieces of chi^2 of the quadratic, of `penalty`, and of 4 for each sample less than 3. back[j],
- * j = 1 ... n, becomes the beginning of the last piece of the best cut of the first j samples. `best` has room for n + 1. */
-void carom_python_cuts(const double *samples, const double *weight, int n, int longest, double penalty, double *best,
-                       int32_t *back);
+/* Cuts a track of n samples t, x, y (s, m), weights 1/s^2, into pieces of at most `longest`
+ * samples that are quadratic in time: the cuts minimise the sum over pieces of chi^2 of the
+ * quadratic, of `penalty`, and of 4 for each sample less than 3. back[j], j = 1 ... n, becomes
+ * the beginning of the last piece of the best cut of the first j samples. `best` has room for n
+ * + 1. */
+void carom_python_cuts(const double *samples, const double *weight, int n, int longest,
+                       double penalty, double *best, int32_t *back);
 
-/* Recorded shots, and how they are played: for carom_python_misfit(). Shot s has `count` balls at rest, balls[s * count ...],
- * of which struck[s] is struck; the samples of its ball i are samples[first[s * count + i]] up to, without it, samples[first[s
- * * count + i + 1]], each t, x, y (s, m), in the order of time. Constants are fields of the balls: `balls` has the `shots`
- * layouts, and after them, for each of `constants` constants, the same layouts with that constant changed by steps[]. */
+/* Recorded shots, and how they are played: for carom_python_misfit(). Shot s has `count` balls
+ * at rest, balls[s * count ...], of which struck[s] is struck; the samples of its ball i are
+ * samples[first[s * count + i]] up to, without it, samples[first[s
+ * * count + i + 1]], each t, x, y (s, m), in the order of time. Constants are fields of the
+ *   balls: `balls` has the `shots` layouts, and after them, for each of `constants` constants,
+ *   the same layouts with that constant changed by steps[]. */
 typedef struct carom_python_tracks {
   const carom_table *table;
   const carom_shot_options *options; /* time_most and events_most are not read */
@@ -57,17 +68,21 @@ typedef struct carom_python_tracks {
   int32_t count, shots, constants;
   int32_t stride; /* one of so many samples of a ball is compared, the first among them */
   double step;    /* of the differences by the strike, m/s and s */
-  double huber;   /* c of the cost, the sum of 2 c^2 (sqrt(1 + d^2/c^2) - 1) over the distances d, m; 0: the sum of d^2 */
+  double huber;   /* c of the cost, the sum of 2 c^2 (sqrt(1 + d^2/c^2) - 1) over the distances
+                     d, m; 0: the sum of d^2 */
 } carom_python_tracks;
 
-/* How far n plays are from what was recorded. Play k is of shot of[k] by the strike strikes[6 k ...]: v_x, v_y, R w_x, R w_y, R
- * w_z (m/s) of the struck ball just after the strike, and the strike's time (s); samples up to the time until[k] count.
+/* How far n plays are from what was recorded. Play k is of shot of[k] by the strike strikes[6 k
+ * ...]: v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike, and the
+ * strike's time (s); samples up to the time until[k] count.
  *
- * With m = 6 + constants, sums[(3 + m + m (m + 1)/2) k ...] becomes: the cost; the sum of d^2; the number of samples; and,
- * where the cost is below most[k], J^T W d (m) and J^T W J (the lower triangle by rows): W are the weights that make the cost a
- * weighted sum of squares nearby, J is by forward differences, of the strike and then of the constants. A play that ends in an
- * error has infinite cost. Returns CAROM_OK, or CAROM_ERROR_NULL without memory. */
-carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *of, const double *strikes,
-                                 const double *until, const double *most, double *sums);
+ * With m = 6 + constants, sums[(3 + m + m (m + 1)/2) k ...] becomes: the cost; the sum of d^2;
+ * the number of samples; and, where the cost is below most[k], J^T W d (m) and J^T W J (the
+ * lower triangle by rows): W are the weights that make the cost a weighted sum of squares
+ * nearby, J is by forward differences, of the strike and then of the constants. A play that ends
+ * in an error has infinite cost. Returns CAROM_OK, or CAROM_ERROR_NULL without memory. */
+carom_status carom_python_misfit(const carom_python_tracks *tracks, size_t n, const int32_t *of,
+                                 const double *strikes, const double *until, const double *most,
+                                 double *sums);
 
 #endif

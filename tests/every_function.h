@@ -1,5 +1,6 @@
-/* Every public function, called with fixed arguments: what it computes, as one number, which is the same whenever, wherever and
- * beside whatever it is called. unit/threads.c calls all of them at once, unit/stack.c on small stacks. */
+/* Every public function, called with fixed arguments: what it computes, as one number, which is
+ * the same whenever, wherever and beside whatever it is called. unit/threads.c calls all of them
+ * at once, unit/stack.c on small stacks. */
 #ifndef CAROM_TESTS_EVERY_FUNCTION_H
 #define CAROM_TESTS_EVERY_FUNCTION_H
 
@@ -10,7 +11,14 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { EVERY_ROWS = 256, EVERY_FEW = 8, EVERY_POINTS = 5, EVERY_BALLS = 16, EVERY_SHOTS = 8, EVERY_EVENTS = 600 };
+enum {
+  EVERY_ROWS = 256,
+  EVERY_FEW = 8,
+  EVERY_POINTS = 5,
+  EVERY_BALLS = 16,
+  EVERY_SHOTS = 8,
+  EVERY_EVENTS = 600
+};
 
 /* What the calls are about; nothing writes to it. */
 typedef struct every_input {
@@ -20,7 +28,8 @@ typedef struct every_input {
   carom_table table;
   carom_shot_ball balls[EVERY_BALLS];
   carom_cue cue[EVERY_SHOTS];
-  double seeds[26 * CAROM_DIRECTIONS_MOST]; /* of any derivatives: all numbers change in all directions */
+  double seeds[26 * CAROM_DIRECTIONS_MOST]; /* of any derivatives: all numbers change in all
+                                               directions */
   int threads;                              /* of batches */
 } every_input;
 
@@ -42,8 +51,10 @@ typedef struct every_room {
   double turned[EVERY_BALLS][4];
   carom_table table;
   carom_shot_ball balls[EVERY_BALLS];
-  double contact[12 * CAROM_DIRECTIONS_MOST], ends[EVERY_SHOTS][EVERY_BALLS * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST],
-      times[EVERY_EVENTS * CAROM_DIRECTIONS_MOST], before[EVERY_EVENTS * 2 * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST],
+  double contact[12 * CAROM_DIRECTIONS_MOST],
+      ends[EVERY_SHOTS][EVERY_BALLS * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST],
+      times[EVERY_EVENTS * CAROM_DIRECTIONS_MOST],
+      before[EVERY_EVENTS * 2 * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST],
       reach[CAROM_DIRECTIONS_MOST];
   carom_tangent tangent[EVERY_SHOTS];
   carom_choice choice[EVERY_FEW];
@@ -61,14 +72,15 @@ static inline void every_input_make(every_input *in, int number, int threads) {
     in->impact[k] = random_impact(&r);
     for (int c = 0; c < 26; c++)
       ((float *)&in->impact_f32[k])[c] = (float)((const double *)&in->impact[k])[c];
-    in->cushion[k] = (carom_cushion_impact){.v = {random_between(&r, -3.0, 3.0), random_between(&r, 0.1, 3.0)},
-                                            .normal = {0.0, 1.0},
-                                            .height = 0.0365,
-                                            .radius = 0.028575,
-                                            .mass = 0.17,
-                                            .mu_cloth = 0.2,
-                                            .mu_cushion = 0.2,
-                                            .restitution = 0.85};
+    in->cushion[k] =
+        (carom_cushion_impact){.v = {random_between(&r, -3.0, 3.0), random_between(&r, 0.1, 3.0)},
+                               .normal = {0.0, 1.0},
+                               .height = 0.0365,
+                               .radius = 0.028575,
+                               .mass = 0.17,
+                               .mu_cloth = 0.2,
+                               .mu_cushion = 0.2,
+                               .restitution = 0.85};
     for (int c = 0; c < 3; c++)
       in->cushion[k].w[c] = random_between(&r, -99.0, 99.0);
   }
@@ -94,9 +106,9 @@ static inline uint64_t every_text(uint64_t h, const char *text) {
   return text == NULL ? h * 3 : every_hash(h, text, strlen(text));
 }
 
-#define EVERY_BODY(name)                                                                                               \
-  static inline uint64_t every_##name(CK_ATTRIBUTE_UNUSED const every_input *in, CK_ATTRIBUTE_UNUSED every_room *room, \
-                                      uint64_t h)
+#define EVERY_BODY(name)                                                         \
+  static inline uint64_t every_##name(CK_ATTRIBUTE_UNUSED const every_input *in, \
+                                      CK_ATTRIBUTE_UNUSED every_room *room, uint64_t h)
 /* A function that gives a number, or an object. */
 #define EVERY_VALUE(name, call)  \
   EVERY_BODY(name) {             \
@@ -195,7 +207,8 @@ EVERY_BODY(collide_detail) {
 /* The exact solver, and Euler's steps, which few rows are worth threads for. */
 EVERY_BODY(collide_batch) {
   for (int solver = 0; solver < 2; solver++) {
-    const carom_options options = {.solver = (carom_solver)solver, .steps = 300, .threads = in->threads};
+    const carom_options options = {
+        .solver = (carom_solver)solver, .steps = 300, .threads = in->threads};
     STATUS(carom_collide_batch(in->impact, EVERY_ROWS, &options, room->result, room->status));
     HASH(room->result);
     HASH(room->status);
@@ -204,8 +217,10 @@ EVERY_BODY(collide_batch) {
 }
 EVERY_BODY(collide_batch_f32) {
   for (int solver = 0; solver < 2; solver++) {
-    const carom_options options = {.solver = (carom_solver)solver, .steps = 300, .threads = in->threads};
-    STATUS(carom_collide_batch_f32(in->impact_f32, EVERY_ROWS, &options, room->result_f32, room->status));
+    const carom_options options = {
+        .solver = (carom_solver)solver, .steps = 300, .threads = in->threads};
+    STATUS(carom_collide_batch_f32(in->impact_f32, EVERY_ROWS, &options, room->result_f32,
+                                   room->status));
     HASH(room->result_f32);
   }
   return h;
@@ -237,7 +252,8 @@ EVERY_BODY(cushion_check) {
 }
 EVERY_BODY(cushion_trace) {
   for (int k = 0; k < 2; k++) {
-    const carom_cushion_options options = {.model = k == 0 ? CAROM_CUSHION_MATHAVAN : CAROM_CUSHION_EULER, .steps = 100};
+    const carom_cushion_options options = {
+        .model = k == 0 ? CAROM_CUSHION_MATHAVAN : CAROM_CUSHION_EULER, .steps = 100};
     STATUS(carom_cushion_trace(&in->cushion[1], &options, EVERY_POINTS, room->cushion_point));
     HASH(room->cushion_point);
   }
@@ -271,7 +287,8 @@ EVERY_BODY(place_ball) {
   carom_part part;
   memcpy(room->balls, in->balls, sizeof room->balls);
   STATUS(carom_place_ball(&in->table, room->balls, EVERY_BALLS, 0, 0.3, 0.4, &part));
-  STATUS(carom_place_ball(&in->table, room->balls, EVERY_BALLS, 0, in->balls[3].state.r[0], in->balls[3].state.r[1], &part));
+  STATUS(carom_place_ball(&in->table, room->balls, EVERY_BALLS, 0, in->balls[3].state.r[0],
+                          in->balls[3].state.r[1], &part));
   HASH(part);
   return HASH(room->balls);
 }
@@ -286,9 +303,11 @@ EVERY_BODY(shot_check) {
 }
 
 /* A break, up to a time or to its end. */
-static inline carom_status every_break(const every_input *in, every_room *room, int world, double time_most) {
+static inline carom_status every_break(const every_input *in, every_room *room, int world,
+                                       double time_most) {
   const carom_shot_options options = {.world = (carom_world)world, .time_most = time_most};
-  room->shot[0] = (carom_shot){.events = room->event, .room = EVERY_EVENTS, .final = room->final, .state = &room->state};
+  room->shot[0] = (carom_shot){
+      .events = room->event, .room = EVERY_EVENTS, .final = room->final, .state = &room->state};
   return carom_shoot(&in->table, in->balls, EVERY_BALLS, &in->cue[0], &options, &room->shot[0]);
 }
 static inline uint64_t every_shot(uint64_t h, const every_room *room) {
@@ -323,8 +342,9 @@ EVERY_BODY(shot_at_times) {
   return HASH(room->later);
 }
 /* A plan for the rack, with few shots. */
-static inline carom_plan_job plan_of(const every_input *in, every_room *room, const carom_player *player,
-                                     const carom_plan_rules *rules, const carom_plan_options *options) {
+static inline carom_plan_job plan_of(const every_input *in, every_room *room,
+                                     const carom_player *player, const carom_plan_rules *rules,
+                                     const carom_plan_options *options) {
   return (carom_plan_job){.table = &in->table,
                           .balls = in->balls,
                           .count = EVERY_BALLS,
@@ -384,7 +404,8 @@ EVERY_BODY(shot_orientation) {
   return HASH(room->turned);
 }
 EVERY_BODY(shoot_batch) {
-  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN, .threads = in->threads};
+  const carom_shot_options options = {.cushion_model = CAROM_SHOT_CUSHION_HAN,
+                                      .threads = in->threads};
   for (int k = 0; k < EVERY_SHOTS; k++)
     room->shot[k] = (carom_shot){.brief = room->brief[k], .room = EVERY_EVENTS};
   const carom_shot_job job = {.table = &in->table,
@@ -404,14 +425,16 @@ EVERY_BODY(shoot_batch) {
 
 EVERY_BODY(collide_tangent) {
   for (int k = 0; k < EVERY_FEW; k++) {
-    STATUS(carom_collide_tangent(&in->impact[k], NULL, CAROM_DIRECTIONS_MOST, in->seeds, room->contact, NULL));
+    STATUS(carom_collide_tangent(&in->impact[k], NULL, CAROM_DIRECTIONS_MOST, in->seeds,
+                                 room->contact, NULL));
     HASH(room->contact);
   }
   return h;
 }
 EVERY_BODY(cushion_tangent) {
   for (int k = 0; k < EVERY_FEW; k++) {
-    STATUS(carom_cushion_tangent(&in->cushion[k], NULL, CAROM_DIRECTIONS_MOST, in->seeds, room->contact, NULL));
+    STATUS(carom_cushion_tangent(&in->cushion[k], NULL, CAROM_DIRECTIONS_MOST, in->seeds,
+                                 room->contact, NULL));
     h = every_hash(h, room->contact, sizeof room->contact / 2);
   }
   return h;
@@ -420,11 +443,14 @@ EVERY_BODY(cushion_tangent) {
 EVERY_BODY(shot_tangent) {
   const carom_tangent_seeds seeds = {.directions = CAROM_DIRECTIONS_MOST, .cue = in->seeds};
   every_break(in, room, 0, 0.0);
-  room->tangent[0] = (carom_tangent){.final = room->ends[0], .time = room->times, .before = room->before, .reach = room->reach};
-  STATUS(carom_shot_tangent(&in->table, in->balls, EVERY_BALLS, &in->cue[0], NULL, &room->shot[0], &seeds, &room->tangent[0]));
+  room->tangent[0] = (carom_tangent){
+      .final = room->ends[0], .time = room->times, .before = room->before, .reach = room->reach};
+  STATUS(carom_shot_tangent(&in->table, in->balls, EVERY_BALLS, &in->cue[0], NULL, &room->shot[0],
+                            &seeds, &room->tangent[0]));
   HASH(room->ends[0]);
   HASH(room->reach);
-  /* a ball that flies at a rail right above the cloth, where both the flat and the free model have a part */
+  /* a ball that flies at a rail right above the cloth, where both the flat and the free model
+   * have a part */
   const carom_shot_options exact = {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN};
   carom_shot_ball ball = in->balls[0];
   ball.state = (carom_ball_state){.r = {ball.kind.radius + 0.01, 0.8, ball.kind.radius + 5e-4},
@@ -434,7 +460,8 @@ EVERY_BODY(shot_tangent) {
   room->shot[0].count = 0;
   STATUS(carom_shoot(&in->table, &ball, 1, NULL, &exact, &room->shot[0]));
   const carom_tangent_seeds of_state = {.directions = CAROM_DIRECTIONS_MOST, .state = in->seeds};
-  STATUS(carom_shot_tangent(&in->table, &ball, 1, NULL, &exact, &room->shot[0], &of_state, &room->tangent[0]));
+  STATUS(carom_shot_tangent(&in->table, &ball, 1, NULL, &exact, &room->shot[0], &of_state,
+                            &room->tangent[0]));
   h = every_hash(h, room->ends[0], sizeof(double) * CAROM_STATE_NUMBERS * CAROM_DIRECTIONS_MOST);
   return h;
 }
@@ -464,15 +491,17 @@ EVERY_BODY(shot_tangent_batch) {
 
 /* clang-format off */
 #define EVERY_ONE(F) \
-  F(alciatore) F(ball_kind_of) F(check) F(collide) F(cluster) F(collide_batch) F(collide_batch_f32) F(collide_detail) \
-  F(collide_f32) F(collide_tangent) F(cue_of) F(cushion) F(cushion_batch) F(cushion_check) F(cushion_field_name) \
-  F(cushion_model_name) F(cushion_tangent) F(cushion_trace) F(event_name) F(field_name) F(impact3) F(isa_available) \
-  F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) F(physics_revision) F(place_ball) F(plan) \
-  F(plan_aim) F(plan_hand) F(plan_memory) F(plan_rules_of) F(plan_try) F(plan_value) F(player_of) F(rack) F(rack_name) \
-  F(rack_size) F(rolling_velocity) F(rules_name) F(serves) F(shoot) F(shoot_batch) F(shot_at) F(shot_at_times) \
-  F(shot_check) F(shot_continue) F(shot_orientation) F(shot_tangent) F(shot_tangent_batch) F(slip_name) F(solver_name) \
-  F(status_name) F(status_string) F(strike) F(table_check) F(table_make) F(table_name) F(trace) F(version) \
-  F(version_number)
+  F(alciatore) F(ball_kind_of) F(check) F(collide) F(cluster) F(collide_batch) \
+  F(collide_batch_f32) F(collide_detail) F(collide_f32) F(collide_tangent) F(cue_of) \
+  F(cushion) F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) \
+  F(cushion_tangent) F(cushion_trace) F(event_name) F(field_name) F(impact3) F(isa_available) \
+  F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) F(physics_revision) \
+  F(place_ball) F(plan) F(plan_aim) F(plan_hand) F(plan_memory) F(plan_rules_of) F(plan_try) \
+  F(plan_value) F(player_of) F(rack) F(rack_name) F(rack_size) F(rolling_velocity) \
+  F(rules_name) F(serves) F(shoot) F(shoot_batch) F(shot_at) F(shot_at_times) F(shot_check) \
+  F(shot_continue) F(shot_orientation) F(shot_tangent) F(shot_tangent_batch) F(slip_name) \
+  F(solver_name) F(status_name) F(status_string) F(strike) F(table_check) F(table_make) \
+  F(table_name) F(trace) F(version) F(version_number)
 /* clang-format on */
 #define EVERY_ROW(name) {"carom_" #name, every_##name},
 static const struct every_function {

@@ -1,5 +1,6 @@
-/* A line of the file: the key of an impact and its status in hexadecimal, then the bits of the numbers of its solution; those
- * that are zero at the end are left out. The key is a hash of the numbers of the impact and of its slip. */
+/* A line of the file: the key of an impact and its status in hexadecimal, then the bits of the
+ * numbers of its solution; those that are zero at the end are left out. The key is a hash of the
+ * numbers of the impact and of its slip. */
 #include "kept.h"
 #include "support.h"
 
@@ -64,7 +65,8 @@ static uint64_t key_of(const void *in, size_t size, int slip) {
 }
 
 /* Makes *s the solution of its key: the one in the file, or else what `solve` finds. */
-static void find(solution *s, void solve(solution *s, const void *in, carom_slip slip), const void *in, carom_slip slip) {
+static void find(solution *s, void solve(solution *s, const void *in, carom_slip slip),
+                 const void *in, carom_slip slip) {
   load();
   size_t k = 0;
   while (k < kept_count && kept[k].key != s->key)
@@ -83,8 +85,8 @@ static void find(solution *s, void solve(solution *s, const void *in, carom_slip
       scale = fmax(scale, fabs(s->number[c]));
       apart = fmax(apart, fabs(s->number[c] - kept[k].number[c]));
     }
-    ck_assert_msg(s->status == kept[k].status && apart <= 1e-9 * scale, "%s: line %zu is not what the reference gives", path,
-                  k + 1);
+    ck_assert_msg(s->status == kept[k].status && apart <= 1e-9 * scale,
+                  "%s: line %zu is not what the reference gives", path, k + 1);
   } else if (update)
     add(s);
 }
@@ -105,7 +107,8 @@ static void solve_cushion(solution *s, const void *in, carom_slip slip) {
   memcpy(s->number, &out, sizeof out);
 }
 
-reference_status kept_collide(const carom_impact *in, carom_slip slip, carom_result *out, double normal[2]) {
+reference_status kept_collide(const carom_impact *in, carom_slip slip, carom_result *out,
+                              double normal[2]) {
   solution s = {.key = key_of(in, sizeof *in, (int)slip)};
   find(&s, solve_balls, in, slip);
   memcpy(out, s.number, sizeof *out);

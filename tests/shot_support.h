@@ -1,4 +1,5 @@
-/* What tests of whole shots share: playing one with room for its events, a large empty table, a ball on it. */
+/* What tests of whole shots share: playing one with room for its events, a large empty table, a
+ * ball on it. */
 #ifndef CAROM_TESTS_SHOT_SUPPORT_H
 #define CAROM_TESTS_SHOT_SUPPORT_H
 
@@ -13,11 +14,13 @@ static carom_event events[ROOM];
 static carom_ball_state final[CAROM_BALLS_MOST];
 
 /* Plays a shot into events[] and final[], which must end with this status. */
-static inline carom_shot play(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
-                              const carom_shot_options *options, carom_status expected) {
+static inline carom_shot play(const carom_table *table, const carom_shot_ball *balls, int count,
+                              const carom_cue *cue, const carom_shot_options *options,
+                              carom_status expected) {
   carom_shot shot = {.events = events, .room = ROOM, .final = final};
   const carom_status status = carom_shoot(table, balls, count, cue, options, &shot);
-  ck_assert_msg(status == expected, "%s, not %s", carom_status_name(status), carom_status_name(expected));
+  ck_assert_msg(status == expected, "%s, not %s", carom_status_name(status),
+                carom_status_name(expected));
   return shot;
 }
 
@@ -26,8 +29,10 @@ static inline carom_table empty_table(double size) {
   carom_table t = {.width = size, .length = size, .rails = 4};
   const double corner[5][2] = {{0.0, 0.0}, {size, 0.0}, {size, size}, {0.0, size}, {0.0, 0.0}};
   for (int k = 0; k < 4; k++)
-    t.rail[k] = (carom_rail){
-        .p = {corner[k][0], corner[k][1]}, .q = {corner[k + 1][0], corner[k + 1][1]}, .height = 0.036576, .side = 1};
+    t.rail[k] = (carom_rail){.p = {corner[k][0], corner[k][1]},
+                             .q = {corner[k + 1][0], corner[k + 1][1]},
+                             .height = 0.036576,
+                             .side = 1};
   return t;
 }
 
@@ -40,11 +45,13 @@ static inline carom_shot_ball ball_at(double x, double y) {
   return b;
 }
 
-#define NEAR(is, says, within) \
-  ck_assert_msg(fabs((is) - (says)) <= (within), "%s is %.12g, not %.12g", #is, (double)(is), (double)(says))
+#define NEAR(is, says, within)                                                                \
+  ck_assert_msg(fabs((is) - (says)) <= (within), "%s is %.12g, not %.12g", #is, (double)(is), \
+                (double)(says))
 
 /* A pool ball that moves, with its centre at z. */
-static inline carom_shot_ball flying(double x, double y, double z, double v_x, double v_y, double v_z) {
+static inline carom_shot_ball flying(double x, double y, double z, double v_x, double v_y,
+                                     double v_z) {
   carom_shot_ball b = ball_at(x, y);
   const double v[3] = {v_x, v_y, v_z};
   b.state.r[2] = z;
@@ -55,7 +62,8 @@ static inline carom_shot_ball flying(double x, double y, double z, double v_x, d
 static inline double state_energy(const carom_ball_kind *k, const carom_ball_state *s) {
   double sum = k->mass * k->gravity * (s->r[2] - k->radius);
   for (int axis = 0; axis < 3; axis++)
-    sum += 0.5 * k->mass * (s->v[axis] * s->v[axis] + 0.4 * k->radius * k->radius * s->w[axis] * s->w[axis]);
+    sum += 0.5 * k->mass *
+           (s->v[axis] * s->v[axis] + 0.4 * k->radius * k->radius * s->w[axis] * s->w[axis]);
   return sum;
 }
 
@@ -67,14 +75,16 @@ static inline const carom_event *event_of(const carom_shot *shot, int type, int 
   return NULL;
 }
 
-/* Gives each ball of a layout the terms of measured tables, drawn for each by itself; a third of the balls have none. */
+/* Gives each ball of a layout the terms of measured tables, drawn for each by itself; a third of
+ * the balls have none. */
 static inline void give_terms(carom_shot_ball *balls, int count, random_source *random) {
   for (int k = 0; k < count; k++) {
     carom_ball_kind *kind = &balls[k].kind;
     if (random_between(random, 0.0, 3.0) < 1.0)
       continue;
     kind->drag = random_between(random, 0.0, 2.0) < 1.0 ? 0.0129 : random_between(random, 0.0, 1.0);
-    kind->roll_loss = random_between(random, 0.0, 2.0) < 1.0 ? 0.087 : random_between(random, 0.0, 1.0);
+    kind->roll_loss =
+        random_between(random, 0.0, 2.0) < 1.0 ? 0.087 : random_between(random, 0.0, 1.0);
     kind->law_a = random_between(random, 0.0, 0.06);
     kind->law_b = random_between(random, 0.0, 0.06);
     kind->law_c = random_between(random, 0.0, 3.0);

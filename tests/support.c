@@ -41,12 +41,14 @@ double random_between(random_source *source, double low, double high) {
 }
 
 static carom_ball random_ball(random_source *source) {
-  const double speed = pow(10.0, random_between(source, -2.0, 1.0)), way = random_between(source, 0.0, 2.0 * pi);
-  carom_ball ball = {.r = {random_between(source, 0.0, 1.0), random_between(source, 0.0, 2.0), 0.03},
-                     .v = {speed * cos(way), speed * sin(way), 0.0},
-                     .radius = 0.028575,
-                     .mass = 0.17,
-                     .mu_cloth = random_between(source, 0.0, 0.5)};
+  const double speed = pow(10.0, random_between(source, -2.0, 1.0)),
+               way = random_between(source, 0.0, 2.0 * pi);
+  carom_ball ball = {
+      .r = {random_between(source, 0.0, 1.0), random_between(source, 0.0, 2.0), 0.03},
+      .v = {speed * cos(way), speed * sin(way), 0.0},
+      .radius = 0.028575,
+      .mass = 0.17,
+      .mu_cloth = random_between(source, 0.0, 0.5)};
   for (int k = 0; k < 3; k++)
     ball.w[k] = random_between(source, -1.0, 1.0) * speed / ball.radius;
   return ball;

@@ -8,10 +8,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The seed of this run: $CAROM_TEST_SEED, or a fixed one. Printed once, so that a failure can be replayed. */
+/* The seed of this run: $CAROM_TEST_SEED, or a fixed one. Printed once, so that a failure can be
+ * replayed. */
 uint64_t test_seed(void);
 
-/* 1 where the sanitizer of addresses or of threads is in, else 0. gcc and clang tell it in different ways. */
+/* 1 where the sanitizer of addresses or of threads is in, else 0. gcc and clang tell it in
+ * different ways. */
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
 #define SANITIZED 1
 #elif defined(__has_feature)
@@ -23,10 +25,12 @@ uint64_t test_seed(void);
 #define SANITIZED 0
 #endif
 
-/* How many draws a long test makes: `count`, and a quarter of them where a sanitizer is in. Builds without one make all. */
+/* How many draws a long test makes: `count`, and a quarter of them where a sanitizer is in.
+ * Builds without one make all. */
 #define FEWER(count) (SANITIZED ? ((count) + 3) / 4 : (count))
 
-/* $CAROM_TEST_DRAWS, or as many as usual: how many draws of each kind a test makes that `./test --release` makes long. */
+/* $CAROM_TEST_DRAWS, or as many as usual: how many draws of each kind a test makes that `./test
+ * --release` makes long. */
 int draws_of_each(int usual);
 
 /* Random numbers; each test starts its own from test_seed(). */
@@ -36,16 +40,18 @@ typedef struct random_source {
 
 double random_between(random_source *source, double low, double high);
 
-/* A random approaching pair of real size: both balls may move and spin, in any direction and with any friction up to the
- * values of real balls. */
+/* A random approaching pair of real size: both balls may move and spin, in any direction and
+ * with any friction up to the values of real balls. */
 carom_impact random_impact(random_source *source);
 
-/* Largest difference of two results, times `radius` for angular velocities, over the largest such value of `b`. */
+/* Largest difference of two results, times `radius` for angular velocities, over the largest
+ * such value of `b`. */
 double result_distance(const carom_result *a, const carom_result *b, double radius);
 
-/* Memory that ends exactly: so that reading or writing past it is seen. With `odd` it is a block of the exact size at a place
- * that is aligned for double, not for a vector: the address sanitizer sees what is beyond it. Else it ends at a page which may
- * not be touched, so every build does. */
+/* Memory that ends exactly: so that reading or writing past it is seen. With `odd` it is a block
+ * of the exact size at a place that is aligned for double, not for a vector: the address
+ * sanitizer sees what is beyond it. Else it ends at a page which may not be touched, so every
+ * build does. */
 typedef struct edge {
   void *memory, *base;
   size_t size; /* of what is mapped, 0 for a block */
@@ -59,7 +65,8 @@ void edge_free(const edge *e);
   for (int isa = 0; isa < CAROM_ISA_COUNT; isa++) \
     if (carom_isa_available((carom_isa)isa) && carom_isa_limit((carom_isa)isa) == (carom_isa)isa)
 
-/* TEST(name) { ... } is a test that main() of support.c runs. A program with a main() of its own lists its tests. */
+/* TEST(name) { ... } is a test that main() of support.c runs. A program with a main() of its own
+ * lists its tests. */
 #define TEST(name)                                              \
   START_TEST(name);                                             \
   __attribute__((constructor)) static void name##_added(void) { \
@@ -74,13 +81,15 @@ typedef struct looped_test {
   int times;
 } looped_test;
 
-/* Runs tests in this process, so that later ones see what earlier ones left, and returns main's exit code. */
+/* Runs tests in this process, so that later ones see what earlier ones left, and returns main's
+ * exit code. */
 int run_looped(const char *name, const looped_test *tests, size_t count);
 #define RUN_LOOPED(name, tests) run_looped(name, tests, sizeof(tests) / sizeof *(tests))
 
 /* Runs one test case and returns main's exit code. */
 int run_tests(const char *name, const TTest *const *tests, size_t count);
-#define RUN_TESTS(name, ...) \
-  run_tests(name, (const TTest *const[]){__VA_ARGS__}, sizeof((const TTest *const[]){__VA_ARGS__}) / sizeof(const TTest *))
+#define RUN_TESTS(name, ...)                           \
+  run_tests(name, (const TTest *const[]){__VA_ARGS__}, \
+            sizeof((const TTest *const[]){__VA_ARGS__}) / sizeof(const TTest *))
 
 #endif

@@ -1,8 +1,9 @@
-/* What tests of derivatives of whole shots share: a layout, its numbers as directions, and differences of shots.
+/* What tests of derivatives of whole shots share: a layout, its numbers as directions, and
+ * differences of shots.
  *
- * Differences are of order 4, by 15 steps from 1e-9 to 1e-2 of each number. Of adjacent steps at which all shots have the
- * events of the shot itself, the two that agree best are the reference, whatever the tangents are. By how much they disagree is
- * what a reference can tell. */
+ * Differences are of order 4, by 15 steps from 1e-9 to 1e-2 of each number. Of adjacent steps at
+ * which all shots have the events of the shot itself, the two that agree best are the reference,
+ * whatever the tangents are. By how much they disagree is what a reference can tell. */
 #ifndef CAROM_TESTS_TANGENT_SUPPORT_H
 #define CAROM_TESTS_TANGENT_SUPPORT_H
 
@@ -21,8 +22,8 @@ typedef struct layout {
   carom_cue cue;
 } layout;
 
-/* A number of a layout: of the cue, of the state of a ball, or a constant of a ball, -1 for all of them; its row among the
- * seeds, and a typical size. */
+/* A number of a layout: of the cue, of the state of a ball, or a constant of a ball, -1 for all
+ * of them; its row among the seeds, and a typical size. */
 typedef struct direction {
   enum { OF_CUE, OF_STATE, OF_KIND } of;
   int ball, row;
@@ -54,13 +55,15 @@ static inline void change(layout *l, const direction *d, double by) {
 
 /* Seeds of m directions, which stand until the next call. */
 static inline carom_tangent_seeds seeds_of(const direction *d, int m) {
-  static double cue[CAROM_CUE_NUMBERS * LAYOUT_DIRECTIONS], state[LAYOUT_BALLS * NUMBERS * LAYOUT_DIRECTIONS],
+  static double cue[CAROM_CUE_NUMBERS * LAYOUT_DIRECTIONS],
+      state[LAYOUT_BALLS * NUMBERS * LAYOUT_DIRECTIONS],
       kind[LAYOUT_BALLS * sizeof(carom_ball_kind) / sizeof(double) * LAYOUT_DIRECTIONS];
   memset(cue, 0, sizeof cue);
   memset(state, 0, sizeof state);
   memset(kind, 0, sizeof kind);
   for (int j = 0; j < m; j++)
-    for (int i = d[j].ball < 0 ? 0 : d[j].ball; i < (d[j].ball < 0 ? LAYOUT_BALLS : d[j].ball + 1); i++)
+    for (int i = d[j].ball < 0 ? 0 : d[j].ball; i < (d[j].ball < 0 ? LAYOUT_BALLS : d[j].ball + 1);
+         i++)
       if (d[j].of == OF_CUE)
         cue[d[j].row * m + j] = 1.0;
       else if (d[j].of == OF_STATE)
@@ -71,25 +74,30 @@ static inline carom_tangent_seeds seeds_of(const direction *d, int m) {
 }
 
 /* The final numbers of a shot, if it has the same events as `shot`. */
-static inline bool plays_alike(const carom_table *table, const layout *l, const carom_shot_options *options,
-                               const carom_shot *shot, double *to) {
+static inline bool plays_alike(const carom_table *table, const layout *l,
+                               const carom_shot_options *options, const carom_shot *shot,
+                               double *to) {
   static carom_event other[ROOM];
   carom_ball_state end[LAYOUT_BALLS];
   carom_shot s = {.events = other, .room = ROOM, .final = end};
-  if (carom_shoot(table, l->ball, l->count, &l->cue, options, &s) < CAROM_OK || s.count != shot->count)
+  if (carom_shoot(table, l->ball, l->count, &l->cue, options, &s) < CAROM_OK ||
+      s.count != shot->count)
     return false;
   for (int64_t k = 0; k < s.count; k++)
-    if (other[k].type != shot->events[k].type || other[k].a != shot->events[k].a || other[k].b != shot->events[k].b)
+    if (other[k].type != shot->events[k].type || other[k].a != shot->events[k].a ||
+        other[k].b != shot->events[k].b)
       return false;
   for (int i = 0; i < l->count; i++)
     numbers_of(&end[i], to + NUMBERS * i);
   return true;
 }
 
-/* Largest difference of the tangents in column j of m from the best plateau, and by how much that itself disagrees; false if
- * there is none. */
-static inline bool compare(const carom_table *table, const layout *l, const carom_shot_options *options, const carom_shot *shot,
-                           const direction *by, const double *tangent, int j, int m, double *error, double *plateau) {
+/* Largest difference of the tangents in column j of m from the best plateau, and by how much
+ * that itself disagrees; false if there is none. */
+static inline bool compare(const carom_table *table, const layout *l,
+                           const carom_shot_options *options, const carom_shot *shot,
+                           const direction *by, const double *tangent, int j, int m, double *error,
+                           double *plateau) {
   double last[NUMBERS * LAYOUT_BALLS] = {0};
   bool had = false;
   *plateau = *error = INFINITY;
@@ -138,18 +146,21 @@ static inline const carom_table *table_of_pool(void) {
 
 /* Balls at random on the table, of which the first is shot at the second. */
 static inline layout draw(random_source *random, int most) {
-  layout l = {.count = 2 + (int)random_between(random, 0.0, most - 1.001), .cue = carom_cue_of(CAROM_GAME_POOL)};
+  layout l = {.count = 2 + (int)random_between(random, 0.0, most - 1.001),
+              .cue = carom_cue_of(CAROM_GAME_POOL)};
   for (int i = 0; i < l.count;) {
     const double y = random_between(random, 0.05, 2.49);
     l.ball[i] = ball_at(random_between(random, 0.05, 1.22), y);
     bool alone = true;
     for (int j = 0; j < i; j++)
-      alone &= hypot(l.ball[i].state.r[0] - l.ball[j].state.r[0], l.ball[i].state.r[1] - l.ball[j].state.r[1]) > 0.07;
+      alone &= hypot(l.ball[i].state.r[0] - l.ball[j].state.r[0],
+                     l.ball[i].state.r[1] - l.ball[j].state.r[1]) > 0.07;
     i += alone;
   }
   const double *to = l.ball[1].state.r, *from = l.ball[0].state.r;
   l.cue.speed = random_between(random, 0.8, 5.0);
-  l.cue.phi = 57.29577951308232 * atan2(to[1] - from[1], to[0] - from[0]) + random_between(random, -1.5, 1.5);
+  l.cue.phi = 57.29577951308232 * atan2(to[1] - from[1], to[0] - from[0]) +
+              random_between(random, -1.5, 1.5);
   l.cue.a = random_between(random, -0.3, 0.3);
   l.cue.b = random_between(random, -0.4, 0.4);
   return l;

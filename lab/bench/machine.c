@@ -77,8 +77,8 @@ static const char *word_of(int k, const char *name, char word[32]) {
   return word;
 }
 
-/* Size in bytes of the data cache of level 1, 2, ...; 0 where there is none or it is not visible. sysconf() would answer for
- * the whole package, of which a core reaches a part only. */
+/* Size in bytes of the data cache of level 1, 2, ...; 0 where there is none or it is not
+ * visible. sysconf() would answer for the whole package, of which a core reaches a part only. */
 static size_t cache_size(int level) {
   for (int k = 0; k < MOST_CACHES; k++) {
     char word[32], unit = ' ';
@@ -98,15 +98,19 @@ static void describe_processor(FILE *to) {
   const char *model = cpuinfo("model name", name, sizeof name);
   const char *flags = cpuinfo("flags", (char[8192]){0}, 8192);
   machine_note(to, "processor", "%s", model != NULL ? model : "NA");
-  const char *family = cpuinfo("cpu family", name, sizeof name), *number = cpuinfo("model\t", other, sizeof other);
+  const char *family = cpuinfo("cpu family", name, sizeof name),
+             *number = cpuinfo("model\t", other, sizeof other);
   if (family != NULL && number != NULL)
     machine_note(to, "processor family", "%s, model %s", family, number);
   machine_note(to, "cores", "%ld online%s", sysconf(_SC_NPROCESSORS_ONLN),
-               flags != NULL && strstr(flags, " hypervisor") != NULL ? ", of a virtual machine: others may share them" : "");
+               flags != NULL && strstr(flags, " hypervisor") != NULL
+                   ? ", of a virtual machine: others may share them"
+                   : "");
   char caches[128] = "";
   for (int level = 1; cache_size(level) > 0; level++) {
     const size_t used = strlen(caches);
-    snprintf(caches + used, sizeof caches - used, "%sL%d %zu KiB", used > 0 ? ", " : "", level, cache_size(level) / 1024);
+    snprintf(caches + used, sizeof caches - used, "%sL%d %zu KiB", used > 0 ? ", " : "", level,
+             cache_size(level) / 1024);
   }
   machine_note(to, "caches", "%s", caches[0] != '\0' ? caches : "NA (not visible)");
   const double cycle = clock_core_cycle();

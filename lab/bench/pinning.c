@@ -1,5 +1,5 @@
-/* Keeping the benchmark on one core. Real-time priority is the lowest there is: it comes before everything ordinary and after
- * everything that knows better. */
+/* Keeping the benchmark on one core. Real-time priority is the lowest there is: it comes before
+ * everything ordinary and after everything that knows better. */
 #include "pinning.h"
 
 #include <errno.h>
@@ -55,7 +55,8 @@ const char *pinning_begin(void) {
   before.policy = sched_getscheduler(0);
   sched_getparam(0, &before.priority);
   pinned = before;
-  /* An isolated core is not among those that a process gets unasked. Who was given one core only, keeps it. */
+  /* An isolated core is not among those that a process gets unasked. Who was given one core
+   * only, keeps it. */
   const int isolated = CPU_COUNT(&before.cores) > 1 ? isolated_core() : -1;
   int core = isolated;
   if (isolated < 0 || !pin_to(isolated)) {
@@ -66,14 +67,16 @@ const char *pinning_begin(void) {
     }
   }
   active = true;
-  int used = snprintf(text, sizeof text, "pinned to core %d%s, ", core, core == isolated ? " (isolated)" : " (not isolated)");
+  int used = snprintf(text, sizeof text, "pinned to core %d%s, ", core,
+                      core == isolated ? " (isolated)" : " (not isolated)");
   const struct sched_param lowest = {.sched_priority = sched_get_priority_min(SCHED_FIFO)};
   if (sched_setscheduler(0, SCHED_FIFO, &lowest) == 0) {
     pinned.policy = SCHED_FIFO;
     pinned.priority = lowest;
     snprintf(text + used, sizeof text - (size_t)used, "real-time priority");
   } else {
-    snprintf(text + used, sizeof text - (size_t)used, "no real-time priority (%s)", strerror(errno));
+    snprintf(text + used, sizeof text - (size_t)used, "no real-time priority (%s)",
+             strerror(errno));
   }
   return text;
 }
@@ -84,7 +87,8 @@ void pinning_end(void) {
   active = false;
 }
 
-/* With the priority kept: threads inherit it, and one thread and two are then equally undisturbed. */
+/* With the priority kept: threads inherit it, and one thread and two are then equally
+ * undisturbed. */
 void pinning_suspend(void) {
   placement loose = pinned;
   loose.cores = before.cores;
@@ -104,7 +108,8 @@ void pinning_breathe(double busy_ns) {
   owed += 0.07 * busy_ns;
   if (owed < 2e6)
     return;
-  const struct timespec pause = {.tv_sec = (time_t)(owed / 1e9), .tv_nsec = (long)owed % 1000000000};
+  const struct timespec pause = {.tv_sec = (time_t)(owed / 1e9),
+                                 .tv_nsec = (long)owed % 1000000000};
   nanosleep(&pause, NULL);
   owed = 0.0;
 }

@@ -1,7 +1,9 @@
-/* The engine. How a budget becomes rounds and loops: a sample should last about 20 ms, so that clocks and the change from one
- * subject to the next cost nothing, and an interruption spoils one sample of many; 101 rounds or more are wanted. Where the
- * budget is short, samples shrink first, down to a millisecond or one pass over the workload, then the rounds, down to 5. Less
- * than a millisecond would time caches and branch predictors that are still full of the subject before. */
+/* The engine. How a budget becomes rounds and loops: a sample should last about 20 ms, so that
+ * clocks and the change from one subject to the next cost nothing, and an interruption spoils
+ * one sample of many; 101 rounds or more are wanted. Where the budget is short, samples shrink
+ * first, down to a millisecond or one pass over the workload, then the rounds, down to 5. Less
+ * than a millisecond would time caches and branch predictors that are still full of the subject
+ * before. */
 #include "rounds.h"
 
 #include "monotonic.h"
@@ -36,7 +38,8 @@ static double sample(const engine *e, void (*work)(void *), void *context, size_
   return e->settings.now() - start;
 }
 
-/* Warm-up, and what one pass costs: the fastest of ever more loops until they take a millisecond. */
+/* Warm-up, and what one pass costs: the fastest of ever more loops until they take a
+ * millisecond. */
 static double estimate(const engine *e, const bench_subject *s) {
   double pass = INFINITY, elapsed = 0.0;
   for (size_t loops = 1; elapsed < short_sample && loops < SIZE_MAX / 2; loops *= 2) {
@@ -90,7 +93,8 @@ static void take_sample(engine *e, size_t k, size_t round) {
   const double collisions = (double)l->loops * (double)s->pairs;
   const double full = sample(e, s->resolve, s->context, l->loops);
   l->ns[round] = full / collisions;
-  l->empty[round] = s->empty != NULL ? sample(e, s->empty, s->context, 8) / (8.0 * (double)s->pairs) : 0.0;
+  l->empty[round] =
+      s->empty != NULL ? sample(e, s->empty, s->context, 8) / (8.0 * (double)s->pairs) : 0.0;
   if (s->threads > 1)
     pinning_resume();
   pinning_breathe(full);
@@ -104,13 +108,14 @@ static void take_rounds(engine *e) {
         e->settings.progress((double)(round * e->n + k + 1), (double)(e->rounds * e->n));
     }
     /* The machine may have become slower than it was when the rounds were planned. */
-    if (e->settings.now() - e->start > e->settings.budget * 1e9 && (double)(round + 1) >= fewest_rounds &&
-        round + 1 < e->rounds)
+    if (e->settings.now() - e->start > e->settings.budget * 1e9 &&
+        (double)(round + 1) >= fewest_rounds && round + 1 < e->rounds)
       e->rounds = round + 1;
   }
 }
 
-/* The empty call's cost is the median over the rounds: it is small, and single samples of it are all noise. */
+/* The empty call's cost is the median over the rounds: it is small, and single samples of it are
+ * all noise. */
 static void subtract_empty(engine *e, bench_figure *figure) {
   for (size_t k = 0; k < e->n; k++) {
     lane *l = &e->lane[k];
@@ -125,17 +130,20 @@ static void evaluate(engine *e, bench_figure *figure) {
   subtract_empty(e, figure);
   for (size_t k = 0; k < e->n; k++) {
     const size_t reference = e->subject[k].reference;
-    figure[k].speedup = reference < e->n ? summarise_ratios(e->lane[reference].ns, e->lane[k].ns, e->rounds, e->scratch)
+    figure[k].speedup = reference < e->n ? summarise_ratios(e->lane[reference].ns, e->lane[k].ns,
+                                                            e->rounds, e->scratch)
                                          : summarise(e->scratch, 0);
   }
   for (size_t k = 0; k < e->n; k++) {
     figure[k].ns = summarise(e->lane[k].ns, e->rounds);
     figure[k].loops = e->lane[k].loops;
-    figure[k].unchanged = e->subject[k].fingerprint(e->subject[k].context) == e->subject[k].verified;
+    figure[k].unchanged =
+        e->subject[k].fingerprint(e->subject[k].context) == e->subject[k].verified;
   }
 }
 
-bool bench_rounds(const bench_subject *subject, size_t n, const bench_settings *settings, bench_figure *figure) {
+bool bench_rounds(const bench_subject *subject, size_t n, const bench_settings *settings,
+                  bench_figure *figure) {
   engine e = {.subject = subject, .n = n, .settings = *settings};
   if (e.settings.now == NULL)
     e.settings.now = clock_ns;

@@ -1,5 +1,6 @@
-/* What many noisy samples say. The median and the median absolute deviation, because a busy machine makes outliers on one side
- * only: an interrupted sample is too long, none is ever too short. */
+/* What many noisy samples say. The median and the median absolute deviation, because a busy
+ * machine makes outliers on one side only: an interrupted sample is too long, none is ever too
+ * short. */
 #include "statistics.h"
 
 #include <math.h>
@@ -26,7 +27,8 @@ sample_summary summarise(double *sample, size_t n) {
   if (n == 0)
     return unknown;
   sort_samples(sample, n);
-  sample_summary s = {.count = n, .median = median_of_sorted(sample, n), .min = sample[0], .max = sample[n - 1]};
+  sample_summary s = {
+      .count = n, .median = median_of_sorted(sample, n), .min = sample[0], .max = sample[n - 1]};
   for (size_t k = 0; k < n; k++)
     sample[k] = fabs(sample[k] - s.median);
   sort_samples(sample, n);
@@ -34,7 +36,8 @@ sample_summary summarise(double *sample, size_t n) {
   return s;
 }
 
-sample_summary summarise_ratios(const double *above, const double *below, size_t n, double *scratch) {
+sample_summary summarise_ratios(const double *above, const double *below, size_t n,
+                                double *scratch) {
   for (size_t k = 0; k < n; k++)
     scratch[k] = above[k] / below[k];
   return summarise(scratch, n);

@@ -1,11 +1,12 @@
 /* base: Mathavan's algorithm written down as pooltool has it.
  *
- * Every impulse is set to zero and then, branch by branch, to its value; all velocities are updated from all impulses; all slip
- * velocities and their magnitudes are computed anew at the end of a step. The arithmetic is that of src/ball_ball/euler.c,
- * operation by operation, so where the compiler may not rearrange it (o3, novec) the result is pooltool's to the last bit.
+ * Every impulse is set to zero and then, branch by branch, to its value; all velocities are
+ * updated from all impulses; all slip velocities and their magnitudes are computed anew at the
+ * end of a step. The arithmetic is that of src/ball_ball/euler.c, operation by operation, so
+ * where the compiler may not rearrange it (o3, novec) the result is pooltool's to the last bit.
  *
- * Paper: 1.00, 85.3 cycles a step on Zen 2. Here: 1.00, 72 cycles a step on Zen 5; a square root and a division stand in the
- * chain that leads from one step to the next.
+ * Paper: 1.00, 85.3 cycles a step on Zen 2. Here: 1.00, 72 cycles a step on Zen 5; a square root
+ * and a division stand in the chain that leads from one step to the next.
  */
 #include "rung.h"
 

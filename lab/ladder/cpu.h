@@ -1,4 +1,5 @@
-/* The processor as a line of text, to tell whether code compiled with -march=native belongs to it. */
+/* The processor as a line of text, to tell whether code compiled with -march=native belongs to
+ * it. */
 #ifndef CAROM_LADDER_CPU_H
 #define CAROM_LADDER_CPU_H
 
@@ -18,7 +19,8 @@ static inline uint64_t ladder_hash(uint64_t hash, uint32_t word) {
   return hash;
 }
 
-/* Writes the model's name, its family, model and stepping number, and a hash of what instructions it has. */
+/* Writes the model's name, its family, model and stepping number, and a hash of what
+ * instructions it has. */
 static inline void ladder_cpu(char text[LADDER_CPU_SIZE]) {
   uint32_t a, b, c, d, name[13] = {0};
   for (uint32_t leaf = 0; leaf < 3; leaf++)
@@ -40,8 +42,8 @@ static inline void ladder_cpu(char text[LADDER_CPU_SIZE]) {
     hash = ladder_hash(hash, a);
   if (__get_cpuid(0x80000001u, &a, &b, &c, &d))
     hash = ladder_hash(ladder_hash(hash, c), d);
-  snprintf(text, LADDER_CPU_SIZE, "%s (%08x, features %016llx)", (const char *)name, (unsigned)signature,
-           (unsigned long long)hash);
+  snprintf(text, LADDER_CPU_SIZE, "%s (%08x, features %016llx)", (const char *)name,
+           (unsigned)signature, (unsigned long long)hash);
 }
 #else
 static inline void ladder_cpu(char text[LADDER_CPU_SIZE]) {

@@ -1,4 +1,5 @@
-/* ladder_cpu FILE: writes this machine's processor as a C header, unless the file says so already. */
+/* ladder_cpu FILE: writes this machine's processor as a C header, unless the file says so
+ * already. */
 #include "cpu.h"
 
 int main(int argc, char **argv) {

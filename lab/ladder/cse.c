@@ -1,7 +1,7 @@
 /* cse: what is computed twice gets a name and is computed once.
  *
- * At four places: the factor of both impulses between the balls, that of both impulses of the cloth, the change of spin about
- * z, which is the same for both balls, and half of DP.
+ * At four places: the factor of both impulses between the balls, that of both impulses of the
+ * cloth, the change of spin about z, which is the same for both balls, and half of DP.
  *
  * Paper: a little more. Here: 1.53, nothing more; the compiler had found them all.
  */

@@ -1,10 +1,13 @@
 /* double: three small savings, the end of the scalar ladder in double precision.
  *
- * In restitution the pressed ball has been slipping for a while, so whether it slips at all is not asked. Work is compared with
- * work only, so the factor DP/2 goes. And v_n has one sign in each loop, so fabs goes.
- * (Should the slip be 0 to the last bit in restitution after all, the result is NaN, which resolve.c turns into an error.)
+ * In restitution the pressed ball has been slipping for a while, so whether it slips at all is
+ * not asked. Work is compared with work only, so the factor DP/2 goes. And v_n has one sign in
+ * each loop, so fabs goes.
+ * (Should the slip be 0 to the last bit in restitution after all, the result is NaN, which
+ * resolve.c turns into an error.)
  *
- * Paper: 1.65, 50.2 cycles a step. Here: 1.68, 43 cycles a step, of which the chain alone takes 41.
+ * Paper: 1.65, 50.2 cycles a step. Here: 1.68, 43 cycles a step, of which the chain alone takes
+ * 41.
  */
 #include "rung.h"
 

@@ -1,9 +1,10 @@
 /* double_rsqrt14: double with AVX-512's estimate, which takes and gives double precision.
  *
- * The paper's machine had no AVX-512. 14 good bits in place of 12, the whole range of exponents, and no conversions.
+ * The paper's machine had no AVX-512. 14 good bits in place of 12, the whole range of exponents,
+ * and no conversions.
  *
- * Paper: not in it. Here: 1.82, in every configuration of clang, because this function always gets AVX-512's 32 registers and
- * fused multiply-adds: nothing is spilt.
+ * Paper: not in it. Here: 1.82, in every configuration of clang, because this function always
+ * gets AVX-512's 32 registers and fused multiply-adds: nothing is spilt.
  */
 #include "rung.h"
 

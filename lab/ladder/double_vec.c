@@ -1,19 +1,20 @@
 /* double_vec: the third stage: the masks leave the chain or go.
  *
- * What does not slip: 1e-32 is added to the square of each slip, in the multiply-add that squares it, so that its reciprocal is
- * at most 1e16 and no compare is needed. Which ball is pressed is taken from u_z and multiplied into the coefficient of
- * friction while the estimate is still under way. The step of DP is added to v before the rest, which comes late.
+ * What does not slip: 1e-32 is added to the square of each slip, in the multiply-add that
+ * squares it, so that its reciprocal is at most 1e16 and no compare is needed. Which ball is
+ * pressed is taken from u_z and multiplied into the coefficient of friction while the estimate
+ * is still under way. The step of DP is added to v before the rest, which comes late.
  *
- * Paper: slower. Here: 1.17 in default, where clang's fast-math regroups the products, 1.33 to 1.37 in all other
- * configurations.
+ * Paper: slower. Here: 1.17 in default, where clang's fast-math regroups the products, 1.33 to
+ * 1.37 in all other configurations.
  */
 #include "rung.h"
 
 #include <immintrin.h>
 #include <math.h>
 
-/* About 1/sqrt of the sum of the squares of both lanes, to 12 bits, in both lanes. The least is added so that what does not
- * slip gets a finite number: times the slip, that is no friction. */
+/* About 1/sqrt of the sum of the squares of both lanes, to 12 bits, in both lanes. The least is
+ * added so that what does not slip gets a finite number: times the slip, that is no friction. */
 CAROM_TARGET_AVX2 static inline __m128d rlength(__m128d x) {
   const __m128d squares = _mm_fmadd_pd(x, x, _mm_set1_pd(1e-32));
   return _mm_cvtps_pd(_mm_rsqrt_ps(_mm_cvtpd_ps(_mm_hadd_pd(squares, squares))));
@@ -26,11 +27,13 @@ CAROM_TARGET_AVX2 static inline __m256d rlengths(__m256d x) {
 }
 
 /* (u_x, u_z) at contact A. */
-CAROM_TARGET_AVX2 static inline __m128d slip_of_balls(__m256d v, __m256d w, __m128d w_z, __m128d R) {
+CAROM_TARGET_AVX2 static inline __m128d slip_of_balls(__m256d v, __m256d w, __m128d w_z,
+                                                      __m128d R) {
   const __m128d v_ij = _mm_sub_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
   const __m128d w_ij = _mm_add_pd(_mm256_castpd256_pd128(w), _mm256_extractf128_pd(w, 1));
   const __m128d w_zij = _mm_hadd_pd(w_z, w_z);
-  return _mm_addsub_pd(_mm_unpacklo_pd(v_ij, _mm_setzero_pd()), _mm_mul_pd(R, _mm_unpacklo_pd(w_zij, w_ij)));
+  return _mm_addsub_pd(_mm_unpacklo_pd(v_ij, _mm_setzero_pd()),
+                       _mm_mul_pd(R, _mm_unpacklo_pd(w_zij, w_ij)));
 }
 
 /* (d_x, d_y, b_x, b_y) at contacts D and B. */
@@ -56,7 +59,8 @@ CAROM_TARGET_AVX2 void carom_rung_double_vec(carom_local *state, int N) {
   const __m256d sR = _mm256_setr_pd(c.s * c.R, -c.s * c.R, c.s * c.R, -c.s * c.R);
   const __m128d mu_b_DP = _mm_set1_pd(-c.mu_b * DP);
   const __m256d mu_ij = _mm256_setr_pd(c.mu_i, c.mu_i, -c.mu_j, -c.mu_j);
-  const __m256d sign = _mm256_setr_pd(1.0, 1.0, -1.0, -1.0); /* i is pressed where u_z > 0, j where u_z < 0 */
+  /* i is pressed where u_z > 0, j where u_z < 0 */
+  const __m256d sign = _mm256_setr_pd(1.0, 1.0, -1.0, -1.0);
   const __m256d v_of_DP = _mm256_setr_pd(0.0, -DP * recM, 0.0, DP * recM);
   const __m256d v_of_DP1 = _mm256_setr_pd(recM, 0.0, -recM, 0.0);
   const __m128d w_z_of_DP1 = _mm_set1_pd(-C);
@@ -70,15 +74,18 @@ CAROM_TARGET_AVX2 void carom_rung_double_vec(carom_local *state, int N) {
 
   while (v_n <= 0.0) {
     const __m256d u_z = _mm256_permute4x64_pd(_mm256_castpd128_pd256(u), 0x55);
-    const __m256d pressed = _mm256_cmp_pd(_mm256_mul_pd(u_z, sign), _mm256_setzero_pd(), _CMP_GT_OQ);
+    const __m256d pressed =
+        _mm256_cmp_pd(_mm256_mul_pd(u_z, sign), _mm256_setzero_pd(), _CMP_GT_OQ);
     const __m256d mu = _mm256_and_pd(pressed, mu_ij);
     const __m256d rdb = rlengths(db);
     const __m128d DP12 = _mm_mul_pd(_mm_mul_pd(mu_b_DP, u), ru);
     const __m256d DP1 = _mm256_broadcastsd_pd(DP12);
     const __m256d DP2 = _mm256_permute4x64_pd(_mm256_castpd128_pd256(DP12), 0x55);
     const __m256d cloth = _mm256_mul_pd(_mm256_mul_pd(_mm256_mul_pd(mu, rdb), db), DP2);
-    v = _mm256_fmadd_pd(cloth, v_of_cloth, _mm256_fmadd_pd(DP1, v_of_DP1, _mm256_add_pd(v, v_of_DP)));
-    w = _mm256_fmadd_pd(_mm256_permute_pd(cloth, 0x5), w_of_cloth, _mm256_fmadd_pd(DP2, w_of_DP2, w));
+    v = _mm256_fmadd_pd(cloth, v_of_cloth,
+                        _mm256_fmadd_pd(DP1, v_of_DP1, _mm256_add_pd(v, v_of_DP)));
+    w = _mm256_fmadd_pd(_mm256_permute_pd(cloth, 0x5), w_of_cloth,
+                        _mm256_fmadd_pd(DP2, w_of_DP2, w));
     w_z = _mm_fmadd_pd(_mm256_castpd256_pd128(DP1), w_z_of_DP1, w_z);
     u = slip_of_balls(v, w, w_z, R);
     ru = rlength(u);
@@ -93,15 +100,18 @@ CAROM_TARGET_AVX2 void carom_rung_double_vec(carom_local *state, int N) {
   const double W_f = (1.0 + c.e * c.e) * W;
   while (W < W_f) {
     const __m256d u_z = _mm256_permute4x64_pd(_mm256_castpd128_pd256(u), 0x55);
-    const __m256d pressed = _mm256_cmp_pd(_mm256_mul_pd(u_z, sign), _mm256_setzero_pd(), _CMP_GT_OQ);
+    const __m256d pressed =
+        _mm256_cmp_pd(_mm256_mul_pd(u_z, sign), _mm256_setzero_pd(), _CMP_GT_OQ);
     const __m256d mu = _mm256_and_pd(pressed, mu_ij);
     const __m256d rdb = rlengths(db);
     const __m128d DP12 = _mm_mul_pd(_mm_mul_pd(mu_b_DP, u), ru);
     const __m256d DP1 = _mm256_broadcastsd_pd(DP12);
     const __m256d DP2 = _mm256_permute4x64_pd(_mm256_castpd128_pd256(DP12), 0x55);
     const __m256d cloth = _mm256_mul_pd(_mm256_mul_pd(_mm256_mul_pd(mu, rdb), db), DP2);
-    v = _mm256_fmadd_pd(cloth, v_of_cloth, _mm256_fmadd_pd(DP1, v_of_DP1, _mm256_add_pd(v, v_of_DP)));
-    w = _mm256_fmadd_pd(_mm256_permute_pd(cloth, 0x5), w_of_cloth, _mm256_fmadd_pd(DP2, w_of_DP2, w));
+    v = _mm256_fmadd_pd(cloth, v_of_cloth,
+                        _mm256_fmadd_pd(DP1, v_of_DP1, _mm256_add_pd(v, v_of_DP)));
+    w = _mm256_fmadd_pd(_mm256_permute_pd(cloth, 0x5), w_of_cloth,
+                        _mm256_fmadd_pd(DP2, w_of_DP2, w));
     w_z = _mm_fmadd_pd(_mm256_castpd256_pd128(DP1), w_z_of_DP1, w_z);
     u = slip_of_balls(v, w, w_z, R);
     ru = rlength(u);

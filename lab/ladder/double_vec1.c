@@ -1,10 +1,11 @@
 /* double_vec1: intrinsics inside one collision, the first stage: branches kept.
  *
- * v and w hold (x, y) of ball i and of ball j in a 256-bit vector each, w_z that of both balls. An impulse enters by a
- * multiply-add with a constant vector that says which components it acts on, and with what sign.
+ * v and w hold (x, y) of ball i and of ball j in a 256-bit vector each, w_z that of both balls.
+ * An impulse enters by a multiply-add with a constant vector that says which components it acts
+ * on, and with what sign.
  *
- * Paper: much slower than double. Here: 1.27; there are as many instructions as in double, 17 of them only move numbers between
- * lanes, with 1 to 4 cycles each in the chain.
+ * Paper: much slower than double. Here: 1.27; there are as many instructions as in double, 17 of
+ * them only move numbers between lanes, with 1 to 4 cycles each in the chain.
  */
 #include "rung.h"
 
@@ -18,11 +19,13 @@ CAROM_TARGET_AVX2 static inline __m128d rsqrt_sum(__m128d x) {
 }
 
 /* (u_x, u_z) at contact A. */
-CAROM_TARGET_AVX2 static inline __m128d slip_of_balls(__m256d v, __m256d w, __m128d w_z, __m128d R) {
+CAROM_TARGET_AVX2 static inline __m128d slip_of_balls(__m256d v, __m256d w, __m128d w_z,
+                                                      __m128d R) {
   const __m128d v_ij = _mm_sub_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
   const __m128d w_ij = _mm_add_pd(_mm256_castpd256_pd128(w), _mm256_extractf128_pd(w, 1));
   const __m128d w_zij = _mm_hadd_pd(w_z, w_z);
-  return _mm_addsub_pd(_mm_unpacklo_pd(v_ij, _mm_setzero_pd()), _mm_mul_pd(R, _mm_unpacklo_pd(w_zij, w_ij)));
+  return _mm_addsub_pd(_mm_unpacklo_pd(v_ij, _mm_setzero_pd()),
+                       _mm_mul_pd(R, _mm_unpacklo_pd(w_zij, w_ij)));
 }
 
 /* (d_x, d_y, b_x, b_y) at contacts D and B. */

@@ -1,8 +1,10 @@
 /* double_vec2: the second stage: compares and masks in place of the branches.
  *
- * The impulses of both cloth contacts are computed in every step, and the mask lets one of them pass.
+ * The impulses of both cloth contacts are computed in every step, and the mask lets one of them
+ * pass.
  *
- * Paper: slower. Here: 1.23; the branches were always predicted and cost nothing, the masks are instructions.
+ * Paper: slower. Here: 1.23; the branches were always predicted and cost nothing, the masks are
+ * instructions.
  */
 #include "rung.h"
 
@@ -22,11 +24,13 @@ CAROM_TARGET_AVX2 static inline __m256d rsqrt_sums(__m256d x) {
 }
 
 /* (u_x, u_z) at contact A. */
-CAROM_TARGET_AVX2 static inline __m128d slip_of_balls(__m256d v, __m256d w, __m128d w_z, __m128d R) {
+CAROM_TARGET_AVX2 static inline __m128d slip_of_balls(__m256d v, __m256d w, __m128d w_z,
+                                                      __m128d R) {
   const __m128d v_ij = _mm_sub_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
   const __m128d w_ij = _mm_add_pd(_mm256_castpd256_pd128(w), _mm256_extractf128_pd(w, 1));
   const __m128d w_zij = _mm_hadd_pd(w_z, w_z);
-  return _mm_addsub_pd(_mm_unpacklo_pd(v_ij, _mm_setzero_pd()), _mm_mul_pd(R, _mm_unpacklo_pd(w_zij, w_ij)));
+  return _mm_addsub_pd(_mm_unpacklo_pd(v_ij, _mm_setzero_pd()),
+                       _mm_mul_pd(R, _mm_unpacklo_pd(w_zij, w_ij)));
 }
 
 /* (d_x, d_y, b_x, b_y) at contacts D and B. */
@@ -52,7 +56,8 @@ CAROM_TARGET_AVX2 void carom_rung_double_vec2(carom_local *state, int N) {
   const __m256d sR = _mm256_setr_pd(c.s * c.R, -c.s * c.R, c.s * c.R, -c.s * c.R);
   const __m128d mu_b_DP = _mm_set1_pd(-c.mu_b * DP);
   const __m256d mu_ij = _mm256_setr_pd(c.mu_i, c.mu_i, -c.mu_j, -c.mu_j);
-  const __m256d sign = _mm256_setr_pd(1.0, 1.0, -1.0, -1.0); /* i is pressed where u_z > 0, j where u_z < 0 */
+  /* i is pressed where u_z > 0, j where u_z < 0 */
+  const __m256d sign = _mm256_setr_pd(1.0, 1.0, -1.0, -1.0);
   const __m256d v_of_DP = _mm256_setr_pd(0.0, -DP * recM, 0.0, DP * recM);
   const __m256d v_of_DP1 = _mm256_setr_pd(recM, 0.0, -recM, 0.0);
   const __m128d w_z_of_DP1 = _mm_set1_pd(-C);
@@ -71,10 +76,13 @@ CAROM_TARGET_AVX2 void carom_rung_double_vec2(carom_local *state, int N) {
     v = _mm256_fmadd_pd(DP1, v_of_DP1, v);
     w_z = _mm_fmadd_pd(_mm256_castpd256_pd128(DP1), w_z_of_DP1, w_z);
     const __m256d u_z = _mm256_permute4x64_pd(_mm256_castpd128_pd256(u), 0x55);
-    const __m256d turns = _mm256_cmp_pd(_mm256_andnot_pd(_mm256_set1_pd(-0.0), u_z), _mm256_set1_pd(1e-16), _CMP_GE_OQ);
-    const __m256d DP2 = _mm256_and_pd(turns, _mm256_permute4x64_pd(_mm256_castpd128_pd256(DP12), 0x55));
+    const __m256d turns = _mm256_cmp_pd(_mm256_andnot_pd(_mm256_set1_pd(-0.0), u_z),
+                                        _mm256_set1_pd(1e-16), _CMP_GE_OQ);
+    const __m256d DP2 =
+        _mm256_and_pd(turns, _mm256_permute4x64_pd(_mm256_castpd128_pd256(DP12), 0x55));
     w = _mm256_fmadd_pd(DP2, w_of_DP2, w);
-    const __m256d pressed = _mm256_cmp_pd(_mm256_mul_pd(u_z, sign), _mm256_setzero_pd(), _CMP_GT_OQ);
+    const __m256d pressed =
+        _mm256_cmp_pd(_mm256_mul_pd(u_z, sign), _mm256_setzero_pd(), _CMP_GT_OQ);
     const __m256d rdb = rsqrt_sums(_mm256_mul_pd(db, db));
     const __m256d finite = _mm256_cmp_pd(rdb, _mm256_set1_pd(INFINITY), _CMP_LT_OQ);
     const __m256d DP_db = _mm256_mul_pd(_mm256_mul_pd(_mm256_mul_pd(mu_ij, rdb), db), DP2);
@@ -100,10 +108,13 @@ CAROM_TARGET_AVX2 void carom_rung_double_vec2(carom_local *state, int N) {
     v = _mm256_fmadd_pd(DP1, v_of_DP1, v);
     w_z = _mm_fmadd_pd(_mm256_castpd256_pd128(DP1), w_z_of_DP1, w_z);
     const __m256d u_z = _mm256_permute4x64_pd(_mm256_castpd128_pd256(u), 0x55);
-    const __m256d turns = _mm256_cmp_pd(_mm256_andnot_pd(_mm256_set1_pd(-0.0), u_z), _mm256_set1_pd(1e-16), _CMP_GE_OQ);
-    const __m256d DP2 = _mm256_and_pd(turns, _mm256_permute4x64_pd(_mm256_castpd128_pd256(DP12), 0x55));
+    const __m256d turns = _mm256_cmp_pd(_mm256_andnot_pd(_mm256_set1_pd(-0.0), u_z),
+                                        _mm256_set1_pd(1e-16), _CMP_GE_OQ);
+    const __m256d DP2 =
+        _mm256_and_pd(turns, _mm256_permute4x64_pd(_mm256_castpd128_pd256(DP12), 0x55));
     w = _mm256_fmadd_pd(DP2, w_of_DP2, w);
-    const __m256d pressed = _mm256_cmp_pd(_mm256_mul_pd(u_z, sign), _mm256_setzero_pd(), _CMP_GT_OQ);
+    const __m256d pressed =
+        _mm256_cmp_pd(_mm256_mul_pd(u_z, sign), _mm256_setzero_pd(), _CMP_GT_OQ);
     const __m256d rdb = rsqrt_sums(_mm256_mul_pd(db, db));
     const __m256d DP_db = _mm256_mul_pd(_mm256_mul_pd(_mm256_mul_pd(mu_ij, rdb), db), DP2);
     const __m256d cloth = _mm256_and_pd(pressed, DP_db);

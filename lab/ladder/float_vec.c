@@ -1,17 +1,18 @@
 /* float_vec: the whole loop body in 128-bit vectors, without branches.
  *
- * Laid out as double_vec, with four floats in a register: (x, y) of ball i and of ball j. One estimate serves all three
- * magnitudes.
+ * Laid out as double_vec, with four floats in a register: (x, y) of ball i and of ball j. One
+ * estimate serves all three magnitudes.
  *
- * Paper: slower. Here: 1.52 against 1.92 for float; 15 of 43 instructions move numbers between lanes.
+ * Paper: slower. Here: 1.52 against 1.92 for float; 15 of 43 instructions move numbers between
+ * lanes.
  */
 #include "rung.h"
 
 #include <immintrin.h>
 #include <math.h>
 
-/* About 1/|(a_0, a_1)|, 1/|(a_2, a_3)|, 1/|(b_0, b_1)|, 1/|(b_2, b_3)|, to 12 bits. The least is added so that what does not
- * slip gets a finite number: times the slip, that is no friction. */
+/* About 1/|(a_0, a_1)|, 1/|(a_2, a_3)|, 1/|(b_0, b_1)|, 1/|(b_2, b_3)|, to 12 bits. The least is
+ * added so that what does not slip gets a finite number: times the slip, that is no friction. */
 CAROM_TARGET_AVX2 static inline __m128 rlengths(__m128 a, __m128 b) {
   const __m128 least = _mm_set1_ps(1e-32f);
   return _mm_rsqrt_ps(_mm_hadd_ps(_mm_fmadd_ps(a, a, least), _mm_fmadd_ps(b, b, least)));
@@ -19,8 +20,10 @@ CAROM_TARGET_AVX2 static inline __m128 rlengths(__m128 a, __m128 b) {
 
 /* (u_x, u_z, u_x, u_z) at contact A; v_ij = v_i - v_j, the rest sums over both balls. */
 CAROM_TARGET_AVX2 static inline __m128 slip_of_balls(__m128 v_ij, __m128 w, __m128 w_z, __m128 R) {
-  const __m128 w_ij = _mm_add_ps(w, _mm_movehl_ps(w, w)), w_zij = _mm_add_ps(w_z, _mm_movehl_ps(w_z, w_z));
-  const __m128 u = _mm_addsub_ps(_mm_unpacklo_ps(v_ij, _mm_setzero_ps()), _mm_mul_ps(R, _mm_unpacklo_ps(w_zij, w_ij)));
+  const __m128 w_ij = _mm_add_ps(w, _mm_movehl_ps(w, w)),
+               w_zij = _mm_add_ps(w_z, _mm_movehl_ps(w_z, w_z));
+  const __m128 u = _mm_addsub_ps(_mm_unpacklo_ps(v_ij, _mm_setzero_ps()),
+                                 _mm_mul_ps(R, _mm_unpacklo_ps(w_zij, w_ij)));
   return _mm_movelh_ps(u, u);
 }
 
@@ -47,7 +50,8 @@ CAROM_TARGET_AVX2 void carom_rung_float_vec(carom_local *state, int N) {
   const __m128 sR = _mm_setr_ps(c.s * c.R, -c.s * c.R, c.s * c.R, -c.s * c.R);
   const __m128 mu_b_DP = _mm_set1_ps(-c.mu_b * DP);
   const __m128 mu_ij = _mm_setr_ps(c.mu_i, c.mu_i, -c.mu_j, -c.mu_j);
-  const __m128 sign = _mm_setr_ps(1.0f, 1.0f, -1.0f, -1.0f); /* i is pressed where u_z > 0, j where u_z < 0 */
+  /* i is pressed where u_z > 0, j where u_z < 0 */
+  const __m128 sign = _mm_setr_ps(1.0f, 1.0f, -1.0f, -1.0f);
   const __m128 v_of_DP = _mm_setr_ps(0.0f, -DP * recM, 0.0f, DP * recM);
   const __m128 v_of_DP1 = _mm_setr_ps(recM, 0.0f, -recM, 0.0f);
   const __m128 w_z_of_DP1 = _mm_setr_ps(-C, 0.0f, -C, 0.0f);
@@ -59,7 +63,8 @@ CAROM_TARGET_AVX2 void carom_rung_float_vec(carom_local *state, int N) {
   __m128 db = slip_on_cloth(v, w, sR);
 
   while (v_n <= 0.0f) {
-    const __m128 pressed = _mm_cmpgt_ps(_mm_mul_ps(_mm_permute_ps(u, 0x55), sign), _mm_setzero_ps());
+    const __m128 pressed =
+        _mm_cmpgt_ps(_mm_mul_ps(_mm_permute_ps(u, 0x55), sign), _mm_setzero_ps());
     const __m128 mu = _mm_and_ps(pressed, mu_ij);
     const __m128 r = rlengths(db, u); /* rd, rb, ru, ru */
     const __m128 DP12 = _mm_mul_ps(_mm_mul_ps(mu_b_DP, u), _mm_movehl_ps(r, r));
@@ -79,7 +84,8 @@ CAROM_TARGET_AVX2 void carom_rung_float_vec(carom_local *state, int N) {
 
   const float W_f = (1.0f + c.e * c.e) * W;
   while (W < W_f) {
-    const __m128 pressed = _mm_cmpgt_ps(_mm_mul_ps(_mm_permute_ps(u, 0x55), sign), _mm_setzero_ps());
+    const __m128 pressed =
+        _mm_cmpgt_ps(_mm_mul_ps(_mm_permute_ps(u, 0x55), sign), _mm_setzero_ps());
     const __m128 mu = _mm_and_ps(pressed, mu_ij);
     const __m128 r = rlengths(db, u); /* rd, rb, ru, ru */
     const __m128 DP12 = _mm_mul_ps(_mm_mul_ps(mu_b_DP, u), _mm_movehl_ps(r, r));

@@ -1,10 +1,11 @@
 /* float_vec1: vector helpers, the loop around them scalar.
  *
- * The slip velocities are v + w × r with a vector product, their magnitudes a dot product, of 128-bit vectors that are packed
- * from scalars and taken apart again. (In the paper the helpers served the change of frame as well; here that is outside the
- * rungs.)
+ * The slip velocities are v + w × r with a vector product, their magnitudes a dot product, of
+ * 128-bit vectors that are packed from scalars and taken apart again. (In the paper the helpers
+ * served the change of frame as well; here that is outside the rungs.)
  *
- * Paper: slower. Here: 1.20; the general vector product also multiplies by the zeros in r, and packing is in the chain.
+ * Paper: slower. Here: 1.20; the general vector product also multiplies by the zeros in r, and
+ * packing is in the chain.
  */
 #include "rung.h"
 
@@ -42,8 +43,10 @@ CAROM_TARGET_AVX2 void carom_rung_float_vec1(carom_local *state, int N) {
   const __m128 r_A = _mm_setr_ps(0.0f, R, 0.0f, 0.0f), r_DB = _mm_setr_ps(0.0f, 0.0f, sR, 0.0f);
   __m128 u = slip(_mm_setr_ps(c.v_ix - c.v_jx, 0.0f, 0.0f, 0.0f),
                   _mm_setr_ps(c.w_ix + c.w_jx, c.w_iy + c.w_jy, c.w_iz + c.w_jz, 0.0f), r_A);
-  __m128 d = slip(_mm_setr_ps(c.v_ix, c.v_iy, 0.0f, 0.0f), _mm_setr_ps(c.w_ix, c.w_iy, c.w_iz, 0.0f), r_DB);
-  __m128 b = slip(_mm_setr_ps(c.v_jx, c.v_jy, 0.0f, 0.0f), _mm_setr_ps(c.w_jx, c.w_jy, c.w_jz, 0.0f), r_DB);
+  __m128 d = slip(_mm_setr_ps(c.v_ix, c.v_iy, 0.0f, 0.0f),
+                  _mm_setr_ps(c.w_ix, c.w_iy, c.w_iz, 0.0f), r_DB);
+  __m128 b = slip(_mm_setr_ps(c.v_jx, c.v_jy, 0.0f, 0.0f),
+                  _mm_setr_ps(c.w_jx, c.w_jy, c.w_jz, 0.0f), r_DB);
   float ru = rlength(u);
   float v_n = c.v_jy - c.v_iy;
 
@@ -94,8 +97,10 @@ CAROM_TARGET_AVX2 void carom_rung_float_vec1(carom_local *state, int N) {
     c.v_iy -= DP * recM;
     c.v_jy += DP * recM;
 
-    d = slip(_mm_setr_ps(c.v_ix, c.v_iy, 0.0f, 0.0f), _mm_setr_ps(c.w_ix, c.w_iy, c.w_iz, 0.0f), r_DB);
-    b = slip(_mm_setr_ps(c.v_jx, c.v_jy, 0.0f, 0.0f), _mm_setr_ps(c.w_jx, c.w_jy, c.w_jz, 0.0f), r_DB);
+    d = slip(_mm_setr_ps(c.v_ix, c.v_iy, 0.0f, 0.0f), _mm_setr_ps(c.w_ix, c.w_iy, c.w_iz, 0.0f),
+             r_DB);
+    b = slip(_mm_setr_ps(c.v_jx, c.v_jy, 0.0f, 0.0f), _mm_setr_ps(c.w_jx, c.w_jy, c.w_jz, 0.0f),
+             r_DB);
 
     const float v_n_old = v_n;
     v_n = c.v_jy - c.v_iy;
@@ -143,8 +148,10 @@ CAROM_TARGET_AVX2 void carom_rung_float_vec1(carom_local *state, int N) {
     c.v_iy -= DP * recM;
     c.v_jy += DP * recM;
 
-    d = slip(_mm_setr_ps(c.v_ix, c.v_iy, 0.0f, 0.0f), _mm_setr_ps(c.w_ix, c.w_iy, c.w_iz, 0.0f), r_DB);
-    b = slip(_mm_setr_ps(c.v_jx, c.v_jy, 0.0f, 0.0f), _mm_setr_ps(c.w_jx, c.w_jy, c.w_jz, 0.0f), r_DB);
+    d = slip(_mm_setr_ps(c.v_ix, c.v_iy, 0.0f, 0.0f), _mm_setr_ps(c.w_ix, c.w_iy, c.w_iz, 0.0f),
+             r_DB);
+    b = slip(_mm_setr_ps(c.v_jx, c.v_jy, 0.0f, 0.0f), _mm_setr_ps(c.w_jx, c.w_jy, c.w_jz, 0.0f),
+             r_DB);
 
     const float v_n_old = v_n;
     v_n = c.v_jy - c.v_iy;

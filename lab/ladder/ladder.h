@@ -1,7 +1,9 @@
 /* The ladder from outside: its rungs, its modules, and how to run one on the other.
  *
- *     const ladder_module *module = ladder_module_find("default", &why);   // or "o3", "gcc-o3", "clang-archnative", ...
- *     carom_status status = ladder_resolve(module, ladder_rung_find("cse"), &impact, &options, &result);
+ *     // or "o3", "gcc-o3", "clang-archnative", ...
+ *     const ladder_module *module = ladder_module_find("default", &why);
+ *     const ladder_rung *rung = ladder_rung_find("cse");
+ *     carom_status status = ladder_resolve(module, rung, &impact, &options, &result);
  */
 #ifndef CAROM_LADDER_H
 #define CAROM_LADDER_H
@@ -46,16 +48,18 @@ typedef struct ladder_module {
 /* The name of the k-th module that the build made ("clang-default"), or NULL behind the last. */
 const char *ladder_module_name(size_t k);
 
-/* Loads a module by its full name, or by that of a configuration alone: then the first compiler's, and that is clang where
- * there is one. A module stays loaded. NULL if there is no such module or if it may not run here; `why`, of
- * LADDER_WHY_SIZE, then says so in a sentence and says what to do. Not to be called from two threads at once. */
+/* Loads a module by its full name, or by that of a configuration alone: then the first
+ * compiler's, and that is clang where there is one. A module stays loaded. NULL if there is no
+ * such module or if it may not run here; `why`, of LADDER_WHY_SIZE, then says so in a sentence
+ * and says what to do. Not to be called from two threads at once. */
 enum { LADDER_WHY_SIZE = 1024 };
 const ladder_module *ladder_module_find(const char *name, char why[LADDER_WHY_SIZE]);
 
-/* Resolves one collision as carom_collide() does, with `opt->slip` and `opt->steps`; `opt->solver` does not matter. More than
- * the library, a rung refuses: unequal masses (CAROM_ERROR_MASSES_DIFFER), steps that its precision does not resolve
- * (CAROM_ERROR_TOO_SLOW), and sizes and speeds beyond all billiards (CAROM_ERROR_OVERFLOW); resolve.c says where. */
-carom_status ladder_resolve(const ladder_module *module, const ladder_rung *rung, const carom_impact *in,
-                            const carom_options *opt, carom_result *out);
+/* Resolves one collision as carom_collide() does, with `opt->slip` and `opt->steps`;
+ * `opt->solver` does not matter. More than the library, a rung refuses: unequal masses
+ * (CAROM_ERROR_MASSES_DIFFER), steps that its precision does not resolve (CAROM_ERROR_TOO_SLOW),
+ * and sizes and speeds beyond all billiards (CAROM_ERROR_OVERFLOW); resolve.c says where. */
+carom_status ladder_resolve(const ladder_module *module, const ladder_rung *rung,
+                            const carom_impact *in, const carom_options *opt, carom_result *out);
 
 #endif

@@ -1,11 +1,13 @@
-/* The table of contents of one module; the build defines LADDER_COMPILER, LADDER_CONFIG and LADDER_FLAGS. */
+/* The table of contents of one module; the build defines LADDER_COMPILER, LADDER_CONFIG and
+ * LADDER_FLAGS. */
 #include "module.h"
 
 #include "ladder_cpu.h"
 
 const ladder_contents *carom_ladder_contents(void) {
   static const struct ladder_entry entries[] = {
-#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) {#name, carom_rung_##name},
+#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) \
+  {#name, carom_rung_##name},
 #include "kernels.def"
 #undef RUNG
   };

@@ -30,7 +30,8 @@ const char *ladder_module_name(size_t k) {
   return k < sizeof slots / sizeof slots[0] ? slots[k].name : NULL;
 }
 
-/* False, with the reason in `why`, if the module is not one of these sources or not for this processor. */
+/* False, with the reason in `why`, if the module is not one of these sources or not for this
+ * processor. */
 static bool may_run(const ladder_contents *contents, const char *path, char why[LADDER_WHY_SIZE]) {
   char cpu[LADDER_CPU_SIZE];
   ladder_cpu(cpu);
@@ -40,8 +41,9 @@ static bool may_run(const ladder_contents *contents, const char *path, char why[
   if (!same)
     snprintf(why, LADDER_WHY_SIZE, "%s was built from other sources; build again", path);
   else if (strcmp(contents->cpu, cpu) != 0)
-    snprintf(why, LADDER_WHY_SIZE, "%s was built for another processor, %s; this is %s: build again on this machine", path,
-             contents->cpu, cpu);
+    snprintf(why, LADDER_WHY_SIZE,
+             "%s was built for another processor, %s; this is %s: build again on this machine",
+             path, contents->cpu, cpu);
   return same && strcmp(contents->cpu, cpu) == 0;
 }
 

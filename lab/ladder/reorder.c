@@ -1,10 +1,12 @@
 /* reorder: work moves into the branch that needs it.
  *
- * Impulses are not set to zero and added everywhere: each is computed and applied where it is not zero. |b| or |d| is needed
- * for the pressed ball only. Slip between the balls changes only while they slip. Which ball is pressed is asked of u_z, which
- * is known before DP2; and what acts on both balls comes first, so that the cloth, last in the chain, waits for nothing else.
+ * Impulses are not set to zero and added everywhere: each is computed and applied where it is
+ * not zero. |b| or |d| is needed for the pressed ball only. Slip between the balls changes only
+ * while they slip. Which ball is pressed is asked of u_z, which is known before DP2; and what
+ * acts on both balls comes first, so that the cloth, last in the chain, waits for nothing else.
  *
- * Paper: 1.63. Here: 1.69; 73 instructions a step in place of 95, two estimates in place of three.
+ * Paper: 1.63. Here: 1.69; 73 instructions a step in place of 95, two estimates in place of
+ * three.
  */
 #include "rung.h"
 

@@ -1,21 +1,25 @@
-/* Around a rung: what is common to all, so that the rungs hold their ideas only. Checks, table frame to collision frame, the
- * rung, and back.
+/* Around a rung: what is common to all, so that the rungs hold their ideas only. Checks, table
+ * frame to collision frame, the rung, and back.
  *
- * The rungs are the paper's: no bound on the steps, no check of anything. So nothing is handed to them that they could not end
- * or could not represent. This file is compiled without fast-math, so its comparisons see NaN.
+ * The rungs are the paper's: no bound on the steps, no check of anything. So nothing is handed
+ * to them that they could not end or could not represent. This file is compiled without
+ * fast-math, so its comparisons see NaN.
  *
- * Every loop ends. Let dv = (1 + e)|v_n|/(2N) be the normal velocity that a step gives each ball, eps the spacing of numbers
- * near 1, V a bound on |v_iy| and |v_jy|. A step adds dv to the ball that is not pressed into the cloth, and something of the
- * same sign to the one that is, the whole in at most three roundings of eps V/2 each: v_n rises by dv - 3/2 eps V or more. Ask
- * for dv >= 2 eps V, and that is dv/4: compression ends within 4 |v_n|/dv steps and adds at most 8 v_n²/dv to the work (without
- * the factor DP/2). From then on v_n >= k dv/4 after k steps, so the work it gives back is k² dv/4 or more, and reaches W_f
- * within 6 |v_n|/dv steps; rounding of the work delays this by less than |v_n|/dv steps more. A step changes a |v_y| by
- * 5/2 dv at the most, so V = max(|v_iy|, |v_jy|) + 32 |v_n| is a bound indeed. (All this is the worst that rounding could do;
- * in exact arithmetic the steps are about N.)
+ * Every loop ends. Let dv = (1 + e)|v_n|/(2N) be the normal velocity that a step gives each
+ * ball, eps the spacing of numbers near 1, V a bound on |v_iy| and |v_jy|. A step adds dv to the
+ * ball that is not pressed into the cloth, and something of the same sign to the one that is,
+ * the whole in at most three roundings of eps V/2 each: v_n rises by dv - 3/2 eps V or more. Ask
+ * for dv >= 2 eps V, and that is dv/4: compression ends within 4 |v_n|/dv steps and adds at most
+ * 8 v_n²/dv to the work (without the factor DP/2). From then on v_n >= k dv/4 after k steps, so
+ * the work it gives back is k² dv/4 or more, and reaches W_f within 6 |v_n|/dv steps; rounding
+ * of the work delays this by less than |v_n|/dv steps more. A step changes a |v_y| by
+ * 5/2 dv at the most, so V = max(|v_iy|, |v_jy|) + 32 |v_n| is a bound indeed. (All this is the
+ * worst that rounding could do; in exact arithmetic the steps are about N.)
  *
- * All is representable, in single precision too. Slips enter rsqrt as squares in single precision, between 1e-38 and 3e38. A
- * slip below 1e-16 counts as none; the velocity step must not be below it either. Speeds up to 1e9 m/s and sizes within
- * 1e-9 ... 1e9 m and kg leave every product that occurs inside single precision's range.
+ * All is representable, in single precision too. Slips enter rsqrt as squares in single
+ * precision, between 1e-38 and 3e38. A slip below 1e-16 counts as none; the velocity step must
+ * not be below it either. Speeds up to 1e9 m/s and sizes within 1e-9 ... 1e9 m and kg leave
+ * every product that occurs inside single precision's range.
  */
 #include "ladder.h"
 
@@ -48,8 +52,8 @@ static size_t number_of(const ladder_rung *rung) {
   return (size_t)(rung - ladder_rung_at(0));
 }
 
-static carom_status solve(const ladder_module *module, const ladder_rung *rung, const carom_impact *in,
-                          const carom_options *opt, carom_result *out) {
+static carom_status solve(const ladder_module *module, const ladder_rung *rung,
+                          const carom_impact *in, const carom_options *opt, carom_result *out) {
   const carom_status bad = carom_check(in, opt, NULL);
   if (bad != CAROM_OK)
     return bad;
@@ -74,8 +78,8 @@ static carom_status solve(const ladder_module *module, const ladder_rung *rung, 
   return carom_result_is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }
 
-carom_status ladder_resolve(const ladder_module *module, const ladder_rung *rung, const carom_impact *in,
-                            const carom_options *opt, carom_result *out) {
+carom_status ladder_resolve(const ladder_module *module, const ladder_rung *rung,
+                            const carom_impact *in, const carom_options *opt, carom_result *out) {
   const carom_options defaults = {0};
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;

@@ -1,7 +1,9 @@
-/* rsqrt: the processor's estimate of 1/sqrt(x) in place of a square root and the divisions by it.
+/* rsqrt: the processor's estimate of 1/sqrt(x) in place of a square root and the divisions by
+ * it.
  *
- * u, d, b become ru, rd, rb, the reciprocals of the magnitudes; "no slip" is now a reciprocal that is too large or infinite.
- * The estimate takes and gives single precision, 12 bits of it good: two conversions, and friction wrong by 4e-4 at the most.
+ * u, d, b become ru, rd, rb, the reciprocals of the magnitudes; "no slip" is now a reciprocal
+ * that is too large or infinite. The estimate takes and gives single precision, 12 bits of it
+ * good: two conversions, and friction wrong by 4e-4 at the most.
  *
  * Paper: 1.26. Here: 1.48; llvm-mca puts the chain at 71 cycles before and 52 after.
  */

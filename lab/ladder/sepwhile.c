@@ -1,6 +1,7 @@
 /* sepwhile: compression and restitution as two loops.
  *
- * The first ends with v_n > 0, the second with W >= W_f; no step asks any more which of them it is in.
+ * The first ends with v_n > 0, the second with W >= W_f; no step asks any more which of them it
+ * is in.
  *
  * Paper: a little more. Here: 1.67; seven instructions less a step, none of them in the chain.
  */

@@ -19,7 +19,8 @@ static double weight(int component, double radius) {
   return component / 3 % 2 == 1 ? radius : 1.0;
 }
 
-pair_accuracy accuracy_of(const carom_result *result, const carom_result *reference, double radius) {
+pair_accuracy accuracy_of(const carom_result *result, const carom_result *reference,
+                          double radius) {
   const double *x = numbers(result), *y = numbers(reference);
   pair_accuracy a = {.identical = memcmp(result, reference, sizeof *result) == 0};
   double scale = 0.0;
@@ -29,7 +30,8 @@ pair_accuracy accuracy_of(const carom_result *result, const carom_result *refere
     const double error = weight(k, radius) * fabs(x[k] - y[k]);
     if (error == 0.0)
       continue;
-    const double of_scale = error / scale, of_itself = error / fmax(weight(k, radius) * fabs(y[k]), 0.001 * scale);
+    const double of_scale = error / scale,
+                 of_itself = error / fmax(weight(k, radius) * fabs(y[k]), 0.001 * scale);
     a.pair = isnan(of_scale) ? INFINITY : fmax(a.pair, of_scale);
     a.component = isnan(of_itself) ? INFINITY : fmax(a.component, of_itself);
   }

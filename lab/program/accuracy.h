@@ -1,8 +1,10 @@
 /* How far results are from a reference.
  *
  *     scale            largest of |v| and R |w| over the components of the reference, both balls
- *     pair error       largest |result - reference| over the 12 components, times R for w, over scale: the figure that counts
- *     component error  |result - reference| / max(|reference|, 0.001 scale), the largest over the components (times R for w)
+ *     pair error       largest |result - reference| over the 12 components, times R for w, over
+ *                      scale: the figure that counts
+ *     component error  |result - reference| / max(|reference|, 0.001 scale), the largest over
+ *                      the components (times R for w)
  */
 #ifndef CAROM_LAB_ACCURACY_H
 #define CAROM_LAB_ACCURACY_H
@@ -25,8 +27,8 @@ typedef struct accuracy_summary {
   size_t component_1e3, component_1e2; /* cases with a component error above 0.1 % and above 1 % */
 } accuracy_summary;
 
-/* Summarises n > 0 comparisons. A percentile is the smallest value that so many per cent do not exceed; the median is the mean
- * of the two values in the middle where n is even. */
+/* Summarises n > 0 comparisons. A percentile is the smallest value that so many per cent do not
+ * exceed; the median is the mean of the two values in the middle where n is even. */
 accuracy_summary accuracy_summarise(const pair_accuracy *each, size_t n);
 
 #endif

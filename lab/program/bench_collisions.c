@@ -1,11 +1,13 @@
 /* Collisions for `carom-lab bench`, by the paths that a user has:
  *
  *     calls   the cases, one call each                               any kernel       isa "scalar"
- *     batch   the cases over and over, many in a call                solvers only     isa "avx512", ...
+ *     batch   the cases over and over, many in a call                solvers only
+ *     isa "avx512", ...
  *
- * Calls go through a pointer, as those of a program that chooses its kernel at run time would; the empty kernel is called
- * through it too. Small batches move on: call j begins at case j * size, modulo the number of cases, until every case has been
- * in as many batches as any other, so that what is timed does not depend on which cases a batch happens to hold. */
+ * Calls go through a pointer, as those of a program that chooses its kernel at run time would;
+ * the empty kernel is called through it too. Small batches move on: call j begins at case j *
+ * size, modulo the number of cases, until every case has been in as many batches as any other,
+ * so that what is timed does not depend on which cases a batch happens to hold. */
 #include "accuracy.h"
 #include "bench_job.h"
 #include "command.h"
@@ -21,7 +23,8 @@
 #include <unistd.h>
 
 enum {
-  LARGE = 4096, /* so many pairs hold all cases about equally often: one call is enough; fewer are not worth a thread */
+  LARGE = 4096, /* so many pairs hold all cases about equally often: one call is enough; fewer
+                   are not worth a thread */
   DEFAULT_SIZE = 65536
 };
 
@@ -77,8 +80,10 @@ static carom_status by_ladder(const workload *w, size_t first) {
 }
 
 static carom_status by_batch(const workload *w, size_t first) {
-  return w->single ? carom_collide_batch_f32(&w->in_f32[first], w->size, &w->options, &w->result_f32[first], NULL)
-                   : carom_collide_batch(&w->in[first], w->size, &w->options, &w->result[first], NULL);
+  return w->single
+             ? carom_collide_batch_f32(&w->in_f32[first], w->size, &w->options,
+                                       &w->result_f32[first], NULL)
+             : carom_collide_batch(&w->in[first], w->size, &w->options, &w->result[first], NULL);
 }
 
 static void call_all(const workload *w, call *one) {
@@ -147,14 +152,17 @@ static accuracy_summary compare(const workload *w, const carom_result *reference
     const size_t which = w->case_of != NULL ? w->case_of[k] : k % w->cases->count;
     each[k] = accuracy_of(&result, &reference[which], w->in[k].a.radius);
   }
-  const accuracy_summary s = w->rows > 0 ? accuracy_summarise(each, w->rows) : (accuracy_summary){.max = INFINITY};
+  const accuracy_summary s =
+      w->rows > 0 ? accuracy_summarise(each, w->rows) : (accuracy_summary){.max = INFINITY};
   free(each);
   return s;
 }
 
-/* What a kernel must reach on the cases at its claim's steps: for batches that of their precision; 0 asks for the same bits. */
+/* What a kernel must reach on the cases at its claim's steps: for batches that of their
+ * precision; 0 asks for the same bits. */
 static double bound_of(const workload *w) {
-  static const double of_batches[][2] = {[CAROM_SOLVER_EXACT] = {1e-6, 2e-5}, [CAROM_SOLVER_EULER] = {0.0, 1e-2}};
+  static const double of_batches[][2] = {
+      [CAROM_SOLVER_EXACT] = {1e-6, 2e-5}, [CAROM_SOLVER_EULER] = {0.0, 1e-2}};
   return w->size > 0 ? of_batches[w->kernel->solver][w->single] : w->kernel->claims[0].bound;
 }
 
@@ -165,12 +173,13 @@ static bool within(const workload *w, double allowed, int steps) {
   if (w->size > 0)
     snprintf(lanes, sizeof lanes, ", %s, %s", isa_of(w), precision_of(w));
   if (!(w->own.max <= allowed))
-    complain("%s (%s%s)%s is %.2g off its reference, and %.2g is allowed: it is not timed", w->kernel->name, config_of(w),
-             lanes, with, w->own.max, allowed);
+    complain("%s (%s%s)%s is %.2g off its reference, and %.2g is allowed: it is not timed",
+             w->kernel->name, config_of(w), lanes, with, w->own.max, allowed);
   return w->own.max <= allowed;
 }
 
-/* Single calls only: drops the rows that the kernel's precision does not resolve in so many steps. */
+/* Single calls only: drops the rows that the kernel's precision does not resolve in so many
+ * steps. */
 static void leave_out_too_slow(workload *w) {
   carom_result result;
   w->kept = allocate(w->rows, sizeof *w->kept);
@@ -178,7 +187,8 @@ static void leave_out_too_slow(workload *w) {
   size_t kept = 0;
   for (size_t k = 0; k < w->rows; k++)
     if (!isnan(w->result[k].a.v[0]) ||
-        kernel_resolve(w->kernel, w->module, &w->in[k], 1, &w->options, &result, NULL) != CAROM_ERROR_TOO_SLOW) {
+        kernel_resolve(w->kernel, w->module, &w->in[k], 1, &w->options, &result, NULL) !=
+            CAROM_ERROR_TOO_SLOW) {
       w->kept[kept] = w->in[k];
       w->case_of[kept++] = k;
     }
@@ -187,10 +197,11 @@ static void leave_out_too_slow(workload *w) {
   resolve(w);
 }
 
-/* At other steps than the claim's there is no file: the reference is the library's Euler with as many steps, which has
- * pooltool's bits. A rung that rounds differently may end one step sooner or later. A step changes a velocity by
- * (1 + e)|v_n|/(2N), at most 2/N of the pair's scale, so allowed is 2/N + bound * max(1, N / claim's N); but a bound of 0 stays
- * 0. */
+/* At other steps than the claim's there is no file: the reference is the library's Euler with as
+ * many steps, which has pooltool's bits. A rung that rounds differently may end one step sooner
+ * or later. A step changes a velocity by
+ * (1 + e)|v_n|/(2N), at most 2/N of the pair's scale, so allowed is 2/N + bound * max(1, N /
+ * claim's N); but a bound of 0 stays 0. */
 static bool verify_other_steps(workload *w) {
   const double steps = w->options.steps, bound = bound_of(w);
   resolve(w);
@@ -203,7 +214,9 @@ static bool verify_other_steps(workload *w) {
     carom_collide(&w->cases->impact[k], &euler, &reference[k]);
   w->own = compare(w, reference);
   free(reference);
-  return within(w, bound > 0.0 ? 2.0 / steps + bound * fmax(1.0, steps / w->kernel->claims[0].steps) : 0.0, w->options.steps);
+  return within(
+      w, bound > 0.0 ? 2.0 / steps + bound * fmax(1.0, steps / w->kernel->claims[0].steps) : 0.0,
+      w->options.steps);
 }
 
 /* Resolves the cases and compares. *good: may it be timed? False if data could not be read. */
@@ -251,13 +264,15 @@ static bool names(const name_list *list, const char *name) {
 }
 
 static bool wants_precision(const bench_job *job, bool single) {
-  return job->shared.precision == ANY_PRECISION || (job->shared.precision == SINGLE_PRECISION) == single;
+  return job->shared.precision == ANY_PRECISION ||
+         (job->shared.precision == SINGLE_PRECISION) == single;
 }
 
 static workload *add(struct collisions *c, const kernel *one) {
   c->work = grow(c->work, &c->room, c->count + 1, sizeof *c->work);
   workload *w = &c->work[c->count++];
-  *w = (workload){.kernel = one, .cases = &c->cases, .in = c->cases.impact, .isa = carom_isa_in_force()};
+  *w = (workload){
+      .kernel = one, .cases = &c->cases, .in = c->cases.impact, .isa = carom_isa_in_force()};
   w->options.steps = CAROM_DEFAULT_STEPS;
   if (!one->is_rung)
     w->options.solver = one->solver;
@@ -265,11 +280,14 @@ static workload *add(struct collisions *c, const kernel *one) {
   return w;
 }
 
-/* The cases, one call each, unless they are there already. Where a kernel takes no steps, they are not read. */
-static void add_calls(struct collisions *c, const kernel *one, const ladder_module *module, int steps) {
+/* The cases, one call each, unless they are there already. Where a kernel takes no steps, they
+ * are not read. */
+static void add_calls(struct collisions *c, const kernel *one, const ladder_module *module,
+                      int steps) {
   steps = takes_steps(one) ? steps : CAROM_DEFAULT_STEPS;
   for (size_t k = 0; k < c->count; k++)
-    if (c->work[k].size == 0 && c->work[k].kernel == one && c->work[k].module == module && c->work[k].options.steps == steps)
+    if (c->work[k].size == 0 && c->work[k].kernel == one && c->work[k].module == module &&
+        c->work[k].options.steps == steps)
       return;
   workload *w = add(c, one);
   w->module = module;
@@ -294,7 +312,10 @@ static bool add_configs(bench_job *job, const kernel *one) {
   const char *name;
   for (size_t k = 0; k < job->configs.count; k++) {
     const bool all = strcmp(job->configs.name[k], "all") == 0;
-    for (size_t m = 0; (name = all ? ladder_module_name(m) : m == 0 ? job->configs.name[k] : NULL) != NULL; m++)
+    for (size_t m = 0; (name = all      ? ladder_module_name(m)
+                               : m == 0 ? job->configs.name[k]
+                                        : NULL) != NULL;
+         m++)
       if (!add_config(job, one, name))
         return false;
   }
@@ -309,8 +330,9 @@ static bool add_all_calls(bench_job *job) {
     return kernel_module(kernel_find(ladder_rung_at(0)->name), NULL, &unused);
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
     const bool named = names(&job->kernels, one->name), listed = named || job->kernels.count == 0;
-    const bool runs =
-        one->is_rung ? ladder_module_name(0) != NULL && ladder_rung_runs(ladder_rung_find(one->name)) : job->configs.count == 0;
+    const bool runs = one->is_rung ? ladder_module_name(0) != NULL &&
+                                         ladder_rung_runs(ladder_rung_find(one->name))
+                                   : job->configs.count == 0;
     if (!listed || !(named || runs) || !wants_precision(job, strcmp(one->precision, "single") == 0))
       continue;
     if (one->is_rung ? !add_configs(job, one) : !add_config(job, one, NULL))
@@ -324,8 +346,8 @@ static size_t common_divisor(size_t a, size_t b) {
 }
 
 /* Batches of `size` pairs by a solver in lanes of `isa`. */
-static void add_batch(struct collisions *c, const kernel *one, carom_isa isa, bool single, int threads, int steps,
-                      size_t size) {
+static void add_batch(struct collisions *c, const kernel *one, carom_isa isa, bool single,
+                      int threads, int steps, size_t size) {
   const size_t shared = common_divisor(size, c->cases.count);
   workload *w = add(c, one);
   w->in = c->tiled;
@@ -347,15 +369,16 @@ static void add_batch(struct collisions *c, const kernel *one, carom_isa isa, bo
     w->result = allocate(w->rows, sizeof *w->result);
 }
 
-/* Every size, precision, number of threads and, where a kernel takes any, of steps that is wanted. */
+/* Every size, precision, number of threads and, where a kernel takes any, of steps that is
+ * wanted. */
 static void add_batches(bench_job *job, const kernel *one, carom_isa isa) {
   const size_t counts = takes_steps(one) ? job->steps.count : 1;
   for (size_t size = 0; size < job->pairs.count; size++)
     for (int single = 0; single < 2; single++)
       for (size_t t = 0; t < job->threads.count && wants_precision(job, single != 0); t++)
         for (size_t k = 0; k < counts; k++)
-          add_batch(job->collisions, one, isa, single != 0, job->threads.value[t], job->steps.value[k],
-                    (size_t)job->pairs.value[size]);
+          add_batch(job->collisions, one, isa, single != 0, job->threads.value[t],
+                    job->steps.value[k], (size_t)job->pairs.value[size]);
 }
 
 bool bench_isa_here(carom_isa isa) {
@@ -367,7 +390,8 @@ static bool wants_isa(const bench_job *job, carom_isa isa) {
                                  (isa == carom_isa_in_force() && names(&job->isas, "best")));
 }
 
-/* Solvers with steps cost a batch as much as thousands of the others, so they have to be asked for. */
+/* Solvers with steps cost a batch as much as thousands of the others, so they have to be asked
+ * for. */
 static bool wants_batches(const bench_job *job, const kernel *one) {
   if (one->is_rung || (job->kernels.count > 0 && !names(&job->kernels, one->name)))
     return false;
@@ -399,7 +423,8 @@ static void add_all_batches(bench_job *job) {
         add_batches(job, one, (carom_isa)isa);
 }
 
-/* ---- The reference of speedup: the ladder's first rung in the default configuration; without a ladder, the library's Euler */
+/* ---- The reference of speedup: the ladder's first rung in the default configuration; without a
+ * ladder, the library's Euler */
 
 /* With as many steps as the workload, or the default where it takes none. */
 static int reference_steps(const workload *w) {
@@ -410,9 +435,11 @@ static bool is_reference(const struct collisions *c, const workload *w) {
   return w->size == 0 && w->kernel == c->reference && w->module == c->reference_module;
 }
 
-/* They come first, with as many steps as the others have, then with the default for those without. */
+/* They come first, with as many steps as the others have, then with the default for those
+ * without. */
 static bool add_references(struct collisions *c) {
-  c->reference = kernel_find(ladder_module_name(0) != NULL ? ladder_rung_at(0)->name : carom_solver_name(CAROM_SOLVER_EULER));
+  c->reference = kernel_find(ladder_module_name(0) != NULL ? ladder_rung_at(0)->name
+                                                           : carom_solver_name(CAROM_SOLVER_EULER));
   if (c->reference->is_rung && !kernel_module(c->reference, NULL, &c->reference_module))
     return false;
   const size_t chosen = c->count;
@@ -486,8 +513,8 @@ static bool choose(bench_job *job) {
     return false;
   add_all_batches(job);
   if (c->count == 0) {
-    complain(
-        "nothing to time: no kernel is all that is asked for (see `carom-lab kernels`; only the library's come in batches)");
+    complain("nothing to time: no kernel is all that is asked for (see `carom-lab kernels`; only "
+             "the library's come in batches)");
     return false;
   }
   return add_references(c) && verify_all(job);
@@ -495,28 +522,35 @@ static bool choose(bench_job *job) {
 
 static void note(const bench_job *job, FILE *out) {
   const struct collisions *c = job->collisions;
-  machine_note(out, "workload", "%zu reference cases, one call each, mean over the cases", c->cases.count);
+  machine_note(out, "workload", "%zu reference cases, one call each, mean over the cases",
+               c->cases.count);
   bool batches = false;
   for (size_t k = 0; k < c->count; k++)
     batches |= c->work[k].size > 0;
   if (batches && job->show_pairs)
-    machine_note(out, "batches", "the cases over and over, so many pairs in a call as the column says");
+    machine_note(out, "batches",
+                 "the cases over and over, so many pairs in a call as the column says");
   else if (batches)
-    machine_note(out, "batches", "the cases over and over, %d pairs in a call", job->pairs.value[0]);
-  machine_note(out, "reference kernel", "%s, %s, with as many steps", c->reference->name, config_of(&c->work[0]));
+    machine_note(out, "batches", "the cases over and over, %d pairs in a call",
+                 job->pairs.value[0]);
+  machine_note(out, "reference kernel", "%s, %s, with as many steps", c->reference->name,
+               config_of(&c->work[0]));
   const char *name;
   for (size_t k = 0; (name = ladder_module_name(k)) != NULL; k++)
     for (size_t w = 0; w < c->count; w++)
       if (c->work[w].module != NULL && c->work[w].module->name == name) {
         const ladder_module *module = c->work[w].module;
-        machine_note(out, module->name, "%s, %s, %s", module->compiler, module->version, module->flags);
+        machine_note(out, module->name, "%s, %s, %s", module->compiler, module->version,
+                     module->flags);
         break;
       }
   for (const workload *w = c->work; w < c->work + c->count; w++)
     if (w->kept != NULL && w->rows < c->cases.count)
       machine_note(out, "left out",
-                   "%s, %s, %d steps: %zu of %zu cases, whose approach its precision does not resolve in as many steps",
-                   w->kernel->name, config_of(w), w->options.steps, c->cases.count - w->rows, c->cases.count);
+                   "%s, %s, %d steps: %zu of %zu cases, whose approach its precision does not "
+                   "resolve in as many steps",
+                   w->kernel->name, config_of(w), w->options.steps, c->cases.count - w->rows,
+                   c->cases.count);
 }
 
 static void release(bench_job *job) {
@@ -534,4 +568,5 @@ static void release(bench_job *job) {
   free(c);
 }
 
-const bench_table bench_of_collisions = {.choose = choose, .note = note, .print = bench_print, .release = release};
+const bench_table bench_of_collisions = {
+    .choose = choose, .note = note, .print = bench_print, .release = release};

@@ -1,5 +1,5 @@
-/* `carom-lab bench --cushion`: the models of the cushion on impacts of play, Euler's 1000 steps being what the others are
- * compared with. */
+/* `carom-lab bench --cushion`: the models of the cushion on impacts of play, Euler's 1000 steps
+ * being what the others are compared with. */
 #include "bench_job.h"
 #include "command.h"
 #include "draws.h"
@@ -15,9 +15,11 @@
 
 enum { IMPACTS = 512, SEED = 1, MODELS = 5 };
 /* Euler's method first: speedup is that over it. */
-static const carom_cushion_model models[MODELS] = {CAROM_CUSHION_EULER, CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_STRONGE,
-                                                   CAROM_CUSHION_HAN, CAROM_CUSHION_MIRROR};
-static const double euler_bound = 0.05, exact_bound = 1e-8; /* of the verified error; the second is that of `verify` */
+static const carom_cushion_model models[MODELS] = {CAROM_CUSHION_EULER, CAROM_CUSHION_MATHAVAN,
+                                                   CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN,
+                                                   CAROM_CUSHION_MIRROR};
+/* of the verified error; the second is that of `verify` */
+static const double euler_bound = 0.05, exact_bound = 1e-8;
 
 typedef struct cushion_work {
   char name[32];
@@ -39,9 +41,11 @@ static uint64_t fingerprint(const void *context) {
   return bench_fingerprint(w->out, sizeof w->out);
 }
 
-/* The largest error against the reference; NAN for models of other physics. Infinity if an impact is not resolved. */
+/* The largest error against the reference; NAN for models of other physics. Infinity if an
+ * impact is not resolved. */
 static double verify(const cushion_work *w) {
-  const bool compared = w->options.model == CAROM_CUSHION_MATHAVAN || w->options.model == CAROM_CUSHION_EULER;
+  const bool compared =
+      w->options.model == CAROM_CUSHION_MATHAVAN || w->options.model == CAROM_CUSHION_EULER;
   double worst = 0;
   for (size_t k = 0; k < IMPACTS; k++) {
     carom_motion exact;
@@ -99,4 +103,5 @@ static void release(bench_job *job) {
   free(job->cushions);
 }
 
-const bench_table bench_of_cushions = {.choose = choose, .note = note, .print = bench_print, .release = release};
+const bench_table bench_of_cushions = {
+    .choose = choose, .note = note, .print = bench_print, .release = release};

@@ -1,5 +1,6 @@
-/* One run of `carom-lab bench`: what is timed is verified, then timed in turns by the engine, then printed. There are three
- * tables of work: collisions of two balls, impacts on cushions, whole shots. */
+/* One run of `carom-lab bench`: what is timed is verified, then timed in turns by the engine,
+ * then printed. There are three tables of work: collisions of two balls, impacts on cushions,
+ * whole shots. */
 #ifndef CAROM_LAB_BENCH_JOB_H
 #define CAROM_LAB_BENCH_JOB_H
 
@@ -9,7 +10,8 @@
 
 #include <stdio.h>
 
-/* Lists that options grow: names and whole numbers with commas between; repeating the option adds to them. */
+/* Lists that options grow: names and whole numbers with commas between; repeating the option
+ * adds to them. */
 /* Names point into the argument vector, whose commas become ends. */
 typedef struct name_list {
   const char **name;
@@ -24,7 +26,8 @@ void add_count(count_list *list, int value);
 
 typedef struct bench_job bench_job;
 
-/* A table of work. `choose` makes and verifies job->subject, and sets the default budget; false after a complaint. */
+/* A table of work. `choose` makes and verifies job->subject, and sets the default budget; false
+ * after a complaint. */
 typedef struct bench_table {
   bool (*choose)(bench_job *job);
   void (*note)(const bench_job *job, FILE *out); /* lines on the work, for bench_print() */

@@ -1,9 +1,10 @@
 /* `carom-lab bench --shots`: whole shots, beside the time that pooltool took for each.
  *
- * A subject of the engine is one shot, nothing kept of its events; with threads, a batch of copies of it that takes about 2 ms.
- * What is timed has been played once before: a shot that ends in error, or by pooltool's models with another number of events
- * than recorded, is refused. With one thread the clock is the processor's time, which other programs disturb least, as
- * pooltool's was taken. */
+ * A subject of the engine is one shot, nothing kept of its events; with threads, a batch of
+ * copies of it that takes about 2 ms. What is timed has been played once before: a shot that
+ * ends in error, or by pooltool's models with another number of events than recorded, is
+ * refused. With one thread the clock is the processor's time, which other programs disturb
+ * least, as pooltool's was taken. */
 #include "bench_job.h"
 #include "command.h"
 #include "machine.h"
@@ -52,8 +53,8 @@ static bool verified(timed_shot *t) {
   const json_int_t same = json_integer_value(json_object_get(sens, "same_events"));
   if (json_object_get(json, "n_events") == NULL || shot.count + 2 == recorded || same < recorded)
     return true;
-  complain("line %zu: refused: %lld events, not the %lld recorded", t->line.number, (long long)shot.count + 2,
-           (long long)recorded);
+  complain("line %zu: refused: %lld events, not the %lld recorded", t->line.number,
+           (long long)shot.count + 2, (long long)recorded);
   return false;
 }
 
@@ -62,7 +63,8 @@ static bool read_shots(bench_job *job) {
   if ((all->file = shot_file_open(job->shots)) == NULL)
     return false;
   const char *text;
-  timed_shot t = {.options = {.world = (carom_world)job->models, .cushion_model = (carom_shot_cushion)job->cushion_model}};
+  timed_shot t = {.options = {.world = (carom_world)job->models,
+                              .cushion_model = (carom_shot_cushion)job->cushion_model}};
   t.options.threads = job->threads.count > 0 ? job->threads.value[0] : 1;
   shot_read what;
   while ((what = shot_file_next(all->file, &t.line, &text)) == SHOT_SHOT || what == SHOT_TABLE) {
@@ -181,10 +183,13 @@ static void print_row(const bench_job *job, FILE *out, const char *family, doubl
   char text[3][32]; /* NA where nothing was recorded */
   const double speed[3] = {recorded / count, recorded / us, slowest};
   for (int k = 0; k < 3; k++)
-    snprintf(text[k], sizeof text[k], isfinite(recorded) ? k == 0 ? "%.1f" : "%.0f" : "NA", speed[k]);
-  fprintf(out, job->csv ? "%s,%.2f,%zu,%.1f,%.3f,%.0f,%s,%s,%s\n" : "%-16s %6.2f %6zu %8.1f %10.3f %10.0f %12s %8s %8s\n",
-          family != NULL ? family : "all", balls / count, n, events / count, median, 1e6 * count / us, text[0], text[1],
-          text[2]);
+    snprintf(text[k], sizeof text[k], isfinite(recorded) ? k == 0 ? "%.1f" : "%.0f" : "NA",
+             speed[k]);
+  fprintf(out,
+          job->csv ? "%s,%.2f,%zu,%.1f,%.3f,%.0f,%s,%s,%s\n"
+                   : "%-16s %6.2f %6zu %8.1f %10.3f %10.0f %12s %8s %8s\n",
+          family != NULL ? family : "all", balls / count, n, events / count, median,
+          1e6 * count / us, text[0], text[1], text[2]);
 }
 
 static void print(const bench_job *job, FILE *out) {
@@ -194,12 +199,14 @@ static void print(const bench_job *job, FILE *out) {
     fputs(job->machine, out);
     machine_note(out, "pinning", "%s", job->pinning);
     machine_note(out, "shots", "%s, %d thread%s",
-                 options->world == CAROM_WORLD_POOLTOOL ? "pooltool's models" : "carom's models", options->threads,
-                 options->threads == 1 ? "" : "s");
-    fputs("family,balls,shots,events_per_shot,us_median,shots_per_s,recorded_us,speedup,speedup_least\n", out);
+                 options->world == CAROM_WORLD_POOLTOOL ? "pooltool's models" : "carom's models",
+                 options->threads, options->threads == 1 ? "" : "s");
+    fputs("family,balls,shots,events_per_shot,us_median,shots_per_s,recorded_us,speedup,speedup_"
+          "least\n",
+          out);
   } else {
-    fprintf(out, "%-16s %6s %6s %8s %10s %10s %12s %8s %8s\n", "family", "balls", "shots", "events", "us_median", "shots_per_s",
-            "recorded_us", "speedup", "least");
+    fprintf(out, "%-16s %6s %6s %8s %10s %10s %12s %8s %8s\n", "family", "balls", "shots", "events",
+            "us_median", "shots_per_s", "recorded_us", "speedup", "least");
   }
   for (size_t k = 0; k < job->timed_shots->count; k++) {
     bool seen = false;

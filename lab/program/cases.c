@@ -64,7 +64,8 @@ static bool read_references(record_reader *reader, const case_set *cases, refere
     const size_t k = out->count;
     record row;
     double number[RESULT_NUMBERS + 1];
-    if (record_next(reader, &row) != READ_ONE || !numbers_of(&row, RESULT_NUMBERS + steps, number) ||
+    if (record_next(reader, &row) != READ_ONE ||
+        !numbers_of(&row, RESULT_NUMBERS + steps, number) ||
         strcmp(row.field[0], cases->id[k]) != 0) {
       complain("%s: row %zu should hold the result for '%s'", file, k + 1, cases->id[k]);
       return false;
@@ -76,7 +77,8 @@ static bool read_references(record_reader *reader, const case_set *cases, refere
   return true;
 }
 
-bool reference_load(const char *folder, const char *name, const case_set *cases, reference_set *out) {
+bool reference_load(const char *folder, const char *name, const case_set *cases,
+                    reference_set *out) {
   char path[PATH_MAX];
   snprintf(path, sizeof path, "%s/%s", folder, name);
   *out = (reference_set){0};

@@ -20,11 +20,13 @@ typedef struct reference_set {
   int64_t *steps; /* the reference's step counts, or NULL where the file has none */
 } reference_set;
 
-/* Loads `folder`/`name`. Complains and returns false if anything in it is wrong: this is our own data. */
+/* Loads `folder`/`name`. Complains and returns false if anything in it is wrong: this is our own
+ * data. */
 bool cases_load(const char *folder, const char *name, case_set *out);
 
 /* Loads results for exactly the ids of `cases`, in that order. */
-bool reference_load(const char *folder, const char *name, const case_set *cases, reference_set *out);
+bool reference_load(const char *folder, const char *name, const case_set *cases,
+                    reference_set *out);
 
 /* The n numbers of a row behind its id; false if there are fewer. */
 bool numbers_of(const record *row, size_t n, double number[]);

@@ -30,7 +30,8 @@ static bool time_all(bench_job *job) {
   machine_describe(machine);
   fclose(machine);
   job->pinning = pinning_begin();
-  const bench_settings settings = {.budget = job->budget, .now = job->now, .progress = show_samples};
+  const bench_settings settings = {
+      .budget = job->budget, .now = job->now, .progress = show_samples};
   const bool good = bench_rounds(job->subject, job->subject_count, &settings, job->figure);
   pinning_end();
   progress_clear();
@@ -42,8 +43,9 @@ static bool time_all(bench_job *job) {
 static void check_unchanged(bench_job *job) {
   for (size_t k = 0; k < job->subject_count; k++)
     if (!job->figure[k].unchanged) {
-      complain("%s (%s) did not repeat its verified results while it was timed: its figures are dropped",
-               job->subject[k].kernel, job->subject[k].config);
+      complain(
+          "%s (%s) did not repeat its verified results while it was timed: its figures are dropped",
+          job->subject[k].kernel, job->subject[k].config);
       job->code = EXIT_SOME;
     }
 }
@@ -88,14 +90,15 @@ static void print_notes(const bench_job *job, FILE *out) {
   fputs(job->machine, out);
   machine_note(out, "pinning", "%s", job->pinning);
   job->table->note(job, out);
-  machine_note(out, "rounds", "%zu; an empty call, subtracted, takes %.2f ns", job->figure[0].ns.count,
-               job->figure[0].empty_ns);
+  machine_note(out, "rounds", "%zu; an empty call, subtracted, takes %.2f ns",
+               job->figure[0].ns.count, job->figure[0].empty_ns);
 }
 
 static void print_csv_row(const bench_job *job, FILE *out, size_t k) {
   const bench_subject *s = &job->subject[k];
   const bench_figure *f = &job->figure[k];
-  fprintf(out, "%s,%s,%s,%s,%d,%d", s->kernel, s->config, s->isa, s->precision, s->threads, s->steps);
+  fprintf(out, "%s,%s,%s,%s,%d,%d", s->kernel, s->config, s->isa, s->precision, s->threads,
+          s->steps);
   print_number(out, ",", "%.6g", f->ns.median);
   print_number(out, ",", "%.6g", f->ns.min);
   print_number(out, ",", "%.6g", f->ns.max);
@@ -119,7 +122,8 @@ static void print_csv_row(const bench_job *job, FILE *out, size_t k) {
 
 static void print_csv(const bench_job *job, FILE *out) {
   print_notes(job, out);
-  fputs("kernel,config,isa,precision,threads,steps,ns_median,ns_min,ns_max,speedup,pair_error_max", out);
+  fputs("kernel,config,isa,precision,threads,steps,ns_median,ns_min,ns_max,speedup,pair_error_max",
+        out);
   if (job->spread)
     fputs(",ns_spread,speedup_min,speedup_max,speedup_spread", out);
   if (job->errors)
@@ -139,16 +143,19 @@ static void print_ratio(FILE *out, const char *before, double x) {
 
 static void print_table(const bench_job *job, FILE *out) {
   print_notes(job, out);
-  fprintf(out, "\n%-16s %-16s %-7s %-9s %7s %6s ", "kernel", "config", "isa", "precision", "threads", "steps");
+  fprintf(out, "\n%-16s %-16s %-7s %-9s %7s %6s ", "kernel", "config", "isa", "precision",
+          "threads", "steps");
   if (job->show_pairs)
     fprintf(out, "%8s ", "pairs");
-  fprintf(out, "%12s %8s %8s %8s %9s  %s\n", "ns median", "spread", "speedup", "spread", "error", "paper");
+  fprintf(out, "%12s %8s %8s %8s %9s  %s\n", "ns median", "spread", "speedup", "spread", "error",
+          "paper");
   for (size_t k = 0; k < job->subject_count; k++) {
     const bench_subject *s = &job->subject[k];
     const bench_figure *f = &job->figure[k];
     if (!f->unchanged)
       continue;
-    fprintf(out, "%-16s %-16s %-7s %-9s %7d %6d ", s->kernel, s->config, s->isa, s->precision, s->threads, s->steps);
+    fprintf(out, "%-16s %-16s %-7s %-9s %7d %6d ", s->kernel, s->config, s->isa, s->precision,
+            s->threads, s->steps);
     if (job->show_pairs)
       fprintf(out, "%8zu ", s->in_a_call > 0 ? s->in_a_call : s->pairs);
     fprintf(out, f->ns.median < 100.0 ? "%12.3f" : "%12.1f", f->ns.median);
@@ -159,7 +166,8 @@ static void print_table(const bench_job *job, FILE *out) {
       fprintf(out, "%10s", "NA");
     else
       fprintf(out, " %9.2g", s->pair_error_max);
-    fprintf(out, "  %s\n", s->paper != NULL && strcmp(s->config, job->subject[0].config) == 0 ? s->paper : "-");
+    fprintf(out, "  %s\n",
+            s->paper != NULL && strcmp(s->config, job->subject[0].config) == 0 ? s->paper : "-");
   }
 }
 
@@ -192,7 +200,8 @@ static OPTION_SET(set_counts) {
   const size_t before = list->count;
   int value;
   char *rest, *one;
-  for (one = strtok_r(text, ",", &rest); one != NULL && set_count(row, one, &value); one = strtok_r(NULL, ",", &rest))
+  for (one = strtok_r(text, ",", &rest); one != NULL && set_count(row, one, &value);
+       one = strtok_r(NULL, ",", &rest))
     add_count(list, value);
   return one == NULL && (list->count > before || set_count(row, text + strlen(text), &value));
 }
@@ -248,64 +257,80 @@ static OPTION_SET(set_budget) {
 OPTION(bench_job, option_kernel, "kernel", kernels, 0, "NAME,...", set_kernels, 0,
        "only these kernels (see `carom-lab kernels`); may be repeated");
 OPTION(bench_job, option_config, "config", configs, 0, "NAME,...", set_names, 0,
-       "these builds of the ladder's kernels, or all (default: default); without --kernel, only the ladder");
+       "these builds of the ladder's kernels, or all (default: default); without --kernel, only "
+       "the ladder");
 OPTION(bench_job, option_counts, "steps", steps, 0, "N,...", set_counts, 1,
        "steps of Euler's method (default 1000); several make a sweep");
 OPTION(bench_job, option_batch, "batch", batch, 0, NULL, set_flag, 0,
        "batches only, of all of the library's solvers (with euler about a minute)");
-OPTION(bench_job, option_isa, "isa", isas, 0, "NAME,...", set_isas, 0,
-       "only these instruction sets: scalar (single calls), plain, sse2, avx2, avx512, neon, or best");
-OPTION(bench_job, option_one_precision, "precision", shared.precision, 0, "double|single", set_choice, 0,
-       "only this precision (default: both)");
+OPTION(
+    bench_job, option_isa, "isa", isas, 0, "NAME,...", set_isas, 0,
+    "only these instruction sets: scalar (single calls), plain, sse2, avx2, avx512, neon, or best");
+OPTION(bench_job, option_one_precision, "precision", shared.precision, 0, "double|single",
+       set_choice, 0, "only this precision (default: both)");
 OPTION(bench_job, option_thread_counts, "threads", threads, 0, "N,...", set_threads, 1,
-       "threads of a batch, or all: 1, 2, 4, ... up to the processor's (default 1,2; 1 on a single core)");
+       "threads of a batch, or all: 1, 2, 4, ... up to the processor's (default 1,2; 1 on a single "
+       "core)");
 OPTION(bench_job, option_pairs, "pairs", pairs, 0, "N,...", set_counts, 1,
-       "pairs in a batch (default 65536, rounded up to whole turns of the cases); adds the column pairs");
+       "pairs in a batch (default 65536, rounded up to whole turns of the cases); adds the column "
+       "pairs");
 OPTION(bench_job, option_budget, "budget", budget, 0, "SECONDS", set_budget, 0,
        "how long to measure (default 20; cushions 5; shots 0.06 each)");
-OPTION(bench_job, option_csv, "csv", csv, 0, NULL, set_flag, 0, "as CSV, with lines about the machine that begin with #");
+OPTION(bench_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "as CSV, with lines about the machine that begin with #");
 OPTION(bench_job, option_spread, "spread", spread, 0, NULL, set_flag, 0,
        "more columns in the CSV: spread of the time; least, greatest and spread of the speedup");
 OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
-       "more columns in the CSV: slip, and the pair error against the exact reference, median and largest");
+       "more columns in the CSV: slip, and the pair error against the exact reference, median and "
+       "largest");
 OPTION(bench_job, option_cushions, "cushion", cushion, 0, NULL, set_flag, 0,
-       "time the models of the cushion on 512 random impacts of play instead; speedup is that over\nEuler's 1000 steps");
+       "time the models of the cushion on 512 random impacts of play instead; speedup is that "
+       "over\nEuler's 1000 steps");
 OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
        "time the whole shots of this file instead, beside pooltool's recorded times");
 OPTION(bench_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
        "whose rules and models the shots are played by (default carom)");
-OPTION(
-    bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODEL", set_cushion_model, 0,
-    "impacts on cushions in the shots: han, mathavan, stronge, mirror or euler (default:\nhan; by pooltool's models stronge)");
+OPTION(bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODEL",
+       set_cushion_model, 0,
+       "impacts on cushions in the shots: han, mathavan, stronge, mirror or euler (default:\nhan; "
+       "by pooltool's models stronge)");
 
-static const char about[] =
-    "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each kernel is verified first; "
-    "one whose error is above its bound is not timed. Times are nanoseconds per collision, the mean over the collisions; "
-    "median and spread are over the rounds. The speedup of a round is relative to the ladder's first kernel in the default "
-    "configuration with the same number of steps (1000 for kernels without steps). The exact solver is also timed in batches, "
-    "with every instruction set.\n";
+static const char about[] = "Times kernels on the 204 reference collisions, one call each, in "
+                            "turns: A B C A B C ... Each kernel is verified first; "
+                            "one whose error is above its bound is not timed. Times are "
+                            "nanoseconds per collision, the mean over the collisions; "
+                            "median and spread are over the rounds. The speedup of a round is "
+                            "relative to the ladder's first kernel in the default "
+                            "configuration with the same number of steps (1000 for kernels without "
+                            "steps). The exact solver is also timed in batches, "
+                            "with every instruction set.\n";
 
-static const char details[] =
-    "Spread is the median absolute deviation: half of the rounds lie within it. docs/study/measuring.md explains how to read "
-    "the figures.\n\n"
-    "exit code: 0 if all was timed; 1 if a kernel was refused (the others are timed); 2 for bad usage or unreadable data\n";
+static const char details[] = "Spread is the median absolute deviation: half of the rounds lie "
+                              "within it. docs/study/measuring.md explains how to read "
+                              "the figures.\n\n"
+                              "exit code: 0 if all was timed; 1 if a kernel was refused (the "
+                              "others are timed); 2 for bad usage or unreadable data\n";
 
 static const command_form form = {
     .name = "bench",
     .usage = "[OPTIONS]",
     .about = about,
-    .options = (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch, &option_isa,
-                                           &option_one_precision, &option_thread_counts, &option_pairs, &option_budget,
-                                           &option_csv, &option_spread, &option_errors, &option_cushions, &option_shots,
-                                           &option_models, &option_cushion_model, &option_data, &option_output, NULL},
+    .options =
+        (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch,
+                                    &option_isa, &option_one_precision, &option_thread_counts,
+                                    &option_pairs, &option_budget, &option_csv, &option_spread,
+                                    &option_errors, &option_cushions, &option_shots, &option_models,
+                                    &option_cushion_model, &option_data, &option_output, NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };
 
 /* Options that choose collisions mean nothing for the other tables. */
 static bool is_plain(const bench_job *job) {
-  return job->kernels.count + job->configs.count + job->isas.count + job->steps.count + job->pairs.count == 0 && !job->batch &&
-         !job->errors && job->shared.precision == ANY_PRECISION;
+  return job->kernels.count + job->configs.count + job->isas.count + job->steps.count +
+                 job->pairs.count ==
+             0 &&
+         !job->batch && !job->errors && job->shared.precision == ANY_PRECISION;
 }
 
 static int bench(bench_job *job) {
@@ -313,13 +338,17 @@ static int bench(bench_job *job) {
   if ((job->spread || job->errors) && !job->csv)
     complain("--spread and --errors add columns to the CSV: give --csv too");
   else if (others && !is_plain(job))
-    complain("--kernel, --config, --steps, --batch, --isa, --precision, --pairs and --errors are for collisions of two balls");
+    complain("--kernel, --config, --steps, --batch, --isa, --precision, --pairs and --errors are "
+             "for collisions of two balls");
   else if (job->cushion && job->threads.count > 0)
-    complain("--threads is for batches of collisions and for --shots; --cushion times single calls");
+    complain(
+        "--threads is for batches of collisions and for --shots; --cushion times single calls");
   else if (job->cushion && job->shots != NULL)
     complain("--cushion and --shots are two things to time; give one of them");
   else {
-    job->table = job->cushion ? &bench_of_cushions : job->shots != NULL ? &bench_of_shots : &bench_of_collisions;
+    job->table = job->cushion         ? &bench_of_cushions
+                 : job->shots != NULL ? &bench_of_shots
+                                      : &bench_of_collisions;
     job->folder = data_folder(job->shared.folder);
     job->isa = carom_isa_in_force();
     const int code = bench_all(job) ? job->code : EXIT_USAGE;

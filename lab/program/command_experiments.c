@@ -1,4 +1,5 @@
-/* `carom-lab experiments`: the 2014 paper's five shots, measured, as it predicted them, and as the solvers compute them. */
+/* `carom-lab experiments`: the 2014 paper's five shots, measured, as it predicted them, and as
+ * the solvers compute them. */
 #include "cases.h"
 #include "command.h"
 #include "kernel.h"
@@ -19,7 +20,8 @@ static const double degree = 3.14159265358979323846 / 180.0;
 
 /* What is compared, in the order of the columns: m/s and degrees. */
 enum { V_CUE, V_OBJECT, ANGLE_CUE, ANGLE_OBJECT, OUTCOMES };
-static const char *const outcome_names[OUTCOMES] = {"v_cue", "v_object", "angle_cue_deg", "angle_object_deg"};
+static const char *const outcome_names[OUTCOMES] = {"v_cue", "v_object", "angle_cue_deg",
+                                                    "angle_object_deg"};
 
 typedef struct shot {
   char id[32];
@@ -28,8 +30,10 @@ typedef struct shot {
 } shot;
 
 enum { MOST_SHOTS = 32, SHOT_NUMBERS = 3 + 2 * OUTCOMES };
-/* Of a row: id,V0,omega_T,theta_deg,measured_v_cue,measured_v_object,predicted_v_cue,predicted_v_object,
- * measured_angle_cue_deg,measured_angle_object_deg,predicted_angle_cue_deg,predicted_angle_object_deg */
+/* Of a row:
+ * id,V0,omega_T,theta_deg,measured_v_cue,measured_v_object,predicted_v_cue,predicted_v_object,
+ * measured_angle_cue_deg,measured_angle_object_deg,
+ * predicted_angle_cue_deg,predicted_angle_object_deg */
 
 static shot shot_of(const char *id, const double x[SHOT_NUMBERS]) {
   shot s = {.V0 = x[0],
@@ -71,11 +75,15 @@ static carom_impact impact_of(const shot *s) {
                            .mu_cloth = 0.21},
                      .mu_ball = 0.05,
                      .restitution = 0.89};
-  in.b = (carom_ball){.r = {0.0, 2.0 * in.a.radius, 0.0}, .radius = in.a.radius, .mass = in.a.mass, .mu_cloth = in.a.mu_cloth};
+  in.b = (carom_ball){.r = {0.0, 2.0 * in.a.radius, 0.0},
+                      .radius = in.a.radius,
+                      .mass = in.a.mass,
+                      .mu_cloth = in.a.mu_cloth};
   return in;
 }
 
-static bool outcome_of(const shot *s, const kernel *one, carom_slip slip, double outcome[OUTCOMES]) {
+static bool outcome_of(const shot *s, const kernel *one, carom_slip slip,
+                       double outcome[OUTCOMES]) {
   const carom_impact in = impact_of(s);
   carom_options options = {0};
   carom_result out;
@@ -93,7 +101,8 @@ static bool outcome_of(const shot *s, const kernel *one, carom_slip slip, double
 }
 
 /* One line: what a source says of a shot. */
-static void print_line(FILE *out, bool csv, const char *id, const char *source, const double outcome[OUTCOMES], bool computed) {
+static void print_line(FILE *out, bool csv, const char *id, const char *source,
+                       const double outcome[OUTCOMES], bool computed) {
   fprintf(out, csv ? "%s,%s" : "%-20s %-10s", id, source);
   for (int k = 0; k < OUTCOMES; k++)
     if (csv)
@@ -130,13 +139,18 @@ OPTION(experiments_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
 static const command_form form = {
     .name = "experiments",
     .usage = "[OPTIONS]",
-    .about = "A rolling cue ball meets a resting object ball at a cut angle (Mathavan, Jackson, Parkin 2014, tables 1 and 2). "
-             "Speeds and angles are those once both balls roll. Angles are measured from the cue ball's path before, its own "
-             "to one side, the object ball's to the other. Snooker balls: M = 0.1406 kg, R = 26.25 mm, friction 0.21 with the "
+    .about = "A rolling cue ball meets a resting object ball at a cut angle (Mathavan, Jackson, "
+             "Parkin 2014, tables 1 and 2). "
+             "Speeds and angles are those once both balls roll. Angles are measured from the cue "
+             "ball's path before, its own "
+             "to one side, the object ball's to the other. Snooker balls: M = 0.1406 kg, R = 26.25 "
+             "mm, friction 0.21 with the "
              "cloth and 0.05 with each "
              "other, "
-             "restitution 0.89. The measured object angle equals the cut angle, so it is no independent check.\n",
-    .options = (const option_row *const[]){&option_slip, &option_data, &option_csv, &option_output, NULL},
+             "restitution 0.89. The measured object angle equals the cut angle, so it is no "
+             "independent check.\n",
+    .options =
+        (const option_row *const[]){&option_slip, &option_data, &option_csv, &option_output, NULL},
     .details = "exit code: 0, or 2 for bad usage or unreadable data\n",
     .example = "carom-lab experiments --csv -o experiments.csv",
 };

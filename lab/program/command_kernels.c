@@ -21,9 +21,11 @@ OPTION(kernels_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
 static const command_form form = {
     .name = "kernels",
     .usage = "[OPTIONS]",
-    .about = "Lists the kernels that `resolve --kernel` takes and `verify` checks; the first is the default. The ladder has "
+    .about = "Lists the kernels that `resolve --kernel` takes and `verify` checks; the first is "
+             "the default. The ladder has "
              "the seed "
-             "paper's kernels, built by every compiler in every configuration: --config names both, such as gcc-o3, or the "
+             "paper's kernels, built by every compiler in every configuration: --config names "
+             "both, such as gcc-o3, or the "
              "configuration "
              "alone, then of the first compiler listed.\n",
     .options = (const option_row *const[]){&option_csv, &option_output, NULL},
@@ -32,7 +34,8 @@ static const command_form form = {
 };
 
 static void print_csv(FILE *out) {
-  static const char *const needs[] = {[LADDER_BASELINE] = "scalar", [LADDER_AVX2] = "avx2", [LADDER_AVX512] = "avx512"};
+  static const char *const needs[] = {
+      [LADDER_BASELINE] = "scalar", [LADDER_AVX2] = "avx2", [LADDER_AVX512] = "avx512"};
   const kernel *one;
   fputs("kernel,precision,parent,needs,paper,idea\n", out);
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++) {
@@ -49,7 +52,8 @@ static void print_table(FILE *out) {
   fprintf(out, "%-15s %-10s %s\n", "kernel", "precision", "what it is");
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
     if (!one->is_rung || ladder_rung_runs(ladder_rung_find(one->name)))
-      fprintf(out, "%-15s %-10s %s%s\n", one->name, one->precision, one->is_rung ? "ladder: " : "", one->text);
+      fprintf(out, "%-15s %-10s %s%s\n", one->name, one->precision, one->is_rung ? "ladder: " : "",
+              one->text);
   fprintf(out, "\nconfigurations of the ladder:");
   const char *module;
   for (size_t k = 0; (module = ladder_module_name(k)) != NULL; k++)

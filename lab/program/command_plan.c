@@ -1,5 +1,6 @@
-/* `carom-lab plan`: how strong the planner is. Racks of eight-ball after a break that pots nothing, run out from ball in hand by
- * a player who errs; and how often shots come off beside the chance that was predicted for them. */
+/* `carom-lab plan`: how strong the planner is. Racks of eight-ball after a break that pots
+ * nothing, run out from ball in hand by a player who errs; and how often shots come off beside
+ * the chance that was predicted for them. */
 #include "command.h"
 #include "memory.h"
 #include "message.h"
@@ -21,10 +22,14 @@ typedef struct strength_job {
   double errors;
 } strength_job;
 
-OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1, "racks to be played (default 100)");
-OPTION(strength_job, option_shots, "shots", shots, 0, "N", set_count, 100, "shots of a plan (default 2000)");
-OPTION(strength_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0, "scale of the player's errors (default 1)");
-OPTION(strength_job, option_seed, "seed", seed, 0, "N", set_count, 0, "seed of racks, plans and strokes (default 0)");
+OPTION(strength_job, option_racks, "racks", racks, 0, "N", set_count, 1,
+       "racks to be played (default 100)");
+OPTION(strength_job, option_shots, "shots", shots, 0, "N", set_count, 100,
+       "shots of a plan (default 2000)");
+OPTION(strength_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
+       "scale of the player's errors (default 1)");
+OPTION(strength_job, option_seed, "seed", seed, 0, "N", set_count, 0,
+       "seed of racks, plans and strokes (default 0)");
 
 /* A row of the comparison of chances. */
 typedef struct bin {
@@ -57,8 +62,8 @@ static double processor_time(void) {
 }
 
 /* The first break of a rack's seed that pots nothing. */
-static void make_rack(const carom_table *table, const carom_cue *cue, const carom_shot_options *shot, uint64_t *state,
-                      carom_shot_ball *balls) {
+static void make_rack(const carom_table *table, const carom_cue *cue,
+                      const carom_shot_options *shot, uint64_t *state, carom_shot_ball *balls) {
   for (;;) {
     carom_facts facts;
     carom_ball_state final[BALLS];
@@ -67,7 +72,8 @@ static void make_rack(const carom_table *table, const carom_cue *cue, const caro
     opening.phi = 89.0 + 2.0 * uniform(state);
     carom_rack(CAROM_RACK_EIGHTBALL, table, 1e-4, (uint64_t)(1e9 * uniform(state)), balls, BALLS);
     carom_shot played = {.final = final, .facts = &facts};
-    if (carom_shoot(table, balls, BALLS, &opening, shot, &played) != CAROM_OK || facts.down != 0 || facts.off != 0)
+    if (carom_shoot(table, balls, BALLS, &opening, shot, &played) != CAROM_OK || facts.down != 0 ||
+        facts.off != 0)
       continue;
     for (int k = 0; k < BALLS; k++)
       balls[k].state = final[k];
@@ -84,7 +90,8 @@ static void stroke_errs(carom_cue *cue, const carom_player *player, uint64_t *st
 }
 
 /* One rack: strokes until the turn is not kept. */
-static void run_out(const strength_job *job, uint64_t rack, carom_plan_job *plan, carom_plan_options *options, tally *to) {
+static void run_out(const strength_job *job, uint64_t rack, carom_plan_job *plan,
+                    carom_plan_options *options, tally *to) {
   carom_shot_ball balls[BALLS];
   uint64_t state = ((uint64_t)job->seed << 32) + 7919 * (rack + 1);
   carom_plan_rules rules = *plan->rules;
@@ -98,7 +105,8 @@ static void run_out(const strength_job *job, uint64_t rack, carom_plan_job *plan
     int found;
     options->seed = state;
     const double begin = processor_time();
-    const carom_status status = hand ? carom_plan_hand(&of, NULL, NULL, &best, 1, &found) : carom_plan(&of, &best, 1, &found);
+    const carom_status status = hand ? carom_plan_hand(&of, NULL, NULL, &best, 1, &found)
+                                     : carom_plan(&of, &best, 1, &found);
     to->seconds += processor_time() - begin;
     to->plans++;
     if (status < 0) {
@@ -117,11 +125,13 @@ static void run_out(const strength_job *job, uint64_t rack, carom_plan_job *plan
       in_play |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED) << k;
     stroke_errs(&best.cue, of.player, &state);
     carom_shoot(of.table, balls, BALLS, &best.cue, of.shot, &played);
-    const carom_turn turn = rules.judge(rules.user, in_play, 0, &facts, (carom_call){best.ball, best.pocket});
+    const carom_turn turn =
+        rules.judge(rules.user, in_play, 0, &facts, (carom_call){best.ball, best.pocket});
     const bool kept = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
     bin *b = &to->bins[best.keep < 1.0 ? (int)(BINS * best.keep) : BINS - 1];
     b->predicted += best.keep;
-    b->variance += best.keep * (1.0 - best.keep) * (1.0 + 1.0 / (double)(best.seen > 0 ? best.seen : 1));
+    b->variance +=
+        best.keep * (1.0 - best.keep) * (1.0 + 1.0 / (double)(best.seen > 0 ? best.seen : 1));
     b->shots++;
     b->kept += kept;
     to->strokes++;
@@ -139,14 +149,17 @@ static void report(const tally *t, const strength_job *job) {
   const double n = (double)t->racks, p = (double)t->wins / n, z = 1.96;
   const double wide = 1.0 + z * z / n, middle = (p + z * z / (2.0 * n)) / wide;
   const double half = z * sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / wide;
-  printf("%d shots a plan, errors %g: run out %ld of %ld, %.1f %% (95 %%: %.1f to %.1f), pots a stroke %.3f, %.1f ms a plan\n",
-         job->shots, job->errors, t->wins, t->racks, 100.0 * p, 100.0 * (middle - half), 100.0 * (middle + half),
-         (double)t->pots / (double)t->strokes, 1e3 * t->seconds / (double)t->plans);
+  printf("%d shots a plan, errors %g: run out %ld of %ld, %.1f %% (95 %%: %.1f to %.1f), pots a "
+         "stroke %.3f, %.1f ms a plan\n",
+         job->shots, job->errors, t->wins, t->racks, 100.0 * p, 100.0 * (middle - half),
+         100.0 * (middle + half), (double)t->pots / (double)t->strokes,
+         1e3 * t->seconds / (double)t->plans);
   printf("predicted,shots,kept,standard_errors\n");
   for (int k = 0; k < BINS; k++) {
     const bin *b = &t->bins[k];
     if (b->shots > 0)
-      printf("%.3f,%ld,%.3f,%.1f\n", b->predicted / (double)b->shots, b->shots, (double)b->kept / (double)b->shots,
+      printf("%.3f,%ld,%.3f,%.1f\n", b->predicted / (double)b->shots, b->shots,
+             (double)b->kept / (double)b->shots,
              ((double)b->kept - b->predicted) / sqrt(b->variance + 0.25));
   }
 }
@@ -154,10 +167,13 @@ static void report(const tally *t, const strength_job *job) {
 static const command_form form = {
     .name = "plan",
     .usage = "[OPTIONS]",
-    .about = "Plays racks of eight-ball by plans: each is run out from ball in hand after a break that potted nothing, by a "
-             "player whose strokes err. Tells how many are run out, and how often shots keep the turn beside the chance that "
+    .about = "Plays racks of eight-ball by plans: each is run out from ball in hand after a break "
+             "that potted nothing, by a "
+             "player whose strokes err. Tells how many are run out, and how often shots keep the "
+             "turn beside the chance that "
              "was predicted.\n",
-    .options = (const option_row *const[]){&option_racks, &option_shots, &option_errors, &option_seed, &option_threads, NULL},
+    .options = (const option_row *const[]){&option_racks, &option_shots, &option_errors,
+                                           &option_seed, &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",
     .example = "carom-lab plan --racks 100 --shots 1000",
     .files = NO_FILES,
@@ -166,7 +182,8 @@ static const command_form form = {
 int command_plan(int argc, char **argv) {
   static strength_job job;
   const char *path;
-  job = (strength_job){.shared = {.options = {.threads = 0}}, .racks = 100, .shots = 2000, .errors = 1.0};
+  job = (strength_job){
+      .shared = {.options = {.threads = 0}}, .racks = 100, .shots = 2000, .errors = 1.0};
   const int parsed = parse_arguments(&form, argc, argv, &job, &path);
   if (parsed >= 0)
     return parsed;

@@ -1,4 +1,5 @@
-/* `carom-lab resolve`: collisions from a file, by any kernel: a solver of the library, or a rung of the ladder in any build. */
+/* `carom-lab resolve`: collisions from a file, by any kernel: a solver of the library, or a rung
+ * of the ladder in any build. */
 #include "command.h"
 #include "help.h"
 #include "kernel.h"
@@ -13,8 +14,8 @@ typedef struct resolve_job {
   const ladder_module *module;
 } resolve_job;
 
-static void by_kernel(const void *context, const carom_options *options, bool single, const void *in, size_t n, void *out,
-                      int8_t *status) {
+static void by_kernel(const void *context, const carom_options *options, bool single,
+                      const void *in, size_t n, void *out, int8_t *status) {
   const resolve_job *job = context;
   if (single)
     kernel_resolve_f32(job->kernel, in, n, options, out, status);
@@ -22,7 +23,8 @@ static void by_kernel(const void *context, const carom_options *options, bool si
     kernel_resolve(job->kernel, job->module, in, n, options, out, status);
 }
 
-OPTION(resolve_job, option_kernel, "kernel", kernel, 0, "NAME", set_kernel, 0, "how to compute (see `carom-lab kernels`)");
+OPTION(resolve_job, option_kernel, "kernel", kernel, 0, "NAME", set_kernel, 0,
+       "how to compute (see `carom-lab kernels`)");
 OPTION(resolve_job, option_config, "config", config, 0, "NAME", set_text, 0,
        "which build of a ladder kernel (see `carom-lab kernels`; default: default)");
 
@@ -30,16 +32,20 @@ static const command_form form = {
     .name = "resolve",
     .usage = "[OPTIONS] IN",
     .about = RESOLVE_ABOUT,
-    .options = (const option_row *const[]){&option_kernel, &option_config, &option_slip, &option_steps, &option_friction,
-                                           &option_precision, &option_threads, &option_output, &option_summary, NULL},
+    .options = (const option_row *const[]){&option_kernel, &option_config, &option_slip,
+                                           &option_steps, &option_friction, &option_precision,
+                                           &option_threads, &option_output, &option_summary, NULL},
     .details = COLLISION_COLUMNS_HELP "\n" RESULTS_HELP "\n" RESOLVE_EXIT_HELP,
-    .example = "carom-lab resolve --kernel base --config o3 --slip pooltool -o after.csv before.csv",
+    .example =
+        "carom-lab resolve --kernel base --config o3 --slip pooltool -o after.csv before.csv",
     .files = ONE_FILE,
 };
 
 int command_resolve(int argc, char **argv) {
-  resolve_job job = {.resolving = {.shared = {.options = COMMAND_OPTIONS, .precision = ANY_PRECISION}, .solve = by_kernel},
-                     .kernel = kernel_at(0)};
+  resolve_job job = {
+      .resolving = {.shared = {.options = COMMAND_OPTIONS, .precision = ANY_PRECISION},
+                    .solve = by_kernel},
+      .kernel = kernel_at(0)};
   const char *file;
   const int code = parse_arguments(&form, argc, argv, &job, &file);
   if (code >= 0)
@@ -47,7 +53,8 @@ int command_resolve(int argc, char **argv) {
   if (!kernel_module(job.kernel, job.config, &job.module))
     return EXIT_USAGE;
   if (job.kernel->is_rung && job.resolving.shared.precision == SINGLE_PRECISION) {
-    complain("the kernels of the ladder have a precision of their own; --precision is for the library's solvers");
+    complain("the kernels of the ladder have a precision of their own; --precision is for the "
+             "library's solvers");
     return EXIT_USAGE;
   }
   if (job.kernel->is_rung)

@@ -1,9 +1,11 @@
 /* `carom-lab stress`: the exact solver on random impacts, in every way it can be called.
  *
- * Collisions of two balls are solved by a single call and in a batch, in double and in single precision; rows of batches are
- * compared with single calls bit by bit. Impacts on cushions, and coincidences of both, are solved by single calls. The precise
- * solver behind the calls, whose own error is about 1e-9 at most, is what they are compared with; where it and a call differ by
- * more than REFERENCE_FROM, for 1 row in 1000, and for all coincidences, the reference of lab/stress decides. */
+ * Collisions of two balls are solved by a single call and in a batch, in double and in single
+ * precision; rows of batches are compared with single calls bit by bit. Impacts on cushions, and
+ * coincidences of both, are solved by single calls. The precise solver behind the calls, whose
+ * own error is about 1e-9 at most, is what they are compared with; where it and a call differ by
+ * more than REFERENCE_FROM, for 1 row in 1000, and for all coincidences, the reference of
+ * lab/stress decides. */
 #include "accuracy.h"
 #include "coincidences.h"
 #include "command.h"
@@ -44,17 +46,22 @@ typedef struct stress_job {
   int cushions, coincidences; /* or these impacts */
 } stress_job;
 
-/* Rows of one kind, solved in one way. Errors are those of rows with status ok that could be compared. */
+/* Rows of one kind, solved in one way. Errors are those of rows with status ok that could be
+ * compared. */
 typedef struct tally {
-  long rows, over_1e6, over_1e5, over_2e5;  /* compared; with an error larger than 1e-6, 1e-5, 2e-5 */
-  long unresolved, refused, left_out, slow; /* by status; without a reference; left to the precise solver */
+  long rows, over_1e6, over_1e5, over_2e5;  /* compared; with an error larger than 1e-6, 1e-5,
+                                               2e-5 */
+  long unresolved, refused, left_out, slow; /* by status; without a reference; left to the
+                                               precise solver */
   double largest, largest_of_play;
-  uint64_t worst; /* number of the draw that has the largest error, over the bound that it may have */
+  uint64_t worst; /* number of the draw that has the largest error, over the bound that it may
+                     have */
   double worst_share;
   long histogram[DECADES * PER_DECADE];
 } tally;
 
-/* One run, or a thread's part of it. For two balls a kind is a slip, and single precision has tallies of its own. */
+/* One run, or a thread's part of it. For two balls a kind is a slip, and single precision has
+ * tallies of its own. */
 typedef struct stress {
   const stress_job *job;
   bool balls;
@@ -139,14 +146,17 @@ static coincidence draw(const stress *s, int kind, uint64_t k) {
   if (job->coincidences > 0)
     return coincidence_draw(kind, seed, k);
   if (!s->balls)
-    return (coincidence){.cushion = true, .of_play = kind == CUSHION_PLAY, .rail = draw_cushion((cushion_draw)kind, seed, k)};
+    return (coincidence){.cushion = true,
+                         .of_play = kind == CUSHION_PLAY,
+                         .rail = draw_cushion((cushion_draw)kind, seed, k)};
   return (coincidence){.of_play = job->kind == DRAW_REALISTIC,
                        .slip = (carom_slip)kind,
                        .balls = draw_collision((draw_kind)job->kind, (carom_slip)kind, seed, k)};
 }
 
 /* The largest speed of two balls, of their centres or surfaces. */
-static double fastest(const double v_a[3], const double w_a[3], const double v_b[3], const double w_b[3], double radius) {
+static double fastest(const double v_a[3], const double w_a[3], const double v_b[3],
+                      const double w_b[3], double radius) {
   double most = 0;
   for (int k = 0; k < 3; k++) {
     most = fmax(most, fmax(fabs(v_a[k]), fabs(v_b[k])));
@@ -158,10 +168,12 @@ static double fastest(const double v_a[3], const double w_a[3], const double v_b
 static double apart(const coincidence *c, const outcome *a, const outcome *b) {
   if (c->cushion)
     return cushion_distance(&c->rail, &a->rail, &b->rail);
-  /* where the balls come to rest but for rounding, errors are those over 1e-9 of the speed before */
+  /* where the balls come to rest but for rounding, errors are those over 1e-9 of the speed
+   * before */
   const carom_impact *in = &c->balls;
   const carom_motion *to_a = &b->balls.a, *to_b = &b->balls.b;
-  const double radius = in->a.radius, least = 1e-9 * fastest(in->a.v, in->a.w, in->b.v, in->b.w, radius);
+  const double radius = in->a.radius,
+               least = 1e-9 * fastest(in->a.v, in->a.w, in->b.v, in->b.w, radius);
   const double pair = accuracy_of(&a->balls, &b->balls, radius).pair,
                after = fastest(to_a->v, to_a->w, to_b->v, to_b->w, radius);
   return pair > 0 && after < least ? pair * (after / least) : pair;
@@ -169,7 +181,8 @@ static double apart(const coincidence *c, const outcome *a, const outcome *b) {
 
 static carom_status call(const coincidence *c, outcome *out) {
   const carom_options options = {.slip = c->slip};
-  return c->cushion ? carom_cushion(&c->rail, NULL, &out->rail) : carom_collide(&c->balls, &options, &out->balls);
+  return c->cushion ? carom_cushion(&c->rail, NULL, &out->rail)
+                    : carom_collide(&c->balls, &options, &out->balls);
 }
 
 static bool precisely(const coincidence *c, outcome *out) {
@@ -184,11 +197,13 @@ static bool is_error(tally *t, carom_status status) {
   return status != CAROM_OK;
 }
 
-static void compare(stress *s, int kind, uint64_t k, const coincidence *c, const outcome *own, carom_status status) {
+static void compare(stress *s, int kind, uint64_t k, const coincidence *c, const outcome *own,
+                    carom_status status) {
   tally *t = &s->tally[kind];
   outcome precise, exact;
   if (s->balls && status != CAROM_SEPARATING)
-    t->slow += carom_kernels_of_call(0)->call[CAROM_F64](&c->balls, carom_spin_sign(c->slip), &exact, NULL) <= 0;
+    t->slow += carom_kernels_of_call(0)->call[CAROM_F64](&c->balls, carom_spin_sign(c->slip),
+                                                         &exact, NULL) <= 0;
   if (is_error(t, status))
     return;
   const bool known = precisely(c, &precise);
@@ -210,8 +225,8 @@ static void compare(stress *s, int kind, uint64_t k, const coincidence *c, const
 }
 
 /* The same collision in single precision, against the exact result for the rounded numbers. */
-static void compare_single(stress *s, carom_slip slip, const carom_impact_f32 *in, const carom_result_f32 *out,
-                           carom_status status) {
+static void compare_single(stress *s, carom_slip slip, const carom_impact_f32 *in,
+                           const carom_result_f32 *out, carom_status status) {
   tally *t = &s->in_single[slip];
   coincidence wide = {.slip = slip};
   outcome result, exact;
@@ -220,7 +235,8 @@ static void compare_single(stress *s, carom_slip slip, const carom_impact_f32 *i
     return;
   to_double(in, &wide.balls, 26);
   to_double(out, &result.balls, 12);
-  t->slow += carom_kernels_of_call(0)->call[CAROM_F32](in, carom_spin_sign(slip), &unused, NULL) == 0;
+  t->slow +=
+      carom_kernels_of_call(0)->call[CAROM_F32](in, carom_spin_sign(slip), &unused, NULL) == 0;
   if (is_error(t, status))
     return;
   if (precisely(&wide, &exact))
@@ -245,7 +261,8 @@ static void run_batch(stress *s, carom_slip slip, uint64_t first, size_t n) {
   carom_collide_batch(in, n, &options, out, status);
   carom_collide_batch_f32(in32, n, &options, out32, status + n);
   for (size_t k = 0; k < n; k++) {
-    const carom_status one = carom_collide(&in[k], &options, &alone), one32 = carom_collide_f32(&in32[k], &options, &alone32);
+    const carom_status one = carom_collide(&in[k], &options, &alone),
+                       one32 = carom_collide_f32(&in32[k], &options, &alone32);
     s->other_bits += one != status[k] || memcmp(&alone, &out[k], sizeof alone) != 0;
     s->other_bits += one32 != status[n + k] || memcmp(&alone32, &out32[k], sizeof alone32) != 0;
     compare_single(s, slip, &in32[k], &alone32, one32);
@@ -265,7 +282,8 @@ static size_t run_blocks(const void *of, size_t from, size_t end) {
   *part = (stress){.job = all->job, .balls = all->balls, .kinds = all->kinds, .draws = all->draws};
   for (size_t block = from; block < end; block++) {
     const int kind = (int)(block % kinds);
-    const uint64_t first = block / kinds * BLOCK, n = all->draws - first < BLOCK ? all->draws - first : BLOCK;
+    const uint64_t first = block / kinds * BLOCK,
+                   n = all->draws - first < BLOCK ? all->draws - first : BLOCK;
     for (uint64_t k = first; k < first + n; k++) {
       const coincidence c = draw(part, kind, k);
       outcome own;
@@ -275,7 +293,8 @@ static size_t run_blocks(const void *of, size_t from, size_t end) {
     if (all->balls)
       run_batch(part, (carom_slip)kind, first, (size_t)n);
     pthread_mutex_lock(&lock);
-    progress_show("blocks of impacts", (double)++done, (double)kinds * ceil((double)all->draws / BLOCK));
+    progress_show("blocks of impacts", (double)++done,
+                  (double)kinds * ceil((double)all->draws / BLOCK));
     pthread_mutex_unlock(&lock);
   }
   pthread_mutex_lock(&lock);
@@ -299,11 +318,14 @@ static bool of_cushion(const stress *s, int kind) {
 }
 
 static void print_row(FILE *out, const char *first, const char *second, const tally *t) {
-  fprintf(out, "%-9s %-15s %9ld  %7.1e   %7.1e   %7.1e   %7.1e  %7.1e  %7.1e  %7ld  %7ld  %7ld  %6.2f %%  %10ld  %7ld  %8ld\n",
-          first, second, t->rows, quantile(t, 0.5), quantile(t, 0.99), quantile(t, 0.999), quantile(t, 0.9999), t->largest,
-          t->largest_of_play, t->over_1e6, t->over_1e5, t->over_2e5,
-          100.0 * (double)t->slow / fmax(1, (double)(t->rows + t->unresolved + t->left_out)), t->unresolved, t->refused,
-          t->left_out);
+  fprintf(out,
+          "%-9s %-15s %9ld  %7.1e   %7.1e   %7.1e   %7.1e  %7.1e  %7.1e  %7ld  %7ld  %7ld  %6.2f "
+          "%%  %10ld  %7ld  %8ld\n",
+          first, second, t->rows, quantile(t, 0.5), quantile(t, 0.99), quantile(t, 0.999),
+          quantile(t, 0.9999), t->largest, t->largest_of_play, t->over_1e6, t->over_1e5,
+          t->over_2e5,
+          100.0 * (double)t->slow / fmax(1, (double)(t->rows + t->unresolved + t->left_out)),
+          t->unresolved, t->refused, t->left_out);
 }
 
 /* The numbers of an impact, in the order of its struct. */
@@ -317,28 +339,36 @@ static void print_numbers(FILE *out, const coincidence *c) {
 static void print_table(const stress *s, FILE *out) {
   static const char *const kinds[] = {"realistic", "regimes", "extreme"};
   const stress_job *job = s->job;
-  fprintf(out, "%s%s, %llu drawn %s with seed %d, instruction set %s\n\n", s->balls ? kinds[job->kind] : "",
+  fprintf(out, "%s%s, %llu drawn %s with seed %d, instruction set %s\n\n",
+          s->balls ? kinds[job->kind] : "",
           s->balls                ? " collisions"
           : job->coincidences > 0 ? "coincidences"
                                   : "impacts on a cushion",
           (unsigned long long)s->draws, s->balls ? "for each slip" : "of each kind", job->seed,
           carom_isa_name(carom_isa_in_force()));
   fprintf(out,
-          "%-9s %-15s %9s   median      99 %%    99.9 %%   99.99 %%  largest  of play   > 1e-6   > 1e-5   > 2e-5  fallback  "
+          "%-9s %-15s %9s   median      99 %%    99.9 %%   99.99 %%  largest  of play   > 1e-6   > "
+          "1e-5   > 2e-5  fallback  "
           "unresolved  refused  left out\n",
           s->balls ? "precision" : "impact", s->balls ? "slip" : "kind", "rows");
   for (int kind = 0; kind < s->kinds; kind++)
-    print_row(out, s->balls ? "double" : of_cushion(s, kind) ? "cushion" : "balls", kind_name(s, kind), &s->tally[kind]);
+    print_row(out,
+              s->balls              ? "double"
+              : of_cushion(s, kind) ? "cushion"
+                                    : "balls",
+              kind_name(s, kind), &s->tally[kind]);
   for (int slip = 0; slip < CAROM_SLIP_COUNT && s->balls; slip++)
     print_row(out, "single", kind_name(s, slip), &s->in_single[slip]);
   fputc('\n', out);
   if (s->balls)
-    fprintf(out, "rows of batches whose bits or status differ from single calls: %ld\n", s->other_bits);
+    fprintf(out, "rows of batches whose bits or status differ from single calls: %ld\n",
+            s->other_bits);
   fprintf(out,
-          "precise solver against the reference, where calls differ from it by more than %g, and %s: %ld rows, "
+          "precise solver against the reference, where calls differ from it by more than %g, and "
+          "%s: %ld rows, "
           "largest error %.1e, %ld above %s\n",
-          REFERENCE_FROM, job->coincidences > 0 ? "all others" : "1 row in 1000", s->asked, s->precise_largest,
-          s->precise_wrong, s->balls ? "1e-9" : "1e-8");
+          REFERENCE_FROM, job->coincidences > 0 ? "all others" : "1 row in 1000", s->asked,
+          s->precise_largest, s->precise_wrong, s->balls ? "1e-9" : "1e-8");
   fputs("\nlargest errors:\n", out);
   for (int kind = 0; kind < s->kinds; kind++)
     if (s->tally[kind].rows > 0) {
@@ -347,43 +377,53 @@ static void print_table(const stress *s, FILE *out) {
               s->balls    ? "balls"
               : c.cushion ? "cushion"
                           : carom_slip_name(c.slip),
-              kind_name(s, kind), (unsigned long long)s->tally[kind].worst, s->tally[kind].worst_share);
+              kind_name(s, kind), (unsigned long long)s->tally[kind].worst,
+              s->tally[kind].worst_share);
       print_numbers(out, &c);
       fputc('\n', out);
     }
 }
 
-/* The contract of carom.h for double precision: rows of play within 1e-6, all within 1e-5; and more for collisions of play. */
+/* The contract of carom.h for double precision: rows of play within 1e-6, all within 1e-5; and
+ * more for collisions of play. */
 static bool holds(const stress *s) {
   bool good = s->other_bits == 0;
   for (int kind = 0; kind < s->kinds; kind++) {
     const tally *t = &s->tally[kind];
     good &= t->largest_of_play <= MOST_OF_PLAY && t->largest <= MOST;
-    good &= !s->balls || s->job->kind != DRAW_REALISTIC || (quantile(t, 0.5) <= 3e-9 && s->in_single[kind].over_2e5 == 0);
+    good &= !s->balls || s->job->kind != DRAW_REALISTIC ||
+            (quantile(t, 0.5) <= 3e-9 && s->in_single[kind].over_2e5 == 0);
   }
   return good;
 }
 
 OPTION(stress_job, option_draws, "draws", draws, 'n', "N", set_count, 1,
        "number of collisions for each slip (default: 100000)");
-OPTION(stress_job, option_seed, "seed", seed, 0, "S", set_count, 0, "seed of the random numbers (default: 1)");
-OPTION(
-    stress_job, option_kind, "kind", kind, 0, DRAW_KIND_NAMES, set_choice, 0,
-    "realistic: collisions of play (default); regimes: the special cases of the tests; extreme: everything that carom accepts");
+OPTION(stress_job, option_seed, "seed", seed, 0, "S", set_count, 0,
+       "seed of the random numbers (default: 1)");
+OPTION(stress_job, option_kind, "kind", kind, 0, DRAW_KIND_NAMES, set_choice, 0,
+       "realistic: collisions of play (default); regimes: the special cases of the tests; extreme: "
+       "everything that carom accepts");
 OPTION(stress_job, option_cushions, "cushion", cushions, 0, "N", set_count, 1,
        "draw so many impacts on a cushion of each kind instead: of play, and any");
 OPTION(stress_job, option_coincidences, "coincidences", coincidences, 0, "N", set_count, 1,
-       "draw so many impacts of each kind of coincidence instead, of two balls and on a cushion: numbers that are exactly "
-       "equal, zero or at the edge of a friction cone; planar motion; slips that are rounding errors; grazing impacts");
+       "draw so many impacts of each kind of coincidence instead, of two balls and on a cushion: "
+       "numbers that are exactly "
+       "equal, zero or at the edge of a friction cone; planar motion; slips that are rounding "
+       "errors; grazing impacts");
 
 static const command_form form = {
     .name = "stress",
     .usage = "[OPTIONS]",
-    .about = "Draws random collisions and solves them by single calls and in batches, in double and in single precision. The "
-             "results are compared with the precise solver; where they differ, with a reference in extended precision.\n",
-    .options = (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_cushions, &option_coincidences,
-                                           &option_threads, &option_output, NULL},
-    .details = "exit code: 0; 1 if an error is larger than carom.h promises, or if a batch has other bits than single calls; 2 "
+    .about = "Draws random collisions and solves them by single calls and in batches, in double "
+             "and in single precision. The "
+             "results are compared with the precise solver; where they differ, with a reference in "
+             "extended precision.\n",
+    .options =
+        (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_cushions,
+                                    &option_coincidences, &option_threads, &option_output, NULL},
+    .details = "exit code: 0; 1 if an error is larger than carom.h promises, or if a batch has "
+               "other bits than single calls; 2 "
                "for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
 };
@@ -408,9 +448,12 @@ int command_stress(int argc, char **argv) {
   stress *all = allocate(1, sizeof *all);
   all->job = &job;
   all->balls = job.cushions == 0 && job.coincidences == 0;
-  all->kinds = all->balls ? CAROM_SLIP_COUNT : job.coincidences > 0 ? coincidence_kinds() : CUSHION_DRAWS;
+  all->kinds = all->balls             ? CAROM_SLIP_COUNT
+               : job.coincidences > 0 ? coincidence_kinds()
+                                      : CUSHION_DRAWS;
   all->draws = counts > 0 ? (uint64_t)(job.draws + job.cushions + job.coincidences) : 100000;
-  carom_in_threads(run_blocks, &all, (size_t)all->kinds * ((all->draws + BLOCK - 1) / BLOCK), job.shared.options.threads, 1);
+  carom_in_threads(run_blocks, &all, (size_t)all->kinds * ((all->draws + BLOCK - 1) / BLOCK),
+                   job.shared.options.threads, 1);
   progress_clear();
   print_table(all, out);
   const bool good = holds(all);

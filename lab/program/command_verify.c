@@ -62,39 +62,48 @@ static void way_or_module(const verification *v, const ladder_module *module, ch
     snprintf(text, 32, v->csv ? "library-%s" : "lanes, %s", carom_isa_name((carom_isa)v->way));
 }
 
-static void print_claim(const verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim,
-                        const accuracy_summary *s, bool pass) {
+static void print_claim(const verification *v, const kernel *one, const ladder_module *module,
+                        const kernel_claim *claim, const accuracy_summary *s, bool pass) {
   const ladder_rung *rung = one->is_rung ? ladder_rung_find(one->name) : NULL;
-  const int paper_1e3 = rung != NULL ? rung->over_1e3 : -1, paper_1e2 = rung != NULL ? rung->over_1e2 : -1;
+  const int paper_1e3 = rung != NULL ? rung->over_1e3 : -1,
+            paper_1e2 = rung != NULL ? rung->over_1e2 : -1;
   char config[32];
   way_or_module(v, module, config);
   char over_1e3[32], over_1e2[32];
   if (v->csv)
-    fprintf(v->out, "%s,%s,%s,%d,%s,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%s,%zu,%s,%s\n", one->name, config,
-            carom_slip_name(claim->slip), claim->steps, claim->reference, s->cases, s->identical, s->mean, s->median, s->p99,
-            s->max, claim->bound, s->component_1e3, paper_count(paper_1e3, over_1e3), s->component_1e2,
-            paper_count(paper_1e2, over_1e2), pass ? "pass" : "fail");
+    fprintf(v->out, "%s,%s,%s,%d,%s,%zu,%zu,%.3g,%.3g,%.3g,%.3g,%.3g,%zu,%s,%zu,%s,%s\n", one->name,
+            config, carom_slip_name(claim->slip), claim->steps, claim->reference, s->cases,
+            s->identical, s->mean, s->median, s->p99, s->max, claim->bound, s->component_1e3,
+            paper_count(paper_1e3, over_1e3), s->component_1e2, paper_count(paper_1e2, over_1e2),
+            pass ? "pass" : "fail");
   else
-    fprintf(v->out, "%-15s %-17s %-9s %5d %-29s %4zu/%-4zu %-9.2g %-9.2g %-9.2g %-9.2g %-7.1g %7s %6s  %s\n", one->name, config,
-            carom_slip_name(claim->slip), claim->steps, claim->reference, s->identical, s->cases, s->mean, s->median, s->p99,
-            s->max, claim->bound, count_beside_paper(s->component_1e3, paper_1e3, over_1e3),
-            count_beside_paper(s->component_1e2, paper_1e2, over_1e2), pass ? "pass" : "FAIL");
+    fprintf(
+        v->out,
+        "%-15s %-17s %-9s %5d %-29s %4zu/%-4zu %-9.2g %-9.2g %-9.2g %-9.2g %-7.1g %7s %6s  %s\n",
+        one->name, config, carom_slip_name(claim->slip), claim->steps, claim->reference,
+        s->identical, s->cases, s->mean, s->median, s->p99, s->max, claim->bound,
+        count_beside_paper(s->component_1e3, paper_1e3, over_1e3),
+        count_beside_paper(s->component_1e2, paper_1e2, over_1e2), pass ? "pass" : "FAIL");
 }
 
 static void tell_ladder(const verification *v) {
   const ladder_summary *l = &v->ladder;
   if (l->comparisons == 0)
     return;
-  fprintf(v->out, "ladder: %zu of %zu builds of its kernels within their bounds; largest pair error against pooltool", l->pass,
-          l->comparisons);
+  fprintf(v->out,
+          "ladder: %zu of %zu builds of its kernels within their bounds; largest pair error "
+          "against pooltool",
+          l->pass, l->comparisons);
   if (l->worst_double > 0.0)
-    fprintf(v->out, " %.2g in double precision%s", l->worst_double, l->worst_single > 0.0 ? "," : "");
+    fprintf(v->out, " %.2g in double precision%s", l->worst_double,
+            l->worst_single > 0.0 ? "," : "");
   if (l->worst_single > 0.0)
     fprintf(v->out, " %.2g in single", l->worst_single);
   fputc('\n', v->out);
 }
 
-static bool verify_claim(verification *v, const kernel *one, const ladder_module *module, const kernel_claim *claim) {
+static bool verify_claim(verification *v, const kernel *one, const ladder_module *module,
+                         const kernel_claim *claim) {
   reference_set reference;
   const bool loaded = reference_load(v->folder, claim->reference, &v->cases, &reference);
   if (loaded) {
@@ -114,18 +123,21 @@ static bool verify_claim(verification *v, const kernel *one, const ladder_module
     v->all_pass &= pass;
     print_claim(v, one, module, claim, &s, pass);
     if (module != NULL) {
-      double *worst = strcmp(one->precision, "single") == 0 ? &v->ladder.worst_single : &v->ladder.worst_double;
+      double *worst =
+          strcmp(one->precision, "single") == 0 ? &v->ladder.worst_single : &v->ladder.worst_double;
       *worst = fmax(*worst, s.max);
       v->ladder.comparisons++;
       v->ladder.pass += pass;
     } else if (v->way == SINGLE_CALLS) {
       const size_t used = strlen(v->parity);
       if (claim->bound > 0.0)
-        snprintf(v->parity + used, sizeof v->parity - used, "%s, %s slip: pair error against %s at most %.2g\n", one->name,
+        snprintf(v->parity + used, sizeof v->parity - used,
+                 "%s, %s slip: pair error against %s at most %.2g\n", one->name,
                  carom_slip_name(claim->slip), claim->reference, s.max);
       else
-        snprintf(v->parity + used, sizeof v->parity - used, "%s: %zu of %zu cases bit-identical to %s\n", one->name,
-                 s.identical, s.cases, claim->reference);
+        snprintf(v->parity + used, sizeof v->parity - used,
+                 "%s: %zu of %zu cases bit-identical to %s\n", one->name, s.identical, s.cases,
+                 claim->reference);
     }
   }
   reference_free(&reference);
@@ -139,7 +151,8 @@ static bool verify_module(verification *v, const kernel *one, const ladder_modul
   return true;
 }
 
-/* By single calls and in the lanes of every instruction set that this processor has; the sentences tell of single calls only.
+/* By single calls and in the lanes of every instruction set that this processor has; the
+ * sentences tell of single calls only.
  */
 static bool verify_solver(verification *v, const kernel *one) {
   if (v->config != NULL)
@@ -174,15 +187,18 @@ static bool verify_all(verification *v) {
   v->result = allocate(v->cases.count, sizeof *v->result);
   v->each = allocate(v->cases.count, sizeof *v->each);
   if (v->csv)
-    fputs("kernel,config,slip,steps,reference,cases,identical,mean,median,p99,max,bound,over_1e3,paper_1e3,over_1e2,paper_1e2,"
+    fputs("kernel,config,slip,steps,reference,cases,identical,mean,median,p99,max,bound,over_1e3,"
+          "paper_1e3,over_1e2,paper_1e2,"
           "verdict\n",
           v->out);
   else
-    fprintf(v->out, "%-15s %-17s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %7s %6s  %s\n", "kernel", "configuration", "slip",
-            "steps", "reference", "identical", "mean", "median", "p99", "max", "bound", ">0.1%", ">1%", "");
+    fprintf(v->out, "%-15s %-17s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %7s %6s  %s\n",
+            "kernel", "configuration", "slip", "steps", "reference", "identical", "mean", "median",
+            "p99", "max", "bound", ">0.1%", ">1%", "");
   const kernel *one;
   for (size_t k = 0; (one = kernel_at(k)) != NULL; k++)
-    if ((v->only == NULL || v->only == one) && !(one->is_rung ? verify_rung(v, one) : verify_solver(v, one)))
+    if ((v->only == NULL || v->only == one) &&
+        !(one->is_rung ? verify_rung(v, one) : verify_solver(v, one)))
       return false;
   if (!v->csv) {
     fprintf(v->out, "\n%s", v->parity);
@@ -194,24 +210,30 @@ static bool verify_all(verification *v) {
 OPTION(verification, option_kernel, "kernel", only, 0, "NAME", set_kernel, 0, "only this kernel");
 OPTION(verification, option_config, "config", config, 0, "NAME", set_text, 0,
        "only this build of the ladder (see `carom-lab kernels`)");
-OPTION(verification, option_csv, "csv", csv, 0, NULL, set_flag, 0, "as CSV; NA where the paper gives no count");
+OPTION(verification, option_csv, "csv", csv, 0, NULL, set_flag, 0,
+       "as CSV; NA where the paper gives no count");
 
-static const char about[] =
-    "Compares the reference collisions by every kernel with their references: kernels of the ladder in every configuration of "
-    "every compiler, the library's solvers by single calls and in the lanes of every instruction set of this processor.\n";
+static const char about[] = "Compares the reference collisions by every kernel with their "
+                            "references: kernels of the ladder in every configuration of "
+                            "every compiler, the library's solvers by single calls and in the "
+                            "lanes of every instruction set of this processor.\n";
 
 static const char details[] =
-    "Pair error: the largest deviation of a velocity or R times an angular velocity, over the largest such value of the "
-    "pair. Component errors compare each number with itself; the columns count the cases with one above 0.1 % or 1 %, and the "
+    "Pair error: the largest deviation of a velocity or R times an angular velocity, over the "
+    "largest such value of the "
+    "pair. Component errors compare each number with itself; the columns count the cases with one "
+    "above 0.1 % or 1 %, and the "
     "seed paper's own count in brackets where it "
     "gives one. A bound of 0 requires the same bits in every component.\n\n"
-    "exit code: 0 if all is within its bounds, 1 if something is not, 2 for bad usage or unreadable data\n";
+    "exit code: 0 if all is within its bounds, 1 if something is not, 2 for bad usage or "
+    "unreadable data\n";
 
 static const command_form form = {
     .name = "verify",
     .usage = "[OPTIONS]",
     .about = about,
-    .options = (const option_row *const[]){&option_data, &option_csv, &option_output, &option_kernel, &option_config, NULL},
+    .options = (const option_row *const[]){&option_data, &option_csv, &option_output,
+                                           &option_kernel, &option_config, NULL},
     .details = details,
     .example = "carom-lab verify --kernel float",
 };
@@ -221,14 +243,18 @@ int command_verify(int argc, char **argv) {
   int code = parse_arguments(&form, argc, argv, &v, NULL);
   if (code >= 0)
     return code;
-  /* A build that is not there, or a kernel of the ladder where no build is, would leave nothing to verify. */
+  /* A build that is not there, or a kernel of the ladder where no build is, would leave nothing
+   * to verify. */
   const ladder_module *unused;
-  const bool wants_rung = v.config != NULL || (v.only != NULL && v.only->is_rung && ladder_module_name(0) == NULL);
-  if (wants_rung && !kernel_module(v.only != NULL ? v.only : kernel_find(ladder_rung_at(0)->name), v.config, &unused))
+  const bool wants_rung =
+      v.config != NULL || (v.only != NULL && v.only->is_rung && ladder_module_name(0) == NULL);
+  if (wants_rung && !kernel_module(v.only != NULL ? v.only : kernel_find(ladder_rung_at(0)->name),
+                                   v.config, &unused))
     return EXIT_USAGE;
   v.folder = data_folder(v.shared.folder);
   code = EXIT_USAGE;
-  if (cases_load(v.folder, "collisions-204.csv", &v.cases) && (v.out = output_open(v.shared.output)) != NULL) {
+  if (cases_load(v.folder, "collisions-204.csv", &v.cases) &&
+      (v.out = output_open(v.shared.output)) != NULL) {
     if (!verify_all(&v))
       output_abandon();
     else if (output_commit())

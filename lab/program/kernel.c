@@ -19,17 +19,24 @@ static const kernel_claim claims_euler[] = {
 };
 
 static const kernel kernels[] = {
-    {"exact", "double", "the limit of infinitely many steps, by collocation: the physics of the model itself",
+    {"exact", "double",
+     "the limit of infinitely many steps, by collocation: the physics of the model itself",
      CAROM_SOLVER_EXACT, false, claims_exact},
-    {"euler", "double", "Mathavan's N steps of equal normal impulse; with the pooltool slip, pooltool's result to the last bit",
+    {"euler", "double",
+     "Mathavan's N steps of equal normal impulse; with the pooltool slip, pooltool's result to the "
+     "last bit",
      CAROM_SOLVER_EULER, false, claims_euler},
 /* Rungs are compared with what the paper compared with. */
 #define PRECISION_DOUBLE "double"
 #define PRECISION_SINGLE "single"
-#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea) \
-  {#name, PRECISION_##precision,                                                   \
-   idea,  CAROM_SOLVER_EXACT,                                                      \
-   true,  (const kernel_claim[]){{CAROM_SLIP_POOLTOOL, 1000, "reference-pooltool-n1000.csv", bound}, {.reference = NULL}}},
+#define RUNG(name, parent, precision, isa, bound, paper, over_1e3, over_1e2, idea)            \
+  {#name,                                                                                     \
+   PRECISION_##precision,                                                                     \
+   idea,                                                                                      \
+   CAROM_SOLVER_EXACT,                                                                        \
+   true,                                                                                      \
+   (const kernel_claim[]){{CAROM_SLIP_POOLTOOL, 1000, "reference-pooltool-n1000.csv", bound}, \
+                          {.reference = NULL}}},
 #include "kernels.def"
 #undef RUNG
 };
@@ -55,8 +62,9 @@ OPTION_SET(set_kernel) {
   return one != NULL;
 }
 
-carom_status kernel_resolve(const kernel *k, const ladder_module *module, const carom_impact *in, size_t n,
-                            const carom_options *options, carom_result *out, int8_t *status) {
+carom_status kernel_resolve(const kernel *k, const ladder_module *module, const carom_impact *in,
+                            size_t n, const carom_options *options, carom_result *out,
+                            int8_t *status) {
   carom_options own = *options;
   if (!k->is_rung) {
     own.solver = k->solver;
@@ -74,8 +82,9 @@ carom_status kernel_resolve(const kernel *k, const ladder_module *module, const 
   return first_error;
 }
 
-carom_status kernel_resolve_f32(const kernel *k, const carom_impact_f32 *in, size_t n, const carom_options *options,
-                                carom_result_f32 *out, int8_t *status) {
+carom_status kernel_resolve_f32(const kernel *k, const carom_impact_f32 *in, size_t n,
+                                const carom_options *options, carom_result_f32 *out,
+                                int8_t *status) {
   carom_options own = *options;
   own.solver = k->solver;
   return carom_collide_batch_f32(in, n, &own, out, status);
@@ -85,7 +94,8 @@ bool kernel_module(const kernel *k, const char *config, const ladder_module **mo
   *module = NULL;
   if (!k->is_rung) {
     if (config != NULL)
-      complain("--config is for the kernels of the ladder; %s is built into the library in one way", k->name);
+      complain("--config is for the kernels of the ladder; %s is built into the library in one way",
+               k->name);
     return config == NULL;
   }
   if (!ladder_rung_runs(ladder_rung_find(k->name))) {

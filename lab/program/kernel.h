@@ -1,4 +1,5 @@
-/* The kernels that the program knows: one table, over which resolve, verify, bench and kernels iterate. */
+/* The kernels that the program knows: one table, over which resolve, verify, bench and kernels
+ * iterate. */
 #ifndef CAROM_LAB_KERNEL_H
 #define CAROM_LAB_KERNEL_H
 
@@ -11,7 +12,8 @@ typedef struct kernel_claim {
   carom_slip slip;
   int steps;
   const char *reference; /* a file of data/ */
-  double bound;          /* on the largest pair error; 0 asks for the same bits in every component */
+  double bound;          /* on the largest pair error; 0 asks for the same bits in every
+                            component */
 } kernel_claim;
 
 /* A solver of the library, or a rung of the ladder. */
@@ -20,7 +22,8 @@ typedef struct kernel {
   const char *precision; /* "double" or "single" */
   const char *text;      /* what it is, in a line */
   carom_solver solver;
-  bool is_rung;               /* resolved by a module of the ladder; `solver` is then without meaning */
+  bool is_rung;               /* resolved by a module of the ladder; `solver` is then without
+                                 meaning */
   const kernel_claim *claims; /* ends with a NULL reference */
 } kernel;
 
@@ -33,16 +36,20 @@ const kernel *kernel_at(size_t k);
 /* For a `const kernel *`: --kernel, a name in the table. */
 OPTION_SET(set_kernel);
 
-/* Resolves n pairs as carom_collide_batch() does. `module` is the build of the ladder to take; NULL for a solver. */
-carom_status kernel_resolve(const kernel *k, const ladder_module *module, const carom_impact *in, size_t n,
-                            const carom_options *options, carom_result *out, int8_t *status);
+/* Resolves n pairs as carom_collide_batch() does. `module` is the build of the ladder to take;
+ * NULL for a solver. */
+carom_status kernel_resolve(const kernel *k, const ladder_module *module, const carom_impact *in,
+                            size_t n, const carom_options *options, carom_result *out,
+                            int8_t *status);
 
 /* The same in single precision, for a solver. */
-carom_status kernel_resolve_f32(const kernel *k, const carom_impact_f32 *in, size_t n, const carom_options *options,
-                                carom_result_f32 *out, int8_t *status);
+carom_status kernel_resolve_f32(const kernel *k, const carom_impact_f32 *in, size_t n,
+                                const carom_options *options, carom_result_f32 *out,
+                                int8_t *status);
 
-/* Finds the module for `config` ("o3", "gcc-o3"; NULL for the default) if `k` is a rung. Complains and returns false if there
- * is none, if the rung cannot run here, or if a solver is given a configuration. */
+/* Finds the module for `config` ("o3", "gcc-o3"; NULL for the default) if `k` is a rung.
+ * Complains and returns false if there is none, if the rung cannot run here, or if a solver is
+ * given a configuration. */
 bool kernel_module(const kernel *k, const char *config, const ladder_module **module);
 
 #endif

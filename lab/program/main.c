@@ -1,10 +1,12 @@
-/* `carom-lab`: the program of the study. A new subcommand is a file command_NAME.c, a line in subcommands.h and a row here. */
+/* `carom-lab`: the program of the study. A new subcommand is a file command_NAME.c, a line in
+ * subcommands.h and a row here. */
 #include "command.h"
 #include "subcommands.h"
 
 int main(int argc, char **argv) {
   static const command commands[] = {
-      {"kernels", "list the kernels: the library's solvers and the seed paper's ladder", command_kernels},
+      {"kernels", "list the kernels: the library's solvers and the seed paper's ladder",
+       command_kernels},
       {"resolve", "resolve the collisions of a CSV file by any kernel", command_resolve},
       {"verify", "compare every kernel with the references", command_verify},
       {"bench", "time every kernel, once it is verified", command_bench},
@@ -15,7 +17,8 @@ int main(int argc, char **argv) {
   };
   static const program lab = {
       .name = "carom-lab",
-      .about = "The study: the seed paper's kernels and the library's, verified, timed, and compared with measured shots.",
+      .about = "The study: the seed paper's kernels and the library's, verified, timed, and "
+               "compared with measured shots.",
       .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
       .commands = commands,
       .count = sizeof commands / sizeof commands[0],

@@ -5,6 +5,7 @@
 #include "shot_file.h"
 
 /* Plays a shot that was read without error; shot->events, all of them, are to be freed. */
-carom_status play_recorded(const shot_line *line, const carom_shot_options *options, carom_shot *shot);
+carom_status play_recorded(const shot_line *line, const carom_shot_options *options,
+                           carom_shot *shot);
 
 #endif

@@ -1,6 +1,7 @@
-/* Numbers are taken from a short list, so that they are exactly equal in every combination; or they are put exactly where
- * something begins or ends, and then moved by a relative amount from 0 over rounding errors to 1e-3. Half of all impacts of two
- * balls lie along the y axis, where zeros stay zero; so do all impacts on cushions but one in four. */
+/* Numbers are taken from a short list, so that they are exactly equal in every combination; or
+ * they are put exactly where something begins or ends, and then moved by a relative amount from
+ * 0 over rounding errors to 1e-3. Half of all impacts of two balls lie along the y axis, where
+ * zeros stay zero; so do all impacts on cushions but one in four. */
 #include "coincidences.h"
 
 #include "regimes.h"
@@ -44,8 +45,10 @@ static double few(lab_random *r) {
 /* ---- Two balls: in the frame of ball_ball/frame.h ---- */
 
 static carom_local two_balls(lab_random *r, carom_slip slip) {
-  carom_local c = {
-      .R = 0.028575, .M_i = 0.17, .v_iy = below(r, 2) == 0 ? 1 : lab_log_uniform(r, 0.05, 8), .s = carom_spin_sign(slip)};
+  carom_local c = {.R = 0.028575,
+                   .M_i = 0.17,
+                   .v_iy = below(r, 2) == 0 ? 1 : lab_log_uniform(r, 0.05, 8),
+                   .s = carom_spin_sign(slip)};
   c.M_j = c.M_i * (below(r, 2) == 0 ? 1 : lab_log_uniform(r, 0.5, 2));
   c.mu_b = below(r, 2) == 0 ? share(r) : U(0, 0.2);
   c.mu_i = friction(r);
@@ -70,13 +73,14 @@ static void planar_turn(carom_local *c, lab_random *r) {
     c->w_ix = -c->w_ix;
 }
 
-/* The slip of the balls vanishes at the end of a phase, or nearly: all rates are constant. The pressed ball is the second,
- * which rests, or the first, whose slip on the cloth is large. */
+/* The slip of the balls vanishes at the end of a phase, or nearly: all rates are constant. The
+ * pressed ball is the second, which rests, or the first, whose slip on the cloth is large. */
 static void planar_stick(carom_local *c, lab_random *r) {
   const bool second = below(r, 2) == 0;
   const double kappa = 1 + (second ? c->M_j / c->M_i : c->M_i / c->M_j), t = second ? -1 : 1;
   const double F = -t * (second ? c->mu_j : c->mu_i) * c->mu_b;
-  const double p = (1 + (below(r, 2) == 0 ? c->e : 0)) / (kappa - F), u = (2.5 * kappa * c->mu_b - 2.5 * F) * p * (1 + tiny(r));
+  const double p = (1 + (below(r, 2) == 0 ? c->e : 0)) / (kappa - F),
+               u = (2.5 * kappa * c->mu_b - 2.5 * F) * p * (1 + tiny(r));
   c->w_ix = t * c->v_iy * u / c->R;
   if (below(r, 4) == 0)
     c->v_ix = tiny(r) * c->v_iy;
@@ -111,7 +115,8 @@ static void equal(carom_local *c, lab_random *r) {
   c->w_jx = few(r) * w, c->w_jy = few(r) * w, c->w_jz = few(r) * w;
 }
 
-/* Without slip along x and with the slip of pooltool nothing drives the slip on the cloth at mu_b = 2/5. */
+/* Without slip along x and with the slip of pooltool nothing drives the slip on the cloth at
+ * mu_b = 2/5. */
 static void no_drive(carom_local *c, lab_random *r) {
   const double v = c->v_iy;
   c->mu_b = 0.4 * (1 + tiny(r));
@@ -162,7 +167,8 @@ static local at_rail(lab_random *r) {
 }
 
 static void planar_rail(local *c, lab_random *r) {
-  const double rolling = -c->v_y / c->R, spins[] = {0, rolling, -rolling, c->sine * c->v_y / c->R, rolling * U(-3, 3)};
+  const double rolling = -c->v_y / c->R,
+               spins[] = {0, rolling, -rolling, c->sine * c->v_y / c->R, rolling * U(-3, 3)};
   c->w_x = spins[below(r, COUNT(spins))];
 }
 
@@ -184,7 +190,8 @@ static void rounding_rail(local *c, lab_random *r) {
   c->v_x = few(r) * v;
   c->w_y = (c->v_x - tiny(r) * v) / c->R;
   c->w_x = ((below(r, 2) == 0 ? -1 : c->sine) * v + tiny(r) * v) / c->R;
-  c->w_z = below(r, 2) == 0 ? few(r) * v / c->R : (c->v_x / c->R + c->w_y * c->sine + tiny(r) * v / c->R) / cosine;
+  c->w_z = below(r, 2) == 0 ? few(r) * v / c->R
+                            : (c->v_x / c->R + c->w_y * c->sine + tiny(r) * v / c->R) / cosine;
 }
 
 static void equal_rail(local *c, lab_random *r) {
@@ -207,15 +214,18 @@ static void centre_rail(local *c, lab_random *r) {
     c->w_x = tiny(r) * c->v_y / c->R;
 }
 
-/* The friction of the nose is exactly what unloads the cloth, or holds the nose while the cloth slips to either side or bears
- * nothing, or what holds both; or that of the cloth is what holds both. The formulas: impact/law.h and contact.c. */
+/* The friction of the nose is exactly what unloads the cloth, or holds the nose while the cloth
+ * slips to either side or bears nothing, or what holds both; or that of the cloth is what holds
+ * both. The formulas: impact/law.h and contact.c. */
 static void cone_rail(local *c, lab_random *r) {
   if (below(r, 2) == 0)
     planar_turn_rail(c, r);
   else
     equal_rail(c, r);
-  const double sine = c->sine, cosine = sqrt(1 - sine * sine), A = sine * cosine, K = 2.5 + sine * sine, C = 2.5 - sine;
-  const double det = 3.5 * K - C * C, f = (-C * cosine - 3.5 * A) / det, F = (C * A + K * cosine) / det, t = sign(r);
+  const double sine = c->sine, cosine = sqrt(1 - sine * sine), A = sine * cosine,
+               K = 2.5 + sine * sine, C = 2.5 - sine;
+  const double det = 3.5 * K - C * C, f = (-C * cosine - 3.5 * A) / det,
+               F = (C * A + K * cosine) / det, t = sign(r);
   const double w = c->mu_c * (sine + cosine * A / K) / (1 + c->mu_c * cosine * C / K * t);
   const double edges[] = {sine / cosine, A / K, (C * w * t - A) / K, f, f};
   const int edge = below(r, COUNT(edges));
@@ -275,9 +285,11 @@ bool coincidence_of_cushion(int kind) {
 }
 
 coincidence coincidence_draw(int kind, uint64_t seed, uint64_t k) {
-  lab_random state = {(seed * 0x9E3779B97F4A7C15u) ^ (k * 0xD1B54A32D192ED03u + (uint64_t)kind * 0x2545f4914f6cdd1du)},
+  lab_random state = {(seed * 0x9E3779B97F4A7C15u) ^
+                      (k * 0xD1B54A32D192ED03u + (uint64_t)kind * 0x2545f4914f6cdd1du)},
              *r = &state;
-  coincidence d = {.cushion = kinds[kind].rail != NULL, .slip = k % 2 == 0 ? CAROM_SLIP_PAPER : CAROM_SLIP_POOLTOOL};
+  coincidence d = {.cushion = kinds[kind].rail != NULL,
+                   .slip = k % 2 == 0 ? CAROM_SLIP_PAPER : CAROM_SLIP_POOLTOOL};
   U(0, 1);
   if (d.cushion) {
     local c = at_rail(r);
@@ -306,7 +318,7 @@ coincidence coincidence_draw(int kind, uint64_t seed, uint64_t k) {
   }
   const carom_impact *in = &d.balls;
   const double ratio = in->a.mass / in->b.mass;
-  d.of_play = in->mu_ball <= 0.2 && in->a.mu_cloth <= 0.5 && in->b.mu_cloth <= 0.5 && in->restitution >= 0.5 && ratio >= 0.5 &&
-              ratio <= 2;
+  d.of_play = in->mu_ball <= 0.2 && in->a.mu_cloth <= 0.5 && in->b.mu_cloth <= 0.5 &&
+              in->restitution >= 0.5 && ratio >= 0.5 && ratio <= 2;
   return d;
 }

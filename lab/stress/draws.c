@@ -1,5 +1,6 @@
-/* Draws are made in the collision frame, where slips and spins have meaning, and turned by a random angle, in half of the draws
- * by none, so that zeros stay zero. A number of its own seeds every draw: any of them can be made again alone. */
+/* Draws are made in the collision frame, where slips and spins have meaning, and turned by a
+ * random angle, in half of the draws by none, so that zeros stay zero. A number of its own seeds
+ * every draw: any of them can be made again alone. */
 #include "draws.h"
 
 #include "regimes.h"
@@ -27,7 +28,10 @@ static carom_impact realistic(double s, lab_random *r) {
   const double v = lab_log_uniform(r, 0.05, 10);
   for (int j = 0; j < 2; j++) {
     /* the second rests in half of the draws, and else goes any way but with the first */
-    const double speed = j == 0 ? v : chance(r, 0.5) ? 0 : v * U(0, 1), angle = j == 0 ? U(-1.5, 1.5) : U(1.6, 4.6);
+    const double speed = j == 0           ? v
+                         : chance(r, 0.5) ? 0
+                                          : v * U(0, 1),
+                 angle = j == 0 ? U(-1.5, 1.5) : U(1.6, 4.6);
     const double roll = chance(r, 0.3) ? 1 : chance(r, 0.15) ? 0 : U(-2, 1.5);
     const double side = speed == 0 && chance(r, 0.7) ? 0 : U(-1, 1) * (chance(r, 0.2) ? 4 : 1) * v;
     draw_ball(&c, j, speed * sin(angle), speed * cos(angle), roll, side);
@@ -44,10 +48,15 @@ static carom_impact realistic(double s, lab_random *r) {
 
 /* A share that is often 0 or 1, or near to it. */
 static double corner(lab_random *r) {
-  return chance(r, 0.1) ? 0 : chance(r, 0.1) ? 1 : chance(r, 0.3) ? lab_log_uniform(r, 1e-9, 1) : U(0, 1);
+  return chance(r, 0.1)   ? 0
+         : chance(r, 0.1) ? 1
+         : chance(r, 0.3) ? lab_log_uniform(r, 1e-9, 1)
+                          : U(0, 1);
 }
 static double any(lab_random *r, double scale) {
-  return chance(r, 0.15) ? 0 : (chance(r, 0.5) ? 1 : -1) * scale * (chance(r, 0.5) ? lab_log_uniform(r, 1e-6, 1e3) : U(0, 2));
+  return chance(r, 0.15) ? 0
+                         : (chance(r, 0.5) ? 1 : -1) * scale *
+                               (chance(r, 0.5) ? lab_log_uniform(r, 1e-6, 1e3) : U(0, 2));
 }
 
 static carom_impact extreme(double s, lab_random *r) {
@@ -84,14 +93,15 @@ carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k) 
                turn = lab_uniform(&state, -180, 180) * degree;
   /* from square to grazing, on both sides */
   const double angle = lab_uniform(&state, -89.5, 89.5) * degree, spin = any ? 300 : 100;
-  carom_cushion_impact in = {.normal = {cos(turn), sin(turn)},
-                             .v = {speed * cos(turn + angle), speed * sin(turn + angle)},
-                             .radius = lab_uniform(&state, 0.025, 0.031),
-                             .mass = lab_uniform(&state, 0.13, 0.21),
-                             .mu_cloth = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.1, 0.4),
-                             .mu_cushion = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.1, 0.4),
-                             .restitution = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.6, 1),
-                             .jaw_radius = lab_uniform(&state, 0, 1) < 0.5 ? 0 : lab_uniform(&state, 0.005, 0.03)};
+  carom_cushion_impact in = {
+      .normal = {cos(turn), sin(turn)},
+      .v = {speed * cos(turn + angle), speed * sin(turn + angle)},
+      .radius = lab_uniform(&state, 0.025, 0.031),
+      .mass = lab_uniform(&state, 0.13, 0.21),
+      .mu_cloth = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.1, 0.4),
+      .mu_cushion = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.1, 0.4),
+      .restitution = any ? lab_uniform(&state, 0, 1) : lab_uniform(&state, 0.6, 1),
+      .jaw_radius = lab_uniform(&state, 0, 1) < 0.5 ? 0 : lab_uniform(&state, 0.005, 0.03)};
   in.height = in.radius * (any ? lab_uniform(&state, 0.05, 1.95) : lab_uniform(&state, 1.2, 1.45));
   for (int c = 0; c < 3; c++)
     in.w[c] = lab_uniform(&state, -spin, spin);
@@ -115,7 +125,8 @@ carom_cushion_impact draw_cushion(cushion_draw kind, uint64_t seed, uint64_t k) 
   return in;
 }
 
-double cushion_distance(const carom_cushion_impact *in, const carom_motion *a, const carom_motion *b) {
+double cushion_distance(const carom_cushion_impact *in, const carom_motion *a,
+                        const carom_motion *b) {
   double most = 0, scale = 0;
   for (int c = 0; c < 3; c++) {
     most = fmax(most, fmax(fabs(a->v[c] - b->v[c]), in->radius * fabs(a->w[c] - b->w[c])));

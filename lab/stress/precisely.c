@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-carom_status collide_precisely(const carom_impact *in, carom_slip slip, double tolerance, carom_result *out) {
+carom_status collide_precisely(const carom_impact *in, carom_slip slip, double tolerance,
+                               carom_result *out) {
   const carom_frame frame = carom_frame_of(in);
   carom_local local = carom_to_frame(&frame, in, slip);
   if (local.v_jy >= local.v_iy)
@@ -19,7 +20,8 @@ carom_status collide_precisely(const carom_impact *in, carom_slip slip, double t
   return status;
 }
 
-carom_status cushion_precisely(const carom_cushion_impact *in, double tolerance, carom_motion *out) {
+carom_status cushion_precisely(const carom_cushion_impact *in, double tolerance,
+                               carom_motion *out) {
   const carom_cushion_options options = {0};
   const carom_cushion_frame frame = carom_cushion_frame_of(in);
   carom_contact contact = carom_to_cushion(&frame, in, &options);

@@ -1,26 +1,34 @@
-/* The impact integrated from impulses and momenta, in long double, by an implicit method that needs no regimes.
+/* The impact integrated from impulses and momenta, in long double, by an implicit method that
+ * needs no regimes.
  *
- * MECHANICS. A ball of mass m, radius 1 and moment of inertia 2/5 m has the velocity v and the spin w (times the radius). A
- * force F at the point r of its surface changes v by F/m and w by 5/2 (r x F)/m; the surface at r has the velocity v + w x r.
- * There are two contacts with friction: the DRIVING contact, where a normal impulse p pushes, and the CLOTH under the ball that
- * is pressed down. Their slips s (two numbers each) and the speed of approach v are linear in the impulses, so
+ * MECHANICS. A ball of mass m, radius 1 and moment of inertia 2/5 m has the velocity v and the
+ * spin w (times the radius). A force F at the point r of its surface changes v by F/m and w by
+ * 5/2 (r x F)/m; the surface at r has the velocity v + w x r. There are two contacts with
+ * friction: the DRIVING contact, where a normal impulse p pushes, and the CLOTH under the ball
+ * that is pressed down. Their slips s (two numbers each) and the speed of approach v are linear
+ * in the impulses, so
  *
- *     s' = S_p + S_f f        v' = v_p + v_f f        f the four frictions per unit of p, the prime the derivative by p.
+ *     s' = S_p + S_f f        v' = v_p + v_f f        f the four frictions per unit of p, the prime
+ *                                                     the derivative by p.
  *
  * The coefficients are found by applying one unit of each impulse to balls at rest.
  *
- * FRICTION. Coulomb's law, made smooth: f = -mu N s / sqrt(|s|^2 + eps^2), N being 1 at the driving contact and the load at the
- * cloth, which is max(0, g_0 + g_1 f_y). For eps -> 0 that is Coulomb's law with sticking and all: a contact that sticks creeps
- * by less than eps. So nothing needs to be decided where a slip vanishes, both vanish, or friction holds no longer. The price
- * is stiffness, 1/eps, which the implicit method takes. eps is 1e-12 of the approach or less.
+ * FRICTION. Coulomb's law, made smooth: f = -mu N s / sqrt(|s|^2 + eps^2), N being 1 at the
+ * driving contact and the load at the cloth, which is max(0, g_0 + g_1 f_y). For eps -> 0 that
+ * is Coulomb's law with sticking and all: a contact that sticks creeps by less than eps. So
+ * nothing needs to be decided where a slip vanishes, both vanish, or friction holds no longer.
+ * The price is stiffness, 1/eps, which the implicit method takes. eps is 1e-12 of the approach
+ * or less.
  *
- * METHOD. Radau IIA, eight stages, order 15, L-stable; stages by Newton's method. A step is accepted if the highest two
- * Legendre coefficients of the frictions over the step are small, and their polynomials are right at its start. Three events
- * are located by repeating a step with other lengths: the end of compression, v = 0; the end of the impact, where e^2 of the
+ * METHOD. Radau IIA, eight stages, order 15, L-stable; stages by Newton's method. A step is
+ * accepted if the highest two Legendre coefficients of the frictions over the step are small,
+ * and their polynomials are right at its start. Three events are located by repeating a step
+ * with other lengths: the end of compression, v = 0; the end of the impact, where e^2 of the
  * work of compression is given back; and a load that passes zero.
  *
- * CHECKS. Each impact is integrated with tolerances and eps that tighten until two solutions in a row agree, and again with
- * initial slips and approach changed by about one rounding error of the input. */
+ * CHECKS. Each impact is integrated with tolerances and eps that tighten until two solutions in
+ * a row agree, and again with initial slips and approach changed by about one rounding error of
+ * the input. */
 #include "reference.h"
 
 #include <math.h>
@@ -32,10 +40,12 @@ enum { STAGES = 8, SLIPS = 4, UNKNOWNS = STAGES * SLIPS };
 enum { NEWTON_MOST = 25, STEPS_MOST = 4000, ROOT_MOST = 100, LEVELS = 4 };
 static const real AGREED = 1e-11L;    /* difference of two solutions that ends the tightening, */
 static const real TOO_FAR = 1e-8L;    /* and above which there is no result */
-static const real TOO_SHAKY = 1e-7L;  /* change by one rounding error above which the result depends on rounding */
+static const real TOO_SHAKY = 1e-7L;  /* change by one rounding error above which the result
+                                         depends on rounding */
 static const real ROUNDING = 3e-16L;  /* of the input */
 static const real START_SHARE = 0.1L; /* of an error at the start of a step, in its estimate */
-static const real KEPT = 0.1L;        /* fall of Newton's corrections for which its matrix is kept */
+static const real KEPT = 0.1L;        /* fall of Newton's corrections for which its matrix is
+                                         kept */
 static const real CONVERGED = 1e-17L; /* change of the impulses of a step */
 
 /* Tolerances of one integration. */
@@ -44,8 +54,10 @@ typedef struct tolerances {
   real impulse; /* and times its length: either is enough */
   real eps;     /* of the friction law */
 } tolerances;
-static const tolerances level_of[LEVELS] = {
-    {1e-6L, 1e-14L, 1e-12L}, {1e-7L, 1e-15L, 1e-13L}, {1e-9L, 1e-16L, 1e-14L}, {1e-11L, 1e-17L, 1e-15L}};
+static const tolerances level_of[LEVELS] = {{1e-6L, 1e-14L, 1e-12L},
+                                            {1e-7L, 1e-15L, 1e-13L},
+                                            {1e-9L, 1e-16L, 1e-14L},
+                                            {1e-11L, 1e-17L, 1e-15L}};
 
 /* ---- Mechanics ---- */
 
@@ -70,7 +82,8 @@ static vector sum(vector a, real share, vector b) {
   return (vector){a.x + share * b.x, a.y + share * b.y, a.z + share * b.z};
 }
 
-/* A force at r on the surface, but for what it does to the vertical motion: the table or the ball's weight sees to that. */
+/* A force at r on the surface, but for what it does to the vertical motion: the table or the
+ * ball's weight sees to that. */
 static void push(body *b, vector r, vector force) {
   b->v = sum(b->v, 1 / b->m, (vector){force.x, force.y, 0});
   b->w = sum(b->w, 2.5L / b->m, cross(r, force));
@@ -92,11 +105,13 @@ typedef struct meeting {
 } meeting;
 
 typedef struct impulses {
-  real p, f[SLIPS]; /* normal impulse; friction at the driving contact (x, then z or up), on the cloth (x, y) */
+  real p, f[SLIPS]; /* normal impulse; friction at the driving contact (x, then z or up), on the
+                       cloth (x, y) */
 } impulses;
 
 static void apply(meeting *k, const impulses *q) {
-  const vector across = k->cushion ? k->nose : (vector){0, 1, 0}, up = k->cushion ? k->up : (vector){0, 0, 1};
+  const vector across = k->cushion ? k->nose : (vector){0, 1, 0},
+               up = k->cushion ? k->up : (vector){0, 0, 1};
   const vector force = sum(sum((vector){q->f[0], 0, 0}, q->f[1], up), -q->p, across);
   push(&k->ball[0], across, force);
   if (!k->cushion)
@@ -106,7 +121,8 @@ static void apply(meeting *k, const impulses *q) {
 
 /* The four slips, and the speed of approach along the normal. */
 static real slips_of(const meeting *k, real s[SLIPS]) {
-  const vector across = k->cushion ? k->nose : (vector){0, 1, 0}, up = k->cushion ? k->up : (vector){0, 0, 1};
+  const vector across = k->cushion ? k->nose : (vector){0, 1, 0},
+               up = k->cushion ? k->up : (vector){0, 0, 1};
   vector at_nose = surface(&k->ball[0], across);
   if (!k->cushion)
     at_nose = sum(at_nose, -1, surface(&k->ball[1], (vector){0, -1, 0}));
@@ -158,7 +174,8 @@ static void coulomb(real weight, const real s[2], real eps, real f[2], real by_s
 }
 
 /* All frictions; by_s: their derivatives. Returns the load. */
-static real frictions(const equations *q, const real s[SLIPS], real eps, bool loaded, real f[SLIPS], real by_s[SLIPS][SLIPS]) {
+static real frictions(const equations *q, const real s[SLIPS], real eps, bool loaded, real f[SLIPS],
+                      real by_s[SLIPS][SLIPS]) {
   real d[2][2], t[2];
   memset(by_s, 0, SLIPS * sizeof *by_s);
   coulomb(q->mu, s, eps, f, d);
@@ -184,7 +201,8 @@ static real frictions(const equations *q, const real s[SLIPS], real eps, bool lo
 
 typedef struct rule {
   real c[STAGES], A[STAGES][STAGES];
-  real high[2][STAGES], start[STAGES]; /* from values at the nodes: the highest Legendre coefficients, the value at the start */
+  real high[2][STAGES], start[STAGES]; /* from values at the nodes: the highest Legendre
+                                          coefficients, the value at the start */
 } rule;
 
 static real legendre(int n, real x) {
@@ -260,8 +278,8 @@ typedef struct integration {
   long steps;
 } integration;
 
-/* The matrix of Newton's method, factored with pivots. It need not be exact, so it is in double precision, and is kept for as
- * long as Newton's corrections fall by KEPT. */
+/* The matrix of Newton's method, factored with pivots. It need not be exact, so it is in double
+ * precision, and is kept for as long as Newton's corrections fall by KEPT. */
 typedef struct factored {
   double M[UNKNOWNS][UNKNOWNS];
   int pivot[UNKNOWNS];
@@ -307,8 +325,10 @@ static void solve(const factored *a, double d[UNKNOWNS]) {
   }
 }
 
-/* The slips and frictions at the stages of a step of length h. False if Newton's method does not converge. */
-static bool solve_stages(const integration *g, const state *from, real h, real Y[STAGES][SLIPS], real f[STAGES][SLIPS]) {
+/* The slips and frictions at the stages of a step of length h. False if Newton's method does not
+ * converge. */
+static bool solve_stages(const integration *g, const state *from, real h, real Y[STAGES][SLIPS],
+                         real f[STAGES][SLIPS]) {
   const equations *q = g->q;
   real by_s[STAGES][SLIPS][SLIPS], rate[STAGES][SLIPS], before[STAGES][SLIPS];
   factored a;
@@ -354,7 +374,8 @@ static bool solve_stages(const integration *g, const state *from, real h, real Y
           for (int c = 0; c < SLIPS; c++)
             J += q->S_f[i][c] * by_s[l][c][j];
           for (int k = 0; k < STAGES; k++)
-            a.M[k * SLIPS + i][l * SLIPS + j] = (double)((k == l && i == j) - h * g->r->A[k][l] * J);
+            a.M[k * SLIPS + i][l * SLIPS + j] =
+                (double)((k == l && i == j) - h * g->r->A[k][l] * J);
         }
     if (!(n > 1 && moved < KEPT * last) && !factor(&a))
       return false;
@@ -388,7 +409,8 @@ static real try_step(const integration *g, const state *from, real h, state *to)
     for (int i = 0; i < SLIPS; i++)
       to->so_far.f[i] += h * g->r->A[STAGES - 1][k] * f[k][i];
   }
-  /* no stage is at the start, where a slip may just be about to vanish: hence the difference there */
+  /* no stage is at the start, where a slip may just be about to vanish: hence the difference
+   * there */
   real at_start[SLIPS], by_s[SLIPS][SLIPS];
   frictions(q, from->s, g->t.eps, g->loaded, at_start, by_s);
   for (int i = 0; i < SLIPS; i++) {
@@ -398,7 +420,8 @@ static real try_step(const integration *g, const state *from, real h, state *to)
       for (int j = 0; j < 2; j++)
         coefficient[j] += g->r->high[j][k] * f[k][i];
     }
-    high = fmaxl(high, fmaxl(START_SHARE * fabsl(difference), fmaxl(fabsl(coefficient[0]), fabsl(coefficient[1]))));
+    high = fmaxl(high, fmaxl(START_SHARE * fabsl(difference),
+                             fmaxl(fabsl(coefficient[0]), fabsl(coefficient[1]))));
   }
   return fminl(high / g->t.rate, h * high / g->t.impulse);
 }
@@ -407,7 +430,8 @@ static real try_step(const integration *g, const state *from, real h, state *to)
 
 enum { END_OF_PHASE, LOAD, EVENTS };
 
-/* Positive once the event has happened. A load that is zero all the time must not count: hence the last term. */
+/* Positive once the event has happened. A load that is zero all the time must not count: hence
+ * the last term. */
 static real event(const integration *g, int which, const state *at) {
   if (which == END_OF_PHASE)
     return g->restitution ? g->target - at->W : -at->v;
@@ -433,7 +457,8 @@ static real locate(const integration *g, int which, const state *from, real h, s
 }
 
 /* From contact to parting. */
-static bool integrate(const rule *r, const equations *q, const tolerances *t, impulses *all, real *W_c, long *steps) {
+static bool integrate(const rule *r, const equations *q, const tolerances *t, impulses *all,
+                      real *W_c, long *steps) {
   integration g = {.q = q, .r = r, .t = *t};
   state at = {.v = 1};
   memcpy(at.s, q->s, sizeof at.s);
@@ -454,7 +479,8 @@ static bool integrate(const rule *r, const equations *q, const tolerances *t, im
     int first = -1;
     real length = h;
     for (int which = 0; which < EVENTS; which++)
-      if ((which != LOAD || q->mu_cloth > 0) && event(&g, which, &next) > 0 && event(&g, which, &at) <= 0) {
+      if ((which != LOAD || q->mu_cloth > 0) && event(&g, which, &next) > 0 &&
+          event(&g, which, &at) <= 0) {
         length = locate(&g, which, &at, length, &next);
         first = which;
         if (isnan(length))
@@ -475,7 +501,8 @@ static bool integrate(const rule *r, const equations *q, const tolerances *t, im
       g.target = -q->e * q->e * *W_c;
     }
     /* a ball that is jammed between nose and cloth stays so */
-    if (first < 0 && h > 0.1L && fabsl(at.v) + fabsl(at.s[0]) + fabsl(at.s[1]) + fabsl(at.s[2]) + fabsl(at.s[3]) < small) {
+    if (first < 0 && h > 0.1L &&
+        fabsl(at.v) + fabsl(at.s[0]) + fabsl(at.s[1]) + fabsl(at.s[2]) + fabsl(at.s[3]) < small) {
       *all = at.so_far;
       *steps += g.steps;
       return true;
@@ -506,8 +533,10 @@ static real apart(meeting a, const meeting *b) {
   return fastest(&a);
 }
 
-/* Integrates the impact from *k, which it leaves as it is after it. W_c: in units of mass and speed. */
-static bool pass(meeting *k, const rule *r, const equations *parameters, const tolerances *t, real *P, real *W_c, long *steps) {
+/* Integrates the impact from *k, which it leaves as it is after it. W_c: in units of mass and
+ * speed. */
+static bool pass(meeting *k, const rule *r, const equations *parameters, const tolerances *t,
+                 real *P, real *W_c, long *steps) {
   equations q = *parameters;
   impulses all = {0};
   derive(k, &q);
@@ -530,7 +559,8 @@ static double nudged(double x, int n, int c) {
 /* Variant n of an impact: its meeting and parameters; false if it does not approach. */
 typedef bool set_up(const void *in, int slip, int n, meeting *k, equations *q);
 
-static reference_status solve_checked(set_up *prepare, const void *in, int slip, meeting *out, reference_story *story) {
+static reference_status solve_checked(set_up *prepare, const void *in, int slip, meeting *out,
+                                      reference_story *story) {
   enum { VARIANTS = 3 };
   const rule r = make_rule();
   meeting start;
@@ -555,31 +585,36 @@ static reference_status solve_checked(set_up *prepare, const void *in, int slip,
   s.W_c = (double)W_c;
   for (int n = 1; n < VARIANTS && solved; n++) {
     meeting other;
-    if (!prepare(in, slip, n, &other, &q) || !pass(&other, &r, &q, &level_of[0], &P, &W_c, &s.steps))
+    if (!prepare(in, slip, n, &other, &q) ||
+        !pass(&other, &r, &q, &level_of[0], &P, &W_c, &s.steps))
       s.rounding = INFINITY;
     else
       s.rounding = fmax(s.rounding, (double)(apart(other, &rough) / scale));
   }
   if (story != NULL)
     *story = s;
-  return !solved || !(s.error < (double)TOO_FAR) ? s.rounding > (double)TOO_SHAKY ? REFERENCE_ROUNDING : REFERENCE_FAILED
-         : s.rounding > (double)TOO_SHAKY        ? REFERENCE_ROUNDING
-                                                 : REFERENCE_OK;
+  return !solved || !(s.error < (double)TOO_FAR)
+             ? s.rounding > (double)TOO_SHAKY ? REFERENCE_ROUNDING : REFERENCE_FAILED
+         : s.rounding > (double)TOO_SHAKY ? REFERENCE_ROUNDING
+                                          : REFERENCE_OK;
 }
 
 /* A ball in the axes x = (y_y, -y_x), y. */
-static void look(const double v[3], const double w[3], real R, const real y[2], int n, int c, body *b) {
+static void look(const double v[3], const double w[3], real R, const real y[2], int n, int c,
+                 body *b) {
   double value[5];
   for (int k = 0; k < 5; k++)
     value[k] = nudged(k < 2 ? v[k] : w[k - 2], n, c + k);
   b->v = (vector){value[0] * y[1] - value[1] * y[0], value[0] * y[0] + value[1] * y[1], 0};
-  b->w = (vector){R * (value[2] * y[1] - value[3] * y[0]), R * (value[2] * y[0] + value[3] * y[1]), R * value[4]};
+  b->w = (vector){R * (value[2] * y[1] - value[3] * y[0]), R * (value[2] * y[0] + value[3] * y[1]),
+                  R * value[4]};
 }
 
 static carom_motion as_seen(const body *b, real R, const real y[2]) {
-  return (carom_motion){.v = {(double)(b->v.x * y[1] + b->v.y * y[0]), (double)(b->v.y * y[1] - b->v.x * y[0]), 0},
-                        .w = {(double)((b->w.x * y[1] + b->w.y * y[0]) / R), (double)((b->w.y * y[1] - b->w.x * y[0]) / R),
-                              (double)(b->w.z / R)}};
+  return (carom_motion){
+      .v = {(double)(b->v.x * y[1] + b->v.y * y[0]), (double)(b->v.y * y[1] - b->v.x * y[0]), 0},
+      .w = {(double)((b->w.x * y[1] + b->w.y * y[0]) / R),
+            (double)((b->w.y * y[1] - b->w.x * y[0]) / R), (double)(b->w.z / R)}};
 }
 
 static void direction(double x, double y, real out[2]) {
@@ -603,15 +638,17 @@ static bool set_up_balls(const void *subject, int slip, int n, meeting *k, equat
   /* in units of the mass that makes v' = -1 without friction */
   k->ball[0].m = 1 + M_a / M_b;
   k->ball[1].m = 1 + M_b / M_a;
-  /* friction pulls the surface of the first ball against its slip, upwards or down, and presses one ball: which one cannot
-   * change, since all that changes the vertical slip is in proportion to it */
+  /* friction pulls the surface of the first ball against its slip, upwards or down, and presses
+   * one ball: which one cannot change, since all that changes the vertical slip is in proportion
+   * to it */
   real s[SLIPS];
   const real v = slips_of(k, s);
   k->pressed = s[1] < 0;
-  *q = (equations){.mu = nudged(in->mu_ball, n, 10),
-                   .mu_cloth = s[1] == 0 ? 0 : nudged(k->pressed == 1 ? in->b.mu_cloth : in->a.mu_cloth, n, 11),
-                   .e = in->restitution,
-                   .g_1 = k->pressed == 1 ? 1 : -1};
+  *q = (equations){
+      .mu = nudged(in->mu_ball, n, 10),
+      .mu_cloth = s[1] == 0 ? 0 : nudged(k->pressed == 1 ? in->b.mu_cloth : in->a.mu_cloth, n, 11),
+      .e = in->restitution,
+      .g_1 = k->pressed == 1 ? 1 : -1};
   return v > 0;
 }
 
@@ -621,10 +658,12 @@ static bool set_up_cushion(const void *subject, int slip, int n, meeting *k, equ
   real y[2];
   (void)slip;
   direction(in->normal[0], in->normal[1], y);
-  *k = (meeting){.cushion = true, .spin_sign = 1, .nose = {0, cosine, sine}, .up = {0, -sine, cosine}};
+  *k = (meeting){
+      .cushion = true, .spin_sign = 1, .nose = {0, cosine, sine}, .up = {0, -sine, cosine}};
   look(in->v, in->w, R, y, n, 0, &k->ball[0]);
   k->ball[0].m = k->ball[1].m = 1;
-  /* the cloth bears what pushes the ball down: p along the nose, less the friction that pulls it up */
+  /* the cloth bears what pushes the ball down: p along the nose, less the friction that pulls it
+   * up */
   *q = (equations){.mu = nudged(in->mu_cushion, n, 10),
                    .mu_cloth = nudged(in->mu_cloth, n, 11),
                    .e = in->restitution,
@@ -633,7 +672,8 @@ static bool set_up_cushion(const void *subject, int slip, int n, meeting *k, equ
   return k->ball[0].v.y > 0;
 }
 
-reference_status reference_collide(const carom_impact *in, carom_slip slip, carom_result *out, reference_story *story) {
+reference_status reference_collide(const carom_impact *in, carom_slip slip, carom_result *out,
+                                   reference_story *story) {
   pair_of_balls pair = {.in = in};
   const real R = in->a.radius, unit = 1 / (1 / (real)in->a.mass + 1 / (real)in->b.mass);
   meeting end;
@@ -647,7 +687,8 @@ reference_status reference_collide(const carom_impact *in, carom_slip slip, caro
   return status;
 }
 
-reference_status reference_cushion(const carom_cushion_impact *in, carom_motion *out, reference_story *story) {
+reference_status reference_cushion(const carom_cushion_impact *in, carom_motion *out,
+                                   reference_story *story) {
   meeting end;
   real y[2];
   direction(in->normal[0], in->normal[1], y);

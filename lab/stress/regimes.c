@@ -1,14 +1,15 @@
-/* regimes.c - every regime is a choice made in the collision frame (slips, spins, frictions), then turned by a random angle
- * (in half of the draws by none, so that zeros stay exactly zero). */
+/* regimes.c - every regime is a choice made in the collision frame (slips, spins, frictions),
+ * then turned by a random angle (in half of the draws by none, so that zeros stay exactly zero). */
 #include "regimes.h"
 
 /* clang-format off */
-#define REGIMES(X)                                                                                                 \
-  X(real_shot) X(slow) X(fast) X(grazing) X(head_on) X(draw) X(follow) X(stun) X(sidespin) X(both_moving)          \
-  X(both_rolling) X(pressed_rolling) X(stick_early) X(stick_compression) X(stick_restitution) X(stick_at_v0)       \
-  X(stick_at_end) X(stick_marginal) X(turn) X(turn_exact) X(turn_stick) X(near_rest) X(friction_corners)           \
-  X(friction_any) X(restitution_corners) X(u_z_zero) X(u_x_zero) X(u_zero) X(u_z_tiny) X(tiny_approach) X(unequal) \
-  X(very_unequal) X(wild)
+#define REGIMES(X) \
+  X(real_shot) X(slow) X(fast) X(grazing) X(head_on) X(draw) X(follow) X(stun) X(sidespin) \
+  X(both_moving) X(both_rolling) X(pressed_rolling) X(stick_early) X(stick_compression) \
+  X(stick_restitution) X(stick_at_v0) X(stick_at_end) X(stick_marginal) X(turn) X(turn_exact) \
+  X(turn_stick) X(near_rest) X(friction_corners) X(friction_any) X(restitution_corners) \
+  X(u_z_zero) X(u_x_zero) X(u_zero) X(u_z_tiny) X(tiny_approach) X(unequal) X(very_unequal) \
+  X(wild)
 /* clang-format on */
 
 typedef enum {
@@ -41,10 +42,11 @@ static double sign(lab_random *r) {
 
 carom_impact draw_turned(const carom_local *c, double angle) {
   const double y[2] = {sin(angle), cos(angle)}, x[2] = {y[1], -y[0]};
-  carom_impact in = {.a = {.w = {0, 0, c->w_iz}, .radius = c->R, .mass = c->M_i, .mu_cloth = c->mu_i},
-                     .b = {.w = {0, 0, c->w_jz}, .radius = c->R, .mass = c->M_j, .mu_cloth = c->mu_j},
-                     .mu_ball = c->mu_b,
-                     .restitution = c->e};
+  carom_impact in = {
+      .a = {.w = {0, 0, c->w_iz}, .radius = c->R, .mass = c->M_i, .mu_cloth = c->mu_i},
+      .b = {.w = {0, 0, c->w_jz}, .radius = c->R, .mass = c->M_j, .mu_cloth = c->mu_j},
+      .mu_ball = c->mu_b,
+      .restitution = c->e};
   for (int k = 0; k < 2; k++) {
     in.b.r[k] = 2 * c->R * y[k];
     in.a.v[k] = x[k] * c->v_ix + y[k] * c->v_iy;
@@ -76,13 +78,15 @@ static void move(carom_local *c, int j, double v, double phi, double roll, doubl
   draw_ball(c, j != 0, v * sin(phi), v * cos(phi), roll, side);
 }
 
-/* Sets u_x and u_z exactly as far as rounding lets, by the side spin of i and the spin of j (keeping its cloth slip free). */
+/* Sets u_x and u_z exactly as far as rounding lets, by the side spin of i and the spin of j
+ * (keeping its cloth slip free). */
 static void set_slip(carom_local *c, double u_x, double u_z) {
   c->w_jz = 0;
   c->w_iz = (c->v_ix - c->v_jx - u_x) / c->R;
   c->w_jx = u_z / c->R - c->w_ix;
 }
-/* Gives the ball that is pressed the cloth slip (d_x, d_y) through its velocity along x and spin; keeps u_z, u_x and v_n. */
+/* Gives the ball that is pressed the cloth slip (d_x, d_y) through its velocity along x and
+ * spin; keeps u_z, u_x and v_n. */
 static void set_cloth_slip(carom_local *c, double d_x, double d_y) {
   const double u_z = c->R * (c->w_ix + c->w_jx);
   if (u_z >= 0) {
@@ -163,7 +167,8 @@ carom_impact regimes_draw(int regime, double s, lab_random *r) {
   }
   case R_stick_at_v0:
   case R_stick_at_end: { /* exact without cloth friction for pure x or z */
-    const double p = (regime == R_stick_at_v0 ? p_c : p_f) * (one_in(r, 3) ? 1 : 1 + sign(r) * lab_log_uniform(r, 1e-15, 1e-3));
+    const double p = (regime == R_stick_at_v0 ? p_c : p_f) *
+                     (one_in(r, 3) ? 1 : 1 + sign(r) * lab_log_uniform(r, 1e-15, 1e-3));
     const int z = one_in(r, 2);
     if (z && one_in(r, 2))
       c.mu_i = c.mu_j = 0;
@@ -181,7 +186,9 @@ carom_impact regimes_draw(int regime, double s, lab_random *r) {
   case R_turn:
   case R_turn_exact:
   case R_turn_stick: {
-    const double along = U(0.02, 1) * p_f, aside = regime == R_turn_exact ? 0 : sign(r) * p_f * lab_log_uniform(r, 1e-12, 1e-1),
+    const double along = U(0.02, 1) * p_f,
+                 aside =
+                     regime == R_turn_exact ? 0 : sign(r) * p_f * lab_log_uniform(r, 1e-12, 1e-1),
                  on_i = sign(r);
     if (regime == R_turn_stick) {
       const double a = U(0, 6.3), u = U(4, 8) * c.mu_b * p_f * U(0.3, 1);
@@ -191,8 +198,10 @@ carom_impact regimes_draw(int regime, double s, lab_random *r) {
         c.mu_b = U(0.05, 0.3);
       set_slip(&c, one_in(r, 2) ? 0 : U(-1, 1) * v, on_i * U(0.05, 1.5) * v);
     }
-    const double u_x = c.v_ix - c.v_jx - c.R * (c.w_iz + c.w_jz), u_z = c.R * (c.w_ix + c.w_jx), u = hypot(u_x, u_z);
-    const double side_drift = u > 0 ? c.mu_b * u_x / u : 0; /* the slip runs along (-mu_b c, -1): start so as to pass by */
+    const double u_x = c.v_ix - c.v_jx - c.R * (c.w_iz + c.w_jz), u_z = c.R * (c.w_ix + c.w_jx),
+                 u = hypot(u_x, u_z);
+    /* the slip runs along (-mu_b c, -1): start so as to pass by */
+    const double side_drift = u > 0 ? c.mu_b * u_x / u : 0;
     if (u_z >= 0)
       set_cloth_slip(&c, aside + side_drift * along, along);
     else
@@ -219,7 +228,10 @@ carom_impact regimes_draw(int regime, double s, lab_random *r) {
       move(&c, 1, U(0, 1) * v, U(1.6, 4.6), U(-1.5, 1.2), U(-1, 1) * v);
     break;
   case R_restitution_corners:
-    c.e = one_in(r, 3) ? 0 : one_in(r, 2) ? 1 : one_in(r, 2) ? lab_log_uniform(r, 1e-9, 0.1) : U(0, 1);
+    c.e = one_in(r, 3)   ? 0
+          : one_in(r, 2) ? 1
+          : one_in(r, 2) ? lab_log_uniform(r, 1e-9, 0.1)
+                         : U(0, 1);
     break;
   case R_u_z_zero:
     set_slip(&c, one_in(r, 2) ? U(-1, 1) * v : U(-1, 1) * 14 * c.mu_b * p_f, 0);

@@ -1,7 +1,8 @@
 /* The one place where the arguments of a collision are checked.
  *
- * Two passes: a branch-free one that every call takes and nearly every call passes, and a slow one that finds the first field
- * at fault and names it. Both state the same conditions, those of the field comments in carom.h.
+ * Two passes: a branch-free one that every call takes and nearly every call passes, and a slow
+ * one that finds the first field at fault and names it. Both state the same conditions, those of
+ * the field comments in carom.h.
  */
 #include "ball_ball/arguments.h"
 
@@ -12,13 +13,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Radii, heights and vertical velocities come out of other programs' arithmetic; what is below this share of the radius, of the
- * distance or of the speed moves no result beyond rounding of the solvers' own size. */
+/* Radii, heights and vertical velocities come out of other programs' arithmetic; what is below
+ * this share of the radius, of the distance or of the speed moves no result beyond rounding of
+ * the solvers' own size. */
 static const double level = 1e-9;
 
 enum { BALL_FIELDS = 12, FIELDS = 26 };
-_Static_assert(sizeof(carom_ball) == BALL_FIELDS * sizeof(double), "a ball is 12 doubles without gaps");
-_Static_assert(sizeof(carom_impact) == FIELDS * sizeof(double), "an impact is 26 doubles without gaps");
+_Static_assert(sizeof(carom_ball) == BALL_FIELDS * sizeof(double),
+               "a ball is 12 doubles without gaps");
+_Static_assert(sizeof(carom_impact) == FIELDS * sizeof(double),
+               "an impact is 26 doubles without gaps");
 _Static_assert(sizeof(carom_result) == 12 * sizeof(double), "a result is 12 doubles without gaps");
 
 static int field_at(size_t offset) {
@@ -50,7 +54,8 @@ static bool vertical(const carom_ball *ball) {
 }
 
 static bool heights_differ(const carom_impact *in) {
-  const double dx = in->b.r[0] - in->a.r[0], dy = in->b.r[1] - in->a.r[1], dz = in->b.r[2] - in->a.r[2];
+  const double dx = in->b.r[0] - in->a.r[0], dy = in->b.r[1] - in->a.r[1],
+               dz = in->b.r[2] - in->a.r[2];
   return fabs(dz) > level * (fabs(dx) + fabs(dy));
 }
 
@@ -72,10 +77,12 @@ static bool motion_is_finite(const carom_ball *ball) {
 
 /* Of a ball, and of what follows the two balls. */
 static const carom_range of_ball[BALL_FIELDS] = {
-    {CAROM_FINITE, CAROM_ERROR_POSITION}, {CAROM_FINITE, CAROM_ERROR_POSITION}, {CAROM_FINITE, CAROM_ERROR_POSITION},
-    {CAROM_FINITE, CAROM_ERROR_VELOCITY}, {CAROM_FINITE, CAROM_ERROR_VELOCITY}, {CAROM_FINITE, CAROM_ERROR_VELOCITY},
-    {CAROM_FINITE, CAROM_ERROR_SPIN},     {CAROM_FINITE, CAROM_ERROR_SPIN},     {CAROM_FINITE, CAROM_ERROR_SPIN},
-    {CAROM_POSITIVE, CAROM_ERROR_RADIUS}, {CAROM_POSITIVE, CAROM_ERROR_MASS},   {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_CLOTH},
+    {CAROM_FINITE, CAROM_ERROR_POSITION}, {CAROM_FINITE, CAROM_ERROR_POSITION},
+    {CAROM_FINITE, CAROM_ERROR_POSITION}, {CAROM_FINITE, CAROM_ERROR_VELOCITY},
+    {CAROM_FINITE, CAROM_ERROR_VELOCITY}, {CAROM_FINITE, CAROM_ERROR_VELOCITY},
+    {CAROM_FINITE, CAROM_ERROR_SPIN},     {CAROM_FINITE, CAROM_ERROR_SPIN},
+    {CAROM_FINITE, CAROM_ERROR_SPIN},     {CAROM_POSITIVE, CAROM_ERROR_RADIUS},
+    {CAROM_POSITIVE, CAROM_ERROR_MASS},   {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_CLOTH},
 };
 static const carom_range of_pair[] = {
     {CAROM_UNIT_INTERVAL, CAROM_ERROR_MU_BALL},
@@ -111,7 +118,8 @@ static carom_status blame(const carom_impact *in, int *field) {
 
 carom_status carom_check_impact(const carom_impact *in, int *field) {
   *field = -1;
-  bool good = true; /* joined by & so that all conditions are evaluated and only one branch is taken */
+  bool good = true; /* joined by & so that all conditions are evaluated and only one branch is
+                       taken */
   good &= motion_is_finite(&in->a);
   good &= motion_is_finite(&in->b);
   good &= carom_is_positive(in->a.radius);

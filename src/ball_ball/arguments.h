@@ -13,7 +13,8 @@ static inline int carom_steps(const carom_options *opt) {
 /* CAROM_OK, or the error of the first option at fault. */
 carom_status carom_check_options(const carom_options *opt);
 
-/* CAROM_OK, or the error of the first field at fault; `*field` is its index, or -1 where no single field is to blame. */
+/* CAROM_OK, or the error of the first field at fault; `*field` is its index, or -1 where no
+ * single field is to blame. */
 carom_status carom_check_impact(const carom_impact *in, int *field);
 
 #endif

@@ -1,16 +1,18 @@
 /* A batch: collisions by the exact limit, sorted by the collocation step that they need next.
  *
- * Every row has the bits of carom_collide: its steps are decided by its own numbers, and computed lane by lane. The lists only
- * decide which rows share a register.
+ * Every row has the bits of carom_collide: its steps are decided by its own numbers, and
+ * computed lane by lane. The lists only decide which rows share a register.
  *
- *     first       all rows in order, a register at a time: reduced, and solved if an easy step does, which is most of them
- *     lists       rows that need another step, by its kind: from their start, where their numbers are enough, as the rows are
- *                 in the cache; or from where they stand
- *     one by one  rows that collocation refuses or that are not good: carom_collide_one(), which tries collocation again, and
- *                 then the precise solver
+ *     first       all rows in order, a register at a time: reduced, and solved if an easy step
+ *                 does, which is most of them
+ *     lists       rows that need another step, by its kind: from their start, where their
+ *                 numbers are enough, as the rows are in the cache; or from where they stand
+ *     one by one  rows that collocation refuses or that are not good: carom_collide_one(), which
+ *                 tries collocation again, and then the precise solver
  *
- * A list is worked off when it fills a register, and all of them at the end. Batches of few rows would leave most lanes empty:
- * they are solved one by one, and so are all rows by Euler's method. */
+ * A list is worked off when it fills a register, and all of them at the end. Batches of few rows
+ * would leave most lanes empty: they are solved one by one, and so are all rows by Euler's
+ * method. */
 #include "ball_ball/kernels.h"
 
 #include "ball_ball/frame.h"
@@ -18,7 +20,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Rows wait for a register of their kind, so a list rarely holds two. More room would take stack. */
+/* Rows wait for a register of their kind, so a list rarely holds two. More room would take
+ * stack. */
 enum { ROOM = 2 * MOST_LANES };
 
 /* Where the rows of a list are. */
@@ -47,15 +50,18 @@ typedef struct work {
 enum { MOST_ROWS = 1 << 30, CACHE_LINE = 64 };
 
 static void one_by_one(work *w, uint32_t row) {
-  const carom_status status = carom_collide_one(w->precision, w->in + row * w->in_size, w->opt, w->out + row * w->out_size);
+  const carom_status status =
+      carom_collide_one(w->precision, w->in + row * w->in_size, w->opt, w->out + row * w->out_size);
   if (w->status != NULL)
     w->status[row] = (int8_t)status;
   if (status < 0 && row < w->first_bad)
     w->first_bad = row;
 }
 
-/* A list that has no room, which should not happen, is no reason to fail: a single call has the same bits. */
-static void add_row(work *w, enum step_kind kind, int place, uint32_t row, lane_state at, int lane) {
+/* A list that has no room, which should not happen, is no reason to fail: a single call has the
+ * same bits. */
+static void add_row(work *w, enum step_kind kind, int place, uint32_t row, lane_state at,
+                    int lane) {
   row_list *list = &w->list[kind][place];
   if (list->count == ROOM) {
     one_by_one(w, row);
@@ -82,15 +88,17 @@ typedef struct step_io {
 } step_io;
 
 /* Lanes, from the lowest on. */
-#define EACH_LANE(lane, bits) \
-  for (uint32_t left_ = (bits), lane; left_ != 0 && (lane = lowest(left_), true); left_ &= left_ - 1)
+#define EACH_LANE(lane, bits)                                                     \
+  for (uint32_t left_ = (bits), lane; left_ != 0 && (lane = lowest(left_), true); \
+       left_ &= left_ - 1)
 static inline uint32_t lowest(uint32_t bits) {
   return (uint32_t)__builtin_ctz(bits);
 }
 
-/* After a step: writes the rows that are solved, and puts the others on the lists of their next steps. Rows that are not solved
- * yet may be written too, for now. */
-static void sort(work *w, const lane_group *t, uint32_t good, const step_io *h, int place, lane_state at) {
+/* After a step: writes the rows that are solved, and puts the others on the lists of their next
+ * steps. Rows that are not solved yet may be written too, for now. */
+static void sort(work *w, const lane_group *t, uint32_t good, const step_io *h, int place,
+                 lane_state at) {
   const uint32_t there = (uint32_t)((UINT64_C(1) << t->count) - 1), right = there & good;
   uint32_t done = right & h->next[SOLVED];
   if (done != 0)
@@ -107,14 +115,17 @@ static void sort(work *w, const lane_group *t, uint32_t good, const step_io *h, 
 __attribute__((noinline)) static void first_steps(work *w, const lane_group *t) {
   step_io h;
   const uint32_t good = w->with->rows_in[w->precision](w->in, t->row, w->s, &h.context, h.in);
-  w->with->first_step(h.in, good, (float)(2.5 * w->s), carom_tolerances[w->precision], h.out, h.next);
+  w->with->first_step(h.in, good, (float)(2.5 * w->s), carom_tolerances[w->precision], h.out,
+                      h.next);
   sort(w, t, good, &h, AT_START, NULL);
 }
 
-__attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, int place, const lane_group *t, lane_state at) {
+__attribute__((noinline)) static void next_steps(work *w, enum step_kind kind, int place,
+                                                 const lane_group *t, lane_state at) {
   step_io h;
   const uint32_t good = w->with->rows_in[w->precision](w->in, t->row, w->s, &h.context, h.in);
-  w->with->next_step(kind, place == AT_START, h.in, (float)(2.5 * w->s), carom_tolerances[w->precision], at, h.out, h.next);
+  w->with->next_step(kind, place == AT_START, h.in, (float)(2.5 * w->s),
+                     carom_tolerances[w->precision], at, h.out, h.next);
   sort(w, t, good, &h, ON_THEIR_WAY, at);
 }
 
@@ -147,8 +158,8 @@ static bool work_off_lists(work *w, int least) {
 }
 
 /* Rows that 32 bits can count. */
-static size_t solve_part(carom_precision precision, const char *in, size_t n, const carom_options *opt, char *out,
-                         int8_t *status) {
+static size_t solve_part(carom_precision precision, const char *in, size_t n,
+                         const carom_options *opt, char *out, int8_t *status) {
   work w; /* its lists are not cleared: that would take longer than a few rows do */
   w.with = carom_kernels_of_call(opt->plain);
   w.precision = precision;
@@ -169,10 +180,12 @@ static size_t solve_part(carom_precision precision, const char *in, size_t n, co
     w.list[kind][AT_START].count = w.list[kind][ON_THEIR_WAY].count = 0;
   if (status != NULL)
     memset(status, CAROM_OK, n * sizeof *status); /* what is not solved by a step, has its own */
-  const size_t lanes = (size_t)w.with->lanes, register_size = lanes * w.in_size, size = n * w.in_size;
+  const size_t lanes = (size_t)w.with->lanes, register_size = lanes * w.in_size,
+               size = n * w.in_size;
   for (size_t first = 0; first < n; first += lanes) {
     /* what comes two registers later, while there is work to hide it */
-    const size_t ahead = (first + 2 * lanes) * w.in_size, end = ahead + register_size < size ? ahead + register_size : size;
+    const size_t ahead = (first + 2 * lanes) * w.in_size,
+                 end = ahead + register_size < size ? ahead + register_size : size;
     for (size_t at = ahead; at < end; at += CACHE_LINE)
       __builtin_prefetch(w.in + at);
     lane_group t;
@@ -187,14 +200,15 @@ static size_t solve_part(carom_precision precision, const char *in, size_t n, co
   return w.first_bad;
 }
 
-size_t carom_solve_rows(carom_precision precision, const void *in, size_t n, const carom_options *opt, void *out,
-                        int8_t *status) {
+size_t carom_solve_rows(carom_precision precision, const void *in, size_t n,
+                        const carom_options *opt, void *out, int8_t *status) {
   const size_t in_size = carom_impact_size(precision), out_size = carom_result_size(precision);
   size_t first_bad = n;
   for (size_t from = 0; from < n; from += MOST_ROWS) {
     const size_t rows = n - from < MOST_ROWS ? n - from : MOST_ROWS;
-    const size_t bad = solve_part(precision, (const char *)in + from * in_size, rows, opt, (char *)out + from * out_size,
-                                  status != NULL ? status + from : NULL);
+    const size_t bad =
+        solve_part(precision, (const char *)in + from * in_size, rows, opt,
+                   (char *)out + from * out_size, status != NULL ? status + from : NULL);
     if (bad < rows && first_bad == n)
       first_bad = from + bad;
   }

@@ -1,22 +1,25 @@
-/* The carrier of the collocation text: what a register holds, and the operations that this decides.
+/* The carrier of the collocation text: what a register holds, and the operations that this
+ * decides.
  *
  * The text (collocate.c and what it includes) is written once, over two types:
  *
  *     vreal    a number of a collision                      lanes.h has its operations
  *     reg      a number at the nodes of a step; n nodes take REGS(n) of them
  *
- * A batch computes LANES collisions at once: a vreal has a lane for each, and so has a reg, which holds one node of each of
- * them. A single call (CAROM_LANES_ONE) computes one: a vreal is a float, and a reg or two hold all nodes, so that a chain of
- * dependent operations, which is what a single call waits for, is gone through once for all of them. Sums over nodes are taken
- * in the same order in both, so the bits are the same. In a step of four nodes a reg of eight has four to spare, whose junk no
- * sum and no maximum takes in.
+ * A batch computes LANES collisions at once: a vreal has a lane for each, and so has a reg,
+ * which holds one node of each of them. A single call (CAROM_LANES_ONE) computes one: a vreal is
+ * a float, and a reg or two hold all nodes, so that a chain of dependent operations, which is
+ * what a single call waits for, is gone through once for all of them. Sums over nodes are taken
+ * in the same order in both, so the bits are the same. In a step of four nodes a reg of eight
+ * has four to spare, whose junk no sum and no maximum takes in.
  */
 #ifndef CAROM_SRC_BALL_BALL_CARRIER_H
 #define CAROM_SRC_BALL_BALL_CARRIER_H
 
 #include "ball_ball/lanes.h"
 
-#define always static inline __attribute__((always_inline)) /* the constants of a rule must reach the inner loops */
+/* the constants of a rule must reach the inner loops */
+#define always static inline __attribute__((always_inline))
 
 enum { MOST_NODES = 8 };
 /* Numbers at the nodes, in memory. */
@@ -42,8 +45,8 @@ enum { MOST_REGS = MOST_NODES / REG_NODES };
 #define QUAD_AT(row) ((quad) * (const quad_unaligned *)(row))
 /* Any of its numbers, where all are the same. */
 #define ONE_OF(x) ((x)[0])
-/* A number at nodes replaced: in the lanes of a mask, where a collision is in a lane of its own; a single call does not come
- * here if not. */
+/* A number at nodes replaced: in the lanes of a mask, where a collision is in a lane of its own;
+ * a single call does not come here if not. */
 #define REG_MOVE(m, to, x) (*(to) = (x))
 #else
 typedef vreal reg;
@@ -56,7 +59,8 @@ enum { MOST_REGS = MOST_NODES };
 #define REG_MOVE(m, to, x) (*(to) = v_select(m, x, *(to)))
 #endif
 
-/* For every register of n nodes. What is done for eight registers in turn would not stay in the cache of instructions. */
+/* For every register of n nodes. What is done for eight registers in turn would not stay in the
+ * cache of instructions. */
 #define EACH_REG(k, n) EACH_REG_(k, n)
 #define EACH_REG_(k, n) _Pragma("GCC unroll 4") for (int k = 0; k < REGS(n); k++)
 
@@ -79,7 +83,7 @@ always reg reg_of(float x) {
 /* a b + c as a reg, each of them a reg or one number. */
 #define MADD(a, b, c) reg_fma(SPREAD(a), SPREAD(b), SPREAD(c))
 
-/* ---- Single calls ----------------------------------------------------------------------------------------------------- */
+/* ---- Single calls ---------------------------------------------------------------------------- */
 
 #ifdef CAROM_LANES_ONE
 
@@ -145,9 +149,10 @@ always reg reg_abs(reg x) {
 
 /* The largest of the numbers at n nodes. */
 always vreal largest(const reg *x, int n) {
-  const quad low = FIRST_HALF(x), high = n == 8   ? SECOND_HALF(x)
-                                         : n == 6 ? __builtin_shufflevector(SECOND_HALF(x), low, 0, 1, 6, 7)
-                                                  : low;
+  const quad low = FIRST_HALF(x),
+             high = n == 8   ? SECOND_HALF(x)
+                    : n == 6 ? __builtin_shufflevector(SECOND_HALF(x), low, 0, 1, 6, 7)
+                             : low;
 #if LANES_X86
   const quad most = (quad)_mm_max_ps((__m128)low, (__m128)high);
 #else
@@ -189,8 +194,9 @@ always quad quad_at_all_nodes(quad x, int j) {
 always void apply_to_four(const node_row *M, const reg *x, reg *out) {
   const quad low = FIRST_HALF(x);
   quad pair[2];
-  lanes_unrolled for (int j = 0; j < 4; j += 2) pair[j / 2] = (quad)_mm_fmadd_ps(
-      (__m128)QUAD_AT(M[j + 1]), (__m128)quad_at_all_nodes(low, j + 1), (__m128)(QUAD_AT(M[j]) * quad_at_all_nodes(low, j)));
+  lanes_unrolled for (int j = 0; j < 4; j += 2) pair[j / 2] =
+      (quad)_mm_fmadd_ps((__m128)QUAD_AT(M[j + 1]), (__m128)quad_at_all_nodes(low, j + 1),
+                         (__m128)(QUAD_AT(M[j]) * quad_at_all_nodes(low, j)));
   out[0] = (reg)_mm256_castps128_ps256((__m128)(pair[0] + pair[1]));
 }
 #else
@@ -217,7 +223,7 @@ always void apply(const node_row *M, const reg *x, reg *out, int n) {
   }
 }
 
-/* ---- Batches ---------------------------------------------------------------------------------------------------------- */
+/* ---- Batches --------------------------------------------------------------------------------- */
 
 #else
 
@@ -262,7 +268,8 @@ always vreal sum_of_products(const reg *weight, const reg *x, int n) {
 }
 
 always void apply(const node_row *M, const reg *x, reg *out, int n) {
-  lanes_unrolled for (int k = 0; k < n; k++) { /* rolled, gcc would move each weight through a register to spread it */
+  lanes_unrolled for (int k = 0; k < n; k++) { /* rolled, gcc would move each weight through a
+                                                  register to spread it */
     reg low = M[0][k] * x[0], high = M[n / 2][k] * x[n / 2];
     lanes_unrolled for (int j = 1; j < n / 2; j++) {
       low = MADD(M[j][k], x[j], low);
@@ -274,7 +281,7 @@ always void apply(const node_row *M, const reg *x, reg *out, int n) {
 
 #endif
 
-/* ---- Functions over both ------------------------------------------------------------------------------------------------ */
+/* ---- Functions over both --------------------------------------------------------------------- */
 
 /* sqrt(x) for x > 0, to the precision of its reciprocal. */
 always vreal root(vreal x) {
@@ -286,17 +293,23 @@ always reg reg_root(reg x) {
 
 /* e^x for |x| < 80, to about 2e-7: 2^n times a polynomial in what is left of x. */
 always reg exponential(reg x) {
-  const float rounder = 12582912.0f; /* 1.5 2^23: adding it rounds to an integer, which then stands in the lowest bits */
+  const float rounder = 12582912.0f; /* 1.5 2^23: adding it rounds to an integer, which then
+                                        stands in the lowest bits */
   const reg shifted = MADD(x, 1.44269504f, rounder), n = shifted - rounder;
-  const reg r = MADD(n, -1.42860677e-6f, MADD(n, -0.693145752f, x)); /* log(2) in two parts, the first of few digits */
-  const reg p = MADD(r, MADD(r, MADD(r, MADD(r, MADD(r, 1 / 720.0f, 1 / 120.0f), 1 / 24.0f), 1 / 6.0f), 0.5f), 1.0f);
+  /* log(2) in two parts, the first of few digits */
+  const reg r = MADD(n, -1.42860677e-6f, MADD(n, -0.693145752f, x));
+  const reg p =
+      MADD(r, MADD(r, MADD(r, MADD(r, MADD(r, 1 / 720.0f, 1 / 120.0f), 1 / 24.0f), 1 / 6.0f), 0.5f),
+           1.0f);
   return (reg)((reg_bits)MADD(r, p, 1.0f) + ((reg_bits)shifted << 23));
 }
 
 /* log(x) for x > 0, to about 6e-7: the exponent, and the series of 2 artanh in what is left. */
 always reg logarithm(reg x) {
-  const reg_int bits = (reg_int)((reg_bits)x - 0x3f3504f3); /* of sqrt(1/2): what is left is between that and sqrt(2) */
-  const reg exponent = __builtin_convertvector(bits >> 23, reg), m = (reg)((bits & 0x7fffff) + 0x3f3504f3);
+  /* of sqrt(1/2): what is left is between that and sqrt(2) */
+  const reg_int bits = (reg_int)((reg_bits)x - 0x3f3504f3);
+  const reg exponent = __builtin_convertvector(bits >> 23, reg),
+            m = (reg)((bits & 0x7fffff) + 0x3f3504f3);
   const reg t = (m - 1) * reg_reciprocal(m + 1), t2 = t * t;
   const reg series = MADD(t2, MADD(t2, MADD(t2, 2 / 7.0f, 2 / 5.0f), 2 / 3.0f), 2.0f);
   return MADD(exponent, 0.693147181f, t * series);
@@ -304,11 +317,13 @@ always reg logarithm(reg x) {
 
 /* The inverse hyperbolic sine. */
 always vreal inverse_sinh(vreal x) {
-  const vreal size = v_abs(x), y = ONE_OF(logarithm(SPREAD(size + root(v_fma(size, size, v_splat(1))))));
+  const vreal size = v_abs(x),
+              y = ONE_OF(logarithm(SPREAD(size + root(v_fma(size, size, v_splat(1))))));
   return v_select(v_less(x, v_splat(0)), -y, y);
 }
 
-/* ---- Quadrature rules on the nodes of a step (rules.h), and the polynomials through numbers at the nodes -------------------
+/* ---- Quadrature rules on the nodes of a step (rules.h), and the polynomials through numbers at
+ * the nodes
  */
 
 /* The fields are explained where they are computed, in tools/collocation_rules.py. */
@@ -325,7 +340,8 @@ typedef struct stick_rule {
 always void polynomials_at(const node_row *coefficient, int n, vreal t, reg *value) {
   EACH_REG(k, n) {
     value[k] = SPREAD(AT(coefficient[n - 1], k));
-    lanes_unrolled for (int m = n - 2; m >= 0; m--) value[k] = MADD(value[k], t, AT(coefficient[m], k));
+    lanes_unrolled for (int m = n - 2; m >= 0; m--) value[k] =
+        MADD(value[k], t, AT(coefficient[m], k));
   }
 }
 
@@ -335,7 +351,8 @@ always void integrals_up_to(const gauss_rule *r, int n, vreal x, reg *weight) {
   EACH_REG(k, n) weight[k] = weight[k] * x;
 }
 
-/* The coefficients of one polynomial in t: the sum of those polynomials, a row for each node, times numbers at the nodes. */
+/* The coefficients of one polynomial in t: the sum of those polynomials, a row for each node,
+ * times numbers at the nodes. */
 always void sum_polynomials(const node_row *coefficient, int n, const reg *value, vreal *sum) {
   reg sums[MOST_REGS];
   apply(coefficient, value, sums, n);

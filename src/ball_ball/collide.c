@@ -1,5 +1,5 @@
-/* The public entry points: collocation, and for what it does not take: check, go to the collision frame, solve, come back, say
- * how it went. */
+/* The public entry points: collocation, and for what it does not take: check, go to the
+ * collision frame, solve, come back, say how it went. */
 #include "carom.h"
 #include "platform/arithmetic.h"
 
@@ -16,10 +16,12 @@
 
 /* ---- carom_detail ---------------------------------------- */
 
-/* The impulses over a whole collision follow from what it changed. With Δ the change, C = 5/(2 M R) of each ball, P the normal
- * impulse, P1 and P2 those of friction along x and z on ball i, and those of the cloth on i and on j:
+/* The impulses over a whole collision follow from what it changed. With Δ the change, C = 5/(2 M
+ * R) of each ball, P the normal impulse, P1 and P2 those of friction along x and z on ball i,
+ * and those of the cloth on i and on j:
  *
- *     P1 = -Δw_iz/C_i                                  P_ix = -Δw_iy/C_i             P_jx = -Δw_jy/C_j
+ *     P1 = -Δw_iz/C_i                                  P_ix = -Δw_iy/C_i
+ *     P_jx = -Δw_jy/C_j
  *     P_iy - P_jy = Δw_ix/C_i - Δw_jx/C_j              P_iy + P_jy = M_i Δv_iy + M_j Δv_jy
  *     P = M_j Δv_jy - P_jy                             P2 = Δw_ix/C_i - P_iy
  */
@@ -32,9 +34,11 @@ static carom_detail empty_report(void) {
   return (carom_detail){.stick = CAROM_STICK_NEVER, .stick_normal = NAN};
 }
 
-/* From the integrals of reduced.h. `compression`: int v_n dp up to v_n = 0; p_stick is NaN for balls that do not stick. */
-static carom_detail report_of_integrals(const carom_frame *frame, const carom_reduced *c, const carom_local *before,
-                                        const carom_integrals *g, double compression, double p_stick, bool in_compression) {
+/* From the integrals of reduced.h. `compression`: int v_n dp up to v_n = 0; p_stick is NaN for
+ * balls that do not stick. */
+static carom_detail report_of_integrals(const carom_frame *frame, const carom_reduced *c,
+                                        const carom_local *before, const carom_integrals *g,
+                                        double compression, double p_stick, bool in_compression) {
   const double M = c->j_pressed ? before->M_j : before->M_i, sign = c->j_pressed ? -1 : 1;
   carom_detail d = {.normal = M * g->p,
                     .work_compression = -M * compression,
@@ -48,8 +52,8 @@ static carom_detail report_of_integrals(const carom_frame *frame, const carom_re
   return d;
 }
 
-static carom_detail report_of_solution(const carom_frame *frame, const carom_local *before, const float solution[OUT_COLUMNS],
-                                       int evaluations) {
+static carom_detail report_of_solution(const carom_frame *frame, const carom_local *before,
+                                       const float solution[OUT_COLUMNS], int evaluations) {
   carom_reduced c = carom_reduce(before);
   const double unit = -c.v_n / c.kappa, u = sqrt(c.u_x * c.u_x + c.u_z * c.u_z);
   /* as in rows.h */
@@ -70,26 +74,29 @@ static carom_detail report_of_solution(const carom_frame *frame, const carom_loc
   /* v = v_n / kappa in units of `unit`, with the slope 1 - f: see problem.h */
   const double compression = c.kappa * unit * unit * ((double)solution[OUT_K_C] - 0.5),
                p_stick = unit * (double)solution[OUT_STICK];
-  carom_detail d =
-      report_of_integrals(frame, &c, before, &g, compression, stick ? p_stick : NAN, c.v_n + c.kappa * p_stick - g.F_y < 0);
+  carom_detail d = report_of_integrals(frame, &c, before, &g, compression, stick ? p_stick : NAN,
+                                       c.v_n + c.kappa * p_stick - g.F_y < 0);
   d.evaluations = evaluations;
   return d;
 }
 
-static carom_detail report_of_trajectory(const carom_frame *frame, const carom_local *before, const carom_trajectory *path) {
+static carom_detail report_of_trajectory(const carom_frame *frame, const carom_local *before,
+                                         const carom_trajectory *path) {
   const carom_reduced c = carom_reduce(before);
   const carom_integrals all = carom_precise_integrals(&c, path);
   const double p_stick = -c.v_n * path->p_stick;
-  carom_detail d = report_of_integrals(frame, &c, before, &all, -(c.v_n * c.v_n) * path->W_c, p_stick,
-                                       c.v_n + c.kappa * p_stick - all.F_y < 0);
+  carom_detail d = report_of_integrals(frame, &c, before, &all, -(c.v_n * c.v_n) * path->W_c,
+                                       p_stick, c.v_n + c.kappa * p_stick - all.F_y < 0);
   d.evaluations = 8 * path->iterations;
   return d;
 }
 
-static carom_detail report_of_euler(const carom_frame *frame, const carom_local *before, const carom_local *after,
-                                    const carom_euler_run *run) {
-  const double C_i = 5.0 / (2.0 * before->M_i * before->R), C_j = 5.0 / (2.0 * before->M_j * before->R);
-  const double turned_i = (after->w_ix - before->w_ix) / C_i, turned_j = (after->w_jx - before->w_jx) / C_j;
+static carom_detail report_of_euler(const carom_frame *frame, const carom_local *before,
+                                    const carom_local *after, const carom_euler_run *run) {
+  const double C_i = 5.0 / (2.0 * before->M_i * before->R),
+               C_j = 5.0 / (2.0 * before->M_j * before->R);
+  const double turned_i = (after->w_ix - before->w_ix) / C_i,
+               turned_j = (after->w_jx - before->w_jx) / C_j;
   const double pushed_j = before->M_j * (after->v_jy - before->v_jy);
   const double both = before->M_i * (after->v_iy - before->v_iy) + pushed_j;
   const double P_iy = 0.5 * (both + turned_i - turned_j), P_jy = 0.5 * (both - turned_i + turned_j);
@@ -107,10 +114,12 @@ static carom_detail report_of_euler(const carom_frame *frame, const carom_local 
 
 /* ---- One collision ---- */
 
-static bool solve_by_collocation(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+static bool solve_by_collocation(const carom_impact *in, const carom_options *opt,
+                                 carom_result *out, carom_detail *detail) {
   float solution[OUT_COLUMNS];
   const int evaluations =
-      carom_kernels_of_call(opt->plain)->call[CAROM_F64](in, carom_spin_sign(opt->slip), out, detail == NULL ? NULL : solution);
+      carom_kernels_of_call(opt->plain)
+          ->call[CAROM_F64](in, carom_spin_sign(opt->slip), out, detail == NULL ? NULL : solution);
   if (evaluations > 0 && detail != NULL) {
     const carom_frame frame = carom_frame_of(in);
     const carom_local before = carom_to_frame(&frame, in, opt->slip);
@@ -119,7 +128,8 @@ static bool solve_by_collocation(const carom_impact *in, const carom_options *op
   return evaluations > 0;
 }
 
-static carom_status solve_exact(const carom_frame *frame, carom_local *local, int plain, carom_detail *detail) {
+static carom_status solve_exact(const carom_frame *frame, carom_local *local, int plain,
+                                carom_detail *detail) {
   const carom_reduced c = carom_reduce(local);
   carom_trajectory path;
   const carom_status status = carom_precise(&c, CAROM_PRECISE_TOLERANCE, plain, &path);
@@ -130,7 +140,8 @@ static carom_status solve_exact(const carom_frame *frame, carom_local *local, in
   return status;
 }
 
-static carom_status solve_euler(const carom_frame *frame, carom_local *local, int steps, carom_detail *detail) {
+static carom_status solve_euler(const carom_frame *frame, carom_local *local, int steps,
+                                carom_detail *detail) {
   const carom_local before = *local;
   carom_euler_run run;
   const carom_status status = carom_euler(local, steps, INT64_MAX, &run);
@@ -139,8 +150,8 @@ static carom_status solve_euler(const carom_frame *frame, carom_local *local, in
   return status;
 }
 
-static carom_status collide_one_pair(const carom_impact *in, const carom_options *opt, carom_result *out,
-                                     carom_detail *detail) {
+static carom_status collide_one_pair(const carom_impact *in, const carom_options *opt,
+                                     carom_result *out, carom_detail *detail) {
   if (opt->solver == CAROM_SOLVER_EXACT && solve_by_collocation(in, opt, out, detail))
     return CAROM_OK;
   int field;
@@ -157,15 +168,17 @@ static carom_status collide_one_pair(const carom_impact *in, const carom_options
     carom_copy_state(in, out);
     return CAROM_SEPARATING;
   }
-  const carom_status status = opt->solver == CAROM_SOLVER_EXACT ? solve_exact(&frame, &local, opt->plain, detail)
-                                                                : solve_euler(&frame, &local, carom_steps(opt), detail);
+  const carom_status status = opt->solver == CAROM_SOLVER_EXACT
+                                  ? solve_exact(&frame, &local, opt->plain, detail)
+                                  : solve_euler(&frame, &local, carom_steps(opt), detail);
   if (status != CAROM_OK)
     return status;
   carom_from_frame(&frame, &local, out);
   return carom_result_is_finite(out) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }
 
-carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt, carom_result *out, carom_detail *detail) {
+carom_status carom_collide_detail(const carom_impact *in, const carom_options *opt,
+                                  carom_result *out, carom_detail *detail) {
   if (detail != NULL)
     *detail = empty_report();
   if (in == NULL || out == NULL)
@@ -207,14 +220,16 @@ static carom_status to_single(carom_status status, const carom_result *in, carom
   return CAROM_ERROR_OVERFLOW;
 }
 
-carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt, carom_result_f32 *out) {
+carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *opt,
+                               carom_result_f32 *out) {
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
   const carom_options defaults = {0};
   if (opt == NULL)
     opt = &defaults;
   if (opt->solver == CAROM_SOLVER_EXACT && carom_check_options(opt) == CAROM_OK &&
-      carom_kernels_of_call(opt->plain)->call[CAROM_F32](in, carom_spin_sign(opt->slip), out, NULL) > 0)
+      carom_kernels_of_call(opt->plain)
+              ->call[CAROM_F32](in, carom_spin_sign(opt->slip), out, NULL) > 0)
     return CAROM_OK;
   carom_impact wide;
   carom_result result;
@@ -222,7 +237,8 @@ carom_status carom_collide_f32(const carom_impact_f32 *in, const carom_options *
   return to_single(carom_collide(&wide, opt, &result), &result, out);
 }
 
-carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt, void *out) {
+carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt,
+                               void *out) {
   return precision == CAROM_F64 ? carom_collide(in, opt, out) : carom_collide_f32(in, opt, out);
 }
 
@@ -237,11 +253,14 @@ typedef struct batch {
 
 static size_t solve_part(const void *job, size_t from, size_t end) {
   const batch *b = job;
-  return from + carom_solve_rows(b->precision, b->in + from * carom_impact_size(b->precision), end - from, b->opt,
-                                 b->out + from * carom_result_size(b->precision), b->status != NULL ? b->status + from : NULL);
+  return from + carom_solve_rows(b->precision, b->in + from * carom_impact_size(b->precision),
+                                 end - from, b->opt,
+                                 b->out + from * carom_result_size(b->precision),
+                                 b->status != NULL ? b->status + from : NULL);
 }
 
-/* Fewer pairs than this are not worth a thread: about 50 us of work, some times what starting one costs. */
+/* Fewer pairs than this are not worth a thread: about 50 us of work, some times what starting
+ * one costs. */
 static size_t least_part(const carom_options *opt) {
   const size_t exact = 4096, least = 4, euler = 4000 / (size_t)carom_steps(opt);
   if (opt->solver != CAROM_SOLVER_EULER)
@@ -249,8 +268,8 @@ static size_t least_part(const carom_options *opt) {
   return euler > least ? euler : least;
 }
 
-static carom_status collide_batch(carom_precision precision, const void *in, size_t n, const carom_options *opt, void *out,
-                                  int8_t *status) {
+static carom_status collide_batch(carom_precision precision, const void *in, size_t n,
+                                  const carom_options *opt, void *out, int8_t *status) {
   const carom_options defaults = {0};
   if (opt == NULL)
     opt = &defaults;
@@ -265,21 +284,22 @@ static carom_status collide_batch(carom_precision precision, const void *in, siz
     return CAROM_OK;
   /* Only its index came back through the threads; doing the pair again tells its status. */
   carom_result unused;
-  return carom_collide_one(precision, job.in + first_bad * carom_impact_size(precision), opt, &unused);
+  return carom_collide_one(precision, job.in + first_bad * carom_impact_size(precision), opt,
+                           &unused);
 }
 
-carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt, carom_result *out,
-                                 int8_t *status) {
+carom_status carom_collide_batch(const carom_impact *in, size_t n, const carom_options *opt,
+                                 carom_result *out, int8_t *status) {
   return collide_batch(CAROM_F64, in, n, opt, out, status);
 }
 
-carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt, carom_result_f32 *out,
-                                     int8_t *status) {
+carom_status carom_collide_batch_f32(const carom_impact_f32 *in, size_t n, const carom_options *opt,
+                                     carom_result_f32 *out, int8_t *status) {
   return collide_batch(CAROM_F32, in, n, opt, out, status);
 }
 
-/* ---- Friction around the collision: between the balls, by the speed of their slip; and what the cloth makes of a ball later
- * ---- */
+/* ---- Friction around the collision: between the balls, by the speed of their slip; and what
+ * the cloth makes of a ball later ---- */
 
 carom_speed_law carom_alciatore(void) {
   return (carom_speed_law){.a = 0.009951, .b = 0.108, .c = 1.088};
@@ -295,8 +315,10 @@ double carom_mu_ball(const carom_impact *in, carom_speed_law law) {
   return carom_friction_at(&law, sqrt(u_x * u_x + u_z * u_z));
 }
 
-void carom_rolling_velocity(const double v[3], const double w[3], double radius, double rolling[3]) {
-  const double x = (5.0 * v[0] + 2.0 * radius * w[1]) / 7.0; /* first both: `rolling` may be v or w */
+void carom_rolling_velocity(const double v[3], const double w[3], double radius,
+                            double rolling[3]) {
+  /* first both: `rolling` may be v or w */
+  const double x = (5.0 * v[0] + 2.0 * radius * w[1]) / 7.0;
   rolling[1] = (5.0 * v[1] - 2.0 * radius * w[0]) / 7.0;
   rolling[0] = x;
   rolling[2] = 0.0;

@@ -1,20 +1,23 @@
-/* The exact limit by collocation: which step comes next, and the loop of steps, of one collision with all nodes of a step in a
- * register (CAROM_LANES_ONE), or of one step of many collisions, one in each lane. batch.c sorts collisions by the step that
- * they need next.
+/* The exact limit by collocation: which step comes next, and the loop of steps, of one collision
+ * with all nodes of a step in a register (CAROM_LANES_ONE), or of one step of many collisions,
+ * one in each lane. batch.c sorts collisions by the step that they need next.
  *
- * THE KINDS OF STEPS. q is the share of |u| that a collision would lose up to its end at the present rate. If q is small and
- * the direction of the cloth slip is smooth, one step in the impulse ends the collision: with four nodes (EASY), with six
- * (FULL) or, where much of |u| is lost, with eight graded ones (FULL_GRADED). If the balls will stick, and |u| is so small that
- * the error of a step to there does not count, that step ends it (STICK); else a step takes away most of |u| first (PART).
- * Where the cloth slip passes near zero, steps whose nodes lie close together there lose less of |u| at a time (TURN).
+ * THE KINDS OF STEPS. q is the share of |u| that a collision would lose up to its end at the
+ * present rate. If q is small and the direction of the cloth slip is smooth, one step in the
+ * impulse ends the collision: with four nodes (EASY), with six (FULL) or, where much of |u| is
+ * lost, with eight graded ones (FULL_GRADED). If the balls will stick, and |u| is so small that
+ * the error of a step to there does not count, that step ends it (STICK); else a step takes away
+ * most of |u| first (PART). Where the cloth slip passes near zero, steps whose nodes lie close
+ * together there lose less of |u| at a time (TURN).
  *
- * SMOOTHNESS. While d moves along a straight line, t is analytic in the ellipse with foci at the ends of the step that passes
- * through the zeros of |d|^2. With rho the sum of its half axes over the half length of the step, n Gauss nodes converge like
- * rho^-2n. For a TURN step, whose map takes the zeros to xi = +- i pi / 2, the same holds with the range of xi.
+ * SMOOTHNESS. While d moves along a straight line, t is analytic in the ellipse with foci at the
+ * ends of the step that passes through the zeros of |d|^2. With rho the sum of its half axes
+ * over the half length of the step, n Gauss nodes converge like rho^-2n. For a TURN step, whose
+ * map takes the zeros to xi = +- i pi / 2, the same holds with the range of xi.
  *
- * ACCEPTANCE. A step is accepted if its error estimate is below the tolerance. If it is not, a TURN step is tried, and then
- * TURN steps of half the length. After MOST_ATTEMPTS steps, or if they get too short, collocation refuses the collision, and
- * the precise solver takes it. */
+ * ACCEPTANCE. A step is accepted if its error estimate is below the tolerance. If it is not, a
+ * TURN step is tried, and then TURN steps of half the length. After MOST_ATTEMPTS steps, or if
+ * they get too short, collocation refuses the collision, and the precise solver takes it. */
 #include "ball_ball/impulse_step.h"
 #include "ball_ball/kernels.h"
 #include "ball_ball/stick_step.h"
@@ -24,32 +27,42 @@ enum { EASY_NODES = 4, FULL_NODES = 6 }; /* of STICK: stick_step.h; of all other
 enum { EASY_MOST = 3, FULL_MOST = 4, GRADED_MOST = 5, TURN_MOST = 6 };
 enum { MOST_ATTEMPTS = 14 };
 
-/* Found by trial with `carom-lab stress --draws 60000`, which prints the largest errors in units of the fastest speed: 3.5e-7
- * for the paper's slip and 4.4e-7 for pooltool's. Times are of collisions of play, measured to about 4 %. At twice and at half:
+/* Found by trial with `carom-lab stress --draws 60000`, which prints the largest errors in units
+ * of the fastest speed: 3.5e-7 for the paper's slip and 4.4e-7 for pooltool's. Times are of
+ * collisions of play, measured to about 4 %. At twice and at half:
  *
  *     EASY_SHARE, BEND_8    nothing changes at either
  *     MOST_EASY_Q           twice: nothing changes; half: calls take 4 % longer, batches 9 %
  *     FULL_Q                twice: errors to 7.6e-7; half: calls take 4 % longer, batches 5 %
  *     BEND_4                twice: calls and batches take 4 % longer; half: nothing changes
- *     TURN_Q                twice: errors to 1.2e-6; half: 0.03 % go to the precise solver, not 0.01 %
+ *     TURN_Q                twice: errors to 1.2e-6; half: 0.03 % go to the precise solver, not
+ *                           0.01 %
  *     WIDEST_RANGE          twice: errors to 1.1e-6; half: 0.02 % go to the precise solver
  *     LEAST_PART            twice: errors to 5.2e-7; half: nothing changes
- *     TURN_SHARE            twice: 0.02 % go to the precise solver with pooltool's slip; half: nothing changes */
-static const float EASY_SHARE = 6;            /* error of an EASY step over mu_b rho^-8 with rho for u, */
+ *     TURN_SHARE            twice: 0.02 % go to the precise solver with pooltool's slip; half:
+ *                           nothing changes */
+static const float EASY_SHARE = 6;            /* error of an EASY step over mu_b rho^-8 with rho
+                                                 for u, */
 static const float MOST_EASY_Q = 0.62f;       /* its q */
 static const float MOST_EASY_MU_MU_B = 5e-3f; /* and its mu mu_b q^2 */
 static const float FULL_Q = 0.66f;            /* q of a FULL step over even nodes, */
 static const float FULL_GRADED_Q = 0.96f;     /* and over graded ones */
 static const float BEND_4 = 20,
-                   BEND_8 = 30;     /* by q^2: what a way that is not straight adds to the error, with 4 nodes and with more */
+                   BEND_8 = 30;     /* by q^2: what a way that is not straight adds to the error,
+                                       with 4 nodes and with more */
 static const float STICK_Q = 1.05f; /* q from which the balls will stick */
 static const float TURN_Q = 0.5f;   /* q of a TURN step */
 static const float LEFT_Q = 0.5f;   /* q that a PART would leave; */
-static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f; /* its share of |u|, and of q */
-static const float LEAST_DELTA = 1e-5f, LEAST_DELTA_SENSITIVE = 1e-3f;       /* delta of a TURN step; of sensitive collisions */
-static const float WIDEST_RANGE = 4.5f;                                      /* of xi of a TURN step */
-static const float TURN_SHARE = 350;                                         /* its error over (mu mu_b sigma)^2 L rho^-16 */
-static const float LEAST_SHARE = 0.1f;                                       /* of its usual length */
+/* its share of |u|, and of q */
+static const float LEAST_PART = 0.3f, MOST_PART = 0.85f, MOST_OF_WAY = 0.8f;
+/* delta of a TURN step; of sensitive collisions */
+static const float LEAST_DELTA = 1e-5f, LEAST_DELTA_SENSITIVE = 1e-3f;
+/* of xi of a TURN step */
+static const float WIDEST_RANGE = 4.5f;
+/* its error over (mu mu_b sigma)^2 L rho^-16 */
+static const float TURN_SHARE = 350;
+/* of its usual length */
+static const float LEAST_SHARE = 0.1f;
 
 #define separate static __attribute__((noinline)) /* the inlined text of a step is long */
 
@@ -66,17 +79,20 @@ typedef struct collision {
   state s;
   vreal to_end;   /* p to the end, if no more work were done on the cloth's friction */
   prediction g;   /* for that way */
-  vreal share;    /* of its usual length that a TURN step may have, after refusals from this state */
+  vreal share;    /* of its usual length that a TURN step may have, after refusals from this
+                     state */
   vmask careful;  /* a step from this state was refused: only TURN steps now */
   vreal attempts; /* steps tried so far, but for an easy step at the start */
 } collision;
 
-/* An upper bound of 1 / rho for a step of a length. The sum of the distances of a zero of |d|^2 to the ends of the step is
- * |d_0| + |d_1| over the rate of d, so that rho + 1 / rho = 2 (|d_0| + |d_1|) / |d_1 - d_0|. Friction of the cloth shortens d
- * on the way, in a direction that is not known: its size is subtracted. */
+/* An upper bound of 1 / rho for a step of a length. The sum of the distances of a zero of |d|^2
+ * to the ends of the step is |d_0| + |d_1| over the rate of d, so that rho + 1 / rho = 2 (|d_0|
+ * + |d_1|) / |d_1 - d_0|. Friction of the cloth shortens d on the way, in a direction that is
+ * not known: its size is subtracted. */
 always vreal inverse_rho(const problem *a, const state *s, const prediction *g, vreal length) {
   const float own = a->spin < 1 ? 1 - a->spin : 0;
-  const vreal g_x = length * (a->mu_b * g->c), g_y = length * v_fma(-a->spin * a->mu_b, g->z, v_splat(1)), tiny = v_splat(TINY);
+  const vreal g_x = length * (a->mu_b * g->c),
+              g_y = length * v_fma(-a->spin * a->mu_b, g->z, v_splat(1)), tiny = v_splat(TINY);
   /* d at the end of the step, and |d| at both ends */
   const vreal d_x = s->d_x - g_x, d_y = s->d_y - g_y;
   const vreal d_0 = root(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, tiny))),
@@ -88,83 +104,107 @@ always vreal inverse_rho(const problem *a, const state *s, const prediction *g, 
 }
 
 /* The same up to the end or to stick, whichever comes first. */
-always vreal inverse_rho_ahead(const problem *a, const state *s, const prediction *g, vreal to_end) {
+always vreal inverse_rho_ahead(const problem *a, const state *s, const prediction *g,
+                               vreal to_end) {
   return inverse_rho(a, s, g, v_min(to_end, v_reciprocal(g->rate)));
 }
 
-/* Is the direction of the cloth slip smooth enough for n nodes? d moves along a straight line the less, the more of |u| is
- * lost. */
+/* Is the direction of the cloth slip smooth enough for n nodes? d moves along a straight line
+ * the less, the more of |u| is lost. */
 always vmask is_smooth(int n, const problem *a, const prediction *g, vreal length, vreal inverse) {
   const vreal inverse_4 = power_4(inverse), inverse_8 = inverse_4 * inverse_4, q = g->rate * length;
   const vreal left_out =
-      a->mu_mu_b * g->z * length * (n == 4 ? 4 * inverse_8 : (n == 6 ? 6.0f : 2.0f) * (inverse_8 * inverse_8));
+      a->mu_mu_b * g->z * length *
+      (n == 4 ? 4 * inverse_8 : (n == 6 ? 6.0f : 2.0f) * (inverse_8 * inverse_8));
   return v_less(left_out * v_fma((n == 4 ? BEND_4 : BEND_8) * q, q, v_splat(1)), a->tolerance);
 }
 
-/* Will an EASY step do? *g: predicted for the way to the end. |u| would reach zero at X = 1 / q, so that its ellipse has
- * rho = (1 + s) / (1 - s) with s^2 = 1 - q. */
+/* Will an EASY step do? *g: predicted for the way to the end. |u| would reach zero at X = 1 / q,
+ * so that its ellipse has rho = (1 + s) / (1 - s) with s^2 = 1 - q. */
 always vmask is_easy(const problem *a, const prediction *g, vreal to_end, vreal inverse) {
   const vreal q = g->rate * to_end, root_left = v_sqrt(v_max(1 - q, v_splat(0)));
   const vreal inverse_4 = power_4((1 - root_left) * v_rough_reciprocal(1 + root_left));
-  return v_less(EASY_SHARE * a->mu_b * (inverse_4 * inverse_4), a->tolerance) & v_less(q, v_splat(MOST_EASY_Q)) &
-         v_less(a->mu_mu_b * q * q, v_splat(MOST_EASY_MU_MU_B)) & is_smooth(4, a, g, to_end, inverse);
+  return v_less(EASY_SHARE * a->mu_b * (inverse_4 * inverse_4), a->tolerance) &
+         v_less(q, v_splat(MOST_EASY_Q)) & v_less(a->mu_mu_b * q * q, v_splat(MOST_EASY_MU_MU_B)) &
+         is_smooth(4, a, g, to_end, inverse);
 }
 
-/* The error of a step to stick, over |u|: of a tau that turns (rho^-6), or that starts without slip on the cloth; and of a W
- * that falls with a high power of lambda. */
+/* The error of a step to stick, over |u|: of a tau that turns (rho^-6), or that starts without
+ * slip on the cloth; and of a W that falls with a high power of lambda. */
 always vreal stick_error(const problem *a, const state *s, const prediction *g, vreal inverse) {
   const vreal inverse_2 = inverse * inverse, mu = a->mu;
   const vreal by_turn = 0.35f * inverse_2 * (inverse_2 * inverse_2);
-  const vreal share = mu * v_reciprocal(a->kappa - mu), from_rest = 2.6e-4f * (share * share * share) * (g->z * g->z);
+  const vreal share = mu * v_reciprocal(a->kappa - mu),
+              from_rest = 2.6e-4f * (share * share * share) * (g->z * g->z);
   const vreal by_b = 1e-4f * v_max(v_fma(-12 * mu, g->t_y, -5 * a->kappa), v_splat(0));
   return mu * (v_select(has_no_slip(a, s), from_rest, by_turn) + by_b + 1e-6f);
 }
 
-/* The TURN step from a state of a collision: where d passes nearest to zero, and how far the step may go. last: the lanes in
- * which it ends the collision; refused: those in which it would be too short, or d passes too close to zero. */
-always turn_step select_turn_step(const problem *a, const collision *c, const prediction *g, vmask *last, vmask *refused) {
+/* The TURN step from a state of a collision: where d passes nearest to zero, and how far the
+ * step may go. last: the lanes in which it ends the collision; refused: those in which it would
+ * be too short, or d passes too close to zero. */
+always turn_step select_turn_step(const problem *a, const collision *c, const prediction *g,
+                                  vmask *last, vmask *refused) {
   turn_step p;
   const state *const s = &c->s;
-  /* d' = g, with the cloth's own friction along d; and its curvature c, as u turns at the rate `angular` */
+  /* d' = g, with the cloth's own friction along d; and its curvature c, as u turns at the rate
+   * `angular` */
   const vreal own = (a->spin - 1) * a->mu_mu_b * g->z * inverse_length(s->d_x, s->d_y);
-  const vreal g_x = own * s->d_x - a->mu_b * g->c, g_y = own * s->d_y + (a->spin * a->mu_b * g->z - 1);
+  const vreal g_x = own * s->d_x - a->mu_b * g->c,
+              g_y = own * s->d_y + (a->spin * a->mu_b * g->z - 1);
   const vreal angular = -a->mu_b * g->inverse_u * g->z * g->c * a->kappa;
   const vreal c_x = -a->mu_b * g->z * angular, c_y = -a->spin * a->mu_b * g->c * angular;
-  /* p at the point of the straight line that is nearest to zero; d and its rate v there, along the curve */
-  const vreal straight = -(s->d_x * g_x + s->d_y * g_y) * v_reciprocal(g_x * g_x + g_y * g_y + TINY);
-  const vreal d_x = s->d_x + straight * (g_x + 0.5f * straight * c_x), d_y = s->d_y + straight * (g_y + 0.5f * straight * c_y);
-  const vreal v_x = g_x + straight * c_x, v_y = g_y + straight * c_y, per_v = inverse_length(v_x, v_y), per_v2 = per_v * per_v;
-  /* p_t, and delta with the sign of the side on which zero is passed: of the straight line through that point */
-  const vreal side = (d_x * v_y - d_y * v_x) * per_v2, at = straight - (d_x * v_x + d_y * v_y) * per_v2, width = v_abs(side);
+  /* p at the point of the straight line that is nearest to zero; d and its rate v there, along
+   * the curve */
+  const vreal straight =
+      -(s->d_x * g_x + s->d_y * g_y) * v_reciprocal(g_x * g_x + g_y * g_y + TINY);
+  const vreal d_x = s->d_x + straight * (g_x + 0.5f * straight * c_x),
+              d_y = s->d_y + straight * (g_y + 0.5f * straight * c_y);
+  const vreal v_x = g_x + straight * c_x, v_y = g_y + straight * c_y,
+              per_v = inverse_length(v_x, v_y), per_v2 = per_v * per_v;
+  /* p_t, and delta with the sign of the side on which zero is passed: of the straight line
+   * through that point */
+  const vreal side = (d_x * v_y - d_y * v_x) * per_v2,
+              at = straight - (d_x * v_x + d_y * v_y) * per_v2, width = v_abs(side);
 
   /* the longest step by how much of |u| it may lose, and after refusals */
-  const vreal one = v_splat(1), q = g->rate * c->to_end, reach = c->share * v_min(c->to_end, TURN_Q * v_reciprocal(g->rate));
-  /* rho^16 that the tolerance needs; the singularities at +- i pi / 2 then allow a range of xi of 2 pi / (rho - 1 / rho) */
+  const vreal one = v_splat(1), q = g->rate * c->to_end,
+              reach = c->share * v_min(c->to_end, TURN_Q * v_reciprocal(g->rate));
+  /* rho^16 that the tolerance needs; the singularities at +- i pi / 2 then allow a range of xi
+   * of 2 pi / (rho - 1 / rho) */
   const vreal cloth = a->mu_mu_b * g->z,
-              needed = v_max((TURN_SHARE * v_reciprocal(a->tolerance)) * cloth * cloth * reach, v_splat(1.0001f));
+              needed = v_max((TURN_SHARE * v_reciprocal(a->tolerance)) * cloth * cloth * reach,
+                             v_splat(1.0001f));
   const vreal rho = root(root(root(root(needed))));
-  const vreal widest = v_min(6.2831853f * v_reciprocal(rho - v_reciprocal(rho)), v_splat(WIDEST_RANGE));
+  const vreal widest =
+      v_min(6.2831853f * v_reciprocal(rho - v_reciprocal(rho)), v_splat(WIDEST_RANGE));
 
-  /* a zero far from the step is as good as one that is nearer by and wider: p_t near the step, delta within bounds */
+  /* a zero far from the step is as good as one that is nearer by and wider: p_t near the step,
+   * delta within bounds */
   const vmask rests = has_no_slip(a, s);
   p.p_t = v_select(rests, 2 * reach, v_min(v_max(at, -reach), 2 * reach));
   const vreal moved = v_select(rests, reach, v_abs(at - p.p_t));
   p.delta = v_min(v_max(v_max(width, v_splat(LEAST_DELTA)), moved), 2 * reach);
-  /* sinh(xi) at the start and at `reach`, and how far that range leads: to `reach`, or to the widest range allowed */
-  const vreal per_delta = v_reciprocal(p.delta), sinh_0 = -p.p_t * per_delta, sinh_1 = (reach - p.p_t) * per_delta;
+  /* sinh(xi) at the start and at `reach`, and how far that range leads: to `reach`, or to the
+   * widest range allowed */
+  const vreal per_delta = v_reciprocal(p.delta), sinh_0 = -p.p_t * per_delta,
+              sinh_1 = (reach - p.p_t) * per_delta;
   const vreal from = inverse_sinh(sinh_0), range = inverse_sinh(sinh_1) - from;
-  const vreal e = ONE_OF(exponential(SPREAD(from + widest))), bound = p.p_t + 0.5f * p.delta * (e - v_reciprocal(e));
+  const vreal e = ONE_OF(exponential(SPREAD(from + widest))),
+              bound = p.p_t + 0.5f * p.delta * (e - v_reciprocal(e));
   const vmask whole = v_less_equal(range, widest);
   p.length = v_select(whole, reach, v_min(bound, reach));
   *last = whole & v_less(q, v_splat(TURN_Q)) & v_less_equal(one, c->share);
 
-  /* refused: d passes too close to zero on the step or, in a sensitive collision, shortly before it */
+  /* refused: d passes too close to zero on the step or, in a sensitive collision, shortly before
+   * it */
   const vreal least = v_select(a->sensitive, v_splat(LEAST_DELTA_SENSITIVE), v_splat(LEAST_DELTA));
   const vmask on_step = v_less(v_select(a->sensitive, -least, v_splat(0)), at) & v_less(at, reach);
-  *refused = v_less(c->share, v_splat(LEAST_SHARE)) | (v_less(width, least) & v_not(rests) & on_step);
+  *refused =
+      v_less(c->share, v_splat(LEAST_SHARE)) | (v_less(width, least) & v_not(rests) & on_step);
 
-  /* the mean of t_y along the straight line, whose parts along and across v integrate to sqrt(1 + sinh^2) and to xi; and the
-   * mean of f that follows */
+  /* the mean of t_y along the straight line, whose parts along and across v integrate to sqrt(1
+   * + sinh^2) and to xi; and the mean of f that follows */
   const vreal along = root(v_fma(sinh_1, sinh_1, one)) - root(v_fma(sinh_0, sinh_0, one)),
               across = v_select(v_less(side, v_splat(0)), v_x, -v_x) * range;
   const vreal mean_y = p.delta * per_v * v_reciprocal(reach) * v_fma(v_y, along, across);
@@ -172,34 +212,43 @@ always turn_step select_turn_step(const problem *a, const collision *c, const pr
   return p;
 }
 
-/* The prediction for a state that is not easy: up to the end or, where |u| would not last so long, to stick. */
+/* The prediction for a state that is not easy: up to the end or, where |u| would not last so
+ * long, to stick. */
 always prediction predict_ahead(const problem *a, const collision *c) {
   const vmask is_short = v_less(c->g.rate * c->to_end, v_splat(FULL_GRADED_Q));
   if (!v_any(v_not(is_short)))
     return c->g;
-  return predict(a, &c->s, v_select(is_short, c->to_end, v_min(c->to_end, v_reciprocal(c->g.rate))));
+  return predict(a, &c->s,
+                 v_select(is_short, c->to_end, v_min(c->to_end, v_reciprocal(c->g.rate))));
 }
 
-/* The share of |u| that a PART takes away: so much that LEFT_Q of the rest is lost up to the end; and the length that loses it.
+/* The share of |u| that a PART takes away: so much that LEFT_Q of the rest is lost up to the
+ * end; and the length that loses it.
  */
 always vreal part_share(vreal q) {
-  const vreal most = v_select(v_less(v_splat(STICK_Q), q), v_splat(MOST_PART), v_min(MOST_OF_WAY * q, v_splat(MOST_PART)));
+  const vreal most = v_select(v_less(v_splat(STICK_Q), q), v_splat(MOST_PART),
+                              v_min(MOST_OF_WAY * q, v_splat(MOST_PART)));
   return v_min(v_max((q - LEFT_Q) * (1 / (1 - LEFT_Q)), v_splat(LEAST_PART)), most);
 }
 always vreal part_length(const prediction *g, vreal to_end) {
   return part_share(g->rate * to_end) * v_reciprocal(g->rate);
 }
 
-/* The kind of the next step, a step_kind as a number, with the prediction for it in *ahead. inverse: 1 / rho of the way ahead.
- * at_start: the collision has not begun, and is known not to be easy. */
-always vreal next_kind(const problem *a, const collision *c, vreal inverse, bool at_start, prediction *ahead) {
+/* The kind of the next step, a step_kind as a number, with the prediction for it in *ahead.
+ * inverse: 1 / rho of the way ahead. at_start: the collision has not begun, and is known not to
+ * be easy. */
+always vreal next_kind(const problem *a, const collision *c, vreal inverse, bool at_start,
+                       prediction *ahead) {
   *ahead = predict_ahead(a, c);
   const state *const s = &c->s;
   const vreal to_end = c->to_end, q = ahead->rate * to_end, u = v_reciprocal(ahead->inverse_u);
   /* to the end by eight graded nodes, by six even ones if they are enough; or to stick */
-  const vmask full = v_less(q, v_splat(FULL_GRADED_Q)) & is_smooth(MOST_NODES, a, ahead, to_end, inverse);
-  const vmask even = full & v_less_equal(q, v_splat(FULL_Q)) & is_smooth(FULL_NODES, a, ahead, to_end, inverse);
-  const vmask stick = v_less(v_splat(STICK_Q), q) & v_less(u * stick_error(a, s, ahead, inverse), a->tolerance);
+  const vmask full =
+      v_less(q, v_splat(FULL_GRADED_Q)) & is_smooth(MOST_NODES, a, ahead, to_end, inverse);
+  const vmask even =
+      full & v_less_equal(q, v_splat(FULL_Q)) & is_smooth(FULL_NODES, a, ahead, to_end, inverse);
+  const vmask stick =
+      v_less(v_splat(STICK_Q), q) & v_less(u * stick_error(a, s, ahead, inverse), a->tolerance);
   /* a part of |u|, if t is smooth on the way that takes it away */
   vmask part = v_less_equal(v_splat(TURN_Q), q) & v_not(stick | full | c->careful);
   if (v_any(part)) {
@@ -218,22 +267,29 @@ always vreal next_kind(const problem *a, const collision *c, vreal inverse, bool
 
 /* ---- Steps of each kind, with the error estimate that they return ---- */
 
-separate vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return take_impulse_step(EASY_NODES, EASY_MOST, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
+separate vreal take_easy_step(const problem *a, const prediction *g, vreal to_end, const state *s,
+                              solution *out) {
+  return take_impulse_step(EASY_NODES, EASY_MOST, a, g, s, length_to_end(a, g, to_end), NULL,
+                           v_all(), NULL, out);
 }
-separate vreal take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s, solution *out) {
-  return take_impulse_step(FULL_NODES, FULL_MOST, a, g, s, length_to_end(a, g, to_end), NULL, v_all(), NULL, out);
+separate vreal take_full_step(const problem *a, const prediction *g, vreal to_end, const state *s,
+                              solution *out) {
+  return take_impulse_step(FULL_NODES, FULL_MOST, a, g, s, length_to_end(a, g, to_end), NULL,
+                           v_all(), NULL, out);
 }
-separate vreal take_graded_step(const problem *a, const prediction *g, vreal length, vmask last, const state *s, state *next,
-                                solution *out) {
+separate vreal take_graded_step(const problem *a, const prediction *g, vreal length, vmask last,
+                                const state *s, state *next, solution *out) {
   return take_impulse_step(MOST_NODES, GRADED_MOST, a, g, s, length, NULL, last, next, out);
 }
-separate vreal take_turn_step(const problem *a, const turn_step *p, vmask last, const state *s, state *next, solution *out) {
+separate vreal take_turn_step(const problem *a, const turn_step *p, vmask last, const state *s,
+                              state *next, solution *out) {
   const prediction g = predict(a, s, p->length);
-  const vreal length = v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
+  const vreal length =
+      v_select(last, p->length * v_fma(p->mean_f, 1 + p->mean_f, v_splat(1)), p->length);
   return take_impulse_step(MOST_NODES, TURN_MOST, a, &g, s, length, p, last, next, out);
 }
-separate vreal take_stick_step(const problem *a, const prediction *g, const state *s, solution *out) {
+separate vreal take_stick_step(const problem *a, const prediction *g, const state *s,
+                               solution *out) {
   return stick_step(a, g, s, out);
 }
 
@@ -244,17 +300,19 @@ enum { MOST_UNCONVERGED = LANES / 8 };
 
 /* At the start. */
 always collision collision_of(const problem *a, in_column *in) {
-  collision c = {.s = state_of(a, in), .to_end = 1 + a->e, .share = v_splat(1), .careful = v_not(v_all())};
+  collision c = {
+      .s = state_of(a, in), .to_end = 1 + a->e, .share = v_splat(1), .careful = v_not(v_all())};
   c.attempts = v_splat(0);
   c.g = predict(a, &c.s, c.to_end);
   return c;
 }
 
-/* Puts collisions at their start, and solves those that an EASY step solves, which is most. Returns these lanes, with *out. In
- * others, *kind is what comes next, and *ahead is predicted for that. A lane that the others did not wait for gets EASY again.
+/* Puts collisions at their start, and solves those that an EASY step solves, which is most.
+ * Returns these lanes, with *out. In others, *kind is what comes next, and *ahead is predicted
+ * for that. A lane that the others did not wait for gets EASY again.
  */
-always vmask begin_collision(const problem *a, in_column *in, vmask good, collision *c, vreal *kind, prediction *ahead,
-                             solution *out) {
+always vmask begin_collision(const problem *a, in_column *in, vmask good, collision *c, vreal *kind,
+                             prediction *ahead, solution *out) {
   *c = collision_of(a, in);
   const vreal inverse = inverse_rho_ahead(a, &c->s, &c->g, c->to_end);
   const vmask easy = good & is_easy(a, &c->g, c->to_end, inverse);
@@ -284,10 +342,12 @@ always vmask begin_collision(const problem *a, in_column *in, vmask good, collis
   return solved;
 }
 
-/* Takes a step of a kind, for which *ahead has been predicted. Returns the lanes that it solved, with *out; in the others the
- * collision goes on behind the step or, where it was refused, will be more careful, and *next is the kind of what comes next,
- * or REFUSED, with the prediction for it in *ahead. */
-always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead, collision *c, solution *out, vreal *next) {
+/* Takes a step of a kind, for which *ahead has been predicted. Returns the lanes that it solved,
+ * with *out; in the others the collision goes on behind the step or, where it was refused, will
+ * be more careful, and *next is the kind of what comes next, or REFUSED, with the prediction for
+ * it in *ahead. */
+always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead, collision *c,
+                       solution *out, vreal *next) {
   const state *const s = &c->s;
   const vreal to_end = c->to_end;
   state behind;
@@ -338,7 +398,8 @@ static const int evaluations_of[STEP_KINDS] = {
     [FULL_GRADED] = MOST_NODES * (GRADED_MOST + 1), [STICK] = STICK_NODES * (STICK_MOST + 1),
     [PART] = MOST_NODES * (GRADED_MOST + 1),        [TURN] = MOST_NODES * (TURN_MOST + 1)};
 
-int KERNEL(carom_collocate)(const float in[IN_COLUMNS], float spin, float tolerance, float out[OUT_COLUMNS]) {
+int KERNEL(carom_collocate)(const float in[IN_COLUMNS], float spin, float tolerance,
+                            float out[OUT_COLUMNS]) {
   const problem a = problem_of(in, spin, tolerance);
   collision c;
   solution answer;
@@ -360,7 +421,8 @@ int KERNEL(carom_collocate)(const float in[IN_COLUMNS], float spin, float tolera
 
 #else
 
-_Static_assert(LANE_STATE + (int)STATE_COLUMNS == LANE_RESTITUTION, "the columns of a state come first");
+_Static_assert(LANE_STATE + (int)STATE_COLUMNS == LANE_RESTITUTION,
+               "the columns of a state come first");
 
 static collision load_collision(const problem *a, lane_state at) {
   collision c = {.share = v_load(at[LANE_SHARE]), .attempts = v_load(at[LANE_ATTEMPTS])};
@@ -373,26 +435,29 @@ static collision load_collision(const problem *a, lane_state at) {
 }
 
 static void store_collision(const collision *c, lane_state at) {
-  lanes_unrolled for (int k = 0; k < STATE_COLUMNS; k++) v_store(at[LANE_STATE + k], c->s.column[k]);
+  lanes_unrolled for (int k = 0; k < STATE_COLUMNS; k++)
+      v_store(at[LANE_STATE + k], c->s.column[k]);
   v_store(at[LANE_RESTITUTION], v_select(c->s.restitution, v_splat(1), v_splat(0)));
   v_store(at[LANE_SHARE], c->share);
   v_store(at[LANE_CAREFUL], v_select(c->careful, v_splat(1), v_splat(0)));
   v_store(at[LANE_ATTEMPTS], c->attempts);
 }
 
-/* What comes next after a step, in the lanes that it solved and in others. Returns whether there are others. */
+/* What comes next after a step, in the lanes that it solved and in others. Returns whether there
+ * are others. */
 static bool store_kinds(vmask solved, vmask others, vreal kind, lanes_by_step next) {
   memset(next, 0, sizeof(lanes_by_step));
   next[SOLVED] = v_bits(solved);
   if (!v_any(others))
     return false;
   kind = choose_kind(solved, SOLVED, kind);
-  lanes_unrolled for (int k = 0; k < STEP_ENDS; k++) next[k] = v_bits(v_equal(kind, v_splat((float)k)));
+  lanes_unrolled for (int k = 0; k < STEP_ENDS; k++) next[k] =
+      v_bits(v_equal(kind, v_splat((float)k)));
   return true;
 }
 
-void KERNEL(carom_first_step)(step_inputs in, uint32_t good, float spin, float tolerance, step_outputs out,
-                              lanes_by_step next) {
+void KERNEL(carom_first_step)(step_inputs in, uint32_t good, float spin, float tolerance,
+                              step_outputs out, lanes_by_step next) {
   const problem a = problem_of(in, spin, tolerance);
   const vmask lanes = v_from_bits(good);
   collision c;
@@ -405,8 +470,8 @@ void KERNEL(carom_first_step)(step_inputs in, uint32_t good, float spin, float t
   store_kinds(solved, lanes & v_not(solved), kind, next);
 }
 
-void KERNEL(carom_next_step)(enum step_kind kind, int at_start, step_inputs in, float spin, float tolerance, lane_state at,
-                             step_outputs out, lanes_by_step next) {
+void KERNEL(carom_next_step)(enum step_kind kind, int at_start, step_inputs in, float spin,
+                             float tolerance, lane_state at, step_outputs out, lanes_by_step next) {
   const problem a = problem_of(in, spin, tolerance);
   collision c = at_start ? collision_of(&a, in) : load_collision(&a, at);
   if (at_start && kind == EASY) /* lanes that the first step did not wait for: it does not count */

@@ -1,35 +1,44 @@
 /* Mathavan's method: Euler's rule in the normal impulse, as the simulator pooltool does it.
  *
- * Contact A is ball on ball, D is ball i on the cloth, B is ball j on the cloth. The slip velocities are
+ * Contact A is ball on ball, D is ball i on the cloth, B is ball j on the cloth. The slip
+ * velocities are
  *
  *     at A:  u_x = v_ix - v_jx - R (w_iz + w_jz)      u_z = R (w_ix + w_jx)
  *     at D:  d_x = v_ix + s R w_iy                    d_y = v_iy - s R w_ix
- *     at B:  b_x = v_jx + s R w_jy                    b_y = v_jy - s R w_jx          v_n = v_jy - v_iy
+ *     at B:  b_x = v_jx + s R w_jy                    b_y = v_jy - s R w_jx
+ *     v_n = v_jy - v_iy
  *
  * A step gives the normal impulse ΔP and the friction that Coulomb's law derives from it:
  *
- *     ΔP1 = -μ_b ΔP u_x/|u|   along x on ball i      ΔP2 = -μ_b ΔP u_z/|u|   along z on ball i
+ *     ΔP1 = -μ_b ΔP u_x/|u|   along x on ball i
+ *     ΔP2 = -μ_b ΔP u_z/|u|   along z on ball i
  *     ΔP2 > 0 presses ball j into the cloth:         (ΔP_jx, ΔP_jy) = -μ_j ΔP2 (b_x, b_y)/|b|
  *     ΔP2 < 0 presses ball i into the cloth:         (ΔP_ix, ΔP_iy) =  μ_i ΔP2 (d_x, d_y)/|d|
  *
- * Compression lasts until v_n > 0; the work done by then is W_c, and the collision ends when the work reaches (1 + e²) W_c.
- * ΔP = (1 + e) M |v_n| / 2N, so that about N steps are taken; M is the harmonic mean of the masses. The error is of order 1/N.
+ * Compression lasts until v_n > 0; the work done by then is W_c, and the collision ends when the
+ * work reaches (1 + e²) W_c. ΔP = (1 + e) M |v_n| / 2N, so that about N steps are taken; M is
+ * the harmonic mean of the masses. The error is of order 1/N.
  *
- * Parity. For equal masses every result is pooltool's to the last bit, so the order of the operations below is fixed, and this
- * file must be compiled without contraction of a*b + c and without reassociation.
+ * Parity. For equal masses every result is pooltool's to the last bit, so the order of the
+ * operations below is fixed, and this file must be compiled without contraction of a*b + c and
+ * without reassociation.
  *
- * Termination. pooltool's loop never ends when the steps are so small that rounding swallows them. Here the number of steps
- * is bounded. Per unit normal impulse v_n rises by 1/M_i + 1/M_j, less at most k/M_p by the friction of the cloth, where p is
- * the pressed ball and k = μ_p μ_b <= 1. So v_n' lies between A = 1/M_i + 1/M_j - k/M_p > 0 and values above it, compression
- * takes at most |v_n|/A, restitution at most e |v_n|/A, and with ΔP as above the steps number at most
+ * Termination. pooltool's loop never ends when the steps are so small that rounding swallows
+ * them. Here the number of steps is bounded. Per unit normal impulse v_n rises by 1/M_i + 1/M_j,
+ * less at most k/M_p by the friction of the cloth, where p is the pressed ball and k = μ_p μ_b
+ * <= 1. So v_n' lies between A = 1/M_i + 1/M_j - k/M_p > 0 and values above it, compression
+ * takes at most |v_n|/A, restitution at most e |v_n|/A, and with ΔP as above the steps number at
+ * most
  *
  *     (1 + e)|v_n| / (A ΔP) = 2 N / (2 - k M/M_p),
  *
- * plus one for each phase, which ends on a whole step. Where that is more than CAROM_EULER_MOST N, as with strong friction and
- * one ball far heavier than the other, nothing is begun: the method is too slow, and says so. Rounding that doubles the number
- * has swallowed the collision: the method cannot resolve it, and says the same.
+ * plus one for each phase, which ends on a whole step. Where that is more than CAROM_EULER_MOST
+ * N, as with strong friction and one ball far heavier than the other, nothing is begun: the
+ * method is too slow, and says so. Rounding that doubles the number has swallowed the collision:
+ * the method cannot resolve it, and says the same.
  *
- * Source: the 2014 paper named in carom.h, and pooltool's frictional_mathavan model for the order of the operations.
+ * Source: the 2014 paper named in carom.h, and pooltool's frictional_mathavan model for the
+ * order of the operations.
  */
 #include "ball_ball/euler.h"
 
@@ -37,7 +46,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Twice the greatest number of steps that exact arithmetic can need; 0 if that is too many. See Termination above. */
+/* Twice the greatest number of steps that exact arithmetic can need; 0 if that is too many. See
+ * Termination above. */
 static int64_t step_bound(const carom_local *c, double M, int N) {
   const double loss_i = c->mu_i * c->mu_b * M / c->M_i;
   const double loss_j = c->mu_j * c->mu_b * M / c->M_j;

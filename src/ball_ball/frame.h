@@ -4,8 +4,8 @@
  *
  *     y = r/|r|  (line of centres)      z = (0, 0, 1)      x = y × z = (y_y, -y_x, 0)
  *
- * The order of the operations is part of the contract: it is pooltool's, so that results agree to the last bit in IEEE double
- * (sums from left to right, no fused multiply-add).
+ * The order of the operations is part of the contract: it is pooltool's, so that results agree
+ * to the last bit in IEEE double (sums from left to right, no fused multiply-add).
  */
 #ifndef CAROM_SRC_BALL_BALL_FRAME_H
 #define CAROM_SRC_BALL_BALL_FRAME_H
@@ -21,15 +21,19 @@ typedef struct carom_frame {
   double distance; /* |r|, m; 0 for centres that coincide, and then x and y are NaN. */
 } carom_frame;
 
-/* All that a solver needs and changes, in frame axes. v_z and the work of the vertical forces vanish: the balls stay down. */
+/* All that a solver needs and changes, in frame axes. v_z and the work of the vertical forces
+ * vanish: the balls stay down. */
 typedef struct carom_local {
   double v_ix, v_iy, w_ix, w_iy, w_iz; /* first ball, m/s and rad/s */
   double v_jx, v_jy, w_jx, w_jy, w_jz; /* second ball */
   double M_i, M_j, R;                  /* kg, kg, m */
-  double mu_i, mu_j, mu_b;             /* friction of i and j with the cloth, and of the balls with each other */
+  double mu_i, mu_j, mu_b;             /* friction of i and j with the cloth, and of the balls
+                                          with each other */
   double e;                            /* restitution */
-  double s;                            /* sign of the spin in the cloth slip: -1 paper, +1 pooltool */
-  double rounding;                     /* of velocities along axes that are not those of the table, m/s; else 0 */
+  double s;                            /* sign of the spin in the cloth slip: -1 paper, +1
+                                          pooltool */
+  double rounding;                     /* of velocities along axes that are not those of the
+                                          table, m/s; else 0 */
 } carom_local;
 
 /* s in the slip over the cloth, v_x + s R w_y and v_y - s R w_x. */
@@ -57,10 +61,12 @@ static inline carom_frame carom_frame_of(const carom_impact *in) {
 
 /* A speed that bounds those of the ball's surface. */
 static inline double size_of_motion(const carom_ball *b) {
-  return fabs(b->v[0]) + fabs(b->v[1]) + b->radius * (fabs(b->w[0]) + fabs(b->w[1]) + fabs(b->w[2]));
+  return fabs(b->v[0]) + fabs(b->v[1]) +
+         b->radius * (fabs(b->w[0]) + fabs(b->w[1]) + fabs(b->w[2]));
 }
 
-static inline carom_local carom_to_frame(const carom_frame *f, const carom_impact *in, carom_slip slip) {
+static inline carom_local carom_to_frame(const carom_frame *f, const carom_impact *in,
+                                         carom_slip slip) {
   return (carom_local){
       .v_ix = carom_dot(in->a.v, f->x),
       .v_iy = carom_dot(in->a.v, f->y),
@@ -80,7 +86,9 @@ static inline carom_local carom_to_frame(const carom_frame *f, const carom_impac
       .mu_b = in->mu_ball,
       .e = in->restitution,
       .s = carom_spin_sign(slip),
-      .rounding = f->x[0] == 0 || f->x[1] == 0 ? 0 : 0x1p-52 * (size_of_motion(&in->a) + size_of_motion(&in->b)),
+      .rounding = f->x[0] == 0 || f->x[1] == 0
+                      ? 0
+                      : 0x1p-52 * (size_of_motion(&in->a) + size_of_motion(&in->b)),
   };
 }
 

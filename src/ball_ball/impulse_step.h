@@ -1,21 +1,28 @@
-/* The step in the normal impulse: the directions of both slips at the nodes of a step, by collocation, and the state behind it.
- * A step ends before the collision does, or near its end, to which a Taylor series leads from there.
+/* The step in the normal impulse: the directions of both slips at the nodes of a step, by
+ * collocation, and the state behind it. A step ends before the collision does, or near its end,
+ * to which a Taylor series leads from there.
  *
- * THE EQUATIONS are those of reduced.h. With X from 0 to 1 along the step, L its length in p, c = u_x / |u|,
- * sigma = u_z / |u| and s = sigma t, the slips are linear in the integrals C, Z, S_x, S_y of c, sigma, s_x, s_y over X:
+ * THE EQUATIONS are those of reduced.h. With X from 0 to 1 along the step, L its length in p, c
+ * = u_x / |u|,
+ * sigma = u_z / |u| and s = sigma t, the slips are linear in the integrals C, Z, S_x, S_y of c,
+ * sigma, s_x, s_y over X:
  *
- *     u_x = u_x0 - 7/2 kappa mu_b L C - mu mu_b L S_x        u_z = u_z0 - 5/2 kappa mu_b L Z - 5/2 mu mu_b L S_y
- *     d_x = d_x0 - mu_b L C - (1 - 5/2 s) mu mu_b L S_x      d_y = d_y0 - L X + 5/2 s mu_b L Z - (1 - 5/2 s) mu mu_b L S_y
+ *     u_x = u_x0 - 7/2 kappa mu_b L C - mu mu_b L S_x
+ *     u_z = u_z0 - 5/2 kappa mu_b L Z - 5/2 mu mu_b L S_y
+ *     d_x = d_x0 - mu_b L C - (1 - 5/2 s) mu mu_b L S_x
+ *     d_y = d_y0 - L X + 5/2 s mu_b L Z - (1 - 5/2 s) mu mu_b L S_y
  *
- * THE PREDICTOR turns u by a series to third order, for a t that turns evenly, and lets d run with the means of the directions
- * so far.
+ * THE PREDICTOR turns u by a series to third order, for a t that turns evenly, and lets d run
+ * with the means of the directions so far.
  *
- * THE ITERATION takes the directions at the nodes through the integration matrix to the slips there, and these to new
- * directions. What the cloth does converges by itself, since mu mu_b is small. An angle rho by which u has moved would turn
- * friction the wrong way, and u back: rho less the integral of D rho, where D = mu_b L kappa (5/2 + sigma^2) / |u|, is nearly
- * what Newton's method would leave of it, since |u| falls at about the rate D |u|.
+ * THE ITERATION takes the directions at the nodes through the integration matrix to the slips
+ * there, and these to new directions. What the cloth does converges by itself, since mu mu_b is
+ * small. An angle rho by which u has moved would turn friction the wrong way, and u back: rho
+ * less the integral of D rho, where D = mu_b L kappa (5/2 + sigma^2) / |u|, is nearly what
+ * Newton's method would leave of it, since |u| falls at about the rate D |u|.
  *
- * A collision's iteration ends when its error estimate is small enough, whatever the other lanes do. */
+ * A collision's iteration ends when its error estimate is small enough, whatever the other lanes
+ * do. */
 #ifndef CAROM_SRC_BALL_BALL_IMPULSE_STEP_H
 #define CAROM_SRC_BALL_BALL_IMPULSE_STEP_H
 
@@ -24,15 +31,16 @@
 
 #include <stdbool.h>
 
-/* ---- The nodes -------------------------------------------------------------------------------------------------------- */
+/* ---- The nodes ------------------------------------------------------------------------------- */
 
-/* Where the nodes of a step lie: X, the share of its length, over the variable x of the rule. In steps of four and six nodes X
- * is x. Those of eight nodes have one of two maps:
+/* Where the nodes of a step lie: X, the share of its length, over the variable x of the rule. In
+ * steps of four and six nodes X is x. Those of eight nodes have one of two maps:
  *
  *     graded    drawn together towards where |u| would reach zero: 1 - q X = (1 - h x)^4
- *     turned    drawn together where the cloth slip turns. There it passes zero at a distance delta (in p), at p_t, and its
- *               direction t turns within a few delta. With p - p_t = delta sinh(xi), t dp/dxi is nearly a polynomial in xi,
- *               which runs evenly with x. */
+ *     turned    drawn together where the cloth slip turns. There it passes zero at a distance
+ *               delta (in p), at p_t, and its direction t turns within a few delta. With p - p_t
+ *               = delta sinh(xi), t dp/dxi is nearly a polynomial in xi, which runs evenly with
+ *               x. */
 
 always bool is_mapped(int n) {
   return n == MOST_NODES;
@@ -43,7 +51,8 @@ typedef struct mapped_nodes {
   reg X[MOST_REGS], weight[MOST_REGS];
 } mapped_nodes;
 
-/* A step over turned nodes: p_t and delta, its length, and the mean of f on it if d moved along a straight line. */
+/* A step over turned nodes: p_t and delta, its length, and the mean of f on it if d moved along
+ * a straight line. */
 typedef struct turn_step {
   vreal p_t, delta, length, mean_f;
 } turn_step;
@@ -64,7 +73,8 @@ static const float MOST_GRADING = 0.995f; /* q */
 always node_map graded_map(vreal q) {
   node_map m;
   m.q = v_min(q, v_splat(MOST_GRADING));
-  /* y = 1 - h at x = 1, where 1 - q X = y^4; then X / x = h (1 + y) (1 + y^2) / q, and h = q / ((1 + y) (1 + y^2)) */
+  /* y = 1 - h at x = 1, where 1 - q X = y^4; then X / x = h (1 + y) (1 + y^2) / q, and h = q /
+   * ((1 + y) (1 + y^2)) */
   const vreal y = root(root(1 - m.q));
   m.h = 1 - y;
   m.X_per_x = v_reciprocal((1 + y) * v_fma(y, y, v_splat(1)));
@@ -83,7 +93,8 @@ always node_map turned_map(const turn_step *p, vreal length) {
 }
 
 /* X and its slope at the nodes of a rule from 0 to a share of x. */
-always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m, vreal share, mapped_nodes *to) {
+always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m, vreal share,
+                      mapped_nodes *to) {
   if (!turned) {
     /* X = x X_per_x (1 + y) (1 + y^2) and dX/dx = 4 X_per_x y^3, with y = 1 - h x */
     const vreal h = share * m->h, to_X = share * m->X_per_x;
@@ -94,7 +105,8 @@ always void lay_nodes(bool turned, const gauss_rule *r, int n, const node_map *m
     }
   } else {
     /* X = (sinh(xi) - sinh_0) delta / L, by e^xi */
-    const vreal range = share * m->xi_range, slope = range * m->half_width, start = 2 * m->sinh_0 * m->half_width;
+    const vreal range = share * m->xi_range, slope = range * m->half_width,
+                start = 2 * m->sinh_0 * m->half_width;
     EACH_REG(k, n) {
       const reg e = exponential(MADD(range, AT(r->node, k), m->xi_0)), i = reg_reciprocal(e);
       to->X[k] = MADD(m->half_width, e - i, -start);
@@ -109,30 +121,35 @@ always vreal x_at(bool turned, const node_map *m, vreal X) {
     const vreal y = root(root(v_fma(-m->q, X, v_splat(1))));
     return X * v_reciprocal(m->X_per_x * (1 + y) * v_fma(y, y, v_splat(1)));
   }
-  return (inverse_sinh(v_fma(X, v_reciprocal(2 * m->half_width), m->sinh_0)) - m->xi_0) * v_reciprocal(m->xi_range);
+  return (inverse_sinh(v_fma(X, v_reciprocal(2 * m->half_width), m->sinh_0)) - m->xi_0) *
+         v_reciprocal(m->xi_range);
 }
 
-/* ---- The directions --------------------------------------------------------------------------------------------------- */
+/* ---- The directions -------------------------------------------------------------------------- */
 
-/* An iteration leaves an error of at least CONTRACTION times what it moved, and more by mu mu_b, for the cloth, and by q^2, for
- * u. */
-/* Found by trial with `carom-lab stress --draws 60000`. With half of CONTRACTION errors reach 3.8e-7 instead of 3.5e-7, with
- * half of CONTRACTION_CLOTH 8.1e-7; at twice, or with other CONTRACTION_Q, the largest errors do not grow. */
+/* An iteration leaves an error of at least CONTRACTION times what it moved, and more by mu mu_b,
+ * for the cloth, and by q^2, for u. */
+/* Found by trial with `carom-lab stress --draws 60000`. With half of CONTRACTION errors reach
+ * 3.8e-7 instead of 3.5e-7, with half of CONTRACTION_CLOTH 8.1e-7; at twice, or with other
+ * CONTRACTION_Q, the largest errors do not grow. */
 static const float CONTRACTION = 0.02f, CONTRACTION_CLOTH = 1.2f, CONTRACTION_Q = 0.1f;
-/* The factor of that estimate: it is too small where d passes near zero, and too large for the few nodes of smooth steps. */
+/* The factor of that estimate: it is too small where d passes near zero, and too large for the
+ * few nodes of smooth steps. */
 always float estimate_scale(int n, bool turned) {
   return turned ? 4 : n == 4 ? 0.33f : n == 6 ? 0.4f : 1;
 }
 
-/* Coefficients of the equations, times L (S_in_d: of S_x in u_x and S in d; ...); and q, the share of |u| that the step loses
- * at its first rate. */
+/* Coefficients of the equations, times L (S_in_d: of S_x in u_x and S in d; ...); and q, the
+ * share of |u| that the step loses at its first rate. */
 typedef struct coefficients {
   vreal length, mu_b, mu_mu_b, mu_mu_b_y, S_in_d, Z_in_d_y, C_in_u_x, Z_in_u_z, S_in_u_z, q;
 } coefficients;
 
 always coefficients coefficients_of(const problem *a, const prediction *g, vreal length) {
-  coefficients l = {
-      .length = length, .mu_b = a->mu_b * length, .mu_mu_b = a->mu_mu_b * length, .mu_mu_b_y = a->mu_mu_b_y * length};
+  coefficients l = {.length = length,
+                    .mu_b = a->mu_b * length,
+                    .mu_mu_b = a->mu_mu_b * length,
+                    .mu_mu_b_y = a->mu_mu_b_y * length};
   l.S_in_d = (a->spin - 1) * l.mu_mu_b;
   l.Z_in_d_y = a->spin * l.mu_b;
   l.C_in_u_x = -3.5f * (a->kappa * l.mu_b);
@@ -142,10 +159,12 @@ always coefficients coefficients_of(const problem *a, const prediction *g, vreal
   return l;
 }
 
-/* At the nodes: the directions c, z of u and s = z t; s times the weight of the node; the integral of s_y up to there. And of
- * the last iteration: the change of u, 1 / |u|, the angle by which u was turned back. */
+/* At the nodes: the directions c, z of u and s = z t; s times the weight of the node; the
+ * integral of s_y up to there. And of the last iteration: the change of u, 1 / |u|, the angle by
+ * which u was turned back. */
 typedef struct directions {
-  reg c[MOST_REGS], z[MOST_REGS], s_x[MOST_REGS], s_y[MOST_REGS], w_x[MOST_REGS], w_y[MOST_REGS], S_y[MOST_REGS];
+  reg c[MOST_REGS], z[MOST_REGS], s_x[MOST_REGS], s_y[MOST_REGS], w_x[MOST_REGS], w_y[MOST_REGS],
+      S_y[MOST_REGS];
   reg dx[MOST_REGS], dz[MOST_REGS], per_u[MOST_REGS], back[MOST_REGS];
   vmask going; /* lanes that have not converged */
   vreal error; /* estimate of what the iteration leaves, in p */
@@ -162,19 +181,21 @@ typedef struct impulse_step {
   directions f;
 } impulse_step;
 
-/* The angle w by which u turns up to X, as a series to third order. Let r = |u| / |u_0| and b = mu_b L / |u_0|. While t stays
- * constant, w' = -b f_0(w) / r and r' = -b h(w), where f_1 is -f_0' and f_2 is -(f_1 + h)' by w. Differentiated,
+/* The angle w by which u turns up to X, as a series to third order. Let r = |u| / |u_0| and b =
+ * mu_b L / |u_0|. While t stays constant, w' = -b f_0(w) / r and r' = -b h(w), where f_1 is
+ * -f_0' and f_2 is -(f_1 + h)' by w. Differentiated,
  *
  *     w'' / w' = b (f_1 + h) / r       w^(3) / w' = b^2 ((f_1 + h) (f_1 + 2 h) + f_0 f_2) / r^2
  *
- * and so w = w_1 X (1 + X b (f_1 + h) / 2 + X^2 w^(3) / (6 w')). In powers of x = X / (1 - alpha X) with alpha = b h / 2 about,
- * whose singularity stands for that of 1 / r, the series w_1 x (1 + x (second + x third)) converges faster. by_t: what a
- * turning t adds, by_t X (X - 1). */
+ * and so w = w_1 X (1 + X b (f_1 + h) / 2 + X^2 w^(3) / (6 w')). In powers of x = X / (1 - alpha
+ * X) with alpha = b h / 2 about, whose singularity stands for that of 1 / r, the series w_1 x (1
+ * + x (second + x third)) converges faster. by_t: what a turning t adds, by_t X (X - 1). */
 typedef struct turning {
   vreal alpha, w_1, second, third, by_t;
 } turning;
 
-always turning predict_turning(bool turn, const problem *a, const prediction *g, const state *s, vreal b) {
+always turning predict_turning(bool turn, const problem *a, const prediction *g, const state *s,
+                               vreal b) {
   /* u' = -mu_b (A c + E z, B z): friction of the balls, and of the cloth along the mean t */
   const vreal A = 3.5f * a->kappa, B = 2.5f * v_fma(a->mu, g->t_y, a->kappa), E = a->mu * g->t_x;
   const vreal c2 = g->c * g->c, z2 = g->z * g->z, cs = g->c * g->z, D = A - B;
@@ -183,20 +204,27 @@ always turning predict_turning(bool turn, const problem *a, const prediction *g,
               f_2 = v_fma(3 * E, c2 - z2, -6 * cs * D);
   const vreal h = v_fma(A, c2, v_fma(E, cs, B * z2)), both = f_1 + h;
   /* the coefficients, in powers of x */
-  turning w = {.alpha = b * a->kappa * v_fma(v_splat(0.5f), c2, v_splat(1.25f)), .w_1 = -b * f_0, .by_t = v_splat(0)};
+  turning w = {.alpha = b * a->kappa * v_fma(v_splat(0.5f), c2, v_splat(1.25f)),
+               .w_1 = -b * f_0,
+               .by_t = v_splat(0)};
   const vreal b_both = b * both;
   w.second = v_fma(v_splat(0.5f), b_both, -w.alpha);
-  w.third = v_fma((1 / 6.0f) * b, b * v_fma(both, v_fma(v_splat(2), h, f_1), f_0 * f_2), w.alpha * (w.alpha - b_both));
+  w.third = v_fma((1 / 6.0f) * b, b * v_fma(both, v_fma(v_splat(2), h, f_1), f_0 * f_2),
+                  w.alpha * (w.alpha - b_both));
   if (!turn) {
-    /* t differs from its mean by (2 X - 1) times half of its change, which acts across u; without slip t does not turn */
-    const vreal i_d = v_rough_reciprocal_sqrt(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, v_splat(1e-12f))));
+    /* t differs from its mean by (2 X - 1) times half of its change, which acts across u;
+     * without slip t does not turn */
+    const vreal i_d =
+        v_rough_reciprocal_sqrt(v_fma(s->d_x, s->d_x, v_fma(s->d_y, s->d_y, v_splat(1e-12f))));
     const vreal half_x = v_fma(-s->d_x, i_d, g->t_x), half_y = v_fma(-s->d_y, i_d, g->t_y);
-    w.by_t = v_select(has_no_slip(a, s), w.by_t, b * g->z * a->mu * v_fma(2.5f * half_y, g->c, -half_x * g->z));
+    w.by_t = v_select(has_no_slip(a, s), w.by_t,
+                      b * g->z * a->mu * v_fma(2.5f * half_y, g->c, -half_x * g->z));
   }
   return w;
 }
 
-/* The directions at the nodes, before any iteration. turned: d passes near zero, so that its direction half way says nothing.
+/* The directions at the nodes, before any iteration. turned: d passes near zero, so that its
+ * direction half way says nothing.
  */
 always void predict_directions(int n, bool turned, impulse_step *p) {
   const prediction *const g = p->g;
@@ -205,12 +233,14 @@ always void predict_directions(int n, bool turned, impulse_step *p) {
   directions *const f = &p->f;
   const turning turns = predict_turning(turned, p->a, g, s, l->mu_b * g->inverse_u);
   /* the cloth's own pull on d, along its direction half way */
-  const vreal own = turned ? v_splat(0) : l->S_in_d * g->z, own_x = own * g->t_x, own_y = l->length - own * g->t_y;
+  const vreal own = turned ? v_splat(0) : l->S_in_d * g->z, own_x = own * g->t_x,
+              own_y = l->length - own * g->t_y;
   const vreal half_b = 0.5f * l->mu_b, half_y = 0.5f * l->Z_in_d_y;
   EACH_REG(k, n) {
     /* u turned by w: cosine and sine to second order; sums begin with what is known first */
     const reg X = p->nodes.X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, 1.0f));
-    const reg w = MADD(turns.w_1 * x, MADD(x * x, turns.third, MADD(x, turns.second, 1.0f)), turns.by_t * (X * (X - 1)));
+    const reg w = MADD(turns.w_1 * x, MADD(x * x, turns.third, MADD(x, turns.second, 1.0f)),
+                       turns.by_t * (X * (X - 1)));
     f->c[k] = MADD(w, MADD(-0.5f * g->c, w, g->z), g->c);
     f->z[k] = MADD(w, MADD(-0.5f * g->z, w, -g->c), g->z);
     /* d along the means of the directions at the start and here */
@@ -251,12 +281,15 @@ always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_
   apply(r->sum, f->w_x, S_x, n);
   apply(r->sum, f->w_y, S_y, n);
   /* the slips that they give, and the directions of these */
-  reg u_c[MOST_REGS], u_z[MOST_REGS], t_x[MOST_REGS], t_y[MOST_REGS], rate[MOST_REGS], back[MOST_REGS], moved[MOST_REGS];
+  reg u_c[MOST_REGS], u_z[MOST_REGS], t_x[MOST_REGS], t_y[MOST_REGS], rate[MOST_REGS],
+      back[MOST_REGS], moved[MOST_REGS];
   EACH_REG(k, n) {
-    const reg du_x = MADD(l->C_in_u_x, C[k], no_x * S_x[k]), du_z = MADD(l->Z_in_u_z, Z[k], l->S_in_u_z * S_y[k]);
+    const reg du_x = MADD(l->C_in_u_x, C[k], no_x * S_x[k]),
+              du_z = MADD(l->Z_in_u_z, Z[k], l->S_in_u_z * S_y[k]);
     const reg u_x_k = s->u_x + du_x, u_z_k = s->u_z + du_z;
     const reg d_x = MADD(l->S_in_d, S_x[k], MADD(no_b, C[k], s->d_x)),
-              d_y = MADD(l->S_in_d, S_y[k], MADD(l->Z_in_d_y, Z[k], MADD(-l->length, nodes->X[k], s->d_y)));
+              d_y = MADD(l->S_in_d, S_y[k],
+                         MADD(l->Z_in_d_y, Z[k], MADD(-l->length, nodes->X[k], s->d_y)));
     const reg i_u = reg_reciprocal_sqrt(MADD(u_x_k, u_x_k, MADD(u_z_k, u_z_k, TINY)));
     const reg i_d = reg_reciprocal_sqrt(MADD(d_x, d_x, MADD(d_y, d_y, TINY)));
     u_c[k] = u_x_k * i_u;
@@ -272,11 +305,14 @@ always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_
     REG_MOVE(going, &f->dz[k], du_z);
     REG_MOVE(going, &f->per_u[k], i_u);
   }
-  /* u moves by rho less the integral of D rho: it is turned back by that; s follows. How far all has moved */
+  /* u moves by rho less the integral of D rho: it is turned back by that; s follows. How far all
+   * has moved */
   apply(r->sum, rate, back, n);
   EACH_REG(k, n) {
-    const reg c = MADD(u_z[k], back[k], u_c[k]), z = MADD(-u_c[k], back[k], u_z[k]), x = z * t_x[k], y = z * t_y[k];
-    moved[k] = MADD(a->mu, reg_abs(x - f->s_x[k]) + reg_abs(y - f->s_y[k]), reg_abs(c - f->c[k]) + reg_abs(z - f->z[k]));
+    const reg c = MADD(u_z[k], back[k], u_c[k]), z = MADD(-u_c[k], back[k], u_z[k]), x = z * t_x[k],
+              y = z * t_y[k];
+    moved[k] = MADD(a->mu, reg_abs(x - f->s_x[k]) + reg_abs(y - f->s_y[k]),
+                    reg_abs(c - f->c[k]) + reg_abs(z - f->z[k]));
     REG_MOVE(going, &f->back[k], back[k]);
     REG_MOVE(going, &f->c[k], c);
     REG_MOVE(going, &f->z[k], z);
@@ -284,26 +320,28 @@ always void iterate_directions(int n, bool turned, const gauss_rule *r, impulse_
     REG_MOVE(going, &f->s_y[k], y);
   }
   /* the error that is left, and the lanes where it is too large */
-  const vreal per_moved =
-      estimate_scale(n, turned) * l->mu_b *
-      v_fma(v_splat(CONTRACTION_CLOTH), a->mu_mu_b, v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));
+  const vreal per_moved = estimate_scale(n, turned) * l->mu_b *
+                          v_fma(v_splat(CONTRACTION_CLOTH), a->mu_mu_b,
+                                v_fma(CONTRACTION_Q * l->q, l->q, v_splat(CONTRACTION)));
   const vreal error = per_moved * largest(moved, n);
   f->error = v_select(going, error, f->error);
   f->going = going & v_not(v_less(error, ITERATION_SHARE * a->tolerance));
 }
 
-/* After the last iteration: the means over the step of c and sigma less their values at its start, and w_x, w_y. They come from
- * the change of u, not from its direction, so that small ones keep their digits. */
+/* After the last iteration: the means over the step of c and sigma less their values at its
+ * start, and w_x, w_y. They come from the change of u, not from its direction, so that small
+ * ones keep their digits. */
 always void end_iterations(int n, const gauss_rule *r, impulse_step *p, vreal *dc, vreal *dz) {
   const prediction *const g = p->g;
   const state *const s = p->s;
   directions *const f = &p->f;
   reg turned[MOST_REGS], lost[MOST_REGS];
   EACH_REG(k, n) {
-    /* the sine of the angle by which u has turned since the start, and 1 - its cosine; turned back as the iteration did */
+    /* the sine of the angle by which u has turned since the start, and 1 - its cosine; turned
+     * back as the iteration did */
     const reg u_x_k = s->u_x + f->dx[k], u_z_k = s->u_z + f->dz[k];
-    const reg sine = MADD(g->c, f->dz[k], -g->z * f->dx[k]) * f->per_u[k], e_c = MADD(u_x_k, f->per_u[k], -g->c),
-              e_z = MADD(u_z_k, f->per_u[k], -g->z);
+    const reg sine = MADD(g->c, f->dz[k], -g->z * f->dx[k]) * f->per_u[k],
+              e_c = MADD(u_x_k, f->per_u[k], -g->c), e_z = MADD(u_z_k, f->per_u[k], -g->z);
     const reg drop = 0.5f * MADD(e_c, e_c, e_z * e_z);
     turned[k] = weighed(n, &p->nodes, k, MADD(-f->back[k], 1 - drop, sine));
     lost[k] = weighed(n, &p->nodes, k, MADD(-f->back[k], sine, drop));
@@ -316,10 +354,12 @@ always void end_iterations(int n, const gauss_rule *r, impulse_step *p, vreal *d
   *dz = v_fma(g->c, sine, -g->z * drop);
 }
 
-/* ---- To the end of the collision, from a state nearby: a Taylor series, with slopes by the equations ---- */
+/* ---- To the end of the collision, from a state nearby: a Taylor series, with slopes by the
+ * equations ---- */
 
-/* The directions c, sigma and s = sigma t at a state, and their slopes in p, by the equations. bend_u, bend_d: a sixth of the
- * second derivatives of the direction of u, about, and of s, at most. fall: share of |u| that is lost per p. */
+/* The directions c, sigma and s = sigma t at a state, and their slopes in p, by the equations.
+ * bend_u, bend_d: a sixth of the second derivatives of the direction of u, about, and of s, at
+ * most. fall: share of |u| that is lost per p. */
 typedef struct end_slopes {
   vreal c, z, x, y, dc, dz, dx, dy, bend_u, bend_d, fall;
 } end_slopes;
@@ -330,16 +370,19 @@ always end_slopes slopes_at_end(const problem *a, const state *s) {
   const vreal c = s->u_x * i_u, z = s->u_z * i_u, t_x = s->d_x * i_d, t_y = s->d_y * i_d;
   end_slopes end = {.c = c, .z = z, .x = z * t_x, .y = z * t_y};
   /* u' = -mu_b (turn_x, turn_z); the rate at which u turns */
-  const vreal turn_z = 2.5f * (a->kappa * z + a->mu * end.y), turn_x = 3.5f * a->kappa * c + a->mu * end.x;
+  const vreal turn_z = 2.5f * (a->kappa * z + a->mu * end.y),
+              turn_x = 3.5f * a->kappa * c + a->mu * end.x;
   const vreal turn_u = -a->mu_b * (z * turn_x - c * turn_z) * i_u;
-  /* d' = (-d_x, d_y) but for the cloth's own friction, which is along d; the rate at which t turns */
+  /* d' = (-d_x, d_y) but for the cloth's own friction, which is along d; the rate at which t
+   * turns */
   const vreal d_x = a->mu_b * c, d_y = v_fma(a->spin * a->mu_b, z, v_splat(-1));
   const vreal turn_d = (t_x * d_y + t_y * d_x) * i_d;
   /* bounds of the second derivatives, and the rate at which |u| falls */
   const vreal most_fall = 3.5f * a->kappa * a->mu_b * i_u, turn_rate = v_abs(turn_u);
   end.bend_u = (1 / 6.0f) * turn_rate * v_fma(v_splat(2), most_fall, turn_rate);
   end.fall = a->mu_b * v_fma(c, turn_x, z * turn_z) * i_u;
-  end.bend_d = v_select(has_no_slip(a, s), v_splat(0), 0.5f * z * v_fma(d_x, d_x, d_y * d_y) * (i_d * i_d));
+  end.bend_d =
+      v_select(has_no_slip(a, s), v_splat(0), 0.5f * z * v_fma(d_x, d_x, d_y * d_y) * (i_d * i_d));
   /* the slopes of c, z and of s = z t */
   end.dc = z * turn_u;
   end.dz = -c * turn_u;
@@ -348,21 +391,25 @@ always end_slopes slopes_at_end(const problem *a, const state *s) {
   return end;
 }
 
-/* From *s, with s = (x, y) and its slopes in *here and a sixth of its second derivative in third_x and third_y, to the end of
- * the collision. Returns p from *s to there, which may be negative.
+/* From *s, with s = (x, y) and its slopes in *here and a sixth of its second derivative in
+ * third_x and third_y, to the end of the collision. Returns p from *s to there, which may be
+ * negative.
  *
- * For a constant f, v' = 1 - f makes the balance of work a linear equation for v^2. The slope of f, and the slope of that, are
- * integrated over the p that the constant f leaves. */
-always vreal extrapolate_to_end(const problem *a, const state *s, const end_slopes *here, vreal third_x, vreal third_y,
-                                solution *out) {
-  /* f and half of its slope here; the work to be returned if no more were done on friction, and p to the end then */
+ * For a constant f, v' = 1 - f makes the balance of work a linear equation for v^2. The slope of
+ * f, and the slope of that, are integrated over the p that the constant f leaves. */
+always vreal extrapolate_to_end(const problem *a, const state *s, const end_slopes *here,
+                                vreal third_x, vreal third_y, solution *out) {
+  /* f and half of its slope here; the work to be returned if no more were done on friction, and
+   * p to the end then */
   const vreal f = -a->mu_mu_b_y * here->y, half_df = (-0.5f * a->mu_mu_b_y) * here->dy,
               returned = work_returned(a, s->K_c, s->K);
   const vreal half_excess = 0.5f * v_fma(-s->v, s->v, v_fma(a->e, a->e, returned));
   const vreal near = half_excess * v_reciprocal(v_max(s->v, v_splat(TINY)));
   /* what the change of f adds to int f dp; K, all further work on friction; v at the end */
-  const vreal bend = (near * near) * v_fma(near, -a->mu_mu_b_y * third_y, half_df), K = v_fma(f, half_excess, bend * s->v);
-  const vreal left = v_fma(v_splat(-2), K, returned), v = root(v_max(v_fma(a->e, a->e, left), v_splat(TINY)));
+  const vreal bend = (near * near) * v_fma(near, -a->mu_mu_b_y * third_y, half_df),
+              K = v_fma(f, half_excess, bend * s->v);
+  const vreal left = v_fma(v_splat(-2), K, returned),
+              v = root(v_max(v_fma(a->e, a->e, left), v_splat(TINY)));
   /* p to the end, and the integrals up to there */
   const vreal dp = ((v - s->v) + bend) * v_reciprocal(1 - f), half = 0.5f * dp;
   out->I_x = v_fma(dp, v_fma(dp, v_fma(dp, third_x, 0.5f * here->dx), here->x), s->I_x);
@@ -378,16 +425,17 @@ always vreal extrapolate_to_end(const problem *a, const state *s, const end_slop
 /* ---- The step ---- */
 
 /* p that the Taylor series may cover, over the length of the step before it. */
-/* With twice or half of each, `carom-lab stress --draws 60000` shows the same errors; with half of the second, 1 % more
- * collisions of its regimes go to the precise solver. */
+/* With twice or half of each, `carom-lab stress --draws 60000` shows the same errors; with half
+ * of the second, 1 % more collisions of its regimes go to the precise solver. */
 static const float MOST_EXTRAPOLATION = 0.03f, MOST_EXTRAPOLATION_TURN = 0.1f;
-/* The share of |u| that may be lost there. After a step with four nodes, much more of |u| is left. */
+/* The share of |u| that may be lost there. After a step with four nodes, much more of |u| is
+ * left. */
 static const float MOST_FALL = 0.5f;
 
-/* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and those of c and sigma against
- * their values at first; K at v = 0 stays what it is. */
-always state state_after(const prediction *g, const coefficients *l, const state *s, vreal X, vreal Y, vreal dC, vreal dZ,
-                         vreal K) {
+/* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and
+ * those of c and sigma against their values at first; K at v = 0 stays what it is. */
+always state state_after(const prediction *g, const coefficients *l, const state *s, vreal X,
+                         vreal Y, vreal dC, vreal dZ, vreal K) {
   const vreal C = g->c + dC, Z = g->z + dZ;
   state end = *s;
   end.u_x = s->u_x + v_fma(l->C_in_u_x, C, -l->mu_mu_b * X);
@@ -403,27 +451,31 @@ always state state_after(const prediction *g, const coefficients *l, const state
   return end;
 }
 
-/* K at v = 0 by parts, so that nothing but w_y is interpolated, given v and the integral S of w_y up to a point near v = 0, and
- * that of S: int v w_y dX = v S - int S v' dX with v' = L + pull_y w_y. The little that is left for a mean f. */
-always vreal K_by_parts(const coefficients *l, const state *s, vreal f, vreal v, vreal S, vreal int_S) {
+/* K at v = 0 by parts, so that nothing but w_y is interpolated, given v and the integral S of
+ * w_y up to a point near v = 0, and that of S: int v w_y dX = v S - int S v' dX with v' = L +
+ * pull_y w_y. The little that is left for a mean f. */
+always vreal K_by_parts(const coefficients *l, const state *s, vreal f, vreal v, vreal S,
+                        vreal int_S) {
   const vreal by_parts = v_fma(v_fma(0.5f * l->mu_mu_b_y, S, -v), S, l->length * int_S);
   return v_fma(l->mu_mu_b_y, by_parts, v_fma(-0.5f * f * (1 + f), v * v, s->K));
 }
 
 /* Over even nodes; the point near v = 0 is where a constant f, its mean, would put it. */
-always vreal K_at_v_0(const gauss_rule *r, int n, const coefficients *l, const state *s, vreal f, const reg *w_y) {
+always vreal K_at_v_0(const gauss_rule *r, int n, const coefficients *l, const state *s, vreal f,
+                      const reg *w_y) {
   const vreal x = v_min(v_max(-s->v * v_reciprocal((1 - f) * l->length), v_splat(0)), v_splat(1));
   reg once[MOST_REGS], twice[MOST_REGS];
   integrals_up_to(r, n, x, once);
   polynomials_at(r->twice, n, 2 * x - 1, twice);
-  const vreal S = sum_of_products(once, w_y, n), v = v_fma(l->length, x, v_fma(l->mu_mu_b_y, S, s->v));
+  const vreal S = sum_of_products(once, w_y, n),
+              v = v_fma(l->length, x, v_fma(l->mu_mu_b_y, S, s->v));
   return K_by_parts(l, s, f, v, S, (x * x) * sum_of_products(twice, w_y, n));
 }
 
-/* Over mapped nodes: S is a polynomial in x, the point is one step of Newton's method from there, and the integral of S over X
- * is taken by Gauss's rule up to it. */
-always vreal K_at_v_0_mapped(bool turned, const gauss_rule *r, int n, const node_map *map, const coefficients *l,
-                             const state *s, vreal f, const reg *w_y) {
+/* Over mapped nodes: S is a polynomial in x, the point is one step of Newton's method from
+ * there, and the integral of S over X is taken by Gauss's rule up to it. */
+always vreal K_at_v_0_mapped(bool turned, const gauss_rule *r, int n, const node_map *map,
+                             const coefficients *l, const state *s, vreal f, const reg *w_y) {
   const vreal per = v_reciprocal((1 - f) * l->length), zero = v_splat(0), one = v_splat(1);
   vreal S_power[MOST_NODES], X = v_min(v_max(-s->v * per, zero), one), x, S, v;
   sum_polynomials(r->powers, n, w_y, S_power);
@@ -445,8 +497,10 @@ always vreal K_at_v_0_mapped(bool turned, const gauss_rule *r, int n, const node
   return K_by_parts(l, s, f, v, S, dot(r->all, slope, n));
 }
 
-/* The same at the end of a step of four nodes, on which t hardly turns: by the polynomials, without roots. */
-always end_slopes slopes_by_nodes(const gauss_rule *r, int n, vreal per_length, const directions *f) {
+/* The same at the end of a step of four nodes, on which t hardly turns: by the polynomials,
+ * without roots. */
+always end_slopes slopes_by_nodes(const gauss_rule *r, int n, vreal per_length,
+                                  const directions *f) {
   const vreal twice = 2 * per_length; /* `bend` is half a slope */
   return (end_slopes){.c = dot(r->end, f->c, n),
                       .z = dot(r->end, f->z, n),
@@ -463,8 +517,8 @@ always const gauss_rule *rule_of(int n) {
 }
 
 /* A step from *s, with its first directions. turn: of turned nodes, else NULL. */
-always void start_step(int n, const problem *a, const prediction *g, const state *s, vreal length, const turn_step *turn,
-                       impulse_step *p) {
+always void start_step(int n, const problem *a, const prediction *g, const state *s, vreal length,
+                       const turn_step *turn, impulse_step *p) {
   p->a = a;
   p->g = g;
   p->s = s;
@@ -479,9 +533,9 @@ always void start_step(int n, const problem *a, const prediction *g, const state
   p->f.going = v_all();
 }
 
-/* After the iteration: *next becomes the state behind the step. In the lanes of `last` that is near the end of the collision,
- * and *out becomes the solution. Returns an estimate of the error, in p; infinite if the end of the collision is not near.
- * next, out: NULL if not needed. */
+/* After the iteration: *next becomes the state behind the step. In the lanes of `last` that is
+ * near the end of the collision, and *out becomes the solution. Returns an estimate of the
+ * error, in p; infinite if the end of the collision is not near. next, out: NULL if not needed. */
 always vreal end_step(int n, bool turned, impulse_step *p, vmask last, state *next, solution *out) {
   const gauss_rule *r = rule_of(n);
   const problem *const a = p->a;
@@ -494,7 +548,9 @@ always vreal end_step(int n, bool turned, impulse_step *p, vmask last, state *ne
 
   /* the integrals over the whole step: K = int v f dp, S_x, S_y */
   reg work[MOST_REGS];
-  EACH_REG(k, n) work[k] = -(l.mu_mu_b_y * f->w_y[k]) * MADD(l.mu_mu_b_y, f->S_y[k], MADD(l.length, p->nodes.X[k], s->v));
+  EACH_REG(k, n)
+  work[k] = -(l.mu_mu_b_y * f->w_y[k]) *
+            MADD(l.mu_mu_b_y, f->S_y[k], MADD(l.length, p->nodes.X[k], s->v));
   const vreal X = dot(r->all, f->w_x, n), Y = dot(r->all, f->w_y, n);
   state end = state_after(g, &l, s, X, Y, dC, dZ, dot(r->all, work, n));
 
@@ -504,9 +560,10 @@ always vreal end_step(int n, bool turned, impulse_step *p, vmask last, state *ne
     passes = passes | (v_not(s->restitution) & last);
   if (!is_mapped(n) || v_any(passes)) {
     const vreal f_mean =
-        -a->mu_mu_b_y * (!is_mapped(n) ? g->z * g->t_y : Y); /* the predicted one is known before the iteration ends */
-    const vreal K_c =
-        !is_mapped(n) ? K_at_v_0(r, n, &l, s, f_mean, f->w_y) : K_at_v_0_mapped(turned, r, n, &p->map, &l, s, f_mean, f->w_y);
+        /* the predicted one is known before the iteration ends */
+        -a->mu_mu_b_y * (!is_mapped(n) ? g->z * g->t_y : Y);
+    const vreal K_c = !is_mapped(n) ? K_at_v_0(r, n, &l, s, f_mean, f->w_y)
+                                    : K_at_v_0_mapped(turned, r, n, &p->map, &l, s, f_mean, f->w_y);
     end.K_c = v_select(passes, K_c, s->K_c);
   }
   end.restitution = s->restitution | passes;
@@ -515,8 +572,10 @@ always vreal end_step(int n, bool turned, impulse_step *p, vmask last, state *ne
   const end_slopes at_end = n > 4 ? slopes_at_end(a, &end) : slopes_by_nodes(r, n, per_length, f);
   vreal error = f->error;
   if (n > 4) {
-    /* the defect: by how much the polynomials miss the direction of u at the end; its square is the error there */
-    const vreal defect = v_abs(dot(r->end, f->c, n) - at_end.c) + v_abs(dot(r->end, f->z, n) - at_end.z);
+    /* the defect: by how much the polynomials miss the direction of u at the end; its square is
+     * the error there */
+    const vreal defect =
+        v_abs(dot(r->end, f->c, n) - at_end.c) + v_abs(dot(r->end, f->z, n) - at_end.z);
     error = v_fma(4 * l.mu_b, defect * defect, error);
   }
   if (next != NULL)
@@ -531,18 +590,22 @@ always vreal end_step(int n, bool turned, impulse_step *p, vmask last, state *ne
     third_y = per_length * per_length * dot(r->third, f->s_y, n);
   }
   const vreal dp = v_abs(extrapolate_to_end(a, &end, &at_end, third_x, third_y, out));
-  /* the truncation error of the series: after four nodes by how much their polynomials miss s, else its next terms for u and s
+  /* the truncation error of the series: after four nodes by how much their polynomials miss s,
+   * else its next terms for u and s
    */
   vreal left_out;
   if (n == 4) {
-    const vreal sigma_d = at_end.z * v_rough_reciprocal_sqrt(v_fma(end.d_x, end.d_x, v_fma(end.d_y, end.d_y, v_splat(TINY))));
-    const vreal missed = v_abs(v_fma(-sigma_d, end.d_x, at_end.x)) + v_abs(v_fma(-sigma_d, end.d_y, at_end.y));
+    const vreal sigma_d =
+        at_end.z *
+        v_rough_reciprocal_sqrt(v_fma(end.d_x, end.d_x, v_fma(end.d_y, end.d_y, v_splat(TINY))));
+    const vreal missed =
+        v_abs(v_fma(-sigma_d, end.d_x, at_end.x)) + v_abs(v_fma(-sigma_d, end.d_y, at_end.y));
     left_out = dp * v_select(has_no_slip(a, &end), v_splat(0), a->mu_mu_b * missed);
   } else
     left_out = dp * (dp * dp) * v_fma(a->mu_b, at_end.bend_u, a->mu_mu_b * at_end.bend_d);
   error = error + v_select(last, left_out, v_splat(0));
-  /* the series must not lead far, nor may |u| vanish on it, which the error estimates of a planar motion do not see: there u
-   * does not turn, and bend_u is 0 */
+  /* the series must not lead far, nor may |u| vanish on it, which the error estimates of a
+   * planar motion do not see: there u does not turn, and bend_u is 0 */
   vmask in_reach = v_less(dp, (turned ? MOST_EXTRAPOLATION_TURN : MOST_EXTRAPOLATION) * l.length);
   if (n > 4)
     in_reach = in_reach & v_less(dp * at_end.fall, v_splat(MOST_FALL));
@@ -550,8 +613,9 @@ always vreal end_step(int n, bool turned, impulse_step *p, vmask last, state *ne
 }
 
 /* A whole step, with so many iterations at most. */
-always vreal take_impulse_step(int n, int most, const problem *a, const prediction *g, const state *s, vreal length,
-                               const turn_step *turn, vmask last, state *next, solution *out) {
+always vreal take_impulse_step(int n, int most, const problem *a, const prediction *g,
+                               const state *s, vreal length, const turn_step *turn, vmask last,
+                               state *next, solution *out) {
   impulse_step p;
   start_step(n, a, g, s, length, turn, &p);
   for (int i = 0; i < most && v_any(p.f.going); i++)
@@ -559,7 +623,8 @@ always vreal take_impulse_step(int n, int most, const problem *a, const predicti
   return end_step(n, turn != NULL, &p, last, next, out);
 }
 
-/* The length of a step to the end for the mean f, where to_end is p to the end without work on friction. */
+/* The length of a step to the end for the mean f, where to_end is p to the end without work on
+ * friction. */
 always vreal length_to_end(const problem *a, const prediction *g, vreal to_end) {
   const vreal f = -a->mu_mu_b_y * g->z * g->t_y;
   return to_end * v_fma(f, 1 + f, v_splat(1));

@@ -1,5 +1,6 @@
-/* What is compiled once for every instruction set, as tables of functions: reduction and restoration of rows, collocation steps
- * of many collisions, and one collision as a whole. kernels.c has the tables. */
+/* What is compiled once for every instruction set, as tables of functions: reduction and
+ * restoration of rows, collocation steps of many collisions, and one collision as a whole.
+ * kernels.c has the tables. */
 #ifndef CAROM_SRC_BALL_BALL_KERNELS_H
 #define CAROM_SRC_BALL_BALL_KERNELS_H
 
@@ -9,15 +10,16 @@
 
 #include <stdint.h>
 
-/* ---- What the kernels hand to each other: rows.h, in the caller's precision, reduces collisions to eight numbers each and
- * turns their solutions into velocities; between them collocation (collocate.c) computes in single precision. */
+/* ---- What the kernels hand to each other: rows.h, in the caller's precision, reduces
+ * collisions to eight numbers each and turns their solutions into velocities; between them
+ * collocation (collocate.c) computes in single precision. */
 
 /* Reduced collisions, a column for each quantity of reduced.h in units of |v_n0| / kappa. */
 enum { IN_U_X, IN_U_Z, IN_D_X, IN_D_Y, IN_KAPPA, IN_MU, IN_MU_B, IN_E, IN_COLUMNS };
 /* Solutions: those of problem.h. */
 enum { OUT_J_C, OUT_J_Z, OUT_I_X, OUT_I_Y, OUT_OVERSHOOT, OUT_STICK, OUT_K_C, OUT_COLUMNS };
-/* A collision between two steps: the columns of its state (problem.h), whether v = 0 has been passed (1 or 0), and what has
- * been tried (collocate.c). */
+/* A collision between two steps: the columns of its state (problem.h), whether v = 0 has been
+ * passed (1 or 0), and what has been tried (collocate.c). */
 enum { LANE_STATE, LANE_RESTITUTION = 13, LANE_SHARE, LANE_CAREFUL, LANE_ATTEMPTS, LANE_COLUMNS };
 
 enum { MOST_LANES = 16 }; /* of floats in a vector */
@@ -25,17 +27,29 @@ typedef float step_inputs[IN_COLUMNS][MOST_LANES];
 typedef float step_outputs[OUT_COLUMNS][MOST_LANES];
 typedef float lane_state[LANE_COLUMNS][MOST_LANES];
 
-/* Kinds of steps (collocate.c), FULL over even or over graded nodes; and what else may come next: a collision is solved, or
- * collocation refuses it. */
-enum step_kind { EASY, FULL, FULL_GRADED, STICK, PART, TURN, STEP_KINDS, SOLVED = STEP_KINDS, REFUSED, STEP_ENDS };
+/* Kinds of steps (collocate.c), FULL over even or over graded nodes; and what else may come
+ * next: a collision is solved, or collocation refuses it. */
+enum step_kind {
+  EASY,
+  FULL,
+  FULL_GRADED,
+  STICK,
+  PART,
+  TURN,
+  STEP_KINDS,
+  SOLVED = STEP_KINDS,
+  REFUSED,
+  STEP_ENDS
+};
 /* For each, the lanes for which it comes next, a bit for each. */
 typedef uint32_t lanes_by_step[STEP_ENDS];
 
-/* A ball that u_z presses less, in units of |v_n0| / kappa, is not pressed; friction between the balls that is less counts as
- * this, so that what is divided by it is finite. */
+/* A ball that u_z presses less, in units of |v_n0| / kappa, is not pressed; friction between the
+ * balls that is less counts as this, so that what is divided by it is finite. */
 static const double LEAST_PRESS = 1e-10, LEAST_MU_B = 1e-9;
 
-/* Error in p, in units of |v_n0| / kappa, that a step may add by its estimate, for results in double and in single precision.
+/* Error in p, in units of |v_n0| / kappa, that a step may add by its estimate, for results in
+ * double and in single precision.
  */
 static const float carom_tolerances[2] = {2.5e-7f, 5e-6f};
 
@@ -48,31 +62,38 @@ typedef struct row_context {
   _Alignas(64) unsigned char bytes[3200];
 } row_context;
 
-/* Reduces as many rows as a vector has floats, given by their numbers in an array of carom_impact or its twin. Returns a bit
- * for each row that passes every check, approaches, and is within what collocation is tried on; the columns of others hold
- * junk. s: see frame.h. */
-typedef uint32_t carom_rows_in(const void *in, const uint32_t row[MOST_LANES], double s, row_context *context,
-                               step_inputs columns);
-/* Writes the velocities, to an array of carom_result or its twin. Returns a bit for each row whose numbers are all finite. */
+/* Reduces as many rows as a vector has floats, given by their numbers in an array of
+ * carom_impact or its twin. Returns a bit for each row that passes every check, approaches, and
+ * is within what collocation is tried on; the columns of others hold junk. s: see frame.h. */
+typedef uint32_t carom_rows_in(const void *in, const uint32_t row[MOST_LANES], double s,
+                               row_context *context, step_inputs columns);
+/* Writes the velocities, to an array of carom_result or its twin. Returns a bit for each row
+ * whose numbers are all finite. */
 typedef uint32_t carom_rows_out(const row_context *context, const step_outputs solution, void *out,
                                 const uint32_t row[MOST_LANES]);
 
-/* The first step, where it is an easy one, in the lanes of `good`. next: what comes next; *out: of those that are SOLVED. A
- * lane for which the others would have to wait is put off: its next step is EASY again. spin: 5/2 s. */
-typedef void carom_first_step(step_inputs in, uint32_t good, float spin, float tolerance, step_outputs out, lanes_by_step next);
-/* A step of a kind, for collisions that are at their start, or stand at *at, which becomes where they stand after it. */
-typedef void carom_next_step(enum step_kind kind, int at_start, step_inputs in, float spin, float tolerance, lane_state at,
-                             step_outputs out, lanes_by_step next);
+/* The first step, where it is an easy one, in the lanes of `good`. next: what comes next; *out:
+ * of those that are SOLVED. A lane for which the others would have to wait is put off: its next
+ * step is EASY again. spin: 5/2 s. */
+typedef void carom_first_step(step_inputs in, uint32_t good, float spin, float tolerance,
+                              step_outputs out, lanes_by_step next);
+/* A step of a kind, for collisions that are at their start, or stand at *at, which becomes where
+ * they stand after it. */
+typedef void carom_next_step(enum step_kind kind, int at_start, step_inputs in, float spin,
+                             float tolerance, lane_state at, step_outputs out, lanes_by_step next);
 
 /* One reduced collision, by all steps that it takes. Returns the number of right-hand sides
  * evaluated, or 0 if no step within the tolerance leads on. */
-typedef int carom_collocate(const float in[IN_COLUMNS], float spin, float tolerance, float out[OUT_COLUMNS]);
-/* One row from end to end. Returns the same number, 0 also for a row that is not good; *solution may be NULL. */
+typedef int carom_collocate(const float in[IN_COLUMNS], float spin, float tolerance,
+                            float out[OUT_COLUMNS]);
+/* One row from end to end. Returns the same number, 0 also for a row that is not good; *solution
+ * may be NULL. */
 typedef int carom_call(const void *in, double s, void *out, float solution[OUT_COLUMNS]);
 
 typedef struct carom_kernels {
   int lanes; /* floats in a vector */
-  /* Fewest rows of a batch for which steps in lanes take no longer than calls, in collisions of play. */
+  /* Fewest rows of a batch for which steps in lanes take no longer than calls, in collisions of
+   * play. */
   uint32_t fewest[CAROM_PRECISIONS];
   carom_rows_in *rows_in[CAROM_PRECISIONS];
   carom_rows_out *rows_out[CAROM_PRECISIONS];
@@ -91,7 +112,8 @@ typedef struct carom_kernels {
 CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 #undef CAROM_KERNEL_PROTOTYPES
 
-/* In a source of kernels: the name of one, of the build's instruction set or of its precision too; and what that is. */
+/* In a source of kernels: the name of one, of the build's instruction set or of its precision
+ * too; and what that is. */
 #ifdef CAROM_LANES_SUFFIX
 #ifdef CAROM_LANES_F32
 #define KERNEL_SUFFIX f32
@@ -109,10 +131,10 @@ CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 /* Those of a call with options.plain, 0 or 1. */
 const carom_kernels *carom_kernels_of_call(int plain);
 
-/* batch.c: resolves n pairs of a precision with checked options; in, out and status as in carom_collide_batch(), status may be
- * NULL. Returns the index of the first pair in error, or n. */
-size_t carom_solve_rows(carom_precision precision, const void *in, size_t n, const carom_options *opt, void *out,
-                        int8_t *status);
+/* batch.c: resolves n pairs of a precision with checked options; in, out and status as in
+ * carom_collide_batch(), status may be NULL. Returns the index of the first pair in error, or n. */
+size_t carom_solve_rows(carom_precision precision, const void *in, size_t n,
+                        const carom_options *opt, void *out, int8_t *status);
 /* Of an impact and of a result of a precision. */
 static inline size_t carom_impact_size(carom_precision precision) {
   return precision == CAROM_F64 ? sizeof(carom_impact) : sizeof(carom_impact_f32);
@@ -121,8 +143,9 @@ static inline size_t carom_result_size(carom_precision precision) {
   return precision == CAROM_F64 ? sizeof(carom_result) : sizeof(carom_result_f32);
 }
 
-/* One pair by a single call, with the checks and the status of carom_collide(): what lanes leave to it is a row that is not
- * plainly good. `in` and `out` are of the precision. */
-carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt, void *out);
+/* One pair by a single call, with the checks and the status of carom_collide(): what lanes leave
+ * to it is a row that is not plainly good. `in` and `out` are of the precision. */
+carom_status carom_collide_one(carom_precision precision, const void *in, const carom_options *opt,
+                               void *out);
 
 #endif

@@ -1,17 +1,19 @@
-/* Lanes: the small vocabulary in which whatever is done for many collisions at once is written, so that its algebra reads like
- * docs/understanding/physics.md.
+/* Lanes: the small vocabulary in which whatever is done for many collisions at once is written,
+ * so that its algebra reads like docs/understanding/physics.md.
  *
- * A `vreal` holds LANES numbers of type `real`, one pair of balls in each. + - * / and unary - are the compiler's own (GNU
- * vector extensions); comparisons, selection and what else the extensions lack are the functions below. A `vmask` holds a truth
- * value for each lane; masks combine with & and | and v_not().
+ * A `vreal` holds LANES numbers of type `real`, one pair of balls in each. + - * / and unary -
+ * are the compiler's own (GNU vector extensions); comparisons, selection and what else the
+ * extensions lack are the functions below. A `vmask` holds a truth value for each lane; masks
+ * combine with & and | and v_not().
  *
  * A source is compiled once for each instruction set and precision, with exactly one of
  *
- *     CAROM_LANES_AVX512, CAROM_LANES_AVX2 (with FMA), CAROM_LANES_SSE2, CAROM_LANES_NEON, CAROM_LANES_PLAIN
+ *     CAROM_LANES_AVX512, CAROM_LANES_AVX2 (with FMA), CAROM_LANES_SSE2, CAROM_LANES_NEON,
+ *     CAROM_LANES_PLAIN
  *
- * and CAROM_LANES_F32 for float. PLAIN uses nothing but the extensions and runs anywhere. With CAROM_LANES_ONE a vreal is
- * one number: the same text then serves a single collision, with the same bits, since every function here does the same
- * operations on a lane whatever the width.
+ * and CAROM_LANES_F32 for float. PLAIN uses nothing but the extensions and runs anywhere. With
+ * CAROM_LANES_ONE a vreal is one number: the same text then serves a single collision, with the
+ * same bits, since every function here does the same operations on a lane whatever the width.
  */
 #ifndef CAROM_SRC_BALL_BALL_LANES_H
 #define CAROM_SRC_BALL_BALL_LANES_H
@@ -34,8 +36,8 @@
 #endif
 #endif
 
-/* WebAssembly's vectors are no instruction set of its own: PLAIN has instructions there for what the extensions lack, with the
- * same bits. */
+/* WebAssembly's vectors are no instruction set of its own: PLAIN has instructions there for what
+ * the extensions lack, with the same bits. */
 #if defined(CAROM_LANES_PLAIN) && defined(__wasm_simd128__)
 #include <wasm_simd128.h>
 #define LANES_WASM 1
@@ -53,7 +55,8 @@ typedef int64_t lane_int;
 #define REAL_BYTES 8
 #endif
 
-/* Before a loop of few turns: arrays of vectors live in registers only if the compiler unrolls it. */
+/* Before a loop of few turns: arrays of vectors live in registers only if the compiler unrolls
+ * it. */
 #if defined(__clang__)
 #define lanes_unrolled _Pragma("clang loop unroll(full)")
 #else
@@ -66,7 +69,8 @@ typedef int64_t lane_int;
 #define lanes_rolled _Pragma("GCC unroll 1")
 #endif
 
-/* Whether the set fuses a product with a sum, and whether it estimates 1/x and 1/sqrt(x) in this precision. */
+/* Whether the set fuses a product with a sum, and whether it estimates 1/x and 1/sqrt(x) in this
+ * precision. */
 #if defined(CAROM_LANES_AVX512) || defined(CAROM_LANES_AVX2) || defined(CAROM_LANES_NEON)
 #define V_FUSES 1
 #else
@@ -93,9 +97,11 @@ typedef int64_t lane_int;
 
 typedef real vreal __attribute__((vector_size(VECTOR_BYTES)));
 typedef lane_int vint __attribute__((vector_size(VECTOR_BYTES)));
-typedef real vreal_unaligned __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(real)), may_alias));
+typedef real vreal_unaligned
+    __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(real)), may_alias));
 
-/* x86 intrinsics of the build's width and precision: SIMD(sqrt) is _mm512_sqrt_pd, _mm_sqrt_ps, ... */
+/* x86 intrinsics of the build's width and precision: SIMD(sqrt) is _mm512_sqrt_pd, _mm_sqrt_ps,
+ * ... */
 #define LANES_PASTE3(a, b, c) a##b##c
 #define LANES_PASTE(a, b, c) LANES_PASTE3(a, b, c)
 #if defined(CAROM_LANES_AVX512)
@@ -128,7 +134,7 @@ static inline void v_store(real *to, vreal x) {
   *(vreal_unaligned *)to = (vreal_unaligned)x;
 }
 
-/* ---- Masks ---------------------------------------------------------------------------------------------------------- */
+/* ---- Masks ----------------------------------------------------------------------------------- */
 
 #ifdef CAROM_LANES_AVX512
 
@@ -221,7 +227,7 @@ static inline bool v_any(vmask m) {
 static inline bool v_more(vmask m, int count) {
   return __builtin_popcount(v_bits(m)) > count;
 }
-/* ---- Arithmetic ----------------------------------------------------------------------------------------------------- */
+/* ---- Arithmetic ------------------------------------------------------------------------------ */
 
 static inline vreal v_abs(vreal x) {
   const vint sign = (vint)v_splat((real)-0.0);
@@ -302,10 +308,11 @@ static inline vreal v_estimate_reciprocal_sqrt(vreal x) {
 }
 #endif
 
-/* ---- Transposition -------------------------------------------------------------------------------------------------- */
+/* ---- Transposition --------------------------------------------------------------------------- */
 
-/* A chunk is 16 bytes: CHUNK numbers side by side in a row of memory. Vectors are made of chunks of different rows, so that all
- * shuffling stays inside 16 bytes, where it is cheap on every instruction set. */
+/* A chunk is 16 bytes: CHUNK numbers side by side in a row of memory. Vectors are made of chunks
+ * of different rows, so that all shuffling stays inside 16 bytes, where it is cheap on every
+ * instruction set. */
 #define CHUNK (16 / REAL_BYTES)
 
 typedef real chunk __attribute__((vector_size(16)));
@@ -325,9 +332,11 @@ static inline vreal v_load_chunks(const real *const row[], int at) {
   x = _mm512_mask_broadcast_f64x2(x, 0x30, (__m128d)CHUNK_OF(2));
   return (vreal)_mm512_mask_broadcast_f64x2(x, 0xc0, (__m128d)CHUNK_OF(3));
 #elif defined(CAROM_LANES_AVX2) && defined(CAROM_LANES_F32)
-  return (vreal)_mm256_insertf128_ps(_mm256_castps128_ps256((__m128)CHUNK_OF(0)), (__m128)CHUNK_OF(1), 1);
+  return (vreal)_mm256_insertf128_ps(_mm256_castps128_ps256((__m128)CHUNK_OF(0)),
+                                     (__m128)CHUNK_OF(1), 1);
 #elif defined(CAROM_LANES_AVX2)
-  return (vreal)_mm256_insertf128_pd(_mm256_castpd128_pd256((__m128d)CHUNK_OF(0)), (__m128d)CHUNK_OF(1), 1);
+  return (vreal)_mm256_insertf128_pd(_mm256_castpd128_pd256((__m128d)CHUNK_OF(0)),
+                                     (__m128d)CHUNK_OF(1), 1);
 #else
   return (vreal)CHUNK_OF(0);
 #endif
@@ -383,8 +392,10 @@ static inline void v_store_chunks(real *const row[], int at, vreal x) {
 /* Transposes the squares of CHUNK x CHUNK that the chunks of CHUNK vectors make. */
 static inline void v_transpose_chunks(vreal m[]) {
 #ifdef CAROM_LANES_F32
-  const vreal a = __builtin_shufflevector(m[0], m[2], LANES_LOW), b = __builtin_shufflevector(m[0], m[2], LANES_HIGH);
-  const vreal c = __builtin_shufflevector(m[1], m[3], LANES_LOW), d = __builtin_shufflevector(m[1], m[3], LANES_HIGH);
+  const vreal a = __builtin_shufflevector(m[0], m[2], LANES_LOW),
+              b = __builtin_shufflevector(m[0], m[2], LANES_HIGH);
+  const vreal c = __builtin_shufflevector(m[1], m[3], LANES_LOW),
+              d = __builtin_shufflevector(m[1], m[3], LANES_HIGH);
   m[0] = __builtin_shufflevector(a, c, LANES_LOW);
   m[1] = __builtin_shufflevector(a, c, LANES_HIGH);
   m[2] = __builtin_shufflevector(b, d, LANES_LOW);
@@ -411,8 +422,9 @@ static inline void v_store_columns(real *const row[LANES], int at, const vreal c
 
 #endif /* not CAROM_LANES_ONE */
 
-/* 1/x and 1/sqrt(x) for positive normal x: an estimate of the processor's, corrected by as many terms of the series in its
- * error as reach the precision of the type; the quotient and the root proper where there is no estimate. */
+/* 1/x and 1/sqrt(x) for positive normal x: an estimate of the processor's, corrected by as many
+ * terms of the series in its error as reach the precision of the type; the quotient and the root
+ * proper where there is no estimate. */
 static inline vreal v_reciprocal(vreal x) {
 #if V_ESTIMATES
   const vreal y = v_estimate_reciprocal(x), error = v_fnma(x, y, v_splat(1));
@@ -448,7 +460,10 @@ static inline vreal v_reciprocal_sqrt(vreal x) {
 #ifdef CAROM_LANES_F32
   return v_fma((real)0.5 * y, error, y);
 #else
-  return v_fma(y * error, v_fma(error, v_fma(v_splat((real)0.3125), error, v_splat((real)0.375)), v_splat((real)0.5)), y);
+  return v_fma(
+      y * error,
+      v_fma(error, v_fma(v_splat((real)0.3125), error, v_splat((real)0.375)), v_splat((real)0.5)),
+      y);
 #endif
 #else
   return 1 / v_sqrt(x);

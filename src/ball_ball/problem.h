@@ -1,10 +1,12 @@
-/* A collision as the collocation steps see it: what stays, what changes, predictions, the solution. All in single precision, in
- * units of |v_n0| / kappa, so that the impulse that stops a ball without friction is 1; reduced.h has the symbols. Instead of
- * v_n there is v = v_n / kappa, which starts at -1 and has the slope 1 - f with f = f_y / kappa = -pull_y sigma t_y.
+/* A collision as the collocation steps see it: what stays, what changes, predictions, the
+ * solution. All in single precision, in units of |v_n0| / kappa, so that the impulse that stops
+ * a ball without friction is 1; reduced.h has the symbols. Instead of v_n there is v = v_n /
+ * kappa, which starts at -1 and has the slope 1 - f with f = f_y / kappa = -pull_y sigma t_y.
  *
- * THE END of the collision: v' = 1 - f times v, integrated, gives v^2 / 2 + K = int v dp with K = int v f dp, the work on the
- * cloth's friction. Restitution returns e^2 of the work of compression, so that v^2 = e^2 + 2 (1 - e^2) K_c - 2 K at the end,
- * with K_c for K at v = 0, where it is stationary. K is small, so no difference of large numbers is taken. */
+ * THE END of the collision: v' = 1 - f times v, integrated, gives v^2 / 2 + K = int v dp with K
+ * = int v f dp, the work on the cloth's friction. Restitution returns e^2 of the work of
+ * compression, so that v^2 = e^2 + 2 (1 - e^2) K_c - 2 K at the end, with K_c for K at v = 0,
+ * where it is stationary. K is small, so no difference of large numbers is taken. */
 #ifndef CAROM_SRC_BALL_BALL_PROBLEM_H
 #define CAROM_SRC_BALL_BALL_PROBLEM_H
 
@@ -12,8 +14,9 @@
 #include "ball_ball/kernels.h"
 
 static const float TINY = 1e-36f; /* keeps 0 / 0 away */
-/* Of a step's tolerance, for what its iteration leaves. By `carom-lab stress --draws 60000` errors reach 8.2e-7 with twice of
- * it instead of 3.5e-7, and with half no time is lost beyond the 4 % that times vary. */
+/* Of a step's tolerance, for what its iteration leaves. By `carom-lab stress --draws 60000`
+ * errors reach 8.2e-7 with twice of it instead of 3.5e-7, and with half no time is lost beyond
+ * the 4 % that times vary. */
 static const float ITERATION_SHARE = 0.5f;
 
 /* What stays the same during a collision. */
@@ -22,7 +25,8 @@ typedef struct problem {
   vreal mu_mu_b, mu_mu_b_y; /* mu mu_b; mu mu_b / kappa */
   float spin;               /* 5/2 s */
   vreal tolerance;          /* of a step's error estimate, in p */
-  vreal no_slip;            /* square of the mu mu_b |d| below which the cloth slip does not matter */
+  vreal no_slip;            /* square of the mu mu_b |d| below which the cloth slip does not
+                               matter */
   vmask sensitive;          /* see is_sensitive() */
 } problem;
 
@@ -43,13 +47,14 @@ typedef struct state {
 
 always state choose_state(vmask m, const state *yes, const state *no) {
   state s;
-  lanes_unrolled for (int c = 0; c < STATE_COLUMNS; c++) s.column[c] = v_select(m, yes->column[c], no->column[c]);
+  lanes_unrolled for (int c = 0; c < STATE_COLUMNS; c++) s.column[c] =
+      v_select(m, yes->column[c], no->column[c]);
   s.restitution = (m & yes->restitution) | (v_not(m) & no->restitution);
   return s;
 }
 
-/* The solution: those integrals over the whole collision, the overshoot of p beyond 1 + e, p where the balls stuck (-1: they
- * did not), K_c. */
+/* The solution: those integrals over the whole collision, the overshoot of p beyond 1 + e, p
+ * where the balls stuck (-1: they did not), K_c. */
 typedef struct solution {
   vreal J_c, J_z, I_x, I_y, overshoot, stick, K_c;
 } solution;
@@ -66,19 +71,23 @@ always vreal inverse_length(vreal x, vreal y) {
   return v_reciprocal_sqrt(v_fma(x, x, v_fma(y, y, v_splat(TINY))));
 }
 
-/* A pressed ball has no slip on the cloth if mu mu_b |d| is below this share of the tolerance; in sensitive collisions, if its
- * square is below this number, which holds of a ball that lies still. */
+/* A pressed ball has no slip on the cloth if mu mu_b |d| is below this share of the tolerance;
+ * in sensitive collisions, if its square is below this number, which holds of a ball that lies
+ * still. */
 static const float NO_SLIP = 0.03f, NO_SLIP_SENSITIVE = 1e-26f;
 
 always vmask has_no_slip(const problem *a, const state *s) {
   return v_less(a->mu_mu_b * a->mu_mu_b * v_fma(s->d_x, s->d_x, s->d_y * s->d_y), a->no_slip);
 }
 
-/* Is the result sensitive to the direction t of the cloth slip where |d| is small? With pooltool's slip, friction of the cloth
- * drives d along t, by own = (5/2 s - 1) mu mu_b per p, and friction of the balls drives it in one direction, by
- * 1 - 5/2 s mu_b or more. While |d| grows at the rate drift, the difference of the two, an error of t decreases only like
- * |d|^(own / drift - 1), and an error of d made at |d| = w reaches the result multiplied by w^(-own / drift). */
-static const float SENSITIVE = 0.12f; /* own / drift; at twice this, errors of 1e-6 occur in collisions of play */
+/* Is the result sensitive to the direction t of the cloth slip where |d| is small? With
+ * pooltool's slip, friction of the cloth drives d along t, by own = (5/2 s - 1) mu mu_b per p,
+ * and friction of the balls drives it in one direction, by
+ * 1 - 5/2 s mu_b or more. While |d| grows at the rate drift, the difference of the two, an error
+ * of t decreases only like |d|^(own / drift - 1), and an error of d made at |d| = w reaches the
+ * result multiplied by w^(-own / drift). */
+static const float SENSITIVE = 0.12f; /* own / drift; at twice this, errors of 1e-6 occur in
+                                         collisions of play */
 always vmask is_sensitive(const problem *a) {
   const vreal own = (a->spin - 1) * a->mu_mu_b, drift = v_fma(v_splat(-a->spin), a->mu_b, 1 - own);
   return v_less(SENSITIVE * drift, own);
@@ -87,18 +96,21 @@ always vmask is_sensitive(const problem *a) {
 always prediction predict(const problem *a, const state *s, vreal length) {
   prediction g;
   g.inverse_u = inverse_length(s->u_x, s->u_z);
-  const vreal rough = v_rough_reciprocal_sqrt(v_fma(s->u_x, s->u_x, v_fma(s->u_z, s->u_z, v_splat(TINY))));
+  const vreal rough =
+      v_rough_reciprocal_sqrt(v_fma(s->u_x, s->u_x, v_fma(s->u_z, s->u_z, v_splat(TINY))));
   g.c = s->u_x * g.inverse_u;
   g.z = s->u_z * g.inverse_u;
   /* d runs straight, but for the friction between the balls */
   const vreal half = 0.5f * length, friction = half * a->mu_b * rough;
-  const vreal d_x = v_fma(-friction, s->u_x, s->d_x), d_y = v_fma(friction * a->spin, s->u_z, s->d_y - half);
+  const vreal d_x = v_fma(-friction, s->u_x, s->d_x),
+              d_y = v_fma(friction * a->spin, s->u_z, s->d_y - half);
   const vreal i_d = v_rough_reciprocal_sqrt(v_fma(d_x, d_x, v_fma(d_y, d_y, v_splat(TINY))));
   g.t_x = d_x * i_d;
   g.t_y = d_y * i_d;
   /* |u|' at first; as u turns towards z it falls more slowly, for which the last factor stands */
   const vreal c2 = g.c * g.c, cloth = a->mu * g.z * v_fma(2.5f * g.t_y, g.z, g.t_x * g.c);
-  g.rate = (a->mu_b * g.inverse_u) * v_fma(a->kappa, 2.5f + c2, cloth) * v_fma(-0.182f * c2, 1 - c2, v_splat(1));
+  g.rate = (a->mu_b * g.inverse_u) * v_fma(a->kappa, 2.5f + c2, cloth) *
+           v_fma(-0.182f * c2, 1 - c2, v_splat(1));
   return g;
 }
 
@@ -109,7 +121,8 @@ always vreal work_returned(const problem *a, vreal K_c, vreal K) {
 
 /* p to the end of the collision, if no work were done on friction from here. */
 always vreal impulse_to_end(const problem *a, const state *s) {
-  const vreal square = v_fma(a->e, a->e, work_returned(a, v_select(s->restitution, s->K_c, s->K), s->K));
+  const vreal square =
+      v_fma(a->e, a->e, work_returned(a, v_select(s->restitution, s->K_c, s->K), s->K));
   return v_sqrt(v_max(square, v_splat(0))) - s->v;
 }
 
@@ -138,7 +151,8 @@ always problem problem_of(in_column *columns, float spin, float tolerance) {
   a.mu_mu_b_y = a.mu_mu_b * a.per_kappa;
   a.sensitive = is_sensitive(&a);
   a.tolerance = v_select(a.sensitive, 0.5f * a.tolerance, a.tolerance);
-  a.no_slip = v_select(a.sensitive, v_splat(NO_SLIP_SENSITIVE), (NO_SLIP * a.tolerance) * (NO_SLIP * a.tolerance));
+  a.no_slip = v_select(a.sensitive, v_splat(NO_SLIP_SENSITIVE),
+                       (NO_SLIP * a.tolerance) * (NO_SLIP * a.tolerance));
   return a;
 }
 

@@ -1,5 +1,6 @@
-/* Rows of memory as columns in lanes, and their checks: those of arguments.c that depend on a row's own numbers, but for motion
- * that is not finite, which leaves numbers in the result that are not. */
+/* Rows of memory as columns in lanes, and their checks: those of arguments.c that depend on a
+ * row's own numbers, but for motion that is not finite, which leaves numbers in the result that
+ * are not. */
 #ifndef CAROM_SRC_BALL_BALL_ROWS_H
 #define CAROM_SRC_BALL_BALL_ROWS_H
 
@@ -10,11 +11,13 @@ enum { IN_NUMBERS = 26, OUT_NUMBERS = 12 };
 
 /* The columns of the rows; the last ones overlap those before where CHUNK does not divide 26. */
 static inline void load_rows(const real *const row[LANES], vreal x[IN_NUMBERS]) {
-  lanes_unrolled for (int at = 0; at + CHUNK <= IN_NUMBERS; at += CHUNK) v_load_columns(row, at, x + at);
+  lanes_unrolled for (int at = 0; at + CHUNK <= IN_NUMBERS; at += CHUNK)
+      v_load_columns(row, at, x + at);
   if (IN_NUMBERS % CHUNK != 0) {
     vreal last[CHUNK];
     v_load_columns(row, IN_NUMBERS - CHUNK, last);
-    lanes_unrolled for (int k = CHUNK - IN_NUMBERS % CHUNK; k < CHUNK; k++) x[IN_NUMBERS - CHUNK + k] = last[k];
+    lanes_unrolled for (int k = CHUNK - IN_NUMBERS % CHUNK; k < CHUNK; k++)
+        x[IN_NUMBERS - CHUNK + k] = last[k];
   }
 }
 
@@ -34,9 +37,10 @@ static inline vmask is_level(vreal z, vreal x, vreal y) {
 
 static inline vmask are_sound(const vreal x[IN_NUMBERS]) {
   const vreal *a = x, *b = x + 12;
-  return is_positive(a[9]) & are_one_radius(a[9], b[9]) & is_positive(a[10]) & is_positive(b[10]) & in_unit_interval(a[11]) &
-         in_unit_interval(b[11]) & in_unit_interval(x[24]) & in_unit_interval(x[25]) &
-         is_level(b[2] - a[2], b[0] - a[0], b[1] - a[1]) & is_level(a[5], a[3], a[4]) & is_level(b[5], b[3], b[4]);
+  return is_positive(a[9]) & are_one_radius(a[9], b[9]) & is_positive(a[10]) & is_positive(b[10]) &
+         in_unit_interval(a[11]) & in_unit_interval(b[11]) & in_unit_interval(x[24]) &
+         in_unit_interval(x[25]) & is_level(b[2] - a[2], b[0] - a[0], b[1] - a[1]) &
+         is_level(a[5], a[3], a[4]) & is_level(b[5], b[3], b[4]);
 }
 
 #endif

@@ -1,5 +1,6 @@
-/* carom_trace(): a collision on its way, sampled at equal steps of normal impulse. The precise solver follows the exact limit
- * from sample to sample; Euler's method is stopped on its way, once for each sample. */
+/* carom_trace(): a collision on its way, sampled at equal steps of normal impulse. The precise
+ * solver follows the exact limit from sample to sample; Euler's method is stopped on its way,
+ * once for each sample. */
 #include "ball_ball/arguments.h"
 #include "ball_ball/euler.h"
 #include "ball_ball/frame.h"
@@ -9,9 +10,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Contact A is ball on ball, D and B are the first and the second ball on the cloth; see carom_trace_point. */
-static void put_point(const carom_frame *frame, const carom_local *c, double P, double work, carom_phase phase, bool stuck,
-                      carom_trace_point *point) {
+/* Contact A is ball on ball, D and B are the first and the second ball on the cloth; see
+ * carom_trace_point. */
+static void put_point(const carom_frame *frame, const carom_local *c, double P, double work,
+                      carom_phase phase, bool stuck, carom_trace_point *point) {
   const double sR = c->s * c->R;
   *point = (carom_trace_point){.normal = P,
                                .work = work,
@@ -28,15 +30,16 @@ static void put_point(const carom_frame *frame, const carom_local *c, double P, 
 }
 
 /* P: normal impulse at the end. */
-static carom_status trace_exact(const carom_frame *frame, const carom_local *start, double P, int plain, size_t n,
-                                carom_trace_point *points) {
+static carom_status trace_exact(const carom_frame *frame, const carom_local *start, double P,
+                                int plain, size_t n, carom_trace_point *points) {
   const carom_reduced c = carom_reduce(start);
   const double M = c.j_pressed ? start->M_j : start->M_i;
   carom_trajectory path;
   carom_precise_begin(&c, CAROM_PRECISE_TOLERANCE, plain, &path);
   for (size_t k = 0; k < n; k++) {
     const double p = k + 1 < n ? P / (M * -c.v_n) * ((double)k / (double)(n - 1)) : INFINITY;
-    const carom_status status = carom_impact_advance(&path, p, path.iterations + CAROM_IMPACT_ITERATIONS);
+    const carom_status status =
+        carom_impact_advance(&path, p, path.iterations + CAROM_IMPACT_ITERATIONS);
     if (status != CAROM_OK)
       return status;
     const carom_integrals so_far = carom_precise_integrals(&c, &path);
@@ -44,30 +47,33 @@ static carom_status trace_exact(const carom_frame *frame, const carom_local *sta
     carom_restore(&c, &so_far, &local);
     const bool parting = path.restitution || k + 1 == n;
     put_point(frame, &local, M * so_far.p, M * (c.v_n * c.v_n) * carom_impact_work(&path),
-              parting ? CAROM_PHASE_RESTITUTION : CAROM_PHASE_COMPRESSION, !isnan(path.p_stick), &points[k]);
+              parting ? CAROM_PHASE_RESTITUTION : CAROM_PHASE_COMPRESSION, !isnan(path.p_stick),
+              &points[k]);
   }
   return CAROM_OK;
 }
 
 /* `total` is the number of steps that the whole collision takes. */
-static carom_status trace_euler(const carom_frame *frame, const carom_local *start, int N, int64_t total, size_t n,
-                                carom_trace_point *points) {
+static carom_status trace_euler(const carom_frame *frame, const carom_local *start, int N,
+                                int64_t total, size_t n, carom_trace_point *points) {
   for (size_t k = 0; k < n; k++) {
     carom_local c = *start;
     carom_euler_run run;
-    const int64_t most = k + 1 < n ? (int64_t)round((double)k * ((double)total / (double)(n - 1))) : INT64_MAX;
+    const int64_t most =
+        k + 1 < n ? (int64_t)round((double)k * ((double)total / (double)(n - 1))) : INT64_MAX;
     const carom_status status = carom_euler(&c, N, most, &run);
     if (status != CAROM_OK)
       return status;
     put_point(frame, &c, (double)run.steps * run.step, run.work,
-              isnan(run.work_compression) ? CAROM_PHASE_COMPRESSION : CAROM_PHASE_RESTITUTION, false, &points[k]);
+              isnan(run.work_compression) ? CAROM_PHASE_COMPRESSION : CAROM_PHASE_RESTITUTION,
+              false, &points[k]);
   }
   return CAROM_OK;
 }
 
 /* Balls that do not collide stay as they are. */
-static void trace_nothing(const carom_impact *in, const carom_frame *frame, const carom_local *start, size_t n,
-                          carom_trace_point *points) {
+static void trace_nothing(const carom_impact *in, const carom_frame *frame,
+                          const carom_local *start, size_t n, carom_trace_point *points) {
   for (size_t k = 0; k < n; k++) {
     put_point(frame, start, 0.0, 0.0, CAROM_PHASE_RESTITUTION, false, &points[k]);
     carom_copy_state(in, &points[k].state);
@@ -90,7 +96,8 @@ static void fill_nan(size_t n, carom_trace_point *points) {
   }
 }
 
-carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_t n, carom_trace_point *points) {
+carom_status carom_trace(const carom_impact *in, const carom_options *opt, size_t n,
+                         carom_trace_point *points) {
   if (in == NULL || points == NULL)
     return CAROM_ERROR_NULL;
   if (n < 2)

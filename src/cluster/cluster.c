@@ -1,22 +1,29 @@
-/* The integrator of a cluster, cluster.h: leapfrog in tau, with the friction of a step by fixed iterations. A step of h:
+/* The integrator of a cluster, cluster.h: leapfrog in tau, with the friction of a step by fixed
+ * iterations. A step of h:
  *
  *     s += h/2 v;  d and F there, so J = h F for every contact that acts;  v by J
- *     friction, `iterations` times, for all contacts from the same velocities (Jacobi), so that the numbering does not count:
- *       a contact with |u0| <= 7 B mu J may stick:   f := the projection of f - u/(7 B) on |f| <= mu J, u at the end of the
- * step another slips:                               f := -mu J (u0 + u)/|u0 + u|, the mean slip, of order 2 and dissipative
- *     after each the cloth, which is isotropic: g in closed form by the same two rules, with 2/7 of the mass
+ *     friction, `iterations` times, for all contacts from the same velocities (Jacobi), so that
+ *     the numbering does not count:
+ *       a contact with |u0| <= 7 B mu J may stick:
+ *           f := the projection of f - u/(7 B) on |f| <= mu J, u at the end of the step
+ *       another slips:
+ *           f := -mu J (u0 + u)/|u0 + u|, the mean slip, of order 2 and dissipative
+ *     after each the cloth, which is isotropic: g in closed form by the same two rules, with 2/7
+ *     of the mass
  *     s += h/2 v;  where v_n changes its sign, d_max is the vertex of the parabola of d
  *
- * u0 is the slip as the step begins, B = 1/m_i + 1/m_j; an impulse f takes 7/2 B f from the slip, of which half is taken at a
- * time since neighbours act too. f begins with that of the step before, scaled with J. mu is linear in the growth of U within
- * the step.
+ * u0 is the slip as the step begins, B = 1/m_i + 1/m_j; an impulse f takes 7/2 B f from the
+ * slip, of which half is taken at a time since neighbours act too. f begins with that of the
+ * step before, scaled with J. mu is linear in the growth of U within the step.
  *
- * h = T/steps for the stiffest of the contacts that act, T the duration for its compression, shorter by the least e. Where
- * nothing acts all fly to the next touch. It ends where nothing acts and no contact that has touched closes at `slow` or
- * faster: those that never touched are met later, as other events.
+ * h = T/steps for the stiffest of the contacts that act, T the duration for its compression,
+ * shorter by the least e. Where nothing acts all fly to the next touch. It ends where nothing
+ * acts and no contact that has touched closes at `slow` or faster: those that never touched are
+ * met later, as other events.
  *
- * Without friction the order is 2; contacts that stick make it 1 (docs/understanding/clusters.md has the errors). The energy
- * rises by 3e-4 at most where e = 1 and nothing rubs; what it has risen is then taken from the motion about the centre of mass.
+ * Without friction the order is 2; contacts that stick make it 1 (docs/understanding/clusters.md
+ * has the errors). The energy rises by 3e-4 at most where e = 1 and nothing rubs; what it has
+ * risen is then taken from the motion about the centre of mass.
  */
 #include "cluster/cluster.h"
 #include "cluster/vectors.h"
@@ -95,8 +102,8 @@ static inline void rub(bool flat, state *c, const contact *x, const double f[2])
   }
 }
 
-/* Where two balls that were apart have come together within the last half step, all moved by s: the normal of the contact from
- * then on. */
+/* Where two balls that were apart have come together within the last half step, all moved by s:
+ * the normal of the contact from then on. */
 static void touch(bool flat, const state *c, contact *x, double half) {
   const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
   double d[3], v[3];
@@ -105,7 +112,8 @@ static void touch(bool flat, const state *c, contact *x, double half) {
     v[k] = q->v[k] - p->v[k];
   }
   const double R = p->radius + q->radius;
-  const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v), C = cluster_dot(flat, d, d) - R * R;
+  const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v),
+               C = cluster_dot(flat, d, d) - R * R;
   const double D = greater(B * B - A * C, 0.0);
   const double back = A > 0.0 ? greater((-B - sqrt(D)) / A, -2.0 * half) : 0.0;
   for (int k = 0; k < 3; k++)
@@ -121,7 +129,8 @@ static void touch(bool flat, const state *c, contact *x, double half) {
   x->offset = R - cluster_dot(flat, d, x->n) - cluster_dot(flat, s, x->n);
 }
 
-/* Whether two balls that have not touched overlap now; and when they will, moving on as they do, infinite if they do not. */
+/* Whether two balls that have not touched overlap now; and when they will, moving on as they do,
+ * infinite if they do not. */
 static inline bool meet(bool flat, const state *c, const contact *x) {
   const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
   double d[3];
@@ -143,7 +152,8 @@ static double time_to_touch(bool flat, const state *c, const contact *x) {
     v[k] = q->v[k] - p->v[k];
   }
   const double R = p->radius + q->radius;
-  const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v), C = cluster_dot(flat, d, d) - R * R;
+  const double A = cluster_dot(flat, v, v), B = cluster_dot(flat, d, v),
+               C = cluster_dot(flat, d, d) - R * R;
   const double D = B * B - A * C;
   return B < 0.0 && D > 0.0 ? greater(C / (sqrt(D) - B), 0.0) : (double)INFINITY;
 }
@@ -152,7 +162,8 @@ static double time_to_touch(bool flat, const state *c, const contact *x) {
 
 static double friction_at(const state *c, const contact *x, double slip) {
   const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
-  const double a = 0.5 * (p->law[0] + q->law[0]), b = 0.5 * (p->law[1] + q->law[1]), rate = 0.5 * (p->law[2] + q->law[2]);
+  const double a = 0.5 * (p->law[0] + q->law[0]), b = 0.5 * (p->law[1] + q->law[1]),
+               rate = 0.5 * (p->law[2] + q->law[2]);
   return b > 0.0 ? a + b * carom_exp(-rate * slip) : a;
 }
 
@@ -168,10 +179,10 @@ static inline double normal_force(contact *x, double d) {
   return y > 0.0 ? x->K / (x->e * x->e * x->e) * y * sqrt(y) : 0.0;
 }
 
-/* The contacts that act at half a step, and their impulses. `lead` becomes the stiffest. Returns how many act; *overlap tells
- * whether any has an overlap. */
-static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t acting[], const contact **lead,
-                              bool *overlap) {
+/* The contacts that act at half a step, and their impulses. `lead` becomes the stiffest. Returns
+ * how many act; *overlap tells whether any has an overlap. */
+static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t acting[],
+                              const contact **lead, bool *overlap) {
   int count = 0;
   double stiffest = 0.0;
   *overlap = false;
@@ -206,7 +217,8 @@ static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t
   return count;
 }
 
-/* Flies to the next touch, where nothing acts, if a contact that has touched closes again. Returns how long, or -1. */
+/* Flies to the next touch, where nothing acts, if a contact that has touched closes again.
+ * Returns how long, or -1. */
 static double fly(bool flat, state *c) {
   double next = (double)INFINITY;
   bool goes_on = false;
@@ -222,7 +234,8 @@ static double fly(bool flat, state *c) {
   return next;
 }
 
-/* The friction of the cloth in a step, in closed form: it stops the slip on the cloth, or acts against its mean. */
+/* The friction of the cloth in a step, in closed form: it stops the slip on the cloth, or acts
+ * against its mean. */
 static inline void rub_on_cloth(ball *p) {
   const double most = p->mu_cloth * p->load, m = 3.5 * p->inverse_mass;
   double g[2] = {0.0, 0.0};
@@ -253,8 +266,8 @@ static inline void rub_on_cloth(ball *p) {
   p->g[1] = g[1];
 }
 
-/* The next iterate of a contact's friction; change[] becomes what it changes by. `share` of the slip is taken where the contact
- * may stick. */
+/* The next iterate of a contact's friction; change[] becomes what it changes by. `share` of the
+ * slip is taken where the contact may stick. */
 static inline void iterate(bool flat, const state *c, contact *x, double share, double change[2]) {
   double u[2], f[2];
   slip_of(flat, c, x, u);
@@ -380,12 +393,14 @@ static double energy_of(const state *c) {
   double sum = 0.0;
   for (int k = 0; k < c->balls; k++) {
     const ball *p = &c->ball[k];
-    sum += (0.5 * cluster_dot(false, p->v, p->v) + 0.2 * cluster_dot(false, p->W, p->W)) / p->inverse_mass;
+    sum += (0.5 * cluster_dot(false, p->v, p->v) + 0.2 * cluster_dot(false, p->W, p->W)) /
+           p->inverse_mass;
   }
   return sum;
 }
 
-/* Takes what the integrator has added to the energy from the motion about the centre of mass, so momentum is kept. */
+/* Takes what the integrator has added to the energy from the motion about the centre of mass, so
+ * momentum is kept. */
 static void take_back(state *c, double before) {
   const double after = energy_of(c);
   if (!(after > before))
@@ -407,7 +422,8 @@ static void take_back(state *c, double before) {
       c->ball[k].v[axis] = centre[axis] + share * (c->ball[k].v[axis] - centre[axis]);
 }
 
-/* The duration of a step before any contact has acted: by the fastest that touches. Also the greatest 1/e. */
+/* The duration of a step before any contact has acted: by the fastest that touches. Also the
+ * greatest 1/e. */
 static inline double first_step(bool flat, const state *c, double *stiff) {
   double most = 0.0, T = 0.0;
   *stiff = 1.0;
@@ -418,7 +434,8 @@ static inline double first_step(bool flat, const state *c, double *stiff) {
     if (!x->touched || v <= most)
       continue;
     most = v;
-    T = carom_cluster_duration(x->K, mobility(c, x), carom_cluster_compression(x->K, mobility(c, x), v));
+    T = carom_cluster_duration(x->K, mobility(c, x),
+                               carom_cluster_compression(x->K, mobility(c, x), v));
   }
   return T / (c->steps * *stiff);
 }

@@ -1,29 +1,36 @@
 /* Several balls that touch, or nearly touch, at one instant: contacts that last.
  *
- * The rigid limit of Hertz's contacts with Coulomb's friction. Positions stay; an inner time tau orders the impulses. A contact
- * of balls i and j has an overlap d, which starts at minus its gap, the unit vector n from i to j, B = 1/m_i + 1/m_j, and the
- * slip u of the surface of i on that of j. With ' = d/dtau and W = R w:
+ * The rigid limit of Hertz's contacts with Coulomb's friction. Positions stay; an inner time tau
+ * orders the impulses. A contact of balls i and j has an overlap d, which starts at minus its
+ * gap, the unit vector n from i to j, B = 1/m_i + 1/m_j, and the slip u of the surface of i on
+ * that of j. With ' = d/dtau and W = R w:
  *
  *     d' = (v_i - v_j) . n
- *     K  = (4/3) E sqrt(R),  1/E = 1/E_i + 1/E_j,  1/R = 1/R_i + 1/R_j          E_i the modulus of a ball, N/m^2
- *     F  = K d^1.5                                    while d > d_max, the greatest d since the touch: loading
- *     F  = K/e^3 (d - (1 - e^2) d_max)^1.5, or 0      below d_max: unloading and loading again
+ *     K  = (4/3) E sqrt(R),  1/E = 1/E_i + 1/E_j,  1/R = 1/R_i + 1/R_j
+ *          E_i the modulus of a ball, N/m^2
+ *     F  = K d^1.5                                    while d > d_max: loading
+ *     F  = K/e^3 (d - (1 - e^2) d_max)^1.5, or 0      below it: unloading, loading again
  *     u  = (v_i - v_j) - d' n + (W_i + W_j) x n
- *     |f| <= mu F, f against u;  mu = a + b exp(-c U), U the greatest |u| since the touch               on i, and -f on j
+ *     |f| <= mu F, f against u;  mu = a + b exp(-c U), U the greatest |u| so far;  f on i, -f on j
  *     m v' = sum(-F n + f)      (2/5) m W' = sum(n x f)
  *
- * Both branches of F together give back e^2 of the work of compression, for any course. Where F reaches 0 the rest of the
- * overlap is forgotten. One contact alone has the law of carom_collide() on the cloth, and that of carom_impact3() in space.
+ * d_max and U are the greatest since the touch. Both branches of F together give back e^2 of the
+ * work of compression, for any course. Where F reaches 0 the rest of the overlap is forgotten. One
+ * contact alone has the law of carom_collide() on the cloth, and that of carom_impact3() in space.
  *
- * ON THE CLOTH v_z = 0 and u has no part of v_z. The friction's vertical part presses one ball of a contact on the cloth:
+ * ON THE CLOTH v_z = 0 and u has no part of v_z. The friction's vertical part presses one ball
+ * of a contact on the cloth:
  *
- *     L = max(0, -sum f_z)     |g| <= mu_cloth L,  g against v + z x W       and then     m v' += g,  (2/5) m W' -= z x g
+ *     L = max(0, -sum f_z)     |g| <= mu_cloth L,  g against v + z x W
+ *     m v' += g,  (2/5) m W' -= z x g
  *
- * IN SPACE v_z is free and the cloth takes no part: a ball that is pressed down lands afterwards, as an event of its own.
+ * IN SPACE v_z is free and the cloth takes no part: a ball that is pressed down lands
+ * afterwards, as an event of its own.
  *
- * A contact that is open at the start takes its n where the balls touch, moved by s = int v dtau. Compression and duration of
- * a contact that closes at v: delta = (5 v^2 / (4 K B))^0.4, T = 2.943 delta / v. docs/understanding/clusters.md has what the
- * law explains, cluster.c the integrator. */
+ * A contact that is open at the start takes its n where the balls touch, moved by s = int v
+ * dtau. Compression and duration of a contact that closes at v: delta = (5 v^2 / (4 K B))^0.4, T
+ * = 2.943 delta / v. docs/understanding/clusters.md has what the law explains, cluster.c the
+ * integrator. */
 #ifndef CAROM_SRC_CLUSTER_CLUSTER_H
 #define CAROM_SRC_CLUSTER_CLUSTER_H
 
@@ -47,13 +54,15 @@ typedef struct carom_cluster_ball {
   double radius, inverse_mass; /* m, 1/kg */
   double mu_cloth;
   double restitution, modulus; /* e; E, N/m^2 */
-  double law[3];               /* a, b, c of its friction with other balls; a pair has the mean of each */
+  double law[3];               /* a, b, c of its friction with other balls; a pair has the mean
+                                  of each */
   bool flies;                  /* above the cloth: its contacts are in space */
   int8_t which;                /* the caller's index */
   int8_t acting;               /* its contacts that act in this step, at most 2 */
   /* of the integrator */
   double s[3];                /* int v dtau, m */
-  double base[2], g[2], load; /* slip on the cloth as a step begins; impulses of the cloth's friction and of the load */
+  double base[2], g[2], load; /* slip on the cloth as a step begins; impulses of the cloth's
+                                 friction and of the load */
 } carom_cluster_ball;
 
 typedef struct carom_cluster_contact_state {
@@ -67,13 +76,15 @@ typedef struct carom_cluster_contact_state {
   double size;     /* the compression that it has, or will have */
   double K, e;
   double mu, U;
-  double J, f[2];            /* impulses of a step along n, and of friction along t and the third; between steps f/J */
+  double J, f[2];            /* impulses of a step along n, and of friction along t and the
+                                third; between steps f/J */
   double u[2], closing;      /* slip and closing speed as a step begins */
   double time;               /* tau of the first touch */
   double impulse, rubbed[2]; /* sums of J and f */
 } carom_cluster_contact_state;
 
-/* The caller sets balls, ball[] up to `which`, steps and slow; carom_cluster_members() in_space and the contacts. */
+/* The caller sets balls, ball[] up to `which`, steps and slow; carom_cluster_members() in_space
+ * and the contacts. */
 typedef struct carom_cluster_state {
   bool in_space;
   int balls, contacts;
@@ -85,18 +96,20 @@ typedef struct carom_cluster_state {
   carom_cluster_contact_state contact[CAROM_CLUSTER_CONTACTS];
 } carom_cluster_state;
 
-/* members.c: compression of a contact of stiffness K and 1/reduced mass B that closes at v, and the duration of one of that
- * compression. */
+/* members.c: compression of a contact of stiffness K and 1/reduced mass B that closes at v, and
+ * the duration of one of that compression. */
 double carom_cluster_compression(double K, double B, double v);
 double carom_cluster_duration(double K, double B, double size);
 double carom_cluster_stiffness(const carom_cluster_ball *a, const carom_cluster_ball *b);
 
-/* members.c: keeps of ball[] those that a contact which begins can reach, and lists their contacts. The contact is that of two
- * balls, indices in ball[]; or, where `first` is below 0, that of the fastest of the pairs that touch and close. Returns the
- * number of contacts: 0 where no pair touches and closes at `slow` or faster, -1 where there are too many. */
+/* members.c: keeps of ball[] those that a contact which begins can reach, and lists their
+ * contacts. The contact is that of two balls, indices in ball[]; or, where `first` is below 0,
+ * that of the fastest of the pairs that touch and close. Returns the number of contacts: 0 where
+ * no pair touches and closes at `slow` or faster, -1 where there are too many. */
 int carom_cluster_members(carom_cluster_state *c, int first, int second);
 
-/* cluster.c: v and W of ball[]; time, impulse and friction of contact[]. False where it takes too many steps. */
+/* cluster.c: v and W of ball[]; time, impulse and friction of contact[]. False where it takes
+ * too many steps. */
 bool carom_cluster_solve(carom_cluster_state *c);
 
 #endif

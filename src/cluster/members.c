@@ -1,9 +1,11 @@
-/* Which balls take part in a cluster. The contact that starts it lasts T and is delta deep, cluster.h. From ball to ball, a
- * neighbour takes part whose gap is below 2 delta + T max(0, closing speed).
+/* Which balls take part in a cluster. The contact that starts it lasts T and is delta deep,
+ * cluster.h. From ball to ball, a neighbour takes part whose gap is below 2 delta + T max(0,
+ * closing speed).
  *
- * In truth a ball takes part that is touched while a contact acts, and for a full hit that border lies at a gap of 1.42 delta
- * (tests/physics/cluster.c, border). The integrator finds it by itself, so the reach has only to be larger: 1.6 and 3 instead
- * of 2 give the same results, 1 cuts a step of 2e-4 of the speed. */
+ * In truth a ball takes part that is touched while a contact acts, and for a full hit that
+ * border lies at a gap of 1.42 delta (tests/physics/cluster.c, border). The integrator finds it
+ * by itself, so the reach has only to be larger: 1.6 and 3 instead of 2 give the same results, 1
+ * cuts a step of 2e-4 of the speed. */
 #include "cluster/cluster.h"
 #include "cluster/vectors.h"
 
@@ -12,10 +14,12 @@
 
 static const double reach = 2.0;     /* of delta */
 static const double touching = 1e-9; /* m: what is nearer touches */
-static const double far = 0.01;      /* m: balls that are farther apart do not come to touch within a cluster */
+static const double far = 0.01;      /* m: balls that are farther apart do not come to touch
+                                        within a cluster */
 static const double least_restitution = 0.2;
 
-/* x^(1/5) for x >= 0, by the same operations everywhere: a fifth of the exponent, then Newton's method. */
+/* x^(1/5) for x >= 0, by the same operations everywhere: a fifth of the exponent, then Newton's
+ * method. */
 static double fifth_root(double x) {
   if (!(x > 1e-300))
     return 0.0;
@@ -78,7 +82,8 @@ static bool fastest_pair(const carom_cluster_state *c, int pair[2]) {
   return most > 0.0;
 }
 
-/* Follows the graph of near neighbours from a pair. Returns how many balls it reaches, and marks them. */
+/* Follows the graph of near neighbours from a pair. Returns how many balls it reaches, and marks
+ * them. */
 static int follow(const carom_cluster_state *c, const int pair[2], bool in[CAROM_CLUSTER_BALLS]) {
   const carom_cluster_ball *a = &c->ball[pair[0]], *b = &c->ball[pair[1]];
   const double K = carom_cluster_stiffness(a, b), B = a->inverse_mass + b->inverse_mass;
@@ -100,7 +105,8 @@ static int follow(const carom_cluster_state *c, const int pair[2], bool in[CAROM
   return found;
 }
 
-static void make_contact(const carom_cluster_state *c, int i, int j, const two_balls *two, carom_cluster_contact_state *x) {
+static void make_contact(const carom_cluster_state *c, int i, int j, const two_balls *two,
+                         carom_cluster_contact_state *x) {
   const carom_cluster_ball *a = &c->ball[i], *b = &c->ball[j];
   const double e = 0.5 * (a->restitution + b->restitution);
   memset(x, 0, sizeof *x);
@@ -148,7 +154,8 @@ int carom_cluster_members(carom_cluster_state *c, int first, int second) {
   c->in_space = false;
   for (int k = 0; k < kept; k++)
     c->in_space |= c->ball[k].flies || c->ball[k].radius != c->ball[0].radius;
-  /* small balls around a large one may have more neighbours than there is room for: then only the nearest */
+  /* small balls around a large one may have more neighbours than there is room for: then only
+   * the nearest */
   int count = -1;
   for (double limit = far; count < 0 && limit > touching; limit *= 0.5)
     count = list_contacts(c, limit);

@@ -1,4 +1,5 @@
-/* Vectors of three, of which a contact on the cloth uses two numbers. `flat` is a constant where these are inlined. */
+/* Vectors of three, of which a contact on the cloth uses two numbers. `flat` is a constant where
+ * these are inlined. */
 #ifndef CAROM_SRC_CLUSTER_VECTORS_H
 #define CAROM_SRC_CLUSTER_VECTORS_H
 
@@ -33,9 +34,10 @@ static inline double cluster_level(bool flat, const double n[3]) {
   return level < 0.1 ? 0.0 : 1.0 / level;
 }
 
-/* Two unit vectors across n and each other: t, horizontal or along n x e_x, and t x n, which is up on the cloth. `level` is
- * that of n. */
-static inline void cluster_across(bool flat, const double n[3], double level, double t[3], double third[3]) {
+/* Two unit vectors across n and each other: t, horizontal or along n x e_x, and t x n, which is
+ * up on the cloth. `level` is that of n. */
+static inline void cluster_across(bool flat, const double n[3], double level, double t[3],
+                                  double third[3]) {
   if (flat || level > 0.0) {
     t[0] = flat ? n[1] : n[1] * level;
     t[1] = flat ? -n[0] : -n[0] * level;

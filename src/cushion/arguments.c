@@ -1,4 +1,5 @@
-/* The one place where the arguments of an impact on a cushion are checked, by the conditions of the comments in carom_shot.h.
+/* The one place where the arguments of an impact on a cushion are checked, by the conditions of
+ * the comments in carom_shot.h.
  */
 #include "cushion/models.h"
 #include "platform/ranges.h"
@@ -11,7 +12,8 @@
 static const double level = 1e-9;
 
 enum { FIELDS = 15 };
-_Static_assert(sizeof(carom_cushion_impact) == FIELDS * sizeof(double), "an impact is 15 doubles without gaps");
+_Static_assert(sizeof(carom_cushion_impact) == FIELDS * sizeof(double),
+               "an impact is 15 doubles without gaps");
 _Static_assert(sizeof(carom_motion) == 6 * sizeof(double), "a motion is 6 doubles without gaps");
 
 #define FIELD(member) ((int)(offsetof(carom_cushion_impact, member) / sizeof(double)))
@@ -35,8 +37,10 @@ carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
   const bool step = opt->least_step >= 0 && opt->least_step < INFINITY;
   const bool ratio = opt->omega_ratio == 0 || (opt->omega_ratio > 1 && opt->omega_ratio < 2);
   const bool speed = fabs(opt->restitution_log) <= 1 && fabs(opt->mu_log) <= 1;
-  const bool smooth = carom_smooth_is_good(opt->smooth_q, opt->smooth_x, opt->smooth_t, opt->smooth_a, opt->smooth_k);
-  return convention && law && step && ratio && speed && smooth ? CAROM_OK : CAROM_ERROR_CUSHION_OPTIONS;
+  const bool smooth = carom_smooth_is_good(opt->smooth_q, opt->smooth_x, opt->smooth_t,
+                                           opt->smooth_a, opt->smooth_k);
+  return convention && law && step && ratio && speed && smooth ? CAROM_OK
+                                                               : CAROM_ERROR_CUSHION_OPTIONS;
 }
 
 static const carom_range of_field[FIELDS] = {
@@ -62,13 +66,18 @@ carom_status carom_cushion_check_impact(const carom_cushion_impact *in, int *fie
   if (*field < FIELDS)
     return of_field[*field].error;
   /* conditions on several numbers */
-  const bool no_normal = in->normal[0] == 0 && in->normal[1] == 0, high = !(in->height / 2 < in->radius);
+  const bool no_normal = in->normal[0] == 0 && in->normal[1] == 0,
+             high = !(in->height / 2 < in->radius);
   const bool vertical = fabs(in->v[2]) > level * (fabs(in->v[0]) + fabs(in->v[1]));
   *field = no_normal ? FIELD(normal) : high ? FIELD(height) : vertical ? FIELD(v) + 2 : -1;
-  return no_normal ? CAROM_ERROR_NORMAL : high ? CAROM_ERROR_NOSE_HEIGHT : vertical ? CAROM_ERROR_VERTICAL : CAROM_OK;
+  return no_normal  ? CAROM_ERROR_NORMAL
+         : high     ? CAROM_ERROR_NOSE_HEIGHT
+         : vertical ? CAROM_ERROR_VERTICAL
+                    : CAROM_OK;
 }
 
-carom_status carom_cushion_check(const carom_cushion_impact *in, const carom_cushion_options *opt, int *field) {
+carom_status carom_cushion_check(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                                 int *field) {
   int unused;
   int *where = field != NULL ? field : &unused;
   *where = -1;
@@ -79,9 +88,9 @@ carom_status carom_cushion_check(const carom_cushion_impact *in, const carom_cus
 }
 
 const char *carom_cushion_field_name(int field) {
-  static const char *const names[FIELDS] = {"v[0]", "v[1]",      "v[2]",       "w[0]",        "w[1]",
-                                            "w[2]", "normal[0]", "normal[1]",  "height",      "radius",
-                                            "mass", "mu_cloth",  "mu_cushion", "restitution", "jaw_radius"};
+  static const char *const names[FIELDS] = {
+      "v[0]",   "v[1]",   "v[2]", "w[0]",     "w[1]",       "w[2]",        "normal[0]", "normal[1]",
+      "height", "radius", "mass", "mu_cloth", "mu_cushion", "restitution", "jaw_radius"};
   return field >= 0 && field < FIELDS ? names[field] : NULL;
 }
 

@@ -1,21 +1,26 @@
 /* Three closed forms. None knows the cloth.
  *
- * HAN. Coulomb's impact of a ball on a rigid point: normal impulse P = (1 + e) v_y cos(theta). The slip at the nose falls by
- * 7/2 of the friction's impulse, whatever its direction, so friction either stops it, f = -2/7 s, or slides to the end, f =
- * -mu_w P s/|s|. The vertical velocity that this gives is dropped. Source: I. Han, J. Mech. Sci. Technol. 19 (2005) 976-984,
+ * HAN. Coulomb's impact of a ball on a rigid point: normal impulse P = (1 + e) v_y cos(theta).
+ * The slip at the nose falls by 7/2 of the friction's impulse, whatever its direction, so
+ * friction either stops it, f = -2/7 s, or slides to the end, f = -mu_w P s/|s|. The vertical
+ * velocity that this gives is dropped. Source: I. Han, J. Mech. Sci. Technol. 19 (2005) 976-984,
  * equations 14 to 23; his x, y are y, -x here.
  *
- * SMOOTH. Recorded balls pass from sticking to sliding gradually, and the nose gives back a part of the slip (C > 1):
+ * SMOOTH. Recorded balls pass from sticking to sliding gradually, and the nose gives back a part
+ * of the slip (C > 1):
  *
  *     F      = 2/7 (C_x s_x, C_t s_t)                        what friction would do if it could
  *     rho    = |(F_x, F_t/(1 + a))| / (mu_w P)               the part of friction that this needs
- *     sigma  = (1 + rho^(1/q))^-q                            the part that is done: 1 for small rho, 1/rho for large
+ *     sigma  = (1 + rho^(1/q))^-q                            the part that is done: 1 for small
+ *                                                            rho, 1/rho for large
  *     f      = -sigma F
  *     P'     = min(P (1 + k rho sigma), 2 v_y cos(theta))    more rebound where friction is used up
  *
- * q -> 0, C = 1, a = k = 0 is Han's. Energy never rises. Before the vertical velocity is dropped, which takes energy, it changes
- * by P' (P'/2 - v_y cos(theta)) <= 0 through P', and through each part of f by s^2/7 ((sigma C)^2 - 2 sigma C), which is not
- * above 0 for 0 < sigma C <= 2; sigma is at most 1. The constants were read off one table: docs/understanding/constants.md.
+ * q -> 0, C = 1, a = k = 0 is Han's. Energy never rises. Before the vertical velocity is
+ * dropped, which takes energy, it changes by P' (P'/2 - v_y cos(theta)) <= 0 through P', and
+ * through each part of f by s^2/7 ((sigma C)^2 - 2 sigma C), which is not above 0 for 0 < sigma
+ * C <= 2; sigma is at most 1. The constants were read off one table:
+ * docs/understanding/constants.md.
  *
  * MIRROR. v_y becomes -e v_y. */
 #include "cushion/models.h"
@@ -54,14 +59,15 @@ void carom_apply_speed(carom_contact *c, double restitution_log, double mu_log) 
 bool carom_smooth_is_good(double q, double C_x, double C_t, double a, double k) {
   if (q == 0)
     return C_x == 0 && C_t == 0 && a == 0 && k == 0;
-  return q >= 1e-12 && q <= 0.5 && C_x > 0 && C_x <= 2 && C_t > 0 && C_t <= 2 && carom_in_unit_interval(a) &&
-         carom_in_unit_interval(k);
+  return q >= 1e-12 && q <= 0.5 && C_x > 0 && C_x <= 2 && C_t > 0 && C_t <= 2 &&
+         carom_in_unit_interval(a) && carom_in_unit_interval(k);
 }
 
 carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
   /* the constants of the caller, or those that were measured */
   const bool own = opt->smooth_q > 0;
-  const double q = own ? opt->smooth_q : 0.35, C_x = own ? opt->smooth_x : 1.3, C_t = own ? opt->smooth_t : 1.2;
+  const double q = own ? opt->smooth_q : 0.35, C_x = own ? opt->smooth_x : 1.3,
+               C_t = own ? opt->smooth_t : 1.2;
   const double a = own ? opt->smooth_a : 0.13, k = own ? opt->smooth_k : 0.047;
 
   /* what friction would do, and the most that it can */
@@ -74,7 +80,8 @@ carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
   const double ratio = sticks ? wanted / most : wanted > 0 ? most / wanted : 0;
   const double corner = carom_power(1 + carom_power(ratio, 1 / q), -q);
   const double sigma = sticks ? corner : ratio * corner, used = sticks ? ratio * corner : corner;
-  const carom_impulse all = {.P = carom_lesser(P * (1 + k * used), 2 * once), .f_x = -sigma * F_x, .f_t = -sigma * F_t};
+  const carom_impulse all = {
+      .P = carom_lesser(P * (1 + k * used), 2 * once), .f_x = -sigma * F_x, .f_t = -sigma * F_t};
   carom_push(c, &all);
   return CAROM_OK;
 }

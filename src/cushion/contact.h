@@ -1,14 +1,16 @@
 /* A ball at a cushion in the frame of the impact: what every model of src/cushion works on.
  *
- * x along the cushion, y horizontally into it, z up, right-handed. The nose touches the ball at I, in the direction
- * n = (0, cos theta, sin theta) from its centre; t = (0, -sin theta, cos theta) points up along the nose. C is the contact with
- * the cloth. Spins are taken times the radius, so all six numbers are speeds, m/s:
+ * x along the cushion, y horizontally into it, z up, right-handed. The nose touches the ball at
+ * I, in the direction
+ * n = (0, cos theta, sin theta) from its centre; t = (0, -sin theta, cos theta) points up along
+ * the nose. C is the contact with the cloth. Spins are taken times the radius, so all six
+ * numbers are speeds, m/s:
  *
  *     slip at I:   s_x = v_x + W_y sin theta - W_z cos theta        s_t = W_x - v_y sin theta
  *     slip at C:   c_x = v_x - W_y                                  c_y = v_y + W_x
  *
- * Impulses over the mass are speeds too: P into the cushion, f = (f_x, f_t) the friction at I and F = (F_x, F_y) that at C,
- * both on the ball, change the motion by
+ * Impulses over the mass are speeds too: P into the cushion, f = (f_x, f_t) the friction at I
+ * and F = (F_x, F_y) that at C, both on the ball, change the motion by
  *
  *     v_x: f_x + F_x       v_y: -P cos theta - f_t sin theta + F_y
  *     W_x: 5/2 (f_t + F_y)       W_y: 5/2 (f_x sin theta - F_x)       W_z: -5/2 f_x cos theta */
@@ -65,12 +67,14 @@ typedef struct carom_cushion_frame {
 /* Of an impact that has been checked. */
 static inline carom_cushion_frame carom_cushion_frame_of(const carom_cushion_impact *in) {
   /* over the larger of the two first, so that no square leaves the range */
-  const double most = fmax(fabs(in->normal[0]), fabs(in->normal[1])), x = in->normal[0] / most, y = in->normal[1] / most;
+  const double most = fmax(fabs(in->normal[0]), fabs(in->normal[1])), x = in->normal[0] / most,
+               y = in->normal[1] / most;
   const double length = sqrt(x * x + y * y);
   return (carom_cushion_frame){x / length, y / length};
 }
 
-static inline carom_contact carom_to_cushion(const carom_cushion_frame *frame, const carom_cushion_impact *in,
+static inline carom_contact carom_to_cushion(const carom_cushion_frame *frame,
+                                             const carom_cushion_impact *in,
                                              const carom_cushion_options *opt) {
   const double X = frame->y_y, Y = frame->y_x, R = in->radius;
   carom_contact c = {.v_x = in->v[0] * X - in->v[1] * Y,
@@ -84,14 +88,16 @@ static inline carom_contact carom_to_cushion(const carom_cushion_frame *frame, c
                      .e = in->restitution};
   c.cosine = sqrt((1 - c.sine) * (1 + c.sine));
   if (opt->model == CAROM_CUSHION_STRONGE && opt->convention == CAROM_CONVENTION_POOLTOOL) {
-    const double up = in->height - R, out = R + in->jaw_radius + 1e-6, length = sqrt(up * up + out * out);
+    const double up = in->height - R, out = R + in->jaw_radius + 1e-6,
+                 length = sqrt(up * up + out * out);
     c.sine = up / length;
     c.cosine = out / length;
   }
   return c;
 }
 
-static inline void carom_from_cushion(const carom_cushion_frame *frame, const carom_contact *c, double R, carom_motion *out) {
+static inline void carom_from_cushion(const carom_cushion_frame *frame, const carom_contact *c,
+                                      double R, carom_motion *out) {
   const double X = frame->y_y, Y = frame->y_x, w_x = c->W_x / R, w_y = c->W_y / R;
   *out = (carom_motion){.v = {c->v_x * X + c->v_y * Y, c->v_y * X - c->v_x * Y, 0},
                         .w = {w_x * X + w_y * Y, w_y * X - w_x * Y, c->W_z / R}};

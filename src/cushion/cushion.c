@@ -22,13 +22,15 @@ static carom_status by_model(carom_contact *c, const carom_cushion_options *opt,
   case CAROM_CUSHION_SMOOTH:
     return carom_smooth(c, opt);
   case CAROM_CUSHION_EULER:
-    return carom_cushion_euler(c, carom_cushion_steps(opt), opt->least_step / mass, pooltool, INT64_MAX, &run);
+    return carom_cushion_euler(c, carom_cushion_steps(opt), opt->least_step / mass, pooltool,
+                               INT64_MAX, &run);
   }
   return CAROM_ERROR_CUSHION_MODEL;
 }
 
 static bool is_finite(const carom_motion *m) {
-  return isfinite(m->v[0]) && isfinite(m->v[1]) && isfinite(m->w[0]) && isfinite(m->w[1]) && isfinite(m->w[2]);
+  return isfinite(m->v[0]) && isfinite(m->v[1]) && isfinite(m->w[0]) && isfinite(m->w[1]) &&
+         isfinite(m->w[2]);
 }
 
 void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt) {
@@ -39,7 +41,8 @@ void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt) {
 }
 
 /* One impact, with options that have been checked. */
-static carom_status solve_impact(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out) {
+static carom_status solve_impact(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                                 carom_motion *out) {
   int field;
   carom_status status = carom_cushion_check_impact(in, &field);
   if (status == CAROM_OK) {
@@ -62,7 +65,8 @@ static carom_status solve_impact(const carom_cushion_impact *in, const carom_cus
   return status;
 }
 
-carom_status carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out) {
+carom_status carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                           carom_motion *out) {
   if (in == NULL || out == NULL)
     return CAROM_ERROR_NULL;
   if (opt == NULL)
@@ -107,7 +111,8 @@ static size_t least_part(const carom_cushion_options *opt) {
   }
 }
 
-carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n, const carom_cushion_options *opt, carom_motion *out,
+carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n,
+                                 const carom_cushion_options *opt, carom_motion *out,
                                  int8_t *status) {
   if (opt == NULL)
     opt = &defaults;

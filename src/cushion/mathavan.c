@@ -1,26 +1,31 @@
 /* The exact limit of the model of the 2010 paper: contact.h in the terms of impact/law.h.
  *
- * The driving contact is the nose, where y points along t. With p = P / M the slips and the speed of approach change by
+ * The driving contact is the nose, where y points along t. With p = P / M the slips and the
+ * speed of approach change by
  *
- *     s_x' = 7/2 f_x + (1 - 5/2 sin) F_x            s_t' = sin cos + (5/2 + sin^2) f_t + (5/2 - sin) F_y
+ *     s_x' = 7/2 f_x + (1 - 5/2 sin) F_x
+ *     s_t' = sin cos + (5/2 + sin^2) f_t + (5/2 - sin) F_y
  *     c_x' = (1 - 5/2 sin) f_x + 7/2 F_x            c_y' = -cos + (5/2 - sin) f_t + 7/2 F_y
  *     v_y' = -cos - sin f_t + F_y
  *
- * and vertical forces balance at the cloth: its load is sin - cos f_t, but never below 0: the cloth does not pull. */
+ * and vertical forces balance at the cloth: its load is sin - cos f_t, but never below 0: the
+ * cloth does not pull. */
 
 #include "cushion/models.h"
 
-void carom_mathavan_begin(const carom_contact *c, double tolerance, int plain, carom_trajectory *path) {
+void carom_mathavan_begin(const carom_contact *c, double tolerance, int plain,
+                          carom_trajectory *path) {
   const double per = 1 / c->v_y;
   const carom_law law = carom_mathavan_law(c);
-  carom_impact_begin(&law, tolerance, plain, per * carom_slip_x(c), per * carom_slip_t(c), per * carom_cloth_x(c),
-                     per * carom_cloth_y(c), 0, path);
+  carom_impact_begin(&law, tolerance, plain, per * carom_slip_x(c), per * carom_slip_t(c),
+                     per * carom_cloth_x(c), per * carom_cloth_y(c), 0, path);
 }
 
 carom_impulse carom_mathavan_impulse(const carom_contact *c, const carom_trajectory *path) {
   const carom_impulses q = carom_impact_impulses(path);
   const double v = c->v_y;
-  return (carom_impulse){.P = v * q.p, .f_x = v * q.f_x, .f_t = v * q.f_y, .F_x = v * q.F_x, .F_y = v * q.F_y};
+  return (carom_impulse){
+      .P = v * q.p, .f_x = v * q.f_x, .f_t = v * q.f_y, .F_x = v * q.F_x, .F_y = v * q.F_y};
 }
 
 carom_status carom_mathavan(carom_contact *c, int plain) {

@@ -1,5 +1,6 @@
-/* The models of an impact on a cushion. Each takes a contact whose ball moves into the cushion and leaves it with the motion
- * after the impact; CAROM_OK, or an error, and then the contact is of no use. */
+/* The models of an impact on a cushion. Each takes a contact whose ball moves into the cushion
+ * and leaves it with the motion after the impact; CAROM_OK, or an error, and then the contact is
+ * of no use. */
 #ifndef CAROM_SRC_CUSHION_MODELS_H
 #define CAROM_SRC_CUSHION_MODELS_H
 
@@ -16,8 +17,10 @@ carom_status carom_mathavan(carom_contact *contact, int plain);
 #define CAROM_OMEGA_RATIO 1.8
 carom_status carom_stronge(carom_contact *contact, double ratio, int pooltool);
 
-/* Its friction impulse over the mass, against a slip, m/s, for a ball that meets a nose at v_n, from any side. */
-double carom_stronge_friction(double v_n, double slip, double mu, double e, double ratio, int pooltool);
+/* Its friction impulse over the mass, against a slip, m/s, for a ball that meets a nose at v_n,
+ * from any side. */
+double carom_stronge_friction(double v_n, double slip, double mu, double e, double ratio,
+                              int pooltool);
 
 /* Puts Han's fits for restitution and friction into a contact. See closed.c. */
 void carom_apply_han(carom_contact *contact);
@@ -28,10 +31,12 @@ carom_status carom_han(carom_contact *contact);
 /* Han's impact without its corner. See closed.c. */
 carom_status carom_smooth(carom_contact *contact, const carom_cushion_options *opt);
 
-/* Restitution and friction of a contact at its speed v_y, by the changes for each unit of ln(v_y). See closed.c. */
+/* Restitution and friction of a contact at its speed v_y, by the changes for each unit of
+ * ln(v_y). See closed.c. */
 void carom_apply_speed(carom_contact *contact, double restitution_log, double mu_log);
 
-/* Restitution and friction of a contact by the law of the options: Han's fits, or the changes by speed. See cushion.c. */
+/* Restitution and friction of a contact by the law of the options: Han's fits, or the changes by
+ * speed. See cushion.c. */
 void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt);
 
 /* Whether the five numbers of the smooth law are in their ranges. */
@@ -42,12 +47,14 @@ carom_status carom_mirror(carom_contact *contact);
 /* How a run of Euler's method ended. */
 typedef struct carom_cushion_run {
   int64_t steps;                          /* of both phases together */
-  double impulse, work, work_compression; /* over the mass: normal impulse, m/s, and work, m^2/s^2 */
+  double impulse, work, work_compression; /* over the mass: normal impulse, m/s, and work,
+                                             m^2/s^2 */
 } carom_cushion_run;
 
-/* N steps of impulse, of which none is below `least` (N s over the mass, m/s); no more than `most` are taken. See euler.c. */
-carom_status carom_cushion_euler(carom_contact *contact, int steps, double least, int pooltool, int64_t most,
-                                 carom_cushion_run *run);
+/* N steps of impulse, of which none is below `least` (N s over the mass, m/s); no more than
+ * `most` are taken. See euler.c. */
+carom_status carom_cushion_euler(carom_contact *contact, int steps, double least, int pooltool,
+                                 int64_t most, carom_cushion_run *run);
 
 /* The exact limit for the precise solver of src/impact. See mathavan.c. */
 static inline carom_law carom_mathavan_law(const carom_contact *c) {
@@ -72,7 +79,8 @@ static inline carom_law carom_mathavan_law(const carom_contact *c) {
 }
 
 /* Puts an impact at its start; tolerance: see impact.h. */
-void carom_mathavan_begin(const carom_contact *contact, double tolerance, int plain, carom_trajectory *path);
+void carom_mathavan_begin(const carom_contact *contact, double tolerance, int plain,
+                          carom_trajectory *path);
 
 /* Impulses so far, over the mass. */
 carom_impulse carom_mathavan_impulse(const carom_contact *contact, const carom_trajectory *path);

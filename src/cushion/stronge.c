@@ -1,27 +1,33 @@
-/* Stronge's impact of a ball on a compliant nose, planar, in closed form; the default of the simulator pooltool.
+/* Stronge's impact of a ball on a compliant nose, planar, in closed form; the default of the
+ * simulator pooltool.
  *
- * The nose is two springs: across its surface with the frequency w, along it with ratio w. Friction between them obeys
- * Coulomb's law with mu. With beta = 7/2 (slip against friction impulse), eta^2 = beta / ratio^2, speeds over the approach v_n
- * at the nose, and tau = w t, compression ends at tau = pi/2 and the impact at (1 + e) pi/2. Restitution has the phase phi =
- * tau/e + pi/2 (1 - 1/e), from pi/2 to pi. With rho = |slip| / v_n before the impact, the slip after it is, over v_n,
+ * The nose is two springs: across its surface with the frequency w, along it with ratio w.
+ * Friction between them obeys Coulomb's law with mu. With beta = 7/2 (slip against friction
+ * impulse), eta^2 = beta / ratio^2, speeds over the approach v_n at the nose, and tau = w t,
+ * compression ends at tau = pi/2 and the impact at (1 + e) pi/2. Restitution has the phase phi =
+ * tau/e + pi/2 (1 - 1/e), from pi/2 to pi. With rho = |slip| / v_n before the impact, the slip
+ * after it is, over v_n,
  *
  *   if it slips to the end        rho - mu beta (1 + e)
- *   if it sticks from tau_k on    U ratio sin(a) + V cos(a) + mu beta e (1 + cos phi(tau_s)),    a = ratio (tau_s - tau_k)
+ *   if it sticks from tau_k on    U ratio sin(a) + V cos(a) + mu beta e (1 + cos phi(tau_s)),
+ *                                 a = ratio (tau_s - tau_k)
  *
- * where U and V are displacement (times w) and speed of the tangential spring at tau_k, and tau_s is where it slips again: its
- * force |U cos(a) - V sin(a) / ratio| has come up to that of friction, mu eta^2 sin phi. It sticks
+ * where U and V are displacement (times w) and speed of the tangential spring at tau_k, and
+ * tau_s is where it slips again: its force |U cos(a) - V sin(a) / ratio| has come up to that of
+ * friction, mu eta^2 sin phi. It sticks
  *
  *   at once                       rho < mu eta^2
- *   in compression                rho <= mu beta                                           rho at the limit: see NEAR
+ *   in compression                rho <= mu beta      (rho at the limit: see NEAR)
  *   in restitution                rho <= mu [(1 + e) beta - eta^2/e]
  *   never                         otherwise
  *
- * pooltool asks for "never" first, by the third limit alone. Below e = 1 / ratio that lies under the second, and balls that
- * stick in compression are then taken to slip to the end, which can reverse the slip beyond its size and add energy. Its
- * convention copies that.
+ * pooltool asks for "never" first, by the third limit alone. Below e = 1 / ratio that lies under
+ * the second, and balls that stick in compression are then taken to slip to the end, which can
+ * reverse the slip beyond its size and add energy. Its convention copies that.
  *
- * The force is continuous at tau_s, so an error there changes the result to second order only: the zero is located to
- * ROOT_WIDTH, in at most MOST_TRIALS trials. With e = 0 restitution takes no time.
+ * The force is continuous at tau_s, so an error there changes the result to second order only:
+ * the zero is located to ROOT_WIDTH, in at most MOST_TRIALS trials. With e = 0 restitution takes
+ * no time.
  *
  * Source: W. J. Stronge, Impact Mechanics (Cambridge, 2000), section 5.2. */
 #include "cushion/models.h"
@@ -31,7 +37,8 @@
 
 static const double BETA = 3.5, HALF_PI = 1.57079632679489661923;
 static const double ROOT_WIDTH = 1e-10;
-static const double LIMIT_ABSOLUTE = 1e-8, LIMIT_RELATIVE = 1e-5; /* how pooltool tells that rho is at a limit */
+/* how pooltool tells that rho is at a limit */
+static const double LIMIT_ABSOLUTE = 1e-8, LIMIT_RELATIVE = 1e-5;
 enum { MOST_TRIALS = 60, MOST_HALVINGS = 20 };
 
 typedef struct spring {
@@ -67,7 +74,9 @@ static double slips_again(const spring *s) {
   if (!(g_high < 0))
     return high;
   for (int k = 0; k < MOST_TRIALS && high - low > ROOT_WIDTH; k++) {
-    const double tau = k % 3 == 2 ? 0.5 * (low + high) : low + (high - low) * (g_low / (g_low - g_high)), g = hold(s, tau);
+    const double tau = k % 3 == 2 ? 0.5 * (low + high)
+                                  : low + (high - low) * (g_low / (g_low - g_high)),
+                 g = hold(s, tau);
     if (g == 0)
       return tau;
     *(g > 0 ? &low : &high) = tau;
@@ -95,7 +104,12 @@ static void stick(spring *s, double rho) {
 
 /* The slip after the impact, over v_n. */
 static double slip_after(double rho, double mu, double e, double ratio, bool pooltool) {
-  spring s = {.mu = mu, .e = e, .ratio = ratio, .eta_squared = BETA / (ratio * ratio), .end = HALF_PI * (1 + e), .V = rho};
+  spring s = {.mu = mu,
+              .e = e,
+              .ratio = ratio,
+              .eta_squared = BETA / (ratio * ratio),
+              .end = HALF_PI * (1 + e),
+              .V = rho};
   const double at_once = mu * s.eta_squared, to_the_end = mu * ((1 + e) * BETA - s.eta_squared / e);
   if (!(mu > 0) || (rho > to_the_end && (pooltool || rho > mu * BETA)))
     return rho - mu * BETA * (1 + e);
@@ -104,7 +118,8 @@ static double slip_after(double rho, double mu, double e, double ratio, bool poo
   double tau_s;
   if (fabs(rho - at_once) <= LIMIT_ABSOLUTE + LIMIT_RELATIVE * at_once)
     tau_s = HALF_PI;
-  else if (rho <= LIMIT_ABSOLUTE || (e > 0 && fabs(rho - to_the_end) <= LIMIT_ABSOLUTE + LIMIT_RELATIVE * to_the_end))
+  else if (rho <= LIMIT_ABSOLUTE ||
+           (e > 0 && fabs(rho - to_the_end) <= LIMIT_ABSOLUTE + LIMIT_RELATIVE * to_the_end))
     tau_s = s.end;
   else
     tau_s = slips_again(&s);
@@ -115,17 +130,20 @@ static double slip_after(double rho, double mu, double e, double ratio, bool poo
 }
 
 /* What share of the slip friction takes over the mass. */
-static double friction_share(double v_n, double slip, double mu, double e, double ratio, bool pooltool) {
+static double friction_share(double v_n, double slip, double mu, double e, double ratio,
+                             bool pooltool) {
   const double rho = slip / v_n;
   return slip > 0 ? (1 - slip_after(rho, mu, e, ratio, pooltool) / rho) / BETA : 0;
 }
 
-double carom_stronge_friction(double v_n, double slip, double mu, double e, double ratio, int pooltool) {
+double carom_stronge_friction(double v_n, double slip, double mu, double e, double ratio,
+                              int pooltool) {
   return friction_share(v_n, slip, mu, e, ratio, pooltool) * slip;
 }
 
 carom_status carom_stronge(carom_contact *c, double ratio, int pooltool) {
-  const double s_x = carom_slip_x(c), s_t = carom_slip_t(c), slip = sqrt(s_x * s_x + s_t * s_t), v_n = c->v_y * c->cosine;
+  const double s_x = carom_slip_x(c), s_t = carom_slip_t(c), slip = sqrt(s_x * s_x + s_t * s_t),
+               v_n = c->v_y * c->cosine;
   const double share = friction_share(v_n, slip, c->mu_w, c->e, ratio, pooltool);
   const carom_impulse q = {.P = (1 + c->e) * v_n, .f_x = -share * s_x, .f_t = -share * s_t};
   carom_push(c, &q);

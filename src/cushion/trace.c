@@ -1,5 +1,6 @@
-/* carom_cushion_trace(): an impact on its way, sampled at equal steps of normal impulse. The precise solver follows the
- * exact limit from sample to sample; Euler's method is stopped on its way, once for each sample. */
+/* carom_cushion_trace(): an impact on its way, sampled at equal steps of normal impulse. The
+ * precise solver follows the exact limit from sample to sample; Euler's method is stopped on its
+ * way, once for each sample. */
 #include "cushion/models.h"
 
 #include <stdbool.h>
@@ -15,18 +16,20 @@ typedef struct subject {
 
 static void put_point(const subject *s, const carom_contact *c, double P, double work, bool parting,
                       carom_cushion_point *point) {
-  *point = (carom_cushion_point){.normal = P * s->in->mass,
-                                 .work = work * s->in->mass,
-                                 .phase = parting ? CAROM_PHASE_RESTITUTION : CAROM_PHASE_COMPRESSION,
-                                 .v_n = c->v_y * c->cosine,
-                                 .s_x = carom_slip_x(c),
-                                 .s_t = carom_slip_t(c),
-                                 .c_x = carom_cloth_x(c),
-                                 .c_y = carom_cloth_y(c)};
+  *point =
+      (carom_cushion_point){.normal = P * s->in->mass,
+                            .work = work * s->in->mass,
+                            .phase = parting ? CAROM_PHASE_RESTITUTION : CAROM_PHASE_COMPRESSION,
+                            .v_n = c->v_y * c->cosine,
+                            .s_x = carom_slip_x(c),
+                            .s_t = carom_slip_t(c),
+                            .c_x = carom_cloth_x(c),
+                            .c_y = carom_cloth_y(c)};
   carom_from_cushion(&s->frame, c, s->in->radius, &point->state);
 }
 
-static carom_status trace_exact(const subject *s, int plain, size_t n, carom_cushion_point *points) {
+static carom_status trace_exact(const subject *s, int plain, size_t n,
+                                carom_cushion_point *points) {
   /* first to the end, for the impulse of the whole impact; then to each sample */
   carom_trajectory path;
   carom_mathavan_begin(&s->start, TOLERANCE, plain, &path);
@@ -50,15 +53,18 @@ static carom_status trace_exact(const subject *s, int plain, size_t n, carom_cus
   return status;
 }
 
-static carom_status trace_euler(const subject *s, const carom_cushion_options *opt, size_t n, carom_cushion_point *points) {
+static carom_status trace_euler(const subject *s, const carom_cushion_options *opt, size_t n,
+                                carom_cushion_point *points) {
   int64_t total = INT64_MAX;
   /* first to the end, to count the steps; then to each point */
   for (size_t k = n; k-- > 0;) {
     carom_contact c = s->start;
     carom_cushion_run run;
-    const int64_t most = k + 1 < n ? (int64_t)round((double)k * ((double)total / (double)(n - 1))) : INT64_MAX;
-    const carom_status status = carom_cushion_euler(&c, carom_cushion_steps(opt), opt->least_step / s->in->mass,
-                                                    opt->convention == CAROM_CONVENTION_POOLTOOL, most, &run);
+    const int64_t most =
+        k + 1 < n ? (int64_t)round((double)k * ((double)total / (double)(n - 1))) : INT64_MAX;
+    const carom_status status =
+        carom_cushion_euler(&c, carom_cushion_steps(opt), opt->least_step / s->in->mass,
+                            opt->convention == CAROM_CONVENTION_POOLTOOL, most, &run);
     if (status != CAROM_OK)
       return status;
     if (k + 1 == n)
@@ -81,8 +87,8 @@ static void fill_nan(size_t n, carom_cushion_point *points) {
                                       .state = {{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
 }
 
-carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cushion_options *opt, size_t n,
-                                 carom_cushion_point *points) {
+carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                                 size_t n, carom_cushion_point *points) {
   static const carom_cushion_options defaults = {0};
   if (in == NULL || points == NULL)
     return CAROM_ERROR_NULL;
@@ -104,7 +110,8 @@ carom_status carom_cushion_trace(const carom_cushion_impact *in, const carom_cus
     else if (opt->model == CAROM_CUSHION_MATHAVAN)
       status = trace_exact(&s, opt->plain, n, points);
     else
-      status = opt->model == CAROM_CUSHION_EULER ? trace_euler(&s, opt, n, points) : CAROM_ERROR_CUSHION_MODEL;
+      status = opt->model == CAROM_CUSHION_EULER ? trace_euler(&s, opt, n, points)
+                                                 : CAROM_ERROR_CUSHION_MODEL;
   }
   if (status < 0)
     fill_nan(n, points);

@@ -1,60 +1,71 @@
 /* An impact step by step: which step comes next, and what follows it.
  *
- * A REGIME (contact.c) lasts until a slip is zero or its event happens. Where all rates are constant, as in an impact without
- * motion along x, the solution is a straight line. Otherwise a step is planned by the motion of the slip a at the driving
- * contact:
+ * A REGIME (contact.c) lasts until a slip is zero or its event happens. Where all rates are
+ * constant, as in an impact without motion along x, the solution is a straight line. Otherwise a
+ * step is planned by the motion of the slip a at the driving contact:
  *
  *     a slides             a stretched map (map.h)
- *     a is quasi-steady    friction nearly balances what drives a, and a has settled in the direction in which friction lets it
- *                          go. The equations are stiff and their solution is smooth: an even map, and exact steps
+ *     a is quasi-steady    friction nearly balances what drives a, and a has settled in the
+ *                          direction in which friction lets it go. The equations are stiff and
+ *                          their solution is smooth: an even map, and exact steps
  *     a begins from zero   the same
  *     a is held            only b moves: an even map
  *
- * A step in which b passes near zero has a sinh map. A b that is quasi-steady takes an even map and exact steps.
+ * A step in which b passes near zero has a sinh map. A b that is quasi-steady takes an even map
+ * and exact steps.
  *
- * SAFETY. A step that is refused is tried again with a shorter length. After MOST_REFUSALS in a row the rest of the impact goes
- * by careful steps: exact ones over even maps, each only a share of the way to where a slip could vanish. The caller bounds the
- * number of iterations of all steps together. */
+ * SAFETY. A step that is refused is tried again with a shorter length. After MOST_REFUSALS in a
+ * row the rest of the impact goes by careful steps: exact ones over even maps, each only a share
+ * of the way to where a slip could vanish. The caller bounds the number of iterations of all
+ * steps together. */
 #include "impact/map.h"
 #include "impact/variation_step.h"
 #include "platform/elementary.h"
 
 #include <float.h>
 
-/* Found by trial with `carom-lab stress --cushion 20000`, whose largest error is 1.1e-7 in play and 1.5e-6 anywhere, and
- * `carom-lab bench --cushion`; see docs/study/tried.md. Times vary by about 3 %. At twice and at half:
+/* Found by trial with `carom-lab stress --cushion 20000`, whose largest error is 1.1e-7 in play
+ * and 1.5e-6 anywhere, and `carom-lab bench --cushion`; see docs/study/tried.md. Times vary by
+ * about 3 %. At twice and at half:
  *
  *     MOST_TURN                twice: nothing changes; half: play takes 4 % longer
  *     MOST_FALL                twice: play takes 58 % longer; half: 8 %
- *     BOLDER                   twice: play takes 5 % longer, 3 impacts of 20,000 are unresolved instead of 2; half: nothing
+ *     BOLDER                   twice: play takes 5 % longer, 3 impacts of 20,000 are unresolved
+ *                              instead of 2; half: nothing
  *     ALIGNED                  twice: errors to 2.1e-6; half: nothing changes
  *     CAREFUL_SHARE            twice: nothing changes; half: all takes 3 to 4 % longer
  *     STIFF, SETTLING          nothing changes for the worse at either */
 static const double MOST_TURN = 2.3;     /* D tau of a stretched step, */
 static const double MOST_FALL = 2.6;     /* and the logarithm by which r falls in it: */
-static const double BOLDER = 0.15;       /* both plus this times -log(r), since small slips matter less */
+static const double BOLDER = 0.15;       /* both plus this times -log(r), since small slips
+                                            matter less */
 static const double STIFF = 3;           /* D p / r from which on a slip is quasi-steady, */
 static const double ALIGNED = 0.15;      /* if sin(psi) is at most this */
-static const double SETTLING = 10;       /* D p / r of a quasi-steady step whose direction still settles */
+static const double SETTLING = 10;       /* D p / r of a quasi-steady step whose direction still
+                                            settles */
 static const double NEGLIGIBLE = 1e-7;   /* r sin(psi) that need not settle first */
-static const double SLOW = 0.5;          /* rate of a slip over that by friction alone, below which it is quasi-steady */
+static const double SLOW = 0.5;          /* rate of a slip over that by friction alone, below
+                                            which it is quasi-steady */
 static const double CAREFUL_SHARE = 0.6; /* of the way to a slip of zero, for a careful step */
-static const double IMMEDIATE = 1e-9;    /* share of a step at which an event happens where the step begins */
+static const double IMMEDIATE = 1e-9;    /* share of a step at which an event happens where the
+                                            step begins */
 static const double MOST_GROWTH = 6.9;   /* carom_point.growth: log of 1000 */
 static const double MOST_ACROSS = 1e-6;  /* carom_trajectory.across */
-static const double AGAIN = 1e-6;        /* v in restitution of a ball that approaches again: a second compression */
+static const double AGAIN = 1e-6;        /* v in restitution of a ball that approaches again: a
+                                            second compression */
 enum {
   MOST_REFUSALS = 6,         /* in a row, before steps become careful; */
-  MOST_MISSED = 3,           /* steps to stick that diverged, as a only passes near zero, before the same; */
+  MOST_MISSED = 3,           /* steps to stick that diverged, as a only passes near zero, before
+                                the same; */
   MOST_CAREFUL_REFUSALS = 30 /* and before careful ones give up */
 };
 
 /* The kinds of steps, compiled one by one so that each leaves out what it does not need. */
 typedef enum outcome step_kind(const carom_terms *, const step *, carom_point *, int *, double *);
-#define KIND(name, driving_slips, loaded, exact)                                                                            \
-  static __attribute__((noinline)) enum outcome name(const carom_terms *k, const step *s, carom_point *at, int *iterations, \
-                                                     double *advice) {                                                      \
-    return collocate(k, s, driving_slips, loaded, exact, at, iterations, advice);                                           \
+#define KIND(name, driving_slips, loaded, exact)                                               \
+  static __attribute__((noinline)) enum outcome name(                                          \
+      const carom_terms *k, const step *s, carom_point *at, int *iterations, double *advice) { \
+    return collocate(k, s, driving_slips, loaded, exact, at, iterations, advice);              \
   }
 KIND(sliding, true, true, FOR_NONE)
 KIND(sliding_unloaded, true, false, FOR_NONE)
@@ -110,14 +121,16 @@ static void start_at(const carom_trajectory *path, double to, step_start *s) {
   /* the mean of b' if b passes zero, where the cloth's own friction changes its sign */
   s->line_x = s->db_x + 0.5 * k->H_x * x;
   s->line_y = s->db_y + 0.5 * k->H_y * y;
-  /* the end of the phase if v' were constant; or what comes before it. Friction of a steep nose may push the ball on, v' > 0,
-   * until slip has changed: then no end is in sight, and a step may go as far as slip lasts */
+  /* the end of the phase if v' were constant; or what comes before it. Friction of a steep nose
+   * may push the ball on, v' > 0, until slip has changed: then no end is in sight, and a step
+   * may go as far as slip lasts */
   if (path->restitution) {
     /* p where W = target, by the quadratic equation for a constant v' */
     s->goal = AT_WORK;
     s->target = work_end(path);
     const double missing = s->target - at->W, square = at->v * at->v + 2 * s->dv * missing;
-    s->to_goal = square > 0 || s->dv < 0 ? 2 * missing / (at->v - sqrt(most_of(square, 0))) : INFINITY;
+    s->to_goal =
+        square > 0 || s->dv < 0 ? 2 * missing / (at->v - sqrt(most_of(square, 0))) : INFINITY;
   } else {
     s->goal = AT_END_OF_APPROACH;
     s->target = 0;
@@ -126,7 +139,8 @@ static void start_at(const carom_trajectory *path, double to, step_start *s) {
   /* no end in sight: as far as the larger of the slips lasts, but no more than 1 */
   if (s->to_goal == INFINITY) {
     s->goal = AT_LENGTH;
-    s->to_goal = most_of(s->r / (fabs(s->da_x) + fabs(s->da_y)), s->q / (fabs(s->db_x) + fabs(s->db_y)));
+    s->to_goal =
+        most_of(s->r / (fabs(s->da_x) + fabs(s->da_y)), s->q / (fabs(s->db_x) + fabs(s->db_y)));
     if (!(s->to_goal > 0 && s->to_goal < 1))
       s->to_goal = 1;
   }
@@ -162,7 +176,8 @@ static void limit(double *length, enum goal *goal, double most) {
   }
 }
 
-/* A careful step: exact, over an even map, at most a share of the way to where a slip could vanish. */
+/* A careful step: exact, over an even map, at most a share of the way to where a slip could
+ * vanish. */
 static void plan_carefully(const carom_trajectory *path, const step_start *s, plan *n) {
   double length = s->to_goal;
   n->s.goal = s->goal;
@@ -172,13 +187,15 @@ static void plan_carefully(const carom_trajectory *path, const step_start *s, pl
   if (path->regime.loaded && s->q > 0)
     limit(&length, &n->s.goal, CAREFUL_SHARE * s->q / (fabs(s->db_x) + fabs(s->db_y) + DBL_MIN));
   even_map(&n->s, length);
-  n->kind = !driving_slips(path) ? held_exact : path->regime.loaded ? exact_in_both : exact_unloaded;
+  n->kind = !driving_slips(path)  ? held_exact
+            : path->regime.loaded ? exact_in_both
+                                  : exact_unloaded;
   aim_u(n, &path->at, s);
   aim_t(n, &path->at, s);
 }
 
-/* Whether the equations for b are stiff: b is quasi-steady, so that friction nearly balances what drives it, or begins from
- * zero while friction is strong. */
+/* Whether the equations for b are stiff: b is quasi-steady, so that friction nearly balances
+ * what drives it, or begins from zero while friction is strong. */
 static bool cloth_is_stiff(const carom_trajectory *path, const step_start *s) {
   /* |b|' by friction alone; it must be able to stop b several times before the goal */
   const double friction = path->terms.H_y * s->w;
@@ -187,7 +204,8 @@ static bool cloth_is_stiff(const carom_trajectory *path, const step_start *s) {
   if (s->q == 0)
     return fabs(s->db_x) + fabs(s->db_y) < SLOW * friction || path->regime.held;
   /* b hardly turns, and its size changes slowly, against friction alone */
-  const double along = s->t_x * s->db_x + s->t_y * s->db_y, across = s->t_x * s->db_y - s->t_y * s->db_x;
+  const double along = s->t_x * s->db_x + s->t_y * s->db_y,
+               across = s->t_x * s->db_y - s->t_y * s->db_x;
   return fabs(across) < ALIGNED * friction && fabs(along) < SLOW * friction;
 }
 
@@ -196,7 +214,8 @@ static void plan_stiff_cloth(const carom_trajectory *path, const step_start *s, 
   const double along = s->t_x * s->db_x + s->t_y * s->db_y;
   double length = s->to_goal;
   n->s.goal = s->goal;
-  /* up to where b becomes zero, if a straight line takes it there; the iteration finds the length */
+  /* up to where b becomes zero, if a straight line takes it there; the iteration finds the
+   * length */
   if (s->q > 0 && along < 0 && length > -0.95 * s->q / along) {
     length = -0.95 * s->q / along;
     n->s.goal = AT_CLOTH_STICK;
@@ -210,7 +229,8 @@ static void plan_stiff_cloth(const carom_trajectory *path, const step_start *s, 
   aim(&n->s, 0, 0, 0, 0, s->t_x, s->t_y, n->s.t_x, n->s.t_y);
 }
 
-/* The step while friction holds the driving contact: a sinh map if b passes near zero, else an even one. */
+/* The step while friction holds the driving contact: a sinh map if b passes near zero, else an
+ * even one. */
 static void plan_held(const carom_trajectory *path, const step_start *s, plan *n) {
   const passage g = passage_of_b(&path->at, &path->terms, s, s->to_goal);
   n->kind = held;
@@ -222,16 +242,19 @@ static void plan_held(const carom_trajectory *path, const step_start *s, plan *n
   aim_t(n, &path->at, s);
 }
 
-/* The step for a stiff a, which is quasi-steady or begins from zero: exact, over an even map, with a constant first direction.
+/* The step for a stiff a, which is quasi-steady or begins from zero: exact, over an even map,
+ * with a constant first direction.
  */
-static void plan_stiff(const carom_trajectory *path, const step_start *s, const closed_form *c, plan *n) {
+static void plan_stiff(const carom_trajectory *path, const step_start *s, const closed_form *c,
+                       plan *n) {
   const double along = s->u_x * s->da_x + s->u_y * s->da_y;
   double length = s->to_goal;
   n->s.goal = s->goal;
   /* a short step while the direction still settles */
   if (fabs(c->sine) * s->r > NEGLIGIBLE)
     limit(&length, &n->s.goal, SETTLING * s->r / c->D);
-  /* up to where a becomes zero, if a straight line takes it there; the iteration finds the length */
+  /* up to where a becomes zero, if a straight line takes it there; the iteration finds the
+   * length */
   if (s->r > 0 && along < 0 && length > -0.97 * s->r / along) {
     length = -0.95 * s->r / along;
     n->s.goal = AT_STICK;
@@ -245,7 +268,8 @@ static void plan_stiff(const carom_trajectory *path, const step_start *s, const 
   aim_t(n, &path->at, s);
 }
 
-/* The step while a slides: a stretched map, or a sinh map if b passes near zero; but that of plan_stiff() for a stiff a. */
+/* The step while a slides: a stretched map, or a sinh map if b passes near zero; but that of
+ * plan_stiff() for a stiff a. */
 static void plan_sliding(const carom_trajectory *path, const step_start *s, plan *n) {
   /* stiff: u points along the drive D, and friction could stop a several times before the goal */
   const closed_form c = closed_form_of(&path->terms, s);
@@ -268,12 +292,16 @@ static void plan_sliding(const carom_trajectory *path, const step_start *s, plan
     aim_u(n, &path->at, s);
     EACH n->s.E[i] = exponential(-c.m * n->s.p[i] / (s->r + 0.5 * along * n->s.p[i]));
   } else {
-    /* tau to the goal, or the largest that is allowed; two equal steps rather than a long and a short one */
+    /* tau to the goal, or the largest that is allowed; two equal steps rather than a long and a
+     * short one */
     const double ln = s->r < 1 ? rough_log(1 / s->r) : 0, growth = along * s->to_goal / s->r;
     const double fall = most_of(most_of(-along, c.m - 0.5 * c.D), 1e-12);
     const double share = path->variation != NULL ? SHARE : 1;
-    const double most = share * least((MOST_TURN + BOLDER * ln) / c.D, (MOST_FALL + BOLDER * ln) / fall);
-    double tau = tau_at(&c, s->to_goal, growth > -0.9 ? s->to_goal / s->r * (6 + growth) / (6 + 4 * growth) : most, most);
+    const double most =
+        share * least((MOST_TURN + BOLDER * ln) / c.D, (MOST_FALL + BOLDER * ln) / fall);
+    double tau =
+        tau_at(&c, s->to_goal,
+               growth > -0.9 ? s->to_goal / s->r * (6 + growth) / (6 + 4 * growth) : most, most);
     if (tau > 1.1 * most) {
       n->s.goal = AT_LENGTH;
       tau = tau < 2 * most ? 0.5 * tau : most;
@@ -283,8 +311,8 @@ static void plan_sliding(const carom_trajectory *path, const step_start *s, plan
   aim_t(n, &path->at, s);
 }
 
-/* Sets to zero a slip that has become negligible, and the motion along x of an impact that has become planar. Returns whether
- * the regime has ended. before: where the step began. */
+/* Sets to zero a slip that has become negligible, and the motion along x of an impact that has
+ * become planar. Returns whether the regime has ended. before: where the step began. */
 static bool snap_to_zero(carom_trajectory *path, const carom_point *before) {
   carom_point *at = &path->at;
   if (fabs(at->a_x) <= path->no_slip && fabs(at->b_x) <= path->no_slip) {
@@ -293,8 +321,10 @@ static bool snap_to_zero(carom_trajectory *path, const carom_point *before) {
     at->a_x = at->b_x = 0;
   }
   const double a = fabs(at->a_x) + fabs(at->a_y), b = fabs(at->b_x) + fabs(at->b_y);
-  const bool a_ends = driving_slips(path) && a <= path->no_slip && a < fabs(before->a_x) + fabs(before->a_y);
-  const bool b_ends = path->regime.loaded && b <= path->no_slip && b < fabs(before->b_x) + fabs(before->b_y);
+  const bool a_ends =
+      driving_slips(path) && a <= path->no_slip && a < fabs(before->a_x) + fabs(before->a_y);
+  const bool b_ends =
+      path->regime.loaded && b <= path->no_slip && b < fabs(before->b_x) + fabs(before->b_y);
   if (a_ends)
     at->a_x = at->a_y = 0;
   if (b_ends)
@@ -302,24 +332,28 @@ static bool snap_to_zero(carom_trajectory *path, const carom_point *before) {
   return a_ends || b_ends;
 }
 
-/* Where friction drives the slip on the cloth, it also drives an error e of planar motion that lies across b. With |b|' = r and
- * h = -H w, e' = h e/|b|, so that e follows |b|^(h/r). Where b passes zero, e is what is left of |b|: then |b|^(h/r) e is |b|
- * itself. The error of the friction's impulse is the change of e over |H|. */
+/* Where friction drives the slip on the cloth, it also drives an error e of planar motion that
+ * lies across b. With |b|' = r and h = -H w, e' = h e/|b|, so that e follows |b|^(h/r). Where b
+ * passes zero, e is what is left of |b|: then |b|^(h/r) e is |b| itself. The error of the
+ * friction's impulse is the change of e over |H|. */
 static void drive_error(carom_trajectory *path, const step_start *s, const carom_point *before) {
   const double e = path->across, from = most_of(fabs(before->b_y), e), end = fabs(path->at.b_y);
-  const double h = -path->terms.H_x * s->w, r = (end - fabs(before->b_y)) / (path->at.p - before->p);
+  const double h = -path->terms.H_x * s->w,
+               r = (end - fabs(before->b_y)) / (path->at.p - before->p);
   if (!(e > 0 && h > 0 && path->regime.loaded))
     return;
   if (end > e) /* rates of nearly zero leave |b| as it is, and e grows exponentially */
-    path->across = e * carom_exp(fabs(r) > 1e-3 * h ? h / r * (rough_log(end) - rough_log(from))
-                                                    : h * (path->at.p - before->p) / least(from, end));
+    path->across =
+        e * carom_exp(fabs(r) > 1e-3 * h ? h / r * (rough_log(end) - rough_log(from))
+                                         : h * (path->at.p - before->p) / least(from, end));
   if (r < 0 && from > e && !(path->across < end)) {
     const double power = -h / r;
     path->across = carom_exp((rough_log(e) + power * rough_log(from)) / (1 + power));
   }
 }
 
-/* Whether friction would drive a rounding error of b's direction, where the impact begins with a small b that is not planar. */
+/* Whether friction would drive a rounding error of b's direction, where the impact begins with a
+ * small b that is not planar. */
 static bool driven_at_start(const carom_trajectory *path) {
   if (!(path->law.H < 0) || !path->regime.loaded || (path->at.a_x == 0 && path->at.b_x == 0))
     return false;
@@ -331,8 +365,8 @@ static bool driven_at_start(const carom_trajectory *path) {
   return s.q > 0 && s.q < 1 && DBL_EPSILON * carom_exp(-h / (h + d) * rough_log(s.q)) > MOST_ACROSS;
 }
 
-/* On along a straight line, where all rates are constant: to the goal, or to where a slip is zero. Returns whether that is the
- * goal. In planar motion only the y components change. */
+/* On along a straight line, where all rates are constant: to the goal, or to where a slip is
+ * zero. Returns whether that is the goal. In planar motion only the y components change. */
 static bool go_straight(carom_trajectory *path, const step_start *s) {
   carom_point *at = &path->at;
   const carom_point before = *at;
@@ -362,7 +396,8 @@ static void end_phase(carom_trajectory *path) {
   }
 }
 
-/* Plans a step and takes it, or draws the consequences of its refusal. Returns false if there is no way on. */
+/* Plans a step and takes it, or draws the consequences of its refusal. Returns false if there is
+ * no way on. */
 static bool next_step(carom_trajectory *path, double to) {
   /* planar motion, and motion without any friction that changes, is a straight line */
   step_start s;
@@ -401,13 +436,17 @@ static bool next_step(carom_trajectory *path, double to) {
   if (r == TAKEN && path->variation != NULL) {
     /* derivatives may need a shorter step */
     const double length = path->at.p - before.p;
-    const int vanishes = n.s.goal == AT_STICK ? (int)OF_A_X : n.s.goal == AT_CLOTH_STICK ? (int)OF_B_X : -1;
-    const bool stiff = n.kind == exact_in_a || n.kind == exact_unloaded || n.kind == exact_in_both || n.kind == held_exact;
+    const int vanishes = n.s.goal == AT_STICK         ? (int)OF_A_X
+                         : n.s.goal == AT_CLOTH_STICK ? (int)OF_B_X
+                                                      : -1;
+    const bool stiff = n.kind == exact_in_a || n.kind == exact_unloaded ||
+                       n.kind == exact_in_both || n.kind == held_exact;
     advice = variation_step(path, &before, driving_slips(path), stiff, vanishes);
     if (advice > 1) {
       /* the planner keeps a length that it is given to a few percent only */
       path->at = before;
-      path->longest = length * most_of(0.2, least(0.7, 0.9 / sqrt(sqrt(sqrt(sqrt(least(advice, 1e12)))))));
+      path->longest =
+          length * most_of(0.2, least(0.7, 0.9 / sqrt(sqrt(sqrt(sqrt(least(advice, 1e12)))))));
       return true;
     }
   }
@@ -433,7 +472,9 @@ static bool next_step(carom_trajectory *path, double to) {
     if (advice < IMMEDIATE * s.to_goal)
       return carom_impact_regime(path, true);
   } else /* the error is of order 16 in the length */
-    path->longest = n.s.length * (r == INACCURATE && advice < 1e12 ? most_of(0.3, 0.9 / sqrt(sqrt(sqrt(sqrt(advice))))) : 0.5);
+    path->longest = n.s.length * (r == INACCURATE && advice < 1e12
+                                      ? most_of(0.3, 0.9 / sqrt(sqrt(sqrt(sqrt(advice)))))
+                                      : 0.5);
   /* after too many refusals, careful steps; after too many of those, no way on */
   path->refusals++;
   path->sticks_missed += r == DIVERGED && n.s.goal == AT_STICK;

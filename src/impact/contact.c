@@ -1,24 +1,28 @@
 /* What the two contacts do: the regime that begins where a slip is zero, and its coefficients.
  *
- * HOLDING. Where a = 0, the friction that keeps it there follows from a' = 0. With the cloth slipping in the direction t under
- * the load g, F = -mu_c g t, this is linear:
+ * HOLDING. Where a = 0, the friction that keeps it there follows from a' = 0. With the cloth
+ * slipping in the direction t under the load g, F = -mu_c g t, this is linear:
  *
- *     f_x = (C_x / K_x) mu_c g t_x        f_y = -A_0 / K_y + (C_y / K_y) mu_c g t_y        g = G_0 / (1 - G_1 t_y)
+ *     f_x = (C_x / K_x) mu_c g t_x        f_y = -A_0 / K_y + (C_y / K_y) mu_c g t_y
+ *     g = G_0 / (1 - G_1 t_y)
  *     G_0 = g_0 - g_1 A_0 / K_y           G_1 = mu_c g_1 C_y / K_y
  *
- * so the cloth bears a load if and only if G_0 > 0. Where b = 0, b' = 0 asks for F = -(L_x f_x, B_0 + L_y f_y) / H. If friction
- * holds both, f_x = F_x = 0, and v' = 0 for a cushion: the ball is JAMMED, nothing changes any more, and the impact ends. A
- * contact is held if this friction lies within the cone, |f| <= mu or |F| <= mu_c g. It is held until it leaves the cone.
+ * so the cloth bears a load if and only if G_0 > 0. Where b = 0, b' = 0 asks for F = -(L_x f_x,
+ * B_0 + L_y f_y) / H. If friction holds both, f_x = F_x = 0, and v' = 0 for a cushion: the ball
+ * is JAMMED, nothing changes any more, and the impact ends. A contact is held if this friction
+ * lies within the cone, |f| <= mu or |F| <= mu_c g. It is held until it leaves the cone.
  *
- * LEAVING. Where friction cannot hold, the slip begins in a direction to which its own rate is parallel. On the cloth that is
- * the direction of (0, B_0) + L f, which does not depend on F. At the driving contact it is that of -h, h the friction that
- * would hold it: a' = M (f - h) with M_xx = K_x, M_xy = -C_x mu_c g_1 t_x, M_yy = K_y - C_y mu_c g_1 t_y, and by the numbers of
- * law.h M h = M_yy h for a cushion, so that f = mu h/|h| gives an a' along -h. For two balls h = 0. Where both slips are zero
- * all is symmetric about the y axis, and so are the directions.
+ * LEAVING. Where friction cannot hold, the slip begins in a direction to which its own rate is
+ * parallel. On the cloth that is the direction of (0, B_0) + L f, which does not depend on F. At
+ * the driving contact it is that of -h, h the friction that would hold it: a' = M (f - h) with
+ * M_xx = K_x, M_xy = -C_x mu_c g_1 t_x, M_yy = K_y - C_y mu_c g_1 t_y, and by the numbers of
+ * law.h M h = M_yy h for a cushion, so that f = mu h/|h| gives an a' along -h. For two balls h =
+ * 0. Where both slips are zero all is symmetric about the y axis, and so are the directions.
  *
- * UNSTABLE. Where H < 0 friction drives the slip on the cloth. Let it begin at b = 0 with the rate d without friction, and let
- * friction alone have the rate h. A slip that is not zero but an error e goes on in its own direction if h > d. If not, its
- * component across d grows like |b|^(h / (d + h)), to e^(d / (d + h)). At h = MOST_DRIVEN d a rounding error of 1e-16 becomes
+ * UNSTABLE. Where H < 0 friction drives the slip on the cloth. Let it begin at b = 0 with the
+ * rate d without friction, and let friction alone have the rate h. A slip that is not zero but
+ * an error e goes on in its own direction if h > d. If not, its component across d grows like
+ * |b|^(h / (d + h)), to e^(d / (d + h)). At h = MOST_DRIVEN d a rounding error of 1e-16 becomes
  * 2.5e-10; beyond that there is no result.
  *
  * A frictionless contact has no direction and no cone. */
@@ -28,7 +32,8 @@
 
 static const double EDGE = 1e-9;          /* share of the cone that is not used */
 static const double MOST_DRIVEN = 2. / 3; /* h / d: see the head */
-static const double NEARLY_JAMMED = 5e-8; /* v and both slips together, of a ball that is about to be jammed */
+static const double NEARLY_JAMMED = 5e-8; /* v and both slips together, of a ball that is about
+                                             to be jammed */
 
 typedef struct pair {
   double x, y;
@@ -82,12 +87,13 @@ static bool within(pair f, double mu) {
 /* Whether friction holds both contacts, once they do not slip. */
 static bool both_hold(const carom_law *l) {
   const double det = l->K_y * l->H - l->C_y * l->L_y;
-  const pair f = {0, (l->C_y * l->B_0 - l->H * l->A_0) / det}, F = {0, (l->L_y * l->A_0 - l->K_y * l->B_0) / det};
+  const pair f = {0, (l->C_y * l->B_0 - l->H * l->A_0) / det},
+             F = {0, (l->L_y * l->A_0 - l->K_y * l->B_0) / det};
   return l->H > 0 && within(f, l->mu) && load(l, f.y) > 0 && size(F) <= l->mu_c * load(l, f.y);
 }
 
-/* The regime where both slips are zero: the first of these that is consistent with its own rates. Everything lies along y.
- * False if none is. */
+/* The regime where both slips are zero: the first of these that is consistent with its own
+ * rates. Everything lies along y. False if none is. */
 static bool from_rest(const carom_law *l, carom_regime *r) {
   const double mu = l->mu;
   if (both_hold(l)) {
@@ -117,17 +123,23 @@ static bool from_rest(const carom_law *l, carom_regime *r) {
     /* a' must point along u */
     const pair rate = driving_rate(l, s, w);
     if (side * rate.y > 0) {
-      *r = (carom_regime){
-          .cloth_held = stays, .loaded = !stays && load(l, s.y) > 0, .u_x = u.x, .u_y = u.y, .t_x = t.x, .t_y = t.y};
+      *r = (carom_regime){.cloth_held = stays,
+                          .loaded = !stays && load(l, s.y) > 0,
+                          .u_x = u.x,
+                          .u_y = u.y,
+                          .t_x = t.x,
+                          .t_y = t.y};
       return true;
     }
   }
   return false;
 }
 
-/* The regime that begins at a point, after *r. event: that of *r has ended it. False if no regime is consistent. */
+/* The regime that begins at a point, after *r. event: that of *r has ended it. False if no
+ * regime is consistent. */
 static bool choose(const carom_law *l, const carom_point *at, bool event, carom_regime *r) {
-  const bool a_rests = l->mu > 0 && at->a_x == 0 && at->a_y == 0, b_rests = l->mu_c > 0 && at->b_x == 0 && at->b_y == 0;
+  const bool a_rests = l->mu > 0 && at->a_x == 0 && at->a_y == 0,
+             b_rests = l->mu_c > 0 && at->b_x == 0 && at->b_y == 0;
   if (a_rests && b_rests)
     return from_rest(l, r);
   const carom_regime last = *r;
@@ -205,8 +217,8 @@ carom_terms carom_impact_terms(const carom_law *l, const carom_regime *r) {
   const double g_u = -l->g_1 * mu;
   if (r->cloth_held) {
     /* F from b' = 0, put into the rates of a and v */
-    const double per = 1 / l->H, c = mu * l->L_x * per, d = -l->B_0 * per, d_u = mu * l->L_y * per, h = l->mu_c * l->g_0,
-                 h_u = l->mu_c * g_u;
+    const double per = 1 / l->H, c = mu * l->L_x * per, d = -l->B_0 * per, d_u = mu * l->L_y * per,
+                 h = l->mu_c * l->g_0, h_u = l->mu_c * g_u;
     k.A_0 += l->C_y * d;
     k.S_x += l->C_x * c;
     k.S_y += l->C_y * d_u;
@@ -234,7 +246,9 @@ carom_terms carom_impact_terms(const carom_law *l, const carom_regime *r) {
 
 bool carom_impact_jams(const carom_trajectory *path) {
   const carom_point *at = &path->at;
-  return fabs(at->v) + fabs(at->a_x) + fabs(at->a_y) + fabs(at->b_x) + fabs(at->b_y) < NEARLY_JAMMED && both_hold(&path->law);
+  return fabs(at->v) + fabs(at->a_x) + fabs(at->a_y) + fabs(at->b_x) + fabs(at->b_y) <
+             NEARLY_JAMMED &&
+         both_hold(&path->law);
 }
 
 bool carom_impact_regime(carom_trajectory *path, bool event) {

@@ -1,6 +1,8 @@
-/* The entry points of the precise solver: where an impact begins, how it goes on, and its impulses.
+/* The entry points of the precise solver: where an impact begins, how it goes on, and its
+ * impulses.
  *
- * IMPULSES. f and F enter the rates of a, b and v linearly, so their integrals Q and G follow from the changes of a, b and v:
+ * IMPULSES. f and F enter the rates of a, b and v linearly, so their integrals Q and G follow
+ * from the changes of a, b and v:
  *
  *     K_x Q_x + C_x G_x = a_x - a_x0                K_y Q_y + C_y G_y = a_y - a_y0 - A_0 p
  *     L_x Q_x + H G_x   = b_x - b_x0                V_f Q_y + V_F G_y = v - v_0 - V_0 p
@@ -13,20 +15,22 @@
 #include <math.h>
 
 static const double NO_SLIP = 1e-9;    /* a slip that counts as zero; */
-static const double ROUNDING = 1e-15;  /* at least this share of all slips; where H < 0, which would amplify it, no more */
+static const double ROUNDING = 1e-15;  /* at least this share of all slips; where H < 0, which
+                                          would amplify it, no more */
 static const double MOST_SLIP = 1e100; /* squares of more would overflow */
 
-void carom_impact_begin(const carom_law *law, double tolerance, int plain, double a_x, double a_y, double b_x, double b_y,
-                        double rounding, carom_trajectory *path) {
+void carom_impact_begin(const carom_law *law, double tolerance, int plain, double a_x, double a_y,
+                        double b_x, double b_y, double rounding, carom_trajectory *path) {
   const double driving_slips = fabs(a_x) + fabs(a_y) + fabs(b_x) + fabs(b_y);
-  *path = (carom_trajectory){.law = *law,
-                             .start = {.a_x = a_x, .a_y = a_y, .b_x = b_x, .b_y = b_y, .v = 1},
-                             .p_stick = NAN,
-                             .plain = plain,
-                             .tolerance = tolerance,
-                             .no_slip = fmax(law->H < 0 ? ROUNDING : NO_SLIP, ROUNDING * driving_slips),
-                             .longest = INFINITY,
-                             .event_at = INFINITY};
+  *path =
+      (carom_trajectory){.law = *law,
+                         .start = {.a_x = a_x, .a_y = a_y, .b_x = b_x, .b_y = b_y, .v = 1},
+                         .p_stick = NAN,
+                         .plain = plain,
+                         .tolerance = tolerance,
+                         .no_slip = fmax(law->H < 0 ? ROUNDING : NO_SLIP, ROUNDING * driving_slips),
+                         .longest = INFINITY,
+                         .event_at = INFINITY};
   path->at = path->start;
   if (!(driving_slips < MOST_SLIP)) {
     path->status = CAROM_ERROR_OVERFLOW;
@@ -52,7 +56,8 @@ carom_status carom_impact_advance(carom_trajectory *path, double to, int most) {
     switch (carom_isa_of_call(path->plain)) {
 #if defined(__x86_64__) && !defined(CAROM_WITHOUT_AVX2)
     case CAROM_ISA_AVX2:
-    case CAROM_ISA_AVX512: /* eight numbers in a vector of AVX-512 are not faster: a step is bound by latency */
+    case CAROM_ISA_AVX512: /* eight numbers in a vector of AVX-512 are not faster: a step is
+                              bound by latency */
       path->status = carom_impact_advance_avx2(path, to, most);
       break;
 #endif
@@ -67,11 +72,12 @@ carom_impulses carom_impact_impulses(const carom_trajectory *path) {
   const carom_law *l = &path->law;
   const carom_point *from = &path->start, *at = &path->at;
   /* what friction has changed */
-  const double a_x = at->a_x - from->a_x, a_y = at->a_y - from->a_y - l->A_0 * at->p, b_x = at->b_x - from->b_x,
-               v = at->v - from->v - l->V_0 * at->p;
+  const double a_x = at->a_x - from->a_x, a_y = at->a_y - from->a_y - l->A_0 * at->p,
+               b_x = at->b_x - from->b_x, v = at->v - from->v - l->V_0 * at->p;
   if (l->mu_c == 0)
     return (carom_impulses){.p = at->p, .f_x = a_x / l->K_x, .f_y = a_y / l->K_y};
-  const double per_x = 1 / (l->K_x * l->H - l->C_x * l->L_x), per_y = 1 / (l->K_y * l->V_F - l->C_y * l->V_f);
+  const double per_x = 1 / (l->K_x * l->H - l->C_x * l->L_x),
+               per_y = 1 / (l->K_y * l->V_F - l->C_y * l->V_f);
   return (carom_impulses){.p = at->p,
                           .f_x = (l->H * a_x - l->C_x * b_x) * per_x,
                           .f_y = (l->V_F * a_y - l->C_y * v) * per_y,

@@ -1,8 +1,10 @@
 /* Numbers at the eight Gauss nodes of a step, and the operations on them.
  *
- * Eight numbers are PARTS vectors: two of four numbers with AVX2, else four of two. What happens at every
- * node alike is a loop over the parts; only integrals join nodes. Each operation is one of IEEE 754 on each number, so that all
- * builds without AVX2 have the same bits. `madd` fuses a product and a sum where the instruction set can. */
+ * Eight numbers are PARTS vectors: two of four numbers with AVX2, else four of two. What happens
+ * at every
+ * node alike is a loop over the parts; only integrals join nodes. Each operation is one of IEEE
+ * 754 on each number, so that all builds without AVX2 have the same bits. `madd` fuses a product
+ * and a sum where the instruction set can. */
 #ifndef CAROM_SRC_IMPACT_NODES_H
 #define CAROM_SRC_IMPACT_NODES_H
 
@@ -37,7 +39,8 @@ typedef double part_of_row __attribute__((vector_size(PART_BYTES), may_alias));
 typedef int64_t part_int __attribute__((vector_size(PART_BYTES)));
 typedef part nodes[PARTS];
 
-/* Before a loop over parts or nodes: arrays of vectors live in registers only if the compiler unrolls it. */
+/* Before a loop over parts or nodes: arrays of vectors live in registers only if the compiler
+ * unrolls it. */
 #ifdef __clang__
 #define unrolled _Pragma("clang loop unroll(full)")
 #else
@@ -143,11 +146,12 @@ always void invert(double (*matrix)[NODES]) {
 #define ROW(x, i) (((part_of_row *)(x))[i])
   double diagonal = matrix[0][0];
   unrolled for (int k = 0; k < NODES; k++) {
-    /* what of row k every row gets: the entries of column k vanish, that of row k becomes 1. The next element of the diagonal
-     * comes first, as its division is what the next row waits for */
+    /* what of row k every row gets: the entries of column k vanish, that of row k becomes 1. The
+     * next element of the diagonal comes first, as its division is what the next row waits for */
     const double pivot = 1 / diagonal;
     if (k + 1 < NODES)
-      diagonal = madd(splat(matrix[k][k + 1] * -pivot), splat(matrix[k + 1][k]), splat(matrix[k + 1][k + 1]))[0];
+      diagonal = madd(splat(matrix[k][k + 1] * -pivot), splat(matrix[k + 1][k]),
+                      splat(matrix[k + 1][k + 1]))[0];
     nodes column;
     EACH column[i] = (part)ROW(matrix[k], i) * -pivot;
     AT(column, k) = pivot - 1;
@@ -165,16 +169,22 @@ always void invert(double (*matrix)[NODES]) {
 
 /* exp(x) to a few units in the last place; 1e-304 below -700. */
 always part exponential(part x) {
-  const double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821492927058770002e-10, per_ln2 = 1.4426950408889634;
-  const double round = 6755399441055744.0; /* 3 2^51: a number added to it is rounded to an integer */
+  const double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821492927058770002e-10,
+               per_ln2 = 1.4426950408889634;
+  const double round = 6755399441055744.0; /* 3 2^51: a number added to it is rounded to an
+                                              integer */
   x = greater(x, splat(-700));
   /* exp(x) = 2^k exp(r), |r| < 0.35 */
   const part shifted = madd(x, splat(per_ln2), splat(round)), k = shifted - round;
-  const part r = madd(k, splat(-ln2_low), madd(k, splat(-ln2_high), x)), r_2 = r * r, r_4 = r_2 * r_2;
+  const part r = madd(k, splat(-ln2_low), madd(k, splat(-ln2_high), x)), r_2 = r * r,
+             r_4 = r_2 * r_2;
   /* the Taylor polynomial of degree 10 */
-  const part a = 1 + r, b = madd(r, splat(1.0 / 6), splat(1.0 / 2)), c = madd(r, splat(1.0 / 120), splat(1.0 / 24)),
-             d = madd(r, splat(1.0 / 5040), splat(1.0 / 720)), e = madd(r, splat(1.0 / 362880), splat(1.0 / 40320));
-  const part low = madd(b, r_2, a), mid = madd(d, r_2, c), high = madd(r_2, splat(1.0 / 3628800), e);
+  const part a = 1 + r, b = madd(r, splat(1.0 / 6), splat(1.0 / 2)),
+             c = madd(r, splat(1.0 / 120), splat(1.0 / 24)),
+             d = madd(r, splat(1.0 / 5040), splat(1.0 / 720)),
+             e = madd(r, splat(1.0 / 362880), splat(1.0 / 40320));
+  const part low = madd(b, r_2, a), mid = madd(d, r_2, c),
+             high = madd(r_2, splat(1.0 / 3628800), e);
   return (part)((part_int)madd(madd(high, r_4, mid), r_4, low) + ((part_int)shifted << 52));
 }
 

@@ -1,33 +1,36 @@
 /* One collocation step of an impact, over eight Gauss nodes.
  *
- * EQUATIONS. They are those of law.h in one regime. With u = a/|a| and t = b/|b| the directions of the slips, and w the
- * friction of the cloth per unit of p (its load times its coefficient),
+ * EQUATIONS. They are those of law.h in one regime. With u = a/|a| and t = b/|b| the directions
+ * of the slips, and w the friction of the cloth per unit of p (its load times its coefficient),
  *
  *     a' = (S_x u_x - C_x w t_x, A_0 + S_y u_y - C_y w t_y)          v' = V_0 + V_u u_y - V_w w t_y
- *     b' = (R_x u_x - H_x w t_x, B_0 + R_y u_y - H_y w t_y)          w  = (w_0 + w_u u_y) / (1 - w_t t_y)
+ *     b' = (R_x u_x - H_x w t_x, B_0 + R_y u_y - H_y w t_y)
+ *     w  = (w_0 + w_u u_y) / (1 - w_t t_y)
  *
- * Where the driving contact holds there is no u, and where the cloth holds or bears no load w = 0; the coefficients contain
- * what holds (contact.c).
+ * Where the driving contact holds there is no u, and where the cloth holds or bears no load w =
+ * 0; the coefficients contain what holds (contact.c).
  *
- * COLLOCATION. A map takes X in [0, 1] to p, with dp = z dX. With M the matrix that integrates the polynomial through the
- * nodes, the directions u, t at the nodes have to be those of
+ * COLLOCATION. A map takes X in [0, 1] to p, with dp = z dX. With M the matrix that integrates
+ * the polynomial through the nodes, the directions u, t at the nodes have to be those of
  *
  *     a = a_0 + M(z a'),     b = b_0 + M(z b')
  *
- * ITERATION. The directions give a and b, whose directions differ from u and t by angles. Let r be that of a to u. A rotation
- * of u by d rotates a too, by (1/|a|) times the component across u of the integral of z da'/dphi d. Newton's method asks for
+ * ITERATION. The directions give a and b, whose directions differ from u and t by angles. Let r
+ * be that of a to u. A rotation of u by d rotates a too, by (1/|a|) times the component across u
+ * of the integral of z da'/dphi d. Newton's method asks for
  *
  *     d = r - (1/|a|) M(z k d),     k = -(component of da'/dphi across u)
  *
- * An integrating factor E with E' = -z k E / |a| solves this: d = r - (E/|a|) M(z k r / E). The map comes with an estimate of
- * E. A step that is stiff solves the linear equations for d instead (`exact`). For t, the kernel
+ * An integrating factor E with E' = -z k E / |a| solves this: d = r - (E/|a|) M(z k r / E). The
+ * map comes with an estimate of E. A step that is stiff solves the linear equations for d
+ * instead (`exact`). For t, the kernel
  * E(X) / E(X') of the integral is replaced by 1/(1 + M(z k)(X') / |b|).
  *
- * END. The step ends at a given p or at one of the events of `enum goal`. Then its length is unknown, and each iteration
- * corrects it by Newton's method from the rates at the last node.
+ * END. The step ends at a given p or at one of the events of `enum goal`. Then its length is
+ * unknown, and each iteration corrects it by Newton's method from the rates at the last node.
  *
- * ERROR. The error at the end is of the order of the square of what the polynomials of a' and b' miss. The estimate of that is
- * the coefficient of their highest Legendre polynomial. */
+ * ERROR. The error at the end is of the order of the square of what the polynomials of a' and b'
+ * miss. The estimate of that is the coefficient of their highest Legendre polynomial. */
 #ifndef CAROM_SRC_IMPACT_STEP_H
 #define CAROM_SRC_IMPACT_STEP_H
 
@@ -35,18 +38,22 @@
 #include "impact/nodes.h"
 #include "impact/variation.h"
 
-/* Found by trial with `carom-lab stress --cushion 20000` and `carom-lab bench --cushion`; see docs/study/tried.md. Angles are
- * in radians, lengths in units of p. With half of CONVERGED play takes 5 % longer, and twice changes nothing. With half of
- * TOLERANCE_EXACT the largest error falls from 1.5e-6 to 8.2e-7. TOLERANCE and NEARLY_CONVERGED matter little. */
+/* Found by trial with `carom-lab stress --cushion 20000` and `carom-lab bench --cushion`; see
+ * docs/study/tried.md. Angles are in radians, lengths in units of p. With half of CONVERGED play
+ * takes 5 % longer, and twice changes nothing. With half of TOLERANCE_EXACT the largest error
+ * falls from 1.5e-6 to 8.2e-7. TOLERANCE and NEARLY_CONVERGED matter little. */
 static const double CONVERGED = 4e-8;       /* error that the iteration may leave in directions */
-static const double TOLERANCE = 4e-7;       /* square of the error estimate, over the length of the step, */
+static const double TOLERANCE = 4e-7;       /* square of the error estimate, over the length of
+                                               the step, */
 static const double TOLERANCE_EXACT = 1e-9; /* and where the step is exact */
 static const double SETTLED = 1e-6;         /* last correction of the length, as a share of it */
 static const double EVENT_TOLERANCE = 1e-8; /* event function that does not yet end a regime, */
 static const double LATE = 1e-5;            /* and within a step that ends at its event */
-static const double NEARLY_STOPPED = 1e-8;  /* v that counts as 0 where the cloth's slip has come to rest */
+static const double NEARLY_STOPPED = 1e-8;  /* v that counts as 0 where the cloth's slip has come
+                                               to rest */
 static const double NEARLY_CONVERGED =
-    3e-3; /* correction, of directions and of the length, after which Newton's method updates inverse lengths, */
+    3e-3; /* correction, of directions and of the length, after which Newton's method updates
+             inverse lengths, */
 static const double FRESH = 0.02; /* and that after which an exact step keeps its matrix */
 enum { MOST_ITERATIONS = 12 };
 
@@ -61,7 +68,13 @@ enum goal {
   AT_EVENT            /* where the regime ends: carom_terms.event */
 };
 
-enum outcome { TAKEN, DIVERGED, INACCURATE, EVENT_WITHIN, BEYOND_PHASE /* of compression or restitution */ };
+enum outcome {
+  TAKEN,
+  DIVERGED,
+  INACCURATE,
+  EVENT_WITHIN,
+  BEYOND_PHASE /* of compression or restitution */
+};
 
 /* For which directions the iteration solves Newton's equations exactly. */
 enum exact { FOR_NONE, FOR_U, FOR_BOTH };
@@ -87,10 +100,12 @@ typedef struct iterate {
 } iterate;
 
 /* The rates from the directions. scale: of z. */
-always void rates(const carom_terms *k, const part *z, double scale, const bool driving_slips, const bool loaded, iterate *c) {
+always void rates(const carom_terms *k, const part *z, double scale, const bool driving_slips,
+                  const bool loaded, iterate *c) {
   EACH {
     const part zs = scale * z[i];
-    part a_x = splat(0), a_y = splat(k->A_0), b_x = splat(0), b_y = splat(k->B_0), v = splat(k->V_0);
+    part a_x = splat(0), a_y = splat(k->A_0), b_x = splat(0), b_y = splat(k->B_0),
+         v = splat(k->V_0);
     /* friction of the driving contact */
     if (driving_slips) {
       a_x = k->S_x * c->u_x[i];
@@ -121,7 +136,8 @@ always void rates(const carom_terms *k, const part *z, double scale, const bool 
 }
 
 /* A slip at the nodes, from where it begins and its rate times z. */
-always void integrate_slip(double x, double y, const part *zx, const part *zy, part *to_x, part *to_y) {
+always void integrate_slip(double x, double y, const part *zx, const part *zy, part *to_x,
+                           part *to_y) {
   integrate(zx, to_x);
   integrate(zy, to_y);
   EACH {
@@ -130,7 +146,8 @@ always void integrate_slip(double x, double y, const part *zx, const part *zy, p
   }
 }
 
-/* x, y over their length, whose inverse becomes *inverse. near: *inverse has the inverse of a similar length. */
+/* x, y over their length, whose inverse becomes *inverse. near: *inverse has the inverse of a
+ * similar length. */
 always void normalise(part *x, part *y, bool near, part *inverse) {
   EACH {
     const part square = madd(x[i], x[i], madd(y[i], y[i], splat(1e-300)));
@@ -144,10 +161,11 @@ always void normalise(part *x, part *y, bool near, part *inverse) {
   }
 }
 
-/* One step of Newton's method for the directions u of the slip a, by an integrating factor. zk: z times k of the head of this
- * file; before: 1/E; after: E. a becomes a unit vector. correction: by which angles. */
-always void rotate(part *a_x, part *a_y, const part *zk, const part *before, const part *after, bool near, part *inverse,
-                   part *u_x, part *u_y, part *correction) {
+/* One step of Newton's method for the directions u of the slip a, by an integrating factor. zk:
+ * z times k of the head of this file; before: 1/E; after: E. a becomes a unit vector.
+ * correction: by which angles. */
+always void rotate(part *a_x, part *a_y, const part *zk, const part *before, const part *after,
+                   bool near, part *inverse, part *u_x, part *u_y, part *correction) {
   nodes across, f, angle;
   /* the sine of the angle from u to a, once a has length 1 */
   EACH across[i] = madd(u_x[i], a_y[i], -(u_y[i] * a_x[i]));
@@ -167,10 +185,11 @@ always void rotate(part *a_x, part *a_y, const part *zk, const part *before, con
  *
  *     (u . a) d - u x M(D d) = u x a
  *
- * which also holds where a is nearly zero. solved: the inverse of the matrix, computed anew or kept. Returns whether a points
- * along u at all nodes. */
-always bool rotate_exactly(const part *a_x, const part *a_y, const part *D_x, const part *D_y, bool anew,
-                           double (*solved)[NODES], part *u_x, part *u_y, part *correction) {
+ * which also holds where a is nearly zero. solved: the inverse of the matrix, computed anew or
+ * kept. Returns whether a points along u at all nodes. */
+always bool rotate_exactly(const part *a_x, const part *a_y, const part *D_x, const part *D_y,
+                           bool anew, double (*solved)[NODES], part *u_x, part *u_y,
+                           part *correction) {
   nodes across, along, angle;
   /* u x a and u . a */
   EACH {
@@ -181,7 +200,8 @@ always bool rotate_exactly(const part *a_x, const part *a_y, const part *D_x, co
   if (anew) {
     for (int j = 0; j < NODES; j++) {
       EACH((part_of_row *)solved[j])
-      [i] = (part_of_row)(PART(INTEGRAL[j], i) * (u_y[i] * splat(AT(D_x, j)) - u_x[i] * splat(AT(D_y, j))));
+      [i] = (part_of_row)(PART(INTEGRAL[j], i) *
+                          (u_y[i] * splat(AT(D_x, j)) - u_x[i] * splat(AT(D_y, j))));
       solved[j][j] += AT(along, j);
     }
     invert(solved);
@@ -207,29 +227,35 @@ always double event_of(const carom_terms *k, double x, double y) {
 /* The same at the nodes. */
 always void events(const carom_terms *k, const iterate *c, const bool driving_slips, part *event) {
   EACH {
-    const part x = driving_slips ? c->u_x[i] : c->w[i] * c->t_x[i], y = driving_slips ? c->u_y[i] : c->w[i] * c->t_y[i];
-    event[i] = madd(y, madd(y, splat(k->event[3]), splat(k->event[1])), madd(x * x, splat(k->event[2]), splat(k->event[0])));
+    const part x = driving_slips ? c->u_x[i] : c->w[i] * c->t_x[i],
+               y = driving_slips ? c->u_y[i] : c->w[i] * c->t_y[i];
+    event[i] = madd(y, madd(y, splat(k->event[3]), splat(k->event[1])),
+                    madd(x * x, splat(k->event[2]), splat(k->event[0])));
   }
 }
 
 /* The event function at a point; 0 where the slip has no direction. */
 static double event_at(const carom_terms *k, const carom_point *at, const bool driving_slips) {
-  const double x = driving_slips ? at->a_x : at->b_x, y = driving_slips ? at->a_y : at->b_y, size = sqrt(x * x + y * y);
+  const double x = driving_slips ? at->a_x : at->b_x, y = driving_slips ? at->a_y : at->b_y,
+               size = sqrt(x * x + y * y);
   if (!(size > 0))
     return 0;
   const double w = driving_slips ? 1 : k->w_0 / (1 - k->w_t * y / size);
   return event_of(k, w * x / size, w * y / size);
 }
 
-/* p from the beginning of the step to where the event function, at the nodes *f, first becomes positive, by linear
- * interpolation between nodes. scale: of z. */
-static double first_event(const carom_terms *k, const carom_point *at, const step *s, double scale, const part *f,
-                          const bool driving_slips) {
+/* p from the beginning of the step to where the event function, at the nodes *f, first becomes
+ * positive, by linear interpolation between nodes. scale: of z. */
+static double first_event(const carom_terms *k, const carom_point *at, const step *s, double scale,
+                          const part *f, const bool driving_slips) {
   double p = 0, value = event_at(k, at, driving_slips);
   for (int n = 0; n <= NODES; n++) {
-    const double next_p = scale * (n < NODES ? AT(s->p, n) : s->length), next = n < NODES ? AT(f, n) : 1;
+    const double next_p = scale * (n < NODES ? AT(s->p, n) : s->length),
+                 next = n < NODES ? AT(f, n) : 1;
     if (next > 0)
-      return n == NODES ? 0.5 * (p + next_p) : value < 0 ? p + (next_p - p) * value / (value - next) : p;
+      return n == NODES  ? 0.5 * (p + next_p)
+             : value < 0 ? p + (next_p - p) * value / (value - next)
+                         : p;
     p = next_p;
     value = next;
   }
@@ -237,13 +263,15 @@ static double first_event(const carom_terms *k, const carom_point *at, const ste
 }
 
 /* int v dp from *at to the end of the step. to_end: weights of the integral of an integral. */
-always double work(const carom_point *at, double length, double scale, const double *to_end, const iterate *c) {
+always double work(const carom_point *at, double length, double scale, const double *to_end,
+                   const iterate *c) {
   return at->v * length + scale * scale * dot(to_end, c->v);
 }
 
 /* By how much p has to grow for the step to end at its goal: a step of Newton's method. */
-always double to_goal(const carom_terms *k, const carom_point *from, const step *s, const iterate *c, double scale,
-                      const part *to_end, const bool driving_slips) {
+always double to_goal(const carom_terms *k, const carom_point *from, const step *s,
+                      const iterate *c, double scale, const part *to_end,
+                      const bool driving_slips) {
   /* a given p, or v = 0 or W = target: Newton's method with v at the end and v' there */
   const double length = scale * s->length;
   if (s->goal == AT_P)
@@ -254,16 +282,19 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
     const double v = from->v + scale * dot(WEIGHT, zv);
     if (s->goal == AT_END_OF_APPROACH)
       return -v / LAST(c->v);
-    return v < 0 ? (s->target - from->W - work(from, length, scale, (const double *)to_end, c)) / v : 0.3 * length;
+    return v < 0 ? (s->target - from->W - work(from, length, scale, (const double *)to_end, c)) / v
+                 : 0.3 * length;
   }
   /* the slip at the end, and its rate there */
   const bool driving = s->goal == AT_STICK || (s->goal == AT_EVENT && driving_slips);
   const part *zx = driving ? c->za_x : c->zb_x, *zy = driving ? c->za_y : c->zb_y;
   const double last = 1 / (scale * LAST(s->z)), dx = LAST(zx) * last, dy = LAST(zy) * last;
-  double x = (driving ? from->a_x : from->b_x) + dot(WEIGHT, zx), y = (driving ? from->a_y : from->b_y) + dot(WEIGHT, zy);
+  double x = (driving ? from->a_x : from->b_x) + dot(WEIGHT, zx),
+         y = (driving ? from->a_y : from->b_y) + dot(WEIGHT, zy);
   /* stick: the slip along its direction over its rate */
   if (s->goal != AT_EVENT) {
-    const double u_x = driving ? LAST(c->u_x) : LAST(c->t_x), u_y = driving ? LAST(c->u_y) : LAST(c->t_y);
+    const double u_x = driving ? LAST(c->u_x) : LAST(c->t_x),
+                 u_y = driving ? LAST(c->u_y) : LAST(c->t_y);
     return -(x * u_x + y * u_y) / (dx * u_x + dy * u_y);
   }
   /* the direction at the end, how fast it turns, and what that makes of w */
@@ -282,16 +313,20 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
   return rate > 0 ? -event_of(k, X, Y) / rate : 0.2 * length;
 }
 
-/* Takes a step from *at. slips: the driving contact slips; loaded: the cloth bears a load, and slips. A refused step leaves *at
- * as it is; then *advice is, for INACCURATE, the squared error estimate over the tolerance, and for EVENT_WITHIN the p from
- * here to the event. */
-always enum outcome collocate(const carom_terms *terms, const step *s, const bool driving_slips, const bool loaded,
-                              const enum exact exact, carom_point *at, int *iterations, double *advice) {
+/* Takes a step from *at. slips: the driving contact slips; loaded: the cloth bears a load, and
+ * slips. A refused step leaves *at as it is; then *advice is, for INACCURATE, the squared error
+ * estimate over the tolerance, and for EVENT_WITHIN the p from here to the event. */
+always enum outcome collocate(const carom_terms *terms, const step *s, const bool driving_slips,
+                              const bool loaded, const enum exact exact, carom_point *at,
+                              int *iterations, double *advice) {
   const carom_terms k = *terms;
   iterate c;
-  nodes per_E, ease, one, to_end, inverse_a, inverse_b, slip_x, slip_y, D_x, D_y, zk, f, correction, correction_t;
-  double for_u[NODES][NODES] __attribute__((aligned(PART_BYTES))), for_t[NODES][NODES] __attribute__((aligned(PART_BYTES)));
-  /* the planned directions; 1/E; `ease`, which stands for E(X)/E(X') of t; the weights of the work */
+  nodes per_E, ease, one, to_end, inverse_a, inverse_b, slip_x, slip_y, D_x, D_y, zk, f, correction,
+      correction_t;
+  double for_u[NODES][NODES] __attribute__((aligned(PART_BYTES))),
+      for_t[NODES][NODES] __attribute__((aligned(PART_BYTES)));
+  /* the planned directions; 1/E; `ease`, which stands for E(X)/E(X') of t; the weights of the
+   * work */
   EACH {
     c.u_x[i] = s->u_x[i];
     c.u_y[i] = s->u_y[i];
@@ -309,7 +344,10 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     /* the rates at the nodes, and the correction of the length */
     ++*iterations;
     rates(&k, s->z, scale, driving_slips, loaded, &c);
-    const double change = s->goal == AT_LENGTH ? 0 : to_goal(&k, at, s, &c, scale, to_end, driving_slips) / (scale * s->length);
+    const double change =
+        s->goal == AT_LENGTH
+            ? 0
+            : to_goal(&k, at, s, &c, scale, to_end, driving_slips) / (scale * s->length);
     EACH correction[i] = splat(0);
     /* u from the slip at the driving contact */
     if (driving_slips) {
@@ -322,7 +360,8 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
         zk[i] = madd(c.u_y[i], D_x[i], -(c.u_x[i] * D_y[i]));
       }
       if (exact)
-        forward = rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_u, c.u_x, c.u_y, correction);
+        forward = rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_u, c.u_x,
+                                 c.u_y, correction);
       else
         rotate(slip_x, slip_y, zk, per_E, s->E, near, inverse_a, c.u_x, c.u_y, correction);
     }
@@ -335,13 +374,15 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
       else
         EACH {
           const part zw = (scale * s->z[i]) * c.w[i];
-          const part zw_t = driving_slips ? splat(0) : zw * k.w_t * c.t_x[i] / (1 - k.w_t * c.t_y[i]);
+          const part zw_t =
+              driving_slips ? splat(0) : zw * k.w_t * c.t_x[i] / (1 - k.w_t * c.t_y[i]);
           D_x[i] = k.H_x * (zw * c.t_y[i] - zw_t * c.t_x[i]);
           D_y[i] = -k.H_y * (zw * c.t_x[i] + zw_t * c.t_y[i]);
           zk[i] = c.t_y[i] * D_x[i] - c.t_x[i] * D_y[i];
         }
       if (exact == FOR_BOTH)
-        forward &= rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_t, c.t_x, c.t_y, correction_t);
+        forward &= rotate_exactly(slip_x, slip_y, D_x, D_y, n == 0 || last > FRESH, for_t, c.t_x,
+                                  c.t_y, correction_t);
       else {
         rotate(slip_x, slip_y, zk, ease, one, near, inverse_b, c.t_x, c.t_y, correction_t);
         if (n < 2) {
@@ -352,12 +393,15 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
       }
       EACH correction[i] = greater(correction[i], correction_t[i]);
     }
-    /* what is left is the last correction times the rate of convergence; it acts over the length of the step */
-    const double now = largest(correction), rate = n > 0 ? now / last : 0.3, worst = rate > last_rate ? rate : last_rate;
+    /* what is left is the last correction times the rate of convergence; it acts over the length
+     * of the step */
+    const double now = largest(correction), rate = n > 0 ? now / last : 0.3,
+                 worst = rate > last_rate ? rate : last_rate;
     if (!(now < 10) || (n >= 3 && rate > 0.6 && now > 1e-3))
       return DIVERGED;
     const double share = scale * s->length < 1 ? scale * s->length : 1;
-    converged = now * (worst < 1 ? worst : 1) * share < CONVERGED * s->tolerance && now < 1e-3 && fabs(change) < SETTLED;
+    converged = now * (worst < 1 ? worst : 1) * share < CONVERGED * s->tolerance && now < 1e-3 &&
+                fabs(change) < SETTLED;
     /* the new length, within limits */
     scale *= 1 + (change > 0.5 ? 0.5 : change > -0.4 ? change : -0.4);
     near = now < NEARLY_CONVERGED && fabs(change) < NEARLY_CONVERGED;
@@ -391,11 +435,13 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
   events(&k, &c, driving_slips, f);
   const double event = largest(f), end = event_at(&k, &to, driving_slips);
   const bool sticks = s->goal == AT_STICK || s->goal == AT_CLOTH_STICK;
-  if (s->goal == AT_EVENT ? event > LATE : event > EVENT_TOLERANCE || (end > EVENT_TOLERANCE && !sticks)) {
+  if (s->goal == AT_EVENT ? event > LATE
+                          : event > EVENT_TOLERANCE || (end > EVENT_TOLERANCE && !sticks)) {
     *advice = first_event(&k, at, s, scale, f, driving_slips);
     return EVENT_WITHIN;
   }
-  /* where friction drives the slip on the cloth, an error of its direction grows by exp(int |H| w / |b| dp) */
+  /* where friction drives the slip on the cloth, an error of its direction grows by exp(int |H|
+   * w / |b| dp) */
   if (loaded && k.H_x < 0) {
     integrate_slip(at->b_x, at->b_y, c.zb_x, c.zb_y, slip_x, slip_y);
     normalise(slip_x, slip_y, false, inverse_b);

@@ -1,39 +1,48 @@
 /* Derivatives of an impact with two frictional contacts, in one pass of the precise solver.
  *
- * Within a regime the variational equations are linear. Let a prime be the derivative by p at fixed variables, d that by a
- * variable at fixed p. The rates depend on the directions u = a/|a|, t = b/|b| and on the variables, and a direction turns by
- * the angle
+ * Within a regime the variational equations are linear. Let a prime be the derivative by p at
+ * fixed variables, d that by a variable at fixed p. The rates depend on the directions u =
+ * a/|a|, t = b/|b| and on the variables, and a direction turns by the angle
  *
  *     |a| dphi = u x da,     |b| dpsi = t x db.
  *
- * They are solved by collocation over the nodes of the solver's own step, where z = dp/dX and M integrates (step.h):
+ * They are solved by collocation over the nodes of the solver's own step, where z = dp/dX and M
+ * integrates (step.h):
  *
- *     |a|_i dphi_i - u_i x sum_j M_ij z_j (a'_phi dphi + a'_psi dpsi)_j = u_i x (da_0 + sum_j M_ij z_j (da')_j)
+ *     |a|_i dphi_i - u_i x sum_j M_ij z_j (a'_phi dphi + a'_psi dpsi)_j
+ *         = u_i x (da_0 + sum_j M_ij z_j (da')_j)
  *
- * and the same for dpsi: 16 linear equations with a column for each variable. Written with |a| instead of its inverse they
- * remain regular where a slip begins from zero. The end of the step follows by quadrature.
+ * and the same for dpsi: 16 linear equations with a column for each variable. Written with |a|
+ * instead of its inverse they remain regular where a slip begins from zero. The end of the step
+ * follows by quadrature.
  *
- * SHIFTS. Nothing depends on p itself, so y' is a solution too: that of a start a little later. Where a slip is small its
- * direction, y' and dy turn fast, but most of dy is a shift, alpha y'. There dy = alpha y' + rest, with the alpha for which the
- * rest of da is smallest, and only the rest is followed over the step.
+ * SHIFTS. Nothing depends on p itself, so y' is a solution too: that of a start a little later.
+ * Where a slip is small its direction, y' and dy turn fast, but most of dy is a shift, alpha y'.
+ * There dy = alpha y' + rest, with the alpha for which the rest of da is smallest, and only the
+ * rest is followed over the step.
  *
- * EVENTS. Where a regime ends because a slip is zero, at p_s, friction changes, and so do the rates:
+ * EVENTS. Where a regime ends because a slip is zero, at p_s, friction changes, and so do the
+ * rates:
  *
  *     d p_s = -(u . da)/(u . a'),     dy+ = dy- + (y'- - y'+) d p_s,     da = 0 from there on.
  *
- * Rates are continuous where a load begins or ends and where friction leaves its cone. The impact ends where W = -e^2 W_c.
+ * Rates are continuous where a load begins or ends and where friction leaves its cone. The
+ * impact ends where W = -e^2 W_c.
  *
- * HELD FROM THE START. Friction ends a small slip da at once, in a p of the order of da. There it is f and not the f_h that
- * holds, and all rates are linear in f - f_h as long as the load keeps its sign. With M of contact.c, a' = M (f - f_h), so
+ * HELD FROM THE START. Friction ends a small slip da at once, in a p of the order of da. There
+ * it is f and not the f_h that holds, and all rates are linear in f - f_h as long as the load
+ * keeps its sign. With M of contact.c, a' = M (f - f_h), so
  *
- *     int (f - f_h) dp = -M^-1 da,     int (F - F_h) dp = mu_c g_1 t (M^-1 da)_y,     da = 0 from there on,
+ *     int (f - f_h) dp = -M^-1 da,     int (F - F_h) dp = mu_c g_1 t (M^-1 da)_y,
+ *     da = 0 from there on,
  *
- * and db and dv change by their rates for these impulses. A slip db that the cloth holds ends by int (F - F_h) dp = -db/H.
- * Where the load may change its sign on the way, the derivatives depend on the direction of da.
+ * and db and dv change by their rates for these impulses. A slip db that the cloth holds ends by
+ * int (F - F_h) dp = -db/H. Where the load may change its sign on the way, the derivatives
+ * depend on the direction of da.
  *
- * Where these equations do not say how an impact goes on, its derivatives are central differences of order 4: motion in a
- * plane, whose perturbations leave it; balls that jam; a slip that passes through zero. A kink is seen there by the differences
- * to each side. */
+ * Where these equations do not say how an impact goes on, its derivatives are central
+ * differences of order 4: motion in a plane, whose perturbations leave it; balls that jam; a
+ * slip that passes through zero. A kink is seen there by the differences to each side. */
 #include "impact/variation.h"
 
 #include <math.h>
@@ -41,13 +50,19 @@
 #include <string.h>
 
 static const double TOLERANCE = 1e-2;   /* of the solver: see impact.h */
-static const double UNRESOLVED = 1e-5;  /* of a slip's derivative, that is left where the slip ends */
-static const double COEFFICIENT = 1e-5; /* share of a variable by which coefficients are differentiated */
-static const double CONE = 0.02;        /* 1 - (|f| / mu)^2 of a slip that friction hardly holds: tests/agree/tangents.c */
-static const double KINK = 1e-4;        /* difference of the slopes to both sides, over the largest, that is a kink */
+static const double UNRESOLVED = 1e-5;  /* of a slip's derivative, that is left where the slip
+                                           ends */
+static const double COEFFICIENT = 1e-5; /* share of a variable by which coefficients are
+                                           differentiated */
+static const double CONE = 0.02;        /* 1 - (|f| / mu)^2 of a slip that friction hardly holds:
+                                           tests/agree/tangents.c */
+static const double KINK = 1e-4;        /* difference of the slopes to both sides, over the
+                                           largest, that is a kink */
 
-void carom_variation_rates(const carom_terms *k, const double lead[4], double v, double rate[CAROM_VARIED]) {
-  const double w = (k->w_0 + k->w_u * lead[1]) / (1 - k->w_t * lead[3]), x = w * lead[2], y = w * lead[3];
+void carom_variation_rates(const carom_terms *k, const double lead[4], double v,
+                           double rate[CAROM_VARIED]) {
+  const double w = (k->w_0 + k->w_u * lead[1]) / (1 - k->w_t * lead[3]), x = w * lead[2],
+               y = w * lead[3];
   rate[OF_A_X] = k->S_x * lead[0] - k->C_x * x;
   rate[OF_A_Y] = k->A_0 + k->S_y * lead[1] - k->C_y * y;
   rate[OF_B_X] = k->R_x * lead[0] - k->H_x * x;
@@ -57,16 +72,18 @@ void carom_variation_rates(const carom_terms *k, const double lead[4], double v,
 }
 
 void carom_variation_leads(const carom_point *at, const double otherwise[4], double lead[4]) {
-  const double a = sqrt(at->a_x * at->a_x + at->a_y * at->a_y), b = sqrt(at->b_x * at->b_x + at->b_y * at->b_y);
+  const double a = sqrt(at->a_x * at->a_x + at->a_y * at->a_y),
+               b = sqrt(at->b_x * at->b_x + at->b_y * at->b_y);
   lead[0] = a > 0 ? at->a_x / a : otherwise[0];
   lead[1] = a > 0 ? at->a_y / a : otherwise[1];
   lead[2] = b > 0 ? at->b_x / b : otherwise[2];
   lead[3] = b > 0 ? at->b_y / b : otherwise[3];
 }
 
-/* The coefficients of the regime with one variable changed by a small amount, over twice of which their difference is their
- * derivative: of this and the opposite change. */
-static double changed_terms(const carom_trajectory *path, enum carom_variable by, carom_terms *more, carom_terms *less) {
+/* The coefficients of the regime with one variable changed by a small amount, over twice of
+ * which their difference is their derivative: of this and the opposite change. */
+static double changed_terms(const carom_trajectory *path, enum carom_variable by, carom_terms *more,
+                            carom_terms *less) {
   const carom_law *law = &path->law, *d = path->variation->d_law;
   carom_law l[2] = {*law, *law};
   double step = COEFFICIENT;
@@ -125,7 +142,8 @@ void carom_variation_straight(carom_trajectory *path, const carom_point *before,
   for (int c = 0; c < CAROM_VARIABLES; c++)
     g->d[OF_W][c] += length * g->d[OF_V][c];
   carom_variation_begin_regime(path);
-  static const size_t term[5] = {0, offsetof(carom_terms, A_0), 0, offsetof(carom_terms, B_0), offsetof(carom_terms, V_0)};
+  static const size_t term[5] = {0, offsetof(carom_terms, A_0), 0, offsetof(carom_terms, B_0),
+                                 offsetof(carom_terms, V_0)};
   for (int c = BY_MU; c < CAROM_VARIABLES; c++) {
     for (int r = 1; r < 5; r += r == 1 ? 2 : 1)
       g->d[r][c] += length * g->d_terms[term[r] / sizeof(double)][c];
@@ -166,11 +184,14 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
   if (path->ended)
     return;
   /* a slip that has become zero */
-  const bool a_ends = at->a_x == 0 && at->a_y == 0 && (before->a_x != 0 || before->a_y != 0) && path->law.mu > 0;
-  const bool b_ends = at->b_x == 0 && at->b_y == 0 && (before->b_x != 0 || before->b_y != 0) && path->law.mu_c > 0;
+  const bool a_ends =
+      at->a_x == 0 && at->a_y == 0 && (before->a_x != 0 || before->a_y != 0) && path->law.mu > 0;
+  const bool b_ends =
+      at->b_x == 0 && at->b_y == 0 && (before->b_x != 0 || before->b_y != 0) && path->law.mu_c > 0;
   if (!a_ends && !b_ends)
     return;
-  if ((a_ends && b_ends) || (a_ends && !path->regime.held) || (b_ends && !path->regime.cloth_held)) {
+  if ((a_ends && b_ends) || (a_ends && !path->regime.held) ||
+      (b_ends && !path->regime.cloth_held)) {
     g->lost = true;
     return;
   }
@@ -181,13 +202,16 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
   double lead[4], after[CAROM_VARIED];
   carom_variation_leads(at, begins, lead);
   carom_variation_rates(&path->terms, lead, at->v, after);
-  /* it ends a little earlier or later; rates change there. By the rates at its end and not by the direction of the slip alone:
-   * that of a slip which is negligible, but not zero, still turns, and what is left of da across the motion falls with |a| */
+  /* it ends a little earlier or later; rates change there. By the rates at its end and not by
+   * the direction of the slip alone: that of a slip which is negligible, but not zero, still
+   * turns, and what is left of da across the motion falls with |a| */
   for (int c = 0; c < CAROM_VARIABLES; c++) {
     const double d_p = falls < 0 ? -(u_x * g->d[first][c] + u_y * g->d[first + 1][c]) / falls : 0;
     /* what is left of da, which has to be 0, tells how well the end of the slip was resolved */
-    const double x = g->d[first][c] + g->rate[first] * d_p, y = g->d[first + 1][c] + g->rate[first + 1] * d_p;
-    if ((g->asked >> c & 1) && fabs(x) + fabs(y) > UNRESOLVED * fmax(fabs(g->d[first][c]) + fabs(g->d[first + 1][c]), 1))
+    const double x = g->d[first][c] + g->rate[first] * d_p,
+                 y = g->d[first + 1][c] + g->rate[first + 1] * d_p;
+    if ((g->asked >> c & 1) &&
+        fabs(x) + fabs(y) > UNRESOLVED * fmax(fabs(g->d[first][c]) + fabs(g->d[first + 1][c]), 1))
       g->lost = true;
     for (int r = 0; r < CAROM_VARIED; r++)
       g->d[r][c] += (g->rate[r] - after[r]) * d_p;
@@ -197,12 +221,14 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
 
 /* ---- From the start to the end ---- */
 
-static void begin(const carom_law *law, const double slips[4], double tolerance, int plain, carom_trajectory *path) {
+static void begin(const carom_law *law, const double slips[4], double tolerance, int plain,
+                  carom_trajectory *path) {
   carom_impact_begin(law, tolerance, plain, slips[0], slips[1], slips[2], slips[3], 0, path);
 }
 
 /* The impulses, without derivatives. */
-static carom_status impulses_of(const carom_law *law, const double slips[4], double tolerance, int plain, double q[5]) {
+static carom_status impulses_of(const carom_law *law, const double slips[4], double tolerance,
+                                int plain, double q[5]) {
   carom_trajectory path;
   begin(law, slips, tolerance, plain, &path);
   const carom_status status = carom_impact_advance(&path, INFINITY, CAROM_IMPACT_ITERATIONS);
@@ -234,14 +260,20 @@ static void change(carom_law *law, const carom_law *d_law, double slips[4], int 
     slips[by] += step;
   }
 }
-_Static_assert(sizeof(carom_law) == 17 * sizeof(double) && offsetof(carom_law, mu) == 14 * sizeof(double),
+_Static_assert(sizeof(carom_law) == 17 * sizeof(double) &&
+                   offsetof(carom_law, mu) == 14 * sizeof(double),
                "14 coefficients, then frictions and restitution");
 
 /* Central differences of order 4 by one variable, with smaller steps where two orders differ. */
-__attribute__((noinline)) static void differentiate(const carom_law *law, const carom_law *d_law, const double slips[4],
-                                                    double tolerance, int plain, int by, carom_impact_tangent *out) {
-  const double size = fmax(fmax(fabs(slips[0]), fabs(slips[1])), fmax(fabs(slips[2]), fabs(slips[3])));
-  double h = by <= BY_B_Y ? 2e-3 * fmax(1, 0.01 * size) : by == BY_E ? 1e-3 : 1e-4, best = INFINITY, bends = INFINITY;
+__attribute__((noinline)) static void differentiate(const carom_law *law, const carom_law *d_law,
+                                                    const double slips[4], double tolerance,
+                                                    int plain, int by, carom_impact_tangent *out) {
+  const double size =
+      fmax(fmax(fabs(slips[0]), fabs(slips[1])), fmax(fabs(slips[2]), fabs(slips[3])));
+  double h = by <= BY_B_Y ? 2e-3 * fmax(1, 0.01 * size)
+             : by == BY_E ? 1e-3
+                          : 1e-4,
+         best = INFINITY, bends = INFINITY;
   const double here[5] = {out->q.p, out->q.f_x, out->q.f_y, out->q.F_x, out->q.F_y};
   if (by == BY_MU || by == BY_MU_C)
     h = fmin(h, 0.4 * (by == BY_MU ? law->mu : law->mu_c));
@@ -261,7 +293,8 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
       const double near = (f[2][r] - f[1][r]) / (2 * h), far = (f[3][r] - f[0][r]) / (4 * h);
       error = fmax(error, fabs(near - far) / 3);
       most = fmax(most, fabs(near));
-      /* what the slopes to both sides differ by, less what a smooth function has in proportion to h */
+      /* what the slopes to both sides differ by, less what a smooth function has in proportion
+       * to h */
       const double less = f[2][r] + f[1][r] - 2 * here[r], more = f[3][r] + f[0][r] - 2 * here[r];
       bend = fmax(bend, fabs(2 * less - 0.5 * more) / h);
     }
@@ -282,13 +315,15 @@ __attribute__((noinline)) static void differentiate(const carom_law *law, const 
   out->kink |= !(best < 1e-4) || !(bends < KINK);
 }
 
-/* Derivatives of the impulses by one variable, at the end of an impact. A function of its own, so that its stack is not there
- * while the impact is followed. */
-__attribute__((noinline)) static void impulses_by(const carom_trajectory *path, const carom_variation *g, int c,
+/* Derivatives of the impulses by one variable, at the end of an impact. A function of its own,
+ * so that its stack is not there while the impact is followed. */
+__attribute__((noinline)) static void impulses_by(const carom_trajectory *path,
+                                                  const carom_variation *g, int c,
                                                   carom_impact_tangent *out) {
   /* impulses are linear in the motion at both ends, with coefficients of the law */
   carom_trajectory d = *path;
-  d.start = (carom_point){.a_x = c == BY_A_X, .a_y = c == BY_A_Y, .b_x = c == BY_B_X, .b_y = c == BY_B_Y};
+  d.start =
+      (carom_point){.a_x = c == BY_A_X, .a_y = c == BY_A_Y, .b_x = c == BY_B_X, .b_y = c == BY_B_Y};
   d.at = (carom_point){.a_x = g->d[OF_A_X][c],
                        .a_y = g->d[OF_A_Y][c],
                        .b_x = g->d[OF_B_X][c],
@@ -324,7 +359,8 @@ static void end_held_slips(const carom_trajectory *path, carom_variation *g) {
   const double begins[4] = {r->u_x, r->u_y, r->t_x, r->t_y};
   carom_variation_leads(at, begins, g->lead);
   const double t_x = g->lead[2], t_y = g->lead[3], w = r->loaded ? l->mu_c * l->g_1 : 0;
-  /* friction that nearly leaves its cone: the smallest change lasts, or is held, depending on its sign */
+  /* friction that nearly leaves its cone: the smallest change lasts, or is held, depending on
+   * its sign */
   const carom_terms *k = &path->terms;
   const double load = k->w_0 / (1 - k->w_t * t_y), x = load * t_x, y = load * t_y;
   const double outside = k->event[0] + k->event[1] * y + k->event[2] * x * x + k->event[3] * y * y;
@@ -332,7 +368,8 @@ static void end_held_slips(const carom_trajectory *path, carom_variation *g) {
   for (int c = BY_A_X; c <= BY_B_Y; c++) {
     double f_x = 0, f_y = 0, F_x = 0, F_y = 0;
     const double a_x = g->d[OF_A_X][c], a_y = g->d[OF_A_Y][c];
-    /* a slip that begins from zero goes one way, whatever the sign of a change: here, and of b below */
+    /* a slip that begins from zero goes one way, whatever the sign of a change: here, and of b
+     * below */
     g->kink |= l->mu > 0 && !r->held && at->a_x == 0 && at->a_y == 0 && (a_x != 0 || a_y != 0);
     if (r->held && (a_x != 0 || a_y != 0)) {
       g->kink |= edge;
@@ -340,7 +377,8 @@ static void end_held_slips(const carom_trajectory *path, carom_variation *g) {
       F_x = -w * t_x * f_y;
       F_y = -w * t_y * f_y;
       f_x = -(a_x + l->C_x * F_x) / l->K_x;
-      /* on the way friction may be anything in the cone, but along x alone if nothing turns it: does the load keep its sign? */
+      /* on the way friction may be anything in the cone, but along x alone if nothing turns it:
+       * does the load keep its sign? */
       const double most = a_y != 0 || l->A_0 != 0 || r->loaded ? l->mu * fabs(l->g_1) : 0;
       g->lost |= l->mu_c > 0 && (r->loaded ? l->g_0 < most : l->g_0 > -most);
     } else if (r->cloth_held) {
@@ -357,12 +395,14 @@ static void end_held_slips(const carom_trajectory *path, carom_variation *g) {
       g->d[OF_A_X][c] = g->d[OF_A_Y][c] = 0;
     if (r->cloth_held)
       g->d[OF_B_X][c] = g->d[OF_B_Y][c] = 0;
-    g->kink |= r->loaded && at->b_x == 0 && at->b_y == 0 && (g->d[OF_B_X][c] != 0 || g->d[OF_B_Y][c] != 0);
+    g->kink |=
+        r->loaded && at->b_x == 0 && at->b_y == 0 && (g->d[OF_B_X][c] != 0 || g->d[OF_B_Y][c] != 0);
   }
 }
 
-carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain,
-                                        unsigned asked, carom_impact_tangent *out) {
+carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law,
+                                        const double slips[4], int plain, unsigned asked,
+                                        carom_impact_tangent *out) {
   carom_trajectory path;
   carom_variation g;
   begin(law, slips, TOLERANCE, plain, &path);
@@ -378,7 +418,8 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   path.variation = &g;
   carom_status status = carom_impact_advance(&path, INFINITY, 10 * CAROM_IMPACT_ITERATIONS);
   if (status == CAROM_ERROR_UNRESOLVED) {
-    /* near the frictions at which balls jam only the tolerance of the impact itself leaves a way to the end */
+    /* near the frictions at which balls jam only the tolerance of the impact itself leaves a way
+     * to the end */
     tolerance = 1;
     g.lost = true;
     begin(law, slips, tolerance, plain, &path);
@@ -388,7 +429,8 @@ carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d
   out->q = carom_impact_impulses(&path);
   if (status != CAROM_OK)
     return status;
-  out->kink = g.kink || (law->mu == 0 && (asked >> BY_MU & 1)) || (law->e == 0 && (asked >> BY_E & 1));
+  out->kink =
+      g.kink || (law->mu == 0 && (asked >> BY_MU & 1)) || (law->e == 0 && (asked >> BY_E & 1));
   g.lost |= !path.ended || g.rate[OF_V] == 0 || (path.regime.held && path.regime.cloth_held);
   for (int c = 0; c < CAROM_VARIABLES; c++) {
     if (!(asked >> c & 1))

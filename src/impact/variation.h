@@ -1,20 +1,31 @@
-/* Derivatives of an impact with two frictional contacts, of law.h: its variational equations, which follow the precise solver
- * step by step; variation.c has the method. */
+/* Derivatives of an impact with two frictional contacts, of law.h: its variational equations,
+ * which follow the precise solver step by step; variation.c has the method. */
 #ifndef CAROM_SRC_IMPACT_VARIATION_H
 #define CAROM_SRC_IMPACT_VARIATION_H
 
 #include "impact/impact.h"
 #include "impact/rules.h"
 
-/* By what an impact is differentiated: the slips at its start, frictions, restitution, and the parameter lambda of the
- * geometry.
+/* By what an impact is differentiated: the slips at its start, frictions, restitution, and the
+ * parameter lambda of the geometry.
  */
-enum carom_variable { BY_A_X, BY_A_Y, BY_B_X, BY_B_Y, BY_MU, BY_MU_C, BY_E, BY_LAMBDA, CAROM_VARIABLES };
+enum carom_variable {
+  BY_A_X,
+  BY_A_Y,
+  BY_B_X,
+  BY_B_Y,
+  BY_MU,
+  BY_MU_C,
+  BY_E,
+  BY_LAMBDA,
+  CAROM_VARIABLES
+};
 
 /* The variables on which rates depend. */
 enum { CAROM_PARAMETERS = 1 << BY_MU | 1 << BY_MU_C | 1 << BY_LAMBDA };
 
-/* A step as the solver took it, at the nodes: dp/dX, p from the beginning of the step, directions of the slips. */
+/* A step as the solver took it, at the nodes: dp/dX, p from the beginning of the step,
+ * directions of the slips. */
 typedef struct carom_kept_step {
   double z[NODES], p[NODES], u_x[NODES], u_y[NODES], t_x[NODES], t_y[NODES];
 } carom_kept_step __attribute__((aligned(64)));
@@ -26,15 +37,18 @@ typedef struct carom_variation {
   carom_kept_step kept;
   /* the derivatives of the coefficients of path->terms by the variables, for `regime` */
   double d_terms[sizeof(carom_terms) / sizeof(double)][CAROM_VARIABLES];
-  double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: that of path->at; those by what is not asked are 0 */
+  double d[CAROM_VARIED][CAROM_VARIABLES]; /* derivatives at a fixed p: that of path->at; those
+                                              by what is not asked are 0 */
   const carom_law *d_law;                  /* by lambda */
   unsigned asked;                          /* bit k: by variable k */
   int regime;
-  double d_p[CAROM_VARIABLES];   /* at the end that of where the impact ends, and then d are total ones */
+  double d_p[CAROM_VARIABLES];   /* at the end that of where the impact ends, and then d are
+                                    total ones */
   double d_W_c[CAROM_VARIABLES]; /* of the work of compression */
   double rate[CAROM_VARIED];     /* y' at the end of the last step, by its regime */
   double lead[4];                /* directions of a and b there */
-  bool lost;                     /* the equations do not say how it goes on: planar motion, a jammed ball */
+  bool lost;                     /* the equations do not say how it goes on: planar motion, a
+                                    jammed ball */
   bool kink;                     /* a slip begins from zero, and there is a seed by it */
 } carom_variation;
 
@@ -46,19 +60,22 @@ typedef struct carom_impact_tangent {
   bool differences, kink;
 } carom_impact_tangent;
 
-/* The impulses of an impact that begins with these slips over the speed of approach, and their derivatives by the variables in
- * `asked` (bit k: variable k); the others are 0. d_law: the derivative of the law by lambda; plain:
+/* The impulses of an impact that begins with these slips over the speed of approach, and their
+ * derivatives by the variables in `asked` (bit k: variable k); the others are 0. d_law: the
+ * derivative of the law by lambda; plain:
  * options.plain of the call. Errors: those of
  * carom_impact_advance(). */
-carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law, const double slips[4], int plain,
-                                        unsigned asked, carom_impact_tangent *out);
+carom_status carom_impact_differentiate(const carom_law *law, const carom_law *d_law,
+                                        const double slips[4], int plain, unsigned asked,
+                                        carom_impact_tangent *out);
 
 /* Makes d_terms those of path->regime. */
 void carom_variation_begin_regime(carom_trajectory *path);
 /* Directions of the slips at a point; `otherwise` where a slip is zero. */
 void carom_variation_leads(const carom_point *at, const double otherwise[4], double lead[4]);
 /* The rates at one place, from directions. */
-void carom_variation_rates(const carom_terms *k, const double lead[4], double v, double rate[CAROM_VARIED]);
+void carom_variation_rates(const carom_terms *k, const double lead[4], double v,
+                           double rate[CAROM_VARIED]);
 
 /* Called by advance.c, besides variation_step() of variation_step.h: after a straight step; */
 void carom_variation_straight(carom_trajectory *path, const carom_point *before, bool planar);

@@ -1,11 +1,13 @@
 /* The variational equations over one collocation step: variation.c has the method.
  *
- * With D = z da'/dphi and so on at the nodes, and the integrals M of step.h, the angles of all slips solve
+ * With D = z da'/dphi and so on at the nodes, and the integrals M of step.h, the angles of all
+ * slips solve
  *
  *     (|a| - u x M D_phi) dphi -        u x M D_psi  dpsi = u x (da_0 + M z da'/d parameter)
  *           -  t x M B_phi dphi + (|b| - t x M B_psi) dpsi = t x (db_0 + M z db'/d parameter)
  *
- * in blocks of eight: the first is inverted, and then its Schur complement, both without pivots as in step.h. */
+ * in blocks of eight: the first is inverted, and then its Schur complement, both without pivots
+ * as in step.h. */
 #ifndef CAROM_SRC_IMPACT_VARIATION_STEP_H
 #define CAROM_SRC_IMPACT_VARIATION_STEP_H
 
@@ -13,16 +15,22 @@
 
 #include <stddef.h>
 
-/* Found on the shots of seeds 7 and 28 of tests/agree/tangents.c, which reports errors for another seed. With ESTIMATE = 3e-7
- * impacts on cushions take 6 % longer. With ESTIMATE in stiff steps too, an error of 5e-5 remains; with ESTIMATE_STIFF = 1e-9
- * they take 3 % longer. With ESTIMATE at stick, 1 of 1000 errors is above 1e-6 instead of 2e-7. With SHARE = 1, 1 of 100 is
+/* Found on the shots of seeds 7 and 28 of tests/agree/tangents.c, which reports errors for
+ * another seed. With ESTIMATE = 3e-7 impacts on cushions take 6 % longer. With ESTIMATE in stiff
+ * steps too, an error of 5e-5 remains; with ESTIMATE_STIFF = 1e-9 they take 3 % longer. With
+ * ESTIMATE at stick, 1 of 1000 errors is above 1e-6 instead of 2e-7. With SHARE = 1, 1 of 100 is
  * above 1.4e-7 instead of 5e-8. */
-static const double ESTIMATE = 1e-6;           /* square of the error estimate of a step, relative; */
-static const double ESTIMATE_STIFF = 1e-8;     /* of a stiff one, whose error at the end is not of the order of the square; */
-static const double ESTIMATE_AT_STICK = 1e-12; /* of one at whose end a slip is zero, where solutions are not smooth */
+static const double ESTIMATE = 1e-6;           /* square of the error estimate of a step,
+                                                  relative; */
+static const double ESTIMATE_STIFF = 1e-8;     /* of a stiff one, whose error at the end is not
+                                                  of the order of the square; */
+static const double ESTIMATE_AT_STICK = 1e-12; /* of one at whose end a slip is zero, where
+                                                  solutions are not smooth */
 static const double SHORTEST = 1e-8;           /* length of a step that is taken in any case */
-static const double SHARE = 0.8;  /* of the longest step that slides: a longer one would often be refused, or be inaccurate */
-static const double SMALL = 0.05; /* a slip that may turn fast: what a shift along the motion changes is split off */
+static const double SHARE = 0.8;  /* of the longest step that slides: a longer one would often be
+                                     refused, or be inaccurate */
+static const double SMALL = 0.05; /* a slip that may turn fast: what a shift along the motion
+                                     changes is split off */
 
 /* Rates at the nodes times z, or their derivatives: of a_x, a_y, b_x, b_y, v. */
 typedef nodes node_rates[5];
@@ -32,8 +40,10 @@ typedef double matrix[NODES][NODES] __attribute__((aligned(PART_BYTES)));
 typedef nodes table[NODES];
 _Static_assert((int)CAROM_VARIABLES == (int)NODES, "both fill a vector");
 
-/* A block of the matrix by columns: minus u x M D; of the slip whose angles these are too, |a| on the diagonal, or NULL. */
-always void block(const part *u_x, const part *u_y, const part *D_x, const part *D_y, const part *length, matrix to) {
+/* A block of the matrix by columns: minus u x M D; of the slip whose angles these are too, |a|
+ * on the diagonal, or NULL. */
+always void block(const part *u_x, const part *u_y, const part *D_x, const part *D_y,
+                  const part *length, matrix to) {
   unrolled for (int j = 0; j < NODES; j++) {
     const part x = splat(AT(D_x, j)), y = splat(-AT(D_y, j));
     nodes column;
@@ -45,19 +55,22 @@ always void block(const part *u_x, const part *u_y, const part *D_x, const part 
 }
 
 /* |a| at the nodes: the component of a along u. */
-always void lengths(double x, double y, const part *za_x, const part *za_y, const part *u_x, const part *u_y, part *to) {
+always void lengths(double x, double y, const part *za_x, const part *za_y, const part *u_x,
+                    const part *u_y, part *to) {
   nodes a_x, a_y;
   integrate_slip(x, y, za_x, za_y, a_x, a_y);
   EACH to[i] = madd(u_x[i], a_x[i], u_y[i] * a_y[i]);
 }
 
 /* z times the derivatives of the rates by the angles of u and of t, and by the parameters. */
-always void node_derivatives(const carom_terms *k, const part *z, const part *u_x, const part *u_y, const part *t_x,
-                             const part *t_y, const part *w, const part *per, node_rates by_u, node_rates by_t) {
+always void node_derivatives(const carom_terms *k, const part *z, const part *u_x, const part *u_y,
+                             const part *t_x, const part *t_y, const part *w, const part *per,
+                             node_rates by_u, node_rates by_t) {
   EACH {
     const part w_u = k->w_u * u_x[i] * per[i], w_t = w[i] * k->w_t * t_x[i] * per[i];
     /* w t by the angles */
-    const part x_u = w_u * t_x[i], y_u = w_u * t_y[i], x_t = w_t * t_x[i] - w[i] * t_y[i], y_t = w_t * t_y[i] + w[i] * t_x[i];
+    const part x_u = w_u * t_x[i], y_u = w_u * t_y[i], x_t = w_t * t_x[i] - w[i] * t_y[i],
+               y_t = w_t * t_y[i] + w[i] * t_x[i];
     by_u[0][i] = z[i] * (-k->S_x * u_y[i] - k->C_x * x_u);
     by_u[1][i] = z[i] * (k->S_y * u_x[i] - k->C_y * y_u);
     by_u[2][i] = z[i] * (-k->R_x * u_y[i] - k->H_x * x_u);
@@ -76,15 +89,18 @@ always void node_derivatives(const carom_terms *k, const part *z, const part *u_
 _Static_assert((int)BY_MU == NODES / 2, "the upper half");
 
 /* z times the derivatives of the rates by the parameters, at each node over the variables. */
-always void parameter_derivatives(const carom_terms *k, const carom_variation *g, const part *z, const part *u_x,
-                                  const part *u_y, const part *t_x, const part *t_y, const part *w, const part *per,
-                                  table *by) {
+always void parameter_derivatives(const carom_terms *k, const carom_variation *g, const part *z,
+                                  const part *u_x, const part *u_y, const part *t_x,
+                                  const part *t_y, const part *w, const part *per, table *by) {
 #define D(name) PART(g->d_terms[offsetof(carom_terms, name) / sizeof(double)], i)
   for (int j = 0; j < NODES; j++) {
-    const part a_x = splat(AT(u_x, j)), a_y = splat(AT(u_y, j)), b_x = splat(AT(t_x, j)), b_y = splat(AT(t_y, j));
-    const part w_j = splat(AT(w, j)), scale = splat(AT(z, j)), x = w_j * b_x, y = w_j * b_y, held = splat(AT(per, j));
+    const part a_x = splat(AT(u_x, j)), a_y = splat(AT(u_y, j)), b_x = splat(AT(t_x, j)),
+               b_y = splat(AT(t_y, j));
+    const part w_j = splat(AT(w, j)), scale = splat(AT(z, j)), x = w_j * b_x, y = w_j * b_y,
+               held = splat(AT(per, j));
     EACH_PARAMETER {
-      const part d_w = madd(y, D(w_t), madd(a_y, D(w_u), D(w_0))) * held, d_x = d_w * b_x, d_y = d_w * b_y;
+      const part d_w = madd(y, D(w_t), madd(a_y, D(w_u), D(w_0))) * held, d_x = d_w * b_x,
+                 d_y = d_w * b_y;
       by[OF_A_X][j][i] = scale * madd(a_x, D(S_x), -madd(x, D(C_x), k->C_x * d_x));
       by[OF_A_Y][j][i] = scale * (madd(a_y, D(S_y), D(A_0)) - madd(y, D(C_y), k->C_y * d_y));
       by[OF_B_X][j][i] = scale * madd(a_x, D(R_x), -madd(x, D(H_x), k->H_x * d_x));
@@ -95,7 +111,8 @@ always void parameter_derivatives(const carom_terms *k, const carom_variation *g
 #undef D
 }
 
-/* The product of a matrix by columns with a matrix by rows, whose numbers in a row belong to the variables. */
+/* The product of a matrix by columns with a matrix by rows, whose numbers in a row belong to the
+ * variables. */
 always void multiply(matrix m, table f, table to) {
   for (int k = 0; k < NODES; k++) {
     nodes sum;
@@ -106,7 +123,8 @@ always void multiply(matrix m, table f, table to) {
 }
 
 /* u x (da_0 + M z da'), where `by` has z da' of the parameters. */
-always void right_sides(nodes *d, table *by, int first, bool parameters, const part *u_x, const part *u_y, table to) {
+always void right_sides(nodes *d, table *by, int first, bool parameters, const part *u_x,
+                        const part *u_y, table to) {
   for (int k = 0; k < NODES; k++) {
     nodes x, y;
     EACH {
@@ -122,16 +140,18 @@ always void right_sides(nodes *d, table *by, int first, bool parameters, const p
   }
 }
 
-/* After a step from `before`: see variation.h. Vectors over the nodes, and those over the variables, have eight numbers. */
-static double variation_step(carom_trajectory *path, const carom_point *before, bool driving_slips, bool stiff, int vanishes) {
+/* After a step from `before`: see variation.h. Vectors over the nodes, and those over the
+ * variables, have eight numbers. */
+static double variation_step(carom_trajectory *path, const carom_point *before, bool driving_slips,
+                             bool stiff, int vanishes) {
   carom_variation *g = path->variation;
   const carom_kept_step *s = &g->kept;
   const carom_terms *k = &path->terms;
   const bool loaded = path->regime.loaded;
   const double length = path->at.p - before->p;
   carom_variation_begin_regime(path);
-  /* a shift along the motion, by alpha in p, is a solution; what it makes of da is split off where the slip is about to end or
-   * is so small that its direction may turn fast */
+  /* a shift along the motion, by alpha in p, is a solution; what it makes of da is split off
+   * where the slip is about to end or is so small that its direction may turn fast */
   nodes alpha, d[CAROM_VARIED];
   for (int r = 0; r < CAROM_VARIED; r++)
     EACH d[r][i] = PART(g->d[r], i);
@@ -144,7 +164,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
   else if (split < 0 && loaded && size_b > 0 && size_b < SMALL * SMALL)
     split = OF_B_X;
   if (split >= 0) {
-    const double begins[4] = {path->regime.u_x, path->regime.u_y, path->regime.t_x, path->regime.t_y};
+    const double begins[4] = {path->regime.u_x, path->regime.u_y, path->regime.t_x,
+                              path->regime.t_y};
     double lead[4], rate[CAROM_VARIED];
     carom_variation_leads(before, begins, lead);
     carom_variation_rates(k, lead, before->v, rate);
@@ -175,7 +196,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
   node_derivatives(k, z, u_x, u_y, t_x, t_y, w, per, by_u, by_t);
   if (parameters)
     parameter_derivatives(k, g, z, u_x, u_y, t_x, t_y, w, per, by);
-  /* the angles: of u as if t did not change, of t by the Schur complement, and what t changes of u */
+  /* the angles: of u as if t did not change, of t by the Schur complement, and what t changes of
+   * u */
   matrix of_u, of_t, of_tu;
   table phi, psi, right;
   nodes rate_x, rate_y, along;
@@ -223,8 +245,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
         EACH phi[j][i] -= right[j][i];
     }
   }
-  /* the end, by quadrature; W is the integral of an integral. The estimate of the error is that of the solver: the coefficient
-   * of the highest Legendre polynomial of the rates */
+  /* the end, by quadrature; W is the integral of an integral. The estimate of the error is that
+   * of the solver: the coefficient of the highest Legendre polynomial of the rates */
   nodes end[CAROM_VARIED], size, error;
   EACH {
     size[i] = splat(1e-300);
@@ -262,7 +284,8 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
                                       : ESTIMATE);
   if (worst > 1 && length > SHORTEST)
     return worst;
-  /* what follows needs the rates at the end; the direction of a slip that is zero there is that of the polynomial */
+  /* what follows needs the rates at the end; the direction of a slip that is zero there is that
+   * of the polynomial */
   const double last[4] = {dot(AT_END, u_x), dot(AT_END, u_y), dot(AT_END, t_x), dot(AT_END, t_y)};
   carom_variation_leads(&path->at, last, g->lead);
   carom_variation_rates(k, g->lead, path->at.v, g->rate);

@@ -4,9 +4,9 @@
  *
  *     g(t + s) >= g + g' s + m s^2     for t + s <= T
  *
- * so the first zero of the parabola, s = 2 g / (-g' + sqrt(g'^2 - 4 m g)), is not behind that of g, and where the parabola has
- * no zero, g has none. As t rises, [t, T] and with it the bound tighten; after some steps that were short the bound is taken on
- * a short piece ahead only. */
+ * so the first zero of the parabola, s = 2 g / (-g' + sqrt(g'^2 - 4 m g)), is not behind that of
+ * g, and where the parabola has no zero, g has none. As t rises, [t, T] and with it the bound
+ * tighten; after some steps that were short the bound is taken on a short piece ahead only. */
 #ifndef CAROM_SRC_MOTION_FIRST_ZERO_H
 #define CAROM_SRC_MOTION_FIRST_ZERO_H
 
@@ -14,8 +14,8 @@
 
 #include <math.h>
 
-/* The first s >= 0 at which y + y1 s + m s^2 is 0, for y > 0; infinite where it is not. Where the usual form of the zero would
- * lose half of its digits, or all of them, it has the other. */
+/* The first s >= 0 at which y + y1 s + m s^2 is 0, for y > 0; infinite where it is not. Where
+ * the usual form of the zero would lose half of its digits, or all of them, it has the other. */
 static inline double carom_first_fall(double y, double y1, double m) {
   const double D = y1 * y1 - 4.0 * m * y;
   if (!(D >= 0.0))
@@ -33,10 +33,12 @@ typedef struct carom_gap_at {
 typedef carom_gap_at carom_gap(const void *of, double t);
 typedef double carom_gap_bound(const void *of, double from, double to);
 
-/* The first zero of g + raise at or after t, where that is positive, up to T; or infinity. `small`: a value that counts as none
- * but for a last step, by the parabola that touches g there. */
-static inline __attribute__((always_inline)) double carom_first_zero(carom_gap *gap, carom_gap_bound *bound, const void *of,
-                                                                     double raise, double t, double T, double small) {
+/* The first zero of g + raise at or after t, where that is positive, up to T; or infinity.
+ * `small`: a value that counts as none but for a last step, by the parabola that touches g
+ * there. */
+static inline __attribute__((always_inline)) double
+carom_first_zero(carom_gap *gap, carom_gap_bound *bound, const void *of, double raise, double t,
+                 double T, double small) {
   enum { MOST_STEPS = 1000, LONG_STEPS = 8 };
   double ahead = T; /* how far the bound reaches */
   for (int k = 0; k < MOST_STEPS; k++) {

@@ -1,17 +1,20 @@
 /* First contacts on quadratic paths.
  *
- * For two centres f(t) = |d0 + d1 t + d2 t^2|^2 - reach^2 is a polynomial of degree 4, f = c0 + c1 t + ... + c4 t^4, whose
- * first zero is searched by first_zero.h. f''/2 = c2 + 3 c3 t + 6 c4 t^2 is itself a parabola, so its least value on an
- * interval is known in closed form. No case needs c4 or c3 to differ from 0.
+ * For two centres f(t) = |d0 + d1 t + d2 t^2|^2 - reach^2 is a polynomial of degree 4, f = c0 +
+ * c1 t + ... + c4 t^4, whose first zero is searched by first_zero.h. f''/2 = c2 + 3 c3 t + 6 c4
+ * t^2 is itself a parabola, so its least value on an interval is known in closed form. No case
+ * needs c4 or c3 to differ from 0.
  *
- * An event is where the gap is <= 0 and closing: M. N. Bannerman, S. Strobl, A. Formella, T. Poeschel, Stable algorithm for
- * event detection in event-driven particle dynamics, Comp. Part. Mech. 1 (2014) 191-198.
+ * An event is where the gap is <= 0 and closing: M. N. Bannerman, S. Strobl, A. Formella, T.
+ * Poeschel, Stable algorithm for event detection in event-driven particle dynamics, Comp. Part.
+ * Mech. 1 (2014) 191-198.
  *
- * PRESSED. Things that touch, do not close and are accelerated into each other are in contact once their gap is 0 and by
- * CAROM_SLACK less than at its greatest, not at once. They close at sqrt(2 slack acceleration) or more there, some 2e-6 m/s for
- * a sliding ball. At once they would close at 0, part at 0 where they have no spin, and be found again at the same instant
- * without end. Where only rounding presses them, as where a ball slides along a rail that it touches, their paths end before
- * the gap has fallen by so much, and there is no contact. */
+ * PRESSED. Things that touch, do not close and are accelerated into each other are in contact
+ * once their gap is 0 and by CAROM_SLACK less than at its greatest, not at once. They close at
+ * sqrt(2 slack acceleration) or more there, some 2e-6 m/s for a sliding ball. At once they would
+ * close at 0, part at 0 where they have no spin, and be found again at the same instant without
+ * end. Where only rounding presses them, as where a ball slides along a rail that it touches,
+ * their paths end before the gap has fallen by so much, and there is no contact. */
 #include "motion/gap.h"
 #include "motion/first_zero.h"
 
@@ -63,26 +66,28 @@ static double least_third(const void *of, double from, double to) {
   return 3.0 * f->c[3] + 12.0 * f->c[4] * (f->c[4] > 0.0 ? from : to);
 }
 
-/* The first time up to T when f begins to fall: 0 where it does so at once, the end of a rise otherwise. */
+/* The first time up to T when f begins to fall: 0 where it does so at once, the end of a rise
+ * otherwise. */
 static double end_of_rise(const quartic *f, double T) {
   const carom_gap_at start = slope_at(f, 0.0);
   if (start.value > 0.0)
     return carom_first_zero(slope_at, least_third, f, 0.0, 0.0, T, 0.0);
   if (start.slope < 0.0)
     return 0.0;
-  /* where the slope begins at 0 or, by rounding, below, and rises, its bound is back at 0 later; where it does not rise either,
-     the third derivative decides: at once if f falls by that */
+  /* where the slope begins at 0 or, by rounding, below, and rises, its bound is back at 0 later;
+     where it does not rise either, the third derivative decides: at once if f falls by that */
   const double third = least_third(f, 0.0, T), back = third < 0.0 ? -start.slope / third : INFINITY;
   if (!(back > 0.0 && back <= T))
     return back <= 0.0 ? 0.0 : INFINITY;
-  return slope(f, back) > 0.0 ? carom_first_zero(slope_at, least_third, f, 0.0, back, T, 0.0) : back;
+  return slope(f, back) > 0.0 ? carom_first_zero(slope_at, least_third, f, 0.0, back, T, 0.0)
+                              : back;
 }
 
 static quartic squared(const carom_separation *d, double reach) {
   const double *p = d->d0, *v = d->d1, *a = d->d2;
   return (quartic){{p[0] * p[0] + p[1] * p[1] - reach * reach, 2.0 * (p[0] * v[0] + p[1] * v[1]),
-                    v[0] * v[0] + v[1] * v[1] + 2.0 * (p[0] * a[0] + p[1] * a[1]), 2.0 * (v[0] * a[0] + v[1] * a[1]),
-                    a[0] * a[0] + a[1] * a[1]}};
+                    v[0] * v[0] + v[1] * v[1] + 2.0 * (p[0] * a[0] + p[1] * a[1]),
+                    2.0 * (v[0] * a[0] + v[1] * a[1]), a[0] * a[0] + a[1] * a[1]}};
 }
 
 /* Adds the third coordinate. */
@@ -102,7 +107,8 @@ static inline double first_contact(quartic f, double reach, double horizon) {
     return zero_from_left(&f, 0.0, horizon, small);
   if (f.c[1] < -2.0 * reach * CAROM_NO_SPEED)
     return 0.0;
-  /* touching and not closing: the next contact is behind the turn, where it closes again; see PRESSED */
+  /* touching and not closing: the next contact is behind the turn, where it closes again; see
+   * PRESSED */
   const double turn = end_of_rise(&f, horizon);
   if (!(turn <= horizon))
     return INFINITY;

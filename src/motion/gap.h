@@ -1,5 +1,5 @@
-/* When two things on quadratic paths first touch: zeros of polynomials of the time since now, that cannot be stepped over. See
- * gap.c. */
+/* When two things on quadratic paths first touch: zeros of polynomials of the time since now,
+ * that cannot be stepped over. See gap.c. */
 #ifndef CAROM_SRC_MOTION_GAP_H
 #define CAROM_SRC_MOTION_GAP_H
 
@@ -17,23 +17,27 @@
 /* A ball that is deeper than this, m, in a rail or a nose is not in contact with it. */
 #define CAROM_BEHIND 1e-6
 
-/* d(t) = d0 + d1 t + d2 t^2: from one centre to the other. The third coordinate is read only where a function says so. */
+/* d(t) = d0 + d1 t + d2 t^2: from one centre to the other. The third coordinate is read only
+ * where a function says so. */
 typedef struct carom_separation {
   double d0[3], d1[3], d2[3];
 } carom_separation;
 
-/* The first time in [0, horizon] when |d(t)| = reach, or infinity: coming from outside, or, if the start is inside, going out.
+/* The first time in [0, horizon] when |d(t)| = reach, or infinity: coming from outside, or, if
+ * the start is inside, going out.
  */
 double carom_first_crossing(const carom_separation *d, double reach, double horizon);
 
-/* The first time in [0, horizon] when |d(t)| <= reach and falling, or infinity. A start with a gap up to CAROM_SLACK, closing,
- * is a contact now; one that does not close is in contact where the gap has fallen by that from its greatest. */
+/* The first time in [0, horizon] when |d(t)| <= reach and falling, or infinity. A start with a
+ * gap up to CAROM_SLACK, closing, is a contact now; one that does not close is in contact where
+ * the gap has fallen by that from its greatest. */
 double carom_first_contact(const carom_separation *d, double reach, double horizon);
 
 /* The same in space, with the third coordinate. */
 double carom_first_contact_in_space(const carom_separation *d, double reach, double horizon);
 
-/* The same for a gap of g[0] + g[1] t + g[2] t^2, the first time when it is <= 0 and falling, with `slack`, m, instead. */
+/* The same for a gap of g[0] + g[1] t + g[2] t^2, the first time when it is <= 0 and falling,
+ * with `slack`, m, instead. */
 static inline double carom_first_touch(const double g[3], double slack, double horizon) {
   double t;
   if (g[0] > slack) {
@@ -46,7 +50,8 @@ static inline double carom_first_touch(const double g[3], double slack, double h
   if (!(g[2] < 0.0))
     return INFINITY;
   /* touching and not closing: where it falls to 0 again; see PRESSED */
-  const double highest = g[1] > 0.0 ? g[0] - 0.25 * g[1] * g[1] / g[2] : g[0], end = carom_lesser(highest - slack, 0.0);
+  const double highest = g[1] > 0.0 ? g[0] - 0.25 * g[1] * g[1] / g[2] : g[0],
+               end = carom_lesser(highest - slack, 0.0);
   t = (-g[1] - sqrt(carom_greater(g[1] * g[1] - 4.0 * g[2] * (g[0] - end), 0.0))) / (2.0 * g[2]);
   return t <= horizon ? t : INFINITY;
 }

@@ -1,22 +1,26 @@
 /* How balls have turned: the rotation that follows from their spin.
  *
- * With w the angular velocity in the axes of the table, the rotation Q of a ball from its start obeys Q' = [w] Q. In a phase,
- * or a piece of one, w is linear in time, w = a + s b with s from the middle of an interval of length h; where the side spin
- * ends before the phase does, the phase is cut there. In flight w is constant. Where a and b are parallel the axis keeps its
- * direction, and Q is exactly the turn by h a. Elsewhere the interval is cut into parts in which a ball turns by half a radian
- * at most, each of which has the turn by the Magnus expansion of order 6,
+ * With w the angular velocity in the axes of the table, the rotation Q of a ball from its start
+ * obeys Q' = [w] Q. In a phase, or a piece of one, w is linear in time, w = a + s b with s from
+ * the middle of an interval of length h; where the side spin ends before the phase does, the
+ * phase is cut there. In flight w is constant. Where a and b are parallel the axis keeps its
+ * direction, and Q is exactly the turn by h a. Elsewhere the interval is cut into parts in which
+ * a ball turns by half a radian at most, each of which has the turn by the Magnus expansion of
+ * order 6,
  *
  *   Omega = A + (1/240) (-20 A + C) x (B + D),   A = h a, B = h^2 b, C = A x B, D = -(1/60) A x C.
  *
- * Source: S. Blanes, F. Casas, J. A. Oteo, J. Ros, "The Magnus expansion and some of its applications", Physics Reports 470
- * (2009) 151-238, section 5. Only correctly rounded operations and the library's own sines: the bits are equal on all machines.
+ * Source: S. Blanes, F. Casas, J. A. Oteo, J. Ros, "The Magnus expansion and some of its
+ * applications", Physics Reports 470 (2009) 151-238, section 5. Only correctly rounded
+ * operations and the library's own sines: the bits are equal on all machines.
  */
 #include "motion/path.h"
 #include "platform/elementary.h"
 
 #include <math.h>
 
-/* rad, of a part: its turn, and h^2 |b|. Found with tests/unit/games.c, which prints the largest error. */
+/* rad, of a part: its turn, and h^2 |b|. Found with tests/unit/games.c, which prints the largest
+ * error. */
 static const double most_turn = 0.5, most_bend = 0.02;
 
 static void cross(const double a[3], const double b[3], double out[3]) {
@@ -110,8 +114,8 @@ static void turn_until(double q[4], carom_path *path, const carom_ball_rates *ra
   }
 }
 
-carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
-                                    double (*turned)[4]) {
+carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, const carom_shot *shot,
+                                    double time, double (*turned)[4]) {
   if (turned == NULL)
     return CAROM_ERROR_NULL;
   carom_ball_state then[CAROM_BALLS_MOST];
@@ -131,7 +135,9 @@ carom_status carom_shot_orientation(const carom_shot_ball *balls, int count, con
     /* from event to event of this ball; the state at the time says whether it moves at all */
     for (int64_t k = 0; k < shot->count && k < shot->room && shot->events[k].time <= at; k++) {
       const carom_event *event = &shot->events[k];
-      const int side = event->a == i ? 0 : event->type == CAROM_EVENT_BALL_BALL && event->b == i ? 1 : -1;
+      const int side = event->a == i                                           ? 0
+                       : event->type == CAROM_EVENT_BALL_BALL && event->b == i ? 1
+                                                                               : -1;
       if (side < 0)
         continue;
       turn_until(q, &path, &rates, event->time);

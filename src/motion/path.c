@@ -14,8 +14,9 @@ carom_ball_rates carom_rates_of(const carom_ball_kind *kind) {
                             .spin = 5.0 * kind->mu_spin * kind->gravity / (2.0 * kind->radius)};
 }
 
-/* The cube root of x > 0, to 1e-3 of it, by the same operations everywhere: a third of the exponent, and two steps of Newton's
- * method. Infinite or very large x give something very large. */
+/* The cube root of x > 0, to 1e-3 of it, by the same operations everywhere: a third of the
+ * exponent, and two steps of Newton's method. Infinite or very large x give something very
+ * large. */
 static double rough_cube_root(double x) {
   uint64_t bits;
   memcpy(&bits, &x, sizeof bits);
@@ -27,10 +28,13 @@ static double rough_cube_root(double x) {
   return y;
 }
 
-/* The first piece of a pair, of a ball that rolls at v against drag: its deceleration. DRAG in path.h has the equations. Apart
- * and cold, so that balls without drag do not pay for it: inlined, it costs their shots 1 to 2 % (carom-lab bench --shots). */
-__attribute__((noinline, cold)) static double begin_pair(carom_path *path, const carom_ball_rates *rates, double v) {
-  /* J0 T^3 / 324 = 1e-5 m with T = fall / (A + k v^2), and 0.6 of it, since T is longer than that */
+/* The first piece of a pair, of a ball that rolls at v against drag: its deceleration. DRAG in
+ * path.h has the equations. Apart and cold, so that balls without drag do not pay for it:
+ * inlined, it costs their shots 1 to 2 % (carom-lab bench --shots). */
+__attribute__((noinline, cold)) static double begin_pair(carom_path *path,
+                                                         const carom_ball_rates *rates, double v) {
+  /* J0 T^3 / 324 = 1e-5 m with T = fall / (A + k v^2), and 0.6 of it, since T is longer than
+   * that */
   static const double most = 324.0 * 1e-5 / 2.0 * 0.6;
   const double A = rates->roll, k = rates->drag, slows = A + k * v * v;
   const double fall = rough_cube_root(most * slows * slows / (k * v));
@@ -40,10 +44,15 @@ __attribute__((noinline, cold)) static double begin_pair(carom_path *path, const
   const double x = by / (A + k * v * least), x2 = A * k * x * x;
   const double T =
       x *
-      (1.0 - x2 * (1.0 / 3.0 -
-                   x2 * (1.0 / 5.0 - x2 * (1.0 / 7.0 - x2 * (1.0 / 9.0 - x2 * (1.0 / 11.0 - x2 * (1.0 / 13.0 - x2 / 15.0)))))));
+      (1.0 -
+       x2 * (1.0 / 3.0 -
+             x2 * (1.0 / 5.0 -
+                   x2 * (1.0 / 7.0 -
+                         x2 * (1.0 / 9.0 - x2 * (1.0 / 11.0 - x2 * (1.0 / 13.0 - x2 / 15.0)))))));
   const double y = by * (v + least) / (2.0 * A + k * (v * v + least * least)), y2 = k * k * y * y;
-  const double S = y * (1.0 + y2 * (1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 * (1.0 / 9.0 + y2 / 11.0)))));
+  const double S =
+      y *
+      (1.0 + y2 * (1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (1.0 / 7.0 + y2 * (1.0 / 9.0 + y2 / 11.0)))));
   const double mean = by / T, first = 4.0 * (v * T - S) / (T * T) - mean;
   path->second[0] = 2.0 * mean - first;
   path->second[1] = 0.5 * T;
@@ -96,19 +105,23 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
       friction = begin_pair(path, rates, size);
     path->a[0] = -0.5 * friction * path->e[0];
     path->a[1] = -0.5 * friction * path->e[1];
-    path->end = now + (slides ? 2.0 * size / (7.0 * friction) : path->goes_on ? path->second[1] : size / friction);
+    path->end = now + (slides          ? 2.0 * size / (7.0 * friction)
+                       : path->goes_on ? path->second[1]
+                                       : size / friction);
     break;
   }
   case CAROM_BALL_AIRBORNE:
     path->a[2] = -0.5 * rates->gravity;
-    path->end = now + carom_fall_time(carom_greater(s->r[2] - rates->radius, 0.0), s->v[2], rates->gravity);
+    path->end =
+        now + carom_fall_time(carom_greater(s->r[2] - rates->radius, 0.0), s->v[2], rates->gravity);
     break;
   default:
     break;
   }
 }
 
-/* Of the two times at which it is at the height of the plane the later one, in the form that does not cancel. */
+/* Of the two times at which it is at the height of the plane the later one, in the form that
+ * does not cancel. */
 double carom_fall_time(double height, double v_z, double gravity) {
   const double square = v_z * v_z + 2.0 * gravity * height, q = square > 0.0 ? sqrt(square) : 0.0;
   if (square < 0.0 || (height < 0.0 && v_z <= 0.0))
@@ -121,7 +134,8 @@ static double spun_down(double w, double fall) {
   return fabs(w) <= fall ? 0.0 : w > 0.0 ? w - fall : w + fall;
 }
 
-void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time, carom_ball_state *state) {
+void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time,
+                   carom_ball_state *state) {
   *state = path->from;
   const double tau = time - path->start;
   if (state->label == CAROM_BALL_STATIONARY || carom_is_out(state->label) || !(tau > 0.0))
@@ -158,9 +172,11 @@ static void stop(carom_ball_state *s) {
 }
 
 int64_t carom_label_of(carom_ball_state *s, double radius) {
-  static const double nothing = 1e-12; /* m/s: a thousandth of the rounding errors of a shot would be less */
+  static const double nothing = 1e-12; /* m/s: a thousandth of the rounding errors of a shot
+                                          would be less */
   const double u_x = s->v[0] - radius * s->w[1], u_y = s->v[1] + radius * s->w[0];
-  const double v = carom_greater(fabs(s->v[0]), fabs(s->v[1])), u = carom_greater(fabs(u_x), fabs(u_y));
+  const double v = carom_greater(fabs(s->v[0]), fabs(s->v[1])),
+               u = carom_greater(fabs(u_x), fabs(u_y));
   if (u > nothing)
     s->label = CAROM_BALL_SLIDING;
   else if (v > nothing)
@@ -174,16 +190,19 @@ int64_t carom_label_in_space(carom_ball_state *s, double radius) {
   static const double nothing = 1e-9; /* m/s */
   if (s->r[2] <= radius && fabs(s->v[2]) < nothing)
     s->v[2] = 0.0;
-  return s->r[2] > radius || s->v[2] != 0.0 ? (s->label = CAROM_BALL_AIRBORNE) : carom_label_of(s, radius);
+  return s->r[2] > radius || s->v[2] != 0.0 ? (s->label = CAROM_BALL_AIRBORNE)
+                                            : carom_label_of(s, radius);
 }
 
 int64_t carom_label_of_layout(carom_ball_state *s, double radius) {
   if (carom_is_out(s->label))
     return s->label;
-  return carom_flies_in_layout(s, radius) ? (s->label = CAROM_BALL_AIRBORNE) : carom_label_of(s, radius);
+  return carom_flies_in_layout(s, radius) ? (s->label = CAROM_BALL_AIRBORNE)
+                                          : carom_label_of(s, radius);
 }
 
-void carom_path_land(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state) {
+void carom_path_land(const carom_path *path, const carom_ball_rates *rates,
+                     carom_ball_state *state) {
   const carom_ball_state *from = &path->from;
   const double height = carom_greater(from->r[2] - rates->radius, 0.0);
   carom_path_at(path, rates, path->end, state);
@@ -191,7 +210,8 @@ void carom_path_land(const carom_path *path, const carom_ball_rates *rates, caro
   state->v[2] = -sqrt(from->v[2] * from->v[2] + 2.0 * rates->gravity * height);
 }
 
-void carom_path_end(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state) {
+void carom_path_end(const carom_path *path, const carom_ball_rates *rates,
+                    carom_ball_state *state) {
   carom_path_at(path, rates, path->end, state);
   switch (path->from.label) {
   case CAROM_BALL_SLIDING:

@@ -2,15 +2,19 @@
  *
  * With tau the time since the start of the path, u the slip at the start, e = u/|u|:
  *
- *   sliding    r = r0 + v0 tau - mu_s g/2 e tau^2   v = v0 - mu_s g e tau   w = w0 - 5 mu_s g/(2R) tau (e_y, -e_x, 0)
+ *   sliding    r = r0 + v0 tau - mu_s g/2 e tau^2,   v = v0 - mu_s g e tau,
+ *              w = w0 - 5 mu_s g/(2R) tau (e_y, -e_x, 0)
  *              until tau = 2|u|/(7 mu_s g), when u = 0 (e does not turn on the way)
- *   rolling    r = r0 + v0 tau - mu_r g/2 v0/|v0| tau^2   and so on, (w_x, w_y) = (-v_y, v_x)/R, until tau = |v0|/(mu_r g)
+ *   rolling    r = r0 + v0 tau - mu_r g/2 v0/|v0| tau^2   and so on, (w_x, w_y) = (-v_y, v_x)/R,
+ *              until tau = |v0|/(mu_r g)
  *   drag       a rolling ball slows by mu_r g + k v^2: in pieces of constant deceleration, below
  *   on the cloth |w_z| falls at 5 mu_sp g/(2R) down to 0
- *   airborne   r = r0 + v0 tau - g/2 tau^2 z, v = v0 - g tau z, w constant, no drag of the air, until the ball lands:
- *              with d = z - R >= 0 and q = sqrt(v_z^2 + 2 g d), tau = (v_z + q)/g, or 2 d/(q - v_z) where v_z < 0
+ *   airborne   r = r0 + v0 tau - g/2 tau^2 z, v = v0 - g tau z, w constant, no drag of the air,
+ *              until the ball lands: with d = z - R >= 0 and q = sqrt(v_z^2 + 2 g d),
+ *              tau = (v_z + q)/g, or 2 d/(q - v_z) where v_z < 0
  *
- * A landing is the end of a phase: it needs no detection. The ball is there at z = R exactly, with v_z = -q.
+ * A landing is the end of a phase: it needs no detection. The ball is there at z = R exactly,
+ * with v_z = -q.
  *
  * Source: W. C. Marlow, The Physics of Pocket Billiards (1994); D. Alciatore, TP A-4.
  *
@@ -19,14 +23,16 @@
  *   T = atan(x) / sqrt(A k),  x = sqrt(A k) (v0 - v1) / (A + k v0 v1)              for the way
  *   S = atanh(y) / k,         y = k (v0^2 - v1^2) / (2 A + k (v0^2 + v1^2)).
  *
- * Detection wants paths of degree 2. So this time is halved, and each half has a constant deceleration, a1 and a2, such that
- * the pair of them ends in the exact state, after T at S with v1:
+ * Detection wants paths of degree 2. So this time is halved, and each half has a constant
+ * deceleration, a1 and a2, such that the pair of them ends in the exact state, after T at S with
+ * v1:
  *
  *   a1 = 4 (v0 T - S) / T^2 - m,   a2 = 2 m - a1,   m = (v0 - v1) / T.
  *
- * Errors do not accumulate from pair to pair. Within one, where J is v'' (J = 2 k v (A + k v^2), largest at the start, and
- * nearly constant), the place differs from the exact one by J T^3 / 324 at most, at T/3 and 2T/3, and by nothing at T/2. The
- * speed v0 - v1 that a pair takes is chosen for an error of 1e-5 m. Where that is v0 the pair ends at rest. */
+ * Errors do not accumulate from pair to pair. Within one, where J is v'' (J = 2 k v (A + k v^2),
+ * largest at the start, and nearly constant), the place differs from the exact one by J T^3 /
+ * 324 at most, at T/3 and 2T/3, and by nothing at T/2. The speed v0 - v1 that a pair takes is
+ * chosen for an error of 1e-5 m. Where that is v0 the pair ends at rest. */
 #ifndef CAROM_SRC_MOTION_PATH_H
 #define CAROM_SRC_MOTION_PATH_H
 
@@ -48,7 +54,8 @@ carom_ball_rates carom_rates_of(const carom_ball_kind *kind);
 
 typedef struct carom_path {
   double start, end;     /* of the phase, on the clock; end is infinite where nothing changes */
-  double a[3];           /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2; a[2] is 0 but for an airborne ball */
+  double a[3];           /* half the acceleration: r(tau) = r0 + v0 tau + a tau^2; a[2] is 0 but
+                            for an airborne ball */
   double e[2];           /* direction of the friction: of the slip, or of v */
   carom_ball_state from; /* at the start; its label is that of the phase */
   bool goes_on;          /* at the end another piece of the same phase begins: carom_path_go_on() */
@@ -67,8 +74,8 @@ static inline bool carom_is_out(int64_t label) {
   return label == CAROM_BALL_POCKETED || label == CAROM_BALL_OFF;
 }
 
-/* The time after which a thing that is `height` above a plane and rises at v_z falls onto it; infinite where it is below and
- * does not come up to it. */
+/* The time after which a thing that is `height` above a plane and rises at v_z falls onto it;
+ * infinite where it is below and does not come up to it. */
 double carom_fall_time(double height, double v_z, double gravity);
 
 /* Starts a path at a time from path->from, whose label says the phase. */
@@ -78,21 +85,23 @@ void carom_path_begin(carom_path *path, const carom_ball_rates *rates, double no
 void carom_path_go_on(carom_path *path, const carom_ball_rates *rates);
 
 /* The state at a time within the path. */
-void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time, carom_ball_state *state);
+void carom_path_at(const carom_path *path, const carom_ball_rates *rates, double time,
+                   carom_ball_state *state);
 
-/* The phase that v and w of a state amount to: not one that would end at once but for rounding. Tidies v and w. */
+/* The phase that v and w of a state amount to: not one that would end at once but for rounding.
+ * Tidies v and w. */
 int64_t carom_label_of(carom_ball_state *state, double radius);
 
-/* The same where the ball may have left the cloth: airborne with v_z other than 0 or above the cloth. A ball on the cloth that
- * moves down or up by rounding, less than 1e-9 m/s, lies on it. */
+/* The same where the ball may have left the cloth: airborne with v_z other than 0 or above the
+ * cloth. A ball on the cloth that moves down or up by rounding, less than 1e-9 m/s, lies on it. */
 int64_t carom_label_in_space(carom_ball_state *state, double radius);
 
 static inline bool carom_flies(const carom_ball_state *s) {
   return s->label == CAROM_BALL_AIRBORNE;
 }
 
-/* Whether a ball of a layout is airborne, unless it is out of play: by its label, or as it moves up or down or is more than
- * 1e-6 m above the cloth. */
+/* Whether a ball of a layout is airborne, unless it is out of play: by its label, or as it moves
+ * up or down or is more than 1e-6 m above the cloth. */
 static inline bool carom_flies_in_layout(const carom_ball_state *s, double radius) {
   static const double on_cloth = 1e-6; /* m */
   return s->label == CAROM_BALL_AIRBORNE || s->v[2] != 0.0 || s->r[2] - radius > on_cloth;
@@ -102,9 +111,11 @@ static inline bool carom_flies_in_layout(const carom_ball_state *s, double radiu
 int64_t carom_label_of_layout(carom_ball_state *state, double radius);
 
 /* The state of an airborne ball as it reaches the cloth. */
-void carom_path_land(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state);
+void carom_path_land(const carom_path *path, const carom_ball_rates *rates,
+                     carom_ball_state *state);
 
-/* The phase that follows the path's own at its end, and the state there; a velocity that has come to its end is exactly 0. */
+/* The phase that follows the path's own at its end, and the state there; a velocity that has
+ * come to its end is exactly 0. */
 void carom_path_end(const carom_path *path, const carom_ball_rates *rates, carom_ball_state *state);
 
 #endif

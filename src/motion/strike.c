@@ -1,18 +1,21 @@
 /* The strike of a cue: an instantaneous, lossless impact of the tip, with squirt.
  *
- * With m the ball's mass, M the cue's, m_e the mass of its end, (a, b) the offset in units of R and I = 2/5 m R^2:
+ * With m the ball's mass, M the cue's, m_e the mass of its end, (a, b) the offset in units of R
+ * and I = 2/5 m R^2:
  *
  *   V = 2 V0 / (1 + m/M + 5/2 (a^2 + b^2))           speed along the cue
- *   v = V cos(theta) in the direction phi + alpha     tan(alpha) = -(5/2) a sqrt(1 - a^2) / (1 + m/m_e + 5/2 (1 - a^2))
+ *   v = V cos(theta) in the direction phi + alpha
+ *   tan(alpha) = -(5/2) a sqrt(1 - a^2) / (1 + m/m_e + 5/2 (1 - a^2))
  *   w = 5 V/(2R) (b, a sin(theta), -a cos(theta))     turned about z by phi + 90 degrees
  *
- * In flat play the part of the blow that goes down into the table is lost. In space, with d the horizontal direction of phi and
- * l the horizontal to its left,
+ * In flat play the part of the blow that goes down into the table is lost. In space, with d the
+ * horizontal direction of phi and l the horizontal to its left,
  *
  *   v = V (cos(alpha) (cos(theta) d - sin(theta) z) + sin(alpha) l)
  *
- * so that a ball on the cloth is airborne with v_z < 0 and lands at once: most of that happens after the tip has left. With
- * theta = 0 both are the same, to the last bit. Sources: D. Alciatore, TP A-30 and TP A-31; pooltool's. */
+ * so that a ball on the cloth is airborne with v_z < 0 and lands at once: most of that happens
+ * after the tip has left. With theta = 0 both are the same, to the last bit. Sources: D.
+ * Alciatore, TP A-30 and TP A-31; pooltool's. */
 #include "motion/strike.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
@@ -37,7 +40,8 @@ carom_status carom_check_cue(const carom_cue *cue) {
   return cue->a * cue->a + cue->b * cue->b < limit * limit ? CAROM_OK : CAROM_ERROR_MISCUE;
 }
 
-static carom_status strike(const carom_cue *cue, const carom_ball_kind *kind, bool in_space, carom_motion *out) {
+static carom_status strike(const carom_cue *cue, const carom_ball_kind *kind, bool in_space,
+                           carom_motion *out) {
   if (cue == NULL || kind == NULL || out == NULL)
     return CAROM_ERROR_NULL;
   const carom_status bad = carom_check_cue(cue);
@@ -53,14 +57,17 @@ static carom_status strike(const carom_cue *cue, const carom_ball_kind *kind, bo
   carom_sincos_degrees(cue->theta, &sin_theta, &cos_theta);
   const double V = 2.0 * cue->speed / (1.0 + kind->mass / cue->mass + 2.5 * (a * a + b * b));
   /* squirt as a turn of v, by its sine and cosine */
-  const double aside = -2.5 * a * sqrt(inside), ahead = 1.0 + kind->mass / cue->end_mass + 2.5 * inside;
+  const double aside = -2.5 * a * sqrt(inside),
+               ahead = 1.0 + kind->mass / cue->end_mass + 2.5 * inside;
   const double size = sqrt(aside * aside + ahead * ahead), s = aside / size, c = ahead / size;
   const double turn = 2.5 * V / kind->radius;
   if (!(size < INFINITY && fabs(turn) < INFINITY))
     return CAROM_ERROR_OVERFLOW;
   const double x = turn * b, y = turn * a * sin_theta;
-  *out = (carom_motion){.v = {V * cos_theta * (cos_phi * c - sin_phi * s), V * cos_theta * (sin_phi * c + cos_phi * s), 0.0},
-                        .w = {-x * sin_phi - y * cos_phi, x * cos_phi - y * sin_phi, -turn * a * cos_theta}};
+  *out = (carom_motion){
+      .v = {V * cos_theta * (cos_phi * c - sin_phi * s),
+            V * cos_theta * (sin_phi * c + cos_phi * s), 0.0},
+      .w = {-x * sin_phi - y * cos_phi, x * cos_phi - y * sin_phi, -turn * a * cos_theta}};
   if (in_space && sin_theta > 0.0) {
     out->v[0] = V * (c * cos_theta * cos_phi - s * sin_phi);
     out->v[1] = V * (c * cos_theta * sin_phi + s * cos_phi);
@@ -73,6 +80,7 @@ carom_status carom_strike(const carom_cue *cue, const carom_ball_kind *kind, car
   return strike(cue, kind, false, out);
 }
 
-carom_status carom_strike_in_space(const carom_cue *cue, const carom_ball_kind *kind, carom_motion *out) {
+carom_status carom_strike_in_space(const carom_cue *cue, const carom_ball_kind *kind,
+                                   carom_motion *out) {
   return strike(cue, kind, true, out);
 }

@@ -1,5 +1,6 @@
-/* Random numbers as a function of seed, stage, row and number, so that no order of computation changes a draw; and a few
- * functions by additions, multiplications, divisions and square roots only, so that their bits are the same on every system. */
+/* Random numbers as a function of seed, stage, row and number, so that no order of computation
+ * changes a draw; and a few functions by additions, multiplications, divisions and square roots
+ * only, so that their bits are the same on every system. */
 #include "plan/plan.h"
 #include "platform/elementary.h"
 
@@ -24,12 +25,14 @@ double carom_asin(double x) {
 /* M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions (1964), 7.1.26. */
 double carom_erf(double x) {
   const double t = 1.0 / (1.0 + 0.3275911 * x);
-  const double sum = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
+  const double sum =
+      t *
+      (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
   return 1.0 - sum * carom_exp(-x * x);
 }
 
-/* log(x), 0 < x < 1: x = m 2^e with m from sqrt(1/2) to sqrt(2), and log(m) = 2 artanh((m - 1) / (m + 1)) by its series, whose
- * ninth term is below 1e-14. */
+/* log(x), 0 < x < 1: x = m 2^e with m from sqrt(1/2) to sqrt(2), and log(m) = 2 artanh((m - 1) /
+ * (m + 1)) by its series, whose ninth term is below 1e-14. */
 static double log_of(double x) {
   int e;
   double m = frexp(x, &e);

@@ -1,16 +1,18 @@
 /* The best shot of a layout, by playing many.
  *
- * 1. Pots: every direct pot whose chance is above 3 %, with six speeds and five places of the tip. The aim is solved by shots of
- *    two balls that stop at the contact: three fixed-point steps for throw, the squirt once for each tip.
- * 2. Scan: strokes in all directions. One that meets a ball first that is not on is stopped there. The others are candidates:
- *    banks, kicks, combinations, caroms, safeties, breaks.
- * 3. Each candidate is played once without errors. Its worth is 1 for a win, 0 for a loss, else the value of the layout that it
- *    leaves, to whoever plays next.
- * 4. Sequential halving (Z. Karnin, T. Koren, O. Somekh, ICML 2013): four rounds with equal shares of the shots. In each, the
- *    candidates that are left are played with errors, the same errors for all; a quarter of them stays.
+ * 1. Pots: every direct pot whose chance is above 3 %, with six speeds and five places of the
+ *    tip. The aim is solved by shots of two balls that stop at the contact: three fixed-point
+ *    steps for throw, the squirt once for each tip.
+ * 2. Scan: strokes in all directions. One that meets a ball first that is not on is stopped
+ *    there. The others are candidates: banks, kicks, combinations, caroms, safeties, breaks.
+ * 3. Each candidate is played once without errors. Its worth is 1 for a win, 0 for a loss, else
+ *    the value of the layout that it leaves, to whoever plays next.
+ * 4. Sequential halving (Z. Karnin, T. Koren, O. Somekh, ICML 2013): four rounds with equal
+ *    shares of the shots. In each, the candidates that are left are played with errors, the same
+ *    errors for all; a quarter of them stays.
  *
- * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by threads and added up in their
- * order, so no bit of a sum depends on threads. */
+ * A shot is a row, whose errors are a function of seed, round and number. Rows are computed by
+ * threads and added up in their order, so no bit of a sum depends on threads. */
 #include "plan/plan.h"
 #include "platform/elementary.h"
 #include "platform/threads.h"
@@ -32,16 +34,19 @@ enum {
 };
 /* m/s and radii, from the prototype */
 static const double pot_speed[POT_SPEEDS] = {0.8, 1.2, 1.7, 2.4, 3.4, 4.8};
-static const double pot_tip[TIPS][2] = {{0.0, 0.0}, {0.0, 0.35}, {0.0, -0.35}, {0.3, 0.0}, {-0.3, 0.0}};
+static const double pot_tip[TIPS][2] = {
+    {0.0, 0.0}, {0.0, 0.35}, {0.0, -0.35}, {0.3, 0.0}, {-0.3, 0.0}};
 static const double scan_speed[SCAN_SPEEDS] = {1.0, 1.8, 3.0, 5.0, 7.5};
-static const double scan_tip[TIPS][2] = {{0.0, 0.0}, {0.0, 0.3}, {0.0, -0.3}, {0.25, 0.0}, {-0.25, 0.0}};
+static const double scan_tip[TIPS][2] = {
+    {0.0, 0.0}, {0.0, 0.3}, {0.0, -0.3}, {0.25, 0.0}, {-0.25, 0.0}};
 
 /* Stages of draws. */
 enum { DRAW_STROKES = 1, DRAW_SCAN, DRAW_PLACES, DRAW_ROUND = 16 };
 
 typedef struct candidate {
   double speed, phi, theta, a, b;
-  double sum, squares; /* of its worth, over `seen` shots with errors; at first of the one without */
+  double sum, squares; /* of its worth, over `seen` shots with errors; at first of the one
+                          without */
   int64_t seen;
   int64_t keep, foul, lose; /* how often */
   int32_t kind, ball, pocket, cushions, order, round;
@@ -88,7 +93,8 @@ typedef struct plan {
   pot pot[CAROM_BALLS_MOST * CAROM_POCKETS_MOST];
 } plan;
 
-/* A stage: rows k of candidates first + k / each, with the errors of k % each; or without errors. */
+/* A stage: rows k of candidates first + k / each, with the errors of k % each; or without
+ * errors. */
 typedef struct stage {
   const plan *of;
   int64_t first, each;
@@ -109,8 +115,8 @@ static carom_cue stroke(const plan *of, const candidate *c, uint32_t draws, int6
   if (draws != 0)
     carom_normals(of->options.seed, draws, (uint64_t)row, z);
   const double share = player->speed_share * c->speed;
-  cue.speed =
-      within(c->speed + z[0] * sqrt(player->speed * player->speed + share * share), player->speed_least, player->speed_most);
+  cue.speed = within(c->speed + z[0] * sqrt(player->speed * player->speed + share * share),
+                     player->speed_least, player->speed_most);
   cue.phi = c->phi + z[1] * player->phi;
   cue.theta = within(c->theta + z[2] * player->theta, 0.0, 90.0);
   cue.a = within(c->a + z[3] * player->a, -player->tip_most, player->tip_most);
@@ -118,7 +124,8 @@ static carom_cue stroke(const plan *of, const candidate *c, uint32_t draws, int6
   return cue;
 }
 
-/* The pot that a shot made, which a candidate calls: of the balls that were on, the first that fell. */
+/* The pot that a shot made, which a candidate calls: of the balls that were on, the first that
+ * fell. */
 static carom_call call_of(const plan *of, const carom_facts *facts) {
   carom_call call = {-1, -1};
   const uint32_t down = facts->down & of->on;
@@ -131,16 +138,21 @@ static carom_call call_of(const plan *of, const carom_facts *facts) {
 /* A shot that ended in an error tells nothing: a foul. */
 static const carom_facts nothing = {.first = {-1, -1}};
 
-/* The worth of a shot for the player: its turn, and the value of the layout that it leaves. `final` is changed. */
-static outcome judge(const plan *of, const carom_facts *facts, carom_ball_state *final, carom_status status, const candidate *c,
-                     bool errors) {
+/* The worth of a shot for the player: its turn, and the value of the layout that it leaves.
+ * `final` is changed. */
+static outcome judge(const plan *of, const carom_facts *facts, carom_ball_state *final,
+                     carom_status status, const candidate *c, bool errors) {
   const carom_plan_rules *rules = of->job.rules;
   facts = status < 0 ? &nothing : facts;
   const carom_call call = errors ? (carom_call){c->ball, c->pocket} : call_of(of, facts);
   uint64_t user[8];
   memcpy(user, rules->user, sizeof user);
   const carom_turn turn = rules->judge(user, of->in_play, of->view.cue_ball, facts, call);
-  outcome o = {.is = (int8_t)turn.is, .foul = turn.foul != 0, .ball = -1, .pocket = -1, .first = (int8_t)facts->first[0]};
+  outcome o = {.is = (int8_t)turn.is,
+               .foul = turn.foul != 0,
+               .ball = -1,
+               .pocket = -1,
+               .first = (int8_t)facts->first[0]};
 
   /* what it calls */
   if (call.ball >= 0 && (turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN)) {
@@ -168,8 +180,9 @@ static outcome judge(const plan *of, const carom_facts *facts, carom_ball_state 
     if (taken_back)
       final[k] = of->job.balls[k].state;
     if (turn.spot >> k & 1)
-      final[k] = (carom_ball_state){.r = {0.5 * of->view.width, 0.75 * of->view.length, of->view.radius[k]},
-                                    .label = CAROM_BALL_STATIONARY};
+      final[k] = (carom_ball_state){
+          .r = {0.5 * of->view.width, 0.75 * of->view.length, of->view.radius[k]},
+          .label = CAROM_BALL_STATIONARY};
   }
   const bool in_hand = turn.leave == CAROM_LEAVE_HAND || turn.leave == CAROM_LEAVE_KITCHEN;
   const bool passes = turn.is == CAROM_TURN_PASS;
@@ -237,12 +250,15 @@ static double squirt_of(const carom_cue *cue, const carom_ball_kind *kind) {
   carom_cue along = *cue;
   carom_motion motion;
   along.phi = 0.0;
-  return carom_strike(&along, kind, &motion) < 0 ? 0.0 : carom_angle_of(motion.v[0], motion.v[1]) / degree;
+  return carom_strike(&along, kind, &motion) < 0
+             ? 0.0
+             : carom_angle_of(motion.v[0], motion.v[1]) / degree;
 }
 
-/* Turns cue->phi until ball k, hit by the cue ball, goes in the direction psi, rad. False where it cannot be hit. */
-static bool aim(const carom_table *table, const carom_shot_ball *balls, int k, double psi, const carom_shot_options *shot,
-                carom_cue *cue) {
+/* Turns cue->phi until ball k, hit by the cue ball, goes in the direction psi, rad. False where
+ * it cannot be hit. */
+static bool aim(const carom_table *table, const carom_shot_ball *balls, int k, double psi,
+                const carom_shot_options *shot, carom_cue *cue) {
   enum { STEPS = 3 };
   carom_shot_ball pair[2] = {balls[cue->ball], balls[k]};
   carom_ball_state final[2];
@@ -251,13 +267,15 @@ static bool aim(const carom_table *table, const carom_shot_ball *balls, int k, d
   options.first_of = 0;
   carom_cue alone = *cue;
   alone.ball = 0;
-  const double both = pair[0].kind.radius + pair[1].kind.radius, *c = pair[0].state.r, *o = pair[1].state.r;
+  const double both = pair[0].kind.radius + pair[1].kind.radius, *c = pair[0].state.r,
+               *o = pair[1].state.r;
   const double squirt = squirt_of(&alone, &pair[0].kind);
   double to = psi;
   for (int step = 0; step < STEPS; step++) {
     double sine, cosine;
     carom_sincos(to, &sine, &cosine);
-    alone.phi = carom_angle_of(o[0] - both * cosine - c[0], o[1] - both * sine - c[1]) / degree - squirt;
+    alone.phi =
+        carom_angle_of(o[0] - both * cosine - c[0], o[1] - both * sine - c[1]) / degree - squirt;
 
     /* throw turns the ball away from the line of centres */
     carom_shot played = {.final = final};
@@ -296,13 +314,16 @@ static void add_pots(plan *of, int64_t most) {
   /* The strokes in an order that is drawn, so that few of them are of all kinds. */
   int order[STROKES];
   for (int n = 0; n < STROKES; n++) {
-    const int other = (int)(carom_uniform(of->options.seed, DRAW_STROKES, (uint64_t)n, 0) * (n + 1));
+    const int other =
+        (int)(carom_uniform(of->options.seed, DRAW_STROKES, (uint64_t)n, 0) * (n + 1));
     order[n] = order[other];
     order[other] = n;
   }
   const int64_t fit = most / STROKES > 4 ? most / STROKES : 4;
   ways = ways > fit ? (int)fit : ways;
-  const int64_t share = ways > 0 ? most / ways : 0, strokes = share > STROKES ? STROKES : share < 3 ? 3 : share;
+  const int64_t share = ways > 0 ? most / ways : 0, strokes = share > STROKES ? STROKES
+                                                              : share < 3     ? 3
+                                                                              : share;
   for (int w = 0; w < ways; w++)
     for (int n = 0; n < strokes; n++) {
       const double *tip = pot_tip[order[n] % TIPS];
@@ -312,7 +333,11 @@ static void add_pots(plan *of, int64_t most) {
       cue.a = within(tip[0], -of->player.tip_most, of->player.tip_most);
       cue.b = within(tip[1], -of->player.tip_most, of->player.tip_most);
       if (aim(of->job.table, of->job.balls, way[w].ball, way[w].way.psi, &of->shot, &cue))
-        add(of, (candidate){.speed = cue.speed, .phi = cue.phi, .a = cue.a, .b = cue.b, .kind = CAROM_PLAN_POT});
+        add(of, (candidate){.speed = cue.speed,
+                            .phi = cue.phi,
+                            .a = cue.a,
+                            .b = cue.b,
+                            .kind = CAROM_PLAN_POT});
     }
 }
 
@@ -326,8 +351,9 @@ static void take(candidate *c, const outcome *o) {
   c->foul = o->foul;
 }
 
-/* Strokes in all directions, of which those stay that meet a ball first that is on; up to `most`. The directions follow the
- * golden ratio, so that however many are tried, they are spread evenly. */
+/* Strokes in all directions, of which those stay that meet a ball first that is on; up to
+ * `most`. The directions follow the golden ratio, so that however many are tried, they are
+ * spread evenly. */
 static void add_scan(plan *of, int64_t most) {
   const int64_t block = most / 2 > 16 ? most / 2 : 16, end = of->count + most;
   const int64_t tries = 4 * most;
@@ -337,13 +363,16 @@ static void add_scan(plan *of, int64_t most) {
     for (int64_t k = from; k < from + block && of->count < of->most; k++) {
       double turn = begin + 0.61803398874989485 * (double)k;
       turn -= floor(turn);
-      const int speed = (int)(SCAN_SPEEDS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 0));
-      const double *tip = scan_tip[(int)(TIPS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 1))];
-      add(of, (candidate){.speed = within(scan_speed[speed], of->player.speed_least, of->player.speed_most),
-                          .phi = 360.0 * turn,
-                          .a = within(tip[0], -of->player.tip_most, of->player.tip_most),
-                          .b = within(tip[1], -of->player.tip_most, of->player.tip_most),
-                          .kind = CAROM_PLAN_SCAN});
+      const int speed =
+          (int)(SCAN_SPEEDS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 0));
+      const double *tip =
+          scan_tip[(int)(TIPS * carom_uniform(of->options.seed, DRAW_SCAN, (uint64_t)k + 1, 1))];
+      add(of, (candidate){
+                  .speed = within(scan_speed[speed], of->player.speed_least, of->player.speed_most),
+                  .phi = 360.0 * turn,
+                  .a = within(tip[0], -of->player.tip_most, of->player.tip_most),
+                  .b = within(tip[1], -of->player.tip_most, of->player.tip_most),
+                  .kind = CAROM_PLAN_SCAN});
     }
     const int64_t added = of->count - first;
     play(of, first, added, 1, 0);
@@ -368,7 +397,8 @@ static bool is_better(const candidate *a, const candidate *b) {
   return of_a > of_b || (of_a == of_b && a->order < b->order);
 }
 
-/* Shell's method, without memory. The order is total, so that it does not matter how it is found. */
+/* Shell's method, without memory. The order is total, so that it does not matter how it is
+ * found. */
 static void sort(candidate *c, int64_t n) {
   for (int64_t gap = n / 2; gap > 0; gap = gap == 2 ? 1 : (gap * 5) / 11)
     for (int64_t k = gap; k < n; k++) {
@@ -380,7 +410,8 @@ static void sort(candidate *c, int64_t n) {
     }
 }
 
-/* Plays the first n candidates `each` times with the errors of a round, and adds up what they are worth. */
+/* Plays the first n candidates `each` times with the errors of a round, and adds up what they
+ * are worth. */
 static void add_up(plan *of, int64_t n, int64_t each, uint32_t draws) {
   play(of, 0, n, each, draws);
   for (int64_t k = 0; k < n; k++) {
@@ -402,7 +433,8 @@ static void add_up(plan *of, int64_t n, int64_t each, uint32_t draws) {
   }
 }
 
-/* The candidates of the first round: the best `keep`, of which pots come first, and a third of `keep` of the scan. */
+/* The candidates of the first round: the best `keep`, of which pots come first, and a third of
+ * `keep` of the scan. */
 static int64_t first_round(plan *of, int64_t keep) {
   const int64_t n = of->count < keep ? of->count : keep;
   int64_t scanned = 0, good = 0;
@@ -421,7 +453,8 @@ static int64_t first_round(plan *of, int64_t keep) {
 
 static void halve(plan *of, int64_t shots) {
   sort(of->found, of->count);
-  const int64_t keep = shots / 25 > 6 ? shots / 25 : 6, left = shots - of->count > 0 ? shots - of->count : 0;
+  const int64_t keep = shots / 25 > 6 ? shots / 25 : 6,
+                left = shots - of->count > 0 ? shots - of->count : 0;
   for (int round = 0; round < ROUNDS && !is_stopped(of); round++) {
     int64_t n = keep >> (2 * round);
     n = n < 2 ? 2 : n;
@@ -446,8 +479,11 @@ static candidate gentle(const plan *of) {
       phi = carom_angle_of(x, y) / degree;
     }
   }
-  return (candidate){
-      .speed = of->player.speed_least, .phi = phi < 0.0 ? phi + 360.0 : phi, .kind = CAROM_PLAN_FOUL, .ball = -1, .pocket = -1};
+  return (candidate){.speed = of->player.speed_least,
+                     .phi = phi < 0.0 ? phi + 360.0 : phi,
+                     .kind = CAROM_PLAN_FOUL,
+                     .ball = -1,
+                     .pocket = -1};
 }
 
 static carom_choice choice_of(const plan *of, const candidate *c) {
@@ -483,13 +519,15 @@ static bool good_options(const carom_plan_options *o) {
   bool reserved = o->unused != 0;
   for (size_t k = 0; k < sizeof o->reserved / sizeof o->reserved[0]; k++)
     reserved |= o->reserved[k] != 0;
-  return !reserved && (o->shots == 0 || (o->shots >= SHOTS_LEAST && o->shots <= SHOTS_MOST)) && o->scan <= 0.9 &&
-         (o->threads >= 0 || o->threads == CAROM_ALL_THREADS) && o->chance_me >= 0.0 && o->chance_me <= 1.0 &&
-         o->chance_opponent >= 0.0 && o->chance_opponent <= 1.0;
+  return !reserved && (o->shots == 0 || (o->shots >= SHOTS_LEAST && o->shots <= SHOTS_MOST)) &&
+         o->scan <= 0.9 && (o->threads >= 0 || o->threads == CAROM_ALL_THREADS) &&
+         o->chance_me >= 0.0 && o->chance_me <= 1.0 && o->chance_opponent >= 0.0 &&
+         o->chance_opponent <= 1.0;
 }
 
 static bool good_player(const carom_player *p) {
-  const double numbers[] = {p->speed, p->speed_share, p->phi, p->theta, p->a, p->b, p->speed_least, p->speed_most, p->tip_most};
+  const double numbers[] = {p->speed, p->speed_share, p->phi,        p->theta,   p->a,
+                            p->b,     p->speed_least, p->speed_most, p->tip_most};
   bool good = p->tip_most <= 1.0 && (p->speed_most == 0.0 || p->speed_most >= p->speed_least);
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
     good &= numbers[k] >= 0.0 && numbers[k] < INFINITY;
@@ -507,7 +545,8 @@ static double scan_of(const carom_plan_options *o) {
 
 /* Pots, what the scan keeps and half as much again that it tries, and what small numbers need. */
 static int64_t most_candidates(int64_t shots, double scan) {
-  return (int64_t)((1.0 - scan) * (double)shots / 4.0) + (int64_t)(1.5 * scan * (double)shots) + SPARE;
+  return (int64_t)((1.0 - scan) * (double)shots / 4.0) + (int64_t)(1.5 * scan * (double)shots) +
+         SPARE;
 }
 
 /* Rows of the largest stage. */
@@ -517,8 +556,8 @@ static int64_t most_rows(int64_t shots, double scan) {
 
 static size_t bytes_of(int64_t shots, double scan) {
   const size_t rows = (size_t)most_rows(shots, scan);
-  return sizeof(plan) + (size_t)most_candidates(shots, scan) * sizeof(candidate) + rows * sizeof(outcome) +
-         (rows / UNIT + 1) * sizeof(scratch);
+  return sizeof(plan) + (size_t)most_candidates(shots, scan) * sizeof(candidate) +
+         rows * sizeof(outcome) + (rows / UNIT + 1) * sizeof(scratch);
 }
 
 size_t carom_plan_memory(const carom_plan_options *options) {
@@ -526,21 +565,25 @@ size_t carom_plan_memory(const carom_plan_options *options) {
   return good_options(o) ? bytes_of(shots_of(o), scan_of(o)) : 0;
 }
 
-/* Where a plan is in the caller's memory; NULL where there is too little of it, or nothing to plan. */
+/* Where a plan is in the caller's memory; NULL where there is too little of it, or nothing to
+ * plan. */
 static plan *place(const carom_plan_job *job) {
-  const bool room = job != NULL && job->memory != NULL && job->memory_size >= carom_plan_memory(job->options);
+  const bool room =
+      job != NULL && job->memory != NULL && job->memory_size >= carom_plan_memory(job->options);
   return room ? job->memory : NULL;
 }
 
 /* Checks the arguments, and makes all of a plan but its candidates. */
 static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
-  if (job == NULL || job->table == NULL || job->balls == NULL || job->cue == NULL || job->player == NULL || job->rules == NULL)
+  if (job == NULL || job->table == NULL || job->balls == NULL || job->cue == NULL ||
+      job->player == NULL || job->rules == NULL)
     return CAROM_ERROR_NULL;
   const carom_plan_options *options = job->options != NULL ? job->options : &no_options;
   const carom_plan_rules *rules = job->rules;
   bool good = good_options(options) && good_player(job->player) &&
-              (options->opponent == NULL || good_player(options->opponent)) && rules->on != NULL && rules->judge != NULL &&
-              rules->left != NULL && rules->unused == 0 && (uint32_t)rules->race <= CAROM_RACE_ALONE;
+              (options->opponent == NULL || good_player(options->opponent)) && rules->on != NULL &&
+              rules->judge != NULL && rules->left != NULL && rules->unused == 0 &&
+              (uint32_t)rules->race <= CAROM_RACE_ALONE;
   for (size_t k = 0; k < sizeof job->reserved / sizeof job->reserved[0]; k++)
     good &= job->reserved[k] == 0;
   if (!good)
@@ -562,7 +605,8 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   of->player.tip_most = of->player.tip_most > 0.0 ? of->player.tip_most : 0.5;
   int where;
   const carom_cue *cue = in_hand ? NULL : job->cue; /* its ball may be down */
-  const carom_status bad = carom_shot_check(job->table, job->balls, (int)job->count, cue, &of->shot, &where);
+  const carom_status bad =
+      carom_shot_check(job->table, job->balls, (int)job->count, cue, &of->shot, &where);
   if (bad != CAROM_OK || job->cue->ball < 0 || job->cue->ball >= job->count)
     return bad != CAROM_OK ? bad : CAROM_ERROR_CUE_BALL;
   of->count = 0;
@@ -591,8 +635,9 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   const bool hand = turn.leave == CAROM_LEAVE_HAND || turn.leave == CAROM_LEAVE_KITCHEN;
   of->foul_value = turn.is == CAROM_TURN_LOSE        ? 0.0
                    : rules->race == CAROM_RACE_ALONE ? 0.0
-                   : turn.is == CAROM_TURN_KEEP      ? carom_value_of(&of->view, user, of->state, 0, hand)
-                                                     : 1.0 - carom_value_of(&of->view, user, of->state, 1, hand);
+                   : turn.is == CAROM_TURN_KEEP
+                       ? carom_value_of(&of->view, user, of->state, 0, hand)
+                       : 1.0 - carom_value_of(&of->view, user, of->state, 1, hand);
   return CAROM_OK;
 }
 
@@ -635,8 +680,8 @@ carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int ro
   return CAROM_OK;
 }
 
-carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], const double high[2], carom_choice *choices,
-                             int room, int *found) {
+carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], const double high[2],
+                             carom_choice *choices, int room, int *found) {
   if (choices == NULL || found == NULL || room < 1)
     return CAROM_ERROR_NULL;
   plan *of = place(job);
@@ -663,7 +708,8 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
       const double most = high != NULL && high[x] < size[x] - R ? high[x] : size[x] - R;
       r[x] = least + (most - least) * carom_uniform(of->options.seed, DRAW_PLACES, k, (uint32_t)x);
     }
-    if (carom_place_ball(job->table, balls, (int)job->count, cue_ball, r[0], r[1], NULL) != CAROM_OK)
+    if (carom_place_ball(job->table, balls, (int)job->count, cue_ball, r[0], r[1], NULL) !=
+        CAROM_OK)
       continue;
     places++;
     state[cue_ball] = balls[cue_ball].state;
@@ -680,18 +726,21 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
 
   int where;
   carom_place_ball(job->table, balls, (int)job->count, cue_ball, best[0].r[0], best[0].r[1], NULL);
-  const carom_status refused = carom_shot_check(job->table, balls, (int)job->count, job->cue, &of->shot, &where);
+  const carom_status refused =
+      carom_shot_check(job->table, balls, (int)job->count, job->cue, &of->shot, &where);
   if (refused != CAROM_OK)
     return refused;
 
   /* A small plan from each of them, then one with half of the shots from the best. */
-  const int64_t shots = shots_of(&of->options), small = shots / (2 * PLACES_PLANNED) > 100 ? shots / (2 * PLACES_PLANNED) : 100;
+  const int64_t shots = shots_of(&of->options),
+                small = shots / (2 * PLACES_PLANNED) > 100 ? shots / (2 * PLACES_PLANNED) : 100;
   int chosen = 0;
   double most = -1.0;
   of->job.balls = balls;
   for (int k = 0; k <= kept && !(k > 0 && is_stopped(of)); k++) {
     const int at = k < kept ? k : chosen;
-    carom_place_ball(job->table, balls, (int)job->count, cue_ball, best[at].r[0], best[at].r[1], NULL);
+    carom_place_ball(job->table, balls, (int)job->count, cue_ball, best[at].r[0], best[at].r[1],
+                     NULL);
     search(of, k < kept ? small : shots - kept * small > small ? shots - kept * small : small);
     const candidate *c = &of->found[0];
     if (k < kept && c->sum / (double)c->seen > most) {
@@ -703,12 +752,15 @@ carom_status carom_plan_hand(const carom_plan_job *job, const double low[2], con
   return CAROM_OK;
 }
 
-carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, int n, carom_choice *choices) {
+carom_status carom_plan_try(const carom_plan_job *job, const carom_cue *cues, int n,
+                            carom_choice *choices) {
   enum { MOST = 1000 };
   if (choices == NULL || cues == NULL)
     return CAROM_ERROR_NULL;
   plan *of = place(job);
-  const carom_status bad = of == NULL ? CAROM_ERROR_NULL : n < 0 || n > MOST ? CAROM_ERROR_OPTIONS : begin(of, job, false);
+  const carom_status bad = of == NULL          ? CAROM_ERROR_NULL
+                           : n < 0 || n > MOST ? CAROM_ERROR_OPTIONS
+                                               : begin(of, job, false);
   if (bad != CAROM_OK)
     return bad;
   const int64_t each = shots_of(&of->options) / (n > 0 ? n : 1);
@@ -736,26 +788,31 @@ carom_status carom_plan_value(const carom_plan_job *job, int in_hand, double *va
   if (bad != CAROM_OK)
     return bad;
   const double found = carom_value_of(&of.view, job->rules->user, of.state, 0, in_hand != 0);
-  *value = job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL ? found / of.left : found;
+  *value =
+      job->rules->race == CAROM_RACE_ALONE && job->rules->value == NULL ? found / of.left : found;
   return CAROM_OK;
 }
 
 /* The pot of a ball by the cue ball alone. Apart, as a view is too much for the stack of a shot. */
-__attribute__((noinline)) static carom_way way_of_two(const carom_table *table, const carom_shot_ball *balls, int count,
+__attribute__((noinline)) static carom_way way_of_two(const carom_table *table,
+                                                      const carom_shot_ball *balls, int count,
                                                       int ball, int pocket, const carom_cue *cue) {
   const carom_player sure = {0};
   const carom_plan_rules rules = carom_plan_rules_of(CAROM_RULES_POTTING);
-  const carom_plan_job job = {.table = table, .balls = balls, .count = count, .cue = cue, .player = &sure, .rules = &rules};
+  const carom_plan_job job = {
+      .table = table, .balls = balls, .count = count, .cue = cue, .player = &sure, .rules = &rules};
   carom_view view;
   carom_ball_state state[CAROM_BALLS_MOST];
   carom_view_make(&view, &job, &no_options);
   for (int k = 0; k < count; k++)
     state[k] = balls[k].state;
-  return carom_way_of(&view, state, UINT32_C(1) << ball | UINT32_C(1) << cue->ball, ball, pocket, 0, false);
+  return carom_way_of(&view, state, UINT32_C(1) << ball | UINT32_C(1) << cue->ball, ball, pocket, 0,
+                      false);
 }
 
-carom_status carom_plan_aim(const carom_table *table, const carom_shot_ball *balls, int count, int ball, int pocket,
-                            const carom_shot_options *shot, carom_cue *cue, double range[2]) {
+carom_status carom_plan_aim(const carom_table *table, const carom_shot_ball *balls, int count,
+                            int ball, int pocket, const carom_shot_options *shot, carom_cue *cue,
+                            double range[2]) {
   if (table == NULL || balls == NULL || cue == NULL)
     return CAROM_ERROR_NULL;
   const carom_shot_options *options = shot != NULL ? shot : &no_shot;

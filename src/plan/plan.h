@@ -1,4 +1,5 @@
-/* What the parts of this room share: the table as a player sees it, values of layouts, and draws. */
+/* What the parts of this room share: the table as a player sees it, values of layouts, and
+ * draws. */
 #ifndef CAROM_SRC_PLAN_PLAN_H
 #define CAROM_SRC_PLAN_PLAN_H
 
@@ -12,7 +13,8 @@ enum { MOST_LEFT = 15 }; /* balls of a player that a chain counts */
 /* Two jaws, between which the way into a pocket is. */
 typedef struct carom_mouth {
   double centre[2], jaw[2][3]; /* of the pocket; of each jaw, with its radius */
-  bool jaws;                   /* whether there are such jaws; else jaw[0][2] is the pocket's radius */
+  bool jaws;                   /* whether there are such jaws; else jaw[0][2] is the pocket's
+                                  radius */
 } carom_mouth;
 
 /* A layout's surroundings, made once for a plan. */
@@ -23,7 +25,8 @@ typedef struct carom_view {
   double width, length;
   double radius[CAROM_BALLS_MOST];
   double sigma[2]; /* error of the direction, rad: of the player, of his opponent */
-  /* chance to win at one's turn, by the balls left to oneself and to the other: of the player, of his opponent */
+  /* chance to win at one's turn, by the balls left to oneself and to the other: of the player,
+   * of his opponent */
   double win[2][MOST_LEFT + 1][MOST_LEFT + 1];
   double more[CAROM_BALLS_MOST]; /* balls that he pots yet in this visit, of so many, after a pot */
 } carom_view;
@@ -31,23 +34,31 @@ typedef struct carom_view {
 /* A direct pot. */
 typedef struct carom_way {
   double chance;
-  double psi, half; /* the middle of the directions in which the ball gets in, and half their range, rad */
+  double psi, half; /* the middle of the directions in which the ball gets in, and half their
+                       range, rad */
 } carom_way;
 
 /* value.c */
-void carom_view_make(carom_view *view, const carom_plan_job *job, const carom_plan_options *options);
-/* The pot of ball k into a pocket by the player `who`, 0 or 1; in_hand: the cue ball may be put anywhere. */
-carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play, int k, int pocket, int who,
-                       bool in_hand);
+void carom_view_make(carom_view *view, const carom_plan_job *job,
+                     const carom_plan_options *options);
+/* The pot of ball k into a pocket by the player `who`, 0 or 1; in_hand: the cue ball may be put
+ * anywhere. */
+carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                       int k, int pocket, int who, bool in_hand);
 /* The chance that player `who`, who is at the table, wins; alone: balls that he pots yet. */
-double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls, int who, bool in_hand);
+double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
+                      int who, bool in_hand);
 uint32_t carom_in_play(const carom_ball_state *balls, int count);
 
-/* draws.c: elementary functions beyond platform/elementary.h, and random numbers that are a function of where they stand. */
-double carom_angle_of(double x, double y);                                          /* of a vector, -pi to pi, rad */
-double carom_asin(double x);                                                        /* |x| <= 1 */
-double carom_erf(double x);                                                         /* x >= 0; to 1.5e-7 */
-double carom_uniform(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number); /* between 0 and 1, without the ends */
+/* draws.c: elementary functions beyond platform/elementary.h, and random numbers that are a
+ * function of where they stand. */
+/* of a vector, -pi to pi, rad */
+double carom_angle_of(double x, double y);
+double carom_asin(double x); /* |x| <= 1 */
+/* x >= 0; to 1.5e-7 */
+double carom_erf(double x);
+/* between 0 and 1, without the ends */
+double carom_uniform(uint64_t seed, uint32_t stage, uint64_t row, uint32_t number);
 void carom_normals(uint64_t seed, uint32_t stage, uint64_t row, double z[6]);
 
 #endif

@@ -1,5 +1,6 @@
-/* Games as data: who may be met first, what a shot amounts to, how many balls are left. World Standardized Rules of the WPA
- * (2016), sections 2 and 3, with the simplifications that carom_plan.h names. */
+/* Games as data: who may be met first, what a shot amounts to, how many balls are left. World
+ * Standardized Rules of the WPA (2016), sections 2 and 3, with the simplifications that
+ * carom_plan.h names. */
 #include "plan/plan.h"
 
 #include <stddef.h>
@@ -15,7 +16,8 @@ static int count_of(uint32_t set) {
   return n;
 }
 
-/* A foul of any game: no ball that may be met first, the cue ball down, a ball off the table, no cushion and no pot. */
+/* A foul of any game: no ball that may be met first, the cue ball down, a ball off the table, no
+ * cushion and no pot. */
 static bool is_foul(const carom_facts *facts, uint32_t on, int cue_ball) {
   const int first = facts->first[0];
   return first < 0 || !(on >> first & 1) || (facts->down >> cue_ball & 1) || facts->off != 0 ||
@@ -43,10 +45,15 @@ static uint32_t eightball_on(const uint64_t *user, uint32_t in_play) {
 }
 
 static void eightball_left(const uint64_t *user, uint32_t in_play, int32_t left[2]) {
-  const int solids = count_of(in_play & balls_of[SOLIDS]), stripes = count_of(in_play & balls_of[STRIPES]);
+  const int solids = count_of(in_play & balls_of[SOLIDS]),
+            stripes = count_of(in_play & balls_of[STRIPES]);
   const bool open = user[GROUP] == OPEN;
-  left[0] = 1 + (open ? (solids < stripes ? solids : stripes) : user[GROUP] == SOLIDS ? solids : stripes);
-  left[1] = 1 + (open ? (solids < stripes ? stripes : solids) : user[GROUP] == SOLIDS ? stripes : solids);
+  left[0] = 1 + (open                    ? (solids < stripes ? solids : stripes)
+                 : user[GROUP] == SOLIDS ? solids
+                                         : stripes);
+  left[1] = 1 + (open                    ? (solids < stripes ? stripes : solids)
+                 : user[GROUP] == SOLIDS ? stripes
+                                         : solids);
 }
 
 /* The turn goes to the other: the state becomes his. */
@@ -56,24 +63,30 @@ static carom_turn give(uint64_t *user, carom_turn turn) {
   return turn;
 }
 
-static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts, carom_call call) {
+static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+                                  const carom_facts *facts, carom_call call) {
   const uint32_t on = eightball_on(user, in_play);
   const bool bad = is_foul(facts, on, cue_ball);
 
   /* The break: nothing is called, the eight comes back, and the table is open after it. */
   if (user[BREAK] != 0) {
     user[BREAK] = 0;
-    carom_turn turn = bad ? foul : !is_break(facts, cue_ball) ? foul : (facts->down & 0xfffe) != 0 ? keep : pass;
+    carom_turn turn = bad                           ? foul
+                      : !is_break(facts, cue_ball)  ? foul
+                      : (facts->down & 0xfffe) != 0 ? keep
+                                                    : pass;
     turn.leave = bad ? CAROM_LEAVE_KITCHEN : turn.leave;
     turn.spot = (facts->down | facts->off) & eight;
     return turn;
   }
 
   /* The eight wins as the last ball, in the pocket that was called, without a foul. */
-  const bool called = call.ball >= 0 && call.ball < CAROM_BALLS_MOST && facts->pocket[call.ball] == call.pocket;
+  const bool called =
+      call.ball >= 0 && call.ball < CAROM_BALLS_MOST && facts->pocket[call.ball] == call.pocket;
   if (((facts->down | facts->off) & eight) != 0)
-    return on == eight && !bad && called && call.ball == 8 ? win
-                                                           : (carom_turn){CAROM_TURN_LOSE, CAROM_LEAVE_AFTER, bad, 0, 0.0};
+    return on == eight && !bad && called && call.ball == 8
+               ? win
+               : (carom_turn){CAROM_TURN_LOSE, CAROM_LEAVE_AFTER, bad, 0, 0.0};
   if (bad)
     return give(user, foul);
 
@@ -98,7 +111,8 @@ static void nineball_left(const uint64_t *user, uint32_t in_play, int32_t left[2
   left[0] = left[1] = count_of(in_play & 0x3fe);
 }
 
-static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts, carom_call call) {
+static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+                                 const carom_facts *facts, carom_call call) {
   (void)call;
   const bool broke = user[BREAK] != 0 && !is_break(facts, cue_ball);
   const bool bad = is_foul(facts, nineball_on(user, in_play), cue_ball) || broke;
@@ -123,7 +137,8 @@ static void potting_left(const uint64_t *user, uint32_t in_play, int32_t left[2]
   left[1] = 1;
 }
 
-static carom_turn potting_judge(uint64_t *user, uint32_t in_play, int cue_ball, const carom_facts *facts, carom_call call) {
+static carom_turn potting_judge(uint64_t *user, uint32_t in_play, int cue_ball,
+                                const carom_facts *facts, carom_call call) {
   (void)call;
   const uint32_t on = potting_on(user, in_play);
   const bool bad = facts->first[0] < 0 || (facts->down >> cue_ball & 1) || facts->off != 0;
@@ -146,8 +161,13 @@ static const struct {
       .calls = 1,
       .first_decides = 1}},
     {"nineball",
-     {.on = nineball_on, .judge = nineball_judge, .left = nineball_left, .race = CAROM_RACE_SHARED, .first_decides = 1}},
-    {"potting", {.on = potting_on, .judge = potting_judge, .left = potting_left, .race = CAROM_RACE_ALONE}},
+     {.on = nineball_on,
+      .judge = nineball_judge,
+      .left = nineball_left,
+      .race = CAROM_RACE_SHARED,
+      .first_decides = 1}},
+    {"potting",
+     {.on = potting_on, .judge = potting_judge, .left = potting_left, .race = CAROM_RACE_ALONE}},
 };
 enum { GAMES = sizeof games / sizeof games[0] };
 
@@ -160,5 +180,9 @@ carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
 }
 
 carom_player carom_player_of(double scale) {
-  return (carom_player){.speed = 0.1 * scale, .phi = 0.1 * scale, .theta = 0.1 * scale, .a = 0.003 * scale, .b = 0.003 * scale};
+  return (carom_player){.speed = 0.1 * scale,
+                        .phi = 0.1 * scale,
+                        .theta = 0.1 * scale,
+                        .a = 0.003 * scale,
+                        .b = 0.003 * scale};
 }

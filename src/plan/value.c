@@ -1,18 +1,23 @@
 /* Values of layouts: how likely is the best direct pot, and who wins from there.
  *
- * A ball at o gets into a pocket between the tangents from o to its two jaws, moved by 0.93 R: a window of directions with the
- * middle psi and the half width h. The cue ball has to come to the ghost, g = o - (R + R') (cos psi, sin psi), over a distance
- * d, and cuts by an angle c. An error s of its direction becomes one of s d / ((R + R') cos c) of the ball's, to which the
- * uncertainty of throw adds 1.5 degrees sqrt(1.2 - cos c). With e the sum of both in squares the chance is erf(h / (e sqrt 2)).
- * It is 0 where a ball is in either way, where the ghost is in a cushion, or the cut is above 80 degrees.
+ * A ball at o gets into a pocket between the tangents from o to its two jaws, moved by 0.93 R: a
+ * window of directions with the middle psi and the half width h. The cue ball has to come to the
+ * ghost, g = o - (R + R') (cos psi, sin psi), over a distance d, and cuts by an angle c. An
+ * error s of its direction becomes one of s d / ((R + R') cos c) of the ball's, to which the
+ * uncertainty of throw adds 1.5 degrees sqrt(1.2 - cos c). With e the sum of both in squares the
+ * chance is erf(h / (e sqrt 2)). It is 0 where a ball is in either way, where the ghost is in a
+ * cushion, or the cut is above 80 degrees.
  *
- * With p of the best ball and q of the second best one, the player pots with the chance p (0.92 + 0.06 q). What follows is a
- * chain over the balls left, n to the player and m to the other one: he pots the next with a chance a, the other with b, and who
- * misses gives the turn away:
+ * With p of the best ball and q of the second best one, the player pots with the chance p (0.92
+ * + 0.06 q). What follows is a chain over the balls left, n to the player and m to the other
+ * one: he pots the next with a chance a, the other with b, and who misses gives the turn away:
  *
- *     W(n, m) = a W(n - 1, m) + (1 - a) (1 - V(m, n)),   V(m, n) = b V(m - 1, n) + (1 - b) (1 - W(n, m)),   W(0, m) = 1.
+ *     W(n, m) = a W(n - 1, m) + (1 - a) (1 - V(m, n)),
+ *     V(m, n) = b V(m - 1, n) + (1 - b) (1 - W(n, m)),
+ *     W(0, m) = 1.
  *
- * 0.93, 1.5 degrees, 1.2, 0.92, 0.06 are the prototype's, chosen by hand; they order layouts, and nothing else depends on them.
+ * 0.93, 1.5 degrees, 1.2, 0.92, 0.06 are the prototype's, chosen by hand; they order layouts,
+ * and nothing else depends on them.
  */
 #include "plan/plan.h"
 #include "platform/elementary.h"
@@ -34,11 +39,13 @@ uint32_t carom_in_play(const carom_ball_state *balls, int count) {
 
 /* The two jaws nearest to the centre of a pocket, where both are near. */
 static carom_mouth mouth_of(const carom_table *table, const carom_pocket *pocket) {
-  carom_mouth mouth = {.centre = {pocket->centre[0], pocket->centre[1]}, .jaw = {{0.0, 0.0, pocket->radius}}};
+  carom_mouth mouth = {.centre = {pocket->centre[0], pocket->centre[1]},
+                       .jaw = {{0.0, 0.0, pocket->radius}}};
   double least[2] = {INFINITY, INFINITY};
   int nearest[2] = {-1, -1};
   for (int k = 0; k < table->jaws; k++) {
-    const double x = table->jaw[k].centre[0] - pocket->centre[0], y = table->jaw[k].centre[1] - pocket->centre[1];
+    const double x = table->jaw[k].centre[0] - pocket->centre[0],
+                 y = table->jaw[k].centre[1] - pocket->centre[1];
     const double square = x * x + y * y;
     const int at = square < least[0] ? 0 : square < least[1] ? 1 : 2;
     if (at == 0) {
@@ -93,7 +100,8 @@ static double chance_of(const carom_player *player, double given) {
   return given > 0.0 ? given : usual > 0.3 ? usual : 0.3;
 }
 
-void carom_view_make(carom_view *view, const carom_plan_job *job, const carom_plan_options *options) {
+void carom_view_make(carom_view *view, const carom_plan_job *job,
+                     const carom_plan_options *options) {
   const carom_player *other = options->opponent != NULL ? options->opponent : job->player;
   view->rules = job->rules;
   view->pockets = (int)job->table->pockets;
@@ -107,14 +115,16 @@ void carom_view_make(carom_view *view, const carom_plan_job *job, const carom_pl
     view->radius[k] = job->balls[k].kind.radius;
   view->sigma[0] = job->player->phi * (pi / 180.0);
   view->sigma[1] = other->phi * (pi / 180.0);
-  chain(view, chance_of(job->player, options->chance_me), chance_of(other, options->chance_opponent));
+  chain(view, chance_of(job->player, options->chance_me),
+        chance_of(other, options->chance_opponent));
 }
 
 /* ---- A pot */
 
-/* Whether no ball but i and j is nearer to the segment from p to q than its own radius and R together. */
-static bool is_clear(const carom_view *view, const carom_ball_state *balls, uint32_t in_play, const double p[2],
-                     const double q[2], int i, int j, double R) {
+/* Whether no ball but i and j is nearer to the segment from p to q than its own radius and R
+ * together. */
+static bool is_clear(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                     const double p[2], const double q[2], int i, int j, double R) {
   double d[2] = {q[0] - p[0], q[1] - p[1]};
   const double length = sqrt(d[0] * d[0] + d[1] * d[1]);
   if (length < 1e-9)
@@ -135,8 +145,10 @@ static bool is_clear(const carom_view *view, const carom_ball_state *balls, uint
   return true;
 }
 
-/* The directions in which a ball of radius R at o gets between the jaws: the middle and half the range. */
-static void window(const carom_mouth *mouth, const double o[2], double R, double *psi, double *half) {
+/* The directions in which a ball of radius R at o gets between the jaws: the middle and half the
+ * range. */
+static void window(const carom_mouth *mouth, const double o[2], double R, double *psi,
+                   double *half) {
   const double x = mouth->centre[0] - o[0], y = mouth->centre[1] - o[1], mid = carom_angle_of(x, y);
   *psi = mid;
   if (!mouth->jaws) {
@@ -159,15 +171,16 @@ static void window(const carom_mouth *mouth, const double o[2], double R, double
     tangent[side] = carom_asin(sine);
   }
 
-  /* Between the left one and the right one; from the side both may be on one side of the pocket's centre. */
+  /* Between the left one and the right one; from the side both may be on one side of the
+   * pocket's centre. */
   const int left = turn[1] > turn[0];
   const double high = turn[left] - tangent[left], low = turn[1 - left] + tangent[1 - left];
   *psi = mid + 0.5 * (low + high);
   *half = 0.5 * (high - low);
 }
 
-carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play, int k, int pocket, int who,
-                       bool in_hand) {
+carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                       int k, int pocket, int who, bool in_hand) {
   const carom_mouth *mouth = &view->mouth[pocket];
   const double *o = balls[k].r, *c = balls[view->cue_ball].r;
   const double R = view->radius[view->cue_ball], both = R + view->radius[k];
@@ -191,7 +204,8 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
     cut = 0.97;
   }
   const double cosine_most = 0.17; /* of 80 degrees */
-  if (cut < cosine_most || !is_clear(view, balls, in_play, o, mouth->centre, view->cue_ball, k, view->radius[k]) ||
+  if (cut < cosine_most ||
+      !is_clear(view, balls, in_play, o, mouth->centre, view->cue_ball, k, view->radius[k]) ||
       (!in_hand && !is_clear(view, balls, in_play, c, g, view->cue_ball, k, R)))
     return way;
 
@@ -203,8 +217,8 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
 
 /* ---- A layout */
 
-static double with_targets(const carom_view *view, const carom_ball_state *balls, uint32_t in_play, uint32_t targets,
-                           const int32_t given[2], int who, bool in_hand) {
+static double with_targets(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
+                           uint32_t targets, const int32_t given[2], int who, bool in_hand) {
   const bool alone = view->rules->race == CAROM_RACE_ALONE;
   const int32_t most = alone ? CAROM_BALLS_MOST : MOST_LEFT;
   int32_t left[2];
@@ -233,11 +247,13 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
   if (alone)
     return p * (1.0 + view->more[left[0] - 1]);
   const bool shared = view->rules->race == CAROM_RACE_SHARED;
-  const double after = left[0] == 1 ? 1.0 : view->win[who][left[0] - 1][shared ? left[0] - 1 : left[1]];
+  const double after =
+      left[0] == 1 ? 1.0 : view->win[who][left[0] - 1][shared ? left[0] - 1 : left[1]];
   return p * after + (1.0 - p) * (1.0 - view->win[1 - who][left[1]][left[0]]);
 }
 
-double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls, int who, bool in_hand) {
+double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
+                      int who, bool in_hand) {
   const carom_plan_rules *rules = view->rules;
   if (rules->value != NULL)
     return rules->value(user, balls, view->count, in_hand);

@@ -1,11 +1,16 @@
-/* Elementary functions whose bits do not depend on the system's mathematical library. Argument reduction is exact or nearly so,
- * then Taylor's polynomial on a range where its remainder is below rounding:
+/* Elementary functions whose bits do not depend on the system's mathematical library. Argument
+ * reduction is exact or nearly so, then Taylor's polynomial on a range where its remainder is
+ * below rounding:
  *
- *     exp(x) = 2^k exp(r)                       k the whole number nearest to x / log 2, |r| <= log(2)/2
- *     ln(2^k m) = k ln 2 + ln(c) + 2 atanh(t)   c a number of sixteenths near m: t = (m - c) / (m + c), |t| < 0.023
- *     x^y = 2^(k/16) exp(r)                     k the whole number nearest to 16 y ln(x) / ln 2, |r| <= ln(2)/32
+ *     exp(x) = 2^k exp(r)                       k the whole number nearest to x / log 2, |r| <=
+ *                                               log(2)/2
+ *     ln(2^k m) = k ln 2 + ln(c) + 2 atanh(t)
+ *     c a number of sixteenths near m: t = (m - c) / (m + c), |t| < 0.023
+ *     x^y = 2^(k/16) exp(r)                     k the whole number nearest to 16 y ln(x) / ln 2,
+ *                                               |r| <= ln(2)/32
  *     sin and cos of n pi/2 + r                 n whole, |r| <= pi/4
- *     atan(x) = atan(k/8) + atan(t)             for 0 <= x <= 1: t = (x - k/8) / (1 + x k/8), |t| <= 1/16
+ *     atan(x) = atan(k/8) + atan(t)
+ *     for 0 <= x <= 1: t = (x - k/8) / (1 + x k/8), |t| <= 1/16
  *             = pi/2 - atan(1/x)                for x > 1
  *     acos(x) = 2 atan(sqrt((1 - x) / (1 + x)))
  *
@@ -65,10 +70,11 @@ double carom_exp(double x) {
 
 double carom_log(double x) {
   /* ln(c) of 11 to 22 sixteenths */
-  static const double of_sixteenths[12] = {-0x1.7fafa3bd8151cp-2, -0x1.269621134db92p-2, -0x1.a93ed3c8ad9e3p-3,
-                                           -0x1.1178e8227e47cp-3, -0x1.08598b59e3a07p-4, 0x0.0p+0,
-                                           0x1.f0a30c01162a6p-5,  0x1.e27076e2af2e6p-4,  0x1.5ff3070a793d4p-3,
-                                           0x1.c8ff7c79a9a22p-3,  0x1.1675cababa60ep-2,  0x1.4618bc21c5ec2p-2};
+  static const double of_sixteenths[12] = {
+      -0x1.7fafa3bd8151cp-2, -0x1.269621134db92p-2, -0x1.a93ed3c8ad9e3p-3,
+      -0x1.1178e8227e47cp-3, -0x1.08598b59e3a07p-4, 0x0.0p+0,
+      0x1.f0a30c01162a6p-5,  0x1.e27076e2af2e6p-4,  0x1.5ff3070a793d4p-3,
+      0x1.c8ff7c79a9a22p-3,  0x1.1675cababa60ep-2,  0x1.4618bc21c5ec2p-2};
   if (!(x > 0.0 && x < (double)INFINITY))
     return x == 0.0 ? -(double)INFINITY : x > 0.0 ? x : (double)NAN;
   /* x = 2^power m, 22.5/32 <= m < 22.5/16; without a branch, as nothing predicts it */
@@ -84,25 +90,32 @@ double carom_log(double x) {
   /* the rest by the series of 2 atanh; its remainder is below 3e-18 of it */
   const int sixteenths = (int)(16.0 * m + 0.5);
   const double c = sixteenths / 16.0, t = (m - c) / (m + c), t2 = t * t;
-  const double series = (1.0 + t2 * (1.0 / 3.0)) + t2 * t2 * ((1.0 / 5.0 + t2 * (1.0 / 7.0)) + t2 * t2 * (1.0 / 9.0));
-  return power * 0x1.62e42feep-1 + (of_sixteenths[sixteenths - 11] + (2.0 * t * series + power * 0x1.a39ef35793c76p-33));
+  const double series =
+      (1.0 + t2 * (1.0 / 3.0)) + t2 * t2 * ((1.0 / 5.0 + t2 * (1.0 / 7.0)) + t2 * t2 * (1.0 / 9.0));
+  return power * 0x1.62e42feep-1 +
+         (of_sixteenths[sixteenths - 11] + (2.0 * t * series + power * 0x1.a39ef35793c76p-33));
 }
 
 double carom_power(double x, double y) {
   /* 2^(k/16) */
-  static const double roots[16] = {0x1.0000000000000p+0, 0x1.0b5586cf9890fp+0, 0x1.172b83c7d517bp+0, 0x1.2387a6e756238p+0,
-                                   0x1.306fe0a31b715p+0, 0x1.3dea64c123422p+0, 0x1.4bfdad5362a27p+0, 0x1.5ab07dd485429p+0,
-                                   0x1.6a09e667f3bcdp+0, 0x1.7a11473eb0187p+0, 0x1.8ace5422aa0dbp+0, 0x1.9c49182a3f090p+0,
-                                   0x1.ae89f995ad3adp+0, 0x1.c199bdd85529cp+0, 0x1.d5818dcfba487p+0, 0x1.ea4afa2a490dap+0};
+  static const double roots[16] = {
+      0x1.0000000000000p+0, 0x1.0b5586cf9890fp+0, 0x1.172b83c7d517bp+0, 0x1.2387a6e756238p+0,
+      0x1.306fe0a31b715p+0, 0x1.3dea64c123422p+0, 0x1.4bfdad5362a27p+0, 0x1.5ab07dd485429p+0,
+      0x1.6a09e667f3bcdp+0, 0x1.7a11473eb0187p+0, 0x1.8ace5422aa0dbp+0, 0x1.9c49182a3f090p+0,
+      0x1.ae89f995ad3adp+0, 0x1.c199bdd85529cp+0, 0x1.d5818dcfba487p+0, 0x1.ea4afa2a490dap+0};
   const double e = y * carom_log(x);
   if (!(fabs(e) < 700.0))
     return isnan(e) ? e : e > 0.0 ? (double)INFINITY : 0.0;
   /* e = k log(2)/16 + r; k is rounded by a number whose last place is 1 */
   const double k = (e * 0x1.71547652b82fep+4 + 0x1.8p52) - 0x1.8p52;
-  const double r = (e - k * 0x1.62e42feep-5) - k * 0x1.a39ef35793c76p-37, r2 = r * r; /* r^8/8! < 2e-18 */
-  const double series = (1.0 + r) + r2 * ((1.0 / 2.0 + r * (1.0 / 6.0)) +
-                                          r2 * ((1.0 / 24.0 + r * (1.0 / 120.0)) + r2 * (1.0 / 720.0 + r * (1.0 / 5040.0))));
-  const int64_t sixteenths = (int64_t)k, root = sixteenths & 15, bits = ((sixteenths - root) / 16 + 1023) * (INT64_C(1) << 52);
+  /* r^8/8! < 2e-18 */
+  const double r = (e - k * 0x1.62e42feep-5) - k * 0x1.a39ef35793c76p-37, r2 = r * r;
+  const double series =
+      (1.0 + r) +
+      r2 * ((1.0 / 2.0 + r * (1.0 / 6.0)) +
+            r2 * ((1.0 / 24.0 + r * (1.0 / 120.0)) + r2 * (1.0 / 720.0 + r * (1.0 / 5040.0))));
+  const int64_t sixteenths = (int64_t)k, root = sixteenths & 15,
+                bits = ((sixteenths - root) / 16 + 1023) * (INT64_C(1) << 52);
   double whole = 0.0;
   memcpy(&whole, &bits, sizeof whole);
   return whole * (roots[root] * series);
@@ -132,8 +145,10 @@ void carom_sincos_degrees(double degrees, double *sine, double *cosine) {
 void carom_sincos(double x, double *sine, double *cosine) {
   /* pi/2 in three parts; so many times the first and the second, of 33 digits each, is exact */
   const double turns = floor(x * 0x1.45f306dc9c883p-1 + 0.5);
-  sincos_turned(turns, ((x - turns * 0x1.921fb544p+0) - turns * 0x1.0b4611a6p-34) - turns * 0x1.3198a2e037073p-69, sine,
-                cosine);
+  sincos_turned(turns,
+                ((x - turns * 0x1.921fb544p+0) - turns * 0x1.0b4611a6p-34) -
+                    turns * 0x1.3198a2e037073p-69,
+                sine, cosine);
 }
 
 double carom_atan(double x) {

@@ -1,6 +1,6 @@
-/* Elementary functions by additions, multiplications, divisions and square roots only, so that their bits are the same on every
- * system. Errors are in units in the last place (ulp) of the result, the largest that tests/unit/elementary.c has found. NaN
- * gives NaN. */
+/* Elementary functions by additions, multiplications, divisions and square roots only, so that
+ * their bits are the same on every system. Errors are in units in the last place (ulp) of the
+ * result, the largest that tests/unit/elementary.c has found. NaN gives NaN. */
 #ifndef CAROM_SRC_PLATFORM_ELEMENTARY_H
 #define CAROM_SRC_PLATFORM_ELEMENTARY_H
 
@@ -15,7 +15,8 @@ double carom_log(double x);
 /* x^y for x >= 0, to 5 + 4 |y ln(x)| ulp, or within 1e-300; 0 for x = 0 and y > 0. */
 double carom_power(double x, double y);
 
-/* Sine and cosine of an angle in degrees, to 1 ulp of 1; exact at multiples of 90 degrees. |degrees| <= 1e15. */
+/* Sine and cosine of an angle in degrees, to 1 ulp of 1; exact at multiples of 90 degrees.
+ * |degrees| <= 1e15. */
 void carom_sincos_degrees(double degrees, double *sine, double *cosine);
 
 /* Sine and cosine of an angle in radians, |x| <= 1e6, to 1 ulp of 1. */

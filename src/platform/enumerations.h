@@ -1,4 +1,5 @@
-/* How many values the public enumerations have; in carom.h these numbers would change with every addition. */
+/* How many values the public enumerations have; in carom.h these numbers would change with every
+ * addition. */
 #ifndef CAROM_SRC_PLATFORM_ENUMERATIONS_H
 #define CAROM_SRC_PLATFORM_ENUMERATIONS_H
 

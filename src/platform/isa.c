@@ -1,11 +1,13 @@
-/* Run-time choice of the instruction set: the highest that the processor has, or a lower one where that is asked for.
+/* Run-time choice of the instruction set: the highest that the processor has, or a lower one
+ * where that is asked for.
  *
- * The one piece of global state of the library is here: the set in force, an atomic that the first use fills. Asking for a
- * lower set is for tests, comparisons and bug reports; the results of the exact solver agree within its contract on all of
- * them.
+ * The one piece of global state of the library is here: the set in force, an atomic that the
+ * first use fills. Asking for a lower set is for tests, comparisons and bug reports; the results
+ * of the exact solver agree within its contract on all of them.
  */
 #if defined(__linux__)
-#define _GNU_SOURCE /* secure_getenv: the environment says nothing to programs with more rights than their user */
+#define _GNU_SOURCE /* secure_getenv: the environment says nothing to programs with more rights
+                       than their user */
 #endif
 #include "platform/isa.h"
 
@@ -21,15 +23,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* clang has no macro for some flags by which it changes results. They show in what it takes for constant whatever x is; the
- * call that this leads to is then an error of the compiler. Without optimisation the flags have no effect, nor has this. */
+/* clang has no macro for some flags by which it changes results. They show in what it takes for
+ * constant whatever x is; the call that this leads to is then an error of the compiler. Without
+ * optimisation the flags have no effect, nor has this. */
 #if defined(__has_attribute)
 #if __has_attribute(error)
-#define REFUSE(name, flag) \
-  void carom_refuses_##name(void) __attribute__((error("carom promises bits: compile its sources without " flag)))
-REFUSE(associative_math, "-fassociative-math (which -funsafe-math-optimizations and -ffp-model=fast set)");
-REFUSE(reciprocal_math, "-freciprocal-math (which -funsafe-math-optimizations and -ffp-model=fast set)");
-REFUSE(no_signed_zeros, "-fno-signed-zeros (which -funsafe-math-optimizations and -ffp-model=fast set)");
+#define REFUSE(name, flag)        \
+  void carom_refuses_##name(void) \
+      __attribute__((error("carom promises bits: compile its sources without " flag)))
+REFUSE(associative_math,
+       "-fassociative-math (which -funsafe-math-optimizations and -ffp-model=fast set)");
+REFUSE(reciprocal_math,
+       "-freciprocal-math (which -funsafe-math-optimizations and -ffp-model=fast set)");
+REFUSE(no_signed_zeros,
+       "-fno-signed-zeros (which -funsafe-math-optimizations and -ffp-model=fast set)");
 REFUSE(no_honor_nans, "-fno-honor-nans");
 REFUSE(no_honor_infinities, "-fno-honor-infinities");
 
@@ -41,7 +48,8 @@ static uint64_t bits_of(double x) {
 
 __attribute__((used)) static void refuse_flags(double x) {
   const double added = (x + 1.0) - x;
-  const bool divided = bits_of(x / 3.0) == bits_of(x * (1.0 / 3.0)), zero = bits_of(x + 0.0) == bits_of(x);
+  const bool divided = bits_of(x / 3.0) == bits_of(x * (1.0 / 3.0)),
+             zero = bits_of(x + 0.0) == bits_of(x);
   const bool nan = isnan(x), infinite = isinf(x);
   if (__builtin_constant_p(added))
     carom_refuses_associative_math();
@@ -64,16 +72,18 @@ static const bool built[CAROM_ISA_COUNT] = {
 };
 
 #if defined(__x86_64__)
-/* Has the processor AVX2 or AVX-512 as carom uses them, and does the system keep their registers? Not by
- * __builtin_cpu_supports(): the run-time library of zig has a stub for it, which knows no processor. Source: Intel's Software
- * Developer's Manual, volume 1, sections "Detection of AVX Instructions" and "Detection of AVX-512 Foundation Instructions". */
+/* Has the processor AVX2 or AVX-512 as carom uses them, and does the system keep their
+ * registers? Not by __builtin_cpu_supports(): the run-time library of zig has a stub for it,
+ * which knows no processor. Source: Intel's Software Developer's Manual, volume 1, sections
+ * "Detection of AVX Instructions" and "Detection of AVX-512 Foundation Instructions". */
 static bool processor_has_avx(bool wide) {
   unsigned a, b, c, d, kept, high;
   /* Leaf 1: AVX, fused multiply-add, and whether xgetbv may be used. */
   const unsigned first = bit_AVX | bit_FMA | bit_OSXSAVE;
   if (!__get_cpuid(1, &a, &b, &c, &d) || (c & first) != first)
     return false;
-  /* Registers that the system keeps: bits 1 and 2 for SSE and AVX, 5 to 7 for AVX-512. macOS sets these at the first use. */
+  /* Registers that the system keeps: bits 1 and 2 for SSE and AVX, 5 to 7 for AVX-512. macOS
+   * sets these at the first use. */
   __asm__ volatile("xgetbv" : "=a"(kept), "=d"(high) : "c"(0));
 #if defined(__APPLE__)
   const unsigned needed = 0x06;
@@ -110,7 +120,8 @@ int carom_isa_available(carom_isa isa) {
   return (int)isa >= 0 && isa < CAROM_ISA_COUNT && built[isa] && processor_has(isa);
 }
 
-/* The best set that is available and not above `limit`: sets of one processor family are listed from low to high. */
+/* The best set that is available and not above `limit`: sets of one processor family are listed
+ * from low to high. */
 static carom_isa best_up_to(carom_isa limit) {
   for (int isa = (int)limit; isa > CAROM_ISA_PLAIN; isa--)
     if (carom_isa_available((carom_isa)isa))
@@ -145,7 +156,8 @@ carom_isa carom_isa_in_force(void) {
 }
 
 carom_isa carom_isa_limit(carom_isa isa) {
-  const carom_isa now = (int)isa >= 0 && isa < CAROM_ISA_COUNT ? best_up_to(isa) : from_environment();
+  const carom_isa now =
+      (int)isa >= 0 && isa < CAROM_ISA_COUNT ? best_up_to(isa) : from_environment();
   atomic_store(&in_force, (int)now);
   return now;
 }

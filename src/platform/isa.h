@@ -1,4 +1,5 @@
-/* Instruction sets: which this build has, which the processor has, and which is in force. See isa.c. */
+/* Instruction sets: which this build has, which the processor has, and which is in force. See
+ * isa.c. */
 #ifndef CAROM_SRC_PLATFORM_ISA_H
 #define CAROM_SRC_PLATFORM_ISA_H
 

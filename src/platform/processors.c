@@ -1,13 +1,16 @@
-/* How many processors this process may use. A container or a job scheduler often allows fewer than the machine has: by
- * affinity, or by a control group, which limits the processor time in a period:
+/* How many processors this process may use. A container or a job scheduler often allows fewer
+ * than the machine has: by affinity, or by a control group, which limits the processor time in a
+ * period:
  *
- *     version 2   a line "0::PATH" in /proc/self/cgroup; the file ROOT/PATH/cpu.max holds "QUOTA PERIOD", or "max PERIOD"
- *     version 1   a line "N:CONTROLLERS:PATH" with cpu among them; ROOT/CONTROLLERS/PATH/cpu.cfs_quota_us, -1 for none, and
- *                 cpu.cfs_period_us
+ *     version 2   a line "0::PATH" in /proc/self/cgroup; the file ROOT/PATH/cpu.max holds "QUOTA
+ *                 PERIOD", or "max PERIOD"
+ *     version 1   a line "N:CONTROLLERS:PATH" with cpu among them;
+ *                 ROOT/CONTROLLERS/PATH/cpu.cfs_quota_us, -1 for none, and cpu.cfs_period_us
  *
- * A group's limit holds for all groups below it, so the smallest on the way up counts. Inside a container the path may be that
- * of the host, which is not mounted; what is mounted at ROOT then is the container's own group, and the way up ends there.
- * Source: the Linux kernel's documentation, admin-guide/cgroup-v2.rst and scheduler/sched-bwc.rst.
+ * A group's limit holds for all groups below it, so the smallest on the way up counts. Inside a
+ * container the path may be that of the host, which is not mounted; what is mounted at ROOT then
+ * is the container's own group, and the way up ends there. Source: the Linux kernel's
+ * documentation, admin-guide/cgroup-v2.rst and scheduler/sched-bwc.rst.
  */
 #if defined(__linux__)
 #define _GNU_SOURCE /* sched_getaffinity */
@@ -51,12 +54,14 @@ static int processors_of(long quota, long period) {
 static int limit_of(const char *folder, int length, bool second_version) {
   char path[TEXT], text[TEXT], *rest;
   const char *const name = second_version ? "cpu.max" : "cpu.cfs_quota_us";
-  if (snprintf(path, sizeof path, "%.*s/%s", length, folder, name) >= TEXT || !read_text(path, text))
+  if (snprintf(path, sizeof path, "%.*s/%s", length, folder, name) >= TEXT ||
+      !read_text(path, text))
     return INT_MAX;
   const long quota = strtol(text, &rest, 10); /* "max" reads as 0, which is none */
   if (second_version)
     return processors_of(quota, strtol(rest, NULL, 10));
-  if (snprintf(path, sizeof path, "%.*s/cpu.cfs_period_us", length, folder) >= TEXT || !read_text(path, text))
+  if (snprintf(path, sizeof path, "%.*s/cpu.cfs_period_us", length, folder) >= TEXT ||
+      !read_text(path, text))
     return INT_MAX;
   return processors_of(quota, strtol(text, NULL, 10));
 }
@@ -68,7 +73,8 @@ static int least_on_the_way_up(const char *mount, const char *path, bool second_
   if (length >= TEXT)
     return limit;
   for (const int top = (int)strlen(mount); length >= top; length--)
-    if (length == top || (folder[length] == '\0' && folder[length - 1] != '/') || folder[length] == '/') {
+    if (length == top || (folder[length] == '\0' && folder[length - 1] != '/') ||
+        folder[length] == '/') {
       const int own = limit_of(folder, length, second_version);
       limit = own < limit ? own : limit;
     }
@@ -96,14 +102,16 @@ int carom_group_limit(const char *self, const char *root) {
     if (*next != '\0')
       *next++ = '\0';
     /* number:controllers:path */
-    char *controllers = strchr(line, ':'), *path = controllers != NULL ? strchr(controllers + 1, ':') : NULL;
+    char *controllers = strchr(line, ':'),
+         *path = controllers != NULL ? strchr(controllers + 1, ':') : NULL;
     if (path == NULL)
       continue;
     *controllers++ = *path++ = '\0';
     const bool second_version = *controllers == '\0';
     if (!second_version && !is_among(controllers, "cpu"))
       continue;
-    if (snprintf(mount, sizeof mount, "%s%s%s", root, second_version ? "" : "/", controllers) >= TEXT)
+    if (snprintf(mount, sizeof mount, "%s%s%s", root, second_version ? "" : "/", controllers) >=
+        TEXT)
       continue;
     const int own = least_on_the_way_up(mount, path, second_version);
     limit = own < limit ? own : limit;

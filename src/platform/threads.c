@@ -1,10 +1,11 @@
 /* Threads: rows cut into equal parts, one for each.
  *
- * Where the cuts are makes no difference to a row, so results are the same for any number of threads. Threads are started for
- * the call and joined before it returns; the calling thread does the first part itself, and all of it if no thread can be
- * started, which is so where the system has none. They block every signal, so that no handler of the process runs on them. A
- * job too small to be worth a thread is not cut. With CAROM_WITHOUT_THREADS nothing is cut, and no library of threads is
- * needed.
+ * Where the cuts are makes no difference to a row, so results are the same for any number of
+ * threads. Threads are started for the call and joined before it returns; the calling thread
+ * does the first part itself, and all of it if no thread can be started, which is so where the
+ * system has none. They block every signal, so that no handler of the process runs on them. A
+ * job too small to be worth a thread is not cut. With CAROM_WITHOUT_THREADS nothing is cut, and
+ * no library of threads is needed.
  */
 #if !defined(_WIN32) && !defined(_POSIX_C_SOURCE)
 #define _POSIX_C_SOURCE 200809L /* pthread_sigmask */
@@ -13,7 +14,8 @@
 
 #ifdef CAROM_WITHOUT_THREADS
 
-size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads, size_t least) {
+size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads,
+                        size_t least) {
   (void)threads, (void)least;
   return worker(job, 0, n);
 }
@@ -36,7 +38,8 @@ typedef pthread_t thread_handle;
 
 enum {
   MOST_THREADS = 256,
-  UNIT = 64, /* parts are multiples of this, so that only the last has lanes to spare; or of the least worth a thread */
+  UNIT = 64, /* parts are multiples of this, so that only the last has lanes to spare; or of the
+                least worth a thread */
 };
 
 typedef struct cut {
@@ -54,7 +57,8 @@ typedef struct part {
 
 /* Where a part begins; that of one beyond the last is n. */
 static size_t start_of(const cut *of, size_t number) {
-  const size_t units = (of->n + of->unit - 1) / of->unit, start = units * number / of->count * of->unit;
+  const size_t units = (of->n + of->unit - 1) / of->unit,
+               start = units * number / of->count * of->unit;
   return start < of->n ? start : of->n;
 }
 
@@ -89,7 +93,8 @@ static void *run_on_thread(void *argument) {
   return NULL;
 }
 
-/* Starts a thread for each part but the first. A thread inherits the signals that are blocked where it is made. */
+/* Starts a thread for each part but the first. A thread inherits the signals that are blocked
+ * where it is made. */
 static void start_threads(part *parts, size_t count, bool *started) {
   sigset_t all, before;
   sigfillset(&all);
@@ -106,7 +111,8 @@ static void join(thread_handle thread) {
 
 #endif
 
-size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads, size_t least) {
+size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads,
+                        size_t least) {
   /* How many are useful is asked first: counting the processors takes some system calls. */
   size_t count = n / least;
   if (count > 1 && threads == CAROM_ALL_THREADS)

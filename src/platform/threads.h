@@ -6,12 +6,13 @@
 
 #include <stddef.h>
 
-/* Works on the rows from `from` to before `end` of a job; returns the first of them that is in error, or `end`. Called from
- * several threads at once. */
+/* Works on the rows from `from` to before `end` of a job; returns the first of them that is in
+ * error, or `end`. Called from several threads at once. */
 typedef size_t carom_part_worker(const void *job, size_t from, size_t end);
 
-/* Works on all of n rows, by at most `threads` threads (options.threads with its meaning), none of which gets fewer rows than
- * `least`. Returns the first row in error, or n. */
-size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads, size_t least);
+/* Works on all of n rows, by at most `threads` threads (options.threads with its meaning), none
+ * of which gets fewer rows than `least`. Returns the first row in error, or n. */
+size_t carom_in_threads(carom_part_worker *worker, const void *job, size_t n, int threads,
+                        size_t least);
 
 #endif

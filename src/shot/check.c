@@ -1,5 +1,6 @@
-/* The one place where the arguments of a shot are checked, by the conditions of the comments in carom_shot.h: the table and the
- * options once for a batch; a layout, its cue, and whether the table suits the radius of its balls, for each. */
+/* The one place where the arguments of a shot are checked, by the conditions of the comments in
+ * carom_shot.h: the table and the options once for a batch; a layout, its cue, and whether the
+ * table suits the radius of its balls, for each. */
 #include "cushion/models.h"
 #include "motion/strike.h"
 #include "shot/rules.h"
@@ -50,9 +51,10 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
   return o->unused != 0 || reserved ? CAROM_ERROR_SHOT_OPTIONS : CAROM_OK;
 }
 
-/* Prepares the table for the balls of a layout. In flat play all radii are to be that of the first. */
-static carom_status prepare_for(const carom_table *t, const carom_shot_ball *balls, int count, bool flat,
-                                carom_features *features, int *where) {
+/* Prepares the table for the balls of a layout. In flat play all radii are to be that of the
+ * first. */
+static carom_status prepare_for(const carom_table *t, const carom_shot_ball *balls, int count,
+                                bool flat, carom_features *features, int *where) {
   double least = balls[0].kind.radius, greatest = least;
   for (*where = 0; *where < (flat ? 1 : count); ++*where) {
     const double R = balls[*where].kind.radius;
@@ -74,19 +76,23 @@ static carom_status check_kind(const carom_ball_kind *k) {
     return CAROM_ERROR_MU_MOTION;
   if (!carom_in_unit_interval(k->drag))
     return CAROM_ERROR_DRAG;
-  if (!carom_in_unit_interval(k->mu_ball) || !(k->law_a >= 0.0 && k->law_b >= 0.0 && k->law_a + k->law_b <= 1.0) ||
+  if (!carom_in_unit_interval(k->mu_ball) ||
+      !(k->law_a >= 0.0 && k->law_b >= 0.0 && k->law_a + k->law_b <= 1.0) ||
       !(k->law_c >= 0.0 && k->law_c < INFINITY))
     return CAROM_ERROR_MU_BALL;
-  const bool slate = k->restitution_table == -1.0 || (k->restitution_table >= 0.0 && k->restitution_table <= 0.98);
-  if (!carom_in_unit_interval(k->restitution) || !carom_in_unit_interval(k->restitution_cushion) || !slate)
+  const bool slate =
+      k->restitution_table == -1.0 || (k->restitution_table >= 0.0 && k->restitution_table <= 0.98);
+  if (!carom_in_unit_interval(k->restitution) || !carom_in_unit_interval(k->restitution_cushion) ||
+      !slate)
     return CAROM_ERROR_RESTITUTION;
   if (!carom_in_unit_interval(k->mu_cushion))
     return CAROM_ERROR_MU_CUSHION;
   const bool ratio = k->omega_ratio == 0.0 || (k->omega_ratio > 1.0 && k->omega_ratio < 2.0);
   const bool speed = fabs(k->restitution_log) <= 1.0 && fabs(k->mu_log) <= 1.0;
-  const bool smooth = carom_smooth_is_good(k->smooth_q, k->smooth_x, k->smooth_t, k->smooth_a, k->smooth_k);
-  if (!carom_in_unit_interval(k->roll_loss) || !(k->nose_height >= 0.0 && k->nose_height < 2.0 * k->radius) || !ratio ||
-      !speed || !smooth)
+  const bool smooth =
+      carom_smooth_is_good(k->smooth_q, k->smooth_x, k->smooth_t, k->smooth_a, k->smooth_k);
+  if (!carom_in_unit_interval(k->roll_loss) ||
+      !(k->nose_height >= 0.0 && k->nose_height < 2.0 * k->radius) || !ratio || !speed || !smooth)
     return CAROM_ERROR_BALL_CUSHION;
   if (!(k->modulus == 0.0 || (k->modulus >= 1e6 && k->modulus <= 1e15)))
     return CAROM_ERROR_MODULUS;
@@ -120,13 +126,16 @@ carom_status carom_check_ball(const carom_shot_ball *ball, bool flat) {
   return bad != CAROM_OK ? bad : check_state(&ball->state, ball->kind.radius, flat);
 }
 
-/* The height of a ball's centre above the cloth as the shot takes it: a ball on the cloth is at z = R. */
+/* The height of a ball's centre above the cloth as the shot takes it: a ball on the cloth is at
+ * z = R. */
 static inline double height_of(const carom_shot_ball *ball) {
-  return carom_flies_in_layout(&ball->state, ball->kind.radius) ? ball->state.r[2] : ball->kind.radius;
+  return carom_flies_in_layout(&ball->state, ball->kind.radius) ? ball->state.r[2]
+                                                                : ball->kind.radius;
 }
 
 /* Whether two balls overlap that are at these heights. */
-static inline bool overlap(const carom_shot_ball *a, double z_a, const carom_shot_ball *b, double z_b) {
+static inline bool overlap(const carom_shot_ball *a, double z_a, const carom_shot_ball *b,
+                           double z_b) {
   const double x = a->state.r[0] - b->state.r[0], y = a->state.r[1] - b->state.r[1], z = z_a - z_b;
   const double reach = a->kind.radius + b->kind.radius - CAROM_MOST_OVERLAP;
   return x * x + y * y + z * z < reach * reach;
@@ -137,20 +146,25 @@ static carom_status check_cue(const carom_shot_ball *balls, int count, const car
     return CAROM_OK;
   if (cue->ball < 0 || cue->ball >= count)
     return CAROM_ERROR_CUE_BALL;
-  return carom_is_out(balls[cue->ball].state.label) ? CAROM_ERROR_CUE_BALL_OUT : carom_check_cue(cue);
+  return carom_is_out(balls[cue->ball].state.label) ? CAROM_ERROR_CUE_BALL_OUT
+                                                    : carom_check_cue(cue);
 }
 
-carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where) {
+carom_status carom_check_common(const carom_table *table, int64_t count,
+                                const carom_shot_options *opt, int *where) {
   *where = -1;
   const carom_status bad = carom_check_shot_options(opt);
   if (bad != CAROM_OK)
     return bad;
-  return count < 1 || count > CAROM_BALLS_MOST ? CAROM_ERROR_BALLS : carom_check_table(table, where);
+  return count < 1 || count > CAROM_BALLS_MOST ? CAROM_ERROR_BALLS
+                                               : carom_check_table(table, where);
 }
 
-carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
-                                const carom_cue *cue, const carom_shot_options *opt, int *where) {
-  const bool one_mass = carom_rules_of(opt->world)->one_mass || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
+carom_status carom_check_layout(const carom_table *table, carom_features *features,
+                                const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                const carom_shot_options *opt, int *where) {
+  const bool one_mass =
+      carom_rules_of(opt->world)->one_mass || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
   const bool flat = is_flat(opt);
   carom_status bad = prepare_for(table, balls, count, flat, features, where);
   if (bad != CAROM_OK)
@@ -184,8 +198,8 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
   return check_cue(balls, count, cue);
 }
 
-carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
-                              const carom_shot_options *opt, int *where) {
+carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count,
+                              const carom_cue *cue, const carom_shot_options *opt, int *where) {
   static const carom_shot_options no_options = {0};
   int unused;
   where = where != NULL ? where : &unused;
@@ -196,11 +210,12 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
   const carom_status bad = carom_check_common(table, count, opt, where);
   carom_features features;
   features.radius = 0.0;
-  return bad != CAROM_OK ? bad : carom_check_layout(table, &features, balls, count, cue, opt, where);
+  return bad != CAROM_OK ? bad
+                         : carom_check_layout(table, &features, balls, count, cue, opt, where);
 }
 
-carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball, double x, double y,
-                              carom_part *in_the_way) {
+carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball,
+                              double x, double y, carom_part *in_the_way) {
   carom_part unused;
   in_the_way = in_the_way != NULL ? in_the_way : &unused;
   *in_the_way = (carom_part){CAROM_PART_NONE, 0};
@@ -211,7 +226,8 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
   carom_features features;
   carom_shot_ball placed = balls[ball];
   const double R = placed.kind.radius, r[3] = {x, y, R};
-  const carom_status bad = carom_check_parts(table, R, balls[count - 1].kind.radius, &features, in_the_way);
+  const carom_status bad =
+      carom_check_parts(table, R, balls[count - 1].kind.radius, &features, in_the_way);
   if (bad != CAROM_OK)
     return bad;
   if (!bounded(r, 1e6))
@@ -222,7 +238,8 @@ carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, 
   }
   placed.state = (carom_ball_state){.r = {x, y, R}, .label = CAROM_BALL_STATIONARY};
   for (int k = 0; k < count; k++) {
-    if (k != ball && !carom_is_out(balls[k].state.label) && overlap(&placed, R, &balls[k], height_of(&balls[k]))) {
+    if (k != ball && !carom_is_out(balls[k].state.label) &&
+        overlap(&placed, R, &balls[k], height_of(&balls[k]))) {
       *in_the_way = (carom_part){CAROM_PART_BALL, k};
       return CAROM_ERROR_OVERLAP;
     }

@@ -6,12 +6,14 @@
 #include <math.h>
 #include <string.h>
 
-static const double usual_modulus = 6.6e9; /* N/m^2: phenolic resin, docs/understanding/clusters.md */
-static const double simultaneous = 1e-9;   /* of a contact's duration: touches that are nearer in time count as one */
+static const double usual_modulus = 6.6e9; /* N/m^2: phenolic resin,
+                                              docs/understanding/clusters.md */
+static const double simultaneous = 1e-9;   /* of a contact's duration: touches that are nearer in
+                                              time count as one */
 
 /* One of the balls of a cluster. On the cloth all centres are at the height of their radius. */
-static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_ball_state *s, const carom_shot_options *opt,
-                                    bool flies, int which) {
+static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_ball_state *s,
+                                    const carom_shot_options *opt, bool flies, int which) {
   carom_cluster_ball b;
   memset(&b, 0, sizeof b);
   for (int k = 0; k < 3; k++) {
@@ -31,7 +33,8 @@ static carom_cluster_ball member_of(const carom_ball_kind *kind, const carom_bal
   b.restitution = kind->restitution;
   b.modulus = kind->modulus > 0.0 ? kind->modulus : usual_modulus;
   const carom_speed_law law = carom_law_of_ball(kind);
-  const bool rubs = opt->ball_model != CAROM_BALL_MODEL_MIRROR, constant = opt->friction == CAROM_FRICTION_CONSTANT;
+  const bool rubs = opt->ball_model != CAROM_BALL_MODEL_MIRROR,
+             constant = opt->friction == CAROM_FRICTION_CONSTANT;
   b.law[0] = !rubs ? 0.0 : constant ? kind->mu_ball : law.a;
   b.law[1] = !rubs || constant ? 0.0 : law.b;
   b.law[2] = !rubs || constant ? 0.0 : law.c;
@@ -45,8 +48,8 @@ static void motion_of(const carom_cluster_ball *b, double v[3], double w[3]) {
   }
 }
 
-/* The contacts that had an impulse, in the order in which they touched first; those that touch at one time by their indices.
- * Returns how many. */
+/* The contacts that had an impulse, in the order in which they touched first; those that touch
+ * at one time by their indices. Returns how many. */
 static int in_order(const carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
   int count = 0;
   const double tie = simultaneous * c->duration;
@@ -67,19 +70,24 @@ bool carom_third_is_near(const carom_sim *sim, int i, int j) {
   static const double near = 0.01; /* m, as in members.c: farther neighbours are in no cluster */
   const double reach = 2.0 * sim->features->radius + near, most = reach * reach;
   const double ti = sim->now - sim->start[i], tj = sim->now - sim->start[j];
-  const double xi = sim->x[i] + ti * (sim->v_x[i] + ti * sim->a_x[i]), yi = sim->y[i] + ti * (sim->v_y[i] + ti * sim->a_y[i]);
-  const double xj = sim->x[j] + tj * (sim->v_x[j] + tj * sim->a_x[j]), yj = sim->y[j] + tj * (sim->v_y[j] + tj * sim->a_y[j]);
+  const double xi = sim->x[i] + ti * (sim->v_x[i] + ti * sim->a_x[i]),
+               yi = sim->y[i] + ti * (sim->v_y[i] + ti * sim->a_y[i]);
+  const double xj = sim->x[j] + tj * (sim->v_x[j] + tj * sim->a_x[j]),
+               yj = sim->y[j] + tj * (sim->v_y[j] + tj * sim->a_y[j]);
   int near_them = 0; /* i and j are near themselves */
   for (int k = 0; k < sim->count; k++) {
     const double t = sim->now - sim->start[k];
-    const double x = sim->x[k] + t * (sim->v_x[k] + t * sim->a_x[k]), y = sim->y[k] + t * (sim->v_y[k] + t * sim->a_y[k]);
-    const double to_i = (x - xi) * (x - xi) + (y - yi) * (y - yi), to_j = (x - xj) * (x - xj) + (y - yj) * (y - yj);
+    const double x = sim->x[k] + t * (sim->v_x[k] + t * sim->a_x[k]),
+                 y = sim->y[k] + t * (sim->v_y[k] + t * sim->a_y[k]);
+    const double to_i = (x - xi) * (x - xi) + (y - yi) * (y - yi),
+                 to_j = (x - xj) * (x - xj) + (y - yj) * (y - yj);
     near_them += (to_i < most) | (to_j < most);
   }
   return near_them > 2;
 }
 
-int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c, uint8_t order[CAROM_CLUSTER_CONTACTS]) {
+int carom_cluster_now(carom_sim *sim, int i, int j, carom_cluster_state *c,
+                      uint8_t order[CAROM_CLUSTER_CONTACTS]) {
   c->balls = 0;
   c->steps = sim->opt->cluster_steps > 0 ? sim->opt->cluster_steps : CAROM_CLUSTER_STEPS;
   c->slow = carom_slow_speed(sim->slow_instants);
@@ -122,7 +130,8 @@ void carom_cluster_take(const carom_cluster_ball *b, carom_ball_state *s) {
 
 /* ---- The public entry */
 
-static carom_cluster_contact contact_of(const carom_cluster_state *c, const carom_cluster_contact_state *x) {
+static carom_cluster_contact contact_of(const carom_cluster_state *c,
+                                        const carom_cluster_contact_state *x) {
   carom_cluster_contact out = {c->ball[x->i].which, c->ball[x->j].which,         x->time,
                                x->impulse,          {x->n[0], x->n[1], x->n[2]}, {0.0}};
   double t[3], third[3];
@@ -133,8 +142,8 @@ static carom_cluster_contact contact_of(const carom_cluster_state *c, const caro
 }
 
 /* The balls that are left, as a cluster of which the members are not known yet. */
-static void gather(const carom_shot_ball *balls, int count, const carom_shot_options *opt, const bool done[],
-                   carom_cluster_state *c) {
+static void gather(const carom_shot_ball *balls, int count, const carom_shot_options *opt,
+                   const bool done[], carom_cluster_state *c) {
   c->balls = 0;
   c->steps = opt->cluster_steps > 0 ? opt->cluster_steps : CAROM_CLUSTER_STEPS;
   c->slow = carom_slow_speed(0);
@@ -142,7 +151,8 @@ static void gather(const carom_shot_ball *balls, int count, const carom_shot_opt
     if (done[k])
       continue;
     const carom_ball_kind *kind = &balls[k].kind;
-    const bool flies = opt->space != CAROM_SPACE_FLAT && carom_flies_in_layout(&balls[k].state, kind->radius);
+    const bool flies =
+        opt->space != CAROM_SPACE_FLAT && carom_flies_in_layout(&balls[k].state, kind->radius);
     c->ball[c->balls++] = member_of(kind, &balls[k].state, opt, flies, k);
   }
 }
@@ -151,7 +161,8 @@ static carom_status check(const carom_shot_ball *balls, int count, const carom_s
   const carom_status bad = carom_check_shot_options(opt);
   if (bad != CAROM_OK)
     return bad;
-  const bool solves = opt->ball_model <= CAROM_BALL_MODEL_EXACT || opt->ball_model == CAROM_BALL_MODEL_MIRROR;
+  const bool solves =
+      opt->ball_model <= CAROM_BALL_MODEL_EXACT || opt->ball_model == CAROM_BALL_MODEL_MIRROR;
   if (opt->world != CAROM_WORLD_CAROM)
     return CAROM_ERROR_WORLD;
   if (!solves)
@@ -163,15 +174,18 @@ static carom_status check(const carom_shot_ball *balls, int count, const carom_s
     if (opt->space == CAROM_SPACE_FLAT && balls[k].kind.radius != balls[0].kind.radius)
       return CAROM_ERROR_RADII_DIFFER;
     for (int i = 0; i < k; i++)
-      if (memcmp(balls[i].state.r, balls[k].state.r, sizeof balls[i].state.r) == 0 && !carom_is_out(balls[i].state.label))
+      if (memcmp(balls[i].state.r, balls[k].state.r, sizeof balls[i].state.r) == 0 &&
+          !carom_is_out(balls[i].state.label))
         return CAROM_ERROR_COINCIDENT;
   }
   return CAROM_OK;
 }
 
-/* Cluster by cluster, the fastest contact first; balls far from each other are in clusters of their own. */
-static carom_status solve(const carom_shot_ball *balls, int count, const carom_shot_options *opt, carom_motion *out,
-                          carom_cluster_contact *contacts, int room, int *found) {
+/* Cluster by cluster, the fastest contact first; balls far from each other are in clusters of
+ * their own. */
+static carom_status solve(const carom_shot_ball *balls, int count, const carom_shot_options *opt,
+                          carom_motion *out, carom_cluster_contact *contacts, int room,
+                          int *found) {
   carom_cluster_state c;
   bool done[CAROM_CLUSTER_BALLS];
   for (int k = 0; k < count; k++) {
@@ -202,8 +216,9 @@ static carom_status solve(const carom_shot_ball *balls, int count, const carom_s
   }
 }
 
-carom_status carom_cluster(const carom_shot_ball *balls, int count, const carom_shot_options *opt, carom_motion *out,
-                           carom_cluster_contact *contacts, int room, int *contacts_count) {
+carom_status carom_cluster(const carom_shot_ball *balls, int count, const carom_shot_options *opt,
+                           carom_motion *out, carom_cluster_contact *contacts, int room,
+                           int *contacts_count) {
   static const carom_shot_options no_options = {.steps = 0};
   int found = 0;
   if (balls == NULL || out == NULL || (contacts == NULL && room != 0) || room < 0)

@@ -1,34 +1,39 @@
-/* The next meeting of a ball in flight with the table: noses of rails and jaws, tops of rails, pockets, and the end of the table. nose.c
- * has the geometry. In flight x and y are linear in t, and z = z0 + v_z t - g/2 t^2.
+/* The next meeting of a ball in flight with the table: noses of rails and jaws, tops of rails,
+ * pockets, and the end of the table. nose.c has the geometry. In flight x and y are linear in t,
+ * and z = z0 + v_z t - g/2 t^2.
  *
- * RAIL. |d|^2 = (s - delta)^2 + (z - h)^2 is a quartic in t, that of two centres with d in two coordinates (gap.c); a
- * contact beyond the ends of the rail is none, since a jaw or another rail stands there.
+ * RAIL. |d|^2 = (s - delta)^2 + (z - h)^2 is a quartic in t, that of two centres with d in two
+ * coordinates (gap.c); a contact beyond the ends of the rail is none, since a jaw or another
+ * rail stands there.
  *
- * JAW. With q the horizontal distance from the axis, c = rho + delta and F = (q - c)^2 + (z - h)^2 - R^2, squaring twice would
- * give degree 8. But q'' >= 0 on a straight track, so where q >= c
+ * JAW. With q the horizontal distance from the axis, c = rho + delta and F = (q - c)^2 + (z -
+ * h)^2 - R^2, squaring twice would give degree 8. But q'' >= 0 on a straight track, so where q
+ * >= c
  *
  *   F''/2 >= min q'^2 + min (z'^2 - g (z - h))
  *
- * on any interval: q' rises, so the least q'^2 is at an end, or 0; the second term is a parabola opening upward. That is the
- * bound for first_zero.h. [0, T] is cut where q = c, two zeros of a quadratic; between them the ball is over the disc, and the
- * contact is that of the top.
+ * on any interval: q' rises, so the least q'^2 is at an end, or 0; the second term is a parabola
+ * opening upward. That is the bound for first_zero.h. [0, T] is cut where q = c, two zeros of a
+ * quadratic; between them the ball is over the disc, and the contact is that of the top.
  *
- * TOP. The plane z = h + R over the strip -W <= s < delta behind a nose, W the width of the rails, and over the disc of a jaw.
- * A ball that lies on it, with v_z = 0, has left the table.
+ * TOP. The plane z = h + R over the strip -W <= s < delta behind a nose, W the width of the
+ * rails, and over the disc of a jaw. A ball that lies on it, with v_z = 0, has left the table.
  *
- * POCKET. The ball is over the circle from t_in to t_out, zeros of a quadratic. Where t_in is before its landing it is looked
- * at at t* = min(t_out, landing): if its centre is not above the pocket's back there, it falls into the pocket at t*. So a ball
- * that lands in the circle always falls.
+ * POCKET. The ball is over the circle from t_in to t_out, zeros of a quadratic. Where t_in is
+ * before its landing it is looked at at t* = min(t_out, landing): if its centre is not above the
+ * pocket's back there, it falls into the pocket at t*. So a ball that lands in the circle always
+ * falls.
  *
- * LEAVING. The ball has left the table where its centre leaves the hull grown by W, or where it would land outside the
- * cushions. */
+ * LEAVING. The ball has left the table where its centre leaves the hull grown by W, or where it
+ * would land outside the cushions. */
 #include "motion/first_zero.h"
 #include "motion/gap.h"
 #include "shot/sim.h"
 
 #include <math.h>
 
-static const double on_top = 1e-9; /* m: rounding of the edges of tops, and of a ball's height on them */
+static const double on_top = 1e-9; /* m: rounding of the edges of tops, and of a ball's height on
+                                      them */
 
 typedef struct flight {
   double r[3], v[3], g, radius;
@@ -58,13 +63,16 @@ static double leaving(const flight *f, double x, double y, double q) {
 static carom_gap_at gap_at(const void *of, double t) {
   const flight *f = ((const jaw_gap *)of)->f;
   const circle *c = ((const jaw_gap *)of)->c;
-  const double x = f->r[0] + t * f->v[0] - c->centre[0], y = f->r[1] + t * f->v[1] - c->centre[1], q = sqrt(x * x + y * y);
+  const double x = f->r[0] + t * f->v[0] - c->centre[0], y = f->r[1] + t * f->v[1] - c->centre[1],
+               q = sqrt(x * x + y * y);
   const double z = height_at(f, t) - c->height, v_z = f->v[2] - f->g * t, s = q - c->radius;
-  return (carom_gap_at){s * s + z * z - f->radius * f->radius, 2.0 * (s * leaving(f, x, y, q) + z * v_z)};
+  return (carom_gap_at){s * s + z * z - f->radius * f->radius,
+                        2.0 * (s * leaving(f, x, y, q) + z * v_z)};
 }
 
 static double leaving_at(const jaw_gap *g, double t) {
-  const double x = g->f->r[0] + t * g->f->v[0] - g->c->centre[0], y = g->f->r[1] + t * g->f->v[1] - g->c->centre[1];
+  const double x = g->f->r[0] + t * g->f->v[0] - g->c->centre[0],
+               y = g->f->r[1] + t * g->f->v[1] - g->c->centre[1];
   return leaving(g->f, x, y, sqrt(x * x + y * y));
 }
 
@@ -76,18 +84,20 @@ static double least_half_curvature(const void *of, double t, double T) {
   const double across = first >= 0.0 ? first * first : last <= 0.0 ? last * last : 0.0;
   /* z'^2 - g (z - h) = v_z^2 - g (z0 - h) - 3 g v_z t + 3/2 g^2 t^2, least at t = v_z / g */
   const double top = carom_lesser(carom_greater(f->v[2] / f->g, t), T);
-  const double upright = f->v[2] * f->v[2] - f->g * (f->r[2] - g->c->height) + top * f->g * (1.5 * f->g * top - 3.0 * f->v[2]);
+  const double upright = f->v[2] * f->v[2] - f->g * (f->r[2] - g->c->height) +
+                         top * f->g * (1.5 * f->g * top - 3.0 * f->v[2]);
   return across + upright;
 }
 
-/* The first zero of F + raise from t on, where that is positive, up to T, with q >= c between; or infinity. */
+/* The first zero of F + raise from t on, where that is positive, up to T, with q >= c between;
+ * or infinity. */
 static double zero_from_left(const jaw_gap *g, double raise, double t, double T) {
   return carom_first_zero(gap_at, least_half_curvature, g, raise, t, T, 0.0);
 }
 
-/* The first contact on [t, T], with q >= c between. Balls that touch at t and do not close are in contact where the gap has
- * fallen by CAROM_SLACK from that at t, or, if it has been greater than that on the way, where it is 0: as PRESSED in
- * gap.c.
+/* The first contact on [t, T], with q >= c between. Balls that touch at t and do not close are
+ * in contact where the gap has fallen by CAROM_SLACK from that at t, or, if it has been greater
+ * than that on the way, where it is 0: as PRESSED in gap.c.
  */
 static double touch_circle(const flight *f, const circle *c, double t, double T) {
   const jaw_gap g = {f, c};
@@ -100,13 +110,16 @@ static double touch_circle(const flight *f, const circle *c, double t, double T)
   if (here.slope < -2.0 * f->radius * CAROM_NO_SPEED)
     return t;
   const double back = zero_from_left(&g, touching - here.value, t, T), middle = 0.5 * (t + back);
-  return back < INFINITY && gap_at(&g, middle).value > touching ? zero_from_left(&g, 0.0, middle, T) : back;
+  return back < INFINITY && gap_at(&g, middle).value > touching ? zero_from_left(&g, 0.0, middle, T)
+                                                                : back;
 }
 
-/* The times at which the track crosses a circle, seen from above; the number of them, 0 or 2, infinite where it stands inside.
+/* The times at which the track crosses a circle, seen from above; the number of them, 0 or 2,
+ * infinite where it stands inside.
  */
 static int cross_circle(const flight *f, const double centre[2], double radius, double t[2]) {
-  const double x = f->r[0] - centre[0], y = f->r[1] - centre[1], c = x * x + y * y - radius * radius;
+  const double x = f->r[0] - centre[0], y = f->r[1] - centre[1],
+               c = x * x + y * y - radius * radius;
   const double a = f->v[0] * f->v[0] + f->v[1] * f->v[1], b = x * f->v[0] + y * f->v[1];
   t[0] = -INFINITY;
   t[1] = INFINITY;
@@ -133,7 +146,8 @@ static bool beside(const double along[3], const flight *f, double t) {
   return place >= 0.0 && place <= 1.0;
 }
 
-/* The part of [0, T] in which the ball is between the ends of a rail: place is linear in t. False where there is none. */
+/* The part of [0, T] in which the ball is between the ends of a rail: place is linear in t.
+ * False where there is none. */
 static bool while_beside(const double along[3], const flight *f, double T, double window[2]) {
   const double place = across(along, f, 0.0), speed = along[0] * f->v[0] + along[1] * f->v[1];
   window[0] = 0.0;
@@ -146,7 +160,8 @@ static bool while_beside(const double along[3], const flight *f, double T, doubl
   return window[0] <= window[1];
 }
 
-static double meet_rail(const carom_features *features, int k, double height, double shift, const flight *f, double T) {
+static double meet_rail(const carom_features *features, int k, double height, double shift,
+                        const flight *f, double T) {
   double window[2];
   if (!while_beside(features->along[k], f, T, window))
     return INFINITY;
@@ -160,8 +175,8 @@ static double meet_rail(const carom_features *features, int k, double height, do
   return from + carom_first_contact(&d, f->radius, window[1] - from);
 }
 
-/* When the ball falls on a plane; *lies becomes whether it lies on it now. A ball that is hardly lower counts as on it, unless
- * it rises over it. */
+/* When the ball falls on a plane; *lies becomes whether it lies on it now. A ball that is hardly
+ * lower counts as on it, unless it rises over it. */
 static double fall_on(const flight *f, double plane, bool *lies) {
   double above = f->r[2] - plane;
   if (fabs(above) <= on_top) {
@@ -183,10 +198,12 @@ static void take_earlier(carom_meeting *first, double t, int type, int part, dou
 }
 
 static bool near(const carom_features *f, int k, const float box[4]) {
-  return f->low_x[k] <= box[1] && f->high_x[k] >= box[0] && f->low_y[k] <= box[3] && f->high_y[k] >= box[2];
+  return f->low_x[k] <= box[1] && f->high_x[k] >= box[0] && f->low_y[k] <= box[3] &&
+         f->high_y[k] >= box[2];
 }
 
-/* The box of the track from above and `more` around it, in single precision, which those of the features allow for. */
+/* The box of the track from above and `more` around it, in single precision, which those of the
+ * features allow for. */
 static void box_of(const flight *f, double T, double more, float box[4]) {
   for (int k = 0; k < 2; k++) {
     const double end = f->r[k] + T * f->v[k];
@@ -199,7 +216,8 @@ static void box_of(const flight *f, double T, double more, float box[4]) {
 static double leave(const carom_features *features, const flight *f) {
   double first = INFINITY;
   for (int k = 0; k < 2; k++) {
-    const double low = features->hull[2 * k] - features->width, high = features->hull[2 * k + 1] + features->width;
+    const double low = features->hull[2 * k] - features->width,
+                 high = features->hull[2 * k + 1] + features->width;
     if (f->r[k] < low || f->r[k] > high)
       return 0.0;
     if (f->v[k] != 0.0)
@@ -209,20 +227,25 @@ static double leave(const carom_features *features, const flight *f) {
 }
 
 /* Whether the ball is over a top at a time. */
-static bool over_rail(const carom_features *features, int k, double shift, const flight *f, double t) {
+static bool over_rail(const carom_features *features, int k, double shift, const flight *f,
+                      double t) {
   const double s = across(features->line[k], f, t);
   return s >= -features->width && s <= shift + on_top && beside(features->along[k], f, t);
 }
 static bool over_jaw(const circle *c, const flight *f, double t) {
-  const double x = f->r[0] + t * f->v[0] - c->centre[0], y = f->r[1] + t * f->v[1] - c->centre[1], reach = c->radius + on_top;
+  const double x = f->r[0] + t * f->v[0] - c->centre[0], y = f->r[1] + t * f->v[1] - c->centre[1],
+               reach = c->radius + on_top;
   return x * x + y * y <= reach * reach;
 }
 
 /* Noses and tops of rails and jaws. Each narrows the horizon of those behind it. */
-static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, const flight *f, carom_meeting *first, double *T) {
+static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, const flight *f,
+                          carom_meeting *first, double *T) {
   const carom_features *features = sim->features;
-  const double low = carom_nose_height(kind, features->nose_low), rise = f->v[2] > 0.0 ? 0.5 * f->v[2] * f->v[2] / f->g : 0.0;
-  const bool above = f->r[2] + rise >= low + f->radius - on_top; /* it is or comes to be higher than a rail */
+  const double low = carom_nose_height(kind, features->nose_low),
+               rise = f->v[2] > 0.0 ? 0.5 * f->v[2] * f->v[2] / f->g : 0.0;
+  /* it is or comes to be higher than a rail */
+  const bool above = f->r[2] + rise >= low + f->radius - on_top;
   float box[4];
   box_of(f, *T, features->reference, box); /* noses are inside their walls, by less than that */
   for (int k = 0; k < features->rails + features->jaws; k++) {
@@ -230,7 +253,8 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
     if (!above && !is_near)
       continue;
     const int j = k - features->rails;
-    const double h = carom_nose_height(kind, j < 0 ? sim->table->rail[k].height : sim->table->jaw[j].height);
+    const double h =
+        carom_nose_height(kind, j < 0 ? sim->table->rail[k].height : sim->table->jaw[j].height);
     const double shift = carom_nose_shift(h, features->reference);
     circle c = {.height = h};
     if (j >= 0) {
@@ -240,7 +264,8 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
     bool lies = false;
     const double top = above ? fall_on(f, h + f->radius, &lies) : INFINITY;
     if (top <= *T && (j < 0 ? over_rail(features, k, shift, f, top) : over_jaw(&c, f, top)))
-      take_earlier(first, top, lies ? CAROM_EVENT_LEFT_TABLE : CAROM_EVENT_RAIL_TOP, lies ? -1 : k, T);
+      take_earlier(first, top, lies ? CAROM_EVENT_LEFT_TABLE : CAROM_EVENT_RAIL_TOP, lies ? -1 : k,
+                   T);
     if (is_near && j < 0)
       take_earlier(first, meet_rail(features, k, h, shift, f, *T), CAROM_EVENT_RAIL, k, T);
     else if (is_near)
@@ -248,7 +273,8 @@ static void meet_cushions(const carom_sim *sim, const carom_ball_kind *kind, con
   }
 }
 
-static void meet_pockets(const carom_sim *sim, const flight *f, double landing, carom_meeting *first, double *T) {
+static void meet_pockets(const carom_sim *sim, const flight *f, double landing,
+                         carom_meeting *first, double *T) {
   const carom_features *features = sim->features;
   float box[4];
   box_of(f, *T, 0.0, box);
@@ -256,7 +282,8 @@ static void meet_pockets(const carom_sim *sim, const flight *f, double landing, 
     const carom_pocket *pocket = &sim->table->pocket[k];
     double over[2];
     if (!near(features, features->rails + features->jaws + k, box) ||
-        cross_circle(f, pocket->centre, pocket->radius, over) < 2 || over[1] < 0.0 || over[0] >= landing)
+        cross_circle(f, pocket->centre, pocket->radius, over) < 2 || over[1] < 0.0 ||
+        over[0] >= landing)
       continue;
     const double t = carom_lesser(over[1], landing);
     if (over[1] >= landing || height_at(f, t) <= features->pocket_back)
@@ -264,7 +291,8 @@ static void meet_pockets(const carom_sim *sim, const flight *f, double landing, 
   }
 }
 
-carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3], const double v[3], double landing) {
+carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3],
+                                   const double v[3], double landing) {
   const carom_ball_kind *kind = &sim->ball[i].kind;
   const flight f = {{r[0], r[1], r[2]}, {v[0], v[1], v[2]}, kind->gravity, kind->radius};
   carom_meeting first = {INFINITY, 0, 0};

@@ -8,12 +8,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Across the line of centres: along t = n x z, and up; the slip of the first ball's surface on the second's. */
+/* Across the line of centres: along t = n x z, and up; the slip of the first ball's surface on
+ * the second's. */
 typedef struct contact_slip {
   double t[2], along, up;
 } contact_slip;
 
-static contact_slip slip_of(const double n[2], double R, const carom_ball_state *a, const carom_ball_state *b) {
+static contact_slip slip_of(const double n[2], double R, const carom_ball_state *a,
+                            const carom_ball_state *b) {
   contact_slip s = {.t = {n[1], -n[0]}};
   s.along = (a->v[0] - b->v[0]) * s.t[0] + (a->v[1] - b->v[1]) * s.t[1] - R * (a->w[2] + b->w[2]);
   s.up = R * ((a->w[0] + b->w[0]) * s.t[0] + (a->w[1] + b->w[1]) * s.t[1]);
@@ -39,7 +41,8 @@ static double friction_of(const carom_sim *sim, int i, int j, double slip) {
 }
 
 /* Normal velocities by the restitution: w, the same for each unit of mass. */
-static void exchange(double e, double m_a, double m_b, const double n[2], carom_ball_state *a, carom_ball_state *b) {
+static void exchange(double e, double m_a, double m_b, const double n[2], carom_ball_state *a,
+                     carom_ball_state *b) {
   const double closing = (a->v[0] - b->v[0]) * n[0] + (a->v[1] - b->v[1]) * n[1];
   const double P = (1.0 + e) * closing / (1.0 / m_a + 1.0 / m_b);
   for (int k = 0; k < 2; k++) {
@@ -48,11 +51,11 @@ static void exchange(double e, double m_a, double m_b, const double n[2], carom_
   }
 }
 
-/* One closed-form impulse. Friction stops the slip, which takes -c/7 for each unit of mass, or slides to the end with mu times
- * the speed at which the balls part; the vertical velocities that it gives are dropped. As pooltool's default, for equal
- * masses. */
-static void inelastic(const double n[2], double R, double e, double mu, const contact_slip *s, carom_ball_state *a,
-                      carom_ball_state *b) {
+/* One closed-form impulse. Friction stops the slip, which takes -c/7 for each unit of mass, or
+ * slides to the end with mu times the speed at which the balls part; the vertical velocities
+ * that it gives are dropped. As pooltool's default, for equal masses. */
+static void inelastic(const double n[2], double R, double e, double mu, const contact_slip *s,
+                      carom_ball_state *a, carom_ball_state *b) {
   const double closing = (a->v[0] - b->v[0]) * n[0] + (a->v[1] - b->v[1]) * n[1];
   const double slip = sqrt(s->along * s->along + s->up * s->up), most = mu * e * fabs(closing);
   const double share = 7.0 * most >= slip ? 1.0 / 7.0 : most / slip;
@@ -83,11 +86,13 @@ static void take_motion(const carom_motion *motion, carom_ball_state *s) {
   }
 }
 
-/* Takes kind->roll_loss of the speed v_t along a cushion, before the impact, from the roll along it. Along t = (n_y, -n_x) a
- * ball rolls at R w . n. The roll does not change sign, so the energy falls. */
-__attribute__((noinline, cold)) static void lose_roll(const carom_ball_kind *kind, const double n[2], const double v[3],
-                                                      carom_ball_state *s) {
-  const double v_t = v[0] * n[1] - v[1] * n[0], roll = kind->radius * (s->w[0] * n[0] + s->w[1] * n[1]);
+/* Takes kind->roll_loss of the speed v_t along a cushion, before the impact, from the roll along
+ * it. Along t = (n_y, -n_x) a ball rolls at R w . n. The roll does not change sign, so the
+ * energy falls. */
+__attribute__((noinline, cold)) static void
+lose_roll(const carom_ball_kind *kind, const double n[2], const double v[3], carom_ball_state *s) {
+  const double v_t = v[0] * n[1] - v[1] * n[0],
+               roll = kind->radius * (s->w[0] * n[0] + s->w[1] * n[1]);
   const double loss = copysign(carom_lesser(kind->roll_loss * fabs(v_t), fabs(roll)), roll);
   if (v_t * roll > 0.0)
     for (int k = 0; k < 2; k++)
@@ -95,11 +100,12 @@ __attribute__((noinline, cold)) static void lose_roll(const carom_ball_kind *kin
 }
 
 static carom_ball_model ball_model(const carom_sim *sim) {
-  return sim->opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? sim->opt->ball_model : sim->rules->ball_model;
+  return sim->opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? sim->opt->ball_model
+                                                          : sim->rules->ball_model;
 }
 
-void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a, const carom_ball_kind *kind_b,
-                           const carom_ball_state *b, double n[3]) {
+void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a,
+                           const carom_ball_kind *kind_b, const carom_ball_state *b, double n[3]) {
   n[0] = b->r[0] - a->r[0];
   n[1] = b->r[1] - a->r[1];
   n[2] = (carom_flies(b) ? b->r[2] : kind_b->radius) - (carom_flies(a) ? a->r[2] : kind_a->radius);
@@ -108,8 +114,8 @@ void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state
     n[k] /= size;
 }
 
-carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3], bool in_space,
-                               carom_ball_state *a, carom_ball_state *b) {
+carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3],
+                               bool in_space, carom_ball_state *a, carom_ball_state *b) {
   const int i = due->a, j = due->b;
   const carom_ball_kind *kind_a = &sim->ball[i].kind, *kind_b = &sim->ball[j].kind;
   const double R = kind_a->radius, e = 0.5 * (kind_a->restitution + kind_b->restitution);
@@ -119,7 +125,8 @@ carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const
   /* spheres in space; without friction where the model has none */
   if (in_space) {
     carom_impact in = {.a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .restitution = e};
-    in.mu_ball = model == CAROM_BALL_MODEL_MIRROR ? 0.0 : friction_of(sim, i, j, carom_spheres_slip(&in, n));
+    in.mu_ball =
+        model == CAROM_BALL_MODEL_MIRROR ? 0.0 : friction_of(sim, i, j, carom_spheres_slip(&in, n));
     carom_spheres_collide(&in, n, &out);
     take_motion(&out.a, a);
     take_motion(&out.b, b);
@@ -139,7 +146,8 @@ carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const
   }
 
   /* the 2014 model; the first ball is at the origin, since only the direction counts */
-  carom_impact in = {.a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .mu_ball = mu, .restitution = e};
+  carom_impact in = {
+      .a = impact_ball(kind_a, a), .b = impact_ball(kind_b, b), .mu_ball = mu, .restitution = e};
   in.b.r[0] = n[0];
   in.b.r[1] = n[1];
   const bool euler = model == CAROM_BALL_MODEL_EULER;
@@ -168,14 +176,17 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due) {
 }
 
 _Static_assert(CAROM_SHOT_CUSHION_MATHAVAN == 1 + CAROM_CUSHION_MATHAVAN &&
-                   CAROM_SHOT_CUSHION_STRONGE == 1 + CAROM_CUSHION_STRONGE && CAROM_SHOT_CUSHION_HAN == 1 + CAROM_CUSHION_HAN &&
+                   CAROM_SHOT_CUSHION_STRONGE == 1 + CAROM_CUSHION_STRONGE &&
+                   CAROM_SHOT_CUSHION_HAN == 1 + CAROM_CUSHION_HAN &&
                    CAROM_SHOT_CUSHION_MIRROR == 1 + CAROM_CUSHION_MIRROR &&
-                   CAROM_SHOT_CUSHION_EULER == 1 + CAROM_CUSHION_EULER && CAROM_SHOT_CUSHION_SMOOTH == 1 + CAROM_CUSHION_SMOOTH,
+                   CAROM_SHOT_CUSHION_EULER == 1 + CAROM_CUSHION_EULER &&
+                   CAROM_SHOT_CUSHION_SMOOTH == 1 + CAROM_CUSHION_SMOOTH,
                "the models of a shot are those of an impact, behind the default");
 
 static carom_cushion_model cushion_model(const carom_sim *sim) {
   const carom_shot_cushion asked = sim->opt->cushion_model;
-  return asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1) : sim->rules->cushion_model;
+  return asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1)
+                                             : sim->rules->cushion_model;
 }
 
 /* Of a rail or jaw, or of the ball where that has none. */
@@ -183,10 +194,12 @@ static double own_or(double own, double of_ball) {
   return own > 0.0 ? own : of_ball;
 }
 
-/* A ball in flight, by the model without the cloth. Mathavan's equations have a constant direction of slip then, as Han's do,
- * so the impact of fixed.c is their exact limit; it stands for the smooth law too, which was not measured in flight; Stronge's model is planar in N and the direction of slip already. */
-static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const double N[3], const carom_nose *nose,
-                        carom_ball_state *s) {
+/* A ball in flight, by the model without the cloth. Mathavan's equations have a constant
+ * direction of slip then, as Han's do, so the impact of fixed.c is their exact limit; it stands
+ * for the smooth law too, which was not measured in flight; Stronge's model is planar in N and
+ * the direction of slip already. */
+static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const double N[3],
+                        const carom_nose *nose, carom_ball_state *s) {
   const carom_touch touch = carom_touch_of(N, kind->radius, s);
   carom_contact c = {.v_y = touch.closing,
                      .mu_w = own_or(nose->mu_cushion, kind->mu_cushion),
@@ -196,15 +209,17 @@ static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const
   const double J = (1.0 + e) * touch.closing;
   double J_t = 0.0;
   if (cushion_model(sim) == CAROM_CUSHION_STRONGE)
-    J_t = carom_stronge_friction(touch.closing, touch.slip, mu, e, own_or(kind->omega_ratio, CAROM_OMEGA_RATIO), false);
+    J_t = carom_stronge_friction(touch.closing, touch.slip, mu, e,
+                                 own_or(kind->omega_ratio, CAROM_OMEGA_RATIO), false);
   else if (cushion_model(sim) != CAROM_CUSHION_MIRROR)
     J_t = carom_coulomb(&touch, mu, J);
   carom_take_impulse(&touch, kind->radius, J, J_t, s);
 }
 
 /* A ball on the cloth, by the model asked for. */
-static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind *kind, const double n[2],
-                                    const carom_nose *nose, carom_ball_state *s) {
+static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind *kind,
+                                    const double n[2], const carom_nose *nose,
+                                    carom_ball_state *s) {
   const carom_cushion_impact in = {.v = {s->v[0], s->v[1], 0.0},
                                    .w = {s->w[0], s->w[1], s->w[2]},
                                    .normal = {n[0], n[1]},
@@ -213,7 +228,8 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
                                    .mass = kind->mass,
                                    .mu_cloth = kind->mu_slide,
                                    .mu_cushion = own_or(nose->mu_cushion, kind->mu_cushion),
-                                   .restitution = own_or(nose->restitution, kind->restitution_cushion),
+                                   .restitution =
+                                       own_or(nose->restitution, kind->restitution_cushion),
                                    .jaw_radius = nose->jaw_radius};
   carom_cushion_options options = {.model = cushion_model(sim),
                                    .convention = sim->rules->convention,
@@ -231,7 +247,8 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
   carom_motion out;
   carom_status status = carom_cushion(&in, &options, &out);
 
-  /* a shot goes on by the same model's steps where its limit is refused, as for a ball whose rolling is exact but for rounding
+  /* a shot goes on by the same model's steps where its limit is refused, as for a ball whose
+   * rolling is exact but for rounding
    */
   if (status == CAROM_ERROR_UNRESOLVED && options.model == CAROM_CUSHION_MATHAVAN) {
     options.model = CAROM_CUSHION_EULER;
@@ -247,7 +264,8 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
 }
 
 /* NEAR THE CLOTH in resolve.c has the blend. */
-carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3], carom_ball_state *s) {
+carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3],
+                                 carom_ball_state *s) {
   static const double near = 1e-3; /* m */
   const carom_ball_kind *kind = &sim->ball[due->a].kind;
   const carom_nose nose = carom_nose_of(sim->table, due);
@@ -259,7 +277,8 @@ carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, con
   if (chi >= 1.0)
     return CAROM_OK;
 
-  /* the flat model, along the horizontal part of n; a ball that does not move into the cushion stays as it is */
+  /* the flat model, along the horizontal part of n; a ball that does not move into the cushion
+   * stays as it is */
   const double size = sqrt(n[0] * n[0] + n[1] * n[1]), level[2] = {n[0] / size, n[1] / size};
   const double v_z = carom_lesser(flat.v[2], 0.0);
   const carom_status status = impact_on_cloth(sim, kind, level, &nose, &flat);

@@ -1,5 +1,5 @@
-/* The next event: the earliest of the times that detect.c keeps, by a plain scan. Of events that the rules of the world count
- * as simultaneous, those rules choose the one that goes first. */
+/* The next event: the earliest of the times that detect.c keeps, by a plain scan. Of events that
+ * the rules of the world count as simultaneous, those rules choose the one that goes first. */
 #include "shot/rules.h"
 
 #include <math.h>
@@ -18,7 +18,8 @@ static int type_of_end(const carom_sim *sim, int i) {
     return CAROM_DUE_PIECE;
   carom_ball_state end;
   carom_path_end(path, &sim->rates[i], &end);
-  return end.label == CAROM_BALL_SPINNING ? CAROM_EVENT_ROLLING_SPINNING : CAROM_EVENT_ROLLING_STATIONARY;
+  return end.label == CAROM_BALL_SPINNING ? CAROM_EVENT_ROLLING_SPINNING
+                                          : CAROM_EVENT_ROLLING_STATIONARY;
 }
 
 static carom_due end_of(const carom_sim *sim, int i) {

@@ -1,47 +1,61 @@
-/* Contacts in the world carom: where the surfaces touch, at the instant when they touch, by the model.
+/* Contacts in the world carom: where the surfaces touch, at the instant when they touch, by the
+ * model.
  *
- * SLOW CONTACTS. A ball that its spin presses against another ball or a cushion bounces in ever smaller hops, infinitely many
- * in a finite time. So a contact that closes at less than s is resolved without friction, and the two part at s: hops
- * then last at least 2 s over the acceleration, and end when the spin that presses is used up. The energy that parting takes
- * more than closing gives, some 1e-8 J at first, is taken from the spin of the balls in contact, so energy never rises; it
- * takes half of the spin's at most, so balls that hardly move part at less than s, but soon stop. Momentum is kept.
+ * SLOW CONTACTS. A ball that its spin presses against another ball or a cushion bounces in ever
+ * smaller hops, infinitely many in a finite time. So a contact that closes at less than s is
+ * resolved without friction, and the two part at s: hops
+ * then last at least 2 s over the acceleration, and end when the spin that presses is used up.
+ * The energy that parting takes more than closing gives, some 1e-8 J at first, is taken from the
+ * spin of the balls in contact, so energy never rises; it takes half of the spin's at most, so
+ * balls that hardly move part at less than s, but soon stop. Momentum is kept.
  *
  * s grows with the number N of instants that had a slow contact,
  *
  *     s = min(1 mm/s / (1 - N / 1500)^2, 0.2 m/s),
  *
- * so that it is 1.6 mm/s after 300, which few shots have, and 0.2 m/s after 1,394. From then on a ball presses on another at
- * most once in 0.2 s, as the cloth accelerates balls by some 2 m/s^2. That bounds the events of balls that press on others: one
- * that pushes a row of 26 along causes a contact of each ball of the row a hop, and balls slide, roll and stop between them.
- * With s at 1 mm/s that would be 100,000 events a second for more than a second. Contacts at one instant count once: there are
- * more of them the more balls touch, and no time passes.
+ * so that it is 1.6 mm/s after 300, which few shots have, and 0.2 m/s after 1,394. From then on
+ * a ball presses on another at most once in 0.2 s, as the cloth accelerates balls by some 2
+ * m/s^2. That bounds the events of balls that press on others: one that pushes a row of 26 along
+ * causes a contact of each ball of the row a hop, and balls slide, roll and stop between them.
+ * With s at 1 mm/s that would be 100,000 events a second for more than a second. Contacts at one
+ * instant count once: there are more of them the more balls touch, and no time passes.
  *
- * 1500 and 0.2 m/s were found with 60,000 random shots of tests/shots by the model han, whose kind `pressed` is 2 to
- * 32 balls that touch, one at the end with up to 300 rad/s, or two, or all. Most events of a shot: 7,796. With 3000 instead of
- * 1500 237 of 4,000 shots need more than 10,000; with 750 none needs more than 5,873. With 0.1 m/s 4 need more than 10,000;
- * with 0.4 m/s none more than 6,838. The growth has a cost: of a row of four balls with 200 rad/s in the first, the last goes
- * 0.760 m, and 0.749 m with s = 0.1 mm/s throughout; of a row of eight 0.035 m, and 0.124 m.
+ * 1500 and 0.2 m/s were found with 60,000 random shots of tests/shots by the model han, whose
+ * kind `pressed` is 2 to
+ * 32 balls that touch, one at the end with up to 300 rad/s, or two, or all. Most events of a
+ * shot: 7,796. With 3000 instead of 1500 237 of 4,000 shots need more than 10,000; with 750 none
+ * needs more than 5,873. With 0.1 m/s 4 need more than 10,000; with 0.4 m/s none more than
+ * 6,838. The growth has a cost: of a row of four balls with 200 rad/s in the first, the last
+ * goes 0.760 m, and 0.749 m with s = 0.1 mm/s throughout; of a row of eight 0.035 m, and 0.124
+ * m.
  *
- * CUSHIONS. The formulas of Han and Stronge take the impact along the inclined normal of the nose, and drop
- * the vertical velocity. Where the restitution is small, below some tan^2 of the inclination, or the nose far from the height
- * of the centre, or the ball spins much for its speed, a ball is left that moves into the cushion. It would hit again at the
- * same instant, a thousand times where the nose is near the cloth. The same event lets it part as a slow contact does.
+ * CUSHIONS. The formulas of Han and Stronge take the impact along the inclined normal of the
+ * nose, and drop
+ * the vertical velocity. Where the restitution is small, below some tan^2 of the inclination, or
+ * the nose far from the height of the centre, or the ball spins much for its speed, a ball is
+ * left that moves into the cushion. It would hit again at the same instant, a thousand times
+ * where the nose is near the cloth. The same event lets it part as a slow contact does.
  *
- * IN SPACE. Where a ball flies, or two radii differ, the line of centres and the normal of a nose have a third component, and
- * the models are those of spheres; the rules above are the same. A ball on the cloth may leave it then: pushed down it is
- * airborne with v_z < 0 and lands at the same instant, as an event of its own, since two balls part long before ball and cloth
+ * IN SPACE. Where a ball flies, or two radii differ, the line of centres and the normal of a
+ * nose have a third component, and the models are those of spheres; the rules above are the
+ * same. A ball on the cloth may leave it then: pushed down it is airborne with v_z < 0 and lands
+ * at the same instant, as an event of its own, since two balls part long before ball and cloth
  * do.
  *
- * NEAR THE CLOTH. The cloth holds a ball that a cushion presses down, which takes longer than the contact with the cloth; nose
- * and slate one after the other would let it hop by centimetres. A ball on the cloth has the flat model, a flying one that of a
- * free sphere; and with chi = (z - R) / 1 mm < 1 it has (1 - chi) of the flat result and chi of the free one, in v and w, the
- * flat one's v_z being min(v_z, 0). This is continuous at both ends and safe: kinetic energy is convex and neither end has more
- * than before, and both ends part. 1 mm is a convention.
+ * NEAR THE CLOTH. The cloth holds a ball that a cushion presses down, which takes longer than
+ * the contact with the cloth; nose and slate one after the other would let it hop by
+ * centimetres. A ball on the cloth has the flat model, a flying one that of a free sphere; and
+ * with chi = (z - R) / 1 mm < 1 it has (1 - chi) of the flat result and chi of the free one, in
+ * v and w, the flat one's v_z being min(v_z, 0). This is continuous at both ends and safe:
+ * kinetic energy is convex and neither end has more than before, and both ends part. 1 mm is a
+ * convention.
  *
- * PRESSED BY WEIGHT. A ball that lies on another, or on a nose, is pressed by its weight, which does not end as spin does. So a
- * slow contact in space takes energy from the motion of the balls past each other, too, as opposite impulses on both. The
- * cloth takes an impulse that pushes a ball down at once, without a landing. The upper ball hops as it rolls off. Where
- * nothing moves, no energy is there: a ball that is balanced on another ends the shot as too_many_events. */
+ * PRESSED BY WEIGHT. A ball that lies on another, or on a nose, is pressed by its weight, which
+ * does not end as spin does. So a slow contact in space takes energy from the motion of the
+ * balls past each other, too, as opposite impulses on both. The cloth takes an impulse that
+ * pushes a ball down at once, without a landing. The upper ball hops as it rolls off. Where
+ * nothing moves, no energy is there: a ball that is balanced on another ends the shot as
+ * too_many_events. */
 #include "shot/sim.h"
 
 #include <math.h>
@@ -52,7 +66,8 @@ static const double slow_instants = 1500.0;
 /* s, above. */
 double carom_slow_speed(int64_t instants) {
   const double left = 1.0 - (double)instants / slow_instants;
-  return left * left * slow_most > slow_first && left > 0.0 ? slow_first / (left * left) : slow_most;
+  return left * left * slow_most > slow_first && left > 0.0 ? slow_first / (left * left)
+                                                            : slow_most;
 }
 
 static void count_slow(carom_sim *sim) {
@@ -76,7 +91,8 @@ typedef struct contact {
   carom_ball_state *a, *b;
   double n[3];         /* from a to b, or into the cushion */
   bool in_space;       /* a ball flies, or the radii differ */
-  bool held_a, held_b; /* the cloth takes the vertical part of an impulse that pushes the ball down */
+  bool held_a, held_b; /* the cloth takes the vertical part of an impulse that pushes the ball
+                          down */
 } contact;
 
 /* An impulse of P along a direction, against a and on b. */
@@ -100,12 +116,13 @@ static double reduced_mass(const contact *c) {
   const double level = c->n[0] * c->n[0] + c->n[1] * c->n[1], m_a = c->kind_a->mass;
   if (c->b == NULL)
     return m_a;
-  return c->held_a || c->held_b ? 1.0 / (level * mobility(c, 0) + c->n[2] * c->n[2] * mobility(c, 2))
-                                : m_a * c->kind_b->mass / (m_a + c->kind_b->mass);
+  return c->held_a || c->held_b
+             ? 1.0 / (level * mobility(c, 0) + c->n[2] * c->n[2] * mobility(c, 2))
+             : m_a * c->kind_b->mass / (m_a + c->kind_b->mass);
 }
 
-/* The motion of a and b past each other, which an impulse along n does not change: u = v_a - v_b - closing m W n, with the
- * mobilities W and m = 1/(n.W n). Returns its energy, u.u/W / 2. */
+/* The motion of a and b past each other, which an impulse along n does not change: u = v_a - v_b
+ * - closing m W n, with the mobilities W and m = 1/(n.W n). Returns its energy, u.u/W / 2. */
 static double passing(const contact *c, double m, double closing, double u[3]) {
   double energy = 0.0;
   for (int k = 0; k < 3; k++) {
@@ -116,11 +133,13 @@ static double passing(const contact *c, double m, double closing, double u[3]) {
   return energy;
 }
 
-/* The speed at which a slow contact parts, `s` or less; takes the energy that it needs more from the spins and, in space, in
- * the same proportion from the motion past each other. `m`: the reduced mass along n. */
+/* The speed at which a slow contact parts, `s` or less; takes the energy that it needs more from
+ * the spins and, in space, in the same proportion from the motion past each other. `m`: the
+ * reduced mass along n. */
 static double part_slowly(const contact *c, double s, double m, double closing) {
   double u[3] = {0.0};
-  const double there = spin_energy(c->kind_a, c->a) + (c->b != NULL ? spin_energy(c->kind_b, c->b) : 0.0) +
+  const double there = spin_energy(c->kind_a, c->a) +
+                       (c->b != NULL ? spin_energy(c->kind_b, c->b) : 0.0) +
                        (c->in_space ? passing(c, m, closing, u) : 0.0);
   const double taken = fmin(0.5 * m * (s * s - closing * closing), 0.5 * there);
   if (!(taken > 0.0))
@@ -141,7 +160,8 @@ static double part_slowly(const contact *c, double s, double m, double closing) 
 
 /* A contact that closes slowly, or that its model has left closing. */
 static void resolve_slowly(const contact *c, double slow, double closing) {
-  const double m = reduced_mass(c), change = closing + (closing < slow ? part_slowly(c, slow, m, closing) : slow);
+  const double m = reduced_mass(c),
+               change = closing + (closing < slow ? part_slowly(c, slow, m, closing) : slow);
   if (c->b != NULL)
     push(c, m * change, c->n);
   else
@@ -164,11 +184,14 @@ static bool is_finite(const carom_ball_state *s) {
   return isfinite(s->v[0] + s->v[1] + s->v[2] + s->w[0] + s->w[1] + s->w[2]);
 }
 
-/* The unit vector from the centre of a ball into a rail or a jaw; horizontal for a ball on the cloth. */
-static void into_nose(const carom_sim *sim, const carom_due *due, const carom_ball_state *s, double N[3]) {
+/* The unit vector from the centre of a ball into a rail or a jaw; horizontal for a ball on the
+ * cloth. */
+static void into_nose(const carom_sim *sim, const carom_due *due, const carom_ball_state *s,
+                      double N[3]) {
   const carom_ball_kind *kind = &sim->ball[due->a].kind;
   const double *r = s->r;
-  double out[2], across, height; /* the horizontal direction from the nose to the centre; the distance from the wall */
+  double out[2], across, height; /* the horizontal direction from the nose to the centre; the
+                                    distance from the wall */
   if (due->type == CAROM_EVENT_RAIL) {
     const double *line = sim->features->line[due->b];
     out[0] = line[0];
@@ -201,11 +224,13 @@ static void into_nose(const carom_sim *sim, const carom_due *due, const carom_ba
 double carom_height_on_top(const carom_sim *sim, int i, int part) {
   const carom_ball_kind *kind = &sim->ball[i].kind;
   const int jaw = part - sim->features->rails;
-  return carom_nose_height(kind, jaw < 0 ? sim->table->rail[part].height : sim->table->jaw[jaw].height) + kind->radius;
+  return carom_nose_height(kind,
+                           jaw < 0 ? sim->table->rail[part].height : sim->table->jaw[jaw].height) +
+         kind->radius;
 }
 
-void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a, const carom_ball_state *b,
-                          double n[3]) {
+void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a,
+                          const carom_ball_state *b, double n[3]) {
   if (b != NULL)
     carom_line_of_centres(&sim->ball[due->a].kind, a, &sim->ball[due->b].kind, b, n);
   else
@@ -219,7 +244,8 @@ double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const
   return closing;
 }
 
-carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a, carom_ball_state *b) {
+carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a,
+                           carom_ball_state *b) {
   contact c = {.kind_a = &sim->ball[due->a].kind, .a = a, .b = b};
   c.in_space = carom_flies(a);
   carom_contact_normal(sim, due, a, b, c.n);
@@ -230,12 +256,14 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_stat
     c.held_b = c.in_space && !carom_flies(b) && c.n[2] < 0.0;
   }
 
-  /* by the model, or slowly; a ball that the model leaves moving into a cushion parts slowly, as the head says */
+  /* by the model, or slowly; a ball that the model leaves moving into a cushion parts slowly, as
+   * the head says */
   const double slow = carom_slow_speed(sim->slow_instants), before = carom_closing(a, b, c.n);
   carom_status status = CAROM_OK;
   double closing = before;
   if (before >= slow) {
-    status = b != NULL ? carom_model_balls(sim, due, c.n, c.in_space, a, b) : carom_model_cushion(sim, due, c.n, a);
+    status = b != NULL ? carom_model_balls(sim, due, c.n, c.in_space, a, b)
+                       : carom_model_cushion(sim, due, c.n, a);
     closing = b != NULL ? 0.0 : carom_closing(a, NULL, c.n);
   }
   if (before < slow || closing > 0.0) {
@@ -246,5 +274,7 @@ carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_stat
   carom_label_after(c.in_space, c.kind_a, a);
   if (b != NULL)
     carom_label_after(c.in_space, c.kind_b, b);
-  return status < 0 ? status : is_finite(a) && (b == NULL || is_finite(b)) ? CAROM_OK : CAROM_ERROR_OVERFLOW;
+  return status < 0                                    ? status
+         : is_finite(a) && (b == NULL || is_finite(b)) ? CAROM_OK
+                                                       : CAROM_ERROR_OVERFLOW;
 }

@@ -1,5 +1,5 @@
-/* The rules of a world: everything that shots do otherwise in one world than in another. The loop, the detection and the models
- * read them here, and do not ask which world it is. */
+/* The rules of a world: everything that shots do otherwise in one world than in another. The
+ * loop, the detection and the models read them here, and do not ask which world it is. */
 #ifndef CAROM_SRC_SHOT_RULES_H
 #define CAROM_SRC_SHOT_RULES_H
 
@@ -20,16 +20,19 @@ typedef struct carom_rules {
   double least_step;                   /* N s, of Euler's model of a cushion */
   /* Of `count` simultaneous events the one that goes first. */
   carom_due (*choose)(const carom_sim *sim, const carom_due *due, int count);
-  /* The times in [0, T] at which a ball touches the line of a rail, for a gap of g[0] + g[1] t + g[2] t^2, the first one first;
-   * the number of them, 0 to 2. The caller takes the first at which the ball is beside the rail. */
+  /* The times in [0, T] at which a ball touches the line of a rail, for a gap of g[0] + g[1] t +
+   * g[2] t^2, the first one first; the number of them, 0 to 2. The caller takes the first at
+   * which the ball is beside the rail. */
   int (*touch_rail)(const double g[3], double T, double times[2]);
-  /* The first time in [0, T] at which a ball on the cloth touches a jaw or another ball, its centre `reach` away, or falls into
-   * a pocket of a radius; or infinity. */
+  /* The first time in [0, T] at which a ball on the cloth touches a jaw or another ball, its
+   * centre `reach` away, or falls into a pocket of a radius; or infinity. */
   double (*touch_jaw)(const carom_separation *d, double reach, double T);
   double (*touch_ball)(const carom_separation *d, double reach, double T);
   double (*enter_pocket)(const carom_separation *d, double radius, double T);
-  /* A contact of two balls, or of a ball with a rail or a jaw, now; b is NULL then. Changes the states, labels too. */
-  carom_status (*resolve)(carom_sim *sim, const carom_due *due, carom_ball_state *a, carom_ball_state *b);
+  /* A contact of two balls, or of a ball with a rail or a jaw, now; b is NULL then. Changes the
+   * states, labels too. */
+  carom_status (*resolve)(carom_sim *sim, const carom_due *due, carom_ball_state *a,
+                          carom_ball_state *b);
   /* Resolves balls that part, by Euler's model of two balls; NULL: they stay as they are. */
   void (*part_by_steps)(const carom_impact *in, const carom_options *options, carom_result *out);
 } carom_rules;

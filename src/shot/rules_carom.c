@@ -1,9 +1,12 @@
-/* The rules of the world carom: the order of simultaneous events, and which zeros of a gap are contacts.
+/* The rules of the world carom: the order of simultaneous events, and which zeros of a gap are
+ * contacts.
  *
- * Events within 1e-12 s of the earliest count as simultaneous, since rounding decides between them. Of those, balls that fall
- * into pockets come first, then ends of phases on the cloth and balls that leave the table, then contacts, landings among them,
- * the one that closes fastest first; where that too is equal to a part in 1e9, the one of the lower index, and of one ball its
- * landing, then cushions, then balls. So a symmetrical layout is resolved in an order that rounding does not change.
+ * Events within 1e-12 s of the earliest count as simultaneous, since rounding decides between
+ * them. Of those, balls that fall into pockets come first, then ends of phases on the cloth and
+ * balls that leave the table, then contacts, landings among them, the one that closes fastest
+ * first; where that too is equal to a part in 1e9, the one of the lower index, and of one ball
+ * its landing, then cushions, then balls. So a symmetrical layout is resolved in an order that
+ * rounding does not change.
  *
  * A contact is where a gap is 0 and closing (gap.c). */
 #include "motion/gap.h"
@@ -69,7 +72,8 @@ static carom_due choose(const carom_sim *sim, const carom_due *due, int count) {
 /* ---- Contacts */
 
 static int touch_rail(const double g[3], double T, double times[2]) {
-  if (g[0] < -CAROM_BEHIND) { /* coming out of the cushion's back and falling onto it is the only way */
+  if (g[0] < -CAROM_BEHIND) { /* coming out of the cushion's back and falling onto it is the only
+                                 way */
     const double D = g[1] * g[1] - 4.0 * g[2] * g[0];
     times[0] = g[2] < 0.0 && D > 0.0 && g[1] > 0.0 ? (-g[1] - sqrt(D)) / (2.0 * g[2]) : INFINITY;
   } else {
@@ -78,9 +82,12 @@ static int touch_rail(const double g[3], double T, double times[2]) {
   return times[0] <= T;
 }
 
-/* A ball in a pocket's circle is there by rounding, at an event on the circle: a layout has none in there. */
+/* A ball in a pocket's circle is there by rounding, at an event on the circle: a layout has none
+ * in there. */
 static double enter_pocket(const carom_separation *d, double radius, double T) {
-  return d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] <= radius * radius ? 0.0 : carom_first_crossing(d, radius, T);
+  return d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] <= radius * radius
+             ? 0.0
+             : carom_first_crossing(d, radius, T);
 }
 
 static const carom_rules rules = {

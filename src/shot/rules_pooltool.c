@@ -1,15 +1,17 @@
-/* The rules of the world pooltool: all in which its default engine differs, for the same histories.
+/* The rules of the world pooltool: all in which its default engine differs, for the same
+ * histories.
  *
- * ORDER. Only times that are equal as doubles are simultaneous. Of each kind the entry that was computed first leads (in one
- * round: by index), then lower tiers, then higher energies, then the order of kinds: ends of phases, rails, jaws, pockets,
- * pairs.
+ * ORDER. Only times that are equal as doubles are simultaneous. Of each kind the entry that was
+ * computed first leads (in one round: by index), then lower tiers, then higher energies, then
+ * the order of kinds: ends of phases, rails, jaws, pockets, pairs.
  *
- * ZEROS. A rail or a jaw is met wherever the gap is 0, coming or going, and a pocket where its circle is crossed; two balls
- * that overlap collide now, even if they part.
+ * ZEROS. A rail or a jaw is met wherever the gap is 0, coming or going, and a pocket where its
+ * circle is crossed; two balls that overlap collide now, even if they part.
  *
- * CONTACTS. Before the model the things in contact are set 1e-6 m apart along their velocities, the clock standing still; where
- * that would take them farther than 5e-6 m, along the line between them instead. After the collision of two balls that keep
- * touching, at less than 1 cm/s and in nearly the same direction, a tenth of the faster normal velocity passes from one to the
+ * CONTACTS. Before the model the things in contact are set 1e-6 m apart along their velocities,
+ * the clock standing still; where that would take them farther than 5e-6 m, along the line
+ * between them instead. After the collision of two balls that keep touching, at less than 1 cm/s
+ * and in nearly the same direction, a tenth of the faster normal velocity passes from one to the
  * other. Every ball slides then.
  *
  * Source: pooltool, commit 9a8abfe0. */
@@ -21,8 +23,9 @@
 #include <math.h>
 #include <stddef.h>
 
-static const double root_least = 2.220446049250313e-14; /* s: pooltool's EPS; earlier zeros are no contact with a rail */
-static const double spacer = 1e-6, longest = 5e-6;      /* m */
+/* s: pooltool's EPS; earlier zeros are no contact with a rail */
+static const double root_least = 2.220446049250313e-14;
+static const double spacer = 1e-6, longest = 5e-6; /* m */
 
 /* ---- ORDER */
 
@@ -32,7 +35,8 @@ static double energy_of(const carom_sim *sim, int i) {
   carom_path_at(&sim->path[i], &sim->rates[i], sim->now, &s);
   const double v2 = s.v[0] * s.v[0] + s.v[1] * s.v[1] + s.v[2] * s.v[2],
                w2 = s.w[0] * s.w[0] + s.w[1] * s.w[1] + s.w[2] * s.w[2];
-  return 0.5 * k->mass * v2 + 0.5 * 0.4 * k->mass * k->radius * k->radius * w2 + k->mass * k->gravity * (s.r[2] - k->radius);
+  return 0.5 * k->mass * v2 + 0.5 * 0.4 * k->mass * k->radius * k->radius * w2 +
+         k->mass * k->gravity * (s.r[2] - k->radius);
 }
 
 static double energy_of_event(const carom_sim *sim, const carom_due *due) {
@@ -98,12 +102,15 @@ static int touch_rail(const double g[3], double T, double times[2]) {
 }
 
 static double touch_ball(const carom_separation *d, double reach, double T) {
-  return d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] < reach * reach ? 0.0 : carom_first_crossing(d, reach, T);
+  return d->d0[0] * d->d0[0] + d->d0[1] * d->d0[1] < reach * reach
+             ? 0.0
+             : carom_first_crossing(d, reach, T);
 }
 
 /* ---- CONTACTS */
 
-/* The zero of smallest size of a t^2 + b t + c; those that are nearly real count. NaN if there is none. */
+/* The zero of smallest size of a t^2 + b t + c; those that are nearly real count. NaN if there
+ * is none. */
 static double nearest_zero(double a, double b, double c) {
   double zero[2];
   const int zeros = carom_quadratic_zeros(a, b, c, zero);
@@ -117,8 +124,10 @@ static double nearest_zero(double a, double b, double c) {
 /* Two balls, set apart; n becomes the direction from a to b. False where pooltool has no answer. */
 static bool kiss_balls(double R, double n[2], carom_ball_state *a, carom_ball_state *b) {
   const double reach = 2.0 * R + spacer;
-  const double x = b->r[0] - a->r[0], y = b->r[1] - a->r[1], v_x = b->v[0] - a->v[0], v_y = b->v[1] - a->v[1];
-  const double t = nearest_zero(v_x * v_x + v_y * v_y, 2.0 * (x * v_x + y * v_y), x * x + y * y - reach * reach);
+  const double x = b->r[0] - a->r[0], y = b->r[1] - a->r[1], v_x = b->v[0] - a->v[0],
+               v_y = b->v[1] - a->v[1];
+  const double t =
+      nearest_zero(v_x * v_x + v_y * v_y, 2.0 * (x * v_x + y * v_y), x * x + y * y - reach * reach);
   if (isnan(t))
     return false;
   const double m_x = 0.5 * t * (a->v[0] + b->v[0]), m_y = 0.5 * t * (a->v[1] + b->v[1]);
@@ -138,11 +147,13 @@ static bool kiss_balls(double R, double n[2], carom_ball_state *a, carom_ball_st
 
 /* See above. n from a to b. */
 static void keep_touching(const double n[2], carom_ball_state *a, carom_ball_state *b) {
-  const double speed_a = sqrt(a->v[0] * a->v[0] + a->v[1] * a->v[1]), speed_b = sqrt(b->v[0] * b->v[0] + b->v[1] * b->v[1]);
+  const double speed_a = sqrt(a->v[0] * a->v[0] + a->v[1] * a->v[1]),
+               speed_b = sqrt(b->v[0] * b->v[0] + b->v[1] * b->v[1]);
   if (!(speed_a > 0.0 && speed_b > 0.0))
     return;
   const double p = a->v[0] * n[0] + a->v[1] * n[1], q = b->v[0] * n[0] + b->v[1] * n[1];
-  if (!(fabs(q - p) < 0.01) || !((a->v[0] * b->v[0] + a->v[1] * b->v[1]) / (speed_a * speed_b) > 0.9))
+  if (!(fabs(q - p) < 0.01) ||
+      !((a->v[0] * b->v[0] + a->v[1] * b->v[1]) / (speed_a * speed_b) > 0.9))
     return;
   const double passed = p > q ? 0.1 * p : -0.1 * q;
   for (int k = 0; k < 2; k++) {
@@ -152,12 +163,14 @@ static void keep_touching(const double n[2], carom_ball_state *a, carom_ball_sta
 }
 
 /* Sets the ball at the spacer's distance from a rail; n becomes the direction into it. */
-static void kiss_rail(const carom_rail *rail, const double line[3], double R, double n[2], carom_ball_state *s) {
+static void kiss_rail(const carom_rail *rail, const double line[3], double R, double n[2],
+                      carom_ball_state *s) {
   const double reach = R + spacer;
   const double turn = line[0] * s->v[0] + line[1] * s->v[1] > 0.0 ? 1.0 : -1.0;
   n[0] = turn * line[0];
   n[1] = turn * line[1];
-  const double d = (s->r[0] - rail->p[0]) * n[0] + (s->r[1] - rail->p[1]) * n[1], v = s->v[0] * n[0] + s->v[1] * n[1];
+  const double d = (s->r[0] - rail->p[0]) * n[0] + (s->r[1] - rail->p[1]) * n[1],
+               v = s->v[0] * n[0] + s->v[1] * n[1];
   const double t1 = (reach - d) / v, t2 = (-reach - d) / v, t = fabs(t1) < fabs(t2) ? t1 : t2;
   const double speed = sqrt(s->v[0] * s->v[0] + s->v[1] * s->v[1]);
   if (fabs(t) * speed <= longest) {
@@ -172,8 +185,10 @@ static void kiss_rail(const carom_rail *rail, const double line[3], double R, do
 
 static bool kiss_jaw(const carom_jaw *jaw, double R, double n[2], carom_ball_state *s) {
   const double reach = R + jaw->radius + spacer;
-  const double x = s->r[0] - jaw->centre[0], y = s->r[1] - jaw->centre[1], v2 = s->v[0] * s->v[0] + s->v[1] * s->v[1];
-  const double t = nearest_zero(v2, 2.0 * (x * s->v[0] + y * s->v[1]), x * x + y * y - reach * reach);
+  const double x = s->r[0] - jaw->centre[0], y = s->r[1] - jaw->centre[1],
+               v2 = s->v[0] * s->v[0] + s->v[1] * s->v[1];
+  const double t =
+      nearest_zero(v2, 2.0 * (x * s->v[0] + y * s->v[1]), x * x + y * y - reach * reach);
   if (isnan(t))
     return false;
   if (fabs(t) * sqrt(v2) <= longest) {
@@ -189,7 +204,8 @@ static bool kiss_jaw(const carom_jaw *jaw, double R, double n[2], carom_ball_sta
   return true;
 }
 
-static bool kiss_cushion(const carom_sim *sim, const carom_due *due, double n[2], carom_ball_state *s) {
+static bool kiss_cushion(const carom_sim *sim, const carom_due *due, double n[2],
+                         carom_ball_state *s) {
   const double R = sim->rates[due->a].radius;
   if (due->type == CAROM_EVENT_JAW)
     return kiss_jaw(&sim->table->jaw[due->b], R, n, s);
@@ -197,11 +213,13 @@ static bool kiss_cushion(const carom_sim *sim, const carom_due *due, double n[2]
   return true;
 }
 
-static carom_status resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a, carom_ball_state *b) {
+static carom_status resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a,
+                            carom_ball_state *b) {
   double n[3] = {0.0};
   if (!(b != NULL ? kiss_balls(sim->rates[due->a].radius, n, a, b) : kiss_cushion(sim, due, n, a)))
     return CAROM_ERROR_UNRESOLVED;
-  const carom_status status = b != NULL ? carom_model_balls(sim, due, n, false, a, b) : carom_model_cushion(sim, due, n, a);
+  const carom_status status =
+      b != NULL ? carom_model_balls(sim, due, n, false, a, b) : carom_model_cushion(sim, due, n, a);
   a->label = CAROM_BALL_SLIDING;
   if (b == NULL || status < 0)
     return status < 0 ? status : CAROM_OK;
@@ -210,14 +228,16 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, carom_ball_sta
   return CAROM_OK;
 }
 
-/* Balls that part, as balls may that the spacers push into each other in a rack: pooltool takes its steps of Euler's method
- * nevertheless. The first ends the compression, the second the restitution, so the balls part faster by 2 (1 + e) / N of their
- * speed. Balls that neither part nor close stay as they are; its loop has no end there. */
+/* Balls that part, as balls may that the spacers push into each other in a rack: pooltool takes
+ * its steps of Euler's method nevertheless. The first ends the compression, the second the
+ * restitution, so the balls part faster by 2 (1 + e) / N of their speed. Balls that neither part
+ * nor close stay as they are; its loop has no end there. */
 static void part_by_steps(const carom_impact *in, const carom_options *options, carom_result *out) {
   const carom_frame frame = carom_frame_of(in);
   carom_local local = carom_to_frame(&frame, in, options->slip);
   carom_euler_run run;
-  if (local.v_jy > local.v_iy && carom_euler(&local, carom_steps(options), INT64_MAX, &run) == CAROM_OK)
+  if (local.v_jy > local.v_iy &&
+      carom_euler(&local, carom_steps(options), INT64_MAX, &run) == CAROM_OK)
     carom_from_frame(&frame, &local, out);
 }
 

@@ -1,4 +1,5 @@
-/* The loop of a shot: find the next event, bring the balls in it there, resolve it, and look for their next meetings. */
+/* The loop of a shot: find the next event, bring the balls in it there, resolve it, and look for
+ * their next meetings. */
 #include "motion/strike.h"
 #include "platform/threads.h"
 #include "shot/cluster.h"
@@ -85,7 +86,8 @@ static inline carom_event *note(carom_sim *sim, carom_event *spare, const carom_
   return event;
 }
 
-/* Resolves an event: event->before to the paths of its balls. The change itself is made in path->from. */
+/* Resolves an event: event->before to the paths of its balls. The change itself is made in
+ * path->from. */
 static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_event *event) {
   const int i = due->a, j = due->b;
   carom_ball_state *state = &sim->path[i].from;
@@ -100,7 +102,8 @@ static carom_status resolve(carom_sim *sim, const carom_due *due, const carom_ev
     return sim->rules->resolve(sim, due, state, NULL);
   case CAROM_EVENT_POCKET: {
     const carom_pocket *pocket = &sim->table->pocket[j];
-    *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth}, .label = CAROM_BALL_POCKETED};
+    *state = (carom_ball_state){.r = {pocket->centre[0], pocket->centre[1], -pocket->depth},
+                                .label = CAROM_BALL_POCKETED};
     return CAROM_OK;
   }
   case CAROM_EVENT_SLATE:
@@ -126,10 +129,12 @@ static bool is_finite(const carom_ball_state *s) {
   return isfinite(s->v[0] + s->v[1] + s->v[2] + s->w[0] + s->w[1] + s->w[2]);
 }
 
-/* The contact that is due with all that lasts at the same time. Returns false where there is nothing else. Each contact is an
- * event. A ball changes at its first one, and has the same state before and after the others. *due becomes the first
- * contact of the struck ball, where it has one. Apart, as a cluster needs 20 KiB of stack. */
-__attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *due, carom_status *status) {
+/* The contact that is due with all that lasts at the same time. Returns false where there is
+ * nothing else. Each contact is an event. A ball changes at its first one, and has the same
+ * state before and after the others. *due becomes the first contact of the struck ball, where it
+ * has one. Apart, as a cluster needs 20 KiB of stack. */
+__attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_due *due,
+                                                          carom_status *status) {
   carom_cluster_state c;
   uint8_t order[CAROM_CLUSTER_CONTACTS];
   const int count = carom_cluster_now(sim, due->a, due->b, &c, order);
@@ -173,10 +178,12 @@ __attribute__((noinline, cold)) static bool step_together(carom_sim *sim, carom_
 /* Whether a contact may be one of several that last. */
 static inline bool may_last(const carom_sim *sim, const carom_due *due) {
   const carom_shot_options *opt = sim->opt;
-  const carom_ball_model model = opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? opt->ball_model : sim->rules->ball_model;
-  return due->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters && opt->simultaneous == CAROM_SIMULTANEOUS_CLUSTER &&
-         (model == CAROM_BALL_MODEL_EXACT || model == CAROM_BALL_MODEL_MIRROR) && sim->one_by_one != sim->now &&
-         carom_third_is_near(sim, due->a, due->b);
+  const carom_ball_model model =
+      opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? opt->ball_model : sim->rules->ball_model;
+  return due->type == CAROM_EVENT_BALL_BALL && sim->rules->clusters &&
+         opt->simultaneous == CAROM_SIMULTANEOUS_CLUSTER &&
+         (model == CAROM_BALL_MODEL_EXACT || model == CAROM_BALL_MODEL_MIRROR) &&
+         sim->one_by_one != sim->now && carom_third_is_near(sim, due->a, due->b);
 }
 
 /* One event, or those of a cluster. */
@@ -227,7 +234,8 @@ static carom_status strike(carom_sim *sim) {
   const int i = (int)cue->ball;
   carom_motion motion;
   const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
-  const carom_status status = (flat ? carom_strike : carom_strike_in_space)(cue, &sim->ball[i].kind, &motion);
+  const carom_status status =
+      (flat ? carom_strike : carom_strike_in_space)(cue, &sim->ball[i].kind, &motion);
   if (status < 0)
     return status;
   const carom_due due = {0.0, CAROM_EVENT_STRIKE, i, -1};
@@ -272,8 +280,8 @@ static bool stops_at(carom_sim *sim, int type, int a, int b) {
   return ((contact ? CAROM_STOP_AT_CONTACT : 0) | CAROM_STOP_AT(type)) & sim->opt->stop_at;
 }
 
-/* From event to event, until nothing moves or the shot is to stop. Nothing is changed by stopping, so the loop goes on later as
- * if it had not. */
+/* From event to event, until nothing moves or the shot is to stop. Nothing is changed by
+ * stopping, so the loop goes on later as if it had not. */
 static carom_status go_on(carom_sim *sim) {
   const int64_t events_most = sim->opt->events_most > 0 ? sim->opt->events_most : 10000;
   const double time_most = sim->opt->time_most > 0.0 ? sim->opt->time_most : 1000.0;
@@ -299,7 +307,8 @@ static carom_status go_on(carom_sim *sim) {
       sim->shot->time = sim->now = carom_greater(sim->now, due.time);
       return CAROM_ERROR_LEFT_TABLE;
     }
-    sim->now = carom_greater(sim->now, due.time); /* of simultaneous events one may have been found a trace earlier */
+    /* of simultaneous events one may have been found a trace earlier */
+    sim->now = carom_greater(sim->now, due.time);
     sim->round++;
     status = step(sim, &due);
     if (status == CAROM_OK && stops_at(sim, due.type, due.a, due.b))
@@ -313,7 +322,8 @@ static carom_status finish(carom_sim *sim, carom_status status) {
   carom_shot *shot = sim->shot;
   for (int i = 0; shot->final != NULL && i < sim->count; i++)
     carom_path_at(&sim->path[i], &sim->rates[i], shot->time, &shot->final[i]);
-  const bool goes_on = status >= 0 || status == CAROM_ERROR_TOO_LONG || status == CAROM_ERROR_TOO_MANY_EVENTS;
+  const bool goes_on =
+      status >= 0 || status == CAROM_ERROR_TOO_LONG || status == CAROM_ERROR_TOO_MANY_EVENTS;
   if (shot->state != NULL && goes_on)
     carom_state_save(sim, shot->state);
   else if (shot->state != NULL)
@@ -327,12 +337,15 @@ static carom_status start(carom_sim *sim) {
   if (status != CAROM_OK)
     return status;
   carom_detect_all(sim);
-  return sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1) ? CAROM_STOPPED_AT_EVENT : CAROM_OK;
+  return sim->shot->count > 0 && stops_at(sim, CAROM_EVENT_STRIKE, sim->struck, -1)
+             ? CAROM_STOPPED_AT_EVENT
+             : CAROM_OK;
 }
 
 /* With arguments that have been checked: a shot from its strike, or on from shot->state. */
-static carom_status shoot(const carom_table *table, const carom_features *features, const carom_shot_ball *balls, int count,
-                          const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot, bool anew) {
+static carom_status shoot(const carom_table *table, const carom_features *features,
+                          const carom_shot_ball *balls, int count, const carom_cue *cue,
+                          const carom_shot_options *opt, carom_shot *shot, bool anew) {
   carom_sim sim;
   if (!anew)
     memcpy(&sim, shot->state, sizeof sim);
@@ -378,20 +391,22 @@ static void clear(carom_shot *shot) {
 }
 
 /* *features are prepared for the radius of these balls, unless they are so already. */
-static carom_status shoot_checked(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
-                                  const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
+static carom_status shoot_checked(const carom_table *table, carom_features *features,
+                                  const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                  const carom_shot_options *opt, carom_shot *shot) {
   int where;
   const carom_status bad = carom_check_layout(table, features, balls, count, cue, opt, &where);
   return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot, true);
 }
 
 static carom_status check_room(const carom_shot *shot) {
-  const bool good = shot->room == 0 || (shot->room > 0 && (shot->events != NULL || shot->brief != NULL));
+  const bool good =
+      shot->room == 0 || (shot->room > 0 && (shot->events != NULL || shot->brief != NULL));
   return good ? CAROM_OK : CAROM_ERROR_ROOM;
 }
 
-carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
-                         const carom_shot_options *opt, carom_shot *shot) {
+carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls, int count,
+                         const carom_cue *cue, const carom_shot_options *opt, carom_shot *shot) {
   if (table == NULL || balls == NULL || shot == NULL)
     return CAROM_ERROR_NULL;
   carom_status bad = check_room(shot);
@@ -532,8 +547,8 @@ static void replay_states(replay *at, double time, carom_ball_state *states) {
   }
 }
 
-carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const carom_shot *shot, const double *times, size_t n,
-                                 carom_ball_state *states) {
+carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const carom_shot *shot,
+                                 const double *times, size_t n, carom_ball_state *states) {
   if (balls == NULL || shot == NULL || (n > 0 && (times == NULL || states == NULL)))
     return CAROM_ERROR_NULL;
   const carom_status bad = check_room(shot);
@@ -568,7 +583,7 @@ carom_status carom_shot_at_times(const carom_shot_ball *balls, int count, const 
   return CAROM_OK;
 }
 
-carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot, double time,
-                           carom_ball_state *states) {
+carom_status carom_shot_at(const carom_shot_ball *balls, int count, const carom_shot *shot,
+                           double time, carom_ball_state *states) {
   return carom_shot_at_times(balls, count, shot, &time, 1, states);
 }

@@ -1,5 +1,5 @@
-/* A shot on its way, which the parts of this room share. One of these stands on the stack of carom_shoot(), nothing is
- * allocated. */
+/* A shot on its way, which the parts of this room share. One of these stands on the stack of
+ * carom_shoot(), nothing is allocated. */
 #ifndef CAROM_SRC_SHOT_SIM_H
 #define CAROM_SRC_SHOT_SIM_H
 
@@ -9,7 +9,8 @@
 /* The next meeting of a ball with the table. */
 typedef struct carom_meeting {
   double time;
-  int type, part; /* a carom_event_type, or 0 where it leaves the table on the cloth; the index of rail, jaw or pocket */
+  int type, part; /* a carom_event_type, or 0 where it leaves the table on the cloth; the index
+                     of rail, jaw or pocket */
 } carom_meeting;
 
 struct carom_rules;
@@ -28,23 +29,29 @@ typedef struct carom_sim {
   int count, struck; /* struck: the cue ball */
   carom_world world;
   bool met;    /* the cue ball has met another */
-  bool unlike; /* radii differ from each other or from the table's reference: contacts are those of spheres in space */
+  bool unlike; /* radii differ from each other or from the table's reference: contacts are those
+                  of spheres in space */
   int flying;  /* airborne balls */
   double now;
   int64_t slow_instants; /* that had a slow contact, so far; see resolve.c */
   double slow_last;      /* s: the last of them */
-  double one_by_one;     /* s: the instant of a cluster that took too many steps; its contacts are resolved one by one */
+  double one_by_one;     /* s: the instant of a cluster that took too many steps; its contacts
+                            are resolved one by one */
   int64_t round;         /* events so far: tells when an entry below was computed */
   carom_ball_rates rates[CAROM_BALLS_MOST];
   carom_path path[CAROM_BALLS_MOST];
   /* the paths once more, in columns: those of pairs are searched many at a time */
-  double x[CAROM_BALLS_MOST], y[CAROM_BALLS_MOST], v_x[CAROM_BALLS_MOST], v_y[CAROM_BALLS_MOST], a_x[CAROM_BALLS_MOST],
-      a_y[CAROM_BALLS_MOST], start[CAROM_BALLS_MOST], horizon[CAROM_BALLS_MOST];
-  double z[CAROM_BALLS_MOST], v_z[CAROM_BALLS_MOST], a_z[CAROM_BALLS_MOST]; /* R, 0 and 0 but for airborne balls */
-  carom_meeting meeting[CAROM_BALLS_MOST];                                  /* with the table */
-  double pair[CAROM_BALLS_MOST][CAROM_BALLS_MOST]; /* when i < j meet; infinite where not before a path ends */
+  double x[CAROM_BALLS_MOST], y[CAROM_BALLS_MOST], v_x[CAROM_BALLS_MOST], v_y[CAROM_BALLS_MOST],
+      a_x[CAROM_BALLS_MOST], a_y[CAROM_BALLS_MOST], start[CAROM_BALLS_MOST],
+      horizon[CAROM_BALLS_MOST];
+  /* R, 0 and 0 but for airborne balls */
+  double z[CAROM_BALLS_MOST], v_z[CAROM_BALLS_MOST], a_z[CAROM_BALLS_MOST];
+  carom_meeting meeting[CAROM_BALLS_MOST]; /* with the table */
+  /* when i < j meet; infinite where not before a path ends */
+  double pair[CAROM_BALLS_MOST][CAROM_BALLS_MOST];
   int32_t pair_round[CAROM_BALLS_MOST][CAROM_BALLS_MOST], meeting_round[CAROM_BALLS_MOST];
-  double own[CAROM_BALLS_MOST];   /* the end of the ball's phase or its meeting, whichever is earlier */
+  double own[CAROM_BALLS_MOST];   /* the end of the ball's phase or its meeting, whichever is
+                                     earlier */
   double first[CAROM_BALLS_MOST]; /* of row i of pair[] */
   int8_t first_with[CAROM_BALLS_MOST];
 } carom_sim;
@@ -52,11 +59,12 @@ typedef struct carom_sim {
 /* An event that is due. */
 typedef struct carom_due {
   double time;
-  int type, a, b; /* type 0: ball a leaves the table; -1: nothing will happen any more; or CAROM_DUE_PIECE */
+  int type, a, b; /* type 0: ball a leaves the table; -1: nothing will happen any more; or
+                     CAROM_DUE_PIECE */
 } carom_due;
 
-/* Beside the types of events: another piece of ball a's path begins, and nobody is told. In the order of simultaneous events it
- * counts as an end of a phase. */
+/* Beside the types of events: another piece of ball a's path begins, and nobody is told. In the
+ * order of simultaneous events it counts as an end of a phase. */
 enum { CAROM_DUE_PIECE = CAROM_EVENT_LEFT_TABLE + 1 };
 
 /* Whether contacts are looked for in space, and not on the cloth alone. */
@@ -64,11 +72,13 @@ static inline bool carom_in_space(const carom_sim *sim) {
   return sim->flying > 0 || sim->unlike;
 }
 
-/* resolve.c: the height of ball i's centre on the top of rail `part`, or of jaw `part` less the rails. */
+/* resolve.c: the height of ball i's centre on the top of rail `part`, or of jaw `part` less the
+ * rails. */
 double carom_height_on_top(const carom_sim *sim, int i, int part);
-/* flight.c: the first meeting of airborne ball i with the table, from r with v now, its time from now on; landing: the time until it
- * would land. */
-carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3], const double v[3], double landing);
+/* flight.c: the first meeting of airborne ball i with the table, from r with v now, its time
+ * from now on; landing: the time until it would land. */
+carom_meeting carom_meet_in_flight(const carom_sim *sim, int i, const double r[3],
+                                   const double v[3], double landing);
 
 /* detect.c: looks again for all that balls i and j can meet, from now on; j may be -1. */
 void carom_detect(carom_sim *sim, int i, int j);
@@ -87,12 +97,14 @@ void carom_state_seal(carom_shot_state *state);
 /* next.c: the next event. */
 carom_due carom_next(const carom_sim *sim);
 
-/* resolve.c: a contact in the world carom of two balls, or of a ball with a rail or a jaw, now; b is NULL then. Changes the
- * states, labels too. */
-carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a, carom_ball_state *b);
-/* The unit vector from ball a to ball b, or into the cushion; and how fast the two close along it, m/s. */
-void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a, const carom_ball_state *b,
-                          double n[3]);
+/* resolve.c: a contact in the world carom of two balls, or of a ball with a rail or a jaw, now;
+ * b is NULL then. Changes the states, labels too. */
+carom_status carom_resolve(carom_sim *sim, const carom_due *due, carom_ball_state *a,
+                           carom_ball_state *b);
+/* The unit vector from ball a to ball b, or into the cushion; and how fast the two close along
+ * it, m/s. */
+void carom_contact_normal(const carom_sim *sim, const carom_due *due, const carom_ball_state *a,
+                          const carom_ball_state *b, double n[3]);
 double carom_closing(const carom_ball_state *a, const carom_ball_state *b, const double n[3]);
 /* The speed below which contacts are slow, after so many instants that had one. */
 double carom_slow_speed(int64_t instants);
@@ -103,27 +115,33 @@ typedef struct carom_nose {
   double mu_cushion, restitution; /* 0: those of the ball */
 } carom_nose;
 
-/* models.c: v and w after a collision by the model asked for. n: unit vector from ball i to ball j, or into the cushion. Balls
- * `in_space` are not both on the cloth, or have unlike radii: they collide as spheres; an airborne ball meets a nose with less
- * of the cloth the higher it is. */
-carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3], bool in_space,
-                               carom_ball_state *a, carom_ball_state *b);
-carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3], carom_ball_state *state);
+/* models.c: v and w after a collision by the model asked for. n: unit vector from ball i to ball
+ * j, or into the cushion. Balls `in_space` are not both on the cloth, or have unlike radii: they
+ * collide as spheres; an airborne ball meets a nose with less of the cloth the higher it is. */
+carom_status carom_model_balls(const carom_sim *sim, const carom_due *due, const double n[3],
+                               bool in_space, carom_ball_state *a, carom_ball_state *b);
+carom_status carom_model_cushion(const carom_sim *sim, const carom_due *due, const double n[3],
+                                 carom_ball_state *state);
 /* The unit vector from ball a to ball b, in space. A ball on the cloth is at z = R exactly. */
-void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a, const carom_ball_kind *kind_b,
-                           const carom_ball_state *b, double n[3]);
+void carom_line_of_centres(const carom_ball_kind *kind_a, const carom_ball_state *a,
+                           const carom_ball_kind *kind_b, const carom_ball_state *b, double n[3]);
 carom_nose carom_nose_of(const carom_table *table, const carom_due *due);
-/* resolve.c: the phase of a ball after a contact, which may have lifted it or pushed it down if it was in space. */
+/* resolve.c: the phase of a ball after a contact, which may have lifted it or pushed it down if
+ * it was in space. */
 void carom_label_after(bool in_space, const carom_ball_kind *kind, carom_ball_state *s);
-/* models.c: friction of a ball with others, over the slip: its own law, or Alciatore's. A pair has the mean. */
+/* models.c: friction of a ball with others, over the slip: its own law, or Alciatore's. A pair
+ * has the mean. */
 carom_speed_law carom_law_of_ball(const carom_ball_kind *kind);
 
 /* check.c: the options of a shot; and a ball by itself. */
 carom_status carom_check_shot_options(const carom_shot_options *opt);
 carom_status carom_check_ball(const carom_shot_ball *ball, bool flat);
 /* The arguments that the shots of a batch share. */
-carom_status carom_check_common(const carom_table *table, int64_t count, const carom_shot_options *opt, int *where);
-/* One layout with its cue. Prepares the table for the radii of the balls, where *features are for others. */
-carom_status carom_check_layout(const carom_table *table, carom_features *features, const carom_shot_ball *balls, int count,
-                                const carom_cue *cue, const carom_shot_options *opt, int *where);
+carom_status carom_check_common(const carom_table *table, int64_t count,
+                                const carom_shot_options *opt, int *where);
+/* One layout with its cue. Prepares the table for the radii of the balls, where *features are
+ * for others. */
+carom_status carom_check_layout(const carom_table *table, carom_features *features,
+                                const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                const carom_shot_options *opt, int *where);
 #endif

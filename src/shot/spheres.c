@@ -1,18 +1,24 @@
 /* The impact of two spheres along any line of centres, of any radii and masses.
  *
- * n is the unit vector from a to b, B = 1/m_a + 1/m_b, v_n = (v_a - v_b) . n > 0 the closing speed, e the restitution:
+ * n is the unit vector from a to b, B = 1/m_a + 1/m_b, v_n = (v_a - v_b) . n > 0 the closing
+ * speed, e the restitution:
  *
- *   u = v_a - v_b - v_n n + (R_a w_a + R_b w_b) x n                    the slip of a's surface on b's, across n
- *   J = (1 + e) v_n / B,   J_t = min(mu J, |u| / (7/2 B)),   t = u/|u|     the impulses along n and against t
+ *   u = v_a - v_b - v_n n + (R_a w_a + R_b w_b) x n                    the slip of a's surface on
+ *                                                                      b's, across n
+ *   J = (1 + e) v_n / B,   J_t = min(mu J, |u| / (7/2 B)),   t = u/|u|
+ *   the impulses along n and against t
  *   v_a -= (J n + J_t t) / m_a           v_b += (J n + J_t t) / m_b
  *   w_a -= 5 J_t / (2 m_a R_a) n x t     w_b -= 5 J_t / (2 m_b R_b) n x t
  *
- * A solid sphere's inertia 2/5 m R^2 makes the radii drop out of the tangential mass: an impulse J_t against t takes 7/2 B J_t
- * from |u|, whatever the radii, and does not turn u. So one branch is exact for Coulomb's friction. Momentum is kept, and
+ * A solid sphere's inertia 2/5 m R^2 makes the radii drop out of the tangential mass: an impulse
+ * J_t against t takes 7/2 B J_t from |u|, whatever the radii, and does not turn u. So one branch
+ * is exact for Coulomb's friction. Momentum is kept, and
  *
- *   dE = -(1 - e^2) v_n^2 / (2 B) - J_t (|u| - 7/4 B J_t) <= 0,   the bracket being at least |u|/2.
+ *   dE = -(1 - e^2) v_n^2 / (2 B) - J_t (|u| - 7/4 B J_t) <= 0,   the bracket being at least
+ *                                                                 |u|/2.
  *
- * The cloth takes no part: a ball on it that is pressed down lands on it afterwards (fixed.c), as the balls part within 0.2 ms.
+ * The cloth takes no part: a ball on it that is pressed down lands on it afterwards (fixed.c),
+ * as the balls part within 0.2 ms.
  */
 #include "shot/spheres.h"
 
@@ -63,8 +69,10 @@ double carom_spheres_slip(const carom_impact *in, const double n[3]) {
 void carom_spheres_collide(const carom_impact *in, const double n[3], carom_result *out) {
   const carom_ball *a = &in->a, *b = &in->b;
   double u[3], turn[3];
-  const double v_n = relative_motion(in, n, u), slip = size_of(u), B = 1.0 / a->mass + 1.0 / b->mass;
-  const double J = (1.0 + in->restitution) * v_n / B, stops = slip / (3.5 * B), most = in->mu_ball * J;
+  const double v_n = relative_motion(in, n, u), slip = size_of(u),
+               B = 1.0 / a->mass + 1.0 / b->mass;
+  const double J = (1.0 + in->restitution) * v_n / B, stops = slip / (3.5 * B),
+               most = in->mu_ball * J;
   double J_t = most < stops ? most : stops;
   /* u becomes the direction t; where it is 0, J_t t stays u / (7/2 B), which has derivatives */
   if (slip > 0.0) {
@@ -151,7 +159,8 @@ static carom_status solve(const carom_impact *in, carom_result *out) {
   if (!in_range(in, v_n, size_of(u)))
     return CAROM_ERROR_OVERFLOW;
   carom_spheres_collide(in, n, out);
-  const bool good = all_finite(out->a.v) && all_finite(out->a.w) && all_finite(out->b.v) && all_finite(out->b.w);
+  const bool good =
+      all_finite(out->a.v) && all_finite(out->a.w) && all_finite(out->b.v) && all_finite(out->b.w);
   return good ? CAROM_OK : CAROM_ERROR_OVERFLOW;
 }
 

@@ -5,7 +5,8 @@
 #include "carom_shot.h"
 #include "platform/arithmetic.h"
 
-/* The speed at which the surface of ball a slips on that of b, m/s. n: unit vector from a to b; positions are not read. */
+/* The speed at which the surface of ball a slips on that of b, m/s. n: unit vector from a to b;
+ * positions are not read. */
 double carom_spheres_slip(const carom_impact *in, const double n[3]);
 
 /* The motion after the impact of balls that close along n. */

@@ -1,11 +1,13 @@
-/* A stopped shot in the keeping of the caller, so that it can go on: carom_shot_state has the carom_sim of the shot.
+/* A stopped shot in the keeping of the caller, so that it can go on: carom_shot_state has the
+ * carom_sim of the shot.
  *
- * The caller may have kept it in a file, so nothing in it is believed. A state is taken only with its seal, which depends on
- * each of its bits; then every index and number is checked nevertheless. A number that follows from others of the state must have
- * their bits: a path those with which it begins at its start, columns and firsts those that detect.c derives.
+ * The caller may have kept it in a file, so nothing in it is believed. A state is taken only
+ * with its seal, which depends on each of its bits; then every index and number is checked
+ * nevertheless. A number that follows from others of the state must have their bits: a path
+ * those with which it begins at its start, columns and firsts those that detect.c derives.
  *
- * With the state are kept fingerprints of the table, the balls and the options that it is of, so that it does not go on with
- * others. */
+ * With the state are kept fingerprints of the table, the balls and the options that it is of, so
+ * that it does not go on with others. */
 #include "shot/rules.h"
 #include "shot/sim.h"
 
@@ -14,18 +16,21 @@
 
 /* The first number of a state: another version, or another layout, is refused. */
 static const uint64_t resumable = (uint64_t)CAROM_VERSION_NUMBER << 32 | sizeof(carom_sim);
-_Static_assert(sizeof(carom_sim) <= sizeof(carom_shot_state), "a shot on its way fits what callers keep of it");
+_Static_assert(sizeof(carom_sim) <= sizeof(carom_shot_state),
+               "a shot on its way fits what callers keep of it");
 
 /* ---- Fingerprints */
 
-/* A step of a fingerprint: one to one for each word, so that a change of one word always changes the result. */
+/* A step of a fingerprint: one to one for each word, so that a change of one word always changes
+ * the result. */
 static inline uint64_t stir(uint64_t h, uint64_t word) {
   static const uint64_t odd = 0x9e3779b97f4a7c15u; /* 2^64 over the golden ratio */
   h ^= word;
   return (h << 27 | h >> 37) * odd;
 }
 
-/* The fingerprint of some words of 8 bytes, and of those before. Four chains, as each step waits for the one before. */
+/* The fingerprint of some words of 8 bytes, and of those before. Four chains, as each step waits
+ * for the one before. */
 static uint64_t fingerprint(uint64_t before, const void *bytes, size_t size) {
   enum { CHAINS = 4 };
   const unsigned char *at = (const unsigned char *)bytes;
@@ -60,7 +65,8 @@ static uint64_t of_options(const carom_shot_options *o) {
   const uint64_t words[] = {(uint32_t)o->world | (uint64_t)(uint32_t)o->ball_model << 32,
                             (uint32_t)o->cushion_model | (uint64_t)(uint32_t)o->friction << 32,
                             (uint32_t)o->space | (uint64_t)(uint32_t)o->steps << 32,
-                            (uint32_t)o->plain | (uint64_t)(uint32_t)o->simultaneous << 32, (uint32_t)o->cluster_steps};
+                            (uint32_t)o->plain | (uint64_t)(uint32_t)o->simultaneous << 32,
+                            (uint32_t)o->cluster_steps};
   return fingerprint(0, words, sizeof words);
 }
 
@@ -76,7 +82,8 @@ enum { SEAL = 1, SEALED = 2 }; /* words of a state: its seal, and the first afte
 _Static_assert(offsetof(carom_sim, seal) == SEAL * sizeof(uint64_t), "the seal is the second word");
 
 static uint64_t seal_of(const carom_shot_state *state) {
-  return fingerprint(resumable, state->opaque + SEALED, sizeof(carom_sim) - SEALED * sizeof(uint64_t));
+  return fingerprint(resumable, state->opaque + SEALED,
+                     sizeof(carom_sim) - SEALED * sizeof(uint64_t));
 }
 
 void carom_state_seal(carom_shot_state *state) {
@@ -116,22 +123,25 @@ static bool is_bool(const bool *x) {
   return byte <= 1;
 }
 
-/* Whether ball i is on a path that begins with its state there, or goes on to the second piece of a pair. */
+/* Whether ball i is on a path that begins with its state there, or goes on to the second piece
+ * of a pair. */
 static bool good_path(const carom_sim *sim, int i) {
   const carom_path *path = &sim->path[i];
   const carom_ball_state *from = &path->from;
   const bool flat = sim->rules->flat || sim->opt->space == CAROM_SPACE_FLAT;
-  if (from->label < CAROM_BALL_STATIONARY || from->label > (flat ? CAROM_BALL_POCKETED : CAROM_BALL_OFF) ||
-      !all_finite(from->r, 3) || !all_finite(from->v, 3) || !all_finite(from->w, 3) ||
-      !(path->start >= 0.0 && path->start <= sim->now) || !is_bool(&path->goes_on) || !is_bool(&path->ends_pair) ||
-      !is_bool(&path->last_pair))
+  if (from->label < CAROM_BALL_STATIONARY ||
+      from->label > (flat ? CAROM_BALL_POCKETED : CAROM_BALL_OFF) || !all_finite(from->r, 3) ||
+      !all_finite(from->v, 3) || !all_finite(from->w, 3) ||
+      !(path->start >= 0.0 && path->start <= sim->now) || !is_bool(&path->goes_on) ||
+      !is_bool(&path->ends_pair) || !is_bool(&path->last_pair))
     return false;
   carom_path anew = *path;
   carom_path_begin(&anew, &sim->rates[i], path->start);
   /* the second piece has the direction of the first, and what was known of it there */
   if (path->ends_pair) {
-    if (from->label != CAROM_BALL_ROLLING || !(sim->rates[i].drag > 0.0) || !(path->second[1] >= 0.0) ||
-        !(fabs(path->second[0]) <= 1e9) || !(fabs(path->e[0]) <= 2.0) || !(fabs(path->e[1]) <= 2.0))
+    if (from->label != CAROM_BALL_ROLLING || !(sim->rates[i].drag > 0.0) ||
+        !(path->second[1] >= 0.0) || !(fabs(path->second[0]) <= 1e9) ||
+        !(fabs(path->e[0]) <= 2.0) || !(fabs(path->e[1]) <= 2.0))
       return false;
     anew = *path;
     anew.goes_on = !path->last_pair;
@@ -139,8 +149,9 @@ static bool good_path(const carom_sim *sim, int i) {
     for (int k = 0; k < 2; k++)
       anew.a[k] = -0.5 * path->second[0] * path->e[k];
   }
-  return anew.goes_on == path->goes_on && anew.ends_pair == path->ends_pair && anew.last_pair == path->last_pair &&
-         same_bits(&anew.end, &path->end, 1) && same_bits(anew.a, path->a, 3) && same_bits(anew.e, path->e, 2) &&
+  return anew.goes_on == path->goes_on && anew.ends_pair == path->ends_pair &&
+         anew.last_pair == path->last_pair && same_bits(&anew.end, &path->end, 1) &&
+         same_bits(anew.a, path->a, 3) && same_bits(anew.e, path->e, 2) &&
          same_bits(anew.second, path->second, 2);
 }
 
@@ -150,8 +161,9 @@ static bool good_columns(const carom_sim *sim, int i) {
   const carom_ball_state *from = &path->from;
   const bool moves = carom_translates(from->label), flies = carom_flies(from);
   const double own = moves ? carom_lesser(path->end, sim->meeting[i].time) : path->end;
-  const double is[] = {sim->start[i], sim->x[i], sim->y[i],   sim->v_x[i], sim->v_y[i], sim->a_x[i],
-                       sim->a_y[i],   sim->z[i], sim->v_z[i], sim->a_z[i], sim->own[i], sim->horizon[i]};
+  const double is[] = {sim->start[i], sim->x[i],   sim->y[i],   sim->v_x[i],
+                       sim->v_y[i],   sim->a_x[i], sim->a_y[i], sim->z[i],
+                       sim->v_z[i],   sim->a_z[i], sim->own[i], sim->horizon[i]};
   const double should[] = {path->start,
                            from->r[0],
                            from->r[1],
@@ -193,7 +205,8 @@ static bool good_meeting(const carom_sim *sim, int i) {
   }
 }
 
-/* Whether the pairs of ball i with those behind it can meet when they are said to, and the first of them is the first. */
+/* Whether the pairs of ball i with those behind it can meet when they are said to, and the first
+ * of them is the first. */
 static bool good_pairs(const carom_sim *sim, int i) {
   double first = INFINITY;
   bool good = true;
@@ -209,17 +222,18 @@ static bool good_pairs(const carom_sim *sim, int i) {
 /* Whether all indices and numbers are those of a shot of sim->ball on sim->table. */
 static bool is_sound(const carom_sim *sim) {
   static const int64_t many = INT64_C(1) << 62;
-  if (!(sim->now >= 0.0 && sim->now < INFINITY) || sim->round < 0 || sim->round > many || sim->slow_instants < 0 ||
-      sim->slow_instants > many || isnan(sim->slow_last) || isnan(sim->one_by_one) || !is_bool(&sim->unlike) ||
-      !is_bool(&sim->met) || sim->struck < 0 || sim->struck >= sim->count)
+  if (!(sim->now >= 0.0 && sim->now < INFINITY) || sim->round < 0 || sim->round > many ||
+      sim->slow_instants < 0 || sim->slow_instants > many || isnan(sim->slow_last) ||
+      isnan(sim->one_by_one) || !is_bool(&sim->unlike) || !is_bool(&sim->met) || sim->struck < 0 ||
+      sim->struck >= sim->count)
     return false;
   int flying = 0;
   bool unlike = false;
   for (int i = 0; i < sim->count; i++) {
     const carom_ball_rates rates = carom_rates_of(&sim->ball[i].kind);
     unlike |= rates.radius != sim->features->reference;
-    if (memcmp(&rates, &sim->rates[i], sizeof rates) != 0 || !good_path(sim, i) || !good_meeting(sim, i) ||
-        !good_columns(sim, i))
+    if (memcmp(&rates, &sim->rates[i], sizeof rates) != 0 || !good_path(sim, i) ||
+        !good_meeting(sim, i) || !good_columns(sim, i))
       return false;
     flying += carom_flies(&sim->path[i].from);
   }
@@ -237,7 +251,8 @@ carom_status carom_state_check(const carom_sim *sim, const carom_shot_state *sta
     return CAROM_ERROR_STATE_OPTIONS;
   if (sim->of_table != of_table(sim->table))
     return CAROM_ERROR_STATE_TABLE;
-  if (sim->count != count || sim->of_balls != fingerprint(0, sim->ball, (size_t)count * sizeof *sim->ball))
+  if (sim->count != count ||
+      sim->of_balls != fingerprint(0, sim->ball, (size_t)count * sizeof *sim->ball))
     return CAROM_ERROR_STATE_BALLS;
   return is_sound(sim) ? CAROM_OK : CAROM_ERROR_STATE;
 }

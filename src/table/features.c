@@ -1,14 +1,18 @@
-/* The parts of a table that balls up to a radius can meet, prepared once for all shots that share both: lines with unit normals, boxes
- * for rejection, and the hull outside of which no centre has a place. */
+/* The parts of a table that balls up to a radius can meet, prepared once for all shots that
+ * share both: lines with unit normals, boxes for rejection, and the hull outside of which no
+ * centre has a place. */
 #include "table/table.h"
 
 #include <math.h>
 #include <string.h>
 
 /* The box of feature k: around two points, with a margin. The hull grows to hold it. */
-static inline void enclose(carom_features *f, int k, const double p[2], const double q[2], double margin, double reach) {
-  const double low_x = carom_lesser(p[0], q[0]) - margin, high_x = carom_greater(p[0], q[0]) + margin;
-  const double low_y = carom_lesser(p[1], q[1]) - margin, high_y = carom_greater(p[1], q[1]) + margin;
+static inline void enclose(carom_features *f, int k, const double p[2], const double q[2],
+                           double margin, double reach) {
+  const double low_x = carom_lesser(p[0], q[0]) - margin,
+               high_x = carom_greater(p[0], q[0]) + margin;
+  const double low_y = carom_lesser(p[1], q[1]) - margin,
+               high_y = carom_greater(p[1], q[1]) + margin;
   /* a trace more, so that rounding to single precision cannot lose anything */
   const double room = reach + 1e-5;
   f->low_x[k] = (float)(low_x - room);
@@ -36,14 +40,16 @@ void carom_rail_line(const carom_rail *rail, double line[3]) {
 }
 
 static void prepare_rail(const carom_rail *rail, int k, carom_features *f) {
-  const double *p = rail->p, *q = rail->q, e_x = q[0] - p[0], e_y = q[1] - p[1], size2 = e_x * e_x + e_y * e_y;
+  const double *p = rail->p, *q = rail->q, e_x = q[0] - p[0], e_y = q[1] - p[1],
+               size2 = e_x * e_x + e_y * e_y;
   carom_rail_line(rail, f->line[k]);
   f->along[k][0] = e_x / size2;
   f->along[k][1] = e_y / size2;
   f->along[k][2] = -(e_x * p[0] + e_y * p[1]) / size2;
 }
 
-void carom_features_of(const carom_table *table, double radius, double reference, carom_features *f) {
+void carom_features_of(const carom_table *table, double radius, double reference,
+                       carom_features *f) {
   f->radius = radius;
   f->reference = reference;
   f->rails = (int)table->rails;
@@ -53,7 +59,8 @@ void carom_features_of(const carom_table *table, double radius, double reference
   f->hull[0] = f->hull[2] = INFINITY;
   f->hull[1] = f->hull[3] = -INFINITY;
   double low = INFINITY, high = 0.0; /* of the noses */
-  /* a part that the ball's surface meets reaches as far as its radius, for a ball larger than those of the table farther (nose.c) */
+  /* a part that the ball's surface meets reaches as far as its radius, for a ball larger than
+   * those of the table farther (nose.c) */
   if (radius != reference)
     radius += reference;
   int at = 0;

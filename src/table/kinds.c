@@ -40,7 +40,8 @@ carom_ball_kind carom_ball_kind_of(carom_game game) {
     kind.mu_slide = 2.075 / 9.81;
     kind.mu_roll = 0.125 / 9.81;
     kind.restitution = 0.89;
-    /* of Han's closed form: as the exact cushion with 0.14, 0.98 and the nose at 7/5 R (physics/terms) */
+    /* of Han's closed form: as the exact cushion with 0.14, 0.98 and the nose at 7/5 R
+     * (physics/terms) */
     kind.mu_cushion = 0.2;
     kind.restitution_cushion = 0.936;
     kind.nose_height = 0.03074;

@@ -1,4 +1,5 @@
-/* Where balls have a place on a table: the geometry of rails, jaws and pockets for the centre of a ball. */
+/* Where balls have a place on a table: the geometry of rails, jaws and pockets for the centre of
+ * a ball. */
 #include "table/table.h"
 
 static double distance_to(const carom_features *f, int rail, const double r[2]) {
@@ -12,7 +13,8 @@ static bool is_beside(const carom_features *f, int rail, const double r[2]) {
   const double place = place_along(f, rail, r);
   return place >= 0.0 && place <= 1.0;
 }
-/* Whether a place is behind a rail, or up to the rail's length farther: a place beyond a corner is beside neither of its rails.
+/* Whether a place is behind a rail, or up to the rail's length farther: a place beyond a corner
+ * is beside neither of its rails.
  */
 static bool is_behind(double place, double distance) {
   return place >= -1.0 && place <= 2.0 && distance < 0.0;
@@ -22,10 +24,12 @@ static bool is_in_hull(const carom_features *f, const double r[2]) {
   return r[0] >= f->hull[0] && r[0] <= f->hull[1] && r[1] >= f->hull[2] && r[1] <= f->hull[3];
 }
 static bool beyond_ends(const carom_features *f, const double r[2]) {
-  return f->rails > 0 && (r[0] < f->ends[0] || r[0] > f->ends[1] || r[1] < f->ends[2] || r[1] > f->ends[3]);
+  return f->rails > 0 &&
+         (r[0] < f->ends[0] || r[0] > f->ends[1] || r[1] < f->ends[2] || r[1] > f->ends[3]);
 }
 
-bool carom_place_is_outside(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[2]) {
+bool carom_place_is_outside(const carom_table *table, const carom_features *f,
+                            const carom_ball_kind *kind, const double r[2]) {
   if (!is_in_hull(f, r))
     return true;
   /* only behind a rail, or beyond the ends of all rails, can it be outside */
@@ -36,11 +40,13 @@ bool carom_place_is_outside(const carom_table *table, const carom_features *f, c
 }
 
 /* How far from the wall of a cushion the centre is when a ball on the cloth touches its nose. */
-static inline double reach_of(const carom_features *f, const carom_ball_kind *kind, double height, bool usual) {
+static inline double reach_of(const carom_features *f, const carom_ball_kind *kind, double height,
+                              bool usual) {
   return usual ? kind->radius : carom_reach_on_cloth(kind, height, f->reference);
 }
 /* Whether a ball on the cloth is in a rail; in a jaw; with its centre in a pocket. */
-static inline bool in_rail(const carom_features *f, int k, const double r[3], double reach, bool *behind) {
+static inline bool in_rail(const carom_features *f, int k, const double r[3], double reach,
+                           bool *behind) {
   const double distance = distance_to(f, k, r), place = place_along(f, k, r);
   const bool beside = place >= 0.0 && place <= 1.0;
   *behind |= is_behind(place, distance);
@@ -54,10 +60,10 @@ static inline bool in_jaw(const carom_jaw *jaw, const double r[3], double reach)
   return in_circle(jaw->centre, jaw->radius + reach - CAROM_MOST_OVERLAP, r);
 }
 
-/* Whether the ball, on the cloth, stands within the cushions, in no pocket. Inlined twice, so that the loops for balls of the
- * usual radius, `usual`, have no calls in them. */
-static inline bool stands_among(const carom_table *table, const carom_features *f, const carom_ball_kind *kind,
-                                const double r[3], bool usual) {
+/* Whether the ball, on the cloth, stands within the cushions, in no pocket. Inlined twice, so
+ * that the loops for balls of the usual radius, `usual`, have no calls in them. */
+static inline bool stands_among(const carom_table *table, const carom_features *f,
+                                const carom_ball_kind *kind, const double r[3], bool usual) {
   bool good = is_in_hull(f, r), behind = beyond_ends(f, r);
   for (int k = 0; k < f->rails; k++)
     good &= !in_rail(f, k, r, reach_of(f, kind, table->rail[k].height, usual), &behind);
@@ -67,18 +73,23 @@ static inline bool stands_among(const carom_table *table, const carom_features *
     good &= !in_circle(table->pocket[k].centre, table->pocket[k].radius, r);
   return good && !(behind && carom_is_cut_off(table, f, kind, r));
 }
-bool carom_stands_on_table(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
-  return kind->radius == f->reference ? stands_among(table, f, kind, r, true) : stands_among(table, f, kind, r, false);
+bool carom_stands_on_table(const carom_table *table, const carom_features *f,
+                           const carom_ball_kind *kind, const double r[3]) {
+  return kind->radius == f->reference ? stands_among(table, f, kind, r, true)
+                                      : stands_among(table, f, kind, r, false);
 }
 
-/* Whether an airborne ball is clear of a nose that is `across` in front of it and `down` below its centre, or on its top. */
+/* Whether an airborne ball is clear of a nose that is `across` in front of it and `down` below
+ * its centre, or on its top. */
 static bool clear_of_nose(double across, double down, double R) {
   const double reach = R - CAROM_MOST_OVERLAP;
   return across >= 0.0 ? across * across + down * down >= reach * reach : down >= reach;
 }
 
-__attribute__((noinline, cold)) bool carom_is_above_table(const carom_table *table, const carom_features *f,
-                                                          const carom_ball_kind *kind, const double r[3]) {
+__attribute__((noinline, cold)) bool carom_is_above_table(const carom_table *table,
+                                                          const carom_features *f,
+                                                          const carom_ball_kind *kind,
+                                                          const double r[3]) {
   bool good = r[2] >= carom_nose_height(kind, f->nose_low) + kind->radius - CAROM_MOST_OVERLAP ||
               !carom_place_is_outside(table, f, kind, r);
   for (int axis = 0; axis < 2; axis++)
@@ -90,14 +101,17 @@ __attribute__((noinline, cold)) bool carom_is_above_table(const carom_table *tab
   }
   for (int k = 0; k < f->jaws; k++) {
     const carom_jaw *jaw = &table->jaw[k];
-    const double h = carom_nose_height(kind, jaw->height), d_x = r[0] - jaw->centre[0], d_y = r[1] - jaw->centre[1];
-    const double across = sqrt(d_x * d_x + d_y * d_y) - jaw->radius - carom_nose_shift(h, f->reference);
+    const double h = carom_nose_height(kind, jaw->height), d_x = r[0] - jaw->centre[0],
+                 d_y = r[1] - jaw->centre[1];
+    const double across =
+        sqrt(d_x * d_x + d_y * d_y) - jaw->radius - carom_nose_shift(h, f->reference);
     good &= clear_of_nose(across, r[2] - h, kind->radius);
   }
   return good;
 }
 
-carom_part carom_part_there(const carom_table *table, const carom_features *f, const carom_ball_kind *kind, const double r[3]) {
+carom_part carom_part_there(const carom_table *table, const carom_features *f,
+                            const carom_ball_kind *kind, const double r[3]) {
   bool behind = false;
   for (int k = 0; k < f->pockets; k++)
     if (in_circle(table->pocket[k].centre, table->pocket[k].radius, r))

@@ -36,7 +36,8 @@ static void put(rack *k, int ball, double x, double y) {
   k->balls[ball] = (carom_shot_ball){.kind = k->kind, .state = {.r = {x, y, k->kind.radius}}};
 }
 
-/* A place of the triangle: row 0 is its front, places count from the left. Up to a quarter of the gap off, in any direction. */
+/* A place of the triangle: row 0 is its front, places count from the left. Up to a quarter of
+ * the gap off, in any direction. */
 static void put_in_row(rack *k, int ball, double front, int row, int place) {
   const double pitch = 2.0 * k->kind.radius + k->gap;
   double x, y;
@@ -90,7 +91,8 @@ static void nineball(rack *k, double front) {
 static void eightball(rack *k, double front) {
   int number[15] = {[4] = 8};
   const uint64_t drawn = random_bits(&k->state);
-  const int solid = 1 + (int)(drawn % 7), stripe = 9 + (int)(drawn / 7 % 7), left = drawn / 49 % 2 == 0;
+  const int solid = 1 + (int)(drawn % 7), stripe = 9 + (int)(drawn / 7 % 7),
+            left = drawn / 49 % 2 == 0;
   number[10] = left ? solid : stripe;
   number[14] = left ? stripe : solid;
   fill(k, number, 15);
@@ -105,7 +107,8 @@ static void tenball(rack *k, double front) {
 
 /* Spots by the rules of the sport. */
 static void snooker(rack *k) {
-  const double w = k->table->width, l = k->table->length, baulk = 0.737 / 3.569 * l, d = 0.292 / 1.778 * w, R = k->kind.radius;
+  const double w = k->table->width, l = k->table->length, baulk = 0.737 / 3.569 * l,
+               d = 0.292 / 1.778 * w, R = k->kind.radius;
   int number[15];
   for (int n = 0; n < 15; n++)
     number[n] = n + 1;
@@ -126,8 +129,8 @@ static void threecushion(rack *k) {
   put(k, 2, 0.5 * w, 0.75 * l);
 }
 
-carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double gap, uint64_t seed, carom_shot_ball *balls,
-                        int room) {
+carom_status carom_rack(carom_rack_kind kind, const carom_table *table, double gap, uint64_t seed,
+                        carom_shot_ball *balls, int room) {
   if (table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
   const carom_game game = kind == CAROM_RACK_SNOOKER        ? CAROM_GAME_SNOOKER

@@ -1,18 +1,21 @@
-/* Checks of a table of one's own: no way out but the pockets, and rails that are played from the right side. And whether a
- * place can be reached from the middle of a table.
+/* Checks of a table of one's own: no way out but the pockets, and rails that are played from the
+ * right side. And whether a place can be reached from the middle of a table.
  *
- * To the centre of a ball of radius R, jaws are discs grown by R, pockets discs, and rails segments grown by R; but detection
- * knows of a rail only the segment at the distance R on its played side, not the rounded ends, which jaws stand for. Each of
- * these is convex, and so two that overlap have no hole between them. They keep the centre in a place P exactly where a closed
- * chain of overlapping parts winds around P. So the parts are the nodes of a graph: an edge goes from the middle of one part to
- * a place in it, straight on to a place in the other, and to the middle of that. Along an edge the number of times is counted
- * that a ray from P in the direction of +x is crossed, upward less downward. Over a closed chain these numbers add up to how
- * often it winds around P. A forest of the nodes, each with the sum from its root, tells this for all chains at once: an edge
- * between two nodes of one tree closes a chain.
+ * To the centre of a ball of radius R, jaws are discs grown by R, pockets discs, and rails
+ * segments grown by R; but detection knows of a rail only the segment at the distance R on its
+ * played side, not the rounded ends, which jaws stand for. Each of these is convex, and so two
+ * that overlap have no hole between them. They keep the centre in a place P exactly where a
+ * closed chain of overlapping parts winds around P. So the parts are the nodes of a graph: an
+ * edge goes from the middle of one part to a place in it, straight on to a place in the other,
+ * and to the middle of that. Along an edge the number of times is counted that a ray from P in
+ * the direction of +x is crossed, upward less downward. Over a closed chain these numbers add up
+ * to how often it winds around P. A forest of the nodes, each with the sum from its root, tells
+ * this for all chains at once: an edge between two nodes of one tree closes a chain.
  *
- * The ring is looked at twice. With rounded rails, which do not depend on the sides, it tells holes as wide as a ball; then,
- * when the sides are known to be right, with rails as detection knows them it tells ends of rails without a jaw. Where no chain
- * is closed, the parts are grown further until one is. The edge that closed it is the hole. */
+ * The ring is looked at twice. With rounded rails, which do not depend on the sides, it tells
+ * holes as wide as a ball; then, when the sides are known to be right, with rails as detection
+ * knows them it tells ends of rails without a jaw. Where no chain is closed, the parts are grown
+ * further until one is. The edge that closed it is the hole. */
 #include "table/table.h"
 
 #include <math.h>
@@ -33,33 +36,38 @@ typedef struct ring {
   int parent[MOST_FEATURES], windings[MOST_FEATURES];
 } ring;
 
-static void add_shape(ring *g, const double p[2], const double q[2], double radius, double grown, carom_part part) {
+static void add_shape(ring *g, const double p[2], const double q[2], double radius, double grown,
+                      carom_part part) {
   g->shape[g->count++] = (shape){{p[0], p[1]}, {q[0], q[1]}, radius + grown, radius, part};
 }
 
-/* The parts, as the centre of a ball sees them that may be `overlap` in a cushion; rails with round ends, or without. */
-static void shapes_of(const carom_table *t, const carom_features *f, const carom_ball_kind *ball, double overlap, bool round,
-                      ring *g) {
+/* The parts, as the centre of a ball sees them that may be `overlap` in a cushion; rails with
+ * round ends, or without. */
+static void shapes_of(const carom_table *t, const carom_features *f, const carom_ball_kind *ball,
+                      double overlap, bool round, ring *g) {
   g->count = 0;
   for (int k = 0; k < t->rails; k++) {
     const carom_rail *rail = &t->rail[k];
-    const double reach = carom_reach_on_cloth(ball, rail->height, f->reference) - overlap, off = round ? 0.0 : reach,
-                 *n = f->line[k];
+    const double reach = carom_reach_on_cloth(ball, rail->height, f->reference) - overlap,
+                 off = round ? 0.0 : reach, *n = f->line[k];
     const double p[2] = {rail->p[0] + off * n[0], rail->p[1] + off * n[1]},
                  q[2] = {rail->q[0] + off * n[0], rail->q[1] + off * n[1]};
     add_shape(g, p, q, 0.0, round ? reach : 0.0, (carom_part){CAROM_PART_RAIL, k});
   }
   for (int k = 0; k < t->jaws; k++)
     add_shape(g, t->jaw[k].centre, t->jaw[k].centre, t->jaw[k].radius,
-              carom_reach_on_cloth(ball, t->jaw[k].height, f->reference) - overlap, (carom_part){CAROM_PART_JAW, k});
+              carom_reach_on_cloth(ball, t->jaw[k].height, f->reference) - overlap,
+              (carom_part){CAROM_PART_JAW, k});
   for (int k = 0; k < t->pockets; k++)
-    add_shape(g, t->pocket[k].centre, t->pocket[k].centre, t->pocket[k].radius, 0.0, (carom_part){CAROM_PART_POCKET, k});
+    add_shape(g, t->pocket[k].centre, t->pocket[k].centre, t->pocket[k].radius, 0.0,
+              (carom_part){CAROM_PART_POCKET, k});
 }
 
 /* The place of a segment that is nearest to r, and how far it is. */
 static double nearest(const shape *s, const double r[2], double there[2]) {
   const double e[2] = {s->q[0] - s->p[0], s->q[1] - s->p[1]}, size2 = e[0] * e[0] + e[1] * e[1];
-  const double along = size2 > 0.0 ? ((r[0] - s->p[0]) * e[0] + (r[1] - s->p[1]) * e[1]) / size2 : 0.0;
+  const double along =
+      size2 > 0.0 ? ((r[0] - s->p[0]) * e[0] + (r[1] - s->p[1]) * e[1]) / size2 : 0.0;
   const double t = carom_lesser(carom_greater(along, 0.0), 1.0);
   double d2 = 0.0;
   for (int k = 0; k < 2; k++) {
@@ -71,7 +79,8 @@ static double nearest(const shape *s, const double r[2], double there[2]) {
 
 /* Where two segments cross; false if they do not. */
 static bool cross_at(const shape *a, const shape *b, double there[2]) {
-  const double u[2] = {a->q[0] - a->p[0], a->q[1] - a->p[1]}, v[2] = {b->q[0] - b->p[0], b->q[1] - b->p[1]};
+  const double u[2] = {a->q[0] - a->p[0], a->q[1] - a->p[1]},
+               v[2] = {b->q[0] - b->p[0], b->q[1] - b->p[1]};
   const double d[2] = {b->p[0] - a->p[0], b->p[1] - a->p[1]}, area = u[0] * v[1] - u[1] * v[0];
   const double s = (d[0] * v[1] - d[1] * v[0]) / area, t = (d[0] * u[1] - d[1] * u[0]) / area;
   for (int k = 0; k < 2; k++)
@@ -79,8 +88,9 @@ static bool cross_at(const shape *a, const shape *b, double there[2]) {
   return s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0;
 }
 
-/* Edge `which` of the five between two parts, its places in them, and its length: where they cross, or from an end of one to
- * the other. More than the shortest are wanted only to find holes: between parallel rails there is one at each end. */
+/* Edge `which` of the five between two parts, its places in them, and its length: where they
+ * cross, or from an end of one to the other. More than the shortest are wanted only to find
+ * holes: between parallel rails there is one at each end. */
 enum { EDGES = 5 };
 static double edge(const shape *a, const shape *b, int which, double in_a[2], double in_b[2]) {
   if (which == 0) {
@@ -115,7 +125,8 @@ static int crossing(const double a[2], const double b[2], const double P[2]) {
 }
 
 /* The windings of an edge. */
-static int windings_of(const shape *a, const shape *b, const double in_a[2], const double in_b[2], const double P[2]) {
+static int windings_of(const shape *a, const shape *b, const double in_a[2], const double in_b[2],
+                       const double P[2]) {
   const double from[2] = {0.5 * (a->p[0] + a->q[0]), 0.5 * (a->p[1] + a->q[1])},
                to[2] = {0.5 * (b->p[0] + b->q[0]), 0.5 * (b->p[1] + b->q[1])};
   return crossing(from, in_a, P) + crossing(in_a, in_b, P) + crossing(in_b, to, P);
@@ -133,9 +144,11 @@ typedef struct hole {
   int a, b, which;
 } hole;
 
-/* Whether a chain of parts that are at most `grown` apart winds around P, and around P otherwise than around Q unless Q is
- * NULL. Edges of up to `first` are taken before the others; *closing is the edge that closed a chain. */
-static bool encloses(ring *g, double first, double grown, const double P[2], const double *Q, hole *closing) {
+/* Whether a chain of parts that are at most `grown` apart winds around P, and around P otherwise
+ * than around Q unless Q is NULL. Edges of up to `first` are taken before the others; *closing
+ * is the edge that closed a chain. */
+static bool encloses(ring *g, double first, double grown, const double P[2], const double *Q,
+                     hole *closing) {
   for (int i = 0; i < g->count; i++) {
     g->parent[i] = i;
     g->windings[i] = 0;
@@ -143,13 +156,16 @@ static bool encloses(ring *g, double first, double grown, const double P[2], con
   for (int pass = 0; pass < (first < grown ? 2 : 1); pass++)
     for (int i = 0; i < g->count; i++)
       for (int j = i + 1; j < g->count; j++)
-        for (int which = 0; which < EDGES && !far_apart(&g->shape[i], &g->shape[j], pass == 0 ? first : grown); which++) {
+        for (int which = 0;
+             which < EDGES && !far_apart(&g->shape[i], &g->shape[j], pass == 0 ? first : grown);
+             which++) {
           const shape *a = &g->shape[i], *b = &g->shape[j];
           double in_a[2], in_b[2];
           const double apart = edge(a, b, which, in_a, in_b) - a->reach - b->reach;
           if (!(apart <= (pass == 0 ? first : grown) && apart < INFINITY))
             continue;
-          const int turns = windings_of(a, b, in_a, in_b, P) - (Q != NULL ? windings_of(a, b, in_a, in_b, Q) : 0);
+          const int turns =
+              windings_of(a, b, in_a, in_b, P) - (Q != NULL ? windings_of(a, b, in_a, in_b, Q) : 0);
           int to_i, to_j;
           const int root_i = root_of(g, i, &to_i), root_j = root_of(g, j, &to_j);
           if (root_i != root_j) {
@@ -172,7 +188,8 @@ static bool is_free(const ring *g, const double r[2]) {
   return true;
 }
 
-/* A place for a ball near the middle of the table: in rings of places around it. False if there is none. */
+/* A place for a ball near the middle of the table: in rings of places around it. False if there
+ * is none. */
 static bool find_place(const ring *g, const carom_table *t, double P[2]) {
   enum { HALF = 4 };
   for (int far = 0; far <= HALF; far++)
@@ -188,8 +205,8 @@ static bool find_place(const ring *g, const carom_table *t, double P[2]) {
   return false;
 }
 
-/* Finds the hole in a ring that is not closed, by bisection over how far the parts are grown. False if there is none to be
- * found. */
+/* Finds the hole in a ring that is not closed, by bisection over how far the parts are grown.
+ * False if there is none to be found. */
 static bool find_hole(ring *g, const double P[2], hole *found) {
   double low = touching, high = 1e-3;
   while (high < 1e6 && !encloses(g, high, high, P, NULL, found)) {
@@ -206,9 +223,10 @@ static bool find_hole(ring *g, const double P[2], hole *found) {
   return high < 1e6 && encloses(g, low, high, P, NULL, found);
 }
 
-/* Whether the played side of a rail is turned away from the table: nowhere along it can a ball that has come from P touch that
- * side, and somewhere one is at its back. */
-static bool wrong_side(ring *g, const carom_rail *rail, const double normal[3], double R, const double P[2]) {
+/* Whether the played side of a rail is turned away from the table: nowhere along it can a ball
+ * that has come from P touch that side, and somewhere one is at its back. */
+static bool wrong_side(ring *g, const carom_rail *rail, const double normal[3], double R,
+                       const double P[2]) {
   static const double places[] = {0.5, 0.25, 0.75, 0.1, 0.9, 0.02, 0.98};
   bool at_back = false;
   for (size_t k = 0; k < sizeof places / sizeof places[0]; k++)
@@ -260,7 +278,8 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
   /* lines of rails, as they were given */
   for (int k = 0; k < table->rails; k++) {
     const carom_rail *rail = &table->rail[k];
-    const double off = carom_greater(off_line(features.line[k], rail->p), off_line(features.line[k], rail->q));
+    const double off =
+        carom_greater(off_line(features.line[k], rail->p), off_line(features.line[k], rail->q));
     if (!(off <= 1e-6)) {
       fault->part = (carom_part){CAROM_PART_RAIL, k};
       for (int c = 0; c < 2; c++)
@@ -288,8 +307,10 @@ carom_status carom_table_check(const carom_table *table, double radius, carom_ta
   return is_closed(&g, P, fault) ? CAROM_OK : CAROM_ERROR_TABLE_OPEN;
 }
 
-__attribute__((noinline, cold)) bool carom_is_cut_off(const carom_table *table, const carom_features *features,
-                                                      const carom_ball_kind *kind, const double r[2]) {
+__attribute__((noinline, cold)) bool carom_is_cut_off(const carom_table *table,
+                                                      const carom_features *features,
+                                                      const carom_ball_kind *kind,
+                                                      const double r[2]) {
   static const double overlap = 2e-6; /* m: a ball that touches a cushion may be 1e-6 m in it */
   /* the middle of the table */
   ring g;
@@ -298,7 +319,8 @@ __attribute__((noinline, cold)) bool carom_is_cut_off(const carom_table *table, 
   shapes_of(table, features, kind, overlap, true, &g);
   if (!find_place(&g, table, P))
     return false;
-  /* a ring with a hole keeps no place apart; there, holes of up to the width of a ball are taken to be closed */
+  /* a ring with a hole keeps no place apart; there, holes of up to the width of a ball are taken
+   * to be closed */
   shapes_of(table, features, kind, overlap, false, &g);
   const double closed = touching + 2.0 * overlap;
   const double grown = encloses(&g, closed, closed, P, NULL, &unused) ? closed : 2.0 * kind->radius;

@@ -1,4 +1,5 @@
-/* A table prepared for all shots on it: rails, jaws and pockets as the centre of a ball sees them. */
+/* A table prepared for all shots on it: rails, jaws and pockets as the centre of a ball sees
+ * them. */
 #ifndef CAROM_SRC_TABLE_TABLE_H
 #define CAROM_SRC_TABLE_TABLE_H
 
@@ -17,14 +18,17 @@ enum { MOST_FEATURES = CAROM_RAILS_MOST + CAROM_JAWS_MOST + CAROM_POCKETS_MOST }
 typedef struct carom_features {
   double radius; /* the greatest of the balls for which the rest was prepared; 0: nothing yet */
   int rails, jaws, pockets, count;
-  double line[CAROM_RAILS_MOST][3];  /* unit normal towards the played side, and offset: distance = line . (x, y, 1) */
-  double along[CAROM_RAILS_MOST][3]; /* place along the rail, 0 at p and 1 at q: along . (x, y, 1) */
+  double line[CAROM_RAILS_MOST][3];  /* unit normal towards the played side, and offset: distance
+                                        = line . (x, y, 1) */
+  double along[CAROM_RAILS_MOST][3]; /* place along the rail, 0 at p and 1 at q: along . (x, y,
+                                        1) */
   /* boxes around the things, in single precision, rounded outward */
   float low_x[MOST_FEATURES], high_x[MOST_FEATURES], low_y[MOST_FEATURES], high_y[MOST_FEATURES];
   double least;              /* the least radius of those balls */
   double reference;          /* radius of the balls that the table is meant for, nose.c */
   double nose_low;           /* least height of a nose */
-  double width, pocket_back; /* of the tops of rails; height of the pockets' backs: see carom_table */
+  double width, pocket_back; /* of the tops of rails; height of the pockets' backs: see
+                                carom_table */
   double hull[4];            /* low x, high x, low y, high y: centres stay inside */
   double ends[4];            /* the same around the ends of the rails alone */
 } carom_features;
@@ -32,44 +36,51 @@ typedef struct carom_features {
 /* pooltool.c */
 extern const carom_table carom_table_pooltool;
 
-/* features.c: the unit normal of a rail towards its played side, and its offset: distance = line . (x, y, 1). */
+/* features.c: the unit normal of a rail towards its played side, and its offset: distance = line
+ * . (x, y, 1). */
 void carom_rail_line(const carom_rail *rail, double line[3]);
 /* Prepares a table for balls of a greatest radius; reference: the radius that it is meant for. */
-void carom_features_of(const carom_table *table, double radius, double reference, carom_features *features);
+void carom_features_of(const carom_table *table, double radius, double reference,
+                       carom_features *features);
 
-/* nose.c: the height of a nose for a ball, how far it is inside the wall that stands for it, and the distance from the wall at
- * which a ball on the cloth touches it. */
+/* nose.c: the height of a nose for a ball, how far it is inside the wall that stands for it, and
+ * the distance from the wall at which a ball on the cloth touches it. */
 double carom_nose_height(const carom_ball_kind *kind, double height);
 double carom_nose_shift(double height, double reference);
 double carom_reach_on_cloth(const carom_ball_kind *kind, double height, double reference);
-/* parts.c: the parts of a table, each by itself. *where becomes the index of the part at fault, or -1. */
+/* parts.c: the parts of a table, each by itself. *where becomes the index of the part at fault,
+ * or -1. */
 carom_status carom_check_table(const carom_table *table, int *where);
-/* Prepares the table, which is meant for balls of the radius `reference`, for those from a least to a greatest radius, unless
- * that has been done. */
-carom_status carom_prepare_table(const carom_table *table, double least, double greatest, double reference,
-                                 carom_features *features, int *where);
+/* Prepares the table, which is meant for balls of the radius `reference`, for those from a least
+ * to a greatest radius, unless that has been done. */
+carom_status carom_prepare_table(const carom_table *table, double least, double greatest,
+                                 double reference, carom_features *features, int *where);
 /* The radius that a table is meant for; `usual` where it names none. */
 static inline double carom_reference_of(const carom_table *table, double usual) {
   return table->ball_radius > 0.0 ? table->ball_radius : usual;
 }
 /* Both, for balls of one radius, and the part at fault. */
-carom_status carom_check_parts(const carom_table *table, double radius, double usual, carom_features *features,
-                               carom_part *part);
+carom_status carom_check_parts(const carom_table *table, double radius, double usual,
+                               carom_features *features, carom_part *part);
 
-/* places.c: whether a ball on the cloth stands within the cushions and in no pocket; and the part that one which does not is
- * in, CAROM_PART_NONE outside the ring. */
-bool carom_stands_on_table(const carom_table *table, const carom_features *features, const carom_ball_kind *kind,
-                           const double r[3]);
-carom_part carom_part_there(const carom_table *table, const carom_features *features, const carom_ball_kind *kind,
-                            const double r[3]);
-/* Whether an airborne ball is above the table or its rails, and in no cushion. Below the tops it must be within the cushions.
+/* places.c: whether a ball on the cloth stands within the cushions and in no pocket; and the
+ * part that one which does not is in, CAROM_PART_NONE outside the ring. */
+bool carom_stands_on_table(const carom_table *table, const carom_features *features,
+                           const carom_ball_kind *kind, const double r[3]);
+carom_part carom_part_there(const carom_table *table, const carom_features *features,
+                            const carom_ball_kind *kind, const double r[3]);
+/* Whether an airborne ball is above the table or its rails, and in no cushion. Below the tops it
+ * must be within the cushions.
  */
-bool carom_is_above_table(const carom_table *table, const carom_features *features, const carom_ball_kind *kind,
-                          const double r[3]);
-/* Whether a place is outside the ring of cushions and pockets, for the centre of a ball that touches none of them. */
-bool carom_place_is_outside(const carom_table *table, const carom_features *features, const carom_ball_kind *kind,
-                            const double r[2]);
-/* ring.c: the same by the parts of the table, without a look at the place first: some microseconds. */
-bool carom_is_cut_off(const carom_table *table, const carom_features *features, const carom_ball_kind *kind, const double r[2]);
+bool carom_is_above_table(const carom_table *table, const carom_features *features,
+                          const carom_ball_kind *kind, const double r[3]);
+/* Whether a place is outside the ring of cushions and pockets, for the centre of a ball that
+ * touches none of them. */
+bool carom_place_is_outside(const carom_table *table, const carom_features *features,
+                            const carom_ball_kind *kind, const double r[2]);
+/* ring.c: the same by the parts of the table, without a look at the place first: some
+ * microseconds. */
+bool carom_is_cut_off(const carom_table *table, const carom_features *features,
+                      const carom_ball_kind *kind, const double r[2]);
 
 #endif

@@ -1,10 +1,12 @@
 /* Built-in tables: cushions with pockets from a few measures of a table.
  *
- * Rails end where the pockets' mouths begin; there a jaw, a cylinder, leads from the rail into the pocket's facing. Each jaw is
- * tangent to its rail and its facing at their ends. With ca = 45 degrees + angle at corners and sa = angle at sides: a corner's
- * rails would meet its facings at q = width cos(45 degrees) from the corner; the jaw takes dc = rc / tan((90 degrees + ca) / 2)
- * of both, at a side ds = rs / tan((90 degrees + sa) / 2). Facings go back to the depth of the cushion. Source: pooltool's
- * generator, whose default table is CAROM_TABLE_POOL_7FT with its order of parts. */
+ * Rails end where the pockets' mouths begin; there a jaw, a cylinder, leads from the rail into
+ * the pocket's facing. Each jaw is tangent to its rail and its facing at their ends. With ca =
+ * 45 degrees + angle at corners and sa = angle at sides: a corner's rails would meet its facings
+ * at q = width cos(45 degrees) from the corner; the jaw takes dc = rc / tan((90 degrees + ca) /
+ * 2) of both, at a side ds = rs / tan((90 degrees + sa) / 2). Facings go back to the depth of
+ * the cushion. Source: pooltool's generator, whose default table is CAROM_TABLE_POOL_7FT with
+ * its order of parts. */
 #include "platform/elementary.h"
 #include "table/table.h"
 
@@ -18,10 +20,12 @@ typedef struct measures {
   double side_width, side_angle, side_depth, side_radius, side_jaw;
 } measures;
 
-static void add_rail(carom_table *t, double height, int side, double p_x, double p_y, double q_x, double q_y) {
+static void add_rail(carom_table *t, double height, int side, double p_x, double p_y, double q_x,
+                     double q_y) {
   carom_rail *r = &t->rail[t->rails++];
   *r = (carom_rail){.p = {p_x, p_y}, .q = {q_x, q_y}, .height = height, .side = side};
-  /* the line as pooltool has it: by its slope, so that the side does not depend on the order of p and q */
+  /* the line as pooltool has it: by its slope, so that the side does not depend on the order of
+   * p and q */
   if (p_x == q_x) {
     r->line[0] = 1.0;
     r->line[2] = -p_x;
@@ -49,8 +53,8 @@ static void add_plain_rails(carom_table *t, double h) {
 }
 
 static void add_pockets(carom_table *t, const measures *m) {
-  const double w = m->width, l = m->length, h = m->height, cw = m->cushion, rc = m->corner_jaw, rs = m->side_jaw,
-               sw = m->side_width;
+  const double w = m->width, l = m->length, h = m->height, cw = m->cushion, rc = m->corner_jaw,
+               rs = m->side_jaw, sw = m->side_width;
   double sin_c, cos_c, sin_s, cos_s, s, c;
   carom_sincos_degrees(45.0, &s, &c);
   const double q = m->corner_width * c, off = m->corner_depth * c;
@@ -62,7 +66,8 @@ static void add_pockets(carom_table *t, const measures *m) {
   carom_sincos_degrees(0.5 * (90.0 + m->side_angle), &s, &c);
   const double ds = rs * c / s;
   /* rails */
-  const double low = q + dc, middle_low = (l - sw) / 2.0 - ds, middle_high = (l + sw) / 2.0 + ds, high = l - q - dc;
+  const double low = q + dc, middle_low = (l - sw) / 2.0 - ds, middle_high = (l + sw) / 2.0 + ds,
+               high = l - q - dc;
   add_rail(t, h, 1, 0.0, low, 0.0, middle_low);
   add_rail(t, h, 1, 0.0, middle_high, 0.0, high);
   add_rail(t, h, 0, w, low, w, middle_low);
@@ -125,8 +130,8 @@ static measures pool(double length) {
                     .side_jaw = 0.00795};
 }
 
-/* A snooker table's playing area by the rules of the sport; nose at 7/5 R as in the 2010 paper; pockets with parallel facings
- * and well-rounded jaws. */
+/* A snooker table's playing area by the rules of the sport; nose at 7/5 R as in the 2010 paper;
+ * pockets with parallel facings and well-rounded jaws. */
 static measures snooker(void) {
   return (measures){.width = 1.778,
                     .length = 3.569,

@@ -1,4 +1,5 @@
-/* A cluster with the derivatives of one direction, by its sources (cluster_text.h). follow.cpp gives and takes them. */
+/* A cluster with the derivatives of one direction, by its sources (cluster_text.h). follow.cpp
+ * gives and takes them. */
 extern "C" {
 #include "tangent/cluster.h"
 }
@@ -12,7 +13,9 @@ bool carom_tangent_solve_cluster(const carom_tangent_cluster *c) {
   for (int k = 0; k < c->balls; k++) {
     text::carom_cluster_ball *ball = &state.ball[k];
     number *to = ball->r;
-    static_assert(offsetof(text::carom_cluster_ball, flies) == CAROM_MEMBER_NUMBERS * sizeof(number), "the numbers come first");
+    static_assert(offsetof(text::carom_cluster_ball, flies) ==
+                      CAROM_MEMBER_NUMBERS * sizeof(number),
+                  "the numbers come first");
     real x[CAROM_MEMBER_NUMBERS], d[CAROM_MEMBER_NUMBERS];
     ball->flies = c->give(c->context, k, x, d);
     ball->which = (int8_t)k;

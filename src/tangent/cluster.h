@@ -1,4 +1,5 @@
-/* A cluster by numbers with one direction, cluster.cpp: more directions than one would take too much of the stack. */
+/* A cluster by numbers with one direction, cluster.cpp: more directions than one would take too
+ * much of the stack. */
 #ifndef CAROM_SRC_TANGENT_CLUSTER_H
 #define CAROM_SRC_TANGENT_CLUSTER_H
 
@@ -11,9 +12,11 @@ typedef struct carom_tangent_cluster {
   int balls, first, second; /* members; the places of the two of the contact that starts it */
   double steps, slow;       /* as in carom_cluster_state */
   /* gives numbers and tangents of member k, and whether it flies; */
-  bool (*give)(void *context, int k, double x[CAROM_MEMBER_NUMBERS], double d[CAROM_MEMBER_NUMBERS]);
+  bool (*give)(void *context, int k, double x[CAROM_MEMBER_NUMBERS],
+               double d[CAROM_MEMBER_NUMBERS]);
   /* takes those of its motion, v and W. */
-  void (*take)(void *context, int k, const double x[CAROM_MOTION_NUMBERS], const double d[CAROM_MOTION_NUMBERS]);
+  void (*take)(void *context, int k, const double x[CAROM_MOTION_NUMBERS],
+               const double d[CAROM_MOTION_NUMBERS]);
   void *context;
 } carom_tangent_cluster;
 

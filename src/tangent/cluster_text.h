@@ -1,11 +1,14 @@
-/* The sources of clusters with a number for every double, as text.h has the others. The number has one direction. */
+/* The sources of clusters with a number for every double, as text.h has the others. The number
+ * has one direction. */
 #ifndef CAROM_SRC_TANGENT_CLUSTER_TEXT_H
 #define CAROM_SRC_TANGENT_CLUSTER_TEXT_H
 #pragma GCC system_header
 
 #define CAROM_TANGENT_WIDTH 1
 #define LANE_BYTES 8
-#define CAROM_CLUSTER_CONTACTS 40 /* more would take too much of the stack; a triangle of 15 balls has 30 */
+#define CAROM_CLUSTER_CONTACTS \
+  40 /* more would take too much of the stack; a triangle of 15
+                                     balls has 30 */
 #include "tangent/number.h"
 
 namespace {

@@ -1,14 +1,17 @@
-/* Contacts that are not differentiated by their text: of exact models by the variational equations of their impact, of Euler's
- * steps by differences. text.h includes this file between its headers and its sources.
+/* Contacts that are not differentiated by their text: of exact models by the variational
+ * equations of their impact, of Euler's steps by differences. text.h includes this file between
+ * its headers and its sources.
  *
- * EXACT. An impact is the speed of approach V times a function of the slips over V, of the frictions, e and a parameter of the
- * geometry, the law, lambda: kappa, or the sine of the nose. src/impact has the derivatives by these eight variables.
- * Everything before and behind is arithmetic.
+ * EXACT. An impact is the speed of approach V times a function of the slips over V, of the
+ * frictions, e and a parameter of the geometry, the law, lambda: kappa, or the sine of the nose.
+ * src/impact has the derivatives by these eight variables. Everything before and behind is
+ * arithmetic.
  *
- * A ball that rolls is taken to go on rolling: by the slip of a ball that rolls and is pressed there is no derivative. A
- * direction that has it slide is flagged as a kink. */
+ * A ball that rolls is taken to go on rolling: by the slip of a ball that rolls and is pressed
+ * there is no derivative. A direction that has it slide is flagged as a kink. */
 
-/* A slip at most this share of a ball's speeds is that of a ball that rolls; of derivatives, a rounding error. */
+/* A slip at most this share of a ball's speeds is that of a ball that rolls; of derivatives, a
+ * rounding error. */
 static const real rolls = 1e-12, rounding = 1e-9;
 
 static bool changes(const number &x) {
@@ -26,9 +29,10 @@ CAROM_APART static void split(const carom_law *by_lambda, ::carom_law *value, ::
   }
 }
 
-/* The impulses of an impact in the order of carom_impulses, over V. by: the variables of the impact. */
-CAROM_APART static carom_status impact(const ::carom_law *law, const ::carom_law *slope, const number by[CAROM_VARIABLES],
-                                       int plain, number q[5]) {
+/* The impulses of an impact in the order of carom_impulses, over V. by: the variables of the
+ * impact. */
+CAROM_APART static carom_status impact(const ::carom_law *law, const ::carom_law *slope,
+                                       const number by[CAROM_VARIABLES], int plain, number q[5]) {
   const real slips[4] = {by[0].x, by[1].x, by[2].x, by[3].x};
   unsigned asked = 0;
   for (int k = 0; k < CAROM_VARIABLES; k++)
@@ -37,7 +41,8 @@ CAROM_APART static carom_status impact(const ::carom_law *law, const ::carom_law
   const ::carom_status status = ::carom_impact_differentiate(law, slope, slips, plain, asked, &t);
   if (status != ::CAROM_OK)
     return (carom_status)status;
-  watched.note.flags |= (t.kink ? ::CAROM_TANGENT_KINK : 0) | (t.differences ? ::CAROM_TANGENT_DIFFERENCES : 0);
+  watched.note.flags |=
+      (t.kink ? ::CAROM_TANGENT_KINK : 0) | (t.differences ? ::CAROM_TANGENT_DIFFERENCES : 0);
   watched.note.error = __builtin_fmax(watched.note.error, t.error);
   const real value_of[5] = {t.q.p, t.q.f_x, t.q.f_y, t.q.F_x, t.q.F_y};
   for (int i = 0; i < 5; i++) {
@@ -56,7 +61,8 @@ static number alone(const number &x) {
   return {x.x, first};
 }
 
-/* Keeps the spin of a ball that rolls such that it rolls. W: R times the spin. Returns whether it rolls. */
+/* Keeps the spin of a ball that rolls such that it rolls. W: R times the spin. Returns whether
+ * it rolls. */
 static bool keep_rolling(const number &v_x, const number &v_y, number *W_x, number *W_y) {
   const number slip_x = v_x - *W_y, slip_y = v_y + *W_x, all[4] = {v_x, v_y, *W_x, *W_y};
   real speeds = 0;
@@ -87,8 +93,11 @@ CAROM_APART static void begin_balls(const carom_impact *in, carom_local *local, 
   /* the slip on the cloth counts of the ball that is pressed */
   bool rolling = !(r->u_z.x > 0);
   if (!rolling) {
-    const number v_x = r->j_pressed ? local->v_jx : local->v_ix, v_y = r->j_pressed ? local->v_jy : local->v_iy;
-    number *const w_x = r->j_pressed ? &local->w_jx : &local->w_ix, *const w_y = r->j_pressed ? &local->w_jy : &local->w_iy;
+    const number v_x = r->j_pressed ? local->v_jx : local->v_ix,
+                 v_y = r->j_pressed ? local->v_jy : local->v_iy;
+    number *const w_x = r->j_pressed ? &local->w_jx : &local->w_ix, *const w_y = r->j_pressed
+                                                                                     ? &local->w_jy
+                                                                                     : &local->w_iy;
     number W_x = local->R * *w_x, W_y = local->R * *w_y;
     rolling = keep_rolling(v_x, v_y, &W_x, &W_y);
     *w_x = W_x / local->R;
@@ -106,9 +115,12 @@ CAROM_APART static void law_of_balls(const carom_reduced *r, ::carom_law *law, :
   split(&by_lambda, law, slope);
 }
 
-CAROM_APART static carom_status integrate_balls(const carom_reduced *r, int plain, carom_integrals *g) {
+CAROM_APART static carom_status integrate_balls(const carom_reduced *r, int plain,
+                                                carom_integrals *g) {
   const number V = -r->v_n;
-  number by[CAROM_VARIABLES] = {r->u_x / V, r->u_z / V, r->d_x / V, r->d_y / V, r->mu_b, 0, r->e, r->kappa}, q[5];
+  number by[CAROM_VARIABLES] = {r->u_x / V, r->u_z / V, r->d_x / V, r->d_y / V,
+                                r->mu_b,    0,          r->e,       r->kappa},
+         q[5];
   if (r->u_z.x > 0)
     by[BY_MU_C] = r->mu;
   /* the pressed ball changes with the sign of u_z */
@@ -123,8 +135,8 @@ CAROM_APART static carom_status integrate_balls(const carom_reduced *r, int plai
   return status;
 }
 
-CAROM_APART static void end_balls(const carom_impact *in, const carom_reduced *r, const carom_integrals *g, carom_local *local,
-                                  carom_result *out) {
+CAROM_APART static void end_balls(const carom_impact *in, const carom_reduced *r,
+                                  const carom_integrals *g, carom_local *local, carom_result *out) {
   const carom_frame frame = carom_frame_of(in);
   carom_restore(r, g, local);
   carom_from_frame(&frame, local, out);
@@ -147,7 +159,8 @@ carom_status carom_collide(const carom_impact *in, const carom_options *opt, car
 
 /* ---- A cushion ---- */
 
-CAROM_APART static void law_of_cushion(const carom_contact *c, ::carom_law *law, ::carom_law *slope) {
+CAROM_APART static void law_of_cushion(const carom_contact *c, ::carom_law *law,
+                                       ::carom_law *slope) {
   carom_contact by_sine = *c;
   by_sine.sine = alone(c->sine);
   by_sine.cosine = sqrt((1 - by_sine.sine) * (1 + by_sine.sine));
@@ -158,13 +171,20 @@ CAROM_APART static void law_of_cushion(const carom_contact *c, ::carom_law *law,
 carom_status carom_mathavan(carom_contact *c, int plain) {
   keep_rolling(c->v_x, c->v_y, &c->W_x, &c->W_y);
   const number V = c->v_y;
-  number by[CAROM_VARIABLES] = {
-      carom_slip_x(c) / V, carom_slip_t(c) / V, carom_cloth_x(c) / V, carom_cloth_y(c) / V, c->mu_w, c->mu_s, c->e, c->sine};
+  number by[CAROM_VARIABLES] = {carom_slip_x(c) / V,
+                                carom_slip_t(c) / V,
+                                carom_cloth_x(c) / V,
+                                carom_cloth_y(c) / V,
+                                c->mu_w,
+                                c->mu_s,
+                                c->e,
+                                c->sine};
   number q[5];
   ::carom_law law, slope;
   law_of_cushion(c, &law, &slope);
   const carom_status status = impact(&law, &slope, by, plain, q);
-  const carom_impulse all = {.P = V * q[0], .f_x = V * q[1], .f_t = V * q[2], .F_x = V * q[3], .F_y = V * q[4]};
+  const carom_impulse all = {
+      .P = V * q[0], .f_x = V * q[1], .f_t = V * q[2], .F_x = V * q[3], .F_y = V * q[4]};
   if (status == CAROM_OK)
     carom_push(c, &all);
   return status;
@@ -172,12 +192,14 @@ carom_status carom_mathavan(carom_contact *c, int plain) {
 
 /* ---- Euler's steps ---- */
 
-/* A contact by the numbers of which its derivatives are taken: the slips on the cloth stand for W_x and W_y, so that those of a
- * ball that rolls do not change. */
+/* A contact by the numbers of which its derivatives are taken: the slips on the cloth stand for
+ * W_x and W_y, so that those of a ball that rolls do not change. */
 enum { EULER_INS = 9, EULER_OUTS = 5 };
 
-static ::carom_status euler_at(const real in[EULER_INS], int steps, real least, int64_t most, real out[EULER_OUTS]) {
-  ::carom_contact c = {in[0], in[1], in[3] - in[1], in[0] - in[2], in[4], in[5], 0, in[6], in[7], in[8]};
+static ::carom_status euler_at(const real in[EULER_INS], int steps, real least, int64_t most,
+                               real out[EULER_OUTS]) {
+  ::carom_contact c = {in[0], in[1], in[3] - in[1], in[0] - in[2], in[4],
+                       in[5], 0,     in[6],         in[7],         in[8]};
   c.cosine = __builtin_sqrt((1 - c.sine) * (1 + c.sine));
   ::carom_cushion_run run;
   const ::carom_status status = ::carom_cushion_euler(&c, steps, least, 0, most, &run);
@@ -186,10 +208,13 @@ static ::carom_status euler_at(const real in[EULER_INS], int steps, real least, 
   return status;
 }
 
-/* Central differences of order 2 by each number that changes; by a constant that is 0, forward ones. */
-carom_status carom_cushion_euler(carom_contact *c, int steps, double least, int, int64_t most, carom_cushion_run *) {
+/* Central differences of order 2 by each number that changes; by a constant that is 0, forward
+ * ones. */
+carom_status carom_cushion_euler(carom_contact *c, int steps, double least, int, int64_t most,
+                                 carom_cushion_run *) {
   keep_rolling(c->v_x, c->v_y, &c->W_x, &c->W_y);
-  const number in[EULER_INS] = {c->v_x, c->v_y, carom_cloth_x(c), carom_cloth_y(c), c->W_z, c->sine, c->mu_s, c->mu_w, c->e};
+  const number in[EULER_INS] = {
+      c->v_x, c->v_y, carom_cloth_x(c), carom_cloth_y(c), c->W_z, c->sine, c->mu_s, c->mu_w, c->e};
   real at[EULER_INS], out[EULER_OUTS];
   for (int k = 0; k < EULER_INS; k++)
     at[k] = in[k].x;
@@ -202,7 +227,10 @@ carom_status carom_cushion_euler(carom_contact *c, int steps, double least, int,
       continue;
     real more[EULER_OUTS], less[EULER_OUTS] = {0};
     const bool constant = k > 4, forward = constant && at[k] == 0;
-    const real h = !constant ? 1e-3 * at[1] : forward ? 1e-4 : __builtin_fmin(1e-4, 0.5 * __builtin_fabs(at[k])), kept = at[k];
+    const real h = !constant ? 1e-3 * at[1]
+                   : forward ? 1e-4
+                             : __builtin_fmin(1e-4, 0.5 * __builtin_fabs(at[k])),
+               kept = at[k];
     at[k] = kept + h;
     status = euler_at(at, steps, least.x, most, more);
     at[k] = forward ? 0 : kept - h;

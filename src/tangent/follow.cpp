@@ -1,21 +1,25 @@
-/* Follows the events of a shot that has been played, with numbers that carry their derivatives in up to CAROM_TANGENT_COLUMNS
- * directions, and by time.
+/* Follows the events of a shot that has been played, with numbers that carry their derivatives
+ * in up to CAROM_TANGENT_COLUMNS directions, and by time.
  *
- * VALUES are those of the shot, to the bit: after each step they are set to what was played, so only derivatives flow.
+ * VALUES are those of the shot, to the bit: after each step they are set to what was played, so
+ * only derivatives flow.
  *
- * TIME OF AN EVENT. Let d be the derivatives of the states of its balls at a fixed time, and x' their rates: both are in the
- * state at that time, x' in the direction CLOCK. An event is where a gap g of these states is zero, so
+ * TIME OF AN EVENT. Let d be the derivatives of the states of its balls at a fixed time, and x'
+ * their rates: both are in the state at that time, x' in the direction CLOCK. An event is where
+ * a gap g of these states is zero, so
  *
  *     dT = -(dg . d) / (dg . x'),      dx- = d + x' dT.
  *
- * The end of a phase is a number that knows its own derivatives. So contacts are resolved from dx-, by the sources of the shot,
- * and what they make of it is the state from which the next path begins, at T + dT.
+ * The end of a phase is a number that knows its own derivatives. So contacts are resolved from
+ * dx-, by the sources of the shot, and what they make of it is the state from which the next
+ * path begins, at T + dT.
  *
- * CLUSTERS. All balls of a cluster change at the time of the contact that starts it. Their states there stand in the rows of the
- * result, from which each direction is taken through the cluster by itself.
+ * CLUSTERS. All balls of a cluster change at the time of the contact that starts it. Their
+ * states there stand in the rows of the result, from which each direction is taken through the
+ * cluster by itself.
  *
- * LABELS. A ball that rolls after an event, or lies, keeps doing so where a change of the first order would have it slide for a
- * time of the first order: a slip du becomes the speed -2/7 du. */
+ * LABELS. A ball that rolls after an event, or lies, keeps doing so where a change of the first
+ * order would have it slide for a time of the first order: a slip du becomes the speed -2/7 du. */
 #include "tangent/text.h"
 extern "C" {
 #include "tangent/cluster.h"
@@ -28,9 +32,11 @@ namespace {
 using text::carom_ball_state;
 using text::carom_sim;
 
-/* s: events less than this apart are simultaneous. Contacts that close slower than so much of the speed graze. */
+/* s: events less than this apart are simultaneous. Contacts that close slower than so much of
+ * the speed graze. */
 const real SIMULTANEOUS = 1e-9, GRAZING = 0.01;
-/* s: at the beginning of a path its motion is that of a time after it that is too short to change any value. */
+/* s: at the beginning of a path its motion is that of a time after it that is too short to
+ * change any value. */
 const real AT_ONCE = 1e-200;
 
 number &number_of(carom_ball_state *s, int k) {
@@ -89,7 +95,8 @@ void load_struct(const carom_tangent_pass &pass, const plain *from, const real *
 }
 void load_kind(const carom_tangent_work *w, int i, text::carom_ball_kind *to) {
   const real *rows = w->seeds->kind;
-  load_struct(w->pass, w->ball[i].kind, rows != nullptr ? rows + (int64_t)i * CAROM_KIND_NUMBERS * w->pass.m : nullptr, to);
+  load_struct(w->pass, w->ball[i].kind,
+              rows != nullptr ? rows + (int64_t)i * CAROM_KIND_NUMBERS * w->pass.m : nullptr, to);
 }
 
 /* Values are those that were played. */
@@ -126,14 +133,17 @@ CAROM_APART void begin_ball(const carom_tangent_work *w, int i, int side, scene 
   text::carom_path *path = &s->sim.path[side];
   set(ball->from, &path->from);
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
-    load(w->pass, w->tangent->final, (int64_t)i * CAROM_STATE_NUMBERS + k, &number_of(&path->from, k));
+    load(w->pass, w->tangent->final, (int64_t)i * CAROM_STATE_NUMBERS + k,
+         &number_of(&path->from, k));
   number start = 0.0;
   memcpy(&start.d, ball->start, sizeof start.d);
   text::carom_path_begin(path, &s->sim.rates[side], start);
 }
 
-/* The state at a time, with derivatives at that fixed time and, by CLOCK, its rate. A path begins at 0 on its own clock. */
-CAROM_APART void state_at(const carom_tangent_work *w, int i, int side, real time, scene *s, carom_ball_state *to) {
+/* The state at a time, with derivatives at that fixed time and, by CLOCK, its rate. A path
+ * begins at 0 on its own clock. */
+CAROM_APART void state_at(const carom_tangent_work *w, int i, int side, real time, scene *s,
+                          carom_ball_state *to) {
   text::carom_path *path = &s->sim.path[side];
   const real tau = time - w->ball[i].since;
   number at = tau > AT_ONCE ? tau : AT_ONCE;
@@ -167,10 +177,14 @@ CAROM_APART void take_part(scene *s) {
   /* the radius of the last ball places the nose, unless the table names one */
   if (!(w->table->ball_radius > 0) && w->seeds->kind != nullptr)
     load(w->pass, w->seeds->kind,
-         (int64_t)(w->count - 1) * CAROM_KIND_NUMBERS + (int)(offsetof(carom_ball_kind, radius) / sizeof(real)),
+         (int64_t)(w->count - 1) * CAROM_KIND_NUMBERS +
+             (int)(offsetof(carom_ball_kind, radius) / sizeof(real)),
          &s->features.reference);
-  const int b = e->type == CAROM_EVENT_RAIL_TOP && e->b >= w->table->rails ? e->b - (int)w->table->rails : e->b;
-  const bool rail = e->type == CAROM_EVENT_RAIL || (e->type == CAROM_EVENT_RAIL_TOP && e->b < w->table->rails);
+  const int b = e->type == CAROM_EVENT_RAIL_TOP && e->b >= w->table->rails
+                    ? e->b - (int)w->table->rails
+                    : e->b;
+  const bool rail =
+      e->type == CAROM_EVENT_RAIL || (e->type == CAROM_EVENT_RAIL_TOP && e->b < w->table->rails);
   number *nose[3];
   real value[3];
   if (rail) {
@@ -204,14 +218,16 @@ CAROM_APART void take_part(scene *s) {
 bool lands(const scene *s) {
   const carom_event *e = s->event;
   const ::carom_ball_state *at = &e->before[0];
-  if (e->type == CAROM_EVENT_POCKET && at->label == CAROM_BALL_AIRBORNE) { /* over the circle, and not at its far side */
+  /* over the circle, and not at its far side */
+  if (e->type == CAROM_EVENT_POCKET && at->label == CAROM_BALL_AIRBORNE) {
     const carom_pocket *p = &s->w->table->pocket[e->b];
     const real x = at->r[0] - p->centre[0], y = at->r[1] - p->centre[1];
     return __builtin_sqrt(x * x + y * y) < p->radius - SIMULTANEOUS;
   }
   const real start = s->w->ball[e->a].since;
-  return e->type == CAROM_EVENT_SLATE || (e->type == CAROM_EVENT_LEFT_TABLE && !(at->v[2] == 0 && e->time <= start) &&
-                                          e->time >= start + s->sim.path[0].end.x - 1e-12);
+  return e->type == CAROM_EVENT_SLATE ||
+         (e->type == CAROM_EVENT_LEFT_TABLE && !(at->v[2] == 0 && e->time <= start) &&
+          e->time >= start + s->sim.path[0].end.x - 1e-12);
 }
 
 /* Of a ball that leaves the table in flight: how far it is from the nearest edge of the rails. */
@@ -239,21 +255,25 @@ CAROM_APART number gap(scene *s) {
     number square = 0.0;
     for (int k = 0; k < 2; k++)
       square += (b->r[k] - a->r[k]) * (b->r[k] - a->r[k]);
-    const number z =
-        (text::carom_flies(b) ? b->r[2] : s->ball[1].kind.radius) - (text::carom_flies(a) ? a->r[2] : kind->radius);
+    const number z = (text::carom_flies(b) ? b->r[2] : s->ball[1].kind.radius) -
+                     (text::carom_flies(a) ? a->r[2] : kind->radius);
     return sqrt(square + z * z) - kind->radius - s->ball[1].kind.radius;
   }
   case CAROM_EVENT_RAIL:
   case CAROM_EVENT_JAW: {
     const bool rail = e->type == CAROM_EVENT_RAIL;
-    const number *line = s->features.line[0], height = rail ? s->table.rail[0].height : s->table.jaw[0].height;
+    const number *line = s->features.line[0],
+                 height = rail ? s->table.rail[0].height : s->table.jaw[0].height;
     const number x = a->r[0] - (rail ? number(0) : s->table.jaw[0].centre[0]),
                  y = a->r[1] - (rail ? number(0) : s->table.jaw[0].centre[1]);
-    const number across = rail ? line[0] * x + line[1] * y + line[2] : sqrt(x * x + y * y) - s->table.jaw[0].radius;
+    const number across =
+        rail ? line[0] * x + line[1] * y + line[2] : sqrt(x * x + y * y) - s->table.jaw[0].radius;
     if (!text::carom_flies(a))
-      return across - (w->opt->space == CAROM_SPACE_FLAT ? kind->radius
-                                                         : text::carom_reach_on_cloth(kind, height, s->features.reference));
-    const number own = text::carom_nose_height(kind, height), out = across - text::carom_nose_shift(own, s->features.reference);
+      return across - (w->opt->space == CAROM_SPACE_FLAT
+                           ? kind->radius
+                           : text::carom_reach_on_cloth(kind, height, s->features.reference));
+    const number own = text::carom_nose_height(kind, height),
+                 out = across - text::carom_nose_shift(own, s->features.reference);
     const number up = a->r[2] - own;
     return sqrt(out * out + up * up) - kind->radius;
   }
@@ -274,14 +294,16 @@ CAROM_APART number gap(scene *s) {
 /* ---- What is said of an event ---- */
 
 bool is_contact(const carom_event *e) {
-  return e->type == CAROM_EVENT_BALL_BALL || e->type == CAROM_EVENT_RAIL || e->type == CAROM_EVENT_JAW;
+  return e->type == CAROM_EVENT_BALL_BALL || e->type == CAROM_EVENT_RAIL ||
+         e->type == CAROM_EVENT_JAW;
 }
 
 bool ends_phase(const carom_event *e) {
   return e->type >= CAROM_EVENT_SLIDING_ROLLING && e->type <= CAROM_EVENT_SPINNING_STATIONARY;
 }
 
-/* A contact that closes slowly, or the last hop of a ball, or nearly so: there the derivative of v' grows without bound. */
+/* A contact that closes slowly, or the last hop of a ball, or nearly so: there the derivative of
+ * v' grows without bound. */
 CAROM_APART void note_grazing(scene *s, real rate) {
   const carom_event *e = s->event;
   const ::carom_ball_state *a = &e->before[0], *b = &e->before[1];
@@ -294,15 +316,17 @@ CAROM_APART void note_grazing(scene *s, real rate) {
     }
     grazes = __builtin_fabs(rate) < GRAZING * __builtin_sqrt(square);
   } else if (e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP) {
-    const real rebound = ::carom_slate_restitution(s->ball[0].kind.restitution_table.x), v_n = -a->v[2];
+    const real rebound = ::carom_slate_restitution(s->ball[0].kind.restitution_table.x),
+               v_n = -a->v[2];
     const real up = ::carom_rebound(v_n > 0 ? v_n : 0, rebound);
     grazes = up<GRAZING * rebound * v_n && ::carom_rebound((1 + GRAZING) * v_n, rebound)> 0;
   }
   s->w->note.flags |= grazes ? CAROM_TANGENT_GRAZING : 0;
 }
 
-/* Contacts so close that a small change reverses their order, or at the start so close that it parts the balls. A ball that is
- * pressed into the slate lands in the same instant, whatever changes. */
+/* Contacts so close that a small change reverses their order, or at the start so close that it
+ * parts the balls. A ball that is pressed into the slate lands in the same instant, whatever
+ * changes. */
 CAROM_APART void note_order(scene *s, const number &g) {
   const carom_event *e = s->event;
   const bool slate = e->type == CAROM_EVENT_SLATE;
@@ -311,8 +335,8 @@ CAROM_APART void note_order(scene *s, const number &g) {
   for (int i = 0; i <= s->two; i++) {
     carom_tangent_ball *ball = &s->w->ball[s->side[i]];
     const bool at_once = slate && e->time <= ball->since;
-    const bool lands_now =
-        ball->from.label == CAROM_BALL_AIRBORNE && ball->since + s->sim.path[i].end.x - e->time < SIMULTANEOUS;
+    const bool lands_now = ball->from.label == CAROM_BALL_AIRBORNE &&
+                           ball->since + s->sim.path[i].end.x - e->time < SIMULTANEOUS;
     if ((e->time - ball->last_contact < SIMULTANEOUS && !at_once) || (!slate && lands_now))
       s->w->note.flags |= CAROM_TANGENT_SIMULTANEOUS;
     ball->last_contact = e->time;
@@ -333,16 +357,19 @@ CAROM_APART text::carom_status strike(scene *s) {
     x[k] = (&w->cue->speed)[k];
     load(w->pass, w->seeds->cue, k, &x[k]);
   }
-  const bool flat = w->opt->space == CAROM_SPACE_FLAT, level = !flat && cue.theta.x == 0 && text::changes(cue.theta);
+  const bool flat = w->opt->space == CAROM_SPACE_FLAT,
+             level = !flat && cue.theta.x == 0 && text::changes(cue.theta);
   if (level)
     cue.theta.x = AT_ONCE;
   text::carom_motion motion;
-  const text::carom_status status = (flat ? text::carom_strike : text::carom_strike_in_space)(&cue, &s->ball[0].kind, &motion);
+  const text::carom_status status =
+      (flat ? text::carom_strike : text::carom_strike_in_space)(&cue, &s->ball[0].kind, &motion);
   if (status < 0)
     return status;
   memcpy(s->ball[0].state.v, motion.v, sizeof motion.v);
   memcpy(s->ball[0].state.w, motion.w, sizeof motion.w);
-  /* a change of the elevation raises a level cue: the ball falls onto the slate at a speed that is 0 */
+  /* a change of the elevation raises a level cue: the ball falls onto the slate at a speed that
+   * is 0 */
   if (level) {
     set(s->event->after[0], &s->ball[0].state);
     s->ball[0].state.v[2].x = -AT_ONCE;
@@ -356,15 +383,16 @@ CAROM_APART text::carom_status strike(scene *s) {
 real apart(const ::carom_ball_state *played, carom_ball_state *s) {
   real off = 0, most = 0;
   for (int k = 0; k < 3; k++) {
-    off =
-        __builtin_fmax(off, __builtin_fmax(__builtin_fabs(s->v[k].x - played->v[k]), __builtin_fabs(s->w[k].x - played->w[k])));
-    most = __builtin_fmax(most, __builtin_fmax(__builtin_fabs(played->v[k]), __builtin_fabs(played->w[k])));
+    off = __builtin_fmax(off, __builtin_fmax(__builtin_fabs(s->v[k].x - played->v[k]),
+                                             __builtin_fabs(s->w[k].x - played->w[k])));
+    most = __builtin_fmax(
+        most, __builtin_fmax(__builtin_fabs(played->v[k]), __builtin_fabs(played->w[k])));
   }
   return off / most;
 }
 
-/* A cushion. Where the exact model refuses an impact a shot takes it in steps; the derivatives of the impact may be known all
- * the same, but are those of another motion. */
+/* A cushion. Where the exact model refuses an impact a shot takes it in steps; the derivatives
+ * of the impact may be known all the same, but are those of another motion. */
 CAROM_APART text::carom_status meet_cushion(scene *s) {
   const text::carom_due due = {s->event->time, s->event->type, 0, 0};
   const carom_ball_state before = s->ball[0].state;
@@ -378,9 +406,11 @@ CAROM_APART text::carom_status meet_cushion(scene *s) {
   s->opt.cushion_model = text::CAROM_SHOT_CUSHION_EULER;
   s->sim.slow_instants = s->w->slow_instants;
   s->sim.slow_last = s->w->slow_last;
-  const text::carom_status in_steps = text::carom_resolve(&s->sim, &due, &s->ball[0].state, nullptr);
+  const text::carom_status in_steps =
+      text::carom_resolve(&s->sim, &due, &s->ball[0].state, nullptr);
   carom_ball_state first = exact;
-  if (status >= 0 && (in_steps < 0 || apart(&s->event->after[0], &s->ball[0].state) > apart(&s->event->after[0], &first))) {
+  if (status >= 0 && (in_steps < 0 || apart(&s->event->after[0], &s->ball[0].state) >
+                                          apart(&s->event->after[0], &first))) {
     s->ball[0].state = exact;
     watched.note = note;
     return status;
@@ -445,8 +475,8 @@ CAROM_APART void settle(const text::carom_ball_kind *kind, carom_ball_state *s) 
 }
 
 /* Puts ball i where its path begins, at a time. */
-CAROM_APART void put(carom_tangent_work *w, int i, const ::carom_ball_state &played, real time, const row &dT,
-                     carom_ball_state *s) {
+CAROM_APART void put(carom_tangent_work *w, int i, const ::carom_ball_state &played, real time,
+                     const row &dT, carom_ball_state *s) {
   carom_tangent_ball *ball = &w->ball[i];
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
     unload(w->pass, number_of(s, k), w->tangent->final, (int64_t)i * CAROM_STATE_NUMBERS + k);
@@ -543,14 +573,15 @@ CAROM_APART void arrive(carom_tangent_work *w, const member *of, const row &dT, 
   state_at(w, of->ball, 0, of->event->time, &s, state);
   add_time(dT, state);
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
-    unload(w->pass, number_of(state, k), w->tangent->final, (int64_t)of->ball * CAROM_STATE_NUMBERS + k);
+    unload(w->pass, number_of(state, k), w->tangent->final,
+           (int64_t)of->ball * CAROM_STATE_NUMBERS + k);
   if (!starts && of->event->time - ball->last_contact < SIMULTANEOUS)
     w->note.flags |= CAROM_TANGENT_SIMULTANEOUS;
   ball->last_contact = of->event->time;
 }
 
-CAROM_APART void load_member(const carom_tangent_work *w, int i, const ::carom_ball_state &played, text::carom_ball_kind *kind,
-                             carom_ball_state *s) {
+CAROM_APART void load_member(const carom_tangent_work *w, int i, const ::carom_ball_state &played,
+                             text::carom_ball_kind *kind, carom_ball_state *s) {
   load_kind(w, i, kind);
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
     load(w->pass, w->tangent->final, (int64_t)i * CAROM_STATE_NUMBERS + k, &number_of(s, k));
@@ -581,7 +612,8 @@ bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS], real d[CAROM_MEMBE
   text::carom_shot_options opt = {};
   opt.ball_model = (text::carom_ball_model)c->w->ball_model;
   opt.friction = (text::carom_ball_friction)c->w->opt->friction;
-  const text::carom_cluster_ball ball = text::member_of(&kind, &s, &opt, text::carom_flies(&s), of->ball);
+  const text::carom_cluster_ball ball =
+      text::member_of(&kind, &s, &opt, text::carom_flies(&s), of->ball);
   const number *from = ball.r;
   for (int n = 0; n < CAROM_MEMBER_NUMBERS; n++) {
     x[n] = from[n].x;
@@ -590,7 +622,8 @@ bool give(void *context, int k, real x[CAROM_MEMBER_NUMBERS], real d[CAROM_MEMBE
   return ball.flies;
 }
 
-void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS], const real d[CAROM_MOTION_NUMBERS]) {
+void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS],
+          const real d[CAROM_MOTION_NUMBERS]) {
   static const int row_of[CAROM_MOTION_NUMBERS] = {S_V_X, S_V_Y, S_V_Z, S_W_X, S_W_Y, S_W_Z};
   cluster *c = (cluster *)context;
   const carom_tangent_work *w = c->w;
@@ -601,7 +634,8 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS], const real d
   const real R = kind.radius.x, dR = kind.radius.d[c->direction];
   for (int n = 0; n < CAROM_MOTION_NUMBERS; n++) {
     const int64_t at = (int64_t)i * CAROM_STATE_NUMBERS + row_of[n];
-    carom_tangent_columns(&w->pass, w->tangent->final, at)[c->direction] = n < 3 ? d[n] : (d[n] - x[n] / R * dR) / R;
+    carom_tangent_columns(&w->pass, w->tangent->final, at)[c->direction] =
+        n < 3 ? d[n] : (d[n] - x[n] / R * dR) / R;
     if (n == 2) /* the label may end it */
       continue;
     const real played = n < 3 ? after->v[n] : R * after->w[n - 3];
@@ -610,14 +644,16 @@ void take(void *context, int k, const real x[CAROM_MOTION_NUMBERS], const real d
   }
 }
 
-/* Each direction through the cluster. A motion that is not the one that was played has other derivatives. */
+/* Each direction through the cluster. A motion that is not the one that was played has other
+ * derivatives. */
 CAROM_APART bool solve_cluster(cluster *c, const carom_event *first) {
   carom_tangent_work *w = c->w;
   const int64_t steps = w->opt->cluster_steps;
   const carom_tangent_cluster task = {.balls = c->count,
                                       .first = place_of(c, first->a),
                                       .second = place_of(c, first->b),
-                                      .steps = steps > 0 ? (real)steps : (real)text::CAROM_CLUSTER_STEPS,
+                                      .steps =
+                                          steps > 0 ? (real)steps : (real)text::CAROM_CLUSTER_STEPS,
                                       .slow = text::carom_slow_speed(w->slow_instants).x,
                                       .give = give,
                                       .take = take,
@@ -650,7 +686,8 @@ CAROM_APART void leave(const cluster *c, const member *of, const row &dT) {
 
 } // namespace
 
-carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_event *events, int count, int64_t at) {
+carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_event *events,
+                                          int count, int64_t at) {
   cluster c;
   w->note = {0, 0};
   watched = {false, {0, 0}};
@@ -684,8 +721,8 @@ void carom_tangent_begin(carom_tangent_work *w, int i) {
   text::carom_ball_kind kind;
   load_kind(w, i, &kind);
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
-    load(w->pass, carom_is_out(ball->from.label) ? nullptr : w->seeds->state, (int64_t)i * CAROM_STATE_NUMBERS + k,
-         &number_of(&s, k));
+    load(w->pass, carom_is_out(ball->from.label) ? nullptr : w->seeds->state,
+         (int64_t)i * CAROM_STATE_NUMBERS + k, &number_of(&s, k));
   set(ball->from, &s);
   settle(&kind, &s);
   put(w, i, ball->from, 0, row{}, &s);
@@ -743,8 +780,9 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   s.sim.now.d[CLOCK] = 1;
   s.sim.slow_instants = w->slow_instants;
   s.sim.slow_last = w->slow_last;
-  const bool raised = s.two && (text::changes(s.ball[0].state.v[2]) || text::changes(s.ball[1].state.v[2]) ||
-                                text::changes(s.ball[1].state.r[2] - s.ball[0].state.r[2]));
+  const bool raised =
+      s.two && (text::changes(s.ball[0].state.v[2]) || text::changes(s.ball[1].state.v[2]) ||
+                text::changes(s.ball[1].state.r[2] - s.ball[0].state.r[2]));
   watched.on = is_contact(e) || e->type == CAROM_EVENT_SLATE || e->type == CAROM_EVENT_RAIL_TOP;
   const text::carom_status status = resolve(&s);
   watched.on = false;
@@ -755,10 +793,13 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   w->slow_last = s.sim.slow_last.x;
   w->note.flags |= watched.note.flags | (slow ? CAROM_TANGENT_SLOW : 0);
   w->note.error = watched.note.error;
-  /* a ball without vertical speed but for rounding stays on the cloth, though a change would lift it */
-  const bool in_space = s.two && (e->before[0].label == CAROM_BALL_AIRBORNE || e->before[1].label == CAROM_BALL_AIRBORNE ||
+  /* a ball without vertical speed but for rounding stays on the cloth, though a change would
+   * lift it */
+  const bool in_space = s.two && (e->before[0].label == CAROM_BALL_AIRBORNE ||
+                                  e->before[1].label == CAROM_BALL_AIRBORNE ||
                                   w->ball[e->a].kind->radius != w->ball[e->b].kind->radius);
-  if (in_space && !slow && raised && (e->after[0].label != CAROM_BALL_AIRBORNE || e->after[1].label != CAROM_BALL_AIRBORNE))
+  if (in_space && !slow && raised &&
+      (e->after[0].label != CAROM_BALL_AIRBORNE || e->after[1].label != CAROM_BALL_AIRBORNE))
     w->note.flags |= CAROM_TANGENT_KINK;
   for (int i = 0; i <= s.two; i++) {
     set(e->after[i], &s.ball[i].state);
@@ -769,8 +810,9 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *e) {
   return CAROM_OK;
 }
 
-carom_status carom_tangent_of_balls(const carom_impact *in, const carom_options *opt, const carom_tangent_pass *pass,
-                                    const double *seeds, double *tangent, carom_tangent_note *note) {
+carom_status carom_tangent_of_balls(const carom_impact *in, const carom_options *opt,
+                                    const carom_tangent_pass *pass, const double *seeds,
+                                    double *tangent, carom_tangent_note *note) {
   text::carom_impact impact;
   text::carom_options options = {};
   text::carom_result out;
@@ -786,9 +828,10 @@ carom_status carom_tangent_of_balls(const carom_impact *in, const carom_options 
   return (carom_status)status;
 }
 
-carom_status carom_tangent_of_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
-                                      const carom_tangent_pass *pass, const double *seeds, double *tangent,
-                                      carom_tangent_note *note) {
+carom_status carom_tangent_of_cushion(const carom_cushion_impact *in,
+                                      const carom_cushion_options *opt,
+                                      const carom_tangent_pass *pass, const double *seeds,
+                                      double *tangent, carom_tangent_note *note) {
   text::carom_cushion_impact impact;
   text::carom_cushion_options options = {};
   text::carom_motion out;

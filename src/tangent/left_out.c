@@ -14,7 +14,8 @@ carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *even
   return CAROM_ERROR_NO_TANGENTS;
 }
 
-carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_event *events, int count, int64_t at) {
+carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_event *events,
+                                          int count, int64_t at) {
   (void)w;
   (void)events;
   (void)count;
@@ -29,8 +30,9 @@ void carom_tangent_at(const carom_tangent_work *w, int i, double time, carom_tan
   (void)d;
 }
 
-carom_status carom_tangent_of_balls(const carom_impact *in, const carom_options *opt, const carom_tangent_pass *pass,
-                                    const double *seeds, double *tangent, carom_tangent_note *note) {
+carom_status carom_tangent_of_balls(const carom_impact *in, const carom_options *opt,
+                                    const carom_tangent_pass *pass, const double *seeds,
+                                    double *tangent, carom_tangent_note *note) {
   (void)in;
   (void)opt;
   (void)pass;
@@ -40,9 +42,10 @@ carom_status carom_tangent_of_balls(const carom_impact *in, const carom_options 
   return CAROM_ERROR_NO_TANGENTS;
 }
 
-carom_status carom_tangent_of_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
-                                      const carom_tangent_pass *pass, const double *seeds, double *tangent,
-                                      carom_tangent_note *note) {
+carom_status carom_tangent_of_cushion(const carom_cushion_impact *in,
+                                      const carom_cushion_options *opt,
+                                      const carom_tangent_pass *pass, const double *seeds,
+                                      double *tangent, carom_tangent_note *note) {
   (void)in;
   (void)opt;
   (void)pass;

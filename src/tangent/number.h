@@ -1,11 +1,15 @@
-/* A number with its derivatives in several directions, for the sources of motion and contacts as C++ (text.h).
+/* A number with its derivatives in several directions, for the sources of motion and contacts as
+ * C++ (text.h).
  *
- * x is the value and d has the derivatives, one for each direction. Arithmetic follows the rules of differentiation:
+ * x is the value and d has the derivatives, one for each direction. Arithmetic follows the rules
+ * of differentiation:
  *
- *     d(a b) = x_a d_b + x_b d_a      d(a / b) = (d_a - (x_a / x_b) d_b) / x_b      d sqrt(a) = d_a / (2 sqrt(x_a))
+ *     d(a b) = x_a d_b + x_b d_a      d(a / b) = (d_a - (x_a / x_b) d_b) / x_b
+ *     d sqrt(a) = d_a / (2 sqrt(x_a))
  *
- * Constants are of type `real` and cost no work on derivatives. The decision of a comparison, rounding and conversion to other
- * types have no derivative. Where a comparison is watched and its sides agree to 1e-9, the derivative changes there: a kink. */
+ * Constants are of type `real` and cost no work on derivatives. The decision of a comparison,
+ * rounding and conversion to other types have no derivative. Where a comparison is watched and
+ * its sides agree to 1e-9, the derivative changes there: a kink. */
 #ifndef CAROM_SRC_TANGENT_NUMBER_H
 #define CAROM_SRC_TANGENT_NUMBER_H
 
@@ -34,7 +38,8 @@ typedef double real;
 #endif
 enum { WIDTH = CAROM_TANGENT_WIDTH, CLOCK = WIDTH - 1 }; /* the last direction is that of time */
 
-/* Derivatives in all directions: a few vectors that fit registers, since compilers keep longer ones in memory. */
+/* Derivatives in all directions: a few vectors that fit registers, since compilers keep longer
+ * ones in memory. */
 typedef real lane __attribute__((vector_size(LANE_BYTES)));
 enum { LANE = sizeof(lane) / sizeof(real), LANES = WIDTH / LANE };
 struct row {
@@ -176,7 +181,8 @@ static bool part(const row &a, const row &b) {
   return any;
 }
 CAROM_RULE void look(const number &a, const number &b) {
-  if (__builtin_expect(__builtin_fabs(a.x - b.x) < 1e-9 * __builtin_fabs(b.x), 0) && watched.on && part(a.d, b.d))
+  if (__builtin_expect(__builtin_fabs(a.x - b.x) < 1e-9 * __builtin_fabs(b.x), 0) && watched.on &&
+      part(a.d, b.d))
     watched.note.flags |= CAROM_TANGENT_KINK;
 }
 #define CAROM_ORDER(op)                                           \

@@ -1,13 +1,16 @@
-/* How far tangents reach: the change, in the unit of a direction, at which to first order a ball's own sequence of events
- * changes. The least of
+/* How far tangents reach: the change, in the unit of a direction, at which to first order a
+ * ball's own sequence of events changes. The least of
  *
  *     order     two successive events of a ball swap: (T2 - T1) / |dT2 - dT1|
- *     miss      a hit on a ball, a nose or a pocket becomes a miss: (r - |s|) / |ds|, s = d x v / |v| the distance at which the
- *               straight line along the relative velocity would pass the centre, r the sum of the radii
- *     hit       a miss becomes a hit: the least distance of the surfaces on the way over its derivative n . (d_b - d_a), also
- *               where a ball comes to rest short of something, or lands beside a pocket
+ *     miss      a hit on a ball, a nose or a pocket becomes a miss: (r - |s|) / |ds|,
+ *               s = d x v / |v| the distance at which the straight line along the relative
+ *               velocity would pass the centre, r the sum of the radii
+ *     hit       a miss becomes a hit: the least distance of the surfaces on the way over its
+ *               derivative n . (d_b - d_a), also where a ball comes to rest short of something,
+ *               or lands beside a pocket
  *     end       a ball on a rail comes to its end, where a jaw stands, or the other way round
- *     hop       the last hop of a ball on the slate: its fall less the least one after which there is a hop
+ *     hop       the last hop of a ball on the slate: its fall less the least one after which
+ *               there is a hop
  *
  * In flight the tops of rails, the backs of pockets and the edge of the table do not count. */
 #include "tangent/reach.h"
@@ -19,7 +22,8 @@
 #include <string.h>
 
 static const double NEAR = 0.2;      /* m: gaps beyond are not asked for; */
-static const double TOUCHING = 2e-4; /* nor those up to this, of what touched or nearly did as the way began */
+static const double TOUCHING = 2e-4; /* nor those up to this, of what touched or nearly did as
+                                        the way began */
 enum { PARTS_OF_WAY = 6, BISECTIONS = 30 };
 
 void carom_reach_go_on(carom_tangent_work *work, int i) {
@@ -47,8 +51,9 @@ static void take(carom_reach *reach, int j, double gap, double rate) {
     reach->reach[j] = carom_lesser(reach->reach[j], carom_greater(gap, 0.0) / fabs(rate));
 }
 
-/* The separation to what a ball may meet, quadratic in the time since `from`: d + v t + a t^2. It may be a point, or the
- * nearest point of a ring around it, at its height; or of a level line, from which `across` points to the ball. */
+/* The separation to what a ball may meet, quadratic in the time since `from`: d + v t + a t^2.
+ * It may be a point, or the nearest point of a ring around it, at its height; or of a level
+ * line, from which `across` points to the ball. */
 typedef struct separation {
   double from, d[3], v[3], a[3];
   double ring;
@@ -90,11 +95,11 @@ static bool is_missed(double gap, double first) {
   return gap > (first <= TOUCHING ? TOUCHING : 0.0) && gap < NEAR;
 }
 
-/* What the gap at a time is worth in each direction. other: the ball that is missed, or NULL. surface: of the ball, and not its
- * centre. */
+/* What the gap at a time is worth in each direction. other: the ball that is missed, or NULL.
+ * surface: of the ball, and not its centre. */
 __attribute__((noinline)) static void take_gap(carom_reach *reach, const carom_tangent_ball *ball,
-                                               const carom_tangent_ball *other, double time, const double n[3], double gap,
-                                               bool surface) {
+                                               const carom_tangent_ball *other, double time,
+                                               const double n[3], double gap, bool surface) {
   const carom_tangent_work *w = reach->work;
   const int m = w->pass.columns, radius = (int)(offsetof(carom_ball_kind, radius) / sizeof(double));
   carom_tangent_rows d;
@@ -103,7 +108,9 @@ __attribute__((noinline)) static void take_gap(carom_reach *reach, const carom_t
     const carom_tangent_ball *one = side == 0 ? ball : other;
     const int i = (int)(one - w->ball);
     const double *dR =
-        w->seeds->kind != NULL ? w->seeds->kind + (i * CAROM_KIND_NUMBERS + radius) * w->pass.m + w->pass.first : NULL;
+        w->seeds->kind != NULL
+            ? w->seeds->kind + (i * CAROM_KIND_NUMBERS + radius) * w->pass.m + w->pass.first
+            : NULL;
     carom_tangent_at(w, i, time, d);
     for (int j = 0; j < m; j++) {
       const double moves = n[0] * d[S_X][j] + n[1] * d[S_Y][j] + n[2] * d[S_Z][j];
@@ -115,10 +122,11 @@ __attribute__((noinline)) static void take_gap(carom_reach *reach, const carom_t
     take(reach, j, gap, along[j]);
 }
 
-/* The least distances on the way from t = 0 to T; stops: the end of the way counts as one. rail: between whose ends they count,
- * or NULL. */
-static void search(carom_reach *reach, const carom_tangent_ball *ball, const carom_tangent_ball *other, const separation *s,
-                   double T, double reaches, bool stops, const carom_rail *rail) {
+/* The least distances on the way from t = 0 to T; stops: the end of the way counts as one. rail:
+ * between whose ends they count, or NULL. */
+static void search(carom_reach *reach, const carom_tangent_ball *ball,
+                   const carom_tangent_ball *other, const separation *s, double T, double reaches,
+                   bool stops, const carom_rail *rail) {
   double way = 0.0;
   for (int k = 0; k < 3; k++)
     way += T * (fabs(s->v[k]) + T * fabs(s->a[k]));
@@ -129,7 +137,8 @@ static void search(carom_reach *reach, const carom_tangent_ball *ball, const car
   for (int k = 1; k <= PARTS_OF_WAY; k++) {
     double low = T * (k - 1) / (double)PARTS_OF_WAY, high = T * k / (double)PARTS_OF_WAY;
     const double now = distance_at(s, high).opens;
-    const bool least = before < 0.0 && now >= 0.0, end = stops && k == PARTS_OF_WAY && before < 0.0 && !least;
+    const bool least = before < 0.0 && now >= 0.0,
+               end = stops && k == PARTS_OF_WAY && before < 0.0 && !least;
     before = now;
     if (!least && !end)
       continue;
@@ -143,7 +152,8 @@ static void search(carom_reach *reach, const carom_tangent_ball *ball, const car
       continue;
     if (rail != NULL) { /* d points to p */
       const double e_x = rail->q[0] - rail->p[0], e_y = rail->q[1] - rail->p[1];
-      const double x = s->d[0] + high * (s->v[0] + high * s->a[0]), y = s->d[1] + high * (s->v[1] + high * s->a[1]);
+      const double x = s->d[0] + high * (s->v[0] + high * s->a[0]),
+                   y = s->d[1] + high * (s->v[1] + high * s->a[1]);
       const double along = -(x * e_x + y * e_y) / (e_x * e_x + e_y * e_y);
       if (!(along >= 0.0 && along <= 1.0))
         continue;
@@ -152,8 +162,10 @@ static void search(carom_reach *reach, const carom_tangent_ball *ball, const car
   }
 }
 
-/* Place, velocity and half the acceleration of a ball at a time; on the cloth, at the height of its radius. */
-static void motion_at(const carom_tangent_ball *ball, double time, double r[3], double v[3], double a[3]) {
+/* Place, velocity and half the acceleration of a ball at a time; on the cloth, at the height of
+ * its radius. */
+static void motion_at(const carom_tangent_ball *ball, double time, double r[3], double v[3],
+                      double a[3]) {
   const double tau = time - ball->since;
   const bool moves = carom_translates(ball->from.label);
   for (int k = 0; k < 3; k++) {
@@ -165,9 +177,10 @@ static void motion_at(const carom_tangent_ball *ball, double time, double r[3], 
     r[2] = ball->kind->radius;
 }
 
-/* From a ball to another one, or to a point, whose height is that of the ball if it is not a number. */
-static separation between(const carom_tangent_ball *ball, const carom_tangent_ball *other, const double *point, double height,
-                          double from) {
+/* From a ball to another one, or to a point, whose height is that of the ball if it is not a
+ * number. */
+static separation between(const carom_tangent_ball *ball, const carom_tangent_ball *other,
+                          const double *point, double height, double from) {
   separation s = {.from = from};
   double r[2][3], v[2][3] = {{0}}, a[2][3] = {{0}};
   motion_at(ball, from, r[0], v[0], a[0]);
@@ -186,7 +199,8 @@ static separation between(const carom_tangent_ball *ball, const carom_tangent_ba
 }
 
 /* The noses that a flying ball missed. */
-static void noses_missed(carom_reach *reach, const carom_tangent_ball *ball, const carom_event *event) {
+static void noses_missed(carom_reach *reach, const carom_tangent_ball *ball,
+                         const carom_event *event) {
   const carom_table *table = reach->work->table;
   const double start = ball->since, R = ball->kind->radius, ref = reach->work->reference;
   for (int64_t k = 0; k < table->rails; k++) {
@@ -213,7 +227,8 @@ static void noses_missed(carom_reach *reach, const carom_tangent_ball *ball, con
 }
 
 /* The cushions and pockets that a ball on the cloth missed; stops: it came to rest. */
-static void cushions_missed(carom_reach *reach, const carom_tangent_ball *ball, const carom_event *event, bool stops) {
+static void cushions_missed(carom_reach *reach, const carom_tangent_ball *ball,
+                            const carom_event *event, bool stops) {
   const carom_table *table = reach->work->table;
   const double start = ball->since, T = event->time - start;
   for (int64_t k = 0; k < table->jaws; k++) {
@@ -232,8 +247,11 @@ static void cushions_missed(carom_reach *reach, const carom_tangent_ball *ball, 
   for (int64_t k = 0; stops && k < table->rails; k++) {
     double line[3];
     carom_rail_line(&table->rail[k], line);
-    const double *r = event->before[0].r, R = carom_reach_on_cloth(ball->kind, table->rail[k].height, reach->work->reference);
-    const double gap = line[0] * r[0] + line[1] * r[1] + line[2] - R, n[3] = {-line[0], -line[1], 0.0};
+    const double *r = event->before[0].r,
+                 R = carom_reach_on_cloth(ball->kind, table->rail[k].height,
+                                          reach->work->reference);
+    const double gap = line[0] * r[0] + line[1] * r[1] + line[2] - R,
+                 n[3] = {-line[0], -line[1], 0.0};
     const double *from = ball->from.r, first = line[0] * from[0] + line[1] * from[1] + line[2] - R;
     if (is_missed(gap, first))
       take_gap(reach, ball, NULL, event->time, n, gap, true);
@@ -244,16 +262,19 @@ static void cushions_missed(carom_reach *reach, const carom_tangent_ball *ball, 
 static void misses_of(carom_reach *reach, int i, const carom_event *event) {
   const carom_tangent_work *w = reach->work;
   const carom_tangent_ball *ball = &w->ball[i];
-  const bool stops = event->type == CAROM_EVENT_ROLLING_SPINNING || event->type == CAROM_EVENT_ROLLING_STATIONARY;
+  const bool stops =
+      event->type == CAROM_EVENT_ROLLING_SPINNING || event->type == CAROM_EVENT_ROLLING_STATIONARY;
   const bool moves = carom_translates(ball->from.label);
   for (int q = 0; q < w->count; q++) {
     const carom_tangent_ball *other = &w->ball[q];
     const bool met = event->type == CAROM_EVENT_BALL_BALL && (q == event->a || q == event->b);
-    if (q == i || met || carom_is_out(other->from.label) || !(moves || carom_translates(other->from.label)))
+    if (q == i || met || carom_is_out(other->from.label) ||
+        !(moves || carom_translates(other->from.label)))
       continue;
     const double from = fmax(ball->since, other->since);
     const separation s = between(ball, other, NULL, NAN, from);
-    search(reach, ball, other, &s, event->time - from, ball->kind->radius + other->kind->radius, stops, NULL);
+    search(reach, ball, other, &s, event->time - from, ball->kind->radius + other->kind->radius,
+           stops, NULL);
   }
   if (carom_flies(&ball->from))
     noses_missed(reach, ball, event);
@@ -267,7 +288,8 @@ void carom_reach_misses(carom_reach *reach, const carom_event *event) {
     misses_of(reach, event->b, event);
 }
 
-/* A hit on what is d away and comes nearer by v, with their tangents in one direction; r: the sum of the radii, 0 for no hit.
+/* A hit on what is d away and comes nearer by v, with their tangents in one direction; r: the
+ * sum of the radii, 0 for no hit.
  */
 typedef struct hit {
   double d[3], v[3], dd[3], dv[3], r;
@@ -291,21 +313,25 @@ static void take_hit(carom_reach *reach, int j, const hit *h) {
     take(reach, j, h->r - s, ds / s);
 }
 
-/* The hit of an event, with tangents t. On a nose in flight it is one in the plane across that: level and up. */
-static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tangent_rows *t, int j) {
+/* The hit of an event, with tangents t. On a nose in flight it is one in the plane across that:
+ * level and up. */
+static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tangent_rows *t,
+                  int j) {
   static const int X[3] = {S_X, S_Y, S_Z}, V[3] = {S_V_X, S_V_Y, S_V_Z};
   const carom_tangent_work *w = reach->work;
   const carom_table *table = w->table;
   const carom_ball_kind *kind = w->ball[event->a].kind;
   const carom_ball_state *a = &event->before[0], *b = &event->before[1];
   const bool two = event->type == CAROM_EVENT_BALL_BALL, is_jaw = event->type == CAROM_EVENT_JAW;
-  const bool in_flight = carom_flies(a), at_nose = in_flight && (is_jaw || event->type == CAROM_EVENT_RAIL);
+  const bool in_flight = carom_flies(a),
+             at_nose = in_flight && (is_jaw || event->type == CAROM_EVENT_RAIL);
   hit h = {.r = 0.0};
   double to[2];
   if (two) {
     memcpy(to, b->r, sizeof to);
     h.r = kind->radius + w->ball[event->b].kind->radius;
-    h.d[2] = (carom_flies(b) ? b->r[2] : w->ball[event->b].kind->radius) - (in_flight ? a->r[2] : kind->radius);
+    h.d[2] = (carom_flies(b) ? b->r[2] : w->ball[event->b].kind->radius) -
+             (in_flight ? a->r[2] : kind->radius);
   } else if (is_jaw) {
     const carom_jaw *jaw = &table->jaw[event->b];
     memcpy(to, jaw->centre, sizeof to);
@@ -327,12 +353,14 @@ static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tang
   if (!at_nose)
     return h;
   /* along what points from the nose to the ball, which takes the place of x */
-  const double height = carom_nose_height(kind, is_jaw ? table->jaw[event->b].height : table->rail[event->b].height);
+  const double height =
+      carom_nose_height(kind, is_jaw ? table->jaw[event->b].height : table->rail[event->b].height);
   const double q = sqrt(h.d[0] * h.d[0] + h.d[1] * h.d[1]);
   double out[3] = {-h.d[0] / q, -h.d[1] / q, 0.0};
   if (!is_jaw)
     carom_rail_line(&table->rail[event->b], out);
-  const double beyond = (is_jaw ? table->jaw[event->b].radius : 0.0) + carom_nose_shift(height, w->reference);
+  const double beyond =
+      (is_jaw ? table->jaw[event->b].radius : 0.0) + carom_nose_shift(height, w->reference);
   double *const level[4] = {h.d, h.v, h.dd, h.dv};
   for (int n = 0; n < 4; n++) {
     level[n][0] = out[0] * level[n][0] + out[1] * level[n][1];
@@ -346,31 +374,37 @@ static hit hit_of(const carom_reach *reach, const carom_event *event, carom_tang
 
 /* Whether a jaw rounds an end of a rail. */
 static bool rounds(const carom_jaw *jaw, const double end[2]) {
-  const double x = jaw->centre[0] - end[0], y = jaw->centre[1] - end[1], off = sqrt(x * x + y * y) - jaw->radius;
+  const double x = jaw->centre[0] - end[0], y = jaw->centre[1] - end[1],
+               off = sqrt(x * x + y * y) - jaw->radius;
   return fabs(off) < 1e-4;
 }
 
-/* The rails beside an event. A ball that meets a rail beyond its end meets the jaw there instead, one that meets a jaw beyond
- * the end of its rail the rail; and one that falls into a pocket, or meets a jaw, may come to a rail before. */
+/* The rails beside an event. A ball that meets a rail beyond its end meets the jaw there
+ * instead, one that meets a jaw beyond the end of its rail the rail; and one that falls into a
+ * pocket, or meets a jaw, may come to a rail before. */
 static void take_rails(carom_reach *reach, const carom_event *event, carom_tangent_rows d) {
   const carom_tangent_work *w = reach->work;
   const carom_ball_state *s = &event->before[0];
   const carom_jaw *jaw = event->type == CAROM_EVENT_JAW ? &w->table->jaw[event->b] : NULL;
   for (int64_t k = 0; k < w->table->rails; k++) {
     const carom_rail *rail = &w->table->rail[k];
-    const double e[2] = {rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]}, length = sqrt(e[0] * e[0] + e[1] * e[1]);
-    const double x = s->r[0] - rail->p[0], y = s->r[1] - rail->p[1], place = (e[0] * x + e[1] * y) / length;
+    const double e[2] = {rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]},
+                 length = sqrt(e[0] * e[0] + e[1] * e[1]);
+    const double x = s->r[0] - rail->p[0], y = s->r[1] - rail->p[1],
+                 place = (e[0] * x + e[1] * y) / length;
     const double beyond = carom_greater(-place, place - length);
     double line[3];
     carom_rail_line(rail, line);
     const double reaches = carom_reach_on_cloth(w->ball[event->a].kind, rail->height, w->reference);
     const double gap = line[0] * s->r[0] + line[1] * s->r[1] + line[2] - reaches;
     const bool meets = event->type == CAROM_EVENT_RAIL && event->b == k;
-    const bool at_end = meets || (jaw != NULL && beyond > 0.0 && rounds(jaw, place < 0.0 ? rail->p : rail->q));
+    const bool at_end =
+        meets || (jaw != NULL && beyond > 0.0 && rounds(jaw, place < 0.0 ? rail->p : rail->q));
     const bool before = event->type != CAROM_EVENT_RAIL && beyond <= 0.0 && gap > 0.0 && gap < NEAR;
     for (int j = 0; j < w->pass.columns && (at_end || before); j++)
       take(reach, j, at_end ? fabs(beyond) : gap,
-           at_end ? (e[0] * d[S_X][j] + e[1] * d[S_Y][j]) / length : line[0] * d[S_X][j] + line[1] * d[S_Y][j]);
+           at_end ? (e[0] * d[S_X][j] + e[1] * d[S_Y][j]) / length
+                  : line[0] * d[S_X][j] + line[1] * d[S_Y][j]);
   }
 }
 
@@ -390,7 +424,8 @@ static void take_landing(carom_reach *reach, const carom_event *event, carom_tan
       take(reach, j, fabs(-s->v[2] - high), d[S_V_Z][j]);
     for (int64_t k = 0; k < w->table->pockets; k++) {
       const carom_pocket *pocket = &w->table->pocket[k];
-      const double x = s->r[0] - pocket->centre[0], y = s->r[1] - pocket->centre[1], q = sqrt(x * x + y * y);
+      const double x = s->r[0] - pocket->centre[0], y = s->r[1] - pocket->centre[1],
+                   q = sqrt(x * x + y * y);
       if (q - pocket->radius < NEAR)
         take(reach, j, q - pocket->radius, (x * d[S_X][j] + y * d[S_Y][j]) / q);
     }
@@ -406,10 +441,13 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
   for (int side = 0; side <= two; side++) {
     const int i = side == 0 ? event->a : event->b;
     const int64_t last = reach->last_event[i];
-    /* a ball that is pressed into the slate lands at once, and one that lies on a rail is off the table, whatever changes */
-    const bool at_once = (event->type == CAROM_EVENT_SLATE || event->type == CAROM_EVENT_LEFT_TABLE) && last >= 0 &&
-                         event->time <= reach->last_time[i];
-    const double *before = last >= 0 ? carom_tangent_columns(&w->pass, w->tangent->time, last) : NULL;
+    /* a ball that is pressed into the slate lands at once, and one that lies on a rail is off
+     * the table, whatever changes */
+    const bool at_once =
+        (event->type == CAROM_EVENT_SLATE || event->type == CAROM_EVENT_LEFT_TABLE) && last >= 0 &&
+        event->time <= reach->last_time[i];
+    const double *before =
+        last >= 0 ? carom_tangent_columns(&w->pass, w->tangent->time, last) : NULL;
     for (int j = 0; j < m && last >= 0 && !at_once; j++)
       take(reach, j, event->time - reach->last_time[i], w->time[j] - before[j]);
     reach->last_event[i] = k;
@@ -418,7 +456,8 @@ void carom_reach_event(carom_reach *reach, int64_t k, const carom_event *event) 
   if (event->type == CAROM_EVENT_SLATE)
     take_landing(reach, event, d[0]);
   const bool on_cloth = !carom_flies(&event->before[0]);
-  if (event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW || (event->type == CAROM_EVENT_POCKET && on_cloth))
+  if (event->type == CAROM_EVENT_RAIL || event->type == CAROM_EVENT_JAW ||
+      (event->type == CAROM_EVENT_POCKET && on_cloth))
     take_rails(reach, event, d[0]);
   /* of a cluster the contact that starts it */
   for (int j = 0; j < m && !w->inner; j++) {

@@ -1,5 +1,5 @@
-/* Derivatives of shots, of collisions and of impacts on cushions: the calls, which check arguments and take the directions in
- * passes. follow.cpp differentiates. */
+/* Derivatives of shots, of collisions and of impacts on cushions: the calls, which check
+ * arguments and take the directions in passes. follow.cpp differentiates. */
 #include "tangent/work.h"
 
 #include "platform/threads.h"
@@ -29,11 +29,11 @@ void carom_tangent_edges(const work *w, const carom_ball_kind *kind, double edge
 /* ---- Arguments ---- */
 
 /* Whether an event can be one of the shot. */
-static carom_status check_event(const carom_table *table, int count, const carom_cue *cue, const carom_event *event,
-                                double since) {
+static carom_status check_event(const carom_table *table, int count, const carom_cue *cue,
+                                const carom_event *event, double since) {
   const int type = event->type;
-  if (type < CAROM_EVENT_STRIKE || type > CAROM_EVENT_LEFT_TABLE || event->a < 0 || event->a >= count ||
-      !(event->time >= since && event->time < INFINITY))
+  if (type < CAROM_EVENT_STRIKE || type > CAROM_EVENT_LEFT_TABLE || event->a < 0 ||
+      event->a >= count || !(event->time >= since && event->time < INFINITY))
     return CAROM_ERROR_STATE;
   const bool two = type == CAROM_EVENT_BALL_BALL;
   const int64_t parts = two                            ? count
@@ -56,15 +56,17 @@ static carom_status check_clusters(const carom_shot *shot) {
     if (contacts > shot->count - k)
       return CAROM_ERROR_STATE;
     for (const carom_event *e = first; first->cluster > 0 && e < first + contacts; e++)
-      if (e->type != CAROM_EVENT_BALL_BALL || e->cluster != first->cluster || e->time != first->time)
+      if (e->type != CAROM_EVENT_BALL_BALL || e->cluster != first->cluster ||
+          e->time != first->time)
         return CAROM_ERROR_STATE;
     k += contacts;
   }
   return CAROM_OK;
 }
 
-static carom_status check(const carom_table *table, int count, const carom_cue *cue, const carom_shot_options *opt,
-                          const carom_shot *shot, const carom_tangent_seeds *seeds, const carom_tangent *tangent) {
+static carom_status check(const carom_table *table, int count, const carom_cue *cue,
+                          const carom_shot_options *opt, const carom_shot *shot,
+                          const carom_tangent_seeds *seeds, const carom_tangent *tangent) {
   if (count < 1 || count > CAROM_BALLS_MOST)
     return CAROM_ERROR_BALLS;
   if (seeds->directions < 1 || seeds->directions > CAROM_DIRECTIONS_MOST)
@@ -84,12 +86,14 @@ static carom_status check(const carom_table *table, int count, const carom_cue *
   if (tangent->times_count > 0 && (tangent->times == NULL || tangent->at == NULL))
     return CAROM_ERROR_NULL;
   for (int64_t k = 0; k < tangent->times_count; k++)
-    if (!(fabs(tangent->times[k]) < INFINITY) || (k > 0 && tangent->times[k] < tangent->times[k - 1]))
+    if (!(fabs(tangent->times[k]) < INFINITY) ||
+        (k > 0 && tangent->times[k] < tangent->times[k - 1]))
       return CAROM_ERROR_TIME;
   if (opt->world == CAROM_WORLD_POOLTOOL || opt->ball_model == CAROM_BALL_MODEL_EULER)
     return CAROM_ERROR_TANGENT;
   for (int64_t k = 0; k < shot->count; k++) {
-    const carom_status status = check_event(table, count, cue, &shot->events[k], k > 0 ? shot->events[k - 1].time : 0.0);
+    const carom_status status =
+        check_event(table, count, cue, &shot->events[k], k > 0 ? shot->events[k - 1].time : 0.0);
     if (status != CAROM_OK)
       return status;
   }
@@ -99,7 +103,8 @@ static carom_status check(const carom_table *table, int count, const carom_cue *
 /* ---- A pass ---- */
 
 static carom_tangent_pass pass_of(int m, int first) {
-  return (carom_tangent_pass){m, first, m - first < CAROM_TANGENT_COLUMNS ? m - first : CAROM_TANGENT_COLUMNS};
+  return (carom_tangent_pass){
+      m, first, m - first < CAROM_TANGENT_COLUMNS ? m - first : CAROM_TANGENT_COLUMNS};
 }
 
 static const carom_tangent_row zeros;
@@ -107,8 +112,8 @@ static const carom_tangent_row zeros;
 /* Tangents of a state into rows of the caller's; NULL stands for zeros. */
 static void put(const work *w, carom_tangent_row *d, double *rows, int64_t at) {
   for (int k = 0; k < CAROM_STATE_NUMBERS; k++)
-    memcpy(carom_tangent_columns(&w->pass, rows, at * CAROM_STATE_NUMBERS + k), d != NULL ? d[k] : zeros,
-           sizeof(double) * (size_t)w->pass.columns);
+    memcpy(carom_tangent_columns(&w->pass, rows, at * CAROM_STATE_NUMBERS + k),
+           d != NULL ? d[k] : zeros, sizeof(double) * (size_t)w->pass.columns);
 }
 
 /* Where all balls begin. */
@@ -141,8 +146,10 @@ static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reac
     if (t->before != NULL && event->cluster == 0)
       put(w, has ? w->before[side] : NULL, t->before, 2 * k + side);
     for (int n = 0; n < CAROM_STATE_NUMBERS && t->after != NULL; n++) {
-      const double *from = has ? carom_tangent_columns(&w->pass, t->final, i * CAROM_STATE_NUMBERS + n) : zeros;
-      memcpy(carom_tangent_columns(&w->pass, t->after, (2 * k + side) * CAROM_STATE_NUMBERS + n), from, columns);
+      const double *from =
+          has ? carom_tangent_columns(&w->pass, t->final, i * CAROM_STATE_NUMBERS + n) : zeros;
+      memcpy(carom_tangent_columns(&w->pass, t->after, (2 * k + side) * CAROM_STATE_NUMBERS + n),
+             from, columns);
     }
     if (has && t->reach != NULL)
       carom_reach_go_on(w, i);
@@ -161,7 +168,8 @@ static carom_status differentiate(work *w, const carom_shot_ball *balls, const c
   for (int64_t k = 0; k <= shot->count; k++) {
     const carom_event *event = k < shot->count ? &shot->events[k] : NULL;
     /* the times before it; after the end nothing moves */
-    for (; next < tangent->times_count && (event == NULL || tangent->times[next] < event->time); next++)
+    for (; next < tangent->times_count && (event == NULL || tangent->times[next] < event->time);
+         next++)
       for (int i = 0; i < w->count; i++) {
         carom_tangent_at(w, i, fmin(tangent->times[next], shot->time), d);
         put(w, d, tangent->at, next * w->count + i);
@@ -190,7 +198,8 @@ static carom_status differentiate(work *w, const carom_shot_ball *balls, const c
   /* the end of the shot, where balls may still move; how they go on is not known */
   for (int i = 0; i < w->count && tangent->times_count > 0; i++) {
     const int64_t label = w->ball[i].from.label;
-    if (tangent->times[tangent->times_count - 1] > shot->time && label != CAROM_BALL_STATIONARY && !carom_is_out(label))
+    if (tangent->times[tangent->times_count - 1] > shot->time && label != CAROM_BALL_STATIONARY &&
+        !carom_is_out(label))
       return CAROM_ERROR_TIME;
   }
   for (int i = 0; i < w->count; i++) {
@@ -202,10 +211,12 @@ static carom_status differentiate(work *w, const carom_shot_ball *balls, const c
 
 static const carom_shot_options no_options = {0};
 
-carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls, int count, const carom_cue *cue,
-                                const carom_shot_options *opt, const carom_shot *shot, const carom_tangent_seeds *seeds,
+carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball *balls, int count,
+                                const carom_cue *cue, const carom_shot_options *opt,
+                                const carom_shot *shot, const carom_tangent_seeds *seeds,
                                 carom_tangent *tangent) {
-  if (table == NULL || balls == NULL || shot == NULL || seeds == NULL || tangent == NULL || tangent->final == NULL)
+  if (table == NULL || balls == NULL || shot == NULL || seeds == NULL || tangent == NULL ||
+      tangent->final == NULL)
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
   carom_status status = check(table, count, cue, opt, shot, seeds, tangent);
@@ -221,8 +232,10 @@ carom_status carom_shot_tangent(const carom_table *table, const carom_shot_ball 
   w.seeds = seeds;
   w.tangent = tangent;
   w.count = count;
-  w.ball_model = opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? opt->ball_model : CAROM_BALL_MODEL_EXACT;
-  w.cushion_model = opt->cushion_model != CAROM_SHOT_CUSHION_DEFAULT ? opt->cushion_model : CAROM_SHOT_CUSHION_HAN;
+  w.ball_model =
+      opt->ball_model != CAROM_BALL_MODEL_DEFAULT ? opt->ball_model : CAROM_BALL_MODEL_EXACT;
+  w.cushion_model = opt->cushion_model != CAROM_SHOT_CUSHION_DEFAULT ? opt->cushion_model
+                                                                     : CAROM_SHOT_CUSHION_HAN;
   const int m = (int)seeds->directions;
   for (int first = 0; first < m && status == CAROM_OK; first += CAROM_TANGENT_COLUMNS) {
     w.pass = pass_of(m, first);
@@ -243,9 +256,10 @@ static carom_status row(const carom_tangent_job *job, size_t k) {
   const carom_status status = played->status != NULL ? (carom_status)played->status[k] : CAROM_OK;
   if (status < 0)
     return status;
-  return carom_shot_tangent(played->table, played->balls + k * played->ball_stride, (int)played->count,
-                            played->cues != NULL ? played->cues + k * played->cue_stride : NULL, played->options,
-                            &played->shots[k], job->seeds + k * job->seeds_stride, &job->tangents[k]);
+  return carom_shot_tangent(
+      played->table, played->balls + k * played->ball_stride, (int)played->count,
+      played->cues != NULL ? played->cues + k * played->cue_stride : NULL, played->options,
+      &played->shots[k], job->seeds + k * job->seeds_stride, &job->tangents[k]);
 }
 
 static size_t rows(const void *context, size_t first, size_t end) {
@@ -267,7 +281,8 @@ carom_status carom_shot_tangent_batch(const carom_tangent_job *job) {
   const carom_shot_job *played = job->played;
   if (played->n == 0)
     return CAROM_OK;
-  if (played->table == NULL || played->balls == NULL || played->shots == NULL || job->seeds == NULL || job->tangents == NULL)
+  if (played->table == NULL || played->balls == NULL || played->shots == NULL ||
+      job->seeds == NULL || job->tangents == NULL)
     return CAROM_ERROR_NULL;
   for (size_t k = 0; k < sizeof job->reserved / sizeof job->reserved[0]; k++)
     if (job->reserved[k] != 0)
@@ -283,8 +298,9 @@ carom_status carom_shot_tangent_batch(const carom_tangent_job *job) {
 
 /* ---- Single contacts ---- */
 
-carom_status carom_collide_tangent(const carom_impact *in, const carom_options *opt, int64_t directions, const double *seeds,
-                                   double *tangent, int32_t *flags) {
+carom_status carom_collide_tangent(const carom_impact *in, const carom_options *opt,
+                                   int64_t directions, const double *seeds, double *tangent,
+                                   int32_t *flags) {
   static const carom_options defaults = {.plain = 0};
   if (in == NULL || seeds == NULL || tangent == NULL)
     return CAROM_ERROR_NULL;
@@ -315,8 +331,9 @@ carom_status carom_collide_tangent(const carom_impact *in, const carom_options *
   return status;
 }
 
-carom_status carom_cushion_tangent(const carom_cushion_impact *in, const carom_cushion_options *opt, int64_t directions,
-                                   const double *seeds, double *tangent, int32_t *flags) {
+carom_status carom_cushion_tangent(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                                   int64_t directions, const double *seeds, double *tangent,
+                                   int32_t *flags) {
   static const carom_cushion_options defaults = {.plain = 0};
   if (in == NULL || seeds == NULL || tangent == NULL)
     return CAROM_ERROR_NULL;

@@ -1,6 +1,7 @@
-/* The sources of motion, contacts and the strike once more, with a number that carries derivatives for every double. All of it
- * stands in a namespace of its own, beside the same types of plain doubles, and nothing of it is seen by the linker. Each
- * source is checked as C; so this file counts as one of the system, whose warnings the compiler keeps to itself. */
+/* The sources of motion, contacts and the strike once more, with a number that carries
+ * derivatives for every double. All of it stands in a namespace of its own, beside the same
+ * types of plain doubles, and nothing of it is seen by the linker. Each source is checked as C;
+ * so this file counts as one of the system, whose warnings the compiler keeps to itself. */
 #ifndef CAROM_SRC_TANGENT_TEXT_H
 #define CAROM_SRC_TANGENT_TEXT_H
 #pragma GCC system_header
@@ -46,7 +47,8 @@ namespace text {
 #undef CAROM_API
 #define CAROM_API
 
-/* An event has at most one part of a table and two balls: there is room for these, all at place 0 or 1. */
+/* An event has at most one part of a table and two balls: there is room for these, all at place
+ * 0 or 1. */
 typedef struct carom_table {
   int64_t rails, jaws, pockets;
   carom_rail rail[1];
@@ -105,7 +107,8 @@ double carom_atan(double x) {
 }
 double carom_acos(double x) {
   const real square = 1 - x.x * x.x;
-  return square > 0 ? number(::carom_acos(x.x), x.d * (-1 / __builtin_sqrt(square))) : number(::carom_acos(x.x));
+  return square > 0 ? number(::carom_acos(x.x), x.d * (-1 / __builtin_sqrt(square)))
+                    : number(::carom_acos(x.x));
 }
 carom_speed_law carom_alciatore(void) {
   const ::carom_speed_law law = ::carom_alciatore();

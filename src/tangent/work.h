@@ -1,5 +1,6 @@
-/* Derivatives in several directions, a pass of at most CAROM_TANGENT_COLUMNS of them at a time: what the C of this room and its
- * C++, follow.cpp, have in common. README.md tells how they work. */
+/* Derivatives in several directions, a pass of at most CAROM_TANGENT_COLUMNS of them at a time:
+ * what the C of this room and its C++, follow.cpp, have in common. README.md tells how they
+ * work. */
 #ifndef CAROM_SRC_TANGENT_WORK_H
 #define CAROM_SRC_TANGENT_WORK_H
 
@@ -57,7 +58,8 @@ typedef struct carom_tangent_work {
   int64_t slow_instants; /* as in carom_sim */
   double slow_last;
   carom_tangent_ball ball[CAROM_BALLS_MOST];
-  /* of the last event: what is said of it, the tangent of its time, total tangents before it, of both balls */
+  /* of the last event: what is said of it, the tangent of its time, total tangents before it, of
+   * both balls */
   carom_tangent_note note;
   carom_tangent_row time;
   carom_tangent_rows before[2];
@@ -65,28 +67,34 @@ typedef struct carom_tangent_work {
 } carom_tangent_work;
 
 /* The numbers of the caller that stand for row `row` in a pass. */
-static inline double *carom_tangent_columns(const carom_tangent_pass *pass, double *rows, int64_t row) {
+static inline double *carom_tangent_columns(const carom_tangent_pass *pass, double *rows,
+                                            int64_t row) {
   return rows + row * pass->m + pass->first;
 }
 
-/* tangent.c: the edges of the rails for a ball, beyond which it has left the table: low and high x, low and high y, m. */
+/* tangent.c: the edges of the rails for a ball, beyond which it has left the table: low and high
+ * x, low and high y, m. */
 void carom_tangent_edges(const carom_tangent_work *w, const carom_ball_kind *kind, double edge[4]);
 
 /* follow.cpp: takes a ball to where it begins, from the seeds; */
 void carom_tangent_begin(carom_tangent_work *w, int i);
 /* an event and its balls behind it; CAROM_OK, or an error of the collision; */
 carom_status carom_tangent_follow(carom_tangent_work *w, const carom_event *event);
-/* the events of a cluster, of which the first is event `at` of the shot; writes tangent->before too. CAROM_ERROR_TANGENT where
- * it is not found again; */
-carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_event *events, int count, int64_t at);
+/* the events of a cluster, of which the first is event `at` of the shot; writes tangent->before
+ * too. CAROM_ERROR_TANGENT where it is not found again; */
+carom_status carom_tangent_follow_cluster(carom_tangent_work *w, const carom_event *events,
+                                          int count, int64_t at);
 /* tangents of ball i at a fixed time, not before its last event. */
 void carom_tangent_at(const carom_tangent_work *w, int i, double time, carom_tangent_rows d);
 
-/* follow.cpp: carom_collide() of balls that close, and carom_cushion(). Their arguments have been checked. */
-carom_status carom_tangent_of_balls(const carom_impact *in, const carom_options *opt, const carom_tangent_pass *pass,
-                                    const double *seeds, double *tangent, carom_tangent_note *note);
-carom_status carom_tangent_of_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
-                                      const carom_tangent_pass *pass, const double *seeds, double *tangent,
-                                      carom_tangent_note *note);
+/* follow.cpp: carom_collide() of balls that close, and carom_cushion(). Their arguments have
+ * been checked. */
+carom_status carom_tangent_of_balls(const carom_impact *in, const carom_options *opt,
+                                    const carom_tangent_pass *pass, const double *seeds,
+                                    double *tangent, carom_tangent_note *note);
+carom_status carom_tangent_of_cushion(const carom_cushion_impact *in,
+                                      const carom_cushion_options *opt,
+                                      const carom_tangent_pass *pass, const double *seeds,
+                                      double *tangent, carom_tangent_note *note);
 
 #endif

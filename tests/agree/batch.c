@@ -1,8 +1,10 @@
-/* A batch is n single calls, bit for bit: every instruction set that the processor has, both precisions, every solver and slip.
+/* A batch is n single calls, bit for bit: every instruction set that the processor has, both
+ * precisions, every solver and slip.
  *
- * All sizes from 0 to a vector more than what is solved by calls, rows in error and rows of junk between good ones, all regimes
- * side by side, batches cut at random places, in random order, over any number of threads. Arrays end where memory ends, so
- * that reading or writing past them is seen, and begin at odd places. */
+ * All sizes from 0 to a vector more than what is solved by calls, rows in error and rows of junk
+ * between good ones, all regimes side by side, batches cut at random places, in random order,
+ * over any number of threads. Arrays end where memory ends, so that reading or writing past them
+ * is seen, and begin at odd places. */
 #include "carom_shot.h"
 #include "cases.h"
 #include "regimes.h"
@@ -15,7 +17,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* FEWEST: rows from which on every batch is solved in lanes; kernels.c has the numbers of each instruction set. */
+/* FEWEST: rows from which on every batch is solved in lanes; kernels.c has the numbers of each
+ * instruction set. */
 enum { WIDEST = 16, FEWEST = 80, MOST = FEWEST + WIDEST + 1, MANY = 29000 };
 
 /* ---- Both precisions by the same calls */
@@ -24,12 +27,14 @@ enum { IN_DOUBLE, IN_SINGLE, PRECISIONS };
 static const size_t in_size[] = {sizeof(carom_impact), sizeof(carom_impact_f32)};
 static const size_t out_size[] = {sizeof(carom_result), sizeof(carom_result_f32)};
 
-static carom_status collide(int precision, const void *in, const carom_options *options, void *out) {
-  return precision == IN_DOUBLE ? carom_collide(in, options, out) : carom_collide_f32(in, options, out);
+static carom_status collide(int precision, const void *in, const carom_options *options,
+                            void *out) {
+  return precision == IN_DOUBLE ? carom_collide(in, options, out)
+                                : carom_collide_f32(in, options, out);
 }
 
-static carom_status collide_batch(int precision, const void *in, size_t n, const carom_options *options, void *out,
-                                  int8_t *status) {
+static carom_status collide_batch(int precision, const void *in, size_t n,
+                                  const carom_options *options, void *out, int8_t *status) {
   return precision == IN_DOUBLE ? carom_collide_batch(in, n, options, out, status)
                                 : carom_collide_batch_f32(in, n, options, out, status);
 }
@@ -59,7 +64,8 @@ static carom_impact mixed_row(random_source *source, size_t k) {
   carom_impact in = random_impact(source);
   double *number = (double *)&in;
   if (k % 3 == 1)
-    number[(size_t)random_between(source, 0.0, 26.0)] = spoilt[(size_t)random_between(source, 0.0, 8.0)];
+    number[(size_t)random_between(source, 0.0, 26.0)] =
+        spoilt[(size_t)random_between(source, 0.0, 8.0)];
   if (k % 7 == 2)
     for (int c = 0; c < 3; c++) {
       in.a.v[c] = -in.a.v[c];
@@ -76,12 +82,14 @@ static carom_impact mixed_row(random_source *source, size_t k) {
   return in;
 }
 
-/* The motion has zeros of both signs in random places, and the line of centres lies along an axis. The products in the
- * collision frame are then zeros, and their signs decide the sign of a sum. */
+/* The motion has zeros of both signs in random places, and the line of centres lies along an
+ * axis. The products in the collision frame are then zeros, and their signs decide the sign of a
+ * sum. */
 static carom_impact zero_row(random_source *source, size_t k) {
   static const double zeros[] = {0.0, -0.0, 0.0, -0.0, 1.0, -1.0};
   carom_impact in = random_impact(source);
-  const double reach = in.a.radius + in.b.radius, along = k % 2 == 0 ? reach : -reach, zero = k % 4 < 2 ? 0.0 : -0.0;
+  const double reach = in.a.radius + in.b.radius, along = k % 2 == 0 ? reach : -reach,
+               zero = k % 4 < 2 ? 0.0 : -0.0;
   for (int c = 0; c < 3; c++) {
     in.a.r[c] = zeros[(size_t)random_between(source, 0.0, 2.0)];
     in.b.r[c] = zero;
@@ -107,7 +115,8 @@ static carom_options options_for(int solver, int slip) {
 }
 
 /* What the rows of a batch must come to. */
-static void alone(int precision, const void *in, size_t n, const carom_options *options, void *out, int8_t *status) {
+static void alone(int precision, const void *in, size_t n, const carom_options *options, void *out,
+                  int8_t *status) {
   for (size_t k = 0; k < n; k++) {
     const void *from = (const char *)in + k * in_size[precision];
     void *to = (char *)out + k * out_size[precision];
@@ -115,25 +124,29 @@ static void alone(int precision, const void *in, size_t n, const carom_options *
   }
 }
 
-/* The rows of in[0..n-1] as one batch, in memory that ends exactly, small ones without an array of statuses too. */
-static void expect_batch(int precision, const void *in, size_t n, const carom_options *options, const void *out,
-                         const int8_t *status) {
+/* The rows of in[0..n-1] as one batch, in memory that ends exactly, small ones without an array
+ * of statuses too. */
+static void expect_batch(int precision, const void *in, size_t n, const carom_options *options,
+                         const void *out, const int8_t *status) {
   const size_t bytes = n * out_size[precision];
-  const edge from = edge_make(n * in_size[precision], n % 2 == 1), to = edge_make(bytes, n % 2 == 1),
-             said = edge_make(n, false);
+  const edge from = edge_make(n * in_size[precision], n % 2 == 1),
+             to = edge_make(bytes, n % 2 == 1), said = edge_make(n, false);
   memcpy(from.memory, in, n * in_size[precision]);
   carom_status first_error = CAROM_OK;
   for (size_t k = 0; k < n && first_error == CAROM_OK; k++)
     first_error = status[k] < 0 ? status[k] : CAROM_OK;
   for (int with = n <= MOST ? 0 : 1; with < 2; with++) {
     memset(to.memory, 0xA5, bytes);
-    ck_assert_int_eq(collide_batch(precision, from.memory, n, options, to.memory, with ? said.memory : NULL), first_error);
+    ck_assert_int_eq(
+        collide_batch(precision, from.memory, n, options, to.memory, with ? said.memory : NULL),
+        first_error);
     for (size_t k = 0; k < n; k++)
-      ck_assert_msg(memcmp((const char *)to.memory + k * out_size[precision], (const char *)out + k * out_size[precision],
-                           out_size[precision]) == 0,
+      ck_assert_msg(memcmp((const char *)to.memory + k * out_size[precision],
+                           (const char *)out + k * out_size[precision], out_size[precision]) == 0,
                     "%s, %s, slip %s, %s, %d threads: row %zu of %zu has other bits than alone",
-                    carom_isa_name(carom_isa_in_force()), carom_solver_name(options->solver), carom_slip_name(options->slip),
-                    precision == IN_DOUBLE ? "double" : "single", options->threads, k, n);
+                    carom_isa_name(carom_isa_in_force()), carom_solver_name(options->solver),
+                    carom_slip_name(options->slip), precision == IN_DOUBLE ? "double" : "single",
+                    options->threads, k, n);
   }
   ck_assert(n == 0 || memcmp(said.memory, status, n) == 0);
   ck_assert(n == 0 || memcmp(from.memory, in, n * in_size[precision]) == 0);
@@ -148,7 +161,8 @@ typedef struct table {
 } table;
 
 static table table_make(size_t n) {
-  return (table){n, malloc(n * sizeof(carom_impact) + 1), malloc(n * sizeof(carom_result) + 1), malloc(n + 1)};
+  return (table){n, malloc(n * sizeof(carom_impact) + 1), malloc(n * sizeof(carom_result) + 1),
+                 malloc(n + 1)};
 }
 
 static void table_free(const table *t) {
@@ -206,7 +220,8 @@ TEST(the_204_cases) {
   cases_free(&cases);
 }
 
-/* Whoever its neighbours are, a row keeps its bits; some regimes are too slow for Euler's method. */
+/* Whoever its neighbours are, a row keeps its bits; some regimes are too slow for Euler's
+ * method. */
 TEST(all_regimes_side_by_side) {
   const table t = table_make((size_t)regimes_count() * 16);
   FOR_EACH_ISA(isa)
@@ -214,7 +229,8 @@ TEST(all_regimes_side_by_side) {
     const carom_options options = options_for(solver, slip);
     lab_random rng = {test_seed()};
     for (size_t k = 0; k < t.n; k++) {
-      const carom_impact in = regimes_draw((int)k % regimes_count(), slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0, &rng);
+      const carom_impact in =
+          regimes_draw((int)k % regimes_count(), slip == CAROM_SLIP_POOLTOOL ? 1.0 : -1.0, &rng);
       put_row(precision, t.in, k, &in);
     }
     alone(precision, t.in, t.n, &options, t.out, t.status);
@@ -224,15 +240,16 @@ TEST(all_regimes_side_by_side) {
 }
 
 /* Moves row `from` of a table to place `to` of another. */
-static void copy_row(int precision, const table *source, size_t from, const table *target, size_t to) {
+static void copy_row(int precision, const table *source, size_t from, const table *target,
+                     size_t to) {
   const size_t in = in_size[precision], out = out_size[precision];
   memcpy((char *)target->in + to * in, (const char *)source->in + from * in, in);
   memcpy((char *)target->out + to * out, (const char *)source->out + from * out, out);
   target->status[to] = source->status[from];
 }
 
-/* The rows in random order, cut at random places into batches, each with 1, 2, 3 or 7 threads. Euler's method takes fewer rows
- * to be worth a thread. */
+/* The rows in random order, cut at random places into batches, each with 1, 2, 3 or 7 threads.
+ * Euler's method takes fewer rows to be worth a thread. */
 TEST(cut_anywhere_in_any_order) {
   static const int threads[] = {1, 2, 3, 7};
   const table t = table_make(MANY), mixed = table_make(MANY);
@@ -249,7 +266,8 @@ TEST(cut_anywhere_in_any_order) {
     }
     alone(precision, t.in, n, &options, t.out, t.status);
     for (size_t k = 0; k < n; k++) { /* Fisher and Yates */
-      const size_t other = k + (size_t)random_between(&source, 0.0, (double)(n - k)), kept = order[k];
+      const size_t other = k + (size_t)random_between(&source, 0.0, (double)(n - k)),
+                   kept = order[k];
       order[k] = order[other];
       order[other] = kept;
       copy_row(precision, &t, order[k], &mixed, k);
@@ -260,7 +278,8 @@ TEST(cut_anywhere_in_any_order) {
       expect_batch(precision, mixed.in, n, &options, mixed.out, mixed.status);
     }
     for (size_t from = 0, end; from < n; from = end) {
-      end = from + (size_t)random_between(&source, 0.0, random_between(&source, 0.0, 1.0) < 0.5 ? 100.0 : (double)n);
+      end = from + (size_t)random_between(
+                       &source, 0.0, random_between(&source, 0.0, 1.0) < 0.5 ? 100.0 : (double)n);
       end = end < n ? end : n;
       options.threads = threads[(size_t)random_between(&source, 0.0, 4.0)];
       expect_batch(precision, (char *)mixed.in + from * in_size[precision], end - from, &options,
@@ -272,7 +291,8 @@ TEST(cut_anywhere_in_any_order) {
 
 /* Single precision against double, relative to the pair's scale. */
 TEST(single_precision_is_near) {
-  static const double allowed[CAROM_SOLVER_COUNT] = {[CAROM_SOLVER_EXACT] = 2e-4, [CAROM_SOLVER_EULER] = 2e-2};
+  static const double allowed[CAROM_SOLVER_COUNT] = {
+      [CAROM_SOLVER_EXACT] = 2e-4, [CAROM_SOLVER_EULER] = 2e-2};
   random_source source = {test_seed()};
   carom_impact wide[MOST];
   carom_impact_f32 in[MOST];
@@ -345,7 +365,8 @@ typedef struct everything {
   carom_cushion_point followed[MOST][4];
 } everything;
 
-/* options.plain of a call is what the whole process may be limited to: the same bits, and nothing else is changed by it. */
+/* options.plain of a call is what the whole process may be limited to: the same bits, and
+ * nothing else is changed by it. */
 TEST(plain_for_one_call) {
   static carom_impact in[MOST];
   static carom_impact_f32 in_f32[MOST];
@@ -358,7 +379,8 @@ TEST(plain_for_one_call) {
       ((float *)&in_f32[k])[c] = (float)((const double *)&in[k])[c];
     on[k] = (carom_cushion_impact){
         .v = {random_between(&source, -3.0, 3.0), random_between(&source, 0.1, 3.0)},
-        .w = {random_between(&source, -99.0, 99.0), random_between(&source, -99.0, 99.0), random_between(&source, -99.0, 99.0)},
+        .w = {random_between(&source, -99.0, 99.0), random_between(&source, -99.0, 99.0),
+              random_between(&source, -99.0, 99.0)},
         .normal = {0.0, 1.0},
         .height = 0.0365,
         .radius = 0.028575,
@@ -389,11 +411,13 @@ TEST(plain_for_one_call) {
 #define SAME(field) (memcmp(seen[way].field, seen[0].field, sizeof seen[0].field) == 0)
   for (int way = 1; way < 3; way++) {
     const bool plain = way == 1 || best == CAROM_ISA_PLAIN;
-    ck_assert_msg(SAME(one) == plain && SAME(one_f32) == plain && SAME(detail) == plain, "calls, %d", way);
+    ck_assert_msg(SAME(one) == plain && SAME(one_f32) == plain && SAME(detail) == plain,
+                  "calls, %d", way);
     ck_assert_msg(SAME(batch) == plain && SAME(batch_f32) == plain, "batches, %d", way);
     /* the precise solver has two kinds of vectors, of which one is plain */
     const bool precise = way == 1 || best < CAROM_ISA_AVX2;
-    ck_assert_msg(SAME(trace) == precise && SAME(cushion) == precise && SAME(followed) == precise, "traces, %d", way);
+    ck_assert_msg(SAME(trace) == precise && SAME(cushion) == precise && SAME(followed) == precise,
+                  "traces, %d", way);
     ck_assert_msg(SAME(cushions) == precise, "cushions, %d", way);
   }
 #undef SAME

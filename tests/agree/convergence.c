@@ -1,11 +1,13 @@
-/* Euler's method is of first order: ten times the steps, a tenth of the error against the exact references. */
+/* Euler's method is of first order: ten times the steps, a tenth of the error against the exact
+ * references. */
 #include "accuracy.h"
 #include "cases.h"
 #include "support.h"
 
 #include <math.h>
 
-static double mean_error(const case_set *cases, const reference_set *reference, carom_slip slip, int steps) {
+static double mean_error(const case_set *cases, const reference_set *reference, carom_slip slip,
+                         int steps) {
   pair_accuracy each[204];
   carom_options options = {0};
   options.solver = CAROM_SOLVER_EULER;
@@ -29,8 +31,8 @@ static void expect_first_order(carom_slip slip, const char *file) {
   for (int steps = 1000; steps <= 100000; steps *= 10) {
     const double now = mean_error(&cases, &reference, slip, steps);
     const double order = log10(before / now);
-    ck_assert_msg(order > 0.9 && order < 1.1, "order %g between N = %d (%g) and %d (%g)", order, steps / 10, before, steps,
-                  now);
+    ck_assert_msg(order > 0.9 && order < 1.1, "order %g between N = %d (%g) and %d (%g)", order,
+                  steps / 10, before, steps, now);
     before = now;
   }
   reference_free(&reference);

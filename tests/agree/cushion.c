@@ -1,5 +1,5 @@
-/* The cushion against what is known of it: a reference solution in long double, pooltool's recorded impacts, Euler's steps, and
- * the perpendicular rebounds that the 2010 paper fitted. */
+/* The cushion against what is known of it: a reference solution in long double, pooltool's
+ * recorded impacts, Euler's steps, and the perpendicular rebounds that the 2010 paper fitted. */
 #include "draws.h"
 #include "kept.h"
 #include "precisely.h"
@@ -23,12 +23,13 @@ TEST(exact_against_the_reference) {
     for (uint64_t k = 0; k < DRAWN; k++) {
       const carom_cushion_impact in = draw_cushion(kind, test_seed(), k);
       carom_motion out, exact;
-      ck_assert_msg(carom_cushion(&in, NULL, &out) == CAROM_OK, "kind %d, impact %d", (int)kind, (int)k);
+      ck_assert_msg(carom_cushion(&in, NULL, &out) == CAROM_OK, "kind %d, impact %d", (int)kind,
+                    (int)k);
       if (kept_cushion(&in, &exact) != REFERENCE_OK)
         continue;
       error[count] = cushion_distance(&in, &out, &exact);
-      ck_assert_msg(error[count] <= (kind == CUSHION_PLAY ? 1e-6 : 1e-5), "kind %d, impact %d: %.3g", (int)kind, (int)k,
-                    error[count]);
+      ck_assert_msg(error[count] <= (kind == CUSHION_PLAY ? 1e-6 : 1e-5),
+                    "kind %d, impact %d: %.3g", (int)kind, (int)k, error[count]);
       count++;
     }
     ck_assert_int_ge(count, DRAWN * 95 / 100);
@@ -37,8 +38,9 @@ TEST(exact_against_the_reference) {
   }
 }
 
-/* Straight at a cushion with top or back spin both contacts may come to hold, and then the cloth's slip begins again while the
- * nose holds. Whether it does depends on the frictions: all of them have a result. */
+/* Straight at a cushion with top or back spin both contacts may come to hold, and then the
+ * cloth's slip begins again while the nose holds. Whether it does depends on the frictions: all
+ * of them have a result. */
 TEST(from_both_contacts_at_rest) {
   random_source r = {test_seed()};
   for (int k = 0; k < 20000; k++) {
@@ -67,7 +69,8 @@ TEST(a_heavy_ball_is_a_wall) {
   double worst = 0, worst_call = 0;
   for (uint64_t k = 0; k < DRAWS; k++) {
     carom_impact in = draw_collision(DRAW_REALISTIC, CAROM_SLIP_PAPER, test_seed(), k);
-    in.b = (carom_ball){.r = {in.b.r[0], in.b.r[1], in.b.r[2]}, .radius = in.b.radius, .mass = 1e14 * in.a.mass};
+    in.b = (carom_ball){
+        .r = {in.b.r[0], in.b.r[1], in.b.r[2]}, .radius = in.b.radius, .mass = 1e14 * in.a.mass};
     carom_cushion_impact wall = {.normal = {in.b.r[0] - in.a.r[0], in.b.r[1] - in.a.r[1]},
                                  .height = in.a.radius,
                                  .radius = in.a.radius,
@@ -81,7 +84,8 @@ TEST(a_heavy_ball_is_a_wall) {
     }
     carom_result balls;
     carom_motion ball;
-    const carom_status status = carom_collide(&in, NULL, &balls), other = carom_cushion(&wall, NULL, &ball);
+    const carom_status status = carom_collide(&in, NULL, &balls),
+                       other = carom_cushion(&wall, NULL, &ball);
     ck_assert_msg((status == CAROM_SEPARATING) == (other == CAROM_SEPARATING), "draw %d", (int)k);
     if (status == CAROM_SEPARATING)
       continue;
@@ -93,8 +97,9 @@ TEST(a_heavy_ball_is_a_wall) {
         cushion_precisely(&wall, 0.01 * PRECISELY, &ball) == CAROM_OK)
       worst = fmax(worst, cushion_distance(&wall, &balls.a, &ball));
   }
-  printf("a heavy ball and a wall: %d compared, %d unresolved, precise solver %.2g apart, calls %.2g\n", compared, unresolved,
-         worst, worst_call);
+  printf("a heavy ball and a wall: %d compared, %d unresolved, precise solver %.2g apart, calls "
+         "%.2g\n",
+         compared, unresolved, worst, worst_call);
   ck_assert_int_ge(compared, DRAWS / 2);
   ck_assert_int_le(unresolved, compared / 1000);
   ck_assert_double_le(worst, 1e-9);
@@ -125,7 +130,8 @@ static size_t load(const char *name, recorded rows[MOST_ROWS]) {
       at = end;
     }
     for (int k = 0; k < NUMBERS; k++)
-      (k < 15 ? (double *)&rows[count].in + k : (double *)&rows[count].after + (k - 15))[0] = number[k];
+      (k < 15 ? (double *)&rows[count].in + k : (double *)&rows[count].after + (k - 15))[0] =
+          number[k];
     count++;
   }
   fclose(file);
@@ -135,7 +141,8 @@ static size_t load(const char *name, recorded rows[MOST_ROWS]) {
 TEST(stronge_as_recorded) {
   static recorded rows[MOST_ROWS];
   const size_t count = load("cushion-stronge.csv", rows);
-  const carom_cushion_options options = {.model = CAROM_CUSHION_STRONGE, .convention = CAROM_CONVENTION_POOLTOOL};
+  const carom_cushion_options options = {.model = CAROM_CUSHION_STRONGE,
+                                         .convention = CAROM_CONVENTION_POOLTOOL};
   ck_assert_uint_eq(count, 479);
   for (size_t k = 0; k < count; k++) {
     carom_motion out;
@@ -144,8 +151,8 @@ TEST(stronge_as_recorded) {
   }
 }
 
-/* A ball that rolls slips on the cloth by rounding alone, so pooltool's first step goes where its own rounding points. Two more
- * differ by less than 1e-5: spins that amplify it. */
+/* A ball that rolls slips on the cloth by rounding alone, so pooltool's first step goes where
+ * its own rounding points. Two more differ by less than 1e-5: spins that amplify it. */
 TEST(euler_as_recorded) {
   static recorded rows[MOST_ROWS];
   const size_t count = load("cushion-mathavan2010.csv", rows);
@@ -159,7 +166,8 @@ TEST(euler_as_recorded) {
     ck_assert_int_eq(carom_cushion(in, &options, &out), CAROM_OK);
     const double error = cushion_distance(in, &out, &rows[k].after);
     near += error <= 1e-9;
-    const bool rolls = hypot(in->v[0] - in->radius * in->w[1], in->v[1] + in->radius * in->w[0]) < 1e-9;
+    const bool rolls =
+        hypot(in->v[0] - in->radius * in->w[1], in->v[1] + in->radius * in->w[0]) < 1e-9;
     rolling += rolls;
     ck_assert_msg(error <= (rolls ? 1e-2 : 1e-5), "row %zu: %.3g", k, error);
   }
@@ -167,8 +175,8 @@ TEST(euler_as_recorded) {
   ck_assert_uint_ge(near, 390);
 }
 
-/* Not where friction may lift the ball, sin < mu cos: there steps that chatter about stick load the cloth by turns, on the mean
- * more than sticking does. */
+/* Not where friction may lift the ball, sin < mu cos: there steps that chatter about stick load
+ * the cloth by turns, on the mean more than sticking does. */
 TEST(euler_converges_at_first_order) {
   double mean[3] = {0};
   for (uint64_t k = 0; k < 100; k++) {
@@ -184,11 +192,13 @@ TEST(euler_converges_at_first_order) {
   }
   ck_assert_double_lt(mean[0], 3e-3);
   for (int j = 0; j < 2; j++)
-    ck_assert_msg(mean[j] / mean[j + 1] > 3 && mean[j] / mean[j + 1] < 5, "%g, then %g", mean[j], mean[j + 1]);
+    ck_assert_msg(mean[j] / mean[j + 1] > 3 && mean[j] / mean[j + 1] < 5, "%g, then %g", mean[j],
+                  mean[j + 1]);
 }
 
-/* Figure 7 of the 2010 paper: rolling balls straight into the cushion, as measured up to the speed for which a rigid cushion is
- * said to hold. The restitution and friction are those that the paper fitted. */
+/* Figure 7 of the 2010 paper: rolling balls straight into the cushion, as measured up to the
+ * speed for which a rigid cushion is said to hold. The restitution and friction are those that
+ * the paper fitted. */
 TEST(measured_rebounds) {
   for (double speed = 0.3; speed <= 2.5; speed += 0.1) {
     const double R = 0.02625;
@@ -204,6 +214,7 @@ TEST(measured_rebounds) {
     carom_motion out;
     ck_assert_int_eq(carom_cushion(&in, NULL, &out), CAROM_OK);
     const double measured = (-0.0877 * speed + 1.131) * speed - 0.0953;
-    ck_assert_msg(fabs(-out.v[1] - measured) < 0.08, "%g m/s: %g, measured %g", speed, -out.v[1], measured);
+    ck_assert_msg(fabs(-out.v[1] - measured) < 0.08, "%g m/s: %g, measured %g", speed, -out.v[1],
+                  measured);
   }
 }

@@ -1,5 +1,6 @@
-/* What a hostile review of an earlier solver found, as tests: results that were wrong with status ok, calls without a bound,
- * and draws in which they could come back. Rows are in findings/, as `carom resolve` reads them.
+/* What a hostile review of an earlier solver found, as tests: results that were wrong with
+ * status ok, calls without a bound, and draws in which they could come back. Rows are in
+ * findings/, as `carom resolve` reads them.
  */
 #include "cases.h"
 #include "kept.h"
@@ -16,7 +17,8 @@
 #include <string.h>
 
 enum { FILL = 96 }; /* rows of a batch that every instruction set solves in lanes */
-/* Right-hand sides of one call: those of the precise solver, whose last step may exceed its budget, and what collocation spent.
+/* Right-hand sides of one call: those of the precise solver, whose last step may exceed its
+ * budget, and what collocation spent.
  */
 enum { MOST_EVALUATIONS = 8 * (CAROM_IMPACT_ITERATIONS + 12) + 1000 };
 
@@ -28,8 +30,8 @@ static carom_options options_for(carom_slip slip) {
   return options;
 }
 
-/* Solved within `bound` of the reference, or said to be unresolved; alone and in a batch, with every instruction set; within
- * the bound on evaluations. Returns whether it was solved. */
+/* Solved within `bound` of the reference, or said to be unresolved; alone and in a batch, with
+ * every instruction set; within the bound on evaluations. Returns whether it was solved. */
 static bool expect_solved(const carom_impact *in, carom_slip slip, double bound, const char *what) {
   const carom_options options = options_for(slip);
   carom_result exact, out, many[FILL];
@@ -41,7 +43,8 @@ static bool expect_solved(const carom_impact *in, carom_slip slip, double bound,
   FOR_EACH_ISA(isa) {
     carom_detail detail;
     const carom_status status = carom_collide_detail(in, &options, &out, &detail);
-    ck_assert_msg(status == CAROM_OK || status == CAROM_ERROR_UNRESOLVED, "%s: status %s", what, carom_status_name(status));
+    ck_assert_msg(status == CAROM_OK || status == CAROM_ERROR_UNRESOLVED, "%s: status %s", what,
+                  carom_status_name(status));
     ck_assert_int_le(detail.evaluations, MOST_EVALUATIONS);
     ck_assert_int_eq(carom_collide_batch(rows, FILL, &options, many, NULL), status);
     for (int k = 0; k < FILL; k++)
@@ -49,7 +52,8 @@ static bool expect_solved(const carom_impact *in, carom_slip slip, double bound,
     solved = status == CAROM_OK;
     if (solved && known) {
       const double error = result_distance(&out, &exact, in->a.radius);
-      ck_assert_msg(error <= bound, "%s: %g off with %s", what, error, carom_isa_name((carom_isa)isa));
+      ck_assert_msg(error <= bound, "%s: %g off with %s", what, error,
+                    carom_isa_name((carom_isa)isa));
     }
   }
   if (solved && known && collide_precisely(in, slip, PRECISELY, &out) == CAROM_OK) {
@@ -62,12 +66,14 @@ static bool expect_solved(const carom_impact *in, carom_slip slip, double bound,
 /* What carom.h calls collisions of play. */
 static bool of_play(const carom_impact *in) {
   const double ratio = in->a.mass / in->b.mass;
-  return in->mu_ball <= 0.2 && fmax(in->a.mu_cloth, in->b.mu_cloth) <= 0.5 && in->restitution >= 0.5 && ratio >= 0.5 &&
-         ratio <= 2;
+  return in->mu_ball <= 0.2 && fmax(in->a.mu_cloth, in->b.mu_cloth) <= 0.5 &&
+         in->restitution >= 0.5 && ratio >= 0.5 && ratio <= 2;
 }
 
-/* The same in single precision, by calls and in batches. Beyond play nothing is promised; some rows are right all the same. */
-static void expect_in_single(const carom_impact *in, carom_slip slip, bool beyond_play, const char *what) {
+/* The same in single precision, by calls and in batches. Beyond play nothing is promised; some
+ * rows are right all the same. */
+static void expect_in_single(const carom_impact *in, carom_slip slip, bool beyond_play,
+                             const char *what) {
   const carom_options options = options_for(slip);
   carom_impact_f32 rows[FILL];
   carom_result_f32 out, many[FILL];
@@ -79,7 +85,8 @@ static void expect_in_single(const carom_impact *in, carom_slip slip, bool beyon
   }
   for (int row = 1; row < FILL; row++)
     rows[row] = rows[0];
-  const bool known = (beyond_play || of_play(&wide)) && kept_collide(&wide, slip, &exact, NULL) == REFERENCE_OK;
+  const bool known =
+      (beyond_play || of_play(&wide)) && kept_collide(&wide, slip, &exact, NULL) == REFERENCE_OK;
   FOR_EACH_ISA(isa) {
     const carom_status status = carom_collide_f32(&rows[0], &options, &out);
     ck_assert_int_eq(carom_collide_batch_f32(rows, FILL, &options, many, NULL), status);
@@ -90,7 +97,8 @@ static void expect_in_single(const carom_impact *in, carom_slip slip, bool beyon
     for (int c = 0; c < 12; c++)
       ((double *)&seen)[c] = ((const float *)&out)[c];
     const double error = result_distance(&seen, &exact, wide.a.radius);
-    ck_assert_msg(error <= in_single, "%s in single precision: %g off with %s", what, error, carom_isa_name((carom_isa)isa));
+    ck_assert_msg(error <= in_single, "%s in single precision: %g off with %s", what, error,
+                  carom_isa_name((carom_isa)isa));
   }
 }
 
@@ -99,7 +107,8 @@ static void expect_file(const char *file, carom_slip slip) {
   ck_assert(cases_load(CAROM_TEST_FINDINGS, file, &cases));
   size_t solved = 0;
   for (size_t k = 0; k < cases.count; k++) {
-    solved += expect_solved(&cases.impact[k], slip, of_play(&cases.impact[k]) ? realistic : accepted, cases.id[k]);
+    solved += expect_solved(&cases.impact[k], slip,
+                            of_play(&cases.impact[k]) ? realistic : accepted, cases.id[k]);
     expect_in_single(&cases.impact[k], slip, false, cases.id[k]);
   }
   ck_assert_uint_ge(3 * solved, cases.count);
@@ -114,8 +123,8 @@ TEST(results_that_were_wrong) {
   expect_file("pooltool-turns.csv", CAROM_SLIP_POOLTOOL);
 }
 
-/* Full hits with the slip of pooltool, in which friction makes motion across the line of centres of what counts as none: up to
- * 20 % of the fastest speed, by a reference of 34 digits. */
+/* Full hits with the slip of pooltool, in which friction makes motion across the line of centres
+ * of what counts as none: up to 20 % of the fastest speed, by a reference of 34 digits. */
 TEST(rounding_errors_that_friction_drives) {
   case_set cases;
   ck_assert(cases_load(CAROM_TEST_FINDINGS, "pooltool-no-drive.csv", &cases));
@@ -149,7 +158,8 @@ TEST(euler_is_bounded) {
   ck_assert(cases_load(CAROM_TEST_FINDINGS, "euler-hang.csv", &cases));
   for (size_t k = 0; k < cases.count; k++) {
     ck_assert_int_eq(carom_collide(&cases.impact[k], &options, &out), CAROM_ERROR_TOO_SLOW);
-    ck_assert_int_eq(carom_collide_batch(&cases.impact[k], 1, &options, &out, NULL), CAROM_ERROR_TOO_SLOW);
+    ck_assert_int_eq(carom_collide_batch(&cases.impact[k], 1, &options, &out, NULL),
+                     CAROM_ERROR_TOO_SLOW);
     expect_solved(&cases.impact[k], CAROM_SLIP_PAPER, accepted, "euler-hang.csv");
   }
   random_source source = {test_seed()};
@@ -165,7 +175,8 @@ TEST(euler_is_bounded) {
   cases_free(&cases);
 }
 
-/* A pressed ball that rolls, so that the cloth slip starts at zero: 1e-6 was exceeded mostly there. */
+/* A pressed ball that rolls, so that the cloth slip starts at zero: 1e-6 was exceeded mostly
+ * there. */
 TEST(rolling_balls) {
   random_source source = {test_seed()};
   for (int k = 0; k < FEWER(120); k++) {
@@ -174,7 +185,8 @@ TEST(rolling_balls) {
     in.a.mu_cloth = in.b.mu_cloth = random_between(&source, 0.1, 0.5);
     in.restitution = random_between(&source, 0.5, 1);
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
-      const double per = -carom_spin_sign((carom_slip)slip) / in.a.radius; /* no slip by that sign */
+      /* no slip by that sign */
+      const double per = -carom_spin_sign((carom_slip)slip) / in.a.radius;
       in.a.w[0] = -per * -in.a.v[1], in.a.w[1] = per * in.a.v[0];
       in.b.w[0] = -per * -in.b.v[1], in.b.w[1] = per * in.b.v[0];
       ck_assert(expect_solved(&in, (carom_slip)slip, realistic, "a rolling ball"));
@@ -190,7 +202,8 @@ TEST(strong_friction) {
   for (int k = 0; k < DRAWS; k++) {
     carom_impact in = random_impact(&source);
     in.mu_ball = random_between(&source, 0, 0.5);
-    in.a.mu_cloth = random_between(&source, 0, 0.8), in.b.mu_cloth = random_between(&source, 0, 0.8);
+    in.a.mu_cloth = random_between(&source, 0, 0.8),
+    in.b.mu_cloth = random_between(&source, 0, 0.8);
     in.a.mass = in.b.mass * exp2(random_between(&source, -1, 1));
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)
       solved += expect_solved(&in, (carom_slip)slip, accepted, "strong friction");
@@ -204,29 +217,42 @@ static double near_zero(random_source *source) {
   return kind < 1 ? 0 : kind < 2.5 ? size : -size;
 }
 
-/* A planar collision, or nearly one: u and d lie along u_z and d_y. The balls stick shortly before the end of the collision if
- * `stick`, and the cloth slip passes zero on the way if `pass`; else it begins or ends near zero. Units: those of reduced.h
- * over |v_n| / kappa. */
-static carom_impact planar_impact(random_source *source, double s, bool play, bool stick, bool pass) {
+/* A planar collision, or nearly one: u and d lie along u_z and d_y. The balls stick shortly
+ * before the end of the collision if `stick`, and the cloth slip passes zero on the way if
+ * `pass`; else it begins or ends near zero. Units: those of reduced.h over |v_n| / kappa. */
+static carom_impact planar_impact(random_source *source, double s, bool play, bool stick,
+                                  bool pass) {
   const double R = 0.03;
   const bool corner = random_between(source, 0, 1) < 0.4;
-  const double ratio = random_between(source, 0, 1) < 0.5 ? 1 : exp2(random_between(source, play ? -1 : -4, play ? 1 : 4));
+  const double ratio = random_between(source, 0, 1) < 0.5
+                           ? 1
+                           : exp2(random_between(source, play ? -1 : -4, play ? 1 : 4));
   const double mu_b = play && corner ? 0.2 : random_between(source, 0.01, play ? 0.2 : 0.5);
   const double mu = play && corner ? 0.5 : random_between(source, 0, play ? 0.5 : 1);
   const double e = random_between(source, play ? 0.5 : 0, 1);
-  const double t_y = random_between(source, -1, 1) < 0 ? -1 : 1, kappa = 1 + ratio, f_y = -mu * mu_b * t_y;
+  const double t_y = random_between(source, -1, 1) < 0 ? -1 : 1, kappa = 1 + ratio,
+               f_y = -mu * mu_b * t_y;
   /* p at the end, and where the balls stick */
-  const double p_end = (1 + e) / (1 - f_y / kappa), at_stick = 1 - exp10(random_between(source, -5, -1));
-  const double u_z = stick ? p_end * at_stick * (2.5 * mu_b * kappa - 2.5 * f_y) : exp2(random_between(source, -4, 3));
-  const double p_zero =
-      pass ? random_between(source, 0, p_end) : near_zero(source) + (random_between(source, 0, 2) < 1 ? p_end : 0);
-  const double u_x = near_zero(source), d_x = near_zero(source), rate = 2.5 * s * mu_b - 1 + (1 - 2.5 * s) * f_y;
+  const double p_end = (1 + e) / (1 - f_y / kappa),
+               at_stick = 1 - exp10(random_between(source, -5, -1));
+  const double u_z = stick ? p_end * at_stick * (2.5 * mu_b * kappa - 2.5 * f_y)
+                           : exp2(random_between(source, -4, 3));
+  const double p_zero = pass ? random_between(source, 0, p_end)
+                             : near_zero(source) + (random_between(source, 0, 2) < 1 ? p_end : 0);
+  const double u_x = near_zero(source), d_x = near_zero(source),
+               rate = 2.5 * s * mu_b - 1 + (1 - 2.5 * s) * f_y;
   const double d_y = p_zero == 0 ? near_zero(source) : -rate * p_zero;
   const double w_x = (kappa - d_y) / (s * R);
-  carom_impact in = {.a = {.v = {d_x, kappa}, .w = {w_x}, .radius = R, .mass = ratio, .mu_cloth = mu},
-                     .b = {.r = {0, 2 * R}, .v = {d_x - u_x}, .w = {u_z / R - w_x}, .radius = R, .mass = 1, .mu_cloth = mu},
-                     .mu_ball = mu_b,
-                     .restitution = e};
+  carom_impact in = {
+      .a = {.v = {d_x, kappa}, .w = {w_x}, .radius = R, .mass = ratio, .mu_cloth = mu},
+      .b = {.r = {0, 2 * R},
+            .v = {d_x - u_x},
+            .w = {u_z / R - w_x},
+            .radius = R,
+            .mass = 1,
+            .mu_cloth = mu},
+      .mu_ball = mu_b,
+      .restitution = e};
   if (d_x == 0 && d_y == 0) { /* a lies still */
     in.a.v[1] = in.a.w[0] = 0;
     in.b.v[1] = -kappa;
@@ -245,8 +271,9 @@ static carom_impact planar_impact(random_source *source, double s, bool play, bo
   return in;
 }
 
-/* Bits of batches and calls are equal; errors against the precise solver, and where that differs, or is unresolved, against the
- * reference. Returns the number of collisions that were solved. */
+/* Bits of batches and calls are equal; errors against the precise solver, and where that
+ * differs, or is unresolved, against the reference. Returns the number of collisions that were
+ * solved. */
 static int expect_planar(random_source *source, carom_slip slip, bool play, bool stick, bool pass) {
   const carom_options options = options_for(slip);
   const double s = carom_spin_sign(slip);
@@ -286,17 +313,19 @@ static int expect_planar(random_source *source, carom_slip slip, bool play, bool
         double error = result_distance(&alone, &right[single][k], in->a.radius);
         if (!(error <= bound) && kept_collide(in, slip, &right[single][k], NULL) == REFERENCE_OK)
           error = result_distance(&alone, &right[single][k], in->a.radius);
-        ck_assert_msg(error <= bound, "slip %d, stick %d, pass %d%s: %g off with %s, mu_b %.17g mu %.17g e %.17g", slip, stick,
-                      pass, single ? ", in single precision" : "", error, carom_isa_name((carom_isa)isa), in->mu_ball,
-                      in->a.mu_cloth, in->restitution);
+        ck_assert_msg(error <= bound,
+                      "slip %d, stick %d, pass %d%s: %g off with %s, mu_b %.17g mu %.17g e %.17g",
+                      slip, stick, pass, single ? ", in single precision" : "", error,
+                      carom_isa_name((carom_isa)isa), in->mu_ball, in->a.mu_cloth, in->restitution);
       }
     }
   }
   return solved;
 }
 
-/* Windows of 1e-5 that random draws miss: the balls are about to stick as the collision ends, the cloth slip begins at zero,
- * passes it or ends there, and the motion is planar, exactly or nearly. */
+/* Windows of 1e-5 that random draws miss: the balls are about to stick as the collision ends,
+ * the cloth slip begins at zero, passes it or ends there, and the motion is planar, exactly or
+ * nearly. */
 TEST(planar_collisions) {
   random_source source = {test_seed()};
   for (int kind = 0; kind < 16; kind++) {
@@ -309,10 +338,11 @@ TEST(planar_collisions) {
   }
 }
 
-/* At the ends of the range of double precision: the same status and bits alone and in a batch, and nothing but finite numbers
- * with status ok. */
+/* At the ends of the range of double precision: the same status and bits alone and in a batch,
+ * and nothing but finite numbers with status ok. */
 TEST(ends_of_the_range) {
-  static const double radii[] = {2e-308, 1e-300, 1e-160, 1e160, 1e300}, spins[] = {1e307, 1e200, 1e160, 1e-300};
+  static const double radii[] = {2e-308, 1e-300, 1e-160, 1e160, 1e300},
+                      spins[] = {1e307, 1e200, 1e160, 1e-300};
   random_source source = {test_seed()};
   for (int k = 0; k < 40; k++) {
     carom_impact in = random_impact(&source);
@@ -332,7 +362,8 @@ TEST(ends_of_the_range) {
       const carom_status status = carom_collide(&in, &options, &out);
       for (int c = 0; c < 12; c++)
         ck_assert_int_eq(isfinite(((const double *)&out)[c]) != 0, status >= 0);
-      ck_assert_int_eq(carom_collide_batch(rows, FILL, &options, many, NULL), status < 0 ? status : CAROM_OK);
+      ck_assert_int_eq(carom_collide_batch(rows, FILL, &options, many, NULL),
+                       status < 0 ? status : CAROM_OK);
       for (int row = 0; row < FILL; row++)
         ck_assert(memcmp(&many[row], &out, sizeof out) == 0);
     }

@@ -1,4 +1,5 @@
-/* The ladder: every rung in every configuration of every compiler, against pooltool, against its parent, and on bad input. */
+/* The ladder: every rung in every configuration of every compiler, against pooltool, against its
+ * parent, and on bad input. */
 #include "ladder.h"
 #include "accuracy.h"
 #include "cases.h"
@@ -45,9 +46,11 @@ TEST(every_rung_is_within_its_bound) {
     carom_result out;
     ck_assert_int_eq(ladder_resolve(module, rung, &cases.impact[k], &options, &out), CAROM_OK);
     const pair_accuracy a = accuracy_of(&out, &reference.result[k], cases.impact[k].a.radius);
-    ck_assert_msg(a.pair <= rung->bound, "%s in %s: %s is off by %g", rung->name, module->name, cases.id[k], a.pair);
+    ck_assert_msg(a.pair <= rung->bound, "%s in %s: %s is off by %g", rung->name, module->name,
+                  cases.id[k], a.pair);
     /* In the configurations that may not rearrange, the direct port is pooltool to the last bit. */
-    if (strcmp(rung->name, "base") == 0 && (strcmp(module->config, "o3") == 0 || strcmp(module->config, "novec") == 0))
+    if (strcmp(rung->name, "base") == 0 &&
+        (strcmp(module->config, "o3") == 0 || strcmp(module->config, "novec") == 0))
       ck_assert_msg(a.identical, "%s in %s: %s differs", rung->name, module->name, cases.id[k]);
   }
   reference_free(&reference);
@@ -56,21 +59,27 @@ TEST(every_rung_is_within_its_bound) {
 
 /* How far a rung may be from its parent on a pair of N steps, beyond its own bound.
  *
- * The collision ends on a whole step, and which one may hang on a last bit: that is dv = (1 + e)|v_n|/(2N) on a speed. And
- * where slip between the balls ends during the collision, Euler's method does not stay there: it goes back and forth across u =
- * 0, pressing now one ball into the cloth, now the other, as the last bits have it. What the cloth can then do in all is μ_s
+ * The collision ends on a whole step, and which one may hang on a last bit: that is dv = (1 +
+ * e)|v_n|/(2N) on a speed. And where slip between the balls ends during the collision, Euler's
+ * method does not stay there: it goes back and forth across u = 0, pressing now one ball into
+ * the cloth, now the other, as the last bits have it. What the cloth can then do in all is μ_s
  * μ_b (1 + e)|v_n|/2, and 5/2 of that on R w. */
-static double allowance(const carom_impact *in, const carom_options *options, const carom_result *parent) {
+static double allowance(const carom_impact *in, const carom_options *options,
+                        const carom_result *parent) {
   const carom_frame frame = carom_frame_of(in);
   const double R = in->a.radius, *x = frame.x, *y = frame.y;
-  const double P = 0.5 * (1.0 + in->restitution) * fabs(carom_dot(in->b.v, y) - carom_dot(in->a.v, y)), dv = P / options->steps;
-  const double u_x = carom_dot(parent->a.v, x) - carom_dot(parent->b.v, x) - R * (parent->a.w[2] + parent->b.w[2]);
+  const double P = 0.5 * (1.0 + in->restitution) *
+                   fabs(carom_dot(in->b.v, y) - carom_dot(in->a.v, y)),
+               dv = P / options->steps;
+  const double u_x =
+      carom_dot(parent->a.v, x) - carom_dot(parent->b.v, x) - R * (parent->a.w[2] + parent->b.w[2]);
   const double u_z = R * (carom_dot(parent->a.w, x) + carom_dot(parent->b.w, x));
   const bool slip_ended = hypot(u_x, u_z) <= 10.0 * in->mu_ball * dv;
   double scale = 0.0;
   for (int k = 0; k < 12; k++)
     scale = fmax(scale, fabs(((const double *)parent)[k]) * (k / 3 % 2 == 1 ? R : 1.0));
-  return (dv + (slip_ended ? 2.5 * fmax(in->a.mu_cloth, in->b.mu_cloth) * in->mu_ball * P : 0.0)) / scale;
+  return (dv + (slip_ended ? 2.5 * fmax(in->a.mu_cloth, in->b.mu_cloth) * in->mu_ball * P : 0.0)) /
+         scale;
 }
 
 TEST(each_rung_agrees_with_its_parent) {
@@ -88,11 +97,13 @@ TEST(each_rung_agrees_with_its_parent) {
       if (status == CAROM_ERROR_TOO_SLOW) /* a grazing hit in single precision */
         continue;
       ck_assert_int_eq(status, CAROM_OK);
-      ck_assert_int_eq(ladder_resolve(module, ladder_rung_find(rung->parent), &impact, &options, &parent), CAROM_OK);
+      ck_assert_int_eq(
+          ladder_resolve(module, ladder_rung_find(rung->parent), &impact, &options, &parent),
+          CAROM_OK);
       const double off = result_distance(&out, &parent, impact.a.radius);
       const double bound = rung->bound + allowance(&impact, &options, &parent);
-      ck_assert_msg(off <= bound, "%s in %s, %d steps, trial %d: %g from %s", rung->name, module->name, options.steps, trial,
-                    off, rung->parent);
+      ck_assert_msg(off <= bound, "%s in %s, %d steps, trial %d: %g from %s", rung->name,
+                    module->name, options.steps, trial, off, rung->parent);
     }
   }
 }
@@ -127,15 +138,16 @@ static carom_impact head_on(void) {
   };
 }
 
-/* Every rung of every module must give this status, and NaN or the state before with it; and must come back at all. */
+/* Every rung of every module must give this status, and NaN or the state before with it; and
+ * must come back at all. */
 static void expect(carom_impact impact, int steps, carom_status expected) {
   const carom_options options = pooltool(steps);
   FOR_EACH_MODULE(module)
   FOR_EACH_RUNG(rung) {
     carom_result out;
     const carom_status status = ladder_resolve(module, rung, &impact, &options, &out);
-    ck_assert_msg(status == expected, "%s in %s: %s, not %s", rung->name, module->name, carom_status_name(status),
-                  carom_status_name(expected));
+    ck_assert_msg(status == expected, "%s in %s: %s, not %s", rung->name, module->name,
+                  carom_status_name(status), carom_status_name(expected));
     if (status < 0)
       ck_assert(isnan(out.a.v[0]) && isnan(out.b.w[2]));
     else if (status == CAROM_SEPARATING)
@@ -172,7 +184,8 @@ TEST(nothing_that_would_never_end_is_begun) {
   carom_impact impact = head_on();
   impact.a.v[1] = 1e-14; /* the step is below what a slip must be to count */
   expect(impact, 1000, CAROM_ERROR_TOO_SLOW);
-  impact = head_on(), impact.a.v[1] = 1e3, impact.b.v[1] = 1e3 - 1e-10; /* the steps are rounded away */
+  /* the steps are rounded away */
+  impact = head_on(), impact.a.v[1] = 1e3, impact.b.v[1] = 1e3 - 1e-10;
   expect(impact, 1000, CAROM_ERROR_TOO_SLOW);
 }
 
@@ -195,7 +208,8 @@ TEST(the_extremes_end) {
   expect(impact, 1000, CAROM_ERROR_OVERFLOW);
   impact = head_on(), impact.a.mass = impact.b.mass = 1e-40; /* nothing in single precision */
   expect(impact, 1000, CAROM_ERROR_OVERFLOW);
-  impact = head_on(), impact.a.mass = impact.b.mass = 1e-9, impact.a.radius = impact.b.radius = 1e-9;
+  impact = head_on(), impact.a.mass = impact.b.mass = 1e-9,
+  impact.a.radius = impact.b.radius = 1e-9;
   expect(impact, 1000, CAROM_OK);
   impact.a.mass = impact.b.mass = impact.a.radius = impact.b.radius = 1e9;
   expect(impact, 1000, CAROM_OK);
@@ -207,8 +221,10 @@ TEST(single_precision_takes_fewer_steps) {
   const carom_options options = pooltool(2000000);
   FOR_EACH_MODULE(module) {
     carom_result out;
-    ck_assert_int_eq(ladder_resolve(module, ladder_rung_find("float"), &impact, &options, &out), CAROM_ERROR_TOO_SLOW);
-    ck_assert_int_eq(ladder_resolve(module, ladder_rung_find("double"), &impact, &options, &out), CAROM_OK);
+    ck_assert_int_eq(ladder_resolve(module, ladder_rung_find("float"), &impact, &options, &out),
+                     CAROM_ERROR_TOO_SLOW);
+    ck_assert_int_eq(ladder_resolve(module, ladder_rung_find("double"), &impact, &options, &out),
+                     CAROM_OK);
   }
 }
 
@@ -226,7 +242,8 @@ TEST(modules_have_names) {
   ck_assert_ptr_eq(each, ladder_module_find(each->name, why));
 }
 
-/* Linking with -ffast-math makes a library switch the whole process to flushing subnormal numbers when it is loaded. */
+/* Linking with -ffast-math makes a library switch the whole process to flushing subnormal
+ * numbers when it is loaded. */
 TEST(loading_leaves_arithmetic_alone) {
 #if defined(__x86_64__)
   const unsigned before = _mm_getcsr() & ~(unsigned)_MM_EXCEPT_MASK;

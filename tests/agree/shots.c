@@ -40,13 +40,14 @@ static results *make_results(void) {
   results *r = calloc(1, sizeof *r);
   r->events = calloc((size_t)SHOTS * ROOM, sizeof *r->events);
   for (int k = 0; k < SHOTS; k++)
-    r->shot[k] = (carom_shot){.events = r->events + (size_t)k * ROOM, .room = ROOM, .final = r->final[k]};
+    r->shot[k] =
+        (carom_shot){.events = r->events + (size_t)k * ROOM, .room = ROOM, .final = r->final[k]};
   return r;
 }
 
 /* Plays the layouts with balls[] and the cues with cues[], each for all shots or for its own. */
-static carom_status play_batch(int count, bool one_layout, bool one_cue, int from, int n, const carom_shot_options *options,
-                               results *r) {
+static carom_status play_batch(int count, bool one_layout, bool one_cue, int from, int n,
+                               const carom_shot_options *options, results *r) {
   const carom_shot_job job = {.table = &table,
                               .balls = balls + (one_layout ? 0 : count * from),
                               .cues = cues + (one_cue ? 0 : from),
@@ -71,10 +72,11 @@ static void same_results(const results *a, const results *b) {
 }
 
 /* Shots 0 to n - 1 by themselves. */
-static void play_singles(int count, bool one_layout, bool one_cue, int n, const carom_shot_options *options, results *r) {
+static void play_singles(int count, bool one_layout, bool one_cue, int n,
+                         const carom_shot_options *options, results *r) {
   for (int k = 0; k < n; k++)
-    r->status[k] =
-        (int8_t)carom_shoot(&table, balls + (one_layout ? 0 : count * k), count, &cues[one_cue ? 0 : k], options, &r->shot[k]);
+    r->status[k] = (int8_t)carom_shoot(&table, balls + (one_layout ? 0 : count * k), count,
+                                       &cues[one_cue ? 0 : k], options, &r->shot[k]);
 }
 
 static void free_results(results *r) {
@@ -85,7 +87,8 @@ static void free_results(results *r) {
 TEST(batch_is_singles) {
   make_breaks();
   for (int world = 0; world < 2; world++) {
-    carom_shot_options options = {.world = (carom_world)world, .cushion_model = CAROM_SHOT_CUSHION_HAN};
+    carom_shot_options options = {.world = (carom_world)world,
+                                  .cushion_model = CAROM_SHOT_CUSHION_HAN};
     results *single = make_results();
     play_singles(16, false, false, SHOTS, &options, single);
     ck_assert_int_eq(single->status[4], CAROM_ERROR_MISCUE);
@@ -123,7 +126,8 @@ TEST(bad_layouts) {
       balls[16 * k].kind.radius = radii[k % 4];
     results *single = make_results(), *batch = make_results();
     play_singles(16, false, false, SHOTS, &options, single);
-    ck_assert_int_eq(play_batch(16, false, false, 0, SHOTS, &options, batch), bad > 0 ? CAROM_ERROR_RADIUS : CAROM_OK);
+    ck_assert_int_eq(play_batch(16, false, false, 0, SHOTS, &options, batch),
+                     bad > 0 ? CAROM_ERROR_RADIUS : CAROM_OK);
     for (int k = 0; k < SHOTS; k++)
       ck_assert_int_eq(single->status[k], k < bad ? CAROM_ERROR_RADIUS : CAROM_OK);
     same_results(single, batch);
@@ -133,8 +137,9 @@ TEST(bad_layouts) {
   }
 }
 
-/* Each layout is checked and played with its own radius and its own kinds of balls, whatever the radius of the others: too
- * large for the nose, too small for it, in the cushion with this radius and not with that. */
+/* Each layout is checked and played with its own radius and its own kinds of balls, whatever the
+ * radius of the others: too large for the nose, too small for it, in the cushion with this
+ * radius and not with that. */
 TEST(radii) {
   enum { LAYOUTS = 144, BALLS = 2 };
   static const double factor[] = {1.0, 1.0, 1.1, 0.7, 1.0, 1.95, 0.4, 1.1, 0.0};
@@ -156,9 +161,11 @@ TEST(radii) {
       }
       cues[k] = carom_cue_of(CAROM_GAME_BILLIARD);
       cues[k].phi = 37.0 + 10.0 * k;
-      single->status[k] = (int8_t)carom_shoot(&table, balls + BALLS * k, BALLS, &cues[k], &options, &single->shot[k]);
+      single->status[k] = (int8_t)carom_shoot(&table, balls + BALLS * k, BALLS, &cues[k], &options,
+                                              &single->shot[k]);
       played += single->status[k] == CAROM_OK;
-      refused += single->status[k] == CAROM_ERROR_NOSE_HEIGHT || single->status[k] == CAROM_ERROR_OFF_TABLE;
+      refused += single->status[k] == CAROM_ERROR_NOSE_HEIGHT ||
+                 single->status[k] == CAROM_ERROR_OFF_TABLE;
     }
     for (size_t t = 0; t < sizeof threads / sizeof threads[0]; t++) {
       carom_shot_options threaded = options;
@@ -178,7 +185,8 @@ TEST(radii) {
   ck_assert_int_eq(refused, 9 * 32);
 }
 
-/* One layout for all cues, one cue for all layouts; layouts and cues further apart than they are long. */
+/* One layout for all cues, one cue for all layouts; layouts and cues further apart than they are
+ * long. */
 TEST(one_for_all) {
   make_breaks();
   cues[4].a = 0.0;
@@ -205,8 +213,8 @@ TEST(one_for_all) {
                               .status = batch->status};
   ck_assert_int_eq(carom_shoot_batch(&job), CAROM_OK);
   for (int k = 0; k < FEW; k++)
-    single->status[k] =
-        (int8_t)carom_shoot(&table, balls + EVERY * 16 * k, 11, &cues[(EVERY - 1) * k], &options, &single->shot[k]);
+    single->status[k] = (int8_t)carom_shoot(&table, balls + EVERY * 16 * k, 11,
+                                            &cues[(EVERY - 1) * k], &options, &single->shot[k]);
   same_results(single, batch);
   free_results(single);
   free_results(batch);
@@ -217,13 +225,15 @@ static int ascending(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* What a game waits for: a break as a whole, to the first contact and in frames, each with the status that it must have. The
- * times that are printed are medians over interleaved rounds. */
+/* What a game waits for: a break as a whole, to the first contact and in frames, each with the
+ * status that it must have. The times that are printed are medians over interleaved rounds. */
 TEST(costs_of_a_game) {
   enum { ROUNDS = 25, MODELS = 2, FIGURES = 5 };
-  static const carom_shot_cushion models[MODELS] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_MATHAVAN};
-  static const char *const what[FIGURES] = {"the break", "to the first contact", "a frame by carom_shot_continue()",
-                                            "carom_shot_at()", "carom_shot_orientation()"};
+  static const carom_shot_cushion models[MODELS] = {CAROM_SHOT_CUSHION_HAN,
+                                                    CAROM_SHOT_CUSHION_MATHAVAN};
+  static const char *const what[FIGURES] = {"the break", "to the first contact",
+                                            "a frame by carom_shot_continue()", "carom_shot_at()",
+                                            "carom_shot_orientation()"};
   static carom_shot_state state;
   static double us[FIGURES][ROUNDS];
   static carom_ball_state states[16];
@@ -244,7 +254,8 @@ TEST(costs_of_a_game) {
           ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot), CAROM_OK);
         } else if (f == 1) {
           options.stop_at = CAROM_STOP_AT_CONTACT;
-          ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot), CAROM_STOPPED_AT_EVENT);
+          ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot),
+                           CAROM_STOPPED_AT_EVENT);
         } else if (f == 2) {
           shot.state = &state;
           options.time_most = 1.0 / 60.0;
@@ -261,7 +272,9 @@ TEST(costs_of_a_game) {
             else
               carom_shot_orientation(balls, 16, &shot, calls / 60.0, turned);
         clock_gettime(CLOCK_MONOTONIC, &end);
-        us[f][n] = (1e6 * (double)(end.tv_sec - begin.tv_sec) + 1e-3 * (double)(end.tv_nsec - begin.tv_nsec)) / calls;
+        us[f][n] = (1e6 * (double)(end.tv_sec - begin.tv_sec) +
+                    1e-3 * (double)(end.tv_nsec - begin.tv_nsec)) /
+                   calls;
       }
     printf("cushions by %s:", carom_cushion_model_name((carom_cushion_model)(models[m] - 1)));
     for (int f = 0; f < FIGURES; f++) {
@@ -272,7 +285,8 @@ TEST(costs_of_a_game) {
   }
 }
 
-/* Brief events tell what full ones do, in place of them and beside them, and no more of them than there is room for. */
+/* Brief events tell what full ones do, in place of them and beside them, and no more of them
+ * than there is room for. */
 TEST(brief_events) {
   enum { FEW = 7 };
   static carom_brief_event in_place[ROOM], beside[ROOM];
@@ -290,11 +304,14 @@ TEST(brief_events) {
     const carom_brief_event told = {full[k].time, full[k].type, full[k].a, full[k].b, 0};
     ck_assert_int_eq(memcmp(&in_place[k], &told, sizeof told), 0);
     if (k < FEW)
-      ck_assert(memcmp(&beside[k], &told, sizeof told) == 0 && memcmp(&others[k], &full[k], sizeof full[k]) == 0);
+      ck_assert(memcmp(&beside[k], &told, sizeof told) == 0 &&
+                memcmp(&others[k], &full[k], sizeof full[k]) == 0);
   }
-  for (const unsigned char *p = (const void *)&beside[FEW]; p < (const unsigned char *)(beside + ROOM); p++)
+  for (const unsigned char *p = (const void *)&beside[FEW];
+       p < (const unsigned char *)(beside + ROOM); p++)
     ck_assert_int_eq(*p, 0x55);
-  for (const unsigned char *p = (const void *)&others[FEW]; p < (const unsigned char *)(others + ROOM); p++)
+  for (const unsigned char *p = (const void *)&others[FEW];
+       p < (const unsigned char *)(others + ROOM); p++)
     ck_assert_int_eq(*p, 0x55);
   /* states at a time need the full ones */
   carom_ball_state states[16];
@@ -326,8 +343,10 @@ static void same_shot(const broken *whole, const broken *parts, int count) {
   ck_assert_int_eq(memcmp(whole->final, parts->final, (size_t)count * sizeof *whole->final), 0);
 }
 
-/* Where the shot stops next: by frames, after each event of each type or some, at any time, at a bound, or any of these. */
-static carom_shot_options next_stop(const carom_shot_options *options, int way, const carom_shot *shot, random_source *r) {
+/* Where the shot stops next: by frames, after each event of each type or some, at any time, at a
+ * bound, or any of these. */
+static carom_shot_options next_stop(const carom_shot_options *options, int way,
+                                    const carom_shot *shot, random_source *r) {
   carom_shot_options o = *options;
   switch (way) {
   case 0:
@@ -337,8 +356,8 @@ static carom_shot_options next_stop(const carom_shot_options *options, int way, 
     o.stop_at = 2 * (CAROM_STOP_AT(CAROM_EVENT_SPINNING_STATIONARY) - 1);
     break;
   case 2:
-    o.stop_at = CAROM_STOP_AT_CONTACT | CAROM_STOP_AT(CAROM_EVENT_STRIKE) | CAROM_STOP_AT(CAROM_EVENT_RAIL) |
-                CAROM_STOP_AT(CAROM_EVENT_SLATE);
+    o.stop_at = CAROM_STOP_AT_CONTACT | CAROM_STOP_AT(CAROM_EVENT_STRIKE) |
+                CAROM_STOP_AT(CAROM_EVENT_RAIL) | CAROM_STOP_AT(CAROM_EVENT_SLATE);
     break;
   case 3:
     o.events_most = (int)shot->count + 1 + (int)random_between(r, 0.0, 9.0);
@@ -350,7 +369,8 @@ static carom_shot_options next_stop(const carom_shot_options *options, int way, 
   return o;
 }
 
-/* However often a shot is stopped, it has the bits of the unbroken one; and where it stops, it has the states of that time. */
+/* However often a shot is stopped, it has the bits of the unbroken one; and where it stops, it
+ * has the states of that time. */
 TEST(stopped_and_continued) {
   static random_shot s;
   random_source r = {test_seed()};
@@ -361,8 +381,9 @@ TEST(stopped_and_continued) {
       s.cue.theta = 30.0;
     for (int k = 0; k < s.count && n % 3 == 1; k++)
       s.ball[k].kind.drag = 0.0129;
-    const carom_shot_options options = {.world = n % 4 == 3 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM,
-                                        .cushion_model = n % 5 == 0 ? CAROM_SHOT_CUSHION_DEFAULT : CAROM_SHOT_CUSHION_HAN};
+    const carom_shot_options options = {
+        .world = n % 4 == 3 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM,
+        .cushion_model = n % 5 == 0 ? CAROM_SHOT_CUSHION_DEFAULT : CAROM_SHOT_CUSHION_HAN};
     broken *whole = make_broken();
     whole->status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &whole->shot);
     if (whole->shot.count > ROOM || whole->status < 0) { /* by pooltool's rules, as a rule */
@@ -374,23 +395,30 @@ TEST(stopped_and_continued) {
       carom_shot_options o = next_stop(&options, way, &parts->shot, &r);
       parts->status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &o, &parts->shot);
       while (parts->status != CAROM_OK) {
-        ck_assert_int_eq(parts->status, way == 3                                               ? CAROM_ERROR_TOO_MANY_EVENTS
-                                        : o.time_most > 0.0 && parts->shot.time >= o.time_most ? CAROM_STOPPED_AT_TIME
-                                                                                               : CAROM_STOPPED_AT_EVENT);
+        ck_assert_int_eq(parts->status, way == 3 ? CAROM_ERROR_TOO_MANY_EVENTS
+                                        : o.time_most > 0.0 && parts->shot.time >= o.time_most
+                                            ? CAROM_STOPPED_AT_TIME
+                                            : CAROM_STOPPED_AT_EVENT);
         if (parts->status == CAROM_STOPPED_AT_TIME) {
           ck_assert_double_eq(parts->shot.time, o.time_most);
           /* as the unbroken shot was then, and nothing is known of later */
           carom_ball_state then[CAROM_BALLS_MOST];
-          ck_assert_int_eq(carom_shot_at(s.ball, s.count, &whole->shot, o.time_most, then), CAROM_OK);
+          ck_assert_int_eq(carom_shot_at(s.ball, s.count, &whole->shot, o.time_most, then),
+                           CAROM_OK);
           ck_assert_int_eq(memcmp(then, parts->final, (size_t)s.count * sizeof *then), 0);
-          ck_assert_int_eq(carom_shot_at(s.ball, s.count, &parts->shot, o.time_most + 1e-9, then), CAROM_ERROR_TIME);
+          ck_assert_int_eq(carom_shot_at(s.ball, s.count, &parts->shot, o.time_most + 1e-9, then),
+                           CAROM_ERROR_TIME);
         } else if (parts->status == CAROM_STOPPED_AT_EVENT) {
           const carom_event *last = &parts->events[parts->shot.count - 1];
           ck_assert_double_eq(parts->shot.time, last->time);
-          bool contact = false; /* of the cue ball: the last event, or one of the cluster that ends with it */
-          for (int k = 0; last->type == CAROM_EVENT_BALL_BALL && k <= (last->cluster > 0 ? last->cluster - 1 : 0); k++)
+          bool contact = false; /* of the cue ball: the last event, or one of the cluster that
+                                   ends with it */
+          for (int k = 0; last->type == CAROM_EVENT_BALL_BALL &&
+                          k <= (last->cluster > 0 ? last->cluster - 1 : 0);
+               k++)
             contact |= last[-k].a == s.cue.ball || last[-k].b == s.cue.ball;
-          ck_assert((o.stop_at & CAROM_STOP_AT(last->type)) || ((o.stop_at & CAROM_STOP_AT_CONTACT) && contact));
+          ck_assert((o.stop_at & CAROM_STOP_AT(last->type)) ||
+                    ((o.stop_at & CAROM_STOP_AT_CONTACT) && contact));
           for (int k = 0; k < s.count; k++)
             if (k == last->a)
               ck_assert_int_eq(memcmp(&parts->final[k], &last->after[0], sizeof *parts->final), 0);
@@ -410,13 +438,15 @@ TEST(stopped_and_continued) {
   ck_assert_int_gt(stops, 2000);
 }
 
-/* The first contact of the cue ball is that of the whole shot; in a batch too, and each shot of a batch can go on. */
+/* The first contact of the cue ball is that of the whole shot; in a batch too, and each shot of
+ * a batch can go on. */
 TEST(first_contact) {
   enum { FEW = 20 };
   static carom_shot_state state[FEW];
   make_breaks();
   cues[4].a = 0.0;
-  carom_shot_options options = {.stop_at = CAROM_STOP_AT_CONTACT, .cushion_model = CAROM_SHOT_CUSHION_HAN};
+  carom_shot_options options = {.stop_at = CAROM_STOP_AT_CONTACT,
+                                .cushion_model = CAROM_SHOT_CUSHION_HAN};
   results *single = make_results(), *batch = make_results();
   for (int k = 0; k < FEW; k++)
     batch->shot[k].state = &state[k];
@@ -424,23 +454,28 @@ TEST(first_contact) {
   for (int k = 0; k < FEW; k++) {
     ck_assert_int_eq(batch->status[k], CAROM_STOPPED_AT_EVENT);
     const carom_event *last = &batch->shot[k].events[batch->shot[k].count - 1];
-    const int64_t contact = batch->shot[k].count - (last->cluster > 0 ? last->cluster : 1); /* the first of a cluster */
+    /* the first of a cluster */
+    const int64_t contact = batch->shot[k].count - (last->cluster > 0 ? last->cluster : 1);
     ck_assert(last->type == CAROM_EVENT_BALL_BALL && batch->shot[k].events[contact].a == 0);
     for (int64_t e = 0; e < contact; e++)
       ck_assert_int_ne(batch->shot[k].events[e].type, CAROM_EVENT_BALL_BALL);
     options.stop_at = 0;
-    batch->status[k] = (int8_t)carom_shot_continue(&table, balls + 16 * k, 16, &options, &batch->shot[k]);
-    single->status[k] = (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
+    batch->status[k] =
+        (int8_t)carom_shot_continue(&table, balls + 16 * k, 16, &options, &batch->shot[k]);
+    single->status[k] =
+        (int8_t)carom_shoot(&table, balls + 16 * k, 16, &cues[k], &options, &single->shot[k]);
     ck_assert_int_eq(batch->status[k], single->status[k]);
     ck_assert_int_eq(batch->shot[k].count, single->shot[k].count);
     ck_assert_int_eq(memcmp(batch->final[k], single->final[k], sizeof batch->final[k]), 0);
   }
-  ck_assert_int_eq(memcmp(batch->events, single->events, (size_t)FEW * ROOM * sizeof *batch->events), 0);
+  ck_assert_int_eq(
+      memcmp(batch->events, single->events, (size_t)FEW * ROOM * sizeof *batch->events), 0);
   free_results(single);
   free_results(batch);
 }
 
-/* What cannot go on is refused, and nothing is written: a state that is damaged or empty, and one of another shot, by name. */
+/* What cannot go on is refused, and nothing is written: a state that is damaged or empty, and
+ * one of another shot, by name. */
 TEST(bad_states) {
   make_breaks();
   broken *b = make_broken();
@@ -450,7 +485,8 @@ TEST(bad_states) {
   ck_assert_int_eq(b->status, CAROM_STOPPED_AT_TIME);
   broken *before = malloc(sizeof *before);
   memcpy(before, b, sizeof *before);
-#define REFUSED(status) ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), (status))
+#define REFUSED(status) \
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), (status))
 #define REFUSED_WITH(what, value, status) \
   do {                                    \
     __typeof__(what) kept = (what);       \
@@ -462,7 +498,8 @@ TEST(bad_states) {
   REFUSED(CAROM_ERROR_TIME_MOST);
   options.time_most = 0.3;
   /* other arguments */
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 15, &options, &b->shot), CAROM_ERROR_STATE_BALLS);
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 15, &options, &b->shot),
+                   CAROM_ERROR_STATE_BALLS);
   REFUSED_WITH(balls[7].kind.mu_roll, 0.02, CAROM_ERROR_STATE_BALLS);
   REFUSED_WITH(balls[7].kind.mass, 0.18, CAROM_ERROR_STATE_BALLS);
   REFUSED_WITH(balls[7].kind.restitution, 0.9, CAROM_ERROR_STATE_BALLS);
@@ -494,9 +531,11 @@ TEST(bad_states) {
   }
   ck_assert_int_eq(memcmp(b, before, sizeof *b), 0);
 #undef REFUSED_WITH
-  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot), CAROM_STOPPED_AT_TIME);
+  ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &b->shot),
+                   CAROM_STOPPED_AT_TIME);
   /* a shot that is refused leaves no state to go on with, nor does one that ended in an error */
-  ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[4], &options, &b->shot), CAROM_ERROR_MISCUE);
+  ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[4], &options, &b->shot),
+                   CAROM_ERROR_MISCUE);
   REFUSED(CAROM_ERROR_STATE);
 #undef REFUSED
   free(before);
@@ -510,8 +549,8 @@ __attribute__((noinline)) static void soil_stack(int with) {
     stack[k] = (unsigned char)with;
 }
 
-/* A state has the same bytes whatever lay on the stack and in its place, in a batch and alone: nothing else of the process gets
- * into what a game saves. */
+/* A state has the same bytes whatever lay on the stack and in its place, in a batch and alone:
+ * nothing else of the process gets into what a game saves. */
 TEST(bytes_of_states) {
   enum { TIMES = 4, FEW = 12 };
   static carom_shot_state state[TIMES];
@@ -533,8 +572,13 @@ TEST(bytes_of_states) {
       if (k % 2 == 0) {
         carom_shoot(&table, layout, count, &cues[n], &options, &shot);
       } else {
-        const carom_shot_job job = {
-            .table = &table, .balls = layout, .cues = &cues[n], .count = count, .n = 1, .options = &options, .shots = &shot};
+        const carom_shot_job job = {.table = &table,
+                                    .balls = layout,
+                                    .cues = &cues[n],
+                                    .count = count,
+                                    .n = 1,
+                                    .options = &options,
+                                    .shots = &shot};
         carom_shoot_batch(&job);
       }
       ck_assert_msg(memcmp(&state[k], &state[0], sizeof *state) == 0, "shot %d, state %d", n, k);
@@ -543,7 +587,8 @@ TEST(bytes_of_states) {
   }
 }
 
-/* A state with wrong numbers under a right seal, as nobody has it by accident: it is refused, or the shot ends somehow. */
+/* A state with wrong numbers under a right seal, as nobody has it by accident: it is refused, or
+ * the shot ends somehow. */
 TEST(forged_states) {
   enum { SETTINGS = 4 };
   static carom_event events[ROOM];
@@ -552,7 +597,8 @@ TEST(forged_states) {
   make_breaks();
   for (int setting = 0; setting < SETTINGS; setting++) {
     static carom_shot_state sound, forged;
-    carom_shot_options options = {.time_most = 0.25, .world = setting == 3 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM};
+    carom_shot_options options = {.time_most = 0.25,
+                                  .world = setting == 3 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM};
     carom_shot_ball *layout = balls + 16 * setting;
     for (int k = 0; k < 16 && setting == 2; k++)
       layout[k].kind.drag = 0.0129;
@@ -560,10 +606,12 @@ TEST(forged_states) {
     cues[setting].theta = setting == 1 ? 20.0 : 0.0;
     carom_shot shot = {.events = events, .room = ROOM, .state = &sound};
     const carom_status stopped = carom_shoot(&table, layout, 16, &cues[setting], &options, &shot);
-    ck_assert_msg(stopped == CAROM_STOPPED_AT_TIME, "setting %d: %s at %g s", setting, carom_status_name(stopped), shot.time);
+    ck_assert_msg(stopped == CAROM_STOPPED_AT_TIME, "setting %d: %s at %g s", setting,
+                  carom_status_name(stopped), shot.time);
     options.time_most = 0.0;
     for (int n = 0; n < FEWER(5000); n++) {
-      static const double junk[] = {0.0, -1.0, 1e300, 1e-300, 0.41, (double)NAN, INFINITY, -INFINITY};
+      static const double junk[] = {0.0,  -1.0,        1e300,    1e-300,
+                                    0.41, (double)NAN, INFINITY, -INFINITY};
       forged = sound;
       for (int k = (int)random_between(&r, 1.0, 4.0); k > 0; k--) {
         const size_t word = (size_t)random_between(&r, 2.0, (double)(sizeof(carom_sim) / 8));
@@ -620,8 +668,8 @@ static carom_facts facts_of(const carom_event *events, int64_t count, int cue) {
   return f;
 }
 
-/* Facts are those of the events, whichever ball is struck, in one go or in parts; those of a shot that is refused say that
- * nothing happened. */
+/* Facts are those of the events, whichever ball is struck, in one go or in parts; those of a
+ * shot that is refused say that nothing happened. */
 TEST(facts_of_shots) {
   static carom_event events[10 * ROOM];
   static carom_shot_state state;
@@ -654,16 +702,18 @@ TEST(facts_of_shots) {
     }
     ck_assert_int_eq(memcmp(&parts, &facts, sizeof facts), 0);
   }
-  printf("%d shots pot, %d lose a ball over the cushions, in %d the cue ball meets a second ball\n", down, off, second);
+  printf("%d shots pot, %d lose a ball over the cushions, in %d the cue ball meets a second ball\n",
+         down, off, second);
   ck_assert(down > 5 && second > 5);
   carom_facts facts;
   const carom_facts nothing = facts_of(events, 0, 0);
-  ck_assert_int_lt(carom_shoot(&table, balls, 16, &cues[4], NULL, &(carom_shot){.facts = &facts}), 0);
+  ck_assert_int_lt(carom_shoot(&table, balls, 16, &cues[4], NULL, &(carom_shot){.facts = &facts}),
+                   0);
   ck_assert_int_eq(memcmp(&nothing, &facts, sizeof facts), 0);
 }
 
-/* A shot stops at the first contact of the cue ball if the other is not in the set, and else is as without the option; it goes
- * on as if it had not stopped. */
+/* A shot stops at the first contact of the cue ball if the other is not in the set, and else is
+ * as without the option; it goes on as if it had not stopped. */
 TEST(stops_unless_the_first_is_of_a_set) {
   static carom_shot_state state;
   make_breaks();
@@ -686,14 +736,15 @@ TEST(stops_unless_the_first_is_of_a_set) {
       status = carom_shot_continue(&table, balls, 16, &options, &shot);
     }
     ck_assert_int_eq(status, CAROM_OK);
-    ck_assert(memcmp(&part, &facts, sizeof facts) == 0 && memcmp(final[0], final[1], sizeof final[0]) == 0);
+    ck_assert(memcmp(&part, &facts, sizeof facts) == 0 &&
+              memcmp(final[0], final[1], sizeof final[0]) == 0);
     *(stops ? &stopped : &played) += 1;
   }
   ck_assert(stopped > 10 && played > 10);
 }
 
-/* On every instruction set a shot ends well, and the first events, which nothing has amplified yet, are the same but for
- * rounding. */
+/* On every instruction set a shot ends well, and the first events, which nothing has amplified
+ * yet, are the same but for rounding. */
 TEST(instruction_sets) {
   static carom_event events[ROOM], others[ROOM];
   make_breaks();
@@ -707,14 +758,17 @@ TEST(instruction_sets) {
       ck_assert_int_eq(others[k].type, events[k].type);
       ck_assert_double_eq_tol(others[k].time, events[k].time, 1e-6);
     }
-    const bool same = shot.count == plain.count && memcmp(events, others, (size_t)plain.count * sizeof *events) == 0;
+    const bool same = shot.count == plain.count &&
+                      memcmp(events, others, (size_t)plain.count * sizeof *events) == 0;
     ck_assert_int_eq(same, isa == CAROM_ISA_PLAIN);
-    /* with options.plain the shot has the bits of plain, in parts too, though nothing limits the process */
+    /* with options.plain the shot has the bits of plain, in parts too, though nothing limits the
+     * process */
     static carom_shot_state state;
     carom_shot_options options = {.plain = 1, .time_most = 0.7};
     shot.state = &state;
     memset(others, 0, sizeof others);
-    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot), CAROM_STOPPED_AT_TIME);
+    ck_assert_int_eq(carom_shoot(&table, balls, 16, &cues[0], &options, &shot),
+                     CAROM_STOPPED_AT_TIME);
     options.time_most = 0.0;
     ck_assert_int_eq(carom_shot_continue(&table, balls, 16, &options, &shot), CAROM_OK);
     ck_assert_int_eq(shot.count, plain.count);

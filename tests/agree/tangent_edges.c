@@ -1,10 +1,12 @@
-/* Where derivatives of shots end: each flag of carom_tangent.h by itself, the reach beside the change at which a ball's events
- * really change, and the derivatives by the frictions of the cloth beside closed forms. */
+/* Where derivatives of shots end: each flag of carom_tangent.h by itself, the reach beside the
+ * change at which a ball's events really change, and the derivatives by the frictions of the
+ * cloth beside closed forms. */
 #include "tangent_support.h"
 
 #include <stdio.h>
 
-static const carom_shot_options closed = {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN};
+static const carom_shot_options closed = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
+                                          .cushion_model = CAROM_SHOT_CUSHION_HAN};
 static const direction by_phi = {OF_CUE, 0, 1, 57};
 
 enum { MOST = 4 }; /* directions */
@@ -13,18 +15,22 @@ static int32_t flags[ROOM];
 static double reach[MOST];
 
 /* Plays a shot into events[] and final[], and differentiates it. */
-static carom_tangent differentiate(const layout *l, const carom_shot_options *options, const direction *by, int m,
-                                   carom_shot *shot) {
-  *shot = play(table_of_pool(), l->ball, l->count, l->cue.speed > 0.0 ? &l->cue : NULL, options, CAROM_OK);
+static carom_tangent differentiate(const layout *l, const carom_shot_options *options,
+                                   const direction *by, int m, carom_shot *shot) {
+  *shot = play(table_of_pool(), l->ball, l->count, l->cue.speed > 0.0 ? &l->cue : NULL, options,
+               CAROM_OK);
   const carom_tangent_seeds seeds = seeds_of(by, m);
   carom_tangent t = {.final = ends, .time = times, .flags = flags, .reach = reach};
-  ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l->ball, l->count, &l->cue, options, shot, &seeds, &t), CAROM_OK);
+  ck_assert_int_eq(
+      carom_shot_tangent(table_of_pool(), l->ball, l->count, &l->cue, options, shot, &seeds, &t),
+      CAROM_OK);
   return t;
 }
 
-/* The error of column j beside differences, over the largest derivative; infinite where no step has the same events. */
-static double error_of(const layout *l, const carom_shot_options *options, const carom_shot *shot, const direction *by, int j,
-                       int m) {
+/* The error of column j beside differences, over the largest derivative; infinite where no step
+ * has the same events. */
+static double error_of(const layout *l, const carom_shot_options *options, const carom_shot *shot,
+                       const direction *by, int j, int m) {
   double error, plateau;
   if (!compare(table_of_pool(), l, options, shot, by, ends, j, m, &error, &plateau))
     return INFINITY;
@@ -47,7 +53,8 @@ static int64_t first_with(const carom_shot *shot, int32_t flag) {
 }
 
 static layout of_two(double x, double y) {
-  layout l = {.count = 2, .ball = {ball_at(0.4, 0.6), ball_at(x, y)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
+  layout l = {
+      .count = 2, .ball = {ball_at(0.4, 0.6), ball_at(x, y)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
   l.cue.b = 0.0;
   return l;
 }
@@ -88,7 +95,8 @@ static bool each_alike(const carom_shot *a, const carom_shot *b, int count) {
 
 /* ---- Flags ---- */
 
-/* Derivatives of a hit that is thinner than a full one by s = 2 R (1 - eps) grow like 1/sqrt(eps). */
+/* Derivatives of a hit that is thinner than a full one by s = 2 R (1 - eps) grow like
+ * 1/sqrt(eps). */
 START_TEST(grazing) {
   double last = 0.0;
   layout l = of_two(0.55, 1.4);
@@ -96,7 +104,8 @@ START_TEST(grazing) {
   carom_shot shot;
   for (int k = 0; k < 3; k++) {
     const double eps = k == 0 ? 0.3 : k == 1 ? 1e-5 : 1e-6;
-    l.cue.phi = 57.29577951308232 * (atan2(0.8, 0.15) + asin(2.0 * 0.028575 * (1.0 - eps) / hypot(0.15, 0.8)));
+    l.cue.phi = 57.29577951308232 *
+                (atan2(0.8, 0.15) + asin(2.0 * 0.028575 * (1.0 - eps) / hypot(0.15, 0.8)));
     const carom_tangent t = differentiate(&l, &closed, &by_phi, 1, &shot);
     ck_assert_int_eq(t.all_flags, k == 0 ? 0 : CAROM_TANGENT_GRAZING);
     ck_assert_int_eq(count_of(&shot, CAROM_TANGENT_GRAZING), k == 0 ? 0 : 1);
@@ -112,9 +121,11 @@ START_TEST(grazing) {
 }
 END_TEST
 
-/* Racks whose balls touch have the flag, whatever the rack; with gaps they have not, and then derivatives are right. */
+/* Racks whose balls touch have the flag, whatever the rack; with gaps they have not, and then
+ * derivatives are right. */
 START_TEST(simultaneous) {
-  static const carom_rack_kind racks[] = {CAROM_RACK_NINEBALL, CAROM_RACK_EIGHTBALL, CAROM_RACK_TENBALL};
+  static const carom_rack_kind racks[] = {CAROM_RACK_NINEBALL, CAROM_RACK_EIGHTBALL,
+                                          CAROM_RACK_TENBALL};
   int apart = 0;
   for (int k = 0; k < 6; k++) {
     const bool frozen = k < 3;
@@ -135,9 +146,10 @@ START_TEST(simultaneous) {
 }
 END_TEST
 
-/* The place of a ball that touches another one at the start counts on one side only: a change opens a gap, or there is none. By
- * what moves neither there is no such flag, and the strike has its own derivatives at the instant of the contact: side spin
- * that a change brings about goes on into it. */
+/* The place of a ball that touches another one at the start counts on one side only: a change
+ * opens a gap, or there is none. By what moves neither there is no such flag, and the strike has
+ * its own derivatives at the instant of the contact: side spin that a change brings about goes
+ * on into it. */
 START_TEST(frozen) {
   static const direction by[3] = {{OF_STATE, 1, 1, 1}, {OF_CUE, 0, 0, 1}, {OF_CUE, 0, 3, 1}};
   layout l = of_two(0.4, 0.6 + 0.05715);
@@ -154,8 +166,9 @@ START_TEST(frozen) {
 }
 END_TEST
 
-/* A ball with topspin right before another ball, or before a rail: the contacts that close at less than 1 mm/s, or after which
- * the model leaves the ball moving into the cushion, have the flag, and no others. */
+/* A ball with topspin right before another ball, or before a rail: the contacts that close at
+ * less than 1 mm/s, or after which the model leaves the ball moving into the cushion, have the
+ * flag, and no others. */
 START_TEST(slow) {
   random_source random = {4};
   static const direction by[2] = {{OF_STATE, 0, 4, 100}, {OF_STATE, 0, 5, 100}};
@@ -163,7 +176,8 @@ START_TEST(slow) {
   int shots = 0, compared = 0, cushions = 0, without = 0;
   for (int k = 0; k < 100; k++) {
     const double gap = random_between(&random, 1e-8, 5e-7), v[2] = {0.0, 0.0};
-    const double w[3] = {random_between(&random, -90.0, -10.0), random_between(&random, -10.0, 10.0), 0.0};
+    const double w[3] = {random_between(&random, -90.0, -10.0),
+                         random_between(&random, -10.0, 10.0), 0.0};
     layout l = of_one(0.6, k % 2 == 0 ? 2.54 - 0.028575 - gap : 1.0, v, w);
     if (k % 2 == 1) {
       l.count = 2;
@@ -192,8 +206,10 @@ START_TEST(slow) {
       else
         continue;
       /* the speed at which contacts are slow grows with their number */
-      const double speed = fmin(1e-3 / ((1.0 - instants / 1500.0) * (1.0 - instants / 1500.0)), 0.2);
-      const bool is_slow = closing < speed || (event->type == CAROM_EVENT_RAIL && fabs(leaves + speed) < 1e-9);
+      const double speed =
+          fmin(1e-3 / ((1.0 - instants / 1500.0) * (1.0 - instants / 1500.0)), 0.2);
+      const bool is_slow =
+          closing < speed || (event->type == CAROM_EVENT_RAIL && fabs(leaves + speed) < 1e-9);
       instants += is_slow && event->time > last;
       last = is_slow ? event->time : last;
       ck_assert_int_eq((flags[e] & CAROM_TANGENT_SLOW) != 0, is_slow);
@@ -212,8 +228,9 @@ START_TEST(slow) {
     }
   }
   qsort(errors, (size_t)compared, sizeof *errors, by_size);
-  printf("slow contacts: %d shots, %d with cushions, %d compared, %d not, error median %.1e, largest %.1e\n", shots, cushions,
-         compared, without, errors[compared / 2], errors[compared - 1]);
+  printf("slow contacts: %d shots, %d with cushions, %d compared, %d not, error median %.1e, "
+         "largest %.1e\n",
+         shots, cushions, compared, without, errors[compared / 2], errors[compared - 1]);
   ck_assert_int_gt(compared, 150);
   ck_assert_int_gt(cushions, 40);
   ck_assert_double_lt(errors[compared * 9 / 10], 1e-5);
@@ -223,13 +240,15 @@ END_TEST
 /* The same in space: a ball that lies on another, or on a nose, and rolls off it. */
 START_TEST(slow_in_space) {
   random_source random = {8};
-  static const direction by[4] = {{OF_STATE, 0, 0, 0.1}, {OF_STATE, 0, 2, 0.1}, {OF_STATE, 0, 4, 100}, {OF_KIND, 0, 0, 0.2}};
+  static const direction by[4] = {
+      {OF_STATE, 0, 0, 0.1}, {OF_STATE, 0, 2, 0.1}, {OF_STATE, 0, 4, 100}, {OF_KIND, 0, 0, 0.2}};
   static double errors[1000];
   const double R = 0.028575, shift = R - sqrt(0.036576 * (2.0 * R - 0.036576));
   int compared = 0, without = 0, of_noses = 0, of_balls = 0;
   for (int k = 0; k < 60; k++) {
     const bool at_nose = k % 2 == 0;
-    const double v[2] = {random_between(&random, -0.05, 0.05), random_between(&random, -0.05, 0.05)};
+    const double v[2] = {random_between(&random, -0.05, 0.05),
+                         random_between(&random, -0.05, 0.05)};
     const double w[3] = {random_between(&random, -5.0, 5.0), random_between(&random, -5.0, 5.0),
                          random_between(&random, -5.0, 5.0)};
     const double up = random_between(&random, 0.4, 1.2), turn = random_between(&random, -3.0, 3.0);
@@ -250,7 +269,8 @@ START_TEST(slow_in_space) {
     differentiate(&l, &closed, by, 4, &shot);
     int slow_ones = 0;
     for (int64_t e = 0; e < shot.count; e++)
-      slow_ones += (flags[e] & CAROM_TANGENT_SLOW) && shot.events[e].before[0].label == CAROM_BALL_AIRBORNE;
+      slow_ones +=
+          (flags[e] & CAROM_TANGENT_SLOW) && shot.events[e].before[0].label == CAROM_BALL_AIRBORNE;
     *(at_nose ? &of_noses : &of_balls) += slow_ones;
     for (int j = 0; j < (at_nose ? 3 : 4) && slow_ones > 0; j++) { /* a mass alone does not count */
       const double error = error_of(&l, &closed, &shot, &by[j], j, 4);
@@ -261,9 +281,11 @@ START_TEST(slow_in_space) {
     }
   }
   qsort(errors, (size_t)compared, sizeof *errors, by_size);
-  printf("slow contacts in space: %d with noses, %d with balls, %d compared, %d not, error median %.1e, 90 %% %.1e, largest "
+  printf("slow contacts in space: %d with noses, %d with balls, %d compared, %d not, error median "
+         "%.1e, 90 %% %.1e, largest "
          "%.1e\n",
-         of_noses, of_balls, compared, without, errors[compared / 2], errors[compared * 9 / 10], errors[compared - 1]);
+         of_noses, of_balls, compared, without, errors[compared / 2], errors[compared * 9 / 10],
+         errors[compared - 1]);
   ck_assert_int_gt(compared, 100);
   ck_assert_int_gt(of_noses, 1000);
   ck_assert_int_gt(of_balls, 100);
@@ -283,7 +305,9 @@ START_TEST(overflow) {
   cue[1] = DBL_MAX;
   const carom_tangent_seeds seeds = {.directions = 1, .cue = cue};
   carom_tangent t = {.final = ends};
-  ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, NULL, &shot, &seeds, &t), CAROM_ERROR_OVERFLOW);
+  ck_assert_int_eq(
+      carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, NULL, &shot, &seeds, &t),
+      CAROM_ERROR_OVERFLOW);
   for (int k = 0; k < NUMBERS * l.count; k++)
     ck_assert(isnan(ends[k]));
 }
@@ -291,8 +315,10 @@ END_TEST
 
 /* A cushion in steps, and one that the exact model refuses, so that its steps take its place. */
 START_TEST(euler) {
-  const carom_shot_options steps = {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_EULER};
-  const carom_shot_options exact = {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_MATHAVAN};
+  const carom_shot_options steps = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
+                                    .cushion_model = CAROM_SHOT_CUSHION_EULER};
+  const carom_shot_options exact = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
+                                    .cushion_model = CAROM_SHOT_CUSHION_MATHAVAN};
   const int32_t all = CAROM_TANGENT_EULER | CAROM_TANGENT_DIFFERENCES | CAROM_TANGENT_KINK;
   layout l = of_two(0.9, 0.2);
   l.cue.phi = 80.0;
@@ -312,18 +338,21 @@ START_TEST(euler) {
 }
 END_TEST
 
-/* At a kink the derivatives of both sides differ, and the tangent is one of them. Here the friction just stops the slip: of two
- * balls that meet head on, by side spin, and of a ball on Han's cushion. */
+/* At a kink the derivatives of both sides differ, and the tangent is one of them. Here the
+ * friction just stops the slip: of two balls that meet head on, by side spin, and of a ball on
+ * Han's cushion. */
 START_TEST(kink) {
-  const carom_shot_options options = {
-      .ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN, .friction = CAROM_FRICTION_CONSTANT};
+  const carom_shot_options options = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
+                                      .cushion_model = CAROM_SHOT_CUSHION_HAN,
+                                      .friction = CAROM_FRICTION_CONSTANT};
   for (int k = 0; k < 4; k++) {
     const double R = 0.028575, v[2] = {0.0, 1.0}, e = 0.95, mu = 0.05;
     const double sine = 0.036576 / R - 1.0, cosine = sqrt(1.0 - sine * sine);
     /* spin by which a slip of 7 mu e v stops just so; of the cushion 7/2 mu (1 + e) v cos */
     const double slip = k < 2 ? 7.0 * mu * e * v[1] : 3.5 * 0.2 * 1.85 * v[1] * cosine;
     double w[3] = {0.0, 0.0, slip / R};
-    if (k >= 2) { /* rolling, W_x = -v_y: no slip up the nose where W_x cos... is balanced by the spin about z alone */
+    if (k >= 2) { /* rolling, W_x = -v_y: no slip up the nose where W_x cos... is balanced by the
+                     spin about z alone */
       w[0] = 0.0;
       const double up = v[1] * sine; /* of the surface along the nose, from v_y */
       w[2] = sqrt(slip * slip - up * up) / (R * cosine);
@@ -357,10 +386,12 @@ START_TEST(kink) {
 }
 END_TEST
 
-/* By theta, at no elevation: the derivative upward, which the cloth takes a part of at once. In flat play there is no kink. */
+/* By theta, at no elevation: the derivative upward, which the cloth takes a part of at once. In
+ * flat play there is no kink. */
 START_TEST(level_cue) {
-  const carom_shot_options flat = {
-      .ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN, .space = CAROM_SPACE_FLAT};
+  const carom_shot_options flat = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
+                                   .cushion_model = CAROM_SHOT_CUSHION_HAN,
+                                   .space = CAROM_SPACE_FLAT};
   static const direction by_theta = {OF_CUE, 0, 2, 30}, by_a = {OF_CUE, 0, 3, 1};
   layout l = of_two(0.55, 1.4), raised;
   l.cue.phi = 80.0;
@@ -388,8 +419,9 @@ START_TEST(level_cue) {
 }
 END_TEST
 
-/* A hop that is nearly none, since the ball falls little faster than it has to, is a grazing contact; and a ball that meets the
- * slate and another ball at one instant meets them simultaneously. */
+/* A hop that is nearly none, since the ball falls little faster than it has to, is a grazing
+ * contact; and a ball that meets the slate and another ball at one instant meets them
+ * simultaneously. */
 START_TEST(edges_of_flights) {
   const double v[2] = {0.5, 0.0}, w[3] = {0.0, 10.0, 0.0};
   static const direction by_v_z = {OF_STATE, 0, 8, 1};
@@ -407,18 +439,21 @@ START_TEST(edges_of_flights) {
   l.cue.theta = 30.0;
   for (int k = 0; k < 2; k++) {
     l.ball[1].state.r[0] += 0.01 * k;
-    ck_assert_int_eq((differentiate(&l, &closed, &by_phi, 1, &shot).all_flags & CAROM_TANGENT_SIMULTANEOUS) != 0, k == 0);
+    ck_assert_int_eq(
+        (differentiate(&l, &closed, &by_phi, 1, &shot).all_flags & CAROM_TANGENT_SIMULTANEOUS) != 0,
+        k == 0);
   }
 }
 END_TEST
 
-/* The times at which flights end: on the slate, on the top of a rail, in a pocket by landing or at its far side, beyond the
- * cushions, at the edge of the rails, or on one. */
+/* The times at which flights end: on the slate, on the top of a rail, in a pocket by landing or
+ * at its far side, beyond the cushions, at the edge of the rails, or on one. */
 START_TEST(ends_of_flights) {
   enum { SLATE, TOP, LANDS_IN, FAR_SIDE, LIES, BEYOND, EDGE, ENDS };
-  static const char *const name[ENDS] = {"slate",  "top", "pocket by landing", "its far side", "lies on a rail",
-                                         "beyond", "edge"};
-  static const direction by[4] = {{OF_STATE, 0, 1, 1}, {OF_STATE, 0, 8, 1}, {OF_STATE, 0, 7, 0.1}, {OF_KIND, 0, 9, 9.8}};
+  static const char *const name[ENDS] = {
+      "slate", "top", "pocket by landing", "its far side", "lies on a rail", "beyond", "edge"};
+  static const direction by[4] = {
+      {OF_STATE, 0, 1, 1}, {OF_STATE, 0, 8, 1}, {OF_STATE, 0, 7, 0.1}, {OF_KIND, 0, 9, 9.8}};
   random_source random = {21};
   int seen[ENDS] = {0};
   double worst[ENDS] = {0.0};
@@ -430,8 +465,11 @@ START_TEST(ends_of_flights) {
       to[0] = random_between(&random, 0.2, 0.5);
       to[1] = k % 2 == 0 ? -0.06 : 2.60;
     }
-    const double w[3] = {random_between(&random, -50.0, 50.0), random_between(&random, -50.0, 50.0), 0.0};
-    const double start[2] = {random_between(&random, 0.3, 0.9), to[1] < 0.6 ? 0.3 : to[1] > 1.9 ? 2.24 : 1.27};
+    const double w[3] = {random_between(&random, -50.0, 50.0), random_between(&random, -50.0, 50.0),
+                         0.0};
+    const double start[2] = {random_between(&random, 0.3, 0.9), to[1] < 0.6   ? 0.3
+                                                                : to[1] > 1.9 ? 2.24
+                                                                              : 1.27};
     const double speed = random_between(&random, 1.5, 8.0);
     for (int i = 0; i < 2; i++)
       v[i] = speed * (to[i] - start[i] + random_between(&random, -0.02, 0.02));
@@ -442,12 +480,14 @@ START_TEST(ends_of_flights) {
     carom_shot shot = {.events = events, .room = ROOM};
     if (carom_shoot(table, l.ball, 1, NULL, &closed, &shot) != CAROM_OK)
       continue;
-    if (differentiate(&l, &closed, by, 4, &shot).all_flags & (CAROM_TANGENT_GRAZING | CAROM_TANGENT_KINK))
+    if (differentiate(&l, &closed, by, 4, &shot).all_flags &
+        (CAROM_TANGENT_GRAZING | CAROM_TANGENT_KINK))
       continue;
     for (int j = 0; j < 4; j++) {
       static double error[ROOM], f[2][ROOM];
       bool same = true;
-      for (double h = 1e-5 * by[j].unit; h > 1e-8 * by[j].unit; h *= 0.1) { /* the best of three steps */
+      /* the best of three steps */
+      for (double h = 1e-5 * by[j].unit; h > 1e-8 * by[j].unit; h *= 0.1) {
         for (int s = 0; s < 2; s++) {
           static carom_event other[ROOM];
           layout changed = l;
@@ -476,7 +516,9 @@ START_TEST(ends_of_flights) {
         else if (event->type == CAROM_EVENT_POCKET && event->before[0].label == CAROM_BALL_AIRBORNE)
           end = r[2] - 0.028575 < 1e-9 ? LANDS_IN : FAR_SIDE;
         else if (event->type == CAROM_EVENT_LEFT_TABLE)
-          end = e > 0 && event->time == events[e - 1].time ? LIES : r[2] - 0.028575 < 1e-9 ? BEYOND : EDGE;
+          end = e > 0 && event->time == events[e - 1].time ? LIES
+                : r[2] - 0.028575 < 1e-9                   ? BEYOND
+                                                           : EDGE;
         if (end < 0)
           continue;
         seen[end] += j == 0;
@@ -492,7 +534,8 @@ START_TEST(ends_of_flights) {
 }
 END_TEST
 
-/* A straight shot at a frozen ball: its contact follows the strike before slip between the balls can begin. */
+/* A straight shot at a frozen ball: its contact follows the strike before slip between the balls
+ * can begin. */
 START_TEST(frozen_and_straight) {
   for (int exact = 0; exact < 2; exact++) {
     layout l = of_two(0.4, 0.6 + 2.0 * 0.028575);
@@ -520,7 +563,8 @@ static double change_of_events(const layout *l, const direction *by, const carom
       layout changed = *l;
       change(&changed, by, s * h);
       carom_shot t = {.events = other, .room = ROOM};
-      same = carom_shoot(table_of_pool(), changed.ball, l->count, &changed.cue, &closed, &t) == CAROM_OK &&
+      same = carom_shoot(table_of_pool(), changed.ball, l->count, &changed.cue, &closed, &t) ==
+                 CAROM_OK &&
              each_alike(shot, &t, l->count);
     }
     if (!same)
@@ -529,7 +573,8 @@ static double change_of_events(const layout *l, const direction *by, const carom
   return INFINITY;
 }
 
-/* The reach, to first order, beside what is found by trial, of shots on the cloth and by elevated cues. */
+/* The reach, to first order, beside what is found by trial, of shots on the cloth and by
+ * elevated cues. */
 START_TEST(reach_beside_trial) {
   enum { SHOTS = 120, BY = 3 };
   static const direction by[BY] = {{OF_CUE, 0, 1, 57}, {OF_CUE, 0, 0, 2}, {OF_STATE, 1, 0, 1}};
@@ -550,8 +595,10 @@ START_TEST(reach_beside_trial) {
     for (int j = 0; j < BY; j++) {
       qsort(ratio[j], SHOTS, sizeof **ratio, by_size);
       const double *r = ratio[j];
-      printf("reach by %s, %d shots%s: found over predicted %.2f at 5 %%, %.2f at 25 %%, %.2f at 50 %%, %.2f at 75 %%\n",
-             name[j], SHOTS, elevated ? " by elevated cues" : "", r[SHOTS / 20], r[SHOTS / 4], r[SHOTS / 2], r[SHOTS * 3 / 4]);
+      printf("reach by %s, %d shots%s: found over predicted %.2f at 5 %%, %.2f at 25 %%, %.2f at "
+             "50 %%, %.2f at 75 %%\n",
+             name[j], SHOTS, elevated ? " by elevated cues" : "", r[SHOTS / 20], r[SHOTS / 4],
+             r[SHOTS / 2], r[SHOTS * 3 / 4]);
       /* changes are tried in steps of 10 % */
       ck_assert_double_gt(r[SHOTS / 20], 0.25);
       ck_assert_double_eq_tol(r[SHOTS / 4], 1.0, 0.1);
@@ -564,10 +611,13 @@ END_TEST
 
 /* Of a ball that passes another one at 10 nm to 1 mm, on its right or left, fast or slow. */
 START_TEST(reach_of_near_misses) {
-  static const double gaps[] = {1e-8, 1e-7, 1e-6, 1e-5, 5e-5, 1e-4, 1.9e-4, 2.1e-4, 1e-3}, speeds[] = {0.6, 2.0, 5.0};
+  static const double gaps[] = {1e-8, 1e-7, 1e-6, 1e-5, 5e-5, 1e-4, 1.9e-4, 2.1e-4, 1e-3},
+                      speeds[] = {0.6, 2.0, 5.0};
   for (int k = 0; k < 9 * 3 * 2; k++) {
     const double gap = gaps[k % 9], side = k / 27 == 0 ? 1.0 : -1.0;
-    layout l = {.count = 2, .ball = {ball_at(0.635, 0.5), ball_at(0.635, 1.4)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
+    layout l = {.count = 2,
+                .ball = {ball_at(0.635, 0.5), ball_at(0.635, 1.4)},
+                .cue = carom_cue_of(CAROM_GAME_POOL)};
     l.cue.speed = speeds[k / 9 % 3];
     l.cue.phi = 90.0;
     l.ball[1].state.r[0] += side * (2.0 * l.ball[1].kind.radius + gap);
@@ -577,16 +627,17 @@ START_TEST(reach_of_near_misses) {
     const double predicted = reach[0], found = change_of_events(&l, &by, &shot) / predicted;
     /* changes are tried in steps of 10 % */
     if (!(found > 0.9 && found < 1.2))
-      ck_abort_msg("gap %g m, speed %g m/s, side %g: found %g of the reach %g", gap, l.cue.speed, side, found, predicted);
+      ck_abort_msg("gap %g m, speed %g m/s, side %g: found %g of the reach %g", gap, l.cue.speed,
+                   side, found, predicted);
   }
 }
 END_TEST
 
 /* ---- The cloth ---- */
 
-/* Where a ball that starts at v without spin along its way, and with w about the vertical, comes to rest, and when: how far it
- * slides; when it rolls; how far it has gone at the end of its roll, whose exact motion against drag is x' = -(A + k v^2); when
- * that is; when its spin ends. */
+/* Where a ball that starts at v without spin along its way, and with w about the vertical, comes
+ * to rest, and when: how far it slides; when it rolls; how far it has gone at the end of its
+ * roll, whose exact motion against drag is x' = -(A + k v^2); when that is; when its spin ends. */
 static void way_of(const carom_ball_kind *kind, double v, double w, double to[4]) {
   const double g = kind->gravity, s = kind->mu_slide * g, A = kind->mu_roll * g, k = kind->drag;
   const double slides = 2.0 * v / (7.0 * s), rolls = 5.0 / 7.0 * v;
@@ -598,7 +649,8 @@ static void way_of(const carom_ball_kind *kind, double v, double w, double to[4]
 
 /* By the constants of the cloth, drag among them, beside differences of the closed form. */
 START_TEST(frictions_of_the_cloth) {
-  static const direction by[] = {{OF_KIND, 0, 2, 0.2}, {OF_KIND, 0, 3, 0.01}, {OF_KIND, 0, 4, 0.0127}, {OF_KIND, 0, 10, 0.05}};
+  static const direction by[] = {
+      {OF_KIND, 0, 2, 0.2}, {OF_KIND, 0, 3, 0.01}, {OF_KIND, 0, 4, 0.0127}, {OF_KIND, 0, 10, 0.05}};
   const double v[2] = {0.0, 0.4}, w[3] = {0.0, 0.0, 60.0};
   layout l = of_one(0.6, 0.5, v, w);
   l.ball[0].kind.drag = 0.05;
@@ -632,15 +684,17 @@ END_TEST
 
 enum { CLUSTERS = FEWER(20), WAYS = 13, FROZEN_WAYS = 11 };
 
-/* Of the cue: speed, phi, a, b; x of the cue ball; of all balls: mass, mu_slide, restitution, law_a, modulus; the mass of ball
- * 1; and its place, by which balls that touch come apart. */
+/* Of the cue: speed, phi, a, b; x of the cue ball; of all balls: mass, mu_slide, restitution,
+ * law_a, modulus; the mass of ball 1; and its place, by which balls that touch come apart. */
 static const direction ways[WAYS] = {
-    {OF_CUE, 0, 0, 2},     {OF_CUE, 0, 1, 57},    {OF_CUE, 0, 3, 1},   {OF_CUE, 0, 4, 1},       {OF_STATE, 0, 0, 1},
-    {OF_KIND, -1, 0, 0.2}, {OF_KIND, -1, 2, 0.2}, {OF_KIND, -1, 6, 1}, {OF_KIND, -1, 12, 0.05}, {OF_KIND, -1, 18, 6.6e9},
-    {OF_KIND, 1, 0, 0.2},  {OF_STATE, 1, 0, 1},   {OF_STATE, 1, 1, 1},
+    {OF_CUE, 0, 0, 2},       {OF_CUE, 0, 1, 57},       {OF_CUE, 0, 3, 1},     {OF_CUE, 0, 4, 1},
+    {OF_STATE, 0, 0, 1},     {OF_KIND, -1, 0, 0.2},    {OF_KIND, -1, 2, 0.2}, {OF_KIND, -1, 6, 1},
+    {OF_KIND, -1, 12, 0.05}, {OF_KIND, -1, 18, 6.6e9}, {OF_KIND, 1, 0, 0.2},  {OF_STATE, 1, 0, 1},
+    {OF_STATE, 1, 1, 1},
 };
 
-/* A cue ball and two others that it meets at once, or all but; or a rack of eight-ball. Odd kinds have gaps. */
+/* A cue ball and two others that it meets at once, or all but; or a rack of eight-ball. Odd
+ * kinds have gaps. */
 static layout cluster_of(random_source *random, int kind) {
   layout l = {.count = 3, .ball = {ball_at(0.4, 0.6)}, .cue = carom_cue_of(CAROM_GAME_POOL)};
   const double gap = kind % 2 == 0 ? 0.0 : 3e-5, apart = 2.0 * l.ball[0].kind.radius + gap;
@@ -667,7 +721,8 @@ static layout cluster_of(random_source *random, int kind) {
 }
 
 /* A ball has after its first contact of a cluster what it has before and after the others. */
-static void check_rows(const carom_shot *shot, int64_t first, int m, const double *before, const double *after) {
+static void check_rows(const carom_shot *shot, int64_t first, int m, const double *before,
+                       const double *after) {
   const size_t size = (size_t)(NUMBERS * m);
   const int64_t end = first + shot->events[first].cluster;
   for (int64_t k = first; k < end; k++)
@@ -703,36 +758,45 @@ static void follow_clusters(random_source *random, int kind) {
     options.time_most = 0.5 * (shot.events[k].time + shot.events[k + shot.events[k].cluster].time);
     shot = play(table_of_pool(), l.ball, l.count, &l.cue, &options, CAROM_STOPPED_AT_TIME);
     double nearest[WAYS];
-    carom_tangent t = {.final = columns, .time = when, .before = before, .after = after, .reach = nearest};
+    carom_tangent t = {
+        .final = columns, .time = when, .before = before, .after = after, .reach = nearest};
     carom_tangent_seeds seeds = seeds_of(ways, m);
-    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &options, &shot, &seeds, &t), CAROM_OK);
+    ck_assert_int_eq(
+        carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &options, &shot, &seeds, &t),
+        CAROM_OK);
     check_rows(&shot, k, m, before, after);
     ck_assert_int_eq(t.all_flags & ~CAROM_TANGENT_GRAZING, 0);
     for (int j = 0; j < m; j++) {
       double error, plateau;
       const double most = largest(columns, NUMBERS * l.count, j, m);
       ck_assert_double_gt(nearest[j], 0.0);
-      if (most * ways[j].unit < 1e-8) /* that of rounding errors: by the modulus nothing changes where no ball has a gap */
+      if (most * ways[j].unit < 1e-8) /* that of rounding errors: by the modulus nothing changes
+                                         where no ball has a gap */
         continue;
-      if (!compare(table_of_pool(), &l, &options, &shot, &ways[j], columns, j, m, &error, &plateau)) {
+      if (!compare(table_of_pool(), &l, &options, &shot, &ways[j], columns, j, m, &error,
+                   &plateau)) {
         without++;
         continue;
       }
       errors[n++] = error / most;
       unclear += plateau > 1e-6 * most;
       if (!(error <= 1e-6 * most || error <= 30.0 * plateau))
-        ck_abort_msg("cluster %d, direction %d: %.1e off, plateau %.1e, size %.1e", c, j, error, plateau, most);
+        ck_abort_msg("cluster %d, direction %d: %.1e off, plateau %.1e, size %.1e", c, j, error,
+                     plateau, most);
     }
     /* a change that parts balls which touch */
     seeds = seeds_of(&ways[FROZEN_WAYS], 2);
-    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &options, &shot, &seeds, &t), CAROM_OK);
+    ck_assert_int_eq(
+        carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &options, &shot, &seeds, &t),
+        CAROM_OK);
     ck_assert_int_eq((t.all_flags & CAROM_TANGENT_SIMULTANEOUS) != 0, touching);
   }
   qsort(errors, (size_t)n, sizeof *errors, by_size);
-  printf("clusters of %s%s: %d derivatives (%d without differences, %d with unclear ones), error median %.1e, 90 %% %.1e, "
+  printf("clusters of %s%s: %d derivatives (%d without differences, %d with unclear ones), error "
+         "median %.1e, 90 %% %.1e, "
          "largest %.1e\n",
-         kind < 2 ? "three balls" : "a rack", touching ? "" : " with gaps", n, without, unclear, errors[n / 2],
-         errors[n * 9 / 10], errors[n - 1]);
+         kind < 2 ? "three balls" : "a rack", touching ? "" : " with gaps", n, without, unclear,
+         errors[n / 2], errors[n * 9 / 10], errors[n - 1]);
   ck_assert_int_gt(n, 5 * CLUSTERS);
   ck_assert_double_lt(errors[n / 2], 1e-8);
 }
@@ -745,7 +809,7 @@ START_TEST(clusters) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("tangent_edges", grazing, simultaneous, slow, slow_in_space, frozen, overflow, euler, kink, level_cue,
-                   edges_of_flights, ends_of_flights, frozen_and_straight, reach_beside_trial, reach_of_near_misses,
-                   frictions_of_the_cloth, clusters);
+  return RUN_TESTS("tangent_edges", grazing, simultaneous, slow, slow_in_space, frozen, overflow,
+                   euler, kink, level_cue, edges_of_flights, ends_of_flights, frozen_and_straight,
+                   reach_beside_trial, reach_of_near_misses, frictions_of_the_cloth, clusters);
 }

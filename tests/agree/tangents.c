@@ -1,8 +1,9 @@
-/* Derivatives against differences (tangent_support.h). The program prints the tables of docs/understanding/gradients.md: errors
- * and costs.
+/* Derivatives against differences (tangent_support.h). The program prints the tables of
+ * docs/understanding/gradients.md: errors and costs.
  *
- * carom_collide() is single precision in parts, whose noise makes false plateaus; so the shots of the exact model call the
- * precise solver here, by carom_trace() (the linker wraps carom_collide()). */
+ * carom_collide() is single precision in parts, whose noise makes false plateaus; so the shots
+ * of the exact model call the precise solver here, by carom_trace() (the linker wraps
+ * carom_collide()). */
 #define _POSIX_C_SOURCE 200809L
 #include "tangent_support.h"
 
@@ -11,11 +12,14 @@
 
 /* ---- The precise solver in place of the fast one ---- */
 
-carom_status __real_carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out);
-carom_status __wrap_carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out);
+carom_status __real_carom_collide(const carom_impact *in, const carom_options *opt,
+                                  carom_result *out);
+carom_status __wrap_carom_collide(const carom_impact *in, const carom_options *opt,
+                                  carom_result *out);
 static bool precisely;
 
-carom_status __wrap_carom_collide(const carom_impact *in, const carom_options *opt, carom_result *out) {
+carom_status __wrap_carom_collide(const carom_impact *in, const carom_options *opt,
+                                  carom_result *out) {
   if (!precisely)
     return __real_carom_collide(in, opt, out);
   carom_trace_point points[2];
@@ -24,10 +28,13 @@ carom_status __wrap_carom_collide(const carom_impact *in, const carom_options *o
   return status;
 }
 
-carom_status __real_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out);
-carom_status __wrap_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out);
+carom_status __real_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                                  carom_motion *out);
+carom_status __wrap_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                                  carom_motion *out);
 
-carom_status __wrap_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt, carom_motion *out) {
+carom_status __wrap_carom_cushion(const carom_cushion_impact *in, const carom_cushion_options *opt,
+                                  carom_motion *out) {
   if (!precisely || opt == NULL || opt->model != CAROM_CUSHION_MATHAVAN)
     return __real_carom_cushion(in, opt, out);
   carom_cushion_point points[2];
@@ -44,12 +51,14 @@ enum { DIRECTIONS = 14, MOST_BALLS = 9, SHOTS = FEWER(100) };
 
 /* Speed, phi, a, b; x of ball 0, x and y of ball 1; constants of all balls. */
 static const direction directions[DIRECTIONS] = {
-    {OF_CUE, 0, 0, 2},   {OF_CUE, 0, 1, 57},     {OF_CUE, 0, 3, 1},     {OF_CUE, 0, 4, 1},        {OF_STATE, 0, 0, 1},
-    {OF_STATE, 1, 0, 1}, {OF_STATE, 1, 1, 1},    {OF_KIND, -1, 2, 0.2}, {OF_KIND, -1, 3, 0.01},   {OF_KIND, -1, 4, 0.127},
-    {OF_KIND, -1, 6, 1}, {OF_KIND, -1, 8, 0.85}, {OF_KIND, -1, 7, 0.2}, {OF_KIND, -1, 1, 0.0286},
+    {OF_CUE, 0, 0, 2},      {OF_CUE, 0, 1, 57},       {OF_CUE, 0, 3, 1},   {OF_CUE, 0, 4, 1},
+    {OF_STATE, 0, 0, 1},    {OF_STATE, 1, 0, 1},      {OF_STATE, 1, 1, 1}, {OF_KIND, -1, 2, 0.2},
+    {OF_KIND, -1, 3, 0.01}, {OF_KIND, -1, 4, 0.127},  {OF_KIND, -1, 6, 1}, {OF_KIND, -1, 8, 0.85},
+    {OF_KIND, -1, 7, 0.2},  {OF_KIND, -1, 1, 0.0286},
 };
 
-/* Of the shots that the tables report. Tolerances of src/impact/variation_step.h were found on those of seeds 7 and 28. */
+/* Of the shots that the tables report. Tolerances of src/impact/variation_step.h were found on
+ * those of seeds 7 and 28. */
 enum { SEED = 29 };
 static const double NOTHING = 1e-10; /* a derivative that is rounding errors */
 
@@ -78,9 +87,15 @@ static const struct {
   carom_shot_options options;
   bool terms;
 } models[] = {
-    {"inelastic + Han", {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN}, false},
-    {"mirror + Stronge", {.ball_model = CAROM_BALL_MODEL_MIRROR, .cushion_model = CAROM_SHOT_CUSHION_STRONGE}, false},
-    {"inelastic + Han, terms", {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN}, true},
+    {"inelastic + Han",
+     {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN},
+     false},
+    {"mirror + Stronge",
+     {.ball_model = CAROM_BALL_MODEL_MIRROR, .cushion_model = CAROM_SHOT_CUSHION_STRONGE},
+     false},
+    {"inelastic + Han, terms",
+     {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN},
+     true},
     {"exact + Han", {.cushion_model = CAROM_SHOT_CUSHION_HAN}, false},
     {"exact + exact cushions", {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN}, false},
 };
@@ -95,33 +110,37 @@ START_TEST(shots_agree_with_differences) {
   for (int k = 0; k < SHOTS; k++) {
     const layout l = draw_with(&random, models[_i].terms);
     carom_shot shot = {.events = events, .room = ROOM, .final = final};
-    if (carom_shoot(table_of_pool(), l.ball, l.count, &l.cue, &models[_i].options, &shot) != CAROM_OK)
+    if (carom_shoot(table_of_pool(), l.ball, l.count, &l.cue, &models[_i].options, &shot) !=
+        CAROM_OK)
       continue;
     static double ends[MOST_BALLS * NUMBERS * DIRECTIONS];
     carom_tangent tangent = {.final = ends};
-    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &models[_i].options, &shot, &seeds, &tangent),
+    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue,
+                                        &models[_i].options, &shot, &seeds, &tangent),
                      CAROM_OK);
     by_differences += (tangent.all_flags & CAROM_TANGENT_DIFFERENCES) != 0;
     for (int j = 0; j < DIRECTIONS; j++) {
       const double most = largest(ends, NUMBERS * l.count, j, DIRECTIONS);
       double error = 0.0, plateau;
-      if (most < NOTHING ||
-          !compare(table_of_pool(), &l, &models[_i].options, &shot, &directions[j], ends, j, DIRECTIONS, &error, &plateau)) {
+      if (most < NOTHING || !compare(table_of_pool(), &l, &models[_i].options, &shot,
+                                     &directions[j], ends, j, DIRECTIONS, &error, &plateau)) {
         without++;
         continue;
       }
       errors[pairs++] = error / most;
       if (error / most > 1e-5 && error > 30.0 * plateau && tangent.all_flags == 0) {
         wrong++;
-        printf("shot %d, direction %d: %.1e off, plateau %.1e, size %.1e, %lld events\n", k, j, error / most, plateau / most,
-               most, (long long)shot.count);
+        printf("shot %d, direction %d: %.1e off, plateau %.1e, size %.1e, %lld events\n", k, j,
+               error / most, plateau / most, most, (long long)shot.count);
       }
     }
   }
   precisely = false;
   qsort(errors, (size_t)pairs, sizeof *errors, by_size);
-  printf("%-24s %4d pairs (%d without a plateau): error median %.1e, 90 %% %.1e, 99 %% %.1e, largest %.1e\n", models[_i].name,
-         pairs, without, errors[pairs / 2], errors[pairs * 9 / 10], errors[pairs * 99 / 100], errors[pairs - 1]);
+  printf("%-24s %4d pairs (%d without a plateau): error median %.1e, 90 %% %.1e, 99 %% %.1e, "
+         "largest %.1e\n",
+         models[_i].name, pairs, without, errors[pairs / 2], errors[pairs * 9 / 10],
+         errors[pairs * 99 / 100], errors[pairs - 1]);
   ck_assert_int_gt(pairs, 10 * SHOTS);
   ck_assert_int_eq(wrong, 0);
   ck_assert_int_le(by_differences, exact ? (SHOTS + 49) / 50 : SHOTS);
@@ -141,24 +160,29 @@ START_TEST(costs) {
   const carom_tangent_seeds all = seeds_of_all();
   for (size_t k = 0; k < sizeof models / sizeof models[0]; k++) {
     random_source random = {3};
-    static double ratio[60], with_reach[60], ends[MOST_BALLS * NUMBERS * DIRECTIONS], times[ROOM * DIRECTIONS];
+    static double ratio[60], with_reach[60], ends[MOST_BALLS * NUMBERS * DIRECTIONS],
+        times[ROOM * DIRECTIONS];
     double reach[DIRECTIONS];
     int n = 0;
     for (int s = 0; s < 60; s++) {
       const layout l = draw_with(&random, models[k].terms);
       carom_shot shot = {.events = events, .room = ROOM};
-      if (carom_shoot(table_of_pool(), l.ball, l.count, &l.cue, &models[k].options, &shot) != CAROM_OK)
+      if (carom_shoot(table_of_pool(), l.ball, l.count, &l.cue, &models[k].options, &shot) !=
+          CAROM_OK)
         continue;
       double least[3] = {INFINITY, INFINITY, INFINITY};
       for (int repeat = 0; repeat < 5; repeat++) {
-        carom_tangent tangent = {.final = ends}, reaching = {.final = ends, .time = times, .reach = reach};
+        carom_tangent tangent = {.final = ends},
+                      reaching = {.final = ends, .time = times, .reach = reach};
         const double start = seconds();
         for (int i = 0; i < 4; i++)
           carom_shoot(table_of_pool(), l.ball, l.count, &l.cue, &models[k].options, &shot);
         const double played = seconds();
-        carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &models[k].options, &shot, &all, &tangent);
+        carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &models[k].options, &shot,
+                           &all, &tangent);
         const double differentiated = seconds();
-        carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &models[k].options, &shot, &all, &reaching);
+        carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &models[k].options, &shot,
+                           &all, &reaching);
         least[0] = fmin(least[0], (played - start) / 4.0);
         least[1] = fmin(least[1], differentiated - played);
         least[2] = fmin(least[2], seconds() - differentiated);
@@ -168,8 +192,9 @@ START_TEST(costs) {
     }
     qsort(ratio, (size_t)n, sizeof *ratio, by_size);
     qsort(with_reach, (size_t)n, sizeof *with_reach, by_size);
-    printf("%-24s %d directions cost %.1f times the shot in the median, %.1f at 90 %%; with reach %.1f\n", models[k].name,
-           DIRECTIONS, ratio[n / 2], ratio[n * 9 / 10], with_reach[n / 2]);
+    printf("%-24s %d directions cost %.1f times the shot in the median, %.1f at 90 %%; with reach "
+           "%.1f\n",
+           models[k].name, DIRECTIONS, ratio[n / 2], ratio[n * 9 / 10], with_reach[n / 2]);
     ck_assert_int_gt(n, 50);
   }
 }
@@ -202,7 +227,8 @@ static carom_status cushion(const double *in, double *out) {
   return status;
 }
 
-static double error_of(solver *solve, const double *in, int ins, int outs, int k, double step, const double *tangent, int m) {
+static double error_of(solver *solve, const double *in, int ins, int outs, int k, double step,
+                       const double *tangent, int m) {
   double best = INFINITY, most = 0.0;
   for (int r = 0; r < outs; r++)
     most = fmax(most, fabs(tangent[r * m + k]) * (r % 6 < 3 ? 1.0 : 0.0286));
@@ -230,11 +256,13 @@ START_TEST(collisions_agree_with_differences) {
   int n = 0;
   for (int k = 0; k < 500; k++) {
     const double R = 0.028575;
-    carom_impact in = {.mu_ball = random_between(&random, 0.02, 0.15), .restitution = random_between(&random, 0.85, 0.98)};
-    in.a = (carom_ball){.v = {random_between(&random, 0.2, 3.0), random_between(&random, -1.0, 1.0), 0.0},
-                        .radius = R,
-                        .mass = random_between(&random, 0.15, 0.2),
-                        .mu_cloth = random_between(&random, 0.15, 0.25)};
+    carom_impact in = {.mu_ball = random_between(&random, 0.02, 0.15),
+                       .restitution = random_between(&random, 0.85, 0.98)};
+    in.a = (carom_ball){
+        .v = {random_between(&random, 0.2, 3.0), random_between(&random, -1.0, 1.0), 0.0},
+        .radius = R,
+        .mass = random_between(&random, 0.15, 0.2),
+        .mu_cloth = random_between(&random, 0.15, 0.25)};
     in.b = (carom_ball){.r = {2.0 * R, 0.01, 0.0}, .radius = R, .mass = 0.17, .mu_cloth = 0.2};
     for (int i = 0; i < 3; i++)
       in.a.w[i] = random_between(&random, -60.0, 60.0);
@@ -251,32 +279,41 @@ START_TEST(collisions_agree_with_differences) {
     for (int i = rolls ? 0 : 5; i < 10; i++)
       seeds[leave[i]][leave[i]] = 0.0;
     int32_t flags;
-    ck_assert_int_ge(carom_collide_tangent(&in, NULL, 26, &seeds[0][0], &tangent[0][0], &flags), CAROM_OK);
+    ck_assert_int_ge(carom_collide_tangent(&in, NULL, 26, &seeds[0][0], &tangent[0][0], &flags),
+                     CAROM_OK);
     if (carom_collide(&in, NULL, &(carom_result){0}) == CAROM_SEPARATING || flags != 0)
       continue;
-    /* places, motion of a that slides, its spin about the vertical, masses, frictions, restitution */
+    /* places, motion of a that slides, its spin about the vertical, masses, frictions,
+     * restitution */
     static const int asked[] = {0, 1, 3, 4, 6, 7, 8, 10, 11, 12, 13, 22, 24, 25};
-    static const double steps[] = {1e-4, 1e-4, 3e-3, 3e-3, 0.1, 0.1, 0.1, 1e-3, 5e-4, 1e-4, 1e-4, 1e-3, 3e-4, 1e-3};
+    static const double steps[] = {1e-4, 1e-4, 3e-3, 3e-3, 0.1,  0.1,  0.1,
+                                   1e-3, 5e-4, 1e-4, 1e-4, 1e-3, 3e-4, 1e-3};
     for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++)
       if (!(rolls && (asked[i] == 3 || asked[i] == 4 || asked[i] == 6 || asked[i] == 7)))
-        errors[n++] = error_of(collide, (const double *)&in, 26, 12, asked[i], steps[i], &tangent[0][0], 26);
+        errors[n++] =
+            error_of(collide, (const double *)&in, 26, 12, asked[i], steps[i], &tangent[0][0], 26);
   }
   qsort(errors, (size_t)n, sizeof *errors, by_size);
-  printf("collisions: %d derivatives, error median %.1e, 99 %% %.1e, largest %.1e\n", n, errors[n / 2], errors[n * 99 / 100],
-         errors[n - 1]);
+  printf("collisions: %d derivatives, error median %.1e, 99 %% %.1e, largest %.1e\n", n,
+         errors[n / 2], errors[n * 99 / 100], errors[n - 1]);
   ck_assert_int_gt(n, 4000);
   ck_assert_double_lt(errors[n * 99 / 100], 1e-6);
 }
 END_TEST
 
-/* A ball that rolls and is pressed into the cloth: directions along the roll have a derivative, those that leave it a flag. What
- * the other ball's spin changes has one too, also where that ball rests; and speeds are in no unit. */
+/* A ball that rolls and is pressed into the cloth: directions along the roll have a derivative,
+ * those that leave it a flag. What the other ball's spin changes has one too, also where that
+ * ball rests; and speeds are in no unit. */
 START_TEST(directions_that_leave_a_roll) {
   static const double units[] = {1.0, 1e-8, 1e-14};
   for (int k = 0; k < 3; k++) {
     const double R = 0.028575, V = 2.0 * units[k];
     carom_impact in = {.mu_ball = 0.06, .restitution = 0.95};
-    in.a = (carom_ball){.v = {0.3 * V, V, 0}, .w = {0, 0, 20 * units[k]}, .radius = R, .mass = 0.17, .mu_cloth = 0.2};
+    in.a = (carom_ball){.v = {0.3 * V, V, 0},
+                        .w = {0, 0, 20 * units[k]},
+                        .radius = R,
+                        .mass = 0.17,
+                        .mu_cloth = 0.2};
     in.b = (carom_ball){.r = {0, 2 * R, 0}, .radius = R, .mass = 0.17, .mu_cloth = 0.2};
     /* backwards, so that a is pressed */
     in.a.w[0] = -in.a.v[1] / R;
@@ -288,7 +325,8 @@ START_TEST(directions_that_leave_a_roll) {
     seeds[4][0] = 1.0;
     seeds[6][0] = -1.0 / R;
     seeds[18][1] = 1.0 / R;
-    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 4, &seeds[0][0], &tangent[0][0], &flags), CAROM_OK);
+    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 4, &seeds[0][0], &tangent[0][0], &flags),
+                     CAROM_OK);
     ck_assert_int_eq(flags, 0);
     for (int j = 0; j < 2; j++) {
       const double h = 1e-4 * V;
@@ -300,13 +338,16 @@ START_TEST(directions_that_leave_a_roll) {
         ck_assert_int_eq(carom_collide(&changed, NULL, &out[s]), CAROM_OK);
       }
       for (int i = 0; i < 12; i++) {
-        const double slope = (((const double *)&out[1])[i] - ((const double *)&out[0])[i]) / (2 * h), unit = i % 6 < 3 ? 1 : R;
+        const double slope =
+                         (((const double *)&out[1])[i] - ((const double *)&out[0])[i]) / (2 * h),
+                     unit = i % 6 < 3 ? 1 : R;
         ck_assert_double_eq_tol(unit * tangent[i][j], unit * slope, 1e-4);
       }
     }
     /* by the velocity alone: the ball would slide */
     seeds[6][0] = 0.0;
-    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 4, &seeds[0][0], &tangent[0][0], &flags), CAROM_OK);
+    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 4, &seeds[0][0], &tangent[0][0], &flags),
+                     CAROM_OK);
     ck_assert_int_eq(flags & CAROM_TANGENT_KINK, CAROM_TANGENT_KINK);
     /* the same on a cushion */
     carom_cushion_impact rail = {.normal = {0, 1},
@@ -334,43 +375,50 @@ START_TEST(cushions_agree_with_differences) {
   random_source random = {test_seed()};
   static double errors[20000];
   int n = 0;
-  cushion_options = (carom_cushion_options){.model = (carom_cushion_model)(_i / 2), .law = (carom_cushion_law)(_i % 2)};
+  cushion_options = (carom_cushion_options){.model = (carom_cushion_model)(_i / 2),
+                                            .law = (carom_cushion_law)(_i % 2)};
   for (int k = 0; k < FEWER(400); k++) {
     const double R = 0.028575;
-    carom_cushion_impact in = {.v = {random_between(&random, -2.0, 2.0), random_between(&random, 0.2, 3.0), 0.0},
-                               .normal = {random_between(&random, -0.3, 0.3), 1.0},
-                               .height = random_between(&random, 1.2, 1.4) * R,
-                               .radius = R,
-                               .mass = 0.17,
-                               .mu_cloth = random_between(&random, 0.15, 0.25),
-                               .mu_cushion = random_between(&random, 0.1, 0.3),
-                               .restitution = random_between(&random, 0.7, 0.95)};
+    carom_cushion_impact in = {
+        .v = {random_between(&random, -2.0, 2.0), random_between(&random, 0.2, 3.0), 0.0},
+        .normal = {random_between(&random, -0.3, 0.3), 1.0},
+        .height = random_between(&random, 1.2, 1.4) * R,
+        .radius = R,
+        .mass = 0.17,
+        .mu_cloth = random_between(&random, 0.15, 0.25),
+        .mu_cushion = random_between(&random, 0.1, 0.3),
+        .restitution = random_between(&random, 0.7, 0.95)};
     for (int i = 0; i < 3; i++)
       in.w[i] = random_between(&random, -60.0, 60.0);
     double seeds[15][15] = {{0}}, tangent[6][15];
     for (int i = 0; i < 15; i++)
       seeds[i][i] = 1.0;
     int32_t flags;
-    const carom_status status = carom_cushion_tangent(&in, &cushion_options, 15, &seeds[0][0], &tangent[0][0], &flags);
+    const carom_status status =
+        carom_cushion_tangent(&in, &cushion_options, 15, &seeds[0][0], &tangent[0][0], &flags);
     ck_assert_int_ge(status, CAROM_OK);
     if (status == CAROM_SEPARATING || (flags & CAROM_TANGENT_KINK))
       continue;
     static const int asked[] = {0, 1, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13};
-    static const double steps[] = {3e-3, 3e-3, 0.1, 0.1, 0.1, 1e-3, 1e-3, 3e-5, 3e-5, 5e-4, 5e-4, 1e-3};
+    static const double steps[] = {3e-3, 3e-3, 0.1,  0.1,  0.1,  1e-3,
+                                   1e-3, 3e-5, 3e-5, 5e-4, 5e-4, 1e-3};
     for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++)
-      errors[n++] = error_of(cushion, (const double *)&in, 15, 6, asked[i], steps[i], &tangent[0][0], 15);
+      errors[n++] =
+          error_of(cushion, (const double *)&in, 15, 6, asked[i], steps[i], &tangent[0][0], 15);
   }
   qsort(errors, (size_t)n, sizeof *errors, by_size);
   printf("cushion %s%s: %d derivatives, error median %.1e, 99 %% %.1e, largest %.1e\n",
-         carom_cushion_model_name(cushion_options.model), _i % 2 ? " by Han's law" : "", n, errors[n / 2], errors[n * 99 / 100],
-         errors[n - 1]);
+         carom_cushion_model_name(cushion_options.model), _i % 2 ? " by Han's law" : "", n,
+         errors[n / 2], errors[n * 99 / 100], errors[n - 1]);
   ck_assert_int_gt(n, FEWER(3000));
-  ck_assert_double_lt(errors[n * 99 / 100], cushion_options.model == CAROM_CUSHION_MATHAVAN ? 1e-6 : 1e-7);
+  ck_assert_double_lt(errors[n * 99 / 100],
+                      cushion_options.model == CAROM_CUSHION_MATHAVAN ? 1e-6 : 1e-7);
 }
 END_TEST
 
-/* A straight stop shot begins without slip between the balls. A small slip ends at once, whatever the friction: of a change of
- * v across the line of centres, the balls exchange 1/7, and of W_z 1/7 of it. */
+/* A straight stop shot begins without slip between the balls. A small slip ends at once,
+ * whatever the friction: of a change of v across the line of centres, the balls exchange 1/7,
+ * and of W_z 1/7 of it. */
 START_TEST(stop_shots) {
   const double R = 0.028575, across[] = {0.0, 1e-17, 1e-12, 1e-9, 2e-9, 1e-6};
   for (size_t k = 0; k < sizeof across / sizeof across[0]; k++) {
@@ -383,14 +431,16 @@ START_TEST(stop_shots) {
     double seeds[26][2] = {{0}}, tangent[12][2];
     seeds[3][0] = seeds[8][1] = 1.0; /* v_x and w_z of ball a */
     int32_t flags;
-    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 2, &seeds[0][0], &tangent[0][0], &flags), CAROM_OK);
+    ck_assert_int_eq(carom_collide_tangent(&in, NULL, 2, &seeds[0][0], &tangent[0][0], &flags),
+                     CAROM_OK);
     ck_assert_int_eq(flags, 0);
     const double expected[2][4] = {{6.0 / 7.0, 2.5 / (7.0 * R), 1.0 / 7.0, 2.5 / (7.0 * R)},
                                    {R / 7.0, 4.5 / 7.0, -R / 7.0, -2.5 / 7.0}};
     static const int row[4] = {0, 5, 6, 11};
     for (int j = 0; j < 2; j++)
       for (int i = 0; i < 4; i++)
-        ck_assert_double_eq_tol(tangent[row[i]][j], expected[j][i], 1e-5 * fmax(1.0, fabs(expected[j][i])));
+        ck_assert_double_eq_tol(tangent[row[i]][j], expected[j][i],
+                                1e-5 * fmax(1.0, fabs(expected[j][i])));
   }
 }
 END_TEST
@@ -413,7 +463,8 @@ static double bend_of(const carom_cushion_impact *in, int k, double h) {
   return bend / most;
 }
 
-/* Balls that meet the nose without slip: a derivative is right, or its flag says that the model bends there. */
+/* Balls that meet the nose without slip: a derivative is right, or its flag says that the model
+ * bends there. */
 START_TEST(cushions_without_slip_at_the_nose) {
   random_source random = {test_seed()};
   static const double heights[] = {1.0, 1.2, 1.25, 1.28, 1.4};
@@ -423,15 +474,16 @@ START_TEST(cushions_without_slip_at_the_nose) {
     const double R = 0.028575, sine = heights[k % 5] - 1.0, cosine = sqrt(1.0 - sine * sine);
     const double v_x = random_between(&random, -2.0, 2.0), v_y = random_between(&random, 0.3, 4.0);
     const double W_y = k % 2 == 0 ? 0.0 : random_between(&random, -2.0, 2.0);
-    const carom_cushion_impact in = {.v = {v_x, v_y, 0.0},
-                                     .w = {v_y * sine / R, W_y / R, (v_x + W_y * sine) / (cosine * R)},
-                                     .normal = {0.0, 1.0},
-                                     .height = heights[k % 5] * R,
-                                     .radius = R,
-                                     .mass = 0.17,
-                                     .mu_cloth = random_between(&random, 0.1, 0.3),
-                                     .mu_cushion = random_between(&random, 0.05, 0.3),
-                                     .restitution = random_between(&random, 0.7, 0.95)};
+    const carom_cushion_impact in = {
+        .v = {v_x, v_y, 0.0},
+        .w = {v_y * sine / R, W_y / R, (v_x + W_y * sine) / (cosine * R)},
+        .normal = {0.0, 1.0},
+        .height = heights[k % 5] * R,
+        .radius = R,
+        .mass = 0.17,
+        .mu_cloth = random_between(&random, 0.1, 0.3),
+        .mu_cushion = random_between(&random, 0.05, 0.3),
+        .restitution = random_between(&random, 0.7, 0.95)};
     /* one direction a call, since a flag is that of all directions */
     static const int asked[] = {0, 1, 3, 4, 5, 6, 9, 11, 12, 13};
     static const double steps[] = {1e-4, 1e-4, 3e-3, 3e-3, 3e-3, 1e-4, 1e-6, 1e-4, 1e-4, 1e-4};
@@ -439,7 +491,8 @@ START_TEST(cushions_without_slip_at_the_nose) {
       double seeds[15] = {0.0}, tangent[6], all[6][15] = {{0}};
       int32_t flags;
       seeds[asked[i]] = 1.0;
-      ck_assert_int_eq(carom_cushion_tangent(&in, &cushion_options, 1, seeds, tangent, &flags), CAROM_OK);
+      ck_assert_int_eq(carom_cushion_tangent(&in, &cushion_options, 1, seeds, tangent, &flags),
+                       CAROM_OK);
       for (int r = 0; r < 6; r++)
         all[r][asked[i]] = tangent[r];
       const double bend = bend_of(&in, asked[i], steps[i]);
@@ -448,13 +501,14 @@ START_TEST(cushions_without_slip_at_the_nose) {
       without_flag += kink && !(flags & CAROM_TANGENT_KINK);
       if (flags & CAROM_TANGENT_KINK)
         continue;
-      const bool agrees = error_of(cushion, (const double *)&in, 15, 6, asked[i], steps[i], &all[0][0], 15) < 1e-3;
+      const bool agrees =
+          error_of(cushion, (const double *)&in, 15, 6, asked[i], steps[i], &all[0][0], 15) < 1e-3;
       right += agrees;
       wrong += !agrees;
     }
   }
-  printf("cushions without slip at the nose: %d right, %d wrong; %d kinks, %d without the flag\n", right, wrong, bends,
-         without_flag);
+  printf("cushions without slip at the nose: %d right, %d wrong; %d kinks, %d without the flag\n",
+         right, wrong, bends, without_flag);
   ck_assert_int_gt(right, FEWER(2000));
   ck_assert_int_gt(bends, FEWER(100));
   ck_assert_int_eq(wrong, 0);
@@ -469,13 +523,16 @@ static double ends[MANY_BALLS * NUMBERS * DIRECTIONS], times[ROOM * DIRECTIONS];
 static int32_t flags_of[ROOM];
 
 /* The tangents of a shot by phi and speed. */
-static carom_tangent by_aim(const carom_shot_ball *balls, int count, const carom_cue *cue, const carom_shot_options *options,
-                            const carom_shot *shot, double reach[2]) {
+static carom_tangent by_aim(const carom_shot_ball *balls, int count, const carom_cue *cue,
+                            const carom_shot_options *options, const carom_shot *shot,
+                            double reach[2]) {
   static double cue_seeds[CAROM_CUE_NUMBERS][2];
   cue_seeds[1][0] = cue_seeds[0][1] = 1.0;
   const carom_tangent_seeds seeds = {.directions = 2, .cue = &cue_seeds[0][0]};
   carom_tangent tangent = {.final = ends, .time = times, .flags = flags_of, .reach = reach};
-  ck_assert_int_eq(carom_shot_tangent(table_of_pool(), balls, count, cue, options, shot, &seeds, &tangent), CAROM_OK);
+  ck_assert_int_eq(
+      carom_shot_tangent(table_of_pool(), balls, count, cue, options, shot, &seeds, &tangent),
+      CAROM_OK);
   return tangent;
 }
 
@@ -495,7 +552,8 @@ END_TEST
 
 START_TEST(states_at_times) {
   random_source random = {5};
-  const carom_shot_options closed = {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN};
+  const carom_shot_options closed = {.ball_model = CAROM_BALL_MODEL_INELASTIC,
+                                     .cushion_model = CAROM_SHOT_CUSHION_HAN};
   for (int k = 0; k < 20; k++) {
     const layout l = draw(&random, MOST_BALLS);
     const carom_shot shot = play(table_of_pool(), l.ball, l.count, &l.cue, &closed, CAROM_OK);
@@ -504,7 +562,9 @@ START_TEST(states_at_times) {
     cue_seeds[0][0] = 1.0;
     const carom_tangent_seeds seeds = {.directions = 1, .cue = &cue_seeds[0][0]};
     carom_tangent tangent = {.final = ends, .at = states, .times = at, .times_count = 3};
-    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &closed, &shot, &seeds, &tangent), CAROM_OK);
+    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, &closed, &shot,
+                                        &seeds, &tangent),
+                     CAROM_OK);
     /* after the end all is as at the end */
     for (int x = 0; x < l.count * NUMBERS; x++)
       ck_assert_double_eq(states[2 * l.count * NUMBERS + x], ends[x]);
@@ -540,29 +600,39 @@ START_TEST(what_is_not_known_is_refused) {
   carom_tangent_seeds seeds = {.directions = 1, .cue = cue_seeds};
   carom_tangent tangent = {.final = ends};
   const carom_table *table = table_of_pool();
-  const carom_shot_options pooltool = {.world = CAROM_WORLD_POOLTOOL}, euler = {.ball_model = CAROM_BALL_MODEL_EULER};
-  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, &pooltool, &shot, &seeds, &tangent), CAROM_ERROR_TANGENT);
+  const carom_shot_options pooltool = {.world = CAROM_WORLD_POOLTOOL},
+                           euler = {.ball_model = CAROM_BALL_MODEL_EULER};
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, &pooltool, &shot, &seeds, &tangent),
+                   CAROM_ERROR_TANGENT);
   ck_assert(isnan(ends[0]));
-  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, &euler, &shot, &seeds, &tangent), CAROM_ERROR_TANGENT);
-  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &shot, &seeds, NULL), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, &euler, &shot, &seeds, &tangent),
+                   CAROM_ERROR_TANGENT);
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &shot, &seeds, NULL),
+                   CAROM_ERROR_NULL);
   seeds.directions = 65;
-  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &shot, &seeds, &tangent), CAROM_ERROR_DIRECTIONS);
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &shot, &seeds, &tangent),
+                   CAROM_ERROR_DIRECTIONS);
   seeds.directions = 1;
   carom_shot lost = shot;
   lost.room = 1;
-  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &lost, &seeds, &tangent), CAROM_ERROR_EVENTS_LOST);
-  ck_assert_int_eq(carom_shot_tangent(table, two, 1, NULL, NULL, &shot, &seeds, &tangent), CAROM_ERROR_STATE);
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &lost, &seeds, &tangent),
+                   CAROM_ERROR_EVENTS_LOST);
+  ck_assert_int_eq(carom_shot_tangent(table, two, 1, NULL, NULL, &shot, &seeds, &tangent),
+                   CAROM_ERROR_STATE);
   /* a kind of event that there is not */
   events[1].type = CAROM_EVENT_LEFT_TABLE + 1;
-  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &shot, &seeds, &tangent), CAROM_ERROR_STATE);
+  ck_assert_int_eq(carom_shot_tangent(table, two, 2, &cue, NULL, &shot, &seeds, &tangent),
+                   CAROM_ERROR_STATE);
   /* single contacts by other solvers and conventions */
-  const carom_impact in = {.a = {.v = {1.0, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_cloth = 0.2},
-                           .b = {.r = {0.06, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_cloth = 0.2},
-                           .mu_ball = 0.05,
-                           .restitution = 0.9};
+  const carom_impact in = {
+      .a = {.v = {1.0, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_cloth = 0.2},
+      .b = {.r = {0.06, 0.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_cloth = 0.2},
+      .mu_ball = 0.05,
+      .restitution = 0.9};
   const carom_options steps = {.solver = CAROM_SOLVER_EULER};
   double contact_seeds[26] = {0}, out[12];
-  ck_assert_int_eq(carom_collide_tangent(&in, &steps, 1, contact_seeds, out, NULL), CAROM_ERROR_TANGENT);
+  ck_assert_int_eq(carom_collide_tangent(&in, &steps, 1, contact_seeds, out, NULL),
+                   CAROM_ERROR_TANGENT);
   ck_assert(isnan(out[11]));
 }
 END_TEST
@@ -601,14 +671,16 @@ START_TEST(batches_have_the_bits_of_calls) {
     int8_t ended[N];
     for (int k = 0; k < N; k++)
       tangents[k] = (carom_tangent){.final = batch_ends[run][k]};
-    const carom_tangent_job own = {.played = &job, .seeds = &seeds, .tangents = tangents, .status = ended};
+    const carom_tangent_job own = {
+        .played = &job, .seeds = &seeds, .tangents = tangents, .status = ended};
     ck_assert_int_eq(carom_shot_tangent_batch(&own), CAROM_ERROR_MISCUE);
     ck_assert_int_eq(ended[5], CAROM_ERROR_MISCUE);
     for (int k = 0; k < N && run == 1; k++) {
       if (k == 5)
         continue;
       carom_tangent single = {.final = ends};
-      ck_assert_int_eq(carom_shot_tangent(table_of_pool(), balls + 2 * k, 2, &cues[k], NULL, &shots[k], &seeds, &single),
+      ck_assert_int_eq(carom_shot_tangent(table_of_pool(), balls + 2 * k, 2, &cues[k], NULL,
+                                          &shots[k], &seeds, &single),
                        CAROM_OK);
       ck_assert_int_eq(memcmp(ends, batch_ends[0][k], sizeof batch_ends[0][k]), 0);
       ck_assert_int_eq(memcmp(ends, batch_ends[1][k], sizeof batch_ends[1][k]), 0);

@@ -1,16 +1,19 @@
-/* Derivatives of shots in space against differences (tangent_support.h): elevated cues, balls that fly at the start, unlike
- * radii. The program prints the table of docs/understanding/gradients.md. */
+/* Derivatives of shots in space against differences (tangent_support.h): elevated cues, balls
+ * that fly at the start, unlike radii. The program prints the table of
+ * docs/understanding/gradients.md. */
 #include "tangent_support.h"
 
 #include <stdio.h>
 
-/* Of the cue; places of two balls, and the rest of the state of ball 0, which may fly; constants of all balls. */
+/* Of the cue; places of two balls, and the rest of the state of ball 0, which may fly; constants
+ * of all balls. */
 enum { DIRECTIONS = 23 };
 static const direction directions[DIRECTIONS] = {
-    {OF_CUE, 0, 0, 2},      {OF_CUE, 0, 1, 57},     {OF_CUE, 0, 2, 30},    {OF_CUE, 0, 3, 1},    {OF_CUE, 0, 4, 1},
-    {OF_STATE, 0, 0, 1},    {OF_STATE, 0, 1, 1},    {OF_STATE, 1, 0, 1},   {OF_STATE, 1, 1, 1},  {OF_STATE, 0, 7, 0.1},
-    {OF_STATE, 0, 2, 1},    {OF_STATE, 0, 8, 1},    {OF_STATE, 0, 4, 50},  {OF_STATE, 0, 6, 50}, {OF_KIND, -1, 2, 0.2},
-    {OF_KIND, -1, 4, 0.1},  {OF_KIND, -1, 6, 1},    {OF_KIND, -1, 7, 0.2}, {OF_KIND, -1, 8, 1},  {OF_KIND, -1, 9, 10},
+    {OF_CUE, 0, 0, 2},      {OF_CUE, 0, 1, 57},     {OF_CUE, 0, 2, 30},    {OF_CUE, 0, 3, 1},
+    {OF_CUE, 0, 4, 1},      {OF_STATE, 0, 0, 1},    {OF_STATE, 0, 1, 1},   {OF_STATE, 1, 0, 1},
+    {OF_STATE, 1, 1, 1},    {OF_STATE, 0, 7, 0.1},  {OF_STATE, 0, 2, 1},   {OF_STATE, 0, 8, 1},
+    {OF_STATE, 0, 4, 50},   {OF_STATE, 0, 6, 50},   {OF_KIND, -1, 2, 0.2}, {OF_KIND, -1, 4, 0.1},
+    {OF_KIND, -1, 6, 1},    {OF_KIND, -1, 7, 0.2},  {OF_KIND, -1, 8, 1},   {OF_KIND, -1, 9, 10},
     {OF_KIND, -1, 1, 0.03}, {OF_KIND, -1, 15, 0.5}, {OF_KIND, 0, 0, 0.2},
 };
 
@@ -21,9 +24,15 @@ static const struct {
   start_kind start;
   carom_shot_options options;
 } kinds[] = {
-    {"elevated cues", ELEVATED, {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN}},
-    {"jumps at a ball near by", JUMPS, {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN}},
-    {"balls that fly", FLYING, {.ball_model = CAROM_BALL_MODEL_MIRROR, .cushion_model = CAROM_SHOT_CUSHION_STRONGE}},
+    {"elevated cues",
+     ELEVATED,
+     {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN}},
+    {"jumps at a ball near by",
+     JUMPS,
+     {.ball_model = CAROM_BALL_MODEL_INELASTIC, .cushion_model = CAROM_SHOT_CUSHION_HAN}},
+    {"balls that fly",
+     FLYING,
+     {.ball_model = CAROM_BALL_MODEL_MIRROR, .cushion_model = CAROM_SHOT_CUSHION_STRONGE}},
     {"unlike radii", UNLIKE, {.cushion_model = CAROM_SHOT_CUSHION_HAN}},
     {"noses, Han", NOSES, {.cushion_model = CAROM_SHOT_CUSHION_HAN}},
     {"noses, Stronge", NOSES, {.cushion_model = CAROM_SHOT_CUSHION_STRONGE}},
@@ -53,7 +62,8 @@ static layout draw_in_space(random_source *random, start_kind start) {
     l.cue.speed = random_between(random, 1.5, 5.0);
   } else if (start == FLYING) {
     fly(&l.ball[0].state, random, 0.1, 1.5);
-    const double way[2] = {l.ball[1].state.r[0] - l.ball[0].state.r[0], l.ball[1].state.r[1] - l.ball[0].state.r[1]};
+    const double way[2] = {l.ball[1].state.r[0] - l.ball[0].state.r[0],
+                           l.ball[1].state.r[1] - l.ball[0].state.r[1]};
     for (int k = 0; k < 2; k++)
       l.ball[0].state.v[k] = 1.5 * way[k] + random_between(random, -0.1, 0.1);
   } else if (start == UNLIKE) {
@@ -66,11 +76,15 @@ static layout draw_in_space(random_source *random, start_kind start) {
   } else if (start == NOSES) { /* at a place beside a cushion, a jaw or a pocket */
     const carom_table *table = table_of_pool();
     const int what = (int)random_between(random, 0.0, 2.999);
-    const carom_jaw *jaw = &table->jaw[(int)random_between(random, 0.0, (double)table->jaws - 0.001)];
-    const carom_pocket *pocket = &table->pocket[(int)random_between(random, 0.0, (double)table->pockets - 0.001)];
-    double to[2] = {random_between(random, 0.2, 1.0), random_between(random, 0.0, 1.0) < 0.5 ? 0.0 : 2.54};
+    const carom_jaw *jaw =
+        &table->jaw[(int)random_between(random, 0.0, (double)table->jaws - 0.001)];
+    const carom_pocket *pocket =
+        &table->pocket[(int)random_between(random, 0.0, (double)table->pockets - 0.001)];
+    double to[2] = {random_between(random, 0.2, 1.0),
+                    random_between(random, 0.0, 1.0) < 0.5 ? 0.0 : 2.54};
     for (int k = 0; k < 2 && what > 0; k++)
-      to[k] = (what == 1 ? jaw->centre[k] : pocket->centre[k]) + random_between(random, -0.03, 0.03);
+      to[k] =
+          (what == 1 ? jaw->centre[k] : pocket->centre[k]) + random_between(random, -0.03, 0.03);
     carom_ball_state *s = &l.ball[0].state;
     s->r[0] = 0.3 + random_between(random, 0.0, 0.6);
     s->r[1] = to[1] < 0.6 ? 0.3 : to[1] > 1.9 ? 2.2 : to[1] + random_between(random, -0.2, 0.2);
@@ -100,18 +114,22 @@ START_TEST(shots_agree_with_differences) {
     shots++;
     for (int64_t e = 0; e < shot.count; e++) {
       seen[events[e].type]++;
-      if (events[e].before[0].label == CAROM_BALL_AIRBORNE || events[e].before[1].label == CAROM_BALL_AIRBORNE)
+      if (events[e].before[0].label == CAROM_BALL_AIRBORNE ||
+          events[e].before[1].label == CAROM_BALL_AIRBORNE)
         for (int n = 0; n < 4; n++)
           in_flight[n] += events[e].type == CAROM_EVENT_BALL_BALL + n;
     }
     carom_tangent tangent = {.final = ends};
-    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, options, &shot, &seeds, &tangent), CAROM_OK);
+    ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, l.count, &l.cue, options, &shot,
+                                        &seeds, &tangent),
+                     CAROM_OK);
     for (int j = 0; j < DIRECTIONS; j++) {
       const double most = largest(ends, NUMBERS * l.count, j, DIRECTIONS);
       double error, plateau;
       if (most == 0.0)
         continue;
-      if (!compare(table_of_pool(), &l, options, &shot, &directions[j], ends, j, DIRECTIONS, &error, &plateau)) {
+      if (!compare(table_of_pool(), &l, options, &shot, &directions[j], ends, j, DIRECTIONS, &error,
+                   &plateau)) {
         without++;
         continue;
       }
@@ -119,26 +137,30 @@ START_TEST(shots_agree_with_differences) {
       if (error / most > 1e-5 && error > 30.0 * plateau) {
         wrong += tangent.all_flags == 0;
         flagged += tangent.all_flags != 0;
-        printf("shot %d, direction %d: %.1e off, plateau %.1e, size %.1e, %lld events, flags %d\n", k, j, error / most,
-               plateau / most, most, (long long)shot.count, (int)tangent.all_flags);
+        printf("shot %d, direction %d: %.1e off, plateau %.1e, size %.1e, %lld events, flags %d\n",
+               k, j, error / most, plateau / most, most, (long long)shot.count,
+               (int)tangent.all_flags);
       }
     }
   }
   qsort(errors, (size_t)pairs, sizeof *errors, by_size);
-  printf("%-24s %d shots, %4d pairs (%d without a plateau): error median %.1e, 90 %% %.1e, 99 %% %.1e, largest %.1e; %d wrong "
+  printf("%-24s %d shots, %4d pairs (%d without a plateau): error median %.1e, 90 %% %.1e, 99 %% "
+         "%.1e, largest %.1e; %d wrong "
          "with a "
          "flag\n",
-         kinds[_i].name, shots, pairs, without, errors[pairs / 2], errors[pairs * 9 / 10], errors[pairs * 99 / 100],
-         errors[pairs - 1], flagged);
-  printf("  in flight: %d pairs, %d rails, %d jaws, %d pockets; %d landings, %d tops, %d left\n", in_flight[0], in_flight[1],
-         in_flight[2], in_flight[3], seen[CAROM_EVENT_SLATE], seen[CAROM_EVENT_RAIL_TOP], seen[CAROM_EVENT_LEFT_TABLE]);
+         kinds[_i].name, shots, pairs, without, errors[pairs / 2], errors[pairs * 9 / 10],
+         errors[pairs * 99 / 100], errors[pairs - 1], flagged);
+  printf("  in flight: %d pairs, %d rails, %d jaws, %d pockets; %d landings, %d tops, %d left\n",
+         in_flight[0], in_flight[1], in_flight[2], in_flight[3], seen[CAROM_EVENT_SLATE],
+         seen[CAROM_EVENT_RAIL_TOP], seen[CAROM_EVENT_LEFT_TABLE]);
   ck_assert_int_eq(wrong, 0);
   ck_assert_int_gt(pairs, 500);
   ck_assert_double_lt(errors[pairs / 2], 1e-8);
 }
 END_TEST
 
-/* Two balls in the air that meet head-on without slip, up to the contact; friction holds them, whatever the change is. */
+/* Two balls in the air that meet head-on without slip, up to the contact; friction holds them,
+ * whatever the change is. */
 START_TEST(head_on_without_slip) {
   static const direction by = {OF_STATE, 0, 3, 1.0};
   const carom_shot_options options = {.stop_at = CAROM_STOP_AT(CAROM_EVENT_BALL_BALL)};
@@ -150,7 +172,9 @@ START_TEST(head_on_without_slip) {
   carom_tangent tangent = {.final = ends};
   const carom_tangent_seeds seeds = seeds_of(&by, 1);
   const carom_shot shot = play(table_of_pool(), l.ball, 2, NULL, &options, CAROM_STOPPED_AT_EVENT);
-  ck_assert_int_eq(carom_shot_tangent(table_of_pool(), l.ball, 2, NULL, &options, &shot, &seeds, &tangent), CAROM_OK);
+  ck_assert_int_eq(
+      carom_shot_tangent(table_of_pool(), l.ball, 2, NULL, &options, &shot, &seeds, &tangent),
+      CAROM_OK);
   double error, plateau;
   ck_assert(compare(table_of_pool(), &l, &options, &shot, &by, ends, 0, 1, &error, &plateau));
   ck_assert_double_lt(error / largest(ends, 2 * NUMBERS, 0, 1), 1e-6);
@@ -158,6 +182,7 @@ START_TEST(head_on_without_slip) {
 END_TEST
 
 int main(void) {
-  const looped_test tests[] = {{shots_agree_with_differences, sizeof kinds / sizeof kinds[0]}, {head_on_without_slip, 1}};
+  const looped_test tests[] = {{shots_agree_with_differences, sizeof kinds / sizeof kinds[0]},
+                               {head_on_without_slip, 1}};
   return RUN_LOOPED("tangents_3d", tests);
 }

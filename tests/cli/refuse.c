@@ -1,5 +1,6 @@
-/* Loaded before the C library (LD_PRELOAD), refuses the allocation of number CAROM_REFUSE, from 1, and all that follow, or
- * where CAROM_REFUSE_ONE is not empty that one alone. Says "refused" to standard error at the first. */
+/* Loaded before the C library (LD_PRELOAD), refuses the allocation of number CAROM_REFUSE, from
+ * 1, and all that follow, or where CAROM_REFUSE_ONE is not empty that one alone. Says "refused"
+ * to standard error at the first. */
 #include <errno.h>
 #include <stdatomic.h>
 #include <stddef.h>

@@ -85,7 +85,7 @@ def check(source, mode, *where):
     for name in [*pages(source), *(f"include/{header.name}" for header in sorted(Path(source, "include").glob("*.h")))]:
         text, covered = Path(source, name).read_text(encoding="utf-8"), set()
         for words, unit, what, off in [row for page, *row in FIGURES if page == name]:
-            match = re.search(words, text)
+            match = re.search(words.replace(" ", r"(?: |\n(?: \*)? *)"), text)
             assert match, f"{name} does not tell the size of {what} in the words '{words}'"
             covered.add(match.start(1))
             if what not in measured:

@@ -1,6 +1,7 @@
-/* The library's collisions, and impacts on cushions, with inputs made of the bytes of a fuzzer (draws.h), options too. Aborts
- * where the contract of a header is broken: a result that is not finite with a status that is no error, or is with one that is;
- * a batch with other bits than calls; bytes written beside the results; a trace or a derivative that does not fit. Crashes,
+/* The library's collisions, and impacts on cushions, with inputs made of the bytes of a fuzzer
+ * (draws.h), options too. Aborts where the contract of a header is broken: a result that is not
+ * finite with a status that is no error, or is with one that is; a batch with other bits than
+ * calls; bytes written beside the results; a trace or a derivative that does not fit. Crashes,
  * hangs and undefined behaviour are for the fuzzer and the sanitizers to see. */
 #include "carom_tangent.h"
 #include "draws.h"
@@ -24,7 +25,8 @@ static double energy(double mass, double radius, const double v[3], const double
   return sum;
 }
 
-/* Seeds for derivatives in up to DIRECTIONS directions, and how many: rarely a number that is refused. */
+/* Seeds for derivatives in up to DIRECTIONS directions, and how many: rarely a number that is
+ * refused. */
 static int64_t make_seeds(double *seeds, int numbers) {
   static const int64_t refused[] = {0, -1, CAROM_DIRECTIONS_MOST + 1, INT64_MAX, INT64_MIN};
   const int64_t m = choice(32) == 31 ? refused[choice(5)] : 1 + choice(DIRECTIONS);
@@ -36,9 +38,11 @@ static int64_t make_seeds(double *seeds, int numbers) {
   return m;
 }
 
-/* The contract of derivatives of one contact: those of a result of n numbers with the status `solved`, of an input
+/* The contract of derivatives of one contact: those of a result of n numbers with the status
+ * `solved`, of an input
  * and seeds within the range of play if `plays`. */
-static void check_tangent(const double *tangent, int n, int64_t m, carom_status status, carom_status solved, bool plays) {
+static void check_tangent(const double *tangent, int n, int64_t m, carom_status status,
+                          carom_status solved, bool plays) {
   if (m < 1 || m > CAROM_DIRECTIONS_MOST) {
     if (status >= 0)
       fail("a number of directions is not refused");
@@ -47,11 +51,13 @@ static void check_tangent(const double *tangent, int n, int64_t m, carom_status 
     fail("the status of a derivative is not that of the call");
   else if (status < 0 || plays)
     expect(tangent, (size_t)n * (size_t)m, status >= 0, "a derivative");
-  unwritten(tangent + n * m, (size_t)(n * (DIRECTIONS + 1 - m)) * sizeof *tangent, "a derivative writes beside its place");
+  unwritten(tangent + n * m, (size_t)(n * (DIRECTIONS + 1 - m)) * sizeof *tangent,
+            "a derivative writes beside its place");
 }
 
 static void two_balls(void) {
-  carom_impact in = {.a = make_ball(), .b = make_ball(), .mu_ball = number(0, 0.2), .restitution = number(0.5, 1)};
+  carom_impact in = {
+      .a = make_ball(), .b = make_ball(), .mu_ball = number(0, 0.2), .restitution = number(0.5, 1)};
   const double angle = choice(2) == 0 ? 0 : number(-3.2, 3.2);
   in.b.r[0] = isfinite(angle) ? 2 * in.a.radius * sin(angle) : angle;
   in.b.r[1] = isfinite(angle) ? 2 * in.a.radius * cos(angle) : angle;
@@ -72,10 +78,12 @@ static void two_balls(void) {
   expect((double *)&out, 12, status >= 0, "carom_collide");
   if (carom_check(&in, &o, NULL) < 0 && status >= 0)
     fail("carom_check refuses what carom_collide solves");
-  /* energy: 1e-5 is what the header allows for errors of the exact solver, of the fastest of the numbers */
+  /* energy: 1e-5 is what the header allows for errors of the exact solver, of the fastest of the
+   * numbers */
   const bool plays = within((double *)&in, sizeof in / sizeof(double), 1e4);
   if (status == CAROM_OK && plays && o.solver == CAROM_SOLVER_EXACT && o.slip == CAROM_SLIP_PAPER) {
-    const double R = in.a.radius, before = energy(in.a.mass, R, in.a.v, in.a.w) + energy(in.b.mass, R, in.b.v, in.b.w);
+    const double R = in.a.radius, before = energy(in.a.mass, R, in.a.v, in.a.w) +
+                                           energy(in.b.mass, R, in.b.v, in.b.w);
     if (energy(in.a.mass, R, out.a.v, out.a.w) + energy(in.b.mass, R, out.b.v, out.b.w) >
         before + 1e-4 * (before + energy(fmax(in.a.mass, in.b.mass), R, in.a.v, in.a.w) +
                          energy(fmax(in.a.mass, in.b.mass), R, in.b.v, in.b.w)))
@@ -91,7 +99,8 @@ static void two_balls(void) {
   }
   memset(many, GUARD, sizeof many);
   memset(statuses, GUARD, sizeof statuses);
-  if (carom_collide_batch(rows, (size_t)n, &o, many, statuses) != CAROM_ERROR_THREADS && o.steps >= 0 && o.threads >= -1) {
+  if (carom_collide_batch(rows, (size_t)n, &o, many, statuses) != CAROM_ERROR_THREADS &&
+      o.steps >= 0 && o.threads >= -1) {
     bool bad_options = (o.plain & ~1) != 0;
     for (int k = 0; k < 5; k++)
       bad_options |= o.reserved[k] != 0;
@@ -103,7 +112,8 @@ static void two_balls(void) {
   unwritten(&statuses[n], sizeof statuses[n], "a batch writes beside its statuses");
   carom_result seen;
   carom_detail detail;
-  if (carom_collide_detail(&in, &o, &seen, &detail) != status || (status >= 0 && memcmp(&seen, &out, sizeof out) != 0))
+  if (carom_collide_detail(&in, &o, &seen, &detail) != status ||
+      (status >= 0 && memcmp(&seen, &out, sizeof out) != 0))
     fail("carom_collide_detail differs from carom_collide");
   const bool energies = moderate((double *)&in, sizeof in / sizeof(double));
   if (status == CAROM_OK && energies &&
@@ -146,8 +156,10 @@ static void two_balls(void) {
   const int64_t directions = make_seeds(seeds, 26);
   int32_t flags = 0;
   memset(tangent, GUARD, sizeof tangent);
-  const carom_status derived = carom_collide_tangent(&in, &o, directions, seeds, tangent, choice(8) == 0 ? NULL : &flags);
-  check_tangent(tangent, 12, directions, derived, status, plays && within(seeds, 26 * DIRECTIONS, 1e4));
+  const carom_status derived =
+      carom_collide_tangent(&in, &o, directions, seeds, tangent, choice(8) == 0 ? NULL : &flags);
+  check_tangent(tangent, 12, directions, derived, status,
+                plays && within(seeds, 26 * DIRECTIONS, 1e4));
   if ((flags & ~(CAROM_TANGENT_KINK | CAROM_TANGENT_DIFFERENCES)) != 0)
     fail("the flags of carom_collide_tangent");
   /* as spheres in space */
@@ -157,8 +169,10 @@ static void two_balls(void) {
   expect((double *)&out, 12, in_space >= 0, "carom_impact3");
   if (in_space == CAROM_OK && plays) {
     const double R = in.a.radius, S = in.b.radius;
-    const double before = energy(in.a.mass, R, in.a.v, in.a.w) + energy(in.b.mass, S, in.b.v, in.b.w);
-    if (energy(in.a.mass, R, out.a.v, out.a.w) + energy(in.b.mass, S, out.b.v, out.b.w) > before * (1 + 1e-9))
+    const double before =
+        energy(in.a.mass, R, in.a.v, in.a.w) + energy(in.b.mass, S, in.b.v, in.b.w);
+    if (energy(in.a.mass, R, out.a.v, out.a.w) + energy(in.b.mass, S, out.b.v, out.b.w) >
+        before * (1 + 1e-9))
       fail("the energy of two spheres rises");
   }
   double rolling[3];
@@ -196,20 +210,24 @@ static void cushion(void) {
   if (carom_cushion_check(&in, &o, NULL) < 0 && status >= 0)
     fail("carom_cushion_check refuses what carom_cushion solves");
   const bool plays = within((double *)&in, sizeof in / sizeof(double), 1e4);
-  if (status == CAROM_OK && plays && o.model != CAROM_CUSHION_EULER && o.convention == CAROM_CONVENTION_PAPER &&
-      energy(in.mass, in.radius, out.v, out.w) > energy(in.mass, in.radius, in.v, in.w) * (1 + 1e-4))
+  if (status == CAROM_OK && plays && o.model != CAROM_CUSHION_EULER &&
+      o.convention == CAROM_CONVENTION_PAPER &&
+      energy(in.mass, in.radius, out.v, out.w) >
+          energy(in.mass, in.radius, in.v, in.w) * (1 + 1e-4))
     fail("the energy of a ball at a cushion rises");
   const carom_cushion_impact rows[3] = {in, in, in};
   memset(many, GUARD, sizeof many);
   carom_cushion_batch(rows, 3, &o, many, statuses);
   unwritten(&many[3], sizeof many[3], "a batch of impacts on a cushion writes beside its results");
-  unwritten(&statuses[3], sizeof statuses[3], "a batch of impacts on a cushion writes beside its statuses");
+  unwritten(&statuses[3], sizeof statuses[3],
+            "a batch of impacts on a cushion writes beside its statuses");
   if (status == CAROM_OK && (statuses[1] != status || memcmp(&many[1], &out, sizeof out) != 0))
     fail("a batch of impacts on a cushion differs from a call");
   carom_cushion_point points[POINTS];
   const size_t samples = (size_t)choice(POINTS + 1);
   const carom_status traced = carom_cushion_trace(&in, &o, samples, points);
-  for (size_t k = 0; k < samples && samples >= 2 && moderate((double *)&in, sizeof in / sizeof(double)); k++) {
+  for (size_t k = 0;
+       k < samples && samples >= 2 && moderate((double *)&in, sizeof in / sizeof(double)); k++) {
     expect((double *)&points[k].state, 6, traced >= 0, "carom_cushion_trace");
     expect(&points[k].normal, 1, traced >= 0, "the impulse of carom_cushion_trace");
   }
@@ -217,8 +235,10 @@ static void cushion(void) {
   const int64_t directions = make_seeds(seeds, 15);
   int32_t flags = 0;
   memset(tangent, GUARD, sizeof tangent);
-  const carom_status derived = carom_cushion_tangent(&in, &o, directions, seeds, tangent, choice(8) == 0 ? NULL : &flags);
-  check_tangent(tangent, 6, directions, derived, status, plays && within(seeds, 15 * DIRECTIONS, 1e4));
+  const carom_status derived =
+      carom_cushion_tangent(&in, &o, directions, seeds, tangent, choice(8) == 0 ? NULL : &flags);
+  check_tangent(tangent, 6, directions, derived, status,
+                plays && within(seeds, 15 * DIRECTIONS, 1e4));
   if ((flags & ~(CAROM_TANGENT_KINK | CAROM_TANGENT_EULER | CAROM_TANGENT_DIFFERENCES)) != 0)
     fail("the flags of carom_cushion_tangent");
 }

@@ -1,5 +1,6 @@
-/* Inputs of the targets of the library, drawn from the bytes of a fuzzer: ordinary numbers, special ones (zeros, equal ones,
- * infinities, NaN, the ends of the range) and arbitrary bits. Bytes that are missing count as 0. */
+/* Inputs of the targets of the library, drawn from the bytes of a fuzzer: ordinary numbers,
+ * special ones (zeros, equal ones, infinities, NaN, the ends of the range) and arbitrary bits.
+ * Bytes that are missing count as 0. */
 #ifndef CAROM_FUZZ_DRAWS_H
 #define CAROM_FUZZ_DRAWS_H
 
@@ -16,7 +17,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 static const uint8_t *bytes;
 static size_t left;
 static double last; /* the number before */
-static bool tame;   /* whether numbers stay within their bounds, and options are those that there are */
+static bool tame;   /* whether numbers stay within their bounds, and options are those that there
+                       are */
 
 static inline unsigned byte(void) {
   if (left == 0)
@@ -36,9 +38,10 @@ static inline void arbitrary(void *to, size_t size) {
 
 /* Mostly between low and high. */
 static inline double number(double low, double high) {
-  static const double special[] = {0,      -0.0,  1,       -1,       0.5,          0.2,       0.4,        1e-9,
-                                   -1e-9,  1e-17, 1e-300,  DBL_MIN,  DBL_TRUE_MIN, 1e9,       -1e9,       1e100,
-                                   -1e160, 1e300, DBL_MAX, -DBL_MAX, INFINITY,     -INFINITY, (double)NAN};
+  static const double special[] = {
+      0,      -0.0,  1,       -1,       0.5,          0.2,       0.4,        1e-9,
+      -1e-9,  1e-17, 1e-300,  DBL_MIN,  DBL_TRUE_MIN, 1e9,       -1e9,       1e100,
+      -1e160, 1e300, DBL_MAX, -DBL_MAX, INFINITY,     -INFINITY, (double)NAN};
   double x;
   const unsigned how = byte();
   if (how < 4)
@@ -101,8 +104,8 @@ static inline bool within(const double *x, size_t n, double most) {
   return true;
 }
 
-/* Whether energies, and what is on the way to a result, are within the range of double. Details and traces are held to that
- * only. */
+/* Whether energies, and what is on the way to a result, are within the range of double. Details
+ * and traces are held to that only. */
 static inline bool moderate(const double *x, size_t n) {
   return within(x, n, 1e100);
 }

@@ -1,7 +1,8 @@
-/* Gives the command `carom` files made of the bytes of a fuzzer: CSV, .npy and JSON Lines, of collisions, impacts on cushions
- * and shots. The first byte chooses the command. Aborts if an exit code is none of the command's, if the output depends on the
- * number of threads, or if a file is refused and yet something is written. Crashes, hangs and undefined behaviour are for the
- * fuzzer and the sanitizers to see. */
+/* Gives the command `carom` files made of the bytes of a fuzzer: CSV, .npy and JSON Lines, of
+ * collisions, impacts on cushions and shots. The first byte chooses the command. Aborts if an
+ * exit code is none of the command's, if the output depends on the number of threads, or if a
+ * file is refused and yet something is written. Crashes, hangs and undefined behaviour are for
+ * the fuzzer and the sanitizers to see. */
 #include "command.h"
 #include "message.h"
 #include "subcommands.h"
@@ -28,7 +29,9 @@ static const struct {
     {command_resolve, "npy", {"resolve"}},
     {command_resolve, "npy", {"resolve", "--cushion", "--precision", "single"}},
     {command_shoot, "jsonl", {"shoot", "--events-most", "60", "--cushion", "han"}},
-    {command_shoot, "jsonl", {"shoot", "--events-most", "20", "--models", "pooltool", "--events", "brief"}},
+    {command_shoot,
+     "jsonl",
+     {"shoot", "--events-most", "20", "--models", "pooltool", "--events", "brief"}},
     {command_trace, "csv", {"trace", "--samples", "5"}},
 };
 
@@ -69,7 +72,8 @@ static char *output_of(size_t k, const char *file, const char *threads, int *cod
   if (memory < 0)
     memory = memfd_create("output", 0);
   const int kept = dup(STDOUT_FILENO);
-  if (memory < 0 || kept < 0 || ftruncate(memory, 0) != 0 || lseek(memory, 0, SEEK_SET) != 0 || dup2(memory, STDOUT_FILENO) < 0)
+  if (memory < 0 || kept < 0 || ftruncate(memory, 0) != 0 || lseek(memory, 0, SEEK_SET) != 0 ||
+      dup2(memory, STDOUT_FILENO) < 0)
     abort();
   optind = 0;
   *code = commands[k].run(count, argument);

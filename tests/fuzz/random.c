@@ -1,6 +1,7 @@
-/* random CORPUS EXECUTIONS [SEED]: a fuzz target without a fuzzer: first on the inputs of the corpus, one in hexadecimal digits
- * a line, then on random bytes, each from a seed of its own. Every hundredth seed is printed, so a failure is among the hundred
- * from the last one on: `random /dev/null 100 THAT`. An input that takes 5 s of processor time is a failure too. */
+/* random CORPUS EXECUTIONS [SEED]: a fuzz target without a fuzzer: first on the inputs of the
+ * corpus, one in hexadecimal digits a line, then on random bytes, each from a seed of its own.
+ * Every hundredth seed is printed, so a failure is among the hundred from the last one on:
+ * `random /dev/null 100 THAT`. An input that takes 5 s of processor time is a failure too. */
 #include <ctype.h>
 #include <inttypes.h>
 #include <stddef.h>
@@ -25,7 +26,9 @@ static void run(size_t size) {
 
 /* One of 16 digits, or -1. */
 static int digit(int character) {
-  return isdigit(character) ? character - '0' : character >= 'a' && character <= 'f' ? character - 'a' + 10 : -1;
+  return isdigit(character)                     ? character - '0'
+         : character >= 'a' && character <= 'f' ? character - 'a' + 10
+                                                : -1;
 }
 
 /* Runs every line; the number of them, or -1 where the file cannot be read. */
@@ -58,12 +61,16 @@ int main(int count, char **arguments) {
   }
   const long lines = replay(arguments[1]), executions = strtol(arguments[2], NULL, 10);
   if (lines < 0) {
-    fprintf(stderr, "random: %s: lines of at most %d bytes in hexadecimal digits are needed\n", arguments[1], MOST);
+    fprintf(stderr, "random: %s: lines of at most %d bytes in hexadecimal digits are needed\n",
+            arguments[1], MOST);
     return 2;
   }
   printf("%ld inputs of the corpus\n", lines);
   const char *const given = getenv("CAROM_TEST_SEED");
-  const uint64_t seed = strtoull(count > 3 ? arguments[3] : given != NULL ? given : "20141", NULL, 10);
+  const uint64_t seed = strtoull(count > 3       ? arguments[3]
+                                 : given != NULL ? given
+                                                 : "20141",
+                                 NULL, 10);
   for (long n = 0; n < executions; n++) {
     if (n % 100 == 0) {
       printf("seed %" PRIu64 "\n", seed + (uint64_t)n);

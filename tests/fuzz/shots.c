@@ -1,9 +1,10 @@
-/* Whole shots with inputs made of the bytes of a fuzzer (draws.h): tables of any shape, layouts on the cloth and in the air,
- * cues, options. Aborts where the contract of carom_shot.h or carom_tangent.h is broken: an end that is not finite; a batch
- * with other bits than single shots; a shot in parts with other bits than the whole; bytes written beside the results; and,
- * where all numbers are those of play, energy that rises, balls that overlap, that leave the table or are in a cushion without
- * an event, derivatives that are not finite. Crashes, hangs and undefined behaviour are for the fuzzer and the sanitizers to
- * see. */
+/* Whole shots with inputs made of the bytes of a fuzzer (draws.h): tables of any shape, layouts
+ * on the cloth and in the air, cues, options. Aborts where the contract of carom_shot.h or
+ * carom_tangent.h is broken: an end that is not finite; a batch with other bits than single
+ * shots; a shot in parts with other bits than the whole; bytes written beside the results; and,
+ * where all numbers are those of play, energy that rises, balls that overlap, that leave the
+ * table or are in a cushion without an event, derivatives that are not finite. Crashes, hangs
+ * and undefined behaviour are for the fuzzer and the sanitizers to see. */
 #include "carom_tangent.h"
 #include "draws.h"
 
@@ -26,16 +27,19 @@ static int mostly(int n) {
   return choice(20) == 0 && !tame ? choice(256) - 128 : n;
 }
 
-/* A polygon about a point, from 2 rails to 8, of which some have jaws at their ends, and a pocket or none. */
+/* A polygon about a point, from 2 rails to 8, of which some have jaws at their ends, and a
+ * pocket or none. */
 static void make_polygon(void) {
   memset(&table, 0, sizeof table);
   table.width = table.length = 2;
   table.rails = 2 + choice(7);
-  const double radius = number(0.3, 1.2), turn = number(0, 6.3), height = number(0.03, 0.045), jaw = number(0, 0.02);
+  const double radius = number(0.3, 1.2), turn = number(0, 6.3), height = number(0.03, 0.045),
+               jaw = number(0, 0.02);
   const bool jaws = choice(2), reversed = choice(8) == 0;
   double at[9][2] = {{0}};
   for (int k = 0; k < table.rails; k++) {
-    const double angle = turn + 6.283185307179586 * (k + (choice(4) == 0 ? 0.4 : 0)) / (double)table.rails;
+    const double angle =
+        turn + 6.283185307179586 * (k + (choice(4) == 0 ? 0.4 : 0)) / (double)table.rails;
     at[k][0] = 1 + radius * cos(angle);
     at[k][1] = 1 + radius * sin(angle);
   }
@@ -80,7 +84,8 @@ static void make_table(void) {
   }
 }
 
-/* Balls anywhere, at rest or not, on the cloth or above it, often at the very place where they touch the one before. */
+/* Balls anywhere, at rest or not, on the cloth or above it, often at the very place where they
+ * touch the one before. */
 static void make_balls(void) {
   count = 1 + choice(5);
   const carom_game game = (carom_game)choice(3);
@@ -113,7 +118,8 @@ static void make_balls(void) {
 static void make_options(void) {
   options = (carom_shot_options){.world = (carom_world)mostly(choice(4) == 0)};
   options.ball_model = (carom_ball_model)mostly(choice(2) == 0 ? choice(5) : 0);
-  options.cushion_model = (carom_shot_cushion)mostly(choice(2) == 0 ? choice(CAROM_SHOT_CUSHION_SMOOTH + 2) : 0);
+  options.cushion_model =
+      (carom_shot_cushion)mostly(choice(2) == 0 ? choice(CAROM_SHOT_CUSHION_SMOOTH + 2) : 0);
   options.friction = (carom_ball_friction)choice(2);
   options.space = (carom_space)mostly(choice(4) == 0);
   options.steps = 1 + choice(100);
@@ -121,8 +127,8 @@ static void make_options(void) {
   options.time_most = choice(3) == 0 ? number(0, 10) : 0;
   options.plain = choice(2);
   if (choice(3) == 0)
-    options.stop_at =
-        !tame && choice(4) == 0 ? (uint64_t)choice(256) << choice(64) : CAROM_STOP_AT(choice(CAROM_EVENT_LEFT_TABLE + 1));
+    options.stop_at = !tame && choice(4) == 0 ? (uint64_t)choice(256) << choice(64)
+                                              : CAROM_STOP_AT(choice(CAROM_EVENT_LEFT_TABLE + 1));
   reserve(&options.reserved[choice((int)(sizeof options.reserved / sizeof *options.reserved))]);
 }
 
@@ -138,7 +144,8 @@ static bool make_inputs(void) {
   } else
     make_balls();
   if (choice(3) == 0) { /* one constant of one ball, or of all */
-    const int changed = choice(MOST), field = choice((int)(sizeof(carom_ball_kind) / sizeof(double)));
+    const int changed = choice(MOST),
+              field = choice((int)(sizeof(carom_ball_kind) / sizeof(double)));
     const double value = number(0, 1);
     for (int k = 0; k < count; k++)
       if (changed >= count || k == changed)
@@ -169,20 +176,23 @@ static bool between(double x, double low, double high) {
   return x >= low && x <= high;
 }
 
-/* Whether the numbers are those of balls and tables that there can be, and the models those that keep what is checked here:
- * pooltool's rules move balls, and Euler's steps, few as they are, end somewhere near the end of an impact. */
+/* Whether the numbers are those of balls and tables that there can be, and the models those that
+ * keep what is checked here: pooltool's rules move balls, and Euler's steps, few as they are,
+ * end somewhere near the end of an impact. */
 static bool is_play(const carom_cue *cue) {
   bool plays = options.world == CAROM_WORLD_CAROM && options.ball_model != CAROM_BALL_MODEL_EULER &&
                options.cushion_model != CAROM_SHOT_CUSHION_EULER && between(cue->speed, 0, 20);
   for (int k = 0; k < count && plays; k++) {
     const carom_ball_kind *const kind = &balls[k].kind;
     const carom_ball_state *const s = &balls[k].state;
-    plays = within((const double *)kind, sizeof *kind / sizeof(double), 1e6) && between(kind->mass, 0.05, 1) &&
-            between(kind->radius, 0.01, 0.1) && between(kind->gravity, 1, 20) && kind->mu_slide >= 1e-3 &&
-            kind->mu_roll >= 1e-4 && kind->mu_spin >= 1e-4 &&
+    plays = within((const double *)kind, sizeof *kind / sizeof(double), 1e6) &&
+            between(kind->mass, 0.05, 1) && between(kind->radius, 0.01, 0.1) &&
+            between(kind->gravity, 1, 20) && kind->mu_slide >= 1e-3 && kind->mu_roll >= 1e-4 &&
+            kind->mu_spin >= 1e-4 &&
             (kind->nose_height == 0 || between(kind->nose_height / kind->radius, 0.5, 1.8));
     for (int part = 0; part < table.rails && plays; part++)
-      plays = between(table.rail[part].height / kind->radius, 0.5, 1.8) && within(&table.rail[part].mu_cushion, 2, 1e6);
+      plays = between(table.rail[part].height / kind->radius, 0.5, 1.8) &&
+              within(&table.rail[part].mu_cushion, 2, 1e6);
     for (int c = 0; c < 3; c++)
       plays = plays && fabs(s->r[c]) < 10 && fabs(s->v[c]) < 20 && fabs(s->w[c]) < 1000;
   }
@@ -201,7 +211,8 @@ static double energy_of(const carom_ball_state *s) {
     const double *const v = s[k].v, *const w = s[k].w, R = kind->radius;
     if (!is_out(&s[k]))
       sum += kind->mass * (0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) +
-                           0.2 * R * R * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) + kind->gravity * (s[k].r[2] - R));
+                           0.2 * R * R * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) +
+                           kind->gravity * (s[k].r[2] - R));
   }
   return sum;
 }
@@ -212,8 +223,10 @@ static double overlap_of(const carom_ball_state *s) {
   for (int i = 0; i < count; i++)
     for (int j = 0; j < i && !is_out(&s[i]); j++)
       if (!is_out(&s[j])) {
-        const double x = s[i].r[0] - s[j].r[0], y = s[i].r[1] - s[j].r[1], z = s[i].r[2] - s[j].r[2];
-        deepest = fmax(deepest, balls[i].kind.radius + balls[j].kind.radius - sqrt(x * x + y * y + z * z));
+        const double x = s[i].r[0] - s[j].r[0], y = s[i].r[1] - s[j].r[1],
+                     z = s[i].r[2] - s[j].r[2];
+        deepest = fmax(deepest,
+                       balls[i].kind.radius + balls[j].kind.radius - sqrt(x * x + y * y + z * z));
       }
   return deepest;
 }
@@ -226,7 +239,8 @@ static bool is_closed(void) {
   return true;
 }
 
-/* Follows a shot of the first layout through its events, and between them, by carom_shot_at_times(). */
+/* Follows a shot of the first layout through its events, and between them, by
+ * carom_shot_at_times(). */
 static void check_play(const carom_cue *cue, const carom_shot *shot) {
   enum { LOOKS = 2 * EVENTS + 2 };
   static carom_ball_state states[LOOKS * MOST], start[MOST];
@@ -265,14 +279,16 @@ static void check_play(const carom_cue *cue, const carom_shot *shot) {
       fail("balls overlap");
   }
 
-  /* What lies on the cloth at any time is a layout that may be played: nothing is in a cushion, in a pocket or outside. */
+  /* What lies on the cloth at any time is a layout that may be played: nothing is in a cushion,
+   * in a pocket or outside. */
   const int look = choice(looks);
   static carom_shot_ball there[MOST];
   memcpy(there, balls, (size_t)count * sizeof *there);
   for (int k = 0; k < count; k++) {
     there[k].state = states[look * count + k];
     if (there[k].state.label == CAROM_BALL_AIRBORNE)
-      there[k].state.label = CAROM_BALL_OFF; /* it may be beyond the table and not have fallen yet */
+      there[k].state.label = CAROM_BALL_OFF; /* it may be beyond the table and not have fallen
+                                                yet */
   }
   carom_shot_options o = options;
   o.time_most = 0;
@@ -286,18 +302,22 @@ static void check_play(const carom_cue *cue, const carom_shot *shot) {
 
 /* ---- Derivatives */
 
-static double final_of[SHOTS + 1][MOST * CAROM_STATE_NUMBERS * DIRECTIONS], reach_of[SHOTS + 1][DIRECTIONS];
-static double time_of[EVENTS * DIRECTIONS + 1], at_of[2 * MOST * CAROM_STATE_NUMBERS * DIRECTIONS + 1];
+static double final_of[SHOTS + 1][MOST * CAROM_STATE_NUMBERS * DIRECTIONS],
+    reach_of[SHOTS + 1][DIRECTIONS];
+static double time_of[EVENTS * DIRECTIONS + 1],
+    at_of[2 * MOST * CAROM_STATE_NUMBERS * DIRECTIONS + 1];
 static double before_of[EVENTS * 2 * CAROM_STATE_NUMBERS * DIRECTIONS + 1],
     after_of[EVENTS * 2 * CAROM_STATE_NUMBERS * DIRECTIONS + 1];
 
 /* Derivatives of the played shots of a job: of the first by itself and all as a batch. */
 static void check_tangents(const carom_shot_job *job, bool plays) {
   static double cue[CAROM_CUE_NUMBERS * DIRECTIONS], state[MOST * CAROM_STATE_NUMBERS * DIRECTIONS];
-  static double kind[MOST * (sizeof(carom_ball_kind) / sizeof(double)) * DIRECTIONS], nose[CAROM_NOSE_NUMBERS * DIRECTIONS];
+  static double kind[MOST * (sizeof(carom_ball_kind) / sizeof(double)) * DIRECTIONS],
+      nose[CAROM_NOSE_NUMBERS * DIRECTIONS];
   static const int64_t refused[] = {0, -1, CAROM_DIRECTIONS_MOST + 1, INT64_MAX, INT64_MIN};
   const int64_t m = choice(32) == 31 ? refused[choice(5)] : 1 + choice(DIRECTIONS);
-  const size_t finals = (size_t)count * CAROM_STATE_NUMBERS * (size_t)(m > 0 && m <= DIRECTIONS ? m : 0);
+  const size_t finals =
+      (size_t)count * CAROM_STATE_NUMBERS * (size_t)(m > 0 && m <= DIRECTIONS ? m : 0);
 
   /* A few seeds that are not 0. */
   struct {
@@ -311,7 +331,8 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
   for (int g = 0; g < 4; g++)
     memset(groups[g].seeds, 0, (size_t)groups[g].size * sizeof(double));
   for (int k = 0; k < 4; k++) {
-    const int g = choice(4), high = choice(256), place = (256 * high + choice(256)) % groups[g].size;
+    const int g = choice(4), high = choice(256),
+              place = (256 * high + choice(256)) % groups[g].size;
     const double seed = groups[g].seeds[place] = number(-1, 1);
     moderate_seeds = moderate_seeds && within(&seed, 1, 1e4);
   }
@@ -344,13 +365,16 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
     tangent.times_count = 2;
   }
   const carom_shot *const shot = &job->shots[0];
-  const carom_status status = carom_shot_tangent(&table, job->balls, count, job->cues, &options, shot, &seeds, &tangent);
+  const carom_status status =
+      carom_shot_tangent(&table, job->balls, count, job->cues, &options, shot, &seeds, &tangent);
   const size_t each = m > 0 && m <= DIRECTIONS ? (size_t)m : 0, events = (size_t)shot->count * each;
   if (status >= 0 && plays && moderate_seeds) {
     expect(final_of[SHOTS], finals, true, "the derivatives of the end of a shot");
     expect(time_of, events, true, "the derivatives of the times of events");
-    expect(before_of, tangent.before != NULL ? 2 * CAROM_STATE_NUMBERS * events : 0, true, "derivatives before an event");
-    expect(after_of, tangent.after != NULL ? 2 * CAROM_STATE_NUMBERS * events : 0, true, "derivatives after an event");
+    expect(before_of, tangent.before != NULL ? 2 * CAROM_STATE_NUMBERS * events : 0, true,
+           "derivatives before an event");
+    expect(after_of, tangent.after != NULL ? 2 * CAROM_STATE_NUMBERS * events : 0, true,
+           "derivatives after an event");
     expect(at_of, tangent.at != NULL ? 2 * finals : 0, true, "derivatives at a time");
     for (size_t k = 0; k < each; k++)
       if (!(reach_of[SHOTS][k] >= 0))
@@ -358,7 +382,8 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
     int64_t all = 0;
     for (int64_t k = 0; k < shot->count && tangent.flags != NULL; k++)
       all |= flags[k];
-    if (!isfinite(tangent.error) || tangent.error < 0 || (tangent.flags != NULL && all != tangent.all_flags))
+    if (!isfinite(tangent.error) || tangent.error < 0 ||
+        (tangent.flags != NULL && all != tangent.all_flags))
       fail("the errors or flags of derivatives");
   }
   static double single[MOST * CAROM_STATE_NUMBERS * DIRECTIONS];
@@ -367,7 +392,8 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
   if (status < 0 && isnan(first))
     expect(final_of[SHOTS], finals, false, "derivatives after an error");
   else if (status < 0)
-    unwritten(final_of[SHOTS], finals * sizeof first, "derivatives are written after an error of the call");
+    unwritten(final_of[SHOTS], finals * sizeof first,
+              "derivatives are written after an error of the call");
   /* Of another cue, or with an event that cannot be: a status, and nothing beside the places. */
   if (choice(8) == 0 && shot->count > 0 && shot->count <= shot->room) {
     carom_event *const event = &shot->events[choice((int)shot->count)];
@@ -391,16 +417,22 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
     default:
       break;
     }
-    carom_shot_tangent(&table, job->balls, count, choice(2) ? &cues[1] : NULL, &options, shot, &seeds, &tangent);
+    carom_shot_tangent(&table, job->balls, count, choice(2) ? &cues[1] : NULL, &options, shot,
+                       &seeds, &tangent);
     *event = kept;
   }
 
-  unwritten(final_of[SHOTS] + finals, sizeof final_of[SHOTS] - finals * sizeof first, "derivatives beside their place");
-  unwritten(time_of + events, sizeof time_of - events * sizeof first, "derivatives of times beside their place");
+  unwritten(final_of[SHOTS] + finals, sizeof final_of[SHOTS] - finals * sizeof first,
+            "derivatives beside their place");
+  unwritten(time_of + events, sizeof time_of - events * sizeof first,
+            "derivatives of times beside their place");
   const size_t pairs = 2 * CAROM_STATE_NUMBERS * events;
-  unwritten(before_of + pairs, sizeof before_of - pairs * sizeof first, "derivatives before events beside their place");
-  unwritten(after_of + pairs, sizeof after_of - pairs * sizeof first, "derivatives after events beside their place");
-  unwritten(at_of + 2 * finals, sizeof at_of - 2 * finals * sizeof first, "derivatives at times beside their place");
+  unwritten(before_of + pairs, sizeof before_of - pairs * sizeof first,
+            "derivatives before events beside their place");
+  unwritten(after_of + pairs, sizeof after_of - pairs * sizeof first,
+            "derivatives after events beside their place");
+  unwritten(at_of + 2 * finals, sizeof at_of - 2 * finals * sizeof first,
+            "derivatives at times beside their place");
 
   /* All as a batch. */
   carom_tangent tangents[SHOTS];
@@ -408,7 +440,8 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
   memset(statuses, GUARD, sizeof statuses);
   for (int k = 0; k < SHOTS; k++)
     tangents[k] = (carom_tangent){.final = final_of[k]};
-  const carom_tangent_job derivatives = {.played = job, .seeds = &seeds, .tangents = tangents, .status = statuses};
+  const carom_tangent_job derivatives = {
+      .played = job, .seeds = &seeds, .tangents = tangents, .status = statuses};
   carom_shot_tangent_batch(&derivatives);
   unwritten(&statuses[SHOTS], 1, "a batch of derivatives writes beside its statuses");
   if (status >= 0 && job->status[0] >= 0 && tangent.at == NULL &&
@@ -418,7 +451,8 @@ static void check_tangents(const carom_shot_job *job, bool plays) {
 
 /* ---- Shots */
 
-/* Goes on with damaged copies of a state: they are refused by their seal; under a right one the shot is refused or ends. */
+/* Goes on with damaged copies of a state: they are refused by their seal; under a right one the
+ * shot is refused or ends. */
 static void check_damage(const carom_shot *shot, const carom_shot_options *on) {
   static carom_shot_state damaged;
   static carom_event events[EVENTS + 1];
@@ -447,7 +481,8 @@ static void check_damage(const carom_shot *shot, const carom_shot_options *on) {
   const carom_status status = carom_shot_continue(&table, balls, count, on, &again);
   if (!forged && !same && status != CAROM_ERROR_STATE)
     fail("carom_shot_continue takes a damaged state");
-  unwritten(&events[EVENTS], sizeof *events, "a shot with a damaged state writes beside its events");
+  unwritten(&events[EVENTS], sizeof *events,
+            "a shot with a damaged state writes beside its events");
 }
 
 /* Plays the rest of a shot that was stopped, and the whole at once. */
@@ -469,7 +504,8 @@ static void check_parts(carom_shot *shot, const carom_shot *room) {
   if (then == CAROM_ERROR_STATE || shot->count < before)
     fail("carom_shot_continue refuses the state of a shot that was stopped");
   const carom_status at_once = carom_shoot(&table, balls, count, &cues[0], &on, &whole);
-  if (at_once != then || whole.count != shot->count || memcmp(&whole.time, &shot->time, sizeof whole.time) != 0 ||
+  if (at_once != then || whole.count != shot->count ||
+      memcmp(&whole.time, &shot->time, sizeof whole.time) != 0 ||
       memcmp(whole.final, shot->final, (size_t)count * sizeof *whole.final) != 0)
     fail("a shot in parts differs from the whole");
   const int64_t kept = shot->room < shot->count ? shot->room : shot->count;
@@ -493,19 +529,25 @@ static void shots(void) {
   carom_shot one = {.events = events[SHOTS], .room = room, .final = final[SHOTS], .state = &state};
   one.brief = choice(4) == 0 ? brief : NULL;
   const carom_status status = carom_shoot(&table, balls, count, &cues[0], &options, &one);
-  const bool played = status >= 0 || status == CAROM_ERROR_TOO_MANY_EVENTS || status == CAROM_ERROR_TOO_LONG;
+  const bool played =
+      status >= 0 || status == CAROM_ERROR_TOO_MANY_EVENTS || status == CAROM_ERROR_TOO_LONG;
   const int64_t kept = one.count < room ? one.count : room;
   for (int k = 0; k < count && played; k++)
     for (int c = 0; c < 9; c++)
-      if (!isfinite(c < 3 ? final[SHOTS][k].r[c] : c < 6 ? final[SHOTS][k].v[c - 3] : final[SHOTS][k].w[c - 6]))
+      if (!isfinite(c < 3   ? final[SHOTS][k].r[c]
+                    : c < 6 ? final[SHOTS][k].v[c - 3]
+                            : final[SHOTS][k].w[c - 6]))
         fail("the end of a shot is not finite");
   if (played && (!isfinite(one.time) || one.count < 0))
     fail("the time of a shot is not finite");
   if (carom_shot_check(&table, balls, count, &cues[0], &options, NULL) != CAROM_OK && one.count > 0)
     fail("carom_shot_check refuses what carom_shoot plays");
-  unwritten(events[SHOTS] + kept, sizeof events[SHOTS] - (size_t)kept * sizeof **events, "events beside their place");
-  unwritten(final[SHOTS] + count, sizeof final[SHOTS] - (size_t)count * sizeof **final, "final states beside their place");
-  unwritten(brief + kept, sizeof brief - (size_t)kept * sizeof *brief, "brief events beside their place");
+  unwritten(events[SHOTS] + kept, sizeof events[SHOTS] - (size_t)kept * sizeof **events,
+            "events beside their place");
+  unwritten(final[SHOTS] + count, sizeof final[SHOTS] - (size_t)count * sizeof **final,
+            "final states beside their place");
+  unwritten(brief + kept, sizeof brief - (size_t)kept * sizeof *brief,
+            "brief events beside their place");
   for (int64_t k = 0; k < kept && one.brief != NULL; k++)
     if (memcmp(&brief[k], &events[SHOTS][k], offsetof(carom_brief_event, reserved)) != 0)
       fail("brief events tell something else");
@@ -522,7 +564,8 @@ static void shots(void) {
     if (isnan(states[k].r[0]) || isnan(states[k].v[0]))
       fail("carom_shot_at is not a number");
   double turned[MOST][4];
-  if (at == CAROM_OK && one.time < 100 && carom_shot_orientation(balls, count, &one, one.time, turned) == CAROM_OK)
+  if (at == CAROM_OK && one.time < 100 &&
+      carom_shot_orientation(balls, count, &one, one.time, turned) == CAROM_OK)
     for (int k = 0; k < count; k++)
       if (!(fabs(turned[k][0]) <= 1.001))
         fail("an orientation is no rotation");
@@ -543,8 +586,10 @@ static void shots(void) {
   const carom_shot single = one;
   for (int k = 0; k < SHOTS; k++) {
     const int64_t told = many[k].count < room ? many[k].count : room;
-    unwritten(events[k] + told, sizeof events[k] - (size_t)told * sizeof **events, "the events of a batch beside their place");
-    unwritten(final[k] + count, sizeof final[k] - (size_t)count * sizeof **final, "the ends of a batch beside their place");
+    unwritten(events[k] + told, sizeof events[k] - (size_t)told * sizeof **events,
+              "the events of a batch beside their place");
+    unwritten(final[k] + count, sizeof final[k] - (size_t)count * sizeof **final,
+              "the ends of a batch beside their place");
   }
   unwritten(&statuses[SHOTS], 1, "a batch of shots writes beside its statuses");
   if (played && (statuses[0] != (int8_t)status || many[0].count != single.count ||
@@ -580,14 +625,16 @@ static void tables(void) {
   carom_part way;
   const int ball = mostly(choice(count));
   const double x = number(0, table.width), y = number(0, table.length);
-  const carom_status status = carom_place_ball(&table, placed, count, ball, x, y, choice(8) == 0 ? NULL : &way);
+  const carom_status status =
+      carom_place_ball(&table, placed, count, ball, x, y, choice(8) == 0 ? NULL : &way);
   if (status != CAROM_OK) {
     if (memcmp(placed, balls, (size_t)count * sizeof *placed) != 0)
       fail("carom_place_ball refuses a place and moves a ball");
     return;
   }
   const carom_ball_state *const s = &placed[ball].state;
-  if (s->r[0] != x || s->r[1] != y || s->r[2] != placed[ball].kind.radius || s->v[0] != 0 || s->w[2] != 0)
+  if (s->r[0] != x || s->r[1] != y || s->r[2] != placed[ball].kind.radius || s->v[0] != 0 ||
+      s->w[2] != 0)
     fail("carom_place_ball puts a ball elsewhere");
   memcpy(&placed[ball].state, &balls[ball].state, sizeof *s);
   if (memcmp(placed, balls, sizeof placed) != 0)

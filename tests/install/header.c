@@ -10,7 +10,8 @@
 STATIC_ASSERT(sizeof(carom_ball) == 12 * sizeof(double), "a ball is 12 doubles");
 STATIC_ASSERT(sizeof(carom_impact) == 26 * sizeof(double), "an impact is 26 doubles");
 STATIC_ASSERT(sizeof(carom_result) == 12 * sizeof(double), "a result is 12 doubles");
-STATIC_ASSERT(CAROM_OK == 0 && CAROM_SEPARATING > 0 && CAROM_ERROR_NULL < 0, "signs of the statuses");
+STATIC_ASSERT(CAROM_OK == 0 && CAROM_SEPARATING > 0 && CAROM_ERROR_NULL < 0,
+              "signs of the statuses");
 
 int use(const carom_impact *in, carom_result *out);
 int use(const carom_impact *in, carom_result *out) {

@@ -9,10 +9,13 @@
 
 STATIC_ASSERT(sizeof(carom_cushion_impact) == 15 * sizeof(double), "an impact is 15 doubles");
 STATIC_ASSERT(sizeof(carom_motion) == 6 * sizeof(double), "a motion is 6 doubles");
-STATIC_ASSERT(sizeof(carom_cushion_options) == 128, "options have no gaps that a compiler may fill");
-STATIC_ASSERT(CAROM_CUSHION_MATHAVAN == 0 && CAROM_CUSHION_EULER == 4 && CAROM_CUSHION_SMOOTH == 5, "values are never changed");
+STATIC_ASSERT(sizeof(carom_cushion_options) == 128,
+              "options have no gaps that a compiler may fill");
+STATIC_ASSERT(CAROM_CUSHION_MATHAVAN == 0 && CAROM_CUSHION_EULER == 4 && CAROM_CUSHION_SMOOTH == 5,
+              "values are never changed");
 
-STATIC_ASSERT(sizeof(carom_shot_options) == 80 && sizeof(carom_brief_event) == 24, "sizes that callers rely on");
+STATIC_ASSERT(sizeof(carom_shot_options) == 80 && sizeof(carom_brief_event) == 24,
+              "sizes that callers rely on");
 
 /* What must not compile without a warning: the model of an impact for that of a shot. */
 #ifdef MIXED
@@ -25,7 +28,8 @@ int mixed(void) {
 #endif
 
 int use(const carom_cushion_impact *in, carom_motion *out);
-STATIC_ASSERT(sizeof(carom_shot_options) == 80 && sizeof(carom_brief_event) == 24, "sizes that callers rely on");
+STATIC_ASSERT(sizeof(carom_shot_options) == 80 && sizeof(carom_brief_event) == 24,
+              "sizes that callers rely on");
 
 /* What must not compile without a warning: the model of an impact for that of a shot. */
 #ifdef MIXED

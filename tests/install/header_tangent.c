@@ -8,7 +8,8 @@
 #endif
 
 STATIC_ASSERT(sizeof(carom_tangent_seeds) == 72, "options have no gaps that a compiler may fill");
-STATIC_ASSERT(CAROM_STATE_NUMBERS == 9 && CAROM_CUE_NUMBERS == 7 && CAROM_DIRECTIONS_MOST == 64, "rows that callers rely on");
+STATIC_ASSERT(CAROM_STATE_NUMBERS == 9 && CAROM_CUE_NUMBERS == 7 && CAROM_DIRECTIONS_MOST == 64,
+              "rows that callers rely on");
 
 int use(const carom_impact *in, const double *seeds, double *tangent);
 int use(const carom_impact *in, const double *seeds, double *tangent) {

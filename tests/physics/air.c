@@ -1,6 +1,7 @@
-/* Balls that fly, fall on the slate, and meet each other in space. Numbers are for pool balls: R = 28.575 mm, 0.170097 kg, g =
- * 9.81 m/s^2, mu_slide 0.2, e 0.95, e of the slate 0.5, whose fixed loss is s = 0.02 m/s; they were computed by programs of
- * their own from the closed forms of src/shot/fixed.c and spheres.c, and are right to their last digit. */
+/* Balls that fly, fall on the slate, and meet each other in space. Numbers are for pool balls: R
+ * = 28.575 mm, 0.170097 kg, g = 9.81 m/s^2, mu_slide 0.2, e 0.95, e of the slate 0.5, whose
+ * fixed loss is s = 0.02 m/s; they were computed by programs of their own from the closed forms
+ * of src/shot/fixed.c and spheres.c, and are right to their last digit. */
 #include "invariants.h"
 #include "random_shots.h"
 #include "shot_support.h"
@@ -62,8 +63,9 @@ TEST(drop) {
   NEAR(events[5].time, 0.416946651, 1e-9);
 }
 
-/* One landing that slips, one that sticks, one of a ball that only spins. w_z falls by the friction of turning on the spot, and
- * by no other: pooltool multiplies it by 2/7 where the ball sticks. */
+/* One landing that slips, one that sticks, one of a ball that only spins. w_z falls by the
+ * friction of turning on the spot, and by no other: pooltool multiplies it by 2/7 where the ball
+ * sticks. */
 TEST(one_landing) {
   let_go(spinning(flying(20.0, 20.0, R, 3.0, 0.0, -1.0), 0.0, 0.0, 50.0));
   const carom_ball_state *after = &events[0].after[0];
@@ -89,13 +91,15 @@ TEST(one_landing) {
 /* A ball that slips on all the way loses as much speed as if it had lain on the cloth. */
 TEST(hops_slow_as_sliding_does) {
   const carom_shot shot = let_go(flying(20.0, 20.0, R, 8.0, 0.0, -2.0));
-  const carom_event *last = event_of(&shot, CAROM_EVENT_SLATE, count_of(&shot, CAROM_EVENT_SLATE) - 1);
+  const carom_event *last =
+      event_of(&shot, CAROM_EVENT_SLATE, count_of(&shot, CAROM_EVENT_SLATE) - 1);
   NEAR(last->time, 0.3976, 1e-4);
   NEAR(8.0 - last->after[0].v[0], 1.180097, 1e-6);
   NEAR(8.0 - last->after[0].v[0], 0.2 * (2.0 + g * last->time), 1e-12);
 }
 
-/* Landings are bounded by the formula of src/shot/fixed.c, energy never rises, and friction does not turn the slip round. */
+/* Landings are bounded by the formula of src/shot/fixed.c, energy never rises, and friction does
+ * not turn the slip round. */
 TEST(random_hops) {
   static const double restitutions[] = {-1.0, 0.3, 0.0, 0.7, 0.9, 0.95, 0.98};
   random_source random = {test_seed()};
@@ -104,24 +108,30 @@ TEST(random_hops) {
   for (int n = 0; n < 100000; n++) {
     const double down = pow(10.0, random_between(&random, -4.0, 0.9));
     carom_shot_ball ball =
-        spinning(flying(20.0, 20.0, R, random_between(&random, -5.0, 5.0), 0.0, -down), random_between(&random, -200.0, 200.0),
-                 random_between(&random, -200.0, 200.0), random_between(&random, -200.0, 200.0));
+        spinning(flying(20.0, 20.0, R, random_between(&random, -5.0, 5.0), 0.0, -down),
+                 random_between(&random, -200.0, 200.0), random_between(&random, -200.0, 200.0),
+                 random_between(&random, -200.0, 200.0));
     ball.kind.restitution_table = restitutions[n % 7];
     const double given = ball.kind.restitution_table, e = given == 0.0 ? 0.5 : fmax(given, 0.0);
     const carom_shot shot = let_go(ball);
     const int landings = count_of(&shot, CAROM_EVENT_SLATE);
-    const double bound = e > 0.0 ? 2.0 + log(1.0 + down * down * (1.0 - e * e) / (loss * loss)) / log(1.0 / (e * e)) : 1.0;
-    ck_assert_msg(landings <= bound, "%d landings at %g m/s with %g, at most %g", landings, down, e, bound);
+    const double bound =
+        e > 0.0 ? 2.0 + log(1.0 + down * down * (1.0 - e * e) / (loss * loss)) / log(1.0 / (e * e))
+                : 1.0;
+    ck_assert_msg(landings <= bound, "%d landings at %g m/s with %g, at most %g", landings, down, e,
+                  bound);
     most = landings > most ? landings : most;
     for (int k = 0; k < landings; k++) {
-      const carom_event *event = &events[k]; /* nothing else happens to it before it has come to lie */
+      const carom_event *event = &events[k]; /* nothing else happens to it before it has come to
+                                                lie */
       ck_assert_int_eq(event->type, CAROM_EVENT_SLATE);
       const carom_ball_state *a = &event->before[0], *b = &event->after[0];
       const double was[2] = {a->v[0] - R * a->w[1], a->v[1] + R * a->w[0]},
                    is[2] = {b->v[0] - R * b->w[1], b->v[1] + R * b->w[0]};
       /* by no more than rounding of speeds of some m/s */
       ck_assert(was[0] * is[0] + was[1] * is[1] >= -2e-14 * hypot(was[0], was[1]));
-      worst_rise = fmax(worst_rise, (state_energy(&ball.kind, b) - state_energy(&ball.kind, a)) / state_energy(&ball.kind, a));
+      worst_rise = fmax(worst_rise, (state_energy(&ball.kind, b) - state_energy(&ball.kind, a)) /
+                                        state_energy(&ball.kind, a));
     }
   }
   printf("hops: at most %d landings, greatest rise of energy %.1e of it\n", most, worst_rise);
@@ -134,14 +144,16 @@ TEST(elevated_strikes) {
   /* V0 3 m/s, centre hits: angle, v_y and v_z after the slate, height and range of the first hop */
   static const struct {
     double theta, v_y, v_z, height, range;
-  } told[] = {{30.0, 3.304781, 1.153678, 0.067838, 0.777299}, {45.0, 2.331131, 1.631669, 0.135695, 0.775460}};
+  } told[] = {{30.0, 3.304781, 1.153678, 0.067838, 0.777299},
+              {45.0, 2.331131, 1.631669, 0.135695, 0.775460}};
   for (int k = 0; k < 2; k++) {
     const carom_shot shot = strike(3.0, told[k].theta, 0.0, CAROM_SPACE_3D);
     ck_assert_int_eq(events[0].type, CAROM_EVENT_STRIKE);
     ck_assert_int_eq(events[0].after[0].label, CAROM_BALL_AIRBORNE);
     ck_assert_int_eq(events[1].type, CAROM_EVENT_SLATE);
     ck_assert_double_eq(events[1].time, 0.0);
-    const carom_ball_state *after = &events[1].after[0], *lands = &event_of(&shot, CAROM_EVENT_SLATE, 1)->before[0];
+    const carom_ball_state *after = &events[1].after[0],
+                           *lands = &event_of(&shot, CAROM_EVENT_SLATE, 1)->before[0];
     NEAR(after->v[1], told[k].v_y, 1e-6);
     NEAR(after->v[2], told[k].v_z, 1e-6);
     NEAR(lands->r[1] - 20.0, told[k].range, 1e-6);
@@ -153,8 +165,9 @@ TEST(elevated_strikes) {
   }
   const carom_ball_state *after = &events[1].after[0];
   strike(3.0, 45.0, 0.0, CAROM_SPACE_3D);
-  NEAR(sqrt(events[0].after[0].v[1] * events[0].after[0].v[1] + events[0].after[0].v[2] * events[0].after[0].v[2]), 4.615403,
-       1e-6);
+  NEAR(sqrt(events[0].after[0].v[1] * events[0].after[0].v[1] +
+            events[0].after[0].v[2] * events[0].after[0].v[2]),
+       4.615403, 1e-6);
   NEAR(after->w[0], -81.5794, 1e-4);
   NEAR(events[2].time, 0.332654, 1e-6);
   strike(3.0, 5.0, 0.0, CAROM_SPACE_3D);
@@ -183,7 +196,9 @@ TEST(elevated_strikes) {
 
 /* Over a ball 0.305 m (12 inches) ahead. */
 TEST(jump_over_a_ball) {
-  static const struct { double theta, speed; } least[] = {{30.0, 2.762}, {40.0, 2.281}, {45.0, 2.221}, {60.0, 2.264}};
+  static const struct {
+    double theta, speed;
+  } least[] = {{30.0, 2.762}, {40.0, 2.281}, {45.0, 2.221}, {60.0, 2.264}};
   const carom_table table = empty_table(40.0);
   const carom_shot_ball balls[2] = {ball_at(20.0, 20.0), ball_at(20.0, 20.305)};
   for (int k = 0; k < 8; k++) {
@@ -192,25 +207,29 @@ TEST(jump_over_a_ball) {
     cue.theta = least[k / 2].theta;
     cue.speed = least[k / 2].speed + (k % 2 == 0 ? -0.002 : 0.002);
     const carom_shot shot = play(&table, balls, 2, &cue, NULL, CAROM_OK);
-    ck_assert_msg((count_of(&shot, CAROM_EVENT_BALL_BALL) > 0) == (k % 2 == 0), "%g degrees, %g m/s", cue.theta, cue.speed);
+    ck_assert_msg((count_of(&shot, CAROM_EVENT_BALL_BALL) > 0) == (k % 2 == 0),
+                  "%g degrees, %g m/s", cue.theta, cue.speed);
   }
 }
 
-/* A shot in which nothing leaves the cloth has the same bits in both spaces; the header promises it. */
+/* A shot in which nothing leaves the cloth has the same bits in both spaces; the header promises
+ * it. */
 TEST(level_shots_are_flat_shots) {
   static carom_event kept[ROOM];
   for (int n = 0; n < 300; n++) {
     random_shot s;
     random_shot_make(n % random_shot_kinds(), test_seed(), (uint64_t)n, &s);
     s.cue.theta = 0.0;
-    static const carom_shot_cushion models[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE, CAROM_SHOT_CUSHION_DEFAULT};
+    static const carom_shot_cushion models[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE,
+                                                CAROM_SHOT_CUSHION_DEFAULT};
     carom_shot_options options = {.cushion_model = models[n % 3], .space = CAROM_SPACE_FLAT};
     carom_shot flat = {.events = kept, .room = ROOM}, space = {.events = events, .room = ROOM};
     const carom_status status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &flat);
     options.space = CAROM_SPACE_3D;
     ck_assert_int_eq(carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &space), status);
     ck_assert_int_eq(space.count, flat.count);
-    ck_assert_int_eq(memcmp(events, kept, (size_t)(flat.count < ROOM ? flat.count : ROOM) * sizeof *kept), 0);
+    ck_assert_int_eq(
+        memcmp(events, kept, (size_t)(flat.count < ROOM ? flat.count : ROOM) * sizeof *kept), 0);
   }
 }
 
@@ -218,7 +237,8 @@ TEST(level_shots_are_flat_shots) {
 
 TEST(two_flying_balls) {
   const carom_table table = empty_table(40.0);
-  for (int k = 0; k < 5; k++) { /* on a straight line towards each other, whatever their common fall */
+  for (int k = 0; k < 5; k++) { /* on a straight line towards each other, whatever their common
+                                   fall */
     const double v_z = (double[]){3.0, 0.0, 1.0, -0.5, 2.0}[k], above = k == 1 ? 0.5 : 1.0;
     const carom_shot_ball balls[2] = {flying(20.0, 20.0, R + above, 2.5, 0.0, v_z),
                                       flying(20.5, 20.0, R + above, 0.5, 0.0, v_z)};
@@ -241,11 +261,13 @@ TEST(oblique_hits) {
   const carom_shot_options constant = {.friction = CAROM_FRICTION_CONSTANT};
   const carom_table table = empty_table(40.0);
   const double x = sqrt(4.0 * R * R - 0.03 * 0.03);
-  carom_shot_ball balls[2] = {spinning(flying(20.0, 20.0, R + 0.03, 2.0, 0.0, -0.5), 0.0, 30.0, 10.0), ball_at(20.0 + x, 20.0)};
+  carom_shot_ball balls[2] = {
+      spinning(flying(20.0, 20.0, R + 0.03, 2.0, 0.0, -0.5), 0.0, 30.0, 10.0),
+      ball_at(20.0 + x, 20.0)};
   play(&table, balls, 2, NULL, &constant, CAROM_OK);
-  const double v_a[] = {0.386991560, -0.034744861, 0.533907161}, w_a[] = {-1.595693, 27.088457, 7.412700},
-               w_b[] = {-1.595693, -2.911543, -2.587300}, before[] = {2.0, 0.0, -0.5},
-               then[] = {1.302920043, 0.036728760, 0.516566554};
+  const double v_a[] = {0.386991560, -0.034744861, 0.533907161},
+               w_a[] = {-1.595693, 27.088457, 7.412700}, w_b[] = {-1.595693, -2.911543, -2.587300},
+               before[] = {2.0, 0.0, -0.5}, then[] = {1.302920043, 0.036728760, 0.516566554};
   ck_assert_int_eq(events[0].type, CAROM_EVENT_BALL_BALL);
   ck_assert_double_lt(events[0].time, 1e-12);
   const carom_impact in = impact_of(&balls[0], &balls[1], 0.05);
@@ -253,8 +275,8 @@ TEST(oblique_hits) {
   ck_assert_int_eq(carom_impact3(&in, &out), CAROM_OK);
   double change = 0.0;
   for (int side = 0; side < 2; side++)
-    change +=
-        state_energy(&balls[side].kind, &events[0].after[side]) - state_energy(&balls[side].kind, &events[0].before[side]);
+    change += state_energy(&balls[side].kind, &events[0].after[side]) -
+              state_energy(&balls[side].kind, &events[0].before[side]);
   NEAR(change, -0.017383078, 1e-9);
   for (int k = 0; k < 3; k++) {
     NEAR(events[0].after[0].v[k], v_a[k], 1e-9);
@@ -321,16 +343,19 @@ TEST(unlike_radii) {
   ck_assert_int_eq(hit->after[0].label, CAROM_BALL_AIRBORNE);
 }
 
-/* How far spheres in space are from the 2014 model for two balls on the cloth: nothing for stun shots, at most 0.6 % of the
- * speed in the rolling velocities that the balls end with. */
+/* How far spheres in space are from the 2014 model for two balls on the cloth: nothing for stun
+ * shots, at most 0.6 % of the speed in the rolling velocities that the balls end with. */
 TEST(jump_at_the_cloth) {
-  static const double told[3][4] = {{2.7, 3.2, 4.3}, {0.0, 2.1, 0.0}, {0.0, 0.0, -4.2}}; /* mm/s: roll full, half; draw full */
+  /* mm/s: roll full, half; draw full */
+  static const double told[3][4] = {{2.7, 3.2, 4.3}, {0.0, 2.1, 0.0}, {0.0, 0.0, -4.2}};
   double worst = 0.0;
   for (int spin = -1; spin <= 1; spin++)
     for (int cut = 0; cut < 3; cut++)
       for (int q = 0; q < 3; q++) {
-        const double V = (double[]){0.5, 2.0, 6.0}[q], angle = (double[]){0.0, 30.0, 60.0}[cut] * pi / 180.0;
-        carom_shot_ball a = ball_at(0.0, 0.0), b = ball_at(2.0 * R * cos(angle), 2.0 * R * sin(angle));
+        const double V = (double[]){0.5, 2.0, 6.0}[q],
+                     angle = (double[]){0.0, 30.0, 60.0}[cut] * pi / 180.0;
+        carom_shot_ball a = ball_at(0.0, 0.0),
+                        b = ball_at(2.0 * R * cos(angle), 2.0 * R * sin(angle));
         a.state.v[0] = V;
         a.state.w[1] = spin * V / R;
         carom_impact in = impact_of(&a, &b, 0.0);
@@ -354,17 +379,19 @@ TEST(jump_at_the_cloth) {
   ck_assert_double_lt(worst, 0.006);
 }
 
-/* carom_impact3() keeps momentum and angular momentum about the contact, loses energy, turns with the frame, and refuses what
- * has no meaning. */
-/* A ball on another one, not balanced: it rolls off in a bounded number of hops, though neither spins. From 1 mm off the top it
- * came to 10,000 events within 4 ms. */
+/* carom_impact3() keeps momentum and angular momentum about the contact, loses energy, turns
+ * with the frame, and refuses what has no meaning. */
+/* A ball on another one, not balanced: it rolls off in a bounded number of hops, though neither
+ * spins. From 1 mm off the top it came to 10,000 events within 4 ms. */
 TEST(rolls_off_a_ball) {
-  static const double up[] = {1e-12, 1e-6, 0.001, 0.01, 0.1}, off[] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05};
+  static const double up[] = {1e-12, 1e-6, 0.001, 0.01, 0.1},
+                      off[] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05};
   for (int k = 0; k < 30; k++) {
     const double aside = off[k % 6];
-    const carom_shot_ball balls[2] = {
-        flying(20.0, 20.0, R, 0.0, 0.0, 0.0),
-        flying(20.0 + aside, 20.0, R + sqrt(4.0 * R * R - aside * aside) + up[k / 6], 0.0, 0.0, 0.0)};
+    const carom_shot_ball balls[2] = {flying(20.0, 20.0, R, 0.0, 0.0, 0.0),
+                                      flying(20.0 + aside, 20.0,
+                                             R + sqrt(4.0 * R * R - aside * aside) + up[k / 6], 0.0,
+                                             0.0, 0.0)};
     const carom_table table = empty_table(40.0);
     const carom_shot shot = play(&table, balls, 2, NULL, NULL, CAROM_OK);
     const shot_measures m = shot_measure(&table, balls, 2, &shot, CAROM_OK, 3);
@@ -380,7 +407,8 @@ TEST(spheres) {
   random_source random = {test_seed()};
   double worst = 0.0, rise = -1.0;
   for (int n = 0; n < 20000; n++) {
-    carom_impact in = {.mu_ball = random_between(&random, 0.0, 1.0), .restitution = random_between(&random, 0.0, 1.0)};
+    carom_impact in = {.mu_ball = random_between(&random, 0.0, 1.0),
+                       .restitution = random_between(&random, 0.0, 1.0)};
     carom_ball *ball[2] = {&in.a, &in.b};
     for (int side = 0; side < 2; side++) {
       for (int k = 0; k < 3; k++) {
@@ -401,8 +429,10 @@ TEST(spheres) {
       for (int side = 0; side < 2; side++) {
         const double I = 0.4 * ball[side]->radius * ball[side]->radius;
         p += ball[side]->mass * (is[side]->v[k] - ball[side]->v[k]);
-        before += 0.5 * ball[side]->mass * (ball[side]->v[k] * ball[side]->v[k] + I * ball[side]->w[k] * ball[side]->w[k]);
-        after += 0.5 * ball[side]->mass * (is[side]->v[k] * is[side]->v[k] + I * is[side]->w[k] * is[side]->w[k]);
+        before += 0.5 * ball[side]->mass *
+                  (ball[side]->v[k] * ball[side]->v[k] + I * ball[side]->w[k] * ball[side]->w[k]);
+        after += 0.5 * ball[side]->mass *
+                 (is[side]->v[k] * is[side]->v[k] + I * is[side]->w[k] * is[side]->w[k]);
       }
       worst = fmax(worst, fabs(p));
     }
@@ -412,7 +442,8 @@ TEST(spheres) {
       for (int k = 0; k < 3; k++)
         parting += (out.b.v[k] - out.a.v[k]) * (in.b.r[k] - in.a.r[k]);
       ck_assert_double_ge(parting, -1e-12);
-      const carom_impact swapped = {.a = in.b, .b = in.a, .mu_ball = in.mu_ball, .restitution = in.restitution};
+      const carom_impact swapped = {
+          .a = in.b, .b = in.a, .mu_ball = in.mu_ball, .restitution = in.restitution};
       carom_impact3(&swapped, &back);
       for (int k = 0; k < 3; k++) {
         NEAR(back.a.v[k], out.b.v[k], 1e-13);
@@ -423,7 +454,8 @@ TEST(spheres) {
   printf("spheres: momentum within %.1e kg m/s, energy rises by %.1e at most\n", worst, rise);
   ck_assert_double_lt(worst, 1e-14);
   ck_assert_double_lt(rise, 1e-14);
-  carom_impact in = {.a = {.v = {1, 0, 0}, .radius = R, .mass = 1}, .b = {.r = {1, 0, 0}, .radius = R, .mass = 1}};
+  carom_impact in = {.a = {.v = {1, 0, 0}, .radius = R, .mass = 1},
+                     .b = {.r = {1, 0, 0}, .radius = R, .mass = 1}};
   carom_result out;
   ck_assert_int_eq(carom_impact3(NULL, &out), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_impact3(&in, NULL), CAROM_ERROR_NULL);

@@ -1,5 +1,5 @@
-/* Balls that fly, and the table: noses from any height, jaws, tops of rails, pockets, leaving the table. Numbers are for pool
- * balls and a nose at h = 36.576 mm, as in air.c. */
+/* Balls that fly, and the table: noses from any height, jaws, tops of rails, pockets, leaving
+ * the table. Numbers are for pool balls and a nose at h = 36.576 mm, as in air.c. */
 #include "shot_support.h"
 
 #include <math.h>
@@ -17,7 +17,8 @@ static double shift(void) {
 /* ---- Noses */
 
 TEST(nose_from_above) {
-  /* 0.2 m from the nose, level at 3 m/s and 40 mm above the cloth: the rail of the far side is at y = 40 */
+  /* 0.2 m from the nose, level at 3 m/s and 40 mm above the cloth: the rail of the far side is
+   * at y = 40 */
   const carom_table table = empty_table(40.0);
   carom_shot_ball ball = flying(20.0, 40.0 - shift() - 0.2, R + 0.04, 0.0, 3.0, 0.0);
   play(&table, &ball, 1, NULL, NULL, CAROM_OK);
@@ -42,17 +43,20 @@ TEST(nose_from_above) {
   NEAR(events[0].after[0].v[2] * events[0].after[0].v[2] / (2.0 * g), 0.2944, 1e-4);
 }
 
-/* Near the cloth the result goes over to that of a ball that lies on it, to the last bit at z = R; and energy never rises. */
+/* Near the cloth the result goes over to that of a ball that lies on it, to the last bit at z =
+ * R; and energy never rises. */
 TEST(near_the_cloth) {
   const carom_table table = empty_table(4.0);
-  static const int models[] = {CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN, CAROM_CUSHION_MIRROR};
+  static const int models[] = {CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN,
+                               CAROM_CUSHION_MIRROR};
   random_source random = {test_seed()};
   double worst = -1.0;
   for (int n = 0; n < 10000; n++) {
     const carom_shot_options options = {.cushion_model = (carom_shot_cushion)(1 + models[n % 4])};
     const double z = n % 3 == 0 ? R : R + random_between(&random, 0.0, 1.2e-3), up = h - z;
-    carom_shot_ball ball = flying(2.0, 4.0 - shift() - sqrt(R * R - up * up), z, random_between(&random, -3.0, 3.0),
-                                  random_between(&random, 0.2, 4.0), n % 3 == 0 ? 0.0 : random_between(&random, -0.5, 0.5));
+    carom_shot_ball ball = flying(
+        2.0, 4.0 - shift() - sqrt(R * R - up * up), z, random_between(&random, -3.0, 3.0),
+        random_between(&random, 0.2, 4.0), n % 3 == 0 ? 0.0 : random_between(&random, -0.5, 0.5));
     for (int k = 0; k < 3; k++)
       ball.state.w[k] = random_between(&random, -100.0, 100.0);
     ball.state.label = CAROM_BALL_AIRBORNE;
@@ -79,7 +83,8 @@ TEST(near_the_cloth) {
   double last = 0.0;
   for (int n = 0; n < 7; n++) { /* below 1e-6 m it lies */
     const double z = R + ldexp(1e-4, -n), up = h - z;
-    carom_shot_ball ball = flying(2.0, 4.0 - shift() - sqrt(R * R - up * up), z, 1.0, 2.0, 0.0), low = ball_at(2.0, 4.0 - R);
+    carom_shot_ball ball = flying(2.0, 4.0 - shift() - sqrt(R * R - up * up), z, 1.0, 2.0, 0.0),
+                    low = ball_at(2.0, 4.0 - R);
     low.state.v[0] = 1.0;
     low.state.v[1] = 2.0;
     play(&table, &low, 1, NULL, NULL, CAROM_OK);
@@ -98,14 +103,16 @@ typedef struct track {
   double r[3], v[3];
 } track;
 
-/* How far the surface of a flying ball is from a post with a round edge at height h, which is `radius` thick. */
+/* How far the surface of a flying ball is from a post with a round edge at height h, which is
+ * `radius` thick. */
 static double gap_of(const track *f, double x, double y, double radius, double t) {
   const double z = f->r[2] + t * (f->v[2] - 0.5 * g * t) - h;
   const double q = hypot(f->r[0] + t * f->v[0] - x, f->r[1] + t * f->v[1] - y) - radius;
   return (q >= 0.0 ? hypot(q, z) : z) - R;
 }
 
-/* Random flights at one post against samples of the gap and bisection: none is missed, none false, and the gap is 0 there. */
+/* Random flights at one post against samples of the gap and bisection: none is missed, none
+ * false, and the gap is 0 there. */
 TEST(posts) {
   enum { FLIGHTS = 100000, LOOKS = 800 };
   random_source random = {test_seed()};
@@ -113,11 +120,14 @@ TEST(posts) {
   int hits = 0, tops = 0;
   double worst = 0.0;
   for (int n = 0; n < FLIGHTS; n++) {
-    const double rho = n % 4 == 0 ? 0.0 : random_between(&random, 0.003, 0.12), radius = rho + shift();
+    const double rho = n % 4 == 0 ? 0.0 : random_between(&random, 0.003, 0.12),
+                 radius = rho + shift();
     table.jaws = 1;
     table.jaw[0] = (carom_jaw){.centre = {20.0, 20.0}, .radius = rho, .height = h};
-    const double far = radius + R + random_between(&random, 0.001, 0.3), way = random_between(&random, 0.0, 6.2832);
-    const double aim = way + 3.14159265 + random_between(&random, -1.0, 1.0) * asin((radius + R) / far),
+    const double far = radius + R + random_between(&random, 0.001, 0.3),
+                 way = random_between(&random, 0.0, 6.2832);
+    const double aim = way + 3.14159265 +
+                       random_between(&random, -1.0, 1.0) * asin((radius + R) / far),
                  speed = exp(random_between(&random, log(0.05), log(8.0)));
     track f = {{20.0 + far * cos(way), 20.0 + far * sin(way), random_between(&random, R, R + 0.15)},
                {speed * cos(aim), speed * sin(aim), random_between(&random, -2.0, 2.0)}};
@@ -139,18 +149,21 @@ TEST(posts) {
     carom_shot shot = {.events = events, .room = 1};
     carom_shoot(&table, &ball, 1, NULL, &one, &shot);
     const bool met = events[0].type == CAROM_EVENT_JAW || events[0].type == CAROM_EVENT_RAIL_TOP;
-    ck_assert_msg(met || events[0].type == CAROM_EVENT_SLATE, "flight %d: event %d", n, (int)events[0].type);
-    ck_assert_msg(met || first == INFINITY || T - first < 1e-9, "flight %d: the post was missed at %.17g s", n, first);
+    ck_assert_msg(met || events[0].type == CAROM_EVENT_SLATE, "flight %d: event %d", n,
+                  (int)events[0].type);
+    ck_assert_msg(met || first == INFINITY || T - first < 1e-9,
+                  "flight %d: the post was missed at %.17g s", n, first);
     if (!met)
       continue;
     const double gap = fabs(gap_of(&f, 20.0, 20.0, radius, events[0].time));
     worst = fmax(worst, gap);
-    ck_assert_msg(gap < 1e-12 && events[0].time <= first + 1e-9, "flight %d: gap %g at %.17g s, first %.17g", n, gap,
-                  events[0].time, first);
+    ck_assert_msg(gap < 1e-12 && events[0].time <= first + 1e-9,
+                  "flight %d: gap %g at %.17g s, first %.17g", n, gap, events[0].time, first);
     hits++;
     tops += events[0].type == CAROM_EVENT_RAIL_TOP;
   }
-  printf("posts: %d of %d flights meet them, %d on top, gap at most %.1e m\n", hits, FLIGHTS, tops, worst);
+  printf("posts: %d of %d flights meet them, %d on top, gap at most %.1e m\n", hits, FLIGHTS, tops,
+         worst);
   ck_assert_int_gt(hits, 1000);
   ck_assert_int_gt(tops, 100);
 }
@@ -162,21 +175,26 @@ TEST(grazed_posts) {
   table.jaws = 1;
   int told = 0;
   for (int n = 0; n < 3000; n++) {
-    const double way = random_between(&random, 0.0, 6.2832), speed = random_between(&random, 0.5, 6.0),
+    const double way = random_between(&random, 0.0, 6.2832),
+                 speed = random_between(&random, 0.5, 6.0),
                  off = random_between(&random, 0.03, 0.12);
-    track f = {
-        {20.0 + 0.3 * cos(way) - off * sin(way), 20.0 + 0.3 * sin(way) + off * cos(way), R + random_between(&random, 0.0, 0.1)},
-        {-speed * cos(way), -speed * sin(way), random_between(&random, 0.0, 2.0)}};
+    track f = {{20.0 + 0.3 * cos(way) - off * sin(way), 20.0 + 0.3 * sin(way) + off * cos(way),
+                R + random_between(&random, 0.0, 0.1)},
+               {-speed * cos(way), -speed * sin(way), random_between(&random, 0.0, 2.0)}};
     const double T = (f.v[2] + sqrt(f.v[2] * f.v[2] + 2.0 * g * (f.r[2] - R))) / g;
-    const double sign = n % 2 == 0 ? 1.0 : -1.0, graze = sign * R * pow(10.0, random_between(&random, -11.5, -3.0));
-    /* the radius of the post at which the least gap of the flight is `graze`, by bisection over a golden search for that gap */
+    const double sign = n % 2 == 0 ? 1.0 : -1.0,
+                 graze = sign * R * pow(10.0, random_between(&random, -11.5, -3.0));
+    /* the radius of the post at which the least gap of the flight is `graze`, by bisection over
+     * a golden search for that gap */
     double low = 0.0, high = 0.25, least = 0.0, at = 0.0;
     for (int half = 0; half < 70; half++) {
       const double radius = 0.5 * (low + high), ratio = 0.6180339887498949;
       double a = 0.0, b = T, c = b - ratio * (b - a), d = a + ratio * (b - a);
       /* a coarse look first, as the gap may have two valleys */
       for (int k = 0; k <= 60; k++)
-        if (gap_of(&f, 20.0, 20.0, radius, T * k / 60) < gap_of(&f, 20.0, 20.0, radius, 0.5 * (a + b)) || k == 0) {
+        if (gap_of(&f, 20.0, 20.0, radius, T * k / 60) <
+                gap_of(&f, 20.0, 20.0, radius, 0.5 * (a + b)) ||
+            k == 0) {
           a = fmax(0.0, T * (k - 1) / 60);
           b = fmin(T, T * (k + 1) / 60);
         }
@@ -192,7 +210,8 @@ TEST(grazed_posts) {
     }
     const double radius = 0.5 * (low + high);
     least = gap_of(&f, 20.0, 20.0, radius, at);
-    if (radius < shift() + 1e-4 || radius > 0.24 || at < 1e-6 || at > T - 1e-6 || fabs(least - graze) > 0.1 * fabs(graze))
+    if (radius < shift() + 1e-4 || radius > 0.24 || at < 1e-6 || at > T - 1e-6 ||
+        fabs(least - graze) > 0.1 * fabs(graze))
       continue;
     if (hypot(f.r[0] + at * f.v[0] - 20.0, f.r[1] + at * f.v[1] - 20.0) < radius)
       continue; /* over the top */
@@ -203,8 +222,8 @@ TEST(grazed_posts) {
     if (carom_shoot(&table, &ball, 1, NULL, &one, &shot) == CAROM_ERROR_OFF_TABLE)
       continue; /* it begins in the post */
     const bool met = events[0].type == CAROM_EVENT_JAW || events[0].type == CAROM_EVENT_RAIL_TOP;
-    ck_assert_msg(met == (least < 0.0), "flight %d, gap %g: event %d at %g, least gap at %g", n, least, (int)events[0].type,
-                  events[0].time, at);
+    ck_assert_msg(met == (least < 0.0), "flight %d, gap %g: event %d at %g, least gap at %g", n,
+                  least, (int)events[0].type, events[0].time, at);
     told++;
   }
   printf("grazed posts: %d told apart\n", told);
@@ -240,14 +259,15 @@ TEST(over_the_rail) {
   ck_assert_double_eq(top->before[0].r[2], h + R);
   ck_assert_int_eq(top->b, 2);
   ck_assert_double_gt(top->after[0].v[2], 0.0);
-  /* a ball that comes to lie on it has left the table, at the instant at which it does not hop any more */
+  /* a ball that comes to lie on it has left the table, at the instant at which it does not hop
+   * any more */
   const carom_shot_ball down = flying(20.0, 40.2, h + R + 0.01, 0.0, 0.0, 0.0);
   shot = play(&table, &down, 1, NULL, NULL, CAROM_OK);
   ck_assert_int_eq(events[shot.count - 2].type, CAROM_EVENT_RAIL_TOP);
   ck_assert_int_eq(events[shot.count - 1].type, CAROM_EVENT_LEFT_TABLE);
   ck_assert_double_eq(events[shot.count - 1].time, events[shot.count - 2].time);
-  /* over the nose, lower than the top by what counts as rounding, and on its way up: it falls on the top when its own flight
-   * takes it there; with hardly any speed it is on the top at once */
+  /* over the nose, lower than the top by what counts as rounding, and on its way up: it falls on
+   * the top when its own flight takes it there; with hardly any speed it is on the top at once */
   const double low = 4e-10, rise = 1.5e-3;
   const carom_shot_ball up = flying(20.0, 40.05, h + R - low, 0.0, 0.1, rise);
   shot = play(&table, &up, 1, NULL, NULL, CAROM_OK);
@@ -284,7 +304,8 @@ TEST(pockets) {
   carom_shot shot = play(&table, &ball, 1, NULL, NULL, CAROM_OK);
   ck_assert_int_eq(events[0].type, CAROM_EVENT_SLATE);
   ck_assert_double_gt(events[0].before[0].r[0], 2.06);
-  /* leaves below it, 1 mm lower than h: falls where it leaves the circle; a higher back, and a lower one */
+  /* leaves below it, 1 mm lower than h: falls where it leaves the circle; a higher back, and a
+   * lower one */
   t = 0.16 / v;
   ball = flying(1.9, 2.0, h - 0.001 + 0.5 * g * t * t, v, 0.0, 0.0);
   shot = play(&table, &ball, 1, NULL, NULL, CAROM_OK);

@@ -1,5 +1,6 @@
-/* Contacts that last: carom_cluster() against closed forms, against an integration of its own by the method of Runge and Kutta,
- * against one collision, and by its symmetries. The numbers are those of docs/understanding/clusters.md. */
+/* Contacts that last: carom_cluster() against closed forms, against an integration of its own by
+ * the method of Runge and Kutta, against one collision, and by its symmetries. The numbers are
+ * those of docs/understanding/clusters.md. */
 #include "cluster/cluster.h"
 #include "shot_support.h"
 
@@ -25,7 +26,8 @@ static carom_shot_options finely(int steps) {
 
 static void resolve(const layout *l, int steps) {
   const carom_shot_options options = finely(steps);
-  const carom_status status = carom_cluster(l->ball, l->count, &options, out, contacts, MOST_CONTACTS, &contacts_count);
+  const carom_status status =
+      carom_cluster(l->ball, l->count, &options, out, contacts, MOST_CONTACTS, &contacts_count);
   ck_assert_msg(status == CAROM_OK, "%s", carom_status_name(status));
 }
 
@@ -40,7 +42,8 @@ static void restitution(layout *l, double e) {
     l->ball[k].kind.restitution = e;
 }
 
-/* Rows of 1, 2, 3 and so on, apex at the origin, behind it +y; ball 0 touches the apex along the angle `aim` from +y. */
+/* Rows of 1, 2, 3 and so on, apex at the origin, behind it +y; ball 0 touches the apex along the
+ * angle `aim` from +y. */
 static layout rack(int game, double gap, double speed, double aim, random_source *random) {
   static const int rows[2][5] = {{1, 2, 3, 4, 5}, {1, 2, 3, 2, 1}};
   const double d = 2.0 * R + gap;
@@ -50,10 +53,12 @@ static layout rack(int game, double gap, double speed, double aim, random_source
     for (int i = 0; i < n; i++) {
       const double turn = gap > 0.0 ? random_between(random, 0.0, 2.0 * PI) : 0.0;
       const double away = gap > 0.0 ? random_between(random, 0.0, 0.25 * gap) : 0.0;
-      l.ball[l.count++] = ball_at((i - 0.5 * (n - 1)) * d + away * cos(turn), row * d * sqrt(0.75) + away * sin(turn));
+      l.ball[l.count++] = ball_at((i - 0.5 * (n - 1)) * d + away * cos(turn),
+                                  row * d * sqrt(0.75) + away * sin(turn));
     }
   }
-  l.ball[0] = ball_at(l.ball[1].state.r[0] - 2.0 * R * sin(aim), l.ball[1].state.r[1] - 2.0 * R * cos(aim));
+  l.ball[0] =
+      ball_at(l.ball[1].state.r[0] - 2.0 * R * sin(aim), l.ball[1].state.r[1] - 2.0 * R * cos(aim));
   l.ball[0].state.v[1] = speed;
   return l;
 }
@@ -82,7 +87,8 @@ static double energy(const layout *l, const carom_motion *m) {
   double sum = 0.0;
   for (int i = 0; i < l->count; i++)
     for (int k = 0; k < 3; k++)
-      sum += l->ball[i].kind.mass * (0.5 * m[i].v[k] * m[i].v[k] + 0.2 * R * R * m[i].w[k] * m[i].w[k]);
+      sum += l->ball[i].kind.mass *
+             (0.5 * m[i].v[k] * m[i].v[k] + 0.2 * R * R * m[i].w[k] * m[i].w[k]);
   return sum;
 }
 
@@ -104,7 +110,8 @@ static double error_of_one(int steps, double *mean) {
   enum { EACH = 1000 };
   for (int n = 0; n < EACH; n++) {
     layout l = {.count = 2};
-    const double turn = random_between(&random, 0.0, 2.0 * PI), e = random_between(&random, 0.85, 0.99);
+    const double turn = random_between(&random, 0.0, 2.0 * PI),
+                 e = random_between(&random, 0.85, 0.99);
     l.ball[0] = ball_at(0.0, 0.0);
     l.ball[1] = ball_at(2.0 * R * cos(turn), 2.0 * R * sin(turn));
     stir(&l, 6.0, &random);
@@ -141,16 +148,19 @@ static double error_of_one(int steps, double *mean) {
 }
 
 START_TEST(one_contact_is_a_collision) {
-  double mean_40, mean_160, worst = error_of_one(40, &mean_40), worst_160 = error_of_one(160, &mean_160);
-  printf("one contact beside carom_collide(): %.1e at most with 40 steps, %.1e with 160; mean %.1e, %.1e\n", worst, worst_160,
-         mean_40, mean_160);
+  double mean_40, mean_160, worst = error_of_one(40, &mean_40),
+                            worst_160 = error_of_one(160, &mean_160);
+  printf("one contact beside carom_collide(): %.1e at most with 40 steps, %.1e with 160; mean "
+         "%.1e, %.1e\n",
+         worst, worst_160, mean_40, mean_160);
   ck_assert_double_lt(worst, 5e-4);
   ck_assert_double_lt(worst_160, 1e-4);
   ck_assert_double_lt(mean_160, mean_40 / 8.0);
 }
 END_TEST
 
-/* The same in space: against the closed form of carom_impact3(), radii and masses unlike, any line of centres. */
+/* The same in space: against the closed form of carom_impact3(), radii and masses unlike, any
+ * line of centres. */
 START_TEST(one_contact_in_space) {
   random_source random = {test_seed()};
   static const int steps[2] = {20, 80};
@@ -183,7 +193,8 @@ START_TEST(one_contact_in_space) {
       carom_ball *b[2] = {&in.a, &in.b};
       for (int k = 0; k < 3; k++) {
         d[k] /= size;
-        l.ball[1].state.r[k] = l.ball[0].state.r[k] + (l.ball[0].kind.radius + l.ball[1].kind.radius) * d[k];
+        l.ball[1].state.r[k] =
+            l.ball[0].state.r[k] + (l.ball[0].kind.radius + l.ball[1].kind.radius) * d[k];
         closing += (l.ball[0].state.v[k] - l.ball[1].state.v[k]) * d[k];
       }
       for (int i = 0; i < 2; i++) {
@@ -202,7 +213,8 @@ START_TEST(one_contact_in_space) {
       mean += error / EACH;
       most = fmax(most, error);
     }
-    printf("one contact in space beside carom_impact3(), %d steps: mean %.1e, at most %.1e\n", steps[q], mean, most);
+    printf("one contact in space beside carom_impact3(), %d steps: mean %.1e, at most %.1e\n",
+           steps[q], mean, most);
     ck_assert_double_lt(most, bound[q]);
   }
 }
@@ -214,14 +226,16 @@ START_TEST(two_at_once) {
   static const double e[4] = {1.0, 0.95, 0.8, 0.5};
   for (int q = 0; q < 4; q++)
     for (int fine = 0; fine < 2; fine++) {
-      layout l = {.ball = {ball_at(0.0, -R * sqrt(3.0)), ball_at(-R, 0.0), ball_at(R, 0.0)}, .count = 3};
+      layout l = {.ball = {ball_at(0.0, -R * sqrt(3.0)), ball_at(-R, 0.0), ball_at(R, 0.0)},
+                  .count = 3};
       l.ball[0].state.v[1] = 1.0;
       polish(&l);
       restitution(&l, e[q]);
       resolve(&l, fine ? 300 : 30);
       const double bound = fine ? 2e-5 : 3e-4;
       ck_assert_double_eq_tol(out[0].v[1], 1.0 - 0.6 * (1.0 + e[q]), bound);
-      ck_assert_double_eq_tol(hypot(out[1].v[0], out[1].v[1]), (1.0 + e[q]) * sqrt(3.0) / 5.0, bound);
+      ck_assert_double_eq_tol(hypot(out[1].v[0], out[1].v[1]), (1.0 + e[q]) * sqrt(3.0) / 5.0,
+                              bound);
       ck_assert_double_eq_tol(out[1].v[0], -out[2].v[0], 1e-14);
     }
 }
@@ -229,9 +243,11 @@ END_TEST
 
 /* ---- 3, 4, 5: rows of balls */
 
-/* Hertz's forces in time for a row with e = 1, by the method of Runge and Kutta; mass and radius of the test's balls. */
+/* Hertz's forces in time for a row with e = 1, by the method of Runge and Kutta; mass and radius
+ * of the test's balls. */
 static void row_by_runge_kutta(int n, double v[]) {
-  const double K = 4.0 / 3.0 * 3.3e9 * sqrt(0.5 * R), m = carom_ball_kind_of(CAROM_GAME_POOL).mass, h = 1e-6;
+  const double K = 4.0 / 3.0 * 3.3e9 * sqrt(0.5 * R), m = carom_ball_kind_of(CAROM_GAME_POOL).mass,
+               h = 1e-6;
   double x[8] = {0.0};
   for (int k = 0; k < n; k++)
     v[k] = k == 0;
@@ -322,7 +338,8 @@ static void turn_back(carom_motion *m, int count, double angle) {
 
 static layout random_rack(int n, random_source *random) {
   const double gap = n % 4 < 2 ? 0.0 : random_between(random, 0.0, 2e-4);
-  layout l = rack(n & 1 ? 9 : 8, gap, random_between(random, 2.0, 10.0), random_between(random, -0.4, 0.4), random);
+  layout l = rack(n & 1 ? 9 : 8, gap, random_between(random, 2.0, 10.0),
+                  random_between(random, -0.4, 0.4), random);
   if (n % 3 == 0)
     stir(&l, 1.0, random);
   for (int k = 0; k < 3; k++)
@@ -397,7 +414,8 @@ START_TEST(symmetric_rack) {
 }
 END_TEST
 
-/* Momentum, without the cloth; energy, with and without friction; and the impulses are those that change the motion. */
+/* Momentum, without the cloth; energy, with and without friction; and the impulses are those
+ * that change the motion. */
 START_TEST(balances) {
   random_source random = {test_seed()};
   double momentum = 0.0, rise = -1.0, impulses = 0.0;
@@ -426,10 +444,12 @@ START_TEST(balances) {
         impulses = fmax(impulses, fabs(by_impulse[i][k] - out[i].v[k]));
       }
   }
-  printf("momentum %.1e m/s, energy rises by %.1e at most, impulses %.1e m/s\n", momentum, rise, impulses);
+  printf("momentum %.1e m/s, energy rises by %.1e at most, impulses %.1e m/s\n", momentum, rise,
+         impulses);
   ck_assert_double_lt(momentum, 1e-12);
   ck_assert_double_le(rise, 0.0);
-  ck_assert_double_lt(impulses, 4e-3); /* where e = 1 what the integrator adds is taken back from the motion */
+  ck_assert_double_lt(impulses, 4e-3); /* where e = 1 what the integrator adds is taken back from
+                                          the motion */
 }
 END_TEST
 
@@ -451,11 +471,13 @@ START_TEST(scaling) {
       out[i].v[k] /= 7.0;
       out[i].w[k] /= 7.0;
     }
-  ck_assert_double_lt(difference(first, out, slow.count, true), 2e-3); /* what closes at less than 1 mm/s is left */
+  /* what closes at less than 1 mm/s is left */
+  ck_assert_double_lt(difference(first, out, slow.count, true), 2e-3);
 
   /* three times the stiffness with gaps by 3^-0.4: the same but for the normals at the touch */
   random_source again = random;
-  layout soft = rack(9, 1e-4, 8.0, 0.1, &random), stiff = rack(9, 1e-4 * pow(3.0, -0.4), 8.0, 0.1, &again);
+  layout soft = rack(9, 1e-4, 8.0, 0.1, &random),
+         stiff = rack(9, 1e-4 * pow(3.0, -0.4), 8.0, 0.1, &again);
   for (int i = 0; i < stiff.count; i++)
     stiff.ball[i].kind.modulus = 3.0 * 6.6e9;
   resolve(&soft, 0);
@@ -480,11 +502,12 @@ START_TEST(break_of_a_rack) {
 }
 END_TEST
 
-/* Two frozen balls along y; the cue ball drives the first at an angle from the kiss line, x. Its path, as the part of the way
- * from the kiss line to the drive: "ten times fuller" says 0.1. */
+/* Two frozen balls along y; the cue ball drives the first at an angle from the kiss line, x. Its
+ * path, as the part of the way from the kiss line to the drive: "ten times fuller" says 0.1. */
 static double kiss(double angle, bool apart) {
   const double t = 0.5 * PI - angle, gap = apart ? 1e-4 : 0.0;
-  layout l = {.ball = {ball_at(-2.0 * R * sin(t), -2.0 * R * cos(t)), ball_at(0.0, 0.0), ball_at(0.0, 2.0 * R + gap)},
+  layout l = {.ball = {ball_at(-2.0 * R * sin(t), -2.0 * R * cos(t)), ball_at(0.0, 0.0),
+                       ball_at(0.0, 2.0 * R + gap)},
               .count = 3};
   l.ball[0].state.v[0] = 2.0 * sin(t);
   l.ball[0].state.v[1] = 2.0 * cos(t);
@@ -493,7 +516,8 @@ static double kiss(double angle, bool apart) {
 }
 
 START_TEST(frozen_kiss) {
-  static const double degrees[5] = {10.0, 30.0, 50.0, 70.0, 80.0}, known[5] = {0.050, 0.067, 0.082, 0.107, 0.117};
+  static const double degrees[5] = {10.0, 30.0, 50.0, 70.0, 80.0},
+                      known[5] = {0.050, 0.067, 0.082, 0.107, 0.117};
   for (int k = 0; k < 5; k++)
     ck_assert_double_eq_tol(kiss(degrees[k] * PI / 180.0, false), known[k], 2e-3);
   ck_assert_double_eq_tol(kiss(PI / 3.0, false), 0.092, 2e-3);
@@ -545,7 +569,8 @@ START_TEST(default_steps) {
       mean += error / each;
       worst = fmax(worst, error);
     }
-    printf("%s: 25 steps beside 400, v over the speed of the cue ball: mean %.1e, worst %.1e\n", name[kind], mean, worst);
+    printf("%s: 25 steps beside 400, v over the speed of the cue ball: mean %.1e, worst %.1e\n",
+           name[kind], mean, worst);
     ck_assert_double_lt(mean, mean_most[kind]);
     ck_assert_double_lt(worst, worst_most[kind]);
   }
@@ -557,7 +582,8 @@ END_TEST
 START_TEST(ball_on_three) {
   layout l = {.count = 4};
   for (int k = 0; k < 3; k++)
-    l.ball[k] = ball_at(2.0 * R / sqrt(3.0) * cos(2.0 / 3.0 * PI * k), 2.0 * R / sqrt(3.0) * sin(2.0 / 3.0 * PI * k));
+    l.ball[k] = ball_at(2.0 * R / sqrt(3.0) * cos(2.0 / 3.0 * PI * k),
+                        2.0 * R / sqrt(3.0) * sin(2.0 / 3.0 * PI * k));
   l.ball[3] = ball_at(0.0, 0.0);
   l.ball[3].state.r[2] = R + 2.0 * R * sqrt(2.0 / 3.0);
   l.ball[3].state.v[2] = -2.0;
@@ -603,19 +629,22 @@ START_TEST(crowds) {
         const double speed = pow(10.0, random_between(&random, -2.0, 1.2));
         layout l = crowd(kind, speed, &random);
         restitution(&l, e[q]);
-        const carom_status status = carom_cluster(l.ball, l.count, NULL, out, contacts, MOST_CONTACTS, &contacts_count);
+        const carom_status status =
+            carom_cluster(l.ball, l.count, NULL, out, contacts, MOST_CONTACTS, &contacts_count);
         if (status == CAROM_ERROR_UNRESOLVED && e[q] <= 0.2) {
           unresolved++;
           continue;
         }
-        ck_assert_msg(status >= 0, "%s, e %g, kind %d, speed %g", carom_status_name(status), e[q], kind, speed);
+        ck_assert_msg(status >= 0, "%s, e %g, kind %d, speed %g", carom_status_name(status), e[q],
+                      kind, speed);
         ck_assert_double_le(energy(&l, out), energy_before(&l) * (1.0 + 1e-15));
         for (int k = 0; k < contacts_count; k++) {
           const carom_cluster_contact *c = &contacts[k];
           double closing = 0.0;
           for (int z = 0; z < 3; z++)
             closing += (out[c->a].v[z] - out[c->b].v[z]) * c->normal[z];
-          ck_assert_msg(closing <= 1.001e-3, "still closes at %g m/s, e %g, kind %d, speed %g", closing, e[q], kind, speed);
+          ck_assert_msg(closing <= 1.001e-3, "still closes at %g m/s, e %g, kind %d, speed %g",
+                        closing, e[q], kind, speed);
         }
       }
   printf("%d of %d crowds take too many steps\n", unresolved, 3 * 4 * FEWER(30));
@@ -632,8 +661,9 @@ START_TEST(gap_has_no_step) {
     static double v[STEPS][3][2];
     for (int k = 0; k < STEPS; k++) {
       const double d = 2.0 * R + 2.5e-3 * k / STEPS;
-      carom_shot_ball b[3] = {ball_at(2.0 - 2.0 * R * sin(aim[kind]), 2.0 - 2.0 * R * cos(aim[kind])), ball_at(2.0, 2.0),
-                              ball_at(2.0 + d * sin(behind[kind]), 2.0 + d * cos(behind[kind]))};
+      carom_shot_ball b[3] = {
+          ball_at(2.0 - 2.0 * R * sin(aim[kind]), 2.0 - 2.0 * R * cos(aim[kind])),
+          ball_at(2.0, 2.0), ball_at(2.0 + d * sin(behind[kind]), 2.0 + d * cos(behind[kind]))};
       b[0].state.v[1] = 4.0;
       b[0].state.w[2] = 30.0;
       const carom_shot_options options = {.time_most = 0.01, .cluster_steps = 60};
@@ -646,7 +676,8 @@ START_TEST(gap_has_no_step) {
     for (int k = 1; k + 2 < STEPS; k++)
       for (int i = 0; i < 3; i++)
         for (int axis = 0; axis < 2; axis++) {
-          const double step = v[k + 1][i][axis] - v[k][i][axis], before = v[k][i][axis] - v[k - 1][i][axis],
+          const double step = v[k + 1][i][axis] - v[k][i][axis],
+                       before = v[k][i][axis] - v[k - 1][i][axis],
                        after = v[k + 2][i][axis] - v[k + 1][i][axis];
           worst = fmax(worst, fabs(step - 0.5 * (before + after)) / 4.0);
         }
@@ -660,7 +691,8 @@ END_TEST
 
 START_TEST(arguments) {
   layout l = row(3, 0.95);
-  const carom_shot_options pairs = {.ball_model = CAROM_BALL_MODEL_EULER}, flat = {.space = CAROM_SPACE_FLAT},
+  const carom_shot_options pairs = {.ball_model = CAROM_BALL_MODEL_EULER},
+                           flat = {.space = CAROM_SPACE_FLAT},
                            elsewhere = {.world = CAROM_WORLD_POOLTOOL};
   ck_assert_int_eq(carom_cluster(NULL, 3, NULL, out, NULL, 0, NULL), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_cluster(l.ball, 3, NULL, NULL, NULL, 0, NULL), CAROM_ERROR_NULL);
@@ -690,7 +722,8 @@ START_TEST(arguments) {
 END_TEST
 
 int main(void) {
-  return RUN_TESTS("cluster", one_contact_is_a_collision, one_contact_in_space, two_at_once, rows_of_balls, symmetries,
-                   symmetric_rack, balances, scaling, break_of_a_rack, frozen_kiss, wing_ball_from_the_side, default_steps,
-                   ball_on_three, crowds, gap_has_no_step, arguments);
+  return RUN_TESTS("cluster", one_contact_is_a_collision, one_contact_in_space, two_at_once,
+                   rows_of_balls, symmetries, symmetric_rack, balances, scaling, break_of_a_rack,
+                   frozen_kiss, wing_ball_from_the_side, default_steps, ball_on_three, crowds,
+                   gap_has_no_step, arguments);
 }

@@ -1,4 +1,5 @@
-/* Invariants of the impact on a cushion: energy, mirror and rotation, closed forms, smooth sweeps, batches, traces. */
+/* Invariants of the impact on a cushion: energy, mirror and rotation, closed forms, smooth
+ * sweeps, batches, traces. */
 #include "carom_tangent.h"
 #include "cushion/models.h"
 #include "draws.h"
@@ -10,8 +11,9 @@
 #include <string.h>
 
 enum { DRAWN = 2000, SWEPT = 60 };
-static const carom_cushion_model models[] = {CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN,
-                                             CAROM_CUSHION_MIRROR,   CAROM_CUSHION_EULER,   CAROM_CUSHION_SMOOTH};
+static const carom_cushion_model models[] = {CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_STRONGE,
+                                             CAROM_CUSHION_HAN,      CAROM_CUSHION_MIRROR,
+                                             CAROM_CUSHION_EULER,    CAROM_CUSHION_SMOOTH};
 enum { MODELS = sizeof models / sizeof models[0] };
 
 /* Twice the kinetic energy, over the mass. */
@@ -30,7 +32,8 @@ TEST(energy_never_rises) {
       const carom_cushion_options options = {.model = models[m], .steps = 200};
       carom_motion out;
       const carom_status status = carom_cushion(&in, &options, &out);
-      if (models[m] == CAROM_CUSHION_EULER && status == CAROM_ERROR_TOO_SLOW) /* a wedged ball is never done */
+      /* a wedged ball is never done */
+      if (models[m] == CAROM_CUSHION_EULER && status == CAROM_ERROR_TOO_SLOW)
         continue;
       if (models[m] == CAROM_CUSHION_MATHAVAN && status == CAROM_ERROR_UNRESOLVED) {
         unresolved++; /* one of 10,000 */
@@ -39,12 +42,14 @@ TEST(energy_never_rises) {
       ck_assert_int_eq(status, CAROM_OK);
       const double before = energy(in.v, in.w, in.radius), after = energy(out.v, out.w, in.radius);
       const double slack = models[m] == CAROM_CUSHION_EULER ? 1e-2 : 1e-9;
-      ck_assert_msg(after <= before * (1 + slack), "model %d, impact %d: %.17g becomes %.17g", m, (int)k, before, after);
+      ck_assert_msg(after <= before * (1 + slack), "model %d, impact %d: %.17g becomes %.17g", m,
+                    (int)k, before, after);
     }
   ck_assert_int_le(unresolved, 4);
 }
 
-/* The other way along the cushion: v_x, w_y and w_z change sign, and the result does likewise, to the last bit. */
+/* The other way along the cushion: v_x, w_y and w_z change sign, and the result does likewise,
+ * to the last bit. */
 TEST(mirror_symmetry) {
   for (uint64_t k = 0; k < DRAWN; k++)
     for (int m = 0; m < MODELS; m++) {
@@ -65,7 +70,8 @@ TEST(mirror_symmetry) {
       other.w[1] *= -1;
       other.w[2] *= -1;
       for (int c = 0; c < 6; c++) /* as numbers, since 0 and -0 are one here */
-        ck_assert_msg(((double *)&out)[c] == ((double *)&other)[c], "model %d, impact %d, number %d", m, (int)k, c);
+        ck_assert_msg(((double *)&out)[c] == ((double *)&other)[c],
+                      "model %d, impact %d, number %d", m, (int)k, c);
     }
 }
 
@@ -83,8 +89,9 @@ TEST(rotation_changes_nothing) {
     carom_motion out, other, back;
     ck_assert_int_eq(carom_cushion(&in, NULL, &out), CAROM_OK);
     ck_assert_int_eq(carom_cushion(&turned, NULL, &other), CAROM_OK);
-    back = (carom_motion){{c * other.v[0] + s * other.v[1], c * other.v[1] - s * other.v[0], 0},
-                          {c * other.w[0] + s * other.w[1], c * other.w[1] - s * other.w[0], other.w[2]}};
+    back = (carom_motion){
+        {c * other.v[0] + s * other.v[1], c * other.v[1] - s * other.v[0], 0},
+        {c * other.w[0] + s * other.w[1], c * other.w[1] - s * other.w[0], other.w[2]}};
     ck_assert_msg(cushion_distance(&in, &out, &back) < 1e-9, "impact %d", (int)k);
   }
 }
@@ -102,7 +109,8 @@ static carom_cushion_impact usual(void) {
                                 .restitution = 0.98};
 }
 
-/* Without friction only the speed into the nose changes: v_y becomes v_y (1 - (1 + e) cos^2), as nothing lifts the ball. */
+/* Without friction only the speed into the nose changes: v_y becomes v_y (1 - (1 + e) cos^2), as
+ * nothing lifts the ball. */
 TEST(closed_forms) {
   for (int k = 0; k <= 10; k++) {
     carom_cushion_impact in = usual();
@@ -110,8 +118,10 @@ TEST(closed_forms) {
     carom_motion out;
     in.mu_cloth = in.mu_cushion = 0;
     in.restitution = k / 10.0;
-    const carom_cushion_options han = {.model = CAROM_CUSHION_HAN}, mirror = {.model = CAROM_CUSHION_MIRROR};
-    /* the ball cannot leave the cloth, so the work is done by v_y alone and its rebound is -e v_y */
+    const carom_cushion_options han = {.model = CAROM_CUSHION_HAN},
+                                mirror = {.model = CAROM_CUSHION_MIRROR};
+    /* the ball cannot leave the cloth, so the work is done by v_y alone and its rebound is -e
+     * v_y */
     ck_assert_int_eq(carom_cushion(&in, NULL, &out), CAROM_OK);
     ck_assert_double_eq_tol(out.v[1], -in.restitution * in.v[1], 1e-12);
     ck_assert_double_eq_tol(out.v[0], in.v[0], 1e-14);
@@ -153,16 +163,18 @@ static const carom_cushion_options nearly_han = {
 TEST(smooth_has_the_limit_of_han) {
   const carom_cushion_options han = {.model = CAROM_CUSHION_HAN};
   for (uint64_t k = 0; k < DRAWN; k++) {
-    const carom_cushion_impact in = draw_cushion(k % 2 == 0 ? CUSHION_ANY : CUSHION_PLAY, test_seed(), k);
+    const carom_cushion_impact in =
+        draw_cushion(k % 2 == 0 ? CUSHION_ANY : CUSHION_PLAY, test_seed(), k);
     carom_motion a, b;
     ck_assert_int_eq(carom_cushion(&in, &nearly_han, &a), CAROM_OK);
     ck_assert_int_eq(carom_cushion(&in, &han, &b), CAROM_OK);
-    ck_assert_msg(cushion_distance(&in, &a, &b) < 1e-9, "impact %d: %g", (int)k, cushion_distance(&in, &a, &b));
+    ck_assert_msg(cushion_distance(&in, &a, &b) < 1e-9, "impact %d: %g", (int)k,
+                  cushion_distance(&in, &a, &b));
   }
 }
 
-/* By all constants that are accepted, most of them at an end of their range: energy does not rise, and the impulse is one that
- * acts at the nose, so the angular momentum about it stays. */
+/* By all constants that are accepted, most of them at an end of their range: energy does not
+ * rise, and the impulse is one that acts at the nose, so the angular momentum about it stays. */
 TEST(smooth_keeps_the_laws) {
   random_source r = {test_seed()};
   for (uint64_t k = 0; k < 50 * DRAWN; k++) {
@@ -185,9 +197,12 @@ TEST(smooth_keeps_the_laws) {
     carom_motion out;
     ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_OK);
     const double R = in.radius, before = energy(in.v, in.w, R), after = energy(out.v, out.w, R);
-    ck_assert_msg(after <= before * (1 + 1e-12), "impact %d: %.17g becomes %.17g", (int)k, before, after);
-    const double sine = in.height / R - 1, cosine = sqrt((1 - sine) * (1 + sine)), slack = 1e-12 * sqrt(before);
-    const double f_x = out.v[0] - in.v[0], W_y = R * (out.w[1] - in.w[1]), W_z = R * (out.w[2] - in.w[2]);
+    ck_assert_msg(after <= before * (1 + 1e-12), "impact %d: %.17g becomes %.17g", (int)k, before,
+                  after);
+    const double sine = in.height / R - 1, cosine = sqrt((1 - sine) * (1 + sine)),
+                 slack = 1e-12 * sqrt(before);
+    const double f_x = out.v[0] - in.v[0], W_y = R * (out.w[1] - in.w[1]),
+                 W_z = R * (out.w[2] - in.w[2]);
     ck_assert_double_eq_tol(W_y, 2.5 * sine * f_x, slack);
     ck_assert_double_eq_tol(W_z, -2.5 * cosine * f_x, slack);
   }
@@ -211,7 +226,8 @@ static double slope_change(const carom_cushion_options *options, double w_z, dou
 
 /* Where Han's derivative by the side spin jumps, that of the smooth law goes on. */
 TEST(smooth_has_no_corner) {
-  const carom_cushion_options han = {.model = CAROM_CUSHION_HAN}, smooth = {.model = CAROM_CUSHION_SMOOTH};
+  const carom_cushion_options han = {.model = CAROM_CUSHION_HAN},
+                              smooth = {.model = CAROM_CUSHION_SMOOTH};
   double han_most = 0, smooth_most = 0;
   for (double w_z = -100; w_z < 150; w_z += 0.01) {
     han_most = fmax(han_most, slope_change(&han, w_z, 0.01));
@@ -223,10 +239,12 @@ TEST(smooth_has_no_corner) {
 
 /* Its derivatives by each input, against differences. */
 TEST(smooth_derivatives) {
-  static const double step[15] = {1e-6, 1e-6, 0, 1e-5, 1e-5, 1e-5, 0, 0, 1e-8, 1e-8, 0, 0, 1e-6, 1e-6, 0};
+  static const double step[15] = {1e-6, 1e-6, 0, 1e-5, 1e-5, 1e-5, 0, 0,
+                                  1e-8, 1e-8, 0, 0,    1e-6, 1e-6, 0};
   for (uint64_t n = 0; n < 200; n++) {
     const carom_cushion_impact in = draw_cushion(CUSHION_PLAY, test_seed(), n);
-    const carom_cushion_options options = {.model = CAROM_CUSHION_SMOOTH, .restitution_log = -0.03, .mu_log = -0.02};
+    const carom_cushion_options options = {
+        .model = CAROM_CUSHION_SMOOTH, .restitution_log = -0.03, .mu_log = -0.02};
     for (int k = 0; k < 15; k++) {
       if (step[k] == 0)
         continue;
@@ -244,8 +262,9 @@ TEST(smooth_derivatives) {
         size = fmax(size, fabs(slope[c]));
       for (int c = 0; c < 6; c++) {
         const double differences = (((double *)&high)[c] - ((double *)&low)[c]) / (2 * step[k]);
-        ck_assert_msg(fabs(slope[c] - differences) <= 1e-4 * size, "impact %d, number %d by %d: %g, not %g", (int)n, c, k,
-                      slope[c], differences);
+        ck_assert_msg(fabs(slope[c] - differences) <= 1e-4 * size,
+                      "impact %d, number %d by %d: %g, not %g", (int)n, c, k, slope[c],
+                      differences);
       }
     }
   }
@@ -265,14 +284,15 @@ TEST(separating_is_unchanged) {
       double seeds[15][15] = {{0}}, tangent[6][15];
       for (int k = 0; k < 15; k++)
         seeds[k][k] = k + 1;
-      ck_assert_int_eq(carom_cushion_tangent(&in, &options, 15, seeds[0], tangent[0], NULL), CAROM_SEPARATING);
+      ck_assert_int_eq(carom_cushion_tangent(&in, &options, 15, seeds[0], tangent[0], NULL),
+                       CAROM_SEPARATING);
       ck_assert_mem_eq(tangent, seeds, sizeof tangent);
     }
   }
 }
 
-/* The slip after an impact on a nose of two springs, over the approach, by small steps in time: the force of the spring along
- * the nose is at most mu times that of the spring across it. */
+/* The slip after an impact on a nose of two springs, over the approach, by small steps in time:
+ * the force of the spring along the nose is at most mu times that of the spring across it. */
 static double slip_by_steps(double rho, double mu, double e, double ratio) {
   const int steps = 20000;
   const double half = acos(0.0), per = half * (1 + e) / steps, softness = 3.5 / (ratio * ratio);
@@ -280,7 +300,8 @@ static double slip_by_steps(double rho, double mu, double e, double ratio) {
   int way = rho > mu * softness; /* 0: sticks */
   for (int k = 0; k < steps; k++) {
     const double tau = (k + 0.5) * per, phase = tau <= half ? tau : half + (tau - half) / e;
-    const double most = softness * mu * sin(phase), rate = softness * mu * cos(phase) / (tau <= half ? 1 : e);
+    const double most = softness * mu * sin(phase),
+                 rate = softness * mu * cos(phase) / (tau <= half ? 1 : e);
     if (way != 0 && way * (slip - way * rate) <= 0)
       way = 0;
     if (way == 0) {
@@ -296,17 +317,22 @@ static double slip_by_steps(double rho, double mu, double e, double ratio) {
 
 TEST(stronge_is_two_springs) {
   for (int k = 0; k < 400; k++) {
-    const double mu = (const double[]){0.1, 0.3, 0.8, 1}[k % 4], e = (const double[]){0.5, 0.7, 0.85, 1, 0.95}[k / 4 % 5],
-                 ratio = (const double[]){1.7, 1.8, 1.9, 2}[k / 20 % 4], rho = mu * (const double[]){0.3, 1, 1.5, 3, 6}[k / 80];
-    const double slip = rho - 3.5 * carom_stronge_friction(1, rho, mu, e, ratio, 0), stepped = slip_by_steps(rho, mu, e, ratio);
-    ck_assert_msg(fabs(slip - stepped) < 2e-3 * rho, "mu %g, e %g, ratio %g, rho %g: %g, not %g", mu, e, ratio, rho, slip,
-                  stepped);
+    const double mu = (const double[]){0.1, 0.3, 0.8, 1}[k % 4],
+                 e = (const double[]){0.5, 0.7, 0.85, 1, 0.95}[k / 4 % 5],
+                 ratio = (const double[]){1.7, 1.8, 1.9, 2}[k / 20 % 4],
+                 rho = mu * (const double[]){0.3, 1, 1.5, 3, 6}[k / 80];
+    const double slip = rho - 3.5 * carom_stronge_friction(1, rho, mu, e, ratio, 0),
+                 stepped = slip_by_steps(rho, mu, e, ratio);
+    ck_assert_msg(fabs(slip - stepped) < 2e-3 * rho, "mu %g, e %g, ratio %g, rho %g: %g, not %g",
+                  mu, e, ratio, rho, slip, stepped);
   }
 }
 
-/* Without friction a ball slips to the end, and the impulse of friction is proportional to the first bit of it. */
+/* Without friction a ball slips to the end, and the impulse of friction is proportional to the
+ * first bit of it. */
 TEST(a_smooth_nose_has_a_derivative_by_friction) {
-  static const carom_cushion_model closed[] = {CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN, CAROM_CUSHION_SMOOTH};
+  static const carom_cushion_model closed[] = {CAROM_CUSHION_STRONGE, CAROM_CUSHION_HAN,
+                                               CAROM_CUSHION_SMOOTH};
   for (int m = 0; m < 3; m++) {
     carom_cushion_impact in = usual();
     const carom_cushion_options options = {.model = closed[m]};
@@ -334,8 +360,8 @@ static carom_motion swept(int field, double value) {
   return out;
 }
 
-/* How far the results at two values of an input are apart once the interval has been halved, towards the larger difference,
- * until it is too short for anything but a jump. */
+/* How far the results at two values of an input are apart once the interval has been halved,
+ * towards the larger difference, until it is too short for anything but a jump. */
 static double jump_between(int field, double low, double high) {
   const carom_cushion_impact in = usual();
   carom_motion a = swept(field, low), b = swept(field, high);
@@ -380,14 +406,18 @@ TEST(batches_are_single_calls) {
     }
     static const int threads[] = {0, 1, 3, 7, CAROM_ALL_THREADS};
     for (int t = 0; t < 5; t++) {
-      const carom_cushion_options options = {.model = models[m], .steps = 50, .threads = threads[t]};
+      const carom_cushion_options options = {
+          .model = models[m], .steps = 50, .threads = threads[t]};
       memset(out, 0, sizeof out);
       const carom_status first = carom_cushion_batch(in, 1000, &options, out, status);
       ck_assert_int_lt(first, 0);
       ck_assert_mem_eq(out, alone, sizeof out);
       ck_assert_mem_eq(status, expected, sizeof status);
       /* without statuses the first error is returned, of rows 0 to 2 seldom one */
-      const int8_t error = expected[0] < 0 ? expected[0] : expected[1] < 0 ? expected[1] : expected[2] < 0 ? expected[2] : 0;
+      const int8_t error = expected[0] < 0   ? expected[0]
+                           : expected[1] < 0 ? expected[1]
+                           : expected[2] < 0 ? expected[2]
+                                             : 0;
       ck_assert_int_eq(carom_cushion_batch(in, 3, &options, out, NULL), error);
     }
   }
@@ -399,31 +429,37 @@ TEST(traces_end_where_calls_do) {
   for (uint64_t k = 0; k < 100; k++)
     for (int m = 0; m < 2; m++) {
       const carom_cushion_impact in = draw_cushion(CUSHION_PLAY, test_seed(), k);
-      const double logs = k % 2 == 0 ? 0.0 : 0.05; /* restitution and friction that change with the speed, too */
-      const carom_cushion_options options = {.model = traced[m], .restitution_log = -logs, .mu_log = -logs};
+      /* restitution and friction that change with the speed, too */
+      const double logs = k % 2 == 0 ? 0.0 : 0.05;
+      const carom_cushion_options options = {
+          .model = traced[m], .restitution_log = -logs, .mu_log = -logs};
       carom_cushion_point point[POINTS];
       carom_motion out;
       ck_assert_int_eq(carom_cushion(&in, &options, &out), CAROM_OK);
       ck_assert_int_eq(carom_cushion_trace(&in, &options, POINTS, point), CAROM_OK);
-      ck_assert_msg(cushion_distance(&in, &point[POINTS - 1].state, &out) < 1e-6, "impact %d", (int)k);
+      ck_assert_msg(cushion_distance(&in, &point[POINTS - 1].state, &out) < 1e-6, "impact %d",
+                    (int)k);
       double work_c = 0;
       for (int j = 1; j < POINTS; j++) {
         ck_assert_double_gt(point[j].normal, point[j - 1].normal);
         ck_assert_double_ge(point[j].work, point[j - 1].work - 1e-12);
         ck_assert_int_ge(point[j].phase, point[j - 1].phase);
         if (m == 0)
-          ck_assert_msg((point[j].phase == CAROM_PHASE_RESTITUTION) == (point[j].v_n <= 1e-9), "impact %d, point %d", (int)k,
-                        j);
+          ck_assert_msg((point[j].phase == CAROM_PHASE_RESTITUTION) == (point[j].v_n <= 1e-9),
+                        "impact %d, point %d", (int)k, j);
         work_c = point[j].phase == CAROM_PHASE_COMPRESSION ? point[j].work : work_c;
       }
       const double all = point[POINTS - 1].work / (1 + in.restitution * in.restitution);
-      ck_assert_msg(logs != 0.0 || (work_c <= all * 1.02 && work_c >= 0.95 * all), "impact %d: %g of %g", (int)k, work_c, all);
+      ck_assert_msg(logs != 0.0 || (work_c <= all * 1.02 && work_c >= 0.95 * all),
+                    "impact %d: %g of %g", (int)k, work_c, all);
     }
 }
 
-/* Along the cushion's axes, which are the table's here: the state, and the slips that it has by its geometry. */
+/* Along the cushion's axes, which are the table's here: the state, and the slips that it has by
+ * its geometry. */
 static void expect_point(const carom_cushion_impact *in, const carom_cushion_point *p) {
-  const double R = in->radius, sine = in->height / R - 1, cosine = sqrt(1 - sine * sine), *v = p->state.v, *w = p->state.w;
+  const double R = in->radius, sine = in->height / R - 1, cosine = sqrt(1 - sine * sine),
+               *v = p->state.v, *w = p->state.w;
   const double s_x = v[0] + R * (w[1] * sine - w[2] * cosine), s_t = R * w[0] - v[1] * sine;
   const double c_x = v[0] - R * w[1], c_y = v[1] + R * w[0];
   ck_assert_double_eq_tol(p->v_n, v[1] * cosine, 1e-9);
@@ -436,7 +472,8 @@ static void expect_point(const carom_cushion_impact *in, const carom_cushion_poi
   ck_assert(!p->cloth_sticks || (p->c_x == 0.0 && p->c_y == 0.0));
 }
 
-/* The first point is the motion before, and every point is told alike in its state and its slips. */
+/* The first point is the motion before, and every point is told alike in its state and its
+ * slips. */
 TEST(traces_tell_every_point) {
   enum { POINTS = 41 };
   static const carom_cushion_model traced[] = {CAROM_CUSHION_MATHAVAN, CAROM_CUSHION_EULER};
@@ -455,7 +492,8 @@ TEST(traces_tell_every_point) {
       const carom_cushion_options options = {.model = traced[m]};
       carom_cushion_point point[POINTS];
       const carom_status status = carom_cushion_trace(&in, &options, POINTS, point);
-      if (m == 1 && status == CAROM_ERROR_TOO_SLOW) /* a wedged ball is never done by Euler's method */
+      /* a wedged ball is never done by Euler's method */
+      if (m == 1 && status == CAROM_ERROR_TOO_SLOW)
         continue;
       ck_assert_int_eq(status, CAROM_OK);
       ck_assert(point[0].normal == 0.0 && point[0].work == 0.0);

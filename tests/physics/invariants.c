@@ -1,13 +1,17 @@
 /* What must hold for any collision, without a reference.
  *
- * Balance. With C = 5/(2 M R) of each ball and Δ the change over the collision, whatever friction does,
+ * Balance. With C = 5/(2 M R) of each ball and Δ the change over the collision, whatever
+ * friction does,
  *
- *     M_i Δv_ix + M_j Δv_jx + Δw_iy/C_i + Δw_jy/C_j = 0        (the cloth's impulse along x turns the pressed ball about y)
- *     M_i Δv_iy + M_j Δv_jy = ± (Δw_ix/C_i - Δw_jx/C_j)        (+ if only ball i feels the cloth, - if only j does)
+ *     M_i Δv_ix + M_j Δv_jx + Δw_iy/C_i + Δw_jy/C_j = 0        (the cloth's impulse along x
+ *                                                              turns the pressed ball about y)
+ *     M_i Δv_iy + M_j Δv_jy = ± (Δw_ix/C_i - Δw_jx/C_j)        (+ if only ball i feels the
+ *                                                              cloth, - if only j does)
  *     Δw_iz/C_i = Δw_jz/C_j
  *
- * Every solver is held to all of it. Energy never rises with the paper's slip. Turning the scene by a quarter turn, mirroring
- * it and swapping the balls permute and negate numbers exactly, so the results must agree in every bit; another angle rounds.
+ * Every solver is held to all of it. Energy never rises with the paper's slip. Turning the scene
+ * by a quarter turn, mirroring it and swapping the balls permute and negate numbers exactly, so
+ * the results must agree in every bit; another angle rounds.
  */
 #include "ball_ball/frame.h"
 #include "support.h"
@@ -55,9 +59,10 @@ static void expect_balance(const carom_impact *in, carom_slip slip) {
   const carom_frame frame = carom_frame_of(in);
   const carom_local b = carom_to_frame(&frame, in, slip), e = carom_to_frame(&frame, &end, slip);
   const double C_i = 5.0 / (2.0 * b.M_i * b.R), C_j = 5.0 / (2.0 * b.M_j * b.R);
-  const double scale = (b.M_i + b.M_j) * (fabs(b.v_iy) + fabs(b.v_jy) + fabs(b.v_ix) + fabs(b.v_jx));
-  const double along_x =
-      b.M_i * (e.v_ix - b.v_ix) + b.M_j * (e.v_jx - b.v_jx) + (e.w_iy - b.w_iy) / C_i + (e.w_jy - b.w_jy) / C_j;
+  const double scale =
+      (b.M_i + b.M_j) * (fabs(b.v_iy) + fabs(b.v_jy) + fabs(b.v_ix) + fabs(b.v_jx));
+  const double along_x = b.M_i * (e.v_ix - b.v_ix) + b.M_j * (e.v_jx - b.v_jx) +
+                         (e.w_iy - b.w_iy) / C_i + (e.w_jy - b.w_jy) / C_j;
   const double along_y = b.M_i * (e.v_iy - b.v_iy) + b.M_j * (e.v_jy - b.v_jy);
   const double about_x = (e.w_ix - b.w_ix) / C_i - (e.w_jx - b.w_jx) / C_j;
   const double about_z = (e.w_iz - b.w_iz) / C_i - (e.w_jz - b.w_jz) / C_j;
@@ -103,7 +108,8 @@ TEST(energy_never_rises) {
         unequal_masses(&source, &in);
       const carom_result out = collide(&in, CAROM_SLIP_PAPER);
       const carom_impact end = after(&in, &out);
-      const double before = energy_of(&in.a) + energy_of(&in.b), now = energy_of(&end.a) + energy_of(&end.b);
+      const double before = energy_of(&in.a) + energy_of(&in.b),
+                   now = energy_of(&end.a) + energy_of(&end.b);
       ck_assert_msg(now <= before * (1.0 + 1e-12), "collision %d gains %g", k, now / before - 1.0);
     }
   }
@@ -115,11 +121,13 @@ TEST(the_balls_part) {
     random_source source = start();
     for (int k = 0; k < COLLISIONS; k++) {
       carom_impact in = random_impact(&source);
-      in.mu_ball = 0.0; /* without friction the ratio of the speeds is the restitution, up to a step */
+      in.mu_ball = 0.0; /* without friction the ratio of the speeds is the restitution, up to a
+                           step */
       const carom_result out = collide(&in, CAROM_SLIP_PAPER);
       const carom_impact end = after(&in, &out);
       const carom_frame frame = carom_frame_of(&in);
-      const carom_local b = carom_to_frame(&frame, &in, CAROM_SLIP_PAPER), e = carom_to_frame(&frame, &end, CAROM_SLIP_PAPER);
+      const carom_local b = carom_to_frame(&frame, &in, CAROM_SLIP_PAPER),
+                        e = carom_to_frame(&frame, &end, CAROM_SLIP_PAPER);
       const double ratio = -(e.v_jy - e.v_iy) / (b.v_jy - b.v_iy);
       ck_assert_double_eq_tol(ratio, in.restitution, solving == CAROM_SOLVER_EULER ? 0.05 : 1e-9);
     }
@@ -148,7 +156,8 @@ static carom_result turn_result(const carom_result *out) {
   return t;
 }
 
-/* In the plane x = 0: vectors lose the sign of x, angular velocities, being axial, those of y and z. */
+/* In the plane x = 0: vectors lose the sign of x, angular velocities, being axial, those of y
+ * and z. */
 static void mirror_vector(double x[3]) {
   x[0] = -x[0];
 }
@@ -199,8 +208,8 @@ static void expect_symmetry(transform *of_impact, transform_result *of_result) {
       const carom_result seen = collide(&image, (carom_slip)slip);
       for (int c = 0; c < 12; c++)
         ck_assert_msg(((const double *)&seen)[c] == ((const double *)&expected)[c],
-                      "collision %d, component %d: %.17g, not %.17g", k, c, ((const double *)&seen)[c],
-                      ((const double *)&expected)[c]);
+                      "collision %d, component %d: %.17g, not %.17g", k, c,
+                      ((const double *)&seen)[c], ((const double *)&expected)[c]);
     }
   }
 }
@@ -229,7 +238,8 @@ static void rotate3(double x[3], double angle) {
   x[1] = sin(angle) * x0 + cos(angle) * x1;
 }
 
-/* Rounding can add or drop a step of Euler's, or shift its chatter once the slip has stopped, so few may differ visibly. */
+/* Rounding can add or drop a step of Euler's, or shift its chatter once the slip has stopped, so
+ * few may differ visibly. */
 TEST(any_rotation_is_close) {
   EACH_SOLVER {
     random_source source = start();
@@ -244,7 +254,8 @@ TEST(any_rotation_is_close) {
       }
       carom_result expected = collide(&in, CAROM_SLIP_PAPER);
       const carom_result seen = collide(&image, CAROM_SLIP_PAPER);
-      rotate3(expected.a.v, angle), rotate3(expected.a.w, angle), rotate3(expected.b.v, angle), rotate3(expected.b.w, angle);
+      rotate3(expected.a.v, angle), rotate3(expected.a.w, angle), rotate3(expected.b.v, angle),
+          rotate3(expected.b.w, angle);
       const double distance = result_distance(&seen, &expected, in.a.radius);
       ck_assert_double_le(distance, solving == CAROM_SOLVER_EULER ? 5e-3 : 1e-5);
       visible += distance > 1e-10;

@@ -1,5 +1,6 @@
-/* Whole shots where pooltool's default engine fails (commit 9a8abfe0; docs/using/shots.md has the list): right in the world
- * carom, an error or its own answer by its rules, never a crash, a hang or a lost ball. */
+/* Whole shots where pooltool's default engine fails (commit 9a8abfe0; docs/using/shots.md has
+ * the list): right in the world carom, an error or its own answer by its rules, never a crash, a
+ * hang or a lost ball. */
 #include "random_shots.h"
 #include "shot_support.h"
 
@@ -8,8 +9,8 @@
 
 static const carom_shot_options pooltool = {.world = CAROM_WORLD_POOLTOOL};
 
-/* Full hits with follow along x: two balls with equal accelerations, of which it makes a polynomial without leading
- * coefficient. */
+/* Full hits with follow along x: two balls with equal accelerations, of which it makes a
+ * polynomial without leading coefficient. */
 TEST(straight_follow) {
   carom_table t;
   carom_table_make(CAROM_TABLE_POOLTOOL, &t);
@@ -45,8 +46,8 @@ TEST(rolling_together) {
   }
 }
 
-/* Newton's cradle: the last ball of a row goes; the others move by the rest of the first one's topspin only. It ends. By
- * pooltool's rules it ends or a bound ends it. */
+/* Newton's cradle: the last ball of a row goes; the others move by the rest of the first one's
+ * topspin only. It ends. By pooltool's rules it ends or a bound ends it. */
 TEST(cradle) {
   const carom_table t = empty_table(30.0);
   for (int n = 2; n <= 6; n++) {
@@ -67,7 +68,8 @@ TEST(cradle) {
     carom_shot bounded = {0};
     carom_shot_options theirs = pooltool;
     const carom_status status = carom_shoot(&t, b, n + 1, NULL, &theirs, &bounded);
-    ck_assert(status == CAROM_OK || status == CAROM_ERROR_TOO_MANY_EVENTS || status == CAROM_ERROR_UNRESOLVED);
+    ck_assert(status == CAROM_OK || status == CAROM_ERROR_TOO_MANY_EVENTS ||
+              status == CAROM_ERROR_UNRESOLVED);
   }
 }
 
@@ -83,20 +85,23 @@ TEST(starts_at_a_rail) {
     play(&t, &b, 1, NULL, NULL, CAROM_OK);
     ck_assert_int_eq(events[0].type, CAROM_EVENT_RAIL);
     ck_assert_double_lt(final[0].r[0], t.width - R + 1e-9);
-    /* by pooltool's rules it is found from a gap of 1e-12 m on; else it is lost, which is an error and no endless flight */
+    /* by pooltool's rules it is found from a gap of 1e-12 m on; else it is lost, which is an
+     * error and no endless flight */
     carom_shot shot = {.events = events, .room = ROOM, .final = final};
     const carom_status status = carom_shoot(&t, &b, 1, NULL, &pooltool, &shot);
     ck_assert_int_eq(status, n == 2 ? CAROM_OK : CAROM_ERROR_LEFT_TABLE);
   }
 }
 
-/* Two contacts at the same instant, mirror images of each other: one is resolved after the other, by index, in a way that
- * rounding does not decide; where both closings are alike the results are the same from one place on the table to another. */
+/* Two contacts at the same instant, mirror images of each other: one is resolved after the
+ * other, by index, in a way that rounding does not decide; where both closings are alike the
+ * results are the same from one place on the table to another. */
 TEST(two_at_once) {
   const carom_table t = empty_table(30.0);
   double first[3][2];
   for (int place = 0; place < 50; place++) {
-    carom_shot_ball b[3] = {ball_at(10.0 + 0.0137 * place, 10.0), ball_at(11.0 + 0.0137 * place, 10.0),
+    carom_shot_ball b[3] = {ball_at(10.0 + 0.0137 * place, 10.0),
+                            ball_at(11.0 + 0.0137 * place, 10.0),
                             ball_at(11.0 + 0.0137 * place, 10.0)};
     const double R = b[0].kind.radius;
     b[1].state.r[1] += R;
@@ -119,7 +124,8 @@ TEST(two_at_once) {
   }
 }
 
-/* pooltool hands velocity on between balls that touch for long by a rule that depends on their order; world carom does not. */
+/* pooltool hands velocity on between balls that touch for long by a rule that depends on their
+ * order; world carom does not. */
 TEST(order_of_balls) {
   static random_shot s;
   static carom_ball_state other[CAROM_BALLS_MOST];
@@ -132,19 +138,21 @@ TEST(order_of_balls) {
     for (int k = 0; k < s.count; k++)
       turned.ball[k] = s.ball[s.count - 1 - k];
     turned.cue.ball = s.count - 1;
-    const carom_shot back = play(&turned.table, turned.ball, s.count, &turned.cue, &options, CAROM_OK);
+    const carom_shot back =
+        play(&turned.table, turned.ball, s.count, &turned.cue, &options, CAROM_OK);
     ck_assert_int_eq(back.count, shot.count);
     for (int k = 0; k < s.count; k++)
       ck_assert_double_eq_tol(final[s.count - 1 - k].r[0], other[k].r[0], 1e-6);
   }
 }
 
-/* A ball that begins in a pocket is refused, where pooltool waits until it leaves. One that begins at its edge and moves into
- * it falls. */
+/* A ball that begins in a pocket is refused, where pooltool waits until it leaves. One that
+ * begins at its edge and moves into it falls. */
 TEST(begins_in_a_pocket) {
   carom_table t;
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);
-  carom_shot_ball b = ball_at(t.pocket[1].centre[0] + t.pocket[1].radius - 1e-9, t.pocket[1].centre[1]);
+  carom_shot_ball b =
+      ball_at(t.pocket[1].centre[0] + t.pocket[1].radius - 1e-9, t.pocket[1].centre[1]);
   b.state.v[0] = -0.1;
   for (int world = 0; world < 2; world++)
     play(&t, &b, 1, NULL, world == 0 ? NULL : &pooltool, CAROM_ERROR_OFF_TABLE);

@@ -1,8 +1,9 @@
 /* Fine sweeps of single inputs: the exact solver's results have no jumps, Euler's method's do.
  *
- * A jump is a step between neighbouring values that lies outside what the steps before and after it span, over the largest
- * result of the collision. A smooth curve has next to none, and neither has a corner, as where the balls begin to stick before
- * they part. But where the true curve bends within one step, it seems to jump too: there carom_trace(), another method and a
+ * A jump is a step between neighbouring values that lies outside what the steps before and after
+ * it span, over the largest result of the collision. A smooth curve has next to none, and
+ * neither has a corner, as where the balls begin to stick before they part. But where the true
+ * curve bends within one step, it seems to jump too: there carom_trace(), another method and a
  * more exact one, says how much of it is the solver's own.
  */
 #include "cases.h"
@@ -19,14 +20,25 @@ enum { VALUES = 10000, RESULTS = 12 };
 static const double bound = 1e-6;
 static const double worth_a_look = 3e-7;
 
-/* Cases of all kinds: rolling, sliding, both balls moving, a ball at rest pressed, slip ending early, late, just at the end and
- * never. */
-static const char *const ids[] = {"pooltool-005", "pooltool-031", "pooltool-034", "pooltool-048", "pooltool-086",
-                                  "pooltool-108", "pooltool-135", "pooltool-179", "mathavan-3",   "mathavan-5"};
+/* Cases of all kinds: rolling, sliding, both balls moving, a ball at rest pressed, slip ending
+ * early, late, just at the end and never. */
+static const char *const ids[] = {"pooltool-005", "pooltool-031", "pooltool-034", "pooltool-048",
+                                  "pooltool-086", "pooltool-108", "pooltool-135", "pooltool-179",
+                                  "mathavan-3",   "mathavan-5"};
 enum { IDS = sizeof ids / sizeof ids[0] };
 
 /* The inputs, and the range of each. */
-enum { CUT, SPEED, SPIN_A, SPIN_B = SPIN_A + 3, CLOTH_A = SPIN_B + 3, CLOTH_B, MU_BALL, RESTITUTION, INPUTS };
+enum {
+  CUT,
+  SPEED,
+  SPIN_A,
+  SPIN_B = SPIN_A + 3,
+  CLOTH_A = SPIN_B + 3,
+  CLOTH_B,
+  MU_BALL,
+  RESTITUTION,
+  INPUTS
+};
 static const char *const input_names[INPUTS] = {"cut angle",
                                                 "speed",
                                                 "w1x",
@@ -43,7 +55,8 @@ static const char *const input_names[INPUTS] = {"cut angle",
 static void set(carom_impact *in, int k, double share) {
   const double speed = hypot(hypot(in->a.v[0], in->a.v[1]), hypot(in->b.v[0], in->b.v[1]));
   if (k == CUT) {
-    const double angle = 1.0 * (share - 0.5), x = in->b.r[0] - in->a.r[0], y = in->b.r[1] - in->a.r[1];
+    const double angle = 1.0 * (share - 0.5), x = in->b.r[0] - in->a.r[0],
+                 y = in->b.r[1] - in->a.r[1];
     in->b.r[0] = in->a.r[0] + x * cos(angle) - y * sin(angle);
     in->b.r[1] = in->a.r[1] + x * sin(angle) + y * cos(angle);
   } else if (k == SPEED)
@@ -107,7 +120,8 @@ static double jump_of(const sample at[4]) {
 }
 
 /* What the solver's error does from `value` to the next. */
-static double own_jump(const carom_impact *start, const carom_options *options, int k, int value, const sample at[2]) {
+static double own_jump(const carom_impact *start, const carom_options *options, int k, int value,
+                       const sample at[2]) {
   double error[2][RESULTS], most = 0.0;
   for (int next = 0; next < 2; next++) {
     const carom_impact in = vary(start, k, value + next);
@@ -129,7 +143,8 @@ typedef struct finding {
   const char *id;
 } finding;
 
-static void look(const carom_impact *in, const char *id, const carom_options *options, int k, finding *f) {
+static void look(const carom_impact *in, const char *id, const carom_options *options, int k,
+                 finding *f) {
   sample at[4] = {{.collides = false}};
   for (int value = 0; value < VALUES; value++) {
     memmove(at, at + 1, 3 * sizeof at[0]);
@@ -166,7 +181,8 @@ TEST(exact_is_smooth) {
         const carom_impact in = find_case(&cases, ids[one]);
         look(&in, ids[one], &options, k, &f);
       }
-    printf("%-32s largest jump %.2g, the solver's own %.2g (value %d of %s)\n", input_names[k], f.seen, f.own, f.value, f.id);
+    printf("%-32s largest jump %.2g, the solver's own %.2g (value %d of %s)\n", input_names[k],
+           f.seen, f.own, f.value, f.id);
     most = fmax(most, f.own);
   }
   fflush(stdout);
@@ -188,7 +204,8 @@ TEST(euler_is_not) {
     at[3] = take(&in, &options, SPIN_A + 2, value);
     jumps += jump_of(at) > 1e-5;
   }
-  printf("Euler's method, N = 1000, where it sticks: %d of 197 steps jump by more than 1e-5\n", jumps);
+  printf("Euler's method, N = 1000, where it sticks: %d of 197 steps jump by more than 1e-5\n",
+         jumps);
   ck_assert_int_ge(jumps, 50);
   cases_free(&cases);
 }

@@ -1,6 +1,7 @@
 /* carom_trace: it ends where carom_collide does, and on the way the books balance.
  *
- * The exact solver's trace is computed by another method than its result, so their agreement is a test of both.
+ * The exact solver's trace is computed by another method than its result, so their agreement is
+ * a test of both.
  */
 #include "cases.h"
 #include "regimes.h"
@@ -28,8 +29,10 @@ static case_set load_cases(void) {
 }
 
 /* What must hold for every trace of a collision that took place. */
-static void expect_order(const carom_trace_point *point, const carom_detail *detail, carom_solver solver) {
-  const double per = 1.0 / (POINTS - 1), apart = solver == CAROM_SOLVER_EULER ? 1e-3 : 1e-6; /* a step; the solver's error */
+static void expect_order(const carom_trace_point *point, const carom_detail *detail,
+                         carom_solver solver) {
+  /* a step; the solver's error */
+  const double per = 1.0 / (POINTS - 1), apart = solver == CAROM_SOLVER_EULER ? 1e-3 : 1e-6;
   ck_assert_double_eq(point[0].normal, 0.0);
   ck_assert_double_eq(point[0].work, 0.0);
   ck_assert_int_eq(point[0].phase, CAROM_PHASE_COMPRESSION);
@@ -39,7 +42,8 @@ static void expect_order(const carom_trace_point *point, const carom_detail *det
     ck_assert_double_eq_tol(point[k].normal, k * per * detail->normal, apart * detail->normal);
     ck_assert(point[k].phase == CAROM_PHASE_RESTITUTION || point[k].v_n <= 0.0);
     ck_assert(!point[k].sticks || (point[k].u_x == 0.0 && point[k].u_z == 0.0));
-    ck_assert_int_eq(point[k].sticks, detail->stick != CAROM_STICK_NEVER && point[k].normal >= detail->stick_normal);
+    ck_assert_int_eq(point[k].sticks,
+                     detail->stick != CAROM_STICK_NEVER && point[k].normal >= detail->stick_normal);
     if (k == 0)
       continue;
     ck_assert_double_ge(point[k].work, point[k - 1].work * (1.0 - 1e-12));
@@ -69,13 +73,15 @@ static double worst_end(carom_solver solver, carom_slip slip) {
 TEST(ends_at_the_result) {
   for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++) {
     const double exact = worst_end(CAROM_SOLVER_EXACT, (carom_slip)slip);
-    printf("exact, %s: the ends differ by %.2g at most\n", carom_slip_name((carom_slip)slip), exact);
+    printf("exact, %s: the ends differ by %.2g at most\n", carom_slip_name((carom_slip)slip),
+           exact);
     ck_assert_double_le(exact, 1e-6);
     ck_assert_double_eq(worst_end(CAROM_SOLVER_EULER, (carom_slip)slip), 0.0);
   }
 }
 
-/* The same on hard collisions of every regime, where a few results of the exact solver are off by up to 1e-5. */
+/* The same on hard collisions of every regime, where a few results of the exact solver are off
+ * by up to 1e-5. */
 TEST(ends_at_the_result_everywhere) {
   lab_random rng = {test_seed()};
   double worst = 0.0;
@@ -89,16 +95,19 @@ TEST(ends_at_the_result_everywhere) {
       carom_result out;
       const carom_status status = carom_collide(&in, &options, &out);
       ck_assert_int_eq(carom_trace(&in, &options, 3, point), status);
-      const double distance = status == CAROM_OK ? result_distance(&point[2].state, &out, in.a.radius) : 0.0;
+      const double distance =
+          status == CAROM_OK ? result_distance(&point[2].state, &out, in.a.radius) : 0.0;
       at = distance > worst ? regime : at;
       worst = fmax(worst, distance);
     }
   }
-  printf("exact, all regimes: the ends differ by %.2g at most, in regime %s\n", worst, regimes_name(at));
+  printf("exact, all regimes: the ends differ by %.2g at most, in regime %s\n", worst,
+         regimes_name(at));
   ck_assert_double_le(worst, 5e-5);
 }
 
-/* What lies between does not depend on how many points there are, and is what Euler's method comes to with many steps. */
+/* What lies between does not depend on how many points there are, and is what Euler's method
+ * comes to with many steps. */
 TEST(the_way_is_one) {
   case_set cases = load_cases();
   double worst_points = 0.0, worst_euler = 0.0;

@@ -1,4 +1,5 @@
-/* Whole shots: invariants of random shots of every kind, the physics that players know, and the cases in which pooltool fails.
+/* Whole shots: invariants of random shots of every kind, the physics that players know, and the
+ * cases in which pooltool fails.
  */
 #include "invariants.h"
 #include "random_shots.h"
@@ -12,11 +13,13 @@
 
 /* ---- Invariants */
 
-/* Random shots of every kind, by three models of cushions: a third with the terms of measured tables, a third with the butt
- * raised. They are sound as tests/shots judges, and carom_shot_at() has the states at events and at the end. */
+/* Random shots of every kind, by three models of cushions: a third with the terms of measured
+ * tables, a third with the butt raised. They are sound as tests/shots judges, and
+ * carom_shot_at() has the states at events and at the end. */
 TEST(invariants) {
   static random_shot s;
-  static const carom_shot_cushion models[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE, CAROM_SHOT_CUSHION_MATHAVAN};
+  static const carom_shot_cushion models[] = {CAROM_SHOT_CUSHION_HAN, CAROM_SHOT_CUSHION_STRONGE,
+                                              CAROM_SHOT_CUSHION_MATHAVAN};
   const int each = draws_of_each(60), flat = random_shot_kinds();
   random_source random = {test_seed()};
   int64_t landings = 0, many = 0, shots = 0;
@@ -32,8 +35,8 @@ TEST(invariants) {
       carom_shot shot = {.events = events, .room = ROOM, .final = final};
       const carom_status status = carom_shoot(&s.table, s.ball, s.count, &s.cue, &options, &shot);
       many += status == CAROM_ERROR_TOO_MANY_EVENTS;
-      ck_assert_msg(status == CAROM_OK || (kind >= flat && status == CAROM_ERROR_TOO_MANY_EVENTS), "%s %d: %s", s.kind, n,
-                    carom_status_name(status));
+      ck_assert_msg(status == CAROM_OK || (kind >= flat && status == CAROM_ERROR_TOO_MANY_EVENTS),
+                    "%s %d: %s", s.kind, n, carom_status_name(status));
       const shot_measures m = shot_measure(&s.table, s.ball, s.count, &shot, status, 3);
       EXPECT_SOUND(m, terms ? 1e-9 : 1e-11, s.kind, n);
       carom_ball_state at[CAROM_BALLS_MOST];
@@ -50,7 +53,8 @@ TEST(invariants) {
       for (int k = 0; k < s.count; k++)
         ck_assert_int_eq(memcmp(&at[k], &final[k], sizeof at[k]), 0);
     }
-  printf("invariants: %d shots, %d landings, %d with too many events\n", (int)shots, (int)landings, (int)many);
+  printf("invariants: %d shots, %d landings, %d with too many events\n", (int)shots, (int)landings,
+         (int)many);
   ck_assert_int_gt(landings, 10 * each);
   ck_assert_int_le(many, 2 + shots / 500);
 }
@@ -110,7 +114,8 @@ TEST(mirror) {
     for (int n = 0; n < 20; n++) {
       random_shot_make(kind, test_seed(), (uint64_t)n, &s);
       centre_table(&s);
-      /* a first ball that moves, since the direction of a cue is an angle; but where all coincides */
+      /* a first ball that moves, since the direction of a cue is an angle; but where all
+       * coincides */
       s.cue.speed = 0.0;
       if (strncmp(s.kind, "coincident", 10) != 0) {
         s.ball[0].state.v[0] = random_between(&random, -4.0, 4.0);
@@ -131,12 +136,13 @@ TEST(mirror) {
       ck_assert_int_eq(a.count, b.count);
       for (int k = 0; k < a.count; k++) {
         const carom_event *e = &events[k], *f = &other[k];
-        ck_assert_msg(e->time == f->time && e->type == f->type && e->a == f->a && e->b == f->b, "%s %d: event %d", s.kind, n,
-                      k);
+        ck_assert_msg(e->time == f->time && e->type == f->type && e->a == f->a && e->b == f->b,
+                      "%s %d: event %d", s.kind, n, k);
         for (int side = 0; side < 2; side++) {
-          const carom_ball_state before = mirrored(e->before[side]), after = mirrored(e->after[side]);
-          ck_assert_msg(same(&before, &f->before[side]) && same(&after, &f->after[side]), "%s %d: states of event %d, type %d",
-                        s.kind, n, k, e->type);
+          const carom_ball_state before = mirrored(e->before[side]),
+                                 after = mirrored(e->after[side]);
+          ck_assert_msg(same(&before, &f->before[side]) && same(&after, &f->after[side]),
+                        "%s %d: states of event %d, type %d", s.kind, n, k, e->type);
         }
       }
     }
@@ -162,15 +168,16 @@ TEST(pressed_line) {
     ends_well(&t, b, 27, 8000);
     ends_well(&t, b, CAROM_BALLS_MOST, 8000);
   }
-  /* balls that hardly hop stay nearly together: as far as one by one with s = 0.1 mm/s throughout, 95,821 events */
+  /* balls that hardly hop stay nearly together: as far as one by one with s = 0.1 mm/s
+   * throughout, 95,821 events */
   b[0].state.w[1] = 200.0;
   ends_well(&t, b, 4, 3000);
   for (int k = 0; k < 4; k++)
     ck_assert_double_eq_tol(final[k].r[0] - b[k].state.r[0], 0.7486, 0.06);
 }
 
-/* A frozen triangle that a ball with spin presses on: balls at relative rest that only rounding presses were in contact without
- * end. */
+/* A frozen triangle that a ball with spin presses on: balls at relative rest that only rounding
+ * presses were in contact without end. */
 TEST(pressed_triangle) {
   const carom_table t = empty_table(8.0);
   for (int rows = 2; rows <= 7; rows++) {
@@ -188,7 +195,8 @@ TEST(pressed_triangle) {
   }
 }
 
-/* Balls without any room between two rails cannot part, so their contacts have no end: a bound ends them, with a state. */
+/* Balls without any room between two rails cannot part, so their contacts have no end: a bound
+ * ends them, with a state. */
 TEST(wedged) {
   carom_shot_ball b[5];
   const double R = ball_at(0.0, 0.0).kind.radius;
@@ -202,8 +210,8 @@ TEST(wedged) {
     ck_assert_double_eq_tol(final[k].r[0], b[k].state.r[0], 1e-9);
 }
 
-/* A ball that touches a rail, at rest or moving along it, whatever the direction of the rail: rounding presses it against the
- * rail or lifts it off. */
+/* A ball that touches a rail, at rest or moving along it, whatever the direction of the rail:
+ * rounding presses it against the rail or lifts it off. */
 TEST(along_a_rail) {
   for (int turn = 0; turn < 90; turn++)
     for (int way = 0; way < 4; way++) {
@@ -230,16 +238,18 @@ TEST(along_a_rail) {
     }
 }
 
-/* Han's and Stronge's formulas leave a ball moving into the cushion where its restitution is small or its nose far from the
- * height of the centre. The shot turns it back in the same event. */
+/* Han's and Stronge's formulas leave a ball moving into the cushion where its restitution is
+ * small or its nose far from the height of the centre. The shot turns it back in the same event. */
 TEST(left_moving_into_the_cushion) {
-  static const double restitutions[] = {0.0, 0.02, 0.1, 0.3, 0.85}, heights[] = {0.01, 0.5, 1.0, 1.28, 1.7, 1.999};
+  static const double restitutions[] = {0.0, 0.02, 0.1, 0.3, 0.85},
+                      heights[] = {0.01, 0.5, 1.0, 1.28, 1.7, 1.999};
   random_source r = {test_seed()};
   int turned = 0;
   for (int n = 0; n < 6000; n++) {
     carom_table t = empty_table(8.0);
     carom_shot_ball b = ball_at(4.0, random_between(&r, 0.03, 0.2));
-    const double R = b.kind.radius, e = restitutions[n % 5], speed = pow(10.0, random_between(&r, -2.5, 1.0));
+    const double R = b.kind.radius, e = restitutions[n % 5],
+                 speed = pow(10.0, random_between(&r, -2.5, 1.0));
     for (int k = 0; k < 4; k++)
       t.rail[k].height = heights[n / 5 % 6] * R;
     b.kind.restitution_cushion = e;
@@ -248,7 +258,8 @@ TEST(left_moving_into_the_cushion) {
     b.state.v[1] = -speed;
     for (int axis = 0; axis < 3; axis++)
       b.state.w[axis] = random_between(&r, -2.0, 2.0) * speed / R;
-    const carom_shot_options options = {.cushion_model = n % 2 == 0 ? CAROM_SHOT_CUSHION_HAN : CAROM_SHOT_CUSHION_STRONGE};
+    const carom_shot_options options = {.cushion_model = n % 2 == 0 ? CAROM_SHOT_CUSHION_HAN
+                                                                    : CAROM_SHOT_CUSHION_STRONGE};
     const carom_shot shot = play(&t, &b, 1, NULL, &options, CAROM_OK);
     const shot_measures m = shot_measure(&t, &b, 1, &shot, CAROM_OK, 3);
     EXPECT_SOUND(m, 1e-9, "one ball", n);
@@ -257,7 +268,8 @@ TEST(left_moving_into_the_cushion) {
       if (events[k].type != CAROM_EVENT_RAIL || events[k].b != 0)
         continue;
       const carom_ball_state *before = &events[k].before[0];
-      ck_assert_msg(events[k].after[0].v[1] >= 0.0, "shot %d: event %d leaves %g m/s into the cushion", n, k,
+      ck_assert_msg(events[k].after[0].v[1] >= 0.0,
+                    "shot %d: event %d leaves %g m/s into the cushion", n, k,
                     -events[k].after[0].v[1]);
       const carom_cushion_impact in = {.v = {before->v[0], before->v[1], 0.0},
                                        .w = {before->w[0], before->w[1], before->w[2]},
@@ -268,7 +280,8 @@ TEST(left_moving_into_the_cushion) {
                                        .mu_cloth = b.kind.mu_slide,
                                        .mu_cushion = b.kind.mu_cushion,
                                        .restitution = e};
-      const carom_cushion_options of_model = {.model = (carom_cushion_model)(options.cushion_model - 1)};
+      const carom_cushion_options of_model = {.model =
+                                                  (carom_cushion_model)(options.cushion_model - 1)};
       carom_motion out;
       turned += carom_cushion(&in, &of_model, &out) == CAROM_OK && out.v[1] < 0.0;
     }
@@ -299,16 +312,19 @@ TEST(alone) {
     for (int k = 0; k < 2; k++) {
       const double rolled = 0.5 * speed * rolling[k] / (b.kind.mu_roll * g);
       ck_assert_double_eq_tol(events[0].after[0].v[k], rolling[k], 1e-13);
-      ck_assert_double_eq_tol(final[0].r[k], b.state.r[k] + 0.5 * (v[k] + rolling[k]) * slide + rolled, 1e-11);
+      ck_assert_double_eq_tol(final[0].r[k],
+                              b.state.r[k] + 0.5 * (v[k] + rolling[k]) * slide + rolled, 1e-11);
     }
-    const double spin = fabs(w[2]) * 2.0 * R / (5.0 * b.kind.mu_spin * g), roll = slide + speed / (b.kind.mu_roll * g);
+    const double spin = fabs(w[2]) * 2.0 * R / (5.0 * b.kind.mu_spin * g),
+                 roll = slide + speed / (b.kind.mu_roll * g);
     ck_assert_double_eq_tol(shot.time, fmax(spin, roll), 1e-10);
   }
 }
 
-/* The direction in which ball 0 leaves its collision with ball 1, in degrees from its own, once it rolls. fullness: 1 full, 0 a
- * miss. */
-static double deflection(double fullness, double speed, double roll, const carom_shot_options *options, double *at_once) {
+/* The direction in which ball 0 leaves its collision with ball 1, in degrees from its own, once
+ * it rolls. fullness: 1 full, 0 a miss. */
+static double deflection(double fullness, double speed, double roll,
+                         const carom_shot_options *options, double *at_once) {
   const carom_table t = empty_table(50.0);
   carom_shot_ball b[2] = {ball_at(20.0, 20.0), ball_at(20.1, 20.0)};
   const double R = b[0].kind.radius;
@@ -328,14 +344,16 @@ static double deflection(double fullness, double speed, double roll, const carom
   return 57.29577951308232 * atan2(-events[k].after[0].v[1], events[k].after[0].v[0]);
 }
 
-/* A stun shot leaves along the tangent line; a rolling ball by the angle of 30 degrees at half-ball hits (33.7 by the formula
- * tan = sin a cos a / (sin^2 a + 2/5), a the cut angle), for perfect balls and nearly for real ones. */
+/* A stun shot leaves along the tangent line; a rolling ball by the angle of 30 degrees at
+ * half-ball hits (33.7 by the formula tan = sin a cos a / (sin^2 a + 2/5), a the cut angle), for
+ * perfect balls and nearly for real ones. */
 TEST(tangent_line_and_thirty_degrees) {
   const carom_shot_options smooth = {.ball_model = CAROM_BALL_MODEL_MIRROR};
   double at_once;
   for (double fullness = 0.2; fullness < 0.95; fullness += 0.05) {
     const double cut = asin(1.0 - fullness);
-    /* slides without spin over so short a way that what it gains of it turns the tangent line by little */
+    /* slides without spin over so short a way that what it gains of it turns the tangent line by
+     * little */
     deflection(fullness, 5.0, 0.0, &smooth, &at_once);
     ck_assert_double_eq_tol(at_once, 90.0 - 57.29577951308232 * cut, 0.5);
     const double rolls = 57.29577951308232 * atan2(sin(cut) * cos(cut), sin(cut) * sin(cut) + 0.4);
@@ -345,7 +363,8 @@ TEST(tangent_line_and_thirty_degrees) {
   ck_assert_double_eq_tol(deflection(0.5, 1.5, 1.0, &smooth, &at_once), 33.67, 0.1);
 }
 
-/* Draw and follow: a full hit leaves the cue ball with its spin, 2/7 R w of speed backward or forward. */
+/* Draw and follow: a full hit leaves the cue ball with its spin, 2/7 R w of speed backward or
+ * forward. */
 TEST(draw_and_follow) {
   const carom_table t = empty_table(50.0);
   const carom_shot_options smooth = {.ball_model = CAROM_BALL_MODEL_MIRROR};
@@ -359,16 +378,16 @@ TEST(draw_and_follow) {
     while (events[k].type != CAROM_EVENT_BALL_BALL)
       k++;
     const double v = 2.0 / 7.0 * b[0].kind.radius * events[k].before[0].w[1];
-    const double slid =
-        0.5 * v * 2.0 * b[0].kind.radius * fabs(events[k].before[0].w[1]) / (7.0 * b[0].kind.mu_slide * b[0].kind.gravity);
+    const double slid = 0.5 * v * 2.0 * b[0].kind.radius * fabs(events[k].before[0].w[1]) /
+                        (7.0 * b[0].kind.mu_slide * b[0].kind.gravity);
     const double distance = slid + 0.5 * v * fabs(v) / (b[0].kind.mu_roll * b[0].kind.gravity);
     ck_assert_double_eq_tol(final[0].r[0] - events[k].after[0].r[0], distance, 1e-9);
     ck_assert(distance * way > 0.0);
   }
 }
 
-/* The 2014 paper's experiments as whole shots: a rolling cue ball cuts a ball at rest; speeds and angles once both roll are
- * those that the paper predicts. */
+/* The 2014 paper's experiments as whole shots: a rolling cue ball cuts a ball at rest; speeds
+ * and angles once both roll are those that the paper predicts. */
 TEST(experiments_of_the_paper) {
   FILE *file = fopen(CAROM_TEST_DATA "/experiments.csv", "r");
   ck_assert_ptr_nonnull(file);
@@ -377,8 +396,8 @@ TEST(experiments_of_the_paper) {
   int shots = 0;
   const carom_table t = empty_table(40.0);
   for (double x[11]; fgets(line, sizeof line, file) != NULL; shots++) {
-    ck_assert_int_eq(sscanf(line, "%39[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", id, &x[0], &x[1], &x[2], &x[3], &x[4],
-                            &x[5], &x[6], &x[7], &x[8], &x[9], &x[10]),
+    ck_assert_int_eq(sscanf(line, "%39[^,],%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", id, &x[0],
+                            &x[1], &x[2], &x[3], &x[4], &x[5], &x[6], &x[7], &x[8], &x[9], &x[10]),
                      12);
     const double R = 0.02625, cut = x[2] / 57.29577951308232, gap = 1e-7;
     carom_shot_ball b[2] = {ball_at(20.0, 20.0), ball_at(0.0, 0.0)};
@@ -406,9 +425,10 @@ TEST(experiments_of_the_paper) {
       }
     }
     for (int k = 0; k < 2; k++) {
-      ck_assert_msg(fabs(speed[k] - x[5 + k]) < 0.0035, "%s: ball %d rolls at %g m/s, predicted %g", id, k, speed[k], x[5 + k]);
-      ck_assert_msg(fabs(angle[k] - x[9 + k]) < 0.15, "%s: ball %d rolls at %g degrees, predicted %g", id, k, angle[k],
-                    x[9 + k]);
+      ck_assert_msg(fabs(speed[k] - x[5 + k]) < 0.0035, "%s: ball %d rolls at %g m/s, predicted %g",
+                    id, k, speed[k], x[5 + k]);
+      ck_assert_msg(fabs(angle[k] - x[9 + k]) < 0.15,
+                    "%s: ball %d rolls at %g degrees, predicted %g", id, k, angle[k], x[9 + k]);
     }
   }
   fclose(file);

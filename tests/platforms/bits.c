@@ -1,10 +1,14 @@
-/* CAROM_ISA=plain gives the same bits on every machine and with every compiler: a hash of results for each part of the library.
- * Inputs are drawn by correctly rounded operations alone, so they have the same bits everywhere too. bits.expected has the
- * hashes. They change only with the numerics, in the commit that says why.
+/* CAROM_ISA=plain gives the same bits on every machine and with every compiler: a hash of
+ * results for each part of the library. Inputs are drawn by correctly rounded operations alone,
+ * so they have the same bits everywhere too. bits.expected has the hashes. They change only with
+ * the numerics, in the commit that says why.
  *
- *     bits            prints a line for each part: what was computed, and the hash of its results
- *     bits best       the same by the best instruction set there is, of collisions of balls alone
- *     bits numbers    prints results of the exact solver instead, as hexadecimal floats, by the best instruction set
+ *     bits            prints a line for each part: what was computed, and the hash of its
+ *                     results
+ *     bits best       the same by the best instruction set there is, of collisions of balls
+ *                     alone
+ *     bits numbers    prints results of the exact solver instead, as hexadecimal floats, by the
+ *                     best instruction set
  *
  * This program is run under emulators, so it needs nothing but the library. */
 #include <carom.h>
@@ -20,7 +24,17 @@
 #pragma STDC FP_CONTRACT OFF /* gcc has -ffp-contract=off of the command line */
 #endif
 
-enum { ROWS = 4000, EDGES = 800, CUSHIONS = 800, SHOTS = 4, ROOM = 4096, NUMBERS = 1500, LOOKS = 400, TRACES = 40, POINTS = 9 };
+enum {
+  ROWS = 4000,
+  EDGES = 800,
+  CUSHIONS = 800,
+  SHOTS = 4,
+  ROOM = 4096,
+  NUMBERS = 1500,
+  LOOKS = 400,
+  TRACES = 40,
+  POINTS = 9
+};
 
 /* splitmix64 */
 static uint64_t state;
@@ -47,7 +61,8 @@ static double power_of_two(double low, double high) {
   return x;
 }
 
-/* FNV-1a, in an order that does not depend on that of bytes in memory. NaN has many bits: only that it is NaN counts. */
+/* FNV-1a, in an order that does not depend on that of bytes in memory. NaN has many bits: only
+ * that it is NaN counts. */
 static const uint64_t START = 0xcbf29ce484222325u;
 
 static uint64_t add(uint64_t hash, uint64_t bits) {
@@ -80,14 +95,15 @@ static void show(const char *what, uint64_t hash) {
   printf("%s %08lx%08lx\n", what, (unsigned long)(hash >> 32), (unsigned long)(hash & 0xffffffffu));
 }
 
-/* ---- Two balls -------------------------------------------------------------------------------------------------------- */
+/* ---- Two balls ------------------------------------------------------------------------------- */
 
 /* Plain shots, in turn with friction and motion of all sizes; some rows in error. */
 static carom_impact draw_collision(size_t k) {
   const int wild = k % 2 == 1;
   const double radius = 0.028575, x = between(-1.0, 1.0), y = between(-1.0, 1.0);
   const double length = sqrt(x * x + y * y) + 0x1p-60;
-  carom_ball a = {.radius = radius, .mass = 0.17, .mu_cloth = between(0.0, wild ? 1.0 : 0.4)}, b = a;
+  carom_ball a = {.radius = radius, .mass = 0.17, .mu_cloth = between(0.0, wild ? 1.0 : 0.4)},
+             b = a;
   b.mu_cloth = between(0.0, wild ? 1.0 : 0.4);
   b.mass = wild ? 0.17 * power_of_two(-3.0, 3.0) : 0.17;
   b.r[0] = 2.0 * radius * x / length;
@@ -112,13 +128,15 @@ static carom_impact draw_collision(size_t k) {
   return in;
 }
 
-/* What users type: a ball that rolls along an axis onto a resting one, with round numbers that are equal or 0 in pairs. */
+/* What users type: a ball that rolls along an axis onto a resting one, with round numbers that
+ * are equal or 0 in pairs. */
 static carom_impact draw_edge(size_t k) {
   static const double frictions[] = {0.0, 0.05, 0.2, 0.4, 1.0}, cuts[] = {0.0, 0.25, 0.5, 0.75};
   const double R = 0.028575, side = cuts[k % 4], speed = 0.5 * (double)(1 + k % 3);
-  carom_impact in = {.a = {.v = {speed, 0.0, 0.0}, .radius = R, .mass = 0.17, .mu_cloth = frictions[k / 4 % 5]},
-                     .mu_ball = frictions[k / 20 % 5],
-                     .restitution = k / 100 % 2 == 0 ? 1.0 : 0.9};
+  carom_impact in = {
+      .a = {.v = {speed, 0.0, 0.0}, .radius = R, .mass = 0.17, .mu_cloth = frictions[k / 4 % 5]},
+      .mu_ball = frictions[k / 20 % 5],
+      .restitution = k / 100 % 2 == 0 ? 1.0 : 0.9};
   in.a.w[1] = k / 200 % 2 == 0 ? speed / R : 0.0;
   in.a.w[2] = k / 400 % 2 == 0 ? 0.0 : 20.0;
   in.b = in.a;
@@ -144,7 +162,8 @@ static void collisions(const char *drawn, size_t n) {
     const carom_options options = {.solver = way < 2 ? CAROM_SOLVER_EXACT : CAROM_SOLVER_EULER,
                                    .slip = way % 2 == 0 ? CAROM_SLIP_PAPER : CAROM_SLIP_POOLTOOL,
                                    .steps = 100,
-                                   .threads = 3}; /* where there are threads; no bit depends on them */
+                                   /* where there are threads; no bit depends on them */
+                                   .threads = 3};
     const char *solver = carom_solver_name(options.solver), *slip = carom_slip_name(options.slip);
     carom_collide_batch(in, n, &options, out, status);
     uint64_t hash = add_numbers(START, (const double *)out, n * 12);
@@ -165,7 +184,8 @@ static void collisions(const char *drawn, size_t n) {
   show(what, hash);
 }
 
-/* A few collisions on their way, and what else is known of them. Of a point the doubles are hashed; NaN is one of them. */
+/* A few collisions on their way, and what else is known of them. Of a point the doubles are
+ * hashed; NaN is one of them. */
 static void looks(void) {
   static carom_trace_point points[POINTS];
   for (int way = 0; way < 4; way++) {
@@ -184,8 +204,10 @@ static void looks(void) {
     for (int k = 0; k < TRACES; k++) {
       traces = add(traces, (uint64_t)(int64_t)carom_trace(&in[k], &options, POINTS, points));
       for (int n = 0; n < POINTS; n++) {
-        traces = add(add_numbers(traces, &points[n].normal, 2), (uint64_t)((int)points[n].phase * 2 + points[n].sticks));
-        traces = add_numbers(add_numbers(traces, &points[n].v_n, 7), (const double *)&points[n].state, 12);
+        traces = add(add_numbers(traces, &points[n].normal, 2),
+                     (uint64_t)((int)points[n].phase * 2 + points[n].sticks));
+        traces = add_numbers(add_numbers(traces, &points[n].v_n, 7),
+                             (const double *)&points[n].state, 12);
       }
     }
     char what[100];
@@ -197,11 +219,13 @@ static void looks(void) {
   }
 }
 
-/* ---- A ball and a cushion --------------------------------------------------------------------------------------------- */
+/* ---- A ball and a cushion -------------------------------------------------------------------- */
 
-/* Impacts of play; every fourth has a ball that rolls or does not turn, straight at the cushion or not. */
+/* Impacts of play; every fourth has a ball that rolls or does not turn, straight at the cushion
+ * or not. */
 static carom_cushion_impact draw_cushion(size_t k) {
-  carom_cushion_impact rail = {.normal = {0.0, 1.0}, .height = 0.0365, .radius = 0.028575, .mass = 0.17};
+  carom_cushion_impact rail = {
+      .normal = {0.0, 1.0}, .height = 0.0365, .radius = 0.028575, .mass = 0.17};
   rail.v[0] = between(-3.0, 3.0);
   rail.v[1] = between(0.05, 4.0);
   for (int c = 0; c < 3; c++)
@@ -233,29 +257,33 @@ static void cushions(void) {
     rail[k] = draw_cushion(k);
   for (int model = CAROM_CUSHION_MATHAVAN; model <= CAROM_CUSHION_EULER; model++)
     for (int way = 0; way < 4; way++) {
-      const carom_cushion_options options = {.model = (carom_cushion_model)model,
-                                             .convention = way % 2 == 0 ? CAROM_CONVENTION_PAPER : CAROM_CONVENTION_POOLTOOL,
-                                             .law = way < 2 ? CAROM_CUSHION_LAW_CONSTANT : CAROM_CUSHION_LAW_HAN,
-                                             .steps = 100,
-                                             .omega_ratio = way == 3 ? 1.3 : 0.0};
+      const carom_cushion_options options = {
+          .model = (carom_cushion_model)model,
+          .convention = way % 2 == 0 ? CAROM_CONVENTION_PAPER : CAROM_CONVENTION_POOLTOOL,
+          .law = way < 2 ? CAROM_CUSHION_LAW_CONSTANT : CAROM_CUSHION_LAW_HAN,
+          .steps = 100,
+          .omega_ratio = way == 3 ? 1.3 : 0.0};
       carom_cushion_batch(rail, CUSHIONS, &options, out, status);
       uint64_t hash = add_numbers(START, (const double *)out, CUSHIONS * 6);
       for (size_t k = 0; k < CUSHIONS; k++)
         hash = add(hash, (uint64_t)(uint8_t)status[k]);
       char what[100];
-      snprintf(what, sizeof what, "cushions: %s, convention %s, law %s", carom_cushion_model_name(options.model),
-               way % 2 == 0 ? "paper" : "pooltool", way < 2 ? "constant" : "han");
+      snprintf(what, sizeof what, "cushions: %s, convention %s, law %s",
+               carom_cushion_model_name(options.model), way % 2 == 0 ? "paper" : "pooltool",
+               way < 2 ? "constant" : "han");
       show(what, hash);
     }
 }
 
-/* Neither slip nor sideways motion at the nose at first, to the last bit: where friction cannot hold it, the slip begins. */
+/* Neither slip nor sideways motion at the nose at first, to the last bit: where friction cannot
+ * hold it, the slip begins. */
 static void slips_that_begin(void) {
   const double R = 0x1p-5;
   uint64_t hash = START;
   state = 5;
   for (int k = 0; k < 600; k++) {
-    const double sine = (k % 9 - 4) / 16.0, v_x = k % 2 == 0 || sine == 0.0 ? 0.0 : (k % 7 - 3) / 4.0;
+    const double sine = (k % 9 - 4) / 16.0,
+                 v_x = k % 2 == 0 || sine == 0.0 ? 0.0 : (k % 7 - 3) / 4.0;
     const carom_cushion_impact rail = {.v = {v_x, 1.0, 0.0},
                                        .w = {sine / R, v_x == 0.0 ? 0.0 : -v_x / sine / R, 0.0},
                                        .normal = {0.0, 1.0},
@@ -277,22 +305,25 @@ static void cushion_traces(void) {
   static carom_cushion_point points[POINTS];
   state = 5;
   for (int way = 0; way < 2; way++) {
-    const carom_cushion_options options = {.model = way == 0 ? CAROM_CUSHION_MATHAVAN : CAROM_CUSHION_EULER, .steps = 100};
+    const carom_cushion_options options = {
+        .model = way == 0 ? CAROM_CUSHION_MATHAVAN : CAROM_CUSHION_EULER, .steps = 100};
     uint64_t hash = START;
     for (size_t k = 0; k < TRACES; k++) {
       const carom_cushion_impact rail = draw_cushion(k);
       hash = add(hash, (uint64_t)(int64_t)carom_cushion_trace(&rail, &options, POINTS, points));
       for (int n = 0; n < POINTS; n++) {
         hash = add_numbers(hash, &points[n].normal, 2);
-        hash = add(hash, (uint64_t)((int)points[n].phase * 4 + points[n].nose_sticks * 2 + points[n].cloth_sticks));
-        hash = add_numbers(add_numbers(hash, &points[n].v_n, 5), (const double *)&points[n].state, 6);
+        hash = add(hash, (uint64_t)((int)points[n].phase * 4 + points[n].nose_sticks * 2 +
+                                    points[n].cloth_sticks));
+        hash =
+            add_numbers(add_numbers(hash, &points[n].v_n, 5), (const double *)&points[n].state, 6);
       }
     }
     show(way == 0 ? "cushion traces: mathavan" : "cushion traces: euler", hash);
   }
 }
 
-/* ---- Whole shots ------------------------------------------------------------------------------------------------------ */
+/* ---- Whole shots ----------------------------------------------------------------------------- */
 
 static uint64_t add_state(uint64_t hash, const carom_ball_state *s) {
   return add(add_numbers(hash, s->r, 9), (uint64_t)s->label);
@@ -320,27 +351,35 @@ static void shots(void) {
   } games[] = {{"nine-ball", CAROM_RACK_NINEBALL, CAROM_TABLE_POOL_9FT, CAROM_GAME_POOL},
                {"eight-ball", CAROM_RACK_EIGHTBALL, CAROM_TABLE_POOL_7FT, CAROM_GAME_POOL},
                {"snooker", CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, CAROM_GAME_POOLTOOL_SNOOKER},
-               {"three-cushion", CAROM_RACK_THREECUSHION, CAROM_TABLE_THREECUSHION, CAROM_GAME_POOLTOOL_BILLIARD},
+               {"three-cushion", CAROM_RACK_THREECUSHION, CAROM_TABLE_THREECUSHION,
+                CAROM_GAME_POOLTOOL_BILLIARD},
                {"snooker as measured", CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, CAROM_GAME_SNOOKER},
-               {"three-cushion as measured", CAROM_RACK_THREECUSHION, CAROM_TABLE_THREECUSHION, CAROM_GAME_BILLIARD}};
+               {"three-cushion as measured", CAROM_RACK_THREECUSHION, CAROM_TABLE_THREECUSHION,
+                CAROM_GAME_BILLIARD}};
   /* the options of a shot: its world, its models of balls and cushions, its friction */
   static const struct {
     const char *name;
     carom_shot_options options;
-  } models[] = {{"default", {0}},
-                {"stronge", {.cushion_model = CAROM_SHOT_CUSHION_STRONGE}},
-                {"han", {.cushion_model = CAROM_SHOT_CUSHION_HAN, .friction = CAROM_FRICTION_CONSTANT}},
-                {"mirror", {.cushion_model = CAROM_SHOT_CUSHION_MIRROR, .ball_model = CAROM_BALL_MODEL_INELASTIC}},
-                {"euler", {.cushion_model = CAROM_SHOT_CUSHION_EULER, .ball_model = CAROM_BALL_MODEL_EULER, .steps = 100}},
-                {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}},
-                {"mathavan", {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN}}};
+  } models[] = {
+      {"default", {0}},
+      {"stronge", {.cushion_model = CAROM_SHOT_CUSHION_STRONGE}},
+      {"han", {.cushion_model = CAROM_SHOT_CUSHION_HAN, .friction = CAROM_FRICTION_CONSTANT}},
+      {"mirror",
+       {.cushion_model = CAROM_SHOT_CUSHION_MIRROR, .ball_model = CAROM_BALL_MODEL_INELASTIC}},
+      {"euler",
+       {.cushion_model = CAROM_SHOT_CUSHION_EULER,
+        .ball_model = CAROM_BALL_MODEL_EULER,
+        .steps = 100}},
+      {"world pooltool", {.world = CAROM_WORLD_POOLTOOL}},
+      {"mathavan", {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN}}};
   static carom_event events[ROOM];
   static carom_shot_ball balls[CAROM_BALLS_MOST];
   static carom_ball_state final[CAROM_BALLS_MOST], later[CAROM_BALLS_MOST];
   static carom_table table;
   state = 4;
   for (int n = 0; n < 72;
-       n++) { /* the measured ones, then mathavan, behind the others, whose draws they leave as they are; then in space */
+       n++) { /* the measured ones, then mathavan, behind the others, whose draws they leave as
+                 they are; then in space */
     const bool space = n >= 42;
     const int m = space    ? (n - 42) / 6
                   : n < 24 ? n / 4
@@ -355,14 +394,16 @@ static void shots(void) {
     uint64_t hash = START;
     carom_table_make(games[g].table, &table);
     for (int k = 0; k < SHOTS; k++) {
-      /* a break from a rack with gaps, or frozen; in three-cushion in any direction; every fourth with the butt raised */
+      /* a break from a rack with gaps, or frozen; in three-cushion in any direction; every
+       * fourth with the butt raised */
       const int count = carom_rack_size(games[g].rack);
       carom_rack(games[g].rack, &table, k == 1 ? 0.0 : 1e-4, (uint64_t)k, balls, count);
       for (int i = 0; i < count; i++)
         balls[i].kind = carom_ball_kind_of(games[g].game);
       carom_cue cue = carom_cue_of(games[g].game);
       cue.speed = between(0.5, 8.5);
-      cue.phi = games[g].rack == CAROM_RACK_THREECUSHION ? between(0.0, 360.0) : between(80.0, 100.0);
+      cue.phi =
+          games[g].rack == CAROM_RACK_THREECUSHION ? between(0.0, 360.0) : between(80.0, 100.0);
       cue.theta = k == 3 ? between(0.0, 60.0) : 2.0;
       cue.a = between(-0.4, 0.4);
       cue.b = between(-0.4, 0.4);
@@ -374,7 +415,8 @@ static void shots(void) {
           hash = add_state(hash, &later[i]);
     }
     char what[100];
-    snprintf(what, sizeof what, "shots%s: %s, %s", space ? " in space" : "", games[g].name, models[m].name);
+    snprintf(what, sizeof what, "shots%s: %s, %s", space ? " in space" : "", games[g].name,
+             models[m].name);
     show(what, hash);
   }
 }

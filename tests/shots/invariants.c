@@ -1,5 +1,6 @@
-/* What every shot must satisfy. The motion between events is written here once more, from the equations and not from the
- * library, so that a wrong path shows: as a jump at the next event, an overlap, or a rise of energy. */
+/* What every shot must satisfy. The motion between events is written here once more, from the
+ * equations and not from the library, so that a wrong path shows: as a jump at the next event,
+ * an overlap, or a rise of energy. */
 #include "invariants.h"
 
 #include <math.h>
@@ -18,7 +19,8 @@ static int flies(const carom_ball_state *s) {
 }
 
 /* The state of a ball some time after it was *s. */
-static void move(const carom_ball_kind *k, const carom_ball_state *s, double t, carom_ball_state *out) {
+static void move(const carom_ball_kind *k, const carom_ball_state *s, double t,
+                 carom_ball_state *out) {
   *out = *s;
   if (s->label == CAROM_BALL_STATIONARY || is_out(s))
     return;
@@ -34,7 +36,8 @@ static void move(const carom_ball_kind *k, const carom_ball_state *s, double t, 
   if (s->label == CAROM_BALL_SPINNING)
     return;
   const int slides = s->label == CAROM_BALL_SLIDING;
-  const double x = slides ? s->v[0] - k->radius * s->w[1] : s->v[0], y = slides ? s->v[1] + k->radius * s->w[0] : s->v[1];
+  const double x = slides ? s->v[0] - k->radius * s->w[1] : s->v[0],
+               y = slides ? s->v[1] + k->radius * s->w[0] : s->v[1];
   const double size = length2(x, y), a = (slides ? k->mu_slide : k->mu_roll) * k->gravity;
   const double e[2] = {size > 0.0 ? x / size : 0.0, size > 0.0 ? y / size : 0.0};
   for (int axis = 0; axis < 2; axis++) {
@@ -57,17 +60,20 @@ static double energy_of(const carom_ball_kind *k, const carom_ball_state *s) {
     w2 += s->w[axis] * s->w[axis];
   }
   const double height = flies(s) ? s->r[2] - k->radius : 0.0;
-  return 0.5 * k->mass * v2 + 0.2 * k->mass * k->radius * k->radius * w2 + k->mass * k->gravity * height;
+  return 0.5 * k->mass * v2 + 0.2 * k->mass * k->radius * k->radius * w2 +
+         k->mass * k->gravity * height;
 }
 
 /* Whether an event is a contact of spheres in space. */
 static int in_space(const carom_shot_ball *balls, const carom_event *e) {
-  return flies(&e->before[0]) || flies(&e->before[1]) || balls[e->a].kind.radius != balls[e->b].kind.radius;
+  return flies(&e->before[0]) || flies(&e->before[1]) ||
+         balls[e->a].kind.radius != balls[e->b].kind.radius;
 }
 
 typedef struct follower {
   carom_shot before; /* the shot up to the next event */
-  bool drag;         /* some ball has it: the library has the motion, since its path is an approximation */
+  bool drag;         /* some ball has it: the library has the motion, since its path is an
+                        approximation */
   const carom_table *table;
   const carom_shot_ball *balls;
   int count;
@@ -98,28 +104,34 @@ static void measure_energy(follower *f) {
 }
 
 static const char *type_name(int type) {
-  static const char *const names[] = {"begin", "strike", "ball_ball", "rail",  "jaw",      "pocket",    "rolls",
-                                      "spins", "stops",  "stops",     "slate", "rail_top", "left_table"};
+  static const char *const names[] = {"begin",  "strike",   "ball_ball", "rail",  "jaw",
+                                      "pocket", "rolls",    "spins",     "stops", "stops",
+                                      "slate",  "rail_top", "left_table"};
   return names[type];
 }
 
 /* The distance of two centres; what lies on the cloth is at z = R. */
 static double distance(const follower *f, int i, int j) {
   const carom_ball_state *a = &f->at[i], *b = &f->at[j];
-  const double z_a = flies(a) ? a->r[2] : f->balls[i].kind.radius, z_b = flies(b) ? b->r[2] : f->balls[j].kind.radius;
+  const double z_a = flies(a) ? a->r[2] : f->balls[i].kind.radius,
+               z_b = flies(b) ? b->r[2] : f->balls[j].kind.radius;
   return hypot(length2(a->r[0] - b->r[0], a->r[1] - b->r[1]), z_a - z_b);
 }
 
-/* Noses are inside the walls that stand for them, so that balls of the table's radius touch those on the cloth. */
+/* Noses are inside the walls that stand for them, so that balls of the table's radius touch
+ * those on the cloth. */
 static double nose_shift(const follower *f, double h) {
-  const double reference = f->table->ball_radius > 0.0 ? f->table->ball_radius : f->balls[f->count - 1].kind.radius;
+  const double reference =
+      f->table->ball_radius > 0.0 ? f->table->ball_radius : f->balls[f->count - 1].kind.radius;
   return reference - sqrt(h * (2.0 * reference - h));
 }
 static double reach_on_cloth(const follower *f, double h, double R) {
-  const double reference = f->table->ball_radius > 0.0 ? f->table->ball_radius : f->balls[f->count - 1].kind.radius;
+  const double reference =
+      f->table->ball_radius > 0.0 ? f->table->ball_radius : f->balls[f->count - 1].kind.radius;
   return R == reference ? R : nose_shift(f, h) + sqrt(h * (2.0 * R - h));
 }
-/* How deep a nose is in a flying ball that is in front of it; what is behind it or over it is left to the library. */
+/* How deep a nose is in a flying ball that is in front of it; what is behind it or over it is
+ * left to the library. */
 static double nose_intrusion(const follower *f, double left, double h, double R, double z) {
   const double across = left - nose_shift(f, h);
   return across >= 0.0 ? R - hypot(across, z - h) : -INFINITY;
@@ -143,10 +155,13 @@ static void measure_places(follower *f) {
     }
     for (int k = 0; k < f->table->rails; k++) {
       const carom_rail *rail = &f->table->rail[k];
-      const double e_x = rail->q[0] - rail->p[0], e_y = rail->q[1] - rail->p[1], x = r[0] - rail->p[0], y = r[1] - rail->p[1];
+      const double e_x = rail->q[0] - rail->p[0], e_y = rail->q[1] - rail->p[1],
+                   x = r[0] - rail->p[0], y = r[1] - rail->p[1];
       const double size = length2(e_x, e_y), place = (x * e_x + y * e_y) / (size * size);
-      double left = (e_x * y - e_y * x) / size;                       /* distance on the left of p -> q */
-      const double line = rail->line[0] * -e_y + rail->line[1] * e_x; /* whether the given line counts that as positive */
+      /* distance on the left of p -> q */
+      double left = (e_x * y - e_y * x) / size;
+      /* whether the given line counts that as positive */
+      const double line = rail->line[0] * -e_y + rail->line[1] * e_x;
       left = (rail->side == 1) == (line >= 0.0) ? left : -left;
       if (flies(&f->at[i])) {
         const double deep = nose_intrusion(f, left, own > 0.0 ? own : rail->height, R, r[2]);
@@ -165,8 +180,9 @@ static void measure_places(follower *f) {
     for (int k = 0; k < f->table->jaws; k++) {
       const carom_jaw *jaw = &f->table->jaw[k];
       const double left = length2(r[0] - jaw->centre[0], r[1] - jaw->centre[1]) - jaw->radius;
-      const double intrusion = flies(&f->at[i]) ? nose_intrusion(f, left, own > 0.0 ? own : jaw->height, R, r[2])
-                                                : reach_on_cloth(f, jaw->height, R) - left;
+      const double intrusion = flies(&f->at[i])
+                                   ? nose_intrusion(f, left, own > 0.0 ? own : jaw->height, R, r[2])
+                                   : reach_on_cloth(f, jaw->height, R) - left;
       if (intrusion > f->m.intrusion) {
         f->m.intrusion = intrusion;
         f->m.worst_at = type_name(f->last_type);
@@ -178,13 +194,14 @@ static void measure_places(follower *f) {
 static double jump_of(const carom_ball_state *a, const carom_ball_state *b, double R) {
   double worst = 0.0;
   for (int axis = 0; axis < 3; axis++)
-    worst = fmax(worst,
-                 fmax(fabs(a->r[axis] - b->r[axis]), fmax(fabs(a->v[axis] - b->v[axis]), R * fabs(a->w[axis] - b->w[axis]))));
+    worst =
+        fmax(worst, fmax(fabs(a->r[axis] - b->r[axis]),
+                         fmax(fabs(a->v[axis] - b->v[axis]), R * fabs(a->w[axis] - b->w[axis]))));
   return worst;
 }
 
-/* The cloth takes at most mu_slide times the vertical impulse, which is friction's, at most 0.12 of the normal one (or
- * mu_ball). */
+/* The cloth takes at most mu_slide times the vertical impulse, which is friction's, at most 0.12
+ * of the normal one (or mu_ball). */
 static double momentum_change(const follower *f, const carom_event *e) {
   const carom_ball_kind *a = &f->balls[e->a].kind, *b = &f->balls[e->b].kind;
   double change[2], normal[2];
@@ -194,19 +211,25 @@ static double momentum_change(const follower *f, const carom_event *e) {
     change[axis] = p_a + p_b;
     normal[axis] = p_b;
   }
-  if (in_space(f->balls, e)) { /* heights count, but for a ball that stays on the cloth; the cloth has no other part */
-    const double p_a = a->mass * (e->after[0].v[2] - e->before[0].v[2]), p_b = b->mass * (e->after[1].v[2] - e->before[1].v[2]);
+  if (in_space(f->balls, e)) { /* heights count, but for a ball that stays on the cloth; the
+                                  cloth has no other part */
+    const double p_a = a->mass * (e->after[0].v[2] - e->before[0].v[2]),
+                 p_b = b->mass * (e->after[1].v[2] - e->before[1].v[2]);
     bool lies = false;
     for (int side = 0; side < 2; side++)
       lies |= !flies(&e->before[side]) && !flies(&e->after[side]);
-    return hypot(length2(change[0], change[1]), lies ? 0.0 : p_a + p_b) / (1e-13 + 1e-9 * (a->mass + b->mass));
+    return hypot(length2(change[0], change[1]), lies ? 0.0 : p_a + p_b) /
+           (1e-13 + 1e-9 * (a->mass + b->mass));
   }
-  const double allowed = fmax(a->mu_slide, b->mu_slide) * 0.12 * 1.01 * length2(normal[0], normal[1]) / (1.0 - 0.12) + 1e-13;
+  const double allowed =
+      fmax(a->mu_slide, b->mu_slide) * 0.12 * 1.01 * length2(normal[0], normal[1]) / (1.0 - 0.12) +
+      1e-13;
   return length2(change[0], change[1]) / allowed;
 }
 
-/* The same for the contacts of a cluster together. The loads of all its balls press on the cloth: friction's part of the normal
- * impulses, of which each contact has at most as much as the balls of the cluster change together. */
+/* The same for the contacts of a cluster together. The loads of all its balls press on the
+ * cloth: friction's part of the normal impulses, of which each contact has at most as much as
+ * the balls of the cluster change together. */
 static double momentum_change_of_cluster(const follower *f, const carom_event *e) {
   double change[3] = {0.0}, sum = 0.0, mass = 0.0, mu = 0.0;
   bool space = false, changed[CAROM_BALLS_MOST] = {false};
@@ -231,9 +254,14 @@ static double momentum_change_of_cluster(const follower *f, const carom_event *e
   return size / (space ? 1e-13 + 1e-9 * mass : 1e-13 + mu * 0.12 * e->cluster * sum);
 }
 
-shot_measures shot_measure(const carom_table *table, const carom_shot_ball *balls, int count, const carom_shot *shot,
-                           carom_status status, int samples) {
-  follower f = {.before = *shot, .table = table, .balls = balls, .count = count, .m = {.worst_at = "-"}, .energy = INFINITY};
+shot_measures shot_measure(const carom_table *table, const carom_shot_ball *balls, int count,
+                           const carom_shot *shot, carom_status status, int samples) {
+  follower f = {.before = *shot,
+                .table = table,
+                .balls = balls,
+                .count = count,
+                .m = {.worst_at = "-"},
+                .energy = INFINITY};
   f.before.room = shot->count;
   f.before.count = 0; /* what the layout is taken for */
   carom_shot_at(balls, count, &f.before, 0.0, f.from);

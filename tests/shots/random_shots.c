@@ -1,6 +1,7 @@
-/* Random shots: breaks, layouts, racks of other games, and what simulators trip over: frozen racks, lines and clusters of
- * touching balls, balls frozen to rails and in corners, much spin, unlike balls, extreme restitution, up to 32 balls that their
- * spin presses together, and what random numbers never do: events at exactly one instant, gaps of exactly 0, the exact ends of
+/* Random shots: breaks, layouts, racks of other games, and what simulators trip over: frozen
+ * racks, lines and clusters of touching balls, balls frozen to rails and in corners, much spin,
+ * unlike balls, extreme restitution, up to 32 balls that their spin presses together, and what
+ * random numbers never do: events at exactly one instant, gaps of exactly 0, the exact ends of
  * rails. And in space: elevated cues, balls that fall on each other, unlike radii. */
 #include "random_shots.h"
 
@@ -34,9 +35,11 @@ static void add_anywhere(random_shot *s, lab_random *r, carom_game game) {
                  y = lab_uniform(r, R + 1e-4, s->table.length - R - 1e-4);
     bool good = is_free(s, x, y, room);
     for (int k = 0; k < s->table.pockets; k++)
-      good &= hypot(s->table.pocket[k].centre[0] - x, s->table.pocket[k].centre[1] - y) > s->table.pocket[k].radius + R;
+      good &= hypot(s->table.pocket[k].centre[0] - x, s->table.pocket[k].centre[1] - y) >
+              s->table.pocket[k].radius + R;
     for (int k = 0; k < s->table.jaws; k++)
-      good &= hypot(s->table.jaw[k].centre[0] - x, s->table.jaw[k].centre[1] - y) > s->table.jaw[k].radius + R;
+      good &= hypot(s->table.jaw[k].centre[0] - x, s->table.jaw[k].centre[1] - y) >
+              s->table.jaw[k].radius + R;
     if (good) {
       add(s, game, x, y);
       return;
@@ -48,7 +51,8 @@ static void any_cue(random_shot *s, lab_random *r, double slow, double fast) {
   s->cue = carom_cue_of(CAROM_GAME_POOLTOOL_POOL);
   s->cue.speed = lab_uniform(r, slow, fast);
   s->cue.phi = lab_uniform(r, 0.0, 360.0);
-  const double off = 0.7 * sqrt(lab_uniform(r, 0.0, 1.0)), way = lab_uniform(r, 0.0, 6.283185307179586);
+  const double off = 0.7 * sqrt(lab_uniform(r, 0.0, 1.0)),
+               way = lab_uniform(r, 0.0, 6.283185307179586);
   s->cue.a = off * cos(way);
   s->cue.b = off * sin(way);
   s->cue.theta = lab_uniform(r, 0.0, 1.0) < 0.3 ? lab_uniform(r, 0.0, 70.0) : 0.0;
@@ -57,12 +61,13 @@ static void any_cue(random_shot *s, lab_random *r, double slow, double fast) {
 /* At ball 1, give or take some degrees. */
 static void aim(random_shot *s, lab_random *r, double off) {
   if (s->count > 1)
-    s->cue.phi = 57.29577951308232 *
-                     atan2(s->ball[1].state.r[1] - s->ball[0].state.r[1], s->ball[1].state.r[0] - s->ball[0].state.r[0]) +
+    s->cue.phi = 57.29577951308232 * atan2(s->ball[1].state.r[1] - s->ball[0].state.r[1],
+                                           s->ball[1].state.r[0] - s->ball[0].state.r[0]) +
                  lab_uniform(r, -off, off);
 }
 
-static void break_of(random_shot *s, lab_random *r, carom_rack_kind rack, carom_table_kind table, double gap) {
+static void break_of(random_shot *s, lab_random *r, carom_rack_kind rack, carom_table_kind table,
+                     double gap) {
   carom_table_make(table, &s->table);
   carom_rack(rack, &s->table, gap, lab_bits(r), s->ball, CAROM_BALLS_MOST);
   s->count = carom_rack_size(rack);
@@ -84,7 +89,8 @@ static void tenball(random_shot *s, lab_random *r) {
   break_of(s, r, CAROM_RACK_TENBALL, any_pool_table(r), pow(10.0, lab_uniform(r, -6.0, -3.5)));
 }
 static void frozen_rack(random_shot *s, lab_random *r) {
-  break_of(s, r, (carom_rack_kind)whole(r, CAROM_RACK_NINEBALL, CAROM_RACK_TENBALL), any_pool_table(r), 0.0);
+  break_of(s, r, (carom_rack_kind)whole(r, CAROM_RACK_NINEBALL, CAROM_RACK_TENBALL),
+           any_pool_table(r), 0.0);
 }
 static void snooker(random_shot *s, lab_random *r) {
   break_of(s, r, CAROM_RACK_SNOOKER, CAROM_TABLE_SNOOKER, whole(r, 0, 1) ? 0.0 : 1e-4);
@@ -115,7 +121,8 @@ static void moving(random_shot *s, lab_random *r) {
   layout(s, r);
   s->cue.speed = 0.0;
   for (int k = 0; k < s->count; k++) {
-    const double speed = whole(r, 0, 3) == 0 ? 0.0 : lab_uniform(r, 0.0, 3.0), way = lab_uniform(r, 0.0, 6.283185307179586);
+    const double speed = whole(r, 0, 3) == 0 ? 0.0 : lab_uniform(r, 0.0, 3.0),
+                 way = lab_uniform(r, 0.0, 6.283185307179586);
     carom_ball_state *b = &s->ball[k].state;
     b->v[0] = speed * cos(way);
     b->v[1] = speed * sin(way);
@@ -144,7 +151,8 @@ static void cradle(random_shot *s, lab_random *r) {
     aim(s, r, 0.5);
 }
 
-/* A ball in contact with a rail or in a corner, with another in contact with it, hit or spinning against it. */
+/* A ball in contact with a rail or in a corner, with another in contact with it, hit or spinning
+ * against it. */
 static void frozen_to_rail(random_shot *s, lab_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
   const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius, w = s->table.width;
@@ -178,8 +186,8 @@ static void cluster(random_shot *s, lab_random *r) {
     const carom_ball_state *to = &s->ball[whole(r, 1, s->count - 1)].state;
     const double way = lab_uniform(r, 0.0, 6.283185307179586);
     const double x = to->r[0] + 2.0 * R * cos(way), y = to->r[1] + 2.0 * R * sin(way);
-    if (is_free(s, x, y, 2.0 * R - 1e-12) && x > 2.0 * R && x < s->table.width - 2.0 * R && y < 0.9 * s->table.length &&
-        y > 0.4)
+    if (is_free(s, x, y, 2.0 * R - 1e-12) && x > 2.0 * R && x < s->table.width - 2.0 * R &&
+        y < 0.9 * s->table.length && y > 0.4)
       add(s, CAROM_GAME_POOLTOOL_POOL, x, y);
   }
   any_cue(s, r, 0.5, 8.0);
@@ -198,7 +206,9 @@ static void unlike(random_shot *s, lab_random *r) {
     b->mu_slide = lab_uniform(r, 0.05, 0.5);
     b->mu_roll = lab_uniform(r, 0.003, 0.03);
     b->mu_spin = lab_uniform(r, 0.003, 0.03);
-    b->restitution = whole(r, 0, 4) == 0 ? 0.0 : whole(r, 0, 4) == 0 ? 1.0 : lab_uniform(r, 0.0, 1.0);
+    b->restitution = whole(r, 0, 4) == 0   ? 0.0
+                     : whole(r, 0, 4) == 0 ? 1.0
+                                           : lab_uniform(r, 0.0, 1.0);
     b->restitution_cushion = whole(r, 0, 4) == 0 ? 0.0 : lab_uniform(r, 0.0, 1.0);
     b->mu_cushion = lab_uniform(r, 0.0, 0.6);
   }
@@ -211,27 +221,33 @@ static void near_pocket(random_shot *s, lab_random *r) {
     add_anywhere(s, r, CAROM_GAME_POOLTOOL_POOL);
   const carom_pocket *p = &s->table.pocket[whole(r, 0, (int)s->table.pockets - 1)];
   any_cue(s, r, 0.2, 3.0);
-  s->cue.phi = 57.29577951308232 * atan2(p->centre[1] - s->ball[0].state.r[1], p->centre[0] - s->ball[0].state.r[0]) +
+  s->cue.phi = 57.29577951308232 * atan2(p->centre[1] - s->ball[0].state.r[1],
+                                         p->centre[0] - s->ball[0].state.r[0]) +
                lab_uniform(r, -3.0, 3.0);
 }
 
-/* Up to 32 touching balls, in a line or a triangle, in the open or against a rail, whose spin presses them together. */
+/* Up to 32 touching balls, in a line or a triangle, in the open or against a rail, whose spin
+ * presses them together. */
 static void pressed(random_shot *s, lab_random *r) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &s->table);
-  const int which = whole(r, 0, 2), count = whole(r, 2, which == 1 ? CAROM_BALLS_MOST / 2 : CAROM_BALLS_MOST),
+  const int which = whole(r, 0, 2),
+            count = whole(r, 2, which == 1 ? CAROM_BALLS_MOST / 2 : CAROM_BALLS_MOST),
             shape = whole(r, 0, 2);
-  const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius, spin = lab_uniform(r, 20.0, 300.0);
+  const double R = carom_ball_kind_of(CAROM_GAME_POOLTOOL_BILLIARD).radius,
+               spin = lab_uniform(r, 20.0, 300.0);
   for (int k = 0, row = 0, place = 0; k < count; k++, place++) {
     if (place > row) {
       row++;
       place = 0;
     }
     if (shape == 2)
-      add(s, CAROM_GAME_POOLTOOL_BILLIARD, 0.5 * s->table.width + (2.0 * place - row) * R, 0.5 + row * sqrt(3.0) * R);
+      add(s, CAROM_GAME_POOLTOOL_BILLIARD, 0.5 * s->table.width + (2.0 * place - row) * R,
+          0.5 + row * sqrt(3.0) * R);
     else
       add(s, CAROM_GAME_POOLTOOL_BILLIARD, 0.5, (shape == 0 ? R : 0.5) + 2.0 * R * k);
   }
-  /* the first along the line, both ends against each other, or all at random; rolling along +y has w_x < 0 */
+  /* the first along the line, both ends against each other, or all at random; rolling along +y
+   * has w_x < 0 */
   for (int k = 0; k < count; k++) {
     double *w = s->ball[k].state.w;
     if (which == 2) {
@@ -245,16 +261,17 @@ static void pressed(random_shot *s, lab_random *r) {
   }
 }
 
-/* Balls on a lattice of their diameter, on a table whose sides are multiples of it, with velocities along an axis or a
- * diagonal: in doubles without rounding. Neighbours touch, balls at the sides touch the rails, many meet at one instant, and
- * rails end where balls meet them. */
+/* Balls on a lattice of their diameter, on a table whose sides are multiples of it, with
+ * velocities along an axis or a diagonal: in doubles without rounding. Neighbours touch, balls
+ * at the sides touch the rails, many meet at one instant, and rails end where balls meet them. */
 static void coincident(random_shot *s, lab_random *r) {
   const double R = 0.03125, height = 0.0375;
   s->table = (carom_table){.width = 1.0, .length = 2.0};
   const double corner[5][2] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 2.0}, {0.0, 2.0}, {0.0, 0.0}};
   const int parts = whole(r, 0, 1) ? 1 : 4; /* ends of rails at the places of balls */
   for (int k = 0; k < 4 * parts; k++) {
-    const double *p = corner[k / parts], *q = corner[k / parts + 1], from = (double)(k % parts) / parts, step = 1.0 / parts;
+    const double *p = corner[k / parts], *q = corner[k / parts + 1],
+                 from = (double)(k % parts) / parts, step = 1.0 / parts;
     carom_rail *rail = &s->table.rail[s->table.rails++];
     *rail = (carom_rail){.height = height, .side = 1};
     for (int axis = 0; axis < 2; axis++) {
@@ -263,13 +280,15 @@ static void coincident(random_shot *s, lab_random *r) {
     }
   }
   if (whole(r, 0, 1)) /* a post, met at its exact side */
-    s->table.jaw[s->table.jaws++] = (carom_jaw){.centre = {0.5, 1.0}, .radius = 0.03125, .height = height};
+    s->table.jaw[s->table.jaws++] =
+        (carom_jaw){.centre = {0.5, 1.0}, .radius = 0.03125, .height = height};
   /* places k + 1/2 diameters from the sides; where rails end and a post stands, whole ones */
   const double shift = whole(r, 0, 1) ? R : 2.0 * R;
   const int count = whole(r, 1, 12), lines = whole(r, 1, 3);
   const double e = 0.25 * whole(r, 0, 4);
   for (int trial = 0; trial < 100 && s->count < count; trial++) {
-    const double x = shift + 2.0 * R * whole(r, 0, 14), y = shift + 2.0 * R * (whole(r, 0, 1) ? 15 : whole(r, 0, 30) / lines);
+    const double x = shift + 2.0 * R * whole(r, 0, 14),
+                 y = shift + 2.0 * R * (whole(r, 0, 1) ? 15 : whole(r, 0, 30) / lines);
     if (!is_free(s, x, y, 2.0 * R) || (s->table.jaws > 0 && hypot(x - 0.5, y - 1.0) < 2.0 * R))
       continue;
     add(s, CAROM_GAME_POOLTOOL_POOL, x, y);
@@ -287,9 +306,9 @@ static void coincident(random_shot *s, lab_random *r) {
   }
 }
 
-/* The same in the air, where time is without rounding too, as g = 8 m/s^2: balls at the heights of others, of the noses and of
- * their tops, thrown upward, downward and level, beside each other or a diameter apart; and a pocket with its edge at their
- * places. */
+/* The same in the air, where time is without rounding too, as g = 8 m/s^2: balls at the heights
+ * of others, of the noses and of their tops, thrown upward, downward and level, beside each
+ * other or a diameter apart; and a pocket with its edge at their places. */
 static void coincident_in_space(random_shot *s, lab_random *r) {
   coincident(s, r);
   const double R = 0.03125, nose = s->table.rail[0].height, lies = R;
@@ -302,14 +321,17 @@ static void coincident_in_space(random_shot *s, lab_random *r) {
     carom_shot_ball *b = &s->ball[k];
     b->kind.gravity = 8.0;
     b->kind.restitution_table = 0.25 * whole(r, 0, 3);
-    const double *at = b->state.r, centre = hypot(at[0] - 0.5, at[1] - 1.0); /* from the post, if there is one */
-    const bool beside =
-        at[0] < 2.0 * R || at[0] > 1.0 - 2.0 * R || at[1] < 2.0 * R || at[1] > 2.0 - 2.0 * R || centre < 4.0 * R;
-    b->state.r[2] = heights[beside ? 3 * whole(r, 0, 1) : whole(r, 0, 6)]; /* at a nose it would be in it */
+    /* from the post, if there is one */
+    const double *at = b->state.r, centre = hypot(at[0] - 0.5, at[1] - 1.0);
+    const bool beside = at[0] < 2.0 * R || at[0] > 1.0 - 2.0 * R || at[1] < 2.0 * R ||
+                        at[1] > 2.0 - 2.0 * R || centre < 4.0 * R;
+    /* at a nose it would be in it */
+    b->state.r[2] = heights[beside ? 3 * whole(r, 0, 1) : whole(r, 0, 6)];
     b->state.v[2] = b->state.r[2] > lies || whole(r, 0, 1) ? speeds[whole(r, 0, 4)] : 0.0;
     if (b->state.r[2] == lies && b->state.v[2] < 0.0)
       b->state.v[2] = -b->state.v[2];
-    b->state.label = b->state.r[2] > lies || b->state.v[2] > 0.0 ? CAROM_BALL_AIRBORNE : b->state.label;
+    b->state.label =
+        b->state.r[2] > lies || b->state.v[2] > 0.0 ? CAROM_BALL_AIRBORNE : b->state.label;
   }
 }
 
@@ -319,7 +341,8 @@ static void jump(random_shot *s, lab_random *r) {
   any_cue(s, r, 0.5, 6.0);
   aim(s, r, 10.0);
   s->cue.theta = lab_uniform(r, 2.0, 80.0);
-  const double off = 0.5 * sqrt(lab_uniform(r, 0.0, 1.0)), way = lab_uniform(r, 0.0, 6.283185307179586);
+  const double off = 0.5 * sqrt(lab_uniform(r, 0.0, 1.0)),
+               way = lab_uniform(r, 0.0, 6.283185307179586);
   s->cue.a = off * cos(way);
   s->cue.b = off * sin(way);
   for (int k = 0; k < s->count; k++)
@@ -336,8 +359,8 @@ static bool is_free_in_space(const random_shot *s, const double at[3], double R)
   return true;
 }
 
-/* Balls above each other that fall, on the cloth, on rails and into pockets; some lie below. Alike, or unlike in radius and
- * mass. */
+/* Balls above each other that fall, on the cloth, on rails and into pockets; some lie below.
+ * Alike, or unlike in radius and mass. */
 static void falling(random_shot *s, lab_random *r) {
   carom_table_make(any_pool_table(r), &s->table);
   const int count = whole(r, 2, 12), alike = whole(r, 0, 1);
@@ -352,19 +375,23 @@ static void falling(random_shot *s, lab_random *r) {
     const bool lies = whole(r, 0, 1);
     const double at[3] = {x + lab_uniform(r, -wide, wide), y + lab_uniform(r, -wide, wide),
                           lies ? R : R + lab_uniform(r, 0.0, 0.4)};
-    if (at[0] < 0.1 || at[0] > width - 0.1 || at[1] < 0.1 || at[1] > length - 0.1 || !is_free_in_space(s, at, R))
+    if (at[0] < 0.1 || at[0] > width - 0.1 || at[1] < 0.1 || at[1] > length - 0.1 ||
+        !is_free_in_space(s, at, R))
       continue;
     carom_shot_ball *b = &s->ball[s->count++];
     *b = (carom_shot_ball){.kind = kind};
     memcpy(b->state.r, at, sizeof at);
     for (int axis = 0; axis < 3; axis++) {
-      b->state.v[axis] = axis < 2 ? lab_uniform(r, -2.0, 2.0) : lies ? 0.0 : lab_uniform(r, -3.0, 2.0);
+      b->state.v[axis] = axis < 2 ? lab_uniform(r, -2.0, 2.0)
+                         : lies   ? 0.0
+                                  : lab_uniform(r, -3.0, 2.0);
       b->state.w[axis] = whole(r, 0, 1) * lab_uniform(r, -150.0, 150.0);
     }
   }
 }
 
-/* Balls of unlike radii and masses on the cloth, one of them struck, with the butt raised or not. */
+/* Balls of unlike radii and masses on the cloth, one of them struck, with the butt raised or
+ * not. */
 static void unlike_radii(random_shot *s, lab_random *r) {
   layout(s, r);
   for (int k = 0; k < s->count; k++) {

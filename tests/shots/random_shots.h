@@ -13,7 +13,8 @@ typedef struct random_shot {
   carom_cue cue;
 } random_shot;
 
-/* The number of kinds, and their names. Those in space come behind the others, and are for CAROM_SPACE_3D. */
+/* The number of kinds, and their names. Those in space come behind the others, and are for
+ * CAROM_SPACE_3D. */
 int random_shot_kinds(void);
 int random_shot_kinds_in_space(void);
 const char *random_shot_kind(int kind);

@@ -11,7 +11,8 @@ TEST(pair_and_component_errors) {
   ck_assert(a.identical);
   ck_assert_double_eq(a.pair, 0.0);
   ck_assert_double_eq(a.component, 0.0);
-  result.a.v[1] = 0.003; /* 0.002 off: of the scale 3 = 0.03 * 100; itself below a thousandth of it */
+  result.a.v[1] = 0.003; /* 0.002 off: of the scale 3 = 0.03 * 100; itself below a thousandth of
+                            it */
   a = accuracy_of(&result, &reference, 0.03);
   ck_assert(!a.identical);
   ck_assert_double_eq_tol(a.pair, 0.002 / 3.0, 1e-15);

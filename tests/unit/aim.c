@@ -1,4 +1,5 @@
-/* Aiming at a ball: what is found holds, and what is refused is not there. The judge plays shots, and knows nothing of paths.
+/* Aiming at a ball: what is found holds, and what is refused is not there. The judge plays
+ * shots, and knows nothing of paths.
  */
 #include "aim.h"
 #include "derived.h"
@@ -25,18 +26,20 @@ static double cut_at(const problem *p, double phi) {
   carom_shot_options options = p->options;
   carom_shot shot = {.events = events, .room = ROOM};
   cue.phi = phi;
-  options.stop_at = CAROM_STOP_AT_CONTACT | CAROM_STOP_AT(CAROM_EVENT_RAIL) | CAROM_STOP_AT(CAROM_EVENT_JAW) |
-                    CAROM_STOP_AT(CAROM_EVENT_POCKET) | CAROM_STOP_AT(CAROM_EVENT_RAIL_TOP) |
-                    CAROM_STOP_AT(CAROM_EVENT_LEFT_TABLE);
+  options.stop_at = CAROM_STOP_AT_CONTACT | CAROM_STOP_AT(CAROM_EVENT_RAIL) |
+                    CAROM_STOP_AT(CAROM_EVENT_JAW) | CAROM_STOP_AT(CAROM_EVENT_POCKET) |
+                    CAROM_STOP_AT(CAROM_EVENT_RAIL_TOP) | CAROM_STOP_AT(CAROM_EVENT_LEFT_TABLE);
   carom_shoot(&p->table, p->ball, p->count, &cue, &options, &shot);
   const carom_event *e = &events[shot.count - 1];
   if (shot.count == 0 || e->type != CAROM_EVENT_BALL_BALL || (e->a != p->at && e->b != p->at))
     return (double)NAN;
-  const carom_ball_state *own = &e->before[e->a == 0 ? 0 : 1], *other = &e->before[e->a == 0 ? 1 : 0];
+  const carom_ball_state *own = &e->before[e->a == 0 ? 0 : 1],
+                         *other = &e->before[e->a == 0 ? 1 : 0];
   return angle_between(own->v, (const double[]){other->r[0] - own->r[0], other->r[1] - own->r[1]});
 }
 
-/* Whether some direction has the cut, by trial: neighbours with a lesser and a greater cut are halved. */
+/* Whether some direction has the cut, by trial: neighbours with a lesser and a greater cut are
+ * halved. */
 static bool exists(const problem *p) {
   const int directions = FEWER(DIRECTIONS);
   double last = cut_at(p, 0.0);
@@ -56,12 +59,13 @@ static bool exists(const problem *p) {
 }
 
 static problem random_problem(random_source *random) {
-  static const carom_game games[] = {CAROM_GAME_POOL, CAROM_GAME_POOL, CAROM_GAME_POOL, CAROM_GAME_SNOOKER,
-                                     CAROM_GAME_BILLIARD};
+  static const carom_game games[] = {CAROM_GAME_POOL, CAROM_GAME_POOL, CAROM_GAME_POOL,
+                                     CAROM_GAME_SNOOKER, CAROM_GAME_BILLIARD};
   problem p;
   do {
     const int kind = (int)random_between(random, 0.0, 5.0);
-    p = (problem){.count = 2 + (int)random_between(random, 0.0, MOST_BALLS - 1), .cue = carom_cue_of(games[kind])};
+    p = (problem){.count = 2 + (int)random_between(random, 0.0, MOST_BALLS - 1),
+                  .cue = carom_cue_of(games[kind])};
     ck_assert_int_eq(carom_table_make((carom_table_kind)kind, &p.table), CAROM_OK);
     for (int k = 0; k < p.count; k++) {
       p.ball[k].kind = carom_ball_kind_of(games[kind]);
@@ -71,12 +75,14 @@ static problem random_problem(random_source *random) {
     }
     /* One ball in ten touches the cue ball. */
     if (random_between(random, 0.0, 10.0) < 1.0) {
-      const double touch = random_between(random, 0.0, 360.0) * degree, apart = 2.0 * p.ball[0].kind.radius;
+      const double touch = random_between(random, 0.0, 360.0) * degree,
+                   apart = 2.0 * p.ball[0].kind.radius;
       p.ball[1].state.r[0] = p.ball[0].state.r[0] + apart * cos(touch);
       p.ball[1].state.r[1] = p.ball[0].state.r[1] + apart * sin(touch);
     }
     /* Half of the cues are level, a fifth of all plays flat, one in ten by pooltool's rules. */
-    const double off = random_between(random, 0.0, 0.9), turn = random_between(random, 0.0, 360.0) * degree;
+    const double off = random_between(random, 0.0, 0.9),
+                 turn = random_between(random, 0.0, 360.0) * degree;
     const double world = random_between(random, 0.0, 10.0);
     p.cue.a = off * cos(turn);
     p.cue.b = off * sin(turn);
@@ -97,24 +103,29 @@ TEST(the_ball_is_met_at_the_cut_or_cannot_be) {
     const problem p = random_problem(&random);
     carom_cue cue = p.cue;
     carom_event first = {0};
-    const aim_result result = aim_at(&p.table, p.ball, p.count, &p.options, p.at, p.cut, &cue, &first);
+    const aim_result result =
+        aim_at(&p.table, p.ball, p.count, &p.options, p.at, p.cut, &cue, &first);
     found[result]++;
     /* Whether a ball that touches is met at once or after the slate depends on rounding. */
-    const double allowed = hypot(p.ball[1].state.r[0] - p.ball[0].state.r[0], p.ball[1].state.r[1] - p.ball[0].state.r[1]) <
-                                   2.0 * p.ball[0].kind.radius + 1e-9
-                               ? 1e-2
-                               : 1e-4;
+    const double allowed =
+        hypot(p.ball[1].state.r[0] - p.ball[0].state.r[0],
+              p.ball[1].state.r[1] - p.ball[0].state.r[1]) < 2.0 * p.ball[0].kind.radius + 1e-9
+            ? 1e-2
+            : 1e-4;
     if (result == AIM_FOUND)
-      ck_assert_msg(fabs(cut_at(&p, cue.phi) - p.cut) < allowed, "layout %d: a cut of %.9g, not %.9g", k, cut_at(&p, cue.phi),
-                    p.cut);
+      ck_assert_msg(fabs(cut_at(&p, cue.phi) - p.cut) < allowed,
+                    "layout %d: a cut of %.9g, not %.9g", k, cut_at(&p, cue.phi), p.cut);
     else
-      ck_assert_msg(!exists(&p), "layout %d: refused (%d), but there is a direction for a cut of %.9g", k, result, p.cut);
+      ck_assert_msg(!exists(&p),
+                    "layout %d: refused (%d), but there is a direction for a cut of %.9g", k,
+                    result, p.cut);
     if (result == AIM_BARRED)
-      ck_assert_msg(first.time >= 0.0 && first.type != 0 && (first.type != CAROM_EVENT_BALL_BALL || first.a + first.b != p.at),
+      ck_assert_msg(first.time >= 0.0 && first.type != 0 &&
+                        (first.type != CAROM_EVENT_BALL_BALL || first.a + first.b != p.at),
                     "layout %d: barred by event %d", k, first.type);
   }
-  printf("%d found, %d barred, %d not reached, %d without direction\n", found[AIM_FOUND], found[AIM_BARRED],
-         found[AIM_NOT_REACHED], found[AIM_NONE]);
+  printf("%d found, %d barred, %d not reached, %d without direction\n", found[AIM_FOUND],
+         found[AIM_BARRED], found[AIM_NOT_REACHED], found[AIM_NONE]);
   for (int k = 0; k <= AIM_NONE; k++)
     ck_assert_int_gt(found[k], 10);
 }

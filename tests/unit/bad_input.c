@@ -55,7 +55,11 @@ enum { BAD_CASES = sizeof bad_cases / sizeof bad_cases[0] };
 
 /* A straight shot of a rolling ball on a resting one. */
 static carom_impact good_impact(void) {
-  carom_impact in = {.a = {.r = {0.0, 0.0, 0.03}, .v = {0.3, 1.0, 0.0}, .radius = 0.03, .mass = 0.17, .mu_cloth = 0.2},
+  carom_impact in = {.a = {.r = {0.0, 0.0, 0.03},
+                           .v = {0.3, 1.0, 0.0},
+                           .radius = 0.03,
+                           .mass = 0.17,
+                           .mu_cloth = 0.2},
                      .mu_ball = 0.05,
                      .restitution = 0.95};
   in.b = in.a;
@@ -84,8 +88,8 @@ TEST(each_field_is_named) {
     carom_result out;
     int blamed;
     const carom_status status = carom_collide(&in, NULL, &out);
-    ck_assert_msg(status == bad->status, "%s = %g: %s, not %s", carom_field_name(bad->field), bad->value,
-                  carom_status_name(status), carom_status_name(bad->status));
+    ck_assert_msg(status == bad->status, "%s = %g: %s, not %s", carom_field_name(bad->field),
+                  bad->value, carom_status_name(status), carom_status_name(bad->status));
     expect_all_nan(&out);
     ck_assert_int_eq(carom_check(&in, NULL, &blamed), bad->status);
     ck_assert_int_eq(blamed, bad->blamed);
@@ -123,7 +127,8 @@ TEST(noise_in_the_heights_passes) {
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_OK);
 }
 
-/* Radii that differ by rounding are one radius, ball a's, in single calls and in rows of a batch, by each solver. */
+/* Radii that differ by rounding are one radius, ball a's, in single calls and in rows of a
+ * batch, by each solver. */
 TEST(noise_in_the_radii_passes) {
   enum { ROWS = 40 };
   for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++) {
@@ -178,12 +183,14 @@ TEST(bad_options) {
     ck_assert_int_eq(carom_collide(&in, &cases[k].options, &out), cases[k].status);
     expect_all_nan(&out);
     ck_assert_int_eq(carom_check(&in, &cases[k].options, NULL), cases[k].status);
-    ck_assert_int_eq(carom_collide_batch(&in, 1, &cases[k].options, &out, &status), cases[k].status);
+    ck_assert_int_eq(carom_collide_batch(&in, 1, &cases[k].options, &out, &status),
+                     cases[k].status);
     ck_assert_int_eq(status, 77);
   }
 }
 
-static void expect_same(const carom_impact *in, const carom_options *one, const carom_options *other) {
+static void expect_same(const carom_impact *in, const carom_options *one,
+                        const carom_options *other) {
   carom_result x, y;
   int8_t of_x, of_y;
   ck_assert_int_eq(carom_collide(in, one, &x), CAROM_OK);
@@ -197,10 +204,14 @@ static void expect_same(const carom_impact *in, const carom_options *one, const 
 
 TEST(zero_is_the_default) {
   const carom_impact in = good_impact();
-  const carom_options zero = {0}, said = {.solver = CAROM_SOLVER_EXACT, .slip = CAROM_SLIP_PAPER, .steps = 1000, .threads = 1};
+  const carom_options zero = {0}, said = {.solver = CAROM_SOLVER_EXACT,
+                                          .slip = CAROM_SLIP_PAPER,
+                                          .steps = 1000,
+                                          .threads = 1};
   expect_same(&in, NULL, &zero);
   expect_same(&in, &zero, &said);
-  const carom_options euler = {.solver = CAROM_SOLVER_EULER}, of_1000 = {.solver = CAROM_SOLVER_EULER, .steps = 1000};
+  const carom_options euler = {.solver = CAROM_SOLVER_EULER},
+                      of_1000 = {.solver = CAROM_SOLVER_EULER, .steps = 1000};
   expect_same(&in, &euler, &of_1000);
   carom_trace_point point[2], other[2];
   ck_assert_int_eq(carom_trace(&in, &euler, 2, point), CAROM_OK);
@@ -272,9 +283,11 @@ static void expect_unchanged(const carom_impact *in) {
   static double seeds[26][26], tangent[12][26];
   for (int k = 0; k < 26; k++)
     seeds[k][k] = k + 1;
-  ck_assert_int_eq(carom_collide_tangent(in, NULL, 26, seeds[0], tangent[0], NULL), CAROM_SEPARATING);
+  ck_assert_int_eq(carom_collide_tangent(in, NULL, 26, seeds[0], tangent[0], NULL),
+                   CAROM_SEPARATING);
   for (int k = 0; k < 12; k++)
-    ck_assert_mem_eq(tangent[k], seeds[FIELD(a.v) + k % 6 + (k < 6 ? 0 : FIELD(b.v) - FIELD(a.v))], sizeof tangent[k]);
+    ck_assert_mem_eq(tangent[k], seeds[FIELD(a.v) + k % 6 + (k < 6 ? 0 : FIELD(b.v) - FIELD(a.v))],
+                     sizeof tangent[k]);
 }
 
 TEST(separating_pairs_are_unchanged) {
@@ -324,7 +337,8 @@ TEST(overflow_is_told) {
   in.b.r[1] = 1e300;
   ck_assert_int_eq(carom_collide(&in, NULL, &out), CAROM_ERROR_OVERFLOW);
   carom_options options = {0};
-  options.solver = CAROM_SOLVER_EULER; /* whose impulses carry the mass; for the exact solver only ratios count */
+  options.solver = CAROM_SOLVER_EULER; /* whose impulses carry the mass; for the exact solver
+                                          only ratios count */
   in = good_impact();
   in.a.mass = in.b.mass = 1e-310;
   ck_assert_int_lt(carom_collide(&in, &options, &out), 0);

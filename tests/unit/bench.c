@@ -1,5 +1,5 @@
-/* The benchmark's engine: statistics on made-up samples, turns and figures under a clock that the test turns by hand. Nothing
- * here asserts a real time. */
+/* The benchmark's engine: statistics on made-up samples, turns and figures under a clock that
+ * the test turns by hand. Nothing here asserts a real time. */
 #include "machine.h"
 #include "monotonic.h"
 #include "pinning.h"
@@ -85,7 +85,8 @@ static bench_subject subject_of(made_up *m, size_t reference) {
 TEST(turns_and_figures) {
   made_up slow = {.name = 'A', .cost = 1e6, .call = 100.0, .result = 42};
   made_up fast = {.name = 'B', .cost = 2.5e5, .call = 100.0, .result = 43};
-  const bench_subject subjects[] = {subject_of(&slow, 0), subject_of(&fast, 0), subject_of(&fast, SIZE_MAX)};
+  const bench_subject subjects[] = {subject_of(&slow, 0), subject_of(&fast, 0),
+                                    subject_of(&fast, SIZE_MAX)};
   bench_figure figure[3];
   ordered = 0;
   const bench_settings settings = {.budget = 1.0, .now = now_made_up};

@@ -1,6 +1,7 @@
-/* No call takes more than its stated number of iterations of the precise solver, each of which computes the rates at eight
- * nodes: CAROM_IMPACT_ITERATIONS for an impact, and as many for each sample of a trace, besides the rest of the step in which
- * that is reached. The linker puts the counter below between the solver's entry and its loop; no time is measured. */
+/* No call takes more than its stated number of iterations of the precise solver, each of which
+ * computes the rates at eight nodes: CAROM_IMPACT_ITERATIONS for an impact, and as many for each
+ * sample of a trace, besides the rest of the step in which that is reached. The linker puts the
+ * counter below between the solver's entry and its loop; no time is measured. */
 #include "coincidences.h"
 #include "draws.h"
 #include "support.h"
@@ -47,7 +48,8 @@ static void expect_bounded_cushion(const carom_cushion_impact *in, const char *w
     const carom_status status = carom_cushion(in, &options, &out[0]);
     expect_spent(IMPACT, what);
     carom_cushion_batch(rows, 3, &options, out, NULL);
-    expect_spent(3 * IMPACT + IMPACT, what); /* the first row in error is solved again, for its status */
+    expect_spent(3 * IMPACT + IMPACT, what); /* the first row in error is solved again, for its
+                                                status */
     for (int n = 2; n <= POINTS; n += POINTS - 2) {
       /* the call, the way to the end, and the samples */
       const carom_status traced = carom_cushion_trace(in, &options, (size_t)n, points);
@@ -67,7 +69,8 @@ static void expect_bounded_balls(const carom_impact *in, carom_slip slip, const 
   carom_collide(in, &options, &out[0]);
   expect_spent(IMPACT, what);
   if (carom_collide_detail(in, &options, &out[0], &detail) == CAROM_OK)
-    ck_assert_msg(detail.evaluations <= 8 * IMPACT + FAST, "%s: %lld evaluations", what, (long long)detail.evaluations);
+    ck_assert_msg(detail.evaluations <= 8 * IMPACT + FAST, "%s: %lld evaluations", what,
+                  (long long)detail.evaluations);
   expect_spent(IMPACT, what);
   carom_collide_batch(rows, 3, &options, out, NULL);
   expect_spent(3 * IMPACT + IMPACT, what);
@@ -77,7 +80,8 @@ static void expect_bounded_balls(const carom_impact *in, carom_slip slip, const 
   }
 }
 
-/* v, w, normal, height, radius, mass, mu_cloth, mu_cushion, restitution, jaw: traces of these took up to 64 s. */
+/* v, w, normal, height, radius, mass, mu_cloth, mu_cushion, restitution, jaw: traces of these
+ * took up to 64 s. */
 static const carom_cushion_impact found[] = {
     {{0, 1, 0}, {0}, {1, 8.6e-6}, 0.028575 * (1 + 1.94e-9), 0.028575, 0.17, 0, 0.0925, 0.39, 0},
     {{0, 1, 0}, {0}, {1, 8.6e-6}, 0.028575, 0.028575, 0.17, 0.2, 0.0925, 0.39, 0},

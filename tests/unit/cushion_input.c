@@ -1,4 +1,5 @@
-/* Bad input of the cushion: each number and each option at fault gets its own status, and hangs nothing. */
+/* Bad input of the cushion: each number and each option at fault gets its own status, and hangs
+ * nothing. */
 #include "carom_shot.h"
 #include "support.h"
 
@@ -18,11 +19,13 @@ static carom_cushion_impact good(void) {
                                 .jaw_radius = 0.02};
 }
 
-static void expect(const carom_cushion_impact *in, const carom_cushion_options *options, carom_status status, int field) {
+static void expect(const carom_cushion_impact *in, const carom_cushion_options *options,
+                   carom_status status, int field) {
   carom_motion out = {{1, 1, 1}, {1, 1, 1}};
   int blamed;
   const carom_status got = carom_cushion(in, options, &out);
-  ck_assert_msg(got == status, "field %d: %s, not %s", field, carom_status_name(got), carom_status_name(status));
+  ck_assert_msg(got == status, "field %d: %s, not %s", field, carom_status_name(got),
+                carom_status_name(status));
   for (int c = 0; c < 6 && status < 0; c++)
     ck_assert(isnan(((double *)&out)[c]));
   ck_assert_int_eq(carom_cushion_check(in, options, &blamed), status);
@@ -31,9 +34,10 @@ static void expect(const carom_cushion_impact *in, const carom_cushion_options *
 
 TEST(each_field_is_named) {
   static const carom_status not_finite[15] = {
-      CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY, CAROM_ERROR_VELOCITY,   CAROM_ERROR_SPIN,        CAROM_ERROR_SPIN,
-      CAROM_ERROR_SPIN,     CAROM_ERROR_NORMAL,   CAROM_ERROR_NORMAL,     CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RADIUS,
-      CAROM_ERROR_MASS,     CAROM_ERROR_MU_CLOTH, CAROM_ERROR_MU_CUSHION, CAROM_ERROR_RESTITUTION, CAROM_ERROR_JAW_RADIUS};
+      CAROM_ERROR_VELOCITY,    CAROM_ERROR_VELOCITY,    CAROM_ERROR_VELOCITY,  CAROM_ERROR_SPIN,
+      CAROM_ERROR_SPIN,        CAROM_ERROR_SPIN,        CAROM_ERROR_NORMAL,    CAROM_ERROR_NORMAL,
+      CAROM_ERROR_NOSE_HEIGHT, CAROM_ERROR_RADIUS,      CAROM_ERROR_MASS,      CAROM_ERROR_MU_CLOTH,
+      CAROM_ERROR_MU_CUSHION,  CAROM_ERROR_RESTITUTION, CAROM_ERROR_JAW_RADIUS};
   for (int field = 0; field < 15; field++)
     for (int k = 0; k < 3; k++) {
       carom_cushion_impact in = good();
@@ -87,13 +91,16 @@ TEST(each_option_is_checked) {
                {{.smooth_q = 0.3, .smooth_t = 1}, CAROM_ERROR_CUSHION_OPTIONS},
                {{.smooth_q = 0.3, .smooth_x = 2.1, .smooth_t = 1}, CAROM_ERROR_CUSHION_OPTIONS},
                {{.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 2.1}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 1, .smooth_a = -0.1}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 1, .smooth_k = 1.1}, CAROM_ERROR_CUSHION_OPTIONS}};
+               {{.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 1, .smooth_a = -0.1},
+                CAROM_ERROR_CUSHION_OPTIONS},
+               {{.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 1, .smooth_k = 1.1},
+                CAROM_ERROR_CUSHION_OPTIONS}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     carom_motion out;
     int8_t status = 77;
     expect(&in, &cases[k].options, cases[k].status, -1);
-    ck_assert_int_eq(carom_cushion_batch(&in, 1, &cases[k].options, &out, &status), cases[k].status);
+    ck_assert_int_eq(carom_cushion_batch(&in, 1, &cases[k].options, &out, &status),
+                     cases[k].status);
     ck_assert_int_eq(status, 77);
   }
 }
@@ -131,7 +138,8 @@ TEST(extremes_end) {
         ((double *)&in)[field] *= sizes[j];
         const carom_status status = carom_cushion(&in, &options, &out);
         for (int c = 0; c < 6; c++)
-          ck_assert_msg(isfinite(((double *)&out)[c]) == (status >= 0), "field %d times %g, model %d: %s", field, sizes[j],
-                        model, carom_status_name(status));
+          ck_assert_msg(isfinite(((double *)&out)[c]) == (status >= 0),
+                        "field %d times %g, model %d: %s", field, sizes[j], model,
+                        carom_status_name(status));
       }
 }

@@ -1,4 +1,5 @@
-/* The elementary functions against those of the C library in long double. The bounds are those that elementary.h states. */
+/* The elementary functions against those of the C library in long double. The bounds are those
+ * that elementary.h states. */
 #include "platform/elementary.h"
 #include "support.h"
 
@@ -22,7 +23,8 @@ TEST(exponential) {
   for (int n = 0; n < DRAWN; n++) {
     const double size = pow(10.0, random_between(&r, -6.0, 2.85)), x = n % 2 == 0 ? -size : size;
     if (x > -708.0)
-      ck_assert_msg(x > 709.7 || in_ulp(carom_exp(x), expl((long double)x)) <= 1.2, "exp(%.17g)", x);
+      ck_assert_msg(x > 709.7 || in_ulp(carom_exp(x), expl((long double)x)) <= 1.2, "exp(%.17g)",
+                    x);
   }
   ck_assert_double_eq(carom_exp(0.0), 1.0);
   ck_assert_double_eq(carom_exp(-800.0), 0.0);
@@ -36,15 +38,20 @@ TEST(exponential) {
 TEST(logarithm_and_power) {
   random_source r = {test_seed()};
   for (int n = 0; n < DRAWN; n++) {
-    const double x = n % 2 == 0 ? random_between(&r, 0.5, 2.0) : pow(10.0, random_between(&r, -308.0, 308.0));
+    const double x =
+        n % 2 == 0 ? random_between(&r, 0.5, 2.0) : pow(10.0, random_between(&r, -308.0, 308.0));
     ck_assert_msg(in_ulp(carom_log(x), logl((long double)x)) <= 4.0, "ln(%.17g)", x);
-    const double y = random_between(&r, -1.0, 1.0) * pow(10.0, random_between(&r, -3.0, 2.0)), e = fabs(y * log(x));
+    const double y = random_between(&r, -1.0, 1.0) * pow(10.0, random_between(&r, -3.0, 2.0)),
+                 e = fabs(y * log(x));
     if (e < 700.0)
-      ck_assert_msg(in_ulp(carom_power(x, y), powl((long double)x, (long double)y)) <= 5.0 + 4.0 * e, "%.17g^%.17g", x, y);
+      ck_assert_msg(in_ulp(carom_power(x, y), powl((long double)x, (long double)y)) <=
+                        5.0 + 4.0 * e,
+                    "%.17g^%.17g", x, y);
   }
   /* where the sixteenths meet, and the ends */
   for (int k = 22; k <= 46; k++)
-    ck_assert_double_le(k == 32 ? fabs(carom_log(1.0)) : in_ulp(carom_log(k / 32.0), logl(k / 32.0L)), 4.0);
+    ck_assert_double_le(
+        k == 32 ? fabs(carom_log(1.0)) : in_ulp(carom_log(k / 32.0), logl(k / 32.0L)), 4.0);
   ck_assert_double_le(in_ulp(carom_log(0x1p-1074), logl(0x1p-1074L)), 2.0);
   ck_assert_double_eq(carom_log(0.0), -INFINITY);
   ck_assert_double_eq(carom_log(INFINITY), INFINITY);
@@ -61,12 +68,16 @@ TEST(sine_and_cosine) {
   double s, c;
   for (int n = 0; n < DRAWN; n++) {
     const double degrees = random_between(&r, -1.0, 1.0) * pow(10.0, random_between(&r, 0.0, 5.0));
-    const long double angle = fmodl((long double)degrees, 360.0L) * 3.14159265358979323846L / 180.0L;
+    const long double angle =
+        fmodl((long double)degrees, 360.0L) * 3.14159265358979323846L / 180.0L;
     carom_sincos_degrees(degrees, &s, &c);
-    ck_assert_msg(in_ulp_of_1(s, sinl(angle)) <= 1.0 && in_ulp_of_1(c, cosl(angle)) <= 1.0, "%.17g degrees", degrees);
+    ck_assert_msg(in_ulp_of_1(s, sinl(angle)) <= 1.0 && in_ulp_of_1(c, cosl(angle)) <= 1.0,
+                  "%.17g degrees", degrees);
     const double x = random_between(&r, -1.0, 1.0) * pow(10.0, random_between(&r, 0.0, 6.0));
     carom_sincos(x, &s, &c);
-    ck_assert_msg(in_ulp_of_1(s, sinl((long double)x)) <= 1.0 && in_ulp_of_1(c, cosl((long double)x)) <= 1.0, "%.17g", x);
+    ck_assert_msg(in_ulp_of_1(s, sinl((long double)x)) <= 1.0 &&
+                      in_ulp_of_1(c, cosl((long double)x)) <= 1.0,
+                  "%.17g", x);
   }
   for (int quarter = -8; quarter <= 8; quarter++) {
     carom_sincos_degrees(90.0 * quarter, &s, &c);
@@ -75,7 +86,9 @@ TEST(sine_and_cosine) {
     const double x = 1.5707963267948966 * quarter;
     carom_sincos(x, &s, &c);
     ck_assert_double_le(
-        fabs((quarter % 2 == 0 ? s : c) - (double)(quarter % 2 == 0 ? sinl((long double)x) : cosl((long double)x))), 1e-30);
+        fabs((quarter % 2 == 0 ? s : c) -
+             (double)(quarter % 2 == 0 ? sinl((long double)x) : cosl((long double)x))),
+        1e-30);
   }
 }
 
@@ -84,14 +97,16 @@ TEST(inverse_tangent_and_cosine) {
   for (int n = 0; n < DRAWN; n++) {
     const double size = pow(10.0, random_between(&r, -8.0, 8.0)), x = n % 2 == 0 ? -size : size;
     ck_assert_msg(in_ulp(carom_atan(x), atanl((long double)x)) <= 2.5, "atan(%.17g)", x);
-    const double near_0 = random_between(&r, -1.0, 1.0), near_1 = 1.0 - pow(10.0, random_between(&r, -16.0, 0.0));
+    const double near_0 = random_between(&r, -1.0, 1.0),
+                 near_1 = 1.0 - pow(10.0, random_between(&r, -16.0, 0.0));
     const double y = n % 3 == 0 ? near_0 : n % 3 == 1 ? near_1 : -near_1;
     ck_assert_msg(in_ulp(carom_acos(y), acosl((long double)y)) <= 4.0, "acos(%.17g)", y);
   }
   /* where the eighths meet */
   for (int k = 0; k <= 16; k++) {
     const double x = k / 16.0;
-    ck_assert_double_le(k == 0 ? fabs(carom_atan(x)) : in_ulp(carom_atan(x), atanl((long double)x)), 2.5);
+    ck_assert_double_le(k == 0 ? fabs(carom_atan(x)) : in_ulp(carom_atan(x), atanl((long double)x)),
+                        2.5);
     ck_assert_double_eq(carom_atan(-x), -carom_atan(x));
   }
   ck_assert_double_eq(carom_atan(INFINITY), 1.5707963267948966);

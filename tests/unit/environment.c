@@ -1,6 +1,6 @@
-/* The floating-point environment of the caller, as carom.h tells it: rounding to nearest is needed, though nothing breaks
- * without; flushing to zero makes no difference to ordinary collisions; the environment itself is left as it was, but for the
- * flags. */
+/* The floating-point environment of the caller, as carom.h tells it: rounding to nearest is
+ * needed, though nothing breaks without; flushing to zero makes no difference to ordinary
+ * collisions; the environment itself is left as it was, but for the flags. */
 #include "regimes.h"
 #include "support.h"
 
@@ -70,7 +70,8 @@ TEST(rounding_to_nearest_is_needed) {
   ck_assert_double_lt(worst, 1e-5);
 }
 
-/* Flushes results to zero that are subnormal, and reads operands that are so as zero; false where this is not known here. */
+/* Flushes results to zero that are subnormal, and reads operands that are so as zero; false
+ * where this is not known here. */
 static bool flush_to_zero(bool on) {
 #if defined(__SSE__)
   const unsigned both = 0x8040;

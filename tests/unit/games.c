@@ -1,4 +1,5 @@
-/* What a game asks besides shots: whether a table is sound, whether a place is free, how balls have turned, and names. */
+/* What a game asks besides shots: whether a table is sound, whether a place is free, how balls
+ * have turned, and names. */
 #include "carom_shot.h"
 #include "support.h"
 
@@ -27,7 +28,8 @@ static void take_out(carom_table *t, int part) {
     t->jaws--;
   } else {
     part -= (int)(t->rails + t->jaws);
-    memmove(&t->pocket[part], &t->pocket[part + 1], (size_t)(t->pockets - part - 1) * sizeof *t->pocket);
+    memmove(&t->pocket[part], &t->pocket[part + 1],
+            (size_t)(t->pockets - part - 1) * sizeof *t->pocket);
     t->pockets--;
   }
 }
@@ -67,8 +69,9 @@ static int touches(const carom_table *t, double R, int rail, int shots, random_s
   return met;
 }
 
-/* The built-in tables are sound; a table without any one of their parts is found open exactly where a ball can get out, and the
- * hole is beside what is missing; a rail with the wrong side, or a line that is not its own, is named. */
+/* The built-in tables are sound; a table without any one of their parts is found open exactly
+ * where a ball can get out, and the hole is beside what is missing; a rail with the wrong side,
+ * or a line that is not its own, is named. */
 TEST(tables_are_checked) {
   random_source r = {test_seed()};
   int holes = 0, sides = 0, rails = 0;
@@ -83,21 +86,23 @@ TEST(tables_are_checked) {
       t = sound;
       take_out(&t, part);
       const carom_status status = carom_table_check(&t, R, &fault);
-      ck_assert_msg(status == CAROM_OK || status == CAROM_ERROR_TABLE_OPEN, "%s without part %d: %s",
-                    carom_table_name((carom_table_kind)kind), part, carom_status_name(status));
+      ck_assert_msg(status == CAROM_OK || status == CAROM_ERROR_TABLE_OPEN,
+                    "%s without part %d: %s", carom_table_name((carom_table_kind)kind), part,
+                    carom_status_name(status));
       const int lost = lost_balls(&t, R, kind == CAROM_TABLE_POOL_9FT ? 1000 : 100, &r);
-      ck_assert_msg(status == CAROM_ERROR_TABLE_OPEN || lost == 0, "%s without part %d: %d balls are lost, and it is ok",
+      ck_assert_msg(status == CAROM_ERROR_TABLE_OPEN || lost == 0,
+                    "%s without part %d: %d balls are lost, and it is ok",
                     carom_table_name((carom_table_kind)kind), part, lost);
       /* a long rail is a hole as wide as itself but for its jaws */
       if (part < sound.rails) {
         const carom_rail *rail = &sound.rail[part];
         const double length = hypot(rail->q[0] - rail->p[0], rail->q[1] - rail->p[1]);
-        const double off =
-            hypot(fault.place[0] - 0.5 * (rail->p[0] + rail->q[0]), fault.place[1] - 0.5 * (rail->p[1] + rail->q[1]));
+        const double off = hypot(fault.place[0] - 0.5 * (rail->p[0] + rail->q[0]),
+                                 fault.place[1] - 0.5 * (rail->p[1] + rail->q[1]));
         if (length > 0.3) {
           ck_assert_int_eq(status, CAROM_ERROR_TABLE_OPEN);
-          ck_assert_msg(off < 0.1 * length && fabs(fault.gap - length) < 0.1 * length, "%d/%d: a hole of %g m, %g m off", kind,
-                        part, fault.gap, off);
+          ck_assert_msg(off < 0.1 * length && fabs(fault.gap - length) < 0.1 * length,
+                        "%d/%d: a hole of %g m, %g m off", kind, part, fault.gap, off);
           ck_assert(fault.part.kind != CAROM_PART_NONE && fault.other.kind != CAROM_PART_NONE);
         }
       }
@@ -107,12 +112,15 @@ TEST(tables_are_checked) {
       t = sound;
       t.rail[k].side = 1 - t.rail[k].side;
       const carom_status status = carom_table_check(&t, R, &fault);
-      if (status == CAROM_OK) { /* some facings of snooker's pockets are never met, so that their side does not matter */
+      if (status == CAROM_OK) { /* some facings of snooker's pockets are never met, so that their
+                                   side does not matter */
         ck_assert_int_eq(touches(&sound, R, k, 400, &r), 0);
         continue;
       }
-      ck_assert_msg(status == CAROM_ERROR_RAIL_SIDE && fault.part.kind == CAROM_PART_RAIL && fault.part.index == k,
-                    "%s, rail %d turned: %s", carom_table_name((carom_table_kind)kind), k, carom_status_name(status));
+      ck_assert_msg(status == CAROM_ERROR_RAIL_SIDE && fault.part.kind == CAROM_PART_RAIL &&
+                        fault.part.index == k,
+                    "%s, rail %d turned: %s", carom_table_name((carom_table_kind)kind), k,
+                    carom_status_name(status));
       sides++;
       t = sound;
       t.rail[k].line[2] += 1e-4 * hypot(t.rail[k].line[0], t.rail[k].line[1]);
@@ -123,7 +131,8 @@ TEST(tables_are_checked) {
   ck_assert(holes >= 60 && sides >= rails - 12);
 }
 
-/* Parts that are bad by themselves are named with their kind; tables that are not convex, or have posts, are no trouble. */
+/* Parts that are bad by themselves are named with their kind; tables that are not convex, or
+ * have posts, are no trouble. */
 TEST(other_tables) {
   carom_table t;
   carom_table_fault fault;
@@ -142,11 +151,14 @@ TEST(other_tables) {
   static const double corner[6][2] = {{0, 0}, {2, 0}, {2, 0.8}, {1.2, 0.8}, {1.2, 2}, {0, 2}};
   t = (carom_table){.width = 1.2, .length = 1.2, .rails = 6};
   for (int k = 0; k < 6; k++)
-    t.rail[k] = (carom_rail){
-        .p = {corner[k][0], corner[k][1]}, .q = {corner[(k + 1) % 6][0], corner[(k + 1) % 6][1]}, .height = 0.036, .side = 1};
+    t.rail[k] = (carom_rail){.p = {corner[k][0], corner[k][1]},
+                             .q = {corner[(k + 1) % 6][0], corner[(k + 1) % 6][1]},
+                             .height = 0.036,
+                             .side = 1};
   /* its inner corner must be rounded: detection lets a ball in between the ends of two rails */
   ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_TABLE_OPEN);
-  ck_assert(hypot(fault.place[0] - 1.2, fault.place[1] - 0.8) < R && fault.part.index == 2 && fault.other.index == 3);
+  ck_assert(hypot(fault.place[0] - 1.2, fault.place[1] - 0.8) < R && fault.part.index == 2 &&
+            fault.other.index == 3);
   t.jaw[t.jaws++] = (carom_jaw){.centre = {1.2, 0.8}, .height = 0.036};
   ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_OK);
   /* a post in the middle, and a wall that is played from one side */
@@ -165,14 +177,16 @@ TEST(other_tables) {
   ck_assert_double_eq_tol(fault.place[0], 2.0, 1e-9);
   ck_assert_double_eq_tol(fault.place[1], 0.03, 1e-9);
   /* one rail is no ring */
-  t = (carom_table){.width = 1, .length = 1, .rails = 1, .rail = {{.p = {0, 0}, .q = {1, 0}, .height = 0.036}}};
+  t = (carom_table){
+      .width = 1, .length = 1, .rails = 1, .rail = {{.p = {0, 0}, .q = {1, 0}, .height = 0.036}}};
   ck_assert_int_eq(carom_table_check(&t, R, &fault), CAROM_ERROR_TABLE_OPEN);
   ck_assert(fault.part.kind == CAROM_PART_NONE && fault.other.kind == CAROM_PART_NONE);
 }
 
 /* ---- Ball in hand */
 
-/* A place is free exactly where carom_shot_check() has nothing against it, and what is in the way is there. */
+/* A place is free exactly where carom_shot_check() has nothing against it, and what is in the
+ * way is there. */
 TEST(places) {
   random_source r = {test_seed()};
   int free_ones = 0, seen[5] = {0};
@@ -184,12 +198,14 @@ TEST(places) {
       carom_rack(CAROM_RACK_NINEBALL, &t, 1e-4, 1, balls, 10);
       for (int k = 0; k < 10; k++) {
         balls[k].kind.radius = balls[k].state.r[2] = radius_on(kind);
-        balls[k].state.r[1] += n % 2 * 1e-3; /* larger balls overlap in this rack, which is no matter of place */
+        balls[k].state.r[1] += n % 2 * 1e-3; /* larger balls overlap in this rack, which is no
+                                                matter of place */
       }
       const int ball = (int)random_between(&r, 0.0, 10.0);
       balls[ball].state.label = n % 3 == 0 ? CAROM_BALL_POCKETED : CAROM_BALL_STATIONARY;
       balls[ball].state.w[0] = n % 2;
-      double x = random_between(&r, -0.1, t.width + 0.1), y = random_between(&r, -0.1, t.length + 0.1);
+      double x = random_between(&r, -0.1, t.width + 0.1),
+             y = random_between(&r, -0.1, t.length + 0.1);
       if (n % 4 == 0) { /* near another ball */
         x = balls[(ball + 1) % 10].state.r[0] + random_between(&r, -0.07, 0.07);
         y = balls[(ball + 1) % 10].state.r[1] + random_between(&r, -0.07, 0.07);
@@ -203,21 +219,27 @@ TEST(places) {
       bool stands = carom_shot_check(&t, pair, 1, NULL, NULL, NULL) == CAROM_OK, overlaps = false;
       for (int k = 0; k < 10 && stands; k++) {
         pair[1] = before[k];
-        overlaps |= k != ball && carom_shot_check(&t, pair, 2, NULL, NULL, NULL) == CAROM_ERROR_OVERLAP;
+        overlaps |=
+            k != ball && carom_shot_check(&t, pair, 2, NULL, NULL, NULL) == CAROM_ERROR_OVERLAP;
       }
-      ck_assert_int_eq(status, !stands ? CAROM_ERROR_OFF_TABLE : overlaps ? CAROM_ERROR_OVERLAP : CAROM_OK);
+      ck_assert_int_eq(status, !stands    ? CAROM_ERROR_OFF_TABLE
+                               : overlaps ? CAROM_ERROR_OVERLAP
+                                          : CAROM_OK);
       seen[part.kind]++;
       if (status == CAROM_OK) {
-        ck_assert(balls[ball].state.r[0] == x && balls[ball].state.r[1] == y && balls[ball].state.w[0] == 0.0);
+        ck_assert(balls[ball].state.r[0] == x && balls[ball].state.r[1] == y &&
+                  balls[ball].state.w[0] == 0.0);
         ck_assert(balls[ball].state.label == CAROM_BALL_STATIONARY && part.kind == CAROM_PART_NONE);
         balls[ball].state = before[ball].state;
         free_ones++;
       }
       ck_assert_int_eq(memcmp(balls, before, sizeof balls), 0);
       if (part.kind == CAROM_PART_BALL)
-        ck_assert(hypot(x - balls[part.index].state.r[0], y - balls[part.index].state.r[1]) < 2.0 * radius_on(kind));
+        ck_assert(hypot(x - balls[part.index].state.r[0], y - balls[part.index].state.r[1]) <
+                  2.0 * radius_on(kind));
       if (part.kind == CAROM_PART_POCKET)
-        ck_assert(hypot(x - t.pocket[part.index].centre[0], y - t.pocket[part.index].centre[1]) < t.pocket[part.index].radius);
+        ck_assert(hypot(x - t.pocket[part.index].centre[0], y - t.pocket[part.index].centre[1]) <
+                  t.pocket[part.index].radius);
     }
   }
   ck_assert(free_ones > 1000);
@@ -242,21 +264,24 @@ typedef struct polygon {
 } polygon;
 
 static void add_rail(carom_table *t, const double p[2], const double q[2]) {
-  t->rail[t->rails++] = (carom_rail){.p = {p[0], p[1]}, .q = {q[0], q[1]}, .height = 0.0365, .side = 1};
+  t->rail[t->rails++] =
+      (carom_rail){.p = {p[0], p[1]}, .q = {q[0], q[1]}, .height = 0.0365, .side = 1};
 }
 
 /* The rounded end of a rail, whose outside is along `out`. */
 static void add_jaw(carom_table *t, const double end[2], const double out[2], double radius) {
-  t->jaw[t->jaws++] =
-      (carom_jaw){.centre = {end[0] + radius * out[0], end[1] + radius * out[1]}, .radius = radius, .height = 0.0365};
+  t->jaw[t->jaws++] = (carom_jaw){.centre = {end[0] + radius * out[0], end[1] + radius * out[1]},
+                                  .radius = radius,
+                                  .height = 0.0365};
 }
 
-/* A polygon about the middle of the table, which need not be convex. Some corners are pockets, and some rails have a pocket in
- * their middle; a corner without a pocket has a jaw of radius 0. */
+/* A polygon about the middle of the table, which need not be convex. Some corners are pockets,
+ * and some rails have a pocket in their middle; a corner without a pocket has a jaw of radius 0. */
 static void make_polygon(random_source *r, carom_table *t, polygon *shape) {
   *t = (carom_table){.width = 2.0, .length = 2.0};
   const int n = shape->corners = 3 + (int)random_between(r, 0.0, MOST_CORNERS - 2.0);
-  const double turn = random_between(r, 0.0, 6.283185307179586), uneven = random_between(r, 0.0, 0.5);
+  const double turn = random_between(r, 0.0, 6.283185307179586),
+               uneven = random_between(r, 0.0, 0.5);
   for (int k = 0; k < n; k++) {
     const double angle = turn + 6.283185307179586 * (k + random_between(r, -0.3, 0.3) * uneven) / n;
     const double far = random_between(r, 1.0 - uneven, 1.0);
@@ -272,27 +297,34 @@ static void make_polygon(random_source *r, carom_table *t, polygon *shape) {
     const double *p = shape->at[k], *q = shape->at[(k + 1) % n], *o = shape->at[(k + n - 1) % n];
     const double length = hypot(q[0] - p[0], q[1] - p[1]), before = hypot(p[0] - o[0], p[1] - o[1]);
     const double u[2] = {(q[0] - p[0]) / length, (q[1] - p[1]) / length}, out[2] = {u[1], -u[0]};
-    const double from = has_pocket[k] ? mouth : 0.0, to = length - (has_pocket[(k + 1) % n] ? mouth : 0.0);
+    const double from = has_pocket[k] ? mouth : 0.0,
+                 to = length - (has_pocket[(k + 1) % n] ? mouth : 0.0);
     const double end[4] = {from, 0.5 * length - mouth, 0.5 * length + mouth, to};
-    const bool in_middle = length > 0.6 && t->pockets < CAROM_POCKETS_MOST - 1 && random_between(r, 0.0, 1.0) < 0.3;
+    const bool in_middle =
+        length > 0.6 && t->pockets < CAROM_POCKETS_MOST - 1 && random_between(r, 0.0, 1.0) < 0.3;
     /* the rail, or the two beside the pocket in its middle */
     for (int part = 0; part <= (in_middle ? 1 : 0); part++) {
       const double first = end[2 * part], last = in_middle ? end[2 * part + 1] : to;
-      const double a[2] = {p[0] + first * u[0], p[1] + first * u[1]}, b[2] = {p[0] + last * u[0], p[1] + last * u[1]};
+      const double a[2] = {p[0] + first * u[0], p[1] + first * u[1]},
+                   b[2] = {p[0] + last * u[0], p[1] + last * u[1]};
       add_rail(t, a, b);
       add_jaw(t, a, out, part == 1 || has_pocket[k] ? jaw : 0.0);
       add_jaw(t, b, out, (in_middle && part == 0) || has_pocket[(k + 1) % n] ? jaw : 0.0);
     }
     if (in_middle)
-      t->pocket[t->pockets++] = (carom_pocket){.centre = {p[0] + 0.5 * length * u[0] + (radius + 0.01) * out[0],
-                                                          p[1] + 0.5 * length * u[1] + (radius + 0.01) * out[1]},
-                                               .radius = radius,
-                                               .depth = 0.08};
+      t->pocket[t->pockets++] =
+          (carom_pocket){.centre = {p[0] + 0.5 * length * u[0] + (radius + 0.01) * out[0],
+                                    p[1] + 0.5 * length * u[1] + (radius + 0.01) * out[1]},
+                         .radius = radius,
+                         .depth = 0.08};
     if (has_pocket[k] && t->pockets < CAROM_POCKETS_MOST) {
-      const double v[2] = {(o[0] - p[0]) / before, (o[1] - p[1]) / before}, w[2] = {u[0] + v[0], u[1] + v[1]};
+      const double v[2] = {(o[0] - p[0]) / before, (o[1] - p[1]) / before},
+                   w[2] = {u[0] + v[0], u[1] + v[1]};
       const double size = hypot(w[0], w[1]), sign = u[0] * v[1] - u[1] * v[0] > 0.0 ? -1.0 : 1.0;
       t->pocket[t->pockets++] = (carom_pocket){
-          .centre = {p[0] + sign * back * w[0] / size, p[1] + sign * back * w[1] / size}, .radius = radius, .depth = 0.08};
+          .centre = {p[0] + sign * back * w[0] / size, p[1] + sign * back * w[1] / size},
+          .radius = radius,
+          .depth = 0.08};
     }
   }
 }
@@ -329,8 +361,8 @@ static bool is_clear(const carom_table *t, double R, double room, double x, doub
   return true;
 }
 
-/* Whether a ball can be rolled straight to a place from the middle: in steps shorter than the room that there is on both sides
- * of each. */
+/* Whether a ball can be rolled straight to a place from the middle: in steps shorter than the
+ * room that there is on both sides of each. */
 static bool is_straight_on(const carom_table *t, double R, double x, double y) {
   static const double step = 0.002;
   const double d_x = x - 1.0, d_y = y - 1.0;
@@ -341,11 +373,12 @@ static bool is_straight_on(const carom_table *t, double R, double x, double y) {
   return true;
 }
 
-/* On tables of all shapes that carom_table_check() accepts, a ball may stand where it can be rolled straight to from the
- * middle, and nowhere beyond the rails but in the mouth of a pocket. Rays through slits that no ball passes once told
- * otherwise. */
+/* On tables of all shapes that carom_table_check() accepts, a ball may stand where it can be
+ * rolled straight to from the middle, and nowhere beyond the rails but in the mouth of a pocket.
+ * Rays through slits that no ball passes once told otherwise. */
 TEST(places_on_polygons) {
-  static const double mouth = 0.15; /* m: beyond the rails and farther than that from a pocket nobody comes */
+  static const double mouth = 0.15; /* m: beyond the rails and farther than that from a pocket
+                                       nobody comes */
   random_source r = {test_seed()};
   const double R = 0.028575;
   int tables = 0, drawn = 0, inside = 0, beyond = 0;
@@ -376,39 +409,46 @@ TEST(places_on_polygons) {
       carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
       const carom_status expected = reached ? CAROM_OK : CAROM_ERROR_OFF_TABLE,
                          status = carom_place_ball(&t, &ball, 1, 0, x, y, NULL);
-      ck_assert_msg(status == expected, "table %d of seed %llu, (%.17g, %.17g): %s", drawn, (unsigned long long)test_seed(), x,
-                    y, carom_status_name(status));
+      ck_assert_msg(status == expected, "table %d of seed %llu, (%.17g, %.17g): %s", drawn,
+                    (unsigned long long)test_seed(), x, y, carom_status_name(status));
       ball.state = (carom_ball_state){.r = {x, y, R}};
       ck_assert_int_eq(carom_shot_check(&t, &ball, 1, NULL, NULL, NULL), expected);
     }
   }
-  printf("%d tables of %d: a ball may stand at %d places, and not at %d\n", tables, drawn, inside, beyond);
+  printf("%d tables of %d: a ball may stand at %d places, and not at %d\n", tables, drawn, inside,
+         beyond);
   ck_assert(inside > 20 * tables && beyond > 20 * tables);
 }
 
-/* Under a ball that flies, where one has left the table, and beside balls and cushions of other sizes. */
+/* Under a ball that flies, where one has left the table, and beside balls and cushions of other
+ * sizes. */
 TEST(places_in_space) {
   carom_table t;
   carom_part part;
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);
-  carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOL)}, {.kind = carom_ball_kind_of(CAROM_GAME_POOL)}};
+  carom_shot_ball balls[2] = {{.kind = carom_ball_kind_of(CAROM_GAME_POOL)},
+                              {.kind = carom_ball_kind_of(CAROM_GAME_POOL)}};
   const double R = balls[0].kind.radius;
   for (int k = 0; k < 2; k++) {
     balls[1].state = (carom_ball_state){.r = {0.5, 0.5, (k == 0 ? 3.001 : 2.999) * R}};
-    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5, 0.5, &part), k == 0 ? CAROM_OK : CAROM_ERROR_OVERLAP);
+    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5, 0.5, &part),
+                     k == 0 ? CAROM_OK : CAROM_ERROR_OVERLAP);
     ck_assert_int_eq(part.kind, k == 0 ? CAROM_PART_NONE : CAROM_PART_BALL);
   }
   balls[1].state = (carom_ball_state){.r = {0.5, 0.5, R}, .label = CAROM_BALL_OFF};
   ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5, 0.5, &part), CAROM_OK);
-  /* a large ball, on a table for small ones: as near to the nose and to the ball as carom_shot_check() lets it */
+  /* a large ball, on a table for small ones: as near to the nose and to the ball as
+   * carom_shot_check() lets it */
   balls[0].kind.radius = 0.0302;
   balls[1].state = (carom_ball_state){.r = {0.5, 0.5, R}};
-  const double h = t.rail[0].height, shift = R - sqrt(h * (2.0 * R - h)), beside = 2.0 * sqrt(R * 0.0302),
-               nose = shift + sqrt(h * (2.0 * 0.0302 - h));
+  const double h = t.rail[0].height, shift = R - sqrt(h * (2.0 * R - h)),
+               beside = 2.0 * sqrt(R * 0.0302), nose = shift + sqrt(h * (2.0 * 0.0302 - h));
   for (int k = -1; k <= 1; k += 2) {
     const carom_status expected = k < 0 ? CAROM_ERROR_OVERLAP : CAROM_OK;
-    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5 + beside + 2e-6 * k, 0.5, &part), expected);
-    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, nose + 2e-6 * k, 0.7, &part), k < 0 ? CAROM_ERROR_OFF_TABLE : CAROM_OK);
+    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, 0.5 + beside + 2e-6 * k, 0.5, &part),
+                     expected);
+    ck_assert_int_eq(carom_place_ball(&t, balls, 2, 0, nose + 2e-6 * k, 0.7, &part),
+                     k < 0 ? CAROM_ERROR_OFF_TABLE : CAROM_OK);
     ck_assert_int_eq(part.kind, k < 0 ? CAROM_PART_RAIL : CAROM_PART_NONE);
   }
   ck_assert_int_eq(carom_shot_check(&t, balls, 2, NULL, NULL, NULL), CAROM_OK);
@@ -427,10 +467,11 @@ TEST(places_in_space) {
 
 /* ---- How balls have turned */
 
-/* The rotation by plain steps of Q' = [w] Q / 2, of order 4, with w from carom_shot_at(): what the library does in closed form.
+/* The rotation by plain steps of Q' = [w] Q / 2, of order 4, with w from carom_shot_at(): what
+ * the library does in closed form.
  */
-static void by_steps(const carom_shot_ball *balls, int count, const carom_shot *shot, int ball, double from, double to,
-                     int steps, double q[4]) {
+static void by_steps(const carom_shot_ball *balls, int count, const carom_shot *shot, int ball,
+                     double from, double to, int steps, double q[4]) {
   const double h = (to - from) / steps;
   carom_ball_state s[CAROM_BALLS_MOST];
   for (int n = 0; n < steps; n++) {
@@ -462,7 +503,8 @@ static double angle_between(const double a[4], const double b[4]) {
   return 2.0 * sqrt(apart);
 }
 
-/* Balls with any spin, one shot at a time: from event to event the turn is that of many small steps. */
+/* Balls with any spin, one shot at a time: from event to event the turn is that of many small
+ * steps. */
 TEST(turns_agree_with_steps) {
   static carom_event events[200];
   random_source r = {test_seed()};
@@ -477,7 +519,8 @@ TEST(turns_agree_with_steps) {
       ball.state.v[k] = random_between(&r, -2.0, 2.0);
     for (int k = 0; k < 3; k++)
       ball.state.w[k] = random_between(&r, -100.0, 100.0);
-    ball.state.v[2] = n % 2 * random_between(&r, -2.0, 2.0); /* half of them fly, with a constant spin */
+    /* half of them fly, with a constant spin */
+    ball.state.v[2] = n % 2 * random_between(&r, -2.0, 2.0);
     carom_shot shot = {.events = events, .room = 200};
     ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
     ck_assert_int_le(shot.count, 200);
@@ -486,7 +529,8 @@ TEST(turns_agree_with_steps) {
       const double end = events[k].time;
       const double side = k == 0 ? ball.state.w[2] : events[k - 1].after[0].w[2];
       /* reference steps do not cross the end of the side spin */
-      const double kink = at + fabs(side) / (2.5 * ball.kind.mu_spin * ball.kind.gravity / ball.kind.radius);
+      const double kink =
+          at + fabs(side) / (2.5 * ball.kind.mu_spin * ball.kind.gravity / ball.kind.radius);
       double from[1][4], to[1][4], q[4];
       carom_shot_orientation(&ball, 1, &shot, at, from);
       carom_shot_orientation(&ball, 1, &shot, end, to);
@@ -503,14 +547,16 @@ TEST(turns_agree_with_steps) {
   ck_assert_msg(worst < 1e-7, "%g rad", worst);
 }
 
-/* A ball that rolls straight turns by its way over R about the axis across it; on the spot about the vertical. */
+/* A ball that rolls straight turns by its way over R about the axis across it; on the spot about
+ * the vertical. */
 TEST(turns_in_closed_form) {
   carom_table t;
   carom_event events[20];
   carom_table_make(CAROM_TABLE_POOL_9FT, &t);
   carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
   const double R = ball.kind.radius;
-  ball.state = (carom_ball_state){.r = {0.2, 0.3, R}, .v = {0.3, 0.4, 0.0}, .w = {-0.4 / R, 0.3 / R, 0.0}};
+  ball.state =
+      (carom_ball_state){.r = {0.2, 0.3, R}, .v = {0.3, 0.4, 0.0}, .w = {-0.4 / R, 0.3 / R, 0.0}};
   carom_shot shot = {.events = events, .room = 20};
   carom_ball_state s;
   double q[1][4];
@@ -526,7 +572,8 @@ TEST(turns_in_closed_form) {
   ck_assert_int_eq(carom_shoot(&t, &ball, 1, NULL, NULL, &shot), CAROM_OK);
   for (double time = 0.0; time < shot.time; time += 0.11) {
     carom_shot_orientation(&ball, 1, &shot, time, q);
-    const double fall = 2.5 * ball.kind.mu_spin * ball.kind.gravity / R, half = 0.5 * (77.0 - 0.5 * fall * time) * time;
+    const double fall = 2.5 * ball.kind.mu_spin * ball.kind.gravity / R,
+                 half = 0.5 * (77.0 - 0.5 * fall * time) * time;
     const double expected[4] = {cos(half), 0, 0, sin(half)};
     ck_assert_double_lt(angle_between(q[0], expected), 1e-12);
   }
@@ -542,7 +589,8 @@ TEST(turns_in_closed_form) {
   /* what carom_shot_at() refuses is refused */
   ck_assert_int_eq(carom_shot_orientation(&ball, 1, &shot, NAN, q), CAROM_ERROR_TIME);
   ck_assert_int_eq(carom_shot_orientation(&ball, 1, &shot, 0.0, NULL), CAROM_ERROR_NULL);
-  ck_assert_int_eq(carom_shot_orientation(&ball, 1, &(carom_shot){.count = 3, .time = 1.0}, 0.5, q), CAROM_ERROR_EVENTS_LOST);
+  ck_assert_int_eq(carom_shot_orientation(&ball, 1, &(carom_shot){.count = 3, .time = 1.0}, 0.5, q),
+                   CAROM_ERROR_EVENTS_LOST);
 }
 
 /* ---- Names */
@@ -550,7 +598,8 @@ TEST(turns_in_closed_form) {
 TEST(names) {
   for (int k = CAROM_EVENT_STRIKE; k <= CAROM_EVENT_LEFT_TABLE; k++)
     for (int j = CAROM_EVENT_STRIKE; j < k; j++)
-      ck_assert_str_ne(carom_event_name((carom_event_type)j), carom_event_name((carom_event_type)k));
+      ck_assert_str_ne(carom_event_name((carom_event_type)j),
+                       carom_event_name((carom_event_type)k));
   ck_assert_ptr_null(carom_event_name((carom_event_type)0));
   ck_assert_ptr_null(carom_event_name((carom_event_type)99));
   ck_assert_str_eq(carom_event_name(CAROM_EVENT_POCKET), "ball_pocket");
@@ -561,8 +610,10 @@ TEST(names) {
   ck_assert_ptr_null(carom_label_name((carom_label)99));
   ck_assert_str_eq(carom_table_name(CAROM_TABLE_POOL_9FT), "9ft");
   ck_assert_ptr_null(carom_table_name((carom_table_kind)TABLES));
-  for (int k = 0; carom_rack_name((carom_rack_kind)k) != NULL || carom_rack_size((carom_rack_kind)k) != 0; k++)
-    ck_assert(carom_rack_name((carom_rack_kind)k) != NULL && carom_rack_size((carom_rack_kind)k) > 0);
+  for (int k = 0;
+       carom_rack_name((carom_rack_kind)k) != NULL || carom_rack_size((carom_rack_kind)k) != 0; k++)
+    ck_assert(carom_rack_name((carom_rack_kind)k) != NULL &&
+              carom_rack_size((carom_rack_kind)k) > 0);
   ck_assert_str_eq(carom_rack_name(CAROM_RACK_EIGHTBALL), "eightball");
   ck_assert_int_ge(carom_physics_revision(), 1);
 }

@@ -1,4 +1,5 @@
-/* Names and texts: every status has its own; what there is of each enumeration has a name, and nothing else has. */
+/* Names and texts: every status has its own; what there is of each enumeration has a name, and
+ * nothing else has. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* setenv */
 #endif
@@ -18,7 +19,8 @@ TEST(statuses_are_distinct) {
     for (int k = -128; k < j; k++)
       if (strcmp(carom_status_name((carom_status)k), "unknown") != 0) {
         ck_assert_str_ne(name, carom_status_name((carom_status)k));
-        ck_assert_str_ne(carom_status_string((carom_status)j), carom_status_string((carom_status)k));
+        ck_assert_str_ne(carom_status_string((carom_status)j),
+                         carom_status_string((carom_status)k));
       }
   }
   ck_assert_int_ge(known, 25);
@@ -49,7 +51,8 @@ TEST(fields_have_names) {
 
 TEST(version_is_that_of_the_header) {
   char expected[32];
-  snprintf(expected, sizeof expected, "%d.%d.%d", CAROM_VERSION_MAJOR, CAROM_VERSION_MINOR, CAROM_VERSION_PATCH);
+  snprintf(expected, sizeof expected, "%d.%d.%d", CAROM_VERSION_MAJOR, CAROM_VERSION_MINOR,
+           CAROM_VERSION_PATCH);
   ck_assert_str_eq(carom_version(), expected);
   ck_assert_int_eq(carom_version_number(), CAROM_VERSION_NUMBER);
   ck_assert_int_eq(carom_serves(CAROM_VERSION_NUMBER), 1);
@@ -58,12 +61,14 @@ TEST(version_is_that_of_the_header) {
   ck_assert_int_eq(carom_serves(-1), 0);
 }
 
-/* What the library finds out about the processor is what the compiler's run-time library does; zig's does not. */
+/* What the library finds out about the processor is what the compiler's run-time library does;
+ * zig's does not. */
 TEST(the_processor_is_known) {
 #if defined(__x86_64__)
   __builtin_cpu_init();
 #ifndef CAROM_WITHOUT_AVX2
-  ck_assert_int_eq(carom_isa_available(CAROM_ISA_AVX2), __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
+  ck_assert_int_eq(carom_isa_available(CAROM_ISA_AVX2),
+                   __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
 #endif
 #ifndef CAROM_WITHOUT_AVX512
   ck_assert_int_eq(carom_isa_available(CAROM_ISA_AVX512), __builtin_cpu_supports("avx512f") &&
@@ -73,7 +78,8 @@ TEST(the_processor_is_known) {
 #endif
 }
 
-/* The environment limits the instruction set by its name, which is read anew when the limit of the process is lifted. */
+/* The environment limits the instruction set by its name, which is read anew when the limit of
+ * the process is lifted. */
 TEST(the_environment_limits_the_instruction_set) {
   const char *given = getenv("CAROM_ISA");
   carom_isa below = CAROM_ISA_PLAIN; /* the best of those up to this one */

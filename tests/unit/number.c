@@ -1,4 +1,5 @@
-/* Numbers as text: what is read, and that what is written is the shortest of %.15g, %.16g and %.17g that reads back. */
+/* Numbers as text: what is read, and that what is written is the shortest of %.15g, %.16g and
+ * %.17g that reads back. */
 #include "number.h"
 #include "support.h"
 
@@ -38,7 +39,8 @@ static void check_shortest(double x) {
   double back;
   ck_assert_ptr_eq(number_text(x, text), text);
   ck_assert_msg(parse_number(text, &back), "%s", text);
-  ck_assert_msg(memcmp(&back, &x, sizeof x) == 0, "%a is written as %s, which is %a", x, text, back);
+  ck_assert_msg(memcmp(&back, &x, sizeof x) == 0, "%a is written as %s, which is %a", x, text,
+                back);
   for (int digits = 15; digits <= 17; digits++) {
     snprintf(expected, sizeof expected, "%.*g", digits, x);
     if (strtod(expected, NULL) == x)
@@ -87,10 +89,12 @@ TEST(powers_of_two_are_asymmetric) {
 TEST(random_doubles_and_random_decimals) {
   random_source source = {test_seed()};
   for (int k = 0; k < 50000; k++) {
-    const double usual = random_between(&source, -1.0, 1.0) * pow(10.0, floor(random_between(&source, -9.0, 17.0)));
+    const double usual =
+        random_between(&source, -1.0, 1.0) * pow(10.0, floor(random_between(&source, -9.0, 17.0)));
     check_shortest(usual);
     check_shortest((double)(float)usual);
-    check_shortest(ldexp(random_between(&source, 1.0, 2.0), (int)random_between(&source, -1074.0, 1023.0)));
+    check_shortest(
+        ldexp(random_between(&source, 1.0, 2.0), (int)random_between(&source, -1074.0, 1023.0)));
     char text[NUMBER_TEXT];
     double decimal;
     snprintf(text, sizeof text, "%.*g", 1 + (int)random_between(&source, 0.0, 17.0), usual);
@@ -103,10 +107,11 @@ TEST(notation) {
   const struct {
     double x;
     const char *text;
-  } known[] = {{0.1, "0.1"},         {-0.0, "-0"},         {100.0, "100"},
-               {1e22, "1e+22"},      {1e-5, "1e-05"},      {-29.073183936672191, "-29.07318393667219"},
-               {1e15, "1e+15"},      {123456.0, "123456"}, {0.28659555840659967, "0.28659555840659967"},
-               {(double)NAN, "nan"}, {-INFINITY, "-inf"}};
+  } known[] = {
+      {0.1, "0.1"},         {-0.0, "-0"},         {100.0, "100"},
+      {1e22, "1e+22"},      {1e-5, "1e-05"},      {-29.073183936672191, "-29.07318393667219"},
+      {1e15, "1e+15"},      {123456.0, "123456"}, {0.28659555840659967, "0.28659555840659967"},
+      {(double)NAN, "nan"}, {-INFINITY, "-inf"}};
   char text[NUMBER_TEXT];
   for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
     ck_assert_str_eq(number_text(known[k].x, text), known[k].text);

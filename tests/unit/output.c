@@ -1,11 +1,12 @@
 /* A file that appears whole or not at all, whenever the process is told to end.
  *
- * The linker puts the functions below in place of those of the C library that touch files, signals or memory. Each is a moment:
- * a child process writes a file, and at the moment of its number a signal ends it, just before the call or just after. Children
- * go through all moments one by one. Each must die of that signal, leave the old file or the new one, and nothing beside it;
- * and its handler must unlink nothing but the file beside. The same where no file can be made beside the old one, which is
- * then overwritten. Freed memory is overwritten first, so that a handler that reads it is seen without an address sanitizer
- * too. */
+ * The linker puts the functions below in place of those of the C library that touch files,
+ * signals or memory. Each is a moment: a child process writes a file, and at the moment of its
+ * number a signal ends it, just before the call or just after. Children go through all moments
+ * one by one. Each must die of that signal, leave the old file or the new one, and nothing
+ * beside it; and its handler must unlink nothing but the file beside. The same where no file can
+ * be made beside the old one, which is then overwritten. Freed memory is overwritten first, so
+ * that a handler that reads it is seen without an address sanitizer too. */
 #include "output.h"
 #include "message.h"
 #include "support.h"
@@ -123,9 +124,11 @@ static const char *text_there(void) {
   DIR *listing = opendir(folder);
   int others = 0;
   for (const struct dirent *entry; (entry = readdir(listing)) != NULL;)
-    others += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 && strcmp(entry->d_name, "out") != 0;
+    others += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 &&
+              strcmp(entry->d_name, "out") != 0;
   closedir(listing);
-  ck_assert_msg(others == 0, "moment %d, signal %d: a file is left behind", told_to_end, signal_number);
+  ck_assert_msg(others == 0, "moment %d, signal %d: a file is left behind", told_to_end,
+                signal_number);
   return text;
 }
 
@@ -152,7 +155,8 @@ static int run_child(bool keep) {
   return status;
 }
 
-/* Goes through all moments; checks that there were enough of them before the new file is in its place, and some behind. */
+/* Goes through all moments; checks that there were enough of them before the new file is in its
+ * place, and some behind. */
 static void go_through_moments(void) {
   int kept_old = 0, kept_new = 0, ended = 0;
   for (int keep = 0; keep < 2; keep++) {
@@ -168,8 +172,9 @@ static void go_through_moments(void) {
         ck_assert_int_eq(is_new, keep);
         break;
       }
-      ck_assert_msg(WIFSIGNALED(status) && WTERMSIG(status) == signal_number, "moment %d, signal %d: ended with status %#x",
-                    told_to_end, signal_number, (unsigned)status);
+      ck_assert_msg(WIFSIGNALED(status) && WTERMSIG(status) == signal_number,
+                    "moment %d, signal %d: ended with status %#x", told_to_end, signal_number,
+                    (unsigned)status);
       kept_old += !is_new;
       kept_new += is_new;
       ended++;
@@ -205,15 +210,17 @@ END_TEST
 
 int main(void) {
   const char *temporary = getenv("TMPDIR");
-  snprintf(folder, sizeof folder, "%s/carom-output-%s", temporary != NULL ? temporary : P_tmpdir, random_name);
+  snprintf(folder, sizeof folder, "%s/carom-output-%s", temporary != NULL ? temporary : P_tmpdir,
+           random_name);
   if (mkdtemp(folder) == NULL)
     return 1;
   char *whole = realpath(folder, NULL); /* as output.c has it, whatever links lead there */
   snprintf(path, sizeof path, "%s/out", whole);
   snprintf(beside, sizeof beside, "%s/.carom-", whole);
   free(whole);
-  const int code = RUN_TESTS("output", a_signal_at_every_moment, a_signal_at_every_moment_in_a_sealed_folder,
-                             a_full_disk_in_a_sealed_folder);
+  const int code =
+      RUN_TESTS("output", a_signal_at_every_moment, a_signal_at_every_moment_in_a_sealed_folder,
+                a_full_disk_in_a_sealed_folder);
   __real_unlink(path);
   rmdir(folder);
   return code;

@@ -1,5 +1,5 @@
-/* Plans: rules beside shots written down, choices that no thread and no machine changes, chances beside shots that are played,
- * arguments in error. */
+/* Plans: rules beside shots written down, choices that no thread and no machine changes, chances
+ * beside shots that are played, arguments in error. */
 #include "carom_plan.h"
 #include "support.h"
 
@@ -66,10 +66,16 @@ typedef struct ruling {
   int group, first, cushions_after, call, is, foul, leave, group_after;
 } ruling;
 
-/* Everything is on the table but for what is said; all that falls goes into pocket 3, which is called. */
+/* Everything is on the table but for what is said; all that falls goes into pocket 3, which is
+ * called. */
 TEST(rulings) {
   enum { E = CAROM_RULES_EIGHTBALL, N = CAROM_RULES_NINEBALL, P = CAROM_RULES_POTTING };
-  enum { KEEP = CAROM_TURN_KEEP, PASS = CAROM_TURN_PASS, WIN = CAROM_TURN_WIN, LOSE = CAROM_TURN_LOSE };
+  enum {
+    KEEP = CAROM_TURN_KEEP,
+    PASS = CAROM_TURN_PASS,
+    WIN = CAROM_TURN_WIN,
+    LOSE = CAROM_TURN_LOSE
+  };
   enum { AFTER = CAROM_LEAVE_AFTER, HAND = CAROM_LEAVE_HAND };
   static const ruling given[] = {
       {"a solid on an open table", E, 0xffff, 0x0008, 0, 3, 0, 3, KEEP, 0, AFTER, SOLIDS},
@@ -98,15 +104,18 @@ TEST(rulings) {
   };
   for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
     const ruling *g = &given[k];
-    carom_facts facts = {.first = {g->first, -1}, .cushions_after = g->cushions_after, .down = g->down};
+    carom_facts facts = {
+        .first = {g->first, -1}, .cushions_after = g->cushions_after, .down = g->down};
     for (int i = 0; i < CAROM_BALLS_MOST; i++)
       facts.pocket[i] = g->down >> i & 1 ? 3 : -1;
     carom_plan_rules of = carom_plan_rules_of((carom_rules_kind)g->kind);
     of.user[0] = (uint64_t)g->group;
-    const carom_turn turn = of.judge(of.user, g->in_play, 0, &facts, (carom_call){g->call, g->call < 0 ? -1 : 3});
-    ck_assert_msg(
-        (int)turn.is == g->is && turn.foul == g->foul && (int)turn.leave == g->leave && of.user[0] == (uint64_t)g->group_after,
-        "%s: turn %d, foul %d, leave %d, group %d", g->what, (int)turn.is, turn.foul, (int)turn.leave, (int)of.user[0]);
+    const carom_turn turn =
+        of.judge(of.user, g->in_play, 0, &facts, (carom_call){g->call, g->call < 0 ? -1 : 3});
+    ck_assert_msg((int)turn.is == g->is && turn.foul == g->foul && (int)turn.leave == g->leave &&
+                      of.user[0] == (uint64_t)g->group_after,
+                  "%s: turn %d, foul %d, leave %d, group %d", g->what, (int)turn.is, turn.foul,
+                  (int)turn.leave, (int)of.user[0]);
   }
   ck_assert_str_eq(carom_rules_name(CAROM_RULES_NINEBALL), "nineball");
   ck_assert_ptr_null(carom_rules_name((carom_rules_kind)3));
@@ -120,8 +129,9 @@ static uint64_t hash_of(uint64_t h, const void *bytes, size_t size) {
   return h;
 }
 
-/* The choices of 20 layouts, by plain: the same hash on all machines, with one thread and with two. Where a change of the method
- * or of the physics is meant to change them, the new hash is the one that this test prints. */
+/* The choices of 20 layouts, by plain: the same hash on all machines, with one thread and with
+ * two. Where a change of the method or of the physics is meant to change them, the new hash is
+ * the one that this test prints. */
 TEST(golden_choices) {
   static const uint64_t golden = UINT64_C(0x1b3dab31c9f6ad21);
   uint64_t h = UINT64_C(0xcbf29ce484222325);
@@ -136,8 +146,9 @@ TEST(golden_choices) {
     make_memory();
     for (int threads = 0; threads < 2; threads++) {
       options.threads = 2 * threads;
-      ck_assert_int_eq(k % 4 == 3 ? carom_plan_hand(&job, NULL, NULL, choices[threads], 3, &found[threads])
-                                  : carom_plan(&job, choices[threads], 3, &found[threads]),
+      ck_assert_int_eq(k % 4 == 3
+                           ? carom_plan_hand(&job, NULL, NULL, choices[threads], 3, &found[threads])
+                           : carom_plan(&job, choices[threads], 3, &found[threads]),
                        CAROM_OK);
     }
     ck_assert_int_eq(found[0], found[1]);
@@ -154,7 +165,8 @@ TEST(golden_choices) {
   ck_assert_msg(h == golden, "the choices are others: 0x%016llx", (unsigned long long)h);
 }
 
-/* The chance to play on is that of shots which are played with errors of other seeds, within four standard errors. */
+/* The chance to play on is that of shots which are played with errors of other seeds, within
+ * four standard errors. */
 TEST(chances_are_kept) {
   for (int k = 0; k < 6; k++) {
     make_layout(test_seed() + (uint64_t)k, 8);
@@ -165,13 +177,14 @@ TEST(chances_are_kept) {
     ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
     options.seed = 77;
     ck_assert_int_eq(carom_plan_try(&job, &best.cue, 1, &again), CAROM_OK);
-    ck_assert(again.ball == best.ball && again.pocket == best.pocket && again.kind == CAROM_PLAN_GIVEN);
+    ck_assert(again.ball == best.ball && again.pocket == best.pocket &&
+              again.kind == CAROM_PLAN_GIVEN);
     ck_assert_int_eq(again.seen, 1000);
     const double p = again.keep, n = (double)best.seen, least = 0.5 / n;
     const double error = sqrt((p * (1.0 - p) + least) * (1.0 / n + 1e-3));
     /* the best of many is chosen because it was lucky, too: at most by a third of the way to 1 */
-    ck_assert_msg(best.keep - p < 4.0 * error + 0.05 && p - best.keep < 4.0 * error, "%g after %lld, %g after 1000", best.keep,
-                  (long long)best.seen, p);
+    ck_assert_msg(best.keep - p < 4.0 * error + 0.05 && p - best.keep < 4.0 * error,
+                  "%g after %lld, %g after 1000", best.keep, (long long)best.seen, p);
     edge_free(&memory);
   }
 }
@@ -197,15 +210,18 @@ TEST(aims) {
     if (window[1] - window[0] < 2.0)
       continue;
     carom_facts facts;
-    ck_assert_int_ge(carom_shoot(&table, balls, BALLS, &one, NULL, &(carom_shot){.facts = &facts}), 0);
+    ck_assert_int_ge(carom_shoot(&table, balls, BALLS, &one, NULL, &(carom_shot){.facts = &facts}),
+                     0);
     aimed++;
     fell += facts.pocket[8] == pocket;
   }
   printf("of %d pots that were aimed, %d fall; %d are too thin\n", aimed, fell, thin);
-  ck_assert_msg(aimed > 20 && thin > 20 && fell > 0.85 * aimed, "%d of %d, %d too thin", fell, aimed, thin);
+  ck_assert_msg(aimed > 20 && thin > 20 && fell > 0.85 * aimed, "%d of %d, %d too thin", fell,
+                aimed, thin);
 }
 
-/* Values: the eight alone before a pocket, and the same with a ball in the way; ball in hand is no worse. */
+/* Values: the eight alone before a pocket, and the same with a ball in the way; ball in hand is
+ * no worse. */
 TEST(values) {
   double easy, blocked, hand;
   make_layout(1, 2);

@@ -1,4 +1,5 @@
-/* The processors that the process may use: its affinity, and the limits of control groups in made-up trees of both versions. */
+/* The processors that the process may use: its affinity, and the limits of control groups in
+ * made-up trees of both versions. */
 #define _GNU_SOURCE /* sched_setaffinity */
 #include "platform/processors.h"
 #include "support.h"
@@ -11,13 +12,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char root[] = "groups-......"; /* in the build folder; the dots become what no other test has */
+static char root[] = "groups-......"; /* in the build folder; the dots become what no other test
+                                         has */
 
 /* Writes ROOT/path, with the folders on the way to it. */
 static void put(const char *path, const char *text) {
   char full[500];
   snprintf(full, sizeof full, "%s/%s", root, path);
-  for (char *slash = strchr(full + strlen(root) + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
+  for (char *slash = strchr(full + strlen(root) + 1, '/'); slash != NULL;
+       slash = strchr(slash + 1, '/')) {
     *slash = '\0';
     mkdir(full, 0700);
     *slash = '/';
@@ -60,10 +63,13 @@ TEST(version_2) {
   put("jobs/cpu.max", "200000 100000\n"); /* a group above is stricter */
   ck_assert_int_eq(limit("0::/jobs/one\n"), 2);
   ck_assert_int_eq(limit("0::/jobs/two\n"), 2);
-  put("jobs/on/cpu.max", "100000 100000\n"); /* a neighbour whose name begins the same way does not count */
+  put("jobs/on/cpu.max", "100000 100000\n"); /* a neighbour whose name begins the same way does
+                                                not count */
   ck_assert_int_eq(limit("0::/jobs/one\n"), 2);
-  ck_assert_int_eq(limit("0::/jobs/two/inner/most\n"), 2); /* groups that are not mounted say nothing */
-  put("cpu.max", "100000 100000\n");                       /* as in a container: its own group is the mount */
+  /* groups that are not mounted say nothing */
+  ck_assert_int_eq(limit("0::/jobs/two/inner/most\n"), 2);
+  /* as in a container: its own group is the mount */
+  put("cpu.max", "100000 100000\n");
   ck_assert_int_eq(limit("0::/somewhere/of/the/host\n"), 1);
   ck_assert_int_eq(limit("0::/../..\n"), 1);
   tear_down();

@@ -28,7 +28,8 @@ static void expect(const char *text, const char *expected) {
   while (record_next(reader, &in) == READ_ONE) {
     used += (size_t)snprintf(seen + used, sizeof seen - used, "%lld:", in.line);
     for (size_t k = 0; k < in.count; k++)
-      used += (size_t)snprintf(seen + used, sizeof seen - used, "%s%s", k > 0 ? "|" : "", in.field[k]);
+      used +=
+          (size_t)snprintf(seen + used, sizeof seen - used, "%s%s", k > 0 ? "|" : "", in.field[k]);
     used += (size_t)snprintf(seen + used, sizeof seen - used, ";");
   }
   record_close(reader);
@@ -77,9 +78,10 @@ TEST(decimal_commas) {
     const char *text;
     bool semicolons, good;
     double number;
-  } cases[] = {{"1,5", true, true, 1.5},    {"-0,25e1", true, true, -2.5}, {"1.5", true, true, 1.5},
-               {",5", true, true, 0.5},     {"1,5", false, false, 0.0},    {"1.234,5", true, false, 0.0},
-               {"1,2,3", true, false, 0.0}, {",", true, false, 0.0},       {"0x1,8", true, false, 0.0}};
+  } cases[] = {
+      {"1,5", true, true, 1.5},    {"-0,25e1", true, true, -2.5}, {"1.5", true, true, 1.5},
+      {",5", true, true, 0.5},     {"1,5", false, false, 0.0},    {"1.234,5", true, false, 0.0},
+      {"1,2,3", true, false, 0.0}, {",", true, false, 0.0},       {"0x1,8", true, false, 0.0}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     double number = 0.0;
     const record r = {.decimal_commas = cases[k].semicolons};

@@ -1,5 +1,5 @@
-/* Bad input of every field of a shot: each its own status and place, and nothing else written. Bounds and the built-in
- * tables, too. */
+/* Bad input of every field of a shot: each its own status and place, and nothing else written.
+ * Bounds and the built-in tables, too. */
 #include "carom_shot.h"
 #include "support.h"
 
@@ -51,8 +51,8 @@ static void expect(carom_status status, int where) {
                               .status = statuses};
   const carom_status first = carom_shoot_batch(&job);
   ck_assert_int_eq(first, status);
-  if (statuses[0] != 99) { /* what is wrong does not belong to all, but that both layouts have balls too low for a nose, or
-                               too large for the tops of rails */
+  if (statuses[0] != 99) { /* what is wrong does not belong to all, but that both layouts have
+                              balls too low for a nose, or too large for the tops of rails */
     const bool both = status == CAROM_ERROR_NOSE_HEIGHT || table.rail_width > 0.0;
     ck_assert_int_eq(statuses[0], both ? status : CAROM_OK);
     ck_assert_int_eq(statuses[1], status);
@@ -68,7 +68,8 @@ static void expect(carom_status status, int where) {
     expect((status), (where));               \
   } while (0)
 
-/* The same of a field that has a status of its own, whose name and text say the field: `text` is "cue.mass must". */
+/* The same of a field that has a status of its own, whose name and text say the field: `text` is
+ * "cue.mass must". */
 static void named(const char *field, carom_status status) {
   char text[64];
   snprintf(text, sizeof text, "%s must", field);
@@ -151,7 +152,8 @@ TEST(states) {
     balls[2].state.label = label;
     expect(CAROM_ERROR_LABEL, 2);
   }
-  /* in space a ball may be above the cloth, and move up and down; in no cushion, nor on top of another ball by less than 2 R */
+  /* in space a ball may be above the cloth, and move up and down; in no cushion, nor on top of
+   * another ball by less than 2 R */
   set_up();
   balls[2].state.v[2] = -0.1;
   balls[2].state.r[2] = 0.05;
@@ -197,7 +199,8 @@ TEST(cues) {
   NAMED(cue.end_mass, -1.0, CAROM_ERROR_CUE_END_MASS);
   NAMED(cue.ball, 10, CAROM_ERROR_CUE_BALL);
   NAMED(cue.ball, -1, CAROM_ERROR_CUE_BALL);
-  for (int label = CAROM_BALL_POCKETED; label <= CAROM_BALL_OFF; label += CAROM_BALL_OFF - CAROM_BALL_POCKETED) {
+  for (int label = CAROM_BALL_POCKETED; label <= CAROM_BALL_OFF;
+       label += CAROM_BALL_OFF - CAROM_BALL_POCKETED) {
     set_up();
     cue.ball = 3;
     balls[3].state.label = label;
@@ -251,7 +254,8 @@ TEST(tables) {
     table.pocket[table.pockets++] = table.pocket[0];
   expect(CAROM_OK, -1);
   /* posts alone, and a pocket between them */
-  table = (carom_table){.jaws = 2, .pockets = 1, .jaw = {{.centre = {-5.0, -5.0}, .radius = 0.1, .height = 0.036}}};
+  table = (carom_table){
+      .jaws = 2, .pockets = 1, .jaw = {{.centre = {-5.0, -5.0}, .radius = 0.1, .height = 0.036}}};
   table.jaw[1] = (carom_jaw){.centre = {5.0, 5.0}, .radius = 0.1, .height = 0.036};
   table.pocket[0] = (carom_pocket){{3.0, -2.0}, 1.0, 0.08};
   ck_assert_int_eq(carom_shot_check(&table, balls, 10, NULL, NULL, NULL), CAROM_OK);
@@ -299,7 +303,8 @@ TEST(options_and_calls) {
   for (int k = 0; k < 2; k++) {
     carom_shot bad = {.room = rooms[k], .count = 77, .state = &state};
     int8_t said = 99;
-    const carom_shot_job one = {.table = &table, .balls = balls, .count = 10, .n = 1, .shots = &bad, .status = &said};
+    const carom_shot_job one = {
+        .table = &table, .balls = balls, .count = 10, .n = 1, .shots = &bad, .status = &said};
     ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &bad), CAROM_ERROR_ROOM);
     ck_assert_int_eq(carom_shoot_batch(&one), CAROM_ERROR_ROOM);
     ck_assert_int_eq(said, CAROM_ERROR_ROOM);
@@ -310,8 +315,13 @@ TEST(options_and_calls) {
   named("shot.room", CAROM_ERROR_ROOM);
   /* a job that cannot be served is refused whole, without a word to any shot */
   int8_t told = 99;
-  const carom_shot_job good = {
-      .table = &table, .balls = balls, .cues = &cue, .count = 10, .n = 1, .shots = &shot, .status = &told};
+  const carom_shot_job good = {.table = &table,
+                               .balls = balls,
+                               .cues = &cue,
+                               .count = 10,
+                               .n = 1,
+                               .shots = &shot,
+                               .status = &told};
   carom_shot_job job = good;
   shot = (carom_shot){.count = 77};
 #define JOB_REFUSED(field, value, code)                \
@@ -338,7 +348,8 @@ TEST(options_and_calls) {
   ck_assert_int_eq(carom_rack((carom_rack_kind)-1, &table, 0.0, 1, balls, 9), CAROM_ERROR_RACK);
 }
 
-/* What a shot ended with is known up to its end, and nothing after it where balls still move: states are not touched. */
+/* What a shot ended with is known up to its end, and nothing after it where balls still move:
+ * states are not touched. */
 static void ends_there(const carom_shot *shot, int count) {
   carom_ball_state at[10], untouched[10];
   memset(untouched, 77, sizeof untouched);
@@ -379,7 +390,8 @@ TEST(bounds) {
   carom_ball_state final[10], at[10];
   carom_shot shot = {.events = events, .room = 40, .final = final};
   options.events_most = 30;
-  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &options, &shot), CAROM_ERROR_TOO_MANY_EVENTS);
+  ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, &options, &shot),
+                   CAROM_ERROR_TOO_MANY_EVENTS);
   ck_assert_int_eq(shot.count, 30);
   ck_assert_double_eq(shot.time, events[29].time);
   ends_there(&shot, 10);
@@ -406,7 +418,8 @@ TEST(bounds) {
   ck_assert_int_eq(shot.count, 0);
 }
 
-/* Many times have the bits of one after another, in any order, with drag too; an error leaves the times before it written. */
+/* Many times have the bits of one after another, in any order, with drag too; an error leaves
+ * the times before it written. */
 TEST(many_times) {
   enum { TIMES = 400 };
   static carom_event events[2000];
@@ -419,7 +432,8 @@ TEST(many_times) {
     carom_shot shot = {.events = events, .room = 2000};
     ck_assert_int_eq(carom_shoot(&table, balls, 10, &cue, NULL, &shot), CAROM_OK);
     ck_assert(shot.count > 20 && shot.count < 2000);
-    for (int order = 0; order < 3; order++) { /* forwards with every event among them, backwards, to and fro */
+    for (int order = 0; order < 3; order++) { /* forwards with every event among them, backwards,
+                                                 to and fro */
       for (int k = 0; k < TIMES; k++) {
         const double even = (k / (TIMES - 2.0)) * 1.1 * shot.time - 0.01;
         times[order == 1 ? TIMES - 1 - k : k] = order == 2 && k % 3 == 0 ? shot.time - even : even;
@@ -435,7 +449,8 @@ TEST(many_times) {
     times[0] = 0.5;
     times[1] = NAN;
     memset(together, 0, sizeof together);
-    ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, times, 2, together[0]), CAROM_ERROR_TIME);
+    ck_assert_int_eq(carom_shot_at_times(balls, 10, &shot, times, 2, together[0]),
+                     CAROM_ERROR_TIME);
     ck_assert_int_eq(carom_shot_at(balls, 10, &shot, 0.5, alone), CAROM_OK);
     ck_assert_mem_eq(alone, together[0], sizeof alone);
     ck_assert_double_eq(together[1][0].r[2], 0.0);
@@ -450,7 +465,8 @@ TEST(lost_ball) {
   table.rail[1] = table.rail[2];
   table.rail[2] = table.rail[3];
   table.rails = 3; /* without the rail at x = width */
-  balls[0] = (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD), .state = {.r = {0.7, 1.0, 0.03075}}};
+  balls[0] = (carom_shot_ball){.kind = carom_ball_kind_of(CAROM_GAME_BILLIARD),
+                               .state = {.r = {0.7, 1.0, 0.03075}}};
   cue = carom_cue_of(CAROM_GAME_BILLIARD);
   cue.phi = 0.0;
   carom_event events[10];
@@ -480,14 +496,21 @@ static const struct {
     {CAROM_TABLE_POOL_7FT, 0.9906, 1.9812, POOL_MEASURES},
     {CAROM_TABLE_POOL_8FT, 1.1176, 2.2352, POOL_MEASURES},
     {CAROM_TABLE_POOL_9FT, 1.27, 2.54, POOL_MEASURES},
-    {CAROM_TABLE_SNOOKER, 1.778, 3.569, 0.03667125, {0.0865, 45.0, 0.07, 0.055, 0.0417}, {0.0865, 90.0, 0.04, 0.05, 0.0585}},
+    {CAROM_TABLE_SNOOKER,
+     1.778,
+     3.569,
+     0.03667125,
+     {0.0865, 45.0, 0.07, 0.055, 0.0417},
+     {0.0865, 90.0, 0.04, 0.05, 0.0585}},
 };
 
-/* Whether a jaw touches the end of a rail or of a facing: the end is on the jaw's circle, and the rail is tangent to it. */
+/* Whether a jaw touches the end of a rail or of a facing: the end is on the jaw's circle, and
+ * the rail is tangent to it. */
 static bool touches(const carom_jaw *jaw, const carom_rail *rail, const double end[2]) {
   const double d_x = end[0] - jaw->centre[0], d_y = end[1] - jaw->centre[1];
   const double e_x = rail->q[0] - rail->p[0], e_y = rail->q[1] - rail->p[1];
-  return fabs(hypot(d_x, d_y) - jaw->radius) < 1e-9 && fabs(d_x * e_x + d_y * e_y) < 1e-5 * hypot(e_x, e_y);
+  return fabs(hypot(d_x, d_y) - jaw->radius) < 1e-9 &&
+         fabs(d_x * e_x + d_y * e_y) < 1e-5 * hypot(e_x, e_y);
 }
 
 /* How far x is outside [0, length]; negative inside. */
@@ -495,13 +518,15 @@ static double outside(double x, double length) {
   return fmax(-x, x - length);
 }
 
-/* The measures that a player would take, from the parts of the tables. The mouth of a pocket lies between the points where its
- * rails would meet its facings. The facings of pooltool's side pockets are 0.064 degrees off the given angle. */
+/* The measures that a player would take, from the parts of the tables. The mouth of a pocket
+ * lies between the points where its rails would meet its facings. The facings of pooltool's side
+ * pockets are 0.064 degrees off the given angle. */
 TEST(measures) {
   for (size_t n = 0; n < sizeof measured / sizeof measured[0]; n++) {
     const double w = measured[n].width, l = measured[n].length;
     ck_assert_int_eq(carom_table_make(measured[n].kind, &table), CAROM_OK);
-    ck_assert(table.width == w && table.length == l && table.rails == 18 && table.jaws == 12 && table.pockets == 6);
+    ck_assert(table.width == w && table.length == l && table.rails == 18 && table.jaws == 12 &&
+              table.pockets == 6);
     for (int k = 0; k < 18; k++)
       ck_assert_double_eq_tol(table.rail[k].height, measured[n].height, 1e-12);
     /* each jaw leads from one of the six cushions to one of the twelve facings */
@@ -510,26 +535,32 @@ TEST(measures) {
       const carom_jaw *jaw = &table.jaw[k];
       const carom_rail *rail = NULL, *facing = NULL;
       for (int m = 0; m < 6; m++)
-        if (touches(jaw, &table.rail[m], table.rail[m].p) || touches(jaw, &table.rail[m], table.rail[m].q))
+        if (touches(jaw, &table.rail[m], table.rail[m].p) ||
+            touches(jaw, &table.rail[m], table.rail[m].q))
           rail = &table.rail[m];
       for (int m = 6; m < 18; m++)
         if (touches(jaw, &table.rail[m], table.rail[m].q))
           facing = &table.rail[m];
-      ck_assert_msg(rail != NULL && facing != NULL, "table %zu, jaw %d: no rail, or no facing", n, k);
+      ck_assert_msg(rail != NULL && facing != NULL, "table %zu, jaw %d: no rail, or no facing", n,
+                    k);
       /* where their lines meet, by Cramer's rule */
       const double *a = rail->line, *b = facing->line, D = a[0] * b[1] - a[1] * b[0];
       const double x = (a[1] * b[2] - a[2] * b[1]) / D, y = (a[2] * b[0] - a[0] * b[2]) / D;
       const bool corner = fabs(y - l / 2.0) > l / 4.0;
       const opening *o = corner ? &measured[n].corner : &measured[n].side;
-      const double half = corner ? (fmin(x, w - x) + fmin(y, l - y)) * sqrt(0.5) : fabs(y - l / 2.0);
+      const double half =
+          corner ? (fmin(x, w - x) + fmin(y, l - y)) * sqrt(0.5) : fabs(y - l / 2.0);
       corners += corner;
       ck_assert_double_eq_tol(half, o->mouth / 2.0, 1e-5);
       ck_assert_double_eq_tol(jaw->radius, o->jaw, 1e-12);
       ck_assert_double_eq_tol(jaw->height, measured[n].height, 1e-12);
-      const double angle = acos(fabs(a[0] * b[0] + a[1] * b[1]) / (hypot(a[0], a[1]) * hypot(b[0], b[1])));
-      ck_assert_double_eq_tol(angle * 180.0 / 3.14159265358979323846, o->angle, corner ? 1e-9 : 0.07);
+      const double angle =
+          acos(fabs(a[0] * b[0] + a[1] * b[1]) / (hypot(a[0], a[1]) * hypot(b[0], b[1])));
+      ck_assert_double_eq_tol(angle * 180.0 / 3.14159265358979323846, o->angle,
+                              corner ? 1e-9 : 0.07);
       /* the facing goes back to the depth of the cushion */
-      ck_assert_double_eq_tol(fmax(outside(facing->p[0], w), outside(facing->p[1], l)), 0.0508, 1e-12);
+      ck_assert_double_eq_tol(fmax(outside(facing->p[0], w), outside(facing->p[1], l)), 0.0508,
+                              1e-12);
     }
     ck_assert_int_eq(corners, 8);
     /* pockets at the corners lie on the bisectors */
@@ -545,7 +576,8 @@ TEST(measures) {
     ck_assert_int_eq(corners, 12);
   }
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
-  ck_assert(table.width == 1.42 && table.length == 2.84 && table.rails == 4 && table.jaws == 0 && table.pockets == 0);
+  ck_assert(table.width == 1.42 && table.length == 2.84 && table.rails == 4 && table.jaws == 0 &&
+            table.pockets == 0);
   for (int k = 0; k < 4; k++)
     ck_assert_double_eq(table.rail[k].height, 0.037);
 }
@@ -557,24 +589,28 @@ static double room_at(double x, double y, double R) {
   double room = INFINITY;
   for (int k = 0; k < table.rails; k++) {
     const carom_rail *r = &table.rail[k];
-    const double e_x = r->q[0] - r->p[0], e_y = r->q[1] - r->p[1], d_x = x - r->p[0], d_y = y - r->p[1];
+    const double e_x = r->q[0] - r->p[0], e_y = r->q[1] - r->p[1], d_x = x - r->p[0],
+                 d_y = y - r->p[1];
     const double place = fmin(fmax((d_x * e_x + d_y * e_y) / (e_x * e_x + e_y * e_y), 0.0), 1.0);
     room = fmin(room, hypot(d_x - place * e_x, d_y - place * e_y) - R);
   }
   for (int k = 0; k < table.jaws; k++)
-    room = fmin(room, hypot(x - table.jaw[k].centre[0], y - table.jaw[k].centre[1]) - table.jaw[k].radius - R);
+    room = fmin(room, hypot(x - table.jaw[k].centre[0], y - table.jaw[k].centre[1]) -
+                          table.jaw[k].radius - R);
   return room;
 }
 
 static bool in_pocket(double x, double y) {
   for (int k = 0; k < table.pockets; k++)
-    if (hypot(x - table.pocket[k].centre[0], y - table.pocket[k].centre[1]) < table.pocket[k].radius)
+    if (hypot(x - table.pocket[k].centre[0], y - table.pocket[k].centre[1]) <
+        table.pocket[k].radius)
       return true;
   return false;
 }
 
-/* A ball may stand where it can be rolled to from the middle of the table, and nowhere else: not behind a cushion, not in a
- * pocket. All places of a grid on the built-in tables, by flooding; unit/games has tables of other shapes. */
+/* A ball may stand where it can be rolled to from the middle of the table, and nowhere else: not
+ * behind a cushion, not in a pocket. All places of a grid on the built-in tables, by flooding;
+ * unit/games has tables of other shapes. */
 TEST(places) {
   enum { MOST_X = 530, MOST_Y = 980 };
   static uint8_t reached[MOST_X][MOST_Y];
@@ -582,11 +618,13 @@ TEST(places) {
   const double step = SANITIZED ? 0.008 : 0.004, margin = 0.15;
   for (int kind = CAROM_TABLE_POOL_7FT; kind <= CAROM_TABLE_POOLTOOL; kind++) {
     carom_table_make((carom_table_kind)kind, &table);
-    carom_shot_ball ball = {.kind = carom_ball_kind_of(kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
-                                                       : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
-                                                                                          : CAROM_GAME_POOL)};
+    carom_shot_ball ball = {
+        .kind = carom_ball_kind_of(kind == CAROM_TABLE_SNOOKER        ? CAROM_GAME_SNOOKER
+                                   : kind == CAROM_TABLE_THREECUSHION ? CAROM_GAME_BILLIARD
+                                                                      : CAROM_GAME_POOL)};
     const double R = ball.state.r[2] = ball.kind.radius;
-    const int n_x = (int)((table.width + 2.0 * margin) / step), n_y = (int)((table.length + 2.0 * margin) / step);
+    const int n_x = (int)((table.width + 2.0 * margin) / step),
+              n_y = (int)((table.length + 2.0 * margin) / step);
     ck_assert(n_x < MOST_X && n_y < MOST_Y);
     memset(reached, 0, sizeof reached);
     int waiting = 0, counts[2] = {0, 0};
@@ -595,7 +633,8 @@ TEST(places) {
     while (waiting > 0) {
       const int at = queue[--waiting];
       for (int way = 0; way < 4; way++) {
-        const int i = at / MOST_Y + (way == 0) - (way == 1), j = at % MOST_Y + (way == 2) - (way == 3);
+        const int i = at / MOST_Y + (way == 0) - (way == 1),
+                  j = at % MOST_Y + (way == 2) - (way == 3);
         const double x = i * step - margin, y = j * step - margin;
         ck_assert_msg(i > 0 && i < n_x && j > 0 && j < n_y, "table %d has a hole", kind);
         if (!reached[i][j] && room_at(x, y, R) > 0.0 && !in_pocket(x, y)) {
@@ -611,23 +650,30 @@ TEST(places) {
         const carom_status expected = reached[i][j] ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
         const carom_status status = carom_shot_check(&table, &ball, 1, NULL, NULL, NULL);
         counts[reached[i][j]]++;
-        ck_assert_msg(status == expected || fabs(room_at(ball.state.r[0], ball.state.r[1], R)) < 1.1e-6,
-                      "table %d, (%g, %g): %s", kind, ball.state.r[0], ball.state.r[1], carom_status_name(status));
+        ck_assert_msg(status == expected ||
+                          fabs(room_at(ball.state.r[0], ball.state.r[1], R)) < 1.1e-6,
+                      "table %d, (%g, %g): %s", kind, ball.state.r[0], ball.state.r[1],
+                      carom_status_name(status));
       }
-    /* farther out, in line with a pocket, through which one sees the cushion beyond: in the directions that the check looks in
+    /* farther out, in line with a pocket, through which one sees the cushion beyond: in the
+     * directions that the check looks in
      */
     static const double quarter[4][2] = {{5, 1}, {3, 2}, {2, 3}, {1, 5}};
     for (int k = 0; k < table.pockets * 16; k++)
       for (int far = 1; far <= 12; far++) {
-        const double *c = table.pocket[k / 16].centre, *u = quarter[k % 4], turn[4] = {u[0], -u[1], -u[0], u[1]};
+        const double *c = table.pocket[k / 16].centre, *u = quarter[k % 4],
+                     turn[4] = {u[0], -u[1], -u[0], u[1]};
         const double *r = ball.state.r;
         ball.state.r[0] = c[0] + 0.03 * far * turn[k / 4 % 4];
         ball.state.r[1] = c[1] + 0.03 * far * turn[(k / 4 + 3) % 4];
-        if (r[0] < -margin || r[0] > table.width + margin || r[1] < -margin || r[1] > table.length + margin)
-          ck_assert_msg(carom_shot_check(&table, &ball, 1, NULL, NULL, NULL) == CAROM_ERROR_OFF_TABLE, "table %d, (%g, %g)",
-                        kind, r[0], r[1]);
+        if (r[0] < -margin || r[0] > table.width + margin || r[1] < -margin ||
+            r[1] > table.length + margin)
+          ck_assert_msg(carom_shot_check(&table, &ball, 1, NULL, NULL, NULL) ==
+                            CAROM_ERROR_OFF_TABLE,
+                        "table %d, (%g, %g)", kind, r[0], r[1]);
       }
-    printf("table %d: a ball may stand at %d of %d places\n", kind, counts[1], counts[0] + counts[1]);
+    printf("table %d: a ball may stand at %d of %d places\n", kind, counts[1],
+           counts[0] + counts[1]);
   }
 }
 
@@ -636,7 +682,8 @@ static double wild(random_source *r, double least, double most) {
   const double kind = random_between(r, 0.0, 1.0);
   if (kind < 0.01)
     return kind < 0.003 ? NAN : kind < 0.006 ? INFINITY : 0.0;
-  return kind < 0.6 ? random_between(r, least, most) : most * pow(10.0, random_between(r, -12.0, 0.0));
+  return kind < 0.6 ? random_between(r, least, most)
+                    : most * pow(10.0, random_between(r, -12.0, 0.0));
 }
 
 #define RANGE(field, least, most) \
@@ -644,11 +691,12 @@ static double wild(random_source *r, double least, double most) {
 static const struct {
   size_t at;
   double least, most;
-} ranges[] = {RANGE(mass, 0.01, 10.0),     RANGE(mu_slide, 0.01, 1.0),   RANGE(mu_roll, 0.001, 1.0),
-              RANGE(mu_spin, 0.001, 1.0),  RANGE(restitution, 0.0, 1.0), RANGE(restitution_cushion, 0.0, 1.0),
-              RANGE(mu_cushion, 0.0, 1.0), RANGE(gravity, 1.0, 100.0),   RANGE(drag, 0.0, 1.0),
-              RANGE(roll_loss, 0.0, 1.0),  RANGE(law_a, 0.0, 0.5),       RANGE(law_b, 0.0, 0.5),
-              RANGE(law_c, 0.0, 100.0),    RANGE(nose_height, 0.0, 2.0), RANGE(omega_ratio, 1.01, 1.99)};
+} ranges[] = {
+    RANGE(mass, 0.01, 10.0),     RANGE(mu_slide, 0.01, 1.0),   RANGE(mu_roll, 0.001, 1.0),
+    RANGE(mu_spin, 0.001, 1.0),  RANGE(restitution, 0.0, 1.0), RANGE(restitution_cushion, 0.0, 1.0),
+    RANGE(mu_cushion, 0.0, 1.0), RANGE(gravity, 1.0, 100.0),   RANGE(drag, 0.0, 1.0),
+    RANGE(roll_loss, 0.0, 1.0),  RANGE(law_a, 0.0, 0.5),       RANGE(law_b, 0.0, 0.5),
+    RANGE(law_c, 0.0, 100.0),    RANGE(nose_height, 0.0, 2.0), RANGE(omega_ratio, 1.01, 1.99)};
 
 /* Whatever numbers a shot is made of, it ends, with a status, and its states are numbers. */
 TEST(wild_shots) {
@@ -691,8 +739,10 @@ TEST(wild_shots) {
     statuses[-status]++;
     for (int k = 0; k < count; k++)
       for (int axis = 0; axis < 3; axis++)
-        ck_assert_msg(isfinite(final[k].r[axis]) && isfinite(final[k].v[axis]) && isfinite(final[k].w[axis]),
-                      "shot %d ends with states that are no numbers, status %s", n, carom_status_name(status));
+        ck_assert_msg(isfinite(final[k].r[axis]) && isfinite(final[k].v[axis]) &&
+                          isfinite(final[k].w[axis]),
+                      "shot %d ends with states that are no numbers, status %s", n,
+                      carom_status_name(status));
     for (int k = 1; k < shot.count; k++)
       ck_assert_double_ge(events[k].time, events[k - 1].time);
   }

@@ -1,5 +1,6 @@
-/* Every function runs on a thread with the smallest usual stack, 64 KiB, of which the C library takes its share too. The stack
- * is painted before, with a page that may not be touched below it; what lost its paint was used. */
+/* Every function runs on a thread with the smallest usual stack, 64 KiB, of which the C library
+ * takes its share too. The stack is painted before, with a page that may not be touched below
+ * it; what lost its paint was used. */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
 #include "every_function.h"
 #include "regimes.h"
@@ -12,7 +13,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* Compilers that do not optimise keep every temporary on the stack; the promise is for a build that does. */
+/* Compilers that do not optimise keep every temporary on the stack; the promise is for a build
+ * that does. */
 #ifdef __OPTIMIZE__
 enum { STACK = 64 * 1024 };
 #else
@@ -83,7 +85,8 @@ static void *shots(void *argument) {
   static carom_shot shot[8];
   for (int world = 0; world < 2; world++)
     for (int rack = CAROM_RACK_NINEBALL; rack <= CAROM_RACK_SNOOKER; rack++) {
-      carom_table_make(rack == CAROM_RACK_SNOOKER ? CAROM_TABLE_SNOOKER : CAROM_TABLE_POOL_9FT, &table);
+      carom_table_make(rack == CAROM_RACK_SNOOKER ? CAROM_TABLE_SNOOKER : CAROM_TABLE_POOL_9FT,
+                       &table);
       carom_rack((carom_rack_kind)rack, &table, 1e-4, 1, balls, CAROM_BALLS_MOST);
       carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
       cue.speed = 7.0;
@@ -114,7 +117,8 @@ static void *any_function(void *argument) {
 /* Bytes of a thread's stack that `body` takes. */
 static size_t stack_used(void *(*body)(void *)) {
   const size_t page = (size_t)sysconf(_SC_PAGESIZE);
-  unsigned char *memory = mmap(NULL, STACK + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  unsigned char *memory =
+      mmap(NULL, STACK + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   ck_assert_ptr_ne(memory, MAP_FAILED);
   unsigned char *stack = memory + page;
   memset(stack, PAINT, STACK);
@@ -167,7 +171,9 @@ static void make_rows(void) {
 TEST(each_function_fits_64_KiB) {
   make_rows();
   const size_t own = stack_used(nothing);
-  printf("a thread that does nothing uses %zu bytes of its stack of %d; the functions use besides\n", own, STACK);
+  printf(
+      "a thread that does nothing uses %zu bytes of its stack of %d; the functions use besides\n",
+      own, STACK);
   for (size_t k = 0; k < sizeof bodies / sizeof bodies[0]; k++)
     for (int solver = 0; solver < CAROM_SOLVER_COUNT; solver++) {
       options = (carom_options){.solver = (carom_solver)solver, .steps = 50};

@@ -1,6 +1,7 @@
-/* Threads of the library: each row is worked on once, the first error is found wherever it is, and no signal handler of the
- * process runs on a thread that the process has not made. And threads of the caller: every function may be called at once with
- * all others, also in children forked meanwhile. */
+/* Threads of the library: each row is worked on once, the first error is found wherever it is,
+ * and no signal handler of the process runs on a thread that the process has not made. And
+ * threads of the caller: every function may be called at once with all others, also in children
+ * forked meanwhile. */
 #define _GNU_SOURCE
 #include "platform/threads.h"
 #include "every_function.h"
@@ -65,7 +66,8 @@ static void *idle(void *argument) {
 }
 #endif
 
-/* Where the system starts no thread, the calling one works on all rows. In a child without room for another stack. */
+/* Where the system starts no thread, the calling one works on all rows. In a child without room
+ * for another stack. */
 TEST(threads_that_cannot_be_started) {
 #if !SANITIZED
   enum { FEW = 400 };
@@ -105,7 +107,8 @@ TEST(few_rows_are_shared) {
       atomic_store(&most, 0);
       ck_assert_uint_eq(carom_in_threads(note_size, &job, n, threads, 4), n);
       const size_t parts = n / 4 < (size_t)threads ? n / 4 : (size_t)threads;
-      ck_assert_msg(atomic_load(&most) <= n / parts + 4, "%zu of %zu rows on one of %zu threads", atomic_load(&most), n, parts);
+      ck_assert_msg(atomic_load(&most) <= n / parts + 4, "%zu of %zu rows on one of %zu threads",
+                    atomic_load(&most), n, parts);
     }
 }
 
@@ -146,7 +149,8 @@ static void *call_batches(void *argument) {
   return NULL;
 }
 
-/* The signals go to the process; the only thread of ours that takes them is the one that calls the library. */
+/* The signals go to the process; the only thread of ours that takes them is the one that calls
+ * the library. */
 TEST(signals_stay_with_the_caller) {
   const struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
   sigset_t own;
@@ -166,8 +170,8 @@ TEST(signals_stay_with_the_caller) {
 
 /* ---- Every public function at once */
 
-/* The sanitizer of threads lets none start in a child of a process with threads; that of addresses may wait there for ever for
- * a lock that another thread held at the fork. */
+/* The sanitizer of threads lets none start in a child of a process with threads; that of
+ * addresses may wait there for ever for a lock that another thread held at the fork. */
 enum { CHILD_THREADS = SANITIZED ? 0 : 3, CALLERS = 16, ROUNDS = 4, FORKS = 12, INPUTS = 4 };
 static every_input shared[INPUTS];
 static uint64_t alone[INPUTS][EVERY_COUNT];
@@ -204,7 +208,8 @@ static int in_a_child(every_room *room, every_input *copy) {
   return WEXITSTATUS(status);
 }
 
-/* 16 threads call all functions in random order, and get what each call gives alone; so do children forked in between. */
+/* 16 threads call all functions in random order, and get what each call gives alone; so do
+ * children forked in between. */
 TEST(every_function_at_once) {
   every_function_is_there();
   every_room *room = calloc(1, sizeof *room);
@@ -229,11 +234,11 @@ TEST(every_function_at_once) {
   for (int k = 0; k < CALLERS; k++)
     pthread_join(thread[k], NULL);
   for (int k = 0; k < EVERY_COUNT; k++)
-    ck_assert_msg(atomic_load(&others[k]) == 0, "%s had other results %d times", every_functions[k].name,
-                  atomic_load(&others[k]));
+    ck_assert_msg(atomic_load(&others[k]) == 0, "%s had other results %d times",
+                  every_functions[k].name, atomic_load(&others[k]));
   ck_assert_int_gt(children, 0);
-  printf("%d threads called %d functions, %d times each in the mean; %d children between\n", CALLERS, EVERY_COUNT, ROUNDS,
-         children);
+  printf("%d threads called %d functions, %d times each in the mean; %d children between\n",
+         CALLERS, EVERY_COUNT, ROUNDS, children);
   free(copy);
   free(room);
 }

@@ -1,6 +1,7 @@
 /* The native side of bench.mjs, by the instruction set `plain`, on one thread.
  *
- *     native N < ROWS        N collisions of 26 doubles each; prints a line for each task: its name and ns for each item
+ *     native N < ROWS        N collisions of 26 doubles each; prints a line for each task: its
+ *                            name and ns for each item
  *
  * bench.mjs compiles it against ../build/libcarom.a and runs it between its own rounds. */
 #define _POSIX_C_SOURCE 199309L
@@ -83,7 +84,9 @@ int main(int argc, char **argv) {
   rows = fread(in, sizeof in[0], MOST, stdin);
   few = argc > 1 ? strtoul(argv[1], NULL, 10) : 0;
   if (few == 0 || few > rows)
-    return fprintf(stderr, "native: N must be 1 to the number of collisions on standard input, %zu\n", rows) > 0;
+    return fprintf(stderr,
+                   "native: N must be 1 to the number of collisions on standard input, %zu\n",
+                   rows) > 0;
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);
   carom_rack(CAROM_RACK_NINEBALL, &table, 1e-4, 1, balls, BALLS);
   for (int k = 0; k < BREAKS; k++) {
