@@ -54,7 +54,6 @@ FIGURES = {
 # Pictures that `carom` draws by itself.
 DRAWN = {
     "break": "carom shoot --plot {} -o /dev/null data/break-nineball.jsonl",
-    "hit": "carom hit --speed 1.5 --cut 30 --spin follow --plot {}",
     "rule-30": "carom hit --cut 1:0.02ball --spin follow,stun --quantity rolling-deflection --plot {}",
     "throw": "carom hit --cut 0:80 --speed 1,3,7mph --plot {}",
     "rebound": "carom rail --angle 0:75 --side -50,0,50% --friction 0.3 --plot {}",
