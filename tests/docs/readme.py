@@ -82,6 +82,6 @@ with tempfile.TemporaryDirectory() as work:
         (folder / "CMakeLists.txt").write_text(of[f"cmake {way}"], encoding="utf-8")
         run([CMAKE, "-B", "b", *more], folder, PATH=f"{prefix}/bin:{os.environ['PATH']}")
         run([CMAKE, "--build", "b"], folder)
-        said.add(run([folder / "b/game"], folder))
+        said.add(run([folder / "b/game"], folder).strip())
     assert said == {"ok: ball 1 is hit after 0.111 s"}, said
 print("README.md: pasted, installed and built in four ways")
