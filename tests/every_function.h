@@ -70,19 +70,8 @@ static inline void every_input_make(every_input *in, int number, int threads) {
     in->seeds[k] = random_between(&r, -1.0, 1.0);
   for (int k = 0; k < EVERY_ROWS; k++) {
     in->impact[k] = random_impact(&r);
-    for (int c = 0; c < 26; c++)
-      ((float *)&in->impact_f32[k])[c] = (float)((const double *)&in->impact[k])[c];
-    in->cushion[k] =
-        (carom_cushion_impact){.v = {random_between(&r, -3.0, 3.0), random_between(&r, 0.1, 3.0)},
-                               .normal = {0.0, 1.0},
-                               .height = 0.0365,
-                               .radius = 0.028575,
-                               .mass = 0.17,
-                               .mu_cloth = 0.2,
-                               .mu_cushion = 0.2,
-                               .restitution = 0.85};
-    for (int c = 0; c < 3; c++)
-      in->cushion[k].w[c] = random_between(&r, -99.0, 99.0);
+    in->impact_f32[k] = narrowed(&in->impact[k]);
+    in->cushion[k] = random_cushion(&r);
   }
   carom_table_make(CAROM_TABLE_POOL_9FT, &in->table);
   carom_rack(CAROM_RACK_EIGHTBALL, &in->table, 1e-4, (uint64_t)number, in->balls, EVERY_BALLS);

@@ -72,6 +72,50 @@ carom_impact random_impact(random_source *source) {
   return in;
 }
 
+carom_cushion_impact random_cushion(random_source *source) {
+  carom_cushion_impact in = {.normal = {0.0, 1.0},
+                             .height = 0.0365,
+                             .radius = 0.028575,
+                             .mass = 0.17,
+                             .mu_cloth = 0.2,
+                             .mu_cushion = 0.2,
+                             .restitution = 0.85};
+  in.v[0] = random_between(source, -3.0, 3.0);
+  in.v[1] = random_between(source, 0.1, 3.0);
+  for (int c = 0; c < 3; c++)
+    in.w[c] = random_between(source, -99.0, 99.0);
+  return in;
+}
+
+carom_impact_f32 narrowed(const carom_impact *in) {
+  carom_impact_f32 out;
+  for (int c = 0; c < 26; c++)
+    ((float *)&out)[c] = (float)((const double *)in)[c];
+  return out;
+}
+
+static void widen(const float *from, double *to, int n) {
+  for (int c = 0; c < n; c++)
+    to[c] = from[c];
+}
+
+carom_impact widened(const carom_impact_f32 *in) {
+  carom_impact out;
+  widen((const float *)in, (double *)&out, 26);
+  return out;
+}
+
+carom_result widened_result(const carom_result_f32 *out) {
+  carom_result wide;
+  widen((const float *)out, (double *)&wide, 12);
+  return wide;
+}
+
+int by_size(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
 double result_distance(const carom_result *a, const carom_result *b, double radius) {
   const double *x = (const double *)a, *y = (const double *)b;
   double scale = 0.0, worst = 0.0;

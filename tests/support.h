@@ -2,6 +2,7 @@
 #ifndef CAROM_TESTS_SUPPORT_H
 #define CAROM_TESTS_SUPPORT_H
 
+#include "carom_shot.h"
 #include "platform/enumerations.h"
 
 #include <check.h>
@@ -43,6 +44,17 @@ double random_between(random_source *source, double low, double high);
 /* A random approaching pair of real size: both balls may move and spin, in any direction and
  * with any friction up to the values of real balls. */
 carom_impact random_impact(random_source *source);
+
+/* A pool ball of any spin that meets a usual cushion along y. */
+carom_cushion_impact random_cushion(random_source *source);
+
+/* The same numbers in single precision, and those again in double. */
+carom_impact_f32 narrowed(const carom_impact *in);
+carom_impact widened(const carom_impact_f32 *in);
+carom_result widened_result(const carom_result_f32 *out);
+
+/* Compares two doubles, for qsort(). */
+int by_size(const void *a, const void *b);
 
 /* Largest difference of two results, times `radius` for angular velocities, over the largest
  * such value of `b`. */

@@ -133,11 +133,6 @@ static inline double largest(const double *tangent, int numbers, int j, int m) {
   return most;
 }
 
-static inline int by_size(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static inline const carom_table *table_of_pool(void) {
   static carom_table table;
   carom_table_make(CAROM_TABLE_POOL_9FT, &table);

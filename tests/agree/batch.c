@@ -6,12 +6,10 @@
  * over any number of threads. Arrays end where memory ends, so that reading or writing past them
  * is seen, and begin at odd places. */
 #include "carom_shot.h"
-#include "cases.h"
 #include "regimes.h"
 #include "support.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,13 +38,10 @@ static carom_status collide_batch(int precision, const void *in, size_t n,
 }
 
 static void put_row(int precision, void *rows, size_t k, const carom_impact *in) {
-  for (int c = 0; c < 26; c++) {
-    const double x = ((const double *)in)[c];
-    if (precision == IN_DOUBLE)
-      ((double *)rows)[26 * k + (size_t)c] = x;
-    else
-      ((float *)rows)[26 * k + (size_t)c] = (float)x;
-  }
+  if (precision == IN_DOUBLE)
+    ((carom_impact *)rows)[k] = *in;
+  else
+    ((carom_impact_f32 *)rows)[k] = narrowed(in);
 }
 
 /* ---- Rows */
@@ -203,23 +198,6 @@ TEST(rows_of_zeros_at_every_size) {
   every_size(zero_row);
 }
 
-TEST(the_204_cases) {
-  case_set cases;
-  ck_assert(cases_load(CAROM_TEST_DATA, "collisions-204.csv", &cases));
-  const table t = table_make(cases.count);
-  FOR_EACH_ISA(isa)
-  FOR_EACH_WAY(solver, slip, precision) {
-    carom_options options = options_for(solver, slip);
-    options.steps = 1000;
-    for (size_t k = 0; k < cases.count; k++)
-      put_row(precision, t.in, k, &cases.impact[k]);
-    alone(precision, t.in, cases.count, &options, t.out, t.status);
-    expect_batch(precision, t.in, cases.count, &options, t.out, t.status);
-  }
-  table_free(&t);
-  cases_free(&cases);
-}
-
 /* Whoever its neighbours are, a row keeps its bits; some regimes are too slow for Euler's
  * method. */
 TEST(all_regimes_side_by_side) {
@@ -304,55 +282,17 @@ TEST(single_precision_is_near) {
       const carom_options options = options_for(solver, CAROM_SLIP_PAPER);
       for (size_t k = 0; k < MOST; k++) {
         const carom_impact drawn = good_row(&source, k);
-        put_row(IN_SINGLE, in, k, &drawn);
-        for (int c = 0; c < 26; c++)
-          ((double *)&wide[k])[c] = ((const float *)&in[k])[c];
+        in[k] = narrowed(&drawn);
+        wide[k] = widened(&in[k]);
       }
       carom_collide_batch_f32(in, MOST, &options, out, status);
       for (size_t k = 0; k < MOST; k++) {
-        carom_result near, seen;
+        carom_result near;
+        const carom_result seen = widened_result(&out[k]);
         ck_assert_int_eq(status[k], carom_collide(&wide[k], &options, &near));
-        for (int c = 0; c < 12; c++)
-          ((double *)&seen)[c] = ((const float *)&out[k])[c];
         ck_assert_double_le(result_distance(&seen, &near, wide[k].a.radius), allowed[solver]);
       }
     }
-}
-
-typedef struct caller {
-  const carom_impact *in;
-  carom_result *out;
-  carom_status whole;
-} caller;
-
-static void *call(void *argument) {
-  caller *c = argument;
-  carom_options options = {0};
-  options.threads = 2;
-  c->whole = carom_collide_batch(c->in, MANY, &options, c->out, NULL);
-  return NULL;
-}
-
-TEST(many_callers_at_once) {
-  enum { CALLERS = 4 };
-  random_source source = {test_seed()};
-  carom_impact *in = malloc(MANY * sizeof *in);
-  caller each[CALLERS];
-  pthread_t thread[CALLERS];
-  for (size_t k = 0; k < MANY; k++)
-    in[k] = random_impact(&source);
-  for (int k = 0; k < CALLERS; k++) {
-    each[k] = (caller){.in = in, .out = malloc(MANY * sizeof *each[k].out)};
-    ck_assert_int_eq(pthread_create(&thread[k], NULL, call, &each[k]), 0);
-  }
-  for (int k = 0; k < CALLERS; k++) {
-    ck_assert_int_eq(pthread_join(thread[k], NULL), 0);
-    ck_assert_int_eq(each[k].whole, CAROM_OK);
-    ck_assert_mem_eq(each[k].out, each[0].out, MANY * sizeof *each[k].out);
-  }
-  for (int k = 0; k < CALLERS; k++)
-    free(each[k].out);
-  free(in);
 }
 
 /* All that a call may compute of some rows, by both precisions; cushions too. */
@@ -375,19 +315,8 @@ TEST(plain_for_one_call) {
   random_source source = {test_seed()};
   for (int k = 0; k < MOST; k++) {
     in[k] = good_row(&source, (size_t)k);
-    for (int c = 0; c < 26; c++)
-      ((float *)&in_f32[k])[c] = (float)((const double *)&in[k])[c];
-    on[k] = (carom_cushion_impact){
-        .v = {random_between(&source, -3.0, 3.0), random_between(&source, 0.1, 3.0)},
-        .w = {random_between(&source, -99.0, 99.0), random_between(&source, -99.0, 99.0),
-              random_between(&source, -99.0, 99.0)},
-        .normal = {0.0, 1.0},
-        .height = 0.0365,
-        .radius = 0.028575,
-        .mass = 0.17,
-        .mu_cloth = 0.2,
-        .mu_cushion = 0.2,
-        .restitution = 0.85};
+    in_f32[k] = narrowed(&in[k]);
+    on[k] = random_cushion(&source);
   }
   /* by the process; by the call; and by neither */
   const carom_isa best = carom_isa_limit(CAROM_ISA_ANY);

@@ -77,14 +77,10 @@ static void expect_in_single(const carom_impact *in, carom_slip slip, bool beyon
   const carom_options options = options_for(slip);
   carom_impact_f32 rows[FILL];
   carom_result_f32 out, many[FILL];
-  carom_impact wide;
-  carom_result exact, seen;
-  for (int c = 0; c < 26; c++) {
-    ((float *)&rows[0])[c] = (float)((const double *)in)[c];
-    ((double *)&wide)[c] = ((const float *)&rows[0])[c];
-  }
-  for (int row = 1; row < FILL; row++)
-    rows[row] = rows[0];
+  carom_result exact;
+  for (int row = 0; row < FILL; row++)
+    rows[row] = narrowed(in);
+  const carom_impact wide = widened(&rows[0]);
   const bool known =
       (beyond_play || of_play(&wide)) && kept_collide(&wide, slip, &exact, NULL) == REFERENCE_OK;
   FOR_EACH_ISA(isa) {
@@ -94,8 +90,7 @@ static void expect_in_single(const carom_impact *in, carom_slip slip, bool beyon
       ck_assert_mem_eq(&many[row], &out, sizeof out);
     if (status != CAROM_OK || !known)
       continue;
-    for (int c = 0; c < 12; c++)
-      ((double *)&seen)[c] = ((const float *)&out)[c];
+    const carom_result seen = widened_result(&out);
     const double error = result_distance(&seen, &exact, wide.a.radius);
     ck_assert_msg(error <= in_single, "%s in single precision: %g off with %s", what, error,
                   carom_isa_name((carom_isa)isa));
@@ -285,10 +280,8 @@ static int expect_planar(random_source *source, carom_slip slip, bool play, bool
   int solved = 0;
   for (int k = 0; k < FILL; k++) {
     rows[k] = planar_impact(source, s, play, stick, pass);
-    for (int c = 0; c < 26; c++) {
-      ((float *)&narrow[k])[c] = (float)((const double *)&rows[k])[c];
-      ((double *)&wide[k])[c] = ((const float *)&narrow[k])[c];
-    }
+    narrow[k] = narrowed(&rows[k]);
+    wide[k] = widened(&narrow[k]);
     if (collide_precisely(&rows[k], slip, PRECISELY, &right[0][k]) != CAROM_OK)
       right[0][k].a.v[0] = NAN;
     if (collide_precisely(&wide[k], slip, PRECISELY, &right[1][k]) != CAROM_OK)
@@ -308,8 +301,8 @@ static int expect_planar(random_source *source, carom_slip slip, bool play, bool
           continue;
         const carom_impact *const in = single ? &wide[k] : &rows[k];
         const double bound = single ? in_single : play ? realistic : accepted;
-        for (int c = 0; single && c < 12; c++)
-          ((double *)&alone)[c] = ((const float *)&alone_f32)[c];
+        if (single)
+          alone = widened_result(&alone_f32);
         double error = result_distance(&alone, &right[single][k], in->a.radius);
         if (!(error <= bound) && kept_collide(in, slip, &right[single][k], NULL) == REFERENCE_OK)
           error = result_distance(&alone, &right[single][k], in->a.radius);

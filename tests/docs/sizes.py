@@ -22,12 +22,12 @@ FIGURES = [
     ("include/carom.h", r"single call takes at most (\d+) KiB", KIB, "stack carom_collide", MOST),
     ("include/carom.h", r"a trace (\d+), a batch", KIB, "stack carom_trace", MOST),
     ("include/carom.h", r"a trace \d+, a batch (\d+), and", KIB, "stack carom_collide_batch", MOST),
-    ("include/carom.h", r"a batch with threads (\d+) in the", KIB, "stack the same in threads", MOST),
+    ("include/carom.h", r"a batch with threads (\d+) in the", KIB, "threads carom_collide_batch", MOST),
     ("include/carom_shot.h", r"Stack: (\d+) KiB; a batch", KIB, "stack carom_shot_continue", MOST),
-    ("include/carom_shot.h", r"KiB; a batch (\d+), with", KIB, "stack carom_shoot", MOST),
-    ("include/carom_shot.h", r"a batch \d+, with threads (\d+)\.", KIB, "stack carom_shoot_batch", MOST),
+    ("include/carom_shot.h", r"KiB; a batch (\d+), with", KIB, "stack carom_shoot_batch", MOST),
+    ("include/carom_shot.h", r"a batch \d+, with threads (\d+)\.", KIB, "threads carom_shoot_batch", MOST),
     ("include/carom_tangent.h", r"stack: (\d+) KiB, of a batch", KIB, "stack carom_shot_tangent", MOST),
-    ("include/carom_tangent.h", r"KiB, of a batch (\d+)\.", KIB, "stack carom_shot_tangent_batch", MOST),
+    ("include/carom_tangent.h", r"KiB, of a batch (\d+)\.", KIB, "threads carom_shot_tangent_batch", MOST),
     ("docs/using/shots.md", r"takes about (\d+) KiB of stack", KIB, "stack carom_shot_continue", MOST),
     ("docs/using/games.md", r"`shot\.brief`, (\d+) bytes each", 1, "carom_brief_event", EXACT),
     ("docs/using/games.md", r"bytes each instead of (\d+)\)", 1, "carom_event", EXACT),
@@ -52,16 +52,9 @@ def native(source, build):
     expected = Path(source, "tests/install/abi.expected").read_text(encoding="utf-8")
     found = {name: int(size) for name, size in re.findall(r"^(\w+): (\d+) bytes", expected, flags=re.M)}
     said = subprocess.run([Path(build, "tests/test_stack")], stdout=subprocess.PIPE, text=True, check=True).stdout
-    every = said[said.index("carom_shoot  ") :]  # by single functions, with plain; before them by solver and instruction set
-    for name, numbers in re.findall(r"^  ([a-z_][\w ]*?) +(?:exact|euler) +(.*)$", said, flags=re.M):
-        name = "stack " + name.replace("collide_f32", "collide").replace("batch_f32", "batch")
-        found[name] = max(found.get(name, 0), *(int(number) for number in re.findall(r"[a-z]\w* (\d+)", numbers)))
-    for name, number in re.findall(r"^  (carom_\w+) +(\d+)$", every, flags=re.M):
-        found.setdefault(f"stack {name}", int(number))
-    for name, number in re.findall(r"^  of all with \w+ (\w+) takes most, (\d+)$", said, flags=re.M):
-        found[f"stack {name}"] = max(found[f"stack {name}"], int(number))
-    # A trace was given 20 points on the same stack.
-    found["stack carom_trace"] -= 20 * found["carom_trace_point"]
+    for name, threads, used in re.findall(r"^  (carom_\w+) with (\d) threads: (\d+)$", said, flags=re.M):
+        name = ("threads " if threads != "0" else "stack ") + name.replace("collide_f32", "collide").replace("batch_f32", "batch")
+        found[name] = max(found.get(name, 0), int(used))
     return {**found, "library": Path(build, "libcarom.so").stat().st_size}
 
 

@@ -237,39 +237,6 @@ TEST(smooth_has_no_corner) {
   ck_assert_double_lt(smooth_most, 2e-3);
 }
 
-/* Its derivatives by each input, against differences. */
-TEST(smooth_derivatives) {
-  static const double step[15] = {1e-6, 1e-6, 0, 1e-5, 1e-5, 1e-5, 0, 0,
-                                  1e-8, 1e-8, 0, 0,    1e-6, 1e-6, 0};
-  for (uint64_t n = 0; n < 200; n++) {
-    const carom_cushion_impact in = draw_cushion(CUSHION_PLAY, test_seed(), n);
-    const carom_cushion_options options = {
-        .model = CAROM_CUSHION_SMOOTH, .restitution_log = -0.03, .mu_log = -0.02};
-    for (int k = 0; k < 15; k++) {
-      if (step[k] == 0)
-        continue;
-      double seeds[15] = {0}, slope[6];
-      carom_cushion_impact less = in, more = in;
-      carom_motion low, high;
-      seeds[k] = 1;
-      ((double *)&less)[k] -= step[k];
-      ((double *)&more)[k] += step[k];
-      ck_assert_int_eq(carom_cushion_tangent(&in, &options, 1, seeds, slope, NULL), CAROM_OK);
-      ck_assert_int_eq(carom_cushion(&less, &options, &low), CAROM_OK);
-      ck_assert_int_eq(carom_cushion(&more, &options, &high), CAROM_OK);
-      double size = 1e-3;
-      for (int c = 0; c < 6; c++)
-        size = fmax(size, fabs(slope[c]));
-      for (int c = 0; c < 6; c++) {
-        const double differences = (((double *)&high)[c] - ((double *)&low)[c]) / (2 * step[k]);
-        ck_assert_msg(fabs(slope[c] - differences) <= 1e-4 * size,
-                      "impact %d, number %d by %d: %g, not %g", (int)n, c, k, slope[c],
-                      differences);
-      }
-    }
-  }
-}
-
 TEST(separating_is_unchanged) {
   for (int m = 0; m < MODELS; m++) {
     carom_cushion_impact in = usual();

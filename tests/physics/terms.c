@@ -308,36 +308,15 @@ TEST(bounds_with_drag) {
 
 /* Field `name` of a kind; the fields are doubles without gaps. */
 static double *field_of(carom_ball_kind *kind, const char *name) {
-  static const char *const names[] = {"mass",
-                                      "radius",
-                                      "mu_slide",
-                                      "mu_roll",
-                                      "mu_spin",
-                                      "mu_ball",
-                                      "restitution",
-                                      "mu_cushion",
-                                      "restitution_cushion",
-                                      "gravity",
-                                      "drag",
-                                      "roll_loss",
-                                      "law_a",
-                                      "law_b",
-                                      "law_c",
-                                      "nose_height",
-                                      "omega_ratio",
-                                      "restitution_table",
-                                      "modulus",
-                                      "restitution_log",
-                                      "mu_log",
-                                      "smooth_q",
-                                      "smooth_x",
-                                      "smooth_t",
-                                      "smooth_a",
-                                      "smooth_k"};
-  ck_assert_uint_eq(sizeof names / sizeof names[0] * sizeof(double), sizeof *kind);
-  for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
-    if (strcmp(names[k], name) == 0)
+  static const char names[] =
+      "mass radius mu_slide mu_roll mu_spin mu_ball restitution mu_cushion restitution_cushion "
+      "gravity drag roll_loss law_a law_b law_c nose_height omega_ratio restitution_table modulus "
+      "restitution_log mu_log smooth_q smooth_x smooth_t smooth_a smooth_k ";
+  size_t k = 0;
+  for (const char *at = names; *at != '\0'; at = strchr(at, ' ') + 1, k++)
+    if (strncmp(at, name, strlen(name)) == 0 && at[strlen(name)] == ' ')
       return (double *)kind + k;
+  ck_assert_uint_eq(k * sizeof(double), sizeof *kind);
   ck_abort_msg("there is no field %s", name);
 }
 
@@ -380,10 +359,6 @@ TEST(constants) {
                     is, says);
     }
   }
-}
-
-static int by_size(const void *a, const void *b) {
-  return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
 }
 
 /* The cushion of the kind of snooker, for Han's model, does to rolling balls what the exact

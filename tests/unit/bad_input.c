@@ -228,10 +228,8 @@ TEST(null_pointers) {
   int8_t status;
   ck_assert_int_eq(carom_collide(NULL, NULL, &out), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_collide(&in, NULL, NULL), CAROM_ERROR_NULL);
-  carom_impact_f32 single;
+  const carom_impact_f32 single = narrowed(&in);
   carom_result_f32 out_single;
-  for (size_t k = 0; k < sizeof single / sizeof(float); k++)
-    ((float *)&single)[k] = (float)((const double *)&in)[k];
   ck_assert_int_eq(carom_collide_f32(NULL, NULL, &out_single), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_collide_f32(&single, NULL, NULL), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_collide_f32(&single, NULL, &out_single), CAROM_OK);

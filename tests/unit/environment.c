@@ -38,8 +38,7 @@ static void resolve(const carom_impact *in, int solver, results *r) {
   static carom_impact_f32 in_f32[ROWS];
   const carom_options options = {.solver = (carom_solver)solver, .steps = 100};
   for (size_t k = 0; k < ROWS; k++)
-    for (int c = 0; c < 26; c++)
-      ((float *)&in_f32[k])[c] = (float)((const double *)&in[k])[c];
+    in_f32[k] = narrowed(&in[k]);
   memset(r, 0, sizeof *r);
   carom_collide_batch(in, ROWS, &options, r->out, r->status);
   carom_collide_batch_f32(in_f32, ROWS, &options, r->out_f32, NULL);

@@ -339,85 +339,140 @@ static bool is_in_polygon(const polygon *shape, double x, double y) {
   return in;
 }
 
-/* How far a place is from the segment from p to q. */
-static double off_segment(const double p[2], const double q[2], double x, double y) {
-  const double e[2] = {q[0] - p[0], q[1] - p[1]}, size2 = e[0] * e[0] + e[1] * e[1];
-  const double along = size2 > 0.0 ? ((x - p[0]) * e[0] + (y - p[1]) * e[1]) / size2 : 0.0;
-  const double place = fmin(fmax(along, 0.0), 1.0);
-  return hypot(x - p[0] - place * e[0], y - p[1] - place * e[1]);
-}
-
-/* Whether a ball at a place is clear of everything, by more than `room`. */
-static bool is_clear(const carom_table *t, double R, double room, double x, double y) {
-  for (int k = 0; k < t->rails; k++)
-    if (off_segment(t->rail[k].p, t->rail[k].q, x, y) <= R + room)
-      return false;
+/* How far the surface of a ball at a place is from the next cushion. */
+static double room_at(const carom_table *t, double R, double x, double y) {
+  double room = INFINITY;
+  for (int k = 0; k < t->rails; k++) {
+    const double *p = t->rail[k].p, *q = t->rail[k].q;
+    const double e[2] = {q[0] - p[0], q[1] - p[1]}, d[2] = {x - p[0], y - p[1]};
+    const double along = (d[0] * e[0] + d[1] * e[1]) / (e[0] * e[0] + e[1] * e[1]);
+    const double place = fmin(fmax(along, 0.0), 1.0);
+    room = fmin(room, hypot(d[0] - place * e[0], d[1] - place * e[1]) - R);
+  }
   for (int k = 0; k < t->jaws; k++)
-    if (hypot(x - t->jaw[k].centre[0], y - t->jaw[k].centre[1]) <= t->jaw[k].radius + R + room)
-      return false;
+    room =
+        fmin(room, hypot(x - t->jaw[k].centre[0], y - t->jaw[k].centre[1]) - t->jaw[k].radius - R);
+  return room;
+}
+
+/* How far a place is from the next pocket; negative inside. */
+static double off_pockets(const carom_table *t, double x, double y) {
+  double off = INFINITY;
   for (int k = 0; k < t->pockets; k++)
-    if (hypot(x - t->pocket[k].centre[0], y - t->pocket[k].centre[1]) <= t->pocket[k].radius + room)
-      return false;
-  return true;
+    off = fmin(off,
+               hypot(x - t->pocket[k].centre[0], y - t->pocket[k].centre[1]) - t->pocket[k].radius);
+  return off;
 }
 
-/* Whether a ball can be rolled straight to a place from the middle: in steps shorter than the
- * room that there is on both sides of each. */
-static bool is_straight_on(const carom_table *t, double R, double x, double y) {
-  static const double step = 0.002;
-  const double d_x = x - 1.0, d_y = y - 1.0;
-  const int steps = (int)(hypot(d_x, d_y) / step) + 1;
-  for (int k = 0; k <= steps; k++)
-    if (!is_clear(t, R, 0.5 * step, 1.0 + d_x * k / steps, 1.0 + d_y * k / steps))
-      return false;
-  return true;
+enum { MOST_PLACES = 540 }; /* of a grid, along each side */
+static uint8_t reached[MOST_PLACES][MOST_PLACES];
+static const double margin = 0.3; /* m: of the grid, beyond the table */
+
+/* Finds the places of a grid to which a ball can be rolled from the middle, by flooding. */
+static void flood(const carom_table *t, double R, double step, const int n[2]) {
+  static int queue[MOST_PLACES * MOST_PLACES];
+  int waiting = 0;
+  ck_assert(n[0] < MOST_PLACES && n[1] < MOST_PLACES);
+  memset(reached, 0, sizeof reached);
+  queue[waiting++] = n[0] / 2 * MOST_PLACES + n[1] / 2;
+  reached[n[0] / 2][n[1] / 2] = 1;
+  while (waiting > 0) {
+    const int at = queue[--waiting];
+    for (int way = 0; way < 4; way++) {
+      const int i = at / MOST_PLACES + (way == 0) - (way == 1),
+                j = at % MOST_PLACES + (way == 2) - (way == 3);
+      const double x = i * step - margin, y = j * step - margin;
+      ck_assert_msg(i > 0 && i < n[0] && j > 0 && j < n[1], "the table has a hole");
+      if (!reached[i][j] && room_at(t, R, x, y) > 0.0 && off_pockets(t, x, y) >= 0.0) {
+        reached[i][j] = 1;
+        queue[waiting++] = i * MOST_PLACES + j;
+      }
+    }
+  }
 }
 
-/* On tables of all shapes that carom_table_check() accepts, a ball may stand where it can be
- * rolled straight to from the middle, and nowhere beyond the rails but in the mouth of a pocket.
- * Rays through slits that no ball passes once told otherwise. */
+/* Both ways to ask whether a ball may stand at a place. */
+static void expect_place(const carom_table *t, double R, double x, double y, bool free_one) {
+  carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
+  const carom_status expected = free_one ? CAROM_OK : CAROM_ERROR_OFF_TABLE;
+  ball.kind.radius = R;
+  const carom_status status = carom_place_ball(t, &ball, 1, 0, x, y, NULL);
+  ck_assert_msg(status == expected, "(%.17g, %.17g): %s", x, y, carom_status_name(status));
+  ball.state = (carom_ball_state){.r = {x, y, R}};
+  ck_assert_int_eq(carom_shot_check(t, &ball, 1, NULL, NULL, NULL), expected);
+}
+
+/* On the built-in tables a ball may stand at all places of a grid to which it can be rolled from
+ * the middle, and nowhere else: not behind a cushion, not in a pocket. */
+TEST(places_on_built_in_tables) {
+  const double step = SANITIZED ? 0.016 : 0.008;
+  for (int kind = 0; kind < TABLES; kind++) {
+    carom_table t;
+    const double R = radius_on(kind);
+    carom_table_make((carom_table_kind)kind, &t);
+    const int n[2] = {(int)((t.width + 2.0 * margin) / step),
+                      (int)((t.length + 2.0 * margin) / step)};
+    flood(&t, R, step, n);
+    for (int i = 0; i < n[0]; i++)
+      for (int j = 0; j < n[1]; j++) {
+        const double x = i * step - margin, y = j * step - margin;
+        if (fabs(room_at(&t, R, x, y)) > 1.1e-6)
+          expect_place(&t, R, x, y, reached[i][j]);
+      }
+    /* in line with a pocket, through which one sees the cushion beyond: in the directions that
+     * the check looks in */
+    static const double quarter[4][2] = {{5, 1}, {3, 2}, {2, 3}, {1, 5}};
+    for (int k = 0; k < t.pockets * 16 * 12; k++) {
+      const double *c = t.pocket[k / 192].centre, *u = quarter[k / 12 % 4],
+                   turn[4] = {u[0], -u[1], -u[0], u[1]};
+      const double x = c[0] + 0.03 * (k % 12 + 1) * turn[k / 48 % 4],
+                   y = c[1] + 0.03 * (k % 12 + 1) * turn[(k / 48 + 3) % 4];
+      if (x < -0.15 || x > t.width + 0.15 || y < -0.15 || y > t.length + 0.15)
+        expect_place(&t, R, x, y, false);
+    }
+  }
+}
+
+/* The same at some places on tables of all shapes that carom_table_check() accepts; but beyond
+ * the rails only where no pocket is near, and not in parts to which nothing rolls. Rays through
+ * slits that no ball passes once told otherwise. */
 TEST(places_on_polygons) {
-  static const double mouth = 0.15; /* m: beyond the rails and farther than that from a pocket
-                                       nobody comes */
   random_source r = {test_seed()};
-  const double R = 0.028575;
+  const double R = 0.028575, step = 0.01;
+  static const int n[2] = {260, 260};
   int tables = 0, drawn = 0, inside = 0, beyond = 0;
-  while (tables < FEWER(1000)) {
+  while (tables < FEWER(200)) {
     carom_table t;
     polygon shape;
     make_polygon(&r, &t, &shape);
     drawn++;
     ck_assert_int_lt(drawn, 40000);
-    if (!is_clear(&t, R, 0.1, 1.0, 1.0) || carom_table_check(&t, R, NULL) != CAROM_OK)
+    if (room_at(&t, R, 1.0, 1.0) < 0.1 || off_pockets(&t, 1.0, 1.0) < 0.1 ||
+        carom_table_check(&t, R, NULL) != CAROM_OK)
       continue;
     tables++;
-    for (int judged = 0; judged < 100;) {
-      double x = random_between(&r, -0.3, 2.3), y = random_between(&r, -0.3, 2.3);
+    flood(&t, R, step, n);
+    for (int judged = 0; judged < 300;) {
+      int i = (int)random_between(&r, 1.0, 259.0), j = (int)random_between(&r, 1.0, 259.0);
       if (judged % 2 == 0 && t.pockets > 0) { /* near a pocket */
         const double *centre = t.pocket[(int)random_between(&r, 0.0, (double)t.pockets)].centre;
-        x = centre[0] + random_between(&r, -0.4, 0.4);
-        y = centre[1] + random_between(&r, -0.4, 0.4);
+        i = (int)((centre[0] + margin + random_between(&r, -0.4, 0.4)) / step);
+        j = (int)((centre[1] + margin + random_between(&r, -0.4, 0.4)) / step);
       }
-      bool far = true;
-      for (int k = 0; k < t.pockets; k++)
-        far &= hypot(x - t.pocket[k].centre[0], y - t.pocket[k].centre[1]) > mouth;
-      const bool reached = is_straight_on(&t, R, x, y);
-      if (!reached && (!far || is_in_polygon(&shape, x, y)))
+      if (i < 0 || i >= n[0] || j < 0 || j >= n[1])
+        continue;
+      const double x = i * step - margin, y = j * step - margin;
+      if (fabs(room_at(&t, R, x, y)) < 1.1e-6 ||
+          (!reached[i][j] && (off_pockets(&t, x, y) < 0.1 || is_in_polygon(&shape, x, y))))
         continue;
       judged++;
-      *(reached ? &inside : &beyond) += 1;
-      carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL)};
-      const carom_status expected = reached ? CAROM_OK : CAROM_ERROR_OFF_TABLE,
-                         status = carom_place_ball(&t, &ball, 1, 0, x, y, NULL);
-      ck_assert_msg(status == expected, "table %d of seed %llu, (%.17g, %.17g): %s", drawn,
-                    (unsigned long long)test_seed(), x, y, carom_status_name(status));
-      ball.state = (carom_ball_state){.r = {x, y, R}};
-      ck_assert_int_eq(carom_shot_check(&t, &ball, 1, NULL, NULL, NULL), expected);
+      *(reached[i][j] ? &inside : &beyond) += 1;
+      expect_place(&t, R, x, y, reached[i][j]);
     }
   }
   printf("%d tables of %d: a ball may stand at %d places, and not at %d\n", tables, drawn, inside,
          beyond);
-  ck_assert(inside > 20 * tables && beyond > 20 * tables);
+  ck_assert(inside > 60 * tables && beyond > 60 * tables);
 }
 
 /* Under a ball that flies, where one has left the table, and beside balls and cushions of other
