@@ -2,12 +2,14 @@
 
 import importlib
 import json
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from spoil import spoiled
 from test_tracks import RADIUS, TABLE, csv_of
 
 from carom import _constants, _covariance, _from_events, _joint, _strikes, _summary, fit, tracks
@@ -91,7 +93,7 @@ def test_a_start_is_near_the_strike_however_few_rows_tell_it(made, rows):
         track = shot.tracks[shot.cue]
         last = np.searchsorted(track[:, 0], shot.moves[shot.cue]) + rows - 1
         moves = [own if ball == shot.cue else track[last, 0] + 0.021 for ball, own in enumerate(shot.moves)]
-        found = _strikes.starts(SimpleNamespace(cue=shot.cue, tracks=shot.tracks, rest=shot.rest, moves=moves))
+        found = _strikes.starts(SimpleNamespace(cue=shot.cue, tracks=shot.tracks, rest=shot.rest, moves=moves, noise=shot.noise))
         share = np.hypot(found[:, 0], found[:, 1]) / np.hypot(*strike[:2])
         turn = np.abs(np.angle(np.exp(1j * (np.arctan2(found[:, 1], found[:, 0]) - np.arctan2(strike[1], strike[0])))))
         assert ((share > (0.75 if rows < 3 else 0.9)) & (share < (1.35 if rows < 3 else 1.0)) & (turn < 0.012)).any()
@@ -111,6 +113,32 @@ def test_known_constants_give_the_strikes_back(made):
     places = [found.positions(3, track[:, 0])[:, ball] - track[:, 1:] for ball, track in enumerate(made.recordings[3].tracks)]
     assert found.rmse[3] == pytest.approx(np.sqrt((np.concatenate(places) ** 2).sum(axis=1).mean()), abs=5e-6)
     assert found.plot(3).svg.count("<circle") > sum(map(len, made.recordings[3].tracks))
+
+
+@pytest.mark.parametrize(
+    ("how", "spoil"),
+    [
+        ({}, {"lead_in": 0.05}), ({}, {"lead_in": 3.0, "clock": 3600.0}), ({}, {"clock": 37.0}), ({"rate": 25.0}, {"lead_in": 0.5}),
+        ({"rate": 240.0, "thin": 0.0}, {"lead_in": 0.2}), ({"noise": 0.2e-3}, {"lead_in": 1.0}), ({"noise": 1e-3}, {"lead_in": 0.5}),
+        ({"noise": 3e-3, "thin": 0.0}, {"lead_in": 0.5}), ({"noise": 2e-3}, {}), ({"thin": 0.0}, {"lost": 0.08, "lead_in": 0.3}),
+    ],
+)  # fmt: skip
+def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
+    made = tracks.synthetic(12, constants=HAN, seed=2, **how)
+    camera = {name: value for name, value in how.items() if name != "thin"}
+    recordings = spoiled(made.recordings, 2, **camera, **spoil)
+    found = fit.fit(recordings, TABLE, RADIUS, constants=made.constants, free="none")
+    noise = how.get("noise", tracks.NOISE)
+    assert found.recordings[0].noise == pytest.approx(noise, rel=0.15)
+    assert all(shot.cue == 0 for shot in found.recordings) and set(found.status) == {"ok"}
+    # twice the noise of both coordinates, but for an unlucky strike
+    assert np.median(found.rmse) < 1.3 * np.sqrt(2) * noise and (found.rmse < 2 * np.sqrt(2) * noise).sum() >= 9
+    late = recordings[0].tracks[0][-1, 0] - made.recordings[0].tracks[0][-1, 0]
+    assert np.median(np.abs(found.strikes[:, 5] - made.strikes[:, 5] - late)) < 2e-3
+    # the covariance of a strike does not depend on the clock
+    later = [replace(shot, tracks=tuple(track + (64.0, 0.0, 0.0) for track in shot.tracks)) for shot in found.recordings]
+    again = replace(found, recordings=later, strikes=found.strikes + [0.0, 0.0, 0.0, 0.0, 0.0, 64.0])
+    assert np.allclose(again.strike_covariance(1), found.strike_covariance(1), rtol=1e-5)
 
 
 def test_derivatives_of_shots_give_the_normal_equations(made, plays):

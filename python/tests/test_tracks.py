@@ -6,8 +6,9 @@ import lzma
 
 import numpy as np
 import pytest
+from spoil import spoiled
 
-from carom import tracks
+from carom import _constants, simulate, tracks
 
 TABLE, RADIUS = (2.84, 1.42), 0.03075
 
@@ -91,6 +92,28 @@ def test_a_recording_without_motion_has_no_strike():
         _ = tracks.Recording(7, (1,), (still,)).cue
     with pytest.raises(ValueError, match="there is no constant 'mu'; known are"):
         tracks.synthetic(1, constants={"mu": 0.2})
+
+
+def test_the_struck_ball_is_told_from_one_that_it_touches_at_once():
+    """Whatever the noise, and however near the other ball lies: it goes on farther, but away from the struck one."""
+    random, wrong = np.random.default_rng(5), 0
+    values = _constants.complete({}, "han")
+    world = _constants.rectangle(TABLE, values["nose_height"])
+    for gap, rate, noise in ((0.002, 50.0, 0.35e-3), (0.01, 50.0, 1e-3), (0.03, 25.0, 1e-3), (0.1, 240.0, 3e-3)):
+        shots = []
+        for _ in range(20):
+            angle, speed = random.uniform(0.0, 6.28), random.uniform(0.7, 4.0)
+            centres = np.array([[1.4, 0.7], [1.4, 0.7], [0.3, 0.3]])
+            centres[1] += (2 * RADIUS + gap) * np.array([np.cos(angle), np.sin(angle)])
+            balls = _constants.layout(centres, RADIUS, values)
+            angle += random.normal(0.0, 0.4)
+            balls["state"]["v"][0, :2] = speed * np.cos(angle), speed * np.sin(angle)
+            shot = simulate(world, balls, cushion_model="han")
+            start = random.uniform(0.0, 1.0 / rate)
+            seen = tracks._record(lambda t: shot.positions(t - start)[..., :2], 2.0, rate, 0.0, RADIUS, np.array(TABLE) - RADIUS, noise, random)
+            shots.append(tracks.Recording(1, (1, 2, 3), seen, noise))
+        wrong += sum(shot.cue != 0 for shot in spoiled(shots, lead_in=0.5, rate=rate, noise=noise))
+    assert wrong <= 6
 
 
 @pytest.fixture(scope="module")

@@ -43,15 +43,18 @@ _SPEED, _SPIN, _TIME = 8.0, 2.0, 0.1
 
 
 def derivatives(plays: Plays, row: int, strike: Doubles, names: list[str]) -> tuple[Doubles, Doubles, Doubles, Doubles]:
-    """Of one shot: distances of all samples, (2 n,), and their derivatives by the strike, (2 n, 6), by constants, by places of rest."""
-    shot, struck = plays.recordings[row], int(plays.struck[row])
+    """Of one shot: distances of all samples, (2 n,), and their derivatives by the strike, (2 n, 6), by constants, by places of rest.
+
+    The time of the strike is on the clock of the plays.
+    """
+    tracks, struck = plays.tracks[row], int(plays.struck[row])
     balls = plays.layouts[0, row].copy()
     balls["state"]["v"][struck, :2] = strike[:2]
     balls["state"]["w"][struck] = strike[2:5] / plays.radius
     played = simulate(plays.table, balls, cushion_model=plays.cushion_model)
 
     # the tangents at all times of samples, on the clock of the play
-    times = np.unique(np.concatenate([track[:, 0] for track in shot.tracks]))
+    times = np.unique(np.concatenate([track[:, 0] for track in tracks]))
     at = np.maximum(times - strike[5], 0.0)
     wrt = [f"balls[{struck}].v", f"balls[{struck}].w", *(f"kind.{name}" for name in names)]
     wrt += [f"balls[{ball}].r" for ball in range(len(balls))]
@@ -59,7 +62,7 @@ def derivatives(plays: Plays, row: int, strike: Doubles, names: list[str]) -> tu
     states = played.states(at)
 
     distances, slopes = [], []
-    for ball, track in enumerate(shot.tracks):
+    for ball, track in enumerate(tracks):
         when = np.searchsorted(times, track[:, 0])
         J = found[when, ball, :2]
         J[..., 2:5] /= plays.radius  # by R w
@@ -94,7 +97,7 @@ def of_constants(search: _joint.Search, told: Mapping[str, float], spread: Mappi
     plays = search.plays
     plays.set(search.constants(search.values))
     n = len(search.names)
-    whole, gradients = _joint.PRIOR_COST * np.eye(n), []
+    whole, gradients = search.prior_cost * np.eye(n), []
     for row, strike in zip(search.rows, search.strikes):
         try:
             d, X, C, _ = derivatives(plays, int(row), strike, search.names)
@@ -103,8 +106,10 @@ def of_constants(search: _joint.Search, told: Mapping[str, float], spread: Mappi
         C = C * search.scale
         size = (d.reshape(-1, 2) ** 2).sum(axis=1)
         root = np.sqrt(1.0 + size / HUBER**2)
-        if 2.0 * HUBER**2 * float((root - 1.0).sum()) >= search.most[np.flatnonzero(search.rows == row)[0]]:
+        size_of_cost = 2.0 * HUBER**2 * float((root - 1.0).mean())
+        if size_of_cost >= _joint.MOST:
             continue  # it does not count in the search either
+        root = root * (1.0 + size_of_cost / search.middle)
         # a derivative says nothing beyond its reach
         moved = (C.reshape(len(size), -1) ** 2).sum(axis=1)
         W = np.repeat(np.minimum(1.0, _FARTHEST**2 / np.maximum(moved, 1e-12)) / root, 2)[:, None]
@@ -114,7 +119,7 @@ def of_constants(search: _joint.Search, told: Mapping[str, float], spread: Mappi
     g = np.array(gradients).reshape(-1, n)
     g -= g.mean(axis=0)
     off = np.array([min(told.get(name, scale) / scale, 1.0) for name, scale in zip(search.names, search.scale)])
-    inner = g.T @ g * (len(g) / max(len(g) - 1.0, 1.0)) + np.diag((_joint.PRIOR_COST * off) ** 2)
+    inner = g.T @ g * (len(g) / max(len(g) - 1.0, 1.0)) + np.diag((search.prior_cost * off) ** 2)
     inverse = np.linalg.inv(whole)
     covariance = inverse @ inner @ inverse
     # what the search leaves, which the standard errors contain, is of each constant by itself

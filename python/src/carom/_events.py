@@ -24,10 +24,11 @@ import numpy as np
 import numpy.typing as npt
 
 from carom._carom import lib
+from carom._recordings import Recording
 from carom._rows import Arrays, pointer
 from carom.dtypes import Doubles, Records
 
-_NOISE, _JITTER = 0.45e-3, 0.25e-3  # s_0 (m) and s_t (s)
+_NOISE, _JITTER = 1.3, 0.25e-3  # s_0 over the noise of the recording, and s_t (s)
 # Penalty of a piece, in chi^2; 18 is the log of how many cuts there could be, doubled, for its 7 numbers. Half of it cuts noise, twice
 # of it leaves out the end of sliding where little slip was left.
 _PENALTY = 18.0
@@ -37,62 +38,6 @@ _DELAY, _DELAY_ERROR = 0.003, 0.006  # s
 _TOUCH = 0.02  # m: at a cut a ball is this close to what it met
 _TURN = 0.03  # m/s: least change of velocity in a hit
 _BEFORE, _AFTER = 0.6, 0.9  # s: samples of an impact, at most
-
-MOVED = 3e-3
-"""m: a ball that is farther than this from its first place has moved."""
-
-
-class TrackError(ValueError):
-    """A file of tracks is wrong. The message says what is wrong, where, and what would be right."""
-
-
-@dataclass(frozen=True, eq=False)
-class Recording:
-    """One recorded shot."""
-
-    id: int | str  # As in the file
-    balls: tuple[int | str, ...]  # The names of the balls, as in the file
-    tracks: tuple[Doubles, ...]  # Of each ball t (s), x and y (m); the first row is at rest
-
-    @property
-    def rest(self) -> Doubles:
-        """Where the balls lay before the strike, m, shape (balls, 2): the mean of a ball's rows before it moved."""
-        return np.array([track[: self._still(track), 1:].mean(axis=0) for track in self.tracks])
-
-    @property
-    def still(self) -> list[int]:
-        """How many rows each ball has before it moved, shape (balls,)."""
-        return [self._still(track) for track in self.tracks]
-
-    @property
-    def moves(self) -> Doubles:
-        """The time of each ball's first row away from its place of rest, s, shape (balls,); inf if it never moves."""
-        times = [(*track[self._still(track) :, 0], math.inf)[0] for track in self.tracks]
-        return np.array(times)
-
-    @property
-    def cue(self) -> int:
-        """The index of the ball that was struck: the one that moves first, and farthest of those that move at once."""
-        moves = self.moves
-        if not np.isfinite(moves).any():
-            raise TrackError(f"shot {self.id}: no ball moves by more than {MOVED * 1e3:g} mm, so there is no strike")
-        first = np.flatnonzero(moves == moves.min())
-        if len(first) == 1:
-            return int(first[0])
-        far = [np.hypot(*(track[self._still(track), 1:] - track[0, 1:])) for track in (self.tracks[k] for k in first)]
-        return int(first[int(np.argmax(far))])
-
-    @property
-    def end(self) -> float:
-        """The time of the last row, s."""
-        return float(max(track[-1, 0] for track in self.tracks))
-
-    @staticmethod
-    def _still(track: Doubles) -> int:
-        """How many rows at the beginning of a track are at its place of rest."""
-        away = np.hypot(*(track[:, 1:] - track[0, 1:]).T) > MOVED
-        return int(np.argmax(away)) if away.any() else len(track)
-
 
 piece = np.dtype([
     ("shot", "i8"), ("ball", "i8"), ("begin", "f8"), ("end", "f8"), ("samples", "i8"), ("time", "f8"), ("r", "f8", 2), ("v", "f8", 2),
@@ -172,9 +117,9 @@ def least_squares(
 # ---- Pieces
 
 
-def _sigma(speed: Doubles) -> Doubles:
+def _sigma(speed: Doubles, noise: float) -> Doubles:
     """Standard deviation of a coordinate of a ball at a speed, m."""
-    return np.asarray(np.hypot(_NOISE, _JITTER * np.minimum(speed, 8.0)))
+    return np.asarray(np.hypot(_NOISE * noise, _JITTER * np.minimum(speed, 8.0)))
 
 
 def _cuts(track: Doubles, weight: Doubles) -> list[tuple[int, int]]:
@@ -201,14 +146,14 @@ def _free(track: Doubles, moves: float, low: float, high: Doubles) -> Doubles:
     return kept
 
 
-def _pieces(shot: int, ball: int, rows: Doubles) -> list[Any]:
+def _pieces(shot: int, ball: int, rows: Doubles, noise: float) -> list[Any]:
     """The pieces of the rows of a track."""
     if len(rows) < 8:
         return []
     time: Doubles = rows[:, 0]
     velocity = np.gradient(rows[:, 1], time), np.gradient(rows[:, 2], time)
     speed: Doubles = np.hypot(velocity[0], velocity[1])
-    sigma = _sigma(speed)
+    sigma = _sigma(speed, noise)
     found: list[Any] = []
     for begin, end in _cuts(rows, 1.0 / sigma**2):
         n = end - begin
@@ -312,7 +257,9 @@ class _Motion:
         return np.asarray(slid + rolling * then - 0.5 * (slows * along)[:, None] * then**2)
 
 
-def _cushion(rows: Doubles, window: tuple[float, float, float], before: Any, after: Any, n: Doubles, motion: _Motion) -> Any:
+def _cushion(
+    rows: Doubles, window: tuple[float, float, float], before: Any, after: Any, n: Doubles, motion: _Motion, noise: float
+) -> Any:
     """Numbers of one impact on a cushion at about window[1], from the samples between window[0] and window[2]; None with too few."""
     begin, time, end = window
     first = (rows[:, 0] >= begin) & (rows[:, 0] < time - 0.004)
@@ -326,7 +273,7 @@ def _cushion(rows: Doubles, window: tuple[float, float, float], before: Any, aft
     seen = (rows[:, 1:] - place) @ frame.T
     t_1, t_2 = rows[first, 0] - time, rows[second, 0] - time
     v, w = frame @ v, frame @ w
-    sigma = _sigma(np.hypot(*v))
+    sigma = _sigma(np.hypot(*v), noise)
     slides = bool(np.hypot(*before["a"]) > _ROLLS)
 
     def residuals(q: Doubles) -> Doubles:
@@ -359,7 +306,9 @@ def _cushion(rows: Doubles, window: tuple[float, float, float], before: Any, aft
     )  # fmt: skip
 
 
-def _hit(rows: Doubles, others: Doubles, rest: Doubles, window: tuple[float, float, float, float], radius: float, motion: _Motion) -> Any:
+def _hit(
+    rows: Doubles, others: Doubles, rest: Doubles, window: tuple[float, float, float, float], radius: float, motion: _Motion, noise: float
+) -> Any:
     """Numbers of one hit on a ball at rest that is first seen to move at window[1]: of the samples from window[0] to window[2] of the
     ball that hits, and to window[3] of the other; None with too few."""
     begin, time, end, other_end = window
@@ -377,7 +326,7 @@ def _hit(rows: Doubles, others: Doubles, rest: Doubles, window: tuple[float, flo
     k = int(np.argmax(gaps < 2.0 * radius)) if (gaps < 2.0 * radius).any() else int(np.argmin(gaps))
     v = 2.0 * come[0] * at[k] + come[1]
     w, z = np.polyfit(t_2, rows[second, 1:], 1)[0], np.polyfit(t_3, others[third, 1:], 1)[0]
-    sigma = float(_sigma(np.hypot(*v)))
+    sigma = float(_sigma(np.hypot(*v), noise))
 
     def residuals(q: Doubles) -> Doubles:
         time, r, v, a, w, u, z, slip, o = q[:, :1], *(q[:, k : k + 2] for k in range(1, 17, 2))
@@ -389,7 +338,7 @@ def _hit(rows: Doubles, others: Doubles, rest: Doubles, window: tuple[float, flo
         ]
         # the balls touch; the other lay where it was seen
         touch = (np.hypot(*(o - r).T)[:, None] - 2.0 * radius) / 3e-4
-        return np.concatenate([np.concatenate(near, axis=1).reshape(len(q), -1) / sigma, touch, (o - rest) / 5e-4, a / 1.5], axis=1)
+        return np.concatenate([np.concatenate(near, axis=1).reshape(len(q), -1) / sigma, touch, (o - rest) / max(5e-4, noise), a / 1.5], axis=1)
 
     start = np.concatenate([at[k : k + 1], ways[k], v, np.zeros(2), w, v - w, 1.1 * z, z, rest])
     scale = np.array([0.003, 0.003, 0.003, 0.1, 0.1, 0.5, 0.5, *[0.1, 0.1, 0.2, 0.2] * 2, 0.001, 0.001])
@@ -452,7 +401,7 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
     """
     low, high = radius, np.array(table) - radius
     rows = [[_free(*of, low, high) for of in zip(shot.tracks, shot.moves.tolist())] for shot in recordings]
-    by_track = [[np.array(_pieces(s, b, track), piece) for b, track in enumerate(tracks)] for s, tracks in enumerate(rows)]
+    by_track = [[np.array(_pieces(s, b, track, recordings[s].noise), piece) for b, track in enumerate(tracks)] for s, tracks in enumerate(rows)]
     pieces = np.concatenate([of for tracks in by_track for of in tracks]) if by_track else np.zeros(0, piece)
     slide, roll = _cloth(pieces)
     # where nothing tells the friction, impacts are fitted with that of an ordinary cloth
@@ -475,7 +424,7 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
                 past, next_ones = hard[ball][hard[ball] < cut.time - 1e-9], hard[ball][hard[ball] > cut.time + 1e-9]
                 begin = max(cut.time - _BEFORE, *(past + 0.015), *smooth[-1:], track[0, 0] - 1e-9)
                 end = min(cut.time + _AFTER, *(next_ones - 0.015), track[-1, 0] + 1e-9)
-                numbers = _cushion(track, (begin, cut.time, end), cut.before, cut.after, _NORMALS[cut.rail], motion)
+                numbers = _cushion(track, (begin, cut.time, end), cut.before, cut.after, _NORMALS[cut.rail], motion, shot.noise)
                 if numbers is not None:
                     first = ball != shot.cue and not any(c.kind == "cushion" for c in of[:number])
                     impacts.append((s, ball, cut.rail, *numbers, first))
@@ -490,7 +439,7 @@ def events(recordings: Sequence[Recording], table: tuple[float, float], radius: 
             smooth = [c.time for c in cuts[cue] if c.kind == "smooth" and c.time < time - 0.06]
             begin = max([time - 0.35, *(past + 0.015), *smooth[-1:]])
             ends = [min([time + 0.6, *(of - 0.012)]) for of in later]
-            numbers = _hit(track, rows[s][ball], rest[ball], (begin, time, ends[0], ends[1]), radius, motion)
+            numbers = _hit(track, rows[s][ball], rest[ball], (begin, time, ends[0], ends[1]), radius, motion, shot.noise)
             if numbers is not None:
                 hits.append((s, cue, ball, *numbers))
     return Events(pieces, np.array(impacts, impact), np.array(hits, hit), slide, roll)

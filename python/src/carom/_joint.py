@@ -1,7 +1,8 @@
 """Constants from whole shots, all of them together.
 
-The cost of a set of constants is the sum over shots of the least cost that a strike gives (`_strikes`), each at most a bound, so that
-shots whose events are missed do not decide; and the constants' priors, ((c - c_0)/s)^2 each. With J_c and J_p the derivatives of the
+The cost of a set of constants is the sum over shots of n m log(1 + c/(n m)), where c is the least cost that a strike gives (`_strikes`), n
+the number of its samples and m twice the median of c/n, so that shots whose events are missed do not decide; and the constants' priors,
+((c - c_0)/s)^2 each. As the fit comes nearer to the noise, m falls and the priors count less. With J_c and J_p the derivatives of the
 distances by the constants and by one shot's strike, the strike follows a step dc of the constants by -(J_p^T W J_p)^-1 J_p^T W J_c dc,
 which is put into the normal equations of dc and leaves (variable projection)
 
@@ -24,8 +25,10 @@ from carom import _events
 from carom._strikes import Plays, descend, find, normal
 from carom.dtypes import Doubles
 
-MOST = 1.4e-3  # m^2: where a shot's cost a sample stops counting; that of samples that are 8 cm off
-PRIOR_COST = 0.1  # m^2: what one deviation costs
+MOST = 1.4e-3  # m^2: a shot whose cost a sample is more does not count; that of samples that are 8 cm off
+# What one deviation of a prior costs, m^2: the variance of the noise, and so many times what a sample is off by beyond the noise, as
+# the misfits of a shot that follow from one error are no independent evidence; at most that of samples that are 2 cm off.
+ALIKE, PRIOR_MOST = 300.0, 0.1
 # Of each constant: the deviation of its prior, about the value that single events gave, and its bounds.
 PRIORS = {
     "mu_slide": (0.02, 0.01, 1.0), "mu_roll": (5e-4, 1e-4, 0.1), "drag": (4e-3, 0.0, 0.2), "mu_spin": (3e-3, 1e-4, 0.5),
@@ -41,6 +44,7 @@ METHOD = {
 }  # fmt: skip
 _STEP = 1e-3  # of the differences, in deviations
 _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
+_AT_NOISE = 4.0  # variances of a coordinate: twice the cost a sample that noise alone gives
 _STEPS = 12  # at most, of each
 _SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
 
@@ -66,7 +70,8 @@ class Search:
         self.first, self.scale = np.array(list(priors.values())).T
         self.low, self.high = np.array([PRIORS[name][1:] for name in priors]).T
         self.strikes, self.until = strikes[self.rows], plays.ends[self.rows]
-        self.most = MOST * plays.counts[self.rows]
+        self.counts = plays.counts[self.rows].astype(float)
+        self.noise, self.prior_cost, self.middle = plays.recordings[0].noise, PRIOR_MOST, MOST
 
     def constants(self, values: Doubles) -> dict[str, float]:
         return {**self.plays.constants, **dict(zip(self.names, values.tolist()))}
@@ -75,25 +80,29 @@ class Search:
         """Of constants, after the strikes have descended; and these."""
         self.plays.set(self.constants(values))
         strikes, sums = descend(self.plays, self.rows, strikes, self.until, iterations)
-        prior = PRIOR_COST * float((((values - self.first) / self.scale) ** 2).sum())
-        return float(np.minimum(sums[:, 0], self.most).sum()) + prior, strikes
+        prior = self.prior_cost * float((((values - self.first) / self.scale) ** 2).sum())
+        return float(self.counts @ (self.middle * np.log1p(sums[:, 0] / self.counts / self.middle))) + prior, strikes
 
     def step(self, damping: float, cost: float) -> tuple[float, float]:
         """A step; the cost after it, which is that before where none was found, and the damping for the next."""
         self.plays.set(self.constants(self.values), dict(zip(self.names, _STEP * self.scale)))
-        sums = self.plays.misfit(self.rows, self.strikes, self.until, self.most)
-        counted = sums[:, 0] < self.most
+        most = MOST * self.counts
+        sums = self.plays.misfit(self.rows, self.strikes, self.until, most)
+        counted = sums[:, 0] < most
         # in deviations of the constants
         square, gradient = normal(sums)
         size = np.concatenate([np.ones(6), self.scale])
         square, gradient = square * np.outer(size, size), gradient * size
+        weight = 1.0 / (1.0 + sums[:, 0] / self.counts / self.middle)
+        square, gradient = square * weight[:, None, None], gradient * weight[:, None]
         # the strikes put in; what no sample depends on stays where it is
+        square[~counted] = np.eye(square.shape[1])
         P, X, C = damped(square[:, :6, :6]), square[:, :6, 6:], square[:, 6:, 6:]
         follow = np.linalg.solve(P, np.concatenate([X, gradient[:, :6, None]], axis=2))
         whole = (C - np.swapaxes(X, 1, 2) @ follow[..., :-1])[counted].sum(axis=0)
         slope = (gradient[:, 6:] - (np.swapaxes(X, 1, 2) @ follow[..., -1:])[..., 0])[counted].sum(axis=0)
-        whole[np.diag_indices(len(whole))] += PRIOR_COST
-        slope = slope + PRIOR_COST * (self.values - self.first) / self.scale
+        whole[np.diag_indices(len(whole))] += self.prior_cost
+        slope = slope + self.prior_cost * (self.values - self.first) / self.scale
         for _ in range(6):
             shorter = whole + damping * np.diag(whole.diagonal())
             values = np.clip(self.values - self.scale * np.linalg.solve(shorter, slope), self.low, self.high)
@@ -121,24 +130,34 @@ class Search:
 
     def stage(self, number: int, seed: int) -> list[Any]:
         """One of STAGES searches: the constants and the strikes, as `resume` takes them."""
+        if number >= len(_HORIZONS) and self.middle < 1.1 * _AT_NOISE * self.noise**2:
+            return [self.values.tolist(), self.strikes.tolist(), self.middle, self.prior_cost]  # nothing is left to find
         if number:
             self.anew(seed + number)
-        self.until = np.minimum(_HORIZONS[number], self.plays.ends[self.rows])
-        cost, self.strikes = self.cost(self.values, self.strikes, 4)
+        self.until = np.minimum(_HORIZONS[min(number, len(_HORIZONS) - 1)], self.plays.ends[self.rows])
+        _, self.strikes = self.cost(self.values, self.strikes, 4)
+        # what the samples are off by says how much a shot and a prior count
+        sums = self.plays.misfit(self.rows, self.strikes, self.until, -np.inf)
+        self.counts = np.maximum(sums[:, 2], 1.0)
+        middle = float(np.median(sums[:, 0] / self.counts)) if len(sums) else MOST
+        self.middle = min(max(2.0 * middle, _AT_NOISE * self.noise**2), MOST)
+        self.prior_cost = min(self.noise**2 + ALIKE * max(middle - 2.5 * self.noise**2, 0.0), PRIOR_MOST)
+        cost, _ = self.cost(self.values, self.strikes, 0)
         damping = 1e-2
         for _ in range(_STEPS):
             before = cost
             cost, damping = self.step(damping, cost)
             if cost > before * (1.0 - 1e-3):
                 break
-        return [self.values.tolist(), self.strikes.tolist()]
+        return [self.values.tolist(), self.strikes.tolist(), self.middle, self.prior_cost]
 
     def resume(self, found: Sequence[Any]) -> None:
         """Goes on from what a stage found."""
         self.values, self.strikes = np.array(found[0]), np.array(found[1])
+        self.middle, self.prior_cost = found[2:]
 
 
-STAGES = len(_HORIZONS)
+STAGES = 7  # the last horizon is searched again and again
 
 
 def spread(search: Search, seed: int) -> dict[str, float]:

@@ -1,7 +1,7 @@
 """Finding the strikes of recorded shots, the constants being known: least squares from many starts.
 
 Unknown of a shot are six numbers p: v_x, v_y and R w_x, R w_y, R w_z of the struck ball just after the strike (m/s), and the time of
-the strike (s). The cost is the sum over all samples of all balls of the pseudo-Huber loss 2 c^2 (sqrt(1 + d^2/c^2) - 1) of the
+the strike (s), on a clock that begins with the last sample of the struck ball at rest. The cost is the sum over all samples of all balls of the pseudo-Huber loss 2 c^2 (sqrt(1 + d^2/c^2) - 1) of the
 distance d between recorded and played place, c = 1 cm: a quadratic for small distances, linear for large ones, which are those after
 an event that the play misses. Levenberg and Marquardt's step is dp = -(J^T W J + l diag(J^T W J))^-1 J^T W d.
 
@@ -32,7 +32,8 @@ Integers = npt.NDArray[np.int32]
 
 HUBER = 0.01  # c, m
 STEP = 1e-5  # of the forward differences, m/s and s: small against what moves an event, large against rounding
-EARLIEST, LATEST = -0.03, 0.08  # of a strike on the clock of the recording, s
+EARLIEST, LATEST = -0.03, 0.13  # of a strike on the clock of a play, s
+_STILL = 0.12  # s: a ball was struck no longer before the first row that shows its motion
 _SPIN_MOST = 2.0  # greatest |R w| of a strike over |v|: a tip that does not slip gives 1.3
 _NUMBERS = 6
 # The first stage: samples up to a time (s), how many starts descend, and iterations.
@@ -57,11 +58,16 @@ class Plays:
         self.recordings = recordings
         self.radius = radius
         self.threads, self.workers = threads, workers(threads) if threads else 1
-        tracks = [track for shot in recordings for track in shot.tracks]
+        # the clock of a play begins with the last row at rest of the struck ball, wherever that is in the recording
+        self.origins = np.array([origin(shot) for shot in recordings])
+        self.tracks = [
+            [track[track[:, 0] >= begin] - (begin, 0.0, 0.0) for track in shot.tracks] for shot, begin in zip(recordings, self.origins)
+        ]
+        tracks = [track for shot in self.tracks for track in shot]
         self.centres = np.array([apart(shot.rest, table, radius) for shot in recordings])
         self.struck = np.array([shot.cue for shot in recordings], np.int32)
-        self.ends = np.array([shot.end for shot in recordings])
-        self.counts = np.array([sum(map(len, shot.tracks)) for shot in recordings])
+        self.ends = np.array([shot.end for shot in recordings]) - self.origins
+        self.counts = np.array([sum(map(len, shot)) for shot in self.tracks])
         self.samples = np.ascontiguousarray(np.concatenate(tracks))
         self.first = np.cumsum([0, *map(len, tracks)]).astype(np.int64)
         self.cushion_model: ShotCushion = cushion_model
@@ -160,24 +166,34 @@ def apart(rest: Doubles, table: tuple[float, float], radius: float) -> Doubles:
     return centres
 
 
-def starts(shot: Recording) -> Doubles:
-    """Strikes to start from, (n, 6)."""
+def origin(shot: Recording) -> float:
+    """The time on the clock of a recording at which the clock of a play begins, s."""
     cue = shot.cue
-    track = shot.tracks[cue]
+    return float(max(shot.tracks[cue][shot.still[cue] - 1, 0], shot.moves[cue] - _STILL))
+
+
+def starts(shot: Recording) -> Doubles:
+    """Strikes to start from, (n, 6), on the clock of the recording."""
+    cue = shot.cue
+    track, rest = shot.tracks[cue], shot.rest[cue]
     still = int(np.searchsorted(track[:, 0], shot.moves[cue]))
     other = min((time for ball, time in enumerate(shot.moves) if ball != cue), default=np.inf)
-    # up to five samples under way before another ball moves: velocity by two of them, the strike's time by the way back to rest
+    # samples under way, up to 80 ms, a picture and more before another ball is seen to move
+    picture = float(np.median(np.diff(track[still : still + 12, 0]))) if len(track) > still + 1 else 0.02
     known = 1
-    while known < 5 and still + known < len(track) and track[still + known, 0] <= other - 0.021:
+    while still + known < len(track) and track[still + known, 0] <= min(track[still, 0] + 0.082, other - 1.05 * picture):
         known += 1
-    last = track[still + known - 1]
-    early = track[still + 1] if known >= 4 else track[still] if known >= 2 else np.array([last[0] - 0.02, *shot.rest[cue]])
-    velocity = (last[1:] - early[1:]) / (last[0] - early[0])
+    # velocity by the line through all but the first quarter, the strike's time by the way back to rest
+    rows = track[still + known // 4 : still + known] if known >= 2 else np.array([[track[still, 0] - picture, *rest], track[still]])
+    t = rows[:, 0] - rows[:, 0].mean()
+    velocity = t @ rows[:, 1:] / (t @ t)
     speed, angle = float(np.hypot(*velocity)), float(np.arctan2(velocity[1], velocity[0]))
-    begin = early[0] - float(np.hypot(*(early[1:] - shot.rest[cue]))) / max(speed, 0.1) if known > 1 else last[0] - 0.01
-    begin = float(np.clip(begin, EARLIEST, LATEST))
-    # few samples before the first hit tell the direction roughly, and one does not tell the speed
-    turns = np.linspace(-0.108, 0.108, 13) if known <= 2 else np.linspace(-0.016, 0.016, 5) if known == 3 else np.zeros(1)
+    middle = rows.mean(axis=0)
+    begin = middle[0] - float(np.hypot(*(middle[1:] - rest))) / max(speed, 0.1) if known > 1 else track[still, 0] - 0.5 * picture
+    # few samples before the first hit tell the direction roughly, noise as much as it is, and one does not tell the speed
+    rough = 0.108 if known <= 2 else 0.016 if known == 3 else 0.0
+    rough = max(rough, 2.0 * min(shot.noise / (max(speed, 0.3) * float(np.sqrt(t @ t))), 0.1))
+    turns = np.linspace(-rough, rough, 13 if rough > 0.05 else 5) if rough > 0.008 else np.zeros(1)
     faster = np.array([1.0, 1.5, 2.2]) if known == 1 else np.ones(1)
     sides, follows = (np.linspace(-1.3, 1.3, 5), np.linspace(-0.9, 1.0, 4)) if known <= 3 else (
         np.linspace(-1.3, 1.3, 9), np.linspace(-0.9, 1.0, 6))  # fmt: skip
@@ -272,7 +288,7 @@ def find(
     With `squares`, those of the least plain squares, which the RMSE is made of; the best few by the cost descend by these in the end.
     """
     random = np.random.default_rng(seed)
-    first = [starts(shot) for shot in plays.recordings]
+    first = [starts(shot) - [0.0, 0.0, 0.0, 0.0, 0.0, begin] for shot, begin in zip(plays.recordings, plays.origins)]
     of = np.repeat(np.arange(len(first), dtype=np.int32), [len(rows) for rows in first])
     strikes = _allowed(np.concatenate(first))
     # the best of the starts descend

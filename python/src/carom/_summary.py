@@ -12,7 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import _constants, _covariance, _strikes, pictures
-from carom._events import Recording, events
+from carom._events import events
+from carom._recordings import Recording
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles
 from carom.results import Shot
@@ -88,7 +89,7 @@ class Fit:
         """
         self.shot(i)
         plays = _strikes.Plays([self.recordings[i]], self.table, self.radius, self.constants, self.cushion_model)
-        return _covariance.of_strike(plays, 0, self.strikes[i])
+        return _covariance.of_strike(plays, 0, self.strikes[i] - [0.0, 0.0, 0.0, 0.0, 0.0, plays.origins[0]])
 
     def positions(self, i: int, times: npt.ArrayLike) -> Doubles:
         """The centres of shot i's balls as played at times of the recording's clock, m, shape (..., balls, 2)."""

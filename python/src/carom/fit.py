@@ -21,7 +21,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from carom import _constants, _covariance, _from_events, _joint, _strikes, _summary
+from carom import _constants, _covariance, _from_events, _joint, _recordings, _strikes, _summary
 from carom._rows import listing
 from carom._shot_options import ShotCushion
 from carom._summary import Fit
@@ -40,11 +40,14 @@ def _status(shot: Recording, radius: float) -> str:
     moves = shot.moves
     if not np.isfinite(moves).any():
         return "no ball moves"
-    # a ball that moves at once was hit before the recording, where the struck ball is too far away
-    cue, rest = shot.cue, shot.rest
-    for ball, time in enumerate(moves):
+    # a ball that moves at once was hit before the recording, where the struck ball is too far away to have reached it
+    cue, rest, begin = shot.cue, shot.rest, _strikes.origin(shot)
+    speeds = [np.hypot(*np.diff(track[rows, 1:], axis=0).T) / np.diff(track[rows, 0]) for track in shot.tracks
+              for rows in [(track[:, 0] >= begin) & (track[:, 0] < begin + 0.2)]]  # fmt: skip
+    for ball, time in enumerate(moves - begin):
         gap = float(np.hypot(*(rest[ball] - rest[cue]))) - 2.0 * radius
-        if ball != cue and time < 0.06 and gap > _FASTEST * (time + 0.03):
+        fastest = min(1.5 * max([*speeds[cue], *speeds[ball], 1.0]), _FASTEST)
+        if ball != cue and time < 0.06 and gap > fastest * (time + 0.03):
             return f"begins after the strike: balls {shot.balls[cue]} and {shot.balls[ball]} move at once, {gap:.2g} m apart"
     return "ok"
 
@@ -133,6 +136,8 @@ def fit(
     recordings = list(recordings)
     if not recordings:
         raise ValueError("recordings: at least one shot is needed")
+    noise = _recordings.noise_of(recordings if train is None else [recordings[k] for k in train])
+    recordings, notes = _recordings.sound(recordings, noise)
     counts = {len(shot.balls) for shot in recordings}
     if len(counts) > 1:
         odd = next(shot for shot in recordings if len(shot.balls) != len(recordings[0].balls))
@@ -181,6 +186,7 @@ def fit(
         plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
         strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
+        strikes[played, 5] += plays.origins
         saved.done()
     part = None if train is None else [k in set(train) for k in range(len(recordings))]
     for k in played:

@@ -29,7 +29,8 @@ from typing import Any, cast
 import numpy as np
 
 from carom import _constants
-from carom._events import MOVED, Events, Recording, TrackError, events, hit, impact, piece
+from carom._events import Events, events, hit, impact, piece
+from carom._recordings import MOVED, NOISE, Recording, TrackError
 from carom._rows import listing
 from carom._shot_options import ShotCushion
 from carom.dtypes import Doubles
@@ -40,9 +41,6 @@ __all__ = [
     "MOVED", "NOISE", "Events", "Recording", "Synthetic", "TrackError", "events", "hit", "impact", "piece", "read", "synthetic",
 ]
 __dir__ = listing(__name__)  # fmt: skip
-
-NOISE = 0.35e-3
-"""m: standard deviation of a coordinate that a good camera gives for a slow ball, as found on real tracks."""
 
 _COLUMNS = ("shot", "ball", "t", "x", "y")
 _OUTSIDE = 0.02  # m: a centre that is farther outside its bounds than this was measured in other units or on another table

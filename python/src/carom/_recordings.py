@@ -1,0 +1,227 @@
+"""Recorded shots, and what a camera does to them: the noise of the places, false detections, balls that change names.
+
+All of it is told from the rows alone: no shot is simulated. A ball goes no faster than it was seen to go just before or after a row. So a
+row is false that neither the rows before it nor those after it reach, while these reach each other; and where two balls at once go to
+places that they cannot reach, each to the other's, their names were swapped.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carom.dtypes import Doubles
+
+NOISE = 0.35e-3
+"""m: standard deviation of a coordinate that a good camera gives for a slow ball, as found on real tracks."""
+MOVED = 3e-3
+"""m: a ball that is farther than this from its place of rest has moved; more where the noise is large."""
+
+_NOISES = 5.5  # standard deviations from its place of rest where a ball has moved: noise goes so far in 3 of ten million rows
+_FASTER = 1.5  # a ball goes so many times as fast as it was seen to, at most
+_THINNED = 0.03  # m: a ball goes so far without a row, at most
+_BLOCK = 3  # false detections one after another, at most
+
+
+class TrackError(ValueError):
+    """A file of tracks is wrong. The message says what is wrong, where, and what would be right."""
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """One recorded shot."""
+
+    id: int | str  # As in the file
+    balls: tuple[int | str, ...]  # The names of the balls, as in the file
+    tracks: tuple[Doubles, ...]  # Of each ball t (s), x and y (m); the first row is at rest
+    noise: float = NOISE  # m: standard deviation of a coordinate
+
+    @functools.cached_property
+    def still(self) -> list[int]:
+        """How many rows each ball has before it moved, shape (balls,)."""
+        return [self._still(track) for track in self.tracks]
+
+    @functools.cached_property
+    def rest(self) -> Doubles:
+        """Where the balls lay before the strike, m, shape (balls, 2): the mean of a ball's rows before it moved."""
+        return np.array([track[:still, 1:].mean(axis=0) for track, still in zip(self.tracks, self.still)])
+
+    @functools.cached_property
+    def moves(self) -> Doubles:
+        """The time of each ball's first row away from its place of rest, s, shape (balls,); inf if it never moves."""
+        return np.array([(*track[still:, 0], math.inf)[0] for track, still in zip(self.tracks, self.still)])
+
+    @functools.cached_property
+    def cue(self) -> int:
+        """The index of the ball that was struck: the one that moves first; of those that move within 60 ms, the one whose way looks the
+        least as if another had hit it: a ball that is hit goes away from the other."""
+        moves = self.moves
+        if not np.isfinite(moves).any():
+            raise TrackError(f"shot {self.id}: no ball moves by more than {self.away * 1e3:.3g} mm, so there is no strike")
+        first = np.flatnonzero(moves <= moves.min() + 0.06)
+        ways = [self.tracks[k][self.still[k], 1:] - self.rest[k] for k in first]
+        # cosines of the ways with the directions from the other balls that move
+        hit = [max([way @ (self.rest[k] - self.rest[j]) / np.hypot(*way) / max(np.hypot(*(self.rest[k] - self.rest[j])), 1e-9) for j in first if j != k],
+                   default=0.0) for k, way in zip(first, ways)]  # fmt: skip
+        return int(first[int(np.argmin(hit))])
+
+    @property
+    def end(self) -> float:
+        """The time of the last row, s."""
+        return float(max(track[-1, 0] for track in self.tracks))
+
+    @property
+    def away(self) -> float:
+        """m: a ball that is farther than this from its place of rest has moved."""
+        return max(MOVED, _NOISES * self.noise)
+
+    def _still(self, track: Doubles) -> int:
+        """How many rows at the beginning of a track are at its place of rest: about the first row, and then the mean of the first few."""
+        rest, most = track[0, 1:], max(MOVED, 1.5 * _NOISES * self.noise)
+        for _ in range(3):
+            away = np.hypot(*(track[:, 1:] - rest).T) > most
+            still = max(int(np.argmax(away)), 1) if away.any() else len(track)
+            rest, most = track[: min(still, 12), 1:].mean(axis=0), self.away
+        return still
+
+
+# ---- Noise
+
+
+def noise_of(recordings: Sequence[Recording]) -> float:
+    """The standard deviation of a coordinate, m: by the rows at rest, or by those of slow balls where too few are; NOISE without any.
+
+    Of slow balls it is the scatter of each row about the quadratic through it and two rows on each side.
+    """
+    slow: list[Doubles] = []
+    for shot in recordings:
+        for track in shot.tracks:
+            windows = np.lib.stride_tricks.sliding_window_view(track, 5, axis=0) if len(track) >= 5 else np.empty((0, 3, 5))
+            t = windows[:, 0] - windows[:, 0, 2:3]
+            ways = np.hypot(*np.diff(windows[:, 1:], axis=2).transpose(1, 0, 2)).sum(axis=1)
+            good = (t[:, -1] - t[:, 0] < 0.4) & (ways < 1.0 * (t[:, -1] - t[:, 0]) + 0.02)
+            t, places = t[good] / (t[good, -1:] - t[good, :1]), windows[good, 1:]
+            # the misfit of the middle row, over what noise gives it
+            A = np.stack([np.ones_like(t), t, t * t], axis=-1)
+            hat = A @ np.linalg.pinv(A)
+            left = places - np.einsum("nij,nkj->nki", hat, places)
+            slow.append((left[..., 2] / np.sqrt(np.maximum(1.0 - hat[:, None, 2, 2], 1e-9))).ravel())
+    misfits = np.abs(np.concatenate([np.zeros(0), *slow]))
+    noise = 1.4826 * float(np.median(misfits)) if len(misfits) >= 20 else NOISE
+    # rows at rest are those within what moves; frozen places tell nothing
+    rest: list[Doubles] = []
+    for shot in recordings:
+        known = replace(shot, noise=max(noise, 1e-4))
+        for track, still in zip(known.tracks, known.still):
+            if still >= 8:
+                rows = track[:still, 1:]
+                rest.append(((rows - np.median(rows, axis=0)) * math.sqrt(still / (still - 1.0))).ravel())
+    lain = np.abs(np.concatenate([np.zeros(0), *rest]))
+    if len(lain) >= 60 and np.median(lain) > 0.0:
+        noise = 1.4826 * float(np.median(lain))
+    return max(noise, 5e-5)
+
+
+# ---- False detections and swapped names
+
+
+def _reached(
+    track: Doubles, first: npt.NDArray[np.intp], last: npt.NDArray[np.intp], noise: float, ends: tuple[Any, Any] | None = None
+) -> npt.NDArray[np.bool_]:
+    """Whether a ball goes from row `first` to row `last`, by its speed just before and just after two rows, `ends`, which are these.
+
+    A ball without rows for long lies still.
+    """
+    t, r = track[:, 0], track[:, 1:]
+    dt = np.diff(t)
+    speed = np.where(dt < 0.2, np.hypot(*np.diff(r, axis=0).T) / dt, 0.0)
+    left, right = ends or (first, last)
+    before = np.where(left > 0, speed[left - 1], 0.0)
+    after = np.where(right < len(speed), speed[np.minimum(right, len(speed) - 1)], 0.0)
+    most = _FASTER * np.maximum(before, after) * np.minimum(t[last] - t[first], 0.12) + 8.0 * noise + 2e-3
+    return np.asarray(np.hypot(*(r[last] - r[first]).T) <= most + np.where(t[last] - t[first] < 0.2, 0.0, _THINNED))
+
+
+def without_false(track: Doubles, noise: float) -> Doubles:
+    """A track without the rows that are false."""
+    for block in (1, 2, 1, _BLOCK, 1):
+        n = len(track)
+        if n < block + 4:
+            break
+        k = np.arange(1, n - block)
+        # neither reached from before nor from behind, while these reach each other
+        before, after = k - 1, k + block
+        reached = [_reached(track, *rows, noise, (before, after)) for rows in ((before, k), (after - 1, after), (before, after))]
+        false = k[~reached[0] & ~reached[1] & reached[2]]
+        track = np.delete(track, np.unique(false[:, None] + np.arange(block)), axis=0)
+    # the first row, where those after it are at rest, and the last
+    if len(track) >= 5:
+        lie = np.hypot(*(track[1:5, 1:] - track[1:5, 1:].mean(axis=0)).T).max() < max(MOVED, _NOISES * noise)
+        if lie and np.hypot(*(track[0, 1:] - track[1:5, 1:].mean(axis=0))) > max(2.0 * MOVED, 1.5 * _NOISES * noise):
+            track = track[1:]
+        last = np.array([len(track) - 1])
+        if track[-1, 0] - track[-2, 0] < 0.2 and not _reached(track, last - 1, last, noise)[0]:
+            track = track[:-1]
+    return track
+
+
+def without_swaps(tracks: Sequence[Doubles], noise: float) -> tuple[list[Doubles], list[tuple[int, int, float]]]:
+    """Tracks with their names put right, and which two were swapped from which time on."""
+    mended, swaps = list(tracks), list[tuple[int, int, float]]()
+    near = 0.04 + 6.0 * noise
+
+    def place(track: Doubles, k: int, time: float) -> Doubles:
+        """Where a ball is at a time by its row k and the one before."""
+        dt = track[k, 0] - track[k - 1, 0] if k else math.inf
+        velocity = (track[k, 1:] - track[k - 1, 1:]) / dt if dt < 0.2 else np.zeros(2)
+        there: Doubles = track[k, 1:] + velocity * min(time - track[k, 0], 0.1)
+        return there
+
+    while len(swaps) < 20:
+        found = None
+        for a, track in enumerate(mended):
+            k = np.arange(len(track) - 1)
+            for row in (k[~_reached(track, k, k + 1, noise)] + 1).tolist():
+                time = track[row, 0]
+                for b, other in enumerate(mended):
+                    at = int(np.searchsorted(other[:, 0], time - 1e-6))
+                    if b == a or at == 0 or (found is not None and time >= found[2]):
+                        continue
+                    # the one goes to where the other was, which goes to its place or is not seen where rows at rest are left out
+                    there = np.hypot(*(track[row, 1:] - place(other, at - 1, time))) < near
+                    back = at == len(other) or other[at, 0] > time + 0.2
+                    back = back or np.hypot(*(other[at, 1:] - place(track, row - 1, other[at, 0]))) < near
+                    if there and back:
+                        found = (a, b, time)
+        if found is None:
+            break
+        a, b, time = found
+        cuts = [int(np.searchsorted(mended[ball][:, 0], time - 1e-6)) for ball in (a, b)]
+        mended[a], mended[b] = (
+            np.concatenate([mended[a][: cuts[0]], mended[b][cuts[1] :]]),
+            np.concatenate([mended[b][: cuts[1]], mended[a][cuts[0] :]]),
+        )
+        swaps.append((min(a, b), max(a, b), float(time)))
+    return mended, swaps
+
+
+def sound(recordings: Sequence[Recording], noise: float) -> tuple[list[Recording], list[list[str]]]:
+    """Recordings with the noise that they have, without false rows and swapped names; and what was mended in each."""
+    mended: list[Recording] = []
+    notes: list[list[str]] = []
+    for shot in recordings:
+        tracks, swaps = without_swaps(shot.tracks, noise)
+        tracks = [without_false(track, noise) for track in tracks]
+        lost = 1.0 - sum(map(len, tracks)) / sum(map(len, shot.tracks))
+        told = [f"balls {shot.balls[a]} and {shot.balls[b]} swapped from {time:.2f} s on" for a, b, time in swaps]
+        if lost > 0.0:
+            told.append(f"{100.0 * lost:.2g} % false detections, left out")
+        mended.append(replace(shot, tracks=tuple(tracks), noise=noise))
+        notes.append(told)
+    return mended, notes
