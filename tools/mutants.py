@@ -183,7 +183,7 @@ class Copy:
         return -signal.SIGALRM
 
     def tests_of_ctest(self, labels: str) -> list[Test]:
-        shown = subprocess.run(["ctest", "--test-dir", "build", "-L", labels, "-E", "^(python|lab)/", "--show-only=json-v1"],
+        shown = subprocess.run(["ctest", "--test-dir", "build", "-L", labels, "-E", "^(python|lab)/|^fuzz/targets", "--show-only=json-v1"],
                                cwd=self.folder, capture_output=True, check=True).stdout  # fmt: skip
         found = []
         for test in json.loads(shown)["tests"]:
@@ -358,7 +358,7 @@ def main() -> None:
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--minutes", type=float, default=1e9, help="begin no mutant after this time")
     options.add_argument("--again", action="store_true", help="only the survivors of the table")
-    options.add_argument("--tests", default="unit|agree|physics|cli", help="labels of tests, a regular expression")
+    options.add_argument("--tests", default="unit|agree|physics|cli|fuzz", help="labels of tests, a regular expression")
     options.add_argument("--slowest", type=float, default=1e9, help="leave out tests that need more processor time, s; --again without it")
     options.add_argument("--isas", default="avx2;avx512", help="instruction sets beside plain; tests of rows need the best of the processor")
     options.add_argument("--folder", type=Path, default=ROOT / "build" / "mutants", help="where the copy of the tree is")

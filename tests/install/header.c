@@ -1,5 +1,8 @@
-/* The public header by itself, in C and in C++, and the constants that callers rely on. */
-#include "carom.h"
+/* A public header by itself, in C and in C++, and the constants and sizes that callers rely on. */
+#ifndef HEADER
+#define HEADER "carom.h"
+#endif
+#include HEADER
 
 #ifdef __cplusplus
 #define STATIC_ASSERT static_assert
@@ -12,6 +15,40 @@ STATIC_ASSERT(sizeof(carom_impact) == 26 * sizeof(double), "an impact is 26 doub
 STATIC_ASSERT(sizeof(carom_result) == 12 * sizeof(double), "a result is 12 doubles");
 STATIC_ASSERT(CAROM_OK == 0 && CAROM_SEPARATING > 0 && CAROM_ERROR_NULL < 0,
               "signs of the statuses");
+
+#ifdef CAROM_SHOT_H
+STATIC_ASSERT(sizeof(carom_cushion_impact) == 15 * sizeof(double), "an impact is 15 doubles");
+STATIC_ASSERT(sizeof(carom_motion) == 6 * sizeof(double), "a motion is 6 doubles");
+STATIC_ASSERT(sizeof(carom_cushion_options) == 128,
+              "options have no gaps that a compiler may fill");
+STATIC_ASSERT(CAROM_CUSHION_MATHAVAN == 0 && CAROM_CUSHION_EULER == 4 && CAROM_CUSHION_SMOOTH == 5,
+              "values are never changed");
+STATIC_ASSERT(sizeof(carom_shot_options) == 80 && sizeof(carom_brief_event) == 24,
+              "sizes that callers rely on");
+
+/* What must not compile without a warning: the model of an impact for that of a shot. */
+#ifdef MIXED
+int mixed(void);
+int mixed(void) {
+  carom_shot_options options = {};
+  options.cushion_model = CAROM_CUSHION_HAN;
+  return (int)options.cushion_model;
+}
+#endif
+#endif
+
+#ifdef CAROM_TANGENT_H
+STATIC_ASSERT(sizeof(carom_tangent_seeds) == 72, "options have no gaps that a compiler may fill");
+STATIC_ASSERT(CAROM_STATE_NUMBERS == 9 && CAROM_CUE_NUMBERS == 7 && CAROM_DIRECTIONS_MOST == 64,
+              "rows that callers rely on");
+#endif
+
+#ifdef CAROM_PLAN_H
+STATIC_ASSERT(sizeof(carom_player) == 12 * sizeof(double), "a player is 12 doubles");
+STATIC_ASSERT(sizeof(carom_choice) == 192, "choices have no gaps that a compiler may fill");
+STATIC_ASSERT(CAROM_RULES_EIGHTBALL == 0 && CAROM_TURN_LOSE == 3 && CAROM_PLAN_GIVEN == 3,
+              "values are never changed");
+#endif
 
 int use(const carom_impact *in, carom_result *out);
 int use(const carom_impact *in, carom_result *out) {

@@ -27,55 +27,42 @@ static const char *const ids[] = {"pooltool-005", "pooltool-031", "pooltool-034"
                                   "mathavan-3",   "mathavan-5"};
 enum { IDS = sizeof ids / sizeof ids[0] };
 
-/* The inputs, and the range of each. */
-enum {
-  CUT,
-  SPEED,
-  SPIN_A,
-  SPIN_B = SPIN_A + 3,
-  CLOTH_A = SPIN_B + 3,
-  CLOTH_B,
-  MU_BALL,
-  RESTITUTION,
-  INPUTS
-};
-static const char *const input_names[INPUTS] = {"cut angle",
-                                                "speed",
-                                                "w1x",
-                                                "w1y",
-                                                "w1z",
-                                                "w2x",
-                                                "w2y",
-                                                "w2z",
-                                                "friction of the cloth on ball 1",
-                                                "friction of the cloth on ball 2",
-                                                "friction between the balls",
-                                                "restitution"};
+/* The inputs: the cut angle, the speed, and numbers of the impact, from `low` to `high`; spins in
+ * the speed over the radius. */
+#define AT(field) (int)(offsetof(carom_impact, field) / sizeof(double))
+static const struct {
+  const char *name;
+  int at;
+  double low, high;
+} inputs[] = {{"cut angle", -1, -0.5, 0.5},
+              {"speed", -2, 0.2, 2.0},
+              {"w1x", AT(a.w[0]), -1.0, 1.0},
+              {"w1y", AT(a.w[1]), -1.0, 1.0},
+              {"w1z", AT(a.w[2]), -1.0, 1.0},
+              {"w2x", AT(b.w[0]), -1.0, 1.0},
+              {"w2y", AT(b.w[1]), -1.0, 1.0},
+              {"w2z", AT(b.w[2]), -1.0, 1.0},
+              {"friction of the cloth on ball 1", AT(a.mu_cloth), 0.0, 0.6},
+              {"friction of the cloth on ball 2", AT(b.mu_cloth), 0.0, 0.6},
+              {"friction between the balls", AT(mu_ball), 0.0, 0.3},
+              {"restitution", AT(restitution), 0.0, 1.0}};
+enum { INPUTS = sizeof inputs / sizeof inputs[0], W1Z = 4 };
 
 static void set(carom_impact *in, int k, double share) {
   const double speed = hypot(hypot(in->a.v[0], in->a.v[1]), hypot(in->b.v[0], in->b.v[1]));
-  if (k == CUT) {
-    const double angle = 1.0 * (share - 0.5), x = in->b.r[0] - in->a.r[0],
-                 y = in->b.r[1] - in->a.r[1];
-    in->b.r[0] = in->a.r[0] + x * cos(angle) - y * sin(angle);
-    in->b.r[1] = in->a.r[1] + x * sin(angle) + y * cos(angle);
-  } else if (k == SPEED)
+  const double value = inputs[k].low + share * (inputs[k].high - inputs[k].low);
+  if (inputs[k].at == -1) {
+    const double x = in->b.r[0] - in->a.r[0], y = in->b.r[1] - in->a.r[1];
+    in->b.r[0] = in->a.r[0] + x * cos(value) - y * sin(value);
+    in->b.r[1] = in->a.r[1] + x * sin(value) + y * cos(value);
+  } else if (inputs[k].at == -2) {
     for (int axis = 0; axis < 3; axis++) {
-      in->a.v[axis] *= 0.2 + 1.8 * share;
-      in->a.w[axis] *= 0.2 + 1.8 * share;
+      in->a.v[axis] *= value;
+      in->a.w[axis] *= value;
     }
-  else if (k < SPIN_B)
-    in->a.w[k - SPIN_A] = (2.0 * share - 1.0) * speed / in->a.radius;
-  else if (k < CLOTH_A)
-    in->b.w[k - SPIN_B] = (2.0 * share - 1.0) * speed / in->a.radius;
-  else if (k == CLOTH_A)
-    in->a.mu_cloth = 0.6 * share;
-  else if (k == CLOTH_B)
-    in->b.mu_cloth = 0.6 * share;
-  else if (k == MU_BALL)
-    in->mu_ball = 0.3 * share;
-  else
-    in->restitution = share;
+  } else {
+    ((double *)in)[inputs[k].at] = value * (inputs[k].low < 0.0 ? speed / in->a.radius : 1.0);
+  }
 }
 
 typedef struct sample {
@@ -181,7 +168,7 @@ TEST(exact_is_smooth) {
         const carom_impact in = find_case(&cases, ids[one]);
         look(&in, ids[one], &options, k, &f);
       }
-    printf("%-32s largest jump %.2g, the solver's own %.2g (value %d of %s)\n", input_names[k],
+    printf("%-32s largest jump %.2g, the solver's own %.2g (value %d of %s)\n", inputs[k].name,
            f.seen, f.own, f.value, f.id);
     most = fmax(most, f.own);
   }
@@ -201,7 +188,7 @@ TEST(euler_is_not) {
   int jumps = 0;
   for (int value = VALUES / 2; value < VALUES / 2 + 200; value++) {
     memmove(at, at + 1, 3 * sizeof at[0]);
-    at[3] = take(&in, &options, SPIN_A + 2, value);
+    at[3] = take(&in, &options, W1Z, value);
     jumps += jump_of(at) > 1e-5;
   }
   printf("Euler's method, N = 1000, where it sticks: %d of 197 steps jump by more than 1e-5\n",

@@ -98,20 +98,12 @@ TEST(drag_of_a_ball_alone) {
 
 /* ---- Each by itself */
 
-/* The first event of a type in the last shot that was played. */
-static const carom_event *first_of(const carom_shot *shot, int type) {
-  for (int64_t k = 0; k < shot->count; k++)
-    if (shot->events[k].type == type)
-      return &shot->events[k];
-  ck_abort_msg("there is no event of type %d", type);
-}
-
 static carom_event rail_event(const carom_table *table, const carom_shot_ball *ball,
                               carom_shot_cushion cushion_model) {
   const carom_shot_options options = {.cushion_model = cushion_model, .events_most = 50};
   carom_shot shot = {.events = events, .room = ROOM};
   carom_shoot(table, ball, 1, NULL, &options, &shot);
-  return *first_of(&shot, CAROM_EVENT_RAIL);
+  return *event_of(&shot, CAROM_EVENT_RAIL, 0);
 }
 
 /* A cushion takes its part of the speed along it from the roll, whatever the model; not more
@@ -156,7 +148,7 @@ static carom_event hit(double speed, const carom_ball_kind *a, const carom_ball_
   balls[0].kind = *a;
   balls[1].kind = *b;
   const carom_shot shot = play(&table, balls, 2, NULL, &options, CAROM_OK);
-  return *first_of(&shot, CAROM_EVENT_BALL_BALL);
+  return *event_of(&shot, CAROM_EVENT_BALL_BALL, 0);
 }
 
 static void same_event(const carom_event *a, const carom_event *b) {
@@ -406,7 +398,7 @@ TEST(default_cushions) {
           .world = (carom_world)world, .cushion_model = named ? model : CAROM_SHOT_CUSHION_DEFAULT};
       carom_shot shot = {.events = events, .room = ROOM, .final = &rest[named]};
       ck_assert_int_eq(carom_shoot(&table, &ball, 1, NULL, &options, &shot), CAROM_OK);
-      ck_assert_ptr_nonnull(first_of(&shot, CAROM_EVENT_RAIL));
+      ck_assert_ptr_nonnull(event_of(&shot, CAROM_EVENT_RAIL, 0));
     }
     ck_assert_mem_eq(&rest[0], &rest[1], sizeof *rest);
   }

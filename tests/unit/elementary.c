@@ -27,7 +27,7 @@ TEST(exponential) {
                     x);
   }
   ck_assert_double_eq(carom_exp(0.0), 1.0);
-  ck_assert_double_eq(carom_exp(-800.0), 0.0);
+  ck_assert_double_eq(carom_exp(-708.0), 0.0);
   ck_assert_double_eq(carom_exp(-INFINITY), 0.0);
   ck_assert_double_le(in_ulp(carom_exp(709.5), expl(709.5L)), 1.0); /* more than 2^1023 */
   ck_assert_double_infinite(carom_exp(709.79));
