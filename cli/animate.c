@@ -72,13 +72,12 @@ static const char head[] =
     "content=\"width=device-width\">\n"
     "<title>carom shoot</title>\n"
     "<style>body{margin:1em "
-    "auto;max-width:1200px;font-family:sans-serif}svg{width:100%;height:auto}"
-    "p{display:flex;gap:1em;align-items:center}input{flex:1}</style>\n"
+    "auto;max-width:1200px;font-family:sans-serif}svg{width:100%;height:auto}p{display:flex;gap:"
+    "1em;align-items:center}input{flex:1}</style>\n"
     "<p><button id=\"play\">Play</button><input id=\"time\" type=\"range\" min=\"0\" step=\"0.01\" "
-    "aria-label=\"time\">"
-    "<output id=\"said\"></output>"
-    "<select id=\"pace\" aria-label=\"speed\"><option value=\"0.25\">1/4<option value=\"0.5\">1/2"
-    "<option value=\"1\" selected>1<option value=\"2\">2</select></p>\n";
+    "aria-label=\"time\"><output id=\"said\"></output><select id=\"pace\" "
+    "aria-label=\"speed\"><option value=\"0.25\">1/4<option value=\"0.5\">1/2<option value=\"1\" "
+    "selected>1<option value=\"2\">2</select></p>\n";
 
 static const char script[] =
     "const balls=document.querySelectorAll('g.ball'),get=id=>document.getElementById(id);\n"

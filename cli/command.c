@@ -37,16 +37,14 @@ static void print_manual(FILE *to, const program *p) {
   manual_section(to, "ENVIRONMENT", "");
   manual_item(to, "CAROM_ISA", NULL,
               "the largest instruction set to use: plain, sse2, avx2 or avx512; on arm64 plain or "
-              "neon. With "
-              "plain, results have the same bits on every machine");
+              "neon. With plain, results have the same bits on every machine");
   manual_item(to, "CAROM_DATA", NULL,
               "the folder of the reference collisions, if it is not where carom was installed");
-  manual_end(to,
-             "0 if all went well; 1 if some rows or shots are in error, or a picture could not be "
-             "drawn, and all others were "
-             "computed; "
-             "2 for bad usage or unreadable input, with nothing written",
-             p->example);
+  manual_end(
+      to,
+      "0 if all went well; 1 if some rows or shots are in error, or a picture could not be drawn, "
+      "and all others were computed; 2 for bad usage or unreadable input, with nothing written",
+      p->example);
 }
 
 /* What could not be written was not said, so the run was not good. */

@@ -44,20 +44,17 @@ OPTION(series, option_speed, "speed", in[SPEED], 0, "V", set_values, MEASURE_SPE
 OPTION(series, option_cut, "cut", in[CUT], 0, "full|three-quarter|half|quarter|DEGREES", set_values,
        MEASURE_CUT,
        "angle from the cue ball's direction to the line of centres, -90 to 90; above 0 the object "
-       "ball goes to the left "
-       "(default 30). Or the fullness of the hit: full, three-quarter, half, quarter, 0.4ball");
+       "ball goes to the left (default 30). Or the fullness of the hit: full, three-quarter, half, "
+       "quarter, 0.4ball");
 OPTION(series, option_spin, "spin", in[SPIN], 0, "stun|follow|draw|SPIN", set_values, MEASURE_SPIN,
        "stun: no spin (default); follow or roll: the ball rolls; draw: the same spin backwards. Or "
-       "a number with a unit, above "
-       "0 for follow: rad/s, % of rolling, tip (height of the cue's tip above the centre; 1 tip is "
-       "13 mm)");
+       "a number with a unit, above 0 for follow: rad/s, % of rolling, tip (height of the cue's "
+       "tip above the centre; 1 tip is 13 mm)");
 OPTION(series, option_side, "side", in[SIDE], 0, "right|left|gearing|none|SPIN", set_values,
        MEASURE_SIDE,
        "side spin, above 0 for right english (counterclockwise seen from above). A number with a "
-       "unit: rad/s, % of english "
-       "(100%: the tip half a radius off centre, 1.25 V/R) or tip; right, left: 100%; gearing: the "
-       "balls roll on each other "
-       "without slip; none (default)");
+       "unit: rad/s, % of english (100%: the tip half a radius off centre, 1.25 V/R) or tip; "
+       "right, left: 100%; gearing: the balls roll on each other without slip; none (default)");
 OPTION(series, option_radius, "radius", in[RADIUS], 0, "R", set_values, MEASURE_LENGTH,
        "of the balls, m, or with a unit: mm, cm, in (default 0.028575, a pool ball)");
 OPTION(series, option_mass, "mass", in[MASS], 0, "M", set_values, MEASURE_MASS,
@@ -70,12 +67,10 @@ OPTION(series, option_quantity, "quantity", quantity, 0, QUANTITIES, set_choice,
        "the quantity that curves and tables show (default: throw for curves, all for tables)");
 OPTION(series, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write the collisions as rows for `carom resolve`. An id is the spin and the values of "
-       "other lists, such as "
-       "draw-1.5m/s. With --quantity: write a table of it");
+       "other lists, such as draw-1.5m/s. With --quantity: write a table of it");
 OPTION(series, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
        "draw the balls and their paths of every collision from above; or curves over a range, by "
-       "gnuplot. OUT.svg, OUT.png or "
-       "OUT.pdf");
+       "gnuplot. OUT.svg, OUT.png or OUT.pdf");
 
 static void make(const series *s, one_case *c) {
   const value *const *v = c->given;
@@ -214,10 +209,8 @@ static const command_form form = {
     .name = "hit",
     .usage = "[OPTIONS]",
     .about = "Computes the collision of the cue ball with a ball at rest, and describes it in "
-             "words: throw, deflection, spin, "
-             "and the speeds just after the collision and once the balls roll. Angles are measured "
-             "from the cue ball's path "
-             "before, seen from above.\n",
+             "words: throw, deflection, spin, and the speeds just after the collision and once the "
+             "balls roll. Angles are measured from the cue ball's path before, seen from above.\n",
     .options =
         (const option_row *const[]){&option_speed, &option_cut, &option_spin, &option_side,
                                     &option_friction, &option_restitution, &option_cloth,
@@ -226,17 +219,14 @@ static const command_form form = {
                                     &option_strict, &option_output, NULL},
     .details =
         "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A "
-        "unit after the last "
-        "number holds for all: --speed 1,3,7mph, --side 0:100%. Each value of a list is a "
-        "collision. A range gives a "
-        "table, with --plot curves.\n\n"
+        "unit after the last number holds for all: --speed 1,3,7mph, --side 0:100%. Each value of "
+        "a list is a collision. A range gives a table, with --plot curves.\n\n"
         "quantities:\n"
         "  throw                angle of the object ball's velocity from the line of centres, "
-        "degrees; above 0 in the "
-        "direction in which a cut throws; for a full hit, in that of right english\n"
+        "degrees; above 0 in the direction in which a cut throws; for a full hit, in that of right "
+        "english\n"
         "  deflection           angle between the cue ball's paths before and just after, degrees; "
-        "above 0 away from "
-        "the object ball\n"
+        "above 0 away from the object ball\n"
         "  rolling-deflection   the same once it rolls\n"
         "  angle-between        angle between the directions of both balls once they roll, "
         "degrees\n"

@@ -241,11 +241,9 @@ static const command_form form = {
     .name = "plan",
     .usage = "[OPTIONS] LAYOUT.jsonl",
     .about = "Finds the shots that win most often from a layout, for a player whose strokes err. "
-             "LAYOUT is a file as of carom "
-             "shoot, of which the first shot counts: its table, balls and cue; the stroke itself "
-             "is not read. Balls that are "
-             "missing are down. The five best shots are told in words: what they do, how to "
-             "strike, and their chances.\n",
+             "LAYOUT is a file as of carom shoot, of which the first shot counts: its table, balls "
+             "and cue; the stroke itself is not read. Balls that are missing are down. The five "
+             "best shots are told in words: what they do, how to strike, and their chances.\n",
     .options =
         (const option_row *const[]){&option_rules, &option_group, &option_hand, &option_player,
                                     &option_errors, &option_shots, &option_seed, &option_csv,

@@ -44,14 +44,12 @@ OPTION(series, option_angle, "angle", in[ANGLE], 0, "DEGREES", set_values, MEASU
        "the right (default 45)");
 OPTION(series, option_spin, "spin", in[SPIN], 0, "roll|stun|draw|SPIN", set_values, MEASURE_SPIN,
        "roll or follow: the ball rolls (default); stun: no spin; draw: the same spin backwards. Or "
-       "a number with a unit: "
-       "rad/s, % of rolling, tip");
+       "a number with a unit: rad/s, % of rolling, tip");
 OPTION(series, option_side, "side", in[SIDE], 0, "right|left|gearing|none|SPIN", set_values,
        MEASURE_SIDE,
        "side spin, above 0 for right english, which is running english here; left is reverse. A "
-       "number with a unit: rad/s, % "
-       "of english (100%: 1.25 V/R) or tip; right, left: 100%; gearing: the ball rolls along the "
-       "cushion; none (default)");
+       "number with a unit: rad/s, % of english (100%: 1.25 V/R) or tip; right, left: 100%; "
+       "gearing: the ball rolls along the cushion; none (default)");
 OPTION(series, option_height, "height", in[HEIGHT], 0, "H", set_values, MEASURE_LENGTH,
        "of the nose above the cloth, m, or with a unit: mm, in (default 0.036576, that of a pool "
        "table)");
@@ -207,11 +205,10 @@ static const char *law(const series *s, char text[80]) {
 static const command_form form = {
     .name = "rail",
     .usage = "[OPTIONS]",
-    .about = "Computes the impact of a ball on a cushion, and describes it in words: the rebound "
-             "angle just after and once the "
-             "ball rolls, speeds, spin, and which contacts stuck or slipped. The ball moves to the "
-             "right along the cushion, so "
-             "right english is running english.\n",
+    .about =
+        "Computes the impact of a ball on a cushion, and describes it in words: the rebound angle "
+        "just after and once the ball rolls, speeds, spin, and which contacts stuck or slipped. "
+        "The ball moves to the right along the cushion, so right english is running english.\n",
     .options =
         (const option_row *const[]){
             &option_speed,  &option_angle,       &option_spin,          &option_side,
@@ -219,19 +216,18 @@ static const command_form form = {
             &option_radius, &option_mass,        &option_model,         &option_convention,
             &option_law,    &option_steps,       &option_quantity,      &option_csv,
             &option_plot,   &option_strict,      &option_output,        NULL},
-    .details = "Every number may be a list, separated by commas; one may be a range A:B or "
-               "A:B:STEP. A unit after the last number "
-               "holds for all: --speed 1,3,7mph, --side -100:100%. Each value of a list is an "
-               "impact. A range gives a table, with "
-               "--plot curves.\n\n"
-               "quantities:\n"
-               "  rolling-rebound      angle from the normal once the ball rolls, degrees; a "
-               "mirror keeps the angle of incidence\n"
-               "  rebound              the same just after the impact\n"
-               "  speed                just after, m/s\n"
-               "  side                 side spin after, rad/s; above 0 for right\n"
-               "  energy               share of the kinetic energy that is lost, %\n\n"
-               "exit code: 0; 2 for bad usage or an impossible impact\n",
+    .details =
+        "Every number may be a list, separated by commas; one may be a range A:B or A:B:STEP. A "
+        "unit after the last number holds for all: --speed 1,3,7mph, --side -100:100%. Each value "
+        "of a list is an impact. A range gives a table, with --plot curves.\n\n"
+        "quantities:\n"
+        "  rolling-rebound      angle from the normal once the ball rolls, degrees; a mirror keeps "
+        "the angle of incidence\n"
+        "  rebound              the same just after the impact\n"
+        "  speed                just after, m/s\n"
+        "  side                 side spin after, rad/s; above 0 for right\n"
+        "  energy               share of the kinetic energy that is lost, %\n\n"
+        "exit code: 0; 2 for bad usage or an impossible impact\n",
     .example = "carom rail --angle 0:75 --side -50,0,50% --plot rail.svg",
     .files = NO_FILES,
 };

@@ -50,39 +50,34 @@ OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choic
        "the rules of contact and the default models (default carom)");
 OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "exact|euler|inelastic|mirror",
        set_ball_model, 0,
-       "model of the collision of two balls (default: exact; with --models pooltool "
-       "inelastic)");
+       "model of the collision of two balls (default: exact; with --models pooltool inelastic)");
 OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0,
        "mathavan|stronge|han|mirror|euler|smooth", set_cushion_model, 0,
-       "model of the impact on a cushion; mathavan is the exact limit (default: han; with "
-       "--models pooltool stronge)");
+       "model of the impact on a cushion; mathavan is the exact limit (default: han; with --models "
+       "pooltool stronge)");
 OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
        "whether balls can leave the cloth (default: 3d; by pooltool's rules always flat)");
 OPTION(shoot_job, option_simultaneous, "simultaneous", simultaneous, 0, "cluster|pairs", set_choice,
        0,
        "contacts of several balls at one instant, as in a rack: they last and overlap in time, or "
-       "they are resolved one after "
-       "the other (default: cluster; by pooltool's rules and with --ball-ball euler or inelastic "
-       "always pairs)");
+       "they are resolved one after the other (default: cluster; by pooltool's rules and with "
+       "--ball-ball euler or inelastic always pairs)");
 OPTION(shoot_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
        "what to write of events: nothing; time, type and ids; or the states before and after too "
-       "(default full). With a shot by "
-       "options: write it as a line like those of a file, instead of words");
+       "(default full). With a shot by options: write it as a line like those of a file, instead "
+       "of words");
 OPTION(shoot_job, option_events_most, "events-most", events_most, 0, "N", set_count, 1,
        "largest number of events of a shot (default 10000)");
 OPTION(shoot_job, option_time_most, "time-most", time_most, 0, "SECONDS", set_number, 0,
        "largest time of a shot, on its own clock (default 1000)");
 OPTION(shoot_job, option_plot, "plot", plot, 0, "OUT", set_picture, 0,
        "draw the table and the paths of the balls in the first shot without an error, or in all "
-       "that options describe; from the "
-       "side too where a ball flies");
+       "that options describe; from the side too where a ball flies");
 OPTION(shoot_job, option_spread, "spread", error, 0, "SPEED,AIM,RIGHT,ABOVE", set_player_error, 0,
        "standard deviations of a player's error: speed in %, aim in degrees, tip in radii, such as "
-       "1%,0.05,0.01,0.01. Tells the "
-       "standard deviations of the places where balls end, to first order, and with --plot draws "
-       "them as bands around the paths, "
-       "up "
-       "to 0.3 m, with how far this holds");
+       "1%,0.05,0.01,0.01. Tells the standard deviations of the places where balls end, to first "
+       "order, and with --plot draws them as bands around the paths, up to 0.3 m, with how far "
+       "this holds");
 OPTION(shoot_job, option_animate, "animate", animation, 0, "OUT.html", set_animation, 0,
        "write a page that plays what --plot draws; it is one file and needs nothing else");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0,
@@ -391,13 +386,10 @@ static const command_form form = {
     .name = "shoot",
     .usage = "[OPTIONS] IN.jsonl | --cue X,Y --aim DEGREES [OPTIONS]",
     .about = "Plays whole shots, from the strike of the cue until nothing moves. Reads tables and "
-             "shots as JSON Lines "
-             "(docs/using/shots.md has the "
-             "format; recorded results in them are ignored) and writes each table and each shot "
-             "with its events and final "
-             "states. IN may be -. Or plays a shot that options describe, and tells it in words; "
-             "several values with commas "
-             "give several shots, drawn over each other.\n",
+             "shots as JSON Lines (docs/using/shots.md has the format; recorded results in them "
+             "are ignored) and writes each table and each shot with its events and final states. "
+             "IN may be -. Or plays a shot that options describe, and tells it in words; several "
+             "values with commas give several shots, drawn over each other.\n",
     .options =
         (const option_row *const[]){&option_table,         &option_cue,     &option_balls,
                                     &option_aim,           &option_at_ball, &option_shot_cut,
@@ -408,9 +400,9 @@ static const command_form form = {
                                     &option_time_most,     &option_threads, &option_plot,
                                     &option_spread,        &option_animate, &option_shot_id,
                                     &option_strict,        &option_output,  NULL},
-    .details = "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their "
-               "status and the error; the others "
-               "are played); 2 for bad usage or unreadable input\n",
+    .details =
+        "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
+        "the error; the others are played); 2 for bad usage or unreadable input\n",
     .example = "carom shoot --cue 0.6,0.8 --balls 0.5,1.6 --at-ball 1 --cut 20,30 --tip 0.2,-0.3 "
                "--plot shot.svg",
     .files = FILE_OR_NONE,

@@ -243,28 +243,23 @@ static void warn_of_constant(const sweep *s) {
       place_among("cut speed v1x v1y w1x w1y w1z v2x v2y w2x w2y w2z", s->over, strlen(s->over)) >=
           0)
     complain("u_b stays constant; that of real balls depends on their slip: --friction alciatore "
-             "applies such a law to every "
-             "value");
+             "applies such a law to every value");
 }
 
 OPTION(sweep, option_over, "over", over, 0, "cut|angle|speed|INPUT", set_text, 0,
        "what to vary: a column, such as w1z, u_b or e_b; cut: turns the line of centres by so many "
-       "degrees; angle: turns the "
-       "cushion; speed: that of the first ball, m/s, and all other velocities and spins in "
-       "proportion");
+       "degrees; angle: turns the cushion; speed: that of the first ball, m/s, and all other "
+       "velocities and spins in proportion");
 OPTION(sweep, option_from, "from", from, 0, "A", set_number, 0, "first value of INPUT");
 OPTION(sweep, option_to, "to", to, 0, "B", set_number, 0, "last value of INPUT");
 OPTION(sweep, option_points, "points", points, 0, "N", set_count, 2,
        "number of values, 2 or more (default 10001)");
 OPTION(sweep, option_ids, "id", ids, 0, "X", set_text, 0,
        "the row with this id; its number, from 1, if there is no column id. Several ids, separated "
-       "by commas, are swept one "
-       "after the other");
+       "by commas, are swept one after the other");
 OPTION(sweep, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
        "draw the throw, with --cushion the rebound angle, by gnuplot, a curve for each row and "
-       "solver: OUT.svg, OUT.png or "
-       "OUT.pdf. The "
-       "CSV is then written only with -o");
+       "solver: OUT.svg, OUT.png or OUT.pdf. The CSV is then written only with -o");
 OPTION(sweep, option_brief, "brief", brief, 0, NULL, set_flag, 0,
        "leave out the columns v1x to w2z, or vx to wz");
 
@@ -275,9 +270,8 @@ static const command_form form = {
     .name = "sweep",
     .usage = "--id X --over INPUT --from A --to B [OPTIONS] [FILE]",
     .about = "Resolves one collision, with --cushion one impact on a cushion, for equally spaced "
-             "values of INPUT from A to B. FILE "
-             "has the format that `carom resolve` reads; - is CSV on standard input; without FILE, "
-             "the 204 reference collisions.\n",
+             "values of INPUT from A to B. FILE has the format that `carom resolve` reads; - is "
+             "CSV on standard input; without FILE, the 204 reference collisions.\n",
     .options = (const option_row *const[]){&option_ids,        &option_over,
                                            &option_from,       &option_to,
                                            &option_cushion,    &option_points,
@@ -295,20 +289,16 @@ static const command_form form = {
         "  throw_deg            angle of ball 2's change of velocity from the line of centres, to "
         "the left from above\n"
         "  stick_share          share of the normal impulse after which the balls no longer slip "
-        "on each other; nan if they "
-        "slip to the end, and with Euler's method\n"
+        "on each other; nan if they slip to the end, and with Euler's method\n"
         "  jump                 how far the results (radius times spin), over the largest of them, "
-        "leave a smooth curve "
-        "between this value and the next: the distance of their step from both neighbouring steps "
-        "and all between. A corner "
-        "is no jump; nan at the ends\n"
+        "leave a smooth curve between this value and the next: the distance of their step from "
+        "both neighbouring steps and all between. A corner is no jump; nan at the ends\n"
         "  v1x ... w2z, status  as `carom resolve` writes them; v1x to w2z not with --brief\n"
         "  mu_ball              friction between the balls; with --friction alciatore, that of the "
         "law at this value\n"
         "  id                   the id of the row\n"
         "With --cushion there is no throw_deg, stick_share or mu_ball, but rebound_deg: the angle "
-        "of the velocity after from "
-        "the normal, degrees; a mirror without loss keeps it.\n"
+        "of the velocity after from the normal, degrees; a mirror without loss keeps it.\n"
         "\n"
         "exit code: 0; 1 if some values give an error; 2 for bad usage or unreadable input\n",
     .example = "carom sweep --id pooltool-135 --over u_b --from 0 --to 0.2 -o sweep.csv",

@@ -122,12 +122,10 @@ OPTION(trace, option_plot, "plot", picture, 0, "OUT", set_picture, 0,
 static const command_form form = {
     .name = "trace",
     .usage = "--id X [OPTIONS] [FILE]",
-    .about =
-        "Writes the state during one collision, from contact to separation, in equal steps of "
-        "normal impulse; with "
-        "--cushion that during one impact on a cushion, by the model mathavan or euler. FILE has "
-        "the format that `carom "
-        "resolve` reads; - is CSV on standard input; without FILE, the 204 reference collisions.\n",
+    .about = "Writes the state during one collision, from contact to separation, in equal steps of "
+             "normal impulse; with --cushion that during one impact on a cushion, by the model "
+             "mathavan or euler. FILE has the format that `carom resolve` reads; - is CSV on "
+             "standard input; without FILE, the 204 reference collisions.\n",
     .options =
         (const option_row *const[]){
             &option_id, &option_cushion, &option_points, &option_steps, &option_plot, &option_bare,
@@ -155,8 +153,7 @@ static const command_form form = {
         "  model, impulse_N_s   the model; the normal impulse so far\n"
         "  work_J, phase        as above; compression while the ball moves into the cushion\n"
         "  nose_sticks          1 while the ball does not slip on the nose, else 0, and "
-        "cloth_sticks on the cloth; always 0 "
-        "with Euler's method\n"
+        "cloth_sticks on the cloth; always 0 with Euler's method\n"
         "  v_n_m_s              speed into the nose, along its normal; negative while ball and "
         "cushion separate\n"
         "  s_x_m_s s_t_m_s      slip on the nose, along the cushion and upwards across it\n"

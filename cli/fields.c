@@ -151,8 +151,8 @@ ROW(option_slip, "slip", options.slip, 0, "paper|pooltool", set_choice, 0, BALLS
     "sign of the spin in the slip over the cloth: the 2014 paper's (default), or pooltool's");
 ROW(option_friction, "friction", friction, 0, "alciatore|LAW", set_law, 0, BALLS_ONLY,
     "friction between the balls, instead of the column u_b: a number; or alciatore, which falls "
-    "with the slip speed u as mu = "
-    "a + b exp(-c |u|); or alciatore=a,b,c, the same with other constants");
+    "with the slip speed u as mu = a + b exp(-c |u|); or alciatore=a,b,c, the same with other "
+    "constants");
 ROW(option_data, "data", folder, 0, "DIR", set_text, 0, BALLS_ONLY,
     "folder of the reference collisions (default: $CAROM_DATA, else what came with carom)");
 ROW(option_steps, "steps", options.steps, 0, "N", set_count, 1, ANY_KIND,
@@ -166,15 +166,14 @@ ROW(option_id, "id", id, 0, "X", set_text, 0, ANY_KIND,
     "the row with this id; its number, from 1, if there is no column id");
 ROW(option_output, "output", output, 'o', "OUT", set_text, 0, ANY_KIND,
     "file to write; - is standard output (default). OUT is never incomplete: carom writes a file "
-    "beside it, and renames it at "
-    "the end. If the folder cannot be written, carom overwrites OUT at the end");
+    "beside it, and renames it at the end. If the folder cannot be written, carom overwrites OUT "
+    "at the end");
 ROW(option_derived, "derived", derived, 0, NULL, set_flag, 0, ANY_KIND,
     "more columns after the status: angles, rolling velocities, energy");
 ROW(option_strict, "strict", strict, 0, NULL, set_flag, 0, ANY_KIND,
     "treat warnings as errors: centres whose distance is not R1 + R2 to 1 %, more than 50 m/s or "
-    "2,000 rad/s, a radius above "
-    "0.5 m, a mass above 10 kg, a tip more than 0.5 R from the centre, two values that look like "
-    "one with a decimal comma");
+    "2,000 rad/s, a radius above 0.5 m, a mass above 10 kg, a tip more than 0.5 R from the centre, "
+    "two values that look like one with a decimal comma");
 ROW(option_bare, "no-comments", bare, 0, NULL, set_flag, 0, ANY_KIND,
     "leave out the lines that begin with #");
 ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
@@ -184,10 +183,8 @@ ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
 ROW(option_model, "model", rail.model, 0, "mathavan|stronge|han|mirror|euler|smooth", set_choice, 0,
     CUSHION_ONLY,
     "mathavan: the exact limit of Mathavan's model (default); stronge, han: closed forms; mirror: "
-    "the velocity into the "
-    "cushion is reversed and multiplied by e; euler: Mathavan's model in N steps; smooth: a closed "
-    "form read off recorded "
-    "impacts");
+    "the velocity into the cushion is reversed and multiplied by e; euler: Mathavan's model in N "
+    "steps; smooth: a closed form read off recorded impacts");
 ROW(option_convention, "convention", rail.convention, 0, "paper|pooltool", set_choice, 0,
     CUSHION_ONLY,
     "the conventions to follow where pooltool differs from the papers (default: paper)");

@@ -151,8 +151,8 @@ bool file_draw(const char *path, void (*write)(FILE *out, const void *data), con
 void svg_begin(FILE *out, double width, double height, const char *background) {
   fprintf(out,
           "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" "
-          "height=\"%.0f\" "
-          "font-family=\"DejaVu Sans, sans-serif\">\n<rect width=\"100%%\" height=\"100%%\" %s/>\n",
+          "height=\"%.0f\" font-family=\"DejaVu Sans, sans-serif\">\n<rect width=\"100%%\" "
+          "height=\"100%%\" %s/>\n",
           width, height, width, height, background);
 }
 

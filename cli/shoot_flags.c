@@ -24,8 +24,7 @@ static bool refuse(const option_row *row, const char *text) {
   complain("--%s is %s%s%s; not '%.60s'%s", row->name,
            row->least == MEASURE_TIP
                ? "RIGHT,ABOVE in radii of the ball, such as 0.2,-0.3, or in tips: 1,0.5tip; "
-                 "several with "
-                 "colons: 0,0:0.2,0"
+                 "several with colons: 0,0:0.2,0"
                : "X,Y in m, or with a unit: 2,3ft; several with colons: 0.6,1.5:0.9,2",
            row == &option_balls ? "; or a rack: " : "", row == &option_balls ? RACKS : "", text,
            row == &option_balls ? did_you_mean(text, RACKS, hint) : hint);
@@ -69,29 +68,24 @@ ROW(option_table, "table", table, tables, set_text, 0,
     "table, y along it");
 ROW(option_cue, "cue", cue, "X,Y", set_places, MEASURE_LENGTH,
     "place of the cue ball, m, or with a unit: 2,3ft (default: the middle of the table's first "
-    "quarter, or the place in the "
-    "rack)");
+    "quarter, or the place in the rack)");
 ROW(option_balls, "balls", balls, RACKS "|X,Y:...", set_places, MEASURE_LENGTH,
     "places of the other balls, with colons between them: 0.6,1.5:0.9,2. They are named 1, 2, ..., "
-    "or as 8=0.6,1.5 says. Or a "
-    "rack");
+    "or as 8=0.6,1.5 says. Or a rack");
 ROW(option_aim, "aim", aim, "DEGREES", set_values, MEASURE_ANGLE,
     "direction of the cue, counterclockwise from +x; 90 (default) is along the table. Side spin "
-    "turns the ball off it by "
-    "squirt");
+    "turns the ball off it by squirt");
 ROW(option_at_ball, "at-ball", at_ball, "NAME", set_text, 0,
     "aim at this ball instead, so that the cue ball meets it first and at --cut, whatever squirt, "
-    "swerve and hops do; an error "
-    "where no direction does");
+    "swerve and hops do; an error where no direction does");
 ROW(option_shot_cut, "cut", cut, "full|three-quarter|half|quarter|DEGREES", set_values, MEASURE_CUT,
     "cut angle, as in `carom hit`: above 0 the ball goes to the left (default 0)");
 ROW(option_shot_speed, "speed", speed, "V", set_values, MEASURE_SPEED,
     "speed of the cue ball just after the strike, m/s, or with a unit: mph, km/h (default 2)");
 ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "where the tip touches, from the centre, in radii of the ball, or in tips: 1,0.5tip. Right is "
-    "positive, as english is "
-    "everywhere in this command (default 0,0). Beyond 0.5 R a chalked tip slips off the ball, of "
-    "which carom warns");
+    "positive, as english is everywhere in this command (default 0,0). Beyond 0.5 R a chalked tip "
+    "slips off the ball, of which carom warns");
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ANGLE,
     "of the butt of the cue (default 0)");
 ROW(option_json, "json", json, NULL, set_flag, 0,

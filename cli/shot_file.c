@@ -41,8 +41,7 @@ static void keep_table(shot_file *file, named_table *t) {
 /* The keys of the doubles of carom_ball_kind and of carom_cue, in their order there. */
 #define KIND_KEYS                                                                                \
   "m R u_s u_r u_sp u_b e_b f_c e_c g drag roll_loss law_a law_b law_c nose_height omega_ratio " \
-  "e_t modulus "                                                                                 \
-  "e_c_log f_c_log smooth_q smooth_x smooth_t smooth_a smooth_k"
+  "e_t modulus e_c_log f_c_log smooth_q smooth_x smooth_t smooth_a smooth_k"
 #define CUE_KEYS "V0 phi theta a b M end_mass tip_radius"
 _Static_assert(sizeof(carom_ball_kind) == 26 * sizeof(double) &&
                    offsetof(carom_cue, ball) == 8 * sizeof(double),

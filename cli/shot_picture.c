@@ -337,8 +337,8 @@ static void draw_ellipse(const view *v, const spread *s, const carom_ball_state 
   const double x = across(v, final->r), y = down(v, final->r);
   fprintf(v->out,
           "<ellipse class=\"band\" cx=\"%.1f\" cy=\"%.1f\" rx=\"%.1f\" ry=\"%.1f\" "
-          "transform=\"rotate(%.1f %.1f %.1f)\" "
-          "fill=\"none\" stroke=\"#0b2a22\" stroke-width=\"1.6\"%s/>\n",
+          "transform=\"rotate(%.1f %.1f %.1f)\" fill=\"none\" stroke=\"#0b2a22\" "
+          "stroke-width=\"1.6\"%s/>\n",
           x, y, v->scale * axes.along, v->scale * axes.across,
           v->turned ? 90.0 - axes.degrees : -axes.degrees, x, y,
           s->until < INFINITY ? " stroke-dasharray=\"5 4\"" : "");

@@ -79,8 +79,7 @@ static bool find_columns(row_source *s, const record *header) {
   size_t unused;
   if (record_is_numbers(header)) {
     complain("%s:%lld: no header: the first row holds numbers; the names of the columns come first "
-             "(`%s resolve --help` lists "
-             "them)",
+             "(`%s resolve --help` lists them)",
              s->name, header->line, program_name);
     return false;
   }

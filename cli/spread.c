@@ -45,8 +45,7 @@ OPTION_SET(set_player_error) {
   if (good && count == ERRORS && !all_zero)
     return true;
   complain("--%s is SPEED,AIM,RIGHT,ABOVE, standard deviations in %%, degrees and radii of the "
-           "ball (or tips), such as "
-           "1%%,0.05,0.01,0.01; not '%.60s'",
+           "ball (or tips), such as 1%%,0.05,0.01,0.01; not '%.60s'",
            row->name, text);
   return false;
 }

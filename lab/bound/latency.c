@@ -57,17 +57,17 @@ static const double full[2][2] = {{1.61803398874989, 1.0}, {2.71828182845904, 1.
 
 /* The whole loop is one piece of assembly: a value set anew between two turns would let them
  * overlap. */
-#define TIME(name, row, instructions, helper, times)                                            \
-  static double time_##name(void) {                                                             \
-    int turns = TURNS;                                                                          \
-    const double begin = clock_ns();                                                            \
-    __asm__ volatile("vmovupd %1, %%xmm0\n\tvmovupd %2, %%xmm2\n\tvmovupd %3, %%xmm4\n\t"       \
-                     "vxorpd %%xmm3, %%xmm3, %%xmm3\n1:\n\t"                                    \
-                     ".rept 100\n\t" instructions ".endr\n\tdec %0\n\tjnz 1b\n\tvzeroupper\n\t" \
-                     : "+r"(turns)                                                              \
-                     : "m"(full[0]), "m"(full[1]), "m"(one)                                     \
-                     : "rax", "xmm0", "xmm2", "xmm3", "xmm4", "memory", "cc");                  \
-    return (clock_ns() - begin) / (TURNS * LINKS);                                              \
+#define TIME(name, row, instructions, helper, times)                                             \
+  static double time_##name(void) {                                                              \
+    int turns = TURNS;                                                                           \
+    const double begin = clock_ns();                                                             \
+    __asm__ volatile("vmovupd %1, %%xmm0\n\tvmovupd %2, %%xmm2\n\tvmovupd %3, %%xmm4\n\tvxorpd " \
+                     "%%xmm3, %%xmm3, %%xmm3\n1:\n\t.rept 100\n\t" instructions                  \
+                     ".endr\n\tdec %0\n\tjnz 1b\n\tvzeroupper\n\t"                               \
+                     : "+r"(turns)                                                               \
+                     : "m"(full[0]), "m"(full[1]), "m"(one)                                      \
+                     : "rax", "xmm0", "xmm2", "xmm3", "xmm4", "memory", "cc");                   \
+    return (clock_ns() - begin) / (TURNS * LINKS);                                               \
   }
 CHAINS(TIME)
 

@@ -295,21 +295,19 @@ OPTION(bench_job, option_cushion_model, "cushion-model", cushion_model, 0, "MODE
        "impacts on cushions in the shots: han, mathavan, stronge, mirror or euler (default:\nhan; "
        "by pooltool's models stronge)");
 
-static const char about[] = "Times kernels on the 204 reference collisions, one call each, in "
-                            "turns: A B C A B C ... Each kernel is verified first; "
-                            "one whose error is above its bound is not timed. Times are "
-                            "nanoseconds per collision, the mean over the collisions; "
-                            "median and spread are over the rounds. The speedup of a round is "
-                            "relative to the ladder's first kernel in the default "
-                            "configuration with the same number of steps (1000 for kernels without "
-                            "steps). The exact solver is also timed in batches, "
-                            "with every instruction set.\n";
+static const char about[] =
+    "Times kernels on the 204 reference collisions, one call each, in turns: A B C A B C ... Each "
+    "kernel is verified first; one whose error is above its bound is not timed. Times are "
+    "nanoseconds per collision, the mean over the collisions; median and spread are over the "
+    "rounds. The speedup of a round is relative to the ladder's first kernel in the default "
+    "configuration with the same number of steps (1000 for kernels without steps). The exact "
+    "solver is also timed in batches, with every instruction set.\n";
 
-static const char details[] = "Spread is the median absolute deviation: half of the rounds lie "
-                              "within it. docs/study/measuring.md explains how to read "
-                              "the figures.\n\n"
-                              "exit code: 0 if all was timed; 1 if a kernel was refused (the "
-                              "others are timed); 2 for bad usage or unreadable data\n";
+static const char details[] =
+    "Spread is the median absolute deviation: half of the rounds lie within it. "
+    "docs/study/measuring.md explains how to read the figures.\n\n"
+    "exit code: 0 if all was timed; 1 if a kernel was refused (the others are timed); 2 for bad "
+    "usage or unreadable data\n";
 
 static const command_form form = {
     .name = "bench",

@@ -495,19 +495,16 @@ static const command_form form = {
     .name = "parity",
     .usage = "[OPTIONS] IN.jsonl",
     .about = "Plays recorded shots by pooltool's rules and models, and compares every event with "
-             "pooltool's record, up to the "
-             "first event that rounding errors can change, as the recording says.\n",
+             "pooltool's record, up to the first event that rounding errors can change, as the "
+             "recording says.\n",
     .options = (const option_row *const[]){&option_verbose, NULL},
     .details =
         "columns: shots; events compared; shots that agree; shots that agree to their end, where "
-        "the recording has no chaos; "
-        "largest difference of times, and of states, over the allowed 1e-12 + 5e-13 times the "
-        "amplification\n\n"
+        "the recording has no chaos; largest difference of times, and of states, over the allowed "
+        "1e-12 + 5e-13 times the amplification\n\n"
         "shots recorded in space (data/shots-space.jsonl): carom begins anew at each recorded "
-        "event; columns: what is compared "
-        "where the rules permit it, and what not; where the results are apart; largest difference "
-        "by carom's own rules and by "
-        "pooltool's\n\n"
+        "event; columns: what is compared where the rules permit it, and what not; where the "
+        "results are apart; largest difference by carom's own rules and by pooltool's\n\n"
         "exit code: 0 if all agree, 1 if one does not, 2 for bad usage or unreadable input\n",
     .example = "carom-lab parity data/shots-pooltool.jsonl",
     .files = ONE_FILE,

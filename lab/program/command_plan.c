@@ -168,10 +168,8 @@ static const command_form form = {
     .name = "plan",
     .usage = "[OPTIONS]",
     .about = "Plays racks of eight-ball by plans: each is run out from ball in hand after a break "
-             "that potted nothing, by a "
-             "player whose strokes err. Tells how many are run out, and how often shots keep the "
-             "turn beside the chance that "
-             "was predicted.\n",
+             "that potted nothing, by a player whose strokes err. Tells how many are run out, and "
+             "how often shots keep the turn beside the chance that was predicted.\n",
     .options = (const option_row *const[]){&option_racks, &option_shots, &option_errors,
                                            &option_seed, &option_threads, NULL},
     .details = "exit code: 0; 2 for bad usage\n",

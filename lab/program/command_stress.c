@@ -348,8 +348,7 @@ static void print_table(const stress *s, FILE *out) {
           carom_isa_name(carom_isa_in_force()));
   fprintf(out,
           "%-9s %-15s %9s   median      99 %%    99.9 %%   99.99 %%  largest  of play   > 1e-6   > "
-          "1e-5   > 2e-5  fallback  "
-          "unresolved  refused  left out\n",
+          "1e-5   > 2e-5  fallback  unresolved  refused  left out\n",
           s->balls ? "precision" : "impact", s->balls ? "slip" : "kind", "rows");
   for (int kind = 0; kind < s->kinds; kind++)
     print_row(out,
@@ -365,8 +364,7 @@ static void print_table(const stress *s, FILE *out) {
             s->other_bits);
   fprintf(out,
           "precise solver against the reference, where calls differ from it by more than %g, and "
-          "%s: %ld rows, "
-          "largest error %.1e, %ld above %s\n",
+          "%s: %ld rows, largest error %.1e, %ld above %s\n",
           REFERENCE_FROM, job->coincidences > 0 ? "all others" : "1 row in 1000", s->asked,
           s->precise_largest, s->precise_wrong, s->balls ? "1e-9" : "1e-8");
   fputs("\nlargest errors:\n", out);
@@ -408,23 +406,20 @@ OPTION(stress_job, option_cushions, "cushion", cushions, 0, "N", set_count, 1,
        "draw so many impacts on a cushion of each kind instead: of play, and any");
 OPTION(stress_job, option_coincidences, "coincidences", coincidences, 0, "N", set_count, 1,
        "draw so many impacts of each kind of coincidence instead, of two balls and on a cushion: "
-       "numbers that are exactly "
-       "equal, zero or at the edge of a friction cone; planar motion; slips that are rounding "
-       "errors; grazing impacts");
+       "numbers that are exactly equal, zero or at the edge of a friction cone; planar motion; "
+       "slips that are rounding errors; grazing impacts");
 
 static const command_form form = {
     .name = "stress",
     .usage = "[OPTIONS]",
     .about = "Draws random collisions and solves them by single calls and in batches, in double "
-             "and in single precision. The "
-             "results are compared with the precise solver; where they differ, with a reference in "
-             "extended precision.\n",
+             "and in single precision. The results are compared with the precise solver; where "
+             "they differ, with a reference in extended precision.\n",
     .options =
         (const option_row *const[]){&option_draws, &option_seed, &option_kind, &option_cushions,
                                     &option_coincidences, &option_threads, &option_output, NULL},
     .details = "exit code: 0; 1 if an error is larger than carom.h promises, or if a batch has "
-               "other bits than single calls; 2 "
-               "for bad usage\n",
+               "other bits than single calls; 2 for bad usage\n",
     .example = "carom-lab stress --draws 10000 --kind regimes",
 };
 

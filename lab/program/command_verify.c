@@ -188,8 +188,7 @@ static bool verify_all(verification *v) {
   v->each = allocate(v->cases.count, sizeof *v->each);
   if (v->csv)
     fputs("kernel,config,slip,steps,reference,cases,identical,mean,median,p99,max,bound,over_1e3,"
-          "paper_1e3,over_1e2,paper_1e2,"
-          "verdict\n",
+          "paper_1e3,over_1e2,paper_1e2,verdict\n",
           v->out);
   else
     fprintf(v->out, "%-15s %-17s %-9s %5s %-29s %9s %-9s %-9s %-9s %-9s %-7s %7s %6s  %s\n",
@@ -213,18 +212,16 @@ OPTION(verification, option_config, "config", config, 0, "NAME", set_text, 0,
 OPTION(verification, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "as CSV; NA where the paper gives no count");
 
-static const char about[] = "Compares the reference collisions by every kernel with their "
-                            "references: kernels of the ladder in every configuration of "
-                            "every compiler, the library's solvers by single calls and in the "
-                            "lanes of every instruction set of this processor.\n";
+static const char about[] =
+    "Compares the reference collisions by every kernel with their references: kernels of the "
+    "ladder in every configuration of every compiler, the library's solvers by single calls and in "
+    "the lanes of every instruction set of this processor.\n";
 
 static const char details[] =
     "Pair error: the largest deviation of a velocity or R times an angular velocity, over the "
-    "largest such value of the "
-    "pair. Component errors compare each number with itself; the columns count the cases with one "
-    "above 0.1 % or 1 %, and the "
-    "seed paper's own count in brackets where it "
-    "gives one. A bound of 0 requires the same bits in every component.\n\n"
+    "largest such value of the pair. Component errors compare each number with itself; the columns "
+    "count the cases with one above 0.1 % or 1 %, and the seed paper's own count in brackets where "
+    "it gives one. A bound of 0 requires the same bits in every component.\n\n"
     "exit code: 0 if all is within its bounds, 1 if something is not, 2 for bad usage or "
     "unreadable data\n";
 
