@@ -1,6 +1,5 @@
 /* One run of `carom-lab bench`: what is timed is verified, then timed in turns by the engine,
- * then printed. There are three tables of work: collisions of two balls, impacts on cushions,
- * whole shots. */
+ * then printed. There are two tables of work: collisions of two balls and whole shots. */
 #ifndef CAROM_LAB_BENCH_JOB_H
 #define CAROM_LAB_BENCH_JOB_H
 
@@ -34,7 +33,7 @@ typedef struct bench_table {
   void (*print)(const bench_job *job, FILE *out);
   void (*release)(bench_job *job);
 } bench_table;
-extern const bench_table bench_of_collisions, bench_of_cushions, bench_of_shots;
+extern const bench_table bench_of_collisions, bench_of_shots;
 
 struct bench_job {
   shared_options shared;            /* the precision: ANY_PRECISION for both */
@@ -45,15 +44,13 @@ struct bench_job {
   count_list threads; /* of a batch; none: the default */
   double budget;      /* 0: the table's own */
   bool csv, spread, errors, show_pairs;
-  bool cushion;      /* time impacts on cushions instead */
-  const char *shots; /* or a file of shots */
+  const char *shots; /* time a file of shots instead */
   int models;        /* carom_world of theirs */
   int cushion_model; /* and the model of their cushions, as in carom_shot_options */
   const bench_table *table;
   double (*now)(void); /* the clock; NULL: the engine's */
   const char *folder;
   struct collisions *collisions; /* each table's own part */
-  struct cushion_work *cushions;
   struct timed_shots *timed_shots;
   bench_subject *subject; /* those that passed */
   bench_figure *figure;

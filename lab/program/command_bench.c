@@ -275,7 +275,7 @@ OPTION(bench_job, option_pairs, "pairs", pairs, 0, "N,...", set_counts, 1,
        "pairs in a batch (default 65536, rounded up to whole turns of the cases); adds the column "
        "pairs");
 OPTION(bench_job, option_budget, "budget", budget, 0, "SECONDS", set_budget, 0,
-       "how long to measure (default 20; cushions 5; shots 0.06 each)");
+       "how long to measure (default 20; shots 0.06 each)");
 OPTION(bench_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "as CSV, with lines about the machine that begin with #");
 OPTION(bench_job, option_spread, "spread", spread, 0, NULL, set_flag, 0,
@@ -283,9 +283,6 @@ OPTION(bench_job, option_spread, "spread", spread, 0, NULL, set_flag, 0,
 OPTION(bench_job, option_errors, "errors", errors, 0, NULL, set_flag, 0,
        "more columns in the CSV: slip, and the pair error against the exact reference, median and "
        "largest");
-OPTION(bench_job, option_cushions, "cushion", cushion, 0, NULL, set_flag, 0,
-       "time the models of the cushion on 512 random impacts of play instead; speedup is that "
-       "over\nEuler's 1000 steps");
 OPTION(bench_job, option_shots, "shots", shots, 0, "IN.jsonl", set_text, 0,
        "time the whole shots of this file instead, beside pooltool's recorded times");
 OPTION(bench_job, option_models, "models", models, 0, "carom|pooltool", set_choice, 0,
@@ -317,13 +314,13 @@ static const command_form form = {
         (const option_row *const[]){&option_kernel, &option_config, &option_counts, &option_batch,
                                     &option_isa, &option_one_precision, &option_thread_counts,
                                     &option_pairs, &option_budget, &option_csv, &option_spread,
-                                    &option_errors, &option_cushions, &option_shots, &option_models,
+                                    &option_errors, &option_shots, &option_models,
                                     &option_cushion_model, &option_data, &option_output, NULL},
     .details = details,
     .example = "carom-lab bench --kernel base,double,float,exact --budget 5",
 };
 
-/* Options that choose collisions mean nothing for the other tables. */
+/* Options that choose collisions mean nothing for shots. */
 static bool is_plain(const bench_job *job) {
   return job->kernels.count + job->configs.count + job->isas.count + job->steps.count +
                  job->pairs.count ==
@@ -332,21 +329,13 @@ static bool is_plain(const bench_job *job) {
 }
 
 static int bench(bench_job *job) {
-  const bool others = job->cushion || job->shots != NULL;
   if ((job->spread || job->errors) && !job->csv)
     complain("--spread and --errors add columns to the CSV: give --csv too");
-  else if (others && !is_plain(job))
+  else if (job->shots != NULL && !is_plain(job))
     complain("--kernel, --config, --steps, --batch, --isa, --precision, --pairs and --errors are "
              "for collisions of two balls");
-  else if (job->cushion && job->threads.count > 0)
-    complain(
-        "--threads is for batches of collisions and for --shots; --cushion times single calls");
-  else if (job->cushion && job->shots != NULL)
-    complain("--cushion and --shots are two things to time; give one of them");
   else {
-    job->table = job->cushion         ? &bench_of_cushions
-                 : job->shots != NULL ? &bench_of_shots
-                                      : &bench_of_collisions;
+    job->table = job->shots != NULL ? &bench_of_shots : &bench_of_collisions;
     job->folder = data_folder(job->shared.folder);
     job->isa = carom_isa_in_force();
     const int code = bench_all(job) ? job->code : EXIT_USAGE;

@@ -52,8 +52,6 @@ ls none.csv 2>/dev/null || echo "nothing to time, no output"
 sed '2s/,-0.008/,-0.009/' "$DATA/reference-exact-paper.csv" > data/reference-exact-paper.csv
 try lab bench --kernel exact --isa plain --threads 1 --pairs 204 --data data --budget 0.3 --csv -o refused.csv 2>&1 | sed 's/is [0-9.e-]* off/is ... off/'
 labels refused.csv 2> /dev/null || echo "nothing to time, no output"
-echo "--- cushions"
-lab bench --cushion --budget 0.5 --csv | grep -v '^#' | awk -F, 'NR == 1 || NF == 11 { print (NR == 1 ? $0 : $1 " " $6 " " ($7 > 0 && $10 >= 1 ? "timed" : "not timed")) }'
 echo "--- usage"
 try lab bench --isa mmx 2>&1 | sed 's/best, .*/best, .../'
 try env CAROM_ISA=plain "$LAB" bench --isa avx512
@@ -73,9 +71,6 @@ try lab bench --steps 10,many
 try lab bench --budget never
 try lab bench --budget 0
 try lab bench --spread
-try lab bench --cushion --kernel exact
-try lab bench --cushion --threads 2
-try lab bench --cushion --shots "$DATA/shots-mathavan.jsonl"
 try lab bench --shots "$DATA/shots-mathavan.jsonl" --pairs 8
 try lab bench --shots nowhere.jsonl
 try lab bench --data nowhere
