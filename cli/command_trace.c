@@ -91,14 +91,8 @@ static bool compute(trace *t) {
 /* Returns an exit code. */
 static int write_trace(const trace *t) {
   const char *path = t->asked.output == NULL && t->picture == NULL ? "-" : t->asked.output;
-  if (path != NULL) {
-    FILE *out = output_open(path);
-    if (out == NULL)
-      return EXIT_USAGE;
-    print_trace(out, t);
-    if (!output_commit())
-      return EXIT_USAGE;
-  }
+  if (path != NULL && !file_draw(path, print_trace, t))
+    return EXIT_USAGE;
   if (t->picture == NULL)
     return EXIT_GOOD;
   if (t->separating) {

@@ -163,17 +163,16 @@ static void draw_scale(sketch *s) {
                                  : share >= 2.0 ? 2.0
                                                 : 1.0),
                x = CONTACT_WIDTH - margin;
-  char text[40], style[80];
-  snprintf(style, sizeof style,
-           "class=\"bar\" font-size=\"%.1f\" fill=\"#0b2a22\" text-anchor=\"middle\"",
-           s->labels.size);
+  char text[40];
   snprintf(text, sizeof text, length < 1.0 ? "%.3g cm" : "%.3g m",
            length < 1.0 ? 100.0 * length : length);
   fprintf(
       s->out,
       "<path d=\"M%.1f %.1fv6h%.1fv-6\" fill=\"none\" stroke=\"#0b2a22\" stroke-width=\"1.5\"/>\n",
       x - s->scale * length, s->bottom - 16.0, s->scale * length);
-  svg_text(s->out, x - 0.5 * s->scale * length, s->bottom - 16.0, style, text, MOST_CHARACTERS);
+  svg_text(s->out, x - 0.5 * s->scale * length, s->bottom - 16.0, text, MOST_CHARACTERS,
+           "class=\"bar\" font-size=\"%.1f\" fill=\"#0b2a22\" text-anchor=\"middle\"",
+           s->labels.size);
   keep_free(&s->labels, x - s->scale * length, s->bottom - 36.0, x, s->bottom);
 }
 
@@ -225,10 +224,7 @@ double contact_draw(FILE *out, double top, const contact_picture *p) {
   for (int k = 0; k < p->balls; k++) {
     const double x = across(&s, p->ball[k]->r), y = down(&s, p->ball[k]->r),
                  r = fmax(s.scale * R, 3.0);
-    fprintf(out,
-            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" fill-opacity=\"0.85\" "
-            "stroke=\"#111\"/>\n",
-            x, y, r, colours[k]);
+    svg_circle(out, x, y, r, "fill=\"%s\" fill-opacity=\"0.85\" stroke=\"#111\"", colours[k]);
     keep_free(&s.labels, x - r, y - r, x + r, y + r);
   }
   for (int k = 0; k < p->lines; k++)

@@ -37,7 +37,6 @@ static bool is_free(const labels *l, const double box[4]) {
 
 void put_label(labels *l, double x, double y, const char *text) {
   const double width = letter * l->size * (double)strlen(text), height = line * l->size;
-  char style[160];
   double box[4] = {0};
   bool found = false;
   for (double far = 4.0; far < farthest && !found; far += 8.0)
@@ -51,9 +50,8 @@ void put_label(labels *l, double x, double y, const char *text) {
   if (!found)
     return;
   keep_free(l, box[0], box[1], box[2], box[3]);
-  snprintf(style, sizeof style,
+  svg_text(l->out, box[0], box[3] - 0.25 * height, text, MOST_CHARACTERS,
            "font-size=\"%.1f\" fill=\"#0b2a22\" stroke=\"#6fc0a6\" stroke-width=\"3\" "
            "paint-order=\"stroke\"",
            l->size);
-  svg_text(l->out, box[0], box[3] - 0.25 * height, style, text, MOST_CHARACTERS);
 }

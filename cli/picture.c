@@ -9,6 +9,7 @@
 
 #include <errno.h>
 #include <limits.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -156,8 +157,23 @@ void svg_begin(FILE *out, double width, double height, const char *background) {
           width, height, width, height, background);
 }
 
-void svg_text(FILE *out, double x, double y, const char *style, const char *text, int most) {
-  fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, style);
+void svg_circle(FILE *out, double x, double y, double r, const char *attributes, ...) {
+  va_list list;
+  va_start(list, attributes);
+  fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" ", x, y, r);
+  vfprintf(out, attributes, list);
+  va_end(list);
+  fputs("/>\n", out);
+}
+
+void svg_text(FILE *out, double x, double y, const char *text, int most, const char *attributes,
+              ...) {
+  va_list list;
+  va_start(list, attributes);
+  fprintf(out, "<text x=\"%.1f\" y=\"%.1f\" ", x, y);
+  vfprintf(out, attributes, list);
+  va_end(list);
+  putc('>', out);
   for (int k = 0; k < most && text[k] != '\0'; k++)
     text[k] == '<' ? fputs("&lt;", out) : text[k] == '&' ? fputs("&amp;", out) : putc(text[k], out);
   fputs("</text>\n", out);
@@ -169,15 +185,15 @@ double svg_letters(double width) {
 
 double svg_lines(FILE *out, double x, double y, double size, int columns, const char *style,
                  const char *text) {
-  char *lines, whole[160];
+  char *lines;
   size_t length;
   FILE *wrapped = open_text(&lines, &length);
   print_wrapped(wrapped, text, columns);
   close_text(wrapped, &lines);
-  snprintf(whole, sizeof whole, "xml:space=\"preserve\" font-size=\"%.1f\" %s", size, style);
   for (const char *at = lines; *at != '\0'; at += strcspn(at, "\n") + 1, y += 1.25 * size)
     if (out != NULL)
-      svg_text(out, x, y, whole, at, (int)strcspn(at, "\n"));
+      svg_text(out, x, y, at, (int)strcspn(at, "\n"),
+               "xml:space=\"preserve\" font-size=\"%.1f\" %s", size, style);
   free(lines);
   return y;
 }

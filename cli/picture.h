@@ -38,7 +38,10 @@ double svg_lines(FILE *out, double x, double y, double size, int columns, const 
                  const char *text);
 
 /* A text at a place, of `most` characters at most, with what XML would take for its own put
- * right. */
-void svg_text(FILE *out, double x, double y, const char *style, const char *text, int most);
+ * right; and a circle. The attributes are as printf() writes them. */
+__attribute__((format(printf, 6, 7))) void svg_text(FILE *out, double x, double y, const char *text,
+                                                    int most, const char *attributes, ...);
+__attribute__((format(printf, 5, 6))) void svg_circle(FILE *out, double x, double y, double r,
+                                                      const char *attributes, ...);
 
 #endif

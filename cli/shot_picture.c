@@ -133,7 +133,6 @@ static void draw_axes(const view *v) {
   const double far = 0.25, out = 0.55 * v->margin;
   for (int axis = 0; axis < 2; axis++) {
     double from[2] = {v->low[0], v->low[1]}, to[2];
-    char style[160];
     from[1 - axis] -= out;
     memcpy(to, from, sizeof to);
     to[axis] += far;
@@ -148,12 +147,11 @@ static void draw_axes(const view *v) {
     /* The name is on the outer side of its arrow: above it, left of it, or below one along the
      * lower edge. */
     const double size = v->labels->size;
-    snprintf(style, sizeof style,
+    svg_text(v->out, y > 1.0 ? left - 4.0 : left + 4.0,
+             x > 1.0 && !v->turned ? top + size : top - 0.25 * size, names[axis], 20,
              "class=\"axis\" font-size=\"%.1f\" fill=\"#e8dcc0\" text-anchor=\"%s\" "
              "transform=\"rotate(%d %.1f %.1f)\"",
              size, y > 1.0 ? "end" : "start", x > 1.0 ? 0 : -90, left, top);
-    svg_text(v->out, y > 1.0 ? left - 4.0 : left + 4.0,
-             x > 1.0 && !v->turned ? top + size : top - 0.25 * size, style, names[axis], 20);
   }
 }
 
@@ -193,12 +191,11 @@ static void draw_table(const view *v, const carom_table *t, double below) {
       "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"10\" fill=\"#3f9d80\"/>\n",
       inset, inset, width - 2.0 * inset, height - 2.0 * inset);
   for (int k = 0; k < t->pockets; k++)
-    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#111\"/>\n",
-            across(v, t->pocket[k].centre), down(v, t->pocket[k].centre),
-            scale * t->pocket[k].radius);
+    svg_circle(out, across(v, t->pocket[k].centre), down(v, t->pocket[k].centre),
+               scale * t->pocket[k].radius, "fill=\"#111\"");
   for (int k = 0; k < t->jaws; k++)
-    fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"#2b6f5a\"/>\n",
-            across(v, t->jaw[k].centre), down(v, t->jaw[k].centre), scale * t->jaw[k].radius);
+    svg_circle(out, across(v, t->jaw[k].centre), down(v, t->jaw[k].centre),
+               scale * t->jaw[k].radius, "fill=\"#2b6f5a\"");
   for (int k = 0; k < t->rails; k++)
     fprintf(out,
             "<path d=\"M%.1f %.1fL%.1f %.1f\" stroke=\"#1d4a3c\" stroke-width=\"4\" "
@@ -344,34 +341,25 @@ static void draw_ellipse(const view *v, const spread *s, const carom_ball_state 
           s->until < INFINITY ? " stroke-dasharray=\"5 4\"" : "");
 }
 
+/* Where a ball lies before the shot. */
+static void draw_start(const view *v, const shot_line *line, int ball, double y) {
+  svg_circle(
+      v->out, across(v, line->ball[ball].state.r), y, v->scale * line->ball[ball].kind.radius,
+      "fill=\"none\" stroke=\"%s\" stroke-dasharray=\"3 2\"", colour_of(line->name[ball], ball));
+}
+
 /* A name of more than two letters stands beside the ball, unless the ball's colour says it. */
 static void draw_ball(const view *v, const shot_line *line, const carom_ball_state *s, int ball,
-                      bool final, const char *name) {
+                      const char *name) {
   const char *colour = colour_of(line->name[ball], ball);
   const double x = across(v, s->r), y = down(v, s->r), r = v->scale * line->ball[ball].kind.radius;
-  if (!final) {
-    fprintf(v->out,
-            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" "
-            "stroke-dasharray=\"3 2\"/>\n",
-            x, y, r, colour);
-    return;
-  }
-  const bool dark = strcmp(colour, "#111111") == 0;
-  fprintf(v->out,
-          "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\" stroke=\"#111\" "
-          "stroke-width=\"0.8\"/>\n",
-          x, y, r, colour);
+  svg_circle(v->out, x, y, r, "fill=\"%s\" stroke=\"#111\" stroke-width=\"0.8\"", colour);
   if (is_striped(line->name[ball]))
-    fprintf(v->out,
-            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"#fff\" "
-            "stroke-width=\"2.5\"/>\n",
-            x, y, r - 1.8);
-  char style[160];
-  snprintf(style, sizeof style,
-           "font-size=\"%.1f\" letter-spacing=\"-2\" fill=\"%s\" text-anchor=\"middle\"",
-           v->labels->size, dark ? "#fff" : "#111");
+    svg_circle(v->out, x, y, r - 1.8, "fill=\"none\" stroke=\"#fff\" stroke-width=\"2.5\"");
   if (strlen(name) <= 2)
-    svg_text(v->out, x, y + 0.36 * v->labels->size, style, name, 2);
+    svg_text(v->out, x, y + 0.36 * v->labels->size, name, 2,
+             "font-size=\"%.1f\" letter-spacing=\"-2\" fill=\"%s\" text-anchor=\"middle\"",
+             v->labels->size, strcmp(colour, "#111111") == 0 ? "#fff" : "#111");
   else if (named_colour(name) == NULL)
     put_label(v->labels, x, y, name);
 }
@@ -426,15 +414,12 @@ static void draw_side(const view *v, const shot_line *line, const carom_shot *sh
     }
   carom_ball_state states[CAROM_BALLS_MOST];
   for (int ball = line->count - 1; ball >= 0; ball--) {
-    const double r = v->scale * line->ball[ball].kind.radius;
-    const carom_ball_state *from = &line->ball[ball].state;
-    const char *colour = colour_of(line->name[ball], ball);
     if (rise_of(line, shot, ball) > 1e-3) {
       /* up to the last time that it is on the table */
       fprintf(
           v->out,
           "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" d=\"",
-          colour);
+          colour_of(line->name[ball], ball));
       double last = 0.0;
       for (int64_t k = 0; k < shot->count && k < shot->room; k++) {
         const carom_event *e = &shot->events[k];
@@ -454,10 +439,7 @@ static void draw_side(const view *v, const shot_line *line, const carom_shot *sh
       }
       fputs("\"/>\n", v->out);
     }
-    fprintf(v->out,
-            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"none\" stroke=\"%s\" "
-            "stroke-dasharray=\"3 2\"/>\n",
-            across(v, from->r), cloth - v->scale * from->r[2], r, colour);
+    draw_start(v, line, ball, cloth - v->scale * line->ball[ball].state.r[2]);
   }
 }
 
@@ -504,7 +486,7 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   for (int shot = 0; shot < count && side > 0.0; shot++)
     draw_side(&v, shots[shot].line, shots[shot].shot, high + side, wide);
   for (int k = 0; k < shots[0].line->count; k++)
-    draw_ball(&v, shots[0].line, &shots[0].line->ball[k].state, k, false, NULL);
+    draw_start(&v, shots[0].line, k, down(&v, shots[0].line->ball[k].state.r));
   for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0 && shots[shot].spread != NULL; k--)
       draw_band(&v, shots[shot].line, shots[shot].spread, k);
@@ -530,7 +512,7 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
         }
         snprintf(number, sizeof number, "%d", shot + 1);
         fprintf(out, "<g class=\"ball\" data-x=\"%.1f\" data-y=\"%.1f\">\n", x, y);
-        draw_ball(&v, line, &final[k], k, true,
+        draw_ball(&v, line, &final[k], k,
                   count > 1 && k == line->cue.ball ? number : line->name[k]);
         fputs("</g>\n", out);
         if (shots[shot].spread != NULL)
