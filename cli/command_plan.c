@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BEST = 5, SHOTS_LEAST = 100, FIRST_ROOM = 512 };
+enum { BEST = 5, SHOTS_LEAST = 100 };
 enum { OPEN, SOLIDS, STRIPES };
 
 typedef struct plan_job {
@@ -54,10 +54,7 @@ static double scale_of(double rating) {
 
 /* The first shot of a file. Its line is to be freed. */
 static bool read_layout(shot_file *file, shot_line *line) {
-  const char *text;
-  shot_read what;
-  while ((what = shot_file_next(file, line, &text)) == SHOT_TABLE)
-    continue;
+  const shot_read what = shot_file_next_shot(file, line);
   if (what == SHOT_END)
     complain("%s: there is no shot", shot_file_name(file));
   else if (what == SHOT_SHOT && line->error != NULL)
@@ -170,13 +167,7 @@ static bool plot(const plan_job *job, shot_line *line, const carom_choice *c) {
   line->cue = c->cue;
   line->ball[0].state.r[0] = c->place[0];
   line->ball[0].state.r[1] = c->place[1];
-  shot.room = FIRST_ROOM;
-  do {
-    free(shot.events);
-    shot.room = shot.count > shot.room ? shot.count : shot.room;
-    shot.events = allocate((size_t)shot.room, sizeof *shot.events);
-    carom_shoot(&line->table->table, line->ball, line->count, &line->cue, NULL, &shot);
-  } while (shot.count > shot.room);
+  shot_line_play(line, NULL, &shot);
   char words[256], what[200];
   describe(line, c, what);
   snprintf(words, sizeof words, "The best shot: %s.\n", what);

@@ -128,11 +128,8 @@ static void play(block *b, int from, int end, const carom_shot_options *options)
       *status = common;
     /* once more, with room for all */
     if (common == CAROM_OK && shot->room > 0 && shot->count > shot->room) {
-      shot->room = shot->count;
       free(shot->events);
-      shot->events = allocate((size_t)shot->room, sizeof *shot->events);
-      *status = carom_shoot(&first->table->table, b->line[from + k].ball, count, &b->cue[k],
-                            options, shot);
+      *status = shot_line_play(&b->line[from + k], options, shot);
     }
   }
 }

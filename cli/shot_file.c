@@ -13,6 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { FIRST_ROOM = 512 }; /* for events */
+
 struct shot_file {
   FILE *in;
   const char *path;
@@ -265,6 +267,27 @@ shot_read shot_file_next(shot_file *file, shot_line *line, const char **text) {
     return SHOT_FAILED;
   }
   return SHOT_END;
+}
+
+shot_read shot_file_next_shot(shot_file *file, shot_line *line) {
+  const char *unused;
+  shot_read what;
+  while ((what = shot_file_next(file, line, &unused)) == SHOT_TABLE)
+    continue;
+  return what;
+}
+
+/* Once more, with room for all, where the events are more than there was room for. */
+carom_status shot_line_play(const shot_line *line, const carom_shot_options *options,
+                            carom_shot *shot) {
+  for (shot->room = FIRST_ROOM;; shot->room = shot->count) {
+    shot->events = allocate((size_t)shot->room, sizeof *shot->events);
+    const carom_status status =
+        carom_shoot(&line->table->table, line->ball, line->count, &line->cue, options, shot);
+    if (shot->count <= shot->room)
+      return status;
+    free(shot->events);
+  }
 }
 
 const char *shot_file_engine(const shot_file *file) {

@@ -43,6 +43,13 @@ typedef enum shot_read { SHOT_END, SHOT_SHOT, SHOT_TABLE, SHOT_FAILED } shot_rea
  * that is wrong is a shot in error. SHOT_FAILED: after a complaint. */
 shot_read shot_file_next(shot_file *file, shot_line *line, const char **text);
 
+/* Reads on to the next shot, over tables. */
+shot_read shot_file_next_shot(shot_file *file, shot_line *line);
+
+/* Plays a shot that was read without error; shot->events, all of them, are to be freed. */
+carom_status shot_line_play(const shot_line *line, const carom_shot_options *options,
+                            carom_shot *shot);
+
 /* The engine that the last line of kind meta named, or "". */
 const char *shot_file_engine(const shot_file *file);
 

@@ -10,13 +10,12 @@
 #include "machine.h"
 #include "memory.h"
 #include "message.h"
-#include "recorded.h"
+#include "monotonic.h"
 #include "shot_file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 static const double sample_ns = 2e6, seconds_a_shot = 0.06;
 
@@ -40,8 +39,8 @@ struct timed_shots {
 
 static bool verified(timed_shot *t) {
   const carom_shot_options *options = &t->options;
-  carom_shot shot;
-  const carom_status status = play_recorded(&t->line, options, &shot);
+  carom_shot shot = {0};
+  const carom_status status = shot_line_play(&t->line, options, &shot);
   free(shot.events);
   t->events = (double)shot.count;
   if (status < 0)
@@ -62,14 +61,11 @@ static bool read_shots(bench_job *job) {
   struct timed_shots *all = job->timed_shots = allocate(1, sizeof *all);
   if ((all->file = shot_file_open(job->shots)) == NULL)
     return false;
-  const char *text;
   timed_shot t = {.options = {.world = (carom_world)job->models,
                               .cushion_model = (carom_shot_cushion)job->cushion_model}};
   t.options.threads = job->threads.count > 0 ? job->threads.value[0] : 1;
   shot_read what;
-  while ((what = shot_file_next(all->file, &t.line, &text)) == SHOT_SHOT || what == SHOT_TABLE) {
-    if (what == SHOT_TABLE)
-      continue;
+  while ((what = shot_file_next_shot(all->file, &t.line)) == SHOT_SHOT) {
     if (t.line.error != NULL)
       complain("line %zu: refused: %s", t.line.number, t.line.error);
     if (t.line.error != NULL || !verified(&t)) {
@@ -90,12 +86,6 @@ static bool read_shots(bench_job *job) {
 }
 
 /* ---- Timing */
-
-static double processor_ns(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
-}
 
 static void play(void *context) {
   const timed_shot *t = context;

@@ -8,7 +8,6 @@
 #include "memory.h"
 #include "message.h"
 #include "options.h"
-#include "recorded.h"
 #include "shot_file.h"
 #include "subcommands.h"
 
@@ -168,8 +167,8 @@ static void play_again(parity_job *job, const shot_line *line, const char *engin
   char why[200] = "";
   bool good = false;
   if (line->error == NULL) {
-    carom_shot shot;
-    const carom_status status = play_recorded(line, &options, &shot);
+    carom_shot shot = {0};
+    const carom_status status = shot_line_play(line, &options, &shot);
     good = compare(line, &shot, f, why);
     if (status < 0 && !good)
       snprintf(why + strlen(why), sizeof why - strlen(why), "; %s", carom_status_name(status));
@@ -224,7 +223,7 @@ static const command_form form = {
 
 int command_parity(int argc, char **argv) {
   parity_job job = {.all = false};
-  const char *path, *text;
+  const char *path;
   const int code = parse_arguments(&form, argc, argv, &job, &path);
   if (code >= 0)
     return code;
@@ -233,9 +232,7 @@ int command_parity(int argc, char **argv) {
     return EXIT_USAGE;
   shot_line line;
   shot_read what;
-  while ((what = shot_file_next(file, &line, &text)) == SHOT_SHOT || what == SHOT_TABLE) {
-    if (what == SHOT_TABLE)
-      continue;
+  while ((what = shot_file_next_shot(file, &line)) == SHOT_SHOT) {
     play_again(&job, &line, shot_file_engine(file));
     shot_line_free(&line);
   }

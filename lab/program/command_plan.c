@@ -4,7 +4,9 @@
 #include "command.h"
 #include "memory.h"
 #include "message.h"
+#include "monotonic.h"
 #include "options.h"
+#include "random.h"
 #include "subcommands.h"
 
 #include "carom_plan.h"
@@ -12,7 +14,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { BALLS = 16, BINS = 10 };
 
@@ -43,27 +44,19 @@ typedef struct tally {
   bin bins[BINS];
 } tally;
 
-/* splitmix64, and normal numbers by Box and Muller */
-static double uniform(uint64_t *state) {
-  uint64_t z = *state += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return ((double)((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-53;
+/* above 0 and below 1 */
+static double uniform(lab_random *state) {
+  return ((double)(lab_bits(state) >> 11) + 0.5) * 0x1p-53;
 }
-static double normal(uint64_t *state) {
+/* Normal numbers by Box and Muller. */
+static double normal(lab_random *state) {
   const double size = sqrt(-2.0 * log(uniform(state)));
   return size * cos(6.283185307179586 * uniform(state));
 }
 
-static double processor_time(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* The first break of a rack's seed that pots nothing. */
 static void make_rack(const carom_table *table, const carom_cue *cue,
-                      const carom_shot_options *shot, uint64_t *state, carom_shot_ball *balls) {
+                      const carom_shot_options *shot, lab_random *state, carom_shot_ball *balls) {
   for (;;) {
     carom_facts facts;
     carom_ball_state final[BALLS];
@@ -81,7 +74,7 @@ static void make_rack(const carom_table *table, const carom_cue *cue,
   }
 }
 
-static void stroke_errs(carom_cue *cue, const carom_player *player, uint64_t *state) {
+static void stroke_errs(carom_cue *cue, const carom_player *player, lab_random *state) {
   cue->speed = fmin(fmax(cue->speed + player->speed * normal(state), 0.5), 8.0);
   cue->phi += player->phi * normal(state);
   cue->theta = fmax(cue->theta + player->theta * normal(state), 0.0);
@@ -93,7 +86,7 @@ static void stroke_errs(carom_cue *cue, const carom_player *player, uint64_t *st
 static void run_out(const strength_job *job, uint64_t rack, carom_plan_job *plan,
                     carom_plan_options *options, tally *to) {
   carom_shot_ball balls[BALLS];
-  uint64_t state = ((uint64_t)job->seed << 32) + 7919 * (rack + 1);
+  lab_random state = {((uint64_t)job->seed << 32) + 7919 * (rack + 1)};
   carom_plan_rules rules = *plan->rules;
   make_rack(plan->table, plan->cue, plan->shot, &state, balls);
   carom_plan_job of = *plan;
@@ -103,11 +96,11 @@ static void run_out(const strength_job *job, uint64_t rack, carom_plan_job *plan
     /* the plan */
     carom_choice best;
     int found;
-    options->seed = state;
-    const double begin = processor_time();
+    options->seed = state.state;
+    const double begin = processor_ns();
     const carom_status status = hand ? carom_plan_hand(&of, NULL, NULL, &best, 1, &found)
                                      : carom_plan(&of, &best, 1, &found);
-    to->seconds += processor_time() - begin;
+    to->seconds += 1e-9 * (processor_ns() - begin);
     to->plans++;
     if (status < 0) {
       complain("rack %d: %s", (int)rack, carom_status_string(status));

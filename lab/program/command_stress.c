@@ -60,14 +60,14 @@ typedef struct tally {
   long histogram[DECADES * PER_DECADE];
 } tally;
 
-/* One run, or a thread's part of it. For two balls a kind is a slip, and single precision has
- * tallies of its own. */
+/* One run, or a thread's part of it. For two balls a kind is a slip, and the tallies behind those
+ * of double precision are those of single. */
 typedef struct stress {
   const stress_job *job;
   bool balls;
   int kinds;
   uint64_t draws;
-  tally tally[KINDS], in_single[CAROM_SLIP_COUNT];
+  tally tally[KINDS];
   long other_bits; /* rows of batches that differ from single calls */
   long asked, precise_wrong;
   double precise_largest; /* error against the reference */
@@ -128,10 +128,8 @@ static void add_tally(tally *to, const tally *from) {
 }
 
 static void add(stress *to, const stress *from) {
-  for (int kind = 0; kind < from->kinds; kind++)
-    add_tally(&to->tally[kind], &from->tally[kind]);
-  for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)
-    add_tally(&to->in_single[slip], &from->in_single[slip]);
+  for (int k = 0; k < KINDS; k++)
+    add_tally(&to->tally[k], &from->tally[k]);
   to->other_bits += from->other_bits;
   to->asked += from->asked;
   to->precise_wrong += from->precise_wrong;
@@ -227,7 +225,7 @@ static void compare(stress *s, int kind, uint64_t k, const coincidence *c, const
 /* The same collision in single precision, against the exact result for the rounded numbers. */
 static void compare_single(stress *s, carom_slip slip, const carom_impact_f32 *in,
                            const carom_result_f32 *out, carom_status status) {
-  tally *t = &s->in_single[slip];
+  tally *t = &s->tally[s->kinds + (int)slip];
   coincidence wide = {.slip = slip};
   outcome result, exact;
   carom_result_f32 unused;
@@ -350,14 +348,13 @@ static void print_table(const stress *s, FILE *out) {
           "%-9s %-15s %9s   median      99 %%    99.9 %%   99.99 %%  largest  of play   > 1e-6   > "
           "1e-5   > 2e-5  fallback  unresolved  refused  left out\n",
           s->balls ? "precision" : "impact", s->balls ? "slip" : "kind", "rows");
-  for (int kind = 0; kind < s->kinds; kind++)
+  for (int k = 0; k < (s->balls ? 2 : 1) * s->kinds; k++)
     print_row(out,
-              s->balls              ? "double"
-              : of_cushion(s, kind) ? "cushion"
-                                    : "balls",
-              kind_name(s, kind), &s->tally[kind]);
-  for (int slip = 0; slip < CAROM_SLIP_COUNT && s->balls; slip++)
-    print_row(out, "single", kind_name(s, slip), &s->in_single[slip]);
+              k >= s->kinds      ? "single"
+              : s->balls         ? "double"
+              : of_cushion(s, k) ? "cushion"
+                                 : "balls",
+              kind_name(s, k % s->kinds), &s->tally[k]);
   fputc('\n', out);
   if (s->balls)
     fprintf(out, "rows of batches whose bits or status differ from single calls: %ld\n",
@@ -390,7 +387,7 @@ static bool holds(const stress *s) {
     const tally *t = &s->tally[kind];
     good &= t->largest_of_play <= MOST_OF_PLAY && t->largest <= MOST;
     good &= !s->balls || s->job->kind != DRAW_REALISTIC ||
-            (quantile(t, 0.5) <= 3e-9 && s->in_single[kind].over_2e5 == 0);
+            (quantile(t, 0.5) <= 3e-9 && s->tally[s->kinds + kind].over_2e5 == 0);
   }
   return good;
 }
