@@ -2,6 +2,8 @@
 
 import importlib
 import json
+import re
+import warnings
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -139,6 +141,69 @@ def test_recordings_as_people_make_them_are_fitted_to_their_noise(how, spoil):
     later = [replace(shot, tracks=tuple(track + (64.0, 0.0, 0.0) for track in shot.tracks)) for shot in found.recordings]
     again = replace(found, recordings=later, strikes=found.strikes + [0.0, 0.0, 0.0, 0.0, 0.0, 64.0])
     assert np.allclose(again.strike_covariance(1), found.strike_covariance(1), rtol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "status"),
+    [
+        ({"false": 0.01, "lead_in": 0.5}, "mended: .* % false detections, left out"),
+        ({"swaps": 1}, "mended: balls . and . swapped from .* s on"),
+        ({"false": 0.01, "swaps": 1, "lost": 0.08, "clock": 600.0}, "mended: balls . and . swapped from .* s on; .* % false detections, left out"),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("thin", [0.0, 0.016])
+def test_false_rows_and_swapped_names_are_mended_and_told(spoil, status, thin):
+    made = tracks.synthetic(12, constants=HAN, seed=2, thin=thin)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = fit.fit(spoiled(made.recordings, 2, **spoil), TABLE, RADIUS, constants=made.constants, free="none")
+    assert sum(re.fullmatch(status, text) is not None for text in found.status) >= (8 if thin == 0.0 else 4)
+    assert all(text == "ok" or text.startswith("mended") for text in found.status if not text.startswith("doubtful"))
+    # of most shots nothing is left of it, and what is left is told
+    limit = 2 * np.sqrt(2) * tracks.NOISE
+    assert np.median(found.rmse) < 1.3 * np.sqrt(2) * tracks.NOISE and (found.rmse < limit).sum() >= 8
+    assert all(text.startswith("doubtful") for text, rmse in zip(found.status, found.rmse) if rmse > 1.01 * RADIUS)
+    assert len(found.counted()) == 12
+
+
+@pytest.mark.parametrize(("angle", "scale"), [(0.5, 1.0), (0.0, 1.01), (-0.5, 0.99)])
+def test_a_crooked_or_scaled_table_is_told_and_calibrated(angle, scale):
+    made = tracks.synthetic(20, constants=HAN, seed=2)
+    recordings = spoiled(made.recordings, 2, lead_in=0.5, angle=angle, scale=scale)
+    told, mended = (
+        fit.fit(recordings, TABLE, RADIUS, constants=made.constants, free="none", calibrate=calibrate) for calibrate in (False, True)
+    )
+    number = re.match(r"the tracks lie turned by (\S+) degrees, (\S+) times .*--calibrate puts them right", told.warnings[0])
+    assert float(number[1]) == pytest.approx(angle, abs=0.04) and float(number[2]) == pytest.approx(scale, abs=1e-3)
+    assert "times that of the noise" in told.warnings[1] and told.median_rmse > 5e-3
+    assert mended.warnings[0].endswith("put right") and mended.median_rmse < 2 * np.sqrt(2) * tracks.NOISE
+    straight = fit.fit(made.recordings, TABLE, RADIUS, constants=made.constants, free="none", calibrate=True)
+    assert list(straight.warnings) == [] and straight.median_rmse < 1.3 * np.sqrt(2) * tracks.NOISE
+
+
+def test_what_no_play_explains_is_doubtful_and_counts(made):
+    other = {**made.constants, "mu_cushion": 0.05, "restitution_cushion": 0.6}
+    found = fit.fit(made.recordings, TABLE, RADIUS, constants=other, free="none")
+    doubtful = [text.startswith("doubtful: RMSE") for text in found.status]
+    assert sum(doubtful) >= 6 and len(found.counted()) == 12 and "times that of the noise" in found.warnings[0]
+    assert found.to_dict()["warnings"] == list(found.warnings) and found.to_dict()["noise"] == found.recordings[0].noise
+    assert any("doubtful" in line for line in _summary.told(found)) and "doubtful" in _summary.page(found, "a")
+    # a strike at the bound of its time: the ball is seen to move long before it moves
+    assert _strikes.at_bound(np.array([2.0, 0.0, 0.0, 1.0, 0.5, _strikes.EARLIEST])) == "time"
+    assert _strikes.at_bound(np.array([2.0, 0.0, 0.0, 1.0, 4.2, 0.0])) == "spin"
+    assert _strikes.at_bound(np.array([2.0, 0.0, 0.0, 1.0, 0.5, 0.0])) == ""
+
+
+def test_a_recording_that_begins_after_the_strike_does_not_count(made):
+    cut = []
+    for shot in made.recordings:
+        # from 0.3 s after the first hit
+        begin = np.sort(shot.moves)[1] + 0.3
+        cut.append(replace(shot, tracks=tuple(track[track[:, 0] >= min(begin, track[-2, 0])] for track in shot.tracks)))
+    found = fit.fit(cut, TABLE, RADIUS, constants=made.constants, free="none")
+    wrong = [rmse > 5e-3 for rmse in found.rmse]
+    assert sum(wrong) >= 6 and sum(text.startswith("begins after the strike") for text in found.status) >= 6
+    assert all(text != "ok" for text, rmse in zip(found.status, found.rmse) if rmse > 1.01 * RADIUS)
 
 
 def test_derivatives_of_shots_give_the_normal_equations(made, plays):

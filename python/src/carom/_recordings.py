@@ -26,6 +26,7 @@ MOVED = 3e-3
 _NOISES = 5.5  # standard deviations from its place of rest where a ball has moved: noise goes so far in 3 of ten million rows
 _FASTER = 1.5  # a ball goes so many times as fast as it was seen to, at most
 _THINNED = 0.03  # m: a ball goes so far without a row, at most
+_SLIDING = 2.0  # m/s^2: about how fast a ball that slides away from a cushion slows down
 _BLOCK = 3  # false detections one after another, at most
 
 
@@ -225,3 +226,93 @@ def sound(recordings: Sequence[Recording], noise: float) -> tuple[list[Recording
         mended.append(replace(shot, tracks=tuple(tracks), noise=noise))
         notes.append(told)
     return mended, notes
+
+
+# ---- How the table lies
+
+
+@dataclass(frozen=True)
+class Lie:
+    """How tracks lie on the table: places are turned about (0, 0), scaled and moved."""
+
+    angle: float = 0.0  # degrees, from x to y
+    scale: float = 1.0
+    shift: tuple[float, float] = (0.0, 0.0)  # m
+    far: float = 0.0  # m: how far a place is off by it, at most
+    error: float = math.inf  # m: of that
+    impacts: int = 0  # which tell it
+
+    def places(self, r: Doubles) -> Doubles:
+        """Places put right."""
+        turn = math.radians(self.angle)
+        back = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]]) / self.scale
+        return np.asarray((r - self.shift) @ back)
+
+    def __str__(self) -> str:
+        return (
+            f"turned by {self.angle:.2f} degrees, {self.scale:.4f} times as large as the table and moved by "
+            f"{1e3 * self.shift[0]:.1f}, {1e3 * self.shift[1]:.1f} mm"
+        )
+
+
+def _turns(track: Doubles, axis: int) -> Doubles:
+    """Where the coordinate of an axis turns round, at cushions among others: rows of its value, the other one, and its speed before."""
+    x = track[:, 1 + axis]
+    found = []
+    for k in (np.flatnonzero(np.diff(x[:-1]) * np.diff(x[1:]) < 0.0) + 1).tolist():
+        # lines through the rows before and after, fewer after, where the ball slides; without the row of the turn itself
+        t = track[:, 0] - track[k, 0]
+        before, after = np.flatnonzero((t < -1e-4) & (t > -0.1))[-4:], np.flatnonzero((t > 1e-4) & (t < 0.1))[:4]
+        after = after[: max(int((t[after] < 0.045).sum()), 2)]
+        if len(before) < 2 or len(after) < 2:
+            continue
+        slid = np.sign(x[after[-1]] - x[k]) * 0.5 * _SLIDING * t[after] ** 2
+        (v, x_0), (w, x_1) = np.polyfit(t[before], x[before], 1), np.polyfit(t[after], x[after] + slid, 1)
+        if v * w < 0.0 and min(abs(v), abs(w)) > 0.15:
+            time = (x_0 - x_1) / (w - v)
+            along = np.interp(time, t, track[:, 2 - axis])
+            found.append((x_0 + v * time, along, v))
+    return np.array(found).reshape(-1, 3)
+
+
+def lie_of(recordings: Sequence[Recording], table: tuple[float, float], radius: float) -> Lie:
+    """How the tracks lie on the table, by the places of impacts on cushions: the linear least squares of five numbers.
+
+    A turn at the cushion x = c lies at c = (1 - s) x + turn y + a + depth v: s of the scale, a of the shift, and the nose gives way by
+    `depth` times the speed v. Places far from what the others tell count less.
+    """
+    rows: list[Doubles] = []
+    for shot in recordings:
+        for track, still in zip(shot.tracks, shot.still):
+            for axis in (0, 1):
+                found = _turns(track[max(still - 1, 0) :], axis)
+                places = np.where(found[:, 2] > 0.0, table[axis] - radius, radius)
+                near = np.abs(found[:, 0] - places) < 0.07
+                x, along, v, c = found[near, 0], found[near, 1], found[near, 2], places[near]
+                one, none = np.ones_like(x), np.zeros_like(x)
+                turn = along if axis == 0 else -along
+                rows.append(np.column_stack([x - c, x, -turn, *((one, none) if axis == 0 else (none, one)), v]))
+    A = np.concatenate([np.empty((0, 6)), *rows])
+    if len(A) < 30:
+        return Lie()
+    off, A = A[:, 0], A[:, 1:]
+    weight: Doubles = np.ones(len(A))
+    numbers: Doubles = np.zeros(5)
+    spread = 0.0
+    for _ in range(30):
+        numbers = np.asarray(np.linalg.lstsq(A * weight[:, None], off * weight, rcond=None)[0], np.float64)
+        left = off - A @ numbers
+        spread = max(1.4826 * float(np.median(np.abs(left))), 1e-4)
+        weight = np.asarray(1.0 / np.sqrt(1.0 + (left / (2.0 * spread)) ** 2))
+    # turned and scaled places p of places r are (1 + s) T r + shift; the rows tell r = p - (s p + turn + shift)
+    s, turn, a, b, _ = numbers.tolist()
+    scale = 1.0 / math.hypot(1.0 - s, turn)
+    angle = math.atan2(turn, 1.0 - s)
+    back = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]]) / scale
+    shift = np.linalg.solve(back.T, np.array([a, b]))
+    lie = Lie(math.degrees(angle), scale, (float(shift[0]), float(shift[1])))
+    corners = np.array([[0.0, 0.0], [table[0], 0.0], [table[0], table[1]], [0.0, table[1]]])
+    far = float(np.hypot(*(lie.places(corners) - corners).T).max())
+    covariance = spread**2 * np.linalg.pinv((A * weight[:, None]).T @ (A * weight[:, None]))
+    error = math.sqrt(float(covariance[0, 0] + covariance[1, 1])) * math.hypot(*table)
+    return replace(lie, far=far, error=error, impacts=len(A))

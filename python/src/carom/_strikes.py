@@ -37,9 +37,13 @@ _STILL = 0.12  # s: a ball was struck no longer before the first row that shows 
 _SPIN_MOST = 2.0  # greatest |R w| of a strike over |v|: a tip that does not slip gives 1.3
 _NUMBERS = 6
 # The first stage: samples up to a time (s), how many starts descend, and iterations.
-_FIRST, _FIRST_KEPT, _FIRST_ITERATIONS = 0.9, 8, 4
+_FIRST, _FIRST_ITERATIONS = 0.9, 4
+_FIRST_KEPT = {False: 8, True: 14}  # True: for the strikes of the result, where it counts that none of the worst stays bad
 # The others: samples up to a time (s), offspring of each strike, how many of all descend, iterations, how many go on.
-_STAGES = tuple((until, 30, 3, 4, 3) for until in (2.0, 4.0, 8.0, np.inf))
+_STAGES = {
+    False: tuple((until, 30, 3, 4, 3) for until in (2.0, 4.0, 8.0, np.inf)),
+    True: ((2.0, 40, 8, 4, 8), (4.0, 40, 7, 4, 6), (8.0, 40, 6, 4, 4), (np.inf, 60, 5, 4, 3)),
+}
 _WIDER = 10.0  # standard deviations of the widest offspring
 _FINALISTS = 3  # which the best by plain squares is of
 _LAST, _SQUARES = 10, 10  # iterations at the end, by the cost and by plain squares
@@ -211,6 +215,13 @@ def _allowed(strikes: Doubles) -> Doubles:
     return strikes
 
 
+def at_bound(strike: Doubles) -> str:
+    """Which number of a strike on the clock of its play is at its bound, if one is."""
+    within = _allowed(np.array([strike - 1e-6, strike + 1e-6]))[[0, 1], :] - (strike - 1e-6, strike + 1e-6)
+    names = ("speed", "speed", "spin", "spin", "spin", "time")
+    return next((name for name, off in zip(names, np.abs(within).max(axis=0)) if off > 5e-7), "")
+
+
 def normal(sums: Doubles) -> tuple[Doubles, Doubles]:
     """J^T W J, (n, m, m), and J^T W d, (n, m), of the sums of n plays."""
     m = (int(math.isqrt(9 + 8 * (sums.shape[1] - 3))) - 3) // 2
@@ -293,13 +304,13 @@ def find(
     strikes = _allowed(np.concatenate(first))
     # the best of the starts descend
     until = np.minimum(_FIRST, plays.ends)
-    rows = _best(of, strikes, plays.misfit(of, strikes, until[of], -np.inf)[:, 0], _FIRST_KEPT)
+    rows = _best(of, strikes, plays.misfit(of, strikes, until[of], -np.inf)[:, 0], _FIRST_KEPT[squares])
     of = of[rows]
     strikes, sums = descend(plays, of, strikes[rows], until[of], _FIRST_ITERATIONS)
-    rows = _best(of, strikes, sums[:, 0], 8)
-    for number, (time, each, descending, iterations, keep) in enumerate(_STAGES):
+    rows = _best(of, strikes, sums[:, 0], _FIRST_KEPT[squares])
+    for number, (time, each, descending, iterations, keep) in enumerate(_STAGES[squares]):
         if progress:
-            progress("strikes", number / len(_STAGES))
+            progress("strikes", number / len(_STAGES[squares]))
         of, strikes, sums = of[rows], strikes[rows], sums[rows]
         drawn_of, drawn = _offspring(of, strikes, sums, each, random)
         of, strikes = np.concatenate([of, drawn_of]), np.concatenate([strikes, drawn])
@@ -307,7 +318,7 @@ def find(
         rows = _best(of, strikes, plays.misfit(of, strikes, until[of], -np.inf)[:, 0], descending)
         of = of[rows]
         strikes, sums = descend(plays, of, strikes[rows], until[of], iterations)
-        rows = _best(of, strikes, sums[:, 0], keep if number + 1 < len(_STAGES) else _FINALISTS if squares else 1)
+        rows = _best(of, strikes, sums[:, 0], keep if number + 1 < len(_STAGES[squares]) else _FINALISTS if squares else 1)
     of = of[rows]
     strikes, sums = descend(plays, of, strikes[rows], plays.ends[of], _LAST)
     if squares:

@@ -41,7 +41,8 @@ class Fit:
     # (shots, 6): v_x, v_y, R w_x, R w_y, R w_z (m/s) of the struck ball just after the strike, and its time (s). NaN where
     # there is none.
     strikes: Doubles
-    status: list[str]  # "ok", or why the shot does not count
+    # "ok"; "mended: ..." or "doubtful: ...", with what was mended or is in doubt; else why the shot does not count
+    status: list[str]
     # (shots,): Root of the mean squared distance between recorded and played places over all samples of all balls, m; NaN
     # without a play
     rmse: Doubles
@@ -49,20 +50,27 @@ class Fit:
     fitted: tuple[str, ...] = ()  # The constants that whole shots told
     # (fitted, fitted): Of these; the roots of its diagonal are their `spread`. None where fewer than 8 shots tell.
     covariance: Doubles | None = None
+    warnings: Sequence[str] = ()  # What holds of all shots: a crooked table, constants at their bounds, a misfit far above the noise
+
+    @property
+    def counts(self) -> list[bool]:
+        """Which shots count."""
+        return [status.partition(":")[0] in ("ok", "mended", "doubtful") for status in self.status]
 
     def counted(self, train: bool | None = None) -> Doubles:
-        """The RMSE of the shots that are ok, m: of all, of those that constants were fitted to, or of the others."""
+        """The RMSE of the shots that count, m: of all, of those that constants were fitted to, or of the others."""
         part = [train is None or self.train is None or one == train for one in self.train or [True] * len(self.status)]
-        return self.rmse[[status == "ok" and counts for status, counts in zip(self.status, part)]]
+        rmse: Doubles = self.rmse[np.array(self.counts) & np.array(part)]
+        return rmse
 
     @property
     def median_rmse(self) -> float:
-        """m, over the shots that are ok."""
+        """m, over the shots that count."""
         return float(np.median(self.counted())) if len(self.counted()) else float("nan")
 
     @property
     def p90_rmse(self) -> float:
-        """m: 9 in 10 of the shots that are ok are better."""
+        """m: 9 in 10 of the shots that count are better."""
         return float(np.percentile(self.counted(), 90)) if len(self.counted()) else float("nan")
 
     def shot(self, i: int) -> Shot:
@@ -123,6 +131,8 @@ class Fit:
             "shots": shots,
             "median_rmse": self.median_rmse if len(self.counted()) else None,
             "p90_rmse": self.p90_rmse if len(self.counted()) else None,
+            "noise": self.recordings[0].noise,
+            "warnings": list(self.warnings),
         }
 
 
@@ -223,9 +233,15 @@ def laws(fit: Fit) -> list[tuple[str, str]]:
     return found
 
 
+def told(fit: Fit) -> list[str]:
+    """What a reader of the result should know: the noise, what holds of all shots, and the shots that are not ok."""
+    lines = [f"noise of a coordinate: {1e3 * fit.recordings[0].noise:.2f} mm", *(f"warning: {text}" for text in fit.warnings)]
+    return lines + [f"shot {shot.id}: {status}" for shot, status in zip(fit.recordings, fit.status) if status != "ok"]
+
+
 def page(fit: Fit, name: str) -> str:
     """The page, of tracks of that name."""
-    ok = [k for k, status in enumerate(fit.status) if status == "ok"]
+    ok = [k for k, counts in enumerate(fit.counts) if counts]
     order = sorted(ok, key=lambda k: float(fit.rmse[k]))
     parts = [f"<h1>{html.escape(name)}</h1>"]
     if order:
@@ -233,6 +249,7 @@ def page(fit: Fit, name: str) -> str:
             f"<p>{len(ok)} of {len(fit.status)} shots, cushion model {fit.cushion_model}: RMSE median {100 * fit.median_rmse:.2f} cm, "
             f"9 in 10 below {100 * fit.p90_rmse:.2f} cm.</p>"
         )
+    parts.append(f"<ul>{''.join(f'<li>{html.escape(line)}</li>' for line in told(fit))}</ul>")
     figures = [("RMSE over all samples of all balls of a shot.", histogram(fit))] if order else []
     for what, k in [("best", order[0]), ("median", order[len(order) // 2]), ("worst", order[-1])] if order else []:
         text = f"The {what} shot, {fit.recordings[k].id}: {100 * fit.rmse[k]:.2f} cm. Lines as played, dots as recorded."

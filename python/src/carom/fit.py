@@ -16,6 +16,7 @@ import json
 import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -33,6 +34,8 @@ __dir__ = listing(__name__)
 
 Progress = Callable[[str, float], None]
 _FASTEST = 8.0  # m/s: no ball is faster
+_CROOKED = 8e-3  # m: tracks that are farther off are told
+_MANY = 5.0  # standard deviations of a coordinate: an RMSE above is not that of the noise
 
 
 def _status(shot: Recording, radius: float) -> str:
@@ -101,7 +104,7 @@ def fit(
     recordings: Sequence[Recording], table: tuple[float, float], radius: float, *, cushion_model: ShotCushion = "han",
     constants: Mapping[str, float] | None = None, free: str | Sequence[str] = "default",
     priors: Mapping[str, tuple[float, float]] | None = None, train: Sequence[int] | None = None, seed: int = 0,
-    threads: int = 0, progress: Progress | None = None, state: Path | None = None
+    threads: int = 0, progress: Progress | None = None, state: Path | None = None, calibrate: bool = False
 ) -> Fit:  # fmt: skip
     """Fit recorded shots.
 
@@ -130,6 +133,8 @@ def fit(
     state : path, optional
         A file that keeps what is done so far. A fit that was interrupted goes on from there when it is called again with the same
         arguments, and has the same bits; the file is removed at the end.
+    calibrate : bool
+        Whether places are put right first where the table lies crooked in the tracks or is too large or small: by impacts on cushions.
 
     Raises ValueError: An argument is wrong: which, and what would be right.
     """
@@ -138,6 +143,14 @@ def fit(
         raise ValueError("recordings: at least one shot is needed")
     noise = _recordings.noise_of(recordings if train is None else [recordings[k] for k in train])
     recordings, notes = _recordings.sound(recordings, noise)
+    lie, told = _recordings.lie_of(recordings, table, radius), list[str]()
+    if lie.far > max(_CROOKED, 4.0 * lie.error):
+        told.append(f"the tracks lie {lie}: {'put right' if calibrate else '--calibrate puts them right'}")
+    for _ in range(2 if calibrate else 0):
+        # the second time finds impacts that were too far from their cushions
+        recordings = [replace(shot, tracks=tuple(np.column_stack([track[:, 0], lie.places(track[:, 1:])]) for track in shot.tracks))
+                      for shot in recordings]  # fmt: skip
+        lie = _recordings.lie_of(recordings, table, radius)
     counts = {len(shot.balls) for shot in recordings}
     if len(counts) > 1:
         odd = next(shot for shot in recordings if len(shot.balls) != len(recordings[0].balls))
@@ -179,20 +192,36 @@ def fit(
             if progress:
                 progress("spread", _joint.STAGES / (_joint.STAGES + 2))
             names = tuple(search.names)
-            told = {name: error for name, error in spread.items() if name not in (priors or {})}
+            evidence = {name: error for name, error in spread.items() if name not in (priors or {})}
             errors = saved.get("spread", lambda: _joint.spread(search, seed))
-            covariance = _covariance.of_constants(search, told, errors)
+            covariance = _covariance.of_constants(search, evidence, errors)
             spread = {**spread, **errors}
+            told += [f"{name} is at its bound, {values[name]:g}: the recordings do not tell it, or the cushion's model does not fit them"
+                     for name in names if values[name] in _joint.PRIORS[name][1:]]  # fmt: skip
         plays = _strikes.Plays([recordings[k] for k in played], table, radius, values, cushion_model, threads)
         strikes[played], _ = _strikes.find(plays, seed, progress, squares=True)
         rmse[played] = plays.rmse(strikes[played])
+        for k, strike in zip(played, strikes[played]):
+            if not np.isfinite(rmse[k]):
+                status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
+            elif status[k] == "ok":
+                status[k] = _quality(strike, float(rmse[k]), noise, radius) or (f"mended: {'; '.join(notes[k])}" if notes[k] else "ok")
         strikes[played, 5] += plays.origins
         saved.done()
     part = None if train is None else [k in set(train) for k in range(len(recordings))]
-    for k in played:
-        if not np.isfinite(rmse[k]):
-            status[k], strikes[k], rmse[k] = "no strike could be played", np.nan, np.nan
-    return Fit(recordings, table, radius, cushion_model, values, spread, strikes, status, rmse, part, names, covariance)
+    found = Fit(recordings, table, radius, cushion_model, values, spread, strikes, status, rmse, part, names, covariance, told)
+    if found.median_rmse > _MANY * noise:
+        told.append(f"the median RMSE is {found.median_rmse / noise / math.sqrt(2.0):.0f} times that of the noise: the constants or the "
+                    f"models are off by more than the camera")  # fmt: skip
+    return found
+
+
+def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
+    """Why the play of a shot is doubtful, or nothing."""
+    if rmse > max(radius, _MANY * noise):
+        return f"doubtful: RMSE {100.0 * rmse:.1f} cm, {rmse / noise / math.sqrt(2.0):.0f} times that of the noise"
+    at = _strikes.at_bound(strike)
+    return f"doubtful: {at} of the strike is at its bound" if at else ""
 
 
 def _extents(text: str) -> tuple[float, float]:
@@ -232,6 +261,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                         help="constants that are fitted besides the strikes")  # fmt: skip
     parser.add_argument("--priors", type=Path, metavar="PRIORS.json", help='{"mu_spin": [mean, deviation], ...}')
     parser.add_argument("--split", action="store_true", help="fit constants to every second shot, and tell how they predict the others")
+    parser.add_argument("--calibrate", action="store_true", help="put right tracks on which the table lies crooked or has another size")
     parser.add_argument("--summary", type=Path, metavar="OUT.html", help="write a page with pictures")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--threads", type=int, default=0, help="0: one; -1: all processors")
@@ -246,7 +276,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             priors=_read_object(given.priors, '{"mu_spin": [0.004, 0.001]}') if given.priors else None,
             train=range(0, len(recordings), 2) if given.split else None,
             seed=given.seed, threads=given.threads, progress=_show if sys.stderr.isatty() else None,
-            state=given.output.with_name(given.output.name + ".state"),
+            state=given.output.with_name(given.output.name + ".state"), calibrate=given.calibrate,
         )  # fmt: skip
         if given.summary:
             given.summary.write_text(_summary.page(found, given.tracks.name), encoding="utf-8")
@@ -262,6 +292,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         rmse = 100.0 * found.counted(part)
         if len(rmse):
             print(f"{what}{len(rmse)} of {len(recordings)} shots: RMSE median {np.median(rmse):.2f} cm, p90 {np.percentile(rmse, 90):.2f} cm")
+    print("\n".join(_summary.told(found)))
     return 0
 
 

@@ -43,7 +43,7 @@ __all__ = [
 __dir__ = listing(__name__)  # fmt: skip
 
 _COLUMNS = ("shot", "ball", "t", "x", "y")
-_OUTSIDE = 0.02  # m: a centre that is farther outside its bounds than this was measured in other units or on another table
+_OUTSIDE = 0.06  # m: a centre that is farther outside its bounds was measured in other units or on another table; a crooked one is nearer
 
 
 def _name(text: str) -> int | str:
@@ -129,7 +129,7 @@ def read(path: str | Path, *, table: tuple[float, float] | None = None, radius: 
         has .jsonl or .ndjson in it, JSON Lines, a shot a line: {"id": 1, "tracks": {"1": [[t, x, y], ...], ...}}. Either may be
         compressed (.xz, .gz).
     table, radius : optional
-        The extents (W, L) of x and y, and the radius of the balls, m: with both, a centre that is more than 20 mm outside its
+        The extents (W, L) of x and y, and the radius of the balls, m: with both, a centre that is more than 60 mm outside its
         bounds is an error.
 
     Raises TrackError: the message says where, and what would be right. Raises OSError: The file cannot be read.
