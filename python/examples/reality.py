@@ -2,15 +2,17 @@
 
     python reality.py TRACKS.csv --table 2.84,1.42 --radius 0.03075 --pictures FOLDER
 
-What single events say, and then, for each model of the cushion, constants are fitted to every second shot and used for the others, and
-the other way round. The table has the RMSE of the shots that the constants were not fitted to, of both halves: of each shot only the
-strike, six numbers, is fitted. Markdown on standard output; the pictures are SVG.
+For each model of the cushion, constants are fitted to every second shot and used for the others, and the other way round. The first table
+has the RMSE of the shots that the constants were not fitted to, of both halves: of each shot only the strike, six numbers, is fitted. Then
+follow the floor, which is the RMSE of a perfect model; how far single impacts are from each model, output by output; how the error grows
+with the part of a shot that the strike is fitted to; and the laws of single events. Markdown on standard output; the pictures are SVG.
 """
 
 import argparse
 import sys
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -36,43 +38,80 @@ def law(values: Doubles, by: Doubles, edges: Sequence[float]) -> list[str]:
     return rows
 
 
-def patch(a: float, mu: float, e: float, v_t: Doubles, v_n: Doubles) -> Doubles:
-    """What a round patch of contact of the greatest radius a R takes from the roll along a cushion: docs/understanding/reality.md."""
-    # while it sticks its shear turns the spin about the normal by (5/3) (a/R)^2 of the square of the rate of the normal impact
-    sticks = (1.0 - np.cos(np.pi * a * np.sqrt(5.0 / 3.0 * 2.0 / np.pi))) * v_t
-    # friction, with the pressure of Hertz, bears no more than this; a^2 and the force rise and fall like a half wave of the sine
-    bears = 2.5 * 3.0 * np.pi / 16.0 * 0.874 * mu * a * (1.0 + e) * v_n
-    least: Doubles = np.minimum(sticks, bears)
-    return least
+def held_out(recordings: Recordings, table: tuple[float, float], radius: float, models: Sequence[Any], seed: int) -> carom.fit.Fit:
+    """The RMSE of unseen shots by each model; the fit of the first half by the best."""
+    print("| cushion | RMSE, median, cm | 9 in 10 below, cm | mean, cm | shots | processor time, ms a shot |\n|---|--:|--:|--:|--:|--:|")
+    best: tuple[float, carom.fit.Fit] | None = None
+    for model in models:
+        rmse, spent = [], 0.0
+        for fold in (0, 1):
+            found = carom.fit.fit(recordings[fold::2], table, radius, cushion_model=model, seed=seed)
+            begin = time.process_time()
+            test = carom.fit.fit(
+                recordings[1 - fold :: 2], table, radius, cushion_model=model, constants=found.constants, free="none", seed=seed
+            )
+            spent += time.process_time() - begin
+            rmse.append(100.0 * test.counted())
+        both = np.concatenate(rmse)
+        print(
+            f"| {model} | {np.median(both):.2f} | {np.percentile(both, 90):.2f} | {both.mean():.2f} | {len(both)} | "
+            f"{1e3 * spent / len(both):.0f} |",
+            flush=True,
+        )
+        if best is None or np.median(both) < best[0]:
+            best = float(np.median(both)), found
+    assert best is not None
+    return best[1]
 
 
-def explanations(lost: Doubles, impacts: Any, mu: float, e: float) -> None:
-    """How well laws of the loss of roll along a cushion agree with it: each with its best numbers."""
-    v_t, v_n = np.abs(impacts["v_t"]), impacts["v_n"]
-    seen, v = np.sign(impacts["v_t"]) * lost, np.hypot(impacts["v_t"], impacts["v_n"])
-    part = v_t > 0.1
-    seen, v, v_t, v_n = seen[part], v[part], v_t[part], v_n[part]
-    error = np.hypot(impacts["u_error"][part], 0.03 * v)
-    grid = np.linspace(0.0, 0.3, 61)
-    laws: dict[str, list[tuple[tuple[float, ...], Doubles]]] = {
-        "none": [((), 0.0 * v_t)],
-        "c v_t": [((c,), c * v_t) for c in grid],
-        "d v_n": [((d,), d * v_n) for d in grid],
-        "least of c v_t and d v_n": [((c, d), np.minimum(c * v_t, d * v_n)) for c in grid for d in grid],
-        "patch of radius a R": [((a,), patch(a, mu, e, v_t, v_n)) for a in np.linspace(0.0, 0.3, 121)],
-    }
-    print("\n| loss of roll along the cushion | best numbers | chi² | median left, % of v |\n|---|---|--:|--:|")
-    for name, sets in laws.items():
-        # outliers beyond three deviations count linearly
-        misfits = [(18.0 * (np.sqrt(1.0 + ((seen - given) / error) ** 2 / 9.0) - 1.0).sum(), numbers, given) for numbers, given in sets]
-        chi2, numbers, given = min(misfits, key=lambda one: one[0])
-        print(f"| {name} | {', '.join(f'{x:.3f}' for x in numbers)} | {chi2:.0f} | {100 * np.median(np.abs(seen - given) / v):.1f} |")
+def floor(fit: carom.fit.Fit, shots: int, seed: int) -> None:
+    """The RMSE that is left where the model is perfect: recordings of plays, with the noise of these."""
+    made = carom.tracks.synthetic(
+        shots, table=fit.table, radius=fit.radius, cushion_model=fit.cushion_model, constants=fit.constants, noise=fit.recordings[0].noise,
+        seed=seed,
+    )  # fmt: skip
+    found = carom.fit.fit(
+        made.recordings, fit.table, fit.radius, cushion_model=fit.cushion_model, constants=made.constants, free="none", seed=seed
+    )
+    print(f"\nThe floor: {100 * found.median_rmse:.2f} cm in the median, 9 in 10 below {100 * found.p90_rmse:.2f} cm, {shots} shots.")
 
 
-def single_events(recordings: Recordings, table: tuple[float, float], radius: float) -> None:
-    seen = carom.tracks.events(recordings, table, radius)
+def outputs(seen: carom.tracks.Events, radius: float, models: Sequence[Any], seed: int) -> None:
+    """How far the motion after single impacts is from each model with its best constants, in % of the speed before."""
+    good = _from_events.chosen(seen.impacts)
+    speed = np.hypot(good["v_n"], good["v_t"])
+    print("\n| cushion | along | across | roll along | roll across | chi² | impacts |\n|---|--:|--:|--:|--:|--:|--:|")
+    for model in models:
+        values, _ = _from_events.measured(seen, radius, model, seed)
+        if "restitution_cushion" not in values:
+            continue
+        names = ("restitution_cushion", "mu_cushion", "nose_height", "roll_loss")
+        e, mu, height, loss = (values.get(name, 0.0) for name in names)
+        made = _from_events.predicted(good, radius, model, e, mu, height or radius, loss)
+        off = [made[:, 0] - good["w_t"], made[:, 1] - good["w_n"]]
+        off += [made[:, 0] - made[:, 2] - good["w_t"] + good["u_t"], made[:, 1] - made[:, 3] - good["w_n"] + good["u_n"]]
+        sizes = " | ".join(f"{148.26 * np.median(np.abs(values - np.median(values)) / speed):.2f}" for values in off)
+        chi2 = 9.0 * np.log1p(made[:, 4] / 9.0).sum()
+        print(f"| {model} | {sizes} | {chi2:.0f} | {len(good)} |")
+
+
+def growth(fit: carom.fit.Fit, seed: int) -> None:
+    """The RMSE of strikes that are fitted to the first seconds alone."""
+    print("\n| strike fitted to the first | RMSE of these, median, cm |\n|---|--:|")
+    for until in (0.5, 1.0, 2.0, 3.0, 5.0, 8.0):
+        parts = [
+            replace(shot, tracks=tuple(track[(track[:, 0] <= shot.moves.min() + until) | (np.arange(len(track)) == 0)] for track in shot.tracks))
+            for shot in fit.recordings
+        ]  # fmt: skip
+        found = carom.fit.fit(
+            parts, fit.table, fit.radius, cushion_model=fit.cushion_model, constants=fit.constants, free="none", seed=seed
+        )
+        print(f"| {until:g} s | {100 * found.median_rmse:.2f} |")
+
+
+def single_events(seen: carom.tracks.Events) -> None:
     (a, a_error), (b, b_error) = seen.roll
-    print("| law | measured |\n|---|---|")
+    print("\n| law | measured |\n|---|---|")
     print(f"| deceleration of sliding | {seen.slide[0]:.3f} ± {seen.slide[1]:.3f} m/s² |")
     print(f"| deceleration of rolling | ({a:.4f} ± {a_error:.4f}) + ({b:.4f} ± {b_error:.4f}) v², m/s², v in m/s |")
     hits = seen.hits[(seen.hits["chi2"] < 3) & (seen.hits["v_n"] > 0.5) & (seen.hits["w_error"] < 0.1) & (seen.hits["z_error"] < 0.1)]
@@ -83,63 +122,26 @@ def single_events(recordings: Recordings, table: tuple[float, float], radius: fl
     print("\n| speed into the cushion, m/s | speed out over speed in, rolling balls | impacts |\n|---|---|---|")
     print("\n".join(law(-good["w_n"] / good["v_n"], good["v_n"], [0.45, 0.8, 1.2, 1.8, 4.0])))
 
-    # what the roll along a cushion falls by, beyond the models of Han and of Mathavan
-    for model in ("han", "mathavan"):
-        values, _ = _from_events.measured(seen, radius, model, 0)
-        if "mu_cushion" not in values:
-            continue
-        names = ("restitution_cushion", "mu_cushion", "nose_height")
-        made = _from_events.predicted(good, radius, model, *(values[name] for name in names))
-        loss = (made[:, 0] - made[:, 2] - good["w_t"] + good["u_t"]) / good["v_t"]
-        angle = np.degrees(np.arctan2(np.abs(good["v_t"]), good["v_n"]))
-        fast = np.abs(good["v_t"]) > 0.3
-        print(f"\nBeyond {model}:\n\n| angle from the normal, degrees | loss of roll along the cushion, over v_t | impacts |\n|---|---|---|")
-        print("\n".join(law(loss[fast], angle[fast], [15, 30, 45, 60, 80])))
-        print("\n| speed into the cushion, m/s | loss of roll along the cushion, over v_t | impacts |\n|---|---|---|")
-        print("\n".join(law(loss[fast], good["v_n"][fast], [0.45, 0.8, 1.2, 1.8, 4.0])))
-        explanations(loss * good["v_t"], good, values["mu_cushion"], values["restitution_cushion"])
-
-
-def held_out(recordings: Recordings, table: tuple[float, float], radius: float, models: Sequence[Any], seed: int) -> carom.fit.Fit:
-    print("\n| cushion | constants | RMSE, median, cm | 9 in 10 below, cm | mean, cm | processor time, ms a shot |\n|---|---|--:|--:|--:|--:|")
-    best: tuple[float, carom.fit.Fit] | None = None
-    for model in models:
-        for free in ("events", "default"):
-            rmse, spent = [], 0.0
-            for fold in (0, 1):
-                found = carom.fit.fit(recordings[fold::2], table, radius, cushion_model=model, free=free, seed=seed)
-                begin = time.process_time()
-                test = carom.fit.fit(
-                    recordings[1 - fold :: 2], table, radius, cushion_model=model, constants=found.constants, free="none", seed=seed
-                )
-                spent += time.process_time() - begin
-                rmse.append(100.0 * test.counted())
-            columns = (" and ".join(f"{of(cm):.1f}" for cm in rmse) for of in (np.median, lambda cm: np.percentile(cm, 90), np.mean))
-            print(
-                f"| {model} | {'single events' if free == 'events' else 'single events, then whole shots'} | {' | '.join(columns)} | "
-                f"{1e3 * spent / sum(map(len, rmse)):.0f} |",
-                flush=True,
-            )
-            middle = float(np.median(np.concatenate(rmse)))
-            if best is None or middle < best[0]:
-                best = middle, found
-    assert best is not None
-    return best[1]
-
 
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("tracks", type=Path)
     parser.add_argument("--table", type=carom.fit._extents, required=True, metavar="W,L")
     parser.add_argument("--radius", type=float, required=True, metavar="R")
-    parser.add_argument("--models", default="han,stronge,mathavan,mirror")
+    parser.add_argument("--models", default="smooth,han,stronge,mathavan")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--pictures", type=Path, metavar="FOLDER")
     given = parser.parse_args(arguments)
     recordings = carom.tracks.read(given.tracks, table=given.table, radius=given.radius)
     recordings = [shot for shot in recordings if np.isfinite(shot.moves).any()]
-    single_events(recordings, given.table, given.radius)
-    fit = held_out(recordings, given.table, given.radius, given.models.split(","), given.seed)
+    models = given.models.split(",")
+    seen = carom.tracks.events(recordings, given.table, given.radius)
+    single_events(seen)
+    outputs(seen, given.radius, models, given.seed)
+    print()
+    fit = held_out(recordings, given.table, given.radius, models, given.seed)
+    floor(fit, len(recordings), given.seed)
+    growth(fit, given.seed)
     if given.pictures:
         given.pictures.mkdir(parents=True, exist_ok=True)
         pictures = {"rmse": _summary.histogram(fit)}

@@ -123,6 +123,6 @@ def of_constants(search: _joint.Search, told: Mapping[str, float], spread: Mappi
     inverse = np.linalg.inv(whole)
     covariance = inverse @ inner @ inverse
     # what the search leaves, which the standard errors contain, is of each constant by itself
-    method = np.array([_joint.METHOD[name] for name in search.names]) ** 2
+    method = _joint.left(search) ** 2
     size = np.sqrt((np.array([spread[name] for name in search.names]) ** 2 - method).clip(0.0) / covariance.diagonal())
     return np.asarray(covariance * np.outer(size, size) + np.diag(method))

@@ -15,6 +15,8 @@ shot's cost jumps where events appear and vanish, all strikes are searched anew 
 
 from __future__ import annotations
 
+import copy
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -36,16 +38,20 @@ PRIORS = {
     "mu_cushion": (0.06, 0.0, 1.0), "roll_loss": (0.06, 0.0, 0.5), "nose_height": (1.8e-3, 0.0, np.inf),
     "restitution_log": (0.01, -0.2, 0.2), "mu_log": (0.01, -0.2, 0.2),
 }  # fmt: skip
-# What the search leaves on synthetic recordings, whose truth is known.
-METHOD = {
+# How large errors are beside each other on synthetic recordings, whose truth is known.
+_SHAPE = {
     "mu_slide": 1e-3, "mu_roll": 2e-5, "drag": 3e-4, "mu_spin": 1e-4, "law_a": 3e-3, "law_b": 0.025, "restitution": 1.5e-3,
     "restitution_cushion": 1.2e-3, "mu_cushion": 1.2e-3, "roll_loss": 4e-3, "nose_height": 1e-4,
     "restitution_log": 2e-3, "mu_log": 2e-3,
 }  # fmt: skip
 _STEP = 1e-3  # of the differences, in deviations
 _HORIZONS = (3.0, 6.0, np.inf, np.inf)  # samples up to a time (s), one search after another
+_ELSEWHERE = 5  # the stage before which a search may begin again
 _AT_NOISE = 4.0  # variances of a coordinate: twice the cost a sample that noise alone gives
 _STEPS = 12  # at most, of each
+# On matches that are synthetic, as python/tests/test_fit.py makes them: how much the common size of the errors of halves counts, beside
+# each one's own; and what the search leaves, over _SHAPE and the misfit over that of the noise.
+_COMMON, _LEFT = 0.3, 0.2
 _SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
 
 
@@ -71,6 +77,7 @@ class Search:
         self.low, self.high = np.array([PRIORS[name][1:] for name in priors]).T
         self.strikes, self.until = strikes[self.rows], plays.ends[self.rows]
         self.counts = plays.counts[self.rows].astype(float)
+        self.again = True  # whether a search that stops early begins again elsewhere
         self.noise, self.prior_cost, self.middle = plays.recordings[0].noise, PRIOR_MOST, MOST
 
     def constants(self, values: Doubles) -> dict[str, float]:
@@ -132,6 +139,15 @@ class Search:
         """One of STAGES searches: the constants and the strikes, as `resume` takes them."""
         if number >= len(_HORIZONS) and self.middle < 1.1 * _AT_NOISE * self.noise**2:
             return [self.values.tolist(), self.strikes.tolist(), self.middle, self.prior_cost]  # nothing is left to find
+        if number == _ELSEWHERE and self.again and self.middle > 2.5 * _AT_NOISE * self.noise**2:
+            # a search that stopped early begins again elsewhere
+            other = copy.copy(self)
+            moved = self.values + 0.5 * self.scale * np.random.default_rng(seed).normal(size=len(self.values))
+            other.values, other.strikes = np.clip(moved, self.low, self.high), self.strikes.copy()
+            for earlier in range(1, len(_HORIZONS)):
+                other.stage(earlier, seed + _ELSEWHERE)
+            if other.middle < self.middle:
+                self.resume([other.values, other.strikes, other.middle, other.prior_cost])
         if number:
             self.anew(seed + number)
         self.until = np.minimum(_HORIZONS[min(number, len(_HORIZONS) - 1)], self.plays.ends[self.rows])
@@ -171,11 +187,20 @@ def spread(search: Search, seed: int) -> dict[str, float]:
     def find(half: npt.NDArray[np.intp]) -> Doubles:
         rows = search.rows[np.sort(half)]
         part = Search(search.plays.some(rows), strikes[rows], range(len(rows)), priors)
-        part.values = search.start.copy()
+        part.values, part.again = search.start.copy(), False
         for number in range(STAGES):
             part.stage(number, seed)
         return part.values
 
     error = _events.halves(len(search.rows), _SPLITS, np.random.default_rng(seed), find)
-    method = np.array([METHOD[name] for name in search.names])
-    return dict(zip(search.names, np.hypot(error, method).tolist()))
+    # few halves tell each error roughly, and all of them together the size of all errors
+    shape = np.array([_SHAPE[name] for name in search.names])
+    common = 1.5 * float(np.median(error / shape)) * shape
+    found = np.sqrt((1.0 - _COMMON) * error**2 + _COMMON * common**2 + left(search) ** 2)
+    return dict(zip(search.names, found.tolist()))
+
+
+def left(search: Search) -> Doubles:
+    """What a search leaves of each constant: the more the farther the misfit is above that of the noise."""
+    above = math.sqrt(0.25 * search.middle) / search.noise
+    return np.array([_LEFT * min(above, 6.0) * _SHAPE[name] for name in search.names])

@@ -218,7 +218,7 @@ def fit(
 
 def _quality(strike: Doubles, rmse: float, noise: float, radius: float) -> str:
     """Why the play of a shot is doubtful, or nothing."""
-    if rmse > max(radius, _MANY * noise):
+    if rmse > max(2.0 * radius, _MANY * noise):
         return f"doubtful: RMSE {100.0 * rmse:.1f} cm, {rmse / noise / math.sqrt(2.0):.0f} times that of the noise"
     at = _strikes.at_bound(strike)
     return f"doubtful: {at} of the strike is at its bound" if at else ""
