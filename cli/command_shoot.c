@@ -51,8 +51,7 @@ OPTION(shoot_job, option_models, "models", world, 0, "carom|pooltool", set_choic
 OPTION(shoot_job, option_ball_ball, "ball-ball", ball_model, 0, "exact|euler|inelastic|mirror",
        set_ball_model, 0,
        "model of the collision of two balls (default: exact; with --models pooltool inelastic)");
-OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0,
-       "mathavan|stronge|han|mirror|euler|smooth", set_cushion_model, 0,
+OPTION(shoot_job, option_cushion_model, "cushion", cushion, 0, CUSHION_WORDS, set_cushion_model, 0,
        "model of the impact on a cushion; mathavan is the exact limit (default: han; with --models "
        "pooltool stronge)");
 OPTION(shoot_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,

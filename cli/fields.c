@@ -92,7 +92,7 @@ OPTION_SET(set_ball_model) {
 }
 
 OPTION_SET(set_cushion_model) {
-  return set_place(row, text, "default|mathavan|stronge|han|mirror|euler|smooth", field);
+  return set_place(row, text, "default|" CUSHION_WORDS, field);
 }
 
 static OPTION_SET(set_solvers) {
@@ -180,8 +180,7 @@ ROW(option_summary, "summary", summary, 0, NULL, set_flag, 0, ANY_KIND,
     "print counts and the time on standard error at the end");
 ROW(option_cushion, "cushion", cushion, 0, NULL, set_flag, 0, ANY_KIND,
     "impacts of a ball on a cushion, instead of collisions of two balls");
-ROW(option_model, "model", rail.model, 0, "mathavan|stronge|han|mirror|euler|smooth", set_choice, 0,
-    CUSHION_ONLY,
+ROW(option_model, "model", rail.model, 0, CUSHION_WORDS, set_choice, 0, CUSHION_ONLY,
     "mathavan: the exact limit of Mathavan's model (default); stronge, han: closed forms; mirror: "
     "the velocity into the cushion is reversed and multiplied by e; euler: Mathavan's model in N "
     "steps; smooth: a closed form read off recorded impacts");

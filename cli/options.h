@@ -29,6 +29,9 @@ typedef struct option_row {
  * which --cushion asks for. */
 enum { ANY_KIND, BALLS_ONLY, CUSHION_ONLY };
 
+/* The models of an impact on a cushion by their names, in the order of their values. */
+#define CUSHION_WORDS "mathavan|stronge|han|mirror|euler|smooth"
+
 enum { NO_FILES, FILE_OR_NONE, ONE_FILE };
 
 typedef struct command_form {

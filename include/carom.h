@@ -187,12 +187,21 @@ typedef enum carom_status {
   CAROM_ERROR_OPTIONS = -23,         /* a reserved or unused field of the options is not 0. */
   CAROM_ERROR_CUSHION_MODEL = -30,   /* options.model of carom_shot.h is not one of
                                         carom_cushion_model. */
-  CAROM_ERROR_CUSHION_OPTIONS = -31, /* an option of a cushion is out of its range. */
   CAROM_ERROR_NORMAL = -32,          /* the direction into a cushion is not finite, or 0. */
   CAROM_ERROR_NOSE_HEIGHT = -33,     /* the nose is not between the cloth and the top of the
                                         ball. */
   CAROM_ERROR_MU_CUSHION = -34,      /* the friction of ball and cushion is not in [0, 1]. */
   CAROM_ERROR_JAW_RADIUS = -35,      /* the radius of a jaw is not finite, or negative. */
+  CAROM_ERROR_CONVENTION = -36,      /* options.convention is not one of
+                                        carom_cushion_convention. */
+  CAROM_ERROR_CUSHION_LAW = -37,     /* options.law is not one of carom_cushion_law. */
+  CAROM_ERROR_LEAST_STEP = -38,      /* options.least_step is negative or not finite. */
+  CAROM_ERROR_OMEGA_RATIO = -39,     /* omega_ratio of options or of a ball is neither 0 nor
+                                        between 1 and 2. */
+  CAROM_ERROR_SPEED_LOG = -24,       /* restitution_log or mu_log of options or of a ball is not
+                                        -1 to 1. */
+  CAROM_ERROR_SMOOTH = -25,          /* smooth_q, smooth_x, smooth_t, smooth_a or smooth_k of
+                                        options or of a ball is out of its range. */
   CAROM_ERROR_TOO_MANY_EVENTS = -40, /* a shot has more than options.events_most events. */
   CAROM_ERROR_TOO_LONG = -41,        /* a shot lasts longer than 1000 s, and options.time_most is
                                         0. */
@@ -217,8 +226,8 @@ typedef enum carom_status {
   CAROM_ERROR_TIME = -55,          /* carom_shot_at(): no number, or after the end of a shot
                                       stopped while balls moved. */
   CAROM_ERROR_DRAG = -56,          /* the drag of a rolling ball is not in [0, 1] 1/m. */
-  CAROM_ERROR_BALL_CUSHION = -57,  /* a number of a ball for its impacts on cushions is out of
-                                      its range. */
+  CAROM_ERROR_BALL_CUSHION = -57,  /* roll_loss of a ball is not 0 to 1, or its nose_height not 0
+                                      to below 2 R. */
   CAROM_ERROR_MODULUS = -58,       /* a ball's modulus is neither 0 nor 1e6 to 1e15 Pa. */
   CAROM_ERROR_STATE = -60,         /* carom_shot_continue(): shot.state is damaged, or of no shot
                                       that can go on; */

@@ -109,11 +109,12 @@ typedef struct carom_cushion_options {
   double smooth_a;    /* SMOOTH: friction across the cushion reaches 1 + a times as far, 0 to 1. */
   double smooth_k;    /* SMOOTH: rebound gains this part of the impulse where friction is used
                          up, 0 to 1. The ball never leaves the nose faster than it came. */
-  double restitution_log; /* any model: restitution and friction at v m/s across the cushion are
-                             those of the impact, which */
-  double mu_log;          /* hold at 1 m/s, plus this times ln(v), limited to 0 to 1; below 0.1
-                             m/s as at 0.1. -1 to 1; default 0. Not read with
-                             CAROM_CUSHION_LAW_HAN. */
+  double restitution_log; /* any model: restitution and friction at v m/s are those of the
+                             impact, which hold at 1 m/s, */
+  double mu_log;          /* plus this times ln(v), limited to 0 to 1; below 0.1 m/s as at 0.1.
+                             v is the speed across the cushion: the closing speed at the nose
+                             over cos(theta). In flight, too, theta is that of a ball on the
+                             cloth. -1 to 1; default 0. Not read with CAROM_CUSHION_LAW_HAN. */
   uint64_t reserved[4];   /* must be 0. */
 } carom_cushion_options;
 

@@ -48,13 +48,22 @@
   X(ERROR_OPTIONS, -23, "bad_options", "a reserved or unused field of the options is not 0")       \
   X(ERROR_CUSHION_MODEL, -30, "bad_cushion_model",                                                 \
     "options.model is not one of carom_cushion_model")                                             \
-  X(ERROR_CUSHION_OPTIONS, -31, "bad_cushion_options",                                             \
-    "an option of the cushion is out of its range")                                                \
   X(ERROR_NORMAL, -32, "bad_normal", "the direction into the cushion must be finite and not 0")    \
   X(ERROR_NOSE_HEIGHT, -33, "bad_nose_height",                                                     \
     "the nose must be between the cloth and the top of the ball")                                  \
   X(ERROR_MU_CUSHION, -34, "bad_mu_cushion", "the friction of ball and cushion must be in [0, 1]") \
-  X(ERROR_JAW_RADIUS, -35, "bad_jaw_radius", "the radius of a jaw must be finite and not negative")
+  X(ERROR_JAW_RADIUS, -35, "bad_jaw_radius",                                                       \
+    "the radius of a jaw must be finite and not negative")                                         \
+  X(ERROR_CONVENTION, -36, "bad_convention",                                                       \
+    "options.convention must be one of carom_cushion_convention")                                  \
+  X(ERROR_CUSHION_LAW, -37, "bad_cushion_law", "options.law must be one of carom_cushion_law")     \
+  X(ERROR_LEAST_STEP, -38, "bad_least_step",                                                       \
+    "options.least_step must be 0 N s or more, and finite")                                        \
+  X(ERROR_OMEGA_RATIO, -39, "bad_omega_ratio", "omega_ratio must be 0, or between 1 and 2")        \
+  X(ERROR_SPEED_LOG, -24, "bad_speed_log", "restitution_log and mu_log must be -1 to 1")           \
+  X(ERROR_SMOOTH, -25, "bad_smooth",                                                               \
+    "smooth_q must be 1e-12 to 0.5, smooth_x and smooth_t above 0 and at most 2, smooth_a and "    \
+    "smooth_k 0 to 1; or all five 0")
 
 /* Those of whole shots. */
 #define SHOT_STATUS_LIST(X)                                                                        \
@@ -89,11 +98,7 @@
     "the time is not a number, or after the end of a shot that was stopped while balls moved")     \
   X(ERROR_DRAG, -56, "bad_drag", "the drag of a rolling ball must be 0 to 1 per metre")            \
   X(ERROR_BALL_CUSHION, -57, "bad_ball_cushion",                                                   \
-    "a ball's roll_loss must be 0 to 1, its nose_height 0 to below 2 R, its omega_ratio 0 or "     \
-    "between 1 and 2, its "                                                                        \
-    "restitution_log and mu_log -1 to 1, its smooth_q 1e-12 to 0.5, smooth_x and smooth_t above "  \
-    "0 to 2, smooth_a and "                                                                        \
-    "smooth_k 0 to 1, or all five 0")                                                              \
+    "a ball's roll_loss must be 0 to 1, its nose_height 0 to below 2 R")                           \
   X(ERROR_TABLE_OPEN, -61, "table_open",                                                           \
     "a ball can leave the table between two of its parts, or there is no place for a ball")        \
   X(ERROR_RAIL_SIDE, -62, "bad_rail_side",                                                         \

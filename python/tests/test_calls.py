@@ -14,6 +14,7 @@ import subprocess
 import sys
 import threading
 import time
+import typing
 from pathlib import Path
 
 import numpy as np
@@ -121,6 +122,17 @@ def test_tab_completion_shows_what_a_module_offers():
         assert shown and not shown & {"np", "npt", "ffi", "lib", "annotations", "Any", "Literal", "dataclass", "Array", "pointer"}, module
         assert set(getattr(module, "__all__", ())) <= shown | {"__version__"}, module
     assert dir(carom.racks) == ["eightball", "nineball", "snooker", "tenball", "threecushion"]
+
+
+def test_models_of_cushions_are_those_of_the_library():
+    from carom import _shot_options, cushions
+    from carom._carom import ffi, lib
+
+    names = []
+    while (name := lib.carom_cushion_model_name(len(names))) != ffi.NULL:
+        names.append(ffi.string(name).decode())
+    assert tuple(names) == typing.get_args(cushions.CushionModel)
+    assert ("default", *names) == typing.get_args(_shot_options.ShotCushion)
 
 
 @pytest.mark.parametrize(("module", "package"), [("gymnasium", "gymnasium"), ("pettingzoo", "pettingzoo"), ("jax", "jax")])

@@ -32,15 +32,29 @@ carom_status carom_cushion_check_options(const carom_cushion_options *opt) {
     return CAROM_ERROR_PLAIN;
   if (reserved)
     return CAROM_ERROR_OPTIONS;
-  const bool convention = (int)opt->convention >= 0 && opt->convention <= CAROM_CONVENTION_POOLTOOL;
-  const bool law = (int)opt->law >= 0 && opt->law <= CAROM_CUSHION_LAW_HAN;
-  const bool step = opt->least_step >= 0 && opt->least_step < INFINITY;
-  const bool ratio = opt->omega_ratio == 0 || (opt->omega_ratio > 1 && opt->omega_ratio < 2);
-  const bool speed = fabs(opt->restitution_log) <= 1 && fabs(opt->mu_log) <= 1;
-  const bool smooth = carom_smooth_is_good(opt->smooth_q, opt->smooth_x, opt->smooth_t,
-                                           opt->smooth_a, opt->smooth_k);
-  return convention && law && step && ratio && speed && smooth ? CAROM_OK
-                                                               : CAROM_ERROR_CUSHION_OPTIONS;
+  if ((int)opt->convention < 0 || opt->convention > CAROM_CONVENTION_POOLTOOL)
+    return CAROM_ERROR_CONVENTION;
+  if ((int)opt->law < 0 || opt->law > CAROM_CUSHION_LAW_HAN)
+    return CAROM_ERROR_CUSHION_LAW;
+  if (!carom_is_not_negative(opt->least_step))
+    return CAROM_ERROR_LEAST_STEP;
+  const carom_cushion_numbers numbers = {CAROM_CUSHION_NUMBERS_OF(opt)};
+  return carom_cushion_check_numbers(&numbers);
+}
+
+carom_status carom_cushion_check_numbers(const carom_cushion_numbers *n) {
+#define RANGE(of, member, low, high, error) {low, high, CAROM_ERROR_##error},
+  static const carom_range range[] = {CAROM_CUSHION_NUMBERS(RANGE, )};
+#undef RANGE
+  const double *x = (const double *)n;
+  for (size_t k = 0; k < sizeof range / sizeof range[0]; k++)
+    if (!(x[k] == 0 || (x[k] >= range[k].low && x[k] <= range[k].high)))
+      return range[k].error;
+
+  /* the numbers of the smooth law are given together, or none of them */
+  const bool given = n->smooth_x > 0 && n->smooth_t > 0;
+  const bool none = n->smooth_x == 0 && n->smooth_t == 0 && n->smooth_a == 0 && n->smooth_k == 0;
+  return (n->smooth_q > 0 ? given : none) ? CAROM_OK : CAROM_ERROR_SMOOTH;
 }
 
 static const carom_range of_field[FIELDS] = {
@@ -95,6 +109,12 @@ const char *carom_cushion_field_name(int field) {
 }
 
 const char *carom_cushion_model_name(carom_cushion_model model) {
-  static const char *const names[] = {"mathavan", "stronge", "han", "mirror", "euler", "smooth"};
-  return (unsigned)model < sizeof names / sizeof names[0] ? names[model] : NULL;
+  switch (model) {
+#define CASE(NAME, name, impact, flight, rows) \
+  case CAROM_CUSHION_##NAME:                   \
+    return name;
+    CAROM_CUSHION_MODELS(CASE)
+#undef CASE
+  }
+  return NULL;
 }

@@ -56,13 +56,6 @@ void carom_apply_speed(carom_contact *c, double restitution_log, double mu_log) 
   c->mu_w = limited(c->mu_w + mu_log * logarithm);
 }
 
-bool carom_smooth_is_good(double q, double C_x, double C_t, double a, double k) {
-  if (q == 0)
-    return C_x == 0 && C_t == 0 && a == 0 && k == 0;
-  return q >= 1e-12 && q <= 0.5 && C_x > 0 && C_x <= 2 && C_t > 0 && C_t <= 2 &&
-         carom_in_unit_interval(a) && carom_in_unit_interval(k);
-}
-
 carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
   /* the constants of the caller, or those that were measured */
   const bool own = opt->smooth_q > 0;

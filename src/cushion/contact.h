@@ -57,6 +57,13 @@ static inline double carom_cloth_y(const carom_contact *c) {
   return c->v_y + c->W_x;
 }
 
+/* Coulomb's friction on a ball whose surface slips, for a normal impulse P: it stops the slip, or
+ * slips to the end. Impulses over the mass. */
+static inline double carom_coulomb(double slip, double mu, double P) {
+  const double slips = mu * P, stops = 2.0 / 7.0 * slip;
+  return slips < stops ? slips : stops;
+}
+
 /* ---- From the table to this frame, and back ---- */
 
 /* y, of length 1, along the axes of the table; x is (y_y, -y_x). */

@@ -8,22 +8,12 @@
 static const carom_cushion_options defaults = {.steps = 0};
 
 static carom_status by_model(carom_contact *c, const carom_cushion_options *opt, double mass) {
-  const bool pooltool = opt->convention == CAROM_CONVENTION_POOLTOOL;
-  carom_cushion_run run;
   switch (opt->model) {
-  case CAROM_CUSHION_MATHAVAN:
-    return carom_mathavan(c, opt->plain);
-  case CAROM_CUSHION_STRONGE:
-    return carom_stronge(c, opt->omega_ratio > 0 ? opt->omega_ratio : CAROM_OMEGA_RATIO, pooltool);
-  case CAROM_CUSHION_HAN:
-    return carom_han(c);
-  case CAROM_CUSHION_MIRROR:
-    return carom_mirror(c);
-  case CAROM_CUSHION_SMOOTH:
-    return carom_smooth(c, opt);
-  case CAROM_CUSHION_EULER:
-    return carom_cushion_euler(c, carom_cushion_steps(opt), opt->least_step / mass, pooltool,
-                               INT64_MAX, &run);
+#define CASE(NAME, name, impact, flight, rows) \
+  case CAROM_CUSHION_##NAME:                   \
+    return impact;
+    CAROM_CUSHION_MODELS(CASE)
+#undef CASE
   }
   return CAROM_ERROR_CUSHION_MODEL;
 }
@@ -99,16 +89,16 @@ static size_t solve_rows(const void *context, size_t first, size_t end) {
   return first_bad;
 }
 
-/* Fewer rows than this are not worth a thread: about 50 us of work. */
+/* Fewer rows than this are not worth a thread. */
 static size_t least_part(const carom_cushion_options *opt) {
   switch (opt->model) {
-  case CAROM_CUSHION_MATHAVAN:
-    return 16;
-  case CAROM_CUSHION_EULER:
-    return 1 + 2000 / (size_t)carom_cushion_steps(opt);
-  default:
-    return 512;
+#define CASE(NAME, name, impact, flight, rows) \
+  case CAROM_CUSHION_##NAME:                   \
+    return (size_t)(rows);
+    CAROM_CUSHION_MODELS(CASE)
+#undef CASE
   }
+  return 1;
 }
 
 carom_status carom_cushion_batch(const carom_cushion_impact *in, size_t n,

@@ -5,6 +5,7 @@
 #define CAROM_SRC_CUSHION_MODELS_H
 
 #include "cushion/contact.h"
+#include "cushion/list.h"
 #include "impact/impact.h"
 
 #include <stdbool.h>
@@ -13,20 +14,24 @@
 /* The exact limit. See mathavan.c. */
 carom_status carom_mathavan(carom_contact *contact, int plain);
 
-/* Compliant impact; `ratio` is options.omega_ratio, that of pooltool by default. See stronge.c. */
-#define CAROM_OMEGA_RATIO 1.8
-carom_status carom_stronge(carom_contact *contact, double ratio, int pooltool);
+/* Compliant impact. See stronge.c. */
+carom_status carom_stronge(carom_contact *contact, const carom_cushion_options *opt);
 
 /* Its friction impulse over the mass, against a slip, m/s, for a ball that meets a nose at v_n,
  * from any side. */
-double carom_stronge_friction(double v_n, double slip, double mu, double e, double ratio,
-                              int pooltool);
+double carom_stronge_friction(const carom_contact *contact, double v_n, double slip,
+                              const carom_cushion_options *opt);
 
 /* Puts Han's fits for restitution and friction into a contact. See closed.c. */
 void carom_apply_han(carom_contact *contact);
 
 /* Coulomb impact on a rigid nose. See closed.c. */
 carom_status carom_han(carom_contact *contact);
+
+/* Its friction impulse over the mass, against a slip, for a ball that meets a nose at v_n. */
+static inline double carom_han_friction(const carom_contact *contact, double v_n, double slip) {
+  return carom_coulomb(slip, contact->mu_w, (1.0 + contact->e) * v_n);
+}
 
 /* Han's impact without its corner. See closed.c. */
 carom_status carom_smooth(carom_contact *contact, const carom_cushion_options *opt);
@@ -39,9 +44,6 @@ void carom_apply_speed(carom_contact *contact, double restitution_log, double mu
  * speed. See cushion.c. */
 void carom_apply_law(carom_contact *contact, const carom_cushion_options *opt);
 
-/* Whether the five numbers of the smooth law are in their ranges. */
-bool carom_smooth_is_good(double q, double C_x, double C_t, double a, double k);
-
 carom_status carom_mirror(carom_contact *contact);
 
 /* How a run of Euler's method ended. */
@@ -51,10 +53,23 @@ typedef struct carom_cushion_run {
                                              m^2/s^2 */
 } carom_cushion_run;
 
+/* Euler's N of options that have been checked. */
+static inline int carom_cushion_steps(const carom_cushion_options *opt) {
+  return opt->steps > 0 ? opt->steps : CAROM_DEFAULT_STEPS;
+}
+
 /* N steps of impulse, of which none is below `least` (N s over the mass, m/s); no more than
  * `most` are taken. See euler.c. */
 carom_status carom_cushion_euler(carom_contact *contact, int steps, double least, int pooltool,
                                  int64_t most, carom_cushion_run *run);
+
+/* The same to the end, by options; `mass` in kg. */
+static inline carom_status carom_cushion_by_steps(carom_contact *contact,
+                                                  const carom_cushion_options *opt, double mass) {
+  carom_cushion_run run;
+  return carom_cushion_euler(contact, carom_cushion_steps(opt), opt->least_step / mass,
+                             opt->convention == CAROM_CONVENTION_POOLTOOL, INT64_MAX, &run);
+}
 
 /* The exact limit for the precise solver of src/impact. See mathavan.c. */
 static inline carom_law carom_mathavan_law(const carom_contact *c) {
@@ -90,12 +105,17 @@ carom_impulse carom_mathavan_impulse(const carom_contact *contact, const carom_t
 /* CAROM_OK, or the error of the first option at fault. */
 carom_status carom_cushion_check_options(const carom_cushion_options *opt);
 
+/* The numbers of the models, those of options and those of a kind of ball. */
+#define MEMBER(of, member, ...) double member;
+typedef struct carom_cushion_numbers {
+  CAROM_CUSHION_NUMBERS(MEMBER, )
+} carom_cushion_numbers;
+#undef MEMBER
+
+/* CAROM_OK, or the error of the first number at fault. */
+carom_status carom_cushion_check_numbers(const carom_cushion_numbers *numbers);
+
 /* CAROM_OK, or the error of the first field at fault; `*field` is its index. */
 carom_status carom_cushion_check_impact(const carom_cushion_impact *in, int *field);
-
-/* Euler's N of options that have been checked. */
-static inline int carom_cushion_steps(const carom_cushion_options *opt) {
-  return opt->steps > 0 ? opt->steps : CAROM_DEFAULT_STEPS;
-}
 
 #endif

@@ -36,6 +36,7 @@
 #include <stdbool.h>
 
 static const double BETA = 3.5, HALF_PI = 1.57079632679489661923;
+static const double USUAL_RATIO = 1.8; /* that of pooltool */
 static const double ROOT_WIDTH = 1e-10;
 /* how pooltool tells that rho is at a limit */
 static const double LIMIT_ABSOLUTE = 1e-8, LIMIT_RELATIVE = 1e-5;
@@ -130,21 +131,23 @@ static double slip_after(double rho, double mu, double e, double ratio, bool poo
 }
 
 /* What share of the slip friction takes over the mass. */
-static double friction_share(double v_n, double slip, double mu, double e, double ratio,
-                             bool pooltool) {
+static double friction_share(const carom_contact *c, double v_n, double slip,
+                             const carom_cushion_options *opt) {
+  const bool pooltool = opt->convention == CAROM_CONVENTION_POOLTOOL;
+  const double ratio = opt->omega_ratio > 0 ? opt->omega_ratio : USUAL_RATIO;
   const double rho = slip / v_n;
-  return slip > 0 ? (1 - slip_after(rho, mu, e, ratio, pooltool) / rho) / BETA : 0;
+  return slip > 0 ? (1 - slip_after(rho, c->mu_w, c->e, ratio, pooltool) / rho) / BETA : 0;
 }
 
-double carom_stronge_friction(double v_n, double slip, double mu, double e, double ratio,
-                              int pooltool) {
-  return friction_share(v_n, slip, mu, e, ratio, pooltool) * slip;
+double carom_stronge_friction(const carom_contact *c, double v_n, double slip,
+                              const carom_cushion_options *opt) {
+  return friction_share(c, v_n, slip, opt) * slip;
 }
 
-carom_status carom_stronge(carom_contact *c, double ratio, int pooltool) {
+carom_status carom_stronge(carom_contact *c, const carom_cushion_options *opt) {
   const double s_x = carom_slip_x(c), s_t = carom_slip_t(c), slip = sqrt(s_x * s_x + s_t * s_t),
                v_n = c->v_y * c->cosine;
-  const double share = friction_share(v_n, slip, c->mu_w, c->e, ratio, pooltool);
+  const double share = friction_share(c, v_n, slip, opt);
   const carom_impulse q = {.P = (1 + c->e) * v_n, .f_x = -share * s_x, .f_t = -share * s_t};
   carom_push(c, &q);
   return CAROM_OK;

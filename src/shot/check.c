@@ -87,13 +87,13 @@ static carom_status check_kind(const carom_ball_kind *k) {
     return CAROM_ERROR_RESTITUTION;
   if (!carom_in_unit_interval(k->mu_cushion))
     return CAROM_ERROR_MU_CUSHION;
-  const bool ratio = k->omega_ratio == 0.0 || (k->omega_ratio > 1.0 && k->omega_ratio < 2.0);
-  const bool speed = fabs(k->restitution_log) <= 1.0 && fabs(k->mu_log) <= 1.0;
-  const bool smooth =
-      carom_smooth_is_good(k->smooth_q, k->smooth_x, k->smooth_t, k->smooth_a, k->smooth_k);
   if (!carom_in_unit_interval(k->roll_loss) ||
-      !(k->nose_height >= 0.0 && k->nose_height < 2.0 * k->radius) || !ratio || !speed || !smooth)
+      !(k->nose_height >= 0.0 && k->nose_height < 2.0 * k->radius))
     return CAROM_ERROR_BALL_CUSHION;
+  const carom_cushion_numbers numbers = {CAROM_CUSHION_NUMBERS_OF(k)};
+  const carom_status bad = carom_cushion_check_numbers(&numbers);
+  if (bad != CAROM_OK)
+    return bad;
   if (!(k->modulus == 0.0 || (k->modulus >= 1e6 && k->modulus <= 1e15)))
     return CAROM_ERROR_MODULUS;
   return k->gravity > 0.0 && k->gravity <= 1e6 ? CAROM_OK : CAROM_ERROR_GRAVITY;

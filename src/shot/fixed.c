@@ -26,6 +26,7 @@
  * equally. s is a convention; half of it, 10 mm/s, gives one hop more of 5 um
  * (tests/physics/air.c counts them). */
 #include "shot/fixed.h"
+#include "cushion/contact.h"
 
 #include <math.h>
 
@@ -58,11 +59,6 @@ void carom_take_impulse(const carom_touch *touch, double R, double J, double J_t
   }
 }
 
-double carom_coulomb(const carom_touch *touch, double mu, double J) {
-  const double slips = mu * J, stops = 2.0 / 7.0 * touch->slip;
-  return slips < stops ? slips : stops;
-}
-
 double carom_rebound(double v_n, double e) {
   const double square = e * e * v_n * v_n - hop_loss * hop_loss;
   return square > least_hop * least_hop ? sqrt(square) : 0.0;
@@ -74,7 +70,7 @@ void carom_hit_slate(const carom_ball_kind *kind, carom_ball_state *s) {
   const carom_touch touch = carom_touch_of(down, kind->radius, s);
   const double v_n = touch.closing > 0.0 ? touch.closing : 0.0, up = carom_rebound(v_n, e),
                J = v_n + up;
-  carom_take_impulse(&touch, kind->radius, J, carom_coulomb(&touch, kind->mu_slide, J), s);
+  carom_take_impulse(&touch, kind->radius, J, carom_coulomb(touch.slip, kind->mu_slide, J), s);
   s->v[2] = up; /* without the rounding of -v + (v + up) */
   const double fall = 2.5 * kind->mu_spin * J / kind->radius;
   s->w[2] = fabs(s->w[2]) <= fall ? 0.0 : s->w[2] - copysign(fall, s->w[2]);

@@ -20,10 +20,6 @@ carom_touch carom_touch_of(const double N[3], double radius, const carom_ball_st
 void carom_take_impulse(const carom_touch *touch, double radius, double J, double J_t,
                         carom_ball_state *state);
 
-/* Coulomb's friction for a normal impulse J: it stops the slip, or slips to the end. Over the
- * mass, both. */
-double carom_coulomb(const carom_touch *touch, double mu, double J);
-
 /* The speed at which a ball that falls at v_n on the slate leaves it, for a restitution e. */
 double carom_rebound(double v_n, double e);
 

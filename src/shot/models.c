@@ -175,45 +175,57 @@ carom_nose carom_nose_of(const carom_table *table, const carom_due *due) {
   return (carom_nose){jaw->height, jaw->radius, jaw->mu_cushion, jaw->restitution};
 }
 
-_Static_assert(CAROM_SHOT_CUSHION_MATHAVAN == 1 + CAROM_CUSHION_MATHAVAN &&
-                   CAROM_SHOT_CUSHION_STRONGE == 1 + CAROM_CUSHION_STRONGE &&
-                   CAROM_SHOT_CUSHION_HAN == 1 + CAROM_CUSHION_HAN &&
-                   CAROM_SHOT_CUSHION_MIRROR == 1 + CAROM_CUSHION_MIRROR &&
-                   CAROM_SHOT_CUSHION_EULER == 1 + CAROM_CUSHION_EULER &&
-                   CAROM_SHOT_CUSHION_SMOOTH == 1 + CAROM_CUSHION_SMOOTH,
-               "the models of a shot are those of an impact, behind the default");
-
-static carom_cushion_model cushion_model(const carom_sim *sim) {
-  const carom_shot_cushion asked = sim->opt->cushion_model;
-  return asked != CAROM_SHOT_CUSHION_DEFAULT ? (carom_cushion_model)((int)asked - 1)
-                                             : sim->rules->cushion_model;
-}
+#define AGREES(NAME, ...)                                                    \
+  _Static_assert(CAROM_SHOT_CUSHION_##NAME == 1 + (int)CAROM_CUSHION_##NAME, \
+                 "the models of a shot are those of an impact, behind the default");
+CAROM_CUSHION_MODELS(AGREES)
+#undef AGREES
 
 /* Of a rail or jaw, or of the ball where that has none. */
 static double own_or(double own, double of_ball) {
   return own > 0.0 ? own : of_ball;
 }
 
-/* A ball in flight, by the model without the cloth. Mathavan's equations have a constant
- * direction of slip then, as Han's do, so the impact of fixed.c is their exact limit; it stands
- * for the smooth law too, which was not measured in flight; Stronge's model is planar in N and
- * the direction of slip already. */
+static carom_cushion_options cushion_options(const carom_sim *sim, const carom_ball_kind *kind) {
+  const carom_shot_cushion asked = sim->opt->cushion_model;
+  return (carom_cushion_options){.model = asked != CAROM_SHOT_CUSHION_DEFAULT
+                                              ? (carom_cushion_model)((int)asked - 1)
+                                              : sim->rules->cushion_model,
+                                 .convention = sim->rules->convention,
+                                 .steps = sim->opt->steps,
+                                 .plain = sim->opt->plain,
+                                 .least_step = sim->rules->least_step,
+                                 CAROM_CUSHION_NUMBERS_OF(kind)};
+}
+
+/* Friction's impulse over the mass on a ball in flight. */
+static double friction_in_flight(carom_contact *c, double v_n, double slip,
+                                 const carom_cushion_options *opt) {
+  switch (opt->model) {
+#define CASE(NAME, name, impact, flight, rows) \
+  case CAROM_CUSHION_##NAME:                   \
+    return flight;
+    CAROM_CUSHION_MODELS(CASE)
+#undef CASE
+  }
+  return 0.0;
+}
+
+/* A ball in flight, by the model without the cloth. */
 static void free_impact(const carom_sim *sim, const carom_ball_kind *kind, const double N[3],
                         const carom_nose *nose, carom_ball_state *s) {
+  const carom_cushion_options options = cushion_options(sim, kind);
   const carom_touch touch = carom_touch_of(N, kind->radius, s);
-  carom_contact c = {.v_y = touch.closing,
+
+  /* restitution and friction by the closing speed; of a ball on the cloth it is v_y cos(theta) */
+  const double sine = carom_nose_height(kind, nose->height) / kind->radius - 1.0;
+  carom_contact c = {.v_y = touch.closing / sqrt((1.0 - sine) * (1.0 + sine)),
                      .mu_w = own_or(nose->mu_cushion, kind->mu_cushion),
                      .e = own_or(nose->restitution, kind->restitution_cushion)};
-  carom_apply_speed(&c, kind->restitution_log, kind->mu_log);
-  const double mu = c.mu_w, e = c.e;
-  const double J = (1.0 + e) * touch.closing;
-  double J_t = 0.0;
-  if (cushion_model(sim) == CAROM_CUSHION_STRONGE)
-    J_t = carom_stronge_friction(touch.closing, touch.slip, mu, e,
-                                 own_or(kind->omega_ratio, CAROM_OMEGA_RATIO), false);
-  else if (cushion_model(sim) != CAROM_CUSHION_MIRROR)
-    J_t = carom_coulomb(&touch, mu, J);
-  carom_take_impulse(&touch, kind->radius, J, J_t, s);
+  carom_apply_law(&c, &options);
+
+  const double J_t = friction_in_flight(&c, touch.closing, touch.slip, &options);
+  carom_take_impulse(&touch, kind->radius, (1.0 + c.e) * touch.closing, J_t, s);
 }
 
 /* A ball on the cloth, by the model asked for. */
@@ -231,19 +243,7 @@ static carom_status impact_on_cloth(const carom_sim *sim, const carom_ball_kind 
                                    .restitution =
                                        own_or(nose->restitution, kind->restitution_cushion),
                                    .jaw_radius = nose->jaw_radius};
-  carom_cushion_options options = {.model = cushion_model(sim),
-                                   .convention = sim->rules->convention,
-                                   .steps = sim->opt->steps,
-                                   .plain = sim->opt->plain,
-                                   .least_step = sim->rules->least_step,
-                                   .omega_ratio = kind->omega_ratio,
-                                   .smooth_q = kind->smooth_q,
-                                   .smooth_x = kind->smooth_x,
-                                   .smooth_t = kind->smooth_t,
-                                   .smooth_a = kind->smooth_a,
-                                   .smooth_k = kind->smooth_k,
-                                   .restitution_log = kind->restitution_log,
-                                   .mu_log = kind->mu_log};
+  carom_cushion_options options = cushion_options(sim, kind);
   carom_motion out;
   carom_status status = carom_cushion(&in, &options, &out);
 

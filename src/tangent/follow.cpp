@@ -840,15 +840,10 @@ carom_status carom_tangent_of_cushion(const carom_cushion_impact *in,
   options.law = (text::carom_cushion_law)opt->law;
   options.steps = opt->steps;
   options.plain = opt->plain;
-  options.omega_ratio = opt->omega_ratio;
   options.least_step = opt->least_step;
-  options.smooth_q = opt->smooth_q;
-  options.smooth_x = opt->smooth_x;
-  options.smooth_t = opt->smooth_t;
-  options.smooth_a = opt->smooth_a;
-  options.smooth_k = opt->smooth_k;
-  options.restitution_log = opt->restitution_log;
-  options.mu_log = opt->mu_log;
+#define COPY(of, member, ...) options.member = of->member;
+  CAROM_CUSHION_NUMBERS(COPY, opt)
+#undef COPY
   watched = {true, *note};
   const text::carom_status status = text::carom_cushion(&impact, &options, &out);
   watched.on = false;

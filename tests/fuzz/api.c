@@ -4,6 +4,7 @@
  * calls; bytes written beside the results; a trace or a derivative that does not fit. Crashes,
  * hangs and undefined behaviour are for the fuzzer and the sanitizers to see. */
 #include "carom_tangent.h"
+#include "cushion/list.h"
 #include "draws.h"
 
 static carom_ball make_ball(void) {
@@ -193,15 +194,20 @@ static void cushion(void) {
   in.restitution = number(0.5, 1);
   if (choice(30) == 0)
     arbitrary(&in, sizeof in);
-  carom_cushion_options o = {.model = (carom_cushion_model)(choice(16) == 0  ? choice(256) - 128
-                                                            : choice(3) == 0 ? choice(5)
-                                                                             : 0),
+  carom_cushion_options o = {.model = (carom_cushion_model)(choice(16) == 0 ? choice(256) - 128
+                                                            : choice(3) == 0
+                                                                ? choice(CAROM_CUSHION_MODEL_COUNT)
+                                                                : 0),
                              .convention = (carom_cushion_convention)choice(2),
                              .law = (carom_cushion_law)choice(2),
                              .steps = choice(16) == 0 ? -choice(3) : 1 + choice(200),
                              .least_step = choice(8) == 0 ? number(0, 0.001) : 0,
-                             .omega_ratio = choice(8) == 0 ? number(1, 2) : 0,
                              .plain = choice(2)};
+#define DRAW(of, member, low, high, error) of.member = number(low, high);
+  if (choice(8) == 0) {
+    CAROM_CUSHION_NUMBERS(DRAW, o)
+  }
+#undef DRAW
   reserve(&o.reserved[choice(4)]);
   carom_motion out, many[4];
   int8_t statuses[4] = {1, 1, 1, GUARD};

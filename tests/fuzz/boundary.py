@@ -13,6 +13,7 @@ Each input has a seed of its own; every hundredth is printed, so a failure is am
 import os
 import random
 import sys
+import typing
 import warnings
 
 import numpy as np
@@ -24,7 +25,7 @@ if __name__ == "__main__" and sys.argv[1:2] == ["--atheris"]:
         import carom
 else:
     import carom
-from carom import _objects
+from carom import _objects, _shot_options, cushions
 
 ALLOWED = (TypeError, ValueError, MemoryError)
 OF_OBJECTS = (*ALLOWED, IndexError, AttributeError, OverflowError)  # carom._objects is for carom.pooltool alone
@@ -211,7 +212,7 @@ def of_impacts(draws, function, records, width, options):
 def models(draws):
     options = {
         "world": draws.of("carom", "carom", "pooltool"), "ball_model": draws.of("default", "exact", "euler", "inelastic", "mirror"),
-        "cushion_model": draws.of("default", "stronge", "han", "mirror", "euler", "mathavan"), "space": draws.of("3d", "flat"),
+        "cushion_model": draws.of(*typing.get_args(_shot_options.ShotCushion)), "space": draws.of("3d", "flat"),
         "friction": draws.of("alciatore", "constant"), "steps": draws.of(0, 10, steps_of(draws)), "events_most": draws.of(100, 20, count(draws)),
         "t_final": draws.of(None, 1.0, draws.number()), "stop_at": draws.of((), "contact", ("rail", "pocket"), "nothing"),
     }  # fmt: skip
@@ -268,7 +269,7 @@ def call_of(draws):
     which = draws.choice(16)
     steps = {"steps": draws.of(0, 20, steps_of(draws))} if draws.choice(2) else {}
     balls = {"solver": draws.of("exact", "euler", "none"), "slip": draws.of("paper", "pooltool"), **steps}
-    noses = {"model": draws.of("mathavan", "stronge", "han", "mirror", "euler"), "law": draws.of("constant", "han"), **steps}
+    noses = {"model": draws.of(*typing.get_args(cushions.CushionModel)), "law": draws.of("constant", "han"), **steps}
     points = draws.of(2, 5, -1, 0, 2**62, count(draws))
     points = 2**62 if isinstance(points, int) and points > 10**6 else points
     if which in (0, 1):

@@ -110,15 +110,15 @@ static carom_event rail_event(const carom_table *table, const carom_shot_ball *b
  * than there is, and nothing where the ball does not roll forward along the cushion. */
 TEST(loss_of_roll) {
   const carom_table table = empty_table(2.0);
-  for (int model = CAROM_CUSHION_MATHAVAN; model <= CAROM_CUSHION_MIRROR; model++)
+  for (int model = 0; carom_cushion_model_name((carom_cushion_model)model) != NULL; model++)
     for (int spin = -1; spin <= 1; spin++)
       for (int side = -1; side <= 1; side += 2) {
         carom_shot_ball ball =
             rolling(1.0, 0.1, 1.5, 1.5707963267948966 + 0.7 * side + 3.141592653589793);
         ball.state.w[2] = 20.0 * spin;
-        const carom_event without = rail_event(&table, &ball, (carom_shot_cushion)model);
+        const carom_event without = rail_event(&table, &ball, (carom_shot_cushion)(1 + model));
         ball.kind.roll_loss = 0.087;
-        const carom_event with = rail_event(&table, &ball, (carom_shot_cushion)model);
+        const carom_event with = rail_event(&table, &ball, (carom_shot_cushion)(1 + model));
         /* the rail is along x, so the roll along it is R w_y */
         const double R = ball.kind.radius, v_t = without.before[0].v[0];
         const double lost = R * (without.after[0].w[1] - with.after[0].w[1]);

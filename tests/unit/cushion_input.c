@@ -1,6 +1,6 @@
 /* Bad input of the cushion: each number and each option at fault gets its own status, and hangs
  * nothing. */
-#include "carom_shot.h"
+#include "cushion/models.h"
 #include "support.h"
 
 #include <math.h>
@@ -71,30 +71,22 @@ TEST(each_option_is_checked) {
   const struct {
     carom_cushion_options options;
     carom_status status;
-  } cases[] = {{{.model = (carom_cushion_model)6}, CAROM_ERROR_CUSHION_MODEL},
-               {{.model = (carom_cushion_model)-1}, CAROM_ERROR_CUSHION_MODEL},
-               {{.convention = (carom_cushion_convention)2}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.law = (carom_cushion_law)2}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.steps = -1}, CAROM_ERROR_STEPS},
-               {{.threads = -2}, CAROM_ERROR_THREADS},
-               {{.plain = 2}, CAROM_ERROR_PLAIN},
-               {{.reserved = {0, 0, 0, 1}}, CAROM_ERROR_OPTIONS},
-               {{.least_step = -1}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.least_step = NAN}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.omega_ratio = 1}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.omega_ratio = 2}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.restitution_log = -1.1}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.mu_log = NAN}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.smooth_k = 0.1}, CAROM_ERROR_CUSHION_OPTIONS}, /* without the others */
-               {{.smooth_q = 1e-13, .smooth_x = 1, .smooth_t = 1}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.smooth_q = 0.51, .smooth_x = 1, .smooth_t = 1}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.smooth_q = 0.3, .smooth_t = 1}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.smooth_q = 0.3, .smooth_x = 2.1, .smooth_t = 1}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 2.1}, CAROM_ERROR_CUSHION_OPTIONS},
-               {{.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 1, .smooth_a = -0.1},
-                CAROM_ERROR_CUSHION_OPTIONS},
-               {{.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 1, .smooth_k = 1.1},
-                CAROM_ERROR_CUSHION_OPTIONS}};
+  } cases[] = {
+      {{.model = (carom_cushion_model)CAROM_CUSHION_MODEL_COUNT}, CAROM_ERROR_CUSHION_MODEL},
+      {{.model = (carom_cushion_model)-1}, CAROM_ERROR_CUSHION_MODEL},
+      {{.convention = (carom_cushion_convention)2}, CAROM_ERROR_CONVENTION},
+      {{.law = (carom_cushion_law)2}, CAROM_ERROR_CUSHION_LAW},
+      {{.steps = -1}, CAROM_ERROR_STEPS},
+      {{.threads = -2}, CAROM_ERROR_THREADS},
+      {{.plain = 2}, CAROM_ERROR_PLAIN},
+      {{.reserved = {0, 0, 0, 1}}, CAROM_ERROR_OPTIONS},
+      {{.least_step = -1}, CAROM_ERROR_LEAST_STEP},
+      {{.least_step = NAN}, CAROM_ERROR_LEAST_STEP},
+      {{.omega_ratio = 1}, CAROM_ERROR_OMEGA_RATIO},
+      {{.omega_ratio = 2}, CAROM_ERROR_OMEGA_RATIO},
+      {{.smooth_k = 0.1}, CAROM_ERROR_SMOOTH}, /* without the others */
+      {{.smooth_q = 0.3, .smooth_t = 1}, CAROM_ERROR_SMOOTH},
+      {{.smooth_q = 0.3, .smooth_x = 1}, CAROM_ERROR_SMOOTH}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     carom_motion out;
     int8_t status = 77;
@@ -103,6 +95,32 @@ TEST(each_option_is_checked) {
                      cases[k].status);
     ck_assert_int_eq(status, 77);
   }
+}
+
+/* Numbers of the models just outside their ranges, of options and of a kind of ball. */
+TEST(each_number_is_checked) {
+  const carom_cushion_impact in = good();
+  carom_table table;
+  ck_assert_int_eq(carom_table_make(CAROM_TABLE_POOL_9FT, &table), CAROM_OK);
+  const carom_shot_ball fit = {.kind = carom_ball_kind_of(CAROM_GAME_POOL),
+                               .state = {.r = {0.5, 1, 0.028575}}};
+  ck_assert_int_eq(carom_shot_check(&table, &fit, 1, NULL, NULL, NULL), CAROM_OK);
+#define CHECK(of, member, low, high, error)                                                      \
+  for (int k = 0; k < 3; k++) {                                                                  \
+    const double value = k == 0   ? NAN                                                          \
+                         : k == 1 ? nextafter(high, INFINITY)                                    \
+                                  : nextafter((low) > 0 ? 0 : (low), -INFINITY);                 \
+    const carom_cushion_options bad = {.smooth_q = 0.3, .smooth_x = 1, .smooth_t = 1};           \
+    carom_cushion_options options = bad;                                                         \
+    carom_shot_ball ball = fit;                                                                  \
+    options.member = ball.kind.member = value;                                                   \
+    expect(&in, &options, CAROM_ERROR_##error, -1);                                              \
+    ck_assert_int_eq(carom_shot_check(&table, &ball, 1, NULL, NULL, NULL), CAROM_ERROR_##error); \
+  }
+  CAROM_CUSHION_NUMBERS(CHECK, )
+#undef CHECK
+  const carom_cushion_options thin = {.smooth_q = 1e-13, .smooth_x = 1, .smooth_t = 1};
+  expect(&in, &thin, CAROM_ERROR_SMOOTH, -1);
 }
 
 TEST(pointers_and_traces) {
@@ -131,7 +149,7 @@ TEST(extremes_end) {
   static const double sizes[] = {1e-300, 1e-30, 1e-9, 1e9, 1e30, 1e150, 1e300};
   for (size_t j = 0; j < sizeof sizes / sizeof sizes[0]; j++)
     for (int field = 0; field < 15; field++)
-      for (int model = 0; model < 6; model++) {
+      for (int model = 0; model < CAROM_CUSHION_MODEL_COUNT; model++) {
         carom_cushion_impact in = good();
         const carom_cushion_options options = {.model = (carom_cushion_model)model, .steps = 10};
         carom_motion out;

@@ -104,9 +104,9 @@ TEST(kinds) {
     REFUSED(balls[9].kind.drag, outside[k], CAROM_ERROR_DRAG, 9);
     REFUSED(balls[9].kind.roll_loss, outside[k], CAROM_ERROR_BALL_CUSHION, 9);
     REFUSED(balls[9].kind.nose_height, outside[k], CAROM_ERROR_BALL_CUSHION, 9);
-    REFUSED(balls[9].kind.omega_ratio, k == 2 ? 2.0 : outside[k], CAROM_ERROR_BALL_CUSHION, 9);
-    REFUSED(balls[9].kind.smooth_k, outside[k], CAROM_ERROR_BALL_CUSHION, 9);
-    REFUSED(balls[9].kind.mu_log, 11.0 * outside[k], CAROM_ERROR_BALL_CUSHION, 9);
+    REFUSED(balls[9].kind.omega_ratio, k == 2 ? 2.0 : outside[k], CAROM_ERROR_OMEGA_RATIO, 9);
+    REFUSED(balls[9].kind.smooth_k, outside[k], CAROM_ERROR_SMOOTH, 9);
+    REFUSED(balls[9].kind.mu_log, 11.0 * outside[k], CAROM_ERROR_SPEED_LOG, 9);
     REFUSED(balls[9].kind.law_a, outside[k], CAROM_ERROR_MU_BALL, 9);
     REFUSED(balls[9].kind.law_b, outside[k], CAROM_ERROR_MU_BALL, 9);
     REFUSED(balls[9].kind.law_c, k == 2 ? INFINITY : outside[k], CAROM_ERROR_MU_BALL, 9);

@@ -23,7 +23,7 @@ StopAt = Literal[
 ]  # fmt: skip
 _WORLDS = {"carom": 0, "pooltool": 1}
 _BALL_MODELS = {"default": 0, "exact": 1, "euler": 2, "inelastic": 3, "mirror": 4}
-_CUSHIONS = {"default": 0, "mathavan": 1, "stronge": 2, "han": 3, "mirror": 4, "euler": 5, "smooth": 6}
+_CUSHIONS: dict[str, int] = {name: k for k, name in enumerate(ShotCushion.__args__)}  # type: ignore[attr-defined]
 _FRICTIONS = {"alciatore": 0, "constant": 1}
 _SPACES = {"3d": 0, "flat": 1}
 _SIMULTANEOUS = {"cluster": 0, "pairs": 1}

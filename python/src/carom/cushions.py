@@ -17,7 +17,7 @@ from carom._rows import Array, choice, fill, whole
 CushionModel = Literal["mathavan", "stronge", "han", "mirror", "euler", "smooth"]
 CushionConvention = Literal["paper", "pooltool"]
 CushionLaw = Literal["constant", "han"]
-_MODELS = {"mathavan": 0, "stronge": 1, "han": 2, "mirror": 3, "euler": 4, "smooth": 5}
+_MODELS: dict[str, int] = {name: k for k, name in enumerate(CushionModel.__args__)}  # type: ignore[attr-defined]
 _CONVENTIONS = {"paper": 0, "pooltool": 1}
 _LAWS = {"constant": 0, "han": 1}
 

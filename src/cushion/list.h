@@ -1,0 +1,48 @@
+/* The models of an impact on a cushion, and their numbers: each stands here once. README.md in
+ * this folder says how to add one. */
+#ifndef CAROM_SRC_CUSHION_LIST_H
+#define CAROM_SRC_CUSHION_LIST_H
+
+#include <float.h>
+
+/* X(NAME, name, impact, flight, rows). In `impact` and `flight`, `c` is the contact and `opt` are
+ * the options.
+ *
+ * impact: a call that takes the contact through the impact, with `mass` in kg; a carom_status.
+ * flight: friction's impulse over the mass on a ball in flight, m/s. `v_n` is the closing speed
+ *         along the line to the nose, `slip` the speed of the ball's surface there, both in m/s.
+ *         It is called before c->e is read, and may change it.
+ * rows:   fewer rows of a batch than this, about 50 us of work, are not worth a thread.
+ *
+ * In flight there is no cloth. Then Mathavan's equations have a constant direction of slip, as
+ * Han's do, so carom_han_friction() is their exact limit. It stands for the smooth law too, which
+ * was not measured in flight. */
+#define CAROM_CUSHION_MODELS(X)                                                                \
+  X(MATHAVAN, "mathavan", carom_mathavan(c, opt->plain), carom_han_friction(c, v_n, slip), 16) \
+  X(STRONGE, "stronge", carom_stronge(c, opt), carom_stronge_friction(c, v_n, slip, opt), 512) \
+  X(HAN, "han", carom_han(c), carom_han_friction(c, v_n, slip), 512)                           \
+  X(MIRROR, "mirror", carom_mirror(c), 0.0, 512)                                               \
+  X(EULER, "euler", carom_cushion_by_steps(c, opt, mass), carom_han_friction(c, v_n, slip),    \
+    1 + 2000 / carom_cushion_steps(opt))                                                       \
+  X(SMOOTH, "smooth", carom_smooth(c, opt), carom_han_friction(c, v_n, slip), 512)
+
+/* X(of, member, low, high, ERROR): the numbers that carom_cushion_options and carom_ball_kind
+ * have both. Each is 0 or within the range, to which both ends belong. `of` is passed on. */
+#define CAROM_CUSHION_NUMBERS(X, of)                                \
+  X(of, omega_ratio, 1 + DBL_EPSILON, 2 - DBL_EPSILON, OMEGA_RATIO) \
+  X(of, smooth_q, 1e-12, 0.5, SMOOTH)                               \
+  X(of, smooth_x, 0, 2, SMOOTH)                                     \
+  X(of, smooth_t, 0, 2, SMOOTH)                                     \
+  X(of, smooth_a, 0, 1, SMOOTH)                                     \
+  X(of, smooth_k, 0, 1, SMOOTH)                                     \
+  X(of, restitution_log, -1, 1, SPEED_LOG)                          \
+  X(of, mu_log, -1, 1, SPEED_LOG)
+
+/* The initialisers of all numbers from those of another struct. */
+#define CAROM_CUSHION_NUMBER(of, member, low, high, error) .member = (of)->member,
+#define CAROM_CUSHION_NUMBERS_OF(of) CAROM_CUSHION_NUMBERS(CAROM_CUSHION_NUMBER, of)
+
+#define CAROM_CUSHION_ONE(...) +1
+enum { CAROM_CUSHION_MODEL_COUNT = 0 CAROM_CUSHION_MODELS(CAROM_CUSHION_ONE) };
+
+#endif
