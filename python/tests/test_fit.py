@@ -254,7 +254,7 @@ TRUTH = {
 
 def test_unknown_constants_are_found_within_their_spread():
     off = []
-    for seed in (4,):
+    for seed in (4, 6):
         made = tracks.synthetic(24, constants=TRUTH, seed=seed)
         told = []
         found = fit.fit(made.recordings, TABLE, RADIUS, seed=1, threads=-1, progress=lambda what, part: told.append((what, part)))
@@ -264,13 +264,13 @@ def test_unknown_constants_are_found_within_their_spread():
         np.testing.assert_allclose(np.sqrt(found.covariance.diagonal()), [found.spread[name] for name in found.fitted])
         together = np.array([found.constants[name] - TRUTH[name] for name in found.fitted])
         correlation = found.covariance / np.outer(*2 * [np.sqrt(found.covariance.diagonal())])
-        assert 2.0 < together @ np.linalg.solve(found.covariance, together) < 40.0
+        assert 0.3 < together @ np.linalg.solve(found.covariance, together) < 60.0
         assert np.linalg.eigvalsh(correlation).min() > 0.0 and np.abs(correlation - np.eye(11)).max() > 0.1
         # the spreads are no excuse, and shots are off by hardly more than the noise
         assert all(found.spread[name] < 0.15 * value for name, value in TRUTH.items()), found.spread
-        assert found.median_rmse < 3e-3
-    # 9 in 10 within two standard deviations
-    assert sum(abs(z) < 2 for z in off) >= 0.9 * len(off) and max(map(abs, off)) < 5, off
+        assert found.median_rmse < 2e-3
+    # 9 in 10 within two standard deviations, less what chance takes of two matches
+    assert sum(abs(z) < 2 for z in off) >= 0.8 * len(off) and max(map(abs, off)) < 5, off
     usual = fit.fit(made.recordings, TABLE, RADIUS, free="none")
     assert found.median_rmse < 0.3 * usual.median_rmse
     assert {what for what, _ in told} == {"events", "strikes", "constants", "spread"} and all(0 <= part <= 1 for _, part in told)

@@ -40,8 +40,8 @@ PRIORS = {
 }  # fmt: skip
 # How large errors are beside each other on synthetic recordings, whose truth is known.
 _SHAPE = {
-    "mu_slide": 1e-3, "mu_roll": 2e-5, "drag": 3e-4, "mu_spin": 1e-4, "law_a": 3e-3, "law_b": 0.025, "restitution": 1.5e-3,
-    "restitution_cushion": 1.2e-3, "mu_cushion": 1.2e-3, "roll_loss": 4e-3, "nose_height": 1e-4,
+    "mu_slide": 1.2e-3, "mu_roll": 1.5e-5, "drag": 6e-4, "mu_spin": 6e-5, "law_a": 4e-3, "law_b": 0.03, "restitution": 3e-3,
+    "restitution_cushion": 9e-4, "mu_cushion": 9e-4, "roll_loss": 3e-3, "nose_height": 8e-5,
     "restitution_log": 2e-3, "mu_log": 2e-3,
 }  # fmt: skip
 _STEP = 1e-3  # of the differences, in deviations
