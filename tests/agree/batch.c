@@ -169,33 +169,24 @@ static void table_free(const table *t) {
     for (int slip = 0; slip < CAROM_SLIP_COUNT; slip++)       \
       for (int precision = 0; precision < PRECISIONS; precision++)
 
-static void every_size(make_row *row) {
+TEST(rows_of_all_kinds_at_every_size) {
+  static make_row *const kinds[] = {good_row, mixed_row, zero_row};
   const table t = table_make(MOST);
-  random_source source = {test_seed()};
   FOR_EACH_ISA(isa)
   FOR_EACH_WAY(solver, slip, precision)
-  for (size_t n = 0; n <= MOST; n++) {
+  for (int kind = 0; kind < 3; kind++) {
+    random_source source = {test_seed()};
     const carom_options options = options_for(solver, slip);
-    for (size_t k = 0; k < n; k++) {
-      const carom_impact in = row(&source, k);
-      put_row(precision, t.in, k, &in);
+    for (size_t n = 0; n <= MOST; n++) {
+      for (size_t k = 0; k < n; k++) {
+        const carom_impact in = kinds[kind](&source, k);
+        put_row(precision, t.in, k, &in);
+      }
+      alone(precision, t.in, n, &options, t.out, t.status);
+      expect_batch(precision, t.in, n, &options, t.out, t.status);
     }
-    alone(precision, t.in, n, &options, t.out, t.status);
-    expect_batch(precision, t.in, n, &options, t.out, t.status);
   }
   table_free(&t);
-}
-
-TEST(good_rows_at_every_size) {
-  every_size(good_row);
-}
-
-TEST(mixed_rows_at_every_size) {
-  every_size(mixed_row);
-}
-
-TEST(rows_of_zeros_at_every_size) {
-  every_size(zero_row);
 }
 
 /* Whoever its neighbours are, a row keeps its bits; some regimes are too slow for Euler's
