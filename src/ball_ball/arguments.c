@@ -75,7 +75,7 @@ static bool motion_is_finite(const carom_ball *ball) {
   return sum == 0.0;
 }
 
-/* Of a ball, and of what follows the two balls. */
+/* Of a ball, and of the numbers behind the two balls. */
 static const carom_range of_ball[BALL_FIELDS] = {
     {CAROM_FINITE, CAROM_ERROR_POSITION}, {CAROM_FINITE, CAROM_ERROR_POSITION},
     {CAROM_FINITE, CAROM_ERROR_POSITION}, {CAROM_FINITE, CAROM_ERROR_VELOCITY},

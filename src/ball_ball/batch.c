@@ -79,7 +79,7 @@ typedef struct lane_group {
   uint32_t row[MOST_LANES];
 } lane_group;
 
-/* What steps and rows hand to each other on the way. */
+/* Data between steps and rows. */
 typedef struct step_io {
   row_context context;
   step_inputs in;
@@ -179,11 +179,11 @@ static size_t solve_part(carom_precision precision, const char *in, size_t n,
   for (int kind = 0; kind < STEP_KINDS; kind++)
     w.list[kind][AT_START].count = w.list[kind][ON_THEIR_WAY].count = 0;
   if (status != NULL)
-    memset(status, CAROM_OK, n * sizeof *status); /* what is not solved by a step, has its own */
+    memset(status, CAROM_OK, n * sizeof *status); /* rows that no step solves get their own */
   const size_t lanes = (size_t)w.with->lanes, register_size = lanes * w.in_size,
                size = n * w.in_size;
   for (size_t first = 0; first < n; first += lanes) {
-    /* what comes two registers later, while there is work to hide it */
+    /* the data of two registers later, while there is work to hide it */
     const size_t ahead = (first + 2 * lanes) * w.in_size,
                  end = ahead + register_size < size ? ahead + register_size : size;
     for (size_t at = ahead; at < end; at += CACHE_LINE)

@@ -1,7 +1,7 @@
-/* The carrier of the collocation text: what a register holds, and the operations that this
+/* The carrier of the collocation text: the content of a register, and the operations that this
  * decides.
  *
- * The text (collocate.c and what it includes) is written once, over two types:
+ * The text (collocate.c and its headers) is written once, over two types:
  *
  *     vreal    a number of a collision                      lanes.h has its operations
  *     reg      a number at the nodes of a step; n nodes take REGS(n) of them
@@ -59,7 +59,7 @@ enum { MOST_REGS = MOST_NODES };
 #define REG_MOVE(m, to, x) (*(to) = v_select(m, x, *(to)))
 #endif
 
-/* For every register of n nodes. What is done for eight registers in turn would not stay in the
+/* For every register of n nodes. Eight registers in turn would not stay in the
  * cache of instructions. */
 #define EACH_REG(k, n) EACH_REG_(k, n)
 #define EACH_REG_(k, n) _Pragma("GCC unroll 4") for (int k = 0; k < REGS(n); k++)
@@ -291,7 +291,7 @@ always reg reg_root(reg x) {
   return x * reg_reciprocal_sqrt(x);
 }
 
-/* e^x for |x| < 80, to about 2e-7: 2^n times a polynomial in what is left of x. */
+/* e^x for |x| < 80, to about 2e-7: 2^n times a polynomial in the rest of x. */
 always reg exponential(reg x) {
   const float rounder = 12582912.0f; /* 1.5 2^23: adding it rounds to an integer, which then
                                         stands in the lowest bits */
@@ -304,9 +304,9 @@ always reg exponential(reg x) {
   return (reg)((reg_bits)MADD(r, p, 1.0f) + ((reg_bits)shifted << 23));
 }
 
-/* log(x) for x > 0, to about 6e-7: the exponent, and the series of 2 artanh in what is left. */
+/* log(x) for x > 0, to about 6e-7: the exponent, and the series of 2 artanh in the rest. */
 always reg logarithm(reg x) {
-  /* of sqrt(1/2): what is left is between that and sqrt(2) */
+  /* of sqrt(1/2): the rest is between that and sqrt(2) */
   const reg_int bits = (reg_int)((reg_bits)x - 0x3f3504f3);
   const reg exponent = __builtin_convertvector(bits >> 23, reg),
             m = (reg)((bits & 0x7fffff) + 0x3f3504f3);

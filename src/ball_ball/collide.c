@@ -1,4 +1,4 @@
-/* The public entry points: collocation, and for what it does not take: check, go to the
+/* The public entry points: collocation, and for other inputs: check, go to the
  * collision frame, solve, come back, say how it went. */
 #include "carom.h"
 #include "platform/arithmetic.h"
@@ -16,7 +16,7 @@
 
 /* ---- carom_detail ---------------------------------------- */
 
-/* The impulses over a whole collision follow from what it changed. With Δ the change, C = 5/(2 M
+/* The impulses over a whole collision follow from the changes. With Δ the change, C = 5/(2 M
  * R) of each ball, P the normal impulse, P1 and P2 those of friction along x and z on ball i,
  * and those of the cloth on i and on j:
  *

@@ -308,7 +308,7 @@ always collision collision_of(const problem *a, in_column *in) {
 }
 
 /* Puts collisions at their start, and solves those that an EASY step solves, which is most.
- * Returns these lanes, with *out. In others, *kind is what comes next, and *ahead is predicted
+ * Returns these lanes, with *out. In others, *kind is the next step, and *ahead is predicted
  * for that. A lane that the others did not wait for gets EASY again.
  */
 always vmask begin_collision(const problem *a, in_column *in, vmask good, collision *c, vreal *kind,
@@ -344,7 +344,7 @@ always vmask begin_collision(const problem *a, in_column *in, vmask good, collis
 
 /* Takes a step of a kind, for which *ahead has been predicted. Returns the lanes that it solved,
  * with *out; in the others the collision goes on behind the step or, where it was refused, will
- * be more careful, and *next is the kind of what comes next, or REFUSED, with the prediction for
+ * be more careful, and *next is the kind of the next step, or REFUSED, with the prediction for
  * it in *ahead. */
 always vmask take_step(enum step_kind kind, const problem *a, prediction *ahead, collision *c,
                        solution *out, vreal *next) {
@@ -443,7 +443,7 @@ static void store_collision(const collision *c, lane_state at) {
   v_store(at[LANE_ATTEMPTS], c->attempts);
 }
 
-/* What comes next after a step, in the lanes that it solved and in others. Returns whether there
+/* The next step after a step, in the lanes that it solved and in others. Returns whether there
  * are others. */
 static bool store_kinds(vmask solved, vmask others, vreal kind, lanes_by_step next) {
   memset(next, 0, sizeof(lanes_by_step));

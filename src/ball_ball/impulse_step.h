@@ -16,7 +16,7 @@
  * with the means of the directions so far.
  *
  * THE ITERATION takes the directions at the nodes through the integration matrix to the slips
- * there, and these to new directions. What the cloth does converges by itself, since mu mu_b is
+ * there, and these to new directions. The cloth converges by itself, since mu mu_b is
  * small. An angle rho by which u has moved would turn friction the wrong way, and u back: rho
  * less the integral of D rho, where D = mu_b L kappa (5/2 + sigma^2) / |u|, is nearly what
  * Newton's method would leave of it, since |u| falls at about the rate D |u|.
@@ -127,7 +127,7 @@ always vreal x_at(bool turned, const node_map *m, vreal X) {
 
 /* ---- The directions -------------------------------------------------------------------------- */
 
-/* An iteration leaves an error of at least CONTRACTION times what it moved, and more by mu mu_b,
+/* An iteration leaves an error of at least CONTRACTION times its last move, and more by mu mu_b,
  * for the cloth, and by q^2, for u. */
 /* Found by trial with `carom-lab stress --draws 60000`. With half of CONTRACTION errors reach
  * 3.8e-7 instead of 3.5e-7, with half of CONTRACTION_CLOTH 8.1e-7; at twice, or with other
@@ -167,7 +167,7 @@ typedef struct directions {
       S_y[MOST_REGS];
   reg dx[MOST_REGS], dz[MOST_REGS], per_u[MOST_REGS], back[MOST_REGS];
   vmask going; /* lanes that have not converged */
-  vreal error; /* estimate of what the iteration leaves, in p */
+  vreal error; /* estimate of the error after the iteration, in p */
 } directions;
 
 /* A step from *s, for which *g has been predicted. map: of nodes that are not even. */
@@ -189,7 +189,7 @@ typedef struct impulse_step {
  *
  * and so w = w_1 X (1 + X b (f_1 + h) / 2 + X^2 w^(3) / (6 w')). In powers of x = X / (1 - alpha
  * X) with alpha = b h / 2 about, whose singularity stands for that of 1 / r, the series w_1 x (1
- * + x (second + x third)) converges faster. by_t: what a turning t adds, by_t X (X - 1). */
+ * + x (second + x third)) converges faster. by_t: the term of a turning t, by_t X (X - 1). */
 typedef struct turning {
   vreal alpha, w_1, second, third, by_t;
 } turning;
@@ -237,7 +237,7 @@ always void predict_directions(int n, bool turned, impulse_step *p) {
               own_y = l->length - own * g->t_y;
   const vreal half_b = 0.5f * l->mu_b, half_y = 0.5f * l->Z_in_d_y;
   EACH_REG(k, n) {
-    /* u turned by w: cosine and sine to second order; sums begin with what is known first */
+    /* u turned by w: cosine and sine to second order; sums begin with the first known */
     const reg X = p->nodes.X[k], x = X * rough_reciprocal(MADD(-turns.alpha, X, 1.0f));
     const reg w = MADD(turns.w_1 * x, MADD(x * x, turns.third, MADD(x, turns.second, 1.0f)),
                        turns.by_t * (X * (X - 1)));
@@ -405,7 +405,7 @@ always vreal extrapolate_to_end(const problem *a, const state *s, const end_slop
               returned = work_returned(a, s->K_c, s->K);
   const vreal half_excess = 0.5f * v_fma(-s->v, s->v, v_fma(a->e, a->e, returned));
   const vreal near = half_excess * v_reciprocal(v_max(s->v, v_splat(TINY)));
-  /* what the change of f adds to int f dp; K, all further work on friction; v at the end */
+  /* the term of the change of f in int f dp; K, all further work on friction; v at the end */
   const vreal bend = (near * near) * v_fma(near, -a->mu_mu_b_y * third_y, half_df),
               K = v_fma(f, half_excess, bend * s->v);
   const vreal left = v_fma(v_splat(-2), K, returned),
@@ -433,7 +433,7 @@ static const float MOST_EXTRAPOLATION = 0.03f, MOST_EXTRAPOLATION_TURN = 0.1f;
 static const float MOST_FALL = 0.5f;
 
 /* The state behind a step of the length in *l, with the integrals of s_x and s_y over it, and
- * those of c and sigma against their values at first; K at v = 0 stays what it is. */
+ * those of c and sigma against their values at first; K at v = 0 does not change. */
 always state state_after(const prediction *g, const coefficients *l, const state *s, vreal X,
                          vreal Y, vreal dC, vreal dZ, vreal K) {
   const vreal C = g->c + dC, Z = g->z + dZ;

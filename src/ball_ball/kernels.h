@@ -1,4 +1,4 @@
-/* What is compiled once for every instruction set, as tables of functions: reduction and
+/* The functions that are compiled once for every instruction set, in tables: reduction and
  * restoration of rows, collocation steps of many collisions, and one collision as a whole.
  * kernels.c has the tables. */
 #ifndef CAROM_SRC_BALL_BALL_KERNELS_H
@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-/* ---- What the kernels hand to each other: rows.h, in the caller's precision, reduces
+/* ---- Data between the kernels: rows.h, in the caller's precision, reduces
  * collisions to eight numbers each and turns their solutions into velocities; between them
  * collocation (collocate.c) computes in single precision. */
 
@@ -19,7 +19,7 @@ enum { IN_U_X, IN_U_Z, IN_D_X, IN_D_Y, IN_KAPPA, IN_MU, IN_MU_B, IN_E, IN_COLUMN
 /* Solutions: those of problem.h. */
 enum { OUT_J_C, OUT_J_Z, OUT_I_X, OUT_I_Y, OUT_OVERSHOOT, OUT_STICK, OUT_K_C, OUT_COLUMNS };
 /* A collision between two steps: the columns of its state (problem.h), whether v = 0 has been
- * passed (1 or 0), and what has been tried (collocate.c). */
+ * passed (1 or 0), and the steps that were tried (collocate.c). */
 enum { LANE_STATE, LANE_RESTITUTION = 13, LANE_SHARE, LANE_CAREFUL, LANE_ATTEMPTS, LANE_COLUMNS };
 
 enum { MOST_LANES = 16 }; /* of floats in a vector */
@@ -45,7 +45,7 @@ enum step_kind {
 typedef uint32_t lanes_by_step[STEP_ENDS];
 
 /* A ball that u_z presses less, in units of |v_n0| / kappa, is not pressed; friction between the
- * balls that is less counts as this, so that what is divided by it is finite. */
+ * balls that is less counts as this, so that quotients by it are finite. */
 static const double LEAST_PRESS = 1e-10, LEAST_MU_B = 1e-9;
 
 /* Error in p, in units of |v_n0| / kappa, that a step may add by its estimate, for results in
@@ -57,14 +57,14 @@ static const float carom_tolerances[2] = {2.5e-7f, 5e-6f};
 
 typedef enum carom_precision { CAROM_F64, CAROM_F32, CAROM_PRECISIONS } carom_precision;
 
-/* What rows.h keeps of a register of rows, from reduction to restoration. */
+/* The data that rows.h keeps of a register of rows, from reduction to restoration. */
 typedef struct row_context {
   _Alignas(64) unsigned char bytes[3200];
 } row_context;
 
 /* Reduces as many rows as a vector has floats, given by their numbers in an array of
  * carom_impact or its twin. Returns a bit for each row that passes every check, approaches, and
- * is within what collocation is tried on; the columns of others hold junk. s: see frame.h. */
+ * is within the limits of collocation; the columns of others hold junk. s: see frame.h. */
 typedef uint32_t carom_rows_in(const void *in, const uint32_t row[MOST_LANES], double s,
                                row_context *context, step_inputs columns);
 /* Writes the velocities, to an array of carom_result or its twin. Returns a bit for each row
@@ -72,7 +72,7 @@ typedef uint32_t carom_rows_in(const void *in, const uint32_t row[MOST_LANES], d
 typedef uint32_t carom_rows_out(const row_context *context, const step_outputs solution, void *out,
                                 const uint32_t row[MOST_LANES]);
 
-/* The first step, where it is an easy one, in the lanes of `good`. next: what comes next; *out:
+/* The first step, where it is an easy one, in the lanes of `good`. next: the next kind; *out:
  * of those that are SOLVED. A lane for which the others would have to wait is put off: its next
  * step is EASY again. spin: 5/2 s. */
 typedef void carom_first_step(step_inputs in, uint32_t good, float spin, float tolerance,

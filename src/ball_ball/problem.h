@@ -1,4 +1,4 @@
-/* A collision as the collocation steps see it: what stays, what changes, predictions, the
+/* A collision as the collocation steps see it: constants, variables, predictions, the
  * solution. All in single precision, in units of |v_n0| / kappa, so that the impulse that stops
  * a ball without friction is 1; reduced.h has the symbols. Instead of v_n there is v = v_n /
  * kappa, which starts at -1 and has the slope 1 - f with f = f_y / kappa = -pull_y sigma t_y.
@@ -14,12 +14,12 @@
 #include "ball_ball/kernels.h"
 
 static const float TINY = 1e-36f; /* keeps 0 / 0 away */
-/* Of a step's tolerance, for what its iteration leaves. By `carom-lab stress --draws 60000`
+/* Of a step's tolerance, for the error after its iteration. By `carom-lab stress --draws 60000`
  * errors reach 8.2e-7 with twice of it instead of 3.5e-7, and with half no time is lost beyond
  * the 4 % that times vary. */
 static const float ITERATION_SHARE = 0.5f;
 
-/* What stays the same during a collision. */
+/* The constants of a collision. */
 typedef struct problem {
   vreal kappa, per_kappa, mu, mu_b, e;
   vreal mu_mu_b, mu_mu_b_y; /* mu mu_b; mu mu_b / kappa */
@@ -30,7 +30,7 @@ typedef struct problem {
   vmask sensitive;          /* see is_sensitive() */
 } problem;
 
-/* What changes, number by number or as columns. */
+/* The variables, number by number or as columns. */
 enum { STATE_COLUMNS = 13 };
 typedef struct state {
   union {

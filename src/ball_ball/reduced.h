@@ -1,4 +1,4 @@
-/* The collision reduced to what evolves: five quantities instead of ten velocities.
+/* The collision reduced to five quantities that evolve, instead of ten velocities.
  *
  * Frame: x along the table, y from ball i to ball j, z up; at the contact of the balls the slip
  * is (u_x, u_z). The sign of u_z never changes and decides which ball is pressed into the cloth:
@@ -66,7 +66,7 @@ static inline carom_reduced carom_reduce(const carom_local *c) {
                          .j_pressed = on_j};
 }
 
-/* Adds to *c what the integrals make of its velocities. */
+/* Adds to *c the change of its velocities by the integrals. */
 static inline void carom_restore(const carom_reduced *r, const carom_integrals *g, carom_local *c) {
   const double sign = r->j_pressed ? -1 : 1, ratio = r->kappa - 1, C = 2.5 / c->R;
   const double p_x = sign * (g->F_x - g->Q_1), p_y = sign * (g->F_y - g->p),
@@ -134,7 +134,7 @@ static inline carom_status carom_precise(const carom_reduced *c, double toleranc
   return carom_impact_advance(path, INFINITY, CAROM_IMPACT_ITERATIONS);
 }
 
-/* The tolerance of calls: errors of two balls are well below what carom.h promises. */
+/* The tolerance of calls: errors of two balls are well below those that carom.h promises. */
 static const double CAROM_PRECISE_TOLERANCE = 1e-3;
 
 #endif

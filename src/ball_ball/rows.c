@@ -15,7 +15,7 @@
 #include "ball_ball/rows.h"
 #include "ball_ball/kernels.h"
 
-/* What the way back needs. */
+/* The data for the way back. */
 typedef struct row_lanes {
   vreal a_v[2], a_w[3], b_v[2], b_w[3]; /* motion before */
   vreal M_a, M_b, R, mu, mu_b, e;       /* mu of the pressed ball; both frictions as collocation
@@ -26,7 +26,7 @@ typedef struct row_lanes {
   vmask b_pressed;
 } row_lanes;
 
-/* What collocation can be tried on: beyond these limits the fallback is needed anyway, or
+/* The limits of collocation: beyond them the fallback is needed anyway, or
  * nothing is known of it. */
 static const real LEAST_E = (real)0.05, MOST_MU_B = (real)0.5, MOST_MU_MU_B = (real)0.25,
                   LEAST_RATIO = (real)0.05;
@@ -44,7 +44,7 @@ static inline vmask reduce_rows(const real *const row[LANES], real s, row_lanes 
   const vreal *a = x, *b = x + 12, zero = v_splat(0);
   const vreal R = a[9], M_a = a[10], M_b = b[10], mu_b = x[24], e = x[25];
 
-  /* the frame, and what moves in it: u, d and the approach, times the distance of the centres */
+  /* the frame, and in it u, d and the approach, times the distance of the centres */
   const vreal r_x = b[0] - a[0], r_y = b[1] - a[1], square = r_x * r_x + r_y * r_y,
               inverse = v_reciprocal_sqrt(square);
   r->y_x = r_x * inverse;

@@ -27,7 +27,7 @@ static inline vmask in_unit_interval(vreal x) {
 static inline vmask is_positive(vreal x) {
   return v_less(v_splat(0), x) & v_less(x, v_splat((real)INFINITY));
 }
-/* What arguments.c allows for radii, heights and vertical velocities. */
+/* The tolerances of arguments.c for radii, heights and vertical velocities. */
 static inline vmask are_one_radius(vreal a, vreal b) {
   return v_less_equal(v_abs(b - a), (real)1e-9 * a);
 }

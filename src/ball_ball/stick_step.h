@@ -31,7 +31,7 @@
 
 enum { STICK_NODES = 6 };
 enum { STICK_LEAST = 2, STICK_MOST = 5 }; /* iterations; the first does not change W */
-/* What an iteration of a step to stick leaves of what it moved, at least and by mu. With twice
+/* The error after an iteration of a step to stick, over its move, at least and by mu. With twice
  * or half of each,
  * `carom-lab stress --draws 60000` shows the same errors and times. */
 static const float CONTRACTION_STICK = 0.05f, CONTRACTION_STICK_MU = 0.25f;
@@ -47,7 +47,7 @@ always void tau_of(const problem *a, reg d_x, reg d_y, reg *tau_x, reg *tau_y) {
 /* K at v = 0 on the step, given v where the balls stick, the mean of f, and at the nodes W,
  * tau_y and slope = v' / lambda^4.
  *
- * v = 0 is found on the polynomial through the slopes: v is what it is at stick less lambda^5
+ * v = 0 is found on the polynomial through the slopes: v is its value at stick less lambda^5
  * times a polynomial. From the start to there Gauss's rule, with the slopes not of that
  * polynomial but of those through W and tau_y, which are smoother. */
 always vreal K_at_v_0_to_stick(const problem *a, const stick_rule *r, const state *s, vreal c,
@@ -161,7 +161,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
     apply(r->sum, tau_x, X, n);
     apply(r->sum, tau_y, new_Y, n);
     EACH_REG(k, n) {
-      /* Q_1 and Q_2 follow from what u has lost and from F; then d, and the new tau */
+      /* Q_1 and Q_2 follow from the loss of u and from F; then d, and the new tau */
       const reg F_x = per_F * X[k], F_y = per_F * new_Y[k];
       const reg Q_1 = per_x * (MADD(-lambda_5[k], W[k], s->u_x) + F_x),
                 Q_2 = per_z * MADD(2.5f, F_y, MADD(-lambda_5[k], u_z, u_z));
@@ -199,7 +199,7 @@ always vreal stick_step(const problem *a, const prediction *g, const state *s, s
   /* F = -mu mu_b I */
   const vreal weight = 2 * u_z * per_mu_b;
 
-  /* K at v = 0; behind stick K stays what it is */
+  /* K at v = 0; behind stick K does not change */
   const vmask passes = v_not(s->restitution) & v_less(zero, v);
   vreal K_c = v_select(s->restitution, s->K_c, K);
   if (v_any(passes))

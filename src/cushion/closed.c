@@ -9,7 +9,7 @@
  * SMOOTH. Recorded balls pass from sticking to sliding gradually, and the nose gives back a part
  * of the slip (C > 1):
  *
- *     F      = 2/7 (C_x s_x, C_t s_t)                        what friction would do if it could
+ *     F      = 2/7 (C_x s_x, C_t s_t)                        impulse of friction without a limit
  *     rho    = |(F_x, F_t/(1 + a))| / (mu_w P)               the part of friction that this needs
  *     sigma  = (1 + rho^(1/q))^-q                            the part that is done: 1 for small
  *                                                            rho, 1/rho for large
@@ -63,7 +63,7 @@ carom_status carom_smooth(carom_contact *c, const carom_cushion_options *opt) {
                C_t = own ? opt->smooth_t : 1.2;
   const double a = own ? opt->smooth_a : 0.13, k = own ? opt->smooth_k : 0.047;
 
-  /* what friction would do, and the most that it can */
+  /* friction without a limit, and the limit */
   const double once = c->v_y * c->cosine, P = (1 + c->e) * once, most = c->mu_w * P;
   const double F_x = 2.0 / 7.0 * C_x * carom_slip_x(c), F_t = 2.0 / 7.0 * C_t * carom_slip_t(c);
   const double across = F_t / (1 + a), wanted = sqrt(F_x * F_x + across * across);

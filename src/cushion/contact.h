@@ -1,4 +1,4 @@
-/* A ball at a cushion in the frame of the impact: what every model of src/cushion works on.
+/* A ball at a cushion in the frame of the impact, for every model of src/cushion.
  *
  * x along the cushion, y horizontally into it, z up, right-handed. The nose touches the ball at
  * I, in the direction

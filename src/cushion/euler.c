@@ -30,7 +30,7 @@ static void euler_step(carom_contact *c, double P, bool pooltool) {
   double at_x, at_t, over_x, over_y;
   slip_direction(carom_slip_x(c), carom_slip_t(c), pooltool, &at_x, &at_t);
   slip_direction(carom_cloth_x(c), carom_cloth_y(c), pooltool, &over_x, &over_y);
-  /* what the cloth bears for each unit of P */
+  /* the load on the cloth for each unit of P */
   const double load = c->sine + c->mu_w * at_t * c->cosine, g = pooltool || load > 0 ? load : 0;
   const carom_impulse q = {.P = P,
                            .f_x = -c->mu_w * at_x * P,

@@ -27,7 +27,8 @@
   X(SMOOTH, "smooth", carom_smooth(c, opt), carom_han_friction(c, v_n, slip), 512)
 
 /* X(of, member, low, high, ERROR): the numbers that carom_cushion_options and carom_ball_kind
- * have both. Each is 0 or within the range, to which both ends belong. `of` is passed on. */
+ * have both. Each is 0 or within the range, to which both ends belong. They stand in the order of
+ * carom_cushion_options, as C++ asks of designators. `of` is passed on. */
 #define CAROM_CUSHION_NUMBERS(X, of)                                \
   X(of, omega_ratio, 1 + DBL_EPSILON, 2 - DBL_EPSILON, OMEGA_RATIO) \
   X(of, smooth_q, 1e-12, 0.5, SMOOTH)                               \

@@ -130,7 +130,7 @@ static double slip_after(double rho, double mu, double e, double ratio, bool poo
   return ratio * s.U * sine + s.V * cosine + mu * BETA * e * (1 + cosine_phase);
 }
 
-/* What share of the slip friction takes over the mass. */
+/* The share of the slip that friction takes, over the mass. */
 static double friction_share(const carom_contact *c, double v_n, double slip,
                              const carom_cushion_options *opt) {
   const bool pooltool = opt->convention == CAROM_CONVENTION_POOLTOOL;

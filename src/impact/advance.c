@@ -1,11 +1,11 @@
-/* An impact step by step: which step comes next, and what follows it.
+/* An impact step by step: the choice of a step, and the state after it.
  *
  * A REGIME (contact.c) lasts until a slip is zero or its event happens. Where all rates are
  * constant, as in an impact without motion along x, the solution is a straight line. Otherwise a
  * step is planned by the motion of the slip a at the driving contact:
  *
  *     a slides             a stretched map (map.h)
- *     a is quasi-steady    friction nearly balances what drives a, and a has settled in the
+ *     a is quasi-steady    friction nearly balances the force on a, and a has settled in the
  *                          direction in which friction lets it go. The equations are stiff and
  *                          their solution is smooth: an even map, and exact steps
  *     a begins from zero   the same
@@ -60,7 +60,7 @@ enum {
   MOST_CAREFUL_REFUSALS = 30 /* and before careful ones give up */
 };
 
-/* The kinds of steps, compiled one by one so that each leaves out what it does not need. */
+/* The kinds of steps, compiled one by one so that each leaves out the terms of the others. */
 typedef enum outcome step_kind(const carom_terms *, const step *, carom_point *, int *, double *);
 #define KIND(name, driving_slips, loaded, exact)                                               \
   static __attribute__((noinline)) enum outcome name(                                          \
@@ -121,7 +121,7 @@ static void start_at(const carom_trajectory *path, double to, step_start *s) {
   /* the mean of b' if b passes zero, where the cloth's own friction changes its sign */
   s->line_x = s->db_x + 0.5 * k->H_x * x;
   s->line_y = s->db_y + 0.5 * k->H_y * y;
-  /* the end of the phase if v' were constant; or what comes before it. Friction of a steep nose
+  /* the end of the phase if v' were constant; or an earlier end. Friction of a steep nose
    * may push the ball on, v' > 0, until slip has changed: then no end is in sight, and a step
    * may go as far as slip lasts */
   if (path->restitution) {
@@ -144,7 +144,7 @@ static void start_at(const carom_trajectory *path, double to, step_start *s) {
     if (!(s->to_goal > 0 && s->to_goal < 1))
       s->to_goal = 1;
   }
-  /* what comes before it: p asked for, the event of the regime, the length left by a refusal */
+  /* an earlier end: p asked for, the event of the regime, the length left by a refusal */
   if (to - at->p < s->to_goal) {
     s->goal = AT_P;
     s->target = s->to_goal = to - at->p;
@@ -334,7 +334,7 @@ static bool snap_to_zero(carom_trajectory *path, const carom_point *before) {
 
 /* Where friction drives the slip on the cloth, it also drives an error e of planar motion that
  * lies across b. With |b|' = r and h = -H w, e' = h e/|b|, so that e follows |b|^(h/r). Where b
- * passes zero, e is what is left of |b|: then |b|^(h/r) e is |b| itself. The error of the
+ * passes zero, e is the rest of |b|: then |b|^(h/r) e is |b| itself. The error of the
  * friction's impulse is the change of e over |H|. */
 static void drive_error(carom_trajectory *path, const step_start *s, const carom_point *before) {
   const double e = path->across, from = most_of(fabs(before->b_y), e), end = fabs(path->at.b_y);
@@ -359,7 +359,7 @@ static bool driven_at_start(const carom_trajectory *path) {
     return false;
   step_start s;
   start_at(path, INFINITY, &s);
-  /* |b|' = h + d, if what drives b beside friction is along b */
+  /* |b|' = h + d, if the force on b beside friction is along b */
   const double h = -path->terms.H_x * s.w, d_x = s.db_x - h * s.t_x, d_y = s.db_y - h * s.t_y;
   const double d = sqrt(d_x * d_x + d_y * d_y);
   return s.q > 0 && s.q < 1 && DBL_EPSILON * carom_exp(-h / (h + d) * rough_log(s.q)) > MOST_ACROSS;

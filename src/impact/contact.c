@@ -1,4 +1,4 @@
-/* What the two contacts do: the regime that begins where a slip is zero, and its coefficients.
+/* The regime of the two contacts that begins where a slip is zero, and its coefficients.
  *
  * HOLDING. Where a = 0, the friction that keeps it there follows from a' = 0. With the cloth
  * slipping in the direction t under the load g, F = -mu_c g t, this is linear:

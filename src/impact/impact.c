@@ -71,7 +71,7 @@ carom_status carom_impact_advance(carom_trajectory *path, double to, int most) {
 carom_impulses carom_impact_impulses(const carom_trajectory *path) {
   const carom_law *l = &path->law;
   const carom_point *from = &path->start, *at = &path->at;
-  /* what friction has changed */
+  /* the changes by friction */
   const double a_x = at->a_x - from->a_x, a_y = at->a_y - from->a_y - l->A_0 * at->p,
                b_x = at->b_x - from->b_x, v = at->v - from->v - l->V_0 * at->p;
   if (l->mu_c == 0)

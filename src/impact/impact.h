@@ -25,7 +25,7 @@ typedef struct carom_terms {
   double event[4];
 } carom_terms;
 
-/* What each contact does. */
+/* The regime of each contact. */
 typedef struct carom_regime {
   bool held;               /* friction holds the driving contact: a = 0 */
   bool cloth_held, loaded; /* friction holds the contact with the cloth: b = 0; or the cloth
@@ -84,7 +84,7 @@ void carom_impact_begin(const carom_law *law, double tolerance, int plain, doubl
  */
 carom_status carom_impact_advance(carom_trajectory *path, double to, int most);
 
-/* The iterations that the impact of a call may take, and what it takes per sample of a trace. */
+/* The most iterations for the impact of a call, and for each sample of a trace. */
 enum { CAROM_IMPACT_ITERATIONS = 400 };
 
 /* The impulses so far. */

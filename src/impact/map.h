@@ -31,7 +31,7 @@ static const double ELLIPSE = 3; /* b passes near zero if its complex zero lies 
 static const double LEAST_D = 1e-3, LEAST_D_UNSTABLE = 1e-14;
 static const double SINH_LENGTH = 3; /* length of a step in x */
 
-/* What a step begins with. */
+/* The state in which a step begins. */
 typedef struct step_start {
   double r, q;                          /* |a|, |b| */
   double u_x, u_y, t_x, t_y;            /* their directions */

@@ -146,8 +146,8 @@ always void invert(double (*matrix)[NODES]) {
 #define ROW(x, i) (((part_of_row *)(x))[i])
   double diagonal = matrix[0][0];
   unrolled for (int k = 0; k < NODES; k++) {
-    /* what of row k every row gets: the entries of column k vanish, that of row k becomes 1. The
-     * next element of the diagonal comes first, as its division is what the next row waits for */
+    /* the part of row k for every row: the entries of column k vanish, that of row k becomes 1. The
+     * next element of the diagonal comes first, as the next row waits for its division */
     const double pivot = 1 / diagonal;
     if (k + 1 < NODES)
       diagonal = madd(splat(matrix[k][k + 1] * -pivot), splat(matrix[k + 1][k]),

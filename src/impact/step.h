@@ -93,7 +93,7 @@ typedef struct step {
   carom_kept_step *kept; /* where the step is kept for derivatives, or NULL */
 } step;
 
-/* What the iteration has at the nodes. */
+/* The values of the iteration at the nodes. */
 typedef struct iterate {
   nodes u_x, u_y, t_x, t_y;     /* directions */
   nodes w, v;                   /* friction of the cloth, v' */
@@ -298,7 +298,7 @@ always double to_goal(const carom_terms *k, const carom_point *from, const step 
                  u_y = driving ? LAST(c->u_y) : LAST(c->t_y);
     return -(x * u_x + y * u_y) / (dx * u_x + dy * u_y);
   }
-  /* the direction at the end, how fast it turns, and what that makes of w */
+  /* the direction at the end, how fast it turns, and its effect on w */
   const double inverse = 1 / sqrt(x * x + y * y), turning = (x * dy - y * dx) * inverse * inverse;
   double w = 1, growth = 0;
   x *= inverse;
@@ -394,7 +394,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
       }
       EACH correction[i] = greater(correction[i], correction_t[i]);
     }
-    /* what is left is the last correction times the rate of convergence; it acts over the length
+    /* the error left is the last correction times the rate of convergence; it acts over the length
      * of the step */
     const double now = largest(correction), rate = n > 0 ? now / last : 0.3,
                  worst = rate > last_rate ? rate : last_rate;
@@ -449,7 +449,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     EACH f[i] = s->z[i] * c.w[i] * inverse_b[i];
     to.growth -= scale * k.H_x * dot(WEIGHT, f);
   }
-  /* what the goal makes exactly zero */
+  /* the variables that are exactly zero at the goal */
   if (s->goal == AT_STICK)
     to.a_x = to.a_y = 0;
   if (s->goal == AT_CLOTH_STICK)

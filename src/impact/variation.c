@@ -204,10 +204,10 @@ void carom_variation_follow(carom_trajectory *path, const carom_point *before, b
   carom_variation_rates(&path->terms, lead, at->v, after);
   /* it ends a little earlier or later; rates change there. By the rates at its end and not by
    * the direction of the slip alone: that of a slip which is negligible, but not zero, still
-   * turns, and what is left of da across the motion falls with |a| */
+   * turns, and the part of da across the motion falls with |a| */
   for (int c = 0; c < CAROM_VARIABLES; c++) {
     const double d_p = falls < 0 ? -(u_x * g->d[first][c] + u_y * g->d[first + 1][c]) / falls : 0;
-    /* what is left of da, which has to be 0, tells how well the end of the slip was resolved */
+    /* the rest of da, which has to be 0, tells how well the end of the slip was resolved */
     const double x = g->d[first][c] + g->rate[first] * d_p,
                  y = g->d[first + 1][c] + g->rate[first + 1] * d_p;
     if ((g->asked >> c & 1) &&

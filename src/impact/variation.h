@@ -6,8 +6,8 @@
 #include "impact/impact.h"
 #include "impact/rules.h"
 
-/* By what an impact is differentiated: the slips at its start, frictions, restitution, and the
- * parameter lambda of the geometry.
+/* The variables of derivatives of an impact: the slips at its start, frictions, restitution, and
+ * the parameter lambda of the geometry.
  */
 enum carom_variable {
   BY_A_X,
@@ -30,7 +30,7 @@ typedef struct carom_kept_step {
   double z[NODES], p[NODES], u_x[NODES], u_y[NODES], t_x[NODES], t_y[NODES];
 } carom_kept_step __attribute__((aligned(64)));
 
-/* What is differentiated, in the order of the numbers below. */
+/* The results that have derivatives, in the order of the numbers below. */
 enum carom_varied { OF_A_X, OF_A_Y, OF_B_X, OF_B_Y, OF_V, OF_W, CAROM_VARIED };
 
 typedef struct carom_variation {
@@ -79,7 +79,7 @@ void carom_variation_rates(const carom_terms *k, const double lead[4], double v,
 
 /* Called by advance.c, besides variation_step() of variation_step.h: after a straight step; */
 void carom_variation_straight(carom_trajectory *path, const carom_point *before, bool planar);
-/* and after either, once what follows is decided. phase_ended: compression or restitution has. */
+/* and after either, once the regime is decided. phase_ended: compression or restitution has. */
 void carom_variation_follow(carom_trajectory *path, const carom_point *before, bool phase_ended);
 
 #endif

@@ -150,7 +150,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
   const bool loaded = path->regime.loaded;
   const double length = path->at.p - before->p;
   carom_variation_begin_regime(path);
-  /* a shift along the motion, by alpha in p, is a solution; what it makes of da is split off
+  /* a shift along the motion, by alpha in p, is a solution; its part of da is split off
    * where the slip is about to end or is so small that its direction may turn fast */
   nodes alpha, d[CAROM_VARIED];
   for (int r = 0; r < CAROM_VARIED; r++)
@@ -284,7 +284,7 @@ static double variation_step(carom_trajectory *path, const carom_point *before, 
                                       : ESTIMATE);
   if (worst > 1 && length > SHORTEST)
     return worst;
-  /* what follows needs the rates at the end; the direction of a slip that is zero there is that
+  /* the next step needs the rates at the end; the direction of a slip that is zero there is that
    * of the polynomial */
   const double last[4] = {dot(AT_END, u_x), dot(AT_END, u_y), dot(AT_END, t_x), dot(AT_END, t_y)};
   carom_variation_leads(&path->at, last, g->lead);

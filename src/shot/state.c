@@ -17,7 +17,7 @@
 /* The first number of a state: another version, or another layout, is refused. */
 static const uint64_t resumable = (uint64_t)CAROM_VERSION_NUMBER << 32 | sizeof(carom_sim);
 _Static_assert(sizeof(carom_sim) <= sizeof(carom_shot_state),
-               "a shot on its way fits what callers keep of it");
+               "a shot on its way fits in the bytes of callers");
 
 /* ---- Fingerprints */
 
@@ -60,7 +60,7 @@ static uint64_t of_table(const carom_table *t) {
   return fingerprint(h, &t->ball_radius, sizeof *t - offsetof(carom_table, ball_radius));
 }
 
-/* Of the options that decide what happens, and not only when the shot stops. */
+/* Of the options that decide the motion, and not only when the shot stops. */
 static uint64_t of_options(const carom_shot_options *o) {
   const uint64_t words[] = {(uint32_t)o->world | (uint64_t)(uint32_t)o->ball_model << 32,
                             (uint32_t)o->cushion_model | (uint64_t)(uint32_t)o->friction << 32,
@@ -137,7 +137,7 @@ static bool good_path(const carom_sim *sim, int i) {
     return false;
   carom_path anew = *path;
   carom_path_begin(&anew, &sim->rates[i], path->start);
-  /* the second piece has the direction of the first, and what was known of it there */
+  /* the second piece has the direction of the first, and the state that was known there */
   if (path->ends_pair) {
     if (from->label != CAROM_BALL_ROLLING || !(sim->rates[i].drag > 0.0) ||
         !(path->second[1] >= 0.0) || !(fabs(path->second[0]) <= 1e9) ||

@@ -85,7 +85,7 @@ static bool keep_rolling(const number &v_x, const number &v_y, number *W_x, numb
 
 /* ---- Two balls ---- */
 
-/* To the frame, and to what the impact depends on. */
+/* To the frame, and to the variables of the impact. */
 CAROM_APART static void begin_balls(const carom_impact *in, carom_local *local, carom_reduced *r) {
   const carom_frame frame = carom_frame_of(in);
   *local = carom_to_frame(&frame, in, CAROM_SLIP_PAPER);

@@ -1,7 +1,7 @@
 /* Follows the events of a shot that has been played, with numbers that carry their derivatives
  * in up to CAROM_TANGENT_COLUMNS directions, and by time.
  *
- * VALUES are those of the shot, to the bit: after each step they are set to what was played, so
+ * VALUES are those of the shot, to the bit: after each step they are set to those played, so
  * only derivatives flow.
  *
  * TIME OF AN EVENT. Let d be the derivatives of the states of its balls at a fixed time, and x'
@@ -111,7 +111,7 @@ void set(const ::carom_ball_state &played, carom_ball_state *s) {
 
 /* ---- An event ---- */
 
-/* What the sources of the shot work on: two balls at places 0 and 1, and one part of the table. */
+/* The data for the sources of the shot: two balls at places 0 and 1, and one part of the table. */
 struct scene {
   carom_tangent_work *w;
   const carom_event *event;
@@ -291,7 +291,7 @@ CAROM_APART number gap(scene *s) {
   }
 }
 
-/* ---- What is said of an event ---- */
+/* ---- Flags of an event ---- */
 
 bool is_contact(const carom_event *e) {
   return e->type == CAROM_EVENT_BALL_BALL || e->type == CAROM_EVENT_RAIL ||
@@ -347,7 +347,7 @@ CAROM_APART void note_order(scene *s, const number &g) {
         s->w->note.flags |= CAROM_TANGENT_SIMULTANEOUS;
 }
 
-/* ---- What an event makes of the states ---- */
+/* ---- The states after an event ---- */
 
 CAROM_APART text::carom_status strike(scene *s) {
   const carom_tangent_work *w = s->w;
@@ -485,7 +485,7 @@ CAROM_APART void put(carom_tangent_work *w, int i, const ::carom_ball_state &pla
   ball->since = time;
 }
 
-/* What does not change from event to event. */
+/* The data that all events share. */
 void begin_scene(carom_tangent_work *w, scene *s) {
   s->w = w;
   s->opt = {};

@@ -23,7 +23,7 @@
 #undef isfinite
 #undef isnan
 
-/* The bits that the library promises hold in C; what C says of them is C++ so. */
+/* The bits that the library promises hold in C, and likewise in C++. */
 #define _Static_assert static_assert
 extern "C" {
 #include "platform/elementary.h"
@@ -56,7 +56,7 @@ struct row {
   for (int i = 0; i < LANES; i++) \
     r.q[i] = expression;          \
   return r
-/* Rules are inlined; what calls them is not, so that its numbers leave the stack with it. */
+/* Rules are inlined; their callers are not, so that its numbers leave the stack with it. */
 #define CAROM_RULE static inline __attribute__((always_inline))
 #define CAROM_APART __attribute__((noinline))
 CAROM_RULE row operator+(const row &a, const row &b) {
@@ -91,7 +91,7 @@ CAROM_RULE row rest(const row &a, real x, const row &b, real y) {
   CAROM_LANES((a.q[i] - b.q[i] * x) * y);
 }
 
-/* What the contacts of this thread have to say of themselves; begun anew for each. */
+/* The flags and errors of the contacts of this thread; begun anew for each. */
 struct watch {
   bool on;
   carom_tangent_note note;

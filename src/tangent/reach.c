@@ -51,7 +51,7 @@ static void take(carom_reach *reach, int j, double gap, double rate) {
     reach->reach[j] = carom_lesser(reach->reach[j], carom_greater(gap, 0.0) / fabs(rate));
 }
 
-/* The separation to what a ball may meet, quadratic in the time since `from`: d + v t + a t^2.
+/* The separation to a ball or part, quadratic in the time since `from`: d + v t + a t^2.
  * It may be a point, or the nearest point of a ring around it, at its height; or of a level
  * line, from which `across` points to the ball. */
 typedef struct separation {
@@ -258,7 +258,7 @@ static void cushions_missed(carom_reach *reach, const carom_tangent_ball *ball,
   }
 }
 
-/* What ball i missed on its path, up to the event; `with` is the part or ball that it met. */
+/* The misses of ball i on its path, up to the event; `with` is the part or ball that it met. */
 static void misses_of(carom_reach *reach, int i, const carom_event *event) {
   const carom_tangent_work *w = reach->work;
   const carom_tangent_ball *ball = &w->ball[i];

@@ -12,7 +12,7 @@
 
 typedef carom_tangent_work work;
 
-/* What follows checks of arguments. */
+/* The work after the checks of arguments. */
 #ifdef CAROM_WITH_TANGENTS
 static const carom_status BUILT = CAROM_OK;
 #else
@@ -132,7 +132,7 @@ static void begin(work *w, const carom_shot_ball *balls) {
   }
 }
 
-/* What the caller asks of event k, whose balls are behind it. */
+/* The rows that the caller asks of event k, whose balls are behind it. */
 static void tell(work *w, int64_t k, const carom_event *event, carom_reach *reach) {
   const carom_tangent *t = w->tangent;
   const size_t columns = sizeof(double) * (size_t)w->pass.columns;

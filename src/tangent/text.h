@@ -76,7 +76,7 @@ typedef struct carom_table {
 #include "shot/fixed.h"
 #include "shot/spheres.h"
 
-/* ---- What is not differentiated by its text ---- */
+/* ---- Functions with derivatives of their own ---- */
 
 double carom_exp(double x) {
   const real y = ::carom_exp(x.x);

@@ -22,7 +22,7 @@ enum { S_X, S_Y, S_V_X, S_V_Y, S_W_X, S_W_Y, S_W_Z, S_Z, S_V_Z };
 typedef double carom_tangent_row[CAROM_TANGENT_WIDTH];
 typedef carom_tangent_row carom_tangent_rows[CAROM_STATE_NUMBERS];
 
-/* What is said of a derivative. */
+/* The flags and the error of a derivative. */
 typedef struct carom_tangent_note {
   int32_t flags; /* of carom_tangent_flag */
   double error;  /* of differences, relative */
