@@ -24,7 +24,7 @@ carom_status carom_check_shot_options(const carom_shot_options *o) {
     return CAROM_ERROR_WORLD;
   if ((uint32_t)o->ball_model > CAROM_BALL_MODEL_MIRROR)
     return CAROM_ERROR_BALL_MODEL;
-  if ((uint32_t)o->cushion_model > CAROM_SHOT_CUSHION_SMOOTH)
+  if ((uint32_t)o->cushion_model > CAROM_CUSHION_MODEL_COUNT)
     return CAROM_ERROR_SHOT_CUSHION_MODEL;
   if ((uint32_t)o->friction > CAROM_FRICTION_CONSTANT)
     return CAROM_ERROR_FRICTION;
