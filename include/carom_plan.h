@@ -50,6 +50,11 @@ typedef struct carom_player {
  * benchmark of eight-ball (AI3603, 2025). One scale for all errors is a convention. */
 CAROM_API carom_player carom_player_of(double scale);
 
+/* Turns the stroke that a player means into one that he makes, by errors drawn from `seed` and the
+ * number of the stroke. The same arguments give the same errors on every machine. */
+CAROM_API void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t number,
+                                   carom_cue *cue);
+
 /* ---- Rules ----------------------------------------------------------------------------------- */
 
 /* What becomes of the turn of the player who has played. */
@@ -138,7 +143,8 @@ typedef enum carom_rules_kind {
   CAROM_RULES_EIGHTBALL = 0, /* 15 balls. user[0]: 1 if the player at the table has the solids (1
                                 to 7), 2 the stripes (9 to 15), 0 while the table is open.
                                 user[1]: 1 before the break. Ball and pocket are called. */
-  CAROM_RULES_NINEBALL = 1,  /* 9 balls. user[1]: 1 before the break. */
+  CAROM_RULES_NINEBALL = 1,  /* 9 balls. user[1]: 1 before the break. The nine wins; without it,
+                                the highest ball. */
   CAROM_RULES_POTTING = 2    /* a drill for one: any ball may be potted, until one misses or
                                 fouls. */
 } carom_rules_kind;

@@ -48,11 +48,6 @@ typedef struct tally {
 static double uniform(lab_random *state) {
   return ((double)(lab_bits(state) >> 11) + 0.5) * 0x1p-53;
 }
-/* Normal numbers by Box and Muller. */
-static double normal(lab_random *state) {
-  const double size = sqrt(-2.0 * log(uniform(state)));
-  return size * cos(6.283185307179586 * uniform(state));
-}
 
 /* The first break of a rack's seed that pots nothing. */
 static void make_rack(const carom_table *table, const carom_cue *cue,
@@ -72,14 +67,6 @@ static void make_rack(const carom_table *table, const carom_cue *cue,
       balls[k].state = final[k];
     return;
   }
-}
-
-static void stroke_errs(carom_cue *cue, const carom_player *player, lab_random *state) {
-  cue->speed = fmin(fmax(cue->speed + player->speed * normal(state), 0.5), 8.0);
-  cue->phi += player->phi * normal(state);
-  cue->theta = fmax(cue->theta + player->theta * normal(state), 0.0);
-  cue->a += player->a * normal(state);
-  cue->b += player->b * normal(state);
 }
 
 /* One rack: strokes until the turn is not kept. */
@@ -116,7 +103,8 @@ static void run_out(const strength_job *job, uint64_t rack, carom_plan_job *plan
     uint32_t in_play = 0;
     for (int k = 0; k < BALLS; k++)
       in_play |= (uint32_t)(balls[k].state.label != CAROM_BALL_POCKETED) << k;
-    stroke_errs(&best.cue, of.player, &state);
+    carom_player_strike(of.player, state.state, 0, &best.cue);
+    lab_bits(&state); /* the next stroke has other errors */
     carom_shoot(of.table, balls, BALLS, &best.cue, of.shot, &played);
     const carom_turn turn =
         rules.judge(rules.user, in_play, 0, &facts, (carom_call){best.ball, best.pocket});

@@ -17,7 +17,7 @@ def test_plan():
     # the stroke pots the ball that it says
     shots = carom.simulate_batch(TABLE, LAYOUT, best["cue"][:1], plain=True, features=True)
     assert shots.features.pocket[0, best["ball"][0]] == best["pocket"][0]
-    weak = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, errors=6.0, best=1)
+    weak = carom.plan(TABLE, LAYOUT, rules="potting", shots=300, player=carom.player(6.0), best=1)
     assert len(weak) == 1 and weak["value"][0] < best["value"][0] - 0.1
 
 
@@ -28,13 +28,40 @@ def test_ball_in_hand():
     assert np.ptp(best["place"], axis=0).max() == 0.0 and (best["place"][0] > 0.0).all() and best["ball"][0] >= 1
 
 
+def test_ball_in_hand_in_a_part():
+    best = carom.plan(TABLE, LAYOUT, rules="potting", shots=200, in_hand=[[0.0, 0.0], [TABLE.width, 0.4]])
+    assert 0.0 < best["place"][0, 1] < 0.4
+
+
+def test_the_opponent_counts():
+    # whoever misses against a weak opponent gets another turn
+    values = [carom.plan(TABLE, LAYOUT, rules="nineball", shots=300, player=carom.player(2.0), opponent=carom.player(e), best=1)["value"][0]
+              for e in (0.2, 8.0)]  # fmt: skip
+    assert values[1] > values[0] + 0.05
+
+
+def test_strokes_with_errors():
+    cue = carom.cue(speed=2.0, phi=40.0)
+    player = carom.player(2.0)
+    made = np.array([carom.with_errors(cue, player, 5, k) for k in range(4000)])
+    np.testing.assert_allclose([made["speed"].mean(), made["phi"].mean()], [2.0, 40.0], atol=0.02)
+    np.testing.assert_allclose([made["speed"].std(), made["phi"].std(), made["a"].std()], [0.2, 0.2, 0.006], rtol=0.06)
+    assert made[7].tobytes() == carom.with_errors(cue, player, 5, 7).tobytes() and made["theta"].min() >= 0.0
+    player["phi"] = 0.0
+    assert carom.with_errors(cue, player, 5)["phi"] == 40.0
+
+
 def test_arguments_in_error():
     with pytest.raises(ValueError, match="rules"):
         carom.plan(TABLE, LAYOUT, rules="snooker")
     with pytest.raises(ValueError, match="shots"):
         carom.plan(TABLE, LAYOUT, shots=10)
     with pytest.raises(ValueError, match="errors"):
-        carom.plan(TABLE, LAYOUT, errors=-1.0)
+        carom.player(-1.0)
+    with pytest.raises(ValueError, match="in_hand"):
+        carom.plan(TABLE, LAYOUT, in_hand=[1.0, 2.0])
+    with pytest.raises(TypeError, match="player"):
+        carom.plan(TABLE, LAYOUT, player=carom.cue())
     layout = LAYOUT.copy()
     layout["state"]["r"][1] = layout["state"]["r"][0]
     with pytest.raises(carom.CaromError):

@@ -115,14 +115,14 @@ def flat(rvw):
 def amplification(system, engine):
     """For each event: by how much a change of 1e-13 moves its time and states, over that change; as far as events are the same."""
     table, balls, cue = bridge.table_of(system.table), bridge.balls_of(system), bridge.cue_of(system)
-    one = bridge._play_by(engine, table, balls, cue)
+    one = carom.simulate(table, balls, cue, options=bridge._options_of(engine, table, balls))
     same, change = one.count, np.ones(one.count)
     for k in range(4):
         moved, struck = balls.copy(), cue.copy()
         moved["state"]["r"][..., :2] += np.random.default_rng(k).uniform(-1e-13, 1e-13, (len(balls), 2))
         struck["speed"] *= 1 + 1e-13
         struck["phi"] += 1e-13
-        other = bridge._play_by(engine, table, moved, struck)
+        other = carom.simulate(table, moved, struck, options=bridge._options_of(engine, table, moved))
         count = min(same, other.count)
         mine, theirs = one.events[:count], other.events[:count]
         differ = (mine["type"] != theirs["type"]) | (mine["a"] != theirs["a"]) | (mine["b"] != theirs["b"])
@@ -480,3 +480,79 @@ def test_speed():
     print(ran.stdout)
     times = [[float(word) for word in line[32:].split()] for line in ran.stdout.splitlines()[3:]]
     assert len(times) == 8 and all(min(row) > 0 for row in times), ran.stdout
+
+
+# ---- The agent ---------------------------------------------------------------------------------------------------------
+
+GAMES = {"eightball": pt.GameType.EIGHTBALL, "nineball": pt.GameType.NINEBALL}
+
+
+@pytest.mark.parametrize("name", GAMES)
+def test_games_against_pooltools_easiest_pot(name):
+    """pooltool's own rules find a winner, and the agent wins; its calls are those that the rules ask for."""
+    sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))
+    game = importlib.import_module("pooltool_game")
+    print(f"CAROM_TEST_SEED={SEED}")
+    won = 0
+    for seed in range(SEED, SEED + 3):
+        player = carom.player(1.0)
+        ended, lines = game.play(name, [bridge.Agent(player, shots=500, seed=seed), game.Easiest(player, seed + 1)], seed)
+        print(*lines, sep="\n")
+        assert ended.shot_info.game_over and ended.shot_info.winner is not None
+        assert not any("called" in line for line in lines if line.startswith("Agent"))
+        won += ended.shot_info.winner.name == "Agent"
+    assert won >= 2
+
+
+def end_game(name, places, group=None):
+    """A System with some balls alone, and its game after the break."""
+    system = rack(GAMES[name], np.random.default_rng(1))
+    for ball in [ball for ball in system.balls if ball not in places]:
+        system.balls[ball].state.s = pt.constants.pocketed
+    for ball, place in places.items():
+        system.balls[ball].state.rvw[0, :2] = place
+    game = pt.get_ruleset(GAMES[name])([pt.Player("A"), pt.Player("B")])
+    game.shot_number = 1
+    game.shot_constraints.ball_in_hand = pt.ruleset.BallInHandOptions.NONE
+    game.shot_constraints.call_shot = name == "eightball"
+    if group:
+        game.shot_constraints.hittable = tuple(map(str, group))
+    return system, game
+
+
+def test_the_agent_pots_its_own_balls():
+    """Of two balls in the jaws it takes that which the rules allow; without errors its stroke does what it calls."""
+    places = {"cue": (0.5, 1.0), "3": (0.06, 0.06), "11": (0.93, 0.06), "8": (0.5, 1.9)}
+    for group, wanted in ((range(1, 8), "3"), (range(9, 16), "11")):
+        system, game = end_game("eightball", places, group)
+        agent = bridge.Agent(carom.player(0.3), exact=True, shots=300)
+        told = []
+        action = agent.decide(system, game, told.append)
+        assert told == [action] and game.shot_constraints.ball_call == wanted and game.shot_constraints.can_shoot()
+        agent.apply(system, action)
+        assert (system.cue.V0, system.cue.phi) == (action.V0, action.phi)
+        pt.simulate(system, inplace=True)
+        assert pt.ruleset.is_ball_pocketed_in_pocket(system, wanted, game.shot_constraints.pocket_call)
+        game.process_and_advance(system)
+        assert game.shot_info.legal and not game.shot_info.turn_over
+        # the eight is all that is left
+        system.reset_history()
+        action = agent.decide(system, game)
+        assert game.shot_constraints.ball_call == "8"
+
+
+def test_ball_in_hand_of_the_agent():
+    """It puts the cue ball to a free place, also where pooltool has respotted it into another ball; behind the line alone if it must."""
+    for hand in ("ANYWHERE", "BEHIND_LINE"):
+        system, game = end_game("nineball", {"cue": (0.5, 0.5), "1": (0.51, 0.5), "9": (0.3, 1.5)})
+        game.shot_constraints.ball_in_hand = pt.ruleset.BallInHandOptions[hand]
+        bridge.Agent(shots=200).decide(system, game)
+        place = system.balls["cue"].xyz
+        assert np.linalg.norm(place - system.balls["1"].xyz) > 2 * system.balls["1"].params.R
+        assert hand == "ANYWHERE" or place[1] <= system.table.l / 4
+
+
+def test_what_the_agent_does_not_play():
+    system = rack(pt.GameType.SNOOKER, np.random.default_rng(1))
+    with pytest.raises(bridge.UnsupportedError, match="eight-ball and nine-ball, not _Snooker"):
+        bridge.Agent().decide(system, pt.get_ruleset(pt.GameType.SNOOKER)())

@@ -109,18 +109,16 @@ static double within(double x, double least, double most) {
 
 /* The stroke of a candidate, with the errors of a row. */
 static carom_cue stroke(const plan *of, const candidate *c, uint32_t draws, int64_t row) {
-  const carom_player *player = &of->player;
   carom_cue cue = *of->job.cue;
   double z[6] = {0};
   if (draws != 0)
     carom_normals(of->options.seed, draws, (uint64_t)row, z);
-  const double share = player->speed_share * c->speed;
-  cue.speed = within(c->speed + z[0] * sqrt(player->speed * player->speed + share * share),
-                     player->speed_least, player->speed_most);
-  cue.phi = c->phi + z[1] * player->phi;
-  cue.theta = within(c->theta + z[2] * player->theta, 0.0, 90.0);
-  cue.a = within(c->a + z[3] * player->a, -player->tip_most, player->tip_most);
-  cue.b = within(c->b + z[4] * player->b, -player->tip_most, player->tip_most);
+  cue.speed = c->speed;
+  cue.phi = c->phi;
+  cue.theta = c->theta;
+  cue.a = c->a;
+  cue.b = c->b;
+  carom_player_errs(&of->player, z, &cue);
   return cue;
 }
 
@@ -594,15 +592,12 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   /* The options of its shots are not those of when to stop. */
   of->job = *job;
   of->options = *options;
-  of->player = *job->player;
+  of->player = carom_player_bounded(job->player);
   of->shot = job->shot != NULL ? *job->shot : no_shot;
   of->shot.threads = 0;
   of->shot.stop_at = 0;
   of->shot.first_of = 0;
   of->shot.time_most = 0.0;
-  of->player.speed_least = of->player.speed_least > 0.0 ? of->player.speed_least : 0.5;
-  of->player.speed_most = of->player.speed_most > 0.0 ? of->player.speed_most : 8.0;
-  of->player.tip_most = of->player.tip_most > 0.0 ? of->player.tip_most : 0.5;
   int where;
   const carom_cue *cue = in_hand ? NULL : job->cue; /* its ball may be down */
   const carom_status bad =

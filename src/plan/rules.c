@@ -122,7 +122,11 @@ static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
     turn.spot = (facts->down | facts->off) & nine;
     return turn;
   }
-  return (facts->down & nine) != 0 ? win : facts->down != 0 ? keep : pass;
+
+  /* The nine wins, or the highest ball in games that do not put the nine back. A set of balls is
+   * above half of the set that it is from if it has its highest ball. */
+  const uint32_t balls = in_play & 0x3fe;
+  return (facts->down & balls) > balls >> 1 ? win : facts->down != 0 ? keep : pass;
 }
 
 /* ---- Potting */
@@ -177,12 +181,4 @@ const char *carom_rules_name(carom_rules_kind kind) {
 
 carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
   return games[(unsigned)kind < GAMES ? kind : 0].rules;
-}
-
-carom_player carom_player_of(double scale) {
-  return (carom_player){.speed = 0.1 * scale,
-                        .phi = 0.1 * scale,
-                        .theta = 0.1 * scale,
-                        .a = 0.003 * scale,
-                        .b = 0.003 * scale};
 }

@@ -2,7 +2,7 @@
 
 `impacts` and `cushion_impacts` build arrays of impacts; `collide` and `cushion` solve them. `mu_ball` computes the friction between
 balls from their slip speed. `trace` and `cushion_trace` follow one impact. `simulate` plays a shot and `simulate_batch` many: on
-`tables`, from `racks` or `balls`, with a `cue`. `resume` goes on with a shot that was stopped; `place_ball` is ball in hand. Units are SI;
+`tables`, from `racks` or `balls`, with a `cue`. `resume` goes on with a shot that was stopped; `place_ball` is ball in hand. `plan` finds the best shots of a `player`. Units are SI;
 vectors are right-handed with z up. `dtypes` has the structured dtypes. Every call that computes releases the GIL.
 """
 
@@ -18,7 +18,7 @@ from carom.collisions import ALL_THREADS, alciatore, collide, impacts, mu_ball, 
 from carom.cushions import cushion, cushion_impacts, cushion_trace
 from carom.derivatives import Flag, Tangents, jacobian, tangents
 from carom.layouts import Table, balls, cue, place_ball, struck
-from carom.plans import plan
+from carom.plans import plan, player, with_errors
 from carom.results import EventType, Features, Label, Shot, Shots
 from carom.shots import resume, simulate, simulate_batch
 from carom.status import CaromError, Status
@@ -32,7 +32,8 @@ __all__ = [
     "ALL_THREADS", "CaromError", "EventType", "Features", "Flag", "Label", "Options", "Outcome", "Shot", "Shots",
     "Status", "Table", "Tangents", "alciatore", "balls", "collide", "cue", "cushion", "cushion_impacts",
     "cushion_trace", "dtypes", "impacts", "isa_in_force", "jacobian", "mu_ball", "physics_revision", "place_ball",
-    "plan", "racks", "resume", "simulate", "simulate_batch", "struck", "tables", "tangents", "trace",
+    "plan", "player", "racks", "resume", "simulate", "simulate_batch", "struck", "tables", "tangents", "trace",
+    "with_errors",
 ]  # fmt: skip
 
 

@@ -21,7 +21,7 @@ Doubles = npt.NDArray[np.float64]
 
 __all__ = [
     "ball_kind", "ball_state", "brief_event", "choice", "columns", "cue", "cushion_impact", "cushion_point", "event", "impact", "jaw", "motion",
-    "plain", "pocket", "rail", "result", "shot", "shot_ball", "table", "tangent", "trace_point",
+    "plain", "player", "pocket", "rail", "result", "shot", "shot_ball", "table", "tangent", "trace_point",
 ]  # fmt: skip
 
 _NOT_SHOWN = {"reserved", "unused"}
@@ -68,6 +68,8 @@ table: Record = _record("carom_table")  # A table: any geometry.
 event: Record = _record("carom_event")
 # An event without states, 24 bytes: time (s), type (`carom.EventType`), a, b.
 brief_event: Record = _record("carom_brief_event")
+# How the strokes of a player differ from those that he means: standard deviations, and bounds.
+player: Record = _record("carom_player")
 choice: Record = _record("carom_choice")  # A shot that `carom.plan` proposes.
 shot: Record = _record("carom_shot")  # What a shot gives, with the addresses of its arrays: for the calls of C.
 # What derivatives of a shot give, with the addresses of their arrays: for the calls of C.

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from carom import dtypes
 from carom._carom import ffi, lib
@@ -27,6 +28,52 @@ _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _USUAL = Options()
 
 
+def player(errors: float = 1.0) -> dtypes.Records:
+    """A player whose strokes err, as an array of `carom.dtypes.player`, shape (). Its fields may be changed.
+
+    Parameters
+    ----------
+    errors : float
+        At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each way, times errors.
+    """
+    if not 0.0 <= errors < np.inf:
+        raise ValueError(f"errors: it must be finite and at least 0, not {errors}")
+    made: Array = np.zeros((), dtypes.player)
+    pointer("carom_player[]", made)[0] = lib.carom_player_of(errors)
+    return made
+
+
+def with_errors(cue: dtypes.Records, player: dtypes.Records, seed: int, number: int = 0) -> dtypes.Records:
+    """The stroke that a player makes of the one that he means, with errors drawn from a seed and the number of the stroke.
+
+    Returns an array of `carom.dtypes.cue`, shape (): the same for the same arguments, on every machine.
+    """
+    made = copied(one_cue(cue))
+    lib.carom_player_strike(_one_player(player), whole(seed, "seed", most=2**63 - 1), whole(number, "number"), pointer("carom_cue[]", made))
+    return made
+
+
+_usual_player = player
+
+
+def _one_player(given: dtypes.Records, name: str = "player") -> Any:
+    """A player for C. It keeps the array that it is made of."""
+    record = copied(of_record(given, dtypes.player, name, "player()"))
+    if record.ndim != 0:
+        raise ValueError(f"{name}: one is needed, of shape (), not {record.shape}")
+    return pointer("carom_player[]", record)
+
+
+def _corners(in_hand: bool | npt.ArrayLike) -> dtypes.Doubles | None:
+    """The corners between which the cue ball is put; None: anywhere."""
+    if in_hand is True:
+        return None
+    corners: dtypes.Doubles = np.ascontiguousarray(in_hand, dtype=np.float64)
+    if corners.shape != (2, 2) or not (corners[0] <= corners[1]).all():
+        raise ValueError(f"in_hand: True, False or the corners [[x, y], [x, y]] of a rectangle, the lower ones first, not {in_hand!r}")
+    return corners
+
+
 def plan(
     table: Table,
     balls: dtypes.Records,
@@ -34,9 +81,11 @@ def plan(
     *,
     rules: Rules = "eightball",
     group: Group = "open",
-    errors: float = 1.0,
+    opening: bool = False,
+    player: dtypes.Records | None = None,
+    opponent: dtypes.Records | None = None,
     shots: int = 2000,
-    in_hand: bool = False,
+    in_hand: bool | npt.ArrayLike = False,
     best: int = 5,
     seed: int = 0,
     threads: int = 0,
@@ -57,12 +106,16 @@ def plan(
         The game, by the rules of the WPA; or a drill, whose value is the share of the balls that one visit pots.
     group : {"open", "solids", "stripes"}
         Of eight-ball: the balls of the player.
-    errors : float
-        Scale of the player's errors, at least 0: 0.1 m/s, 0.1 degrees and 0.003 radii at 1.
+    opening : bool
+        Whether the stroke is the break of eight-ball or nine-ball.
+    player : ndarray of `carom.dtypes.player`, shape (), optional
+        Default: `carom.player()`.
+    opponent : ndarray of `carom.dtypes.player`, shape (), optional
+        Default: he errs as the player does.
     shots : int
         That the plan plays, about: 100 to 1,000,000.
-    in_hand : bool
-        Whether the cue ball is in hand: `place` of the choices then says where to put it.
+    in_hand : bool or array_like, shape (2, 2)
+        Whether the cue ball is in hand: `place` of the choices then says where to put it. Two corners (m) of a rectangle: there alone.
     best : int
         How many choices at most.
     seed : int
@@ -86,30 +139,33 @@ def plan(
     layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
     if layout.ndim != 1:
         raise ValueError(f"balls: the shape must be (balls,), not {layout.shape}")
-    if not 0.0 <= errors < np.inf:
-        raise ValueError(f"errors: it must be finite and at least 0, not {errors}")
+    corners = None if in_hand is False else _corners(in_hand)
     strike = copied(one_cue(usual_cue() if cue is None else cue))
     shot = shot_options(options.changed(changes))
     wanted = ffi.new("carom_plan_options *", {"shots": whole(shots, "shots", least=100, most=1_000_000), "seed": whole(seed, "seed")})
     wanted.threads = whole(threads, "threads", least=-1)
+    other = None if opponent is None else _one_player(opponent, "opponent")
+    wanted.opponent = ffi.NULL if other is None else other
 
     # The game, the player, and room for the plan.
     game = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(choice(_RULES, rules, "rules")))
     game.user[0] = choice(_GROUPS, group, "group")
-    player = ffi.new("carom_player *", lib.carom_player_of(errors))
+    game.user[1] = bool(opening)
+    own = _one_player(_usual_player() if player is None else player)
     memory: Array = np.empty(lib.carom_plan_memory(wanted) // 8 + 1, np.float64)
     record = table.record
     job = ffi.new("carom_plan_job *", {
         "table": pointer("carom_table[]", record), "balls": pointer("carom_shot_ball[]", layout), "count": len(layout),
-        "cue": pointer("carom_cue[]", strike), "player": player, "rules": game, "shot": shot, "options": wanted,
+        "cue": pointer("carom_cue[]", strike), "player": own, "rules": game, "shot": shot, "options": wanted,
         "memory": pointer("double[]", memory), "memory_size": memory.nbytes,
     })  # fmt: skip
 
     choices: Array = np.zeros(whole(best, "best", least=1, most=1000), dtypes.choice)
     found = ffi.new("int *")
     rows = pointer("carom_choice[]", choices)
-    if in_hand:
-        code = lib.carom_plan_hand(job, ffi.NULL, ffi.NULL, rows, len(choices), found)
+    if in_hand is not False:
+        low, high = (ffi.NULL, ffi.NULL) if corners is None else (pointer("double[]", corners[0]), pointer("double[]", corners[1]))
+        code = lib.carom_plan_hand(job, low, high, rows, len(choices), found)
     else:
         code = lib.carom_plan(job, rows, len(choices), found)
     if code < 0:

@@ -25,13 +25,14 @@ from carom._pooltool_fill import fill
 from carom._pooltool_models import ExactBallBall, ExactCircularCushion, ExactLinearCushion
 from carom.collisions import alciatore
 from carom.layouts import Table
-from carom.results import Shot
+from carom.plans import Group, Rules, plan, player as usual_player, with_errors
+from carom.results import Label
 from carom._shot_options import BallModel, Friction, Options, ShotCushion
 from carom.shots import simulate as _play
 from carom.status import CaromError
 
 __all__ = [
-    "ExactBallBall", "ExactCircularCushion", "ExactLinearCushion", "FallbackWarning", "UnsupportedError", "balls_of", "cue_of", "install",
+    "Agent", "ExactBallBall", "ExactCircularCushion", "ExactLinearCushion", "FallbackWarning", "UnsupportedError", "balls_of", "cue_of", "install",
     "original", "simulate", "table_of", "uninstall",
 ]  # fmt: skip
 __dir__ = listing(__name__)
@@ -40,6 +41,7 @@ Models = Literal["pooltool", "carom"]
 
 _pt: Any = importlib.import_module("pooltool")
 _simulate: Any = importlib.import_module("pooltool.evolution.event_based.simulate")
+_action: Any = importlib.import_module("pooltool.ai.action")
 
 original: Any = _simulate.simulate
 """pooltool's own `simulate`, whatever is installed: to compare with."""
@@ -138,8 +140,8 @@ def _one_of(known: Collection[str], name: str, part: str) -> None:
         raise UnsupportedError(f"engine: carom knows {', '.join(known)} for {part}, not {name}")
 
 
-def _play_by(engine: Any, table: Table, balls: dtypes.Records, cue: dtypes.Records) -> Shot:
-    """Plays a shot by the models of an engine of pooltool's, or says in an error what of it carom does not know.
+def _options_of(engine: Any, table: Table, balls: dtypes.Records) -> Options:
+    """The models of an engine of pooltool's, or an error that says what of it carom does not know.
 
     Numbers that pooltool has in its models carom has in the balls, rails and jaws, which are changed.
     """
@@ -188,8 +190,7 @@ def _play_by(engine: Any, table: Table, balls: dtypes.Records, cue: dtypes.Recor
             raise UnsupportedError("engine: carom knows a delta_p of 0.001 N s alone for Mathavan2010")
     if len(steps) > 1:
         raise UnsupportedError("engine: carom knows the same number of steps for FrictionalMathavan and Mathavan2010")
-    models = Options("pooltool", ball_model, cushion_model, friction, steps=next(iter(steps), 0))
-    return _play(table, balls, cue, options=models)
+    return Options("pooltool", ball_model, cushion_model, friction, steps=next(iter(steps), 0))
 
 
 def simulate(
@@ -230,7 +231,7 @@ def simulate(
             raise UnsupportedError("include: carom resolves all types of events")
         table, balls, cue = table_of(shot.table), balls_of(shot), cue_of(shot)
         if models == "pooltool":
-            played = _play_by(engine or _simulate.DEFAULT_ENGINE, table, balls, cue)
+            played = _play(table, balls, cue, options=_options_of(engine or _simulate.DEFAULT_ENGINE, table, balls))
         else:
             if engine is not None:
                 raise UnsupportedError("engine: with models='carom' the models are carom's")
@@ -265,6 +266,105 @@ def _tell(reason: UnsupportedError | CaromError) -> None:
     while frame.f_back is not None and frame.f_globals is globals():
         level, frame = level + 1, frame.f_back
     warnings.warn(f"pooltool plays this system instead of carom: {reason}", FallbackWarning, stacklevel=level)
+
+
+# ---- A player -----------------------------------------------------------------------------------------------------------
+
+
+_GAMES: dict[str, tuple[Rules, int]] = {"_EightBall": ("eightball", 15), "_NineBall": ("nineball", 9)}
+
+
+class Agent:
+    """Plays eight-ball and nine-ball in pooltool, by pooltool's rules: an `ai` of pooltool's `Player`.
+
+    Parameters
+    ----------
+    player : ndarray of `carom.dtypes.player`, shape (), optional
+        The errors of its strokes. Default: `carom.player()`.
+    opponent : ndarray of `carom.dtypes.player`, shape (), optional
+        Default: as the player.
+    exact : bool
+        Its strokes are those that it means, where whoever plays them adds the errors. Its plans allow for errors all the same.
+    engine : pooltool.physics.PhysicsEngine, optional
+        By which the shots of a plan are played. Default: pooltool's.
+    shots, seed, threads
+        As for `carom.plan`; each stroke has a seed of its own.
+    """
+
+    def __init__(
+        self, player: dtypes.Records | None = None, opponent: dtypes.Records | None = None, *, exact: bool = False, engine: Any = None,
+        shots: int = 2000, seed: int = 0, threads: int = 0
+    ) -> None:  # fmt: skip
+        self.player = usual_player() if player is None else player
+        self.opponent, self.exact, self.engine, self.shots, self.seed, self.threads = opponent, exact, engine, shots, seed, threads
+        self.strokes = 0
+
+    def decide(self, system: Any, game: Any, callback: Any = None) -> Any:
+        """The stroke for a System in a game, a `pooltool.ai.action.Action`.
+
+        A cue ball in hand is put to its place in the System, and the game is told the ball and the pocket that are called. A safety calls
+        a ball that does not fall, since pooltool's eight-ball asks for a call. `callback` is called with the stroke.
+
+        Raises UnsupportedError: Another game, or an engine or a table that is pooltool's alone.
+        """
+        kind = next((its.__name__ for its in type(game).__mro__ if its.__name__ in _GAMES), None)
+        if kind is None:
+            raise UnsupportedError(f"game: the agent plays pooltool's eight-ball and nine-ball, not {type(game).__name__}")
+        rules, last = _GAMES[kind]
+        constraints = game.shot_constraints
+        hand = str(constraints.ball_in_hand)
+        if hand not in ("none", "anywhere", "behind_line"):
+            raise UnsupportedError(f"game: the agent knows a cue ball in hand anywhere or behind the line, not {hand!r}")
+
+        # The layout by numbers; a cue ball in hand is nowhere yet.
+        table, names = table_of(system.table), ["cue", *map(str, range(1, last + 1))]
+        given = dict(zip(system.balls, balls_of(system), strict=True))
+        layout: Array = np.array([given.get(name, given["cue"]) for name in names], dtype=dtypes.shot_ball)
+        down = [k for k, name in enumerate(names) if name not in given] + ([0] if hand != "none" else [])
+        layout["state"]["label"][down] = Label.POCKETED
+        options = _options_of(self.engine or _simulate.DEFAULT_ENGINE, table, layout)
+        cue = cue_of(system)
+        cue["ball"] = 0
+
+        where: Any = hand == "anywhere"
+        if hand == "behind_line":
+            where = [[0.0, 0.0], [table.width, table.length / 4.0]]
+        best = plan(
+            table, layout, cue, rules=rules, group=_group(constraints.hittable, given), opening=game.shot_number == 0, player=self.player,
+            opponent=self.opponent, shots=self.shots, in_hand=where, best=1, seed=self.seed + self.strokes, threads=self.threads,
+            options=options,
+        )[0]  # fmt: skip
+        if hand != "none":
+            ball = system.balls["cue"]
+            ball.state.rvw[:] = 0.0
+            ball.state.rvw[0] = (*best["place"], ball.params.R)
+            ball.state.s = int(Label.STATIONARY)
+        if constraints.call_shot:
+            on = [name for name in constraints.hittable if name in given and given[name]["state"]["label"] != Label.POCKETED]
+            constraints.ball_call = names[best["ball"]] if best["ball"] > 0 else on[0]
+            constraints.pocket_call = list(system.table.pockets)[best["pocket"]]
+        stroke = best["cue"] if self.exact else with_errors(best["cue"], self.player, self.seed, self.strokes)
+        self.strokes += 1
+        action = _action.Action(*(float(stroke[name]) for name in ("speed", "phi", "theta", "a", "b")))
+        if callback is not None:
+            callback(action)
+        return action
+
+    def apply(self, system: Any, action: Any) -> None:
+        """Give the stroke to the cue of a System, for `simulate`."""
+        action.apply(system.cue)
+
+
+def _group(hittable: Collection[str], balls: dict[str, Any]) -> Group:
+    """Whose balls the player has, by the balls that he may meet."""
+
+    def are_in_play(low: int, high: int) -> bool:
+        return any(name.isdigit() and low <= int(name) <= high and ball["state"]["label"] != Label.POCKETED for name, ball in balls.items())
+
+    numbers = set(map(int, hittable))
+    if numbers == {8}:
+        return "stripes" if are_in_play(1, 7) else "solids"
+    return "solids" if max(numbers) < 8 else "stripes" if min(numbers) > 8 else "open"
 
 
 # ---- In its place -------------------------------------------------------------------------------------------------------

@@ -1,0 +1,45 @@
+/* Players: how their strokes differ from those that they mean. */
+#include "plan/plan.h"
+
+#include <math.h>
+
+/* The stage of draws of strokes outside plans; plan.c has the others. */
+enum { DRAW_PLAYED = 4 };
+
+carom_player carom_player_of(double scale) {
+  return (carom_player){.speed = 0.1 * scale,
+                        .phi = 0.1 * scale,
+                        .theta = 0.1 * scale,
+                        .a = 0.003 * scale,
+                        .b = 0.003 * scale};
+}
+
+carom_player carom_player_bounded(const carom_player *player) {
+  carom_player bounded = *player;
+  bounded.speed_least = player->speed_least > 0.0 ? player->speed_least : 0.5;
+  bounded.speed_most = player->speed_most > 0.0 ? player->speed_most : 8.0;
+  bounded.tip_most = player->tip_most > 0.0 ? player->tip_most : 0.5;
+  return bounded;
+}
+
+static double within(double x, double least, double most) {
+  return x < least ? least : x > most ? most : x;
+}
+
+void carom_player_errs(const carom_player *player, const double z[6], carom_cue *cue) {
+  const double share = player->speed_share * cue->speed;
+  const double speed = sqrt(player->speed * player->speed + share * share);
+  cue->speed = within(cue->speed + z[0] * speed, player->speed_least, player->speed_most);
+  cue->phi += z[1] * player->phi;
+  cue->theta = within(cue->theta + z[2] * player->theta, 0.0, 90.0);
+  cue->a = within(cue->a + z[3] * player->a, -player->tip_most, player->tip_most);
+  cue->b = within(cue->b + z[4] * player->b, -player->tip_most, player->tip_most);
+}
+
+void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t number,
+                         carom_cue *cue) {
+  const carom_player bounded = carom_player_bounded(player);
+  double z[6];
+  carom_normals(seed, DRAW_PLAYED, number, z);
+  carom_player_errs(&bounded, z, cue);
+}
