@@ -34,8 +34,8 @@ OPTION(plan_job, option_group, "group", group, 0, "open|solids|stripes", set_cho
 OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
        "the cue ball is in hand: where to put it, too");
 OPTION(plan_job, option_player, "player", rating, 0, "RATING", set_number, 0,
-       "a player by a Fargo rating, such as 500. Provisional: errors of 3 at 500 and of 8 at 400, "
-       "on the scale of --errors");
+       "a player by a Fargo rating, 300 to 850, such as 500. It holds for --shots 300; with more "
+       "shots he is stronger");
 OPTION(plan_job, option_errors, "errors", errors, 0, "SCALE", set_amount, 0,
        "a player by his errors: 0.1 m/s, 0.1 degrees and 0.003 radii, times SCALE (default 1)");
 OPTION(plan_job, option_shots, "shots", shots, 0, "N", set_count, SHOTS_LEAST,
@@ -45,12 +45,6 @@ OPTION(plan_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write rows of CSV instead of words");
 OPTION(plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0,
        "draw the best shot, without errors");
-
-/* The scale of errors of a rating: a share of 10 % of run-outs at 500, of 1 % at 400
- * (docs/understanding/plan.md). */
-static double scale_of(double rating) {
-  return 3.0 * pow(8.0 / 3.0, (500.0 - rating) / 100.0);
-}
 
 /* The first shot of a file. Its line is to be freed. */
 static bool read_layout(shot_file *file, shot_line *line) {
@@ -192,8 +186,12 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     line->name[line->cue.ball] = name;
     line->cue.ball = 0;
   }
-  const double scale = !isnan(job->rating) ? scale_of(job->rating) : job->errors;
-  const carom_player player = carom_player_of(scale);
+  if (job->rating < 300.0 || job->rating > 850.0) {
+    complain("--player: it must be 300 to 850, not %g", job->rating);
+    return EXIT_USAGE;
+  }
+  const carom_player player =
+      isnan(job->rating) ? carom_player_of(job->errors) : carom_player_fargo(job->rating);
   carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)job->rules);
   rules.user[0] = (uint64_t)job->group;
   const carom_plan_options options = {

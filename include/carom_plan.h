@@ -50,6 +50,12 @@ typedef struct carom_player {
  * benchmark of eight-ball (AI3603, 2025). One scale for all errors is a convention. */
 CAROM_API carom_player carom_player_of(double scale);
 
+/* A player by a Fargo rating, 300 to 850; others count as the nearest of these. With plans of 300
+ * shots he runs out eight-ball about as often as players of the rating are said to, on the table
+ * CAROM_TABLE_POOLTOOL, from ball in hand after a break that pots nothing. More shots make him
+ * stronger. docs/understanding/plan.md has the sources. */
+CAROM_API carom_player carom_player_fargo(double rating);
+
 /* Turns the stroke that a player means into one that he makes, by errors drawn from `seed` and the
  * number of the stroke. The same arguments give the same errors on every machine. */
 CAROM_API void carom_player_strike(const carom_player *player, uint64_t seed, uint64_t number,

@@ -373,6 +373,7 @@ EVERY_BODY(plan_aim) {
 EVERY_VALUE(plan_memory, carom_plan_memory(NULL))
 EVERY_NAMES(rules_name, carom_rules_kind)
 EVERY_OBJECT(player_of, carom_player, carom_player_of(2.0))
+EVERY_OBJECT(player_fargo, carom_player, carom_player_fargo(512.0))
 EVERY_BODY(player_strike) {
   const carom_player player = carom_player_of(2.0);
   carom_cue cue = in->cue[0];
@@ -492,7 +493,7 @@ EVERY_BODY(shot_tangent_batch) {
   F(cushion_tangent) F(cushion_trace) F(event_name) F(field_name) F(impact3) F(isa_available) \
   F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) F(physics_revision) \
   F(place_ball) F(plan) F(plan_aim) F(plan_hand) F(plan_memory) F(plan_rules_of) F(plan_try) \
-  F(plan_value) F(player_of) F(player_strike) F(rack) F(rack_name) F(rack_size) F(rolling_velocity) \
+  F(plan_value) F(player_fargo) F(player_of) F(player_strike) F(rack) F(rack_name) F(rack_size) F(rolling_velocity) \
   F(rules_name) F(serves) F(shoot) F(shoot_batch) F(shot_at) F(shot_at_times) F(shot_check) \
   F(shot_continue) F(shot_orientation) F(shot_tangent) F(shot_tangent_batch) F(slip_name) \
   F(solver_name) F(status_name) F(status_string) F(strike) F(table_check) F(table_make) \

@@ -171,3 +171,24 @@ def test_a_game_of_the_environment(environment):
     assert strokes == 3 and game.render().startswith("<svg")
     with pytest.raises(ValueError, match="render_mode"):
         environment(render_mode="3d")
+
+
+def test_the_planner_is_an_opponent():
+    """It wins against strokes at random, also in hand and at the break, and its actions are those of the space."""
+    from carom.pettingzoo import NineBallEnv
+
+    game = NineBallEnv(strokes=60, noise=(0.1, 0.1, 0.003))
+    won = 0
+    for seed in range(3):
+        game.reset(seed=seed)
+        game.action_space("player_0").seed(seed)
+        for agent in game.agent_iter():
+            ended = game.terminations[agent] or game.truncations[agent]
+            if agent == "player_0" and not ended:
+                chosen = game.rules.best(game.position, shots=200, seed=game.position.strokes)
+                assert chosen.shape == (6,) and game.action_space(agent).contains(chosen)
+            else:
+                chosen = game.action_space(agent).sample()
+            game.step(None if ended else chosen)
+        won += game.position.winner == 0
+    assert won == 3

@@ -40,6 +40,13 @@ def test_the_opponent_counts():
     assert values[1] > values[0] + 0.05
 
 
+def test_ratings():
+    errors = [float(carom.player(fargo=rating)["phi"]) for rating in (300, 400, 500, 600, 700, 850)]
+    assert errors == sorted(errors, reverse=True) and errors[0] > 5 * errors[-1] > 0.0
+    with pytest.raises(ValueError, match="fargo: it must be 300 to 850, not 0"):
+        carom.player(fargo=0)
+
+
 def test_strokes_with_errors():
     cue = carom.cue(speed=2.0, phi=40.0)
     player = carom.player(2.0)

@@ -315,3 +315,15 @@ def test_the_greedy_agent_does_better_than_chance(gymnasium, tmp_path):
     assert ElementTree.parse(picture).getroot().tag.endswith("svg")
     again, _ = example.main(["--games", "40", "--seed", "7", "--out", str(picture)])
     np.testing.assert_array_equal(again, by_chance)
+
+
+def test_the_planner_pots_more_than_chance():
+    rules = Potting(3, 3, cushion_model="han", noise=(0.1, 0.1, 0.003))
+    draws = Draws(range(6))
+    games = np.arange(6)
+    layouts = rules.deal(draws, games)
+    by_plan = np.stack([rules.best(layout, shots=200) for layout in layouts])
+    assert (np.abs(by_plan) <= 1.0).all()
+    assert rules.play(layouts, by_plan).potted.sum() >= 4
+    rest = rules.play(layouts, np.random.default_rng(1).uniform(-1.0, 1.0, (6, 4))).potted.sum()
+    assert rest < 4

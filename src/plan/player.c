@@ -14,6 +14,19 @@ carom_player carom_player_of(double scale) {
                         .b = 0.003 * scale};
 }
 
+/* Errors by rating, in steps of 50 from 300, between which they are linear.
+ * docs/understanding/plan.md has the run-outs from which they follow; build/carom-lab plan --racks
+ * 1000 --shots 300 --errors E makes one of them again. */
+carom_player carom_player_fargo(double rating) {
+  static const double errors[] = {7.4, 6.0, 4.8, 3.8, 3.0, 2.4, 1.8, 1.4, 1.04, 0.79, 0.6, 0.46};
+  enum { LAST = sizeof errors / sizeof errors[0] - 1 };
+  double at = (rating - 300.0) / 50.0;
+  at = at > 0.0 ? at : 0.0;
+  const int k = at < LAST ? (int)at : LAST - 1;
+  const double part = at < LAST ? at - k : 1.0;
+  return carom_player_of(errors[k] + part * (errors[k + 1] - errors[k]));
+}
+
 carom_player carom_player_bounded(const carom_player *player) {
   carom_player bounded = *player;
   bounded.speed_least = player->speed_least > 0.0 ? player->speed_least : 0.5;

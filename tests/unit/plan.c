@@ -166,6 +166,41 @@ TEST(golden_choices) {
   ck_assert_msg(h == golden, "the choices are others: 0x%016llx", (unsigned long long)h);
 }
 
+/* Errors fall with the rating, evenly between its steps, and stay beyond the ends. */
+TEST(ratings) {
+  double last = INFINITY;
+  for (int rating = 300; rating <= 850; rating += 5) {
+    const carom_player p = carom_player_fargo(rating);
+    ck_assert(p.phi < last && p.phi > 0.0 && p.phi == p.speed && p.a == p.b);
+    last = p.phi;
+  }
+  ck_assert(carom_player_fargo(200.0).phi == carom_player_fargo(300.0).phi);
+  ck_assert(carom_player_fargo(900.0).phi == last);
+  const double half = carom_player_fargo(525.0).phi,
+               ends = carom_player_fargo(500.0).phi + carom_player_fargo(550.0).phi;
+  ck_assert(fabs(half - 0.5 * ends) < 1e-15);
+}
+
+/* A player's strokes have his errors, and stay within his bounds. */
+TEST(strokes_err) {
+  enum { STROKES = 4000 };
+  const carom_player wild = {.speed = 0.3, .speed_share = 0.2, .phi = 2.0, .b = 0.4};
+  double sum = 0.0, squares = 0.0;
+  for (int k = 0; k < STROKES; k++) {
+    carom_cue made = {.speed = 2.0, .phi = 30.0, .theta = 5.0, .a = 0.1, .b = 0.2}, again = made;
+    carom_player_strike(&wild, test_seed(), (uint64_t)k, &made);
+    carom_player_strike(&wild, test_seed(), (uint64_t)k, &again);
+    ck_assert(memcmp(&made, &again, sizeof made) == 0);
+    ck_assert(made.speed >= 0.5 && made.speed <= 8.0 && fabs(made.b) <= 0.5);
+    ck_assert(made.theta == 5.0 && made.a == 0.1);
+    sum += made.phi - 30.0;
+    squares += (made.speed - 2.0) * (made.speed - 2.0);
+  }
+  /* 0.3 and 0.2 of 2 m/s make 0.5; five standard errors */
+  ck_assert(fabs(sum / STROKES) < 5.0 * 2.0 / sqrt(STROKES));
+  ck_assert(fabs(sqrt(squares / STROKES) - 0.5) < 5.0 * 0.5 / sqrt(2.0 * STROKES));
+}
+
 /* The chance to play on is that of shots which are played with errors of other seeds, within
  * four standard errors. */
 TEST(chances_are_kept) {

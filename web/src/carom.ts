@@ -4,6 +4,7 @@ import { CaromError } from "./error.js";
 import { layout, values } from "./generated/layout.js";
 import { KEYS, refuseUnknown } from "./keys.js";
 import type { Build, Memory, Pointer } from "./memory.js";
+import { Plans } from "./plans.js";
 import { type Kept, type Reader, Shot } from "./shot.js";
 import {
   readBalls,
@@ -23,6 +24,8 @@ import {
 import type {
   BallKind,
   BallState,
+  Call,
+  Choice,
   Collided,
   CollideOptions,
   Contact,
@@ -32,9 +35,13 @@ import type {
   Detail,
   EventType,
   Game,
+  GameState,
   Impact,
   Motion,
+  PlanOptions,
+  Player,
   RackName,
+  Ruling,
   ShotBall,
   ShotOptions,
   StopOptions,
@@ -92,6 +99,7 @@ export class Carom {
   readonly #memory: Memory;
   readonly #library: Library;
   readonly #reader: Reader;
+  readonly #plans: Plans;
   readonly #at: Record<"impact" | "options" | "result" | "detail" | "table" | "balls" | "cue" | "shot" | "final" | "state" | "motion" | "number", Pointer>;
   #points: Pointer = 0;
   #pointRoom = 0;
@@ -173,6 +181,16 @@ export class Carom {
         into.set(this.#memory.f64.subarray(motion / 8, motion / 8 + 4 * shot.balls.length));
       },
     };
+    this.#plans = new Plans({
+      memory,
+      at: this.#at,
+      cue: (fields) => this.cue(fields),
+      writeLayout: (table, balls) => this.#writeLayout(table, balls),
+      writeShotOptions: (options) => this.#writeShotOptions(options),
+      writeShot: () => this.#writeShot(0),
+      placeBall: (table, balls, ball, x, y) => this.placeBall(table, balls, ball, x, y),
+      refuse: (code, field) => this.#refuse(code, field),
+    });
     const names = (name: (kind: number) => Pointer, found = new Map<string, number>()): Map<string, number> => {
       for (let text; (text = memory.text(name(found.size))) !== undefined; ) found.set(text, found.size);
       return found;
@@ -687,5 +705,46 @@ export class Carom {
     const final = shots.at(4) + k * shots.count * layout.carom_ball_state.size;
     return this.#played(shots.table, balls, shots.status[k]!, shot, final, shots.at(6) + k * shots.room * EVENT.size);
   }
-}
 
+  // ---- Plans and games -------------------------------------------------------------------------------------------------------
+
+  /**
+   * A player by his errors: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each way, times `errors`. Or by a Fargo rating,
+   * 300 to 850, such as 500.
+   */
+  player(of: { errors?: number; fargo?: number } = {}): Player {
+    refuseUnknown(of, KEYS.player);
+    return this.#plans.player(of);
+  }
+
+  /** The stroke that a player makes of the one that he means, with errors drawn from a seed and the number of the stroke. */
+  withErrors(cue: Partial<Cue>, player: Player, seed: number, number = 0): Cue {
+    this.#resident = undefined;
+    return this.#plans.withErrors(cue, player, seed, number);
+  }
+
+  /**
+   * The shots that win most often from a layout, the best first. It takes some 20 µs a shot, so a worker is the place for large plans. The choice
+   * depends on the arguments alone.
+   */
+  plan(table: Table, balls: readonly ShotBall[], options: PlanOptions = {}): Choice[] {
+    return this.#plans.plan(table, balls, undefined, options);
+  }
+
+  /** The chances of strokes that are given, each played shots / cues.length times with errors, at least 10 times. */
+  chances(table: Table, balls: readonly ShotBall[], cues: readonly Partial<Cue>[], options: PlanOptions = {}): Choice[] {
+    return this.#plans.plan(table, balls, cues, options);
+  }
+
+  /** The balls that may be met first, and potted. */
+  ballsOn(game: GameState, balls: readonly ShotBall[]): number[] {
+    refuseUnknown(game, KEYS.game, "game");
+    return this.#plans.on(game, balls);
+  }
+
+  /** Plays a shot as `simulate` does, and rules what it amounts to. Eight-ball needs a call, but for the break and a safety. */
+  referee(table: Table, balls: readonly ShotBall[], cue: Partial<Cue>, game: GameState, call?: Call, options: ShotOptions = {}): Ruling {
+    refuseUnknown(game, KEYS.game, "game");
+    return this.#plans.referee(table, balls, cue, game, call, options);
+  }
+}

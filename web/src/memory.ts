@@ -8,6 +8,8 @@ export type Pointer = number;
 /** The functions that the module exports; sizes of 64 bits are BigInt. */
 export interface Exports {
   memory: WebAssembly.Memory;
+  /** The functions that structs of C refer to, by number. */
+  __indirect_function_table: WebAssembly.Table;
   malloc(bytes: number): Pointer;
   free(at: Pointer): void;
   [name: `carom_${string}`]: (...numbers: (number | bigint)[]) => number;

@@ -371,3 +371,98 @@ export interface Contact {
 
 export type TableName = "7ft" | "8ft" | "9ft" | "snooker" | "threecushion" | "pooltool";
 export type RackName = "nineball" | "eightball" | "tenball" | "snooker" | "threecushion";
+
+/** How the strokes of a player differ from those that are meant: standard deviations of independent normal errors, and bounds. */
+export interface Player {
+  /** m/s. */
+  speed: number;
+  /** As a share of the speed; both are added in squares. Default 0. */
+  speedShare?: number;
+  /** Degrees. */
+  phi: number;
+  /** Degrees. */
+  theta: number;
+  /** Radii of the ball. */
+  a: number;
+  /** Radii of the ball. */
+  b: number;
+  /** Bounds of the cue's speed, m/s. Default 0.5. */
+  speedLeast?: number;
+  /** Default 8. */
+  speedMost?: number;
+  /** Bound of |a| and |b|, radii. Default 0.5. */
+  tipMost?: number;
+}
+
+/** A game between two strokes, as the player at the table sees it. Ball k is ball k of the game, ball 0 the cue ball. */
+export interface GameState {
+  /** Eight-ball and nine-ball by the rules of the WPA; or a drill for one. Default "eightball". */
+  rules: "eightball" | "nineball" | "potting";
+  /** Of eight-ball: whose balls the player has. Default "open". */
+  group: "open" | "solids" | "stripes";
+  /** Whether the next stroke is the break. Default false. */
+  opening: boolean;
+}
+
+/** Options of plans. */
+export interface PlanOptions extends Partial<GameState> {
+  /** Default: `player()`. */
+  player?: Player;
+  /** Default: as the player. */
+  opponent?: Player;
+  /** That a plan plays, about: 100 to 1,000,000. Default 2000. */
+  shots?: number;
+  /** Of the errors of strokes. Default 0. */
+  seed?: number;
+  /** Whether the cue ball is in hand: `place` says where to put it. Two corners of a rectangle, m: there alone. */
+  inHand?: boolean | readonly [Vec2, Vec2];
+  /** How many choices at most; default 5. */
+  best?: number;
+  /** Masses and the like of the cue; the stroke is not read. */
+  cue?: Partial<Cue>;
+  /** Models; when to stop is not read. */
+  shot?: ShotOptions;
+}
+
+/** A stroke, and what is known of it. */
+export interface Choice {
+  cue: Cue;
+  /** Where the cue ball lies or is put, m. */
+  place: Vec2;
+  /** "pot" is a direct pot; "scan" was found by shots in all directions; "foul": nothing better was found; "given" was asked for. */
+  kind: "pot" | "scan" | "foul" | "given";
+  /** The ball that falls without errors and keeps the turn, and its pocket; -1: none. */
+  ball: number;
+  pocket: number;
+  /** Its impacts on cushions. */
+  cushions: number;
+  /** Chance to win; of potting the share of the balls that are potted. */
+  value: number;
+  /** Its standard error. */
+  error: number;
+  /** Chance that the player plays on, or wins. */
+  keep: number;
+  foul: number;
+  lose: number;
+  /** How often it was played with errors. */
+  seen: number;
+}
+
+/** The ball and the pocket that are called. */
+export interface Call {
+  ball: number;
+  pocket: number;
+}
+
+/** What a shot amounts to. */
+export interface Ruling {
+  /** Whether the player plays on, the other one plays, or the player has won or lost. */
+  turn: "keep" | "pass" | "win" | "lose";
+  foul: boolean;
+  /** Where whoever plays next may put the cue ball. */
+  hand: "no" | "anywhere" | "kitchen";
+  /** The layout of the next stroke. */
+  balls: ShotBall[];
+  /** The game as whoever plays next sees it. */
+  game: GameState;
+}

@@ -199,4 +199,49 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     expect(await one.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)).toBeLessThanOrEqual(0);
     await one.close();
   });
+
+  test.each(["eightball", "nineball"])("a game of %s is played to its end", async (name) => {
+    const one = await open(`#view=shot&game=${name}`, { width: 390, height: 844 });
+    await one.locator("#opponent").selectOption("400");
+    await one.locator("#own").selectOption("0");
+    await one.locator("#rate").selectOption("1000");
+    await one.locator("#new-game").click();
+    await expect.poll(() => text(one, "chance")).toMatch(/plays on \d+ %, wins the game \d+ %, is a foul \d+ %/);
+    await one.locator("#shoot").click();
+    // Whoever is at the table: I play the best shot, the opponent replies by himself.
+    for (let k = 0; k < 100; k++) {
+      await expect.poll(() => text(one, "game-state"), { timeout: 60_000 }).toMatch(/Your turn|has won|have won/);
+      if (/won/.test(await text(one, "game-state"))) break;
+      await one.locator("#best").click();
+      await expect.poll(() => text(one, "game-state"), { timeout: 60_000 }).toMatch(/Best of/);
+      await one.locator("#shoot").click();
+    }
+    expect(await text(one, "game-state")).toMatch(/^(The opponent fouls. |You foul. )?(You have|The opponent has) won.$/);
+    expect(await one.locator("#shoot").isVisible()).toBe(false);
+    await one.close();
+  }, 240_000);
+
+  test("in a game the cue ball moves where the rules let it", async () => {
+    const one = await open("#view=shot&game=nineball");
+    await one.locator("#new-game").click();
+    const scene = one.locator("#table-scene");
+    const box = (await scene.boundingBox())!;
+    const at = async (): Promise<number[]> => {
+      await one.locator("summary").click();
+      await one.locator("#export").click();
+      const line = JSON.parse(await one.locator("#line").inputValue()) as { balls: { state: number[] }[] };
+      await one.locator("summary").click();
+      return line.balls[0]!.state.slice(1, 3);
+    };
+    const before = await at();
+    // from the head spot towards the foot of the table: it stops at the head string
+    await one.mouse.move(box.x + box.width * 0.27, box.y + box.height * 0.5);
+    await one.mouse.down();
+    await one.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.3, { steps: 4 });
+    await one.mouse.up();
+    const after = await at();
+    expect(after[0]).not.toBe(before[0]);
+    expect(after[1]).toBeCloseTo(2.54 / 4, 3);
+    await one.close();
+  });
 });

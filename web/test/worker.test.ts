@@ -11,14 +11,16 @@ test("a worker computes the same bits", async () => {
     const carom = await load();
     const table = carom.table("9ft");
     const shot = carom.simulate(table, carom.rack("nineball", table), { speed: 8 });
-    parentPort.postMessage([carom.build, shot.time, shot.final]);`;
+    const choices = carom.plan(table, carom.rack("nineball", table), { rules: "nineball", opening: true, shots: 100 });
+    parentPort.postMessage([carom.build, shot.time, shot.final, choices]);`;
   const worker = new Worker(new URL(`data:text/javascript,${encodeURIComponent(source)}`));
   const said = await new Promise((resolve, reject) => worker.once("message", resolve).once("error", reject));
   await worker.terminate();
   const { carom } = builds[0]!;
   const table = carom.table("9ft");
   const shot = carom.simulate(table, carom.rack("nineball", table), { speed: 8 });
-  expect(said).toEqual(["simd", shot.time, shot.final]);
+  const choices = carom.plan(table, carom.rack("nineball", table), { rules: "nineball", opening: true, shots: 100 });
+  expect(said).toEqual(["simd", shot.time, shot.final, choices]);
 });
 
 test("the package has the library's version, and no dependency at run time", () => {

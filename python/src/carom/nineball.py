@@ -23,6 +23,7 @@ from carom._draws import Draws
 from carom._rows import Arrays, listing
 from carom._shot_options import ShotCushion
 from carom.layouts import Table
+from carom.plans import plan
 from carom.potting import Potting
 from carom.results import EventType, Label, Shot
 from carom.shots import simulate
@@ -103,6 +104,21 @@ class NineBall:
         low = np.full(2, self.base.radius + 1e-3)
         length = self.table.length / 4.0 if hand is Hand.BEHIND else self.table.length - low[1]
         return low, np.array([self.table.width - low[0], length])
+
+    def best(self, position: Position, *, opponent: dtypes.Records | None = None, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
+        """The action, of shape (6,), of the library's planner: a baseline and an opponent for agents. It allows for the noise.
+
+        `opponent` is a `carom.player()`; by default he errs as the noise says. The plan has so many `shots`.
+        """
+        low, high = self._area(position.hand)
+        found = plan(
+            self.table, position.balls, rules="nineball", opening=position.hand is Hand.BEHIND, player=self.base.player(),
+            opponent=opponent, shots=shots, seed=seed, in_hand=[low, high] if position.hand else False, best=1,
+            cushion_model=self.base.cushion_model,
+        )[0]  # fmt: skip
+        cue = found["cue"]
+        place = np.clip(2.0 * (found["place"] - low) / (high - low) - 1.0, -1.0, 1.0)
+        return np.concatenate([self.base.actions(cue["phi"], cue["speed"], cue["a"], cue["b"]), place])
 
     def _put(self, balls: dtypes.Records, hand: Hand, wanted: dtypes.Doubles, draws: Draws) -> None:
         """Puts the cue ball where it is wanted, numbers from -1 to 1, or where that is not free, at random."""

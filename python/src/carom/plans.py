@@ -28,18 +28,23 @@ _GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _USUAL = Options()
 
 
-def player(errors: float = 1.0) -> dtypes.Records:
+def player(errors: float = 1.0, *, fargo: float | None = None) -> dtypes.Records:
     """A player whose strokes err, as an array of `carom.dtypes.player`, shape (). Its fields may be changed.
 
     Parameters
     ----------
     errors : float
         At least 0. Standard deviations: 0.1 m/s, 0.1 degrees of direction and of elevation and 0.003 radii each way, times errors.
+    fargo : float, optional
+        A Fargo rating, 300 to 850, instead: the errors with which plans of 300 shots run out eight-ball as often as players of this rating
+        are said to (docs/understanding/plan.md). More shots make him stronger.
     """
     if not 0.0 <= errors < np.inf:
         raise ValueError(f"errors: it must be finite and at least 0, not {errors}")
+    if fargo is not None and not 300.0 <= fargo <= 850.0:
+        raise ValueError(f"fargo: it must be 300 to 850, not {fargo}")
     made: Array = np.zeros((), dtypes.player)
-    pointer("carom_player[]", made)[0] = lib.carom_player_of(errors)
+    pointer("carom_player[]", made)[0] = lib.carom_player_of(errors) if fargo is None else lib.carom_player_fargo(fargo)
     return made
 
 

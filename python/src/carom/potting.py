@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from carom import dtypes, layouts, tables
+from carom import dtypes, layouts, plans, tables
 from carom._draws import Draws as Draws
 from carom._draws import Games
 from carom._rows import Arrays, copied, listing, repeated
@@ -196,6 +196,24 @@ class Potting:
         made["state"]["r"][..., :2] = centres
         made["state"]["label"] = np.where(in_play, _STATIONARY, _POCKETED)
         return made
+
+    def player(self) -> dtypes.Records:
+        """The player with the noise, the speeds and the tip of this game, for `carom.plan`."""
+        made = plans.player(0.0)
+        made["phi"], made["speed"], made["a"], made["b"] = self.noise[0], self.noise[1], self.noise[2], self.noise[2]
+        made["speed_least"], made["speed_most"], made["tip_most"] = *self.speeds, 0.35
+        return made
+
+    def best(self, balls: dtypes.Records, *, shots: int = 500, seed: int = 0) -> dtypes.Doubles:
+        """The action, of shape (4,), of the library's planner for a layout of shape (balls + 1,): a baseline for agents.
+
+        It looks for the stroke that pots the largest share of the balls in one visit, by a plan of so many `shots`.
+        """
+        found = plans.plan(
+            self.table, balls, rules="potting", player=self.player(), shots=shots, seed=seed, best=1, threads=self.threads,
+            cushion_model=self.cushion_model,
+        )["cue"][0]  # fmt: skip
+        return self.actions(found["phi"], found["speed"], found["a"], found["b"])
 
     # ---- The game -------------------------------------------------------------------------------------------------------
 

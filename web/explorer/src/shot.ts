@@ -1,5 +1,6 @@
 // The view Shot: a table to aim on, the whole shot while one aims, its film, its events, and a fan of shots with a player's error.
 import { type BallState, type Carom, CaromError, type Cue, fromLine, type Game, type RackName, type Shot, type ShotBall, type ShotOptions, type Table, type TableName, toLine } from "carom";
+import { gamePanel } from "./game.js";
 import { button, check, choice, color, eachFrame, el, fit, keep, parameters, slider, type Slider } from "./ui.js";
 
 interface GameOf {
@@ -84,14 +85,9 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   if (cushion.select.value === "") cushion.select.value = "han";
   const fanned = check("fan", `Fan: ${FAN} shots with a player's error`, aimed);
   fanned.input.checked = given.get("fan") === "1";
-  const rate = choice("rate", "Speed", [["1", "real time"], ["0.25", "1/4"], ["0.1", "1/10"]], () => undefined);
-  const play = button("Play", () => (playing ? stop() : start()), { id: "play" });
-  const clock = slider("time", "Time", 0, 1, 0.001, " s", () => {
-    stop();
-    time = clock.value;
-    draw();
-    markEvent();
-  }, two);
+  const rate = choice("rate", "Speed", [["1", "real time"], ["0.25", "1/4"], ["0.1", "1/10"], ["4", "4 times"], ["1000", "at once"]], () => undefined);
+  const play = button("Play", () => (!playing ? start() : match.busy() ? undefined : stop()), { id: "play" });
+  const clock = slider("time", "Time", 0, 1, 0.001, " s", () => go(clock.value), two);
   const canvas = el("canvas", { class: "scene", id: "table-scene", role: "img", tabindex: "0" });
   const side = el("canvas", { class: "scene", id: "side-scene", role: "img", "aria-label": "The table from the side: heights of the balls" });
   const sidePanel = el("div", { id: "side-view", hidden: "" }, el("p", { class: "note" }, "From the side; heights are enlarged."), side);
@@ -100,6 +96,31 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   const message = el("p", { class: "error", role: "status", id: "message" });
   const line = el("textarea", { id: "line", spellcheck: "false" });
   const cost = el("p", { class: "note", id: "cost" });
+  const match = gamePanel(carom, {
+    name: () => gameName,
+    table: () => table,
+    balls: () => balls,
+    names: () => names,
+    cue: () => cue(),
+    options: () => options(),
+    aim(stroke) {
+      for (const key of ["speed", "phi", "a", "b", "theta"] as const) sliders[key]!.value = stroke[key];
+      present(cue());
+      match.aimed();
+    },
+    lay(layout) {
+      balls = layout;
+      moved = true;
+      present(cue());
+    },
+    perform(stroke, then) {
+      present(stroke);
+      ended = then;
+      if (shot) start();
+      else then();
+    },
+    rackUp: () => rackUp(false),
+  });
 
   main.replaceChildren(
     el(
@@ -108,7 +129,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       el(
         "section",
         { class: "panel first", "aria-label": "The shot" },
-        el("div", { class: "row" }, games.root, button("New rack", () => { seed += 1; moved = false; imported = undefined; setUp(); }, { id: "rack" })),
+        el("div", { class: "row" }, games.root, button("New rack", () => { seed += 1; rackUp(); }, { id: "rack" })),
         ...["speed", "phi", "a", "b", "theta"].map((key) => sliders[key]!.root),
         el("div", { class: "row" }, cushion.root),
         fanned.root,
@@ -117,14 +138,19 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
         message,
       ),
       el(
-        "section",
-        { class: "panel scene-panel", "aria-label": "Table" },
-        canvas,
-        sidePanel,
-        el("div", { class: "row" }, play, button("◀ event", () => step(-1), { id: "back", "aria-label": "Previous event" }), button("event ▶", () => step(1), { id: "forward", "aria-label": "Next event" }), rate.root),
-        clock.root,
-        el("p", { class: "note" }, "Drag on the table to aim; drag the cue ball to move it. Keys on the table: ← → turn (with Shift 1°), ↑ ↓ change the speed, space plays."),
-        cost,
+        "div",
+        { class: "stack scene-panel" },
+        el(
+          "section",
+          { class: "panel", "aria-label": "Table" },
+          canvas,
+          sidePanel,
+          el("div", { class: "row" }, play, button("◀ event", () => step(-1), { id: "back", "aria-label": "Previous event" }), button("event ▶", () => step(1), { id: "forward", "aria-label": "Next event" }), rate.root),
+          clock.root,
+          el("p", { class: "note" }, "Drag on the table to aim; drag the cue ball to move it. Keys on the table: ← → turn (with Shift 1°), ↑ ↓ change the speed, space plays."),
+          cost,
+        ),
+        match.root,
       ),
       el("section", { class: "panel stack", "aria-label": "What happens" }, el("table", { class: "numbers", id: "shot-numbers" }, el("caption", {}, "The shot"), summary), el("div", {}, el("h2", {}, "Events"), el("div", { class: "events", tabindex: "0", role: "region", "aria-label": "Events" }, list))),
     ),
@@ -142,7 +168,14 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     return { ballModel: euler ? "euler" : "exact", cushionModel: euler && model === "mathavan" ? "euler" : model };
   };
 
-  function setUp(): void {
+  /** The balls of the game as they begin. It ends a game that is played, unless that begins with it. */
+  function rackUp(ends = true): void {
+    moved = false;
+    imported = undefined;
+    setUp(ends);
+  }
+
+  function setUp(ends = true): void {
     game = GAMES[gameName]!;
     games.select.value = gameName;
     table = carom.table(game.table);
@@ -152,17 +185,25 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       balls = balls.map(({ state }) => ({ kind, state }));
       names = balls.map((_, k) => game.names(k));
     }
+    ended = undefined;
+    if (ends) match.begin();
     aimed();
   }
 
   /** Plays the shot as it is aimed now, from its start. */
   function aimed(): void {
+    if (match.busy()) return;
+    present(cue());
+    match.aimed();
+  }
+
+  function present(stroke: Cue): void {
     stop();
     sliders.error!.input.disabled = !fanned.input.checked;
     const begun = performance.now();
     message.textContent = "";
     try {
-      shot = carom.simulate(table, balls, cue(), options());
+      shot = carom.simulate(table, balls, stroke, options());
     } catch (error) {
       shot = error instanceof CaromError ? error.shot : undefined;
       message.textContent = error instanceof Error ? error.message : String(error);
@@ -253,6 +294,8 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   // ---- Film ----------------------------------------------------------------------------------------------------------------
 
   let before = 0;
+  /** Is called at the end of a film of the game. */
+  let ended: (() => void) | undefined;
   function frame(now: number): void {
     if (!playing || !shot) return;
     time = Math.min(time + Math.min((now - before) / 1000, 0.1) * Number(rate.select.value), shot.time);
@@ -260,8 +303,11 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     clock.value = time;
     draw();
     markEvent();
-    if (time >= shot.time) stop();
-    else requestAnimationFrame(frame);
+    if (time < shot.time) return void requestAnimationFrame(frame);
+    stop();
+    const then = ended;
+    ended = undefined;
+    then?.();
   }
   function start(): void {
     if (!shot) return;
@@ -276,6 +322,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     play.textContent = "Play";
   }
   function go(to: number): void {
+    if (match.busy()) return;
     stop();
     time = to;
     clock.value = to;
@@ -559,6 +606,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     return back(event.clientX - box.left, event.clientY - box.top);
   };
   function drag(event: PointerEvent): void {
+    if (match.busy()) return;
     const [x, y] = position(event);
     const { r } = balls[0]!.state;
     if (held === "aim") {
@@ -569,7 +617,8 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     // Ball in hand: within the cushions, and not in another ball.
     const R = balls[0]!.kind.radius;
     const inside = (v: number, most: number): number => Math.min(Math.max(v, R + 1e-4), most - R - 1e-4);
-    const [bx, by] = [inside(x, table.width), inside(y, table.length)];
+    if (match.hand() === "no") return;
+    const [bx, by] = [inside(x, table.width), inside(y, match.hand() === "kitchen" ? table.length / 4 + R : table.length)];
     if (balls.some(({ state }, k) => k > 0 && state.label !== "pocketed" && Math.hypot(state.r[0] - bx, state.r[1] - by) < 2 * R + 1e-5)) return;
     balls = balls.map((ball, k) => (k === 0 ? { kind: ball.kind, state: { ...ball.state, r: [bx, by, R] } } : ball));
     moved = true;

@@ -1,0 +1,230 @@
+// Which shot to play, players who err, and the rules of games: the calls of carom_plan.h.
+import { layout, values } from "./generated/layout.js";
+import { KEYS, refuseUnknown } from "./keys.js";
+import type { Memory, Pointer } from "./memory.js";
+import { readState, readStruct, value, writeStruct } from "./structs.js";
+import type { Call, Choice, Cue, GameState, PlanOptions, Player, Ruling, ShotBall, ShotOptions, Table } from "./types.js";
+
+const PLAYER = layout.carom_player;
+const RULES = layout.carom_plan_rules;
+const OPTIONS = layout.carom_plan_options;
+const JOB = layout.carom_plan_job;
+const CHOICE = layout.carom_choice;
+const FACTS = layout.carom_facts;
+const TURN = layout.carom_turn;
+const SHOT = layout.carom_shot.offset;
+
+const KINDS = ["pot", "scan", "foul", "given"] as const;
+const GROUPS = ["open", "solids", "stripes"] as const;
+const TURNS = ["keep", "pass", "win", "lose"] as const;
+const HANDS = ["no", "no", "anywhere", "kitchen"] as const;
+const BOUNDS = { speedShare: 0, speedLeast: 0, speedMost: 0, tipMost: 0, reserved: [0, 0, 0] };
+
+/** What the calls of this file need of the library. */
+export interface Host {
+  readonly memory: Memory;
+  readonly at: Record<"table" | "balls" | "cue" | "shot" | "final", Pointer>;
+  cue(fields: Partial<Cue>): Cue;
+  writeLayout(table: Table, balls: readonly ShotBall[]): void;
+  writeShotOptions(options: ShotOptions): Pointer;
+  writeShot(): void;
+  placeBall(table: Table, balls: readonly ShotBall[], ball: number, x: number, y: number): ShotBall[];
+  refuse(code: number, field?: string): void;
+}
+
+type Method = (...numbers: Pointer[]) => number;
+
+export class Plans {
+  readonly #host: Host;
+  readonly #at: Record<"player" | "opponent" | "rules" | "options" | "job" | "facts" | "turn" | "call" | "corners" | "found", Pointer>;
+
+  constructor(host: Host) {
+    this.#host = host;
+    const room = (bytes: number): Pointer => host.memory.allocate(bytes);
+    this.#at = {
+      ...{ player: room(PLAYER.size), opponent: room(PLAYER.size), rules: room(RULES.size), options: room(OPTIONS.size), job: room(JOB.size) },
+      ...{ facts: room(FACTS.size), turn: room(TURN.size), call: room(8), corners: room(32), found: room(8) },
+    };
+  }
+
+  get #memory(): Memory {
+    return this.#host.memory;
+  }
+
+  player({ errors = 1, fargo }: { errors?: number; fargo?: number }): Player {
+    if (!(errors >= 0 && errors < Infinity)) throw new RangeError(`errors: it must be finite and at least 0, not ${errors}`);
+    if (fargo !== undefined && !(fargo >= 300 && fargo <= 850)) throw new RangeError(`fargo: it must be 300 to 850, not ${fargo}`);
+    if (fargo === undefined) this.#memory.exports.carom_player_of(this.#at.player, errors);
+    else this.#memory.exports.carom_player_fargo(this.#at.player, fargo);
+    const { reserved: _, ...player } = readStruct<Player & { reserved: number[] }>(this.#memory, this.#at.player, "carom_player");
+    return player;
+  }
+
+  withErrors(cue: Partial<Cue>, player: Player, seed: number, number: number): Cue {
+    const { cue: at } = this.#host.at;
+    this.#writePlayer(this.#at.player, player, "player");
+    writeStruct(this.#memory, at, "carom_cue", this.#host.cue(cue), "cue");
+    this.#memory.exports.carom_player_strike(this.#at.player, whole(seed, "seed"), whole(number, "number"), at);
+    return readStruct<Cue>(this.#memory, at, "carom_cue");
+  }
+
+  plan(table: Table, balls: readonly ShotBall[], cues: readonly Partial<Cue>[] | undefined, options: PlanOptions): Choice[] {
+    refuseUnknown(options, KEYS.plan);
+    const { best = 5, inHand = false } = options;
+    const memory = this.#memory;
+    const most = cues?.length ?? best;
+    if (!Number.isInteger(most) || most < 1 || most > 1000) throw new RangeError(`${cues ? "cues: there" : "best: it"} must be 1 to 1000, not ${most}`);
+    const job = this.#writeJob(table, balls, options);
+    const size = memory.exports.carom_plan_memory(this.#at.options);
+    if (size === 0) throw new RangeError(`shots: it must be a whole number from 100 to 1000000, not ${options.shots}`);
+    const room = memory.allocate(size);
+    const choices = memory.allocate(most * CHOICE.size);
+    const strokes = memory.allocate(most * layout.carom_cue.size);
+    try {
+      memory.u32[(job + JOB.offset.memory) / 4] = room;
+      memory.u32[(job + JOB.offset.memorySize) / 4] = size;
+      let found = most;
+      let code: number;
+      if (cues !== undefined) {
+        for (const [k, cue] of cues.entries()) writeStruct(memory, strokes + k * layout.carom_cue.size, "carom_cue", this.#host.cue(cue), `cues[${k}]`);
+        code = memory.exports.carom_plan_try(job, strokes, most, choices);
+      } else {
+        const { corners } = this.#at;
+        if (typeof inHand !== "boolean") memory.f64.set(inHand.flat(), corners / 8);
+        const [low, high] = typeof inHand === "boolean" ? [0, 0] : [corners, corners + 16];
+        if (inHand === false) code = memory.exports.carom_plan(job, choices, best, this.#at.found);
+        else code = memory.exports.carom_plan_hand(job, low, high, choices, best, this.#at.found);
+        found = memory.i32[this.#at.found / 4]!;
+      }
+      this.#host.refuse(code, "plan");
+      return Array.from({ length: found }, (_, k) => this.#readChoice(choices + k * CHOICE.size));
+    } finally {
+      for (const at of [room, choices, strokes]) memory.free(at);
+    }
+  }
+
+  on(game: GameState, balls: readonly ShotBall[]): number[] {
+    this.#writeRules(game);
+    const set = this.#method("on")(this.#at.rules, inPlay(balls));
+    return balls.flatMap((_, k) => ((set >>> k) & 1 ? [k] : []));
+  }
+
+  referee(table: Table, balls: readonly ShotBall[], cue: Partial<Cue>, game: GameState, call: Call | undefined, options: ShotOptions): Ruling {
+    const { at } = this.#host;
+    const memory = this.#memory;
+    const { facts, turn: turnAt, call: callAt, rules } = this.#at;
+
+    // The shot once more, with its facts.
+    const struck = this.#host.cue(cue);
+    this.#host.writeLayout(table, balls);
+    writeStruct(memory, at.cue, "carom_cue", struck, "cue");
+    const optionsAt = this.#host.writeShotOptions(options);
+    this.#host.writeShot();
+    memory.u32[(at.shot + SHOT.facts) / 4] = facts;
+    const code = memory.exports.carom_shoot(at.table, at.balls, balls.length, at.cue, optionsAt, at.shot);
+    if (code < 0) {
+      memory.u8.fill(0, facts, facts + FACTS.size); // no ball was met
+      memory.i32.fill(-1, (facts + FACTS.offset.first) / 4, (facts + FACTS.offset.first) / 4 + 2);
+    }
+
+    // The rules.
+    this.#writeRules(game);
+    memory.i32[callAt / 4] = call?.ball ?? -1;
+    memory.i32[callAt / 4 + 1] = call?.pocket ?? -1;
+    this.#method("judge")(turnAt, rules, inPlay(balls), struck.ball, facts, callAt);
+    const i32 = memory.i32;
+    const turn = TURNS[i32[(turnAt + TURN.offset.is) / 4]!]!;
+    const leave = i32[(turnAt + TURN.offset.leave) / 4]!;
+    const foul = i32[(turnAt + TURN.offset.foul) / 4] !== 0;
+    const spot = memory.u32[(turnAt + TURN.offset.spot) / 4]!;
+    const word = (k: number): number => Number(memory.i64[rules / 8 + k]);
+    const after: GameState = { rules: game.rules, group: GROUPS[word(0)]!, opening: word(1) !== 0 };
+
+    // The layout of the next stroke.
+    let lie = balls.map((ball, k): ShotBall => {
+      const taken = code < 0 || leave === values.CAROM_LEAVE_BEFORE;
+      return taken ? ball : { kind: ball.kind, state: readState(memory, at.final + k * layout.carom_ball_state.size) };
+    });
+    for (let k = 0; k < balls.length; k++) if ((spot >>> k) & 1) lie = this.#spotted(table, lie, k);
+    return { turn, foul, hand: HANDS[leave]!, balls: lie, game: after };
+  }
+
+  /** A ball on the foot spot, or behind it on the long string as near as there is room. */
+  #spotted(table: Table, balls: readonly ShotBall[], ball: number): ShotBall[] {
+    const foot = 0.75 * table.length;
+    for (let k = 0; ; k++) {
+      const behind = foot + 1e-3 * k;
+      const y = behind < table.length ? behind : foot - (behind - table.length);
+      try {
+        return this.#host.placeBall(table, balls, ball, 0.5 * table.width, y);
+      } catch (error) {
+        if (y <= 0) throw error;
+      }
+    }
+  }
+
+  // ---- Structs ---------------------------------------------------------------------------------------------------------------
+
+  /** A function of the rules, by the module's table of functions. */
+  #method(name: "on" | "judge"): Method {
+    return this.#memory.exports.__indirect_function_table.get(this.#memory.u32[(this.#at.rules + RULES.offset[name]) / 4]!) as Method;
+  }
+
+  #writePlayer(at: Pointer, player: Player, name: string): Pointer {
+    writeStruct(this.#memory, at, "carom_player", player, name, BOUNDS);
+    return at;
+  }
+
+  #writeRules({ rules = "eightball", group = "open", opening = false }: Partial<GameState>): void {
+    const { rules: at } = this.#at;
+    this.#memory.exports.carom_plan_rules_of(at, value("CAROM_RULES_", rules, "rules"));
+    const has = GROUPS.indexOf(group);
+    if (has < 0) throw new TypeError(`group: it must be one of ${GROUPS.join(", ")}, not ${JSON.stringify(group)}`);
+    this.#memory.i64[at / 8] = BigInt(has);
+    this.#memory.i64[at / 8 + 1] = BigInt(opening);
+  }
+
+  #writeJob(table: Table, balls: readonly ShotBall[], options: PlanOptions): Pointer {
+    const memory = this.#memory;
+    const { at } = this.#host;
+    const { player, opponent, rules, options: optionsAt, job } = this.#at;
+    this.#host.writeLayout(table, balls);
+    writeStruct(memory, at.cue, "carom_cue", this.#host.cue(options.cue ?? {}), "cue");
+    this.#writePlayer(player, options.player ?? this.player({}), "player");
+    const shot = this.#host.writeShotOptions(options.shot ?? {});
+    this.#writeRules(options);
+    memory.u8.fill(0, optionsAt, optionsAt + OPTIONS.size);
+    memory.i64[(optionsAt + OPTIONS.offset.shots) / 8] = whole(options.shots ?? 0, "shots");
+    memory.i64[(optionsAt + OPTIONS.offset.seed) / 8] = whole(options.seed ?? 0, "seed");
+    if (options.opponent) memory.u32[(optionsAt + OPTIONS.offset.opponent) / 4] = this.#writePlayer(opponent, options.opponent, "opponent");
+    memory.u8.fill(0, job, job + JOB.size);
+    const o = JOB.offset;
+    const parts = [[o.table, at.table], [o.balls, at.balls], [o.cue, at.cue], [o.player, player], [o.rules, rules], [o.shot, shot], [o.options, optionsAt]] as const;
+    for (const [offset, part] of parts) memory.u32[(job + offset) / 4] = part;
+    memory.i64[(job + o.count) / 8] = BigInt(balls.length);
+    return job;
+  }
+
+  #readChoice(at: Pointer): Choice {
+    const { f64, i32, i64 } = this.#memory;
+    const o = CHOICE.offset;
+    const [number, index] = [(offset: number): number => f64[(at + offset) / 8]!, (offset: number): number => i32[(at + offset) / 4]!];
+    return {
+      cue: readStruct<Cue>(this.#memory, at + o.cue, "carom_cue"),
+      place: [number(o.place), number(o.place + 8)],
+      kind: KINDS[index(o.kind)]!,
+      ...{ ball: index(o.ball), pocket: index(o.pocket), cushions: index(o.cushions) },
+      ...{ value: number(o.value), error: number(o.error), keep: number(o.keep), foul: number(o.foul), lose: number(o.lose) },
+      seen: Number(i64[(at + o.seen) / 8]),
+    };
+  }
+}
+
+function inPlay(balls: readonly ShotBall[]): number {
+  return balls.reduce((set, { state }, k) => (state.label === "pocketed" || state.label === "off" ? set : set | (1 << k)), 0) >>> 0;
+}
+
+function whole(number: number, option: string): bigint {
+  if (!Number.isSafeInteger(number) || number < 0) throw new RangeError(`${option}: it must be a whole number, 0 or more, not ${number}`);
+  return BigInt(number);
+}

@@ -1,0 +1,88 @@
+// Plans, players and rules beside the command, between both builds, and by shots whose ruling is known.
+import { expect, test } from "vitest";
+import type { Carom, GameState, ShotBall, Vec2 } from "../dist/index.js";
+import { toLine } from "../dist/index.js";
+import { builds, run, thereIsACommand } from "./support.js";
+
+/** Some balls of a game where they are put; the others are down. */
+function lay(carom: Carom, game: "eightball" | "nineball", places: Record<number, Vec2>): { table: ReturnType<Carom["table"]>; balls: ShotBall[] } {
+  const table = carom.table("9ft");
+  let balls = carom.rack(game, table).map(({ kind, state }): ShotBall => ({ kind, state: { ...state, r: [0, 0, -0.1], label: "pocketed" } }));
+  for (const [k, [x, y]] of Object.entries(places)) balls = carom.placeBall(table, balls, Number(k), x, y);
+  return { table, balls };
+}
+const PLACES: Record<number, Vec2> = { 0: [0.4, 0.9], 1: [0.3, 1.9], 2: [0.9, 1.7], 9: [0.7, 0.5] };
+
+test.runIf(thereIsACommand)("both builds choose the shots that the command chooses", () => {
+  const rows = builds.map(({ carom }) => {
+    const { table, balls } = lay(carom, "nineball", PLACES);
+    return carom.plan(table, balls, { rules: "nineball", shots: 400, player: carom.player({ errors: 2 }) });
+  });
+  expect(rows[1]).toEqual(rows[0]);
+  const { balls } = lay(builds[0]!.carom, "nineball", PLACES);
+  const here = balls.flatMap((ball, k) => (ball.state.label === "pocketed" ? [] : [[k === 0 ? "cue" : String(k), ball] as const]));
+  const line = toLine({ tableName: "9ft", balls: here.map(([, ball]) => ball), names: here.map(([name]) => name), cue: builds[0]!.carom.cue() });
+  const [head, ...told] = run(["plan", "--rules", "nineball", "--shots", "400", "--errors", "2", "--csv", "-"], line).trim().split("\n").map((row) => row.split(","));
+  expect(told.length).toBe(rows[0]!.length);
+  told.forEach((row, k) => {
+    const one = rows[0]![k]!;
+    for (const key of ["speed", "phi", "a", "b"] as const) expect(Number(row[head!.indexOf(key)])).toBe(one.cue[key]);
+    expect(row[head!.indexOf("kind")]).toBe(one.kind);
+    expect(Number(row[head!.indexOf("value")])).toBeCloseTo(one.value, 5);
+  });
+});
+
+test("ball in hand, chances and errors", () => {
+  const { carom } = builds[0]!;
+  const { table, balls } = lay(carom, "nineball", PLACES);
+  const [one] = carom.plan(table, balls, { rules: "nineball", shots: 200, inHand: [[0, 0], [table.width, 0.4]] });
+  expect(one!.place[1]).toBeLessThan(0.4);
+  const weak = carom.player({ errors: 6 });
+  const [sure, unsure] = [carom.player({ errors: 0.2 }), weak].map((player) => {
+    const [found] = carom.plan(table, balls, { rules: "nineball", shots: 300, player, best: 1 });
+    return carom.chances(table, balls, [found!.cue], { rules: "nineball", shots: 300, player })[0]!;
+  });
+  expect(sure!.kind).toBe("given");
+  expect(sure!.seen).toBe(300);
+  const strokes = Array.from({ length: 500 }, (_, k) => carom.withErrors({ speed: 2, phi: 40 }, weak, 3, k).phi - 40);
+  const spread = Math.sqrt(strokes.reduce((sum, x) => sum + x * x, 0) / strokes.length);
+  expect(spread).toBeGreaterThan(0.5);
+  expect(spread).toBeLessThan(0.7);
+  expect(unsure!.keep).toBeLessThan(sure!.keep - 0.1);
+  // a stronger player errs less
+  const errors = [400, 500, 600, 700].map((fargo) => carom.player({ fargo }).phi);
+  expect([...errors].sort((a, b) => b - a)).toEqual(errors);
+});
+
+test("rulings of shots", () => {
+  for (const { carom } of builds) {
+    const game: GameState = { rules: "eightball", group: "open", opening: false };
+    // 3 hangs in the corner at 0, 0; 11 and the eight lie elsewhere
+    const { table, balls } = lay(carom, "eightball", { 0: [0.3, 0.3], 3: [0.04, 0.04], 11: [0.6, 0.6], 8: [0.6, 1.6] });
+    const pocket = table.pockets.findIndex(({ centre }) => centre[0] < 0.1 && centre[1] < 0.1);
+    expect(carom.ballsOn(game, balls)).toEqual([3, 11]);
+    const pot = carom.referee(table, balls, { speed: 1.2, phi: 225, b: -0.3 }, game, { ball: 3, pocket });
+    expect([pot.turn, pot.foul, pot.hand, pot.game.group]).toEqual(["keep", false, "no", "solids"]);
+    expect(pot.balls[3]!.state.label).toBe("pocketed");
+    // the wrong ball first
+    const foul = carom.referee(table, balls, { speed: 2, phi: 45 }, { ...game, group: "solids" });
+    expect([foul.turn, foul.foul, foul.hand, foul.game.group]).toEqual(["pass", true, "anywhere", "stripes"]);
+    // nine-ball: the nine that falls by a foul comes back
+    const nine = lay(carom, "nineball", { 0: [0.3, 0.3], 9: [0.04, 0.04], 1: [0.6, 1.6] });
+    const back = carom.referee(nine.table, nine.balls, { speed: 1.2, phi: 225, b: -0.3 }, { ...game, rules: "nineball" });
+    expect([back.turn, back.foul]).toEqual(["pass", true]);
+    expect(back.balls[9]!.state.r.slice(0, 2)).toEqual([0.5 * nine.table.width, 0.75 * nine.table.length]);
+  }
+});
+
+test("arguments in error", () => {
+  const { carom } = builds[0]!;
+  const { table, balls } = lay(carom, "nineball", PLACES);
+  expect(() => carom.plan(table, balls, { rules: "snooker" as "nineball" })).toThrow(/rules/);
+  expect(() => carom.plan(table, balls, { shots: 10 })).toThrow(/shots/);
+  expect(() => carom.plan(table, balls, { shot: { space: "wide" as "flat" } })).toThrow(/space/);
+  expect(() => carom.plan(table, balls, { oponent: carom.player() } as object)).toThrow(/did you mean "opponent"/);
+  expect(() => carom.player({ fargo: 50 })).toThrow(/fargo/);
+  expect(() => carom.player({ errors: -1 })).toThrow(/errors/);
+  expect(() => carom.ballsOn({ rules: "nineball", group: "stripe" as "open", opening: false }, balls)).toThrow(/group/);
+});
