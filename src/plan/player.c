@@ -18,7 +18,7 @@ carom_player carom_player_of(double scale) {
  * docs/understanding/plan.md has the run-outs from which they follow; build/carom-lab plan --racks
  * 1000 --shots 300 --errors E makes one of them again. */
 carom_player carom_player_fargo(double rating) {
-  static const double errors[] = {7.0, 6.0, 5.1, 4.3, 3.05, 2.4, 1.8, 1.37, 1.04, 0.79, 0.6, 0.46};
+  static const double errors[] = {7.0, 6.0, 5.1, 4.3, 3.05, 2.4, 1.8, 1.37, 1.04, 0.61, 0.35, 0.2};
   enum { LAST = sizeof errors / sizeof errors[0] - 1 };
   double at = (rating - 300.0) / 50.0;
   at = at > 0.0 ? at : 0.0;
