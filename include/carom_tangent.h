@@ -115,7 +115,7 @@ typedef struct carom_tangent {
  * direction. All events of a cluster have the flags and the tangent of the time of its first
  * one. A touch that comes or goes inside a cluster with a small change has no flag, nor has one
  * that begins to stick.
- * Nothing is allocated; stack: 54 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
+ * Nothing is allocated; stack: 55 KiB, of a batch 60. Cost: docs/understanding/gradients.md.
  *
  * Returns CAROM_OK. Errors, with nothing written: CAROM_ERROR_NULL; CAROM_ERROR_BALLS;
  * CAROM_ERROR_DIRECTIONS for other than 1 to 64; CAROM_ERROR_EVENTS_LOST where shot->room was
