@@ -88,6 +88,9 @@ ROW(option_tip, "tip", tip, "RIGHT,ABOVE", set_places, MEASURE_TIP,
     "slips off the ball, of which carom warns");
 ROW(option_elevation, "elevation", elevation, "DEGREES", set_values, MEASURE_ANGLE,
     "of the butt of the cue (default 0)");
+ROW(option_tip_time, "tip-time", tip_time, "SECONDS", set_number, 0,
+    "how long the tip of a raised cue presses the ball on the slate, to 0.01 (default 0.002, of "
+    "leather; of hard resin, which lets balls jump: 0.0006). -1: no time");
 ROW(option_json, "json", json, NULL, set_flag, 0,
     "print the shot as a line of JSON to keep, instead of playing it. In the line pooltool's sign "
     "holds: a > 0 is left");
@@ -95,7 +98,7 @@ ROW(option_json, "json", json, NULL, set_flag, 0,
 bool has_flags(const shoot_flags *f) {
   return f->table != NULL || f->at_ball != NULL || f->json || f->cue.count > 0 ||
          f->balls.count > 0 || f->balls.rack > 0 || f->tip.count > 0 || f->speed.count > 0 ||
-         f->aim.count > 0 || f->cut.count > 0 || f->elevation.count > 0;
+         f->aim.count > 0 || f->cut.count > 0 || f->elevation.count > 0 || f->tip_time != 0.0;
 }
 
 /* The balls on the table, the cue ball first. */
@@ -233,10 +236,10 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l,
   char id[MOST_TEXT] = "", number[NUMBER_TEXT];
   carom_cue cue = carom_cue_of(l->game);
   carom_motion after;
-  /* The speed of the ball is in proportion to that of the cue. */
   cue.speed = 1.0;
   cue.phi = 0.0;
   cue.theta = f->elevation.at[rise].x;
+  cue.tip_time = f->tip_time;
   cue.a = -tip_of(&f->tip.at[tip].x, R);
   cue.b = tip_of(&f->tip.at[tip].y, R);
   const carom_status bad = carom_strike(&cue, &l->ball[0].kind, &after);
@@ -249,18 +252,27 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l,
   if (bad != CAROM_OK) {
     return false;
   }
-  /* In space a raised cue drives the ball otherwise than on the plane: the shot itself tells. */
-  carom_event strike = {0};
-  carom_shot shot = {.events = &strike, .room = 1};
-  carom_shot_options only_strike = *options;
-  only_strike.events_most = 1;
-  carom_shoot(&l->table, l->ball, l->count, &cue, &only_strike, &shot);
-  const double *v = shot.count > 0 ? strike.after[0].v : after.v, ratio = hypot(v[0], v[1]);
-  if (!(ratio > 1e-6) || !(f->speed.at[speed].x > 0.0)) {
-    complain("the ball has no speed on the cloth: --speed is above 0, --elevation below 90");
-    return false;
+  /* In space a raised cue drives the ball otherwise than on the plane, and its speed is not quite
+   * in proportion to that of the cue: the shot itself tells. */
+  const double asked = f->speed.at[speed].x;
+  double ratio = 0.0, off = 1.0;
+  for (int tries = 0; tries < 100 && off > 1e-13; tries++) {
+    carom_event strike = {0};
+    carom_shot shot = {.events = &strike, .room = 1};
+    carom_shot_options only_strike = *options;
+    only_strike.events_most = 1;
+    carom_shoot(&l->table, l->ball, l->count, &cue, &only_strike, &shot);
+    if (shot.count == 0 && tries > 0)
+      break; /* which is told when it is played */
+    const double *v = shot.count > 0 ? strike.after[0].v : after.v;
+    ratio = hypot(v[0], v[1]) / cue.speed;
+    if (!(ratio > 1e-6) || !(asked > 0.0)) {
+      complain("the ball has no speed on the cloth: --speed is above 0, --elevation below 90");
+      return false;
+    }
+    off = cue.theta > 0.0 && shot.count > 0 ? fabs(ratio * cue.speed - asked) / asked : 0.0;
+    cue.speed = asked / ratio;
   }
-  cue.speed = f->speed.at[speed].x / ratio;
   if (f->cut.count == 0)
     cue.phi = f->aim.at[way].x;
   else if (!aim_at_ball(f, l, options, f->cut.at[way].x, &cue))
@@ -280,6 +292,8 @@ static bool write_shot(FILE *out, const shoot_flags *f, const layout *l,
   fprintf(out, ", \"a\": %s", number_text(cue.a == 0.0 ? 0.0 : cue.a, number));
   fprintf(out, ", \"M\": %s", number_text(cue.mass, number));
   fprintf(out, ", \"end_mass\": %s", number_text(cue.end_mass, number));
+  if (cue.tip_time != 0.0)
+    fprintf(out, ", \"tip_time\": %s", number_text(cue.tip_time, number));
   fprintf(out, ", \"b\": %s, \"ball\": \"%s\"}, \"balls\": [", number_text(cue.b, number),
           l->name[0]);
   for (int k = 0; k < l->count; k++) {

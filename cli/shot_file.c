@@ -46,7 +46,8 @@ static void keep_table(shot_file *file, named_table *t) {
   "e_t modulus e_c_log f_c_log smooth_q smooth_x smooth_t smooth_a smooth_k"
 #define CUE_KEYS "V0 phi theta a b M end_mass tip_radius"
 _Static_assert(sizeof(carom_ball_kind) == 26 * sizeof(double) &&
-                   offsetof(carom_cue, ball) == 8 * sizeof(double),
+                   offsetof(carom_cue, ball) == 8 * sizeof(double) &&
+                   offsetof(carom_cue, tip_time) - offsetof(carom_cue, miscue) == sizeof(double),
                "a key for each double");
 
 /* The kind of the balls of a game, by its name; pooltool's pool balls where there is none. */
@@ -110,8 +111,8 @@ static bool read_cue(const json_t *json, shot_line *line, json_fault *f) {
   if (!json_is_object(v))
     return json_wrong(f, "cue must be an object");
   if (!json_get_doubles(v, "cue.", CUE_KEYS, &cue->speed, f) ||
-      !json_get_doubles(v, "cue.", "miscue", &cue->miscue, f) ||
-      !json_only(v, "cue.", CUE_KEYS " miscue ball", f))
+      !json_get_doubles(v, "cue.", "miscue tip_time", &cue->miscue, f) ||
+      !json_only(v, "cue.", CUE_KEYS " miscue tip_time ball", f))
     return false;
   /* A strike says how high it is: the cue's usual b is not the centre. */
   if (json_object_get(v, "b") == NULL && json_object_size(v) > (json_object_get(v, "ball") != NULL))

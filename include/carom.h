@@ -257,6 +257,7 @@ typedef enum carom_status {
   CAROM_ERROR_CUE_BALL = -85,     /* cue.ball is not the index of a ball. */
   CAROM_ERROR_CUE_BALL_OUT = -86, /* cue.ball is in a pocket or off the table. */
   CAROM_ERROR_CUE_MISCUE = -87,   /* cue.miscue is not 0 to 1. */
+  CAROM_ERROR_CUE_TIP_TIME = -88, /* cue.tip_time is neither 0 to 0.01 s nor -1. */
 
   CAROM_ERROR_WORLD = -90,              /* options.world is not one of carom_world, or not
                                            CAROM_WORLD_CAROM for a cluster. */

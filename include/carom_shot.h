@@ -442,9 +442,9 @@ CAROM_API carom_status carom_rack(carom_rack_kind kind, const carom_table *table
 typedef struct carom_cue {
   double speed;      /* V0 of the cue before the strike, m/s, >= 0. 0: no strike. */
   double phi;        /* direction in the plane, degrees from +x towards +y. */
-  double theta;      /* elevation of the butt, degrees, 0 to 90. The ball is struck down onto the
-                        slate and hops; with CAROM_SPACE_FLAT the part of the blow that goes down
-                        is lost. */
+  double theta;      /* elevation of the butt, degrees, 0 to 90. The tip presses the ball on the
+                        slate, which throws it up after a short contact of the tip; with
+                        CAROM_SPACE_FLAT the part of the blow that goes down is lost. */
   double a, b;       /* where the tip touches, in units of R: a > 0 left, b > 0 above the centre.
                         a^2 + b^2 < miscue^2. */
   double mass;       /* M, kg, > 0. */
@@ -453,7 +453,15 @@ typedef struct carom_cue {
   int64_t ball;      /* index of the ball that is struck. */
   double miscue;     /* 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its
                         edge. Chalked tips reach 0.5. */
+  double tip_time;   /* s, to 0.01: how long the tip of a raised cue touches the ball. 0:
+                        CAROM_TIP_TIME; tips of hard resin, 0.0006. -1: no time; blow and landing
+                        are two events, as before revision 8. */
 } carom_cue;
+
+/* s, of a leather tip. Measured are 0.001 to 0.003 for leather, from 0.0008 on for hard resin
+ * (billiards.colostate.edu, "How long is the tip in contact with the cue ball?"); the place in
+ * that range is a convention. Only its ratio to the contact of ball and slate counts. */
+#define CAROM_TIP_TIME 0.002
 
 /* The usual cue: speed 2, phi 90 (along the table), b = 0.25, ball 0. */
 CAROM_API carom_cue carom_cue_of(carom_game game);

@@ -131,6 +131,7 @@
   X(ERROR_CUE_BALL_OUT, -86, "cue_ball_out",                                                       \
     "cue.ball must be in play, neither in a pocket nor off the table")                             \
   X(ERROR_CUE_MISCUE, -87, "bad_cue_miscue", "cue.miscue must be 0 to 1")                          \
+  X(ERROR_CUE_TIP_TIME, -88, "bad_cue_tip_time", "cue.tip_time must be 0 to 0.01 s, or -1")        \
   X(ERROR_WORLD, -90, "bad_world",                                                                 \
     "options.world must be one of carom_world; of a cluster, CAROM_WORLD_CAROM")                   \
   X(ERROR_BALL_MODEL, -91, "bad_ball_model",                                                       \
@@ -169,7 +170,7 @@ int carom_version_number(void) {
 /* Raised by the commit that changes the bits of any result; tests/platforms/revision says when
  * that is. */
 int carom_physics_revision(void) {
-  return 7;
+  return 8;
 }
 
 int carom_serves(int header) {

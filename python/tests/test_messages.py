@@ -139,6 +139,7 @@ FIELDS = [
     (r"cue\.ball = 99: it must be the index of one of the balls", lambda: shot(ball=99)),
     (r"cue\.ball = -1: .* counted from 0", lambda: shot(ball=-1)),
     (r"cue\.ball = 3: it must be in play", lambda: shot(ball=3)),
+    (r"cue\.tip_time = 0\.02: it must be 0 to 0\.01 s, or -1", lambda: shot(tip_time=0.02)),
     (r"cue\.miscue = 1\.1: it must be 0 to 1", lambda: shot(miscue=1.1)),
     (r"cue\.a, cue\.b = 0\.8, 0\.8: the tip misses the ball: .* must be below", lambda: shot(a=0.8, b=0.8)),
     (r"cue\.a, cue\.b = 0\.3, 0\.4: .*miscue", lambda: shot(a=0.3, b=0.4, miscue=0.5)),

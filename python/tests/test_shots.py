@@ -335,14 +335,19 @@ def test_pictures():
 
 
 def test_balls_that_fly():
-    balls, cue = carom.balls([[0.5, 0.6], [0.5, 0.905]]), carom.cue(speed=3.0, theta=45.0, b=0.0)
+    balls, cue = carom.balls([[0.5, 0.6], [0.5, 0.905]]), carom.cue(speed=3.0, theta=45.0, b=0.0, tip_time=-1.0)
     over = carom.simulate(TABLE, balls, cue)
     assert over.events["type"][:2].tolist() == [carom.EventType.STRIKE, carom.EventType.SLATE]
     assert abs(over.positions(np.linspace(0.0, 0.3, 31))[:, 0, 2].max() - 0.028575 - 0.135695) < 1e-4
     flat = carom.simulate(TABLE, balls, cue, space="flat")
     assert flat.events["type"][1] == carom.EventType.BALL_BALL and (flat.events["after"]["v"][..., 2] == 0).all()
+    # a tip that touches for a while presses the ball on the slate: hard resin lets it jump, leather does not
+    for tip_time, height in ((0.0006, 0.1), (0.002, 0.0), (0.0, 0.0)):
+        pressed = carom.simulate(TABLE, balls, carom.cue(speed=3.0, theta=45.0, b=0.0, tip_time=tip_time))
+        top = pressed.positions(np.linspace(0.0, 0.3, 301))[:, 0, 2].max() - 0.028575
+        assert height - 1e-3 < top < height + 6e-3 and (pressed.events["after"]["v"][0, 0, 2] > 0.0)
     # off the table, which is no error; the batch takes the same options, as keywords or as one object
-    balls, cue = carom.balls([[0.4, 2.14], [0.8, 1.8]]), carom.cue(speed=3.0, theta=45.0, b=0.0, miscue=0.5)
+    balls, cue = carom.balls([[0.4, 2.14], [0.8, 1.8]]), carom.cue(speed=3.0, theta=45.0, b=0.0, miscue=0.5, tip_time=-1.0)
     gone = carom.simulate(TABLE, balls, cue)
     assert gone.events["type"][-1] == carom.EventType.LEFT_TABLE and gone.final["label"].tolist() == [carom.Label.OFF, 0]
     for space, label in (("3d", carom.Label.OFF), ("flat", carom.Label.STATIONARY)):

@@ -26,6 +26,7 @@
  * risen is then taken from the motion about the centre of mass.
  */
 #include "cluster/cluster.h"
+#include "cluster/hertz.h"
 #include "cluster/vectors.h"
 #include "platform/elementary.h"
 
@@ -167,18 +168,6 @@ static double friction_at(const state *c, const contact *x, double slip) {
   return b > 0.0 ? a + b * carom_exp(-rate * slip) : a;
 }
 
-/* The normal force at an overlap; d_max grows with it. */
-static inline double normal_force(contact *x, double d) {
-  x->d = d;
-  if (d >= x->d_max) {
-    x->d_max = d;
-    x->size = greater(x->size, d);
-    return x->K * d * sqrt(d);
-  }
-  const double y = d - (1.0 - x->e * x->e) * x->d_max;
-  return y > 0.0 ? x->K / (x->e * x->e * x->e) * y * sqrt(y) : 0.0;
-}
-
 /* The contacts that act at half a step, and their impulses. `lead` becomes the stiffest. Returns
  * how many act; *overlap tells whether any has an overlap. */
 static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t acting[],
@@ -205,7 +194,9 @@ static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t
       if (x->time < 0.0)
         x->time = greater(tau - (v > 0.0 ? d / v : 0.0), 0.0);
     }
-    x->J = h * normal_force(x, d);
+    x->d = d;
+    x->size = d >= x->d_max ? greater(x->size, d) : x->size;
+    x->J = h * carom_hertz_force(x->K, x->e, d, &x->d_max);
     const double KB = x->K * mobility(c, x), stiff = KB * KB * x->size;
     if (stiff > stiffest) {
       stiffest = stiff;
@@ -369,10 +360,7 @@ static inline void end_step(bool flat, state *c, double h, const uint8_t acting[
       x->rubbed[k] += x->f[k];
       x->f[k] *= each;
     }
-    /* the greatest overlap is the vertex of a parabola */
-    const double v0 = x->closing, v1 = closing_of(flat, c, x);
-    if (v0 > 0.0 && v1 <= 0.0 && x->d >= x->d_max)
-      x->d_max = greater(x->d, x->d - 0.5 * h * v0 + 0.5 * h * v0 * v0 / (v0 - v1));
+    x->d_max = carom_hertz_vertex(x->d, x->d_max, h, x->closing, closing_of(flat, c, x));
   }
   /* where the force has reached 0 the rest of the overlap is forgotten */
   for (int k = 0; k < c->contacts; k++) {

@@ -7,6 +7,7 @@
  * by itself, so the reach has only to be larger: 1.6 and 3 instead of 2 give the same results, 1
  * cuts a step of 2e-4 of the speed. */
 #include "cluster/cluster.h"
+#include "cluster/hertz.h"
 #include "cluster/vectors.h"
 
 #include <math.h>
@@ -41,7 +42,7 @@ double carom_cluster_compression(double K, double B, double v) {
 }
 
 double carom_cluster_duration(double K, double B, double size) {
-  return 2.9432 * sqrt(1.25 / (K * B)) / sqrt(sqrt(size));
+  return CAROM_HERTZ_DURATION * sqrt(1.25 / (K * B)) / sqrt(sqrt(size));
 }
 
 double carom_cluster_stiffness(const carom_cluster_ball *a, const carom_cluster_ball *b) {

@@ -13,9 +13,9 @@
  *
  *   v = V (cos(alpha) (cos(theta) d - sin(theta) z) + sin(alpha) l)
  *
- * so that a ball on the cloth is airborne with v_z < 0 and lands at once: most of that happens
- * after the tip has left. With theta = 0 both are the same, to the last bit. Sources: D.
- * Alciatore, TP A-30 and TP A-31; pooltool's. */
+ * the blow alone, which drives the ball into the slate; shot/fixed.c has what the slate makes of
+ * it. With theta = 0 both are the same, to the last bit. Sources: D. Alciatore, TP A-30 and TP
+ * A-31; pooltool's. */
 #include "motion/strike.h"
 #include "platform/elementary.h"
 #include "platform/ranges.h"
@@ -36,6 +36,8 @@ carom_status carom_check_cue(const carom_cue *cue) {
     return CAROM_ERROR_CUE_END_MASS;
   if (!(cue->miscue >= 0.0 && cue->miscue <= 1.0))
     return CAROM_ERROR_CUE_MISCUE;
+  if (!(cue->tip_time == -1.0 || (cue->tip_time >= 0.0 && cue->tip_time <= 0.01)))
+    return CAROM_ERROR_CUE_TIP_TIME;
   const double limit = cue->miscue > 0.0 ? cue->miscue : 1.0;
   return cue->a * cue->a + cue->b * cue->b < limit * limit ? CAROM_OK : CAROM_ERROR_MISCUE;
 }

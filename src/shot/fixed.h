@@ -33,4 +33,9 @@ static inline double carom_slate_restitution(double given) {
  * is. Its label does not change. */
 void carom_hit_slate(const carom_ball_kind *kind, carom_ball_state *state);
 
+/* The ball on the slate, with v[2] <= 0 by a blow alone, is pressed for tip_time, s; 0 stands for
+ * CAROM_TIP_TIME. Afterwards v[2] >= 0. Returns the speed at which it would leave the slate but
+ * for the end of hops. */
+double carom_press_on_slate(const carom_ball_kind *kind, double tip_time, carom_ball_state *state);
+
 #endif

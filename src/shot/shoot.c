@@ -244,8 +244,10 @@ static carom_status strike(carom_sim *sim) {
   event->before[0] = *state;
   memcpy(state->v, motion.v, sizeof state->v);
   memcpy(state->w, motion.w, sizeof state->w);
-  if (state->v[2] != 0.0) { /* it lands at once, from the cloth exactly */
+  if (state->v[2] != 0.0) { /* pressed on the slate, or landing at once from the cloth exactly */
     state->r[2] = sim->rates[i].radius;
+    if (cue->tip_time >= 0.0)
+      carom_press_on_slate(&sim->ball[i].kind, cue->tip_time, state);
     carom_label_in_space(state, sim->rates[i].radius);
   } else {
     carom_label_of(state, sim->rates[i].radius);

@@ -366,8 +366,14 @@ CAROM_APART text::carom_status strike(scene *s) {
       (flat ? text::carom_strike : text::carom_strike_in_space)(&cue, &s->ball[0].kind, &motion);
   if (status < 0)
     return status;
-  memcpy(s->ball[0].state.v, motion.v, sizeof motion.v);
-  memcpy(s->ball[0].state.w, motion.w, sizeof motion.w);
+  carom_ball_state *state = &s->ball[0].state;
+  memcpy(state->v, motion.v, sizeof motion.v);
+  memcpy(state->w, motion.w, sizeof motion.w);
+  if (!level && state->v[2].x != 0 && w->cue->tip_time >= 0) {
+    const real v = text::carom_press_on_slate(&s->ball[0].kind, number(w->cue->tip_time), state).x;
+    if (::carom_rebound(v, 1) < GRAZING * v && ::carom_rebound((1 + GRAZING) * v, 1) > 0)
+      s->w->note.flags |= CAROM_TANGENT_GRAZING;
+  }
   /* a change of the elevation raises a level cue: the ball falls onto the slate at a speed that
    * is 0 */
   if (level) {

@@ -437,6 +437,7 @@ START_TEST(edges_of_flights) {
   layout l = of_two(0.4 + 0.05715, 0.6);
   l.cue.phi = 0.0;
   l.cue.theta = 30.0;
+  l.cue.tip_time = -1.0;
   for (int k = 0; k < 2; k++) {
     l.ball[1].state.r[0] += 0.01 * k;
     ck_assert_int_eq(

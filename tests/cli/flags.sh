@@ -43,7 +43,7 @@ for rack, count in (("nineball", 10), ("eightball", 16), ("tenball", 11)):
 print([ball["id"] for ball in given["balls"]][::5], given["balls"][0]["params"])
 
 # Each option alone is a shot by options, though it may lack another one.
-alone = "--table snooker,--at-ball 1,--json,--cue 0.6_0.8,--balls 0.5_1.6,--balls nineball,--tip 0.1_0,--speed 1,--aim 10,--cut 10,--elevation 5"
+alone = "--table snooker,--at-ball 1,--json,--cue 0.6_0.8,--balls 0.5_1.6,--balls nineball,--tip 0.1_0,--speed 1,--aim 10,--cut 10,--elevation 5,--tip-time 0.001"
 told = lambda words: subprocess.run([carom, "shoot", *words.replace("_", ",").split()], capture_output=True, text=True).stderr
 print("by options:", [words for words in alone.split(",") if "needs the name of a file" in told(words)])
 
@@ -87,7 +87,7 @@ carom shoot --balls 0.5,1.6 --at-ball 1 --cut 10,20 --plot words.svg > words
 cmp lines.svg words.svg && try carom shoot --cue 5,5 --events none
 echo "--- refused"
 for words in "--cue 0.6" "--cue 0.6,0.8:0.1,0.2" "--balls 0.5,1.6;0.7,1" "--cut 20" "--balls 0.5,1.6 --at-ball 7" "--aim 30 --cut 20 --balls 0.5,1.6" "--tip 0.9,0.9" "--speed 0" "--table attic" \
-  "--balls 0.5,1.6:8=0.55,1.2 --cue 0.6,0.8 --at-ball 1" "--balls 0.5,1.6 --cue 0.6,0.8 --at-ball 1 --speed 0.2" "--balls 0.6,1.1 --cue 0.6,0.8 --at-ball 1 --elevation 30 --speed 4" \
+  "--balls 0.5,1.6:8=0.55,1.2 --cue 0.6,0.8 --at-ball 1" "--balls 0.5,1.6 --cue 0.6,0.8 --at-ball 1 --speed 0.2" "--balls 0.6,1.1 --cue 0.6,0.8 --at-ball 1 --elevation 30 --speed 4 --tip-time 0.0006" \
   "--balls 0.05,0.9 --cue 0.05,0.6 --at-ball 1 --cut -60" "--balls 0.6,1.1 --at-ball 1 --cut 90" "--balls 0.5,0.5,0.5" "--cue 600,800" "--cue 0.6,0.8 --balls 0.61,0.8" "--cue 5,5" "--aim 0:90:1" "--cue 0.6,0.8 $DATA/break-nineball.jsonl" "--elevation 90" "--cue 0.6,0.8 --animate a.svg" "--cue 0.6,0.8 --animate nowhere/a.html"; do
   # shellcheck disable=SC2086
   try carom shoot -o refused.txt $words

@@ -79,7 +79,7 @@ carom shoot --plot break.svg --id nosuch "$DATA/break-nineball.jsonl" > /dev/nul
 echo "--- balls that fly"
 carom shoot --events brief -o jumps.out --plot jump.svg "$DATA/shots-jumps.jsonl"
 carom shoot --events brief --space flat -o flat.out --plot flat.svg "$DATA/shots-jumps.jsonl"
-for id in jump off draw; do # the pictures of the docs
+for id in jump off draw masse; do # the pictures of the docs
   carom shoot --events none --plot figure.svg --id $id -o figure.out "$DATA/shots-jumps.jsonl"
   cmp figure.svg "$DATA/../docs/figures/shot-$id.svg" && echo "as in the docs: $id"
 done
@@ -95,7 +95,7 @@ grep -c "<circle" jump.svg flat.svg
 # the new numbers of a table, a cue and a ball are read: on a rail of 0.5 m the ball falls on its top, without restitution it does not hop
 made() { printf '{"kind": "table", "id": "wide", "w": 2, "l": 2, %s "linear": [%s, %s, %s, %s]}\n' "$1" "$(rail left '0, 0' '0, 2' 0)" "$(rail right '2, 0' '2, 2' 1)" \
   "$(rail near '0, 0' '2, 0' 1)" "$(rail far '0, 2' '2, 2' 0)"; }
-shot() { printf '{"kind": "shot", "id": "%s", "table": "wide", "cue": {"ball": "cue", "V0": 3, "phi": 90, "theta": 45, "b": 0.3%s}, "balls": [{"id": "cue", "params": {%s}, "state": [0, 1, 1.6, 0.028575, 0, 0, 0, 0, 0, 0]}]}\n' "$1" "$2" "$3"; }
+shot() { printf '{"kind": "shot", "id": "%s", "table": "wide", "cue": {"ball": "cue", "V0": 3, "phi": 90, "theta": 45, "tip_time": -1, "b": 0.3%s}, "balls": [{"id": "cue", "params": {%s}, "state": [0, 1, 1.6, 0.028575, 0, 0, 0, 0, 0, 0]}]}\n' "$1" "$2" "$3"; }
 { made '"rail_width": 0.5, "ball_radius": 0.028575, "pocket_back": 0.04,'; shot top '' ''; shot dead '' '"e_t": -1'; shot miscue ', "miscue": 0.25' ''; shot wrong '' '"e_t": 1.5'; } > numbers.jsonl
 try carom shoot --events brief -o numbers.out numbers.jsonl
 grep '"shot"' numbers.out | sed 's/.*"n_events"/.../; s/"final".*"pockets": {}}/.../' | cut -c 1-400
@@ -119,7 +119,7 @@ ball='{"id": "cue", "state": [0, 0.3, 0.5, 0.028575, 0, 0, 0, 0, 0, 0]}'
   echo '{"kind": "table", "id": "bad", "linear": [{"id": "1", "p1": [0, 0, 0.03]}]}'
   echo '{"kind": "other", "is": "ignored"}'
   echo "{\"kind\": \"shot\", \"id\": \"default cue\", \"unknown\": [], \"balls\": [$ball]}"
-  for wrong in '"V0": -1' '"V0": 1001' '"phi": 1e10' '"theta": 91' '"M": 0' '"end_mass": -1' '"miscue": 1.1'; do
+  for wrong in '"V0": -1' '"V0": 1001' '"phi": 1e10' '"theta": 91' '"M": 0' '"end_mass": -1' '"miscue": 1.1' '"tip_time": 0.02'; do
     echo "{\"kind\": \"shot\", \"id\": ${wrong%%:*}, \"cue\": {\"b\": 0, $wrong}, \"balls\": [$ball]}"
   done
   echo '{"kind": "shot", "id": "out of play", "cue": {"ball": "2"}, "balls": ['"$ball"', {"id": "2", "state": [4, 0, 0, -0.08, 0, 0, 0, 0, 0, 0]}]}'

@@ -263,6 +263,7 @@ TEST(over_the_rail) {
   cue.speed = 3.0;
   cue.theta = 45.0;
   cue.b = 0.0;
+  cue.tip_time = -1.0;
   carom_shot shot = play(&table, &ball, 1, &cue, NULL, CAROM_OK);
   carom_ball_state over;
   ck_assert_int_eq(carom_shot_at(&ball, 1, &shot, 0.171591, &over), CAROM_OK);

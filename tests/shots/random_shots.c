@@ -347,6 +347,7 @@ static void jump(random_shot *s, lab_random *r) {
   s->cue.b = off * sin(way);
   for (int k = 0; k < s->count; k++)
     s->ball[k].kind.restitution_table = whole(r, 0, 2) == 0 ? lab_uniform(r, 0.1, 0.98) : 0.0;
+  s->cue.tip_time = (double[]){0.0, 0.0006, -1.0}[whole(r, 0, 2)];
 }
 
 /* Whether a ball of radius R at a place is clear of all others, in space. */

@@ -88,6 +88,7 @@ static problem random_problem(random_source *random) {
     p.cue.b = off * sin(turn);
     p.cue.speed = exp(random_between(random, log(0.3), log(10.0)));
     p.cue.theta = fmax(random_between(random, -80.0, 80.0), 0.0);
+    p.cue.tip_time = turn > 3.0 ? 0.0006 : 0.0; /* half of them jump */
     p.cut = fmax(fmin(random_between(random, -100.0, 100.0), 85.0), -85.0);
     p.options.space = world < 3.0 ? CAROM_SPACE_FLAT : CAROM_SPACE_3D;
     p.options.world = world < 1.0 ? CAROM_WORLD_POOLTOOL : CAROM_WORLD_CAROM;

@@ -212,6 +212,9 @@ TEST(cues) {
   NAMED(cue.miscue, -0.1, CAROM_ERROR_CUE_MISCUE);
   NAMED(cue.miscue, 1.1, CAROM_ERROR_CUE_MISCUE);
   NAMED(cue.miscue, NAN, CAROM_ERROR_CUE_MISCUE);
+  NAMED(cue.tip_time, 0.011, CAROM_ERROR_CUE_TIP_TIME);
+  NAMED(cue.tip_time, -0.5, CAROM_ERROR_CUE_TIP_TIME);
+  NAMED(cue.tip_time, NAN, CAROM_ERROR_CUE_TIP_TIME);
   set_up();
   cue.a = 0.3;
   cue.b = 0.4; /* at 0.5 */

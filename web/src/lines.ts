@@ -54,6 +54,7 @@ const CUE: readonly (readonly [string, Exclude<keyof Cue, "ball">])[] = [
   ["end_mass", "endMass"],
   ["tip_radius", "tipRadius"],
   ["miscue", "miscue"],
+  ["tip_time", "tipTime"],
 ];
 
 /** The line of a shot, without a line break. `carom shoot` plays it with the same bits under CAROM_ISA=plain. */

@@ -276,7 +276,7 @@ export interface Cue {
   speed: number;
   /** Direction in the plane, degrees from +x towards +y. */
   phi: number;
-  /** Elevation of the butt, degrees, 0 to 90. The ball is struck down onto the slate and hops. */
+  /** Elevation of the butt, degrees, 0 to 90. The tip presses the ball on the slate. */
   theta: number;
   /** Where the tip touches, in radii: a > 0 left; a^2 + b^2 < miscue^2. */
   a: number;
@@ -292,6 +292,8 @@ export interface Cue {
   ball: number;
   /** 0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. */
   miscue: number;
+  /** s, to 0.01: how long the tip of a raised cue presses the ball on the slate; 0: 0.002, a leather tip; hard resin 0.0006. -1: no time. */
+  tipTime: number;
 }
 
 /** What happened, in the words of files of `carom shoot`. */

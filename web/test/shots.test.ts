@@ -64,7 +64,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
   test.runIf(thereIsACommand)("a jump over a ball, with the command's doubles", () => {
     const table = carom.table("9ft");
     const balls = [carom.ball(0.635, 0.635), carom.ball(0.635, 0.94)];
-    const cue = carom.cue({ speed: 3, theta: 45, phi: 90, b: 0 });
+    const cue = carom.cue({ speed: 3.5, theta: 45, phi: 90, b: 0, tipTime: 6e-4 });
     const shot = carom.simulate(table, balls, cue);
     expect(shot.events.map((event) => event.type)).toContain("slate");
     expect(Math.max(...[...Array(50).keys()].map((k) => shot.positions(k / 50)[2]!))).toBeGreaterThan(0.08);
@@ -248,7 +248,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
     expect(() => carom.simulate(table, balls, { a: 0.9, b: 0.9 })).toThrow(/^cue\.a, cue\.b: the tip misses the ball: /);
     const out = structuredClone(balls) as unknown as { state: { label: string } }[];
     out[3]!.state.label = "pocketed";
-    for (const [key, wrong] of [["speed", -1], ["phi", Infinity], ["theta", 91], ["mass", 0], ["endMass", NaN], ["miscue", 1.1], ["ball", 12], ["ball", 3]] as const) {
+    for (const [key, wrong] of [["speed", -1], ["phi", Infinity], ["theta", 91], ["mass", 0], ["endMass", NaN], ["miscue", 1.1], ["tipTime", 0.02], ["ball", 12], ["ball", 3]] as const) {
       const calls = [() => carom.simulate(table, out as never, { [key]: wrong })];
       // A strike alone has no layout.
       if (key !== "ball") calls.push(() => carom.strike({ [key]: wrong }, balls[0]!.kind) as never);

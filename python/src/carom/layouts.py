@@ -241,7 +241,8 @@ def balls(
 def cue(
     *, speed: npt.ArrayLike = 2.0, phi: npt.ArrayLike = 90.0, theta: npt.ArrayLike = 0.0, a: npt.ArrayLike = 0.0,
     b: npt.ArrayLike = 0.25, ball: npt.ArrayLike = 0, game: Game = "pool", mass: npt.ArrayLike | None = None,
-    end_mass: npt.ArrayLike | None = None, tip_radius: npt.ArrayLike | None = None, miscue: npt.ArrayLike = 0.0
+    end_mass: npt.ArrayLike | None = None, tip_radius: npt.ArrayLike | None = None, miscue: npt.ArrayLike = 0.0,
+    tip_time: npt.ArrayLike = 0.0
 ) -> dtypes.Records:  # fmt: skip
     """Build a cue with its strike, or many. The fields are broadcast against each other.
 
@@ -261,6 +262,9 @@ def cue(
         kg, kg, m.
     miscue : array_like, shape (...)
         0 to 1: the offset at which the tip slips off the ball; 0: 1, at its edge. Chalked tips reach 0.5.
+    tip_time : array_like, shape (...)
+        s, to 0.01: how long the tip of a raised cue presses the ball on the slate; 0: 0.002, a leather tip. Hard resin, with which balls
+        jump, has 0.0006. -1: no time, so that the blow and the landing are two events, as before revision 8.
 
     Returns an ndarray of `carom.dtypes.cue`, shape (...).
     """
@@ -272,7 +276,7 @@ def cue(
         if not whole_ones.all():
             raise ValueError(f"ball: it must be the index of one of the balls, a whole number, not {numbers[~whole_ones].flat[0]}")
     usual = bytes(ffi.buffer(ffi.new("carom_cue *", lib.carom_cue_of(choice(_GAMES, game, "game")))))
-    given = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball, "miscue": miscue}
+    given = {"speed": speed, "phi": phi, "theta": theta, "a": a, "b": b, "ball": ball, "miscue": miscue, "tip_time": tip_time}
     return fill(dtypes.cue, {}, {**given, "mass": mass, "end_mass": end_mass, "tip_radius": tip_radius}, usual)
 
 
