@@ -411,6 +411,26 @@ typedef struct carom_table_fault {
 CAROM_API carom_status carom_table_check(const carom_table *table, double radius,
                                          carom_table_fault *fault);
 
+/* A corner of a table of any closed shape: its place, m, from 0, and the width of a pocket's mouth
+ * there, from jaw to jaw, m; 0: no pocket. A corner on a straight side makes a side pocket. */
+typedef struct carom_corner {
+  double x, y, mouth;
+} carom_corner;
+
+/* Makes a table from its corners, 3 to CAROM_RAILS_MOST, in the order of a walk around it, in
+ * either direction. nose_height, m, is that of all noses; jaw_radius, m, that of the rounded ends
+ * of rails at pockets; ball_radius, m, that of the balls. Rails end where mouths begin. The pocket
+ * is a circle as wide as the mouth, behind it, or a little in it where a ball could slip past.
+ * The middle (width/2, length/2) of the table, where width and length are the greatest x and y,
+ * must have room for a ball. The result is checked by carom_table_check(), whose status and
+ * *fault are those of the call; *fault may be NULL. Further errors: CAROM_ERROR_TABLE with
+ * CAROM_PART_NONE for a number below 0 or not finite, mouths that leave nothing of a rail, or more
+ * than CAROM_POCKETS_MOST pockets or CAROM_JAWS_MOST jaws. */
+CAROM_API carom_status carom_table_polygon(const carom_corner *corner, int count,
+                                           double nose_height, double jaw_radius,
+                                           double ball_radius, carom_table *table,
+                                           carom_table_fault *fault);
+
 /* Racks, with the cue ball first. */
 typedef enum carom_rack_kind {
   CAROM_RACK_NINEBALL = 0,    /* 10 balls: cue ball, then 1 to 9 by number, 1 in front and 9 in

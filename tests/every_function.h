@@ -268,6 +268,11 @@ EVERY_BODY(table_check) {
   STATUS(carom_table_check(&room->table, in->balls[0].kind.radius, &fault));
   return HASH(fault);
 }
+EVERY_BODY(table_polygon) {
+  static const carom_corner corner[4] = {{0, 0, 0.12}, {1, 0.1, 0.12}, {1, 1.6, 0}, {0, 1.5, 0.12}};
+  STATUS(carom_table_polygon(corner, 4, 0.0366, 0.01, 0.028575, &room->table, NULL));
+  return HASH(room->table);
+}
 EVERY_BODY(rack) {
   STATUS(carom_rack(CAROM_RACK_NINEBALL, &in->table, 1e-4, 3, room->balls, EVERY_BALLS));
   return every_hash(h, room->balls, 10 * sizeof room->balls[0]);
@@ -497,7 +502,7 @@ EVERY_BODY(shot_tangent_batch) {
   F(rolling_velocity) F(rules_name) F(serves) F(shoot) F(shoot_batch) F(shot_at) F(shot_at_times) \
   F(shot_check) F(shot_continue) F(shot_orientation) F(shot_tangent) F(shot_tangent_batch) \
   F(slip_name) F(solver_name) F(status_name) F(status_string) F(strike) F(table_check) \
-  F(table_make) F(table_name) F(trace) F(version) F(version_number)
+  F(table_make) F(table_name) F(table_polygon) F(trace) F(version) F(version_number)
 /* clang-format on */
 #define EVERY_ROW(name) {"carom_" #name, every_##name},
 static const struct every_function {

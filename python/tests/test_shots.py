@@ -425,3 +425,16 @@ def test_a_batch_of_one_makes_few_calls(calls):
     TABLE, balls, cue = carom.tables.pool_9ft(), carom.balls([[0.5, 0.6], [0.7, 1.5]]), carom.cue(speed=3.0, phi=79.0)
     carom.simulate_batch(TABLE, balls, cue)
     assert calls(lambda: carom.simulate_batch(TABLE, balls, cue)) <= 80
+
+
+def test_tables_of_any_shape():
+    corners = [(1, 0, 0.12), (2, 0.5, 0.12), (2, 1.5, 0.12), (1, 2, 0.12), (0, 1.5, 0.12), (0, 0.5)]
+    table = carom.tables.polygon(corners)
+    assert (len(table.rails), len(table.jaws), len(table.pockets), table.width, table.length) == (6, 10, 5, 2.0, 2.0)
+    ends = np.array([0, np.pi]) + np.linspace(0, 6, 40)[:, None]
+    shots = carom.simulate_batch(table, carom.balls([[1.0, 1.0]]), carom.cue(speed=4.0, phi=np.degrees(ends.ravel())))
+    assert (shots.status == 0).all() and (table.pockets["radius"] == 0.06).all()
+    with pytest.raises(carom.CaromError, match="can leave the table"):
+        carom.tables.polygon([(0, 0), (2, 0), (2, 0.5), (0.5, 0.5), (0.5, 2), (0, 2)])
+    with pytest.raises(ValueError, match=r"corners\[1\]: x, y and perhaps the mouth are needed, not 4"):
+        carom.tables.polygon([(0, 0), (1, 0, 0.1, 2), (0, 1)])

@@ -256,70 +256,45 @@ typedef struct polygon {
   double at[MOST_CORNERS][2]; /* counter-clockwise */
 } polygon;
 
-static void add_rail(carom_table *t, const double p[2], const double q[2]) {
-  t->rail[t->rails++] =
-      (carom_rail){.p = {p[0], p[1]}, .q = {q[0], q[1]}, .height = 0.0365, .side = 1};
-}
-
-/* The rounded end of a rail, whose outside is along `out`. */
-static void add_jaw(carom_table *t, const double end[2], const double out[2], double radius) {
-  t->jaw[t->jaws++] = (carom_jaw){.centre = {end[0] + radius * out[0], end[1] + radius * out[1]},
-                                  .radius = radius,
-                                  .height = 0.0365};
-}
-
 /* A polygon about the middle of the table, which need not be convex. Some corners are pockets,
- * and some rails have a pocket in their middle; a corner without a pocket has a jaw of radius 0. */
-static void make_polygon(random_source *r, carom_table *t, polygon *shape) {
-  *t = (carom_table){.width = 2.0, .length = 2.0};
+ * and some rails have a pocket in their middle. */
+static carom_status make_polygon(random_source *r, carom_table *t, polygon *shape) {
   const int n = shape->corners = 3 + (int)random_between(r, 0.0, MOST_CORNERS - 2.0);
   const double turn = random_between(r, 0.0, 6.283185307179586),
-               uneven = random_between(r, 0.0, 0.5);
+               uneven = random_between(r, 0.0, 0.5), mouth = random_between(r, 0.09, 0.16),
+               jaw = random_between(r, 0.0, 0.03), two_pi = 6.283185307179586;
+  double low[2] = {2.0, 2.0};
   for (int k = 0; k < n; k++) {
-    const double angle = turn + 6.283185307179586 * (k + random_between(r, -0.3, 0.3) * uneven) / n;
+    const double angle = turn + two_pi * (k + random_between(r, -0.3, 0.3) * uneven) / n;
     const double far = random_between(r, 1.0 - uneven, 1.0);
-    shape->at[k][0] = 1.0 + far * cos(angle);
-    shape->at[k][1] = 1.0 + far * sin(angle);
+    shape->at[k][0] = far * cos(angle);
+    shape->at[k][1] = far * sin(angle);
+    for (int i = 0; i < 2; i++)
+      low[i] = fmin(low[i], shape->at[k][i]);
   }
-  const double mouth = random_between(r, 0.045, 0.08), jaw = random_between(r, 0.0, 0.03),
-               radius = random_between(r, 0.03, 0.06), back = random_between(r, 0.0, 0.05);
-  bool has_pocket[MOST_CORNERS];
+  carom_corner corner[2 * MOST_CORNERS];
+  int corners = 0, pockets = 0;
   for (int k = 0; k < n; k++)
-    has_pocket[k] = random_between(r, 0.0, 1.0) < 0.7;
+    for (int i = 0; i < 2; i++)
+      shape->at[k][i] -= low[i];
   for (int k = 0; k < n; k++) {
-    const double *p = shape->at[k], *q = shape->at[(k + 1) % n], *o = shape->at[(k + n - 1) % n];
-    const double length = hypot(q[0] - p[0], q[1] - p[1]), before = hypot(p[0] - o[0], p[1] - o[1]);
-    const double u[2] = {(q[0] - p[0]) / length, (q[1] - p[1]) / length}, out[2] = {u[1], -u[0]};
-    const double from = has_pocket[k] ? mouth : 0.0,
-                 to = length - (has_pocket[(k + 1) % n] ? mouth : 0.0);
-    const double end[4] = {from, 0.5 * length - mouth, 0.5 * length + mouth, to};
-    const bool in_middle =
-        length > 0.6 && t->pockets < CAROM_POCKETS_MOST - 1 && random_between(r, 0.0, 1.0) < 0.3;
-    /* the rail, or the two beside the pocket in its middle */
-    for (int part = 0; part <= (in_middle ? 1 : 0); part++) {
-      const double first = end[2 * part], last = in_middle ? end[2 * part + 1] : to;
-      const double a[2] = {p[0] + first * u[0], p[1] + first * u[1]},
-                   b[2] = {p[0] + last * u[0], p[1] + last * u[1]};
-      add_rail(t, a, b);
-      add_jaw(t, a, out, part == 1 || has_pocket[k] ? jaw : 0.0);
-      add_jaw(t, b, out, (in_middle && part == 0) || has_pocket[(k + 1) % n] ? jaw : 0.0);
-    }
-    if (in_middle)
-      t->pocket[t->pockets++] =
-          (carom_pocket){.centre = {p[0] + 0.5 * length * u[0] + (radius + 0.01) * out[0],
-                                    p[1] + 0.5 * length * u[1] + (radius + 0.01) * out[1]},
-                         .radius = radius,
-                         .depth = 0.08};
-    if (has_pocket[k] && t->pockets < CAROM_POCKETS_MOST) {
-      const double v[2] = {(o[0] - p[0]) / before, (o[1] - p[1]) / before},
-                   w[2] = {u[0] + v[0], u[1] + v[1]};
-      const double size = hypot(w[0], w[1]), sign = u[0] * v[1] - u[1] * v[0] > 0.0 ? -1.0 : 1.0;
-      t->pocket[t->pockets++] = (carom_pocket){
-          .centre = {p[0] + sign * back * w[0] / size, p[1] + sign * back * w[1] / size},
-          .radius = radius,
-          .depth = 0.08};
+    const double *p = shape->at[k], *q = shape->at[(k + 1) % n];
+    const bool here = pockets < CAROM_POCKETS_MOST && random_between(r, 0.0, 1.0) < 0.7;
+    pockets += here;
+    corner[corners++] = (carom_corner){p[0], p[1], here ? mouth : 0.0};
+    if (pockets < CAROM_POCKETS_MOST && hypot(q[0] - p[0], q[1] - p[1]) > 0.6 &&
+        random_between(r, 0.0, 1.0) < 0.3) {
+      corner[corners++] = (carom_corner){0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), mouth};
+      pockets++;
     }
   }
+  if (random_between(r, 0.0, 1.0) < 0.5) /* the other way round */
+    for (int k = 0; k < corners / 2; k++) {
+      const carom_corner kept = corner[k];
+      corner[k] = corner[corners - 1 - k];
+      corner[corners - 1 - k] = kept;
+    }
+  return carom_table_polygon(corner, corners, 0.0365, jaw, 0.028575, t, NULL);
 }
 
 static bool is_in_polygon(const polygon *shape, double x, double y) {
@@ -426,27 +401,79 @@ TEST(places_on_built_in_tables) {
   }
 }
 
+/* The jaws of a pocket are tangent to their rails, its mouth apart, and mirror images of each
+ * other; the order of the corners turns only the order of the parts round. */
+TEST(polygon_tables) {
+  static const carom_corner pool[6] = {{0, 0, 0.118},       {1.27, 0, 0.118}, {1.27, 1.27, 0.137},
+                                       {1.27, 2.54, 0.118}, {0, 2.54, 0.118}, {0, 1.27, 0.137}};
+  static const double R = 0.028575, r = 0.01;
+  carom_corner other[6];
+  for (int k = 0; k < 6; k++)
+    other[k] = pool[5 - k];
+  carom_table t, turned;
+  carom_table_fault fault;
+  ck_assert_int_eq(carom_table_polygon(pool, 6, 0.0366, r, R, &t, &fault), CAROM_OK);
+  ck_assert_int_eq(carom_table_polygon(other, 6, 0.0366, r, R, &turned, NULL), CAROM_OK);
+  ck_assert_int_eq(t.rails + t.jaws + t.pockets, 6 + 12 + 6);
+  ck_assert(t.width == 1.27 && t.length == 2.54 && t.ball_radius == R);
+  for (int k = 0; k < 6; k++) {
+    const double *before = t.jaw[2 * k].centre, *after = t.jaw[2 * k + 1].centre;
+    const carom_rail *one = &t.rail[(k + 5) % 6], *two = &t.rail[k];
+    ck_assert_double_eq_tol(hypot(after[0] - before[0], after[1] - before[1]),
+                            pool[k].mouth + 2.0 * r, 1e-12);
+    ck_assert_double_eq_tol(hypot(after[0] - two->p[0], after[1] - two->p[1]), r, 1e-12);
+    ck_assert_double_eq_tol(hypot(before[0] - one->q[0], before[1] - one->q[1]), r, 1e-12);
+    bool found = false;
+    for (int i = 0; i < 6; i++)
+      found |= hypot(t.pocket[k].centre[0] - turned.pocket[i].centre[0],
+                     t.pocket[k].centre[1] - turned.pocket[i].centre[1]) < 1e-12;
+    ck_assert(found);
+  }
+  /* where the middle is outside of the table, it is told so */
+  static const carom_corner bent[6] = {{0, 0, 0},     {2, 0, 0},   {2, 0.5, 0},
+                                       {0.5, 0.5, 0}, {0.5, 2, 0}, {0, 2, 0}};
+  ck_assert_int_eq(carom_table_polygon(bent, 6, 0.0366, r, R, &t, &fault), CAROM_ERROR_TABLE_OPEN);
+  ck_assert_int_eq(carom_table_polygon(pool, 2, 0.0366, r, R, &t, &fault), CAROM_ERROR_TABLE);
+  ck_assert_int_eq(carom_table_polygon(pool, 6, 0.0366, -r, R, &t, NULL), CAROM_ERROR_JAW_RADIUS);
+  ck_assert_int_eq(carom_table_polygon(pool, 6, 0.2, r, R, &t, NULL), CAROM_ERROR_NOSE_HEIGHT);
+  ck_assert_int_eq(carom_table_polygon(pool, 6, 0.0366, r, NAN, &t, NULL), CAROM_ERROR_RADIUS);
+  ck_assert_int_eq(carom_table_polygon(NULL, 6, 0.0366, r, R, &t, NULL), CAROM_ERROR_NULL);
+  /* a place below 0, or not finite; mouths that meet; twice a place */
+  for (int k = 0; k < 4; k++) {
+    memcpy(other, pool, sizeof other);
+    if (k < 2)
+      other[1].y = k == 0 ? -0.1 : NAN;
+    else if (k == 2)
+      other[1].mouth = 2.0;
+    else
+      other[2] = other[1];
+    ck_assert_int_eq(carom_table_polygon(other, 6, 0.0366, r, R, &t, NULL), CAROM_ERROR_TABLE);
+  }
+}
+
 /* The same at some places on tables of all shapes that carom_table_check() accepts; but beyond
  * the rails only where no pocket is near, and not in parts to which nothing rolls. Rays through
  * slits that no ball passes once told otherwise. */
 TEST(places_on_polygons) {
   random_source r = {test_seed()};
   const double R = 0.028575, step = 0.01;
-  static const int n[2] = {260, 260};
   int tables = 0, drawn = 0, inside = 0, beyond = 0;
   while (tables < FEWER(200)) {
     carom_table t;
     polygon shape;
-    make_polygon(&r, &t, &shape);
+    const carom_status made = make_polygon(&r, &t, &shape);
     drawn++;
     ck_assert_int_lt(drawn, 40000);
-    if (room_at(&t, R, 1.0, 1.0) < 0.1 || off_pockets(&t, 1.0, 1.0) < 0.1 ||
-        carom_table_check(&t, R, NULL) != CAROM_OK)
+    if (made != CAROM_OK || room_at(&t, R, 0.5 * t.width, 0.5 * t.length) < 0.1 ||
+        off_pockets(&t, 0.5 * t.width, 0.5 * t.length) < 0.1)
       continue;
     tables++;
+    const int n[2] = {(int)((t.width + 2.0 * margin) / step),
+                      (int)((t.length + 2.0 * margin) / step)};
     flood(&t, R, step, n);
     for (int judged = 0; judged < 300;) {
-      int i = (int)random_between(&r, 1.0, 259.0), j = (int)random_between(&r, 1.0, 259.0);
+      int i = (int)random_between(&r, 1.0, n[0] - 1.0),
+          j = (int)random_between(&r, 1.0, n[1] - 1.0);
       if (judged % 2 == 0 && t.pockets > 0) { /* near a pocket */
         const double *centre = t.pocket[(int)random_between(&r, 0.0, (double)t.pockets)].centre;
         i = (int)((centre[0] + margin + random_between(&r, -0.4, 0.4)) / step);

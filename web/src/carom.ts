@@ -414,6 +414,25 @@ export class Carom {
   }
 
   /**
+   * A table of any closed shape, from its corners in the order of a walk around it: x, y, and the width of a pocket's mouth there (none: 0), m.
+   * A corner on a straight side makes a side pocket. Throws a CaromError that says which part is wrong.
+   */
+  polygon(corners: { x: number; y: number; mouth?: number }[], options: { noseHeight?: number; jawRadius?: number; ballRadius?: number } = {}): Table {
+    refuseUnknown(options, KEYS.polygon);
+    if (corners.length > values.CAROM_RAILS_MOST) throw new RangeError(`corners: at most ${values.CAROM_RAILS_MOST} are allowed, not ${corners.length}`);
+    const { noseHeight = 0.0366, jawRadius = 0.01, ballRadius = 0.028575 } = options;
+    const { table, balls, detail } = this.#at;
+    corners.forEach((corner, k) => {
+      refuseUnknown(corner, KEYS.corner, `corners[${k}]`);
+      this.#memory.f64.set([corner.x, corner.y, corner.mouth ?? 0], balls / 8 + 3 * k);
+    });
+    this.#resident = undefined;
+    const code = this.#call.carom_table_polygon(balls, corners.length, noseHeight, jawRadius, ballRadius, table, detail);
+    if (code < 0) throw this.#error(code, this.#part(detail + layout.carom_table_fault.offset.part));
+    return readTable(this.#memory, table);
+  }
+
+  /**
    * Checks a table of one's own for balls of a radius (m): that each part is in range, and that no ball can leave it. Throws a CaromError
    * that says which part is wrong.
    */

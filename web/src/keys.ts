@@ -23,6 +23,8 @@ export const KEYS = {
   plan: all<PlanOptions>({ player: 1, opponent: 1, shots: 1, seed: 1, inHand: 1, best: 1, cue: 1, shot: 1, ...GAME }),
   player: ["errors", "fargo"],
   rack: ["gap", "seed"],
+  polygon: ["noseHeight", "jawRadius", "ballRadius"],
+  corner: ["x", "y", "mouth"],
   room: ["room"],
   build: ["build"],
 } as const;

@@ -103,12 +103,7 @@ class Table:
         Raises CaromError: Its `field` is the part at fault, its sentence says where the fault is.
         """
         fault = ffi.new("carom_table_fault *")
-        code = lib.carom_table_check(pointer("carom_table[]", self.record), radius, fault)
-        if code < 0:
-            other = "" if fault.other.kind == lib.CAROM_PART_NONE else f", beside {_part(fault.other)}"
-            gap = f", {fault.gap:.4g} m wide" if fault.gap > 0.0 else ""
-            where = f" (at x = {fault.place[0]:.4g} m, y = {fault.place[1]:.4g} m{gap}{other})" if any(fault.place) else ""
-            raise CaromError(code, _part(fault.part), text=Status(code).text + where)
+        refuse_table(lib.carom_table_check(pointer("carom_table[]", self.record), radius, fault), fault)
 
     def __eq__(self, other: object) -> bool:
         """Whether all numbers are the same."""
@@ -122,6 +117,15 @@ class Table:
 
     def _repr_svg_(self) -> str:
         return pictures.picture(self)
+
+
+def refuse_table(code: int, fault: Any) -> None:
+    """Raises an error of a table, with the place of its fault."""
+    if code < 0:
+        other = "" if fault.other.kind == lib.CAROM_PART_NONE else f", beside {_part(fault.other)}"
+        gap = f", {fault.gap:.4g} m wide" if fault.gap > 0.0 else ""
+        where = f" (at x = {fault.place[0]:.4g} m, y = {fault.place[1]:.4g} m{gap}{other})" if any(fault.place) else ""
+        raise CaromError(code, _part(fault.part), text=Status(code).text + where)
 
 
 def check_table(table: object) -> None:

@@ -1,15 +1,15 @@
-"""The built-in tables: `carom.tables.pool_9ft()`."""
+"""The built-in tables, `carom.tables.pool_9ft()`, and tables of any closed shape, `carom.tables.polygon(corners)`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from carom import dtypes
-from carom._carom import lib
+from carom._carom import ffi, lib
 from carom._rows import Array, called, pointer
-from carom.layouts import Table
+from carom.layouts import Table, refuse_table
 from carom.status import CaromError
 
 
@@ -30,3 +30,29 @@ pool_9ft = _maker("pool_9ft", lib.CAROM_TABLE_POOL_9FT, "Pool, 9 ft: 1.27 x 2.54
 snooker = _maker("snooker", lib.CAROM_TABLE_SNOOKER, "Snooker, 12 ft: 1.778 x 3.569 m.")
 threecushion = _maker("threecushion", lib.CAROM_TABLE_THREECUSHION, "Carom billiards, 10 ft, without pockets: 1.42 x 2.84 m.")
 pooltool = _maker("pooltool", lib.CAROM_TABLE_POOLTOOL, "The default table of pooltool: that of `pool_7ft`, under this name for ever.")
+
+
+def polygon(
+    corners: Sequence[Sequence[float]], *, nose_height: float = 0.0366, jaw_radius: float = 0.01, ball_radius: float = 0.028575
+) -> Table:
+    """A table of any closed shape, from its corners in the order of a walk around it.
+
+    Parameters
+    ----------
+    corners : sequence of (x, y) or (x, y, mouth)
+        Places, m, from 0, and the width of a pocket's mouth there, m. Without a mouth there is no pocket. A corner on a straight side makes
+        a side pocket.
+    nose_height, jaw_radius, ball_radius : float
+        Of all noses, of the rounded ends of rails at pockets, and of the balls, m.
+
+    Raises CaromError: The table is not closed, its middle has no room for a ball, or a number is out of range; the sentence says where.
+    """
+    rows = [tuple(float(number) for number in corner) for corner in corners]
+    for k, row in enumerate(rows):
+        if len(row) not in (2, 3):
+            raise ValueError(f"corners[{k}]: x, y and perhaps the mouth are needed, not {len(row)} numbers")
+    array = ffi.new("carom_corner[]", [row + (0.0,) * (3 - len(row)) for row in rows])
+    record: Array = np.zeros((), dtypes.table)
+    fault = ffi.new("carom_table_fault *")
+    refuse_table(lib.carom_table_polygon(array, len(rows), nose_height, jaw_radius, ball_radius, pointer("carom_table[]", record), fault), fault)
+    return Table.from_record(record)

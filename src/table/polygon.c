@@ -1,0 +1,144 @@
+/* A table of any closed shape, from its corners.
+ *
+ * At a corner with the angle beta inside, c = cos(beta/2) and s = sin(beta/2); the frame has x
+ * from the corner along the bisector into the table. A corner with a mouth m has a pocket. Its
+ * rails end at the distance t from the corner, in jaws of radius r that are tangent to them, and
+ * m is the distance of the surfaces of the jaws:
+ *
+ *     jaws      (t c - r s, +-(t s + r c))      t = (m/2 + r (1 - c)) / s
+ *     pocket    (t c - r s - d, 0), radius m/2
+ *
+ * The circle touches the line between the centres of the jaws for d = m/2. A ball of radius R
+ * cannot pass between it and a jaw for d^2 < (m/2 + r + R)^2 - (m/2 + r)^2, so that d is at most
+ * 0.9 of that. Corners that are not clearly convex have a jaw of radius 0: there balls meet the
+ * corner itself. */
+#include "table/table.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double CLEARLY = 0.17; /* sine of the turn at a corner where rails need no jaw */
+static const double SAFE = 0.9;     /* part of the greatest d */
+
+/* A corner: where it is, the directions to the next and the one before, and where rails end. */
+typedef struct joint {
+  double at[2], next[2], before[2], turn, mouth, cut;
+} joint;
+
+static double direction(const double from[2], const double to[2], double u[2]) {
+  const double x = to[0] - from[0], y = to[1] - from[1], size = sqrt(x * x + y * y);
+  u[0] = x / size;
+  u[1] = y / size;
+  return size;
+}
+
+/* The table is to the left of a rail from p to q: a line of zeros says so. */
+static void add_rail(carom_table *t, double nose, const double p[2], const double q[2]) {
+  carom_rail *rail = &t->rail[t->rails++];
+  *rail = (carom_rail){.p = {p[0], p[1]}, .q = {q[0], q[1]}, .height = nose, .side = 1};
+}
+
+static void add_jaw(carom_table *t, double nose, double radius, double x, double y) {
+  t->jaw[t->jaws++] = (carom_jaw){.centre = {x, y}, .radius = radius, .height = nose};
+}
+
+/* The pocket of a corner, and the jaws at the ends of its rails. */
+static void add_pocket(carom_table *t, const joint *j, double nose, double r, double R) {
+  const double half = 0.5 * j->mouth,
+               out = sqrt((half + r + R) * (half + r + R) - (half + r) * (half + r));
+  const double d = carom_lesser(half, SAFE * out);
+
+  /* the bisector: into the table, also where the corner points into it */
+  double b[2] = {j->next[0] + j->before[0], j->next[1] + j->before[1]};
+  const double size = sqrt(b[0] * b[0] + b[1] * b[1]), sign = j->turn < 0.0 ? -1.0 : 1.0;
+  const bool straight = size < 1e-9;
+  for (int k = 0; k < 2; k++)
+    b[k] = straight ? (k == 0 ? -j->next[1] : j->next[0]) : sign * b[k] / size;
+
+  /* the jaws, outside of each rail's end */
+  const double first[2] = {j->at[0] + j->cut * j->before[0] + r * -j->before[1],
+                           j->at[1] + j->cut * j->before[1] + r * j->before[0]};
+  const double last[2] = {j->at[0] + j->cut * j->next[0] + r * j->next[1],
+                          j->at[1] + j->cut * j->next[1] - r * j->next[0]};
+  add_jaw(t, nose, r, first[0], first[1]);
+  add_jaw(t, nose, r, last[0], last[1]);
+  t->pocket[t->pockets++] = (carom_pocket){
+      .centre = {0.5 * (first[0] + last[0]) - d * b[0], 0.5 * (first[1] + last[1]) - d * b[1]},
+      .radius = half,
+      .depth = 0.08};
+}
+
+/* The corners in the order that has the table to the left; false for numbers that are not
+ * finite, negative places, edges without length or parts that do not fit into the struct. */
+static bool joints_of(const carom_corner *corner, int count, double r, joint *j) {
+  double area = 0.0;
+  int jaws = 0, pockets = 0;
+  for (int k = 0; k < count; k++) {
+    const carom_corner *a = &corner[k], *b = &corner[(k + 1) % count];
+    if (!(a->x >= 0.0 && a->x < 1e6 && a->y >= 0.0 && a->y < 1e6 && a->mouth >= 0.0 &&
+          a->mouth < 1e6) ||
+        (a->x == b->x && a->y == b->y))
+      return false;
+    area += a->x * b->y - b->x * a->y;
+    pockets += a->mouth > 0.0;
+  }
+  for (int k = 0; k < count; k++) {
+    const int step = area > 0.0 ? 1 : count - 1;
+    const int here = area > 0.0 ? k : count - 1 - k;
+    const carom_corner *a = &corner[here], *n = &corner[(here + step) % count],
+                       *o = &corner[(here + count - step) % count];
+    j[k].at[0] = a->x;
+    j[k].at[1] = a->y;
+    direction(j[k].at, (double[2]){n->x, n->y}, j[k].next);
+    direction(j[k].at, (double[2]){o->x, o->y}, j[k].before);
+
+    /* beta by its half: the turn is sin(beta), above 0 where the corner is convex */
+    j[k].turn = j[k].next[0] * j[k].before[1] - j[k].next[1] * j[k].before[0];
+    const double cosine = j[k].next[0] * j[k].before[0] + j[k].next[1] * j[k].before[1];
+    const double s = sqrt(carom_greater(0.5 - 0.5 * cosine, 0.0)),
+                 c = copysign(sqrt(carom_greater(0.5 + 0.5 * cosine, 0.0)), j[k].turn);
+    j[k].mouth = a->mouth;
+    j[k].cut = a->mouth > 0.0 ? (0.5 * a->mouth + r * (1.0 - c)) / s : 0.0;
+    jaws += a->mouth > 0.0 ? 2 : j[k].turn < CLEARLY;
+  }
+  return area != 0.0 && jaws <= CAROM_JAWS_MOST && pockets <= CAROM_POCKETS_MOST;
+}
+
+carom_status carom_table_polygon(const carom_corner *corner, int count, double nose_height,
+                                 double jaw_radius, double ball_radius, carom_table *table,
+                                 carom_table_fault *fault) {
+  if (corner == NULL || table == NULL)
+    return CAROM_ERROR_NULL;
+  if (fault != NULL)
+    memset(fault, 0, sizeof *fault);
+  memset(table, 0, sizeof *table);
+  joint j[CAROM_RAILS_MOST];
+  if (!carom_is_positive(ball_radius))
+    return CAROM_ERROR_RADIUS;
+  if (!(jaw_radius >= 0.0 && jaw_radius < 1e6))
+    return CAROM_ERROR_JAW_RADIUS;
+  if (count < 3 || count > CAROM_RAILS_MOST || !joints_of(corner, count, jaw_radius, j))
+    return CAROM_ERROR_TABLE;
+
+  table->ball_radius = ball_radius;
+  for (int k = 0; k < count; k++) {
+    table->width = carom_greater(table->width, corner[k].x);
+    table->length = carom_greater(table->length, corner[k].y);
+  }
+  for (int k = 0; k < count; k++) {
+    const joint *a = &j[k], *b = &j[(k + 1) % count];
+    double u[2], p[2], q[2];
+    if (direction(a->at, b->at, u) <= a->cut + b->cut)
+      return CAROM_ERROR_TABLE;
+    for (int i = 0; i < 2; i++) {
+      p[i] = a->at[i] + a->cut * u[i];
+      q[i] = b->at[i] - b->cut * u[i];
+    }
+    add_rail(table, nose_height, p, q);
+    if (a->mouth > 0.0)
+      add_pocket(table, a, nose_height, jaw_radius, ball_radius);
+    else if (a->turn < CLEARLY)
+      add_jaw(table, nose_height, 0.0, a->at[0], a->at[1]);
+  }
+  return carom_table_check(table, ball_radius, fault);
+}
