@@ -498,19 +498,11 @@ EVERY_BODY(shot_tangent_batch) {
   F(cushion_tangent) F(cushion_trace) F(event_name) F(field_name) F(impact3) F(isa_available) \
   F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) F(physics_revision) \
   F(place_ball) F(plan) F(plan_aim) F(plan_hand) F(plan_memory) F(plan_rules_of) F(plan_try) \
-<<<<<<< HEAD
   F(plan_value) F(player_fargo) F(player_of) F(player_strike) F(rack) F(rack_name) F(rack_size) \
   F(rolling_velocity) F(rules_name) F(serves) F(shoot) F(shoot_batch) F(shot_at) F(shot_at_times) \
   F(shot_check) F(shot_continue) F(shot_orientation) F(shot_tangent) F(shot_tangent_batch) \
   F(slip_name) F(solver_name) F(status_name) F(status_string) F(strike) F(table_check) \
   F(table_make) F(table_name) F(table_polygon) F(trace) F(version) F(version_number)
-=======
-  F(plan_value) F(player_of) F(rack) F(rack_name) F(rack_size) F(rolling_velocity) \
-  F(rules_name) F(serves) F(shoot) F(shoot_batch) F(shot_at) F(shot_at_times) F(shot_check) \
-  F(shot_continue) F(shot_orientation) F(shot_tangent) F(shot_tangent_batch) F(slip_name) \
-  F(solver_name) F(status_name) F(status_string) F(strike) F(table_check) F(table_make) \
-  F(table_polygon) F(table_name) F(trace) F(version) F(version_number)
->>>>>>> 0bf180b (Tell the size of the package that stands now)
 /* clang-format on */
 #define EVERY_ROW(name) {"carom_" #name, every_##name},
 static const struct every_function {
