@@ -18,10 +18,12 @@ static void print_help(FILE *to, const program *p) {
   fprintf(to, "usage: %s COMMAND [ARGUMENTS]\n\n%s\n\ncommands:\n", p->name, p->about);
   for (size_t k = 0; k < p->count; k++)
     fprintf(to, "  %-12s%s\n", p->commands[k].name, p->commands[k].text);
-  fprintf(
-      to,
-      "\n`%s COMMAND --help` lists its arguments,\n`%s --version` the version.\n\nexample:\n  %s\n",
-      p->name, p->name, p->example);
+  fprintf(to, "\n`%s COMMAND --help` lists its arguments,\n`%s --version` the version.\n", p->name,
+          p->name);
+  if (p->cites != NULL)
+    fprintf(to, "`%s --cite` lists what to cite, as BibTeX, with the models of `%s`.\n", p->name,
+            p->cites);
+  fprintf(to, "\nexample:\n  %s\n", p->example);
 }
 
 /* The same as a page of the manual. */
@@ -34,6 +36,10 @@ static void print_manual(FILE *to, const program *p) {
   manual_section(to, "OPTIONS", "");
   manual_item(to, "--help", NULL, "the commands; behind a command, its arguments");
   manual_item(to, "--version", NULL, "the version");
+  if (p->cites != NULL)
+    manual_item(to, "--cite", NULL,
+                "what to cite, as BibTeX: the sources of the models of shots; options such as "
+                "--cushion choose them");
   manual_section(to, "ENVIRONMENT", "");
   manual_item(to, "CAROM_ISA", NULL,
               "the largest instruction set to use: plain, sse2, avx2 or avx512; on arm64 plain or "
@@ -114,12 +120,17 @@ int program_run(const program *p, int argc, char **argv) {
     printf("%s %s\n", p->name, carom_version());
     return finish(EXIT_GOOD);
   }
+  const bool cite = p->cites != NULL && strcmp(name, "--cite") == 0;
+  if (cite) /* an argument of that command, as what follows */
+    name = p->cites;
   if (!isa_is_known())
     return EXIT_USAGE;
   for (size_t k = 0; k < p->count; k++)
     if (strcmp(name, p->commands[k].name) == 0)
-      return finish(p->commands[k].run(argc - 1, argv + 1));
+      return finish(p->commands[k].run(argc - !cite, argv + !cite));
   char words[256] = "--help|--version", hint[HINT_TEXT];
+  if (p->cites != NULL)
+    strcat(words, "|--cite");
   for (size_t k = 0; k < p->count; k++)
     snprintf(words + strlen(words), sizeof words - strlen(words), "|%s", p->commands[k].name);
   complain("no command '%s'; `%s --help` lists them%s", name, p->name,

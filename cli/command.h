@@ -18,6 +18,7 @@ typedef struct command {
 
 typedef struct program {
   const char *name, *about, *example;
+  const char *cites; /* the command that --cite is an option of, or NULL */
   const command *commands;
   size_t count;
 } program;

@@ -28,6 +28,7 @@ typedef struct shoot_job {
   player_error error;
   bool together; /* the shots came from options: they are drawn over each other, */
   bool words;    /* and told in words, unless --events asks for lines */
+  bool cite;     /* the sources of the models are told instead */
 } shoot_job;
 
 /* What is read at once, and its results. */
@@ -79,6 +80,8 @@ OPTION(shoot_job, option_spread, "spread", error, 0, "SPEED,AIM,RIGHT,ABOVE", se
        "this holds");
 OPTION(shoot_job, option_animate, "animate", animation, 0, "OUT.html", set_animation, 0,
        "write a page that plays what --plot draws; it is one file and needs nothing else");
+OPTION(shoot_job, option_cite, "cite", cite, 0, NULL, set_flag, 0,
+       "write the sources of these models as BibTeX, and play nothing; needs no IN");
 OPTION(shoot_job, option_shot_id, "id", id, 0, "ID", set_text, 0,
        "draw the shot of this id instead");
 
@@ -386,15 +389,35 @@ static const command_form form = {
              "are ignored) and writes each table and each shot with its events and final states. "
              "IN may be -. Or plays a shot that options describe, and tells it in words; several "
              "values with commas give several shots, drawn over each other.\n",
-    .options =
-        (const option_row *const[]){
-            &option_table,     &option_cue,           &option_balls,       &option_aim,
-            &option_at_ball,   &option_shot_cut,      &option_shot_speed,  &option_tip,
-            &option_elevation, &option_tip_time,      &option_json,        &option_models,
-            &option_ball_ball, &option_cushion_model, &option_space,       &option_simultaneous,
-            &option_events,    &option_steps,         &option_events_most, &option_time_most,
-            &option_threads,   &option_plot,          &option_spread,      &option_animate,
-            &option_shot_id,   &option_strict,        &option_output,      NULL},
+    .options = (const option_row *const[]){&option_table,
+                                           &option_cue,
+                                           &option_balls,
+                                           &option_aim,
+                                           &option_at_ball,
+                                           &option_shot_cut,
+                                           &option_shot_speed,
+                                           &option_tip,
+                                           &option_elevation,
+                                           &option_tip_time,
+                                           &option_json,
+                                           &option_models,
+                                           &option_ball_ball,
+                                           &option_cushion_model,
+                                           &option_space,
+                                           &option_simultaneous,
+                                           &option_events,
+                                           &option_steps,
+                                           &option_events_most,
+                                           &option_time_most,
+                                           &option_threads,
+                                           &option_plot,
+                                           &option_spread,
+                                           &option_animate,
+                                           &option_shot_id,
+                                           &option_strict,
+                                           &option_cite,
+                                           &option_output,
+                                           NULL},
     .details =
         "exit code: 0 if all shots came to rest; 1 if some have errors (OUT has their status and "
         "the error; the others are played); 2 for bad usage or unreadable input\n",
@@ -417,6 +440,15 @@ static shot_file *shots_of(shoot_job *job, char **text) {
   return good ? shot_file_of(in, "the shot given") : NULL;
 }
 
+static int write_sources(const carom_shot_options *options) {
+  const size_t length = carom_cite(options, NULL, 0);
+  char *text = allocate(length + 1, 1);
+  carom_cite(options, text, length + 1);
+  fputs(text, stdout);
+  free(text);
+  return EXIT_GOOD;
+}
+
 int command_shoot(int argc, char **argv) {
   static shoot_job job;
   const char *path;
@@ -429,6 +461,10 @@ int command_shoot(int argc, char **argv) {
   job.together = has_flags(&job.from);
   job.words = job.together && job.events == EVENTS_USUAL;
   job.events = job.events == EVENTS_USUAL ? EVENTS_FULL : job.events;
+  if (job.cite) {
+    const carom_shot_options options = options_of(&job);
+    return write_sources(&options);
+  }
   if (job.together == (path != NULL)) {
     complain(job.together
                  ? "a file has its own shots: give it, or the shot by --cue, --aim and the like"

@@ -15,6 +15,7 @@ int main(int argc, char **argv) {
   static const program carom = {
       .name = "carom",
       .about = "Computes billiards: collisions of balls, impacts on cushions, and whole shots.",
+      .cites = "shoot",
       .example = "carom resolve -o after.csv before.csv",
       .commands = commands,
       .count = sizeof commands / sizeof commands[0],

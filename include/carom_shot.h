@@ -582,6 +582,12 @@ typedef struct carom_shot_options {
   uint64_t reserved[1];  /* must be 0. */
 } carom_shot_options;
 
+/* The sources of the models by which shots with these options are played, carom itself first, as
+ * BibTeX; NULL: of the defaults. Writes the text to text[room], cut there, with a closing 0 if room
+ * is above 0; text may be NULL if it is 0. Returns the length of the whole text without the 0, or
+ * 0 where carom_shoot() refuses the options. */
+CAROM_API size_t carom_cite(const carom_shot_options *options, char *text, size_t room);
+
 /* ---- What happened --------------------------------------------------------------------------- */
 
 typedef enum carom_event_type {

@@ -147,6 +147,12 @@ EVERY_VALUE(isa_limit, carom_isa_limit(CAROM_ISA_ANY))
 EVERY_BODY(version) {
   return every_text(h, carom_version());
 }
+EVERY_BODY(cite) {
+  char text[4000];
+  const size_t length = carom_cite(NULL, text, sizeof text);
+  HASH(length);
+  return every_text(h, text);
+}
 EVERY_VALUE(version_number, carom_version_number())
 EVERY_VALUE(physics_revision, carom_physics_revision())
 EVERY_VALUE(serves, carom_serves(CAROM_VERSION_NUMBER))
@@ -492,7 +498,7 @@ EVERY_BODY(shot_tangent_batch) {
 
 /* clang-format off */
 #define EVERY_ONE(F) \
-  F(alciatore) F(ball_kind_of) F(check) F(collide) F(cluster) F(collide_batch) \
+  F(alciatore) F(ball_kind_of) F(check) F(cite) F(collide) F(cluster) F(collide_batch) \
   F(collide_batch_f32) F(collide_detail) F(collide_f32) F(collide_tangent) F(cue_of) F(cushion) \
   F(cushion_batch) F(cushion_check) F(cushion_field_name) F(cushion_model_name) \
   F(cushion_tangent) F(cushion_trace) F(event_name) F(field_name) F(impact3) F(isa_available) \

@@ -341,6 +341,15 @@ def test_the_manual_has_every_field():
         assert int(size) == record.itemsize and set(record.names) <= set(re.findall(r"`(\w+)`", fields)), name
 
 
+def test_what_to_cite():
+    """BibTeX of carom first, then of the sources of the models."""
+    assert carom.cite().startswith("@software{carom,") and "{mathavan2010," not in carom.cite()
+    assert "{mathavan2010," in carom.cite(cushion_model="mathavan")
+    assert "{kiefl2024," in carom.cite(options=carom.Options(world="pooltool"))
+    with pytest.raises(ValueError, match="cushion_model"):
+        carom.cite(cushion_model="none")
+
+
 def test_the_revision_of_the_physics():
     golden = Path(__file__).parents[2] / "tests" / "platforms" / f"bits-{carom.physics_revision()}.expected"
     assert golden.is_file()

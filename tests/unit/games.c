@@ -4,6 +4,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -666,6 +667,45 @@ TEST(turns_in_closed_form) {
   ck_assert_int_eq(carom_shot_orientation(&ball, 1, &shot, 0.0, NULL), CAROM_ERROR_NULL);
   ck_assert_int_eq(carom_shot_orientation(&ball, 1, &(carom_shot){.count = 3, .time = 1.0}, 0.5, q),
                    CAROM_ERROR_EVENTS_LOST);
+}
+
+/* ---- What to cite */
+
+/* The entries that options call for, and no other; the text is cut where there is no room. */
+static bool cites(const carom_shot_options *options, const char *key) {
+  char text[10000], with[80];
+  const size_t length = carom_cite(options, text, sizeof text);
+  ck_assert_uint_eq(strlen(text), length);
+  snprintf(with, sizeof with, "{%s,", key);
+  return strstr(text, with) != NULL;
+}
+
+TEST(sources) {
+  ck_assert(cites(NULL, "carom") && cites(NULL, "mathavan2014") && cites(NULL, "han2005"));
+  ck_assert(cites(NULL, "hertz1882") && !cites(NULL, "mathavan2010") && !cites(NULL, "kiefl2024"));
+  carom_shot_options o = {.cushion_model = CAROM_SHOT_CUSHION_MATHAVAN};
+  ck_assert(cites(&o, "mathavan2010") && !cites(&o, "han2005"));
+  o.cushion_model = CAROM_SHOT_CUSHION_SMOOTH;
+  ck_assert(cites(&o, "threecushiontool") && cites(&o, "han2005"));
+  o = (carom_shot_options){.simultaneous = CAROM_SIMULTANEOUS_PAIRS,
+                           .friction = CAROM_FRICTION_CONSTANT};
+  ck_assert(!cites(&o, "hertz1882") && !cites(&o, "alciatore-throw"));
+  o = (carom_shot_options){.world = CAROM_WORLD_POOLTOOL};
+  ck_assert(cites(&o, "kiefl2024") && cites(&o, "stronge2000"));
+  ck_assert(!cites(&o, "mathavan2014") && !cites(&o, "bannerman2014") && !cites(&o, "hertz1882"));
+  o = (carom_shot_options){.ball_model = CAROM_BALL_MODEL_MIRROR,
+                           .cushion_model = CAROM_SHOT_CUSHION_MIRROR,
+                           .simultaneous = CAROM_SIMULTANEOUS_PAIRS};
+  ck_assert(!cites(&o, "stronge2000") && !cites(&o, "alciatore-throw"));
+
+  char all[10000], few[100];
+  const size_t length = carom_cite(NULL, all, sizeof all);
+  ck_assert_uint_eq(carom_cite(NULL, NULL, 0), length);
+  ck_assert_uint_eq(carom_cite(NULL, few, sizeof few), length);
+  ck_assert(strlen(few) == sizeof few - 1 && strncmp(few, all, sizeof few - 1) == 0);
+  o.reserved[0] = 1;
+  ck_assert_uint_eq(carom_cite(&o, few, sizeof few), 0);
+  ck_assert_str_eq(few, "");
 }
 
 /* ---- Names */

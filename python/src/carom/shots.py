@@ -27,6 +27,21 @@ _FIRST_ROOM = 512
 _NO_EVENTS: Array = np.zeros(0, dtypes.event)
 
 
+def cite(*, options: Options = _USUAL, **changes: Unpack[Changes]) -> str:
+    """What to cite for shots by these options, as BibTeX: carom, and the sources of the models that they use.
+
+    Parameters
+    ----------
+    options, **changes
+        As for `simulate`: `carom.cite(cushion_model="mathavan")`.
+    """
+    given = shot_options(options.changed(changes))
+    room = lib.carom_cite(given, ffi.NULL, 0) + 1
+    text = ffi.new("char[]", room)
+    lib.carom_cite(given, text, room)
+    return bytes(ffi.string(text)).decode()
+
+
 def simulate(
     table: Table, balls: dtypes.Records, cue: dtypes.Records | None = None, *, options: Options = _USUAL, **changes: Unpack[Changes]
 ) -> Shot:
