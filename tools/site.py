@@ -1,0 +1,104 @@
+"""site.py SOURCE WORK: makes the static site of the pages in WORK/site, and fails where a link or an anchor leads nowhere.
+
+Pages keep their places in the tree, so their links lead where they lead in the repository. Files that they link to are copied. Each
+example becomes a page: its head comment, its picture, its text. The explorer is a part of the site where it has been built.
+"""
+
+import ast
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+SOURCE, WORK = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+PAGES, LINK = WORK / "pages", re.compile(r"\[([^]]*)\]\(([^)\s]+)\)")
+FOLDERS = {"Using": "docs/using", "Understanding": "docs/understanding", "Study": "docs/study"}
+OTHERS = ["CHANGELOG.md", "CONTRIBUTING.md", "data/README.md", "src/README.md", "lab/README.md", "tests/README.md", "web/README.md",
+          "python/README.md", "cli/README.md", "src/tangent/README.md", "lab/figures/README.md"]  # fmt: skip
+EXPLORER = SOURCE / "web/explorer/dist/index.html"
+
+
+def title(page):
+    return re.search(r"^# (.+)$", (PAGES / page).read_text(encoding="utf-8"), flags=re.M)[1].replace("`", "")
+
+
+def put(page, text):
+    (PAGES / page).parent.mkdir(parents=True, exist_ok=True)
+    (PAGES / page).write_text(text, encoding="utf-8")
+
+
+def add(page):
+    """A page of the tree, with the files that it links to. The second word of a fence is for the tests."""
+    text = re.sub(r"^```(\w+) [^\n]*$", r"```\1", (SOURCE / page).read_text(encoding="utf-8"), flags=re.M)
+
+    def target(match):
+        words, link = match.groups()
+        to = (SOURCE / page).parent / link.partition("#")[0]
+        if re.match(r"[a-z]+:|#", link):
+            return match[0]
+        if to.is_dir():  # the site has pages of files only
+            return f"[{words}]({link.rstrip('/')}/README.md)" if (to / "README.md").is_file() else words
+        if to.is_file() and to.suffix != ".md":
+            name = to.resolve().relative_to(SOURCE)
+            (PAGES / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(to, PAGES / name)
+        return match[0]
+
+    put(page, LINK.sub(target, text))
+
+
+def example(path):
+    """The page of a program: head comment or docstring, picture, text. Its name, or None for a file without such a head."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".py":
+        head, kind = ast.get_docstring(ast.parse(text)), "python"
+    else:
+        found = re.match(r"/\*(.*?)\*/", text, flags=re.S)
+        head, kind = found and re.sub(r"^ ?\* ?", "", found[1], flags=re.M).strip(), {".c": "c", ".js": "js", ".mjs": "js"}[path.suffix]
+    if not head:
+        return None
+    page = f"{path.relative_to(SOURCE).with_suffix('')}.md"
+    picture = SOURCE / "docs/figures" / f"example-{path.stem.replace('_', '-')}.svg"
+    put(page, f"# {path.name}\n\n{head}\n\n")
+    with (PAGES / page).open("a", encoding="utf-8") as out:
+        if picture.is_file():
+            up = "../" * (len(path.relative_to(SOURCE).parts) - 1)
+            out.write(f"![What {path.name} draws]({up}docs/figures/{picture.name})\n\n")
+        out.write(f"```{kind}\n{text}```\n")
+    return page
+
+
+shutil.rmtree(PAGES, ignore_errors=True)
+shutil.copytree(SOURCE / "docs/figures", PAGES / "docs/figures", ignore=shutil.ignore_patterns("data"))
+navigation = [{"carom": "README.md"}]
+add("README.md")
+for name, folder in FOLDERS.items():
+    pages = sorted(str(page.relative_to(SOURCE)) for page in (SOURCE / folder).glob("*.md"))
+    for page in pages:
+        add(page)
+    navigation.append({name: [{title(page): page} for page in pages]})
+programs = [*sorted((SOURCE / "examples").glob("*.c")), *sorted((SOURCE / "python/examples").glob("*.py")), *sorted((SOURCE / "web/examples").glob("*.mjs"))]
+add("examples/README.md")
+made = [page for page in map(example, programs) if page]
+navigation.append({"Examples": [{"Programs": "examples/README.md"}, *({Path(page).stem: page} for page in made)]})
+for page in filter(lambda page: (SOURCE / page).is_file(), OTHERS):
+    add(page)
+navigation.append({"In the repository": [{title(page): page} for page in OTHERS if (PAGES / page).is_file()]})
+if EXPLORER.is_file():
+    (PAGES / "explorer").mkdir()
+    shutil.copy(EXPLORER, PAGES / "explorer/explorer.html")
+    navigation.append({"Explorer": "explorer/explorer.html"})
+
+settings = {"INHERIT": str(SOURCE / "tools/site.yml"), "docs_dir": str(PAGES), "site_dir": str(WORK / "site"), "nav": navigation}
+(WORK / "mkdocs.yml").write_text(json.dumps(settings, indent=1), encoding="utf-8")
+# Not --quiet, by which mkdocs counts no warnings.
+done = subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict", "--config-file", WORK / "mkdocs.yml"], text=True,
+                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env={**os.environ, "NO_MKDOCS_2_WARNING": "1"})  # fmt: skip
+if done.returncode:
+    sys.exit("\n".join(line for line in done.stdout.splitlines() if not line.startswith("INFO")))
+built = sorted((WORK / "site").rglob("*.html"))
+assert len(made) >= 4 and len(built) >= 30 and (WORK / "site/search/search_index.json").is_file(), (len(made), len(built))
+print(f"{len(built)} pages, {len(made)} examples: {WORK / 'site/index.html'}")
