@@ -8,6 +8,7 @@ import itertools
 import json
 import os
 import re
+import runpy
 import sys
 import warnings
 from pathlib import Path
@@ -65,3 +66,23 @@ def test_refine_aim(tmp_path, monkeypatch):
     monkeypatch.setattr("sys.argv", ["refine_aim.py", "--draws", "4", "--out", str(out)])
     refine_aim.main()
     assert out.read_text(encoding="utf-8").startswith("<?xml") and out.stat().st_size > 10_000
+
+
+SHORT = ("all_cores", "ball_by_ball", "bot", "custom_rule", "draw_distance", "drill", "frozen_kiss", "jump_over", "kick_by_diamonds",
+         "own_table", "thirty_degrees", "throw_by_speed")  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SHORT)
+def test_short(name, tmp_path, monkeypatch, capsys):
+    """Each program checks its own claims; it prints something and draws its picture. Its head says how to run it."""
+    from matplotlib import pyplot
+
+    pyplot.close("all")
+    out = tmp_path / f"{name}.svg"
+    monkeypatch.setattr("sys.argv", [f"{name}.py", str(out)])
+    text = (EXAMPLES / f"{name}.py").read_text(encoding="utf-8")
+    assert 20 <= text.count("\n") <= 80 and f"    python {name}.py " in ast.get_docstring(ast.parse(text))
+    runpy.run_path(str(EXAMPLES / f"{name}.py"), run_name="__main__")
+    assert capsys.readouterr().out.strip()
+    assert "</svg>" in out.read_text(encoding="utf-8")[-20:]
+    assert (EXAMPLES.parents[1] / "docs" / "figures" / f"example-{name.replace('_', '-')}.svg").is_file()
