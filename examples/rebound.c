@@ -38,15 +38,23 @@ int main(int argc, char **argv) {
   if (argc > 1 && picture == NULL)
     return fprintf(stderr, "%s cannot be written\n", argv[1]);
   if (picture != NULL)
-    fprintf(picture, "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-5 -100 150 105\">\n");
+    fprintf(picture,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-15 -95 150 110\" "
+            "font-size=\"4\">\n<rect x=\"-15\" y=\"-95\" width=\"150\" height=\"110\" "
+            "fill=\"white\"/>\n<path d=\"M0 -90V0H85\" fill=\"none\" stroke=\"grey\" "
+            "stroke-width=\"0.3\"/>\n<text x=\"30\" y=\"10\">angle before, degrees</text>\n"
+            "<text x=\"2\" y=\"-88\">angle after, degrees</text>\n");
+  for (int mark = 20; picture != NULL && mark <= 80; mark += 20)
+    fprintf(picture, "<text x=\"%d\" y=\"5\">%d</text>\n<text x=\"-7\" y=\"%d\">%d</text>\n",
+            mark - 2, mark, 1 - mark, mark);
   int bad = 0;
   for (int m = 0; m < 4; m++) {
     const char *name = carom_cushion_model_name(models[m]);
     if (picture != NULL)
       fprintf(picture,
               "<text x=\"95\" y=\"%d\" font-size=\"5\" fill=\"%s\">%s</text>\n<polyline "
-              "fill=\"none\" stroke=\"%s\" stroke-width=\"0.5\" points=\"",
-              -90 + 7 * m, colours[m], name, colours[m]);
+              "fill=\"none\" stroke=\"%s\" stroke-width=\"0.6\" stroke-dasharray=\"%s\" points=\"",
+              -90 + 7 * m, colours[m], name, colours[m], m == 2 ? "2" : "none");
     for (int angle = 0; angle <= 80; angle += 2) {
       const double after = leaves_at(models[m], angle);
       bad += !(after >= -1e-9 && after < 90.0);
