@@ -16,8 +16,8 @@ from pathlib import Path
 SOURCE, WORK = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 PAGES, LINK = WORK / "pages", re.compile(r"\[([^]]*)\]\(([^)\s]+)\)")
 FOLDERS = {"Using": "docs/using", "Understanding": "docs/understanding", "Study": "docs/study"}
-OTHERS = ["CHANGELOG.md", "CONTRIBUTING.md", "data/README.md", "src/README.md", "lab/README.md", "tests/README.md", "web/README.md",
-          "python/README.md", "cli/README.md", "src/tangent/README.md", "lab/figures/README.md"]  # fmt: skip
+OTHERS = ["CHANGELOG.md", "CONTRIBUTING.md", *sorted(str(page.relative_to(SOURCE)) for room in ("cli", "data", "lab", "python", "src", "tests", "web")
+                                                     for page in (*SOURCE.glob(f"{room}/README.md"), *SOURCE.glob(f"{room}/*/README.md")))]  # fmt: skip
 EXPLORER = SOURCE / "web/explorer/dist/index.html"
 
 
@@ -84,9 +84,9 @@ programs = [*sorted((SOURCE / "examples").glob("*.c")), *sorted((SOURCE / "pytho
 add("examples/README.md")
 made = [page for page in map(example, programs) if page]
 navigation.append({"Examples": [{"Programs": "examples/README.md"}, *({Path(page).stem: page} for page in made)]})
-for page in filter(lambda page: (SOURCE / page).is_file(), OTHERS):
+for page in OTHERS:
     add(page)
-navigation.append({"In the repository": [{title(page): page} for page in OTHERS if (PAGES / page).is_file()]})
+navigation.append({"In the repository": [{title(page): page} for page in OTHERS]})
 if EXPLORER.is_file():
     (PAGES / "explorer").mkdir()
     shutil.copy(EXPLORER, PAGES / "explorer/explorer.html")
