@@ -257,7 +257,7 @@ describe.each(builds)("shots by $name", ({ carom, name }) => {
       const calls = [() => carom.simulate(table, out as never, { [key]: wrong })];
       // A strike alone has no layout.
       if (key !== "ball") calls.push(() => carom.strike({ [key]: wrong }, balls[0]!.kind) as never);
-      const status = expect.stringContaining(`cue_${key.replace("M", "_m")}`);
+      const status = expect.stringContaining(`cue_${key.replace(/[A-Z]/, (letter) => `_${letter.toLowerCase()}`)}`);
       for (const call of calls) expect(call).toThrow(expect.objectContaining({ field: `cue.${key}`, status, message: expect.stringMatching(/: it must be /) }));
     }
     expect(() => carom.simulate(table, balls, {}, { timeMost: -1 })).toThrow(/^timeMost: it must be 0 or more/);
