@@ -1,6 +1,6 @@
 """A jump over a ball: the least speed of the cue by its elevation, found by bisection.
 
-An elevated cue strikes the ball into the slate, which throws it up. A shot clears the ball in the way if its first contact is the one
+A raised cue with a hard tip strikes the ball into the slate, which throws it up. A shot clears the ball in the way if its first contact is the one
 behind it, or none. Between a speed that fails and one that clears, each step halves the interval.
 
     python jump_over.py jump.svg
@@ -17,7 +17,7 @@ layout = carom.balls([[0.635, 0.6], [0.635, 0.6 + 0.305]])  # 12 inches, centre 
 
 def play(speed: float, elevation: float) -> carom.Shot:
     """The shot straight at the ball, without side or height of the tip."""
-    return carom.simulate(table, layout, carom.cue(speed=speed, phi=90.0, theta=elevation, b=0.0), t_final=1.0)
+    return carom.simulate(table, layout, carom.cue(speed=speed, phi=90.0, theta=elevation, b=0.0, tip_time=0.0006), t_final=1.0)
 
 
 def clears(shot: carom.Shot) -> bool:

@@ -35,7 +35,7 @@ def played(aim, **models):
 
 def test_a_ball_in_the_air():
     jump, numbers = {"t_final": 0.1, **CLOSED}, {"cue.speed": 4.0, "cue.theta": 35.0}
-    cue = carom.cue(phi=80.0, speed=4.0, theta=35.0)
+    cue = carom.cue(phi=80.0, speed=4.0, theta=35.0, tip_time=0.0006)
     shot = carom.simulate(TABLE, BALLS, cue, **jump)
     found = carom.jax.final(TABLE, BALLS, cue, numbers, **jump)
     assert found.z[0] > 0.03 and np.array_equal(found.z, shot.final["r"][:, 2]) and np.array_equal(found.v_z, shot.final["v"][:, 2])

@@ -24,9 +24,10 @@
 #pragma GCC optimize("fp-contract=off", "no-tree-slp-vectorize")
 #endif
 
-#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
-#error \
-    "carom promises bits: compile its sources without -ffast-math (set by -Ofast and /fp:fast, too)"
+#if defined(_M_FP_FAST)
+#error "carom promises bits: compile its sources without /fp:fast"
+#elif defined(__FAST_MATH__)
+#error "carom promises bits: compile its sources without -ffast-math, -Ofast, -ffp-model=fast"
 #elif defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0
 #error "carom finds bad input by NaN and infinity: compile its sources without -ffinite-math-only"
 #elif defined(__ASSOCIATIVE_MATH__) && defined(__RECIPROCAL_MATH__)

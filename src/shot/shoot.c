@@ -363,7 +363,8 @@ static carom_status shoot(const carom_table *table, const carom_features *featur
   carom_status status = CAROM_OK;
   if (anew) {
     sim.count = count;
-    sim.struck = cue != NULL ? (int)cue->ball : 0;
+    /* a cue of speed 0 is not read, and may name any ball */
+    sim.struck = cue != NULL && cue->ball >= 0 && cue->ball < count ? (int)cue->ball : 0;
     sim.world = opt->world;
     sim.met = false;
     sim.now = 0.0;

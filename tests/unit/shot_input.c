@@ -463,6 +463,24 @@ TEST(many_times) {
 }
 
 /* A table with a hole in its rails loses a ball: that is told. */
+/* A cue of speed 0 is not read, so it may name any ball; a stopped shot goes on. */
+TEST(cue_that_is_not_read) {
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  carom_shot_ball ball = {.kind = carom_ball_kind_of(CAROM_GAME_POOL),
+                          .state = {.r = {0.6, 0.6, 0.028575}, .v = {1.0, 2.0, 0.0}}};
+  carom_cue unread = carom_cue_of(CAROM_GAME_POOL);
+  unread.speed = 0.0;
+  const carom_shot_options stop = {.stop_at = CAROM_STOP_AT(CAROM_EVENT_RAIL)};
+  static carom_event events[64];
+  carom_shot_state state;
+  carom_facts facts;
+  for (unread.ball = -1; unread.ball < 7; unread.ball += 2) {
+    carom_shot shot = {.events = events, .room = 64, .state = &state, .facts = &facts};
+    ck_assert_int_eq(carom_shoot(&table, &ball, 1, &unread, &stop, &shot), CAROM_STOPPED_AT_EVENT);
+    ck_assert_int_eq(carom_shot_continue(&table, &ball, 1, NULL, &shot), CAROM_OK);
+  }
+}
+
 TEST(lost_ball) {
   carom_table_make(CAROM_TABLE_THREECUSHION, &table);
   table.rail[1] = table.rail[2];
