@@ -32,7 +32,7 @@ assert shots.features is not None  # as it was asked for
 good = shots.status == 0
 fell = (shots.features.pocket[good][:, 1:] >= 0).sum(axis=1)
 print(f"{BREAKS / took:.0f} breaks a second; {fell.mean():.2f} balls fall, {np.mean(fell == 0):.0%} of the breaks are dry")
-plt.hist(fell, bins=np.arange(-0.5, 10.5))
+plt.hist(fell, bins=[k - 0.5 for k in range(11)])
 plt.xlabel("object balls that fall")
 plt.ylabel("breaks")
 plt.savefig(sys.argv[1] if len(sys.argv) > 1 else "falls.svg")
