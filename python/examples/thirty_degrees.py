@@ -28,7 +28,7 @@ def turned(spin: float) -> np.ndarray:
     after, _ = carom.collide(pairs)
     v, w = after["a"]["v"], after["a"]["w"]
     rolling = 5 / 7 * v[:, :2] + 2 / 7 * RADIUS * np.stack([w[:, 1], -w[:, 0]], axis=-1)
-    return np.degrees(np.abs(np.arctan2(rolling[:, 1], rolling[:, 0])))
+    return np.asarray(np.degrees(np.abs(np.arctan2(rolling[:, 1], rolling[:, 0]))))
 
 
 follow, stun = turned(1.0), turned(0.0)
