@@ -106,7 +106,11 @@ static bool holds(const target *t, const double q[2], double time, carom_cue *cu
   cue->phi = remainder((atan2(t->y, t->x) - atan2(q[1], q[0])) / degree, 360.0);
   if (carom_shoot(t->table, t->balls, t->count, cue, &t->options, &shot) != CAROM_STOPPED_AT_EVENT)
     return false;
+  /* The contacts of a rack that breaks share one instant: that of the cue's ball is wanted. */
   const carom_event *e = &events[shot.count - 1];
+  for (const carom_event *c = e; c >= events; c--)
+    if (c->type == CAROM_EVENT_BALL_BALL && (c->a == cue->ball || c->b == cue->ball))
+      e = c;
   const int side = e->a == cue->ball ? 0 : 1;
   const double *from = e->before[side].r, *to = e->before[1 - side].r;
   if (e->type == CAROM_EVENT_BALL_BALL && (side == 0 ? e->b : e->a) == t->at)

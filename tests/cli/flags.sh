@@ -39,6 +39,10 @@ print("units:", same(["--cue", "1,2ft"], ["--cue", "0.3048,0.6096"]), same(["--s
 for rack, count in (("nineball", 10), ("eightball", 16), ("tenball", 11)):
     [(given, _)] = shots("--balls", rack, "--speed", 8)
     assert [ball["id"] for ball in given["balls"]] == ["cue", *map(str, range(1, count))]
+    # The first ball of a rack is met, though the others are hit at the same instant.
+    head = min(given["balls"][1:], key=lambda ball: ball["state"][2])["id"]
+    [(_, played)] = shots("--balls", rack, "--at-ball", head, "--cut", 5, "--speed", 8)
+    assert next(event for event in played["events"] if event[1] == "ball_ball")[2] == ["cue", head]
 [(given, _)] = shots("--balls", "snooker", "--table", "snooker", "--speed", 1)
 print([ball["id"] for ball in given["balls"]][::5], given["balls"][0]["params"])
 
