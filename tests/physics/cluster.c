@@ -506,6 +506,36 @@ START_TEST(wing_ball_from_the_side) {
 }
 END_TEST
 
+/* Of 40 full breaks at 10 m/s from the middle, the balls that meet a rail or fall. Pair by pair
+ * it is a third of them. */
+START_TEST(balls_to_a_rail) {
+  carom_table table;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &table);
+  double mean[2] = {0.0, 0.0};
+  for (int pairs = 0; pairs < 2; pairs++)
+    for (int seed = 1; seed <= 40; seed++) {
+      carom_shot_ball b[16];
+      ck_assert_int_eq(carom_rack(CAROM_RACK_EIGHTBALL, &table, 1e-4, (uint64_t)seed, b, 16),
+                       CAROM_OK);
+      b[0].state.v[1] = 10.0;
+      const carom_shot_options options = {.simultaneous = pairs ? CAROM_SIMULTANEOUS_PAIRS
+                                                                : CAROM_SIMULTANEOUS_CLUSTER};
+      const carom_shot shot = play(&table, b, 16, NULL, &options, CAROM_OK);
+
+      bool met[16] = {false};
+      for (int64_t k = 0; k < shot.count; k++)
+        if (events[k].type == CAROM_EVENT_RAIL || events[k].type == CAROM_EVENT_JAW ||
+            events[k].type == CAROM_EVENT_POCKET)
+          met[events[k].a] = true;
+      for (int i = 1; i < 16; i++)
+        mean[pairs] += (double)met[i] / 40;
+    }
+  printf("balls to a rail: %.1f of 15, pair by pair %.1f\n", mean[0], mean[1]);
+  ck_assert_double_ge(mean[0], 12.0);
+  ck_assert_double_lt(mean[1], 7.0);
+}
+END_TEST
+
 /* ---- 16: 25 steps beside many */
 
 START_TEST(default_steps) {
@@ -692,6 +722,6 @@ END_TEST
 int main(void) {
   return RUN_TESTS("cluster", one_contact_is_a_collision, two_at_once, rows_of_balls, symmetries,
                    symmetric_rack, balances, scaling, break_of_a_rack, frozen_kiss,
-                   wing_ball_from_the_side, default_steps, ball_on_three, crowds, gap_has_no_step,
-                   arguments);
+                   wing_ball_from_the_side, balls_to_a_rail, default_steps, ball_on_three, crowds,
+                   gap_has_no_step, arguments);
 }
