@@ -274,6 +274,10 @@ typedef enum carom_status {
   CAROM_ERROR_PLAIN = -98,              /* options.plain is neither 0 nor 1. */
   CAROM_ERROR_SIMULTANEOUS = -99,       /* options.simultaneous is not one of carom_simultaneous. */
   CAROM_ERROR_CLUSTER_STEPS = -100,     /* options.cluster_steps is not 0 to 10000. */
+  CAROM_ERROR_RECORD = -101,            /* carom_record.h: a recording is wrong; record.fault says
+                                           where and why. */
+  CAROM_ERROR_REVISION = -102,          /* carom_record.h: it is of another revision of the
+                                           physics. */
 } carom_status;
 
 /* The short name of a status ("separating"), as in the command's output. "unknown" for a value

@@ -151,7 +151,10 @@
   X(ERROR_SIMULTANEOUS, -99, "bad_simultaneous",                                                   \
     "options.simultaneous must be one of carom_simultaneous")                                      \
   X(ERROR_CLUSTER_STEPS, -100, "bad_cluster_steps",                                                \
-    "options.cluster_steps must be 0 to 10000 (0 is the default)")
+    "options.cluster_steps must be 0 to 10000 (0 is the default)")                                 \
+  X(ERROR_RECORD, -101, "bad_record", "the recording is wrong; record.fault says where and why")  \
+  X(ERROR_REVISION, -102, "other_revision",                                                       \
+    "the recording is of another revision of the physics, with which its shots have other bits")
 
 #define AGREES(NAME, value, name, text) \
   _Static_assert(CAROM_##NAME == (value), "values are never renumbered");

@@ -5,6 +5,7 @@
 #define CAROM_TESTS_EVERY_FUNCTION_H
 
 #include "carom_plan.h"
+#include "carom_record.h"
 #include "carom_tangent.h"
 #include "support.h"
 
@@ -59,6 +60,8 @@ typedef struct every_room {
   carom_tangent tangent[EVERY_SHOTS];
   carom_choice choice[EVERY_FEW];
   double plan[32768];
+  carom_record record;
+  char line[CAROM_RECORD_TEXT];
 } every_room;
 
 /* number: whose input it is; others have other numbers. */
@@ -494,6 +497,47 @@ EVERY_BODY(shot_tangent_batch) {
   return h;
 }
 
+/* A break, recorded. */
+static inline uint64_t every_record_line(const every_input *in, every_room *room,
+                                         carom_record_kind kind) {
+  memset(&room->record, 0, sizeof room->record);
+  room->record.table = in->table;
+  room->record.count = EVERY_BALLS;
+  memcpy(room->record.balls, in->balls, sizeof in->balls);
+  room->record.cue = in->cue[0];
+  const size_t first =
+      carom_record_write(&room->record, CAROM_RECORD_HEAD, room->line, sizeof room->line);
+  return first +
+         carom_record_write(&room->record, kind, room->line + first, sizeof room->line - first);
+}
+EVERY_BODY(record_write) {
+  every_record_line(in, room, CAROM_RECORD_BALLS);
+  return every_text(h, room->line);
+}
+EVERY_BODY(record_read) {
+  const size_t size = every_record_line(in, room, CAROM_RECORD_TABLE);
+  const char *second = strchr(room->line, '\n') + 1;
+  memset(&room->record, 0, sizeof room->record);
+  STATUS(carom_record_read(&room->record, room->line, (size_t)(second - room->line)));
+  STATUS(carom_record_read(&room->record, second, size - (size_t)(second - room->line)));
+  return HASH(room->record.table);
+}
+EVERY_BODY(record_play) {
+  every_record_line(in, room, CAROM_RECORD_TABLE);
+  STATUS(carom_record_play(&room->record, CAROM_RECORD_SHOT, NULL));
+  return HASH(room->record.played);
+}
+EVERY_BODY(record_place) {
+  every_record_line(in, room, CAROM_RECORD_TABLE);
+  STATUS(carom_record_place(&room->record, 0, 0.3, 0.4, NULL));
+  return HASH(room->record.balls);
+}
+EVERY_BODY(record_settle) {
+  every_record_line(in, room, CAROM_RECORD_TABLE);
+  STATUS(carom_record_settle(&room->record));
+  return HASH(room->record.balls);
+}
+
 /* ---- All of them */
 
 /* clang-format off */
@@ -505,6 +549,7 @@ EVERY_BODY(shot_tangent_batch) {
   F(isa_in_force) F(isa_limit) F(isa_name) F(label_name) F(mu_ball) F(physics_revision) \
   F(place_ball) F(plan) F(plan_aim) F(plan_hand) F(plan_memory) F(plan_rules_of) F(plan_try) \
   F(plan_value) F(player_fargo) F(player_of) F(player_strike) F(rack) F(rack_name) F(rack_size) \
+  F(record_place) F(record_play) F(record_read) F(record_settle) F(record_write) \
   F(rolling_velocity) F(rules_name) F(serves) F(shoot) F(shoot_batch) F(shot_at) F(shot_at_times) \
   F(shot_check) F(shot_continue) F(shot_orientation) F(shot_tangent) F(shot_tangent_batch) \
   F(slip_name) F(solver_name) F(status_name) F(status_string) F(strike) F(table_check) \

@@ -8,6 +8,7 @@
  *
  * With the state are kept fingerprints of the table, the balls and the options that it is of, so
  * that it does not go on with others. */
+#include "platform/fingerprint.h"
 #include "shot/rules.h"
 #include "shot/sim.h"
 
@@ -21,43 +22,13 @@ _Static_assert(sizeof(carom_sim) <= sizeof(carom_shot_state),
 
 /* ---- Fingerprints */
 
-/* A step of a fingerprint: one to one for each word, so that a change of one word always changes
- * the result. */
-static inline uint64_t stir(uint64_t h, uint64_t word) {
-  static const uint64_t odd = 0x9e3779b97f4a7c15u; /* 2^64 over the golden ratio */
-  h ^= word;
-  return (h << 27 | h >> 37) * odd;
-}
-
-/* The fingerprint of some words of 8 bytes, and of those before. Four chains, as each step waits
- * for the one before. */
-static uint64_t fingerprint(uint64_t before, const void *bytes, size_t size) {
-  enum { CHAINS = 4 };
-  const unsigned char *at = (const unsigned char *)bytes;
-  uint64_t h[CHAINS] = {before, 1, 2, 3}, word[CHAINS];
-  const size_t words = size / sizeof *word;
-  size_t k = 0;
-  for (; k + CHAINS <= words; k += CHAINS) {
-    memcpy(word, at + k * sizeof *word, sizeof word);
-    for (int c = 0; c < CHAINS; c++)
-      h[c] = stir(h[c], word[c]);
-  }
-  for (; k < words; k++) {
-    memcpy(word, at + k * sizeof *word, sizeof *word);
-    h[0] = stir(h[0], word[0]);
-  }
-  for (int c = 1; c < CHAINS; c++)
-    h[0] = stir(h[0], h[c]);
-  return h[0];
-}
-
 /* Of a table, without the rows of its arrays that it does not use. */
 static uint64_t of_table(const carom_table *t) {
-  uint64_t h = fingerprint(0, t, offsetof(carom_table, rail));
-  h = fingerprint(h, t->rail, (size_t)t->rails * sizeof *t->rail);
-  h = fingerprint(h, t->jaw, (size_t)t->jaws * sizeof *t->jaw);
-  h = fingerprint(h, t->pocket, (size_t)t->pockets * sizeof *t->pocket);
-  return fingerprint(h, &t->ball_radius, sizeof *t - offsetof(carom_table, ball_radius));
+  uint64_t h = carom_fingerprint(0, t, offsetof(carom_table, rail));
+  h = carom_fingerprint(h, t->rail, (size_t)t->rails * sizeof *t->rail);
+  h = carom_fingerprint(h, t->jaw, (size_t)t->jaws * sizeof *t->jaw);
+  h = carom_fingerprint(h, t->pocket, (size_t)t->pockets * sizeof *t->pocket);
+  return carom_fingerprint(h, &t->ball_radius, sizeof *t - offsetof(carom_table, ball_radius));
 }
 
 /* Of the options that decide the motion, and not only when the shot stops. */
@@ -67,12 +38,12 @@ static uint64_t of_options(const carom_shot_options *o) {
                             (uint32_t)o->space | (uint64_t)(uint32_t)o->steps << 32,
                             (uint32_t)o->plain | (uint64_t)(uint32_t)o->simultaneous << 32,
                             (uint32_t)o->cluster_steps};
-  return fingerprint(0, words, sizeof words);
+  return carom_fingerprint(0, words, sizeof words);
 }
 
 void carom_state_begin(carom_sim *sim) {
   sim->of_table = of_table(sim->table);
-  sim->of_balls = fingerprint(0, sim->ball, (size_t)sim->count * sizeof *sim->ball);
+  sim->of_balls = carom_fingerprint(0, sim->ball, (size_t)sim->count * sizeof *sim->ball);
   sim->of_options = of_options(sim->opt);
 }
 
@@ -82,8 +53,8 @@ enum { SEAL = 1, SEALED = 2 }; /* words of a state: its seal, and the first afte
 _Static_assert(offsetof(carom_sim, seal) == SEAL * sizeof(uint64_t), "the seal is the second word");
 
 static uint64_t seal_of(const carom_shot_state *state) {
-  return fingerprint(resumable, state->opaque + SEALED,
-                     sizeof(carom_sim) - SEALED * sizeof(uint64_t));
+  return carom_fingerprint(resumable, state->opaque + SEALED,
+                           sizeof(carom_sim) - SEALED * sizeof(uint64_t));
 }
 
 void carom_state_seal(carom_shot_state *state) {
@@ -252,7 +223,7 @@ carom_status carom_state_check(const carom_sim *sim, const carom_shot_state *sta
   if (sim->of_table != of_table(sim->table))
     return CAROM_ERROR_STATE_TABLE;
   if (sim->count != count ||
-      sim->of_balls != fingerprint(0, sim->ball, (size_t)count * sizeof *sim->ball))
+      sim->of_balls != carom_fingerprint(0, sim->ball, (size_t)count * sizeof *sim->ball))
     return CAROM_ERROR_STATE_BALLS;
   return is_sound(sim) ? CAROM_OK : CAROM_ERROR_STATE;
 }

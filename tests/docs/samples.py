@@ -14,13 +14,13 @@ from pathlib import Path
 from blocks import blocks, pages
 
 SOURCE, LIBRARY, CC, CXX = Path(sys.argv[1]), *sys.argv[2:5]
-HEADERS = ("carom.h", "carom_shot.h", "carom_tangent.h")
+HEADERS = ("carom.h", "carom_shot.h", "carom_tangent.h", "carom_record.h")
 C = [(CC, "-std=c17"), (CXX, "-std=c++17"), (CXX, "-std=c++20")]
 WARNINGS = ["-Wall", "-Wextra", "-pedantic", "-Werror"]
 
 
 def program(pieces, end="return 0;"):
-    return f"#include <carom_tangent.h>\n#include <stdio.h>\n\nint main(void) {{\n{''.join(pieces)}{end}\n}}\n"
+    return f"#include <carom_record.h>\n#include <carom_tangent.h>\n#include <stdio.h>\n\nint main(void) {{\n{''.join(pieces)}{end}\n}}\n"
 
 
 def header_programs():

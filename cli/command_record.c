@@ -1,0 +1,461 @@
+/* `carom record`, `replay` and `verify`: recordings of shots that verify themselves, by
+ * carom_record.h. docs/using/games.md has the format. */
+#include "carom_record.h"
+
+#include "command.h"
+#include "memory.h"
+#include "message.h"
+#include "number.h"
+#include "options.h"
+#include "output.h"
+#include "shot_file.h"
+#include "subcommands.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FIRST_ROOM = 512 }; /* for events */
+
+typedef struct record_job {
+  shared_options shared; /* --output */
+  int world, ball_model, cushion, space, simultaneous, events;
+} record_job;
+
+OPTION(record_job, option_models, "models", world, 0, "carom|pooltool", set_choice, 0,
+       "the rules of contact and the default models (default carom)");
+OPTION(record_job, option_ball_ball, "ball-ball", ball_model, 0, "exact|euler|inelastic|mirror",
+       set_ball_model, 0, "model of the collision of two balls, as in `carom shoot`");
+OPTION(record_job, option_cushion_of_shots, "cushion", cushion, 0, CUSHION_WORDS, set_cushion_model,
+       0, "model of the impact on a cushion, as in `carom shoot`");
+OPTION(record_job, option_space, "space", space, 0, "3d|flat", set_choice, 0,
+       "whether balls can leave the cloth (default: 3d)");
+OPTION(record_job, option_simultaneous, "simultaneous", simultaneous, 0, "cluster|pairs",
+       set_choice, 0, "contacts of several balls at one instant (default: cluster)");
+OPTION(record_job, option_events, "events", events, 0, "none|brief|full", set_choice, 0,
+       "what to record of events: nothing; time, type and balls (the default is none); or the "
+       "states too. `carom verify` then tells the first event with other bits");
+
+/* ---- Playing, with room for all events ------------------------------------------------------- */
+
+typedef struct player {
+  carom_record game;
+  carom_shot shot; /* with the events of the last shot */
+  size_t room;     /* of shot.events */
+  int64_t first;   /* of its events: the first one of its last part */
+} player;
+
+static carom_status play(player *p, carom_record_kind kind) {
+  static carom_record before;
+  before = p->game;
+  p->first = kind == CAROM_RECORD_CONTINUE ? p->game.played.events : 0;
+  if (p->room == 0)
+    p->shot.events = grow(p->shot.events, &p->room, FIRST_ROOM, sizeof *p->shot.events);
+  for (;;) {
+    p->shot.room = (int64_t)p->room;
+    const carom_status status = carom_record_play(&p->game, kind, &p->shot);
+    if (p->shot.count <= p->shot.room)
+      return status;
+    /* once more, with room for all */
+    p->shot.events = grow(p->shot.events, &p->room, (size_t)p->shot.count, sizeof *p->shot.events);
+    p->game = before;
+  }
+}
+
+static void player_free(player *p) {
+  free(p->shot.events);
+  free(p);
+}
+
+/* ---- carom record ---------------------------------------------------------------------------- */
+
+static void put(FILE *out, carom_record *game, carom_record_kind kind) {
+  static char text[CAROM_RECORD_TEXT];
+  fwrite(text, 1, carom_record_write(game, kind, text, sizeof text), out);
+}
+
+/* The events of the shot that was just written. */
+static void put_events(FILE *out, player *p, int events) {
+  for (int64_t k = 0; events != EVENTS_NONE && k < p->shot.count; k++) {
+    p->game.event = p->shot.events[k];
+    p->game.before = p->game.after =
+        events == EVENTS_FULL ? 1 + (p->game.event.type == CAROM_EVENT_BALL_BALL) : 0;
+    put(out, &p->game, CAROM_RECORD_EVENT);
+  }
+}
+
+/* Plays a shot of a file and writes it, with its table and its layout where they are others than
+ * those of the shot before. */
+static bool record_shot(FILE *out, player *p, const shot_line *line, const char *file, int events) {
+  carom_record *game = &p->game;
+  const carom_table *table = &line->table->table;
+  char what[100];
+  int where;
+  const carom_status bad =
+      carom_shot_check(table, line->ball, line->count, &line->cue, &game->options, &where);
+  if (bad < 0) {
+    snprintf(what, sizeof what, where >= 0 ? "ball or part %d: " : "", where);
+    complain("%s:%zu: %s%s", file, line->number, what, carom_status_string(bad));
+    return false;
+  }
+  if (memcmp(&game->table, table, sizeof *table) != 0) {
+    game->table = *table;
+    put(out, game, CAROM_RECORD_TABLE);
+  }
+  carom_record_settle(game);
+  if (game->count != line->count ||
+      memcmp(game->balls, line->ball, (size_t)line->count * sizeof *line->ball) != 0) {
+    game->count = line->count;
+    memcpy(game->balls, line->ball, sizeof line->ball);
+    put(out, game, CAROM_RECORD_BALLS);
+  }
+  game->cue = line->cue;
+  const carom_status status = play(p, CAROM_RECORD_SHOT);
+  put(out, game, CAROM_RECORD_SHOT);
+  put_events(out, p, events);
+  if (status < 0)
+    complain("%s:%zu: after %g s: %s", file, line->number, game->played.time,
+             carom_status_string(status));
+  return status >= 0;
+}
+
+static const command_form record_form = {
+    .name = "record",
+    .usage = "[OPTIONS] IN.jsonl",
+    .about = "Plays the shots of a file as `carom shoot` does and writes a recording: the table, "
+             "the balls, each stroke, and a hash of the bits in which its shot ended. The bits are "
+             "those of plain C, which all machines share. IN may be -.\n",
+    .options =
+        (const option_row *const[]){&option_models, &option_ball_ball, &option_cushion_of_shots,
+                                    &option_space, &option_simultaneous, &option_events,
+                                    &option_output, NULL},
+    .details = "exit code: 0 if all shots were recorded and came to rest; 1 if some have errors, "
+               "which are told; 2 for bad usage or unreadable input\n",
+    .example = "carom record -o game.jsonl shots.jsonl",
+    .files = ONE_FILE,
+};
+
+int command_record(int argc, char **argv) {
+  static record_job job;
+  const char *path;
+  job = (record_job){.shared = {.output = "-"}};
+  int code = parse_arguments(&record_form, argc, argv, &job, &path);
+  if (code >= 0)
+    return code;
+  shot_file *file = shot_file_open(path);
+  FILE *out = file != NULL ? output_open(job.shared.output) : NULL;
+  bool good = true;
+  shot_read what = SHOT_FAILED;
+  if (out != NULL) {
+    player *p = allocate(1, sizeof *p);
+    p->game.options = (carom_shot_options){.world = (carom_world)job.world,
+                                           .ball_model = (carom_ball_model)job.ball_model,
+                                           .cushion_model = (carom_shot_cushion)job.cushion,
+                                           .space = (carom_space)job.space,
+                                           .simultaneous = (carom_simultaneous)job.simultaneous,
+                                           .plain = 1};
+    put(out, &p->game, CAROM_RECORD_HEAD);
+    put(out, &p->game, CAROM_RECORD_OPTIONS);
+    shot_line line;
+    while ((what = shot_file_next_shot(file, &line)) == SHOT_SHOT) {
+      if (line.error != NULL) {
+        complain("%s:%zu: %s", path, line.number, line.error);
+        good = false;
+      } else {
+        good &= record_shot(out, p, &line, path, job.events);
+      }
+      shot_line_free(&line);
+    }
+    put(out, &p->game, CAROM_RECORD_END);
+    player_free(p);
+  }
+  if (file != NULL)
+    shot_file_close(file);
+  if (out != NULL && what == SHOT_FAILED)
+    output_abandon();
+  else if (out != NULL && !output_commit())
+    what = SHOT_FAILED;
+  return what == SHOT_FAILED ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;
+}
+
+/* ---- Recordings, line by line ---------------------------------------------------------------- */
+
+typedef struct recording {
+  const char *path;
+  FILE *in;
+  char *text;
+  size_t space;
+} recording;
+
+static bool recording_open(recording *r, const char *path) {
+  *r = (recording){.path = strcmp(path, "-") == 0 ? "standard input" : path,
+                   .in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb")};
+  if (r->in == NULL)
+    complain("cannot read %s: %s", path, strerror(errno));
+  return r->in != NULL;
+}
+
+static void recording_close(recording *r) {
+  free(r->text);
+  if (r->in != stdin)
+    fclose(r->in);
+}
+
+/* Reads the next line; false at the end of the file, or after a complaint, which *bad says. */
+static bool next_line(recording *r, carom_record *game, bool *bad) {
+  const ssize_t size = getline(&r->text, &r->space, r->in);
+  if (size < 0) {
+    *bad = ferror(r->in) != 0 || game->kind != CAROM_RECORD_END;
+    if (ferror(r->in))
+      complain("cannot read %s: %s", r->path, strerror(errno));
+    else if (game->line == 0)
+      complain("%s: empty; a recording begins with {\"recording\": ...}", r->path);
+    else if (*bad)
+      complain("%s: cut off behind line %" PRId64 ": there is no line {\"end\": ...}", r->path,
+               game->line);
+    return false;
+  }
+  const carom_status status = carom_record_read(game, r->text, (size_t)size);
+  *bad = status < 0;
+  if (status == CAROM_ERROR_REVISION)
+    complain("%s: recorded with revision %" PRId64 " of the physics; this carom has revision %d, "
+             "with which shots have other bits. The carom of that revision plays it",
+             r->path, game->revision, carom_physics_revision());
+  else if (status < 0)
+    complain("%s:%" PRId64 ": %s", r->path, game->line, game->fault);
+  return status >= 0;
+}
+
+static bool is_shot(const carom_record *game) {
+  return game->pending == 1;
+}
+
+static bool same_bits(double a, double b) {
+  return memcmp(&a, &b, sizeof a) == 0;
+}
+
+static bool same_end(const carom_record_end *a, const carom_record_end *b) {
+  return a->hash == b->hash && a->status == b->status && a->events == b->events &&
+         same_bits(a->time, b->time);
+}
+
+/* ---- carom replay ---------------------------------------------------------------------------- */
+
+static const command_form replay_form = {
+    .name = "replay",
+    .usage = "[OPTIONS] GAME",
+    .about = "Plays a recording again, and writes a row of CSV for each shot. GAME may be -.\n",
+    .options = (const option_row *const[]){&option_output, NULL},
+    .details = "columns written: shot,line,status,events,time,hash,same\n  same is 1 where the end "
+               "of the shot has the bits that were recorded, else 0\n"
+               "exit code: 0 if all are the same; 1 if some are not; 2 for bad usage, a recording "
+               "of another revision of the physics, and one that is damaged or cut off\n",
+    .example = "carom replay game.jsonl",
+    .files = ONE_FILE,
+};
+
+int command_replay(int argc, char **argv) {
+  static record_job job;
+  const char *path;
+  recording r;
+  job = (record_job){.shared = {.output = "-"}};
+  int code = parse_arguments(&replay_form, argc, argv, &job, &path);
+  if (code >= 0)
+    return code;
+  if (!recording_open(&r, path))
+    return EXIT_USAGE;
+  FILE *out = output_open(job.shared.output);
+  bool bad = true, good = true;
+  if (out != NULL) {
+    carom_record *game = allocate(1, sizeof *game);
+    fputs("shot,line,status,events,time,hash,same\n", out);
+    while (next_line(&r, game, &bad)) {
+      if (!is_shot(game))
+        continue;
+      const carom_status status = carom_record_play(game, (carom_record_kind)game->kind, NULL);
+      if ((bad = game->pending == 1)) {
+        complain("%s:%" PRId64 ": %s", r.path, game->line, carom_status_string(status));
+        break;
+      }
+      const carom_record_end *end = &game->played;
+      const bool same = same_end(end, &game->recorded);
+      char time[NUMBER_TEXT];
+      fprintf(out, "%" PRId64 ",%" PRId64 ",%s,%" PRId64 ",%s,%016" PRIx64 ",%d\n", game->shots,
+              game->line, carom_status_name(status), end->events, number_text(end->time, time),
+              end->hash, same);
+      good &= same;
+    }
+    free(game);
+  }
+  recording_close(&r);
+  if (out != NULL && bad)
+    output_abandon();
+  else if (out != NULL && !output_commit())
+    bad = true;
+  return bad ? EXIT_USAGE : good ? EXIT_GOOD : EXIT_SOME;
+}
+
+/* ---- carom verify ---------------------------------------------------------------------------- */
+
+/* A double as a whole number, in their order. */
+static int64_t place_of(double x) {
+  int64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits < 0 ? INT64_MIN - bits : bits;
+}
+
+/* Tells where two numbers differ; false where they do not. */
+static bool tell_number(const char *what, double played, double recorded, const char *unit) {
+  char one[NUMBER_TEXT], other[NUMBER_TEXT];
+  if (same_bits(played, recorded))
+    return false;
+  const int64_t a = place_of(played), b = place_of(recorded);
+  const uint64_t apart = a > b ? (uint64_t)a - (uint64_t)b : (uint64_t)b - (uint64_t)a;
+  printf("%s is %s%s, recorded %s%s: they differ by %.3g%s, %" PRIu64
+         " units in the last place, from bit %d on\n",
+         what, number_text(played, one), unit, number_text(recorded, other), unit,
+         played - recorded, unit, apart, 63 - __builtin_clzll((unsigned long long)(a ^ b)));
+  return true;
+}
+
+static bool tell_whole(const char *what, int64_t played, int64_t recorded) {
+  if (played == recorded)
+    return false;
+  printf("%s is %" PRId64 ", recorded %" PRId64 "\n", what, played, recorded);
+  return true;
+}
+
+static bool tell_state(const char *when, int ball, const carom_ball_state *played,
+                       const carom_ball_state *recorded) {
+  static const char *const names[] = {"r[0]", "r[1]", "r[2]", "v[0]", "v[1]",
+                                      "v[2]", "w[0]", "w[1]", "w[2]"};
+  char what[60];
+  for (int k = 0; k < 9; k++) {
+    snprintf(what, sizeof what, "%s of ball %d %s", names[k], ball, when);
+    if (tell_number(what, played->r[k], recorded->r[k], k < 3 ? " m" : k < 6 ? " m/s" : " rad/s"))
+      return true;
+  }
+  snprintf(what, sizeof what, "the label of ball %d %s", ball, when);
+  return tell_whole(what, played->label, recorded->label);
+}
+
+static bool same_event(const carom_event *played, const carom_record *game) {
+  const carom_event *recorded = &game->event;
+  const size_t states = (size_t)game->before * sizeof *played->before;
+  return same_bits(played->time, recorded->time) && played->type == recorded->type &&
+         played->a == recorded->a && played->b == recorded->b &&
+         played->cluster == recorded->cluster &&
+         memcmp(played->before, recorded->before, states) == 0 &&
+         memcmp(played->after, recorded->after, states) == 0;
+}
+
+/* Tells the first difference of an event. */
+static void tell_event(const carom_event *played, const carom_record *game) {
+  const carom_event *recorded = &game->event;
+  if (tell_number("its time", played->time, recorded->time, " s") ||
+      tell_whole("its type", played->type, recorded->type) ||
+      tell_whole("a", played->a, recorded->a) || tell_whole("b", played->b, recorded->b) ||
+      tell_whole("cluster", played->cluster, recorded->cluster))
+    return;
+  for (int side = 0; side < 2; side++)
+    for (int k = 0; k < game->before; k++)
+      if (tell_state(side == 0 ? "before it" : "after it", k == 0 ? played->a : played->b,
+                     side == 0 ? &played->before[k] : &played->after[k],
+                     side == 0 ? &recorded->before[k] : &recorded->after[k]))
+        return;
+}
+
+/* The words before a difference. */
+static void tell_shot(const recording *r, const carom_record *game, int64_t line) {
+  printf("%s: shot %" PRId64 " (line %" PRId64 ")", r->path, game->shots, line);
+}
+
+/* Tells how the end of a shot differs of which every recorded event agrees. */
+static void tell_end(const recording *r, const player *p, int64_t line, int64_t compared) {
+  const carom_record_end *played = &p->game.played, *recorded = &p->game.recorded;
+  tell_shot(r, &p->game, line);
+  if (compared > 0)
+    printf(", behind its %" PRId64 " recorded events, which agree", compared);
+  printf(": ");
+  if (!tell_whole("the status", played->status, recorded->status) &&
+      !tell_whole("the number of events", played->events, recorded->events) &&
+      !tell_number("the time of its end", played->time, recorded->time, " s"))
+    printf("the final states have other bits: their hash is %016" PRIx64 ", recorded %016" PRIx64
+           "\n",
+           played->hash, recorded->hash);
+}
+
+static const command_form verify_form = {
+    .name = "verify",
+    .usage = "GAME",
+    .about = "Plays a recording again and compares every bit. Tells the first shot, and where "
+             "events were recorded the first event and the first number, that differs, and by how "
+             "much. GAME may be -.\n",
+    .options = (const option_row *const[]){NULL},
+    .details = "exit code: 0 if every bit agrees; 1 if one does not; 2 for bad usage, a recording "
+               "of another revision of the physics, and one that is damaged or cut off\n",
+    .example = "carom verify game.jsonl",
+    .files = ONE_FILE,
+};
+
+/* Reads and compares all lines; an exit code. */
+static int verify(recording *r, player *p) {
+  carom_record *game = &p->game;
+  bool bad, open = false; /* open: a shot ended otherwise; its events will tell where it began */
+  int64_t line = 0, compared = 0;
+  while (next_line(r, game, &bad)) {
+    if (game->kind == CAROM_RECORD_EVENT) {
+      const int64_t k = p->first + compared;
+      if (k < p->shot.count && same_event(&p->shot.events[k], game)) {
+        compared++;
+        continue;
+      }
+      tell_shot(r, game, line);
+      printf(", event %" PRId64 " (line %" PRId64 "): ", k + 1, game->line);
+      if (k < p->shot.count)
+        tell_event(&p->shot.events[k], game);
+      else
+        printf("it was recorded, and does not happen\n");
+      return EXIT_SOME;
+    }
+    if (open) {
+      game->shots -= is_shot(game); /* the one before is told */
+      tell_end(r, p, line, compared);
+      return EXIT_SOME;
+    }
+    if (!is_shot(game))
+      continue;
+    line = game->line;
+    compared = 0;
+    const carom_status status = play(p, (carom_record_kind)game->kind);
+    if (game->pending == 1) {
+      tell_shot(r, game, line);
+      printf(" cannot be played: %s\n", carom_status_string(status));
+      return EXIT_SOME;
+    }
+    open = !same_end(&game->played, &game->recorded);
+  }
+  if (open)
+    tell_end(r, p, line, compared);
+  else if (!bad)
+    printf("%s: %" PRId64 " shots, every bit agrees (revision %" PRId64 " of the physics)\n",
+           r->path, game->shots, game->revision);
+  return bad ? EXIT_USAGE : open ? EXIT_SOME : EXIT_GOOD;
+}
+
+int command_verify(int argc, char **argv) {
+  static record_job job;
+  const char *path;
+  recording r;
+  int code = parse_arguments(&verify_form, argc, argv, &job, &path);
+  if (code >= 0)
+    return code;
+  if (!recording_open(&r, path))
+    return EXIT_USAGE;
+  player *p = allocate(1, sizeof *p);
+  code = verify(&r, p);
+  player_free(p);
+  recording_close(&r);
+  return code;
+}

@@ -1,0 +1,123 @@
+/* carom_record.h: recordings of games that verify themselves.
+ *
+ * A recording is text, a line of JSON after the other: the table, the balls, the options, each
+ * stroke of the cue with a hash of the bits in which its shot ended. docs/using/games.md has the
+ * format. Whoever plays it again with this library has the same bits, or is told where not.
+ *
+ *     static carom_record game;                                         // all zero
+ *     static char text[CAROM_RECORD_TEXT];
+ *     carom_table_make(CAROM_TABLE_POOL_9FT, &game.table);
+ *     game.count = carom_rack_size(CAROM_RACK_NINEBALL);
+ *     carom_rack(CAROM_RACK_NINEBALL, &game.table, 1e-4, 1, game.balls, 10);
+ *     fwrite(text, 1, carom_record_write(&game, CAROM_RECORD_HEAD, text, sizeof text), stdout);
+ *     fwrite(text, 1, carom_record_write(&game, CAROM_RECORD_TABLE, text, sizeof text), stdout);
+ *     fwrite(text, 1, carom_record_write(&game, CAROM_RECORD_BALLS, text, sizeof text), stdout);
+ *     game.cue = carom_cue_of(CAROM_GAME_POOL);
+ *     game.cue.speed = 8.0;
+ *     carom_status status = carom_record_play(&game, CAROM_RECORD_SHOT, NULL);
+ *     fwrite(text, 1, carom_record_write(&game, CAROM_RECORD_SHOT, text, sizeof text), stdout);
+ *     fwrite(text, 1, carom_record_write(&game, CAROM_RECORD_END, text, sizeof text), stdout);
+ *
+ * Nothing here allocates, reads a file or writes one. */
+#ifndef CAROM_RECORD_H
+#define CAROM_RECORD_H
+
+#include "carom_shot.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The lines of a recording. */
+typedef enum carom_record_kind {
+  CAROM_RECORD_BLANK = 0,    /* no line yet, or an empty one */
+  CAROM_RECORD_HEAD = 1,     /* "recording": the first line, with the revision of the physics */
+  CAROM_RECORD_TABLE = 2,    /* "table" */
+  CAROM_RECORD_OPTIONS = 3,  /* "options": the models; without this line, the defaults */
+  CAROM_RECORD_BALLS = 4,    /* "balls": their constants, places and motion */
+  CAROM_RECORD_PLACE = 5,    /* "place": a ball in hand */
+  CAROM_RECORD_SHOT = 6,     /* "shot": a stroke, when to stop its shot, and how that ended */
+  CAROM_RECORD_CONTINUE = 7, /* "continue": a stopped shot goes on */
+  CAROM_RECORD_EVENT = 8,    /* "event": of the shot before it; may be left out */
+  CAROM_RECORD_END = 9       /* "end": the last line, without which a recording was cut off */
+} carom_record_kind;
+
+/* Bytes with room for any line: of 32 balls that have nothing in common. */
+enum { CAROM_RECORD_TEXT = 65536 };
+
+/* How a shot ended, or a part of it. */
+typedef struct carom_record_end {
+  int64_t status; /* a carom_status. */
+  int64_t events; /* their number, */
+  double time;    /* s: and carom_shot.time. */
+  uint64_t hash;  /* of these three and of all final states: equal where every bit is equal, and
+                     but for 1 chance in 2^64 not elsewhere. It is no signature. */
+} carom_record_end;
+
+/* A game on its way: what its lines have said so far. All zero before the first line. */
+typedef struct carom_record {
+  int64_t kind;     /* of the last line: a carom_record_kind. */
+  int64_t line;     /* lines so far. */
+  int64_t revision; /* carom_physics_revision() of the library that recorded it. */
+  int64_t format;   /* of the text: 1. */
+  int64_t shots;    /* strokes and continuations so far. */
+  uint64_t hash;    /* of all their hashes, in order. */
+  int64_t count;    /* of balls. */
+  carom_shot_ball balls[CAROM_BALLS_MOST];  /* at the start of the last shot, for
+                                              carom_shot_at(); */
+  carom_ball_state final[CAROM_BALLS_MOST]; /* and at its end. */
+  carom_table table;
+  carom_shot_options options; /* plain and threads are not read. When to stop counts for the next
+                                 shot or continuation only. */
+  carom_cue cue;
+  int64_t placed;            /* the last ball in hand, */
+  double place[2];           /* m: and where it was put. */
+  carom_record_end recorded; /* of the line of a shot that was read; */
+  carom_record_end played;   /* of the shot that was played. */
+  carom_event event;         /* of the last line with an event; */
+  int64_t before, after;     /* balls of which it has states: 0, 1 or 2. */
+  int64_t pending;           /* 1: the shot of the last line was not played yet. */
+  int64_t moved;             /* 1: final[] has not been put into balls[] yet. */
+  carom_facts facts;         /* of the last shot. */
+  carom_shot_state state;
+  char fault[192]; /* what is wrong, with the key, after CAROM_ERROR_RECORD. */
+} carom_record;
+
+/* Reads a line of `size` bytes, with its end of line or without, into the record. A ball in hand
+ * is placed. The shot of a line CAROM_RECORD_SHOT or CAROM_RECORD_CONTINUE is to be played by
+ * carom_record_play() before the next shot is read.
+ *
+ * CAROM_OK; CAROM_ERROR_NULL; CAROM_ERROR_REVISION for a recording of another revision of the
+ * physics, which would give other bits: it is not read on; CAROM_ERROR_RECORD for a line that is
+ * wrong, by a key or a value or its place, or at the end other shots than were read: record->fault
+ * says what is wrong. */
+CAROM_API carom_status carom_record_read(carom_record *record, const char *line, size_t size);
+
+/* Plays the shot of record->cue, or with CAROM_RECORD_CONTINUE goes on with one that was stopped,
+ * with the bits of options.plain. The balls begin where the shot before left them. `shot` may be
+ * NULL; else events, brief and room in it are the caller's, and the rest is set. Returns what
+ * carom_shoot() does, or CAROM_ERROR_NULL or CAROM_ERROR_RECORD where there is nothing to play.
+ * record->played says how it ended; after a line that was read it is to be compared with
+ * record->recorded. A shot with a wrong argument changes nothing. */
+CAROM_API carom_status carom_record_play(carom_record *record, carom_record_kind kind,
+                                         carom_shot *shot);
+
+/* Ball in hand, by carom_place_ball() after the last shot. */
+CAROM_API carom_status carom_record_place(carom_record *record, int ball, double x, double y,
+                                          carom_part *in_the_way);
+
+/* Puts the states at the end of the last shot into record->balls. A caller does so who changes
+ * them and writes CAROM_RECORD_BALLS. */
+CAROM_API carom_status carom_record_settle(carom_record *record);
+
+/* Writes a line of what the record holds, with its end of line and a closing 0, to text[room]:
+ * CAROM_RECORD_TEXT bytes are enough. Returns its length without the 0; 0 where the room is too
+ * small, or the line cannot stand here, as of a shot that was not played. */
+CAROM_API size_t carom_record_write(carom_record *record, carom_record_kind kind, char *text,
+                                    size_t room);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* CAROM_RECORD_H */

@@ -1,0 +1,695 @@
+/* Recordings: lines of JSON, read and written by one table of keys.
+ *
+ * A line is {"KIND": {"KEY": VALUE, ...}}. A field of the table below is a key, the type of its
+ * value and its place in carom_record. A key that is missing has the value 0; in an object of a
+ * list, the value of the object before it. So a writer leaves out the fields that have the bytes of
+ * that default, and a reader begins with it. Every other key is refused, and every one that comes
+ * twice. */
+#include "carom_record.h"
+#include "platform/arithmetic.h"
+#include "platform/fingerprint.h"
+#include "record/number.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
+/* ---- The format ------------------------------------------------------------------------------ */
+
+typedef enum type { DOUBLE, INT32, INT64, HASH, LIST } type;
+
+typedef struct field {
+  const char *key;
+  type type;
+  bool always;            /* written whatever it is, and required */
+  int count;              /* of its values: [x, y] of 2; the most objects of a list */
+  size_t at;              /* its offset in the object, */
+  size_t size, counted;   /* of a list: bytes of an object, offset of their number (int64_t), */
+  const struct field *of; /* and its fields. Tables of fields end with a key of NULL. */
+} field;
+
+#define D(of, name) \
+  { #name, DOUBLE, false, 1, offsetof(of, name), 0, 0, NULL }
+#define DS(of, name, n) \
+  { #name, DOUBLE, false, n, offsetof(of, name), 0, 0, NULL }
+#define L(of, name) \
+  { #name, INT64, false, 1, offsetof(of, name), 0, 0, NULL }
+#define END \
+  { NULL, DOUBLE, false, 0, 0, 0, 0, NULL }
+
+static const field rail_fields[] = {DS(carom_rail, p, 2),       DS(carom_rail, q, 2),
+                                    D(carom_rail, height),      DS(carom_rail, line, 3),
+                                    L(carom_rail, side),        D(carom_rail, mu_cushion),
+                                    D(carom_rail, restitution), END};
+static const field jaw_fields[] = {DS(carom_jaw, centre, 2),  D(carom_jaw, radius),
+                                   D(carom_jaw, height),      D(carom_jaw, mu_cushion),
+                                   D(carom_jaw, restitution), END};
+static const field pocket_fields[] = {DS(carom_pocket, centre, 2), D(carom_pocket, radius),
+                                      D(carom_pocket, depth), END};
+static const field state_fields[] = {DS(carom_ball_state, r, 3), DS(carom_ball_state, v, 3),
+                                     DS(carom_ball_state, w, 3), L(carom_ball_state, label), END};
+
+#define K(name) \
+  { #name, DOUBLE, false, 1, offsetof(carom_shot_ball, kind.name), 0, 0, NULL }
+#define S(name, n, type) \
+  { #name, type, false, n, offsetof(carom_shot_ball, state.name), 0, 0, NULL }
+static const field ball_fields[] = {K(mass),
+                                    K(radius),
+                                    K(mu_slide),
+                                    K(mu_roll),
+                                    K(mu_spin),
+                                    K(mu_ball),
+                                    K(restitution),
+                                    K(mu_cushion),
+                                    K(restitution_cushion),
+                                    K(gravity),
+                                    K(drag),
+                                    K(roll_loss),
+                                    K(law_a),
+                                    K(law_b),
+                                    K(law_c),
+                                    K(nose_height),
+                                    K(omega_ratio),
+                                    K(restitution_table),
+                                    K(modulus),
+                                    K(restitution_log),
+                                    K(mu_log),
+                                    K(smooth_q),
+                                    K(smooth_x),
+                                    K(smooth_t),
+                                    K(smooth_a),
+                                    K(smooth_k),
+                                    S(r, 3, DOUBLE),
+                                    S(v, 3, DOUBLE),
+                                    S(w, 3, DOUBLE),
+                                    S(label, 1, INT64),
+                                    END};
+_Static_assert(sizeof(carom_ball_kind) == 26 * sizeof(double), "a key for each constant of a ball");
+
+/* Of the record itself: a key and the member of carom_record that it is. */
+#define R(key, type, always, n, member) \
+  { key, type, always, n, offsetof(carom_record, member), 0, 0, NULL }
+#define LISTED(key, most, member, counted, of)                                      \
+  {                                                                                 \
+    key, LIST, false, most, offsetof(carom_record, member),                         \
+        sizeof(((carom_record *)0)->member[0]), offsetof(carom_record, counted), of \
+  }
+
+static const field head[] = {R("format", INT64, true, 1, format),
+                             R("revision", INT64, true, 1, revision), END};
+static const field table[] = {
+    R("width", DOUBLE, true, 1, table.width),
+    R("length", DOUBLE, true, 1, table.length),
+    R("ball_radius", DOUBLE, false, 1, table.ball_radius),
+    R("rail_width", DOUBLE, false, 1, table.rail_width),
+    R("pocket_back", DOUBLE, false, 1, table.pocket_back),
+    LISTED("rails", CAROM_RAILS_MOST, table.rail, table.rails, rail_fields),
+    LISTED("jaws", CAROM_JAWS_MOST, table.jaw, table.jaws, jaw_fields),
+    LISTED("pockets", CAROM_POCKETS_MOST, table.pocket, table.pockets, pocket_fields),
+    END};
+static const field models[] = {R("world", INT32, false, 1, options.world),
+                               R("ball_model", INT32, false, 1, options.ball_model),
+                               R("cushion_model", INT32, false, 1, options.cushion_model),
+                               R("friction", INT32, false, 1, options.friction),
+                               R("steps", INT32, false, 1, options.steps),
+                               R("space", INT32, false, 1, options.space),
+                               R("simultaneous", INT32, false, 1, options.simultaneous),
+                               R("cluster_steps", INT32, false, 1, options.cluster_steps),
+                               END};
+static const field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields), END};
+static const field place[] = {R("ball", INT64, true, 1, placed), R("at", DOUBLE, true, 2, place),
+                              END};
+
+/* When a shot stops, and how it ended. */
+#define STOPS                                           \
+  R("time_most", DOUBLE, false, 1, options.time_most),  \
+      R("stop_at", INT64, false, 1, options.stop_at),   \
+      R("first_of", INT64, false, 1, options.first_of), \
+      R("events_most", INT32, false, 1, options.events_most)
+#define ENDS                                                                                  \
+  R("status", INT64, true, 1, recorded.status), R("events", INT64, true, 1, recorded.events), \
+      R("time", DOUBLE, true, 1, recorded.time), R("hash", HASH, true, 1, recorded.hash)
+static const field shot[] = {R("speed", DOUBLE, false, 1, cue.speed),
+                             R("phi", DOUBLE, false, 1, cue.phi),
+                             R("theta", DOUBLE, false, 1, cue.theta),
+                             R("a", DOUBLE, false, 1, cue.a),
+                             R("b", DOUBLE, false, 1, cue.b),
+                             R("mass", DOUBLE, false, 1, cue.mass),
+                             R("end_mass", DOUBLE, false, 1, cue.end_mass),
+                             R("tip_radius", DOUBLE, false, 1, cue.tip_radius),
+                             R("ball", INT64, false, 1, cue.ball),
+                             R("miscue", DOUBLE, false, 1, cue.miscue),
+                             R("tip_time", DOUBLE, false, 1, cue.tip_time),
+                             STOPS,
+                             ENDS,
+                             END};
+static const field goes_on[] = {STOPS, ENDS, END};
+static const field event[] = {R("time", DOUBLE, true, 1, event.time),
+                              R("type", INT32, true, 1, event.type),
+                              R("a", INT32, true, 1, event.a),
+                              R("b", INT32, false, 1, event.b),
+                              R("cluster", INT32, false, 1, event.cluster),
+                              LISTED("before", 2, event.before, before, state_fields),
+                              LISTED("after", 2, event.after, after, state_fields),
+                              END};
+static const field end[] = {R("shots", INT64, true, 1, shots), R("hash", HASH, true, 1, hash), END};
+
+/* The lines, by carom_record_kind. */
+static const struct {
+  const char *key;
+  const field *fields;
+} lines[] = {{"", NULL},        {"recording", head}, {"table", table}, {"options", models},
+             {"balls", layout}, {"place", place},    {"shot", shot},   {"continue", goes_on},
+             {"event", event},  {"end", end}};
+enum { KINDS = sizeof lines / sizeof lines[0] };
+
+static size_t size_of(const field *f) {
+  return f->type == LIST ? f->size : f->type == INT32 ? sizeof(int32_t) : sizeof(int64_t);
+}
+
+/* ---- Faults ---------------------------------------------------------------------------------- */
+
+/* A line on its way in, with the keys that led to the value that is read. */
+typedef struct reader {
+  carom_record *record;
+  const char *at, *end;
+  const char *line, *list, *key; /* "balls", "list", "mass"; NULL where there is none */
+  int index;                     /* in the list */
+} reader;
+
+static char *put(char *to, const char *limit, const char *text) {
+  while (*text != '\0' && to < limit)
+    *to++ = *text++;
+  return to;
+}
+
+/* Says what is wrong with the value of a key, by its whole path; returns false. */
+static bool wrong(reader *in, const char *what) {
+  carom_record *record = in->record;
+  char *to = record->fault, *limit = to + sizeof record->fault - 1;
+  to = put(to, limit, in->line != NULL ? in->line : "");
+  if (in->list != NULL) {
+    char number[CAROM_NUMBER_TEXT];
+    number[carom_number_write(in->index, number)] = '\0';
+    to = put(put(put(put(put(to, limit, "."), limit, in->list), limit, "["), limit, number), limit,
+             "]");
+  }
+  if (in->key != NULL)
+    to = put(put(to, limit, "."), limit, in->key);
+  to = put(to, limit, to > record->fault ? " " : "");
+  *put(to, limit, what) = '\0';
+  return false;
+}
+
+/* ---- Reading --------------------------------------------------------------------------------- */
+
+static void skip_blanks(reader *in) {
+  while (in->at < in->end &&
+         (*in->at == ' ' || *in->at == '\t' || *in->at == '\r' || *in->at == '\n'))
+    in->at++;
+}
+
+/* Whether the next character, behind blanks, is c; then it is passed. */
+static bool next_is(reader *in, char c) {
+  skip_blanks(in);
+  if (in->at == in->end || *in->at != c)
+    return false;
+  in->at++;
+  return true;
+}
+
+static bool expect(reader *in, char c, const char *what) {
+  if (next_is(in, c))
+    return true;
+  return wrong(in, in->at == in->end ? "is cut off: the line ends too soon" : what);
+}
+
+/* A key with its colon, into `key`, cut where it is longer than any. */
+enum { KEY_TEXT = 32 };
+static bool read_key(reader *in, char key[KEY_TEXT]) {
+  int n = 0;
+  if (!expect(in, '"', "must be an object: a key in quotes comes here"))
+    return false;
+  for (; in->at < in->end && *in->at != '"'; in->at++)
+    if (n < KEY_TEXT - 1)
+      key[n++] = *in->at >= ' ' && *in->at <= '~' ? *in->at : '?';
+  key[n] = '\0';
+  return expect(in, '"', "") && expect(in, ':', "has a key without ':' behind it");
+}
+
+static bool read_number(reader *in, double *x) {
+  const char *why;
+  skip_blanks(in);
+  if (in->at == in->end)
+    return wrong(in, "is cut off: the line ends too soon");
+  const char *after = carom_number_read(in->at, in->end, x, &why);
+  if (after == NULL)
+    return wrong(in, why);
+  in->at = after;
+  return true;
+}
+
+/* 16 digits in quotes. */
+static bool read_hash(reader *in, uint64_t *hash) {
+  static const char digits[] = "0123456789abcdef";
+  const char *digit;
+  *hash = 0;
+  bool good = next_is(in, '"') && in->end - in->at > 16;
+  for (int k = 0; good && k < 16; k++, in->at++) {
+    good = *in->at != '\0' && (digit = strchr(digits, *in->at)) != NULL;
+    if (good)
+      *hash = *hash << 4 | (uint64_t)(digit - digits);
+  }
+  return (good && next_is(in, '"')) || wrong(in, "must be 16 hexadecimal digits in quotes");
+}
+
+/* One value of a field that is no list. */
+static bool read_value(reader *in, const field *f, unsigned char *to) {
+  double x;
+  if (f->type == HASH) {
+    uint64_t hash;
+    if (!read_hash(in, &hash))
+      return false;
+    memcpy(to, &hash, sizeof hash);
+    return true;
+  }
+  if (!read_number(in, &x))
+    return false;
+  if (f->type == DOUBLE) {
+    memcpy(to, &x, sizeof x);
+    return true;
+  }
+  const double most = f->type == INT32 ? 2147483647.0 : 9007199254740991.0;
+  if (!(x >= -most && x <= most) || x != (double)(int64_t)x)
+    return wrong(in, "must be a whole number");
+  const int64_t whole = (int64_t)x;
+  const int32_t half = (int32_t)x;
+  memcpy(to, f->type == INT32 ? (const void *)&half : (const void *)&whole, size_of(f));
+  return true;
+}
+
+static bool read_object(reader *in, const field *fields, unsigned char *object);
+
+/* [object, object, ...], each of which begins as a copy of the one before. */
+static bool read_list(reader *in, const field *f, unsigned char *object) {
+  int64_t n = 0;
+  in->list = f->key;
+  in->key = NULL;
+  if (!expect(in, '[', "must be a list of objects"))
+    return false;
+  if (!next_is(in, ']'))
+    do {
+      unsigned char *to = object + f->at + (size_t)n * f->size;
+      in->index = (int)n;
+      if (n == f->count)
+        return wrong(in, "is one object too many");
+      if (n > 0)
+        memcpy(to, to - f->size, f->size);
+      else
+        memset(to, 0, f->size);
+      if (!read_object(in, f->of, to))
+        return false;
+      in->key = NULL;
+      n++;
+    } while (next_is(in, ','));
+  else
+    n = -1; /* an empty list is closed already */
+  if (n >= 0 && !expect(in, ']', "must be followed by ',' or ']'"))
+    return false;
+  n = n < 0 ? 0 : n;
+  memcpy(object + f->counted, &n, sizeof n);
+  in->list = NULL;
+  return true;
+}
+
+static bool read_field(reader *in, const field *f, unsigned char *object) {
+  if (f->type == LIST)
+    return read_list(in, f, object);
+  if (f->count > 1 && !expect(in, '[', "must be a list of numbers"))
+    return false;
+  for (int k = 0; k < f->count; k++)
+    if ((k > 0 && !expect(in, ',', "has too few numbers")) ||
+        !read_value(in, f, object + f->at + (size_t)k * size_of(f)))
+      return false;
+  return f->count == 1 || expect(in, ']', "has too many numbers");
+}
+
+static bool read_object(reader *in, const field *fields, unsigned char *object) {
+  uint64_t seen = 0;
+  if (!expect(in, '{', "must be an object"))
+    return false;
+  if (!next_is(in, '}')) {
+    do {
+      char key[KEY_TEXT];
+      int k = 0;
+      if (!read_key(in, key))
+        return false;
+      while (fields[k].key != NULL && strcmp(fields[k].key, key) != 0)
+        k++;
+      in->key = key;
+      if (fields[k].key == NULL)
+        return wrong(in, "is no key of the format");
+      if (seen >> k & 1)
+        return wrong(in, "comes twice");
+      seen |= UINT64_C(1) << k;
+      in->key = fields[k].key;
+      if (!read_field(in, &fields[k], object))
+        return false;
+      in->key = NULL;
+    } while (next_is(in, ','));
+    if (!expect(in, '}', "must be followed by ',' or '}'"))
+      return false;
+  }
+  for (int k = 0; fields[k].key != NULL; k++)
+    if (fields[k].always && !(seen >> k & 1)) {
+      in->key = fields[k].key;
+      return wrong(in, "is missing");
+    }
+  return true;
+}
+
+/* All fields of a line as they are where their keys are missing. */
+static void clear(carom_record *record, const field *fields) {
+  unsigned char *object = (unsigned char *)record;
+  for (const field *f = fields; f->key != NULL; f++) {
+    memset(object + f->at, 0, (size_t)f->count * size_of(f));
+    if (f->type == LIST)
+      memset(object + f->counted, 0, sizeof(int64_t));
+  }
+}
+
+/* ---- What lines mean ------------------------------------------------------------------------- */
+
+/* Whether a line of a kind may follow those before it; else why not. */
+static const char *out_of_place(const carom_record *record, int kind) {
+  const bool shot_before = record->kind == CAROM_RECORD_SHOT ||
+                           record->kind == CAROM_RECORD_CONTINUE ||
+                           record->kind == CAROM_RECORD_EVENT;
+  if (record->kind == CAROM_RECORD_END)
+    return "stands behind the end of the recording, or behind a line that is wrong";
+  if ((record->format == 0) != (kind == CAROM_RECORD_HEAD))
+    return record->format == 0 ? "stands where {\"recording\": ...} must: in the first line"
+                               : "comes twice";
+  if (kind == CAROM_RECORD_EVENT && !shot_before)
+    return "must follow a shot, its continuation, or another event";
+  if ((kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_PLACE) && record->count == 0)
+    return "has no balls: a line {\"balls\": ...} must come before";
+  if ((kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_PLACE) && record->table.rails == 0)
+    return "has no table: a line {\"table\": ...} must come before";
+  return NULL;
+}
+
+static void count_shot(carom_record *record, uint64_t hash) {
+  record->shots++;
+  record->hash = carom_stir(record->hash, hash);
+}
+
+carom_status carom_record_settle(carom_record *record) {
+  if (record == NULL)
+    return CAROM_ERROR_NULL;
+  for (int k = 0; record->moved != 0 && k < record->count; k++)
+    record->balls[k].state = record->final[k];
+  record->moved = 0;
+  return CAROM_OK;
+}
+
+carom_status carom_record_place(carom_record *record, int ball, double x, double y,
+                                carom_part *in_the_way) {
+  if (record == NULL)
+    return CAROM_ERROR_NULL;
+  carom_record_settle(record);
+  record->placed = ball;
+  record->place[0] = x;
+  record->place[1] = y;
+  return carom_place_ball(&record->table, record->balls, (int)record->count, ball, x, y,
+                          in_the_way);
+}
+
+/* A line that was read is applied to the game. */
+static bool apply(reader *in, int kind, int64_t shots, uint64_t hash) {
+  carom_record *record = in->record;
+  in->key = NULL;
+  switch (kind) {
+  case CAROM_RECORD_HEAD:
+    in->key = "format";
+    return record->format == 1 || wrong(in, "must be 1: a newer carom wrote this");
+  case CAROM_RECORD_BALLS:
+    record->moved = 0;
+    in->key = "list";
+    return record->count > 0 || wrong(in, "must have 1 to 32 balls");
+  case CAROM_RECORD_PLACE: {
+    const int ball =
+        record->placed >= 0 && record->placed < record->count ? (int)record->placed : -1;
+    const carom_status status =
+        carom_record_place(record, ball, record->place[0], record->place[1], NULL);
+    return status == CAROM_OK || wrong(in, carom_status_string(status));
+  }
+  case CAROM_RECORD_SHOT:
+  case CAROM_RECORD_CONTINUE:
+    record->pending = 1;
+    count_shot(record, record->recorded.hash);
+    return true;
+  case CAROM_RECORD_EVENT:
+    return record->before == record->after ||
+           wrong(in, "has states of other balls before and after");
+  case CAROM_RECORD_END: {
+    const bool same_shots = record->shots == shots, same_hash = record->hash == hash;
+    record->shots = shots;
+    record->hash = hash;
+    in->key = same_shots ? "hash" : "shots";
+    return (same_shots && same_hash) || wrong(in, "is not that of the lines above");
+  }
+  default:
+    return true;
+  }
+}
+
+/* The line, which is not blank, up to its kind. */
+static bool read_line(reader *in, int *kind) {
+  carom_record *record = in->record;
+  char key[KEY_TEXT];
+  if (!expect(in, '{', "is no line of a recording: it must be an object") || !read_key(in, key))
+    return false;
+  in->line = key;
+  for (*kind = 1; *kind < KINDS && strcmp(lines[*kind].key, key) != 0; ++*kind)
+    continue;
+  if (*kind == KINDS)
+    return wrong(in, "is no line of a recording");
+  const char *why = out_of_place(record, *kind);
+  if (why == NULL && record->pending == 1 && *kind != CAROM_RECORD_EVENT &&
+      *kind != CAROM_RECORD_END)
+    why = "comes before the shot above was played";
+  if (why != NULL)
+    return wrong(in, why);
+  in->line = lines[*kind].key;
+  const int64_t shots = record->shots;
+  const uint64_t hash = record->hash;
+  clear(record, lines[*kind].fields);
+  if (!read_object(in, lines[*kind].fields, (unsigned char *)record) ||
+      !expect(in, '}', "must be the only key of its line"))
+    return false;
+  skip_blanks(in);
+  if (in->at != in->end)
+    return wrong(in, "has more text behind its object");
+  return apply(in, *kind, shots, hash);
+}
+
+carom_status carom_record_read(carom_record *record, const char *line, size_t size) {
+  if (record == NULL || line == NULL)
+    return CAROM_ERROR_NULL;
+  reader in = {.record = record, .at = line, .end = line + size};
+  int kind = CAROM_RECORD_END;
+  record->line++;
+  skip_blanks(&in);
+  if (in.at == in.end)
+    return CAROM_OK;
+  const bool good = read_line(&in, &kind);
+  record->kind = good ? kind : CAROM_RECORD_END; /* nothing is read behind what is wrong */
+  if (good && kind == CAROM_RECORD_HEAD && record->revision != carom_physics_revision()) {
+    record->kind = CAROM_RECORD_END;
+    return CAROM_ERROR_REVISION;
+  }
+  return good ? CAROM_OK : CAROM_ERROR_RECORD;
+}
+
+/* ---- Playing --------------------------------------------------------------------------------- */
+
+static bool stops(const carom_shot_options *o) {
+  return o->time_most > 0.0 || o->stop_at != 0 || o->first_of != 0 || o->events_most != 0;
+}
+
+carom_status carom_record_play(carom_record *record, carom_record_kind kind, carom_shot *wanted) {
+  static const carom_shot none = {0};
+  enum { UNTOUCHED = -1 }; /* a label that no ball has */
+  if (record == NULL)
+    return CAROM_ERROR_NULL;
+  const bool goes = kind == CAROM_RECORD_CONTINUE;
+  if ((!goes && kind != CAROM_RECORD_SHOT) || record->count < 1 ||
+      record->count > CAROM_BALLS_MOST || (goes && record->moved == 0)) {
+    reader in = {.record = record};
+    wrong(&in, "there is no shot to be played");
+    return CAROM_ERROR_RECORD;
+  }
+  carom_shot local = none, *played = wanted != NULL ? wanted : &local;
+  carom_shot_options options = record->options;
+  options.plain = 1;
+  options.threads = 0;
+
+  /* where it begins, and what it leaves; the state of a stop costs as much as a short shot */
+  const carom_ball_state first = record->final[0];
+  if (!goes)
+    carom_record_settle(record);
+  else {
+    played->count = record->played.events;
+    played->time = record->played.time;
+  }
+  played->final = record->final;
+  played->facts = &record->facts;
+  played->state = goes || stops(&options) ? &record->state : NULL;
+  if (played->state == NULL)
+    record->state.opaque[0] = 0;
+  record->final[0].label = UNTOUCHED;
+  const int count = (int)record->count;
+  const carom_status status =
+      goes ? carom_shot_continue(&record->table, record->balls, count, &options, played)
+           : carom_shoot(&record->table, record->balls, count, &record->cue, &options, played);
+  if (record->final[0].label == UNTOUCHED) { /* nothing was played */
+    record->final[0] = first;
+    return status;
+  }
+
+  /* how it ended, as 3 words and 10 of each ball */
+  record->played = (carom_record_end){status, played->count, played->time, 0};
+  uint64_t hash = carom_fingerprint(0, &record->played, 3 * sizeof(uint64_t));
+  hash = carom_fingerprint(hash, record->final, (size_t)count * sizeof *record->final);
+  record->played.hash = hash;
+  record->moved = 1;
+  record->pending = 2;
+  record->kind = kind;
+  return status;
+}
+
+/* ---- Writing --------------------------------------------------------------------------------- */
+
+typedef struct writer {
+  char *at, *end; /* equal where the room is too small, or something cannot be written */
+} writer;
+
+static void write_text(writer *out, const char *text) {
+  const size_t size = strlen(text), room = (size_t)(out->end - out->at),
+               n = size < room ? size : room;
+  memcpy(out->at, text, n);
+  out->at += n;
+}
+
+static void write_value(writer *out, const field *f, const unsigned char *from) {
+  char text[CAROM_NUMBER_TEXT];
+  if (f->type == HASH) {
+    uint64_t hash;
+    memcpy(&hash, from, sizeof hash);
+    text[0] = text[17] = '"';
+    for (int k = 0; k < 16; k++)
+      text[1 + k] = "0123456789abcdef"[hash >> (60 - 4 * k) & 15];
+    text[18] = '\0';
+  } else {
+    double x = 0.0;
+    int64_t whole = 0;
+    int32_t half = 0;
+    if (f->type == DOUBLE)
+      memcpy(&x, from, sizeof x);
+    else if (f->type == INT64)
+      memcpy(&whole, from, sizeof whole);
+    else
+      memcpy(&half, from, sizeof half);
+    if (f->type != DOUBLE) /* -0 stays */
+      x = (double)(whole + half);
+    if (!(x - x == 0.0)) /* JSON has no such number */
+      out->at = out->end;
+    text[carom_number_write(x, text)] = '\0';
+  }
+  write_text(out, text);
+}
+
+static void write_object(writer *out, const field *fields, const unsigned char *object,
+                         const unsigned char *before);
+
+static void write_list(writer *out, const field *f, const unsigned char *object, int64_t n) {
+  static const unsigned char nothing[sizeof(carom_shot_ball)] = {0};
+  write_text(out, "[");
+  for (int64_t k = 0; k < n; k++) {
+    const unsigned char *at = object + f->at + (size_t)k * f->size;
+    write_text(out, k == 0 ? "" : ",");
+    write_object(out, f->of, at, k == 0 ? nothing : at - f->size);
+  }
+  write_text(out, "]");
+}
+
+/* The fields that are not as in `before`, or where that is NULL not all 0. */
+static void write_object(writer *out, const field *fields, const unsigned char *object,
+                         const unsigned char *before) {
+  static const unsigned char zeros[4 * sizeof(double)] = {0};
+  bool first = true;
+  write_text(out, "{");
+  for (const field *f = fields; f->key != NULL; f++) {
+    int64_t n = f->count;
+    if (f->type == LIST)
+      memcpy(&n, object + f->counted, sizeof n);
+    if (n < 0 || n > f->count) {
+      out->at = out->end;
+      return;
+    }
+    if (f->type == LIST
+            ? n == 0
+            : !f->always && memcmp(object + f->at, before != NULL ? before + f->at : zeros,
+                                   (size_t)n * size_of(f)) == 0)
+      continue;
+    write_text(out, first ? "\"" : ",\"");
+    write_text(out, f->key);
+    write_text(out, "\":");
+    first = false;
+    if (f->type == LIST) {
+      write_list(out, f, object, n);
+      continue;
+    }
+    for (int k = 0; k < n; k++) {
+      write_text(out, n == 1 ? "" : k == 0 ? "[" : ",");
+      write_value(out, f, object + f->at + (size_t)k * size_of(f));
+    }
+    write_text(out, n == 1 ? "" : "]");
+  }
+  write_text(out, "}");
+}
+
+size_t carom_record_write(carom_record *record, carom_record_kind kind, char *text, size_t room) {
+  if (record == NULL || text == NULL || room == 0 || kind <= CAROM_RECORD_BLANK ||
+      (int)kind >= KINDS)
+    return 0;
+  const bool is_shot = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
+  if (out_of_place(record, kind) != NULL ||
+      (is_shot && (record->pending != 2 || record->kind != kind)))
+    return 0;
+  if (kind == CAROM_RECORD_HEAD) {
+    record->format = 1;
+    record->revision = carom_physics_revision();
+  }
+  if (is_shot)
+    record->recorded = record->played;
+  writer out = {text, text + room};
+  write_text(&out, "{\"");
+  write_text(&out, lines[kind].key);
+  write_text(&out, "\":");
+  write_object(&out, lines[kind].fields, (const unsigned char *)record, NULL);
+  write_text(&out, "}\n");
+  if (out.at == out.end) {
+    record->format = kind == CAROM_RECORD_HEAD ? 0 : record->format;
+    return 0;
+  }
+  *out.at = '\0';
+  if (is_shot) {
+    record->pending = 0;
+    count_shot(record, record->played.hash);
+  }
+  record->kind = kind;
+  record->line++;
+  return (size_t)(out.at - text);
+}

@@ -1,0 +1,296 @@
+/* Recordings: numbers as text, a game written and played again, and every way in which a
+ * recording is refused. */
+#include "carom_record.h"
+#include "record/number.h"
+#include "support.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROOM = 400000, EVENTS = 600 };
+
+static carom_record game, again;
+static char text[ROOM];
+static size_t size;
+static carom_event events[EVENTS];
+
+/* ---- Numbers */
+
+static void round_trip(double x) {
+  char number[CAROM_NUMBER_TEXT];
+  const int n = carom_number_write(x, number);
+  double y = 0.0;
+  const char *why, *end = carom_number_read(number, number + n, &y, &why);
+  ck_assert_msg(end == number + n && memcmp(&x, &y, sizeof x) == 0, "%a is written %.*s", x, n,
+                number);
+  /* as the C library reads it, too */
+  const int quoted = number[0] == '"';
+  number[n - quoted] = '\0';
+  ck_assert_msg(strtod(number + quoted, NULL) == x, "%a is written %s", x, number);
+}
+
+TEST(numbers_come_back) {
+  static const double given[] = {0.0,     -0.0,    1.0,    -1.0,    0.1,       0.028575, 1e15,
+                                 1e22,    1e-22,   1e300,  -1e-300, 5e-324,    DBL_MAX,  DBL_MIN,
+                                 1.0 / 3, 123.456, 2e-320, 0x1p53,  0x1p53 + 2};
+  random_source r = {test_seed()};
+  for (size_t k = 0; k < sizeof given / sizeof *given; k++)
+    round_trip(given[k]);
+  for (int k = 0; k < FEWER(200000); k++) {
+    /* any bits; and what people type */
+    uint64_t bits = 0;
+    for (int part = 0; part < 4; part++)
+      bits = bits << 16 | (uint64_t)random_between(&r, 0.0, 65536.0);
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    if (isfinite(x))
+      round_trip(x);
+    const int places = (int)random_between(&r, 0.0, 9.0);
+    round_trip(rint(random_between(&r, -1e6, 1e6)) / pow(10.0, places));
+  }
+  char number[CAROM_NUMBER_TEXT];
+  ck_assert_int_eq(carom_number_write(0.028575, number), 8);
+  ck_assert_int_eq(memcmp(number, "0.028575", 8), 0);
+}
+
+TEST(numbers_that_are_refused) {
+  static const char *const bad[] = {"",
+                                    "-",
+                                    "01",
+                                    "1.",
+                                    ".5",
+                                    "1e",
+                                    "1e99999",
+                                    "nan",
+                                    "inf",
+                                    "+1",
+                                    "1e23",
+                                    "1e-23",
+                                    "\"0x1\"",
+                                    "\"0x2p+0\"",
+                                    "\"0x1p+1024\"",
+                                    "\"0x1.p+0\"",
+                                    "\"0x0p+0\"",
+                                    "\"0x1.00000000000001p+0\"",
+                                    "\"0x1p+1",
+                                    "\"",
+                                    "0.12345678901234567"};
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    double x;
+    const char *why = NULL, *end = bad[k] + strlen(bad[k]);
+    ck_assert_msg(carom_number_read(bad[k], end, &x, &why) != end, "%s is read", bad[k]);
+  }
+}
+
+/* ---- A game, written */
+
+static void put(carom_record_kind kind) {
+  const size_t written = carom_record_write(&game, kind, text + size, ROOM - size);
+  ck_assert_msg(written > 0, "a line of kind %d", (int)kind);
+  size += written;
+}
+
+static void play(carom_record_kind kind, carom_status expected) {
+  carom_shot shot = {.events = events, .room = EVENTS};
+  ck_assert_int_eq(carom_record_play(&game, kind, &shot), expected);
+  put(kind);
+  for (int64_t k = 0; kind == CAROM_RECORD_SHOT && k < shot.count; k++) {
+    game.event = events[k];
+    game.before = game.after = k % 3 == 0 ? 0 : 1 + (events[k].type == CAROM_EVENT_BALL_BALL);
+    put(CAROM_RECORD_EVENT);
+  }
+}
+
+/* A break that is stopped and goes on, ball in hand, a shot with other models, a layout changed by
+ * hand. */
+static void write_game(void) {
+  memset(&game, 0, sizeof game);
+  size = 0;
+  carom_table_make(CAROM_TABLE_POOL_9FT, &game.table);
+  game.count = carom_rack_size(CAROM_RACK_NINEBALL);
+  carom_rack(CAROM_RACK_NINEBALL, &game.table, 1e-4, 5, game.balls, CAROM_BALLS_MOST);
+  put(CAROM_RECORD_HEAD);
+  put(CAROM_RECORD_TABLE);
+  put(CAROM_RECORD_BALLS);
+  game.cue = carom_cue_of(CAROM_GAME_POOL);
+  game.cue.speed = 7.3;
+  game.cue.phi = 90.2;
+  game.options.time_most = 0.5;
+  play(CAROM_RECORD_SHOT, CAROM_STOPPED_AT_TIME);
+  game.options.time_most = 1.0;
+  play(CAROM_RECORD_CONTINUE, CAROM_STOPPED_AT_TIME);
+  game.options.time_most = 0.0;
+  play(CAROM_RECORD_CONTINUE, CAROM_OK);
+  ck_assert_int_eq(carom_record_place(&game, 0, 0.6, 0.5, NULL), CAROM_OK);
+  put(CAROM_RECORD_PLACE);
+  game.options.cushion_model = CAROM_SHOT_CUSHION_STRONGE;
+  put(CAROM_RECORD_OPTIONS);
+  game.cue.phi = 1.0 / 3.0;
+  play(CAROM_RECORD_SHOT, CAROM_OK);
+  carom_record_settle(&game);
+  game.balls[3].kind.mass = 0.18;
+  game.balls[0].state.w[2] = 3.0;
+  put(CAROM_RECORD_BALLS);
+  play(CAROM_RECORD_SHOT, CAROM_OK);
+  put(CAROM_RECORD_END);
+}
+
+/* Reads and plays it; returns how many shots have the hash that was recorded, or a status. */
+static int replay(const char *from, size_t length) {
+  int same = 0;
+  memset(&again, 0, sizeof again);
+  for (const char *line = from; line < from + length;) {
+    const char *next = (const char *)memchr(line, '\n', (size_t)(from + length - line));
+    next = next == NULL ? from + length : next + 1;
+    const carom_status status = carom_record_read(&again, line, (size_t)(next - line));
+    if (status < 0)
+      return status;
+    line = next;
+    if (again.kind != CAROM_RECORD_SHOT && again.kind != CAROM_RECORD_CONTINUE)
+      continue;
+    carom_shot shot = {.events = events, .room = EVENTS};
+    carom_record_play(&again, (carom_record_kind)again.kind, &shot);
+    same += again.pending == 2 && again.played.hash == again.recorded.hash;
+  }
+  return same;
+}
+
+TEST(a_game_played_again) {
+  write_game();
+  ck_assert_int_eq(replay(text, size), 5);
+  ck_assert_int_eq(again.kind, CAROM_RECORD_END);
+  ck_assert_int_eq(again.shots, 5);
+  ck_assert_int_eq(again.line, game.line);
+  ck_assert_int_eq(memcmp(again.final, game.final, sizeof game.final), 0);
+  ck_assert_int_eq(memcmp(again.balls, game.balls, sizeof game.balls), 0);
+  ck_assert_int_eq(memcmp(&again.facts, &game.facts, sizeof game.facts), 0);
+}
+
+/* The stopped break ends with the bits of the unbroken one. */
+TEST(stops_change_no_bit) {
+  write_game();
+  static carom_shot_ball balls[10];
+  carom_ball_state final[10];
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  cue.speed = 7.3;
+  cue.phi = 90.2;
+  carom_rack(CAROM_RACK_NINEBALL, &game.table, 1e-4, 5, balls, 10);
+  const carom_shot_options plain = {.plain = 1};
+  carom_shot whole = {.final = final};
+  ck_assert_int_eq(carom_shoot(&game.table, balls, 10, &cue, &plain, &whole), CAROM_OK);
+  memset(&again, 0, sizeof again);
+  again.table = game.table;
+  again.count = 10;
+  memcpy(again.balls, balls, sizeof balls);
+  again.cue = cue;
+  again.options.time_most = 0.25;
+  ck_assert_int_eq(carom_record_play(&again, CAROM_RECORD_SHOT, NULL), CAROM_STOPPED_AT_TIME);
+  again.options.time_most = 0.0;
+  ck_assert_int_eq(carom_record_play(&again, CAROM_RECORD_CONTINUE, NULL), CAROM_OK);
+  ck_assert_int_eq(memcmp(again.final, final, sizeof final), 0);
+  ck_assert_int_eq(again.played.events, whole.count);
+}
+
+/* ---- What is refused */
+
+/* One change of the text: what it becomes, and a part of what is said about it. */
+static void refused(const char *what, const char *with, const char *said) {
+  static char changed[ROOM];
+  char *place = strstr(text, what);
+  ck_assert_msg(place != NULL, "%s is not in the recording", what);
+  const int n = snprintf(changed, sizeof changed, "%.*s%s%s", (int)(place - text), text, with,
+                         place + strlen(what));
+  ck_assert_int_lt(n, (int)sizeof changed);
+  const int status = replay(changed, (size_t)n);
+  ck_assert_msg(status == CAROM_ERROR_RECORD, "%s for %s: %d", with, what, status);
+  ck_assert_msg(strstr(again.fault, said) != NULL, "%s: '%s', not '%s'", with, again.fault, said);
+}
+
+TEST(lines_that_are_refused) {
+  write_game();
+  refused("\"format\":1", "\"format\":2", "recording.format must be 1");
+  refused("\"width\":", "\"widht\":", "table.widht is no key of the format");
+  refused("\"width\":1.27,", "", "table.width is missing");
+  refused("\"width\":1.27", "\"width\":1.27,\"width\":1.27", "table.width comes twice");
+  refused("\"width\":1.27", "\"width\":\"wide\"", "table.width is no hexadecimal number");
+  refused("\"width\":1.27", "\"width\":nan", "table.width must be a number");
+  refused("\"width\":1.27", "\"width\":0.1234567890123456789", "15, and 22 places");
+  refused("\"side\":1", "\"side\":1.5", "side must be a whole number");
+  refused("{\"p\":[", "{\"p\":[0,", "table.rails[0].p has too many numbers");
+  refused("\"hash\":\"", "\"hash\":\"g", "shot.hash must be 16 hexadecimal digits");
+  refused("{\"balls\"", "{\"bals\"", "bals is no line of a recording");
+  refused("{\"recording\"", "[\"recording\"", "must be an object");
+  refused("{\"place\":{\"ball\":0", "{\"place\":{\"ball\":10", "place ");
+  refused("{\"balls\":", "{\"end\":{\"shots\":0,\"hash\":\"0000000000000000\"}}\n{\"balls\":",
+          "behind the end");
+  refused("{\"table\":", "{\"event\":{\"time\":0,\"type\":1,\"a\":0}}\n{\"table\":",
+          "must follow a shot");
+  refused("\"shots\":5", "\"shots\":4", "end.shots is not that of the lines above");
+
+  /* a line less, and a line cut off: the shot's hashes are those of a chain */
+  char *line = strstr(text, "{\"continue\":"), *next = strchr(line, '\n') + 1;
+  static char shorter[ROOM];
+  int n = snprintf(shorter, sizeof shorter, "%.*s%s", (int)(line - text), text, next);
+  ck_assert_int_eq(replay(shorter, (size_t)n), CAROM_ERROR_RECORD);
+  ck_assert_int_eq(replay(text, size - 30), CAROM_ERROR_RECORD);
+  ck_assert_ptr_nonnull(strstr(again.fault, "cut off"));
+  ck_assert_int_lt(replay(text, (size_t)(next - text)), 5);
+  ck_assert_int_ne(again.kind, CAROM_RECORD_END);
+
+  /* another revision; NULL; a shot that was not played, or cannot be */
+  char head[100];
+  n = snprintf(head, sizeof head, "{\"recording\":{\"format\":1,\"revision\":%d}}",
+               carom_physics_revision() + 1);
+  ck_assert_int_eq(replay(head, (size_t)n), CAROM_ERROR_REVISION);
+  ck_assert_int_eq(again.revision, carom_physics_revision() + 1);
+  ck_assert_int_eq(carom_record_read(&again, "\n", 1), CAROM_OK);
+  ck_assert_int_eq(carom_record_read(&again, "{", 1), CAROM_ERROR_RECORD);
+  ck_assert_int_eq(carom_record_read(NULL, "{}", 2), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_record_play(&again, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_RECORD);
+  ck_assert_int_eq(carom_record_play(NULL, CAROM_RECORD_SHOT, NULL), CAROM_ERROR_NULL);
+  ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_SHOT, text, ROOM), 0);
+  memset(&game, 0, sizeof game);
+  ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_TABLE, text, ROOM), 0);
+  ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_HEAD, text, 10), 0);
+  ck_assert_uint_gt(carom_record_write(&game, CAROM_RECORD_HEAD, text, ROOM), 10);
+  game.table.width = NAN;
+  ck_assert_uint_eq(carom_record_write(&game, CAROM_RECORD_TABLE, text, ROOM), 0);
+}
+
+/* A stroke that was changed is another shot, and so are a table and a constant. */
+TEST(forged_lines_have_other_bits) {
+  static const char *const changes[][2] = {{"\"speed\":7.3", "\"speed\":7.31"},
+                                           {"\"mass\":0.1", "\"mass\":0.11"},
+                                           {"\"hash\":\"", "\"hash\":\""}};
+  static char changed[ROOM];
+  write_game();
+  for (int k = 0; k < 3; k++) {
+    char *place = strstr(text, changes[k][0]);
+    ck_assert_ptr_nonnull(place);
+    const size_t at = (size_t)(place - text), old = strlen(changes[k][0]);
+    int n =
+        snprintf(changed, sizeof changed, "%.*s%s%s", (int)at, text, changes[k][1], place + old);
+    if (k == 2)
+      changed[at + old] = changed[at + old] == '0' ? '1' : '0';
+    const int same = replay(changed, (size_t)n);
+    ck_assert_msg(same < 5, "%s: %d", changes[k][1], same);
+  }
+}
+
+/* Random bytes in a good recording: no crash, and no other game with the same end. */
+TEST(random_damage) {
+  static const char bytes[] = "0123456789{}[]\",:.-ex \nabp";
+  static char changed[ROOM];
+  random_source r = {test_seed() + 1};
+  write_game();
+  for (int k = 0; k < FEWER(400); k++) {
+    memcpy(changed, text, size);
+    const size_t at = (size_t)random_between(&r, 0.0, (double)size - 1.0),
+                 cut = k % 5 == 0 ? at : size;
+    changed[at] = bytes[(size_t)random_between(&r, 0.0, (double)sizeof bytes - 1.5)];
+    replay(changed, cut);
+  }
+}
