@@ -56,9 +56,12 @@ _SPLITS, _HALF_LEAST = 2, 4  # in halves, for the errors; fewest shots of a half
 
 
 def damped(square: Doubles) -> Doubles:
-    """J_p^T W J_p, (..., 6, 6), made so much larger that it can be inverted where no sample tells a number of the strike."""
+    """J_p^T W J_p, (..., 6, 6), made so much larger that it can be inverted where no sample tells a number of the strike.
+
+    More would hold the strikes back, whose numbers depend on each other: constants then creep along a valley, and stop in it.
+    """
     diagonal, larger = np.arange(6), square.copy()
-    larger[..., diagonal, diagonal] = square[..., diagonal, diagonal] * (1.0 + 1e-3) + 1e-9
+    larger[..., diagonal, diagonal] = square[..., diagonal, diagonal] * (1.0 + 1e-8) + 1e-12
     return larger
 
 
@@ -123,7 +126,7 @@ class Search:
             new, best = self.cost(values, best, 4)
             if new < cost:
                 self.values, self.strikes = values, best
-                return new, max(0.2 * damping, 1e-4)
+                return new, max(0.2 * damping, 1e-8)
             damping *= 6.0
         return cost, damping
 
@@ -163,7 +166,7 @@ class Search:
         for _ in range(_STEPS):
             before = cost
             cost, damping = self.step(damping, cost)
-            if cost > before * (1.0 - 1e-3):
+            if cost > before * (1.0 - 1e-3) and (cost == before or damping < 1e-5):
                 break
         return [self.values.tolist(), self.strikes.tolist(), self.middle, self.prior_cost]
 
