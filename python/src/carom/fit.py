@@ -127,7 +127,8 @@ def fit(
     train : sequence of int, optional
         The shots, from 0, that constants are fitted to; all without. The others then tell how well the constants predict.
     seed, threads : int
-        Of what is drawn, and most threads: 0 is the calling one alone, -1 all processors. Of one environment the bits depend on the seed alone, not on the threads.
+        Of what is drawn, and most threads: 0 is the calling one alone, -1 all processors. In one environment the bits depend on the seed
+        alone.
     progress : callable(what, part), optional
         Is told the name of the work and the part of it that is done, 0 to 1.
     state : path, optional
