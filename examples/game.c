@@ -45,13 +45,6 @@ static void begin(game *g, uint64_t seed) {
 
 /* ---- A shot */
 
-/* Puts a ball on the long string, as near to y as it is free, or down the table from there. */
-static void put(game *g, int ball, double y) {
-  while (carom_place_ball(&g->table, g->balls, BALLS, ball, 0.5 * g->table.width, y, NULL) !=
-         CAROM_OK)
-    y -= 1e-3;
-}
-
 /* Plays a move and applies the rules. False where the move cannot be played. */
 static bool play(game *g, const move *m) {
   if (g->in_hand &&
@@ -73,7 +66,7 @@ static bool play(game *g, const move *m) {
   g->in_hand = turn.leave != CAROM_LEAVE_AFTER;
   for (int k = 1; k < BALLS; k++)
     if (turn.spot >> k & 1)
-      put(g, k, 0.75 * g->table.length);
+      carom_spot_ball(&g->table, g->balls, BALLS, k);
   if (turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE)
     g->winner = turn.is == CAROM_TURN_WIN ? g->player : 1 - g->player;
   else if (turn.is == CAROM_TURN_PASS)

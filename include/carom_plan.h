@@ -79,19 +79,41 @@ typedef enum carom_leave {
   CAROM_LEAVE_KITCHEN = 3 /* the same behind the head string; carom_plan() values it as HAND */
 } carom_leave;
 
+/* Why a shot is a foul: the first of these that holds. */
+typedef enum carom_foul {
+  CAROM_FOUL_NONE = 0,     /* it is none */
+  CAROM_FOUL_CUE_BALL = 1, /* the cue ball fell or left the table */
+  CAROM_FOUL_NO_BALL = 2,  /* the cue ball met no ball */
+  CAROM_FOUL_FIRST = 3,    /* it met a ball first that is not on */
+  CAROM_FOUL_OFF = 4,      /* a ball left the table */
+  CAROM_FOUL_CUSHION = 5,  /* nothing fell, and nothing met a cushion after the first contact */
+  CAROM_FOUL_BREAK = 6,    /* a break that potted nothing drove fewer than four balls to cushions */
+  CAROM_FOUL_OTHER = 7     /* by a rule of the caller's */
+} carom_foul;
+
+/* Why, in words, such as "the cue ball met no ball"; "" for NONE and for a value not listed. */
+CAROM_API const char *carom_foul_string(int foul);
+
 typedef struct carom_turn {
   carom_turn_is is;
   carom_leave leave;
-  int32_t foul;  /* 1 for a foul, else 0. */
+  int32_t foul;  /* a carom_foul; 0 for a legal shot. */
   uint32_t spot; /* balls that are put back on the foot spot, as a set. */
   double points; /* of the shot; counts without an opponent only. */
 } carom_turn;
 
-/* The ball and the pocket that were called. ball -1: none, a safety. Rules without calls do not
- * read it. */
+/* The ball and the pocket that were called. ball -1: none, a safety. Rules without calls read the
+ * other two values of it only: */
 typedef struct carom_call {
   int32_t ball, pocket;
 } carom_call;
+enum {
+  CAROM_CALL_PUSH = -2, /* the stroke is a push-out */
+  CAROM_CALL_PASS = -3  /* the player does not play: the other has the table as it is */
+};
+
+/* What a player may do besides a stroke by the rules; a sum. */
+typedef enum carom_may { CAROM_MAY_PASS = 1, CAROM_MAY_PUSH = 2 } carom_may;
 
 /* Whose balls are to be potted before the game is won. */
 typedef enum carom_race {
@@ -108,9 +130,16 @@ typedef enum carom_race {
 typedef uint32_t carom_rules_on(const uint64_t *user, uint32_t in_play);
 
 /* carom_rules_judge: what a shot amounts to. `in_play` are the balls before it; cue_ball is the
- * index of the cue ball. Facts in which no ball was met stand for a shot that ended in an error. */
+ * index of the cue ball. Facts in which no ball was met stand for a shot that ended in an error,
+ * and for one that was passed. */
 typedef carom_turn carom_rules_judge(uint64_t *user, uint32_t in_play, int cue_ball,
                                      const carom_facts *facts, carom_call call);
+
+/* carom_rules_may: the sum of the carom_may of the player at the table. */
+typedef uint32_t carom_rules_may(const uint64_t *user);
+
+/* carom_rules_pockets: the pockets in which balls count for the player at the table, as a set. */
+typedef uint32_t carom_rules_pockets(const uint64_t *user);
 
 /* carom_rules_left: how many balls the player at the table, left[0], and the other one, left[1],
  * have to pot to win. */
@@ -131,26 +160,30 @@ typedef struct carom_plan_rules {
   carom_rules_judge *judge;
   carom_rules_left *left;
   carom_rules_value *value; /* NULL: an estimate from the best two pots and from the balls left. */
-  int32_t race;             /* a carom_race. */
-  int32_t calls;            /* 1: shots are called. Then a candidate calls the pot that it makes
+  carom_rules_may *may;     /* NULL: he can but play. */
+  carom_rules_pockets *pockets; /* NULL: all. */
+  int32_t race;                 /* a carom_race. */
+  int32_t calls;                /* 1: shots are called. Then a candidate calls the pot that it makes
                                without errors. */
-  int32_t first_decides;    /* 1: a shot whose first contact is not with a ball of on() is a
+  int32_t first_decides;        /* 1: a shot whose first contact is not with a ball of on() is a
                                foul, whatever else happens. Such shots are not played to their
                                end. */
-  int32_t unused;           /* must be 0. */
+  int32_t unused;               /* must be 0. */
 } carom_plan_rules;
 
 /* Rules that are built in. A ball's index is its number, and the cue ball is ball 0.
  *
- * EIGHTBALL and NINEBALL are the World Standardized Rules of the WPA (2016), with these
- * simplifications: no push-out, no count of successive fouls, no choice of the opponent after a
- * break that is not legal (he has ball in hand). */
+ * EIGHTBALL and NINEBALL are the World Standardized Rules of the WPA (2016), but for a break of
+ * eight-ball that is not legal: the opponent has ball in hand, and no choice of a new rack. */
 typedef enum carom_rules_kind {
   CAROM_RULES_EIGHTBALL = 0, /* 15 balls. user[0]: 1 if the player at the table has the solids (1
                                 to 7), 2 the stripes (9 to 15), 0 while the table is open.
                                 user[1]: 1 before the break. Ball and pocket are called. */
-  CAROM_RULES_NINEBALL = 1,  /* 9 balls. user[1]: 1 before the break. The nine wins; without it,
-                                the highest ball. */
+  CAROM_RULES_NINEBALL = 1,  /* 9 balls. user[1]: 1 before the break. user[2], user[3]: fouls of
+                                the player and of the other in their last successive strokes; three
+                                lose. user[4]: 1 just after a break without a foul, when the player
+                                may push out; 2 after a push-out, when he may pass. The nine wins;
+                                without it, the highest ball. */
   CAROM_RULES_POTTING = 2    /* a drill for one: any ball may be potted, until one misses or
                                 fouls. */
 } carom_rules_kind;
@@ -160,6 +193,12 @@ CAROM_API const char *carom_rules_name(carom_rules_kind kind);
 
 /* The rules, with the state after the break; those of EIGHTBALL for a value not listed. */
 CAROM_API carom_plan_rules carom_plan_rules_of(carom_rules_kind kind);
+
+/* Puts balls[ball] on the foot spot, or as near to it as there is room on the long string: behind
+ * it, else before it. CAROM_OK, CAROM_ERROR_OFF_TABLE where there is none, or an error of
+ * carom_place_ball(). */
+CAROM_API carom_status carom_spot_ball(const carom_table *table, carom_shot_ball *balls, int count,
+                                       int ball);
 
 /* ---- Plans ----------------------------------------------------------------------------------- */
 
@@ -186,11 +225,13 @@ typedef struct carom_plan_options {
 
 /* What a candidate is. */
 typedef enum carom_plan_kind {
-  CAROM_PLAN_POT = 0,  /* a direct pot */
-  CAROM_PLAN_SCAN = 1, /* found by the scan: a bank, a kick, a combination, a carom, a safety, a
+  CAROM_PLAN_POT = 0,   /* a direct pot */
+  CAROM_PLAN_SCAN = 1,  /* found by the scan: a bank, a kick, a combination, a carom, a safety, a
                           break */
-  CAROM_PLAN_FOUL = 2, /* no shot without a foul was found; this one is gentle */
-  CAROM_PLAN_GIVEN = 3 /* the caller's, of carom_plan_try() */
+  CAROM_PLAN_FOUL = 2,  /* no shot without a foul was found; this one is gentle */
+  CAROM_PLAN_GIVEN = 3, /* the caller's, of carom_plan_try() */
+  CAROM_PLAN_PUSH = 4,  /* a push-out, where the rules allow one */
+  CAROM_PLAN_PASS = 5   /* not to play, where the rules allow that; the stroke says nothing */
 } carom_plan_kind;
 
 typedef struct carom_choice {
@@ -198,7 +239,8 @@ typedef struct carom_choice {
   double place[2];      /* where the cue ball lies or is put, m. */
   int32_t kind;         /* a carom_plan_kind. */
   int32_t ball;         /* the ball that falls without errors and keeps the turn, -1 if none
-                           does; of a foul -1. */
+                           does; of a foul -1; CAROM_CALL_PUSH and _PASS of those kinds. So ball
+                           and pocket are the call. */
   int32_t pocket;       /* and its pocket, or -1. */
   int32_t cushions;     /* impacts of that ball on cushions, without errors. */
   double value;         /* chance to win; without an opponent, the share of the balls that are

@@ -80,7 +80,7 @@ typedef struct plan {
   carom_plan_options options;
   carom_view view;
   carom_player player;
-  uint32_t in_play, on;
+  uint32_t in_play, on, may, pockets;
   double foul_value;                        /* of a foul at the first contact */
   int32_t left;                             /* balls before the shot */
   candidate *found;                         /* all candidates, the best first after a round */
@@ -128,21 +128,21 @@ static carom_call call_of(const plan *of, const carom_facts *facts) {
   carom_call call = {-1, -1};
   const uint32_t down = facts->down & of->on;
   for (int k = 0; down >> k != 0; k++)
-    if ((down >> k & 1) && (call.ball < 0 || facts->pocket_time[k] < facts->pocket_time[call.ball]))
+    if ((down >> k & 1) && (of->pockets >> facts->pocket[k] & 1) &&
+        (call.ball < 0 || facts->pocket_time[k] < facts->pocket_time[call.ball]))
       call = (carom_call){k, facts->pocket[k]};
   return call;
 }
-
-/* A shot that ended in an error tells nothing: a foul. */
-static const carom_facts nothing = {.first = {-1, -1}};
 
 /* The worth of a shot for the player: its turn, and the value of the layout that it leaves.
  * `final` is changed. */
 static outcome judge(const plan *of, const carom_facts *facts, carom_ball_state *final,
                      carom_status status, const candidate *c, bool errors) {
   const carom_plan_rules *rules = of->job.rules;
-  facts = status < 0 ? &nothing : facts;
-  const carom_call call = errors ? (carom_call){c->ball, c->pocket} : call_of(of, facts);
+  facts = status < 0 ? &carom_no_facts : facts; /* an error tells nothing: a foul */
+  const carom_call call = c->kind == CAROM_PLAN_PUSH ? (carom_call){CAROM_CALL_PUSH, -1}
+                          : errors                   ? (carom_call){c->ball, c->pocket}
+                                                     : call_of(of, facts);
   uint64_t user[8];
   memcpy(user, rules->user, sizeof user);
   const carom_turn turn = rules->judge(user, of->in_play, of->view.cue_ball, facts, call);
@@ -153,6 +153,8 @@ static outcome judge(const plan *of, const carom_facts *facts, carom_ball_state 
                .first = (int8_t)facts->first[0]};
 
   /* what it calls */
+  if (call.ball == CAROM_CALL_PUSH)
+    o.ball = CAROM_CALL_PUSH;
   if (call.ball >= 0 && (turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN)) {
     o.ball = (int8_t)call.ball;
     o.pocket = (int8_t)call.pocket;
@@ -298,6 +300,8 @@ static void add_pots(plan *of, int64_t most) {
     of->state[k] = of->job.balls[k].state;
   for (int k = 0; k < of->view.count; k++)
     for (int p = 0; p < of->view.pockets && (of->on >> k & 1); p++) {
+      if (!(of->pockets >> p & 1))
+        continue;
       const carom_way w = carom_way_of(&of->view, of->state, of->in_play, k, p, 0, false);
       if (!(w.chance > 0.03))
         continue;
@@ -370,7 +374,8 @@ static void add_scan(plan *of, int64_t most) {
                   .phi = 360.0 * turn,
                   .a = within(tip[0], -of->player.tip_most, of->player.tip_most),
                   .b = within(tip[1], -of->player.tip_most, of->player.tip_most),
-                  .kind = CAROM_PLAN_SCAN});
+                  .kind = (of->may & CAROM_MAY_PUSH) && k % 2 == 1 ? CAROM_PLAN_PUSH
+                                                                   : CAROM_PLAN_SCAN});
     }
     const int64_t added = of->count - first;
     play(of, first, added, 1, 0);
@@ -378,7 +383,8 @@ static void add_scan(plan *of, int64_t most) {
     /* those that begin with a foul are dropped, and those beyond `most` */
     of->count = first;
     for (int64_t k = 0; k < added && of->count < end; k++)
-      if (of->outcome[k].first >= 0 && (of->on >> of->outcome[k].first & 1)) {
+      if (of->found[first + k].kind == CAROM_PLAN_PUSH ||
+          (of->outcome[k].first >= 0 && (of->on >> of->outcome[k].first & 1))) {
         candidate c = of->found[first + k];
         take(&c, &of->outcome[k]);
         add(of, c);
@@ -438,7 +444,7 @@ static int64_t first_round(plan *of, int64_t keep) {
   int64_t scanned = 0, good = 0;
   for (int64_t k = 0; k < n; k++) {
     candidate *c = &of->found[k];
-    const bool stays = c->kind != CAROM_PLAN_SCAN || scanned++ < (keep / 3 > 3 ? keep / 3 : 3);
+    const bool stays = c->kind == CAROM_PLAN_POT || scanned++ < (keep / 3 > 3 ? keep / 3 : 3);
     if (stays) {
       const candidate kept = *c;
       for (int64_t at = k; at > good; at--)
@@ -498,7 +504,7 @@ static carom_choice choice_of(const plan *of, const candidate *c) {
                        .keep = (double)c->keep / n,
                        .foul = (double)c->foul / n,
                        .lose = (double)c->lose / n,
-                       .seen = c->round > 0 ? c->seen : 0};
+                       .seen = c->round > 0 && c->kind != CAROM_PLAN_PASS ? c->seen : 0};
   made.cue.speed = c->speed;
   made.cue.phi = c->phi;
   made.cue.theta = c->theta;
@@ -618,7 +624,9 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   const int cue_ball = of->view.cue_ball;
   of->in_play = carom_in_play(of->state, of->view.count) | (in_hand ? UINT32_C(1) << cue_ball : 0);
   of->on = rules->on(rules->user, of->in_play) & of->in_play & ~(UINT32_C(1) << cue_ball);
-  of->shot.first_of = rules->first_decides ? of->on : 0;
+  of->may = rules->may != NULL ? rules->may(rules->user) : 0;
+  of->pockets = rules->pockets != NULL ? rules->pockets(rules->user) : ~UINT32_C(0);
+  of->shot.first_of = rules->first_decides && !(of->may & CAROM_MAY_PUSH) ? of->on : 0;
   int32_t left[2];
   rules->left(rules->user, of->in_play, left);
   of->left = left[0] > 1 ? left[0] : 1;
@@ -626,7 +634,8 @@ static carom_status begin(plan *of, const carom_plan_job *job, bool in_hand) {
   /* A foul at the first contact leaves about the layout that there is. */
   uint64_t user[8];
   memcpy(user, rules->user, sizeof user);
-  const carom_turn turn = rules->judge(user, of->in_play, cue_ball, &nothing, (carom_call){-1, -1});
+  const carom_turn turn =
+      rules->judge(user, of->in_play, cue_ball, &carom_no_facts, (carom_call){-1, -1});
   const bool hand = turn.leave == CAROM_LEAVE_HAND || turn.leave == CAROM_LEAVE_KITCHEN;
   of->foul_value = turn.is == CAROM_TURN_LOSE        ? 0.0
                    : rules->race == CAROM_RACE_ALONE ? 0.0
@@ -654,6 +663,26 @@ static void search(plan *of, int64_t shots) {
   halve(of, shots);
 }
 
+/* Not to play, as one more candidate: its worth is that of the layout to the other. */
+static void add_pass(plan *of) {
+  uint64_t user[8];
+  memcpy(user, of->job.rules->user, sizeof user);
+  for (int k = 0; k < of->view.count; k++)
+    of->state[k] = of->job.balls[k].state;
+  const carom_call call = {CAROM_CALL_PASS, -1};
+  of->job.rules->judge(user, of->in_play, of->view.cue_ball, &carom_no_facts, call);
+  const double value = 1.0 - carom_value_of(&of->view, user, of->state, 1, false);
+  add(of, (candidate){.sum = value,
+                      .squares = value * value,
+                      .seen = 1,
+                      .kind = CAROM_PLAN_PASS,
+                      .ball = CAROM_CALL_PASS,
+                      .pocket = -1,
+                      .round = of->found[0].round});
+  of->found[of->count - 1].order = -1; /* of shots that are worth as much, none is played */
+  sort(of->found, of->count);
+}
+
 /* ---- What callers have */
 
 static int give(const plan *of, carom_choice *choices, int room) {
@@ -671,6 +700,8 @@ carom_status carom_plan(const carom_plan_job *job, carom_choice *choices, int ro
   if (bad != CAROM_OK)
     return bad;
   search(of, shots_of(&of->options));
+  if (of->may & CAROM_MAY_PASS)
+    add_pass(of);
   *found = give(of, choices, room);
   return CAROM_OK;
 }

@@ -38,6 +38,9 @@ typedef struct carom_way {
                        range, rad */
 } carom_way;
 
+/* Of a shot in error, and of none: no ball was met. */
+extern const carom_facts carom_no_facts;
+
 /* value.c */
 void carom_view_make(carom_view *view, const carom_plan_job *job,
                      const carom_plan_options *options);

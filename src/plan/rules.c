@@ -5,7 +5,10 @@
 
 #include <stddef.h>
 
-enum { GROUP = 0, BREAK = 1 }; /* words of the state */
+/* Words of the state. */
+enum { GROUP = 0, BREAK = 1, FOULS = 2, FOULS_OTHER = 3, PUSH = 4 };
+enum { MAY_PUSH = 1, PUSHED = 2 }; /* of PUSH */
+enum { FOULS_MOST = 3 };
 enum { OPEN = 0, SOLIDS = 1, STRIPES = 2 };
 static const uint32_t balls_of[] = {0xfefe, 0xfe, 0xfe00}, eight = 0x100, nine = 0x200;
 
@@ -16,12 +19,28 @@ static int count_of(uint32_t set) {
   return n;
 }
 
-/* A foul of any game: no ball that may be met first, the cue ball down, a ball off the table, no
- * cushion and no pot. */
-static bool is_foul(const carom_facts *facts, uint32_t on, int cue_ball) {
+/* A foul of any game, or none. */
+static int32_t foul_of(const carom_facts *facts, uint32_t on, int cue_ball) {
   const int first = facts->first[0];
-  return first < 0 || !(on >> first & 1) || (facts->down >> cue_ball & 1) || facts->off != 0 ||
-         (facts->down == 0 && facts->cushions_after == 0);
+  return (facts->down | facts->off) >> cue_ball & 1       ? CAROM_FOUL_CUE_BALL
+         : first < 0                                      ? CAROM_FOUL_NO_BALL
+         : !(on >> first & 1)                             ? CAROM_FOUL_FIRST
+         : facts->off != 0                                ? CAROM_FOUL_OFF
+         : facts->down == 0 && facts->cushions_after == 0 ? CAROM_FOUL_CUSHION
+                                                          : CAROM_FOUL_NONE;
+}
+
+const char *carom_foul_string(int foul) {
+  static const char *const words[] = {
+      "",
+      "the cue ball fell or left the table",
+      "the cue ball met no ball",
+      "the cue ball met another ball first than one that is on",
+      "a ball left the table",
+      "nothing fell, and nothing met a cushion after the first contact",
+      "the break potted nothing, and drove fewer than four balls to cushions",
+      "another rule"};
+  return foul > 0 && foul < (int)(sizeof words / sizeof words[0]) ? words[foul] : "";
 }
 
 /* Whether a break reaches cushions with four balls, or pots. */
@@ -34,8 +53,11 @@ static bool is_break(const carom_facts *facts, int cue_ball) {
 
 static const carom_turn keep = {CAROM_TURN_KEEP, CAROM_LEAVE_AFTER, 0, 0, 0.0};
 static const carom_turn pass = {CAROM_TURN_PASS, CAROM_LEAVE_AFTER, 0, 0, 0.0};
-static const carom_turn foul = {CAROM_TURN_PASS, CAROM_LEAVE_HAND, 1, 0, 0.0};
 static const carom_turn win = {CAROM_TURN_WIN, CAROM_LEAVE_AFTER, 0, 0, 0.0};
+
+static carom_turn foul_for(int32_t why) {
+  return (carom_turn){CAROM_TURN_PASS, CAROM_LEAVE_HAND, why, 0, 0.0};
+}
 
 /* ---- Eight-ball */
 
@@ -66,16 +88,16 @@ static carom_turn give(uint64_t *user, carom_turn turn) {
 static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
                                   const carom_facts *facts, carom_call call) {
   const uint32_t on = eightball_on(user, in_play);
-  const bool bad = is_foul(facts, on, cue_ball);
+  const int32_t bad = foul_of(facts, on, cue_ball);
 
   /* The break: nothing is called, the eight comes back, and the table is open after it. */
   if (user[BREAK] != 0) {
     user[BREAK] = 0;
-    carom_turn turn = bad                           ? foul
-                      : !is_break(facts, cue_ball)  ? foul
+    carom_turn turn = bad != 0                      ? foul_for(bad)
+                      : !is_break(facts, cue_ball)  ? foul_for(CAROM_FOUL_BREAK)
                       : (facts->down & 0xfffe) != 0 ? keep
                                                     : pass;
-    turn.leave = bad ? CAROM_LEAVE_KITCHEN : turn.leave;
+    turn.leave = bad != 0 ? CAROM_LEAVE_KITCHEN : turn.leave;
     turn.spot = (facts->down | facts->off) & eight;
     return turn;
   }
@@ -88,7 +110,7 @@ static carom_turn eightball_judge(uint64_t *user, uint32_t in_play, int cue_ball
                ? win
                : (carom_turn){CAROM_TURN_LOSE, CAROM_LEAVE_AFTER, bad, 0, 0.0};
   if (bad)
-    return give(user, foul);
+    return give(user, foul_for(bad));
 
   /* The first ball that is called and falls decides the groups. */
   if (!called || !(on >> call.ball & 1))
@@ -111,22 +133,54 @@ static void nineball_left(const uint64_t *user, uint32_t in_play, int32_t left[2
   left[0] = left[1] = count_of(in_play & 0x3fe);
 }
 
+static uint32_t nineball_may(const uint64_t *user) {
+  return user[PUSH] == MAY_PUSH ? CAROM_MAY_PUSH : user[PUSH] == PUSHED ? CAROM_MAY_PASS : 0;
+}
+
+/* The turn goes to the other, with his fouls. */
+static carom_turn give_nine(uint64_t *user, carom_turn turn) {
+  const uint64_t own = user[FOULS];
+  user[FOULS] = user[FOULS_OTHER];
+  user[FOULS_OTHER] = own;
+  return turn;
+}
+
 static carom_turn nineball_judge(uint64_t *user, uint32_t in_play, int cue_ball,
                                  const carom_facts *facts, carom_call call) {
-  (void)call;
-  const bool broke = user[BREAK] != 0 && !is_break(facts, cue_ball);
-  const bool bad = is_foul(facts, nineball_on(user, in_play), cue_ball) || broke;
-  user[BREAK] = 0;
-  if (bad) {
-    carom_turn turn = foul;
+  const bool opening = user[BREAK] != 0;
+  const bool pushes = user[PUSH] == MAY_PUSH && call.ball == CAROM_CALL_PUSH;
+  const bool passes = user[PUSH] == PUSHED && call.ball == CAROM_CALL_PASS;
+  user[BREAK] = user[PUSH] = 0;
+  if (passes)
+    return give_nine(user, pass);
+
+  /* A push-out may meet any ball or none, and needs no cushion. */
+  int32_t bad = foul_of(facts, nineball_on(user, in_play), cue_ball);
+  if (pushes && bad != CAROM_FOUL_CUE_BALL)
+    bad = facts->off != 0 ? CAROM_FOUL_OFF : CAROM_FOUL_NONE;
+  if (bad == CAROM_FOUL_NONE && opening && !is_break(facts, cue_ball))
+    bad = CAROM_FOUL_BREAK;
+  if (bad != CAROM_FOUL_NONE) {
+    carom_turn turn = foul_for(bad);
     turn.spot = (facts->down | facts->off) & nine;
-    return turn;
+    turn.is = ++user[FOULS] >= FOULS_MOST ? CAROM_TURN_LOSE : turn.is;
+    return give_nine(user, turn);
+  }
+  if (pushes) {
+    carom_turn turn = pass;
+    turn.spot = facts->down & nine;
+    user[PUSH] = PUSHED;
+    return give_nine(user, turn);
   }
 
   /* The nine wins, or the highest ball in games that do not put the nine back. A set of balls is
    * above half of the set that it is from if it has its highest ball. */
   const uint32_t balls = in_play & 0x3fe;
-  return (facts->down & balls) > balls >> 1 ? win : facts->down != 0 ? keep : pass;
+  user[FOULS] = 0;
+  user[PUSH] = opening ? MAY_PUSH : 0;
+  if ((facts->down & balls) > balls >> 1)
+    return win;
+  return facts->down != 0 ? keep : give_nine(user, pass);
 }
 
 /* ---- Potting */
@@ -145,8 +199,12 @@ static carom_turn potting_judge(uint64_t *user, uint32_t in_play, int cue_ball,
                                 const carom_facts *facts, carom_call call) {
   (void)call;
   const uint32_t on = potting_on(user, in_play);
-  const bool bad = facts->first[0] < 0 || (facts->down >> cue_ball & 1) || facts->off != 0;
-  carom_turn turn = bad ? foul : facts->down == 0 ? pass : (facts->down & on) == on ? win : keep;
+  int32_t bad = foul_of(facts, on, cue_ball);
+  bad = bad == CAROM_FOUL_CUSHION ? CAROM_FOUL_NONE : bad;
+  carom_turn turn = bad                        ? foul_for(bad)
+                    : facts->down == 0         ? pass
+                    : (facts->down & on) == on ? win
+                                               : keep;
   turn.points = bad ? 0.0 : count_of(facts->down & on);
   return turn;
 }
@@ -168,6 +226,7 @@ static const struct {
      {.on = nineball_on,
       .judge = nineball_judge,
       .left = nineball_left,
+      .may = nineball_may,
       .race = CAROM_RACE_SHARED,
       .first_decides = 1}},
     {"potting",
@@ -181,4 +240,21 @@ const char *carom_rules_name(carom_rules_kind kind) {
 
 carom_plan_rules carom_plan_rules_of(carom_rules_kind kind) {
   return games[(unsigned)kind < GAMES ? kind : 0].rules;
+}
+
+/* ---- Balls that are put back */
+
+carom_status carom_spot_ball(const carom_table *table, carom_shot_ball *balls, int count,
+                             int ball) {
+  if (table == NULL)
+    return CAROM_ERROR_NULL;
+  const double step = 1e-3, x = 0.5 * table->width, foot = 0.75 * table->length;
+  carom_status status = CAROM_ERROR_OFF_TABLE;
+  for (int side = 1; side >= -1; side -= 2)
+    for (double y = foot; y > 0.0 && y < table->length; y += side * step) {
+      status = carom_place_ball(table, balls, count, ball, x, y, NULL);
+      if (status != CAROM_ERROR_OVERLAP && status != CAROM_ERROR_OFF_TABLE)
+        return status;
+    }
+  return status;
 }

@@ -26,6 +26,7 @@
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
+const carom_facts carom_no_facts = {.first = {-1, -1}};
 
 uint32_t carom_in_play(const carom_ball_state *balls, int count) {
   uint32_t set = 0;
@@ -218,7 +219,8 @@ carom_way carom_way_of(const carom_view *view, const carom_ball_state *balls, ui
 /* ---- A layout */
 
 static double with_targets(const carom_view *view, const carom_ball_state *balls, uint32_t in_play,
-                           uint32_t targets, const int32_t given[2], int who, bool in_hand) {
+                           uint32_t targets, uint32_t pockets, const int32_t given[2], int who,
+                           bool in_hand) {
   const bool alone = view->rules->race == CAROM_RACE_ALONE;
   const int32_t most = alone ? CAROM_BALLS_MOST : MOST_LEFT;
   int32_t left[2];
@@ -231,6 +233,8 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
   for (int k = 0; targets >> k != 0; k++) {
     double of = 0.0;
     for (int p = 0; p < view->pockets && (targets >> k & 1); p++) {
+      if (!(pockets >> p & 1))
+        continue;
       const carom_way way = carom_way_of(view, balls, in_play, k, p, who, in_hand);
       of = way.chance > of ? way.chance : of;
     }
@@ -252,13 +256,31 @@ static double with_targets(const carom_view *view, const carom_ball_state *balls
   return p * after + (1.0 - p) * (1.0 - view->win[1 - who][left[1]][left[0]]);
 }
 
-double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
-                      int who, bool in_hand) {
+/* The value to one who plays. */
+static double value_of_playing(const carom_view *view, const uint64_t *user,
+                               const carom_ball_state *balls, uint32_t in_play, int who,
+                               bool in_hand) {
   const carom_plan_rules *rules = view->rules;
   if (rules->value != NULL)
     return rules->value(user, balls, view->count, in_hand);
-  const uint32_t in_play = carom_in_play(balls, view->count) | UINT32_C(1) << view->cue_ball;
+  const uint32_t pockets = rules->pockets != NULL ? rules->pockets(user) : ~UINT32_C(0);
   int32_t left[2];
   rules->left(user, in_play, left);
-  return with_targets(view, balls, in_play, rules->on(user, in_play), left, who, in_hand);
+  return with_targets(view, balls, in_play, rules->on(user, in_play), pockets, left, who, in_hand);
+}
+
+double carom_value_of(const carom_view *view, const uint64_t *user, const carom_ball_state *balls,
+                      int who, bool in_hand) {
+  const carom_plan_rules *rules = view->rules;
+  const uint32_t in_play = carom_in_play(balls, view->count) | UINT32_C(1) << view->cue_ball;
+  const double plays = value_of_playing(view, user, balls, in_play, who, in_hand);
+  if (rules->may == NULL || !(rules->may(user) & CAROM_MAY_PASS))
+    return plays;
+
+  /* he may leave the table to the other */
+  uint64_t passed[8];
+  memcpy(passed, user, sizeof passed);
+  rules->judge(passed, in_play, view->cue_ball, &carom_no_facts, (carom_call){CAROM_CALL_PASS, -1});
+  const double passes = 1.0 - value_of_playing(view, passed, balls, in_play, 1 - who, in_hand);
+  return plays > passes ? plays : passes;
 }

@@ -77,27 +77,33 @@ TEST(rulings) {
     LOSE = CAROM_TURN_LOSE
   };
   enum { AFTER = CAROM_LEAVE_AFTER, HAND = CAROM_LEAVE_HAND };
+  enum {
+    CUE_BALL = CAROM_FOUL_CUE_BALL,
+    NO_BALL = CAROM_FOUL_NO_BALL,
+    FIRST = CAROM_FOUL_FIRST,
+    CUSHION = CAROM_FOUL_CUSHION
+  };
   static const ruling given[] = {
       {"a solid on an open table", E, 0xffff, 0x0008, 0, 3, 0, 3, KEEP, 0, AFTER, SOLIDS},
       {"a stripe on an open table", E, 0xffff, 0x0400, 0, 10, 2, 10, KEEP, 0, AFTER, STRIPES},
-      {"the eight met first on an open table", E, 0xffff, 0, 0, 8, 1, -1, PASS, 1, HAND, 0},
+      {"the eight met first on an open table", E, 0xffff, 0, 0, 8, 1, -1, PASS, FIRST, HAND, 0},
       {"an own ball", E, 0xffff, 0x0400, 2, 9, 0, 10, KEEP, 0, AFTER, STRIPES},
       {"an own ball that was not called", E, 0xffff, 0x0400, 2, 9, 0, 11, PASS, 0, AFTER, SOLIDS},
       {"a ball of the other", E, 0xffff, 0x0008, 2, 9, 0, 3, PASS, 0, AFTER, SOLIDS},
-      {"the wrong ball first", E, 0xffff, 0x0400, 2, 3, 1, 10, PASS, 1, HAND, SOLIDS},
-      {"no ball met", E, 0xffff, 0, 1, -1, 0, -1, PASS, 1, HAND, STRIPES},
-      {"no cushion after the contact", E, 0xffff, 0, 1, 3, 0, -1, PASS, 1, HAND, STRIPES},
+      {"the wrong ball first", E, 0xffff, 0x0400, 2, 3, 1, 10, PASS, FIRST, HAND, SOLIDS},
+      {"no ball met", E, 0xffff, 0, 1, -1, 0, -1, PASS, NO_BALL, HAND, STRIPES},
+      {"no cushion after the contact", E, 0xffff, 0, 1, 3, 0, -1, PASS, CUSHION, HAND, STRIPES},
       {"a safety", E, 0xffff, 0, 1, 3, 1, -1, PASS, 0, AFTER, STRIPES},
-      {"the cue ball down too", E, 0xffff, 0x0009, 1, 3, 1, 3, PASS, 1, HAND, STRIPES},
+      {"the cue ball down too", E, 0xffff, 0x0009, 1, 3, 1, 3, PASS, CUE_BALL, HAND, STRIPES},
       {"the eight too early", E, 0xffff, 0x0100, 1, 3, 1, 8, LOSE, 0, AFTER, SOLIDS},
       {"the eight at last", E, 0xff01, 0x0100, 1, 8, 0, 8, WIN, 0, AFTER, SOLIDS},
       {"the eight at last, not called", E, 0xff01, 0x0100, 1, 8, 0, -1, LOSE, 0, AFTER, SOLIDS},
-      {"the eight with the cue ball", E, 0xff01, 0x0101, 1, 8, 0, 8, LOSE, 1, AFTER, SOLIDS},
+      {"the eight with the cue ball", E, 0xff01, 0x0101, 1, 8, 0, 8, LOSE, CUE_BALL, AFTER, SOLIDS},
       {"the lowest ball", N, 0x03f9, 0x0008, 0, 3, 0, -1, KEEP, 0, AFTER, 0},
       {"another ball by the lowest", N, 0x03f9, 0x0080, 0, 3, 0, -1, KEEP, 0, AFTER, 0},
-      {"not the lowest first", N, 0x03f9, 0x0080, 0, 4, 0, -1, PASS, 1, HAND, 0},
+      {"not the lowest first", N, 0x03f9, 0x0080, 0, 4, 0, -1, PASS, FIRST, HAND, 0},
       {"the nine by the lowest", N, 0x03f9, 0x0200, 0, 3, 0, -1, WIN, 0, AFTER, 0},
-      {"the nine by a foul", N, 0x03f9, 0x0200, 0, 4, 0, -1, PASS, 1, HAND, 0},
+      {"the nine by a foul", N, 0x03f9, 0x0200, 0, 4, 0, -1, PASS, FIRST, HAND, 0},
       {"the eight, where the nine is down", N, 0x01f9, 0x0100, 0, 3, 0, -1, WIN, 0, AFTER, 0},
       {"a pot of the drill", P, 0x000f, 0x0004, 0, 1, 0, -1, KEEP, 0, AFTER, 0},
       {"the last ball of the drill", P, 0x0005, 0x0004, 0, 2, 0, -1, WIN, 0, AFTER, 0},
@@ -120,6 +126,79 @@ TEST(rulings) {
   }
   ck_assert_str_eq(carom_rules_name(CAROM_RULES_NINEBALL), "nineball");
   ck_assert_ptr_null(carom_rules_name((carom_rules_kind)3));
+}
+
+/* A stroke of nine-ball that meets a ball and drives so many to cushions, after which ball `down`
+ * is down, or none for -1. */
+static carom_turn nine(carom_plan_rules *of, int first, int driven, int down, int call) {
+  carom_facts facts = {.first = {first, -1}, .cushions_after = driven};
+  for (int k = 0; k < CAROM_BALLS_MOST; k++)
+    facts.pocket[k] = -1;
+  for (int k = 1; k <= driven; k++)
+    facts.cushions[k] = 1;
+  facts.down = down >= 0 ? UINT32_C(1) << down : 0;
+  return of->judge(of->user, 0x3ff, 0, &facts, (carom_call){call, -1});
+}
+
+/* The third foul of a player in a row loses; a legal stroke in between forgets them. */
+TEST(three_fouls) {
+  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+  for (int stroke = 0; stroke < 4; stroke++) { /* of each player two */
+    ck_assert_int_eq(nine(&of, -1, 0, -1, -1).is, CAROM_TURN_PASS);
+    ck_assert_uint_eq(of.user[3], (uint64_t)(stroke / 2 + 1));
+  }
+  carom_plan_rules other = of;
+  const carom_turn third = nine(&of, 2, 1, -1, -1);
+  ck_assert(third.is == CAROM_TURN_LOSE && third.foul == CAROM_FOUL_FIRST);
+  ck_assert(nine(&other, 1, 1, -1, -1).foul == CAROM_FOUL_NONE && other.user[3] == 0);
+  ck_assert_uint_eq(other.user[2], 2);
+}
+
+/* After a break without a foul one may push out, and the other may then pass. */
+TEST(push_outs) {
+  carom_plan_rules of = carom_plan_rules_of(CAROM_RULES_NINEBALL), again;
+  of.user[1] = 1;
+  again = of;
+  ck_assert(nine(&again, 1, 3, -1, -1).foul == CAROM_FOUL_BREAK && again.may(again.user) == 0);
+  ck_assert_int_eq(nine(&of, 1, 4, -1, -1).is, CAROM_TURN_PASS);
+  ck_assert_uint_eq(of.may(of.user), CAROM_MAY_PUSH);
+
+  /* a push-out meets what it likes; what falls stays down, but for the nine */
+  again = of;
+  carom_turn turn = nine(&again, -1, 0, -1, CAROM_CALL_PUSH);
+  ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.leave == CAROM_LEAVE_AFTER);
+  ck_assert_uint_eq(again.may(again.user), CAROM_MAY_PASS);
+  again = of;
+  turn = nine(&again, 5, 0, 9, CAROM_CALL_PUSH);
+  ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.spot == 0x200);
+  again = of;
+  turn = nine(&again, 5, 0, 0, CAROM_CALL_PUSH);
+  ck_assert(turn.foul == CAROM_FOUL_CUE_BALL && again.may(again.user) == 0);
+
+  /* the other passes, and neither may do so again; without the right, a push-out is a stroke */
+  nine(&of, -1, 0, -1, CAROM_CALL_PUSH);
+  turn = nine(&of, -1, 0, -1, CAROM_CALL_PASS);
+  ck_assert(turn.is == CAROM_TURN_PASS && turn.foul == 0 && turn.leave == CAROM_LEAVE_AFTER);
+  ck_assert_uint_eq(of.may(of.user), 0);
+  ck_assert_int_eq(nine(&of, -1, 0, -1, CAROM_CALL_PUSH).foul, CAROM_FOUL_NO_BALL);
+}
+
+/* Balls on the foot spot, then behind it, then, where there is no room behind it, before it. */
+TEST(spots) {
+  make_layout(1, 1);
+  carom_place_ball(&table, balls, BALLS, 0, 0.2, 0.2, NULL);
+  double least = INFINITY, most = 0.0;
+  for (int k = 1; k < BALLS; k++) {
+    ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, k), CAROM_OK);
+    ck_assert(balls[k].state.r[0] == 0.5 * table.width);
+    least = fmin(least, balls[k].state.r[1]);
+    most = fmax(most, balls[k].state.r[1]);
+  }
+  ck_assert(balls[1].state.r[1] == 0.75 * table.length &&
+            balls[2].state.r[1] > 0.75 * table.length);
+  ck_assert(least < 0.75 * table.length - 0.1 && most < table.length - 0.028);
+  ck_assert_int_eq(carom_spot_ball(NULL, balls, BALLS, 1), CAROM_ERROR_NULL);
+  ck_assert_int_eq(carom_spot_ball(&table, balls, BALLS, BALLS), CAROM_ERROR_BALLS);
 }
 
 /* ---- Choices */
@@ -268,6 +347,57 @@ TEST(values) {
   ck_assert_int_eq(carom_plan_value(&job, 0, &blocked), CAROM_OK);
   ck_assert_int_eq(carom_plan_value(&job, 1, &hand), CAROM_OK);
   ck_assert(easy > 0.85 && easy <= 1.0 && blocked < easy - 0.1 && hand > blocked);
+}
+
+/* Where six balls are around the one, the player pushes out if he may; if he may pass, he does.
+ * Where the one is before a pocket and another ball free, he plays. */
+TEST(what_one_may_do) {
+  static const double ring[6][2] = {{2, 0},  {1, 1.7320508},   {-1, 1.7320508},
+                                    {-2, 0}, {-1, -1.7320508}, {1, -1.7320508}};
+  carom_choice best;
+  int found;
+  for (int easy = 0; easy < 2; easy++)
+    for (int may = 1; may <= 2; may++) {
+      make_layout(1, 1);
+      rules = carom_plan_rules_of(CAROM_RULES_NINEBALL);
+      rules.user[4] = (uint64_t)may;
+      carom_place_ball(&table, balls, BALLS, 0, 0.3, 0.3, NULL);
+      carom_place_ball(&table, balls, BALLS, 1, easy ? 0.1 : 0.6, easy ? 0.1 : 1.0, NULL);
+      for (int k = 0; k < (easy ? 1 : 6); k++)
+        carom_place_ball(&table, balls, BALLS, k + 2, 0.6 + 0.0287 * ring[k][0],
+                         1.0 + 0.0287 * ring[k][1], NULL);
+      options.shots = 1000;
+      job.count = 10;
+      make_memory();
+      ck_assert_int_eq(carom_plan(&job, &best, 1, &found), CAROM_OK);
+      const int kind = may == 1 ? CAROM_PLAN_PUSH : CAROM_PLAN_PASS;
+      const int ball = easy ? 1 : may == 1 ? CAROM_CALL_PUSH : CAROM_CALL_PASS;
+      ck_assert_msg((easy || best.kind == kind) && best.ball == ball,
+                    "easy %d, may %d: kind %d, ball %d, %g", easy, may, best.kind, best.ball,
+                    best.value);
+      ck_assert(best.kind != CAROM_PLAN_PASS || (best.foul == 0.0 && best.seen == 0));
+      edge_free(&memory);
+    }
+}
+
+/* A game in which balls count in one pocket only. */
+static uint32_t one_pocket(const uint64_t *user) {
+  return UINT32_C(1) << user[7];
+}
+TEST(pockets_that_count) {
+  for (int pocket = 0; pocket < 6; pocket++) {
+    carom_choice best[3];
+    int found;
+    make_layout(9, 6);
+    rules = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
+    rules.user[7] = (uint64_t)pocket;
+    rules.pockets = one_pocket;
+    make_memory();
+    ck_assert_int_eq(carom_plan(&job, best, 3, &found), CAROM_OK);
+    for (int k = 0; k < found; k++)
+      ck_assert(best[k].pocket == pocket || best[k].pocket == -1);
+    edge_free(&memory);
+  }
 }
 
 /* A plan that is stopped at once has a choice still; one without a legal shot says so. */
