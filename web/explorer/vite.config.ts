@@ -17,7 +17,9 @@ function oneFile(): Plugin {
         let text = String(html.source);
         for (const [name, part] of Object.entries(bundle)) {
           if (part === html) continue;
-          const source = part.type === "chunk" ? part.code.replaceAll("</script", "<\\/script") : String(part.source);
+          // Vite's import() asks where the script lies, of which there is but one. Without that, a worker runs the script too, as a classic one:
+          // a page from a folder may not start others.
+          const source = part.type === "chunk" ? part.code.replaceAll("import.meta.url", '""').replaceAll("</script", "<\\/script") : String(part.source);
           const tag = part.type === "chunk" ? `<script type="module">${source}</script>` : `<style>${source}</style>`;
           const link = new RegExp(`<(script|link)[^>]*${name.replaceAll(/[.*+?^$()|[\]\\]/g, "\\$&")}[^>]*>(</script>)?`);
           if (!link.test(text)) throw new Error(`one-file: index.html does not refer to ${name}`);

@@ -24,14 +24,70 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     expect(asked.filter((url) => !url.startsWith("file://") && !url.startsWith("data:") && !url.startsWith("blob:"))).toEqual([]);
   });
 
-  async function open(hash: string, { width = 1300, height = 900, dark = false } = {}): Promise<Page> {
-    const one = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light" });
+  async function open(hash: string, { width = 1300, height = 800, dark = false, touch = false } = {}): Promise<Page> {
+    const one = await browser.newPage({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", hasTouch: touch, permissions: ["clipboard-read", "clipboard-write"] });
     one.on("console", (message) => ["error", "warning"].includes(message.type()) && said.push(`${hash}: ${message.text()}`));
     one.on("pageerror", (error) => said.push(`${hash}: ${error.message}`));
     one.on("request", (request) => asked.push(request.url()));
     await one.goto(`file://${page}${hash}`);
     await one.waitForSelector("main[aria-busy=false]");
     return one;
+  }
+  const sizes = [
+    ["wide", { width: 1300, height: 800 }],
+    ["phone", { width: 390, height: 844, touch: true }],
+  ] as const;
+  /** Where a place of a 9-ft table, m, is on the page. */
+  async function on(one: Page, x: number, y: number): Promise<[number, number]> {
+    const box = (await one.locator("#table-scene").boundingBox())!;
+    const [w, l] = [1.27, 2.54];
+    const upright = box.height > box.width;
+    const scale = box.width / ((upright ? w : l) + 0.2);
+    return upright ? [box.x + (x + 0.1) * scale, box.y + (l + 0.1 - y) * scale] : [box.x + (y + 0.1) * scale, box.y + (x + 0.1) * scale];
+  }
+  /** Drags with the mouse, or with a finger where the page has one, from one place of the table to another. */
+  async function drag(one: Page, from: readonly [number, number], to: readonly [number, number], touch = false): Promise<void> {
+    const [a, b] = [await on(one, ...from), await on(one, ...to)];
+    const steps = Array.from({ length: 8 }, (_, k) => a.map((x, c) => x + ((b[c]! - x) * (k + 1)) / 8) as [number, number]);
+    if (!touch) {
+      await one.mouse.move(...a);
+      await one.mouse.down();
+      for (const step of steps) await one.mouse.move(...step);
+      return one.mouse.up();
+    }
+    const devtools = await one.context().newCDPSession(one);
+    const send = (type: "touchStart" | "touchMove" | "touchEnd", at?: [number, number]): Promise<unknown> =>
+      devtools.send("Input.dispatchTouchEvent", { type, touchPoints: at ? [{ x: at[0], y: at[1] }] : [] });
+    await send("touchStart", a);
+    for (const step of steps) await send("touchMove", step);
+    await send("touchEnd");
+  }
+  async function click(one: Page, x: number, y: number, touch = false): Promise<void> {
+    const at = await on(one, x, y);
+    await (touch ? one.touchscreen.tap(...at) : one.mouse.click(...at));
+  }
+  /** Where the balls of the page lie, by the line that it exports: label, x, y. */
+  async function lies(one: Page): Promise<Record<string, number[]>> {
+    const details = one.locator("details");
+    if ((await details.getAttribute("open")) === null) await one.locator("summary").click();
+    await one.locator("#export").click();
+    const line = JSON.parse(await one.locator("#line").inputValue()) as { balls: { id: string; state: number[] }[] };
+    await one.evaluate(() => scrollTo(0, 0));
+    return Object.fromEntries(line.balls.map(({ id, state }) => [id, state.slice(0, 3)]));
+  }
+  /** The colour of the table's picture at a place, m. */
+  async function colour(one: Page, x: number, y: number): Promise<number[]> {
+    const [px, py] = await on(one, x, y);
+    return one.locator("#table-scene").evaluate(
+      (canvas, [px, py]) => {
+        const box = canvas.getBoundingClientRect();
+        const ratio = (canvas as HTMLCanvasElement).width / box.width;
+        const one = document.createElement("canvas").getContext("2d")!;
+        one.drawImage(canvas as HTMLCanvasElement, -Math.round((px - box.left) * ratio), -Math.round((py - box.top) * ratio));
+        return [...one.getImageData(0, 0, 1, 1).data.slice(0, 3)];
+      },
+      [px, py] as const,
+    );
   }
   const text = async (one: Page, id: string): Promise<string> => (await one.locator(`#${id}`).textContent())!;
   const set = (one: Page, id: string, value: number): Promise<void> => one.locator(`#${id}`).fill(String(value));
@@ -87,7 +143,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
   });
 
   test.runIf(thereIsACommand)("a break plays to its end, with the command's final state", async () => {
-    const one = await open("#view=shot&phi=89.3&a=0.1");
+    const one = await open("#view=shot&phi=89.3&right=-0.1");
     await one.locator("summary").click();
     await one.locator("#export").click();
     const line = await one.locator("#line").inputValue();
@@ -186,6 +242,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     ["collision, dark, phone", "#view=collision", { dark: true, width: 390, height: 800 }],
     ["shot", "#view=shot", {}],
     ["shot, dark, phone", "#view=shot&game=snooker", { dark: true, width: 390, height: 800 }],
+    ["shot, phone on its side", "#view=shot", { width: 844, height: 390, touch: true }],
   ] as const)("axe finds nothing: %s", async (_, hash, how) => {
     const one = await open(hash, how);
     if (hash.includes("shot")) await one.locator("summary").click();
@@ -221,27 +278,147 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     await one.close();
   }, 240_000);
 
+  test.each(sizes)("it opens on the table, large, and soon: %s", async (_, how) => {
+    const one = await open("", how);
+    const box = (await one.locator("#table-scene").boundingBox())!;
+    expect((box.width * box.height) / (how.width * how.height)).toBeGreaterThan(0.48);
+    expect(box.y + box.height).toBeLessThan(how.height);
+    const paint = await one.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]!.startTime);
+    console.log(`first paint after ${paint.toFixed(0)} ms`);
+    expect(paint).toBeLessThan(1500);
+    // Diamonds are bright on the wood, beside a quarter of the head cushion; ball 9 is yellow between white ends.
+    expect(Math.min(...(await colour(one, 1.27 / 4, -0.08)))).toBeGreaterThan(150);
+    const [, x, y] = (await lies(one))["9"]!;
+    expect((await colour(one, x! + 0.02, y!))[2]).toBeGreaterThan(200);
+    if (how.width > 1000) expect((await colour(one, x!, y! + 0.021))[2]).toBeLessThan(80); // on the phone it is two pixels wide
+    await one.close();
+  });
+
+  test.each(sizes)("balls are dragged, wait in a pocket, come back, and stay beside each other: %s", async (_, how) => {
+    const touch = "touch" in how;
+    const one = await open("", how);
+    const before = await lies(one);
+    const [, x, y] = before["1"]! as [number, number, number];
+    await drag(one, [x, y], [0.4, 1.1], touch);
+    const after = await lies(one);
+    expect(after["1"]![1]).toBeCloseTo(0.4, 1);
+    expect(after["1"]![2]).toBeCloseTo(1.1, 1);
+    expect({ ...after, 1: 0 }).toEqual({ ...before, 1: 0 });
+    // onto the place of the cue ball: it lies against it
+    const cue = after.cue!.slice(1) as [number, number];
+    await drag(one, after["1"]!.slice(1) as [number, number], [cue[0] + 0.01, cue[1] + 0.02], touch);
+    const beside = (await lies(one))["1"]!;
+    expect(Math.hypot(beside[1]! - cue[0], beside[2]! - cue[1])).toBeCloseTo(0.05717, 4);
+    // off the table, and back from the wood
+    await drag(one, beside.slice(1) as [number, number], [0.3, -0.09], touch);
+    expect((await lies(one))["1"]![0]).toBe(4);
+    await drag(one, [-0.045, 0.12], [0.9, 0.5], touch);
+    expect((await lies(one))["1"]!.map((x) => Math.round(100 * x) / 100)).toEqual([0, 0.9, 0.5].map((x, k) => (k ? expect.closeTo(x, 1) : x)));
+    expect(await one.evaluate(() => scrollY)).toBe(0);
+    // turned in place by the wheel
+    if (!touch) {
+      await one.mouse.move(...(await on(one, before["9"]![1]!, before["9"]![2]!)));
+      for (let k = 0; k < 9; k++) await one.mouse.wheel(0, 100);
+      await expect.poll(() => colour(one, before["9"]![1]! + 0.021, before["9"]![2]!).then((c) => c[2])).toBeLessThan(80);
+      expect(await lies(one)).toMatchObject({ 9: before["9"]! });
+      await one.waitForURL(/%2C90/);
+    }
+    await one.close();
+  });
+
+  test.each(sizes)("the stick, the drawn ball, a pocket, the next shot, undo, and the link: %s", async (_, how) => {
+    const touch = "touch" in how;
+    const one = await open("#view=shot&game=nineball&speed=3&at=0.635,0.6 0.5,1.6 in in in in in in in 1,2", how);
+    expect(await text(one, "message")).toBe("");
+    // the stick is drawn back: 0.04 m for each m/s
+    await drag(one, [0.635, 0.6 - 0.35], [0.635, 0.6 - 0.43], touch);
+    expect(Number(await one.locator("#speed").inputValue())).toBeCloseTo(5, 0);
+    await one.locator("#speed").fill("2.5");
+    const ball = (await one.locator("#spin").boundingBox())!;
+    const at = [ball.x + ball.width * (0.5 + 0.2 / 1.05), ball.y + ball.height * (0.5 + 0.1 / 1.05)] as const;
+    await (touch ? one.touchscreen.tap(...at) : one.mouse.click(...at));
+    expect(Number(await one.locator("#right").inputValue())).toBeCloseTo(0.4, 1);
+    expect(Number(await one.locator("#up").inputValue())).toBeCloseTo(-0.2, 1);
+    await click(one, 0.5, 1.6, touch);
+    // every corner at the foot takes the ball, with squirt and throw
+    for (const [x, y, name] of [[1.27, 2.54, "right"], [0, 2.54, "left"]] as const) {
+      await click(one, x, y, touch);
+      expect(await text(one, "message")).toContain(`Aimed: ball 1 into the ${name} corner near the foot`);
+      expect(await text(one, "s-pocketed")).toBe("1");
+      expect(await text(one, "s-status")).toBe("ok");
+    }
+    // its trail ends in the pocket
+    expect(Math.max(...(await colour(one, -0.0295, 2.5695)))).toBeGreaterThan(60);
+    // one that is picked, and hidden behind the other
+    await click(one, 1, 2, touch);
+    await click(one, 0, 0, touch);
+    expect(await text(one, "message")).toContain("No such aim: ball 9 into the left corner near the head would be a cut of");
+    await one.waitForURL(/phi=/);
+    const aimed = one.url();
+    const shot = await text(one, "s-time");
+    await one.locator("#next").click();
+    const lie = await lies(one);
+    expect(lie["1"]![0]).toBe(4);
+    expect(await text(one, "s-time")).not.toBe(shot);
+    await one.locator("#undo").click();
+    expect(await text(one, "s-time")).toBe(shot);
+    expect(one.url()).toBe(aimed);
+    await one.locator("#copy").click();
+    await expect.poll(() => text(one, "message")).toContain("copied");
+    const again = await open(new URL(await one.evaluate(() => navigator.clipboard.readText())).hash, how);
+    expect(await text(again, "s-time")).toBe(shot);
+    expect(await text(again, "s-pocketed")).toBe("1");
+    await again.close();
+    await one.close();
+  });
+
+  test("the page does not stop while a shot is planned", async () => {
+    const one = await open("#view=shot&game=eightball");
+    await one.evaluate(() => {
+      const seen = window as unknown as { longest: number };
+      let last = performance.now();
+      seen.longest = 0;
+      const count = (now: number): void => {
+        seen.longest = Math.max(seen.longest, now - last);
+        last = now;
+        requestAnimationFrame(count);
+      };
+      requestAnimationFrame(count);
+    });
+    const begun = performance.now();
+    await one.locator("#best").click();
+    await expect.poll(() => text(one, "game-state")).toMatch(/Best of/);
+    const longest = await one.evaluate(() => (window as unknown as { longest: number }).longest);
+    console.log(`a plan took ${(performance.now() - begun).toFixed(0)} ms; the longest time between two frames was ${longest.toFixed(0)} ms`);
+    expect(longest).toBeLessThan(100);
+    await one.close();
+  });
+
+  test("a finger on the cloth scrolls the page, and turns the aim on its line", async () => {
+    const one = await open("", { width: 390, height: 844, touch: true });
+    const phi = await one.locator("#phi").inputValue();
+    await drag(one, [0.2, 1.2], [0.2, 1.9], true);
+    await expect.poll(() => one.evaluate(() => scrollY)).toBeGreaterThan(100);
+    expect(await one.locator("#phi").inputValue()).toBe(phi);
+    await one.waitForTimeout(1000); // the page glides on
+    await one.evaluate(() => scrollTo(0, 0));
+    await drag(one, [0.635, 1.4], [0.7, 1.4], true);
+    expect(await one.evaluate(() => scrollY)).toBe(0);
+    expect(Number(await one.locator("#phi").inputValue())).toBeCloseTo(90 - 4.8, 0);
+    await click(one, 0.2, 1.5, true);
+    expect(Number(await one.locator("#phi").inputValue())).toBeCloseTo(116.7, 0);
+    await one.close();
+  });
+
   test("in a game the cue ball moves where the rules let it", async () => {
     const one = await open("#view=shot&game=nineball");
     await one.locator("#new-game").click();
-    const scene = one.locator("#table-scene");
-    const box = (await scene.boundingBox())!;
-    const at = async (): Promise<number[]> => {
-      await one.locator("summary").click();
-      await one.locator("#export").click();
-      const line = JSON.parse(await one.locator("#line").inputValue()) as { balls: { state: number[] }[] };
-      await one.locator("summary").click();
-      return line.balls[0]!.state.slice(1, 3);
-    };
-    const before = await at();
+    const before = (await lies(one)).cue!;
     // from the head spot towards the foot of the table: it stops at the head string
-    await one.mouse.move(box.x + box.width * 0.27, box.y + box.height * 0.5);
-    await one.mouse.down();
-    await one.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.3, { steps: 4 });
-    await one.mouse.up();
-    const after = await at();
-    expect(after[0]).not.toBe(before[0]);
-    expect(after[1]).toBeCloseTo(2.54 / 4, 3);
+    await drag(one, [1.27 / 2, 2.54 / 4], [0.4, 1.5]);
+    const after = (await lies(one)).cue!;
+    expect(after[1]).not.toBe(before[1]);
+    expect(after[2]).toBeCloseTo(2.54 / 4, 3);
     await one.close();
   });
 });

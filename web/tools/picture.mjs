@@ -3,8 +3,8 @@ import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
-const page = await browser.newPage({ viewport: { width: 1240, height: 640 } });
-await page.goto(`file://${fileURLToPath(new URL("../explorer/dist/index.html", import.meta.url))}#view=shot&phi=89.4&a=0.15&speed=8.5`);
+const page = await browser.newPage({ viewport: { width: 1300, height: 800 } });
+await page.goto(`file://${fileURLToPath(new URL("../explorer/dist/index.html", import.meta.url))}#view=shot&phi=89.4&right=-0.15&speed=8.5`);
 await page.waitForSelector("main[aria-busy=false]");
 // The figures below the table are those of code that runs, not of its start.
 for (let k = 0; k < 30; k++) await page.locator("#table-scene").press(k % 2 === 0 ? "ArrowLeft" : "ArrowRight");

@@ -1,6 +1,7 @@
 // Best shot, chance of this shot, and a game against a player of any strength: the panel of the view Shot.
-import { type Call, type Carom, CaromError, type Choice, type Cue, type GameState, type PlanOptions, type Player, type ShotBall, type ShotOptions, type Table } from "carom";
-import { button, choice, el } from "./ui.js";
+import type { Call, Carom, Choice, Cue, GameState, PlanOptions, Player, ShotBall, ShotOptions, Table } from "carom";
+import { far } from "./far.js";
+import { button, choice, el, pocketName } from "./ui.js";
 
 /** What the panel needs of the view, and does with it. */
 export interface View {
@@ -33,17 +34,28 @@ const REPLY = 300;
 const TRY = 100;
 const percent = (x: number): string => `${(100 * x).toFixed(0)} %`;
 
-export function gamePanel(carom: Carom, view: View): { root: HTMLElement; aimed(): void; begin(): void; hand(): Hand | undefined; busy(): boolean } {
+export interface Panel {
+  root: HTMLElement;
+  /** The layout with the cue ball at the head spot, or near to it. */
+  atHead(balls: readonly ShotBall[]): ShotBall[];
+  aimed(): void;
+  begin(): void;
+  hand(): Hand | undefined;
+  busy(): boolean;
+}
+
+export function gamePanel(carom: Carom, view: View): Panel {
   let match: Match | undefined;
   let busy = false;
   let strokes = 0;
+  let number = 0;
   const seed = Math.floor(Math.random() * 2 ** 31);
 
-  const own = choice("own", "You err like", [["0", "nobody: no errors"], ...RATINGS.map((r) => [r, `a ${r}`] as const)], () => chances());
+  const own = choice("own", "You err like", [["0", "nobody: no errors"], ...RATINGS.map((r) => [r, `a ${r}`] as const)], () => void chances());
   own.select.value = "600";
   const other = choice("opponent", "Opponent", RATINGS.map((r) => [r, `a ${r}`] as const), () => undefined);
   other.select.value = "500";
-  const best = button("Best shot", propose, { id: "best" });
+  const advise = button("Best shot", () => void propose(), { id: "best" });
   const start = button("New game", newGame, { id: "new-game" });
   const shoot = button("Shoot", () => stroke(view.cue()), { id: "shoot", hidden: "" });
   const chance = el("p", { id: "chance" });
@@ -52,7 +64,7 @@ export function gamePanel(carom: Carom, view: View): { root: HTMLElement; aimed(
     "section",
     { class: "panel", "aria-label": "Best shot and game", id: "game-panel" },
     el("h2", {}, "Play"),
-    el("div", { class: "row" }, best, own.root),
+    el("div", { class: "row" }, advise, own.root),
     chance,
     el("div", { class: "row" }, start, other.root, shoot),
     said,
@@ -77,56 +89,55 @@ export function gamePanel(carom: Carom, view: View): { root: HTMLElement; aimed(
   function tell(text: string): void {
     said.textContent = text;
   }
-  /** Runs what takes a moment, after the page has said so. */
-  function after(work: () => void): void {
+  /** The best shot, from the worker. Nothing else is done meanwhile, but the page lives. Undefined where another game was begun. */
+  async function best(options: PlanOptions): Promise<Choice | undefined> {
     busy = true;
-    window.setTimeout(() => {
-      busy = false;
-      try {
-        work();
-      } catch (error) {
-        tell(error instanceof CaromError ? `The library refuses: ${error.message}` : String(error));
-      }
-    }, 30);
+    const mine = ++number;
+    try {
+      const [one] = await far("plan", view.table(), view.balls(), { ...options, best: 1 });
+      return mine === number ? one : undefined;
+    } catch (error) {
+      if (mine === number) tell(error instanceof Error ? error.message : String(error));
+      return undefined;
+    } finally {
+      if (mine === number) busy = false;
+    }
   }
   function words(one: Choice): string {
-    const { names, table } = { names: view.names(), table: view.table() };
     if (one.ball < 0) return one.kind === "foul" ? "no shot without a foul was found" : "a safety, or the break";
-    const [x, y] = table.pockets[one.pocket]!.centre;
-    const side = Math.abs(y - table.length / 2) < 0.2 * table.length;
-    const across = x < table.width / 2 ? "left" : "right";
-    return `ball ${names[one.ball]} into the ${side ? `${across} side pocket` : `${across} corner ${y < table.length / 2 ? "near the head" : "near the foot"}`}${one.cushions > 0 ? ", off a cushion" : ""}`;
+    return `ball ${view.names()[one.ball]} into the ${pocketName(view.table(), one.pocket)}${one.cushions > 0 ? ", off a cushion" : ""}`;
   }
 
   // ---- Advice ----------------------------------------------------------------------------------------------------------------
 
-  function propose(): void {
+  async function propose(): Promise<void> {
     if (busy || match?.over) return;
     tell("Looking for the best shot …");
-    after(() => {
-      const inHand = match ? place(match.hand) : false;
-      const [one] = carom.plan(view.table(), view.balls(), { ...plan(true), shots: PLAN, best: 1, inHand: inHand! });
-      if (inHand !== false) view.lay(carom.placeBall(view.table(), view.balls(), 0, ...one!.place));
-      view.aim(one!.cue);
-      tell(`Best of ${PLAN} shots: ${words(one!)}.`);
-    });
+    const inHand = match ? place(match.hand)! : false;
+    const one = await best({ ...plan(true), shots: PLAN, inHand });
+    if (!one) return;
+    if (inHand !== false) view.lay(carom.placeBall(view.table(), view.balls(), 0, ...one.place));
+    view.aim(one.cue);
+    tell(`Best of ${PLAN} shots: ${words(one)}.`);
   }
 
-  let waiting: number | undefined;
+  let asked = 0;
   /** The chances of the stroke that is aimed, a moment after it was. */
-  function chances(): void {
-    window.clearTimeout(waiting);
+  async function chances(): Promise<void> {
+    const mine = ++asked;
     root.hidden = !isKnown();
     if (root.hidden || busy || (match && (!match.mine || match.over))) return void (chance.textContent = "");
-    waiting = window.setTimeout(() => {
-      try {
-        const [one] = carom.chances(view.table(), view.balls(), [view.cue()], { ...plan(true), shots: TRY });
-        const call = one!.ball > 0 ? `pots ball ${view.names()[one!.ball]}, ` : "";
-        chance.textContent = `This shot ${call}plays on ${percent(one!.keep)}, wins the game ${percent(one!.value)}, is a foul ${percent(one!.foul)}.`;
-      } catch (error) {
-        chance.textContent = error instanceof Error ? error.message : String(error);
-      }
-    }, 60);
+    await new Promise((later) => window.setTimeout(later, 60));
+    if (mine !== asked) return;
+    let text: string;
+    try {
+      const [one] = await far("chances", view.table(), view.balls(), [view.cue()], { ...plan(true), shots: TRY });
+      const call = one!.ball > 0 ? `pots ball ${view.names()[one!.ball]}, ` : "";
+      text = `This shot ${call}plays on ${percent(one!.keep)}, wins the game ${percent(one!.value)}, is a foul ${percent(one!.foul)}.`;
+    } catch (error) {
+      text = error instanceof Error ? error.message : String(error);
+    }
+    if (mine === asked) chance.textContent = text;
   }
 
   // ---- The game --------------------------------------------------------------------------------------------------------------
@@ -139,7 +150,7 @@ export function gamePanel(carom: Carom, view: View): { root: HTMLElement; aimed(
     strokes = 0;
     shoot.hidden = false;
     tell("You break. Drag the cue ball behind the head string, aim, then press Shoot.");
-    chances();
+    void chances();
   }
 
   /** What a shot without errors pots of the balls that are on, which is what it calls. */
@@ -168,22 +179,22 @@ export function gamePanel(carom: Carom, view: View): { root: HTMLElement; aimed(
     });
   }
 
-  function next(balls: ShotBall[], foul: boolean, wasMine: boolean): void {
-    const { game, mine, hand, over } = match!;
-    const table = view.table();
-    // A cue ball in hand waits at the head spot, or near to it.
-    if (hand !== "no" && mine && !over) {
-      for (let k = 0; ; k++) {
-        const x = (k / 40) % 1;
-        const at: [number, number] = [table.width * (x < 0.5 ? 0.5 + x * 0.9 : 0.5 - (x - 0.5) * 0.9), table.length / 4 - 1e-3 * Math.floor(k / 40)];
-        try {
-          balls = carom.placeBall(table, balls, 0, ...at);
-          break;
-        } catch (error) {
-          if (k > 4000) throw error;
-        }
+  /** A cue ball in hand waits at the head spot, or near to it. */
+  function atHead(balls: readonly ShotBall[]): ShotBall[] {
+    const { width, length } = view.table();
+    for (let k = 0; ; k++) {
+      const x = (k / 40) % 1;
+      try {
+        return carom.placeBall(view.table(), balls, 0, width * (x < 0.5 ? 0.5 + x * 0.9 : 0.5 - (x - 0.5) * 0.9), length / 4 - 1e-3 * Math.floor(k / 40));
+      } catch (error) {
+        if (k > 4000) throw error;
       }
     }
+  }
+
+  function next(balls: ShotBall[], foul: boolean, wasMine: boolean): void {
+    const { game, mine, hand, over } = match!;
+    if (hand !== "no" && mine && !over) balls = atHead(balls);
     if (!over && !mine) busy = true; // the view aims nothing of its own meanwhile
     view.lay(balls);
     const fouled = foul ? `${wasMine ? "You foul" : "The opponent fouls"}. ` : "";
@@ -194,33 +205,35 @@ export function gamePanel(carom: Carom, view: View): { root: HTMLElement; aimed(
     }
     if (mine) {
       tell(`${fouled}Your turn${group}.${hand === "no" ? "" : ` The cue ball is in hand${hand === "kitchen" ? " behind the head string" : ""}: drag it.`}`);
-      return chances();
+      return void chances();
     }
     tell(`${fouled}The opponent, a ${other.select.value}, thinks${group} …`);
-    after(reply);
+    void reply();
   }
 
-  function reply(): void {
-    const { hand } = match!;
-    const inHand = place(hand)!;
-    const [one] = carom.plan(view.table(), view.balls(), { ...plan(false), shots: REPLY, best: 1, inHand });
+  async function reply(): Promise<void> {
+    const inHand = place(match!.hand)!;
+    const one = await best({ ...plan(false), shots: REPLY, inHand });
+    if (!one) return;
     busy = true;
-    if (inHand !== false) view.lay(carom.placeBall(view.table(), view.balls(), 0, ...one!.place));
-    view.aim(one!.cue);
+    if (inHand !== false) view.lay(carom.placeBall(view.table(), view.balls(), 0, ...one.place));
+    view.aim(one.cue);
     busy = false;
-    tell(`The opponent plays ${words(one!)}.`);
-    stroke(one!.cue, one!.ball > 0 ? { ball: one!.ball, pocket: one!.pocket } : undefined);
+    tell(`The opponent plays ${words(one)}.`);
+    stroke(one.cue, one.ball > 0 ? { ball: one.ball, pocket: one.pocket } : undefined);
   }
 
   return {
     root,
-    aimed: chances,
+    atHead,
+    aimed: () => void chances(),
     begin() {
       match = undefined;
+      number++;
       busy = false;
       shoot.hidden = true;
       tell("");
-      chances();
+      void chances();
     },
     hand: () => (match && !match.over ? (match.mine ? match.hand : "no") : undefined),
     busy: () => busy,

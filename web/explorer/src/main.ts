@@ -3,29 +3,27 @@ import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { load } from "carom";
 import { collisionView } from "./collision.js";
+import { serve } from "./far.js";
 import { shotView } from "./shot.js";
 import { parameters } from "./ui.js";
 
-const main = document.getElementById("main")!;
-const solver = document.getElementById("solver") as HTMLSelectElement;
-const theme = document.getElementById("theme") as HTMLButtonElement;
-
-const dark = window.matchMedia("(prefers-color-scheme: dark)");
-function dress(name: "light" | "dark"): void {
-  document.documentElement.dataset.theme = name;
-  theme.textContent = name === "dark" ? "Light" : "Dark";
-}
-dress(dark.matches ? "dark" : "light");
-
-async function begin(): Promise<void> {
+async function begin(main: HTMLElement): Promise<void> {
+  const solver = document.getElementById("solver") as HTMLSelectElement;
+  const theme = document.getElementById("theme") as HTMLButtonElement;
+  const dark = window.matchMedia("(prefers-color-scheme: dark)");
+  const dress = (name: "light" | "dark"): void => {
+    document.documentElement.dataset.theme = name;
+    theme.textContent = name === "dark" ? "Light" : "Dark";
+  };
+  dress(dark.matches ? "dark" : "light");
   const carom = await load();
   document.getElementById("about")!.append(` carom ${carom.version}, ${carom.build === "simd" ? "with" : "without"} vectors.`);
   solver.value = parameters().get("solver") === "euler" ? "euler" : "exact";
   const chosen = (): "exact" | "euler" => (solver.value === "euler" ? "euler" : "exact");
   let view: { update(): void; theme(): void };
   const show = (): void => {
-    const name = parameters().get("view") === "shot" ? "shot" : "collision";
-    for (const one of ["collision", "shot"]) {
+    const name = parameters().get("view") === "collision" ? "collision" : "shot";
+    for (const one of ["shot", "collision"]) {
       const link = document.getElementById(`to-${one}`)!;
       if (one === name) link.setAttribute("aria-current", "page");
       else link.removeAttribute("aria-current");
@@ -49,6 +47,11 @@ async function begin(): Promise<void> {
   });
 }
 
-begin().catch((error: unknown) => {
-  main.textContent = `The library did not start: ${error instanceof Error ? error.message : String(error)}`;
-});
+// The same script runs in the worker (far.ts).
+if (typeof document === "undefined") void serve();
+else {
+  const main = document.getElementById("main")!;
+  begin(main).catch((error: unknown) => {
+    main.textContent = `The library did not start: ${error instanceof Error ? error.message : String(error)}`;
+  });
+}

@@ -1,26 +1,24 @@
-// The view Shot: a table to aim on, the whole shot while one aims, its film, its events, and a fan of shots with a player's error.
+// The view Table: shots are aimed on it and played while one aims; their film, their events, and a fan of shots with a player's error.
 import { type BallState, type Carom, CaromError, type Cue, fromLine, type Game, type RackName, type Shot, type ShotBall, type ShotOptions, type Table, type TableName, toLine } from "carom";
+import { colourOf, player } from "../../../cli/player.js";
 import { gamePanel } from "./game.js";
-import { button, check, choice, color, eachFrame, el, fit, keep, parameters, slider, type Slider } from "./ui.js";
+import { button, check, choice, color, eachFrame, el, fit, pad, parameters, pocketName, slider, type Slider } from "./ui.js";
 
 interface GameOf {
   text: string;
   table: TableName;
   rack: RackName;
   game: Game;
-  colors: (k: number) => string;
   names: (k: number) => string;
 }
 
-const POOL = ["#fbfaf5", "#e3b505", "#1446a0", "#c8102e", "#5b2a86", "#e8702a", "#12664f", "#7a1f2b", "#16181b"];
-const SNOOKER = ["#e3b505", "#12664f", "#7b4a21", "#1446a0", "#e58fa5", "#16181b"];
-const SNOOKER_NAMES = ["yellow", "green", "brown", "blue", "pink", "black"];
-const pool = (k: number): string => (k === 0 ? POOL[0]! : POOL[((k - 1) % 8) + 1]!);
+const COLOURS = ["yellow", "green", "brown", "blue", "pink", "black"];
+const pool = (k: number): string => (k === 0 ? "cue" : String(k));
 const GAMES: Record<string, GameOf> = {
-  nineball: { text: "Nine-ball", table: "9ft", rack: "nineball", game: "pool", colors: pool, names: (k) => (k === 0 ? "cue" : String(k)) },
-  eightball: { text: "Eight-ball", table: "9ft", rack: "eightball", game: "pool", colors: pool, names: (k) => (k === 0 ? "cue" : String(k)) },
-  snooker: { text: "Snooker", table: "snooker", rack: "snooker", game: "snooker", colors: (k) => (k === 0 ? "#fbfaf5" : k < 16 ? "#c8102e" : SNOOKER[k - 16]!), names: (k) => (k === 0 ? "white" : k < 16 ? `red ${k}` : SNOOKER_NAMES[k - 16]!) },
-  threecushion: { text: "Three-cushion", table: "threecushion", rack: "threecushion", game: "billiard", colors: (k) => ["#fbfaf5", "#e3b505", "#c8102e"][k] ?? "#888", names: (k) => ["white", "yellow", "red"][k] ?? String(k) },
+  nineball: { text: "Nine-ball", table: "9ft", rack: "nineball", game: "pool", names: pool },
+  eightball: { text: "Eight-ball", table: "9ft", rack: "eightball", game: "pool", names: pool },
+  snooker: { text: "Snooker", table: "snooker", rack: "snooker", game: "snooker", names: (k) => (k === 0 ? "white" : k < 16 ? `red ${k}` : COLOURS[k - 16]!) },
+  threecushion: { text: "Three-cushion", table: "threecushion", rack: "threecushion", game: "billiard", names: (k) => ["white", "yellow", "red"][k] ?? String(k) },
 };
 const EVENTS: Record<string, string> = {
   stick_ball: "cue strikes",
@@ -39,72 +37,70 @@ const EVENTS: Record<string, string> = {
 const FAN = 500;
 const FAN_CHUNK = 20;
 const FAN_ROOM = 400;
+const DEFAULTS: Record<string, number> = { speed: 8, phi: 90, right: 0, up: 0.25, theta: 0, error: 0.3 };
+const DEGREES = 180 / Math.PI;
+/** How far the stick is drawn back for each m/s, m. */
+const PULL = 0.04;
+const onTable = ({ label }: BallState): boolean => label !== "pocketed" && label !== "off";
 
 export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HTMLElement): { update(): void; theme(): void } {
-  const given = parameters();
-  let gameName = given.get("game") ?? "nineball";
-  if (!(gameName in GAMES)) gameName = "nineball";
-  let seed = Number(given.get("seed") ?? 1);
-  if (!Number.isSafeInteger(seed) || seed < 0) seed = 1;
-  let game = GAMES[gameName]!;
+  let gameName: string;
+  let seed: number;
+  let game: GameOf;
   let table: Table;
   let balls: ShotBall[];
   let names: string[];
+  /** Whether balls lie elsewhere than in the rack; the cue of a line that was read; how each ball is turned, degrees. */
   let moved = false;
-  let shot: Shot | undefined;
-  let time = 0;
-  let playing = false;
   let imported: Cue | undefined;
+  let faces: number[];
+  /** The object ball that was picked, for pockets. */
+  let chosen = -1;
+  let shot: Shot | undefined;
 
   // ---- Controls ------------------------------------------------------------------------------------------------------------
 
-  const one = (x: number): string => x.toFixed(1);
   const two = (x: number): string => x.toFixed(2);
   const sliders: Record<string, Slider> = {
     speed: slider("speed", "Speed of the cue", 0.1, 10, 0.05, " m/s", aimed, two),
     phi: slider("phi", "Direction", 0, 360, 0.05, "°", aimed, two),
-    a: slider("a", "Tip to the left (+) or right", -0.7, 0.7, 0.01, " R", aimed, two),
-    b: slider("b", "Tip above (+) or below", -0.7, 0.7, 0.01, " R", aimed, two),
+    right: slider("right", "Tip to the right (+) or left", -0.7, 0.7, 0.01, " R", aimed, two),
+    up: slider("up", "Tip above (+) or below", -0.7, 0.7, 0.01, " R", aimed, two),
     theta: slider("theta", "Butt raised by", 0, 80, 1, "°", aimed, (x) => x.toFixed(0)),
     error: slider("error", "Player's error of direction", 0.05, 2, 0.05, "°", aimed, two),
   };
-  const defaults: Record<string, number> = { speed: 8, phi: 90, a: 0, b: 0.25, theta: 0, error: 0.3 };
-  for (const [key, s] of Object.entries(sliders)) {
-    const x = given.has(key) ? Number(given.get(key)) : NaN;
-    s.value = Number.isFinite(x) ? x : defaults[key]!;
-  }
+  const set = (key: string, value: number): void => void (sliders[key]!.value = value);
+  const spin = pad("spin", "Where the tip touches the cue ball", (right, up) => {
+    set("right", right);
+    set("up", up);
+    aimed();
+  });
   const games = choice("game", "Game", Object.entries(GAMES).map(([key, { text }]) => [key, text] as const), () => {
     gameName = games.select.value;
     // Three-cushion has no rack to break: a shot of medium speed at an angle shows more.
-    Object.assign(sliders.speed!, { value: gameName === "threecushion" ? 4 : 8 });
-    Object.assign(sliders.phi!, { value: gameName === "threecushion" ? 62 : 90 });
-    setUp();
+    set("speed", gameName === "threecushion" ? 4 : 8);
+    set("phi", gameName === "threecushion" ? 62 : 90);
+    rackUp();
   });
   const cushion = choice("cushion", "Cushions", [["han", "Han"], ["mathavan", "Mathavan, exact"], ["stronge", "Stronge"], ["mirror", "mirror"]], aimed);
-  cushion.select.value = given.get("cushion") ?? "han";
-  if (cushion.select.value === "") cushion.select.value = "han";
   const fanned = check("fan", `Fan: ${FAN} shots with a player's error`, aimed);
-  fanned.input.checked = given.get("fan") === "1";
-  const rate = choice("rate", "Speed", [["1", "real time"], ["0.25", "1/4"], ["0.1", "1/10"], ["4", "4 times"], ["1000", "at once"]], () => undefined);
-  const play = button("Play", () => (!playing ? start() : match.busy() ? undefined : stop()), { id: "play" });
-  const clock = slider("time", "Time", 0, 1, 0.001, " s", () => go(clock.value), two);
-  const canvas = el("canvas", { class: "scene", id: "table-scene", role: "img", tabindex: "0" });
   const side = el("canvas", { class: "scene", id: "side-scene", role: "img", "aria-label": "The table from the side: heights of the balls" });
   const sidePanel = el("div", { id: "side-view", hidden: "" }, el("p", { class: "note" }, "From the side; heights are enlarged."), side);
-  const list = el("ol");
   const summary = el("tbody");
   const message = el("p", { class: "error", role: "status", id: "message" });
   const line = el("textarea", { id: "line", spellcheck: "false" });
   const cost = el("p", { class: "note", id: "cost" });
+  const film = player({ under: drawFan, over: drawAim, moved: () => !sidePanel.hidden && drawSide(), ended: () => finished(), still: () => match.busy() });
+  const { canvas } = film;
   const match = gamePanel(carom, {
     name: () => gameName,
     table: () => table,
     balls: () => balls,
     names: () => names,
-    cue: () => cue(),
-    options: () => options(),
+    cue,
+    options,
     aim(stroke) {
-      for (const key of ["speed", "phi", "a", "b", "theta"] as const) sliders[key]!.value = stroke[key];
+      aim(stroke);
       present(cue());
       match.aimed();
     },
@@ -116,78 +112,85 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     perform(stroke, then) {
       present(stroke);
       ended = then;
-      if (shot) start();
-      else then();
+      if (shot) film.start();
+      else finished();
     },
     rackUp: () => rackUp(false),
   });
+  const undo = button("Undo", back, { id: "undo" });
+  const next = button("Next shot", nextShot, { id: "next", title: "The next shot, from where the balls of this one end" });
 
   main.replaceChildren(
     el(
       "div",
-      { class: "columns" },
+      { class: "table-view" },
       el(
         "section",
-        { class: "panel first", "aria-label": "The shot" },
-        el("div", { class: "row" }, games.root, button("New rack", () => { seed += 1; rackUp(); }, { id: "rack" })),
-        ...["speed", "phi", "a", "b", "theta"].map((key) => sliders[key]!.root),
-        el("div", { class: "row" }, cushion.root),
+        { class: "stage", "aria-label": "Table" },
+        canvas,
+        sliders.speed!.root,
+        spin.root,
+      ),
+      el("section", { class: "bar", "aria-label": "Film" }, film.controls, el("div", { class: "row" }, undo, next, button("Copy link", () => void copyLink(), { id: "copy" }), button("New rack", newRack, { id: "rack" }), message)),
+      el(
+        "section",
+        { class: "panel aim", "aria-label": "The shot" },
+        ...["right", "up", "phi", "theta"].map((key) => sliders[key]!.root),
+        el("div", { class: "row" }, games.root, cushion.root),
         fanned.root,
         sliders.error!.root,
         el("details", {}, el("summary", {}, "Export and import"), el("label", { for: "line" }, "The shot as the line that carom shoot reads"), line, el("div", { class: "row" }, button("Export", exportLine, { id: "export" }), button("Import", importLine, { id: "import" }))),
-        message,
       ),
       el(
         "div",
-        { class: "stack scene-panel" },
-        el(
-          "section",
-          { class: "panel", "aria-label": "Table" },
-          canvas,
-          sidePanel,
-          el("div", { class: "row" }, play, button("◀ event", () => step(-1), { id: "back", "aria-label": "Previous event" }), button("event ▶", () => step(1), { id: "forward", "aria-label": "Next event" }), rate.root),
-          clock.root,
-          el("p", { class: "note" }, "Drag on the table to aim; drag the cue ball to move it. Keys on the table: ← → turn (with Shift 1°), ↑ ↓ change the speed, space plays."),
-          cost,
-        ),
-        match.root,
+        { class: "below" },
+        el("div", { class: "stack" }, match.root, el("section", { class: "panel", "aria-label": "How" }, sidePanel, ...HELP.map((text) => el("p", { class: "note" }, text)), cost)),
+        el("section", { class: "panel", "aria-label": "The shot in numbers" }, el("table", { class: "numbers", id: "shot-numbers" }, el("caption", {}, "The shot"), summary)),
+        el("section", { class: "panel", "aria-label": "What happens" }, el("h2", {}, "Events"), film.events),
       ),
-      el("section", { class: "panel stack", "aria-label": "What happens" }, el("table", { class: "numbers", id: "shot-numbers" }, el("caption", {}, "The shot"), summary), el("div", {}, el("h2", {}, "Events"), el("div", { class: "events", tabindex: "0", role: "region", "aria-label": "Events" }, list))),
     ),
   );
 
   // ---- The shot ------------------------------------------------------------------------------------------------------------
 
-  const cue = (): Cue => {
+  function cue(): Cue {
     const v = (key: string): number => sliders[key]!.value;
-    return { ...(imported ?? carom.cue({}, game.game)), speed: v("speed"), phi: v("phi"), a: v("a"), b: v("b"), theta: v("theta") };
-  };
-  const options = (): ShotOptions => {
+    return { ...(imported ?? carom.cue({}, game.game)), speed: v("speed"), phi: v("phi"), a: -v("right") || 0, b: v("up"), theta: v("theta") };
+  }
+  /** Sets the sliders to a stroke. */
+  function aim(stroke: Cue): void {
+    for (const key of ["speed", "phi", "theta"] as const) set(key, stroke[key]);
+    set("right", -stroke.a || 0);
+    set("up", stroke.b);
+  }
+  function options(): ShotOptions {
     const euler = solver() === "euler";
     const model = cushion.select.value as "mathavan" | "han" | "stronge" | "mirror";
     return { ballModel: euler ? "euler" : "exact", cushionModel: euler && model === "mathavan" ? "euler" : model };
-  };
-
-  /** The balls of the game as they begin. It ends a game that is played, unless that begins with it. */
-  function rackUp(ends = true): void {
-    moved = false;
-    imported = undefined;
-    setUp(ends);
   }
 
-  function setUp(ends = true): void {
+  function lay(): void {
     game = GAMES[gameName]!;
     games.select.value = gameName;
     table = carom.table(game.table);
-    if (!moved) {
-      balls = carom.rack(game.rack, table, { seed });
-      const kind = carom.kind(game.game);
-      balls = balls.map(({ state }) => ({ kind, state }));
-      names = balls.map((_, k) => game.names(k));
-    }
+    const kind = carom.kind(game.game);
+    balls = carom.rack(game.rack, table, { seed }).map(({ state }) => ({ kind, state }));
+    names = balls.map((_, k) => game.names(k));
+    faces = balls.map(() => 0);
+    chosen = -1;
+    moved = false;
+    imported = undefined;
     ended = undefined;
+  }
+  /** The balls of the game as they begin. It ends a game that is played, unless that begins with it. */
+  function rackUp(ends = true): void {
+    lay();
     if (ends) match.begin();
     aimed();
+  }
+  function newRack(): void {
+    seed += 1;
+    rackUp();
   }
 
   /** Plays the shot as it is aimed now, from its start. */
@@ -198,8 +201,8 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   }
 
   function present(stroke: Cue): void {
-    stop();
     sliders.error!.input.disabled = !fanned.input.checked;
+    spin.set(sliders.right!.value, sliders.up!.value);
     const begun = performance.now();
     message.textContent = "";
     try {
@@ -211,34 +214,45 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     const computed = performance.now() - begun;
     // Flights are short: their paths need more points.
     paths = shot ? sample(shot, shot.events.some((event) => event.type === "slate") ? 150 : 25, 900) : [];
-    time = 0;
-    const last = shot?.time ?? 1;
-    clock.input.max = String(Math.max(last, 0.001));
-    clock.value = 0;
     fanLayer = undefined;
     fanNumber++;
-    draw();
-    cost.textContent = `The shot was computed in ${computed.toFixed(1)} ms, and drawn with its paths in ${(performance.now() - begun).toFixed(1)} ms.`;
     tell();
+    film.show({ table, balls: balls.map(({ kind }, k) => ({ name: names[k]!, radius: kind.radius })), shots: [filmed()] });
+    if (!sidePanel.hidden) drawSide();
+    cost.textContent = `The shot was computed in ${computed.toFixed(1)} ms, and drawn with its paths in ${(performance.now() - begun).toFixed(1)} ms.`;
     if (fanned.input.checked) void fan(fanNumber);
-    const kept: Record<string, string> = { view: "shot" };
-    if (gameName !== "nineball") kept.game = gameName;
-    if (seed !== 1) kept.seed = String(seed);
-    for (const [key, s] of Object.entries(sliders)) if (s.value !== defaults[key]) kept[key] = String(s.value);
-    if (cushion.select.value !== "han") kept.cushion = cushion.select.value;
-    if (fanned.input.checked) kept.fan = "1";
-    if (solver() === "euler") kept.solver = "euler";
-    if (moved) kept.line = toLine({ tableName: game.table, balls, cue: cue(), names });
-    keep(kept);
+    window.clearTimeout(writing);
+    writing = window.setTimeout(commit, 150);
   }
 
-  interface Path {
-    ball: number;
-    xyz: Float64Array;
+  /** What the player shows of the shot: without one, the balls as they lie. */
+  function filmed(): Parameters<typeof film.show>[0]["shots"][number] {
+    const played = shot;
+    // How balls are turned at the start: about the vertical.
+    const turned = faces.map((face) => [Math.cos(face / DEGREES / 2), Math.sin(face / DEGREES / 2)] as const);
+    return {
+      time: played?.time ?? 0,
+      at(time) {
+        const q = played?.orientations(time);
+        const states = played ? played.states(time) : balls.map((ball) => ball.state);
+        return states.map((state, k) => {
+          const [c, s] = turned[k]!;
+          const [w, i, j, n] = q ? q.subarray(4 * k, 4 * k + 4) : [1, 0, 0, 0];
+          return { r: state.r, q: [w! * c - n! * s, i! * c + j! * s, j! * c - i! * s, n! * c + w! * s], seen: onTable(state) };
+        });
+      },
+      paths,
+      events: (played?.events ?? []).map((event) => {
+        const a = names[event.a]!;
+        const where = event.type === "ball_pocket" ? `: ${pocketName(table, event.b)}` : "";
+        return { time: event.time, text: event.type === "ball_ball" ? `${a} hits ${names[event.b]}` : event.type === "stick_ball" ? "the cue strikes" : `${a}: ${EVENTS[event.type] ?? event.type}${where}` };
+      }),
+    };
   }
-  let paths: Path[] = [];
+
+  let paths: { ball: number; xyz: Float64Array }[] = [];
   /** The path of each ball that moves: at every event, and so often a second between. */
-  function sample(shot: Shot, often = 25, most = 500): Path[] {
+  function sample(shot: Shot, often = 25, most = 500): typeof paths {
     const times = shot.events.map((event) => event.time);
     const count = Math.min(Math.ceil(shot.time * often), most);
     for (let k = 0; k <= count; k++) times.push((shot.time * k) / Math.max(count, 1));
@@ -252,23 +266,10 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     return found;
   }
 
-  let listing: number | undefined;
-  function tellEvents(): void {
-    list.replaceChildren(
-      ...(shot?.events ?? []).map((event) => {
-        const what = event.type === "ball_ball" ? `${names[event.a]} hits ${names[event.b]}` : event.type === "stick_ball" ? "the cue strikes" : `${names[event.a]}: ${EVENTS[event.type] ?? event.type}`;
-        const made = button("", () => go(event.time));
-        made.append(el("span", {}, `${event.time.toFixed(3)} s`), el("span", {}, what));
-        return el("li", {}, made);
-      }),
-    );
-    markEvent();
-  }
-
   function tell(): void {
     const rows: [string, string, string][] = [];
+    const contact = shot?.firstContact;
     if (shot) {
-      const contact = shot.firstContact;
       const fell = shot.final.map((state, k) => (state.label === "pocketed" && balls[k]!.state.label !== "pocketed" ? names[k]! : "")).filter((name) => name !== "");
       const cushions = shot.events.filter((event) => event.type === "ball_linear_cushion").length;
       rows.push(["status", "Status", shot.status], ["time", "Lasts", `${shot.time.toFixed(3)} s`], ["count", "Events", String(shot.count)]);
@@ -278,78 +279,130 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       rows.push(["cue-ball", "Cue ball at the end", shot.final[0]!.label === "pocketed" ? "in a pocket" : `${r[0].toFixed(4)}, ${r[1].toFixed(4)} m`]);
     }
     summary.replaceChildren(...rows.map(([id, name, text]) => el("tr", {}, el("th", { scope: "row" }, name), el("td", { id: `s-${id}` }, text))));
-    // The list waits until nothing has changed for a moment: it costs more than the shot.
-    window.clearTimeout(listing);
-    list.replaceChildren();
-    listing = window.setTimeout(tellEvents, 100);
-    const contact = shot?.firstContact;
     canvas.setAttribute("aria-label", `${game.text} table from above. The shot lasts ${shot?.time.toFixed(1) ?? 0} seconds; ${contact ? `ball ${names[contact.ball]} is hit first` : "no ball is hit"}.`);
-    const high = paths.some(({ xyz, ball }) => {
-      for (let k = 2; k < xyz.length; k += 3) if (xyz[k]! > balls[ball]!.kind.radius + 1e-6) return true;
-      return false;
-    });
-    sidePanel.hidden = !high;
+    sidePanel.hidden = !paths.some(({ xyz, ball }) => xyz.some((z, k) => k % 3 === 2 && z > balls[ball]!.kind.radius + 1e-6));
   }
 
-  // ---- Film ----------------------------------------------------------------------------------------------------------------
-
-  let before = 0;
   /** Is called at the end of a film of the game. */
   let ended: (() => void) | undefined;
-  function frame(now: number): void {
-    if (!playing || !shot) return;
-    time = Math.min(time + Math.min((now - before) / 1000, 0.1) * Number(rate.select.value), shot.time);
-    before = now;
-    clock.value = time;
-    draw();
-    markEvent();
-    if (time < shot.time) return void requestAnimationFrame(frame);
-    stop();
+  function finished(): void {
     const then = ended;
     ended = undefined;
     then?.();
   }
-  function start(): void {
-    if (!shot) return;
-    if (time >= shot.time) time = 0;
-    playing = true;
-    play.textContent = "Pause";
-    before = performance.now();
-    requestAnimationFrame(frame);
+
+  // ---- The state in the address, undo, the next shot -----------------------------------------------------------------------------
+
+  let writing: number | undefined;
+  let committed = "";
+  const past: string[] = [];
+
+  /** All that differs from the defaults. */
+  function state(): Record<string, string> {
+    const kept: Record<string, string> = {};
+    if (gameName !== "nineball") kept.game = gameName;
+    if (seed !== 1) kept.seed = String(seed);
+    for (const [key, s] of Object.entries(sliders)) if (s.value !== DEFAULTS[key]) kept[key] = String(s.value);
+    if (cushion.select.value !== "han") kept.cushion = cushion.select.value;
+    if (fanned.input.checked) kept.fan = "1";
+    if (solver() === "euler") kept.solver = "euler";
+    if (imported) kept.line = toLine({ tableName: game.table, balls, cue: cue(), names });
+    else if (moved || faces.some((face) => face !== 0)) kept.at = balls.map(({ state: { r, label } }, k) => (label === "pocketed" ? "in" : `${r[0]},${r[1]}${faces[k] ? `,${faces[k]}` : ""}`)).join(" ");
+    return kept;
   }
-  function stop(): void {
-    playing = false;
-    play.textContent = "Play";
+  /** Writes the address once nothing has changed for a moment, and remembers the one before. */
+  function commit(): void {
+    window.clearTimeout(writing);
+    const now = String(new URLSearchParams({ view: "shot", ...state() }));
+    if (now !== committed) {
+      if (committed !== "") past.push(committed);
+      history.replaceState(null, "", `#${now}`);
+    }
+    committed = now;
+    undo.disabled = past.length === 0;
   }
-  function go(to: number): void {
-    if (match.busy()) return;
-    stop();
-    time = to;
-    clock.value = to;
-    draw();
-    markEvent();
+  function restore(given: URLSearchParams): void {
+    const known = (key: string, among: readonly string[]): string => (among.includes(given.get(key) ?? "") ? given.get(key)! : among[0]!);
+    gameName = known("game", Object.keys(GAMES));
+    seed = Number(given.get("seed") ?? 1);
+    if (!Number.isSafeInteger(seed) || seed < 0) seed = 1;
+    for (const [key, s] of Object.entries(sliders)) {
+      const x = given.has(key) ? Number(given.get(key)) : NaN;
+      s.value = Number.isFinite(x) ? x : DEFAULTS[key]!;
+    }
+    cushion.select.value = known("cushion", ["han", "mathavan", "stronge", "mirror"]);
+    fanned.input.checked = given.get("fan") === "1";
+    lay();
+    match.begin();
+    let wrong = "";
+    try {
+      if (given.has("line")) take(given.get("line")!);
+      else if (given.has("at")) takePlaces(given.get("at")!);
+    } catch (error) {
+      wrong = error instanceof Error ? error.message : String(error);
+    }
+    line.value = given.get("line") ?? "";
+    aimed();
+    if (wrong) message.textContent = wrong;
   }
-  function step(by: number): void {
-    if (!shot) return;
-    const times = shot.events.map((event) => event.time);
-    const next = by > 0 ? times.find((t) => t > time + 1e-9) : times.findLast((t) => t < time - 1e-9);
-    if (next !== undefined) go(next);
+  function takePlaces(text: string): void {
+    const places = text.split(" ").map((place) => (place === "in" ? undefined : place.split(",").map(Number)));
+    if (places.length !== balls.length || !places.every((place) => place === undefined || (place.length >= 2 && place.every(Number.isFinite)))) throw new TypeError(`at: ${balls.length} places x,y are needed, with "in" for a ball in a pocket`);
+    balls = balls.map((ball, k) => ({ kind: ball.kind, state: places[k] ? { ...ball.state, r: [places[k][0]!, places[k][1]!, ball.kind.radius] } : pocketed(ball.state) }));
+    faces = places.map((place) => place?.[2] ?? 0);
+    moved = true;
   }
-  function markEvent(): void {
-    if (!shot) return;
-    const k = shot.events.findLastIndex((event) => event.time <= time + 1e-9);
-    const old = list.querySelector('[aria-current="true"]');
-    const current = list.children[k];
-    if (old === current) return;
-    old?.removeAttribute("aria-current");
-    current?.setAttribute("aria-current", "true");
-    if (current instanceof HTMLElement) list.parentElement!.scrollTop = current.offsetTop - list.parentElement!.offsetTop - 60;
+  const pocketed = (from: BallState): BallState => {
+    const [pocket] = table.pockets;
+    return pocket ? { r: [...pocket.centre, -pocket.depth], v: [0, 0, 0], w: [0, 0, 0], label: "pocketed" } : from;
+  };
+
+  /** Whether a game is played, whose balls lie as it left them. It says so. */
+  function inGame(): boolean {
+    if (match.hand() === undefined) return false;
+    message.textContent = "In a game the balls stay where they are. New rack ends it.";
+    return true;
+  }
+  function back(): void {
+    if (inGame()) return;
+    commit();
+    const to = past.pop();
+    if (to === undefined) return;
+    committed = "";
+    restore(new URLSearchParams(to));
+    commit();
+  }
+  /** Balls lie where this shot ends. A cue ball that fell comes back to the head string. */
+  function nextShot(): void {
+    if (inGame() || !shot) return;
+    commit();
+    balls = balls.map(({ kind }, k) => {
+      const state = shot!.final[k]!;
+      return { kind, state: state.label === "off" ? pocketed(state) : state };
+    });
+    if (balls[0]!.state.label === "pocketed") balls = match.atHead(balls);
+    moved = true;
+    aimed();
+    commit();
+  }
+  async function copyLink(): Promise<void> {
+    commit();
+    try {
+      await navigator.clipboard.writeText(location.href);
+      message.textContent = "The link to this shot is copied.";
+    } catch (error) {
+      message.textContent = `The browser does not let the page copy (${error instanceof Error ? error.message : String(error)}). The address of the page is the link.`;
+    }
   }
 
   // ---- The fan -------------------------------------------------------------------------------------------------------------
 
   let fanNumber = 0;
   let fanLayer: HTMLCanvasElement | undefined;
+  function drawFan(g: CanvasRenderingContext2D): boolean {
+    if (fanLayer) g.drawImage(fanLayer, 0, 0, canvas.clientWidth, canvas.clientHeight);
+    return fanLayer !== undefined;
+  }
   /** Two draws from a normal distribution, by Box and Muller. */
   function normal(): [number, number] {
     const radius = Math.sqrt(-2 * Math.log(1 - Math.random()));
@@ -386,20 +439,20 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
         g.beginPath();
         for (const { ball, xyz } of sample(one, 20, 200)) {
           if (ball !== 0) continue;
-          for (let t = 0; t < xyz.length && xyz[t + 2]! > 0; t += 3) g[t === 0 ? "moveTo" : "lineTo"](...place(xyz[t]!, xyz[t + 1]!));
+          for (let t = 0; t < xyz.length && xyz[t + 2]! > 0; t += 3) g[t === 0 ? "moveTo" : "lineTo"](...film.place(xyz[t]!, xyz[t + 1]!));
         }
         g.stroke();
         g.globalAlpha = 0.25;
         one.final.forEach((state, ball) => {
-          if (state.label === "pocketed" || balls[ball]!.state.label === "pocketed") return;
-          g.fillStyle = game.colors(ball);
+          if (!onTable(state) || !onTable(balls[ball]!.state)) return;
+          g.fillStyle = colourOf(names[ball]!, ball);
           g.beginPath();
-          g.arc(...place(state.r[0], state.r[1]), 2, 0, 7);
+          g.arc(...film.place(state.r[0], state.r[1]), 2, 0, 7);
           g.fill();
         });
       }
       fanLayer = layer;
-      if (!playing) draw();
+      if (!film.playing) film.draw();
       cost.textContent = `${done + FAN_CHUNK} of ${FAN} shots of the fan; the library took ${computed.toFixed(0)} ms for them.`;
     }
     shots.free();
@@ -407,136 +460,61 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
 
   // ---- Drawing -------------------------------------------------------------------------------------------------------------
 
-  let scale = 1;
-  let upright = false;
-  let offset: [number, number] = [0, 0];
-  /** From the table, m, to the canvas. A table that lies has its length along the canvas' width. */
-  function place(x: number, y: number): [number, number] {
-    return upright ? [offset[0] + x * scale, offset[1] + (table.length - y) * scale] : [offset[0] + y * scale, offset[1] + x * scale];
-  }
-  function back(px: number, py: number): [number, number] {
-    return upright ? [(px - offset[0]) / scale, table.length - (py - offset[1]) / scale] : [(py - offset[1]) / scale, (px - offset[0]) / scale];
-  }
+  /** Balls that are not on the table wait on the wood beside it, in this order from the head. */
+  const waits = (): number[] => balls.flatMap(({ state }, k) => (onTable(state) ? [] : [k]));
+  const waitsAt = (index: number): [number, number] => [-0.045, 0.12 + 0.075 * index + (0.12 + 0.075 * index > table.length / 2 - 0.1 ? 0.2 : 0)];
+  const stickEnd = (speed: number): number => balls[0]!.kind.radius + PULL * speed;
 
-  function draw(): void {
-    const margin = 0.1;
-    const [w, l] = [table.width + 2 * margin, table.length + 2 * margin];
-    upright = canvas.clientWidth < 480;
-    const { g, width, height } = fit(canvas, upright ? l / w : w / l);
-    scale = width / (upright ? w : l);
-    offset = [margin * scale, margin * scale];
-    g.fillStyle = color("rail");
-    g.fillRect(0, 0, width, height);
-    // The bed, as far as the noses of the cushions, then pockets.
-    g.fillStyle = color("cloth");
-    const [x0, y0] = place(0, 0);
-    const [x1, y1] = place(table.width, table.length);
-    g.fillRect(Math.min(x0, x1), Math.min(y0, y1), Math.abs(x1 - x0), Math.abs(y1 - y0));
-    g.fillStyle = "#0c0f10";
-    for (const pocket of table.pockets) {
-      g.beginPath();
-      g.arc(...place(pocket.centre[0], pocket.centre[1]), pocket.radius * scale, 0, 7);
-      g.fill();
-    }
-    g.lineCap = "round";
-    g.strokeStyle = "#0f3b31";
-    g.lineWidth = 3;
-    for (const rail of table.rails) {
-      g.beginPath();
-      g.moveTo(...place(rail.p[0], rail.p[1]));
-      g.lineTo(...place(rail.q[0], rail.q[1]));
-      g.stroke();
-    }
-    // Of a jaw the part between the ends of the rails that it joins.
-    for (const { centre, radius } of table.jaws) {
-      const ends = table.rails.flatMap(({ p, q }) => [p, q]).filter(([x, y]) => Math.abs(Math.hypot(x - centre[0], y - centre[1]) - radius) < 1e-3);
-      if (ends.length !== 2) continue;
-      const [from, to] = ends.map(([x, y]) => Math.atan2(y - centre[1], x - centre[0])) as [number, number];
-      const turned = Math.atan2(Math.sin(to - from), Math.cos(to - from));
-      g.beginPath();
-      for (let k = 0; k <= 8; k++) {
-        const angle = from + (turned * k) / 8;
-        g[k === 0 ? "moveTo" : "lineTo"](...place(centre[0] + radius * Math.cos(angle), centre[1] + radius * Math.sin(angle)));
-      }
-      g.stroke();
-    }
-    if (fanLayer) g.drawImage(fanLayer, 0, 0, width, height);
-    // The paths.
-    g.lineWidth = 1.6;
-    g.lineJoin = "round";
-    for (const { ball, xyz } of paths) {
-      g.strokeStyle = game.colors(ball) === "#16181b" ? "#000000" : game.colors(ball);
-      g.globalAlpha = fanLayer ? 0.5 : 0.8;
-      g.beginPath();
-      for (let k = 0; k < xyz.length; k += 3) {
-        if (xyz[k + 2]! < 0) break;
-        g[k === 0 ? "moveTo" : "lineTo"](...place(xyz[k]!, xyz[k + 1]!));
-      }
-      g.stroke();
-    }
-    g.globalAlpha = 1;
-    // The balls at this time.
-    const states: readonly BallState[] = shot ? shot.states(Math.min(time, shot.time)) : balls.map((ball) => ball.state);
-    const turned = shot?.orientations(Math.min(time, shot.time));
-    states.forEach((state, k) => {
-      if (state.label !== "pocketed" && state.label !== "off") drawBall(g, k, state, turned?.subarray(4 * k, 4 * k + 4));
-    });
-    if (time === 0 && states[0]) drawCue(g, states[0]);
-    if (!sidePanel.hidden) drawSide(states);
-  }
-
-  function drawBall(g: CanvasRenderingContext2D, k: number, state: BallState, q: Float64Array | undefined): void {
-    const [x, y] = place(state.r[0], state.r[1]);
-    const radius = Math.max(balls[k]!.kind.radius * scale * (1 + Math.max(0, state.r[2] - balls[k]!.kind.radius)), 3);
-    const striped = game.game === "pool" && k > 8;
-    g.beginPath();
-    g.arc(x, y, radius, 0, 7);
-    g.fillStyle = striped ? "#fbfaf5" : game.colors(k);
-    g.fill();
-    g.strokeStyle = "#000a";
-    g.lineWidth = 1;
-    g.stroke();
-    // A spot that was on top at the start, or the stripe across it, where the ball has turned to.
-    if (q === undefined) return;
-    const [w, i, j, n] = [q[0]!, q[1]!, q[2]!, q[3]!];
-    for (const sign of [1, -1]) {
-      const up = sign * (1 - 2 * (i * i + j * j));
-      if (up < 0.1) continue;
-      const [sx, sy] = [sign * 2 * (i * n + w * j), sign * 2 * (j * n - w * i)];
-      const [px, py] = place(state.r[0] + sx * balls[k]!.kind.radius * 0.85, state.r[1] + sy * balls[k]!.kind.radius * 0.85);
-      g.beginPath();
-      g.arc(px, py, radius * 0.42, 0, 7);
-      g.fillStyle = striped ? game.colors(k) : k === 0 ? "#c8102e" : "#fbfaf5";
-      g.fill();
-      if (k > 0 && game.game === "pool" && radius > 6) {
-        g.fillStyle = striped ? "#ffffff" : "#16181b";
-        g.font = `bold ${Math.round(radius * 0.75)}px sans-serif`;
-        g.textAlign = "center";
-        g.textBaseline = "middle";
-        g.fillText(names[k]!, px, py + 0.5);
-      }
-    }
-  }
-
-  function drawCue(g: CanvasRenderingContext2D, state: BallState): void {
-    const { phi, theta } = cue();
-    const [dx, dy] = [Math.cos((phi * Math.PI) / 180), Math.sin((phi * Math.PI) / 180)];
-    const seen = Math.max(Math.cos((theta * Math.PI) / 180), 0.15);
-    const gap = 0.03 + 0.012 * sliders.speed!.value;
-    const at = (s: number): [number, number] => place(state.r[0] - dx * s, state.r[1] - dy * s);
-    g.lineCap = "round";
-    for (const [from, to, width, stroke] of [[gap + 0.028, gap + 1.3 * seen, 5, "#d9b077"], [gap + 0.028, gap + 0.045, 4, "#3f7fbf"]] as const) {
-      g.strokeStyle = stroke;
+  /** At the start of the film: the ball that is picked, the stick, the ghost ball and the tangent line. */
+  function drawAim(g: CanvasRenderingContext2D): void {
+    waits().forEach((k, index) => film.drawBall(g, k, { r: [...waitsAt(index), 0], q: [1, 0, 0, 0], seen: true }, 1));
+    if (film.time > 0 || film.playing) return;
+    const { phi, theta, speed } = cue();
+    const R = balls[0]!.kind.radius;
+    const { r } = balls[0]!.state;
+    const [dx, dy] = [Math.cos(phi / DEGREES), Math.sin(phi / DEGREES)];
+    const stroke = (from: readonly number[], to: readonly number[], width: number, style: string): void => {
+      g.strokeStyle = style;
       g.lineWidth = width;
       g.beginPath();
-      g.moveTo(...at(from));
-      g.lineTo(...at(to));
+      g.moveTo(...film.place(from[0]!, from[1]!));
+      g.lineTo(...film.place(to[0]!, to[1]!));
       g.stroke();
+    };
+    const ring = (at: readonly number[], more: number): void => {
+      g.beginPath();
+      g.arc(...film.place(at[0]!, at[1]!), R * film.scale + more, 0, 7);
+      g.stroke();
+    };
+    const contact = shot?.firstContact;
+    if (contact) {
+      const { event, ball } = contact;
+      const [ghost, object] = event.a === ball ? [event.before[1]!.r, event.before[0]!.r] : [event.before[0]!.r, event.before[1]!.r];
+      const [nx, ny] = [(object[0] - ghost[0]) / (2 * R), (object[1] - ghost[1]) / (2 * R)];
+      g.setLineDash([5, 4]);
+      stroke(object, [object[0] + 0.35 * nx, object[1] + 0.35 * ny], 1.4, "#ffffffd0");
+      // The tangent line, on the side to which the cue ball goes.
+      const turn = Math.sign(dx * -ny + dy * nx) || 1;
+      stroke(ghost, [ghost[0] - 0.35 * turn * ny, ghost[1] + 0.35 * turn * nx], 1.4, "#ffffffd0");
+      g.lineWidth = 1.4;
+      ring(ghost, 0);
+      g.setLineDash([]);
     }
+    if (chosen > 0 && onTable(balls[chosen]!.state)) {
+      g.strokeStyle = "#ffe28a";
+      g.lineWidth = 2;
+      ring(balls[chosen]!.state.r, 3);
+    }
+    if (!onTable(balls[0]!.state)) return;
+    const at = (s: number): [number, number] => [r[0] - dx * s, r[1] - dy * s];
+    const gap = stickEnd(speed);
+    g.lineCap = "round";
+    stroke(at(gap), at(gap + 1.3 * Math.max(Math.cos(theta / DEGREES), 0.15)), 5, "#d9b077");
+    stroke(at(gap), at(gap + 0.017), 4, "#3f7fbf");
   }
 
   /** Height over length: paths of balls that leave the cloth, and the balls now. */
-  function drawSide(states: readonly BallState[]): void {
+  function drawSide(): void {
     const { g, width, height } = fit(side, 0.18);
     const across = width / (table.length + 0.2);
     let highest = 0;
@@ -548,7 +526,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
     g.fillStyle = color("cloth");
     g.fillRect(0, height - 8, width, 8);
     for (const { ball, xyz } of paths) {
-      g.strokeStyle = ball === 0 ? color("text") : game.colors(ball);
+      g.strokeStyle = ball === 0 ? color("text") : colourOf(names[ball]!, ball);
       g.lineWidth = 1.5;
       g.beginPath();
       for (let k = 0; k < xyz.length; k += 3) {
@@ -557,11 +535,11 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
       }
       g.stroke();
     }
-    states.forEach((state, k) => {
-      if (state.label === "pocketed" || state.label === "off") return;
+    shot?.states(film.time).forEach((state, k) => {
+      if (!onTable(state)) return;
       g.beginPath();
       g.ellipse(...at(state.r[1], state.r[2]), balls[k]!.kind.radius * across, balls[k]!.kind.radius * up, 0, 0, 7);
-      g.fillStyle = game.colors(k);
+      g.fillStyle = colourOf(names[k]!, k);
       g.fill();
       g.strokeStyle = "#000a";
       g.stroke();
@@ -577,6 +555,8 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   function importLine(): void {
     try {
       take(line.value);
+      match.begin();
+      aimed();
     } catch (error) {
       message.textContent = error instanceof Error ? error.message : String(error);
     }
@@ -584,75 +564,224 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
   function take(text: string): void {
     const read = fromLine(carom, text);
     const known = Object.entries(GAMES).find(([key, one]) => one.table === read.tableName && (key === read.id || carom.rack(one.rack, read.table).length >= read.balls.length));
-    gameName = known?.[0] ?? "nineball";
-    game = { ...GAMES[gameName]!, table: read.tableName };
     if (read.cue.ball !== 0) throw new TypeError("cue.ball: this page strikes the first ball; put the cue ball first");
-    balls = read.balls;
-    names = read.names;
-    imported = read.cue;
+    gameName = known?.[0] ?? "nineball";
+    lay();
+    game = { ...GAMES[gameName]!, table: read.tableName };
+    ({ balls, names, table, cue: imported } = read);
+    faces = balls.map(() => 0);
     moved = true;
-    for (const key of ["speed", "phi", "a", "b", "theta"] as const) sliders[key]!.value = read.cue[key];
-    games.select.value = gameName;
-    table = read.table;
-    aimed();
+    aim(read.cue);
   }
+
+  // ---- Pockets ---------------------------------------------------------------------------------------------------------------
+
+  /** Aims so that a ball rolls to a pocket: the one that was picked, or else the one that is hit now. */
+  function aimAt(pocket: number): void {
+    const ball = chosen > 0 ? chosen : (shot?.firstContact?.ball ?? -1);
+    const name = `ball ${names[ball]} into the ${pocketName(table, pocket)}`;
+    if (ball < 0) return void (message.textContent = "Which ball? Click it first, then the pocket.");
+    const [from, object, to] = [balls[0]!.state.r, balls[ball]!.state.r, table.pockets[pocket]!.centre];
+    const R = balls[0]!.kind.radius;
+    const want = Math.atan2(to[1] - object[1], to[0] - object[0]);
+    const straight = Math.atan2(object[1] - 2 * R * Math.sin(want) - from[1], object[0] - 2 * R * Math.cos(want) - from[0]) * DEGREES;
+    const cut = Math.abs(wrap(want * DEGREES - straight));
+    if (cut > 89) return void (message.textContent = `No such aim: ${name} would be a cut of ${cut.toFixed(0)}°.`);
+    /** By how many degrees the ball leaves its way, or what is hit instead. */
+    const off = (phi: number): number | string => {
+      const contact = carom.firstContact(table, balls, { ...cue(), phi }, options());
+      if (contact?.ball !== ball) return contact ? `ball ${names[contact.ball]} is hit first` : `ball ${names[ball]} is missed`;
+      const { v } = contact.event.after[contact.event.a === ball ? 0 : 1]!;
+      return wrap((Math.atan2(v[1], v[0]) - want) * DEGREES);
+    };
+    // Squirt may take the ghost ball's direction past the ball: the nearest one that hits it begins the search.
+    let phi = straight;
+    let error = off(phi);
+    for (let k = 1; typeof error === "string" && k <= 40; k++) {
+      phi = straight + (k % 2 ? 0.25 : -0.25) * Math.ceil(k / 2);
+      error = off(phi);
+    }
+    // Secants; a step that loses the ball is halved.
+    let step = 0.02;
+    let slope = NaN;
+    for (let k = 0; k < 40 && typeof error === "number" && Math.abs(error) > 1e-4; k++) {
+      if (Number.isFinite(slope)) step = Math.max(-2, Math.min(2, -error / slope));
+      let tried = off(phi + step);
+      for (; typeof tried === "string" && Math.abs(step) > 1e-6; tried = off(phi + step)) step /= 2;
+      if (typeof tried === "string") error = tried;
+      else {
+        slope = (tried - error) / step;
+        phi += step;
+        error = tried;
+      }
+    }
+    if (typeof error === "string" || Math.abs(error) > 0.01) return void (message.textContent = `No such aim: ${name}${typeof error === "string" ? `: ${error}` : ""}.`);
+    set("phi", Math.round(((phi + 360) % 360) * 1e4) / 1e4);
+    aimed();
+    const falls = shot?.events.some((event) => event.type === "ball_pocket" && event.a === ball && event.b === pocket);
+    message.textContent = falls ? `Aimed: ${name}, a cut of ${cut.toFixed(1)}°.` : `Aimed, but ${name} does not fall at this speed, or on its way.`;
+  }
+  const wrap = (degrees: number): number => ((((degrees + 180) % 360) + 360) % 360) - 180;
 
   // ---- Pointer and keys ----------------------------------------------------------------------------------------------------
 
   const soon = eachFrame(aimed);
-  let held: "aim" | "ball" | undefined;
-  const position = (event: PointerEvent): [number, number] => {
+  type Grip = { is: "ball"; ball: number } | { is: "pocket"; pocket: number } | { is: "stick" | "line" | "cloth" };
+  let held: { grip: Grip; at: [number, number]; from: [number, number]; value: number; taps: boolean } | undefined;
+  const position = (event: { clientX: number; clientY: number }): [number, number] => {
     const box = canvas.getBoundingClientRect();
-    return back(event.clientX - box.left, event.clientY - box.top);
+    return film.unplace(event.clientX - box.left, event.clientY - box.top);
   };
-  function drag(event: PointerEvent): void {
-    if (match.busy()) return;
-    const [x, y] = position(event);
+  /** What lies under a pointer. A finger reaches farther. */
+  function under([x, y]: [number, number], finger: boolean): Grip {
+    const reach = (finger ? 22 : 12) / film.scale;
+    const near = ([px, py]: readonly number[]): number => Math.hypot(px! - x, py! - y);
+    const places = balls.map(({ state }) => (onTable(state) ? state.r : undefined));
+    waits().forEach((k, index) => (places[k] = [...waitsAt(index), 0]));
+    const nearest = places.reduce((best, place, k) => (near(place!) < near(places[best]!) ? k : best), 0);
+    if (near(places[nearest]!) < Math.max(1.2 * balls[nearest]!.kind.radius, reach)) return { is: "ball", ball: nearest };
+    const pocket = table.pockets.findIndex(({ centre, radius }) => near(centre) < radius + 0.01);
+    if (pocket >= 0) return { is: "pocket", pocket };
+    // Along the line of aim, from the cue ball.
+    const { phi, speed } = cue();
     const { r } = balls[0]!.state;
-    if (held === "aim") {
-      const angle = (Math.atan2(y - r[1], x - r[0]) * 180) / Math.PI;
-      sliders.phi!.value = Math.round(((angle + 360) % 360) * 100) / 100;
-      return soon();
+    const [dx, dy] = [Math.cos(phi / DEGREES), Math.sin(phi / DEGREES)];
+    const along = (x - r[0]) * dx + (y - r[1]) * dy;
+    if (Math.abs((y - r[1]) * dx - (x - r[0]) * dy) < reach) {
+      if (along < 0 && -along > stickEnd(speed) - reach && -along < stickEnd(speed) + 1.3) return { is: "stick" };
+      if (along > 0) return { is: "line" };
     }
-    // Ball in hand: within the cushions, and not in another ball.
-    const R = balls[0]!.kind.radius;
+    return { is: "cloth" };
+  }
+  const angleOf = ([x, y]: [number, number]): number => Math.atan2(y - balls[0]!.state.r[1], x - balls[0]!.state.r[0]) * DEGREES;
+  function turnTo(phi: number): void {
+    set("phi", Math.round((((phi % 360) + 360) % 360) * 100) / 100);
+    soon();
+  }
+  function drag(at: [number, number], event: { shiftKey: boolean }): void {
+    if (!held || match.busy()) return;
+    const { grip, from, value } = held;
+    if (grip.is === "ball") {
+      if (event.shiftKey) turnBall(grip.ball, (at[0] - held.at[0] + at[1] - held.at[1]) * 500);
+      else moveBall(grip.ball, at);
+    } else if (grip.is === "stick") {
+      const back = (x: [number, number]): number => Math.hypot(x[0] - balls[0]!.state.r[0], x[1] - balls[0]!.state.r[1]);
+      set("speed", Math.round(Math.min(Math.max(value + (back(at) - back(from)) / PULL, 0.1), 10) * 100) / 100);
+      soon();
+    } else if (grip.is === "line") turnTo(value + angleOf(at) - angleOf(from));
+    else if (grip.is === "cloth") turnTo(angleOf(at));
+    held.at = at;
+  }
+  function turnBall(ball: number, degrees: number): void {
+    faces[ball] = Math.round(faces[ball]! + degrees + 360) % 360;
+    soon();
+  }
+  /** Puts a ball where there is room, beside another one if need be. Off the table it waits in a pocket; the cue ball does not. */
+  function moveBall(ball: number, [x, y]: [number, number]): void {
+    const hand = match.hand();
+    if (hand === "no" || (hand !== undefined && ball !== 0)) return void inGame();
+    const R = balls[ball]!.kind.radius;
     const inside = (v: number, most: number): number => Math.min(Math.max(v, R + 1e-4), most - R - 1e-4);
-    if (match.hand() === "no") return;
-    const [bx, by] = [inside(x, table.width), inside(y, match.hand() === "kitchen" ? table.length / 4 + R : table.length)];
-    if (balls.some(({ state }, k) => k > 0 && state.label !== "pocketed" && Math.hypot(state.r[0] - bx, state.r[1] - by) < 2 * R + 1e-5)) return;
-    balls = balls.map((ball, k) => (k === 0 ? { kind: ball.kind, state: { ...ball.state, r: [bx, by, R] } } : ball));
+    const out = Math.max(-x, x - table.width, -y, y - table.length) > 1.5 * R;
+    if (out && ball !== 0 && table.pockets.length > 0) {
+      balls = balls.map((one, k) => (k === ball ? { kind: one.kind, state: pocketed(one.state) } : one));
+    } else {
+      let [px, py] = [inside(x, table.width), inside(y, hand === "kitchen" ? table.length / 4 + R : table.length)];
+      const other = balls.find(({ state }, k) => k !== ball && onTable(state) && Math.hypot(state.r[0] - px, state.r[1] - py) < 2 * R + 1e-5);
+      if (other) {
+        const [ox, oy] = other.state.r;
+        const far = Math.hypot(px - ox, py - oy) || 1;
+        [px, py] = [ox + ((px - ox) / far) * (2 * R + 2e-5), oy + ((py - oy) / far) * (2 * R + 2e-5)];
+        if (hand === "kitchen" && py > table.length / 4 + 1e-9) return;
+      }
+      try {
+        balls = carom.placeBall(table, balls, ball, px, py);
+      } catch (error) {
+        if (error instanceof CaromError) return; // no room there: it stays
+        throw error;
+      }
+    }
     moved = true;
     soon();
   }
+  function clicked(grip: Grip): void {
+    if (grip.is === "ball" && grip.ball > 0) {
+      chosen = chosen === grip.ball ? -1 : grip.ball;
+      film.draw();
+    } else if (grip.is === "pocket" && !match.busy()) aimAt(grip.pocket);
+  }
+
   canvas.addEventListener("pointerdown", (event) => {
-    const [x, y] = position(event);
-    const { r } = balls[0]!.state;
-    held = Math.hypot(x - r[0], y - r[1]) < Math.max(1.5 * balls[0]!.kind.radius, 14 / scale) ? "ball" : "aim";
+    if (film.time > 0 || film.playing) film.go(0);
+    const at = position(event);
+    const grip = under(at, event.pointerType === "touch");
+    held = { grip, at, from: at, value: grip.is === "stick" ? sliders.speed!.value : sliders.phi!.value, taps: true };
+    // A finger on the cloth may be about to scroll the page: what it does waits for its end.
+    if (event.pointerType === "touch") return;
     canvas.setPointerCapture(event.pointerId);
-    drag(event);
+    if (grip.is === "cloth") drag(at, event);
   });
   canvas.addEventListener("pointermove", (event) => {
-    if (canvas.hasPointerCapture(event.pointerId)) drag(event);
+    if (!held) return;
+    const at = position(event);
+    if (Math.hypot(at[0] - held.from[0], at[1] - held.from[1]) * film.scale > 4) held.taps = false;
+    if (!held.taps && !(event.pointerType === "touch" && held.grip.is === "cloth")) drag(at, event);
   });
+  canvas.addEventListener("pointerup", (event) => {
+    const was = held;
+    if (was?.taps) {
+      if (was.grip.is === "cloth") drag(was.at, event);
+      else clicked(was.grip);
+    }
+    held = undefined;
+  });
+  canvas.addEventListener("pointercancel", () => (held = undefined));
+  canvas.addEventListener(
+    "touchstart",
+    (event) => {
+      const grip = event.touches.length === 1 ? under(position(event.touches[0]!), true).is : "cloth";
+      if (grip !== "cloth" && grip !== "pocket" && event.cancelable) event.preventDefault();
+    },
+    { passive: false },
+  );
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      const grip = under(position(event), false);
+      if (grip.is !== "ball" || !onTable(balls[grip.ball]!.state)) return;
+      event.preventDefault();
+      turnBall(grip.ball, Math.sign(event.deltaY) * 10);
+    },
+    { passive: false },
+  );
   canvas.addEventListener("keydown", (event) => {
     const by = event.shiftKey ? 1 : 0.1;
-    const turn = (degrees: number): void => void (sliders.phi!.value = Math.round(((sliders.phi!.value + degrees + 360) % 360) * 1e6) / 1e6);
-    const hasten = (more: number): void => void (sliders.speed!.value = Math.round(Math.min(Math.max(sliders.speed!.value + more, 0.1), 10) * 1e6) / 1e6);
-    if (event.key === "ArrowLeft") turn(by);
-    else if (event.key === "ArrowRight") turn(-by);
-    else if (event.key === "ArrowUp") hasten(0.1);
-    else if (event.key === "ArrowDown") hasten(-0.1);
-    else if (event.key === " ") play.click();
-    else return;
+    const turn = (degrees: number): void => set("phi", Math.round(((sliders.phi!.value + degrees + 360) % 360) * 1e6) / 1e6);
+    const hasten = (more: number): void => set("speed", Math.round(Math.min(Math.max(sliders.speed!.value + more, 0.1), 10) * 1e6) / 1e6);
+    const arrows: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+    const arrow = arrows[event.key];
+    if (event.key === " ") film.play.click();
+    else if ((event.ctrlKey || event.metaKey) && event.key === "z") back();
+    else if (event.key === "," || event.key === ".") turnBall(Math.max(chosen, 0), event.key === "." ? 10 : -10);
+    else if (event.altKey && arrow) {
+      // The picked ball, or the cue ball, by 1 mm as one sees it.
+      const { r } = balls[Math.max(chosen, 0)]!.state;
+      const [px, py] = film.place(r[0], r[1]);
+      moveBall(Math.max(chosen, 0), film.unplace(px + arrow[0] * by * 0.01 * film.scale, py + arrow[1] * by * 0.01 * film.scale));
+    } else if (!arrow) return;
+    else if (arrow[0] !== 0) turn(-arrow[0] * by);
+    else hasten(-arrow[1] * 0.1);
     event.preventDefault();
-    if (event.key !== " ") aimed();
+    if (arrow && !event.altKey) aimed();
   });
 
-  const text = given.get("line");
-  setUp();
-  if (text !== null) {
-    line.value = text;
-    importLine();
-  }
-  return { update: aimed, theme: draw };
+  restore(parameters());
+  commit();
+  return { update: aimed, theme: film.draw };
 }
+
+const HELP = [
+  "Drag on the cloth to aim, a ball to move it, the stick to set the speed. A ball on the wood waits in a pocket: drag it back.",
+  "Click a ball, then a pocket: the page aims there. The wheel, or Shift and a drag, turns a ball in place.",
+  "Keys on the table: ← → turn the aim (with Shift 1°), ↑ ↓ change the speed, Alt and arrows move the picked ball by 1 mm (with Shift 10), , and . turn it, Ctrl Z undoes, space plays.",
+];

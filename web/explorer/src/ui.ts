@@ -1,5 +1,7 @@
 // Small helpers for the page: elements, sliders, canvases, the state in the address.
 
+import type { Table } from "carom";
+
 type Child = Node | string | undefined;
 
 export function el<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Record<string, string> = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
@@ -43,6 +45,33 @@ export function slider(id: string, text: string, min: number, max: number, step:
       tell();
     },
   };
+}
+
+/** A ball as whoever strikes sees it, with the tip on it: right and up in radii, at most 0.7 from the middle. The sliders do the same by keys. */
+export function pad(id: string, text: string, onInput: (right: number, up: number) => void): { root: HTMLElement; set(right: number, up: number): void } {
+  const root = el("div", { id, class: "pad", role: "img", "aria-label": text });
+  root.innerHTML =
+    '<svg viewBox="-1.05 -1.05 2.1 2.1"><circle r="1" fill="#fbfaf5" stroke="#000a" stroke-width="0.03"/><circle r="0.5" fill="none" stroke="#0006" stroke-width="0.02" stroke-dasharray="0.06 0.05"/>' +
+    '<path d="M-1 0H1M0-1V1" stroke="#0003" stroke-width="0.02"/><circle id="tip" r="0.15" fill="#3f7fbf" stroke="#000a" stroke-width="0.02"/></svg>';
+  const move = (event: PointerEvent): void => {
+    const box = root.getBoundingClientRect();
+    const [x, y] = [(2.1 * (event.clientX - box.left)) / box.width - 1.05, 1.05 - (2.1 * (event.clientY - box.top)) / box.height];
+    const most = Math.min(1, 0.7 / Math.hypot(x, y));
+    onInput(Math.round(100 * most * x) / 100, Math.round(100 * most * y) / 100);
+  };
+  root.addEventListener("pointerdown", (event) => {
+    root.setPointerCapture(event.pointerId);
+    move(event);
+  });
+  root.addEventListener("pointermove", (event) => root.hasPointerCapture(event.pointerId) && move(event));
+  return { root, set: (right, up) => root.querySelector("#tip")!.setAttribute("transform", `translate(${right} ${-up})`) };
+}
+
+/** Where a pocket is, for whoever stands at the head of the table. */
+export function pocketName({ width, length, pockets }: Table, pocket: number): string {
+  const [x, y] = pockets[pocket]!.centre;
+  const across = x < width / 2 ? "left" : "right";
+  return Math.abs(y - length / 2) < 0.2 * length ? `${across} side pocket` : `${across} corner ${y < length / 2 ? "near the head" : "near the foot"}`;
 }
 
 export function button(text: string, onClick: () => void, attributes: Record<string, string> = {}): HTMLButtonElement {
