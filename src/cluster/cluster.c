@@ -17,9 +17,10 @@
  * step before, scaled with J. mu is linear in the growth of U within the step.
  *
  * h = T/steps for the stiffest of the contacts that act, T the duration for its compression,
- * shorter by the least e. Where nothing acts all fly to the next touch. It ends where nothing
- * acts and no contact that has touched closes at `slow` or faster: those that never touched are
- * met later, as other events.
+ * shorter by the least e. A step in which a stiffer contact touches is taken again, as short as
+ * that one asks for. Where nothing acts all fly to the next touch. It ends where nothing acts and
+ * no contact that has touched closes at `slow` or faster: those that never touched are met later,
+ * as other events.
  *
  * Without friction the order is 2; contacts that stick make it 1 (docs/understanding/clusters.md
  * has the errors). The energy rises by 3e-4 at most where e = 1 and nothing rubs; what it has
@@ -47,6 +48,11 @@ static inline double lesser(double a, double b) {
 }
 
 /* ---- A contact's geometry and motion */
+
+static inline void move(bool flat, state *c, double time) {
+  for (int k = 0; k < c->balls; k++)
+    cluster_add(flat, c->ball[k].s, time, c->ball[k].v);
+}
 
 static inline double mobility(const state *c, const contact *x) { /* B */
   return c->ball[x->i].inverse_mass + c->ball[x->j].inverse_mass;
@@ -130,8 +136,8 @@ static void touch(bool flat, const state *c, contact *x, double half) {
   x->offset = R - cluster_dot(flat, d, x->n) - cluster_dot(flat, s, x->n);
 }
 
-/* Whether two balls that have not touched overlap now; and when they will, moving on as they do,
- * infinite if they do not. */
+/* Whether two balls that have not touched overlap now, and whether they do at the end of the
+ * step. */
 static inline bool meet(bool flat, const state *c, const contact *x) {
   const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
   double d[3];
@@ -141,10 +147,19 @@ static inline bool meet(bool flat, const state *c, const contact *x) {
   return cluster_dot(flat, d, d) < R * R;
 }
 
+static inline bool meet_by_end(bool flat, const state *c, const contact *x) {
+  const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
+  double d[3];
+  cluster_minus(flat, q->base, p->base, d);
+  const double R = p->radius + q->radius;
+  return cluster_dot(flat, d, d) < R * R;
+}
+
+/* When two balls overlap, moving on as they do; infinite if they do not. */
 static double time_to_touch(bool flat, const state *c, const contact *x) {
   if (x->touched) {
     const double v = closing_of(flat, c, x);
-    return v >= c->slow ? greater(-overlap_of(flat, c, x) / v, 0.0) : (double)INFINITY;
+    return v > 0.0 ? greater((2.0 * open - overlap_of(flat, c, x)) / v, 0.0) : (double)INFINITY;
   }
   const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
   double d[3], v[3];
@@ -168,6 +183,40 @@ static double friction_at(const state *c, const contact *x, double slip) {
   return b > 0.0 ? a + b * carom_exp(-rate * slip) : a;
 }
 
+/* The duration of a step for a contact of a given compression. */
+static inline double step_for(const state *c, const contact *x, double size, double stiff) {
+  return carom_cluster_duration(x->K, mobility(c, x), size) / (c->steps * stiff);
+}
+
+/* Open contacts that have an overlap at half a step touch within it; their sizes and normals.
+ * Returns the longest step that suits them and those that touch in the other half, infinite where
+ * there are none. */
+static inline double find_touches(bool flat, state *c, double h, double stiff) {
+  double longest = (double)INFINITY;
+  for (int k = 0; k < c->balls; k++) {
+    ball *p = &c->ball[k];
+    for (int axis = 0; axis < (flat ? 2 : 3); axis++)
+      p->base[axis] = p->r[axis] + p->s[axis] + 0.5 * h * p->v[axis];
+  }
+  for (int k = 0; k < c->contacts; k++) {
+    contact *x = &c->contact[k];
+    x->touches = false;
+    if (x->d_max > 0.0 || (!x->touched && !meet_by_end(flat, c, x)))
+      continue;
+    const bool now = x->touched || meet(flat, c, x);
+    if (!x->touched && now)
+      touch(flat, c, x, 0.5 * h);
+    const double d = overlap_of(flat, c, x), v = closing_of(flat, c, x);
+    if (d + 0.5 * h * v <= open)
+      continue;
+    x->touches = now && d > open;
+    x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(c, x), v) : 0.0;
+    if (v > 0.0)
+      longest = lesser(longest, step_for(c, x, x->size, stiff));
+  }
+  return longest;
+}
+
 /* The contacts that act at half a step, and their impulses. `lead` becomes the stiffest. Returns
  * how many act; *overlap tells whether any has an overlap. */
 static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t acting[],
@@ -177,11 +226,8 @@ static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t
   *overlap = false;
   for (int k = 0; k < c->contacts; k++) {
     contact *x = &c->contact[k];
-    if (!x->touched) {
-      if (!meet(flat, c, x))
-        continue;
-      touch(flat, c, x, 0.5 * h);
-    }
+    if (x->d_max == 0.0 && !x->touches)
+      continue;
     const double d = overlap_of(flat, c, x);
     if (d <= open)
       continue;
@@ -190,7 +236,6 @@ static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t
       const double v = closing_of(flat, c, x);
       x->U = -1.0;
       x->f[0] = x->f[1] = 0.0;
-      x->size = v > 0.0 ? carom_cluster_compression(x->K, mobility(c, x), v) : 0.0;
       if (x->time < 0.0)
         x->time = greater(tau - (v > 0.0 ? d / v : 0.0), 0.0);
     }
@@ -208,20 +253,19 @@ static inline int find_acting(bool flat, state *c, double h, double tau, uint8_t
   return count;
 }
 
-/* Flies to the next touch, where nothing acts, if a contact that has touched closes again.
- * Returns how long, or -1. */
+/* Flies to the next touch, be it slow, where nothing acts, if a contact that has touched closes
+ * again at `slow` or faster. Returns how long, or -1. */
 static double fly(bool flat, state *c) {
   double next = (double)INFINITY;
   bool goes_on = false;
   for (int k = 0; k < c->contacts; k++) {
-    const double t = time_to_touch(flat, c, &c->contact[k]);
-    goes_on |= c->contact[k].touched && t < (double)INFINITY;
-    next = lesser(next, t);
+    const contact *x = &c->contact[k];
+    next = lesser(next, time_to_touch(flat, c, x));
+    goes_on |= x->touched && closing_of(flat, c, x) >= c->slow;
   }
   if (!goes_on)
     return -1.0;
-  for (int k = 0; k < c->balls; k++)
-    cluster_add(flat, c->ball[k].s, next, c->ball[k].v);
+  move(flat, c, next);
   return next;
 }
 
@@ -351,8 +395,7 @@ static inline void rub_all(bool flat, state *c, const uint8_t acting[], int coun
 }
 
 static inline void end_step(bool flat, state *c, double h, const uint8_t acting[], int count) {
-  for (int k = 0; k < c->balls; k++)
-    cluster_add(flat, c->ball[k].s, 0.5 * h, c->ball[k].v);
+  move(flat, c, 0.5 * h);
   for (int a = 0; a < count; a++) {
     contact *x = &c->contact[acting[a]];
     const double each = 1.0 / x->J;
@@ -438,8 +481,14 @@ static inline bool solve(bool flat, state *c) {
       return false;
     uint8_t acting[CAROM_CLUSTER_CONTACTS];
     bool overlap;
-    for (int k = 0; k < c->balls; k++)
-      cluster_add(flat, c->ball[k].s, 0.5 * h, c->ball[k].v);
+    move(flat, c, 0.5 * h);
+    /* a touch that is faster than what acts asks for a shorter step */
+    const double longest = find_touches(flat, c, h, stiff);
+    if (longest < h) {
+      move(flat, c, 0.5 * (longest - h));
+      h = longest;
+      find_touches(flat, c, h, stiff);
+    }
     tau += 0.5 * h;
     const int count = find_acting(flat, c, h, tau, acting, &lead, &overlap);
     if (!overlap) {
@@ -453,7 +502,7 @@ static inline bool solve(bool flat, state *c) {
     rub_all(flat, c, acting, count);
     end_step(flat, c, h, acting, count);
     tau += 0.5 * h;
-    h = carom_cluster_duration(lead->K, mobility(c, lead), lead->size) / (c->steps * stiff);
+    h = step_for(c, lead, lead->size, stiff);
   }
   c->duration = tau;
   take_back(c, before);

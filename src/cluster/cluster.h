@@ -61,13 +61,14 @@ typedef struct carom_cluster_ball {
   int8_t acting;               /* its contacts that act in this step, at most 2 */
   /* of the integrator */
   double s[3];                /* int v dtau, m */
-  double base[2], g[2], load; /* slip on the cloth as a step begins; impulses of the cloth's
-                                 friction and of the load */
+  double base[3], g[2], load; /* where a step ends, and then the slip on the cloth as it begins;
+                                 impulses of the cloth's friction and of the load */
 } carom_cluster_ball;
 
 typedef struct carom_cluster_contact_state {
   int8_t i, j;     /* in ball[] */
   bool touched;    /* now or before: n is known */
+  bool touches;    /* within this half step */
   bool may_stick;  /* within this step */
   double n[3];     /* unit vector from i to j */
   double level;    /* 1 over the horizontal part of n; 0 where n is nearly upright */
