@@ -138,7 +138,7 @@ class Copy:
         self.must(["cmake", "-S", ".", "-B", "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCAROM_TESTS=ON", "-DCAROM_CLI=ON",
                    "-DCAROM_LAB=ON", "-DCAROM_LADDER=OFF", "-DCAROM_INSTALL=ON", f"-DCAROM_ISAS={isas}"])  # fmt: skip
         self.must(["sh", "tools/python", "--version"], environment={
-            "CAROM_PYTHON_ENVIRONMENT": str(self.build / "python"), "CAROM_PYTHON_MODULES": "jinja2 numpy pytest"})  # fmt: skip
+            "CAROM_PYTHON_ENVIRONMENT": str(self.build / "python"), "CAROM_PYTHON_MODULES": "jinja2 numpy pycparser pytest"})  # fmt: skip
         # What each kind of room needs. CTest knows the command of a test once its program is built.
         self.must(["ninja", "-C", "build"])
         python = [room for room in rooms if room.startswith("python")]
