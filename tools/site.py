@@ -88,9 +88,8 @@ for page in OTHERS:
     add(page)
 navigation.append({"In the repository": [{title(page): page} for page in OTHERS]})
 if EXPLORER.is_file():
-    (PAGES / "explorer").mkdir()
-    shutil.copy(EXPLORER, PAGES / "explorer/explorer.html")
-    navigation.append({"Explorer": "explorer/explorer.html"})
+    shutil.copytree(EXPLORER.parent, PAGES / "explorer")
+    navigation.append({"Explorer": "explorer/index.html"})
 
 settings = {"INHERIT": str(SOURCE / "tools/site.yml"), "docs_dir": str(PAGES), "site_dir": str(WORK / "site"), "nav": navigation}
 (WORK / "mkdocs.yml").write_text(json.dumps(settings, indent=1), encoding="utf-8")

@@ -1,6 +1,8 @@
 // The page in a real browser: Debian's Chromium, opened from the folder as a file. Numbers are compared with the command `carom`.
 import { existsSync, readFileSync } from "node:fs";
+import { createServer } from "node:http";
 import { createRequire } from "node:module";
+import type { AddressInfo } from "node:net";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { type Browser, chromium, type Page } from "playwright-core";
 import { root, run, thereIsACommand } from "./support.js";
@@ -408,6 +410,37 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     await click(one, 0.2, 1.5, true);
     expect(Number(await one.locator("#phi").inputValue())).toBeCloseTo(116.7, 0);
     await one.close();
+  });
+
+  test("a page that is served can be installed, and works without a network", async () => {
+    const types: Record<string, string> = { html: "text/html", js: "text/javascript", svg: "image/svg+xml", webmanifest: "application/manifest+json" };
+    const server = createServer((request, response) => {
+      const name = request.url === "/" ? "index.html" : request.url!.slice(1);
+      response.writeHead(200, { "content-type": types[name.split(".").at(-1)!] ?? "text/plain" });
+      response.end(readFileSync(`${root}web/explorer/dist/${name}`));
+    });
+    await new Promise<void>((listens) => server.listen(0, "127.0.0.1", listens));
+    const context = await browser.newContext({ viewport: { width: 390, height: 844 } });
+    const one = await context.newPage();
+    one.on("console", (message) => ["error", "warning"].includes(message.type()) && said.push(`served: ${message.text()}`));
+    await one.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/`);
+    await one.waitForSelector("main[aria-busy=false]");
+    await one.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
+    const devtools = await context.newCDPSession(one);
+    const manifest = await devtools.send("Page.getAppManifest");
+    expect(manifest.errors).toEqual([]);
+    expect(JSON.parse(manifest.data!)).toMatchObject({ name: "carom explorer", display: "standalone" });
+    expect((await devtools.send("Page.getInstallabilityErrors")).installabilityErrors.filter(({ errorId }) => errorId !== "in-incognito")).toEqual([]);
+    // No network, and no server either.
+    await context.setOffline(true);
+    await new Promise((closed) => {
+      server.close(closed);
+      server.closeAllConnections();
+    });
+    await one.reload();
+    await one.waitForSelector("main[aria-busy=false]");
+    expect(await text(one, "s-status")).toBe("ok");
+    await context.close();
   });
 
   test("in a game the cue ball moves where the rules let it", async () => {

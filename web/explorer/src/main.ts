@@ -5,7 +5,7 @@ import { load } from "carom";
 import { collisionView } from "./collision.js";
 import { serve } from "./far.js";
 import { shotView } from "./shot.js";
-import { parameters } from "./ui.js";
+import { el, parameters } from "./ui.js";
 
 async function begin(main: HTMLElement): Promise<void> {
   const solver = document.getElementById("solver") as HTMLSelectElement;
@@ -50,6 +50,11 @@ async function begin(main: HTMLElement): Promise<void> {
 // The same script runs in the worker (far.ts).
 if (typeof document === "undefined") void serve();
 else {
+  // A page that is served can be installed, and then needs no network.
+  if (location.protocol !== "file:") {
+    document.head.append(el("link", { rel: "manifest", href: "manifest.webmanifest" }));
+    navigator.serviceWorker?.register("sw.js").catch((error: unknown) => console.error("sw.js, which keeps the page for use without a network:", error));
+  }
   const main = document.getElementById("main")!;
   begin(main).catch((error: unknown) => {
     main.textContent = `The library did not start: ${error instanceof Error ? error.message : String(error)}`;

@@ -1,0 +1,20 @@
+// The page without a network: what was loaded is kept, and asked for again wherever there is one.
+const KEPT = "carom-explorer";
+self.addEventListener("install", (event) => {
+  event.waitUntil(caches.open(KEPT).then((kept) => kept.addAll(["./", "manifest.webmanifest", "icon.svg"])));
+  self.skipWaiting();
+});
+self.addEventListener("activate", (event) => event.waitUntil(self.clients.claim()));
+async function answer(request) {
+  const kept = await caches.open(KEPT);
+  try {
+    const response = await fetch(request);
+    if (response.ok) await kept.put(request, response.clone());
+    return response;
+  } catch (error) {
+    return (await kept.match(request)) ?? Promise.reject(error);
+  }
+}
+self.addEventListener("fetch", (event) => {
+  if (event.request.method === "GET" && new URL(event.request.url).origin === location.origin) event.respondWith(answer(event.request));
+});
