@@ -16,7 +16,7 @@
  * A landing is the end of a phase: it needs no detection. The ball is there at z = R exactly,
  * with v_z = -q.
  *
- * Source: W. C. Marlow, The Physics of Pocket Billiards (1994); D. Alciatore, TP A-4.
+ * Source: W. C. Marlow, The Physics of Pocket Billiards (1995); D. Alciatore, TP A-4.
  *
  * DRAG. With A = mu_r g the exact solution takes, from v0 to v1 < v0,
  *

@@ -35,20 +35,23 @@ static const struct {
                  "  author = {{The developers of carom}},\n"
                  "  version = {" VERSION "}\n"
                  "}\n"},
-    {EVERY_SHOT, "@book{marlow1994,\n"
+    {EVERY_SHOT, "@book{marlow1995,\n"
                  "  author = {Marlow, Wayland C.},\n"
                  "  title = {The Physics of Pocket Billiards},\n"
                  "  publisher = {MAST},\n"
-                 "  year = {1994}\n"
+                 "  year = {1995},\n"
+                 "  isbn = {0-9645370-0-1}\n"
                  "}\n"},
     {EVERY_SHOT, "@misc{alciatore-squirt,\n"
                  "  author = {Alciatore, David G.},\n"
-                 "  title = {Technical proofs {TP} A-30 and A-31: the strike and squirt},\n"
+                 "  title = {{TP} {A.30}: The effect of cue tip offset, cue weight, and cue speed on "
+                 "cue ball speed and spin; {TP} {A.31}: The physics of squirt},\n"
                  "  url = {https://billiards.colostate.edu/technical-proofs/}\n"
                  "}\n"},
     {SLIP_LAW, "@misc{alciatore-throw,\n"
                "  author = {Alciatore, David G.},\n"
-               "  title = {Technical proof {TP} A-14: throw, and friction between balls},\n"
+               "  title = {{TP} {A.14}: The effects of cut angle, speed, and spin on object ball "
+               "throw},\n"
                "  url = {https://billiards.colostate.edu/technical-proofs/}\n"
                "}\n"},
     {WORLD_CAROM, "@article{bannerman2014,\n"
@@ -58,6 +61,8 @@ static const struct {
                   "dynamics},\n"
                   "  journal = {Computational Particle Mechanics},\n"
                   "  volume = {1},\n"
+                  "  number = {2},\n"
+                  "  pages = {191--198},\n"
                   "  year = {2014},\n"
                   "  doi = {10.1007/s40571-014-0021-8}\n"
                   "}\n"},
@@ -78,7 +83,8 @@ static const struct {
                    "  journal = {Proceedings of the Institution of Mechanical Engineers, Part C},\n"
                    "  volume = {224},\n"
                    "  pages = {1863--1873},\n"
-                   "  year = {2010}\n"
+                   "  year = {2010},\n"
+                   "  doi = {10.1243/09544062JMES1964}\n"
                    "}\n"},
     {CUSHION_HAN | CUSHION_SMOOTH, "@article{han2005,\n"
                                    "  author = {Han, Inhwan},\n"
