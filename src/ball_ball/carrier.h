@@ -78,7 +78,9 @@ always reg reg_of(float x) {
 #endif
 }
 #else
-#define reg_of v_splat
+always reg reg_of(real x) {
+  return v_splat(x);
+}
 #endif
 /* a b + c as a reg, each of them a reg or one number. */
 #define MADD(a, b, c) reg_fma(SPREAD(a), SPREAD(b), SPREAD(c))

@@ -88,7 +88,7 @@ typedef int carom_collocate(const float in[IN_COLUMNS], float spin, float tolera
                             float out[OUT_COLUMNS]);
 /* One row from end to end. Returns the same number, 0 also for a row that is not good; *solution
  * may be NULL. */
-typedef int carom_call(const void *in, double s, void *out, float solution[OUT_COLUMNS]);
+typedef int carom_one_call(const void *in, double s, void *out, float solution[OUT_COLUMNS]);
 
 typedef struct carom_kernels {
   int lanes; /* floats in a vector */
@@ -99,7 +99,7 @@ typedef struct carom_kernels {
   carom_rows_out *rows_out[CAROM_PRECISIONS];
   carom_first_step *first_step;
   carom_next_step *next_step;
-  carom_call *call[CAROM_PRECISIONS];
+  carom_one_call *call[CAROM_PRECISIONS];
 } carom_kernels;
 
 #define CAROM_KERNEL_PROTOTYPES(NAME, suffix)                                  \
@@ -108,7 +108,7 @@ typedef struct carom_kernels {
   carom_first_step carom_first_step_##suffix;                                  \
   carom_next_step carom_next_step_##suffix;                                    \
   carom_collocate carom_collocate_##suffix;                                    \
-  carom_call carom_call_##suffix##_f64, carom_call_##suffix##_f32;
+  carom_one_call carom_call_##suffix##_f64, carom_call_##suffix##_f32;
 CAROM_BUILT_ISAS(CAROM_KERNEL_PROTOTYPES)
 #undef CAROM_KERNEL_PROTOTYPES
 

@@ -72,7 +72,7 @@ KIND(sliding_unloaded, true, false, FOR_NONE)
 KIND(exact_in_a, true, true, FOR_U)
 KIND(exact_unloaded, true, false, FOR_U)
 KIND(exact_in_both, true, true, FOR_BOTH)
-KIND(held, false, true, FOR_NONE)
+KIND(held_straight, false, true, FOR_NONE)
 KIND(held_exact, false, true, FOR_BOTH)
 
 /* A plan: the step and its kind. */
@@ -233,7 +233,7 @@ static void plan_stiff_cloth(const carom_trajectory *path, const step_start *s, 
  * even one. */
 static void plan_held(const carom_trajectory *path, const step_start *s, plan *n) {
   const passage g = passage_of_b(&path->at, &path->terms, s, s->to_goal);
-  n->kind = held;
+  n->kind = held_straight;
   n->s.goal = s->goal;
   if (!g.near)
     even_map(&n->s, s->to_goal);

@@ -236,7 +236,7 @@ always void events(const carom_terms *k, const iterate *c, const bool driving_sl
 }
 
 /* The event function at a point; 0 where the slip has no direction. */
-static double event_at(const carom_terms *k, const carom_point *at, const bool driving_slips) {
+static double event_gap(const carom_terms *k, const carom_point *at, const bool driving_slips) {
   const double x = driving_slips ? at->a_x : at->b_x, y = driving_slips ? at->a_y : at->b_y,
                size = sqrt(x * x + y * y);
   if (!(size > 0))
@@ -249,7 +249,7 @@ static double event_at(const carom_terms *k, const carom_point *at, const bool d
  * positive, by linear interpolation between nodes. scale: of z. */
 static double first_event(const carom_terms *k, const carom_point *at, const step *s, double scale,
                           const part *f, const bool driving_slips) {
-  double p = 0, value = event_at(k, at, driving_slips);
+  double p = 0, value = event_gap(k, at, driving_slips);
   for (int n = 0; n <= NODES; n++) {
     const double next_p = scale * (n < NODES ? AT(s->p, n) : s->length),
                  next = n < NODES ? AT(f, n) : 1;
@@ -434,7 +434,7 @@ always enum outcome collocate(const carom_terms *terms, const step *s, const boo
     return INACCURATE;
   /* whether the regime has lasted to the end */
   events(&k, &c, driving_slips, f);
-  const double event = largest(f), end = event_at(&k, &to, driving_slips);
+  const double event = largest(f), end = event_gap(&k, &to, driving_slips);
   const bool sticks = s->goal == AT_STICK || s->goal == AT_CLOTH_STICK;
   if (s->goal == AT_EVENT ? event > LATE
                           : event > EVENT_TOLERANCE || (end > EVENT_TOLERANCE && !sticks)) {

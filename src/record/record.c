@@ -117,7 +117,7 @@ static const field models[] = {R("world", INT32, false, 1, options.world),
                                R("cluster_steps", INT32, false, 1, options.cluster_steps),
                                END};
 static const field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields), END};
-static const field place[] = {R("ball", INT64, true, 1, placed), R("at", DOUBLE, true, 2, place),
+static const field place_fields[] = {R("ball", INT64, true, 1, placed), R("at", DOUBLE, true, 2, place),
                               END};
 
 /* When a shot stops, and how it ended. */
@@ -159,7 +159,7 @@ static const struct {
   const char *key;
   const field *fields;
 } lines[] = {{"", NULL},        {"recording", head}, {"table", table}, {"options", models},
-             {"balls", layout}, {"place", place},    {"shot", shot},   {"continue", goes_on},
+             {"balls", layout}, {"place", place_fields},    {"shot", shot},   {"continue", goes_on},
              {"event", event},  {"end", end}};
 enum { KINDS = sizeof lines / sizeof lines[0] };
 

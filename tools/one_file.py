@@ -1,0 +1,223 @@
+"""Writes the library as one file, for projects that vendor it: tools/one_file.py FOLDER
+
+FOLDER gets carom.c and the public headers. `cc -O2 app.c carom.c -lm` compiles them as C17, `-pthread` where the C library wants it.
+All instruction sets of the processor are in: the kernels that the build compiles several times are a part of carom.c that
+includes itself, with other definitions each time. Derivatives are not in: they are C++, and their calls return
+CAROM_ERROR_NO_TANGENTS. -DCAROM_WITHOUT_AVX512 (AVX2, SSE2, NEON) leaves sets out, -DCAROM_WITHOUT_THREADS the threads.
+
+In one translation unit the names that two sources have for themselves would meet. So a source's own macros are undefined behind it, and
+names that another source has too stand for longer ones meanwhile.
+"""
+
+import re
+import sys
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SRC = ROOT / "src"
+PUBLIC = sorted(path.name for path in (ROOT / "include").glob("*.h"))
+# What CMakeLists.txt compiles once for every instruction set, with the definitions of each time, and the sets of `advance.c`.
+PASSES = [
+    ("rows.c", "", "f64"), ("rows.c", "F32", "f32"), ("rows.c", "ONE", "one_f64"), ("rows.c", "ONE F32", "one_f32"),
+    ("collocate.c", "F32", "steps"), ("collocate.c", "ONE F32", "one_steps"), ("advance.c", "", "impact"),
+]  # fmt: skip
+KERNELS = {"rows.c": "ball_ball", "collocate.c": "ball_ball", "advance.c": "impact"}
+ISAS = {"plain": "1", "sse2": "x86_64", "avx2": "x86_64", "avx512": "x86_64", "neon": "aarch64"}
+TARGETS = {"sse2": "sse2", "avx2": "avx2,fma", "avx512": "avx512f,avx512dq,avx512vl,fma,prefer-vector-width=512"}
+
+COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
+LOCAL = re.compile(r'^[ \t]*#[ \t]*include[ \t]+"([^"]+)"[^\n]*\n', re.M)
+SYSTEM = re.compile(r"^[ \t]*#[ \t]*include[ \t]+<[^>]+>[^\n]*\n", re.M)
+
+
+def text_of(name):
+    return (SRC / name).read_text(encoding="utf-8")
+
+
+def included(name, seen):
+    """The headers of src/ that a file needs, each behind those that it needs."""
+    for header in LOCAL.findall(text_of(name)):
+        if header not in PUBLIC and header not in seen:
+            seen[header] = None
+            order = included(header, seen)
+            seen.pop(header)
+            seen[header] = None
+            del order
+    return seen
+
+
+def macros(text):
+    return set(re.findall(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", text, re.M))
+
+
+def own_names(text):
+    """The names that a source declares at file scope for itself: functions, variables, types, enumerators."""
+    # functions that a macro writes: KIND(name, ...)
+    makers = [name for name, rest in re.findall(r"#define (\w+)\(name,((?:[^\n]*\\\n)*[^\n]*)", text) if re.search(r"static\b.* name\(", rest)]
+    made = set(re.findall(rf"^(?:{'|'.join(makers) or '(?!)'})\((\w+),", text, re.M))
+    text = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*\n", "\n", COMMENT.sub(" ", text), flags=re.M)
+    tokens = re.findall(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])*\'|\w+|\S', text)
+    names, item, depth = made, [], 0
+    for token in tokens:
+        depth += (token in "{([") - (token in "})]")
+        item.append((token, depth))
+        if (token == ";" and depth == 0) or (token == "}" and depth == 0 and is_function(item)):
+            names |= declared(item)
+            item = []
+    return names
+
+
+def is_function(item):
+    """Whether a block that has just been closed is the body of a function."""
+    top = [token for token, depth in item if depth == 0 or (depth == 1 and token in "{(")]
+    return "(" in top and "=" not in top[: top.index("(")] and top[0] not in ("typedef", "struct", "enum", "union")
+
+
+def declared(item):
+    tokens = [token for token, _ in item]
+    depths = [depth for _, depth in item]
+    names = set()
+    # enumerators, and tags
+    for k, token in enumerate(tokens):
+        if token in ("struct", "enum", "union") and depths[k] == 0 and k + 1 < len(tokens) and re.match(r"\w", tokens[k + 1]):
+            if k + 2 < len(tokens) and tokens[k + 2] == "{":
+                names.add(tokens[k + 1])
+        if token == "enum" and depths[k] == 0 and "{" in tokens[k : k + 3]:
+            at = tokens.index("{", k)
+            end = next(n for n in range(at, len(tokens)) if tokens[n] == "}" and depths[n] == depths[at] - 1)
+            names |= {tokens[n + 1] for n in range(at, end) if tokens[n] in "{," and depths[n] == depths[at] and n + 1 < end}
+    # declarators: the names before ( = , ; [ at the top; what is not static begins with carom_
+    static = tokens[0] in ("static", "typedef", "always")
+    for k in range(1, len(tokens)):
+        outside = depths[k] == 0 or (depths[k] == 1 and tokens[k] in "([")
+        if outside and tokens[k] in ("(", "=", ",", ";", "[", "__attribute__") and re.match(r"[A-Za-z_]\w*$", tokens[k - 1]) and depths[k - 1] == 0:
+            if tokens[k - 1] not in ("__attribute__", "_Alignas", "_Static_assert", "inline", "const", "static") and (static or not tokens[k - 1].startswith("carom_")):
+                names.add(tokens[k - 1])
+            if tokens[k] == "(" and tokens[k - 1] != "__attribute__":
+                break
+    return names
+
+
+def bare(text):
+    """Without includes; those of the system are at the top."""
+    return SYSTEM.sub("", LOCAL.sub("", text))
+
+
+def expanded(name, wanted):
+    """A source with the headers that are wanted in their places, each once."""
+
+    def header(found):
+        if found[1] not in wanted:
+            return ""
+        wanted.remove(found[1])
+        return expanded(found[1], wanted)
+
+    return f"\n/* ==== src/{name} ==== */\n" + SYSTEM.sub("", LOCAL.sub(header, text_of(name)))
+
+
+def guarded(name, text, others):
+    """A source whose own names do not reach the next one. Members of structs keep theirs."""
+    renamed = own_names(text) & others
+    tag = re.sub(r"\W", "_", name.removesuffix(".c"))
+    skipped = COMMENT.pattern + r'|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|(?:\.|->)\w+'
+    pattern = re.compile(f"({skipped})|\\b({'|'.join(sorted(renamed)) or '(?!)'})\\b", re.S)
+    text = pattern.sub(lambda found: found[1] or f"{found[2]}_of_{tag}", bare(text))
+    after = "".join(f"#undef {own}\n" for own in sorted(macros(text) - {"_GNU_SOURCE"}))
+    return f"\n/* ==== src/{name} ==== */\n{text}{after}"
+
+
+def main():
+    folder = Path(sys.argv[1])
+    folder.mkdir(parents=True, exist_ok=True)
+    listed = re.search(r"add_library\(carom_objects OBJECT(.*?)\)", (SRC / "CMakeLists.txt").read_text(encoding="utf-8"), re.S).group(1)
+    sources = listed.split() + ["platform/processors.c", "platform/processors_windows.c"]
+    kernels = {name: f"{room}/{name}" for name, room in KERNELS.items()}
+
+    # Headers of the kernels alone are read in every pass; the others once.
+    common, inner = {}, {}
+    for name in sources:
+        included(name, common)
+    for name in kernels.values():
+        included(name, inner)
+    inner = [name for name in inner if name not in common]
+    texts = {name: text_of(name) for name in [*common, *inner, *sources, *kernels.values()]}
+
+    counted = Counter(name for source in sources for name in own_names(texts[source]) | macros(texts[source]))
+    counted.update(name for header in common for name in own_names(texts[header]) | macros(texts[header]))
+    macro = set().union(*(macros(texts[name]) for name in [*common, *sources]))
+    others = {name for name, times in counted.items() if times > 1 and name not in macro} | {"open", "close", "read", "write"}  # and those of POSIX
+
+    system = sorted({line.strip() for text in texts.values() for line in SYSTEM.findall(COMMENT.sub("", text))})
+    everywhere = [line for line in system if re.search(r"<(math|stdbool|stddef|stdint|string|float|limits|stdlib|stdio|stdatomic)\.h>", line)]
+    posix = [line for line in system if re.search(r"<(pthread|sched|signal|unistd|fcntl)\.h>", line)]
+    windows = [line for line in system if re.search(r"<(windows|process)\.h>", line)]
+    x86 = [line for line in system if re.search(r"<(cpuid|immintrin|emmintrin)\.h>", line)]
+
+    out = [f'/* carom {version()} in one file, written by tools/one_file.py. It includes itself; its name must stay. */\n']
+    out.append("#ifndef CAROM_PASS\n#if defined(__linux__) && !defined(_GNU_SOURCE)\n#define _GNU_SOURCE\n#endif\n#define CAROM_BUILD\n")
+    out.append(bare(texts["platform/arithmetic.h"]) + "\n")
+    out.append("\n".join(everywhere) + "\n#ifdef _WIN32\n" + "\n".join(windows) + "\n#else\n" + "\n".join(posix) + "\n#endif\n")
+    out.append("#if defined(__x86_64__) || defined(__i386__)\n" + "\n".join(x86) + "\n#elif defined(__aarch64__)\n#include <arm_neon.h>\n#endif\n")
+    out.append("#ifdef __wasm_simd128__\n#include <wasm_simd128.h>\n#endif\n")
+    out.append("".join(f'#include "{name}"\n' for name in PUBLIC))
+    for name in common:
+        if name != "platform/arithmetic.h":
+            out.append(f"\n/* ==== src/{name} ==== */\n{bare(texts[name])}")
+    for name in sources:
+        windows_alone = {"platform/processors.c": "#ifndef _WIN32\n", "platform/processors_windows.c": "#ifdef _WIN32\n"}.get(name)
+        out.append((windows_alone or "") + guarded(name, texts[name], others) + ("#endif\n" if windows_alone else ""))
+
+    # The passes, and at the end their text.
+    for isa, family in ISAS.items():
+        out.append(f"\n#if {'1' if family == '1' else f'defined(__{family}__) && !defined(CAROM_WITHOUT_{isa.upper()})'}\n")
+        if isa in TARGETS:
+            each = "".join(f"{part}," for part in TARGETS[isa].split(",") if not part.startswith("prefer"))[:-1]
+            out.append("#ifdef __clang__\n")
+            out.append(f'#pragma clang attribute push(__attribute__((target("{each}"))), apply_to = function)\n')
+            out.append(f'#else\n#pragma GCC push_options\n#pragma GCC target("{TARGETS[isa]}")\n#endif\n')
+        for number, (name, definitions, tag) in enumerate(PASSES, 1):
+            if name == "advance.c" and isa not in ("plain", "avx2"):
+                continue
+            defined = [f"CAROM_LANES_{isa.upper()}", f"CAROM_LANES_SUFFIX {isa}", *(f"CAROM_LANES_{d}" for d in definitions.split())]
+            out.append(f"#define CAROM_PASS {number}\n#define CAROM_PASS_NAME(x) x##_of_{isa}_{tag}\n")
+            out.append("".join(f"#define {d}\n" for d in defined) + '#include "carom.c"\n')
+            out.append("".join(f"#undef {d.split()[0]}\n" for d in defined) + "#undef CAROM_PASS\n#undef CAROM_PASS_NAME\n")
+        if isa in TARGETS:
+            out.append("#ifdef __clang__\n#pragma clang attribute pop\n#else\n#pragma GCC pop_options\n#endif\n")
+        out.append("#endif\n")
+    out.append("\n#else /* a pass */\n")
+    for name, path in kernels.items():
+        mine = {}
+        included(path, mine)
+        parts = [header for header in mine if header in inner] + [path]
+        numbers = " || ".join(f"CAROM_PASS == {k}" for k, p in enumerate(PASSES, 1) if p[0] == name)
+        names = set().union(*(own_names(texts[part]) for part in parts))
+        defined = set().union(*(macros(texts[part]) for part in parts))
+        out.append(f"#if {numbers}\n" + "".join(f"#define {own} CAROM_PASS_NAME({own})\n" for own in sorted(names - defined - macro - KERNEL_MACROS)))
+        out.append(names_of_pass(name))
+        out.append(expanded(path, set(inner)))
+        out.append("".join(f"#undef {own}\n" for own in sorted(names | defined | KERNEL_MACROS)) + "#endif\n")
+    out.append("#endif\n")
+    (folder / "carom.c").write_text("".join(out), encoding="utf-8")
+    for name in PUBLIC:
+        (folder / name).write_bytes((ROOT / "include" / name).read_bytes())
+
+
+KERNEL_MACROS = {"KERNEL_SUFFIX", "KERNEL_PRECISION", "KERNEL_PASTE", "KERNEL_PASTE_EXPANDED", "KERNEL", "PRECISE_KERNEL"}
+
+
+def names_of_pass(name):
+    """The part of a common header that names what a source gives, which depends on the pass."""
+    if name == "advance.c":
+        part = r"#ifdef CAROM_LANES_AVX2\n#define CAROM_IMPACT_ADVANCE .*?\n#endif\n"
+        return "#undef CAROM_IMPACT_ADVANCE\n" + re.search(part, text_of("impact/impact.h"), re.S).group(0)
+    return re.search(r"#ifdef CAROM_LANES_SUFFIX\n.*?PRECISE_KERNEL.*?\n#endif\n", text_of("ball_ball/kernels.h"), re.S).group(0)
+
+
+def version():
+    numbers = re.findall(r"#define CAROM_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)", (ROOT / "include" / "carom.h").read_text(encoding="utf-8"))
+    return ".".join(numbers)
+
+
+main()
