@@ -303,7 +303,8 @@ static inline void rub_on_cloth(ball *p) {
 
 /* The next iterate of a contact's friction; change[] becomes what it changes by. `share` of the
  * slip is taken where the contact may stick. */
-static inline void iterate(bool flat, const state *c, contact *x, double share, double change[2]) {
+static inline void iterate(bool flat, const state *c, contact *x, const double *share,
+                           double change[2]) {
   double u[2], f[2];
   slip_of(flat, c, x, u);
   const double m_x = u[0] + x->u[0], m_y = u[1] + x->u[1], mean2 = m_x * m_x + m_y * m_y;
@@ -316,8 +317,8 @@ static inline void iterate(bool flat, const state *c, contact *x, double share, 
     most = (a + (x->mu - a) * (1.0 - lesser(1.0, rate * grown))) * x->J;
   }
   if (x->may_stick) {
-    f[0] = x->f[0] - share * u[0];
-    f[1] = x->f[1] - share * u[1];
+    f[0] = x->f[0] - *share * u[0];
+    f[1] = x->f[1] - *share * u[1];
     const double size2 = f[0] * f[0] + f[1] * f[1];
     if (size2 > most * most) {
       const double down = most / sqrt(size2);
@@ -377,7 +378,8 @@ static inline void rub_all(bool flat, state *c, const uint8_t acting[], int coun
   for (int a = 0; a < count; a++) {
     contact *x = &c->contact[acting[a]];
     const ball *p = &c->ball[x->i], *q = &c->ball[x->j];
-    share[a] = 1.0 / (3.5 * (p->acting * p->inverse_mass + q->acting * q->inverse_mass));
+    if (x->may_stick)
+      share[a] = 1.0 / (3.5 * (p->acting * p->inverse_mass + q->acting * q->inverse_mass));
     x->f[0] *= x->J;
     x->f[1] *= x->J;
     rub(flat, c, x, x->f);
@@ -388,7 +390,7 @@ static inline void rub_all(bool flat, state *c, const uint8_t acting[], int coun
     if (iteration == ITERATIONS)
       return;
     for (int a = 0; a < count; a++)
-      iterate(flat, c, &c->contact[acting[a]], share[a], change[a]);
+      iterate(flat, c, &c->contact[acting[a]], &share[a], change[a]);
     for (int a = 0; a < count; a++)
       rub(flat, c, &c->contact[acting[a]], change[a]);
   }

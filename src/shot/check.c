@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 static bool friction(double x) {
   return x > 0.0 && x <= 1.0;
@@ -172,7 +173,11 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
   double height[CAROM_BALLS_MOST];
   for (*where = 0; *where < count; ++*where) {
     const carom_shot_ball *ball = &balls[*where];
-    bad = check_kind(&ball->kind);
+    /* most balls are of the kind of the one before, which is good */
+    const bool known =
+        *where > 0 && memcmp(&ball->kind, &balls[*where - 1].kind, sizeof ball->kind) == 0;
+    if (!known)
+      bad = check_kind(&ball->kind);
     if (bad == CAROM_OK && flat && ball->kind.radius != balls[0].kind.radius)
       bad = CAROM_ERROR_RADII_DIFFER;
     if (bad == CAROM_OK && ball->kind.nose_height >= 2.0 * features->reference)

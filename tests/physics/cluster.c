@@ -155,13 +155,16 @@ static carom_impact impact_of(const layout *l, bool space, double *closing) {
   return in;
 }
 
-/* One contact beside carom_collide(), and in space beside the closed form of carom_impact3(). */
+/* One contact beside carom_collide(), and in space beside the closed form of carom_impact3().
+ * Nearly all pairs are within 1e-4 at 40 steps. The others have a ball whose slip on the cloth
+ * turns back within a step, which is of order 1. */
 START_TEST(one_contact_is_a_collision) {
   enum { EACH = 1000 };
   static const int steps[2][2] = {{40, 160}, {20, 80}};
-  static const double bound[2][2] = {{5e-4, 1e-4}, {1e-3, 1e-4}};
+  static const double bound[2][2] = {{5e-4, 1e-4}, {5e-4, 5e-5}};
   for (int space = 0; space < 2; space++) {
     double mean[2] = {0.0}, most[2] = {0.0};
+    int large[2] = {0};
     for (int fine = 0; fine < 2; fine++) {
       random_source random = {test_seed()};
       for (int n = 0; n < EACH;) {
@@ -177,6 +180,7 @@ START_TEST(one_contact_is_a_collision) {
         const double error = difference(out, (carom_motion[]){exact.a, exact.b}, 2, true) / closing;
         mean[fine] += error / EACH;
         most[fine] = fmax(most[fine], error);
+        large[fine] += error > 1e-4;
       }
       ck_assert_double_lt(most[fine], bound[space][fine]);
     }
@@ -184,6 +188,7 @@ START_TEST(one_contact_is_a_collision) {
            space ? "carom_impact3()" : "carom_collide()", most[0], steps[space][0], most[1],
            steps[space][1], mean[0], mean[1]);
     ck_assert_double_lt(mean[1], mean[0] / 8.0);
+    ck_assert(space || large[0] <= EACH / 50);
   }
 }
 END_TEST
@@ -439,8 +444,7 @@ START_TEST(scaling) {
       out[i].v[k] /= 7.0;
       out[i].w[k] /= 7.0;
     }
-  /* what closes at less than 1 mm/s is left */
-  ck_assert_double_lt(difference(first, out, slow.count, true), 2e-3);
+  ck_assert_double_lt(difference(first, out, slow.count, true), 1e-11);
 
   /* three times the stiffness with gaps by 3^-0.4: the same but for the normals at the touch */
   random_source again = random;
@@ -451,7 +455,7 @@ START_TEST(scaling) {
   resolve(&soft, 0);
   memcpy(first, out, sizeof first);
   resolve(&stiff, 0);
-  ck_assert_double_lt(difference(first, out, soft.count, true), 8.0 * 1e-2);
+  ck_assert_double_lt(difference(first, out, soft.count, true), 8.0 * 4.3e-3);
 }
 END_TEST
 
@@ -687,7 +691,9 @@ START_TEST(crowds) {
 }
 END_TEST
 
-/* ---- 12: continuity over the gap behind a ball that is hit */
+/* ---- 12: continuity over the gap behind a ball that is hit. The largest step is that of a row:
+ * up to the border, a gap of 1.42 times the compression, the cue ball touches the second ball
+ * again within the cluster, at 6e-4 of its speed; beyond it that touch is a later event. */
 
 START_TEST(gap_has_no_step) {
   enum { STEPS = 250 };
@@ -718,7 +724,7 @@ START_TEST(gap_has_no_step) {
           worst = fmax(worst, fabs(step - 0.5 * (before + after)) / 4.0);
         }
     printf("gap behind a ball, kind %d: largest step %.1e of the speed\n", kind, worst);
-    ck_assert_double_lt(worst, 2e-3);
+    ck_assert_double_lt(worst, kind == 0 ? 6e-4 : 1.5e-4);
   }
 }
 END_TEST
