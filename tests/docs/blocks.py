@@ -14,13 +14,14 @@
     cmake fetch, cmake package    docs/using/building.md's: built by readme.py
     cmake windows    docs/using/building.md's: built and run by the test platforms/windows
     js            a page is a session, run in Node by the test web/package
+    csharp, rust  docs/using/languages.md's: built and run by tests/bindings/game
     python        a page is a session, in the environment of the test python/package; its kinds pooltool, jax, gymnasium, pettingzoo and scale need those packages
 """
 
 import re
 from pathlib import Path
 
-KINDS = {"sh", "sh install", "sh started", "sh program", "sh conan", "sh wheel", "console", "sh elsewhere", "c", "c piece", "cpp", "cmake fetch", "cmake package", "cmake windows", "js", "python"}
+KINDS = {"sh", "sh install", "sh started", "sh program", "sh conan", "sh wheel", "console", "sh elsewhere", "c", "c piece", "cpp", "cmake fetch", "cmake package", "cmake windows", "js", "csharp", "rust", "python"}
 KINDS |= {f"python {need}" for need in ("pooltool", "jax", "gymnasium", "pettingzoo", "scale", "elsewhere")}
 
 # Blocks that no test of docs/ runs, by page: a new one needs a good reason and a line here.

@@ -1,0 +1,134 @@
+// Tables, racks, shots and recordings without pointers. Native has every other function of the library.
+using System;
+using System.Runtime.InteropServices;
+using System.Text;
+
+namespace Carom {
+  /// <summary>A call that could not be served.</summary>
+  public sealed class CaromException : Exception {
+    public readonly Status Status;
+
+    internal unsafe CaromException(Status status, string more = null)
+        : base(Billiards.Text(Native.carom_status_string(status)) + (more == null ? "" : ": " + more)) {
+      Status = status;
+    }
+  }
+
+  /// <summary>A shot that was played.</summary>
+  public sealed unsafe class PlayedShot {
+    /// <summary>Ok; or StoppedAtTime or StoppedAtEvent, as the options ask.</summary>
+    public Status Status { get; internal set; }
+    /// <summary>All events, in the order in which they happened.</summary>
+    public Event[] Events { get; internal set; }
+    /// <summary>The states at the end, one for each ball.</summary>
+    public BallState[] Final { get; internal set; }
+    /// <summary>Up to when the shot was followed, s.</summary>
+    public double Time { get; internal set; }
+    internal ShotBall[] balls;
+
+    /// <summary>The states of all balls at a time, s.</summary>
+    public BallState[] At(double time) {
+      var states = new BallState[balls.Length];
+      fixed (ShotBall* of = balls)
+      fixed (Event* events = Events)
+      fixed (BallState* to = states) {
+        var shot = new Shot { events = events, room = Events.Length, count = Events.Length, time = Time };
+        Billiards.Check(Native.carom_shot_at(of, balls.Length, &shot, time, to));
+      }
+      return states;
+    }
+  }
+
+  /// <summary>What the library offers to a game.</summary>
+  public static unsafe class Billiards {
+    /// <summary>The revision of the physics: players in lockstep agree only with the same number.</summary>
+    public static int PhysicsRevision { get { return Native.carom_physics_revision(); } }
+
+    /// <summary>The version of the library that runs.</summary>
+    public static string Version { get { return Text(Native.carom_version()); } }
+
+    /// <summary>A built-in table.</summary>
+    public static Table Table(TableKind kind) {
+      Table table;
+      Check(Native.carom_table_make(kind, &table));
+      return table;
+    }
+
+    /// <summary>A rack, with the cue ball first. `gap`, m, is left between neighbours; `seed` draws the rest.</summary>
+    public static ShotBall[] Rack(RackKind kind, Table table, double gap = 1e-4, ulong seed = 1) {
+      var balls = new ShotBall[Native.carom_rack_size(kind)];
+      fixed (ShotBall* to = balls) Check(Native.carom_rack(kind, &table, gap, seed, to, balls.Length));
+      return balls;
+    }
+
+    /// <summary>The usual cue of a game.</summary>
+    public static Cue Cue(Game game) { return Native.carom_cue_of(game); }
+
+    /// <summary>Plays a shot until nothing moves, or until the options stop it. The balls are not changed.</summary>
+    public static PlayedShot Play(Table table, ShotBall[] balls, Cue cue, ShotOptions options = default(ShotOptions)) {
+      var shot = new PlayedShot { Final = new BallState[balls.Length], balls = (ShotBall[])balls.Clone() };
+      // Most shots have fewer events; one with more is played again with room for all of them.
+      for (long room = 256;;) {
+        var events = new Event[room];
+        var data = new Shot { room = room };
+        fixed (ShotBall* of = balls)
+        fixed (BallState* final = shot.Final)
+        fixed (Event* to = events) {
+          data.events = to;
+          data.final = final;
+          shot.Status = Check(Native.carom_shoot(&table, of, balls.Length, &cue, &options, &data));
+        }
+        if (data.count <= room) {
+          Array.Resize(ref events, (int)data.count);
+          shot.Events = events;
+          shot.Time = data.time;
+          return shot;
+        }
+        room = data.count;
+      }
+    }
+
+    internal static Status Check(Status status) {
+      if (status < 0) throw new CaromException(status);
+      return status;
+    }
+
+    internal static string Text(byte* text) { return Marshal.PtrToStringAnsi((IntPtr)text); }
+  }
+
+  /// <summary>A recording, read line by line and played: docs/using/games.md has the format.</summary>
+  public sealed unsafe class Recording : IDisposable {
+    Record* record;
+
+    public Recording() {
+      record = (Record*)Marshal.AllocHGlobal(sizeof(Record));
+      var bytes = (byte*)record;
+      for (int k = 0; k < sizeof(Record); k++) bytes[k] = 0;
+    }
+
+    /// <summary>Reads a line, and plays its shot if it has one. Returns whether every bit is the recorded one.</summary>
+    public bool Read(string line) {
+      if (record == null) throw new ObjectDisposedException("Recording");
+      var bytes = Encoding.UTF8.GetBytes(line + "\n");
+      Status status;
+      fixed (byte* text = bytes) status = Native.carom_record_read(record, text, (UIntPtr)bytes.Length);
+      if (status < 0) throw new CaromException(status, Billiards.Text(record->fault));
+      if (record->pending != 1) return true;
+      status = Native.carom_record_play(record, (RecordKind)record->kind, null);
+      // A shot in error is recorded with its status, so its bits count as well.
+      return (long)status == record->played.status && record->played.hash == record->recorded.hash;
+    }
+
+    /// <summary>Shots so far, and the hash of all their hashes.</summary>
+    public long Shots { get { return record->shots; } }
+    public ulong Hash { get { return record->hash; } }
+
+    public void Dispose() {
+      Marshal.FreeHGlobal((IntPtr)record);
+      record = null;
+      GC.SuppressFinalize(this);
+    }
+
+    ~Recording() { Marshal.FreeHGlobal((IntPtr)record); }
+  }
+}

@@ -1,0 +1,264 @@
+//! Billiards by the C library carom: tables, racks, whole shots and recordings. `sys` has every other function of the library.
+//!
+//! ```
+//! use carom::{sys, Error};
+//! # fn main() -> Result<(), Error> {
+//! let table = carom::table(sys::CAROM_TABLE_POOL_9FT)?;
+//! let balls = carom::rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 1)?;
+//! let cue = carom::Cue { speed: 8.0, ..carom::cue(sys::CAROM_GAME_POOL) };
+//! let shot = carom::shoot(&table, &balls, &cue, &carom::Options::default())?;
+//! assert_eq!(shot.at(shot.time())?.len(), 10);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Units are SI; directions of a cue are in degrees. With `Options { plain: 1, .. }` results have the same bits on all machines.
+pub use carom_sys as sys;
+pub use sys::{
+    carom_ball_state as BallState, carom_cue as Cue, carom_event as Event,
+    carom_shot_ball as ShotBall, carom_shot_options as Options, carom_table as Table,
+};
+
+use std::ffi::CStr;
+use std::fmt;
+use std::os::raw::c_char;
+
+/// A call that could not be served.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error {
+    /// A value of `sys::carom_status`, below 0.
+    pub status: sys::carom_status,
+    /// Of a recording: what is wrong with the line.
+    pub fault: String,
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, to: &mut fmt::Formatter) -> fmt::Result {
+        // Never NULL, by the header.
+        let words = text(unsafe { sys::carom_status_string(self.status) });
+        if self.fault.is_empty() {
+            write!(to, "{words}")
+        } else {
+            write!(to, "{words}: {}", self.fault)
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+fn text(from: *const c_char) -> String {
+    unsafe { CStr::from_ptr(from) }
+        .to_string_lossy()
+        .into_owned()
+}
+
+fn check(status: sys::carom_status) -> Result<sys::carom_status, Error> {
+    if status < 0 {
+        return Err(Error {
+            status,
+            fault: String::new(),
+        });
+    }
+    Ok(status)
+}
+
+/// The revision of the physics: players in lockstep agree only with the same number.
+pub fn physics_revision() -> i32 {
+    unsafe { sys::carom_physics_revision() }
+}
+
+/// A built-in table, such as `sys::CAROM_TABLE_POOL_9FT`.
+pub fn table(kind: sys::carom_table_kind) -> Result<Table, Error> {
+    let mut table = Table::default();
+    check(unsafe { sys::carom_table_make(kind, &mut table) })?;
+    Ok(table)
+}
+
+/// A rack, with the cue ball first. `gap`, m, is left between neighbours; `seed` draws the rest.
+pub fn rack(
+    kind: sys::carom_rack_kind,
+    table: &Table,
+    gap: f64,
+    seed: u64,
+) -> Result<Vec<ShotBall>, Error> {
+    let size = unsafe { sys::carom_rack_size(kind) };
+    let mut balls = vec![ShotBall::default(); size as usize];
+    check(unsafe { sys::carom_rack(kind, table, gap, seed, balls.as_mut_ptr(), size) })?;
+    Ok(balls)
+}
+
+/// The usual cue of a game.
+pub fn cue(game: sys::carom_game) -> Cue {
+    unsafe { sys::carom_cue_of(game) }
+}
+
+/// A shot that was played.
+#[derive(Clone, Debug)]
+pub struct Shot {
+    status: sys::carom_status,
+    events: Vec<Event>,
+    last: Vec<BallState>,
+    time: f64,
+    balls: Vec<ShotBall>,
+}
+
+/// Plays a shot until nothing moves, or until the options stop it.
+pub fn shoot(
+    table: &Table,
+    balls: &[ShotBall],
+    cue: &Cue,
+    options: &Options,
+) -> Result<Shot, Error> {
+    let count = balls.len().min(i32::MAX as usize) as i32;
+    // Most shots have fewer events; one with more is played again with room for all of them.
+    let mut room = 256;
+    loop {
+        let mut events = vec![Event::default(); room];
+        let mut last = vec![BallState::default(); balls.len()];
+        let mut shot = sys::carom_shot {
+            events: events.as_mut_ptr(),
+            room: room as i64,
+            r#final: last.as_mut_ptr(),
+            ..Default::default()
+        };
+        let status = check(unsafe {
+            sys::carom_shoot(table, balls.as_ptr(), count, cue, options, &mut shot)
+        })?;
+        let happened = shot.count as usize;
+        if happened <= room {
+            events.truncate(happened);
+            return Ok(Shot {
+                status,
+                events,
+                last,
+                time: shot.time,
+                balls: balls.to_vec(),
+            });
+        }
+        room = happened;
+    }
+}
+
+impl Shot {
+    /// `sys::CAROM_OK`, or that the options stopped it.
+    pub fn status(&self) -> sys::carom_status {
+        self.status
+    }
+
+    /// All events, in the order in which they happened.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// The states at the end, one for each ball.
+    pub fn last(&self) -> &[BallState] {
+        &self.last
+    }
+
+    /// Up to when the shot was followed, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The states of all balls at a time, s.
+    pub fn at(&self, time: f64) -> Result<Vec<BallState>, Error> {
+        let mut states = vec![BallState::default(); self.balls.len()];
+        let shot = sys::carom_shot {
+            // It is read only.
+            events: self.events.as_ptr() as *mut Event,
+            room: self.events.len() as i64,
+            count: self.events.len() as i64,
+            time: self.time,
+            ..Default::default()
+        };
+        let count = self.balls.len() as i32;
+        check(unsafe {
+            sys::carom_shot_at(self.balls.as_ptr(), count, &shot, time, states.as_mut_ptr())
+        })?;
+        Ok(states)
+    }
+}
+
+/// A recording, read line by line and played: docs/using/games.md has the format.
+#[derive(Default)]
+pub struct Recording {
+    record: Box<sys::carom_record>,
+}
+
+impl Recording {
+    /// Reads a line, and plays its shot if it has one. Returns whether every bit is the recorded one.
+    pub fn read(&mut self, line: &str) -> Result<bool, Error> {
+        let record = &mut *self.record;
+        let status =
+            unsafe { sys::carom_record_read(record, line.as_ptr() as *const c_char, line.len()) };
+        if status < 0 {
+            return Err(Error {
+                status,
+                fault: text(record.fault.as_ptr()),
+            });
+        }
+        if record.pending != 1 {
+            return Ok(true);
+        }
+        let status = unsafe {
+            sys::carom_record_play(
+                record,
+                record.kind as sys::carom_record_kind,
+                std::ptr::null_mut(),
+            )
+        };
+        // A shot in error is recorded with its status, so its bits count as well.
+        Ok(i64::from(status) == record.played.status && record.played.hash == record.recorded.hash)
+    }
+
+    /// Shots so far.
+    pub fn shots(&self) -> i64 {
+        self.record.shots
+    }
+
+    /// The hash of all their hashes.
+    pub fn hash(&self) -> u64 {
+        self.record.hash
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_say_what_is_wrong() {
+        let table = table(sys::CAROM_TABLE_POOL_9FT).unwrap();
+        let balls = rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 1).unwrap();
+        let wrong = Cue {
+            speed: -1.0,
+            ..cue(sys::CAROM_GAME_POOL)
+        };
+        let error = shoot(&table, &balls, &wrong, &Options::default()).unwrap_err();
+        assert_eq!(error.status, sys::CAROM_ERROR_CUE_SPEED);
+        assert_eq!(error.to_string(), "cue.speed must be 0 to 1000 m/s");
+        assert_eq!(
+            rack(99, &table, 1e-4, 1).unwrap_err().status,
+            sys::CAROM_ERROR_RACK
+        );
+        let error = Recording::default().read("{\"game\":1}").unwrap_err();
+        assert_eq!(error.status, sys::CAROM_ERROR_RECORD);
+        assert!(error.fault.contains("game"), "{}", error.fault);
+    }
+
+    #[test]
+    fn states_end_where_the_shot_does() {
+        let table = table(sys::CAROM_TABLE_SNOOKER).unwrap();
+        let balls = rack(sys::CAROM_RACK_SNOOKER, &table, 0.0, 1).unwrap();
+        let hard = Cue {
+            speed: 6.0,
+            ..cue(sys::CAROM_GAME_SNOOKER)
+        };
+        let shot = shoot(&table, &balls, &hard, &Options::default()).unwrap();
+        assert!(shot.events.len() > 20);
+        for (state, last) in shot.at(shot.time + 1.0).unwrap().iter().zip(&shot.last) {
+            assert_eq!(state.r, last.r);
+        }
+        assert!(shot.at(f64::NAN).is_err());
+    }
+}

@@ -1,0 +1,57 @@
+// As game.c, in C#.
+using System;
+using System.IO;
+using Carom;
+
+static class Program {
+  static unsafe ulong Add(ulong hash, double* number, int count) {
+    for (int k = 0; k < count; k++) {
+      ulong bits = (ulong)BitConverter.DoubleToInt64Bits(number[k]);
+      for (int one = 0; one < 8; one++) hash = unchecked((hash ^ (bits >> 8 * one & 255)) * 0x100000001b3);
+    }
+    return hash;
+  }
+
+  static unsafe int Main(string[] arguments) {
+    using (var recording = new Recording()) {
+      foreach (var line in File.ReadLines(arguments[0]))
+        if (!recording.Read(line)) {
+          Console.Error.WriteLine($"shot {recording.Shots} has other bits than were recorded");
+          return 1;
+        }
+      Console.WriteLine($"recording: {recording.Shots} shots, {recording.Hash:x16}");
+      try {
+        recording.Read("{}");
+        return 1;
+      } catch (CaromException wrong) {
+        if (wrong.Status != Status.ErrorRecord) throw;
+      }
+    }
+
+    var table = Billiards.Table(TableKind.Pool9ft);
+    var balls = Billiards.Rack(RackKind.Nineball, table);
+    var cue = Billiards.Cue(Game.Pool);
+    cue.speed = 8.0;
+    var shot = Billiards.Play(table, balls, cue, new ShotOptions { plain = 1 });
+    ulong hash = 0xcbf29ce484222325;
+    foreach (var one in shot.Events) {
+      var time = one.time;
+      hash = Add(hash, &time, 1);
+    }
+    // States after the end are those at the end.
+    foreach (var one in shot.At(shot.Time + 1)) {
+      var state = one;
+      hash = Add(Add(Add(hash, state.r, 3), state.v, 3), state.w, 3);
+    }
+    Console.WriteLine($"break: {shot.Events.Length} events, {hash:x16}");
+
+    cue.speed = -1;
+    try {
+      Billiards.Play(table, balls, cue);
+      return 1;
+    } catch (CaromException wrong) {
+      if (wrong.Message != "cue.speed must be 0 to 1000 m/s") throw;
+    }
+    return 0;
+  }
+}

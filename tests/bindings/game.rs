@@ -1,0 +1,49 @@
+// As game.c, in Rust.
+use carom::{sys, Error, Recording};
+
+fn add(hash: u64, numbers: &[f64]) -> u64 {
+    let bytes = numbers
+        .iter()
+        .flat_map(|number| number.to_bits().to_le_bytes());
+    bytes.fold(hash, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x100000001b3)
+    })
+}
+
+fn main() -> Result<(), Error> {
+    let path = std::env::args().nth(1).expect("the name of a recording");
+    let mut recording = Recording::default();
+    for line in std::fs::read_to_string(path).expect("a recording").lines() {
+        assert!(
+            recording.read(line)?,
+            "shot {} has other bits than were recorded",
+            recording.shots()
+        );
+    }
+    println!(
+        "recording: {} shots, {:016x}",
+        recording.shots(),
+        recording.hash()
+    );
+
+    let table = carom::table(sys::CAROM_TABLE_POOL_9FT)?;
+    let balls = carom::rack(sys::CAROM_RACK_NINEBALL, &table, 1e-4, 1)?;
+    let cue = carom::Cue {
+        speed: 8.0,
+        ..carom::cue(sys::CAROM_GAME_POOL)
+    };
+    let options = carom::Options {
+        plain: 1,
+        ..Default::default()
+    };
+    let shot = carom::shoot(&table, &balls, &cue, &options)?;
+    let mut hash = 0xcbf29ce484222325;
+    for event in shot.events() {
+        hash = add(hash, &[event.time]);
+    }
+    for state in shot.last() {
+        hash = add(add(add(hash, &state.r), &state.v), &state.w);
+    }
+    println!("break: {} events, {hash:016x}", shot.events().len());
+    Ok(())
+}
