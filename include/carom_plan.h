@@ -91,6 +91,10 @@ typedef enum carom_foul {
   CAROM_FOUL_OTHER = 7     /* by a rule of the caller's */
 } carom_foul;
 
+/* The foul of a shot by what all games have in common, up to CAROM_FOUL_CUSHION; `on` are the balls
+ * that may be met first, as a set. */
+CAROM_API carom_foul carom_foul_of(const carom_facts *facts, uint32_t on, int cue_ball);
+
 /* Why, in words, such as "the cue ball met no ball"; "" for NONE and for a value not listed. */
 CAROM_API const char *carom_foul_string(int foul);
 

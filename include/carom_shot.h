@@ -820,12 +820,12 @@ typedef struct carom_shot_job {
   uint64_t reserved[4];              /* must be 0. */
 } carom_shot_job;
 
-/* Plays all shots of a job. Each has the bits and the status of carom_shoot(), and a bad one
- * costs itself: each layout has balls and a radius of its own and is checked with them, and
- * balls too small or too large for the noses of the table cost their own shot only. Returns
- * CAROM_OK or the status of the first shot in error; if the call itself cannot be served (NULL,
- * a bad option, a bad count, a part of the table that is bad for every radius), that error, with
- * nothing written. With n = 0 nothing else is read. */
+/* Plays all shots of a job. Each has the bits and the status of carom_shoot(), and a bad one costs
+ * itself: each layout has balls and a radius of its own and is checked with them (one that
+ * successive shots share, once), and balls too small or too large for the noses of the table cost
+ * their own shot only. Returns CAROM_OK or the status of the first shot in error; if the call
+ * itself cannot be served (NULL, a bad option, a bad count, a part of the table that is bad for
+ * every radius), that error, with nothing written. With n = 0 nothing else is read. */
 CAROM_API carom_status carom_shoot_batch(const carom_shot_job *job);
 
 /* Checks the arguments of carom_shoot() and plays nothing. *where becomes the index of the ball,

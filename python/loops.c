@@ -121,50 +121,19 @@ carom_status carom_python_look(const carom_shot_job *job, const double *times, s
   return room ? CAROM_OK : CAROM_ERROR_NULL;
 }
 
-/* ---- Facts of many shots --------------------------------------------------------------------- */
+/* ---- Rules over many shots ------------------------------------------------------------------- */
 
-/* The facts of shot k, to the arrays. */
-static void spread_facts(const carom_facts *from, size_t k, size_t count,
-                         const carom_python_features *f) {
-  f->cushions_after[k] = from->cushions_after;
-  for (size_t n = 0; n < 2; n++) {
-    f->contact[2 * k + n] = from->first[n];
-    f->contact_time[2 * k + n] = from->first_time[n];
-    f->cushions_before[2 * k + n] = from->cushions_before[n];
+void carom_python_judge(const carom_plan_rules *rules, size_t n, const int8_t *status,
+                        const carom_facts *facts, const uint32_t *in_play, const carom_call *calls,
+                        uint64_t *users, carom_turn *turns) {
+  const carom_facts none = {.first = {-1, -1}};
+  const carom_call no_call = {-1, -1};
+  for (size_t k = 0; k < n; k++) {
+    uint64_t user[8];
+    memcpy(user, rules->user, sizeof user);
+    turns[k] = rules->judge(users != NULL ? &users[8 * k] : user, in_play[k], 0,
+                            status[k] < 0 ? &none : &facts[k], calls != NULL ? calls[k] : no_call);
   }
-  memcpy(&f->pocket[k * count], from->pocket, count * sizeof *from->pocket);
-  memcpy(&f->pocket_time[k * count], from->pocket_time, count * sizeof *from->pocket_time);
-  memcpy(&f->cushions[k * count], from->cushions, count * sizeof *from->cushions);
-}
-
-carom_status carom_python_play(const carom_shot_job *job, const carom_python_features *features) {
-  enum { BLOCK = 16 }; /* shots whose facts are on the stack, 10 kB */
-  carom_facts facts[BLOCK];
-  carom_status status = CAROM_OK;
-  for (size_t k = 0; k < job->n; k += BLOCK) {
-    /* A block is a job by itself. */
-    const size_t many = job->n - k < BLOCK ? job->n - k : BLOCK;
-    carom_shot_job block = *job;
-    block.balls = job->balls + k * job->ball_stride;
-    block.cues = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
-    block.shots = job->shots + k;
-    block.status = job->status + k;
-    block.n = many;
-    for (size_t i = 0; i < many; i++)
-      block.shots[i].facts = &facts[i];
-    const carom_status of_block = carom_shoot_batch(&block);
-    status = status == CAROM_OK ? of_block : status;
-
-    /* Where the call itself was refused, no shot has a status, and nothing was written. */
-    bool played = of_block == CAROM_OK;
-    for (size_t i = 0; i < many; i++) {
-      block.shots[i].facts = NULL;
-      played |= block.status[i] < 0;
-    }
-    for (size_t i = 0; i < many && played; i++)
-      spread_facts(&facts[i], k + i, (size_t)job->count, features);
-  }
-  return status;
 }
 
 /* ---- Pieces of a track --------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 #ifndef CAROM_PYTHON_LOOPS_H
 #define CAROM_PYTHON_LOOPS_H
 
-#include <carom_shot.h>
+#include <carom_plan.h>
 
 /* mu[k] = carom_mu_ball(&in[k], law), k = 0 ... n - 1. */
 void carom_python_mu_ball(const carom_impact *in, size_t n, carom_speed_law law, double *mu);
@@ -13,24 +13,13 @@ carom_status carom_python_orientations(const carom_shot_ball *balls, int count,
                                        const carom_shot *shot, const double *times, size_t n,
                                        double *turned);
 
-/* What planners want of shots, in arrays over n shots. Indices are -1 and times infinite where
- * there is none. The cue ball is the ball struck, or ball 0 without a cue. A cushion is a rail
- * or a jaw. */
-typedef struct carom_python_features {
-  int32_t *contact,
-      *cushions_before;       /* (n, 2): the first two different balls that the cue ball met, the
-                                 cushions before that, */
-  double *contact_time;       /* and when, s. */
-  int32_t *cushions_after;    /* (n,): impacts on cushions, of all balls, after the first
-                                 contact. */
-  int32_t *pocket, *cushions; /* (n, count): the pocket that took each ball, its impacts on
-                                 cushions, */
-  double *pocket_time;        /* and when it was pocketed, s. */
-} carom_python_features;
-
-/* Plays a job as carom_shoot_batch() does, and puts the facts of its shots into arrays.
- * job->status must not be NULL, and 0 at first. */
-carom_status carom_python_play(const carom_shot_job *job, const carom_python_features *features);
+/* Judges n shots by the facts of each: turns[k] becomes what shot k amounts to for a player with
+ * the state users[8 k ...], which is changed; NULL: that of the rules. calls may be NULL: none.
+ * in_play[k] are the balls before it; the cue ball is ball 0. A status below 0 stands for facts in
+ * which no ball was met. */
+void carom_python_judge(const carom_plan_rules *rules, size_t n, const int8_t *status,
+                        const carom_facts *facts, const uint32_t *in_play, const carom_call *calls,
+                        uint64_t *users, carom_turn *turns);
 
 /* Looks at the shots of a job, each of which has been played. A shot of which not all events
  * were kept in full is played again, which has the same bits. `states`, (n, times, count), and

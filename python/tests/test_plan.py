@@ -73,3 +73,86 @@ def test_arguments_in_error():
     layout["state"]["r"][1] = layout["state"]["r"][0]
     with pytest.raises(carom.CaromError):
         carom.plan(TABLE, layout)
+
+
+# ---- Rules ----------------------------------------------------------------------------------------------------------------
+
+ORDER = carom.balls([[0.4, 0.4], [0.15, 0.15], [0.9, 1.7], [0.7, 2.2]])  # the one before the pocket at the origin
+
+
+def test_a_referee():
+    best = carom.plan(TABLE, ORDER, rules="nineball", shots=300)[0]
+    ruling = carom.referee(TABLE, ORDER, best["cue"], rules="nineball")
+    assert (ruling.turn, ruling.foul, ruling.hand, ruling.potted, ruling.first) == ("keep", carom.Foul.NONE, "no", (1,), 1)
+    assert ruling.balls["state"].tobytes() == carom.simulate(TABLE, ORDER, best["cue"]).final.tobytes() and not ruling.state.any()
+    # eight-ball without a call passes the turn, with it the groups are known
+    passed = carom.referee(TABLE, ORDER, best["cue"])
+    called = carom.referee(TABLE, ORDER, best["cue"], call=(1, int(best["pocket"])))
+    assert (passed.turn, called.turn, int(called.state[0])) == ("pass", "keep", 1)
+    # a foul, and the third of a player
+    away = carom.cue(speed=1.0, phi=90.0)
+    foul = carom.referee(TABLE, ORDER, away, rules="nineball", state=[0, 0, 1, 2, 0, 0, 0, 0])
+    assert (foul.turn, foul.foul, foul.hand, foul.state[2:4].tolist()) == ("pass", carom.Foul.NO_BALL, "anywhere", [2, 2])
+    assert foul.foul.text == "the cue ball met no ball"
+    assert carom.referee(TABLE, ORDER, away, rules="nineball", state=foul.state).turn == "lose"
+
+
+def test_a_push_out_may_be_passed():
+    pushed = carom.referee(TABLE, ORDER, carom.cue(speed=0.5, phi=0.0), rules="nineball", state=[0, 0, 0, 0, 1, 0, 0, 0], call=(-2, -1))
+    assert (pushed.turn, pushed.foul, int(pushed.state[4])) == ("pass", carom.Foul.NONE, 2)
+    passed = carom.referee(TABLE, pushed.balls, carom.cue(), rules="nineball", state=pushed.state, call=(-3, -1))
+    assert (passed.turn, passed.foul, int(passed.state[4])) == ("pass", carom.Foul.NONE, 0)
+    assert passed.balls["state"]["r"].tobytes() == pushed.balls["state"]["r"].tobytes()
+
+
+class Corner(carom.Rules):
+    """Balls count in one pocket, the number of which is in the state; others come back."""
+
+    race = "alone"
+
+    def on(self, state, in_play):
+        return in_play - {0}
+
+    def pockets(self, state):
+        return {state[0]}
+
+    def left(self, state, in_play):
+        return len(in_play) - 1, 1
+
+    def judge(self, state, in_play, facts, call):
+        good = [ball for ball, pocket in facts.potted.items() if ball and pocket == state[0]]
+        state[1] += len(good)
+        if facts.foul(self.on(state, in_play)) == carom.Foul.CUE_BALL:
+            return carom.Turn("pass", "kitchen", carom.Foul.CUE_BALL)
+        return carom.Turn("keep" if good else "pass", spot=facts.potted.keys() - set(good), points=len(good))
+
+
+def test_rules_of_ones_own():
+    for pocket in range(6):
+        best = carom.plan(TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300, plain=True)
+        assert set(best["pocket"]) <= {pocket, -1}
+        again = carom.plan(TABLE, LAYOUT, rules=Corner(), state=[pocket, 5, 0, 0, 0, 0, 0, 0], shots=300, plain=True, threads=2)
+        assert best.tobytes() == again.tobytes()
+    best = carom.plan(TABLE, ORDER, rules="nineball", shots=300)[0]
+    corner, pot = int(best["pocket"]), best["cue"]
+    here = carom.referee(TABLE, ORDER, pot, rules=Corner(), state=[corner, 5, 0, 0, 0, 0, 0, 0])
+    assert (here.turn, here.points, here.potted, here.state[:2].tolist()) == ("keep", 1.0, (1,), [corner, 6])
+    there = carom.referee(TABLE, ORDER, pot, rules=Corner(), state=[(corner + 1) % 6, 5, 0, 0, 0, 0, 0, 0])
+    assert there.turn == "pass" and there.balls["state"]["r"][1, :2].tolist() == [TABLE.width / 2, 0.75 * TABLE.length]
+
+
+def test_errors_of_rules():
+    class Wrong(Corner):
+        def judge(self, state, in_play, facts, call):
+            raise KeyError("a mistake of the caller")
+
+    with pytest.raises(KeyError, match="a mistake of the caller"):
+        carom.plan(TABLE, LAYOUT, rules=Wrong(), shots=100)
+    with pytest.raises(KeyError, match="a mistake of the caller"):
+        carom.referee(TABLE, LAYOUT, carom.cue(speed=1.0), rules=Wrong())
+    with pytest.raises(NotImplementedError):
+        carom.plan(TABLE, LAYOUT, rules=carom.Rules(), shots=100)
+    with pytest.raises(ValueError, match="state: 8 whole numbers"):
+        carom.plan(TABLE, LAYOUT, state=[1, 2])
+    with pytest.raises(carom.CaromError):
+        carom.referee(TABLE, LAYOUT, carom.cue(speed=-1.0))

@@ -71,7 +71,7 @@ def test_a_ball_that_leaves_the_table_is_a_foul_and_taken_back(monkeypatch):
 
     def off(*arguments, **options):
         shots = carom.simulate_batch(*arguments, **options)
-        shots.final["label"][1, 2] = carom.Label.OFF
+        shots.final["label"][1, 2], shots.facts["off"][1] = carom.Label.OFF, 1 << 2
         return shots
 
     monkeypatch.setattr(carom.potting, "simulate_batch", off)
@@ -124,7 +124,8 @@ def test_any_game_keeps_the_rules():
         now = stroke.layouts["state"]["label"][:, 1:] == carom.Label.POCKETED
         assert (now >= down).all(), "a ball came back"
         np.testing.assert_array_equal(stroke.potted, (now & ~down).sum(axis=1))
-        np.testing.assert_array_equal(stroke.rewards, stroke.potted - stroke.scratch)
+        np.testing.assert_array_equal(stroke.rewards, stroke.potted - (stroke.foul != 0))
+        assert (stroke.foul[stroke.scratch] == carom.Foul.CUE_BALL).all()
         down, layouts = now, stroke.layouts
         back = np.flatnonzero(stroke.scratch)
         again = layouts[back]

@@ -142,7 +142,7 @@ static inline bool overlap(const carom_shot_ball *a, double z_a, const carom_sho
   return x * x + y * y + z * z < reach * reach;
 }
 
-static carom_status check_cue(const carom_shot_ball *balls, int count, const carom_cue *cue) {
+carom_status carom_check_strike(const carom_shot_ball *balls, int count, const carom_cue *cue) {
   if (cue == NULL || cue->speed == 0.0)
     return CAROM_OK;
   if (cue->ball < 0 || cue->ball >= count)
@@ -162,7 +162,7 @@ carom_status carom_check_common(const carom_table *table, int64_t count,
 }
 
 carom_status carom_check_layout(const carom_table *table, carom_features *features,
-                                const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                const carom_shot_ball *balls, int count,
                                 const carom_shot_options *opt, int *where) {
   const bool one_mass =
       carom_rules_of(opt->world)->one_mass || opt->ball_model == CAROM_BALL_MODEL_INELASTIC;
@@ -200,7 +200,7 @@ carom_status carom_check_layout(const carom_table *table, carom_features *featur
         return CAROM_ERROR_OVERLAP;
   }
   *where = -1;
-  return check_cue(balls, count, cue);
+  return CAROM_OK;
 }
 
 carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *balls, int count,
@@ -212,11 +212,12 @@ carom_status carom_shot_check(const carom_table *table, const carom_shot_ball *b
   if (table == NULL || balls == NULL)
     return CAROM_ERROR_NULL;
   opt = opt != NULL ? opt : &no_options;
-  const carom_status bad = carom_check_common(table, count, opt, where);
+  carom_status bad = carom_check_common(table, count, opt, where);
   carom_features features;
   features.radius = 0.0;
-  return bad != CAROM_OK ? bad
-                         : carom_check_layout(table, &features, balls, count, cue, opt, where);
+  if (bad == CAROM_OK)
+    bad = carom_check_layout(table, &features, balls, count, opt, where);
+  return bad != CAROM_OK ? bad : carom_check_strike(balls, count, cue);
 }
 
 carom_status carom_place_ball(const carom_table *table, carom_shot_ball *balls, int count, int ball,

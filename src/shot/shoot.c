@@ -393,13 +393,25 @@ static void clear(carom_shot *shot) {
     no_facts(shot->facts);
 }
 
-/* *features are prepared for the radius of these balls, unless they are so already. */
-static carom_status shoot_checked(const carom_table *table, carom_features *features,
+/* The layout that was checked last, and with which status. */
+typedef struct checked {
+  const carom_shot_ball *balls; /* NULL: none */
+  carom_status status;
+  carom_features features; /* prepared for its radii */
+} checked;
+
+/* A layout that is the last one is not checked again. */
+static carom_status shoot_checked(const carom_table *table, checked *last,
                                   const carom_shot_ball *balls, int count, const carom_cue *cue,
                                   const carom_shot_options *opt, carom_shot *shot) {
   int where;
-  const carom_status bad = carom_check_layout(table, features, balls, count, cue, opt, &where);
-  return bad != CAROM_OK ? bad : shoot(table, features, balls, count, cue, opt, shot, true);
+  if (last->balls != balls)
+    last->status = carom_check_layout(table, &last->features, balls, count, opt, &where);
+  last->balls = balls;
+  carom_status bad = last->status;
+  if (bad == CAROM_OK)
+    bad = carom_check_strike(balls, count, cue);
+  return bad != CAROM_OK ? bad : shoot(table, &last->features, balls, count, cue, opt, shot, true);
 }
 
 static carom_status check_room(const carom_shot *shot) {
@@ -419,9 +431,10 @@ carom_status carom_shoot(const carom_table *table, const carom_shot_ball *balls,
   clear(shot);
   int where;
   bad = carom_check_common(table, count, opt, &where);
-  carom_features features;
-  features.radius = 0.0;
-  return bad != CAROM_OK ? bad : shoot_checked(table, &features, balls, count, cue, opt, shot);
+  checked last;
+  last.balls = NULL;
+  last.features.radius = 0.0;
+  return bad != CAROM_OK ? bad : shoot_checked(table, &last, balls, count, cue, opt, shot);
 }
 
 carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball *balls, int count,
@@ -436,7 +449,7 @@ carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball
   if (bad == CAROM_OK)
     bad = carom_check_common(table, count, opt, &where);
   if (bad == CAROM_OK)
-    bad = carom_check_layout(table, &features, balls, count, NULL, opt, &where);
+    bad = carom_check_layout(table, &features, balls, count, opt, &where);
   if (bad != CAROM_OK)
     return bad;
   if (shot->count < 0 || !(shot->time >= 0.0 && shot->time < INFINITY))
@@ -448,7 +461,7 @@ carom_status carom_shot_continue(const carom_table *table, const carom_shot_ball
 
 /* ---- Many */
 
-static carom_status shoot_row(const carom_shot_job *job, size_t k, carom_features *features) {
+static carom_status shoot_row(const carom_shot_job *job, size_t k, checked *last) {
   const carom_shot_ball *balls = job->balls + k * job->ball_stride;
   const carom_cue *cue = job->cues == NULL ? NULL : job->cues + k * job->cue_stride;
   const carom_shot_options *opt = job->options != NULL ? job->options : &no_options;
@@ -456,16 +469,17 @@ static carom_status shoot_row(const carom_shot_job *job, size_t k, carom_feature
   if (bad != CAROM_OK)
     return bad;
   clear(&job->shots[k]);
-  return shoot_checked(job->table, features, balls, (int)job->count, cue, opt, &job->shots[k]);
+  return shoot_checked(job->table, last, balls, (int)job->count, cue, opt, &job->shots[k]);
 }
 
 static size_t shoot_rows(const void *context, size_t first, size_t end) {
   const carom_shot_job *job = context;
   size_t first_bad = end;
-  carom_features features; /* shared by rows with one radius */
-  features.radius = 0.0;
+  checked last; /* shared by rows with one layout; its features by those with one radius */
+  last.balls = NULL;
+  last.features.radius = 0.0;
   for (size_t k = first; k < end; k++) {
-    const carom_status status = shoot_row(job, k, &features);
+    const carom_status status = shoot_row(job, k, &last);
     if (job->status != NULL)
       job->status[k] = (int8_t)status;
     if (status < 0 && first_bad == end)
@@ -494,9 +508,10 @@ carom_status carom_shoot_batch(const carom_shot_job *job) {
   if (first_bad == job->n)
     return CAROM_OK;
   /* Only its index came back through the threads; playing the shot again tells its status. */
-  carom_features features;
-  features.radius = 0.0;
-  return shoot_row(job, first_bad, &features);
+  checked last;
+  last.balls = NULL;
+  last.features.radius = 0.0;
+  return shoot_row(job, first_bad, &last);
 }
 
 /* ---- Later */

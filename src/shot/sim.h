@@ -139,9 +139,10 @@ carom_status carom_check_ball(const carom_shot_ball *ball, bool flat);
 /* The arguments that the shots of a batch share. */
 carom_status carom_check_common(const carom_table *table, int64_t count,
                                 const carom_shot_options *opt, int *where);
-/* One layout with its cue. Prepares the table for the radii of the balls, where *features are
- * for others. */
+/* One layout. Prepares the table for the radii of the balls, where *features are for others. */
 carom_status carom_check_layout(const carom_table *table, carom_features *features,
-                                const carom_shot_ball *balls, int count, const carom_cue *cue,
+                                const carom_shot_ball *balls, int count,
                                 const carom_shot_options *opt, int *where);
+/* The cue of a good layout; NULL: none. */
+carom_status carom_check_strike(const carom_shot_ball *balls, int count, const carom_cue *cue);
 #endif

@@ -19,20 +19,21 @@ from carom.cushions import cushion, cushion_impacts, cushion_trace
 from carom.derivatives import Flag, Tangents, jacobian, tangents
 from carom.layouts import Table, balls, cue, place_ball, struck
 from carom.plans import plan, player, with_errors
+from carom.rules import Facts, Foul, Rules, Ruling, Turn, referee
 from carom.results import EventType, Features, Label, Shot, Shots
 from carom.shots import cite, resume, simulate, simulate_batch
 from carom.status import CaromError, Status
 
-for _name in ("collisions", "cushions", "derivatives", "dtypes", "layouts", "plans", "racks", "results", "shots", "status", "tables"):
+for _name in ("collisions", "cushions", "derivatives", "dtypes", "layouts", "plans", "racks", "results", "rules", "shots", "status", "tables"):
     setattr(_sys.modules[f"carom.{_name}"], "__dir__", _listing(f"carom.{_name}"))
 
 __version__: str = _ffi.string(_lib.carom_version()).decode()
 
 __all__ = [
-    "ALL_THREADS", "CaromError", "EventType", "Features", "Flag", "Label", "Options", "Outcome", "Shot", "Shots",
-    "Status", "Table", "Tangents", "alciatore", "balls", "cite", "collide", "cue", "cushion", "cushion_impacts",
+    "ALL_THREADS", "CaromError", "EventType", "Facts", "Features", "Flag", "Foul", "Label", "Options", "Outcome", "Rules", "Ruling",
+    "Shot", "Shots", "Status", "Table", "Tangents", "Turn", "alciatore", "balls", "cite", "collide", "cue", "cushion", "cushion_impacts",
     "cushion_trace", "dtypes", "impacts", "isa_in_force", "jacobian", "mu_ball", "physics_revision", "place_ball",
-    "plan", "player", "racks", "resume", "simulate", "simulate_batch", "struck", "tables", "tangents", "trace",
+    "plan", "player", "racks", "referee", "resume", "simulate", "simulate_batch", "struck", "tables", "tangents", "trace",
     "with_errors",
 ]  # fmt: skip
 

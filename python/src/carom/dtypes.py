@@ -20,8 +20,8 @@ Records = npt.NDArray[np.void]
 Doubles = npt.NDArray[np.float64]
 
 __all__ = [
-    "ball_kind", "ball_state", "brief_event", "choice", "columns", "cue", "cushion_impact", "cushion_point", "event", "impact", "jaw", "motion",
-    "plain", "player", "pocket", "rail", "result", "shot", "shot_ball", "table", "tangent", "trace_point",
+    "ball_kind", "ball_state", "brief_event", "choice", "columns", "cue", "cushion_impact", "cushion_point", "event", "facts", "impact", "jaw",
+    "motion", "plain", "player", "pocket", "rail", "result", "shot", "shot_ball", "table", "tangent", "trace_point", "turn",
 ]  # fmt: skip
 
 _NOT_SHOWN = {"reserved", "unused"}
@@ -71,6 +71,8 @@ brief_event: Record = _record("carom_brief_event")
 # How the strokes of a player differ from those that he means: standard deviations, and bounds.
 player: Record = _record("carom_player")
 choice: Record = _record("carom_choice")  # A shot that `carom.plan` proposes.
+facts: Record = _record("carom_facts")  # What happened in a shot, which `carom.Features` shows.
+turn: Record = _record("carom_turn")  # What a shot amounts to by rules.
 shot: Record = _record("carom_shot")  # What a shot gives, with the addresses of its arrays: for the calls of C.
 # What derivatives of a shot give, with the addresses of their arrays: for the calls of C.
 tangent: Record = _record("carom_tangent")

@@ -128,7 +128,7 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
     """One game of `carom.potting.Potting`: `balls`, `strokes` and **rules are its arguments.
 
     With `render_mode="svg"`, `render` gives the text of a picture of the last stroke, from where the balls lay (faint) to where they
-    came to rest. `info` after a stroke: potted (int), scratch (bool), status (int, as `carom.Status`), time (s). Options of `reset`:
+    came to rest. `info` after a stroke: potted (int), scratch (bool), foul (int, as `carom.Foul`), status (int, as `carom.Status`), time (s). Options of `reset`:
     layout, the centres (m) of shape (balls + 1, 2), the cue ball first; strokes, at most those of the environment. There is no
     truncation: the observation contains the number of strokes left.
     """
@@ -156,7 +156,7 @@ class PottingEnv(gymnasium.Env[dtypes.Doubles, dtypes.Doubles]):
         if self._games.ended[0]:
             raise gymnasium.error.ResetNeeded("the game has ended, or has not begun: call reset()")
         strokes = self._games.play(_ONE, np.asarray(action, np.float64)[np.newaxis])
-        info = {"potted": int(strokes.potted[0]), "scratch": bool(strokes.scratch[0]), "status": int(strokes.status[0])}
+        info = {"potted": int(strokes.potted[0]), "scratch": bool(strokes.scratch[0]), "foul": int(strokes.foul[0]), "status": int(strokes.status[0])}
         info["time"] = float(strokes.time[0])  # type: ignore[assignment]
         return self._games.observe()[0], float(strokes.rewards[0]), bool(self._games.ended[0]), False, info
 
@@ -229,7 +229,8 @@ class PottingVectorEnv(VectorEnv[dtypes.Doubles, dtypes.Doubles, npt.NDArray[Any
         if playing.any():
             strokes = self._games.play(np.flatnonzero(playing), given[playing])
             rewards[playing] = strokes.rewards
-            told = {"potted": strokes.potted, "scratch": strokes.scratch, "status": strokes.status.astype(np.int64), "time": strokes.time}
+            told: dict[str, npt.NDArray[Any]] = {"potted": strokes.potted, "scratch": strokes.scratch, "foul": strokes.foul.astype(np.int64)}
+            told |= {"status": strokes.status.astype(np.int64), "time": strokes.time}
             for name, values in told.items():
                 infos[name] = np.zeros(self.num_envs, values.dtype)
                 infos[name][playing] = values

@@ -4,9 +4,8 @@
     position = rules.begin(seed=1)
     position, stroke = rules.play(position, [0.5, 0.9, 0, 0.2, 0, 0])
 
-The rules are those of the World Pool-Billiard Association (wpapool.com, 2016, sections 2 and 6), with the following left out: there is no
-push out and no lag, player 0 breaks; a ball that is frozen to a cushion at first counts as driven to it; and a stroke that drives a ball
-off the table is a foul that is taken back, where the rules would take the ball down.
+The rules are those of `carom.referee`, the World Pool-Billiard Association's (wpapool.com, 2016, sections 2 and 6), with the following left
+out: there is no push out and no lag, player 0 breaks; and a ball that is frozen to a cushion at first counts as driven to it.
 """
 
 from __future__ import annotations
@@ -25,15 +24,13 @@ from carom._shot_options import ShotCushion
 from carom.layouts import Table
 from carom.plans import plan
 from carom.potting import Potting
-from carom.results import EventType, Label, Shot
-from carom.shots import simulate
-from carom.status import CaromError
+from carom.results import Label, Shot
+from carom.rules import State, referee
 
 __dir__ = listing(__name__)
 
 _ONE = np.zeros(1, np.int64)
 _FOULS_MOST = 3
-_DRIVEN_LEAST = 4  # balls to a cushion, by a break that pots none
 
 
 class Hand(enum.IntEnum):
@@ -112,7 +109,7 @@ class NineBall:
         """
         low, high = self._area(position.hand)
         found = plan(
-            self.table, position.balls, rules="nineball", opening=position.hand is Hand.BEHIND, player=self.base.player(),
+            self.table, position.balls, rules="nineball", state=self.state(position), player=self.base.player(),
             opponent=opponent, shots=shots, seed=seed, in_hand=[low, high] if position.hand else False, best=1,
             cushion_model=self.base.cushion_model,
         )[0]  # fmt: skip
@@ -128,25 +125,16 @@ class NineBall:
         part = (np.clip(wanted, -1.0, 1.0) + 1.0) / 2.0
         while not self.base.free((low + (high - low) * part)[np.newaxis], taken):
             part = draws.uniform(_ONE, 2)[0]
-        self._lay(balls, 0, low + (high - low) * part)
-
-    def _lay(self, balls: dtypes.Records, ball: int, place: dtypes.Doubles) -> None:
-        state = balls["state"][ball]
-        state["r"][:2], state["r"][2], state["v"], state["w"] = place, self.base.radius, 0.0, 0.0
-        balls["state"]["label"][ball] = Label.STATIONARY
-
-    def _spot_nine(self, balls: dtypes.Records) -> None:
-        """Puts the nine on the foot spot, or as near to it as is free on the line behind it, otherwise before it."""
-        others = balls["state"][:9]
-        taken = others["r"][others["label"] != Label.POCKETED, :2]
-        foot, end = 0.75 * self.table.length, self.table.length - self.base.radius - 1e-3
-        for y in (*np.arange(foot, end, 1e-3), *np.arange(foot, 0.0, -1e-3)):
-            place = np.array([self.table.width / 2.0, y])
-            if self.base.free(place[np.newaxis], taken):
-                return self._lay(balls, 9, place)
-        raise ValueError("table: no free place for the nine on the long string")
+        state = balls["state"][0]
+        state["r"][:2], state["r"][2], state["v"], state["w"] = low + (high - low) * part, self.base.radius, 0.0, 0.0
+        balls["state"]["label"][0] = Label.STATIONARY
 
     # ---- Strokes --------------------------------------------------------------------------------------------------------
+
+    def state(self, position: Position) -> State:
+        """The state of the rules, for `carom.plan` and `carom.referee`."""
+        own, other = position.fouls[position.player], position.fouls[1 - position.player]
+        return np.array([0, position.hand is Hand.BEHIND, own, other, 0, 0, 0, 0], np.uint64)
 
     def play(self, position: Position, action: npt.ArrayLike) -> tuple[Position, Turn]:
         """Play a stroke: the position after it, and what it was."""
@@ -158,58 +146,22 @@ class NineBall:
         balls, draws = position.balls.copy(), position.draws.copy()
         if position.hand:
             self._put(balls, position.hand, given[4:], draws)
-        done = self.base.disturbed(given[np.newaxis, :4], draws, _ONE)[0]
-        failed = ""
-        try:
-            shot = simulate(self.table, balls, self.base.cues(done), cushion_model=self.base.cushion_model)
-        except CaromError as error:
-            if error.shot is None:
-                raise
-            shot, failed = error.shot, f"the stroke ended in an error: {error.shot.status.text}"
-        if not failed and (shot.final["label"] == Label.OFF).any():
-            failed = "a ball left the table"
-        turn = self._judge(position, balls, shot, failed)
-        return self._after(position, balls, turn, failed, draws), turn
+        done = self.base.cues(self.base.disturbed(given[np.newaxis, :4], draws, _ONE)[0])
+        ruled = referee(self.table, balls, done, rules="nineball", state=self.state(position), cushion_model=self.base.cushion_model)
 
-    def _judge(self, position: Position, balls: dtypes.Records, shot: Shot, failed: str) -> Turn:
-        events = shot.events
-        types, a, b = events["type"], events["a"], events["b"]
-        lowest = 1 + int(np.argmax(balls["state"]["label"][1:] != Label.POCKETED))
-        touches = np.flatnonzero((types == EventType.BALL_BALL) & ((a == 0) | (b == 0)))
-        first = int(a[touches[0]] + b[touches[0]]) if len(touches) else None
-        down = a[types == EventType.POCKET].tolist()
-        potted = tuple(ball for ball in down if ball != 0)
-        driven = (types == EventType.RAIL) | (types == EventType.JAW)
-        foul = ""
-        if failed:
-            foul = failed
-        elif 0 in down:
-            foul = "the cue ball was potted"
-        elif first is None:
-            foul = "the cue ball touched no ball"
-        elif first != lowest:
-            foul = f"ball {first} was touched first, not {lowest}"
-        elif not potted and not driven[touches[0] :].any():
-            foul = "no ball was potted, and none was driven to a cushion after the contact"
-        elif position.hand is Hand.BEHIND and not potted and len(set(a[driven].tolist()) - {0}) < _DRIVEN_LEAST:
-            foul = f"the break potted no ball, and drove fewer than {_DRIVEN_LEAST} to a cushion"
-        return Turn(foul, first, potted, shot)
-
-    def _after(self, position: Position, before: dtypes.Records, turn: Turn, failed: str, draws: Draws) -> Position:
-        balls, player, other = before.copy(), position.player, 1 - position.player
-        if not failed:
-            balls["state"] = turn.shot.final
-        count = position.fouls[player] + 1 if turn.foul else 0
-        fouls = (count, position.fouls[1]) if player == 0 else (position.fouls[0], count)
-        after = replace(position, balls=balls, fouls=fouls, strokes=position.strokes + 1, hand=Hand.NOWHERE, draws=draws)
-        if turn.foul:
-            if 9 in turn.potted and not failed:
-                self._spot_nine(balls)
-            lost = count >= _FOULS_MOST
-            return replace(after, player=other, hand=Hand.ANYWHERE, winner=other if lost else None)
-        if 9 in turn.potted:
-            return replace(after, winner=player)
-        return after if turn.potted else replace(after, player=other)
+        # Balls that left the table are out of play as those that were potted.
+        ruled.balls["state"]["label"][ruled.balls["state"]["label"] == Label.OFF] = Label.POCKETED
+        keeps = ruled.turn in ("keep", "win")
+        player = position.player if keeps else 1 - position.player
+        fouls = (int(ruled.state[2]), int(ruled.state[3]))
+        after = replace(
+            position, balls=ruled.balls, player=player, hand=Hand.ANYWHERE if ruled.hand != "no" else Hand.NOWHERE,
+            fouls=fouls if player == 0 else fouls[::-1], strokes=position.strokes + 1,
+            winner=player if ruled.turn in ("win", "lose") else None, draws=draws,
+        )  # fmt: skip
+        failed = f"the stroke ended in an error: {ruled.shot.status.text}" if ruled.shot.status < 0 else ""
+        potted = tuple(ball for ball in ruled.potted if ball != 0)
+        return after, Turn(failed or ruled.foul.text, ruled.first if ruled.first >= 0 else None, potted, ruled.shot)
 
     # ---- Observations ---------------------------------------------------------------------------------------------------
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -10,10 +10,11 @@ import numpy.typing as npt
 from carom import dtypes
 from carom._carom import ffi, lib
 from carom._faults import argument_error, shot_arguments
-from carom._rows import Array, choice, copied, pointer, whole
+from carom._rows import Array, copied, pointer, whole
 from carom._shot_options import Options, shot_options
 from carom.layouts import Table, check_table, of_record, one_cue
 from carom.layouts import cue as usual_cue
+from carom.rules import Game, Group, Made, Rules
 from carom.status import CaromError
 
 if TYPE_CHECKING:
@@ -21,10 +22,6 @@ if TYPE_CHECKING:
 
     from carom._shot_options import Changes
 
-Rules = Literal["eightball", "nineball", "potting"]
-Group = Literal["open", "solids", "stripes"]
-_RULES = {"eightball": 0, "nineball": 1, "potting": 2}
-_GROUPS = {"open": 0, "solids": 1, "stripes": 2}
 _USUAL = Options()
 
 
@@ -84,9 +81,10 @@ def plan(
     balls: dtypes.Records,
     cue: dtypes.Records | None = None,
     *,
-    rules: Rules = "eightball",
+    rules: Game | Rules = "eightball",
     group: Group = "open",
     opening: bool = False,
+    state: npt.ArrayLike | None = None,
     player: dtypes.Records | None = None,
     opponent: dtypes.Records | None = None,
     shots: int = 2000,
@@ -107,12 +105,14 @@ def plan(
         2 to 32 of them at rest, with the cue ball first. For eight-ball and nine-ball a ball's index is its number.
     cue : ndarray of `carom.dtypes.cue`, shape (), optional
         Its masses and its miscue count; the stroke does not. Default: that of `carom.cue()`.
-    rules : {"eightball", "nineball", "potting"}
-        The game, by the rules of the WPA; or a drill, whose value is the share of the balls that one visit pots.
+    rules : {"eightball", "nineball", "potting"} or Rules
+        The game, by the rules of the WPA; or a drill, whose value is the share of the balls that one visit pots; or a game of your own.
     group : {"open", "solids", "stripes"}
         Of eight-ball: the balls of the player.
     opening : bool
         Whether the stroke is the break of eight-ball or nine-ball.
+    state : array_like of 8 whole numbers, optional
+        Of the rules, instead of `group` and `opening`: that of a ruling of `referee`. Default: 0.
     player : ndarray of `carom.dtypes.player`, shape (), optional
         Default: `carom.player()`.
     opponent : ndarray of `carom.dtypes.player`, shape (), optional
@@ -153,15 +153,13 @@ def plan(
     wanted.opponent = ffi.NULL if other is None else other
 
     # The game, the player, and room for the plan.
-    game = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(choice(_RULES, rules, "rules")))
-    game.user[0] = choice(_GROUPS, group, "group")
-    game.user[1] = bool(opening)
+    game = Made(rules, state, group, opening)
     own = _one_player(_usual_player() if player is None else player)
     memory: Array = np.empty(lib.carom_plan_memory(wanted) // 8 + 1, np.float64)
     record = table.record
     job = ffi.new("carom_plan_job *", {
         "table": pointer("carom_table[]", record), "balls": pointer("carom_shot_ball[]", layout), "count": len(layout),
-        "cue": pointer("carom_cue[]", strike), "player": own, "rules": game, "shot": shot, "options": wanted,
+        "cue": pointer("carom_cue[]", strike), "player": own, "rules": game.c, "shot": shot, "options": wanted,
         "memory": pointer("double[]", memory), "memory_size": memory.nbytes,
     })  # fmt: skip
 
@@ -173,6 +171,7 @@ def plan(
         code = lib.carom_plan_hand(job, low, high, rows, len(choices), found)
     else:
         code = lib.carom_plan(job, rows, len(choices), found)
+    game.check()
     if code < 0:
         raise argument_error(shot_arguments(table, layout, strike, shot), layout, strike) or CaromError(code, "balls")
     return choices[: found[0]]

@@ -25,8 +25,9 @@ from carom._pooltool_fill import fill
 from carom._pooltool_models import ExactBallBall, ExactCircularCushion, ExactLinearCushion
 from carom.collisions import alciatore
 from carom.layouts import Table
-from carom.plans import Group, Rules, plan, player as usual_player, with_errors
+from carom.plans import plan, player as usual_player, with_errors
 from carom.results import Label
+from carom.rules import Game, Group
 from carom._shot_options import BallModel, Friction, Options, ShotCushion
 from carom.shots import simulate as _play
 from carom.status import CaromError
@@ -271,7 +272,7 @@ def _tell(reason: UnsupportedError | CaromError) -> None:
 # ---- A player -----------------------------------------------------------------------------------------------------------
 
 
-_GAMES: dict[str, tuple[Rules, int]] = {"_EightBall": ("eightball", 15), "_NineBall": ("nineball", 9)}
+_GAMES: dict[str, tuple[Game, int]] = {"_EightBall": ("eightball", 15), "_NineBall": ("nineball", 9)}
 
 
 class Agent:

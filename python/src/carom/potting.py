@@ -19,6 +19,7 @@ from carom._rows import Arrays, copied, listing, repeated
 from carom._shot_options import ShotCushion
 from carom.layouts import Game, Table
 from carom.results import Label, Shot
+from carom.rules import Made, judge
 from carom.shots import simulate, simulate_batch
 
 __dir__ = listing(__name__)
@@ -40,7 +41,8 @@ class Strokes(Arrays):
     layouts: dtypes.Records  # (..., balls + 1): The balls at rest after the stroke. A cue ball that was potted is still down.
     rewards: dtypes.Doubles  # (...): Balls that were potted, less 1 for a foul; or the result of `reward` of the rules
     potted: npt.NDArray[np.int64]  # (...): Balls that were potted, without the cue ball
-    scratch: npt.NDArray[np.bool_]  # (...): Whether the cue ball was potted, a foul
+    scratch: npt.NDArray[np.bool_]  # (...): Whether the cue ball was potted
+    foul: npt.NDArray[np.int32]  # (...): As `carom.Foul`; 0 for none
     # (...): As `carom.Status`. After an error, or where a ball left the table, the stroke is a foul, and the balls stay where
     # they were.
     status: npt.NDArray[np.int8]
@@ -58,7 +60,7 @@ class Potting:
     cue ball first; then how many strokes are left. It is all that there is to know: `layouts()` makes the same balls of it, to the bit.
 
     The **reward** of a stroke is how many balls it pots, less 1 for a foul: the cue ball goes down too (it is then put back at
-    random), or the stroke ends in an error (it is then taken back). The game ends when all balls are down, or with the last stroke.
+    random) or meets no ball, a ball leaves the table, or the stroke ends in an error (these two are taken back). The game ends when all balls are down, or with the last stroke.
 
     Parameters
     ----------
@@ -117,6 +119,7 @@ class Potting:
         # Of an action, whose numbers are -1 to 1.
         self._noise = np.array([noise[0] / 180.0, 2.0 * noise[1] / max(speeds[1] - speeds[0], 1e-12), noise[2] / 0.35, noise[2] / 0.35])
         self.noise = noise
+        self._rules = Made("potting", None)
         self._cue = layouts.cue().tobytes()
         ball = layouts.balls(np.zeros((1, 2)), game=ball_set)
         self._ball = ball.tobytes()
@@ -294,8 +297,11 @@ class Potting:
 
         Returns Strokes: Of the broadcast shape. Each stroke has the bits that it has alone.
         """
-        shots = simulate_batch(self.table, balls, self.cues(actions), cushion_model=self.cushion_model, threads=self.threads)
+        shots = simulate_batch(
+            self.table, balls, self.cues(actions), cushion_model=self.cushion_model, features=True, threads=self.threads
+        )
         before = balls if balls.shape == shots.final.shape else np.broadcast_to(balls, shots.final.shape)
+        turns = judge(self._rules, before, shots)
         failed = (shots.status < 0) | (shots.final["label"] == _OFF).any(axis=-1)
         after = copied(before)
         after["state"] = shots.final
@@ -303,8 +309,8 @@ class Potting:
             after[failed] = before[failed]
         down = (after["state"]["label"] == _POCKETED) & (before["state"]["label"] != _POCKETED)
         potted, scratch = down[..., 1:].sum(axis=-1), down[..., 0]
-        rewards = potted - 1.0 * (scratch | failed)
-        strokes = Strokes(after, rewards, potted, scratch, shots.status, shots.time)
+        rewards = potted - 1.0 * (turns["foul"] != 0)
+        strokes = Strokes(after, rewards, potted, scratch, turns["foul"], shots.status, shots.time)
         if self.reward is not None:
             own = np.asarray(self.reward(before, strokes), dtype=np.float64)
             strokes = replace(strokes, rewards=np.broadcast_to(own, rewards.shape).copy())

@@ -242,6 +242,9 @@ class Features(Arrays):
         return Features(*(getattr(self, field.name)[index] for field in fields(self)))
 
 
+_OF_BALLS = {"pocket", "pocket_time", "cushions"}
+
+
 class Shots:
     """Many shots: arrays of the shape of the batch.
 
@@ -282,7 +285,7 @@ class Shots:
         self.final: dtypes.Records = np.zeros((*shape, balls), dtypes.ball_state)
         self.events: dtypes.Records = np.zeros((*shape, room), event)
         self.record: dtypes.Records = np.zeros(shape, dtypes.shot)
-        self.features: Features | None = None
+        self.facts: dtypes.Records | None = None  # dtypes.facts, with features
         self.options = Options()
 
     @property
@@ -294,6 +297,16 @@ class Shots:
     def count(self) -> npt.NDArray[np.int64]:
         """Events that happened."""
         return np.asarray(self.record["count"])
+
+    @property
+    def features(self) -> Features | None:
+        """What planners want of the shots; None where they were not asked for."""
+        if self.facts is None:
+            return None
+        names = {"contact": "first", "contact_time": "first_time"}
+        found = {each.name: self.facts[names.get(each.name, each.name)] for each in fields(Features)}
+        count = self.final.shape[-1]
+        return Features(**{name: array[..., :count] if name in _OF_BALLS else array for name, array in found.items()})
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -324,7 +337,7 @@ class Shots:
         part.layouts = np.broadcast_to(self.layouts, self.final.shape)[index]
         part.cues = None if self.cues is None else np.broadcast_to(self.cues, self.shape)[index]
         part.final, part.events, part.record = self.final[index], self.events[index], self.record[index]
-        part.features = None if self.features is None else self.features[index]
+        part.facts = None if self.facts is None else self.facts[index]
         return part
 
     # ---- Trajectories ---------------------------------------------------------------------------------------------------
@@ -370,24 +383,6 @@ class Shots:
             out = out[:, back]
         return out.reshape((*self.shape, *given.shape, count, *numbers)), codes
 
-    def play_with_features(self, threads: int) -> int:
-        """For `simulate_batch`: plays the shots and sets `features`; the status of the batch."""
-        n, count = self.status.size, self.final.shape[-1]
-        sizes = {"contact": 2, "contact_time": 2, "cushions_before": 2, "cushions_after": 1, "pocket": count, "pocket_time": count}
-        sizes["cushions"] = count
-        made: dict[str, Any] = {name: np.empty((n, size), np.float64 if name.endswith("time") else np.int32) for name, size in sizes.items()}
-        starts = {name: pointer("double[]" if name.endswith("time") else "int32_t[]", array) for name, array in made.items()}
-        job = self.jobs(shot_options(self.options))
-
-        def play(begin: int, many: int) -> int:
-            features = ffi.new("carom_python_features *", {name: start + begin * sizes[name] for name, start in starts.items()})
-            return int(lib.carom_python_play(job(begin, many), features))
-
-        code = in_chunks(n, 5e-5, threads, spread(threads, play))
-        made["cushions_after"] = made["cushions_after"][:, 0]
-        self.features = Features(**{name: array.reshape((*self.shape, *array.shape[1:])) for name, array in made.items()})
-        return code
-
     def _look(self, look: Callable[[Any, Any, int], int], seconds: float, threads: int) -> npt.NDArray[np.int8]:
         """Calls look(job, codes, first row) for all rows, which take so many seconds each; the codes."""
         codes: npt.NDArray[np.int8] = np.zeros(self.status.size, INT8)
@@ -414,6 +409,7 @@ class Shots:
         if room > 0:
             record["events" if self.events.dtype == dtypes.event else "brief"] = addresses(self.events, lead)
         record["final"] = addresses(self.final, lead)
+        record["facts"] = 0 if self.facts is None else addresses(self.facts, lead)
         table, balls = pointer("carom_table[]", self.table.record), pointer("carom_shot_ball[]", layouts)
         strikes = ffi.NULL if cues is None else pointer("carom_cue[]", cues)
         results, flags = pointer("carom_shot[]", record), pointer("int8_t[]", status)
@@ -446,7 +442,7 @@ class Shots:
         final = self.final.reshape(n, count)
         for k in range(count):
             found |= {f"ball_{k}_{name}": column for name, column in dtypes.columns(final[:, k]).items()}
-        for name, values in vars(self.features).items() if self.features is not None else ():
+        for name, values in vars(features).items() if (features := self.features) is not None else ():
             several = [("", ())] if values.shape == self.shape else [(f"_{k}", (k,)) for k in range(values.shape[-1])]
             found |= {f"{name}{suffix}": values[(..., *which)].reshape(-1) for suffix, which in several}
         index = pandas.MultiIndex.from_tuples(list(np.ndindex(self.shape))) if len(self.shape) > 1 else None

@@ -182,15 +182,13 @@ def simulate_batch(
         wanted |= {"events": ((*shape, room), record), "record": (shape, dtypes.shot)}
         written = tuple((f"out.{name}", output(getattr(out, name), *form, f"out.{name}")) for name, form in wanted.items())
         apart((("layouts", all_balls), ("cues", all_cues), ("table", table.record)), written)
-        out.table, out.layouts, out.features = table, all_balls, None
+        out.table, out.layouts = table, all_balls
         out.record["time"], out.record["count"] = 0.0, 0
         out.status[...] = Status.OK
     shots.cues, shots.options = None if cues is None else all_cues, chosen
-    if features:
-        code = shots.play_with_features(threads)
-    else:
-        job = shots.jobs(of_c)
-        code = in_chunks(shots.status.size, 5e-5, threads, lambda begin, many: int(lib.carom_shoot_batch(job(begin, many))))
+    shots.facts = np.zeros(shape, dtypes.facts) if features else None
+    job = shots.jobs(of_c)
+    code = in_chunks(shots.status.size, 5e-5, threads, lambda begin, many: int(lib.carom_shoot_batch(job(begin, many))))
     if code < 0 and not (shots.status < 0).any():
         raise CaromError(code, "layouts", count) if code == Status.ERROR_BALLS else CaromError(code, "table")
     return shots

@@ -1,0 +1,278 @@
+"""Rules of games: what a shot amounts to, by the library's rules of eight-ball, nine-ball and a drill, or by those of a game of one's own."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import dtypes
+from carom._carom import ffi, lib
+from carom._rows import Array, Arrays, choice, copied, pointer, whole
+from carom._shot_options import Options
+from carom.layouts import Table, of_record, one_cue
+from carom.results import Label, Shot, Shots
+from carom.shots import simulate_batch
+from carom.status import CaromError, Status
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from carom._shot_options import Changes
+
+Game = Literal["eightball", "nineball", "potting"]
+Group = Literal["open", "solids", "stripes"]
+State = npt.NDArray[np.uint64]
+Hand = Literal["no", "anywhere", "kitchen"]
+_GAMES = {"eightball": 0, "nineball": 1, "potting": 2}
+_GROUPS = {"open": 0, "solids": 1, "stripes": 2}
+_TURNS = ("keep", "pass", "win", "lose")
+_LEAVES = {"after": 0, "before": 1, "anywhere": 2, "kitchen": 3}
+_RACES = {"own": 0, "shared": 1, "alone": 2}
+_WORDS = 8
+_USUAL = Options()
+_POCKETED, _OFF = int(Label.POCKETED), int(Label.OFF)  # with which NumPy compares in half the time
+
+
+class Foul(enum.IntEnum):
+    """Why a shot is a foul: the first of these that holds."""
+
+    NONE = 0
+    CUE_BALL = 1
+    NO_BALL = 2
+    FIRST = 3
+    OFF = 4
+    CUSHION = 5
+    BREAK = 6
+    OTHER = 7
+
+    @property
+    def text(self) -> str:
+        """Why, in words."""
+        return str(ffi.string(lib.carom_foul_string(self)).decode())
+
+
+def _set_of(balls: Collection[int]) -> int:
+    return sum(1 << int(ball) for ball in set(balls))
+
+
+def _of_set(bits: int) -> frozenset[int]:
+    return frozenset(k for k in range(32) if bits >> k & 1)
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What happened in a shot, for `Rules.judge`."""
+
+    first: int  # The ball that the cue ball met first, -1 for none, also after an error
+    potted: Mapping[int, int]  # The pocket that took each ball that fell, the cue ball 0 among them, in their order
+    off: frozenset[int]  # Balls that left the table
+    cushions: tuple[int, ...]  # Impacts of each ball on cushions
+    cushions_after: int  # Those of all balls after the first contact
+    _record: Any = field(repr=False)
+
+    def foul(self, on: Collection[int]) -> Foul:
+        """The foul that it is in any game whose balls `on` may be met first: up to `Foul.CUSHION`, or `Foul.NONE`."""
+        return Foul(lib.carom_foul_of(self._record, _set_of(on), 0))
+
+
+def _facts(record: Any) -> Facts:
+    down = sorted(_of_set(record.down), key=lambda ball: record.pocket_time[ball])
+    potted = {ball: int(record.pocket[ball]) for ball in down}
+    return Facts(record.first[0], potted, _of_set(record.off), tuple(record.cushions), record.cushions_after, record)
+
+
+@dataclass(frozen=True)
+class Turn:
+    """What a shot amounts to, from `Rules.judge`."""
+
+    turn: Literal["keep", "pass", "win", "lose"]  # "pass": the other plays
+    leave: Literal["after", "before", "anywhere", "kitchen"] = "after"  # The next layout: as it is, taken back, or with ball in hand
+    foul: int = 0  # As `Foul`
+    spot: Collection[int] = ()  # Balls that come back to the foot spot
+    points: float = 0.0  # Of the shot; they count without an opponent only
+
+
+class Rules:
+    """A game of one's own, for `plan` and `referee`: a subclass says its rules. The cue ball is ball 0.
+
+    `state` are eight numbers, as a list, for whatever the rules have to know: always as the player at the table has them. `judge` may
+    change them, and leaves them as the next player has them. Balls in play are a frozenset of their indices.
+    """
+
+    race: Literal["own", "shared", "alone"] = "own"
+    """Whose balls are to be potted: each player has his own, both have the same, or there is no opponent."""
+    calls: bool = False
+    """Whether ball and pocket are called."""
+    first_decides: bool = False
+    """Whether a shot that first meets a ball that is not on is a foul, whatever else happens: it is not played to its end."""
+
+    def on(self, state: list[int], in_play: frozenset[int]) -> Collection[int]:
+        """The balls that may be met first, and potted."""
+        raise NotImplementedError
+
+    def judge(self, state: list[int], in_play: frozenset[int], facts: Facts, call: tuple[int, int]) -> Turn:
+        """What a shot amounts to; `in_play` were the balls before it, `call` is a ball and its pocket, or (-1, -1)."""
+        raise NotImplementedError
+
+    def left(self, state: list[int], in_play: frozenset[int]) -> tuple[int, int]:
+        """How many balls the player at the table, and the other, have to pot to win."""
+        raise NotImplementedError
+
+    def pockets(self, state: list[int]) -> Collection[int]:
+        """The pockets in which balls count, by their indices. Default: all."""
+        return range(8)
+
+
+class Made:
+    """The rules for C, with what has to live as long; and the first exception of a method of Rules."""
+
+    def __init__(self, rules: Game | Rules, state: npt.ArrayLike | None, group: Group = "open", opening: bool = False) -> None:
+        self.raised: BaseException | None = None
+        if isinstance(rules, Rules):
+            self.c = ffi.new("carom_plan_rules *")
+            self._functions(rules)
+            self.c.race, self.c.calls, self.c.first_decides = choice(_RACES, rules.race, "rules.race"), bool(rules.calls), bool(rules.first_decides)
+        else:
+            self.c = ffi.new("carom_plan_rules *", lib.carom_plan_rules_of(choice(_GAMES, rules, "rules")))
+        words = np.zeros(_WORDS, np.uint64)
+        if state is not None:
+            given = np.asarray(state)
+            if given.shape != (_WORDS,) or given.dtype.kind not in "iu" or (given < 0).any():
+                raise ValueError(f"state: {_WORDS} whole numbers, at least 0, are needed, not {state!r}")
+            words[:] = given
+        elif not isinstance(rules, Rules):
+            words[:2] = choice(_GROUPS, group, "group"), bool(opening)
+        self.c.user = words.tolist()
+
+    def _functions(self, rules: Rules) -> None:
+        """The methods as functions for C."""
+
+        def guarded(kind: str, call: Callable[..., Any], otherwise: Any) -> Any:
+            def failed(kind: Any, value: BaseException, trace: Any) -> None:
+                self.raised = self.raised or value
+
+            return ffi.callback(kind, call, error=otherwise, onerror=failed)
+
+        def judge(user: Any, in_play: int, cue_ball: int, facts: Any, call: Any) -> Any:
+            state = list(user[0:_WORDS])
+            turn = rules.judge(state, _of_set(in_play), _facts(facts), (call.ball, call.pocket))
+            user[0:_WORDS] = state
+            made = ffi.new("carom_turn *", {"is": _TURNS.index(turn.turn), "leave": choice(_LEAVES, turn.leave, "leave")})
+            made.foul, made.spot, made.points = int(turn.foul), _set_of(turn.spot), turn.points
+            return made[0]
+
+        def left(user: Any, in_play: int, out: Any) -> None:
+            out[0:2] = rules.left(list(user[0:_WORDS]), _of_set(in_play))
+
+        def on(user: Any, in_play: int) -> int:
+            return _set_of(rules.on(list(user[0:_WORDS]), _of_set(in_play)))
+
+        def pockets(user: Any) -> int:
+            return _set_of(rules.pockets(list(user[0:_WORDS])))
+
+        lost = ffi.new("carom_turn *", {"is": lib.CAROM_TURN_LOSE})[0]
+        self.kept = (
+            guarded("carom_rules_judge *", judge, lost), guarded("carom_rules_left *", left, None),
+            guarded("carom_rules_on *", on, 0), guarded("carom_rules_pockets *", pockets, 0),
+        )  # fmt: skip
+        self.c.judge, self.c.left, self.c.on, self.c.pockets = self.kept
+
+    def check(self) -> None:
+        """Raises what a method of the rules raised."""
+        if self.raised is not None:
+            raise self.raised
+
+
+_bits: npt.NDArray[np.uint32] = np.uint32(1) << np.arange(32, dtype=np.uint32)
+
+
+def judge(made: Made, before: dtypes.Records, shots: Shots, states: State | None = None, calls: Array | None = None) -> Array:
+    """What shots with facts amount to, as `carom.dtypes.turn`, from the layouts before them, of shape (..., balls).
+
+    `states`, (..., 8), are changed; by default each shot has that of the rules. `calls` are int32 of shape (..., 2); by default none.
+    """
+    label = before["state"]["label"]
+    in_play = ((label != _POCKETED) & (label != _OFF)) @ _bits[: label.shape[-1]]
+    turns: Array = np.zeros(shots.shape, dtypes.turn)
+    lib.carom_python_judge(
+        made.c, turns.size, pointer("int8_t[]", shots.status), pointer("carom_facts[]", shots.facts), pointer("uint32_t[]", in_play),
+        ffi.NULL if calls is None else pointer("carom_call[]", calls), ffi.NULL if states is None else pointer("uint64_t[]", states),
+        pointer("carom_turn[]", turns),
+    )  # fmt: skip
+    made.check()
+    return turns
+
+
+@dataclass(frozen=True, repr=False)
+class Ruling(Arrays):
+    """What a stroke was, and what comes next."""
+
+    turn: str  # "keep": the player plays on; "pass": the other plays; "win", "lose": the game has ended
+    foul: Foul
+    hand: Hand  # Whether the next player has the cue ball in hand, anywhere or behind the head string
+    potted: tuple[int, ...]  # Balls that fell, the cue ball among them, in their order
+    first: int  # The ball that the cue ball met first, -1 for none
+    points: float
+    balls: dtypes.Records  # (balls,): The next layout. A cue ball in hand is where the shot left it, or down.
+    state: State  # (8,): Of the rules, as the next player has it
+    shot: Shot
+
+
+def referee(
+    table: Table, balls: dtypes.Records, cue: dtypes.Records, *, rules: Game | Rules = "eightball", group: Group = "open", opening: bool = False,
+    state: npt.ArrayLike | None = None, call: tuple[int, int] = (-1, -1), options: Options = _USUAL, **changes: Unpack[Changes]
+) -> Ruling:  # fmt: skip
+    """Play a stroke and judge it by the rules of a game.
+
+    Parameters
+    ----------
+    table : Table
+    balls : ndarray of `carom.dtypes.shot_ball`, shape (balls,)
+        As for `plan`; the cue ball is ball 0.
+    cue : ndarray of `carom.dtypes.cue`, shape ()
+    rules, group, opening, state
+        As for `plan`. The `state` of a ruling is that for the next stroke.
+    call : tuple of two ints
+        The ball and the pocket that are called: `ball` and `pocket` of a choice of `plan`, which say a push-out and a pass, too.
+    options, **changes
+        As for `simulate`.
+
+    Raises
+    ------
+    CaromError
+        The layout or the cue is in error. A shot that ends in an error is a foul, whose layout is taken back.
+    """
+    layout = copied(of_record(balls, dtypes.shot_ball, "balls", "balls()"))
+    made = Made(rules, state, group, opening)
+    strike = one_cue(cue).copy()
+    if call[0] == lib.CAROM_CALL_PASS:
+        strike["speed"] = 0.0
+    shots = simulate_batch(table, layout[np.newaxis], strike[np.newaxis], room=512, features=True, options=options, **changes)
+    failed = shots.status[0] < 0
+    if failed and shots.record["count"][0] == 0 and shots.time[0] == 0.0:
+        raise CaromError(int(shots.status[0]), "balls, cue")
+    states: Any = np.array([list(made.c.user)], np.uint64)
+    called: Array = np.array([[whole(call[0], "call", least=-3), whole(call[1], "call", least=-1)]], np.int32)
+    turn = judge(made, layout[np.newaxis], shots, states, called)[0]
+    assert shots.facts is not None  # as it was asked for
+    facts = shots.facts[0]
+
+    # The next layout.
+    after = layout.copy()
+    if not failed and turn["leave"] != lib.CAROM_LEAVE_BEFORE:
+        after["state"] = shots.final[0]
+    for ball in _of_set(int(turn["spot"])):
+        code = lib.carom_spot_ball(pointer("carom_table[]", table.record), pointer("carom_shot_ball[]", after), len(after), ball)
+        if code < 0:
+            raise CaromError(code, f"balls[{ball}]", text="there is no room for it on the long string")
+    hands: dict[int, Hand] = {lib.CAROM_LEAVE_HAND: "anywhere", lib.CAROM_LEAVE_KITCHEN: "kitchen"}
+    down = sorted(_of_set(int(facts["down"])), key=lambda ball: facts["pocket_time"][ball])
+    return Ruling(
+        _TURNS[turn["is"]], Foul(int(turn["foul"])), hands.get(int(turn["leave"]), "no"), tuple(down), -1 if failed else int(facts["first"][0]),
+        float(turn["points"]), after, states[0], shots[0],
+    )  # fmt: skip
