@@ -1,11 +1,14 @@
-/* Shots that play. The places are those of carom_shot_at() at equal steps and at every event, so
- * that between two of them a straight line does, and no contact is cut short. */
+/* Shots that play, by the player of the explorer: player.js is in this program. Poses are written
+ * at equal steps and at every event, so that between two of them a straight line does, and no
+ * contact is cut short. */
 #include "animate.h"
 
 #include "memory.h"
 #include "message.h"
+#include "player.h"
 #include "shot_words.h"
 
+#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,80 +42,122 @@ static double *frames_of(const carom_shot *shot, size_t *count) {
   return at;
 }
 
-/* [[times], [[x, y, ...] of each ball that is drawn]] */
-static void write_frames(FILE *out, const played *p, int index) {
+static void write_text(FILE *out, const char *text) {
+  json_t *json = json_string(text);
+  /* No text ends the page's script. */
+  json_dumpf(json, out, JSON_ENCODE_ANY | JSON_ESCAPE_SLASH);
+  json_decref(json);
+}
+
+/* "table":{...},"balls":[[name, radius], ...] */
+static void write_layout(FILE *out, const shot_line *line) {
+  const carom_table *t = &line->table->table;
+  fprintf(out, "\"table\":{\"width\":%.6g,\"length\":%.6g,\"rails\":[", t->width, t->length);
+  for (int64_t k = 0; k < t->rails; k++)
+    fprintf(out, "%s{\"p\":[%.5f,%.5f],\"q\":[%.5f,%.5f]}", k > 0 ? "," : "", t->rail[k].p[0],
+            t->rail[k].p[1], t->rail[k].q[0], t->rail[k].q[1]);
+  fputs("],\"jaws\":[", out);
+  for (int64_t k = 0; k < t->jaws; k++)
+    fprintf(out, "%s{\"centre\":[%.5f,%.5f],\"radius\":%.5f}", k > 0 ? "," : "",
+            t->jaw[k].centre[0], t->jaw[k].centre[1], t->jaw[k].radius);
+  fputs("],\"pockets\":[", out);
+  for (int64_t k = 0; k < t->pockets; k++)
+    fprintf(out, "%s{\"centre\":[%.5f,%.5f],\"radius\":%.5f}", k > 0 ? "," : "",
+            t->pocket[k].centre[0], t->pocket[k].centre[1], t->pocket[k].radius);
+  fputs("]},\n\"balls\":[", out);
+  for (int ball = 0; ball < line->count; ball++) {
+    fputs(ball > 0 ? ",[" : "[", out);
+    write_text(out, line->name[ball]);
+    fprintf(out, ",%.6f]", line->ball[ball].kind.radius);
+  }
+  fputs("]", out);
+}
+
+/* A pose: where the ball is, how it has turned, how it spins. Off the table it lies below it. */
+static void write_pose(FILE *out, const carom_ball_state *s, const double turned[4]) {
+  const double height = s->label == CAROM_BALL_OFF ? -1.0 : s->r[2];
+  fprintf(out, "%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.1f,%.1f,%.1f", s->r[0], s->r[1], height,
+          turned[0], turned[1], turned[2], turned[3], s->w[0], s->w[1], s->w[2]);
+}
+
+/* {"times":[...],"poses":[[10 numbers at each time] of each ball],"events":[[time, name, a, b]]} */
+static void write_shot(FILE *out, const played *p) {
   size_t frames;
   double *at = frames_of(p->shot, &frames);
-  carom_ball_state states[CAROM_BALLS_MOST];
-  const char *between = "";
-  fputs("[[", out);
+  const int count = p->line->count;
+  fputs("{\"times\":[", out);
   for (size_t k = 0; k < frames; k++)
-    fprintf(out, "%s%.4f", k > 0 ? "," : "", at[k]);
-  fputs("],[", out);
-  for (int ball = 0; ball < p->line->count; ball++) {
-    if (!shot_shows(p, index, ball))
-      continue;
-    fprintf(out, "%s[", between);
-    between = ",\n";
-    /* A ball that lies still has one place. */
+    fprintf(out, "%s%.6f", k > 0 ? "," : "", at[k]);
+  fputs("],\"poses\":[", out);
+
+  /* Of all balls at each time, and then ball by ball. */
+  carom_ball_state *states = allocate(frames * (size_t)count, sizeof *states);
+  double(*turned)[4] = allocate(frames * (size_t)count, sizeof *turned);
+  for (size_t k = 0; k < frames; k++) {
+    carom_shot_at(p->line->ball, count, p->shot, at[k], states + k * (size_t)count);
+    carom_shot_orientation(p->line->ball, count, p->shot, at[k], turned + k * (size_t)count);
+  }
+  for (int ball = 0; ball < count; ball++) {
+    fputs(ball > 0 ? ",\n[" : "[", out);
+    /* A ball that lies still has one pose. */
     for (size_t k = 0; k < (ball_moved(p->shot, ball) ? frames : 1); k++) {
-      double place[2];
-      carom_shot_at(p->line->ball, p->line->count, p->shot, at[k], states);
-      shot_place(&p->line->table->table, states[ball].r, place);
-      fprintf(out, "%s%.1f,%.1f", k > 0 ? "," : "", place[0], place[1]);
+      const size_t one = k * (size_t)count + (size_t)ball;
+      fputs(k > 0 ? "," : "", out);
+      write_pose(out, &states[one], turned[one]);
     }
     fputc(']', out);
   }
-  fputs("]]", out);
+  free(turned);
+  free(states);
   free(at);
+
+  fputs("],\n\"events\":[", out);
+  const char *between = "";
+  for (int64_t k = 0; k < p->shot->count && k < p->shot->room; k++) {
+    const carom_event *e = &p->shot->events[k];
+    const char *name = carom_event_name(e->type);
+    if (name == NULL)
+      continue;
+    fprintf(out, "%s[%.6f,\"%s\",%d,%d]", between, e->time, name, (int)e->a, (int)e->b);
+    between = ",";
+  }
+  fputs("]}", out);
 }
 
 static const char head[] =
     "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-    "content=\"width=device-width\">\n"
-    "<title>carom shoot</title>\n"
-    "<style>body{margin:1em "
-    "auto;max-width:1200px;font-family:sans-serif}svg{width:100%;height:auto}p{display:flex;gap:"
-    "1em;align-items:center}input{flex:1}</style>\n"
-    "<p><button id=\"play\">Play</button><input id=\"time\" type=\"range\" min=\"0\" step=\"0.01\" "
-    "aria-label=\"time\"><output id=\"said\"></output><select id=\"pace\" "
-    "aria-label=\"speed\"><option value=\"0.25\">1/4<option value=\"0.5\">1/2<option value=\"1\" "
-    "selected>1<option value=\"2\">2</select></p>\n";
-
-static const char script[] =
-    "const balls=document.querySelectorAll('g.ball'),get=id=>document.getElementById(id);\n"
-    "const play=get('play'),time=get('time'),said=get('said'),pace=get('pace');\n"
-    "const end=Math.max(...shots.map(s=>s[0][s[0].length-1]));\n"
-    "let now=0,last=null;time.max=end;\n"
-    "function place(t,times,xy){\n"
-    "  let a=0,b=times.length-1;if(xy.length==2)return xy;\n"
-    "  while(b-a>1){const m=(a+b)>>1;if(times[m]<=t)a=m;else b=m}\n"
-    "  const s=b>a?Math.min(Math.max((t-times[a])/(times[b]-times[a]),0),1):0;\n"
-    "  return[0,1].map(k=>xy[2*a+k]+s*(xy[2*b+k]-xy[2*a+k]))}\n"
-    "function show(){\n"
-    "  let k=0;for(const[times,paths]of shots)for(const xy of paths){\n"
-    "    const g=balls[k++],[x,y]=place(now,times,xy);\n"
-    "    if(now>=end)g.removeAttribute('transform');\n"
-    "    else g.setAttribute('transform',`translate(${x-g.dataset.x} ${y-g.dataset.y})`)}\n"
-    "  time.value=now;said.value=now.toFixed(2)+' s'}\n"
-    "function frame(stamp){\n"
-    "  "
-    "if(last===null)return;now=Math.min(now+(stamp-last)/1000*pace.value,end);last=stamp;show();\n"
-    "  if(now<end)requestAnimationFrame(frame);else stop()}\n"
-    "function stop(){last=null;play.textContent='Play'}\n"
-    "play.onclick=()=>{if(last!==null)return "
-    "stop();if(now>=end)now=0;play.textContent='Pause';last=performance.now();"
-    "requestAnimationFrame(frame)};\n"
-    "time.oninput=()=>{stop();now=+time.value;show()};\n"
-    "show();play.click();\n";
+    "content=\"width=device-width\">\n<title>carom shoot</title>\n"
+    "<style>\n"
+    "body{margin:1em auto;max-width:1200px;padding:0 8px;font:15px sans-serif;color:#1c1f22;"
+    "background:#f7f7f5}\n"
+    "h1{font-size:1.1em}svg{width:100%;height:auto}canvas{display:block;width:100%;margin:auto;"
+    "border-radius:6px}\n"
+    ".film{display:flex;gap:8px;align-items:center;margin:8px 0}.film input{flex:1;min-width:0}"
+    "button,select{font:inherit;min-height:2em}\n"
+    ".events{max-height:14em;overflow:auto;border:1px solid #ccc;margin-bottom:1em}ol{margin:0;"
+    "padding:0;list-style:none}\n"
+    ".events button{width:100%;border:0;background:none;text-align:left;display:grid;"
+    "grid-template-columns:5em 1fr}[aria-current] button{background:#0b5fa5;color:#fff}\n"
+    "</style>\n<main id=\"main\"><h1>carom shoot</h1></main>\n";
 
 void shots_animate(FILE *out, const played *shots, int count, const char *footer) {
-  fputs(head, out);
-  shots_draw(out, shots, count, footer);
-  fputs("<script>\nconst shots=[", out);
+  fprintf(out, "%s<script type=\"module\">\n", head);
+  fwrite(player_text, 1, sizeof player_text, out);
+  fputs("\nconst film=recorded({", out);
+  write_layout(out, shots[0].line);
+  fputs(",\n\"shots\":[", out);
   for (int k = 0; k < count; k++) {
     fputs(k > 0 ? ",\n" : "", out);
-    write_frames(out, &shots[k], k);
+    write_shot(out, &shots[k]);
   }
-  fprintf(out, "];\n%s</script>\n</html>\n", script);
+  fputs("]});\n"
+        "const one=player();\n"
+        "document.getElementById('main').append(one.canvas,one.controls,one.events,"
+        "document.getElementById('picture'));\n"
+        "addEventListener('resize',one.draw);\n"
+        "one.show(film);one.start();\n"
+        "</script>\n<div id=\"picture\">\n",
+        out);
+  shots_draw(out, shots, count, footer);
+  fputs("</div>\n</html>\n", out);
 }

@@ -1,5 +1,5 @@
-/* Shots that play: one HTML file with the picture, the balls' places and a script that moves
- * them. */
+/* Shots that play: one HTML file with the balls' poses, the player of player.js, and the
+ * picture. */
 #ifndef CAROM_CLI_ANIMATE_H
 #define CAROM_CLI_ANIMATE_H
 

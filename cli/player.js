@@ -28,6 +28,64 @@ export function colourOf(name, k) {
   return NAMED[name.split(" ")[0]] ?? (k === 0 ? IVORY : POOL[((Number(name) || k) - 1) % 8]);
 }
 
+/** Where a pocket is, for whoever stands at the head of the table. @param {Table} table @param {number} pocket */
+export function pocketName({ width, length, pockets }, pocket) {
+  const [x, y] = pockets[pocket].centre;
+  const across = x < width / 2 ? "left" : "right";
+  return Math.abs(y - length / 2) < 0.2 * length ? `${across} side pocket` : `${across} corner ${y < length / 2 ? "near the head" : "near the foot"}`;
+}
+
+/** @type {Record<string, string>} */
+const EVENTS = {
+  ball_linear_cushion: "cushion",
+  ball_circular_cushion: "jaw of a pocket",
+  sliding_rolling: "begins to roll",
+  rolling_spinning: "spins on the spot",
+  rolling_stationary: "stops",
+  spinning_stationary: "stops spinning",
+  slate: "lands",
+  rail_top: "falls on a rail",
+  left_table: "leaves the table",
+};
+/** An event in words. @param {Table} table @param {readonly string[]} names @param {string} type @param {number} a @param {number} b */
+export function wordsOf(table, names, type, a, b) {
+  if (type === "stick_ball") return "the cue strikes";
+  if (type === "ball_ball") return `${names[a]} hits ${names[b]}`;
+  return `${names[a]}: ${type === "ball_pocket" ? pocketName(table, b) : (EVENTS[type] ?? type)}`;
+}
+
+/** The film of a page that `carom shoot --animate` wrote. Of each ball it has 10 numbers at each time: its place, how it has turned, its spin, rad/s;
+ * of one that lies still, once.
+ * @param {{ table: Table, balls: [string, number][], shots: { times: number[], poses: number[][], events: [number, string, number, number][] }[] }} page
+ * @returns {Film} */
+export function recorded({ table, balls, shots }) {
+  const names = balls.map(([name]) => name);
+  const filmed = shots.map(({ times, poses, events }, index) => ({
+    time: times[times.length - 1],
+    /** @param {number} time */
+    at(time) {
+      const k = times.findLastIndex((t) => t <= time);
+      const since = time - times[k];
+      return poses.map((pose) => {
+        const moves = pose.length > 10;
+        const [from, to] = moves ? [10 * k, 10 * Math.min(k + 1, times.length - 1)] : [0, 0];
+        const share = to > from ? since / (times[k + 1] - times[k]) : 0;
+        const r = [0, 1, 2].map((c) => pose[from + c] + share * (pose[to + c] - pose[from + c]));
+        // It turns on by its spin.
+        const [w, i, j, n, ...spin] = pose.slice(from + 3, from + 10);
+        const rate = Math.hypot(...spin);
+        const [c, s] = [Math.cos((rate * since) / 2), rate > 0 ? Math.sin((rate * since) / 2) / rate : 0];
+        const [x, y, z] = spin.map((part) => part * s);
+        const q = [c * w - x * i - y * j - z * n, c * i + x * w + y * n - z * j, c * j + y * w + z * i - x * n, c * n + z * w + x * j - y * i];
+        return { r, q, seen: pose[from + 2] >= 0 && (moves || index === 0) };
+      });
+    },
+    paths: poses.flatMap((pose, ball) => (pose.length > 10 ? [{ ball, xyz: pose.filter((_, k) => k % 10 < 3) }] : [])),
+    events: events.map(([time, type, a, b]) => ({ time, text: wordsOf(table, names, type, a, b) })),
+  }));
+  return { table, balls: balls.map(([name, radius]) => ({ name, radius })), shots: filmed };
+}
+
 /** @template {keyof HTMLElementTagNameMap} K @param {K} tag @param {Record<string, string>} attributes @param {(Node | string)[]} children */
 function make(tag, attributes, ...children) {
   const made = document.createElement(tag);

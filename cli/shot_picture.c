@@ -455,12 +455,6 @@ static void draw_rails(const view *v, labels *l, const shot_line *line, const ca
     }
 }
 
-void shot_place(const carom_table *t, const double r[2], double at[2]) {
-  const view v = view_of(NULL, t);
-  at[0] = across(&v, r);
-  at[1] = down(&v, r);
-}
-
 void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   const carom_table *t = &shots[0].line->table->table;
   view v = view_of(out, t);
@@ -504,14 +498,14 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
         const double r = v.scale * line->ball[k].kind.radius, x = across(&v, final[k].r),
                      y = down(&v, final[k].r);
         char number[12];
-        if (!shot_shows(&shots[shot], shot, k))
+        if (shot > 0 && !ball_moved(shots[shot].shot, k))
           continue;
         if (drawn == 0) {
           keep_free(&l, x - r, y - r, x + r, y + r);
           continue;
         }
         snprintf(number, sizeof number, "%d", shot + 1);
-        fprintf(out, "<g class=\"ball\" data-x=\"%.1f\" data-y=\"%.1f\">\n", x, y);
+        fputs("<g class=\"ball\">\n", out);
         draw_ball(&v, line, &final[k], k,
                   count > 1 && k == line->cue.ball ? number : line->name[k]);
         fputs("</g>\n", out);
@@ -524,8 +518,4 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   svg_lines(out, left, high + below + (below > 0.0 ? 1.25 : 0.75) * letters, letters, columns,
             "fill=\"#fff\"", footer);
   fputs("</svg>\n", out);
-}
-
-bool shot_shows(const played *p, int index, int ball) {
-  return index == 0 || ball_moved(p->shot, ball);
 }

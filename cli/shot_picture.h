@@ -18,14 +18,7 @@ bool shot_has_id(const shot_line *line, const char *id);
 
 /* Draws shots of one table and layout over each other as SVG, each up to shot->time, when the
  * balls are as in shot->final. `footer` has lines to stand below. Each ball at its end is a
- * group of class "ball", with that place in data-x and data-y. */
+ * group of class "ball"; those that do not move are drawn once. */
 void shots_draw(FILE *out, const played *shots, int count, const char *footer);
-
-/* Whether it has a group for that ball of shot number `index`: those that do not move are drawn
- * once. */
-bool shot_shows(const played *p, int index, int ball);
-
-/* Where a place of the table is on the picture, pixels. */
-void shot_place(const carom_table *t, const double r[2], double at[2]);
 
 #endif

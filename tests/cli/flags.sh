@@ -64,23 +64,23 @@ numbers = [text.text for g in groups for text in g.iter(SVG + "text")]
 print([name for name in numbers if name not in ("1", "8")])
 html = open("all.html", encoding="utf-8").read()
 print("needs nothing else:", set(re.findall(r"https?://[^\"' ]*", html)), "src=" in html, "href" in html)
-frames = json.loads(re.search(r"const shots=(.*?);\n", html, re.S)[1])
-k, checked = 0, 0
-for result, (times, paths) in zip(played, frames, strict=True):
+film = json.loads(re.search(r"const film=recorded\((.*?)\);\n", html, re.S)[1])
+assert open(os.path.join(os.environ["DATA"], "../cli/player.js"), encoding="utf-8").read() in html, "the player is another one"
+checked = 0
+for result, shot in zip(played, film["shots"], strict=True):
+    times = shot["times"]
     assert times[0] == 0 and abs(times[-1] - result["final"]["t"]) < 1e-4 and times == sorted(times) and max(b - a for a, b in zip(times, times[1:])) < 0.026
-    names = [name for name in result["final"]["balls"] if result is played[0] or any(name in event[2] for event in result["events"])]
-    for name, path in zip(names, paths, strict=True):
-        place = [float(groups[k].get(axis)) for axis in ("data-x", "data-y")]
-        assert result["final"]["balls"][name][0] == 4 or math.dist(path[-2:], place) < 0.11, (name, path[-2:], place)
-        k += 1
-        # At events the places are those of the events: 400 pixels a metre, x of the table down.
-        for time, kind, ids, before, _ in result["events"]:
-            if kind in ("ball_ball", "ball_linear_cushion") and name in ids:
-                state, at = before[ids.index(name)], min(range(len(times)), key=lambda n: abs(times[n] - time))
-                start = next(ball["state"] for ball in result["balls"] if ball["id"] == name)
-                expected = [path[0] + 400 * (state[2] - start[2]), path[1] + 400 * (state[1] - start[1])]
-                assert abs(times[at] - time) < 1e-4 and math.dist(path[2 * at : 2 * at + 2], expected) < 0.2, (name, time, expected)
-                checked += 1
+    assert [event[1] for event in shot["events"]] == [event[1] for event in result["events"] if event[1] != "none"]
+    for (name, radius), numbers in zip(film["balls"], shot["poses"], strict=True):
+        poses = [numbers[k : k + 10] for k in range(0, len(numbers), 10)]
+        assert abs(radius - 0.028575) < 1e-6 and len(poses) == (len(times) if any(name in event[2] for event in result["events"]) else 1)
+        assert all(abs(math.hypot(*pose[3:7]) - 1) < 1e-3 for pose in poses)
+        # At events and at the end the places are those of the shot.
+        states = [(event[0], event[3][event[2].index(name)]) for event in result["events"] if event[1] in ("ball_ball", "ball_linear_cushion") and name in event[2]]
+        for time, state in [*states, (times[-1], result["final"]["balls"][name])]:
+            at = min(range(len(times)), key=lambda n: abs(times[n] - time))
+            assert abs(times[at] - time) < 1e-4 and math.dist(poses[min(at, len(poses) - 1)][:3], state[1:4]) < 2e-4, (name, time, state)
+            checked += 1
 print(checked > 5, told.count("rests") + told.count("falls") == sum(map(len, moving)))
 PYTHON
 python flags.py

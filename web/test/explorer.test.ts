@@ -1,8 +1,9 @@
 // The page in a real browser: Debian's Chromium, opened from the folder as a file. Numbers are compared with the command `carom`.
-import { existsSync, readFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import type { AddressInfo } from "node:net";
+import { tmpdir } from "node:os";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { type Browser, chromium, type Page } from "playwright-core";
 import { root, run, thereIsACommand } from "./support.js";
@@ -265,7 +266,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     await one.locator("#own").selectOption("0");
     await one.locator("#rate").selectOption("1000");
     await one.locator("#new-game").click();
-    await expect.poll(() => text(one, "chance")).toMatch(/plays on \d+ %, wins the game \d+ %, is a foul \d+ %/);
+    await expect.poll(() => text(one, "chance"), { timeout: 20_000 }).toMatch(/plays on \d+ %, wins the game \d+ %, is a foul \d+ %/);
     await one.locator("#shoot").click();
     // Whoever is at the table: I play the best shot, the opponent replies by himself.
     for (let k = 0; k < 100; k++) {
@@ -389,7 +390,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     });
     const begun = performance.now();
     await one.locator("#best").click();
-    await expect.poll(() => text(one, "game-state")).toMatch(/Best of/);
+    await expect.poll(() => text(one, "game-state"), { timeout: 20_000 }).toMatch(/Best of/);
     const longest = await one.evaluate(() => (window as unknown as { longest: number }).longest);
     console.log(`a plan took ${(performance.now() - begun).toFixed(0)} ms; the longest time between two frames was ${longest.toFixed(0)} ms`);
     expect(longest).toBeLessThan(100);
@@ -441,6 +442,38 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     await one.waitForSelector("main[aria-busy=false]");
     expect(await text(one, "s-status")).toBe("ok");
     await context.close();
+  });
+
+  test.runIf(thereIsACommand)("a page of carom shoot --animate shows the same player", async () => {
+    const folder = mkdtempSync(`${tmpdir()}/carom-`);
+    const told = JSON.parse(run(["shoot", "--animate", `${folder}/break.html`, `${root}data/break-nineball.jsonl`])) as { final: { t: number; balls: Record<string, number[]> }; events: unknown[][] };
+    const one = await open("#view=shot");
+    await one.locator("summary").click();
+    await one.locator("#line").fill(readFileSync(`${root}data/break-nineball.jsonl`, "utf8"));
+    await one.locator("#import").click();
+    const other = await browser.newPage({ viewport: { width: 1300, height: 800 } });
+    other.on("console", (message) => ["error", "warning"].includes(message.type()) && said.push(`animate: ${message.text()}`));
+    other.on("pageerror", (error) => said.push(`animate: ${error.message}`));
+    await other.goto(`file://${folder}/break.html`);
+    expect(await text(other, "play")).toBe("Pause");
+    await other.locator("#play").click();
+    await expect.poll(() => other.locator(".events li").count()).toBe(told.events.filter(([, type]) => type !== "none").length);
+    expect(await other.locator(".events li").allTextContents()).toEqual(await one.locator(".events li").allTextContents());
+    // At the end ball 8 lies at the command's place, on both tables, which differ in size.
+    const end = Number(await other.locator("#time").getAttribute("max"));
+    expect(end).toBeCloseTo(told.final.t, 3);
+    for (const page of [one, other]) await set(page, "time", Math.floor(1000 * end) / 1000);
+    const [, x, y] = told.final.balls["8"]!;
+    for (const page of [one, other]) {
+      await page.evaluate(() => scrollTo(0, 0));
+      expect(Math.max(...(await colour(page, x!, y! + 0.0245)))).toBeLessThan(60); // the cloth is brighter, and the number
+    }
+    await other.evaluate(axe);
+    const violations = await other.evaluate(async () => (await (window as unknown as { axe: { run(): Promise<{ violations: { id: string }[] }> } }).axe.run()).violations.map(({ id }) => id));
+    expect(violations).toEqual([]);
+    await one.close();
+    await other.close();
+    rmSync(folder, { recursive: true });
   });
 
   test("in a game the cue ball moves where the rules let it", async () => {

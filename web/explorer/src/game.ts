@@ -1,7 +1,8 @@
 // Best shot, chance of this shot, and a game against a player of any strength: the panel of the view Shot.
 import type { Call, Carom, Choice, Cue, GameState, PlanOptions, Player, ShotBall, ShotOptions, Table } from "carom";
 import { far } from "./far.js";
-import { button, choice, el, pocketName } from "./ui.js";
+import { pocketName } from "../../../cli/player.js";
+import { button, choice, el } from "./ui.js";
 
 /** What the panel needs of the view, and does with it. */
 export interface View {

@@ -1,8 +1,8 @@
 // The view Table: shots are aimed on it and played while one aims; their film, their events, and a fan of shots with a player's error.
 import { type BallState, type Carom, CaromError, type Cue, fromLine, type Game, type RackName, type Shot, type ShotBall, type ShotOptions, type Table, type TableName, toLine } from "carom";
-import { colourOf, player } from "../../../cli/player.js";
+import { colourOf, player, pocketName, wordsOf } from "../../../cli/player.js";
 import { gamePanel } from "./game.js";
-import { button, check, choice, color, eachFrame, el, fit, pad, parameters, pocketName, slider, type Slider } from "./ui.js";
+import { button, check, choice, color, eachFrame, el, fit, pad, parameters, slider, type Slider } from "./ui.js";
 
 interface GameOf {
   text: string;
@@ -19,20 +19,6 @@ const GAMES: Record<string, GameOf> = {
   eightball: { text: "Eight-ball", table: "9ft", rack: "eightball", game: "pool", names: pool },
   snooker: { text: "Snooker", table: "snooker", rack: "snooker", game: "snooker", names: (k) => (k === 0 ? "white" : k < 16 ? `red ${k}` : COLOURS[k - 16]!) },
   threecushion: { text: "Three-cushion", table: "threecushion", rack: "threecushion", game: "billiard", names: (k) => ["white", "yellow", "red"][k] ?? String(k) },
-};
-const EVENTS: Record<string, string> = {
-  stick_ball: "cue strikes",
-  ball_ball: "hits",
-  ball_linear_cushion: "cushion",
-  ball_circular_cushion: "jaw of a pocket",
-  ball_pocket: "pocketed",
-  sliding_rolling: "begins to roll",
-  rolling_spinning: "spins on the spot",
-  rolling_stationary: "stops",
-  spinning_stationary: "stops spinning",
-  slate: "lands",
-  rail_top: "falls on a rail",
-  left_table: "leaves the table",
 };
 const FAN = 500;
 const FAN_CHUNK = 20;
@@ -242,11 +228,7 @@ export function shotView(carom: Carom, solver: () => "exact" | "euler", main: HT
         });
       },
       paths,
-      events: (played?.events ?? []).map((event) => {
-        const a = names[event.a]!;
-        const where = event.type === "ball_pocket" ? `: ${pocketName(table, event.b)}` : "";
-        return { time: event.time, text: event.type === "ball_ball" ? `${a} hits ${names[event.b]}` : event.type === "stick_ball" ? "the cue strikes" : `${a}: ${EVENTS[event.type] ?? event.type}${where}` };
-      }),
+      events: (played?.events ?? []).map(({ time, type, a, b }) => ({ time, text: wordsOf(table, names, type, a, b) })),
     };
   }
 

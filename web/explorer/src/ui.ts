@@ -1,7 +1,5 @@
 // Small helpers for the page: elements, sliders, canvases, the state in the address.
 
-import type { Table } from "carom";
-
 type Child = Node | string | undefined;
 
 export function el<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Record<string, string> = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
@@ -65,13 +63,6 @@ export function pad(id: string, text: string, onInput: (right: number, up: numbe
   });
   root.addEventListener("pointermove", (event) => root.hasPointerCapture(event.pointerId) && move(event));
   return { root, set: (right, up) => root.querySelector("#tip")!.setAttribute("transform", `translate(${right} ${-up})`) };
-}
-
-/** Where a pocket is, for whoever stands at the head of the table. */
-export function pocketName({ width, length, pockets }: Table, pocket: number): string {
-  const [x, y] = pockets[pocket]!.centre;
-  const across = x < width / 2 ? "left" : "right";
-  return Math.abs(y - length / 2) < 0.2 * length ? `${across} side pocket` : `${across} corner ${y < length / 2 ? "near the head" : "near the foot"}`;
 }
 
 export function button(text: string, onClick: () => void, attributes: Record<string, string> = {}): HTMLButtonElement {
