@@ -17,6 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 SRC = ROOT / "src"
 PUBLIC = sorted(path.name for path in (ROOT / "include").glob("*.h"))
+WRAPPER = "carom.hpp"
 # What CMakeLists.txt compiles once for every instruction set, with the definitions of each time, and the sets of `advance.c`.
 PASSES = [
     ("rows.c", "", "f64"), ("rows.c", "F32", "f32"), ("rows.c", "ONE", "one_f64"), ("rows.c", "ONE F32", "one_f32"),
@@ -200,7 +201,7 @@ def main():
         out.append("".join(f"#undef {own}\n" for own in sorted(names | defined | KERNEL_MACROS)) + "#endif\n")
     out.append("#endif\n")
     (folder / "carom.c").write_text("".join(out), encoding="utf-8")
-    for name in PUBLIC:
+    for name in [*PUBLIC, WRAPPER]:
         (folder / name).write_bytes((ROOT / "include" / name).read_bytes())
 
 

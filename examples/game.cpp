@@ -1,0 +1,143 @@
+/* The game of game.c in C++20: eight-ball between two programs, sent as a recording, and judged by its reader.
+ *
+ * One side plays and writes lines of a recording; the other reads them, plays every shot again and compares its bits. The rules and both
+ * players are those of carom_plan.h. With exceptions or without them, it prints the same. */
+#include <carom.hpp>
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <string>
+
+namespace {
+
+constexpr int most_shots = 150;
+
+class game {
+public:
+  game() {
+    carom_record &of = record_.game();
+    of.table = carom::table(CAROM_TABLE_POOL_9FT);
+    const auto balls = carom::rack(CAROM_RACK_EIGHTBALL, of.table, 1e-4, 7);
+    of.count = static_cast<int64_t>(balls.size());
+    std::copy(balls.begin(), balls.end(), of.balls);
+    of.options.plain = 1;
+    rules_ = carom_plan_rules_of(CAROM_RULES_EIGHTBALL);
+    rules_.user[1] = 1; // before the break
+    for (const auto kind : {CAROM_RECORD_HEAD, CAROM_RECORD_TABLE, CAROM_RECORD_BALLS})
+      sent_ += record_.write(kind);
+  }
+
+  bool over() const {
+    return winner_ >= 0;
+  }
+  int winner() const {
+    return winner_;
+  }
+  std::int64_t shots() const {
+    return record_.game().shots;
+  }
+
+  // The best stroke that a plan finds, with the errors of the player, and what it comes to by the rules.
+  bool play() {
+    carom_record_settle(&record_.game());
+    carom_record &of = record_.game();
+    const carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+    carom_plan_options wanted{};
+    wanted.shots = 300;
+    wanted.seed = static_cast<uint64_t>(of.shots);
+    wanted.opponent = &players_[1 - player_];
+    carom_plan_job job{};
+    job.table = &of.table;
+    job.balls = of.balls;
+    job.count = static_cast<int>(of.count);
+    job.cue = &cue;
+    job.player = &players_[player_];
+    job.rules = &rules_;
+    job.shot = &of.options;
+    job.options = &wanted;
+    const auto best = carom::plan(job, 1, in_hand_);
+    if (best.empty())
+      return false;
+    if (in_hand_) {
+      if (record_.place(0, best[0].place[0], best[0].place[1]) != CAROM_OK)
+        return false;
+      sent_ += record_.write(CAROM_RECORD_PLACE);
+    }
+    of.cue = best[0].cue;
+    carom_player_strike(&players_[player_], 1, wanted.seed, &of.cue);
+    uint32_t in_play = 0;
+    for (int k = 0; k < of.count; k++)
+      in_play |= static_cast<uint32_t>(of.balls[k].state.label != CAROM_BALL_POCKETED) << k;
+    if (record_.play() != CAROM_OK)
+      return false;
+    sent_ += record_.write(CAROM_RECORD_SHOT);
+    judge(in_play, {best[0].ball, best[0].pocket});
+    return true;
+  }
+
+  std::string end() {
+    return sent_ += record_.write(CAROM_RECORD_END);
+  }
+
+private:
+  void judge(uint32_t in_play, carom_call call) {
+    const carom_turn turn = rules_.judge(rules_.user, in_play, 0, &record_.game().facts, call);
+    in_hand_ = turn.leave != CAROM_LEAVE_AFTER;
+    for (int k = 1; k < record_.game().count; k++)
+      if (turn.spot >> k & 1)
+        spot(k);
+    if (turn.is == CAROM_TURN_WIN || turn.is == CAROM_TURN_LOSE)
+      winner_ = turn.is == CAROM_TURN_WIN ? player_ : 1 - player_;
+    else if (turn.is == CAROM_TURN_PASS)
+      player_ = 1 - player_;
+  }
+
+  // On the long string, as near to the foot spot as it is free. A place that is taken is no error here.
+  void spot(int ball) {
+    carom_record &of = record_.game();
+    double y = 0.75 * of.table.length;
+    while (carom_record_place(&of, ball, 0.5 * of.table.width, y, nullptr) != CAROM_OK)
+      y -= 1e-3;
+    sent_ += record_.write(CAROM_RECORD_PLACE);
+  }
+
+  carom::recording record_;
+  carom_plan_rules rules_{};
+  carom_player players_[2] = {carom_player_fargo(500.0), carom_player_fargo(600.0)};
+  int player_ = 0, winner_ = -1;
+  bool in_hand_ = false;
+  std::string sent_;
+};
+
+// How many shots have the bits that were recorded, up to the first that has not; -1 where a line is wrong or missing.
+std::int64_t referee(std::string_view lines) {
+  carom::recording record;
+  const carom_record &of = record.game();
+  while (!lines.empty()) {
+    const auto size = lines.find('\n') + 1;
+    if (record.read(lines.substr(0, size)) < 0)
+      return -1;
+    lines.remove_prefix(size);
+    if (of.kind != CAROM_RECORD_SHOT)
+      continue;
+    record.play();
+    if (!record.same())
+      return of.shots - 1;
+  }
+  return of.kind == CAROM_RECORD_END ? of.shots : -1;
+}
+
+} // namespace
+
+int main() {
+  game played;
+  while (!played.over() && played.shots() < most_shots)
+    if (!played.play())
+      return 1;
+  const std::string sent = played.end();
+  const std::int64_t good = referee(sent);
+  std::printf("player %d wins after %" PRId64 " shots; the referee accepts %" PRId64 "\n",
+              played.winner() + 1, played.shots(), good);
+  return played.over() && good == played.shots() ? 0 : 1;
+}

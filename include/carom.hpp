@@ -1,0 +1,253 @@
+/* carom.hpp: the library from C++20, header only. Structs and functions are those of the headers of C; here is what C++ adds: spans
+ * for arrays with their lengths, vectors where memory is owned, exceptions where they are on.
+ *
+ * A function that can fail returns its carom_status. With exceptions, a negative one is thrown as carom::error instead; without
+ * them (-fno-exceptions) the caller looks at it. Positive ones, such as CAROM_STOPPED_AT_TIME, are always returned.
+ *
+ *     const carom_table table = carom::table(CAROM_TABLE_POOL_9FT);
+ *     const std::vector<carom_shot_ball> balls = carom::rack(CAROM_RACK_NINEBALL, table, 1e-4, 1);
+ *     carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+ *     cue.speed = 8.0;
+ *     carom::shot shot;
+ *     shot.play(table, balls, cue);
+ *     for (const carom_event &event : shot.events()) ... */
+#ifndef CAROM_HPP
+#define CAROM_HPP
+
+#include "carom_plan.h"
+#include "carom_record.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+#ifdef __cpp_exceptions
+#include <stdexcept>
+#endif
+
+namespace carom {
+
+#ifdef __cpp_exceptions
+/* A call that could not be served. */
+class error : public std::runtime_error {
+public:
+  explicit error(carom_status code) : std::runtime_error(carom_status_string(code)), code_(code) {
+  }
+  carom_status status() const noexcept {
+    return code_;
+  }
+
+private:
+  carom_status code_;
+};
+#endif
+
+/* The status; a negative one is thrown where exceptions are on. */
+inline carom_status checked(carom_status code) {
+#ifdef __cpp_exceptions
+  if (code < 0)
+    throw error(code);
+#endif
+  return code;
+}
+
+/* ---- Impacts */
+
+/* Resolves in[k] to out[k]. The spans have the same length; `status` may be empty. A row in error is no error of the call: its
+ * status is in status[k], and the first one is returned. */
+inline carom_status collide(std::span<const carom_impact> in, std::span<carom_result> out,
+                            std::span<std::int8_t> status = {}, const carom_options &options = {}) {
+  if (out.size() != in.size() || (!status.empty() && status.size() != in.size()))
+    return checked(CAROM_ERROR_NULL);
+  return carom_collide_batch(in.data(), in.size(), &options, out.data(),
+                             status.empty() ? nullptr : status.data());
+}
+inline carom_status cushion(std::span<const carom_cushion_impact> in, std::span<carom_motion> out,
+                            std::span<std::int8_t> status = {},
+                            const carom_cushion_options &options = {}) {
+  if (out.size() != in.size() || (!status.empty() && status.size() != in.size()))
+    return checked(CAROM_ERROR_NULL);
+  return carom_cushion_batch(in.data(), in.size(), &options, out.data(),
+                             status.empty() ? nullptr : status.data());
+}
+
+/* ---- Tables and layouts */
+
+inline carom_table table(carom_table_kind kind) {
+  carom_table made{};
+  checked(carom_table_make(kind, &made));
+  return made;
+}
+
+/* A rack, with the cue ball first; empty where it cannot be. */
+inline std::vector<carom_shot_ball> rack(carom_rack_kind kind, const carom_table &on, double gap,
+                                         std::uint64_t seed) {
+  std::vector<carom_shot_ball> balls(static_cast<std::size_t>(carom_rack_size(kind)));
+  if (checked(carom_rack(kind, &on, gap, seed, balls.data(), static_cast<int>(balls.size()))) < 0)
+    balls.clear();
+  return balls;
+}
+
+/* ---- Shots */
+
+/* A shot with its events, however many, and its final states. It keeps the balls that it began with, so that states at any time can be
+ * asked for. */
+class shot {
+public:
+  /* Plays it; with options.time_most or stop_at up to there. */
+  carom_status play(const carom_table &on, std::span<const carom_shot_ball> balls,
+                    const carom_cue &cue, const carom_shot_options &options = {}) {
+    balls_.assign(balls.begin(), balls.end());
+    if (state_ == nullptr)
+      state_ = std::make_unique<carom_shot_state>();
+    shot_ = {};
+    return with_room(
+        [&] { return carom_shoot(&on, balls_.data(), count(), &cue, &options, &shot_); });
+  }
+
+  /* Goes on with a shot that was stopped. */
+  carom_status resume(const carom_table &on, const carom_shot_options &options = {}) {
+    return with_room(
+        [&] { return carom_shot_continue(&on, balls_.data(), count(), &options, &shot_); });
+  }
+
+  std::span<const carom_event> events() const {
+    return {events_.data(), static_cast<std::size_t>(shot_.count)};
+  }
+  std::span<const carom_ball_state> final_states() const {
+    return final_;
+  }
+  const carom_facts &facts() const {
+    return facts_;
+  }
+  double time() const {
+    return shot_.time;
+  }
+
+  /* The layout that it leaves. */
+  std::vector<carom_shot_ball> layout() const {
+    std::vector<carom_shot_ball> balls = balls_;
+    for (std::size_t k = 0; k < balls.size(); k++)
+      balls[k].state = final_[k];
+    return balls;
+  }
+
+  /* States and orientations (w, x, y, z) of all balls at a time, s; empty after an error. */
+  std::vector<carom_ball_state> states(double time) const {
+    std::vector<carom_ball_state> at(balls_.size());
+    if (checked(carom_shot_at(balls_.data(), count(), &shot_, time, at.data())) < 0)
+      at.clear();
+    return at;
+  }
+  std::vector<std::array<double, 4>> orientations(double time) const {
+    std::vector<std::array<double, 4>> turned(balls_.size());
+    if (checked(carom_shot_orientation(balls_.data(), count(), &shot_, time,
+                                       reinterpret_cast<double(*)[4]>(turned.data()))) < 0)
+      turned.clear();
+    return turned;
+  }
+
+  shot() = default;
+  shot(const shot &) = delete; /* shot_ points to the vectors */
+  shot &operator=(const shot &) = delete;
+
+private:
+  int count() const {
+    return static_cast<int>(balls_.size());
+  }
+
+  /* Plays, and once more with room for all events where there were more: with the same bits. */
+  template <class Play> carom_status with_room(Play play) {
+    final_.resize(balls_.size());
+    const carom_shot begun = shot_;
+    const std::unique_ptr<carom_shot_state> kept =
+        begun.count > 0 ? std::make_unique<carom_shot_state>(*state_) : nullptr;
+    const carom_facts facts = facts_;
+    if (events_.empty())
+      events_.resize(64);
+    for (;;) {
+      shot_.events = events_.data();
+      shot_.room = static_cast<std::int64_t>(events_.size());
+      shot_.final = final_.data();
+      shot_.state = state_.get();
+      shot_.facts = &facts_;
+      const carom_status code = play();
+      if (shot_.count <= shot_.room)
+        return checked(code);
+      events_.resize(static_cast<std::size_t>(shot_.count));
+      shot_ = begun;
+      facts_ = facts;
+      if (kept != nullptr)
+        *state_ = *kept;
+    }
+  }
+
+  carom_shot shot_{};
+  carom_facts facts_{};
+  std::vector<carom_shot_ball> balls_;
+  std::vector<carom_event> events_;
+  std::vector<carom_ball_state> final_;
+  std::unique_ptr<carom_shot_state> state_;
+};
+
+/* ---- Plans */
+
+/* The best strokes, best first, at most `most`; the job's memory is allocated here. */
+inline std::vector<carom_choice> plan(carom_plan_job job, int most = 1, bool in_hand = false) {
+  std::vector<double> memory(carom_plan_memory(job.options) / sizeof(double) + 1);
+  std::vector<carom_choice> choices(static_cast<std::size_t>(most));
+  int found = 0;
+  job.memory = memory.data();
+  job.memory_size = memory.size() * sizeof(double);
+  checked(in_hand ? carom_plan_hand(&job, nullptr, nullptr, choices.data(), most, &found)
+                  : carom_plan(&job, choices.data(), most, &found));
+  choices.resize(static_cast<std::size_t>(found));
+  return choices;
+}
+
+/* ---- Recordings */
+
+/* A game that is recorded, or read: see carom_record.h. `game()` is the record; its table, balls, count, cue and options are set before
+ * their lines are written. */
+class recording {
+public:
+  recording() : game_(std::make_unique<carom_record>()), text_(CAROM_RECORD_TEXT) {
+  }
+
+  carom_record &game() {
+    return *game_;
+  }
+  const carom_record &game() const {
+    return *game_;
+  }
+
+  /* A line of what the game holds, until the next one; empty where it cannot be written. */
+  std::string_view write(carom_record_kind kind) {
+    return {text_.data(), carom_record_write(game_.get(), kind, text_.data(), text_.size())};
+  }
+  carom_status read(std::string_view line) {
+    return checked(carom_record_read(game_.get(), line.data(), line.size()));
+  }
+  carom_status play(carom_record_kind kind = CAROM_RECORD_SHOT) {
+    return checked(carom_record_play(game_.get(), kind, nullptr));
+  }
+  carom_status place(int ball, double x, double y) {
+    return checked(carom_record_place(game_.get(), ball, x, y, nullptr));
+  }
+
+  /* Whether the shot of the last line was played, with the bits that were recorded. */
+  bool same() const {
+    return game_->pending == 2 && game_->played.hash == game_->recorded.hash;
+  }
+
+private:
+  std::unique_ptr<carom_record> game_;
+  std::vector<char> text_;
+};
+
+} // namespace carom
+
+#endif /* CAROM_HPP */

@@ -1,0 +1,80 @@
+// carom.hpp against the calls of C: a shot with more events than its first room, in parts, looked at; batches; what is thrown or returned.
+#include <carom.hpp>
+
+#include <cstdio>
+#include <cstring>
+
+#define CHECK(...)                                          \
+  do                                                        \
+    if (!(__VA_ARGS__)) {                                   \
+      std::printf("line %d: %s\n", __LINE__, #__VA_ARGS__); \
+      return 1;                                             \
+    }                                                       \
+  while (0)
+
+int main() {
+  const carom_table table = carom::table(CAROM_TABLE_POOL_9FT);
+  const auto balls = carom::rack(CAROM_RACK_EIGHTBALL, table, 1e-4, 3);
+  CHECK(balls.size() == 16);
+  carom_cue cue = carom_cue_of(CAROM_GAME_POOL);
+  cue.speed = 8.0;
+
+  // as C plays it
+  static carom_event events[512];
+  carom_ball_state final[16];
+  carom_shot plain{};
+  plain.events = events;
+  plain.room = 512;
+  plain.final = final;
+  CHECK(carom_shoot(&table, balls.data(), 16, &cue, nullptr, &plain) == CAROM_OK);
+  CHECK(plain.count > 64);
+
+  carom::shot whole;
+  CHECK(whole.play(table, balls, cue) == CAROM_OK);
+  CHECK(whole.events().size() == static_cast<std::size_t>(plain.count));
+  CHECK(std::memcmp(whole.events().data(), events, whole.events().size_bytes()) == 0);
+  CHECK(std::memcmp(whole.final_states().data(), final, sizeof final) == 0);
+  CHECK(whole.layout()[3].state.r[0] == final[3].r[0]);
+  CHECK(whole.states(whole.time())[5].r[1] == final[5].r[1]);
+  CHECK(whole.orientations(1.0).size() == 16);
+  CHECK(whole.facts().first[0] >= 0);
+
+  // stopped before the events are more than the first room, and gone on with
+  carom::shot parts;
+  carom_shot_options until{};
+  until.time_most = 0.2;
+  CHECK(parts.play(table, balls, cue, until) == CAROM_STOPPED_AT_TIME);
+  CHECK(parts.resume(table) == CAROM_OK);
+  CHECK(std::memcmp(parts.events().data(), events, parts.events().size_bytes()) == 0);
+  CHECK(std::memcmp(parts.final_states().data(), final, sizeof final) == 0);
+  CHECK(std::memcmp(&parts.facts(), &whole.facts(), sizeof whole.facts()) == 0);
+
+  // batches of impacts
+  std::array<carom_cushion_impact, 2> in{};
+  in[0] = {{0.5, 1.2, 0}, {0, 0, 0}, {0, 1}, 0.0365, 0.028575, 0.17, 0.2, 0.2, 0.85, 0};
+  in[1] = in[0];
+  in[1].mass = -1.0;
+  std::array<carom_motion, 2> out{};
+  std::array<std::int8_t, 2> status{};
+  carom_motion one;
+  CHECK(carom_cushion(in.data(), nullptr, &one) == CAROM_OK);
+  CHECK(carom::cushion(in, out, status) == CAROM_ERROR_MASS && status[0] == CAROM_OK);
+  CHECK(std::memcmp(&one, out.data(), sizeof one) == 0);
+  std::array<carom_impact, 1> pair{};
+  std::array<carom_result, 1> results{};
+  CHECK(carom::collide(pair, results) < 0);
+
+  // errors
+  cue.speed = -1.0;
+#ifdef __cpp_exceptions
+  try {
+    whole.play(table, balls, cue);
+    CHECK(false);
+  } catch (const carom::error &e) {
+    CHECK(e.status() == CAROM_ERROR_CUE_SPEED && std::strstr(e.what(), "cue.speed") != nullptr);
+  }
+#else
+  CHECK(whole.play(table, balls, cue) == CAROM_ERROR_CUE_SPEED);
+#endif
+  return 0;
+}
