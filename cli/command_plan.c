@@ -20,7 +20,7 @@ enum { OPEN, SOLIDS, STRIPES };
 
 typedef struct plan_job {
   shared_options shared; /* --threads, --output */
-  int rules, group, shots, seed;
+  int rules, group, may, shots, seed;
   double rating, errors;
   bool hand, csv;
   const char *plot;
@@ -31,6 +31,10 @@ OPTION(plan_job, option_rules, "rules", rules, 0, "eightball|nineball|potting", 
        "names");
 OPTION(plan_job, option_group, "group", group, 0, "open|solids|stripes", set_choice, 0,
        "of eight-ball: the balls of the player (default open: any but the eight)");
+OPTION(
+    plan_job, option_may, "may", may, 0, "shoot|push-out|pass", set_choice, 0,
+    "of nine-ball: what the player may do besides a shot. After the break it is a push-out, after "
+    "a push-out to pass (default shoot: nothing)");
 OPTION(plan_job, option_hand, "in-hand", hand, 0, NULL, set_flag, 0,
        "the cue ball is in hand: where to put it, too");
 OPTION(plan_job, option_player, "player", rating, 0, "RATING", set_number, 0,
@@ -44,7 +48,7 @@ OPTION(plan_job, option_seed, "seed", seed, 0, "N", set_count, 0, "seed of the e
 OPTION(plan_job, option_csv, "csv", csv, 0, NULL, set_flag, 0,
        "write rows of CSV instead of words");
 OPTION(plan_job, option_plan_plot, "plot", plot, 0, "OUT", set_picture, 0,
-       "draw the best shot, without errors");
+       "draw the best shot: without errors, thin with errors, and what can go wrong");
 
 /* The first shot of a file. Its line is to be freed. */
 static bool read_layout(shot_file *file, shot_line *line) {
@@ -92,7 +96,7 @@ static bool order_balls(shot_line *line, const char *file, int last) {
   return true;
 }
 
-static const char *const kinds[] = {"pot", "scan", "foul", "given"};
+static const char *const kinds[] = {"pot", "scan", "foul", "given", "push-out", "pass"};
 
 /* What a choice does, by the names of the file. */
 static void describe(const shot_line *line, const carom_choice *c, char text[200]) {
@@ -100,6 +104,8 @@ static void describe(const shot_line *line, const carom_choice *c, char text[200
   const double *at = c->pocket >= 0 ? line->table->table.pocket[c->pocket].centre : NULL;
   if (c->kind == CAROM_PLAN_FOUL)
     snprintf(text, 200, "no shot without a foul was found");
+  else if (c->kind == CAROM_PLAN_PUSH || c->kind == CAROM_PLAN_PASS)
+    snprintf(text, 200, c->kind == CAROM_PLAN_PUSH ? "a push-out" : "pass: the other plays");
   else if (c->ball < 0)
     snprintf(text, 200, "a safety: nothing is potted");
   else
@@ -155,25 +161,96 @@ static void draw(FILE *out, const void *data) {
   shots_draw(out, &best->shot, 1, best->words);
 }
 
-static bool plot(const plan_job *job, shot_line *line, const carom_choice *c) {
-  carom_ball_state final[CAROM_BALLS_MOST];
-  carom_shot shot = {.final = final};
+/* What a plan was made for, and its best. */
+typedef struct planned {
+  carom_player player;
+  carom_plan_rules rules;
+  carom_choice best;
+} planned;
+
+/* Strokes with errors, of which some are drawn. */
+enum { TRIED = 500, DRAWN = 40, FOULS = CAROM_FOUL_OTHER + 1, MISS = FOULS, LOSS, WAYS };
+
+/* Plays the best shot with the player's errors, and says how often which failure comes of it, the
+ * most frequent first. The first of the shots are kept, with their events. */
+static void say_failures(const planned *p, const shot_line *line, uint64_t seed, carom_shot *kept,
+                         FILE *out) {
+  int times[WAYS] = {0}, good = 0;
+  uint32_t in_play = 0;
+  for (int k = 0; k < line->count; k++)
+    in_play |= (uint32_t)(line->ball[k].state.label != CAROM_BALL_POCKETED) << k;
+  for (int n = 0; n < TRIED; n++) {
+    carom_facts facts;
+    carom_ball_state final[CAROM_BALLS_MOST];
+    carom_shot unkept = {.final = final}, *shot = n < DRAWN ? &kept[n] : &unkept;
+    shot_line stroke = *line;
+    carom_player_strike(&p->player, seed, (uint64_t)n, &stroke.cue);
+    shot->facts = &facts;
+    if (n < DRAWN)
+      shot_line_play(&stroke, NULL, shot);
+    else
+      carom_shoot(&line->table->table, line->ball, line->count, &stroke.cue, NULL, shot);
+    shot->facts = NULL;
+
+    /* by the rules */
+    uint64_t user[8];
+    memcpy(user, p->rules.user, sizeof user);
+    const carom_turn turn =
+        p->rules.judge(user, in_play, 0, &facts, (carom_call){p->best.ball, p->best.pocket});
+    const bool keeps = turn.is == CAROM_TURN_KEEP || turn.is == CAROM_TURN_WIN;
+    good += keeps;
+    if (!keeps)
+      times[turn.foul != 0 ? turn.foul : turn.is == CAROM_TURN_LOSE ? LOSS : MISS]++;
+  }
+
+  fprintf(out, "Of %d strokes with errors %d play on.", TRIED, good);
+  for (int said = 0; said < 3; said++) {
+    int most = 0;
+    for (int k = 1; k < WAYS; k++)
+      most = times[k] > times[most] ? k : most;
+    if (times[most] > 0)
+      fprintf(out, " %d %s%s.", times[most], most < FOULS ? "foul: " : "",
+              most == LOSS   ? "lose the game"
+              : most == MISS ? "pot nothing that counts, without a foul"
+                             : carom_foul_string(most));
+    times[most] = 0;
+  }
+  fputc('\n', out);
+}
+
+static bool plot(const plan_job *job, shot_line *line, const planned *p) {
+  const carom_choice *c = &p->best;
+  static carom_ball_state final[DRAWN + 1][CAROM_BALLS_MOST];
+  carom_shot shot = {.final = final[DRAWN]}, kept[DRAWN] = {0};
   line->cue = c->cue;
+  line->cue.speed = c->kind == CAROM_PLAN_PASS ? 0.0 : c->cue.speed;
   line->ball[0].state.r[0] = c->place[0];
   line->ball[0].state.r[1] = c->place[1];
+  line->ball[0].state.r[2] = line->ball[0].kind.radius;
+  line->ball[0].state.label = CAROM_BALL_STATIONARY;
   shot_line_play(line, NULL, &shot);
-  char words[256], what[200];
+  char *words, what[200];
+  size_t size;
+  FILE *said = open_text(&words, &size);
   describe(line, c, what);
-  snprintf(words, sizeof words, "The best shot: %s.\n", what);
-  const best_shot best = {{line, &shot, NULL}, words};
+  fprintf(said, "The best: %s.\n", what);
+  const int drawn = c->kind == CAROM_PLAN_PASS ? 0 : DRAWN;
+  for (int n = 0; n < drawn; n++)
+    kept[n].final = final[n];
+  if (drawn > 0)
+    say_failures(p, line, (uint64_t)job->seed, kept, said);
+  close_text(said, &words);
+  const best_shot best = {{line, &shot, NULL, kept, drawn}, words};
   const bool good = svg_draw(job->plot, draw, &best);
+  for (int n = 0; n < drawn; n++)
+    free(kept[n].events);
   free(shot.events);
+  free(words);
   return good;
 }
 
 /* Plans for a layout, writes the choices and keeps the best; an exit code. */
-static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out,
-                carom_choice *best) {
+static int plan(const plan_job *job, shot_line *line, const char *file, FILE *out, planned *p) {
   static const int last[] = {15, 9};
   if (job->rules != CAROM_RULES_POTTING && !order_balls(line, file, last[job->rules]))
     return EXIT_USAGE;
@@ -190,18 +267,22 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     complain("--player: it must be 300 to 850, not %g", job->rating);
     return EXIT_USAGE;
   }
-  const carom_player player =
-      isnan(job->rating) ? carom_player_of(job->errors) : carom_player_fargo(job->rating);
-  carom_plan_rules rules = carom_plan_rules_of((carom_rules_kind)job->rules);
-  rules.user[0] = (uint64_t)job->group;
+  if (job->may != 0 && job->rules != CAROM_RULES_NINEBALL) {
+    complain("--may: it is of nine-ball, so --rules nineball is needed");
+    return EXIT_USAGE;
+  }
+  p->player = isnan(job->rating) ? carom_player_of(job->errors) : carom_player_fargo(job->rating);
+  p->rules = carom_plan_rules_of((carom_rules_kind)job->rules);
+  p->rules.user[0] = (uint64_t)job->group;
+  p->rules.user[4] = (uint64_t)job->may; /* 1, 2: as the rules of nine-ball have it */
   const carom_plan_options options = {
       .shots = job->shots, .threads = job->shared.options.threads, .seed = (uint64_t)job->seed};
   carom_plan_job asked = {.table = &line->table->table,
                           .balls = line->ball,
                           .count = line->count,
                           .cue = &line->cue,
-                          .player = &player,
-                          .rules = &rules,
+                          .player = &p->player,
+                          .rules = &p->rules,
                           .options = &options,
                           .memory_size = carom_plan_memory(&options)};
   if (asked.memory_size == 0) {
@@ -222,7 +303,7 @@ static int plan(const plan_job *job, shot_line *line, const char *file, FILE *ou
     write_rows(out, line, choices, n);
   else
     tell(out, job, line, choices, n);
-  *best = choices[0];
+  p->best = choices[0];
   return EXIT_GOOD;
 }
 
@@ -233,10 +314,10 @@ static const command_form form = {
              "LAYOUT is a file as of carom shoot, of which the first shot counts: its table, balls "
              "and cue; the stroke itself is not read. Balls that are missing are down. The five "
              "best shots are told in words: what they do, how to strike, and their chances.\n",
-    .options =
-        (const option_row *const[]){&option_rules, &option_group, &option_hand, &option_player,
-                                    &option_errors, &option_shots, &option_seed, &option_csv,
-                                    &option_plan_plot, &option_threads, &option_output, NULL},
+    .options = (const option_row *const[]){&option_rules, &option_group, &option_may, &option_hand,
+                                           &option_player, &option_errors, &option_shots,
+                                           &option_seed, &option_csv, &option_plan_plot,
+                                           &option_threads, &option_output, NULL},
     .details = "columns of --csv: "
                "rank,kind,ball,pocket,x,y,speed,phi,theta,a,b,value,error,keep,foul,lose,seen\n"
                "  x y                  place of the cue ball, m\n"
@@ -265,17 +346,17 @@ int command_plan(int argc, char **argv) {
   if (file == NULL)
     return EXIT_USAGE;
   static shot_line line;
-  carom_choice best;
+  static planned made;
   int code = EXIT_USAGE;
   if (read_layout(file, &line)) {
     FILE *out = output_open(job.shared.output);
     if (out != NULL) {
-      code = plan(&job, &line, shot_file_name(file), out, &best);
+      code = plan(&job, &line, shot_file_name(file), out, &made);
       if (code == EXIT_USAGE)
         output_abandon();
       else if (!output_commit())
         code = EXIT_USAGE;
-      else if (job.plot != NULL && !plot(&job, &line, &best))
+      else if (job.plot != NULL && !plot(&job, &line, &made))
         code = EXIT_SOME;
     }
     shot_line_free(&line);

@@ -302,7 +302,7 @@ static bool finish_block(block *b, const shoot_job *job, FILE *out, drawing *pic
       if (s != NULL)
         find_spread(b, k, job, &options, s);
       good &= b->status[k] >= 0;
-      good_ones[goods] = (played){line, &b->shot[k], s};
+      good_ones[goods] = (played){.line = line, .shot = &b->shot[k], .spread = s};
       if (!job->words)
         shot_write(out, line, &b->shot[k], b->status[k], job->events,
                    s != NULL ? spread_json(s, line) : NULL);

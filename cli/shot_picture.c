@@ -240,8 +240,9 @@ static void draw_arrow(const view *v, FILE *out, const char *colour, const carom
             -11.0 * x - 4.5 * y, -11.0 * y + 4.5 * x, 9.0 * y, -9.0 * x);
 }
 
-/* The path of one ball, from event to event that it is in. */
-static void draw_path(const view *v, const shot_line *line, const carom_shot *shot, int ball) {
+/* The path of one ball, from event to event that it is in; thin, without arrows. */
+static void draw_path(const view *v, const shot_line *line, const carom_shot *shot, int ball,
+                      bool thin) {
   char *heads;
   size_t heads_size;
   FILE *head = open_text(&heads, &heads_size);
@@ -267,16 +268,17 @@ static void draw_path(const view *v, const shot_line *line, const carom_shot *sh
       if (!moved) {
         carom_shot_at(line->ball, line->count, shot, last, states);
         fprintf(v->out,
-                "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.2\" stroke-linejoin=\"round\" "
+                "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" "
                 "d=\"M%.1f %.1f",
-                colour_of(line->name[ball], ball), across(v, states[ball].r),
+                colour_of(line->name[ball], ball), thin ? "0.8" : "2.2", across(v, states[ball].r),
                 down(v, states[ball].r));
         moved = true;
       }
       const double *to = e != NULL ? e->before[side].r : shot->final[ball].r;
       carom_shot_at(line->ball, line->count, shot, last, states);
       draw_piece(v, line, shot, ball, last, time, states[ball].r, to, label == CAROM_BALL_SLIDING);
-      draw_arrow(v, head, colour_of(line->name[ball], ball), &states[ball], to, &middle);
+      if (!thin)
+        draw_arrow(v, head, colour_of(line->name[ball], ball), &states[ball], to, &middle);
     }
     last = time;
   }
@@ -484,9 +486,19 @@ void shots_draw(FILE *out, const played *shots, int count, const char *footer) {
   for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0 && shots[shot].spread != NULL; k--)
       draw_band(&v, shots[shot].line, shots[shot].spread, k);
+  static labels nowhere; /* labels need not keep clear of thin paths */
+  view thin = v;
+  thin.labels = &nowhere;
+  for (int shot = 0; shot < count; shot++) {
+    fputs(shots[shot].others_count > 0 ? "<g class=\"others\" opacity=\"0.4\">\n" : "", out);
+    for (int n = 0; n < shots[shot].others_count; n++)
+      for (int k = shots[shot].line->count - 1; k >= 0; k--)
+        draw_path(&thin, shots[shot].line, &shots[shot].others[n], k, true);
+    fputs(shots[shot].others_count > 0 ? "</g>\n" : "", out);
+  }
   for (int shot = count - 1; shot >= 0; shot--)
     for (int k = shots[shot].line->count - 1; k >= 0; k--)
-      draw_path(&v, shots[shot].line, shots[shot].shot, k);
+      draw_path(&v, shots[shot].line, shots[shot].shot, k, false);
   /* Where they end, kept free of labels and then drawn; what does not move, once. */
   for (int drawn = 0; drawn < 2; drawn++)
     for (int shot = 0; shot < count; shot++) {

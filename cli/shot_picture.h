@@ -10,7 +10,9 @@
 typedef struct played {
   const shot_line *line;
   const carom_shot *shot;
-  const spread *spread; /* a player's, with bands; or NULL */
+  const spread *spread;     /* a player's, with bands; or NULL */
+  const carom_shot *others; /* what else may come of it, with all their events, as thin paths; */
+  int others_count;         /* as many; or 0 */
 } played;
 
 /* Whether the shot has this id; any has NULL. */

@@ -6,6 +6,12 @@ export CAROM_ISA
 try carom plan --rules potting --shots 300 layout.jsonl | cut -c 1-60 | grep -v chances
 try carom plan --rules nineball --shots 300 --plot best.svg layout.jsonl | sed -n 1p
 grep -c "<svg" best.svg
+grep -c "M" best.svg | awk '{ print ($1 > 40) }'
+sed -n 's/.*\(Of 500 strokes with errors\) [0-9]* \(play on\).*/\1 \2/p' best.svg
+echo "--- push-outs and passes"
+carom shoot --cue 0.4,0.9 --balls 0.9,1.7:0.9574,1.7:0.9287,1.74971:0.8713,1.74971:0.8426,1.7:0.8713,1.65029:0.9287,1.65029 --aim 90 --json > hidden.jsonl
+for may in shoot push-out pass; do carom plan --rules nineball --shots 300 --may $may --csv hidden.jsonl | cut -d , -f 2 | sed -n 2p; done
+try carom plan --may pass layout.jsonl
 echo "--- rows, threads"
 for threads in 1 2; do carom plan --rules potting --shots 300 --threads $threads --csv -o rows$threads.csv layout.jsonl; done
 cmp rows1.csv rows2.csv && sed -n 1p rows1.csv && wc -l < rows1.csv | tr -d ' '
