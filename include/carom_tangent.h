@@ -55,7 +55,8 @@ enum {
 typedef enum carom_tangent_flag {
   CAROM_TANGENT_GRAZING = 1, /* the contact closes at less than 1 % of the speed, or it is the
                                 last hop of a ball on the slate or nearly so: derivatives grow
-                                without bound there. */
+                                without bound there. Or it is a strike whose hop comes or goes
+                                within 1 % of its speed. */
   CAROM_TANGENT_SLOW = 2,    /* a slow contact, which the rule of docs/using/shots.md resolves. */
   CAROM_TANGENT_SIMULTANEOUS = 4, /* a ball of it was in another contact less than 1e-9 s before,
                                      or it is a contact at the start whose gap changes: a small

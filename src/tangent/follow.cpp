@@ -349,6 +349,16 @@ CAROM_APART void note_order(scene *s, const number &g) {
 
 /* ---- The states after an event ---- */
 
+/* The speed at which the slate lets a ball go that is struck `scale` times as fast. */
+real leaves_slate(const scene *s, const carom_ball_state *struck, real scale) {
+  ::carom_ball_state state = {};
+  for (int k = 0; k < 3; k++) {
+    state.v[k] = scale * struck->v[k].x;
+    state.w[k] = scale * struck->w[k].x;
+  }
+  return ::carom_press_on_slate(s->w->ball[s->event->a].kind, s->w->cue->tip_time, &state);
+}
+
 CAROM_APART text::carom_status strike(scene *s) {
   const carom_tangent_work *w = s->w;
   text::carom_cue cue = {};
@@ -370,8 +380,12 @@ CAROM_APART text::carom_status strike(scene *s) {
   memcpy(state->v, motion.v, sizeof motion.v);
   memcpy(state->w, motion.w, sizeof motion.w);
   if (!level && state->v[2].x != 0 && w->cue->tip_time >= 0) {
+    /* a hop has a step where the slate is loaded once more, or once less */
+    const real closing = -state->v[2].x,
+               around = leaves_slate(s, state, 1 - GRAZING) + leaves_slate(s, state, 1 + GRAZING);
     const real v = text::carom_press_on_slate(&s->ball[0].kind, number(w->cue->tip_time), state).x;
-    if (::carom_rebound(v, 1) < GRAZING * v && ::carom_rebound((1 + GRAZING) * v, 1) > 0)
+    if (__builtin_fabs(around - 2 * v) > GRAZING * closing ||
+        (::carom_rebound(v, 1) < GRAZING * v && ::carom_rebound((1 + GRAZING) * v, 1) > 0))
       s->w->note.flags |= CAROM_TANGENT_GRAZING;
   }
   /* a change of the elevation raises a level cue: the ball falls onto the slate at a speed that

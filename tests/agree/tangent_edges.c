@@ -447,6 +447,27 @@ START_TEST(edges_of_flights) {
 }
 END_TEST
 
+/* A blow of 60 degrees at 1.2327 m/s, where the slate is loaded once more within the pulse and the
+ * hop has a step, and blows that are 0.5 and 3 % weaker and stronger. */
+START_TEST(step_of_a_hop) {
+  static const double off[5] = {0.0, -0.005, 0.005, -0.03, 0.03};
+  double up[5];
+  for (int k = 0; k < 5; k++) {
+    layout l = of_two(1.0, 2.0);
+    l.cue.phi = 10.0;
+    l.cue.theta = 60.0;
+    l.cue.a = 0.2;
+    l.cue.speed = 1.2327 * (1.0 + off[k]);
+    carom_shot shot;
+    differentiate(&l, &closed, &by_phi, 1, &shot);
+    ck_assert_int_eq(events[0].type, CAROM_EVENT_STRIKE);
+    ck_assert_int_eq(flags[0], k < 3 ? CAROM_TANGENT_GRAZING : 0);
+    up[k] = events[0].after[0].v[2];
+  }
+  ck_assert_double_gt(fabs(up[2] - up[1]), 0.05);
+}
+END_TEST
+
 /* The times at which flights end: on the slate, on the top of a rail, in a pocket by landing or
  * at its far side, beyond the cushions, at the edge of the rails, or on one. */
 START_TEST(ends_of_flights) {
@@ -811,6 +832,7 @@ END_TEST
 
 int main(void) {
   return RUN_TESTS("tangent_edges", grazing, simultaneous, slow, slow_in_space, frozen, overflow,
-                   euler, kink, level_cue, edges_of_flights, ends_of_flights, frozen_and_straight,
-                   reach_beside_trial, reach_of_near_misses, frictions_of_the_cloth, clusters);
+                   euler, kink, level_cue, edges_of_flights, step_of_a_hop, ends_of_flights,
+                   frozen_and_straight, reach_beside_trial, reach_of_near_misses,
+                   frictions_of_the_cloth, clusters);
 }
