@@ -96,11 +96,11 @@ function make(tag, attributes, ...children) {
 
 /** @param {Hooks} hooks `under` draws below the trails and tells whether they are dim; `still` tells that the clock is not the reader's now. */
 export function player({ under, over, ended, moved, still = () => false } = {}) {
-  const canvas = make("canvas", { class: "scene", id: "table-scene", role: "img", tabindex: "0" });
+  const canvas = make("canvas", { class: "scene", id: "table-scene", role: "img", tabindex: "0", "aria-label": "A billiard table from above" });
   const play = make("button", { type: "button", id: "play" }, "Play");
   const back = make("button", { type: "button", id: "back", "aria-label": "Previous event" }, "◀");
   const forward = make("button", { type: "button", id: "forward", "aria-label": "Next event" }, "▶");
-  const paces = /** @type {const} */ ([["1", "real time"], ["0.25", "1/4"], ["0.1", "1/10"], ["4", "4 times"], ["1000", "at once"]]);
+  const paces = /** @type {const} */ ([["1", "1 ×"], ["0.25", "1/4 ×"], ["0.1", "1/10 ×"], ["4", "4 ×"], ["1000", "at once"]]);
   const pace = make("select", { id: "rate", "aria-label": "Speed of the film" }, ...paces.map(([value, text]) => make("option", { value }, text)));
   const slider = make("input", { type: "range", id: "time", min: "0", step: "0.001", "aria-label": "Time of the film" });
   const said = make("output", { id: "time-value", for: "time" });

@@ -356,7 +356,7 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     await click(one, 1, 2, touch);
     await click(one, 0, 0, touch);
     expect(await text(one, "message")).toContain("No such aim: ball 9 into the left corner near the head would be a cut of");
-    await one.waitForURL(/phi=/);
+    await one.waitForTimeout(400); // the address follows
     const aimed = one.url();
     const shot = await text(one, "s-time");
     await one.locator("#next").click();
@@ -474,6 +474,30 @@ describe.runIf(browserPath !== undefined)("the page", () => {
     await one.close();
     await other.close();
     rmSync(folder, { recursive: true });
+  });
+
+  test("keys on the table aim, move and turn balls, undo, and play", async () => {
+    const one = await open("#view=shot&speed=3&at=0.635,0.6 0.5,1.6 in in in in in in in 1,2");
+    const scene = one.locator("#table-scene");
+    await scene.press("ArrowLeft");
+    await scene.press("Shift+ArrowRight");
+    await scene.press("ArrowUp");
+    expect(Number(await one.locator("#phi").inputValue())).toBeCloseTo(89.1, 1);
+    expect(Number(await one.locator("#speed").inputValue())).toBeCloseTo(3.1, 6);
+    await one.waitForURL(/phi=89.1/);
+    // The cue ball, and then the one that is picked, by 1 and 10 mm as one sees them: the table lies.
+    await scene.press("Alt+ArrowRight");
+    await click(one, 0.5, 1.6);
+    await scene.press("Alt+Shift+ArrowDown");
+    await scene.press(".");
+    await one.waitForURL(/at=.*%2C10/);
+    const moved = await lies(one);
+    expect([moved.cue, moved["1"]].map((ball) => ball!.map((x) => Number(x.toFixed(6))))).toEqual([[0, 0.635, 0.601], [0, 0.51, 1.6]]);
+    await scene.press("Control+z");
+    expect((await lies(one))["1"]!.slice(1)).toEqual([0.5, 1.6]);
+    await scene.press(" ");
+    expect(await text(one, "play")).toBe("Pause");
+    await one.close();
   });
 
   test("in a game the cue ball moves where the rules let it", async () => {
