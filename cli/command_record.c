@@ -90,12 +90,13 @@ static void put_events(FILE *out, player *p, int events) {
 static bool record_shot(FILE *out, player *p, const shot_line *line, const char *file, int events) {
   carom_record *game = &p->game;
   const carom_table *table = &line->table->table;
-  char what[100];
+  char what[40] = "";
   int where;
   const carom_status bad =
       carom_shot_check(table, line->ball, line->count, &line->cue, &game->options, &where);
   if (bad < 0) {
-    snprintf(what, sizeof what, where >= 0 ? "ball or part %d: " : "", where);
+    if (where >= 0)
+      snprintf(what, sizeof what, "ball or part %d: ", where);
     complain("%s:%zu: %s%s", file, line->number, what, carom_status_string(bad));
     return false;
   }

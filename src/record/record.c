@@ -117,8 +117,8 @@ static const field models[] = {R("world", INT32, false, 1, options.world),
                                R("cluster_steps", INT32, false, 1, options.cluster_steps),
                                END};
 static const field layout[] = {LISTED("list", CAROM_BALLS_MOST, balls, count, ball_fields), END};
-static const field place_fields[] = {R("ball", INT64, true, 1, placed), R("at", DOUBLE, true, 2, place),
-                              END};
+static const field place_fields[] = {R("ball", INT64, true, 1, placed),
+                                     R("at", DOUBLE, true, 2, place), END};
 
 /* When a shot stops, and how it ended. */
 #define STOPS                                           \
@@ -158,9 +158,10 @@ static const field end[] = {R("shots", INT64, true, 1, shots), R("hash", HASH, t
 static const struct {
   const char *key;
   const field *fields;
-} lines[] = {{"", NULL},        {"recording", head}, {"table", table}, {"options", models},
-             {"balls", layout}, {"place", place_fields},    {"shot", shot},   {"continue", goes_on},
-             {"event", event},  {"end", end}};
+} lines[] = {{"", NULL},          {"recording", head},   {"table", table},
+             {"options", models}, {"balls", layout},     {"place", place_fields},
+             {"shot", shot},      {"continue", goes_on}, {"event", event},
+             {"end", end}};
 enum { KINDS = sizeof lines / sizeof lines[0] };
 
 static size_t size_of(const field *f) {
@@ -665,7 +666,7 @@ size_t carom_record_write(carom_record *record, carom_record_kind kind, char *te
       (int)kind >= KINDS)
     return 0;
   const bool is_shot = kind == CAROM_RECORD_SHOT || kind == CAROM_RECORD_CONTINUE;
-  if (out_of_place(record, kind) != NULL ||
+  if (out_of_place(record, (int)kind) != NULL ||
       (is_shot && (record->pending != 2 || record->kind != kind)))
     return 0;
   if (kind == CAROM_RECORD_HEAD) {
