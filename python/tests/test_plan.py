@@ -1,5 +1,8 @@
 """Plans: the choices are those of C whatever the threads, win more with smaller errors, and arguments in error are named."""
 
+import runpy
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -139,6 +142,11 @@ def test_rules_of_ones_own():
     assert (here.turn, here.points, here.potted, here.state[:2].tolist()) == ("keep", 1.0, (1,), [corner, 6])
     there = carom.referee(TABLE, ORDER, pot, rules=Corner(), state=[(corner + 1) % 6, 5, 0, 0, 0, 0, 0, 0])
     assert there.turn == "pass" and there.balls["state"]["r"][1, :2].tolist() == [TABLE.width / 2, 0.75 * TABLE.length]
+
+
+def test_the_bot_for_one_pocket(capsys):
+    runpy.run_path(str(Path(__file__).parents[1] / "examples" / "one_pocket.py"))
+    assert "has won" in capsys.readouterr().out
 
 
 def test_errors_of_rules():
