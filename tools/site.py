@@ -51,23 +51,26 @@ def add(page):
 
 
 def example(path):
-    """The page of a program: head comment or docstring, picture, text. Its name, or None for a file without such a head."""
+    """The page of a program: head comment or docstring, picture, the rest of the text. Its name, or None for a file without such a head."""
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".py":
-        head, kind = ast.get_docstring(ast.parse(text)), "python"
+        tree = ast.parse(text)
+        head, kind = ast.get_docstring(tree), "python"
+        rest = "".join(text.splitlines(keepends=True)[tree.body[0].end_lineno :])
     else:
-        found = re.match(r"/\*(.*?)\*/", text, flags=re.S)
-        head, kind = found and re.sub(r"^ ?\* ?", "", found[1], flags=re.M).strip(), {".c": "c", ".js": "js", ".mjs": "js"}[path.suffix]
+        found = re.match(r"/\*(.*?)\*/\n", text, flags=re.S)
+        head, kind = found and re.sub(r"^ ?\* ?", "", found[1], flags=re.M).strip(), {".c": "c", ".cpp": "cpp", ".mjs": "js"}[path.suffix]
+        rest = text[found.end() :] if found else ""
     if not head:
         return None
-    page = f"{path.relative_to(SOURCE).with_suffix('')}.md"
+    page = f"{path.relative_to(SOURCE)}.md"
     picture = SOURCE / "docs/figures" / f"example-{path.stem.replace('_', '-')}.svg"
     put(page, f"# {path.name}\n\n{head}\n\n")
     with (PAGES / page).open("a", encoding="utf-8") as out:
         if picture.is_file():
             up = "../" * (len(path.relative_to(SOURCE).parts) - 1)
             out.write(f"![What {path.name} draws]({up}docs/figures/{picture.name})\n\n")
-        out.write(f"```{kind}\n{text}```\n")
+        out.write(f"```{kind}\n{rest.lstrip()}```\n")
     return page
 
 
@@ -80,7 +83,7 @@ for name, folder in FOLDERS.items():
     for page in pages:
         add(page)
     navigation.append({name: [{title(page): page} for page in pages]})
-programs = [*sorted((SOURCE / "examples").glob("*.c")), *sorted((SOURCE / "python/examples").glob("*.py")), *sorted((SOURCE / "web/examples").glob("*.mjs"))]
+programs = [*sorted((SOURCE / "examples").glob("*.c*")), *sorted((SOURCE / "python/examples").glob("*.py")), *sorted((SOURCE / "web/examples").glob("*.mjs"))]
 add("examples/README.md")
 made = [page for page in map(example, programs) if page]
 navigation.append({"Examples": [{"Programs": "examples/README.md"}, *({Path(page).stem: page} for page in made)]})
