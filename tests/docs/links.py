@@ -1,7 +1,7 @@
 """links.py SOURCE: every link in a page of the tree leads to a file of the tree, and to a heading if it names one.
 
 Checked are the Markdown files, links and pictures alike, and the paths of pages (docs/.../page.md) that sources and tests name. Links
-to other sites are not followed.
+to other sites are not followed. A page of docs/ says at its top for whom it is, and at its end where to go next.
 """
 
 import re
@@ -37,6 +37,12 @@ for file in files:
                 wrong.append(f"{name}: no file {link}")
             elif anchor and anchor not in anchors(to):
                 wrong.append(f"{name}: {path or name} has no heading #{anchor}")
+    if file.suffix == ".md" and name.parts[0] == "docs":
+        paragraphs = file.read_text(encoding="utf-8").strip().split("\n\n")
+        if not re.match(r"For (whoever|a) ", paragraphs[1]):
+            wrong.append(f"{name}: the first paragraph does not say for whom the page is ('For whoever ...')")
+        if not re.match(r"Next: \[", paragraphs[-1]):
+            wrong.append(f"{name}: the last paragraph does not say where to go next ('Next: [...')")
     if file.suffix in TEXT and name.name not in ("links.py", "CHANGELOG.md"):
         for page in PAGE.findall(file.read_text(encoding="utf-8", errors="replace")):
             if not (SOURCE / page).exists():
